@@ -1,0 +1,49 @@
+#include "model/LoadCase.h"
+
+#include "model/Text.h"
+
+namespace palp {
+
+namespace {
+
+constexpr double kLargestForce_N = 1e6;
+
+std::optional<std::string> forceProblem(const std::string& where, const Eigen::Vector3d& force_N) {
+  if (force_N.allFinite() && force_N.cwiseAbs().maxCoeff() <= kLargestForce_N) return {};
+  return where + ": force (" + text(force_N.x()) + ", " + text(force_N.y()) + ", " + text(force_N.z()) +
+         ") N; allowed is a finite number up to 1e6 N in each direction";
+}
+
+std::optional<std::string> patchProblem(const PatchLoad& patch, const Eigen::Vector3d& block_mm) {
+  const double r = patch.radius_mm;
+  const Eigen::Vector2d& c = patch.centre_mm;
+  const bool inside =
+      r > 0 && c.x() - r >= 0 && c.y() - r >= 0 && c.x() + r <= block_mm.x() && c.y() + r <= block_mm.y();
+  if (!inside) // a NaN lands here as well
+    return "patch at (" + text(c.x()) + ", " + text(c.y()) + ") mm with radius " + text(r) +
+           " mm; the whole disc must lie on the top face of " + text(block_mm.x()) + " x " + text(block_mm.y()) + " mm";
+  return forceProblem("patch", patch.force_N);
+}
+
+} // namespace
+
+Eigen::Vector3d LoadCase::totalForce_N() const {
+  Eigen::Vector3d total = Eigen::Vector3d::Zero();
+  for (const AreaLoad& load : areas) total += load.force_N;
+  for (const PatchLoad& load : patches) total += load.force_N;
+  return total;
+}
+
+std::optional<std::string> problem(const LoadCase& load, const SensorDesign& design) {
+  for (const AreaLoad& areaLoad : load.areas) {
+    if (areaLoad.area < 0 || areaLoad.area >= design.areas.count())
+      return "area " + std::to_string(areaLoad.area) + "; the design has areas 0 to " +
+             std::to_string(design.areas.count() - 1);
+    if (auto wrong = forceProblem("area " + std::to_string(areaLoad.area), areaLoad.force_N)) return wrong;
+  }
+  for (const PatchLoad& patch : load.patches)
+    if (auto wrong = patchProblem(patch, design.block_mm)) return wrong;
+  return {};
+}
+
+} // namespace palp

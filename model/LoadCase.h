@@ -1,0 +1,38 @@
+#pragma once
+
+#include "model/SensorDesign.h"
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace palp {
+
+/// Uniform dead traction force / area on one of the design's load areas.
+struct AreaLoad {
+  int area = 0;
+  Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
+};
+
+/// Uniform dead traction on a disc of the top face; the disc lies inside the face.
+struct PatchLoad {
+  Eigen::Vector2d centre_mm = Eigen::Vector2d::Zero();
+  double radius_mm = 1;
+  Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
+};
+
+/// Forces that act together.
+struct LoadCase {
+  std::vector<AreaLoad> areas;
+  std::vector<PatchLoad> patches;
+
+  [[nodiscard]] Eigen::Vector3d totalForce_N() const;
+};
+
+/// Why the load cannot act on the design (no such area, disc outside the face, a force that is no number); empty where
+/// it can.
+std::optional<std::string> problem(const LoadCase& load, const SensorDesign& design);
+
+} // namespace palp

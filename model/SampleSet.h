@@ -1,0 +1,41 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <string>
+
+namespace palp {
+
+/// How a set of samples came about; written as comment lines of its file.
+struct SampleOrigin {
+  std::string designFingerprint;
+  std::uint64_t seed = 0;
+  std::string areas = "each"; ///< each, together, or the number of one area
+  int perArea = 0;            ///< samples on each area (`together`: in all)
+  std::string mesh;           ///< in words: element, size, elements, nodes
+  double solverTolerance = 0; ///< relative, against full Newton
+  bool surrogate = false;
+  double surrogateError = 0; ///< relative error against full solves; 0 for full solves
+};
+
+/// Labelled samples; one column a sample.
+struct SampleSet {
+  SampleOrigin origin;
+  int rowWires = 0;
+  int electrodesPerRowWire = 0;
+  int columnWires = 0;
+  int areaCount = 0;
+  Eigen::VectorXi area;             ///< loaded area of each sample; -1 where all are loaded together
+  Eigen::MatrixXd forces_N;         ///< 3 x samples; `together`: (3 areas) x samples
+  Eigen::MatrixXd displacements_mm; ///< (3 electrodes row-wires) x samples; row 3 (r E + e) + d
+  Eigen::MatrixXd resistances_ohm;  ///< (row-wires column-wires) x samples; row r C + c
+
+  [[nodiscard]] Eigen::Index size() const { return forces_N.cols(); }
+  [[nodiscard]] bool together() const { return forces_N.rows() != 3 || (size() > 0 && area(0) < 0); }
+};
+
+/// Why two sets cannot stand in one file (other design, seed, mesh, kind); empty where they can.
+std::string difference(const SampleOrigin& a, const SampleOrigin& b);
+
+} // namespace palp

@@ -1,0 +1,226 @@
+#include "model/SensorDesign.h"
+
+#include "model/Error.h"
+#include "model/Text.h"
+
+#include <cmath>
+
+namespace palp {
+
+namespace {
+
+constexpr double kLargestLength_mm = 1e4;
+constexpr double kLargestModulus_MPa = 1e9;
+constexpr int kMostAreasAlong = 50;
+constexpr int kMostWires = 255; // the board's protocol counts wires in a byte
+constexpr double kSamePlace_mm = 1e-6;
+
+using Problems = std::vector<DesignProblem>;
+
+void requirePositive(Problems& problems, const std::string& key, double value, double largest, const char* unit) {
+  if (value > 0 && value <= largest) return; // false for NaN
+  problems.push_back({key, text(value) + unit + "; allowed is above 0 up to " + text(largest) + unit});
+}
+
+void checkMaterial(Problems& problems, const Material& material) {
+  const double c10 = material.c10_MPa;
+  const double c01 = material.c01_MPa;
+  for (const auto& [key, value] : {std::pair{"material.c10_MPa", c10}, std::pair{"material.c01_MPa", c01}})
+    if (!(std::abs(value) <= kLargestModulus_MPa))
+      problems.push_back({key, text(value) + " MPa; allowed is a number up to 1e+09 MPa in size"});
+  if (!(c10 > 0)) problems.push_back({"material.c10_MPa", text(c10) + " MPa; allowed is above 0"});
+  if (!(c10 + c01 > 0))
+    problems.push_back(
+        {"material.c01_MPa", text(c01) + " MPa; c10 + c01 must be above 0, or the rubber has no stiffness"});
+  if (!(material.poissonRatio >= 0 && material.poissonRatio <= 0.5))
+    problems.push_back({"material.poisson_ratio", text(material.poissonRatio) + "; allowed is 0 to 0.5"});
+  requirePositive(problems, "material.density_t_per_mm3", material.density_t_per_mm3, 1, " t/mm3");
+}
+
+void checkAreas(Problems& problems, const LoadAreas& areas) {
+  for (const auto& [key, value] : {std::pair{"areas.columns", areas.columns}, std::pair{"areas.rows", areas.rows}})
+    if (value < 1 || value > kMostAreasAlong)
+      problems.push_back({key, std::to_string(value) + " leaves the areas empty or too many; allowed is 1 to " +
+                                   std::to_string(kMostAreasAlong)});
+}
+
+/// What a layer's parts are called in the design file.
+struct LayerNames {
+  std::string layer, wire, along, wireName;
+};
+
+/// Wrong counts, which make the positions meaningless; true where they are right.
+bool checkLayerShape(Problems& problems, const ElectrodeLayer& layer, const LayerNames& names) {
+  const std::size_t before = problems.size();
+  const std::size_t wires = layer.wire_mm.size();
+  if (wires < 1 || wires > kMostWires)
+    problems.push_back({names.layer + "." + names.wire,
+                        std::to_string(wires) + " wires; allowed is 1 to " + std::to_string(kMostWires)});
+  if (layer.along_mm.size() != 1 && layer.along_mm.size() != wires)
+    problems.push_back({names.layer + "." + names.along, std::to_string(layer.along_mm.size()) +
+                                                             " lists; allowed is one list, or one for each of the " +
+                                                             std::to_string(wires) + " wires"});
+  const std::size_t electrodes = layer.along_mm.empty() ? 0 : layer.along_mm[0].size();
+  for (std::size_t wire = 0; wire < layer.along_mm.size(); ++wire) {
+    const std::size_t count = layer.along_mm[wire].size();
+    if (count < 1 || count > kMostWires || count != electrodes)
+      problems.push_back({names.layer + "." + names.along, std::to_string(count) + " electrodes on " + names.wireName +
+                                                               " " + std::to_string(wire) +
+                                                               "; allowed is 1 to 255, the same on every wire"});
+  }
+  const bool one = layer.z_mm.size() == 1 && layer.z_mm[0].size() == 1;
+  bool each = layer.z_mm.size() == wires;
+  for (const std::vector<double>& list : layer.z_mm) each = each && list.size() == electrodes;
+  if (!one && !each)
+    problems.push_back({names.layer + ".z_mm", "allowed is one depth, or a list a wire with one depth an electrode"});
+  return problems.size() == before;
+}
+
+void checkInside(Problems& problems, const Eigen::Matrix3Xd& positions_mm, int perWire, const Eigen::Vector3d& block_mm,
+                 bool mayTouchBottom, const LayerNames& names) {
+  const std::string keys[3] = {names.wireName == "row-wire" ? names.along : names.wire,
+                               names.wireName == "row-wire" ? names.wire : names.along, "z_mm"};
+  for (Eigen::Index i = 0; i < positions_mm.cols(); ++i)
+    for (int axis = 0; axis < 3; ++axis) {
+      const double value = positions_mm(axis, i);
+      const bool aboveLow = axis == 2 && mayTouchBottom ? value >= 0 : value > 0;
+      if (aboveLow && value < block_mm(axis)) continue;
+      problems.push_back({names.layer + "." + keys[axis],
+                          "electrode " + std::to_string(i % perWire) + " of " + names.wireName + " " +
+                              std::to_string(i / perWire) + " at " + "xyz"[axis] + " = " + text(value) +
+                              " mm lies outside the block; allowed is inside 0 to " + text(block_mm(axis)) + " mm"});
+      return; // one sentence a layer: the rest follows from the same slip
+    }
+}
+
+void checkDuplicates(Problems& problems, const Eigen::Matrix3Xd& positions_mm, int perWire, const LayerNames& names) {
+  for (Eigen::Index i = 0; i < positions_mm.cols(); ++i)
+    for (Eigen::Index j = i + 1; j < positions_mm.cols(); ++j) {
+      if (!((positions_mm.col(i) - positions_mm.col(j)).norm() < kSamePlace_mm)) continue;
+      const auto name = [&](Eigen::Index k) {
+        return "electrode " + std::to_string(k % perWire) + " of " + names.wireName + " " + std::to_string(k / perWire);
+      };
+      const bool sameWire = i / perWire == j / perWire;
+      problems.push_back(
+          {names.layer + "." + (sameWire ? names.along : names.wire),
+           "duplicate electrode: " + name(j) + " is where " + name(i) + " is; allowed is one electrode a place"});
+      return;
+    }
+}
+
+void checkElectrodes(Problems& problems, const SensorDesign& design) {
+  const LayerNames upper{"upper_layer", "row_wire_y_mm", "electrode_x_mm", "row-wire"};
+  const LayerNames lower{"lower_layer", "column_wire_x_mm", "electrode_y_mm", "column-wire"};
+  const bool upperShape = checkLayerShape(problems, design.upper, upper);
+  const bool lowerShape = checkLayerShape(problems, design.lower, lower);
+  if (upperShape) {
+    checkInside(problems, design.upperElectrodes_mm(), design.electrodesPerRowWire(), design.block_mm, false, upper);
+    checkDuplicates(problems, design.upperElectrodes_mm(), design.electrodesPerRowWire(), upper);
+  }
+  if (lowerShape) {
+    checkInside(problems, design.lowerElectrodes_mm(), design.electrodesPerColumnWire(), design.block_mm, true, lower);
+    checkDuplicates(problems, design.lowerElectrodes_mm(), design.electrodesPerColumnWire(), lower);
+  }
+  if (!upperShape || !lowerShape) return;
+  const double lowest = design.upperElectrodes_mm().row(2).minCoeff();
+  const double highest = design.lowerElectrodes_mm().row(2).maxCoeff();
+  if (!(highest < lowest))
+    problems.push_back({"lower_layer.z_mm", "the layers cross: the highest lower electrode is at z = " + text(highest) +
+                                                " mm, the lowest upper one at " + text(lowest) +
+                                                " mm; the lower layer must lie below the upper one"});
+}
+
+void checkForceRange(Problems& problems, const ForceRange& range) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = range.low_N(axis);
+    const double high = range.high_N(axis);
+    if (low < high && std::abs(low) <= 1e6 && std::abs(high) <= 1e6) continue;
+    problems.push_back(
+        {std::string("force_range_N.") + "xyz"[axis],
+         "[" + text(low) + ", " + text(high) + "]; allowed is [low, high] with low < high, up to 1e+06 N"});
+  }
+}
+
+} // namespace
+
+double ElectrodeLayer::along(int wire, int electrode) const {
+  return along_mm[along_mm.size() == 1 ? 0 : static_cast<std::size_t>(wire)][static_cast<std::size_t>(electrode)];
+}
+
+double ElectrodeLayer::z(int wire, int electrode) const {
+  if (z_mm.size() == 1 && z_mm[0].size() == 1) return z_mm[0][0];
+  return z_mm[static_cast<std::size_t>(wire)][static_cast<std::size_t>(electrode)];
+}
+
+Eigen::Matrix3Xd SensorDesign::upperElectrodes_mm() const {
+  Eigen::Matrix3Xd positions(3, upper.electrodes());
+  for (int wire = 0; wire < upper.wires(); ++wire)
+    for (int e = 0; e < upper.electrodesPerWire(); ++e)
+      positions.col(wire * upper.electrodesPerWire() + e) << upper.along(wire, e),
+          upper.wire_mm[static_cast<std::size_t>(wire)], upper.z(wire, e);
+  return positions;
+}
+
+Eigen::Matrix3Xd SensorDesign::lowerElectrodes_mm() const {
+  Eigen::Matrix3Xd positions(3, lower.electrodes());
+  for (int wire = 0; wire < lower.wires(); ++wire)
+    for (int e = 0; e < lower.electrodesPerWire(); ++e)
+      positions.col(wire * lower.electrodesPerWire() + e) << lower.wire_mm[static_cast<std::size_t>(wire)],
+          lower.along(wire, e), lower.z(wire, e);
+  return positions;
+}
+
+Rectangle SensorDesign::areaRectangle(int area) const {
+  const Eigen::Vector2d size(block_mm.x() / areas.columns, block_mm.y() / areas.rows);
+  const Eigen::Vector2d cell(area % areas.columns, area / areas.columns);
+  return {cell.cwiseProduct(size), (cell + Eigen::Vector2d::Ones()).cwiseProduct(size)};
+}
+
+SensorDesign paperDesign() {
+  SensorDesign design;
+  design.upper.z_mm = {{4}};
+  design.upper.along_mm.resize(1);
+  for (int i = 0; i < 10; ++i) {
+    design.upper.wire_mm.push_back(1.5 + 3 * i);
+    design.upper.along_mm[0].push_back(1.5 + 3 * i);
+  }
+  design.lower.z_mm = {{1}};
+  design.lower.along_mm = {{5, 15, 25}};
+  for (int k = 0; k < 30; ++k) design.lower.wire_mm.push_back(0.5 + k);
+  return design;
+}
+
+std::vector<DesignProblem> check(const SensorDesign& design) {
+  Problems problems;
+  for (int axis = 0; axis < 3; ++axis)
+    requirePositive(problems, "block_mm[" + std::to_string(axis) + "]", design.block_mm(axis), kLargestLength_mm,
+                    " mm");
+  checkMaterial(problems, design.material);
+  checkAreas(problems, design.areas);
+  checkElectrodes(problems, design);
+  requirePositive(problems, "resistance.rate_ohm_per_mm", design.resistanceRate_ohm_per_mm, 1e12, " ohm/mm");
+  if (design.pressureLaw) {
+    requirePositive(problems, "resistance.pressure_law.p0_MPa", design.pressureLaw->p0_MPa, kLargestModulus_MPa,
+                    " MPa");
+    if (!(design.pressureLaw->exponent >= 0 && design.pressureLaw->exponent <= 10))
+      problems.push_back(
+          {"resistance.pressure_law.exponent", text(design.pressureLaw->exponent) + "; allowed is 0 to 10"});
+  }
+  checkForceRange(problems, design.forceRange);
+  return problems;
+}
+
+std::optional<std::string> squareSystemProblem(const SensorDesign& design) {
+  const int unknowns = 3 * design.electrodesPerRowWire();
+  if (design.columnWires() == unknowns) return {};
+  return "Eq. (1) is square only where the column-wires are 3 x the electrodes of a row-wire: the design has " +
+         std::to_string(design.columnWires()) + " column-wires and 3 x " +
+         std::to_string(design.electrodesPerRowWire()) + " = " + std::to_string(unknowns) + " unknowns a row-wire";
+}
+
+void requireValid(const SensorDesign& design) {
+  const Problems problems = check(design);
+  if (!problems.empty()) throw DesignError(problems[0].key + ": " + problems[0].sentence);
+}
+
+} // namespace palp

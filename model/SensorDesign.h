@@ -1,0 +1,94 @@
+#pragma once
+
+#include "model/Material.h"
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace palp {
+
+/// One layer of electrodes on parallel straight wires: row-wires run along x (upper layer), column-wires along y
+/// (lower layer).
+struct ElectrodeLayer {
+  std::vector<double> wire_mm;               ///< one a wire: y of a row-wire, x of a column-wire
+  std::vector<std::vector<double>> along_mm; ///< along the wire (x or y): one list for all wires, or a list a wire
+  std::vector<std::vector<double>> z_mm;     ///< depth: {{z}} for all, or a list (one value an electrode) a wire
+
+  [[nodiscard]] int wires() const { return static_cast<int>(wire_mm.size()); }
+  [[nodiscard]] int electrodesPerWire() const { return along_mm.empty() ? 0 : static_cast<int>(along_mm[0].size()); }
+  [[nodiscard]] int electrodes() const { return wires() * electrodesPerWire(); }
+  [[nodiscard]] double along(int wire, int electrode) const;
+  [[nodiscard]] double z(int wire, int electrode) const;
+};
+
+/// Fig. 1 of the paper: the resistivity falls with the hydrostatic pressure p at the upper electrode,
+/// g(p) = g0 (1 + max(p, 0) / p0)^(-n). The starting values are assumed; the figure's numbers are not in the text.
+struct PressureLaw {
+  double p0_MPa = 0.05;
+  double exponent = 0.5;
+};
+
+/// Rectangles of equal size on the top face: area a has column a % columns along x and row a / columns along y.
+struct LoadAreas {
+  int columns = 3;
+  int rows = 2;
+  [[nodiscard]] int count() const { return columns * rows; }
+};
+
+struct Rectangle {
+  Eigen::Vector2d low_mm;
+  Eigen::Vector2d high_mm;
+};
+
+/// Range of a force for sampling and for "% of range" [N]; row d of each is the direction x, y, z.
+struct ForceRange {
+  Eigen::Vector3d low_N{-1, -1, -6};
+  Eigen::Vector3d high_N{1, 1, 0};
+};
+
+/// The sensor: block, rubber, load areas, two layers of electrodes and what turns distance into resistance.
+struct SensorDesign {
+  Eigen::Vector3d block_mm{30, 30, 5}; ///< origin at a lower corner, z up, bottom face fixed
+  Material material;
+  LoadAreas areas;
+  ElectrodeLayer upper;            ///< row-wires
+  ElectrodeLayer lower;            ///< column-wires
+  bool lowerFollowsRubber = false; ///< the paper holds the lower electrodes still
+  double resistanceRate_ohm_per_mm = 1000;
+  std::optional<PressureLaw> pressureLaw;
+  ForceRange forceRange;
+
+  [[nodiscard]] int rowWires() const { return upper.wires(); }
+  [[nodiscard]] int electrodesPerRowWire() const { return upper.electrodesPerWire(); }
+  [[nodiscard]] int columnWires() const { return lower.wires(); }
+  [[nodiscard]] int electrodesPerColumnWire() const { return lower.electrodesPerWire(); }
+
+  /// Positions 3 x (row-wires * electrodes) [mm] at rest; electrode e of row-wire r is column r * electrodes + e.
+  [[nodiscard]] Eigen::Matrix3Xd upperElectrodes_mm() const;
+  /// Positions 3 x (column-wires * electrodes) [mm] at rest; electrode j of column-wire k is column k * electrodes + j.
+  [[nodiscard]] Eigen::Matrix3Xd lowerElectrodes_mm() const;
+  [[nodiscard]] Rectangle areaRectangle(int area) const;
+};
+
+/// The preset `paper` (PHYSICS of the paper, sections 2 and 3; depths and positions are our choice).
+SensorDesign paperDesign();
+
+/// One thing that is wrong: the key of the design file and a sentence with the value and what is allowed.
+struct DesignProblem {
+  std::string key;
+  std::string sentence;
+};
+
+/// Everything that is wrong with the design, in the order of the file; empty where it can be built.
+std::vector<DesignProblem> check(const SensorDesign& design);
+
+/// Why Eq. (1) is not a square system for a row-wire (column-wires != 3 x electrodes of a row-wire); empty where it is.
+std::optional<std::string> squareSystemProblem(const SensorDesign& design);
+
+/// Throws DesignError with the first problem, if there is one.
+void requireValid(const SensorDesign& design);
+
+} // namespace palp

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <string>
+#include <vector>
+
+namespace palp {
+
+/// One Newton iteration: the residual's norm over the load's norm at this load fraction.
+struct NewtonStep {
+  double loadFraction = 0;
+  int iteration = 0;
+  double relativeResidual = 0;
+};
+
+/// Equilibrium at a load fraction on the way to the full load.
+struct LoadIncrement {
+  double loadFraction = 0;
+  Eigen::Matrix3Xd displacements_mm; ///< 3 x nodes
+  Eigen::MatrixXd elementUnknowns;   ///< the element's own unknowns (bubble, pressures) x elements
+};
+
+/// Result of one nonlinear solve. Where Newton could not go on, the last converged state and why.
+struct Solution {
+  bool converged = false;
+  bool cancelled = false;
+  double reachedLoadFraction = 0;
+  std::string stopReason; ///< a sentence; empty where converged
+  std::vector<NewtonStep> newton;
+  std::vector<LoadIncrement> increments; ///< at rest first (load fraction 0), the state that is the answer last
+  double maxVolumeError = 0;             ///< largest |J - 1| over the quadrature points
+
+  /// The last converged state.
+  [[nodiscard]] const LoadIncrement& state() const { return increments.back(); }
+};
+
+/// Fields for the eye and the file, at the nodes (averaged over the elements around a node).
+struct NodalFields {
+  Eigen::Matrix3Xd displacement_mm;                    ///< 3 x nodes
+  Eigen::Matrix<double, 6, Eigen::Dynamic> cauchy_MPa; ///< xx, yy, zz, xy, yz, xz (VTK's order) x nodes
+  Eigen::VectorXd pressure_MPa;                        ///< hydrostatic, compression positive
+  Eigen::VectorXd vonMises_MPa;
+  Eigen::VectorXd volumeRatio; ///< J = det F
+};
+
+} // namespace palp

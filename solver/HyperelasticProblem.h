@@ -1,0 +1,67 @@
+#pragma once
+
+#include "model/LoadCase.h"
+#include "model/Mesh.h"
+#include "model/RowColumnResistance.h"
+#include "model/SensorDesign.h"
+#include "model/Solution.h"
+
+#include <functional>
+#include <memory>
+#include <stop_token>
+#include <string>
+
+namespace palp {
+
+/// How Newton's method goes; the defaults serve every load of the paper.
+struct NewtonOptions {
+  double relativeTolerance = 1e-9; ///< of the residual, against the load's norm
+  int iterationsAStep = 20;
+  double smallestStep = 1e-3; ///< load fraction below which it gives up
+  int threads = 0;            ///< 0: all cores; changes the time, never the result
+};
+
+/// Told of every Newton iteration, in the calling thread; stops within 0.3 s of a request.
+struct NewtonObserver {
+  std::function<void(const NewtonStep&)> step;
+  std::stop_token stop;
+};
+
+/// The block as a nonlinear boundary value problem: mixed finite elements (pressure an unknown of its own, eliminated
+/// element by element), bottom face fixed. Finds the pattern once and keeps its factorisation.
+class HyperelasticProblem {
+public:
+  HyperelasticProblem(SensorDesign design, Mesh mesh);
+  ~HyperelasticProblem();
+  HyperelasticProblem(HyperelasticProblem&&) noexcept;
+  HyperelasticProblem& operator=(HyperelasticProblem&&) noexcept;
+
+  [[nodiscard]] const SensorDesign& design() const;
+  [[nodiscard]] const Mesh& mesh() const;
+  [[nodiscard]] int dof() const;                 ///< free displacement unknowns after elimination
+  [[nodiscard]] std::string elementType() const; ///< as in the JSON: "P2+bubble/P1d", "Q1/P0"
+
+  /// Equilibrium under the load from rest. Throws DesignError where the load cannot act (model/LoadCase.h).
+  [[nodiscard]] Solution solve(const LoadCase& load, const NewtonOptions& options = {},
+                               const NewtonObserver& observer = {}) const;
+
+  /// Displacements and pressure at the electrodes of both layers.
+  [[nodiscard]] ElectrodeDisplacements electrodes(const LoadIncrement& state) const;
+  [[nodiscard]] NodalFields fields(const LoadIncrement& state) const;
+
+  struct Parts; ///< what BatchSolver shares
+  [[nodiscard]] const Parts& parts() const { return *parts_; }
+
+private:
+  std::unique_ptr<Parts> parts_;
+};
+
+/// Estimate of the discretisation error of the upper electrodes' displacements, relative L2, and how it was found.
+struct DiscretisationError {
+  double relative = 0;
+  std::string method;
+};
+DiscretisationError discretisationError(const HyperelasticProblem& problem, const LoadCase& load,
+                                        const Solution& solution, std::stop_token stop = {});
+
+} // namespace palp

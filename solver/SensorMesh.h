@@ -1,0 +1,30 @@
+#pragma once
+
+#include "model/Mesh.h"
+#include "model/SensorDesign.h"
+
+#include <array>
+#include <optional>
+
+namespace palp {
+
+/// Which mesh; at most one member is given. None: the default, graded to the load areas' borders, the free and the
+/// clamped edges and the electrodes, for about 2 % in the electrode displacements.
+struct MeshOptions {
+  std::optional<double> meshSize_mm;        ///< tetrahedra: size in the bulk; the grading scales with it
+  std::optional<std::array<int, 3>> mapped; ///< the paper's mapped mesh: hexahedra along x, y, z
+};
+
+/// Mesh of the block: by TetGen with the load areas as facets and all upper electrodes as nodes, or mapped hexahedra.
+/// Throws DesignError where the options make no mesh (size not above 0, more than a stated number of elements).
+Mesh sensorMesh(const SensorDesign& design, const MeshOptions& options = {});
+
+/// Shape of the elements (dihedral angles, of tetrahedra and hexahedra alike), and a histogram for the eye.
+struct MeshQuality {
+  double minDihedral_deg = 0;
+  double maxDihedral_deg = 0;
+  std::array<int, 18> minDihedralHistogram{}; ///< elements by their smallest dihedral angle, 10 degrees a bin
+};
+MeshQuality meshQuality(const Mesh& mesh);
+
+} // namespace palp
