@@ -14,6 +14,7 @@ namespace palp {
 struct AreaLoad {
   int area = 0;
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
+  bool operator==(const AreaLoad&) const = default;
 };
 
 /// Uniform dead traction on a disc of the top face; the disc lies inside the face.
@@ -21,6 +22,7 @@ struct PatchLoad {
   Eigen::Vector2d centre_mm = Eigen::Vector2d::Zero();
   double radius_mm = 1;
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
+  bool operator==(const PatchLoad&) const = default;
 };
 
 /// Forces that act together.
@@ -29,6 +31,7 @@ struct LoadCase {
   std::vector<PatchLoad> patches;
 
   [[nodiscard]] Eigen::Vector3d totalForce_N() const;
+  bool operator==(const LoadCase&) const = default;
 };
 
 /// Why the load cannot act on the design (no such area, disc outside the face, a force that is no number); empty where

@@ -21,6 +21,7 @@ struct Material {
   [[nodiscard]] double smallStrainPoissonRatio() const;
   /// Young's modulus of the linear limit, 2 mu (1 + nu) with the small-strain nu [MPa].
   [[nodiscard]] double smallStrainYoung_MPa() const;
+  bool operator==(const Material&) const = default;
 };
 
 } // namespace palp

@@ -22,6 +22,7 @@ struct ElectrodeLayer {
   [[nodiscard]] int electrodes() const { return wires() * electrodesPerWire(); }
   [[nodiscard]] double along(int wire, int electrode) const;
   [[nodiscard]] double z(int wire, int electrode) const;
+  bool operator==(const ElectrodeLayer&) const = default;
 };
 
 /// Fig. 1 of the paper: the resistivity falls with the hydrostatic pressure p at the upper electrode,
@@ -29,6 +30,7 @@ struct ElectrodeLayer {
 struct PressureLaw {
   double p0_MPa = 0.05;
   double exponent = 0.5;
+  bool operator==(const PressureLaw&) const = default;
 };
 
 /// Rectangles of equal size on the top face: area a has column a % columns along x and row a / columns along y.
@@ -36,6 +38,7 @@ struct LoadAreas {
   int columns = 3;
   int rows = 2;
   [[nodiscard]] int count() const { return columns * rows; }
+  bool operator==(const LoadAreas&) const = default;
 };
 
 struct Rectangle {
@@ -47,6 +50,7 @@ struct Rectangle {
 struct ForceRange {
   Eigen::Vector3d low_N{-1, -1, -6};
   Eigen::Vector3d high_N{1, 1, 0};
+  bool operator==(const ForceRange&) const = default;
 };
 
 /// The sensor: block, rubber, load areas, two layers of electrodes and what turns distance into resistance.
@@ -71,6 +75,7 @@ struct SensorDesign {
   /// Positions 3 x (column-wires * electrodes) [mm] at rest; electrode j of column-wire k is column k * electrodes + j.
   [[nodiscard]] Eigen::Matrix3Xd lowerElectrodes_mm() const;
   [[nodiscard]] Rectangle areaRectangle(int area) const;
+  bool operator==(const SensorDesign&) const = default;
 };
 
 /// The preset `paper` (PHYSICS of the paper, sections 2 and 3; depths and positions are our choice).

@@ -13,6 +13,7 @@ namespace palp {
 struct MeshOptions {
   std::optional<double> meshSize_mm;        ///< tetrahedra: size in the bulk; the grading scales with it
   std::optional<std::array<int, 3>> mapped; ///< the paper's mapped mesh: hexahedra along x, y, z
+  bool operator==(const MeshOptions&) const = default;
 };
 
 /// Mesh of the block: by TetGen with the load areas as facets and all upper electrodes as nodes, or mapped hexahedra.

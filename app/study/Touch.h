@@ -1,0 +1,61 @@
+#pragma once
+
+#include "app/study/StageLog.h"
+#include "model/LoadCase.h"
+#include "model/RowColumnResistance.h"
+#include "model/SensorDesign.h"
+#include "solver/HyperelasticProblem.h"
+#include "solver/SensorMesh.h"
+
+#include <memory>
+#include <optional>
+
+namespace palp {
+
+/// How far along the chain from the design to the resistances; each needs those before it.
+enum class Stage { Design, Mesh, Solution, Displacements, Resistances };
+
+/// One touch, followed the whole way and no farther than asked: a change drops what comes after it. Copies are cheap
+/// (results are shared and never changed), so that a background job takes a copy, advances it and hands it back.
+class Touch {
+public:
+  explicit Touch(SensorDesign design = paperDesign(), LoadCase load = {}, MeshOptions meshOptions = {});
+
+  void setDesign(const SensorDesign& design);
+  void setLoad(const LoadCase& load);
+  void setMeshOptions(const MeshOptions& options);
+  /// A mesh made elsewhere (meshForAccuracy) in place of the one the options make.
+  void setMesh(Mesh mesh);
+
+  /// Computes what is missing up to the stage. False where the solve did not converge or was cancelled: the last
+  /// converged state is kept and later stages speak of it. Throws DesignError where design, mesh or load cannot be.
+  bool advance(Stage target, const NewtonOptions& options = {}, const NewtonObserver& observer = {});
+
+  [[nodiscard]] Stage reached() const;
+  [[nodiscard]] const SensorDesign& design() const { return design_; }
+  [[nodiscard]] const LoadCase& load() const { return load_; }
+  [[nodiscard]] const MeshOptions& meshOptions() const { return meshOptions_; }
+  [[nodiscard]] const StageLog& stages() const { return stages_; }
+
+  // Null until the stage was reached.
+  [[nodiscard]] const Mesh* mesh() const { return mesh_.get(); }
+  [[nodiscard]] const HyperelasticProblem* problem() const { return problem_.get(); }
+  [[nodiscard]] const Solution* solution() const { return solution_.get(); }
+  [[nodiscard]] const ElectrodeDisplacements* displacements() const { return displacements_.get(); }
+  [[nodiscard]] const Eigen::MatrixXd* resistances_ohm() const { return resistances_.get(); }
+
+private:
+  void dropFrom(Stage stage);
+
+  SensorDesign design_;
+  LoadCase load_;
+  MeshOptions meshOptions_;
+  std::shared_ptr<const Mesh> mesh_;
+  std::shared_ptr<const HyperelasticProblem> problem_;
+  std::shared_ptr<const Solution> solution_;
+  std::shared_ptr<const ElectrodeDisplacements> displacements_;
+  std::shared_ptr<const Eigen::MatrixXd> resistances_;
+  StageLog stages_;
+};
+
+} // namespace palp
