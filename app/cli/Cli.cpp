@@ -1,0 +1,104 @@
+#include "app/cli/Cli.h"
+
+#include "app/cli/Interrupt.h"
+#include "app/study/Blas.h"
+#include "nn/TrainingError.h"
+
+#include <algorithm>
+#include <iostream>
+#include <sys/resource.h>
+#include <thread>
+
+namespace palp {
+
+namespace {
+
+double peakMemory_MB() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024; // Linux counts in KiB
+}
+
+/// CLI11 breaks some messages over lines; ours are one.
+std::string oneLine(std::string text) {
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+nlohmann::ordered_json toJson(const StageLog& stages) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const auto& [stage, count] : stages.counts()) json[stage] = {{"runs", count.runs}, {"seconds", count.seconds}};
+  return json;
+}
+
+} // namespace
+
+Cli::Cli() : app_("Palp: three-axis tactile sensors of conductive rubber, from the block to the force", "palp") {
+  app_.require_subcommand(0, 1);
+  app_.set_version_flag("--version", std::string("palp ") + PALP_VERSION);
+  app_.fallthrough(false);
+}
+
+CLI::App& Cli::command(const std::string& name, const std::string& what, const std::string& example, Run run) {
+  CLI::App* added = app_.add_subcommand(name, what);
+  added->footer("Example: " + example);
+  added->add_flag("--json", session_.json, "print one JSON object on standard output and nothing else");
+  added->add_option("--threads", session_.threads, "threads; changes the time, never the result (default: all cores)")
+      ->check(CLI::Range(1, 4096));
+  commands_.emplace_back(added, std::move(run));
+  return *added;
+}
+
+int Cli::main(int argc, char** argv) {
+  try {
+    app_.parse(argc, argv);
+  } catch (const CLI::Success& asked) { // help, version
+    return app_.exit(asked);
+  } catch (const CLI::ParseError& wrong) {
+    const auto chosen = app_.get_subcommands();
+    std::cerr << "palp" << (chosen.empty() ? "" : " " + chosen[0]->get_name()) << ": " << oneLine(wrong.what())
+              << " (see palp" << (chosen.empty() ? "" : " " + chosen[0]->get_name()) << " --help)\n";
+    return static_cast<int>(Exit::BadInput);
+  }
+  if (app_.get_subcommands().empty()) {
+    std::cout << app_.help();
+    return static_cast<int>(Exit::Done);
+  }
+  return static_cast<int>(runChosen());
+}
+
+Exit Cli::runChosen() {
+  const CLI::App* chosen = app_.get_subcommands()[0];
+  const std::string name = chosen->get_name();
+  const auto run = std::find_if(commands_.begin(), commands_.end(), [&](const auto& c) { return c.first == chosen; });
+  const Interrupt interrupt; // Ctrl-C becomes a stop request
+  session_.stop = interrupt.token();
+  if (session_.threads == 0) session_.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  if (auto slow = slowBlas()) {
+    session_.warnings.push_back(*slow);
+    std::cerr << "palp: " << *slow << '\n';
+  }
+  session_.result["command"] = name;
+  session_.result["version"] = PALP_VERSION;
+  Exit exit = Exit::Done;
+  try {
+    exit = run->second(session_);
+  } catch (const Error& refused) {
+    std::cerr << "palp " << name << ": " << oneLine(refused.what()) << '\n';
+    return Exit::BadInput;
+  } catch (const TrainingError& refused) {
+    std::cerr << "palp " << name << ": " << oneLine(refused.what()) << '\n';
+    return Exit::BadInput;
+  } catch (const std::bad_alloc&) {
+    std::cerr << "palp " << name << ": not enough memory for this size; ask for a coarser mesh or fewer samples\n";
+    return Exit::NoResult;
+  }
+  session_.result["warnings"] = session_.warnings;
+  session_.result["peak_memory_MB"] = peakMemory_MB();
+  session_.result["stages"] = toJson(session_.stages);
+  if (session_.json) std::cout << session_.result.dump(2) << std::endl;
+  return interrupt.token().stop_requested() ? Exit::Interrupted : exit;
+}
+
+} // namespace palp

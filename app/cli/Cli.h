@@ -1,0 +1,65 @@
+#pragma once
+
+#include "app/study/StageLog.h"
+#include "model/Error.h"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <functional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+namespace palp {
+
+/// Exit status of every command.
+enum class Exit { Done = 0, NoResult = 1, BadInput = 2, Interrupted = 130 };
+
+/// A bad option; the text is one line that names the option, its value and what is allowed.
+struct UsageError : Error {
+  using Error::Error;
+};
+
+/// What a running command has beside its own options. It fills `result` (the JSON object) and writes words to standard
+/// output only where `json` is false.
+struct Session {
+  bool json = false;
+  int threads = 0; ///< 0: all cores
+  std::stop_token stop;
+  nlohmann::ordered_json result = nlohmann::ordered_json::object();
+  std::vector<std::string> warnings;
+  StageLog stages;
+};
+
+/// Collects the commands; each addX declares its options and what runs when it is chosen.
+class Cli {
+public:
+  using Run = std::function<Exit(Session&)>;
+
+  Cli();
+  /// Adds a command; its options are declared on what is returned.
+  CLI::App& command(const std::string& name, const std::string& what, const std::string& example, Run run);
+  /// Parses and runs; the process's exit status.
+  int main(int argc, char** argv);
+
+private:
+  Exit runChosen();
+
+  CLI::App app_;
+  std::vector<std::pair<CLI::App*, Run>> commands_;
+  Session session_;
+};
+
+void addDesign(Cli& cli);
+void addMesh(Cli& cli);
+void addSolve(Cli& cli);
+void addRender(Cli& cli);
+void addSample(Cli& cli);
+void addMerge(Cli& cli);
+void addReproduce(Cli& cli);
+void addTrain(Cli& cli);
+void addPredict(Cli& cli);
+void addSweep(Cli& cli);
+
+} // namespace palp

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <stop_token>
+#include <thread>
+
+namespace palp {
+
+/// Turns Ctrl-C (and a polite kill) into a stop request while it lives; a second Ctrl-C ends the process at once. Make
+/// it before any other thread: they inherit the blocked signals.
+class Interrupt {
+public:
+  Interrupt();
+  ~Interrupt();
+  Interrupt(const Interrupt&) = delete;
+  Interrupt& operator=(const Interrupt&) = delete;
+  [[nodiscard]] std::stop_token token() const { return source_.get_token(); }
+
+private:
+  std::stop_source source_;
+  std::jthread waiter_;
+};
+
+} // namespace palp

@@ -1,0 +1,139 @@
+#include "app/cli/Options.h"
+
+#include "io/DesignFile.h"
+#include "model/Text.h"
+
+#include <charconv>
+#include <cmath>
+
+namespace palp {
+
+namespace {
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts(1);
+  for (const char c : text)
+    if (c == separator)
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  return parts;
+}
+
+/// "WHERE:FX,FY,FZ" in two.
+std::pair<std::string, Eigen::Vector3d> forceAt(const std::string& option, const std::string& value,
+                                                const std::string& form) {
+  const std::size_t colon = value.find(':');
+  if (colon == std::string::npos) throw UsageError(option + ": '" + value + "'; allowed is " + form);
+  const std::vector<double> force = numbers(option, value.substr(colon + 1), 3);
+  return {value.substr(0, colon), Eigen::Vector3d(force[0], force[1], force[2])};
+}
+
+} // namespace
+
+double number(const std::string& option, const std::string& value) {
+  double result = 0;
+  const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), result);
+  if (error != std::errc{} || end != value.data() + value.size() || !std::isfinite(result))
+    throw UsageError(option + ": '" + value + "'; allowed is a finite number");
+  return result;
+}
+
+std::vector<double> numbers(const std::string& option, const std::string& value, std::size_t count) {
+  const std::vector<std::string> parts = split(value, ',');
+  if (parts.size() != count)
+    throw UsageError(option + ": '" + value + "'; allowed are " + std::to_string(count) +
+                     " numbers between commas, without blanks");
+  std::vector<double> result;
+  for (const std::string& part : parts) result.push_back(number(option, part));
+  return result;
+}
+
+int wholeNumber(const std::string& option, const std::string& value, int low, int high) {
+  int result = 0;
+  const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), result);
+  if (error != std::errc{} || end != value.data() + value.size() || result < low || result > high)
+    throw UsageError(option + ": '" + value + "'; allowed is a whole number from " + std::to_string(low) + " to " +
+                     std::to_string(high));
+  return result;
+}
+
+SensorDesign designOption(const std::string& fileOrPreset) {
+  SensorDesign design = fileOrPreset == "paper" ? paperDesign() : loadDesign(fileOrPreset);
+  if (const auto problems = check(design); !problems.empty())
+    throw DesignError(fileOrPreset + ": " + problems[0].key + ": " + problems[0].sentence);
+  return design;
+}
+
+void LoadOptions::declare(CLI::App& command) {
+  command.add_option("--load", loads, "AREA:FX,FY,FZ [N]: force on a load area; may be given several times")
+      ->allow_extra_args(false);
+  command.add_option("--patch", patches, "X,Y,RADIUS:FX,FY,FZ [mm, N]: force on a disc of the top face")
+      ->allow_extra_args(false);
+}
+
+LoadCase LoadOptions::loadCase(const SensorDesign& design) const {
+  LoadCase load;
+  for (const std::string& value : loads) {
+    const auto [area, force] = forceAt("--load", value, "AREA:FX,FY,FZ, for example 0:1,0,-6");
+    load.areas.push_back({wholeNumber("--load (area)", area, 0, design.areas.count() - 1), force});
+  }
+  for (const std::string& value : patches) {
+    const auto [disc, force] = forceAt("--patch", value, "X,Y,RADIUS:FX,FY,FZ, for example 15,15,2:0,0,-3");
+    const std::vector<double> xyr = numbers("--patch", disc, 3);
+    load.patches.push_back({{xyr[0], xyr[1]}, xyr[2], force});
+  }
+  if (load.areas.empty() && load.patches.empty())
+    throw UsageError("--load or --patch is missing; give at least one, for example --load 0:1,0,-6");
+  if (const auto wrong = problem(load, design)) throw UsageError(*wrong);
+  return load;
+}
+
+void MeshChoice::declare(CLI::App& command, bool withAccuracy) {
+  CLI::Option* size = command.add_option("--mesh-size", meshSize, "size of the tetrahedra in the bulk [mm]");
+  CLI::Option* grid = command.add_option("--mapped", mapped, "NxNxN: mapped hexahedra, the paper's mesh is 10x10x5");
+  size->excludes(grid);
+  if (!withAccuracy) return;
+  command
+      .add_option("--accuracy", accuracy, "relative L2 error wanted of the electrode displacements; chooses the mesh")
+      ->excludes(size)
+      ->excludes(grid);
+}
+
+MeshOptions MeshChoice::options() const {
+  MeshOptions options;
+  if (!meshSize.empty()) options.meshSize_mm = number("--mesh-size", meshSize);
+  if (!mapped.empty()) {
+    const std::vector<std::string> parts = split(mapped, 'x');
+    if (parts.size() != 3) throw UsageError("--mapped: '" + mapped + "'; allowed is NxNxN, for example 10x10x5");
+    options.mapped.emplace();
+    for (std::size_t i = 0; i < 3; ++i) (*options.mapped)[i] = wholeNumber("--mapped", parts[i], 1, 1000);
+  }
+  return options;
+}
+
+std::optional<double> MeshChoice::relativeAccuracy() const {
+  if (accuracy.empty()) return {};
+  const double wanted = number("--accuracy", accuracy);
+  if (!(wanted >= 1e-4 && wanted <= 0.5))
+    throw UsageError("--accuracy: '" + accuracy + "'; allowed is 0.0001 to 0.5 (relative: 0.01 is 1 %)");
+  return wanted;
+}
+
+CLI::Option* OutputFile::declare(CLI::App& command, const std::string& what) {
+  command.add_flag("--force", force, "overwrite what is there");
+  return command.add_option("-o,--output", path, what);
+}
+
+void OutputFile::requireWritable() const {
+  if (path.empty()) return;
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  if (!std::filesystem::is_directory(folder))
+    throw UsageError("--output: folder '" + folder.string() + "' does not exist");
+  if (std::filesystem::is_directory(path))
+    throw UsageError("--output: '" + path.string() + "' is a folder, not a file");
+  if (!force && std::filesystem::exists(path))
+    throw UsageError("--output: '" + path.string() + "' exists; give --force to overwrite it");
+}
+
+} // namespace palp

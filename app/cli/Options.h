@@ -1,0 +1,51 @@
+#pragma once
+
+#include "app/cli/Cli.h"
+#include "model/LoadCase.h"
+#include "model/SensorDesign.h"
+#include "solver/SensorMesh.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace palp {
+
+/// A finite number, or UsageError "--option: 'value'; allowed is ...".
+double number(const std::string& option, const std::string& value);
+/// Numbers between commas, exactly `count` of them.
+std::vector<double> numbers(const std::string& option, const std::string& value, std::size_t count);
+/// A whole number in [low, high].
+int wholeNumber(const std::string& option, const std::string& value, int low, int high);
+
+/// The design that commands take: a file, or the preset's name `paper`.
+SensorDesign designOption(const std::string& fileOrPreset);
+
+/// --load AREA:FX,FY,FZ and --patch X,Y,RADIUS:FX,FY,FZ, as often as wanted.
+struct LoadOptions {
+  std::vector<std::string> loads;
+  std::vector<std::string> patches;
+  void declare(CLI::App& command);
+  /// All loads together; UsageError names what is wrong with which.
+  [[nodiscard]] LoadCase loadCase(const SensorDesign& design) const;
+};
+
+/// --mesh-size MM, --mapped NxNxN (and --accuracy REL where the command has loads to judge it by).
+struct MeshChoice {
+  std::string meshSize;
+  std::string mapped;
+  std::string accuracy;
+  void declare(CLI::App& command, bool withAccuracy);
+  [[nodiscard]] MeshOptions options() const;
+  [[nodiscard]] std::optional<double> relativeAccuracy() const;
+};
+
+/// A written file: refuses to overwrite without force before any work is done.
+struct OutputFile {
+  std::filesystem::path path;
+  bool force = false;
+  CLI::Option* declare(CLI::App& command, const std::string& what);
+  void requireWritable() const;
+};
+
+} // namespace palp

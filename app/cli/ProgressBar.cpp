@@ -1,0 +1,40 @@
+#include "app/cli/ProgressBar.h"
+
+#include <cmath>
+#include <cstdio>
+#include <unistd.h>
+
+namespace palp {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr int kWidth = 30;
+constexpr std::chrono::milliseconds kRedraw{100};
+
+} // namespace
+
+ProgressBar::ProgressBar(std::string what, std::size_t total)
+    : what_(std::move(what)), total_(total), terminal_(isatty(STDERR_FILENO) == 1), start_(Clock::now()),
+      last_(start_) {}
+
+ProgressBar::~ProgressBar() {
+  if (drawn_) std::fputs("\r\033[K", stderr);
+}
+
+void ProgressBar::show(std::size_t done) {
+  const Clock::time_point now = Clock::now();
+  if (!terminal_ || total_ == 0 || (drawn_ && now - last_ < kRedraw)) return;
+  last_ = now;
+  drawn_ = true;
+  const double share = static_cast<double>(done) / static_cast<double>(total_);
+  const double spent = std::chrono::duration<double>(now - start_).count();
+  const int filled = static_cast<int>(share * kWidth);
+  std::string bar(static_cast<std::size_t>(filled), '#');
+  bar.resize(kWidth, '.');
+  std::fprintf(stderr, "\r\033[K%s [%s] %zu of %zu", what_.c_str(), bar.c_str(), done, total_);
+  if (done > 0) std::fprintf(stderr, ", %.0f s left", std::ceil(spent * (1 - share) / share));
+  std::fflush(stderr);
+}
+
+} // namespace palp

@@ -1,0 +1,75 @@
+#pragma once
+
+#include "app/study/StageLog.h"
+#include "model/LoadCase.h"
+#include "model/SampleSet.h"
+#include "model/SensorDesign.h"
+#include "solver/BatchSolver.h"
+#include "solver/SensorMesh.h"
+
+#include <functional>
+#include <optional>
+#include <stop_token>
+
+namespace palp {
+
+/// Which samples: random forces, uniform over the design's force range.
+struct SampleRequest {
+  int perArea = 100; ///< on each area; `together`: in all
+  std::uint64_t seed = 1;
+  std::string areas = "each"; ///< each (one area loaded at a time), together, or the number of one area
+  bool surrogate = false;     ///< per-area polynomial instead of full solves
+  double relativeTolerance = 1e-6;
+  MeshOptions mesh;
+  int threads = 0; ///< 0: all cores
+};
+
+/// Samples first..last-1 of a request.
+struct SampleRange {
+  std::size_t first = 0;
+  std::size_t last = 0;
+};
+
+/// Shard `index` (from 1) of `count` equal parts of `total` samples.
+SampleRange shard(std::size_t total, int index, int count);
+
+/// Makes the samples of one request; sample i depends on the request and i alone, to the last byte, so that ranges can
+/// be made anywhere, in any order. Meshes and factorises at the first call that needs it.
+class SampleGenerator {
+public:
+  /// Throws DesignError where the design or the request cannot be.
+  SampleGenerator(SensorDesign design, SampleRequest request);
+
+  [[nodiscard]] std::size_t total() const;
+  /// The load of sample i; a pure function of the request and i.
+  [[nodiscard]] LoadCase load(std::size_t i) const;
+
+  /// Hands blocks of samples, in order, to `take`; `progress` gets the number of samples done in this call. Stops after
+  /// the request and returns the number handed out.
+  std::size_t generate(SampleRange range, const std::function<void(const SampleSet&)>& take,
+                       const std::function<void(std::size_t)>& progress = {}, const std::stop_token& stop = {});
+
+  /// What the head of the file says; needs the mesh (and for surrogates the fit).
+  const SampleOrigin& origin();
+  /// An empty set with this request's origin and sizes.
+  SampleSet emptySet();
+
+  [[nodiscard]] const StageLog& stages() const { return stages_; }
+  [[nodiscard]] std::size_t solves() const { return solver_ ? solver_->solves() : 0; }
+  /// Largest relative error of the electrode displacements on the share that was solved again by full Newton.
+  [[nodiscard]] double measuredError() const { return solver_ ? solver_->measuredError() : 0; }
+
+private:
+  void prepare();
+  SampleSet block(SampleRange range, const std::vector<ElectrodeDisplacements>& displacements) const;
+
+  SensorDesign design_;
+  SampleRequest request_;
+  std::optional<int> onlyArea_;
+  SampleOrigin origin_;
+  std::unique_ptr<HyperelasticProblem> problem_;
+  std::unique_ptr<BatchSolver> solver_;
+  StageLog stages_;
+};
+
+} // namespace palp
