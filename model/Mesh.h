@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include <string>
 #include <vector>
 
 namespace palp {
@@ -21,5 +22,11 @@ struct Mesh {
   [[nodiscard]] int nodeCount() const { return static_cast<int>(nodes_mm.cols()); }
   [[nodiscard]] int elementCount() const { return static_cast<int>(elements.cols()); }
 };
+
+/// Displacement unknowns: three a node above the fixed bottom face z = 0.
+int freeUnknowns(const Mesh& mesh);
+
+/// "10-node tetrahedra" or "8-node hexahedra".
+std::string shapeName(ElementShape shape);
 
 } // namespace palp
