@@ -1,0 +1,32 @@
+# Sourced by app/run and tests/run: what both need to install and build. The repository's root is the current folder.
+
+# Names in app/packages.txt; with the argument `tests` also those below [tests].
+packageNames() {
+  if [ "${1:-}" = tests ]; then sed -E '/^(#|\[|$)/d' app/packages.txt
+  else sed -E '/^\[tests\]/,$d; /^(#|$)/d' app/packages.txt; fi
+}
+
+# Installs the Debian packages that are missing, as root or with sudo.
+installMissing() {
+  local name missing=()
+  for name in $(packageNames "${1:-}"); do
+    [ "$(dpkg-query -W -f '${db:Status-Status}' "$name" 2>/dev/null)" = installed ] || missing+=("$name")
+  done
+  [ ${#missing[@]} -gt 0 ] || return 0
+  echo "Installing: ${missing[*]}" >&2
+  local asRoot=()
+  if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null || { echo "These packages are missing and neither root nor sudo is there to install them." >&2; exit 1; }
+    asRoot=(sudo)
+  fi
+  "${asRoot[@]}" apt-get update -q >&2
+  "${asRoot[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "${missing[@]}" >&2
+}
+
+# configureAndBuild FOLDER [CMAKE OPTION ...]: Release with Ninja.
+configureAndBuild() {
+  local folder=$1
+  shift
+  cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release "$@" >&2
+  cmake --build "$folder" >&2
+}

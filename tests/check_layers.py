@@ -1,0 +1,77 @@
+"""The layers of Palp: fails on an include that a folder may not have, and on a package's header in more than one source.
+
+Used by CTest: python3 tests/check_layers.py ROOT
+"""
+
+import pathlib
+import re
+import sys
+
+FOLDERS = ["model", "nn", "solver", "io", "app/study", "app/scenes", "app/cli", "app/gui"]
+# Which of our own folders each may include.
+OWN = {
+    "model": {"model"},
+    "nn": {"nn"},
+    "solver": {"solver", "model"},
+    "io": {"io", "model", "nn"},
+    "app/study": {"app/study", "model", "nn", "solver", "io"},
+    "app/scenes": {"app/scenes", "app/study", "model", "nn", "solver", "io"},
+    "app/cli": {"app/cli", "app/study", "app/scenes", "model", "nn", "solver", "io"},
+    "app/gui": {"app/gui", "app/study", "app/scenes", "model", "nn", "solver", "io"},
+}
+# Packages by their headers, and the folders that may include them.
+PACKAGES = {
+    r"Eigen/.*": set(FOLDERS),
+    r"tetgen\.h": {"solver"},
+    r"(suitesparse/)?cholmod\.h": {"solver"},
+    r"hidapi(/hidapi)?\.h": {"io"},
+    r"libudev\.h": {"io"},
+    r"nlohmann/.*": {"io", "app/study", "app/scenes", "app/cli", "app/gui"},
+    r"CLI/.*": {"app/cli"},
+    r"nlopt\.(h|hpp)": {"nn", "app/study"},
+    r"(cblas|lapacke?|openblas.*)\.h": {"nn", "solver"},
+    r"vtk.*\.h|GL/.*|EGL/.*": {"app/scenes", "app/gui"},
+    r"Q[A-Z].*|Qt.*": {"app/gui"},
+    r"sys/.*|unistd\.h|dlfcn\.h|fcntl\.h|poll\.h|pthread\.h|linux/.*|termios\.h": {"io", "app/study", "app/scenes", "app/cli", "app/gui"},
+}
+ONE_SOURCE_ONLY = [r"tetgen\.h", r"hidapi(/hidapi)?\.h", r"(suitesparse/)?cholmod\.h"]
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.M)
+
+
+def folder_of(path):
+    return next(f for f in sorted(FOLDERS, key=len, reverse=True) if path.startswith(f + "/"))
+
+
+def main(root):
+    problems = []
+    holders = {pattern: set() for pattern in ONE_SOURCE_ONLY}
+    sources = [p for f in FOLDERS for end in ("*.h", "*.cpp") for p in (root / f).rglob(end)]
+    for source in sorted(set(sources)):
+        name = source.relative_to(root).as_posix()
+        folder = folder_of(name)
+        for kind, header in INCLUDE.findall(source.read_text()):
+            for pattern in ONE_SOURCE_ONLY:
+                if re.fullmatch(pattern, header):
+                    holders[pattern].add(name)
+            if kind == '"':
+                if "/" not in header or not any(header.startswith(f + "/") for f in OWN[folder]):
+                    problems.append(f"{name}: may not include \"{header}\"")
+                continue
+            if "/" not in header and "." not in header and not header.startswith("Q"):
+                continue  # the standard library
+            allowed = [folders for pattern, folders in PACKAGES.items() if re.fullmatch(pattern, header)]
+            if not any(folder in folders for folders in allowed):
+                problems.append(f"{name}: may not include <{header}>")
+    for pattern, names in holders.items():
+        if len(names) > 1 or any(n.endswith(".h") for n in names):
+            problems.append(f"{pattern} is included in {', '.join(sorted(names))}; allowed is one .cpp")
+    for gui in (root / "app").rglob("*.h"):
+        name = gui.relative_to(root).as_posix()
+        if "Q_OBJECT" in gui.read_text() and not name.startswith("app/gui/"):
+            problems.append(f"{name}: Q_OBJECT outside app/gui")
+    print("\n".join(problems) if problems else f"{len(sources)} files keep the layers")
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(pathlib.Path(sys.argv[1])))
