@@ -20,4 +20,22 @@ std::string difference(const SampleOrigin& a, const SampleOrigin& b) {
   return {};
 }
 
+void append(SampleSet& set, const SampleSet& block) {
+  if (set.size() == 0) {
+    set = block;
+    return;
+  }
+  const Eigen::Index before = set.size();
+  const Eigen::Index added = block.size();
+  set.area.conservativeResize(before + added);
+  set.area.tail(added) = block.area;
+  const auto addColumns = [&](Eigen::MatrixXd& to, const Eigen::MatrixXd& from) {
+    to.conservativeResize(Eigen::NoChange, before + added);
+    to.rightCols(added) = from;
+  };
+  addColumns(set.forces_N, block.forces_N);
+  addColumns(set.displacements_mm, block.displacements_mm);
+  addColumns(set.resistances_ohm, block.resistances_ohm);
+}
+
 } // namespace palp

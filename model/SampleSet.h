@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -16,10 +17,12 @@ struct SampleOrigin {
   std::string mesh;           ///< in words: element, size, elements, nodes
   double solverTolerance = 0; ///< relative, against full Newton
   bool surrogate = false;
-  double surrogateError = 0; ///< relative error against full solves; 0 for full solves
+  double surrogateError = 0;   ///< relative error against full solves; 0 for full solves
+  std::size_t firstSample = 0; ///< place of the first sample in the whole request; above 0 in a shard's file
 };
 
-/// Labelled samples; one column a sample.
+/// Labelled samples; one column a sample. Displacements or resistances have no rows where nobody knows them (frames of
+/// a real board).
 struct SampleSet {
   SampleOrigin origin;
   int rowWires = 0;
@@ -35,7 +38,11 @@ struct SampleSet {
   [[nodiscard]] bool together() const { return forces_N.rows() != 3 || (size() > 0 && area(0) < 0); }
 };
 
-/// Why two sets cannot stand in one file (other design, seed, mesh, kind); empty where they can.
+/// Why two sets cannot stand in one file (other design, seed, mesh, kind); empty where they can. Where a shard begins
+/// is no difference.
 std::string difference(const SampleOrigin& a, const SampleOrigin& b);
+
+/// Adds the samples of `block` at the end of `set`; an empty `set` becomes the block.
+void append(SampleSet& set, const SampleSet& block);
 
 } // namespace palp

@@ -2,7 +2,7 @@
 
 #include "app/cli/Interrupt.h"
 #include "app/study/Blas.h"
-#include "nn/TrainingError.h"
+#include "nn/NetworkError.h"
 
 #include <algorithm>
 #include <iostream>
@@ -87,7 +87,7 @@ Exit Cli::runChosen() {
   } catch (const Error& refused) {
     std::cerr << "palp " << name << ": " << oneLine(refused.what()) << '\n';
     return Exit::BadInput;
-  } catch (const TrainingError& refused) {
+  } catch (const NetworkError& refused) {
     std::cerr << "palp " << name << ": " << oneLine(refused.what()) << '\n';
     return Exit::BadInput;
   } catch (const std::bad_alloc&) {

@@ -1,0 +1,40 @@
+#include "app/cli/Cli.h"
+#include "app/cli/Options.h"
+#include "io/SampleFile.h"
+
+#include <iostream>
+#include <memory>
+
+namespace palp {
+
+namespace {
+
+struct MergeArguments {
+  std::vector<std::string> parts;
+  OutputFile output;
+};
+
+Exit run(const MergeArguments& arguments, Session& session) {
+  arguments.output.requireWritable();
+  const std::size_t samples =
+      mergeSampleFiles({arguments.parts.begin(), arguments.parts.end()}, arguments.output.path, arguments.output.force);
+  session.result["samples"] = samples;
+  session.result["solves"] = 0;
+  session.result["solves_per_s"] = 0;
+  session.result["file"] = arguments.output.path.string();
+  if (!session.json) std::cout << samples << " samples in " << arguments.output.path.string() << '\n';
+  return Exit::Done;
+}
+
+} // namespace
+
+void addMerge(Cli& cli) {
+  auto arguments = std::make_shared<MergeArguments>();
+  CLI::App& command = cli.command("merge", "join the shards of a sample file to the bytes of one run",
+                                  "palp merge part1.csv part2.csv -o samples.csv",
+                                  [arguments](Session& session) { return run(*arguments, session); });
+  command.add_option("parts", arguments->parts, "sample files in the order of their shards")->required();
+  arguments->output.declare(command, "sample file to write")->required();
+}
+
+} // namespace palp

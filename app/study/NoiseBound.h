@@ -1,0 +1,21 @@
+#pragma once
+
+#include "io/Decoder.h"
+#include "model/SampleSet.h"
+
+#include <Eigen/Core>
+
+namespace palp {
+
+/// Cramer-Rao bound of the force for relative noise of the inputs, area known, as % of the force range: root mean
+/// square over samples and areas, one entry an output. What no unbiased method (without prior) and no method at all
+/// (with prior: forces uniform over their range) can beat.
+struct NoiseBound {
+  Eigen::VectorXd withoutPriorPercent; ///< infinite where the inputs do not determine the forces
+  Eigen::VectorXd withPriorPercent;
+};
+
+/// From samples: J = d x / d F at each sample by a polynomial fit of the inputs in the forces of its area.
+NoiseBound noiseBound(const SampleSet& samples, InputKind kind, const std::vector<int>& rows, double relativeNoise);
+
+} // namespace palp

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "io/Decoder.h"
+#include "nn/RbfTrainer.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace palp {
+
+/// All that `palp train` can be told; what is not set follows from the mode.
+struct TrainOptions {
+  InputKind input = InputKind::Displacement;
+  std::string rows = "4"; ///< row-wires that are read: "4", "1,4,7", "all"
+  NetworkMode mode = NetworkMode::Default;
+  DecoderKind decoder = DecoderKind::Rbf;
+  std::optional<double> spread; ///< none: auto
+  std::optional<int> centers;   ///< none: as the mode says
+  bool allCenters = false;      ///< one a sample, however many
+  std::optional<CenterChoice> centerChoice;
+  std::optional<Solver> solver;
+  std::optional<double> ridge;
+  std::optional<Scaling> scaling;
+  std::optional<Tail> tail;
+  std::optional<SpreadConvention> convention;
+  double noise = 0; ///< relative standard deviation of the inputs
+  double forgetting = 1;
+  std::uint64_t seed = 1;
+};
+
+/// The one place where a mode becomes options (see PHYSICS.md, the two modes): for `samples` samples.
+RbfOptions rbfOptions(const TrainOptions& options, Eigen::Index samples);
+
+/// Row-wires of "4", "1,4,7" or "all", ascending, without repeats. Throws Error where one is not among 0..rowWires-1.
+std::vector<int> rowsNamed(const std::string& rows, int rowWires);
+
+} // namespace palp
