@@ -1,0 +1,177 @@
+#include "io/DesignFile.h"
+
+#include "io/AtomicFile.h"
+#include "io/StrictJson.h"
+#include "model/Error.h"
+#include "model/Text.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdint>
+
+namespace palp {
+
+namespace {
+
+constexpr int kNewestVersion = 1;
+
+std::string list(const std::vector<double>& values) {
+  std::string all = "[";
+  for (const double value : values) all += (all.size() == 1 ? "" : ", ") + text(value);
+  return all + "]";
+}
+
+std::string list(const Eigen::Vector3d& v) {
+  return list(std::vector<double>{v.x(), v.y(), v.z()});
+}
+
+std::string listOfLists(const std::vector<std::vector<double>>& lists) {
+  std::string all = "[";
+  for (const std::vector<double>& entry : lists) all += (all.size() == 1 ? "" : ", ") + list(entry);
+  return all + "]";
+}
+
+/// One list for all wires, or a list a wire.
+std::string positions(const std::vector<std::vector<double>>& along) {
+  return along.size() == 1 ? list(along[0]) : listOfLists(along);
+}
+
+/// One depth for all, or a list a wire.
+std::string depths(const std::vector<std::vector<double>>& z) {
+  return z.size() == 1 && z[0].size() == 1 ? text(z[0][0]) : listOfLists(z);
+}
+
+std::string pressureLaw(const std::optional<PressureLaw>& law) {
+  if (!law) return "null";
+  return R"({ "p0_MPa": )" + text(law->p0_MPa) + R"(, "exponent": )" + text(law->exponent) + " }";
+}
+
+std::string range(const ForceRange& forces, int axis) {
+  return list(std::vector<double>{forces.low_N(axis), forces.high_N(axis)});
+}
+
+std::vector<std::vector<double>> readPositions(const JsonPlace& place) {
+  if (!place.isListOfLists()) return {place.numbers()};
+  std::vector<std::vector<double>> lists;
+  for (const JsonPlace& entry : place.list()) lists.push_back(entry.numbers());
+  return lists;
+}
+
+std::vector<std::vector<double>> readDepths(const JsonPlace& place) {
+  if (place.isNumber()) return {{place.number()}};
+  if (!place.isListOfLists()) place.refuse("one depth in mm, or a list of depths for each wire");
+  return readPositions(place);
+}
+
+ElectrodeLayer readLayer(const JsonPlace& place, const char* wire, const char* along) {
+  ElectrodeLayer layer;
+  layer.wire_mm = place.at(wire).numbers();
+  layer.along_mm = readPositions(place.at(along));
+  layer.z_mm = readDepths(place.at("z_mm"));
+  return layer;
+}
+
+Eigen::Vector3d readVector(const JsonPlace& place) {
+  const std::vector<double> v = place.numbers(3);
+  return {v[0], v[1], v[2]};
+}
+
+Material readMaterial(const JsonPlace& place) {
+  place.onlyKeys({"c10_MPa", "c01_MPa", "poisson_ratio", "density_t_per_mm3"});
+  return {place.at("c10_MPa").number(), place.at("c01_MPa").number(), place.at("poisson_ratio").number(),
+          place.at("density_t_per_mm3").number()};
+}
+
+std::optional<PressureLaw> readPressureLaw(const JsonPlace& place) {
+  if (place.isNull()) return {};
+  place.onlyKeys({"p0_MPa", "exponent"});
+  return PressureLaw{place.at("p0_MPa").number(), place.at("exponent").number()};
+}
+
+ForceRange readForceRange(const JsonPlace& place) {
+  place.onlyKeys({"x", "y", "z"});
+  ForceRange forces;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::vector<double> ends = place.at(std::string(1, "xyz"[axis])).numbers(2);
+    forces.low_N(axis) = ends[0];
+    forces.high_N(axis) = ends[1];
+  }
+  return forces;
+}
+
+} // namespace
+
+std::string toJson(const SensorDesign& d) {
+  const Material& m = d.material;
+  std::string json = "{ \"palp_design\": 1,\n";
+  json += "  \"block_mm\": " + list(d.block_mm) + ",\n";
+  json += "  \"material\": { \"c10_MPa\": " + text(m.c10_MPa) + ", \"c01_MPa\": " + text(m.c01_MPa) +
+          ", \"poisson_ratio\": " + text(m.poissonRatio) + ", \"density_t_per_mm3\": " + text(m.density_t_per_mm3) +
+          " },\n";
+  json += "  \"areas\": { \"columns\": " + std::to_string(d.areas.columns) +
+          ", \"rows\": " + std::to_string(d.areas.rows) + " },\n";
+  json += "  \"upper_layer\": { \"z_mm\": " + depths(d.upper.z_mm) +
+          ",\n    \"row_wire_y_mm\": " + list(d.upper.wire_mm) +
+          ",\n    \"electrode_x_mm\": " + positions(d.upper.along_mm) + " },\n";
+  json += "  \"lower_layer\": { \"z_mm\": " + depths(d.lower.z_mm) +
+          ",\n    \"column_wire_x_mm\": " + list(d.lower.wire_mm) +
+          ",\n    \"electrode_y_mm\": " + positions(d.lower.along_mm) +
+          ",\n    \"follows_rubber\": " + (d.lowerFollowsRubber ? "true" : "false") + " },\n";
+  json += "  \"resistance\": { \"rate_ohm_per_mm\": " + text(d.resistanceRate_ohm_per_mm) +
+          ", \"pressure_law\": " + pressureLaw(d.pressureLaw) + " },\n";
+  json += "  \"force_range_N\": { \"x\": " + range(d.forceRange, 0) + ", \"y\": " + range(d.forceRange, 1) +
+          ", \"z\": " + range(d.forceRange, 2) + " } }\n";
+  return json;
+}
+
+SensorDesign parseDesign(std::string_view json, const std::string& file) {
+  const Json value = parseJson(json, file);
+  const JsonPlace root(value, file);
+  if (!root.has("palp_design")) throw Error(file + ": no design file: palp_design is missing");
+  formatVersion(root, "palp_design", kNewestVersion); // first: a newer file may well have other keys
+  root.onlyKeys(
+      {"palp_design", "block_mm", "material", "areas", "upper_layer", "lower_layer", "resistance", "force_range_N"});
+  SensorDesign design;
+  design.block_mm = readVector(root.at("block_mm"));
+  design.material = readMaterial(root.at("material"));
+  const JsonPlace areas = root.at("areas").onlyKeys({"columns", "rows"});
+  design.areas = {areas.at("columns").integer(), areas.at("rows").integer()};
+  const JsonPlace upper = root.at("upper_layer").onlyKeys({"z_mm", "row_wire_y_mm", "electrode_x_mm"});
+  design.upper = readLayer(upper, "row_wire_y_mm", "electrode_x_mm");
+  const JsonPlace lower =
+      root.at("lower_layer").onlyKeys({"z_mm", "column_wire_x_mm", "electrode_y_mm", "follows_rubber"});
+  design.lower = readLayer(lower, "column_wire_x_mm", "electrode_y_mm");
+  design.lowerFollowsRubber = lower.at("follows_rubber").boolean();
+  const JsonPlace resistance = root.at("resistance").onlyKeys({"rate_ohm_per_mm", "pressure_law"});
+  design.resistanceRate_ohm_per_mm = resistance.at("rate_ohm_per_mm").number();
+  design.pressureLaw = readPressureLaw(resistance.at("pressure_law"));
+  design.forceRange = readForceRange(root.at("force_range_N"));
+  return design;
+}
+
+SensorDesign loadDesign(const std::filesystem::path& path) {
+  SensorDesign design = parseDesign(readFile(path), path.string());
+  const std::vector<DesignProblem> problems = check(design);
+  if (!problems.empty()) throw DesignError(path.string() + ": " + problems[0].key + ": " + problems[0].sentence);
+  return design;
+}
+
+void saveDesign(const std::filesystem::path& path, const SensorDesign& design, bool force) {
+  requireValid(design);
+  writeFile(path, toJson(design), force);
+}
+
+std::string designFingerprint(const SensorDesign& design) {
+  std::uint64_t hash = 0xcbf29ce484222325; // FNV-1a: http://www.isthe.com/chongo/tech/comp/fnv
+  for (const char c : toJson(design)) {
+    if (c == ' ' || c == '\n') continue;
+    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  }
+  std::array<char, 16> digits{};
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), hash, 16).ptr;
+  const std::string significant(digits.data(), end);
+  return std::string(16 - significant.size(), '0') + significant;
+}
+
+} // namespace palp

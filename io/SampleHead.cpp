@@ -1,0 +1,248 @@
+#include "io/SampleHead.h"
+
+#include "io/SampleFile.h"
+#include "model/Error.h"
+#include "model/Text.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <vector>
+
+namespace palp {
+
+namespace {
+
+constexpr int kNewestVersion = 1;
+constexpr int kLargestCount = 100000;
+constexpr const char* kFullSolves = "full solves";
+constexpr const char* kSurrogate = "surrogate";
+
+std::string shown(std::string_view value) {
+  return "\"" + std::string(value.substr(0, 60)) + (value.size() > 60 ? "..." : "") + "\"";
+}
+
+/// `# key: value` lines, each key at most once.
+class HeadLines {
+public:
+  HeadLines(const SampleLines& lines, std::map<std::string, std::string> values)
+      : lines_(lines), values_(std::move(values)) {}
+
+  std::string text(const std::string& key) {
+    const auto found = values_.find(key);
+    if (found == values_.end()) lines_.refuse("the head above this line lacks \"# " + key + ": ...\"");
+    std::string value = found->second;
+    values_.erase(found);
+    return value;
+  }
+
+  template <class Number> Number number(const std::string& key, Number largest) {
+    const std::string value = text(key);
+    Number result{};
+    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), result);
+    const bool whole = error == std::errc() && end == value.data() + value.size();
+    if (!whole || !(result >= 0) || result > largest)
+      lines_.refuse("the head above this line says " + key + ": " + shown(value) + "; allowed is a number from 0 to " +
+                    plain(largest));
+    return result;
+  }
+
+  void requireAllUsed() {
+    if (!values_.empty())
+      lines_.refuse("the head above this line has the unknown key " + shown(values_.begin()->first));
+  }
+
+private:
+  static std::string plain(double value) { return palp::text(value); }
+  static std::string plain(std::uint64_t value) { return std::to_string(value); }
+  static std::string plain(int value) { return std::to_string(value); }
+
+  const SampleLines& lines_;
+  std::map<std::string, std::string> values_;
+};
+
+/// Reads `# key: value`.
+void readComment(const SampleLines& lines, const std::string& line, std::map<std::string, std::string>& values) {
+  const std::size_t colon = line.find(": ");
+  if (line.substr(0, 2) != "# " || colon == std::string::npos)
+    lines.refuse(shown(line) + "; allowed in the head is \"# key: value\"");
+  const std::string key = line.substr(2, colon - 2);
+  if (!values.emplace(key, line.substr(colon + 2)).second) lines.refuse("key " + key + " stands twice");
+}
+
+std::vector<std::string_view> split(std::string_view line) {
+  std::vector<std::string_view> fields;
+  while (true) {
+    const std::size_t comma = line.find(',');
+    fields.push_back(line.substr(0, comma));
+    if (comma == std::string_view::npos) return fields;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+SampleOrigin readOrigin(const SampleLines& lines, HeadLines& head) {
+  SampleOrigin origin;
+  origin.designFingerprint = head.text("design");
+  origin.seed = head.number("seed", ~std::uint64_t{0});
+  origin.areas = head.text("areas");
+  origin.perArea = head.number("per_area", std::numeric_limits<int>::max());
+  origin.mesh = head.text("mesh");
+  origin.solverTolerance = head.number("solver_tolerance", 1e300);
+  const std::string kind = head.text("kind");
+  if (kind != kFullSolves && kind != kSurrogate)
+    lines.refuse("the head above this line says kind: " + shown(kind) + "; allowed is " + kFullSolves + " or " +
+                 kSurrogate);
+  origin.surrogate = kind == kSurrogate;
+  origin.surrogateError = head.number("surrogate_error", 1e300);
+  origin.firstSample = head.number("first_sample", ~std::uint64_t{0});
+  return origin;
+}
+
+/// Sets the rows of the matrices by the names that are there.
+void readColumns(const SampleLines& lines, const std::string& line, SampleSet& set) {
+  const bool together = set.origin.areas == "together";
+  const int electrodes = set.rowWires * set.electrodesPerRowWire;
+  set.forces_N.resize(together ? 3 * set.areaCount : 3, 0);
+  set.displacements_mm.resize(line.find(",u_r") == std::string::npos ? 0 : 3 * electrodes, 0);
+  set.resistances_ohm.resize(line.find(",R_r") == std::string::npos ? 0 : set.rowWires * set.columnWires, 0);
+  const std::string expected = sampleColumns(set);
+  if (line == expected) return;
+  const std::vector<std::string_view> names = split(line);
+  const std::vector<std::string_view> wanted = split(expected);
+  for (std::size_t i = 0; i < std::min(names.size(), wanted.size()); ++i)
+    if (names[i] != wanted[i])
+      lines.refuse("column " + std::to_string(i + 1) + " is " + shown(names[i]) + "; by the head it must be " +
+                   shown(wanted[i]));
+  lines.refuse(std::to_string(names.size()) + " columns; by the head there must be " + std::to_string(wanted.size()));
+}
+
+void append(std::string& text, double value) {
+  std::array<char, 32> digits{};
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+  text.push_back(',');
+  text.append(digits.data(), end);
+}
+
+} // namespace
+
+std::string sampleFileHead(const SampleSet& set) {
+  const SampleOrigin& origin = set.origin;
+  std::string head;
+  const auto line = [&head](const char* key, const std::string& value) {
+    head += std::string("# ") + key + ": " + value + "\n";
+  };
+  line("palp_samples", std::to_string(kNewestVersion));
+  line("design", origin.designFingerprint);
+  line("seed", std::to_string(origin.seed));
+  line("areas", origin.areas);
+  line("per_area", std::to_string(origin.perArea));
+  line("mesh", origin.mesh);
+  line("solver_tolerance", text(origin.solverTolerance));
+  line("kind", origin.surrogate ? kSurrogate : kFullSolves);
+  line("surrogate_error", text(origin.surrogateError));
+  line("first_sample", std::to_string(origin.firstSample));
+  line("row_wires", std::to_string(set.rowWires));
+  line("electrodes_per_row_wire", std::to_string(set.electrodesPerRowWire));
+  line("column_wires", std::to_string(set.columnWires));
+  line("area_count", std::to_string(set.areaCount));
+  return head + sampleColumns(set) + "\n";
+}
+
+std::string sampleColumns(const SampleSet& set) {
+  std::string names = "area";
+  if (set.forces_N.rows() == 3) {
+    names += ",fx_N,fy_N,fz_N";
+  } else {
+    for (int a = 0; a < set.areaCount; ++a)
+      for (const char axis : {'x', 'y', 'z'}) names += ",a" + std::to_string(a) + "_f" + axis + "_N";
+  }
+  for (int r = 0; r < set.rowWires && set.displacements_mm.rows() > 0; ++r)
+    for (int e = 0; e < set.electrodesPerRowWire; ++e)
+      for (const char axis : {'x', 'y', 'z'})
+        names += ",u_r" + std::to_string(r) + "_e" + std::to_string(e) + "_" + axis + "_mm";
+  for (int r = 0; r < set.rowWires && set.resistances_ohm.rows() > 0; ++r)
+    for (int c = 0; c < set.columnWires; ++c) names += ",R_r" + std::to_string(r) + "_c" + std::to_string(c) + "_ohm";
+  return names;
+}
+
+bool SampleLines::next(std::string& line, bool cutOffIsTheEnd) {
+  if (!std::getline(stream_, line)) return false;
+  ++line_;
+  if (stream_.eof()) { // no line end: its last number may lack digits
+    if (cutOffIsTheEnd) return false;
+    refuse("cut off in the middle of the line; each line must have its end");
+  }
+  if (!line.empty() && line.back() == '\r') line.pop_back();
+  return true;
+}
+
+void SampleLines::refuse(const std::string& sentence) const {
+  throw Error(file_ + ", line " + std::to_string(line_) + ": " + sentence);
+}
+
+SampleSet readSampleHead(SampleLines& lines) {
+  std::map<std::string, std::string> values;
+  std::string line;
+  while (lines.next(line) && !line.empty() && line[0] == '#') readComment(lines, line, values);
+  HeadLines head(lines, std::move(values));
+  const int version = head.number("palp_samples", kLargestCount);
+  if (version != kNewestVersion)
+    lines.refuse("the file is of version " + std::to_string(version) + "; this Palp reads version 1");
+  SampleSet set;
+  set.origin = readOrigin(lines, head);
+  set.rowWires = head.number("row_wires", kLargestCount);
+  set.electrodesPerRowWire = head.number("electrodes_per_row_wire", kLargestCount);
+  set.columnWires = head.number("column_wires", kLargestCount);
+  set.areaCount = head.number("area_count", kLargestCount);
+  head.requireAllUsed();
+  readColumns(lines, line, set);
+  return set;
+}
+
+std::size_t sampleFields(const SampleSet& head) {
+  return static_cast<std::size_t>(1 + head.forces_N.rows() + head.displacements_mm.rows() +
+                                  head.resistances_ohm.rows());
+}
+
+void readSampleLine(const SampleLines& lines, std::string_view line, SampleSet& set, Eigen::Index column) {
+  const auto fieldCount = static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')) + 1;
+  if (fieldCount != sampleFields(set))
+    lines.refuse(std::to_string(fieldCount) + " fields; by the head there must be " +
+                 std::to_string(sampleFields(set)));
+  const char* next = line.data();
+  const char* const end = line.data() + line.size();
+  std::size_t field = 0;
+  const auto read = [&](auto& value) {
+    const auto [stop, error] = std::from_chars(next, end, value);
+    if (error != std::errc() || (stop != end && *stop != ','))
+      lines.refuse("field " + std::to_string(field + 1) + " is " + shown(split(line)[field]) +
+                   "; allowed is a number (the area: a whole one)");
+    next = stop + 1;
+    ++field;
+  };
+  read(set.area(column));
+  if (set.area(column) < -1 || set.area(column) >= set.areaCount)
+    lines.refuse("area " + std::to_string(set.area(column)) + "; allowed is 0 to " + std::to_string(set.areaCount - 1) +
+                 ", or -1 where all are loaded together");
+  for (Eigen::MatrixXd* part : {&set.forces_N, &set.displacements_mm, &set.resistances_ohm})
+    for (Eigen::Index row = 0; row < part->rows(); ++row) {
+      read((*part)(row, column));
+      if (!std::isfinite((*part)(row, column)))
+        lines.refuse("field " + std::to_string(field) + " is " + text((*part)(row, column)) +
+                     "; allowed is a finite number");
+    }
+}
+
+void appendSampleLines(std::string& text, const SampleSet& set, Eigen::Index first, Eigen::Index count) {
+  for (Eigen::Index i = first; i < first + count; ++i) {
+    text += std::to_string(set.area(i));
+    for (const Eigen::MatrixXd* part : {&set.forces_N, &set.displacements_mm, &set.resistances_ohm})
+      for (Eigen::Index row = 0; row < part->rows(); ++row) append(text, (*part)(row, i));
+    text.push_back('\n');
+  }
+}
+
+} // namespace palp

@@ -1,0 +1,140 @@
+#include "io/StrictJson.h"
+
+#include "model/Error.h"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+namespace palp {
+
+namespace {
+
+constexpr std::size_t kLongestShownValue = 60;
+
+/// Remembers the keys of the objects that are open, because the parser would take the last of two silently.
+class TwiceGuard {
+public:
+  explicit TwiceGuard(const std::string& file) : file_(file) {}
+
+  bool operator()(int /*depth*/, Json::parse_event_t event, const Json& parsed) {
+    if (event == Json::parse_event_t::object_start) open_.emplace_back();
+    if (event == Json::parse_event_t::object_end) open_.pop_back();
+    if (event == Json::parse_event_t::key && !open_.back().insert(parsed.get<std::string>()).second)
+      throw Error(file_ + ": key \"" + parsed.get<std::string>() + "\" stands twice; allowed is once");
+    return true;
+  }
+
+private:
+  const std::string& file_;
+  std::vector<std::set<std::string>> open_;
+};
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string all;
+  for (const std::string& word : words) all += (all.empty() ? "" : ", ") + word;
+  return all;
+}
+
+/// The library's message without its own tag in brackets.
+std::string plain(const std::string& message) {
+  const std::size_t end = message.find("] ");
+  return end == std::string::npos ? message : message.substr(end + 2);
+}
+
+} // namespace
+
+Json parseJson(std::string_view content, const std::string& file) {
+  TwiceGuard guard(file);
+  try {
+    return Json::parse(content,
+                       [&](int depth, Json::parse_event_t event, Json& parsed) { return guard(depth, event, parsed); });
+  } catch (const Json::exception& broken) {
+    throw Error(file + ": no valid JSON: " + plain(broken.what()));
+  }
+}
+
+void JsonPlace::refuse(const std::string& allowed) const {
+  std::string value = value_->dump(-1, ' ', false, Json::error_handler_t::replace);
+  if (value.size() > kLongestShownValue) value = value.substr(0, kLongestShownValue) + "...";
+  throw Error(file_ + ": " + (key_.empty() ? "the file" : key_) + " is " + value + "; allowed is " + allowed);
+}
+
+const JsonPlace& JsonPlace::onlyKeys(const std::vector<std::string>& required,
+                                     const std::vector<std::string>& optional) const {
+  std::vector<std::string> known = required;
+  known.insert(known.end(), optional.begin(), optional.end());
+  if (!value_->is_object()) refuse("an object with the keys " + joined(known));
+  const std::string prefix = key_.empty() ? "" : key_ + ".";
+  for (const auto& [key, value] : value_->items())
+    if (std::find(known.begin(), known.end(), key) == known.end())
+      JsonPlace(value, file_, "unknown key " + prefix + key).refuse("only " + joined(known));
+  for (const std::string& key : required)
+    if (!value_->contains(key))
+      throw Error(file_ + ": " + prefix + key + " is missing; needed are " + joined(required));
+  return *this;
+}
+
+JsonPlace JsonPlace::at(const std::string& key) const {
+  const std::string path = key_.empty() ? key : key_ + "." + key;
+  if (!has(key)) throw Error(file_ + ": " + path + " is missing");
+  return {(*value_)[key], file_, path};
+}
+
+double JsonPlace::number() const {
+  if (!value_->is_number()) refuse("a number");
+  return value_->get<double>();
+}
+
+int JsonPlace::integer() const {
+  const double value = value_->is_number() ? value_->get<double>() : 0.5;
+  const bool whole = value == static_cast<double>(static_cast<long long>(value));
+  if (!whole || std::abs(value) > std::numeric_limits<int>::max()) refuse("a whole number");
+  return static_cast<int>(value);
+}
+
+bool JsonPlace::boolean() const {
+  if (!value_->is_boolean()) refuse("true or false");
+  return value_->get<bool>();
+}
+
+std::string JsonPlace::string() const {
+  if (!value_->is_string()) refuse("a text");
+  return value_->get<std::string>();
+}
+
+std::vector<double> JsonPlace::numbers() const {
+  if (!value_->is_array()) refuse("a list of numbers");
+  std::vector<double> values;
+  values.reserve(value_->size());
+  for (const Json& entry : *value_) {
+    if (!entry.is_number())
+      JsonPlace(entry, file_, key_ + "[" + std::to_string(values.size()) + "]").refuse("a number");
+    values.push_back(entry.get<double>());
+  }
+  return values;
+}
+
+std::vector<double> JsonPlace::numbers(std::size_t count) const {
+  std::vector<double> values = numbers();
+  if (values.size() != count) refuse("a list of " + std::to_string(count) + " numbers");
+  return values;
+}
+
+std::vector<JsonPlace> JsonPlace::list() const {
+  if (!value_->is_array()) refuse("a list");
+  std::vector<JsonPlace> places;
+  places.reserve(value_->size());
+  for (const Json& entry : *value_) places.emplace_back(entry, file_, key_ + "[" + std::to_string(places.size()) + "]");
+  return places;
+}
+
+int formatVersion(const JsonPlace& root, const std::string& key, int newest) {
+  const JsonPlace place = root.at(key);
+  const int version = place.integer();
+  if (version > newest) place.refuse("up to " + std::to_string(newest) + ": the file is of a newer Palp than this one");
+  if (version < 1) place.refuse("1 to " + std::to_string(newest));
+  return version;
+}
+
+} // namespace palp

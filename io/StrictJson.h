@@ -1,0 +1,59 @@
+#pragma once
+
+// Private to io: keeps nlohmann-json out of every public header.
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace palp {
+
+using Json = nlohmann::json;
+
+/// Parses JSON; throws Error with line and column where it is broken, or with the key that stands twice.
+Json parseJson(std::string_view content, const std::string& file);
+
+/// A value of a JSON file together with where it stands, so that each refusal is one sentence: file, dotted key, value,
+/// what is allowed. Every reader throws Error.
+class JsonPlace {
+public:
+  JsonPlace(const Json& value, std::string file, std::string key = {})
+      : value_(&value), file_(std::move(file)), key_(std::move(key)) {}
+
+  /// Refuses where this is no object, lacks one of the keys or has another one.
+  const JsonPlace& onlyKeys(const std::vector<std::string>& required,
+                            const std::vector<std::string>& optional = {}) const;
+
+  [[nodiscard]] JsonPlace at(const std::string& key) const;
+  [[nodiscard]] bool has(const std::string& key) const { return value_->is_object() && value_->contains(key); }
+  [[nodiscard]] bool isNull() const { return value_->is_null(); }
+  [[nodiscard]] bool isNumber() const { return value_->is_number(); }
+  /// A list whose first entry is a list.
+  [[nodiscard]] bool isListOfLists() const {
+    return value_->is_array() && !value_->empty() && value_->front().is_array();
+  }
+
+  [[nodiscard]] double number() const;
+  [[nodiscard]] int integer() const;
+  [[nodiscard]] bool boolean() const;
+  [[nodiscard]] std::string string() const;
+  [[nodiscard]] std::vector<double> numbers() const;
+  [[nodiscard]] std::vector<double> numbers(std::size_t count) const;
+  [[nodiscard]] std::vector<JsonPlace> list() const;
+
+  /// Throws Error: file, key, value, and what is allowed.
+  [[noreturn]] void refuse(const std::string& allowed) const;
+  [[nodiscard]] const Json& json() const { return *value_; }
+
+private:
+  const Json* value_;
+  std::string file_;
+  std::string key_;
+};
+
+/// The version under `key` of a file's format; refuses a newer one than `newest` with a sentence.
+int formatVersion(const JsonPlace& root, const std::string& key, int newest);
+
+} // namespace palp
