@@ -57,7 +57,9 @@ Exit run(const SampleArguments& arguments, Session& session) {
   arguments.output.requireWritable();
   SampleGenerator generator(design, request(arguments, session));
   const SampleRange range = shardOption(arguments.shardText, generator.total());
-  SamplePartWriter writer(arguments.output.path, generator.emptySet(), arguments.output.force);
+  SampleSet head = generator.emptySet();
+  head.origin.firstSample = range.first;
+  SamplePartWriter writer(arguments.output.path, head, arguments.output.force);
   const std::size_t kept = writer.samplesKept();
   if (kept > range.last - range.first)
     throw UsageError(writer.partPath().string() + " holds " + std::to_string(kept) + " samples, more than the " +
