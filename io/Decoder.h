@@ -1,0 +1,85 @@
+#pragma once
+
+#include "model/SensorDesign.h"
+#include "nn/BackPropagation.h"
+#include "nn/ForwardModel.h"
+#include "nn/GaussianProcess.h"
+#include "nn/PolynomialRidge.h"
+#include "nn/RbfNetwork.h"
+#include "nn/RbfTrainer.h"
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace palp {
+
+/// What a decoder reads.
+enum class InputKind { Displacement, Resistance };
+/// displacement, resistance.
+std::string name(InputKind kind);
+InputKind inputKindNamed(const std::string& name);
+
+/// Ways from what is read to the force; as on the command line: rbf, linear, poly2, poly3, gp, bp, two-step-bp,
+/// two-step-gn, ml.
+enum class DecoderKind {
+  Rbf,
+  Linear,
+  Polynomial2,
+  Polynomial3,
+  GaussianProcess,
+  BackPropagation,
+  TwoStepBackPropagation, ///< the paper's step 1 by a back-propagation network (its reference [12]), then step 2
+  TwoStepGaussNewton,     ///< step 1 by inverting Eq. (1), then step 2
+  MaximumLikelihood,      ///< inverts a polynomial forward model: area and force at once
+};
+std::string name(DecoderKind kind);
+DecoderKind decoderKindNamed(const std::string& name);
+std::vector<DecoderKind> allDecoderKinds();
+
+/// The two modes of a network; every other option overrides what the mode says.
+enum class NetworkMode { Default, Paper };
+std::string name(NetworkMode mode);
+NetworkMode networkModeNamed(const std::string& name);
+
+/// The paper's steps in a row: step 1, resistances -> displacements of the row-wires' electrodes; step 2,
+/// displacements -> force.
+struct TwoStep {
+  std::optional<BackPropagationNetwork> network; ///< step 1 as in the paper's reference [12]
+  std::optional<SensorDesign> design;            ///< step 1 by inverting Eq. (1) of this design
+  std::vector<int> rows;
+  RbfNetwork force; ///< step 2
+};
+
+/// What a decoder reads: kind and row-wires, and what they looked like in training.
+struct DecoderInput {
+  InputKind kind = InputKind::Displacement;
+  std::vector<int> rows;
+  int rowWires = 0;          ///< of the design
+  int valuesPerRow = 0;      ///< 3 electrodes or column-wires
+  Eigen::VectorXd low, high; ///< training range of each input [mm or ohm]
+};
+
+/// A trained way from what the sensor reads to the force, with all that is needed to use it and to judge it.
+struct Decoder {
+  DecoderKind kind = DecoderKind::Rbf;
+  std::variant<RbfNetwork, PolynomialRidge, GaussianProcess, BackPropagationNetwork, TwoStep, ForwardModel> model;
+  DecoderInput input;
+  std::string designFingerprint;
+  std::string trainedWith; ///< the command line that makes it again
+  NetworkMode mode = NetworkMode::Default;
+  std::uint64_t seed = 1;
+  double noise = 0; ///< relative, of the inputs, that it was trained with
+  int areaCount = 0;
+  bool together = false;             ///< one force an area at once, 3 areas outputs
+  Eigen::VectorXd low_N, high_N;     ///< training range of each output
+  Eigen::MatrixXd residual_N;        ///< outputs x areas (1 where unknown): rms error found in training, per area
+  std::optional<ForwardModel> areas; ///< tells which area is touched; none for `together` or where there is one area
+  FitReport report;                  ///< of the fit; sizes in N
+
+  [[nodiscard]] Eigen::Index outputs() const { return low_N.size(); }
+  [[nodiscard]] Eigen::Index inputs() const { return input.low.size(); }
+};
+
+} // namespace palp

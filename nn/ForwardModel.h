@@ -1,0 +1,47 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <string>
+#include <vector>
+
+namespace palp {
+
+/// For each class a polynomial in the causes y (a few numbers) that gives the measurements x (many numbers): the
+/// forward direction, smooth and well-posed, which is then inverted by maximum likelihood.
+struct ForwardModel {
+  int degree = 3;
+  Eigen::VectorXd causeOffset, causeFactor;  ///< causes to [-1, 1]: (y - offset) * factor
+  std::vector<Eigen::MatrixXd> coefficients; ///< one a class: measurements x monomials
+  Eigen::VectorXd deviation; ///< standard deviation of each measurement: noise and the model's own error
+
+  [[nodiscard]] Eigen::Index measurements() const { return deviation.size(); }
+  [[nodiscard]] Eigen::Index causes() const { return causeOffset.size(); }
+  [[nodiscard]] std::size_t classes() const { return coefficients.size(); }
+  /// Measurements of class c under causes y; on request their derivatives, measurements x causes.
+  [[nodiscard]] Eigen::VectorXd measurementsOf(std::size_t c, const Eigen::Ref<const Eigen::VectorXd>& y,
+                                               Eigen::MatrixXd* jacobian = nullptr) const;
+};
+
+struct ForwardModelOptions {
+  int degree = 3;
+  double relativeNoise = 0; ///< of each measurement
+};
+
+/// One column a sample; `classes` counts from 0, every class with at least one sample. The degree is lowered where a
+/// class has fewer samples than monomials (said in `warnings`).
+ForwardModel fitForwardModel(const Eigen::Ref<const Eigen::MatrixXd>& measurements,
+                             const Eigen::Ref<const Eigen::MatrixXd>& causes, const Eigen::VectorXi& classes,
+                             const ForwardModelOptions& options, std::vector<std::string>* warnings = nullptr);
+
+/// Most likely class and causes of one measurement vector, causes within their training box (a uniform prior).
+struct LikelihoodEstimate {
+  int classIndex = 0;
+  double confidence = 1; ///< posterior probability of the class (Laplace approximation)
+  Eigen::VectorXd causes;
+  Eigen::VectorXd standardDeviation;
+  double chiSquare = 0; ///< of the residual, a measurement: 1 where model and noise fit
+};
+LikelihoodEstimate maximumLikelihood(const ForwardModel& model, const Eigen::Ref<const Eigen::VectorXd>& measurement);
+
+} // namespace palp

@@ -1,0 +1,81 @@
+#pragma once
+
+#include "nn/RbfNetwork.h"
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+namespace palp {
+
+/// How the weights are found.
+enum class Solver {
+  PivotedQr,    ///< column-pivoted QR, directions below rcond dropped
+  Cholesky,     ///< with a ridge of at least 1e-12
+  TruncatedSvd, ///< singular values below rcond dropped
+  Recursive,    ///< recursive least squares with forgetting, the paper's way
+};
+/// As on the command line: qr, cholesky, svd, rls.
+std::string name(Solver solver);
+Solver solverNamed(const std::string& name);
+
+/// Where the Gaussians sit.
+enum class CenterChoice { Samples, KMeans, Random };
+
+/// What is added to the Gaussians.
+enum class Tail {
+  None,
+  Bias,
+  Linear,          ///< bias and linear tail, exact as in kriging: the weights are orthogonal to it
+  LinearPenalised, ///< bias and linear tail as weights among the others; for noise and for few samples
+};
+
+struct RbfOptions {
+  Scaling scaling = Scaling::Global;
+  CenterChoice centers = CenterChoice::Samples;
+  int centerCount = 0;          ///< KMeans, Random: how many; 0: 600 at most. Samples: all
+  std::optional<double> spread; ///< none: by leave-one-out
+  SpreadConvention convention = SpreadConvention::Radbas;
+  Tail tail = Tail::Linear;
+  double tailVariance = 100; ///< LinearPenalised: prior variance of the tail's weights against the Gaussians'
+  Solver solver = Solver::PivotedQr;
+  std::optional<double> ridge = 0.0; ///< none: by leave-one-out over 1e-13..10
+  double rcond = 1e-15;
+  double forgetting = 1; ///< Recursive: factor in (0, 1]
+  /// Relative standard deviation of each input (sigma_i = |x_i| * it); 0: clean. Copies of the samples with noise of
+  /// this size are what the network is fitted to.
+  double relativeInputNoise = 0;
+  int noiseCopies = 10;
+  bool leaveOneOut = true; ///< report the leave-one-out error (costs about as much as the fit)
+  std::uint64_t seed = 1;
+};
+
+/// What came out of a fit, and what a reader must know to trust it.
+struct FitReport {
+  double spread = 0;
+  double ridge = 0;
+  int centers = 0;
+  double condition = 0; ///< estimate, of the system that was solved
+  int rank = 0;
+  double largestWeight = 0;
+  Eigen::VectorXd leaveOneOut; ///< root mean square of the leave-one-out errors, one an output; empty: not asked
+  Eigen::MatrixXd leaveOneOutResiduals; ///< outputs x samples; empty: not asked
+  double seconds = 0;
+  std::vector<std::string> warnings; ///< whole sentences
+};
+
+struct RbfFit {
+  RbfNetwork network;
+  FitReport report;
+};
+
+/// Fits a network to samples (inputs x samples) and targets (outputs x samples). Throws NetworkError for data from
+/// which no network can be made and for cancellation.
+RbfFit trainRbf(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen::Ref<const Eigen::MatrixXd>& targets,
+                const RbfOptions& options = {}, const std::stop_token& stop = {});
+
+} // namespace palp

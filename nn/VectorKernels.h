@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+
+/// The hot loops, compiled for several instruction sets and chosen at run time; plain pointers, no Eigen, so that no
+/// inline code of others is compiled for a machine that may not be there.
+namespace palp::kernels {
+
+/// Lanes that a block of packed centres has.
+inline constexpr std::size_t blockLanes = 16;
+
+/// values[i] = exp(factor * values[i]); exponents from -708 to 708 to 1 ulp or so, below -708 gives 0.
+void exponential(double* values, std::size_t count, double factor);
+
+/// result[i] = sum_d (rows[d * count + i] - point[d])^2: `count` points stored input by input.
+void squaredDistancesToPoint(const double* rows, std::size_t count, std::size_t dimensions, const double* point,
+                             double* result);
+
+/// Packed Gaussian network.
+struct PackedNetwork {
+  std::size_t inputs, outputs, blocks;
+  double rate;           ///< gamma of exp(-gamma r^2)
+  const double* centers; ///< [block][input][lane]
+  const double* weights; ///< [block][output][lane]
+};
+
+/// output[o] += sum_c weights[o][c] exp(-rate |scaled - c|^2) for one sample.
+void addGaussians(const PackedNetwork& network, const double* scaled, double* output);
+/// The same for four samples at once: scaled[s * inputs + d], output[s * outputs + o].
+void addGaussiansFour(const PackedNetwork& network, const double* scaled, double* output);
+
+} // namespace palp::kernels
