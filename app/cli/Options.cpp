@@ -120,6 +120,14 @@ std::optional<double> MeshChoice::relativeAccuracy() const {
   return wanted;
 }
 
+std::string MeshChoice::asCommand() const {
+  std::string command;
+  if (!meshSize.empty()) command += " --mesh-size " + meshSize;
+  if (!mapped.empty()) command += " --mapped " + mapped;
+  if (!accuracy.empty()) command += " --accuracy " + accuracy;
+  return command;
+}
+
 CLI::Option* OutputFile::declare(CLI::App& command, const std::string& what) {
   command.add_flag("--force", force, "overwrite what is there");
   return command.add_option("-o,--output", path, what);

@@ -38,6 +38,8 @@ struct MeshChoice {
   void declare(CLI::App& command, bool withAccuracy);
   [[nodiscard]] MeshOptions options() const;
   [[nodiscard]] std::optional<double> relativeAccuracy() const;
+  /// The same options as on the command line, with a blank before each.
+  [[nodiscard]] std::string asCommand() const;
 };
 
 /// A written file: refuses to overwrite without force before any work is done.

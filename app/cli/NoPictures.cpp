@@ -1,0 +1,26 @@
+#include "app/cli/Pictures.h"
+
+#include <iostream>
+
+namespace palp {
+
+namespace {
+
+void warn(Session& session, const std::string& what) {
+  session.warnings.push_back(what + " needs VTK, and this palp was built without it (PALP_GUI=OFF)");
+  std::cerr << "palp: " << session.warnings.back() << '\n';
+}
+
+} // namespace
+
+void exportVtu(const OutputFile& output, const Mesh&, const NodalFields*, Session& session) {
+  warn(session, output.path.string());
+}
+
+std::vector<ReportPicture> drawPaperFigures(const SensorDesign&, const ProtocolResult&, const MeshOptions&,
+                                            const std::filesystem::path&, Session& session) {
+  warn(session, "drawing the figures");
+  return {};
+}
+
+} // namespace palp

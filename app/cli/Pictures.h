@@ -1,0 +1,25 @@
+#pragma once
+
+#include "app/cli/Cli.h"
+#include "app/cli/Options.h"
+#include "app/study/PaperProtocol.h"
+#include "app/study/PaperReport.h"
+#include "model/Mesh.h"
+#include "model/Solution.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace palp {
+
+// What needs VTK. Without it (PALP_GUI=OFF) each adds a warning that says so, and the command goes on.
+
+/// VTU file of the mesh, with the fields at its nodes where there are any; sets `file` in the result.
+void exportVtu(const OutputFile& output, const Mesh& mesh, const NodalFields* fields, Session& session);
+
+/// Figs. 4, 6-16 as PNG files in the folder.
+std::vector<ReportPicture> drawPaperFigures(const SensorDesign& design, const ProtocolResult& result,
+                                            const MeshOptions& mesh, const std::filesystem::path& folder,
+                                            Session& session);
+
+} // namespace palp

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace palp::test {
+
+/// What a finished process left.
+struct Outcome {
+  int exit = -1;
+  std::string output; ///< standard output
+  std::string errors; ///< standard error
+
+  [[nodiscard]] nlohmann::json json() const { return nlohmann::json::parse(output); }
+};
+
+/// Runs the palp binary without a terminal.
+Outcome palp(const std::vector<std::string>& arguments);
+
+/// Starts it, sends SIGINT once `file` has grown above `bytes`, and waits for the end.
+Outcome palpInterrupted(const std::vector<std::string>& arguments, const std::filesystem::path& file,
+                        std::uintmax_t bytes);
+
+/// An empty folder for one test.
+std::filesystem::path scratch(const std::string& name);
+
+std::string readAll(const std::filesystem::path& file);
+void writeAll(const std::filesystem::path& file, const std::string& content);
+
+} // namespace palp::test
