@@ -23,4 +23,13 @@ std::vector<ReportPicture> drawPaperFigures(const SensorDesign&, const ProtocolR
   return {};
 }
 
+void renderTouch(const Touch&, const std::string&, const PictureSize&, const std::filesystem::path& file,
+                 Session& session) {
+  warn(session, file.string());
+}
+
+std::vector<std::string> quantityNames() {
+  return {};
+}
+
 } // namespace palp

@@ -4,6 +4,7 @@
 #include "app/cli/Options.h"
 #include "app/study/PaperProtocol.h"
 #include "app/study/PaperReport.h"
+#include "app/study/Touch.h"
 #include "model/Mesh.h"
 #include "model/Solution.h"
 
@@ -21,5 +22,18 @@ void exportVtu(const OutputFile& output, const Mesh& mesh, const NodalFields* fi
 std::vector<ReportPicture> drawPaperFigures(const SensorDesign& design, const ProtocolResult& result,
                                             const MeshOptions& mesh, const std::filesystem::path& folder,
                                             Session& session);
+
+struct PictureSize {
+  int width = 1200;
+  int height = 800;
+  bool dark = false;
+};
+
+/// The deformed block, coloured by one of quantityNames(), as a PNG file; sets `file` in the result.
+void renderTouch(const Touch& touch, const std::string& quantity, const PictureSize& size,
+                 const std::filesystem::path& file, Session& session);
+
+/// What a picture can be coloured by; empty without VTK.
+std::vector<std::string> quantityNames();
 
 } // namespace palp

@@ -9,6 +9,7 @@ int main(int argc, char** argv) {
     palp::addDesign(cli);
     palp::addMesh(cli);
     palp::addSolve(cli);
+    palp::addRender(cli);
     palp::addSample(cli);
     palp::addMerge(cli);
     palp::addReproduce(cli);

@@ -1,0 +1,50 @@
+#include "app/cli/Pictures.h"
+
+#include "app/scenes/DeformationPicture.h"
+#include "app/scenes/PaperFigures.h"
+#include "app/scenes/VtuFile.h"
+
+namespace palp {
+
+void exportVtu(const OutputFile& output, const Mesh& mesh, const NodalFields* fields, Session& session) {
+  output.requireWritable();
+  writeVtu(output.path, mesh, fields ? nodalArrays(*fields) : std::vector<NodalArray>{});
+  session.result["file"] = output.path.string();
+}
+
+std::vector<ReportPicture> drawPaperFigures(const SensorDesign& design, const ProtocolResult& result,
+                                            const MeshOptions& mesh, const std::filesystem::path& folder,
+                                            Session& session) {
+  Touch touch(design, paperFigureLoad(), mesh);
+  NewtonOptions options;
+  options.threads = session.threads;
+  touch.advance(Stage::Displacements, options, {{}, session.stop});
+  session.stages.add(touch.stages());
+  return session.stages.measure("render", [&] { return drawPaperFigures(result, touch, folder); });
+}
+
+void renderTouch(const Touch& touch, const std::string& quantity, const PictureSize& size,
+                 const std::filesystem::path& file, Session& session) {
+  DeformationOptions options;
+  for (const Quantity candidate : allQuantities())
+    if (quantityName(candidate) == quantity) options.quantity = candidate;
+  options.theme = size.dark ? Theme::Dark : Theme::Light;
+  const NodalFields fields = touch.problem()->fields(touch.solution()->state());
+  DeformationState state;
+  state.design = &touch.design();
+  state.mesh = touch.mesh();
+  state.fields = &fields;
+  state.electrodes = touch.displacements();
+  state.load = &touch.load();
+  state.loadFraction = touch.solution()->reachedLoadFraction;
+  session.stages.measure("render", [&] { writePng(drawDeformation(state, options, size.width, size.height), file); });
+  session.result["file"] = file.string();
+}
+
+std::vector<std::string> quantityNames() {
+  std::vector<std::string> names;
+  for (const Quantity quantity : allQuantities()) names.push_back(quantityName(quantity));
+  return names;
+}
+
+} // namespace palp
