@@ -25,11 +25,13 @@ void requirePositive(Problems& problems, const std::string& key, double value, d
 void checkMaterial(Problems& problems, const Material& material) {
   const double c10 = material.c10_MPa;
   const double c01 = material.c01_MPa;
+  const std::size_t before = problems.size();
   for (const auto& [key, value] : {std::pair{"material.c10_MPa", c10}, std::pair{"material.c01_MPa", c01}})
     if (!(std::abs(value) <= kLargestModulus_MPa))
       problems.push_back({key, text(value) + " MPa; allowed is a number up to 1e+09 MPa in size"});
-  if (!(c10 > 0)) problems.push_back({"material.c10_MPa", text(c10) + " MPa; allowed is above 0"});
-  if (!(c10 + c01 > 0))
+  const bool numbers = problems.size() == before;
+  if (numbers && !(c10 > 0)) problems.push_back({"material.c10_MPa", text(c10) + " MPa; allowed is above 0"});
+  if (numbers && !(c10 + c01 > 0))
     problems.push_back(
         {"material.c01_MPa", text(c01) + " MPa; c10 + c01 must be above 0, or the rubber has no stiffness"});
   if (!(material.poissonRatio >= 0 && material.poissonRatio <= 0.5))

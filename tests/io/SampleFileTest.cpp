@@ -1,0 +1,239 @@
+#include "io/SampleFile.h"
+
+#include "io/AtomicFile.h"
+#include "tests/io/Refusal.h"
+#include "tests/io/TemporaryFolder.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace palp {
+namespace {
+
+/// Two row-wires, two electrodes each, three column-wires, two areas.
+SampleSet smallHead(bool together = false) {
+  SampleSet set;
+  set.origin = {"0123456789abcdef", 7, together ? "together" : "each", 10, "tetrahedra, 2 mm", 1e-6, false, 0, 0};
+  set.rowWires = 2;
+  set.electrodesPerRowWire = 2;
+  set.columnWires = 3;
+  set.areaCount = 2;
+  set.forces_N.resize(together ? 6 : 3, 0);
+  set.displacements_mm.resize(12, 0);
+  set.resistances_ohm.resize(6, 0);
+  return set;
+}
+
+/// Samples with the awkward numbers of random bits.
+SampleSet randomSet(Eigen::Index size, unsigned seed, bool together = false) {
+  SampleSet set = smallHead(together);
+  std::mt19937_64 engine(seed);
+  std::normal_distribution<double> normal;
+  const auto fill = [&](Eigen::MatrixXd& part) {
+    part.resize(part.rows(), size);
+    for (double& value : part.reshaped()) value = normal(engine) * std::pow(10, 5 * normal(engine));
+  };
+  set.area.resize(size);
+  for (Eigen::Index i = 0; i < size; ++i) set.area(i) = together ? -1 : static_cast<int>(i % 2);
+  for (Eigen::MatrixXd* part : {&set.forces_N, &set.displacements_mm, &set.resistances_ohm}) fill(*part);
+  return set;
+}
+
+SampleSet slice(const SampleSet& set, Eigen::Index first, Eigen::Index count) {
+  SampleSet part = set;
+  part.area = set.area.segment(first, count);
+  part.forces_N = set.forces_N.middleCols(first, count);
+  part.displacements_mm = set.displacements_mm.middleCols(first, count);
+  part.resistances_ohm = set.resistances_ohm.middleCols(first, count);
+  return part;
+}
+
+void expectSame(const SampleSet& a, const SampleSet& b) {
+  EXPECT_EQ(difference(a.origin, b.origin), "");
+  EXPECT_EQ(a.origin.firstSample, b.origin.firstSample);
+  EXPECT_EQ(a.area, b.area);
+  EXPECT_EQ(a.forces_N, b.forces_N);
+  EXPECT_EQ(a.displacements_mm, b.displacements_mm);
+  EXPECT_EQ(a.resistances_ohm, b.resistances_ohm);
+}
+
+TEST(SampleFile, ReadsBackTheSameNumbers) {
+  const TemporaryFolder folder;
+  for (const bool together : {false, true}) {
+    const SampleSet set = randomSet(1000, 3, together);
+    saveSamples(folder / "a.csv", set, true);
+    expectSame(loadSamples(folder / "a.csv"), set);
+  }
+}
+
+TEST(SampleFile, LeavesOutWhatNobodyKnows) {
+  const TemporaryFolder folder;
+  SampleSet set = randomSet(5, 1);
+  set.displacements_mm.resize(0, 5);
+  saveSamples(folder / "a.csv", set, false);
+  const SampleSet back = loadSamples(folder / "a.csv");
+  EXPECT_EQ(back.displacements_mm.rows(), 0);
+  EXPECT_EQ(back.resistances_ohm, set.resistances_ohm);
+}
+
+TEST(SampleFile, NamesItsColumnsWithTheirUnits) {
+  const std::string head = sampleFileHead(smallHead());
+  for (const char* part : {"# seed: 7\n", "# kind: full solves\n", "\narea,fx_N,fy_N,fz_N,u_r0_e0_x_mm,",
+                           ",u_r1_e1_z_mm,R_r0_c0_ohm,", ",R_r1_c2_ohm\n"})
+    EXPECT_NE(head.find(part), std::string::npos) << part;
+  EXPECT_NE(sampleFileHead(smallHead(true)).find("\narea,a0_fx_N,a0_fy_N,a0_fz_N,a1_fx_N,"), std::string::npos);
+}
+
+TEST(SampleFile, AcceptsLineEndsOfWindows) {
+  const TemporaryFolder folder;
+  const SampleSet set = randomSet(3, 1);
+  saveSamples(folder / "a.csv", set, false);
+  std::string text = readFile(folder / "a.csv");
+  for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) text.insert(at, "\r");
+  put(folder / "b.csv", text);
+  expectSame(loadSamples(folder / "b.csv"), set);
+}
+
+struct Slip {
+  const char* name;
+  std::function<void(std::string&)> damage;
+  std::vector<const char*> sentence;
+};
+
+void PrintTo(const Slip& slip, std::ostream* out) {
+  *out << slip.name;
+}
+
+class SampleFileSlip : public testing::TestWithParam<Slip> {};
+
+std::function<void(std::string&)> replaced(const std::string& piece, const std::string& by) {
+  return [=](std::string& text) {
+    ASSERT_NE(text.find(piece), std::string::npos) << piece;
+    text.replace(text.find(piece), piece.size(), by);
+  };
+}
+
+TEST_P(SampleFileSlip, IsRefusedWithItsLine) {
+  const TemporaryFolder folder;
+  SampleSet set = randomSet(3, 1);
+  set.forces_N.setConstant(0.25);
+  saveSamples(folder / "a.csv", set, false);
+  std::string text = readFile(folder / "a.csv");
+  GetParam().damage(text);
+  put(folder / "b.csv", text);
+  const std::string sentence = refusal([&] { loadSamples(folder / "b.csv"); });
+  EXPECT_NE(sentence.find("b.csv, line "), std::string::npos) << sentence;
+  for (const char* part : GetParam().sentence) EXPECT_NE(sentence.find(part), std::string::npos) << sentence;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Each, SampleFileSlip,
+    testing::Values(Slip{"NotANumber", replaced("0,0.25", "0,x"), {"line 16", "field 2", "\"x\""}},
+                    Slip{"Nan", replaced("0,0.25", "0,nan"), {"line 16", "nan", "finite"}},
+                    Slip{"Infinite", replaced("0,0.25", "0,inf"), {"line 16", "inf", "finite"}},
+                    Slip{"TooLarge", replaced("0,0.25", "0,1e999"), {"line 16", "1e999"}},
+                    Slip{"Empty", replaced("0,0.25", "0,"), {"line 16", "field 2"}},
+                    Slip{"FieldMissing", replaced("0,0.25,", "0,"), {"line 16", "21 fields", "22"}},
+                    Slip{"AreaUnknown", replaced("\n0,0.25", "\n2,0.25"), {"line 16", "area 2", "0 to 1"}},
+                    Slip{"AreaBroken", replaced("\n0,0.25", "\n0.5,0.25"), {"line 16", "field 1", "0.5"}},
+                    Slip{"CutOff", [](std::string& text) { text.resize(text.size() - 5); }, {"line 18", "cut off"}},
+                    Slip{"HeadLineMissing", replaced("# seed: 7\n", ""), {"seed"}},
+                    Slip{"HeadLineTwice", replaced("# seed: 7\n", "# seed: 7\n# seed: 8\n"), {"seed stands twice"}},
+                    Slip{"HeadKeyUnknown", replaced("# seed: 7\n", "# seed: 7\n# salt: 8\n"), {"unknown key", "salt"}},
+                    Slip{"HeadNumberBroken", replaced("# seed: 7", "# seed: -7"), {"seed", "-7"}},
+                    Slip{"KindUnknown", replaced("full solves", "guess"), {"guess", "full solves or surrogate"}},
+                    Slip{"Newer", replaced("palp_samples: 1", "palp_samples: 2"), {"version 2"}},
+                    Slip{"ColumnRenamed", replaced("fy_N", "fy_kN"), {"column 3", "fy_kN", "fy_N"}},
+                    Slip{"ColumnMissing", replaced(",R_r1_c2_ohm", ""), {"columns", "22"}},
+                    Slip{
+                        "NoHeadAtAll", [](std::string& text) { text.erase(0, text.find("area,")); }, {"palp_samples"}}),
+    [](const auto& each) { return each.param.name; });
+
+TEST(SampleFile, MergeOfShardsInAnyOrderIsTheBytesOfOneRun) {
+  const TemporaryFolder folder;
+  const SampleSet whole = randomSet(20, 5);
+  saveSamples(folder / "whole.csv", whole, false);
+  std::vector<std::filesystem::path> parts;
+  for (const auto& [first, count] : {std::pair{13, 7}, {0, 6}, {6, 7}}) {
+    SampleSet part = slice(whole, first, count);
+    part.origin.firstSample = static_cast<std::size_t>(first);
+    parts.push_back(folder / ("part" + std::to_string(first)));
+    saveSamples(parts.back(), part, false);
+  }
+  EXPECT_EQ(mergeSampleFiles(parts, folder / "merged.csv", false), 20U);
+  EXPECT_EQ(readFile(folder / "merged.csv"), readFile(folder / "whole.csv"));
+
+  EXPECT_NE(refusal([&] {
+              mergeSampleFiles({parts[0], parts[1]}, folder / "x", false);
+            }).find("missing"),
+            std::string::npos);
+  EXPECT_NE(refusal([&] {
+              mergeSampleFiles({parts[1], parts[1]}, folder / "x", false);
+            }).find("twice"),
+            std::string::npos);
+  EXPECT_NE(refusal([&] {
+              mergeSampleFiles({parts[1], parts[2]}, folder / "x", false);
+            }).find("whole request has 20"),
+            std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(folder / "x"));
+}
+
+TEST(SampleFile, MergeRefusesShardsOfOtherWork) {
+  const TemporaryFolder folder;
+  saveSamples(folder / "a", randomSet(10, 5), false);
+  SampleSet other = randomSet(10, 5);
+  other.origin.seed = 8;
+  saveSamples(folder / "b", other, false);
+  const std::string sentence = refusal([&] { mergeSampleFiles({folder / "a", folder / "b"}, folder / "x", false); });
+  EXPECT_NE(sentence.find("seed differs: 7 and 8"), std::string::npos) << sentence;
+}
+
+TEST(SamplePartWriter, WritesTheBytesOfOneRunWhereverItIsCutOff) {
+  const TemporaryFolder folder;
+  const SampleSet whole = randomSet(9, 2);
+  saveSamples(folder / "whole.csv", whole, false);
+  const std::string bytes = readFile(folder / "whole.csv");
+  for (std::size_t cut = 0; cut <= bytes.size(); cut += 37) {
+    put(folder / "a.csv.part", bytes.substr(0, cut));
+    SamplePartWriter writer(folder / "a.csv", smallHead(), true);
+    const auto kept = static_cast<Eigen::Index>(writer.samplesKept());
+    ASSERT_LE(kept, 9);
+    writer.append(slice(whole, kept, 9 - kept));
+    writer.finish();
+    ASSERT_EQ(readFile(folder / "a.csv"), bytes) << "cut at " << cut;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.csv.part"));
+}
+
+TEST(SamplePartWriter, KeepsAPartThatIsWhole) {
+  const TemporaryFolder folder;
+  saveSamples(folder / "a.csv.part", randomSet(9, 2), false);
+  EXPECT_EQ(SamplePartWriter(folder / "a.csv", smallHead(), false).samplesKept(), 9U);
+}
+
+TEST(SamplePartWriter, SaysWhatDiffersFromThePartThatIsThere) {
+  const TemporaryFolder folder;
+  saveSamples(folder / "a.csv.part", randomSet(9, 2), false);
+  SampleSet head = smallHead();
+  head.origin.mesh = "mapped 10x10x5";
+  const std::string other = refusal([&] { SamplePartWriter(folder / "a.csv", head, false); });
+  EXPECT_NE(other.find("mesh differs: tetrahedra, 2 mm and mapped 10x10x5"), std::string::npos) << other;
+  head = smallHead();
+  head.origin.firstSample = 5;
+  EXPECT_NE(refusal([&] { SamplePartWriter(folder / "a.csv", head, false); }).find("shard"), std::string::npos);
+  EXPECT_EQ(loadSamples(folder / "a.csv.part").size(), 9); // untouched
+}
+
+TEST(SamplePartWriter, RefusesBeforeTheWorkWhatItCouldNotFinish) {
+  const TemporaryFolder folder;
+  put(folder / "a.csv", "precious");
+  EXPECT_NE(refusal([&] { SamplePartWriter(folder / "a.csv", smallHead(), false); }).find("--force"),
+            std::string::npos);
+  const SamplePartWriter first(folder / "b.csv", smallHead(), false);
+  EXPECT_NE(refusal([&] { SamplePartWriter(folder / "b.csv", smallHead(), false); }).find("another process"),
+            std::string::npos);
+}
+
+} // namespace
+} // namespace palp

@@ -1,0 +1,199 @@
+#include "model/SensorDesign.h"
+
+#include "model/Error.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+namespace palp {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+TEST(SensorDesign, PaperPresetCanBeBuiltAndIsSquare) {
+  const SensorDesign design = paperDesign();
+  EXPECT_TRUE(check(design).empty());
+  EXPECT_FALSE(squareSystemProblem(design));
+  EXPECT_NO_THROW(requireValid(design));
+}
+
+TEST(SensorDesign, PaperPresetHasThePapersLayout) {
+  const SensorDesign design = paperDesign();
+  EXPECT_EQ(design.rowWires(), 10);
+  EXPECT_EQ(design.electrodesPerRowWire(), 10);
+  EXPECT_EQ(design.columnWires(), 30);
+  EXPECT_EQ(design.electrodesPerColumnWire(), 3);
+  EXPECT_EQ(design.upperElectrodes_mm().col(4 * 10 + 2), Eigen::Vector3d(7.5, 13.5, 4));
+  EXPECT_EQ(design.lowerElectrodes_mm().col(29 * 3 + 1), Eigen::Vector3d(29.5, 15, 1));
+}
+
+TEST(SensorDesign, AreasRunAlongXFirst) {
+  const SensorDesign design = paperDesign();
+  ASSERT_EQ(design.areas.count(), 6);
+  const Rectangle area = design.areaRectangle(4); // column 1, row 1
+  EXPECT_EQ(area.low_mm, Eigen::Vector2d(10, 15));
+  EXPECT_EQ(area.high_mm, Eigen::Vector2d(20, 30));
+}
+
+TEST(SensorDesign, ListsAWireMayDiffer) {
+  SensorDesign design = paperDesign();
+  design.lower.along_mm.assign(30, {5, 15, 25});
+  design.lower.along_mm[3] = {6, 16, 26};
+  design.lower.z_mm.assign(30, {1, 1, 2});
+  EXPECT_TRUE(check(design).empty());
+  EXPECT_EQ(design.lowerElectrodes_mm().col(3 * 3 + 2), Eigen::Vector3d(3.5, 26, 2));
+}
+
+TEST(SensorDesign, LowerElectrodesMayLieOnTheBottom) {
+  SensorDesign design = paperDesign();
+  design.lower.z_mm = {{0}};
+  EXPECT_TRUE(check(design).empty());
+}
+
+TEST(SensorDesign, IncompressibleRubberIsAllowed) {
+  SensorDesign design = paperDesign();
+  design.material.poissonRatio = 0.5;
+  EXPECT_TRUE(check(design).empty());
+}
+
+struct Slip {
+  const char* name;
+  std::function<void(SensorDesign&)> make;
+  const char* key;
+  const char* value; ///< must stand in the sentence
+};
+
+void PrintTo(const Slip& slip, std::ostream* out) {
+  *out << slip.name;
+}
+
+class DesignSlip : public testing::TestWithParam<Slip> {};
+
+TEST_P(DesignSlip, IsOneProblemThatNamesKeyAndValue) {
+  SensorDesign design = paperDesign();
+  GetParam().make(design);
+  const std::vector<DesignProblem> problems = check(design);
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_EQ(problems[0].key, GetParam().key);
+  EXPECT_NE(problems[0].sentence.find(GetParam().value), std::string::npos) << problems[0].sentence;
+  EXPECT_THROW(requireValid(design), DesignError);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Each, DesignSlip,
+    testing::Values(
+        Slip{"DensityNegative", [](SensorDesign& d) { d.material.density_t_per_mm3 = -1; },
+             "material.density_t_per_mm3", "-1"},
+        Slip{"C10Zero", [](SensorDesign& d) { d.material.c10_MPa = 0; }, "material.c10_MPa", "0 MPa"},
+        Slip{"C10Nan", [](SensorDesign& d) { d.material.c10_MPa = kNan; }, "material.c10_MPa", "nan"},
+        Slip{"C10Infinite", [](SensorDesign& d) { d.material.c10_MPa = kInfinity; }, "material.c10_MPa", "inf"},
+        Slip{"C01Nan", [](SensorDesign& d) { d.material.c01_MPa = kNan; }, "material.c01_MPa", "nan"},
+        Slip{"NoStiffness", [](SensorDesign& d) { d.material.c01_MPa = -0.3286; }, "material.c01_MPa", "-0.3286"},
+        Slip{"PoissonRatioAboveOneHalf", [](SensorDesign& d) { d.material.poissonRatio = 0.50001; },
+             "material.poisson_ratio", "0.50001"},
+        Slip{"PoissonRatioNegative", [](SensorDesign& d) { d.material.poissonRatio = -0.1; }, "material.poisson_ratio",
+             "-0.1"},
+        Slip{"PoissonRatioNan", [](SensorDesign& d) { d.material.poissonRatio = kNan; }, "material.poisson_ratio",
+             "nan"},
+        Slip{"NoAreaColumn", [](SensorDesign& d) { d.areas.columns = 0; }, "areas.columns", "0"},
+        Slip{"TooManyAreaRows", [](SensorDesign& d) { d.areas.rows = 51; }, "areas.rows", "51"},
+        Slip{"NoRowWire", [](SensorDesign& d) { d.upper.wire_mm.clear(); }, "upper_layer.row_wire_y_mm", "0 wires"},
+        Slip{"TooManyColumnWires", [](SensorDesign& d) { d.lower.wire_mm.assign(256, 3.0); },
+             "lower_layer.column_wire_x_mm", "256 wires"},
+        Slip{"WrongNumberOfLists",
+             [](SensorDesign& d) {
+               d.lower.along_mm.assign(29, {5, 15, 25});
+             },
+             "lower_layer.electrode_y_mm", "29 lists"},
+        Slip{"NoElectrode", [](SensorDesign& d) { d.lower.along_mm = {{}}; }, "lower_layer.electrode_y_mm",
+             "0 electrodes"},
+        Slip{"RaggedLists",
+             [](SensorDesign& d) {
+               d.lower.along_mm.assign(30, {5, 15, 25});
+               d.lower.along_mm[7].pop_back();
+             },
+             "lower_layer.electrode_y_mm", "column-wire 7"},
+        Slip{"WrongDepths",
+             [](SensorDesign& d) {
+               d.lower.z_mm = {{1, 2}};
+             },
+             "lower_layer.z_mm", "one depth"},
+        Slip{"NoDepth", [](SensorDesign& d) { d.upper.z_mm.clear(); }, "upper_layer.z_mm", "one depth"},
+        Slip{"ElectrodeOutside", [](SensorDesign& d) { d.upper.along_mm[0][9] = 30; }, "upper_layer.electrode_x_mm",
+             "x = 30"},
+        Slip{"ElectrodeNan", [](SensorDesign& d) { d.upper.along_mm[0][3] = kNan; }, "upper_layer.electrode_x_mm",
+             "nan"},
+        Slip{"RowWireOutside", [](SensorDesign& d) { d.upper.wire_mm[2] = -1; }, "upper_layer.row_wire_y_mm", "y = -1"},
+        Slip{"UpperLayerAboveTheBlock", [](SensorDesign& d) { d.upper.z_mm = {{5}}; }, "upper_layer.z_mm", "z = 5"},
+        Slip{"ColumnWireOutside", [](SensorDesign& d) { d.lower.wire_mm[0] = 31; }, "lower_layer.column_wire_x_mm",
+             "x = 31"},
+        Slip{"ColumnElectrodeOutside", [](SensorDesign& d) { d.lower.along_mm[0][2] = 40; },
+             "lower_layer.electrode_y_mm", "y = 40"},
+        Slip{"LowerLayerBelowTheBlock", [](SensorDesign& d) { d.lower.z_mm = {{-0.1}}; }, "lower_layer.z_mm",
+             "z = -0.1"},
+        Slip{"SameElectrodeTwice", [](SensorDesign& d) { d.upper.along_mm[0][5] = 1.5; }, "upper_layer.electrode_x_mm",
+             "electrode 5 of row-wire 0"},
+        Slip{"SameWireTwice", [](SensorDesign& d) { d.lower.wire_mm[8] = 0.5; }, "lower_layer.column_wire_x_mm",
+             "column-wire 8"},
+        Slip{"LayersCross", [](SensorDesign& d) { d.lower.z_mm = {{4}}; }, "lower_layer.z_mm", "z = 4"},
+        Slip{"RateZero", [](SensorDesign& d) { d.resistanceRate_ohm_per_mm = 0; }, "resistance.rate_ohm_per_mm",
+             "0 ohm/mm"},
+        Slip{"RateInfinite", [](SensorDesign& d) { d.resistanceRate_ohm_per_mm = kInfinity; },
+             "resistance.rate_ohm_per_mm", "inf"},
+        Slip{"PressureScaleZero",
+             [](SensorDesign& d) {
+               d.pressureLaw = PressureLaw{0, 0.5};
+             },
+             "resistance.pressure_law.p0_MPa", "0 MPa"},
+        Slip{"PressureExponentNegative",
+             [](SensorDesign& d) {
+               d.pressureLaw = PressureLaw{0.05, -1};
+             },
+             "resistance.pressure_law.exponent", "-1"},
+        Slip{"PressureExponentNan",
+             [](SensorDesign& d) {
+               d.pressureLaw = PressureLaw{0.05, kNan};
+             },
+             "resistance.pressure_law.exponent", "nan"},
+        Slip{"ForceRangeEmpty", [](SensorDesign& d) { d.forceRange.high_N.z() = -6; }, "force_range_N.z", "[-6, -6]"},
+        Slip{"ForceRangeReversed", [](SensorDesign& d) { d.forceRange.low_N.x() = 2; }, "force_range_N.x", "[2, 1]"},
+        Slip{"ForceRangeNan", [](SensorDesign& d) { d.forceRange.low_N.y() = kNan; }, "force_range_N.y", "nan"}),
+    [](const auto& each) { return each.param.name; });
+
+TEST(SensorDesign, ABlockWithoutSizeNamesTheBlockFirst) {
+  for (const double size : {0.0, -5.0, kNan, kInfinity, 1e5})
+    for (int axis = 0; axis < 3; ++axis) {
+      SensorDesign design = paperDesign();
+      design.block_mm(axis) = size;
+      const std::vector<DesignProblem> problems = check(design);
+      ASSERT_FALSE(problems.empty());
+      EXPECT_EQ(problems[0].key, "block_mm[" + std::to_string(axis) + "]");
+    }
+}
+
+TEST(SensorDesign, FindsAllProblemsInTheOrderOfTheFile) {
+  SensorDesign design = paperDesign();
+  design.material.poissonRatio = 2;
+  design.areas.rows = 0;
+  design.forceRange.low_N.x() = 7;
+  const std::vector<DesignProblem> problems = check(design);
+  ASSERT_EQ(problems.size(), 3U);
+  EXPECT_EQ(problems[0].key, "material.poisson_ratio");
+  EXPECT_EQ(problems[1].key, "areas.rows");
+  EXPECT_EQ(problems[2].key, "force_range_N.x");
+}
+
+TEST(SensorDesign, SaysWhyEq1IsNotSquare) {
+  SensorDesign design = paperDesign();
+  design.lower.wire_mm.pop_back();
+  EXPECT_TRUE(check(design).empty()); // allowed for learning
+  const std::optional<std::string> sentence = squareSystemProblem(design);
+  ASSERT_TRUE(sentence);
+  EXPECT_NE(sentence->find("29 column-wires and 3 x 10 = 30"), std::string::npos) << *sentence;
+}
+
+} // namespace
+} // namespace palp
