@@ -18,6 +18,7 @@ struct Mesh {
   Eigen::MatrixXi topFaces;     ///< nodes of a face (6 or 4) x faces of the top face, ordered as VTK's faces
   Eigen::VectorXi topFaceAreas; ///< load area of each top face
   std::vector<int> upperElectrodeNodes; ///< node of each upper electrode; empty where they are not nodes
+  double size_mm = 0;                   ///< size in the bulk that a graded mesh was made for; 0: another mesh
 
   [[nodiscard]] int nodeCount() const { return static_cast<int>(nodes_mm.cols()); }
   [[nodiscard]] int elementCount() const { return static_cast<int>(elements.cols()); }

@@ -1,0 +1,223 @@
+#include "solver/Assembler.h"
+
+#include "solver/Parallel.h"
+
+#include <algorithm>
+#include <array>
+#include <mutex>
+
+namespace palp {
+
+namespace {
+
+constexpr int blocksAChunk = 8;
+constexpr int nodesAChunk = 256;
+constexpr int largestElementDofs = 30;
+
+} // namespace
+
+Assembler::Assembler(std::shared_ptr<const Discretisation> mesh, const RubberConstants& rubber)
+    : mesh_(std::move(mesh)), rubber_(rubber) {
+  findNeighbours();
+  findPattern();
+}
+
+void Assembler::findNeighbours() {
+  const int nodesAnElement = mesh_->kernels().nodes;
+  aroundStart_.assign(mesh_->nodes() + 1, 0);
+  for (int e = 0; e < mesh_->elements(); ++e)
+    for (int n = 0; n < nodesAnElement; ++n) ++aroundStart_[mesh_->node(e, n) + 1];
+  for (int i = 0; i < mesh_->nodes(); ++i) aroundStart_[i + 1] += aroundStart_[i];
+  around_.resize(aroundStart_.back());
+  std::vector<int> next = aroundStart_;
+  for (int e = 0; e < mesh_->elements(); ++e)
+    for (int n = 0; n < nodesAnElement; ++n) around_[next[mesh_->node(e, n)]++] = e * nodesAnElement + n;
+}
+
+void Assembler::findPattern() {
+  auto pattern = std::make_shared<SparsePattern>();
+  const int nodesAnElement = mesh_->kernels().nodes;
+  groupOfNode_.assign(mesh_->nodes(), -1);
+  pattern->groupStart = {0};
+  for (int node = 0; node < mesh_->nodes(); ++node) {
+    int free = 0;
+    for (int d = 0; d < 3; ++d) free += mesh_->freeIndex(3 * node + d) >= 0;
+    if (free == 0) continue;
+    groupOfNode_[node] = static_cast<int>(nodeOfGroup_.size());
+    nodeOfGroup_.push_back(node);
+    pattern->groupStart.push_back(pattern->groupStart.back() + free);
+  }
+  const auto groupSize = [&](int g) { return pattern->groupStart[g + 1] - pattern->groupStart[g]; };
+  rowOffset_.assign(std::size_t(mesh_->elements()) * nodesAnElement * nodesAnElement, -1);
+  pattern->groupColumns = {0};
+  pattern->columns = {0};
+  std::vector<int> rows, offsetOfGroup(nodeOfGroup_.size());
+  for (int g = 0; g < static_cast<int>(nodeOfGroup_.size()); ++g) {
+    rows.clear();
+    const int node = nodeOfGroup_[g];
+    for (int k = aroundStart_[node]; k < aroundStart_[node + 1]; ++k)
+      for (int n = 0; n < nodesAnElement; ++n)
+        if (const int other = groupOfNode_[mesh_->node(around_[k] / nodesAnElement, n)]; other >= g)
+          rows.push_back(other);
+    std::sort(rows.begin(), rows.end());
+    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+    int length = 0;
+    for (int other : rows) {
+      offsetOfGroup[other] = length;
+      length += groupSize(other);
+    }
+    for (int k = aroundStart_[node]; k < aroundStart_[node + 1]; ++k)
+      for (int n = 0; n < nodesAnElement; ++n)
+        if (const int other = groupOfNode_[mesh_->node(around_[k] / nodesAnElement, n)]; other >= g)
+          rowOffset_[std::size_t(around_[k]) * nodesAnElement + n] = offsetOfGroup[other];
+    pattern->groupRows.insert(pattern->groupRows.end(), rows.begin(), rows.end());
+    pattern->groupColumns.push_back(static_cast<int>(pattern->groupRows.size()));
+    for (int c = 0; c < groupSize(g); ++c) {
+      for (int other : rows)
+        for (int r = other == g ? c : 0; r < groupSize(other); ++r)
+          pattern->rows.push_back(pattern->groupStart[other] + r);
+      pattern->columns.push_back(static_cast<int>(pattern->rows.size()));
+    }
+  }
+  pattern_ = std::move(pattern);
+}
+
+void Assembler::resize(ElementArrays& arrays, bool withTangent) const {
+  const std::size_t blocks = mesh_->blocks(), d = mesh_->elementDofs(), x = mesh_->unknowns();
+  arrays.forces.resize(blocks * d * lanes);
+  arrays.local.resize(blocks * x * lanes);
+  if (!withTangent) return;
+  arrays.stiffness.resize(mesh_->elements() * d * (d + 1) / 2);
+  arrays.elimination.resize(blocks * x * d * lanes);
+  arrays.localInverse.resize(blocks * x * (x + 1) / 2 * lanes);
+}
+
+/// kernel(block, input, residual): one call a block; gathers the range of J over all.
+template <class Kernel>
+void Assembler::overBlocks(ElementArrays& arrays, int threads, std::stop_token stop, Kernel kernel) const {
+  const std::size_t d = mesh_->elementDofs(), x = mesh_->unknowns();
+  std::mutex rangeMutex;
+  arrays.smallestJ = arrays.largestJ = 1;
+  forChunks(mesh_->blocks(), blocksAChunk, threads, [&](int begin, int end) {
+    alignas(64) std::array<double, largestElementDofs * lanes> u;
+    alignas(64) std::array<double, 2 * lanes> range;
+    range.fill(1);
+    for (int b = begin; b < end && !stop.stop_requested(); ++b)
+      kernel(b, u.data(),
+             ElementResidual{arrays.forces.data() + b * d * lanes, arrays.local.data() + b * x * lanes, range.data()});
+    const std::lock_guard lock(rangeMutex);
+    arrays.smallestJ = std::min(arrays.smallestJ, *std::min_element(range.begin(), range.begin() + lanes));
+    arrays.largestJ = std::max(arrays.largestJ, *std::max_element(range.begin() + lanes, range.end()));
+  });
+}
+
+void Assembler::tangent(const ElementState& state, ElementArrays& arrays, int threads, std::stop_token stop) const {
+  resize(arrays, true);
+  const std::size_t d = mesh_->elementDofs(), x = mesh_->unknowns(), entries = d * (d + 1) / 2;
+  overBlocks(arrays, threads, std::move(stop), [&](int b, double* u, const ElementResidual& out) {
+    LaneVector stiffness(entries * lanes);
+    mesh_->gather(b, state.displacements, u);
+    double* elimination = arrays.elimination.data() + b * x * d * lanes;
+    mesh_->kernels().tangent(rubber_, {mesh_->geometry(b), u, state.unknowns.data() + b * x * lanes}, out,
+                             {stiffness.data(), elimination, arrays.localInverse.data() + b * x * (x + 1) / 2 * lanes});
+    mesh_->kernels().condense(elimination, out.local, out.forces);
+    for (int lane = 0; lane < lanes && b * lanes + lane < mesh_->elements(); ++lane) {
+      double* k = arrays.stiffness.data() + (b * lanes + lane) * entries;
+      for (std::size_t i = 0; i < entries; ++i) k[i] = stiffness[lanes * i + lane];
+    }
+  });
+}
+
+void Assembler::residual(const ElementState& state, ElementArrays& arrays, int threads) const {
+  resize(arrays, false);
+  const std::size_t d = mesh_->elementDofs(), x = mesh_->unknowns();
+  overBlocks(arrays, threads, {}, [&](int b, double* u, const ElementResidual& out) {
+    mesh_->gather(b, state.displacements, u);
+    mesh_->kernels().residual(rubber_, {mesh_->geometry(b), u, state.unknowns.data() + b * x * lanes}, out);
+    mesh_->kernels().condense(arrays.elimination.data() + b * x * d * lanes, out.local, out.forces);
+  });
+}
+
+void Assembler::addNodeColumns(const ElementArrays& arrays, int group, std::vector<double>& values) const {
+  const int nodesAnElement = mesh_->kernels().nodes, node = nodeOfGroup_[group];
+  const std::size_t d = mesh_->elementDofs(), entries = d * (d + 1) / 2;
+  const int firstColumn = pattern_->groupStart[group];
+  for (int k = aroundStart_[node]; k < aroundStart_[node + 1]; ++k) {
+    const int element = around_[k] / nodesAnElement, a = around_[k] % nodesAnElement;
+    const double* K = arrays.stiffness.data() + element * entries;
+    for (int b = 0; b < nodesAnElement; ++b) {
+      const int offset = rowOffset_[std::size_t(around_[k]) * nodesAnElement + b];
+      if (offset < 0) continue;
+      const int other = mesh_->node(element, b);
+      for (int c = 0, column = firstColumn; c < 3; ++c) {
+        if (mesh_->freeIndex(3 * node + c) < 0) continue;
+        double* out = values.data() + pattern_->columns[column] + offset - (column - firstColumn);
+        for (int r = 0, row = 0; r < 3; ++r) {
+          if (mesh_->freeIndex(3 * other + r) < 0) continue;
+          const int i = 3 * a + c, j = 3 * b + r, low = std::min(i, j), high = std::max(i, j);
+          if (other != node || r >= c) out[row] += K[high * (high + 1) / 2 + low];
+          ++row;
+        }
+        ++column;
+      }
+    }
+  }
+}
+
+std::vector<double> Assembler::matrix(const ElementArrays& arrays, int threads) const {
+  std::vector<double> values(pattern_->rows.size());
+  forChunks(static_cast<int>(nodeOfGroup_.size()), nodesAChunk, threads, [&](int begin, int end) {
+    for (int g = begin; g < end; ++g) addNodeColumns(arrays, g, values);
+  });
+  return values;
+}
+
+Eigen::VectorXd Assembler::forces(const ElementArrays& arrays, int threads) const {
+  const int nodesAnElement = mesh_->kernels().nodes;
+  const std::size_t d = mesh_->elementDofs();
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(3 * Eigen::Index(mesh_->nodes()));
+  forChunks(mesh_->nodes(), nodesAChunk, threads, [&](int begin, int end) {
+    for (int node = begin; node < end; ++node)
+      for (int k = aroundStart_[node]; k < aroundStart_[node + 1]; ++k) {
+        const int element = around_[k] / nodesAnElement, n = around_[k] % nodesAnElement;
+        const double* f = arrays.forces.data() + (element / lanes) * d * lanes + element % lanes;
+        for (int c = 0; c < 3; ++c) sum(3 * node + c) += f[lanes * (3 * n + c)];
+      }
+  });
+  return sum;
+}
+
+Eigen::VectorXd Assembler::stiffnessTimes(const ElementArrays& arrays, const Eigen::VectorXd& du) const {
+  const std::size_t d = mesh_->elementDofs(), entries = d * (d + 1) / 2;
+  Eigen::VectorXd product = Eigen::VectorXd::Zero(du.size());
+  for (int e = 0; e < mesh_->elements(); ++e) {
+    const double* K = arrays.stiffness.data() + e * entries;
+    const auto component = [&](std::size_t i) {
+      return 3 * Eigen::Index(mesh_->node(e, static_cast<int>(i) / 3)) + static_cast<int>(i) % 3;
+    };
+    for (std::size_t j = 0; j < d; ++j)
+      for (std::size_t i = 0; i <= j; ++i) {
+        const double k = K[j * (j + 1) / 2 + i];
+        product(component(i)) += k * du(component(j));
+        if (i != j) product(component(j)) += k * du(component(i));
+      }
+  }
+  return product;
+}
+
+LaneVector Assembler::recover(const ElementArrays& arrays, const Eigen::VectorXd& du, int threads) const {
+  const std::size_t d = mesh_->elementDofs(), x = mesh_->unknowns();
+  LaneVector dx(mesh_->blocks() * x * lanes);
+  forChunks(mesh_->blocks(), blocksAChunk, threads, [&](int begin, int end) {
+    alignas(64) std::array<double, largestElementDofs * lanes> u;
+    for (int b = begin; b < end; ++b) {
+      mesh_->gather(b, du, u.data());
+      mesh_->kernels().recover(arrays.elimination.data() + b * x * d * lanes,
+                               arrays.localInverse.data() + b * x * (x + 1) / 2 * lanes,
+                               arrays.local.data() + b * x * lanes, u.data(), dx.data() + b * x * lanes);
+    }
+  });
+  return dx;
+}
+
+} // namespace palp

@@ -1,0 +1,61 @@
+#pragma once
+
+namespace palp {
+
+enum class ElementShape; // model/Mesh.h, kept out of the kernels' sources
+
+/// Numbers stand in blocks of 8 lanes, [item][8]: 8 elements of one load, or 8 loads on one element.
+inline constexpr int lanes = 8;
+
+struct RubberConstants {
+  double c10_MPa;
+  double c01_MPa;
+  double compressibility_per_MPa; ///< 1/kappa; 0: incompressible
+};
+
+/// What one call of a kernel reads.
+struct ElementInput {
+  const double* geometry;      ///< [geometrySize][8], or [geometrySize] where one element serves all lanes
+  const double* displacements; ///< [3 nodes][8]: the nodes' displacements, 3 n + direction
+  const double* unknowns;      ///< [unknowns][8]: bubble, pressures
+};
+
+struct ElementResidual {
+  double* forces;      ///< [3 nodes][8] internal forces
+  double* local;       ///< [unknowns][8] residual of the element's own unknowns
+  double* volumeRange; ///< [2][8] smallest and largest J met, kept across calls
+};
+
+/// The tangent with the element's own unknowns x eliminated: Kc = Kuu - Kux W, W = Kxx^-1 Kxu.
+struct ElementTangent {
+  double* stiffness;    ///< [d (d + 1) / 2][8], d = 3 nodes: upper triangle by columns
+  double* elimination;  ///< W [unknowns * d][8], row by row
+  double* localInverse; ///< Kxx^-1 [unknowns * (unknowns + 1) / 2][8], upper triangle by columns
+};
+
+/// Kernels of one element shape, for the instruction set at hand.
+struct ElementKernels {
+  int nodes;
+  int unknowns;
+  int geometrySize;
+  /// 8 elements, one load.
+  void (*residual)(const RubberConstants&, const ElementInput&, const ElementResidual&);
+  /// One element, 8 loads: `geometry` holds one number an item.
+  void (*residualOfLoads)(const RubberConstants&, const ElementInput&, const ElementResidual&);
+  void (*tangent)(const RubberConstants&, const ElementInput&, const ElementResidual&, const ElementTangent&);
+  /// forces -= W^T local: 8 elements, or one element (W [unknowns * d]) and 8 loads.
+  void (*condense)(const double* elimination, const double* local, double* forces);
+  void (*condenseLoads)(const double* elimination, const double* local, double* forces);
+  /// dx = -Kxx^-1 local - W du, in the same two ways.
+  void (*recover)(const double* elimination, const double* localInverse, const double* local, const double* du,
+                  double* dx);
+  void (*recoverLoads)(const double* elimination, const double* localInverse, const double* local, const double* du,
+                       double* dx);
+};
+
+/// Kernels for the shape: 10-node tetrahedra with a quartic bubble and linear discontinuous pressure, geometry =
+/// 4 gradients of the barycentric coordinates and the volume; 8-node hexahedra with one pressure, geometry = for each
+/// of 8 points 8 shape gradients and the weight.
+const ElementKernels& elementKernels(ElementShape shape);
+
+} // namespace palp

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "model/Material.h"
+
+#include <Eigen/Core>
+
+namespace palp {
+
+/// Isochoric part of the energy [MPa]: c10 (I1bar - 3) + c01 (I2bar - 3).
+double isochoricEnergy(const Material& material, const Eigen::Matrix3d& F);
+
+/// First Piola-Kirchhoff stress [MPa] with the pressure (tension positive) as an unknown of its own.
+Eigen::Matrix3d firstPiolaStress(const Material& material, const Eigen::Matrix3d& F, double pressure_MPa);
+
+/// Cauchy stress sigma = P F^T / J [MPa].
+Eigen::Matrix3d cauchyStress(const Material& material, const Eigen::Matrix3d& F, double pressure_MPa);
+
+} // namespace palp

@@ -1,0 +1,40 @@
+#include "solver/SensorMesh.h"
+
+#include "model/Error.h"
+#include "model/Text.h"
+#include "solver/BlockMesher.h"
+#include "solver/GradedTets.h"
+
+#include <string>
+
+namespace palp {
+
+namespace {
+
+constexpr double mostElements = 1e6;
+
+void requireMapped(const std::array<int, 3>& counts) {
+  const double elements = double(counts[0]) * counts[1] * counts[2];
+  if (counts[0] < 1 || counts[1] < 1 || counts[2] < 1 || elements > mostElements)
+    throw DesignError("mapped mesh " + std::to_string(counts[0]) + "x" + std::to_string(counts[1]) + "x" +
+                      std::to_string(counts[2]) +
+                      "; allowed is at least 1 along each direction and 1e6 elements in all");
+}
+
+} // namespace
+
+Mesh sensorMesh(const SensorDesign& design, const MeshOptions& options) {
+  requireValid(design);
+  if (options.mapped) {
+    requireMapped(*options.mapped);
+    return mappedMesh(design, *options.mapped);
+  }
+  const double standard = defaultGrading(design, 1).bulk_mm;
+  const double size = options.meshSize_mm.value_or(standard);
+  if (!(size > 0)) throw DesignError("mesh size " + text(size) + " mm; it must be above 0");
+  Mesh mesh = gradedTets(design, defaultGrading(design, size / standard));
+  mesh.size_mm = size;
+  return mesh;
+}
+
+} // namespace palp
