@@ -1,0 +1,210 @@
+#include "app/scenes/Chart.h"
+
+#include "app/scenes/ColorScale.h"
+#include "app/scenes/OffscreenWindow.h"
+#include "app/scenes/TextStyle.h"
+
+#include <vtkAxis.h>
+#include <vtkBrush.h>
+#include <vtkChartLegend.h>
+#include <vtkChartXY.h>
+#include <vtkContextActor.h>
+#include <vtkContextScene.h>
+#include <vtkDoubleArray.h>
+#include <vtkNew.h>
+#include <vtkPen.h>
+#include <vtkPlotLine.h>
+#include <vtkPlotPoints.h>
+#include <vtkRenderer.h>
+#include <vtkStringArray.h>
+#include <vtkTable.h>
+#include <vtkTextProperty.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace palp {
+
+namespace {
+
+struct Range {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+
+  void add(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  [[nodiscard]] bool empty() const { return low > high; }
+};
+
+bool shown(double value, bool logarithmic) {
+  return std::isfinite(value) && (!logarithmic || value > 0);
+}
+
+/// The pairs of a series that the axes can show.
+struct Points {
+  std::vector<double> x, y;
+};
+
+Points shownPoints(const ChartSeries& series, const ChartSpec& spec) {
+  Points points;
+  for (std::size_t k = 0; k < std::min(series.x.size(), series.y.size()); ++k) {
+    if (!shown(series.x[k], spec.logX) || !shown(series.y[k], spec.logY)) continue;
+    points.x.push_back(series.x[k]);
+    points.y.push_back(series.y[k]);
+  }
+  return points;
+}
+
+/// All values and a little more; a single value gets room around it.
+Range padded(Range range, bool logarithmic) {
+  if (range.empty()) return logarithmic ? Range{1, 10} : Range{0, 1};
+  if (logarithmic) {
+    const double factor = std::max(std::pow(range.high / range.low, 0.05), 1.15);
+    return {range.low / factor, range.high * factor};
+  }
+  const double size = std::max(std::abs(range.low), std::abs(range.high));
+  const double margin =
+      range.high - range.low > 1e-12 * size ? 0.04 * (range.high - range.low) : (size > 0 ? 0.1 * size : 1);
+  return {range.low - margin, range.high + margin};
+}
+
+/// 1, 2, 5 times powers of ten; powers alone where there are many.
+std::vector<double> logTicks(double low, double high) {
+  const double decades = std::log10(high / low);
+  if (decades < 0.8) return roundTicks(low, high, 8);
+  const int stride = std::max(1, static_cast<int>(std::ceil(decades / 8)));
+  std::vector<double> ticks;
+  const int first = static_cast<int>(std::floor(std::log10(low)));
+  for (int power = first; power <= static_cast<int>(std::ceil(std::log10(high))); power += stride)
+    for (const double factor : {1.0, 2.0, 5.0}) {
+      if (factor > 1 && decades > 3) break;
+      const double tick = factor * std::pow(10, power);
+      if (tick >= low * (1 - 1e-9) && tick <= high * (1 + 1e-9)) ticks.push_back(tick);
+    }
+  return ticks;
+}
+
+/// As short as it stays exact enough for a label.
+std::string shortText(double value) {
+  std::array<char, 32> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%g", value);
+  return buffer.data();
+}
+
+std::array<unsigned char, 4> bytes(const Color& color, double opacity = 1) {
+  const auto byte = [](double value) { return static_cast<unsigned char>(std::lround(255 * value)); };
+  return {byte(color[0]), byte(color[1]), byte(color[2]), byte(opacity)};
+}
+
+void setTicks(vtkAxis& axis, const Range& range, bool logarithmic) {
+  const std::vector<double> ticks =
+      logarithmic ? logTicks(range.low, range.high) : roundTicks(range.low, range.high, 8);
+  std::vector<std::string> texts = tickTexts(ticks);
+  if (logarithmic) std::transform(ticks.begin(), ticks.end(), texts.begin(), shortText);
+  vtkNew<vtkDoubleArray> positions;
+  vtkNew<vtkStringArray> labels;
+  for (std::size_t k = 0; k < ticks.size(); ++k) {
+    positions->InsertNextValue(logarithmic ? std::log10(ticks[k]) : ticks[k]);
+    labels->InsertNextValue(texts[k]);
+  }
+  axis.SetCustomTickPositions(positions, labels);
+}
+
+void setAxis(vtkAxis& axis, const std::string& label, const Range& range, bool logarithmic, const Palette& colors,
+             double scale) {
+  axis.SetTitle(label);
+  axis.SetLogScale(logarithmic);
+  axis.SetBehavior(vtkAxis::FIXED);
+  axis.SetUnscaledRange(range.low, range.high);
+  setTicks(axis, range, logarithmic);
+  setTextStyle(*axis.GetTitleProperties(), colors.text, 13 * scale);
+  setTextStyle(*axis.GetLabelProperties(), colors.text, 12 * scale);
+  axis.GetPen()->SetColor(bytes(colors.text).data());
+  axis.GetGridPen()->SetColor(bytes(colors.grid).data());
+  axis.GetPen()->SetWidth(static_cast<float>(scale));
+}
+
+vtkSmartPointer<vtkTable> table(const Points& points, const std::string& name) {
+  vtkNew<vtkDoubleArray> x;
+  vtkNew<vtkDoubleArray> y;
+  x->SetName("x");
+  y->SetName(name.c_str());
+  for (std::size_t k = 0; k < points.x.size(); ++k) {
+    x->InsertNextValue(points.x[k]);
+    y->InsertNextValue(points.y[k]);
+  }
+  auto result = vtkSmartPointer<vtkTable>::New();
+  result->AddColumn(x);
+  result->AddColumn(y);
+  return result;
+}
+
+void addSeries(vtkChartXY& chart, const ChartSeries& series, const Points& points, const Color& color, double scale) {
+  if (points.x.empty()) return;
+  const bool cloud = series.style == ChartSeries::Style::Points;
+  auto* plot = vtkPlotPoints::SafeDownCast(chart.AddPlot(cloud ? vtkChart::POINTS : vtkChart::LINE));
+  plot->SetInputData(table(points, series.name.empty() ? "y" : series.name), 0, 1);
+  plot->GetPen()->SetColor(bytes(color).data());
+  plot->GetPen()->SetWidth(static_cast<float>(2 * scale));
+  if (series.dashed) plot->GetPen()->SetLineType(vtkPen::DASH_LINE);
+  plot->GetBrush()->SetColor(bytes(color).data());
+  plot->SetMarkerStyle(series.style == ChartSeries::Style::Line ? vtkPlotPoints::NONE : vtkPlotPoints::CIRCLE);
+  plot->SetMarkerSize(static_cast<float>((cloud ? 9 : 7) * scale));
+}
+
+void setLegend(vtkChartXY& chart, bool wanted, const Palette& colors, double scale) {
+  chart.SetShowLegend(wanted);
+  vtkChartLegend& legend = *chart.GetLegend();
+  legend.SetHorizontalAlignment(vtkChartLegend::RIGHT);
+  legend.SetVerticalAlignment(vtkChartLegend::TOP);
+  legend.SetLabelSize(static_cast<int>(std::lround(12 * scale)));
+  legend.SetSymbolWidth(static_cast<int>(std::lround(28 * scale)));
+  legend.SetPadding(static_cast<int>(std::lround(6 * scale)));
+  setTextStyle(*legend.GetLabelProperties(), colors.text, 12 * scale);
+  legend.GetBrush()->SetColor(bytes(colors.ground).data());
+  legend.GetBrush()->SetOpacityF(0.85);
+  legend.GetPen()->SetColor(bytes(colors.grid).data());
+}
+
+} // namespace
+
+void fillChart(vtkChartXY& chart, const ChartSpec& spec, Theme theme, double scale) {
+  const Palette& colors = palette(theme);
+  chart.ClearPlots();
+  Range x;
+  Range y;
+  int named = 0;
+  for (std::size_t k = 0; k < spec.series.size(); ++k) {
+    const ChartSeries& series = spec.series[k];
+    const Points points = shownPoints(series, spec);
+    for (const double value : points.x) x.add(value);
+    for (const double value : points.y) y.add(value);
+    addSeries(chart, series, points, seriesColor(series.color < 0 ? static_cast<int>(k) : series.color, theme), scale);
+    named += points.x.empty() || series.name.empty() ? 0 : 1;
+  }
+  const Range xShown = spec.xRange ? Range{(*spec.xRange)[0], (*spec.xRange)[1]} : padded(x, spec.logX);
+  const Range yShown = spec.yRange ? Range{(*spec.yRange)[0], (*spec.yRange)[1]} : padded(y, spec.logY);
+  setAxis(*chart.GetAxis(vtkAxis::BOTTOM), spec.xLabel, xShown, spec.logX, colors, scale);
+  setAxis(*chart.GetAxis(vtkAxis::LEFT), spec.yLabel, yShown, spec.logY, colors, scale);
+  chart.SetTitle(spec.title);
+  setTextStyle(*chart.GetTitleProperties(), colors.text, 14 * scale, true);
+  setLegend(chart, named > 0, colors, scale);
+}
+
+Picture drawChart(const ChartSpec& spec, int width, int height, Theme theme) {
+  vtkNew<vtkChartXY> chart;
+  fillChart(*chart, spec, theme);
+  vtkNew<vtkContextActor> actor;
+  actor->GetScene()->AddItem(chart);
+  vtkNew<vtkRenderer> renderer;
+  const Color& ground = palette(theme).ground;
+  renderer->SetBackground(ground[0], ground[1], ground[2]);
+  renderer->AddActor(actor);
+  actor->GetScene()->SetRenderer(renderer);
+  return drawOnce(renderer, width, height);
+}
+
+} // namespace palp

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "app/scenes/Palette.h"
+#include "app/scenes/Picture.h"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+class vtkChartXY;
+
+namespace palp {
+
+/// One curve or cloud of a chart; pairs that are no numbers, or not above 0 on a logarithmic axis, are left out.
+struct ChartSeries {
+  enum class Style { Line, Points, LineAndPoints };
+
+  std::string name; ///< for the legend
+  std::vector<double> x;
+  std::vector<double> y;
+  Style style = Style::Line;
+  bool dashed = false;
+  int color = -1; ///< place in the palette's series colours; -1: the series' own place
+};
+
+/// A chart of y against x; labels carry their unit.
+struct ChartSpec {
+  std::string title;
+  std::string xLabel;
+  std::string yLabel;
+  bool logX = false;
+  bool logY = false;
+  std::vector<ChartSeries> series;
+  std::optional<std::array<double, 2>> xRange; ///< else: all the points and a little more
+  std::optional<std::array<double, 2>> yRange;
+};
+
+/// Fills the chart, with the theme's colours; text grows with `scale` (1 on a plain screen). For a view that stays.
+void fillChart(vtkChartXY& chart, const ChartSpec& spec, Theme theme = Theme::Light, double scale = 1);
+
+/// The chart as a picture.
+Picture drawChart(const ChartSpec& spec, int width = 900, int height = 560, Theme theme = Theme::Light);
+
+} // namespace palp

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "app/scenes/Palette.h"
+
+#include <vtkSmartPointer.h>
+
+#include <string>
+#include <vector>
+
+class vtkLookupTable;
+
+namespace palp {
+
+/// Perceptually uniform maps; Diverging (blue, white, red) is for signed values and centred on 0.
+enum class ColorMap { Viridis, Cividis, Diverging };
+
+/// A quantity's colours: map, range, name and unit. Everything coloured shows it as a legend.
+struct ColorScale {
+  ColorMap map = ColorMap::Viridis;
+  double low = 0;
+  double high = 1;
+  std::string quantity; ///< "|u|"
+  std::string unit;     ///< "mm"; empty for a pure number
+
+  [[nodiscard]] Color color(double value) const;
+  /// "quantity [unit]".
+  [[nodiscard]] std::string title() const;
+};
+
+/// The scale that shows all the values: Diverging is symmetric about 0, the others span the finite values. Never empty.
+ColorScale fittingScale(ColorMap map, const std::vector<double>& values, std::string quantity, std::string unit);
+
+/// The same as a table for VTK's mappers.
+vtkSmartPointer<vtkLookupTable> lookupTable(const ColorScale& scale);
+
+/// Round numbers (1, 2 or 5 times a power of ten apart) inside low..high, at most `most` of them.
+std::vector<double> roundTicks(double low, double high, int most);
+
+/// The numbers as text with equally many decimals, in the shortest form that keeps them apart.
+std::vector<std::string> tickTexts(const std::vector<double>& ticks);
+
+} // namespace palp

@@ -1,0 +1,90 @@
+#include "app/scenes/ElectrodeActors.h"
+
+#include <vtkGlyph3DMapper.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+#include <vtkSphereSource.h>
+
+#include <numeric>
+
+namespace palp {
+
+namespace {
+
+constexpr double kRadius_mm = 0.28;
+
+/// One line a wire through its electrodes; electrode e of wire w is point w * perWire + e.
+std::vector<std::vector<int>> wires(int count, int perWire) {
+  std::vector<std::vector<int>> lines(static_cast<std::size_t>(count),
+                                      std::vector<int>(static_cast<std::size_t>(perWire)));
+  for (int wire = 0; wire < count; ++wire)
+    std::iota(lines[static_cast<std::size_t>(wire)].begin(), lines[static_cast<std::size_t>(wire)].end(),
+              wire * perWire);
+  return lines;
+}
+
+} // namespace
+
+Spheres::Spheres(vtkRenderer& renderer, double radius_mm)
+    : data_(vtkSmartPointer<vtkPolyData>::New()), actor_(vtkSmartPointer<vtkActor>::New()) {
+  vtkNew<vtkSphereSource> sphere;
+  sphere->SetRadius(radius_mm);
+  sphere->SetThetaResolution(12);
+  sphere->SetPhiResolution(8);
+  vtkNew<vtkGlyph3DMapper> mapper;
+  mapper->SetInputData(data_);
+  mapper->SetSourceConnection(sphere->GetOutputPort());
+  mapper->ScalingOff();
+  actor_->SetMapper(mapper);
+  actor_->PickableOff();
+  renderer.AddActor(actor_);
+}
+
+void Spheres::set(const Eigen::Matrix3Xd& places_mm, const Color& color) {
+  vtkNew<vtkPoints> points;
+  points->SetNumberOfPoints(places_mm.cols());
+  for (Eigen::Index k = 0; k < places_mm.cols(); ++k) points->SetPoint(k, places_mm.col(k).data());
+  data_->SetPoints(points);
+  data_->Modified();
+  actor_->GetProperty()->SetColor(color[0], color[1], color[2]);
+  actor_->GetProperty()->SetAmbient(0.25);
+}
+
+void Spheres::setVisible(bool visible) {
+  actor_->SetVisibility(visible ? 1 : 0);
+}
+
+ElectrodeActors::ElectrodeActors(vtkRenderer& renderer)
+    : rowWires_(renderer), columnWires_(renderer), upper_(renderer, kRadius_mm), lower_(renderer, kRadius_mm),
+      lit_(renderer, 1.9 * kRadius_mm) {}
+
+void ElectrodeActors::show(const SensorDesign& design, const Eigen::Matrix3Xd& upper_mm,
+                           const Eigen::Matrix3Xd& lower_mm, const DeformationOptions& options) {
+  const Palette& ink = palette(options.theme);
+  const Eigen::Matrix3Xd upper = design.upperElectrodes_mm() + upper_mm;
+  const Eigen::Matrix3Xd lower = design.lowerElectrodes_mm() + lower_mm;
+  rowWires_.set(upper, wires(design.rowWires(), design.electrodesPerRowWire()));
+  columnWires_.set(lower, wires(design.columnWires(), design.electrodesPerColumnWire()));
+  rowWires_.setLook(ink.upper, 2 * options.scale);
+  columnWires_.setLook(ink.lower, 1.5 * options.scale);
+  upper_.set(upper, ink.upper);
+  lower_.set(lower, ink.lower);
+
+  Eigen::Matrix3Xd lit(3, 0);
+  if (options.litCell) {
+    const int perRow = design.electrodesPerRowWire();
+    const int perColumn = design.electrodesPerColumnWire();
+    lit.resize(3, perRow + perColumn);
+    lit << upper.middleCols((*options.litCell)[0] * perRow, perRow),
+        lower.middleCols((*options.litCell)[1] * perColumn, perColumn);
+  }
+  lit_.set(lit, ink.selection);
+  for (Polylines* lines : {&rowWires_, &columnWires_}) lines->setVisible(options.electrodes);
+  for (Spheres* spheres : {&upper_, &lower_}) spheres->setVisible(options.electrodes);
+  lit_.setVisible(lit.cols() > 0);
+}
+
+} // namespace palp

@@ -1,0 +1,86 @@
+#include "app/scenes/ForceArrows.h"
+
+#include "app/scenes/TextStyle.h"
+
+#include <vtkArrowSource.h>
+#include <vtkDoubleArray.h>
+#include <vtkGlyph3DMapper.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+#include <vtkTextProperty.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+namespace palp {
+
+namespace {
+
+std::string forceText(const Eigen::Vector3d& force_N) {
+  std::array<char, 96> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "(%.3g, %.3g, %.3g) N", force_N.x(), force_N.y(), force_N.z());
+  return buffer.data();
+}
+
+} // namespace
+
+ForceArrows::ForceArrows(vtkRenderer& renderer)
+    : renderer_(renderer), data_(vtkSmartPointer<vtkPolyData>::New()), actor_(vtkSmartPointer<vtkActor>::New()) {
+  vtkNew<vtkArrowSource> arrow;
+  arrow->SetTipResolution(24);
+  arrow->SetShaftResolution(16);
+  arrow->SetTipRadius(0.09);
+  arrow->SetTipLength(0.28);
+  arrow->SetShaftRadius(0.032);
+  vtkNew<vtkGlyph3DMapper> mapper;
+  mapper->SetInputData(data_);
+  mapper->SetSourceConnection(arrow->GetOutputPort());
+  mapper->SetOrientationArray("force");
+  mapper->SetOrientationModeToDirection();
+  mapper->SetScaleArray("force");
+  mapper->SetScaleModeToScaleByMagnitude();
+  actor_->SetMapper(mapper);
+  actor_->PickableOff();
+  renderer.AddActor(actor_);
+}
+
+void ForceArrows::show(const std::vector<PlacedForce>& forces, double largest_mm, const Palette& ink, double scale) {
+  for (const auto& label : labels_) renderer_.RemoveActor(label);
+  labels_.clear();
+  double largest_N = 0;
+  for (const PlacedForce& force : forces) largest_N = std::max(largest_N, force.force_N.norm());
+  vtkNew<vtkPoints> starts;
+  vtkNew<vtkDoubleArray> arrows;
+  arrows->SetName("force");
+  arrows->SetNumberOfComponents(3);
+  for (const PlacedForce& force : forces) {
+    if (!(force.force_N.norm() > 0)) continue;
+    const Eigen::Vector3d arrow = force.force_N * (largest_mm / largest_N);
+    const Eigen::Vector3d start = force.force_N.z() < 0 ? Eigen::Vector3d(force.place_mm - arrow) : force.place_mm;
+    starts->InsertNextPoint(start.data());
+    arrows->InsertNextTuple(arrow.data());
+    const Eigen::Vector3d far = force.force_N.z() < 0 ? start : Eigen::Vector3d(start + arrow);
+    auto label = vtkSmartPointer<vtkBillboardTextActor3D>::New();
+    label->SetPosition(far.x(), far.y(), far.z() + 0.5);
+    label->SetInput(forceText(force.force_N).c_str());
+    label->PickableOff();
+    setTextStyle(*label->GetTextProperty(), ink.force, 14 * scale, true);
+    label->GetTextProperty()->SetJustificationToCentered();
+    renderer_.AddActor(label);
+    labels_.push_back(label);
+  }
+  data_->SetPoints(starts);
+  data_->GetPointData()->Initialize();
+  data_->GetPointData()->AddArray(arrows);
+  data_->Modified();
+  actor_->SetVisibility(starts->GetNumberOfPoints() > 0 ? 1 : 0);
+  actor_->GetProperty()->SetColor(ink.force[0], ink.force[1], ink.force[2]);
+  actor_->GetProperty()->SetAmbient(0.3);
+}
+
+} // namespace palp

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "app/scenes/Palette.h"
+#include "model/LoadCase.h"
+
+#include <Eigen/Core>
+
+#include <vtkActor.h>
+#include <vtkBillboardTextActor3D.h>
+#include <vtkSmartPointer.h>
+
+#include <string>
+#include <vector>
+
+class vtkPolyData;
+class vtkRenderer;
+
+namespace palp {
+
+/// A force and the drawn place that it acts on.
+struct PlacedForce {
+  Eigen::Vector3d place_mm = Eigen::Vector3d::Zero();
+  Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
+};
+
+/// One arrow a force; the largest has the given length, the others in proportion. A push ends on the surface, a pull
+/// starts there.
+class ForceArrows {
+public:
+  explicit ForceArrows(vtkRenderer& renderer);
+
+  void show(const std::vector<PlacedForce>& forces, double largest_mm, const Palette& ink, double scale);
+
+private:
+  vtkRenderer& renderer_;
+  vtkSmartPointer<vtkPolyData> data_;
+  vtkSmartPointer<vtkActor> actor_;
+  std::vector<vtkSmartPointer<vtkBillboardTextActor3D>> labels_;
+};
+
+} // namespace palp

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "model/Mesh.h"
+#include "model/SensorDesign.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <vector>
+
+namespace palp {
+
+/// The boundary of a mesh for drawing: found once a mesh, then only its points move.
+struct MeshSurface {
+  std::vector<int> nodes;                    ///< mesh node of each surface point
+  std::vector<std::array<int, 3>> triangles; ///< surface points; a quadratic face gives four
+  std::vector<std::vector<int>> edges;       ///< surface points along each edge of a boundary face, once
+};
+MeshSurface meshSurface(const Mesh& mesh);
+
+/// A place on the top face at rest as a mean of three mesh nodes.
+struct TopPoint {
+  std::array<int, 3> nodes{};
+  std::array<double, 3> weights{};
+
+  /// The mean of a nodal field (one column a node).
+  [[nodiscard]] Eigen::Vector3d of(const Eigen::Matrix3Xd& nodal) const;
+};
+
+/// The top face's point nearest to (x, y), which lies on the face.
+TopPoint topPoint(const Mesh& mesh, const Eigen::Vector2d& xy_mm);
+
+/// Corners and points along the border of each load area, `steps` a side, closed; one list an area.
+std::vector<std::vector<TopPoint>> areaBorders(const Mesh& mesh, const SensorDesign& design, int steps);
+
+} // namespace palp

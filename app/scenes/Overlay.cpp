@@ -1,0 +1,99 @@
+#include "app/scenes/Overlay.h"
+
+#include "app/scenes/TextStyle.h"
+
+#include <vtkBrush.h>
+#include <vtkContext2D.h>
+#include <vtkContextScene.h>
+#include <vtkObjectFactory.h>
+#include <vtkPen.h>
+#include <vtkTextProperty.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace palp {
+
+vtkStandardNewMacro(Overlay)
+
+    namespace {
+
+  constexpr double kBarWidth_px = 16;
+  constexpr double kTick_px = 5;
+  constexpr double kMargin_px = 14;
+
+  void useText(vtkContext2D & painter, const Color& color, double size_px, bool bold = false) {
+    setTextStyle(*painter.GetTextProp(), color, size_px, bold);
+    painter.GetTextProp()->SetOrientation(0);
+    painter.GetTextProp()->SetJustificationToLeft();
+    painter.GetTextProp()->SetVerticalJustificationToCentered();
+  }
+
+  std::vector<double> legendTicks(const ColorScale& colors, double height_px, double scale) {
+    return roundTicks(colors.low, colors.high, std::clamp(static_cast<int>(height_px / (28 * scale)), 2, 8));
+  }
+
+} // namespace
+
+double legendWidth_px(vtkContext2D& painter, const ColorScale& colors, Theme theme, double scale) {
+  useText(painter, palette(theme).text, 12 * scale);
+  double widest = 0;
+  for (const std::string& text : tickTexts(legendTicks(colors, 200 * scale, scale)))
+    widest = std::max(widest, textWidth_px(painter, text));
+  const double numbers = (kBarWidth_px + 2 * kTick_px) * scale + widest;
+  useText(painter, palette(theme).text, 13 * scale, true);
+  return std::max(numbers, textWidth_px(painter, colors.title()));
+}
+
+void paintLegend(vtkContext2D& painter, const ColorScale& colors, const LegendPlace& place, Theme theme, double scale,
+                 double right_px) {
+  const Palette& ink = palette(theme);
+  constexpr int kBands = 128;
+  painter.GetPen()->SetLineType(vtkPen::NO_PEN);
+  const double band = place.height / kBands;
+  for (int k = 0; k < kBands; ++k) {
+    const Color color = colors.color(colors.low + (colors.high - colors.low) * (k + 0.5) / kBands);
+    painter.GetBrush()->SetColorF(color[0], color[1], color[2], 1);
+    // A little taller than its band, so that no ground shines through between two.
+    painter.DrawRect(static_cast<float>(place.x), static_cast<float>(place.y + k * band),
+                     static_cast<float>(place.width), static_cast<float>(std::min(1.5 * band, (kBands - k) * band)));
+  }
+  painter.GetPen()->SetLineType(vtkPen::SOLID_LINE);
+  painter.GetPen()->SetWidth(static_cast<float>(scale));
+  painter.GetPen()->SetColorF(ink.text[0], ink.text[1], ink.text[2], 1);
+  useText(painter, ink.text, 12 * scale);
+  const std::vector<double> ticks = legendTicks(colors, place.height, scale);
+  const std::vector<std::string> texts = tickTexts(ticks);
+  for (std::size_t k = 0; k < ticks.size(); ++k) {
+    const double y = place.y + (ticks[k] - colors.low) / (colors.high - colors.low) * place.height;
+    const double x = place.x + place.width;
+    painter.DrawLine(static_cast<float>(x), static_cast<float>(y), static_cast<float>(x + kTick_px * scale),
+                     static_cast<float>(y));
+    drawText(painter, x + 2 * kTick_px * scale, y, texts[k]);
+  }
+  useText(painter, ink.text, 13 * scale, true);
+  const double titleX = std::min(place.x, right_px - textWidth_px(painter, colors.title()));
+  drawText(painter, titleX, place.y + place.height + 18 * scale, colors.title());
+}
+
+bool Overlay::Paint(vtkContext2D* painter) {
+  const double width = GetScene()->GetSceneWidth();
+  const double height = GetScene()->GetSceneHeight();
+  const double margin = kMargin_px * scale;
+  double y = height - margin - 8 * scale;
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    useText(*painter, palette(theme).text, (k == 0 ? 14 : 12) * scale, k == 0);
+    drawText(*painter, margin, y, lines[k]);
+    y -= 20 * scale;
+  }
+  if (legend) {
+    const double need = legendWidth_px(*painter, *legend, theme, scale);
+    const double bar = std::min(0.55 * height, 320 * scale);
+    paintLegend(*painter, *legend, {width - margin - need, (height - bar) / 2, kBarWidth_px * scale, bar}, theme, scale,
+                width - margin);
+  }
+  return true;
+}
+
+} // namespace palp

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "app/scenes/ColorScale.h"
+
+#include <vtkContextItem.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace palp {
+
+/// Text and legend over a 3-D view or beside a heatmap, in pixels of the view.
+class Overlay : public vtkContextItem {
+public:
+  static Overlay* New();
+  vtkTypeMacro(Overlay, vtkContextItem)
+
+      bool Paint(vtkContext2D* painter) override;
+
+  std::vector<std::string> lines;   ///< from the top left; the first is bold
+  std::optional<ColorScale> legend; ///< at the right edge
+  Theme theme = Theme::Light;
+  double scale = 1; ///< of all sizes; 1 on a plain screen
+};
+
+/// A legend's place: lower left corner and size of the coloured bar [px].
+struct LegendPlace {
+  double x = 0;
+  double y = 0;
+  double width = 18;
+  double height = 200;
+};
+
+/// Paints the bar, its numbers to the right and quantity [unit] above, right-aligned with `right_px`.
+void paintLegend(vtkContext2D& painter, const ColorScale& colors, const LegendPlace& place, Theme theme, double scale,
+                 double right_px);
+
+/// Pixels that a legend of this scale needs to the right of the bar's left side.
+double legendWidth_px(vtkContext2D& painter, const ColorScale& colors, Theme theme, double scale);
+
+} // namespace palp

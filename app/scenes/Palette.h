@@ -1,0 +1,28 @@
+#pragma once
+
+#include <array>
+
+namespace palp {
+
+/// Light or dark ground; everything drawn is readable on both.
+enum class Theme { Light, Dark };
+
+using Color = std::array<double, 3>; ///< red, green, blue in 0..1
+
+/// The colours of a theme that stand for no number.
+struct Palette {
+  Color ground;    ///< background
+  Color text;      ///< axes, titles, legends
+  Color grid;      ///< faint lines
+  Color upper;     ///< row-wires and their electrodes
+  Color lower;     ///< column-wires and their electrodes
+  Color force;     ///< force arrows
+  Color selection; ///< what was chosen or pointed at
+};
+
+const Palette& palette(Theme theme);
+
+/// Colour of the k-th series of a chart: Okabe and Ito's set, distinct for the colour-blind, set for the ground.
+Color seriesColor(int k, Theme theme);
+
+} // namespace palp

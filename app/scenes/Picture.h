@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace palp {
+
+/// An RGB image, 8 bits a channel, rows from the top.
+struct Picture {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> rgb; ///< 3 x width x height
+
+  [[nodiscard]] bool empty() const { return rgb.empty(); }
+};
+
+/// Writes the picture as PNG, beside the path and then renamed. Throws Error where the file cannot be written.
+void writePng(const Picture& picture, const std::filesystem::path& path);
+
+} // namespace palp

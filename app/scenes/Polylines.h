@@ -1,0 +1,37 @@
+#pragma once
+
+#include "app/scenes/Palette.h"
+
+#include <Eigen/Core>
+
+#include <vtkActor.h>
+#include <vtkSmartPointer.h>
+
+#include <vector>
+
+class vtkPolyData;
+class vtkRenderer;
+
+namespace palp {
+
+/// Lines through points [mm], drawn as lines `width_px` wide.
+class Polylines {
+public:
+  explicit Polylines(vtkRenderer& renderer);
+
+  void set(const Eigen::Matrix3Xd& points_mm, const std::vector<std::vector<int>>& lines);
+  /// New places of the same points.
+  void move(const Eigen::Matrix3Xd& points_mm);
+  void setLook(const Color& color, double width_px, double opacity = 1);
+  void setVisible(bool visible);
+
+private:
+  vtkSmartPointer<vtkPolyData> data_;
+  vtkSmartPointer<vtkActor> actor_;
+};
+
+/// The twelve edges of a box with one corner at the origin.
+Eigen::Matrix3Xd boxCorners(const Eigen::Vector3d& size_mm);
+const std::vector<std::vector<int>>& boxEdges();
+
+} // namespace palp
