@@ -25,6 +25,9 @@ public:
   void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& samples, Eigen::Ref<Eigen::MatrixXd> output) const;
 
 private:
+  /// Scaled inputs, and the tail and bias as the output to add to.
+  void scale(const double* sample, double* scaled, double* output) const;
+
   std::size_t inputs_ = 0;
   std::size_t outputs_ = 0;
   std::size_t blocks_ = 0;

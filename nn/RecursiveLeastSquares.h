@@ -5,7 +5,7 @@
 namespace palp {
 
 /// Linear least squares, one observation at a time, with exponential forgetting; the paper's way of training and the
-/// way to go on learning online. Square-root free form with a symmetric inverse correlation matrix P.
+/// way to go on learning online. P is the inverse correlation matrix of the regressors.
 class RecursiveLeastSquares {
 public:
   /// `initialVariance` is P's start: large means that the first observations decide. `forgetting` in (0, 1].

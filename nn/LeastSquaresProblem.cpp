@@ -1,0 +1,125 @@
+#include "nn/LeastSquaresProblem.h"
+
+#include "nn/Basis.h"
+#include "nn/KMeans.h"
+#include "nn/KernelProblem.h"
+#include "nn/NoisyCopies.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+
+namespace palp {
+namespace {
+
+constexpr int mostCenters = 600;
+
+Eigen::MatrixXd chooseCenters(const Eigen::MatrixXd& scaled, const RbfOptions& options) {
+  const int samples = static_cast<int>(scaled.cols());
+  const bool all = options.centers == CenterChoice::Samples;
+  const int count = options.centerCount > 0 ? options.centerCount : all ? samples : mostCenters;
+  if (count >= samples) return scaled;
+  if (options.centers == CenterChoice::KMeans) return kMeans(scaled, count, options.seed).centers;
+  return scaled(Eigen::all, randomColumns(samples, count, options.seed));
+}
+
+/// Every column `copies` times in a row.
+Eigen::MatrixXd repeated(const Eigen::MatrixXd& columns, Eigen::Index copies) {
+  Eigen::MatrixXd result(columns.rows(), columns.cols() * copies);
+  for (Eigen::Index i = 0; i < result.cols(); ++i) result.col(i) = columns.col(i / copies);
+  return result;
+}
+
+} // namespace
+
+LeastSquaresProblem::LeastSquaresProblem(const Eigen::Ref<const Eigen::MatrixXd>& samples,
+                                         const Eigen::Ref<const Eigen::MatrixXd>& targets, const RbfOptions& options,
+                                         int noiseCopies)
+    : options_(options), scaler_(FeatureScaler::fit(options.scaling, samples)),
+      copies_(options.relativeInputNoise > 0 ? noiseCopies : 1),
+      rows_(scaler_.apply(noisyCopies(samples, options.relativeInputNoise, static_cast<int>(copies_), options.seed))),
+      centers_(chooseCenters(scaler_.apply(samples), options)), distances_(squaredDistances(rows_, centers_)),
+      tail_(affordableTail(options.tail, rows_)),
+      tailIsUnknown_(tail_ == Tail::LinearPenalised || options.solver == Solver::Recursive),
+      space_(rows_, tailIsUnknown_ ? Tail::None : tail_), targets_(repeated(targets, copies_)),
+      shift_(tail_ == Tail::None ? Eigen::VectorXd::Zero(targets.rows()) : Eigen::VectorXd(targets.rowwise().mean())),
+      right_(space_.project((targets_.colwise() - shift_).transpose())) {}
+
+double LeastSquaresProblem::tailFactor() const {
+  return tail_ == Tail::LinearPenalised ? std::sqrt(options_.tailVariance) : 1;
+}
+
+Eigen::MatrixXd LeastSquaresProblem::system(double spread) const {
+  Eigen::MatrixXd phi = distances_;
+  gaussianInPlace(phi, gaussianRate(spread, options_.convention));
+  if (!tailIsUnknown_ || tail_ == Tail::None) return space_.project(phi);
+  const Eigen::Index inputs = tail_ == Tail::Bias ? 0 : rows_.rows();
+  Eigen::MatrixXd all(phi.rows(), phi.cols() + inputs + 1);
+  all.leftCols(phi.cols()) = phi;
+  all.middleCols(phi.cols(), inputs) = tailFactor() * rows_.topRows(inputs).transpose();
+  all.rightCols(1).setConstant(tailFactor());
+  return all;
+}
+
+RbfSolution LeastSquaresProblem::solve(double spread, double ridge) const {
+  const Eigen::MatrixXd a = system(spread);
+  const LinearSolution solved = solveLeastSquares(a, right_, options_.solver, ridge * static_cast<double>(copies_),
+                                                  options_.rcond, options_.forgetting);
+  RbfSolution solution;
+  solution.ridge = solved.ridge / static_cast<double>(copies_);
+  solution.condition = solved.condition;
+  solution.rank = solved.rank;
+  solution.unknowns = static_cast<int>(a.cols());
+  solution.warnings = solved.warnings;
+  const Eigen::Index count = centers_.cols();
+  solution.weights = solved.x.topRows(count).transpose();
+  solution.bias = shift_;
+  if (tail_ == Tail::None) return solution;
+  Eigen::MatrixXd coefficients = tailFactor() * solved.x.bottomRows(solved.x.rows() - count);
+  if (!tailIsUnknown_) {
+    Eigen::MatrixXd phi = distances_;
+    gaussianInPlace(phi, gaussianRate(spread, options_.convention));
+    coefficients =
+        space_.coefficients((targets_.colwise() - shift_).transpose() - lapack::product(phi, false, solved.x, false));
+  }
+  solution.bias += coefficients.bottomRows(1).transpose();
+  if (tail_ != Tail::Bias) solution.tail = coefficients.topRows(rows_.rows()).transpose();
+  return solution;
+}
+
+std::vector<LeaveOneOutResult> LeastSquaresProblem::leaveOneOut(double spread,
+                                                                const std::vector<double>& ridges) const {
+  const lapack::ThinSvd svd = lapack::thinSvd(system(spread));
+  const Eigen::MatrixXd left = space_.embed(svd.u);
+  const Eigen::MatrixXd tailBasis = space_.tailBasis();
+  const Eigen::MatrixXd rotated = lapack::product(svd.u, true, right_, false);
+  const Eigen::MatrixXd whole = space_.embed(right_);
+  std::vector<LeaveOneOutResult> results;
+  for (const double ridge : ridges) {
+    const Eigen::VectorXd filter = svd.values.unaryExpr([&](double s) {
+      const double scaledRidge = ridge * static_cast<double>(copies_);
+      return s > options_.rcond * svd.values(0) ? s * s / (s * s + scaledRidge) : 0.0;
+    });
+    const Eigen::MatrixXd remainder = whole - lapack::product(left, false, filter.asDiagonal() * rotated, false);
+    results.push_back(summarised(spread, ridge, leftOut(remainder, left, filter, tailBasis), targets_));
+  }
+  return results;
+}
+
+/// e_g = (I - H_gg)^-1 r_g: all copies of a sample are left out together. H is the hat matrix.
+Eigen::MatrixXd LeastSquaresProblem::leftOut(const Eigen::MatrixXd& remainder, const Eigen::MatrixXd& left,
+                                             const Eigen::VectorXd& filter, const Eigen::MatrixXd& tailBasis) const {
+  Eigen::MatrixXd residuals(remainder.cols(), remainder.rows());
+  const Eigen::MatrixXd weighted = left * filter.cwiseSqrt().asDiagonal();
+  for (Eigen::Index first = 0; first < remainder.rows(); first += copies_) {
+    const Eigen::MatrixXd group = weighted.middleRows(first, copies_), tailGroup = tailBasis.middleRows(first, copies_);
+    Eigen::MatrixXd kept = -group * group.transpose() - tailGroup * tailGroup.transpose();
+    // A sample that alone holds a direction cannot be left out: its error is then what is left, not a division by 0.
+    kept.diagonal().array() += 1 + 1e-14;
+    residuals.middleCols(first, copies_) = kept.ldlt().solve(remainder.middleRows(first, copies_)).transpose();
+  }
+  return residuals;
+}
+
+} // namespace palp

@@ -1,0 +1,33 @@
+#pragma once
+
+// Private to nn.
+
+#include "nn/RbfTrainer.h"
+
+#include <Eigen/Core>
+
+#include <string>
+#include <vector>
+
+namespace palp {
+
+/// Solution of a linear system or of least squares, with what is known about its trustworthiness.
+struct LinearSolution {
+  Eigen::MatrixXd x; ///< unknowns x right sides
+  double ridge = 0;  ///< that was used
+  double condition = 0;
+  int rank = 0;
+  std::vector<std::string> warnings;
+};
+
+/// (a + ridge I) x = b for a symmetric, positive semi-definite a.
+LinearSolution solveSymmetric(Eigen::MatrixXd a, const Eigen::MatrixXd& b, Solver solver, double ridge, double rcond);
+
+/// min |a x - b|^2 + ridge |x|^2.
+LinearSolution solveLeastSquares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, Solver solver, double ridge,
+                                 double rcond, double forgetting);
+
+/// The smallest ridge that double precision can carry on a symmetric matrix whose largest eigenvalue is about `size`.
+double smallestRidge(double size);
+
+} // namespace palp

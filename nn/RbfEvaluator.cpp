@@ -1,0 +1,76 @@
+#include "nn/RbfEvaluator.h"
+
+#include "nn/VectorKernels.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace palp {
+namespace {
+
+constexpr std::size_t lanes = kernels::blockLanes;
+/// Samples that go through a block of centres together.
+constexpr std::size_t together = 4;
+
+std::vector<double> copyOf(const Eigen::MatrixXd& m) {
+  return {m.data(), m.data() + m.size()};
+}
+
+/// [block][row][lane] from rows x columns; missing lanes are 0.
+std::vector<double> packed(const Eigen::MatrixXd& m, std::size_t blocks) {
+  const std::size_t rows = static_cast<std::size_t>(m.rows());
+  std::vector<double> result(blocks * rows * lanes, 0.0);
+  for (Eigen::Index c = 0; c < m.cols(); ++c)
+    for (std::size_t r = 0; r < rows; ++r) {
+      const std::size_t column = static_cast<std::size_t>(c);
+      result[(column / lanes * rows + r) * lanes + column % lanes] = m(static_cast<Eigen::Index>(r), c);
+    }
+  return result;
+}
+
+} // namespace
+
+RbfEvaluator::RbfEvaluator(const RbfNetwork& network)
+    : inputs_(static_cast<std::size_t>(network.inputs())), outputs_(static_cast<std::size_t>(network.outputs())),
+      blocks_((static_cast<std::size_t>(network.centers.cols()) + lanes - 1) / lanes),
+      rate_(gaussianRate(network.spread, network.convention)), offset_(copyOf(network.scaler.offset)),
+      factor_(copyOf(network.scaler.factor)), centers_(packed(network.centers, blocks_)),
+      weights_(packed(network.weights, blocks_)), tail_(copyOf(network.tail)), bias_(copyOf(network.bias)) {}
+
+std::size_t RbfEvaluator::scratchSize() const {
+  return inputs_;
+}
+
+void RbfEvaluator::scale(const double* sample, double* scaled, double* output) const {
+  std::copy(bias_.begin(), bias_.end(), output);
+  for (std::size_t d = 0; d < inputs_; ++d) scaled[d] = (sample[d] - offset_[d]) * factor_[d];
+  if (tail_.empty()) return;
+  for (std::size_t d = 0; d < inputs_; ++d)
+    for (std::size_t o = 0; o < outputs_; ++o) output[o] += tail_[d * outputs_ + o] * scaled[d];
+}
+
+void RbfEvaluator::evaluate(std::span<const double> sample, std::span<double> output, std::span<double> scratch) const {
+  assert(sample.size() == inputs_ && output.size() == outputs_ && scratch.size() >= scratchSize());
+  scale(sample.data(), scratch.data(), output.data());
+  kernels::addGaussians({inputs_, outputs_, blocks_, rate_, centers_.data(), weights_.data()}, scratch.data(),
+                        output.data());
+}
+
+void RbfEvaluator::evaluate(const Eigen::Ref<const Eigen::MatrixXd>& samples,
+                            Eigen::Ref<Eigen::MatrixXd> output) const {
+  const kernels::PackedNetwork network{inputs_, outputs_, blocks_, rate_, centers_.data(), weights_.data()};
+  std::vector<double> scaled(together * inputs_), results(together * outputs_);
+  const Eigen::Index step = static_cast<Eigen::Index>(together);
+  for (Eigen::Index first = 0; first < samples.cols(); first += step) {
+    const Eigen::Index count = std::min(step, samples.cols() - first);
+    for (Eigen::Index s = 0; s < step; ++s) // a last group that is not full repeats its last sample
+      scale(samples.col(first + std::min(s, count - 1)).data(), scaled.data() + s * static_cast<Eigen::Index>(inputs_),
+            results.data() + s * static_cast<Eigen::Index>(outputs_));
+    kernels::addGaussiansFour(network, scaled.data(), results.data());
+    for (Eigen::Index s = 0; s < count; ++s)
+      output.col(first + s) = Eigen::Map<const Eigen::VectorXd>(
+          results.data() + s * static_cast<Eigen::Index>(outputs_), static_cast<Eigen::Index>(outputs_));
+  }
+}
+
+} // namespace palp

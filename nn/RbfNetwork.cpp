@@ -1,0 +1,37 @@
+#include "nn/RbfNetwork.h"
+
+#include "nn/NetworkError.h"
+#include "nn/RbfEvaluator.h"
+
+#include <string>
+
+namespace palp {
+namespace {
+
+void requireInputs(Eigen::Index given, Eigen::Index wanted) {
+  if (given != wanted)
+    throw NetworkError("inputs: " + std::to_string(given) + "; the network takes " + std::to_string(wanted));
+}
+
+} // namespace
+
+Eigen::MatrixXd RbfNetwork::predict(const Eigen::Ref<const Eigen::MatrixXd>& samples) const {
+  requireInputs(samples.rows(), inputs());
+  Eigen::MatrixXd output(outputs(), samples.cols());
+  RbfEvaluator(*this).evaluate(samples, output);
+  return output;
+}
+
+Eigen::MatrixXd RbfNetwork::jacobian(const Eigen::Ref<const Eigen::VectorXd>& sample) const {
+  requireInputs(sample.size(), inputs());
+  const Eigen::MatrixXd scaled = scaler.apply(sample);
+  const double gamma = gaussianRate(spread, convention);
+  Eigen::MatrixXd phi = squaredDistances(centers, scaled);
+  gaussianInPlace(phi, gamma);
+  const Eigen::MatrixXd difference = (-centers).colwise() + scaled.col(0); // inputs x centres
+  Eigen::MatrixXd slope = weights * (-2 * gamma * phi.col(0)).asDiagonal() * difference.transpose();
+  if (tail.size() > 0) slope += tail;
+  return slope * scaler.factor.asDiagonal();
+}
+
+} // namespace palp

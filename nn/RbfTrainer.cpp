@@ -1,0 +1,100 @@
+#include "nn/RbfTrainer.h"
+
+#include "nn/LeaveOneOut.h"
+#include "nn/NetworkError.h"
+#include "nn/RbfProblem.h"
+#include "nn/SpreadSweep.h"
+
+#include <array>
+#include <chrono>
+#include <utility>
+
+namespace palp {
+namespace {
+
+constexpr std::array solverNames{std::pair{Solver::PivotedQr, "qr"}, std::pair{Solver::Cholesky, "cholesky"},
+                                 std::pair{Solver::TruncatedSvd, "svd"}, std::pair{Solver::Recursive, "rls"}};
+
+/// Spread and ridge to train at; what the options leave open is chosen by leave-one-out.
+std::pair<double, double> spreadAndRidge(const Eigen::Ref<const Eigen::MatrixXd>& samples,
+                                         const Eigen::Ref<const Eigen::MatrixXd>& targets, const RbfOptions& options,
+                                         const RbfProblem& problem, const std::stop_token& stop) {
+  if (options.spread && options.ridge) return {*options.spread, *options.ridge};
+  double spread = 0;
+  if (options.spread)
+    spread = *options.spread;
+  else {
+    const SpreadChoice choice = chooseSpread(samples, targets, options, stop);
+    spread = choice.overall.spread;
+  }
+  if (options.ridge) return {spread, *options.ridge};
+  double best = 0, score = 0;
+  for (const LeaveOneOutResult& result : problem.leaveOneOut(spread, logarithmicRange(1e-13, 10, 57)))
+    if (best == 0 || result.score < score) {
+      best = result.ridge;
+      score = result.score;
+    }
+  return {spread, best};
+}
+
+void warn(FitReport& report, const RbfOptions& options, const RbfProblem& problem, Eigen::Index samples) {
+  if (options.centerCount > samples)
+    report.warnings.push_back(std::to_string(options.centerCount) + " centres were asked for, there are " +
+                              std::to_string(samples) + " samples: one centre a sample is used");
+  if (problem.tail() != options.tail)
+    report.warnings.push_back("too few samples (" + std::to_string(samples) +
+                              ") for an exact linear tail: it is penalised instead");
+  if (samples < 10)
+    report.warnings.push_back("only " + std::to_string(samples) +
+                              " samples: errors found in training say little about new samples");
+}
+
+} // namespace
+
+std::string name(Solver solver) {
+  for (const auto& [value, text] : solverNames)
+    if (value == solver) return text;
+  return {};
+}
+
+Solver solverNamed(const std::string& text) {
+  for (const auto& [value, known] : solverNames)
+    if (text == known) return value;
+  throw NetworkError("solver '" + text + "': not known, allowed are qr, cholesky, svd and rls");
+}
+
+RbfFit trainRbf(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen::Ref<const Eigen::MatrixXd>& targets,
+                const RbfOptions& options, const std::stop_token& stop) {
+  const auto start = std::chrono::steady_clock::now();
+  requireUsable(samples, targets, options);
+  const std::unique_ptr<RbfProblem> problem = rbfProblem(samples, targets, options, options.noiseCopies);
+  const auto [spread, ridge] = spreadAndRidge(samples, targets, options, *problem, stop);
+  if (stop.stop_requested()) throw NetworkError("cancelled");
+
+  RbfSolution solution = problem->solve(spread, ridge);
+  RbfFit fit;
+  fit.network = {problem->scaler(),       problem->centers(),          spread,
+                 options.convention,      std::move(solution.weights), std::move(solution.tail),
+                 std::move(solution.bias)};
+  if (!fit.network.weights.allFinite() || !fit.network.bias.allFinite() || !fit.network.tail.allFinite())
+    throw NetworkError("the weights are no finite numbers at spread " + std::to_string(spread) +
+                       "; take another solver, a larger ridge or another scaler");
+  FitReport& report = fit.report;
+  report.spread = spread;
+  report.ridge = solution.ridge;
+  report.centers = static_cast<int>(problem->centers().cols());
+  report.condition = solution.condition;
+  report.rank = solution.rank;
+  report.largestWeight = fit.network.weights.size() == 0 ? 0 : fit.network.weights.cwiseAbs().maxCoeff();
+  report.warnings = std::move(solution.warnings);
+  warn(report, options, *problem, samples.cols());
+  if (options.leaveOneOut) {
+    const LeaveOneOutResult left = problem->leaveOneOut(spread, {solution.ridge}).front();
+    report.leaveOneOut = left.rms;
+    report.leaveOneOutResiduals = left.residuals;
+  }
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return fit;
+}
+
+} // namespace palp

@@ -1,0 +1,30 @@
+#include "nn/RelativeError.h"
+
+#include "nn/NetworkError.h"
+
+#include <string>
+
+namespace palp {
+
+PredictionError predictionError(const Eigen::Ref<const Eigen::MatrixXd>& predicted,
+                                const Eigen::Ref<const Eigen::MatrixXd>& truth,
+                                const Eigen::Ref<const Eigen::VectorXd>& range, double floor) {
+  if (predicted.rows() != truth.rows() || predicted.cols() != truth.cols() || range.size() != truth.rows())
+    throw NetworkError("predictions are " + std::to_string(predicted.rows()) + " x " +
+                       std::to_string(predicted.cols()) + ", the truth is " + std::to_string(truth.rows()) + " x " +
+                       std::to_string(truth.cols()) + ", the range has " + std::to_string(range.size()) +
+                       " entries; all must agree");
+  if (truth.cols() == 0) throw NetworkError("there is no sample to measure an error on; at least 1 is needed");
+  const Eigen::ArrayXXd difference = (predicted - truth).array().abs();
+  const Eigen::ArrayXXd size = truth.array().abs();
+  PredictionError error;
+  // 0 / 0 is no error: the force is 0 and 0 was predicted.
+  error.eq13Percent = 100 * (difference == 0).select(0.0, difference / size).rowwise().mean();
+  error.eq13FlooredPercent = 100 * (difference / size.max(floor)).rowwise().mean();
+  error.meanAbsolute = difference.rowwise().mean();
+  const Eigen::ArrayXd width = (range.array() > 0).select(range.array(), 1.0);
+  error.rmsePercentOfRange = 100 * difference.square().rowwise().mean().sqrt() / width;
+  return error;
+}
+
+} // namespace palp

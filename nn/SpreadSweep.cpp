@@ -1,0 +1,41 @@
+#include "nn/SpreadSweep.h"
+
+#include "nn/NetworkError.h"
+
+#include <cmath>
+#include <string>
+
+namespace palp {
+
+std::vector<SweepRow> sweepSpreads(const SweepInput& input, const std::vector<double>& spreads,
+                                   const RbfOptions& options, const std::function<void(std::size_t)>& progress,
+                                   const std::stop_token& stop) {
+  std::vector<SweepRow> rows;
+  for (const double spread : spreads) {
+    if (stop.stop_requested()) break;
+    RbfOptions atSpread = options;
+    atSpread.spread = spread;
+    const RbfFit fit = trainRbf(input.samples, input.targets, atSpread, {});
+    SweepRow row;
+    row.spread = spread;
+    row.report = fit.report;
+    row.predicted = fit.network.predict(input.testSamples);
+    row.error = predictionError(row.predicted, input.testTargets, input.range);
+    rows.push_back(std::move(row));
+    if (progress) progress(rows.size());
+  }
+  return rows;
+}
+
+std::vector<double> logarithmicRange(double low, double high, int count) {
+  if (!(low > 0 && low <= high && std::isfinite(high)))
+    throw NetworkError("range " + std::to_string(low) + " to " + std::to_string(high) +
+                       ": not allowed; the first must be above 0 and not above the last");
+  if (count < 1) throw NetworkError("range of " + std::to_string(count) + " values: allowed is 1 or more");
+  std::vector<double> values;
+  for (int i = 0; i < count; ++i)
+    values.push_back(count == 1 ? low : i == count - 1 ? high : low * std::pow(high / low, i / (count - 1.0)));
+  return values;
+}
+
+} // namespace palp
