@@ -1,7 +1,5 @@
 #include "app/scenes/BlockActors.h"
 
-#include "app/scenes/TextStyle.h"
-
 #include <vtkCellArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>
@@ -13,7 +11,6 @@
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
-#include <vtkTextProperty.h>
 
 #include <algorithm>
 
@@ -23,7 +20,7 @@ namespace {
 
 constexpr int kBorderSteps = 24;
 constexpr double kLift_mm = 0.03; ///< keeps outlines out of the surface that they lie on
-constexpr double kBlockOpacity = 0.72;
+constexpr double kBlockOpacity = 0.82;
 constexpr Color kRestOnLight{0.80, 0.82, 0.85};
 constexpr Color kRestOnDark{0.42, 0.45, 0.50};
 
@@ -54,9 +51,9 @@ Outline outline(const std::vector<std::vector<TopPoint>>& borders, const Eigen::
 } // namespace
 
 BlockActors::BlockActors(vtkRenderer& renderer)
-    : renderer_(renderer), surfaceData_(vtkSmartPointer<vtkPolyData>::New()),
-      surfaceMapper_(vtkSmartPointer<vtkPolyDataMapper>::New()), surfaceActor_(vtkSmartPointer<vtkActor>::New()),
-      edges_(renderer), ghost_(renderer), borders_(renderer), selected_(renderer) {
+    : surfaceData_(vtkSmartPointer<vtkPolyData>::New()), surfaceMapper_(vtkSmartPointer<vtkPolyDataMapper>::New()),
+      surfaceActor_(vtkSmartPointer<vtkActor>::New()), edges_(renderer), ghost_(renderer), borders_(renderer),
+      selected_(renderer) {
   surfaceMapper_->SetInputData(surfaceData_);
   surfaceMapper_->InterpolateScalarsBeforeMappingOn();
   surfaceActor_->SetMapper(surfaceMapper_);
@@ -124,23 +121,12 @@ void BlockActors::show(const Mesh& mesh, const Eigen::Matrix3Xd& drawnDisplaceme
   });
   selected_.set(chosen.points_mm, chosen.lines);
   selected_.setLook(ink.force, 3.5 * options.scale);
-  showLabels(mesh, options);
 }
 
-void BlockActors::showLabels(const Mesh& mesh, const DeformationOptions& options) {
-  for (const auto& label : labels_) renderer_.RemoveActor(label);
-  labels_.clear();
-  if (!options.areaOutlines || mesh.nodeCount() == 0) return;
-  for (std::size_t area = 0; area < areaLabels_.size(); ++area) {
-    auto label = vtkSmartPointer<vtkBillboardTextActor3D>::New();
-    const Eigen::Vector3d place = areaLabels_[area].of(drawn_mm_) + Eigen::Vector3d(0, 0, 0.4);
-    label->SetPosition(place.x(), place.y(), place.z());
-    label->SetInput(std::to_string(area).c_str());
-    setTextStyle(*label->GetTextProperty(), palette(options.theme).text, 15 * options.scale, true);
-    label->PickableOff();
-    renderer_.AddActor(label);
-    labels_.push_back(label);
-  }
+std::vector<Eigen::Vector3d> BlockActors::areaLabels_mm() const {
+  std::vector<Eigen::Vector3d> places;
+  for (const TopPoint& label : areaLabels_) places.push_back(label.of(drawn_mm_));
+  return places;
 }
 
 int BlockActors::nearestNode(const Eigen::Vector3d& drawn_mm) const {

@@ -6,7 +6,6 @@
 #include "app/scenes/Polylines.h"
 
 #include <vtkActor.h>
-#include <vtkBillboardTextActor3D.h>
 #include <vtkPlane.h>
 #include <vtkSmartPointer.h>
 
@@ -31,10 +30,10 @@ public:
   [[nodiscard]] int nearestNode(const Eigen::Vector3d& drawn_mm) const;
   [[nodiscard]] Eigen::Vector3d drawnPlace_mm(int node) const;
 
-private:
-  void showLabels(const Mesh& mesh, const DeformationOptions& options);
+  /// Where the number of each load area is written.
+  [[nodiscard]] std::vector<Eigen::Vector3d> areaLabels_mm() const;
 
-  vtkRenderer& renderer_;
+private:
   vtkSmartPointer<vtkPolyData> surfaceData_;
   vtkSmartPointer<vtkPolyDataMapper> surfaceMapper_;
   vtkSmartPointer<vtkActor> surfaceActor_;
@@ -42,7 +41,6 @@ private:
   Polylines ghost_;
   Polylines borders_;
   Polylines selected_;
-  std::vector<vtkSmartPointer<vtkBillboardTextActor3D>> labels_;
   MeshSurface surface_;
   std::vector<std::vector<TopPoint>> areaBorders_;
   std::vector<TopPoint> areaLabels_;

@@ -1,12 +1,12 @@
 #include "app/scenes/DeformationPicture.h"
 
+#include "app/scenes/CameraFit.h"
 #include "app/scenes/ElectrodeActors.h"
 #include "app/scenes/OffscreenWindow.h"
 #include "app/scenes/Overlay.h"
 #include "app/scenes/Polylines.h"
 #include "model/Error.h"
 
-#include <vtkCamera.h>
 #include <vtkContextActor.h>
 #include <vtkContextScene.h>
 #include <vtkNew.h>
@@ -21,7 +21,7 @@ namespace palp {
 Picture drawDeformation(const DeformationState& state, const DeformationOptions& options, int width, int height) {
   DeformationScene scene;
   scene.show(state, options, true);
-  scene.resetCamera(*state.design);
+  scene.resetCamera(*state.design, static_cast<double>(width) / height);
   return drawOnce(scene.renderer(), width, height);
 }
 
@@ -93,14 +93,8 @@ Picture drawRowWire(const SensorDesign& design, int rowWire, const ElectrodeDisp
   actor->GetScene()->AddItem(overlay);
   actor->GetScene()->SetRenderer(renderer);
   renderer->AddActor(actor);
-  vtkCamera& camera = *renderer->GetActiveCamera();
-  const Eigen::Vector3d centre = 0.5 * design.block_mm;
-  camera.SetFocalPoint(centre.x(), centre.y(), centre.z());
-  camera.SetPosition(centre.x() - 12, centre.y() - 100, centre.z() + 38);
-  camera.SetViewUp(0, 0, 1);
-  renderer->ResetCamera(0, design.block_mm.x(), 0, design.block_mm.y(), 0, design.block_mm.z());
-  camera.Zoom(static_cast<double>(width) / height > 1.4 ? 1.6 : 1.1);
-  renderer->ResetCameraClippingRange();
+  fitCamera(*renderer, boxCorners(design.block_mm), {0.15, 1.0, -0.38}, static_cast<double>(width) / height,
+            {0.04, 0.04, 0.06, 0.14});
   return drawOnce(renderer, width, height);
 }
 

@@ -1,11 +1,11 @@
 #include "app/scenes/DeformationScene.h"
 
 #include "app/scenes/BlockActors.h"
+#include "app/scenes/CameraFit.h"
 #include "app/scenes/ElectrodeActors.h"
 #include "app/scenes/ForceArrows.h"
 #include "app/scenes/Overlay.h"
 
-#include <vtkCamera.h>
 #include <vtkContextActor.h>
 #include <vtkContextScene.h>
 #include <vtkNew.h>
@@ -194,8 +194,14 @@ void DeformationScene::show(const DeformationState& state, const DeformationOpti
                         options);
   const std::vector<PlacedForce> forces =
       options.forceArrows ? placedForces(state, state.mesh->nodes_mm + drawnDisplacement) : std::vector<PlacedForce>{};
-  parts.forces.show(forces, 0.3 * state.design->block_mm.maxCoeff(), ink, options.scale);
+  parts.forces.show(forces, 0.3 * state.design->block_mm.maxCoeff(), ink.force);
 
+  parts.overlay->words = parts.forces.words();
+  if (options.areaOutlines) {
+    const std::vector<Eigen::Vector3d> places = parts.block.areaLabels_mm();
+    for (std::size_t area = 0; area < places.size(); ++area)
+      parts.overlay->words.push_back({places[area], std::to_string(area), ink.text});
+  }
   parts.overlay->lines = overlayLines(state, options, parts.warpFactor);
   parts.overlay->legend = values.empty() ? std::nullopt : std::optional(colors);
   parts.overlay->theme = options.theme;
@@ -205,17 +211,17 @@ void DeformationScene::show(const DeformationState& state, const DeformationOpti
   parts.showMark();
 }
 
-void DeformationScene::resetCamera(const SensorDesign& design) {
-  const Eigen::Vector3d centre = 0.5 * design.block_mm;
-  vtkCamera& camera = *parts_->renderer->GetActiveCamera();
-  const Eigen::Vector3d eye = centre + 100 * Eigen::Vector3d(-0.45, -1.0, 0.75);
-  camera.SetFocalPoint(centre.x(), centre.y(), centre.z() + 0.1 * design.block_mm.x());
-  camera.SetPosition(eye.x(), eye.y(), eye.z());
-  camera.SetViewUp(0, 0, 1);
-  const double high_mm = design.block_mm.z() + 0.25 * design.block_mm.maxCoeff();
-  parts_->renderer->ResetCamera(0, design.block_mm.x(), 0, design.block_mm.y(), 0, high_mm);
-  camera.Zoom(1.25);
-  parts_->renderer->ResetCameraClippingRange();
+void DeformationScene::resetCamera(const SensorDesign& design, double aspect) {
+  resetCamera(design, aspect, {0.45, 1.0, -0.75});
+}
+
+void DeformationScene::resetCamera(const SensorDesign& design, double aspect, const Eigen::Vector3d& direction) {
+  // Room above the middle for the arrows and their words.
+  Eigen::Matrix3Xd points(3, 9);
+  points << boxCorners(design.block_mm), 0.5 * design.block_mm;
+  points(2, 8) = design.block_mm.z() + 0.3 * design.block_mm.maxCoeff();
+  fitCamera(*parts_->renderer, points, direction, aspect,
+            {0.03, 0.03 + std::min(0.12 / aspect * 1.5, 0.25), 0.04, 0.08});
 }
 
 double DeformationScene::warpFactor() const {

@@ -67,8 +67,10 @@ public:
   [[nodiscard]] vtkRenderer* renderer() const;
   /// Draws the state; the mesh's surface is found again only where `meshChanged`.
   void show(const DeformationState& state, const DeformationOptions& options, bool meshChanged);
-  /// Looks at the whole block from the front, above and the left.
-  void resetCamera(const SensorDesign& design);
+  /// Looks at the whole block from the front, above and the left, in a view `aspect` times as wide as high.
+  void resetCamera(const SensorDesign& design, double aspect);
+  /// Looks at it along a direction.
+  void resetCamera(const SensorDesign& design, double aspect, const Eigen::Vector3d& direction);
 
   [[nodiscard]] double warpFactor() const;
   /// The mesh node drawn nearest to a point of the scene [mm, warped]; -1 without a mesh.

@@ -1,7 +1,5 @@
 #include "app/scenes/ForceArrows.h"
 
-#include "app/scenes/TextStyle.h"
-
 #include <vtkArrowSource.h>
 #include <vtkDoubleArray.h>
 #include <vtkGlyph3DMapper.h>
@@ -11,7 +9,6 @@
 #include <vtkPolyData.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
-#include <vtkTextProperty.h>
 
 #include <algorithm>
 #include <array>
@@ -30,7 +27,7 @@ std::string forceText(const Eigen::Vector3d& force_N) {
 } // namespace
 
 ForceArrows::ForceArrows(vtkRenderer& renderer)
-    : renderer_(renderer), data_(vtkSmartPointer<vtkPolyData>::New()), actor_(vtkSmartPointer<vtkActor>::New()) {
+    : data_(vtkSmartPointer<vtkPolyData>::New()), actor_(vtkSmartPointer<vtkActor>::New()) {
   vtkNew<vtkArrowSource> arrow;
   arrow->SetTipResolution(24);
   arrow->SetShaftResolution(16);
@@ -49,9 +46,8 @@ ForceArrows::ForceArrows(vtkRenderer& renderer)
   renderer.AddActor(actor_);
 }
 
-void ForceArrows::show(const std::vector<PlacedForce>& forces, double largest_mm, const Palette& ink, double scale) {
-  for (const auto& label : labels_) renderer_.RemoveActor(label);
-  labels_.clear();
+void ForceArrows::show(const std::vector<PlacedForce>& forces, double largest_mm, const Color& color) {
+  words_.clear();
   double largest_N = 0;
   for (const PlacedForce& force : forces) largest_N = std::max(largest_N, force.force_N.norm());
   vtkNew<vtkPoints> starts;
@@ -65,21 +61,14 @@ void ForceArrows::show(const std::vector<PlacedForce>& forces, double largest_mm
     starts->InsertNextPoint(start.data());
     arrows->InsertNextTuple(arrow.data());
     const Eigen::Vector3d far = force.force_N.z() < 0 ? start : Eigen::Vector3d(start + arrow);
-    auto label = vtkSmartPointer<vtkBillboardTextActor3D>::New();
-    label->SetPosition(far.x(), far.y(), far.z() + 0.5);
-    label->SetInput(forceText(force.force_N).c_str());
-    label->PickableOff();
-    setTextStyle(*label->GetTextProperty(), ink.force, 14 * scale, true);
-    label->GetTextProperty()->SetJustificationToCentered();
-    renderer_.AddActor(label);
-    labels_.push_back(label);
+    words_.push_back({far + Eigen::Vector3d(0, 0, 0.08 * largest_mm), forceText(force.force_N), color});
   }
   data_->SetPoints(starts);
   data_->GetPointData()->Initialize();
   data_->GetPointData()->AddArray(arrows);
   data_->Modified();
   actor_->SetVisibility(starts->GetNumberOfPoints() > 0 ? 1 : 0);
-  actor_->GetProperty()->SetColor(ink.force[0], ink.force[1], ink.force[2]);
+  actor_->GetProperty()->SetColor(color[0], color[1], color[2]);
   actor_->GetProperty()->SetAmbient(0.3);
 }
 

@@ -1,15 +1,13 @@
 #pragma once
 
-#include "app/scenes/Palette.h"
+#include "app/scenes/Overlay.h"
 #include "model/LoadCase.h"
 
 #include <Eigen/Core>
 
 #include <vtkActor.h>
-#include <vtkBillboardTextActor3D.h>
 #include <vtkSmartPointer.h>
 
-#include <string>
 #include <vector>
 
 class vtkPolyData;
@@ -29,13 +27,14 @@ class ForceArrows {
 public:
   explicit ForceArrows(vtkRenderer& renderer);
 
-  void show(const std::vector<PlacedForce>& forces, double largest_mm, const Palette& ink, double scale);
+  void show(const std::vector<PlacedForce>& forces, double largest_mm, const Color& color);
+  /// The forces in words, each at its arrow's free end.
+  [[nodiscard]] const std::vector<PlacedText>& words() const { return words_; }
 
 private:
-  vtkRenderer& renderer_;
   vtkSmartPointer<vtkPolyData> data_;
   vtkSmartPointer<vtkActor> actor_;
-  std::vector<vtkSmartPointer<vtkBillboardTextActor3D>> labels_;
+  std::vector<PlacedText> words_;
 };
 
 } // namespace palp

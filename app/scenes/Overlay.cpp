@@ -7,6 +7,7 @@
 #include <vtkContextScene.h>
 #include <vtkObjectFactory.h>
 #include <vtkPen.h>
+#include <vtkRenderer.h>
 #include <vtkTextProperty.h>
 
 #include <algorithm>
@@ -77,10 +78,31 @@ void paintLegend(vtkContext2D& painter, const ColorScale& colors, const LegendPl
   drawText(painter, titleX, place.y + place.height + 18 * scale, colors.title());
 }
 
+void Overlay::paintWords(vtkContext2D& painter) {
+  vtkRenderer* renderer = GetScene()->GetRenderer();
+  if (renderer == nullptr) return;
+  const Color& ground = palette(theme).ground;
+  for (const PlacedText& word : words) {
+    renderer->SetWorldPoint(word.place_mm.x(), word.place_mm.y(), word.place_mm.z(), 1);
+    renderer->WorldToDisplay();
+    const double* place = renderer->GetDisplayPoint();
+    useText(painter, word.color, 13 * scale, true);
+    const double width = textWidth_px(painter, word.text);
+    const double sceneWidth = GetScene()->GetSceneWidth();
+    const double x = std::clamp(place[0] - 0.5 * width, 4.0, std::max(4.0, sceneWidth - width - 4));
+    painter.GetPen()->SetLineType(vtkPen::NO_PEN);
+    painter.GetBrush()->SetColorF(ground[0], ground[1], ground[2], 0.7);
+    painter.DrawRect(static_cast<float>(x - 4 * scale), static_cast<float>(place[1] - 9 * scale),
+                     static_cast<float>(width + 8 * scale), static_cast<float>(18 * scale));
+    drawText(painter, x, place[1], word.text);
+  }
+}
+
 bool Overlay::Paint(vtkContext2D* painter) {
   const double width = GetScene()->GetSceneWidth();
   const double height = GetScene()->GetSceneHeight();
   const double margin = kMargin_px * scale;
+  paintWords(*painter);
   double y = height - margin - 8 * scale;
   for (std::size_t k = 0; k < lines.size(); ++k) {
     useText(*painter, palette(theme).text, (k == 0 ? 14 : 12) * scale, k == 0);

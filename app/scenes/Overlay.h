@@ -4,11 +4,20 @@
 
 #include <vtkContextItem.h>
 
+#include <Eigen/Core>
+
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace palp {
+
+/// A word at a place of the 3-D view, always in front.
+struct PlacedText {
+  Eigen::Vector3d place_mm = Eigen::Vector3d::Zero();
+  std::string text;
+  Color color{};
+};
 
 /// Text and legend over a 3-D view or beside a heatmap, in pixels of the view.
 class Overlay : public vtkContextItem {
@@ -18,10 +27,14 @@ public:
 
       bool Paint(vtkContext2D* painter) override;
 
+  std::vector<PlacedText> words;
   std::vector<std::string> lines;   ///< from the top left; the first is bold
   std::optional<ColorScale> legend; ///< at the right edge
   Theme theme = Theme::Light;
   double scale = 1; ///< of all sizes; 1 on a plain screen
+
+private:
+  void paintWords(vtkContext2D& painter);
 };
 
 /// A legend's place: lower left corner and size of the coloured bar [px].
