@@ -1,0 +1,97 @@
+#pragma once
+
+#include "io/board/ReportSource.h"
+
+#include <condition_variable>
+#include <filesystem>
+#include <fstream>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+namespace palp {
+
+/// Head of a recording.
+struct RecordingHead {
+  BoardInfo info;
+  BoardConfiguration configuration;
+  std::string source;             ///< which board, in words
+  std::string networkFingerprint; ///< empty: no network in use
+  std::int64_t startedUnix_s = 0;
+};
+
+/// One entry of a recording.
+struct RecordingEntry {
+  enum class Kind : std::uint8_t {
+    Raw = 0,           ///< report, as it came
+    Mark = 1,          ///< text of the user
+    Configuration = 2, ///< feature 0x11, when it changed
+    Connected = 3,     ///< feature 0x10 of the board after an interruption
+  };
+  Kind kind = Kind::Raw;
+  double hostTime_s = 0;
+  std::vector<std::uint8_t> bytes;
+};
+
+// The file: "PALPREC1", u32 length and bytes of the head (JSON), then entries: u8 kind, u8 0, u16 length, f64 host time
+// [s], bytes. Little-endian. It may end anywhere; what is whole counts.
+
+/// Writes a recording in a thread of its own, so that no disk holds up the reader; hands over to the system at least
+/// each second.
+class RecordingWriter {
+public:
+  /// Throws Error where the file exists and `force` is not given, or cannot be written.
+  RecordingWriter(const std::filesystem::path& path, const RecordingHead& head, bool force);
+  /// Writes what is left.
+  ~RecordingWriter();
+  RecordingWriter(const RecordingWriter&) = delete;
+  RecordingWriter& operator=(const RecordingWriter&) = delete;
+
+  void append(RecordingEntry::Kind kind, double hostTime_s, std::span<const std::uint8_t> bytes);
+
+  [[nodiscard]] std::uint64_t reports() const;
+  /// Entries that were dropped because the disk did not keep up; they are missing in the file.
+  [[nodiscard]] std::uint64_t dropped() const;
+  /// Why nothing is written any more (the disk is full); empty while all is well.
+  [[nodiscard]] std::string failure() const;
+
+private:
+  void run();
+
+  std::filesystem::path path_;
+  std::ofstream stream_;
+  mutable std::mutex mutex_;
+  std::condition_variable wake_;
+  std::string pending_;
+  std::string failure_;
+  std::uint64_t reports_ = 0;
+  std::uint64_t dropped_ = 0;
+  bool ending_ = false;
+  std::thread thread_;
+};
+
+/// Reads a recording entry by entry.
+class RecordingReader {
+public:
+  /// Throws Error where the file is no recording.
+  explicit RecordingReader(const std::filesystem::path& path);
+  /// From any stream of bytes; `name` stands in the refusals.
+  RecordingReader(std::unique_ptr<std::istream> stream, std::string name);
+
+  [[nodiscard]] const RecordingHead& head() const { return head_; }
+  /// The next whole entry; none at the end.
+  std::optional<RecordingEntry> next();
+  /// After the end: bytes of an entry that was cut off.
+  [[nodiscard]] bool cutOff() const { return cutOff_; }
+
+private:
+  void readHead();
+
+  std::unique_ptr<std::istream> stream_;
+  std::string name_;
+  RecordingHead head_;
+  bool cutOff_ = false;
+};
+
+} // namespace palp

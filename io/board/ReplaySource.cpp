@@ -1,0 +1,66 @@
+#include "io/board/ReplaySource.h"
+
+#include <algorithm>
+#include <thread>
+
+namespace palp {
+
+namespace {
+
+constexpr double kLongestGap_s = 1; // longer pauses of the recording are cut to this
+
+} // namespace
+
+ReplaySource::ReplaySource(const std::filesystem::path& path, std::shared_ptr<ReplayControl> control)
+    : path_(path), reader_(path), control_(std::move(control)), configuration_(reader_.head().configuration) {
+  next_ = reader_.next();
+}
+
+std::string ReplaySource::name() const {
+  return "recording " + path_.filename().string() + " of " + reader_.head().source;
+}
+
+std::string ReplaySource::reason() const {
+  return reader_.cutOff() ? path_.string() + ": is cut off; played to its last whole report" : "";
+}
+
+/// Entries between the reports.
+void ReplaySource::take(const RecordingEntry& entry) {
+  if (entry.kind == RecordingEntry::Kind::Mark) mark_.assign(entry.bytes.begin(), entry.bytes.end());
+  if (entry.kind != RecordingEntry::Kind::Configuration) return;
+  const auto decoded = decodeConfiguration(entry.bytes);
+  if (const auto* configuration = std::get_if<BoardConfiguration>(&decoded)) configuration_ = *configuration;
+}
+
+ReportSource::Outcome ReplaySource::read(RawReport& report, std::chrono::milliseconds timeout) {
+  while (next_ && next_->kind != RecordingEntry::Kind::Raw) {
+    take(*next_);
+    next_ = reader_.next();
+  }
+  if (!next_) return Outcome::End;
+  const bool stepping = control_->paused && control_->steps > 0;
+  if (control_->paused && !stepping) {
+    std::this_thread::sleep_for(std::min(timeout, std::chrono::milliseconds(20)));
+    asked_s_ = hostClock_s();
+    return Outcome::Nothing;
+  }
+  const double speed = control_->speed;
+  const double now_s = hostClock_s();
+  if (!started_) playedTo_s_ = next_->hostTime_s;
+  playedTo_s_ = std::max(playedTo_s_, next_->hostTime_s - kLongestGap_s);
+  if (started_ && speed > 0) playedTo_s_ += (now_s - asked_s_) * speed;
+  started_ = true;
+  asked_s_ = now_s;
+  const double wait_s = speed > 0 && !stepping ? (next_->hostTime_s - playedTo_s_) / speed : 0;
+  if (wait_s > 0) {
+    const auto wait = std::min<std::chrono::duration<double>>(std::chrono::duration<double>(wait_s), timeout);
+    std::this_thread::sleep_for(wait);
+    if (wait_s > std::chrono::duration<double>(timeout).count()) return Outcome::Nothing;
+  }
+  report.hostTime_s = next_->hostTime_s;
+  std::swap(report.bytes, next_->bytes);
+  next_ = reader_.next();
+  return Outcome::Read;
+}
+
+} // namespace palp

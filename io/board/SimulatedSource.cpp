@@ -1,0 +1,56 @@
+#include "io/board/SimulatedSource.h"
+
+#include <algorithm>
+#include <thread>
+
+namespace palp {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+std::uint64_t microseconds(Clock::time_point time) {
+  return static_cast<std::uint64_t>(
+      std::chrono::duration_cast<std::chrono::microseconds>(time.time_since_epoch()).count());
+}
+
+} // namespace
+
+double hostClock_s() {
+  return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
+}
+
+SimulatedSource::SimulatedSource(Board board) : board_(std::move(board)) {}
+
+std::string SimulatedSource::name() const {
+  return "simulated board";
+}
+
+ReportSource::Outcome SimulatedSource::read(RawReport& report, std::chrono::milliseconds timeout) {
+  const Clock::time_point end = Clock::now() + timeout;
+  while (queue_.empty()) {
+    const Clock::time_point now = Clock::now();
+    board_.advance(microseconds(now), [&](std::span<const std::uint8_t> bytes) {
+      queue_.push_back({hostClock_s(), {bytes.begin(), bytes.end()}});
+    });
+    if (!queue_.empty()) break;
+    if (now >= end) return Outcome::Nothing;
+    Clock::time_point wake = end;
+    if (const auto due_us = board_.nextDue_us())
+      wake = std::min(end, Clock::time_point(std::chrono::microseconds(*due_us)));
+    std::this_thread::sleep_until(wake);
+  }
+  std::swap(report, queue_.front());
+  queue_.pop_front();
+  return Outcome::Read;
+}
+
+bool SimulatedSource::configure(const BoardConfiguration& configuration) {
+  return board_.setFeature(encode(configuration));
+}
+
+bool SimulatedSource::send(const BoardCommand& command) {
+  return board_.output(encode(command));
+}
+
+} // namespace palp

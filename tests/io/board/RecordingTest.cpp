@@ -1,0 +1,157 @@
+#include "io/board/Recording.h"
+
+#include "io/AtomicFile.h"
+#include "io/board/ReplaySource.h"
+#include "tests/io/Refusal.h"
+#include "tests/io/TemporaryFolder.h"
+#include "tests/io/board/SmallBoard.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+namespace palp {
+namespace {
+
+using Kind = RecordingEntry::Kind;
+
+RecordingHead smallHead() {
+  return {smallBoard().info, smallBoard().configuration, "SMALL-1 at /dev/hidraw0", "0123456789abcdef", 1'700'000'000};
+}
+
+/// 30 reports at 1000/s with a mark after the tenth.
+std::vector<Bytes> record(const std::filesystem::path& path) {
+  Board board = boardWith(smallBoard());
+  const std::vector<Bytes> reports = reportsOf(board, 30);
+  RecordingWriter writer(path, smallHead(), true);
+  const std::string mark = "pressed";
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    writer.append(Kind::Raw, 100 + 1e-3 * static_cast<double>(i), reports[i]);
+    if (i == 9) writer.append(Kind::Mark, 100.0095, {reinterpret_cast<const std::uint8_t*>(mark.data()), mark.size()});
+  }
+  EXPECT_EQ(writer.reports(), 30U);
+  EXPECT_EQ(writer.dropped(), 0U);
+  EXPECT_EQ(writer.failure(), "");
+  return reports;
+}
+
+TEST(Recording, ReadsBackWhatWasWritten) {
+  const TemporaryFolder folder;
+  const std::vector<Bytes> reports = record(folder / "a.palprec");
+  RecordingReader reader(folder / "a.palprec");
+  EXPECT_EQ(reader.head().info, smallBoard().info);
+  EXPECT_EQ(reader.head().configuration, smallBoard().configuration);
+  EXPECT_EQ(reader.head().source, "SMALL-1 at /dev/hidraw0");
+  EXPECT_EQ(reader.head().networkFingerprint, "0123456789abcdef");
+  EXPECT_EQ(reader.head().startedUnix_s, 1'700'000'000);
+  std::vector<Bytes> back;
+  std::string mark;
+  while (const auto entry = reader.next()) {
+    if (entry->kind == Kind::Raw) back.push_back(entry->bytes);
+    if (entry->kind == Kind::Mark) mark.assign(entry->bytes.begin(), entry->bytes.end());
+  }
+  EXPECT_EQ(back, reports);
+  EXPECT_EQ(mark, "pressed");
+  EXPECT_FALSE(reader.cutOff());
+}
+
+TEST(Recording, OpensToItsLastWholeReportWhereverItIsCutOff) {
+  const TemporaryFolder folder;
+  record(folder / "a.palprec");
+  const std::string whole = readFile(folder / "a.palprec");
+  const std::size_t entries = whole.size() - 30 * 76 - (12 + 7); // head
+  for (std::size_t length = 0; length < whole.size(); ++length) {
+    auto stream = std::make_unique<std::istringstream>(whole.substr(0, length));
+    if (length < entries) {
+      EXPECT_FALSE(refusal([&] { RecordingReader(std::move(stream), "a"); }).empty()) << length;
+      continue;
+    }
+    RecordingReader reader(std::move(stream), "a");
+    std::size_t count = 0;
+    while (const auto entry = reader.next()) count += entry->kind == Kind::Raw;
+    const std::size_t body = length - entries;
+    EXPECT_EQ(count, body < 760 + 19 ? std::min<std::size_t>(body / 76, 10) : (body - 19) / 76) << length;
+  }
+}
+
+TEST(Recording, IsOnDiskASecondLaterWithoutAnEnd) {
+  const TemporaryFolder folder;
+  Board board = boardWith(smallBoard());
+  RecordingWriter writer(folder / "a", smallHead(), false);
+  writer.append(Kind::Raw, 1, reportsOf(board, 1)[0]);
+  for (int i = 0; i < 100 && !RecordingReader(folder / "a").next(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  EXPECT_TRUE(RecordingReader(folder / "a").next());
+}
+
+TEST(Recording, RefusesWhatIsNone) {
+  const TemporaryFolder folder;
+  put(folder / "text", "hello, this is no recording at all");
+  put(folder / "long", std::string("PALPREC1\xff\xff\xff\x7f") + std::string(100, ' '));
+  put(folder / "json", std::string("PALPREC1\x02\0\0\0{}", 14));
+  EXPECT_NE(refusal([&] { RecordingReader(folder / "text"); }).find("no recording"), std::string::npos);
+  EXPECT_NE(refusal([&] { RecordingReader(folder / "long"); }).find("head"), std::string::npos);
+  EXPECT_NE(refusal([&] { RecordingReader(folder / "json"); }).find("palp_recording"), std::string::npos);
+  EXPECT_NE(refusal([&] { RecordingReader(folder / "none"); }).find("cannot be read"), std::string::npos);
+  EXPECT_NE(refusal([&] { RecordingReader(folder.path()); }).find("cannot be read"), std::string::npos);
+}
+
+TEST(Recording, RefusesToOverwriteAndSaysThatTheDiskIsFull) {
+  const TemporaryFolder folder;
+  put(folder / "a", "precious");
+  EXPECT_NE(refusal([&] { RecordingWriter(folder / "a", smallHead(), false); }).find("--force"), std::string::npos);
+  EXPECT_NE(refusal([&] { RecordingWriter("/dev/full", smallHead(), true); }).find("No space"), std::string::npos);
+}
+
+std::size_t replayed(ReplaySource& source) {
+  RawReport report;
+  std::size_t count = 0;
+  while (source.read(report, std::chrono::milliseconds(50)) == ReportSource::Outcome::Read) ++count;
+  return count;
+}
+
+TEST(ReplaySource, GivesTheReportsAgainWithTheirTimes) {
+  const TemporaryFolder folder;
+  const std::vector<Bytes> reports = record(folder / "a");
+  auto control = std::make_shared<ReplayControl>();
+  control->speed = 0;
+  ReplaySource source(folder / "a", control);
+  RawReport report;
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    ASSERT_EQ(source.read(report, std::chrono::milliseconds(1)), ReportSource::Outcome::Read);
+    EXPECT_EQ(report.bytes, reports[i]);
+    EXPECT_EQ(report.hostTime_s, 100 + 1e-3 * static_cast<double>(i));
+  }
+  EXPECT_EQ(source.mark(), "pressed");
+  EXPECT_EQ(source.read(report, std::chrono::milliseconds(1)), ReportSource::Outcome::End);
+}
+
+TEST(ReplaySource, PlaysInItsOwnTimeOrFaster) {
+  const TemporaryFolder folder;
+  record(folder / "a");
+  for (const double speed : {1.0, 4.0}) {
+    auto control = std::make_shared<ReplayControl>();
+    control->speed = speed;
+    ReplaySource source(folder / "a", control);
+    const double start_s = hostClock_s();
+    EXPECT_EQ(replayed(source), 30U);
+    EXPECT_GE(hostClock_s() - start_s, 0.9 * 0.029 / speed); // never ahead of its time; how late is the machine's
+  }
+}
+
+TEST(ReplaySource, StandsStillWhilePaused) {
+  const TemporaryFolder folder;
+  record(folder / "a");
+  auto control = std::make_shared<ReplayControl>();
+  control->paused = true;
+  ReplaySource source(folder / "a", control);
+  RawReport report;
+  EXPECT_EQ(source.read(report, std::chrono::milliseconds(1)), ReportSource::Outcome::Nothing);
+  control->steps = 1;
+  EXPECT_EQ(source.read(report, std::chrono::milliseconds(1)), ReportSource::Outcome::Read);
+  control->paused = false;
+  EXPECT_EQ(replayed(source), 29U);
+}
+
+} // namespace
+} // namespace palp
