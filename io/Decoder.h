@@ -76,6 +76,7 @@ struct Decoder {
   Eigen::VectorXd low_N, high_N;     ///< training range of each output
   Eigen::MatrixXd residual_N;        ///< outputs x areas (1 where unknown): rms error found in training, per area
   std::optional<ForwardModel> areas; ///< tells which area is touched; none for `together` or where there is one area
+  std::vector<int> areaOfClass;      ///< area of each class of `areas` (or of the maximum likelihood decoder)
   FitReport report;                  ///< of the fit; sizes in N
 
   [[nodiscard]] Eigen::Index outputs() const { return low_N.size(); }

@@ -16,7 +16,7 @@ namespace palp {
 struct BackPropagationNetwork {
   FeatureScaler inputScaler;
   FeatureScaler outputScaler;
-  Eigen::MatrixXd components;    ///< components x inputs: the scaled inputs' principal directions
+  Eigen::MatrixXd components;    ///< components x inputs: the scaled inputs' principal directions, to variance 1
   Eigen::MatrixXd hiddenWeights; ///< hidden x components
   Eigen::VectorXd hiddenBias;
   Eigen::MatrixXd outputWeights; ///< outputs x hidden
@@ -29,7 +29,7 @@ struct BackPropagationNetwork {
 
 struct BackPropagationOptions {
   int hidden = 20;
-  int iterations = 300;
+  int iterations = 1500;      ///< steps of the optimiser at most
   double heldOutShare = 0.15; ///< of the samples: training stops where their error no longer falls
   double relativeInputNoise = 0;
   std::uint64_t seed = 1;

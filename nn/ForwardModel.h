@@ -10,7 +10,7 @@ namespace palp {
 /// For each class a polynomial in the causes y (a few numbers) that gives the measurements x (many numbers): the
 /// forward direction, smooth and well-posed, which is then inverted by maximum likelihood.
 struct ForwardModel {
-  int degree = 3;
+  int degree = 4;
   Eigen::VectorXd causeOffset, causeFactor;  ///< causes to [-1, 1]: (y - offset) * factor
   std::vector<Eigen::MatrixXd> coefficients; ///< one a class: measurements x monomials
   Eigen::VectorXd deviation; ///< standard deviation of each measurement: noise and the model's own error
@@ -24,7 +24,7 @@ struct ForwardModel {
 };
 
 struct ForwardModelOptions {
-  int degree = 3;
+  int degree = 4;
   double relativeNoise = 0; ///< of each measurement
 };
 
@@ -34,13 +34,15 @@ ForwardModel fitForwardModel(const Eigen::Ref<const Eigen::MatrixXd>& measuremen
                              const Eigen::Ref<const Eigen::MatrixXd>& causes, const Eigen::VectorXi& classes,
                              const ForwardModelOptions& options, std::vector<std::string>* warnings = nullptr);
 
-/// Most likely class and causes of one measurement vector, causes within their training box (a uniform prior).
+/// Most likely class of one measurement vector, and its causes: maximum likelihood with the prior knowledge that each
+/// cause has the variance of its training range (which counts only where the noise is large), averaged over the classes
+/// by their probability where the class is in doubt.
 struct LikelihoodEstimate {
   int classIndex = 0;
   double confidence = 1; ///< posterior probability of the class (Laplace approximation)
   Eigen::VectorXd causes;
   Eigen::VectorXd standardDeviation;
-  double chiSquare = 0; ///< of the residual, a measurement: 1 where model and noise fit
+  double chiSquare = 0; ///< mean square of the residual, a measurement: 1 where model and noise fit
 };
 LikelihoodEstimate maximumLikelihood(const ForwardModel& model, const Eigen::Ref<const Eigen::VectorXd>& measurement);
 

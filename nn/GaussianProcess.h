@@ -15,21 +15,23 @@ namespace palp {
 /// (Rasmussen and Williams 2006, 5.4.1). Its mean is an RBF network; it knows its variance too.
 struct GaussianProcess {
   RbfNetwork mean;
-  Eigen::VectorXd outputVariance; ///< signal variance of each output
-  double linearVariance = 0;      ///< of the linear kernel, against the squared exponential
-  double biasVariance = 0;
-  double noiseVariance = 0; ///< of the targets, against the squared exponential
-  Eigen::MatrixXd factor;   ///< lower Cholesky factor of the kernel matrix with noise
+  Eigen::VectorXd outputVariance; ///< of each output's squared exponential kernel
+  double linearVariance = 0;      ///< of the linear kernel 1 + x.z, against the squared exponential's
+  double noiseVariance = 0;       ///< of the targets, against the squared exponential's
+  Eigen::MatrixXd factor;         ///< lower Cholesky factor of the kernel matrix with noise; centres as the mean's
 
+  [[nodiscard]] Eigen::Index inputs() const { return mean.inputs(); }
+  [[nodiscard]] Eigen::Index outputs() const { return mean.outputs(); }
   [[nodiscard]] Eigen::MatrixXd predict(const Eigen::Ref<const Eigen::MatrixXd>& samples) const {
     return mean.predict(samples);
   }
-  /// Standard deviation of the latent function with the noise, outputs x samples.
+  /// Standard deviation of a new target (function and noise), outputs x samples.
   [[nodiscard]] Eigen::MatrixXd standardDeviation(const Eigen::Ref<const Eigen::MatrixXd>& samples) const;
 };
 
 struct GaussianProcessOptions {
   Scaling scaling = Scaling::Global;
+  int mostSamples = 1000; ///< more are thinned out evenly
   double relativeInputNoise = 0;
   std::uint64_t seed = 1;
 };
@@ -37,12 +39,14 @@ struct GaussianProcessOptions {
 struct GaussianProcessFit {
   GaussianProcess process;
   double logLikelihood = 0;
-  int evaluations = 0;
+  int evaluations = 0; ///< of the likelihood
   double condition = 0;
-  Eigen::MatrixXd leaveOneOutResiduals;
+  Eigen::MatrixXd leaveOneOutResiduals; ///< outputs x samples in use
+  Eigen::VectorXi used;                 ///< which samples
   std::vector<std::string> warnings;
 };
 
+/// Throws NetworkError for data from which nothing can be made.
 GaussianProcessFit trainGaussianProcess(const Eigen::Ref<const Eigen::MatrixXd>& samples,
                                         const Eigen::Ref<const Eigen::MatrixXd>& targets,
                                         const GaussianProcessOptions& options = {}, const std::stop_token& stop = {});

@@ -4,8 +4,7 @@
 #include "nn/KMeans.h"
 #include "nn/KernelProblem.h"
 #include "nn/NoisyCopies.h"
-
-#include <Eigen/Cholesky>
+#include "nn/RidgeFit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,13 +23,6 @@ Eigen::MatrixXd chooseCenters(const Eigen::MatrixXd& scaled, const RbfOptions& o
   return scaled(Eigen::all, randomColumns(samples, count, options.seed));
 }
 
-/// Every column `copies` times in a row.
-Eigen::MatrixXd repeated(const Eigen::MatrixXd& columns, Eigen::Index copies) {
-  Eigen::MatrixXd result(columns.rows(), columns.cols() * copies);
-  for (Eigen::Index i = 0; i < result.cols(); ++i) result.col(i) = columns.col(i / copies);
-  return result;
-}
-
 } // namespace
 
 LeastSquaresProblem::LeastSquaresProblem(const Eigen::Ref<const Eigen::MatrixXd>& samples,
@@ -42,7 +34,7 @@ LeastSquaresProblem::LeastSquaresProblem(const Eigen::Ref<const Eigen::MatrixXd>
       centers_(chooseCenters(scaler_.apply(samples), options)), distances_(squaredDistances(rows_, centers_)),
       tail_(affordableTail(options.tail, rows_)),
       tailIsUnknown_(tail_ == Tail::LinearPenalised || options.solver == Solver::Recursive),
-      space_(rows_, tailIsUnknown_ ? Tail::None : tail_), targets_(repeated(targets, copies_)),
+      space_(rows_, tailIsUnknown_ ? Tail::None : tail_), targets_(repeatedColumns(targets, copies_)),
       shift_(tail_ == Tail::None ? Eigen::VectorXd::Zero(targets.rows()) : Eigen::VectorXd(targets.rowwise().mean())),
       right_(space_.project((targets_.colwise() - shift_).transpose())) {}
 
@@ -102,24 +94,10 @@ std::vector<LeaveOneOutResult> LeastSquaresProblem::leaveOneOut(double spread,
       return s > options_.rcond * svd.values(0) ? s * s / (s * s + scaledRidge) : 0.0;
     });
     const Eigen::MatrixXd remainder = whole - lapack::product(left, false, filter.asDiagonal() * rotated, false);
-    results.push_back(summarised(spread, ridge, leftOut(remainder, left, filter, tailBasis), targets_));
+    results.push_back(summarised(
+        spread, ridge, leftOutErrors(remainder, left * filter.cwiseSqrt().asDiagonal(), tailBasis, copies_), targets_));
   }
   return results;
-}
-
-/// e_g = (I - H_gg)^-1 r_g: all copies of a sample are left out together. H is the hat matrix.
-Eigen::MatrixXd LeastSquaresProblem::leftOut(const Eigen::MatrixXd& remainder, const Eigen::MatrixXd& left,
-                                             const Eigen::VectorXd& filter, const Eigen::MatrixXd& tailBasis) const {
-  Eigen::MatrixXd residuals(remainder.cols(), remainder.rows());
-  const Eigen::MatrixXd weighted = left * filter.cwiseSqrt().asDiagonal();
-  for (Eigen::Index first = 0; first < remainder.rows(); first += copies_) {
-    const Eigen::MatrixXd group = weighted.middleRows(first, copies_), tailGroup = tailBasis.middleRows(first, copies_);
-    Eigen::MatrixXd kept = -group * group.transpose() - tailGroup * tailGroup.transpose();
-    // A sample that alone holds a direction cannot be left out: its error is then what is left, not a division by 0.
-    kept.diagonal().array() += 1 + 1e-14;
-    residuals.middleCols(first, copies_) = kept.ldlt().solve(remainder.middleRows(first, copies_)).transpose();
-  }
-  return residuals;
 }
 
 } // namespace palp

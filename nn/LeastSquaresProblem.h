@@ -23,8 +23,6 @@ public:
 private:
   /// Gaussians at the rows, with the tail's columns where it is among the unknowns; rows x unknowns, projected.
   [[nodiscard]] Eigen::MatrixXd system(double spread) const;
-  [[nodiscard]] Eigen::MatrixXd leftOut(const Eigen::MatrixXd& remainder, const Eigen::MatrixXd& left,
-                                        const Eigen::VectorXd& filter, const Eigen::MatrixXd& tailBasis) const;
   [[nodiscard]] double tailFactor() const;
 
   RbfOptions options_;

@@ -17,7 +17,7 @@ constexpr int gridSpreads = 24;
 constexpr int refinements = 10;
 
 void stopIfAsked(const std::stop_token& stop) {
-  if (stop.stop_requested()) throw NetworkError("cancelled");
+  if (stop.stop_requested()) throw Cancelled();
 }
 
 std::vector<double> ridgesOf(const RbfOptions& options) {

@@ -9,4 +9,9 @@ struct NetworkError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The work was stopped by a stop token before there was a result.
+struct Cancelled : NetworkError {
+  Cancelled() : NetworkError("cancelled") {}
+};
+
 } // namespace palp

@@ -4,37 +4,44 @@
 
 #include <Eigen/Core>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace palp {
 
-/// Least squares on all monomials up to a degree of the inputs' principal components; degree 1 on all components is
-/// plain linear least squares, the baseline.
+/// Least squares on all monomials of the inputs up to a degree. Degree 1 is plain linear least squares, the baseline.
+/// Higher ones stand in the form of a kernel, F(x) = sum_i w_i (1 + s(x).s(x_i) / size)^degree + b: the same as all
+/// monomials with a ridge, however many there are.
 struct PolynomialRidge {
   int degree = 1;
   FeatureScaler scaler;
-  Eigen::MatrixXd components;   ///< components x inputs, of the scaled inputs
-  Eigen::MatrixXd coefficients; ///< outputs x monomials
+  double size = 1;         ///< what the scaled inputs' products are divided by
+  Eigen::MatrixXd centers; ///< scaled inputs x samples; degree 1: empty
+  Eigen::MatrixXd weights; ///< outputs x samples; degree 1: outputs x inputs
+  Eigen::VectorXd bias;
 
   [[nodiscard]] Eigen::Index inputs() const { return scaler.offset.size(); }
-  [[nodiscard]] Eigen::Index outputs() const { return coefficients.rows(); }
+  [[nodiscard]] Eigen::Index outputs() const { return bias.size(); }
+  /// Outputs x samples.
   [[nodiscard]] Eigen::MatrixXd predict(const Eigen::Ref<const Eigen::MatrixXd>& samples) const;
+  /// dF/dx at one sample, outputs x inputs.
+  [[nodiscard]] Eigen::MatrixXd jacobian(const Eigen::Ref<const Eigen::VectorXd>& sample) const;
 };
 
 struct PolynomialOptions {
   int degree = 1;
-  std::optional<double> ridge; ///< none: by leave-one-out
+  /// Against the largest squared singular value. None: by leave-one-out; but 0 for degree 1 without noise.
+  std::optional<double> ridge;
   double relativeInputNoise = 0;
+  int noiseCopies = 10;
   std::uint64_t seed = 1;
 };
 
 struct PolynomialFit {
   PolynomialRidge model;
   double ridge = 0;
-  int components = 0;
-  int monomials = 0;
   double condition = 0;
   int rank = 0;
   Eigen::MatrixXd leaveOneOutResiduals; ///< outputs x samples

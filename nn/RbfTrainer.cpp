@@ -69,7 +69,7 @@ RbfFit trainRbf(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen::R
   requireUsable(samples, targets, options);
   const std::unique_ptr<RbfProblem> problem = rbfProblem(samples, targets, options, options.noiseCopies);
   const auto [spread, ridge] = spreadAndRidge(samples, targets, options, *problem, stop);
-  if (stop.stop_requested()) throw NetworkError("cancelled");
+  if (stop.stop_requested()) throw Cancelled();
 
   RbfSolution solution = problem->solve(spread, ridge);
   RbfFit fit;

@@ -17,7 +17,8 @@ namespace palp {
 Eigen::MatrixXd inputsOf(const SampleSet& samples, const DecoderInput& input);
 
 /// Fits a decoder. `design` is needed by two-step-gn only (Eq. (1)); without it that one throws Error, as everything
-/// does from which no decoder can be made. `progress` gets a share 0..1 and what is being done.
+/// does from which no decoder can be made, and Cancelled (nn/NetworkError.h) where it was stopped. `progress` gets a
+/// share 0..1 and what is being done.
 Decoder trainDecoder(const SampleSet& samples, const SensorDesign* design, const TrainOptions& options,
                      const std::stop_token& stop = {},
                      const std::function<void(double, const std::string&)>& progress = {});

@@ -33,6 +33,9 @@ struct TrainOptions {
 /// The one place where a mode becomes options (see PHYSICS.md, the two modes): for `samples` samples.
 RbfOptions rbfOptions(const TrainOptions& options, Eigen::Index samples);
 
+/// The options as on the command line, those alone that were set: " --input resistance --rows all".
+std::string asCommand(const TrainOptions& options);
+
 /// Row-wires of "4", "1,4,7" or "all", ascending, without repeats. Throws Error where one is not among 0..rowWires-1.
 std::vector<int> rowsNamed(const std::string& rows, int rowWires);
 
