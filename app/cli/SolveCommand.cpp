@@ -115,12 +115,11 @@ Exit run(const SolveArguments& arguments, Session& session) {
   Touch touch(design, load, arguments.mesh.options());
   NewtonOptions options;
   options.threads = session.threads;
-  if (const auto accuracy = arguments.mesh.relativeAccuracy())
-    if (auto mesh =
-            session.stages.measure("mesh", [&] { return meshForAccuracy(design, load, *accuracy, session.stop); }))
-      touch.setMesh(std::move(*mesh));
-    else
-      return Exit::NoResult; // cancelled
+  if (const auto accuracy = arguments.mesh.relativeAccuracy()) {
+    auto mesh = session.stages.measure("mesh", [&] { return meshForAccuracy(design, load, *accuracy, session.stop); });
+    if (!mesh) return Exit::NoResult; // cancelled
+    touch.setMesh(std::move(*mesh));
+  }
   touch.advance(Stage::Resistances, options, observer(session));
   session.stages.add(touch.stages());
   std::optional<DiscretisationError> error;
