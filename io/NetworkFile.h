@@ -7,14 +7,15 @@
 
 namespace palp {
 
-/// The decoder as JSON, 17 significant digits a number: reads back to the same bits.
+/// The decoder as the text of its JSON file; numbers read back to the same bits.
 std::string networkText(const Decoder& decoder);
-/// `name` stands in the sentences of errors. Throws Error naming file and key: unknown key, missing key, wrong type,
-/// sizes that do not fit together, a number that is none, a newer version, a truncated file.
-Decoder parseNetwork(const std::string& text, const std::string& name);
+/// `file` stands in the sentences of refusals. Throws Error naming file and key: unknown key, missing key, wrong type,
+/// sizes that do not fit together, a newer version, a truncated file.
+Decoder parseNetwork(const std::string& json, const std::string& file);
 
-/// Written beside and renamed.
-void writeNetwork(const Decoder& decoder, const std::filesystem::path& file);
-Decoder readNetwork(const std::filesystem::path& file);
+/// Throws Error.
+Decoder readNetwork(const std::filesystem::path& path);
+/// Written beside and renamed. Throws Error where the file exists and `force` is false.
+void writeNetwork(const Decoder& decoder, const std::filesystem::path& path, bool force = true);
 
 } // namespace palp

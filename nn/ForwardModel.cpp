@@ -10,6 +10,13 @@
 #include <string>
 
 namespace palp {
+
+Eigen::Index monomialCount(Eigen::Index causes, int degree) {
+  double count = 1;
+  for (int d = 1; d <= degree; ++d) count = count * static_cast<double>(causes + d) / d;
+  return static_cast<Eigen::Index>(std::llround(std::min(count, 1e15)));
+}
+
 namespace {
 
 /// Exponents of all monomials of `causes` variables up to `degree`, one column each, the constant first.
@@ -54,12 +61,6 @@ Eigen::VectorXd monomials(const Eigen::MatrixXi& exponent, const Eigen::VectorXd
     }
   }
   return value;
-}
-
-Eigen::Index monomialCount(Eigen::Index causes, int degree) {
-  double count = 1;
-  for (int d = 1; d <= degree; ++d) count = count * static_cast<double>(causes + d) / d;
-  return static_cast<Eigen::Index>(std::llround(std::min(count, 1e15)));
 }
 
 /// The highest degree whose monomials are at most half as many as the samples of every class.

@@ -23,6 +23,9 @@ struct ForwardModel {
                                                Eigen::MatrixXd* jacobian = nullptr) const;
 };
 
+/// Number of monomials of `causes` variables up to `degree`, the constant among them.
+Eigen::Index monomialCount(Eigen::Index causes, int degree);
+
 struct ForwardModelOptions {
   int degree = 4;
   double relativeNoise = 0; ///< of each measurement

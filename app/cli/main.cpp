@@ -13,6 +13,12 @@ int main(int argc, char** argv) {
     palp::addSample(cli);
     palp::addMerge(cli);
     palp::addReproduce(cli);
+    palp::addTrain(cli);
+    palp::addPredict(cli);
+    palp::addSweep(cli);
+    palp::addReport(cli);
+    palp::addListen(cli);
+    palp::addCalibrate(cli);
     return cli.main(argc, argv);
   } catch (const std::exception& unexpected) { // the last resort: a mistake of ours, not of the user's
     std::cerr << "palp: internal error: " << unexpected.what() << '\n';

@@ -194,9 +194,13 @@ Prediction predict(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixX
 Prediction predict(const Decoder& decoder, const SampleSet& samples, const PredictOptions& options) {
   Prediction result = predict(decoder, inputsOf(samples, decoder.input), options);
   if (samples.origin.designFingerprint != decoder.designFingerprint)
-    result.warnings.push_back("the samples are of another design (" + samples.origin.designFingerprint +
-                              ") than the decoder (" + decoder.designFingerprint + "): its forces mean little there");
+    result.warnings.push_back(otherDesign(decoder, samples));
   return result;
+}
+
+std::string otherDesign(const Decoder& decoder, const SampleSet& samples) {
+  return "the samples are of another design (" + samples.origin.designFingerprint + ") than the decoder (" +
+         decoder.designFingerprint + "): its forces mean little there";
 }
 
 DecoderError decoderError(const Decoder& decoder, const Prediction& prediction, const SampleSet& samples) {

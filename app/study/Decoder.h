@@ -46,6 +46,9 @@ Prediction predict(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixX
 /// The same from a set; warns where the set is of another design.
 Prediction predict(const Decoder& decoder, const SampleSet& samples, const PredictOptions& options = {});
 
+/// The sentence for samples of another design than the decoder's.
+std::string otherDesign(const Decoder& decoder, const SampleSet& samples);
+
 /// Errors against the forces in the set, in % of the training range; where areas were told, the share of right ones.
 struct DecoderError {
   PredictionError error;

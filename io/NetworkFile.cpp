@@ -1,0 +1,207 @@
+#include "io/NetworkFile.h"
+
+#include "io/AtomicFile.h"
+#include "io/NetworkJson.h"
+#include "model/Error.h"
+
+#include <cmath>
+#include <limits>
+
+namespace palp {
+namespace {
+
+constexpr int newestVersion = 1;
+
+OrderedJson inputJson(const DecoderInput& input) {
+  return {{"kind", name(input.kind)},    {"rows", input.rows},
+          {"row_wires", input.rowWires}, {"values_per_row", input.valuesPerRow},
+          {"low", toJson(input.low)},    {"high", toJson(input.high)}};
+}
+
+OrderedJson reportJson(const FitReport& report) {
+  return {{"spread", report.spread},
+          {"ridge", report.ridge},
+          {"centers", report.centers},
+          {"condition", std::isfinite(report.condition) ? OrderedJson(report.condition) : OrderedJson()},
+          {"rank", report.rank},
+          {"largest_weight", report.largestWeight},
+          {"leave_one_out_N", toJson(report.leaveOneOut)},
+          {"seconds", report.seconds},
+          {"warnings", report.warnings}};
+}
+
+DecoderInput readInput(const JsonPlace& place) {
+  place.onlyKeys({"kind", "rows", "row_wires", "values_per_row", "low", "high"});
+  DecoderInput input;
+  const std::string kind = place.at("kind").string();
+  if (kind != name(InputKind::Displacement) && kind != name(InputKind::Resistance))
+    place.at("kind").refuse("displacement or resistance");
+  input.kind = inputKindNamed(kind);
+  input.rows = readIntegers(place.at("rows"));
+  input.rowWires = place.at("row_wires").integer();
+  input.valuesPerRow = place.at("values_per_row").integer();
+  if (input.valuesPerRow < 1) place.at("values_per_row").refuse("1 or more");
+  for (const int row : input.rows)
+    if (row < 0 || row >= input.rowWires) place.at("rows").refuse("0 to " + std::to_string(input.rowWires - 1));
+  input.low = readVector(place.at("low"));
+  input.high = readVector(place.at("high"));
+  const Eigen::Index inputs = static_cast<Eigen::Index>(input.rows.size()) * input.valuesPerRow;
+  requireSize(place.at("low"), input.low.size(), inputs, "numbers, one an input");
+  requireSize(place.at("high"), input.high.size(), inputs, "numbers, one an input");
+  return input;
+}
+
+FitReport readReport(const JsonPlace& place) {
+  place.onlyKeys(
+      {"spread", "ridge", "centers", "condition", "rank", "largest_weight", "leave_one_out_N", "seconds", "warnings"});
+  FitReport report;
+  report.spread = place.at("spread").number();
+  report.ridge = place.at("ridge").number();
+  report.centers = place.at("centers").integer();
+  report.condition =
+      place.at("condition").isNull() ? std::numeric_limits<double>::infinity() : place.at("condition").number();
+  report.rank = place.at("rank").integer();
+  report.largestWeight = place.at("largest_weight").number();
+  report.leaveOneOut = readVector(place.at("leave_one_out_N"));
+  report.seconds = place.at("seconds").number();
+  for (const JsonPlace& warning : place.at("warnings").list()) report.warnings.push_back(warning.string());
+  return report;
+}
+
+void readModel(const JsonPlace& place, const std::string& file, Decoder& decoder) {
+  switch (decoder.kind) {
+  case DecoderKind::Rbf:
+    decoder.model = readRbf(place);
+    return;
+  case DecoderKind::Linear:
+  case DecoderKind::Polynomial2:
+  case DecoderKind::Polynomial3:
+    decoder.model = readPolynomial(place);
+    return;
+  case DecoderKind::GaussianProcess:
+    decoder.model = readGaussianProcess(place);
+    return;
+  case DecoderKind::BackPropagation:
+    decoder.model = readBackPropagation(place);
+    return;
+  case DecoderKind::TwoStepBackPropagation:
+  case DecoderKind::TwoStepGaussNewton:
+    decoder.model = readTwoStep(place, file);
+    return;
+  case DecoderKind::MaximumLikelihood:
+    decoder.model = readForwardModel(place);
+    return;
+  }
+}
+
+Eigen::Index inputsOf(const Decoder& decoder) {
+  return std::visit(
+      [](const auto& model) -> Eigen::Index {
+        using Model = std::decay_t<decltype(model)>;
+        if constexpr (std::is_same_v<Model, ForwardModel>)
+          return model.measurements();
+        else if constexpr (std::is_same_v<Model, TwoStep>)
+          return model.network ? model.network->inputs()
+                               : static_cast<Eigen::Index>(model.rows.size()) * model.design->columnWires();
+        else
+          return model.inputs();
+      },
+      decoder.model);
+}
+
+Eigen::Index outputsOf(const Decoder& decoder) {
+  return std::visit(
+      [](const auto& model) -> Eigen::Index {
+        using Model = std::decay_t<decltype(model)>;
+        if constexpr (std::is_same_v<Model, ForwardModel>)
+          return model.causes();
+        else if constexpr (std::is_same_v<Model, TwoStep>)
+          return model.force.outputs();
+        else
+          return model.outputs();
+      },
+      decoder.model);
+}
+
+void requireFitting(const JsonPlace& root, const Decoder& decoder) {
+  const Eigen::Index outputs = outputsOf(decoder);
+  requireSize(root.at("input"), decoder.inputs(), inputsOf(decoder), "inputs, as the model takes");
+  requireSize(root.at("low_N"), decoder.low_N.size(), outputs, "numbers, one an output");
+  requireSize(root.at("high_N"), decoder.high_N.size(), outputs, "numbers, one an output");
+  requireSize(root.at("residual_N"), decoder.residual_N.rows(), outputs, "rows, one an output");
+  if (decoder.residual_N.cols() < 1) root.at("residual_N").refuse("one column or more");
+  const ForwardModel* told = decoder.areas ? &*decoder.areas : std::get_if<ForwardModel>(&decoder.model);
+  if (decoder.areas)
+    requireSize(root.at("areas"), decoder.areas->measurements(), decoder.inputs(), "measurements, one an input");
+  if (told)
+    requireSize(root.at("area_of_class"), static_cast<Eigen::Index>(decoder.areaOfClass.size()),
+                static_cast<Eigen::Index>(told->classes()), "numbers, one a class");
+}
+
+} // namespace
+
+std::string networkText(const Decoder& decoder) {
+  OrderedJson json = {{"palp_network", newestVersion},
+                      {"decoder", name(decoder.kind)},
+                      {"mode", name(decoder.mode)},
+                      {"trained_with", decoder.trainedWith},
+                      {"design_fingerprint", decoder.designFingerprint},
+                      {"seed", decoder.seed},
+                      {"noise_relative", decoder.noise},
+                      {"input", inputJson(decoder.input)},
+                      {"area_count", decoder.areaCount},
+                      {"together", decoder.together},
+                      {"low_N", toJson(decoder.low_N)},
+                      {"high_N", toJson(decoder.high_N)},
+                      {"residual_N", toJson(decoder.residual_N)},
+                      {"fit", reportJson(decoder.report)}};
+  json["model"] = std::visit([](const auto& model) { return toJson(model); }, decoder.model);
+  json["area_of_class"] = decoder.areaOfClass;
+  json["areas"] = decoder.areas ? toJson(*decoder.areas) : OrderedJson();
+  return json.dump() + "\n";
+}
+
+Decoder parseNetwork(const std::string& text, const std::string& file) {
+  const Json json = parseJson(text, file);
+  const JsonPlace root(json, file);
+  formatVersion(root, "palp_network", newestVersion);
+  root.onlyKeys({"palp_network", "decoder", "mode", "trained_with", "design_fingerprint", "seed", "noise_relative",
+                 "input", "area_count", "together", "low_N", "high_N", "residual_N", "fit", "model", "area_of_class",
+                 "areas"});
+  Decoder decoder;
+  try {
+    decoder.kind = decoderKindNamed(root.at("decoder").string());
+    decoder.mode = networkModeNamed(root.at("mode").string());
+  } catch (const Error& refusal) {
+    throw Error(file + ": " + refusal.what());
+  }
+  decoder.trainedWith = root.at("trained_with").string();
+  decoder.designFingerprint = root.at("design_fingerprint").string();
+  const double seed = root.at("seed").number();
+  if (!(seed >= 0 && seed <= 9e15 && seed == std::floor(seed))) root.at("seed").refuse("a whole number, 0 or more");
+  decoder.seed = static_cast<std::uint64_t>(seed);
+  decoder.noise = root.at("noise_relative").number();
+  if (!(decoder.noise >= 0 && decoder.noise < 1)) root.at("noise_relative").refuse("0 up to below 1");
+  decoder.input = readInput(root.at("input"));
+  decoder.areaCount = root.at("area_count").integer();
+  decoder.together = root.at("together").boolean();
+  decoder.low_N = readVector(root.at("low_N"));
+  decoder.high_N = readVector(root.at("high_N"));
+  decoder.residual_N = readMatrix(root.at("residual_N"));
+  decoder.report = readReport(root.at("fit"));
+  readModel(root.at("model"), file, decoder);
+  decoder.areaOfClass = readIntegers(root.at("area_of_class"));
+  if (!root.at("areas").isNull()) decoder.areas = readForwardModel(root.at("areas"));
+  requireFitting(root, decoder);
+  return decoder;
+}
+
+Decoder readNetwork(const std::filesystem::path& path) {
+  return parseNetwork(readFile(path), path.string());
+}
+
+void writeNetwork(const Decoder& decoder, const std::filesystem::path& path, bool force) {
+  writeFile(path, networkText(decoder), force);
+}
+
+} // namespace palp

@@ -1,0 +1,252 @@
+#include "io/NetworkJson.h"
+
+#include "io/DesignFile.h"
+#include "model/Error.h"
+#include "nn/NetworkError.h"
+
+#include <cmath>
+
+namespace palp {
+namespace {
+
+OrderedJson scalerJson(const FeatureScaler& scaler) {
+  return {{"scaling", name(scaler.scaling)}, {"offset", toJson(scaler.offset)}, {"factor", toJson(scaler.factor)}};
+}
+
+/// A name that nn knows; its refusal becomes one with file and key.
+template <class Named> auto readNamed(const JsonPlace& place, Named&& named, const std::string& allowed) {
+  try {
+    return named(place.string());
+  } catch (const NetworkError&) {
+    place.refuse(allowed);
+  }
+}
+
+FeatureScaler readScaler(const JsonPlace& place) {
+  place.onlyKeys({"scaling", "offset", "factor"});
+  FeatureScaler scaler;
+  scaler.scaling = readNamed(place.at("scaling"), scalingNamed, "raw, minmax, zscore or global");
+  scaler.offset = readVector(place.at("offset"));
+  scaler.factor = readVector(place.at("factor"));
+  requireSize(place.at("factor"), scaler.factor.size(), scaler.offset.size(), "entries, as offset has");
+  return scaler;
+}
+
+double readPositive(const JsonPlace& place) {
+  const double value = place.number();
+  if (!(value > 0)) place.refuse("a number above 0");
+  return value;
+}
+
+} // namespace
+
+void requireSize(const JsonPlace& place, Eigen::Index size, Eigen::Index wanted, const std::string& what) {
+  if (size != wanted) place.refuse(std::to_string(wanted) + " " + what + ", not " + std::to_string(size));
+}
+
+OrderedJson toJson(const Eigen::VectorXd& values) {
+  return std::vector<double>(values.data(), values.data() + values.size());
+}
+
+OrderedJson toJson(const Eigen::MatrixXd& matrix) {
+  return {{"rows", matrix.rows()},
+          {"columns", matrix.cols()},
+          {"values", std::vector<double>(matrix.data(), matrix.data() + matrix.size())}};
+}
+
+OrderedJson toJson(const RbfNetwork& network) {
+  return {{"scaler", scalerJson(network.scaler)},
+          {"spread", network.spread},
+          {"spread_convention", name(network.convention)},
+          {"centers", toJson(network.centers)},
+          {"weights", toJson(network.weights)},
+          {"tail", network.tail.size() == 0 ? OrderedJson() : toJson(network.tail)},
+          {"bias", toJson(network.bias)}};
+}
+
+OrderedJson toJson(const PolynomialRidge& model) {
+  return {{"degree", model.degree},
+          {"scaler", scalerJson(model.scaler)},
+          {"size", model.size},
+          {"centers", model.degree == 1 ? OrderedJson() : toJson(model.centers)},
+          {"weights", toJson(model.weights)},
+          {"bias", toJson(model.bias)}};
+}
+
+OrderedJson toJson(const GaussianProcess& process) {
+  return {{"mean", toJson(process.mean)},
+          {"output_variance", toJson(process.outputVariance)},
+          {"linear_variance", process.linearVariance},
+          {"noise_variance", process.noiseVariance},
+          {"factor", toJson(process.factor)}};
+}
+
+OrderedJson toJson(const BackPropagationNetwork& network) {
+  return {{"input_scaler", scalerJson(network.inputScaler)}, {"output_scaler", scalerJson(network.outputScaler)},
+          {"components", toJson(network.components)},        {"hidden_weights", toJson(network.hiddenWeights)},
+          {"hidden_bias", toJson(network.hiddenBias)},       {"output_weights", toJson(network.outputWeights)},
+          {"output_bias", toJson(network.outputBias)}};
+}
+
+OrderedJson toJson(const TwoStep& decoder) {
+  return {{"network", decoder.network ? toJson(*decoder.network) : OrderedJson()},
+          {"design", decoder.design ? OrderedJson::parse(toJson(*decoder.design)) : OrderedJson()},
+          {"rows", decoder.rows},
+          {"force", toJson(decoder.force)}};
+}
+
+OrderedJson toJson(const ForwardModel& model) {
+  OrderedJson coefficients = OrderedJson::array();
+  for (const Eigen::MatrixXd& matrix : model.coefficients) coefficients.push_back(toJson(matrix));
+  return {{"degree", model.degree},
+          {"cause_offset", toJson(model.causeOffset)},
+          {"cause_factor", toJson(model.causeFactor)},
+          {"deviation", toJson(model.deviation)},
+          {"coefficients", coefficients}};
+}
+
+Eigen::VectorXd readVector(const JsonPlace& place) {
+  const std::vector<double> values = place.numbers();
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+Eigen::MatrixXd readMatrix(const JsonPlace& place) {
+  place.onlyKeys({"rows", "columns", "values"});
+  const int rows = place.at("rows").integer(), columns = place.at("columns").integer();
+  if (rows < 0) place.at("rows").refuse("0 or more");
+  if (columns < 0) place.at("columns").refuse("0 or more");
+  const Eigen::VectorXd values = readVector(place.at("values"));
+  requireSize(place.at("values"), values.size(), static_cast<Eigen::Index>(rows) * columns,
+              "numbers (rows times columns)");
+  return values.reshaped(rows, columns);
+}
+
+std::vector<int> readIntegers(const JsonPlace& place) {
+  std::vector<int> values;
+  for (const JsonPlace& entry : place.list()) values.push_back(entry.integer());
+  return values;
+}
+
+RbfNetwork readRbf(const JsonPlace& place) {
+  place.onlyKeys({"scaler", "spread", "spread_convention", "centers", "weights", "tail", "bias"});
+  RbfNetwork network;
+  network.scaler = readScaler(place.at("scaler"));
+  network.spread = readPositive(place.at("spread"));
+  network.convention = readNamed(place.at("spread_convention"), spreadConventionNamed, "radbas or sigma");
+  network.centers = readMatrix(place.at("centers"));
+  network.weights = readMatrix(place.at("weights"));
+  if (!place.at("tail").isNull()) network.tail = readMatrix(place.at("tail"));
+  network.bias = readVector(place.at("bias"));
+  requireSize(place.at("centers"), network.centers.rows(), network.inputs(), "rows, one an input");
+  requireSize(place.at("weights"), network.weights.cols(), network.centers.cols(), "columns, one a centre");
+  requireSize(place.at("bias"), network.bias.size(), network.outputs(), "entries, one an output");
+  if (network.tail.size() > 0) {
+    requireSize(place.at("tail"), network.tail.rows(), network.outputs(), "rows, one an output");
+    requireSize(place.at("tail"), network.tail.cols(), network.inputs(), "columns, one an input");
+  }
+  return network;
+}
+
+PolynomialRidge readPolynomial(const JsonPlace& place) {
+  place.onlyKeys({"degree", "scaler", "size", "centers", "weights", "bias"});
+  PolynomialRidge model;
+  model.degree = place.at("degree").integer();
+  if (model.degree < 1 || model.degree > 5) place.at("degree").refuse("1 to 5");
+  model.scaler = readScaler(place.at("scaler"));
+  model.size = readPositive(place.at("size"));
+  model.weights = readMatrix(place.at("weights"));
+  model.bias = readVector(place.at("bias"));
+  if (model.degree > 1) {
+    model.centers = readMatrix(place.at("centers"));
+    requireSize(place.at("centers"), model.centers.rows(), model.inputs(), "rows, one an input");
+  }
+  requireSize(place.at("weights"), model.weights.cols(), model.degree == 1 ? model.inputs() : model.centers.cols(),
+              model.degree == 1 ? "columns, one an input" : "columns, one a centre");
+  requireSize(place.at("weights"), model.weights.rows(), model.bias.size(), "rows, one an output");
+  return model;
+}
+
+GaussianProcess readGaussianProcess(const JsonPlace& place) {
+  place.onlyKeys({"mean", "output_variance", "linear_variance", "noise_variance", "factor"});
+  GaussianProcess process;
+  process.mean = readRbf(place.at("mean"));
+  process.outputVariance = readVector(place.at("output_variance"));
+  process.linearVariance = place.at("linear_variance").number();
+  process.noiseVariance = place.at("noise_variance").number();
+  process.factor = readMatrix(place.at("factor"));
+  const Eigen::Index centers = process.mean.centers.cols();
+  requireSize(place.at("output_variance"), process.outputVariance.size(), process.outputs(), "entries, one an output");
+  requireSize(place.at("factor"), process.factor.rows(), centers, "rows, one a centre");
+  requireSize(place.at("factor"), process.factor.cols(), centers, "columns, one a centre");
+  return process;
+}
+
+BackPropagationNetwork readBackPropagation(const JsonPlace& place) {
+  place.onlyKeys({"input_scaler", "output_scaler", "components", "hidden_weights", "hidden_bias", "output_weights",
+                  "output_bias"});
+  BackPropagationNetwork network;
+  network.inputScaler = readScaler(place.at("input_scaler"));
+  network.outputScaler = readScaler(place.at("output_scaler"));
+  network.components = readMatrix(place.at("components"));
+  network.hiddenWeights = readMatrix(place.at("hidden_weights"));
+  network.hiddenBias = readVector(place.at("hidden_bias"));
+  network.outputWeights = readMatrix(place.at("output_weights"));
+  network.outputBias = readVector(place.at("output_bias"));
+  const Eigen::Index hidden = network.hiddenBias.size(), outputs = network.outputBias.size();
+  requireSize(place.at("components"), network.components.cols(), network.inputs(), "columns, one an input");
+  requireSize(place.at("hidden_weights"), network.hiddenWeights.cols(), network.components.rows(),
+              "columns, one a component");
+  requireSize(place.at("hidden_weights"), network.hiddenWeights.rows(), hidden, "rows, one a hidden unit");
+  requireSize(place.at("output_weights"), network.outputWeights.cols(), hidden, "columns, one a hidden unit");
+  requireSize(place.at("output_weights"), network.outputWeights.rows(), outputs, "rows, one an output");
+  requireSize(place.at("output_scaler"), network.outputScaler.offset.size(), outputs, "entries, one an output");
+  return network;
+}
+
+TwoStep readTwoStep(const JsonPlace& place, const std::string& file) {
+  place.onlyKeys({"network", "design", "rows", "force"});
+  TwoStep decoder;
+  if (!place.at("network").isNull()) decoder.network = readBackPropagation(place.at("network"));
+  if (!place.at("design").isNull()) {
+    decoder.design = parseDesign(place.at("design").json().dump(), file + ": model.design");
+    requireValid(*decoder.design);
+  }
+  if (decoder.network.has_value() == decoder.design.has_value())
+    place.refuse("an object with either network or design, and null for the other");
+  decoder.rows = readIntegers(place.at("rows"));
+  decoder.force = readRbf(place.at("force"));
+  if (decoder.network)
+    requireSize(place.at("force"), decoder.force.inputs(), decoder.network->outputs(), "inputs, as step 1 gives");
+  if (decoder.design) {
+    for (const int row : decoder.rows)
+      if (row < 0 || row >= decoder.design->rowWires())
+        place.at("rows").refuse("0 to " + std::to_string(decoder.design->rowWires() - 1));
+    requireSize(place.at("force"), decoder.force.inputs(),
+                static_cast<Eigen::Index>(decoder.rows.size()) * 3 * decoder.design->electrodesPerRowWire(),
+                "inputs, as step 1 gives");
+  }
+  return decoder;
+}
+
+ForwardModel readForwardModel(const JsonPlace& place) {
+  place.onlyKeys({"degree", "cause_offset", "cause_factor", "deviation", "coefficients"});
+  ForwardModel model;
+  model.degree = place.at("degree").integer();
+  if (model.degree < 0 || model.degree > 6) place.at("degree").refuse("0 to 6");
+  model.causeOffset = readVector(place.at("cause_offset"));
+  model.causeFactor = readVector(place.at("cause_factor"));
+  model.deviation = readVector(place.at("deviation"));
+  if (model.causes() < 1) place.at("cause_offset").refuse("one number or more");
+  if (!(model.deviation.array() > 0).all()) place.at("deviation").refuse("numbers above 0");
+  requireSize(place.at("cause_factor"), model.causeFactor.size(), model.causes(), "entries, one a cause");
+  const Eigen::Index monomials = monomialCount(model.causes(), model.degree);
+  for (const JsonPlace& entry : place.at("coefficients").list()) {
+    model.coefficients.push_back(readMatrix(entry));
+    requireSize(entry, model.coefficients.back().rows(), model.measurements(), "rows, one a measurement");
+    requireSize(entry, model.coefficients.back().cols(), monomials, "columns, one a monomial");
+  }
+  if (model.coefficients.empty()) place.at("coefficients").refuse("one matrix or more");
+  return model;
+}
+
+} // namespace palp

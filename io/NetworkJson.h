@@ -1,0 +1,36 @@
+#pragma once
+
+// Private to io: the networks and models of nn as JSON.
+
+#include "io/Decoder.h"
+#include "io/StrictJson.h"
+
+namespace palp {
+
+using OrderedJson = nlohmann::ordered_json;
+
+OrderedJson toJson(const Eigen::VectorXd& values);
+/// { "rows", "columns", "values": column by column }.
+OrderedJson toJson(const Eigen::MatrixXd& matrix);
+OrderedJson toJson(const RbfNetwork& network);
+OrderedJson toJson(const PolynomialRidge& model);
+OrderedJson toJson(const GaussianProcess& process);
+OrderedJson toJson(const BackPropagationNetwork& network);
+OrderedJson toJson(const TwoStep& decoder);
+OrderedJson toJson(const ForwardModel& model);
+
+/// Readers throw Error with file, key, value and what is allowed; sizes that do not fit together too.
+Eigen::VectorXd readVector(const JsonPlace& place);
+Eigen::MatrixXd readMatrix(const JsonPlace& place);
+std::vector<int> readIntegers(const JsonPlace& place);
+RbfNetwork readRbf(const JsonPlace& place);
+PolynomialRidge readPolynomial(const JsonPlace& place);
+GaussianProcess readGaussianProcess(const JsonPlace& place);
+BackPropagationNetwork readBackPropagation(const JsonPlace& place);
+TwoStep readTwoStep(const JsonPlace& place, const std::string& file);
+ForwardModel readForwardModel(const JsonPlace& place);
+
+/// Refuses `place` unless its size is what the rest of the file wants.
+void requireSize(const JsonPlace& place, Eigen::Index size, Eigen::Index wanted, const std::string& what);
+
+} // namespace palp
