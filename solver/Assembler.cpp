@@ -82,69 +82,65 @@ void Assembler::findPattern() {
   pattern_ = std::move(pattern);
 }
 
-void Assembler::resize(ElementArrays& arrays, bool withTangent) const {
-  const std::size_t blocks = mesh_->blocks(), d = mesh_->elementDofs(), x = mesh_->unknowns();
-  arrays.forces.resize(blocks * d * lanes);
-  arrays.local.resize(blocks * x * lanes);
-  if (!withTangent) return;
-  arrays.stiffness.resize(mesh_->elements() * d * (d + 1) / 2);
-  arrays.elimination.resize(blocks * x * d * lanes);
-  arrays.localInverse.resize(blocks * x * (x + 1) / 2 * lanes);
-}
-
-/// kernel(block, input, residual): one call a block; gathers the range of J over all.
+/// kernel(block, displacements, residual): one call a block; gathers the range of J over all.
 template <class Kernel>
-void Assembler::overBlocks(ElementArrays& arrays, int threads, std::stop_token stop, Kernel kernel) const {
+void Assembler::overBlocks(ElementForces& forces, int threads, const std::stop_token& stop, Kernel kernel) const {
   const std::size_t d = mesh_->elementDofs(), x = mesh_->unknowns();
+  forces.forces.resize(mesh_->blocks() * d * lanes);
+  forces.local.resize(mesh_->blocks() * x * lanes);
   std::mutex rangeMutex;
-  arrays.smallestJ = arrays.largestJ = 1;
+  forces.smallestJ = forces.largestJ = 1;
   forChunks(mesh_->blocks(), blocksAChunk, threads, [&](int begin, int end) {
     alignas(64) std::array<double, largestElementDofs * lanes> u;
     alignas(64) std::array<double, 2 * lanes> range;
     range.fill(1);
     for (int b = begin; b < end && !stop.stop_requested(); ++b)
       kernel(b, u.data(),
-             ElementResidual{arrays.forces.data() + b * d * lanes, arrays.local.data() + b * x * lanes, range.data()});
+             ElementResidual{forces.forces.data() + b * d * lanes, forces.local.data() + b * x * lanes, range.data()});
     const std::lock_guard lock(rangeMutex);
-    arrays.smallestJ = std::min(arrays.smallestJ, *std::min_element(range.begin(), range.begin() + lanes));
-    arrays.largestJ = std::max(arrays.largestJ, *std::max_element(range.begin() + lanes, range.end()));
+    forces.smallestJ = std::min(forces.smallestJ, *std::min_element(range.begin(), range.begin() + lanes));
+    forces.largestJ = std::max(forces.largestJ, *std::max_element(range.begin() + lanes, range.end()));
   });
 }
 
-void Assembler::tangent(const ElementState& state, ElementArrays& arrays, int threads, std::stop_token stop) const {
-  resize(arrays, true);
+void Assembler::tangent(const ElementState& state, ElementTangents& tangents, ElementForces& forces, int threads,
+                        const std::stop_token& stop) const {
   const std::size_t d = mesh_->elementDofs(), x = mesh_->unknowns(), entries = d * (d + 1) / 2;
-  overBlocks(arrays, threads, std::move(stop), [&](int b, double* u, const ElementResidual& out) {
+  tangents.stiffness.resize(mesh_->elements() * entries);
+  tangents.elimination.resize(mesh_->blocks() * x * d * lanes);
+  tangents.localInverse.resize(mesh_->blocks() * x * (x + 1) / 2 * lanes);
+  overBlocks(forces, threads, stop, [&](int b, double* u, const ElementResidual& out) {
     LaneVector stiffness(entries * lanes);
     mesh_->gather(b, state.displacements, u);
-    double* elimination = arrays.elimination.data() + b * x * d * lanes;
-    mesh_->kernels().tangent(rubber_, {mesh_->geometry(b), u, state.unknowns.data() + b * x * lanes}, out,
-                             {stiffness.data(), elimination, arrays.localInverse.data() + b * x * (x + 1) / 2 * lanes});
+    double* elimination = tangents.elimination.data() + b * x * d * lanes;
+    mesh_->kernels().tangent(
+        rubber_, {mesh_->geometry(b), u, state.unknowns.data() + b * x * lanes}, out,
+        {stiffness.data(), elimination, tangents.localInverse.data() + b * x * (x + 1) / 2 * lanes});
     mesh_->kernels().condense(elimination, out.local, out.forces);
     for (int lane = 0; lane < lanes && b * lanes + lane < mesh_->elements(); ++lane) {
-      double* k = arrays.stiffness.data() + (b * lanes + lane) * entries;
+      double* k = tangents.stiffness.data() + (b * lanes + lane) * entries;
       for (std::size_t i = 0; i < entries; ++i) k[i] = stiffness[lanes * i + lane];
     }
   });
 }
 
-void Assembler::residual(const ElementState& state, ElementArrays& arrays, int threads) const {
-  resize(arrays, false);
+void Assembler::residual(const ElementState& state, const ElementTangents& tangents, ElementForces& forces,
+                         int threads) const {
   const std::size_t d = mesh_->elementDofs(), x = mesh_->unknowns();
-  overBlocks(arrays, threads, {}, [&](int b, double* u, const ElementResidual& out) {
+  overBlocks(forces, threads, {}, [&](int b, double* u, const ElementResidual& out) {
     mesh_->gather(b, state.displacements, u);
     mesh_->kernels().residual(rubber_, {mesh_->geometry(b), u, state.unknowns.data() + b * x * lanes}, out);
-    mesh_->kernels().condense(arrays.elimination.data() + b * x * d * lanes, out.local, out.forces);
+    mesh_->kernels().condense(tangents.elimination.data() + b * x * d * lanes, out.local, out.forces);
   });
 }
 
-void Assembler::addNodeColumns(const ElementArrays& arrays, int group, std::vector<double>& values) const {
+void Assembler::addNodeColumns(const ElementTangents& tangents, int group, std::vector<double>& values) const {
   const int nodesAnElement = mesh_->kernels().nodes, node = nodeOfGroup_[group];
   const std::size_t d = mesh_->elementDofs(), entries = d * (d + 1) / 2;
   const int firstColumn = pattern_->groupStart[group];
   for (int k = aroundStart_[node]; k < aroundStart_[node + 1]; ++k) {
     const int element = around_[k] / nodesAnElement, a = around_[k] % nodesAnElement;
-    const double* K = arrays.stiffness.data() + element * entries;
+    const double* K = tangents.stiffness.data() + element * entries;
     for (int b = 0; b < nodesAnElement; ++b) {
       const int offset = rowOffset_[std::size_t(around_[k]) * nodesAnElement + b];
       if (offset < 0) continue;
@@ -164,34 +160,34 @@ void Assembler::addNodeColumns(const ElementArrays& arrays, int group, std::vect
   }
 }
 
-std::vector<double> Assembler::matrix(const ElementArrays& arrays, int threads) const {
+std::vector<double> Assembler::matrix(const ElementTangents& tangents, int threads) const {
   std::vector<double> values(pattern_->rows.size());
   forChunks(static_cast<int>(nodeOfGroup_.size()), nodesAChunk, threads, [&](int begin, int end) {
-    for (int g = begin; g < end; ++g) addNodeColumns(arrays, g, values);
+    for (int g = begin; g < end; ++g) addNodeColumns(tangents, g, values);
   });
   return values;
 }
 
-Eigen::VectorXd Assembler::forces(const ElementArrays& arrays, int threads) const {
+Eigen::VectorXd Assembler::sum(const ElementForces& forces, int threads) const {
   const int nodesAnElement = mesh_->kernels().nodes;
   const std::size_t d = mesh_->elementDofs();
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(3 * Eigen::Index(mesh_->nodes()));
+  Eigen::VectorXd total = Eigen::VectorXd::Zero(3 * Eigen::Index(mesh_->nodes()));
   forChunks(mesh_->nodes(), nodesAChunk, threads, [&](int begin, int end) {
     for (int node = begin; node < end; ++node)
       for (int k = aroundStart_[node]; k < aroundStart_[node + 1]; ++k) {
         const int element = around_[k] / nodesAnElement, n = around_[k] % nodesAnElement;
-        const double* f = arrays.forces.data() + (element / lanes) * d * lanes + element % lanes;
-        for (int c = 0; c < 3; ++c) sum(3 * node + c) += f[lanes * (3 * n + c)];
+        const double* f = forces.forces.data() + (element / lanes) * d * lanes + element % lanes;
+        for (int c = 0; c < 3; ++c) total(3 * node + c) += f[lanes * (3 * n + c)];
       }
   });
-  return sum;
+  return total;
 }
 
-Eigen::VectorXd Assembler::stiffnessTimes(const ElementArrays& arrays, const Eigen::VectorXd& du) const {
+Eigen::VectorXd Assembler::stiffnessTimes(const ElementTangents& tangents, const Eigen::VectorXd& du) const {
   const std::size_t d = mesh_->elementDofs(), entries = d * (d + 1) / 2;
   Eigen::VectorXd product = Eigen::VectorXd::Zero(du.size());
   for (int e = 0; e < mesh_->elements(); ++e) {
-    const double* K = arrays.stiffness.data() + e * entries;
+    const double* K = tangents.stiffness.data() + e * entries;
     const auto component = [&](std::size_t i) {
       return 3 * Eigen::Index(mesh_->node(e, static_cast<int>(i) / 3)) + static_cast<int>(i) % 3;
     };
@@ -205,16 +201,17 @@ Eigen::VectorXd Assembler::stiffnessTimes(const ElementArrays& arrays, const Eig
   return product;
 }
 
-LaneVector Assembler::recover(const ElementArrays& arrays, const Eigen::VectorXd& du, int threads) const {
+LaneVector Assembler::recover(const ElementTangents& tangents, const ElementForces& forces, const Eigen::VectorXd& du,
+                              int threads) const {
   const std::size_t d = mesh_->elementDofs(), x = mesh_->unknowns();
   LaneVector dx(mesh_->blocks() * x * lanes);
   forChunks(mesh_->blocks(), blocksAChunk, threads, [&](int begin, int end) {
     alignas(64) std::array<double, largestElementDofs * lanes> u;
     for (int b = begin; b < end; ++b) {
       mesh_->gather(b, du, u.data());
-      mesh_->kernels().recover(arrays.elimination.data() + b * x * d * lanes,
-                               arrays.localInverse.data() + b * x * (x + 1) / 2 * lanes,
-                               arrays.local.data() + b * x * lanes, u.data(), dx.data() + b * x * lanes);
+      mesh_->kernels().recover(tangents.elimination.data() + b * x * d * lanes,
+                               tangents.localInverse.data() + b * x * (x + 1) / 2 * lanes,
+                               forces.local.data() + b * x * lanes, u.data(), dx.data() + b * x * lanes);
     }
   });
   return dx;

@@ -8,15 +8,19 @@
 
 namespace palp {
 
-/// What the assembly leaves of one state. Forces are condensed with the elimination that stands beside them, so that a
-/// modified Newton uses that of the tangent it factorised.
-struct ElementArrays {
-  LaneVector forces;       ///< [blocks][3 nodes][8]
-  LaneVector local;        ///< [blocks][unknowns][8]
+/// Forces and local residuals of one state, condensed with some elimination.
+struct ElementForces {
+  LaneVector forces; ///< [blocks][3 nodes][8]
+  LaneVector local;  ///< [blocks][unknowns][8]
+  double smallestJ = 1, largestJ = 1;
+};
+
+/// The elements' tangents with their own unknowns eliminated. A modified Newton iteration condenses later residuals
+/// with the elimination of the tangent that was factorised.
+struct ElementTangents {
   LaneVector stiffness;    ///< [elements][d (d + 1) / 2]
   LaneVector elimination;  ///< [blocks][unknowns d][8]
   LaneVector localInverse; ///< [blocks][unknowns (unknowns + 1) / 2][8]
-  double smallestJ = 1, largestJ = 1;
 };
 
 /// Sums the elements into global forces and the tangent, whose pattern it finds once. Every sum goes over the elements
@@ -29,27 +33,28 @@ public:
   [[nodiscard]] const RubberConstants& rubber() const { return rubber_; }
   [[nodiscard]] const std::shared_ptr<const SparsePattern>& pattern() const { return pattern_; }
 
-  /// Forces, elimination and element stiffness of the state.
-  void tangent(const ElementState& state, ElementArrays& arrays, int threads, std::stop_token stop) const;
-  /// Forces alone, condensed with the elimination that the arrays hold.
-  void residual(const ElementState& state, ElementArrays& arrays, int threads) const;
+  /// Tangents of the state, and its forces condensed with them.
+  void tangent(const ElementState& state, ElementTangents& tangents, ElementForces& forces, int threads,
+               const std::stop_token& stop) const;
+  /// Forces of the state, condensed with the elimination given.
+  void residual(const ElementState& state, const ElementTangents& tangents, ElementForces& forces, int threads) const;
 
   /// Values of the pattern's entries.
-  [[nodiscard]] std::vector<double> matrix(const ElementArrays& arrays, int threads) const;
+  [[nodiscard]] std::vector<double> matrix(const ElementTangents& tangents, int threads) const;
   /// Internal forces on all components; on the prescribed ones they are the reactions.
-  [[nodiscard]] Eigen::VectorXd forces(const ElementArrays& arrays, int threads) const;
+  [[nodiscard]] Eigen::VectorXd sum(const ElementForces& forces, int threads) const;
   /// Element stiffness times a displacement of all components.
-  [[nodiscard]] Eigen::VectorXd stiffnessTimes(const ElementArrays& arrays, const Eigen::VectorXd& du) const;
+  [[nodiscard]] Eigen::VectorXd stiffnessTimes(const ElementTangents& tangents, const Eigen::VectorXd& du) const;
   /// Change of the elements' unknowns that goes with a change of the displacements.
-  [[nodiscard]] LaneVector recover(const ElementArrays& arrays, const Eigen::VectorXd& du, int threads) const;
+  [[nodiscard]] LaneVector recover(const ElementTangents& tangents, const ElementForces& forces,
+                                   const Eigen::VectorXd& du, int threads) const;
 
 private:
   void findNeighbours();
   void findPattern();
-  void resize(ElementArrays& arrays, bool withTangent) const;
   template <class Kernel>
-  void overBlocks(ElementArrays& arrays, int threads, std::stop_token stop, Kernel kernel) const;
-  void addNodeColumns(const ElementArrays& arrays, int group, std::vector<double>& values) const;
+  void overBlocks(ElementForces& forces, int threads, const std::stop_token& stop, Kernel kernel) const;
+  void addNodeColumns(const ElementTangents& tangents, int group, std::vector<double>& values) const;
 
   std::shared_ptr<const Discretisation> mesh_;
   RubberConstants rubber_;

@@ -1,92 +1,128 @@
 #include "solver/GradedTets.h"
 
 #include "model/Error.h"
+#include "solver/ElementGeometry.h"
+#include "solver/GridLines.h"
 #include "solver/QuadraticTets.h"
-#include "solver/StretchMap.h"
 #include "solver/TetMesher.h"
-
-#include <Eigen/Dense>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 
 namespace palp {
 
 namespace {
 
-constexpr int sideMark = -1;
-constexpr double volumeOfUnitSize = 0.12; // a regular tetrahedron of edge 1 has 0.118
+/// Bends the lifted grid so that TetGen's weighted Delaunay tetrahedra are the path simplices of the cells, mirrored
+/// from cell to cell: the weight grows with the square of the number of odd indices of a point (a function convex in
+/// the set of odd directions, whose extension is linear on the path simplices: Lovasz 1983).
+constexpr double weightOfOddIndices = 0.05;
+constexpr double furthestMove = 0.35; // of a cell, from a grid point to the electrode it is moved to
+constexpr double mostElements = 1e6;
 
-using StretchMaps = std::array<StretchMap, 3>;
+/// Lines along x, y, z; points are numbered along x, then y, then z.
+struct Grid {
+  std::array<std::vector<double>, 3> stops, lines;
 
-StretchMap horizontalMap(double length, int parts, const Grading& grading) {
-  std::vector<FinePlace> places{{0, grading.edge_mm}, {length, grading.edge_mm}};
-  for (int i = 1; i < parts; ++i) places.push_back({length * i / parts, grading.border_mm});
-  return {length, grading.bulk_mm, grading.growth, places};
-}
-
-StretchMaps stretchMaps(const SensorDesign& design, const Grading& grading) {
-  const Eigen::Vector3d& block = design.block_mm;
-  return {horizontalMap(block.x(), design.areas.columns, grading), horizontalMap(block.y(), design.areas.rows, grading),
-          StretchMap(block.z(), grading.vertical_mm, grading.growth,
-                     {{0, grading.bottom_mm}, {block.z(), grading.top_mm}})};
-}
-
-/// Surface of the block: one facet a load area (its mark), the rest marked sideMark; side facets list the points where
-/// the areas' borders meet the rim.
-struct Surface {
-  std::vector<Eigen::Vector3d> points;
-  std::vector<Facet> facets;
+  [[nodiscard]] int count(int d) const { return static_cast<int>(lines[d].size()); }
+  [[nodiscard]] int point(const Eigen::Vector3i& i) const { return (i(2) * count(1) + i(1)) * count(0) + i(0); }
+  [[nodiscard]] double cells() const { return double(count(0) - 1) * (count(1) - 1) * (count(2) - 1); }
+  [[nodiscard]] Eigen::Matrix3Xd indices() const {
+    Eigen::Matrix3Xd all(3, Eigen::Index(count(0)) * count(1) * count(2));
+    for (int k = 0; k < count(2); ++k)
+      for (int j = 0; j < count(1); ++j)
+        for (int i = 0; i < count(0); ++i) all.col(point({i, j, k})) << i, j, k;
+    return all;
+  }
 };
 
-Surface blockSurface(const SensorDesign& design) {
-  const int nx = design.areas.columns, ny = design.areas.rows;
+void setHorizontal(Grid& grid, int d, double length, int parts, const Grading& grading) {
+  SizeAlong size{grading.bulk_mm, grading.growth, {}};
+  for (int i = 0; i <= parts; ++i) {
+    grid.stops[d].push_back(length * i / parts);
+    size.places.push_back({grid.stops[d].back(), i == 0 || i == parts ? grading.edge_mm : grading.border_mm});
+  }
+  grid.lines[d] = gridLines(grid.stops[d], size);
+}
+
+Grid gradedGrid(const SensorDesign& design, const Grading& grading) {
   const Eigen::Vector3d& block = design.block_mm;
-  Surface surface;
-  const auto top = [nx](int i, int j) { return j * (nx + 1) + i; };
-  for (int j = 0; j <= ny; ++j)
-    for (int i = 0; i <= nx; ++i) surface.points.emplace_back(block.x() * i / nx, block.y() * j / ny, block.z());
-  const int bottom = static_cast<int>(surface.points.size());
-  for (const auto& [x, y] : {std::array{0., 0.}, {1., 0.}, {1., 1.}, {0., 1.}})
-    surface.points.emplace_back(block.x() * x, block.y() * y, 0);
-  for (int j = 0; j < ny; ++j)
-    for (int i = 0; i < nx; ++i)
-      surface.facets.push_back({{top(i, j), top(i + 1, j), top(i + 1, j + 1), top(i, j + 1)}, j * nx + i});
-  surface.facets.push_back({{bottom, bottom + 1, bottom + 2, bottom + 3}, sideMark});
-  Facet south{{bottom, bottom + 1}, sideMark}, north{{bottom + 3, bottom + 2}, sideMark};
-  for (int i = nx; i >= 0; --i) {
-    south.corners.push_back(top(i, 0));
-    north.corners.push_back(top(i, ny));
-  }
-  Facet west{{bottom, bottom + 3}, sideMark}, east{{bottom + 1, bottom + 2}, sideMark};
-  for (int j = ny; j >= 0; --j) {
-    west.corners.push_back(top(0, j));
-    east.corners.push_back(top(nx, j));
-  }
-  surface.facets.insert(surface.facets.end(), {south, north, west, east});
-  return surface;
+  Grid grid;
+  setHorizontal(grid, 0, block.x(), design.areas.columns, grading);
+  setHorizontal(grid, 1, block.y(), design.areas.rows, grading);
+  grid.stops[2] = {0, block.z()};
+  grid.lines[2] = gridLines(
+      grid.stops[2], {grading.vertical_mm, grading.growth, {{0, grading.bottom_mm}, {block.z(), grading.top_mm}}});
+  return grid;
 }
 
-/// Back from stretched coordinates; the points of the outside snap to its planes.
-Eigen::Vector3d unstretched(const StretchMaps& maps, const Eigen::Vector3d& block, const Eigen::Vector3d& t) {
-  Eigen::Vector3d x;
+std::vector<double> distinct(const Eigen::Matrix3Xd& points, int d) {
+  std::vector<double> values(points.cols());
+  for (Eigen::Index i = 0; i < points.cols(); ++i) values[i] = points(d, i);
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+
+/// The grid point nearest to an electrode and how far it would move, in cells.
+struct Nearest {
+  Eigen::Vector3i index;
+  Eigen::Vector3d move;
+};
+Nearest nearest(const Grid& grid, const Eigen::Vector3d& p) {
+  Nearest result;
   for (int d = 0; d < 3; ++d) {
-    x(d) = maps[d].unstretched(t(d));
-    if (std::abs(x(d)) < 1e-9 * block(d)) x(d) = 0;
-    if (std::abs(x(d) - block(d)) < 1e-9 * block(d)) x(d) = block(d);
+    const std::vector<double>& lines = grid.lines[d];
+    const auto above = std::lower_bound(lines.begin() + 1, lines.end() - 1, p(d));
+    const double cell = *above - *(above - 1), part = (p(d) - *(above - 1)) / cell;
+    result.index(d) = static_cast<int>(above - lines.begin()) - (part < 0.5 ? 1 : 0);
+    result.move(d) = std::min(part, 1 - part);
+    const bool stop =
+        std::find(grid.stops[d].begin(), grid.stops[d].end(), lines[result.index(d)]) != grid.stops[d].end();
+    if (stop && result.move(d) > 1e-9) result.move(d) = 1; // it must stay on its plane
   }
-  return x;
+  return result;
 }
 
-bool allPositive(const LinearTets& tets) {
-  for (Eigen::Index e = 0; e < tets.corners.cols(); ++e) {
-    Eigen::Matrix3d edges;
-    for (int i = 0; i < 3; ++i)
-      edges.col(i) = tets.points.col(tets.corners(i + 1, e)) - tets.points.col(tets.corners(0, e));
-    if (!(edges.determinant() > 0)) return false;
+/// Grid point of each electrode; where one is too far from all, a line is brought to it, which may need another round.
+std::vector<int> electrodePoints(Grid& grid, const Eigen::Matrix3Xd& electrodes) {
+  for (;;) {
+    std::vector<int> points;
+    std::vector<char> taken(grid.indices().cols());
+    bool complete = true;
+    for (Eigen::Index e = 0; e < electrodes.cols() && complete; ++e) {
+      const Nearest place = nearest(grid, electrodes.col(e));
+      Eigen::Index furthest = 0;
+      const bool near = place.move.maxCoeff(&furthest) <= furthestMove;
+      const int point = grid.point(place.index);
+      complete = near && !taken[point];
+      if (!complete) {
+        std::vector<double>& lines = grid.lines[furthest];
+        lines.insert(std::lower_bound(lines.begin(), lines.end(), electrodes(furthest, e)), electrodes(furthest, e));
+        break;
+      }
+      taken[point] = 1;
+      points.push_back(point);
+    }
+    if (complete) return points;
   }
-  return true;
+}
+
+/// Load area of each top face, by its centre.
+Eigen::VectorXi areasOfFaces(const SensorDesign& design, const Mesh& mesh) {
+  Eigen::VectorXi areas(mesh.topFaces.cols());
+  const auto part = [](double x, double length, int parts) {
+    return std::min(parts - 1, static_cast<int>(x / length * parts));
+  };
+  for (Eigen::Index f = 0; f < areas.size(); ++f) {
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    for (int n = 0; n < 3; ++n) centre += mesh.nodes_mm.col(mesh.topFaces(n, f)) / 3;
+    areas(f) = part(centre.y(), design.block_mm.y(), design.areas.rows) * design.areas.columns +
+               part(centre.x(), design.block_mm.x(), design.areas.columns);
+  }
+  return areas;
 }
 
 } // namespace
@@ -99,27 +135,32 @@ Grading defaultGrading(const SensorDesign& design, double factor) {
 }
 
 Mesh gradedTets(const SensorDesign& design, const Grading& grading) {
-  const StretchMaps maps = stretchMaps(design, grading);
-  const Surface surface = blockSurface(design);
+  constexpr std::size_t mostLinesForElectrodes = 40;
   const Eigen::Matrix3Xd electrodes = design.upperElectrodes_mm();
-  const auto corners = static_cast<Eigen::Index>(surface.points.size());
-  Eigen::Matrix3Xd points(3, corners + electrodes.cols());
-  for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    const Eigen::Vector3d x = i < corners ? surface.points[i] : Eigen::Vector3d(electrodes.col(i - corners));
-    for (int d = 0; d < 3; ++d) points(d, i) = maps[d].stretched(x(d));
+  Grid grid = gradedGrid(design, grading);
+  for (int d = 0; d < 3; ++d)
+    if (const std::vector<double> wanted = distinct(electrodes, d); wanted.size() <= mostLinesForElectrodes)
+      bringLinesTo(wanted, grid.stops[d], grid.lines[d]);
+  const std::vector<int> electrodePoint = electrodePoints(grid, electrodes);
+  if (6 * grid.cells() > mostElements)
+    throw DesignError("mesh: " + std::to_string(static_cast<long long>(6 * grid.cells())) +
+                      " elements; allowed are 1e6: choose a larger mesh size");
+  const Eigen::Matrix3Xd indices = grid.indices();
+  Eigen::VectorXd weights(indices.cols());
+  Eigen::Matrix3Xd points(3, indices.cols());
+  for (Eigen::Index i = 0; i < indices.cols(); ++i) {
+    double odd = 0;
+    for (int d = 0; d < 3; ++d) {
+      const auto index = static_cast<std::size_t>(indices(d, i));
+      odd += double(index % 2);
+      points(d, i) = grid.lines[d][index];
+    }
+    weights(i) = weightOfOddIndices * odd * odd;
   }
-  LinearTets tets = tetrahedralise(points, surface.facets, volumeOfUnitSize);
-  for (Eigen::Index i = 0; i < tets.points.cols(); ++i)
-    tets.points.col(i) = unstretched(maps, design.block_mm, tets.points.col(i));
-  for (Eigen::Index i = 0; i < corners; ++i) tets.points.col(i) = surface.points[i];
-  tets.points.middleCols(corners, electrodes.cols()) = electrodes;
-  if (!allPositive(tets)) {
-    for (Eigen::Index e = 0; e < tets.corners.cols(); ++e) std::swap(tets.corners(0, e), tets.corners(1, e));
-    if (!allPositive(tets)) throw DesignError("mesh: the grading is too steep and turns elements inside out");
-  }
-  Mesh mesh = quadraticTets(tets);
-  for (Eigen::Index i = 0; i < electrodes.cols(); ++i)
-    mesh.upperElectrodeNodes.push_back(static_cast<int>(corners + i));
+  for (Eigen::Index e = 0; e < electrodes.cols(); ++e) points.col(electrodePoint[e]) = electrodes.col(e);
+  Mesh mesh = quadraticTets(points, weightedDelaunay(indices, weights));
+  mesh.topFaceAreas = areasOfFaces(design, mesh);
+  mesh.upperElectrodeNodes = electrodePoint;
   return mesh;
 }
 

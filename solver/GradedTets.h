@@ -19,8 +19,9 @@ struct Grading {
 /// The default grading times a factor.
 Grading defaultGrading(const SensorDesign& design, double factor);
 
-/// Quadratic tetrahedra by TetGen: the block is meshed in coordinates stretched to the grading, load areas as facets
-/// and upper electrodes as points, and mapped back.
+/// Quadratic tetrahedra by TetGen on the points of a graded grid and the upper electrodes, load areas as facets.
+/// TetGen sees the grid squeezed along its diagonal to a body-centred cubic lattice, whose Delaunay tetrahedra are all
+/// alike; in the block they are path simplices, which no stretching along the axes makes obtuse.
 Mesh gradedTets(const SensorDesign& design, const Grading& grading);
 
 } // namespace palp

@@ -6,6 +6,7 @@
 #include "solver/SurfaceTraction.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace palp {
 
@@ -28,8 +29,42 @@ Eigen::MatrixXd elementUnknowns(const Discretisation& mesh, const LaneVector& un
 HyperelasticProblem::Parts::Parts(SensorDesign d, Mesh m)
     : design(std::move(d)), mesh(std::move(m)),
       discretisation(std::make_shared<const Discretisation>(mesh, clampedBottom(mesh))),
-      assembler(discretisation, rubberConstants(design.material)), upperProbe(mesh, design.upperElectrodes_mm()),
-      lowerProbe(mesh, design.lowerElectrodes_mm()) {}
+      assembler(discretisation, rubberConstants(design.material)) {}
+
+std::shared_ptr<const CholeskyPlan> HyperelasticProblem::Parts::plan() const {
+  const std::lock_guard lock(mutex_);
+  if (!plan_) plan_ = std::make_shared<const CholeskyPlan>(*assembler.pattern());
+  return plan_;
+}
+
+std::shared_ptr<const RestTangent> HyperelasticProblem::Parts::restTangent(int threads,
+                                                                           const std::stop_token& stop) const {
+  const auto symbolic = plan();
+  const std::lock_guard lock(mutex_);
+  if (rest_) return rest_;
+  auto rest = std::make_shared<RestTangent>(RestTangent{{}, {}, SparseCholesky(symbolic)});
+  assembler.tangent(discretisation->atRest(), rest->tangents, rest->forces, threads, stop);
+  if (stop.stop_requested()) return {};
+  const auto outcome = rest->factor.factorise(assembler.matrix(rest->tangents, threads), threads, stop);
+  if (outcome == SparseCholesky::Outcome::Stopped) return {};
+  if (outcome == SparseCholesky::Outcome::NotPositiveDefinite)
+    throw std::logic_error("the tangent at rest is not positive definite");
+  rest->tangents.stiffness = {};
+  rest_ = std::move(rest);
+  return rest_;
+}
+
+const PointProbe& HyperelasticProblem::Parts::upperProbe() const {
+  const std::lock_guard lock(mutex_);
+  if (!upperProbe_) upperProbe_.emplace(mesh, design.upperElectrodes_mm());
+  return *upperProbe_;
+}
+
+const PointProbe& HyperelasticProblem::Parts::lowerProbe() const {
+  const std::lock_guard lock(mutex_);
+  if (!lowerProbe_) lowerProbe_.emplace(mesh, design.lowerElectrodes_mm());
+  return *lowerProbe_;
+}
 
 HyperelasticProblem::HyperelasticProblem(SensorDesign design, Mesh mesh)
     : parts_(std::make_unique<Parts>(std::move(design), std::move(mesh))) {}
@@ -55,9 +90,17 @@ Solution HyperelasticProblem::solve(const LoadCase& load, const NewtonOptions& o
   const Discretisation& mesh = *parts_->discretisation;
   Loading loading{nodalForces(parts_->mesh, parts_->design, load),
                   Eigen::VectorXd::Zero(3 * Eigen::Index(mesh.nodes()))};
-  SparseCholesky cholesky(parts_->assembler.pattern());
-  NewtonResult result = NewtonSolver(parts_->assembler, cholesky, options, observer).solve(loading);
   Solution solution;
+  const auto rest = parts_->restTangent(options.threads, observer.stop);
+  if (!rest) {
+    solution.cancelled = true;
+    solution.stopReason = "cancelled at load fraction 0";
+    solution.increments.push_back(
+        {0, Eigen::Matrix3Xd::Zero(3, mesh.nodes()), Eigen::MatrixXd::Zero(mesh.unknowns(), mesh.elements())});
+    return solution;
+  }
+  SparseCholesky cholesky(parts_->plan());
+  NewtonResult result = NewtonSolver(parts_->assembler, cholesky, options, observer).startingWith(*rest).solve(loading);
   solution.converged = result.converged;
   solution.cancelled = result.cancelled;
   solution.stopReason = std::move(result.stopReason);
@@ -72,8 +115,8 @@ Solution HyperelasticProblem::solve(const LoadCase& load, const NewtonOptions& o
 }
 
 ElectrodeDisplacements HyperelasticProblem::electrodes(const LoadIncrement& state) const {
-  return {parts_->upperProbe.displacements_mm(state), parts_->lowerProbe.displacements_mm(state),
-          parts_->upperProbe.pressures_MPa(state)};
+  return {parts_->upperProbe().displacements_mm(state), parts_->lowerProbe().displacements_mm(state),
+          parts_->upperProbe().pressures_MPa(state)};
 }
 
 NodalFields HyperelasticProblem::fields(const LoadIncrement& state) const {

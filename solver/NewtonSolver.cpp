@@ -1,6 +1,7 @@
 #include "solver/NewtonSolver.h"
 
 #include "model/Text.h"
+#include "solver/ProblemParts.h"
 
 #include <cmath>
 
@@ -12,12 +13,18 @@ constexpr double growthAfterSuccess = 1.5;
 constexpr double hopelessResidual = 1e8;
 constexpr double acceptedSlope = 0.9; // of the residual's work along the step, against its start
 constexpr int lineSearchTrials = 6;
+constexpr double keepFactorBelow = 1e-6; // relative residual: one more iteration with the same tangent ends it
 
 } // namespace
 
 NewtonSolver::NewtonSolver(const Assembler& assembler, SparseCholesky& cholesky, NewtonOptions options,
                            NewtonObserver observer)
     : assembler_(assembler), cholesky_(cholesky), options_(options), observer_(std::move(observer)) {}
+
+NewtonSolver& NewtonSolver::startingWith(const RestTangent& rest) {
+  rest_ = &rest;
+  return *this;
+}
 
 NewtonResult NewtonSolver::solve(const Loading& loading) {
   const Discretisation& mesh = assembler_.discretisation();
@@ -35,8 +42,8 @@ NewtonResult NewtonSolver::solve(const Loading& loading) {
       fraction = target;
       result.increments.push_back({fraction, std::move(state)});
       result.internalForces = internal_;
-      result.smallestJ = arrays_.smallestJ;
-      result.largestJ = arrays_.largestJ;
+      result.smallestJ = forces_.smallestJ;
+      result.largestJ = forces_.largestJ;
       size *= growthAfterSuccess;
       continue;
     }
@@ -52,81 +59,119 @@ NewtonResult NewtonSolver::solve(const Loading& loading) {
   return result;
 }
 
-/// Residual (in residual_) and its relative norm.
-double NewtonSolver::assemble(const Loading& loading, double fraction, const ElementState& state, bool tangent) {
-  if (tangent) {
-    assembler_.tangent(state, arrays_, options_.threads, observer_.stop);
-  } else {
-    assembler_.residual(state, arrays_, options_.threads);
-  }
-  internal_ = assembler_.forces(arrays_, options_.threads);
+void NewtonSolver::setResidual(const Loading& loading, double fraction) {
   const Discretisation& mesh = assembler_.discretisation();
+  internal_ = assembler_.sum(forces_, options_.threads);
   residual_ = fraction * mesh.freePart(loading.forces) - mesh.freePart(internal_);
-  return residual_.norm() / scale_;
+  relative_ = residual_.norm() / scale_;
 }
 
-void NewtonSolver::move(const ElementState& start, double length, const Eigen::VectorXd& du, const LaneVector& dx,
-                        ElementState& state) const {
+/// Residual of the state, condensed with the tangent in use.
+void NewtonSolver::evaluate(const Loading& loading, double fraction, const ElementState& state) {
+  assembler_.residual(state, *tangents_, forces_, options_.threads);
+  setResidual(loading, fraction);
+}
+
+NewtonSolver::Outcome NewtonSolver::newTangent(const Loading& loading, double fraction, const ElementState& state) {
+  assembler_.tangent(state, ownTangents_, forces_, options_.threads, observer_.stop);
+  if (stopped()) return Outcome::Cancelled;
+  tangents_ = &ownTangents_;
+  setResidual(loading, fraction);
+  const auto outcome =
+      cholesky_.factorise(assembler_.matrix(ownTangents_, options_.threads), options_.threads, observer_.stop);
+  if (outcome == SparseCholesky::Outcome::Stopped) return Outcome::Cancelled;
+  if (outcome == SparseCholesky::Outcome::NotPositiveDefinite) return Outcome::Indefinite;
+  factor_ = &cholesky_;
+  return Outcome::Converged;
+}
+
+/// Tangent and residual at the start of a load step; what moves by prescription pushes the rest.
+NewtonSolver::Outcome NewtonSolver::firstTangent(const Loading& loading, double from, double to,
+                                                 const ElementState& state, const Eigen::VectorXd& prescribed) {
+  const bool moves = prescribed.cwiseAbs().maxCoeff() > 0;
+  if (from == 0 && rest_ && !moves) {
+    tangents_ = &rest_->tangents;
+    factor_ = &rest_->factor;
+    forces_ = rest_->forces;
+    setResidual(loading, to);
+    return Outcome::Converged;
+  }
+  const Outcome outcome = newTangent(loading, to, state);
+  if (outcome != Outcome::Converged || !moves) return outcome;
+  const Discretisation& mesh = assembler_.discretisation();
+  residual_ -= mesh.freePart(assembler_.stiffnessTimes(ownTangents_, prescribed));
+  scale_ = std::max(mesh.freePart(loading.forces).norm(), residual_.norm());
+  relative_ = residual_.norm() / scale_;
+  return outcome;
+}
+
+NewtonSolver::Direction NewtonSolver::direction(const ElementState& state, const Eigen::VectorXd& prescribed) const {
+  Direction direction{state, residual_, {}, 0};
+  factor_->solve(direction.du);
+  direction.slope = residual_.dot(direction.du);
+  direction.du = assembler_.discretisation().withZeros(direction.du) + prescribed;
+  direction.dx = assembler_.recover(*tangents_, forces_, direction.du, options_.threads);
+  return direction;
+}
+
+namespace {
+
+void move(const ElementState& start, const Eigen::VectorXd& du, const LaneVector& dx, double length,
+          ElementState& state) {
   state.displacements = start.displacements + length * du;
   for (std::size_t i = 0; i < dx.size(); ++i) state.unknowns[i] = start.unknowns[i] + length * dx[i];
 }
 
-/// Shortens a step that turned elements inside out or overshot: false where no length helps.
-bool NewtonSolver::searchLine(const Loading& loading, double fraction, const ElementState& start,
-                              const Eigen::VectorXd& du, const LaneVector& dx, double slope, ElementState& state) {
-  const Eigen::VectorXd direction = assembler_.discretisation().freePart(du);
+} // namespace
+
+/// A full step went too far: elements inside out, or a large residual whose work along the step did not fall.
+bool NewtonSolver::overshot(const Direction& direction) const {
+  if (forces_.smallestJ <= 0 || !std::isfinite(relative_)) return true;
+  const double work = residual_.dot(assembler_.discretisation().freePart(direction.du));
+  return relative_ > 1 && std::abs(work) > acceptedSlope * std::abs(direction.slope);
+}
+
+NewtonSolver::Outcome NewtonSolver::searchLine(const Loading& loading, double fraction, const Direction& direction,
+                                               ElementState& state) {
   double length = 1;
-  for (int trial = 0; trial < lineSearchTrials && !stopped(); ++trial) {
+  for (int trial = 0; trial < lineSearchTrials; ++trial) {
+    if (stopped()) return Outcome::Cancelled;
     length /= 2;
-    move(start, length, du, dx, state);
-    static_cast<void>(assemble(loading, fraction, state, false));
-    if (arrays_.smallestJ > 0 && std::abs(residual_.dot(direction)) <= acceptedSlope * std::abs(slope)) return true;
+    move(direction.start, direction.du, direction.dx, length, state);
+    evaluate(loading, fraction, state);
+    if (!overshot(direction)) return Outcome::Converged;
   }
-  return false;
+  return forces_.smallestJ <= 0 ? Outcome::Inverted : Outcome::Diverged;
+}
+
+void NewtonSolver::record(double fraction, int iteration) {
+  steps_.push_back({fraction, iteration, relative_});
+  if (observer_.step) observer_.step(steps_.back());
 }
 
 NewtonSolver::Outcome NewtonSolver::step(const Loading& loading, double from, double to, ElementState& state) {
   const Discretisation& mesh = assembler_.discretisation();
   Eigen::VectorXd prescribed = (to - from) * (loading.prescribed - mesh.withZeros(mesh.freePart(loading.prescribed)));
   const bool moves = prescribed.cwiseAbs().maxCoeff() > 0;
-  ElementState start;
-  Eigen::VectorXd du, direction;
-  LaneVector dx;
-  double slope = 0;
-  for (int iteration = 0; iteration <= options_.iterationsAStep; ++iteration) {
+  if (const Outcome outcome = firstTangent(loading, from, to, state, prescribed); outcome != Outcome::Converged)
+    return outcome;
+  record(to, 0);
+  for (int iteration = 1; iteration <= options_.iterationsAStep; ++iteration) {
     if (stopped()) return Outcome::Cancelled;
-    double relative = assemble(loading, to, state, true);
-    if (stopped()) return Outcome::Cancelled;
-    const bool bad = iteration > 0 && !(moves && iteration == 1) &&
-                     (arrays_.smallestJ <= 0 || !std::isfinite(relative) ||
-                      (relative > 1 && std::abs(residual_.dot(direction)) > acceptedSlope * std::abs(slope)));
-    if (bad) {
-      if (!searchLine(loading, to, start, du, dx, slope, state))
-        return stopped() ? Outcome::Cancelled : arrays_.smallestJ <= 0 ? Outcome::Inverted : Outcome::Diverged;
-      relative = assemble(loading, to, state, true);
-      if (stopped()) return Outcome::Cancelled;
+    const Direction way = direction(state, prescribed);
+    move(way.start, way.du, way.dx, 1, state);
+    evaluate(loading, to, state);
+    // A prescribed motion is taken whole: its residual is no measure of overshooting.
+    if (moves && iteration == 1 ? forces_.smallestJ <= 0 : overshot(way)) {
+      if (moves && iteration == 1) return Outcome::Inverted;
+      if (const Outcome outcome = searchLine(loading, to, way, state); outcome != Outcome::Converged) return outcome;
     }
-    if (iteration == 0 && moves) {
-      residual_ -= mesh.freePart(assembler_.stiffnessTimes(arrays_, prescribed));
-      scale_ = std::max(mesh.freePart(loading.forces).norm(), residual_.norm());
-      relative = residual_.norm() / scale_;
-    }
-    steps_.push_back({to, iteration, relative});
-    if (observer_.step) observer_.step(steps_.back());
-    if (!std::isfinite(relative) || relative > hopelessResidual)
-      return arrays_.smallestJ <= 0 ? Outcome::Inverted : Outcome::Diverged;
-    if (iteration > 0 && relative < options_.relativeTolerance) return Outcome::Converged;
-    if (iteration == options_.iterationsAStep) break;
-    if (!cholesky_.factorise(assembler_.matrix(arrays_, options_.threads))) return Outcome::Indefinite;
-    if (stopped()) return Outcome::Cancelled;
-    direction = residual_;
-    cholesky_.solve(direction);
-    slope = residual_.dot(direction);
-    du = mesh.withZeros(direction);
-    if (iteration == 0) du += prescribed;
-    dx = assembler_.recover(arrays_, du, options_.threads);
-    start = state;
-    move(start, 1, du, dx, state);
+    prescribed.setZero();
+    record(to, iteration);
+    if (relative_ > hopelessResidual) return Outcome::Diverged;
+    if (relative_ < options_.relativeTolerance) return Outcome::Converged;
+    if (relative_ > keepFactorBelow && iteration < options_.iterationsAStep)
+      if (const Outcome outcome = newTangent(loading, to, state); outcome != Outcome::Converged) return outcome;
   }
   return Outcome::TooManyIterations;
 }

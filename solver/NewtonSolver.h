@@ -5,6 +5,8 @@
 
 namespace palp {
 
+struct RestTangent;
+
 /// External forces and prescribed displacements of all components (3 node + direction) at full load; both grow in
 /// proportion to the load fraction.
 struct Loading {
@@ -30,21 +32,36 @@ struct NewtonResult {
 };
 
 /// Newton's method with load stepping and line search. A load step that fails (elements inside out, a tangent that is
-/// not positive definite, no convergence) is taken again with half its size.
+/// not positive definite, no convergence) is taken again with half its size. A factorisation is kept for the next
+/// iteration where that is sure to end it.
 class NewtonSolver {
 public:
   NewtonSolver(const Assembler& assembler, SparseCholesky& cholesky, NewtonOptions options, NewtonObserver observer);
+  /// Takes the tangent at rest from here instead of assembling it again.
+  NewtonSolver& startingWith(const RestTangent& rest);
   [[nodiscard]] NewtonResult solve(const Loading& loading);
 
 private:
   enum class Outcome { Converged, Inverted, Indefinite, TooManyIterations, Diverged, Cancelled };
+  /// A Newton direction and where it starts.
+  struct Direction {
+    ElementState start;
+    Eigen::VectorXd du; ///< all components
+    LaneVector dx;
+    double slope = 0; ///< the residual's work along du at the start
+  };
 
   [[nodiscard]] Outcome step(const Loading& loading, double from, double to, ElementState& state);
-  [[nodiscard]] double assemble(const Loading& loading, double fraction, const ElementState& state, bool tangent);
-  [[nodiscard]] bool searchLine(const Loading& loading, double fraction, const ElementState& start,
-                                const Eigen::VectorXd& du, const LaneVector& dx, double slope, ElementState& state);
-  void move(const ElementState& start, double length, const Eigen::VectorXd& du, const LaneVector& dx,
-            ElementState& state) const;
+  [[nodiscard]] Outcome firstTangent(const Loading& loading, double from, double to, const ElementState& state,
+                                     const Eigen::VectorXd& prescribed);
+  [[nodiscard]] Outcome newTangent(const Loading& loading, double fraction, const ElementState& state);
+  [[nodiscard]] Direction direction(const ElementState& state, const Eigen::VectorXd& prescribed) const;
+  [[nodiscard]] bool overshot(const Direction& direction) const;
+  [[nodiscard]] Outcome searchLine(const Loading& loading, double fraction, const Direction& direction,
+                                   ElementState& state);
+  void evaluate(const Loading& loading, double fraction, const ElementState& state);
+  void setResidual(const Loading& loading, double fraction);
+  void record(double fraction, int iteration);
   [[nodiscard]] bool stopped() const { return observer_.stop.stop_requested(); }
   [[nodiscard]] std::string reason(Outcome outcome, double reached, double tried) const;
 
@@ -52,10 +69,15 @@ private:
   SparseCholesky& cholesky_;
   NewtonOptions options_;
   NewtonObserver observer_;
-  ElementArrays arrays_;
-  Eigen::VectorXd internal_; ///< forces of all components of the state assembled last
+  const RestTangent* rest_ = nullptr;
+  ElementTangents ownTangents_;
+  const ElementTangents* tangents_ = nullptr; ///< of the factorisation in use
+  const SparseCholesky* factor_ = nullptr;
+  ElementForces forces_;
+  Eigen::VectorXd internal_; ///< forces of all components of the state evaluated last
   Eigen::VectorXd residual_; ///< free components
-  double scale_ = 1;         ///< norm that residuals are measured by
+  double relative_ = 0;      ///< the residual's norm over scale_
+  double scale_ = 1;
   std::vector<NewtonStep> steps_;
 };
 

@@ -1,8 +1,11 @@
 #include "solver/QuadraticTets.h"
 
+#include <Eigen/Dense>
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <vector>
 
 namespace palp {
 
@@ -13,10 +16,10 @@ constexpr std::array<std::array<int, 2>, 6> tetEdges{{{0, 1}, {1, 2}, {0, 2}, {0
 /// All edges of the mesh, sorted; the place of an edge gives its midpoint's number.
 class Edges {
 public:
-  explicit Edges(const LinearTets& tets) : corners_(tets.points.cols()) {
-    keys_.reserve(6 * tets.corners.cols());
-    for (Eigen::Index e = 0; e < tets.corners.cols(); ++e)
-      for (const auto& [a, b] : tetEdges) keys_.push_back(key(tets.corners(a, e), tets.corners(b, e)));
+  Edges(const Eigen::Matrix4Xi& tets, Eigen::Index corners) : corners_(corners) {
+    keys_.reserve(6 * tets.cols());
+    for (Eigen::Index e = 0; e < tets.cols(); ++e)
+      for (const auto& [a, b] : tetEdges) keys_.push_back(key(tets(a, e), tets(b, e)));
     std::sort(keys_.begin(), keys_.end());
     keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
   }
@@ -40,26 +43,43 @@ private:
   std::vector<std::int64_t> keys_;
 };
 
+/// The same elements, all with positive volume.
+Eigen::Matrix4Xi turnedPositive(const Eigen::Matrix3Xd& points, Eigen::Matrix4Xi tets) {
+  for (Eigen::Index e = 0; e < tets.cols(); ++e) {
+    Eigen::Matrix3d edges;
+    for (int i = 0; i < 3; ++i) edges.col(i) = points.col(tets(i + 1, e)) - points.col(tets(0, e));
+    if (edges.determinant() < 0) std::swap(tets(2, e), tets(3, e));
+  }
+  return tets;
+}
+
 } // namespace
 
-Mesh quadraticTets(const LinearTets& tets) {
-  const Edges edges(tets);
+Mesh quadraticTets(const Eigen::Matrix3Xd& points_mm, const LinearTets& tets) {
+  const Eigen::Matrix4Xi corners = turnedPositive(points_mm, tets.corners);
+  const Edges edges(corners, points_mm.cols());
   Mesh mesh;
   mesh.shape = ElementShape::Tetrahedron10;
-  mesh.nodes_mm = edges.withMidpoints(tets.points);
-  mesh.elements.resize(10, tets.corners.cols());
-  mesh.elements.topRows<4>() = tets.corners;
-  for (Eigen::Index e = 0; e < tets.corners.cols(); ++e)
+  mesh.nodes_mm = edges.withMidpoints(points_mm);
+  mesh.elements.resize(10, corners.cols());
+  mesh.elements.topRows<4>() = corners;
+  for (Eigen::Index e = 0; e < corners.cols(); ++e)
     for (int k = 0; k < 6; ++k)
-      mesh.elements(4 + k, e) = edges.midpoint(tets.corners(tetEdges[k][0], e), tets.corners(tetEdges[k][1], e));
-  const auto top = std::count_if(tets.faceMarks.begin(), tets.faceMarks.end(), [](int mark) { return mark >= 0; });
-  mesh.topFaces.resize(6, top);
-  mesh.topFaceAreas.resize(top);
-  for (Eigen::Index f = 0, t = 0; f < tets.faces.cols(); ++f) {
-    if (tets.faceMarks[f] < 0) continue;
-    mesh.topFaces.col(t).head<3>() = tets.faces.col(f);
-    for (int k = 0; k < 3; ++k) mesh.topFaces(3 + k, t) = edges.midpoint(tets.faces(k, f), tets.faces((k + 1) % 3, f));
-    mesh.topFaceAreas(t++) = tets.faceMarks[f];
+      mesh.elements(4 + k, e) = edges.midpoint(corners(tetEdges[k][0], e), corners(tetEdges[k][1], e));
+  const double top = points_mm.row(2).maxCoeff();
+  std::vector<Eigen::Index> topFaces;
+  for (Eigen::Index f = 0; f < tets.hull.cols(); ++f)
+    if (points_mm(2, tets.hull(0, f)) == top && points_mm(2, tets.hull(1, f)) == top &&
+        points_mm(2, tets.hull(2, f)) == top)
+      topFaces.push_back(f);
+  mesh.topFaces.resize(6, static_cast<Eigen::Index>(topFaces.size()));
+  for (std::size_t t = 0; t < topFaces.size(); ++t) {
+    const auto column = static_cast<Eigen::Index>(t);
+    for (int n = 0; n < 3; ++n) {
+      const int a = tets.hull(n, topFaces[t]), b = tets.hull((n + 1) % 3, topFaces[t]);
+      mesh.topFaces(n, column) = a;
+      mesh.topFaces(3 + n, column) = edges.midpoint(a, b);
+    }
   }
   return mesh;
 }

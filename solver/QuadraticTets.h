@@ -5,8 +5,8 @@
 
 namespace palp {
 
-/// Adds the edge midpoints: corners first, then midpoints, in VTK's order. The faces with a mark >= 0 become the top
-/// faces, the mark their load area.
-Mesh quadraticTets(const LinearTets& tets);
+/// Quadratic tetrahedra on the points: adds the edge midpoints, in VTK's order, after the points. Elements are turned
+/// to positive volume. The hull's faces at the largest z become the top faces, without areas.
+Mesh quadraticTets(const Eigen::Matrix3Xd& points_mm, const LinearTets& tets);
 
 } // namespace palp

@@ -1,42 +1,67 @@
 #pragma once
 
+#include "solver/SupernodeTree.h"
+
 #include <Eigen/Core>
 
 #include <memory>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 namespace palp {
 
-/// Lower triangle of a symmetric matrix by columns, whose unknowns come in groups (the components of a node) that
-/// share their pattern: the ordering is found on the groups.
-struct SparsePattern {
-  std::vector<int> groupStart;   ///< first unknown of each group, and the number of unknowns
-  std::vector<int> groupColumns; ///< start of each group's column in groupRows
-  std::vector<int> groupRows;    ///< groups at or below the diagonal, ascending, the diagonal first
-  std::vector<int> columns;      ///< start of each unknown's column in rows
-  std::vector<int> rows;         ///< unknowns at or below the diagonal, ascending
-  [[nodiscard]] int size() const { return groupStart.back(); }
-};
-
-/// Sparse Cholesky factorisation by supernodes (CHOLMOD with METIS on OpenBLAS). The answers do not depend on the
-/// number of threads.
-class SparseCholesky {
+/// What a factorisation needs to know of a pattern, found once: where the entries go and how the work is cut into
+/// tasks. The cut does not depend on the number of threads.
+class CholeskyPlan {
 public:
-  explicit SparseCholesky(std::shared_ptr<const SparsePattern> pattern);
-  ~SparseCholesky();
-  SparseCholesky(SparseCholesky&&) noexcept;
-  SparseCholesky& operator=(SparseCholesky&&) noexcept;
+  explicit CholeskyPlan(const SparsePattern& pattern);
 
-  /// False: the matrix is not positive definite.
-  [[nodiscard]] bool factorise(std::span<const double> values);
-  /// Solves in place, one column a right side.
-  void solve(Eigen::Ref<Eigen::MatrixXd> rightSides) const;
-  [[nodiscard]] std::size_t factorEntries() const;
+  struct Entry {
+    int value;    ///< in the pattern's values
+    int position; ///< in the supernode's panel
+  };
+  [[nodiscard]] const SupernodeTree& tree() const { return tree_; }
+  /// What the matrix adds to a supernode's panel.
+  [[nodiscard]] std::span<const Entry> entries(int s) const {
+    return {entries_.data() + entryStart_[s], entries_.data() + entryStart_[s + 1]};
+  }
+  [[nodiscard]] const std::vector<int>& children(int s) const { return children_[s]; }
+  /// Supernodes of each subtree, the largest first.
+  [[nodiscard]] const std::vector<std::vector<int>>& subtrees() const { return subtrees_; }
+  /// Supernodes above the subtrees.
+  [[nodiscard]] const std::vector<int>& top() const { return top_; }
 
 private:
-  struct Cholmod;
-  std::unique_ptr<Cholmod> cholmod_;
+  void findEntries(const SparsePattern& pattern);
+  void cutTree();
+
+  SupernodeTree tree_;
+  std::vector<std::size_t> entryStart_; ///< of each supernode in entries_
+  std::vector<Entry> entries_;
+  std::vector<std::vector<int>> children_;
+  std::vector<std::vector<int>> subtrees_;
+  std::vector<int> top_;
+};
+
+/// Multifrontal Cholesky factorisation on OpenBLAS (Duff and Reid 1983): subtrees in parallel, then the large fronts
+/// at the top tile by tile. The bytes do not depend on the number of threads; a stop request is honoured between tasks.
+class SparseCholesky {
+public:
+  explicit SparseCholesky(std::shared_ptr<const CholeskyPlan> plan);
+
+  enum class Outcome { Done, NotPositiveDefinite, Stopped };
+  [[nodiscard]] Outcome factorise(std::span<const double> values, int threads, const std::stop_token& stop);
+  /// Solves in place.
+  void solve(Eigen::VectorXd& rightSide) const;
+
+  [[nodiscard]] const CholeskyPlan& plan() const { return *plan_; }
+  /// The factor's panels, as the tree says.
+  [[nodiscard]] const std::vector<double>& panels() const { return panels_; }
+
+private:
+  std::shared_ptr<const CholeskyPlan> plan_;
+  std::vector<double> panels_;
 };
 
 } // namespace palp

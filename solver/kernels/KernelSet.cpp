@@ -1,6 +1,7 @@
 // Compiled once for each instruction set, with PALP_KERNEL (a name) and PALP_PACK (doubles at once) given.
 #include "solver/kernels/Condensation.h"
 #include "solver/kernels/HexKernel.h"
+#include "solver/kernels/LaneSolve.h"
 #include "solver/kernels/TetKernel.h"
 
 namespace palp::PALP_KERNEL {
@@ -64,10 +65,20 @@ constexpr ElementKernels kernelsOf(decltype(ElementKernels::residual) residual,
           recover<D, X, 8>,      recover<D, X, 1>};
 }
 
+void solveFactor(const LaneFactor& L, float* x) {
+  solveLanes(L, x);
+}
+
+void polynomials(const double* coefficients, int terms, const double* monomials, int rows, double* out, int stride) {
+  evaluatePolynomials(coefficients, terms, monomials, rows, out, stride);
+}
+
 } // namespace
 
 extern const ElementKernels tetKernels;
 extern const ElementKernels hexKernels;
+extern const LaneKernels laneKernelSet;
+const LaneKernels laneKernelSet = {solveFactor, polynomials};
 constexpr ElementKernels tetSet = kernelsOf<Tet>(tetResidual8, tetResidualOfLoads, tetTangent);
 constexpr ElementKernels hexSet = kernelsOf<Hex>(hexResidual8, hexResidualOfLoads, hexTangent);
 const ElementKernels tetKernels = tetSet;

@@ -1,0 +1,57 @@
+#include "solver/GridLines.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palp {
+
+namespace {
+
+constexpr int samples = 512;     // of the size along one interval
+constexpr double forgiven = 0.2; // of a cell: an interval of 2.2 cells gets 2
+
+} // namespace
+
+double SizeAlong::operator()(double x_mm) const {
+  double h = largest_mm;
+  for (const FinePlace& p : places) h = std::min(h, p.size_mm + growth * std::abs(x_mm - p.at_mm));
+  return h;
+}
+
+std::vector<double> gridLines(const std::vector<double>& stops, const SizeAlong& size) {
+  std::vector<double> lines{stops.front()};
+  for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
+    const double step = (stops[i + 1] - stops[i]) / samples;
+    std::vector<double> cells(samples + 1); // cells up to each sample
+    for (int k = 0; k < samples; ++k) cells[k + 1] = cells[k] + step / size(stops[i] + (k + 0.5) * step);
+    const int count = std::max(1, static_cast<int>(std::ceil(cells.back() - forgiven)));
+    for (int c = 1, k = 0; c < count; ++c) {
+      const double wanted = cells.back() * c / count;
+      while (cells[k + 1] < wanted) ++k;
+      lines.push_back(stops[i] + step * (k + (wanted - cells[k]) / (cells[k + 1] - cells[k])));
+    }
+    lines.push_back(stops[i + 1]);
+  }
+  return lines;
+}
+
+void bringLinesTo(const std::vector<double>& wanted, const std::vector<double>& stops, std::vector<double>& lines) {
+  std::vector<double> kept = stops;
+  const double same = 1e-9 * lines.back();
+  const auto isKept = [&](double x) {
+    return std::any_of(kept.begin(), kept.end(), [&](double k) { return std::abs(k - x) < same; });
+  };
+  for (const double x : wanted) {
+    if (isKept(x)) continue;
+    const auto above = std::lower_bound(lines.begin() + 1, lines.end() - 1, x);
+    const auto nearest = x - *(above - 1) < *above - x ? above - 1 : above;
+    if (isKept(*nearest)) {
+      lines.insert(above, x);
+    } else {
+      *nearest = x;
+    }
+    kept.push_back(x);
+  }
+}
+
+} // namespace palp

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+
+namespace palp {
+
+/// Loads that are iterated together: one a lane.
+inline constexpr int groupLanes = 32;
+inline constexpr int laneFactorRows = 8;
+
+/// A Cholesky factor laid out for many right sides, in single precision: it only preconditions an iteration whose
+/// residuals are in double. Each supernode's panel is cut into blocks of 8 rows, [column][8]: first the blocks of its
+/// own rows (columns up to the block's diagonal, which holds inverses), then the rows below, filled up with zeros.
+struct LaneFactor {
+  int count;                ///< supernodes
+  const int* first;         ///< first place of each supernode
+  const std::size_t* start; ///< of each supernode in values
+  const int* blockStart;    ///< first block of the rows below each supernode
+  const int* rows;          ///< place of each row of those blocks; a place past the end for the filling
+  const float* values;
+};
+
+struct LaneKernels {
+  /// x := (L L^T)^-1 x for x [places + 1][groupLanes].
+  void (*solve)(const LaneFactor&, float* x);
+  /// out[row * stride + lane] = sum over t of coefficients[row][t] monomials[t][lane], 8 lanes.
+  void (*polynomials)(const double* coefficients, int terms, const double* monomials, int rows, double* out,
+                      int stride);
+};
+const LaneKernels& laneKernels();
+
+} // namespace palp

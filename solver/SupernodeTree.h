@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace palp {
+
+/// Lower triangle of a symmetric matrix by columns, whose unknowns come in groups (the components of a node) that
+/// share their pattern: the ordering is found on the groups.
+struct SparsePattern {
+  std::vector<int> groupStart;   ///< first unknown of each group, and the number of unknowns
+  std::vector<int> groupColumns; ///< start of each group's column in groupRows
+  std::vector<int> groupRows;    ///< groups at or below the diagonal, ascending, the diagonal first
+  std::vector<int> columns;      ///< start of each unknown's column in rows
+  std::vector<int> rows;         ///< unknowns at or below the diagonal, ascending
+  [[nodiscard]] int size() const { return groupStart.back(); }
+};
+
+/// Shape of a Cholesky factor: runs of columns with the same rows below (supernodes), each a dense panel of
+/// height x width numbers by columns. Children come before their parents.
+struct SupernodeTree {
+  std::vector<int> order;              ///< unknown of each place
+  std::vector<int> first;              ///< first place of each supernode, and the number of unknowns
+  std::vector<std::size_t> rowStart;   ///< of each supernode in rows
+  std::vector<int> rows;               ///< places of the panel's rows; the supernode's own come first
+  std::vector<std::size_t> panelStart; ///< of each supernode in the factor's numbers, and their count
+  std::vector<int> parent;             ///< -1: a root
+
+  [[nodiscard]] int count() const { return static_cast<int>(parent.size()); }
+  [[nodiscard]] int size() const { return first.back(); }
+  [[nodiscard]] int width(int s) const { return first[s + 1] - first[s]; }
+  [[nodiscard]] int height(int s) const { return static_cast<int>(rowStart[s + 1] - rowStart[s]); }
+  [[nodiscard]] int below(int s) const { return height(s) - width(s); }
+  [[nodiscard]] const int* rowsOf(int s) const { return rows.data() + rowStart[s]; }
+};
+
+/// Fill-reducing order (METIS, nested dissection) and symbolic factorisation, both by CHOLMOD.
+SupernodeTree supernodeTree(const SparsePattern& pattern);
+
+} // namespace palp

@@ -1,0 +1,114 @@
+#pragma once
+
+#include "solver/LaneKernels.h"
+#include "solver/kernels/Pack.h"
+
+namespace palp::PALP_KERNEL {
+
+typedef float FloatPack __attribute__((vector_size(8 * PALP_PACK)));
+constexpr int floatPackSize = 2 * PALP_PACK;
+constexpr int rowsABlock = laneFactorRows;
+
+PALP_INLINE FloatPack loadFloats(const float* p) {
+  FloatPack v;
+  __builtin_memcpy(&v, p, sizeof v);
+  return v;
+}
+PALP_INLINE void storeFloats(float* p, FloatPack v) {
+  __builtin_memcpy(p, &v, sizeof v);
+}
+
+/// sums[r] = sum over k of block[k][r] x[k] for one block of rows.
+PALP_INLINE void rowSums(const float* block, int columns, const float* x, FloatPack sums[rowsABlock]) {
+  for (int r = 0; r < rowsABlock; ++r) sums[r] = FloatPack{};
+  for (int k = 0; k < columns; ++k) {
+    const FloatPack v = loadFloats(x + k * groupLanes);
+    for (int r = 0; r < rowsABlock; ++r) sums[r] += block[k * rowsABlock + r] * v;
+  }
+}
+
+/// x[k] -= sum over r of block[k][r] t[r] for one block of rows.
+PALP_INLINE void subtractTransposed(const float* block, int columns, const FloatPack t[rowsABlock], float* x) {
+  for (int k = 0; k < columns; ++k) {
+    FloatPack v = loadFloats(x + k * groupLanes);
+    for (int r = 0; r < rowsABlock; ++r) v -= block[k * rowsABlock + r] * t[r];
+    storeFloats(x + k * groupLanes, v);
+  }
+}
+
+/// Forward substitution through one supernode: its own rows, then those below.
+PALP_INLINE void forwardSupernode(const LaneFactor& L, int s, float* x, int lane) {
+  const int width = L.first[s + 1] - L.first[s];
+  const float* block = L.values + L.start[s];
+  float* own = x + std::size_t(L.first[s]) * groupLanes + lane;
+  for (int r0 = 0; r0 < width; r0 += rowsABlock) {
+    FloatPack sums[rowsABlock];
+    rowSums(block, r0, own, sums);
+    const float* triangle = block + r0 * rowsABlock;
+    const int rows = width - r0 < rowsABlock ? width - r0 : rowsABlock;
+    for (int r = 0; r < rows; ++r) {
+      FloatPack v = loadFloats(own + (r0 + r) * groupLanes) - sums[r];
+      for (int k = 0; k < r; ++k) v -= triangle[k * rowsABlock + r] * loadFloats(own + (r0 + k) * groupLanes);
+      storeFloats(own + (r0 + r) * groupLanes, v * triangle[r * rowsABlock + r]);
+    }
+    block = triangle + rowsABlock * rowsABlock;
+  }
+  for (int b = L.blockStart[s]; b < L.blockStart[s + 1]; ++b, block += width * rowsABlock) {
+    FloatPack sums[rowsABlock];
+    rowSums(block, width, own, sums);
+    const int* rows = L.rows + std::size_t(b) * rowsABlock;
+    for (int r = 0; r < rowsABlock; ++r) {
+      float* y = x + std::size_t(rows[r]) * groupLanes + lane;
+      storeFloats(y, loadFloats(y) - sums[r]);
+    }
+  }
+}
+
+/// Backward substitution, in the opposite order over the same blocks.
+PALP_INLINE void backwardSupernode(const LaneFactor& L, int s, float* x, int lane) {
+  const int width = L.first[s + 1] - L.first[s];
+  const float* block = L.values + L.start[s + 1];
+  float* own = x + std::size_t(L.first[s]) * groupLanes + lane;
+  for (int b = L.blockStart[s + 1] - 1; b >= L.blockStart[s]; --b) {
+    block -= width * rowsABlock;
+    const int* rows = L.rows + std::size_t(b) * rowsABlock;
+    FloatPack t[rowsABlock];
+    for (int r = 0; r < rowsABlock; ++r) t[r] = loadFloats(x + std::size_t(rows[r]) * groupLanes + lane);
+    subtractTransposed(block, width, t, own);
+  }
+  for (int r0 = (width - 1) / rowsABlock * rowsABlock; r0 >= 0; r0 -= rowsABlock) {
+    block -= (r0 + rowsABlock) * rowsABlock;
+    const float* triangle = block + r0 * rowsABlock;
+    const int rows = width - r0 < rowsABlock ? width - r0 : rowsABlock;
+    FloatPack t[rowsABlock];
+    for (int r = 0; r < rowsABlock; ++r) t[r] = FloatPack{};
+    for (int r = rows - 1; r >= 0; --r) {
+      FloatPack v = loadFloats(own + (r0 + r) * groupLanes);
+      for (int k = r + 1; k < rows; ++k) v -= triangle[r * rowsABlock + k] * t[k];
+      t[r] = v * triangle[r * rowsABlock + r];
+      storeFloats(own + (r0 + r) * groupLanes, t[r]);
+    }
+    subtractTransposed(block, r0, t, own);
+  }
+}
+
+PALP_INLINE void solveLanes(const LaneFactor& L, float* x) {
+  for (int s = 0; s < L.count; ++s)
+    for (int lane = 0; lane < groupLanes; lane += floatPackSize) forwardSupernode(L, s, x, lane);
+  for (int s = L.count - 1; s >= 0; --s)
+    for (int lane = 0; lane < groupLanes; lane += floatPackSize) backwardSupernode(L, s, x, lane);
+}
+
+/// out[row][8] = sum over t of coefficients[row][t] monomials[t][8].
+PALP_INLINE void evaluatePolynomials(const double* coefficients, int terms, const double* monomials, int rows,
+                                     double* out, int stride) {
+  for (int row = 0; row < rows; ++row)
+    for (int lane = 0; lane < 8; lane += packSize) {
+      Pack sum = Pack{};
+      for (int t = 0; t < terms; ++t)
+        sum += coefficients[std::size_t(row) * terms + t] * load(monomials + 8 * t + lane);
+      store(out + std::size_t(row) * stride + lane, sum);
+    }
+}
+
+} // namespace palp::PALP_KERNEL
