@@ -1,14 +1,10 @@
 #include "io/DesignFile.h"
 
 #include "io/AtomicFile.h"
+#include "io/Fingerprint.h"
 #include "io/StrictJson.h"
 #include "model/Error.h"
 #include "model/Text.h"
-
-#include <algorithm>
-#include <array>
-#include <charconv>
-#include <cstdint>
 
 namespace palp {
 
@@ -163,15 +159,9 @@ void saveDesign(const std::filesystem::path& path, const SensorDesign& design, b
 }
 
 std::string designFingerprint(const SensorDesign& design) {
-  std::uint64_t hash = 0xcbf29ce484222325; // FNV-1a: http://www.isthe.com/chongo/tech/comp/fnv
-  for (const char c : toJson(design)) {
-    if (c == ' ' || c == '\n') continue;
-    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-  }
-  std::array<char, 16> digits{};
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), hash, 16).ptr;
-  const std::string significant(digits.data(), end);
-  return std::string(16 - significant.size(), '0') + significant;
+  std::string json = toJson(design);
+  std::erase_if(json, [](char c) { return c == ' ' || c == '\n'; });
+  return fingerprint(json);
 }
 
 } // namespace palp

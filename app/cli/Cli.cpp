@@ -97,7 +97,7 @@ Exit Cli::runChosen() {
   session_.result["warnings"] = session_.warnings;
   session_.result["peak_memory_MB"] = peakMemory_MB();
   session_.result["stages"] = toJson(session_.stages);
-  if (session_.json) std::cout << session_.result.dump(2) << std::endl;
+  if (session_.json) std::cout << session_.result.dump(session_.indent) << std::endl;
   return interrupt.token().stop_requested() ? Exit::Interrupted : exit;
 }
 

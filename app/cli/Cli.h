@@ -27,6 +27,7 @@ struct Session {
   bool json = false;
   int threads = 0; ///< 0: all cores
   std::stop_token stop;
+  int indent = 2; ///< of the JSON; -1: all in one line
   nlohmann::ordered_json result = nlohmann::ordered_json::object();
   std::vector<std::string> warnings;
   StageLog stages;
@@ -58,8 +59,11 @@ void addRender(Cli& cli);
 void addSample(Cli& cli);
 void addMerge(Cli& cli);
 void addReproduce(Cli& cli);
+void addReport(Cli& cli);
 void addTrain(Cli& cli);
 void addPredict(Cli& cli);
 void addSweep(Cli& cli);
+void addListen(Cli& cli);
+void addCalibrate(Cli& cli);
 
 } // namespace palp

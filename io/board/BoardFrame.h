@@ -17,6 +17,7 @@ enum class ReadingState : std::uint8_t { Missing, Good, Short, Open, NotMeasured
 struct BoardFrame {
   std::uint16_t number = 0;
   double time_s = 0;             ///< device clock at the first reading, unwrapped; 0 at the first report after a start
+  double endTime_s = 0;          ///< the same of the frame's last report
   double hostTime_s = 0;         ///< arrival of the last report of the frame
   std::vector<bool> rowExpected; ///< by the board's mode and mask
   Eigen::MatrixXd resistances_ohm; ///< row-wires x column-wires; 0 where the state is not Good

@@ -96,6 +96,7 @@ void FrameAssembler::addReadings(const Readings& readings, double hostTime_s, co
   if (open_ && readings.frame != frame_.number) endFrame(take);
   if (!open_) beginFrame(readings);
   frame_.hostTime_s = hostTime_s;
+  frame_.endTime_s = static_cast<double>(clock_us_) * kSecondsPerMicrosecond;
   place(readings);
   if (missingReports_ == 0) endFrame(take);
 }

@@ -1,0 +1,151 @@
+#include "app/study/ForceDecoder.h"
+
+#include "io/DesignFile.h"
+#include "model/Error.h"
+#include "model/RowColumnResistance.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palp {
+
+namespace {
+
+// At rest, 3 components of 10,000 frames stay below 6 standard deviations with a probability of 0.99994.
+constexpr double kShowAbove = 6;
+constexpr double kHideBelow = 4;
+constexpr int kMostTareFrames = 100000;
+
+std::string sizes(int rows, int columns) {
+  return std::to_string(rows) + " row-wires x " + std::to_string(columns) + " column-wires";
+}
+
+void requireFit(const Decoder& decoder, const BoardInfo& info) {
+  if (decoder.input.kind != InputKind::Resistance)
+    throw Error("the network reads " + name(decoder.input.kind) +
+                "s; a board gives resistances: train one with --input resistance");
+  if (decoder.input.rowWires != info.rowWires || decoder.input.valuesPerRow != info.columnWires)
+    throw Error("the network is for " + sizes(decoder.input.rowWires, decoder.input.valuesPerRow) + ", the board has " +
+                sizes(info.rowWires, info.columnWires) + ": only raw readings can be shown");
+}
+
+/// Resistances at rest; empty where the network's design is not known.
+Eigen::MatrixXd restResistances(const Decoder& decoder, const std::optional<SensorDesign>& design) {
+  const SensorDesign known = design.value_or(paperDesign());
+  if (designFingerprint(known) == decoder.designFingerprint)
+    return rowColumnResistances(known, ElectrodeDisplacements::atRest(known));
+  if (design)
+    throw Error("the network is of design " + decoder.designFingerprint + ", the given design is " +
+                designFingerprint(known) + ": give the design that it was trained for");
+  return {};
+}
+
+/// The rows that the decoder reads, one after the other.
+Eigen::VectorXd inputOf(const Eigen::MatrixXd& resistances_ohm, const DecoderInput& input) {
+  Eigen::VectorXd values(input.low.size());
+  for (std::size_t i = 0; i < input.rows.size(); ++i)
+    values.segment(static_cast<Eigen::Index>(i) * input.valuesPerRow, input.valuesPerRow) =
+        resistances_ohm.row(input.rows[i]).transpose();
+  return values;
+}
+
+} // namespace
+
+ForceDecoder::ForceDecoder(Decoder decoder, const BoardInfo& info, std::optional<SensorDesign> design)
+    : decoder_(std::move(decoder)), noise_(decoder_.noise) {
+  requireFit(decoder_, info);
+  rest_ohm_ = restResistances(decoder_, design);
+  factor_ = Eigen::MatrixXd::Ones(info.rowWires, info.columnWires);
+  shown_.assign(static_cast<std::size_t>(decoder_.outputs() / 3), false);
+}
+
+std::string ForceDecoder::tareProblem() const {
+  if (rest_ohm_.size() > 0) return {};
+  return "tare needs the resistances at rest of design " + decoder_.designFingerprint +
+         ", for which the network was trained: name its file (--design)";
+}
+
+void ForceDecoder::startTare(int frames) {
+  if (const std::string problem = tareProblem(); !problem.empty()) throw Error(problem);
+  if (frames < 1 || frames > kMostTareFrames)
+    throw Error("tare over " + std::to_string(frames) + " frames; allowed is 1 to " + std::to_string(kMostTareFrames));
+  tareFrames_ = tareLeft_ = frames;
+  tareSum_ = tareSquares_ = Eigen::MatrixXd::Zero(factor_.rows(), factor_.cols());
+  tareFirst_.resize(0, 0);
+}
+
+void ForceDecoder::clearTare() {
+  tareLeft_ = 0;
+  tared_ = false;
+  factor_.setOnes();
+  noise_ = decoder_.noise;
+}
+
+std::string ForceDecoder::reasonAgainst(const BoardFrame& frame) const {
+  const bool good =
+      std::all_of(decoder_.input.rows.begin(), decoder_.input.rows.end(), [&](int row) { return frame.rowGood(row); });
+  if (good) return {};
+  for (const int row : decoder_.input.rows)
+    if (!frame.rowExpected[static_cast<std::size_t>(row)])
+      return "the board does not scan row-wire " + std::to_string(row) + ", which the network reads";
+  if (!frame.complete) return "a report of the frame is lost";
+  const std::vector<std::string> faults = wireFaults(frame);
+  std::string all;
+  for (const std::string& fault : faults) {
+    if (all.size() > 200) return all + ", ...";
+    all += (all.empty() ? "" : "; ") + fault;
+  }
+  return all;
+}
+
+/// Mean for the scale, scatter for the noise; sums about the first frame, because the scatter is 1e-6 of the mean.
+void ForceDecoder::addToTare(const Eigen::MatrixXd& raw_ohm) {
+  if (tareFirst_.size() == 0) tareFirst_ = raw_ohm;
+  const Eigen::MatrixXd relative = (tareFirst_.array() > 0).select(raw_ohm.array() / tareFirst_.array() - 1, 0.0);
+  tareSum_ += relative;
+  tareSquares_ += relative.cwiseAbs2();
+  if (--tareLeft_ > 0) return;
+  const Eigen::ArrayXXd mean = tareSum_.array() / tareFrames_;
+  const Eigen::ArrayXXd boardRest_ohm = tareFirst_.array() * (1 + mean);
+  factor_ = (boardRest_ohm > 0).select(rest_ohm_.array() / boardRest_ohm, 1.0);
+  tared_ = true;
+  if (tareFrames_ < 2) return;
+  const Eigen::MatrixXd variance = (tareSquares_.array() / tareFrames_ - mean.square()).cwiseMax(0.0);
+  noise_ = std::sqrt(inputOf(variance, decoder_.input).mean() * tareFrames_ / (tareFrames_ - 1));
+}
+
+DecodedForces ForceDecoder::decode(const BoardFrame& frame) {
+  DecodedForces decoded;
+  decoded.reason = reasonAgainst(frame);
+  if (!decoded.reason.empty()) return decoded;
+  if (taring()) addToTare(frame.resistances_ohm);
+  decoded.resistances_ohm = frame.resistances_ohm.cwiseProduct(factor_);
+  PredictOptions options;
+  options.noise = noise_;
+  const Prediction prediction = predict(decoder_, inputOf(decoded.resistances_ohm, decoder_.input), options);
+  const Eigen::Index columns = decoder_.outputs() / 3;
+  decoded.forces_N = prediction.forces_N.reshaped(3, columns);
+  decoded.standardDeviation_N = prediction.standardDeviation_N.reshaped(3, columns);
+  decoded.outsideTrainingRange = prediction.outsideTrainingRange[0];
+  if (prediction.area.size() > 0) {
+    decoded.area = prediction.area(0);
+    decoded.areaConfidence = prediction.areaConfidence(0);
+  }
+  decoded.valid = decoded.forces_N.allFinite();
+  if (!decoded.valid) decoded.reason = "the network's answer is no number for these readings";
+  threshold(decoded);
+  return decoded;
+}
+
+/// An arrow appears where a component stands out of the noise, and goes when all have sunk into it again.
+void ForceDecoder::threshold(DecodedForces& decoded) {
+  for (std::size_t i = 0; i < shown_.size(); ++i) {
+    const auto column = static_cast<Eigen::Index>(i);
+    const double size =
+        (decoded.forces_N.col(column).array().abs() / decoded.standardDeviation_N.col(column).array()).maxCoeff();
+    shown_[i] = decoded.valid && size > (shown_[i] ? kHideBelow : kShowAbove);
+  }
+  decoded.shown = shown_;
+}
+
+} // namespace palp
