@@ -50,4 +50,7 @@ struct OutputFile {
   void requireWritable() const;
 };
 
+/// Makes a report's folder where it is missing; one that is not empty is taken with force only.
+void requireFolder(const std::filesystem::path& folder, bool force);
+
 } // namespace palp

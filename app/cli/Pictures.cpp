@@ -2,6 +2,7 @@
 
 #include "app/scenes/DeformationPicture.h"
 #include "app/scenes/PaperFigures.h"
+#include "app/scenes/Reports.h"
 #include "app/scenes/VtuFile.h"
 
 namespace palp {
@@ -21,6 +22,12 @@ std::vector<ReportPicture> drawPaperFigures(const SensorDesign& design, const Pr
   touch.advance(Stage::Displacements, options, {{}, session.stop});
   session.stages.add(touch.stages());
   return session.stages.measure("render", [&] { return drawPaperFigures(result, touch, folder); });
+}
+
+ChartDrawer chartDrawer(Session& session) {
+  return [&session](const ReportChart& chart, const std::filesystem::path& png) {
+    session.stages.measure("render", [&] { drawReportChart(chart, png); });
+  };
 }
 
 void renderTouch(const Touch& touch, const std::string& quantity, const PictureSize& size,

@@ -5,6 +5,7 @@
 #include "app/study/PaperProtocol.h"
 #include "app/study/PaperReport.h"
 #include "app/study/Touch.h"
+#include "app/study/reports/Report.h"
 #include "model/Mesh.h"
 #include "model/Solution.h"
 
@@ -22,6 +23,9 @@ void exportVtu(const OutputFile& output, const Mesh& mesh, const NodalFields* fi
 std::vector<ReportPicture> drawPaperFigures(const SensorDesign& design, const ProtocolResult& result,
                                             const MeshOptions& mesh, const std::filesystem::path& folder,
                                             Session& session);
+
+/// Draws a report's charts; nothing without VTK.
+ChartDrawer chartDrawer(Session& session);
 
 struct PictureSize {
   int width = 1200;

@@ -66,17 +66,6 @@ void print(const ProtocolResult& result) {
   }
 }
 
-/// The report's folder, made where it is missing; an existing one only with --force.
-void requireFolder(const std::filesystem::path& folder, bool force) {
-  if (std::filesystem::exists(folder) && !std::filesystem::is_directory(folder))
-    throw UsageError("--output: '" + folder.string() + "' is a file; allowed is a folder");
-  if (std::filesystem::is_directory(folder) && !std::filesystem::is_empty(folder) && !force)
-    throw UsageError("--output: '" + folder.string() + "' is there and not empty; give --force to write into it");
-  std::error_code failed;
-  std::filesystem::create_directories(folder, failed);
-  if (failed) throw UsageError("--output: '" + folder.string() + "' cannot be made: " + failed.message());
-}
-
 std::vector<std::string> figures(const std::string& what) {
   if (what == "table1" || what == "fig12") return {what};
   return {"table1", "fig12"};

@@ -21,7 +21,8 @@ h1 { font-size: 1.7rem; } h2 { font-size: 1.25rem; margin-top: 2.2rem; border-bo
 table { border-collapse: collapse; margin: .8rem 0; font-variant-numeric: tabular-nums; font-size: .92rem; }
 caption { text-align: left; color: var(--soft); padding-bottom: .3rem; }
 th, td { padding: .25rem .7rem; border-bottom: 1px solid var(--line); text-align: right; } th:first-child, td:first-child { text-align: left; }
-th { background: var(--band); } figure { margin: 1rem 0; } figure img { max-width: 100%; height: auto; border: 1px solid var(--line); }
+th { background: var(--band); } tr.good td:first-child { border-left: .4rem solid #1a7f37; } tr.doubtful td { background: #d4a72c33; }
+tr.doubtful td:first-child { border-left: .4rem solid #d4a72c; } tr.bad td { background: #cf222e33; } tr.bad td:first-child { border-left: .4rem solid #cf222e; } figure { margin: 1rem 0; } figure img { max-width: 100%; height: auto; border: 1px solid var(--line); }
 figcaption { color: var(--soft); font-size: .92rem; } pre { background: var(--band); padding: .7rem; overflow-x: auto; }
 )";
 
@@ -74,15 +75,15 @@ void ReportPage::code(const std::string& text) {
 }
 
 void ReportPage::table(const std::vector<std::string>& heads, const std::vector<std::vector<std::string>>& rows,
-                       const std::string& caption) {
+                       const std::string& caption, const std::vector<std::string>& rowClasses) {
   body_ += "<table>";
   if (!caption.empty()) body_ += "<caption>" + escaped(caption) + "</caption>";
   body_ += "<thead><tr>";
   for (const std::string& head : heads) body_ += "<th>" + escaped(head) + "</th>";
   body_ += "</tr></thead><tbody>\n";
-  for (const std::vector<std::string>& row : rows) {
-    body_ += "<tr>";
-    for (const std::string& cell : row) body_ += "<td>" + escaped(cell) + "</td>";
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    body_ += rowClasses.empty() || rowClasses[r].empty() ? "<tr>" : "<tr class=\"" + rowClasses[r] + "\">";
+    for (const std::string& cell : rows[r]) body_ += "<td>" + escaped(cell) + "</td>";
     body_ += "</tr>\n";
   }
   body_ += "</tbody></table>\n";

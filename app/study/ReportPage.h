@@ -15,9 +15,10 @@ public:
   void paragraph(const std::string& text);
   /// A command line or its output, as it is.
   void code(const std::string& text);
-  /// First column left, numbers right; every row has as many cells as there are heads.
+  /// First column left, numbers right; every row has as many cells as there are heads. `rowClasses` colours rows: good,
+  /// doubtful, bad, or nothing; one a row, or none at all.
   void table(const std::vector<std::string>& heads, const std::vector<std::vector<std::string>>& rows,
-             const std::string& caption = {});
+             const std::string& caption = {}, const std::vector<std::string>& rowClasses = {});
   /// Embeds a PNG file. Throws Error where it cannot be read.
   void picture(const std::filesystem::path& png, const std::string& caption);
 

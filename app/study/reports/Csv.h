@@ -1,0 +1,36 @@
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+namespace palp {
+
+/// A cell of a CSV: text, or a number that reads back as the same number; no number where it does not apply.
+class CsvCell {
+public:
+  CsvCell(const char* words);        // NOLINT(google-explicit-constructor): cells are written in place
+  CsvCell(const std::string& words); // NOLINT(google-explicit-constructor)
+  CsvCell(double number);            // NOLINT(google-explicit-constructor)
+  CsvCell(int number);               // NOLINT(google-explicit-constructor)
+
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+private:
+  std::string text_;
+};
+
+/// Comma-separated values with one header line; fields with commas or quotes are quoted (RFC 4180).
+class Csv {
+public:
+  explicit Csv(const std::vector<std::string>& heads);
+  /// One line; as many cells as heads.
+  void add(std::initializer_list<CsvCell> cells);
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+private:
+  std::size_t columns_;
+  std::string text_;
+};
+
+} // namespace palp

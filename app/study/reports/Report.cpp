@@ -1,0 +1,99 @@
+#include "app/study/reports/Report.h"
+
+#include "app/study/PaperReport.h"
+#include "app/study/ReportPage.h"
+#include "io/AtomicFile.h"
+#include "io/DesignFile.h"
+
+namespace palp {
+
+const char* const kLeftOut = "Eq. (1) adds independent pairs of electrodes in a block that conducts everywhere: no "
+                             "sneak paths, no field between "
+                             "them. The rubber has no hysteresis, creep or temperature, which in real conductive "
+                             "rubber exceed 1e-4 of R by far. "
+                             "The load areas are stuck to their dead traction: no contact, no friction. A board will "
+                             "do worse than these numbers.";
+
+namespace {
+
+std::string rowClass(ReportTable::Mark mark) {
+  switch (mark) {
+  case ReportTable::Mark::Plain:
+    return {};
+  case ReportTable::Mark::Good:
+    return "good";
+  case ReportTable::Mark::Doubtful:
+    return "doubtful";
+  case ReportTable::Mark::Bad:
+    return "bad";
+  }
+  return {};
+}
+
+/// Adds the parts of a report to its page, one overload a kind of part.
+class PageWriter {
+public:
+  PageWriter(ReportPage& page, const std::filesystem::path& folder, const ChartDrawer& draw)
+      : page_(page), folder_(folder), draw_(draw) {}
+
+  void operator()(const ReportHeading& heading) const { page_.heading(heading.text); }
+  void operator()(const ReportWords& words) const { page_.paragraph(words.text); }
+  void operator()(const ReportTable& table) const {
+    std::vector<std::string> classes;
+    for (const ReportTable::Mark mark : table.marks) classes.push_back(rowClass(mark));
+    page_.table(table.heads, table.rows, table.caption, classes);
+  }
+  void operator()(const ReportChart& chart) const {
+    if (!draw_) {
+      page_.paragraph(chart.title + ": not drawn, this palp was built without VTK; its points are in the CSV.");
+      return;
+    }
+    const std::filesystem::path png = folder_ / (chart.file + ".png");
+    draw_(chart, png);
+    page_.picture(png, chart.caption);
+  }
+
+private:
+  ReportPage& page_;
+  const std::filesystem::path& folder_;
+  const ChartDrawer& draw_;
+};
+
+void tellOrigin(ReportPage& page, const ReportContent& content, const ReportRequest& request, double seconds) {
+  page.heading("How it was made");
+  page.code(request.command);
+  page.paragraph("Design " + designFingerprint(request.design) + ", seed " + std::to_string(request.seed) + ".");
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [stage, count] : content.stages.counts())
+    rows.push_back({stage, std::to_string(count.runs), shortNumber(count.seconds)});
+  if (!rows.empty()) page.table({"stage", "runs", "seconds"}, rows);
+  page.paragraph("Whole run " + shortNumber(seconds) + " s. " + machineLine() + ".");
+}
+
+} // namespace
+
+ReportOutcome writeReport(const ReportContent& content, const ReportRequest& request, double seconds,
+                          const ChartDrawer& draw) {
+  std::filesystem::create_directories(request.folder);
+  ReportPage page(content.title);
+  page.paragraph(content.summary);
+  const PageWriter writer(page, request.folder, draw);
+  for (const ReportPart& part : content.parts) std::visit(writer, part);
+  for (const std::string& warning : content.warnings) page.paragraph("Note: " + warning);
+  tellOrigin(page, content, request, seconds);
+
+  ReportOutcome outcome;
+  outcome.done = true;
+  outcome.page = request.folder / "report.html";
+  outcome.csv = request.folder / "points.csv";
+  for (const ReportFile& file : content.files) writeFile(request.folder / file.name, file.content, true);
+  writeFile(outcome.csv, content.csv, true);
+  writeFile(outcome.page, page.html(), true);
+  outcome.summary = content.summary;
+  outcome.stages = content.stages;
+  outcome.warnings = content.warnings;
+  outcome.seconds = seconds;
+  return outcome;
+}
+
+} // namespace palp

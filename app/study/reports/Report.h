@@ -1,0 +1,112 @@
+#pragma once
+
+#include "app/study/StageLog.h"
+#include "model/SensorDesign.h"
+#include "solver/SensorMesh.h"
+
+#include <filesystem>
+#include <functional>
+#include <stop_token>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace palp {
+
+/// A curve of a chart, as values; app/scenes draws it.
+struct ReportCurve {
+  enum class Style { Line, Points, LineAndPoints };
+
+  std::string name;
+  std::vector<double> x;
+  std::vector<double> y;
+  Style style = Style::LineAndPoints;
+  bool dashed = false;
+};
+
+/// A chart of a report; labels carry their unit.
+struct ReportChart {
+  std::string file; ///< name of the picture, without folder and ending
+  std::string caption;
+  std::string title;
+  std::string xLabel;
+  std::string yLabel;
+  bool logX = false;
+  bool logY = false;
+  std::vector<ReportCurve> curves;
+};
+
+struct ReportTable {
+  /// How a row came out; plain rows have no colour.
+  enum class Mark { Plain, Good, Doubtful, Bad };
+
+  std::string caption;
+  std::vector<std::string> heads;
+  std::vector<std::vector<std::string>> rows;
+  std::vector<Mark> marks; ///< one a row, or empty
+};
+
+struct ReportHeading {
+  std::string text;
+};
+
+struct ReportWords {
+  std::string text;
+};
+
+using ReportPart = std::variant<ReportHeading, ReportWords, ReportTable, ReportChart>;
+
+/// A file that goes with a report (a better design, a deck for another program).
+struct ReportFile {
+  std::string name;
+  std::string content;
+};
+
+/// What a report says, in the order of its page.
+struct ReportContent {
+  std::string title;
+  std::vector<ReportPart> parts;
+  std::string csv; ///< every point of every curve and table
+  std::vector<ReportFile> files;
+  std::string summary; ///< a sentence or two with the numbers that matter
+  StageLog stages;
+  std::vector<std::string> warnings;
+};
+
+/// What the model leaves out, for reports whose numbers could be mistaken for a board's.
+extern const char* const kLeftOut;
+
+/// What is asked of every kind of report.
+struct ReportRequest {
+  SensorDesign design = paperDesign();
+  std::filesystem::path folder; ///< of report.html, points.csv and the pictures
+  MeshOptions mesh;             ///< none: the kind's own
+  int perArea = 100;            ///< samples on each area, where the kind needs any
+  std::uint64_t seed = 1;
+  int threads = 0;     ///< 0: all cores
+  std::string command; ///< that makes the report again; printed in it
+};
+
+/// Gets a share 0..1 and what is being done; may be called from another thread, one call at a time.
+using ReportProgress = std::function<void(double, const std::string&)>;
+
+/// What a run of a report left behind.
+struct ReportOutcome {
+  bool done = false; ///< false: cancelled, nothing was written
+  std::filesystem::path page;
+  std::filesystem::path csv;
+  std::string summary;
+  StageLog stages;
+  std::vector<std::string> warnings;
+  double seconds = 0;
+};
+
+/// Draws a chart into a PNG file.
+using ChartDrawer = std::function<void(const ReportChart&, const std::filesystem::path&)>;
+
+/// Writes page, CSV, pictures and further files into the folder of the request. Without a drawer the page says that
+/// this program draws no charts. Throws Error where a file cannot be written.
+ReportOutcome writeReport(const ReportContent& content, const ReportRequest& request, double seconds,
+                          const ChartDrawer& draw);
+
+} // namespace palp

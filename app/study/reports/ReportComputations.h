@@ -1,0 +1,24 @@
+#pragma once
+
+#include "app/study/reports/Report.h"
+
+#include <optional>
+
+namespace palp {
+
+/// A kind of report, without its pictures.
+struct ReportComputation {
+  std::string name; ///< as on the command line
+  std::string what; ///< in a sentence
+  /// Empty where it was stopped. Throws Error where the design cannot be.
+  std::function<std::optional<ReportContent>(const ReportRequest&, const ReportProgress&, std::stop_token)> compute;
+};
+
+/// All of them, in the order of the command's help.
+const std::vector<ReportComputation>& reportComputations();
+
+/// Computes and writes; see writeReport.
+ReportOutcome runReport(const ReportComputation& kind, const ReportRequest& request, const ReportProgress& progress,
+                        std::stop_token stop, const ChartDrawer& draw);
+
+} // namespace palp
