@@ -1,0 +1,53 @@
+#include "app/gui/ChartView.h"
+
+#include <vtkChartXY.h>
+#include <vtkContextActor.h>
+#include <vtkContextInteractorStyle.h>
+#include <vtkContextScene.h>
+#include <vtkNew.h>
+#include <vtkRenderer.h>
+
+namespace palp {
+
+struct ChartView::Parts {
+  vtkNew<vtkRenderer> renderer;
+  vtkNew<vtkContextActor> actor;
+  vtkNew<vtkChartXY> chart;
+  vtkNew<vtkContextInteractorStyle> style;
+
+  Parts() {
+    actor->GetScene()->AddItem(chart);
+    actor->GetScene()->SetRenderer(renderer);
+    renderer->AddActor(actor);
+    style->SetScene(actor->GetScene());
+  }
+};
+
+ChartView::ChartView(QWidget* parent) : ChartView(std::make_unique<Parts>(), parent) {}
+
+ChartView::ChartView(std::unique_ptr<Parts> parts, QWidget* parent)
+    : VtkView(parts->renderer, parts->style, parent), parts_(std::move(parts)) {
+  connect(this, &VtkView::doubleClicked, this, &ChartView::fill);
+  fill();
+}
+
+ChartView::~ChartView() = default;
+
+void ChartView::setChart(const ChartSpec& spec) {
+  spec_ = spec;
+  fill();
+}
+
+void ChartView::setTheme(Theme theme) {
+  theme_ = theme;
+  fill();
+}
+
+void ChartView::fill() {
+  const Color& ground = palp::palette(theme_).ground;
+  parts_->renderer->SetBackground(ground[0], ground[1], ground[2]);
+  fillChart(*parts_->chart, spec_, theme_, devicePixelRatioF());
+  invalidate();
+}
+
+} // namespace palp

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <QWidget>
+
+class QLabel;
+class QProgressBar;
+class QPushButton;
+
+namespace palp {
+
+class JobRunner;
+
+/// What a job does, how far it is, and a button that cancels it; hidden while nothing runs.
+class JobStrip : public QWidget {
+  Q_OBJECT
+
+public:
+  explicit JobStrip(JobRunner& runner, QWidget* parent = nullptr);
+
+signals:
+  /// A sentence for the status line.
+  void told(const QString& sentence);
+
+private:
+  QLabel* words_ = nullptr;
+  QProgressBar* bar_ = nullptr;
+  QPushButton* cancel_ = nullptr;
+};
+
+} // namespace palp

@@ -1,0 +1,113 @@
+#include "app/gui/MainWindow.h"
+
+#include "app/gui/DeformationPage.h"
+#include "app/gui/JobStrip.h"
+#include "app/gui/NetworkPage.h"
+#include "app/gui/NetworkSession.h"
+#include "app/gui/Style.h"
+#include "app/gui/Workbench.h"
+
+#include <QApplication>
+#include <QCloseEvent>
+#include <QHBoxLayout>
+#include <QListWidget>
+#include <QSettings>
+#include <QStackedWidget>
+#include <QStatusBar>
+
+namespace palp {
+
+namespace {
+
+constexpr int kRailWidth_px = 128;
+constexpr int kMessage_ms = 15000;
+
+} // namespace
+
+MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbench_(workbench), network_(network) {
+  setWindowTitle(tr("Palp"));
+  setWindowIcon(QIcon(":/icons/palp.svg"));
+  auto* centre = new QWidget;
+  auto* row = new QHBoxLayout(centre);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(0);
+  rail_ = new QListWidget;
+  rail_->setObjectName("rail");
+  rail_->setFixedWidth(kRailWidth_px);
+  scenes_ = new QStackedWidget;
+  row->addWidget(rail_);
+  row->addWidget(scenes_, 1);
+  setCentralWidget(centre);
+
+  addScene("deformation", tr("Deformation"), tr("The block under load"), new DeformationPage(workbench));
+  auto* networkPage = new NetworkPage(workbench, network);
+  connect(networkPage, &NetworkPage::refused, this, &MainWindow::tell);
+  addScene("network", tr("Network"), tr("Samples, training and the sweep of the spread"), networkPage);
+  buildStatusLine();
+  connect(rail_, &QListWidget::currentRowChanged, this, &MainWindow::sceneChosen);
+  restoreLayout();
+  showScene("deformation");
+}
+
+void MainWindow::addScene(const QString& name, const QString& title, const QString& tip, Scene* scene) {
+  names_ << name;
+  auto* item = new QListWidgetItem(title, rail_);
+  item->setToolTip(tip + QString(" (Ctrl+%1)").arg(names_.size()));
+  scenes_->addWidget(scene);
+}
+
+void MainWindow::buildStatusLine() {
+  for (JobRunner* runner : {&workbench_.touch().runner(), &network_.runner()}) {
+    auto* strip = new JobStrip(*runner);
+    connect(strip, &JobStrip::told, this, &MainWindow::tell);
+    statusBar()->addPermanentWidget(strip);
+  }
+}
+
+void MainWindow::sceneChosen(int index) {
+  if (index < 0) return;
+  scenes_->setCurrentIndex(index);
+  workbench_.touch().need(currentScene().stage());
+}
+
+bool MainWindow::showScene(const QString& name) {
+  const auto index = names_.indexOf(name);
+  if (index < 0) return false;
+  rail_->setCurrentRow(static_cast<int>(index));
+  return true;
+}
+
+QStringList MainWindow::sceneNames() const {
+  return names_;
+}
+
+Scene& MainWindow::currentScene() const {
+  return static_cast<Scene&>(*scenes_->currentWidget());
+}
+
+void MainWindow::setTheme(Theme theme) {
+  theme_ = theme;
+  applyTheme(*qApp, theme);
+  for (int k = 0; k < scenes_->count(); ++k) static_cast<Scene*>(scenes_->widget(k))->setTheme(theme);
+  QSettings().setValue("theme", theme == Theme::Light ? "light" : "dark");
+}
+
+void MainWindow::tell(const QString& sentence) {
+  statusBar()->showMessage(sentence, kMessage_ms);
+}
+
+void MainWindow::restoreLayout() {
+  QSettings settings;
+  resize(1500, 900);
+  restoreGeometry(settings.value("geometry").toByteArray());
+  setTheme(settings.value("theme").toString() == "dark" ? Theme::Dark : Theme::Light);
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+  QSettings().setValue("geometry", saveGeometry());
+  workbench_.touch().cancel();
+  network_.cancel();
+  event->accept();
+}
+
+} // namespace palp

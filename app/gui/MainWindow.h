@@ -1,0 +1,48 @@
+#pragma once
+
+#include "app/gui/Scene.h"
+
+#include <QMainWindow>
+
+class QListWidget;
+class QStackedWidget;
+
+namespace palp {
+
+class NetworkSession;
+class Workbench;
+
+/// Composes: a rail with the scenes, the scenes, the menus and the jobs' progress.
+class MainWindow : public QMainWindow {
+  Q_OBJECT
+
+public:
+  MainWindow(Workbench& workbench, NetworkSession& network);
+
+  /// By its name on the command line. False where there is no such scene.
+  bool showScene(const QString& name);
+  [[nodiscard]] QStringList sceneNames() const;
+  [[nodiscard]] Scene& currentScene() const;
+  void setTheme(Theme theme);
+  [[nodiscard]] Theme theme() const { return theme_; }
+  /// Says a sentence in the status line.
+  void tell(const QString& sentence);
+
+protected:
+  void closeEvent(QCloseEvent* event) override;
+
+private:
+  void addScene(const QString& name, const QString& title, const QString& tip, Scene* scene);
+  void buildStatusLine();
+  void sceneChosen(int index);
+  void restoreLayout();
+
+  Workbench& workbench_;
+  NetworkSession& network_;
+  QListWidget* rail_ = nullptr;
+  QStackedWidget* scenes_ = nullptr;
+  QStringList names_;
+  Theme theme_ = Theme::Light;
+};
+
+} // namespace palp

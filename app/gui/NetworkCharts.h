@@ -1,0 +1,20 @@
+#pragma once
+
+#include "app/gui/NetworkSession.h"
+#include "app/scenes/Chart.h"
+
+namespace palp {
+
+/// Test error (Eq. 13) against spread, beside the paper's points for the same input.
+ChartSpec sweepErrorChart(const std::vector<SweepPoint>& points, const NetworkFit* fit, InputKind input);
+/// Leave-one-out error and condition of the system against spread.
+ChartSpec sweepLeaveOneOutChart(const std::vector<SweepPoint>& points);
+ChartSpec sweepConditionChart(const std::vector<SweepPoint>& points);
+/// Error against training time over a sweep.
+ChartSpec errorTimeChart(const std::vector<SweepPoint>& points);
+/// Decoupled against true force of one direction (0, 1, 2), all test samples of one area (Figs. 8-10, 13-15).
+ChartSpec decoupledChart(const NetworkSamples& samples, const NetworkFit& fit, int direction, int area);
+/// Relative error by sample of one area (Figs. 11, 16).
+ChartSpec relativeErrorChart(const NetworkSamples& samples, const NetworkFit& fit, int area);
+
+} // namespace palp

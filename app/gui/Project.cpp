@@ -1,0 +1,22 @@
+#include "app/gui/Project.h"
+
+namespace palp {
+
+TrainOptions NetworkSettings::trainOptions() const {
+  TrainOptions options;
+  options.input = input;
+  options.mode = mode;
+  options.decoder = decoder;
+  options.rows = rows;
+  options.noise = noise;
+  if (!automaticSpread) options.spread = spread;
+  return options;
+}
+
+Project exampleProject() {
+  Project project;
+  project.load.areas.push_back({1, {0.5, 0.3, -6}});
+  return project;
+}
+
+} // namespace palp

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "app/scenes/Palette.h"
+#include "app/study/Touch.h"
+
+#include <QWidget>
+
+namespace palp {
+
+/// A page of the window; hidden pages draw and compute nothing.
+class Scene : public QWidget {
+public:
+  using QWidget::QWidget;
+
+  /// The furthest stage of the chain that the page shows.
+  [[nodiscard]] virtual Stage stage() const = 0;
+  virtual void setTheme(Theme theme) = 0;
+  /// True where all that the page shows at the start is there.
+  [[nodiscard]] virtual bool complete() const = 0;
+};
+
+} // namespace palp

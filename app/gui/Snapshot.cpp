@@ -1,0 +1,40 @@
+#include "app/gui/Snapshot.h"
+
+#include "app/gui/MainWindow.h"
+#include "app/gui/NetworkSession.h"
+#include "app/gui/Workbench.h"
+
+#include <QApplication>
+#include <QTimer>
+
+#include <iostream>
+
+namespace palp {
+
+namespace {
+
+constexpr int kLookEvery_ms = 50;
+
+} // namespace
+
+void snapshotWhenComplete(MainWindow& window, Workbench& workbench, NetworkSession& network, const QString& file) {
+  auto* timer = new QTimer(&window);
+  QObject::connect(&workbench.touch().runner(), &JobRunner::failed, &window, [](const QString& sentence) {
+    std::cerr << "palp-studio: " << sentence.toStdString() << "\n";
+    QApplication::exit(1);
+  });
+  QObject::connect(timer, &QTimer::timeout, &window, [&window, &workbench, &network, file, timer] {
+    if (workbench.touch().runner().running() || network.runner().running() || !window.currentScene().complete()) return;
+    timer->stop();
+    if (window.grab().save(file, "PNG")) {
+      QApplication::exit(0);
+    } else {
+      std::cerr << "palp-studio: " << file.toStdString()
+                << ": cannot be written; allowed is a file in a folder that exists and may be written to\n";
+      QApplication::exit(1);
+    }
+  });
+  timer->start(kLookEvery_ms);
+}
+
+} // namespace palp

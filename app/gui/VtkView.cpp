@@ -1,0 +1,161 @@
+#include "app/gui/VtkView.h"
+
+#include "app/scenes/OffscreenWindow.h"
+
+#include <QMouseEvent>
+#include <QPainter>
+#include <QWheelEvent>
+
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
+#include <vtkGenericRenderWindowInteractor.h>
+#include <vtkInteractorStyleTrackballCamera.h>
+#include <vtkNew.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+
+#include <cmath>
+
+namespace palp {
+
+namespace {
+
+constexpr int kWheelStep = 120; ///< eighths of a degree
+constexpr double kClick_px = 4; ///< farther than this, pressing and releasing is a drag
+
+void invalidateView(vtkObject*, unsigned long, void* view, void*) {
+  static_cast<VtkView*>(view)->invalidate();
+}
+
+unsigned long pressEvent(Qt::MouseButton button) {
+  if (button == Qt::LeftButton) return vtkCommand::LeftButtonPressEvent;
+  return button == Qt::RightButton ? vtkCommand::RightButtonPressEvent : vtkCommand::MiddleButtonPressEvent;
+}
+
+unsigned long releaseEvent(Qt::MouseButton button) {
+  if (button == Qt::LeftButton) return vtkCommand::LeftButtonReleaseEvent;
+  return button == Qt::RightButton ? vtkCommand::RightButtonReleaseEvent : vtkCommand::MiddleButtonReleaseEvent;
+}
+
+} // namespace
+
+struct VtkView::Vtk {
+  OffscreenWindow window;
+  vtkNew<vtkGenericRenderWindowInteractor> interactor;
+  vtkNew<vtkCallbackCommand> changed;
+  vtkSmartPointer<vtkRenderer> renderer;
+};
+
+VtkView::VtkView(vtkRenderer* renderer, vtkInteractorObserver* style, QWidget* parent)
+    : QWidget(parent), vtk_(std::make_unique<Vtk>()) {
+  setAttribute(Qt::WA_OpaquePaintEvent);
+  setMouseTracking(true);
+  setMinimumSize(160, 120);
+  vtk_->renderer = renderer;
+  vtk_->window.vtk()->AddRenderer(renderer);
+  vtk_->interactor->SetRenderWindow(vtk_->window.vtk());
+  // The interactor asks for a rendering after each event; the view renders once a paint instead.
+  vtk_->interactor->EnableRenderOff();
+  vtk_->interactor->Initialize();
+  vtkNew<vtkInteractorStyleTrackballCamera> camera;
+  vtk_->interactor->SetInteractorStyle(style != nullptr ? style : camera);
+  vtk_->changed->SetCallback(invalidateView);
+  vtk_->changed->SetClientData(this);
+  vtk_->interactor->AddObserver(vtkCommand::RenderEvent, vtk_->changed);
+}
+
+VtkView::~VtkView() {
+  vtk_->interactor->SetInteractorStyle(nullptr);
+  vtk_->interactor->SetRenderWindow(nullptr);
+  vtk_->window.vtk()->RemoveRenderer(vtk_->renderer);
+}
+
+void VtkView::invalidate() {
+  changed_ = true;
+  update();
+}
+
+const QImage& VtkView::image() {
+  if (changed_) draw();
+  return image_;
+}
+
+double VtkView::aspect() const {
+  return height() > 0 ? static_cast<double>(width()) / height() : 1;
+}
+
+QPointF VtkView::devicePlace(const QPointF& place) const {
+  return {place.x() * devicePixelRatioF(), (height() - 1 - place.y()) * devicePixelRatioF()};
+}
+
+void VtkView::draw() {
+  changed_ = false;
+  const QSize size = (QSizeF(this->size()) * devicePixelRatioF()).toSize().expandedTo({1, 1});
+  vtk_->window.setSize(size.width(), size.height());
+  vtk_->window.render();
+  ++renderCount_;
+  if (image_.size() != size) image_ = QImage(size, QImage::Format_RGB32);
+  vtk_->window.copyBgra(image_.bits(), static_cast<std::size_t>(image_.bytesPerLine()));
+  image_.setDevicePixelRatio(devicePixelRatioF());
+}
+
+void VtkView::paintEvent(QPaintEvent*) {
+  if (changed_) draw();
+  QPainter painter(this);
+  painter.setCompositionMode(QPainter::CompositionMode_Source);
+  painter.drawImage(0, 0, image_);
+}
+
+void VtkView::resizeEvent(QResizeEvent*) {
+  const QSize size = (QSizeF(this->size()) * devicePixelRatioF()).toSize().expandedTo({1, 1});
+  vtk_->interactor->UpdateSize(size.width(), size.height());
+  changed_ = true;
+  emit sizeChanged();
+}
+
+void VtkView::tellPlace(const QPointF& place, Qt::KeyboardModifiers modifiers) {
+  const QPointF device = devicePlace(place);
+  vtk_->interactor->SetEventInformation(
+      static_cast<int>(std::lround(device.x())), static_cast<int>(std::lround(device.y())),
+      modifiers.testFlag(Qt::ControlModifier) ? 1 : 0, modifiers.testFlag(Qt::ShiftModifier) ? 1 : 0);
+}
+
+void VtkView::mousePressEvent(QMouseEvent* event) {
+  pressed_ = event->position();
+  tellPlace(event->position(), event->modifiers());
+  vtk_->interactor->InvokeEvent(pressEvent(event->button()));
+}
+
+void VtkView::mouseReleaseEvent(QMouseEvent* event) {
+  tellPlace(event->position(), event->modifiers());
+  vtk_->interactor->InvokeEvent(releaseEvent(event->button()));
+  const QPointF way = event->position() - pressed_;
+  if (event->button() == Qt::LeftButton && std::hypot(way.x(), way.y()) <= kClick_px) emit clicked(event->position());
+}
+
+void VtkView::mouseMoveEvent(QMouseEvent* event) {
+  tellPlace(event->position(), event->modifiers());
+  vtk_->interactor->InvokeEvent(vtkCommand::MouseMoveEvent);
+  if (event->buttons() == Qt::NoButton) emit hovered(event->position());
+}
+
+void VtkView::mouseDoubleClickEvent(QMouseEvent* event) {
+  if (event->button() == Qt::LeftButton) emit doubleClicked();
+}
+
+void VtkView::wheelEvent(QWheelEvent* event) {
+  tellPlace(event->position(), event->modifiers());
+  wheel_ += event->angleDelta().y();
+  for (; wheel_ >= kWheelStep; wheel_ -= kWheelStep) vtk_->interactor->InvokeEvent(vtkCommand::MouseWheelForwardEvent);
+  for (; wheel_ <= -kWheelStep; wheel_ += kWheelStep)
+    vtk_->interactor->InvokeEvent(vtkCommand::MouseWheelBackwardEvent);
+  event->accept();
+}
+
+void VtkView::leaveEvent(QEvent*) {
+  vtk_->interactor->InvokeEvent(vtkCommand::LeaveEvent);
+  emit hovered(QPointF(-1, -1));
+}
+
+} // namespace palp
