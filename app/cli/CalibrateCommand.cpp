@@ -59,7 +59,7 @@ void fill(Json& result, const CalibrationReport& report, double age_days) {
 
 Exit run(const CalibrateArguments& arguments, Session& session) {
   arguments.output.requireWritable();
-  const Decoder decoder = loadNetwork(arguments.network);
+  const Decoder decoder = readNetwork(arguments.network);
   const SampleSet frames = loadSamples(arguments.frames);
   const Calibration calibration = session.stages.measure("train", [&] { return calibrate(decoder, frames); });
   const CalibrationReport& report = calibration.report;
@@ -68,7 +68,7 @@ Exit run(const CalibrateArguments& arguments, Session& session) {
     session.warnings.emplace_back("on frames that it has not seen, the refined network is no better than the old one");
   if (report.coverage_percent.minCoeff() < 50)
     session.warnings.emplace_back("the labels cover less than half of the network's force range in some direction");
-  saveNetwork(arguments.output.path, calibration.decoder, arguments.output.force);
+  writeNetwork(calibration.decoder, arguments.output.path, arguments.output.force);
   fill(session.result, report, age_days);
   session.result["file"] = arguments.output.path.string();
   if (session.json) return Exit::Done;

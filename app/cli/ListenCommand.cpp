@@ -75,7 +75,7 @@ std::unique_ptr<ReportSource> openSimulated(const ListenArguments& arguments) {
 /// What can be opened once is opened here, so that its refusals come before the session begins.
 LiveOptions liveOptions(const ListenArguments& arguments) {
   LiveOptions options;
-  if (!arguments.network.empty()) options.decoder = loadNetwork(arguments.network);
+  if (!arguments.network.empty()) options.decoder = readNetwork(arguments.network);
   if (!arguments.design.empty()) options.design = designOption(arguments.design);
   options.tareFrames = wholeNumber("--tare", arguments.tare, 0, 100'000);
   options.ringFrames = 8192;
