@@ -24,6 +24,7 @@ namespace palp {
 namespace {
 
 constexpr int kPanelWidth_px = 300;
+constexpr int kTextWidth_px = 250; ///< of the panels, less their frames
 
 QGroupBox* group(const QString& title, QWidget* content) {
   auto* box = new QGroupBox(title);
@@ -81,7 +82,10 @@ DeformationPage::DeformationPage(Workbench& workbench, QWidget* parent) : Scene(
     workbench_.edit(tr("Change the load on area %1").arg(load_->area()), next);
   });
   connect(view_, &ViewPanel::edited, this, [this] { drawBlock(false); });
-  connect(block_, &BlockView::nodeClicked, this, &DeformationPage::probe);
+  connect(block_, &BlockView::nodeClicked, this, [this](int node) {
+    probe(node);
+    chooseAreaOf(node);
+  });
   connect(increments_, &QSlider::valueChanged, this, [this](int k) { workbench_.touch().showIncrement(k); });
   connect(estimate_, &QPushButton::clicked, this, [this] { workbench_.touch().estimateError(); });
   connect(heatmap_, &HeatmapView::cellClicked, this, [this](int rowWire, int columnWire) {
@@ -271,6 +275,21 @@ void DeformationPage::tellResult() {
   lines << tr("Discretisation error: %1").arg(errorText_.isEmpty() ? tr("not estimated yet.") : errorText_ + ".");
   if (!session.upToDate()) lines << tr("<i>The load has changed; this is the result before.</i>");
   result_->setText(lines.join("<br>"));
+  result_->setMinimumHeight(result_->heightForWidth(kTextWidth_px));
+}
+
+void DeformationPage::chooseAreaOf(int node) {
+  const Touch& touch = workbench_.touch().touch();
+  const Eigen::Vector3d place = touch.mesh()->nodes_mm.col(node);
+  if (place.z() < touch.design().block_mm.z() * (1 - 1e-9)) return;
+  for (const AreaLoad& load : workbench_.project().load.areas) {
+    const Rectangle box = touch.design().areaRectangle(load.area);
+    if ((place.head<2>().array() >= box.low_mm.array()).all() &&
+        (place.head<2>().array() <= box.high_mm.array()).all()) {
+      load_->chooseArea(load.area);
+      return;
+    }
+  }
 }
 
 void DeformationPage::probe(int node) {
@@ -290,6 +309,7 @@ void DeformationPage::probe(int node) {
                       .arg(number(place.x()), number(place.y()), number(place.z()), number(u.x()), number(u.y()),
                            number(u.z()), number(fields.pressure_MPa[node]), number(fields.vonMises_MPa[node]),
                            number(fields.volumeRatio[node] - 1, 3)));
+  probe_->setMinimumHeight(probe_->heightForWidth(kTextWidth_px));
 }
 
 } // namespace palp

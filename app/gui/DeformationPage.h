@@ -41,6 +41,8 @@ private:
   void drawNewton();
   void tellResult();
   void probe(int node);
+  /// Chooses the loaded area on which a node of the top face lies; a click never adds a load by itself.
+  void chooseAreaOf(int node);
 
   Workbench& workbench_;
   DeformationOptions options_;

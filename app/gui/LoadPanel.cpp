@@ -103,6 +103,7 @@ void LoadPanel::display(const SensorDesign& design, const LoadCase& load) {
   design_ = design;
   load_ = load;
   area_ = std::clamp(area_, 0, std::max(0, design.areas.count() - 1));
+  if (loadOf(area_) == nullptr && !load_.areas.empty()) area_ = load_.areas.front().area;
   if (otherPlan) buildPlan();
   showForce();
 }
@@ -140,7 +141,7 @@ void LoadPanel::setForce(int direction, double value_N) {
 
 void LoadPanel::showForce() {
   const AreaLoad* load = loadOf(area_);
-  title_->setText(load != nullptr ? tr("Force on area %1").arg(area_) : tr("No area is loaded"));
+  title_->setText(load != nullptr ? tr("Force on area %1").arg(area_) : tr("No load on area %1").arg(area_));
   clear_->setEnabled(load != nullptr);
   for (std::size_t k = 0; k < 3; ++k) {
     const auto d = static_cast<Eigen::Index>(k);

@@ -2,6 +2,7 @@
 
 #include "app/gui/DeformationPage.h"
 #include "app/gui/JobStrip.h"
+#include "app/gui/Menus.h"
 #include "app/gui/NetworkPage.h"
 #include "app/gui/NetworkSession.h"
 #include "app/gui/Style.h"
@@ -9,9 +10,12 @@
 
 #include <QApplication>
 #include <QCloseEvent>
+#include <QDropEvent>
 #include <QHBoxLayout>
 #include <QListWidget>
+#include <QMimeData>
 #include <QSettings>
+#include <QShortcut>
 #include <QStackedWidget>
 #include <QStatusBar>
 
@@ -44,6 +48,12 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   connect(networkPage, &NetworkPage::refused, this, &MainWindow::tell);
   addScene("network", tr("Network"), tr("Samples, training and the sweep of the spread"), networkPage);
   buildStatusLine();
+  menus_ = new Menus(*this, workbench);
+  setAcceptDrops(true);
+  connect(new QShortcut(Qt::Key_Escape, this), &QShortcut::activated, this, [this] {
+    workbench_.touch().cancel();
+    network_.cancel();
+  });
   connect(rail_, &QListWidget::currentRowChanged, this, &MainWindow::sceneChosen);
   restoreLayout();
   showScene("deformation");
@@ -51,6 +61,7 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
 
 void MainWindow::addScene(const QString& name, const QString& title, const QString& tip, Scene* scene) {
   names_ << name;
+  scene->setObjectName(name);
   auto* item = new QListWidgetItem(title, rail_);
   item->setToolTip(tip + QString(" (Ctrl+%1)").arg(names_.size()));
   scenes_->addWidget(scene);
@@ -108,6 +119,15 @@ void MainWindow::closeEvent(QCloseEvent* event) {
   workbench_.touch().cancel();
   network_.cancel();
   event->accept();
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
+  if (event->mimeData()->hasUrls()) event->acceptProposedAction();
+}
+
+void MainWindow::dropEvent(QDropEvent* event) {
+  const QList<QUrl> files = event->mimeData()->urls();
+  if (!files.isEmpty()) menus_->open(files.front().toLocalFile());
 }
 
 } // namespace palp

@@ -9,6 +9,7 @@ class QStackedWidget;
 
 namespace palp {
 
+class Menus;
 class NetworkSession;
 class Workbench;
 
@@ -30,6 +31,8 @@ public:
 
 protected:
   void closeEvent(QCloseEvent* event) override;
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
 
 private:
   void addScene(const QString& name, const QString& title, const QString& tip, Scene* scene);
@@ -39,6 +42,7 @@ private:
 
   Workbench& workbench_;
   NetworkSession& network_;
+  Menus* menus_ = nullptr;
   QListWidget* rail_ = nullptr;
   QStackedWidget* scenes_ = nullptr;
   QStringList names_;

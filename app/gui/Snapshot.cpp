@@ -14,6 +14,7 @@ namespace palp {
 namespace {
 
 constexpr int kLookEvery_ms = 50;
+constexpr int kQuietLooks = 3; ///< so that what came last is laid out as well
 
 } // namespace
 
@@ -23,8 +24,10 @@ void snapshotWhenComplete(MainWindow& window, Workbench& workbench, NetworkSessi
     std::cerr << "palp-studio: " << sentence.toStdString() << "\n";
     QApplication::exit(1);
   });
-  QObject::connect(timer, &QTimer::timeout, &window, [&window, &workbench, &network, file, timer] {
-    if (workbench.touch().runner().running() || network.runner().running() || !window.currentScene().complete()) return;
+  QObject::connect(timer, &QTimer::timeout, &window, [&window, &workbench, &network, file, timer, quiet = 0]() mutable {
+    const bool busy = workbench.touch().runner().running() || network.runner().running();
+    quiet = busy || !window.currentScene().complete() ? 0 : quiet + 1;
+    if (quiet < kQuietLooks) return;
     timer->stop();
     if (window.grab().save(file, "PNG")) {
       QApplication::exit(0);

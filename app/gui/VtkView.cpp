@@ -1,7 +1,13 @@
 #include "app/gui/VtkView.h"
 
 #include "app/scenes/OffscreenWindow.h"
+#include "model/Error.h"
 
+#include <QApplication>
+#include <QClipboard>
+#include <QFileDialog>
+#include <QMenu>
+#include <QMessageBox>
 #include <QMouseEvent>
 #include <QPainter>
 #include <QWheelEvent>
@@ -132,6 +138,40 @@ void VtkView::mouseReleaseEvent(QMouseEvent* event) {
   vtk_->interactor->InvokeEvent(releaseEvent(event->button()));
   const QPointF way = event->position() - pressed_;
   if (event->button() == Qt::LeftButton && std::hypot(way.x(), way.y()) <= kClick_px) emit clicked(event->position());
+  if (event->button() == Qt::RightButton && std::hypot(way.x(), way.y()) <= kClick_px)
+    offerPicture(event->globalPosition().toPoint());
+}
+
+Picture VtkView::picture(int width, int height) {
+  vtk_->window.setSize(width, height);
+  vtk_->window.render();
+  Picture picture = vtk_->window.picture();
+  invalidate(); // the window has another size now
+  return picture;
+}
+
+void VtkView::offerPicture(const QPoint& globalPlace) {
+  QMenu menu(this);
+  const QAction* copy = menu.addAction(tr("Copy picture"));
+  const QSize now = image().size();
+  QList<QPair<QAction*, QSize>> sizes;
+  for (const int factor : {1, 2, 4}) {
+    const QSize size = now * factor;
+    sizes << qMakePair(menu.addAction(tr("Save picture, %1 x %2 pixels...").arg(size.width()).arg(size.height())),
+                       size);
+  }
+  const QAction* chosen = menu.exec(globalPlace);
+  if (chosen == copy && chosen != nullptr) QApplication::clipboard()->setImage(image());
+  for (const auto& [action, size] : sizes) {
+    if (action != chosen || chosen == nullptr) continue;
+    const QString file = QFileDialog::getSaveFileName(this, tr("Save picture"), "picture.png", tr("Pictures (*.png)"));
+    if (file.isEmpty()) return;
+    try {
+      writePng(picture(size.width(), size.height()), file.toStdString());
+    } catch (const Error& error) {
+      QMessageBox::warning(this, tr("Save picture"), QString::fromStdString(error.what()));
+    }
+  }
 }
 
 void VtkView::mouseMoveEvent(QMouseEvent* event) {

@@ -28,6 +28,8 @@ public:
   void invalidate();
   /// What the view shows, as an image of its size in device pixels.
   [[nodiscard]] const QImage& image();
+  /// The view in another size.
+  [[nodiscard]] Picture picture(int width, int height);
   [[nodiscard]] int renderCount() const { return renderCount_; }
   [[nodiscard]] double aspect() const;
   /// A place of the widget as VTK counts: device pixels from the lower left.
@@ -52,6 +54,8 @@ protected:
 
 private:
   void draw();
+  /// Asks for a size and a file and saves the view as PNG; or copies it.
+  void offerPicture(const QPoint& globalPlace);
   void tellPlace(const QPointF& place, Qt::KeyboardModifiers modifiers);
 
   struct Vtk;

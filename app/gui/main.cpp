@@ -1,8 +1,8 @@
 #include "app/gui/MainWindow.h"
 #include "app/gui/NetworkSession.h"
+#include "app/gui/ProjectFile.h"
 #include "app/gui/Snapshot.h"
 #include "app/gui/Workbench.h"
-#include "io/DesignFile.h"
 #include "model/Error.h"
 
 #include <QApplication>
@@ -38,7 +38,7 @@ Wish parse(const QApplication& application) {
 int run(QApplication& application) {
   const Wish wish = parse(application);
   palp::Project project = palp::exampleProject();
-  if (!wish.file.isEmpty()) project.design = palp::loadDesign(wish.file.toStdString());
+  if (!wish.file.isEmpty()) project = palp::loadProject(wish.file.toStdString(), project);
   palp::Workbench workbench(project);
   palp::NetworkSession network;
   palp::MainWindow window(workbench, network);

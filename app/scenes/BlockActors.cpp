@@ -52,8 +52,8 @@ Outline outline(const std::vector<std::vector<TopPoint>>& borders, const Eigen::
 
 BlockActors::BlockActors(vtkRenderer& renderer)
     : surfaceData_(vtkSmartPointer<vtkPolyData>::New()), surfaceMapper_(vtkSmartPointer<vtkPolyDataMapper>::New()),
-      surfaceActor_(vtkSmartPointer<vtkActor>::New()), edges_(renderer), ghost_(renderer), borders_(renderer),
-      selected_(renderer) {
+      surfaceActor_(vtkSmartPointer<vtkActor>::New()), plane_(vtkSmartPointer<vtkPlane>::New()), cut_(renderer),
+      edges_(renderer), ghost_(renderer), borders_(renderer), selected_(renderer) {
   surfaceMapper_->SetInputData(surfaceData_);
   surfaceMapper_->InterpolateScalarsBeforeMappingOn();
   surfaceActor_->SetMapper(surfaceMapper_);
@@ -79,6 +79,7 @@ void BlockActors::setMesh(const SensorDesign& design, const Mesh& mesh) {
   }
   surfaceData_->SetPolys(triangles);
   edges_.set(Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(surface_.nodes.size())), surface_.edges);
+  cut_.setMesh(mesh);
   ghost_.set(boxCorners(design.block_mm), boxEdges());
 }
 
@@ -106,6 +107,17 @@ void BlockActors::show(const Mesh& mesh, const Eigen::Matrix3Xd& drawnDisplaceme
   const Color& rest = options.theme == Theme::Light ? kRestOnLight : kRestOnDark;
   surfaceActor_->GetProperty()->SetColor(rest[0], rest[1], rest[2]);
   surfaceActor_->GetProperty()->SetOpacity(options.electrodes ? (values.empty() ? 0.35 : kBlockOpacity) : 1);
+
+  surfaceMapper_->RemoveAllClippingPlanes();
+  if (options.clipY_mm) {
+    plane_->SetOrigin(0, *options.clipY_mm, 0);
+    plane_->SetNormal(0, 1, 0);
+    surfaceMapper_->AddClippingPlane(plane_);
+    cut_.show(drawn_mm_, values, colors, rest, plane_);
+  } else {
+    cut_.hide();
+  }
+  for (Polylines* lines : {&edges_, &borders_, &selected_}) lines->clip(options.clipY_mm ? plane_.Get() : nullptr);
 
   edges_.move(places_mm);
   edges_.setLook({0.05, 0.06, 0.08}, options.scale, options.theme == Theme::Light ? 0.20 : 0.35);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/scenes/ColorScale.h"
+#include "app/scenes/CutFace.h"
 #include "app/scenes/DeformationScene.h"
 #include "app/scenes/MeshSurface.h"
 #include "app/scenes/Polylines.h"
@@ -37,6 +38,8 @@ private:
   vtkSmartPointer<vtkPolyData> surfaceData_;
   vtkSmartPointer<vtkPolyDataMapper> surfaceMapper_;
   vtkSmartPointer<vtkActor> surfaceActor_;
+  vtkSmartPointer<vtkPlane> plane_;
+  CutFace cut_;
   Polylines edges_;
   Polylines ghost_;
   Polylines borders_;

@@ -2,6 +2,7 @@
 
 #include <vtkCellArray.h>
 #include <vtkNew.h>
+#include <vtkPlane.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
@@ -47,6 +48,11 @@ void Polylines::setLook(const Color& color, double width_px, double opacity) {
 
 void Polylines::setVisible(bool visible) {
   actor_->SetVisibility(visible ? 1 : 0);
+}
+
+void Polylines::clip(vtkPlane* plane) {
+  actor_->GetMapper()->RemoveAllClippingPlanes();
+  if (plane != nullptr) actor_->GetMapper()->AddClippingPlane(plane);
 }
 
 Eigen::Matrix3Xd boxCorners(const Eigen::Vector3d& size_mm) {

@@ -9,6 +9,7 @@
 
 #include <vector>
 
+class vtkPlane;
 class vtkPolyData;
 class vtkRenderer;
 
@@ -24,6 +25,8 @@ public:
   void move(const Eigen::Matrix3Xd& points_mm);
   void setLook(const Color& color, double width_px, double opacity = 1);
   void setVisible(bool visible);
+  /// Leaves out what lies behind the plane; null shows all.
+  void clip(vtkPlane* plane);
 
 private:
   vtkSmartPointer<vtkPolyData> data_;

@@ -1,0 +1,56 @@
+#include "app/gui/Command.h"
+
+#include "app/study/PaperProtocol.h"
+#include "model/Text.h"
+
+namespace palp {
+
+namespace {
+
+QString triple(const Eigen::Vector3d& values) {
+  return QString::fromStdString(text(values.x()) + "," + text(values.y()) + "," + text(values.z()));
+}
+
+QString meshOption(const MeshOptions& mesh) {
+  if (mesh.meshSize_mm) return " --mesh-size " + QString::fromStdString(text(*mesh.meshSize_mm));
+  if (mesh.mapped)
+    return QString(" --mapped %1x%2x%3").arg((*mesh.mapped)[0]).arg((*mesh.mapped)[1]).arg((*mesh.mapped)[2]);
+  return {};
+}
+
+QString trainOptions(const NetworkSettings& network) {
+  QString options = " --input " + QString::fromStdString(name(network.input)) + " --rows " +
+                    QString::fromStdString(network.rows) + " --mode " + QString::fromStdString(name(network.mode)) +
+                    " --decoder " + QString::fromStdString(name(network.decoder));
+  if (network.noise > 0) options += " --noise " + QString::fromStdString(text(network.noise));
+  return options;
+}
+
+} // namespace
+
+QString solveCommands(const Project& project, const QString& designFile) {
+  QString command = "palp solve " + designFile;
+  for (const AreaLoad& load : project.load.areas)
+    command += QString(" --load %1:%2").arg(load.area).arg(triple(load.force_N));
+  for (const PatchLoad& patch : project.load.patches)
+    command += QString::fromStdString(" --patch " + text(patch.centre_mm.x()) + "," + text(patch.centre_mm.y()) + "," +
+                                      text(patch.radius_mm) + ":") +
+               triple(patch.force_N);
+  return command + meshOption(project.mesh) + " -o deformed.vtu";
+}
+
+QString networkCommands(const Project& project, const QString& designFile) {
+  const auto sample = [&](std::uint64_t seed, const QString& file) {
+    return QString("palp sample %1 --per-area %2 --seed %3").arg(designFile).arg(project.samples.perArea).arg(seed) +
+           meshOption(project.mesh) + " -o " + file;
+  };
+  const NetworkSettings& network = project.network;
+  const QString spread = network.automaticSpread ? "auto" : QString::fromStdString(text(network.spread));
+  return sample(project.samples.seed, "train.csv") + "\n" + sample(testSeed(project.samples.seed), "test.csv") +
+         "\npalp train train.csv" + trainOptions(network) + " --spread " + spread + " -o network.json" +
+         "\npalp sweep train.csv --test test.csv" + trainOptions(network) +
+         QString::fromStdString(" --spreads " + text(network.sweepFrom) + ":" + text(network.sweepTo) + ":") +
+         QString::number(network.sweepCount);
+}
+
+} // namespace palp

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "app/gui/Project.h"
+
+#include <QString>
+
+namespace palp {
+
+/// Commands that do on a terminal what the scene shows, one a line; the design is in the file named.
+QString solveCommands(const Project& project, const QString& designFile);
+QString networkCommands(const Project& project, const QString& designFile);
+
+} // namespace palp

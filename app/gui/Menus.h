@@ -1,0 +1,48 @@
+#pragma once
+
+#include <QObject>
+#include <QString>
+
+#include <functional>
+
+class QAction;
+class QKeySequence;
+class QMenu;
+
+namespace palp {
+
+class MainWindow;
+class Workbench;
+
+/// File, Edit, View and Help of the window, with their shortcuts.
+class Menus : public QObject {
+  Q_OBJECT
+
+public:
+  Menus(MainWindow& window, Workbench& workbench);
+
+  /// Opens a design or project file; says why where it cannot be read, and keeps what was there.
+  void open(const QString& file);
+
+private:
+  void buildFile();
+  void buildExport(QMenu& menu);
+  void buildEdit();
+  void buildView();
+  void buildHelp();
+  QAction* add(QMenu& menu, const QString& text, const QString& tip, const QKeySequence& keys,
+               const std::function<void()>& act);
+  void save(const QString& file);
+  void rememberFile(const QString& file);
+  void listRecent();
+  /// Asks for a file and lets `write` write it; says what came of it.
+  void exportTo(const QString& title, const QString& proposal, const QString& filter,
+                const std::function<void(const QString&)>& write);
+
+  MainWindow& window_;
+  Workbench& workbench_;
+  QMenu* recent_ = nullptr;
+  QString file_; ///< project file; empty before the first save
+};
+
+} // namespace palp
