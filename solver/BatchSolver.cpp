@@ -1,55 +1,150 @@
 #include "solver/BatchSolver.h"
 
 #include "model/Error.h"
+#include "solver/AreaSurrogate.h"
+#include "solver/BatchEngine.h"
 #include "solver/Parallel.h"
 
-#include <atomic>
-#include <mutex>
+#include <algorithm>
 
 namespace palp {
+
+namespace {
+
+constexpr std::size_t checkedLoadsACall = 3;
+constexpr double fullNewtonResidual = 1e-11; // of the solves that answers are checked against
+
+} // namespace
 
 struct BatchSolver::State {
   const HyperelasticProblem& problem;
   BatchOptions options;
-  std::size_t solves = 0;
+  std::unique_ptr<BatchEngine> engine;
+  std::vector<std::optional<AreaSurrogate>> surrogates;
+  std::size_t fullSolves = 0;
+  double measuredError = 0;
+
+  State(const HyperelasticProblem& p, BatchOptions o) : problem(p), options(o), surrogates(p.design().areas.count()) {}
+
+  void requireLoads(std::span<const LoadCase> loads) const {
+    for (std::size_t i = 0; i < loads.size(); ++i)
+      if (const auto why = palp::problem(loads[i], problem.design()))
+        throw DesignError("load " + std::to_string(i) + ": " + *why);
+  }
+
+  /// False: stopped.
+  bool prepare(const std::stop_token& stop) {
+    if (engine) return true;
+    auto rest = problem.parts().restTangent(options.threads, stop);
+    if (!rest || stop.stop_requested()) return false;
+    engine = std::make_unique<BatchEngine>(problem, std::move(rest), options.relativeTolerance, options.threads);
+    return true;
+  }
+
+  /// Full Newton for one load, with all threads. Empty: stopped.
+  std::optional<ElectrodeDisplacements> fullNewton(const LoadCase& load, std::size_t index,
+                                                   const std::stop_token& stop) {
+    NewtonOptions newton;
+    newton.threads = options.threads;
+    newton.relativeTolerance = fullNewtonResidual;
+    const Solution solution = problem.solve(load, newton, {.step = {}, .stop = stop});
+    ++fullSolves;
+    if (solution.cancelled) return {};
+    if (!solution.converged) throw ConvergenceError("load " + std::to_string(index) + ": " + solution.stopReason);
+    return problem.electrodes(solution.state());
+  }
+
+  /// Measures some answers of this call, spread over it, against full Newton; false: stopped.
+  bool check(std::span<const LoadCase> loads, const std::vector<BatchEngine::Answer>& answers,
+             const std::vector<char>& isFull, const std::stop_token& stop) {
+    const std::size_t count = std::min(checkedLoadsACall, loads.size());
+    for (std::size_t c = 0; c < count; ++c) {
+      const std::size_t i = (2 * c + 1) * loads.size() / (2 * count);
+      if (isFull[i]) continue;
+      const auto full = fullNewton(loads[i], i, stop);
+      if (!full) return false;
+      measuredError = std::max(measuredError, relativeDifference(*answers[i], *full));
+    }
+    return true;
+  }
+
+  bool fromSurrogates(std::span<const LoadCase> loads, std::vector<BatchEngine::Answer>& answers,
+                      const std::stop_token& stop);
 };
 
+/// Answers the loads on one area within the force range; false: stopped.
+bool BatchSolver::State::fromSurrogates(std::span<const LoadCase> loads, std::vector<BatchEngine::Answer>& answers,
+                                        const std::stop_token& stop) {
+  const SensorDesign& design = problem.design();
+  std::vector<std::vector<std::size_t>> byArea(surrogates.size());
+  for (std::size_t i = 0; i < loads.size(); ++i)
+    if (loads[i].areas.size() == 1 && loads[i].patches.empty() && inRange(design.forceRange, loads[i].areas[0].force_N))
+      byArea[loads[i].areas[0].area].push_back(i);
+  for (std::size_t area = 0; area < byArea.size(); ++area) {
+    const std::vector<std::size_t>& indices = byArea[area];
+    if (indices.empty()) continue;
+    if (!surrogates[area])
+      surrogates[area] = AreaSurrogate::fit(*engine, design, static_cast<int>(area), options.relativeTolerance, stop);
+    if (stop.stop_requested()) return false;
+    if (!surrogates[area]) continue;
+    measuredError = std::max(measuredError, surrogates[area]->error());
+    forChunks(static_cast<int>(indices.size()), lanes, options.threads, [&](int begin, int end) {
+      if (stop.stop_requested()) return;
+      std::vector<Eigen::Vector3d> forces;
+      for (int k = begin; k < end; ++k) forces.push_back(loads[indices[k]].areas[0].force_N);
+      std::vector<ElectrodeDisplacements> some = surrogates[area]->evaluate(forces);
+      for (int k = begin; k < end; ++k) answers[indices[k]] = std::move(some[k - begin]);
+    });
+  }
+  return !stop.stop_requested();
+}
+
 BatchSolver::BatchSolver(const HyperelasticProblem& problem, BatchOptions options)
-    : state_(std::make_unique<State>(State{problem, options})) {}
+    : state_(std::make_unique<State>(problem, options)) {}
 BatchSolver::~BatchSolver() = default;
 
 std::vector<ElectrodeDisplacements> BatchSolver::solve(std::span<const LoadCase> loads,
                                                        const std::function<void(std::size_t)>& progress,
                                                        std::stop_token stop) {
+  State& s = *state_;
+  s.requireLoads(loads);
+  if (loads.empty() || !s.prepare(stop)) return {};
+  std::vector<BatchEngine::Answer> answers(loads.size());
+  if (s.options.surrogate && !s.fromSurrogates(loads, answers, stop)) return {};
+  std::vector<LoadCase> rest;
+  std::vector<std::size_t> restIndices;
   for (std::size_t i = 0; i < loads.size(); ++i)
-    if (const auto why = problem(loads[i], state_->problem.design()))
-      throw DesignError("load " + std::to_string(i) + ": " + *why);
-  std::vector<ElectrodeDisplacements> answers(loads.size());
-  std::vector<std::string> reasons(loads.size());
-  std::mutex progressMutex;
-  std::size_t done = 0;
-  NewtonOptions newton;
-  newton.threads = 1;
-  forChunks(static_cast<int>(loads.size()), 1, state_->options.threads, [&](int begin, int) {
-    if (stop.stop_requested()) return;
-    const Solution solution = state_->problem.solve(loads[begin], newton, {.step = {}, .stop = stop});
-    if (!solution.converged) reasons[begin] = solution.stopReason;
-    answers[begin] = state_->problem.electrodes(solution.state());
-    const std::lock_guard lock(progressMutex);
-    if (progress) progress(++done);
-  });
+    if (!answers[i]) {
+      rest.push_back(loads[i]);
+      restIndices.push_back(i);
+    }
+  std::size_t done = loads.size() - rest.size();
+  const auto report = [&](std::size_t more) {
+    done += more;
+    if (progress) progress(done);
+  };
+  if (done > 0) report(0);
+  std::vector<BatchEngine::Answer> solved = s.engine->solve(rest, s.options.relativeTolerance, report, stop);
   if (stop.stop_requested()) return {};
+  for (std::size_t k = 0; k < rest.size(); ++k) answers[restIndices[k]] = std::move(solved[k]);
+  std::vector<char> isFull(loads.size());
   for (std::size_t i = 0; i < loads.size(); ++i)
-    if (!reasons[i].empty()) throw ConvergenceError("load " + std::to_string(i) + ": " + reasons[i]);
-  state_->solves += loads.size();
-  return answers;
+    if (!answers[i]) {
+      isFull[i] = 1;
+      answers[i] = s.fullNewton(loads[i], i, stop);
+      if (!answers[i]) return {};
+    }
+  if (!s.check(loads, answers, isFull, stop)) return {};
+  std::vector<ElectrodeDisplacements> all;
+  for (auto& answer : answers) all.push_back(std::move(*answer));
+  return all;
 }
 
 std::size_t BatchSolver::solves() const {
-  return state_->solves;
+  return (state_->engine ? state_->engine->solves() : 0) + state_->fullSolves;
 }
 double BatchSolver::measuredError() const {
-  return 0;
+  return state_->measuredError;
 }
 
 } // namespace palp

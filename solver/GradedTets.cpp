@@ -25,6 +25,7 @@ constexpr double mostElements = 1e6;
 /// Lines along x, y, z; points are numbered along x, then y, then z.
 struct Grid {
   std::array<std::vector<double>, 3> stops, lines;
+  std::array<SizeAlong, 3> sizes;
 
   [[nodiscard]] int count(int d) const { return static_cast<int>(lines[d].size()); }
   [[nodiscard]] int point(const Eigen::Vector3i& i) const { return (i(2) * count(1) + i(1)) * count(0) + i(0); }
@@ -39,7 +40,8 @@ struct Grid {
 };
 
 void setHorizontal(Grid& grid, int d, double length, int parts, const Grading& grading) {
-  SizeAlong size{grading.bulk_mm, grading.growth, {}};
+  SizeAlong& size = grid.sizes[d];
+  size = {grading.bulk_mm, grading.growth, {}};
   for (int i = 0; i <= parts; ++i) {
     grid.stops[d].push_back(length * i / parts);
     size.places.push_back({grid.stops[d].back(), i == 0 || i == parts ? grading.edge_mm : grading.border_mm});
@@ -53,8 +55,8 @@ Grid gradedGrid(const SensorDesign& design, const Grading& grading) {
   setHorizontal(grid, 0, block.x(), design.areas.columns, grading);
   setHorizontal(grid, 1, block.y(), design.areas.rows, grading);
   grid.stops[2] = {0, block.z()};
-  grid.lines[2] = gridLines(
-      grid.stops[2], {grading.vertical_mm, grading.growth, {{0, grading.bottom_mm}, {block.z(), grading.top_mm}}});
+  grid.sizes[2] = {grading.vertical_mm, grading.growth, {{0, grading.bottom_mm}, {block.z(), grading.top_mm}}};
+  grid.lines[2] = gridLines(grid.stops[2], grid.sizes[2]);
   return grid;
 }
 
@@ -141,6 +143,14 @@ Mesh gradedTets(const SensorDesign& design, const Grading& grading) {
   for (int d = 0; d < 3; ++d)
     if (const std::vector<double> wanted = distinct(electrodes, d); wanted.size() <= mostLinesForElectrodes)
       bringLinesTo(wanted, grid.stops[d], grid.lines[d]);
+  const char* ev = getenv("EVEN");
+  for (int d = 0; d < 3; ++d)
+    if (ev && (atoi(ev) >> d & 1)) makeEven(grid.stops[d], grid.sizes[d], grid.lines[d]);
+  if (getenv("LINES"))
+    for (int d = 0; d < 3; d++) {
+      for (double x : grid.lines[d]) fprintf(stderr, " %.3g", x);
+      fprintf(stderr, "\n");
+    }
   const std::vector<int> electrodePoint = electrodePoints(grid, electrodes);
   if (6 * grid.cells() > mostElements)
     throw DesignError("mesh: " + std::to_string(static_cast<long long>(6 * grid.cells())) +

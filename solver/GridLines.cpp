@@ -54,4 +54,17 @@ void bringLinesTo(const std::vector<double>& wanted, const std::vector<double>& 
   }
 }
 
+void makeEven(const std::vector<double>& stops, const SizeAlong& size, std::vector<double>& lines) {
+  for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
+    const auto first = std::find(lines.begin(), lines.end(), stops[i]);
+    const auto last = std::find(first, lines.end(), stops[i + 1]);
+    if ((last - first) % 2 == 0) continue;
+    const auto relativeWidth = [&](auto line) { return (*(line + 1) - *line) / size((*line + *(line + 1)) / 2); };
+    auto widest = first;
+    for (auto line = first; line != last; ++line)
+      if (relativeWidth(line) > relativeWidth(widest)) widest = line;
+    lines.insert(widest + 1, (*widest + *(widest + 1)) / 2);
+  }
+}
+
 } // namespace palp

@@ -25,4 +25,8 @@ std::vector<double> gridLines(const std::vector<double>& stops, const SizeAlong&
 /// lies within half a cell, else adds one.
 void bringLinesTo(const std::vector<double>& wanted, const std::vector<double>& stops, std::vector<double>& lines);
 
+/// Splits the widest cell, measured by the wanted size, of each interval between stops that has an odd number of cells:
+/// the pattern of elements, which alternates from cell to cell, then meets every stop alike.
+void makeEven(const std::vector<double>& stops, const SizeAlong& size, std::vector<double>& lines);
+
 } // namespace palp

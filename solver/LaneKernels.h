@@ -23,9 +23,9 @@ struct LaneFactor {
 struct LaneKernels {
   /// x := (L L^T)^-1 x for x [places + 1][groupLanes].
   void (*solve)(const LaneFactor&, float* x);
-  /// out[row * stride + lane] = sum over t of coefficients[row][t] monomials[t][lane], 8 lanes.
-  void (*polynomials)(const double* coefficients, int terms, const double* monomials, int rows, double* out,
-                      int stride);
+  /// out[row * stride + lane] += sum over t of coefficients[row][t] monomials[t][lane], 8 lanes.
+  void (*addPolynomials)(const double* coefficients, int terms, const double* monomials, int rows, double* out,
+                         int stride);
 };
 const LaneKernels& laneKernels();
 

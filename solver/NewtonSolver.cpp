@@ -13,7 +13,9 @@ constexpr double growthAfterSuccess = 1.5;
 constexpr double hopelessResidual = 1e8;
 constexpr double acceptedSlope = 0.9; // of the residual's work along the step, against its start
 constexpr int lineSearchTrials = 6;
-constexpr double keepFactorBelow = 1e-6; // relative residual: one more iteration with the same tangent ends it
+// Relative residual below which one more iteration with the same tangent ends it; where that does not help any more,
+// the residual is down to rounding.
+constexpr double keepFactorBelow = 1e-6;
 
 } // namespace
 
@@ -156,6 +158,7 @@ NewtonSolver::Outcome NewtonSolver::step(const Loading& loading, double from, do
   if (const Outcome outcome = firstTangent(loading, from, to, state, prescribed); outcome != Outcome::Converged)
     return outcome;
   record(to, 0);
+  double previous = relative_;
   for (int iteration = 1; iteration <= options_.iterationsAStep; ++iteration) {
     if (stopped()) return Outcome::Cancelled;
     const Direction way = direction(state, prescribed);
@@ -169,7 +172,9 @@ NewtonSolver::Outcome NewtonSolver::step(const Loading& loading, double from, do
     prescribed.setZero();
     record(to, iteration);
     if (relative_ > hopelessResidual) return Outcome::Diverged;
-    if (relative_ < options_.relativeTolerance) return Outcome::Converged;
+    const bool rounding = relative_ < keepFactorBelow && relative_ > previous / 2;
+    if (relative_ < options_.relativeTolerance || rounding) return Outcome::Converged;
+    previous = relative_;
     if (relative_ > keepFactorBelow && iteration < options_.iterationsAStep)
       if (const Outcome outcome = newTangent(loading, to, state); outcome != Outcome::Converged) return outcome;
   }

@@ -99,12 +99,12 @@ PALP_INLINE void solveLanes(const LaneFactor& L, float* x) {
     for (int lane = 0; lane < groupLanes; lane += floatPackSize) backwardSupernode(L, s, x, lane);
 }
 
-/// out[row][8] = sum over t of coefficients[row][t] monomials[t][8].
+/// out[row][8] += sum over t of coefficients[row][t] monomials[t][8].
 PALP_INLINE void evaluatePolynomials(const double* coefficients, int terms, const double* monomials, int rows,
                                      double* out, int stride) {
   for (int row = 0; row < rows; ++row)
     for (int lane = 0; lane < 8; lane += packSize) {
-      Pack sum = Pack{};
+      Pack sum = load(out + std::size_t(row) * stride + lane);
       for (int t = 0; t < terms; ++t)
         sum += coefficients[std::size_t(row) * terms + t] * load(monomials + 8 * t + lane);
       store(out + std::size_t(row) * stride + lane, sum);

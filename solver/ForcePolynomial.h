@@ -1,0 +1,33 @@
+#pragma once
+
+#include "model/SensorDesign.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <vector>
+
+namespace palp {
+
+/// Monomials of a force, degrees 1 to `degree` (no force, no answer), each component over the largest of its range.
+class ForcePolynomial {
+public:
+  ForcePolynomial(const ForceRange& range, int degree);
+
+  [[nodiscard]] int terms() const { return static_cast<int>(exponents_.size()); }
+  [[nodiscard]] Eigen::VectorXd monomials(const Eigen::Vector3d& force_N) const;
+  /// Least squares: coefficients = values * this (points x terms), where column i of values belongs to force i.
+  [[nodiscard]] Eigen::MatrixXd fit(const std::vector<Eigen::Vector3d>& forces_N) const;
+
+private:
+  Eigen::Vector3d scale_;
+  std::vector<std::array<int, 3>> exponents_;
+};
+
+/// Whether a force lies in the range.
+bool inRange(const ForceRange& range, const Eigen::Vector3d& force_N);
+
+/// Forces that cover the range: its 8 corners, then Halton's sequence.
+Eigen::Vector3d coveringForce(const ForceRange& range, int index);
+
+} // namespace palp
