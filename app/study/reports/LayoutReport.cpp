@@ -8,7 +8,8 @@
 #include "io/DesignFile.h"
 #include "model/Text.h"
 
-#include <cmath>
+#include <array>
+#include <map>
 
 namespace palp {
 
@@ -171,16 +172,19 @@ private:
         text(limits_.grid_mm) + " mm, electrodes of a wire at least " + text(limits_.pitch_mm) +
         " mm apart, layers at least " + text(limits_.clearance_mm) + " mm apart, at least " + text(limits_.cover_mm) +
         " mm of rubber outside. The designs are better-same.json and better-wires.json."});
-    ReportTable table{"Depths and places [mm]; a column-wire that differs has a line of its own",
-                      {"layout", "row-wires z", "column-wire", "z", "y of its electrodes"},
+    ReportTable table{"Depths and places [mm]; column-wires that are alike share a line",
+                      {"layout", "row-wires z", "column-wires", "z", "y of its electrodes"},
                       {},
                       {}};
     for (const NamedLayout& layout : layouts_) {
-      const ElectrodeLayer& lower = layout.design.lower;
-      const int wires = lower.along_mm.size() == 1 ? 1 : lower.wires();
-      for (int wire = 0; wire < wires; ++wire)
-        table.rows.push_back({layout.name, text(layout.design.upper.z(0, 0)), wires == 1 ? "all" : std::to_string(wire),
-                              text(lower.z(wire, 0)), placesText(layout.design, wire)});
+      std::map<std::pair<double, std::string>, std::string> wires; // of each depth and places
+      for (int wire = 0; wire < layout.design.columnWires(); ++wire) {
+        std::string& list = wires[{layout.design.lower.z(wire, 0), placesText(layout.design, wire)}];
+        list += (list.empty() ? "" : " ") + std::to_string(wire);
+      }
+      for (const auto& [places, list] : wires)
+        table.rows.push_back({layout.name, text(layout.design.upper.z(0, 0)), wires.size() == 1 ? "all" : list,
+                              text(places.first), places.second});
     }
     content_.parts.emplace_back(std::move(table));
   }
@@ -266,37 +270,54 @@ private:
         [&](double part, const std::string& what) { say(share + 0.08 * part, what + ", " + layout.name); }, stop_);
     if (!sets) return false;
     const NoiseBound bound = noiseBound(sets->test, InputKind::Resistance, {row_}, kNoise);
-    for (const DecoderKind kind : {DecoderKind::Rbf, DecoderKind::MaximumLikelihood}) {
+    for (const Rival& rival : {Rival{"rbf", DecoderKind::Rbf, false}, Rival{"rbf, one an area", DecoderKind::Rbf, true},
+                               Rival{"ml", DecoderKind::MaximumLikelihood, false}}) {
       if (stop_.stop_requested()) return false;
-      say(share + 0.09, "network, " + layout.name);
-      TrainOptions options;
-      options.input = InputKind::Resistance;
-      options.rows = std::to_string(row_);
-      options.decoder = kind;
-      options.noise = kNoise;
-      options.seed = request_.seed;
-      const NoisyError error = noisyError(layout.design, *sets, options, kNoise, request_.seed, content_.stages, stop_);
-      if (!error.failed.empty()) {
-        table.rows.push_back({layout.name, palp::name(kind), "failed: " + error.failed, triple(bound.withPriorPercent),
-                              triple(bound.withoutPriorPercent), "-"});
-        table.marks.push_back(ReportTable::Mark::Bad);
-        continue;
-      }
-      const double ratio = (error.rmse_percentOfRange.array() / bound.withPriorPercent.array()).maxCoeff();
-      table.rows.push_back({layout.name, palp::name(kind), triple(error.rmse_percentOfRange),
-                            triple(bound.withPriorPercent), triple(bound.withoutPriorPercent), shortNumber(ratio)});
-      table.marks.push_back(ratio <= 1.5 ? ReportTable::Mark::Good : ReportTable::Mark::Doubtful);
-      for (int axis = 0; axis < 3; ++axis) {
-        csv_.add({"confirmed error [%], " + palp::name(kind), layout.name, row_, "", kForces[axis], "",
-                  error.rmse_percentOfRange(axis)});
-        csv_.add(
-            {"confirmed bound with prior [%]", layout.name, row_, "", kForces[axis], "", bound.withPriorPercent(axis)});
-        csv_.add({"confirmed bound without prior [%]", layout.name, row_, "", kForces[axis], "",
-                  bound.withoutPriorPercent(axis)});
-      }
-      ratios_.push_back({layout.name, palp::name(kind), ratio});
+      say(share + 0.09, "networks, " + layout.name);
+      addRival(layout, *sets, rival, bound, table);
     }
     return true;
+  }
+
+  /// A way to decode; `areaKnown`: a decoder for each area.
+  struct Rival {
+    std::string name;
+    DecoderKind kind;
+    bool areaKnown;
+  };
+
+  void addRival(const NamedLayout& layout, const TwoSets& sets, const Rival& rival, const NoiseBound& bound,
+                ReportTable& table) {
+    TrainOptions options;
+    options.input = InputKind::Resistance;
+    options.rows = std::to_string(row_);
+    options.decoder = rival.kind;
+    options.noise = kNoise;
+    options.seed = request_.seed;
+    const NoisyError error = (rival.areaKnown ? noisyErrorAreaKnown : noisyError)(
+        layout.design, sets, options, kNoise, request_.seed, content_.stages, stop_);
+    Cells cells{layout.name, rival.name};
+    if (!error.failed.empty()) {
+      cells.insert(cells.end(),
+                   {"failed: " + error.failed, triple(bound.withPriorPercent), triple(bound.withoutPriorPercent), "-"});
+      table.rows.push_back(std::move(cells));
+      table.marks.push_back(ReportTable::Mark::Bad);
+      return;
+    }
+    const double ratio = (error.rmse_percentOfRange.array() / bound.withPriorPercent.array()).maxCoeff();
+    cells.insert(cells.end(), {triple(error.rmse_percentOfRange), triple(bound.withPriorPercent),
+                               triple(bound.withoutPriorPercent), shortNumber(ratio)});
+    table.rows.push_back(std::move(cells));
+    table.marks.push_back(ratio <= 1.5 ? ReportTable::Mark::Good : ReportTable::Mark::Doubtful);
+    for (int axis = 0; axis < 3; ++axis) {
+      csv_.add({"confirmed error [%], " + rival.name, layout.name, row_, "", kForces[axis], "",
+                error.rmse_percentOfRange(axis)});
+      csv_.add(
+          {"confirmed bound with prior [%]", layout.name, row_, "", kForces[axis], "", bound.withPriorPercent(axis)});
+      csv_.add({"confirmed bound without prior [%]", layout.name, row_, "", kForces[axis], "",
+                bound.withoutPriorPercent(axis)});
+    }
+    ratios_.push_back({layout.name, rival.name, ratio});
   }
 
   void leftOut() {

@@ -22,6 +22,18 @@ Eigen::Vector3d percentOfRange(const SensorDesign& design, const Eigen::MatrixXd
   return 100 * rms_N.cwiseQuotient(range_N);
 }
 
+SampleSet areaPart(const SampleSet& set, int area) {
+  std::vector<Eigen::Index> chosen;
+  for (Eigen::Index i = 0; i < set.size(); ++i)
+    if (set.area(i) == area) chosen.push_back(i);
+  SampleSet part = set;
+  part.area = set.area(chosen);
+  part.forces_N = set.forces_N(Eigen::all, chosen);
+  part.displacements_mm = set.displacements_mm(Eigen::all, chosen);
+  part.resistances_ohm = set.resistances_ohm(Eigen::all, chosen);
+  return part;
+}
+
 } // namespace
 
 std::optional<TwoSets> twoSets(const SensorDesign& design, const ReportRequest& request, StageLog& stages,
@@ -72,6 +84,22 @@ NoisyError noisyError(const SensorDesign& design, const TwoSets& sets, const Tra
   } catch (const NetworkError& refused) {
     result.failed = refused.what();
   }
+  return result;
+}
+
+NoisyError noisyErrorAreaKnown(const SensorDesign& design, const TwoSets& sets, const TrainOptions& options,
+                               double testNoise, std::uint64_t seed, StageLog& stages, const std::stop_token& stop) {
+  NoisyError result;
+  Eigen::Vector3d squares = Eigen::Vector3d::Zero();
+  const int areas = design.areas.count();
+  for (int area = 0; area < areas; ++area) {
+    TwoSets one{areaPart(sets.training, area), areaPart(sets.test, area), sets.measuredError};
+    const NoisyError error = noisyError(design, one, options, testNoise, seed, stages, stop);
+    if (!error.failed.empty()) return error;
+    squares += error.rmse_percentOfRange.cwiseAbs2() / areas;
+    result.seconds += error.seconds;
+  }
+  result.rmse_percentOfRange = squares.cwiseSqrt();
   return result;
 }
 

@@ -32,4 +32,9 @@ struct NoisyError {
 NoisyError noisyError(const SensorDesign& design, const TwoSets& sets, const TrainOptions& options, double testNoise,
                       std::uint64_t seed, StageLog& stages, const std::stop_token& stop);
 
+/// The same with a decoder for each area, trained and tested on its samples alone: the area is known, as the Cramer-Rao
+/// bound takes it to be.
+NoisyError noisyErrorAreaKnown(const SensorDesign& design, const TwoSets& sets, const TrainOptions& options,
+                               double testNoise, std::uint64_t seed, StageLog& stages, const std::stop_token& stop);
+
 } // namespace palp
