@@ -3,6 +3,7 @@
 #include "app/cli/Interrupt.h"
 #include "app/study/Blas.h"
 #include "nn/NetworkError.h"
+#include "solver/BatchSolver.h"
 
 #include <algorithm>
 #include <iostream>
@@ -90,6 +91,10 @@ Exit Cli::runChosen() {
   } catch (const NetworkError& refused) {
     std::cerr << "palp " << name << ": " << oneLine(refused.what()) << '\n';
     return Exit::BadInput;
+  } catch (const ConvergenceError& stopped) { // an outcome, not a mistake: the JSON says how far it came
+    std::cerr << "palp " << name << ": " << oneLine(stopped.what()) << '\n';
+    session_.result["stop_reason"] = stopped.what();
+    exit = Exit::NoResult;
   } catch (const std::bad_alloc&) {
     std::cerr << "palp " << name << ": not enough memory for this size; ask for a coarser mesh or fewer samples\n";
     return Exit::NoResult;

@@ -86,7 +86,7 @@ TEST_P(BrokenDesignTest, IsRefusedByEveryCommandThatReadsDesigns) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Designs, BrokenDesignTest, testing::ValuesIn(brokenDesigns()),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& tested) { return tested.param.name; });
 
 TEST(BadInput, ATruncatedDesignIsRefusedWithItsPlace) {
   const auto folder = scratch("truncated");
@@ -157,7 +157,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadOption{"SweepMissing",
                   {"sweep", "nowhere.csv", "--test", "t.csv", "--input", "displacement", "--spreads", "1"},
                   {"nowhere.csv"}}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& tested) { return tested.param.name; });
 
 TEST(BadInput, AnOutputThatExistsIsKept) {
   const auto folder = scratch("exists");
