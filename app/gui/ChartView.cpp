@@ -7,6 +7,10 @@
 #include <vtkNew.h>
 #include <vtkRenderer.h>
 
+#include <QPainter>
+
+#include <algorithm>
+
 namespace palp {
 
 struct ChartView::Parts {
@@ -41,6 +45,17 @@ void ChartView::setChart(const ChartSpec& spec) {
 void ChartView::setTheme(Theme theme) {
   theme_ = theme;
   fill();
+}
+
+void ChartView::paintEvent(QPaintEvent* event) {
+  VtkView::paintEvent(event);
+  const bool empty =
+      std::all_of(spec_.series.begin(), spec_.series.end(), [](const ChartSeries& series) { return series.x.empty(); });
+  if (!empty) return;
+  QPainter painter(this);
+  painter.setPen(QWidget::palette().color(QPalette::PlaceholderText));
+  const QString title = QString::fromStdString(spec_.title);
+  painter.drawText(rect(), Qt::AlignCenter, title.isEmpty() ? tr("nothing yet") : title + tr(":\nnothing yet"));
 }
 
 void ChartView::fill() {

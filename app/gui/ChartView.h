@@ -17,6 +17,9 @@ public:
   void setTheme(Theme theme);
   [[nodiscard]] const ChartSpec& chart() const { return spec_; }
 
+protected:
+  void paintEvent(QPaintEvent* event) override;
+
 private:
   struct Parts;
   ChartView(std::unique_ptr<Parts> parts, QWidget* parent);

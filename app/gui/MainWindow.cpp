@@ -1,10 +1,13 @@
 #include "app/gui/MainWindow.h"
 
 #include "app/gui/DeformationPage.h"
+#include "app/gui/DesignPage.h"
 #include "app/gui/JobStrip.h"
 #include "app/gui/Menus.h"
 #include "app/gui/NetworkPage.h"
 #include "app/gui/NetworkSession.h"
+#include "app/gui/ReportsPage.h"
+#include "app/gui/ResistancePage.h"
 #include "app/gui/Style.h"
 #include "app/gui/Workbench.h"
 
@@ -43,10 +46,15 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   row->addWidget(scenes_, 1);
   setCentralWidget(centre);
 
+  auto* designPage = new DesignPage(workbench, network);
+  connect(designPage, &DesignPage::stageChanged, this, [this] { workbench_.touch().need(currentScene().stage()); });
+  addScene("design", tr("Design"), tr("The sensor at rest and all its parameters"), designPage);
   addScene("deformation", tr("Deformation"), tr("The block under load"), new DeformationPage(workbench));
+  addScene("resistance", tr("Resistance"), tr("Row-column resistances under the load"), new ResistancePage(workbench));
   auto* networkPage = new NetworkPage(workbench, network);
   connect(networkPage, &NetworkPage::refused, this, &MainWindow::tell);
   addScene("network", tr("Network"), tr("Samples, training and the sweep of the spread"), networkPage);
+  addScene("reports", tr("Reports"), tr("The paper reproduced, and the reports"), new ReportsPage(workbench));
   buildStatusLine();
   menus_ = new Menus(*this, workbench);
   setAcceptDrops(true);

@@ -20,7 +20,7 @@ namespace palp {
 
 namespace {
 
-constexpr int kPanelWidth_px = 300;
+constexpr int kPanelWidth_px = 330;
 
 QString triple(const Eigen::VectorXd& values, const QString& unit) {
   QStringList texts;

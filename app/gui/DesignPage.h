@@ -1,0 +1,59 @@
+#pragma once
+
+#include "app/gui/NetworkSession.h"
+#include "app/gui/Scene.h"
+#include "app/gui/Workbench.h"
+#include "app/scenes/DeformationScene.h"
+
+class QCheckBox;
+class QDoubleSpinBox;
+class QLabel;
+
+namespace palp {
+
+class BlockView;
+class ChartView;
+class DesignPanel;
+
+/// The sensor at rest with all its parameters; the mesh only when asked for.
+class DesignPage : public Scene {
+  Q_OBJECT
+
+public:
+  DesignPage(Workbench& workbench, NetworkSession& network, QWidget* parent = nullptr);
+
+  [[nodiscard]] Stage stage() const override;
+  void setTheme(Theme theme) override;
+  [[nodiscard]] bool complete() const override;
+
+signals:
+  /// The page needs another stage than before.
+  void stageChanged();
+
+protected:
+  void showEvent(QShowEvent* event) override;
+
+private:
+  QWidget* buildSide();
+  QWidget* buildViews();
+  void displayProject();
+  void draw();
+  void displayMesh();
+  void displayNoiseFloor();
+  void editMesh();
+
+  Workbench& workbench_;
+  NetworkSession& network_;
+  DeformationOptions options_;
+  DesignPanel* panel_ = nullptr;
+  BlockView* block_ = nullptr;
+  QCheckBox* showMesh_ = nullptr;
+  QCheckBox* automaticSize_ = nullptr;
+  QDoubleSpinBox* size_ = nullptr;
+  QLabel* meshWords_ = nullptr;
+  ChartView* quality_ = nullptr;
+  QDoubleSpinBox* noise_ = nullptr;
+  QLabel* floorWords_ = nullptr;
+};
+
+} // namespace palp

@@ -1,0 +1,226 @@
+#include "app/gui/ReportsPage.h"
+
+#include "app/study/reports/ReportComputations.h"
+#include "io/DesignFile.h"
+#include "model/Error.h"
+
+#include <QComboBox>
+#include <QCoreApplication>
+#include <QDesktopServices>
+#include <QDir>
+#include <QFileDialog>
+#include <QFontDatabase>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QPixmap>
+#include <QPlainTextEdit>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QSplitter>
+#include <QStandardPaths>
+#include <QUrl>
+#include <QVBoxLayout>
+
+#include <csignal>
+
+namespace palp {
+
+namespace {
+
+constexpr int kPictureWidth_px = 900;
+constexpr int kEndWithin_ms = 3000;
+
+struct Kind {
+  QString title;
+  QStringList arguments;
+  QString what;
+};
+
+std::vector<Kind> kinds() {
+  std::vector<Kind> all{
+      {QObject::tr("reproduce the paper"),
+       {"reproduce", "all"},
+       QObject::tr("Table 1, Fig. 12 and the figures of the paper from nothing, the printed numbers beside ours.")},
+      {QObject::tr("reproduce Table 1"),
+       {"reproduce", "table1"},
+       QObject::tr("Errors from displacements at the paper's spreads, both modes and the linear baseline.")},
+      {QObject::tr("reproduce Fig. 12"),
+       {"reproduce", "fig12"},
+       QObject::tr("Errors from resistances over the spread, both modes and the linear baseline.")}};
+  for (const ReportComputation& report : reportComputations())
+    all.push_back({QString::fromStdString(report.name),
+                   {"report", QString::fromStdString(report.name)},
+                   QString::fromStdString(report.what)});
+  return all;
+}
+
+QString commandLineProgram() {
+  return QDir(QCoreApplication::applicationDirPath()).filePath("palp");
+}
+
+} // namespace
+
+ReportsPage::ReportsPage(Workbench& workbench, QWidget* parent) : Scene(parent), workbench_(workbench) {
+  build();
+  connect(run_, &QPushButton::clicked, this, &ReportsPage::start);
+  connect(cancel_, &QPushButton::clicked, this, &ReportsPage::cancel);
+  connect(openPage_, &QPushButton::clicked, this,
+          [this] { QDesktopServices::openUrl(QUrl::fromLocalFile(QDir(folder_).filePath("report.html"))); });
+  process_.setProcessChannelMode(QProcess::MergedChannels);
+  connect(&process_, &QProcess::readyRead, this,
+          [this] { log_->appendPlainText(QString::fromUtf8(process_.readAll()).trimmed()); });
+  connect(&process_, &QProcess::finished, this, &ReportsPage::end);
+  connect(&process_, &QProcess::errorOccurred, this, [this](QProcess::ProcessError error) {
+    if (error == QProcess::FailedToStart)
+      state_->setText(tr("%1 cannot be started; it is built together with this program and lies beside it.")
+                          .arg(commandLineProgram()));
+    if (error == QProcess::FailedToStart) end(1, QProcess::CrashExit);
+  });
+  connect(pictures_, &QListWidget::currentTextChanged, this, [this](const QString& file) {
+    const QPixmap pixmap(QDir(folder_).filePath(file));
+    if (!pixmap.isNull()) picture_->setPixmap(pixmap.scaledToWidth(kPictureWidth_px, Qt::SmoothTransformation));
+  });
+  timer_.setInterval(500);
+  connect(&timer_, &QTimer::timeout, this, &ReportsPage::tellTime);
+}
+
+ReportsPage::~ReportsPage() {
+  process_.disconnect(this);
+  if (process_.state() == QProcess::NotRunning) return;
+  process_.terminate();
+  if (!process_.waitForFinished(kEndWithin_ms)) process_.kill();
+}
+
+void ReportsPage::build() {
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(8, 8, 8, 8);
+  auto* bar = new QHBoxLayout;
+  kind_ = new QComboBox;
+  kind_->setObjectName("reportKind");
+  for (const Kind& kind : kinds()) kind_->addItem(kind.title);
+  target_ =
+      new QLineEdit(QDir(QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation)).filePath("palp-report"));
+  target_->setObjectName("reportFolder");
+  target_->setToolTip(tr("Folder of report.html, CSV and pictures; what it holds of an earlier run is replaced"));
+  auto* choose = new QPushButton(tr("Folder..."));
+  connect(choose, &QPushButton::clicked, this, [this] {
+    const QString folder = QFileDialog::getExistingDirectory(this, tr("Folder of the report"), target_->text());
+    if (!folder.isEmpty()) target_->setText(folder);
+  });
+  run_ = new QPushButton(tr("Run"));
+  run_->setObjectName("runReport");
+  cancel_ = new QPushButton(tr("Cancel"));
+  cancel_->setObjectName("cancelReport");
+  cancel_->setEnabled(false);
+  openPage_ = new QPushButton(tr("Open the page"));
+  openPage_->setObjectName("openReport");
+  openPage_->setEnabled(false);
+  bar->addWidget(kind_);
+  bar->addWidget(target_, 1);
+  for (QWidget* widget : {choose, run_, cancel_, openPage_}) bar->addWidget(widget);
+  column->addLayout(bar);
+  what_ = new QLabel(kinds().front().what);
+  what_->setProperty("role", "hint");
+  what_->setWordWrap(true);
+  connect(kind_, &QComboBox::currentIndexChanged, this,
+          [this](int k) { what_->setText(kinds()[static_cast<std::size_t>(k)].what); });
+  column->addWidget(what_);
+  auto* state = new QHBoxLayout;
+  bar_ = new QProgressBar;
+  bar_->setFixedWidth(160);
+  bar_->setRange(0, 0);
+  bar_->hide();
+  state_ = new QLabel(tr("Nothing was run yet."));
+  state_->setObjectName("reportState");
+  state->addWidget(bar_);
+  state->addWidget(state_, 1);
+  column->addLayout(state);
+
+  log_ = new QPlainTextEdit;
+  log_->setObjectName("reportLog");
+  log_->setReadOnly(true);
+  log_->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
+  pictures_ = new QListWidget;
+  pictures_->setObjectName("reportPictures");
+  picture_ = new QLabel(tr("Pictures of the report appear here."));
+  picture_->setAlignment(Qt::AlignCenter);
+  auto* scroll = new QScrollArea;
+  scroll->setWidget(picture_);
+  scroll->setWidgetResizable(true);
+  auto* left = new QSplitter(Qt::Vertical);
+  left->addWidget(log_);
+  left->addWidget(pictures_);
+  auto* views = new QSplitter(Qt::Horizontal);
+  views->addWidget(left);
+  views->addWidget(scroll);
+  views->setSizes({480, 900});
+  column->addWidget(views, 1);
+}
+
+QStringList ReportsPage::arguments() const {
+  return kinds()[static_cast<std::size_t>(kind_->currentIndex())].arguments + QStringList{"-o", folder_, "--force"};
+}
+
+void ReportsPage::start() {
+  folder_ = QDir(target_->text().trimmed()).absolutePath();
+  QStringList all = arguments();
+  if (!QDir().mkpath(folder_)) {
+    state_->setText(tr("%1 cannot be made; choose a folder that may be written to.").arg(folder_));
+    return;
+  }
+  if (all.front() == "report" && !(workbench_.project().design == paperDesign())) {
+    const QString design = QDir(folder_).filePath("sensor.json");
+    try {
+      saveDesign(design.toStdString(), workbench_.project().design, true);
+    } catch (const Error& error) {
+      state_->setText(QString::fromStdString(error.what()));
+      return;
+    }
+    all << "--design" << design;
+  }
+  log_->setPlainText("palp " + all.join(' '));
+  pictures_->clear();
+  run_->setEnabled(false);
+  cancel_->setEnabled(true);
+  openPage_->setEnabled(false);
+  bar_->show();
+  clock_.start();
+  timer_.start();
+  process_.start(commandLineProgram(), all);
+}
+
+void ReportsPage::cancel() {
+  if (process_.state() != QProcess::NotRunning) ::kill(static_cast<pid_t>(process_.processId()), SIGINT);
+}
+
+void ReportsPage::end(int status, QProcess::ExitStatus how) {
+  timer_.stop();
+  bar_->hide();
+  run_->setEnabled(true);
+  cancel_->setEnabled(false);
+  const QString seconds = QString::number(1e-3 * static_cast<double>(clock_.elapsed()), 'f', 1);
+  if (how == QProcess::NormalExit && status == 0) {
+    state_->setText(tr("Done in %1 s: %2").arg(seconds, QDir(folder_).filePath("report.html")));
+    openPage_->setEnabled(true);
+    showPictures();
+  } else if (status == 130 || status == 1) {
+    state_->setText(tr("Ended without a result after %1 s; see the messages.").arg(seconds));
+  } else {
+    state_->setText(tr("Failed with status %1; see the messages.").arg(status));
+  }
+}
+
+void ReportsPage::showPictures() {
+  pictures_->clear();
+  pictures_->addItems(QDir(folder_).entryList({"*.png"}, QDir::Files, QDir::Name));
+  if (pictures_->count() > 0) pictures_->setCurrentRow(0);
+}
+
+void ReportsPage::tellTime() {
+  state_->setText(tr("Running for %1 s; the window stays free.").arg(clock_.elapsed() / 1000));
+}
+
+} // namespace palp
