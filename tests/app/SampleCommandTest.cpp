@@ -8,9 +8,10 @@ using namespace palp::test;
 namespace {
 
 /// A coarse mesh: what is tested here are bytes, not accuracy.
-std::vector<std::string> sample(const std::filesystem::path& file, const std::vector<std::string>& more = {}) {
-  std::vector<std::string> words{"sample",      "paper", "--per-area", "40", "--seed", "7",
-                                 "--mesh-size", "6",     "-o",         file, "--json"};
+std::vector<std::string> sample(const std::filesystem::path& file, const std::vector<std::string>& more = {},
+                                const std::string& perArea = "40") {
+  std::vector<std::string> words{"sample",      "paper", "--per-area", perArea, "--seed", "7",
+                                 "--mesh-size", "6",     "-o",         file,    "--json"};
   words.insert(words.end(), more.begin(), more.end());
   return words;
 }
@@ -39,15 +40,15 @@ TEST(SampleCommand, GivesTheSameBytesWithOneAndTwoThreadsAndInShards) {
 
 TEST(SampleCommand, GoesOnAfterAnInterruptionToTheSameBytes) {
   const auto folder = scratch("resume");
-  ASSERT_EQ(palp::test::palp(sample(folder / "whole.csv", {"--per-area", "300"})).exit, 0);
+  ASSERT_EQ(palp::test::palp(sample(folder / "whole.csv", {}, "300")).exit, 0);
   const std::filesystem::path file = folder / "cut.csv";
-  const std::vector<std::string> words = sample(file, {"--per-area", "300"});
+  const std::vector<std::string> words = sample(file, {}, "300");
   const Outcome cut = palpInterrupted(words, file.string() + ".part", 100'000);
   EXPECT_EQ(cut.exit, 130) << cut.errors;
   EXPECT_FALSE(std::filesystem::exists(file));
   ASSERT_TRUE(std::filesystem::exists(file.string() + ".part"));
 
-  const Outcome other = palp::test::palp(sample(file, {"--per-area", "299"}));
+  const Outcome other = palp::test::palp(sample(file, {}, "299"));
   EXPECT_EQ(other.exit, 2);
   EXPECT_NE(other.errors.find("per_area"), std::string::npos) << other.errors;
 
@@ -67,7 +68,7 @@ TEST(SampleCommand, SaysHowFarTheSamplesAreFromFullNewton) {
 
 TEST(SampleCommand, LoadsAllAreasTogether) {
   const auto folder = scratch("together");
-  const Outcome outcome = palp::test::palp(sample(folder / "s.csv", {"--areas", "together", "--per-area", "20"}));
+  const Outcome outcome = palp::test::palp(sample(folder / "s.csv", {"--areas", "together"}, "20"));
   ASSERT_EQ(outcome.exit, 0) << outcome.errors;
   EXPECT_EQ(outcome.json().at("samples"), 20);
   EXPECT_NE(readAll(folder / "s.csv").find("a5_fz_N"), std::string::npos);
