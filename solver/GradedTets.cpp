@@ -129,11 +129,25 @@ Eigen::VectorXi areasOfFaces(const SensorDesign& design, const Mesh& mesh) {
 
 } // namespace
 
-Grading defaultGrading(const SensorDesign& design, double factor) {
+Grading defaultGrading(const SensorDesign& design, double size_mm) {
+  const Rectangle area = design.areaRectangle(0);
+  const double side = (area.high_mm - area.low_mm).minCoeff(), height = design.block_mm.z();
+  // Stresses at the surface die out over the block's height or half an area, whichever is less.
+  const double reach = std::min(height, side / 2);
+  const double factor = size_mm / standardSize(design);
   Grading g;
-  static_cast<void>(design);
-  for (double* size : {&g.bulk_mm, &g.border_mm, &g.edge_mm, &g.bottom_mm, &g.top_mm, &g.vertical_mm}) *size *= factor;
+  g.bulk_mm = factor * 0.4 * side;
+  g.border_mm = factor * 0.2 * reach;
+  g.edge_mm = factor * 0.25 * reach;
+  g.top_mm = factor * 0.1 * reach;
+  g.bottom_mm = factor * 0.15 * reach;
+  g.vertical_mm = factor * 0.4 * std::min(height, 2 * reach + height / 10);
   return g;
+}
+
+double standardSize(const SensorDesign& design) {
+  const Rectangle area = design.areaRectangle(0);
+  return 0.4 * (area.high_mm - area.low_mm).minCoeff();
 }
 
 Mesh gradedTets(const SensorDesign& design, const Grading& grading) {
@@ -143,14 +157,7 @@ Mesh gradedTets(const SensorDesign& design, const Grading& grading) {
   for (int d = 0; d < 3; ++d)
     if (const std::vector<double> wanted = distinct(electrodes, d); wanted.size() <= mostLinesForElectrodes)
       bringLinesTo(wanted, grid.stops[d], grid.lines[d]);
-  const char* ev = getenv("EVEN");
-  for (int d = 0; d < 3; ++d)
-    if (ev && (atoi(ev) >> d & 1)) makeEven(grid.stops[d], grid.sizes[d], grid.lines[d]);
-  if (getenv("LINES"))
-    for (int d = 0; d < 3; d++) {
-      for (double x : grid.lines[d]) fprintf(stderr, " %.3g", x);
-      fprintf(stderr, "\n");
-    }
+  for (int d = 0; d < 2; ++d) makeEven(grid.stops[d], grid.sizes[d], grid.lines[d]);
   const std::vector<int> electrodePoint = electrodePoints(grid, electrodes);
   if (6 * grid.cells() > mostElements)
     throw DesignError("mesh: " + std::to_string(static_cast<long long>(6 * grid.cells())) +

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace palp {
 
@@ -9,6 +10,11 @@ namespace {
 
 constexpr int largestElementDofs = 30;
 using ElementLanes = std::array<double, largestElementDofs * lanes>;
+
+/// Inline, where std::copy becomes a call.
+inline void copyLanes(const double* from, double* to) {
+  std::memcpy(to, from, lanes * sizeof(double));
+}
 
 std::size_t at(std::size_t row, int block) {
   return row * groupLanes + std::size_t(block) * lanes;
@@ -25,10 +31,12 @@ void LoadGroup::reset() {
   std::fill(u_.begin(), u_.end(), 0.);
   std::fill(x_.begin(), x_.end(), 0.);
   for (auto& forces : forces_) forces.clear();
+  atRest_ = true;
 }
 
 void LoadGroup::addPolynomials(int block, const std::vector<double>& displacements, const std::vector<double>& unknowns,
                                int terms, const double* monomials) {
+  atRest_ = false;
   const auto& kernels = laneKernels();
   kernels.addPolynomials(displacements.data(), terms, monomials, 3 * model_.mesh().nodes(), u_.data() + block * lanes,
                          groupLanes);
@@ -47,6 +55,12 @@ void LoadGroup::evaluateResiduals(const std::array<bool, blocks>& live) {
     for (const auto& [shares, force_N] : forces_[lane])
       for (const auto& [node, share] : *shares)
         for (int d = 0; d < 3; ++d) r_[(3 * std::size_t(node) + d) * groupLanes + lane] += share * force_N(d);
+  smallestJ_.fill(1);
+  if (atRest_) { // no forces, no volume change
+    std::fill(local_.begin(), local_.end(), 0.);
+    atRest_ = false;
+    return;
+  }
   alignas(64) ElementLanes u, f;
   alignas(64) std::array<std::array<double, 2 * lanes>, blocks> range;
   for (auto& r : range) r.fill(1);
@@ -55,7 +69,7 @@ void LoadGroup::evaluateResiduals(const std::array<bool, blocks>& live) {
       if (!live[b]) continue;
       for (int n = 0; n < kernels.nodes; ++n)
         for (int d = 0; d < 3; ++d)
-          std::copy_n(u_.data() + at(3 * std::size_t(mesh.node(e, n)) + d, b), lanes, u.data() + (3 * n + d) * lanes);
+          copyLanes(u_.data() + at(3 * std::size_t(mesh.node(e, n)) + d, b), u.data() + (3 * n + d) * lanes);
       const std::size_t own0 = (std::size_t(e) * blocks + b) * own * lanes;
       kernels.residualOfLoads(model_.rubber(), {model_.geometry(e), u.data(), x_.data() + own0},
                               {f.data(), local_.data() + own0, range[b].data()});
@@ -106,7 +120,7 @@ void LoadGroup::update(const std::array<bool, blocks>& live) {
       if (!live[b]) continue;
       for (int n = 0; n < kernels.nodes; ++n)
         for (int d = 0; d < 3; ++d)
-          std::copy_n(r_.data() + at(3 * std::size_t(mesh.node(e, n)) + d, b), lanes, du.data() + (3 * n + d) * lanes);
+          copyLanes(r_.data() + at(3 * std::size_t(mesh.node(e, n)) + d, b), du.data() + (3 * n + d) * lanes);
       const std::size_t own0 = (std::size_t(e) * blocks + b) * own * lanes;
       kernels.recoverLoads(model_.elimination(e), model_.localInverse(e), local_.data() + own0, du.data(), dx.data());
       for (int i = 0; i < own * lanes; ++i)

@@ -57,6 +57,7 @@ private:
   LaneVector u_, r_;            ///< [3 nodes][32]
   LaneVector x_, local_;        ///< [elements][blocks][unknowns][8]
   std::vector<float> solution_; ///< [places][32]
+  bool atRest_ = true;
   std::array<double, groupLanes> scale_{};
   std::array<double, groupLanes> smallestJ_{};
 };

@@ -5,6 +5,7 @@
 #include "solver/BlockMesher.h"
 #include "solver/GradedTets.h"
 
+#include <cmath>
 #include <string>
 
 namespace palp {
@@ -29,10 +30,12 @@ Mesh sensorMesh(const SensorDesign& design, const MeshOptions& options) {
     requireMapped(*options.mapped);
     return mappedMesh(design, *options.mapped);
   }
-  const double standard = defaultGrading(design, 1).bulk_mm;
-  const double size = options.meshSize_mm.value_or(standard);
-  if (!(size > 0)) throw DesignError("mesh size " + text(size) + " mm; it must be above 0");
-  Mesh mesh = gradedTets(design, defaultGrading(design, size / standard));
+  const double size = options.meshSize_mm.value_or(standardSize(design));
+  const double smallest = std::cbrt(6 * design.block_mm.prod() / mostElements); // six tetrahedra a cube
+  if (!(size >= smallest))
+    throw DesignError("mesh size " + text(size) + " mm; allowed is at least " + text(smallest) +
+                      " mm for this block, or there would be more than 1e6 elements");
+  Mesh mesh = gradedTets(design, defaultGrading(design, size));
   mesh.size_mm = size;
   return mesh;
 }
