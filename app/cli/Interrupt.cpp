@@ -1,32 +1,33 @@
 #include "app/cli/Interrupt.h"
 
+#include <atomic>
+#include <chrono>
 #include <csignal>
-#include <ctime>
 #include <unistd.h>
 
 namespace palp {
 
 namespace {
 
-sigset_t handled() {
-  sigset_t signals;
-  sigemptyset(&signals);
-  sigaddset(&signals, SIGINT);
-  sigaddset(&signals, SIGTERM);
-  return signals;
+// A handler can reach nothing else. Blocking the signals and waiting for them would not do: threads that libraries
+// start before main (OpenBLAS) take them with the default action, which is the end.
+std::atomic<int> interrupts{0};
+
+void count(int /*signal*/) {
+  if (interrupts.fetch_add(1) > 0) _exit(130);
 }
+
+constexpr std::chrono::milliseconds kTick{20}; // far below the 0.3 s that a cancel may take
 
 } // namespace
 
 Interrupt::Interrupt() {
-  const sigset_t signals = handled();
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  interrupts = 0;
+  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, count);
   waiter_ = std::jthread([source = source_](const std::stop_token& ended) mutable {
-    const sigset_t waited = handled();
     while (!ended.stop_requested()) {
-      const timespec tick{0, 50'000'000}; // 50 ms: far below the 0.3 s a cancel may take
-      if (sigtimedwait(&waited, nullptr, &tick) < 0) continue;
-      if (!source.request_stop()) _exit(130);
+      if (interrupts > 0) source.request_stop();
+      std::this_thread::sleep_for(kTick);
     }
   });
 }
@@ -34,8 +35,7 @@ Interrupt::Interrupt() {
 Interrupt::~Interrupt() {
   waiter_.request_stop();
   waiter_.join();
-  const sigset_t signals = handled();
-  pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
+  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_DFL);
 }
 
 } // namespace palp

@@ -40,15 +40,15 @@ TEST(SampleCommand, GivesTheSameBytesWithOneAndTwoThreadsAndInShards) {
 
 TEST(SampleCommand, GoesOnAfterAnInterruptionToTheSameBytes) {
   const auto folder = scratch("resume");
-  ASSERT_EQ(palp::test::palp(sample(folder / "whole.csv", {}, "300")).exit, 0);
+  ASSERT_EQ(palp::test::palp(sample(folder / "whole.csv", {}, "100")).exit, 0);
   const std::filesystem::path file = folder / "cut.csv";
-  const std::vector<std::string> words = sample(file, {}, "300");
+  const std::vector<std::string> words = sample(file, {}, "100");
   const Outcome cut = palpInterrupted(words, file.string() + ".part", 100'000);
   EXPECT_EQ(cut.exit, 130) << cut.errors;
   EXPECT_FALSE(std::filesystem::exists(file));
   ASSERT_TRUE(std::filesystem::exists(file.string() + ".part"));
 
-  const Outcome other = palp::test::palp(sample(file, {}, "299"));
+  const Outcome other = palp::test::palp(sample(file, {}, "99"));
   EXPECT_EQ(other.exit, 2);
   EXPECT_NE(other.errors.find("per_area"), std::string::npos) << other.errors;
 
