@@ -1,6 +1,7 @@
 #include "app/study/reports/ReportComputations.h"
 
 #include "app/study/reports/LayoutReport.h"
+#include "app/study/reports/StabilityReport.h"
 
 #include <chrono>
 
@@ -8,6 +9,7 @@ namespace palp {
 
 const std::vector<ReportComputation>& reportComputations() {
   static const std::vector<ReportComputation> all{
+      {"stability", "extreme cases of the solver, the networks and Eq. (1), and how each came out", stabilityReport},
       {"layout", "what the layout of the electrodes resolves, and a better one", layoutReport},
   };
   return all;
