@@ -302,8 +302,10 @@ Exit run(const ListenArguments& arguments, Session& session) {
     session.result["averaged_frames"] = average->count();
     session.result["file"] = arguments.append;
   }
-  fillTotals(session, live.status());
-  return well ? Exit::Done : Exit::NoResult;
+  live.stop();
+  const LiveStatus status = live.status();
+  fillTotals(session, status);
+  return well && status.counts.reports > 0 ? Exit::Done : Exit::NoResult;
 }
 
 } // namespace

@@ -47,6 +47,12 @@ void LiveSession::run(const std::stop_token& stop) {
     ring_.pop_front();
     ++overflowed;
   });
+  const auto publish = [&] {
+    LiveStatus status = worker.status();
+    status.overflowed = overflowed;
+    const std::lock_guard lock(mutex_);
+    status_ = std::move(status);
+  };
   double published_s = 0;
   LiveState state = LiveState::Searching;
   std::vector<std::function<void(LiveWorker&)>> requests;
@@ -59,14 +65,17 @@ void LiveSession::run(const std::stop_token& stop) {
     worker.step();
     const double now_s = hostClock_s();
     if (requests.empty() && worker.state() == state && now_s < published_s + kPublishInterval_s) continue;
-    LiveStatus status = worker.status();
-    status.overflowed = overflowed;
-    state = status.state;
+    state = worker.state();
     published_s = now_s;
     requests.clear();
-    const std::lock_guard lock(mutex_);
-    status_ = std::move(status);
+    publish();
   }
+  publish();
+}
+
+void LiveSession::stop() {
+  thread_.request_stop();
+  if (thread_.joinable()) thread_.join();
 }
 
 LiveStatus LiveSession::status() const {

@@ -86,6 +86,8 @@ public:
   LiveSession& operator=(const LiveSession&) = delete;
 
   [[nodiscard]] LiveStatus status() const;
+  /// Ends the thread and with it a recording; the status is then the last one.
+  void stop();
   /// Frames since the last call, oldest first.
   std::vector<std::shared_ptr<const LiveFrame>> drain();
 

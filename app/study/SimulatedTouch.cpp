@@ -48,8 +48,8 @@ SimulatedTouch::Truth SimulatedTouch::truth(double time_s) const {
   const auto areas = static_cast<std::int64_t>(response_.classes());
   Truth truth;
   truth.area = static_cast<int>((touch % areas + areas) % areas);
-  const double phase = time_s / kTouch_s - static_cast<double>(touch); // 0..1; the second half is rest
-  if (phase >= 0.5) return truth;
+  const double phase = time_s / kTouch_s - static_cast<double>(touch); // 0..1; the first half is rest
+  if (phase < 0.5) return truth;
   const double press = std::pow(std::sin(2 * std::numbers::pi * phase), 2);
   const double angle = 4 * std::numbers::pi * phase;
   truth.force_N = {kShear * press * std::cos(angle) * high_N_.x(), kShear * press * std::sin(angle) * high_N_.y(),

@@ -18,7 +18,8 @@ public:
   /// Samples with one area loaded at a time, on every area. Throws Error where they are others.
   explicit SimulatedTouch(const SampleSet& samples);
 
-  /// The touch at a time: each area for `kTouch_s`, half of which at rest, with a shear that goes round.
+  /// The touch at a time: each area for `kTouch_s`, the first half at rest (time to tare), then pressed with a
+  /// shear that goes round.
   [[nodiscard]] Truth truth(double time_s) const;
   /// Row-wires x column-wires [ohm].
   [[nodiscard]] Eigen::MatrixXd resistances_ohm(const Truth& truth) const;
