@@ -5,8 +5,8 @@
 
 namespace palp {
 
-/// Turns Ctrl-C (and a polite kill) into a stop request while it lives; a second Ctrl-C ends the process at once. Make
-/// it before any other thread: they inherit the blocked signals.
+/// Turns Ctrl-C (and a polite kill) into a stop request while it lives; a second Ctrl-C ends the process at once. One
+/// at a time.
 class Interrupt {
 public:
   Interrupt();

@@ -2,7 +2,7 @@
 #include "app/cli/Options.h"
 #include "app/cli/Pictures.h"
 #include "app/study/Touch.h"
-#include "solver/MeshForAccuracy.h"
+#include "solver/DiscretisationError.h"
 
 #include <cmath>
 #include <cstdio>
@@ -115,11 +115,9 @@ Exit run(const SolveArguments& arguments, Session& session) {
   Touch touch(design, load, arguments.mesh.options());
   NewtonOptions options;
   options.threads = session.threads;
-  if (const auto accuracy = arguments.mesh.relativeAccuracy()) {
-    auto mesh = session.stages.measure("mesh", [&] { return meshForAccuracy(design, load, *accuracy, session.stop); });
-    if (!mesh) return Exit::NoResult; // cancelled
-    touch.setMesh(std::move(*mesh));
-  }
+  if (const auto accuracy = arguments.mesh.relativeAccuracy())
+    touch.setMesh(
+        session.stages.measure("mesh", [&] { return meshForAccuracy(design, load, *accuracy, session.stop); }));
   touch.advance(Stage::Resistances, options, observer(session));
   session.stages.add(touch.stages());
   std::optional<DiscretisationError> error;
