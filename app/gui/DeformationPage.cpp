@@ -33,6 +33,12 @@ QGroupBox* group(const QString& title, QWidget* content) {
   return box;
 }
 
+/// As high as its words; a layout alone takes the height of the words before.
+void fitHeight(QLabel& label) {
+  label.setMinimumHeight(0);
+  label.setMinimumHeight(label.heightForWidth(kTextWidth_px));
+}
+
 QString number(double value, int digits = 4) {
   return QString::number(value, 'g', digits);
 }
@@ -275,7 +281,7 @@ void DeformationPage::tellResult() {
   lines << tr("Discretisation error: %1").arg(errorText_.isEmpty() ? tr("not estimated yet.") : errorText_ + ".");
   if (!session.upToDate()) lines << tr("<i>The load has changed; this is the result before.</i>");
   result_->setText(lines.join("<br>"));
-  result_->setMinimumHeight(result_->heightForWidth(kTextWidth_px));
+  fitHeight(*result_);
 }
 
 void DeformationPage::chooseAreaOf(int node) {
@@ -309,7 +315,7 @@ void DeformationPage::probe(int node) {
                       .arg(number(place.x()), number(place.y()), number(place.z()), number(u.x()), number(u.y()),
                            number(u.z()), number(fields.pressure_MPa[node]), number(fields.vonMises_MPa[node]),
                            number(fields.volumeRatio[node] - 1, 3)));
-  probe_->setMinimumHeight(probe_->heightForWidth(kTextWidth_px));
+  fitHeight(*probe_);
 }
 
 } // namespace palp

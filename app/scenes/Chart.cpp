@@ -144,14 +144,16 @@ vtkSmartPointer<vtkTable> table(const Points& points, const std::string& name) {
 
 void addSeries(vtkChartXY& chart, const ChartSeries& series, const Points& points, const Color& color, double scale) {
   if (points.x.empty()) return;
-  const bool cloud = series.style == ChartSeries::Style::Points;
+  // A line needs two points.
+  const bool cloud = series.style == ChartSeries::Style::Points || points.x.size() == 1;
   auto* plot = vtkPlotPoints::SafeDownCast(chart.AddPlot(cloud ? vtkChart::POINTS : vtkChart::LINE));
   plot->SetInputData(table(points, series.name.empty() ? "y" : series.name), 0, 1);
   plot->GetPen()->SetColor(bytes(color).data());
   plot->GetPen()->SetWidth(static_cast<float>(2 * scale));
   if (series.dashed) plot->GetPen()->SetLineType(vtkPen::DASH_LINE);
   plot->GetBrush()->SetColor(bytes(color).data());
-  plot->SetMarkerStyle(series.style == ChartSeries::Style::Line ? vtkPlotPoints::NONE : vtkPlotPoints::CIRCLE);
+  plot->SetMarkerStyle(series.style == ChartSeries::Style::Line && !cloud ? vtkPlotPoints::NONE
+                                                                          : vtkPlotPoints::CIRCLE);
   plot->SetMarkerSize(static_cast<float>((cloud ? 9 : 7) * scale));
 }
 

@@ -7,6 +7,7 @@
 #include <vtkPNGWriter.h>
 
 #include <algorithm>
+#include <fstream>
 #include <string>
 
 namespace palp {
@@ -25,9 +26,15 @@ void fillFromTop(vtkImageData& image, const Picture& picture) {
 
 } // namespace
 
+void requireWritable(const std::filesystem::path& path) {
+  if (!std::ofstream(path, std::ios::app))
+    throw Error(path.string() + ": cannot be written; allowed is a file in a folder that exists and may be written to");
+}
+
 void writePng(const Picture& picture, const std::filesystem::path& path) {
   if (picture.empty()) throw Error(path.string() + ": the picture is empty; allowed is at least 1 x 1 pixel");
   const std::filesystem::path part = path.string() + ".part";
+  requireWritable(part);
   vtkNew<vtkImageData> image;
   fillFromTop(*image, picture);
   vtkNew<vtkPNGWriter> writer;

@@ -15,6 +15,9 @@ struct Picture {
   [[nodiscard]] bool empty() const { return rgb.empty(); }
 };
 
+/// Throws Error where the file cannot be written; VTK's writers would add lines of their own to standard error.
+void requireWritable(const std::filesystem::path& path);
+
 /// Writes the picture as PNG, beside the path and then renamed. Throws Error where the file cannot be written.
 void writePng(const Picture& picture, const std::filesystem::path& path);
 

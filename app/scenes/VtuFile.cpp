@@ -1,5 +1,6 @@
 #include "app/scenes/VtuFile.h"
 
+#include "app/scenes/Picture.h"
 #include "model/Error.h"
 
 #include <vtkCellArray.h>
@@ -59,6 +60,7 @@ void writeVtu(const std::filesystem::path& path, const Mesh& mesh, const std::ve
   fillGrid(*grid, mesh);
   for (const NodalArray& array : arrays) addArray(*grid, array);
   const std::filesystem::path part = path.string() + ".part";
+  requireWritable(part);
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
   writer->SetFileName(part.c_str());
   writer->SetInputData(grid);

@@ -1,0 +1,61 @@
+#!/bin/sh
+# One session on the real window under Xvfb: xdotool types another force and turns the block; both must change the
+# picture. Usage: smoke.sh PALP_STUDIO [FOLDER for the screenshots]
+set -eu
+studio=$1
+folder=${2:-$(mktemp -d)}
+mkdir -p "$folder"
+home=$(mktemp -d)
+display=:$((90 + $$ % 900))
+xvfb= app=
+end() {
+  [ -z "$app" ] || kill "$app" 2>/dev/null || true
+  [ -z "$xvfb" ] || kill "$xvfb" 2>/dev/null || true
+  rm -rf "$home"
+}
+trap end EXIT
+Xvfb "$display" -screen 0 1500x900x24 -fbdir "$home" >/dev/null 2>&1 &
+xvfb=$!
+export DISPLAY=$display HOME=$home XDG_RUNTIME_DIR=$home QT_QPA_PLATFORM=xcb
+chmod 700 "$home"
+tries=0
+until xdotool getdisplaygeometry >/dev/null 2>&1; do
+  tries=$((tries + 1)); [ $tries -lt 100 ] || { echo "Xvfb does not come up" >&2; exit 1; }
+  sleep 0.1
+done
+"$studio" &
+app=$!
+window=$(timeout 60 xdotool search --sync --onlyvisible --name '^Palp' | head -1)
+xdotool windowmove "$window" 0 0 windowsize --sync "$window" 1500 900
+
+# Takes a picture when it has stayed the same for a second.
+settled() {
+  last= same=0 tries=0
+  while [ $same -lt 3 ]; do
+    sleep 0.4
+    cp "$home/Xvfb_screen0" "$folder/$1.xwd" # the server keeps its screen in this file
+    now=$(cksum < "$folder/$1.xwd")
+    if [ "$now" = "$last" ]; then same=$((same + 1)); else same=0; fi
+    last=$now
+    tries=$((tries + 1)); [ $tries -lt 150 ] || { echo "the picture never settles" >&2; exit 1; }
+  done
+  echo "$last" > "$folder/$1.sum"
+}
+differs() {
+  if cmp -s "$folder/$1.sum" "$folder/$2.sum"; then echo "$3" >&2; exit 1; fi
+}
+
+settled first
+# The spin box of Fz: third of the load panel.
+xdotool mousemove --window "$window" 360 267 click --repeat 3 --delay 60 1 key ctrl+a type --delay 40 -- '-2'
+xdotool key Return Tab # off the field, whose cursor blinks
+settled typed
+differs first typed "typing another force left the picture as it was"
+xdotool mousemove --window "$window" 900 350 mousedown 1 mousemove_relative --sync 60 20 mousemove_relative --sync 60 20 mouseup 1
+settled turned
+differs typed turned "dragging left the block as it was"
+xdotool key ctrl+z
+settled undone
+differs turned undone "undo left the picture as it was"
+kill -0 "$app" || { echo "the program ended by itself" >&2; exit 1; }
+echo "smoke: ok"
