@@ -58,6 +58,7 @@ OrderedJson toJson(const RbfNetwork& network) {
   return {{"scaler", scalerJson(network.scaler)},
           {"spread", network.spread},
           {"spread_convention", name(network.convention)},
+          {"basis", name(network.form)},
           {"centers", toJson(network.centers)},
           {"weights", toJson(network.weights)},
           {"tail", network.tail.size() == 0 ? OrderedJson() : toJson(network.tail)},
@@ -128,11 +129,12 @@ std::vector<int> readIntegers(const JsonPlace& place) {
 }
 
 RbfNetwork readRbf(const JsonPlace& place) {
-  place.onlyKeys({"scaler", "spread", "spread_convention", "centers", "weights", "tail", "bias"});
+  place.onlyKeys({"scaler", "spread", "spread_convention", "basis", "centers", "weights", "tail", "bias"});
   RbfNetwork network;
   network.scaler = readScaler(place.at("scaler"));
   network.spread = readPositive(place.at("spread"));
   network.convention = readNamed(place.at("spread_convention"), spreadConventionNamed, "radbas or sigma");
+  network.form = readNamed(place.at("basis"), basisFormNamed, "gaussian or remainder");
   network.centers = readMatrix(place.at("centers"));
   network.weights = readMatrix(place.at("weights"));
   if (!place.at("tail").isNull()) network.tail = readMatrix(place.at("tail"));

@@ -18,6 +18,16 @@ SpreadConvention spreadConventionNamed(const std::string& text) {
   throw NetworkError("spread convention '" + text + "': not known, allowed are radbas and sigma");
 }
 
+std::string name(BasisForm form) {
+  return form == BasisForm::Gaussian ? "gaussian" : "remainder";
+}
+
+BasisForm basisFormNamed(const std::string& text) {
+  for (const BasisForm form : {BasisForm::Gaussian, BasisForm::Remainder})
+    if (name(form) == text) return form;
+  throw NetworkError("basis '" + text + "': not known, allowed are gaussian and remainder");
+}
+
 double gaussianRate(double spread, SpreadConvention convention) {
   return (convention == SpreadConvention::Radbas ? std::numbers::ln2 : 0.5) / (spread * spread);
 }
@@ -32,9 +42,15 @@ Eigen::MatrixXd squaredDistances(const Eigen::Ref<const Eigen::MatrixXd>& a,
   return result;
 }
 
-void gaussianInPlace(Eigen::Ref<Eigen::MatrixXd> squaredDistance, double gamma) {
-  for (Eigen::Index j = 0; j < squaredDistance.cols(); ++j)
-    kernels::exponential(squaredDistance.col(j).data(), squaredDistance.rows(), -gamma);
+void basisInPlace(Eigen::Ref<Eigen::MatrixXd> squaredDistance, double gamma, BasisForm form) {
+  for (Eigen::Index j = 0; j < squaredDistance.cols(); ++j) {
+    double* column = squaredDistance.col(j).data();
+    const auto count = static_cast<std::size_t>(squaredDistance.rows());
+    if (form == BasisForm::Gaussian)
+      kernels::exponential(column, count, -gamma);
+    else
+      kernels::exponentialRemainder(column, count, gamma);
+  }
 }
 
 } // namespace palp

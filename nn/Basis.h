@@ -17,6 +17,18 @@ std::string name(SpreadConvention convention);
 /// Throws NetworkError where no convention has this name.
 SpreadConvention spreadConventionNamed(const std::string& name);
 
+/// How the basis is written. With an exact linear tail the weights are orthogonal to 1 and to the inputs, so that
+/// 1 - gamma r^2 may be taken off the Gaussian without changing the network's function (only its bias). What remains
+/// keeps its digits where the spread is large and all Gaussians are nearly 1.
+enum class BasisForm {
+  Gaussian,  ///< exp(-gamma r^2)
+  Remainder, ///< exp(-gamma r^2) - 1 + gamma r^2
+};
+/// The form's name as in files: gaussian, remainder.
+std::string name(BasisForm form);
+/// Throws NetworkError where no form has this name.
+BasisForm basisFormNamed(const std::string& name);
+
 /// gamma of phi(r) = exp(-gamma r^2).
 double gaussianRate(double spread, SpreadConvention convention);
 
@@ -24,7 +36,7 @@ double gaussianRate(double spread, SpreadConvention convention);
 Eigen::MatrixXd squaredDistances(const Eigen::Ref<const Eigen::MatrixXd>& a,
                                  const Eigen::Ref<const Eigen::MatrixXd>& b);
 
-/// exp(-gamma r^2) for each entry of `squaredDistance`, in place.
-void gaussianInPlace(Eigen::Ref<Eigen::MatrixXd> squaredDistance, double gamma);
+/// The basis at each entry of `squaredDistance`, in place.
+void basisInPlace(Eigen::Ref<Eigen::MatrixXd> squaredDistance, double gamma, BasisForm form = BasisForm::Gaussian);
 
 } // namespace palp

@@ -43,7 +43,7 @@ public:
   [[nodiscard]] Factored at(const Scales& scales) const {
     Factored result;
     result.factor = distances_;
-    gaussianInPlace(result.factor, gaussianRate(scales.spread, SpreadConvention::Sigma));
+    basisInPlace(result.factor, gaussianRate(scales.spread, SpreadConvention::Sigma));
     result.factor += scales.linear * products_;
     result.factor.diagonal().array() += scales.noise;
     if (!lapack::choleskyInPlace(result.factor)) return result;
@@ -120,7 +120,7 @@ Eigen::VectorXi evenly(Eigen::Index samples, int most) {
 Eigen::MatrixXd GaussianProcess::standardDeviation(const Eigen::Ref<const Eigen::MatrixXd>& samples) const {
   const Eigen::MatrixXd scaled = mean.scaler.apply(samples);
   Eigen::MatrixXd cross = squaredDistances(mean.centers, scaled);
-  gaussianInPlace(cross, gaussianRate(mean.spread, mean.convention));
+  basisInPlace(cross, gaussianRate(mean.spread, mean.convention));
   cross.array() += linearVariance * (1 + lapack::product(mean.centers, true, scaled, false).array());
   const Eigen::RowVectorXd own =
       (1 + linearVariance * (1 + scaled.colwise().squaredNorm().array()) + noiseVariance).matrix();
@@ -155,6 +155,7 @@ GaussianProcessFit trainGaussianProcess(const Eigen::Ref<const Eigen::MatrixXd>&
                       likelihood.scaled(),
                       scales.spread,
                       SpreadConvention::Sigma,
+                      BasisForm::Gaussian,
                       weights.transpose(),
                       scales.linear * lapack::product(weights, true, likelihood.scaled(), true),
                       likelihood.shift() + scales.linear * weights.colwise().sum().transpose()};

@@ -29,12 +29,16 @@ KernelProblem::KernelProblem(const Eigen::Ref<const Eigen::MatrixXd>& samples,
 
 Eigen::MatrixXd KernelProblem::kernel(double spread) const {
   Eigen::MatrixXd phi = distances_;
-  gaussianInPlace(phi, gaussianRate(spread, options_.convention));
+  basisInPlace(phi, gaussianRate(spread, options_.convention), form());
   if (tail_ == Tail::LinearPenalised) {
     phi += options_.tailVariance * lapack::gram(scaled_);
     phi.array() += options_.tailVariance;
   }
   return phi;
+}
+
+BasisForm KernelProblem::form() const {
+  return tail_ == Tail::Linear ? BasisForm::Remainder : BasisForm::Gaussian;
 }
 
 RbfSolution KernelProblem::solve(double spread, double ridge) const {
@@ -50,6 +54,7 @@ RbfSolution KernelProblem::solve(double spread, double ridge) const {
   solution.warnings = solved.warnings;
   solution.weights = weights.transpose();
   solution.bias = shift_;
+  solution.form = form();
   if (tail_ == Tail::LinearPenalised) {
     solution.tail = options_.tailVariance * lapack::product(weights, true, scaled_, true);
     solution.bias += options_.tailVariance * weights.colwise().sum().transpose();

@@ -20,6 +20,7 @@ public:
 
 private:
   [[nodiscard]] Eigen::MatrixXd kernel(double spread) const;
+  [[nodiscard]] BasisForm form() const;
   [[nodiscard]] LeaveOneOutResult byInverse(double spread, const Eigen::MatrixXd& reduced, double ridge) const;
   [[nodiscard]] std::vector<LeaveOneOutResult> byEigen(double spread, Eigen::MatrixXd reduced,
                                                        const std::vector<double>& ridges) const;

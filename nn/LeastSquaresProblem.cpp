@@ -44,7 +44,7 @@ double LeastSquaresProblem::tailFactor() const {
 
 Eigen::MatrixXd LeastSquaresProblem::system(double spread) const {
   Eigen::MatrixXd phi = distances_;
-  gaussianInPlace(phi, gaussianRate(spread, options_.convention));
+  basisInPlace(phi, gaussianRate(spread, options_.convention));
   if (!tailIsUnknown_ || tail_ == Tail::None) return space_.project(phi);
   const Eigen::Index inputs = tail_ == Tail::Bias ? 0 : rows_.rows();
   Eigen::MatrixXd all(phi.rows(), phi.cols() + inputs + 1);
@@ -71,7 +71,7 @@ RbfSolution LeastSquaresProblem::solve(double spread, double ridge) const {
   Eigen::MatrixXd coefficients = tailFactor() * solved.x.bottomRows(solved.x.rows() - count);
   if (!tailIsUnknown_) {
     Eigen::MatrixXd phi = distances_;
-    gaussianInPlace(phi, gaussianRate(spread, options_.convention));
+    basisInPlace(phi, gaussianRate(spread, options_.convention));
     coefficients =
         space_.coefficients((targets_.colwise() - shift_).transpose() - lapack::product(phi, false, solved.x, false));
   }

@@ -33,9 +33,10 @@ std::vector<double> packed(const Eigen::MatrixXd& m, std::size_t blocks) {
 RbfEvaluator::RbfEvaluator(const RbfNetwork& network)
     : inputs_(static_cast<std::size_t>(network.inputs())), outputs_(static_cast<std::size_t>(network.outputs())),
       blocks_((static_cast<std::size_t>(network.centers.cols()) + lanes - 1) / lanes),
-      rate_(gaussianRate(network.spread, network.convention)), offset_(copyOf(network.scaler.offset)),
-      factor_(copyOf(network.scaler.factor)), centers_(packed(network.centers, blocks_)),
-      weights_(packed(network.weights, blocks_)), tail_(copyOf(network.tail)), bias_(copyOf(network.bias)) {}
+      rate_(gaussianRate(network.spread, network.convention)), remainder_(network.form == BasisForm::Remainder),
+      offset_(copyOf(network.scaler.offset)), factor_(copyOf(network.scaler.factor)),
+      centers_(packed(network.centers, blocks_)), weights_(packed(network.weights, blocks_)),
+      tail_(copyOf(network.tail)), bias_(copyOf(network.bias)) {}
 
 std::size_t RbfEvaluator::scratchSize() const {
   return inputs_;
@@ -52,13 +53,13 @@ void RbfEvaluator::scale(const double* sample, double* scaled, double* output) c
 void RbfEvaluator::evaluate(std::span<const double> sample, std::span<double> output, std::span<double> scratch) const {
   assert(sample.size() == inputs_ && output.size() == outputs_ && scratch.size() >= scratchSize());
   scale(sample.data(), scratch.data(), output.data());
-  kernels::addGaussians({inputs_, outputs_, blocks_, rate_, centers_.data(), weights_.data()}, scratch.data(),
-                        output.data());
+  kernels::addGaussians({inputs_, outputs_, blocks_, rate_, remainder_, centers_.data(), weights_.data()},
+                        scratch.data(), output.data());
 }
 
 void RbfEvaluator::evaluate(const Eigen::Ref<const Eigen::MatrixXd>& samples,
                             Eigen::Ref<Eigen::MatrixXd> output) const {
-  const kernels::PackedNetwork network{inputs_, outputs_, blocks_, rate_, centers_.data(), weights_.data()};
+  const kernels::PackedNetwork network{inputs_, outputs_, blocks_, rate_, remainder_, centers_.data(), weights_.data()};
   std::vector<double> scaled(together * inputs_), results(together * outputs_);
   const Eigen::Index step = static_cast<Eigen::Index>(together);
   for (Eigen::Index first = 0; first < samples.cols(); first += step) {

@@ -32,6 +32,7 @@ private:
   std::size_t outputs_ = 0;
   std::size_t blocks_ = 0;
   double rate_ = 1;
+  bool remainder_ = false;
   std::vector<double> offset_, factor_;
   std::vector<double> centers_; ///< blocks of 16 centres: [block][input][lane]
   std::vector<double> weights_; ///< [block][output][lane]

@@ -14,6 +14,7 @@ struct RbfNetwork {
   Eigen::MatrixXd centers; ///< scaled inputs x centres
   double spread = 1;
   SpreadConvention convention = SpreadConvention::Radbas;
+  BasisForm form = BasisForm::Gaussian;
   Eigen::MatrixXd weights; ///< outputs x centres
   Eigen::MatrixXd tail;    ///< outputs x inputs; empty: no linear tail
   Eigen::VectorXd bias;    ///< outputs; 0 where there is none

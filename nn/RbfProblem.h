@@ -18,6 +18,7 @@ struct RbfSolution {
   Eigen::MatrixXd weights; ///< outputs x centres
   Eigen::MatrixXd tail;    ///< outputs x inputs, empty without a linear tail
   Eigen::VectorXd bias;
+  BasisForm form = BasisForm::Gaussian;
   double ridge = 0; ///< that was used
   double condition = 0;
   int rank = 0;

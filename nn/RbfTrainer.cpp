@@ -73,9 +73,9 @@ RbfFit trainRbf(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen::R
 
   RbfSolution solution = problem->solve(spread, ridge);
   RbfFit fit;
-  fit.network = {problem->scaler(),       problem->centers(),          spread,
-                 options.convention,      std::move(solution.weights), std::move(solution.tail),
-                 std::move(solution.bias)};
+  fit.network = {problem->scaler(),        problem->centers(),      spread,
+                 options.convention,       solution.form,           std::move(solution.weights),
+                 std::move(solution.tail), std::move(solution.bias)};
   if (!fit.network.weights.allFinite() || !fit.network.bias.allFinite() || !fit.network.tail.allFinite())
     throw NetworkError("the weights are no finite numbers at spread " + std::to_string(spread) +
                        "; take another solver, a larger ridge or another scaler");

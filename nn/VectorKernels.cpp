@@ -61,13 +61,21 @@ PALP_INLINE Lanes exponentialOf(Lanes x) {
   return underflow ? Lanes{} : result;
 }
 
+/// exp(-t) - 1 + t for t >= 0: by its series t^2/2 - t^3/6 + ... below 1, where the sum would cancel.
+PALP_INLINE Lanes remainderOf(Lanes t) {
+  const Lanes plain = exponentialOf(-t) - 1.0 + t;
+  Lanes series = Lanes{} + 1.0;
+  for (int k = 19; k >= 3; --k) series = 1.0 - series * t * (1.0 / k);
+  return t < 1.0 ? 0.5 * t * t * series : plain;
+}
+
 PALP_INLINE double sum(Lanes v) {
   return ((v[0] + v[1]) + (v[2] + v[3])) + ((v[4] + v[5]) + (v[6] + v[7]));
 }
 
 /// `Samples` samples against one block of 16 centres.
-template <std::size_t Samples>
-PALP_INLINE void addGaussiansOf(const PackedNetwork& network, const double* scaled, double* output) {
+template <std::size_t Samples, bool Remainder>
+PALP_INLINE void addBasisOf(const PackedNetwork& network, const double* scaled, double* output) {
   const double* center = network.centers;
   const double* weight = network.weights;
   for (std::size_t b = 0; b < network.blocks; ++b) {
@@ -82,8 +90,8 @@ PALP_INLINE void addGaussiansOf(const PackedNetwork& network, const double* scal
       }
     }
     for (std::size_t s = 0; s < Samples; ++s) {
-      low[s] = exponentialOf(low[s] * -network.rate);
-      high[s] = exponentialOf(high[s] * -network.rate);
+      low[s] = Remainder ? remainderOf(low[s] * network.rate) : exponentialOf(low[s] * -network.rate);
+      high[s] = Remainder ? remainderOf(high[s] * network.rate) : exponentialOf(high[s] * -network.rate);
     }
     for (std::size_t o = 0; o < network.outputs; ++o, weight += blockLanes) {
       const Lanes w0 = load(weight), w1 = load(weight + width);
@@ -101,6 +109,16 @@ PALP_MANY_MACHINES void exponential(double* values, std::size_t count, double fa
   double rest[width] = {};
   std::memcpy(rest, values + i, (count - i) * sizeof(double));
   store(rest, exponentialOf(load(rest) * factor));
+  std::memcpy(values + i, rest, (count - i) * sizeof(double));
+}
+
+PALP_MANY_MACHINES void exponentialRemainder(double* values, std::size_t count, double factor) {
+  std::size_t i = 0;
+  for (; i + width <= count; i += width) store(values + i, remainderOf(load(values + i) * factor));
+  if (i == count) return;
+  double rest[width] = {};
+  std::memcpy(rest, values + i, (count - i) * sizeof(double));
+  store(rest, remainderOf(load(rest) * factor));
   std::memcpy(values + i, rest, (count - i) * sizeof(double));
 }
 
@@ -126,11 +144,17 @@ PALP_MANY_MACHINES void squaredDistancesToPoint(const double* rows, std::size_t 
 }
 
 PALP_MANY_MACHINES void addGaussians(const PackedNetwork& network, const double* scaled, double* output) {
-  addGaussiansOf<1>(network, scaled, output);
+  if (network.remainder)
+    addBasisOf<1, true>(network, scaled, output);
+  else
+    addBasisOf<1, false>(network, scaled, output);
 }
 
 PALP_MANY_MACHINES void addGaussiansFour(const PackedNetwork& network, const double* scaled, double* output) {
-  addGaussiansOf<4>(network, scaled, output);
+  if (network.remainder)
+    addBasisOf<4, true>(network, scaled, output);
+  else
+    addBasisOf<4, false>(network, scaled, output);
 }
 
 } // namespace palp::kernels

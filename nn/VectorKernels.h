@@ -12,6 +12,9 @@ inline constexpr std::size_t blockLanes = 16;
 /// values[i] = exp(factor * values[i]); exponents from -708 to 708 to 1 ulp or so, below -708 gives 0.
 void exponential(double* values, std::size_t count, double factor);
 
+/// values[i] = exp(-t) - 1 + t with t = factor * values[i] >= 0, to a few ulp also where t is small.
+void exponentialRemainder(double* values, std::size_t count, double factor);
+
 /// result[i] = sum_d (rows[d * count + i] - point[d])^2: `count` points stored input by input.
 void squaredDistancesToPoint(const double* rows, std::size_t count, std::size_t dimensions, const double* point,
                              double* result);
@@ -20,11 +23,12 @@ void squaredDistancesToPoint(const double* rows, std::size_t count, std::size_t 
 struct PackedNetwork {
   std::size_t inputs, outputs, blocks;
   double rate;           ///< gamma of exp(-gamma r^2)
+  bool remainder;        ///< the basis is exp(-gamma r^2) - 1 + gamma r^2
   const double* centers; ///< [block][input][lane]
   const double* weights; ///< [block][output][lane]
 };
 
-/// output[o] += sum_c weights[o][c] exp(-rate |scaled - c|^2) for one sample.
+/// output[o] += sum_c weights[o][c] basis(|scaled - c|^2) for one sample.
 void addGaussians(const PackedNetwork& network, const double* scaled, double* output);
 /// The same for four samples at once: scaled[s * inputs + d], output[s * outputs + o].
 void addGaussiansFour(const PackedNetwork& network, const double* scaled, double* output);
