@@ -11,7 +11,7 @@ namespace palp {
 
 namespace {
 
-constexpr std::size_t checkedLoadsACall = 3;
+constexpr std::size_t loadsACheck = 350;     // one load in so many is measured against full Newton, at least one a call
 constexpr double fullNewtonResidual = 1e-11; // of the solves that answers are checked against
 
 } // namespace
@@ -57,7 +57,7 @@ struct BatchSolver::State {
   /// Measures some answers of this call, spread over it, against full Newton; false: stopped.
   bool check(std::span<const LoadCase> loads, const std::vector<BatchEngine::Answer>& answers,
              const std::vector<char>& isFull, const std::stop_token& stop) {
-    const std::size_t count = std::min(checkedLoadsACall, loads.size());
+    const std::size_t count = std::max<std::size_t>(1, loads.size() / loadsACheck);
     for (std::size_t c = 0; c < count; ++c) {
       const std::size_t i = (2 * c + 1) * loads.size() / (2 * count);
       if (isFull[i]) continue;

@@ -14,7 +14,10 @@ namespace {
 
 constexpr double coarserBy = 1.3; // the plain difference to such a mesh lies near the finer one's error
 constexpr double order = 1.3;     // of the error's fall with the size, between the singular edges' and the element's
-constexpr int mostRefinements = 6;
+constexpr double smallestRefinement = 1.15;
+constexpr double clearlyFewer = 0.65; // 1.3^-3 is 0.46; grids have whole numbers of cells
+constexpr int mostCoarsenings = 4;
+constexpr int mostRefinements = 8;
 constexpr double mostDof = 250000; // what 24 GB hold with the factor
 
 LoadCase scaled(LoadCase load, double fraction) {
@@ -33,46 +36,50 @@ double difference(const HyperelasticProblem& fine, const Solution& fineSolution,
 
 } // namespace
 
+namespace {
+
+/// The problem on a mesh at least 1.3 times coarser, with clearly fewer unknowns; its electrodes are no nodes, which
+/// would hold the mesh fine.
+HyperelasticProblem coarserTwin(const HyperelasticProblem& problem, const LoadCase& load) {
+  double size = problem.mesh().size_mm;
+  for (int attempt = 0;; ++attempt) {
+    size *= coarserBy;
+    const MeshOptions options{.meshSize_mm = size, .mapped = {}, .discs = fineDiscs(load), .electrodesAsNodes = false};
+    HyperelasticProblem twin(problem.design(), sensorMesh(problem.design(), options));
+    if (twin.dof() < clearlyFewer * problem.dof() || attempt == mostCoarsenings) return twin;
+  }
+}
+
+} // namespace
+
 DiscretisationError discretisationError(const HyperelasticProblem& problem, const LoadCase& load,
                                         const Solution& solution, std::stop_token stop) {
-  MeshOptions options;
-  DiscretisationError error;
-  if (problem.mesh().size_mm > 0) {
-    options.meshSize_mm = coarserBy * problem.mesh().size_mm;
-    error.method = "difference to a mesh 1.3 times coarser";
-  } else {
-    error.method = "difference to quadratic tetrahedra on the default mesh";
-  }
-  const HyperelasticProblem other(problem.design(), sensorMesh(problem.design(), options));
+  const bool graded = problem.mesh().size_mm > 0;
+  const HyperelasticProblem other =
+      graded ? coarserTwin(problem, load)
+             : HyperelasticProblem(
+                   problem.design(),
+                   sensorMesh(problem.design(), {.meshSize_mm = {}, .mapped = {}, .discs = fineDiscs(load)}));
   const Solution reference =
       other.solve(scaled(load, solution.state().loadFraction), {}, {.step = {}, .stop = std::move(stop)});
-  error.relative = difference(problem, solution, other, reference);
-  return error;
+  return {difference(problem, solution, other, reference),
+          graded ? "difference to a mesh 1.3 times coarser" : "difference to quadratic tetrahedra on the default mesh"};
 }
 
 Mesh meshForAccuracy(const SensorDesign& design, const LoadCase& load, double accuracy, std::stop_token stop) {
   if (!(accuracy > 0 && accuracy < 1))
     throw DesignError("accuracy " + text(accuracy) + "; allowed is a relative error between 0 and 1");
-  double size = sensorMesh(design).size_mm * 1.5;
-  std::unique_ptr<HyperelasticProblem> coarse;
-  Solution coarseSolution;
+  MeshOptions options{.meshSize_mm = 1.5 * standardMeshSize_mm(design), .mapped = {}, .discs = fineDiscs(load)};
   for (int refinement = 0;; ++refinement) {
-    auto fine = std::make_unique<HyperelasticProblem>(design, sensorMesh(design, {.meshSize_mm = size, .mapped = {}}));
-    if (fine->dof() > mostDof || refinement == mostRefinements)
-      throw DesignError("accuracy " + text(accuracy) + " needs a mesh of " + std::to_string(fine->dof()) +
-                        " unknowns or more; allowed are " + text(mostDof) + ": choose a larger accuracy");
-    Solution solution = fine->solve(load, {}, {.step = {}, .stop = stop});
-    if (stop.stop_requested() || !solution.converged) return fine->mesh();
-    if (coarse) {
-      const double error = difference(*fine, solution, *coarse, coarseSolution);
-      if (error <= accuracy) return fine->mesh();
-      // The estimate of the next mesh is to end the search, but no step is finer than half.
-      size /= std::clamp(std::pow(1.1 * error / accuracy, 1 / order), coarserBy, 2.);
-    } else {
-      size /= coarserBy;
-    }
-    coarse = std::move(fine);
-    coarseSolution = std::move(solution);
+    const HyperelasticProblem problem(design, sensorMesh(design, options));
+    if (problem.dof() > mostDof || refinement == mostRefinements)
+      throw DesignError("accuracy " + text(accuracy) + " is out of reach: it needs a mesh of " +
+                        std::to_string(problem.dof()) + " unknowns or more, allowed are " + text(mostDof));
+    const Solution solution = problem.solve(load, {}, {.step = {}, .stop = stop});
+    if (!solution.converged) return problem.mesh();
+    const double error = discretisationError(problem, load, solution, stop).relative;
+    if (error <= accuracy || stop.stop_requested()) return problem.mesh();
+    *options.meshSize_mm /= std::clamp(std::pow(1.1 * error / accuracy, 1 / order), smallestRefinement, 2.);
   }
 }
 

@@ -1,6 +1,7 @@
 #include "solver/GradedTets.h"
 
 #include "model/Error.h"
+#include "model/Text.h"
 #include "solver/ElementGeometry.h"
 #include "solver/GridLines.h"
 #include "solver/QuadraticTets.h"
@@ -46,17 +47,26 @@ void setHorizontal(Grid& grid, int d, double length, int parts, const Grading& g
     grid.stops[d].push_back(length * i / parts);
     size.places.push_back({grid.stops[d].back(), i == 0 || i == parts ? grading.edge_mm : grading.border_mm});
   }
-  grid.lines[d] = gridLines(grid.stops[d], size);
 }
 
-Grid gradedGrid(const SensorDesign& design, const Grading& grading) {
+/// Size across a disc's rim: the areas' borders', less for a small disc.
+double rimSize(const Grading& grading, const FineDisc& disc) {
+  return grading.border_mm * std::min(1., disc.radius_mm / grading.bulk_mm);
+}
+
+Grid gradedGrid(const SensorDesign& design, const Grading& grading, const std::vector<FineDisc>& discs) {
   const Eigen::Vector3d& block = design.block_mm;
   Grid grid;
   setHorizontal(grid, 0, block.x(), design.areas.columns, grading);
   setHorizontal(grid, 1, block.y(), design.areas.rows, grading);
+  for (const FineDisc& disc : discs)
+    for (const double side : {-1., 1.}) {
+      grid.sizes[0].places.push_back({disc.x_mm + side * disc.radius_mm, rimSize(grading, disc)});
+      grid.sizes[1].places.push_back({disc.y_mm + side * disc.radius_mm, rimSize(grading, disc)});
+    }
   grid.stops[2] = {0, block.z()};
   grid.sizes[2] = {grading.vertical_mm, grading.growth, {{0, grading.bottom_mm}, {block.z(), grading.top_mm}}};
-  grid.lines[2] = gridLines(grid.stops[2], grid.sizes[2]);
+  for (int d = 0; d < 3; ++d) grid.lines[d] = gridLines(grid.stops[d], grid.sizes[d]);
   return grid;
 }
 
@@ -127,6 +137,11 @@ Eigen::VectorXi areasOfFaces(const SensorDesign& design, const Mesh& mesh) {
   return areas;
 }
 
+void requireElements(const Grid& grid) {
+  if (6 * grid.cells() > mostElements)
+    throw DesignError("mesh: " + text(6 * grid.cells()) + " elements; allowed are 1e6: choose a larger mesh size");
+}
+
 } // namespace
 
 Grading defaultGrading(const SensorDesign& design, double size_mm) {
@@ -150,18 +165,18 @@ double standardSize(const SensorDesign& design) {
   return 0.4 * (area.high_mm - area.low_mm).minCoeff();
 }
 
-Mesh gradedTets(const SensorDesign& design, const Grading& grading) {
+Mesh gradedTets(const SensorDesign& design, const Grading& grading, const std::vector<FineDisc>& discs,
+                bool electrodesAsNodes) {
   constexpr std::size_t mostLinesForElectrodes = 40;
-  const Eigen::Matrix3Xd electrodes = design.upperElectrodes_mm();
-  Grid grid = gradedGrid(design, grading);
+  const Eigen::Matrix3Xd electrodes = electrodesAsNodes ? design.upperElectrodes_mm() : Eigen::Matrix3Xd(3, 0);
+  Grid grid = gradedGrid(design, grading, discs);
+  requireElements(grid);
   for (int d = 0; d < 3; ++d)
     if (const std::vector<double> wanted = distinct(electrodes, d); wanted.size() <= mostLinesForElectrodes)
       bringLinesTo(wanted, grid.stops[d], grid.lines[d]);
   for (int d = 0; d < 2; ++d) makeEven(grid.stops[d], grid.sizes[d], grid.lines[d]);
   const std::vector<int> electrodePoint = electrodePoints(grid, electrodes);
-  if (6 * grid.cells() > mostElements)
-    throw DesignError("mesh: " + std::to_string(static_cast<long long>(6 * grid.cells())) +
-                      " elements; allowed are 1e6: choose a larger mesh size");
+  requireElements(grid);
   const Eigen::Matrix3Xd indices = grid.indices();
   Eigen::VectorXd weights(indices.cols());
   Eigen::Matrix3Xd points(3, indices.cols());

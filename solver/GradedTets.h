@@ -2,6 +2,9 @@
 
 #include "model/Mesh.h"
 #include "model/SensorDesign.h"
+#include "solver/SensorMesh.h"
+
+#include <vector>
 
 namespace palp {
 
@@ -21,9 +24,10 @@ Grading defaultGrading(const SensorDesign& design, double size_mm);
 /// The size of the default mesh.
 double standardSize(const SensorDesign& design);
 
-/// Quadratic tetrahedra by TetGen on the points of a graded grid and the upper electrodes, load areas as facets.
-/// TetGen sees the grid squeezed along its diagonal to a body-centred cubic lattice, whose Delaunay tetrahedra are all
-/// alike; in the block they are path simplices, which no stretching along the axes makes obtuse.
-Mesh gradedTets(const SensorDesign& design, const Grading& grading);
+/// Quadratic tetrahedra by TetGen on the points of a graded grid whose lines meet the load areas' borders and, where
+/// `electrodesAsNodes`, the upper electrodes. Each cell becomes six path simplices, mirrored from cell to cell: no
+/// stretching along the axes makes them obtuse, and the mirroring halves the error of equal cells.
+Mesh gradedTets(const SensorDesign& design, const Grading& grading, const std::vector<FineDisc>& discs = {},
+                bool electrodesAsNodes = true);
 
 } // namespace palp

@@ -24,6 +24,16 @@ void requireMapped(const std::array<int, 3>& counts) {
 
 } // namespace
 
+std::vector<FineDisc> fineDiscs(const LoadCase& load) {
+  std::vector<FineDisc> discs;
+  for (const PatchLoad& p : load.patches) discs.push_back({p.centre_mm.x(), p.centre_mm.y(), p.radius_mm});
+  return discs;
+}
+
+double standardMeshSize_mm(const SensorDesign& design) {
+  return standardSize(design);
+}
+
 Mesh sensorMesh(const SensorDesign& design, const MeshOptions& options) {
   requireValid(design);
   if (options.mapped) {
@@ -35,7 +45,7 @@ Mesh sensorMesh(const SensorDesign& design, const MeshOptions& options) {
   if (!(size >= smallest))
     throw DesignError("mesh size " + text(size) + " mm; allowed is at least " + text(smallest) +
                       " mm for this block, or there would be more than 1e6 elements");
-  Mesh mesh = gradedTets(design, defaultGrading(design, size));
+  Mesh mesh = gradedTets(design, defaultGrading(design, size), options.discs, options.electrodesAsNodes);
   mesh.size_mm = size;
   return mesh;
 }

@@ -1,24 +1,40 @@
 #pragma once
 
+#include "model/LoadCase.h"
 #include "model/Mesh.h"
 #include "model/SensorDesign.h"
 
 #include <array>
 #include <optional>
+#include <vector>
 
 namespace palp {
 
-/// Which mesh; at most one member is given. None: the default, graded to the load areas' borders, the free and the
-/// clamped edges and the electrodes, for about 2 % in the electrode displacements.
+/// A disc of the top face whose rim the mesh is graded to: where a patch load is to act.
+struct FineDisc {
+  double x_mm = 0, y_mm = 0, radius_mm = 1;
+  bool operator==(const FineDisc&) const = default;
+};
+/// The discs of a load's patches.
+std::vector<FineDisc> fineDiscs(const LoadCase& load);
+
+/// Which mesh; at most one of the first two members is given. None: the default, graded to the load areas' borders, the
+/// free and the clamped edges and the electrodes, for about 2 % in the electrode displacements.
 struct MeshOptions {
   std::optional<double> meshSize_mm;        ///< tetrahedra: size in the bulk; the grading scales with it
   std::optional<std::array<int, 3>> mapped; ///< the paper's mapped mesh: hexahedra along x, y, z
+  std::vector<FineDisc> discs{};            ///< tetrahedra: finer at these discs' rims
+  bool electrodesAsNodes = true;            ///< tetrahedra: without it electrodes lie anywhere in the elements
   bool operator==(const MeshOptions&) const = default;
 };
 
-/// Mesh of the block: by TetGen with the load areas as facets and all upper electrodes as nodes, or mapped hexahedra.
-/// Throws DesignError where the options make no mesh (size not above 0, more than a stated number of elements).
+/// Mesh of the block: by TetGen with the load areas' borders along faces and all upper electrodes as nodes, or mapped
+/// hexahedra. Throws DesignError where the options make no mesh (size not above 0, more than a stated number of
+/// elements).
 Mesh sensorMesh(const SensorDesign& design, const MeshOptions& options = {});
+
+/// Size in the bulk of the default mesh.
+double standardMeshSize_mm(const SensorDesign& design);
 
 /// Shape of the elements (dihedral angles, of tetrahedra and hexahedra alike), and a histogram for the eye.
 struct MeshQuality {
