@@ -113,6 +113,7 @@ QWidget* NetworkPage::buildCharts() {
   tabs_->addTab(sweep, tr("Spread"));
   QSplitter* fit =
       beside({beside({decoupled_[0], decoupled_[1], decoupled_[2]}, Qt::Horizontal), relative_}, Qt::Vertical);
+  fit->setSizes({360, 360});
   tabs_->addTab(fit, tr("Decoupled against true force"));
   column->addWidget(tabs_, 1);
   return page;
