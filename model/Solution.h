@@ -30,6 +30,7 @@ struct Solution {
   std::vector<NewtonStep> newton;
   std::vector<LoadIncrement> increments; ///< at rest first (load fraction 0), the state that is the answer last
   double maxVolumeError = 0;             ///< largest |J - 1| over the quadrature points
+  Eigen::Vector3d reaction_N = Eigen::Vector3d::Zero(); ///< of the clamped face on the block, in the last state
 
   /// The last converged state.
   [[nodiscard]] const LoadIncrement& state() const { return increments.back(); }

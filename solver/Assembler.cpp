@@ -16,6 +16,12 @@ constexpr int largestElementDofs = 30;
 
 } // namespace
 
+RubberConstants rubberConstants(const Material& material) {
+  const double compressibility = material.compressibility_per_MPa();
+  return {material.c10_MPa, material.c01_MPa, compressibility,
+          std::max(compressibility, 1e-6 / material.shearModulus_MPa())};
+}
+
 Assembler::Assembler(std::shared_ptr<const Discretisation> mesh, const RubberConstants& rubber)
     : mesh_(std::move(mesh)), rubber_(rubber) {
   findNeighbours();

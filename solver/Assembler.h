@@ -1,5 +1,6 @@
 #pragma once
 
+#include "model/Material.h"
 #include "solver/Discretisation.h"
 #include "solver/SparseCholesky.h"
 
@@ -7,6 +8,10 @@
 #include <stop_token>
 
 namespace palp {
+
+/// The kernels' constants. At nu = 0.5 the constant pressure of an element has no stiffness of its own; the tangent,
+/// and only it, then takes kappa = 1e6 mu, which costs Newton's method a millionth of its convergence.
+RubberConstants rubberConstants(const Material& material);
 
 /// Forces and local residuals of one state, condensed with some elimination.
 struct ElementForces {

@@ -10,7 +10,8 @@ inline constexpr int lanes = 8;
 struct RubberConstants {
   double c10_MPa;
   double c01_MPa;
-  double compressibility_per_MPa; ///< 1/kappa; 0: incompressible
+  double compressibility_per_MPa;        ///< 1/kappa; 0: incompressible
+  double tangentCompressibility_per_MPa; ///< the same, kept above 0: the tangent's pressures are eliminated by it
 };
 
 /// What one call of a kernel reads.

@@ -10,14 +10,6 @@
 
 namespace palp {
 
-namespace {
-
-RubberConstants rubberConstants(const Material& material) {
-  return {material.c10_MPa, material.c01_MPa, material.compressibility_per_MPa()};
-}
-
-} // namespace
-
 Eigen::MatrixXd elementUnknowns(const Discretisation& mesh, const LaneVector& unknowns) {
   Eigen::MatrixXd x(mesh.unknowns(), mesh.elements());
   for (int e = 0; e < mesh.elements(); ++e)
@@ -105,6 +97,8 @@ Solution HyperelasticProblem::solve(const LoadCase& load, const NewtonOptions& o
   solution.cancelled = result.cancelled;
   solution.stopReason = std::move(result.stopReason);
   solution.newton = std::move(result.steps);
+  for (Eigen::Index i = 0; i < result.internalForces.size(); ++i)
+    if (mesh.freeIndex(static_cast<int>(i)) < 0) solution.reaction_N(i % 3) += result.internalForces(i);
   solution.maxVolumeError = std::max(result.largestJ - 1, 1 - result.smallestJ);
   for (const auto& [fraction, state] : result.increments)
     solution.increments.push_back({fraction,

@@ -13,9 +13,10 @@ constexpr double growthAfterSuccess = 1.5;
 constexpr double hopelessResidual = 1e8;
 constexpr double acceptedSlope = 0.9; // of the residual's work along the step, against its start
 constexpr int lineSearchTrials = 6;
-// Relative residual below which one more iteration with the same tangent ends it; where that does not help any more,
-// the residual is down to rounding.
+// Relative residual below which one more iteration with the same tangent ends it; where some do not help any more, the
+// residual is down to rounding.
 constexpr double keepFactorBelow = 1e-6;
+constexpr int stallsAtRounding = 3;
 
 } // namespace
 
@@ -159,6 +160,7 @@ NewtonSolver::Outcome NewtonSolver::step(const Loading& loading, double from, do
     return outcome;
   record(to, 0);
   double previous = relative_;
+  int stalled = 0;
   for (int iteration = 1; iteration <= options_.iterationsAStep; ++iteration) {
     if (stopped()) return Outcome::Cancelled;
     const Direction way = direction(state, prescribed);
@@ -172,8 +174,8 @@ NewtonSolver::Outcome NewtonSolver::step(const Loading& loading, double from, do
     prescribed.setZero();
     record(to, iteration);
     if (relative_ > hopelessResidual) return Outcome::Diverged;
-    const bool rounding = relative_ < keepFactorBelow && relative_ > previous / 2;
-    if (relative_ < options_.relativeTolerance || rounding) return Outcome::Converged;
+    stalled = relative_ < keepFactorBelow && relative_ > previous / 2 ? stalled + 1 : 0;
+    if (relative_ < options_.relativeTolerance || stalled == stallsAtRounding) return Outcome::Converged;
     previous = relative_;
     if (relative_ > keepFactorBelow && iteration < options_.iterationsAStep)
       if (const Outcome outcome = newTangent(loading, to, state); outcome != Outcome::Converged) return outcome;

@@ -96,7 +96,7 @@ PALP_INLINE void hexElement(const RubberConstants& rubber, const ElementInput& i
     addHexPoint(m, point, sums);
     if constexpr (WithStiffness) addHexStiffness(m, point, K);
   }
-  if constexpr (WithStiffness) K[24][24] -= rubber.compressibility_per_MPa * sums.weight;
+  if constexpr (WithStiffness) K[24][24] -= rubber.tangentCompressibility_per_MPa * sums.weight;
   for (int n = 0; n < 8; ++n)
     for (int d = 0; d < 3; ++d) store(out.forces + 8 * (3 * n + d) + lane, sums.forces[n][d]);
   store(out.local + lane, sums.volume - rubber.compressibility_per_MPa * sums.weight * pressure);

@@ -232,7 +232,7 @@ PALP_INLINE void tetStiffness(const RubberConstants& rubber, const ElementInput&
   }
   for (int k = 0; k < 4; ++k)
     for (int n = k; n < 4; ++n)
-      K[33 + k][33 + n] -= (rubber.compressibility_per_MPa / 20 * (k == n ? 2.0 : 1.0)) * geo.volume;
+      K[33 + k][33 + n] -= (rubber.tangentCompressibility_per_MPa / 20 * (k == n ? 2.0 : 1.0)) * geo.volume;
   storeTetResidual(geo, state, sums, rubber.compressibility_per_MPa, out, lane);
 }
 

@@ -1,0 +1,236 @@
+#include "model/Error.h"
+#include "solver/BatchSolver.h"
+#include "solver/DiscretisationError.h"
+#include "solver/HyperelasticProblem.h"
+#include "solver/SensorMesh.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <fstream>
+#include <set>
+#include <thread>
+
+using namespace palp;
+
+namespace {
+
+LoadCase onArea(int area, double fx, double fy, double fz) {
+  return {{{area, {fx, fy, fz}}}, {}};
+}
+
+/// A problem on a mesh coarse enough for a test.
+HyperelasticProblem coarse(const SensorDesign& design = paperDesign(), double size_mm = 7) {
+  return {design, sensorMesh(design, {.meshSize_mm = size_mm, .mapped = {}})};
+}
+
+const HyperelasticProblem& paperProblem() {
+  static const HyperelasticProblem problem = coarse();
+  return problem;
+}
+
+int mostIterations(const Solution& s) {
+  int most = 0;
+  for (const NewtonStep& step : s.newton) most = std::max(most, step.iteration);
+  return most;
+}
+
+/// Relative L2 error of row-wire 4 against the converged reference.
+double referenceError(const std::string& name, const HyperelasticProblem& problem, const Solution& solution) {
+  nlohmann::json reference;
+  std::ifstream(PALP_SOURCE_DIR "/tests/reference/converged.json") >> reference;
+  const auto& u = reference["cases"][name]["u_mm"];
+  const Eigen::Matrix3Xd ours = problem.electrodes(solution.state()).upper_mm;
+  double error = 0, norm = 0;
+  for (int e = 0; e < 10; ++e)
+    for (int d = 0; d < 3; ++d) {
+      const double value = u[e][d];
+      error += std::pow(ours(d, 40 + e) - value, 2);
+      norm += value * value;
+    }
+  return std::sqrt(error / norm);
+}
+
+TEST(DefaultMesh, MeetsTheReferencesWithinTwoPercent) {
+  const SensorDesign design = paperDesign();
+  const HyperelasticProblem problem(design, sensorMesh(design));
+  EXPECT_LT(referenceError("A", problem, problem.solve(onArea(0, 1, 0, -6))), 0.02);
+  // The reference of this load is itself good to 1.2 %.
+  const Solution half = problem.solve(onArea(1, 5, -5, -60));
+  EXPECT_TRUE(half.converged);
+  EXPECT_LE(half.newton.size(), 7U);
+  EXPECT_LT(referenceError("E_half", problem, half), 0.025);
+}
+
+TEST(Sensor, HasUpperElectrodesAsNodesAndAreasAlongFaces) {
+  SensorDesign design = paperDesign();
+  design.upper.along_mm.assign(10, {});
+  for (int w = 0; w < 10; ++w) // wire by wire elsewhere: no common lines
+    for (int e = 0; e < 10; ++e) design.upper.along_mm[w].push_back(1.2 + 2.9 * e + 0.05 * w);
+  const Mesh mesh = sensorMesh(design, {.meshSize_mm = 7, .mapped = {}});
+  const Eigen::Matrix3Xd electrodes = design.upperElectrodes_mm();
+  ASSERT_EQ(mesh.upperElectrodeNodes.size(), 100U);
+  for (int i = 0; i < 100; ++i)
+    EXPECT_EQ(Eigen::Vector3d(mesh.nodes_mm.col(mesh.upperElectrodeNodes[i])), Eigen::Vector3d(electrodes.col(i)));
+  for (int f = 0; f < mesh.topFaces.cols(); ++f) {
+    const Rectangle area = design.areaRectangle(mesh.topFaceAreas(f));
+    for (int n = 0; n < 3; ++n) {
+      const Eigen::Vector2d p = mesh.nodes_mm.col(mesh.topFaces(n, f)).head<2>();
+      EXPECT_TRUE((p.array() >= area.low_mm.array() - 1e-12).all() &&
+                  (p.array() <= area.high_mm.array() + 1e-12).all());
+    }
+  }
+  EXPECT_GT(meshQuality(mesh).minDihedral_deg, 1);
+}
+
+TEST(Sensor, BalancesEveryLoadWithItsReactions) {
+  LoadCase load{{{0, {1, 0.5, -6}}, {4, {-1, 1, -2}}}, {{{11, 17}, 2.5, {0.5, 0.2, -3}}}};
+  const Solution s = paperProblem().solve(load);
+  ASSERT_TRUE(s.converged) << s.stopReason;
+  EXPECT_LT((s.reaction_N + load.totalForce_N()).norm(), 1e-9 * load.totalForce_N().norm());
+}
+
+TEST(Sensor, MirroredLoadsGiveMirroredAnswers) {
+  const auto u = paperProblem().electrodes(paperProblem().solve(onArea(0, 1, 0.5, -6)).state()).upper_mm;
+  const auto v = paperProblem().electrodes(paperProblem().solve(onArea(2, -1, 0.5, -6)).state()).upper_mm;
+  Eigen::Matrix3Xd mirrored = v;
+  for (int r = 0; r < 10; ++r)
+    for (int e = 0; e < 10; ++e)
+      mirrored.col(10 * r + e) = Eigen::Vector3d(-1, 1, 1).cwiseProduct(v.col(10 * r + 9 - e));
+  EXPECT_LT((u - mirrored).norm() / u.norm(), 0.03); // both have the coarse mesh's error
+}
+
+TEST(Sensor, NeedsFewIterationsAtAnyPoissonRatio) {
+  SensorDesign design = paperDesign();
+  Eigen::Matrix3Xd nearly;
+  for (const double nu : {0.0, 0.3, 0.49, 0.499, 0.4999, 0.499999, 0.5}) {
+    design.material.poissonRatio = nu;
+    const HyperelasticProblem problem = coarse(design);
+    const Solution s = problem.solve(onArea(0, 1, 0, -6));
+    EXPECT_TRUE(s.converged) << nu << s.stopReason;
+    EXPECT_EQ(s.increments.size(), 2U) << nu;
+    EXPECT_LE(mostIterations(s), 4) << nu;
+    const Eigen::Matrix3Xd u = problem.electrodes(s.state()).upper_mm;
+    if (nu == 0.499999) nearly = u;
+    if (nu == 0.5) { // no jump at the incompressible limit
+      EXPECT_LT((u - nearly).norm() / u.norm(), 1e-4);
+    }
+  }
+}
+
+TEST(Sensor, CarriesBigLoads) {
+  for (const Eigen::Vector3d& force : {Eigen::Vector3d(3, 3, -60), Eigen::Vector3d(0, 0, -150)}) {
+    const Solution s = paperProblem().solve({{{1, force}}, {}});
+    EXPECT_TRUE(s.converged) << s.stopReason;
+    EXPECT_LE(s.newton.size(), 21U);
+  }
+}
+
+TEST(Sensor, EndsHonestlyWhereTheBlockLosesStability) {
+  const Solution s = paperProblem().solve(onArea(1, 10, -10, -120));
+  if (s.converged) GTEST_SKIP() << "this mesh carries the load";
+  EXPECT_GT(s.reachedLoadFraction, 0.3);
+  EXPECT_FALSE(s.stopReason.empty());
+  EXPECT_EQ(s.state().loadFraction, s.reachedLoadFraction);
+  EXPECT_TRUE(s.state().displacements_mm.allFinite());
+}
+
+TEST(Sensor, GivesTheSameBytesWithAnyNumberOfThreads) {
+  const HyperelasticProblem one = coarse(), two = coarse();
+  const Solution a = one.solve(onArea(3, 1, -1, -5), {.threads = 1}),
+                 b = two.solve(onArea(3, 1, -1, -5), {.threads = 2});
+  EXPECT_EQ(a.state().displacements_mm, b.state().displacements_mm);
+  EXPECT_EQ(a.state().elementUnknowns, b.state().elementUnknowns);
+}
+
+TEST(Sensor, LeavesNothingBrokenWhenCancelled) {
+  const HyperelasticProblem problem = coarse();
+  std::stop_source stop;
+  NewtonObserver observer{.step = [&](const NewtonStep&) { stop.request_stop(); }, .stop = stop.get_token()};
+  const Solution cancelled = problem.solve(onArea(0, 0, 0, -6), {}, observer);
+  EXPECT_TRUE(cancelled.cancelled);
+  EXPECT_FALSE(cancelled.converged);
+  EXPECT_TRUE(problem.solve(onArea(0, 0, 0, -6)).converged);
+}
+
+TEST(Sensor, RefusesALoadThatCannotAct) {
+  EXPECT_THROW(static_cast<void>(paperProblem().solve(onArea(6, 0, 0, -1))), DesignError);
+  EXPECT_THROW(sensorMesh(paperDesign(), {.meshSize_mm = -1, .mapped = {}}), DesignError);
+  EXPECT_THROW(sensorMesh(paperDesign(), {.meshSize_mm = 0.01, .mapped = {}}), DesignError);
+}
+
+TEST(Sensor, FieldsAreThoseOfTheState) {
+  const Solution s = paperProblem().solve(onArea(1, 0, 0, -6));
+  const NodalFields f = paperProblem().fields(s.state());
+  EXPECT_EQ(f.displacement_mm, s.state().displacements_mm);
+  EXPECT_LT((f.pressure_MPa + f.cauchy_MPa.topRows<3>().colwise().sum().transpose() / 3).norm(), 1e-12);
+  EXPECT_GT(f.vonMises_MPa.maxCoeff(), 0);
+  EXPECT_NEAR(f.volumeRatio.mean(), 1, 0.01); // nearly incompressible
+}
+
+TEST(MappedHexahedra, AgreeWithTetrahedraAsTheyAreRefined) {
+  const SensorDesign design = paperDesign();
+  const Eigen::Matrix3Xd u = paperProblem().electrodes(paperProblem().solve(onArea(4, 1, 0, -6)).state()).upper_mm;
+  double previous = 1;
+  for (const int n : {10, 20}) {
+    const HyperelasticProblem hexes(design, sensorMesh(design, {.meshSize_mm = {}, .mapped = std::array{n, n, n / 2}}));
+    const double error = (hexes.electrodes(hexes.solve(onArea(4, 1, 0, -6)).state()).upper_mm - u).norm() / u.norm();
+    EXPECT_LT(error, 0.6 * previous);
+    previous = error;
+  }
+  EXPECT_LT(previous, 0.1);
+}
+
+TEST(ErrorEstimate, IsRightWithinAFactorOfThree) {
+  const SensorDesign design = paperDesign();
+  const HyperelasticProblem fine(design, sensorMesh(design, {.meshSize_mm = 3, .mapped = {}}));
+  for (const LoadCase& load : {onArea(1, 0, 1, -3), onArea(5, 1, 1, -1)}) {
+    const Eigen::Matrix3Xd truth = fine.electrodes(fine.solve(load).state()).upper_mm;
+    const Solution s = paperProblem().solve(load);
+    const double error = (paperProblem().electrodes(s.state()).upper_mm - truth).norm() / truth.norm();
+    const double estimate = discretisationError(paperProblem(), load, s).relative;
+    EXPECT_LT(estimate, 3 * error);
+    EXPECT_GT(estimate, error / 3);
+  }
+}
+
+TEST(Batch, AnswersAsFullNewtonWhateverStandsBesideALoad) {
+  BatchSolver batch(paperProblem(), {.relativeTolerance = 1e-6, .surrogate = false, .threads = 2});
+  std::vector<LoadCase> loads{
+      onArea(0, 1, -1, -6), onArea(0, 0.2, 0.1, -0.5),          {{{0, {1, 0, -3}}, {1, {0, 1, -2}}}, {}},
+      onArea(0, 0, 0, -15), {{}, {{{20, 9}, 2, {0, 0.3, -2}}}}, onArea(0, 0, 0, 0)};
+  const auto answers = batch.solve(loads);
+  ASSERT_EQ(answers.size(), loads.size());
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    const auto full = paperProblem().electrodes(paperProblem().solve(loads[i]).state());
+    EXPECT_LE((answers[i].upper_mm - full.upper_mm).norm(), 1e-6 * full.upper_mm.norm()) << i;
+    EXPECT_LE((answers[i].lower_mm - full.lower_mm).norm(), 1e-5 * full.lower_mm.norm()) << i;
+  }
+  EXPECT_LE(batch.measuredError(), 1e-6);
+  BatchSolver other(paperProblem(), {.relativeTolerance = 1e-6, .surrogate = false, .threads = 1});
+  const auto alone = other.solve(std::span(loads).subspan(1, 1));
+  EXPECT_EQ(alone[0].upper_mm, answers[1].upper_mm);
+  EXPECT_EQ(alone[0].upperPressure_MPa, answers[1].upperPressure_MPa);
+}
+
+TEST(Batch, OfSurrogatesKeepsTheErrorThatItStates) {
+  BatchSolver batch(paperProblem(), {.relativeTolerance = 1e-6, .surrogate = true, .threads = 2});
+  std::vector<LoadCase> loads;
+  for (int i = 0; i < 100; ++i) loads.push_back(onArea(2, std::sin(i), std::cos(3 * i), -3 + 3 * std::sin(2 * i)));
+  const auto answers = batch.solve(loads);
+  const auto full = paperProblem().electrodes(paperProblem().solve(loads[42]).state());
+  EXPECT_LE(batch.measuredError(), 1e-5);
+  EXPECT_LE((answers[42].upper_mm - full.upper_mm).norm(), 3e-5 * full.upper_mm.norm());
+}
+
+TEST(Batch, StopsAndGoesOn) {
+  BatchSolver batch(paperProblem());
+  std::stop_source stop;
+  stop.request_stop();
+  const std::vector<LoadCase> loads{onArea(3, 0, 0, -1)};
+  EXPECT_TRUE(batch.solve(loads, {}, stop.get_token()).empty());
+  EXPECT_EQ(batch.solve(loads).size(), 1U);
+}
+
+} // namespace
