@@ -71,13 +71,15 @@ NoisyError noisyError(const SensorDesign& design, const TwoSets& sets, const Tra
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const Eigen::MatrixXd clean = inputsOf(sets.test, decoder.input);
     const int draws = testNoise > 0 ? kNoiseDraws : 1;
-    const Eigen::MatrixXd noisy = noisyCopies(clean, testNoise, draws, seed);
+    // Another seed than the training's noise: a network must not meet in the test what it was fitted to.
+    const Eigen::MatrixXd noisy = noisyCopies(clean, testNoise, draws, testSeed(seed));
     Eigen::MatrixXd truth_N(3, noisy.cols());
     for (Eigen::Index i = 0; i < noisy.cols(); ++i) truth_N.col(i) = sets.test.forces_N.col(i / draws);
     PredictOptions bare;
     bare.standardDeviation = false;
     bare.area = false;
     const Prediction prediction = stages.measure("predict", [&] { return predict(decoder, noisy, bare); });
+    result.microsecondsPerSample = prediction.microsecondsPerSample;
     result.rmse_percentOfRange = percentOfRange(design, prediction.forces_N, truth_N);
   } catch (const Error& refused) {
     result.failed = refused.what();

@@ -25,6 +25,7 @@ std::optional<TwoSets> twoSets(const SensorDesign& design, const ReportRequest& 
 struct NoisyError {
   Eigen::Vector3d rmse_percentOfRange; ///< over all test samples and areas
   double seconds = 0;                  ///< of training
+  double microsecondsPerSample = 0;    ///< of predicting
   std::string failed;                  ///< why there is no error; empty where there is one
 };
 

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <vector>
+
+namespace palp {
+
+/// Seconds that a piece of work takes.
+template <class Work> double secondsOf(Work&& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Seconds of repeated runs.
+struct Timing {
+  std::vector<double> seconds;
+
+  [[nodiscard]] double median() const {
+    std::vector<double> sorted = seconds;
+    std::sort(sorted.begin(), sorted.end());
+    const std::size_t half = sorted.size() / 2;
+    return sorted.size() % 2 == 1 ? sorted[half] : (sorted[half - 1] + sorted[half]) / 2;
+  }
+  [[nodiscard]] double least() const { return *std::min_element(seconds.begin(), seconds.end()); }
+  [[nodiscard]] double most() const { return *std::max_element(seconds.begin(), seconds.end()); }
+};
+
+/// Runs the work `times` times.
+template <class Work> Timing timed(int times, Work&& work) {
+  Timing timing;
+  for (int i = 0; i < times; ++i) timing.seconds.push_back(secondsOf(work));
+  return timing;
+}
+
+} // namespace palp
