@@ -27,6 +27,7 @@ constexpr auto kDrainInterval = std::chrono::milliseconds(5);
 constexpr double kLineInterval_s = 0.5; // of the lines for people
 constexpr double kCheck_s = 5;
 constexpr const char* kSimulatedSamples = "board/paper-samples.csv";
+constexpr const char* kSimulatedNetwork = "board/paper-network.json";
 
 struct ListenArguments {
   bool list = false, check = false, simulate = false;
@@ -75,7 +76,10 @@ std::unique_ptr<ReportSource> openSimulated(const ListenArguments& arguments) {
 /// What can be opened once is opened here, so that its refusals come before the session begins.
 LiveOptions liveOptions(const ListenArguments& arguments) {
   LiveOptions options;
-  if (!arguments.network.empty()) options.decoder = readNetwork(arguments.network);
+  if (!arguments.network.empty())
+    options.decoder = readNetwork(arguments.network);
+  else if (arguments.simulate && arguments.samples.empty())
+    options.decoder = readNetwork(resource(kSimulatedNetwork));
   if (!arguments.design.empty()) options.design = designOption(arguments.design);
   options.tareFrames = wholeNumber("--tare", arguments.tare, 0, 100'000);
   options.ringFrames = 8192;
@@ -329,7 +333,8 @@ void addListen(Cli& cli) {
   command.add_option("--hysteresis", a.hysteresis, "of the virtual board, share 0 to 1 (default 0)");
   command.add_option("--rate", a.rate, "reports a second of the virtual board (default 1000)");
   command.add_option("--seed", a.seed, "of the virtual board's noise (default 1)");
-  command.add_option("--network", a.network, "network that was trained with --input resistance");
+  command.add_option("--network", a.network,
+                     "network that was trained with --input resistance (default with --simulate: the paper's)");
   command.add_option("--design", a.design, "design of the network, for tare (default: paper)");
   command.add_option("--tare", a.tare, "frames at the start that are averaged as rest (default 0: no tare)");
   command.add_option("--row", a.row, "scan this row-wire alone");
