@@ -51,7 +51,7 @@ FeatureScaler FeatureScaler::fit(Scaling scaling, const Eigen::Ref<const Eigen::
   const Eigen::VectorXd mean = samples.rowwise().mean();
   const Eigen::VectorXd halfRange = (high - low) / 2;
   result.offset = scaling == Scaling::MinMax ? Eigen::VectorXd((low + high) / 2) : mean;
-  const double globalFactor = inverseOrZero(halfRange.maxCoeff(), 0);
+  const double globalFactor = inverseOrZero((samples.colwise() - mean).colwise().norm().maxCoeff(), 0);
   for (Eigen::Index i = 0; i < inputs; ++i) {
     const double ownFactor = inverseOrZero(halfRange(i), size(i));
     if (scaling == Scaling::MinMax || ownFactor == 0)

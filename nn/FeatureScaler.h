@@ -11,7 +11,7 @@ enum class Scaling {
   Raw,    ///< left as they are
   MinMax, ///< each input to [-1, 1]
   ZScore, ///< each input to mean 0 and standard deviation 1
-  Global, ///< mean subtracted, then one factor for all inputs: half of the largest range of any input -> 1
+  Global, ///< mean subtracted, then one factor for all inputs: the sample farthest from the mean -> distance 1
 };
 
 /// The scaling's name as on the command line: raw, minmax, zscore, global.

@@ -173,4 +173,16 @@ ThinSvd thinSvd(Eigen::MatrixXd a) {
   return result;
 }
 
+ThinSvd svdOfGram(const Eigen::MatrixXd& a) {
+  const SymmetricEigen eigen = symmetricEigen(gram(a));
+  const Eigen::Index all = eigen.values.size();
+  Eigen::Index kept = 0;
+  while (kept < std::min(all, a.rows()) && eigen.values(all - 1 - kept) > 1e-14 * eigen.values(all - 1)) ++kept;
+  ThinSvd result;
+  result.values = eigen.values.tail(kept).cwiseSqrt().reverse();
+  result.vTransposed = eigen.vectors.rightCols(kept).rowwise().reverse().transpose();
+  result.u = product(a, false, result.vTransposed, true) * result.values.cwiseInverse().asDiagonal();
+  return result;
+}
+
 } // namespace palp::lapack

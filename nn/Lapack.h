@@ -61,5 +61,8 @@ struct ThinSvd {
   Eigen::MatrixXd vTransposed;
 };
 ThinSvd thinSvd(Eigen::MatrixXd a);
+/// The same through the eigenvalues of a^T a: much faster for many rows, but singular values below 1e-7 of the largest
+/// are left out. For regressors with noise, where they carry nothing.
+ThinSvd svdOfGram(const Eigen::MatrixXd& a);
 
 } // namespace palp::lapack

@@ -82,7 +82,7 @@ RbfSolution LeastSquaresProblem::solve(double spread, double ridge) const {
 
 std::vector<LeaveOneOutResult> LeastSquaresProblem::leaveOneOut(double spread,
                                                                 const std::vector<double>& ridges) const {
-  const lapack::ThinSvd svd = lapack::thinSvd(system(spread));
+  const lapack::ThinSvd svd = copies_ > 1 ? lapack::svdOfGram(system(spread)) : lapack::thinSvd(system(spread));
   const Eigen::MatrixXd left = space_.embed(svd.u);
   const Eigen::MatrixXd tailBasis = space_.tailBasis();
   const Eigen::MatrixXd rotated = lapack::product(svd.u, true, right_, false);

@@ -12,9 +12,11 @@ namespace palp {
 namespace {
 
 /// Copies with noise that the spread is chosen on; the fit itself takes the options' number.
-constexpr int choiceCopies = 2;
+constexpr int choiceCopies = 4;
 constexpr int gridSpreads = 24;
 constexpr int refinements = 10;
+/// The optimum is flat where there is noise, and each spread costs more.
+constexpr int noisyGridSpreads = 12;
 
 void stopIfAsked(const std::stop_token& stop) {
   if (stop.stop_requested()) throw Cancelled();
@@ -37,12 +39,13 @@ LeaveOneOutResult bestOf(std::vector<LeaveOneOutResult> results) {
 }
 
 /// From a twentieth of the samples' extent to 300 times it: from isolated bumps to the flat limit, a polynomial.
-std::vector<double> spreadsFor(const RbfProblem& problem) {
+std::vector<double> spreadsFor(const RbfProblem& problem, bool noisy) {
   const Eigen::MatrixXd& centers = problem.centers();
   const Eigen::VectorXd middle = centers.rowwise().mean();
   const double extent = std::sqrt((centers.colwise() - middle).colwise().squaredNorm().maxCoeff());
   if (!(extent > 0)) return {1};
-  return logarithmicRange(0.05 * extent, 300 * extent, gridSpreads);
+  return noisy ? logarithmicRange(0.1 * extent, 30 * extent, noisyGridSpreads)
+               : logarithmicRange(0.05 * extent, 300 * extent, gridSpreads);
 }
 
 /// Golden-section search for the least score on a logarithmic scale.
@@ -99,9 +102,10 @@ SpreadChoice chooseSpread(const Eigen::Ref<const Eigen::MatrixXd>& samples,
                           const Eigen::Ref<const Eigen::MatrixXd>& targets, const RbfOptions& options,
                           const std::stop_token& stop) {
   requireUsable(samples, targets, options);
+  const bool noisy = options.relativeInputNoise > 0;
   const std::unique_ptr<RbfProblem> problem =
       rbfProblem(samples, targets, options, std::min(options.noiseCopies, choiceCopies));
-  const std::vector<double> spreads = spreadsFor(*problem);
+  const std::vector<double> spreads = spreadsFor(*problem, noisy);
   const std::vector<double> ridges = ridgesOf(options);
   SpreadChoice choice;
   choice.grid = onGrid(*problem, spreads, ridges, stop);
@@ -113,8 +117,9 @@ SpreadChoice chooseSpread(const Eigen::Ref<const Eigen::MatrixXd>& samples,
                                         [o](const auto& a, const auto& b) { return a.rms(o) < b.rms(o); });
     choice.spreadOfEachOutput.push_back(least->spread);
   }
-  choice.overall = refined(*problem, ridges, spreads[best == 0 ? 0 : best - 1],
-                           spreads[std::min(best + 1, spreads.size() - 1)], choice.grid[best], stop);
+  choice.overall = noisy ? choice.grid[best]
+                         : refined(*problem, ridges, spreads[best == 0 ? 0 : best - 1],
+                                   spreads[std::min(best + 1, spreads.size() - 1)], choice.grid[best], stop);
   return choice;
 }
 

@@ -29,7 +29,7 @@ std::pair<double, double> spreadAndRidge(const Eigen::Ref<const Eigen::MatrixXd>
   }
   if (options.ridge) return {spread, *options.ridge};
   double best = 0, score = 0;
-  for (const LeaveOneOutResult& result : problem.leaveOneOut(spread, logarithmicRange(1e-13, 10, 57)))
+  for (const LeaveOneOutResult& result : problem.leaveOneOut(spread, logarithmicRange(1e-13, 10, 29)))
     if (best == 0 || result.score < score) {
       best = result.ridge;
       score = result.score;

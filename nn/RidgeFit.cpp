@@ -27,7 +27,8 @@ Eigen::MatrixXd leftOutErrors(const Eigen::MatrixXd& remainder, const Eigen::Mat
 RidgeFit ridgeFit(const Eigen::MatrixXd& a, const Eigen::MatrixXd& y, Eigen::Index copies,
                   const std::optional<double>& ridge, double rcond) {
   const Eigen::RowVectorXd meanA = a.colwise().mean(), meanY = y.colwise().mean();
-  const lapack::ThinSvd svd = lapack::thinSvd(a.rowwise() - meanA);
+  const Eigen::MatrixXd shifted = a.rowwise() - meanA;
+  const lapack::ThinSvd svd = copies > 1 ? lapack::svdOfGram(shifted) : lapack::thinSvd(shifted);
   const Eigen::MatrixXd centred = y.rowwise() - meanY;
   const Eigen::MatrixXd rotated = lapack::product(svd.u, true, centred, false);
   const double largest = svd.values.size() == 0 ? 0 : svd.values(0);
@@ -43,7 +44,7 @@ RidgeFit ridgeFit(const Eigen::MatrixXd& a, const Eigen::MatrixXd& y, Eigen::Ind
   };
   LeaveOneOutResult best = errorsAt(ridge.value_or(1e-13));
   if (!ridge)
-    for (const double value : logarithmicRange(1e-13, 10, 57)) {
+    for (const double value : logarithmicRange(1e-13, 10, 29)) {
       LeaveOneOutResult next = errorsAt(value);
       if (next.score < best.score) best = std::move(next);
     }

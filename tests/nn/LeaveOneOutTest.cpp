@@ -1,0 +1,75 @@
+#include "nn/LeaveOneOut.h"
+
+#include "tests/nn/Touches.h"
+
+#include <gtest/gtest.h>
+
+namespace palp {
+namespace {
+
+Eigen::MatrixXd without(const Eigen::MatrixXd& columns, Eigen::Index left) {
+  Eigen::MatrixXd rest(columns.rows(), columns.cols() - 1);
+  rest << columns.leftCols(left), columns.rightCols(columns.cols() - 1 - left);
+  return rest;
+}
+
+struct Case {
+  const char* what;
+  CenterChoice centers;
+  Tail tail;
+  double ridge;
+};
+
+class LeaveOneOutOf : public testing::TestWithParam<Case> {};
+
+/// Raw scaling and centres that do not move, so that leaving a sample out changes nothing else.
+TEST_P(LeaveOneOutOf, AgreesWithTrainingAgainWithoutEachSample) {
+  const test::Touches set = test::touches(6, 5, 3);
+  const Eigen::MatrixXd samples = set.samples.array() - 100;
+  RbfOptions options;
+  options.scaling = Scaling::Raw;
+  options.centers = GetParam().centers;
+  options.tail = GetParam().tail;
+  options.spread = 1.0;
+  options.solver = Solver::Cholesky;
+  options.ridge = GetParam().ridge;
+  const Eigen::MatrixXd closed = leaveOneOut(samples, set.targets, {1.0}, options).front().residuals;
+  for (Eigen::Index i = 0; i < samples.cols(); ++i) {
+    const RbfFit fit = trainRbf(without(samples, i), without(set.targets, i), options);
+    const Eigen::VectorXd residual = set.targets.col(i) - fit.network.predict(samples.col(i));
+    // The targets are up to 6; the systems' condition is below 1e8, so that 8 digits are left.
+    EXPECT_LT((residual - closed.col(i)).cwiseAbs().maxCoeff(), 1e-6) << i;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, LeaveOneOutOf,
+                         testing::Values(Case{"plain", CenterChoice::Samples, Tail::None, 1e-3},
+                                         Case{"linear", CenterChoice::Samples, Tail::Linear, 1e-3},
+                                         Case{"linearSmallRidge", CenterChoice::Samples, Tail::Linear, 1e-6}),
+                         [](const auto& one) { return std::string(one.param.what); });
+
+TEST(LeaveOneOut, ManyRidgesByEigenvaluesAgreeWithOneByInverse) {
+  const test::Touches set = test::touches(8, 6, 4);
+  RbfOptions options;
+  options.ridge = {};
+  const SpreadChoice choice = chooseSpread(set.samples, set.targets, options);
+  options.ridge = choice.overall.ridge;
+  const LeaveOneOutResult one = leaveOneOut(set.samples, set.targets, {choice.overall.spread}, options).front();
+  EXPECT_NEAR(one.score / choice.overall.score, 1, 1e-2); // two roundings of a system that is nearly singular
+}
+
+TEST(LeaveOneOut, OfTheChosenSpreadForetellsTheErrorOnNewSamples) {
+  const test::Touches training = test::touches(60, 30, 1), fresh = test::touches(40, 30, 2);
+  RbfOptions options;
+  options.spread = {};
+  const RbfFit fit = trainRbf(training.samples, training.targets, options);
+  const Eigen::VectorXd error =
+      (fit.network.predict(fresh.samples) - fresh.targets).array().square().rowwise().mean().sqrt();
+  for (int o = 0; o < 3; ++o) { // an estimate, within a factor of 5 either way
+    EXPECT_LT(error(o), 5 * fit.report.leaveOneOut(o));
+    EXPECT_GT(error(o), fit.report.leaveOneOut(o) / 5);
+  }
+}
+
+} // namespace
+} // namespace palp

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "nn/Random.h"
+
+#include <Eigen/Core>
+
+#include <cmath>
+
+namespace palp::test {
+
+/// A smooth, slightly nonlinear map that looks like the sensor's: six places, each with its own linear answer to three
+/// causes (a smooth bump around the place) and 2 % of quadratic terms.
+struct Touches {
+  Eigen::MatrixXd samples; ///< inputs x samples
+  Eigen::MatrixXd targets; ///< 3 x samples
+  Eigen::VectorXi places;
+};
+
+inline Touches touches(int perPlace, int inputs, std::uint64_t seed) {
+  Random random(seed);
+  Touches set{Eigen::MatrixXd(inputs, 6 * perPlace), Eigen::MatrixXd(3, 6 * perPlace), Eigen::VectorXi(6 * perPlace)};
+  for (Eigen::Index i = 0; i < set.samples.cols(); ++i) {
+    const int place = static_cast<int>(i % 6);
+    const Eigen::Vector3d cause(2 * random.uniform() - 1, 2 * random.uniform() - 1, -6 * random.uniform());
+    set.places(i) = place;
+    set.targets.col(i) = cause;
+    for (int d = 0; d < inputs; ++d) {
+      const double distance = (d + 0.5) / inputs * 6 - place - 0.5;
+      const double bump = std::exp(-distance * distance), slope = distance * bump;
+      const double linear = bump * cause.z() / 6 + slope * cause.x() + std::cos(1.3 * d) * bump * cause.y();
+      set.samples(d, i) = 100 + linear + 0.02 * linear * linear + 0.02 * slope * cause.x() * cause.z();
+    }
+  }
+  return set;
+}
+
+/// Root mean square error of each target over its standard deviation, the largest.
+inline double worstRelativeError(const Eigen::MatrixXd& predicted, const Eigen::MatrixXd& truth) {
+  const Eigen::VectorXd mean = truth.rowwise().mean();
+  const Eigen::ArrayXd error = (predicted - truth).array().square().rowwise().mean().sqrt();
+  return (error / (truth.colwise() - mean).array().square().rowwise().mean().sqrt()).maxCoeff();
+}
+
+} // namespace palp::test
