@@ -2,6 +2,7 @@
 
 #include "app/gui/BlockView.h"
 #include "app/gui/ChartView.h"
+#include "app/gui/DeformationCharts.h"
 #include "app/gui/HeatmapSpecs.h"
 #include "app/gui/HeatmapView.h"
 #include "app/gui/LoadPanel.h"
@@ -9,12 +10,16 @@
 
 #include <QGroupBox>
 #include <QHBoxLayout>
+#include <QHeaderView>
 #include <QLabel>
 #include <QPushButton>
 #include <QScrollArea>
 #include <QSignalBlocker>
 #include <QSlider>
+#include <QSpinBox>
 #include <QSplitter>
+#include <QTabWidget>
+#include <QTableWidget>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -47,30 +52,6 @@ bool sameSteps(const std::vector<NewtonStep>& a, const std::vector<NewtonStep>& 
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const NewtonStep& one, const NewtonStep& other) {
     return one.loadFraction == other.loadFraction && one.relativeResidual == other.relativeResidual;
   });
-}
-
-/// Relative residuals over all iterations, one curve a load fraction.
-ChartSpec newtonChart(const std::vector<NewtonStep>& steps) {
-  ChartSpec spec;
-  spec.title = "Newton's method";
-  spec.xLabel = "iteration, all load steps";
-  spec.yLabel = "relative residual";
-  spec.logY = true;
-  double fraction = -1;
-  for (std::size_t k = 0; k < steps.size(); ++k) {
-    if (steps[k].loadFraction != fraction) {
-      fraction = steps[k].loadFraction;
-      ChartSeries series;
-      series.name = "load fraction " + number(fraction, 3).toStdString();
-      series.style = ChartSeries::Style::LineAndPoints;
-      spec.series.push_back(std::move(series));
-    }
-    spec.series.back().x.push_back(static_cast<double>(k));
-    spec.series.back().y.push_back(steps[k].relativeResidual);
-  }
-  if (spec.series.size() > 6)
-    for (ChartSeries& series : spec.series) series.name.clear();
-  return spec;
 }
 
 } // namespace
@@ -167,11 +148,23 @@ QWidget* DeformationPage::buildViews() {
   heatmap_->setObjectName("heatmap");
   newton_ = new ChartView;
   newton_->setObjectName("newton");
-  auto* lower = new QSplitter(Qt::Horizontal);
-  lower->addWidget(heatmap_);
-  lower->addWidget(newton_);
-  lower->setStretchFactor(0, 3);
-  lower->setStretchFactor(1, 2);
+  auto* touch = new QSplitter(Qt::Horizontal);
+  touch->addWidget(heatmap_);
+  touch->addWidget(newton_);
+  touch->setStretchFactor(0, 3);
+  touch->setStretchFactor(1, 2);
+  auto* lower = new QTabWidget;
+  lower->setObjectName("deformationTabs");
+  lower->addTab(touch, tr("Resistances"));
+  lower->addTab(buildElectrodes(), tr("Row-wire"));
+  table_ = new QTableWidget;
+  table_->setObjectName("electrodeTable");
+  table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  lower->addTab(table_, tr("Electrodes"));
+  connect(lower, &QTabWidget::currentChanged, this, [this] {
+    drawRowWire();
+    fillTable();
+  });
   auto* views = new QSplitter(Qt::Vertical);
   views->setObjectName("deformationSplitter");
   views->addWidget(upper);
@@ -182,10 +175,30 @@ QWidget* DeformationPage::buildViews() {
   return views;
 }
 
+QWidget* DeformationPage::buildElectrodes() {
+  auto* page = new QWidget;
+  auto* row = new QHBoxLayout(page);
+  row->setContentsMargins(4, 4, 4, 4);
+  auto* side = new QVBoxLayout;
+  side->addWidget(new QLabel(tr("Row-wire")));
+  rowWireNumber_ = new QSpinBox;
+  rowWireNumber_->setObjectName("rowWireNumber");
+  rowWireNumber_->setValue(4);
+  side->addWidget(rowWireNumber_);
+  side->addStretch(1);
+  row->addLayout(side);
+  rowWire_ = new ChartView;
+  rowWire_->setObjectName("rowWire");
+  row->addWidget(rowWire_, 1);
+  connect(rowWireNumber_, &QSpinBox::valueChanged, this, &DeformationPage::drawRowWire);
+  return page;
+}
+
 void DeformationPage::setTheme(Theme theme) {
   options_.theme = theme;
   heatmap_->setTheme(theme);
   newton_->setTheme(theme);
+  rowWire_->setTheme(theme);
   drawBlock(false);
 }
 
@@ -212,6 +225,8 @@ void DeformationPage::displayTouch(bool meshChanged) {
   drawBlock(meshChanged);
   drawHeatmap();
   drawNewton();
+  drawRowWire();
+  fillTable();
   const QSignalBlocker quiet(increments_);
   increments_->setRange(0, std::max(0, touch.incrementCount() - 1));
   increments_->setEnabled(touch.incrementCount() > 1);
@@ -254,6 +269,38 @@ void DeformationPage::drawNewton() {
   if (sameSteps(steps, drawnSteps_)) return;
   drawnSteps_ = std::move(steps);
   newton_->setChart(newtonChart(drawnSteps_));
+}
+
+void DeformationPage::drawRowWire() {
+  const TouchSession& touch = workbench_.touch();
+  if (touch.electrodes() == nullptr || !rowWire_->isVisible()) return;
+  const SensorDesign& design = touch.touch().design();
+  const QSignalBlocker quiet(rowWireNumber_);
+  rowWireNumber_->setRange(0, design.rowWires() - 1);
+  rowWire_->setChart(rowWireChart(design, *touch.electrodes(), rowWireNumber_->value()));
+}
+
+void DeformationPage::fillTable() {
+  const TouchSession& touch = workbench_.touch();
+  if (touch.electrodes() == nullptr || !table_->isVisible()) return;
+  const SensorDesign& design = touch.touch().design();
+  const Eigen::Matrix3Xd places = design.upperElectrodes_mm();
+  table_->setColumnCount(8);
+  table_->setRowCount(static_cast<int>(places.cols()));
+  table_->setHorizontalHeaderLabels({tr("row-wire"), tr("electrode"), tr("x [mm]"), tr("y [mm]"), tr("z [mm]"),
+                                     tr("ux [mm]"), tr("uy [mm]"), tr("uz [mm]")});
+  table_->verticalHeader()->hide();
+  for (int k = 0; k < places.cols(); ++k) {
+    QStringList cells{QString::number(k / design.electrodesPerRowWire()),
+                      QString::number(k % design.electrodesPerRowWire())};
+    for (const double value : places.col(k)) cells << number(value);
+    for (const double value : touch.electrodes()->upper_mm.col(k)) cells << number(value, 6);
+    for (int column = 0; column < cells.size(); ++column) {
+      auto* cell = new QTableWidgetItem(cells[column]);
+      cell->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
+      table_->setItem(k, column, cell);
+    }
+  }
 }
 
 void DeformationPage::tellResult() {

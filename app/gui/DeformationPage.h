@@ -7,6 +7,8 @@
 class QLabel;
 class QPushButton;
 class QSlider;
+class QSpinBox;
+class QTableWidget;
 
 namespace palp {
 
@@ -34,11 +36,15 @@ protected:
 private:
   QWidget* buildPanels();
   QWidget* buildViews();
+  QWidget* buildElectrodes();
   void displayProject();
   void displayTouch(bool meshChanged);
   void drawBlock(bool meshChanged);
   void drawHeatmap();
   void drawNewton();
+  /// Electrodes of a row-wire before and under the load (Figs. 6 and 7), and all of them as a table.
+  void drawRowWire();
+  void fillTable();
   void tellResult();
   void probe(int node);
   /// Chooses the loaded area on which a node of the top face lies; a click never adds a load by itself.
@@ -54,6 +60,9 @@ private:
   BlockView* block_ = nullptr;
   HeatmapView* heatmap_ = nullptr;
   ChartView* newton_ = nullptr;
+  ChartView* rowWire_ = nullptr;
+  QSpinBox* rowWireNumber_ = nullptr;
+  QTableWidget* table_ = nullptr;
   QSlider* increments_ = nullptr;
   QLabel* incrementLabel_ = nullptr;
   QLabel* result_ = nullptr;
