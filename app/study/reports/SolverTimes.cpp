@@ -22,7 +22,7 @@ struct Plan {
 
 std::vector<Plan> plans(bool quick) {
   std::vector<Plan> result;
-  const std::vector<double> sizes = quick ? std::vector{13.5, 9.0, 6.0} : std::vector{12.0, 8.0, 5.4, 3.6, 2.4};
+  const std::vector<double> sizes = quick ? std::vector{30.0, 20.0, 13.5} : std::vector{12.0, 8.0, 5.4, 3.6, 2.4};
   for (const double size : sizes) {
     MeshOptions mesh;
     mesh.meshSize_mm = size;
