@@ -73,7 +73,12 @@ DeformationPage::DeformationPage(Workbench& workbench, QWidget* parent) : Scene(
     probe(node);
     chooseAreaOf(node);
   });
-  connect(increments_, &QSlider::valueChanged, this, [this](int k) { workbench_.touch().showIncrement(k); });
+  connect(increments_, &QSlider::valueChanged, this, [this](int k) {
+    workbench_.touch().showIncrement(k);
+    if (workbench_.touch().scrubbingTo() == k) return;
+    const QSignalBlocker quiet(increments_); // a solve runs: its result comes first
+    increments_->setValue(workbench_.touch().increment());
+  });
   connect(estimate_, &QPushButton::clicked, this, [this] { workbench_.touch().estimateError(); });
   connect(heatmap_, &HeatmapView::cellClicked, this, [this](int rowWire, int columnWire) {
     const std::array cell{rowWire, columnWire};

@@ -14,6 +14,7 @@ std::vector<NewtonStep> NewtonTrace::steps() const {
 
 TouchSession::TouchSession(QObject* parent) : QObject(parent), wanted_(), shown_() {
   connect(&runner_, &JobRunner::progressed, this, &TouchSession::newtonStepped);
+  connect(&runner_, &JobRunner::finished, this, [this] { scrubbing_.reset(); });
 }
 
 void TouchSession::setInputs(const SensorDesign& design, const LoadCase& load, const MeshOptions& mesh) {
@@ -53,6 +54,7 @@ void TouchSession::run() {
     runner_.cancel(); // the panels say what is wrong; the last good result stays
     return;
   }
+  scrubbing_.reset(); // this replaces it
   trace_ = std::make_shared<NewtonTrace>();
   const auto work = [this, touch = wanted_, target = need_, revision = revision_,
                      trace = trace_](const std::stop_token& stop, JobProgress& progress) mutable -> JobRunner::Taking {
@@ -96,7 +98,9 @@ void TouchSession::take(const Touch& touch, std::shared_ptr<const NodalFields> f
 }
 
 void TouchSession::showIncrement(int increment) {
-  if (increment < 0 || increment >= incrementCount() || increment == increment_ || runner_.running()) return;
+  if (increment < 0 || increment >= incrementCount() || increment == scrubbingTo()) return;
+  if (runner_.running() && !scrubbing_) return;
+  scrubbing_ = increment;
   const auto work = [this, touch = shown_, increment, revision = revision_](const std::stop_token&,
                                                                             JobProgress&) -> JobRunner::Taking {
     const LoadIncrement& state = touch.solution()->increments[static_cast<std::size_t>(increment)];
@@ -107,6 +111,7 @@ void TouchSession::showIncrement(int increment) {
       fields_ = fields;
       electrodes_ = electrodes;
       increment_ = increment;
+      scrubbing_.reset();
       emit changed(false);
     };
   };

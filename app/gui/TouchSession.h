@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <mutex>
+#include <optional>
 
 namespace palp {
 
@@ -51,8 +52,10 @@ public:
   [[nodiscard]] const StageLog& stages() const { return stages_; }
   [[nodiscard]] JobRunner& runner() { return runner_; }
 
-  /// Shows another load increment of the solution.
+  /// Shows another load increment of the solution; not while a solve runs.
   void showIncrement(int increment);
+  /// The increment that will be shown when its fields are there.
+  [[nodiscard]] int scrubbingTo() const { return scrubbing_.value_or(increment_); }
   /// Estimates the discretisation error of what is shown; the answer comes with errorEstimated().
   void estimateError();
 
@@ -76,6 +79,7 @@ private:
   std::shared_ptr<const ElectrodeDisplacements> electrodes_;
   std::shared_ptr<NewtonTrace> trace_;
   int increment_ = -1;
+  std::optional<int> scrubbing_; ///< asked for and not there yet
   StageLog stages_;
 };
 

@@ -1,4 +1,5 @@
 #include "app/gui/BlockView.h"
+#include "app/gui/ChartView.h"
 #include "app/gui/HeatmapView.h"
 #include "app/gui/MainWindow.h"
 #include "app/gui/NetworkSession.h"
@@ -12,6 +13,8 @@
 #include <QPushButton>
 #include <QSlider>
 #include <QSpinBox>
+#include <QTabWidget>
+#include <QTableWidget>
 #include <QTest>
 #include <QWheelEvent>
 
@@ -211,6 +214,31 @@ TEST_F(Window, LightsTheElectrodesOfAClickedCell) {
   EXPECT_EQ(heatmap.heatmap().selected, cell);
   settle();
   EXPECT_NE(find<BlockView>("block").image(), before);
+}
+
+TEST_F(Window, ScrubsThroughTheLoadIncrementsDownToRest) {
+  ASSERT_TRUE(solved());
+  ASSERT_TRUE(idle());
+  const int last = workbench.touch().increment();
+  ASSERT_GT(last, 0);
+  find<QSlider>("increments").setValue(0);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return workbench.touch().increment() == 0; }, kPatience_ms));
+  EXPECT_EQ(workbench.touch().loadFraction(), 0);
+  EXPECT_EQ(workbench.touch().fields()->displacement_mm.cwiseAbs().maxCoeff(), 0);
+  EXPECT_EQ(workbench.touch().stages().runs("solve"), 1) << "nothing is solved again";
+  find<QSlider>("increments").setValue(last);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return workbench.touch().increment() == last; }, kPatience_ms));
+}
+
+TEST_F(Window, ShowsARowWireAndTheTableOfElectrodes) {
+  ASSERT_TRUE(solved());
+  auto& tabs = find<QTabWidget>("deformationTabs");
+  tabs.setCurrentIndex(1);
+  settle();
+  EXPECT_EQ(find<ChartView>("rowWire").chart().series.front().x.size(), 10u);
+  tabs.setCurrentIndex(2);
+  settle();
+  EXPECT_EQ(find<QTableWidget>("electrodeTable").rowCount(), 100);
 }
 
 TEST_F(Window, KeepsTheLastGoodResultAfterACancel) {
