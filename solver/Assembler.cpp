@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <mutex>
 
 namespace palp {
@@ -24,6 +25,8 @@ RubberConstants rubberConstants(const Material& material) {
 
 Assembler::Assembler(std::shared_ptr<const Discretisation> mesh, const RubberConstants& rubber)
     : mesh_(std::move(mesh)), rubber_(rubber) {
+  const double mu = 2 * (rubber.c10_MPa + rubber.c01_MPa);
+  for (int e = 0; e < mesh_->elements(); ++e) volumeForce_.push_back(mu / std::cbrt(mesh_->volume(e)));
   findNeighbours();
   findPattern();
 }
@@ -93,6 +96,7 @@ template <class Kernel>
 void Assembler::overBlocks(ElementForces& forces, int threads, const std::stop_token& stop, Kernel kernel) const {
   const std::size_t d = mesh_->elementDofs(), x = mesh_->unknowns();
   forces.forces.resize(mesh_->blocks() * d * lanes);
+  forces.raw.resize(forces.forces.size());
   forces.local.resize(mesh_->blocks() * x * lanes);
   std::mutex rangeMutex;
   forces.smallestJ = forces.largestJ = 1;
@@ -122,6 +126,7 @@ void Assembler::tangent(const ElementState& state, ElementTangents& tangents, El
     mesh_->kernels().tangent(
         rubber_, {mesh_->geometry(b), u, state.unknowns.data() + b * x * lanes}, out,
         {stiffness.data(), elimination, tangents.localInverse.data() + b * x * (x + 1) / 2 * lanes});
+    std::copy_n(out.forces, d * lanes, forces.raw.data() + b * d * lanes);
     mesh_->kernels().condense(elimination, out.local, out.forces);
     for (int lane = 0; lane < lanes && b * lanes + lane < mesh_->elements(); ++lane) {
       double* k = tangents.stiffness.data() + (b * lanes + lane) * entries;
@@ -136,6 +141,7 @@ void Assembler::residual(const ElementState& state, const ElementTangents& tange
   overBlocks(forces, threads, {}, [&](int b, double* u, const ElementResidual& out) {
     mesh_->gather(b, state.displacements, u);
     mesh_->kernels().residual(rubber_, {mesh_->geometry(b), u, state.unknowns.data() + b * x * lanes}, out);
+    std::copy_n(out.forces, d * lanes, forces.raw.data() + b * d * lanes);
     mesh_->kernels().condense(tangents.elimination.data() + b * x * d * lanes, out.local, out.forces);
   });
 }
@@ -174,7 +180,7 @@ std::vector<double> Assembler::matrix(const ElementTangents& tangents, int threa
   return values;
 }
 
-Eigen::VectorXd Assembler::sum(const ElementForces& forces, int threads) const {
+Eigen::VectorXd Assembler::sum(const LaneVector& forces, int threads) const {
   const int nodesAnElement = mesh_->kernels().nodes;
   const std::size_t d = mesh_->elementDofs();
   Eigen::VectorXd total = Eigen::VectorXd::Zero(3 * Eigen::Index(mesh_->nodes()));
@@ -182,11 +188,23 @@ Eigen::VectorXd Assembler::sum(const ElementForces& forces, int threads) const {
     for (int node = begin; node < end; ++node)
       for (int k = aroundStart_[node]; k < aroundStart_[node + 1]; ++k) {
         const int element = around_[k] / nodesAnElement, n = around_[k] % nodesAnElement;
-        const double* f = forces.forces.data() + (element / lanes) * d * lanes + element % lanes;
+        const double* f = forces.data() + (element / lanes) * d * lanes + element % lanes;
         for (int c = 0; c < 3; ++c) total(3 * node + c) += f[lanes * (3 * n + c)];
       }
   });
   return total;
+}
+
+double Assembler::localNorm(const ElementForces& forces) const {
+  const int own = mesh_->unknowns(), bubbles = own > 3 ? 3 : 0;
+  double squares = 0;
+  for (int e = 0; e < mesh_->elements(); ++e)
+    for (int k = 0; k < own; ++k) {
+      const double r = forces.local[(std::size_t(e / lanes) * own + k) * lanes + e % lanes];
+      const double force = k < bubbles ? r : volumeForce_[e] * r;
+      squares += force * force;
+    }
+  return std::sqrt(squares);
 }
 
 Eigen::VectorXd Assembler::stiffnessTimes(const ElementTangents& tangents, const Eigen::VectorXd& du) const {

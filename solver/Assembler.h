@@ -17,6 +17,7 @@ RubberConstants rubberConstants(const Material& material);
 struct ElementForces {
   LaneVector forces; ///< [blocks][3 nodes][8]
   LaneVector local;  ///< [blocks][unknowns][8]
+  LaneVector raw;    ///< the forces before condensation
   double smallestJ = 1, largestJ = 1;
 };
 
@@ -46,8 +47,10 @@ public:
 
   /// Values of the pattern's entries.
   [[nodiscard]] std::vector<double> matrix(const ElementTangents& tangents, int threads) const;
-  /// Internal forces on all components; on the prescribed ones they are the reactions.
-  [[nodiscard]] Eigen::VectorXd sum(const ElementForces& forces, int threads) const;
+  /// Condensed or raw internal forces on all components; on the prescribed ones they are the reactions.
+  [[nodiscard]] Eigen::VectorXd sum(const LaneVector& forces, int threads) const;
+  /// Norm of the elements' own residuals as forces: the bubbles', and mu / h times the volumes'.
+  [[nodiscard]] double localNorm(const ElementForces& forces) const;
   /// Element stiffness times a displacement of all components.
   [[nodiscard]] Eigen::VectorXd stiffnessTimes(const ElementTangents& tangents, const Eigen::VectorXd& du) const;
   /// Change of the elements' unknowns that goes with a change of the displacements.
@@ -63,7 +66,8 @@ private:
 
   std::shared_ptr<const Discretisation> mesh_;
   RubberConstants rubber_;
-  std::vector<int> groupOfNode_; ///< -1: all components prescribed
+  std::vector<double> volumeForce_; ///< mu / h of each element [N / mm3]
+  std::vector<int> groupOfNode_;    ///< -1: all components prescribed
   std::vector<int> nodeOfGroup_;
   std::vector<int> aroundStart_; ///< of each node in around_
   std::vector<int> around_;      ///< element * nodes + local node, elements ascending

@@ -24,6 +24,14 @@ Discretisation::Discretisation(const Mesh& mesh, const FixedComponents& fixed)
                       geometry_.data() + std::size_t(b) * kernels_->geometrySize * lanes + lane, lanes);
 }
 
+double Discretisation::volume(int element) const {
+  const double* g = geometry(element / lanes) + element % lanes;
+  if (kernels_->nodes == 10) return g[12 * lanes];
+  double sum = 0;
+  for (int q = 0; q < 8; ++q) sum += g[(25 * q + 24) * lanes];
+  return sum;
+}
+
 void Discretisation::gather(int block, const Eigen::VectorXd& values, double* out) const {
   for (int lane = 0; lane < lanes; ++lane) {
     const int element = elementInLane(block, lane);

@@ -46,6 +46,8 @@ public:
   }
   [[nodiscard]] int elementInLane(int block, int lane) const { return std::min(block * lanes + lane, elements_ - 1); }
 
+  [[nodiscard]] double volume(int element) const;
+
   /// Values of all components at the nodes of a block, [3 nodes][8].
   void gather(int block, const Eigen::VectorXd& values, double* out) const;
   [[nodiscard]] ElementState atRest() const;

@@ -13,9 +13,10 @@ constexpr double growthAfterSuccess = 1.5;
 constexpr double hopelessResidual = 1e8;
 constexpr double acceptedSlope = 0.9; // of the residual's work along the step, against its start
 constexpr int lineSearchTrials = 6;
-// Relative residual below which one more iteration with the same tangent ends it; where some do not help any more, the
-// residual is down to rounding.
-constexpr double keepFactorBelow = 1e-6;
+// Relative residual below which one or two more iterations with the same tangent end it.
+constexpr double keepFactorBelow = 1e-5;
+// Where that small a residual does not fall any more, it is down to rounding.
+constexpr double stallsBelow = 1e-6;
 constexpr int stallsAtRounding = 3;
 
 } // namespace
@@ -64,9 +65,11 @@ NewtonResult NewtonSolver::solve(const Loading& loading) {
 
 void NewtonSolver::setResidual(const Loading& loading, double fraction) {
   const Discretisation& mesh = assembler_.discretisation();
-  internal_ = assembler_.sum(forces_, options_.threads);
-  residual_ = fraction * mesh.freePart(loading.forces) - mesh.freePart(internal_);
-  relative_ = residual_.norm() / scale_;
+  const Eigen::VectorXd external = fraction * mesh.freePart(loading.forces);
+  internal_ = assembler_.sum(forces_.raw, options_.threads);
+  residual_ = external - mesh.freePart(assembler_.sum(forces_.forces, options_.threads));
+  // Condensed, the volumes' residuals would count kappa-fold.
+  relative_ = std::hypot((external - mesh.freePart(internal_)).norm(), assembler_.localNorm(forces_)) / scale_;
 }
 
 /// Residual of the state, condensed with the tangent in use.
@@ -101,10 +104,8 @@ NewtonSolver::Outcome NewtonSolver::firstTangent(const Loading& loading, double 
   }
   const Outcome outcome = newTangent(loading, to, state);
   if (outcome != Outcome::Converged || !moves) return outcome;
-  const Discretisation& mesh = assembler_.discretisation();
-  residual_ -= mesh.freePart(assembler_.stiffnessTimes(ownTangents_, prescribed));
-  scale_ = std::max(mesh.freePart(loading.forces).norm(), residual_.norm());
-  relative_ = residual_.norm() / scale_;
+  residual_ -= assembler_.discretisation().freePart(assembler_.stiffnessTimes(ownTangents_, prescribed));
+  relative_ = 1;
   return outcome;
 }
 
@@ -166,6 +167,10 @@ NewtonSolver::Outcome NewtonSolver::step(const Loading& loading, double from, do
     const Direction way = direction(state, prescribed);
     move(way.start, way.du, way.dx, 1, state);
     evaluate(loading, to, state);
+    if (moves && iteration == 1) { // now that there are reactions to measure by
+      scale_ = internal_.norm();
+      setResidual(loading, to);
+    }
     // A prescribed motion is taken whole: its residual is no measure of overshooting.
     if (moves && iteration == 1 ? forces_.smallestJ <= 0 : overshot(way)) {
       if (moves && iteration == 1) return Outcome::Inverted;
@@ -174,7 +179,7 @@ NewtonSolver::Outcome NewtonSolver::step(const Loading& loading, double from, do
     prescribed.setZero();
     record(to, iteration);
     if (relative_ > hopelessResidual) return Outcome::Diverged;
-    stalled = relative_ < keepFactorBelow && relative_ > previous / 2 ? stalled + 1 : 0;
+    stalled = relative_ < stallsBelow && relative_ > previous / 2 ? stalled + 1 : 0;
     if (relative_ < options_.relativeTolerance || stalled == stallsAtRounding) return Outcome::Converged;
     previous = relative_;
     if (relative_ > keepFactorBelow && iteration < options_.iterationsAStep)

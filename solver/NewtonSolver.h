@@ -74,9 +74,9 @@ private:
   const ElementTangents* tangents_ = nullptr; ///< of the factorisation in use
   const SparseCholesky* factor_ = nullptr;
   ElementForces forces_;
-  Eigen::VectorXd internal_; ///< forces of all components of the state evaluated last
-  Eigen::VectorXd residual_; ///< free components
-  double relative_ = 0;      ///< the residual's norm over scale_
+  Eigen::VectorXd internal_; ///< raw forces of all components of the state evaluated last
+  Eigen::VectorXd residual_; ///< free components, condensed
+  double relative_ = 0;      ///< norm of the nodes' and the elements' own residuals over scale_
   double scale_ = 1;
   std::vector<NewtonStep> steps_;
 };
