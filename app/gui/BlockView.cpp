@@ -33,6 +33,12 @@ void BlockView::show(const DeformationState& state, const DeformationOptions& op
   invalidate();
 }
 
+void BlockView::setTheme(Theme theme) {
+  const Color& ground = palp::palette(theme).ground;
+  parts_->scene.renderer()->SetBackground(ground[0], ground[1], ground[2]);
+  invalidate();
+}
+
 void BlockView::resetCamera() {
   if (!parts_->design) return;
   parts_->scene.resetCamera(*parts_->design, aspect());

@@ -16,6 +16,8 @@ public:
   /// What is in the state stays the caller's until the next call.
   void show(const DeformationState& state, const DeformationOptions& options, bool meshChanged);
   void resetCamera();
+  /// The ground before anything is shown.
+  void setTheme(Theme theme);
   /// Looks along a direction, z or y up.
   void lookAlong(const Eigen::Vector3d& direction);
   [[nodiscard]] double warpFactor() const;

@@ -202,6 +202,7 @@ QWidget* DeformationPage::buildElectrodes() {
 void DeformationPage::setTheme(Theme theme) {
   options_.theme = theme;
   heatmap_->setTheme(theme);
+  block_->setTheme(theme);
   newton_->setTheme(theme);
   rowWire_->setTheme(theme);
   drawBlock(false);

@@ -182,6 +182,7 @@ bool DesignPage::complete() const {
 void DesignPage::setTheme(Theme theme) {
   options_.theme = theme;
   quality_->setTheme(theme);
+  block_->setTheme(theme);
   draw();
 }
 

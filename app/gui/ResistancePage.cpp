@@ -109,6 +109,7 @@ QWidget* ResistancePage::buildBar() {
 void ResistancePage::setTheme(Theme theme) {
   options_.theme = theme;
   heatmap_->setTheme(theme);
+  block_->setTheme(theme);
   row_->setTheme(theme);
   column_->setTheme(theme);
   drawBlock(false);
