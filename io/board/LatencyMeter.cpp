@@ -20,7 +20,7 @@ double LatencyMeter::add(double hostTime_s, double deviceTime_s) {
   double least_s = offset_s;
   for (const Second& second : seconds_) least_s = std::min(least_s, second.least_s);
   const double latency_s = offset_s - least_s;
-  const double bin = kBinsPerOctave * std::log2(std::max(latency_s, kShortest_s) / kShortest_s);
+  const double bin = static_cast<double>(kBinsPerOctave) * std::log2(std::max(latency_s, kShortest_s) / kShortest_s);
   ++bins_[std::min(static_cast<std::size_t>(bin), bins_.size() - 1)];
   ++count_;
   longest_s_ = std::max(longest_s_, latency_s);
@@ -37,7 +37,8 @@ double LatencyMeter::quantile_s(double share) const {
   for (std::size_t i = 0; i < bins_.size() && count_ > 0; ++i) {
     below += bins_[i];
     if (below >= wanted)
-      return std::min(longest_s_, kShortest_s * std::exp2(static_cast<double>(i + 1) / kBinsPerOctave));
+      return std::min(longest_s_,
+                      kShortest_s * std::exp2(static_cast<double>(i + 1) / static_cast<double>(kBinsPerOctave)));
   }
   return 0;
 }

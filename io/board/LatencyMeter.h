@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 
@@ -21,8 +22,8 @@ public:
   [[nodiscard]] double longest_s() const { return longest_s_; }
 
 private:
-  static constexpr int kBinsPerOctave = 14;
-  static constexpr int kOctaves = 27; ///< 1 us to 134 s
+  static constexpr std::size_t kBinsPerOctave = 14;
+  static constexpr std::size_t kOctaves = 27; ///< 1 us to 134 s
 
   struct Second {
     double start_s;
