@@ -8,10 +8,9 @@
 
 namespace palp {
 
-/// The same problem as an input deck for CalculiX or Abaqus: nodes, elements (C3D10 or C3D8), Mooney-Rivlin rubber,
-/// fixed bottom face, the load as nodal forces, one nonlinear static step. The node set UPPER holds the upper
-/// electrodes where they are nodes; their displacements are printed. Units mm, N, MPa. Throws DesignError where the
-/// load cannot act, and for nu = 0.5, which those programs' displacement elements cannot represent.
+/// The same problem as an input deck for CalculiX or Abaqus: C3D10 or C3D8, Mooney-Rivlin, clamped bottom, the load as
+/// nodal forces (the same integrals as here), nonlinear geometry. Nodes and elements count from 1. Its elements have no
+/// pressure of their own and lock where ours do not. Throws DesignError where the load cannot act, or for nu = 0.5.
 std::string calculixDeck(const SensorDesign& design, const Mesh& mesh, const LoadCase& load);
 
 } // namespace palp

@@ -13,6 +13,7 @@ constexpr double growthAfterSuccess = 1.5;
 constexpr double hopelessResidual = 1e8;
 constexpr double acceptedSlope = 0.9; // of the residual's work along the step, against its start
 constexpr int lineSearchTrials = 6;
+constexpr int definitenessTrials = 2;
 // Relative residual below which one or two more iterations with the same tangent end it.
 constexpr double keepFactorBelow = 1e-5;
 // Where that small a residual does not fall any more, it is down to rounding.
@@ -148,6 +149,18 @@ NewtonSolver::Outcome NewtonSolver::searchLine(const Loading& loading, double fr
   return forces_.smallestJ <= 0 ? Outcome::Inverted : Outcome::Diverged;
 }
 
+/// A new tangent; where it is not positive definite, the state goes back along its last step as far as needed.
+NewtonSolver::Outcome NewtonSolver::definiteTangent(const Loading& loading, double fraction, const Direction& way,
+                                                    ElementState& state) {
+  double length = 1;
+  for (int trial = 0;; ++trial) {
+    const Outcome outcome = newTangent(loading, fraction, state);
+    if (outcome != Outcome::Indefinite || trial == definitenessTrials) return outcome;
+    length /= 2;
+    move(way.start, way.du, way.dx, length, state);
+  }
+}
+
 void NewtonSolver::record(double fraction, int iteration) {
   steps_.push_back({fraction, iteration, relative_});
   if (observer_.step) observer_.step(steps_.back());
@@ -183,7 +196,8 @@ NewtonSolver::Outcome NewtonSolver::step(const Loading& loading, double from, do
     if (relative_ < options_.relativeTolerance || stalled == stallsAtRounding) return Outcome::Converged;
     previous = relative_;
     if (relative_ > keepFactorBelow && iteration < options_.iterationsAStep)
-      if (const Outcome outcome = newTangent(loading, to, state); outcome != Outcome::Converged) return outcome;
+      if (const Outcome outcome = definiteTangent(loading, to, way, state); outcome != Outcome::Converged)
+        return outcome;
   }
   return Outcome::TooManyIterations;
 }

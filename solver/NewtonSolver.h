@@ -59,6 +59,8 @@ private:
   [[nodiscard]] bool overshot(const Direction& direction) const;
   [[nodiscard]] Outcome searchLine(const Loading& loading, double fraction, const Direction& direction,
                                    ElementState& state);
+  [[nodiscard]] Outcome definiteTangent(const Loading& loading, double fraction, const Direction& way,
+                                        ElementState& state);
   void evaluate(const Loading& loading, double fraction, const ElementState& state);
   void setResidual(const Loading& loading, double fraction);
   void record(double fraction, int iteration);
