@@ -146,7 +146,7 @@ std::vector<ChainTimes> chainTimes(const ReportRequest& request, StageLog& stage
   const auto reference = make(request.design, fine, stages, stop);
   if (!reference) return result;
   for (const MeshChoice& choice : meshChoices(request.mesh))
-    for (const int divisor : {4, 2, 1}) {
+    for (const int divisor : {4, 1}) {
       if (stop.stop_requested()) return result;
       ReportRequest changed = request;
       changed.mesh = choice.mesh;
@@ -173,12 +173,12 @@ std::vector<SampleTimes> sampleTimes(const ReportRequest& request, StageLog& sta
                                      const std::stop_token& stop) {
   std::vector<SampleTimes> result;
   for (const bool surrogate : {false, true})
-    for (const int factor : {1, 4, 16}) {
+    for (const int factor : {1, 16}) {
       if (stop.stop_requested()) return result;
+      if (!surrogate && factor > 1) continue; // minutes
       SampleRequest wanted = sampleRequest(request);
       wanted.perArea *= factor;
       wanted.surrogate = surrogate;
-      if (!surrogate && factor > 4) continue;
       if (progress) progress(0, surrogate ? "surrogate samples" : "full samples");
       const auto made = make(request.design, wanted, stages, stop);
       if (!made) return result;

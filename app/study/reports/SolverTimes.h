@@ -32,8 +32,9 @@ struct MeshTimes {
   double factor_MB = 0; ///< memory of the Cholesky factor
   Timing meshing, pattern, factorisation, solving;
   std::vector<double> loadSeconds; ///< median of the nonlinear solve, a load
-  std::vector<double> errors;      ///< relative L2 of the upper electrodes' displacements, a load
-  std::string failed;              ///< why there are no numbers; empty where there are
+  std::vector<double>
+      errors;         ///< relative L2 of the upper electrodes' displacements, a load (the first alone: CalculiX)
+  std::string failed; ///< why there are no numbers; empty where there are
 
   /// Medians of all phases to the first answer.
   [[nodiscard]] double total_s() const;
@@ -42,6 +43,7 @@ struct MeshTimes {
 struct SolverTimes {
   std::vector<JudgedLoad> loads;
   std::vector<MeshTimes> meshes;
+  std::string deck; ///< of CalculiX, for the paper's mapped mesh and the first load; empty: not installed
 };
 
 /// Every mesh under every load, `repeats` times. Empty where it was stopped.

@@ -13,18 +13,19 @@ template <class Work> double secondsOf(Work&& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Seconds of repeated runs.
+/// Seconds of repeated runs; 0 where there was none.
 struct Timing {
   std::vector<double> seconds;
 
   [[nodiscard]] double median() const {
+    if (seconds.empty()) return 0;
     std::vector<double> sorted = seconds;
     std::sort(sorted.begin(), sorted.end());
     const std::size_t half = sorted.size() / 2;
     return sorted.size() % 2 == 1 ? sorted[half] : (sorted[half - 1] + sorted[half]) / 2;
   }
-  [[nodiscard]] double least() const { return *std::min_element(seconds.begin(), seconds.end()); }
-  [[nodiscard]] double most() const { return *std::max_element(seconds.begin(), seconds.end()); }
+  [[nodiscard]] double least() const { return seconds.empty() ? 0 : *std::min_element(seconds.begin(), seconds.end()); }
+  [[nodiscard]] double most() const { return seconds.empty() ? 0 : *std::max_element(seconds.begin(), seconds.end()); }
 };
 
 /// Runs the work `times` times.
