@@ -5,13 +5,17 @@
 #include "nn/RbfProblem.h"
 #include "nn/SpreadSweep.h"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 namespace palp {
 namespace {
 
+/// Leave-one-out error against the targets' deviation beyond which a reader is warned.
+constexpr double poorScore = 0.3;
 constexpr std::array solverNames{std::pair{Solver::PivotedQr, "qr"}, std::pair{Solver::Cholesky, "cholesky"},
                                  std::pair{Solver::TruncatedSvd, "svd"}, std::pair{Solver::Recursive, "rls"}};
 
@@ -91,6 +95,11 @@ RbfFit trainRbf(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen::R
   if (options.leaveOneOut) {
     const LeaveOneOutResult left = problem->leaveOneOut(spread, {solution.ridge}).front();
     report.leaveOneOut = left.rms;
+    if (left.score > poorScore)
+      report.warnings.push_back("the leave-one-out error is " +
+                                std::to_string(std::lround(100 * std::min(left.score, 1e6))) +
+                                " % of the targets' deviation: at this spread and ridge the network says little about "
+                                "new samples; train with noise or a ridge, or with more inputs");
     report.leaveOneOutResiduals = left.residuals;
   }
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

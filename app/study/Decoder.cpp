@@ -3,6 +3,7 @@
 #include "app/study/DecoderTraining.h"
 #include "app/study/TwoStep.h"
 #include "model/Error.h"
+#include "model/Text.h"
 #include "nn/NetworkError.h"
 
 #include <chrono>
@@ -177,6 +178,9 @@ Prediction predict(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixX
     throw Error("noise: " + std::to_string(options.noise) + "; allowed is 0 up to below 1 (relative)");
   Prediction result;
   result.outsideTrainingRange = outside(decoder, inputs, options.noise);
+  if (options.noise > 1.5 * decoder.noise)
+    result.warnings.push_back("noise of " + text(options.noise) + " is more than the decoder was trained for (" +
+                              text(decoder.noise) + "): it may make it far larger; train with this noise");
   const auto* likelihood = std::get_if<ForwardModel>(&decoder.model);
   const auto start = std::chrono::steady_clock::now();
   if (likelihood)
