@@ -46,11 +46,31 @@ unsigned long releaseEvent(Qt::MouseButton button) {
 
 } // namespace
 
+/// The window is opened when the view is first drawn: a context costs 30 MB on a software renderer, and a view that
+/// nobody looks at needs none.
 struct VtkView::Vtk {
-  OffscreenWindow window;
-  vtkNew<vtkGenericRenderWindowInteractor> interactor;
-  vtkNew<vtkCallbackCommand> changed;
   vtkSmartPointer<vtkRenderer> renderer;
+  vtkSmartPointer<vtkInteractorObserver> style;
+  vtkNew<vtkCallbackCommand> changed;
+  std::unique_ptr<OffscreenWindow> window; ///< null before the first drawing
+  vtkNew<vtkGenericRenderWindowInteractor> interactor;
+
+  void open(const QSize& size) {
+    if (window) return;
+    window = std::make_unique<OffscreenWindow>();
+    window->vtk()->AddRenderer(renderer);
+    interactor->SetRenderWindow(window->vtk());
+    // The interactor asks for a rendering after each event; the view renders once a paint instead.
+    interactor->EnableRenderOff();
+    interactor->Initialize();
+    interactor->SetInteractorStyle(style);
+    interactor->AddObserver(vtkCommand::RenderEvent, changed);
+    interactor->UpdateSize(size.width(), size.height());
+  }
+  /// Hands an event on; before the first drawing there is nothing that it could change.
+  void invoke(unsigned long event) {
+    if (window) interactor->InvokeEvent(event);
+  }
 };
 
 VtkView::VtkView(vtkRenderer* renderer, vtkInteractorObserver* style, QWidget* parent)
@@ -59,22 +79,17 @@ VtkView::VtkView(vtkRenderer* renderer, vtkInteractorObserver* style, QWidget* p
   setMouseTracking(true);
   setMinimumSize(160, 120);
   vtk_->renderer = renderer;
-  vtk_->window.vtk()->AddRenderer(renderer);
-  vtk_->interactor->SetRenderWindow(vtk_->window.vtk());
-  // The interactor asks for a rendering after each event; the view renders once a paint instead.
-  vtk_->interactor->EnableRenderOff();
-  vtk_->interactor->Initialize();
-  vtkNew<vtkInteractorStyleTrackballCamera> camera;
-  vtk_->interactor->SetInteractorStyle(style != nullptr ? style : camera);
+  vtk_->style = style;
+  if (style == nullptr) vtk_->style = vtkSmartPointer<vtkInteractorStyleTrackballCamera>::New();
   vtk_->changed->SetCallback(invalidateView);
   vtk_->changed->SetClientData(this);
-  vtk_->interactor->AddObserver(vtkCommand::RenderEvent, vtk_->changed);
 }
 
 VtkView::~VtkView() {
+  if (!vtk_->window) return;
   vtk_->interactor->SetInteractorStyle(nullptr);
   vtk_->interactor->SetRenderWindow(nullptr);
-  vtk_->window.vtk()->RemoveRenderer(vtk_->renderer);
+  vtk_->window->vtk()->RemoveRenderer(vtk_->renderer);
 }
 
 void VtkView::invalidate() {
@@ -98,11 +113,12 @@ QPointF VtkView::devicePlace(const QPointF& place) const {
 void VtkView::draw() {
   changed_ = false;
   const QSize size = (QSizeF(this->size()) * devicePixelRatioF()).toSize().expandedTo({1, 1});
-  vtk_->window.setSize(size.width(), size.height());
-  vtk_->window.render();
+  vtk_->open(size);
+  vtk_->window->setSize(size.width(), size.height());
+  vtk_->window->render();
   ++renderCount_;
   if (image_.size() != size) image_ = QImage(size, QImage::Format_RGB32);
-  vtk_->window.copyBgra(image_.bits(), static_cast<std::size_t>(image_.bytesPerLine()));
+  vtk_->window->copyBgra(image_.bits(), static_cast<std::size_t>(image_.bytesPerLine()));
   image_.setDevicePixelRatio(devicePixelRatioF());
 }
 
@@ -115,7 +131,7 @@ void VtkView::paintEvent(QPaintEvent*) {
 
 void VtkView::resizeEvent(QResizeEvent*) {
   const QSize size = (QSizeF(this->size()) * devicePixelRatioF()).toSize().expandedTo({1, 1});
-  vtk_->interactor->UpdateSize(size.width(), size.height());
+  if (vtk_->window) vtk_->interactor->UpdateSize(size.width(), size.height());
   changed_ = true;
   emit sizeChanged();
 }
@@ -130,12 +146,12 @@ void VtkView::tellPlace(const QPointF& place, Qt::KeyboardModifiers modifiers) {
 void VtkView::mousePressEvent(QMouseEvent* event) {
   pressed_ = event->position();
   tellPlace(event->position(), event->modifiers());
-  vtk_->interactor->InvokeEvent(pressEvent(event->button()));
+  vtk_->invoke(pressEvent(event->button()));
 }
 
 void VtkView::mouseReleaseEvent(QMouseEvent* event) {
   tellPlace(event->position(), event->modifiers());
-  vtk_->interactor->InvokeEvent(releaseEvent(event->button()));
+  vtk_->invoke(releaseEvent(event->button()));
   const QPointF way = event->position() - pressed_;
   if (event->button() == Qt::LeftButton && std::hypot(way.x(), way.y()) <= kClick_px) emit clicked(event->position());
   if (event->button() == Qt::RightButton && std::hypot(way.x(), way.y()) <= kClick_px)
@@ -143,9 +159,10 @@ void VtkView::mouseReleaseEvent(QMouseEvent* event) {
 }
 
 Picture VtkView::picture(int width, int height) {
-  vtk_->window.setSize(width, height);
-  vtk_->window.render();
-  Picture picture = vtk_->window.picture();
+  vtk_->open({width, height});
+  vtk_->window->setSize(width, height);
+  vtk_->window->render();
+  Picture picture = vtk_->window->picture();
   invalidate(); // the window has another size now
   return picture;
 }
@@ -176,7 +193,7 @@ void VtkView::offerPicture(const QPoint& globalPlace) {
 
 void VtkView::mouseMoveEvent(QMouseEvent* event) {
   tellPlace(event->position(), event->modifiers());
-  vtk_->interactor->InvokeEvent(vtkCommand::MouseMoveEvent);
+  vtk_->invoke(vtkCommand::MouseMoveEvent);
   if (event->buttons() == Qt::NoButton) emit hovered(event->position());
 }
 
@@ -187,14 +204,13 @@ void VtkView::mouseDoubleClickEvent(QMouseEvent* event) {
 void VtkView::wheelEvent(QWheelEvent* event) {
   tellPlace(event->position(), event->modifiers());
   wheel_ += event->angleDelta().y();
-  for (; wheel_ >= kWheelStep; wheel_ -= kWheelStep) vtk_->interactor->InvokeEvent(vtkCommand::MouseWheelForwardEvent);
-  for (; wheel_ <= -kWheelStep; wheel_ += kWheelStep)
-    vtk_->interactor->InvokeEvent(vtkCommand::MouseWheelBackwardEvent);
+  for (; wheel_ >= kWheelStep; wheel_ -= kWheelStep) vtk_->invoke(vtkCommand::MouseWheelForwardEvent);
+  for (; wheel_ <= -kWheelStep; wheel_ += kWheelStep) vtk_->invoke(vtkCommand::MouseWheelBackwardEvent);
   event->accept();
 }
 
 void VtkView::leaveEvent(QEvent*) {
-  vtk_->interactor->InvokeEvent(vtkCommand::LeaveEvent);
+  vtk_->invoke(vtkCommand::LeaveEvent);
   emit hovered(QPointF(-1, -1));
 }
 
