@@ -86,6 +86,12 @@ void MainWindow::buildStatusLine() {
 void MainWindow::sceneChosen(int index) {
   if (index < 0) return;
   scenes_->setCurrentIndex(index);
+  // Before the window is seen no scene is: what it opens on computes nothing for the others.
+  if (isVisible()) workbench_.touch().need(currentScene().stage());
+}
+
+void MainWindow::showEvent(QShowEvent* event) {
+  QMainWindow::showEvent(event);
   workbench_.touch().need(currentScene().stage());
 }
 
