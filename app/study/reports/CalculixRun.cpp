@@ -58,6 +58,7 @@ pid_t start(const std::string& program, const std::filesystem::path& folder, int
   posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
   std::vector<std::string> environment = environmentWith(threads);
   std::vector<char*> pointers;
+  pointers.reserve(environment.size() + 1);
   for (std::string& entry : environment) pointers.push_back(entry.data());
   pointers.push_back(nullptr);
   std::string name = program, job = "job";

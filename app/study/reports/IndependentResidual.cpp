@@ -28,14 +28,15 @@ double independentResidual(const SensorDesign& design, const Mesh& mesh, const L
         F += state.displacements_mm.col(mesh.elements(n, e)) * geometry.gradients.col(n).transpose();
       const Eigen::Matrix3d P = firstPiolaStress(design.material, F, pressure_MPa);
       for (int n = 0; n < 8; ++n)
-        imbalance.segment<3>(3 * mesh.elements(n, e)) += geometry.determinant * (P * geometry.gradients.col(n));
+        imbalance.segment<3>(Eigen::Index{3} * mesh.elements(n, e)) +=
+            geometry.determinant * (P * geometry.gradients.col(n));
       swollen += geometry.determinant * (F.determinant() - 1);
       size += geometry.determinant;
     }
     volume = std::max(volume, std::abs(swollen / size - pressure_MPa * design.material.compressibility_per_MPa()));
   }
   for (int n = 0; n < mesh.nodeCount(); ++n)
-    if (mesh.nodes_mm(2, n) == 0) imbalance.segment<3>(3 * n).setZero(); // reactions
+    if (mesh.nodes_mm(2, n) == 0) imbalance.segment<3>(Eigen::Index{3} * n).setZero(); // reactions
   const double scale = external.norm();
   return std::max(scale > 0 ? imbalance.norm() / scale : imbalance.norm(), volume);
 }

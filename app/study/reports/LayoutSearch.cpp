@@ -180,7 +180,7 @@ std::optional<std::string> makerProblem(const SensorDesign& layout, const MakerL
 
 std::optional<LayoutSearchResult> betterLayout(const SensorDesign& design, const AreaResponse& response, int rowWire,
                                                double relativeNoise, LayoutFreedom freedom, const MakerLimits& limits,
-                                               std::uint64_t seed, std::stop_token stop) {
+                                               std::uint64_t seed, const std::stop_token& stop) {
   const Parameters parameters(design, freedom);
   Search search(parameters, response, rowWire, relativeNoise, limits, stop);
   std::mt19937_64 random(seed);

@@ -36,7 +36,7 @@ struct LayoutSearchResult {
 /// random places; equal seeds give equal layouts. Empty where it was stopped.
 std::optional<LayoutSearchResult> betterLayout(const SensorDesign& design, const AreaResponse& response, int rowWire,
                                                double relativeNoise, LayoutFreedom freedom, const MakerLimits& limits,
-                                               std::uint64_t seed, std::stop_token stop);
+                                               std::uint64_t seed, const std::stop_token& stop);
 
 /// Why a maker could not keep the layout; empty where he can.
 std::optional<std::string> makerProblem(const SensorDesign& layout, const MakerLimits& limits);

@@ -7,6 +7,7 @@
 #include "solver/ProblemParts.h"
 
 #include <cmath>
+#include <limits>
 
 namespace palp {
 
@@ -142,6 +143,7 @@ MeshTimes calculixTimes(const std::string& program, const SensorDesign& design, 
   times.meshing = timed(repeats, [&] { mesh = sensorMesh(design, options); });
   times.dof = freeUnknowns(mesh);
   times.elements = mesh.elementCount();
+  times.factor_MB = std::numeric_limits<double>::quiet_NaN(); // it does not tell
   for (int i = 0; i < repeats && times.solving.median() < kCalculixOnceAbove_s; ++i) {
     const CalculixRun run = runCalculix(program, design, mesh, load.load, threads, kCalculixLimit_s, stop);
     times.solving.seconds.push_back(run.seconds);
