@@ -195,9 +195,11 @@ NewtonSolver::Outcome NewtonSolver::step(const Loading& loading, double from, do
     stalled = relative_ < stallsBelow && relative_ > previous / 2 ? stalled + 1 : 0;
     if (relative_ < options_.relativeTolerance || stalled == stallsAtRounding) return Outcome::Converged;
     previous = relative_;
-    if (relative_ > keepFactorBelow && iteration < options_.iterationsAStep)
-      if (const Outcome outcome = definiteTangent(loading, to, way, state); outcome != Outcome::Converged)
-        return outcome;
+    if (relative_ <= keepFactorBelow || iteration == options_.iterationsAStep) continue;
+    // Going back along the first step would take the prescribed motion back with it.
+    const Outcome outcome =
+        moves && iteration == 1 ? newTangent(loading, to, state) : definiteTangent(loading, to, way, state);
+    if (outcome != Outcome::Converged) return outcome;
   }
   return Outcome::TooManyIterations;
 }
