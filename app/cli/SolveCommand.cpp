@@ -112,7 +112,9 @@ Exit run(const SolveArguments& arguments, Session& session) {
   const SensorDesign design = designOption(arguments.design);
   const LoadCase load = arguments.loads.loadCase(design);
   arguments.output.requireWritable();
-  Touch touch(design, load, arguments.mesh.options());
+  MeshOptions mesh = arguments.mesh.options();
+  mesh.discs = fineDiscs(load);
+  Touch touch(design, load, mesh);
   NewtonOptions options;
   options.threads = session.threads;
   if (const auto accuracy = arguments.mesh.relativeAccuracy())
