@@ -102,7 +102,8 @@ LiveOptions liveOptions(const ListenArguments& arguments) {
 }
 
 std::vector<double> list(const Eigen::Ref<const Eigen::MatrixXd>& values) {
-  return {values.reshaped().begin(), values.reshaped().end()};
+  const auto all = values.reshaped(); // one view: its iterators belong together
+  return {all.begin(), all.end()};
 }
 
 Json frameJson(const LiveFrame& live) {

@@ -100,7 +100,8 @@ TopPoint topPoint(const Mesh& mesh, const Eigen::Vector2d& xy_mm) {
   TopPoint best;
   double farthestOut = -std::numeric_limits<double>::infinity();
   for (Eigen::Index k = 0; k < mesh.topFaces.cols(); ++k) {
-    const Face face(mesh.topFaces.col(k).begin(), mesh.topFaces.col(k).end());
+    const Eigen::VectorXi nodes = mesh.topFaces.col(k);
+    const Face face(nodes.begin(), nodes.end());
     for (const Triangle& triangle : trianglesOf(face)) {
       const Eigen::Vector3d weights = barycentric(mesh, triangle, xy_mm);
       if (!(weights.minCoeff() > farthestOut)) continue;
