@@ -56,6 +56,7 @@ void Assembler::findPattern() {
     nodeOfGroup_.push_back(node);
     pattern->groupStart.push_back(pattern->groupStart.back() + free);
   }
+  pattern->groupPlaces = mesh_->places_mm()(Eigen::all, nodeOfGroup_);
   const auto groupSize = [&](int g) { return pattern->groupStart[g + 1] - pattern->groupStart[g]; };
   rowOffset_.assign(std::size_t(mesh_->elements()) * nodesAnElement * nodesAnElement, -1);
   pattern->groupColumns = {0};
@@ -146,7 +147,7 @@ void Assembler::residual(const ElementState& state, const ElementTangents& tange
   });
 }
 
-void Assembler::addNodeColumns(const ElementTangents& tangents, int group, std::vector<double>& values) const {
+void Assembler::addNodeColumns(const ElementTangents& tangents, int group, LaneVector& values) const {
   const int nodesAnElement = mesh_->kernels().nodes, node = nodeOfGroup_[group];
   const std::size_t d = mesh_->elementDofs(), entries = d * (d + 1) / 2;
   const int firstColumn = pattern_->groupStart[group];
@@ -172,8 +173,8 @@ void Assembler::addNodeColumns(const ElementTangents& tangents, int group, std::
   }
 }
 
-std::vector<double> Assembler::matrix(const ElementTangents& tangents, int threads) const {
-  std::vector<double> values(pattern_->rows.size());
+LaneVector Assembler::matrix(const ElementTangents& tangents, int threads) const {
+  LaneVector values(pattern_->rows.size());
   forChunks(static_cast<int>(nodeOfGroup_.size()), nodesAChunk, threads, [&](int begin, int end) {
     for (int g = begin; g < end; ++g) addNodeColumns(tangents, g, values);
   });

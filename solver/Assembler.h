@@ -24,9 +24,9 @@ struct ElementForces {
 /// The elements' tangents with their own unknowns eliminated. A modified Newton iteration condenses later residuals
 /// with the elimination of the tangent that was factorised.
 struct ElementTangents {
-  LaneVector stiffness;    ///< [elements][d (d + 1) / 2]
-  LaneVector elimination;  ///< [blocks][unknowns d][8]
-  LaneVector localInverse; ///< [blocks][unknowns (unknowns + 1) / 2][8]
+  UnsetArray stiffness;    ///< [elements][d (d + 1) / 2]
+  UnsetArray elimination;  ///< [blocks][unknowns d][8]
+  UnsetArray localInverse; ///< [blocks][unknowns (unknowns + 1) / 2][8]
 };
 
 /// Sums the elements into global forces and the tangent, whose pattern it finds once. Every sum goes over the elements
@@ -46,7 +46,7 @@ public:
   void residual(const ElementState& state, const ElementTangents& tangents, ElementForces& forces, int threads) const;
 
   /// Values of the pattern's entries.
-  [[nodiscard]] std::vector<double> matrix(const ElementTangents& tangents, int threads) const;
+  [[nodiscard]] LaneVector matrix(const ElementTangents& tangents, int threads) const;
   /// Condensed or raw internal forces on all components; on the prescribed ones they are the reactions.
   [[nodiscard]] Eigen::VectorXd sum(const LaneVector& forces, int threads) const;
   /// Norm of the elements' own residuals as forces: the bubbles', and mu / h times the volumes'.
@@ -62,7 +62,7 @@ private:
   void findPattern();
   template <class Kernel>
   void overBlocks(ElementForces& forces, int threads, const std::stop_token& stop, Kernel kernel) const;
-  void addNodeColumns(const ElementTangents& tangents, int group, std::vector<double>& values) const;
+  void addNodeColumns(const ElementTangents& tangents, int group, LaneVector& values) const;
 
   std::shared_ptr<const Discretisation> mesh_;
   RubberConstants rubber_;

@@ -14,7 +14,8 @@ FixedComponents clampedBottom(const Mesh& mesh) {
 
 Discretisation::Discretisation(const Mesh& mesh, const FixedComponents& fixed)
     : kernels_(&elementKernels(mesh.shape)), nodes_(mesh.nodeCount()), elements_(mesh.elementCount()),
-      freeIndex_(fixed.size(), -1), elementNodes_(mesh.elements.data(), mesh.elements.data() + mesh.elements.size()),
+      places_mm_(mesh.nodes_mm), freeIndex_(fixed.size(), -1),
+      elementNodes_(mesh.elements.data(), mesh.elements.data() + mesh.elements.size()),
       geometry_(std::size_t(blocks()) * kernels_->geometrySize * lanes) {
   for (std::size_t i = 0; i < fixed.size(); ++i)
     if (!fixed[i]) freeIndex_[i] = dof_++;

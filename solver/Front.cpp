@@ -57,8 +57,7 @@ bool subtractProduct(const double* L, int height, int width, int depth, int stri
 
 } // namespace
 
-FrontOutcome factoriseFront(double* panel, int height, int width, UpdateMatrix& update, bool updateIsEmpty,
-                            const TaskRunner& run) {
+FrontOutcome factoriseFront(double* panel, int height, int width, UpdateMatrix& update, const TaskRunner& run) {
   for (int k = 0; k < width; k += tile) {
     const int depth = std::min(tile, width - k), below = height - k - depth;
     double* diagonal = panel + k + std::size_t(k) * height;
@@ -72,8 +71,8 @@ FrontOutcome factoriseFront(double* panel, int height, int width, UpdateMatrix& 
     if (!subtractProduct(L, below, width - k - depth, depth, height, L + std::size_t(depth) * height, height, 1, run))
       return FrontOutcome::Stopped;
   }
-  if (update.size > 0 && !subtractProduct(panel + width, update.size, update.size, width, height, update.values.get(),
-                                          update.size, updateIsEmpty ? 0 : 1, run))
+  if (update.size > 0 && !subtractProduct(panel + width, update.size, update.size, width, height, update.values.data(),
+                                          update.size, 0, run))
     return FrontOutcome::Stopped;
   return FrontOutcome::Done;
 }

@@ -1,7 +1,8 @@
 #pragma once
 
+#include "solver/LaneVector.h"
+
 #include <functional>
-#include <memory>
 
 namespace palp {
 
@@ -11,15 +12,13 @@ using TaskRunner = std::function<bool(int count, double flops, const std::functi
 /// The lower triangle, by columns, that a supernode hands to its parent.
 struct UpdateMatrix {
   int size = 0;
-  std::unique_ptr<double[]> values;
+  UnsetArray values; ///< at least size x size
 };
 
 enum class FrontOutcome { Done, NotPositiveDefinite, Stopped };
 
-/// Factorises a panel of height x width in place and subtracts L21 L21^T from the update (which it fills where
-/// `updateIsEmpty`).
-FrontOutcome factoriseFront(double* panel, int height, int width, UpdateMatrix& update, bool updateIsEmpty,
-                            const TaskRunner& run);
+/// Factorises a panel of height x width in place; the update becomes -L21 L21^T.
+FrontOutcome factoriseFront(double* panel, int height, int width, UpdateMatrix& update, const TaskRunner& run);
 
 /// BLAS at one thread from here on: how its sums are cut depends on the number of threads.
 void useOneBlasThread();

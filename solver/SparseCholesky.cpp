@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <map>
+#include <mutex>
 #include <numeric>
 
 namespace palp {
@@ -18,30 +20,64 @@ double work(const SupernodeTree& tree, int s) {
   return double(tree.width(s)) * tree.height(s) * tree.height(s);
 }
 
+/// Rows that stand together in a child's update and in its parent's panel.
+struct Run {
+  int from, to, length;
+};
+
 /// Where the rows below supernode s stand in its parent's panel.
-std::vector<int> placesInParent(const SupernodeTree& tree, int s) {
+std::vector<Run> runsInParent(const SupernodeTree& tree, int s) {
   const int parent = tree.parent[s], below = tree.below(s);
   const int* rows = tree.rowsOf(s) + tree.width(s);
   const int* parentRows = tree.rowsOf(parent);
-  std::vector<int> places(below);
-  for (int i = 0, p = 0; i < below; ++i) {
+  std::vector<Run> runs;
+  for (int i = 0, p = 0; i < below; ++i, ++p) {
     while (parentRows[p] != rows[i]) ++p;
-    places[i] = p;
+    const bool goesOn = !runs.empty() && runs.back().to + runs.back().length == p && p != tree.width(parent);
+    if (goesOn)
+      ++runs.back().length;
+    else
+      runs.push_back({i, p, 1});
   }
-  return places;
+  return runs;
 }
 
-/// Adds a child's update to its parent's panel and update.
-void extendAdd(const SupernodeTree& tree, int child, const UpdateMatrix& from, double* panel, UpdateMatrix& update) {
-  const int parent = tree.parent[child], height = tree.height(parent), width = tree.width(parent);
-  const std::vector<int> places = placesInParent(tree, child);
-  for (int j = 0; j < from.size; ++j) {
-    const double* column = from.values.get() + std::size_t(j) * from.size;
-    double* out = places[j] < width ? panel + std::size_t(places[j]) * height
-                                    : update.values.get() + std::size_t(places[j] - width) * update.size - width;
-    for (int i = j; i < from.size; ++i) out[places[i]] += column[i];
-  }
+/// Adds the columns of some runs of a child's update to a matrix whose first row and column are the parent's number
+/// `shift`.
+void extendAdd(const UpdateMatrix& child, const std::vector<Run>& runs, std::size_t firstRun, std::size_t lastRun,
+               double* target, std::size_t stride, int shift) {
+  for (std::size_t r = firstRun; r < lastRun; ++r)
+    for (int j = 0; j < runs[r].length; ++j) {
+      const double* column = child.values.data() + std::size_t(runs[r].from + j) * child.size;
+      double* out = target + std::size_t(runs[r].to + j - shift) * stride;
+      for (int i = j; i < runs[r].length; ++i) out[runs[r].to - shift + i] += column[runs[r].from + i];
+      for (std::size_t q = r + 1; q < runs.size(); ++q)
+        for (int i = 0; i < runs[q].length; ++i) out[runs[q].to - shift + i] += column[runs[q].from + i];
+    }
 }
+
+/// Memory of updates that were used up, for those that come.
+class Memories {
+public:
+  UnsetArray take(std::size_t size) {
+    const std::lock_guard lock(mutex_);
+    const auto found = free_.lower_bound(size);
+    if (found == free_.end() || found->first > mostExcess * size) return UnsetArray(size);
+    UnsetArray memory = std::move(found->second);
+    free_.erase(found);
+    return memory;
+  }
+  void giveBack(UnsetArray memory) {
+    const std::lock_guard lock(mutex_);
+    const std::size_t size = memory.size();
+    if (size > 0) free_.emplace(size, std::move(memory));
+  }
+
+private:
+  static constexpr std::size_t mostExcess = 4;
+  std::mutex mutex_;
+  std::multimap<std::size_t, UnsetArray> free_;
+};
 
 } // namespace
 
@@ -124,33 +160,43 @@ namespace {
 /// One factorisation: fronts and what they hand up.
 class Multifrontal {
 public:
-  Multifrontal(const CholeskyPlan& plan, std::span<const double> values, std::vector<double>& panels)
+  Multifrontal(const CholeskyPlan& plan, std::span<const double> values, double* panels)
       : plan_(plan), tree_(plan.tree()), values_(values), panels_(panels), updates_(tree_.count()) {}
 
   FrontOutcome factorise(int s, const TaskRunner& run) {
-    double* panel = panels_.data() + tree_.panelStart[s];
-    std::fill(panel, panels_.data() + tree_.panelStart[s + 1], 0.);
+    const std::vector<int>& children = plan_.children(s);
+    const int width = tree_.width(s), height = tree_.height(s);
+    double* panel = panels_ + tree_.panelStart[s];
+    std::fill(panel, panels_ + tree_.panelStart[s + 1], 0.);
     for (const auto& [value, position] : plan_.entries(s)) panel[position] += values_[value];
-    UpdateMatrix update{tree_.below(s), nullptr};
-    const std::size_t size = std::size_t(update.size) * update.size;
-    update.values.reset(new double[size]); // unset: a leaf's product overwrites it
-    const bool leaf = plan_.children(s).empty();
-    if (!leaf) std::fill(update.values.get(), update.values.get() + size, 0.);
-    for (int child : plan_.children(s)) {
-      extendAdd(tree_, child, updates_[child], panel, update);
-      updates_[child].values.reset();
+    std::vector<std::vector<Run>> runs;
+    for (int child : children) {
+      runs.push_back(runsInParent(tree_, child));
+      extendAdd(updates_[child], runs.back(), 0, runsWithin(runs.back(), width), panel, height, 0);
     }
-    const FrontOutcome outcome = factoriseFront(panel, tree_.height(s), tree_.width(s), update, leaf, run);
+    UpdateMatrix update{tree_.below(s), memories_.take(std::size_t(tree_.below(s)) * tree_.below(s))};
+    const FrontOutcome outcome = factoriseFront(panel, height, width, update, run);
+    for (std::size_t c = 0; c < children.size(); ++c) {
+      extendAdd(updates_[children[c]], runs[c], runsWithin(runs[c], width), runs[c].size(), update.values.data(),
+                update.size, width);
+      memories_.giveBack(std::move(updates_[children[c]].values));
+    }
     updates_[s] = std::move(update);
     return outcome;
   }
 
 private:
+  /// Runs whose columns belong to the parent's own.
+  static std::size_t runsWithin(const std::vector<Run>& runs, int width) {
+    return std::find_if(runs.begin(), runs.end(), [&](const Run& r) { return r.to >= width; }) - runs.begin();
+  }
+
   const CholeskyPlan& plan_;
   const SupernodeTree& tree_;
   std::span<const double> values_;
-  std::vector<double>& panels_;
+  double* panels_;
   std::vector<UpdateMatrix> updates_;
+  Memories memories_;
 };
 
 } // namespace
@@ -158,7 +204,7 @@ private:
 SparseCholesky::Outcome SparseCholesky::factorise(std::span<const double> values, int threads,
                                                   const std::stop_token& stop) {
   useOneBlasThread();
-  Multifrontal fronts(*plan_, values, panels_);
+  Multifrontal fronts(*plan_, values, panels_.data());
   std::atomic<FrontOutcome> worst{FrontOutcome::Done};
   const TaskRunner alone = [&](int count, double, const std::function<void(int)>& task) {
     for (int t = 0; t < count; ++t) task(t);

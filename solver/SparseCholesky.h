@@ -1,5 +1,6 @@
 #pragma once
 
+#include "solver/LaneVector.h"
 #include "solver/SupernodeTree.h"
 
 #include <Eigen/Core>
@@ -57,11 +58,11 @@ public:
 
   [[nodiscard]] const CholeskyPlan& plan() const { return *plan_; }
   /// The factor's panels, as the tree says.
-  [[nodiscard]] const std::vector<double>& panels() const { return panels_; }
+  [[nodiscard]] const UnsetArray& panels() const { return panels_; }
 
 private:
   std::shared_ptr<const CholeskyPlan> plan_;
-  std::vector<double> panels_;
+  UnsetArray panels_;
 };
 
 } // namespace palp

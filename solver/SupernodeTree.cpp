@@ -1,5 +1,7 @@
 #include "solver/SupernodeTree.h"
 
+#include "solver/NestedDissection.h"
+
 #include <cholmod.h>
 
 #include <stdexcept>
@@ -7,6 +9,9 @@
 namespace palp {
 
 namespace {
+
+/// Groups up to which supernodes are merged for more and more zeros; CHOLMOD's own are meant for single unknowns.
+constexpr std::size_t mergedUpTo[] = {2, 6, 16};
 
 /// CHOLMOD's workspace, freed at the end of its scope.
 struct Common {
@@ -18,6 +23,7 @@ struct Common {
     c.nmethods = 1;
     c.method[0].ordering = CHOLMOD_GIVEN;
     c.postorder = 1;
+    for (int i = 0; i < 3; ++i) c.nrelax[i] = mergedUpTo[i];
   }
   ~Common() { cholmod_finish(&c); }
   Common(const Common&) = delete;
@@ -38,39 +44,36 @@ cholmod_sparse view(const std::vector<int>& columns, const std::vector<int>& row
   return A;
 }
 
-std::vector<int> fillReducingOrder(const SparsePattern& pattern, Common& common) {
-  cholmod_sparse groups = view(pattern.groupColumns, pattern.groupRows);
-  std::vector<int> groupOrder(groups.nrow), order;
-  if (!cholmod_metis(&groups, nullptr, 0, 1, groupOrder.data(), &common.c))
-    throw std::runtime_error("the sparse matrix could not be ordered (memory?)");
-  order.reserve(pattern.size());
-  for (int g : groupOrder)
-    for (int i = pattern.groupStart[g]; i < pattern.groupStart[g + 1]; ++i) order.push_back(i);
-  return order;
-}
-
-template <class T> std::vector<T> copied(const void* from, std::size_t count) {
-  const int* p = static_cast<const int*>(from);
-  return {p, p + count};
-}
-
-SupernodeTree copied(const cholmod_factor& factor) {
+/// The tree of the unknowns from that of their groups.
+SupernodeTree expanded(const cholmod_factor& factor, const SparsePattern& pattern) {
+  const auto groups = static_cast<int>(factor.n);
+  const int* groupAt = static_cast<const int*>(factor.Perm);
+  const int* super = static_cast<const int*>(factor.super);
+  const int* rowStart = static_cast<const int*>(factor.pi);
+  const int* rows = static_cast<const int*>(factor.s);
   SupernodeTree tree;
-  tree.order = copied<int>(factor.Perm, factor.n);
-  tree.first = copied<int>(factor.super, factor.nsuper + 1);
-  tree.rowStart = copied<std::size_t>(factor.pi, factor.nsuper + 1);
-  tree.rows = copied<int>(factor.s, factor.ssize);
-  std::vector<int> supernodeOf(factor.n);
-  tree.panelStart = {0};
-  for (std::size_t s = 0; s < factor.nsuper; ++s) {
-    const int node = static_cast<int>(s);
-    tree.panelStart.push_back(tree.panelStart.back() + std::size_t(tree.height(node)) * tree.width(node));
-    for (int i = tree.first[s]; i < tree.first[s + 1]; ++i) supernodeOf[i] = node;
+  std::vector<int> place{0}; // first of each group in the order
+  for (int p = 0; p < groups; ++p) {
+    for (int i = pattern.groupStart[groupAt[p]]; i < pattern.groupStart[groupAt[p] + 1]; ++i) tree.order.push_back(i);
+    place.push_back(static_cast<int>(tree.order.size()));
   }
-  // CHOLMOD's own panel offsets are 32-bit; ours are not.
-  tree.parent.resize(factor.nsuper, -1);
-  for (int s = 0; s < tree.count(); ++s)
-    if (tree.below(s) > 0) tree.parent[s] = supernodeOf[tree.rowsOf(s)[tree.width(s)]];
+  std::vector<int> supernodeOf(groups);
+  tree.first = {0};
+  tree.rowStart = {0};
+  tree.panelStart = {0};
+  for (int s = 0; s < static_cast<int>(factor.nsuper); ++s) {
+    tree.first.push_back(place[super[s + 1]]);
+    for (int p = super[s]; p < super[s + 1]; ++p) supernodeOf[p] = s;
+    for (int r = rowStart[s]; r < rowStart[s + 1]; ++r)
+      for (int i = place[rows[r]]; i < place[rows[r] + 1]; ++i) tree.rows.push_back(i);
+    tree.rowStart.push_back(tree.rows.size());
+    const auto height = tree.rowStart[s + 1] - tree.rowStart[s];
+    tree.panelStart.push_back(tree.panelStart.back() + height * std::size_t(tree.first[s + 1] - tree.first[s]));
+  }
+  for (int s = 0; s < static_cast<int>(factor.nsuper); ++s) {
+    const int below = rowStart[s] + super[s + 1] - super[s];
+    tree.parent.push_back(below < rowStart[s + 1] ? supernodeOf[rows[below]] : -1);
+  }
   return tree;
 }
 
@@ -78,11 +81,11 @@ SupernodeTree copied(const cholmod_factor& factor) {
 
 SupernodeTree supernodeTree(const SparsePattern& pattern) {
   Common common;
-  std::vector<int> order = fillReducingOrder(pattern, common);
-  cholmod_sparse A = view(pattern.columns, pattern.rows);
-  cholmod_factor* factor = cholmod_analyze_p(&A, order.data(), nullptr, 0, &common.c);
+  std::vector<int> order = nestedDissection(pattern);
+  cholmod_sparse groups = view(pattern.groupColumns, pattern.groupRows);
+  cholmod_factor* factor = cholmod_analyze_p(&groups, order.data(), nullptr, 0, &common.c);
   if (!factor) throw std::runtime_error("the sparse matrix could not be analysed (memory?)");
-  SupernodeTree tree = copied(*factor);
+  SupernodeTree tree = expanded(*factor, pattern);
   cholmod_free_factor(&factor, &common.c);
   return tree;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+
 #include <cstddef>
 #include <vector>
 
@@ -8,6 +10,7 @@ namespace palp {
 /// Lower triangle of a symmetric matrix by columns, whose unknowns come in groups (the components of a node) that
 /// share their pattern: the ordering is found on the groups.
 struct SparsePattern {
+  Eigen::Matrix3Xd groupPlaces;  ///< where each group lies [mm]
   std::vector<int> groupStart;   ///< first unknown of each group, and the number of unknowns
   std::vector<int> groupColumns; ///< start of each group's column in groupRows
   std::vector<int> groupRows;    ///< groups at or below the diagonal, ascending, the diagonal first
@@ -34,7 +37,7 @@ struct SupernodeTree {
   [[nodiscard]] const int* rowsOf(int s) const { return rows.data() + rowStart[s]; }
 };
 
-/// Fill-reducing order (METIS, nested dissection) and symbolic factorisation, both by CHOLMOD.
+/// Fill-reducing order by nested dissection, and symbolic factorisation of the groups by CHOLMOD.
 SupernodeTree supernodeTree(const SparsePattern& pattern);
 
 } // namespace palp
