@@ -70,76 +70,11 @@ int affordableDegree(int wanted, Eigen::Index causes, Eigen::Index fewestSamples
   return degree;
 }
 
-/// One class at its most likely causes.
-struct Posterior {
-  Eigen::VectorXd y; ///< scaled
-  Eigen::MatrixXd covariance;
-  double logEvidence = 0;
-  double chiSquare = 0;
-};
-
 /// 1 / variance of a scaled cause that is uniform over [-1, 1].
 constexpr double priorPrecision = 3;
 constexpr int mostIterations = 30;
 constexpr double enough = 1e-10;
-
-class Inversion {
-public:
-  Inversion(const ForwardModel& model, const Eigen::Ref<const Eigen::VectorXd>& measurement)
-      : model_(model), measurement_(measurement), exponent_(exponents(model.causes(), model.degree)) {}
-
-  /// Damped Gauss-Newton on |(x - f(y)) / deviation|^2 + 3 |y|^2 from the middle of the range.
-  [[nodiscard]] Posterior of(std::size_t c) const {
-    Posterior result;
-    result.y = Eigen::VectorXd::Zero(model_.causes());
-    Eigen::MatrixXd slope;
-    Eigen::VectorXd rest = remainder(c, result.y, &slope);
-    for (int i = 0; i < mostIterations; ++i) {
-      const Eigen::LDLT<Eigen::MatrixXd> normal(precision(slope));
-      const Eigen::VectorXd step = normal.solve(slope.transpose() * rest - priorPrecision * result.y);
-      const double before = cost(rest, result.y);
-      double length = 1;
-      Eigen::VectorXd next = result.y + step, nextRest = remainder(c, next, nullptr);
-      while (!(cost(nextRest, next) <= before) && length > 1e-4) {
-        length /= 2;
-        next = result.y + length * step;
-        nextRest = remainder(c, next, nullptr);
-      }
-      if (!(cost(nextRest, next) <= before)) break;
-      result.y = next;
-      rest = remainder(c, result.y, &slope);
-      if (length * step.norm() < enough) break;
-    }
-    const Eigen::MatrixXd information = precision(slope);
-    const Eigen::LDLT<Eigen::MatrixXd> normal(information);
-    result.covariance = normal.solve(Eigen::MatrixXd::Identity(information.rows(), information.cols()));
-    result.chiSquare = rest.squaredNorm();
-    result.logEvidence = -0.5 * cost(rest, result.y) - 0.5 * normal.vectorD().array().abs().log().sum();
-    return result;
-  }
-
-private:
-  /// (x - f(y)) / deviation; its negative derivative in `slope`.
-  Eigen::VectorXd remainder(std::size_t c, const Eigen::VectorXd& y, Eigen::MatrixXd* slope) const {
-    Eigen::MatrixXd monomialSlope;
-    const Eigen::VectorXd value = monomials(exponent_, y, slope ? &monomialSlope : nullptr);
-    const Eigen::VectorXd weight = model_.deviation.cwiseInverse();
-    if (slope) *slope = weight.asDiagonal() * (model_.coefficients[c] * monomialSlope);
-    return weight.cwiseProduct(measurement_ - model_.coefficients[c] * value);
-  }
-  static double cost(const Eigen::VectorXd& rest, const Eigen::VectorXd& y) {
-    return rest.squaredNorm() + priorPrecision * y.squaredNorm();
-  }
-  static Eigen::MatrixXd precision(const Eigen::MatrixXd& slope) {
-    Eigen::MatrixXd result = slope.transpose() * slope;
-    result.diagonal().array() += priorPrecision;
-    return result;
-  }
-
-  const ForwardModel& model_;
-  const Eigen::Ref<const Eigen::VectorXd>& measurement_;
-  Eigen::MatrixXi exponent_;
-};
+constexpr double rounding = 1e-12; ///< of the cost: less is no rise
 
 void requireSizes(const Eigen::Ref<const Eigen::MatrixXd>& measurements,
                   const Eigen::Ref<const Eigen::MatrixXd>& causes, const Eigen::VectorXi& classes,
@@ -215,37 +150,112 @@ ForwardModel fitForwardModel(const Eigen::Ref<const Eigen::MatrixXd>& measuremen
   return model;
 }
 
-LikelihoodEstimate maximumLikelihood(const ForwardModel& model, const Eigen::Ref<const Eigen::VectorXd>& measurement) {
-  if (measurement.size() != model.measurements())
+/// One class at its most likely causes.
+struct LikelihoodInversion::Posterior {
+  Eigen::VectorXd y; ///< scaled
+  Eigen::MatrixXd covariance;
+  double logEvidence = 0;
+  double chiSquare = 0;
+};
+
+LikelihoodInversion::LikelihoodInversion(const ForwardModel& model)
+    : causeOffset_(model.causeOffset),
+      causeWidth_(model.causeFactor.unaryExpr([](double f) { return f > 0 ? 1 / f : 0; })),
+      measurements_(model.measurements()), exponent_(exponents(model.causes(), model.degree)) {
+  const Eigen::VectorXd weight = model.deviation.cwiseInverse();
+  for (const Eigen::MatrixXd& coefficients : model.coefficients) {
+    Class c;
+    c.constant = coefficients.col(0);
+    c.weight = weight;
+    c.polynomial = weight.asDiagonal() * coefficients.rightCols(coefficients.cols() - 1);
+    c.gram = c.polynomial.transpose() * c.polynomial;
+    classes_.push_back(std::move(c));
+  }
+}
+
+/// Damped Gauss-Newton on |(x - f(y)) / deviation|^2 + 3 |y|^2 from the middle of the range. With f = c + P m(y) the
+/// sum of squares is |r|^2 - 2 m' P'r + m' P'P m, r = x - c.
+LikelihoodInversion::Posterior LikelihoodInversion::posterior(const Class& c,
+                                                              const Eigen::VectorXd& measurement) const {
+  const Eigen::VectorXd remainder = c.weight.cwiseProduct(measurement - c.constant);
+  const Eigen::VectorXd projected = c.polynomial.transpose() * remainder;
+  const double square = remainder.squaredNorm();
+  Posterior result;
+  result.y = Eigen::VectorXd::Zero(causeOffset_.size());
+  const Eigen::Index count = projected.size();
+  Eigen::MatrixXd allSlopes, slope;
+  Eigen::VectorXd gradient; // of the monomials: P'(r - P m)
+  const auto cost = [&](const Eigen::VectorXd& y, bool withSlope) {
+    const Eigen::VectorXd m = monomials(exponent_, y, withSlope ? &allSlopes : nullptr).tail(count);
+    const Eigen::VectorXd product = c.gram * m;
+    if (withSlope) {
+      slope = allSlopes.bottomRows(count);
+      gradient = projected - product;
+    }
+    result.chiSquare = std::max(0.0, square - 2 * m.dot(projected) + m.dot(product));
+    return result.chiSquare + priorPrecision * y.squaredNorm();
+  };
+  const auto precision = [&] {
+    Eigen::MatrixXd information = slope.transpose() * c.gram * slope;
+    information.diagonal().array() += priorPrecision;
+    return information;
+  };
+  double before = cost(result.y, true);
+  for (int i = 0; i < mostIterations; ++i) {
+    const Eigen::LDLT<Eigen::MatrixXd> normal(precision());
+    const Eigen::VectorXd step = normal.solve(slope.transpose() * gradient - priorPrecision * result.y);
+    const double most = before + rounding * (square + before);
+    double length = 1;
+    Eigen::VectorXd next = result.y + step;
+    while (!(cost(next, false) <= most) && length > 1e-4) {
+      length /= 2;
+      next = result.y + length * step;
+    }
+    if (!(cost(next, false) <= most)) break;
+    result.y = next;
+    before = cost(result.y, true);
+    if (length * step.norm() < enough) break;
+  }
+  const double least = cost(result.y, true);
+  const Eigen::LDLT<Eigen::MatrixXd> normal(precision());
+  result.covariance = normal.solve(Eigen::MatrixXd::Identity(result.y.size(), result.y.size()));
+  result.logEvidence = -0.5 * least - 0.5 * normal.vectorD().array().abs().log().sum();
+  return result;
+}
+
+LikelihoodEstimate LikelihoodInversion::estimate(const Eigen::Ref<const Eigen::VectorXd>& measurement) const {
+  if (measurement.size() != measurements_)
     throw NetworkError("measurements: " + std::to_string(measurement.size()) + "; the forward model takes " +
-                       std::to_string(model.measurements()));
-  const Inversion inversion(model, measurement);
+                       std::to_string(measurements_));
   std::vector<Posterior> posteriors;
-  for (std::size_t c = 0; c < model.classes(); ++c) posteriors.push_back(inversion.of(c));
+  for (const Class& c : classes_) posteriors.push_back(posterior(c, measurement));
   std::size_t best = 0;
   for (std::size_t c = 1; c < posteriors.size(); ++c)
     if (posteriors[c].logEvidence > posteriors[best].logEvidence) best = c;
   double total = 0;
-  Eigen::VectorXd mean = Eigen::VectorXd::Zero(model.causes());
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(causeOffset_.size());
   for (const Posterior& p : posteriors) {
     const double share = std::exp(p.logEvidence - posteriors[best].logEvidence);
     total += share;
     mean += share * p.y;
   }
   mean /= total;
-  Eigen::VectorXd variance = Eigen::VectorXd::Zero(model.causes());
+  Eigen::VectorXd variance = Eigen::VectorXd::Zero(causeOffset_.size());
   for (const Posterior& p : posteriors) {
     const double share = std::exp(p.logEvidence - posteriors[best].logEvidence) / total;
     variance += share * (p.covariance.diagonal() + (p.y - mean).cwiseAbs2());
   }
-  const Eigen::VectorXd width = model.causeFactor.unaryExpr([](double f) { return f > 0 ? 1 / f : 0; });
   LikelihoodEstimate estimate;
   estimate.classIndex = static_cast<int>(best);
   estimate.confidence = 1 / total;
-  estimate.causes = model.causeOffset + mean.cwiseProduct(width);
-  estimate.standardDeviation = variance.cwiseSqrt().cwiseProduct(width);
-  estimate.chiSquare = posteriors[best].chiSquare / static_cast<double>(model.measurements());
+  estimate.causes = causeOffset_ + mean.cwiseProduct(causeWidth_);
+  estimate.standardDeviation = variance.cwiseSqrt().cwiseProduct(causeWidth_);
+  estimate.chiSquare = posteriors[best].chiSquare / static_cast<double>(measurements_);
   return estimate;
+}
+
+LikelihoodEstimate maximumLikelihood(const ForwardModel& model, const Eigen::Ref<const Eigen::VectorXd>& measurement) {
+  return LikelihoodInversion(model).estimate(measurement);
 }
 
 } // namespace palp

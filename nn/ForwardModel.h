@@ -49,4 +49,30 @@ struct LikelihoodEstimate {
 };
 LikelihoodEstimate maximumLikelihood(const ForwardModel& model, const Eigen::Ref<const Eigen::VectorXd>& measurement);
 
+/// The same for many measurements: keeps each class's normal equations, in whose few monomials a measurement is then
+/// inverted at a tenth of the cost.
+class LikelihoodInversion {
+public:
+  explicit LikelihoodInversion(const ForwardModel& model);
+  [[nodiscard]] LikelihoodEstimate estimate(const Eigen::Ref<const Eigen::VectorXd>& measurement) const;
+
+private:
+  struct Class;
+  struct Posterior;
+  [[nodiscard]] Posterior posterior(const Class& c, const Eigen::VectorXd& measurement) const;
+
+  Eigen::VectorXd causeOffset_, causeWidth_;
+  Eigen::Index measurements_ = 0;
+  Eigen::MatrixXi exponent_;
+  std::vector<Class> classes_;
+};
+
+/// One class of it: the polynomial is constant + polynomial' (monomials but the constant), in units of the deviation.
+struct LikelihoodInversion::Class {
+  Eigen::VectorXd constant;   ///< measurements
+  Eigen::VectorXd weight;     ///< 1 / deviation
+  Eigen::MatrixXd polynomial; ///< measurements x monomials
+  Eigen::MatrixXd gram;       ///< monomials x monomials
+};
+
 } // namespace palp

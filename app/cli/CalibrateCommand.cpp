@@ -85,7 +85,7 @@ void addCalibrate(Cli& cli) {
   CLI::App& command = cli.command("calibrate", "refine a network with labelled frames of a real board",
                                   "palp calibrate network.json frames.csv -o better.json",
                                   [arguments](Session& session) { return run(*arguments, session); });
-  command.add_option("network", arguments->network, "network file (rbf, one force)")->required();
+  command.add_option("network", arguments->network, "network file (rbf or ml, one force)")->required();
   command.add_option("frames", arguments->frames, "labelled frames, from palp listen --label ... --append")->required();
   arguments->output.declare(command, "network file to write")->required();
 }

@@ -3,14 +3,10 @@
 #include "app/study/BoardCheck.h"
 #include "app/study/Calibration.h"
 #include "app/study/LiveSession.h"
-#include "app/study/Resources.h"
-#include "app/study/SimulatedTouch.h"
+#include "app/study/LiveSource.h"
 #include "io/AtomicFile.h"
 #include "io/Fingerprint.h"
 #include "io/NetworkFile.h"
-#include "io/SampleFile.h"
-#include "io/board/HidBoards.h"
-#include "io/board/SimulatedSource.h"
 
 #include <cstdio>
 #include <iostream>
@@ -26,13 +22,12 @@ using Json = nlohmann::ordered_json;
 constexpr auto kDrainInterval = std::chrono::milliseconds(5);
 constexpr double kLineInterval_s = 0.5; // of the lines for people
 constexpr double kCheck_s = 5;
-constexpr const char* kSimulatedSamples = "board/paper-samples.csv";
-constexpr const char* kSimulatedNetwork = "board/paper-network.json";
 
 struct ListenArguments {
   bool list = false, check = false, simulate = false;
   std::string device, replay, samples, network, design, record, usb = "1209:0001";
   std::string speed = "1", noise = "5e-6", warming = "0", hysteresis = "0", rate = "1000", seed = "1";
+  std::string openRow, openColumn, dropEvery = "0";
   std::string frames = "0", seconds = "0", tare = "0", row, label, append, average = "50";
   bool force = false;
 };
@@ -54,23 +49,19 @@ double positive(const std::string& option, const std::string& value, double most
   return result;
 }
 
-/// The board that is asked for by serial or path; null where it is not there.
-std::unique_ptr<ReportSource> openBoard(const UsbId& id, const std::string& device) {
-  for (const HidBoard& board : hidBoards(id))
-    if (device.empty() || board.serial == device || board.path == device) return openHidBoard(board);
-  return nullptr;
-}
-
 std::unique_ptr<ReportSource> openSimulated(const ListenArguments& arguments) {
-  BoardDisturbance disturbance;
-  disturbance.noise = positive("--noise", arguments.noise, 1);
-  disturbance.warming_degC = positive("--warming", arguments.warming, 100);
-  disturbance.hysteresisShare = positive("--hysteresis", arguments.hysteresis, 1);
-  const std::filesystem::path file =
-      arguments.samples.empty() ? resource(kSimulatedSamples) : std::filesystem::path(arguments.samples);
-  return std::make_unique<SimulatedSource>(
-      simulatedBoard(loadSamples(file), disturbance, wholeNumber("--rate", arguments.rate, 1, 8000),
-                     static_cast<std::uint64_t>(wholeNumber("--seed", arguments.seed, 0, 2'147'483'647))));
+  SimulatedBoardOptions options;
+  options.samples = arguments.samples;
+  options.disturbance.noise = positive("--noise", arguments.noise, 1);
+  options.disturbance.warming_degC = positive("--warming", arguments.warming, 100);
+  options.disturbance.hysteresisShare = positive("--hysteresis", arguments.hysteresis, 1);
+  if (!arguments.openRow.empty()) options.faults.openRows = {wholeNumber("--open-row", arguments.openRow, 0, 31)};
+  if (!arguments.openColumn.empty())
+    options.faults.openColumns = {wholeNumber("--open-column", arguments.openColumn, 0, 254)};
+  options.faults.dropEvery = wholeNumber("--drop-every", arguments.dropEvery, 0, 1'000'000);
+  options.rate_Hz = wholeNumber("--rate", arguments.rate, 1, 8000);
+  options.seed = static_cast<std::uint64_t>(wholeNumber("--seed", arguments.seed, 0, 2'147'483'647));
+  return openSimulatedBoard(options);
 }
 
 /// What can be opened once is opened here, so that its refusals come before the session begins.
@@ -79,7 +70,7 @@ LiveOptions liveOptions(const ListenArguments& arguments) {
   if (!arguments.network.empty())
     options.decoder = readNetwork(arguments.network);
   else if (arguments.simulate && arguments.samples.empty())
-    options.decoder = readNetwork(resource(kSimulatedNetwork));
+    options.decoder = readNetwork(shippedNetwork());
   if (!arguments.design.empty()) options.design = designOption(arguments.design);
   options.tareFrames = wholeNumber("--tare", arguments.tare, 0, 100'000);
   options.ringFrames = 8192;
@@ -334,6 +325,9 @@ void addListen(Cli& cli) {
   command.add_option("--hysteresis", a.hysteresis, "of the virtual board, share 0 to 1 (default 0)");
   command.add_option("--rate", a.rate, "reports a second of the virtual board (default 1000)");
   command.add_option("--seed", a.seed, "of the virtual board's noise (default 1)");
+  command.add_option("--open-row", a.openRow, "of the virtual board: this row-wire is broken");
+  command.add_option("--open-column", a.openColumn, "of the virtual board: this column-wire is broken");
+  command.add_option("--drop-every", a.dropEvery, "of the virtual board: every n-th report is lost (default 0: none)");
   command.add_option("--network", a.network,
                      "network that was trained with --input resistance (default with --simulate: the paper's)");
   command.add_option("--design", a.design, "design of the network, for tare (default: paper)");

@@ -4,6 +4,8 @@
 #include "model/Error.h"
 #include "nn/RecursiveLeastSquares.h"
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 
@@ -45,9 +47,11 @@ Eigen::Vector3d rms(const Eigen::Matrix3Xd& errors) {
 }
 
 void requireUsable(const Decoder& decoder, const SampleSet& frames) {
-  if (!std::holds_alternative<RbfNetwork>(decoder.model) || decoder.outputs() != 3)
-    throw Error("calibrate refines an rbf network of one force; this network is " + name(decoder.kind) + " with " +
-                std::to_string(decoder.outputs()) + " outputs");
+  const bool refinable =
+      std::holds_alternative<RbfNetwork>(decoder.model) || std::holds_alternative<ForwardModel>(decoder.model);
+  if (!refinable || decoder.outputs() != 3)
+    throw Error("calibrate refines an rbf or ml network of one force; this network is " + name(decoder.kind) +
+                " with " + std::to_string(decoder.outputs()) + " outputs");
   if (frames.together()) throw Error("calibrate takes frames with one area loaded at a time");
   if (frames.size() < kFewestFrames)
     throw Error(std::to_string(frames.size()) + " labelled frames; at least " + std::to_string(kFewestFrames) +
@@ -57,13 +61,51 @@ void requireUsable(const Decoder& decoder, const SampleSet& frames) {
                 decoder.designFingerprint);
 }
 
-/// Takes F = A N + b into the network's weights, in N.
-void apply(RbfNetwork& network, const Correction& correction, const Eigen::Vector3d& range_N) {
-  const Eigen::Matrix3d gains =
-      range_N.asDiagonal() * correction.topRows<3>().transpose() * range_N.cwiseInverse().asDiagonal();
-  network.weights = (gains * network.weights).eval();
-  if (network.tail.size() > 0) network.tail = (gains * network.tail).eval();
-  network.bias = gains * network.bias + range_N.cwiseProduct(correction.row(3).transpose());
+/// F = A N + b in newton.
+struct Affine {
+  Eigen::Matrix3d gains;
+  Eigen::Vector3d offset_N;
+};
+
+Affine inNewton(const Correction& correction, const Eigen::Vector3d& range_N) {
+  return {range_N.asDiagonal() * correction.topRows<3>().transpose() * range_N.cwiseInverse().asDiagonal(),
+          range_N.cwiseProduct(correction.row(3).transpose())};
+}
+
+/// Into the network's weights.
+void apply(RbfNetwork& network, const Affine& affine) {
+  network.weights = (affine.gains * network.weights).eval();
+  if (network.tail.size() > 0) network.tail = (affine.gains * network.tail).eval();
+  network.bias = affine.gains * network.bias + affine.offset_N;
+}
+
+/// Into the polynomials x(N): x(A^-1 (F - b)) is one of the same degree, found again through enough of its points.
+void apply(ForwardModel& model, const Affine& affine) {
+  const Eigen::Vector3d half = model.causeFactor.cwiseInverse();
+  const int side = 2 * (model.degree + 1); // a grid, so that twice the monomials are there at any degree
+  const Eigen::Index points = static_cast<Eigen::Index>(side) * side * side;
+  const auto classes = static_cast<Eigen::Index>(model.classes());
+  Eigen::MatrixXd measurements(model.measurements(), points * classes);
+  Eigen::MatrixXd causes(3, points * classes);
+  Eigen::VectorXi classOf(points * classes);
+  const Eigen::PartialPivLU<Eigen::Matrix3d> gains(affine.gains);
+  for (Eigen::Index i = 0; i < causes.cols(); ++i) {
+    const Eigen::Index place = i % points;
+    const Eigen::Array3d step(static_cast<double>(place % side), static_cast<double>(place / side % side),
+                              static_cast<double>(place / side / side));
+    classOf(i) = static_cast<int>(i / points);
+    causes.col(i) = model.causeOffset + half.cwiseProduct((2 * step / (side - 1) - 1).matrix());
+    measurements.col(i) =
+        model.measurementsOf(static_cast<std::size_t>(classOf(i)), gains.solve(causes.col(i) - affine.offset_N));
+  }
+  ForwardModelOptions options;
+  options.degree = model.degree;
+  // About the mean, which keeps the digits that the small changes of R need.
+  const Eigen::VectorXd mean = measurements.rowwise().mean();
+  ForwardModel refined = fitForwardModel(measurements.colwise() - mean, causes, classOf, options);
+  for (Eigen::MatrixXd& coefficients : refined.coefficients) coefficients.col(0) += mean;
+  refined.deviation = model.deviation;
+  model = std::move(refined);
 }
 
 } // namespace
@@ -98,7 +140,9 @@ Calibration calibrate(const Decoder& decoder, const SampleSet& frames) {
   report.improved =
       report.rmseAfter_N.cwiseQuotient(range_N).norm() < report.rmseBefore_N.cwiseQuotient(range_N).norm();
 
-  apply(std::get<RbfNetwork>(result.decoder.model), fit(scaled, -1), range_N);
+  const Affine affine = inNewton(fit(scaled, -1), range_N);
+  if (auto* network = std::get_if<RbfNetwork>(&result.decoder.model)) apply(*network, affine);
+  if (auto* model = std::get_if<ForwardModel>(&result.decoder.model)) apply(*model, affine);
   result.decoder.residual_N = report.rmseAfter_N.replicate(1, std::max<Eigen::Index>(1, decoder.residual_N.cols()));
   return result;
 }

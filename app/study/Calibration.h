@@ -27,8 +27,8 @@ struct Calibration {
 };
 
 /// Refines a network with labelled frames of a real board: recursive least squares for F = A N(R) + b from A = 1, b =
-/// 0, which an RBF network takes into its weights. Throws Error where the network is no RBF network of one force, the
-/// frames are of other wires or too few.
+/// 0, which an RBF network takes into its weights and the polynomials of maximum likelihood into their arguments.
+/// Throws Error where the network is another one, the frames are of other wires or too few.
 Calibration calibrate(const Decoder& decoder, const SampleSet& frames);
 
 /// Mean of frames under one known load: one labelled frame for `calibrate`.

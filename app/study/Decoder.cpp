@@ -77,7 +77,7 @@ int areaOf(const Decoder& decoder, int classIndex) {
   return decoder.areaOfClass.empty() ? classIndex : decoder.areaOfClass[static_cast<std::size_t>(classIndex)];
 }
 
-void decodeByLikelihood(const Decoder& decoder, const ForwardModel& model,
+void decodeByLikelihood(const Decoder& decoder, const ForwardModel& model, const LikelihoodInversion& inversion,
                         const Eigen::Ref<const Eigen::MatrixXd>& inputs, const PredictOptions& options,
                         Prediction& result) {
   result.forces_N.resize(decoder.outputs(), inputs.cols());
@@ -87,9 +87,8 @@ void decodeByLikelihood(const Decoder& decoder, const ForwardModel& model,
     result.area.resize(inputs.cols());
     result.areaConfidence.resize(inputs.cols());
   }
-  const ForwardModel judged = withNoise(model, decoder, options);
   for (Eigen::Index i = 0; i < inputs.cols(); ++i) {
-    const LikelihoodEstimate estimate = maximumLikelihood(judged, inputs.col(i));
+    const LikelihoodEstimate estimate = inversion.estimate(inputs.col(i));
     result.forces_N.col(i) = estimate.causes;
     if (options.standardDeviation) result.standardDeviation_N.col(i) = estimate.standardDeviation;
     if (!tellArea) continue;
@@ -98,13 +97,12 @@ void decodeByLikelihood(const Decoder& decoder, const ForwardModel& model,
   }
 }
 
-void tellAreas(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixXd>& inputs, const PredictOptions& options,
-               Prediction& result) {
-  const ForwardModel judged = withNoise(*decoder.areas, decoder, options);
+void tellAreas(const Decoder& decoder, const LikelihoodInversion& inversion,
+               const Eigen::Ref<const Eigen::MatrixXd>& inputs, Prediction& result) {
   result.area.resize(inputs.cols());
   result.areaConfidence.resize(inputs.cols());
   for (Eigen::Index i = 0; i < inputs.cols(); ++i) {
-    const LikelihoodEstimate estimate = maximumLikelihood(judged, inputs.col(i));
+    const LikelihoodEstimate estimate = inversion.estimate(inputs.col(i));
     result.area(i) = areaOf(decoder, estimate.classIndex);
     result.areaConfidence(i) = estimate.confidence;
   }
@@ -171,11 +169,19 @@ Eigen::MatrixXd inputsOf(const SampleSet& samples, const DecoderInput& input) {
   return result;
 }
 
-Prediction predict(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixXd>& inputs,
-                   const PredictOptions& options) {
-  requireNumbers(decoder, inputs);
+Predictor::Predictor(const Decoder& decoder, const PredictOptions& options) : decoder_(decoder), options_(options) {
   if (!(options.noise >= 0 && options.noise < 1))
     throw Error("noise: " + std::to_string(options.noise) + "; allowed is 0 up to below 1 (relative)");
+  if (const auto* likelihood = std::get_if<ForwardModel>(&decoder.model))
+    inversion_.emplace(withNoise(*likelihood, decoder, options));
+  else if (options.area && decoder.areas)
+    inversion_.emplace(withNoise(*decoder.areas, decoder, options));
+}
+
+Prediction Predictor::operator()(const Eigen::Ref<const Eigen::MatrixXd>& inputs) const {
+  const Decoder& decoder = decoder_;
+  const PredictOptions& options = options_;
+  requireNumbers(decoder, inputs);
   Prediction result;
   result.outsideTrainingRange = outside(decoder, inputs, options.noise);
   if (options.noise > 1.5 * decoder.noise)
@@ -184,15 +190,20 @@ Prediction predict(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixX
   const auto* likelihood = std::get_if<ForwardModel>(&decoder.model);
   const auto start = std::chrono::steady_clock::now();
   if (likelihood)
-    decodeByLikelihood(decoder, *likelihood, inputs, options, result);
+    decodeByLikelihood(decoder, *likelihood, *inversion_, inputs, options, result);
   else
     result.forces_N = forcesOf(decoder, inputs);
   const std::chrono::duration<double, std::micro> time = std::chrono::steady_clock::now() - start;
   result.microsecondsPerSample = inputs.cols() > 0 ? time.count() / static_cast<double>(inputs.cols()) : 0;
   if (likelihood) return result;
-  if (options.area && decoder.areas) tellAreas(decoder, inputs, options, result);
+  if (options.area && decoder.areas) tellAreas(decoder, *inversion_, inputs, result);
   if (options.standardDeviation) tellDeviations(decoder, inputs, options, result);
   return result;
+}
+
+Prediction predict(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixXd>& inputs,
+                   const PredictOptions& options) {
+  return Predictor(decoder, options)(inputs);
 }
 
 Prediction predict(const Decoder& decoder, const SampleSet& samples, const PredictOptions& options) {

@@ -40,6 +40,19 @@ struct PredictOptions {
   bool area = true;
 };
 
+/// For many calls: keeps what a decoder and a noise share. The decoder must outlive it.
+class Predictor {
+public:
+  explicit Predictor(const Decoder& decoder, const PredictOptions& options = {});
+  /// Inputs x samples. Throws Error where the number of inputs differs.
+  [[nodiscard]] Prediction operator()(const Eigen::Ref<const Eigen::MatrixXd>& inputs) const;
+
+private:
+  const Decoder& decoder_;
+  PredictOptions options_;
+  std::optional<LikelihoodInversion> inversion_; ///< of the forces, or of the touched area alone
+};
+
 /// Forces from inputs (inputs x samples, as inputsOf gives them). Throws Error where the number of inputs differs.
 Prediction predict(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixXd>& inputs,
                    const PredictOptions& options = {});

@@ -15,6 +15,9 @@ namespace {
 constexpr double kShowAbove = 6;
 constexpr double kHideBelow = 4;
 constexpr int kMostTareFrames = 100000;
+constexpr double kSameNoise = 0.1;  // nearer than this is the same noise
+constexpr double kMostNoise = 0.99; // relative
+constexpr double kRestReach = 4;    // deviations from rest, at which half of its error counts
 
 std::string sizes(int rows, int columns) {
   return std::to_string(rows) + " row-wires x " + std::to_string(columns) + " column-wires";
@@ -52,16 +55,35 @@ Eigen::VectorXd inputOf(const Eigen::MatrixXd& resistances_ohm, const DecoderInp
 } // namespace
 
 ForceDecoder::ForceDecoder(Decoder decoder, const BoardInfo& info, std::optional<SensorDesign> design)
-    : decoder_(std::move(decoder)), noise_(decoder_.noise) {
-  requireFit(decoder_, info);
-  rest_ohm_ = restResistances(decoder_, design);
+    : decoder_(std::make_unique<const Decoder>(std::move(decoder))) {
+  requireFit(*decoder_, info);
+  rest_ohm_ = restResistances(*decoder_, design);
   factor_ = Eigen::MatrixXd::Ones(info.rowWires, info.columnWires);
-  shown_.assign(static_cast<std::size_t>(decoder_.outputs() / 3), false);
+  shown_.assign(static_cast<std::size_t>(decoder_->outputs() / 3), false);
+  setNoise(decoder_->noise);
+}
+
+void ForceDecoder::setNoise(double noise) {
+  if (predictor_ && std::abs(noise - noise_) <= kSameNoise * noise_) return;
+  noise_ = noise;
+  PredictOptions options;
+  // What is left in the mean of the tare's frames is in every frame since.
+  options.noise = std::min(tared_ ? noise * std::sqrt(1 + 1.0 / tareFrames_) : noise, kMostNoise);
+  predictor_.emplace(*decoder_, options);
+  restError_N_ = Eigen::Matrix3Xd::Zero(3, decoder_->outputs() / 3);
+  if (rest_ohm_.size() == 0) return;
+  restError_N_ = (*predictor_)(inputOf(rest_ohm_, decoder_->input)).forces_N.reshaped(3, restError_N_.cols());
+}
+
+/// Without a tare nobody has said what the board's noise is.
+void ForceDecoder::followNoise(const Eigen::VectorXd& raw_ohm) {
+  meter_.add(raw_ohm);
+  if (!tared_ && meter_.ready()) setNoise(std::max(decoder_->noise, meter_.noise()));
 }
 
 std::string ForceDecoder::tareProblem() const {
   if (rest_ohm_.size() > 0) return {};
-  return "tare needs the resistances at rest of design " + decoder_.designFingerprint +
+  return "tare needs the resistances at rest of design " + decoder_->designFingerprint +
          ", for which the network was trained: name its file (--design)";
 }
 
@@ -78,14 +100,16 @@ void ForceDecoder::clearTare() {
   tareLeft_ = 0;
   tared_ = false;
   factor_.setOnes();
-  noise_ = decoder_.noise;
+  meter_.restart();
+  predictor_.reset();
+  setNoise(decoder_->noise);
 }
 
 std::string ForceDecoder::reasonAgainst(const BoardFrame& frame) const {
-  const bool good =
-      std::all_of(decoder_.input.rows.begin(), decoder_.input.rows.end(), [&](int row) { return frame.rowGood(row); });
+  const bool good = std::all_of(decoder_->input.rows.begin(), decoder_->input.rows.end(),
+                                [&](int row) { return frame.rowGood(row); });
   if (good) return {};
-  for (const int row : decoder_.input.rows)
+  for (const int row : decoder_->input.rows)
     if (!frame.rowExpected[static_cast<std::size_t>(row)])
       return "the board does not scan row-wire " + std::to_string(row) + ", which the network reads";
   if (!frame.complete) return "a report of the frame is lost";
@@ -109,9 +133,13 @@ void ForceDecoder::addToTare(const Eigen::MatrixXd& raw_ohm) {
   const Eigen::ArrayXXd boardRest_ohm = tareFirst_.array() * (1 + mean);
   factor_ = (boardRest_ohm > 0).select(rest_ohm_.array() / boardRest_ohm, 1.0);
   tared_ = true;
-  if (tareFrames_ < 2) return;
-  const Eigen::MatrixXd variance = (tareSquares_.array() / tareFrames_ - mean.square()).cwiseMax(0.0);
-  noise_ = std::sqrt(inputOf(variance, decoder_.input).mean() * tareFrames_ / (tareFrames_ - 1));
+  predictor_.reset(); // also where the noise is the same: the mean has its own
+  double noise = noise_;
+  if (tareFrames_ > 1) {
+    const Eigen::MatrixXd variance = (tareSquares_.array() / tareFrames_ - mean.square()).cwiseMax(0.0);
+    noise = std::sqrt(inputOf(variance, decoder_->input).mean() * tareFrames_ / (tareFrames_ - 1));
+  }
+  setNoise(noise);
 }
 
 DecodedForces ForceDecoder::decode(const BoardFrame& frame) {
@@ -119,11 +147,10 @@ DecodedForces ForceDecoder::decode(const BoardFrame& frame) {
   decoded.reason = reasonAgainst(frame);
   if (!decoded.reason.empty()) return decoded;
   if (taring()) addToTare(frame.resistances_ohm);
+  followNoise(inputOf(frame.resistances_ohm, decoder_->input));
   decoded.resistances_ohm = frame.resistances_ohm.cwiseProduct(factor_);
-  PredictOptions options;
-  options.noise = noise_;
-  const Prediction prediction = predict(decoder_, inputOf(decoded.resistances_ohm, decoder_.input), options);
-  const Eigen::Index columns = decoder_.outputs() / 3;
+  const Prediction prediction = (*predictor_)(inputOf(decoded.resistances_ohm, decoder_->input));
+  const Eigen::Index columns = decoder_->outputs() / 3;
   decoded.forces_N = prediction.forces_N.reshaped(3, columns);
   decoded.standardDeviation_N = prediction.standardDeviation_N.reshaped(3, columns);
   decoded.outsideTrainingRange = prediction.outsideTrainingRange[0];
@@ -133,17 +160,30 @@ DecodedForces ForceDecoder::decode(const BoardFrame& frame) {
   }
   decoded.valid = decoded.forces_N.allFinite();
   if (!decoded.valid) decoded.reason = "the network's answer is no number for these readings";
+  addRestError(decoded);
   threshold(decoded);
   return decoded;
 }
 
+/// A decoder that was trained with noise is drawn towards the middle of its range, most at rest, which lies at the
+/// range's edge. How far is known there: it counts in full for a force that may be rest, and fades as the force leaves
+/// it.
+void ForceDecoder::addRestError(DecodedForces& decoded) const {
+  const Eigen::Array3Xd away =
+      (decoded.forces_N - restError_N_).array() / (kRestReach * decoded.standardDeviation_N.array());
+  const Eigen::RowVectorXd share = (1 + away.square().colwise().sum()).inverse();
+  decoded.standardDeviation_N =
+      (decoded.standardDeviation_N.array().square() + (restError_N_ * share.asDiagonal()).array().square()).sqrt();
+}
+
 /// An arrow appears where a component stands out of the noise, and goes when all have sunk into it again.
 void ForceDecoder::threshold(DecodedForces& decoded) {
+  const bool known = tared_ || meter_.ready(); // else nothing is said of what stands out of the noise
   for (std::size_t i = 0; i < shown_.size(); ++i) {
     const auto column = static_cast<Eigen::Index>(i);
     const double size =
         (decoded.forces_N.col(column).array().abs() / decoded.standardDeviation_N.col(column).array()).maxCoeff();
-    shown_[i] = decoded.valid && size > (shown_[i] ? kHideBelow : kShowAbove);
+    shown_[i] = decoded.valid && known && size > (shown_[i] ? kHideBelow : kShowAbove);
   }
   decoded.shown = shown_;
 }

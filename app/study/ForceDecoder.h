@@ -1,9 +1,11 @@
 #pragma once
 
 #include "app/study/Decoder.h"
+#include "app/study/NoiseMeter.h"
 #include "io/board/BoardFrame.h"
 #include "model/SensorDesign.h"
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,7 +17,7 @@ struct DecodedForces {
   bool valid = false;                   ///< false: `reason` says why, and there are no forces
   std::string reason;                   ///< which wires are bad, or that the frame is incomplete
   Eigen::Matrix3Xd forces_N;            ///< 3 x 1, of the touched area; `together`: 3 x areas
-  Eigen::Matrix3Xd standardDeviation_N; ///< of each; noise of the frame and error of the training
+  Eigen::Matrix3Xd standardDeviation_N; ///< of each; noise of frame and tare, error of the training and at rest
   std::vector<bool> shown;              ///< one a column: stands out of the noise
   std::optional<int> area;              ///< most likely touched, where the decoder tells
   double areaConfidence = 0;
@@ -41,16 +43,25 @@ public:
   /// Why tare cannot be; empty where it can.
   [[nodiscard]] std::string tareProblem() const;
 
-  /// Relative noise of the readings: measured while taring, before that as the decoder was trained for.
+  /// Relative noise of the readings: measured while taring, before that from frame to frame, and then no less than the
+  /// decoder was trained for.
   [[nodiscard]] double noise() const { return noise_; }
-  [[nodiscard]] const Decoder& decoder() const { return decoder_; }
+  [[nodiscard]] const Decoder& decoder() const { return *decoder_; }
+  /// Of the design, row-wires x column-wires [ohm]; empty where it is not known.
+  [[nodiscard]] const Eigen::MatrixXd& restResistances_ohm() const { return rest_ohm_; }
 
 private:
   [[nodiscard]] std::string reasonAgainst(const BoardFrame& frame) const;
   void addToTare(const Eigen::MatrixXd& raw_ohm);
+  void followNoise(const Eigen::VectorXd& raw_ohm);
+  void setNoise(double noise);
+  void addRestError(DecodedForces& decoded) const;
   void threshold(DecodedForces& decoded);
 
-  Decoder decoder_;
+  std::unique_ptr<const Decoder> decoder_;
+  std::optional<Predictor> predictor_; ///< for the noise now
+  Eigen::Matrix3Xd restError_N_;       ///< what the decoder says of the design at rest: there the truth is zero
+  NoiseMeter meter_;
   Eigen::MatrixXd rest_ohm_; ///< of the design, row-wires x column-wires; empty: not known
   Eigen::MatrixXd factor_;   ///< by which each raw resistance is scaled
   Eigen::MatrixXd tareFirst_, tareSum_, tareSquares_;

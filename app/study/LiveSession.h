@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/study/ForceDecoder.h"
+#include "app/study/RestReference.h"
 #include "io/board/FrameAssembler.h"
 #include "io/board/LatencyMeter.h"
 #include "io/board/Recording.h"
@@ -31,10 +32,11 @@ struct LiveFrame {
   BoardFrame frame;
   std::vector<std::string> faults; ///< bad wires, in words
   DecodedForces forces;            ///< not valid without a network
+  Eigen::MatrixXd change;          ///< R / R at rest - 1, row-wires x column-wires; NaN where a reading is not good
   double latency_s = 0;            ///< from the device's clock to the decoded force
   double decoding_s = 0;           ///< of it, from the report's arrival to the decoded force
   std::uint64_t lostReports = 0;   ///< since the session's start
-  std::string mark;                ///< the last event mark of a recording
+  std::string mark;                ///< the last event mark of the user or the recording
 };
 
 struct LatencySummary {
@@ -58,7 +60,8 @@ struct LiveStatus {
   std::optional<double> temperature_degC;
   std::string decoderProblem; ///< why there are no forces; empty where there are
   bool taring = false, tared = false;
-  double noise = 0; ///< relative, of the readings
+  std::string restName; ///< what LiveFrame::change counts from
+  double noise = 0;     ///< relative, of the readings
   bool recording = false;
   std::uint64_t recordedReports = 0, recordingDropped = 0;
   std::string recordingFailure;

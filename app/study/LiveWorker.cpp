@@ -159,6 +159,8 @@ void LiveWorker::takeFrame(const BoardFrame& frame) {
   live->frame = frame;
   live->faults = wireFaults(frame);
   if (decoder_) live->forces = decoder_->decode(frame);
+  rest_.add(frame);
+  live->change = rest_.change(frame);
   if (frame.restarted) latency_.restart();
   // What waited in the source before it was handed over counts too; a recording's times are its own.
   const double arrival_s = options_.replay ? arrival_s_ : std::min(arrival_s_, frame.hostTime_s);
@@ -167,7 +169,8 @@ void LiveWorker::takeFrame(const BoardFrame& frame) {
   live->latency_s = latency_.add(frame.hostTime_s + live->decoding_s, frame.endTime_s);
   if (live->latency_s > kLate_s) ++status_.lateFrames;
   live->lostReports = earlier_.lost + assembler_->counts().lost;
-  if (const auto* replay = dynamic_cast<const ReplaySource*>(source_.get())) live->mark = replay->mark();
+  const auto* replay = dynamic_cast<const ReplaySource*>(source_.get());
+  live->mark = replay ? replay->mark() : mark_;
   if (frame.temperature_degC) status_.temperature_degC = frame.temperature_degC;
   if (options_.replay && options_.replay->steps > 0) --options_.replay->steps;
   give_(std::move(live));
@@ -191,6 +194,7 @@ LiveStatus LiveWorker::status() {
   status_.decoding = summary(decoding_);
   status_.taring = decoder_ && decoder_->taring();
   status_.tared = decoder_ && decoder_->tared();
+  status_.restName = rest_.name();
   status_.noise = decoder_ ? decoder_->noise() : 0;
   status_.recording = writer_ && source_; // never "recording" while the board is gone
   if (writer_) {
@@ -203,17 +207,21 @@ LiveStatus LiveWorker::status() {
 
 void LiveWorker::makeDecoder() {
   decoder_.reset();
+  rest_.reset({});
   status_.decoderProblem = options_.decoder ? "" : "no network: raw readings only";
   if (!options_.decoder || !status_.info) return;
   try {
     decoder_.emplace(*options_.decoder, *status_.info, options_.design);
-    if (options_.tareFrames > 0) decoder_->startTare(options_.tareFrames);
+    rest_.reset(decoder_->restResistances_ohm());
+    if (options_.tareFrames > 0) tare(options_.tareFrames);
   } catch (const Error& unfit) {
     status_.decoderProblem = unfit.what();
   }
 }
 
 void LiveWorker::tare(int frames) {
+  if (frames < 1) return;
+  rest_.startTare(frames);
   if (!decoder_) return;
   try {
     decoder_->startTare(frames);
@@ -223,6 +231,7 @@ void LiveWorker::tare(int frames) {
 }
 
 void LiveWorker::clearTare() {
+  rest_.clearTare();
   if (decoder_) decoder_->clearTare();
 }
 
@@ -248,6 +257,7 @@ void LiveWorker::configure(const BoardConfiguration& configuration) {
 }
 
 void LiveWorker::mark(const std::string& text) {
+  mark_ = text;
   if (writer_) writer_->append(RecordingEntry::Kind::Mark, hostClock_s(), bytesOf(text));
 }
 

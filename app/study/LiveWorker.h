@@ -48,11 +48,13 @@ private:
   std::optional<FrameAssembler> assembler_;
   ReportCounts earlier_; ///< of the connections before this one
   std::optional<ForceDecoder> decoder_;
+  RestReference rest_;
   std::shared_ptr<RecordingWriter> writer_;
   LatencyMeter latency_, decoding_;
   RawReport report_;
   LiveStatus status_;
   bool paused_ = false;
+  std::string mark_;        ///< of the user, the last one
   double arrival_s_ = 0;    ///< host clock at the last report
   double askedAgain_s_ = 0; ///< host clock when the configuration was read again
   double rateStart_s_ = 0;

@@ -20,7 +20,23 @@ double hostClock_s() {
   return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
 }
 
-SimulatedSource::SimulatedSource(Board board) : board_(std::move(board)) {}
+void SimulationControl::set(const BoardFaults& faults, const BoardDisturbance& disturbance) {
+  const std::lock_guard lock(mutex_);
+  faults_ = faults;
+  disturbance_ = disturbance;
+  changed_ = true;
+}
+
+void SimulationControl::applyTo(Board& board) {
+  if (!changed_) return;
+  const std::lock_guard lock(mutex_);
+  board.faults() = faults_;
+  board.disturbance() = disturbance_;
+  changed_ = false;
+}
+
+SimulatedSource::SimulatedSource(Board board, std::shared_ptr<SimulationControl> control)
+    : board_(std::move(board)), control_(std::move(control)) {}
 
 std::string SimulatedSource::name() const {
   return "simulated board";
@@ -28,6 +44,8 @@ std::string SimulatedSource::name() const {
 
 ReportSource::Outcome SimulatedSource::read(RawReport& report, std::chrono::milliseconds timeout) {
   const Clock::time_point end = Clock::now() + timeout;
+  if (control_ && !control_->pluggedIn) return Outcome::Gone;
+  if (control_) control_->applyTo(board_);
   while (queue_.empty()) {
     const Clock::time_point now = Clock::now();
     board_.advance(microseconds(now), [&](std::span<const std::uint8_t> bytes) {
