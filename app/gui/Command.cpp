@@ -53,4 +53,34 @@ QString networkCommands(const Project& project, const QString& designFile) {
          QString::number(network.sweepCount);
 }
 
+QString liveCommand(const LiveSettings& live) {
+  const auto option = [](const std::string& name, const std::string& value) {
+    return QString::fromStdString(" --" + name + " '" + value + "'");
+  };
+  const SimulationSettings& simulation = live.simulation;
+  QString command = "palp listen";
+  switch (live.source) {
+  case LiveSourceKind::Automatic:
+  case LiveSourceKind::Simulated:
+    command +=
+        " --simulate --rate " + QString::number(live.rate_Hz) +
+        QString::fromStdString(" --noise " + text(simulation.noise) + " --warming " + text(simulation.warming_degC) +
+                               " --hysteresis " + text(simulation.hysteresisShare)) +
+        " --seed " + QString::number(simulation.seed);
+    if (simulation.openRow >= 0) command += " --open-row " + QString::number(simulation.openRow);
+    if (simulation.openColumn >= 0) command += " --open-column " + QString::number(simulation.openColumn);
+    if (simulation.dropEvery > 0) command += " --drop-every " + QString::number(simulation.dropEvery);
+    break;
+  case LiveSourceKind::Board:
+    command += option("device", live.device);
+    break;
+  case LiveSourceKind::Recording:
+    command += option("replay", live.recording) + QString::fromStdString(" --speed " + text(live.replaySpeed));
+    break;
+  }
+  if (live.row >= 0) command += " --row " + QString::number(live.row);
+  if (!live.network.empty()) command += option("network", live.network);
+  return command + " --tare " + QString::number(live.tareFrames);
+}
+
 } // namespace palp

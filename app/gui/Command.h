@@ -10,4 +10,6 @@ namespace palp {
 QString solveCommands(const Project& project, const QString& designFile);
 QString networkCommands(const Project& project, const QString& designFile);
 
+QString liveCommand(const LiveSettings& live);
+
 } // namespace palp

@@ -3,6 +3,7 @@
 #include "app/gui/DeformationPage.h"
 #include "app/gui/DesignPage.h"
 #include "app/gui/JobStrip.h"
+#include "app/gui/LivePage.h"
 #include "app/gui/Menus.h"
 #include "app/gui/NetworkPage.h"
 #include "app/gui/NetworkSession.h"
@@ -54,6 +55,9 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   auto* networkPage = new NetworkPage(workbench, network);
   connect(networkPage, &NetworkPage::refused, this, &MainWindow::tell);
   addScene("network", tr("Network"), tr("Samples, training and the sweep of the spread"), networkPage);
+  auto* livePage = new LivePage(workbench);
+  connect(livePage, &LivePage::told, this, &MainWindow::tell);
+  addScene("live", tr("Live"), tr("A board, the simulated board or a recording, live"), livePage);
   addScene("reports", tr("Reports"), tr("The paper reproduced, and the reports"), new ReportsPage(workbench));
   buildStatusLine();
   menus_ = new Menus(*this, workbench);

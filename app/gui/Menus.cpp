@@ -101,9 +101,10 @@ void Menus::buildExport(QMenu& menu) {
   add(menu, tr("Copy as co&mmand"), tr("The palp commands that do what the scene shows, to the clipboard"),
       QKeySequence("Ctrl+Shift+C"), [this] {
         const Project& project = workbench_.project();
-        const bool network = window_.currentScene().objectName() == "network";
-        const QString commands =
-            network ? networkCommands(project, "sensor.json") : solveCommands(project, "sensor.json");
+        const QString scene = window_.currentScene().objectName();
+        const QString commands = scene == "live"      ? liveCommand(project.live)
+                                 : scene == "network" ? networkCommands(project, "sensor.json")
+                                                      : solveCommands(project, "sensor.json");
         QApplication::clipboard()->setText(commands);
         window_.tell(tr("Copied: %1   (sensor.json: File, Save design)").arg(commands.section('\n', 0, 0)));
       });
@@ -162,6 +163,8 @@ void Menus::buildHelp() {
                                 "<tr><td><b>Esc</b></td><td>cancels what runs</td></tr>"
                                 "<tr><td><b>F5</b></td><td>computes again</td></tr>"
                                 "<tr><td><b>Ctrl+Shift+C</b></td><td>copies the scene as commands of palp</td></tr>"
+                                "<tr><td><b>T, R, M, W</b></td><td>Live: tare, record, mark, twin</td></tr>"
+                                "<tr><td><b>Space, period</b></td><td>Live: holds, one frame on</td></tr>"
                                 "</table>"));
   });
   add(menu, tr("&About Palp"), tr("What this program is"), {}, [this] {

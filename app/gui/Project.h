@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/gui/LiveSettings.h"
 #include "app/study/TrainOptions.h"
 #include "model/LoadCase.h"
 #include "model/SensorDesign.h"
@@ -42,6 +43,7 @@ struct Project {
   MeshOptions mesh;
   SampleSettings samples;
   NetworkSettings network;
+  LiveSettings live;
 
   bool operator==(const Project&) const = default;
 };

@@ -172,6 +172,56 @@ NetworkSettings networkOf(const Place& place) {
   return network;
 }
 
+QJsonObject liveJson(const LiveSettings& live) {
+  const SimulationSettings& simulation = live.simulation;
+  return {{"source", QString::fromStdString(name(live.source))},
+          {"device", QString::fromStdString(live.device)},
+          {"recording", QString::fromStdString(live.recording)},
+          {"replay_speed", live.replaySpeed},
+          {"rate_Hz", live.rate_Hz},
+          {"row", live.row},
+          {"network", QString::fromStdString(live.network)},
+          {"tare_frames", live.tareFrames},
+          {"arrow_mm_per_N", live.arrow_mm_per_N},
+          {"change_percent", live.change_percent},
+          {"window_s", live.window_s},
+          {"simulation", QJsonObject{{"noise", simulation.noise},
+                                     {"warming_degC", simulation.warming_degC},
+                                     {"hysteresis_share", simulation.hysteresisShare},
+                                     {"seed", static_cast<double>(simulation.seed)},
+                                     {"open_row", simulation.openRow},
+                                     {"open_column", simulation.openColumn},
+                                     {"drop_every", simulation.dropEvery}}}};
+}
+
+LiveSettings liveOf(const Place& place) {
+  place.onlyKeys({"source", "device", "recording", "replay_speed", "rate_Hz", "row", "network", "tare_frames",
+                  "arrow_mm_per_N", "change_percent", "window_s", "simulation"});
+  LiveSettings live;
+  live.source =
+      liveSourceKindNamed(place.word("source", {"automatic", "board", "simulated", "recording"}).toStdString());
+  live.device = place.word("device").toStdString();
+  live.recording = place.word("recording").toStdString();
+  live.replaySpeed = place.number("replay_speed", 0, 1000);
+  live.rate_Hz = place.integer("rate_Hz", 1, 8000);
+  live.row = place.integer("row", -1, 31);
+  live.network = place.word("network").toStdString();
+  live.tareFrames = place.integer("tare_frames", 1, 100000);
+  live.arrow_mm_per_N = place.number("arrow_mm_per_N", 0.1, 100);
+  live.change_percent = place.number("change_percent", 1e-4, 100);
+  live.window_s = place.number("window_s", 1, 60);
+  const Place simulation = place.at("simulation");
+  simulation.onlyKeys({"noise", "warming_degC", "hysteresis_share", "seed", "open_row", "open_column", "drop_every"});
+  live.simulation.noise = simulation.number("noise", 0, 1);
+  live.simulation.warming_degC = simulation.number("warming_degC", 0, 100);
+  live.simulation.hysteresisShare = simulation.number("hysteresis_share", 0, 1);
+  live.simulation.seed = static_cast<std::uint64_t>(simulation.integer("seed", 0, 1000000000));
+  live.simulation.openRow = simulation.integer("open_row", -1, 31);
+  live.simulation.openColumn = simulation.integer("open_column", -1, 254);
+  live.simulation.dropEvery = simulation.integer("drop_every", 0, 100000);
+  return live;
+}
+
 QJsonObject parse(const QByteArray& text, const QString& file) {
   QJsonParseError broken;
   const QJsonDocument document = QJsonDocument::fromJson(text, &broken);
@@ -185,7 +235,7 @@ QJsonObject parse(const QByteArray& text, const QString& file) {
 }
 
 Project projectOf(const Place& root, const QString& file) {
-  root.onlyKeys({kVersionKey, "design", "load", "mesh", "samples", "network"});
+  root.onlyKeys({kVersionKey, "design", "load", "mesh", "samples", "network", "live"});
   if (root.integer(kVersionKey, 1, 1000000) > kVersion)
     root.refuse(kVersionKey, QString("up to %1: the file is from a newer Palp").arg(kVersion));
   Project project;
@@ -201,6 +251,7 @@ Project projectOf(const Place& root, const QString& file) {
   project.samples.perArea = samples.integer("per_area", 5, 100000);
   project.samples.seed = static_cast<std::uint64_t>(samples.integer("seed", 0, 1000000000));
   project.network = networkOf(root.at("network"));
+  if (root.has("live")) project.live = liveOf(root.at("live")); // not in the files of the first version
   return project;
 }
 
@@ -214,7 +265,8 @@ void saveProject(const std::filesystem::path& path, const Project& project) {
                          {"mesh", meshJson(project.mesh)},
                          {"samples", QJsonObject{{"per_area", project.samples.perArea},
                                                  {"seed", static_cast<double>(project.samples.seed)}}},
-                         {"network", networkJson(project.network)}};
+                         {"network", networkJson(project.network)},
+                         {"live", liveJson(project.live)}};
   QSaveFile file(QString::fromStdString(path.string()));
   const QByteArray text = QJsonDocument(root).toJson();
   if (!file.open(QIODevice::WriteOnly) || file.write(text) != text.size() || !file.commit())

@@ -18,6 +18,8 @@ namespace palp {
 
 namespace {
 
+constexpr double kWordGap_mm = 0.7; // between an arrow's end and its words
+
 std::string forceText(const Eigen::Vector3d& force_N) {
   std::array<char, 96> buffer{};
   std::snprintf(buffer.data(), buffer.size(), "(%.3g, %.3g, %.3g) N", force_N.x(), force_N.y(), force_N.z());
@@ -47,21 +49,25 @@ ForceArrows::ForceArrows(vtkRenderer& renderer)
 }
 
 void ForceArrows::show(const std::vector<PlacedForce>& forces, double largest_mm, const Color& color) {
-  words_.clear();
   double largest_N = 0;
   for (const PlacedForce& force : forces) largest_N = std::max(largest_N, force.force_N.norm());
+  showToScale(forces, largest_N > 0 ? largest_mm / largest_N : 0, color);
+}
+
+void ForceArrows::showToScale(const std::vector<PlacedForce>& forces, double mm_per_N, const Color& color) {
+  words_.clear();
   vtkNew<vtkPoints> starts;
   vtkNew<vtkDoubleArray> arrows;
   arrows->SetName("force");
   arrows->SetNumberOfComponents(3);
   for (const PlacedForce& force : forces) {
     if (!(force.force_N.norm() > 0)) continue;
-    const Eigen::Vector3d arrow = force.force_N * (largest_mm / largest_N);
+    const Eigen::Vector3d arrow = force.force_N * mm_per_N;
     const Eigen::Vector3d start = force.force_N.z() < 0 ? Eigen::Vector3d(force.place_mm - arrow) : force.place_mm;
     starts->InsertNextPoint(start.data());
     arrows->InsertNextTuple(arrow.data());
     const Eigen::Vector3d far = force.force_N.z() < 0 ? start : Eigen::Vector3d(start + arrow);
-    words_.push_back({far + Eigen::Vector3d(0, 0, 0.08 * largest_mm), forceText(force.force_N), color});
+    words_.push_back({far + Eigen::Vector3d(0, 0, kWordGap_mm), forceText(force.force_N), color});
   }
   data_->SetPoints(starts);
   data_->GetPointData()->Initialize();

@@ -21,13 +21,15 @@ struct PlacedForce {
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
 };
 
-/// One arrow a force; the largest has the given length, the others in proportion. A push ends on the surface, a pull
-/// starts there.
+/// One arrow a force, its length in proportion. A push ends on the surface, a pull starts there.
 class ForceArrows {
 public:
   explicit ForceArrows(vtkRenderer& renderer);
 
+  /// The largest has the given length.
   void show(const std::vector<PlacedForce>& forces, double largest_mm, const Color& color);
+  /// Each newton has the given length.
+  void showToScale(const std::vector<PlacedForce>& forces, double mm_per_N, const Color& color);
   /// The forces in words, each at its arrow's free end.
   [[nodiscard]] const std::vector<PlacedText>& words() const { return words_; }
 

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "app/scenes/Palette.h"
+#include "model/SensorDesign.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+class vtkRenderer;
+
+namespace palp {
+
+/// A decoded force on its load area.
+struct LiveArrow {
+  int area = 0;
+  Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
+};
+
+struct LiveSceneOptions {
+  double mm_per_N = 2; ///< of the arrows, the same for all frames
+  bool electrodes = true;
+  Theme theme = Theme::Light;
+  double scale = 1; ///< of text and lines
+};
+
+/// The sensor at rest with the forces decoded just now. Nothing is meshed: the block is its box.
+class LiveScene {
+public:
+  LiveScene();
+  ~LiveScene();
+
+  [[nodiscard]] vtkRenderer* renderer() const;
+  /// The block, its wires and areas; the arrows stay.
+  void showSensor(const SensorDesign& design, const LiveSceneOptions& options);
+  /// Arrows to scale; `stale` draws them grey: the last known, while there are no forces. `lines` stand at the top
+  /// left, the first in bold.
+  void showForces(const std::vector<LiveArrow>& arrows, bool stale, const std::vector<std::string>& lines);
+  void resetCamera(double aspect);
+  void resetCamera(double aspect, const Eigen::Vector3d& direction);
+
+private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+} // namespace palp
