@@ -10,7 +10,10 @@ namespace palp {
 namespace {
 
 OrderedJson scalerJson(const FeatureScaler& scaler) {
-  return {{"scaling", name(scaler.scaling)}, {"offset", toJson(scaler.offset)}, {"factor", toJson(scaler.factor)}};
+  OrderedJson json{
+      {"scaling", name(scaler.scaling)}, {"offset", toJson(scaler.offset)}, {"factor", toJson(scaler.factor)}};
+  if (scaler.rotation.size() > 0) json["rotation"] = toJson(scaler.rotation);
+  return json;
 }
 
 /// A name that nn knows; its refusal becomes one with file and key.
@@ -23,12 +26,15 @@ template <class Named> auto readNamed(const JsonPlace& place, Named&& named, con
 }
 
 FeatureScaler readScaler(const JsonPlace& place) {
-  place.onlyKeys({"scaling", "offset", "factor"});
+  place.onlyKeys({"scaling", "offset", "factor"}, {"rotation"});
   FeatureScaler scaler;
-  scaler.scaling = readNamed(place.at("scaling"), scalingNamed, "raw, minmax, zscore or global");
+  scaler.scaling = readNamed(place.at("scaling"), scalingNamed, "raw, minmax, zscore, global or whiten");
   scaler.offset = readVector(place.at("offset"));
   scaler.factor = readVector(place.at("factor"));
   requireSize(place.at("factor"), scaler.factor.size(), scaler.offset.size(), "entries, as offset has");
+  if (!place.has("rotation")) return scaler;
+  scaler.rotation = readMatrix(place.at("rotation"));
+  requireSize(place.at("rotation"), scaler.rotation.cols(), scaler.offset.size(), "columns, as offset has");
   return scaler;
 }
 
@@ -139,12 +145,12 @@ RbfNetwork readRbf(const JsonPlace& place) {
   network.weights = readMatrix(place.at("weights"));
   if (!place.at("tail").isNull()) network.tail = readMatrix(place.at("tail"));
   network.bias = readVector(place.at("bias"));
-  requireSize(place.at("centers"), network.centers.rows(), network.inputs(), "rows, one an input");
+  requireSize(place.at("centers"), network.centers.rows(), network.scaler.dimensions(), "rows, one a scaled input");
   requireSize(place.at("weights"), network.weights.cols(), network.centers.cols(), "columns, one a centre");
   requireSize(place.at("bias"), network.bias.size(), network.outputs(), "entries, one an output");
   if (network.tail.size() > 0) {
     requireSize(place.at("tail"), network.tail.rows(), network.outputs(), "rows, one an output");
-    requireSize(place.at("tail"), network.tail.cols(), network.inputs(), "columns, one an input");
+    requireSize(place.at("tail"), network.tail.cols(), network.scaler.dimensions(), "columns, one a scaled input");
   }
   return network;
 }

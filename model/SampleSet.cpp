@@ -2,6 +2,8 @@
 
 #include "model/Text.h"
 
+#include <vector>
+
 namespace palp {
 
 std::string difference(const SampleOrigin& a, const SampleOrigin& b) {
@@ -18,6 +20,18 @@ std::string difference(const SampleOrigin& a, const SampleOrigin& b) {
   if (a.surrogate != b.surrogate)
     return differs("kind", a.surrogate ? "surrogate" : "full solves", b.surrogate ? "surrogate" : "full solves");
   return {};
+}
+
+SampleSet areaPart(const SampleSet& set, int area) {
+  std::vector<Eigen::Index> chosen;
+  for (Eigen::Index i = 0; i < set.size(); ++i)
+    if (set.area(i) == area) chosen.push_back(i);
+  SampleSet part = set;
+  part.area = set.area(chosen);
+  part.forces_N = set.forces_N(Eigen::all, chosen);
+  part.displacements_mm = set.displacements_mm(Eigen::all, chosen);
+  part.resistances_ohm = set.resistances_ohm(Eigen::all, chosen);
+  return part;
 }
 
 void append(SampleSet& set, const SampleSet& block) {

@@ -42,6 +42,9 @@ struct SampleSet {
 /// is no difference.
 std::string difference(const SampleOrigin& a, const SampleOrigin& b);
 
+/// The samples on one area alone.
+SampleSet areaPart(const SampleSet& set, int area);
+
 /// Adds the samples of `block` at the end of `set`; an empty `set` becomes the block.
 void append(SampleSet& set, const SampleSet& block);
 

@@ -1,14 +1,27 @@
 #include "nn/FeatureScaler.h"
 
+#include "nn/Lapack.h"
 #include "nn/NetworkError.h"
 
+#include <array>
+#include <cassert>
 #include <cmath>
+#include <utility>
 
 namespace palp {
 namespace {
 
 /// Relative to its size, an input whose range is below this does not vary: the rest is rounding.
 constexpr double noVariation = 1e-14;
+/// Components smaller than this share of the noise carry a hundredth of its variance and less; without noise, those
+/// smaller than the second number against the largest are rounding.
+constexpr double leastOfNoise = 0.1;
+constexpr double leastOfLargest = 1e-10;
+constexpr double defaultPower = 0.5;
+
+constexpr std::array scalingNames{std::pair{Scaling::Raw, "raw"}, std::pair{Scaling::MinMax, "minmax"},
+                                  std::pair{Scaling::ZScore, "zscore"}, std::pair{Scaling::Global, "global"},
+                                  std::pair{Scaling::Whiten, "whiten"}};
 
 double inverseOrZero(double value, double size) {
   return value > noVariation * size && value > 0 ? 1 / value : 0;
@@ -17,27 +30,20 @@ double inverseOrZero(double value, double size) {
 } // namespace
 
 std::string name(Scaling scaling) {
-  switch (scaling) {
-  case Scaling::Raw:
-    return "raw";
-  case Scaling::MinMax:
-    return "minmax";
-  case Scaling::ZScore:
-    return "zscore";
-  case Scaling::Global:
-    break;
-  }
-  return "global";
+  for (const auto& [value, text] : scalingNames)
+    if (value == scaling) return text;
+  return {};
 }
 
 Scaling scalingNamed(const std::string& text) {
-  for (const Scaling scaling : {Scaling::Raw, Scaling::MinMax, Scaling::ZScore, Scaling::Global})
-    if (name(scaling) == text) return scaling;
-  throw NetworkError("scaler '" + text + "': not known, allowed are raw, minmax, zscore and global");
+  for (const auto& [value, known] : scalingNames)
+    if (text == known) return value;
+  throw NetworkError("scaler '" + text + "': not known, allowed are raw, minmax, zscore, global and whiten");
 }
 
 FeatureScaler FeatureScaler::fit(Scaling scaling, const Eigen::Ref<const Eigen::MatrixXd>& samples) {
   if (samples.cols() == 0) throw NetworkError("there is no sample to fit a scaler to; at least 1 is needed");
+  if (scaling == Scaling::Whiten) return whitened(samples, 0, defaultPower);
   FeatureScaler result;
   result.scaling = scaling;
   const Eigen::Index inputs = samples.rows();
@@ -64,11 +70,45 @@ FeatureScaler FeatureScaler::fit(Scaling scaling, const Eigen::Ref<const Eigen::
   return result;
 }
 
+FeatureScaler FeatureScaler::whitened(const Eigen::Ref<const Eigen::MatrixXd>& samples, double relativeNoise,
+                                      double power) {
+  if (samples.cols() == 0) throw NetworkError("there is no sample to fit a scaler to; at least 1 is needed");
+  FeatureScaler result;
+  result.scaling = Scaling::Whiten;
+  result.offset = samples.rowwise().mean();
+  const double count = static_cast<double>(samples.cols());
+  const Eigen::VectorXd size = (samples.cwiseAbs2().rowwise().sum() / count).cwiseSqrt();
+  const Eigen::VectorXd range = samples.rowwise().maxCoeff() - samples.rowwise().minCoeff();
+  result.factor = size.unaryExpr([](double s) { return inverseOrZero(s, 0); });
+  for (Eigen::Index i = 0; i < size.size(); ++i)
+    if (!(range(i) > noVariation * size(i))) result.factor(i) = 0;
+  const lapack::ThinSvd svd = lapack::thinSvd(result.apply(samples));
+  const Eigen::VectorXd deviation = svd.values / std::sqrt(count);
+  const double least = std::max(leastOfNoise * relativeNoise, leastOfLargest * deviation(0));
+  Eigen::Index kept = 0;
+  while (kept < deviation.size() && deviation(kept) > least) ++kept;
+  if (kept == 0) kept = 1; // nothing stands above the noise: the strongest direction stays
+  const Eigen::VectorXd weight = deviation.head(kept).unaryExpr([&](double s) {
+    const double sum = s * s + relativeNoise * relativeNoise;
+    return sum > 0 ? s * std::pow(sum, -(1 + power) / 2) : 0.0;
+  });
+  result.rotation = weight.asDiagonal() * svd.u.leftCols(kept).transpose();
+  result.rotation *= inverseOrZero(result.apply(samples).colwise().norm().maxCoeff(), 0);
+  return result;
+}
+
 Eigen::MatrixXd FeatureScaler::apply(const Eigen::Ref<const Eigen::MatrixXd>& samples) const {
-  return factor.asDiagonal() * (samples.colwise() - offset);
+  const Eigen::MatrixXd scaled = factor.asDiagonal() * (samples.colwise() - offset);
+  return rotation.size() > 0 ? lapack::product(rotation, false, scaled, false) : scaled;
+}
+
+Eigen::MatrixXd FeatureScaler::jacobian() const {
+  if (rotation.size() > 0) return rotation * factor.asDiagonal();
+  return factor.asDiagonal();
 }
 
 Eigen::MatrixXd FeatureScaler::invert(const Eigen::Ref<const Eigen::MatrixXd>& scaled) const {
+  assert(rotation.size() == 0 && "a scaler that leaves components out has no inverse");
   const Eigen::VectorXd width = factor.unaryExpr([](double f) { return f == 0 ? 0.0 : 1 / f; });
   return (width.asDiagonal() * scaled).colwise() + offset;
 }

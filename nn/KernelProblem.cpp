@@ -2,6 +2,7 @@
 
 #include "nn/Basis.h"
 #include "nn/LinearSolve.h"
+#include "nn/NetworkError.h"
 
 #include <algorithm>
 
@@ -22,7 +23,7 @@ Tail affordableTail(Tail wanted, const Eigen::MatrixXd& scaled) {
 
 KernelProblem::KernelProblem(const Eigen::Ref<const Eigen::MatrixXd>& samples,
                              const Eigen::Ref<const Eigen::MatrixXd>& targets, const RbfOptions& options)
-    : options_(options), scaler_(FeatureScaler::fit(options.scaling, samples)), scaled_(scaler_.apply(samples)),
+    : options_(options), scaler_(scalerFor(options, samples)), scaled_(scaler_.apply(samples)),
       distances_(squaredDistances(scaled_, scaled_)), tail_(affordableTail(options.tail, scaled_)),
       space_(scaled_, tail_), targets_(targets), shift_(shiftFor(tail_, targets_)),
       right_(space_.project((targets_.colwise() - shift_).transpose())) {}
@@ -68,7 +69,9 @@ RbfSolution KernelProblem::solve(double spread, double ridge) const {
   return solution;
 }
 
-std::vector<LeaveOneOutResult> KernelProblem::leaveOneOut(double spread, const std::vector<double>& ridges) const {
+std::vector<LeaveOneOutResult> KernelProblem::leaveOneOut(double spread, const std::vector<double>& ridges,
+                                                          const std::stop_token& stop) const {
+  stopIfAsked(stop);
   Eigen::MatrixXd reduced = space_.projectBothSides(kernel(spread));
   if (ridges.size() == 1) return {byInverse(spread, reduced, ridges.front())};
   return byEigen(spread, std::move(reduced), ridges);

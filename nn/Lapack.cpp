@@ -19,6 +19,8 @@ void dtrsm_(const char*, const char*, const char*, const char*, const int*, cons
 void dgeqp3_(const int*, const int*, double*, const int*, int*, double*, double*, const int*, int*);
 void dormqr_(const char*, const char*, const int*, const int*, const int*, const double*, const int*, const double*,
              double*, const int*, double*, const int*, int*);
+void dlarft_(const char*, const char*, const int*, const int*, const double*, const int*, const double*, double*,
+             const int*);
 void dpotrf_(const char*, const int*, double*, const int*, int*);
 void dsyevd_(const char*, const char*, const int*, double*, const int*, double*, double*, const int*, int*, const int*,
              int*);
@@ -94,16 +96,24 @@ double PivotedQr::condition() const {
   return last > 0 ? std::abs(qr_(0, 0)) / last : std::numeric_limits<double>::infinity();
 }
 
-Eigen::MatrixXd PivotedQr::apply(char side, char transpose, Eigen::MatrixXd b) const {
+PivotedQr::BlockReflector PivotedQr::blockReflector() const {
+  const Eigen::Index count = tau_.size();
+  BlockReflector result{qr_.leftCols(count).triangularView<Eigen::UnitLower>(), Eigen::MatrixXd::Zero(count, count)};
+  const int n = size(qr_.rows()), k = size(count), ldv = leading(n), ldt = leading(k);
+  if (k > 0) dlarft_("F", "C", &n, &k, result.v.data(), &ldv, tau_.data(), result.t.data(), &ldt);
+  return result;
+}
+
+Eigen::MatrixXd PivotedQr::applyQTransposed(Eigen::MatrixXd b) const {
   const int m = size(b.rows()), n = size(b.cols()), k = size(tau_.size()), lda = leading(qr_.rows()), query = -1;
   if (m == 0 || n == 0 || k == 0) return b;
   openblas_set_num_threads(1);
   int info = 0;
   double best = 0;
-  dormqr_(&side, &transpose, &m, &n, &k, qr_.data(), &lda, tau_.data(), b.data(), &m, &best, &query, &info);
+  dormqr_("L", "T", &m, &n, &k, qr_.data(), &lda, tau_.data(), b.data(), &m, &best, &query, &info);
   const int workSize = static_cast<int>(best);
   Eigen::VectorXd work(workSize);
-  dormqr_(&side, &transpose, &m, &n, &k, qr_.data(), &lda, tau_.data(), b.data(), &m, work.data(), &workSize, &info);
+  dormqr_("L", "T", &m, &n, &k, qr_.data(), &lda, tau_.data(), b.data(), &m, work.data(), &workSize, &info);
   require(info, "the product with Q");
   return b;
 }
@@ -173,8 +183,11 @@ ThinSvd thinSvd(Eigen::MatrixXd a) {
   return result;
 }
 
-ThinSvd svdOfGram(const Eigen::MatrixXd& a) {
-  const SymmetricEigen eigen = symmetricEigen(gram(a));
+ThinSvd svdOfGram(const Eigen::MatrixXd& a, const std::stop_token& stop) {
+  Eigen::MatrixXd squared = gram(a);
+  stopIfAsked(stop);
+  const SymmetricEigen eigen = symmetricEigen(std::move(squared));
+  stopIfAsked(stop);
   const Eigen::Index all = eigen.values.size();
   Eigen::Index kept = 0;
   while (kept < std::min(all, a.rows()) && eigen.values(all - 1 - kept) > 1e-14 * eigen.values(all - 1)) ++kept;

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <stop_token>
 #include <vector>
 
 namespace palp::lapack {
@@ -23,10 +24,13 @@ public:
   [[nodiscard]] Eigen::Index rank(double rcond) const;
   /// |R_11 / R_kk|, k the smaller size: an estimate of the condition; infinite where R_kk is 0.
   [[nodiscard]] double condition() const;
-  /// Q b, Q^T b, b Q; Q is rows x rows.
-  [[nodiscard]] Eigen::MatrixXd applyQ(Eigen::MatrixXd b) const { return apply('L', 'N', std::move(b)); }
-  [[nodiscard]] Eigen::MatrixXd applyQTransposed(Eigen::MatrixXd b) const { return apply('L', 'T', std::move(b)); }
-  [[nodiscard]] Eigen::MatrixXd applyQFromRight(Eigen::MatrixXd b) const { return apply('R', 'N', std::move(b)); }
+  /// Q^T b; Q is rows x rows.
+  [[nodiscard]] Eigen::MatrixXd applyQTransposed(Eigen::MatrixXd b) const;
+  /// V and T of Q = I - V T V^T (dlarft): for few columns and wide b, products with them are much faster than applyQ.
+  struct BlockReflector {
+    Eigen::MatrixXd v, t;
+  };
+  [[nodiscard]] BlockReflector blockReflector() const;
   /// Basic least-squares solution with the first `rank` pivots from Q^T b; other unknowns are 0.
   [[nodiscard]] Eigen::MatrixXd solveRotated(const Eigen::Ref<const Eigen::MatrixXd>& qTransposedB,
                                              Eigen::Index rank) const;
@@ -35,8 +39,6 @@ public:
   }
 
 private:
-  [[nodiscard]] Eigen::MatrixXd apply(char side, char transpose, Eigen::MatrixXd b) const;
-
   Eigen::MatrixXd qr_;
   Eigen::VectorXd tau_;
   std::vector<int> pivots_; ///< from 1
@@ -62,7 +64,7 @@ struct ThinSvd {
 };
 ThinSvd thinSvd(Eigen::MatrixXd a);
 /// The same through the eigenvalues of a^T a: much faster for many rows, but singular values below 1e-7 of the largest
-/// are left out. For regressors with noise, where they carry nothing.
-ThinSvd svdOfGram(const Eigen::MatrixXd& a);
+/// are left out. For regressors with noise, where they carry nothing. Throws Cancelled between its parts.
+ThinSvd svdOfGram(const Eigen::MatrixXd& a, const std::stop_token& stop = {});
 
 } // namespace palp::lapack

@@ -3,6 +3,7 @@
 #include "nn/Basis.h"
 #include "nn/KMeans.h"
 #include "nn/KernelProblem.h"
+#include "nn/NetworkError.h"
 #include "nn/NoisyCopies.h"
 #include "nn/RidgeFit.h"
 
@@ -28,7 +29,7 @@ Eigen::MatrixXd chooseCenters(const Eigen::MatrixXd& scaled, const RbfOptions& o
 LeastSquaresProblem::LeastSquaresProblem(const Eigen::Ref<const Eigen::MatrixXd>& samples,
                                          const Eigen::Ref<const Eigen::MatrixXd>& targets, const RbfOptions& options,
                                          int noiseCopies)
-    : options_(options), scaler_(FeatureScaler::fit(options.scaling, samples)),
+    : options_(options), scaler_(scalerFor(options, samples)),
       copies_(options.relativeInputNoise > 0 ? noiseCopies : 1),
       rows_(scaler_.apply(noisyCopies(samples, options.relativeInputNoise, static_cast<int>(copies_), options.seed))),
       centers_(chooseCenters(scaler_.apply(samples), options)), distances_(squaredDistances(rows_, centers_)),
@@ -80,15 +81,17 @@ RbfSolution LeastSquaresProblem::solve(double spread, double ridge) const {
   return solution;
 }
 
-std::vector<LeaveOneOutResult> LeastSquaresProblem::leaveOneOut(double spread,
-                                                                const std::vector<double>& ridges) const {
-  const lapack::ThinSvd svd = copies_ > 1 ? lapack::svdOfGram(system(spread)) : lapack::thinSvd(system(spread));
+std::vector<LeaveOneOutResult> LeastSquaresProblem::leaveOneOut(double spread, const std::vector<double>& ridges,
+                                                                const std::stop_token& stop) const {
+  stopIfAsked(stop);
+  const lapack::ThinSvd svd = copies_ > 1 ? lapack::svdOfGram(system(spread), stop) : lapack::thinSvd(system(spread));
   const Eigen::MatrixXd left = space_.embed(svd.u);
   const Eigen::MatrixXd tailBasis = space_.tailBasis();
   const Eigen::MatrixXd rotated = lapack::product(svd.u, true, right_, false);
   const Eigen::MatrixXd whole = space_.embed(right_);
   std::vector<LeaveOneOutResult> results;
   for (const double ridge : ridges) {
+    stopIfAsked(stop);
     const Eigen::VectorXd filter = svd.values.unaryExpr([&](double s) {
       const double scaledRidge = ridge * static_cast<double>(copies_);
       return s > options_.rcond * svd.values(0) ? s * s / (s * s + scaledRidge) : 0.0;

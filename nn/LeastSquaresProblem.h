@@ -14,8 +14,8 @@ public:
   LeastSquaresProblem(const Eigen::Ref<const Eigen::MatrixXd>& samples,
                       const Eigen::Ref<const Eigen::MatrixXd>& targets, const RbfOptions& options, int noiseCopies);
   [[nodiscard]] RbfSolution solve(double spread, double ridge) const override;
-  [[nodiscard]] std::vector<LeaveOneOutResult> leaveOneOut(double spread,
-                                                           const std::vector<double>& ridges) const override;
+  [[nodiscard]] std::vector<LeaveOneOutResult> leaveOneOut(double spread, const std::vector<double>& ridges,
+                                                           const std::stop_token& stop) const override;
   [[nodiscard]] const Eigen::MatrixXd& centers() const override { return centers_; }
   [[nodiscard]] const FeatureScaler& scaler() const override { return scaler_; }
   [[nodiscard]] Tail tail() const override { return tail_; }

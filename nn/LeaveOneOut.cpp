@@ -6,7 +6,9 @@
 #include "nn/SpreadSweep.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory>
 
 namespace palp {
 namespace {
@@ -16,15 +18,15 @@ constexpr int choiceCopies = 4;
 constexpr int gridSpreads = 24;
 constexpr int refinements = 10;
 /// The optimum is flat where there is noise, and each spread costs more.
-constexpr int noisyGridSpreads = 12;
+constexpr int noisyGridSpreads = 6;
+constexpr int choiceRidges = 15;
+constexpr int finalRidges = 29;
+constexpr double firstPower = 0.5;
+constexpr std::array otherPowers{0.25, 0.75};
 
-void stopIfAsked(const std::stop_token& stop) {
-  if (stop.stop_requested()) throw Cancelled();
-}
-
-std::vector<double> ridgesOf(const RbfOptions& options) {
+std::vector<double> ridgesOf(const RbfOptions& options, int count) {
   if (options.ridge) return {*options.ridge};
-  return logarithmicRange(1e-13, 10, 29);
+  return logarithmicRange(1e-13, 10, count);
 }
 
 bool better(const LeaveOneOutResult& a, const LeaveOneOutResult& b) {
@@ -44,7 +46,7 @@ std::vector<double> spreadsFor(const RbfProblem& problem, bool noisy) {
   const Eigen::VectorXd middle = centers.rowwise().mean();
   const double extent = std::sqrt((centers.colwise() - middle).colwise().squaredNorm().maxCoeff());
   if (!(extent > 0)) return {1};
-  return noisy ? logarithmicRange(0.1 * extent, 30 * extent, noisyGridSpreads)
+  return noisy ? logarithmicRange(0.1 * extent, 18 * extent, noisyGridSpreads)
                : logarithmicRange(0.05 * extent, 300 * extent, gridSpreads);
 }
 
@@ -53,10 +55,7 @@ LeaveOneOutResult refined(const RbfProblem& problem, const std::vector<double>& 
                           LeaveOneOutResult best, const std::stop_token& stop) {
   const double golden = (std::sqrt(5.0) - 1) / 2;
   double a = std::log(low), b = std::log(high);
-  const auto at = [&](double logSpread) {
-    stopIfAsked(stop);
-    return bestOf(problem.leaveOneOut(std::exp(logSpread), ridges));
-  };
+  const auto at = [&](double logSpread) { return bestOf(problem.leaveOneOut(std::exp(logSpread), ridges, stop)); };
   LeaveOneOutResult left = at(b - golden * (b - a)), right = at(a + golden * (b - a));
   for (int i = 2; i < refinements; ++i) {
     const bool goLeft = better(left, right);
@@ -75,14 +74,62 @@ LeaveOneOutResult refined(const RbfProblem& problem, const std::vector<double>& 
   return better(last, best) ? last : best;
 }
 
-std::vector<LeaveOneOutResult> onGrid(const RbfProblem& problem, const std::vector<double>& spreads,
-                                      const std::vector<double>& ridges, const std::stop_token& stop) {
-  std::vector<LeaveOneOutResult> results(spreads.size());
-  inParallel(spreads.size(), [&](std::size_t i) {
-    stopIfAsked(stop);
-    results[i] = bestOf(problem.leaveOneOut(spreads[i], ridges));
+/// A problem and a spread to try it at.
+struct Trial {
+  const RbfProblem* problem;
+  double spread;
+};
+
+std::vector<LeaveOneOutResult> tried(const std::vector<Trial>& trials, const std::vector<double>& ridges, int threads,
+                                     const std::stop_token& stop) {
+  std::vector<LeaveOneOutResult> results(trials.size());
+  inParallel(trials.size(), threads, [&](std::size_t i) {
+    results[i] = bestOf(trials[i].problem->leaveOneOut(trials[i].spread, ridges, stop));
   });
   return results;
+}
+
+std::vector<LeaveOneOutResult> onGrid(const RbfProblem& problem, const std::vector<double>& spreads,
+                                      const std::vector<double>& ridges, int threads, const std::stop_token& stop) {
+  std::vector<Trial> trials;
+  for (const double spread : spreads) trials.push_back({&problem, spread});
+  return tried(trials, ridges, threads, stop);
+}
+
+std::size_t indexOfBest(const std::vector<LeaveOneOutResult>& results) {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < results.size(); ++i)
+    if (better(results[i], results[best])) best = i;
+  return best;
+}
+
+/// The half-steps beside the best spread, then the other powers of whitening at that spread and beside it.
+void refineNoisy(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen::Ref<const Eigen::MatrixXd>& targets,
+                 const RbfOptions& options, const RbfProblem& problem, int copies, const std::vector<double>& ridges,
+                 const std::stop_token& stop, SpreadChoice& choice) {
+  const auto& grid = choice.grid;
+  const double step = grid.size() < 2 ? 1 : std::sqrt(grid[1].spread / grid[0].spread);
+  const double middle = choice.overall.spread;
+  for (LeaveOneOutResult& result : onGrid(problem, {middle / step, middle * step}, ridges, options.threads, stop)) {
+    if (better(result, choice.overall)) choice.overall = result;
+    choice.grid.push_back(std::move(result));
+  }
+  if (options.scaling != Scaling::Whiten || options.whitening) return;
+  std::vector<std::unique_ptr<RbfProblem>> others;
+  std::vector<Trial> trials;
+  for (const double power : otherPowers) {
+    RbfOptions changed = options;
+    changed.whitening = power;
+    others.push_back(rbfProblem(samples, targets, changed, copies));
+    for (const double factor : {1 / step, 1.0, step})
+      trials.push_back({others.back().get(), choice.overall.spread * factor});
+  }
+  const std::vector<LeaveOneOutResult> results = tried(trials, ridges, options.threads, stop);
+  for (std::size_t i = 0; i < results.size(); ++i)
+    if (better(results[i], choice.overall)) {
+      choice.overall = results[i];
+      choice.whitening = otherPowers[i / 3];
+    }
 }
 
 } // namespace
@@ -95,7 +142,8 @@ std::vector<LeaveOneOutResult> leaveOneOut(const Eigen::Ref<const Eigen::MatrixX
   for (const double spread : spreads)
     if (!(spread > 0 && spread <= 1e100))
       throw NetworkError("spread: " + std::to_string(spread) + "; allowed is above 0 up to 1e100");
-  return onGrid(*rbfProblem(samples, targets, options, options.noiseCopies), spreads, ridgesOf(options), stop);
+  return onGrid(*rbfProblem(samples, targets, options, options.noiseCopies), spreads, ridgesOf(options, finalRidges),
+                options.threads, stop);
 }
 
 SpreadChoice chooseSpread(const Eigen::Ref<const Eigen::MatrixXd>& samples,
@@ -103,23 +151,25 @@ SpreadChoice chooseSpread(const Eigen::Ref<const Eigen::MatrixXd>& samples,
                           const std::stop_token& stop) {
   requireUsable(samples, targets, options);
   const bool noisy = options.relativeInputNoise > 0;
-  const std::unique_ptr<RbfProblem> problem =
-      rbfProblem(samples, targets, options, std::min(options.noiseCopies, choiceCopies));
+  const int copies = std::min(options.noiseCopies, choiceCopies);
+  const std::unique_ptr<RbfProblem> problem = rbfProblem(samples, targets, options, copies);
   const std::vector<double> spreads = spreadsFor(*problem, noisy);
-  const std::vector<double> ridges = ridgesOf(options);
+  const std::vector<double> ridges = ridgesOf(options, noisy ? choiceRidges : finalRidges);
   SpreadChoice choice;
-  choice.grid = onGrid(*problem, spreads, ridges, stop);
-  std::size_t best = 0;
-  for (std::size_t i = 1; i < spreads.size(); ++i)
-    if (better(choice.grid[i], choice.grid[best])) best = i;
+  choice.whitening = options.whitening.value_or(firstPower);
+  choice.grid = onGrid(*problem, spreads, ridges, options.threads, stop);
+  const std::size_t best = indexOfBest(choice.grid);
+  choice.overall = choice.grid[best];
+  if (noisy)
+    refineNoisy(samples, targets, options, *problem, copies, ridges, stop, choice);
+  else
+    choice.overall = refined(*problem, ridges, spreads[best == 0 ? 0 : best - 1],
+                             spreads[std::min(best + 1, spreads.size() - 1)], choice.grid[best], stop);
   for (Eigen::Index o = 0; o < targets.rows(); ++o) {
     const auto least = std::min_element(choice.grid.begin(), choice.grid.end(),
                                         [o](const auto& a, const auto& b) { return a.rms(o) < b.rms(o); });
     choice.spreadOfEachOutput.push_back(least->spread);
   }
-  choice.overall = noisy ? choice.grid[best]
-                         : refined(*problem, ridges, spreads[best == 0 ? 0 : best - 1],
-                                   spreads[std::min(best + 1, spreads.size() - 1)], choice.grid[best], stop);
   return choice;
 }
 

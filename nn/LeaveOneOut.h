@@ -27,10 +27,12 @@ std::vector<LeaveOneOutResult> leaveOneOut(const Eigen::Ref<const Eigen::MatrixX
                                            const std::vector<double>& spreads, const RbfOptions& options,
                                            const std::stop_token& stop = {});
 
-/// The spread (and ridge, where the options leave it open) with the least leave-one-out score: a logarithmic grid, then
-/// a golden-section refinement around its best point.
+/// The spread (and ridge and whitening, where the options leave them open) with the least leave-one-out score: a
+/// logarithmic grid, then a golden-section refinement around its best point; where there is noise, and each spread
+/// costs more, the half-steps beside it.
 struct SpreadChoice {
   LeaveOneOutResult overall;
+  double whitening = 0;                   ///< Scaling::Whiten: the power
   std::vector<LeaveOneOutResult> grid;    ///< the scores the choice was made from
   std::vector<double> spreadOfEachOutput; ///< the best spread were this the only output
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <stdexcept>
+#include <stop_token>
 
 namespace palp {
 
@@ -13,5 +14,10 @@ struct NetworkError : std::runtime_error {
 struct Cancelled : NetworkError {
   Cancelled() : NetworkError("cancelled") {}
 };
+
+/// Throws Cancelled where it was asked to stop.
+inline void stopIfAsked(const std::stop_token& stop) {
+  if (stop.stop_requested()) throw Cancelled();
+}
 
 } // namespace palp

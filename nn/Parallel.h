@@ -13,9 +13,9 @@
 
 namespace palp {
 
-/// Calls work(0..count-1), each once, from as many threads as there are cores; what it computes must depend on the
-/// index alone. The first exception is thrown on.
-inline void inParallel(std::size_t count, const std::function<void(std::size_t)>& work) {
+/// Calls work(0..count-1), each once, from `threads` threads (0: as many as there are cores); what it computes must
+/// depend on the index alone. The first exception is thrown on.
+inline void inParallel(std::size_t count, int threads, const std::function<void(std::size_t)>& work) {
   std::atomic<std::size_t> next{0};
   std::exception_ptr failure;
   std::mutex guard;
@@ -30,8 +30,8 @@ inline void inParallel(std::size_t count, const std::function<void(std::size_t)>
   };
   {
     std::vector<std::jthread> helpers;
-    const std::size_t threads = std::min<std::size_t>(count, std::max(1U, std::thread::hardware_concurrency()));
-    for (std::size_t t = 1; t < threads; ++t) helpers.emplace_back(loop);
+    const unsigned wanted = threads > 0 ? static_cast<unsigned>(threads) : std::thread::hardware_concurrency();
+    for (std::size_t t = 1; t < std::min<std::size_t>(count, wanted); ++t) helpers.emplace_back(loop);
     loop();
   }
   if (failure) std::rethrow_exception(failure);

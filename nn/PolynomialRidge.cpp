@@ -61,7 +61,8 @@ Eigen::MatrixXd PolynomialRidge::jacobian(const Eigen::Ref<const Eigen::VectorXd
 }
 
 PolynomialFit trainPolynomial(const Eigen::Ref<const Eigen::MatrixXd>& samples,
-                              const Eigen::Ref<const Eigen::MatrixXd>& targets, const PolynomialOptions& options) {
+                              const Eigen::Ref<const Eigen::MatrixXd>& targets, const PolynomialOptions& options,
+                              const std::stop_token& stop) {
   RbfOptions common;
   common.relativeInputNoise = options.relativeInputNoise;
   common.noiseCopies = options.noiseCopies;
@@ -91,7 +92,7 @@ PolynomialFit trainPolynomial(const Eigen::Ref<const Eigen::MatrixXd>& samples,
     features = lapack::product(kernel(rows, model.centers, model.size, options.degree), false, toWeights, false);
   }
   const std::optional<double> ridge = !options.ridge && options.degree == 1 && !noisy ? 0.0 : options.ridge;
-  RidgeFit fit = ridgeFit(features, right, copies, ridge);
+  RidgeFit fit = ridgeFit(features, right, copies, ridge, stop);
   model.weights =
       options.degree == 1 ? Eigen::MatrixXd(fit.x.transpose()) : lapack::product(fit.x, true, toWeights, true);
   model.bias = fit.constant;

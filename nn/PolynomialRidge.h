@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,7 @@ struct PolynomialRidge {
   Eigen::MatrixXd weights; ///< outputs x samples; degree 1: outputs x inputs
   Eigen::VectorXd bias;
 
-  [[nodiscard]] Eigen::Index inputs() const { return scaler.offset.size(); }
+  [[nodiscard]] Eigen::Index inputs() const { return scaler.inputs(); }
   [[nodiscard]] Eigen::Index outputs() const { return bias.size(); }
   /// Outputs x samples.
   [[nodiscard]] Eigen::MatrixXd predict(const Eigen::Ref<const Eigen::MatrixXd>& samples) const;
@@ -50,6 +51,7 @@ struct PolynomialFit {
 
 /// Throws NetworkError for data from which nothing can be made.
 PolynomialFit trainPolynomial(const Eigen::Ref<const Eigen::MatrixXd>& samples,
-                              const Eigen::Ref<const Eigen::MatrixXd>& targets, const PolynomialOptions& options = {});
+                              const Eigen::Ref<const Eigen::MatrixXd>& targets, const PolynomialOptions& options = {},
+                              const std::stop_token& stop = {});
 
 } // namespace palp

@@ -31,41 +31,55 @@ std::vector<double> packed(const Eigen::MatrixXd& m, std::size_t blocks) {
 } // namespace
 
 RbfEvaluator::RbfEvaluator(const RbfNetwork& network)
-    : inputs_(static_cast<std::size_t>(network.inputs())), outputs_(static_cast<std::size_t>(network.outputs())),
+    : inputs_(static_cast<std::size_t>(network.inputs())),
+      dimensions_(static_cast<std::size_t>(network.scaler.dimensions())),
+      outputs_(static_cast<std::size_t>(network.outputs())),
       blocks_((static_cast<std::size_t>(network.centers.cols()) + lanes - 1) / lanes),
       rate_(gaussianRate(network.spread, network.convention)), remainder_(network.form == BasisForm::Remainder),
       offset_(copyOf(network.scaler.offset)), factor_(copyOf(network.scaler.factor)),
+      rotation_(network.scaler.rotation.size() > 0 ? copyOf(network.scaler.jacobian()) : std::vector<double>()),
       centers_(packed(network.centers, blocks_)), weights_(packed(network.weights, blocks_)),
       tail_(copyOf(network.tail)), bias_(copyOf(network.bias)) {}
 
 std::size_t RbfEvaluator::scratchSize() const {
-  return inputs_;
+  return dimensions_;
 }
 
 void RbfEvaluator::scale(const double* sample, double* scaled, double* output) const {
   std::copy(bias_.begin(), bias_.end(), output);
-  for (std::size_t d = 0; d < inputs_; ++d) scaled[d] = (sample[d] - offset_[d]) * factor_[d];
+  if (rotation_.empty())
+    for (std::size_t d = 0; d < inputs_; ++d) scaled[d] = (sample[d] - offset_[d]) * factor_[d];
+  else {
+    std::fill_n(scaled, dimensions_, 0.0);
+    for (std::size_t i = 0; i < inputs_; ++i) {
+      const double shifted = sample[i] - offset_[i];
+      const double* column = rotation_.data() + i * dimensions_;
+      for (std::size_t d = 0; d < dimensions_; ++d) scaled[d] += column[d] * shifted;
+    }
+  }
   if (tail_.empty()) return;
-  for (std::size_t d = 0; d < inputs_; ++d)
+  for (std::size_t d = 0; d < dimensions_; ++d)
     for (std::size_t o = 0; o < outputs_; ++o) output[o] += tail_[d * outputs_ + o] * scaled[d];
 }
 
 void RbfEvaluator::evaluate(std::span<const double> sample, std::span<double> output, std::span<double> scratch) const {
   assert(sample.size() == inputs_ && output.size() == outputs_ && scratch.size() >= scratchSize());
   scale(sample.data(), scratch.data(), output.data());
-  kernels::addGaussians({inputs_, outputs_, blocks_, rate_, remainder_, centers_.data(), weights_.data()},
+  kernels::addGaussians({dimensions_, outputs_, blocks_, rate_, remainder_, centers_.data(), weights_.data()},
                         scratch.data(), output.data());
 }
 
 void RbfEvaluator::evaluate(const Eigen::Ref<const Eigen::MatrixXd>& samples,
                             Eigen::Ref<Eigen::MatrixXd> output) const {
-  const kernels::PackedNetwork network{inputs_, outputs_, blocks_, rate_, remainder_, centers_.data(), weights_.data()};
-  std::vector<double> scaled(together * inputs_), results(together * outputs_);
+  const kernels::PackedNetwork network{dimensions_, outputs_,        blocks_,        rate_,
+                                       remainder_,  centers_.data(), weights_.data()};
+  std::vector<double> scaled(together * dimensions_), results(together * outputs_);
   const Eigen::Index step = static_cast<Eigen::Index>(together);
   for (Eigen::Index first = 0; first < samples.cols(); first += step) {
     const Eigen::Index count = std::min(step, samples.cols() - first);
     for (Eigen::Index s = 0; s < step; ++s) // a last group that is not full repeats its last sample
-      scale(samples.col(first + std::min(s, count - 1)).data(), scaled.data() + s * static_cast<Eigen::Index>(inputs_),
+      scale(samples.col(first + std::min(s, count - 1)).data(),
+            scaled.data() + s * static_cast<Eigen::Index>(dimensions_),
             results.data() + s * static_cast<Eigen::Index>(outputs_));
     kernels::addGaussiansFour(network, scaled.data(), results.data());
     for (Eigen::Index s = 0; s < count; ++s)

@@ -29,14 +29,16 @@ private:
   void scale(const double* sample, double* scaled, double* output) const;
 
   std::size_t inputs_ = 0;
+  std::size_t dimensions_ = 0; ///< of the scaled inputs
   std::size_t outputs_ = 0;
   std::size_t blocks_ = 0;
   double rate_ = 1;
   bool remainder_ = false;
   std::vector<double> offset_, factor_;
-  std::vector<double> centers_; ///< blocks of 16 centres: [block][input][lane]
-  std::vector<double> weights_; ///< [block][output][lane]
-  std::vector<double> tail_;    ///< [input][output]
+  std::vector<double> rotation_; ///< [input][dimension], the factors in it; empty: none
+  std::vector<double> centers_;  ///< blocks of 16 centres: [block][dimension][lane]
+  std::vector<double> weights_;  ///< [block][output][lane]
+  std::vector<double> tail_;     ///< [dimension][output]
   std::vector<double> bias_;
 };
 

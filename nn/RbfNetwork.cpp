@@ -29,10 +29,10 @@ Eigen::MatrixXd RbfNetwork::jacobian(const Eigen::Ref<const Eigen::VectorXd>& sa
   Eigen::MatrixXd phi = squaredDistances(centers, scaled);
   basisInPlace(phi, gamma);
   if (form == BasisForm::Remainder) phi.array() -= 1;                      // d/dt of exp(-t) - 1 + t is 1 - exp(-t)
-  const Eigen::MatrixXd difference = (-centers).colwise() + scaled.col(0); // inputs x centres
+  const Eigen::MatrixXd difference = (-centers).colwise() + scaled.col(0); // scaled inputs x centres
   Eigen::MatrixXd slope = weights * (-2 * gamma * phi.col(0)).asDiagonal() * difference.transpose();
   if (tail.size() > 0) slope += tail;
-  return slope * scaler.factor.asDiagonal();
+  return slope * scaler.jacobian();
 }
 
 } // namespace palp

@@ -16,10 +16,10 @@ struct RbfNetwork {
   SpreadConvention convention = SpreadConvention::Radbas;
   BasisForm form = BasisForm::Gaussian;
   Eigen::MatrixXd weights; ///< outputs x centres
-  Eigen::MatrixXd tail;    ///< outputs x inputs; empty: no linear tail
+  Eigen::MatrixXd tail;    ///< outputs x scaled inputs; empty: no linear tail
   Eigen::VectorXd bias;    ///< outputs; 0 where there is none
 
-  [[nodiscard]] Eigen::Index inputs() const { return scaler.offset.size(); }
+  [[nodiscard]] Eigen::Index inputs() const { return scaler.inputs(); }
   [[nodiscard]] Eigen::Index outputs() const { return weights.rows(); }
   /// Outputs x samples.
   [[nodiscard]] Eigen::MatrixXd predict(const Eigen::Ref<const Eigen::MatrixXd>& samples) const;

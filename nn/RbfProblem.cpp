@@ -44,6 +44,8 @@ void requireUsable(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen
     refuse("spread", *options.spread, "above 0 up to 1e100");
   if (options.ridge && !(*options.ridge >= 0 && *options.ridge <= 1e100))
     refuse("ridge", *options.ridge, "0 up to 1e100");
+  if (options.whitening && !(*options.whitening >= 0 && *options.whitening <= 1))
+    refuse("whitening", *options.whitening, "0 to 1");
   if (options.centerCount < 0) refuse("centers", options.centerCount, "1 or more");
   if (!(options.rcond >= 0 && options.rcond < 1)) refuse("rcond", options.rcond, "0 up to below 1");
   if (!(options.forgetting > 0 && options.forgetting <= 1)) refuse("forgetting", options.forgetting, "above 0 up to 1");
@@ -62,6 +64,11 @@ std::unique_ptr<RbfProblem> rbfProblem(const Eigen::Ref<const Eigen::MatrixXd>& 
   if (oneASample && options.relativeInputNoise == 0 && options.solver != Solver::Recursive)
     return std::make_unique<KernelProblem>(samples, targets, options);
   return std::make_unique<LeastSquaresProblem>(samples, targets, options, noiseCopies);
+}
+
+FeatureScaler scalerFor(const RbfOptions& options, const Eigen::Ref<const Eigen::MatrixXd>& samples) {
+  if (options.scaling != Scaling::Whiten) return FeatureScaler::fit(options.scaling, samples);
+  return FeatureScaler::whitened(samples, options.relativeInputNoise, options.whitening.value_or(0.5));
 }
 
 LeaveOneOutResult summarised(double spread, double ridge, Eigen::MatrixXd residuals, const Eigen::MatrixXd& targets) {

@@ -31,9 +31,9 @@ class RbfProblem {
 public:
   virtual ~RbfProblem() = default;
   [[nodiscard]] virtual RbfSolution solve(double spread, double ridge) const = 0;
-  /// Leave-one-out errors at one spread and each of the ridges.
-  [[nodiscard]] virtual std::vector<LeaveOneOutResult> leaveOneOut(double spread,
-                                                                   const std::vector<double>& ridges) const = 0;
+  /// Leave-one-out errors at one spread and each of the ridges. Throws Cancelled soon after it is asked to stop.
+  [[nodiscard]] virtual std::vector<LeaveOneOutResult> leaveOneOut(double spread, const std::vector<double>& ridges,
+                                                                   const std::stop_token& stop) const = 0;
   [[nodiscard]] virtual const Eigen::MatrixXd& centers() const = 0;
   [[nodiscard]] virtual const FeatureScaler& scaler() const = 0;
   /// Tail in use: `options.tail`, or LinearPenalised where there are too few samples for an exact one.
@@ -45,6 +45,9 @@ public:
 std::unique_ptr<RbfProblem> rbfProblem(const Eigen::Ref<const Eigen::MatrixXd>& samples,
                                        const Eigen::Ref<const Eigen::MatrixXd>& targets, const RbfOptions& options,
                                        int noiseCopies);
+
+/// The scaler that the options describe.
+FeatureScaler scalerFor(const RbfOptions& options, const Eigen::Ref<const Eigen::MatrixXd>& samples);
 
 /// Throws NetworkError for samples, targets or options that make no network.
 void requireUsable(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen::Ref<const Eigen::MatrixXd>& targets,

@@ -19,26 +19,12 @@ constexpr double poorScore = 0.3;
 constexpr std::array solverNames{std::pair{Solver::PivotedQr, "qr"}, std::pair{Solver::Cholesky, "cholesky"},
                                  std::pair{Solver::TruncatedSvd, "svd"}, std::pair{Solver::Recursive, "rls"}};
 
-/// Spread and ridge to train at; what the options leave open is chosen by leave-one-out.
-std::pair<double, double> spreadAndRidge(const Eigen::Ref<const Eigen::MatrixXd>& samples,
-                                         const Eigen::Ref<const Eigen::MatrixXd>& targets, const RbfOptions& options,
-                                         const RbfProblem& problem, const std::stop_token& stop) {
-  if (options.spread && options.ridge) return {*options.spread, *options.ridge};
-  double spread = 0;
-  if (options.spread)
-    spread = *options.spread;
-  else {
-    const SpreadChoice choice = chooseSpread(samples, targets, options, stop);
-    spread = choice.overall.spread;
-  }
-  if (options.ridge) return {spread, *options.ridge};
-  double best = 0, score = 0;
-  for (const LeaveOneOutResult& result : problem.leaveOneOut(spread, logarithmicRange(1e-13, 10, 29)))
-    if (best == 0 || result.score < score) {
-      best = result.ridge;
-      score = result.score;
-    }
-  return {spread, best};
+/// The leave-one-out errors at the best of the ridges.
+LeaveOneOutResult atBestRidge(const RbfProblem& problem, double spread, const std::stop_token& stop) {
+  std::vector<LeaveOneOutResult> results = problem.leaveOneOut(spread, logarithmicRange(1e-13, 10, 29), stop);
+  const auto best =
+      std::min_element(results.begin(), results.end(), [](const auto& a, const auto& b) { return a.score < b.score; });
+  return std::move(*best);
 }
 
 void warn(FitReport& report, const RbfOptions& options, const RbfProblem& problem, Eigen::Index samples) {
@@ -71,11 +57,19 @@ RbfFit trainRbf(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen::R
                 const RbfOptions& options, const std::stop_token& stop) {
   const auto start = std::chrono::steady_clock::now();
   requireUsable(samples, targets, options);
-  const std::unique_ptr<RbfProblem> problem = rbfProblem(samples, targets, options, options.noiseCopies);
-  const auto [spread, ridge] = spreadAndRidge(samples, targets, options, *problem, stop);
-  if (stop.stop_requested()) throw Cancelled();
+  RbfOptions chosen = options;
+  if (!options.spread) {
+    const SpreadChoice choice = chooseSpread(samples, targets, options, stop);
+    chosen.spread = choice.overall.spread;
+    chosen.whitening = choice.whitening;
+  }
+  const double spread = *chosen.spread;
+  const std::unique_ptr<RbfProblem> problem = rbfProblem(samples, targets, chosen, options.noiseCopies);
+  std::optional<LeaveOneOutResult> left;
+  if (!options.ridge) left = atBestRidge(*problem, spread, stop);
+  stopIfAsked(stop);
 
-  RbfSolution solution = problem->solve(spread, ridge);
+  RbfSolution solution = problem->solve(spread, left ? left->ridge : *options.ridge);
   RbfFit fit;
   fit.network = {problem->scaler(),        problem->centers(),      spread,
                  options.convention,       solution.form,           std::move(solution.weights),
@@ -93,14 +87,16 @@ RbfFit trainRbf(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen::R
   report.warnings = std::move(solution.warnings);
   warn(report, options, *problem, samples.cols());
   if (options.leaveOneOut) {
-    const LeaveOneOutResult left = problem->leaveOneOut(spread, {solution.ridge}).front();
-    report.leaveOneOut = left.rms;
-    if (left.score > poorScore)
+    // A solver may have raised the ridge to what double precision can carry.
+    if (!left || std::abs(left->ridge - solution.ridge) > 1e-9 * solution.ridge)
+      left = problem->leaveOneOut(spread, {solution.ridge}, stop).front();
+    report.leaveOneOut = left->rms;
+    if (left->score > poorScore)
       report.warnings.push_back("the leave-one-out error is " +
-                                std::to_string(std::lround(100 * std::min(left.score, 1e6))) +
+                                std::to_string(std::lround(100 * std::min(left->score, 1e6))) +
                                 " % of the targets' deviation: at this spread and ridge the network says little about "
                                 "new samples; train with noise or a ridge, or with more inputs");
-    report.leaveOneOutResiduals = left.residuals;
+    report.leaveOneOutResiduals = std::move(left->residuals);
   }
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return fit;

@@ -36,6 +36,9 @@ enum class Tail {
 
 struct RbfOptions {
   Scaling scaling = Scaling::Global;
+  /// Whiten: the power by which small components are raised; none: 0.25, 0.5 or 0.75 by leave-one-out where spread or
+  /// ridge is chosen so too, else 0.5.
+  std::optional<double> whitening;
   CenterChoice centers = CenterChoice::Samples;
   int centerCount = 0;          ///< KMeans, Random: how many; 0: 600 at most. Samples: all
   std::optional<double> spread; ///< none: by leave-one-out
@@ -52,6 +55,7 @@ struct RbfOptions {
   int noiseCopies = 10;
   bool leaveOneOut = true; ///< report the leave-one-out error (costs about as much as the fit)
   std::uint64_t seed = 1;
+  int threads = 0; ///< 0: as many as there are cores; the result is the same
 };
 
 /// What came out of a fit, and what a reader must know to trust it.

@@ -1,6 +1,7 @@
 #include "nn/RidgeFit.h"
 
 #include "nn/Lapack.h"
+#include "nn/NetworkError.h"
 #include "nn/RbfProblem.h"
 #include "nn/SpreadSweep.h"
 
@@ -25,10 +26,10 @@ Eigen::MatrixXd leftOutErrors(const Eigen::MatrixXd& remainder, const Eigen::Mat
 }
 
 RidgeFit ridgeFit(const Eigen::MatrixXd& a, const Eigen::MatrixXd& y, Eigen::Index copies,
-                  const std::optional<double>& ridge, double rcond) {
+                  const std::optional<double>& ridge, const std::stop_token& stop, double rcond) {
   const Eigen::RowVectorXd meanA = a.colwise().mean(), meanY = y.colwise().mean();
   const Eigen::MatrixXd shifted = a.rowwise() - meanA;
-  const lapack::ThinSvd svd = copies > 1 ? lapack::svdOfGram(shifted) : lapack::thinSvd(shifted);
+  const lapack::ThinSvd svd = copies > 1 ? lapack::svdOfGram(shifted, stop) : lapack::thinSvd(shifted);
   const Eigen::MatrixXd centred = y.rowwise() - meanY;
   const Eigen::MatrixXd rotated = lapack::product(svd.u, true, centred, false);
   const double largest = svd.values.size() == 0 ? 0 : svd.values(0);
@@ -36,6 +37,7 @@ RidgeFit ridgeFit(const Eigen::MatrixXd& a, const Eigen::MatrixXd& y, Eigen::Ind
   const Eigen::MatrixXd targets = y.transpose();
 
   const auto errorsAt = [&](double value) {
+    stopIfAsked(stop);
     const Eigen::VectorXd filter = svd.values.unaryExpr(
         [&](double s) { return s > rcond * largest ? s * s / (s * s + value * largest * largest) : 0.0; });
     const Eigen::MatrixXd remainder = centred - lapack::product(svd.u, false, filter.asDiagonal() * rotated, false);

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include <optional>
+#include <stop_token>
 
 namespace palp {
 
@@ -25,7 +26,7 @@ struct RidgeFit {
 /// `y` is rows x outputs, in groups of `copies` rows a sample. No ridge given: by leave-one-out over 1e-13..10 times
 /// the largest squared singular value.
 RidgeFit ridgeFit(const Eigen::MatrixXd& a, const Eigen::MatrixXd& y, Eigen::Index copies,
-                  const std::optional<double>& ridge, double rcond = 1e-13);
+                  const std::optional<double>& ridge, const std::stop_token& stop = {}, double rcond = 1e-13);
 
 /// Every column `copies` times in a row.
 Eigen::MatrixXd repeatedColumns(const Eigen::MatrixXd& columns, Eigen::Index copies);

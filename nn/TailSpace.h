@@ -35,6 +35,7 @@ private:
   Eigen::Index samples_ = 0;
   Eigen::Index rank_ = 0;
   std::optional<lapack::PivotedQr> qr_;
+  lapack::PivotedQr::BlockReflector q_; ///< of qr_
 };
 
 } // namespace palp

@@ -65,7 +65,8 @@ void print(const std::vector<SweepRow>& rows) {
 }
 
 Exit run(const Arguments& arguments, Session& session) {
-  const TrainOptions options = arguments.train.options();
+  TrainOptions options = arguments.train.options();
+  options.threads = session.threads;
   if (options.decoder != DecoderKind::Rbf)
     throw UsageError("--decoder: '" + arguments.train.decoder +
                      "'; allowed is rbf: the others have no spread to sweep");

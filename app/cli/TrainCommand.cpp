@@ -58,7 +58,8 @@ void print(const Decoder& decoder, const Session& session) {
 }
 
 Exit run(const Arguments& arguments, Session& session) {
-  const TrainOptions options = arguments.train.options();
+  TrainOptions options = arguments.train.options();
+  options.threads = session.threads;
   arguments.output.requireWritable();
   const SampleSet samples = loadSamples(arguments.samples);
   std::optional<SensorDesign> design;

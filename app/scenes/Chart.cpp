@@ -99,18 +99,25 @@ std::array<unsigned char, 4> bytes(const Color& color, double opacity = 1) {
   return {byte(color[0]), byte(color[1]), byte(color[2]), byte(opacity)};
 }
 
+/// Custom marks; positions as the axis has them, logarithms on a logarithmic one.
+void setTicks(vtkAxis& axis, const std::vector<std::pair<double, std::string>>& ticks, bool logarithmic) {
+  vtkNew<vtkDoubleArray> positions;
+  vtkNew<vtkStringArray> labels;
+  for (const auto& [at, text] : ticks) {
+    positions->InsertNextValue(logarithmic ? std::log10(at) : at);
+    labels->InsertNextValue(text);
+  }
+  axis.SetCustomTickPositions(positions, labels);
+}
+
 void setTicks(vtkAxis& axis, const Range& range, bool logarithmic) {
   const std::vector<double> ticks =
       logarithmic ? logTicks(range.low, range.high) : roundTicks(range.low, range.high, 8);
   std::vector<std::string> texts = tickTexts(ticks);
   if (logarithmic) std::transform(ticks.begin(), ticks.end(), texts.begin(), shortText);
-  vtkNew<vtkDoubleArray> positions;
-  vtkNew<vtkStringArray> labels;
-  for (std::size_t k = 0; k < ticks.size(); ++k) {
-    positions->InsertNextValue(logarithmic ? std::log10(ticks[k]) : ticks[k]);
-    labels->InsertNextValue(texts[k]);
-  }
-  axis.SetCustomTickPositions(positions, labels);
+  std::vector<std::pair<double, std::string>> marks;
+  for (std::size_t k = 0; k < ticks.size(); ++k) marks.emplace_back(ticks[k], texts[k]);
+  setTicks(axis, marks, logarithmic);
 }
 
 void setAxis(vtkAxis& axis, const std::string& label, const Range& range, bool logarithmic, const Palette& colors,
@@ -191,6 +198,13 @@ void fillChart(vtkChartXY& chart, const ChartSpec& spec, Theme theme, double sca
   const Range yShown = spec.yRange ? Range{(*spec.yRange)[0], (*spec.yRange)[1]} : padded(y, spec.logY);
   setAxis(*chart.GetAxis(vtkAxis::BOTTOM), spec.xLabel, xShown, spec.logX, colors, scale);
   setAxis(*chart.GetAxis(vtkAxis::LEFT), spec.yLabel, yShown, spec.logY, colors, scale);
+  vtkAxis& top = *chart.GetAxis(vtkAxis::TOP);
+  top.SetVisible(!spec.topTicks.empty());
+  if (!spec.topTicks.empty()) {
+    setAxis(top, spec.topLabel, xShown, spec.logX, colors, scale);
+    top.SetGridVisible(false);
+    setTicks(top, spec.topTicks, spec.logX);
+  }
   chart.SetTitle(spec.title);
   setTextStyle(*chart.GetTitleProperties(), colors.text, 14 * scale, true);
   setLegend(chart, named > 0, colors, scale);

@@ -6,6 +6,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 class vtkChartXY;
@@ -32,7 +33,9 @@ struct ChartSpec {
   bool logX = false;
   bool logY = false;
   std::vector<ChartSeries> series;
-  std::optional<std::array<double, 2>> xRange; ///< else: all the points and a little more
+  std::string topLabel{};                                 ///< a second x axis along the top
+  std::vector<std::pair<double, std::string>> topTicks{}; ///< its marks: x and text; empty: none
+  std::optional<std::array<double, 2>> xRange;            ///< else: all the points and a little more
   std::optional<std::array<double, 2>> yRange;
 };
 

@@ -113,6 +113,8 @@ void drawReportChart(const ReportChart& chart, const std::filesystem::path& png)
   spec.logY = chart.logY;
   for (const ReportCurve& curve : chart.curves)
     spec.series.push_back({curve.name, curve.x, curve.y, style(curve.style), curve.dashed, -1});
+  spec.topLabel = chart.topLabel;
+  spec.topTicks = chart.topTicks;
   const auto range = rangeWithLegend(chart);
   if (range[0] < range[1]) spec.yRange = range;
   writePng(drawChart(spec), png);

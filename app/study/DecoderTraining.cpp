@@ -113,7 +113,7 @@ void DecoderTraining::fitPolynomial(int degree) {
   options.ridge = options_.ridge;
   options.relativeInputNoise = options_.noise;
   options.seed = options_.seed;
-  PolynomialFit fit = trainPolynomial(inputs_, samples_.forces_N, options);
+  PolynomialFit fit = trainPolynomial(inputs_, samples_.forces_N, options, stop_);
   decoder_.report.ridge = fit.ridge;
   decoder_.report.condition = fit.condition;
   decoder_.report.rank = fit.rank;

@@ -59,18 +59,6 @@ FigurePlan figurePlan(const std::string& figure, int rowWires) {
   return plan;
 }
 
-SampleSet areaOf(const SampleSet& set, int area) {
-  std::vector<Eigen::Index> chosen;
-  for (Eigen::Index i = 0; i < set.size(); ++i)
-    if (set.area(i) == area) chosen.push_back(i);
-  SampleSet part = set;
-  part.area = set.area(chosen);
-  part.forces_N = set.forces_N(Eigen::all, chosen);
-  part.displacements_mm = set.displacements_mm(Eigen::all, chosen);
-  part.resistances_ohm = set.resistances_ohm(Eigen::all, chosen);
-  return part;
-}
-
 Eigen::Vector3d median(std::vector<Eigen::Vector3d> values) {
   Eigen::Vector3d result;
   for (int axis = 0; axis < 3; ++axis) {
@@ -90,14 +78,15 @@ template <class Reduce> Eigen::Vector3d medianOf(const std::vector<ProtocolError
 /// Trains, tests on every area and adds the outcome to the row.
 class Experiment {
 public:
-  Experiment(const SensorDesign& design, const ProtocolSamples& samples, ProtocolResult& result)
-      : design_(design), samples_(samples), result_(result) {
-    for (int area = 0; area < design.areas.count(); ++area) tests_.push_back(areaOf(samples.test, area));
+  Experiment(const SensorDesign& design, const ProtocolSamples& samples, int threads, ProtocolResult& result)
+      : design_(design), samples_(samples), threads_(threads), result_(result) {
+    for (int area = 0; area < design.areas.count(); ++area) tests_.push_back(areaPart(samples.test, area));
   }
 
   void run(const FigurePlan& plan, const CurvePlan& curve, ProtocolRow& row, bool trace, const std::stop_token& stop) {
     TrainOptions options = curve.options;
     options.spread = row.spread;
+    options.threads = threads_;
     const Decoder decoder =
         result_.stages.measure("train", [&] { return trainDecoder(samples_.training, &design_, options, stop); });
     row.condition.push_back(decoder.report.condition);
@@ -129,6 +118,7 @@ public:
 private:
   const SensorDesign& design_;
   const ProtocolSamples& samples_;
+  int threads_;
   ProtocolResult& result_;
   std::vector<SampleSet> tests_;
 };
@@ -228,7 +218,7 @@ std::optional<ProtocolResult> runPaperProtocol(const SensorDesign& design, const
         design, options, options.firstSeed + static_cast<std::uint64_t>(repetition), result,
         [&](double share) { report(share * 0.7, "samples"); }, stop);
     if (!made) return {};
-    Experiment experiment(design, *made, result);
+    Experiment experiment(design, *made, options.threads, result);
     std::size_t place = 0;
     for (const FigurePlan& plan : plans)
       for (const CurvePlan& curve : plan.curves) {

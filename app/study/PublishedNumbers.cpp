@@ -6,6 +6,7 @@
 namespace palp {
 
 extern const char* const kPublishedCsv; // made by CMake from resources/published.csv
+extern const char* const kConvergedCsv; // made by CMake from resources/converged.csv
 
 std::vector<PublishedPoint> publishedPoints(const std::string& figure) {
   std::vector<PublishedPoint> points;
@@ -28,6 +29,28 @@ std::vector<PublishedPoint> publishedPoints(const std::string& figure) {
     points.push_back(point);
   }
   return points;
+}
+
+std::vector<PublishedSolution> publishedSolutions() {
+  constexpr Eigen::Index kElectrodes = 10;
+  std::vector<PublishedSolution> solutions;
+  std::istringstream lines(kConvergedCsv);
+  std::string line;
+  std::getline(lines, line); // the heads
+  while (std::getline(lines, line)) {
+    std::istringstream cells(line);
+    PublishedSolution solution;
+    char comma = 0;
+    std::getline(cells, solution.name, ',');
+    cells >> solution.area;
+    for (double& force : solution.force_N) cells >> comma >> force;
+    cells >> comma >> solution.unknowns >> comma >> solution.statedError;
+    solution.displacements_mm.resize(3, kElectrodes);
+    for (double& u : solution.displacements_mm.reshaped()) cells >> comma >> u;
+    assert(cells && "resources/converged.csv has 37 columns");
+    solutions.push_back(std::move(solution));
+  }
+  return solutions;
 }
 
 } // namespace palp

@@ -54,8 +54,10 @@ RbfOptions rbfOptions(const TrainOptions& options, Eigen::Index samples) {
   const bool paper = options.mode == NetworkMode::Paper;
   const bool noisy = options.noise > 0;
   RbfOptions result;
-  result.scaling =
-      options.scaling.value_or(paper && options.input == InputKind::Displacement ? Scaling::MinMax : Scaling::Global);
+  const bool minMax = paper && options.input == InputKind::Displacement;
+  result.scaling = options.scaling.value_or(minMax            ? Scaling::MinMax
+                                            : noisy && !paper ? Scaling::Whiten
+                                                              : Scaling::Global);
   chooseCenters(result, options, samples);
   result.spread = options.spread;
   result.convention = options.convention.value_or(SpreadConvention::Radbas);
@@ -66,6 +68,7 @@ RbfOptions rbfOptions(const TrainOptions& options, Eigen::Index samples) {
   result.forgetting = options.forgetting;
   result.relativeInputNoise = options.noise;
   result.seed = options.seed;
+  result.threads = options.threads;
   return result;
 }
 

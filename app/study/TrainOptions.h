@@ -28,6 +28,7 @@ struct TrainOptions {
   double noise = 0; ///< relative standard deviation of the inputs
   double forgetting = 1;
   std::uint64_t seed = 1;
+  int threads = 0; ///< 0: all cores; the result is the same
 };
 
 /// The one place where a mode becomes options (see PHYSICS.md, the two modes): for `samples` samples.

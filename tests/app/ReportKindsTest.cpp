@@ -81,7 +81,8 @@ TEST_P(EveryReport, RefusesADesignThatCannotBe) {
   EXPECT_THROW(runReport(kind(), request, {}, {}, {}), palp::Error);
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, EveryReport, testing::Values("error-time", "stability", "noise", "layout", "scenes"),
+INSTANTIATE_TEST_SUITE_P(Kinds, EveryReport,
+                         testing::Values("error-time", "stability", "networks", "noise", "layout", "scenes"),
                          [](const auto& tested) {
                            return tested.param == "error-time" ? std::string("errorTime") : tested.param;
                          });

@@ -52,6 +52,21 @@ TEST(NetworkFile, ReadsBackToTheSameBits) {
   EXPECT_EQ(networkText(decoder), networkText(again));
 }
 
+TEST(NetworkFile, KeepsTheRotationOfWhitenedInputs) {
+  const Eigen::MatrixXd samples = Eigen::MatrixXd::Random(6, 20).array() + 100;
+  RbfOptions options;
+  options.scaling = Scaling::Whiten;
+  options.relativeInputNoise = 5e-3; // about the samples' own variation: some components are left out
+  options.spread = 1;
+  Decoder decoder = smallDecoder();
+  decoder.model = trainRbf(samples, Eigen::MatrixXd::Random(3, 20), options).network;
+  const Decoder again = parseNetwork(networkText(decoder), "net.json");
+  EXPECT_EQ(std::get<RbfNetwork>(again.model).predict(samples), std::get<RbfNetwork>(decoder.model).predict(samples));
+  EXPECT_NE(
+      refusal(replaced(networkText(decoder), "\"rotation\":{\"rows\":", "\"rotation\":{\"rows\":1")).find("rotation"),
+      std::string::npos);
+}
+
 TEST(NetworkFile, RefusesWhatItDoesNotKnow) {
   const std::string text = networkText(smallDecoder());
   EXPECT_NE(refusal(replaced(text, "\"mode\"", "\"moed\"")).find("moed"), std::string::npos);

@@ -1,6 +1,7 @@
 #include "nn/RbfTrainer.h"
 
 #include "nn/NetworkError.h"
+#include "nn/NoisyCopies.h"
 #include "nn/PolynomialRidge.h"
 #include "nn/RbfEvaluator.h"
 #include "tests/nn/Touches.h"
@@ -190,6 +191,50 @@ TEST(RbfTrainer, StopsWhenAskedTo) {
   std::stop_source stop;
   stop.request_stop();
   EXPECT_THROW(trainRbf(set.samples, set.targets, {}, stop.get_token()), Cancelled);
+}
+
+/// Inputs of which a small direction tells what a large one does not; noise on all.
+test::Touches hiddenDirection(int count, std::uint64_t seed) {
+  Random random(seed);
+  test::Touches set{Eigen::MatrixXd(8, count), Eigen::MatrixXd(1, count), Eigen::VectorXi::Zero(count)};
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const double large = 2 * random.uniform() - 1, small = 2 * random.uniform() - 1;
+    set.targets(0, i) = std::abs(large) > 0.5 ? std::sin(3 * small) : -std::sin(3 * small);
+    for (int d = 0; d < 8; ++d) set.samples(d, i) = 100 * (1 + 1e-2 * std::cos(d) * large + 2e-4 * std::sin(d) * small);
+  }
+  return set;
+}
+
+TEST(RbfTrainer, WhiteningFindsWhatASmallDirectionTellsUnderNoise) {
+  const test::Touches training = hiddenDirection(300, 1), fresh = hiddenDirection(300, 2);
+  RbfOptions options;
+  options.relativeInputNoise = 2e-6;
+  options.ridge = {};
+  options.tail = Tail::LinearPenalised;
+  options.solver = Solver::Cholesky;
+  const auto error = [&](Scaling scaling) {
+    options.scaling = scaling;
+    const RbfNetwork network = trainRbf(training.samples, training.targets, options).network;
+    const Eigen::MatrixXd noisy = noisyCopies(fresh.samples, options.relativeInputNoise, 1, 9);
+    return std::sqrt((network.predict(noisy) - fresh.targets).squaredNorm() / 300);
+  };
+  EXPECT_LT(error(Scaling::Whiten), 0.7 * error(Scaling::Global));
+}
+
+TEST(RbfTrainer, GivesTheSameBytesAtAnyNumberOfThreads) {
+  const test::Touches set = test::touches(20, 12, 1);
+  for (const double noise : {0.0, 1e-4}) {
+    RbfOptions options;
+    options.relativeInputNoise = noise;
+    options.scaling = noise > 0 ? Scaling::Whiten : Scaling::Global;
+    if (noise > 0) options.ridge = {}, options.tail = Tail::LinearPenalised, options.solver = Solver::Cholesky;
+    options.threads = 1;
+    const RbfFit one = trainRbf(set.samples, set.targets, options);
+    options.threads = 3;
+    const RbfFit three = trainRbf(set.samples, set.targets, options);
+    EXPECT_EQ(one.report.spread, three.report.spread);
+    EXPECT_EQ(one.network.weights, three.network.weights);
+  }
 }
 
 TEST(RbfNetwork, ItsDerivativeAgreesWithDifferences) {

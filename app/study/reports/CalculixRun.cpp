@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <spawn.h>
 #include <sstream>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -93,7 +94,8 @@ CalculixRun runCalculix(const std::string& program, const SensorDesign& design, 
   const pid_t child = start(program, folder.path(), cores);
   int status = 0;
   bool ended = false;
-  while (waitpid(child, &status, WNOHANG) == 0) {
+  struct rusage used {};
+  while (wait4(child, &status, WNOHANG, &used) == 0) {
     if (!ended && (stop.stop_requested() || elapsed() > limit_s)) {
       kill(child, SIGKILL);
       ended = true;
@@ -101,6 +103,7 @@ CalculixRun runCalculix(const std::string& program, const SensorDesign& design, 
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   run.seconds = elapsed();
+  run.peak_MB = static_cast<double>(used.ru_maxrss) / 1024; // Linux counts in KiB
   if (ended) {
     run.failed =
         stop.stop_requested() ? "cancelled" : "ended after " + std::to_string(static_cast<int>(limit_s)) + " s";

@@ -16,6 +16,7 @@ namespace palp {
 struct CalculixRun {
   Eigen::Matrix3Xd displacements_mm; ///< 3 x nodes, with the six digits that its result file has
   double seconds = 0;                ///< wall time of the program, reading and writing its files
+  double peak_MB = 0;                ///< most memory that it held
   std::string failed;                ///< why there is no result; empty where there is one
 };
 

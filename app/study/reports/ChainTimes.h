@@ -2,6 +2,7 @@
 
 #include "app/study/reports/NetworkCheck.h"
 #include "app/study/reports/Report.h"
+#include "app/study/reports/Timing.h"
 
 #include <optional>
 #include <string>
@@ -13,8 +14,8 @@ namespace palp {
 struct DecoderTimes {
   std::string input; ///< clean displacements, or resistances with noise
   std::string what;
-  double training_s = 0;
-  double prediction_us = 0;        ///< a sample
+  Timing training;                 ///< [s]
+  Timing prediction;               ///< [us] a sample
   double error_percentOfRange = 0; ///< root mean square of the three forces
   std::string failed;
 };
@@ -38,8 +39,8 @@ struct SampleTimes {
   double error = 0;   ///< relative, of the electrode displacements, measured against full Newton
 };
 
-std::vector<DecoderTimes> decoderTimes(const SensorDesign& design, const TwoSets& sets, std::uint64_t seed,
-                                       StageLog& stages, const ReportProgress& progress, const std::stop_token& stop);
+std::vector<DecoderTimes> decoderTimes(const ReportRequest& request, const TwoSets& sets, StageLog& stages,
+                                       const ReportProgress& progress, const std::stop_token& stop);
 /// Size of the mesh whose samples chains are tested on.
 inline constexpr double kReferenceSize_mm = 3;
 /// Trained on samples of several meshes and counts, tested on others of the reference mesh.

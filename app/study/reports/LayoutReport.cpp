@@ -294,6 +294,7 @@ private:
     options.decoder = rival.kind;
     options.noise = kNoise;
     options.seed = request_.seed;
+    options.threads = request_.threads;
     const NoisyError error = (rival.areaKnown ? noisyErrorAreaKnown : noisyError)(
         layout.design, sets, options, kNoise, request_.seed, content_.stages, stop_);
     Cells cells{layout.name, rival.name};

@@ -22,18 +22,6 @@ Eigen::Vector3d percentOfRange(const SensorDesign& design, const Eigen::MatrixXd
   return 100 * rms_N.cwiseQuotient(range_N);
 }
 
-SampleSet areaPart(const SampleSet& set, int area) {
-  std::vector<Eigen::Index> chosen;
-  for (Eigen::Index i = 0; i < set.size(); ++i)
-    if (set.area(i) == area) chosen.push_back(i);
-  SampleSet part = set;
-  part.area = set.area(chosen);
-  part.forces_N = set.forces_N(Eigen::all, chosen);
-  part.displacements_mm = set.displacements_mm(Eigen::all, chosen);
-  part.resistances_ohm = set.resistances_ohm(Eigen::all, chosen);
-  return part;
-}
-
 } // namespace
 
 std::optional<TwoSets> twoSets(const SensorDesign& design, const ReportRequest& request, StageLog& stages,

@@ -138,14 +138,16 @@ private:
 
   bool errorsOf(const RowChoice& choice, double share) {
     ReportChart chart{"noise_" + std::to_string(choice.rows.size()),
-                      "Force error against noise, " + choice.name +
-                          "; 8 bits are 1.1e-3, 12 bits 7.0e-5, 16 bits 4.4e-6, 20 bits 2.8e-7",
+                      "Force error against noise, " + choice.name,
                       "Force error, " + choice.name,
-                      "relative noise of R (12 bits = 7e-5, 16 bits = 4.4e-6)",
+                      "relative noise of R",
                       "error, rms of Fx, Fy, Fz [% of range]",
                       true,
                       true,
+                      {},
+                      "bits of an ideal converter whose full scale is R",
                       {}};
+    for (int count = 6; count <= 20; count += 2) chart.topTicks.emplace_back(noiseOfBits(count), std::to_string(count));
     bounds(choice, chart);
     for (const Rival& rival :
          {Rival{"rbf", DecoderKind::Rbf, false, false}, Rival{"rbf, one an area", DecoderKind::Rbf, false, true},
@@ -176,6 +178,7 @@ private:
     options.decoder = rival.kind;
     options.noise = trained;
     options.seed = request_.seed;
+    options.threads = request_.threads;
     const NoisyError error = (rival.areaKnown ? noisyErrorAreaKnown : noisyError)(
         request_.design, *sets_, options, noise, request_.seed, content_.stages, stop_);
     if (error.failed.empty()) return error.rmse_percentOfRange;

@@ -8,6 +8,7 @@
 #include <functional>
 #include <stop_token>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -34,6 +35,8 @@ struct ReportChart {
   bool logX = false;
   bool logY = false;
   std::vector<ReportCurve> curves;
+  std::string topLabel{};                                 ///< a second x axis along the top: what it says
+  std::vector<std::pair<double, std::string>> topTicks{}; ///< and where; empty: none
 };
 
 struct ReportTable {

@@ -2,6 +2,7 @@
 
 #include "app/study/reports/ErrorTimeReport.h"
 #include "app/study/reports/LayoutReport.h"
+#include "app/study/reports/NetworksReport.h"
 #include "app/study/reports/NoiseReport.h"
 #include "app/study/reports/ScenesReport.h"
 #include "app/study/reports/StabilityReport.h"
@@ -14,6 +15,7 @@ const std::vector<ReportComputation>& reportComputations() {
   static const std::vector<ReportComputation> all{
       {"error-time", "error against run time: solver, networks, samples and the whole chain", errorTimeReport},
       {"stability", "extreme cases of the solver, the networks and Eq. (1), and how each came out", stabilityReport},
+      {"networks", "what is asked of the networks, line by line, on fresh forces and all areas", networksReport},
       {"noise", "force error against resistance noise, between the Cramer-Rao bounds", noiseReport},
       {"layout", "what the layout of the electrodes resolves, and a better one", layoutReport},
       {"scenes", "what each scene computes, and that nothing is computed that is not shown", scenesReport},

@@ -3,11 +3,10 @@
 #include "app/study/ReportPage.h"
 #include "app/study/Touch.h"
 #include "app/study/reports/Csv.h"
+#include "app/study/reports/ProcessMemory.h"
 #include "app/study/reports/Timing.h"
 
 #include <array>
-#include <fstream>
-#include <unistd.h>
 
 namespace palp {
 
@@ -31,14 +30,6 @@ std::vector<SceneNeed> scenes() {
 int allowedRuns(Stage stage, const std::string& name) {
   if (name == "mesh") return stage >= Stage::Mesh ? 1 : 0;
   return stage >= Stage::Solution ? 1 : 0;
-}
-
-/// Memory that the process holds [MB].
-double memory_MB() {
-  std::ifstream file("/proc/self/statm");
-  double all = 0, resident = 0;
-  file >> all >> resident;
-  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024.0 * 1024);
 }
 
 /// One event in a scene and what it cost.
@@ -86,9 +77,9 @@ private:
     SceneCost result{scene.name, event, {}, 0, 0, false};
     std::array<int, kStages.size()> before{};
     for (std::size_t s = 0; s < kStages.size(); ++s) before[s] = touch.stages().runs(kStages[s]);
-    const double memoryBefore = memory_MB();
+    const double memoryBefore = heldMemory_MB();
     result.seconds = secondsOf([&] { touch.advance(stage, newton_, {{}, stop_}); });
-    result.memory_MB = memory_MB() - memoryBefore;
+    result.memory_MB = heldMemory_MB() - memoryBefore;
     for (std::size_t s = 0; s < kStages.size(); ++s) {
       result.runs[s] = touch.stages().runs(kStages[s]) - before[s];
       const bool nothingNew = event == "nothing changed";

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/study/PublishedNumbers.h"
 #include "app/study/reports/Report.h"
 #include "app/study/reports/Timing.h"
 #include "model/LoadCase.h"
@@ -29,12 +30,13 @@ struct MeshTimes {
   double size_mm = 0; ///< mean horizontal size
   int dof = 0;
   int elements = 0;
-  double factor_MB = 0; ///< memory of the Cholesky factor
+  double factor_MB = 0;  ///< memory of the Cholesky factor
+  double process_MB = 0; ///< most that the process held during the first run, above what it held before
   Timing meshing, pattern, factorisation, solving;
-  std::vector<double> loadSeconds; ///< median of the nonlinear solve, a load
-  std::vector<double>
-      errors;         ///< relative L2 of the upper electrodes' displacements, a load (the first alone: CalculiX)
-  std::string failed; ///< why there are no numbers; empty where there are
+  std::vector<double> loadSeconds;     ///< median of the nonlinear solve, a load
+  std::vector<double> errors;          ///< relative L2 of the upper electrodes' displacements, a load
+  std::vector<double> publishedErrors; ///< the same of row-wire 4 against another program's solutions
+  std::string failed;                  ///< why there are no numbers; empty where there are
 
   /// Medians of all phases to the first answer.
   [[nodiscard]] double total_s() const;
@@ -43,6 +45,7 @@ struct MeshTimes {
 struct SolverTimes {
   std::vector<JudgedLoad> loads;
   std::vector<MeshTimes> meshes;
+  std::vector<PublishedSolution> published; ///< empty where the design is not the paper's
   std::string deck; ///< of CalculiX, for the paper's mapped mesh and the first load; empty: not installed
 };
 

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "app/study/reports/Report.h"
+
+#include <optional>
+
+namespace palp {
+
+/// What is asked of the networks, each line measured on fresh forces and all areas: errors at the paper's spreads, the
+/// spread chosen by leave-one-out, noise against its bounds, all areas at once, and standard deviations.
+std::optional<ReportContent> networksReport(const ReportRequest& request, const ReportProgress& progress,
+                                            std::stop_token stop);
+
+} // namespace palp
