@@ -108,7 +108,8 @@ void tellAreas(const Decoder& decoder, const LikelihoodInversion& inversion,
   }
 }
 
-/// The error found in training (of the touched area, where it was told) and the inputs' further noise through dF/dx.
+/// The error found in training (of the touched area, where it was told) and the inputs' further noise through dF/dx;
+/// never less than all their noise there, which training averaged over the range.
 void tellDeviations(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixXd>& inputs,
                     const PredictOptions& options, Prediction& result) {
   const double further = furtherNoise(decoder, options);
@@ -122,11 +123,12 @@ void tellDeviations(const Decoder& decoder, const Eigen::Ref<const Eigen::Matrix
                                               ? Eigen::VectorXd(decoder.residual_N.col(result.area(i)))
                                               : Eigen::VectorXd(all.cwiseSqrt());
   }
-  if (further == 0) return;
+  if (options.noise == 0) return;
   for (Eigen::Index i = 0; i < inputs.cols(); ++i) {
     const Eigen::MatrixXd slope = slopeAt(decoder, inputs.col(i)) * inputs.col(i).asDiagonal();
-    result.standardDeviation_N.col(i) =
-        (result.standardDeviation_N.col(i).cwiseAbs2() + further * slope.rowwise().squaredNorm()).cwiseSqrt();
+    const Eigen::VectorXd square = slope.rowwise().squaredNorm();
+    const Eigen::VectorXd found = result.standardDeviation_N.col(i).cwiseAbs2() + further * square;
+    result.standardDeviation_N.col(i) = found.cwiseMax(options.noise * options.noise * square).cwiseSqrt();
   }
 }
 

@@ -17,6 +17,7 @@ constexpr double kHideBelow = 4;
 constexpr int kMostTareFrames = 100000;
 constexpr double kSameNoise = 0.1;  // nearer than this is the same noise
 constexpr double kMostNoise = 0.99; // relative
+constexpr double kMoving = 2.5;     // times the noise of a frame: the sensor moved during the tare
 constexpr double kRestReach = 4;    // deviations from rest, at which half of its error counts
 
 std::string sizes(int rows, int columns) {
@@ -78,7 +79,7 @@ void ForceDecoder::setNoise(double noise) {
 /// Without a tare nobody has said what the board's noise is.
 void ForceDecoder::followNoise(const Eigen::VectorXd& raw_ohm) {
   meter_.add(raw_ohm);
-  if (!tared_ && meter_.ready()) setNoise(std::max(decoder_->noise, meter_.noise()));
+  if (!tared_ && meter_.noise() > 0) setNoise(std::max(decoder_->noise, meter_.noise()));
 }
 
 std::string ForceDecoder::tareProblem() const {
@@ -130,15 +131,17 @@ void ForceDecoder::addToTare(const Eigen::MatrixXd& raw_ohm) {
   tareSquares_ += relative.cwiseAbs2();
   if (--tareLeft_ > 0) return;
   const Eigen::ArrayXXd mean = tareSum_.array() / tareFrames_;
-  const Eigen::ArrayXXd boardRest_ohm = tareFirst_.array() * (1 + mean);
-  factor_ = (boardRest_ohm > 0).select(rest_ohm_.array() / boardRest_ohm, 1.0);
-  tared_ = true;
-  predictor_.reset(); // also where the noise is the same: the mean has its own
   double noise = noise_;
   if (tareFrames_ > 1) {
     const Eigen::MatrixXd variance = (tareSquares_.array() / tareFrames_ - mean.square()).cwiseMax(0.0);
     noise = std::sqrt(inputOf(variance, decoder_->input).mean() * tareFrames_ / (tareFrames_ - 1));
+    if (meter_.ready() && noise > kMoving * meter_.noise()) return startTare(tareFrames_);
   }
+  const Eigen::ArrayXXd boardRest_ohm = tareFirst_.array() * (1 + mean);
+  factor_ = (boardRest_ohm > 0).select(rest_ohm_.array() / boardRest_ohm, 1.0);
+  tared_ = true;
+  ++tares_;
+  predictor_.reset(); // also where the noise is the same: the mean has its own
   setNoise(noise);
 }
 

@@ -35,10 +35,15 @@ public:
 
   [[nodiscard]] DecodedForces decode(const BoardFrame& frame);
 
-  /// Averages the next frames that are whole; throws Error where the design at rest is not known.
+  /// Averages the next frames that are whole, and begins anew while the sensor moves; throws Error where the design at
+  /// rest is not known.
   void startTare(int frames);
   [[nodiscard]] bool taring() const { return tareLeft_ > 0; }
   [[nodiscard]] bool tared() const { return tared_; }
+  /// How many were finished.
+  [[nodiscard]] int tares() const { return tares_; }
+  /// What the board reads at rest, by the tare, row-wires x column-wires [ohm].
+  [[nodiscard]] Eigen::MatrixXd boardRest_ohm() const { return rest_ohm_.cwiseQuotient(factor_); }
   void clearTare();
   /// Why tare cannot be; empty where it can.
   [[nodiscard]] std::string tareProblem() const;
@@ -67,6 +72,7 @@ private:
   Eigen::MatrixXd tareFirst_, tareSum_, tareSquares_;
   int tareFrames_ = 0;
   int tareLeft_ = 0;
+  int tares_ = 0;
   bool tared_ = false;
   double noise_ = 0;
   std::vector<bool> shown_;

@@ -158,8 +158,12 @@ void LiveWorker::takeFrame(const BoardFrame& frame) {
   auto live = std::make_shared<LiveFrame>();
   live->frame = frame;
   live->faults = wireFaults(frame);
-  if (decoder_) live->forces = decoder_->decode(frame);
   rest_.add(frame);
+  if (decoder_) {
+    const int before = decoder_->tares();
+    live->forces = decoder_->decode(frame);
+    if (decoder_->tares() != before) rest_.setTare(decoder_->boardRest_ohm());
+  }
   live->change = rest_.change(frame);
   if (frame.restarted) latency_.restart();
   // What waited in the source before it was handed over counts too; a recording's times are its own.
@@ -221,8 +225,7 @@ void LiveWorker::makeDecoder() {
 
 void LiveWorker::tare(int frames) {
   if (frames < 1) return;
-  rest_.startTare(frames);
-  if (!decoder_) return;
+  if (!decoder_) return rest_.startTare(frames);
   try {
     decoder_->startTare(frames);
   } catch (const Error& refused) {

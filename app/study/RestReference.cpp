@@ -15,6 +15,11 @@ void RestReference::startTare(int frames) {
   sum_ohm_.resize(0, 0);
 }
 
+void RestReference::setTare(Eigen::MatrixXd rest_ohm) {
+  tareLeft_ = 0;
+  tared_ohm_ = std::move(rest_ohm);
+}
+
 void RestReference::clearTare() {
   tareLeft_ = 0;
   tared_ohm_.resize(0, 0);

@@ -14,6 +14,8 @@ public:
   void reset(Eigen::MatrixXd design_ohm);
   /// Averages each reading over the next frames that hold it.
   void startTare(int frames);
+  /// Known from elsewhere.
+  void setTare(Eigen::MatrixXd rest_ohm);
   void clearTare();
   void add(const BoardFrame& frame);
 
