@@ -27,9 +27,7 @@ Exit run(const MeshArguments& arguments, Session& session) {
   arguments.output.requireWritable();
   LoadCase load;
   if (deck) load = arguments.loads.loadCase(design);
-  MeshOptions meshOptions = arguments.mesh.options();
-  meshOptions.discs = fineDiscs(load);
-  Touch touch(design, load, meshOptions);
+  Touch touch(design, load, arguments.mesh.options());
   touch.advance(Stage::Mesh);
   session.stages.add(touch.stages());
   const Mesh& mesh = *touch.mesh();

@@ -38,9 +38,7 @@ Exit run(const RenderArguments& arguments, Session& session) {
   if (arguments.output.path.extension() != ".png")
     throw UsageError("--output: '" + arguments.output.path.string() + "'; allowed is a name that ends in .png");
   arguments.output.requireWritable();
-  MeshOptions mesh = arguments.mesh.options();
-  mesh.discs = fineDiscs(load);
-  Touch touch(design, load, mesh);
+  Touch touch(design, load, arguments.mesh.options());
   NewtonOptions options;
   options.threads = session.threads;
   const bool converged = touch.advance(Stage::Displacements, options, {{}, session.stop});

@@ -12,7 +12,7 @@ bool sameMesh(const SensorDesign& a, const SensorDesign& b) {
 } // namespace
 
 Touch::Touch(SensorDesign design, LoadCase load, MeshOptions meshOptions)
-    : design_(std::move(design)), load_(std::move(load)), meshOptions_(meshOptions) {}
+    : design_(std::move(design)), load_(std::move(load)), meshOptions_(std::move(meshOptions)) {}
 
 void Touch::setDesign(const SensorDesign& design) {
   if (design == design_) return;
@@ -23,14 +23,21 @@ void Touch::setDesign(const SensorDesign& design) {
 
 void Touch::setLoad(const LoadCase& load) {
   if (load == load_) return;
-  dropFrom(Stage::Solution);
+  const MeshOptions before = meshing();
   load_ = load;
+  dropFrom(meshing() == before ? Stage::Solution : Stage::Mesh);
 }
 
 void Touch::setMeshOptions(const MeshOptions& options) {
   if (options == meshOptions_) return;
   dropFrom(Stage::Mesh);
   meshOptions_ = options;
+}
+
+MeshOptions Touch::meshing() const {
+  MeshOptions options = meshOptions_;
+  options.discs = options.mapped ? std::vector<FineDisc>{} : fineDiscs(load_);
+  return options;
 }
 
 void Touch::setMesh(Mesh mesh) {
@@ -41,7 +48,7 @@ void Touch::setMesh(Mesh mesh) {
 bool Touch::advance(Stage target, const NewtonOptions& options, const NewtonObserver& observer) {
   requireValid(design_);
   if (target >= Stage::Mesh && !mesh_)
-    mesh_ = stages_.measure("mesh", [&] { return std::make_shared<const Mesh>(sensorMesh(design_, meshOptions_)); });
+    mesh_ = stages_.measure("mesh", [&] { return std::make_shared<const Mesh>(sensorMesh(design_, meshing())); });
   if (target >= Stage::Solution && !solution_) {
     if (!problem_)
       problem_ =

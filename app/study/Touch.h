@@ -15,7 +15,8 @@ namespace palp {
 /// How far along the chain from the design to the resistances; each needs those before it.
 enum class Stage { Design, Mesh, Solution, Displacements, Resistances };
 
-/// One touch, followed the whole way and no farther than asked: a change drops what comes after it. Copies are cheap
+/// One touch, followed the whole way and no farther than asked: a change drops what comes after it. The mesh is finer
+/// at the rims of the load's discs. Copies are cheap
 /// (results are shared and never changed), so that a background job takes a copy, advances it and hands it back.
 class Touch {
 public:
@@ -46,6 +47,8 @@ public:
 
 private:
   void dropFrom(Stage stage);
+  /// The options with the load's discs in place of theirs.
+  [[nodiscard]] MeshOptions meshing() const;
 
   SensorDesign design_;
   LoadCase load_;

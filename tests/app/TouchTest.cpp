@@ -52,6 +52,23 @@ TEST(Touch, AnotherLoadKeepsTheMeshAndTheProblem) {
   EXPECT_EQ(touch.stages().runs("solve"), 2);
 }
 
+TEST(Touch, AnotherDiscNeedsAnotherMeshAndAnotherForceOnItDoesNot) {
+  palp::LoadCase load;
+  load.patches.push_back({{12, 9}, 1.5, {0, 0, -1}});
+  Touch touch(palp::paperDesign(), load, {.meshSize_mm = 7, .mapped = {}});
+  touch.advance(Stage::Mesh);
+  const int nodes = touch.mesh()->nodeCount();
+  load.patches[0].force_N.z() = -2;
+  touch.setLoad(load);
+  EXPECT_EQ(touch.reached(), Stage::Mesh);
+  load.patches[0].centre_mm.x() = 20;
+  touch.setLoad(load);
+  EXPECT_EQ(touch.reached(), Stage::Design);
+  touch.setLoad({}); // nothing to be fine for
+  touch.advance(Stage::Mesh);
+  EXPECT_LT(touch.mesh()->nodeCount(), nodes);
+}
+
 TEST(Touch, AnotherMaterialKeepsTheMesh) {
   Touch touch = coarseTouch();
   touch.advance(Stage::Resistances);
