@@ -52,8 +52,8 @@ private:
 } // namespace
 
 BatchEngine::BatchEngine(const HyperelasticProblem& problem, std::shared_ptr<const RestTangent> rest, double tolerance,
-                         int threads)
-    : problem_(problem), rest_(std::move(rest)), model_(problem.parts(), *rest_),
+                         int threads, const std::stop_token& stop)
+    : problem_(problem), rest_(std::move(rest)), model_(problem.parts(), *rest_, threads, stop),
       polynomial_(problem.design().forceRange, predictorDegree),
       terms_((polynomial_.terms() + lanes - 1) / lanes * lanes), predictorTolerance_(fitShare * tolerance),
       threads_(threads) {
@@ -128,7 +128,7 @@ std::optional<AreaPredictor> BatchEngine::fitPredictor(int area, const std::stop
   watch.active.fill(true);
   std::array<double, groupLanes> worst{};
   for (int i = 0; watch.anyActive() && !stop.stop_requested(); ++i) {
-    group->iterate(watch.active, watch.change);
+    group->iterate(watch.active, watch.change, stop);
     const auto wasActive = watch.active;
     watch.judge(i);
     for (int lane = 0; lane < groupLanes; ++lane)
@@ -225,7 +225,7 @@ void BatchEngine::solveGroup(std::span<const Block> blocks, double tolerance, st
   LaneWatch watch(tolerance, contraction);
   watch.active = used;
   for (int i = 0; watch.anyActive() && !stop.stop_requested(); ++i) {
-    group->iterate(watch.active, watch.change);
+    group->iterate(watch.active, watch.change, stop);
     watch.judge(i);
   }
   if (!stop.stop_requested()) {

@@ -12,7 +12,11 @@ namespace palp {
 namespace {
 
 constexpr std::size_t loadsACheck = 350;     // one load in so many is measured against full Newton, at least one a call
+constexpr int surrogateChecks = 3;           // of surrogates, whose error their fits have measured, in all calls
 constexpr double fullNewtonResidual = 1e-11; // of the solves that answers are checked against
+
+/// How an answer was found.
+enum class Way { Surrogate, Iteration, FullNewton };
 
 } // namespace
 
@@ -23,6 +27,7 @@ struct BatchSolver::State {
   std::vector<std::optional<AreaSurrogate>> surrogates;
   std::size_t fullSolves = 0;
   double measuredError = 0;
+  int surrogatesChecked = 0;
 
   State(const HyperelasticProblem& p, BatchOptions o) : problem(p), options(o), surrogates(p.design().areas.count()) {}
 
@@ -37,8 +42,9 @@ struct BatchSolver::State {
     if (engine) return true;
     auto rest = problem.parts().restTangent(options.threads, stop);
     if (!rest || stop.stop_requested()) return false;
-    engine = std::make_unique<BatchEngine>(problem, std::move(rest), options.relativeTolerance, options.threads);
-    return true;
+    engine = std::make_unique<BatchEngine>(problem, std::move(rest), options.relativeTolerance, options.threads, stop);
+    if (stop.stop_requested()) engine.reset(); // perhaps incomplete
+    return engine != nullptr;
   }
 
   /// Full Newton for one load, with all threads. Empty: stopped.
@@ -56,11 +62,12 @@ struct BatchSolver::State {
 
   /// Measures some answers of this call, spread over it, against full Newton; false: stopped.
   bool check(std::span<const LoadCase> loads, const std::vector<BatchEngine::Answer>& answers,
-             const std::vector<char>& isFull, const std::stop_token& stop) {
+             const std::vector<Way>& ways, const std::stop_token& stop) {
     const std::size_t count = std::max<std::size_t>(1, loads.size() / loadsACheck);
     for (std::size_t c = 0; c < count; ++c) {
       const std::size_t i = (2 * c + 1) * loads.size() / (2 * count);
-      if (isFull[i]) continue;
+      if (ways[i] == Way::FullNewton) continue;
+      if (ways[i] == Way::Surrogate && surrogatesChecked++ >= surrogateChecks) continue;
       const auto full = fullNewton(loads[i], i, stop);
       if (!full) return false;
       measuredError = std::max(measuredError, relativeDifference(*answers[i], *full));
@@ -68,9 +75,22 @@ struct BatchSolver::State {
     return true;
   }
 
+  bool fitSurrogate(int area, const std::stop_token& stop);
   bool fromSurrogates(std::span<const LoadCase> loads, std::vector<BatchEngine::Answer>& answers,
                       const std::stop_token& stop);
 };
+
+/// Without a surrogate afterwards: the area has none, as one of the fit's loads has no solution. False: stopped.
+bool BatchSolver::State::fitSurrogate(int area, const std::stop_token& stop) {
+  if (surrogates[area]) return true;
+  surrogates[area] = AreaSurrogate::fit(*engine, problem.design(), area, options.relativeTolerance, stop);
+  if (stop.stop_requested()) {
+    surrogates[area].reset();
+    return false;
+  }
+  if (surrogates[area]) measuredError = std::max(measuredError, surrogates[area]->error());
+  return true;
+}
 
 /// Answers the loads on one area within the force range; false: stopped.
 bool BatchSolver::State::fromSurrogates(std::span<const LoadCase> loads, std::vector<BatchEngine::Answer>& answers,
@@ -83,11 +103,8 @@ bool BatchSolver::State::fromSurrogates(std::span<const LoadCase> loads, std::ve
   for (std::size_t area = 0; area < byArea.size(); ++area) {
     const std::vector<std::size_t>& indices = byArea[area];
     if (indices.empty()) continue;
-    if (!surrogates[area])
-      surrogates[area] = AreaSurrogate::fit(*engine, design, static_cast<int>(area), options.relativeTolerance, stop);
-    if (stop.stop_requested()) return false;
+    if (!fitSurrogate(static_cast<int>(area), stop)) return false;
     if (!surrogates[area]) continue;
-    measuredError = std::max(measuredError, surrogates[area]->error());
     forChunks(static_cast<int>(indices.size()), lanes, options.threads, [&](int begin, int end) {
       if (stop.stop_requested()) return;
       std::vector<Eigen::Vector3d> forces;
@@ -111,10 +128,12 @@ std::vector<ElectrodeDisplacements> BatchSolver::solve(std::span<const LoadCase>
   if (loads.empty() || !s.prepare(stop)) return {};
   std::vector<BatchEngine::Answer> answers(loads.size());
   if (s.options.surrogate && !s.fromSurrogates(loads, answers, stop)) return {};
+  std::vector<Way> ways(loads.size(), Way::Surrogate);
   std::vector<LoadCase> rest;
   std::vector<std::size_t> restIndices;
   for (std::size_t i = 0; i < loads.size(); ++i)
     if (!answers[i]) {
+      ways[i] = Way::Iteration;
       rest.push_back(loads[i]);
       restIndices.push_back(i);
     }
@@ -127,17 +146,28 @@ std::vector<ElectrodeDisplacements> BatchSolver::solve(std::span<const LoadCase>
   std::vector<BatchEngine::Answer> solved = s.engine->solve(rest, s.options.relativeTolerance, report, stop);
   if (stop.stop_requested()) return {};
   for (std::size_t k = 0; k < rest.size(); ++k) answers[restIndices[k]] = std::move(solved[k]);
-  std::vector<char> isFull(loads.size());
   for (std::size_t i = 0; i < loads.size(); ++i)
     if (!answers[i]) {
-      isFull[i] = 1;
+      ways[i] = Way::FullNewton;
       answers[i] = s.fullNewton(loads[i], i, stop);
       if (!answers[i]) return {};
     }
-  if (!s.check(loads, answers, isFull, stop)) return {};
+  if (!s.check(loads, answers, ways, stop)) return {};
   std::vector<ElectrodeDisplacements> all;
   for (auto& answer : answers) all.push_back(std::move(*answer));
   return all;
+}
+
+bool BatchSolver::fitSurrogates(std::span<const int> areas, const std::stop_token& stop) {
+  if (!state_->prepare(stop)) return false;
+  return std::all_of(areas.begin(), areas.end(), [&](int area) { return state_->fitSurrogate(area, stop); });
+}
+
+double BatchSolver::surrogateError() const {
+  double error = 0;
+  for (const auto& surrogate : state_->surrogates)
+    if (surrogate) error = std::max(error, surrogate->error());
+  return error;
 }
 
 std::size_t BatchSolver::solves() const {

@@ -31,6 +31,11 @@ public:
                                                           const std::function<void(std::size_t)>& progress = {},
                                                           std::stop_token stop = {});
 
+  /// Fits the surrogates of these areas now instead of at their first load; false: stopped.
+  bool fitSurrogates(std::span<const int> areas, const std::stop_token& stop = {});
+  /// Largest error of the surrogates fitted so far, on loads kept from their fits.
+  [[nodiscard]] double surrogateError() const;
+
   /// Nonlinear solves done so far (predictor fits, corrections and fallbacks).
   [[nodiscard]] std::size_t solves() const;
   /// Largest relative error of the electrode displacements against full Newton, on the share of loads checked so far.

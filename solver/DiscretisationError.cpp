@@ -15,7 +15,8 @@ namespace {
 constexpr double coarserBy = 1.3; // the plain difference to such a mesh lies near the finer one's error
 constexpr double order = 1.3;     // of the error's fall with the size, between the singular edges' and the element's
 constexpr double smallestRefinement = 1.15;
-constexpr double clearlyFewer = 0.65; // 1.3^-3 is 0.46; grids have whole numbers of cells
+constexpr double clearlyFewer = 0.65;  // 1.3^-3 is 0.46; grids have whole numbers of cells
+constexpr double twinTolerance = 1e-4; // far below any difference between meshes
 constexpr int mostCoarsenings = 4;
 constexpr int mostRefinements = 8;
 constexpr double mostDof = 250000; // what 24 GB hold with the factor
@@ -33,10 +34,6 @@ double difference(const HyperelasticProblem& fine, const Solution& fineSolution,
   const double norm = u.norm();
   return norm > 0 ? (u - coarse.electrodes(coarseSolution.state()).upper_mm).norm() / norm : 0;
 }
-
-} // namespace
-
-namespace {
 
 /// The problem on a mesh at least 1.3 times coarser, with clearly fewer unknowns; its electrodes are no nodes, which
 /// would hold the mesh fine.
@@ -59,7 +56,7 @@ double scaleOfDifference(const HyperelasticProblem& problem, const HyperelasticP
 } // namespace
 
 DiscretisationError discretisationError(const HyperelasticProblem& problem, const LoadCase& load,
-                                        const Solution& solution, std::stop_token stop) {
+                                        const Solution& solution, std::stop_token stop, int threads) {
   const bool graded = problem.mesh().size_mm > 0;
   const HyperelasticProblem other =
       graded ? coarserTwin(problem, load)
@@ -67,13 +64,15 @@ DiscretisationError discretisationError(const HyperelasticProblem& problem, cons
                    problem.design(),
                    sensorMesh(problem.design(), {.meshSize_mm = {}, .mapped = {}, .discs = fineDiscs(load)}));
   const Solution reference =
-      other.solve(scaled(load, solution.state().loadFraction), {}, {.step = {}, .stop = std::move(stop)});
+      other.solve(scaled(load, solution.state().loadFraction), {.relativeTolerance = twinTolerance, .threads = threads},
+                  {.step = {}, .stop = std::move(stop)});
   const double scale = graded ? scaleOfDifference(problem, other) : 1;
   return {scale * difference(problem, solution, other, reference),
           graded ? "difference to a mesh 1.3 times coarser" : "difference to quadratic tetrahedra on the default mesh"};
 }
 
-Mesh meshForAccuracy(const SensorDesign& design, const LoadCase& load, double accuracy, std::stop_token stop) {
+Mesh meshForAccuracy(const SensorDesign& design, const LoadCase& load, double accuracy, std::stop_token stop,
+                     int threads) {
   if (!(accuracy > 0 && accuracy < 1))
     throw DesignError("accuracy " + text(accuracy) + "; allowed is a relative error between 0 and 1");
   MeshOptions options{.meshSize_mm = 1.5 * standardMeshSize_mm(design), .mapped = {}, .discs = fineDiscs(load)};
@@ -82,9 +81,9 @@ Mesh meshForAccuracy(const SensorDesign& design, const LoadCase& load, double ac
     if (problem.dof() > mostDof || refinement == mostRefinements)
       throw DesignError("accuracy " + text(accuracy) + " is out of reach: it needs a mesh of " +
                         std::to_string(problem.dof()) + " unknowns or more, allowed are " + text(mostDof));
-    const Solution solution = problem.solve(load, {}, {.step = {}, .stop = stop});
+    const Solution solution = problem.solve(load, {.threads = threads}, {.step = {}, .stop = stop});
     if (!solution.converged) return problem.mesh();
-    const double error = discretisationError(problem, load, solution, stop).relative;
+    const double error = discretisationError(problem, load, solution, stop, threads).relative;
     if (error <= accuracy || stop.stop_requested()) return problem.mesh();
     *options.meshSize_mm /= std::clamp(std::pow(1.1 * error / accuracy, 1 / order), smallestRefinement, 2.);
   }

@@ -11,6 +11,7 @@ namespace palp {
 /// Mesh whose discretisation error under the load (relative L2 of the upper electrodes' displacements) is estimated to
 /// be at most `accuracy`: meshes and solves until two successive meshes differ by no more. Stopped, or where the load
 /// has no solution: the mesh reached so far. Throws DesignError where the accuracy is out of reach.
-Mesh meshForAccuracy(const SensorDesign& design, const LoadCase& load, double accuracy, std::stop_token stop = {});
+Mesh meshForAccuracy(const SensorDesign& design, const LoadCase& load, double accuracy, std::stop_token stop = {},
+                     int threads = 0);
 
 } // namespace palp

@@ -3,6 +3,10 @@
 #include "model/Mesh.h"
 #include "solver/LaneKernels.h"
 
+#include <algorithm>
+#include <cstdlib>
+#include <string_view>
+
 namespace palp {
 
 namespace baseline {
@@ -23,21 +27,47 @@ extern const LaneKernels laneKernelSet;
 } // namespace avx512
 #endif
 
+namespace {
+
+enum class InstructionSet { Baseline, Avx2, Avx512 };
+
+InstructionSet widest() {
+#ifdef PALP_WIDE_KERNELS
+  if (__builtin_cpu_supports("x86-64-v4")) return InstructionSet::Avx512;
+  if (__builtin_cpu_supports("x86-64-v3")) return InstructionSet::Avx2;
+#endif
+  return InstructionSet::Baseline;
+}
+
+/// The processor's widest, or less where PALP_INSTRUCTION_SET says so.
+InstructionSet instructionSet() {
+  const char* asked = std::getenv("PALP_INSTRUCTION_SET");
+  const std::string_view name = asked ? asked : "";
+  if (name == "baseline") return InstructionSet::Baseline;
+  if (name == "avx2") return std::min(InstructionSet::Avx2, widest());
+  return widest();
+}
+
+} // namespace
+
 const ElementKernels& elementKernels(ElementShape shape) {
   const bool tets = shape == ElementShape::Tetrahedron10;
 #ifdef PALP_WIDE_KERNELS
-  if (__builtin_cpu_supports("x86-64-v4")) return tets ? avx512::tetKernels : avx512::hexKernels;
-  if (__builtin_cpu_supports("x86-64-v3")) return tets ? avx2::tetKernels : avx2::hexKernels;
+  if (instructionSet() == InstructionSet::Avx512) return tets ? avx512::tetKernels : avx512::hexKernels;
+  if (instructionSet() == InstructionSet::Avx2) return tets ? avx2::tetKernels : avx2::hexKernels;
 #endif
   return tets ? baseline::tetKernels : baseline::hexKernels;
 }
 
 const LaneKernels& laneKernels() {
+  static const LaneKernels& chosen = [&]() -> const LaneKernels& {
 #ifdef PALP_WIDE_KERNELS
-  if (__builtin_cpu_supports("x86-64-v4")) return avx512::laneKernelSet;
-  if (__builtin_cpu_supports("x86-64-v3")) return avx2::laneKernelSet;
+    if (instructionSet() == InstructionSet::Avx512) return avx512::laneKernelSet;
+    if (instructionSet() == InstructionSet::Avx2) return avx2::laneKernelSet;
 #endif
-  return baseline::laneKernelSet;
+    return baseline::laneKernelSet;
+  }();
+  return chosen;
 }
 
 } // namespace palp

@@ -31,6 +31,7 @@ std::shared_ptr<const CholeskyPlan> HyperelasticProblem::Parts::plan() const {
 
 std::shared_ptr<const RestTangent> HyperelasticProblem::Parts::restTangent(int threads,
                                                                            const std::stop_token& stop) const {
+  if (stop.stop_requested()) return {};
   const auto symbolic = plan();
   const std::lock_guard lock(mutex_);
   if (rest_) return rest_;

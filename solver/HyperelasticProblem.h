@@ -62,6 +62,6 @@ struct DiscretisationError {
   std::string method;
 };
 DiscretisationError discretisationError(const HyperelasticProblem& problem, const LoadCase& load,
-                                        const Solution& solution, std::stop_token stop = {});
+                                        const Solution& solution, std::stop_token stop = {}, int threads = 0);
 
 } // namespace palp

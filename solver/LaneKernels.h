@@ -21,8 +21,10 @@ struct LaneFactor {
 };
 
 struct LaneKernels {
-  /// x := (L L^T)^-1 x for x [places + 1][groupLanes].
-  void (*solve)(const LaneFactor&, float* x);
+  /// Substitution through supernodes first .. last - 1, upwards by L or downwards by L^T, for x [places +
+  /// 1][groupLanes].
+  void (*forward)(const LaneFactor&, int first, int last, float* x);
+  void (*backward)(const LaneFactor&, int first, int last, float* x);
   /// out[row * stride + lane] += sum over t of coefficients[row][t] monomials[t][lane], 8 lanes.
   void (*addPolynomials)(const double* coefficients, int terms, const double* monomials, int rows, double* out,
                          int stride);

@@ -9,6 +9,7 @@ namespace palp {
 namespace {
 
 constexpr int largestElementDofs = 30;
+constexpr int supernodesACall = 16; // between looks at a stop request
 using ElementLanes = std::array<double, largestElementDofs * lanes>;
 
 /// Inline, where std::copy becomes a call.
@@ -46,7 +47,7 @@ void LoadGroup::addPolynomials(int block, const std::vector<double>& displacemen
                            x_.data() + (std::size_t(e) * blocks + block) * own * lanes, lanes);
 }
 
-void LoadGroup::evaluateResiduals(const std::array<bool, blocks>& live) {
+void LoadGroup::evaluateResiduals(const std::array<bool, blocks>& live, const std::stop_token& stop) {
   const Discretisation& mesh = model_.mesh();
   const ElementKernels& kernels = mesh.kernels();
   const int own = mesh.unknowns();
@@ -64,7 +65,7 @@ void LoadGroup::evaluateResiduals(const std::array<bool, blocks>& live) {
   alignas(64) ElementLanes u, f;
   alignas(64) std::array<std::array<double, 2 * lanes>, blocks> range;
   for (auto& r : range) r.fill(1);
-  for (int e = 0; e < mesh.elements(); ++e)
+  for (int e = 0; e < mesh.elements() && !stop.stop_requested(); ++e)
     for (int b = 0; b < blocks; ++b) {
       if (!live[b]) continue;
       for (int n = 0; n < kernels.nodes; ++n)
@@ -85,7 +86,7 @@ void LoadGroup::evaluateResiduals(const std::array<bool, blocks>& live) {
 }
 
 /// Residuals go to single precision relative to their norm, and the directions back; inactive lanes get none.
-void LoadGroup::solveDirections(const std::array<bool, groupLanes>& active) {
+void LoadGroup::solveDirections(const std::array<bool, groupLanes>& active, const std::stop_token& stop) {
   const std::vector<int>& places = model_.places();
   std::array<double, groupLanes> squares{};
   for (std::size_t i = 0; i < places.size(); ++i)
@@ -103,19 +104,23 @@ void LoadGroup::solveDirections(const std::array<bool, groupLanes>& active) {
         const double r = inverse[lane] > 0 ? r_[i * groupLanes + lane] * inverse[lane] : 0;
         solution_[std::size_t(places[i]) * groupLanes + lane] = static_cast<float>(r);
       }
-  laneKernels().solve(model_.factor(), solution_.data());
+  const LaneFactor factor = model_.factor();
+  for (int first = 0; first < factor.count && !stop.stop_requested(); first += supernodesACall)
+    laneKernels().forward(factor, first, std::min(factor.count, first + supernodesACall), solution_.data());
+  for (int last = factor.count; last > 0 && !stop.stop_requested(); last -= supernodesACall)
+    laneKernels().backward(factor, std::max(0, last - supernodesACall), last, solution_.data());
   for (std::size_t i = 0; i < places.size(); ++i)
     for (int lane = 0; lane < groupLanes; ++lane)
       r_[i * groupLanes + lane] =
           places[i] >= 0 ? scale_[lane] * double(solution_[std::size_t(places[i]) * groupLanes + lane]) : 0;
 }
 
-void LoadGroup::update(const std::array<bool, blocks>& live) {
+void LoadGroup::update(const std::array<bool, blocks>& live, const std::stop_token& stop) {
   const Discretisation& mesh = model_.mesh();
   const ElementKernels& kernels = mesh.kernels();
   const int own = mesh.unknowns();
   alignas(64) ElementLanes du, dx;
-  for (int e = 0; e < mesh.elements(); ++e)
+  for (int e = 0; e < mesh.elements() && !stop.stop_requested(); ++e)
     for (int b = 0; b < blocks; ++b) {
       if (!live[b]) continue;
       for (int n = 0; n < kernels.nodes; ++n)
@@ -163,13 +168,14 @@ LaneVector LoadGroup::pressuresAt(const PointProbe& probe) const {
   return out;
 }
 
-void LoadGroup::iterate(const std::array<bool, groupLanes>& active, std::array<double, groupLanes>& change) {
+void LoadGroup::iterate(const std::array<bool, groupLanes>& active, std::array<double, groupLanes>& change,
+                        const std::stop_token& stop) {
   std::array<bool, blocks> live{};
   for (int lane = 0; lane < groupLanes; ++lane) live[lane / lanes] = live[lane / lanes] || active[lane];
   const LaneVector before = displacementsAt(upper_);
-  evaluateResiduals(live);
-  solveDirections(active);
-  update(live);
+  evaluateResiduals(live, stop);
+  solveDirections(active, stop);
+  update(live, stop);
   const LaneVector after = displacementsAt(upper_);
   std::array<double, groupLanes> difference{}, norm{};
   for (std::size_t i = 0; i < after.size(); ++i) {

@@ -5,6 +5,7 @@
 #include "solver/SurfaceTraction.h"
 
 #include <array>
+#include <stop_token>
 
 namespace palp {
 
@@ -32,7 +33,9 @@ public:
 
   /// One iteration of the lanes that are active. `change` becomes the relative change of the upper electrodes'
   /// displacements; negative where elements turned inside out or the lane is beyond hope.
-  void iterate(const std::array<bool, groupLanes>& active, std::array<double, groupLanes>& change);
+  /// Stopped on its way, it leaves the lanes unusable.
+  void iterate(const std::array<bool, groupLanes>& active, std::array<double, groupLanes>& change,
+               const std::stop_token& stop);
 
   /// What the electrodes of all lanes feel.
   [[nodiscard]] std::vector<ElectrodeDisplacements> electrodes(const PointProbe& lower) const;
@@ -42,9 +45,9 @@ public:
   [[nodiscard]] const LaneVector& unknowns() const { return x_; }      ///< [elements][blocks][unknowns][8]
 
 private:
-  void evaluateResiduals(const std::array<bool, blocks>& live);
-  void solveDirections(const std::array<bool, groupLanes>& active);
-  void update(const std::array<bool, blocks>& live);
+  void evaluateResiduals(const std::array<bool, blocks>& live, const std::stop_token& stop);
+  void solveDirections(const std::array<bool, groupLanes>& active, const std::stop_token& stop);
+  void update(const std::array<bool, blocks>& live, const std::stop_token& stop);
   [[nodiscard]] LaneVector displacementsAt(const PointProbe& probe) const; ///< [3 points][32]
   [[nodiscard]] LaneVector pressuresAt(const PointProbe& probe) const;     ///< [points][32], compression positive
   [[nodiscard]] double unknown(int element, int k, int lane) const {

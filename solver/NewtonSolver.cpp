@@ -16,6 +16,8 @@ constexpr int lineSearchTrials = 6;
 constexpr int definitenessTrials = 2;
 // Relative residual below which one or two more iterations with the same tangent end it.
 constexpr double keepFactorBelow = 1e-5;
+// So many more iterations with the same tangent cost less than a new one.
+constexpr double keptIterations = 3;
 // Where that small a residual does not fall any more, it is down to rounding.
 constexpr double stallsBelow = 1e-6;
 constexpr int stallsAtRounding = 3;
@@ -112,7 +114,7 @@ NewtonSolver::Outcome NewtonSolver::firstTangent(const Loading& loading, double 
 
 NewtonSolver::Direction NewtonSolver::direction(const ElementState& state, const Eigen::VectorXd& prescribed) const {
   Direction direction{state, residual_, {}, 0};
-  factor_->solve(direction.du);
+  factor_->solve(direction.du, observer_.stop);
   direction.slope = residual_.dot(direction.du);
   direction.du = assembler_.discretisation().withZeros(direction.du) + prescribed;
   direction.dx = assembler_.recover(*tangents_, forces_, direction.du, options_.threads);
@@ -161,6 +163,15 @@ NewtonSolver::Outcome NewtonSolver::definiteTangent(const Loading& loading, doub
   }
 }
 
+/// Whether the tangent in use ends the iteration soon. That of the load step's start contracts all along as it does at
+/// first; one on the way does not.
+bool NewtonSolver::factorWillDo(double previous, bool ofTheStart) const {
+  if (relative_ <= keepFactorBelow) return true;
+  if (!ofTheStart) return false;
+  const double contraction = relative_ / previous;
+  return contraction < 1 && std::log(options_.relativeTolerance / relative_) >= keptIterations * std::log(contraction);
+}
+
 void NewtonSolver::record(double fraction, int iteration) {
   steps_.push_back({fraction, iteration, relative_});
   if (observer_.step) observer_.step(steps_.back());
@@ -175,9 +186,11 @@ NewtonSolver::Outcome NewtonSolver::step(const Loading& loading, double from, do
   record(to, 0);
   double previous = relative_;
   int stalled = 0;
+  bool ofTheStart = !moves;
   for (int iteration = 1; iteration <= options_.iterationsAStep; ++iteration) {
     if (stopped()) return Outcome::Cancelled;
     const Direction way = direction(state, prescribed);
+    if (stopped()) return Outcome::Cancelled; // there may be no direction
     move(way.start, way.du, way.dx, 1, state);
     evaluate(loading, to, state);
     if (moves && iteration == 1) { // now that there are reactions to measure by
@@ -194,8 +207,10 @@ NewtonSolver::Outcome NewtonSolver::step(const Loading& loading, double from, do
     if (relative_ > hopelessResidual) return Outcome::Diverged;
     stalled = relative_ < stallsBelow && relative_ > previous / 2 ? stalled + 1 : 0;
     if (relative_ < options_.relativeTolerance || stalled == stallsAtRounding) return Outcome::Converged;
+    const bool keep = factorWillDo(previous, ofTheStart);
     previous = relative_;
-    if (relative_ <= keepFactorBelow || iteration == options_.iterationsAStep) continue;
+    if (keep || iteration == options_.iterationsAStep) continue;
+    ofTheStart = false;
     // Going back along the first step would take the prescribed motion back with it.
     const Outcome outcome =
         moves && iteration == 1 ? newTangent(loading, to, state) : definiteTangent(loading, to, way, state);

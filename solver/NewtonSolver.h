@@ -61,6 +61,7 @@ private:
                                    ElementState& state);
   [[nodiscard]] Outcome definiteTangent(const Loading& loading, double fraction, const Direction& way,
                                         ElementState& state);
+  [[nodiscard]] bool factorWillDo(double previous, bool ofTheStart) const;
   void evaluate(const Loading& loading, double fraction, const ElementState& state);
   void setResidual(const Loading& loading, double fraction);
   void record(double fraction, int iteration);

@@ -10,7 +10,8 @@ namespace palp {
 /// The tangent at rest laid out for many loads at once: element by element, and the factor in lanes.
 class RestModel {
 public:
-  RestModel(const HyperelasticProblem::Parts& parts, const RestTangent& rest);
+  /// Stopped, it is of no use.
+  RestModel(const HyperelasticProblem::Parts& parts, const RestTangent& rest, int threads, const std::stop_token& stop);
 
   [[nodiscard]] const Discretisation& mesh() const { return mesh_; }
   [[nodiscard]] const RubberConstants& rubber() const { return rubber_; }
@@ -26,7 +27,8 @@ private:
   static const double* item(const std::vector<double>& values, int element, std::size_t size) {
     return values.data() + element * size;
   }
-  void packFactor(const SparseCholesky& cholesky);
+  void placeFactor(const SupernodeTree& tree);
+  void packSupernode(const SparseCholesky& cholesky, int s);
 
   const Discretisation& mesh_;
   RubberConstants rubber_;
@@ -35,7 +37,7 @@ private:
   std::vector<int> places_;
   std::vector<int> first_, blockStart_, rows_;
   std::vector<std::size_t> start_;
-  std::vector<float> values_;
+  std::vector<float, CacheLineAllocator<float>> values_;
 };
 
 } // namespace palp

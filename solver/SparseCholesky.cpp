@@ -238,18 +238,18 @@ SparseCholesky::Outcome SparseCholesky::factorise(std::span<const double> values
   return Outcome::Stopped;
 }
 
-void SparseCholesky::solve(Eigen::VectorXd& rightSide) const {
+void SparseCholesky::solve(Eigen::VectorXd& rightSide, const std::stop_token& stop) const {
   const SupernodeTree& tree = plan_->tree();
   Eigen::VectorXd x(tree.size()), y;
   for (int i = 0; i < tree.size(); ++i) x(i) = rightSide(tree.order[i]);
-  for (int s = 0; s < tree.count(); ++s) {
+  for (int s = 0; s < tree.count() && !stop.stop_requested(); ++s) {
     y.setZero(tree.below(s));
     forwardPanel(panels_.data() + tree.panelStart[s], tree.height(s), tree.width(s), x.data() + tree.first[s],
                  y.data());
     const int* rows = tree.rowsOf(s) + tree.width(s);
     for (Eigen::Index i = 0; i < y.size(); ++i) x(rows[i]) += y(i);
   }
-  for (int s = tree.count() - 1; s >= 0; --s) {
+  for (int s = tree.count() - 1; s >= 0 && !stop.stop_requested(); --s) {
     y.resize(tree.below(s));
     const int* rows = tree.rowsOf(s) + tree.width(s);
     for (Eigen::Index i = 0; i < y.size(); ++i) y(i) = x(rows[i]);

@@ -53,8 +53,8 @@ public:
 
   enum class Outcome { Done, NotPositiveDefinite, Stopped };
   [[nodiscard]] Outcome factorise(std::span<const double> values, int threads, const std::stop_token& stop);
-  /// Solves in place.
-  void solve(Eigen::VectorXd& rightSide) const;
+  /// Solves in place. Stopped, it leaves no solution.
+  void solve(Eigen::VectorXd& rightSide, const std::stop_token& stop = {}) const;
 
   [[nodiscard]] const CholeskyPlan& plan() const { return *plan_; }
   /// The factor's panels, as the tree says.

@@ -32,6 +32,7 @@ PACKAGES = {
     r"(cblas|lapacke?|openblas.*)\.h": {"nn", "solver"},
     r"vtk.*\.h|GL/.*|EGL/.*": {"app/scenes", "app/gui"},
     r"Q[A-Z].*|Qt.*": {"app/gui"},
+    r"sys/mman\.h": {"solver"},  # huge pages
     r"sys/.*|unistd\.h|dlfcn\.h|fcntl\.h|spawn\.h|poll\.h|pthread\.h|linux/.*|termios\.h": {"io", "app/study", "app/scenes", "app/cli", "app/gui"},
 }
 ONE_SOURCE_ONLY = [r"tetgen\.h", r"hidapi(/hidapi)?\.h", r"(suitesparse/)?cholmod\.h"]

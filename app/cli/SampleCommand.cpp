@@ -57,7 +57,12 @@ Exit run(const SampleArguments& arguments, Session& session) {
   arguments.output.requireWritable();
   SampleGenerator generator(design, request(arguments, session));
   const SampleRange range = shardOption(arguments.shardText, generator.total());
-  SampleSet head = generator.emptySet();
+  SampleSet head = generator.emptySet(session.stop);
+  if (session.stop.stop_requested()) { // before there is a head to write
+    session.stages.add(generator.stages());
+    session.result["samples"] = 0;
+    return Exit::NoResult;
+  }
   head.origin.firstSample = range.first;
   SamplePartWriter writer(arguments.output.path, head, arguments.output.force);
   const std::size_t kept = writer.samplesKept();

@@ -112,20 +112,19 @@ Exit run(const SolveArguments& arguments, Session& session) {
   const SensorDesign design = designOption(arguments.design);
   const LoadCase load = arguments.loads.loadCase(design);
   arguments.output.requireWritable();
-  MeshOptions mesh = arguments.mesh.options();
-  mesh.discs = fineDiscs(load);
-  Touch touch(design, load, mesh);
+  Touch touch(design, load, arguments.mesh.options());
   NewtonOptions options;
   options.threads = session.threads;
   if (const auto accuracy = arguments.mesh.relativeAccuracy())
-    touch.setMesh(
-        session.stages.measure("mesh", [&] { return meshForAccuracy(design, load, *accuracy, session.stop); }));
+    touch.setMesh(session.stages.measure(
+        "mesh", [&] { return meshForAccuracy(design, load, *accuracy, session.stop, session.threads); }));
   touch.advance(Stage::Resistances, options, observer(session));
   session.stages.add(touch.stages());
   std::optional<DiscretisationError> error;
   if (touch.solution()->converged && !session.stop.stop_requested())
-    error = session.stages.measure(
-        "estimate", [&] { return discretisationError(*touch.problem(), load, *touch.solution(), session.stop); });
+    error = session.stages.measure("estimate", [&] {
+      return discretisationError(*touch.problem(), load, *touch.solution(), session.stop, session.threads);
+    });
   report(touch, error ? &*error : nullptr, session);
   if (!session.json) print(touch, error ? &*error : nullptr);
   if (!arguments.output.path.empty()) {

@@ -90,17 +90,27 @@ LoadCase SampleGenerator::load(std::size_t i) const {
   return load;
 }
 
-void SampleGenerator::prepare() {
-  if (solver_) return;
-  Mesh mesh = stages_.measure("mesh", [&] { return sensorMesh(design_, request_.mesh); });
-  stages_.measure("factorise", [&] {
-    problem_ = std::make_unique<HyperelasticProblem>(design_, std::move(mesh));
-    solver_ = std::make_unique<BatchSolver>(
-        *problem_, BatchOptions{request_.relativeTolerance, request_.surrogate, request_.threads});
-  });
-  origin_.mesh = problem_->elementType() + ", " + std::to_string(problem_->mesh().elementCount()) + " elements, " +
-                 std::to_string(problem_->mesh().nodeCount()) + " nodes";
-  if (request_.surrogate) origin_.surrogateError = solver_->measuredError();
+bool SampleGenerator::prepare(const std::stop_token& stop) {
+  if (!solver_) {
+    Mesh mesh = stages_.measure("mesh", [&] { return sensorMesh(design_, request_.mesh); });
+    stages_.measure("factorise", [&] {
+      problem_ = std::make_unique<HyperelasticProblem>(design_, std::move(mesh));
+      solver_ = std::make_unique<BatchSolver>(
+          *problem_, BatchOptions{request_.relativeTolerance, request_.surrogate, request_.threads});
+    });
+    origin_.mesh = problem_->elementType() + ", " + std::to_string(problem_->mesh().elementCount()) + " elements, " +
+                   std::to_string(problem_->mesh().nodeCount()) + " nodes";
+  }
+  // All loads together are more than the surrogates of single areas can answer.
+  if (!fitted_ && request_.surrogate && request_.areas != "together") {
+    std::vector<int> areas{onlyArea_.value_or(0)};
+    if (!onlyArea_)
+      for (int area = 1; area < design_.areas.count(); ++area) areas.push_back(area);
+    fitted_ = stages_.measure("surrogate", [&] { return solver_->fitSurrogates(areas, stop); });
+    if (!fitted_) return false;
+    origin_.surrogateError = solver_->surrogateError();
+  }
+  return true;
 }
 
 const SampleOrigin& SampleGenerator::origin() {
@@ -108,15 +118,14 @@ const SampleOrigin& SampleGenerator::origin() {
   return origin_;
 }
 
-SampleSet SampleGenerator::emptySet() {
-  prepare();
+SampleSet SampleGenerator::emptySet(const std::stop_token& stop) {
+  prepare(stop);
   return block({0, 0}, {});
 }
 
 std::size_t SampleGenerator::generate(SampleRange range, const std::function<void(const SampleSet&)>& take,
                                       const std::function<void(std::size_t)>& progress, const std::stop_token& stop) {
-  if (stop.stop_requested()) return 0;
-  prepare();
+  if (stop.stop_requested() || !prepare(stop)) return 0;
   const std::size_t most = request_.surrogate ? kSurrogateBlock : kBlock;
   std::size_t done = range.first;
   while (done < range.last && !stop.stop_requested()) {

@@ -51,8 +51,8 @@ public:
 
   /// What the head of the file says; needs the mesh (and for surrogates the fit).
   const SampleOrigin& origin();
-  /// An empty set with this request's origin and sizes.
-  SampleSet emptySet();
+  /// An empty set with this request's origin and sizes. Stopped: its origin lacks what was not computed.
+  SampleSet emptySet(const std::stop_token& stop = {});
 
   [[nodiscard]] const StageLog& stages() const { return stages_; }
   [[nodiscard]] std::size_t solves() const { return solver_ ? solver_->solves() : 0; }
@@ -60,7 +60,8 @@ public:
   [[nodiscard]] double measuredError() const { return solver_ ? solver_->measuredError() : 0; }
 
 private:
-  void prepare();
+  /// False: stopped.
+  bool prepare(const std::stop_token& stop = {});
   SampleSet block(SampleRange range, const std::vector<ElectrodeDisplacements>& displacements) const;
 
   SensorDesign design_;
@@ -69,6 +70,7 @@ private:
   SampleOrigin origin_;
   std::unique_ptr<HyperelasticProblem> problem_;
   std::unique_ptr<BatchSolver> solver_;
+  bool fitted_ = false; ///< surrogates, where wanted
   StageLog stages_;
 };
 

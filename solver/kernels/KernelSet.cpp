@@ -65,8 +65,12 @@ constexpr ElementKernels kernelsOf(decltype(ElementKernels::residual) residual,
           recover<D, X, 8>,      recover<D, X, 1>};
 }
 
-void solveFactor(const LaneFactor& L, float* x) {
-  solveLanes(L, x);
+void forwardFactor(const LaneFactor& L, int first, int last, float* x) {
+  forwardLanes(L, first, last, x);
+}
+
+void backwardFactor(const LaneFactor& L, int first, int last, float* x) {
+  backwardLanes(L, first, last, x);
 }
 
 void polynomials(const double* coefficients, int terms, const double* monomials, int rows, double* out, int stride) {
@@ -78,7 +82,7 @@ void polynomials(const double* coefficients, int terms, const double* monomials,
 extern const ElementKernels tetKernels;
 extern const ElementKernels hexKernels;
 extern const LaneKernels laneKernelSet;
-const LaneKernels laneKernelSet = {solveFactor, polynomials};
+const LaneKernels laneKernelSet = {forwardFactor, backwardFactor, polynomials};
 constexpr ElementKernels tetSet = kernelsOf<Tet>(tetResidual8, tetResidualOfLoads, tetTangent);
 constexpr ElementKernels hexSet = kernelsOf<Hex>(hexResidual8, hexResidualOfLoads, hexTangent);
 const ElementKernels tetKernels = tetSet;

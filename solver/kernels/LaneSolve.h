@@ -92,10 +92,13 @@ PALP_INLINE void backwardSupernode(const LaneFactor& L, int s, float* x, int lan
   }
 }
 
-PALP_INLINE void solveLanes(const LaneFactor& L, float* x) {
-  for (int s = 0; s < L.count; ++s)
+PALP_INLINE void forwardLanes(const LaneFactor& L, int first, int last, float* x) {
+  for (int s = first; s < last; ++s)
     for (int lane = 0; lane < groupLanes; lane += floatPackSize) forwardSupernode(L, s, x, lane);
-  for (int s = L.count - 1; s >= 0; --s)
+}
+
+PALP_INLINE void backwardLanes(const LaneFactor& L, int first, int last, float* x) {
+  for (int s = last - 1; s >= first; --s)
     for (int lane = 0; lane < groupLanes; lane += floatPackSize) backwardSupernode(L, s, x, lane);
 }
 

@@ -2,9 +2,12 @@
 
 #include "solver/CalculixDeck.h"
 #include "solver/MooneyRivlin.h"
+#include "solver/NestedDissection.h"
 #include "solver/SensorMesh.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 using namespace palp;
 using namespace palp::test;
@@ -85,6 +88,18 @@ TEST_P(Kernels, OfTheBaselineAgreeWithTheWidest) {
   baseline.residual(rubber, in, {g.data(), s.data(), other.data()});
   for (std::size_t i = 0; i < f.size(); ++i) EXPECT_NEAR(f[i], g[i], 1e-13); // forces of order 0.1: rounding
   for (std::size_t i = 0; i < r.size(); ++i) EXPECT_NEAR(r[i], s[i], 1e-13);
+}
+
+TEST(NestedDissection, OrdersEveryGroupOnceWithLittleFill) {
+  const BoundaryValueProblem p(cubeTets(8, 0.1), rubberOf(0.49),
+                               [](const Eigen::Vector3d&, int) { return std::optional<double>(); });
+  const SparsePattern& pattern = *p.assembler.pattern();
+  std::vector<int> order = nestedDissection(pattern);
+  const std::size_t numbers = supernodeTree(pattern).panelStart.back();
+  // A band matrix of this grid, in the order of its planes, has (2 n + 1)^2 unknowns across for each of its own.
+  EXPECT_LT(numbers, 0.6 * pattern.size() * 17 * 17 * 3);
+  std::sort(order.begin(), order.end());
+  for (std::size_t i = 0; i < order.size(); ++i) EXPECT_EQ(order[i], static_cast<int>(i));
 }
 
 TEST(Convergence, HasTheElementsOrder) {
