@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 namespace palp {
 
@@ -17,8 +18,9 @@ constexpr double kHideBelow = 4;
 constexpr int kMostTareFrames = 100000;
 constexpr double kSameNoise = 0.1;  // nearer than this is the same noise
 constexpr double kMostNoise = 0.99; // relative
-constexpr double kMoving = 2.5;     // times the noise of a frame: the sensor moved during the tare
-constexpr double kRestReach = 4;    // deviations from rest, at which half of its error counts
+constexpr Eigen::Index kRestCopies = 32;
+constexpr double kMoving = 2.5;  // times the noise of a frame: the sensor moved during the tare
+constexpr double kRestReach = 4; // deviations from rest, at which half of its error counts
 
 std::string sizes(int rows, int columns) {
   return std::to_string(rows) + " row-wires x " + std::to_string(columns) + " column-wires";
@@ -73,7 +75,16 @@ void ForceDecoder::setNoise(double noise) {
   predictor_.emplace(*decoder_, options);
   restError_N_ = Eigen::Matrix3Xd::Zero(3, decoder_->outputs() / 3);
   if (rest_ohm_.size() == 0) return;
-  restError_N_ = (*predictor_)(inputOf(rest_ohm_, decoder_->input)).forces_N.reshaped(3, restError_N_.cols());
+  // The mean over noise: it is not the answer for readings without any.
+  const Eigen::VectorXd rest_ohm = inputOf(rest_ohm_, decoder_->input);
+  Eigen::MatrixXd noisy_ohm = rest_ohm.replicate(1, kRestCopies);
+  std::mt19937_64 engine(1);
+  std::normal_distribution<double> normal;
+  for (double& reading_ohm : noisy_ohm.reshaped()) reading_ohm *= 1 + options.noise * normal(engine);
+  PredictOptions forcesAlone = options;
+  forcesAlone.standardDeviation = forcesAlone.area = false;
+  const Eigen::VectorXd mean_N = predict(*decoder_, noisy_ohm, forcesAlone).forces_N.rowwise().mean();
+  restError_N_ = mean_N.reshaped(3, restError_N_.cols());
 }
 
 /// Without a tare nobody has said what the board's noise is.

@@ -1,11 +1,14 @@
 #include "app/study/ForceDecoder.h"
 
+#include "io/NetworkFile.h"
 #include "model/Error.h"
 #include "tests/app/LiveFixture.h"
 #include "tests/io/Refusal.h"
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <map>
 
 namespace palp {
@@ -32,42 +35,102 @@ BoardDisturbance noisy(double noise) {
   return disturbance;
 }
 
-class ForceDecoderNoise : public testing::TestWithParam<double> {};
+/// The network that ships with Palp; it was trained for a good board.
+const Decoder& shippedDecoder() {
+  static const Decoder decoder =
+      readNetwork(std::filesystem::path(PALP_SOURCE_DIR) / "resources" / "board" / "paper-network.json");
+  return decoder;
+}
+
+struct NoiseCase {
+  const char* name;
+  double noise;
+  bool shipped; ///< else trained for this noise
+  int tareFrames;
+};
+
+std::string caseName(const testing::TestParamInfo<NoiseCase>& info) {
+  return info.param.name;
+}
+
+class ForceDecoderNoise : public testing::TestWithParam<NoiseCase> {
+protected:
+  const Decoder& network() { return GetParam().shipped ? shippedDecoder() : decoderFor(GetParam().noise); }
+};
 
 TEST_P(ForceDecoderNoise, ForcesStayWithinThreeDeviationsOfTheTruth) {
-  VirtualStream stream = streamWith(noisy(GetParam()));
-  ForceDecoder decoder(decoderFor(GetParam()), stream.board().info(), paperDesign());
+  VirtualStream stream = streamWith(noisy(GetParam().noise));
+  ForceDecoder decoder(network(), stream.board().info(), paperDesign());
+  if (GetParam().tareFrames > 0) decoder.startTare(GetParam().tareFrames);
   const SimulatedTouch touch(shippedSamples());
   Eigen::Array3i within = Eigen::Array3i::Zero();
-  int frames = 0, pressed = 0, rightAreas = 0;
+  int frames = 0, shown = 0, shownWithin = 0, pressed = 0, rightAreas = 0;
   stream.run(1200, [&](const BoardFrame& frame) { // each area is touched twice
     const DecodedForces forces = decoder.decode(frame);
     ASSERT_TRUE(forces.valid);
+    if (decoder.taring()) return;
     const SimulatedTouch::Truth truth = touch.truth(frame.time_s);
     const Eigen::Array3d error = (forces.forces_N.col(0) - truth.force_N).array().abs();
-    within += (error <= 3 * forces.standardDeviation_N.col(0).array()).cast<int>();
+    const Eigen::Array3i good = (error <= 3 * forces.standardDeviation_N.col(0).array()).cast<int>();
+    within += good;
     ++frames;
+    if (forces.shown[0]) {
+      ++shown;
+      shownWithin += good.minCoeff(); // all three at once
+    }
     if (truth.force_N.norm() < 0.5) return;
     ++pressed;
     rightAreas += forces.area == truth.area;
   });
   for (int axis = 0; axis < 3; ++axis) EXPECT_GE(within(axis), 0.99 * frames) << axis;
+  EXPECT_GT(shown, 300);
+  // Of three normal errors at once 99.2 % stay within 3 deviations: 99 % less the chance of so few frames.
+  EXPECT_GE(shownWithin, 0.985 * shown);
   EXPECT_EQ(rightAreas, pressed);
 }
 
-INSTANTIATE_TEST_SUITE_P(GoodAndPlainBoard, ForceDecoderNoise, testing::Values(kGood, kPlain));
-
-TEST(ForceDecoder, NoArrowAppearsAtRest) {
+TEST_P(ForceDecoderNoise, NoArrowAppearsAtRest) {
   BoardSettings settings;
   const SimulatedTouch touch(shippedSamples());
   const Eigen::MatrixXd rest = touch.resistances_ohm({});
-  settings.disturbance.noise = kPlain;
+  settings.disturbance.noise = GetParam().noise;
   settings.info.serial = "REST";
   VirtualStream stream(Board(settings, [&](double) -> const Eigen::MatrixXd& { return rest; }), settings.configuration);
-  ForceDecoder decoder(decoderFor(kPlain), settings.info, paperDesign());
+  ForceDecoder decoder(network(), settings.info, paperDesign());
+  if (GetParam().tareFrames > 0) decoder.startTare(GetParam().tareFrames);
   int shown = 0;
-  stream.run(2000, [&](const BoardFrame& frame) { shown += decoder.decode(frame).shown[0]; });
+  stream.run(10'000, [&](const BoardFrame& frame) { shown += decoder.decode(frame).shown[0]; });
   EXPECT_EQ(shown, 0);
+  EXPECT_NEAR(decoder.noise(), GetParam().noise, 0.2 * GetParam().noise); // known to a few %, followed in steps of 10 %
+}
+
+INSTANTIATE_TEST_SUITE_P(GoodAndPlainBoard, ForceDecoderNoise,
+                         testing::Values(NoiseCase{"GoodBoard", kGood, false, 0},
+                                         NoiseCase{"GoodBoardTared", kGood, true, 50},
+                                         NoiseCase{"PlainBoard", kPlain, false, 0},
+                                         NoiseCase{"PlainBoardNetworkOfAGoodOne", kPlain, true, 0},
+                                         NoiseCase{"PlainBoardTared", kPlain, true, 20}),
+                         caseName);
+
+TEST(ForceDecoder, AnRbfNetworkIsJudgedAtRestToo) {
+  const Decoder decoder = liveDecoder(kPlain, DecoderKind::Rbf);
+  VirtualStream stream = streamWith(noisy(kPlain));
+  ForceDecoder live(decoder, stream.board().info(), paperDesign());
+  const SimulatedTouch touch(shippedSamples());
+  Eigen::Array3i within = Eigen::Array3i::Zero();
+  int frames = 0, arrows = 0;
+  stream.run(1200, [&](const BoardFrame& frame) {
+    const DecodedForces forces = live.decode(frame);
+    const SimulatedTouch::Truth truth = touch.truth(frame.time_s);
+    if (truth.force_N.norm() > 0) return;
+    const Eigen::Array3d error = (forces.forces_N.col(0) - truth.force_N).array().abs();
+    within += (error <= 3 * forces.standardDeviation_N.col(0).array()).cast<int>();
+    arrows += forces.shown[0];
+    ++frames;
+  });
+  // It is drawn to the middle of its range by 0.3 N here; without that in the deviation 80 % stay within.
+  for (int axis = 0; axis < 3; ++axis) EXPECT_GE(within(axis), 0.97 * frames) << axis;
+  EXPECT_EQ(arrows, 0);
 }
 
 TEST(ForceDecoder, TareTakesAwayWhatABoardHasOfItsOwn) {
@@ -110,6 +173,68 @@ TEST(ForceDecoder, TareRemovesTheConstantPartOfADrift) {
   stream.run(25, [&](const BoardFrame& frame) { tared_N = decoder.decode(frame).forces_N.norm(); });
   EXPECT_GT(off_N, 1);
   EXPECT_LT(tared_N, 0.02); // a few deviations
+}
+
+TEST(ForceDecoder, TareWaitsUntilTheSensorIsAtRest) {
+  VirtualStream stream = streamWith(noisy(kGood));
+  ForceDecoder decoder(decoderFor(kGood), stream.board().info(), paperDesign());
+  double rest_N = 0;
+  const auto take = [&](const BoardFrame& frame) { rest_N = decoder.decode(frame).forces_N.norm(); };
+  stream.run(60, take); // the press begins after 50 frames
+  decoder.startTare(20);
+  stream.run(30, take);
+  EXPECT_TRUE(decoder.taring());
+  EXPECT_FALSE(decoder.tared());
+  stream.run(50, take); // and ends after 100
+  EXPECT_EQ(decoder.tares(), 1);
+  stream.run(8, take);
+  EXPECT_LT(rest_N, 0.03); // some deviations
+}
+
+TEST(ForceDecoder, AWarmingBoardDriftsAwayFromItsTare) {
+  BoardDisturbance warming = noisy(kGood);
+  warming.warming_degC = 1;
+  warming.warmingTime_s = 10;
+  const SimulatedTouch touch(shippedSamples());
+  BoardSettings settings;
+  const Eigen::MatrixXd rest = touch.resistances_ohm({});
+  settings.disturbance = warming;
+  VirtualStream stream(Board(settings, [&](double) -> const Eigen::MatrixXd& { return rest; }), settings.configuration);
+  ForceDecoder decoder(decoderFor(kGood), settings.info, paperDesign());
+  decoder.startTare(5);
+  double early_N = 0, late_N = 0;
+  stream.run(15, [&](const BoardFrame& frame) { early_N = decoder.decode(frame).forces_N.norm(); });
+  stream.run(600, [&](const BoardFrame& frame) { late_N = decoder.decode(frame).forces_N.norm(); });
+  EXPECT_GT(late_N, 10 * early_N);
+  decoder.startTare(20); // takes the drift so far away
+  stream.run(21, [&](const BoardFrame& frame) { late_N = decoder.decode(frame).forces_N.norm(); });
+  EXPECT_LT(late_N, 0.05);
+}
+
+/// Mean of Fz while the press comes, and while it goes: the same truth.
+std::array<double, 2> comingAndGoing(const BoardDisturbance& disturbance) {
+  VirtualStream stream = streamWith(disturbance);
+  ForceDecoder decoder(decoderFor(kGood), stream.board().info(), paperDesign());
+  std::array<double, 2> sum{}, count{};
+  stream.run(600, [&](const BoardFrame& frame) {
+    const double phase = std::fmod(frame.time_s / SimulatedTouch::kTouch_s, 1.0);
+    if (phase < 0.6 || phase > 0.9) return;
+    const std::size_t going = phase > 0.75 ? 1 : 0;
+    sum[going] += decoder.decode(frame).forces_N(2, 0);
+    ++count[going];
+  });
+  return {sum[0] / count[0], sum[1] / count[1]};
+}
+
+TEST(ForceDecoder, HysteresisLagsBehindTheTouch) {
+  const std::array<double, 2> plain = comingAndGoing(noisy(kGood));
+  BoardDisturbance lagging = noisy(kGood);
+  lagging.hysteresisShare = 0.5;
+  const std::array<double, 2> lag = comingAndGoing(lagging);
+  // A press that goes still feels like more: the play gives way late.
+  const double loop_N = (lag[0] - lag[1]) - (plain[0] - plain[1]);
+  EXPECT_GT(loop_N, 0.05);
+  EXPECT_LT(loop_N, 1);
 }
 
 TEST(ForceDecoder, BadWiresGiveAReasonAndNoForces) {
