@@ -80,7 +80,7 @@ LiveCalibration::LiveCalibration(LiveHost& host, QWidget* parent) : QWidget(pare
 }
 
 QWidget* LiveCalibration::buildLabel() {
-  auto* box = new QGroupBox(tr("Known load, now on the sensor"));
+  auto* box = new QGroupBox(tr("Known load now"));
   auto* form = new QFormLayout(box);
   area_ = new QSpinBox;
   area_->setObjectName("labelArea");

@@ -75,7 +75,8 @@ QWidget* LiveControlPanel::buildNetwork() {
   tareFrames_->setRange(1, 100000);
   tareFrames_->setSuffix(tr(" frames"));
   tareFrames_->setToolTip(tr("Frames that are averaged as rest; more of them leave less noise in the zero"));
-  tare_ = button(tr("Tare"), "tare", tr("Takes the next frames as rest: leave the sensor alone (T)"));
+  tare_ = button(tr("Tare"), "tare",
+                 tr("Takes the next frames as rest: leave the sensor alone; it waits while the sensor moves (T)"));
   clearTare_ = button(tr("Clear"), "clearTare", tr("Back to the resistances of the design at rest"));
   column->addLayout(beside({tare_, tareFrames_, clearTare_}));
   connect(open, &QPushButton::clicked, this, &LiveControlPanel::chooseNetwork);
@@ -145,7 +146,7 @@ QWidget* LiveControlPanel::buildScales() {
   arrow_->setToolTip(tr("Length of a force arrow [mm/N]"));
   change_ = new QComboBox;
   change_->setObjectName("changeScale");
-  for (const char* percent : {"0.005", "0.01", "0.02", "0.05", "0.1", "0.2", "0.5", "1", "2", "5"})
+  for (const char* percent : {"0.005", "0.01", "0.02", "0.05", "0.1", "0.2", "0.3", "0.5", "1", "2", "5"})
     change_->addItem(QString::fromUtf8("\u00b1%1 %").arg(percent), QString(percent).toDouble());
   change_->setToolTip(tr("End of the colour scale and of the curves of dR/R [%]"));
   window_ = new QSpinBox;
@@ -211,7 +212,7 @@ void LiveControlPanel::display(const LiveSettings& settings) {
 void LiveControlPanel::displayState(const LiveStatus& status, bool paused, const QString& network) {
   setText(*network_, network);
   setText(*networkProblem_, QString::fromStdString(status.decoderProblem));
-  tare_->setText(status.taring ? tr("Taring...") : tr("Tare"));
+  tare_->setText(status.taring ? tr("Waits for rest") : tr("Tare"));
   clearTare_->setEnabled(status.tared);
   pause_->setChecked(paused);
   record_->setChecked(status.recording);

@@ -13,7 +13,8 @@ QString milliseconds(double seconds) {
   return QString::number(1e3 * seconds, 'f', seconds < 1e-3 ? 2 : 1);
 }
 
-QString triple(const LatencySummary& latency) {
+QString triple(const LatencySummary& latency, std::uint64_t frames) {
+  if (frames == 0) return QObject::tr("none");
   return milliseconds(latency.p50_s) + " / " + milliseconds(latency.p99_s) + " / " + milliseconds(latency.longest_s);
 }
 
@@ -91,18 +92,18 @@ void LiveCounters::display(const LiveStatus& status, bool simulated) {
   set(state_, stateTitle(status, simulated),
       QString::fromStdString(status.reason.empty() ? status.source : status.reason), alarm);
   state_.unit->setToolTip(state_.unit->text());
-  const QString wanted =
-      status.configuration ? tr("of %1 reports/s").arg(status.configuration->rate_Hz) : tr("reports/s");
+  const QString wanted = status.configuration ? tr("of %1; ").arg(status.configuration->rate_Hz) : QString();
   if (status.state != LiveState::Paused) // held with the views
-    set(rate_, QString::number(status.reportsPerSecond, 'f', 1),
-        wanted + tr(", %1 frames/s").arg(status.framesPerSecond, 0, 'f', 1));
+    set(rate_, tr("%1 reports/s").arg(status.reportsPerSecond, 0, 'f', 0),
+        wanted + tr("%1 frames/s").arg(status.framesPerSecond, 0, 'f', 1));
   set(losses_, QString("%1 / %2 / %3").arg(status.counts.lost).arg(status.counts.bad).arg(status.lateFrames),
       tr("of %1 reports").arg(status.counts.reports), status.counts.lost + status.counts.bad > 0);
-  set(latency_, triple(status.latency), tr("ms, board to force"));
-  set(decoding_, triple(status.decoding), tr("ms, p50 / p99 / max"));
+  set(latency_, triple(status.latency, status.counts.frames), tr("ms, board to force"));
+  set(decoding_, triple(status.decoding, status.counts.frames), tr("ms, p50 / p99 / max"));
   set(climate_,
       status.temperature_degC ? QString::fromUtf8("%1 \u00b0C").arg(*status.temperature_degC, 0, 'f', 2) : tr("none"),
-      tr("noise %1 of R%2").arg(status.noise, 0, 'g', 2).arg(status.tared ? tr(", tared") : QString()));
+      status.noise > 0 ? tr("noise %1%2").arg(status.noise, 0, 'g', 2).arg(status.tared ? tr(", tared") : QString())
+                       : tr("noise not known"));
 }
 
 } // namespace palp

@@ -24,7 +24,7 @@ namespace palp {
 
 namespace {
 
-constexpr int kPanelWidth_px = 300;
+constexpr int kPanelWidth_px = 340;
 constexpr int kFrame_ms = 34;             // 30 frames a second at most
 constexpr int kStateEvery = 6;            // looks between two drawings of the counters, where the state is the same
 constexpr double kColorSteps = 256;       // a smaller change of a cell is not seen
@@ -59,7 +59,7 @@ LivePage::~LivePage() = default;
 QWidget* LivePage::buildPanels() {
   auto* panels = new QWidget;
   auto* column = new QVBoxLayout(panels);
-  column->setContentsMargins(0, 0, 6, 0);
+  column->setContentsMargins(0, 0, 4, 0);
   source_ = new LiveSourcePanel;
   control_ = new LiveControlPanel;
   column->addWidget(source_);

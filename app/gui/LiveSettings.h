@@ -39,9 +39,9 @@ struct LiveSettings {
   int rate_Hz = 1000;  ///< reports a second
   int row = -1;        ///< scanned alone; -1: all rows
   std::string network; ///< file; empty: the one that ships with Palp
-  int tareFrames = 50;
+  int tareFrames = 25;
   double arrow_mm_per_N = 2;
-  double change_percent = 0.2; ///< end of the scale of dR/R
+  double change_percent = 0.3; ///< end of the scale of dR/R
   double window_s = 10;        ///< of the curves
 
   bool operator==(const LiveSettings&) const = default;

@@ -22,8 +22,6 @@ namespace palp {
 
 namespace {
 
-constexpr int kLineHeight_px = 22;
-
 /// What a row of the list chooses.
 enum DeviceRole { KindRole = Qt::UserRole, DeviceNameRole };
 
@@ -308,7 +306,7 @@ void LiveSourcePanel::listDevices(const LiveSourceState& state) {
                         (line.kind != LiveSourceKind::Board || line.device.toStdString() == settings_.device);
     if (chosen) devices_->setCurrentItem(item);
   }
-  devices_->setFixedHeight(kLineHeight_px * devices_->count() + 6);
+  devices_->setFixedHeight(devices_->sizeHintForRow(0) * devices_->count() + 2 * devices_->frameWidth() + 2);
 }
 
 void LiveSourcePanel::displayState(const LiveSourceState& state) {

@@ -17,6 +17,8 @@ namespace palp {
 
 namespace {
 
+constexpr double kLegendLine_px = 32; // of a legend's entry beside its name
+
 QColor ink(const Color& color) {
   return QColor::fromRgbF(static_cast<float>(color[0]), static_cast<float>(color[1]), static_cast<float>(color[2]));
 }
@@ -66,6 +68,8 @@ void StripChart::paintEvent(QPaintEvent*) {
   const bool empty = std::all_of(spec_.series.begin(), spec_.series.end(),
                                  [](const StripSeries& series) { return series.t_s.empty(); });
   if (empty) {
+    const QRectF place = painter.boundingRect(plot, Qt::AlignCenter | Qt::TextWordWrap, spec_.empty);
+    painter.fillRect(place, ink(palp::palette(theme_).ground));
     painter.setPen(QWidget::palette().color(QPalette::PlaceholderText));
     painter.drawText(plot, Qt::AlignCenter | Qt::TextWordWrap, spec_.empty);
     return;
@@ -83,7 +87,9 @@ void StripChart::paintAxes(QPainter& painter, const QRectF& plot) const {
   bold.setBold(true);
   painter.setFont(bold);
   painter.setPen(text);
-  painter.drawText(QRectF(plot.left(), 5, plot.width(), line + 2), Qt::AlignLeft | Qt::AlignVCenter, spec_.title);
+  const double room = std::max(0.0, plot.width() - legendWidth());
+  painter.drawText(QRectF(plot.left(), 5, room, line + 2), Qt::AlignLeft | Qt::AlignVCenter,
+                   QFontMetricsF(bold).elidedText(spec_.title, Qt::ElideRight, room));
   painter.setFont(font());
   const std::vector<double> yTicks = roundTicks(spec_.yRange[0], spec_.yRange[1], 6);
   const std::vector<std::string> yTexts = tickTexts(yTicks);
@@ -162,6 +168,13 @@ void StripChart::paintCurves(QPainter& painter, const QRectF& plot) const {
   painter.restore();
 }
 
+double StripChart::legendWidth() const {
+  double width = 0;
+  for (const StripSeries& series : spec_.series)
+    width += QFontMetricsF(font()).horizontalAdvance(series.name) + kLegendLine_px;
+  return width;
+}
+
 void StripChart::paintLegend(QPainter& painter, const QRectF& plot) const {
   const QFontMetricsF metrics(font());
   double x = plot.right();
@@ -171,7 +184,7 @@ void StripChart::paintLegend(QPainter& painter, const QRectF& plot) const {
     painter.drawText(QPointF(x, 5 + metrics.ascent()), series->name);
     painter.setPen(QPen(ink(seriesColor(series->color, theme_)), 3));
     painter.drawLine(QPointF(x - 18, 6 + metrics.height() / 2), QPointF(x - 5, 6 + metrics.height() / 2));
-    x -= 32;
+    x -= kLegendLine_px;
   }
 }
 

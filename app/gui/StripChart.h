@@ -51,6 +51,7 @@ private:
   void paintCurves(QPainter& painter, const QRectF& plot) const;
   void paintLegend(QPainter& painter, const QRectF& plot) const;
   void paintReading(QPainter& painter, const QRectF& plot) const;
+  [[nodiscard]] double legendWidth() const;
   [[nodiscard]] QRectF plotRectangle() const;
   [[nodiscard]] double xOf(const QRectF& plot, double t_s) const;
   [[nodiscard]] double yOf(const QRectF& plot, double y) const;

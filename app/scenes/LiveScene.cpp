@@ -87,7 +87,7 @@ LiveScene::LiveScene() : parts_(std::make_unique<Parts>()) {
   vtkNew<vtkPolyDataMapper> blockMapper;
   blockMapper->SetInputConnection(parts.box->GetOutputPort());
   parts.block->SetMapper(blockMapper);
-  parts.block->GetProperty()->SetOpacity(0.14);
+  parts.block->GetProperty()->SetOpacity(0.09);
   vtkNew<vtkPolyDataMapper> touchedMapper;
   touchedMapper->SetInputData(parts.touchedData);
   parts.touched->SetMapper(touchedMapper);
