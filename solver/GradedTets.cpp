@@ -2,7 +2,6 @@
 
 #include "model/Error.h"
 #include "model/Text.h"
-#include "solver/ElementGeometry.h"
 #include "solver/GridLines.h"
 #include "solver/QuadraticTets.h"
 #include "solver/TetMesher.h"

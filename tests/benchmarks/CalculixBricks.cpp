@@ -109,7 +109,7 @@ void writeDeck(std::ostream& deck, const SensorDesign& design, const BrickGrid& 
   deck << "*NODE PRINT, NSET=ALL\nU\n*END STEP\n";
 }
 
-/// Displacement at a point on a vertical edge of the bricks, or between edges by the nearest one's.
+/// Displacement at a point on a vertical edge of the bricks.
 Eigen::Vector3d at(const BrickGrid& grid, const std::map<int, Eigen::Vector3d>& u, const Eigen::Vector3d& p,
                    const Eigen::Vector3d& block) {
   const auto& counts = grid.counts();
