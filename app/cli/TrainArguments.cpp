@@ -51,7 +51,9 @@ void TrainArguments::declare(CLI::App& command, bool withSpread) {
   command.add_option("--centers-by", centersBy, "kmeans or random (default: as the mode says)");
   command.add_option("--solver", solver, "qr, cholesky, svd or rls");
   command.add_option("--ridge", ridge, "0 or above; not given: 0, or by leave-one-out where there is noise");
-  command.add_option("--scaler", scaler, "raw, minmax, zscore, global or whiten");
+  command.add_option(
+      "--scaler", scaler,
+      "raw, minmax, zscore, global or whiten (default: global; whiten with noise; in mode paper as in it)");
   command.add_option("--tail", tail, "none, bias, linear or penalised");
   command.add_option("--convention", convention, "what a spread means: radbas (default) or sigma");
   command.add_option("--noise", noise, "relative noise of the inputs to train for (default 0)");
