@@ -11,7 +11,7 @@ namespace palp {
 
 namespace {
 
-constexpr std::size_t loadsACheck = 350;     // one load in so many is measured against full Newton, at least one a call
+constexpr std::size_t loadsACheck = 700;     // the first and one load in so many is measured against full Newton
 constexpr int surrogateChecks = 3;           // of surrogates, whose error their fits have measured, in all calls
 constexpr double fullNewtonResidual = 1e-11; // of the solves that answers are checked against
 
@@ -27,6 +27,7 @@ struct BatchSolver::State {
   std::vector<std::optional<AreaSurrogate>> surrogates;
   std::size_t fullSolves = 0;
   double measuredError = 0;
+  std::size_t loadsSeen = 0, checks = 0; ///< in all calls
   int surrogatesChecked = 0;
 
   State(const HyperelasticProblem& p, BatchOptions o) : problem(p), options(o), surrogates(p.design().areas.count()) {}
@@ -60,10 +61,12 @@ struct BatchSolver::State {
     return problem.electrodes(solution.state());
   }
 
-  /// Measures some answers of this call, spread over it, against full Newton; false: stopped.
+  /// Measures answers of this call, as many as are due and spread over it, against full Newton; false: stopped.
   bool check(std::span<const LoadCase> loads, const std::vector<BatchEngine::Answer>& answers,
              const std::vector<Way>& ways, const std::stop_token& stop) {
-    const std::size_t count = std::max<std::size_t>(1, loads.size() / loadsACheck);
+    loadsSeen += loads.size();
+    const std::size_t count = (loadsSeen + loadsACheck - 1) / loadsACheck - checks;
+    checks += count;
     for (std::size_t c = 0; c < count; ++c) {
       const std::size_t i = (2 * c + 1) * loads.size() / (2 * count);
       if (ways[i] == Way::FullNewton) continue;
