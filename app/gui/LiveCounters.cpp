@@ -34,7 +34,7 @@ LiveCounters::LiveCounters(QWidget* parent) : QWidget(parent) {
   row->setSpacing(6);
   state_ = add(*row, "liveState", tr("State"), tr("What the source does now, and why"), 3);
   rate_ = add(*row, "liveRate", tr("Measured rate"),
-              tr("Reports a second that came in the last second, and whole scans (frames) of them"), 2);
+              tr("Reports a second that came in the last second, and whole scans (frames) of them"), 3);
   losses_ = add(*row, "liveLosses", tr("Lost / bad / late"),
                 tr("Reports missing in the sequence / with a wrong length, ID, checksum or range / frames that were "
                    "decoded more than 20 ms after the board read them; all since the start"),
@@ -95,7 +95,7 @@ void LiveCounters::display(const LiveStatus& status, bool simulated) {
   const QString wanted = status.configuration ? tr("of %1; ").arg(status.configuration->rate_Hz) : QString();
   if (status.state != LiveState::Paused) // held with the views
     set(rate_, tr("%1 reports/s").arg(status.reportsPerSecond, 0, 'f', 0),
-        wanted + tr("%1 frames/s").arg(status.framesPerSecond, 0, 'f', 1));
+        wanted + tr("%1 frames/s").arg(status.framesPerSecond, 0, 'f', 0));
   set(losses_, QString("%1 / %2 / %3").arg(status.counts.lost).arg(status.counts.bad).arg(status.lateFrames),
       tr("of %1 reports").arg(status.counts.reports), status.counts.lost + status.counts.bad > 0);
   set(latency_, triple(status.latency, status.counts.frames), tr("ms, board to force"));

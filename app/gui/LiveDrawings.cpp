@@ -99,7 +99,7 @@ StripSpec forceCurves(const LiveHistory& history, const LiveSettings& settings, 
 StripSpec changeCurves(const LiveHistory& history, const LiveSettings& settings,
                        const std::vector<std::array<int, 2>>& cells) {
   StripSpec spec = timeAxis(history, settings);
-  spec.title = QObject::tr("dR/R of row, column");
+  spec.title = QObject::tr("dR/R");
   spec.yLabel = QObject::tr("dR/R [%]");
   spec.yRange = {-settings.change_percent, settings.change_percent};
   spec.empty = QObject::tr("no readings yet; click a cell of the heatmap to see its curve");

@@ -53,14 +53,18 @@ bool Heatmap::Paint(vtkContext2D* painter) {
 
 void Heatmap::paintCells(vtkContext2D& painter) const {
   painter.GetPen()->SetLineType(vtkPen::NO_PEN);
-  const double gap = std::min(1.0, 0.06 * std::min(cellWidth_, cellHeight_));
+  const double gap = std::min(cellWidth_, cellHeight_) > 6 * scale ? std::round(scale) : 0;
   for (Eigen::Index row = 0; row < spec.values.rows(); ++row)
     for (Eigen::Index column = 0; column < spec.values.cols(); ++column) {
       const Color color = spec.colors.color(spec.values(row, column));
       painter.GetBrush()->SetColorF(color[0], color[1], color[2], 1);
-      painter.DrawRect(static_cast<float>(left_ + static_cast<double>(column) * cellWidth_),
-                       static_cast<float>(bottom_ + static_cast<double>(row) * cellHeight_),
-                       static_cast<float>(cellWidth_ - gap), static_cast<float>(cellHeight_ - gap));
+      // On whole pixels, so that all gaps are equally wide.
+      const double x = std::round(left_ + static_cast<double>(column) * cellWidth_);
+      const double y = std::round(bottom_ + static_cast<double>(row) * cellHeight_);
+      const double right = std::round(left_ + static_cast<double>(column + 1) * cellWidth_);
+      const double top = std::round(bottom_ + static_cast<double>(row + 1) * cellHeight_);
+      painter.DrawRect(static_cast<float>(x), static_cast<float>(y), static_cast<float>(right - x - gap),
+                       static_cast<float>(top - y - gap));
     }
   if (!spec.selected) return;
   const Color& ink = palette(theme).selection;

@@ -57,5 +57,15 @@ differs typed turned "dragging left the block as it was"
 xdotool key ctrl+z
 settled undone
 differs turned undone "undo left the picture as it was"
+xdotool key ctrl+5 # the simulated board, live
+sleep 4
+xdotool key space # held
+settled live
+differs undone live "the live scene shows nothing"
+xdotool key space
+sleep 3
+xdotool key space
+settled later
+differs live later "the live scene stands still"
 kill -0 "$app" || { echo "the program ended by itself" >&2; exit 1; }
 echo "smoke: ok"
