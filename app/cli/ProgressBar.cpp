@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <unistd.h>
 
 namespace palp {
@@ -11,22 +12,29 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr int kWidth = 30;
 constexpr std::chrono::milliseconds kRedraw{100};
+/// Set by a program that shows the progress itself: "progress DONE TOTAL" a line.
+constexpr const char* kLinesWanted = "PALP_PROGRESS_LINES";
 
 } // namespace
 
 ProgressBar::ProgressBar(std::string what, std::size_t total)
-    : what_(std::move(what)), total_(total), terminal_(isatty(STDERR_FILENO) == 1), start_(Clock::now()),
-      last_(start_) {}
+    : what_(std::move(what)), total_(total), terminal_(isatty(STDERR_FILENO) == 1),
+      lines_(std::getenv(kLinesWanted) != nullptr), start_(Clock::now()), last_(start_) {}
 
 ProgressBar::~ProgressBar() {
-  if (drawn_) std::fputs("\r\033[K", stderr);
+  if (drawn_ && !lines_) std::fputs("\r\033[K", stderr);
 }
 
 void ProgressBar::show(std::size_t done) {
   const Clock::time_point now = Clock::now();
-  if (!terminal_ || total_ == 0 || (drawn_ && now - last_ < kRedraw)) return;
+  if ((!terminal_ && !lines_) || total_ == 0 || (drawn_ && now - last_ < kRedraw)) return;
   last_ = now;
   drawn_ = true;
+  if (lines_) {
+    std::fprintf(stderr, "progress %zu %zu\n", done, total_);
+    std::fflush(stderr);
+    return;
+  }
   const double share = static_cast<double>(done) / static_cast<double>(total_);
   const double spent = std::chrono::duration<double>(now - start_).count();
   const int filled = static_cast<int>(share * kWidth);

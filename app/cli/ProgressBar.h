@@ -19,6 +19,7 @@ private:
   std::string what_;
   std::size_t total_;
   bool terminal_;
+  bool lines_;
   bool drawn_ = false;
   std::chrono::steady_clock::time_point start_;
   std::chrono::steady_clock::time_point last_;

@@ -32,6 +32,7 @@ ChartView::ChartView(QWidget* parent) : ChartView(std::make_unique<Parts>(), par
 ChartView::ChartView(std::unique_ptr<Parts> parts, QWidget* parent)
     : VtkView(parts->renderer, parts->style, parent), parts_(std::move(parts)) {
   connect(this, &VtkView::doubleClicked, this, &ChartView::fill);
+  connect(this, &VtkView::sizeChanged, this, &ChartView::fill); // the legend's place
   fill();
 }
 
@@ -61,7 +62,8 @@ void ChartView::paintEvent(QPaintEvent* event) {
 void ChartView::fill() {
   const Color& ground = palp::palette(theme_).ground;
   parts_->renderer->SetBackground(ground[0], ground[1], ground[2]);
-  fillChart(*parts_->chart, spec_, theme_, devicePixelRatioF());
+  const double ratio = devicePixelRatioF();
+  fillChart(*parts_->chart, spec_, theme_, ratio, {ratio * width(), ratio * height()});
   invalidate();
 }
 

@@ -28,15 +28,22 @@ QString trainOptions(const NetworkSettings& network) {
 
 } // namespace
 
+QString meshCommands(const Project& project, const QString& designFile) {
+  return "palp design --check " + designFile + "\npalp mesh " + designFile + meshOption(project.mesh) + " -o mesh.vtu";
+}
+
 QString solveCommands(const Project& project, const QString& designFile) {
-  QString command = "palp solve " + designFile;
+  QString command;
   for (const AreaLoad& load : project.load.areas)
     command += QString(" --load %1:%2").arg(load.area).arg(triple(load.force_N));
   for (const PatchLoad& patch : project.load.patches)
     command += QString::fromStdString(" --patch " + text(patch.centre_mm.x()) + "," + text(patch.centre_mm.y()) + "," +
                                       text(patch.radius_mm) + ":") +
                triple(patch.force_N);
-  return command + meshOption(project.mesh) + " -o deformed.vtu";
+  command += meshOption(project.mesh);
+  const QString quantity = QString::fromStdString(quantityName(project.view.quantity));
+  return "palp solve " + designFile + command + " -o deformed.vtu\npalp render " + designFile + command +
+         " --quantity \"" + quantity + "\" -o deformed.png";
 }
 
 QString networkCommands(const Project& project, const QString& designFile) {

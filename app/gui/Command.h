@@ -7,6 +7,8 @@
 namespace palp {
 
 /// Commands that do on a terminal what the scene shows, one a line; the design is in the file named.
+QString meshCommands(const Project& project, const QString& designFile);
+/// The solve, and the picture of the block.
 QString solveCommands(const Project& project, const QString& designFile);
 QString networkCommands(const Project& project, const QString& designFile);
 

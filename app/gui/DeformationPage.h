@@ -5,20 +5,17 @@
 #include "app/scenes/DeformationScene.h"
 
 class QLabel;
-class QPushButton;
 class QSlider;
-class QSpinBox;
-class QTableWidget;
 
 namespace palp {
 
 class BlockView;
-class ChartView;
-class HeatmapView;
 class LoadPanel;
+class ResultPanel;
+class TouchTabs;
 class ViewPanel;
 
-/// The deformed block, its heatmap and Newton's residuals, with the loads to set.
+/// The deformed block with the loads to set, and under it what else is known of the touch.
 class DeformationPage : public Scene {
   Q_OBJECT
 
@@ -29,46 +26,50 @@ public:
   void setTheme(Theme theme) override;
   [[nodiscard]] bool complete() const override;
   [[nodiscard]] BlockView& block() { return *block_; }
+  /// How the block is drawn now.
+  [[nodiscard]] DeformationOptions blockOptions() const;
+  [[nodiscard]] QString commands(const Project& project, const QString& designFile) const override;
+
+signals:
+  void told(const QString& sentence);
 
 protected:
   void showEvent(QShowEvent* event) override;
 
 private:
+  /// What a click on the block does.
+  enum class Click { Load, Probe, Line };
+
   QWidget* buildPanels();
   QWidget* buildViews();
-  QWidget* buildElectrodes();
+  QWidget* buildClicks();
+  QWidget* buildIncrements();
   void displayProject();
   void displayTouch(bool meshChanged);
   void drawBlock(bool meshChanged);
-  void drawHeatmap();
-  void drawNewton();
-  /// Electrodes of a row-wire before and under the load (Figs. 6 and 7), and all of them as a table.
-  void drawRowWire();
-  void fillTable();
-  void tellResult();
+  void displayIncrements();
   void probe(int node);
-  /// Chooses the loaded area on which a node of the top face lies; a click never adds a load by itself.
-  void chooseAreaOf(int node);
+  void clicked(int node);
+  /// Chooses the area on which a node of the top face lies, and loads it where it bears no load.
+  void loadAreaOf(int node);
+  void addLineEnd(int node);
+  void setForce(int load, const Eigen::Vector3d& drawn_N);
+  void editView(const QString& what, const ViewSettings& view);
 
   Workbench& workbench_;
-  DeformationOptions options_;
+  Theme theme_ = Theme::Light;
   bool meshDrawn_ = false;
+  ViewSettings drawn_; ///< as the block was drawn last
   int probedNode_ = -1;
-  std::vector<NewtonStep> drawnSteps_;
+  Click click_ = Click::Load;
+  int lineStart_ = -1; ///< node of the first end, while the second is awaited
   LoadPanel* load_ = nullptr;
   ViewPanel* view_ = nullptr;
+  ResultPanel* result_ = nullptr;
   BlockView* block_ = nullptr;
-  HeatmapView* heatmap_ = nullptr;
-  ChartView* newton_ = nullptr;
-  ChartView* rowWire_ = nullptr;
-  QSpinBox* rowWireNumber_ = nullptr;
-  QTableWidget* table_ = nullptr;
+  TouchTabs* tabs_ = nullptr;
   QSlider* increments_ = nullptr;
   QLabel* incrementLabel_ = nullptr;
-  QLabel* result_ = nullptr;
-  QLabel* probe_ = nullptr;
-  QPushButton* estimate_ = nullptr;
-  QString errorText_;
 };
 
 } // namespace palp

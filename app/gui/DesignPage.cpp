@@ -2,6 +2,7 @@
 
 #include "app/gui/BlockView.h"
 #include "app/gui/ChartView.h"
+#include "app/gui/Command.h"
 #include "app/gui/DesignPanel.h"
 #include "app/study/NoiseBound.h"
 
@@ -10,6 +11,7 @@
 #include <QGroupBox>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QPushButton>
 #include <QScrollArea>
 #include <QSignalBlocker>
 #include <QSplitter>
@@ -80,14 +82,21 @@ DesignPage::DesignPage(Workbench& workbench, NetworkSession& network, QWidget* p
     if (problem(next.load, design)) next.load.patches.clear();
     workbench_.edit(what, next);
   });
-  connect(showMesh_, &QCheckBox::toggled, this, [this] {
+  connect(showMesh_, &QCheckBox::toggled, this, [this](bool on) {
+    Project next = workbench_.project();
+    next.view.mesh = on;
+    workbench_.edit(tr("Show the mesh"), next);
     emit stageChanged();
-    draw();
-    displayMesh();
   });
   connect(automaticSize_, &QCheckBox::toggled, this, &DesignPage::editMesh);
   connect(size_, &QDoubleSpinBox::valueChanged, this, &DesignPage::editMesh);
-  connect(noise_, &QDoubleSpinBox::valueChanged, this, &DesignPage::displayNoiseFloor);
+  connect(noise_, &QDoubleSpinBox::valueChanged, this, [this](double percent) {
+    Project next = workbench_.project();
+    next.view.resistanceNoise = percent / 100;
+    workbench_.edit(tr("Change the noise of the resistances"), next);
+  });
+  connect(floorSamples_, &QPushButton::clicked, this,
+          [this] { network_.generate(workbench_.project().samples, workbench_.project().mesh); });
   connect(&workbench_, &Workbench::projectChanged, this, &DesignPage::displayProject);
   connect(&workbench_.touch(), &TouchSession::changed, this, [this](bool meshChanged) {
     if (!meshChanged) return;
@@ -112,15 +121,28 @@ QWidget* DesignPage::buildSide() {
 QWidget* DesignPage::buildViews() {
   block_ = new BlockView;
   block_->setObjectName("designBlock");
+  quality_ = new ChartView;
+  quality_->setObjectName("quality");
   auto* lower = new QWidget;
   auto* row = new QHBoxLayout(lower);
   row->setContentsMargins(0, 0, 0, 0);
+  row->addWidget(buildMesh(), 1);
+  row->addWidget(quality_, 2);
+  row->addWidget(buildNoiseFloor(), 1);
+  auto* views = new QSplitter(Qt::Vertical);
+  views->setObjectName("designSplitter");
+  views->addWidget(block_);
+  views->addWidget(lower);
+  views->setSizes({620, 220});
+  return views;
+}
 
-  auto* meshBox = new QGroupBox(tr("Mesh"));
-  auto* mesh = new QVBoxLayout(meshBox);
+QGroupBox* DesignPage::buildMesh() {
+  auto* box = new QGroupBox(tr("Mesh"));
+  auto* column = new QVBoxLayout(box);
   showMesh_ = new QCheckBox(tr("make and show the mesh"));
   showMesh_->setObjectName("showMesh");
-  mesh->addWidget(showMesh_);
+  column->addWidget(showMesh_);
   auto* sizeRow = new QHBoxLayout;
   automaticSize_ = new QCheckBox(tr("standard size"));
   automaticSize_->setObjectName("automaticSize");
@@ -134,41 +156,38 @@ QWidget* DesignPage::buildViews() {
   size_->setToolTip(tr("Size of the tetrahedra in the bulk; the grading scales with it"));
   sizeRow->addWidget(automaticSize_);
   sizeRow->addWidget(size_);
-  mesh->addLayout(sizeRow);
+  column->addLayout(sizeRow);
   meshWords_ = new QLabel;
   meshWords_->setObjectName("meshWords");
   meshWords_->setWordWrap(true);
-  mesh->addWidget(meshWords_);
-  mesh->addStretch(1);
-  row->addWidget(meshBox, 1);
+  column->addWidget(meshWords_);
+  column->addStretch(1);
+  return box;
+}
 
-  quality_ = new ChartView;
-  quality_->setObjectName("quality");
-  row->addWidget(quality_, 2);
-
-  auto* floorBox = new QGroupBox(tr("Noise floor of the design"));
-  auto* floor = new QVBoxLayout(floorBox);
+QGroupBox* DesignPage::buildNoiseFloor() {
+  auto* box = new QGroupBox(tr("Noise floor of the design"));
+  auto* column = new QVBoxLayout(box);
   noise_ = new QDoubleSpinBox;
   noise_->setObjectName("resistanceNoise");
   noise_->setRange(0.00001, 10);
   noise_->setDecimals(5);
-  noise_->setValue(0.01);
   noise_->setPrefix(tr("noise of R: "));
   noise_->setSuffix(tr(" %"));
   noise_->setKeyboardTracking(false);
-  floor->addWidget(noise_);
+  noise_->setToolTip(tr("Relative noise of each reading; a good board has 0.0005 %, a plain one 0.01 %"));
+  column->addWidget(noise_);
   floorWords_ = new QLabel;
   floorWords_->setObjectName("noiseFloor");
   floorWords_->setWordWrap(true);
-  floor->addWidget(floorWords_);
-  floor->addStretch(1);
-  row->addWidget(floorBox, 1);
-
-  auto* views = new QSplitter(Qt::Vertical);
-  views->addWidget(block_);
-  views->addWidget(lower);
-  views->setSizes({620, 220});
-  return views;
+  column->addWidget(floorWords_);
+  floorSamples_ = new QPushButton(tr("Generate samples"));
+  floorSamples_->setObjectName("floorSamples");
+  floorSamples_->setToolTip(tr("As on the Network scene; the bound follows from how the resistances change with the "
+                               "force"));
+  column->addWidget(floorSamples_);
+  column->addStretch(1);
+  return box;
 }
 
 Stage DesignPage::stage() const {
@@ -177,6 +196,10 @@ Stage DesignPage::stage() const {
 
 bool DesignPage::complete() const {
   return !showMesh_->isChecked() || workbench_.touch().upToDate();
+}
+
+QString DesignPage::commands(const Project& project, const QString& designFile) const {
+  return meshCommands(project, designFile);
 }
 
 void DesignPage::setTheme(Theme theme) {
@@ -202,6 +225,12 @@ void DesignPage::displayProject() {
   automaticSize_->setChecked(automatic);
   size_->setEnabled(!automatic);
   if (!automatic) size_->setValue(*project.mesh.meshSize_mm);
+  const QSignalBlocker quietMesh(showMesh_);
+  const QSignalBlocker quietNoise(noise_);
+  const bool otherStage = showMesh_->isChecked() != project.view.mesh;
+  showMesh_->setChecked(project.view.mesh);
+  noise_->setValue(100 * project.view.resistanceNoise);
+  if (otherStage && isVisible()) emit stageChanged();
   draw();
   displayMesh();
   displayNoiseFloor();
@@ -242,11 +271,12 @@ void DesignPage::displayMesh() {
 void DesignPage::displayNoiseFloor() {
   if (!isVisible()) return;
   const NetworkSamples* samples = network_.samples();
+  floorSamples_->setVisible(samples == nullptr);
   if (samples == nullptr) {
-    floorWords_->setText(tr("Known once the Network scene has generated samples of this design."));
+    floorWords_->setText(tr("Known once there are samples of this design."));
     return;
   }
-  const double noise = noise_->value() / 100;
+  const double noise = workbench_.project().view.resistanceNoise;
   std::vector<int> all(static_cast<std::size_t>(samples->training.rowWires));
   std::iota(all.begin(), all.end(), 0);
   const int centre = std::min(4, samples->training.rowWires - 1);
@@ -263,7 +293,8 @@ void DesignPage::displayNoiseFloor() {
 
 void DesignPage::editMesh() {
   Project next = workbench_.project();
-  next.mesh = {};
+  next.mesh.mapped.reset();
+  next.mesh.meshSize_mm.reset();
   if (!automaticSize_->isChecked()) next.mesh.meshSize_mm = size_->value();
   workbench_.edit(tr("Change the mesh size"), next);
 }

@@ -7,7 +7,9 @@
 
 class QCheckBox;
 class QDoubleSpinBox;
+class QGroupBox;
 class QLabel;
+class QPushButton;
 
 namespace palp {
 
@@ -25,6 +27,7 @@ public:
   [[nodiscard]] Stage stage() const override;
   void setTheme(Theme theme) override;
   [[nodiscard]] bool complete() const override;
+  [[nodiscard]] QString commands(const Project& project, const QString& designFile) const override;
 
 signals:
   /// The page needs another stage than before.
@@ -41,6 +44,8 @@ private:
   void displayMesh();
   void displayNoiseFloor();
   void editMesh();
+  QGroupBox* buildMesh();
+  QGroupBox* buildNoiseFloor();
 
   Workbench& workbench_;
   NetworkSession& network_;
@@ -54,6 +59,7 @@ private:
   ChartView* quality_ = nullptr;
   QDoubleSpinBox* noise_ = nullptr;
   QLabel* floorWords_ = nullptr;
+  QPushButton* floorSamples_ = nullptr;
 };
 
 } // namespace palp

@@ -1,8 +1,10 @@
 #include "app/gui/DesignPanel.h"
 
 #include "app/gui/DesignFields.h"
+#include "app/gui/DesignPresets.h"
 
 #include <QCheckBox>
+#include <QComboBox>
 #include <QFormLayout>
 #include <QGroupBox>
 #include <QLabel>
@@ -42,9 +44,28 @@ DesignPanel::DesignPanel(QWidget* parent) : QWidget(parent) {
   derived_->setObjectName("derived");
   derived_->setWordWrap(true);
   derived_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  buildPresets();
   buildFields();
   buildSwitches();
   column->addStretch(1);
+}
+
+void DesignPanel::buildPresets() {
+  auto* presets = new QComboBox;
+  presets->setObjectName("presets");
+  presets->setPlaceholderText(tr("Start from a preset..."));
+  const std::vector<DesignPreset> all = designPresets();
+  for (const DesignPreset& preset : all) {
+    presets->addItem(preset.name);
+    presets->setItemData(presets->count() - 1, preset.tip, Qt::ToolTipRole);
+  }
+  presets->setCurrentIndex(-1);
+  layout()->addWidget(presets);
+  connect(presets, &QComboBox::activated, this, [this, presets, all](int k) {
+    presets->setCurrentIndex(-1);
+    const DesignPreset& preset = all[static_cast<std::size_t>(k)];
+    emit edited(tr("Take the preset: %1").arg(preset.name), preset.design);
+  });
 }
 
 void DesignPanel::buildFields() {

@@ -31,6 +31,7 @@ private:
     QLineEdit* edit = nullptr;
     QLabel* problem = nullptr;
   };
+  void buildPresets();
   void buildFields();
   void buildSwitches();
   void read(const QString& what);

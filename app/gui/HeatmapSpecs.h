@@ -1,12 +1,10 @@
 #pragma once
 
+#include "app/gui/ViewSettings.h"
 #include "app/scenes/Heatmap.h"
 #include "app/study/Touch.h"
 
 namespace palp {
-
-/// What the heatmap shows of the resistances.
-enum class ResistanceKind { Resistance, Change, RelativeChange };
 
 /// The touch's resistances as a heatmap: R [ohm], R - R at rest [ohm], or its share of R at rest [%].
 HeatmapSpec resistanceHeatmap(const Touch& touch, const Eigen::MatrixXd& resistances_ohm, ResistanceKind kind);

@@ -2,11 +2,20 @@
 
 #include <QMetaObject>
 
+#include <malloc.h>
+
 namespace palp {
 
 namespace {
 
 constexpr int kReportEvery_ms = 60;
+
+/// A solve needs hundreds of megabytes for a second; the C library would keep most of them.
+void returnMemory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
 
 } // namespace
 
@@ -56,6 +65,7 @@ void JobRunner::launch(Order order) {
     } catch (const std::exception& refusal) {
       error = QString::fromStdString(refusal.what());
     }
+    returnMemory();
     QMetaObject::invokeMethod(
         this, [this, taking = std::move(taking), error] { end(taking, error); }, Qt::QueuedConnection);
   });

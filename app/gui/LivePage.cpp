@@ -1,5 +1,6 @@
 #include "app/gui/LivePage.h"
 
+#include "app/gui/Command.h"
 #include "app/gui/HeatmapView.h"
 #include "app/gui/LiveCalibration.h"
 #include "app/gui/LiveControlPanel.h"
@@ -204,6 +205,10 @@ void LivePage::setTheme(Theme theme) {
   heatmap_->setTheme(theme);
   forces_->setTheme(theme);
   changes_->setTheme(theme);
+}
+
+QString LivePage::commands(const Project& project, const QString&) const {
+  return liveCommand(project.live);
 }
 
 bool LivePage::complete() const {

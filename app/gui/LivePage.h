@@ -34,6 +34,7 @@ public:
   [[nodiscard]] Stage stage() const override { return Stage::Design; }
   void setTheme(Theme theme) override;
   [[nodiscard]] bool complete() const override;
+  [[nodiscard]] QString commands(const Project& project, const QString& designFile) const override;
   [[nodiscard]] LiveHost& host() { return host_; }
   [[nodiscard]] LiveTwin& twin() { return *twin_; }
   /// How often the views were brought up to date.

@@ -3,7 +3,9 @@
 #include "app/gui/DeformationPage.h"
 #include "app/gui/DesignPage.h"
 #include "app/gui/JobStrip.h"
+#include "app/gui/Layout.h"
 #include "app/gui/LivePage.h"
+#include "app/gui/LoadPathAnimation.h"
 #include "app/gui/Menus.h"
 #include "app/gui/NetworkPage.h"
 #include "app/gui/NetworkSession.h"
@@ -50,7 +52,11 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   auto* designPage = new DesignPage(workbench, network);
   connect(designPage, &DesignPage::stageChanged, this, [this] { workbench_.touch().need(currentScene().stage()); });
   addScene("design", tr("Design"), tr("The sensor at rest and all its parameters"), designPage);
-  addScene("deformation", tr("Deformation"), tr("The block under load"), new DeformationPage(workbench));
+  deformation_ = new DeformationPage(workbench);
+  connect(deformation_, &DeformationPage::told, this, &MainWindow::tell);
+  animation_ = new LoadPathAnimation(workbench.touch(), deformation_->block(), this);
+  connect(animation_, &LoadPathAnimation::done, this, &MainWindow::tell);
+  addScene("deformation", tr("Deformation"), tr("The block under load"), deformation_);
   addScene("resistance", tr("Resistance"), tr("Row-column resistances under the load"), new ResistancePage(workbench));
   auto* networkPage = new NetworkPage(workbench, network);
   connect(networkPage, &NetworkPage::refused, this, &MainWindow::tell);
@@ -65,6 +71,7 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   connect(new QShortcut(Qt::Key_Escape, this), &QShortcut::activated, this, [this] {
     workbench_.touch().cancel();
     network_.cancel();
+    animation_->runner().cancel();
   });
   connect(rail_, &QListWidget::currentRowChanged, this, &MainWindow::sceneChosen);
   restoreLayout();
@@ -80,7 +87,7 @@ void MainWindow::addScene(const QString& name, const QString& title, const QStri
 }
 
 void MainWindow::buildStatusLine() {
-  for (JobRunner* runner : {&workbench_.touch().runner(), &network_.runner()}) {
+  for (JobRunner* runner : {&workbench_.touch().runner(), &network_.runner(), &animation_->runner()}) {
     auto* strip = new JobStrip(*runner);
     connect(strip, &JobStrip::told, this, &MainWindow::tell);
     statusBar()->addPermanentWidget(strip);
@@ -121,6 +128,15 @@ void MainWindow::setTheme(Theme theme) {
   QSettings().setValue("theme", theme == Theme::Light ? "light" : "dark");
 }
 
+void MainWindow::animate(const QString& folder) {
+  LoadPathAnimation::Settings settings;
+  settings.options = deformation_->blockOptions();
+  settings.options.scale = 1;
+  settings.folder = folder.toStdString();
+  if (!animation_->start(settings))
+    tell(tr("There is no load path yet; wait until the Deformation scene has solved the load."));
+}
+
 void MainWindow::tell(const QString& sentence) {
   statusBar()->showMessage(sentence, kMessage_ms);
 }
@@ -129,13 +145,18 @@ void MainWindow::restoreLayout() {
   QSettings settings;
   resize(1500, 900);
   restoreGeometry(settings.value("geometry").toByteArray());
+  restoreState(settings.value("state").toByteArray());
+  palp::restoreLayout(*this);
   setTheme(settings.value("theme").toString() == "dark" ? Theme::Dark : Theme::Light);
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
   QSettings().setValue("geometry", saveGeometry());
+  QSettings().setValue("state", saveState());
+  saveLayout(*this);
   workbench_.touch().cancel();
   network_.cancel();
+  animation_->runner().cancel();
   event->accept();
 }
 

@@ -9,6 +9,8 @@ class QStackedWidget;
 
 namespace palp {
 
+class DeformationPage;
+class LoadPathAnimation;
 class Menus;
 class NetworkSession;
 class Workbench;
@@ -26,6 +28,8 @@ public:
   [[nodiscard]] Scene& currentScene() const;
   void setTheme(Theme theme);
   [[nodiscard]] Theme theme() const { return theme_; }
+  /// Draws the load path into a folder; says why where it cannot.
+  void animate(const QString& folder);
   /// Says a sentence in the status line.
   void tell(const QString& sentence);
 
@@ -43,6 +47,8 @@ private:
 
   Workbench& workbench_;
   NetworkSession& network_;
+  DeformationPage* deformation_ = nullptr;
+  LoadPathAnimation* animation_ = nullptr;
   Menus* menus_ = nullptr;
   QListWidget* rail_ = nullptr;
   QStackedWidget* scenes_ = nullptr;

@@ -1,6 +1,6 @@
 #include "app/gui/Menus.h"
 
-#include "app/gui/Command.h"
+#include "app/gui/HelpDialog.h"
 #include "app/gui/MainWindow.h"
 #include "app/gui/ProjectFile.h"
 #include "app/gui/ResultCsv.h"
@@ -92,6 +92,11 @@ void Menus::buildExport(QMenu& menu) {
       writeResultCsv(file, workbench_.touch().touch().design(), *workbench_.touch().electrodes());
     });
   });
+  add(menu, tr("&Animation of the load path..."),
+      tr("25 pictures from rest to the full load, as the block is shown now, into a folder"), {}, [this] {
+        const QString folder = QFileDialog::getExistingDirectory(&window_, tr("Folder of the pictures"));
+        if (!folder.isEmpty()) window_.animate(folder);
+      });
   add(menu, tr("&Picture of the window..."), tr("The window as PNG; a right click on a view saves that view alone"),
       QKeySequence("Ctrl+P"), [this] {
         exportTo(tr("Picture of the window"), "palp.png", tr("Pictures (*.png)"), [this](const QString& file) {
@@ -100,11 +105,11 @@ void Menus::buildExport(QMenu& menu) {
       });
   add(menu, tr("Copy as co&mmand"), tr("The palp commands that do what the scene shows, to the clipboard"),
       QKeySequence("Ctrl+Shift+C"), [this] {
-        const Project& project = workbench_.project();
-        const QString scene = window_.currentScene().objectName();
-        const QString commands = scene == "live"      ? liveCommand(project.live)
-                                 : scene == "network" ? networkCommands(project, "sensor.json")
-                                                      : solveCommands(project, "sensor.json");
+        const QString commands = window_.currentScene().commands(workbench_.project(), "sensor.json");
+        if (commands.isEmpty()) {
+          window_.tell(tr("This scene has no command of its own."));
+          return;
+        }
         QApplication::clipboard()->setText(commands);
         window_.tell(tr("Copied: %1   (sensor.json: File, Save design)").arg(commands.section('\n', 0, 0)));
       });
@@ -148,25 +153,8 @@ void Menus::buildView() {
 
 void Menus::buildHelp() {
   QMenu& menu = *window_.menuBar()->addMenu(tr("&Help"));
-  add(menu, tr("&Keys and mouse"), tr("What the mouse and the keys do"), QKeySequence("F1"), [this] {
-    QMessageBox::information(&window_, tr("Keys and mouse"),
-                             tr("<table cellpadding=3>"
-                                "<tr><td><b>Drag</b></td><td>turns the block, moves a chart</td></tr>"
-                                "<tr><td><b>Shift and drag</b>, middle button</td><td>moves the block</td></tr>"
-                                "<tr><td><b>Wheel</b></td><td>zooms</td></tr>"
-                                "<tr><td><b>Double click</b></td><td>shows all of it again</td></tr>"
-                                "<tr><td><b>Click on the block</b></td><td>reads a point, chooses a load area</td></tr>"
-                                "<tr><td><b>Click on the heatmap</b></td><td>lights the electrodes of a cell</td></tr>"
-                                "<tr><td><b>Right click on a view</b></td><td>saves or copies its picture</td></tr>"
-                                "<tr><td><b>Ctrl+1, 2, ...</b></td><td>scenes</td></tr>"
-                                "<tr><td><b>Ctrl+Z, Ctrl+Y</b></td><td>undo, redo</td></tr>"
-                                "<tr><td><b>Esc</b></td><td>cancels what runs</td></tr>"
-                                "<tr><td><b>F5</b></td><td>computes again</td></tr>"
-                                "<tr><td><b>Ctrl+Shift+C</b></td><td>copies the scene as commands of palp</td></tr>"
-                                "<tr><td><b>T, R, M, W</b></td><td>Live: tare, record, mark, twin</td></tr>"
-                                "<tr><td><b>Space, period</b></td><td>Live: holds, one frame on</td></tr>"
-                                "</table>"));
-  });
+  add(menu, tr("&Help"), tr("What each scene does, what the mouse and the keys do"), QKeySequence("F1"),
+      [this] { showHelp(&window_, window_.currentScene().objectName()); });
   add(menu, tr("&About Palp"), tr("What this program is"), {}, [this] {
     QMessageBox::about(
         &window_, tr("About Palp"),
@@ -180,7 +168,11 @@ void Menus::buildHelp() {
 
 void Menus::open(const QString& file) {
   try {
-    workbench_.replace(loadProject(file.toStdString(), workbench_.project()));
+    Project open = workbench_.project();
+    open.view.scene = window_.currentScene().objectName().toStdString();
+    const Project project = loadProject(file.toStdString(), open);
+    workbench_.replace(project);
+    window_.showScene(QString::fromStdString(project.view.scene));
     rememberFile(file);
     file_.clear();
     window_.tell(tr("Opened %1.").arg(file));
@@ -196,7 +188,9 @@ void Menus::save(const QString& file) {
                                                                         tr("Projects (*.json)"));
   if (chosen.isEmpty()) return;
   try {
-    saveProject(chosen.toStdString(), workbench_.project());
+    Project project = workbench_.project();
+    project.view.scene = window_.currentScene().objectName().toStdString();
+    saveProject(chosen.toStdString(), project);
     file_ = chosen;
     rememberFile(chosen);
     window_.tell(tr("Saved %1.").arg(chosen));

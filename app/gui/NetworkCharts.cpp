@@ -145,4 +145,56 @@ ChartSpec relativeErrorChart(const NetworkSamples& samples, const NetworkFit& fi
   return spec;
 }
 
+namespace {
+
+/// Decoders keep their colour and dash on both charts.
+ChartSeries trialSeries(const DecoderTrial& trial, std::size_t place, Style style) {
+  ChartSeries made = series(name(trial.kind), style, static_cast<int>(place % 7));
+  made.dashed = place >= 7;
+  return made;
+}
+
+} // namespace
+
+ChartSpec trialsErrorChart(const std::vector<DecoderTrial>& trials, const std::vector<SweepPoint>& sweep,
+                           InputKind input) {
+  ChartSpec spec = againstSpread(input == InputKind::Displacement ? "All decoders, from displacements"
+                                                                  : "All decoders, from resistances",
+                                 "mean of Fx, Fy, Fz, Eq. (13) [%]");
+  ChartSeries curve = series("rbf, swept", Style::LineAndPoints, 6);
+  for (const SweepPoint& point : sweep) {
+    curve.x.push_back(point.spread);
+    curve.y.push_back(point.error.eq13Percent.mean());
+  }
+  const double from = sweep.empty() ? 0.3 : sweep.front().spread;
+  const double to = sweep.empty() ? 10 : sweep.back().spread;
+  std::size_t place = 0;
+  for (const DecoderTrial& trial : trials) {
+    if (!trial.refusal.isEmpty()) continue;
+    ChartSeries level = trialSeries(trial, place++, Style::Line);
+    level.x = {from, to};
+    level.y.assign(2, trial.error.eq13Percent.mean());
+    spec.series.push_back(std::move(level));
+  }
+  if (!curve.x.empty()) spec.series.push_back(std::move(curve));
+  return spec;
+}
+
+ChartSpec trialsTimeChart(const std::vector<DecoderTrial>& trials) {
+  ChartSpec spec;
+  spec.title = "Error against training time";
+  spec.xLabel = "training time [s]";
+  spec.yLabel = "mean of Fx, Fy, Fz, Eq. (13) [%]";
+  spec.logX = spec.logY = true;
+  std::size_t place = 0;
+  for (const DecoderTrial& trial : trials) {
+    if (!trial.refusal.isEmpty()) continue;
+    ChartSeries point = trialSeries(trial, place++, Style::Points);
+    point.x = {trial.seconds};
+    point.y = {trial.error.eq13Percent.mean()};
+    spec.series.push_back(std::move(point));
+  }
+  return spec;
+}
+
 } // namespace palp

@@ -1,6 +1,7 @@
 #include "app/gui/NetworkPage.h"
 
 #include "app/gui/ChartView.h"
+#include "app/gui/Command.h"
 #include "app/gui/NetworkCharts.h"
 #include "app/gui/NetworkPanel.h"
 #include "io/NetworkFile.h"
@@ -11,6 +12,7 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QScrollArea>
+#include <QSignalBlocker>
 #include <QSpinBox>
 #include <QSplitter>
 #include <QTabWidget>
@@ -63,11 +65,20 @@ NetworkPage::NetworkPage(Workbench& workbench, NetworkSession& session, QWidget*
           [this] { session_.generate(workbench_.project().samples, workbench_.project().mesh); });
   connect(panel_, &NetworkPanel::trainAsked, this, [this] { session_.train(workbench_.project().network); });
   connect(panel_, &NetworkPanel::sweepAsked, this, [this] { session_.sweep(workbench_.project().network); });
+  connect(panel_, &NetworkPanel::compareAsked, this, [this] {
+    tabs_->setCurrentIndex(2);
+    session_.compare(workbench_.project().network);
+  });
+  connect(&session_, &NetworkSession::trialsChanged, this, &NetworkPage::displayTrials);
   connect(&workbench_, &Workbench::projectChanged, this, &NetworkPage::displayProject);
   connect(&session_, &NetworkSession::samplesChanged, this, &NetworkPage::displaySamples);
   connect(&session_, &NetworkSession::fitChanged, this, &NetworkPage::displayFit);
   connect(&session_, &NetworkSession::sweepChanged, this, &NetworkPage::displaySweep);
-  connect(area_, &QSpinBox::valueChanged, this, &NetworkPage::displayFit);
+  connect(area_, &QSpinBox::valueChanged, this, [this](int area) {
+    Project next = workbench_.project();
+    next.view.testArea = area;
+    workbench_.edit(tr("Choose a test area"), next);
+  });
   connect(save_, &QPushButton::clicked, this, &NetworkPage::saveNetwork);
   connect(open_, &QPushButton::clicked, this, &NetworkPage::openNetwork);
   displayProject();
@@ -88,18 +99,13 @@ QWidget* NetworkPage::buildCharts() {
   area_ = new QSpinBox;
   area_->setObjectName("testArea");
   bar->addWidget(area_);
+  area_->setToolTip(tr("Load area whose test samples are drawn"));
   save_ = new QPushButton(tr("Save network..."));
   open_ = new QPushButton(tr("Open network..."));
   bar->addWidget(save_);
   bar->addWidget(open_);
   column->addLayout(bar);
 
-  const auto chart = [this](const char* name) {
-    auto* view = new ChartView;
-    view->setObjectName(name);
-    all_.push_back(view);
-    return view;
-  };
   error_ = chart("sweepError");
   leaveOneOut_ = chart("leaveOneOut");
   condition_ = chart("condition");
@@ -110,12 +116,37 @@ QWidget* NetworkPage::buildCharts() {
   tabs_->setObjectName("networkTabs");
   QSplitter* sweep = beside({error_, beside({leaveOneOut_, condition_, time_}, Qt::Horizontal)}, Qt::Vertical);
   sweep->setSizes({500, 260});
+  sweep->setObjectName("networkSweep");
   tabs_->addTab(sweep, tr("Spread"));
   QSplitter* fit =
       beside({beside({decoupled_[0], decoupled_[1], decoupled_[2]}, Qt::Horizontal), relative_}, Qt::Vertical);
   fit->setSizes({360, 360});
+  fit->setObjectName("networkFit");
   tabs_->addTab(fit, tr("Decoupled against true force"));
+  tabs_->addTab(buildTrials(), tr("Decoders"));
   column->addWidget(tabs_, 1);
+  return page;
+}
+
+ChartView* NetworkPage::chart(const char* name) {
+  auto* view = new ChartView;
+  view->setObjectName(name);
+  all_.push_back(view);
+  return view;
+}
+
+QWidget* NetworkPage::buildTrials() {
+  trialsError_ = chart("trialsError");
+  trialsTime_ = chart("trialsTime");
+  trialsWords_ = new QLabel(tr("Compare all decoders trains each kind on the same samples."));
+  trialsWords_->setObjectName("trialsWords");
+  trialsWords_->setWordWrap(true);
+  auto* page = new QWidget;
+  auto* column = new QVBoxLayout(page);
+  column->addWidget(trialsWords_);
+  QSplitter* charts = beside({trialsError_, trialsTime_}, Qt::Horizontal);
+  charts->setObjectName("networkTrials");
+  column->addWidget(charts, 1);
   return page;
 }
 
@@ -127,23 +158,36 @@ void NetworkPage::showEvent(QShowEvent* event) {
   Scene::showEvent(event);
   displaySweep();
   displayFit();
+  displayTrials();
+}
+
+QString NetworkPage::commands(const Project& project, const QString& designFile) const {
+  return networkCommands(project, designFile);
 }
 
 void NetworkPage::displayProject() {
   panel_->display(workbench_.project());
   session_.setDesign(workbench_.project().design);
+  const QSignalBlocker quiet(area_);
   area_->setRange(0, std::max(0, workbench_.project().design.areas.count() - 1));
+  const int before = area_->value();
+  area_->setValue(workbench_.project().view.testArea);
   displaySweep();
+  displayTrials();
+  if (area_->value() != before) displayFit();
 }
 
 void NetworkPage::displaySamples() {
   const NetworkSamples* samples = session_.samples();
-  panel_->displaySamples(samples != nullptr,
-                         samples == nullptr ? tr("None yet for this design.")
-                                            : tr("%1 for training, %2 for testing; batch error against full Newton %3.")
-                                                  .arg(samples->training.size())
-                                                  .arg(samples->test.size())
-                                                  .arg(samples->batchError, 0, 'g', 2));
+  const auto [made, all] = session_.stoppedAt();
+  QString words = tr("None yet for this design.");
+  if (samples != nullptr)
+    words = tr("%1 for training, %2 for testing; batch error against full Newton %3.")
+                .arg(samples->training.size())
+                .arg(samples->test.size())
+                .arg(samples->batchError, 0, 'g', 2);
+  if (all > 0) words += tr(" Stopped at sample %1 of %2; it goes on from there.").arg(made).arg(all);
+  panel_->displaySamples(samples != nullptr, words, all > 0);
 }
 
 void NetworkPage::displaySweep() {
@@ -188,6 +232,21 @@ void NetworkPage::drawCharts() {
   for (int d = 0; d < 3; ++d)
     decoupled_[static_cast<std::size_t>(d)]->setChart(decoupledChart(*samples, *fit, d, area_->value()));
   relative_->setChart(relativeErrorChart(*samples, *fit, area_->value()));
+}
+
+void NetworkPage::displayTrials() {
+  if (!isVisible()) return;
+  const std::vector<DecoderTrial>& trials = session_.trials();
+  trialsError_->setChart(trialsErrorChart(
+      trials,
+      session_.sweepSettings().input == session_.trialsInput() ? session_.sweepPoints() : std::vector<SweepPoint>{},
+      session_.trialsInput()));
+  trialsTime_->setChart(trialsTimeChart(trials));
+  QStringList words;
+  for (const DecoderTrial& trial : trials)
+    if (!trial.refusal.isEmpty()) words << tr("%1: %2").arg(QString::fromStdString(name(trial.kind)), trial.refusal);
+  trialsWords_->setText(words.isEmpty() ? tr("Compare all decoders trains each kind on the same samples.")
+                                        : tr("Not trained: ") + words.join("; "));
 }
 
 void NetworkPage::saveNetwork() {

@@ -27,6 +27,7 @@ public:
   [[nodiscard]] Stage stage() const override { return Stage::Design; }
   void setTheme(Theme theme) override;
   [[nodiscard]] bool complete() const override { return true; }
+  [[nodiscard]] QString commands(const Project& project, const QString& designFile) const override;
 
 signals:
   void refused(const QString& sentence);
@@ -36,10 +37,13 @@ protected:
 
 private:
   QWidget* buildCharts();
+  QWidget* buildTrials();
+  ChartView* chart(const char* name);
   void displayProject();
   void displaySamples();
   void displaySweep();
   void displayFit();
+  void displayTrials();
   void drawCharts();
   void saveNetwork();
   void openNetwork();
@@ -58,6 +62,9 @@ private:
   ChartView* time_ = nullptr;
   std::array<ChartView*, 3> decoupled_{};
   ChartView* relative_ = nullptr;
+  ChartView* trialsError_ = nullptr;
+  ChartView* trialsTime_ = nullptr;
+  QLabel* trialsWords_ = nullptr;
   std::vector<ChartView*> all_;
 };
 

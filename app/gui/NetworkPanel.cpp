@@ -14,6 +14,7 @@
 #include <QVBoxLayout>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace palp {
@@ -62,7 +63,10 @@ void NetworkPanel::buildSamples(QVBoxLayout& column) {
   perArea_->setToolTip(
       tr("Random forces on each area, for training and as many others for testing; the paper has 100"));
   form->addRow(tr("On each area"), perArea_);
+  perArea_->setKeyboardTracking(false);
   seed_ = new QSpinBox;
+  seed_->setObjectName("seed");
+  seed_->setKeyboardTracking(false);
   seed_->setRange(0, 1000000000);
   seed_->setToolTip(tr("The same seed gives the same samples"));
   form->addRow(tr("Seed"), seed_);
@@ -100,6 +104,13 @@ void NetworkPanel::buildTraining(QVBoxLayout& column) {
   rows_->setObjectName("rows");
   rows_->setToolTip(tr("Row-wires that are read, counted from 0: 4, or 1,4,7, or all"));
   form->addRow(tr("Row-wires"), rows_);
+  centers_ = new QSpinBox;
+  centers_->setObjectName("centers");
+  centers_->setRange(0, 100000);
+  centers_->setSpecialValueText(tr("as the mode says"));
+  centers_->setKeyboardTracking(false);
+  centers_->setToolTip(tr("Centres of the radial basis functions; fewer than samples make a smoother network"));
+  form->addRow(tr("Centres"), centers_);
   noise_ = new QDoubleSpinBox;
   noise_->setObjectName("noise");
   noise_->setRange(0, 10);
@@ -129,6 +140,7 @@ void NetworkPanel::buildTraining(QVBoxLayout& column) {
   connect(mode_, &QComboBox::currentIndexChanged, this, [this] { tell(tr("Change the network's mode")); });
   connect(decoder_, &QComboBox::currentIndexChanged, this, [this] { tell(tr("Change the decoder")); });
   connect(rows_, &QLineEdit::editingFinished, this, [this] { tell(tr("Change the row-wires")); });
+  connect(centers_, &QSpinBox::valueChanged, this, [this] { tell(tr("Change the centres")); });
   connect(noise_, &QDoubleSpinBox::valueChanged, this, [this] { tell(tr("Change the noise")); });
   connect(automatic_, &QCheckBox::toggled, this, [this] { tell(tr("Change the spread")); });
   connect(spread_, &QDoubleSpinBox::valueChanged, this, [this] { tell(tr("Change the spread")); });
@@ -156,11 +168,15 @@ void NetworkPanel::buildSweep(QVBoxLayout& column) {
   sweep_ = new QPushButton(tr("Sweep"));
   sweep_->setObjectName("sweep");
   form->addRow(sweep_);
+  compare_ = new QPushButton(tr("Compare all decoders"));
+  compare_->setObjectName("compare");
+  form->addRow(compare_);
   column.addWidget(box);
   for (QDoubleSpinBox* spin : {from_, to_})
     connect(spin, &QDoubleSpinBox::valueChanged, this, [this] { tell(tr("Change the sweep")); });
   connect(count_, &QSpinBox::valueChanged, this, [this] { tell(tr("Change the sweep")); });
   connect(sweep_, &QPushButton::clicked, this, &NetworkPanel::sweepAsked);
+  connect(compare_, &QPushButton::clicked, this, &NetworkPanel::compareAsked);
 }
 
 void NetworkPanel::display(const Project& project) {
@@ -173,6 +189,7 @@ void NetworkPanel::display(const Project& project) {
   mode_->setCurrentIndex(network_.mode == NetworkMode::Default ? 0 : 1);
   decoder_->setCurrentText(QString::fromStdString(name(network_.decoder)));
   rows_->setText(QString::fromStdString(network_.rows));
+  centers_->setValue(network_.centers);
   noise_->setValue(100 * network_.noise);
   automatic_->setChecked(network_.automaticSpread);
   from_->setValue(network_.sweepFrom);
@@ -189,13 +206,17 @@ void NetworkPanel::showSpread() {
   spreadSlider_->setEnabled(!network_.automaticSpread);
 }
 
-void NetworkPanel::displaySamples(bool there, const QString& words) {
+void NetworkPanel::displaySamples(bool there, const QString& words, bool goOn) {
   samplesWords_->setText(words);
-  train_->setEnabled(there);
-  sweep_->setEnabled(there);
-  const QString why = there ? QString() : tr("Generate samples first");
-  train_->setToolTip(why);
-  sweep_->setToolTip(why);
+  generate_->setText(goOn ? tr("Go on generating samples") : tr("Generate samples"));
+  const std::array<std::pair<QPushButton*, QString>, 3> buttons{
+      {{train_, tr("Fits the network to the training samples and tries it on the others")},
+       {sweep_, tr("Trains once for each spread")},
+       {compare_, tr("Trains every kind of decoder on the same samples: error and time on the same axes")}}};
+  for (const auto& [button, tip] : buttons) {
+    button->setEnabled(there);
+    button->setToolTip(there ? tip : tr("Generate samples first"));
+  }
 }
 
 void NetworkPanel::tell(const QString& what) {
@@ -206,6 +227,7 @@ void NetworkPanel::tell(const QString& what) {
   network_.mode = mode_->currentIndex() == 0 ? NetworkMode::Default : NetworkMode::Paper;
   network_.decoder = decoderKindNamed(decoder_->currentText().toStdString());
   network_.rows = rows_->text().trimmed().toStdString();
+  network_.centers = centers_->value();
   network_.noise = noise_->value() / 100;
   network_.automaticSpread = automatic_->isChecked();
   network_.spread = spread_->value();

@@ -26,7 +26,7 @@ public:
   /// Emits nothing.
   void display(const Project& project);
   /// What there is to work with, and the state of the samples in words.
-  void displaySamples(bool there, const QString& words);
+  void displaySamples(bool there, const QString& words, bool goOn);
 
 signals:
   /// By the user's hand only.
@@ -34,6 +34,7 @@ signals:
   void generateAsked();
   void trainAsked();
   void sweepAsked();
+  void compareAsked();
 
 private:
   void buildSamples(QVBoxLayout& column);
@@ -56,12 +57,14 @@ private:
   QCheckBox* automatic_ = nullptr;
   QDoubleSpinBox* spread_ = nullptr;
   QSlider* spreadSlider_ = nullptr;
+  QSpinBox* centers_ = nullptr;
   QDoubleSpinBox* noise_ = nullptr;
   QPushButton* train_ = nullptr;
   QDoubleSpinBox* from_ = nullptr;
   QDoubleSpinBox* to_ = nullptr;
   QSpinBox* count_ = nullptr;
   QPushButton* sweep_ = nullptr;
+  QPushButton* compare_ = nullptr;
 };
 
 } // namespace palp

@@ -9,6 +9,7 @@ TrainOptions NetworkSettings::trainOptions() const {
   options.decoder = decoder;
   options.rows = rows;
   options.noise = noise;
+  if (centers > 0) options.centers = centers;
   if (!automaticSpread) options.spread = spread;
   return options;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/gui/LiveSettings.h"
+#include "app/gui/ViewSettings.h"
 #include "app/study/TrainOptions.h"
 #include "model/LoadCase.h"
 #include "model/SensorDesign.h"
@@ -27,6 +28,7 @@ struct NetworkSettings {
   std::string rows = "4";
   bool automaticSpread = false;
   double spread = 1;
+  int centers = 0; ///< 0: as the mode says
   double noise = 0;
   double sweepFrom = 0.3;
   double sweepTo = 10;
@@ -43,6 +45,7 @@ struct Project {
   MeshOptions mesh;
   SampleSettings samples;
   NetworkSettings network;
+  ViewSettings view;
   LiveSettings live;
 
   bool operator==(const Project&) const = default;

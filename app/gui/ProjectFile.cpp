@@ -1,5 +1,6 @@
 #include "app/gui/ProjectFile.h"
 
+#include "app/gui/ProjectPlace.h"
 #include "io/DesignFile.h"
 #include "model/Error.h"
 
@@ -9,85 +10,15 @@
 #include <QJsonObject>
 #include <QSaveFile>
 
-#include <cmath>
-
 namespace palp {
 
 namespace {
 
-constexpr int kVersion = 1;
+using Place = ProjectPlace;
+
+constexpr int kVersion = 2; ///< 1 had no view
 constexpr const char* kVersionKey = "palp_project";
-
-/// An object of the file together with where it stands, for refusals of one sentence.
-class Place {
-public:
-  Place(QJsonObject object, QString file, QString key = {})
-      : object_(std::move(object)), file_(std::move(file)), key_(std::move(key)) {}
-
-  [[noreturn]] void refuse(const QString& key, const QString& allowed) const {
-    const QString where = key_.isEmpty() ? key : key_ + "." + key;
-    const QJsonValue value = object_.value(key);
-    const QString text =
-        value.isUndefined() ? "missing" : QJsonDocument(QJsonArray{value}).toJson(QJsonDocument::Compact);
-    throw Error((file_ + ": " + where + ": " + text + "; allowed is " + allowed).toStdString());
-  }
-  void onlyKeys(const QStringList& keys) const {
-    for (const QString& key : object_.keys())
-      if (!keys.contains(key)) refuse(key, "one of " + keys.join(", ") + " as a key");
-  }
-  [[nodiscard]] double number(const QString& key, double low, double high) const {
-    const QJsonValue value = object_.value(key);
-    if (!value.isDouble() || !(value.toDouble() >= low && value.toDouble() <= high))
-      refuse(key, QString("a number from %1 to %2").arg(low).arg(high));
-    return value.toDouble();
-  }
-  [[nodiscard]] int integer(const QString& key, int low, int high) const {
-    const double value = number(key, low, high);
-    if (value != std::floor(value)) refuse(key, QString("a whole number from %1 to %2").arg(low).arg(high));
-    return static_cast<int>(value);
-  }
-  [[nodiscard]] bool boolean(const QString& key) const {
-    if (!object_.value(key).isBool()) refuse(key, "true or false");
-    return object_.value(key).toBool();
-  }
-  [[nodiscard]] QString word(const QString& key, const QStringList& words = {}) const {
-    const QJsonValue value = object_.value(key);
-    if (!value.isString() || (!words.isEmpty() && !words.contains(value.toString())))
-      refuse(key, words.isEmpty() ? "a text" : words.join(", "));
-    return value.toString();
-  }
-  [[nodiscard]] Place at(const QString& key) const {
-    if (!object_.value(key).isObject()) refuse(key, "an object");
-    return {object_.value(key).toObject(), file_, key_.isEmpty() ? key : key_ + "." + key};
-  }
-  [[nodiscard]] std::vector<Place> list(const QString& key) const {
-    if (!object_.value(key).isArray()) refuse(key, "a list of objects");
-    std::vector<Place> places;
-    for (const QJsonValue value : object_.value(key).toArray()) {
-      if (!value.isObject()) refuse(key, "a list of objects");
-      places.emplace_back(value.toObject(), file_, key + "[" + QString::number(places.size()) + "]");
-    }
-    return places;
-  }
-  [[nodiscard]] Eigen::VectorXd numbers(const QString& key, Eigen::Index count) const {
-    const QJsonArray array = object_.value(key).toArray();
-    bool good = object_.value(key).isArray() && array.size() == count;
-    Eigen::VectorXd values(count);
-    for (Eigen::Index k = 0; good && k < count; ++k) {
-      good = array[k].isDouble();
-      values[k] = array[k].toDouble();
-    }
-    if (!good) refuse(key, QString("a list of %1 numbers").arg(count));
-    return values;
-  }
-  [[nodiscard]] bool has(const QString& key) const { return object_.contains(key); }
-  [[nodiscard]] QJsonObject object() const { return object_; }
-
-private:
-  QJsonObject object_;
-  QString file_;
-  QString key_;
-};
+const QStringList kResistanceKinds{"R", "dR", "dR/R"}; ///< in the enumeration's order
 
 QJsonArray jsonOf(const Eigen::Ref<const Eigen::VectorXd>& values) {
   QJsonArray array;
@@ -133,8 +64,9 @@ MeshOptions meshOf(const Place& place) {
   MeshOptions mesh;
   if (place.has("mesh_size_mm")) mesh.meshSize_mm = place.number("mesh_size_mm", 0.01, 1000);
   if (place.has("mapped")) {
-    const Eigen::Vector3i counts = place.numbers("mapped", 3).cast<int>();
-    if (counts.minCoeff() < 1) place.refuse("mapped", "three whole numbers from 1");
+    const Eigen::Vector3d given = place.numbers("mapped", 3);
+    if (!(given.minCoeff() >= 1 && given.maxCoeff() <= 1000)) place.refuse("mapped", "three whole numbers, 1 to 1000");
+    const Eigen::Vector3i counts = given.cast<int>();
     mesh.mapped = {counts[0], counts[1], counts[2]};
   }
   return mesh;
@@ -147,6 +79,7 @@ QJsonObject networkJson(const NetworkSettings& network) {
           {"rows", QString::fromStdString(network.rows)},
           {"automatic_spread", network.automaticSpread},
           {"spread", network.spread},
+          {"centers", network.centers},
           {"noise", network.noise},
           {"sweep_from", network.sweepFrom},
           {"sweep_to", network.sweepTo},
@@ -154,8 +87,8 @@ QJsonObject networkJson(const NetworkSettings& network) {
 }
 
 NetworkSettings networkOf(const Place& place) {
-  place.onlyKeys({"input", "mode", "decoder", "rows", "automatic_spread", "spread", "noise", "sweep_from", "sweep_to",
-                  "sweep_count"});
+  place.onlyKeys({"input", "mode", "decoder", "rows", "automatic_spread", "spread", "centers", "noise", "sweep_from",
+                  "sweep_to", "sweep_count"});
   QStringList decoders;
   for (const DecoderKind kind : allDecoderKinds()) decoders << QString::fromStdString(name(kind));
   NetworkSettings network;
@@ -165,11 +98,82 @@ NetworkSettings networkOf(const Place& place) {
   network.rows = place.word("rows").toStdString();
   network.automaticSpread = place.boolean("automatic_spread");
   network.spread = place.number("spread", 1e-6, 1e6);
+  if (place.has("centers")) network.centers = place.integer("centers", 0, 100000);
   network.noise = place.number("noise", 0, 1);
   network.sweepFrom = place.number("sweep_from", 1e-6, 1e6);
   network.sweepTo = place.number("sweep_to", network.sweepFrom, 1e6);
   network.sweepCount = place.integer("sweep_count", 2, 100);
   return network;
+}
+
+QJsonObject viewJson(const ViewSettings& view) {
+  const auto cell = [](const std::array<int, 2>& at) { return QJsonArray{at[0], at[1]}; };
+  const auto place = [](const std::array<double, 3>& at) { return QJsonArray{at[0], at[1], at[2]}; };
+  QJsonObject object{{"scene", QString::fromStdString(view.scene)},
+                     {"quantity", QString::fromStdString(quantityName(view.quantity))},
+                     {"ghost", view.ghost},
+                     {"electrodes", view.electrodes},
+                     {"arrows", view.arrows},
+                     {"outlines", view.outlines},
+                     {"edges", view.edges},
+                     {"row_wire", view.rowWire},
+                     {"line_from_mm", place(view.lineFrom_mm)},
+                     {"line_to_mm", place(view.lineTo_mm)},
+                     {"mesh", view.mesh},
+                     {"resistance_noise", view.resistanceNoise},
+                     {"resistance", kResistanceKinds[static_cast<int>(view.resistance)]},
+                     {"cell", cell(view.cell)},
+                     {"test_area", view.testArea}};
+  if (view.warpFactor) object["warp_factor"] = *view.warpFactor;
+  if (view.clipY_mm) object["clip_y_mm"] = *view.clipY_mm;
+  if (view.litCell) object["lit_cell"] = cell(*view.litCell);
+  if (view.resistanceRange)
+    object["resistance_range"] = QJsonArray{(*view.resistanceRange)[0], (*view.resistanceRange)[1]};
+  return object;
+}
+
+std::array<int, 2> cellOf(const Place& place, const QString& key) {
+  const Eigen::VectorXd numbers = place.numbers(key, 2);
+  if (!(numbers.minCoeff() >= 0 && numbers.maxCoeff() < 10000)) place.refuse(key, "a row-wire and a column-wire");
+  return {static_cast<int>(numbers[0]), static_cast<int>(numbers[1])};
+}
+
+std::array<double, 3> placeOf(const Place& place, const QString& key) {
+  const Eigen::VectorXd numbers = place.numbers(key, 3);
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+ViewSettings viewOf(const Place& place) {
+  place.onlyKeys({"scene", "quantity", "warp_factor", "clip_y_mm", "ghost", "electrodes", "arrows", "outlines", "edges",
+                  "lit_cell", "row_wire", "line_from_mm", "line_to_mm", "mesh", "resistance_noise", "resistance",
+                  "resistance_range", "cell", "test_area"});
+  ViewSettings view;
+  view.scene = place.word("scene").toStdString();
+  QStringList quantities;
+  for (const Quantity quantity : allQuantities()) quantities << QString::fromStdString(quantityName(quantity));
+  view.quantity = allQuantities()[static_cast<std::size_t>(quantities.indexOf(place.word("quantity", quantities)))];
+  if (place.has("warp_factor")) view.warpFactor = place.number("warp_factor", 0, 1e6);
+  if (place.has("clip_y_mm")) view.clipY_mm = place.number("clip_y_mm", 0, 1e4);
+  view.ghost = place.boolean("ghost");
+  view.electrodes = place.boolean("electrodes");
+  view.arrows = place.boolean("arrows");
+  view.outlines = place.boolean("outlines");
+  view.edges = place.boolean("edges");
+  if (place.has("lit_cell")) view.litCell = cellOf(place, "lit_cell");
+  view.rowWire = place.integer("row_wire", 0, 10000);
+  view.lineFrom_mm = placeOf(place, "line_from_mm");
+  view.lineTo_mm = placeOf(place, "line_to_mm");
+  view.mesh = place.boolean("mesh");
+  view.resistanceNoise = place.number("resistance_noise", 1e-7, 0.1);
+  view.resistance = static_cast<ResistanceKind>(kResistanceKinds.indexOf(place.word("resistance", kResistanceKinds)));
+  if (place.has("resistance_range")) {
+    const Eigen::VectorXd range = place.numbers("resistance_range", 2);
+    if (!(range[0] < range[1])) place.refuse("resistance_range", "two numbers, the smaller one first");
+    view.resistanceRange = {range[0], range[1]};
+  }
+  view.cell = cellOf(place, "cell");
+  view.testArea = place.integer("test_area", 0, 10000);
+  return view;
 }
 
 QJsonObject liveJson(const LiveSettings& live) {
@@ -235,9 +239,9 @@ QJsonObject parse(const QByteArray& text, const QString& file) {
 }
 
 Project projectOf(const Place& root, const QString& file) {
-  root.onlyKeys({kVersionKey, "design", "load", "mesh", "samples", "network", "live"});
-  if (root.integer(kVersionKey, 1, 1000000) > kVersion)
-    root.refuse(kVersionKey, QString("up to %1: the file is from a newer Palp").arg(kVersion));
+  root.onlyKeys({kVersionKey, "design", "load", "mesh", "samples", "network", "view", "live"});
+  const int version = root.integer(kVersionKey, 1, 1000000);
+  if (version > kVersion) root.refuse(kVersionKey, QString("up to %1: the file is from a newer Palp").arg(kVersion));
   Project project;
   const QByteArray design = QJsonDocument(root.at("design").object()).toJson();
   project.design = parseDesign(design.toStdString(), (file + ": design").toStdString());
@@ -251,6 +255,7 @@ Project projectOf(const Place& root, const QString& file) {
   project.samples.perArea = samples.integer("per_area", 5, 100000);
   project.samples.seed = static_cast<std::uint64_t>(samples.integer("seed", 0, 1000000000));
   project.network = networkOf(root.at("network"));
+  if (version >= 2) project.view = viewOf(root.at("view"));
   if (root.has("live")) project.live = liveOf(root.at("live")); // not in the files of the first version
   return project;
 }
@@ -266,6 +271,7 @@ void saveProject(const std::filesystem::path& path, const Project& project) {
                          {"samples", QJsonObject{{"per_area", project.samples.perArea},
                                                  {"seed", static_cast<double>(project.samples.seed)}}},
                          {"network", networkJson(project.network)},
+                         {"view", viewJson(project.view)},
                          {"live", liveJson(project.live)}};
   QSaveFile file(QString::fromStdString(path.string()));
   const QByteArray text = QJsonDocument(root).toJson();

@@ -16,14 +16,17 @@
 #include <QListWidget>
 #include <QPixmap>
 #include <QPlainTextEdit>
+#include <QProcessEnvironment>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QScrollArea>
+#include <QSettings>
 #include <QSplitter>
 #include <QStandardPaths>
 #include <QUrl>
 #include <QVBoxLayout>
 
+#include <cmath>
 #include <csignal>
 
 namespace palp {
@@ -32,6 +35,7 @@ namespace {
 
 constexpr int kPictureWidth_px = 900;
 constexpr int kEndWithin_ms = 3000;
+constexpr const char* kFolderKey = "reportFolder";
 
 struct Kind {
   QString title;
@@ -69,9 +73,13 @@ ReportsPage::ReportsPage(Workbench& workbench, QWidget* parent) : Scene(parent),
   connect(cancel_, &QPushButton::clicked, this, &ReportsPage::cancel);
   connect(openPage_, &QPushButton::clicked, this,
           [this] { QDesktopServices::openUrl(QUrl::fromLocalFile(QDir(folder_).filePath("report.html"))); });
+  connect(openFolder_, &QPushButton::clicked, this,
+          [this] { QDesktopServices::openUrl(QUrl::fromLocalFile(folder_)); });
   process_.setProcessChannelMode(QProcess::MergedChannels);
-  connect(&process_, &QProcess::readyRead, this,
-          [this] { log_->appendPlainText(QString::fromUtf8(process_.readAll()).trimmed()); });
+  QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+  environment.insert("PALP_PROGRESS_LINES", "1");
+  process_.setProcessEnvironment(environment);
+  connect(&process_, &QProcess::readyRead, this, &ReportsPage::readMessages);
   connect(&process_, &QProcess::finished, this, &ReportsPage::end);
   connect(&process_, &QProcess::errorOccurred, this, [this](QProcess::ProcessError error) {
     if (error == QProcess::FailedToStart)
@@ -101,8 +109,11 @@ void ReportsPage::build() {
   kind_ = new QComboBox;
   kind_->setObjectName("reportKind");
   for (const Kind& kind : kinds()) kind_->addItem(kind.title);
-  target_ =
-      new QLineEdit(QDir(QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation)).filePath("palp-report"));
+  target_ = new QLineEdit(
+      QSettings()
+          .value(kFolderKey,
+                 QDir(QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation)).filePath("palp-report"))
+          .toString());
   target_->setObjectName("reportFolder");
   target_->setToolTip(tr("Folder of report.html, CSV and pictures; what it holds of an earlier run is replaced"));
   auto* choose = new QPushButton(tr("Folder..."));
@@ -118,9 +129,16 @@ void ReportsPage::build() {
   openPage_ = new QPushButton(tr("Open the page"));
   openPage_->setObjectName("openReport");
   openPage_->setEnabled(false);
+  openPage_->setToolTip(tr("Opens report.html in the browser: one file, no network"));
+  openFolder_ = new QPushButton(tr("Open the folder"));
+  openFolder_->setObjectName("openReportFolder");
+  openFolder_->setEnabled(false);
+  openFolder_->setToolTip(tr("Page, CSV and pictures, to be passed on"));
+  run_->setToolTip(tr("Runs the report beside the window, which stays free"));
+  kind_->setToolTip(tr("Which report"));
   bar->addWidget(kind_);
   bar->addWidget(target_, 1);
-  for (QWidget* widget : {choose, run_, cancel_, openPage_}) bar->addWidget(widget);
+  for (QWidget* widget : {choose, run_, cancel_, openPage_, openFolder_}) bar->addWidget(widget);
   column->addLayout(bar);
   what_ = new QLabel(kinds().front().what);
   what_->setProperty("role", "hint");
@@ -151,22 +169,30 @@ void ReportsPage::build() {
   scroll->setWidget(picture_);
   scroll->setWidgetResizable(true);
   auto* left = new QSplitter(Qt::Vertical);
+  left->setObjectName("reportsLeft");
   left->addWidget(log_);
   left->addWidget(pictures_);
   auto* views = new QSplitter(Qt::Horizontal);
+  views->setObjectName("reportsSplitter");
   views->addWidget(left);
   views->addWidget(scroll);
   views->setSizes({480, 900});
   column->addWidget(views, 1);
 }
 
-QStringList ReportsPage::arguments() const {
-  return kinds()[static_cast<std::size_t>(kind_->currentIndex())].arguments + QStringList{"-o", folder_, "--force"};
+QStringList ReportsPage::arguments(const QString& folder) const {
+  return kinds()[static_cast<std::size_t>(kind_->currentIndex())].arguments + QStringList{"-o", folder, "--force"};
+}
+
+QString ReportsPage::commands(const Project& project, const QString& designFile) const {
+  QStringList all = arguments("palp-report");
+  if (all.front() == "report" && !(project.design == paperDesign())) all << "--design" << designFile;
+  return "palp " + all.join(' ');
 }
 
 void ReportsPage::start() {
   folder_ = QDir(target_->text().trimmed()).absolutePath();
-  QStringList all = arguments();
+  QStringList all = arguments(folder_);
   if (!QDir().mkpath(folder_)) {
     state_->setText(tr("%1 cannot be made; choose a folder that may be written to.").arg(folder_));
     return;
@@ -181,15 +207,31 @@ void ReportsPage::start() {
     }
     all << "--design" << design;
   }
+  QSettings().setValue(kFolderKey, folder_);
   log_->setPlainText("palp " + all.join(' '));
   pictures_->clear();
   run_->setEnabled(false);
   cancel_->setEnabled(true);
   openPage_->setEnabled(false);
+  openFolder_->setEnabled(false);
+  bar_->setRange(0, 0);
   bar_->show();
   clock_.start();
   timer_.start();
   process_.start(commandLineProgram(), all);
+}
+
+void ReportsPage::readMessages() {
+  while (process_.canReadLine()) {
+    const QString line = QString::fromUtf8(process_.readLine()).trimmed();
+    const QStringList words = line.split(' ');
+    if (words.size() != 3 || words.front() != "progress") {
+      if (!line.isEmpty()) log_->appendPlainText(line);
+      continue;
+    }
+    bar_->setRange(0, words[2].toInt());
+    bar_->setValue(words[1].toInt());
+  }
 }
 
 void ReportsPage::cancel() {
@@ -197,6 +239,8 @@ void ReportsPage::cancel() {
 }
 
 void ReportsPage::end(int status, QProcess::ExitStatus how) {
+  readMessages();
+  log_->appendPlainText(QString::fromUtf8(process_.readAll()).trimmed()); // a last line without an end
   timer_.stop();
   bar_->hide();
   run_->setEnabled(true);
@@ -205,6 +249,7 @@ void ReportsPage::end(int status, QProcess::ExitStatus how) {
   if (how == QProcess::NormalExit && status == 0) {
     state_->setText(tr("Done in %1 s: %2").arg(seconds, QDir(folder_).filePath("report.html")));
     openPage_->setEnabled(true);
+    openFolder_->setEnabled(true);
     showPictures();
   } else if (status == 130 || status == 1) {
     state_->setText(tr("Ended without a result after %1 s; see the messages.").arg(seconds));
@@ -220,7 +265,12 @@ void ReportsPage::showPictures() {
 }
 
 void ReportsPage::tellTime() {
-  state_->setText(tr("Running for %1 s; the window stays free.").arg(clock_.elapsed() / 1000));
+  const qint64 spent_s = clock_.elapsed() / 1000;
+  QString words = tr("Running for %1 s; the window stays free.").arg(spent_s);
+  const double share = bar_->maximum() > 0 ? static_cast<double>(bar_->value()) / bar_->maximum() : 0;
+  if (share > 0.02 && share < 1)
+    words += tr(" About %1 s left.").arg(std::ceil(static_cast<double>(spent_s) * (1 - share) / share));
+  state_->setText(words);
 }
 
 } // namespace palp

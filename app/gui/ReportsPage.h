@@ -29,12 +29,15 @@ public:
   [[nodiscard]] Stage stage() const override { return Stage::Design; }
   void setTheme(Theme) override {}
   [[nodiscard]] bool complete() const override { return true; }
+  [[nodiscard]] QString commands(const Project& project, const QString& designFile) const override;
 
 private:
   void build();
-  [[nodiscard]] QStringList arguments() const;
+  /// Of palp, for the chosen report into a folder.
+  [[nodiscard]] QStringList arguments(const QString& folder) const;
   void start();
   void cancel();
+  void readMessages();
   void end(int status, QProcess::ExitStatus how);
   void showPictures();
   void tellTime();
@@ -50,6 +53,7 @@ private:
   QPushButton* run_ = nullptr;
   QPushButton* cancel_ = nullptr;
   QPushButton* openPage_ = nullptr;
+  QPushButton* openFolder_ = nullptr;
   QProgressBar* bar_ = nullptr;
   QLabel* state_ = nullptr;
   QPlainTextEdit* log_ = nullptr;

@@ -24,6 +24,7 @@ public:
   [[nodiscard]] Stage stage() const override { return Stage::Resistances; }
   void setTheme(Theme theme) override;
   [[nodiscard]] bool complete() const override;
+  [[nodiscard]] QString commands(const Project& project, const QString& designFile) const override;
 
 protected:
   void showEvent(QShowEvent* event) override;
@@ -34,14 +35,17 @@ private:
   void drawHeatmap();
   void drawCurves();
   void drawBlock(bool meshChanged);
+  void displayProject();
+  void edit(const QString& what, const ViewSettings& view);
+  /// The chosen cell, inside the shown design.
+  [[nodiscard]] std::array<int, 2> cell() const;
 
   Workbench& workbench_;
   DeformationOptions options_;
   bool meshDrawn_ = false;
-  std::array<int, 2> cell_{4, 15};
+  ViewSettings drawn_; ///< as drawn last
   QComboBox* kind_ = nullptr;
   QCheckBox* fixed_ = nullptr;
-  std::optional<std::array<double, 2>> fixedRange_; ///< of the colours, while the scale is fixed
   QLabel* reading_ = nullptr;
   HeatmapView* heatmap_ = nullptr;
   ChartView* row_ = nullptr;

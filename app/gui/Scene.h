@@ -1,8 +1,10 @@
 #pragma once
 
+#include "app/gui/Project.h"
 #include "app/scenes/Palette.h"
 #include "app/study/Touch.h"
 
+#include <QString>
 #include <QWidget>
 
 namespace palp {
@@ -17,6 +19,8 @@ public:
   virtual void setTheme(Theme theme) = 0;
   /// True where all that the page shows at the start is there.
   [[nodiscard]] virtual bool complete() const = 0;
+  /// The palp commands that do what the page shows, one a line; empty where there are none.
+  [[nodiscard]] virtual QString commands(const Project&, const QString& /*designFile*/) const { return {}; }
 };
 
 } // namespace palp

@@ -7,6 +7,8 @@
 #include <QHBoxLayout>
 #include <QSignalBlocker>
 
+#include <algorithm>
+
 namespace palp {
 
 namespace {
@@ -31,6 +33,8 @@ ViewPanel::ViewPanel(QWidget* parent) : QWidget(parent) {
     const QString unit = QString::fromStdString(quantityUnit(quantity));
     quantity_->addItem(QString::fromStdString(quantityName(quantity)) + (unit.isEmpty() ? "" : " [" + unit + "]"));
   }
+  quantity_->setToolTip(tr("Displacements in mm, pressure (compression positive) and stress in MPa; J - 1 is the "
+                           "change of volume, 0 in ideal rubber"));
   form->addRow(tr("Colour by"), quantity_);
   warp_ = new QDoubleSpinBox;
   warp_->setObjectName("warp");
@@ -38,6 +42,7 @@ ViewPanel::ViewPanel(QWidget* parent) : QWidget(parent) {
   warp_->setDecimals(1);
   warp_->setPrefix(tr("x "));
   warp_->setEnabled(false);
+  warp_->setKeyboardTracking(false);
   warp_->setToolTip(tr("Factor by which displacements are drawn larger; 1 is true size"));
   automaticWarp_ = new QCheckBox(tr("automatic"));
   automaticWarp_->setObjectName("automaticWarp");
@@ -54,6 +59,7 @@ ViewPanel::ViewPanel(QWidget* parent) : QWidget(parent) {
   clipY_->setRange(0, 30);
   clipY_->setValue(7.5);
   clipY_->setSuffix(tr(" mm"));
+  clipY_->setToolTip(tr("Place of the cut along y [mm]"));
   clipY_->setEnabled(false);
   auto* clipRow = new QHBoxLayout;
   clipRow->addWidget(clip_);
@@ -65,36 +71,50 @@ ViewPanel::ViewPanel(QWidget* parent) : QWidget(parent) {
   outlines_ = box(*form, tr("load areas"), "outlines", true, tr("Borders and numbers of the load areas"));
   edges_ = box(*form, tr("mesh"), "edges", false, tr("Edges of the finite elements"));
 
-  connect(automaticWarp_, &QCheckBox::toggled, warp_, &QWidget::setDisabled);
-  connect(clip_, &QCheckBox::toggled, clipY_, &QWidget::setEnabled);
-  connect(quantity_, &QComboBox::currentIndexChanged, this, &ViewPanel::edited);
-  for (QDoubleSpinBox* spin : {warp_, clipY_}) connect(spin, &QDoubleSpinBox::valueChanged, this, &ViewPanel::edited);
+  connect(quantity_, &QComboBox::currentIndexChanged, this, &ViewPanel::read);
+  for (QDoubleSpinBox* spin : {warp_, clipY_}) connect(spin, &QDoubleSpinBox::valueChanged, this, &ViewPanel::read);
   for (QCheckBox* check : {automaticWarp_, clip_, ghost_, electrodes_, arrows_, outlines_, edges_})
-    connect(check, &QCheckBox::toggled, this, &ViewPanel::edited);
+    connect(check, &QCheckBox::toggled, this, &ViewPanel::read);
 }
 
-DeformationOptions ViewPanel::options(const DeformationOptions& base) const {
-  DeformationOptions options = base;
-  options.quantity = allQuantities()[static_cast<std::size_t>(quantity_->currentIndex())];
-  options.warpFactor = automaticWarp_->isChecked() ? std::nullopt : std::optional(warp_->value());
-  options.clipY_mm = clip_->isChecked() ? std::optional(clipY_->value()) : std::nullopt;
-  options.undeformedGhost = ghost_->isChecked();
-  options.electrodes = electrodes_->isChecked();
-  options.forceArrows = arrows_->isChecked();
-  options.areaOutlines = outlines_->isChecked();
-  options.meshEdges = edges_->isChecked();
-  return options;
+void ViewPanel::read() {
+  warp_->setDisabled(automaticWarp_->isChecked());
+  clipY_->setEnabled(clip_->isChecked());
+  if (displaying_) return;
+  view_.quantity = allQuantities()[static_cast<std::size_t>(quantity_->currentIndex())];
+  view_.warpFactor = automaticWarp_->isChecked() ? std::nullopt : std::optional(warp_->value());
+  view_.clipY_mm = clip_->isChecked() ? std::optional(clipY_->value()) : std::nullopt;
+  view_.ghost = ghost_->isChecked();
+  view_.electrodes = electrodes_->isChecked();
+  view_.arrows = arrows_->isChecked();
+  view_.outlines = outlines_->isChecked();
+  view_.edges = edges_->isChecked();
+  emit edited(view_);
+}
+
+void ViewPanel::display(const ViewSettings& view, const Eigen::Vector3d& block_mm) {
+  displaying_ = true;
+  view_ = view;
+  const auto& all = allQuantities();
+  quantity_->setCurrentIndex(static_cast<int>(std::find(all.begin(), all.end(), view.quantity) - all.begin()));
+  automaticWarp_->setChecked(!view.warpFactor);
+  if (view.warpFactor) warp_->setValue(*view.warpFactor);
+  clipY_->setMaximum(block_mm.y());
+  clip_->setChecked(view.clipY_mm.has_value());
+  if (view.clipY_mm) clipY_->setValue(*view.clipY_mm);
+  ghost_->setChecked(view.ghost);
+  electrodes_->setChecked(view.electrodes);
+  arrows_->setChecked(view.arrows);
+  outlines_->setChecked(view.outlines);
+  edges_->setChecked(view.edges);
+  read();
+  displaying_ = false;
 }
 
 void ViewPanel::displayWarp(double factor) {
   if (!automaticWarp_->isChecked()) return;
   const QSignalBlocker quiet(warp_);
   warp_->setValue(factor);
-}
-
-void ViewPanel::displayBlock(const Eigen::Vector3d& block_mm) {
-  const QSignalBlocker quiet(clipY_);
-  clipY_->setMaximum(block_mm.y());
 }
 
 } // namespace palp

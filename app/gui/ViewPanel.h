@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/scenes/DeformationScene.h"
+#include "app/gui/ViewSettings.h"
 
 #include <QWidget>
 
@@ -17,16 +17,20 @@ class ViewPanel : public QWidget {
 public:
   explicit ViewPanel(QWidget* parent = nullptr);
 
-  /// The chosen quantity, warp, clip and parts; all else as in `base`.
-  [[nodiscard]] DeformationOptions options(const DeformationOptions& base) const;
+  /// Emits nothing.
+  void display(const ViewSettings& view, const Eigen::Vector3d& block_mm);
   /// The factor that was drawn, shown while it is automatic.
   void displayWarp(double factor);
-  void displayBlock(const Eigen::Vector3d& block_mm);
 
 signals:
-  void edited();
+  /// By the user's hand only.
+  void edited(const palp::ViewSettings& view);
 
 private:
+  void read();
+
+  ViewSettings view_;
+  bool displaying_ = false;
   QComboBox* quantity_ = nullptr;
   QCheckBox* automaticWarp_ = nullptr;
   QDoubleSpinBox* warp_ = nullptr;

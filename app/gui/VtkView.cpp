@@ -6,6 +6,7 @@
 #include <QApplication>
 #include <QClipboard>
 #include <QFileDialog>
+#include <QInputDialog>
 #include <QMenu>
 #include <QMessageBox>
 #include <QMouseEvent>
@@ -143,13 +144,28 @@ void VtkView::tellPlace(const QPointF& place, Qt::KeyboardModifiers modifiers) {
       modifiers.testFlag(Qt::ControlModifier) ? 1 : 0, modifiers.testFlag(Qt::ShiftModifier) ? 1 : 0);
 }
 
+bool VtkView::grab(const QPointF&) {
+  return false;
+}
+
+void VtkView::dragTo(const QPointF&, Qt::KeyboardModifiers) {}
+
+void VtkView::drop() {}
+
 void VtkView::mousePressEvent(QMouseEvent* event) {
   pressed_ = event->position();
+  grabbed_ = event->button() == Qt::LeftButton && grab(event->position());
+  if (grabbed_) return;
   tellPlace(event->position(), event->modifiers());
   vtk_->invoke(pressEvent(event->button()));
 }
 
 void VtkView::mouseReleaseEvent(QMouseEvent* event) {
+  if (grabbed_ && event->button() == Qt::LeftButton) {
+    grabbed_ = false;
+    drop();
+    return;
+  }
   tellPlace(event->position(), event->modifiers());
   vtk_->invoke(releaseEvent(event->button()));
   const QPointF way = event->position() - pressed_;
@@ -177,21 +193,48 @@ void VtkView::offerPicture(const QPoint& globalPlace) {
     sizes << qMakePair(menu.addAction(tr("Save picture, %1 x %2 pixels...").arg(size.width()).arg(size.height())),
                        size);
   }
+  const QAction* other = menu.addAction(tr("Save picture in another size..."));
   const QAction* chosen = menu.exec(globalPlace);
+  if (chosen == other && chosen != nullptr) {
+    const QSize size = askSize(now);
+    if (!size.isEmpty()) savePicture(size);
+    return;
+  }
   if (chosen == copy && chosen != nullptr) QApplication::clipboard()->setImage(image());
   for (const auto& [action, size] : sizes) {
     if (action != chosen || chosen == nullptr) continue;
-    const QString file = QFileDialog::getSaveFileName(this, tr("Save picture"), "picture.png", tr("Pictures (*.png)"));
-    if (file.isEmpty()) return;
-    try {
-      writePng(picture(size.width(), size.height()), file.toStdString());
-    } catch (const Error& error) {
-      QMessageBox::warning(this, tr("Save picture"), QString::fromStdString(error.what()));
-    }
+    savePicture(size);
+  }
+}
+
+QSize VtkView::askSize(const QSize& now) {
+  const QString proposal = QString("%1 x %2").arg(now.width()).arg(now.height());
+  const QString words = QInputDialog::getText(this, tr("Save picture"), tr("Width x height in pixels, up to 16384:"),
+                                              QLineEdit::Normal, proposal);
+  const QStringList parts = words.split('x');
+  if (words.isEmpty()) return {};
+  const QSize size = parts.size() == 2 ? QSize(parts[0].trimmed().toInt(), parts[1].trimmed().toInt()) : QSize();
+  if (size.width() >= 1 && size.height() >= 1 && size.width() <= 16384 && size.height() <= 16384) return size;
+  QMessageBox::warning(this, tr("Save picture"),
+                       tr("\"%1\" is no size; write two numbers from 1 to 16384, as 1600 x 900.").arg(words));
+  return {};
+}
+
+void VtkView::savePicture(const QSize& size) {
+  const QString file = QFileDialog::getSaveFileName(this, tr("Save picture"), "picture.png", tr("Pictures (*.png)"));
+  if (file.isEmpty()) return;
+  try {
+    writePng(picture(size.width(), size.height()), file.toStdString());
+  } catch (const Error& error) {
+    QMessageBox::warning(this, tr("Save picture"), QString::fromStdString(error.what()));
   }
 }
 
 void VtkView::mouseMoveEvent(QMouseEvent* event) {
+  if (grabbed_) {
+    dragTo(event->position(), event->modifiers());
+    return;
+  }
   tellPlace(event->position(), event->modifiers());
   vtk_->invoke(vtkCommand::MouseMoveEvent);
   if (event->buttons() == Qt::NoButton) emit hovered(event->position());

@@ -43,6 +43,11 @@ signals:
   void sizeChanged();
 
 protected:
+  /// Takes the left button for the view itself, before VTK: true at the press, then dragging until the release.
+  virtual bool grab(const QPointF& place);
+  virtual void dragTo(const QPointF& place, Qt::KeyboardModifiers modifiers);
+  virtual void drop();
+
   void paintEvent(QPaintEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
@@ -56,6 +61,9 @@ private:
   void draw();
   /// Asks for a size and a file and saves the view as PNG; or copies it.
   void offerPicture(const QPoint& globalPlace);
+  /// Empty where none was given.
+  [[nodiscard]] QSize askSize(const QSize& now);
+  void savePicture(const QSize& size);
   void tellPlace(const QPointF& place, Qt::KeyboardModifiers modifiers);
 
   struct Vtk;
@@ -65,6 +73,7 @@ private:
   int renderCount_ = 0;
   int wheel_ = 0;
   QPointF pressed_;
+  bool grabbed_ = false;
 };
 
 } // namespace palp

@@ -8,7 +8,10 @@
 #include <QApplication>
 #include <QCommandLineParser>
 
+#include <algorithm>
+#include <cstdlib>
 #include <iostream>
+#include <string_view>
 
 namespace {
 
@@ -45,6 +48,7 @@ int run(QApplication& application) {
   if (!wish.theme.isEmpty() && wish.theme != "light" && wish.theme != "dark")
     throw palp::Error("--theme " + wish.theme.toStdString() + ": allowed is light or dark");
   if (!wish.theme.isEmpty()) window.setTheme(wish.theme == "dark" ? palp::Theme::Dark : palp::Theme::Light);
+  window.showScene(QString::fromStdString(project.view.scene));
   if (!wish.scene.isEmpty() && !window.showScene(wish.scene))
     throw palp::Error("--scene " + wish.scene.toStdString() + ": allowed is " +
                       window.sceneNames().join(", ").toStdString());
@@ -53,9 +57,18 @@ int run(QApplication& application) {
   return QApplication::exec();
 }
 
+/// A picture needs no display.
+void goWithoutDisplay(int argc, char** argv) {
+  const bool display = std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr;
+  const bool snapshot =
+      std::any_of(argv, argv + argc, [](const char* word) { return std::string_view(word).starts_with("--snapshot"); });
+  if (snapshot && !display) setenv("QT_QPA_PLATFORM", "offscreen", 0);
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
+  goWithoutDisplay(argc, argv);
   QApplication application(argc, argv);
   QApplication::setApplicationName("palp-studio");
   QApplication::setOrganizationName("palp");

@@ -20,7 +20,6 @@ namespace {
 
 constexpr int kBorderSteps = 24;
 constexpr double kLift_mm = 0.03; ///< keeps outlines out of the surface that they lie on
-constexpr double kBlockOpacity = 0.82;
 constexpr Color kRestOnLight{0.80, 0.82, 0.85};
 constexpr Color kRestOnDark{0.42, 0.45, 0.50};
 
@@ -66,11 +65,12 @@ BlockActors::BlockActors(vtkRenderer& renderer)
 
 void BlockActors::setMesh(const SensorDesign& design, const Mesh& mesh) {
   surface_ = meshSurface(mesh);
-  areaBorders_ = areaBorders(mesh, design, kBorderSteps);
+  const TopFace top(mesh);
+  areaBorders_ = areaBorders(top, design, kBorderSteps);
   areaLabels_.clear();
   for (int area = 0; area < design.areas.count(); ++area) {
     const Rectangle box = design.areaRectangle(area);
-    areaLabels_.push_back(topPoint(mesh, box.low_mm + 0.12 * (box.high_mm - box.low_mm)));
+    areaLabels_.push_back(top.at(box.low_mm + 0.12 * (box.high_mm - box.low_mm)));
   }
   vtkNew<vtkCellArray> triangles;
   for (const std::array<int, 3>& triangle : surface_.triangles) {
@@ -106,7 +106,7 @@ void BlockActors::show(const Mesh& mesh, const Eigen::Matrix3Xd& drawnDisplaceme
   surfaceMapper_->UseLookupTableScalarRangeOn();
   const Color& rest = options.theme == Theme::Light ? kRestOnLight : kRestOnDark;
   surfaceActor_->GetProperty()->SetColor(rest[0], rest[1], rest[2]);
-  surfaceActor_->GetProperty()->SetOpacity(options.electrodes ? (values.empty() ? 0.35 : kBlockOpacity) : 1);
+  surfaceActor_->GetProperty()->SetOpacity(options.electrodes ? (values.empty() ? 0.35 : options.opacity) : 1);
 
   surfaceMapper_->RemoveAllClippingPlanes();
   if (options.clipY_mm) {

@@ -1,5 +1,6 @@
 #include "app/scenes/Chart.h"
 
+#include "app/scenes/ChartLegend.h"
 #include "app/scenes/ColorScale.h"
 #include "app/scenes/OffscreenWindow.h"
 #include "app/scenes/TextStyle.h"
@@ -164,11 +165,36 @@ void addSeries(vtkChartXY& chart, const ChartSeries& series, const Points& point
   plot->SetMarkerSize(static_cast<float>((cloud ? 9 : 7) * scale));
 }
 
-void setLegend(vtkChartXY& chart, bool wanted, const Palette& colors, double scale) {
-  chart.SetShowLegend(wanted);
+/// The curves as shares 0..1 of the axes, for the legend.
+std::vector<std::vector<std::array<double, 2>>> shares(const std::vector<Points>& all, const Range& x, const Range& y,
+                                                       const ChartSpec& spec) {
+  const auto share = [](double value, const Range& range, bool logarithmic) {
+    if (logarithmic) return std::log(value / range.low) / std::log(range.high / range.low);
+    return (value - range.low) / (range.high - range.low);
+  };
+  std::vector<std::vector<std::array<double, 2>>> curves;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    curves.emplace_back();
+    for (std::size_t p = 0; p < all[k].x.size(); ++p) {
+      const std::array<double, 2> point{share(all[k].x[p], x, spec.logX), share(all[k].y[p], y, spec.logY)};
+      if (p > 0 && spec.series[k].style != ChartSeries::Style::Points)
+        addBetween(curves.back(), curves.back().back(), point);
+      curves.back().push_back(point);
+    }
+  }
+  return curves;
+}
+
+Range withRoomAbove(const Range& range, double share, bool logarithmic) {
+  const double factor = 1 / (1 - share);
+  if (logarithmic) return {range.low, range.low * std::pow(range.high / range.low, factor)};
+  return {range.low, range.low + (range.high - range.low) * factor};
+}
+
+void setLegend(vtkChartXY& chart, const LegendCorner& corner, const Palette& colors, double scale) {
   vtkChartLegend& legend = *chart.GetLegend();
-  legend.SetHorizontalAlignment(vtkChartLegend::RIGHT);
-  legend.SetVerticalAlignment(vtkChartLegend::TOP);
+  legend.SetHorizontalAlignment(corner.left ? vtkChartLegend::LEFT : vtkChartLegend::RIGHT);
+  legend.SetVerticalAlignment(corner.bottom ? vtkChartLegend::BOTTOM : vtkChartLegend::TOP);
   legend.SetLabelSize(static_cast<int>(std::lround(12 * scale)));
   legend.SetSymbolWidth(static_cast<int>(std::lround(28 * scale)));
   legend.SetPadding(static_cast<int>(std::lround(6 * scale)));
@@ -180,22 +206,35 @@ void setLegend(vtkChartXY& chart, bool wanted, const Palette& colors, double sca
 
 } // namespace
 
-void fillChart(vtkChartXY& chart, const ChartSpec& spec, Theme theme, double scale) {
+void fillChart(vtkChartXY& chart, const ChartSpec& spec, Theme theme, double scale,
+               const std::array<double, 2>& size_px) {
   const Palette& colors = palette(theme);
   chart.ClearPlots();
   Range x;
   Range y;
-  int named = 0;
+  std::vector<Points> all;
+  std::vector<std::string> names;
   for (std::size_t k = 0; k < spec.series.size(); ++k) {
     const ChartSeries& series = spec.series[k];
-    const Points points = shownPoints(series, spec);
+    Points points = shownPoints(series, spec);
     for (const double value : points.x) x.add(value);
     for (const double value : points.y) y.add(value);
     addSeries(chart, series, points, seriesColor(series.color < 0 ? static_cast<int>(k) : series.color, theme), scale);
-    named += points.x.empty() || series.name.empty() ? 0 : 1;
+    if (!points.x.empty() && !series.name.empty()) names.push_back(series.name);
+    all.push_back(std::move(points));
   }
   const Range xShown = spec.xRange ? Range{(*spec.xRange)[0], (*spec.xRange)[1]} : padded(x, spec.logX);
-  const Range yShown = spec.yRange ? Range{(*spec.yRange)[0], (*spec.yRange)[1]} : padded(y, spec.logY);
+  Range yShown = spec.yRange ? Range{(*spec.yRange)[0], (*spec.yRange)[1]} : padded(y, spec.logY);
+  chart.SetShowLegend(!names.empty());
+  if (!names.empty()) {
+    const LegendShare share = legendShare(names, scale, size_px);
+    LegendCorner corner = freestCorner(shares(all, xShown, yShown, spec), share);
+    if (corner.covered > 0 && !spec.yRange) {
+      yShown = withRoomAbove(yShown, share.height, spec.logY);
+      corner = {};
+    }
+    setLegend(chart, corner, colors, scale);
+  }
   setAxis(*chart.GetAxis(vtkAxis::BOTTOM), spec.xLabel, xShown, spec.logX, colors, scale);
   setAxis(*chart.GetAxis(vtkAxis::LEFT), spec.yLabel, yShown, spec.logY, colors, scale);
   vtkAxis& top = *chart.GetAxis(vtkAxis::TOP);
@@ -207,12 +246,11 @@ void fillChart(vtkChartXY& chart, const ChartSpec& spec, Theme theme, double sca
   }
   chart.SetTitle(spec.title);
   setTextStyle(*chart.GetTitleProperties(), colors.text, 14 * scale, true);
-  setLegend(chart, named > 0, colors, scale);
 }
 
 Picture drawChart(const ChartSpec& spec, int width, int height, Theme theme) {
   vtkNew<vtkChartXY> chart;
-  fillChart(*chart, spec, theme);
+  fillChart(*chart, spec, theme, 1, {static_cast<double>(width), static_cast<double>(height)});
   vtkNew<vtkContextActor> actor;
   actor->GetScene()->AddItem(chart);
   vtkNew<vtkRenderer> renderer;

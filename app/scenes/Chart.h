@@ -39,8 +39,10 @@ struct ChartSpec {
   std::optional<std::array<double, 2>> yRange;
 };
 
-/// Fills the chart, with the theme's colours; text grows with `scale` (1 on a plain screen). For a view that stays.
-void fillChart(vtkChartXY& chart, const ChartSpec& spec, Theme theme = Theme::Light, double scale = 1);
+/// Fills the chart, with the theme's colours; text grows with `scale` (1 on a plain screen). For a view that stays, of
+/// the given size: the legend is put where it covers nothing, or gets room of its own.
+void fillChart(vtkChartXY& chart, const ChartSpec& spec, Theme theme = Theme::Light, double scale = 1,
+               const std::array<double, 2>& size_px = {900, 560});
 
 /// The chart as a picture.
 Picture drawChart(const ChartSpec& spec, int width = 900, int height = 560, Theme theme = Theme::Light);

@@ -3,7 +3,6 @@
 #include "app/scenes/BlockActors.h"
 #include "app/scenes/CameraFit.h"
 #include "app/scenes/ElectrodeActors.h"
-#include "app/scenes/ForceArrows.h"
 #include "app/scenes/Overlay.h"
 
 #include <vtkContextActor.h>
@@ -90,6 +89,11 @@ std::vector<double> quantityValues(Quantity quantity, const NodalFields& fields)
   return {};
 }
 
+std::array<double, 2> quantityRange(Quantity quantity, const std::vector<double>& values) {
+  const ColorScale scale = fittingScale(traits(quantity).map, values, {}, {});
+  return {scale.low, scale.high};
+}
+
 double automaticWarpFactor(const SensorDesign& design, const Eigen::Matrix3Xd& displacement_mm) {
   if (displacement_mm.cols() == 0) return 1;
   const double largest_mm = displacement_mm.colwise().norm().maxCoeff();
@@ -110,10 +114,33 @@ struct DeformationScene::Parts {
   Spheres mark{*renderer, 0.3};
   vtkNew<vtkContextActor> overlayActor;
   vtkNew<Overlay> overlay;
+  Polylines line{*renderer};
+  std::vector<PlacedForce> placed;
+  double mmPerN = 1;
+  Color forceColor{};
+  Color textColor{};
+  bool areaNumbers = true;
   double warpFactor = 1;
   int markedNode = -1;
   Color markColor{};
 
+  /// Arrows and all words of the view: the forces, and the numbers of the areas where these are outlined.
+  void showForces() {
+    forces.showToScale(placed, mmPerN, forceColor);
+    overlay->words = forces.words();
+    if (!areaNumbers) return;
+    const std::vector<Eigen::Vector3d> places = block.areaLabels_mm();
+    for (std::size_t area = 0; area < places.size(); ++area)
+      overlay->words.push_back({places[area], std::to_string(area), textColor});
+  }
+  void showLine(const DeformationOptions& options, const Color& color) {
+    line.setVisible(options.line_mm.has_value());
+    if (!options.line_mm) return;
+    Eigen::Matrix3Xd ends(3, 2);
+    ends << (*options.line_mm)[0], (*options.line_mm)[1];
+    line.set(ends, {{0, 1}});
+    line.setLook(color, 3 * options.scale);
+  }
   void showMark() {
     Eigen::Matrix3Xd place(3, markedNode < 0 ? 0 : 1);
     if (markedNode >= 0) place.col(0) = block.drawnPlace_mm(markedNode);
@@ -142,7 +169,7 @@ std::vector<PlacedForce> placedForces(const DeformationState& state, const Eigen
   if (state.load == nullptr) return forces;
   const auto place = [&](const Eigen::Vector2d& xy_mm, const Eigen::Vector3d& force_N) {
     const Eigen::Vector3d surface = topPoint(*state.mesh, xy_mm).of(drawn_mm);
-    forces.push_back({surface, force_N * state.loadFraction});
+    forces.push_back({surface, force_N * state.loadFraction, static_cast<int>(forces.size())});
   };
   for (const AreaLoad& load : state.load->areas) {
     const Rectangle box = state.design->areaRectangle(load.area);
@@ -192,16 +219,14 @@ void DeformationScene::show(const DeformationState& state, const DeformationOpti
   const ElectrodeDisplacements& electrodes = state.electrodes != nullptr ? *state.electrodes : rest;
   parts.electrodes.show(*state.design, parts.warpFactor * electrodes.upper_mm, parts.warpFactor * electrodes.lower_mm,
                         options);
-  const std::vector<PlacedForce> forces =
+  parts.placed =
       options.forceArrows ? placedForces(state, state.mesh->nodes_mm + drawnDisplacement) : std::vector<PlacedForce>{};
-  parts.forces.show(forces, 0.3 * state.design->block_mm.maxCoeff(), ink.force);
-
-  parts.overlay->words = parts.forces.words();
-  if (options.areaOutlines) {
-    const std::vector<Eigen::Vector3d> places = parts.block.areaLabels_mm();
-    for (std::size_t area = 0; area < places.size(); ++area)
-      parts.overlay->words.push_back({places[area], std::to_string(area), ink.text});
-  }
+  parts.mmPerN = palp::arrowScale_mmPerN(parts.placed, 0.3 * state.design->block_mm.maxCoeff());
+  parts.forceColor = ink.force;
+  parts.areaNumbers = options.areaOutlines;
+  parts.textColor = ink.text;
+  parts.showForces();
+  parts.showLine(options, ink.selection);
   parts.overlay->lines = overlayLines(state, options, parts.warpFactor);
   parts.overlay->legend = values.empty() ? std::nullopt : std::optional(colors);
   parts.overlay->theme = options.theme;
@@ -230,6 +255,21 @@ double DeformationScene::warpFactor() const {
 
 int DeformationScene::nearestNode(const Eigen::Vector3d& drawn_mm) const {
   return parts_->block.nearestNode(drawn_mm);
+}
+
+const std::vector<PlacedForce>& DeformationScene::forces() const {
+  return parts_->placed;
+}
+
+double DeformationScene::arrowScale_mmPerN() const {
+  return parts_->mmPerN;
+}
+
+void DeformationScene::moveForce(std::size_t arrow, const Eigen::Vector3d& force_N) {
+  if (arrow >= parts_->placed.size()) return;
+  parts_->placed[arrow].force_N = force_N;
+  parts_->showForces();
+  parts_->overlay->Modified();
 }
 
 void DeformationScene::markNode(int node) {

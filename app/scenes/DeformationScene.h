@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/scenes/ColorScale.h"
+#include "app/scenes/ForceArrows.h"
 #include "model/LoadCase.h"
 #include "model/Mesh.h"
 #include "model/RowColumnResistance.h"
@@ -27,6 +28,9 @@ std::string quantityUnit(Quantity quantity);
 /// The quantity at the nodes.
 std::vector<double> quantityValues(Quantity quantity, const NodalFields& fields);
 
+/// The range of the quantity's colours over these values.
+std::array<double, 2> quantityRange(Quantity quantity, const std::vector<double>& values);
+
 /// What is drawn, and how.
 struct DeformationOptions {
   Quantity quantity = Quantity::Displacement;
@@ -36,10 +40,12 @@ struct DeformationOptions {
   bool forceArrows = true;
   bool areaOutlines = true;
   bool meshEdges = true;
+  double opacity = 0.82;                           ///< of the coloured surface, while the electrodes show through it
   std::optional<double> clipY_mm;                  ///< cut away what lies in front of this plane at rest
   std::optional<std::array<double, 2>> fixedRange; ///< of the colours; else the values' own
-  std::vector<int> selectedAreas;                  ///< outlined more strongly
-  std::optional<std::array<int, 2>> litCell;       ///< row-wire, column-wire whose electrodes light up
+  std::optional<std::array<Eigen::Vector3d, 2>> line_mm; ///< ends at rest of a line that is drawn with the block
+  std::vector<int> selectedAreas;                        ///< outlined more strongly
+  std::optional<std::array<int, 2>> litCell;             ///< row-wire, column-wire whose electrodes light up
   Theme theme = Theme::Light;
   double scale = 1; ///< of text and lines
 };
@@ -77,6 +83,12 @@ public:
   [[nodiscard]] int nearestNode(const Eigen::Vector3d& drawn_mm) const;
   /// Marks a mesh node; -1 marks none.
   void markNode(int node);
+
+  /// The arrows as drawn, and their scale.
+  [[nodiscard]] const std::vector<PlacedForce>& forces() const;
+  [[nodiscard]] double arrowScale_mmPerN() const;
+  /// Draws one arrow for another force, while it is dragged; all else stays.
+  void moveForce(std::size_t arrow, const Eigen::Vector3d& force_N);
 
 private:
   struct Parts;

@@ -15,6 +15,7 @@ namespace palp {
 namespace {
 
 constexpr double kRadius_mm = 0.28;
+constexpr double kWireRadius_mm = 0.07;
 
 /// One line a wire through its electrodes; electrode e of wire w is point w * perWire + e.
 std::vector<std::vector<int>> wires(int count, int perWire) {
@@ -59,7 +60,10 @@ void Spheres::setVisible(bool visible) {
 
 ElectrodeActors::ElectrodeActors(vtkRenderer& renderer)
     : rowWires_(renderer), columnWires_(renderer), upper_(renderer, kRadius_mm), lower_(renderer, kRadius_mm),
-      lit_(renderer, 1.9 * kRadius_mm) {}
+      lit_(renderer, 1.9 * kRadius_mm) {
+  rowWires_.setTubes(kWireRadius_mm);
+  columnWires_.setTubes(kWireRadius_mm);
+}
 
 void ElectrodeActors::show(const SensorDesign& design, const Eigen::Matrix3Xd& upper_mm,
                            const Eigen::Matrix3Xd& lower_mm, const DeformationOptions& options) {
@@ -68,8 +72,8 @@ void ElectrodeActors::show(const SensorDesign& design, const Eigen::Matrix3Xd& u
   const Eigen::Matrix3Xd lower = design.lowerElectrodes_mm() + lower_mm;
   rowWires_.set(upper, wires(design.rowWires(), design.electrodesPerRowWire()));
   columnWires_.set(lower, wires(design.columnWires(), design.electrodesPerColumnWire()));
-  rowWires_.setLook(ink.upper, 2 * options.scale);
-  columnWires_.setLook(ink.lower, 1.5 * options.scale);
+  rowWires_.setLook(ink.upper, options.scale);
+  columnWires_.setLook(ink.lower, options.scale);
   upper_.set(upper, ink.upper);
   lower_.set(lower, ink.lower);
 

@@ -21,7 +21,7 @@ private:
   vtkSmartPointer<vtkActor> actor_;
 };
 
-/// Both layers: wires as lines, electrodes as spheres, the electrodes of one cell lit.
+/// Both layers: wires as tubes, electrodes as spheres, the electrodes of one cell lit.
 class ElectrodeActors {
 public:
   explicit ElectrodeActors(vtkRenderer& renderer);

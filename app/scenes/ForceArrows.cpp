@@ -26,7 +26,19 @@ std::string forceText(const Eigen::Vector3d& force_N) {
   return buffer.data();
 }
 
+constexpr double kWordsAbove_mm = 0.7; ///< the free end
+
 } // namespace
+
+Eigen::Vector3d PlacedForce::freeEnd_mm(double mmPerN) const {
+  return force_N.z() < 0 ? Eigen::Vector3d(place_mm - mmPerN * force_N) : Eigen::Vector3d(place_mm + mmPerN * force_N);
+}
+
+double arrowScale_mmPerN(const std::vector<PlacedForce>& forces, double largest_mm) {
+  double largest_N = 0;
+  for (const PlacedForce& force : forces) largest_N = std::max(largest_N, force.force_N.norm());
+  return largest_N > 0 ? largest_mm / largest_N : 1;
+}
 
 ForceArrows::ForceArrows(vtkRenderer& renderer)
     : data_(vtkSmartPointer<vtkPolyData>::New()), actor_(vtkSmartPointer<vtkActor>::New()) {
@@ -48,12 +60,6 @@ ForceArrows::ForceArrows(vtkRenderer& renderer)
   renderer.AddActor(actor_);
 }
 
-void ForceArrows::show(const std::vector<PlacedForce>& forces, double largest_mm, const Color& color) {
-  double largest_N = 0;
-  for (const PlacedForce& force : forces) largest_N = std::max(largest_N, force.force_N.norm());
-  showToScale(forces, largest_N > 0 ? largest_mm / largest_N : 0, color);
-}
-
 void ForceArrows::showToScale(const std::vector<PlacedForce>& forces, double mm_per_N, const Color& color) {
   words_.clear();
   vtkNew<vtkPoints> starts;
@@ -62,12 +68,12 @@ void ForceArrows::showToScale(const std::vector<PlacedForce>& forces, double mm_
   arrows->SetNumberOfComponents(3);
   for (const PlacedForce& force : forces) {
     if (!(force.force_N.norm() > 0)) continue;
-    const Eigen::Vector3d arrow = force.force_N * mm_per_N;
-    const Eigen::Vector3d start = force.force_N.z() < 0 ? Eigen::Vector3d(force.place_mm - arrow) : force.place_mm;
+    const Eigen::Vector3d far = force.freeEnd_mm(mm_per_N);
+    const Eigen::Vector3d start = force.force_N.z() < 0 ? far : force.place_mm;
+    const Eigen::Vector3d arrow = mm_per_N * force.force_N;
     starts->InsertNextPoint(start.data());
     arrows->InsertNextTuple(arrow.data());
-    const Eigen::Vector3d far = force.force_N.z() < 0 ? start : Eigen::Vector3d(start + arrow);
-    words_.push_back({far + Eigen::Vector3d(0, 0, kWordGap_mm), forceText(force.force_N), color});
+    words_.push_back({far + Eigen::Vector3d(0, 0, kWordsAbove_mm), forceText(force.force_N), color});
   }
   data_->SetPoints(starts);
   data_->GetPointData()->Initialize();

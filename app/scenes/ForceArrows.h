@@ -19,15 +19,20 @@ namespace palp {
 struct PlacedForce {
   Eigen::Vector3d place_mm = Eigen::Vector3d::Zero();
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
+  int load = 0; ///< place in the load case: areas first, then patches
+
+  /// The end of its arrow that is not on the surface: a push ends on the surface, a pull starts there.
+  [[nodiscard]] Eigen::Vector3d freeEnd_mm(double mmPerN) const;
 };
 
-/// One arrow a force, its length in proportion. A push ends on the surface, a pull starts there.
+/// The scale at which the largest force has the given length.
+double arrowScale_mmPerN(const std::vector<PlacedForce>& forces, double largest_mm);
+
+/// One arrow a force, all to one scale.
 class ForceArrows {
 public:
   explicit ForceArrows(vtkRenderer& renderer);
 
-  /// The largest has the given length.
-  void show(const std::vector<PlacedForce>& forces, double largest_mm, const Color& color);
   /// Each newton has the given length.
   void showToScale(const std::vector<PlacedForce>& forces, double mm_per_N, const Color& color);
   /// The forces in words, each at its arrow's free end.

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
-#include <map>
 #include <unordered_map>
+#include <unordered_set>
+#include <utility>
 
 namespace palp {
 
@@ -39,33 +41,38 @@ std::vector<Face> boundaryFaces(const Mesh& mesh) {
   const bool tetrahedra = mesh.shape == ElementShape::Tetrahedron10;
   const std::vector<Face>& local = tetrahedra ? kTetrahedronFaces : kHexahedronFaces;
   const std::size_t corners = tetrahedra ? 3 : 4;
-  std::map<Face, int> count;
-  std::vector<Face> all;
-  std::vector<Face> keys;
+  struct Side {
+    std::array<int, 4> key; ///< corners, ascending; -1 before those of a triangle
+    int element, face;
+  };
+  std::vector<Side> sides;
+  sides.reserve(static_cast<std::size_t>(mesh.elementCount()) * local.size());
   for (int element = 0; element < mesh.elementCount(); ++element)
-    for (const Face& places : local) {
-      Face face(places.size());
-      std::transform(places.begin(), places.end(), face.begin(), [&](int k) { return mesh.elements(k, element); });
-      Face key(face.begin(), face.begin() + static_cast<std::ptrdiff_t>(corners));
-      std::sort(key.begin(), key.end());
-      ++count[key];
-      all.push_back(std::move(face));
-      keys.push_back(std::move(key));
+    for (std::size_t face = 0; face < local.size(); ++face) {
+      Side side{{-1, -1, -1, -1}, element, static_cast<int>(face)};
+      for (std::size_t k = 0; k < corners; ++k) side.key[k] = mesh.elements(local[face][k], element);
+      std::sort(side.key.begin(), side.key.end());
+      sides.push_back(side);
     }
+  const auto ofElement = [](const Side& a, const Side& b) {
+    return std::pair(a.element, a.face) < std::pair(b.element, b.face);
+  };
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.key < b.key; });
+  std::vector<Side> alone;
+  for (std::size_t k = 0; k < sides.size(); ++k) {
+    const bool before = k > 0 && sides[k - 1].key == sides[k].key;
+    const bool after = k + 1 < sides.size() && sides[k + 1].key == sides[k].key;
+    if (!before && !after) alone.push_back(sides[k]);
+  }
+  std::sort(alone.begin(), alone.end(), ofElement);
   std::vector<Face> boundary;
-  for (std::size_t k = 0; k < all.size(); ++k)
-    if (count[keys[k]] == 1) boundary.push_back(std::move(all[k]));
+  for (const Side& side : alone) {
+    const Face& places = local[static_cast<std::size_t>(side.face)];
+    Face face(places.size());
+    std::transform(places.begin(), places.end(), face.begin(), [&](int k) { return mesh.elements(k, side.element); });
+    boundary.push_back(std::move(face));
+  }
   return boundary;
-}
-
-/// Barycentric coordinates of the point in the triangle, seen from above.
-Eigen::Vector3d barycentric(const Mesh& mesh, const Triangle& triangle, const Eigen::Vector2d& xy) {
-  const Eigen::Vector2d a = mesh.nodes_mm.col(triangle[0]).head<2>();
-  Eigen::Matrix2d sides;
-  sides.col(0) = mesh.nodes_mm.col(triangle[1]).head<2>() - a;
-  sides.col(1) = mesh.nodes_mm.col(triangle[2]).head<2>() - a;
-  const Eigen::Vector2d t = sides.inverse() * (xy - a);
-  return {1 - t.sum(), t.x(), t.y()};
 }
 
 } // namespace
@@ -78,13 +85,13 @@ MeshSurface meshSurface(const Mesh& mesh) {
     if (added) surface.nodes.push_back(node);
     return found->second;
   };
-  std::map<std::array<int, 2>, bool> drawn;
+  std::unordered_set<std::int64_t> drawn;
   for (Face face : boundaryFaces(mesh)) {
     std::transform(face.begin(), face.end(), face.begin(), point);
     for (const Triangle& triangle : trianglesOf(face)) surface.triangles.push_back(triangle);
     for (Face& edge : edgesOf(face)) {
-      const std::array<int, 2> ends{std::min(edge.front(), edge.back()), std::max(edge.front(), edge.back())};
-      if (drawn.try_emplace(ends, true).second) surface.edges.push_back(std::move(edge));
+      const auto [low, high] = std::minmax(edge.front(), edge.back());
+      if (drawn.insert((static_cast<std::int64_t>(low) << 32) + high).second) surface.edges.push_back(std::move(edge));
     }
   }
   return surface;
@@ -96,24 +103,38 @@ Eigen::Vector3d TopPoint::of(const Eigen::Matrix3Xd& nodal) const {
   return mean;
 }
 
-TopPoint topPoint(const Mesh& mesh, const Eigen::Vector2d& xy_mm) {
-  TopPoint best;
-  double farthestOut = -std::numeric_limits<double>::infinity();
+TopFace::TopFace(const Mesh& mesh) {
   for (Eigen::Index k = 0; k < mesh.topFaces.cols(); ++k) {
     const Eigen::VectorXi nodes = mesh.topFaces.col(k);
-    const Face face(nodes.begin(), nodes.end());
-    for (const Triangle& triangle : trianglesOf(face)) {
-      const Eigen::Vector3d weights = barycentric(mesh, triangle, xy_mm);
-      if (!(weights.minCoeff() > farthestOut)) continue;
-      farthestOut = weights.minCoeff();
-      best = {triangle, {weights[0], weights[1], weights[2]}};
-      if (farthestOut >= 0) return best;
+    for (const Triangle& triangle : trianglesOf(Face(nodes.begin(), nodes.end()))) {
+      const Eigen::Vector2d a = mesh.nodes_mm.col(triangle[0]).head<2>();
+      Eigen::Matrix2d sides;
+      sides.col(0) = mesh.nodes_mm.col(triangle[1]).head<2>() - a;
+      sides.col(1) = mesh.nodes_mm.col(triangle[2]).head<2>() - a;
+      pieces_.push_back({triangle, a, sides.inverse()});
     }
+  }
+}
+
+TopPoint TopFace::at(const Eigen::Vector2d& xy_mm) const {
+  TopPoint best;
+  double farthestOut = -std::numeric_limits<double>::infinity();
+  for (const Piece& piece : pieces_) {
+    const Eigen::Vector2d t = piece.inverse * (xy_mm - piece.corner);
+    const Eigen::Vector3d weights(1 - t.sum(), t.x(), t.y());
+    if (!(weights.minCoeff() > farthestOut)) continue;
+    farthestOut = weights.minCoeff();
+    best = {piece.nodes, {weights[0], weights[1], weights[2]}};
+    if (farthestOut >= 0) return best;
   }
   return best;
 }
 
-std::vector<std::vector<TopPoint>> areaBorders(const Mesh& mesh, const SensorDesign& design, int steps) {
+TopPoint topPoint(const Mesh& mesh, const Eigen::Vector2d& xy_mm) {
+  return TopFace(mesh).at(xy_mm);
+}
+
+std::vector<std::vector<TopPoint>> areaBorders(const TopFace& top, const SensorDesign& design, int steps) {
   std::vector<std::vector<TopPoint>> borders;
   for (int area = 0; area < design.areas.count(); ++area) {
     const Rectangle box = design.areaRectangle(area);
@@ -123,7 +144,7 @@ std::vector<std::vector<TopPoint>> areaBorders(const Mesh& mesh, const SensorDes
     for (std::size_t side = 0; side < 4; ++side)
       for (int k = side == 0 ? 0 : 1; k <= steps; ++k) {
         const double t = static_cast<double>(k) / steps;
-        border.push_back(topPoint(mesh, (1 - t) * corners[side] + t * corners[side + 1]));
+        border.push_back(top.at((1 - t) * corners[side] + t * corners[side + 1]));
       }
     borders.push_back(std::move(border));
   }

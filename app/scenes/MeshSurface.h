@@ -27,10 +27,26 @@ struct TopPoint {
   [[nodiscard]] Eigen::Vector3d of(const Eigen::Matrix3Xd& nodal) const;
 };
 
-/// The top face's point nearest to (x, y), which lies on the face.
+/// The top face at rest, for many questions.
+class TopFace {
+public:
+  explicit TopFace(const Mesh& mesh);
+
+  /// The point nearest to (x, y), which lies on the face.
+  [[nodiscard]] TopPoint at(const Eigen::Vector2d& xy_mm) const;
+
+private:
+  struct Piece {
+    std::array<int, 3> nodes;
+    Eigen::Vector2d corner;
+    Eigen::Matrix2d inverse; ///< of the two sides
+  };
+  std::vector<Piece> pieces_;
+};
+/// The same for one question.
 TopPoint topPoint(const Mesh& mesh, const Eigen::Vector2d& xy_mm);
 
 /// Corners and points along the border of each load area, `steps` a side, closed; one list an area.
-std::vector<std::vector<TopPoint>> areaBorders(const Mesh& mesh, const SensorDesign& design, int steps);
+std::vector<std::vector<TopPoint>> areaBorders(const TopFace& top, const SensorDesign& design, int steps);
 
 } // namespace palp

@@ -8,6 +8,7 @@
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
+#include <vtkTubeFilter.h>
 
 namespace palp {
 
@@ -44,6 +45,16 @@ void Polylines::setLook(const Color& color, double width_px, double opacity) {
   look.SetColor(color[0], color[1], color[2]);
   look.SetLineWidth(static_cast<float>(width_px));
   look.SetOpacity(opacity);
+}
+
+void Polylines::setTubes(double radius_mm) {
+  vtkNew<vtkTubeFilter> tubes;
+  tubes->SetInputData(data_);
+  tubes->SetRadius(radius_mm);
+  tubes->SetNumberOfSides(8);
+  actor_->GetMapper()->SetInputConnection(tubes->GetOutputPort());
+  actor_->GetProperty()->LightingOn();
+  actor_->GetProperty()->SetAmbient(0.25);
 }
 
 void Polylines::setVisible(bool visible) {

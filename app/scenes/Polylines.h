@@ -15,7 +15,7 @@ class vtkRenderer;
 
 namespace palp {
 
-/// Lines through points [mm], drawn as lines `width_px` wide.
+/// Lines through points [mm], drawn as lines `width_px` wide or as tubes.
 class Polylines {
 public:
   explicit Polylines(vtkRenderer& renderer);
@@ -24,6 +24,8 @@ public:
   /// New places of the same points.
   void move(const Eigen::Matrix3Xd& points_mm);
   void setLook(const Color& color, double width_px, double opacity = 1);
+  /// Drawn as tubes of this radius from now on, lit like a body.
+  void setTubes(double radius_mm);
   void setVisible(bool visible);
   /// Leaves out what lies behind the plane; null shows all.
   void clip(vtkPlane* plane);

@@ -5,10 +5,7 @@
 #include "app/study/reports/ReportComputations.h"
 #include "io/AtomicFile.h"
 
-#include <array>
 #include <chrono>
-#include <cmath>
-#include <limits>
 
 namespace palp {
 
@@ -79,24 +76,6 @@ std::vector<ReportKind> allKinds() {
   return kinds;
 }
 
-/// All values with room above them for the legend, which stands in the upper right corner.
-std::array<double, 2> rangeWithLegend(const ReportChart& chart) {
-  constexpr double kLine = 0.055; // of the height, one a curve
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const ReportCurve& curve : chart.curves)
-    for (const double y : curve.y) {
-      if (!std::isfinite(y) || (chart.logY && !(y > 0))) continue;
-      low = std::min(low, y);
-      high = std::max(high, y);
-    }
-  if (!(low < high)) return {low, high};
-  const double room = kLine * static_cast<double>(chart.curves.size() + 1);
-  const double share = room / (1 - room);
-  if (!chart.logY) return {low - 0.04 * (high - low), high + share * (high - low)};
-  const double ratio = high / low;
-  return {low / std::pow(ratio, 0.04), high * std::pow(ratio, share)};
-}
-
 } // namespace
 
 const std::vector<ReportKind>& reportKinds() {
@@ -115,8 +94,6 @@ void drawReportChart(const ReportChart& chart, const std::filesystem::path& png)
     spec.series.push_back({curve.name, curve.x, curve.y, style(curve.style), curve.dashed, -1});
   spec.topLabel = chart.topLabel;
   spec.topTicks = chart.topTicks;
-  const auto range = rangeWithLegend(chart);
-  if (range[0] < range[1]) spec.yRange = range;
   writePng(drawChart(spec), png);
 }
 

@@ -5,6 +5,8 @@
 #include "model/Error.h"
 
 #include <QFile>
+#include <QJsonDocument>
+#include <QJsonObject>
 #include <QTemporaryDir>
 
 #include <gtest/gtest.h>
@@ -52,6 +54,26 @@ TEST_F(ProjectFile, ReadsBackEverythingThatWasSet) {
   project.network.input = InputKind::Resistance;
   project.network.rows = "1,4,7";
   project.network.spread = 0.1;
+  project.network.centers = 50;
+  project.view = {"network",
+                  Quantity::VonMises,
+                  25.5,
+                  7.25,
+                  false,
+                  false,
+                  false,
+                  false,
+                  true,
+                  std::array{3, 17},
+                  9,
+                  {1, 2, 3},
+                  {4, 5, 4.5},
+                  true,
+                  5e-6,
+                  ResistanceKind::Change,
+                  std::array{-0.25, 0.5},
+                  {7, 29},
+                  4};
   saveProject(path("project.json"), project);
   EXPECT_EQ(loadProject(path("project.json"), exampleProject()), project);
 }
@@ -74,8 +96,16 @@ TEST_F(ProjectFile, DropsALoadThatCannotActOnTheOpenedDesign) {
 }
 
 TEST_F(ProjectFile, IsRefusedWithASentenceWhereItIsFromANewerPalp) {
-  const std::string sentence = refusal(with(savedText(), "\"palp_project\": 1", "\"palp_project\": 9"));
+  const std::string sentence = refusal(with(savedText(), "\"palp_project\": 2", "\"palp_project\": 9"));
   EXPECT_NE(sentence.find("newer"), std::string::npos) << sentence;
+}
+
+TEST_F(ProjectFile, OfTheFirstVersionIsReadWithTheUsualView) {
+  QJsonObject old = QJsonDocument::fromJson(QByteArray::fromStdString(savedText())).object();
+  old["palp_project"] = 1;
+  old.remove("view");
+  std::ofstream(path("old.json")) << QJsonDocument(old).toJson().toStdString();
+  EXPECT_EQ(loadProject(path("old.json"), exampleProject()), exampleProject());
 }
 
 TEST_F(ProjectFile, IsRefusedWithASentenceWhereItIsCutOff) {
@@ -94,6 +124,27 @@ TEST_F(ProjectFile, IsRefusedWithItsKeyWhereItIsUnknown) {
   EXPECT_NE(sentence.find("per_area"), std::string::npos) << sentence;
 }
 
+TEST_F(ProjectFile, CutOffAnywhereIsRefusedAndNeverReadAsAnother) {
+  const std::string text = savedText();
+  const std::size_t end = text.find_last_of('}');
+  for (std::size_t size = 0; size < end; size += 37) EXPECT_NE(refusal(text.substr(0, size)), "") << size;
+}
+
+TEST_F(ProjectFile, IsRefusedWithTheKeyWhateverTypeIsWrong) {
+  const QJsonObject good = QJsonDocument::fromJson(QByteArray::fromStdString(savedText())).object();
+  for (const QString& part : QStringList{"load", "mesh", "samples", "network", "view"}) {
+    const QJsonObject inside = good[part].toObject();
+    for (const QString& key : inside.keys()) {
+      QJsonObject bad = good;
+      QJsonObject changed = inside;
+      changed[key] = QJsonObject{{"x", 1}};
+      bad[part] = changed;
+      const std::string sentence = refusal(QJsonDocument(bad).toJson().toStdString());
+      EXPECT_NE(sentence.find((part + "." + key).toStdString()), std::string::npos) << key.toStdString() << sentence;
+    }
+  }
+}
+
 TEST_F(ProjectFile, NamesAFileThatIsNotThere) {
   EXPECT_THROW(loadProject(path("none.json"), exampleProject()), Error);
 }
@@ -101,7 +152,10 @@ TEST_F(ProjectFile, NamesAFileThatIsNotThere) {
 TEST(Command, SaysTheLoadAndTheMeshAsTheCommandLineReadsThem) {
   Project project = exampleProject();
   project.mesh.meshSize_mm = 2.5;
-  EXPECT_EQ(solveCommands(project, "s.json"), "palp solve s.json --load 1:0.5,0.3,-6 --mesh-size 2.5 -o deformed.vtu");
+  EXPECT_EQ(solveCommands(project, "s.json"),
+            "palp solve s.json --load 1:0.5,0.3,-6 --mesh-size 2.5 -o deformed.vtu\n"
+            "palp render s.json --load 1:0.5,0.3,-6 --mesh-size 2.5 --quantity \"|u|\" -o deformed.png");
+  EXPECT_TRUE(meshCommands(project, "s.json").contains("palp mesh s.json --mesh-size 2.5"));
   EXPECT_TRUE(networkCommands(project, "s.json").contains("--rows 4 --mode default"));
 }
 

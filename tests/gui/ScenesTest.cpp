@@ -1,4 +1,5 @@
 #include "app/scenes/Chart.h"
+#include "app/scenes/ChartLegend.h"
 #include "app/scenes/ColorScale.h"
 #include "app/scenes/DeformationPicture.h"
 #include "app/scenes/Heatmap.h"
@@ -78,6 +79,17 @@ TEST(Chart, DrawsInBothThemesAndLeavesOutWhatALogAxisCannotShow) {
     EXPECT_EQ(picture.width, 400);
     EXPECT_GT(colors(picture), 10u);
   }
+}
+
+TEST(ChartLegend, StandsWhereItCoversNothing) {
+  const LegendShare share{0.3, 0.3};
+  std::vector<std::vector<std::array<double, 2>>> rising{{}};
+  addBetween(rising[0], {0, 0}, {1, 1});
+  const LegendCorner beside = freestCorner(rising, share);
+  EXPECT_EQ(beside.covered, 0);
+  EXPECT_TRUE(beside.left && !beside.bottom) << "a rising curve leaves the upper left corner free";
+  addBetween(rising[0], {0, 1}, {1, 0});
+  EXPECT_GT(freestCorner(rising, share).covered, 0) << "a cross reaches every corner";
 }
 
 TEST(Picture, IsWrittenAsAPngThatOthersRead) {

@@ -1,81 +1,34 @@
 #include "app/gui/BlockView.h"
 #include "app/gui/ChartView.h"
 #include "app/gui/HeatmapView.h"
-#include "app/gui/MainWindow.h"
-#include "app/gui/NetworkSession.h"
-#include "app/gui/Workbench.h"
+#include "app/gui/ProjectFile.h"
+#include "app/study/Resources.h"
+#include "tests/gui/WindowFixture.h"
 
 #include <QComboBox>
+#include <QDialog>
 #include <QDoubleSpinBox>
-#include <QElapsedTimer>
+#include <QDropEvent>
+#include <QFile>
 #include <QLabel>
 #include <QLineEdit>
+#include <QMessageBox>
+#include <QMimeData>
 #include <QPushButton>
+#include <QSettings>
 #include <QSlider>
 #include <QSpinBox>
+#include <QSplitter>
 #include <QTabWidget>
 #include <QTableWidget>
-#include <QTest>
-#include <QWheelEvent>
-
-#include <gtest/gtest.h>
-
-#include <iostream>
-#include <random>
+#include <QTemporaryDir>
+#include <QTextBrowser>
+#include <QTimer>
 
 namespace palp {
 namespace {
 
-/// Generous: the machine may be busy with other tests.
-constexpr int kPatience_ms = 60000;
-
-/// A coarse mesh, so that the tests are about the window.
-Project quickProject() {
-  Project project = exampleProject();
-  project.mesh.mapped = {9, 8, 2};
-  project.samples.perArea = 6;
-  project.network.sweepCount = 3;
-  return project;
-}
-
-class Window : public testing::Test {
-protected:
-  Window() {
-    window.resize(1300, 800);
-    window.show();
-    EXPECT_TRUE(QTest::qWaitForWindowExposed(&window));
-  }
-  bool idle() {
-    return QTest::qWaitFor([&] { return !workbench.touch().runner().running() && !network.runner().running(); },
-                           kPatience_ms);
-  }
-  bool solved() {
-    return QTest::qWaitFor([&] { return workbench.touch().fields() != nullptr && workbench.touch().upToDate(); },
-                           kPatience_ms);
-  }
-  template <class Widget> Widget& find(const char* name) {
-    auto* widget = window.findChild<Widget*>(name);
-    EXPECT_NE(widget, nullptr) << name;
-    return *widget;
-  }
-  static void settle() { QTest::qWait(80); }
-
-  Workbench workbench{quickProject()};
-  NetworkSession network;
-  MainWindow window{workbench, network};
-};
-
-void drag(QWidget& widget, QPoint from, QPoint to) {
-  QTest::mousePress(&widget, Qt::LeftButton, {}, from);
-  for (int k = 1; k <= 5; ++k) QTest::mouseMove(&widget, from + (to - from) * k / 5);
-  QTest::mouseRelease(&widget, Qt::LeftButton, {}, to);
-}
-
-void wheel(QWidget& widget, int angle) {
-  const QPointF place = widget.rect().center();
-  QWheelEvent event(place, widget.mapToGlobal(place), {}, {0, angle}, Qt::NoButton, {}, Qt::NoScrollPhase, false);
-  QApplication::sendEvent(&widget, &event);
-}
+class Window : public WindowFixture {};
 
 TEST_F(Window, OpensOnTheDeformationSceneAndSolvesByItself) {
   EXPECT_EQ(window.currentScene().objectName(), "deformation");
@@ -201,6 +154,100 @@ TEST_F(Window, ProbesThePointThatWasClicked) {
   EXPECT_TRUE(words.contains(", 5) mm")) << words.toStdString();
 }
 
+TEST_F(Window, LoadsAnAreaByAClickOnItAndOnlyProbesWhenAskedTo) {
+  ASSERT_TRUE(solved());
+  settle();
+  auto& block = find<BlockView>("block");
+  const Eigen::Vector2d centre = paperDesign().areaRectangle(5).low_mm + Eigen::Vector2d(5, 7);
+  const QPoint place = block.placeOf({centre.x(), centre.y(), 5}).toPoint();
+  QTest::mouseClick(&find<QAbstractButton>("clickProbe"), Qt::LeftButton);
+  QTest::mouseClick(&block, Qt::LeftButton, {}, place);
+  EXPECT_EQ(workbench.project().load.areas.size(), 1u);
+  QTest::mouseClick(&find<QAbstractButton>("clickLoad"), Qt::LeftButton);
+  QTest::mouseClick(&block, Qt::LeftButton, {}, place);
+  ASSERT_EQ(workbench.project().load.areas.size(), 2u);
+  EXPECT_EQ(workbench.project().load.areas[1].area, 5);
+  ASSERT_TRUE(solved());
+}
+
+TEST_F(Window, SetsTheForceByDraggingItsArrow) {
+  ASSERT_TRUE(solved());
+  settle();
+  auto& block = find<BlockView>("block");
+  const auto camera = block.cameraPosition();
+  const Eigen::Vector3d before = workbench.project().load.areas[0].force_N;
+  const auto grip = block.gripOf(0);
+  ASSERT_TRUE(grip.has_value());
+  drag(block, grip->toPoint(), grip->toPoint() + QPoint(60, 0));
+  const Eigen::Vector3d aside = workbench.project().load.areas[0].force_N;
+  EXPECT_EQ(block.cameraPosition(), camera) << "dragging an arrow does not turn the block";
+  EXPECT_LT(aside.x(), before.x()) << "the free end of a push went to +x, so that it pushes to -x";
+  EXPECT_EQ(find<QDoubleSpinBox>("force_x").value(), aside.x());
+  ASSERT_TRUE(solved());
+  EXPECT_EQ(workbench.touch().touch().load().areas[0].force_N, aside);
+  EXPECT_EQ(workbench.history().undoText(), "Drag a force");
+  QTest::qWait(100);
+  const auto moved = block.gripOf(0);
+  ASSERT_TRUE(moved.has_value());
+  drag(block, moved->toPoint(), moved->toPoint() + QPoint(0, 40), Qt::ShiftModifier);
+  const Eigen::Vector3d shorter = workbench.project().load.areas[0].force_N;
+  EXPECT_LT(shorter.norm(), aside.norm());
+  EXPECT_GT(shorter.normalized().dot(aside.normalized()), 1 - 1e-4) << "rounded to 0.01 N";
+}
+
+TEST_F(Window, PlotsAlongALineOfTwoClicks) {
+  ASSERT_TRUE(solved());
+  settle();
+  auto& block = find<BlockView>("block");
+  QTest::mouseClick(&find<QAbstractButton>("clickLine"), Qt::LeftButton);
+  settle();
+  const auto& curve = find<ChartView>("linePlot").chart().series;
+  ASSERT_EQ(curve.size(), 1u) << "the line that the project begins with";
+  QTest::mouseClick(&block, Qt::LeftButton, {}, block.placeOf({10, 2, 5}).toPoint());
+  QTest::mouseClick(&block, Qt::LeftButton, {}, block.placeOf({20, 28, 5}).toPoint());
+  settle();
+  const ViewSettings& view = workbench.project().view;
+  EXPECT_NEAR(view.lineFrom_mm[0], 10, 2) << "the nearest node of the coarse mesh";
+  EXPECT_NEAR(view.lineTo_mm[1], 28, 2);
+  const ChartSpec& chart = find<ChartView>("linePlot").chart();
+  ASSERT_EQ(chart.series.size(), 1u) << chart.title;
+  // Ends of the line are nodes: the plot begins and ends with their displacements.
+  const Mesh& mesh = *workbench.touch().touch().mesh();
+  const auto at = [&](const std::array<double, 3>& place) {
+    Eigen::Index node = 0;
+    (mesh.nodes_mm.colwise() - Eigen::Vector3d(place.data())).colwise().norm().minCoeff(&node);
+    return workbench.touch().fields()->displacement_mm.col(node).norm();
+  };
+  EXPECT_NEAR(chart.series[0].y.front(), at(view.lineFrom_mm), 1e-3 * at(view.lineFrom_mm)) << "rounded to 0.001 mm";
+  EXPECT_NEAR(chart.series[0].y.back(), at(view.lineTo_mm), 1e-3 * at(view.lineTo_mm));
+}
+
+TEST_F(Window, RefusesALineThatLeavesTheBlock) {
+  ASSERT_TRUE(solved());
+  find<QTabWidget>("deformationTabs").setCurrentIndex(3);
+  auto& end = find<QLineEdit>("lineTo");
+  end.setFocus();
+  end.selectAll();
+  QTest::keyClicks(&end, "99, 0, 0");
+  QTest::keyClick(&end, Qt::Key_Return);
+  settle();
+  EXPECT_TRUE(find<ChartView>("linePlot").chart().series.empty());
+  EXPECT_NE(find<ChartView>("linePlot").chart().title.find("leaves the block"), std::string::npos);
+}
+
+TEST_F(Window, WritesTheLoadPathAsASeriesOfPictures) {
+  ASSERT_TRUE(solved());
+  ASSERT_TRUE(idle());
+  const QTemporaryDir folder;
+  window.animate(folder.path());
+  const QString last = folder.filePath("load-024.png");
+  ASSERT_TRUE(QTest::qWaitFor([&] { return QFile::exists(last); }, kPatience_ms));
+  const QImage rest(folder.filePath("load-000.png"));
+  EXPECT_EQ(rest.size(), QSize(1200, 800));
+  EXPECT_NE(QImage(last), rest);
+  EXPECT_EQ(workbench.touch().stages().runs("solve"), 1) << "nothing is solved again";
+}
+
 TEST_F(Window, LightsTheElectrodesOfAClickedCell) {
   ASSERT_TRUE(solved());
   settle();
@@ -235,6 +282,7 @@ TEST_F(Window, ShowsARowWireAndTheTableOfElectrodes) {
   tabs.setCurrentIndex(1);
   settle();
   EXPECT_EQ(find<ChartView>("rowWire").chart().series.front().x.size(), 10u);
+  EXPECT_EQ(find<ChartView>("rowWireShape").chart().series.size(), 2u) << "before and under the load";
   tabs.setCurrentIndex(2);
   settle();
   EXPECT_EQ(find<QTableWidget>("electrodeTable").rowCount(), 100);
@@ -251,6 +299,116 @@ TEST_F(Window, KeepsTheLastGoodResultAfterACancel) {
   ASSERT_TRUE(idle());
   EXPECT_EQ(workbench.touch().touch().solution(), good);
   EXPECT_FALSE(workbench.touch().upToDate());
+}
+
+TEST_F(Window, UndoesAChangeOfTheView) {
+  ASSERT_TRUE(solved());
+  find<QComboBox>("quantity").setCurrentIndex(4);
+  EXPECT_EQ(workbench.project().view.quantity, Quantity::Pressure);
+  EXPECT_EQ(workbench.history().undoText(), "Change the view of the block");
+  workbench.history().undo();
+  EXPECT_EQ(find<QComboBox>("quantity").currentIndex(), 0);
+  EXPECT_TRUE(workbench.touch().upToDate()) << "a view computes nothing";
+}
+
+TEST_F(Window, TakesAPreset) {
+  window.showScene("design");
+  auto& presets = find<QComboBox>("presets");
+  emit presets.activated(2);
+  EXPECT_EQ(workbench.project().design.material.poissonRatio, 0.5);
+  workbench.history().undo();
+  EXPECT_EQ(workbench.project().design, paperDesign());
+}
+
+TEST_F(Window, SaysEveryScenesCommand) {
+  for (const QString& name : window.sceneNames()) {
+    window.showScene(name);
+    EXPECT_TRUE(window.currentScene().commands(workbench.project(), "s.json").startsWith("palp "))
+        << name.toStdString();
+  }
+}
+
+TEST_F(Window, HelpsWithEverySceneAndItsPicture) {
+  QTest::keyClick(&window, Qt::Key_F1);
+  auto* help = window.findChild<QDialog*>("help");
+  ASSERT_NE(help, nullptr);
+  const QString page = help->findChild<QTextBrowser*>()->toHtml();
+  for (const QString& name : window.sceneNames()) {
+    EXPECT_TRUE(page.contains("name=\"" + name + "\"")) << name.toStdString() << " has no chapter";
+    EXPECT_TRUE(page.contains("screenshots/" + name + ".png")) << name.toStdString();
+    EXPECT_FALSE(
+        QImage(QString::fromStdString(resource(("screenshots/" + name + ".png").toStdString()).string())).isNull());
+  }
+}
+
+/// Lets a file fall on the window; what asks something meanwhile is closed, and its words are returned.
+QString drop(MainWindow& window, const QString& file) {
+  QString said;
+  QTimer closer;
+  QObject::connect(&closer, &QTimer::timeout, &closer, [&said] {
+    if (auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget())) {
+      said = box->text();
+      box->close();
+    }
+  });
+  closer.start(20);
+  QMimeData mime;
+  mime.setUrls({QUrl::fromLocalFile(file)});
+  QDropEvent event({10, 10}, Qt::CopyAction, &mime, Qt::LeftButton, {});
+  static_cast<QObject&>(window).event(&event); // Qt's own way needs a drag that began outside
+  return said;
+}
+
+TEST_F(Window, OpensADroppedProjectInItsScene) {
+  ASSERT_TRUE(solved());
+  const QTemporaryDir folder;
+  Project project = quickProject();
+  project.load.areas[0].force_N = {0, 0, -2};
+  project.view.scene = "resistance";
+  project.view.cell = {2, 7};
+  const std::string file = folder.filePath("p.json").toStdString();
+  saveProject(file, project);
+  EXPECT_EQ(drop(window, QString::fromStdString(file)), "");
+  EXPECT_EQ(workbench.project(), project);
+  EXPECT_EQ(window.currentScene().objectName(), "resistance");
+  ASSERT_TRUE(solved());
+  settle();
+  EXPECT_EQ(find<HeatmapView>("resistanceHeatmap").heatmap().selected, (std::array{2, 7}));
+}
+
+TEST_F(Window, RefusesABrokenFileWithASentenceAndGoesOnWithWhatItHad) {
+  ASSERT_TRUE(solved());
+  const Project before = workbench.project();
+  const QTemporaryDir folder;
+  const QString file = folder.filePath("p.json");
+  saveProject(file.toStdString(), before);
+  QFile text(file);
+  ASSERT_TRUE(text.open(QIODevice::ReadWrite));
+  ASSERT_TRUE(text.resize(text.size() / 3));
+  text.close();
+  const QString said = drop(window, file);
+  EXPECT_TRUE(said.contains("broken at byte")) << said.toStdString();
+  EXPECT_TRUE(said.contains("stays as it is")) << said.toStdString();
+  EXPECT_EQ(workbench.project(), before);
+  EXPECT_TRUE(workbench.touch().upToDate());
+}
+
+TEST_F(Window, KeepsSplittersAndTabsForTheNextStart) {
+  auto& splitter = find<QSplitter>("deformationSplitter");
+  settle();
+  splitter.setSizes({300, 420});
+  find<QTabWidget>("deformationTabs").setCurrentIndex(2);
+  const QList<int> sizes = splitter.sizes();
+  window.close();
+  Workbench again{quickProject()};
+  NetworkSession none;
+  MainWindow next{again, none};
+  next.resize(1300, 800);
+  next.show();
+  ASSERT_TRUE(QTest::qWaitForWindowExposed(&next));
+  EXPECT_EQ(next.findChild<QSplitter*>("deformationSplitter")->sizes(), sizes);
+  EXPECT_EQ(next.findChild<QTabWidget*>("deformationTabs")->currentIndex(), 2);
+  QSettings().clear();
 }
 
 TEST_F(Window, ExplainsAWrongValueInPlaceAndKeepsTheDesign) {
@@ -287,86 +445,6 @@ TEST_F(Window, GeneratesTrainsAndSweepsFromTheNetworkScene) {
   ASSERT_TRUE(idle());
   QTest::mouseClick(&find<QPushButton>("sweep"), Qt::LeftButton);
   ASSERT_TRUE(QTest::qWaitFor([&] { return network.sweepPoints().size() == 3; }, kPatience_ms));
-}
-
-TEST_F(Window, StaysFreeWhileItSolvesAndSamples) {
-  ASSERT_TRUE(solved());
-  window.showScene("network");
-  settle();
-  QElapsedTimer clock;
-  clock.start();
-  qint64 last = 0;
-  qint64 worst = 0;
-  QTimer beat;
-  QObject::connect(&beat, &QTimer::timeout, &beat, [&] {
-    worst = std::max(worst, clock.elapsed() - last);
-    last = clock.elapsed();
-  });
-  beat.start(5);
-  Project project = workbench.project();
-  project.samples.perArea = 20;
-  workbench.edit("more", project);
-  QTest::mouseClick(&find<QPushButton>("generate"), Qt::LeftButton);
-  ASSERT_TRUE(QTest::qWaitFor([&] { return network.samples() != nullptr; }, kPatience_ms));
-  std::cout << "worst heartbeat gap: " << worst << " ms\n";
-  // Far above the 50 ms that it is built for: other tests may share the cores.
-  EXPECT_LT(worst, 1000);
-}
-
-TEST_F(Window, SurvivesRandomActions) {
-  ASSERT_TRUE(solved());
-  std::mt19937 random(20130911);
-  const auto upTo = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
-  const auto any = [&]<class Widget>(const QList<Widget*>& all) -> Widget* {
-    QList<Widget*> usable;
-    for (Widget* widget : all)
-      if (widget->isVisible() && widget->isEnabled()) usable << widget;
-    return usable.isEmpty() ? nullptr : usable[upTo(static_cast<int>(usable.size()))];
-  };
-  for (int action = 0; action < 300; ++action) {
-    QWidget& scene = window.currentScene();
-    switch (upTo(10)) {
-    case 0:
-      window.showScene(window.sceneNames()[upTo(static_cast<int>(window.sceneNames().size()))]);
-      break;
-    case 1:
-      if (auto* spin = any(scene.findChildren<QDoubleSpinBox*>())) spin->stepBy(upTo(7) - 3);
-      break;
-    case 2:
-      if (auto* slider = any(scene.findChildren<QSlider*>())) slider->setValue(upTo(slider->maximum() + 1));
-      break;
-    case 3:
-      if (auto* box = any(scene.findChildren<QComboBox*>()))
-        QTest::keyClick(box, upTo(2) == 0 ? Qt::Key_Down : Qt::Key_Up);
-      break;
-    case 4:
-    case 5:
-      if (auto* view = any(scene.findChildren<VtkView*>()))
-        drag(*view, {upTo(view->width()), upTo(view->height())}, {upTo(view->width()), upTo(view->height())});
-      break;
-    case 6:
-      if (auto* view = any(scene.findChildren<VtkView*>())) wheel(*view, 120 * (upTo(3) - 1));
-      break;
-    case 7:
-      upTo(2) == 0 ? workbench.history().undo() : workbench.history().redo();
-      break;
-    case 8:
-      window.setTheme(upTo(2) == 0 ? Theme::Light : Theme::Dark);
-      break;
-    case 9: {
-      const QString name = upTo(2) == 0 ? QString("area_%1").arg(upTo(6)) : QString("clearLoad");
-      auto* button = window.findChild<QPushButton*>(name);
-      if (button != nullptr && button->isVisible()) QTest::mouseClick(button, Qt::LeftButton);
-      break;
-    }
-    }
-    if (upTo(8) == 0) QTest::keyClick(&window, Qt::Key_Escape);
-    QApplication::processEvents();
-  }
-  workbench.replace(quickProject());
-  window.showScene("deformation");
-  workbench.touch().resume();
-  EXPECT_TRUE(solved()) << "after all that it computes as at the start";
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 #!/bin/sh
-# One session on the real window under Xvfb: xdotool types another force and turns the block; both must change the
-# picture. Usage: smoke.sh PALP_STUDIO [FOLDER for the screenshots]
+# One session on the real window under Xvfb: xdotool types another force, turns the block and works on every
+# scene; each must change the picture. Usage: smoke.sh PALP_STUDIO [FOLDER for the screenshots]
 set -eu
 studio=$1
 folder=${2:-$(mktemp -d)}
@@ -67,5 +67,31 @@ sleep 3
 xdotool key space
 settled later
 differs live later "the live scene stands still"
+scene() { # NUMBER NAME
+  xdotool key "ctrl+$1"
+  settled "$2"
+  differs "$last_scene" "$2" "ctrl+$1 does not show the scene $2"
+  last_scene=$2
+}
+last_scene=later
+scene 1 design
+xdotool mousemove --window "$window" 500 687 click 1 # make and show the mesh
+settled mesh
+differs design mesh "the Design scene made no mesh"
+scene 3 resistance
+xdotool mousemove --window "$window" 500 250 click 1
+settled cell
+differs resistance cell "a click on the heatmap chose no cell"
+scene 4 network
+xdotool mousemove --window "$window" 300 123 click 1 # generate samples
+sleep 2
+xdotool key Escape
+settled stopped
+differs network stopped "generating and cancelling samples left the picture as it was"
+scene 6 reports
+xdotool key ctrl+t
+settled dark
+differs reports dark "the dark theme left the picture as it was"
+scene 2 dark-deformation
 kill -0 "$app" || { echo "the program ended by itself" >&2; exit 1; }
 echo "smoke: ok"

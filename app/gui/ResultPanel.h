@@ -1,0 +1,35 @@
+#pragma once
+
+#include <QWidget>
+
+class QLabel;
+class QPushButton;
+
+namespace palp {
+
+class TouchSession;
+
+/// What came out of the solve in words, the estimate of its error, and the probed point.
+class ResultPanel : public QWidget {
+  Q_OBJECT
+
+public:
+  explicit ResultPanel(QWidget* parent = nullptr);
+
+  void display(const TouchSession& session);
+  /// The estimate of the discretisation error in words; empty: not estimated.
+  void setErrorWords(const QString& words) { errorWords_ = words; }
+  /// Displacement, pressure and stress at a mesh node; -1: none.
+  void displayProbe(const TouchSession& session, int node);
+
+signals:
+  void estimateAsked();
+
+private:
+  QLabel* result_ = nullptr;
+  QPushButton* estimate_ = nullptr;
+  QLabel* probe_ = nullptr;
+  QString errorWords_;
+};
+
+} // namespace palp
