@@ -33,7 +33,7 @@ PACKAGES = {
     r"vtk.*\.h|GL/.*|EGL/.*": {"app/scenes", "app/gui"},
     r"Q[A-Z].*|Qt.*": {"app/gui"},
     r"sys/mman\.h": {"solver"},  # huge pages
-    r"sys/.*|unistd\.h|dlfcn\.h|fcntl\.h|spawn\.h|poll\.h|pthread\.h|linux/.*|termios\.h": {"io", "app/study", "app/scenes", "app/cli", "app/gui"},
+    r"sys/.*|unistd\.h|dlfcn\.h|fcntl\.h|spawn\.h|poll\.h|pthread\.h|malloc\.h|linux/.*|termios\.h": {"io", "app/study", "app/scenes", "app/cli", "app/gui"},
 }
 ONE_SOURCE_ONLY = [r"tetgen\.h", r"hidapi(/hidapi)?\.h", r"(suitesparse/)?cholmod\.h"]
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.M)
