@@ -15,6 +15,7 @@
 #include <QPushButton>
 #include <QSlider>
 #include <QTabBar>
+#include <QTemporaryDir>
 #include <QTimer>
 
 #include <cstdlib>
@@ -182,6 +183,8 @@ int actions() {
 TEST_F(MonkeyWindow, SurvivesAThousandActionsAndShowsWhatAFreshWindowShows) {
   ASSERT_TRUE(solved());
   const char* wanted = std::getenv("PALP_MONKEY_SEED");
+  const QTemporaryDir folder; // for the files that are written under whatever name was typed
+  QDir::setCurrent(folder.path());
   Monkey monkey(window, wanted != nullptr ? static_cast<unsigned>(std::atoi(wanted)) : 20130911u);
   // Whatever asks the user something is sent away.
   QTimer closer;
