@@ -11,7 +11,7 @@ namespace {
 
 constexpr int predictorDegree = 3;
 constexpr int mostIterations = 30;
-constexpr double fitShare = 10;            // of the tolerance, for the predictors' solves: a correction follows, 20 times better
+constexpr double fitShare = 10; // of the tolerance, for the predictors' solves: a correction follows, 20 times better
 constexpr double slowestContraction = 0.8; // above it full Newton is the better way
 constexpr double cautionary = 1.5;         // on measured contractions
 
