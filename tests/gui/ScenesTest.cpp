@@ -72,7 +72,11 @@ TEST(ColorScale, TicksAreRoundAndToldApart) {
 }
 
 TEST(Chart, DrawsInBothThemesAndLeavesOutWhatALogAxisCannotShow) {
-  ChartSpec spec{"title", "x [mm]", "y [N]", true, true, {}, {}, {}};
+  ChartSpec spec;
+  spec.title = "title";
+  spec.xLabel = "x [mm]";
+  spec.yLabel = "y [N]";
+  spec.logX = spec.logY = true;
   spec.series.push_back({"curve", {0, 0.1, 1, 10}, {1, -1, std::numeric_limits<double>::quiet_NaN(), 100}});
   for (const Theme theme : {Theme::Light, Theme::Dark}) {
     const Picture picture = drawChart(spec, 400, 300, theme);
