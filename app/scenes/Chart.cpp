@@ -238,6 +238,8 @@ void fillChart(vtkChartXY& chart, const ChartSpec& spec, Theme theme, double sca
   setAxis(*chart.GetAxis(vtkAxis::BOTTOM), spec.xLabel, xShown, spec.logX, colors, scale);
   setAxis(*chart.GetAxis(vtkAxis::LEFT), spec.yLabel, yShown, spec.logY, colors, scale);
   vtkAxis& top = *chart.GetAxis(vtkAxis::TOP);
+  chart.SetAutoAxes(spec.topTicks.empty()); // else the chart hides axes that no curve belongs to
+  chart.GetAxis(vtkAxis::RIGHT)->SetVisible(false);
   top.SetVisible(!spec.topTicks.empty());
   if (!spec.topTicks.empty()) {
     setAxis(top, spec.topLabel, xShown, spec.logX, colors, scale);

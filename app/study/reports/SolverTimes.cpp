@@ -31,7 +31,7 @@ struct Plan {
 
 std::vector<Plan> plans(bool quick) {
   std::vector<Plan> result;
-  const std::vector<double> sizes = quick ? std::vector{12.0, 8.0, 5.4} : std::vector{8.0, 5.4, 3.6, 2.4, kFinest_mm};
+  const std::vector<double> sizes = quick ? std::vector{8.0, 5.4, 3.6} : std::vector{8.0, 5.4, 3.6, 2.4, kFinest_mm};
   for (const double size : sizes) {
     MeshOptions mesh;
     mesh.meshSize_mm = size;
