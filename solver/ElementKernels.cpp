@@ -33,8 +33,12 @@ enum class InstructionSet { Baseline, Avx2, Avx512 };
 
 InstructionSet widest() {
 #ifdef PALP_WIDE_KERNELS
-  if (__builtin_cpu_supports("x86-64-v4")) return InstructionSet::Avx512;
-  if (__builtin_cpu_supports("x86-64-v3")) return InstructionSet::Avx2;
+  // x86-64-v4 and -v3; clang 14 knows no such names
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd") &&
+      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
+    return InstructionSet::Avx512;
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("fma"))
+    return InstructionSet::Avx2;
 #endif
   return InstructionSet::Baseline;
 }

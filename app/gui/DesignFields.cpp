@@ -151,7 +151,7 @@ std::vector<DesignField> makeFields() {
                           tr("above 0; a pair of electrodes has R = g x distance"),
                           [](D& s) -> double& { return s.resistanceRate_ohm_per_mm; }));
   for (int d = 0; d < 3; ++d) {
-    const QString axis = axes[static_cast<std::size_t>(d)];
+    const QString& axis = axes[static_cast<std::size_t>(d)];
     fields.push_back(number("force_range_N." + axis, tr("Force range"), tr("F%1 from").arg(axis), "N",
                             tr("for samples and for % of range"),
                             [d](D& s) -> double& { return s.forceRange.low_N[d]; }));

@@ -12,7 +12,7 @@ std::vector<NewtonStep> NewtonTrace::steps() const {
   return steps_;
 }
 
-TouchSession::TouchSession(QObject* parent) : QObject(parent), wanted_(), shown_() {
+TouchSession::TouchSession(QObject* parent) : QObject(parent) {
   connect(&runner_, &JobRunner::progressed, this, &TouchSession::newtonStepped);
   connect(&runner_, &JobRunner::finished, this, [this] { scrubbing_.reset(); });
 }

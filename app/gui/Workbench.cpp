@@ -31,7 +31,7 @@ private:
   Project after_;
 };
 
-Workbench::Workbench(Project project, QObject* parent) : QObject(parent) {
+Workbench::Workbench(const Project& project, QObject* parent) : QObject(parent) {
   history_.setUndoLimit(200);
   apply(project);
 }

@@ -13,7 +13,7 @@ class Workbench : public QObject {
   Q_OBJECT
 
 public:
-  explicit Workbench(Project project, QObject* parent = nullptr);
+  explicit Workbench(const Project& project, QObject* parent = nullptr);
 
   [[nodiscard]] const Project& project() const { return project_; }
   /// An edit that can be undone; `what` stands in the history, and edits of the same kind in a row become one.

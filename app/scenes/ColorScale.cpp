@@ -104,7 +104,8 @@ std::vector<double> roundTicks(double low, double high, int most) {
       break;
     }
   std::vector<double> ticks;
-  for (double k = std::ceil(low / step - 1e-9); k <= high / step + 1e-9; ++k) ticks.push_back(k == 0 ? 0 : k * step);
+  const double first = std::ceil(low / step - 1e-9);
+  for (int k = 0; first + k <= high / step + 1e-9; ++k) ticks.push_back((first + k) * step + 0.0); // no -0
   return ticks;
 }
 

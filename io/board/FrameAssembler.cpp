@@ -111,7 +111,7 @@ void FrameAssembler::beginFrame(const Readings& readings) {
   frame_.temperature_degC.reset();
   frame_.restarted = restarted_;
   restarted_ = false;
-  placed_.assign(static_cast<std::size_t>(info_.rowWires * reportsPerRow(info_)), false);
+  placed_.assign(static_cast<std::size_t>(info_.rowWires) * static_cast<std::size_t>(reportsPerRow(info_)), false);
   missingReports_ = 0;
   for (const bool expected : frame_.rowExpected) missingReports_ += expected ? reportsPerRow(info_) : 0;
 }

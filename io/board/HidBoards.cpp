@@ -44,7 +44,7 @@ struct CloseDevice {
 };
 
 /// A board on USB, through hidapi's hidraw backend.
-class HidSource : public ReportSource {
+class HidSource final : public ReportSource {
 public:
   HidSource(HidBoard board, hid_device* device) : board_(std::move(board)), device_(device) {
     const auto info = decodeInfo(readFeature(ReportId::Info));

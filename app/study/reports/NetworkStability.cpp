@@ -110,7 +110,7 @@ void addBrokenWires(StabilityCases& cases, const SensorDesign& design, const Two
   for (const auto& [what, ohm] :
        {std::pair{"open wire (R infinite)", std::numeric_limits<double>::infinity()},
         std::pair{"nearly open wire (R = 1e12 ohm)", 1e12}, std::pair{"shorted wire (R = 0)", 0.0}})
-    cases.add("network: broken wires", what, [&](StabilityRow& row) {
+    cases.add("network: broken wires", what, [&, ohm = ohm](StabilityRow& row) {
       Eigen::MatrixXd inputs = inputsOf(sets.test, decoder.input).leftCols(1);
       inputs(0, 0) = ohm;
       const Prediction prediction = predict(decoder, inputs);
