@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <fstream>
 #include <iterator>
+#include <regex>
 
 namespace palp {
 
@@ -20,7 +21,7 @@ body { font: 16px/1.5 system-ui, "DejaVu Sans", sans-serif; color: var(--ink); b
 h1 { font-size: 1.7rem; } h2 { font-size: 1.25rem; margin-top: 2.2rem; border-bottom: 1px solid var(--line); padding-bottom: .2rem; }
 table { border-collapse: collapse; margin: .8rem 0; font-variant-numeric: tabular-nums; font-size: .92rem; }
 caption { text-align: left; color: var(--soft); padding-bottom: .3rem; }
-th, td { padding: .25rem .7rem; border-bottom: 1px solid var(--line); text-align: right; } th:first-child, td:first-child { text-align: left; }
+th, td { padding: .25rem .7rem; border-bottom: 1px solid var(--line); text-align: right; } th:first-child, td:first-child { text-align: left; } .number { white-space: nowrap; }
 th { background: var(--band); } tr.good td:first-child { border-left: .4rem solid #1a7f37; } tr.doubtful td { background: #d4a72c33; }
 tr.doubtful td:first-child { border-left: .4rem solid #d4a72c; } tr.bad td { background: #cf222e33; } tr.bad td:first-child { border-left: .4rem solid #cf222e; } figure { margin: 1rem 0; } figure img { max-width: 100%; height: auto; border: 1px solid var(--line); }
 figcaption { color: var(--soft); font-size: .92rem; } pre { background: var(--band); padding: .7rem; overflow-x: auto; }
@@ -44,6 +45,12 @@ std::string escaped(const std::string& text) {
 }
 
 /// Base64 (RFC 4648).
+/// Keeps a browser from breaking 4.5e-05 after its hyphen.
+std::string unbroken(const std::string& text) {
+  static const std::regex exponent("[0-9.]+e-[0-9]+");
+  return std::regex_replace(text, exponent, "<span class=\"number\">$&</span>");
+}
+
 std::string base64(const std::vector<std::uint8_t>& bytes) {
   constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string result;
@@ -83,7 +90,7 @@ void ReportPage::table(const std::vector<std::string>& heads, const std::vector<
   body_ += "</tr></thead><tbody>\n";
   for (std::size_t r = 0; r < rows.size(); ++r) {
     body_ += rowClasses.empty() || rowClasses[r].empty() ? "<tr>" : "<tr class=\"" + rowClasses[r] + "\">";
-    for (const std::string& cell : rows[r]) body_ += "<td>" + escaped(cell) + "</td>";
+    for (const std::string& cell : rows[r]) body_ += "<td>" + unbroken(escaped(cell)) + "</td>";
     body_ += "</tr>\n";
   }
   body_ += "</tbody></table>\n";

@@ -6,7 +6,6 @@ studio=$1
 folder=${2:-$(mktemp -d)}
 mkdir -p "$folder"
 home=$(mktemp -d)
-display=:$((90 + $$ % 900))
 xvfb= app=
 end() {
   [ -z "$app" ] || kill "$app" 2>/dev/null || true
@@ -14,15 +13,17 @@ end() {
   rm -rf "$home"
 }
 trap end EXIT
-Xvfb "$display" -screen 0 1500x900x24 -fbdir "$home" >/dev/null 2>&1 &
+# The server takes a free display itself, and does not start anew when its only client goes.
+Xvfb -displayfd 3 -screen 0 1500x900x24 -noreset -fbdir "$home" 3>"$home/display" >/dev/null 2>&1 &
 xvfb=$!
-export DISPLAY=$display HOME=$home XDG_RUNTIME_DIR=$home QT_QPA_PLATFORM=xcb
 chmod 700 "$home"
 tries=0
-until xdotool getdisplaygeometry >/dev/null 2>&1; do
+until [ -s "$home/display" ]; do
   tries=$((tries + 1)); [ $tries -lt 100 ] || { echo "Xvfb does not come up" >&2; exit 1; }
   sleep 0.1
 done
+DISPLAY=:$(cat "$home/display")
+export DISPLAY HOME=$home XDG_RUNTIME_DIR=$home QT_QPA_PLATFORM=xcb
 "$studio" &
 app=$!
 window=$(timeout 60 xdotool search --sync --onlyvisible --name '^Palp' | head -1)

@@ -1,3 +1,4 @@
+#include "app/study/ReportPage.h"
 #include "app/study/reports/IndependentResidual.h"
 #include "app/study/reports/StabilityRow.h"
 
@@ -67,8 +68,8 @@ private:
     judge(row, kResidualAllowed);
     if (!solution.converged && row.outcome == StabilityOutcome::Right) {
       row.outcome = StabilityOutcome::Stopped;
-      row.words =
-          "reached load fraction " + text(solution.reachedLoadFraction) + " in equilibrium; " + solution.stopReason;
+      row.words = "reached load fraction " + shortNumber(solution.reachedLoadFraction) + " in equilibrium; " +
+                  solution.stopReason;
     }
     return solution;
   }
@@ -165,8 +166,8 @@ private:
     judge(row, 0.3); // two coarse meshes differ by their discretisation errors, some 10 % each
     const MeshQuality quality = meshQuality(poor.mesh());
     if (row.words.empty())
-      row.words =
-          "dihedral angles from " + text(quality.minDihedral_deg) + " to " + text(quality.maxDihedral_deg) + " deg";
+      row.words = "dihedral angles from " + shortNumber(quality.minDihedral_deg) + " to " +
+                  shortNumber(quality.maxDihedral_deg) + " deg";
     if (!solution.converged) {
       row.outcome = StabilityOutcome::Stopped;
       row.words += "; " + solution.stopReason;
