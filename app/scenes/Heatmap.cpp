@@ -8,7 +8,6 @@
 #include <vtkContext2D.h>
 #include <vtkContextActor.h>
 #include <vtkContextScene.h>
-#include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPen.h>
@@ -30,11 +29,6 @@ vtkStandardNewMacro(Heatmap)
     for (const int stride : {1, 2, 5, 10, 20, 50})
       if (stride * cell_px >= label_px) return stride;
     return 100;
-  }
-
-  std::array<unsigned char, 4> bytesOf(const Color& color) {
-    const auto byte = [](double part) { return static_cast<unsigned char>(std::lround(255 * part)); };
-    return {byte(color[0]), byte(color[1]), byte(color[2]), 255};
   }
 
 } // namespace
@@ -61,18 +55,11 @@ bool Heatmap::Paint(vtkContext2D* painter) {
 // One image, a pixel a cell, and one call for the gaps: 300 rectangles are 300 calls of the graphics library.
 void Heatmap::paintCells(vtkContext2D& painter) const {
   const Eigen::Index rows = spec.values.rows(), columns = spec.values.cols();
-  vtkNew<vtkImageData> cells;
-  cells->SetDimensions(static_cast<int>(columns), static_cast<int>(rows), 1);
-  cells->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
-  auto* pixel = static_cast<std::array<unsigned char, 4>*>(cells->GetScalarPointer());
-  for (Eigen::Index row = 0; row < rows; ++row)
-    for (Eigen::Index column = 0; column < columns; ++column)
-      *pixel++ = bytesOf(spec.colors.color(spec.values(row, column)));
   const auto left = static_cast<float>(left_), bottom = static_cast<float>(bottom_);
   const auto width = static_cast<float>(cellWidth_ * static_cast<double>(columns));
   const auto height = static_cast<float>(cellHeight_ * static_cast<double>(rows));
-  painter.GetPen()->SetLineType(vtkPen::NO_PEN);
-  painter.DrawImage(vtkRectf(left, bottom, width, height), cells);
+  paintColors(painter, {left_, bottom_, width, height}, columns, rows,
+              [&](Eigen::Index column, Eigen::Index row) { return spec.colors.color(spec.values(row, column)); });
   if (std::min(cellWidth_, cellHeight_) > 6 * scale) {
     const double gap = std::round(scale);
     std::vector<float> ends;

@@ -5,8 +5,11 @@
 #include <vtkBrush.h>
 #include <vtkContext2D.h>
 #include <vtkContextScene.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPen.h>
+#include <vtkRect.h>
 #include <vtkRenderer.h>
 #include <vtkTextProperty.h>
 
@@ -47,32 +50,45 @@ double legendWidth_px(vtkContext2D& painter, const ColorScale& colors, Theme the
   return std::max(numbers, textWidth_px(painter, colors.title()));
 }
 
+void paintColors(vtkContext2D& painter, const LegendPlace& place, Eigen::Index columns, Eigen::Index rows,
+                 const std::function<Color(Eigen::Index, Eigen::Index)>& color) {
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(static_cast<int>(columns), static_cast<int>(rows), 1);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
+  auto* byte = static_cast<unsigned char*>(image->GetScalarPointer());
+  for (Eigen::Index row = 0; row < rows; ++row)
+    for (Eigen::Index column = 0; column < columns; ++column) {
+      for (const double part : color(column, row)) *byte++ = static_cast<unsigned char>(std::lround(255 * part));
+      *byte++ = 255;
+    }
+  painter.GetPen()->SetLineType(vtkPen::NO_PEN);
+  painter.DrawImage(vtkRectf(static_cast<float>(place.x), static_cast<float>(place.y), static_cast<float>(place.width),
+                             static_cast<float>(place.height)),
+                    image);
+}
+
 void paintLegend(vtkContext2D& painter, const ColorScale& colors, const LegendPlace& place, Theme theme, double scale,
                  double right_px) {
   const Palette& ink = palette(theme);
   constexpr int kBands = 128;
-  painter.GetPen()->SetLineType(vtkPen::NO_PEN);
-  const double band = place.height / kBands;
-  for (int k = 0; k < kBands; ++k) {
-    const Color color = colors.color(colors.low + (colors.high - colors.low) * (k + 0.5) / kBands);
-    painter.GetBrush()->SetColorF(color[0], color[1], color[2], 1);
-    // A little taller than its band, so that no ground shines through between two.
-    painter.DrawRect(static_cast<float>(place.x), static_cast<float>(place.y + k * band),
-                     static_cast<float>(place.width), static_cast<float>(std::min(1.5 * band, (kBands - k) * band)));
-  }
+  paintColors(painter, place, 1, kBands, [&](Eigen::Index, Eigen::Index band) {
+    return colors.color(colors.low + (colors.high - colors.low) * (static_cast<double>(band) + 0.5) / kBands);
+  });
   painter.GetPen()->SetLineType(vtkPen::SOLID_LINE);
   painter.GetPen()->SetWidth(static_cast<float>(scale));
   painter.GetPen()->SetColorF(ink.text[0], ink.text[1], ink.text[2], 1);
   useText(painter, ink.text, 12 * scale);
   const std::vector<double> ticks = legendTicks(colors, place.height, scale);
   const std::vector<std::string> texts = tickTexts(ticks);
+  std::vector<float> ends;
   for (std::size_t k = 0; k < ticks.size(); ++k) {
     const double y = place.y + (ticks[k] - colors.low) / (colors.high - colors.low) * place.height;
     const double x = place.x + place.width;
-    painter.DrawLine(static_cast<float>(x), static_cast<float>(y), static_cast<float>(x + kTick_px * scale),
-                     static_cast<float>(y));
+    ends.insert(ends.end(), {static_cast<float>(x), static_cast<float>(y), static_cast<float>(x + kTick_px * scale),
+                             static_cast<float>(y)});
     drawText(painter, x + 2 * kTick_px * scale, y, texts[k]);
   }
+  if (!ends.empty()) painter.DrawLines(ends.data(), static_cast<int>(ends.size() / 2));
   useText(painter, ink.text, 13 * scale, true);
   const double titleX = std::min(place.x, right_px - textWidth_px(painter, colors.title()));
   drawText(painter, titleX, place.y + place.height + 18 * scale, colors.title());

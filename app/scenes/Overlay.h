@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,13 +38,18 @@ private:
   void paintWords(vtkContext2D& painter);
 };
 
-/// A legend's place: lower left corner and size of the coloured bar [px].
+/// A place of the view: lower left corner and size [px].
 struct LegendPlace {
   double x = 0;
   double y = 0;
   double width = 18;
   double height = 200;
 };
+
+/// A field of colours, `columns` by `rows` from below, each as a rectangle: one image, because a call of the graphics
+/// library for each rectangle costs 20 us by software.
+void paintColors(vtkContext2D& painter, const LegendPlace& place, Eigen::Index columns, Eigen::Index rows,
+                 const std::function<Color(Eigen::Index, Eigen::Index)>& color);
 
 /// Paints the bar, its numbers to the right and quantity [unit] above, right-aligned with `right_px`.
 void paintLegend(vtkContext2D& painter, const ColorScale& colors, const LegendPlace& place, Theme theme, double scale,
