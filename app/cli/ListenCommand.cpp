@@ -318,16 +318,20 @@ void addListen(Cli& cli) {
   command.add_option("--usb", a.usb, "USB ID of the board, VENDOR:PRODUCT (default 1209:0001)");
   command.add_option("--replay", a.replay, "recording to play");
   command.add_option("--speed", a.speed, "of the replay; 0 as fast as it can be read (default 1)");
-  command.add_flag("--simulate", a.simulate, "the virtual board under a touch that moves over the areas");
-  command.add_option("--samples", a.samples, "solved samples that drive the virtual board (default: the paper's)");
-  command.add_option("--noise", a.noise, "of the virtual board, relative to R (default 5e-6)");
-  command.add_option("--warming", a.warming, "of the virtual board in degC (default 0)");
-  command.add_option("--hysteresis", a.hysteresis, "of the virtual board, share 0 to 1 (default 0)");
-  command.add_option("--rate", a.rate, "reports a second of the virtual board (default 1000)");
-  command.add_option("--seed", a.seed, "of the virtual board's noise (default 1)");
-  command.add_option("--open-row", a.openRow, "of the virtual board: this row-wire is broken");
-  command.add_option("--open-column", a.openColumn, "of the virtual board: this column-wire is broken");
-  command.add_option("--drop-every", a.dropEvery, "of the virtual board: every n-th report is lost (default 0: none)");
+  CLI::Option* simulate =
+      command.add_flag("--simulate", a.simulate, "the virtual board under a touch that moves over the areas");
+  command.add_option("--samples", a.samples, "solved samples that drive the virtual board (default: the paper's)")
+      ->needs(simulate);
+  command.add_option("--noise", a.noise, "of the virtual board, relative to R (default 5e-6)")->needs(simulate);
+  command.add_option("--warming", a.warming, "of the virtual board in degC (default 0)")->needs(simulate);
+  command.add_option("--hysteresis", a.hysteresis, "of the virtual board, share 0 to 1 (default 0)")->needs(simulate);
+  command.add_option("--rate", a.rate, "reports a second of the virtual board (default 1000)")->needs(simulate);
+  command.add_option("--seed", a.seed, "of the virtual board's noise (default 1)")->needs(simulate);
+  command.add_option("--open-row", a.openRow, "of the virtual board: this row-wire is broken")->needs(simulate);
+  command.add_option("--open-column", a.openColumn, "of the virtual board: this column-wire is broken")
+      ->needs(simulate);
+  command.add_option("--drop-every", a.dropEvery, "of the virtual board: every n-th report is lost (default 0: none)")
+      ->needs(simulate);
   command.add_option("--network", a.network,
                      "network that was trained with --input resistance (default with --simulate: the paper's)");
   command.add_option("--design", a.design, "design of the network, for tare (default: paper)");

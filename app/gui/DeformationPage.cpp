@@ -4,6 +4,7 @@
 #include "app/gui/Command.h"
 #include "app/gui/LoadPanel.h"
 #include "app/gui/ResultPanel.h"
+#include "app/gui/SidePanel.h"
 #include "app/gui/TouchTabs.h"
 #include "app/gui/ViewPanel.h"
 
@@ -11,7 +12,6 @@
 #include <QGroupBox>
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QScrollArea>
 #include <QSignalBlocker>
 #include <QSlider>
 #include <QSplitter>
@@ -67,6 +67,10 @@ DeformationPage::DeformationPage(Workbench& workbench, QWidget* parent) : Scene(
   connect(block_, &BlockView::forceDragged, this, &DeformationPage::setForce);
   connect(result_, &ResultPanel::estimateAsked, this, [this] { workbench_.touch().estimateError(); });
   connect(&workbench_, &Workbench::projectChanged, this, &DeformationPage::displayProject);
+  connect(&workbench_, &Workbench::projectReplaced, this, [this] {
+    lineStart_ = -1;
+    probe(-1);
+  });
   connect(&workbench_.touch(), &TouchSession::changed, this, &DeformationPage::displayTouch);
   connect(&workbench_.touch(), &TouchSession::newtonStepped, this, [this] { tabs_->drawNewton(); });
   connect(&workbench_.touch(), &TouchSession::errorEstimated, this, [this](double relative, const QString& method) {
@@ -87,13 +91,7 @@ QWidget* DeformationPage::buildPanels() {
   column->addWidget(group(tr("View"), view_));
   column->addWidget(group(tr("Result"), result_));
   column->addStretch(1);
-  auto* scroll = new QScrollArea;
-  scroll->setWidget(panels);
-  scroll->setWidgetResizable(true);
-  scroll->setFrameShape(QFrame::NoFrame);
-  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  scroll->setFixedWidth(kPanelWidth_px);
-  return scroll;
+  return sidePanel(panels, kPanelWidth_px);
 }
 
 QWidget* DeformationPage::buildViews() {

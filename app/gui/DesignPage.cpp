@@ -4,6 +4,7 @@
 #include "app/gui/ChartView.h"
 #include "app/gui/Command.h"
 #include "app/gui/DesignPanel.h"
+#include "app/gui/SidePanel.h"
 #include "app/study/NoiseBound.h"
 
 #include <QCheckBox>
@@ -12,7 +13,6 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
-#include <QScrollArea>
 #include <QSignalBlocker>
 #include <QSplitter>
 #include <QVBoxLayout>
@@ -109,13 +109,7 @@ DesignPage::DesignPage(Workbench& workbench, NetworkSession& network, QWidget* p
 
 QWidget* DesignPage::buildSide() {
   panel_ = new DesignPanel;
-  auto* scroll = new QScrollArea;
-  scroll->setWidget(panel_);
-  scroll->setWidgetResizable(true);
-  scroll->setFrameShape(QFrame::NoFrame);
-  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  scroll->setFixedWidth(kPanelWidth_px);
-  return scroll;
+  return sidePanel(panel_, kPanelWidth_px);
 }
 
 QWidget* DesignPage::buildViews() {

@@ -9,11 +9,11 @@
 #include "app/gui/LiveSourcePanel.h"
 #include "app/gui/LiveTwin.h"
 #include "app/gui/LiveView.h"
+#include "app/gui/SidePanel.h"
 
 #include <QAbstractButton>
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QScrollArea>
 #include <QShortcut>
 #include <QSplitter>
 #include <QTabWidget>
@@ -65,13 +65,7 @@ QWidget* LivePage::buildPanels() {
   control_ = new LiveControlPanel;
   column->addWidget(source_);
   column->addWidget(control_, 1);
-  auto* scroll = new QScrollArea;
-  scroll->setWidget(panels);
-  scroll->setWidgetResizable(true);
-  scroll->setFrameShape(QFrame::NoFrame);
-  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  scroll->setFixedWidth(kPanelWidth_px);
-  return scroll;
+  return sidePanel(panels, kPanelWidth_px);
 }
 
 QWidget* LivePage::buildViews() {

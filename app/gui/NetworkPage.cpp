@@ -4,6 +4,7 @@
 #include "app/gui/Command.h"
 #include "app/gui/NetworkCharts.h"
 #include "app/gui/NetworkPanel.h"
+#include "app/gui/SidePanel.h"
 #include "io/NetworkFile.h"
 #include "model/Error.h"
 
@@ -11,7 +12,6 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
-#include <QScrollArea>
 #include <QSignalBlocker>
 #include <QSpinBox>
 #include <QSplitter>
@@ -43,13 +43,7 @@ NetworkPage::NetworkPage(Workbench& workbench, NetworkSession& session, QWidget*
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(8, 8, 8, 8);
   panel_ = new NetworkPanel;
-  auto* scroll = new QScrollArea;
-  scroll->setWidget(panel_);
-  scroll->setWidgetResizable(true);
-  scroll->setFrameShape(QFrame::NoFrame);
-  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  scroll->setFixedWidth(kPanelWidth_px);
-  row->addWidget(scroll);
+  row->addWidget(sidePanel(panel_, kPanelWidth_px));
   row->addWidget(buildCharts(), 1);
 
   connect(panel_, &NetworkPanel::edited, this,

@@ -44,6 +44,7 @@ void Workbench::edit(const QString& what, const Project& next) {
 void Workbench::replace(const Project& project) {
   history_.clear();
   apply(project);
+  emit projectReplaced();
 }
 
 void Workbench::apply(const Project& project) {

@@ -26,6 +26,8 @@ public:
 
 signals:
   void projectChanged();
+  /// After projectChanged(): it is another project, not an edit of this one.
+  void projectReplaced();
 
 private:
   friend class ProjectEdit;

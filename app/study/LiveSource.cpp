@@ -3,8 +3,20 @@
 #include "app/study/Resources.h"
 #include "app/study/SimulatedTouch.h"
 #include "io/SampleFile.h"
+#include "model/Error.h"
 
 namespace palp {
+
+namespace {
+
+void refuseOthers(const std::string& what, const std::vector<int>& broken, int wires) {
+  for (const int wire : broken)
+    if (wire < 0 || wire >= wires)
+      throw Error("virtual board: broken " + what + ": " + std::to_string(wire) + "; allowed is 0 to " +
+                  std::to_string(wires - 1));
+}
+
+} // namespace
 
 std::unique_ptr<ReportSource> openBoard(const UsbId& id, const std::string& device) {
   for (const HidBoard& board : hidBoards(id))
@@ -16,6 +28,8 @@ std::unique_ptr<ReportSource> openSimulatedBoard(const SimulatedBoardOptions& op
                                                  std::shared_ptr<SimulationControl> control) {
   const std::filesystem::path file = options.samples.empty() ? resource("board/paper-samples.csv") : options.samples;
   Board board = simulatedBoard(loadSamples(file), options.disturbance, options.rate_Hz, options.seed);
+  refuseOthers("row-wire", options.faults.openRows, board.info().rowWires);
+  refuseOthers("column-wire", options.faults.openColumns, board.info().columnWires);
   board.faults() = options.faults;
   return std::make_unique<SimulatedSource>(std::move(board), std::move(control));
 }

@@ -1,5 +1,7 @@
 #include "app/study/NoiseMeter.h"
 
+#include "app/study/Median.h"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -10,12 +12,6 @@ namespace {
 
 /// Of |x| for a normal x of deviation 1.
 constexpr double kMedianOfNormal = 0.6745;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 } // namespace
 
@@ -38,7 +34,7 @@ void NoiseMeter::add(const Eigen::VectorXd& readings_ohm) {
 }
 
 double NoiseMeter::noise() const {
-  return recent_.empty() ? 0 : median({recent_.begin(), recent_.end()});
+  return recent_.empty() ? 0 : median(std::vector<double>(recent_.begin(), recent_.end()));
 }
 
 } // namespace palp

@@ -1,5 +1,6 @@
 #include "app/study/PaperProtocol.h"
 
+#include "app/study/Median.h"
 #include "app/study/SampleGenerator.h"
 
 #include <algorithm>
@@ -59,20 +60,10 @@ FigurePlan figurePlan(const std::string& figure, int rowWires) {
   return plan;
 }
 
-Eigen::Vector3d median(std::vector<Eigen::Vector3d> values) {
-  Eigen::Vector3d result;
-  for (int axis = 0; axis < 3; ++axis) {
-    std::sort(values.begin(), values.end(), [axis](const auto& a, const auto& b) { return a(axis) < b(axis); });
-    const std::size_t half = values.size() / 2;
-    result(axis) = values.size() % 2 == 1 ? values[half](axis) : (values[half - 1](axis) + values[half](axis)) / 2;
-  }
-  return result;
-}
-
 template <class Reduce> Eigen::Vector3d medianOf(const std::vector<ProtocolErrors>& errors, Reduce&& reduce) {
   std::vector<Eigen::Vector3d> values;
   for (const ProtocolErrors& error : errors) values.push_back(reduce(error));
-  return median(std::move(values));
+  return median(values);
 }
 
 /// Trains, tests on every area and adds the outcome to the row.

@@ -118,4 +118,8 @@ std::string shortNumber(double value) {
   return buffer.data();
 }
 
+std::string triple(const Eigen::Vector3d& values) {
+  return shortNumber(values.x()) + " / " + shortNumber(values.y()) + " / " + shortNumber(values.z());
+}
+
 } // namespace palp

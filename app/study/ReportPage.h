@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -31,5 +33,7 @@ private:
 
 /// Four significant digits, or "-" for what is no number.
 std::string shortNumber(double value);
+/// x / y / z in short.
+std::string triple(const Eigen::Vector3d& values);
 
 } // namespace palp

@@ -75,6 +75,9 @@ TEST(ListenCommand, RefusesWhatCannotBe) {
   refuses({"--replay", samplesFile()}, "no recording");
   refuses({"--simulate", "--rate", "0"}, "--rate");
   refuses({"--simulate", "--noise", "x"}, "--noise");
+  refuses({"--simulate", "--open-row", "10"}, "row-wire: 10; allowed is 0 to 9");
+  refuses({"--simulate", "--open-column", "30"}, "column-wire: 30; allowed is 0 to 29");
+  refuses({"--replay", "/nonexistent", "--noise", "1e-6"}, "--noise requires --simulate");
   refuses({"--simulate", "--usb", "12", "--list"}, "--usb");
   refuses({"--simulate", "--label", "0:0,0,-1"}, "--append");
   refuses({"--simulate", "--network", samplesFile()}, "paper-samples.csv");

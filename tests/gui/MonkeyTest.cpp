@@ -142,6 +142,12 @@ protected:
     return all;
   }
 
+  /// Writes a picture to look at; the file's name.
+  static std::string keep(const QImage& image, const std::string& name, const std::string& window) {
+    const std::string file = QDir::temp().filePath("gui_monkey").toStdString() + "-" + name + "-" + window + ".png";
+    return image.save(QString::fromStdString(file)) ? file : file + " (not written)";
+  }
+
   bool quiet() { return !workbench.touch().runner().running() && !network.runner().running(); }
   std::string running() {
     return (workbench.touch().runner().running() ? workbench.touch().runner().title() : network.runner().title())
@@ -238,7 +244,9 @@ TEST_F(MonkeyWindow, SurvivesAThousandActionsAndShowsWhatAFreshWindowShows) {
     for (const auto& [name, image] : its) {
       ASSERT_TRUE(mine.contains(name)) << scene << " " << name;
       ASSERT_EQ(mine.at(name).size(), image.size()) << scene << " " << name;
-      EXPECT_EQ(mine.at(name), image) << "another picture on " << scene << ": " << name;
+      EXPECT_TRUE(mine.at(name) == image) << "another picture on " << scene << ": " << name << ", "
+                                          << keep(mine.at(name), name, "touched") << " and "
+                                          << keep(image, name, "fresh");
     }
   }
 }

@@ -152,6 +152,9 @@ TEST_F(Window, ProbesThePointThatWasClicked) {
   const QString words = find<QLabel>("probe").text();
   EXPECT_TRUE(words.contains("Point (")) << words.toStdString();
   EXPECT_TRUE(words.contains(", 5) mm")) << words.toStdString();
+  // It is a point of this project: another one, even on the same mesh, begins without it.
+  workbench.replace(quickProject());
+  EXPECT_FALSE(find<QLabel>("probe").text().contains("Point (")) << find<QLabel>("probe").text().toStdString();
 }
 
 TEST_F(Window, LoadsAnAreaByAClickOnItAndOnlyProbesWhenAskedTo) {
@@ -408,7 +411,6 @@ TEST_F(Window, KeepsSplittersAndTabsForTheNextStart) {
   ASSERT_TRUE(QTest::qWaitForWindowExposed(&next));
   EXPECT_EQ(next.findChild<QSplitter*>("deformationSplitter")->sizes(), sizes);
   EXPECT_EQ(next.findChild<QTabWidget*>("deformationTabs")->currentIndex(), 2);
-  QSettings().clear();
 }
 
 TEST_F(Window, ExplainsAWrongValueInPlaceAndKeepsTheDesign) {

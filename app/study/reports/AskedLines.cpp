@@ -1,34 +1,15 @@
 #include "app/study/reports/AskedLines.h"
 
+#include "app/study/Median.h"
 #include "app/study/ReportPage.h"
 
 #include <algorithm>
 
 namespace palp {
 
-std::string triple(const Eigen::Vector3d& values) {
-  return shortNumber(values.x()) + " / " + shortNumber(values.y()) + " / " + shortNumber(values.z());
-}
-
 Eigen::Vector3d largest(const Triples& values) {
   Eigen::Vector3d result = values.front();
   for (const Eigen::Vector3d& value : values) result = result.cwiseMax(value);
-  return result;
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
-}
-
-Eigen::Vector3d median(const Triples& values) {
-  Eigen::Vector3d result;
-  for (int axis = 0; axis < 3; ++axis) {
-    std::vector<double> ofAxis;
-    for (const Eigen::Vector3d& value : values) ofAxis.push_back(value(axis));
-    result(axis) = median(std::move(ofAxis));
-  }
   return result;
 }
 

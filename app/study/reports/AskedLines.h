@@ -13,11 +13,7 @@ namespace palp {
 
 using Triples = std::vector<Eigen::Vector3d>; ///< of Fx, Fy, Fz, one a set of samples
 
-/// Fx / Fy / Fz in short.
-std::string triple(const Eigen::Vector3d& values);
 Eigen::Vector3d largest(const Triples& values);
-double median(std::vector<double> values);
-Eigen::Vector3d median(const Triples& values);
 /// Each triple over the other one of the same set.
 Triples ratios(const Triples& above, const Triples& below);
 

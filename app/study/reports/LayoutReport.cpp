@@ -25,10 +25,6 @@ struct NamedLayout {
   SensorDesign design;
 };
 
-std::string triple(const Eigen::Vector3d& values) {
-  return shortNumber(values.x()) + " / " + shortNumber(values.y()) + " / " + shortNumber(values.z());
-}
-
 std::string placesText(const SensorDesign& design, int wire) {
   std::string words;
   for (int e = 0; e < design.electrodesPerColumnWire(); ++e)

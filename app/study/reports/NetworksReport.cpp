@@ -1,5 +1,6 @@
 #include "app/study/reports/NetworksReport.h"
 
+#include "app/study/Median.h"
 #include "app/study/PaperProtocol.h"
 #include "app/study/ReportPage.h"
 #include "app/study/SampleGenerator.h"
@@ -154,6 +155,7 @@ private:
       return result;
     };
     const double inf = std::numeric_limits<double>::infinity();
+    enum : std::size_t { DeformationAuto, ResistanceAuto, Spread200, AllRbf, OneRbf, OneMl, AllGp, AllMl };
     std::vector<Case> cases{
         {"deformation, spread auto [% of range]",
          Eigen::Vector3d::Constant(0.001),
@@ -198,8 +200,8 @@ private:
          {},
          {},
          {}}};
-    cases[5].options.decoder = cases[7].options.decoder = DecoderKind::MaximumLikelihood;
-    cases[6].options.decoder = DecoderKind::GaussianProcess;
+    cases[OneMl].options.decoder = cases[AllMl].options.decoder = DecoderKind::MaximumLikelihood;
+    cases[AllGp].options.decoder = DecoderKind::GaussianProcess;
     for (int s = 0; s < seeds_; ++s) {
       ReportRequest own = request_;
       own.seed = request_.seed + static_cast<std::uint64_t>(s);
@@ -230,8 +232,8 @@ private:
       lines_.add(one.what, one.asked, one.values,
                  one.bounds.empty() ? "" : "bound with prior " + triple(median(one.bounds)));
     lines_.add("one row-wire at noise 1e-6: error of ml over that of rbf", Eigen::Vector3d::Constant(0.2),
-               ratios(cases[5].values, cases[4].values), "");
-    for (const std::size_t c : {3U, 4U, 6U, 7U, 5U})
+               ratios(cases[OneMl].values, cases[OneRbf].values), "");
+    for (const std::size_t c : {AllRbf, OneRbf, AllGp, AllMl, OneMl})
       lines_.add(cases[c].what.substr(0, cases[c].what.find(" [")) +
                      ": errors within one standard deviation, off 0.68 by",
                  0.1, offsets(cases[c].within), "share " + shortNumber(median(cases[c].within)));

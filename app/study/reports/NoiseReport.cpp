@@ -41,10 +41,6 @@ struct Rival {
   bool areaKnown;
 };
 
-std::string triple(const Eigen::Vector3d& values) {
-  return shortNumber(values.x()) + " / " + shortNumber(values.y()) + " / " + shortNumber(values.z());
-}
-
 double rootMeanSquare(const Eigen::Vector3d& values) {
   return values.norm() / std::sqrt(3.0);
 }

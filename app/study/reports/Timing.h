@@ -1,5 +1,7 @@
 #pragma once
 
+#include "app/study/Median.h"
+
 #include <algorithm>
 #include <chrono>
 #include <vector>
@@ -17,13 +19,7 @@ template <class Work> double secondsOf(Work&& work) {
 struct Timing {
   std::vector<double> seconds;
 
-  [[nodiscard]] double median() const {
-    if (seconds.empty()) return 0;
-    std::vector<double> sorted = seconds;
-    std::sort(sorted.begin(), sorted.end());
-    const std::size_t half = sorted.size() / 2;
-    return sorted.size() % 2 == 1 ? sorted[half] : (sorted[half - 1] + sorted[half]) / 2;
-  }
+  [[nodiscard]] double median() const { return seconds.empty() ? 0 : palp::median(seconds); }
   [[nodiscard]] double least() const { return seconds.empty() ? 0 : *std::min_element(seconds.begin(), seconds.end()); }
   [[nodiscard]] double most() const { return seconds.empty() ? 0 : *std::max_element(seconds.begin(), seconds.end()); }
 };
