@@ -244,9 +244,9 @@ TEST_F(MonkeyWindow, SurvivesAThousandActionsAndShowsWhatAFreshWindowShows) {
     for (const auto& [name, image] : its) {
       ASSERT_TRUE(mine.contains(name)) << scene << " " << name;
       ASSERT_EQ(mine.at(name).size(), image.size()) << scene << " " << name;
-      EXPECT_TRUE(mine.at(name) == image) << "another picture on " << scene << ": " << name << ", "
-                                          << keep(mine.at(name), name, "touched") << " and "
-                                          << keep(image, name, "fresh");
+      EXPECT_TRUE(mine.at(name) == image)
+          << "another picture on " << scene << ": " << name << ", " << keep(mine.at(name), name, "touched") << " and "
+          << keep(image, name, "fresh");
     }
   }
 }
