@@ -48,12 +48,37 @@ void setHorizontal(Grid& grid, int d, double length, int parts, const Grading& g
   }
 }
 
+/// Makes the electrodes' coordinates stops, where they are few enough; others are met by moving grid points.
+void addStops(std::vector<double>& stops, const Eigen::RowVectorXd& electrodes) {
+  constexpr std::size_t mostLinesForElectrodes = 40;
+  std::vector<double> wanted(electrodes.begin(), electrodes.end());
+  std::sort(wanted.begin(), wanted.end());
+  const double same = 1e-9 * stops.back();
+  wanted.erase(std::unique(wanted.begin(), wanted.end(), [=](double a, double b) { return b - a < same; }),
+               wanted.end());
+  if (wanted.size() > mostLinesForElectrodes) return;
+  for (const double x : wanted) {
+    const auto above = std::lower_bound(stops.begin() + 1, stops.end() - 1, x);
+    if (x - *(above - 1) >= same && *above - x >= same) stops.insert(above, x);
+  }
+}
+
 /// Size across a disc's rim: the areas' borders', less for a small disc.
 double rimSize(const Grading& grading, const FineDisc& disc) {
   return grading.border_mm * std::min(1., disc.radius_mm / grading.bulk_mm);
 }
 
-Grid gradedGrid(const SensorDesign& design, const Grading& grading, const std::vector<FineDisc>& discs) {
+/// Face diagonals join the grid points whose indices are both even to those where both are odd. An edge where stresses
+/// are singular is resolved better where diagonals run into it: its two indices are to be both even or both odd. So the
+/// rims of the clamped face get even indices, and the borders of the load areas that of the top face.
+std::vector<ParityPlace> bordersOf(double length, int parts, int topIndex) {
+  std::vector<ParityPlace> borders;
+  for (int i = 0; i <= parts; ++i) borders.push_back({length * i / parts, i > 0 && i < parts && topIndex % 2 == 1});
+  return borders;
+}
+
+Grid gradedGrid(const SensorDesign& design, const Grading& grading, const std::vector<FineDisc>& discs,
+                const Eigen::Matrix3Xd& electrodes) {
   const Eigen::Vector3d& block = design.block_mm;
   Grid grid;
   setHorizontal(grid, 0, block.x(), design.areas.columns, grading);
@@ -65,16 +90,14 @@ Grid gradedGrid(const SensorDesign& design, const Grading& grading, const std::v
     }
   grid.stops[2] = {0, block.z()};
   grid.sizes[2] = {grading.vertical_mm, grading.growth, {{0, grading.bottom_mm}, {block.z(), grading.top_mm}}};
-  for (int d = 0; d < 3; ++d) grid.lines[d] = gridLines(grid.stops[d], grid.sizes[d]);
+  for (int d = 0; d < 3; ++d) {
+    addStops(grid.stops[d], electrodes.row(d));
+    grid.lines[d] = gridLines(grid.stops[d], grid.sizes[d]);
+  }
+  const int top = grid.count(2) - 1;
+  const std::array<int, 2> parts{design.areas.columns, design.areas.rows};
+  for (int d = 0; d < 2; ++d) meetParities(bordersOf(block(d), parts[d], top), grid.sizes[d], grid.lines[d]);
   return grid;
-}
-
-std::vector<double> distinct(const Eigen::Matrix3Xd& points, int d) {
-  std::vector<double> values(points.cols());
-  for (Eigen::Index i = 0; i < points.cols(); ++i) values[i] = points(d, i);
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-  return values;
 }
 
 /// The grid point nearest to an electrode and how far it would move, in cells.
@@ -151,7 +174,7 @@ Grading defaultGrading(const SensorDesign& design, double size_mm) {
   const double factor = size_mm / standardSize(design);
   Grading g;
   g.bulk_mm = factor * 0.4 * side;
-  g.border_mm = factor * 0.2 * reach;
+  g.border_mm = factor * 0.15 * reach;
   g.edge_mm = factor * 0.25 * reach;
   g.top_mm = factor * 0.1 * reach;
   g.bottom_mm = factor * 0.15 * reach;
@@ -166,14 +189,9 @@ double standardSize(const SensorDesign& design) {
 
 Mesh gradedTets(const SensorDesign& design, const Grading& grading, const std::vector<FineDisc>& discs,
                 bool electrodesAsNodes) {
-  constexpr std::size_t mostLinesForElectrodes = 40;
   const Eigen::Matrix3Xd electrodes = electrodesAsNodes ? design.upperElectrodes_mm() : Eigen::Matrix3Xd(3, 0);
-  Grid grid = gradedGrid(design, grading, discs);
+  Grid grid = gradedGrid(design, grading, discs, electrodes);
   requireElements(grid);
-  for (int d = 0; d < 3; ++d)
-    if (const std::vector<double> wanted = distinct(electrodes, d); wanted.size() <= mostLinesForElectrodes)
-      bringLinesTo(wanted, grid.stops[d], grid.lines[d]);
-  for (int d = 0; d < 2; ++d) makeEven(grid.stops[d], grid.sizes[d], grid.lines[d]);
   const std::vector<int> electrodePoint = electrodePoints(grid, electrodes);
   requireElements(grid);
   const Eigen::Matrix3Xd indices = grid.indices();

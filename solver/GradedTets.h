@@ -11,7 +11,7 @@ namespace palp {
 /// Sizes of the graded mesh of the block.
 struct Grading {
   double bulk_mm = 4;      ///< largest size, horizontally
-  double border_mm = 1;    ///< across the borders of the load areas
+  double border_mm = 0.75; ///< across the borders of the load areas
   double edge_mm = 1.25;   ///< across the free edges, and so across the clamped ones
   double bottom_mm = 0.75; ///< vertically at the clamped face
   double top_mm = 0.5;     ///< vertically at the loaded face

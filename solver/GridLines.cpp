@@ -35,30 +35,11 @@ std::vector<double> gridLines(const std::vector<double>& stops, const SizeAlong&
   return lines;
 }
 
-void bringLinesTo(const std::vector<double>& wanted, const std::vector<double>& stops, std::vector<double>& lines) {
-  std::vector<double> kept = stops;
-  const double same = 1e-9 * lines.back();
-  const auto isKept = [&](double x) {
-    return std::any_of(kept.begin(), kept.end(), [&](double k) { return std::abs(k - x) < same; });
-  };
-  for (const double x : wanted) {
-    if (isKept(x)) continue;
-    const auto above = std::lower_bound(lines.begin() + 1, lines.end() - 1, x);
-    const auto nearest = x - *(above - 1) < *above - x ? above - 1 : above;
-    if (isKept(*nearest)) {
-      lines.insert(above, x);
-    } else {
-      *nearest = x;
-    }
-    kept.push_back(x);
-  }
-}
-
-void makeEven(const std::vector<double>& stops, const SizeAlong& size, std::vector<double>& lines) {
-  for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
-    const auto first = std::find(lines.begin(), lines.end(), stops[i]);
-    const auto last = std::find(first, lines.end(), stops[i + 1]);
-    if ((last - first) % 2 == 0) continue;
+void meetParities(const std::vector<ParityPlace>& places, const SizeAlong& size, std::vector<double>& lines) {
+  for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+    const auto first = std::find(lines.begin(), lines.end(), places[i].at_mm);
+    const auto last = std::find(first, lines.end(), places[i + 1].at_mm);
+    if (((last - lines.begin()) % 2 == 1) == places[i + 1].odd) continue;
     const auto relativeWidth = [&](auto line) { return (*(line + 1) - *line) / size((*line + *(line + 1)) / 2); };
     auto widest = first;
     for (auto line = first; line != last; ++line)

@@ -21,12 +21,14 @@ struct SizeAlong {
 /// Coordinates of grid lines through all `stops` (ascending), each interval cut into cells of the wanted sizes.
 std::vector<double> gridLines(const std::vector<double>& stops, const SizeAlong& size);
 
-/// Brings lines to the wanted coordinates: moves the nearest line that is neither a stop nor moved before, where it
-/// lies within half a cell, else adds one.
-void bringLinesTo(const std::vector<double>& wanted, const std::vector<double>& stops, std::vector<double>& lines);
+/// A line whose index, counted from 0, is to be odd or even.
+struct ParityPlace {
+  double at_mm = 0;
+  bool odd = false;
+};
 
-/// Splits the widest cell, measured by the wanted size, of each interval between stops that has an odd number of cells:
-/// the pattern of elements, which alternates from cell to cell, then meets every stop alike.
-void makeEven(const std::vector<double>& stops, const SizeAlong& size, std::vector<double>& lines);
+/// Splits the widest cell, measured by the wanted size, between two of the places (lines, ascending, the first at index
+/// 0) wherever the second one's index has the other parity.
+void meetParities(const std::vector<ParityPlace>& places, const SizeAlong& size, std::vector<double>& lines);
 
 } // namespace palp
