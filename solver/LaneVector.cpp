@@ -8,7 +8,8 @@ namespace palp {
 
 namespace {
 
-constexpr std::size_t line = 64, page = std::size_t(1) << 16U, hugePage = std::size_t(1) << 21U;
+constexpr std::size_t line = 64, hugePage = std::size_t(1) << 21U;
+constexpr std::size_t page = std::size_t(1) << 16U; // a multiple of every system's
 constexpr std::size_t large = hugePage / 2;
 
 std::size_t roundedUp(std::size_t bytes, std::size_t unit) {
@@ -23,7 +24,7 @@ void* mapped(std::size_t bytes) {
   const std::size_t address = reinterpret_cast<std::uintptr_t>(memory);
   const std::size_t before = roundedUp(address, hugePage) - address;
   if (before > 0) munmap(begin, before);
-  if (before < hugePage) munmap(begin + before + bytes, hugePage - before);
+  munmap(begin + before + bytes, hugePage - before);
 #ifdef MADV_HUGEPAGE
   madvise(begin + before, bytes, MADV_HUGEPAGE); // a hint: refused, it costs time alone
 #endif

@@ -20,6 +20,7 @@
 #include <QProgressBar>
 #include <QPushButton>
 #include <QScrollArea>
+#include <QScrollBar>
 #include <QSettings>
 #include <QSplitter>
 #include <QStandardPaths>
@@ -249,6 +250,7 @@ void ReportsPage::cancel() {
 void ReportsPage::end(int status, QProcess::ExitStatus how) {
   readMessages();
   log_->appendPlainText(QString::fromUtf8(process_.readAll()).trimmed()); // a last line without an end
+  log_->verticalScrollBar()->setValue(log_->verticalScrollBar()->maximum());
   timer_.stop();
   bar_->hide();
   run_->setEnabled(true);
