@@ -89,6 +89,8 @@ void Assembler::findPattern() {
       pattern->columns.push_back(static_cast<int>(pattern->rows.size()));
     }
   }
+  pattern->groupRows.shrink_to_fit();
+  pattern->rows.shrink_to_fit();
   pattern_ = std::move(pattern);
 }
 

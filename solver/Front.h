@@ -12,7 +12,7 @@ using TaskRunner = std::function<bool(int count, double flops, const std::functi
 /// The lower triangle, by columns, that a supernode hands to its parent.
 struct UpdateMatrix {
   int size = 0;
-  UnsetArray values; ///< at least size x size
+  UnsetArray values; ///< size x size
 };
 
 enum class FrontOutcome { Done, NotPositiveDefinite, Stopped };

@@ -38,13 +38,19 @@ std::shared_ptr<const RestTangent> HyperelasticProblem::Parts::restTangent(int t
   auto rest = std::make_shared<RestTangent>(RestTangent{{}, {}, SparseCholesky(symbolic)});
   assembler.tangent(discretisation->atRest(), rest->tangents, rest->forces, threads, stop);
   if (stop.stop_requested()) return {};
-  const auto outcome = rest->factor.factorise(assembler.matrix(rest->tangents, threads), threads, stop);
+  const LaneVector matrix = assembler.matrix(rest->tangents, threads);
+  rest->tangents.stiffness = {};
+  const auto outcome = rest->factor.factorise(matrix, threads, stop);
   if (outcome == SparseCholesky::Outcome::Stopped) return {};
   if (outcome == SparseCholesky::Outcome::NotPositiveDefinite)
     throw std::logic_error("the tangent at rest is not positive definite");
-  rest->tangents.stiffness = {};
   rest_ = std::move(rest);
   return rest_;
+}
+
+void HyperelasticProblem::Parts::forgetRestTangent() const {
+  const std::lock_guard lock(mutex_);
+  rest_.reset();
 }
 
 const PointProbe& HyperelasticProblem::Parts::upperProbe() const {
@@ -107,6 +113,10 @@ Solution HyperelasticProblem::solve(const LoadCase& load, const NewtonOptions& o
                                    elementUnknowns(mesh, state.unknowns)});
   solution.reachedLoadFraction = solution.state().loadFraction;
   return solution;
+}
+
+void HyperelasticProblem::forgetFactor() const {
+  parts_->forgetRestTangent();
 }
 
 ElectrodeDisplacements HyperelasticProblem::electrodes(const LoadIncrement& state) const {

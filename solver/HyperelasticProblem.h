@@ -45,6 +45,9 @@ public:
   [[nodiscard]] Solution solve(const LoadCase& load, const NewtonOptions& options = {},
                                const NewtonObserver& observer = {}) const;
 
+  /// Gives back the memory of the factorisation at rest, most of what a problem holds; the next solve finds it anew.
+  void forgetFactor() const;
+
   /// Displacements and pressure at the electrodes of both layers.
   [[nodiscard]] ElectrodeDisplacements electrodes(const LoadIncrement& state) const;
   [[nodiscard]] NodalFields fields(const LoadIncrement& state) const;

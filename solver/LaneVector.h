@@ -3,22 +3,22 @@
 #include <cstddef>
 #include <memory>
 #include <new>
-#include <utility>
 #include <vector>
 
 namespace palp {
 
-/// Memory on cache lines, so that a load of 8 lanes never crosses one; large pieces on huge pages where the system has
-/// them, whose first touch takes a third of the time.
+/// Memory on cache lines, so that a load of 8 lanes never crosses one. Large pieces come from the system and go back to
+/// it at once, for the heap would keep them; they lie on huge pages where there are any, whose first touch takes a
+/// third of the time.
 void* lineMemory(std::size_t bytes);
-void freeLineMemory(void* memory);
+void freeLineMemory(void* memory, std::size_t bytes);
 
 template <class T> struct CacheLineAllocator {
   using value_type = T;
   CacheLineAllocator() = default;
   template <class U> CacheLineAllocator(const CacheLineAllocator<U>&) {}
   T* allocate(std::size_t n) { return static_cast<T*>(lineMemory(n * sizeof(T))); }
-  void deallocate(T* p, std::size_t) { freeLineMemory(p); }
+  void deallocate(T* p, std::size_t n) { freeLineMemory(p, n * sizeof(T)); }
   template <class U> bool operator==(const CacheLineAllocator<U>&) const { return true; }
 };
 
@@ -30,28 +30,22 @@ class UnsetArray {
 public:
   UnsetArray() = default;
   explicit UnsetArray(std::size_t size) { resize(size); }
-  UnsetArray(UnsetArray&& other) noexcept : memory_(std::move(other.memory_)), size_(std::exchange(other.size_, 0)) {}
-  UnsetArray& operator=(UnsetArray&& other) noexcept {
-    memory_ = std::move(other.memory_);
-    size_ = std::exchange(other.size_, 0);
-    return *this;
-  }
   /// Forgets the numbers where the size changes.
   void resize(std::size_t size) {
-    if (size == size_) return;
-    memory_.reset(size > 0 ? static_cast<double*>(lineMemory(size * sizeof(double))) : nullptr);
-    size_ = size;
+    if (size == this->size()) return;
+    memory_.reset(); // before the new memory is there
+    if (size > 0) memory_ = {static_cast<double*>(lineMemory(size * sizeof(double))), Free{size}};
   }
-  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] std::size_t size() const { return memory_ ? memory_.get_deleter().size : 0; }
   [[nodiscard]] double* data() { return memory_.get(); }
   [[nodiscard]] const double* data() const { return memory_.get(); }
 
 private:
   struct Free {
-    void operator()(double* p) const { freeLineMemory(p); }
+    std::size_t size;
+    void operator()(double* p) const { freeLineMemory(p, size * sizeof(double)); }
   };
-  std::unique_ptr<double[], Free> memory_;
-  std::size_t size_ = 0;
+  std::unique_ptr<double[], Free> memory_{nullptr, Free{0}};
 };
 
 } // namespace palp

@@ -81,20 +81,25 @@ void NewtonSolver::evaluate(const Loading& loading, double fraction, const Eleme
   setResidual(loading, fraction);
 }
 
-NewtonSolver::Outcome NewtonSolver::newTangent(const Loading& loading, double fraction, const ElementState& state) {
+/// Tangent and residual of the state; what moves by prescription pushes the rest.
+NewtonSolver::Outcome NewtonSolver::newTangent(const Loading& loading, double fraction, const ElementState& state,
+                                               const Eigen::VectorXd* prescribed) {
   assembler_.tangent(state, ownTangents_, forces_, options_.threads, observer_.stop);
   if (stopped()) return Outcome::Cancelled;
   tangents_ = &ownTangents_;
   setResidual(loading, fraction);
-  const auto outcome =
-      cholesky_.factorise(assembler_.matrix(ownTangents_, options_.threads), options_.threads, observer_.stop);
+  if (prescribed)
+    residual_ -= assembler_.discretisation().freePart(assembler_.stiffnessTimes(ownTangents_, *prescribed));
+  const LaneVector matrix = assembler_.matrix(ownTangents_, options_.threads);
+  ownTangents_.stiffness = {}; // summed up; the factor needs its memory
+  const auto outcome = cholesky_.factorise(matrix, options_.threads, observer_.stop);
   if (outcome == SparseCholesky::Outcome::Stopped) return Outcome::Cancelled;
   if (outcome == SparseCholesky::Outcome::NotPositiveDefinite) return Outcome::Indefinite;
   factor_ = &cholesky_;
   return Outcome::Converged;
 }
 
-/// Tangent and residual at the start of a load step; what moves by prescription pushes the rest.
+/// Tangent and residual at the start of a load step.
 NewtonSolver::Outcome NewtonSolver::firstTangent(const Loading& loading, double from, double to,
                                                  const ElementState& state, const Eigen::VectorXd& prescribed) {
   const bool moves = prescribed.cwiseAbs().maxCoeff() > 0;
@@ -105,10 +110,8 @@ NewtonSolver::Outcome NewtonSolver::firstTangent(const Loading& loading, double 
     setResidual(loading, to);
     return Outcome::Converged;
   }
-  const Outcome outcome = newTangent(loading, to, state);
-  if (outcome != Outcome::Converged || !moves) return outcome;
-  residual_ -= assembler_.discretisation().freePart(assembler_.stiffnessTimes(ownTangents_, prescribed));
-  relative_ = 1;
+  const Outcome outcome = newTangent(loading, to, state, moves ? &prescribed : nullptr);
+  if (moves) relative_ = 1;
   return outcome;
 }
 

@@ -54,7 +54,8 @@ private:
   [[nodiscard]] Outcome step(const Loading& loading, double from, double to, ElementState& state);
   [[nodiscard]] Outcome firstTangent(const Loading& loading, double from, double to, const ElementState& state,
                                      const Eigen::VectorXd& prescribed);
-  [[nodiscard]] Outcome newTangent(const Loading& loading, double fraction, const ElementState& state);
+  [[nodiscard]] Outcome newTangent(const Loading& loading, double fraction, const ElementState& state,
+                                   const Eigen::VectorXd* prescribed = nullptr);
   [[nodiscard]] Direction direction(const ElementState& state, const Eigen::VectorXd& prescribed) const;
   [[nodiscard]] bool overshot(const Direction& direction) const;
   [[nodiscard]] Outcome searchLine(const Loading& loading, double fraction, const Direction& direction,

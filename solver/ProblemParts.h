@@ -29,6 +29,7 @@ struct HyperelasticProblem::Parts {
   [[nodiscard]] std::shared_ptr<const CholeskyPlan> plan() const;
   /// Empty: stopped.
   [[nodiscard]] std::shared_ptr<const RestTangent> restTangent(int threads, const std::stop_token& stop) const;
+  void forgetRestTangent() const;
   [[nodiscard]] const PointProbe& upperProbe() const;
   [[nodiscard]] const PointProbe& lowerProbe() const;
 

@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <map>
-#include <mutex>
 #include <numeric>
 
 namespace palp {
@@ -55,29 +53,6 @@ void extendAdd(const UpdateMatrix& child, const std::vector<Run>& runs, std::siz
         for (int i = 0; i < runs[q].length; ++i) out[runs[q].to - shift + i] += column[runs[q].from + i];
     }
 }
-
-/// Memory of updates that were used up, for those that come.
-class Memories {
-public:
-  UnsetArray take(std::size_t size) {
-    const std::lock_guard lock(mutex_);
-    const auto found = free_.lower_bound(size);
-    if (found == free_.end() || found->first > mostExcess * size) return UnsetArray(size);
-    UnsetArray memory = std::move(found->second);
-    free_.erase(found);
-    return memory;
-  }
-  void giveBack(UnsetArray memory) {
-    const std::lock_guard lock(mutex_);
-    const std::size_t size = memory.size();
-    if (size > 0) free_.emplace(size, std::move(memory));
-  }
-
-private:
-  static constexpr std::size_t mostExcess = 4;
-  std::mutex mutex_;
-  std::multimap<std::size_t, UnsetArray> free_;
-};
 
 } // namespace
 
@@ -174,12 +149,12 @@ public:
       runs.push_back(runsInParent(tree_, child));
       extendAdd(updates_[child], runs.back(), 0, runsWithin(runs.back(), width), panel, height, 0);
     }
-    UpdateMatrix update{tree_.below(s), memories_.take(std::size_t(tree_.below(s)) * tree_.below(s))};
+    UpdateMatrix update{tree_.below(s), UnsetArray(std::size_t(tree_.below(s)) * tree_.below(s))};
     const FrontOutcome outcome = factoriseFront(panel, height, width, update, run);
     for (std::size_t c = 0; c < children.size(); ++c) {
       extendAdd(updates_[children[c]], runs[c], runsWithin(runs[c], width), runs[c].size(), update.values.data(),
                 update.size, width);
-      memories_.giveBack(std::move(updates_[children[c]].values));
+      updates_[children[c]].values = {};
     }
     updates_[s] = std::move(update);
     return outcome;
@@ -196,7 +171,6 @@ private:
   std::span<const double> values_;
   double* panels_;
   std::vector<UpdateMatrix> updates_;
-  Memories memories_;
 };
 
 } // namespace

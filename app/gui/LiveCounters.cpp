@@ -20,9 +20,9 @@ QString triple(const LatencySummary& latency, std::uint64_t frames) {
 
 QString stateTitle(const LiveStatus& status, bool simulated) {
   QString title = QString::fromLatin1(name(status.state));
+  if (simulated && status.state == LiveState::Streaming) title = QObject::tr("simulated");
   title[0] = title[0].toUpper();
   if (status.recording) title += QObject::tr(", recording");
-  if (simulated && status.state == LiveState::Streaming) title += QObject::tr(" (simulated)");
   return title;
 }
 
@@ -32,25 +32,25 @@ LiveCounters::LiveCounters(QWidget* parent) : QWidget(parent) {
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(0, 0, 0, 0);
   row->setSpacing(6);
-  state_ = add(*row, "liveState", tr("State"), tr("What the source does now, and why"), 3);
+  state_ = add(*row, "liveState", tr("State"), tr("What the source does now, and why"), 5);
   rate_ = add(*row, "liveRate", tr("Measured rate"),
-              tr("Reports a second that came in the last second, and whole scans (frames) of them"), 3);
+              tr("Reports a second that came in the last second, and whole scans (frames) of them"), 4);
   losses_ = add(*row, "liveLosses", tr("Lost / bad / late"),
                 tr("Reports missing in the sequence / with a wrong length, ID, checksum or range / frames that were "
                    "decoded more than 20 ms after the board read them; all since the start"),
-                2);
+                3);
   latency_ = add(*row, "liveLatency", tr("Latency p50 / p99 / max"),
                  tr("From the board's clock at the last reading of a frame to the decoded force [ms]; offset and drift "
                     "of the two clocks are taken out"),
-                 3);
+                 4);
   decoding_ = add(*row, "liveDecoding", tr("Report to force"),
                   tr("Of the latency, what this program takes: from the report's arrival to the force [ms], "
                      "p50 / p99 / max"),
-                  3);
-  climate_ = add(*row, "liveClimate", tr("Temperature, noise"),
+                  4);
+  climate_ = add(*row, "liveClimate", tr("Temperature"),
                  tr("Of the board [degC]; relative noise of a reading: measured while taring, before that as the "
                     "network was trained for"),
-                 2);
+                 3);
 }
 
 LiveCounters::Tile LiveCounters::add(QHBoxLayout& row, const QString& name, const QString& title, const QString& tip,

@@ -125,7 +125,6 @@ void MainWindow::setTheme(Theme theme) {
   theme_ = theme;
   applyTheme(*qApp, theme);
   for (int k = 0; k < scenes_->count(); ++k) static_cast<Scene*>(scenes_->widget(k))->setTheme(theme);
-  QSettings().setValue("theme", theme == Theme::Light ? "light" : "dark");
 }
 
 void MainWindow::animate(const QString& folder) {

@@ -147,8 +147,10 @@ void Menus::buildView() {
   dark->setCheckable(true);
   dark->setObjectName("darkTheme");
   connect(&menu, &QMenu::aboutToShow, dark, [this, dark] { dark->setChecked(window_.theme() == Theme::Dark); });
-  connect(dark, &QAction::triggered, this,
-          [this] { window_.setTheme(window_.theme() == Theme::Dark ? Theme::Light : Theme::Dark); });
+  connect(dark, &QAction::triggered, this, [this] {
+    window_.setTheme(window_.theme() == Theme::Dark ? Theme::Light : Theme::Dark);
+    QSettings().setValue("theme", window_.theme() == Theme::Dark ? "dark" : "light"); // the user's choice, kept
+  });
 }
 
 void Menus::buildHelp() {

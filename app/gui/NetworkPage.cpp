@@ -182,6 +182,7 @@ void NetworkPage::displaySamples() {
                 .arg(samples->batchError, 0, 'g', 2);
   if (all > 0) words += tr(" Stopped at sample %1 of %2; it goes on from there.").arg(made).arg(all);
   panel_->displaySamples(samples != nullptr, words, all > 0);
+  if (session_.fit() == nullptr) displayFit(); // it says what comes next
 }
 
 void NetworkPage::displaySweep() {
@@ -198,7 +199,8 @@ void NetworkPage::displayFit() {
   const NetworkFit* fit = session_.fit();
   save_->setEnabled(fit != nullptr);
   if (fit == nullptr) {
-    fitWords_->setText(tr("No network yet: generate samples, then train."));
+    fitWords_->setText(session_.samples() == nullptr ? tr("No network yet: generate samples, then train.")
+                                                     : tr("No network yet: train one on the samples."));
   } else {
     const PredictionError& error = fit->error.error;
     fitWords_->setText(tr("<b>Test error Fx / Fy / Fz, all areas:</b> %1 by Eq. (13), %2 with a floor of 0.05 N, %3 of "

@@ -20,12 +20,14 @@
 #include <QProgressBar>
 #include <QPushButton>
 #include <QScrollArea>
+#include <QScrollBar>
 #include <QSettings>
 #include <QSplitter>
 #include <QStandardPaths>
 #include <QUrl>
 #include <QVBoxLayout>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 
@@ -33,7 +35,7 @@ namespace palp {
 
 namespace {
 
-constexpr int kPictureWidth_px = 900;
+constexpr int kPictureWidth_px = 900; // at most
 constexpr int kEndWithin_ms = 3000;
 constexpr const char* kFolderKey = "reportFolder";
 
@@ -89,7 +91,11 @@ ReportsPage::ReportsPage(Workbench& workbench, QWidget* parent) : Scene(parent),
   });
   connect(pictures_, &QListWidget::currentTextChanged, this, [this](const QString& file) {
     const QPixmap pixmap(QDir(folder_).filePath(file));
-    if (!pixmap.isNull()) picture_->setPixmap(pixmap.scaledToWidth(kPictureWidth_px, Qt::SmoothTransformation));
+    if (pixmap.isNull()) return;
+    const int width = std::min(kPictureWidth_px, picture_->parentWidget()->width());
+    QPixmap scaled = pixmap.scaledToWidth(qRound(width * picture_->devicePixelRatioF()), Qt::SmoothTransformation);
+    scaled.setDevicePixelRatio(picture_->devicePixelRatioF());
+    picture_->setPixmap(scaled);
   });
   timer_.setInterval(500);
   connect(&timer_, &QTimer::timeout, this, &ReportsPage::tellTime);
@@ -160,9 +166,12 @@ void ReportsPage::build() {
   log_ = new QPlainTextEdit;
   log_->setObjectName("reportLog");
   log_->setReadOnly(true);
+  log_->setLineWrapMode(QPlainTextEdit::NoWrap); // tables
+  log_->setPlaceholderText(tr("What the report says while it runs."));
   log_->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
   pictures_ = new QListWidget;
   pictures_->setObjectName("reportPictures");
+  pictures_->hide(); // while there are none
   picture_ = new QLabel(tr("Pictures of the report appear here."));
   picture_->setAlignment(Qt::AlignCenter);
   auto* scroll = new QScrollArea;
@@ -241,6 +250,7 @@ void ReportsPage::cancel() {
 void ReportsPage::end(int status, QProcess::ExitStatus how) {
   readMessages();
   log_->appendPlainText(QString::fromUtf8(process_.readAll()).trimmed()); // a last line without an end
+  log_->verticalScrollBar()->setValue(log_->verticalScrollBar()->maximum());
   timer_.stop();
   bar_->hide();
   run_->setEnabled(true);
@@ -261,6 +271,7 @@ void ReportsPage::end(int status, QProcess::ExitStatus how) {
 void ReportsPage::showPictures() {
   pictures_->clear();
   pictures_->addItems(QDir(folder_).entryList({"*.png"}, QDir::Files, QDir::Name));
+  pictures_->setVisible(pictures_->count() > 0);
   if (pictures_->count() > 0) pictures_->setCurrentRow(0);
 }
 

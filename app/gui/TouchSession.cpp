@@ -2,6 +2,12 @@
 
 namespace palp {
 
+namespace {
+
+constexpr int kKeepFactorFor_ms = 30000; // longer than a user looks at one load before the next
+
+} // namespace
+
 void NewtonTrace::add(const NewtonStep& step) {
   const std::lock_guard lock(mutex_);
   steps_.push_back(step);
@@ -13,6 +19,10 @@ std::vector<NewtonStep> NewtonTrace::steps() const {
 }
 
 TouchSession::TouchSession(QObject* parent) : QObject(parent) {
+  idle_.setSingleShot(true);
+  idle_.setInterval(kKeepFactorFor_ms);
+  connect(&idle_, &QTimer::timeout, this, &TouchSession::rest);
+  connect(&runner_, &JobRunner::finished, &idle_, qOverload<>(&QTimer::start));
   connect(&runner_, &JobRunner::progressed, this, &TouchSession::newtonStepped);
   connect(&runner_, &JobRunner::finished, this, [this] { scrubbing_.reset(); });
 }
@@ -129,6 +139,10 @@ void TouchSession::estimateError() {
     };
   };
   runner_.start(tr("Estimating the discretisation error"), work);
+}
+
+void TouchSession::rest() {
+  if (!runner_.running() && shown_.problem() != nullptr) shown_.problem()->forgetFactor();
 }
 
 } // namespace palp

@@ -4,6 +4,8 @@
 #include "app/gui/Project.h"
 #include "app/study/Touch.h"
 
+#include <QTimer>
+
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -58,6 +60,8 @@ public:
   [[nodiscard]] int scrubbingTo() const { return scrubbing_.value_or(increment_); }
   /// Estimates the discretisation error of what is shown; the answer comes with errorEstimated().
   void estimateError();
+  /// Gives back the memory that only another solve needs; called when nothing was computed for a while.
+  void rest();
 
 signals:
   /// Another mesh, solution or increment is shown.
@@ -70,6 +74,7 @@ private:
   void take(const Touch& touch, std::shared_ptr<const NodalFields> fields, quint64 revision);
 
   JobRunner runner_;
+  QTimer idle_;
   Touch wanted_; ///< inputs as they are now, with the results that still hold
   Touch shown_;
   Stage need_ = Stage::Design;

@@ -160,8 +160,8 @@ void addSeries(vtkChartXY& chart, const ChartSeries& series, const Points& point
   plot->GetPen()->SetWidth(static_cast<float>(2 * scale));
   if (series.dashed) plot->GetPen()->SetLineType(vtkPen::DASH_LINE);
   plot->GetBrush()->SetColor(bytes(color).data());
-  plot->SetMarkerStyle(series.style == ChartSeries::Style::Line && !cloud ? vtkPlotPoints::NONE
-                                                                          : vtkPlotPoints::CIRCLE);
+  const int marker = series.dashed ? vtkPlotPoints::DIAMOND : vtkPlotPoints::CIRCLE; // points have no dashes
+  plot->SetMarkerStyle(series.style == ChartSeries::Style::Line && !cloud ? vtkPlotPoints::NONE : marker);
   plot->SetMarkerSize(static_cast<float>((cloud ? 9 : 7) * scale));
 }
 

@@ -21,8 +21,8 @@ struct ChartSeries {
   std::vector<double> x;
   std::vector<double> y;
   Style style = Style::Line;
-  bool dashed = false;
-  int color = -1; ///< place in the palette's series colours; -1: the series' own place
+  bool dashed = false; ///< its points are diamonds
+  int color = -1;      ///< place in the palette's series colours; -1: the series' own place
 };
 
 /// A chart of y against x; labels carry their unit.

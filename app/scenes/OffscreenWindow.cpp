@@ -132,16 +132,18 @@ void OffscreenWindow::copyBgra(std::uint8_t* pixels, std::size_t stride) const {
   const int* size = window->GetSize();
   const auto row = 4 * static_cast<std::size_t>(size[0]);
   const auto height = static_cast<std::size_t>(size[1]);
-  std::vector<std::uint8_t> bottomUp(row * height);
   window->GetState()->PushReadFramebufferBinding();
   vtkOpenGLFramebufferObject* drawn = window->GetDisplayFramebuffer();
   drawn->Bind(GL_READ_FRAMEBUFFER);
   drawn->ActivateReadBuffer(0);
   glPixelStorei(GL_PACK_ALIGNMENT, 4);
-  glReadPixels(0, 0, size[0], size[1], GL_BGRA, GL_UNSIGNED_INT_8_8_8_8_REV, bottomUp.data());
+  glPixelStorei(GL_PACK_ROW_LENGTH, static_cast<GLint>(stride / 4));
+  glReadPixels(0, 0, size[0], size[1], GL_BGRA, GL_UNSIGNED_INT_8_8_8_8_REV, pixels);
+  glPixelStorei(GL_PACK_ROW_LENGTH, 0);
   window->GetState()->PopReadFramebufferBinding();
-  for (std::size_t y = 0; y < height; ++y)
-    std::copy_n(bottomUp.data() + (height - 1 - y) * row, row, pixels + y * stride);
+  // OpenGL's first row is the lowest; turned over in place, for a second buffer costs a millisecond a frame.
+  for (std::size_t low = height - 1, high = 0; high < low; ++high, --low)
+    std::swap_ranges(pixels + high * stride, pixels + high * stride + row, pixels + low * stride);
 }
 
 Picture drawOnce(vtkRenderer* renderer, int width, int height) {

@@ -86,7 +86,7 @@ TEST_F(Live, ShowsThePressOfTheSimulatedBoardAndMeshesAndSolvesNothing) {
   ASSERT_TRUE(waitForArrow());
   EXPECT_EQ(block().arrows().size(), 1u);
   EXPECT_LT(block().arrows()[0].force_N.z(), 0);
-  EXPECT_TRUE(find<QLabel>("liveState").text().contains("simulated"));
+  EXPECT_TRUE(find<QLabel>("liveState").text().startsWith("Simulated"));
   EXPECT_EQ(find<HeatmapView>("liveHeatmap").heatmap().values.cols(), 30);
   EXPECT_EQ(find<StripChart>("forceCurves").chart().series.size(), 3u);
   EXPECT_EQ(find<StripChart>("changeCurves").chart().series.size(), 6u) << "one a load area";

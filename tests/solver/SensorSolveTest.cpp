@@ -179,6 +179,15 @@ TEST(Sensor, GivesTheSameBytesWithAnyNumberOfThreads) {
   EXPECT_EQ(a.state().elementUnknowns, b.state().elementUnknowns);
 }
 
+TEST(Sensor, FindsTheFactorThatItForgotAnew) {
+  const HyperelasticProblem problem = coarse();
+  const Solution before = problem.solve(onArea(3, 1, -1, -6));
+  problem.forgetFactor();
+  const Solution after = problem.solve(onArea(3, 1, -1, -6));
+  EXPECT_EQ(before.state().displacements_mm, after.state().displacements_mm);
+  EXPECT_EQ(before.newton.size(), after.newton.size());
+}
+
 TEST(Sensor, LeavesNothingBrokenWhenCancelled) {
   const HyperelasticProblem problem = coarse();
   std::stop_source stop;
