@@ -36,6 +36,9 @@ double gaussianRate(double spread, SpreadConvention convention);
 Eigen::MatrixXd squaredDistances(const Eigen::Ref<const Eigen::MatrixXd>& a,
                                  const Eigen::Ref<const Eigen::MatrixXd>& b);
 
+/// |a_i - a_j|^2, the lower triangle; the other is 0.
+Eigen::MatrixXd squaredDistances(const Eigen::Ref<const Eigen::MatrixXd>& a);
+
 /// The basis at each entry of `squaredDistance`, in place.
 void basisInPlace(Eigen::Ref<Eigen::MatrixXd> squaredDistance, double gamma, BasisForm form = BasisForm::Gaussian);
 
