@@ -5,6 +5,7 @@
 #include "nn/NetworkError.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace palp {
 namespace {
@@ -87,6 +88,9 @@ LeaveOneOutResult KernelProblem::byInverse(double spread, double ridge, const st
     ridge = std::max(ridge, smallestRidge(unknowns == 0 ? 0 : factor.diagonal().sum()));
     factor.diagonal().array() += ridge;
     if (!lapack::choleskyInPlace(factor)) {
+      if (!(ridge < std::numeric_limits<double>::max() / 100))
+        throw NetworkError("leave-one-out: no ridge makes the system definite: the samples are too large for double "
+                           "precision");
       ridge = std::max(10 * ridge, std::numeric_limits<double>::min());
       continue;
     }

@@ -78,7 +78,7 @@ struct Triangular {
   Eigen::MatrixXd right;
 };
 
-/// Block of rows after block of rows, so that it can be stopped; three times as fast as to pivot all rows at once.
+/// Block of rows after block of rows, so that it can be stopped; twice as fast as to pivot all rows at once.
 Triangular triangular(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, const std::stop_token& stop) {
   const Eigen::Index columns = a.cols();
   Triangular result{Eigen::MatrixXd::Zero(columns, columns), Eigen::MatrixXd::Zero(columns, b.cols())};

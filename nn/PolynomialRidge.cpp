@@ -89,6 +89,7 @@ PolynomialFit trainPolynomial(const Eigen::Ref<const Eigen::MatrixXd>& samples,
     model.centers = thinned(clean);
     const double meanSquare = clean.colwise().squaredNorm().mean();
     model.size = meanSquare > 0 ? meanSquare : 1;
+    stopIfAsked(stop);
     toWeights = directions(kernel(model.centers, model.centers, model.size, options.degree));
     features.resize(rows.cols(), toWeights.cols());
     for (Eigen::Index first = 0; first < rows.cols(); first += lapack::rowsAtOnce) {
