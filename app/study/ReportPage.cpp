@@ -44,13 +44,13 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-/// Base64 (RFC 4648).
-/// Keeps a browser from breaking 4.5e-05 after its hyphen.
+/// Keeps a browser from breaking 4.5e-05 after its hyphen, and three numbers of a triple apart.
 std::string unbroken(const std::string& text) {
-  static const std::regex exponent("[0-9.]+e-[0-9]+");
-  return std::regex_replace(text, exponent, "<span class=\"number\">$&</span>");
+  static const std::regex triple("[0-9.e+-]+ / [0-9.e+-]+ / [0-9.e+-]+|[0-9.]+e-[0-9]+");
+  return std::regex_replace(text, triple, "<span class=\"number\">$&</span>");
 }
 
+/// Base64 (RFC 4648).
 std::string base64(const std::vector<std::uint8_t>& bytes) {
   constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string result;
