@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t lanes = kernels::blockLanes;
 /// Samples that go through a block of centres together.
-constexpr std::size_t together = 4;
+constexpr std::size_t together = 8;
 
 std::vector<double> copyOf(const Eigen::MatrixXd& m) {
   return {m.data(), m.data() + m.size()};
@@ -88,7 +88,7 @@ void RbfEvaluator::evaluate(const Eigen::Ref<const Eigen::MatrixXd>& samples,
       scale(samples.col(first + std::min(s, count - 1)).data(),
             scaled.data() + s * static_cast<Eigen::Index>(dimensions_),
             results.data() + s * static_cast<Eigen::Index>(outputs_));
-    kernels::addGaussiansFour(network, scaled.data(), basis.data(), results.data());
+    kernels::addGaussiansEight(network, scaled.data(), basis.data(), results.data());
     for (Eigen::Index s = 0; s < count; ++s)
       output.col(first + s) = Eigen::Map<const Eigen::VectorXd>(
           results.data() + s * static_cast<Eigen::Index>(outputs_), static_cast<Eigen::Index>(outputs_));

@@ -214,10 +214,10 @@ PALP_MANY_MACHINES void addGaussians(const PackedNetwork& network, const double*
   addWeighted<1>(network, basis, output);
 }
 
-PALP_MANY_MACHINES void addGaussiansFour(const PackedNetwork& network, const double* scaled, double* basis,
-                                         double* output) {
-  for (std::size_t block = 0; block < network.blocks; ++block) fillBasis<4, 1>(network, scaled, block, basis);
-  addWeighted<4>(network, basis, output);
+PALP_MANY_MACHINES void addGaussiansEight(const PackedNetwork& network, const double* scaled, double* basis,
+                                          double* output) {
+  for (std::size_t block = 0; block < network.blocks; ++block) fillBasis<8, 1>(network, scaled, block, basis);
+  addWeighted<8>(network, basis, output);
 }
 
 } // namespace palp::kernels

@@ -31,8 +31,8 @@ struct PackedNetwork {
 /// output[o] += sum_c weights[o][c] basis(|scaled - c|^2) for one sample; `basis` is scratch, one double a lane of the
 /// blocks.
 void addGaussians(const PackedNetwork& network, const double* scaled, double* basis, double* output);
-/// The same, to the bit, for four samples at once: scaled[s * inputs + d], basis[s * blocks * lanes + c],
+/// The same, to the bit, for eight samples at once: scaled[s * inputs + d], basis[s * blocks * lanes + c],
 /// output[s * outputs + o].
-void addGaussiansFour(const PackedNetwork& network, const double* scaled, double* basis, double* output);
+void addGaussiansEight(const PackedNetwork& network, const double* scaled, double* basis, double* output);
 
 } // namespace palp::kernels
