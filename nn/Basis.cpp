@@ -39,14 +39,16 @@ double gaussianRate(double spread, SpreadConvention convention) {
   return (convention == SpreadConvention::Radbas ? std::numbers::ln2 : 0.5) / (spread * spread);
 }
 
-Eigen::MatrixXd squaredDistances(const Eigen::Ref<const Eigen::MatrixXd>& a,
-                                 const Eigen::Ref<const Eigen::MatrixXd>& b) {
+Eigen::MatrixXd squaredDistances(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b,
+                                 const std::stop_token& stop) {
   Eigen::MatrixXd result(a.cols(), b.cols());
   const Eigen::MatrixXd rows = a.transpose(); // contiguous over the samples of a, as the kernel wants it
-  for (Eigen::Index first = 0; first < rows.rows(); first += cachedRows)
+  for (Eigen::Index first = 0; first < rows.rows(); first += cachedRows) {
+    stopIfAsked(stop);
     for (Eigen::Index j = 0; j < b.cols(); ++j)
       kernels::squaredDistancesToPoint(&rows(first, 0), rows.rows(), std::min(cachedRows, rows.rows() - first),
                                        rows.cols(), b.col(j).data(), &result(first, j));
+  }
   return result;
 }
 

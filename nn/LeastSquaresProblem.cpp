@@ -33,7 +33,7 @@ LeastSquaresProblem::LeastSquaresProblem(const Eigen::Ref<const Eigen::MatrixXd>
       copies_(options.relativeInputNoise > 0 ? noiseCopies : 1),
       rows_(scaler_.apply(
           noisyCopies(samples, options.relativeInputNoise, static_cast<int>(copies_), options.seed, stop))),
-      centers_(chooseCenters(scaler_.apply(samples), options)), distances_(squaredDistances(rows_, centers_)),
+      centers_(chooseCenters(scaler_.apply(samples), options)), distances_(squaredDistances(rows_, centers_, stop)),
       tail_(affordableTail(options.tail, rows_)),
       tailIsUnknown_(tail_ == Tail::LinearPenalised || options.solver == Solver::Recursive),
       space_(rows_, tailIsUnknown_ ? Tail::None : tail_), targets_(repeatedColumns(targets, copies_)),

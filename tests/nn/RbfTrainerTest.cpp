@@ -208,6 +208,7 @@ TEST(RbfTrainer, EachLongStepOfANoisyFitStopsWhenAskedTo) {
   source.request_stop();
   const std::stop_token stop = source.get_token();
   EXPECT_THROW(noisyCopies(set.samples, 1e-4, 10, 1, stop), Cancelled);
+  EXPECT_THROW(squaredDistances(set.samples, set.samples, stop), Cancelled);
   EXPECT_THROW(rbfProblem(set.samples, set.targets, options, 10, stop), Cancelled);
   EXPECT_THROW(chooseSpread(set.samples, set.targets, options, stop), Cancelled);
   EXPECT_THROW(lapack::gram(set.samples.transpose(), stop), Cancelled);
