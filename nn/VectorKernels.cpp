@@ -158,20 +158,34 @@ PALP_INLINE void fillBasis(const PackedNetwork& network, const double* scaled, s
       store(basis + s * network.blocks * blockLanes + block * blockLanes + k * width, r2[s * 2 * Blocks + k]);
 }
 
+/// Blocks whose terms are summed before they are added to the total: large weights of both signs cancel, and short sums
+/// lose less in rounding than a long one.
+constexpr std::size_t summedBlocks = 4;
+
 template <std::size_t Samples>
 PALP_INLINE void addWeighted(const PackedNetwork& network, const double* basis, double* output) {
   const std::size_t centers = network.blocks * blockLanes;
   for (std::size_t o = 0; o < network.outputs; ++o) {
     const double* weight = network.weights + o * centers;
-    Lanes even[Samples] = {}, odd[Samples] = {};
-    for (std::size_t c = 0; c < centers; c += blockLanes) {
-      const Lanes w0 = load(weight + c), w1 = load(weight + c + width);
+    Lanes total[Samples] = {}, lost[Samples] = {};
+    for (std::size_t first = 0; first < centers; first += summedBlocks * blockLanes) {
+      const std::size_t last =
+          first + summedBlocks * blockLanes < centers ? first + summedBlocks * blockLanes : centers;
+      Lanes even[Samples] = {}, odd[Samples] = {};
+      for (std::size_t c = first; c < last; c += blockLanes) {
+        const Lanes w0 = load(weight + c), w1 = load(weight + c + width);
+        for (std::size_t s = 0; s < Samples; ++s) {
+          even[s] += w0 * load(basis + s * centers + c);
+          odd[s] += w1 * load(basis + s * centers + c + width);
+        }
+      }
       for (std::size_t s = 0; s < Samples; ++s) {
-        even[s] += w0 * load(basis + s * centers + c);
-        odd[s] += w1 * load(basis + s * centers + c + width);
+        const Lanes part = even[s] + odd[s], next = total[s] + part, added = next - total[s];
+        lost[s] += (total[s] - (next - added)) + (part - added); // Knuth's two-sum
+        total[s] = next;
       }
     }
-    for (std::size_t s = 0; s < Samples; ++s) output[s * network.outputs + o] += sum(even[s] + odd[s]);
+    for (std::size_t s = 0; s < Samples; ++s) output[s * network.outputs + o] += sum(total[s]) + sum(lost[s]);
   }
 }
 
