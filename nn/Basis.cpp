@@ -3,10 +3,17 @@
 #include "nn/NetworkError.h"
 #include "nn/VectorKernels.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace palp {
+namespace {
+
+/// Points whose inputs stay in the fastest cache while they meet all others.
+constexpr Eigen::Index cachedRows = 64;
+
+} // namespace
 
 std::string name(SpreadConvention convention) {
   return convention == SpreadConvention::Radbas ? "radbas" : "sigma";
@@ -32,13 +39,30 @@ double gaussianRate(double spread, SpreadConvention convention) {
   return (convention == SpreadConvention::Radbas ? std::numbers::ln2 : 0.5) / (spread * spread);
 }
 
-Eigen::MatrixXd squaredDistances(const Eigen::Ref<const Eigen::MatrixXd>& a,
-                                 const Eigen::Ref<const Eigen::MatrixXd>& b) {
+Eigen::MatrixXd squaredDistances(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b,
+                                 const std::stop_token& stop) {
   Eigen::MatrixXd result(a.cols(), b.cols());
-  const Eigen::MatrixXd rowsOfA = a.transpose(); // contiguous over the samples of a, as the kernel wants it
-  for (Eigen::Index j = 0; j < b.cols(); ++j)
-    kernels::squaredDistancesToPoint(rowsOfA.data(), rowsOfA.rows(), rowsOfA.cols(), b.col(j).data(),
-                                     result.col(j).data());
+  const Eigen::MatrixXd rows = a.transpose(); // contiguous over the samples of a, as the kernel wants it
+  for (Eigen::Index first = 0; first < rows.rows(); first += cachedRows) {
+    stopIfAsked(stop);
+    for (Eigen::Index j = 0; j < b.cols(); ++j)
+      kernels::squaredDistancesToPoint(&rows(first, 0), rows.rows(), std::min(cachedRows, rows.rows() - first),
+                                       rows.cols(), b.col(j).data(), &result(first, j));
+  }
+  return result;
+}
+
+Eigen::MatrixXd squaredDistances(const Eigen::Ref<const Eigen::MatrixXd>& a) {
+  const Eigen::Index count = a.cols();
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(count, count);
+  const Eigen::MatrixXd rows = a.transpose();
+  for (Eigen::Index first = 0; first < count; first += cachedRows) {
+    const Eigen::Index last = std::min(first + cachedRows, count);
+    for (Eigen::Index j = 0; j < last; ++j) {
+      const Eigen::Index top = std::max(first, j);
+      kernels::squaredDistancesToPoint(&rows(top, 0), count, last - top, a.rows(), a.col(j).data(), &result(top, j));
+    }
+  }
   return result;
 }
 
@@ -47,9 +71,9 @@ void basisInPlace(Eigen::Ref<Eigen::MatrixXd> squaredDistance, double gamma, Bas
     double* column = squaredDistance.col(j).data();
     const auto count = static_cast<std::size_t>(squaredDistance.rows());
     if (form == BasisForm::Gaussian)
-      kernels::exponential(column, count, -gamma);
+      kernels::gaussian(column, count, gamma);
     else
-      kernels::exponentialRemainder(column, count, gamma);
+      kernels::gaussianRemainder(column, count, gamma);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include <stop_token>
 #include <string>
 
 namespace palp {
@@ -32,9 +33,12 @@ BasisForm basisFormNamed(const std::string& name);
 /// gamma of phi(r) = exp(-gamma r^2).
 double gaussianRate(double spread, SpreadConvention convention);
 
-/// |a_i - b_j|^2, columns of a x columns of b.
-Eigen::MatrixXd squaredDistances(const Eigen::Ref<const Eigen::MatrixXd>& a,
-                                 const Eigen::Ref<const Eigen::MatrixXd>& b);
+/// |a_i - b_j|^2, columns of a x columns of b. Throws Cancelled between blocks of columns of a.
+Eigen::MatrixXd squaredDistances(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b,
+                                 const std::stop_token& stop = {});
+
+/// |a_i - a_j|^2, the lower triangle; the other is 0.
+Eigen::MatrixXd squaredDistances(const Eigen::Ref<const Eigen::MatrixXd>& a);
 
 /// The basis at each entry of `squaredDistance`, in place.
 void basisInPlace(Eigen::Ref<Eigen::MatrixXd> squaredDistance, double gamma, BasisForm form = BasisForm::Gaussian);

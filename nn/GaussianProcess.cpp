@@ -36,7 +36,7 @@ class Likelihood {
 public:
   Likelihood(Eigen::MatrixXd scaled, const Eigen::MatrixXd& targets)
       : scaled_(std::move(scaled)), shift_(targets.rowwise().mean()), right_((targets.colwise() - shift_).transpose()),
-        distances_(squaredDistances(scaled_, scaled_)), products_(lapack::gram(scaled_)) {
+        distances_(squaredDistances(scaled_)), products_(lapack::gram(scaled_)) {
     products_.array() += 1;
   }
 
@@ -143,7 +143,7 @@ GaussianProcessFit trainGaussianProcess(const Eigen::Ref<const Eigen::MatrixXd>&
   const Eigen::MatrixXd usedTargets = targets(Eigen::all, fit.used);
   const FeatureScaler scaler = FeatureScaler::fit(options.scaling, samples);
   const Likelihood likelihood(
-      scaler.apply(noisyCopies(samples(Eigen::all, fit.used), options.relativeInputNoise, 1, options.seed)),
+      scaler.apply(noisyCopies(samples(Eigen::all, fit.used), options.relativeInputNoise, 1, options.seed, stop)),
       usedTargets);
   Search search{&likelihood, stop};
   const Scales scales(mostLikely(search));
@@ -165,8 +165,8 @@ GaussianProcessFit trainGaussianProcess(const Eigen::Ref<const Eigen::MatrixXd>&
   fit.logLikelihood = best.logLikelihood;
   fit.evaluations = search.evaluations;
   fit.condition = std::pow(best.factor.diagonal().maxCoeff() / best.factor.diagonal().minCoeff(), 2);
-  const Eigen::MatrixXd inverse =
-      lapack::solveLower(best.factor, Eigen::MatrixXd::Identity(weights.rows(), weights.rows()), false);
+  Eigen::MatrixXd inverse = best.factor;
+  lapack::invertLowerInPlace(inverse);
   const Eigen::VectorXd diagonal = inverse.colwise().squaredNorm().transpose();
   fit.leaveOneOutResiduals = (diagonal.cwiseInverse().asDiagonal() * weights).transpose();
   fit.process.factor = std::move(best.factor);

@@ -5,6 +5,7 @@
 #include "nn/NetworkError.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace palp {
 namespace {
@@ -24,13 +25,14 @@ Tail affordableTail(Tail wanted, const Eigen::MatrixXd& scaled) {
 KernelProblem::KernelProblem(const Eigen::Ref<const Eigen::MatrixXd>& samples,
                              const Eigen::Ref<const Eigen::MatrixXd>& targets, const RbfOptions& options)
     : options_(options), scaler_(scalerFor(options, samples)), scaled_(scaler_.apply(samples)),
-      distances_(squaredDistances(scaled_, scaled_)), tail_(affordableTail(options.tail, scaled_)),
-      space_(scaled_, tail_), targets_(targets), shift_(shiftFor(tail_, targets_)),
+      distances_(squaredDistances(scaled_)), tail_(affordableTail(options.tail, scaled_)), space_(scaled_, tail_),
+      targets_(targets), shift_(shiftFor(tail_, targets_)),
       right_(space_.project((targets_.colwise() - shift_).transpose())) {}
 
 Eigen::MatrixXd KernelProblem::kernel(double spread) const {
   Eigen::MatrixXd phi = distances_;
-  basisInPlace(phi, gaussianRate(spread, options_.convention), form());
+  const double rate = gaussianRate(spread, options_.convention);
+  for (Eigen::Index j = 0; j < phi.cols(); ++j) basisInPlace(phi.block(j, j, phi.rows() - j, 1), rate, form());
   if (tail_ == Tail::LinearPenalised) {
     phi += options_.tailVariance * lapack::gram(scaled_);
     phi.array() += options_.tailVariance;
@@ -42,7 +44,8 @@ BasisForm KernelProblem::form() const {
   return tail_ == Tail::Linear ? BasisForm::Remainder : BasisForm::Gaussian;
 }
 
-RbfSolution KernelProblem::solve(double spread, double ridge) const {
+RbfSolution KernelProblem::solve(double spread, double ridge, const std::stop_token& stop) const {
+  stopIfAsked(stop);
   const Eigen::MatrixXd phi = kernel(spread);
   const LinearSolution solved =
       solveSymmetric(space_.projectBothSides(phi), right_, options_.solver, ridge, options_.rcond);
@@ -60,8 +63,7 @@ RbfSolution KernelProblem::solve(double spread, double ridge) const {
     solution.tail = options_.tailVariance * lapack::product(weights, true, scaled_, true);
     solution.bias += options_.tailVariance * weights.colwise().sum().transpose();
   } else if (tail_ != Tail::None) {
-    const Eigen::MatrixXd rest =
-        (targets_.colwise() - shift_).transpose() - lapack::product(phi, false, weights, false);
+    const Eigen::MatrixXd rest = (targets_.colwise() - shift_).transpose() - lapack::symmetricProduct(phi, weights);
     const Eigen::MatrixXd coefficients = space_.coefficients(rest);
     solution.bias += coefficients.bottomRows(1).transpose();
     if (tail_ == Tail::Linear) solution.tail = coefficients.topRows(scaled_.rows()).transpose();
@@ -72,31 +74,40 @@ RbfSolution KernelProblem::solve(double spread, double ridge) const {
 std::vector<LeaveOneOutResult> KernelProblem::leaveOneOut(double spread, const std::vector<double>& ridges,
                                                           const std::stop_token& stop) const {
   stopIfAsked(stop);
-  Eigen::MatrixXd reduced = space_.projectBothSides(kernel(spread));
-  if (ridges.size() == 1) return {byInverse(spread, reduced, ridges.front())};
-  return byEigen(spread, std::move(reduced), ridges);
+  if (ridges.size() == 1) return {byInverse(spread, ridges.front(), stop)};
+  return byEigen(spread, ridges, stop);
 }
 
-LeaveOneOutResult KernelProblem::byInverse(double spread, const Eigen::MatrixXd& reduced, double ridge) const {
-  const Eigen::Index unknowns = reduced.rows();
-  ridge = std::max(ridge, smallestRidge(unknowns == 0 ? 0 : reduced.diagonal().sum()));
-  Eigen::MatrixXd factor = reduced;
-  factor.diagonal().array() += ridge;
-  while (!lapack::choleskyInPlace(factor)) {
-    ridge = std::max(10 * ridge, std::numeric_limits<double>::min());
-    factor = reduced;
+LeaveOneOutResult KernelProblem::byInverse(double spread, double ridge, const std::stop_token& stop) const {
+  const Eigen::Index unknowns = right_.rows();
+  for (;;) {
+    stopIfAsked(stop);
+    Eigen::MatrixXd phi = kernel(spread);
+    space_.projectInPlace(phi);
+    auto factor = phi.bottomRightCorner(unknowns, unknowns);
+    ridge = std::max(ridge, smallestRidge(unknowns == 0 ? 0 : factor.diagonal().sum()));
     factor.diagonal().array() += ridge;
+    if (!lapack::choleskyInPlace(factor)) {
+      if (!(ridge < std::numeric_limits<double>::max() / 100))
+        throw NetworkError("leave-one-out: no ridge makes the system definite: the samples are too large for double "
+                           "precision");
+      ridge = std::max(10 * ridge, std::numeric_limits<double>::min());
+      continue;
+    }
+    const Eigen::MatrixXd right = lapack::solveLower(factor, right_, false);
+    space_.solveProjectionInPlace(phi);
+    const auto half = phi.bottomRows(unknowns);
+    return result(spread, ridge, lapack::product(half, true, right, false), half.colwise().squaredNorm().transpose());
   }
-  const Eigen::MatrixXd half =
-      lapack::solveLower(factor, space_.project(Eigen::MatrixXd::Identity(targets_.cols(), targets_.cols())), false);
-  const Eigen::MatrixXd weights = lapack::product(half, true, lapack::solveLower(factor, right_, false), false);
-  return result(spread, ridge, weights, half.colwise().squaredNorm().transpose());
 }
 
-std::vector<LeaveOneOutResult> KernelProblem::byEigen(double spread, Eigen::MatrixXd reduced,
-                                                      const std::vector<double>& ridges) const {
-  const double least = smallestRidge(reduced.rows() == 0 ? 0 : reduced.diagonal().sum());
-  const lapack::SymmetricEigen eigen = lapack::symmetricEigen(std::move(reduced));
+std::vector<LeaveOneOutResult> KernelProblem::byEigen(double spread, const std::vector<double>& ridges,
+                                                      const std::stop_token& stop) const {
+  Eigen::MatrixXd system = space_.projectBothSides(kernel(spread));
+  const double least = smallestRidge(system.rows() == 0 ? 0 : system.diagonal().sum());
+  stopIfAsked(stop);
+  const lapack::SymmetricEigen eigen = lapack::symmetricEigen(std::move(system));
+  stopIfAsked(stop);
   const Eigen::MatrixXd vectors = space_.embed(eigen.vectors);
   const Eigen::MatrixXd squares = vectors.cwiseAbs2();
   const Eigen::MatrixXd rotated = lapack::product(eigen.vectors, true, right_, false);

@@ -11,7 +11,7 @@ class KernelProblem final : public RbfProblem {
 public:
   KernelProblem(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen::Ref<const Eigen::MatrixXd>& targets,
                 const RbfOptions& options);
-  [[nodiscard]] RbfSolution solve(double spread, double ridge) const override;
+  [[nodiscard]] RbfSolution solve(double spread, double ridge, const std::stop_token& stop) const override;
   [[nodiscard]] std::vector<LeaveOneOutResult> leaveOneOut(double spread, const std::vector<double>& ridges,
                                                            const std::stop_token& stop) const override;
   [[nodiscard]] const Eigen::MatrixXd& centers() const override { return scaled_; }
@@ -19,18 +19,19 @@ public:
   [[nodiscard]] Tail tail() const override { return tail_; }
 
 private:
+  /// Its lower triangle.
   [[nodiscard]] Eigen::MatrixXd kernel(double spread) const;
   [[nodiscard]] BasisForm form() const;
-  [[nodiscard]] LeaveOneOutResult byInverse(double spread, const Eigen::MatrixXd& reduced, double ridge) const;
-  [[nodiscard]] std::vector<LeaveOneOutResult> byEigen(double spread, Eigen::MatrixXd reduced,
-                                                       const std::vector<double>& ridges) const;
+  [[nodiscard]] LeaveOneOutResult byInverse(double spread, double ridge, const std::stop_token& stop) const;
+  [[nodiscard]] std::vector<LeaveOneOutResult> byEigen(double spread, const std::vector<double>& ridges,
+                                                       const std::stop_token& stop) const;
   [[nodiscard]] LeaveOneOutResult result(double spread, double ridge, const Eigen::MatrixXd& weights,
                                          const Eigen::VectorXd& inverseDiagonal) const;
 
   RbfOptions options_;
   FeatureScaler scaler_;
   Eigen::MatrixXd scaled_;
-  Eigen::MatrixXd distances_; ///< squared
+  Eigen::MatrixXd distances_; ///< squared, the lower triangle
   Tail tail_;
   TailSpace space_;
   Eigen::MatrixXd targets_; ///< outputs x samples

@@ -10,20 +10,39 @@
 
 namespace palp::lapack {
 
+using Input = Eigen::Ref<const Eigen::MatrixXd>;
+
+/// Rows of a tall matrix between two looks at the stop token: some 20 ms of work.
+inline constexpr Eigen::Index rowsAtOnce = 1024;
+
 /// op(a) op(b) by dgemm.
-Eigen::MatrixXd product(const Eigen::MatrixXd& a, bool transposeA, const Eigen::MatrixXd& b, bool transposeB);
-/// a^T a by dsyrk, both triangles.
-Eigen::MatrixXd gram(const Eigen::MatrixXd& a);
+Eigen::MatrixXd product(const Input& a, bool transposeA, const Input& b, bool transposeB);
+/// c -= a b^T.
+void subtractProduct(const Input& a, const Input& b, Eigen::Ref<Eigen::MatrixXd> c);
+/// a^T a by dsyrk, both triangles. Throws Cancelled between blocks of rows.
+Eigen::MatrixXd gram(const Eigen::MatrixXd& a, const std::stop_token& stop = {});
+/// a b for a symmetric a, of which the lower triangle is read.
+Eigen::MatrixXd symmetricProduct(const Input& a, const Input& b);
+/// c -= u v^T + v u^T in the lower triangle of c.
+void subtractRankTwo(const Input& u, const Input& v, Eigen::Ref<Eigen::MatrixXd> c);
+
+/// Pivots of Cholesky's factorisation with diagonal pivoting (dpstrf) of a semidefinite matrix, of which the lower
+/// triangle is read and overwritten: as many as there are before what is left is rounding.
+std::vector<int> semidefinitePivots(Eigen::MatrixXd& a);
 
 /// A P = Q R with column pivoting (dgeqp3).
 class PivotedQr {
 public:
-  explicit PivotedQr(Eigen::MatrixXd a);
+  /// The first `fixed` columns stay where they are (three times as fast where those are nearly all), the others are
+  /// taken by their norms.
+  explicit PivotedQr(Eigen::MatrixXd a, std::size_t fixed = 0);
   [[nodiscard]] Eigen::Index rows() const { return qr_.rows(); }
-  /// Number of diagonal entries of R above rcond times the first.
+  /// Number of leading diagonal entries of R above rcond times the largest.
   [[nodiscard]] Eigen::Index rank(double rcond) const;
-  /// |R_11 / R_kk|, k the smaller size: an estimate of the condition; infinite where R_kk is 0.
+  /// Largest over smallest |R_kk|: an estimate of the condition; infinite where one is 0.
   [[nodiscard]] double condition() const;
+  /// R, columns x columns, for no fewer rows than columns.
+  [[nodiscard]] Eigen::MatrixXd r() const { return qr_.topRows(qr_.cols()).triangularView<Eigen::Upper>(); }
   /// Q^T b; Q is rows x rows.
   [[nodiscard]] Eigen::MatrixXd applyQTransposed(Eigen::MatrixXd b) const;
   /// V and T of Q = I - V T V^T (dlarft): for few columns and wide b, products with them are much faster than applyQ.
@@ -45,9 +64,12 @@ private:
 };
 
 /// Lower Cholesky factor in place (upper triangle set to 0); false where the matrix is not positive definite.
-bool choleskyInPlace(Eigen::MatrixXd& a);
+bool choleskyInPlace(Eigen::Ref<Eigen::MatrixXd> a);
 /// l^-1 b and l^-T b for a lower factor.
-Eigen::MatrixXd solveLower(const Eigen::MatrixXd& l, Eigen::MatrixXd b, bool transposed);
+Eigen::MatrixXd solveLower(const Input& l, Eigen::MatrixXd b, bool transposed);
+
+/// l^-1 in place of a lower factor; the upper triangle is left as it is.
+void invertLowerInPlace(Eigen::Ref<Eigen::MatrixXd> l);
 
 /// a = V diag(values) V^T, values ascending (dsyevd).
 struct SymmetricEigen {

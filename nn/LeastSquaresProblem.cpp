@@ -28,11 +28,12 @@ Eigen::MatrixXd chooseCenters(const Eigen::MatrixXd& scaled, const RbfOptions& o
 
 LeastSquaresProblem::LeastSquaresProblem(const Eigen::Ref<const Eigen::MatrixXd>& samples,
                                          const Eigen::Ref<const Eigen::MatrixXd>& targets, const RbfOptions& options,
-                                         int noiseCopies)
+                                         int noiseCopies, const std::stop_token& stop)
     : options_(options), scaler_(scalerFor(options, samples)),
       copies_(options.relativeInputNoise > 0 ? noiseCopies : 1),
-      rows_(scaler_.apply(noisyCopies(samples, options.relativeInputNoise, static_cast<int>(copies_), options.seed))),
-      centers_(chooseCenters(scaler_.apply(samples), options)), distances_(squaredDistances(rows_, centers_)),
+      rows_(scaler_.apply(
+          noisyCopies(samples, options.relativeInputNoise, static_cast<int>(copies_), options.seed, stop))),
+      centers_(chooseCenters(scaler_.apply(samples), options)), distances_(squaredDistances(rows_, centers_, stop)),
       tail_(affordableTail(options.tail, rows_)),
       tailIsUnknown_(tail_ == Tail::LinearPenalised || options.solver == Solver::Recursive),
       space_(rows_, tailIsUnknown_ ? Tail::None : tail_), targets_(repeatedColumns(targets, copies_)),
@@ -43,7 +44,8 @@ double LeastSquaresProblem::tailFactor() const {
   return tail_ == Tail::LinearPenalised ? std::sqrt(options_.tailVariance) : 1;
 }
 
-Eigen::MatrixXd LeastSquaresProblem::system(double spread) const {
+Eigen::MatrixXd LeastSquaresProblem::system(double spread, const std::stop_token& stop) const {
+  stopIfAsked(stop);
   Eigen::MatrixXd phi = distances_;
   basisInPlace(phi, gaussianRate(spread, options_.convention));
   if (!tailIsUnknown_ || tail_ == Tail::None) return space_.project(phi);
@@ -55,10 +57,10 @@ Eigen::MatrixXd LeastSquaresProblem::system(double spread) const {
   return all;
 }
 
-RbfSolution LeastSquaresProblem::solve(double spread, double ridge) const {
-  const Eigen::MatrixXd a = system(spread);
+RbfSolution LeastSquaresProblem::solve(double spread, double ridge, const std::stop_token& stop) const {
+  const Eigen::MatrixXd a = system(spread, stop);
   const LinearSolution solved = solveLeastSquares(a, right_, options_.solver, ridge * static_cast<double>(copies_),
-                                                  options_.rcond, options_.forgetting);
+                                                  options_.rcond, options_.forgetting, stop);
   RbfSolution solution;
   solution.ridge = solved.ridge / static_cast<double>(copies_);
   solution.condition = solved.condition;
@@ -83,8 +85,8 @@ RbfSolution LeastSquaresProblem::solve(double spread, double ridge) const {
 
 std::vector<LeaveOneOutResult> LeastSquaresProblem::leaveOneOut(double spread, const std::vector<double>& ridges,
                                                                 const std::stop_token& stop) const {
-  stopIfAsked(stop);
-  const lapack::ThinSvd svd = copies_ > 1 ? lapack::svdOfGram(system(spread), stop) : lapack::thinSvd(system(spread));
+  const lapack::ThinSvd svd =
+      copies_ > 1 ? lapack::svdOfGram(system(spread, stop), stop) : lapack::thinSvd(system(spread, stop));
   const Eigen::MatrixXd left = space_.embed(svd.u);
   const Eigen::MatrixXd tailBasis = space_.tailBasis();
   const Eigen::MatrixXd rotated = lapack::product(svd.u, true, right_, false);

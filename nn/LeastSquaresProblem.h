@@ -12,8 +12,9 @@ namespace palp {
 class LeastSquaresProblem final : public RbfProblem {
 public:
   LeastSquaresProblem(const Eigen::Ref<const Eigen::MatrixXd>& samples,
-                      const Eigen::Ref<const Eigen::MatrixXd>& targets, const RbfOptions& options, int noiseCopies);
-  [[nodiscard]] RbfSolution solve(double spread, double ridge) const override;
+                      const Eigen::Ref<const Eigen::MatrixXd>& targets, const RbfOptions& options, int noiseCopies,
+                      const std::stop_token& stop);
+  [[nodiscard]] RbfSolution solve(double spread, double ridge, const std::stop_token& stop) const override;
   [[nodiscard]] std::vector<LeaveOneOutResult> leaveOneOut(double spread, const std::vector<double>& ridges,
                                                            const std::stop_token& stop) const override;
   [[nodiscard]] const Eigen::MatrixXd& centers() const override { return centers_; }
@@ -22,7 +23,7 @@ public:
 
 private:
   /// Gaussians at the rows, with the tail's columns where it is among the unknowns; rows x unknowns, projected.
-  [[nodiscard]] Eigen::MatrixXd system(double spread) const;
+  [[nodiscard]] Eigen::MatrixXd system(double spread, const std::stop_token& stop) const;
   [[nodiscard]] double tailFactor() const;
 
   RbfOptions options_;

@@ -120,7 +120,7 @@ void refineNoisy(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen::
   for (const double power : otherPowers) {
     RbfOptions changed = options;
     changed.whitening = power;
-    others.push_back(rbfProblem(samples, targets, changed, copies));
+    others.push_back(rbfProblem(samples, targets, changed, copies, stop));
     for (const double factor : {1 / step, 1.0, step})
       trials.push_back({others.back().get(), choice.overall.spread * factor});
   }
@@ -142,8 +142,8 @@ std::vector<LeaveOneOutResult> leaveOneOut(const Eigen::Ref<const Eigen::MatrixX
   for (const double spread : spreads)
     if (!(spread > 0 && spread <= 1e100))
       throw NetworkError("spread: " + std::to_string(spread) + "; allowed is above 0 up to 1e100");
-  return onGrid(*rbfProblem(samples, targets, options, options.noiseCopies), spreads, ridgesOf(options, finalRidges),
-                options.threads, stop);
+  return onGrid(*rbfProblem(samples, targets, options, options.noiseCopies, stop), spreads,
+                ridgesOf(options, finalRidges), options.threads, stop);
 }
 
 SpreadChoice chooseSpread(const Eigen::Ref<const Eigen::MatrixXd>& samples,
@@ -152,7 +152,7 @@ SpreadChoice chooseSpread(const Eigen::Ref<const Eigen::MatrixXd>& samples,
   requireUsable(samples, targets, options);
   const bool noisy = options.relativeInputNoise > 0;
   const int copies = std::min(options.noiseCopies, choiceCopies);
-  const std::unique_ptr<RbfProblem> problem = rbfProblem(samples, targets, options, copies);
+  const std::unique_ptr<RbfProblem> problem = rbfProblem(samples, targets, options, copies, stop);
   const std::vector<double> spreads = spreadsFor(*problem, noisy);
   const std::vector<double> ridges = ridgesOf(options, noisy ? choiceRidges : finalRidges);
   SpreadChoice choice;

@@ -38,9 +38,9 @@ void warnOfRank(LinearSolution& solution, Eigen::Index unknowns) {
                                 " directions were dropped as linearly dependent to rounding");
 }
 
-LinearSolution byQr(Eigen::MatrixXd a, const Eigen::MatrixXd& b, double rcond) {
+LinearSolution byQr(Eigen::MatrixXd a, const Eigen::MatrixXd& b, double rcond, std::size_t fixed = 0) {
   const Eigen::Index unknowns = a.cols();
-  const lapack::PivotedQr qr(std::move(a));
+  const lapack::PivotedQr qr(std::move(a), fixed);
   LinearSolution solution;
   const Eigen::Index rank = qr.rank(rcond);
   solution.x = qr.solve(b, rank);
@@ -49,6 +49,50 @@ LinearSolution byQr(Eigen::MatrixXd a, const Eigen::MatrixXd& b, double rcond) {
   warnOfCondition(solution);
   warnOfRank(solution, unknowns);
   return solution;
+}
+
+/// Column-pivoted QR of a semidefinite matrix given by its lower triangle. The pivots of Cholesky's factorisation
+/// reveal its rank as well as the norms of its columns do (what they leave bounds what those leave), and cost a third.
+LinearSolution bySemidefiniteQr(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double rcond) {
+  Eigen::MatrixXd columns = a;
+  std::vector<int> order = lapack::semidefinitePivots(columns);
+  const std::size_t fixed = order.size();
+  std::vector<bool> taken(static_cast<std::size_t>(a.cols()), false);
+  for (const int i : order) taken[static_cast<std::size_t>(i)] = true;
+  for (int i = 0; i < a.cols(); ++i)
+    if (!taken[static_cast<std::size_t>(i)]) order.push_back(i);
+  for (Eigen::Index k = 0; k < a.cols(); ++k) {
+    const int i = order[static_cast<std::size_t>(k)];
+    columns.col(k).head(i) = a.row(i).head(i).transpose();
+    columns.col(k).tail(a.rows() - i) = a.col(i).tail(a.rows() - i);
+  }
+  LinearSolution solution = byQr(std::move(columns), b, rcond, fixed);
+  const Eigen::MatrixXd x = solution.x;
+  for (Eigen::Index k = 0; k < a.cols(); ++k) solution.x.row(order[static_cast<std::size_t>(k)]) = x.row(k);
+  return solution;
+}
+
+/// R of A = Q R without pivoting, and what of Q^T b belongs to it: the same least squares in few rows.
+struct Triangular {
+  Eigen::MatrixXd r;
+  Eigen::MatrixXd right;
+};
+
+/// Block of rows after block of rows, so that it can be stopped; twice as fast as to pivot all rows at once.
+Triangular triangular(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, const std::stop_token& stop) {
+  const Eigen::Index columns = a.cols();
+  Triangular result{Eigen::MatrixXd::Zero(columns, columns), Eigen::MatrixXd::Zero(columns, b.cols())};
+  const Eigen::Index step = std::max<Eigen::Index>(1, 2 * columns);
+  for (Eigen::Index first = 0; first < a.rows(); first += step) {
+    stopIfAsked(stop);
+    const Eigen::Index rows = std::min(step, a.rows() - first);
+    Eigen::MatrixXd stacked(columns + rows, columns), right(columns + rows, b.cols());
+    stacked << result.r, a.middleRows(first, rows);
+    right << result.right, b.middleRows(first, rows);
+    const lapack::PivotedQr qr(std::move(stacked), static_cast<std::size_t>(columns));
+    result = {qr.r(), qr.applyQTransposed(std::move(right)).topRows(columns)};
+  }
+  return result;
 }
 
 /// Raises the ridge tenfold until the factorisation goes through.
@@ -87,7 +131,7 @@ LinearSolution solveSymmetric(Eigen::MatrixXd a, const Eigen::MatrixXd& b, Solve
   }
   a.diagonal().array() += ridge;
   if (solver == Solver::PivotedQr) {
-    LinearSolution solution = byQr(std::move(a), b, rcond);
+    LinearSolution solution = bySemidefiniteQr(a, b, rcond);
     solution.ridge = ridge;
     return solution;
   }
@@ -108,8 +152,12 @@ LinearSolution solveSymmetric(Eigen::MatrixXd a, const Eigen::MatrixXd& b, Solve
 }
 
 LinearSolution solveLeastSquares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, Solver solver, double ridge,
-                                 double rcond, double forgetting) {
+                                 double rcond, double forgetting, const std::stop_token& stop) {
   LinearSolution solution;
+  if (solver == Solver::PivotedQr && a.rows() > 3 * a.cols()) {
+    const Triangular tall = triangular(a, b, stop);
+    return solveLeastSquares(tall.r, tall.right, solver, ridge, rcond, forgetting, stop);
+  }
   if (solver == Solver::PivotedQr && ridge == 0) return byQr(a, b, rcond);
   if (solver == Solver::PivotedQr) {
     Eigen::MatrixXd stacked = Eigen::MatrixXd::Zero(a.rows() + a.cols(), a.cols());
@@ -120,7 +168,8 @@ LinearSolution solveLeastSquares(const Eigen::MatrixXd& a, const Eigen::MatrixXd
     solution = byQr(std::move(stacked), right, rcond);
     solution.ridge = ridge;
   } else if (solver == Solver::Cholesky) {
-    const Eigen::MatrixXd normal = lapack::gram(a);
+    const Eigen::MatrixXd normal = lapack::gram(a, stop);
+    stopIfAsked(stop);
     const double largest = a.cols() == 0 ? 0 : normal.diagonal().sum();
     solution = byCholesky(normal, lapack::product(a, true, b, false),
                           std::max({ridge, choleskyRidge, smallestRidge(largest)}));

@@ -6,6 +6,7 @@
 #include "nn/RbfProblem.h"
 #include "nn/RidgeFit.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -78,7 +79,7 @@ PolynomialFit trainPolynomial(const Eigen::Ref<const Eigen::MatrixXd>& samples,
   model.scaler = FeatureScaler::fit(Scaling::Global, samples);
   const Eigen::MatrixXd clean = model.scaler.apply(samples);
   const Eigen::MatrixXd rows =
-      model.scaler.apply(noisyCopies(samples, options.relativeInputNoise, copies, options.seed));
+      model.scaler.apply(noisyCopies(samples, options.relativeInputNoise, copies, options.seed, stop));
   const Eigen::MatrixXd right = repeatedColumns(targets, copies).transpose();
 
   Eigen::MatrixXd toWeights, features;
@@ -88,8 +89,15 @@ PolynomialFit trainPolynomial(const Eigen::Ref<const Eigen::MatrixXd>& samples,
     model.centers = thinned(clean);
     const double meanSquare = clean.colwise().squaredNorm().mean();
     model.size = meanSquare > 0 ? meanSquare : 1;
+    stopIfAsked(stop);
     toWeights = directions(kernel(model.centers, model.centers, model.size, options.degree));
-    features = lapack::product(kernel(rows, model.centers, model.size, options.degree), false, toWeights, false);
+    features.resize(rows.cols(), toWeights.cols());
+    for (Eigen::Index first = 0; first < rows.cols(); first += lapack::rowsAtOnce) {
+      stopIfAsked(stop);
+      const Eigen::Index count = std::min(lapack::rowsAtOnce, rows.cols() - first);
+      features.middleRows(first, count) = lapack::product(
+          kernel(rows.middleCols(first, count), model.centers, model.size, options.degree), false, toWeights, false);
+    }
   }
   const std::optional<double> ridge = !options.ridge && options.degree == 1 && !noisy ? 0.0 : options.ridge;
   RidgeFit fit = ridgeFit(features, right, copies, ridge, stop);

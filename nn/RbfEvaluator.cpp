@@ -10,22 +10,29 @@ namespace {
 
 constexpr std::size_t lanes = kernels::blockLanes;
 /// Samples that go through a block of centres together.
-constexpr std::size_t together = 4;
+constexpr std::size_t together = 8;
 
 std::vector<double> copyOf(const Eigen::MatrixXd& m) {
   return {m.data(), m.data() + m.size()};
 }
 
-/// [block][row][lane] from rows x columns; missing lanes are 0.
-std::vector<double> packed(const Eigen::MatrixXd& m, std::size_t blocks) {
-  const std::size_t rows = static_cast<std::size_t>(m.rows());
+/// [block][input][lane] from inputs x centres; missing lanes are 0.
+std::vector<double> packedCenters(const Eigen::MatrixXd& centers, std::size_t blocks) {
+  const std::size_t rows = static_cast<std::size_t>(centers.rows());
   std::vector<double> result(blocks * rows * lanes, 0.0);
-  for (Eigen::Index c = 0; c < m.cols(); ++c)
+  for (Eigen::Index c = 0; c < centers.cols(); ++c)
     for (std::size_t r = 0; r < rows; ++r) {
       const std::size_t column = static_cast<std::size_t>(c);
-      result[(column / lanes * rows + r) * lanes + column % lanes] = m(static_cast<Eigen::Index>(r), c);
+      result[(column / lanes * rows + r) * lanes + column % lanes] = centers(static_cast<Eigen::Index>(r), c);
     }
   return result;
+}
+
+/// [output][lane of all blocks] from outputs x centres; missing lanes are 0.
+std::vector<double> packedWeights(const Eigen::MatrixXd& weights, std::size_t blocks) {
+  Eigen::MatrixXd padded = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(blocks * lanes), weights.rows());
+  padded.topRows(weights.cols()) = weights.transpose();
+  return copyOf(padded);
 }
 
 } // namespace
@@ -38,11 +45,11 @@ RbfEvaluator::RbfEvaluator(const RbfNetwork& network)
       rate_(gaussianRate(network.spread, network.convention)), remainder_(network.form == BasisForm::Remainder),
       offset_(copyOf(network.scaler.offset)), factor_(copyOf(network.scaler.factor)),
       rotation_(network.scaler.rotation.size() > 0 ? copyOf(network.scaler.jacobian()) : std::vector<double>()),
-      centers_(packed(network.centers, blocks_)), weights_(packed(network.weights, blocks_)),
+      centers_(packedCenters(network.centers, blocks_)), weights_(packedWeights(network.weights, blocks_)),
       tail_(copyOf(network.tail)), bias_(copyOf(network.bias)) {}
 
 std::size_t RbfEvaluator::scratchSize() const {
-  return dimensions_;
+  return dimensions_ + blocks_ * lanes;
 }
 
 void RbfEvaluator::scale(const double* sample, double* scaled, double* output) const {
@@ -66,14 +73,14 @@ void RbfEvaluator::evaluate(std::span<const double> sample, std::span<double> ou
   assert(sample.size() == inputs_ && output.size() == outputs_ && scratch.size() >= scratchSize());
   scale(sample.data(), scratch.data(), output.data());
   kernels::addGaussians({dimensions_, outputs_, blocks_, rate_, remainder_, centers_.data(), weights_.data()},
-                        scratch.data(), output.data());
+                        scratch.data(), scratch.data() + dimensions_, output.data());
 }
 
 void RbfEvaluator::evaluate(const Eigen::Ref<const Eigen::MatrixXd>& samples,
                             Eigen::Ref<Eigen::MatrixXd> output) const {
   const kernels::PackedNetwork network{dimensions_, outputs_,        blocks_,        rate_,
                                        remainder_,  centers_.data(), weights_.data()};
-  std::vector<double> scaled(together * dimensions_), results(together * outputs_);
+  std::vector<double> scaled(together * dimensions_), basis(together * blocks_ * lanes), results(together * outputs_);
   const Eigen::Index step = static_cast<Eigen::Index>(together);
   for (Eigen::Index first = 0; first < samples.cols(); first += step) {
     const Eigen::Index count = std::min(step, samples.cols() - first);
@@ -81,7 +88,7 @@ void RbfEvaluator::evaluate(const Eigen::Ref<const Eigen::MatrixXd>& samples,
       scale(samples.col(first + std::min(s, count - 1)).data(),
             scaled.data() + s * static_cast<Eigen::Index>(dimensions_),
             results.data() + s * static_cast<Eigen::Index>(outputs_));
-    kernels::addGaussiansFour(network, scaled.data(), results.data());
+    kernels::addGaussiansEight(network, scaled.data(), basis.data(), results.data());
     for (Eigen::Index s = 0; s < count; ++s)
       output.col(first + s) = Eigen::Map<const Eigen::VectorXd>(
           results.data() + s * static_cast<Eigen::Index>(outputs_), static_cast<Eigen::Index>(outputs_));

@@ -37,7 +37,7 @@ private:
   std::vector<double> offset_, factor_;
   std::vector<double> rotation_; ///< [input][dimension], the factors in it; empty: none
   std::vector<double> centers_;  ///< blocks of 16 centres: [block][dimension][lane]
-  std::vector<double> weights_;  ///< [block][output][lane]
+  std::vector<double> weights_;  ///< [output][block][lane]
   std::vector<double> tail_;     ///< [dimension][output]
   std::vector<double> bias_;
 };

@@ -58,12 +58,13 @@ void requireUsable(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen
 
 std::unique_ptr<RbfProblem> rbfProblem(const Eigen::Ref<const Eigen::MatrixXd>& samples,
                                        const Eigen::Ref<const Eigen::MatrixXd>& targets, const RbfOptions& options,
-                                       int noiseCopies) {
+                                       int noiseCopies, const std::stop_token& stop) {
+  stopIfAsked(stop);
   const bool oneASample = options.centers == CenterChoice::Samples ||
                           (options.centerCount >= samples.cols() && options.centers != CenterChoice::KMeans);
   if (oneASample && options.relativeInputNoise == 0 && options.solver != Solver::Recursive)
     return std::make_unique<KernelProblem>(samples, targets, options);
-  return std::make_unique<LeastSquaresProblem>(samples, targets, options, noiseCopies);
+  return std::make_unique<LeastSquaresProblem>(samples, targets, options, noiseCopies, stop);
 }
 
 FeatureScaler scalerFor(const RbfOptions& options, const Eigen::Ref<const Eigen::MatrixXd>& samples) {

@@ -27,11 +27,12 @@ struct RbfSolution {
 };
 
 /// Samples, targets and everything about a network but spread and ridge. Immutable: spreads may be tried in parallel.
+/// All throw Cancelled soon after they are asked to stop.
 class RbfProblem {
 public:
   virtual ~RbfProblem() = default;
-  [[nodiscard]] virtual RbfSolution solve(double spread, double ridge) const = 0;
-  /// Leave-one-out errors at one spread and each of the ridges. Throws Cancelled soon after it is asked to stop.
+  [[nodiscard]] virtual RbfSolution solve(double spread, double ridge, const std::stop_token& stop) const = 0;
+  /// Leave-one-out errors at one spread and each of the ridges.
   [[nodiscard]] virtual std::vector<LeaveOneOutResult> leaveOneOut(double spread, const std::vector<double>& ridges,
                                                                    const std::stop_token& stop) const = 0;
   [[nodiscard]] virtual const Eigen::MatrixXd& centers() const = 0;
@@ -44,7 +45,7 @@ public:
 /// noisy copies. Throws NetworkError where there can be none. `noiseCopies` overrides the options'.
 std::unique_ptr<RbfProblem> rbfProblem(const Eigen::Ref<const Eigen::MatrixXd>& samples,
                                        const Eigen::Ref<const Eigen::MatrixXd>& targets, const RbfOptions& options,
-                                       int noiseCopies);
+                                       int noiseCopies, const std::stop_token& stop = {});
 
 /// The scaler that the options describe.
 FeatureScaler scalerFor(const RbfOptions& options, const Eigen::Ref<const Eigen::MatrixXd>& samples);

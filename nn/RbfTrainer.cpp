@@ -64,12 +64,12 @@ RbfFit trainRbf(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen::R
     chosen.whitening = choice.whitening;
   }
   const double spread = *chosen.spread;
-  const std::unique_ptr<RbfProblem> problem = rbfProblem(samples, targets, chosen, options.noiseCopies);
+  const std::unique_ptr<RbfProblem> problem = rbfProblem(samples, targets, chosen, options.noiseCopies, stop);
   std::optional<LeaveOneOutResult> left;
   if (!options.ridge) left = atBestRidge(*problem, spread, stop);
   stopIfAsked(stop);
 
-  RbfSolution solution = problem->solve(spread, left ? left->ridge : *options.ridge);
+  RbfSolution solution = problem->solve(spread, left ? left->ridge : *options.ridge, stop);
   RbfFit fit;
   fit.network = {problem->scaler(),        problem->centers(),      spread,
                  options.convention,       solution.form,           std::move(solution.weights),

@@ -17,26 +17,46 @@ TailSpace::TailSpace(const Eigen::MatrixXd& scaled, Tail tail) : samples_(scaled
   qr_.emplace(std::move(regressors));
   rank_ = qr_->rank(tailRcond);
   q_ = qr_->blockReflector();
+  vt_ = q_.v * q_.t;
 }
 
 Eigen::MatrixXd TailSpace::project(const Eigen::MatrixXd& b) const {
   if (!qr_) return b;
   const Eigen::Index rest = samples_ - rank_;
-  const Eigen::MatrixXd inner = q_.t.transpose() * lapack::product(q_.v, true, b, false);
+  const Eigen::MatrixXd inner = lapack::product(vt_, true, b, false);
   return b.bottomRows(rest) - lapack::product(q_.v.bottomRows(rest), false, inner, false);
 }
 
+void TailSpace::projectInPlace(Eigen::MatrixXd& a) const {
+  const Eigen::Index rest = samples_ - rank_;
+  reflect(a, a.bottomRightCorner(rest, rest));
+}
+
 Eigen::MatrixXd TailSpace::projectBothSides(const Eigen::MatrixXd& a) const {
-  if (!qr_) return a;
+  const Eigen::Index rest = samples_ - rank_;
+  Eigen::MatrixXd corner = a.bottomRightCorner(rest, rest);
+  reflect(a, corner);
+  return corner;
+}
+
+void TailSpace::reflect(const Eigen::MatrixXd& a, Eigen::Ref<Eigen::MatrixXd> corner) const {
+  if (!qr_) return;
   // Q^T A Q = A - V W^T - W V^T with W = A V T - V T^T V^T A V T / 2.
-  const Eigen::Index rest = samples_ - rank_, count = q_.v.cols();
-  const Eigen::MatrixXd product = lapack::product(a, false, q_.v * q_.t, false);
-  const Eigen::MatrixXd middle = q_.t.transpose() * lapack::product(q_.v, true, product, false);
-  const Eigen::MatrixXd w = product - q_.v * (middle / 2);
-  Eigen::MatrixXd left(rest, 2 * count), right(rest, 2 * count);
-  left << q_.v.bottomRows(rest), w.bottomRows(rest);
-  right << w.bottomRows(rest), q_.v.bottomRows(rest);
-  return a.bottomRightCorner(rest, rest) - lapack::product(left, false, right, true);
+  const Eigen::MatrixXd product = lapack::symmetricProduct(a, vt_);
+  const Eigen::MatrixXd middle = lapack::product(vt_, true, product, false) / 2;
+  const Eigen::MatrixXd w = product - lapack::product(q_.v, false, middle, false);
+  lapack::subtractRankTwo(q_.v.bottomRows(corner.rows()), w.bottomRows(corner.rows()), corner);
+}
+
+void TailSpace::solveProjectionInPlace(Eigen::MatrixXd& a) const {
+  // Q2^T = [0 I] - V2 (V T)^T with V2 the last rows of V.
+  const Eigen::Index rest = samples_ - rank_;
+  auto inverse = a.bottomRightCorner(rest, rest);
+  lapack::invertLowerInPlace(inverse);
+  if (!qr_) return;
+  const Eigen::MatrixXd solved = lapack::product(inverse, false, q_.v.bottomRows(rest), false);
+  a.bottomLeftCorner(rest, rank_).setZero();
+  lapack::subtractProduct(solved, vt_, a.bottomRows(rest));
 }
 
 Eigen::MatrixXd TailSpace::embed(const Eigen::MatrixXd& z) const {

@@ -9,15 +9,15 @@ namespace palp::kernels {
 /// Lanes that a block of packed centres has.
 inline constexpr std::size_t blockLanes = 16;
 
-/// values[i] = exp(factor * values[i]); exponents from -708 to 708 to 1 ulp or so, below -708 gives 0.
-void exponential(double* values, std::size_t count, double factor);
+/// values[i] = exp(-rate * values[i]), values >= 0, to 1 ulp or so; exponents below -708 give 0.
+void gaussian(double* values, std::size_t count, double rate);
 
-/// values[i] = exp(-t) - 1 + t with t = factor * values[i] >= 0, to a few ulp also where t is small.
-void exponentialRemainder(double* values, std::size_t count, double factor);
+/// values[i] = exp(-t) - 1 + t with t = rate * values[i] >= 0, to a few ulp also where t is small.
+void gaussianRemainder(double* values, std::size_t count, double rate);
 
-/// result[i] = sum_d (rows[d * count + i] - point[d])^2: `count` points stored input by input.
-void squaredDistancesToPoint(const double* rows, std::size_t count, std::size_t dimensions, const double* point,
-                             double* result);
+/// result[i] = sum_d (rows[d * stride + i] - point[d])^2: `count` points stored input by input.
+void squaredDistancesToPoint(const double* rows, std::size_t stride, std::size_t count, std::size_t dimensions,
+                             const double* point, double* result);
 
 /// Packed Gaussian network.
 struct PackedNetwork {
@@ -25,12 +25,14 @@ struct PackedNetwork {
   double rate;           ///< gamma of exp(-gamma r^2)
   bool remainder;        ///< the basis is exp(-gamma r^2) - 1 + gamma r^2
   const double* centers; ///< [block][input][lane]
-  const double* weights; ///< [block][output][lane]
+  const double* weights; ///< [output][block][lane]
 };
 
-/// output[o] += sum_c weights[o][c] basis(|scaled - c|^2) for one sample.
-void addGaussians(const PackedNetwork& network, const double* scaled, double* output);
-/// The same for four samples at once: scaled[s * inputs + d], output[s * outputs + o].
-void addGaussiansFour(const PackedNetwork& network, const double* scaled, double* output);
+/// output[o] += sum_c weights[o][c] basis(|scaled - c|^2) for one sample; `basis` is scratch, one double a lane of the
+/// blocks.
+void addGaussians(const PackedNetwork& network, const double* scaled, double* basis, double* output);
+/// The same, to the bit, for eight samples at once: scaled[s * inputs + d], basis[s * blocks * lanes + c],
+/// output[s * outputs + o].
+void addGaussiansEight(const PackedNetwork& network, const double* scaled, double* basis, double* output);
 
 } // namespace palp::kernels

@@ -17,7 +17,7 @@ namespace {
 constexpr const char* kStyle = R"(
 :root { color-scheme: light dark; --ink: #1b1f24; --soft: #57606a; --line: #d0d7de; --ground: #ffffff; --band: #f6f8fa; }
 @media (prefers-color-scheme: dark) { :root { --ink: #e6edf3; --soft: #9198a1; --line: #3d444d; --ground: #0d1117; --band: #161b22; } }
-body { font: 16px/1.5 system-ui, "DejaVu Sans", sans-serif; color: var(--ink); background: var(--ground); max-width: 62rem; margin: 2rem auto; padding: 0 1rem; }
+body { font: 16px/1.5 system-ui, "DejaVu Sans", sans-serif; color: var(--ink); background: var(--ground); max-width: 76rem; margin: 2rem auto; padding: 0 1rem; } p, figcaption { max-width: 62rem; }
 h1 { font-size: 1.7rem; } h2 { font-size: 1.25rem; margin-top: 2.2rem; border-bottom: 1px solid var(--line); padding-bottom: .2rem; }
 table { border-collapse: collapse; margin: .8rem 0; font-variant-numeric: tabular-nums; font-size: .92rem; }
 caption { text-align: left; color: var(--soft); padding-bottom: .3rem; }
@@ -44,13 +44,13 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-/// Base64 (RFC 4648).
-/// Keeps a browser from breaking 4.5e-05 after its hyphen.
+/// Keeps a browser from breaking 4.5e-05 after its hyphen, and three numbers of a triple apart.
 std::string unbroken(const std::string& text) {
-  static const std::regex exponent("[0-9.]+e-[0-9]+");
-  return std::regex_replace(text, exponent, "<span class=\"number\">$&</span>");
+  static const std::regex triple("[0-9.e+-]+ / [0-9.e+-]+ / [0-9.e+-]+|[0-9.]+e-[0-9]+");
+  return std::regex_replace(text, triple, "<span class=\"number\">$&</span>");
 }
 
+/// Base64 (RFC 4648).
 std::string base64(const std::vector<std::uint8_t>& bytes) {
   constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string result;

@@ -44,11 +44,25 @@ TEST(Basis, TheRemainderKeepsItsDigitsForSmallArguments) {
   }
 }
 
+TEST(Basis, TheRemainderIsTheSameAloneAndAmongLargeAndSmallOnes) {
+  Eigen::MatrixXd values(203, 1); // whole groups of 64, whole vectors of 8, and a rest
+  for (int i = 0; i < values.size(); ++i) values(i) = i < 64 ? i / 64.0 : i < 128 ? i : 0.1 * (i % 23);
+  Eigen::MatrixXd together = values;
+  basisInPlace(together, 1, BasisForm::Remainder);
+  for (int i = 0; i < values.size(); ++i) {
+    Eigen::MatrixXd alone = Eigen::MatrixXd::Constant(1, 1, values(i));
+    basisInPlace(alone, 1, BasisForm::Remainder);
+    EXPECT_EQ(together(i), alone(0)) << values(i);
+  }
+}
+
 TEST(Basis, SquaredDistancesAreThoseOfTheColumns) {
   const Eigen::MatrixXd a = Eigen::MatrixXd::Random(7, 19), b = Eigen::MatrixXd::Random(7, 5);
   const Eigen::MatrixXd distances = squaredDistances(a, b);
   for (int i = 0; i < 19; ++i)
     for (int j = 0; j < 5; ++j) EXPECT_NEAR(distances(i, j), (a.col(i) - b.col(j)).squaredNorm(), 1e-14);
+  const Eigen::MatrixXd lower = squaredDistances(a, a).triangularView<Eigen::Lower>();
+  EXPECT_LT((squaredDistances(a) - lower).cwiseAbs().maxCoeff(), 1e-14);
 }
 
 } // namespace

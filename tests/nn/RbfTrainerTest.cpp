@@ -1,9 +1,13 @@
 #include "nn/RbfTrainer.h"
 
+#include "nn/Lapack.h"
+#include "nn/LeaveOneOut.h"
+#include "nn/LinearSolve.h"
 #include "nn/NetworkError.h"
 #include "nn/NoisyCopies.h"
 #include "nn/PolynomialRidge.h"
 #include "nn/RbfEvaluator.h"
+#include "nn/RbfProblem.h"
 #include "tests/nn/Touches.h"
 
 #include <gtest/gtest.h>
@@ -193,6 +197,53 @@ TEST(RbfTrainer, StopsWhenAskedTo) {
   EXPECT_THROW(trainRbf(set.samples, set.targets, {}, stop.get_token()), Cancelled);
 }
 
+/// What takes long in a fit with noise looks at the token itself, so that no two looks are far apart.
+TEST(RbfTrainer, EachLongStepOfANoisyFitStopsWhenAskedTo) {
+  const test::Touches set = test::touches(4, 6, 1);
+  RbfOptions options;
+  options.relativeInputNoise = 1e-4;
+  options.tail = Tail::LinearPenalised;
+  options.scaling = Scaling::Whiten;
+  std::stop_source source;
+  source.request_stop();
+  const std::stop_token stop = source.get_token();
+  EXPECT_THROW(noisyCopies(set.samples, 1e-4, 10, 1, stop), Cancelled);
+  EXPECT_THROW(squaredDistances(set.samples, set.samples, stop), Cancelled);
+  EXPECT_THROW(rbfProblem(set.samples, set.targets, options, 10, stop), Cancelled);
+  EXPECT_THROW(chooseSpread(set.samples, set.targets, options, stop), Cancelled);
+  EXPECT_THROW(lapack::gram(set.samples.transpose(), stop), Cancelled);
+  EXPECT_THROW(lapack::svdOfGram(set.samples.transpose(), stop), Cancelled);
+  for (const Solver solver : {Solver::PivotedQr, Solver::Cholesky}) {
+    options.solver = solver;
+    const auto problem = rbfProblem(set.samples, set.targets, options, 10);
+    EXPECT_THROW(problem->leaveOneOut(1, {1e-6, 1e-3}, stop), Cancelled);
+    EXPECT_THROW(problem->solve(1, 1e-6, stop), Cancelled);
+    EXPECT_THROW(solveLeastSquares(set.samples.transpose(), set.targets.transpose(), solver, 1e-6, 1e-15, 1, stop),
+                 Cancelled);
+    EXPECT_TRUE(problem->solve(1, 1e-6, {}).weights.allFinite()); // the same work, not asked to stop
+  }
+}
+
+TEST(LinearSolve, ATallSystemInBlocksOfRowsHasTheSolutionOfOneInOnePiece) {
+  const Eigen::MatrixXd a = Eigen::MatrixXd::Random(203, 20), b = Eigen::MatrixXd::Random(203, 3);
+  for (const double ridge : {0.0, 0.1}) {
+    const LinearSolution blocks = solveLeastSquares(a, b, Solver::PivotedQr, ridge, 1e-15, 1);
+    const LinearSolution whole = solveLeastSquares(a, b, Solver::TruncatedSvd, ridge, 1e-15, 1);
+    EXPECT_LT((blocks.x - whole.x).cwiseAbs().maxCoeff(), 1e-13); // a well-conditioned system of numbers of order 1
+    EXPECT_EQ(blocks.rank, 20);
+  }
+}
+
+TEST(LinearSolve, ASemidefiniteSystemOfLowRankIsSolvedInItsRange) {
+  const Eigen::MatrixXd factor = Eigen::MatrixXd::Random(40, 12);
+  const Eigen::MatrixXd a = factor * factor.transpose(), truth = a * Eigen::MatrixXd::Random(40, 2);
+  Eigen::MatrixXd lower = a.triangularView<Eigen::Lower>(); // the other triangle is not read
+  const LinearSolution solution = solveSymmetric(lower, a * truth, Solver::PivotedQr, 0, 1e-13);
+  EXPECT_EQ(solution.rank, 12);
+  EXPECT_LT((a * solution.x - a * truth).norm(), 1e-12 * (a * truth).norm());
+  EXPECT_FALSE(solution.warnings.empty());
+}
+
 /// Inputs of which a small direction tells what a large one does not; noise on all.
 test::Touches hiddenDirection(int count, std::uint64_t seed) {
   Random random(seed);
@@ -277,6 +328,23 @@ TEST(RbfEvaluator, OneByOneAndInBatchesGiveWhatTheDefinitionSays) {
   for (Eigen::Index i = 0; i < scaled.cols(); ++i) {
     evaluator.evaluate({set.samples.col(i).data(), 7}, output, scratch);
     for (int o = 0; o < 3; ++o) EXPECT_NEAR(output[static_cast<std::size_t>(o)], expected(o, i), tolerance);
+  }
+}
+
+TEST(RbfEvaluator, ABatchHoldsTheBytesOfOneByOne) {
+  const test::Touches set = test::touches(27, 7, 1); // 162 centres: 11 blocks of 16, the last one not full
+  for (const Tail tail : {Tail::Linear, Tail::Bias}) {
+    RbfOptions options;
+    options.spread = 0.8;
+    options.tail = tail;
+    const RbfNetwork network = trainRbf(set.samples, set.targets, options).network;
+    const RbfEvaluator evaluator(network);
+    const Eigen::MatrixXd batch = network.predict(set.samples);
+    std::vector<double> output(3), scratch(evaluator.scratchSize());
+    for (Eigen::Index i = 0; i < set.samples.cols(); ++i) {
+      evaluator.evaluate({set.samples.col(i).data(), 7}, output, scratch);
+      for (int o = 0; o < 3; ++o) EXPECT_EQ(output[static_cast<std::size_t>(o)], batch(o, i));
+    }
   }
 }
 

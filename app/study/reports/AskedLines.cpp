@@ -4,8 +4,22 @@
 #include "app/study/ReportPage.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace palp {
+
+namespace {
+
+/// Three digits of each are what a reader compares.
+std::string readable(const Eigen::Vector3d& values) {
+  const auto digits = [](double value) {
+    const double unit = value == 0 ? 1 : std::pow(10, std::floor(std::log10(std::abs(value))) - 2);
+    return std::round(value / unit) * unit;
+  };
+  return triple(values.unaryExpr(digits));
+}
+
+} // namespace
 
 Eigen::Vector3d largest(const Triples& values) {
   Eigen::Vector3d result = values.front();
@@ -22,8 +36,9 @@ Triples ratios(const Triples& above, const Triples& below) {
 void AskedLines::add(const std::string& what, const Eigen::Vector3d& asked, const Triples& values,
                      const std::string& beside) {
   const auto keeps = [&](const Eigen::Vector3d& value) { return (value.array() <= asked.array()).all(); };
-  addRow({what, asked.allFinite() ? "at most " + triple(asked) : "", triple(median(values)), triple(largest(values)),
-          beside},
+  const bool alike = asked.x() == asked.y() && asked.y() == asked.z();
+  const std::string most = "at most " + (alike ? shortNumber(asked.x()) : triple(asked));
+  addRow({what, asked.allFinite() ? most : "", readable(median(values)), readable(largest(values)), beside},
          keeps(largest(values)), keeps(median(values)));
   if (!asked.allFinite()) table_.marks.back() = ReportTable::Mark::Plain; // nothing is asked: it stands for comparison
   for (std::size_t s = 0; s < values.size(); ++s)
