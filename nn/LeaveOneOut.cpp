@@ -17,6 +17,8 @@ namespace {
 constexpr int choiceCopies = 4;
 constexpr int gridSpreads = 24;
 constexpr int refinements = 10;
+/// Steps beyond the grid's upper end, while that is the best: where the samples are few for their inputs.
+constexpr int stepsBeyond = 12;
 /// The optimum is flat where there is noise, and each spread costs more.
 constexpr int noisyGridSpreads = 6;
 constexpr int choiceRidges = 15;
@@ -153,12 +155,17 @@ SpreadChoice chooseSpread(const Eigen::Ref<const Eigen::MatrixXd>& samples,
   const bool noisy = options.relativeInputNoise > 0;
   const int copies = std::min(options.noiseCopies, choiceCopies);
   const std::unique_ptr<RbfProblem> problem = rbfProblem(samples, targets, options, copies, stop);
-  const std::vector<double> spreads = spreadsFor(*problem, noisy);
+  std::vector<double> spreads = spreadsFor(*problem, noisy);
   const std::vector<double> ridges = ridgesOf(options, noisy ? choiceRidges : finalRidges);
   SpreadChoice choice;
   choice.whitening = options.whitening.value_or(firstPower);
   choice.grid = onGrid(*problem, spreads, ridges, options.threads, stop);
-  const std::size_t best = indexOfBest(choice.grid);
+  std::size_t best = indexOfBest(choice.grid);
+  for (int beyond = 0; !noisy && beyond < stepsBeyond && best > 0 && best + 1 == spreads.size(); ++beyond) {
+    spreads.push_back(spreads[best] * spreads[best] / spreads[best - 1]);
+    choice.grid.push_back(onGrid(*problem, {spreads.back()}, ridges, options.threads, stop).front());
+    best = indexOfBest(choice.grid);
+  }
   choice.overall = choice.grid[best];
   if (noisy)
     refineNoisy(samples, targets, options, *problem, copies, ridges, stop, choice);
