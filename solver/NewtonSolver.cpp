@@ -13,7 +13,7 @@ constexpr double growthAfterSuccess = 1.5;
 constexpr double hopelessResidual = 1e8;
 constexpr double acceptedSlope = 0.9; // of the residual's work along the step, against its start
 constexpr int lineSearchTrials = 6;
-constexpr int definitenessTrials = 2;
+constexpr int definitenessTrials = 4;
 // Relative residual below which one or two more iterations with the same tangent end it.
 constexpr double keepFactorBelow = 1e-5;
 // So many more iterations with the same tangent cost less than a new one.
