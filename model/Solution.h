@@ -2,12 +2,14 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
 namespace palp {
 
-/// One Newton iteration: the residual's norm over the load's norm at this load fraction.
+/// The residual's norm over the load's norm at this load fraction, after an iteration of Newton's; iteration 0 is the
+/// start of a load step.
 struct NewtonStep {
   double loadFraction = 0;
   int iteration = 0;
@@ -34,6 +36,11 @@ struct Solution {
 
   /// The last converged state.
   [[nodiscard]] const LoadIncrement& state() const { return increments.back(); }
+  /// Newton iterations of all load steps, those given up among them.
+  [[nodiscard]] int iterations() const {
+    return static_cast<int>(
+        std::count_if(newton.begin(), newton.end(), [](const NewtonStep& step) { return step.iteration > 0; }));
+  }
 };
 
 /// Fields for the eye and the file, at the nodes (averaged over the elements around a node).

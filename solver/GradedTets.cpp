@@ -68,15 +68,6 @@ double rimSize(const Grading& grading, const FineDisc& disc) {
   return grading.border_mm * std::min(1., disc.radius_mm / grading.bulk_mm);
 }
 
-/// Face diagonals join the grid points whose indices are both even to those where both are odd. An edge where stresses
-/// are singular is resolved better where diagonals run into it: its two indices are to be both even or both odd. So the
-/// rims of the clamped face get even indices, and the borders of the load areas that of the top face.
-std::vector<ParityPlace> bordersOf(double length, int parts, int topIndex) {
-  std::vector<ParityPlace> borders;
-  for (int i = 0; i <= parts; ++i) borders.push_back({length * i / parts, i > 0 && i < parts && topIndex % 2 == 1});
-  return borders;
-}
-
 Grid gradedGrid(const SensorDesign& design, const Grading& grading, const std::vector<FineDisc>& discs,
                 const Eigen::Matrix3Xd& electrodes) {
   const Eigen::Vector3d& block = design.block_mm;
@@ -90,13 +81,15 @@ Grid gradedGrid(const SensorDesign& design, const Grading& grading, const std::v
     }
   grid.stops[2] = {0, block.z()};
   grid.sizes[2] = {grading.vertical_mm, grading.growth, {{0, grading.bottom_mm}, {block.z(), grading.top_mm}}};
-  for (int d = 0; d < 3; ++d) {
+  // Face diagonals join the grid points whose indices are both even to those where both are odd. An edge where stresses
+  // are singular is resolved better where diagonals run into it: its two indices are to be both even or both odd. So
+  // the rims of the clamped face get even indices, and the borders of the load areas the parity of the top face.
+  for (const int d : {2, 0, 1}) {
+    const std::vector<double> borders = grid.stops[d];
     addStops(grid.stops[d], electrodes.row(d));
     grid.lines[d] = gridLines(grid.stops[d], grid.sizes[d]);
+    if (d < 2) meetParities(borders, (grid.count(2) - 1) % 2 == 1, grid.sizes[d], grid.lines[d]);
   }
-  const int top = grid.count(2) - 1;
-  const std::array<int, 2> parts{design.areas.columns, design.areas.rows};
-  for (int d = 0; d < 2; ++d) meetParities(bordersOf(block(d), parts[d], top), grid.sizes[d], grid.lines[d]);
   return grid;
 }
 

@@ -35,11 +35,13 @@ std::vector<double> gridLines(const std::vector<double>& stops, const SizeAlong&
   return lines;
 }
 
-void meetParities(const std::vector<ParityPlace>& places, const SizeAlong& size, std::vector<double>& lines) {
-  for (std::size_t i = 0; i + 1 < places.size(); ++i) {
-    const auto first = std::find(lines.begin(), lines.end(), places[i].at_mm);
-    const auto last = std::find(first, lines.end(), places[i + 1].at_mm);
-    if (((last - lines.begin()) % 2 == 1) == places[i + 1].odd) continue;
+void meetParities(const std::vector<double>& borders, bool oddBetween, const SizeAlong& size,
+                  std::vector<double>& lines) {
+  for (std::size_t i = 0; i + 1 < borders.size(); ++i) {
+    const auto first = std::find(lines.begin(), lines.end(), borders[i]);
+    const auto last = std::find(first, lines.end(), borders[i + 1]);
+    const bool odd = oddBetween && i + 2 < borders.size();
+    if (((last - lines.begin()) % 2 == 1) == odd) continue;
     const auto relativeWidth = [&](auto line) { return (*(line + 1) - *line) / size((*line + *(line + 1)) / 2); };
     auto widest = first;
     for (auto line = first; line != last; ++line)

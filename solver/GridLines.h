@@ -21,14 +21,10 @@ struct SizeAlong {
 /// Coordinates of grid lines through all `stops` (ascending), each interval cut into cells of the wanted sizes.
 std::vector<double> gridLines(const std::vector<double>& stops, const SizeAlong& size);
 
-/// A line whose index, counted from 0, is to be odd or even.
-struct ParityPlace {
-  double at_mm = 0;
-  bool odd = false;
-};
-
-/// Splits the widest cell, measured by the wanted size, between two of the places (lines, ascending, the first at index
-/// 0) wherever the second one's index has the other parity.
-void meetParities(const std::vector<ParityPlace>& places, const SizeAlong& size, std::vector<double>& lines);
+/// Splits the widest cell, measured by the wanted size, between two of the borders (lines, ascending) where it takes
+/// another line for the indices that are wanted, counted from 0: of the last border an even one, of those between odd
+/// ones or even ones. The first is the first line.
+void meetParities(const std::vector<double>& borders, bool oddBetween, const SizeAlong& size,
+                  std::vector<double>& lines);
 
 } // namespace palp

@@ -19,7 +19,7 @@ struct FineDisc {
 std::vector<FineDisc> fineDiscs(const LoadCase& load);
 
 /// Which mesh; at most one of the first two members is given. None: the default, graded to the load areas' borders, the
-/// free and the clamped edges and the electrodes, for about 2 % in the electrode displacements.
+/// free and the clamped edges and the electrodes, for about 1 % in the electrode displacements.
 struct MeshOptions {
   std::optional<double> meshSize_mm;        ///< tetrahedra: size in the bulk; the grading scales with it
   std::optional<std::array<int, 3>> mapped; ///< the paper's mapped mesh: hexahedra along x, y, z

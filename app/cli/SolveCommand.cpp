@@ -80,7 +80,7 @@ void print(const Touch& touch, const DiscretisationError* error) {
   const Solution& solution = *touch.solution();
   const Eigen::Matrix3Xd& u = touch.displacements()->upper_mm;
   if (solution.converged)
-    std::printf("converged in %zu Newton iterations\n", solution.newton.size());
+    std::printf("converged in %d Newton iterations\n", solution.iterations());
   else
     std::printf("not converged: reached %.4g of the load; %s\n", solution.reachedLoadFraction,
                 solution.stopReason.c_str());

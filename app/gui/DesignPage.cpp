@@ -140,7 +140,7 @@ QGroupBox* DesignPage::buildMesh() {
   auto* sizeRow = new QHBoxLayout;
   automaticSize_ = new QCheckBox(tr("standard size"));
   automaticSize_->setObjectName("automaticSize");
-  automaticSize_->setToolTip(tr("Graded for about 2 % in the electrode displacements"));
+  automaticSize_->setToolTip(tr("Graded for about 1 % in the electrode displacements"));
   size_ = new QDoubleSpinBox;
   size_->setObjectName("meshSize");
   size_->setRange(0.5, 100);

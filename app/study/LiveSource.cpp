@@ -9,7 +9,7 @@ namespace palp {
 
 namespace {
 
-void refuseOthers(const std::string& what, const std::vector<int>& broken, int wires) {
+void refuseOutside(const std::string& what, const std::vector<int>& broken, int wires) {
   for (const int wire : broken)
     if (wire < 0 || wire >= wires)
       throw Error("virtual board: broken " + what + ": " + std::to_string(wire) + "; allowed is 0 to " +
@@ -28,8 +28,8 @@ std::unique_ptr<ReportSource> openSimulatedBoard(const SimulatedBoardOptions& op
                                                  std::shared_ptr<SimulationControl> control) {
   const std::filesystem::path file = options.samples.empty() ? resource("board/paper-samples.csv") : options.samples;
   Board board = simulatedBoard(loadSamples(file), options.disturbance, options.rate_Hz, options.seed);
-  refuseOthers("row-wire", options.faults.openRows, board.info().rowWires);
-  refuseOthers("column-wire", options.faults.openColumns, board.info().columnWires);
+  refuseOutside("row-wire", options.faults.openRows, board.info().rowWires);
+  refuseOutside("column-wire", options.faults.openColumns, board.info().columnWires);
   board.faults() = options.faults;
   return std::make_unique<SimulatedSource>(std::move(board), std::move(control));
 }

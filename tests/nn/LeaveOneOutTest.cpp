@@ -1,4 +1,5 @@
 #include "nn/LeaveOneOut.h"
+#include "nn/Random.h"
 
 #include "tests/nn/Touches.h"
 
@@ -47,6 +48,22 @@ INSTANTIATE_TEST_SUITE_P(Kinds, LeaveOneOutOf,
                                          Case{"linear", CenterChoice::Samples, Tail::Linear, 1e-3},
                                          Case{"linearSmallRidge", CenterChoice::Samples, Tail::Linear, 1e-6}),
                          [](const auto& one) { return std::string(one.param.what); });
+
+TEST(LeaveOneOut, GoesOnBeyondTheGridWhileItsEndIsTheBest) {
+  // A parabola in three of twenty inputs, known at few places: the flat limit of the basis is the best.
+  Random random(5);
+  const Eigen::MatrixXd samples = Eigen::MatrixXd::NullaryExpr(20, 60, [&](auto, auto) { return random.normal(); });
+  const Eigen::MatrixXd targets = samples.topRows(3).colwise().squaredNorm();
+  RbfOptions options;
+  options.ridge = {};
+  const SpreadChoice choice = chooseSpread(samples, targets, options);
+  ASSERT_GT(choice.grid.size(), 24U);
+  for (std::size_t i = 24; i < choice.grid.size(); ++i) { // each step was taken because the one before was the best yet
+    for (std::size_t k = 0; k + 1 < i; ++k) EXPECT_LE(choice.grid[i - 1].score, choice.grid[k].score) << i << " " << k;
+    EXPECT_GT(choice.grid[i].spread, choice.grid[i - 1].spread);
+  }
+  EXPECT_LE(choice.overall.score, choice.grid[23].score);
+}
 
 TEST(LeaveOneOut, ManyRidgesByEigenvaluesAgreeWithOneByInverse) {
   const test::Touches set = test::touches(8, 6, 4);
