@@ -24,9 +24,9 @@ struct ElementForces {
 /// The elements' tangents with their own unknowns eliminated. A modified Newton iteration condenses later residuals
 /// with the elimination of the tangent that was factorised.
 struct ElementTangents {
-  UnsetArray stiffness;    ///< [elements][d (d + 1) / 2]
-  UnsetArray elimination;  ///< [blocks][unknowns d][8]
-  UnsetArray localInverse; ///< [blocks][unknowns (unknowns + 1) / 2][8]
+  UnsetArray<double> stiffness;    ///< [elements][d (d + 1) / 2]
+  UnsetArray<double> elimination;  ///< [blocks][unknowns d][8]
+  UnsetArray<double> localInverse; ///< [blocks][unknowns (unknowns + 1) / 2][8]
 };
 
 /// Sums the elements into global forces and the tangent, whose pattern it finds once. Every sum goes over the elements

@@ -52,8 +52,8 @@ private:
 } // namespace
 
 BatchEngine::BatchEngine(const HyperelasticProblem& problem, std::shared_ptr<const RestTangent> rest, double tolerance,
-                         int threads, const std::stop_token& stop)
-    : problem_(problem), rest_(std::move(rest)), model_(problem.parts(), *rest_, threads, stop),
+                         int threads)
+    : problem_(problem), rest_(std::move(rest)), model_(problem.parts(), *rest_),
       polynomial_(problem.design().forceRange, predictorDegree),
       terms_((polynomial_.terms() + lanes - 1) / lanes * lanes), predictorTolerance_(fitShare * tolerance),
       threads_(threads) {

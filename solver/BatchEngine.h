@@ -23,7 +23,7 @@ class BatchEngine {
 public:
   /// `tolerance` is what the predictors are made for; a solve may ask for another.
   BatchEngine(const HyperelasticProblem& problem, std::shared_ptr<const RestTangent> rest, double tolerance,
-              int threads, const std::stop_token& stop);
+              int threads);
 
   /// Answer of one load; without one: full Newton must find it.
   using Answer = std::optional<ElectrodeDisplacements>;

@@ -43,9 +43,8 @@ struct BatchSolver::State {
     if (engine) return true;
     auto rest = problem.parts().restTangent(options.threads, stop);
     if (!rest || stop.stop_requested()) return false;
-    engine = std::make_unique<BatchEngine>(problem, std::move(rest), options.relativeTolerance, options.threads, stop);
-    if (stop.stop_requested()) engine.reset(); // perhaps incomplete
-    return engine != nullptr;
+    engine = std::make_unique<BatchEngine>(problem, std::move(rest), options.relativeTolerance, options.threads);
+    return true;
   }
 
   /// Full Newton for one load, with all threads. Empty: stopped.

@@ -11,7 +11,7 @@ namespace palp {
 
 namespace {
 
-constexpr int tile = 256;
+constexpr int tile = frontTile;
 
 int tiles(int n) {
   return (n + tile - 1) / tile;
@@ -37,9 +37,11 @@ void updateTile(const double* rows, int m, const double* columns, int n, int dep
                 targetStride);
 }
 
-/// C -= L L^T for the lower trapezium C (height x width) by tiles of columns, each cut into tiles of rows.
-bool subtractProduct(const double* L, int height, int width, int depth, int stride, double* C, int strideC, double beta,
-                     const TaskRunner& run) {
+/// C -= L L^T for the lower trapezium C (height x width) by tiles of columns, each cut into tiles of rows; `columnOf`
+/// is C's column, addressed by rows, and `strideOf` the distance to the next.
+template <class ColumnOf, class StrideOf>
+bool subtractProduct(const double* L, int height, int width, int depth, int stride, const ColumnOf& columnOf,
+                     const StrideOf& strideOf, double beta, const TaskRunner& run) {
   struct Task {
     int row, rows, column, columns;
   };
@@ -50,12 +52,24 @@ bool subtractProduct(const double* L, int height, int width, int depth, int stri
   }
   return run(static_cast<int>(tasks.size()), double(height) * width * depth, [&](int t) {
     const auto [row, rows, column, columns] = tasks[t];
-    updateTile(L + row, rows, L + column, columns, depth, stride, C + row + std::size_t(column) * strideC, strideC,
-               beta, row == column);
+    updateTile(L + row, rows, L + column, columns, depth, stride, columnOf(column) + row, strideOf(column), beta,
+               row == column);
   });
 }
 
 } // namespace
+
+UpdateMatrix::UpdateMatrix(int size) : size_(size) {
+  std::size_t numbers = 0;
+  for (int j = 0; j < size; j += tile) numbers += std::size_t(std::min(tile, size - j)) * stride(j);
+  values_.resize(numbers);
+}
+
+std::size_t UpdateMatrix::start(int j) const {
+  const std::size_t block = j / tile, size = size_;
+  const std::size_t before = tile * block * size - tile * tile * (block * (block - 1) / 2);
+  return before + (j - block * tile) * (size - block * tile) - block * tile;
+}
 
 FrontOutcome factoriseFront(double* panel, int height, int width, UpdateMatrix& update, const TaskRunner& run) {
   for (int k = 0; k < width; k += tile) {
@@ -68,29 +82,22 @@ FrontOutcome factoriseFront(double* panel, int height, int width, UpdateMatrix& 
                   depth, 1, diagonal, height, L + t * tile, height);
     });
     if (!solved) return FrontOutcome::Stopped;
-    if (!subtractProduct(L, below, width - k - depth, depth, height, L + std::size_t(depth) * height, height, 1, run))
+    double* rest = L + std::size_t(depth) * height;
+    if (!subtractProduct(
+            L, below, width - k - depth, depth, height, [&](int c) { return rest + std::size_t(c) * height; },
+            [&](int) { return height; }, 1, run))
       return FrontOutcome::Stopped;
   }
-  if (update.size > 0 && !subtractProduct(panel + width, update.size, update.size, width, height, update.values.data(),
-                                          update.size, 0, run))
+  if (update.size() > 0 &&
+      !subtractProduct(
+          panel + width, update.size(), update.size(), width, height, [&](int c) { return update.column(c); },
+          [&](int c) { return update.stride(c); }, 0, run))
     return FrontOutcome::Stopped;
   return FrontOutcome::Done;
 }
 
 void useOneBlasThread() {
   openblas_set_num_threads(1);
-}
-
-void forwardPanel(const double* panel, int height, int width, double* x, double* y) {
-  cblas_dtrsv(CblasColMajor, CblasLower, CblasNoTrans, CblasNonUnit, width, panel, height, x, 1);
-  if (height > width)
-    cblas_dgemv(CblasColMajor, CblasNoTrans, height - width, width, -1, panel + width, height, x, 1, 1, y, 1);
-}
-
-void backwardPanel(const double* panel, int height, int width, double* x, const double* y) {
-  if (height > width)
-    cblas_dgemv(CblasColMajor, CblasTrans, height - width, width, -1, panel + width, height, y, 1, 1, x, 1);
-  cblas_dtrsv(CblasColMajor, CblasLower, CblasTrans, CblasNonUnit, width, panel, height, x, 1);
 }
 
 } // namespace palp

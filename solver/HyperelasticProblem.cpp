@@ -25,7 +25,7 @@ HyperelasticProblem::Parts::Parts(SensorDesign d, Mesh m)
 
 std::shared_ptr<const CholeskyPlan> HyperelasticProblem::Parts::plan() const {
   const std::lock_guard lock(mutex_);
-  if (!plan_) plan_ = std::make_shared<const CholeskyPlan>(*assembler.pattern());
+  if (!plan_) plan_ = std::make_shared<const CholeskyPlan>(assembler.pattern());
   return plan_;
 }
 
@@ -38,9 +38,9 @@ std::shared_ptr<const RestTangent> HyperelasticProblem::Parts::restTangent(int t
   auto rest = std::make_shared<RestTangent>(RestTangent{{}, {}, SparseCholesky(symbolic)});
   assembler.tangent(discretisation->atRest(), rest->tangents, rest->forces, threads, stop);
   if (stop.stop_requested()) return {};
-  const LaneVector matrix = assembler.matrix(rest->tangents, threads);
+  LaneVector matrix = assembler.matrix(rest->tangents, threads);
   rest->tangents.stiffness = {};
-  const auto outcome = rest->factor.factorise(matrix, threads, stop);
+  const auto outcome = rest->factor.factorise(std::move(matrix), threads, stop);
   if (outcome == SparseCholesky::Outcome::Stopped) return {};
   if (outcome == SparseCholesky::Outcome::NotPositiveDefinite)
     throw std::logic_error("the tangent at rest is not positive definite");

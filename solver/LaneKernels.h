@@ -6,12 +6,12 @@ namespace palp {
 
 /// Loads that are iterated together: one a lane.
 inline constexpr int groupLanes = 32;
-inline constexpr int laneFactorRows = 8;
+inline constexpr int factorBlockRows = 8;
 
-/// A Cholesky factor laid out for many right sides, in single precision: it only preconditions an iteration whose
-/// residuals are in double. Each supernode's panel is cut into blocks of 8 rows, [column][8]: first the blocks of its
-/// own rows (columns up to the block's diagonal, which holds inverses), then the rows below, filled up with zeros.
-struct LaneFactor {
+/// A Cholesky factor in single precision: it only preconditions iterations whose residuals are in double. Each
+/// supernode's panel is cut into blocks of 8 rows, [column][8]: first the blocks of its own rows (columns up to the
+/// block's diagonal, which holds inverses), then the rows below, filled up with zeros.
+struct BlockedFactor {
   int count;                ///< supernodes
   const int* first;         ///< first place of each supernode
   const std::size_t* start; ///< of each supernode in values
@@ -23,8 +23,11 @@ struct LaneFactor {
 struct LaneKernels {
   /// Substitution through supernodes first .. last - 1, upwards by L or downwards by L^T, for x [places +
   /// 1][groupLanes].
-  void (*forward)(const LaneFactor&, int first, int last, float* x);
-  void (*backward)(const LaneFactor&, int first, int last, float* x);
+  void (*forward)(const BlockedFactor&, int first, int last, float* x);
+  void (*backward)(const BlockedFactor&, int first, int last, float* x);
+  /// The same for one right side x [places + 1].
+  void (*forwardOne)(const BlockedFactor&, int first, int last, double* x);
+  void (*backwardOne)(const BlockedFactor&, int first, int last, double* x);
   /// out[row * stride + lane] += sum over t of coefficients[row][t] monomials[t][lane], 8 lanes.
   void (*addPolynomials)(const double* coefficients, int terms, const double* monomials, int rows, double* out,
                          int stride);

@@ -26,7 +26,7 @@ template <class T> struct CacheLineAllocator {
 using LaneVector = std::vector<double, CacheLineAllocator<double>>;
 
 /// Numbers that are unset until they are written.
-class UnsetArray {
+template <class T> class UnsetArray {
 public:
   UnsetArray() = default;
   explicit UnsetArray(std::size_t size) { resize(size); }
@@ -34,18 +34,18 @@ public:
   void resize(std::size_t size) {
     if (size == this->size()) return;
     memory_.reset(); // before the new memory is there
-    if (size > 0) memory_ = {static_cast<double*>(lineMemory(size * sizeof(double))), Free{size}};
+    if (size > 0) memory_ = {static_cast<T*>(lineMemory(size * sizeof(T))), Free{size}};
   }
   [[nodiscard]] std::size_t size() const { return memory_ ? memory_.get_deleter().size : 0; }
-  [[nodiscard]] double* data() { return memory_.get(); }
-  [[nodiscard]] const double* data() const { return memory_.get(); }
+  [[nodiscard]] T* data() { return memory_.get(); }
+  [[nodiscard]] const T* data() const { return memory_.get(); }
 
 private:
   struct Free {
     std::size_t size;
-    void operator()(double* p) const { freeLineMemory(p, size * sizeof(double)); }
+    void operator()(T* p) const { freeLineMemory(p, size * sizeof(T)); }
   };
-  std::unique_ptr<double[], Free> memory_{nullptr, Free{0}};
+  std::unique_ptr<T[], Free> memory_{nullptr, Free{0}};
 };
 
 } // namespace palp

@@ -104,7 +104,7 @@ void LoadGroup::solveDirections(const std::array<bool, groupLanes>& active, cons
         const double r = inverse[lane] > 0 ? r_[i * groupLanes + lane] * inverse[lane] : 0;
         solution_[std::size_t(places[i]) * groupLanes + lane] = static_cast<float>(r);
       }
-  const LaneFactor factor = model_.factor();
+  const BlockedFactor factor = model_.factor();
   for (int first = 0; first < factor.count && !stop.stop_requested(); first += supernodesACall)
     laneKernels().forward(factor, first, std::min(factor.count, first + supernodesACall), solution_.data());
   for (int last = factor.count; last > 0 && !stop.stop_requested(); last -= supernodesACall)

@@ -90,9 +90,9 @@ NewtonSolver::Outcome NewtonSolver::newTangent(const Loading& loading, double fr
   setResidual(loading, fraction);
   if (prescribed)
     residual_ -= assembler_.discretisation().freePart(assembler_.stiffnessTimes(ownTangents_, *prescribed));
-  const LaneVector matrix = assembler_.matrix(ownTangents_, options_.threads);
+  LaneVector matrix = assembler_.matrix(ownTangents_, options_.threads);
   ownTangents_.stiffness = {}; // summed up; the factor needs its memory
-  const auto outcome = cholesky_.factorise(matrix, options_.threads, observer_.stop);
+  const auto outcome = cholesky_.factorise(std::move(matrix), options_.threads, observer_.stop);
   if (outcome == SparseCholesky::Outcome::Stopped) return Outcome::Cancelled;
   if (outcome == SparseCholesky::Outcome::NotPositiveDefinite) return Outcome::Indefinite;
   factor_ = &cholesky_;

@@ -1,17 +1,14 @@
 #pragma once
 
-#include "solver/LaneKernels.h"
 #include "solver/ProblemParts.h"
-
-#include <span>
 
 namespace palp {
 
-/// The tangent at rest laid out for many loads at once: element by element, and the factor in lanes.
+/// The tangent at rest laid out for many loads at once: element by element.
 class RestModel {
 public:
-  /// Stopped, it is of no use.
-  RestModel(const HyperelasticProblem::Parts& parts, const RestTangent& rest, int threads, const std::stop_token& stop);
+  /// Both are to outlive it.
+  RestModel(const HyperelasticProblem::Parts& parts, const RestTangent& rest);
 
   [[nodiscard]] const Discretisation& mesh() const { return mesh_; }
   [[nodiscard]] const RubberConstants& rubber() const { return rubber_; }
@@ -21,23 +18,19 @@ public:
   /// Place in the factor of each component (3 node + direction); -1 where it is prescribed.
   [[nodiscard]] const std::vector<int>& places() const { return places_; }
   [[nodiscard]] int placeCount() const { return mesh_.dof() + 1; } ///< the last one is the filling's
-  [[nodiscard]] LaneFactor factor() const;
+  [[nodiscard]] BlockedFactor factor() const { return factor_.blocks(); }
 
 private:
   static const double* item(const std::vector<double>& values, int element, std::size_t size) {
     return values.data() + element * size;
   }
-  void placeFactor(const SupernodeTree& tree);
-  void packSupernode(const SparseCholesky& cholesky, int s);
 
   const Discretisation& mesh_;
   RubberConstants rubber_;
+  const SparseCholesky& factor_;
   std::size_t geometrySize_, eliminationSize_, inverseSize_;
   std::vector<double> geometry_, elimination_, localInverse_;
   std::vector<int> places_;
-  std::vector<int> first_, blockStart_, rows_;
-  std::vector<std::size_t> start_;
-  std::vector<float, CacheLineAllocator<float>> values_;
 };
 
 } // namespace palp

@@ -13,6 +13,8 @@ namespace {
 
 constexpr double subtreeShare = 1. / 16; // of all work: a subtree above it is cut further
 constexpr double worthAThread = 2e7;     // flops
+constexpr int blocksATask = 16;
+constexpr int supernodesACall = 64;
 
 double work(const SupernodeTree& tree, int s) {
   return double(tree.width(s)) * tree.height(s) * tree.height(s);
@@ -41,28 +43,93 @@ std::vector<Run> runsInParent(const SupernodeTree& tree, int s) {
 }
 
 /// Adds the columns of some runs of a child's update to a matrix whose first row and column are the parent's number
-/// `shift`.
+/// `shift`; `columnOf` is that matrix's column, addressed by rows.
+template <class ColumnOf>
 void extendAdd(const UpdateMatrix& child, const std::vector<Run>& runs, std::size_t firstRun, std::size_t lastRun,
-               double* target, std::size_t stride, int shift) {
+               const ColumnOf& columnOf, int shift) {
   for (std::size_t r = firstRun; r < lastRun; ++r)
     for (int j = 0; j < runs[r].length; ++j) {
-      const double* column = child.values.data() + std::size_t(runs[r].from + j) * child.size;
-      double* out = target + std::size_t(runs[r].to + j - shift) * stride;
+      const double* column = child.column(runs[r].from + j);
+      double* out = columnOf(runs[r].to + j - shift);
       for (int i = j; i < runs[r].length; ++i) out[runs[r].to - shift + i] += column[runs[r].from + i];
       for (std::size_t q = r + 1; q < runs.size(); ++q)
         for (int i = 0; i < runs[q].length; ++i) out[runs[q].to - shift + i] += column[runs[q].from + i];
     }
 }
 
+/// Numbers of the blocks of a supernode's own rows above row r0.
+std::size_t ownBlockStart(int r0) {
+  const std::size_t blocks = (r0 + factorBlockRows - 1) / factorBlockRows;
+  return blocks * (blocks + 1) / 2 * factorBlockRows * factorBlockRows;
+}
+
+/// A block of the supernode's own rows; its diagonal is inverted.
+void packOwnBlock(const double* panel, int height, int width, int r0, float* out) {
+  constexpr int R = factorBlockRows;
+  for (int k = 0; k < r0 + R; ++k)
+    for (int r = 0; r < R; ++r) {
+      const bool inside = r0 + r < width && k <= r0 + r && k < width;
+      const double value = inside ? panel[std::size_t(k) * height + r0 + r] : 0;
+      *out++ = static_cast<float>(inside && k == r0 + r ? 1 / value : value);
+    }
+}
+
+/// A block of the rows below.
+void packBlockBelow(const double* panel, int height, int width, int r0, float* out) {
+  constexpr int R = factorBlockRows;
+  const int rows = std::min(R, height - r0);
+  for (int k = 0; k < width; ++k, out += R) {
+    for (int r = 0; r < rows; ++r) out[r] = static_cast<float>(panel[std::size_t(k) * height + r0 + r]);
+    std::fill(out + rows, out + R, 0.F);
+  }
+}
+
+/// A factorised panel as blocks; false: stopped.
+bool packPanel(const double* panel, int height, int width, float* out, const TaskRunner& run) {
+  constexpr int R = factorBlockRows;
+  const int own = (width + R - 1) / R, blocks = own + (height - width + R - 1) / R;
+  return run((blocks + blocksATask - 1) / blocksATask, double(height) * width, [&](int t) {
+    for (int b = t * blocksATask; b < std::min(blocks, (t + 1) * blocksATask); ++b)
+      if (b < own)
+        packOwnBlock(panel, height, width, b * R, out + ownBlockStart(b * R));
+      else
+        packBlockBelow(panel, height, width, width + (b - own) * R,
+                       out + ownBlockStart(width) + std::size_t(b - own) * width * R);
+  });
+}
+
 } // namespace
 
-CholeskyPlan::CholeskyPlan(const SparsePattern& pattern) : tree_(supernodeTree(pattern)) {
-  findEntries(pattern);
+CholeskyPlan::CholeskyPlan(std::shared_ptr<const SparsePattern> pattern)
+    : pattern_(std::move(pattern)), tree_(supernodeTree(*pattern_)) {
+  placeBlocks();
+  findEntries();
   cutTree();
 }
 
+void CholeskyPlan::placeBlocks() {
+  constexpr int R = factorBlockRows;
+  blocksStart_ = {0};
+  blockBelow_ = {0};
+  for (int s = 0; s < tree_.count(); ++s) {
+    const int width = tree_.width(s), height = tree_.height(s);
+    std::size_t numbers = ownBlockStart(width);
+    for (int r0 = width; r0 < height; r0 += R) {
+      numbers += std::size_t(width) * R;
+      for (int r = 0; r < R; ++r) blockRows_.push_back(r0 + r < height ? tree_.rowsOf(s)[r0 + r] : tree_.size());
+    }
+    blocksStart_.push_back(blocksStart_.back() + numbers);
+    blockBelow_.push_back(static_cast<int>(blockRows_.size()) / R);
+  }
+}
+
+BlockedFactor CholeskyPlan::blocks(const float* values) const {
+  return {tree_.count(), tree_.first.data(), blocksStart_.data(), blockBelow_.data(), blockRows_.data(), values};
+}
+
 /// Sorts the matrix's entries by the supernode whose panel they belong to.
-void CholeskyPlan::findEntries(const SparsePattern& pattern) {
+void CholeskyPlan::findEntries() {
+  const SparsePattern& pattern = *pattern_;
   const int n = tree_.size();
   std::vector<int> place(n), supernode(n);
   for (int i = 0; i < n; ++i) place[tree_.order[i]] = i;
@@ -128,33 +195,40 @@ void CholeskyPlan::cutTree() {
 }
 
 SparseCholesky::SparseCholesky(std::shared_ptr<const CholeskyPlan> plan)
-    : plan_(std::move(plan)), panels_(plan_->tree().panelStart.back()) {}
+    : plan_(std::move(plan)), factor_(plan_->factorSize()) {}
 
 namespace {
 
 /// One factorisation: fronts and what they hand up.
 class Multifrontal {
 public:
-  Multifrontal(const CholeskyPlan& plan, std::span<const double> values, double* panels)
-      : plan_(plan), tree_(plan.tree()), values_(values), panels_(panels), updates_(tree_.count()) {}
+  Multifrontal(const CholeskyPlan& plan, std::span<const double> values, float* factor)
+      : plan_(plan), tree_(plan.tree()), values_(values), factor_(factor), updates_(tree_.count()) {}
 
   FrontOutcome factorise(int s, const TaskRunner& run) {
     const std::vector<int>& children = plan_.children(s);
     const int width = tree_.width(s), height = tree_.height(s);
-    double* panel = panels_ + tree_.panelStart[s];
-    std::fill(panel, panels_ + tree_.panelStart[s + 1], 0.);
+    UnsetArray<double> front(std::size_t(height) * width);
+    double* panel = front.data();
+    std::fill_n(panel, front.size(), 0.);
     for (const auto& [value, position] : plan_.entries(s)) panel[position] += values_[value];
     std::vector<std::vector<Run>> runs;
     for (int child : children) {
       runs.push_back(runsInParent(tree_, child));
-      extendAdd(updates_[child], runs.back(), 0, runsWithin(runs.back(), width), panel, height, 0);
+      extendAdd(
+          updates_[child], runs.back(), 0, runsWithin(runs.back(), width),
+          [&](int c) { return panel + std::size_t(c) * height; }, 0);
     }
-    UpdateMatrix update{tree_.below(s), UnsetArray(std::size_t(tree_.below(s)) * tree_.below(s))};
-    const FrontOutcome outcome = factoriseFront(panel, height, width, update, run);
+    UpdateMatrix update(tree_.below(s));
+    FrontOutcome outcome = factoriseFront(panel, height, width, update, run);
+    if (outcome == FrontOutcome::Done &&
+        !packPanel(panel, height, width, factor_ + plan_.blocks(factor_).start[s], run))
+      outcome = FrontOutcome::Stopped;
     for (std::size_t c = 0; c < children.size(); ++c) {
-      extendAdd(updates_[children[c]], runs[c], runsWithin(runs[c], width), runs[c].size(), update.values.data(),
-                update.size, width);
-      updates_[children[c]].values = {};
+      extendAdd(
+          updates_[children[c]], runs[c], runsWithin(runs[c], width), runs[c].size(),
+          [&](int k) { return update.column(k); }, width);
+      updates_[children[c]] = {};
     }
     updates_[s] = std::move(update);
     return outcome;
@@ -169,16 +243,16 @@ private:
   const CholeskyPlan& plan_;
   const SupernodeTree& tree_;
   std::span<const double> values_;
-  double* panels_;
+  float* factor_;
   std::vector<UpdateMatrix> updates_;
 };
 
 } // namespace
 
-SparseCholesky::Outcome SparseCholesky::factorise(std::span<const double> values, int threads,
-                                                  const std::stop_token& stop) {
+SparseCholesky::Outcome SparseCholesky::factorise(LaneVector values, int threads, const std::stop_token& stop) {
   useOneBlasThread();
-  Multifrontal fronts(*plan_, values, panels_.data());
+  matrix_ = std::move(values);
+  Multifrontal fronts(*plan_, matrix_, factor_.data());
   std::atomic<FrontOutcome> worst{FrontOutcome::Done};
   const TaskRunner alone = [&](int count, double, const std::function<void(int)>& task) {
     for (int t = 0; t < count; ++t) task(t);
@@ -213,24 +287,40 @@ SparseCholesky::Outcome SparseCholesky::factorise(std::span<const double> values
 }
 
 void SparseCholesky::solve(Eigen::VectorXd& rightSide, const std::stop_token& stop) const {
+  Eigen::VectorXd x = rightSide;
+  substitute(x, stop);
+  rightSide -= times(x);
+  substitute(rightSide, stop);
+  rightSide += x;
+}
+
+void SparseCholesky::substitute(Eigen::VectorXd& x, const std::stop_token& stop) const {
   const SupernodeTree& tree = plan_->tree();
-  Eigen::VectorXd x(tree.size()), y;
-  for (int i = 0; i < tree.size(); ++i) x(i) = rightSide(tree.order[i]);
-  for (int s = 0; s < tree.count() && !stop.stop_requested(); ++s) {
-    y.setZero(tree.below(s));
-    forwardPanel(panels_.data() + tree.panelStart[s], tree.height(s), tree.width(s), x.data() + tree.first[s],
-                 y.data());
-    const int* rows = tree.rowsOf(s) + tree.width(s);
-    for (Eigen::Index i = 0; i < y.size(); ++i) x(rows[i]) += y(i);
+  const BlockedFactor factor = blocks();
+  Eigen::VectorXd inOrder(tree.size() + 1);
+  for (int i = 0; i < tree.size(); ++i) inOrder(i) = x(tree.order[i]);
+  inOrder(tree.size()) = 0;
+  for (int first = 0; first < factor.count && !stop.stop_requested(); first += supernodesACall)
+    laneKernels().forwardOne(factor, first, std::min(factor.count, first + supernodesACall), inOrder.data());
+  for (int last = factor.count; last > 0 && !stop.stop_requested(); last -= supernodesACall)
+    laneKernels().backwardOne(factor, std::max(0, last - supernodesACall), last, inOrder.data());
+  for (int i = 0; i < tree.size(); ++i) x(tree.order[i]) = inOrder(i);
+}
+
+/// The matrix times x.
+Eigen::VectorXd SparseCholesky::times(const Eigen::VectorXd& x) const {
+  const SparsePattern& pattern = plan_->pattern();
+  Eigen::VectorXd product = Eigen::VectorXd::Zero(x.size());
+  for (int j = 0; j < pattern.size(); ++j) {
+    const int diagonal = pattern.columns[j];
+    double sum = matrix_[diagonal] * x(j);
+    for (int k = diagonal + 1; k < pattern.columns[j + 1]; ++k) {
+      product(pattern.rows[k]) += matrix_[k] * x(j);
+      sum += matrix_[k] * x(pattern.rows[k]);
+    }
+    product(j) += sum;
   }
-  for (int s = tree.count() - 1; s >= 0 && !stop.stop_requested(); --s) {
-    y.resize(tree.below(s));
-    const int* rows = tree.rowsOf(s) + tree.width(s);
-    for (Eigen::Index i = 0; i < y.size(); ++i) y(i) = x(rows[i]);
-    backwardPanel(panels_.data() + tree.panelStart[s], tree.height(s), tree.width(s), x.data() + tree.first[s],
-                  y.data());
-  }
-  for (int i = 0; i < tree.size(); ++i) rightSide(tree.order[i]) = x(i);
+  return product;
 }
 
 } // namespace palp

@@ -60,15 +60,12 @@ SupernodeTree expanded(const cholmod_factor& factor, const SparsePattern& patter
   std::vector<int> supernodeOf(groups);
   tree.first = {0};
   tree.rowStart = {0};
-  tree.panelStart = {0};
   for (int s = 0; s < static_cast<int>(factor.nsuper); ++s) {
     tree.first.push_back(place[super[s + 1]]);
     for (int p = super[s]; p < super[s + 1]; ++p) supernodeOf[p] = s;
     for (int r = rowStart[s]; r < rowStart[s + 1]; ++r)
       for (int i = place[rows[r]]; i < place[rows[r] + 1]; ++i) tree.rows.push_back(i);
     tree.rowStart.push_back(tree.rows.size());
-    const auto height = tree.rowStart[s + 1] - tree.rowStart[s];
-    tree.panelStart.push_back(tree.panelStart.back() + height * std::size_t(tree.first[s + 1] - tree.first[s]));
   }
   for (int s = 0; s < static_cast<int>(factor.nsuper); ++s) {
     const int below = rowStart[s] + super[s + 1] - super[s];

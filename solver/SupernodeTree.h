@@ -22,12 +22,11 @@ struct SparsePattern {
 /// Shape of a Cholesky factor: runs of columns with the same rows below (supernodes), each a dense panel of
 /// height x width numbers by columns. Children come before their parents.
 struct SupernodeTree {
-  std::vector<int> order;              ///< unknown of each place
-  std::vector<int> first;              ///< first place of each supernode, and the number of unknowns
-  std::vector<std::size_t> rowStart;   ///< of each supernode in rows
-  std::vector<int> rows;               ///< places of the panel's rows; the supernode's own come first
-  std::vector<std::size_t> panelStart; ///< of each supernode in the factor's numbers, and their count
-  std::vector<int> parent;             ///< -1: a root
+  std::vector<int> order;            ///< unknown of each place
+  std::vector<int> first;            ///< first place of each supernode, and the number of unknowns
+  std::vector<std::size_t> rowStart; ///< of each supernode in rows
+  std::vector<int> rows;             ///< places of the panel's rows; the supernode's own come first
+  std::vector<int> parent;           ///< -1: a root
 
   [[nodiscard]] int count() const { return static_cast<int>(parent.size()); }
   [[nodiscard]] int size() const { return first.back(); }

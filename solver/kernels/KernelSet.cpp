@@ -65,12 +65,20 @@ constexpr ElementKernels kernelsOf(decltype(ElementKernels::residual) residual,
           recover<D, X, 8>,      recover<D, X, 1>};
 }
 
-void forwardFactor(const LaneFactor& L, int first, int last, float* x) {
+void forwardFactor(const BlockedFactor& L, int first, int last, float* x) {
   forwardLanes(L, first, last, x);
 }
 
-void backwardFactor(const LaneFactor& L, int first, int last, float* x) {
+void backwardFactor(const BlockedFactor& L, int first, int last, float* x) {
   backwardLanes(L, first, last, x);
+}
+
+void forwardFactorOfOne(const BlockedFactor& L, int first, int last, double* x) {
+  for (int s = first; s < last; ++s) forwardSupernodeOfOne(L, s, x);
+}
+
+void backwardFactorOfOne(const BlockedFactor& L, int first, int last, double* x) {
+  for (int s = last - 1; s >= first; --s) backwardSupernodeOfOne(L, s, x);
 }
 
 void polynomials(const double* coefficients, int terms, const double* monomials, int rows, double* out, int stride) {
@@ -82,7 +90,7 @@ void polynomials(const double* coefficients, int terms, const double* monomials,
 extern const ElementKernels tetKernels;
 extern const ElementKernels hexKernels;
 extern const LaneKernels laneKernelSet;
-const LaneKernels laneKernelSet = {forwardFactor, backwardFactor, polynomials};
+const LaneKernels laneKernelSet = {forwardFactor, backwardFactor, forwardFactorOfOne, backwardFactorOfOne, polynomials};
 constexpr ElementKernels tetSet = kernelsOf<Tet>(tetResidual8, tetResidualOfLoads, tetTangent);
 constexpr ElementKernels hexSet = kernelsOf<Hex>(hexResidual8, hexResidualOfLoads, hexTangent);
 const ElementKernels tetKernels = tetSet;

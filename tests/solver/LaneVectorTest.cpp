@@ -20,7 +20,7 @@ double resident() {
 TEST(LaneVector, LiesOnCacheLinesAtAnySize) {
   for (std::size_t size : {1, 1000, 130'000, 131'072, 1'000'000}) {
     const LaneVector vector(size);
-    const UnsetArray array(size);
+    const UnsetArray<double> array(size);
     EXPECT_EQ(reinterpret_cast<std::uintptr_t>(vector.data()) % 64, 0) << size;
     EXPECT_EQ(reinterpret_cast<std::uintptr_t>(array.data()) % 64, 0) << size;
   }
@@ -28,7 +28,7 @@ TEST(LaneVector, LiesOnCacheLinesAtAnySize) {
 
 TEST(LaneVector, GivesLargeMemoryBackToTheSystem) {
   const double before = resident(), bytes = 64e6;
-  UnsetArray array(static_cast<std::size_t>(bytes) / sizeof(double));
+  UnsetArray<double> array(static_cast<std::size_t>(bytes) / sizeof(double));
   std::fill_n(array.data(), array.size(), 1.);
   EXPECT_GT(resident(), before + 0.9 * bytes);
   array = {};
@@ -37,9 +37,9 @@ TEST(LaneVector, GivesLargeMemoryBackToTheSystem) {
 }
 
 TEST(UnsetArray, KeepsItsNumbersWhenItMoves) {
-  UnsetArray first(3);
+  UnsetArray<double> first(3);
   first.data()[2] = 7;
-  UnsetArray second = std::move(first);
+  UnsetArray<double> second = std::move(first);
   EXPECT_EQ(second.size(), 3);
   EXPECT_EQ(second.data()[2], 7);
   EXPECT_EQ(first.size(), 0); // NOLINT(bugprone-use-after-move): a moved array is empty

@@ -97,7 +97,7 @@ struct BoundaryValueProblem {
   NewtonResult solve(double tolerance = 1e-15) const {
     NewtonOptions options;
     options.relativeTolerance = tolerance;
-    SparseCholesky cholesky(std::make_shared<const CholeskyPlan>(*assembler.pattern()));
+    SparseCholesky cholesky(std::make_shared<const CholeskyPlan>(assembler.pattern()));
     return NewtonSolver(assembler, cholesky, options, {}).solve(loading);
   }
 

@@ -111,7 +111,7 @@ private:
         secondsOf([&] { rest = problem->parts().restTangent(newton_.threads, stop_); }));
     if (!rest) return;
     times.dof = problem->dof();
-    times.factor_MB = static_cast<double>(rest->factor.panels().size() * sizeof(double)) / (1024.0 * 1024);
+    times.factor_MB = static_cast<double>(rest->factor.bytes()) / (1024.0 * 1024);
     double seconds = 0;
     std::vector<double> loadSeconds;
     for (const JudgedLoad& load : loads) {
