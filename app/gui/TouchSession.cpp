@@ -4,7 +4,8 @@ namespace palp {
 
 namespace {
 
-constexpr int kKeepFactorFor_ms = 5000; // a hundred megabytes, against a third of a second for the next load after a pause
+constexpr int kKeepFactorFor_ms =
+    5000; // a hundred megabytes, against a third of a second for the next load after a pause
 
 } // namespace
 
