@@ -54,31 +54,11 @@ PALP_INLINE void addHexPoint(const Rubber& m, const HexPoint& point, HexSums& su
   sums.largestJ = larger(sums.largestJ, m.J);
 }
 
-PALP_INLINE void addHexStiffness(const Rubber& m, const HexPoint& point, Pack K[25][25]) {
-  Pack C[3][3], A[9][9];
-  rightCauchyGreen(m.F, C);
-  weightedTangent(m, C, point.weight, A);
-#pragma GCC unroll 1
-  for (int j = 0; j < 8; ++j) {
-    const Pack(&N)[8][3] = point.N;
-    Pack AN[9][3];
-    for (int R = 0; R < 9; ++R)
-      for (int d = 0; d < 3; ++d)
-        AN[R][d] = A[R][3 * d] * N[j][0] + A[R][3 * d + 1] * N[j][1] + A[R][3 * d + 2] * N[j][2];
-#pragma GCC unroll 1
-    for (int i = 0; i <= j; ++i)
-      for (int r = 0; r < 3; ++r)
-        for (int d = 0; d < 3; ++d)
-          K[3 * i + r][3 * j + d] += N[i][0] * AN[3 * r][d] + N[i][1] * AN[3 * r + 1][d] + N[i][2] * AN[3 * r + 2][d];
-    for (int d = 0; d < 3; ++d)
-      K[3 * j + d][24] += point.weight * (m.cof[d][0] * N[j][0] + m.cof[d][1] * N[j][1] + m.cof[d][2] * N[j][2]);
-  }
-}
-
 /// Residual of the lanes and, where K is given, the uncondensed stiffness over 24 displacements and the pressure.
 template <int Stride, bool WithStiffness>
 PALP_INLINE void hexElement(const RubberConstants& rubber, const ElementInput& in, const ElementResidual& out, int lane,
                             Pack K[25][25]) {
+  constexpr double one = 1; // the pressure's shape function
   Pack u[8][3];
   for (int n = 0; n < 8; ++n)
     for (int d = 0; d < 3; ++d) u[n][d] = load(in.displacements + 8 * (3 * n + d) + lane);
@@ -94,7 +74,7 @@ PALP_INLINE void hexElement(const RubberConstants& rubber, const ElementInput& i
     HexPoint point;
     hexPoint<Stride>(in.geometry, q, lane, u, pressure, point, m);
     addHexPoint(m, point, sums);
-    if constexpr (WithStiffness) addHexStiffness(m, point, K);
+    if constexpr (WithStiffness) addStiffness<8, 1>(m, point.N, point.weight, &one, K);
   }
   if constexpr (WithStiffness) K[24][24] -= rubber.tangentCompressibility_per_MPa * sums.weight;
   for (int n = 0; n < 8; ++n)

@@ -94,4 +94,30 @@ PALP_INLINE void rightCauchyGreen(const Pack F[3][3], Pack C[3][3]) {
     for (int s = 0; s < 3; ++s) C[r][s] = F[0][r] * F[0][s] + F[1][r] * F[1][s] + F[2][r] * F[2][s];
 }
 
+/// A point's part of the stiffness over the nodes' displacements, then the pressures: K[i][j], i <= j. N holds the
+/// gradients of the nodes' shape functions, l the values of the pressures'.
+template <int Nodes, int Pressures>
+PALP_INLINE void addStiffness(const Rubber& m, const Pack N[Nodes][3], Pack weight, const double l[Pressures],
+                              Pack K[3 * Nodes + Pressures][3 * Nodes + Pressures]) {
+  Pack C[3][3], A[9][9];
+  rightCauchyGreen(m.F, C);
+  weightedTangent(m, C, weight, A);
+#pragma GCC unroll 1
+  for (int j = 0; j < Nodes; ++j) {
+    Pack AN[9][3];
+    for (int R = 0; R < 9; ++R)
+      for (int d = 0; d < 3; ++d)
+        AN[R][d] = A[R][3 * d] * N[j][0] + A[R][3 * d + 1] * N[j][1] + A[R][3 * d + 2] * N[j][2];
+#pragma GCC unroll 1
+    for (int i = 0; i <= j; ++i)
+      for (int r = 0; r < 3; ++r)
+        for (int d = 0; d < 3; ++d)
+          K[3 * i + r][3 * j + d] += N[i][0] * AN[3 * r][d] + N[i][1] * AN[3 * r + 1][d] + N[i][2] * AN[3 * r + 2][d];
+    for (int d = 0; d < 3; ++d) {
+      const Pack b = weight * (m.cof[d][0] * N[j][0] + m.cof[d][1] * N[j][1] + m.cof[d][2] * N[j][2]);
+      for (int k = 0; k < Pressures; ++k) K[3 * j + d][3 * Nodes + k] += l[k] * b;
+    }
+  }
+}
+
 } // namespace palp::PALP_KERNEL

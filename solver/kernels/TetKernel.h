@@ -184,29 +184,6 @@ PALP_INLINE void tetShapeGradients(const LaneGeometry& geo, const double* l, con
   }
 }
 
-/// Stiffness over nodes, bubble and pressures: K[i][j], i <= j, order 30 + 3 + 4.
-PALP_INLINE void addTetStiffness(const Rubber& m, const Pack N[11][3], Pack weight, const double* l, Pack K[37][37]) {
-  Pack C[3][3], A[9][9];
-  rightCauchyGreen(m.F, C);
-  weightedTangent(m, C, weight, A);
-#pragma GCC unroll 1
-  for (int j = 0; j < 11; ++j) {
-    Pack AN[9][3];
-    for (int R = 0; R < 9; ++R)
-      for (int d = 0; d < 3; ++d)
-        AN[R][d] = A[R][3 * d] * N[j][0] + A[R][3 * d + 1] * N[j][1] + A[R][3 * d + 2] * N[j][2];
-#pragma GCC unroll 1
-    for (int i = 0; i <= j; ++i)
-      for (int r = 0; r < 3; ++r)
-        for (int d = 0; d < 3; ++d)
-          K[3 * i + r][3 * j + d] += N[i][0] * AN[3 * r][d] + N[i][1] * AN[3 * r + 1][d] + N[i][2] * AN[3 * r + 2][d];
-    for (int d = 0; d < 3; ++d) {
-      const Pack b = weight * (m.cof[d][0] * N[j][0] + m.cof[d][1] * N[j][1] + m.cof[d][2] * N[j][2]);
-      for (int k = 0; k < 4; ++k) K[3 * j + d][33 + k] += l[k] * b;
-    }
-  }
-}
-
 /// Residual and uncondensed stiffness of the elements in the lanes.
 PALP_INLINE void tetStiffness(const RubberConstants& rubber, const ElementInput& in, const ElementResidual& out,
                               int lane, Pack K[37][37]) {
@@ -228,7 +205,7 @@ PALP_INLINE void tetStiffness(const RubberConstants& rubber, const ElementInput&
     const Pack weight = tetRule.weight[q] * geo.volume;
     addTetPoint(m, gradient, weight, tetRule.l[q], sums);
     tetShapeGradients(geo, tetRule.l[q], gradient, N);
-    addTetStiffness(m, N, weight, tetRule.l[q], K);
+    addStiffness<11, 4>(m, N, weight, tetRule.l[q], K);
   }
   for (int k = 0; k < 4; ++k)
     for (int n = k; n < 4; ++n)
