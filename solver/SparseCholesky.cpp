@@ -205,12 +205,17 @@ public:
   Multifrontal(const CholeskyPlan& plan, std::span<const double> values, float* factor)
       : plan_(plan), tree_(plan.tree()), values_(values), factor_(factor), updates_(tree_.count()) {}
 
-  FrontOutcome factorise(int s, const TaskRunner& run) {
+  /// Room for the panel of any of the supernodes.
+  [[nodiscard]] UnsetArray<double> panelFor(const std::vector<int>& supernodes) const {
+    std::size_t most = 0;
+    for (int s : supernodes) most = std::max(most, std::size_t(tree_.height(s)) * tree_.width(s));
+    return UnsetArray<double>(most);
+  }
+
+  FrontOutcome factorise(int s, double* panel, const TaskRunner& run) {
     const std::vector<int>& children = plan_.children(s);
     const int width = tree_.width(s), height = tree_.height(s);
-    UnsetArray<double> front(std::size_t(height) * width);
-    double* panel = front.data();
-    std::fill_n(panel, front.size(), 0.);
+    std::fill_n(panel, std::size_t(height) * width, 0.);
     for (const auto& [value, position] : plan_.entries(s)) panel[position] += values_[value];
     std::vector<std::vector<Run>> runs;
     for (int child : children) {
@@ -260,9 +265,11 @@ SparseCholesky::Outcome SparseCholesky::factorise(LaneVector values, int threads
   };
   const auto& subtrees = plan_->subtrees();
   forChunks(static_cast<int>(subtrees.size()), 1, threads, [&](int t, int) {
+    UnsetArray<double> panel = fronts.panelFor(subtrees[t]);
     for (int s : subtrees[t]) {
       if (worst != FrontOutcome::Done) return;
-      if (const FrontOutcome outcome = fronts.factorise(s, alone); outcome != FrontOutcome::Done) worst = outcome;
+      if (const FrontOutcome outcome = fronts.factorise(s, panel.data(), alone); outcome != FrontOutcome::Done)
+        worst = outcome;
     }
   });
   const TaskRunner together = [&](int count, double flops, const std::function<void(int)>& task) {
@@ -271,9 +278,10 @@ SparseCholesky::Outcome SparseCholesky::factorise(LaneVector values, int threads
     });
     return !stop.stop_requested();
   };
+  UnsetArray<double> panel = fronts.panelFor(plan_->top());
   for (int s : plan_->top()) {
     if (worst != FrontOutcome::Done) break;
-    worst = fronts.factorise(s, together);
+    worst = fronts.factorise(s, panel.data(), together);
   }
   switch (worst.load()) {
   case FrontOutcome::Done:
