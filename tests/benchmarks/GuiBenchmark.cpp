@@ -13,8 +13,12 @@
 #include <QApplication>
 #include <QElapsedTimer>
 #include <QFile>
+#include <QLabel>
 #include <QProcess>
 #include <QStandardPaths>
+
+#include <vtkNew.h>
+#include <vtkRenderer.h>
 
 #include <chrono>
 #include <cstdio>
@@ -109,16 +113,32 @@ int measureScene(const QString& name, long long start_ns) {
   return 0;
 }
 
+/// What the machine itself needs, for it changes from hour to hour: VTK clears an empty window that is read back and
+/// painted, and a picture that is there is painted.
+void measureYardsticks(const std::function<void(QWidget&)>& show) {
+  vtkNew<vtkRenderer> nothing;
+  VtkView empty(nothing, nullptr);
+  show(empty);
+  std::printf("yardstick: empty window of VTK     %5.1f ms CPU\n", cpuAFrame_ms({&empty}));
+  QLabel picture;
+  QPixmap pixels(kWidth_px, kHeight_px);
+  pixels.fill(Qt::white);
+  picture.setPixmap(pixels);
+  show(picture);
+  std::printf("yardstick: a picture painted       %5.1f ms CPU\n", cpuAFrame_ms({}, [&](int) { picture.repaint(); }));
+}
+
 /// Prints a line a view, each alone at full size.
 int measureViews() {
   Touch touch(paperDesign(), exampleProject().load);
   touch.advance(Stage::Resistances);
   const NodalFields fields = touch.problem()->fields(touch.solution()->state());
-  const auto show = [](VtkView& view) {
+  const auto show = [](QWidget& view) {
     view.resize(kWidth_px, kHeight_px);
     view.show();
     QApplication::processEvents();
   };
+  measureYardsticks(show);
   HeatmapView heatmap;
   show(heatmap);
   std::printf("heatmap alone, new values a frame  %5.1f ms CPU\n", cpuAFrame_ms({&heatmap}, [&](int frame) {

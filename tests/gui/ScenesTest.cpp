@@ -15,6 +15,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <limits>
 #include <set>
@@ -121,6 +122,24 @@ TEST(Deformation, DrawsEveryQuantity) {
     options.quantity = quantity;
     EXPECT_GT(colors(drawDeformation(state, options, 320, 240)), 50u) << quantityName(quantity);
   }
+}
+
+TEST(Deformation, LightsUpTheElectrodesOfACellInsideTheBlock) {
+  const SensorDesign design = paperDesign();
+  const Mesh mesh = sensorMesh(design, coarse());
+  DeformationState state;
+  state.design = &design;
+  state.mesh = &mesh;
+  DeformationOptions options;
+  const Picture plain = drawDeformation(state, options, 640, 480);
+  options.litCell = {3, 7};
+  const Picture lit = drawDeformation(state, options, 640, 480);
+  std::size_t changed = 0;
+  for (std::size_t k = 0; k + 2 < plain.rgb.size(); k += 3)
+    if (!std::equal(&plain.rgb[k], &plain.rgb[k + 3], &lit.rgb[k])) ++changed;
+  // 13 spheres of 1.06 mm across, some 10 pixels a millimetre: discs of 80 pixels.
+  EXPECT_GT(changed, 500u);
+  EXPECT_LT(changed, 4000u);
 }
 
 TEST(Deformation, WarpsByARoundFactorThatNeverShrinks) {
