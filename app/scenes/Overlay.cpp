@@ -23,8 +23,6 @@ vtkStandardNewMacro(Overlay)
 
     namespace {
 
-  constexpr double kBarWidth_px = 16;
-  constexpr double kTick_px = 5;
   constexpr double kMargin_px = 14;
 
   void useText(vtkContext2D & painter, const Color& color, double size_px, bool bold = false) {
@@ -34,46 +32,40 @@ vtkStandardNewMacro(Overlay)
     painter.GetTextProp()->SetVerticalJustificationToCentered();
   }
 
-  std::vector<double> legendTicks(const ColorScale& colors, double height_px, double scale) {
-    return roundTicks(colors.low, colors.high, std::clamp(static_cast<int>(height_px / (28 * scale)), 2, 8));
-  }
-
 } // namespace
+
+std::vector<double> legendTicks(const ColorScale& colors, double height_px, double scale) {
+  return roundTicks(colors.low, colors.high, std::clamp(static_cast<int>(height_px / (28 * scale)), 2, 8));
+}
 
 double legendWidth_px(vtkContext2D& painter, const ColorScale& colors, Theme theme, double scale) {
   useText(painter, palette(theme).text, 12 * scale);
   double widest = 0;
   for (const std::string& text : tickTexts(legendTicks(colors, 200 * scale, scale)))
     widest = std::max(widest, textWidth_px(painter, text));
-  const double numbers = (kBarWidth_px + 2 * kTick_px) * scale + widest;
+  const double numbers = (kLegendBar_px + 2 * kLegendTick_px) * scale + widest;
   useText(painter, palette(theme).text, 13 * scale, true);
   return std::max(numbers, textWidth_px(painter, colors.title()));
-}
-
-void paintColors(vtkContext2D& painter, const LegendPlace& place, Eigen::Index columns, Eigen::Index rows,
-                 const std::function<Color(Eigen::Index, Eigen::Index)>& color) {
-  vtkNew<vtkImageData> image;
-  image->SetDimensions(static_cast<int>(columns), static_cast<int>(rows), 1);
-  image->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
-  auto* byte = static_cast<unsigned char*>(image->GetScalarPointer());
-  for (Eigen::Index row = 0; row < rows; ++row)
-    for (Eigen::Index column = 0; column < columns; ++column) {
-      for (const double part : color(column, row)) *byte++ = static_cast<unsigned char>(std::lround(255 * part));
-      *byte++ = 255;
-    }
-  painter.GetPen()->SetLineType(vtkPen::NO_PEN);
-  painter.DrawImage(vtkRectf(static_cast<float>(place.x), static_cast<float>(place.y), static_cast<float>(place.width),
-                             static_cast<float>(place.height)),
-                    image);
 }
 
 void paintLegend(vtkContext2D& painter, const ColorScale& colors, const LegendPlace& place, Theme theme, double scale,
                  double right_px) {
   const Palette& ink = palette(theme);
+  // One image: a call of the graphics library for each band costs 20 us by software.
   constexpr int kBands = 128;
-  paintColors(painter, place, 1, kBands, [&](Eigen::Index, Eigen::Index band) {
-    return colors.color(colors.low + (colors.high - colors.low) * (static_cast<double>(band) + 0.5) / kBands);
-  });
+  vtkNew<vtkImageData> bands;
+  bands->SetDimensions(1, kBands, 1);
+  bands->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
+  auto* byte = static_cast<unsigned char*>(bands->GetScalarPointer());
+  for (int band = 0; band < kBands; ++band) {
+    for (const double part : colors.color(colors.low + (colors.high - colors.low) * (band + 0.5) / kBands))
+      *byte++ = static_cast<unsigned char>(std::lround(255 * part));
+    *byte++ = 255;
+  }
+  painter.GetPen()->SetLineType(vtkPen::NO_PEN);
+  painter.DrawImage(vtkRectf(static_cast<float>(place.x), static_cast<float>(place.y), static_cast<float>(place.width),
+                             static_cast<float>(place.height)),
+                    bands);
   painter.GetPen()->SetLineType(vtkPen::SOLID_LINE);
   painter.GetPen()->SetWidth(static_cast<float>(scale));
   painter.GetPen()->SetColorF(ink.text[0], ink.text[1], ink.text[2], 1);
@@ -84,14 +76,14 @@ void paintLegend(vtkContext2D& painter, const ColorScale& colors, const LegendPl
   for (std::size_t k = 0; k < ticks.size(); ++k) {
     const double y = place.y + (ticks[k] - colors.low) / (colors.high - colors.low) * place.height;
     const double x = place.x + place.width;
-    ends.insert(ends.end(), {static_cast<float>(x), static_cast<float>(y), static_cast<float>(x + kTick_px * scale),
-                             static_cast<float>(y)});
-    drawText(painter, x + 2 * kTick_px * scale, y, texts[k]);
+    ends.insert(ends.end(), {static_cast<float>(x), static_cast<float>(y),
+                             static_cast<float>(x + kLegendTick_px * scale), static_cast<float>(y)});
+    drawText(painter, x + 2 * kLegendTick_px * scale, y, texts[k]);
   }
   if (!ends.empty()) painter.DrawLines(ends.data(), static_cast<int>(ends.size() / 2));
   useText(painter, ink.text, 13 * scale, true);
   const double titleX = std::min(place.x, right_px - textWidth_px(painter, colors.title()));
-  drawText(painter, titleX, place.y + place.height + 18 * scale, colors.title());
+  drawText(painter, titleX, place.y + place.height + kLegendTitle_px * scale, colors.title());
 }
 
 void Overlay::paintWords(vtkContext2D& painter) {
@@ -128,8 +120,8 @@ bool Overlay::Paint(vtkContext2D* painter) {
   if (legend) {
     const double need = legendWidth_px(*painter, *legend, theme, scale);
     const double bar = std::min(0.55 * height, 320 * scale);
-    paintLegend(*painter, *legend, {width - margin - need, (height - bar) / 2, kBarWidth_px * scale, bar}, theme, scale,
-                width - margin);
+    paintLegend(*painter, *legend, {width - margin - need, (height - bar) / 2, kLegendBar_px * scale, bar}, theme,
+                scale, width - margin);
   }
   return true;
 }

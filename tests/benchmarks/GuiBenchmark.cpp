@@ -64,17 +64,17 @@ bool waitFor(const std::function<bool()>& condition) {
   return condition();
 }
 
-QList<VtkView*> visibleViews(const QWidget& root) {
-  QList<VtkView*> views;
-  for (auto* view : root.findChildren<VtkView*>())
+QList<PictureView*> visibleViews(const QWidget& root) {
+  QList<PictureView*> views;
+  for (auto* view : root.findChildren<PictureView*>())
     if (view->isVisible()) views << view;
   return views;
 }
 
-double cpuAFrame_ms(const QList<VtkView*>& views, const std::function<void(int)>& change = {}) {
+double cpuAFrame_ms(const QList<PictureView*>& views, const std::function<void(int)>& change = {}) {
   const auto draw = [&](int frame) {
     if (change) change(frame);
-    for (VtkView* view : views) {
+    for (PictureView* view : views) {
       view->invalidate();
       view->repaint();
     }
@@ -95,8 +95,8 @@ int measureScene(const QString& name, long long start_ns) {
   if (!window.showScene(name)) return 2;
   window.show();
   const bool drawn = waitFor([&] {
-    const QList<VtkView*> views = visibleViews(window.currentScene());
-    return std::all_of(views.begin(), views.end(), [](const VtkView* view) { return view->renderCount() > 0; });
+    const QList<PictureView*> views = visibleViews(window.currentScene());
+    return std::all_of(views.begin(), views.end(), [](const PictureView* view) { return view->renderCount() > 0; });
   });
   const double first_s = 1e-9 * static_cast<double>(now_ns() - start_ns);
   const bool complete = waitFor([&] {
