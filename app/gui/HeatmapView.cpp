@@ -1,7 +1,5 @@
 #include "app/gui/HeatmapView.h"
 
-#include "app/scenes/Canvas.h"
-
 namespace palp {
 
 HeatmapView::HeatmapView(QWidget* parent) : PictureView(parent) {
@@ -37,8 +35,7 @@ void HeatmapView::setTheme(Theme theme) {
 
 void HeatmapView::render(QImage& image) {
   heatmap_.scale = devicePixelRatioF();
-  Canvas canvas(image.bits(), static_cast<std::size_t>(image.bytesPerLine()), image.width(), image.height());
-  heatmap_.paint(canvas);
+  heatmap_.paint(image.bits(), static_cast<std::size_t>(image.bytesPerLine()), image.width(), image.height());
 }
 
 Picture HeatmapView::renderPicture(int width, int height) {

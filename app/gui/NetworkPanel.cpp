@@ -76,6 +76,8 @@ void NetworkPanel::buildSamples(QVBoxLayout& column) {
   samplesWords_ = new QLabel;
   samplesWords_->setObjectName("samplesWords");
   samplesWords_->setWordWrap(true);
+  samplesWords_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
+  samplesWords_->setMinimumHeight(2 * samplesWords_->fontMetrics().lineSpacing()); // what is below does not jump
   form->addRow(samplesWords_);
   column.addWidget(box);
   connect(perArea_, &QSpinBox::valueChanged, this, [this] { tell(tr("Change the number of samples")); });

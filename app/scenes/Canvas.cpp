@@ -1,7 +1,6 @@
 #include "app/scenes/Canvas.h"
 
 #include <vtkImageData.h>
-#include <vtkNew.h>
 #include <vtkStdString.h>
 #include <vtkTextProperty.h>
 #include <vtkTextRenderer.h>
@@ -9,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <sstream>
 
 namespace palp {
 
@@ -40,8 +40,9 @@ int pixel(double place, int most) {
 
 } // namespace
 
-Canvas::Canvas(std::uint8_t* bgra, std::size_t stride, int width, int height)
-    : pixels_(bgra), stride_(stride), width_(width), height_(height), text_(vtkSmartPointer<vtkTextProperty>::New()) {}
+Canvas::Canvas(std::uint8_t* bgra, std::size_t stride, int width, int height, WrittenWords& written)
+    : pixels_(bgra), stride_(stride), width_(width), height_(height), written_(written),
+      text_(vtkSmartPointer<vtkTextProperty>::New()) {}
 
 Canvas::~Canvas() = default;
 
@@ -71,15 +72,29 @@ void Canvas::frame(double left, double bottom, double right, double top, double 
   fill(right - thickness, bottom, right, top, color);
 }
 
-void Canvas::words(double x, double y, const std::string& text) {
-  vtkNew<vtkImageData> drawn; // its extent counts from the place that the text is justified about
+const WrittenWords::Word& Canvas::written(const std::string& text) {
+  constexpr std::size_t kMost = 500;
+  std::ostringstream key;
+  const double* color = text_->GetColor();
+  key << text << '\n'
+      << text_->GetFontSize() << ' ' << (text_->GetFontFile() != nullptr ? text_->GetFontFile() : "")
+      << text_->GetBold() << ' ' << text_->GetOrientation() << ' ' << text_->GetJustification()
+      << text_->GetVerticalJustification() << ' ' << color[0] << ' ' << color[1] << ' ' << color[2];
+  if (const auto found = written_.all.find(key.str()); found != written_.all.end()) return found->second;
+  if (written_.all.size() >= kMost) written_.all.clear(); // a running scale has ever new numbers
+  WrittenWords::Word word{vtkSmartPointer<vtkImageData>::New()};
   std::array<int, 2> size{};
-  if (!vtkTextRenderer::GetInstance()->RenderString(text_, text, drawn, size.data(), kDotsPerInch)) return;
-  const std::array<int, 6> extent = [&] {
-    std::array<int, 6> all{};
-    drawn->GetExtent(all.data());
-    return all;
-  }();
+  if (!vtkTextRenderer::GetInstance()->RenderString(text_, text, word.letters, size.data(), kDotsPerInch))
+    word.letters = nullptr;
+  word.width_px = size[0];
+  return written_.all.emplace(key.str(), word).first->second;
+}
+
+void Canvas::words(double x, double y, const std::string& text) {
+  vtkImageData* drawn = written(text).letters; // its extent counts from the place that the text is justified about
+  if (drawn == nullptr) return;
+  std::array<int, 6> extent{};
+  drawn->GetExtent(extent.data());
   const int left = static_cast<int>(std::lround(x)), bottom = static_cast<int>(std::lround(y));
   const int first = std::max(extent[0], -left), last = std::min(extent[1], width_ - 1 - left);
   for (int v = std::max(extent[2], -bottom); v <= std::min(extent[3], height_ - 1 - bottom); ++v) {
@@ -91,10 +106,8 @@ void Canvas::words(double x, double y, const std::string& text) {
   }
 }
 
-double Canvas::wordsWidth_px(const std::string& text) const {
-  std::array<int, 4> box{}; // xmin, xmax, ymin, ymax
-  vtkTextRenderer::GetInstance()->GetBoundingBox(text_, text, box.data(), kDotsPerInch);
-  return box[1] - box[0] + 1;
+double Canvas::wordsWidth_px(const std::string& text) {
+  return written(text).width_px;
 }
 
 } // namespace palp

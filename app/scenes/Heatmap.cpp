@@ -1,6 +1,5 @@
 #include "app/scenes/Heatmap.h"
 
-#include "app/scenes/Canvas.h"
 #include "app/scenes/Overlay.h"
 #include "app/scenes/TextStyle.h"
 
@@ -37,7 +36,7 @@ void useText(const Canvas& canvas, const Color& color, double size_px, bool bold
   text.SetVerticalJustification(along);
 }
 
-double legendWidth_px(const Canvas& canvas, const ColorScale& colors, Theme theme, double scale) {
+double legendWidth_px(Canvas& canvas, const ColorScale& colors, Theme theme, double scale) {
   useText(canvas, palette(theme).text, 12 * scale, false, VTK_TEXT_LEFT, VTK_TEXT_CENTERED);
   double widest = 0;
   for (const std::string& text : tickTexts(legendTicks(colors, 200 * scale, scale)))
@@ -49,7 +48,8 @@ double legendWidth_px(const Canvas& canvas, const ColorScale& colors, Theme them
 
 } // namespace
 
-void Heatmap::paint(Canvas& canvas) {
+void Heatmap::paint(std::uint8_t* bgra, std::size_t stride, int width, int height) {
+  Canvas canvas(bgra, stride, width, height, written_);
   canvas.clear(palette(theme).ground);
   if (spec.values.size() == 0) return;
   const double margin = 12 * scale;
@@ -136,8 +136,8 @@ std::optional<std::array<int, 2>> Heatmap::cellAt(double x_px, double y_px) cons
 Picture Heatmap::picture(int width, int height) const {
   requireDrawable(width, height);
   std::vector<std::uint8_t> bgra(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  Canvas canvas(bgra.data(), 4 * static_cast<std::size_t>(width), width, height);
-  Heatmap(*this).paint(canvas); // of a copy: the cells that cellAt knows stay those of the view
+  Heatmap(*this).paint(bgra.data(), 4 * static_cast<std::size_t>(width), width,
+                       height); // of a copy: the cells that cellAt knows stay those of the view
   return pictureOfBgra(bgra, width, height);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/scenes/Canvas.h"
 #include "app/scenes/ColorScale.h"
 #include "app/scenes/Picture.h"
 
@@ -12,8 +13,6 @@
 class vtkLookupTable;
 
 namespace palp {
-
-class Canvas;
 
 /// A matrix as coloured cells: row 0 at the bottom, as the row-wires lie along y.
 struct HeatmapSpec {
@@ -29,7 +28,8 @@ struct HeatmapSpec {
 /// 300 cells need no graphics context.
 class Heatmap {
 public:
-  void paint(Canvas& canvas);
+  /// Onto pixels as Canvas takes them.
+  void paint(std::uint8_t* bgra, std::size_t stride, int width, int height);
   /// The same in a picture of its own.
   [[nodiscard]] Picture picture(int width, int height) const;
   /// Row and column of the cell at a point of the picture [px from the lower left], as last painted.
@@ -49,6 +49,7 @@ private:
   void paintAxes(Canvas& canvas) const;
   void paintLegend(Canvas& canvas, vtkLookupTable& table, double x, double width) const;
 
+  WrittenWords written_;
   double left_ = 0, bottom_ = 0, cellWidth_ = 0, cellHeight_ = 0; ///< [px], as last painted
 };
 

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace palp {
 
@@ -24,6 +25,7 @@ vtkStandardNewMacro(Overlay)
     namespace {
 
   constexpr double kMargin_px = 14;
+  constexpr double kWordHeight_px = 18; ///< of a word with its ground
 
   void useText(vtkContext2D & painter, const Color& color, double size_px, bool bold = false) {
     setTextStyle(*painter.GetTextProp(), color, size_px, bold);
@@ -86,23 +88,43 @@ void paintLegend(vtkContext2D& painter, const ColorScale& colors, const LegendPl
   drawText(painter, titleX, place.y + place.height + kLegendTitle_px * scale, colors.title());
 }
 
-void Overlay::paintWords(vtkContext2D& painter) {
+std::vector<Overlay::WordBox> Overlay::wordBoxes(vtkContext2D& painter) {
   vtkRenderer* renderer = GetScene()->GetRenderer();
-  if (renderer == nullptr) return;
-  const Color& ground = palette(theme).ground;
+  if (renderer == nullptr) return {};
+  std::vector<WordBox> boxes;
   for (const PlacedText& word : words) {
     renderer->SetWorldPoint(word.place_mm.x(), word.place_mm.y(), word.place_mm.z(), 1);
     renderer->WorldToDisplay();
     const double* place = renderer->GetDisplayPoint();
     useText(painter, word.color, 13 * scale, true);
-    const double width = textWidth_px(painter, word.text);
-    const double sceneWidth = GetScene()->GetSceneWidth();
+    const double width = textWidth_px(painter, word.text), sceneWidth = GetScene()->GetSceneWidth();
     const double x = std::clamp(place[0] - 0.5 * width, 4.0, std::max(4.0, sceneWidth - width - 4));
+    boxes.push_back({&word, x, place[1], width});
+  }
+  // Short words, as numbers of areas, stay at their places; a longer one goes up until it covers none of them.
+  std::stable_sort(boxes.begin(), boxes.end(),
+                   [](const WordBox& a, const WordBox& b) { return a.word->text.size() < b.word->text.size(); });
+  for (auto box = boxes.begin(); box != boxes.end(); ++box)
+    for (bool moved = true; std::exchange(moved, false);)
+      for (auto other = boxes.begin(); other != box; ++other) {
+        const bool apart = std::abs(other->y - box->y) >= kWordHeight_px * scale ||
+                           other->x > box->x + box->width + 8 * scale || box->x > other->x + other->width + 8 * scale;
+        if (apart || other->word->text.size() == box->word->text.size()) continue;
+        box->y = other->y + (kWordHeight_px + 1) * scale;
+        moved = true;
+      }
+  return boxes;
+}
+
+void Overlay::paintWords(vtkContext2D& painter) {
+  const Color& ground = palette(theme).ground;
+  for (const WordBox& box : wordBoxes(painter)) {
     painter.GetPen()->SetLineType(vtkPen::NO_PEN);
     painter.GetBrush()->SetColorF(ground[0], ground[1], ground[2], 0.7);
-    painter.DrawRect(static_cast<float>(x - 4 * scale), static_cast<float>(place[1] - 9 * scale),
-                     static_cast<float>(width + 8 * scale), static_cast<float>(18 * scale));
-    drawText(painter, x, place[1], word.text);
+    painter.DrawRect(static_cast<float>(box.x - 4 * scale), static_cast<float>(box.y - 0.5 * kWordHeight_px * scale),
+                     static_cast<float>(box.width + 8 * scale), static_cast<float>(kWordHeight_px * scale));
+    useText(painter, box.word->color, 13 * scale, true);
+    drawText(painter, box.x, box.y, box.word->text);
   }
 }
 

@@ -34,6 +34,13 @@ public:
   double scale = 1; ///< of all sizes; 1 on a plain screen
 
 private:
+  /// A word on its ground: left side and middle height in the view [px].
+  struct WordBox {
+    const PlacedText* word;
+    double x, y, width;
+  };
+  /// None over a shorter one.
+  std::vector<WordBox> wordBoxes(vtkContext2D& painter);
   void paintWords(vtkContext2D& painter);
 };
 

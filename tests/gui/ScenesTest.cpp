@@ -158,7 +158,8 @@ TEST(Deformation, WarpsByARoundFactorThatNeverShrinks) {
 
 TEST(Canvas, FillsWholePixelsFromTheLowerLeftAndNothingOutside) {
   QImage image(4, 3, QImage::Format_RGB32);
-  Canvas canvas(image.bits(), static_cast<std::size_t>(image.bytesPerLine()), 4, 3);
+  WrittenWords written;
+  Canvas canvas(image.bits(), static_cast<std::size_t>(image.bytesPerLine()), 4, 3, written);
   canvas.clear({1, 1, 1});
   canvas.fill(0.6, -5, 3.4, 1.2, {1, 0, 0});
   for (int y = 0; y < 3; ++y)
@@ -169,7 +170,8 @@ TEST(Canvas, FillsWholePixelsFromTheLowerLeftAndNothingOutside) {
 
 TEST(Canvas, WritesWordsAboutTheirPlaceAndCutsThemAtTheEdges) {
   QImage image(60, 20, QImage::Format_RGB32);
-  Canvas canvas(image.bits(), static_cast<std::size_t>(image.bytesPerLine()), 60, 20);
+  WrittenWords written;
+  Canvas canvas(image.bits(), static_cast<std::size_t>(image.bytesPerLine()), 60, 20, written);
   const auto inked = [&](int from, int to) {
     int count = 0;
     for (int y = 0; y < 20; ++y)
@@ -183,6 +185,10 @@ TEST(Canvas, WritesWordsAboutTheirPlaceAndCutsThemAtTheEdges) {
   canvas.words(30, 10, "888");
   EXPECT_GT(inked(0, 30), 20);
   EXPECT_EQ(inked(31, 60), 0);
+  const QImage first = image.copy();
+  canvas.clear({1, 1, 1});
+  canvas.words(30, 10, "888");
+  EXPECT_EQ(image, first) << "words that were kept";
   EXPECT_NEAR(canvas.wordsWidth_px("888"), 22, 8);
   for (const double x : {-300.0, -5.0, 0.0, 59.0, 300.0})
     for (const double y : {-300.0, 0.0, 19.0, 300.0}) canvas.words(x, y, "[dR/R]");
@@ -193,8 +199,7 @@ TEST(Heatmap, PaintsEachCellInTheColourOfItsValueWhereItSaysThatTheCellIs) {
   heatmap.spec.values = (Eigen::MatrixXd(2, 3) << -1, 0, 1, 0.5, -0.5, std::nan("")).finished();
   heatmap.spec.colors = {ColorMap::Diverging, -1, 1, "dR/R", "%"};
   QImage image(300, 200, QImage::Format_RGB32);
-  Canvas canvas(image.bits(), static_cast<std::size_t>(image.bytesPerLine()), 300, 200);
-  heatmap.paint(canvas);
+  heatmap.paint(image.bits(), static_cast<std::size_t>(image.bytesPerLine()), 300, 200);
   std::array<std::array<int, 3>, 2> seen{};
   for (int y = 0; y < 200; ++y)
     for (int x = 0; x < 300; ++x) {
