@@ -112,9 +112,8 @@ TEST_F(Window, RendersOnceForManyChangesAndNotAtAllWhileHidden) {
 }
 
 TEST(DesignFields, WriteEvenlySpacedPlacesInShortAndReadThemBackExactly) {
-  const auto field = std::find_if(designFields().begin(), designFields().end(), [](const DesignField& each) {
-    return each.key == "lower_layer.column_wire_x_mm";
-  });
+  const auto field = std::find_if(designFields().begin(), designFields().end(),
+                                  [](const DesignField& each) { return each.key == "lower_layer.column_wire_x_mm"; });
   ASSERT_NE(field, designFields().end());
   SensorDesign design = paperDesign();
   EXPECT_EQ(field->text(design), "0.5, 1.5, ..., 29.5");
