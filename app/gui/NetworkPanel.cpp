@@ -162,9 +162,9 @@ void NetworkPanel::buildSweep(QVBoxLayout& column) {
   count_->setRange(2, 100);
   count_->setSuffix(tr(" spreads"));
   auto* row = new QHBoxLayout;
-  row->addWidget(from_);
+  row->addWidget(from_, 1);
   row->addWidget(new QLabel(tr("to")));
-  row->addWidget(to_);
+  row->addWidget(to_, 1);
   form->addRow(row);
   form->addRow(count_);
   sweep_ = new QPushButton(tr("Sweep"));

@@ -152,6 +152,7 @@ void ReportsPage::build() {
   bar_->hide();
   state_ = new QLabel(tr("Nothing was run yet."));
   state_->setObjectName("reportState");
+  state_->setMinimumHeight(bar_->sizeHint().height()); // what is below stays where it is
   state->addWidget(bar_);
   state->addWidget(state_, 1);
   column->addLayout(state);
