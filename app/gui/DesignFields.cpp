@@ -5,6 +5,8 @@
 #include <QObject>
 #include <QStringList>
 
+#include <cmath>
+
 namespace palp {
 
 namespace {
@@ -29,22 +31,52 @@ QString setCount(int& target, const QString& words) {
   return {};
 }
 
-QString listText(const std::vector<double>& values) {
-  QStringList texts;
-  for (const double value : values) texts << shortText(value);
-  return texts.join(", ");
+/// Goes on from the last two values in equal steps until `last`, or says what is wrong.
+QString goOn(std::vector<double>& values, double last) {
+  constexpr double kMost = 1000;
+  if (values.size() < 2) return QObject::tr("before \"...\" stand two numbers, as in 0.5, 1.5, ..., 29.5");
+  const double start = values.back(), step = start - values[values.size() - 2];
+  const double steps = (last - start) / step;
+  if (!(steps >= 1 - 1e-6 && steps <= kMost) || std::abs(steps - std::round(steps)) > 1e-6)
+    return QObject::tr("%1 is not reached from %2 in 1 to 1000 equal steps of %3")
+        .arg(shortText(last), shortText(start), shortText(step));
+  for (int k = 1; k < std::lround(steps); ++k) values.push_back(start + k * step);
+  values.push_back(last);
+  return {};
 }
 
 QString setList(std::vector<double>& target, const QString& words) {
   std::vector<double> values;
+  bool evenly = false; // "..." stood before
   for (const QString& word : words.split(',', Qt::SkipEmptyParts)) {
+    if (word.trimmed() == "..." && !evenly) {
+      evenly = true;
+      continue;
+    }
     double value = 0;
     if (const QString wrong = setNumber(value, word); !wrong.isEmpty()) return wrong;
-    values.push_back(value);
+    if (!evenly)
+      values.push_back(value);
+    else if (const QString wrong = goOn(values, value); !wrong.isEmpty())
+      return wrong;
+    evenly = false;
   }
+  if (evenly) return QObject::tr("after \"...\" stands the last number, as in 0.5, 1.5, ..., 29.5");
   if (values.empty()) return QObject::tr("the list is empty; write numbers with commas between them");
   target = values;
   return {};
+}
+
+/// Evenly spaced numbers in short, where that gives the very same numbers back.
+QString listText(const std::vector<double>& values) {
+  QStringList texts;
+  for (const double value : values) texts << shortText(value);
+  if (values.size() > 4) {
+    const QString evenly = texts[0] + ", " + texts[1] + ", ..., " + texts.back();
+    std::vector<double> again;
+    if (setList(again, evenly).isEmpty() && again == values) return evenly;
+  }
+  return texts.join(", ");
 }
 
 /// Lists wire by wire are separated by semicolons.
@@ -133,7 +165,8 @@ std::vector<DesignField> makeFields() {
   fields.push_back(
       count("areas.rows", tr("Load areas"), tr("along y"), tr("1 to 50"), [](D& s) -> int& { return s.areas.rows; }));
   fields.push_back(list("upper_layer.row_wire_y_mm", tr("Upper layer"), tr("row-wires at y"),
-                        tr("one number a row-wire"), [](D& s) -> std::vector<double>& { return s.upper.wire_mm; }));
+                        tr("one number a row-wire; evenly spaced ones as 1.5, 4.5, ..., 28.5"),
+                        [](D& s) -> std::vector<double>& { return s.upper.wire_mm; }));
   fields.push_back(lists("upper_layer.electrode_x_mm", tr("Upper layer"), tr("electrodes at x"),
                          tr("one list for all row-wires, or one a row-wire with ; between them"),
                          [](D& s) -> std::vector<std::vector<double>>& { return s.upper.along_mm; }));
@@ -141,7 +174,8 @@ std::vector<DesignField> makeFields() {
                          tr("one for all, or one list a row-wire"),
                          [](D& s) -> std::vector<std::vector<double>>& { return s.upper.z_mm; }));
   fields.push_back(list("lower_layer.column_wire_x_mm", tr("Lower layer"), tr("column-wires at x"),
-                        tr("one number a column-wire"), [](D& s) -> std::vector<double>& { return s.lower.wire_mm; }));
+                        tr("one number a column-wire; evenly spaced ones as 0.5, 1.5, ..., 29.5"),
+                        [](D& s) -> std::vector<double>& { return s.lower.wire_mm; }));
   fields.push_back(lists("lower_layer.electrode_y_mm", tr("Lower layer"), tr("electrodes at y"),
                          tr("one list for all column-wires, or one a column-wire with ; between them"),
                          [](D& s) -> std::vector<std::vector<double>>& { return s.lower.along_mm; }));

@@ -1,34 +1,9 @@
 #include "app/gui/HeatmapView.h"
 
-#include <QToolTip>
-
-#include <vtkContextActor.h>
-#include <vtkContextScene.h>
-#include <vtkInteractorStyleUser.h>
-#include <vtkNew.h>
-#include <vtkRenderer.h>
-
 namespace palp {
 
-struct HeatmapView::Parts {
-  vtkNew<vtkRenderer> renderer;
-  vtkNew<vtkContextActor> actor;
-  vtkNew<Heatmap> heatmap;
-  vtkNew<vtkInteractorStyleUser> still; // a heatmap is not turned or zoomed
-
-  Parts() {
-    actor->GetScene()->AddItem(heatmap);
-    actor->GetScene()->SetRenderer(renderer);
-    renderer->AddActor(actor);
-  }
-};
-
-HeatmapView::HeatmapView(QWidget* parent) : HeatmapView(std::make_unique<Parts>(), parent) {}
-
-HeatmapView::HeatmapView(std::unique_ptr<Parts> parts, QWidget* parent)
-    : VtkView(parts->renderer, parts->still, parent), parts_(std::move(parts)) {
-  setTheme(Theme::Light);
-  connect(this, &VtkView::hovered, this, [this](const QPointF& place) {
+HeatmapView::HeatmapView(QWidget* parent) : PictureView(parent) {
+  connect(this, &PictureView::hovered, this, [this](const QPointF& place) {
     const auto cell = cellAt(place);
     if (cell) {
       const HeatmapSpec& spec = heatmap();
@@ -43,36 +18,34 @@ HeatmapView::HeatmapView(std::unique_ptr<Parts> parts, QWidget* parent)
     }
     emit cellHovered(cell);
   });
-  connect(this, &VtkView::clicked, this, [this](const QPointF& place) {
+  connect(this, &PictureView::clicked, this, [this](const QPointF& place) {
     if (const auto cell = cellAt(place)) emit cellClicked((*cell)[0], (*cell)[1]);
   });
 }
 
-HeatmapView::~HeatmapView() = default;
-
 void HeatmapView::setHeatmap(HeatmapSpec spec) {
-  parts_->heatmap->spec = std::move(spec);
-  parts_->heatmap->scale = devicePixelRatioF();
-  parts_->heatmap->Modified();
+  heatmap_.spec = std::move(spec);
   invalidate();
 }
 
 void HeatmapView::setTheme(Theme theme) {
-  const Color& ground = palp::palette(theme).ground;
-  parts_->renderer->SetBackground(ground[0], ground[1], ground[2]);
-  parts_->heatmap->theme = theme;
-  parts_->heatmap->Modified();
+  heatmap_.theme = theme;
   invalidate();
 }
 
-const HeatmapSpec& HeatmapView::heatmap() const {
-  return parts_->heatmap->spec;
+void HeatmapView::render(QImage& image) {
+  heatmap_.scale = devicePixelRatioF();
+  heatmap_.paint(image.bits(), static_cast<std::size_t>(image.bytesPerLine()), image.width(), image.height());
+}
+
+Picture HeatmapView::renderPicture(int width, int height) {
+  return heatmap_.picture(width, height);
 }
 
 std::optional<std::array<int, 2>> HeatmapView::cellAt(const QPointF& place) const {
   if (place.x() < 0) return {};
   const QPointF device = devicePlace(place);
-  return parts_->heatmap->cellAt(device.x(), device.y());
+  return heatmap_.cellAt(device.x(), device.y());
 }
 
 } // namespace palp

@@ -1,21 +1,20 @@
 #pragma once
 
-#include "app/gui/VtkView.h"
+#include "app/gui/PictureView.h"
 #include "app/scenes/Heatmap.h"
 
 namespace palp {
 
 /// The row-column matrix as a view of its own: hovering reads a cell, clicking chooses one.
-class HeatmapView : public VtkView {
+class HeatmapView : public PictureView {
   Q_OBJECT
 
 public:
   explicit HeatmapView(QWidget* parent = nullptr);
-  ~HeatmapView() override;
 
   void setHeatmap(HeatmapSpec spec);
   void setTheme(Theme theme);
-  [[nodiscard]] const HeatmapSpec& heatmap() const;
+  [[nodiscard]] const HeatmapSpec& heatmap() const { return heatmap_.spec; }
   /// The middle of a cell in the widget, as last painted.
   [[nodiscard]] std::optional<std::array<int, 2>> cellAt(const QPointF& place) const;
 
@@ -23,11 +22,12 @@ signals:
   void cellHovered(std::optional<std::array<int, 2>> cell);
   void cellClicked(int row, int column);
 
-private:
-  struct Parts;
-  HeatmapView(std::unique_ptr<Parts> parts, QWidget* parent);
+protected:
+  void render(QImage& image) override;
+  [[nodiscard]] Picture renderPicture(int width, int height) override;
 
-  std::unique_ptr<Parts> parts_;
+private:
+  Heatmap heatmap_;
 };
 
 } // namespace palp

@@ -101,7 +101,7 @@ void LiveCounters::display(const LiveStatus& status, bool simulated) {
   set(latency_, triple(status.latency, status.counts.frames), tr("ms, board to force"));
   set(decoding_, triple(status.decoding, status.counts.frames), tr("ms, p50 / p99 / max"));
   set(climate_,
-      status.temperature_degC ? QString::fromUtf8("%1 \u00b0C").arg(*status.temperature_degC, 0, 'f', 2) : tr("none"),
+      status.temperature_degC ? QString::fromUtf8("%1 \u00b0C").arg(*status.temperature_degC, 0, 'f', 1) : tr("none"),
       status.noise > 0 ? tr("noise %1%2").arg(status.noise, 0, 'g', 2).arg(status.tared ? tr(", tared") : QString())
                        : tr("noise not known"));
 }

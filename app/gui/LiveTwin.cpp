@@ -48,6 +48,7 @@ LiveTwin::LiveTwin(QWidget* parent) : QWidget(parent) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   auto* row = new QHBoxLayout;
+  row->setContentsMargins(8, 8, 8, 2);
   auto* solve = new QPushButton(tr("Solve for the force now"));
   solve->setObjectName("solveTwin");
   solve->setToolTip(tr("Meshes and solves the block under the force that was decoded last (W)"));

@@ -88,6 +88,7 @@ QWidget* NetworkPage::buildCharts() {
   fitWords_->setObjectName("fitWords");
   fitWords_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   fitWords_->setWordWrap(true);
+  fitWords_->setMinimumHeight(3 * fitWords_->fontMetrics().lineSpacing()); // the tabs stay where they are
   bar->addWidget(fitWords_, 1);
   bar->addWidget(new QLabel(tr("Test area")));
   area_ = new QSpinBox;

@@ -76,6 +76,8 @@ void NetworkPanel::buildSamples(QVBoxLayout& column) {
   samplesWords_ = new QLabel;
   samplesWords_->setObjectName("samplesWords");
   samplesWords_->setWordWrap(true);
+  samplesWords_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
+  samplesWords_->setMinimumHeight(2 * samplesWords_->fontMetrics().lineSpacing()); // what is below does not jump
   form->addRow(samplesWords_);
   column.addWidget(box);
   connect(perArea_, &QSpinBox::valueChanged, this, [this] { tell(tr("Change the number of samples")); });
@@ -160,9 +162,9 @@ void NetworkPanel::buildSweep(QVBoxLayout& column) {
   count_->setRange(2, 100);
   count_->setSuffix(tr(" spreads"));
   auto* row = new QHBoxLayout;
-  row->addWidget(from_);
+  row->addWidget(from_, 1);
   row->addWidget(new QLabel(tr("to")));
-  row->addWidget(to_);
+  row->addWidget(to_, 1);
   form->addRow(row);
   form->addRow(count_);
   sweep_ = new QPushButton(tr("Sweep"));

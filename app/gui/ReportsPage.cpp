@@ -1,5 +1,6 @@
 #include "app/gui/ReportsPage.h"
 
+#include "app/gui/ReportPicture.h"
 #include "app/study/reports/ReportComputations.h"
 #include "io/DesignFile.h"
 #include "model/Error.h"
@@ -19,7 +20,6 @@
 #include <QProcessEnvironment>
 #include <QProgressBar>
 #include <QPushButton>
-#include <QScrollArea>
 #include <QScrollBar>
 #include <QSettings>
 #include <QSplitter>
@@ -35,7 +35,6 @@ namespace palp {
 
 namespace {
 
-constexpr int kPictureWidth_px = 900; // at most
 constexpr int kEndWithin_ms = 3000;
 constexpr const char* kFolderKey = "reportFolder";
 
@@ -89,14 +88,8 @@ ReportsPage::ReportsPage(Workbench& workbench, QWidget* parent) : Scene(parent),
                           .arg(commandLineProgram()));
     if (error == QProcess::FailedToStart) end(1, QProcess::CrashExit);
   });
-  connect(pictures_, &QListWidget::currentTextChanged, this, [this](const QString& file) {
-    const QPixmap pixmap(QDir(folder_).filePath(file));
-    if (pixmap.isNull()) return;
-    const int width = std::min(kPictureWidth_px, picture_->parentWidget()->width());
-    QPixmap scaled = pixmap.scaledToWidth(qRound(width * picture_->devicePixelRatioF()), Qt::SmoothTransformation);
-    scaled.setDevicePixelRatio(picture_->devicePixelRatioF());
-    picture_->setPixmap(scaled);
-  });
+  connect(pictures_, &QListWidget::currentTextChanged, picture_,
+          [this](const QString& file) { picture_->show(QPixmap(QDir(folder_).filePath(file))); });
   timer_.setInterval(500);
   connect(&timer_, &QTimer::timeout, this, &ReportsPage::tellTime);
 }
@@ -159,6 +152,7 @@ void ReportsPage::build() {
   bar_->hide();
   state_ = new QLabel(tr("Nothing was run yet."));
   state_->setObjectName("reportState");
+  state_->setMinimumHeight(bar_->sizeHint().height()); // what is below stays where it is
   state->addWidget(bar_);
   state->addWidget(state_, 1);
   column->addLayout(state);
@@ -172,11 +166,7 @@ void ReportsPage::build() {
   pictures_ = new QListWidget;
   pictures_->setObjectName("reportPictures");
   pictures_->hide(); // while there are none
-  picture_ = new QLabel(tr("Pictures of the report appear here."));
-  picture_->setAlignment(Qt::AlignCenter);
-  auto* scroll = new QScrollArea;
-  scroll->setWidget(picture_);
-  scroll->setWidgetResizable(true);
+  picture_ = new ReportPicture(tr("Pictures of the report appear here."));
   auto* left = new QSplitter(Qt::Vertical);
   left->setObjectName("reportsLeft");
   left->addWidget(log_);
@@ -184,7 +174,7 @@ void ReportsPage::build() {
   auto* views = new QSplitter(Qt::Horizontal);
   views->setObjectName("reportsSplitter");
   views->addWidget(left);
-  views->addWidget(scroll);
+  views->addWidget(picture_);
   views->setSizes({480, 900});
   column->addWidget(views, 1);
 }

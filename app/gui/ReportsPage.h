@@ -17,6 +17,8 @@ class QPushButton;
 
 namespace palp {
 
+class ReportPicture;
+
 /// The reports, run by the command line program beside this one, so that a report can neither block nor break the
 /// window; its page and pictures are shown when it is done.
 class ReportsPage : public Scene {
@@ -58,7 +60,7 @@ private:
   QLabel* state_ = nullptr;
   QPlainTextEdit* log_ = nullptr;
   QListWidget* pictures_ = nullptr;
-  QLabel* picture_ = nullptr;
+  ReportPicture* picture_ = nullptr;
 };
 
 } // namespace palp

@@ -1,5 +1,6 @@
 #include "app/scenes/DeformationScene.h"
 
+#include "app/scenes/Blending.h"
 #include "app/scenes/BlockActors.h"
 #include "app/scenes/CameraFit.h"
 #include "app/scenes/ElectrodeActors.h"
@@ -150,6 +151,7 @@ struct DeformationScene::Parts {
 };
 
 DeformationScene::DeformationScene() : parts_(std::make_unique<Parts>()) {
+  blendInOrder(*parts_->renderer);
   parts_->overlayActor->GetScene()->AddItem(parts_->overlay);
   parts_->overlayActor->GetScene()->SetRenderer(parts_->renderer);
   parts_->renderer->AddActor(parts_->overlayActor);

@@ -1,17 +1,9 @@
 #include "app/scenes/Heatmap.h"
 
-#include "app/scenes/OffscreenWindow.h"
 #include "app/scenes/Overlay.h"
 #include "app/scenes/TextStyle.h"
 
-#include <vtkBrush.h>
-#include <vtkContext2D.h>
-#include <vtkContextActor.h>
-#include <vtkContextScene.h>
-#include <vtkNew.h>
-#include <vtkObjectFactory.h>
-#include <vtkPen.h>
-#include <vtkRenderer.h>
+#include <vtkLookupTable.h>
 #include <vtkTextProperty.h>
 
 #include <algorithm>
@@ -20,102 +12,115 @@
 
 namespace palp {
 
-vtkStandardNewMacro(Heatmap)
+namespace {
 
-    namespace {
+/// Every how many indices a label is written, so that none touches the next.
+int labelStride(double cell_px, double label_px) {
+  for (const int stride : {1, 2, 5, 10, 20, 50})
+    if (stride * cell_px >= label_px) return stride;
+  return 100;
+}
 
-  /// Every how many indices a label is written, so that none touches the next.
-  int labelStride(double cell_px, double label_px) {
-    for (const int stride : {1, 2, 5, 10, 20, 50})
-      if (stride * cell_px >= label_px) return stride;
-    return 100;
-  }
+Color mapped(vtkLookupTable& table, double value) {
+  Color color{};
+  table.GetColor(value, color.data());
+  return color;
+}
+
+/// Upright words about a place; `justification` as VTK counts: 0 left or bottom, 1 centre, 2 right or top.
+void useText(const Canvas& canvas, const Color& color, double size_px, bool bold, int across, int along) {
+  vtkTextProperty& text = canvas.textStyle();
+  setTextStyle(text, color, size_px, bold);
+  text.SetOrientation(0);
+  text.SetJustification(across);
+  text.SetVerticalJustification(along);
+}
+
+double legendWidth_px(Canvas& canvas, const ColorScale& colors, Theme theme, double scale) {
+  useText(canvas, palette(theme).text, 12 * scale, false, VTK_TEXT_LEFT, VTK_TEXT_CENTERED);
+  double widest = 0;
+  for (const std::string& text : tickTexts(legendTicks(colors, 200 * scale, scale)))
+    widest = std::max(widest, canvas.wordsWidth_px(text));
+  const double numbers = (kLegendBar_px + 2 * kLegendTick_px) * scale + widest;
+  useText(canvas, palette(theme).text, 13 * scale, true, VTK_TEXT_LEFT, VTK_TEXT_CENTERED);
+  return std::max(numbers, canvas.wordsWidth_px(colors.title()));
+}
 
 } // namespace
 
-bool Heatmap::Paint(vtkContext2D* painter) {
-  if (spec.values.size() == 0) return true;
-  const double width = GetScene()->GetSceneWidth();
-  const double height = GetScene()->GetSceneHeight();
+void Heatmap::paint(std::uint8_t* bgra, std::size_t stride, int width, int height) {
+  Canvas canvas(bgra, stride, width, height, written_);
+  canvas.clear(palette(theme).ground);
+  if (spec.values.size() == 0) return;
   const double margin = 12 * scale;
-  const double legend = legendWidth_px(*painter, spec.colors, theme, scale);
+  const double legend = legendWidth_px(canvas, spec.colors, theme, scale);
   left_ = margin + 46 * scale;
   bottom_ = margin + 36 * scale;
-  const double right = width - 2 * margin - legend;
-  const double top = height - margin - 28 * scale;
+  const double right = canvas.width() - 2 * margin - legend;
+  const double top = canvas.height() - margin - 28 * scale;
   cellWidth_ = std::max(right - left_, 1.0) / static_cast<double>(spec.values.cols());
   cellHeight_ = std::max(top - bottom_, 1.0) / static_cast<double>(spec.values.rows());
-  paintCells(*painter);
-  paintAxes(*painter);
-  paintLegend(*painter, spec.colors, {right + margin, bottom_, 16 * scale, std::max(top - bottom_ - 18 * scale, 1.0)},
-              theme, scale, width - margin);
-  return true;
+  const vtkSmartPointer<vtkLookupTable> table = lookupTable(spec.colors);
+  paintCells(canvas, *table);
+  paintAxes(canvas);
+  paintLegend(canvas, *table, right + margin, legend);
 }
 
-// One image, a pixel a cell, and one call for the gaps: 300 rectangles are 300 calls of the graphics library.
-void Heatmap::paintCells(vtkContext2D& painter) const {
-  const Eigen::Index rows = spec.values.rows(), columns = spec.values.cols();
-  const auto left = static_cast<float>(left_), bottom = static_cast<float>(bottom_);
-  const auto width = static_cast<float>(cellWidth_ * static_cast<double>(columns));
-  const auto height = static_cast<float>(cellHeight_ * static_cast<double>(rows));
-  paintColors(painter, {left_, bottom_, width, height}, columns, rows,
-              [&](Eigen::Index column, Eigen::Index row) { return spec.colors.color(spec.values(row, column)); });
-  if (std::min(cellWidth_, cellHeight_) > 6 * scale) {
-    const double gap = std::round(scale);
-    std::vector<float> ends;
-    // In the middle of whole pixels, so that all gaps are equally wide.
-    const auto place = [&](double edge) { return static_cast<float>(std::round(edge) - 0.5 * gap); };
-    for (Eigen::Index column = 1; column < columns; ++column) {
-      const float x = place(left_ + static_cast<double>(column) * cellWidth_);
-      ends.insert(ends.end(), {x, bottom, x, bottom + height});
-    }
-    for (Eigen::Index row = 1; row < rows; ++row) {
-      const float y = place(bottom_ + static_cast<double>(row) * cellHeight_);
-      ends.insert(ends.end(), {left, y, left + width, y});
-    }
-    const Color& ground = palette(theme).ground;
-    painter.GetPen()->SetLineType(vtkPen::SOLID_LINE);
-    painter.GetPen()->SetColorF(ground[0], ground[1], ground[2], 1);
-    painter.GetPen()->SetWidth(static_cast<float>(gap));
-    painter.DrawLines(ends.data(), static_cast<int>(ends.size() / 2));
-  }
+void Heatmap::paintCells(Canvas& canvas, vtkLookupTable& table) const {
+  // All edges on whole pixels, so that all gaps are equally wide.
+  const double gap = std::min(cellWidth_, cellHeight_) > 6 * scale ? std::round(scale) : 0;
+  for (Eigen::Index row = 0; row < spec.values.rows(); ++row)
+    for (Eigen::Index column = 0; column < spec.values.cols(); ++column)
+      canvas.fill(std::round(columnEdge(column)), std::round(rowEdge(row)),
+                  std::round(columnEdge(column + 1)) - (column + 1 < spec.values.cols() ? gap : 0),
+                  std::round(rowEdge(row + 1)) - (row + 1 < spec.values.rows() ? gap : 0),
+                  mapped(table, spec.values(row, column)));
   if (!spec.selected) return;
-  const Color& ink = palette(theme).selection;
-  painter.GetBrush()->SetOpacityF(0);
-  painter.GetPen()->SetLineType(vtkPen::SOLID_LINE);
-  painter.GetPen()->SetColorF(ink[0], ink[1], ink[2], 1);
-  painter.GetPen()->SetWidth(static_cast<float>(2.5 * scale));
-  painter.DrawRect(static_cast<float>(left_ + (*spec.selected)[1] * cellWidth_),
-                   static_cast<float>(bottom_ + (*spec.selected)[0] * cellHeight_), static_cast<float>(cellWidth_),
-                   static_cast<float>(cellHeight_));
-  painter.GetBrush()->SetOpacityF(1);
+  const double thickness = std::round(2.5 * scale), outside = std::round(0.5 * thickness);
+  const auto [row, column] = *spec.selected;
+  canvas.frame(columnEdge(column) - outside, rowEdge(row) - outside, columnEdge(column + 1) + outside,
+               rowEdge(row + 1) + outside, thickness, palette(theme).selection);
 }
 
-void Heatmap::paintAxes(vtkContext2D& painter) const {
-  const Palette& ink = palette(theme);
-  vtkTextProperty& text = *painter.GetTextProp();
-  setTextStyle(text, ink.text, 12 * scale);
-  text.SetOrientation(0);
-  text.SetJustificationToCentered();
-  text.SetVerticalJustificationToTop();
+void Heatmap::paintAxes(Canvas& canvas) const {
+  const Color& ink = palette(theme).text;
+  const double top = rowEdge(spec.values.rows());
+  const double centreX = 0.5 * (left_ + columnEdge(spec.values.cols())), centreY = 0.5 * (bottom_ + top);
+  useText(canvas, ink, 12 * scale, false, VTK_TEXT_CENTERED, VTK_TEXT_TOP);
   const int columnStride = labelStride(cellWidth_, 24 * scale);
   for (int column = 0; column < spec.values.cols(); column += columnStride)
-    drawText(painter, left_ + (column + 0.5) * cellWidth_, bottom_ - 5 * scale, std::to_string(column));
-  const double centreX = left_ + 0.5 * cellWidth_ * static_cast<double>(spec.values.cols());
-  const double centreY = bottom_ + 0.5 * cellHeight_ * static_cast<double>(spec.values.rows());
-  drawText(painter, centreX, bottom_ - 23 * scale, spec.columnLabel);
-  text.SetJustificationToRight();
-  text.SetVerticalJustificationToCentered();
+    canvas.words(columnEdge(column) + 0.5 * cellWidth_, bottom_ - 5 * scale, std::to_string(column));
+  canvas.words(centreX, bottom_ - 23 * scale, spec.columnLabel);
+  useText(canvas, ink, 12 * scale, false, VTK_TEXT_RIGHT, VTK_TEXT_CENTERED);
   const int rowStride = labelStride(cellHeight_, 16 * scale);
   for (int row = 0; row < spec.values.rows(); row += rowStride)
-    drawText(painter, left_ - 6 * scale, bottom_ + (row + 0.5) * cellHeight_, std::to_string(row));
-  text.SetJustificationToCentered();
-  text.SetOrientation(90);
-  drawText(painter, 18 * scale, centreY, spec.rowLabel);
-  setTextStyle(text, ink.text, 14 * scale, true);
-  text.SetOrientation(0);
-  text.SetJustificationToLeft();
-  drawText(painter, left_, bottom_ + static_cast<double>(spec.values.rows()) * cellHeight_ + 18 * scale, spec.title);
+    canvas.words(left_ - 6 * scale, rowEdge(row) + 0.5 * cellHeight_, std::to_string(row));
+  useText(canvas, ink, 12 * scale, false, VTK_TEXT_CENTERED, VTK_TEXT_CENTERED);
+  canvas.textStyle().SetOrientation(90);
+  canvas.words(18 * scale, centreY, spec.rowLabel);
+  useText(canvas, ink, 14 * scale, true, VTK_TEXT_LEFT, VTK_TEXT_CENTERED);
+  canvas.words(left_, top + 18 * scale, spec.title);
+}
+
+void Heatmap::paintLegend(Canvas& canvas, vtkLookupTable& table, double x, double width) const {
+  const ColorScale& colors = spec.colors;
+  const Color& ink = palette(theme).text;
+  const double height = std::max(rowEdge(spec.values.rows()) - bottom_ - kLegendTitle_px * scale, 1.0);
+  const double right = x + kLegendBar_px * scale;
+  for (double y = 0; y < height; ++y)
+    canvas.fill(x, bottom_ + y, right, bottom_ + y + 1,
+                mapped(table, colors.low + (colors.high - colors.low) * (y + 0.5) / height));
+  useText(canvas, ink, 12 * scale, false, VTK_TEXT_LEFT, VTK_TEXT_CENTERED);
+  const std::vector<double> ticks = legendTicks(colors, height, scale);
+  const std::vector<std::string> texts = tickTexts(ticks);
+  for (std::size_t k = 0; k < ticks.size(); ++k) {
+    const double y = std::round(bottom_ + (ticks[k] - colors.low) / (colors.high - colors.low) * height);
+    canvas.fill(right, y, right + kLegendTick_px * scale, y + std::max(std::round(scale), 1.0), ink);
+    canvas.words(right + 2 * kLegendTick_px * scale, y, texts[k]);
+  }
+  useText(canvas, ink, 13 * scale, true, VTK_TEXT_LEFT, VTK_TEXT_CENTERED);
+  canvas.words(std::min(x, x + width - canvas.wordsWidth_px(colors.title())),
+               bottom_ + height + kLegendTitle_px * scale, colors.title());
 }
 
 std::optional<std::array<int, 2>> Heatmap::cellAt(double x_px, double y_px) const {
@@ -128,18 +133,19 @@ std::optional<std::array<int, 2>> Heatmap::cellAt(double x_px, double y_px) cons
   return std::array{static_cast<int>(row), static_cast<int>(column)};
 }
 
+Picture Heatmap::picture(int width, int height) const {
+  requireDrawable(width, height);
+  std::vector<std::uint8_t> bgra(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  Heatmap(*this).paint(bgra.data(), 4 * static_cast<std::size_t>(width), width,
+                       height); // of a copy: the cells that cellAt knows stay those of the view
+  return pictureOfBgra(bgra, width, height);
+}
+
 Picture drawHeatmap(const HeatmapSpec& spec, int width, int height, Theme theme) {
-  vtkNew<Heatmap> heatmap;
-  heatmap->spec = spec;
-  heatmap->theme = theme;
-  vtkNew<vtkContextActor> actor;
-  actor->GetScene()->AddItem(heatmap);
-  vtkNew<vtkRenderer> renderer;
-  const Color& ground = palette(theme).ground;
-  renderer->SetBackground(ground[0], ground[1], ground[2]);
-  actor->GetScene()->SetRenderer(renderer);
-  renderer->AddActor(actor);
-  return drawOnce(renderer, width, height);
+  Heatmap heatmap;
+  heatmap.spec = spec;
+  heatmap.theme = theme;
+  return heatmap.picture(width, height);
 }
 
 } // namespace palp

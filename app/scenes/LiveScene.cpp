@@ -1,5 +1,6 @@
 #include "app/scenes/LiveScene.h"
 
+#include "app/scenes/Blending.h"
 #include "app/scenes/CameraFit.h"
 #include "app/scenes/ElectrodeActors.h"
 #include "app/scenes/ForceArrows.h"
@@ -84,6 +85,7 @@ void LiveScene::Parts::tintAreas(const Color& color) {
 
 LiveScene::LiveScene() : parts_(std::make_unique<Parts>()) {
   Parts& parts = *parts_;
+  blendInOrder(*parts.renderer);
   vtkNew<vtkPolyDataMapper> blockMapper;
   blockMapper->SetInputConnection(parts.box->GetOutputPort());
   parts.block->SetMapper(blockMapper);

@@ -120,10 +120,7 @@ Picture OffscreenWindow::picture() const {
   const auto height = static_cast<std::size_t>(size[1]);
   std::vector<std::uint8_t> bgra(4 * width * height);
   copyBgra(bgra.data(), 4 * width);
-  Picture picture{size[0], size[1], std::vector<std::uint8_t>(3 * width * height)};
-  for (std::size_t pixel = 0; pixel < width * height; ++pixel)
-    for (std::size_t c = 0; c < 3; ++c) picture.rgb[3 * pixel + c] = bgra[4 * pixel + 2 - c];
-  return picture;
+  return pictureOfBgra(bgra, size[0], size[1]);
 }
 
 void OffscreenWindow::copyBgra(std::uint8_t* pixels, std::size_t stride) const {
@@ -147,9 +144,7 @@ void OffscreenWindow::copyBgra(std::uint8_t* pixels, std::size_t stride) const {
 }
 
 Picture drawOnce(vtkRenderer* renderer, int width, int height) {
-  if (width < 1 || height < 1 || width > 16384 || height > 16384)
-    throw Error("a picture of " + std::to_string(width) + " x " + std::to_string(height) +
-                " pixels: allowed is 1 to 16384 each way");
+  requireDrawable(width, height);
   OffscreenWindow window;
   window.setSize(width, height);
   window.vtk()->AddRenderer(renderer);

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace palp {
 
@@ -23,9 +24,8 @@ vtkStandardNewMacro(Overlay)
 
     namespace {
 
-  constexpr double kBarWidth_px = 16;
-  constexpr double kTick_px = 5;
   constexpr double kMargin_px = 14;
+  constexpr double kWordHeight_px = 18; ///< of a word with its ground
 
   void useText(vtkContext2D & painter, const Color& color, double size_px, bool bold = false) {
     setTextStyle(*painter.GetTextProp(), color, size_px, bold);
@@ -34,46 +34,40 @@ vtkStandardNewMacro(Overlay)
     painter.GetTextProp()->SetVerticalJustificationToCentered();
   }
 
-  std::vector<double> legendTicks(const ColorScale& colors, double height_px, double scale) {
-    return roundTicks(colors.low, colors.high, std::clamp(static_cast<int>(height_px / (28 * scale)), 2, 8));
-  }
-
 } // namespace
+
+std::vector<double> legendTicks(const ColorScale& colors, double height_px, double scale) {
+  return roundTicks(colors.low, colors.high, std::clamp(static_cast<int>(height_px / (28 * scale)), 2, 8));
+}
 
 double legendWidth_px(vtkContext2D& painter, const ColorScale& colors, Theme theme, double scale) {
   useText(painter, palette(theme).text, 12 * scale);
   double widest = 0;
   for (const std::string& text : tickTexts(legendTicks(colors, 200 * scale, scale)))
     widest = std::max(widest, textWidth_px(painter, text));
-  const double numbers = (kBarWidth_px + 2 * kTick_px) * scale + widest;
+  const double numbers = (kLegendBar_px + 2 * kLegendTick_px) * scale + widest;
   useText(painter, palette(theme).text, 13 * scale, true);
   return std::max(numbers, textWidth_px(painter, colors.title()));
-}
-
-void paintColors(vtkContext2D& painter, const LegendPlace& place, Eigen::Index columns, Eigen::Index rows,
-                 const std::function<Color(Eigen::Index, Eigen::Index)>& color) {
-  vtkNew<vtkImageData> image;
-  image->SetDimensions(static_cast<int>(columns), static_cast<int>(rows), 1);
-  image->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
-  auto* byte = static_cast<unsigned char*>(image->GetScalarPointer());
-  for (Eigen::Index row = 0; row < rows; ++row)
-    for (Eigen::Index column = 0; column < columns; ++column) {
-      for (const double part : color(column, row)) *byte++ = static_cast<unsigned char>(std::lround(255 * part));
-      *byte++ = 255;
-    }
-  painter.GetPen()->SetLineType(vtkPen::NO_PEN);
-  painter.DrawImage(vtkRectf(static_cast<float>(place.x), static_cast<float>(place.y), static_cast<float>(place.width),
-                             static_cast<float>(place.height)),
-                    image);
 }
 
 void paintLegend(vtkContext2D& painter, const ColorScale& colors, const LegendPlace& place, Theme theme, double scale,
                  double right_px) {
   const Palette& ink = palette(theme);
+  // One image: a call of the graphics library for each band costs 20 us by software.
   constexpr int kBands = 128;
-  paintColors(painter, place, 1, kBands, [&](Eigen::Index, Eigen::Index band) {
-    return colors.color(colors.low + (colors.high - colors.low) * (static_cast<double>(band) + 0.5) / kBands);
-  });
+  vtkNew<vtkImageData> bands;
+  bands->SetDimensions(1, kBands, 1);
+  bands->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
+  auto* byte = static_cast<unsigned char*>(bands->GetScalarPointer());
+  for (int band = 0; band < kBands; ++band) {
+    for (const double part : colors.color(colors.low + (colors.high - colors.low) * (band + 0.5) / kBands))
+      *byte++ = static_cast<unsigned char>(std::lround(255 * part));
+    *byte++ = 255;
+  }
+  painter.GetPen()->SetLineType(vtkPen::NO_PEN);
+  painter.DrawImage(vtkRectf(static_cast<float>(place.x), static_cast<float>(place.y), static_cast<float>(place.width),
+                             static_cast<float>(place.height)),
+                    bands);
   painter.GetPen()->SetLineType(vtkPen::SOLID_LINE);
   painter.GetPen()->SetWidth(static_cast<float>(scale));
   painter.GetPen()->SetColorF(ink.text[0], ink.text[1], ink.text[2], 1);
@@ -84,33 +78,53 @@ void paintLegend(vtkContext2D& painter, const ColorScale& colors, const LegendPl
   for (std::size_t k = 0; k < ticks.size(); ++k) {
     const double y = place.y + (ticks[k] - colors.low) / (colors.high - colors.low) * place.height;
     const double x = place.x + place.width;
-    ends.insert(ends.end(), {static_cast<float>(x), static_cast<float>(y), static_cast<float>(x + kTick_px * scale),
-                             static_cast<float>(y)});
-    drawText(painter, x + 2 * kTick_px * scale, y, texts[k]);
+    ends.insert(ends.end(), {static_cast<float>(x), static_cast<float>(y),
+                             static_cast<float>(x + kLegendTick_px * scale), static_cast<float>(y)});
+    drawText(painter, x + 2 * kLegendTick_px * scale, y, texts[k]);
   }
   if (!ends.empty()) painter.DrawLines(ends.data(), static_cast<int>(ends.size() / 2));
   useText(painter, ink.text, 13 * scale, true);
   const double titleX = std::min(place.x, right_px - textWidth_px(painter, colors.title()));
-  drawText(painter, titleX, place.y + place.height + 18 * scale, colors.title());
+  drawText(painter, titleX, place.y + place.height + kLegendTitle_px * scale, colors.title());
 }
 
-void Overlay::paintWords(vtkContext2D& painter) {
+std::vector<Overlay::WordBox> Overlay::wordBoxes(vtkContext2D& painter) {
   vtkRenderer* renderer = GetScene()->GetRenderer();
-  if (renderer == nullptr) return;
-  const Color& ground = palette(theme).ground;
+  if (renderer == nullptr) return {};
+  std::vector<WordBox> boxes;
   for (const PlacedText& word : words) {
     renderer->SetWorldPoint(word.place_mm.x(), word.place_mm.y(), word.place_mm.z(), 1);
     renderer->WorldToDisplay();
     const double* place = renderer->GetDisplayPoint();
     useText(painter, word.color, 13 * scale, true);
-    const double width = textWidth_px(painter, word.text);
-    const double sceneWidth = GetScene()->GetSceneWidth();
+    const double width = textWidth_px(painter, word.text), sceneWidth = GetScene()->GetSceneWidth();
     const double x = std::clamp(place[0] - 0.5 * width, 4.0, std::max(4.0, sceneWidth - width - 4));
+    boxes.push_back({&word, x, place[1], width});
+  }
+  // Short words, as numbers of areas, stay at their places; a longer one goes up until it covers none of them.
+  std::stable_sort(boxes.begin(), boxes.end(),
+                   [](const WordBox& a, const WordBox& b) { return a.word->text.size() < b.word->text.size(); });
+  for (auto box = boxes.begin(); box != boxes.end(); ++box)
+    for (bool moved = true; std::exchange(moved, false);)
+      for (auto other = boxes.begin(); other != box; ++other) {
+        const bool apart = std::abs(other->y - box->y) >= kWordHeight_px * scale ||
+                           other->x > box->x + box->width + 8 * scale || box->x > other->x + other->width + 8 * scale;
+        if (apart || other->word->text.size() == box->word->text.size()) continue;
+        box->y = other->y + (kWordHeight_px + 1) * scale;
+        moved = true;
+      }
+  return boxes;
+}
+
+void Overlay::paintWords(vtkContext2D& painter) {
+  const Color& ground = palette(theme).ground;
+  for (const WordBox& box : wordBoxes(painter)) {
     painter.GetPen()->SetLineType(vtkPen::NO_PEN);
     painter.GetBrush()->SetColorF(ground[0], ground[1], ground[2], 0.7);
-    painter.DrawRect(static_cast<float>(x - 4 * scale), static_cast<float>(place[1] - 9 * scale),
-                     static_cast<float>(width + 8 * scale), static_cast<float>(18 * scale));
-    drawText(painter, x, place[1], word.text);
+    painter.DrawRect(static_cast<float>(box.x - 4 * scale), static_cast<float>(box.y - 0.5 * kWordHeight_px * scale),
+                     static_cast<float>(box.width + 8 * scale), static_cast<float>(kWordHeight_px * scale));
+    useText(painter, box.word->color, 13 * scale, true);
+    drawText(painter, box.x, box.y, box.word->text);
   }
 }
 
@@ -128,8 +142,8 @@ bool Overlay::Paint(vtkContext2D* painter) {
   if (legend) {
     const double need = legendWidth_px(*painter, *legend, theme, scale);
     const double bar = std::min(0.55 * height, 320 * scale);
-    paintLegend(*painter, *legend, {width - margin - need, (height - bar) / 2, kBarWidth_px * scale, bar}, theme, scale,
-                width - margin);
+    paintLegend(*painter, *legend, {width - margin - need, (height - bar) / 2, kLegendBar_px * scale, bar}, theme,
+                scale, width - margin);
   }
   return true;
 }

@@ -6,7 +6,6 @@
 
 #include <Eigen/Core>
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,7 +19,7 @@ struct PlacedText {
   Color color{};
 };
 
-/// Text and legend over a 3-D view or beside a heatmap, in pixels of the view.
+/// Text and legend over a 3-D view, in pixels of the view.
 class Overlay : public vtkContextItem {
 public:
   static Overlay* New();
@@ -35,6 +34,13 @@ public:
   double scale = 1; ///< of all sizes; 1 on a plain screen
 
 private:
+  /// A word on its ground: left side and middle height in the view [px].
+  struct WordBox {
+    const PlacedText* word;
+    double x, y, width;
+  };
+  /// None over a shorter one.
+  std::vector<WordBox> wordBoxes(vtkContext2D& painter);
   void paintWords(vtkContext2D& painter);
 };
 
@@ -46,10 +52,13 @@ struct LegendPlace {
   double height = 200;
 };
 
-/// A field of colours, `columns` by `rows` from below, each as a rectangle: one image, because a call of the graphics
-/// library for each rectangle costs 20 us by software.
-void paintColors(vtkContext2D& painter, const LegendPlace& place, Eigen::Index columns, Eigen::Index rows,
-                 const std::function<Color(Eigen::Index, Eigen::Index)>& color);
+/// Sizes of a legend at scale 1 [px].
+constexpr double kLegendBar_px = 16;
+constexpr double kLegendTick_px = 5;
+constexpr double kLegendTitle_px = 18; ///< of its middle above the bar
+
+/// Where a bar of this height has its numbers.
+std::vector<double> legendTicks(const ColorScale& colors, double height_px, double scale);
 
 /// Paints the bar, its numbers to the right and quantity [unit] above, right-aligned with `right_px`.
 void paintLegend(vtkContext2D& painter, const ColorScale& colors, const LegendPlace& place, Theme theme, double scale,

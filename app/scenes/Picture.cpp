@@ -26,6 +26,19 @@ void fillFromTop(vtkImageData& image, const Picture& picture) {
 
 } // namespace
 
+Picture pictureOfBgra(std::span<const std::uint8_t> bgra, int width, int height) {
+  Picture picture{width, height, std::vector<std::uint8_t>(bgra.size() / 4 * 3)};
+  for (std::size_t pixel = 0; pixel < bgra.size() / 4; ++pixel)
+    for (std::size_t c = 0; c < 3; ++c) picture.rgb[3 * pixel + c] = bgra[4 * pixel + 2 - c];
+  return picture;
+}
+
+void requireDrawable(int width, int height) {
+  if (width < 1 || height < 1 || width > 16384 || height > 16384)
+    throw Error("a picture of " + std::to_string(width) + " x " + std::to_string(height) +
+                " pixels: allowed is 1 to 16384 each way");
+}
+
 void requireWritable(const std::filesystem::path& path) {
   if (!std::ofstream(path, std::ios::app))
     throw Error(path.string() + ": cannot be written; allowed is a file in a folder that exists and may be written to");

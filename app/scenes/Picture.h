@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <vector>
 
 namespace palp {
@@ -14,6 +15,12 @@ struct Picture {
 
   [[nodiscard]] bool empty() const { return rgb.empty(); }
 };
+
+/// Of 4 bytes a pixel: blue, green, red and one that is left out.
+Picture pictureOfBgra(std::span<const std::uint8_t> bgra, int width, int height);
+
+/// Throws Error unless a picture of this size can be drawn: 1 to 16384 pixels each way.
+void requireDrawable(int width, int height);
 
 /// Throws Error where the file cannot be written; VTK's writers would add lines of their own to standard error.
 void requireWritable(const std::filesystem::path& path);

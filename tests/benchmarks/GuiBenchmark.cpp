@@ -13,8 +13,12 @@
 #include <QApplication>
 #include <QElapsedTimer>
 #include <QFile>
+#include <QLabel>
 #include <QProcess>
 #include <QStandardPaths>
+
+#include <vtkNew.h>
+#include <vtkRenderer.h>
 
 #include <chrono>
 #include <cstdio>
@@ -60,17 +64,17 @@ bool waitFor(const std::function<bool()>& condition) {
   return condition();
 }
 
-QList<VtkView*> visibleViews(const QWidget& root) {
-  QList<VtkView*> views;
-  for (auto* view : root.findChildren<VtkView*>())
+QList<PictureView*> visibleViews(const QWidget& root) {
+  QList<PictureView*> views;
+  for (auto* view : root.findChildren<PictureView*>())
     if (view->isVisible()) views << view;
   return views;
 }
 
-double cpuAFrame_ms(const QList<VtkView*>& views, const std::function<void(int)>& change = {}) {
+double cpuAFrame_ms(const QList<PictureView*>& views, const std::function<void(int)>& change = {}) {
   const auto draw = [&](int frame) {
     if (change) change(frame);
-    for (VtkView* view : views) {
+    for (PictureView* view : views) {
       view->invalidate();
       view->repaint();
     }
@@ -91,8 +95,8 @@ int measureScene(const QString& name, long long start_ns) {
   if (!window.showScene(name)) return 2;
   window.show();
   const bool drawn = waitFor([&] {
-    const QList<VtkView*> views = visibleViews(window.currentScene());
-    return std::all_of(views.begin(), views.end(), [](const VtkView* view) { return view->renderCount() > 0; });
+    const QList<PictureView*> views = visibleViews(window.currentScene());
+    return std::all_of(views.begin(), views.end(), [](const PictureView* view) { return view->renderCount() > 0; });
   });
   const double first_s = 1e-9 * static_cast<double>(now_ns() - start_ns);
   const bool complete = waitFor([&] {
@@ -109,16 +113,53 @@ int measureScene(const QString& name, long long start_ns) {
   return 0;
 }
 
+/// What the machine itself needs, for it changes from hour to hour: VTK clears an empty window that is read back and
+/// painted, and a picture that is there is painted.
+void measureYardsticks(const std::function<void(QWidget&)>& show) {
+  vtkNew<vtkRenderer> nothing;
+  VtkView empty(nothing, nullptr);
+  show(empty);
+  std::printf("yardstick: empty window of VTK     %5.1f ms CPU\n", cpuAFrame_ms({&empty}));
+  QLabel picture;
+  QPixmap pixels(kWidth_px, kHeight_px);
+  pixels.fill(Qt::white);
+  picture.setPixmap(pixels);
+  show(picture);
+  std::printf("yardstick: a picture painted       %5.1f ms CPU\n", cpuAFrame_ms({}, [&](int) { picture.repaint(); }));
+}
+
 /// Prints a line a view, each alone at full size.
 int measureViews() {
   Touch touch(paperDesign(), exampleProject().load);
   touch.advance(Stage::Resistances);
   const NodalFields fields = touch.problem()->fields(touch.solution()->state());
-  const auto show = [](VtkView& view) {
+  const auto show = [](QWidget& view) {
     view.resize(kWidth_px, kHeight_px);
     view.show();
     QApplication::processEvents();
   };
+  // Before all others: the first in a process has its shaders compiled, the second finds them.
+  const auto showTimed = [&](const char* what, QWidget& view) {
+    const long long start_ns = now_ns();
+    show(view);
+    std::printf("first drawing of %-17s %5.0f ms\n", what, 1e-6 * static_cast<double>(now_ns() - start_ns));
+    view.hide();
+  };
+  const DeformationState state{&touch.design(), touch.mesh(), &fields, touch.displacements(), &touch.load(), 1};
+  for (int time = 0; time < 2; ++time) {
+    BlockView block;
+    block.show(state, {}, true);
+    showTimed("a block", block);
+    ChartView chart;
+    ChartSpec curve;
+    curve.series.push_back({"curve", {0, 1, 2}, {1, 3, 2}});
+    chart.setChart(curve);
+    showTimed("a chart", chart);
+    HeatmapView heatmap;
+    heatmap.setHeatmap(resistanceHeatmap(touch, *touch.resistances_ohm(), ResistanceKind::RelativeChange));
+    showTimed("a heatmap", heatmap);
+  }
+  measureYardsticks(show);
   HeatmapView heatmap;
   show(heatmap);
   std::printf("heatmap alone, new values a frame  %5.1f ms CPU\n", cpuAFrame_ms({&heatmap}, [&](int frame) {
@@ -127,7 +168,6 @@ int measureViews() {
               }));
   heatmap.hide();
   BlockView block;
-  const DeformationState state{&touch.design(), touch.mesh(), &fields, touch.displacements(), &touch.load(), 1};
   block.show(state, {}, true);
   show(block);
   std::printf("block alone, turned                %5.1f ms CPU\n", cpuAFrame_ms({&block}, [&](int frame) {

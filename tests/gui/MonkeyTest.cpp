@@ -62,13 +62,13 @@ public:
       break;
     case 8:
     case 9:
-      if (auto* view = any<VtkView>()) drag(*view, placeIn(*view), placeIn(*view), modifiers());
+      if (auto* view = any<PictureView>()) drag(*view, placeIn(*view), placeIn(*view), modifiers());
       break;
     case 10:
-      if (auto* view = any<VtkView>()) QTest::mouseClick(view, Qt::LeftButton, modifiers(), placeIn(*view));
+      if (auto* view = any<PictureView>()) QTest::mouseClick(view, Qt::LeftButton, modifiers(), placeIn(*view));
       break;
     case 11:
-      if (auto* view = any<VtkView>()) wheel(*view, 120 * (upTo(3) - 1));
+      if (auto* view = any<PictureView>()) wheel(*view, 120 * (upTo(3) - 1));
       break;
     case 12:
       dragArrow();
@@ -134,7 +134,7 @@ protected:
     shown.showScene(scene);
     QTest::qWait(150);
     std::map<std::string, QImage> all;
-    for (auto* view : shown.currentScene().findChildren<VtkView*>()) {
+    for (auto* view : shown.currentScene().findChildren<PictureView*>()) {
       if (!view->isVisible()) continue;
       if (auto* block = qobject_cast<BlockView*>(view)) block->resetCamera();
       all[view->objectName().toStdString()] = view->image().copy();

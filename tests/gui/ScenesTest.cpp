@@ -1,9 +1,11 @@
+#include "app/scenes/Canvas.h"
 #include "app/scenes/Chart.h"
 #include "app/scenes/ChartLegend.h"
 #include "app/scenes/ColorScale.h"
 #include "app/scenes/DeformationPicture.h"
 #include "app/scenes/Heatmap.h"
 #include "app/scenes/MeshSurface.h"
+#include "app/scenes/TextStyle.h"
 #include "app/scenes/VtuFile.h"
 #include "model/Error.h"
 #include "solver/SensorMesh.h"
@@ -11,10 +13,14 @@
 #include <QImage>
 #include <QTemporaryDir>
 
+#include <vtkTextProperty.h>
+
 #include <Eigen/Geometry>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <limits>
 #include <set>
@@ -123,6 +129,24 @@ TEST(Deformation, DrawsEveryQuantity) {
   }
 }
 
+TEST(Deformation, LightsUpTheElectrodesOfACellInsideTheBlock) {
+  const SensorDesign design = paperDesign();
+  const Mesh mesh = sensorMesh(design, coarse());
+  DeformationState state;
+  state.design = &design;
+  state.mesh = &mesh;
+  DeformationOptions options;
+  const Picture plain = drawDeformation(state, options, 640, 480);
+  options.litCell = {3, 7};
+  const Picture lit = drawDeformation(state, options, 640, 480);
+  std::size_t changed = 0;
+  for (std::size_t k = 0; k + 2 < plain.rgb.size(); k += 3)
+    if (!std::equal(&plain.rgb[k], &plain.rgb[k + 3], &lit.rgb[k])) ++changed;
+  // 13 spheres of 1.06 mm across, some 10 pixels a millimetre: discs of 80 pixels.
+  EXPECT_GT(changed, 500u);
+  EXPECT_LT(changed, 4000u);
+}
+
 TEST(Deformation, WarpsByARoundFactorThatNeverShrinks) {
   const SensorDesign design = paperDesign();
   const Eigen::Matrix3Xd small = Eigen::Matrix3Xd::Constant(3, 4, 0.01);
@@ -130,6 +154,67 @@ TEST(Deformation, WarpsByARoundFactorThatNeverShrinks) {
   EXPECT_EQ(automaticWarpFactor(design, small), 50);
   EXPECT_EQ(automaticWarpFactor(design, large), 1);
   EXPECT_EQ(automaticWarpFactor(design, Eigen::Matrix3Xd::Zero(3, 4)), 1);
+}
+
+TEST(Canvas, FillsWholePixelsFromTheLowerLeftAndNothingOutside) {
+  QImage image(4, 3, QImage::Format_RGB32);
+  WrittenWords written;
+  Canvas canvas(image.bits(), static_cast<std::size_t>(image.bytesPerLine()), 4, 3, written);
+  canvas.clear({1, 1, 1});
+  canvas.fill(0.6, -5, 3.4, 1.2, {1, 0, 0});
+  for (int y = 0; y < 3; ++y)
+    for (int x = 0; x < 4; ++x)
+      EXPECT_EQ(image.pixelColor(x, y), y == 2 && (x == 1 || x == 2) ? QColor(255, 0, 0) : QColor(255, 255, 255))
+          << x << ", " << y;
+}
+
+TEST(Canvas, WritesWordsAboutTheirPlaceAndCutsThemAtTheEdges) {
+  QImage image(60, 20, QImage::Format_RGB32);
+  WrittenWords written;
+  Canvas canvas(image.bits(), static_cast<std::size_t>(image.bytesPerLine()), 60, 20, written);
+  const auto inked = [&](int from, int to) {
+    int count = 0;
+    for (int y = 0; y < 20; ++y)
+      for (int x = from; x < to; ++x) count += image.pixelColor(x, y) == QColor(255, 255, 255) ? 0 : 1;
+    return count;
+  };
+  canvas.clear({1, 1, 1});
+  setTextStyle(canvas.textStyle(), {0, 0, 0}, 12);
+  canvas.textStyle().SetJustificationToRight();
+  canvas.textStyle().SetVerticalJustificationToCentered();
+  canvas.words(30, 10, "888");
+  EXPECT_GT(inked(0, 30), 20);
+  EXPECT_EQ(inked(31, 60), 0);
+  const QImage first = image.copy();
+  canvas.clear({1, 1, 1});
+  canvas.words(30, 10, "888");
+  EXPECT_EQ(image, first) << "words that were kept";
+  EXPECT_NEAR(canvas.wordsWidth_px("888"), 22, 8);
+  for (const double x : {-300.0, -5.0, 0.0, 59.0, 300.0})
+    for (const double y : {-300.0, 0.0, 19.0, 300.0}) canvas.words(x, y, "[dR/R]");
+}
+
+TEST(Heatmap, PaintsEachCellInTheColourOfItsValueWhereItSaysThatTheCellIs) {
+  Heatmap heatmap;
+  heatmap.spec.values = (Eigen::MatrixXd(2, 3) << -1, 0, 1, 0.5, -0.5, std::nan("")).finished();
+  heatmap.spec.colors = {ColorMap::Diverging, -1, 1, "dR/R", "%"};
+  QImage image(300, 200, QImage::Format_RGB32);
+  heatmap.paint(image.bits(), static_cast<std::size_t>(image.bytesPerLine()), 300, 200);
+  std::array<std::array<int, 3>, 2> seen{};
+  for (int y = 0; y < 200; ++y)
+    for (int x = 0; x < 300; ++x) {
+      const auto cell = heatmap.cellAt(x + 0.5, 199 - y + 0.5);
+      const auto edge = [&](double dx, double dy) { return heatmap.cellAt(x + 0.5 + dx, 199 - y + 0.5 + dy) != cell; };
+      if (!cell || edge(2, 0) || edge(-2, 0) || edge(0, 2) || edge(0, -2)) continue;
+      ++seen.at(static_cast<std::size_t>((*cell)[0])).at(static_cast<std::size_t>((*cell)[1]));
+      const Color wanted = heatmap.spec.colors.color(heatmap.spec.values((*cell)[0], (*cell)[1]));
+      const QColor is = image.pixelColor(x, y);
+      // A table of 256 colours: half a step of it changes a part by less than 4 of 255.
+      ASSERT_NEAR(is.red(), 255 * wanted[0], 4) << x << ", " << y;
+      ASSERT_NEAR(is.blue(), 255 * wanted[2], 4) << x << ", " << y;
+    }
+  for (const auto& row : seen)
+    for (const int pixels : row) EXPECT_GT(pixels, 100);
 }
 
 TEST(MeshSurface, OfABlockIsClosed) {

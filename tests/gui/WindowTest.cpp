@@ -1,5 +1,6 @@
 #include "app/gui/BlockView.h"
 #include "app/gui/ChartView.h"
+#include "app/gui/DesignFields.h"
 #include "app/gui/HeatmapView.h"
 #include "app/gui/ProjectFile.h"
 #include "app/study/Resources.h"
@@ -108,6 +109,25 @@ TEST_F(Window, RendersOnceForManyChangesAndNotAtAllWhileHidden) {
     settle();
   }
   EXPECT_EQ(block.renderCount(), hidden);
+}
+
+TEST(DesignFields, WriteEvenlySpacedPlacesInShortAndReadThemBackExactly) {
+  const auto field = std::find_if(designFields().begin(), designFields().end(),
+                                  [](const DesignField& each) { return each.key == "lower_layer.column_wire_x_mm"; });
+  ASSERT_NE(field, designFields().end());
+  SensorDesign design = paperDesign();
+  EXPECT_EQ(field->text(design), "0.5, 1.5, ..., 29.5");
+  SensorDesign again = design;
+  again.lower.wire_mm = {1};
+  EXPECT_EQ(field->set(again, field->text(design)), QString());
+  EXPECT_EQ(again.lower.wire_mm, design.lower.wire_mm);
+  design.lower.wire_mm[7] += 0.25;
+  EXPECT_EQ(field->text(design).count(','), 29) << "what is not evenly spaced is written out";
+  EXPECT_EQ(field->set(again, "1, 2, ..., 5, 7"), QString());
+  EXPECT_EQ(again.lower.wire_mm, (std::vector<double>{1, 2, 3, 4, 5, 7}));
+  for (const char* wrong : {"...", "1, ..., 5", "1, 2, ...", "1, 2, ..., 4.5", "1, 2, ..., 2", "1, 1, ..., 5",
+                            "0, 1e-9, ..., 30", "5, 4, ..., 9", "1, 2, ..., x", "1, 2, ..., nan"})
+    EXPECT_NE(field->set(again, wrong), QString()) << wrong;
 }
 
 TEST_F(Window, SolvesAgainAndDrawsAnotherPictureWhenAForceIsTyped) {

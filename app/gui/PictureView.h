@@ -1,0 +1,65 @@
+#pragma once
+
+#include "app/scenes/Picture.h"
+
+#include <QImage>
+#include <QPointF>
+#include <QWidget>
+
+namespace palp {
+
+/// A widget that shows one picture: drawn at most once a paint, and only where something changed; costs nothing while
+/// hidden. A right click offers it as PNG.
+class PictureView : public QWidget {
+  Q_OBJECT
+
+public:
+  explicit PictureView(QWidget* parent = nullptr);
+
+  /// Something changed: draw at the next paint.
+  void invalidate();
+  /// What the view shows, as an image of its size in device pixels.
+  [[nodiscard]] const QImage& image();
+  /// The view in another size.
+  [[nodiscard]] Picture picture(int width, int height) { return renderPicture(width, height); }
+  [[nodiscard]] int renderCount() const { return renderCount_; }
+  [[nodiscard]] double aspect() const;
+  /// A place of the widget as VTK counts: device pixels from the lower left.
+  [[nodiscard]] QPointF devicePlace(const QPointF& place) const;
+
+signals:
+  /// Pressed and released at one place.
+  void clicked(const QPointF& place);
+  void hovered(const QPointF& place);
+  void doubleClicked();
+  void sizeChanged();
+
+protected:
+  /// Draws into an image of the view's size, RGB32.
+  virtual void render(QImage& image) = 0;
+  [[nodiscard]] virtual Picture renderPicture(int width, int height) = 0;
+  [[nodiscard]] QSize deviceSize() const;
+
+  void paintEvent(QPaintEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseDoubleClickEvent(QMouseEvent* event) override;
+  void leaveEvent(QEvent* event) override;
+
+private:
+  void draw();
+  /// Asks for a size and a file and saves the view as PNG; or copies it.
+  void offerPicture(const QPoint& globalPlace);
+  /// Empty where none was given.
+  [[nodiscard]] QSize askSize(const QSize& now);
+  void savePicture(const QSize& size);
+
+  QImage image_;
+  bool changed_ = true;
+  int renderCount_ = 0;
+  QPointF pressed_;
+};
+
+} // namespace palp
