@@ -151,6 +151,13 @@ INSTANTIATE_TEST_SUITE_P(
                   {"--tolerance", "0"}},
         BadOption{"MergeMissing", {"merge", "nowhere.csv", "-o", "x.csv"}, {"nowhere.csv"}},
         BadOption{"ReproduceUnknown", {"reproduce", "fig99"}, {"fig99"}},
+        BadOption{"ReportUnknown", {"report", "fly"}, {"fly", "error-time"}},
+        BadOption{"ReportWithoutKind", {"report"}, {"kind"}},
+        BadOption{"ReportPerAreaTwo", {"report", "noise", "--per-area", "2"}, {"--per-area", "2", "5 to"}},
+        BadOption{"ReportSeedNegative", {"report", "noise", "--seed", "-1"}, {"--seed", "-1", "0 to"}},
+        BadOption{"ReportDesignMissing", {"report", "layout", "--design", "nowhere.json"}, {"nowhere.json"}},
+        BadOption{"ReportMappedTwoNumbers", {"report", "scenes", "--mapped", "2x2"}, {"--mapped", "2x2", "NxNxN"}},
+        BadOption{"ReportIntoAFile", {"report", "scenes", "-o", "/dev/null"}, {"--output", "/dev/null", "folder"}},
         BadOption{"SeedsZero", {"reproduce", "table1", "--seeds", "0"}, {"--seeds", "0"}},
         BadOption{"TrainMissing", {"train", "nowhere.csv", "--input", "displacement", "-o", "n.json"}, {"nowhere.csv"}},
         BadOption{"PredictMissing", {"predict", "nowhere.json", "nowhere.csv"}, {"nowhere.json"}},
@@ -158,6 +165,14 @@ INSTANTIATE_TEST_SUITE_P(
                   {"sweep", "nowhere.csv", "--test", "t.csv", "--input", "displacement", "--spreads", "1"},
                   {"nowhere.csv"}}),
     [](const auto& tested) { return tested.param.name; });
+
+TEST(BadInput, ARefusedReportLeavesNoFolder) {
+  const auto folder = scratch("refused");
+  const std::string output = folder / "out";
+  expectRefused(palp::test::palp({"report", "stability", "--mesh-size", "1e-6", "-o", output}), {"mesh size"});
+  expectRefused(palp::test::palp({"report", "stability", "--design", "nowhere.json", "-o", output}), {"nowhere.json"});
+  EXPECT_FALSE(std::filesystem::exists(output));
+}
 
 TEST(BadInput, AnOutputThatExistsIsKept) {
   const auto folder = scratch("exists");
