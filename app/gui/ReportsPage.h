@@ -3,6 +3,7 @@
 #include "app/gui/Scene.h"
 #include "app/gui/Workbench.h"
 
+#include <QDateTime>
 #include <QElapsedTimer>
 #include <QProcess>
 #include <QTimer>
@@ -34,7 +35,7 @@ public:
 private:
   void build();
   /// Of palp, for the chosen report into a folder.
-  [[nodiscard]] QStringList arguments(const QString& folder) const;
+  [[nodiscard]] QStringList arguments(const Project& project, const QString& folder) const;
   void start();
   void cancel();
   void readMessages();
@@ -46,7 +47,9 @@ private:
   QProcess process_;
   QElapsedTimer clock_;
   QTimer timer_;
-  QString folder_; ///< of the last run
+  QString folder_;    ///< of the last run
+  QDateTime started_; ///< of the last run
+  bool cancelled_ = false;
   QComboBox* kind_ = nullptr;
   QLabel* what_ = nullptr;
   QLineEdit* target_ = nullptr;
