@@ -1,4 +1,5 @@
 #include "tests/app/Process.h"
+#include "tests/io/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
 
@@ -69,7 +70,7 @@ class BrokenDesignTest : public testing::TestWithParam<BrokenDesign> {};
 } // namespace
 
 TEST_P(BrokenDesignTest, IsRefusedByEveryCommandThatReadsDesigns) {
-  const auto folder = scratch("broken-" + GetParam().name);
+  const palp::TemporaryFolder folder;
   json design = paper();
   GetParam().spoil(design);
   const std::string file = folder / "sensor.json";
@@ -89,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(Designs, BrokenDesignTest, testing::ValuesIn(brokenDesi
                          [](const auto& tested) { return tested.param.name; });
 
 TEST(BadInput, ATruncatedDesignIsRefusedWithItsPlace) {
-  const auto folder = scratch("truncated");
+  const palp::TemporaryFolder folder;
   const std::string text = paper().dump();
   writeAll(folder / "cut.json", text.substr(0, text.size() / 2));
   expectRefused(palp::test::palp({"design", "--check", folder / "cut.json"}), {"cut.json"});
@@ -167,7 +168,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& tested) { return tested.param.name; });
 
 TEST(BadInput, ARefusedReportLeavesNoFolder) {
-  const auto folder = scratch("refused");
+  const palp::TemporaryFolder folder;
   const std::string output = folder / "out";
   expectRefused(palp::test::palp({"report", "stability", "--mesh-size", "1e-6", "-o", output}), {"mesh size"});
   expectRefused(palp::test::palp({"report", "stability", "--design", "nowhere.json", "-o", output}), {"nowhere.json"});
@@ -175,7 +176,7 @@ TEST(BadInput, ARefusedReportLeavesNoFolder) {
 }
 
 TEST(BadInput, AnOutputThatExistsIsKept) {
-  const auto folder = scratch("exists");
+  const palp::TemporaryFolder folder;
   const std::string file = folder / "sensor.json";
   writeAll(file, "mine");
   expectRefused(palp::test::palp({"design", "-o", file}), {"sensor.json", "--force"});

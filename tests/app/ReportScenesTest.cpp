@@ -1,4 +1,5 @@
 #include "tests/app/Process.h"
+#include "tests/io/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
 
@@ -25,12 +26,11 @@ bool good(const std::string& row) {
 } // namespace
 
 TEST(ReportScenes, MeasuresEveryCommandAndTheWindowAndFindsNothingThatIsNotShown) {
-  const auto folder = scratch("report-scenes");
+  const TemporaryFolder folder;
   const Outcome outcome =
       palp({"report", "scenes", "--mapped", "4x4x2", "--per-area", "6", "-o", (folder / "out").string(), "--json"});
   ASSERT_EQ(outcome.exit, 0) << outcome.errors;
   const std::string csv = readAll(folder / "out" / "points.csv");
-  std::filesystem::remove_all(folder);
   EXPECT_TRUE(std::ranges::all_of(rows(csv, "chain"), good));
   const auto commands = rows(csv, "command");
   for (const std::string& row : commands) EXPECT_TRUE(good(row)) << row;

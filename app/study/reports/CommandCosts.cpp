@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <sstream>
 
 namespace palp {
@@ -45,9 +46,14 @@ void tellStages(CommandCost& cost, const std::string& output) {
   if (!result.is_object() || !result.contains("stages")) return;
   for (const auto& [stage, count] : result["stages"].items()) {
     const int runs = count.value("runs", 0);
-    if (stage == "render") cost.pictures = runs;
     cost.stages += (cost.stages.empty() ? "" : ", ") + stage + " " + std::to_string(runs);
   }
+}
+
+int pictureFiles(const std::filesystem::path& folder) {
+  const std::filesystem::recursive_directory_iterator files(folder);
+  return static_cast<int>(
+      std::count_if(begin(files), end(files), [](const auto& file) { return file.path().extension() == ".png"; }));
 }
 
 /// The commands in an order in which each finds the files that it reads.
@@ -104,7 +110,9 @@ std::vector<CommandCost> commandCosts(const ReportRequest& request, const Report
     order.arguments.emplace_back("--json");
     if (request.threads > 0)
       order.arguments.insert(order.arguments.end(), {"--threads", std::to_string(request.threads)});
+    const int before = pictureFiles(folder.path());
     const ChildRun run = runChild(order, stop);
+    cost.pictures = pictureFiles(folder.path()) - before;
     cost.seconds = run.seconds;
     cost.cpu_s = run.cpu_s;
     cost.peak_MB = run.peak_MB;

@@ -14,7 +14,7 @@ struct CommandCost {
   double cpu_s = 0;
   double peak_MB = 0;
   std::string stages; ///< that ran, with how often
-  int pictures = 0;   ///< drawn
+  int pictures = 0;   ///< files of pictures that it wrote
   std::string failed; ///< why it has no result; empty where it has one
 };
 
