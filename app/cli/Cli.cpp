@@ -2,23 +2,17 @@
 
 #include "app/cli/Interrupt.h"
 #include "app/study/Blas.h"
+#include "app/study/reports/ProcessMemory.h"
 #include "nn/NetworkError.h"
 #include "solver/BatchSolver.h"
 
 #include <algorithm>
 #include <iostream>
-#include <sys/resource.h>
 #include <thread>
 
 namespace palp {
 
 namespace {
-
-double peakMemory_MB() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024; // Linux counts in KiB
-}
 
 /// CLI11 breaks some messages over lines; ours are one.
 std::string oneLine(std::string text) {

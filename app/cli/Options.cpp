@@ -144,14 +144,19 @@ void OutputFile::requireWritable() const {
     throw UsageError("--output: '" + path.string() + "' exists; give --force to overwrite it");
 }
 
-void requireFolder(const std::filesystem::path& folder, bool force) {
+OutputFolder::OutputFolder(const std::filesystem::path& folder, bool force) {
   if (std::filesystem::exists(folder) && !std::filesystem::is_directory(folder))
     throw UsageError("--output: '" + folder.string() + "' is a file; allowed is a folder");
   if (std::filesystem::is_directory(folder) && !std::filesystem::is_empty(folder) && !force)
     throw UsageError("--output: '" + folder.string() + "' is there and not empty; give --force to write into it");
   std::error_code failed;
-  std::filesystem::create_directories(folder, failed);
+  if (std::filesystem::create_directories(folder, failed)) made_ = folder;
   if (failed) throw UsageError("--output: '" + folder.string() + "' cannot be made: " + failed.message());
+}
+
+OutputFolder::~OutputFolder() {
+  std::error_code notEmpty;
+  if (!made_.empty()) std::filesystem::remove(made_, notEmpty);
 }
 
 } // namespace palp

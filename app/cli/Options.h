@@ -50,7 +50,17 @@ struct OutputFile {
   void requireWritable() const;
 };
 
-/// Makes a report's folder where it is missing; one that is not empty is taken with force only.
-void requireFolder(const std::filesystem::path& folder, bool force);
+/// A report's folder, made where it is missing; one that is not empty is taken with force only. One that was made and
+/// stays empty, because the report was refused or cancelled, goes with the object.
+class OutputFolder {
+public:
+  OutputFolder(const std::filesystem::path& folder, bool force);
+  ~OutputFolder();
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+
+private:
+  std::filesystem::path made_; ///< empty where it was there before
+};
 
 } // namespace palp

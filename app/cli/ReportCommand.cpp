@@ -45,7 +45,7 @@ std::string commandLine(const ReportArguments& arguments) {
 
 Exit run(ReportArguments& arguments, Session& session) {
   if (arguments.folder.empty()) arguments.folder = "palp-report-" + arguments.kind;
-  requireFolder(arguments.folder, arguments.force);
+  const OutputFolder folder(arguments.folder, arguments.force);
   ReportRequest request;
   request.design = designOption(arguments.design);
   request.folder = arguments.folder;
@@ -54,6 +54,7 @@ Exit run(ReportArguments& arguments, Session& session) {
   request.seed = static_cast<std::uint64_t>(wholeNumber("--seed", arguments.seed, 0, 1'000'000));
   request.threads = session.threads;
   request.command = commandLine(arguments);
+  request.programs = std::filesystem::read_symlink("/proc/self/exe").parent_path();
 
   const std::vector<ReportComputation>& kinds = reportComputations();
   const auto kind = std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) { return k.name == arguments.kind; });

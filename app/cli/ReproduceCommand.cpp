@@ -78,7 +78,7 @@ Exit run(const ReproduceArguments& arguments, Session& session) {
   options.firstSeed = static_cast<std::uint64_t>(wholeNumber("--first-seed", arguments.firstSeed, 0, 1'000'000));
   options.mesh = arguments.mesh.options();
   options.threads = session.threads;
-  requireFolder(arguments.folder, arguments.force);
+  const OutputFolder folder(arguments.folder, arguments.force);
 
   const SensorDesign design = paperDesign();
   ProgressBar bar("reproduce", 1000);

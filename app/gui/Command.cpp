@@ -11,13 +11,6 @@ QString triple(const Eigen::Vector3d& values) {
   return QString::fromStdString(text(values.x()) + "," + text(values.y()) + "," + text(values.z()));
 }
 
-QString meshOption(const MeshOptions& mesh) {
-  if (mesh.meshSize_mm) return " --mesh-size " + QString::fromStdString(text(*mesh.meshSize_mm));
-  if (mesh.mapped)
-    return QString(" --mapped %1x%2x%3").arg((*mesh.mapped)[0]).arg((*mesh.mapped)[1]).arg((*mesh.mapped)[2]);
-  return {};
-}
-
 QString trainOptions(const NetworkSettings& network) {
   QString options = " --input " + QString::fromStdString(name(network.input)) + " --rows " +
                     QString::fromStdString(network.rows) + " --mode " + QString::fromStdString(name(network.mode)) +
@@ -27,6 +20,13 @@ QString trainOptions(const NetworkSettings& network) {
 }
 
 } // namespace
+
+QString meshOption(const MeshOptions& mesh) {
+  if (mesh.meshSize_mm) return " --mesh-size " + QString::fromStdString(text(*mesh.meshSize_mm));
+  if (mesh.mapped)
+    return QString(" --mapped %1x%2x%3").arg((*mesh.mapped)[0]).arg((*mesh.mapped)[1]).arg((*mesh.mapped)[2]);
+  return {};
+}
 
 QString meshCommands(const Project& project, const QString& designFile) {
   return "palp design --check " + designFile + "\npalp mesh " + designFile + meshOption(project.mesh) + " -o mesh.vtu";

@@ -12,7 +12,8 @@ constexpr int kWidth_px = 900; ///< at most
 
 } // namespace
 
-ReportPicture::ReportPicture(const QString& words, QWidget* parent) : QScrollArea(parent), label_(new QLabel(words)) {
+ReportPicture::ReportPicture(const QString& words, QWidget* parent)
+    : QScrollArea(parent), words_(words), label_(new QLabel(words)) {
   label_->setObjectName("reportPicture");
   label_->setAlignment(Qt::AlignCenter);
   setWidget(label_);
@@ -21,10 +22,16 @@ ReportPicture::ReportPicture(const QString& words, QWidget* parent) : QScrollAre
 
 void ReportPicture::show(const QPixmap& picture) {
   if (picture.isNull()) return;
+  clear(); // the label's is of the same width
   picture_ = picture;
   // Always there: a bar that comes and goes would change the width that the picture has.
   setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOn);
   fit();
+}
+
+void ReportPicture::clear() {
+  picture_ = {};
+  label_->setText(words_);
 }
 
 void ReportPicture::resizeEvent(QResizeEvent* event) {

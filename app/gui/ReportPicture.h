@@ -15,6 +15,8 @@ public:
 
   /// Nothing where the picture is null.
   void show(const QPixmap& picture);
+  /// The words again.
+  void clear();
 
 protected:
   void resizeEvent(QResizeEvent* event) override;
@@ -22,6 +24,7 @@ protected:
 private:
   void fit();
 
+  QString words_;
   QLabel* label_;
   QPixmap picture_;
 };

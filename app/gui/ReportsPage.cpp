@@ -1,5 +1,6 @@
 #include "app/gui/ReportsPage.h"
 
+#include "app/gui/Command.h"
 #include "app/gui/ReportPicture.h"
 #include "app/study/reports/ReportComputations.h"
 #include "io/DesignFile.h"
@@ -10,6 +11,7 @@
 #include <QDesktopServices>
 #include <QDir>
 #include <QFileDialog>
+#include <QFileInfo>
 #include <QFontDatabase>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -179,19 +181,21 @@ void ReportsPage::build() {
   column->addWidget(views, 1);
 }
 
-QStringList ReportsPage::arguments(const QString& folder) const {
-  return kinds()[static_cast<std::size_t>(kind_->currentIndex())].arguments + QStringList{"-o", folder, "--force"};
+QStringList ReportsPage::arguments(const Project& project, const QString& folder) const {
+  QStringList all = kinds()[static_cast<std::size_t>(kind_->currentIndex())].arguments;
+  if (all.front() == "report") all << "--per-area" << QString::number(project.samples.perArea);
+  return all + meshOption(project.mesh).split(' ', Qt::SkipEmptyParts) + QStringList{"-o", folder, "--force"};
 }
 
 QString ReportsPage::commands(const Project& project, const QString& designFile) const {
-  QStringList all = arguments("palp-report");
+  QStringList all = arguments(project, "palp-report");
   if (all.front() == "report" && !(project.design == paperDesign())) all << "--design" << designFile;
   return "palp " + all.join(' ');
 }
 
 void ReportsPage::start() {
   folder_ = QDir(target_->text().trimmed()).absolutePath();
-  QStringList all = arguments(folder_);
+  QStringList all = arguments(workbench_.project(), folder_);
   if (!QDir().mkpath(folder_)) {
     state_->setText(tr("%1 cannot be made; choose a folder that may be written to.").arg(folder_));
     return;
@@ -209,6 +213,10 @@ void ReportsPage::start() {
   QSettings().setValue(kFolderKey, folder_);
   log_->setPlainText("palp " + all.join(' '));
   pictures_->clear();
+  pictures_->hide();
+  picture_->clear();
+  cancelled_ = false;
+  started_ = QDateTime::currentDateTime();
   run_->setEnabled(false);
   cancel_->setEnabled(true);
   openPage_->setEnabled(false);
@@ -234,7 +242,9 @@ void ReportsPage::readMessages() {
 }
 
 void ReportsPage::cancel() {
-  if (process_.state() != QProcess::NotRunning) ::kill(static_cast<pid_t>(process_.processId()), SIGINT);
+  if (process_.state() == QProcess::NotRunning) return;
+  cancelled_ = true;
+  ::kill(static_cast<pid_t>(process_.processId()), SIGINT);
 }
 
 void ReportsPage::end(int status, QProcess::ExitStatus how) {
@@ -251,6 +261,8 @@ void ReportsPage::end(int status, QProcess::ExitStatus how) {
     openPage_->setEnabled(true);
     openFolder_->setEnabled(true);
     showPictures();
+  } else if (cancelled_) {
+    state_->setText(tr("Cancelled after %1 s; nothing was written.").arg(seconds));
   } else if (status == 130 || status == 1) {
     state_->setText(tr("Ended without a result after %1 s; see the messages.").arg(seconds));
   } else {
@@ -260,7 +272,8 @@ void ReportsPage::end(int status, QProcess::ExitStatus how) {
 
 void ReportsPage::showPictures() {
   pictures_->clear();
-  pictures_->addItems(QDir(folder_).entryList({"*.png"}, QDir::Files, QDir::Name));
+  for (const QFileInfo& file : QDir(folder_).entryInfoList({"*.png"}, QDir::Files, QDir::Name))
+    if (file.lastModified() >= started_) pictures_->addItem(file.fileName()); // others are of another report
   pictures_->setVisible(pictures_->count() > 0);
   if (pictures_->count() > 0) pictures_->setCurrentRow(0);
 }

@@ -3,6 +3,7 @@
 #include "app/gui/Scene.h"
 #include "app/gui/Workbench.h"
 
+#include <QDateTime>
 #include <QElapsedTimer>
 #include <QProcess>
 #include <QTimer>
@@ -36,7 +37,7 @@ public:
 private:
   void build();
   /// Of palp, for the chosen report into a folder.
-  [[nodiscard]] QStringList arguments(const QString& folder) const;
+  [[nodiscard]] QStringList arguments(const Project& project, const QString& folder) const;
   void start();
   void cancel();
   void readMessages();
@@ -48,7 +49,9 @@ private:
   QProcess process_;
   QElapsedTimer clock_;
   QTimer timer_;
-  QString folder_; ///< of the last run
+  QString folder_;    ///< of the last run
+  QDateTime started_; ///< of the last run
+  bool cancelled_ = false;
   QComboBox* kind_ = nullptr;
   QLabel* what_ = nullptr;
   QLineEdit* target_ = nullptr;

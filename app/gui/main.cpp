@@ -1,6 +1,7 @@
 #include "app/gui/MainWindow.h"
 #include "app/gui/NetworkSession.h"
 #include "app/gui/ProjectFile.h"
+#include "app/gui/SceneCosts.h"
 #include "app/gui/Snapshot.h"
 #include "app/gui/Workbench.h"
 #include "model/Error.h"
@@ -9,6 +10,7 @@
 #include <QCommandLineParser>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <iostream>
 #include <string_view>
@@ -18,7 +20,27 @@ namespace {
 /// What the command line asks for.
 struct Wish {
   QString scene, snapshot, theme, file;
+  bool costs = false;
+  palp::MeshOptions mesh;
 };
+
+/// Throws Error where a mesh cannot be meant.
+palp::MeshOptions meshOf(const QString& size_mm, const QString& mapped) {
+  palp::MeshOptions mesh;
+  bool good = true;
+  if (!size_mm.isEmpty()) mesh.meshSize_mm = size_mm.toDouble(&good);
+  if (!good || (mesh.meshSize_mm && !(*mesh.meshSize_mm > 0)))
+    throw palp::Error("--mesh-size " + size_mm.toStdString() + ": allowed is a number above 0");
+  if (mapped.isEmpty()) return mesh;
+  const QStringList counts = mapped.split('x');
+  std::array<int, 3> elements{};
+  for (std::size_t k = 0; k < 3; ++k) elements[k] = counts.value(static_cast<int>(k)).toInt();
+  if (counts.size() != 3 || *std::min_element(elements.begin(), elements.end()) < 1 || mesh.meshSize_mm)
+    throw palp::Error("--mapped " + mapped.toStdString() +
+                      ": allowed is three numbers of elements, as 10x10x5, and no --mesh-size beside it");
+  mesh.mapped = elements;
+  return mesh;
+}
 
 Wish parse(const QApplication& application) {
   QCommandLineParser parser;
@@ -29,19 +51,26 @@ Wish parse(const QApplication& application) {
   const QCommandLineOption scene("scene", "Open on this scene.", "NAME");
   const QCommandLineOption snapshot("snapshot", "Write a picture of the window when it is complete, and end.", "FILE");
   const QCommandLineOption theme("theme", "light or dark.", "NAME");
-  parser.addOptions({scene, snapshot, theme});
+  const QCommandLineOption costs(
+      "costs", "Go through the scenes (or the one of --scene), print what each step costs as JSON, and end.");
+  const QCommandLineOption size("mesh-size", "Size of the tetrahedra in the bulk [mm].", "MM");
+  const QCommandLineOption mapped("mapped", "Mapped hexahedra.", "NxNxN");
+  parser.addOptions({scene, snapshot, theme, costs, size, mapped});
   parser.addPositionalArgument("design.json", "A design or project file.", "[design.json]");
   parser.process(application);
   if (parser.positionalArguments().size() > 1)
     throw palp::Error("design.json: " + std::to_string(parser.positionalArguments().size()) +
                       " files were given; allowed is one");
-  return {parser.value(scene), parser.value(snapshot), parser.value(theme), parser.positionalArguments().value(0)};
+  return {parser.value(scene), parser.value(snapshot),
+          parser.value(theme), parser.positionalArguments().value(0),
+          parser.isSet(costs), meshOf(parser.value(size), parser.value(mapped))};
 }
 
 int run(QApplication& application) {
   const Wish wish = parse(application);
   palp::Project project = palp::exampleProject();
   if (!wish.file.isEmpty()) project = palp::loadProject(wish.file.toStdString(), project);
+  if (wish.mesh.meshSize_mm || wish.mesh.mapped) project.mesh = wish.mesh;
   palp::Workbench workbench(project);
   palp::NetworkSession network;
   palp::MainWindow window(workbench, network);
@@ -52,17 +81,22 @@ int run(QApplication& application) {
   if (!wish.scene.isEmpty() && !window.showScene(wish.scene))
     throw palp::Error("--scene " + wish.scene.toStdString() + ": allowed is " +
                       window.sceneNames().join(", ").toStdString());
+  if (wish.costs) {
+    palp::printSceneCosts(window, workbench, network, wish.scene);
+    return 0;
+  }
   window.show();
   if (!wish.snapshot.isEmpty()) palp::snapshotWhenComplete(window, workbench, network, wish.snapshot);
   return QApplication::exec();
 }
 
-/// A picture needs no display.
+/// Neither a picture nor the costs need a display.
 void goWithoutDisplay(int argc, char** argv) {
   const bool display = std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr;
-  const bool snapshot =
-      std::any_of(argv, argv + argc, [](const char* word) { return std::string_view(word).starts_with("--snapshot"); });
-  if (snapshot && !display) setenv("QT_QPA_PLATFORM", "offscreen", 0);
+  const bool unseen = std::any_of(argv, argv + argc, [](const std::string_view word) {
+    return word.starts_with("--snapshot") || word == "--costs";
+  });
+  if (unseen && !display) setenv("QT_QPA_PLATFORM", "offscreen", 0);
 }
 
 } // namespace

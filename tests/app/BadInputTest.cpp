@@ -1,4 +1,5 @@
 #include "tests/app/Process.h"
+#include "tests/io/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
 
@@ -69,7 +70,7 @@ class BrokenDesignTest : public testing::TestWithParam<BrokenDesign> {};
 } // namespace
 
 TEST_P(BrokenDesignTest, IsRefusedByEveryCommandThatReadsDesigns) {
-  const auto folder = scratch("broken-" + GetParam().name);
+  const palp::TemporaryFolder folder;
   json design = paper();
   GetParam().spoil(design);
   const std::string file = folder / "sensor.json";
@@ -89,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(Designs, BrokenDesignTest, testing::ValuesIn(brokenDesi
                          [](const auto& tested) { return tested.param.name; });
 
 TEST(BadInput, ATruncatedDesignIsRefusedWithItsPlace) {
-  const auto folder = scratch("truncated");
+  const palp::TemporaryFolder folder;
   const std::string text = paper().dump();
   writeAll(folder / "cut.json", text.substr(0, text.size() / 2));
   expectRefused(palp::test::palp({"design", "--check", folder / "cut.json"}), {"cut.json"});
@@ -151,6 +152,13 @@ INSTANTIATE_TEST_SUITE_P(
                   {"--tolerance", "0"}},
         BadOption{"MergeMissing", {"merge", "nowhere.csv", "-o", "x.csv"}, {"nowhere.csv"}},
         BadOption{"ReproduceUnknown", {"reproduce", "fig99"}, {"fig99"}},
+        BadOption{"ReportUnknown", {"report", "fly"}, {"fly", "error-time"}},
+        BadOption{"ReportWithoutKind", {"report"}, {"kind"}},
+        BadOption{"ReportPerAreaTwo", {"report", "noise", "--per-area", "2"}, {"--per-area", "2", "5 to"}},
+        BadOption{"ReportSeedNegative", {"report", "noise", "--seed", "-1"}, {"--seed", "-1", "0 to"}},
+        BadOption{"ReportDesignMissing", {"report", "layout", "--design", "nowhere.json"}, {"nowhere.json"}},
+        BadOption{"ReportMappedTwoNumbers", {"report", "scenes", "--mapped", "2x2"}, {"--mapped", "2x2", "NxNxN"}},
+        BadOption{"ReportIntoAFile", {"report", "scenes", "-o", "/dev/null"}, {"--output", "/dev/null", "folder"}},
         BadOption{"SeedsZero", {"reproduce", "table1", "--seeds", "0"}, {"--seeds", "0"}},
         BadOption{"TrainMissing", {"train", "nowhere.csv", "--input", "displacement", "-o", "n.json"}, {"nowhere.csv"}},
         BadOption{"PredictMissing", {"predict", "nowhere.json", "nowhere.csv"}, {"nowhere.json"}},
@@ -159,8 +167,16 @@ INSTANTIATE_TEST_SUITE_P(
                   {"nowhere.csv"}}),
     [](const auto& tested) { return tested.param.name; });
 
+TEST(BadInput, ARefusedReportLeavesNoFolder) {
+  const palp::TemporaryFolder folder;
+  const std::string output = folder / "out";
+  expectRefused(palp::test::palp({"report", "stability", "--mesh-size", "1e-6", "-o", output}), {"mesh size"});
+  expectRefused(palp::test::palp({"report", "stability", "--design", "nowhere.json", "-o", output}), {"nowhere.json"});
+  EXPECT_FALSE(std::filesystem::exists(output));
+}
+
 TEST(BadInput, AnOutputThatExistsIsKept) {
-  const auto folder = scratch("exists");
+  const palp::TemporaryFolder folder;
   const std::string file = folder / "sensor.json";
   writeAll(file, "mine");
   expectRefused(palp::test::palp({"design", "-o", file}), {"sensor.json", "--force"});

@@ -1,4 +1,5 @@
 #include "tests/app/Process.h"
+#include "tests/io/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
 
@@ -94,7 +95,7 @@ TEST(Commands, EveryCommandHasHelpWithAnExample) {
 }
 
 TEST(Commands, ReproduceSetsThePapersNumbersBesideOurs) {
-  const auto folder = scratch("reproduce");
+  const palp::TemporaryFolder folder;
   const Outcome outcome =
       palp::test::palp({"reproduce", "table1", "--mesh-size", "6", "-o", folder / "paper", "--json"});
   ASSERT_EQ(outcome.exit, 0) << outcome.errors;

@@ -1,4 +1,5 @@
 #include "tests/app/Process.h"
+#include "tests/io/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
 
@@ -40,7 +41,7 @@ TEST(ListenCommand, PrintsALineAFrameAndTheTotals) {
 }
 
 TEST(ListenCommand, RecordsAndReplays) {
-  const auto folder = scratch("listen-record");
+  const palp::TemporaryFolder folder;
   const std::string file = (folder / "a.palprec").string();
   ASSERT_EQ(palp::test::palp({"listen", "--simulate", "--seconds", "1", "--record", file}).exit, 0);
   const Outcome again = palp::test::palp({"listen", "--simulate", "--seconds", "1", "--record", file});
@@ -90,7 +91,7 @@ TEST(ListenCommand, EndsWithoutAResultWhereNoBoardIs) {
 }
 
 TEST(CalibrateCommand, RefinesANetworkWithFramesOfTheBoard) {
-  const auto folder = scratch("calibrate");
+  const palp::TemporaryFolder folder;
   const std::string network = (folder / "network.json").string();
   const std::string frames = (folder / "frames.csv").string();
   ASSERT_EQ(palp::test::palp(

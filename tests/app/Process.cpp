@@ -74,14 +74,6 @@ Outcome palpInterrupted(const std::vector<std::string>& arguments, const std::fi
   return finish(running);
 }
 
-std::filesystem::path scratch(const std::string& name) {
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("palp-" + std::to_string(getpid()) + "-" + name);
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  return folder;
-}
-
 std::string readAll(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};

@@ -24,9 +24,6 @@ Outcome palp(const std::vector<std::string>& arguments);
 Outcome palpInterrupted(const std::vector<std::string>& arguments, const std::filesystem::path& file,
                         std::uintmax_t bytes);
 
-/// An empty folder for one test.
-std::filesystem::path scratch(const std::string& name);
-
 std::string readAll(const std::filesystem::path& file);
 void writeAll(const std::filesystem::path& file, const std::string& content);
 

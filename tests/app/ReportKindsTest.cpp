@@ -3,32 +3,16 @@
 #include "app/study/reports/Timing.h"
 #include "io/AtomicFile.h"
 #include "model/Error.h"
+#include "tests/io/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <set>
 
 namespace {
 
-/// A folder that goes with the test.
-class Folder {
-public:
-  Folder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "palp-report-XXXXXX").string();
-    path_ = mkdtemp(pattern.data());
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
-private:
-  std::filesystem::path path_;
-};
-
-palp::ReportRequest quickRequest(const Folder& folder) {
+palp::ReportRequest quickRequest(const palp::TemporaryFolder& folder) {
   palp::ReportRequest request;
   request.folder = folder.path();
   request.mesh.mapped = std::array<int, 3>{4, 4, 2};
@@ -49,7 +33,7 @@ protected:
 } // namespace
 
 TEST_P(EveryReport, WritesOnePageWithItsNumbersAndACsv) {
-  const Folder folder;
+  const palp::TemporaryFolder folder;
   std::set<std::string> drawn;
   const palp::ReportOutcome outcome = runReport(
       kind(), quickRequest(folder), {}, {}, [&](const palp::ReportChart& chart, const std::filesystem::path& png) {
@@ -67,7 +51,7 @@ TEST_P(EveryReport, WritesOnePageWithItsNumbersAndACsv) {
 }
 
 TEST_P(EveryReport, StopsAndWritesNothing) {
-  const Folder folder;
+  const palp::TemporaryFolder folder;
   std::stop_source source;
   source.request_stop();
   EXPECT_FALSE(runReport(kind(), quickRequest(folder), {}, source.get_token(), {}).done);
@@ -75,7 +59,7 @@ TEST_P(EveryReport, StopsAndWritesNothing) {
 }
 
 TEST_P(EveryReport, RefusesADesignThatCannotBe) {
-  const Folder folder;
+  const palp::TemporaryFolder folder;
   palp::ReportRequest request = quickRequest(folder);
   request.design.material.c10_MPa = -1;
   EXPECT_THROW(runReport(kind(), request, {}, {}, {}), palp::Error);

@@ -1,4 +1,5 @@
 #include "tests/app/Process.h"
+#include "tests/io/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
 
@@ -19,7 +20,7 @@ std::vector<std::string> sample(const std::filesystem::path& file, const std::ve
 } // namespace
 
 TEST(SampleCommand, GivesTheSameBytesWithOneAndTwoThreadsAndInShards) {
-  const auto folder = scratch("bytes");
+  const palp::TemporaryFolder folder;
   const Outcome one = palp::test::palp(sample(folder / "one.csv", {"--threads", "1"}));
   ASSERT_EQ(one.exit, 0) << one.errors;
   EXPECT_EQ(one.json().at("samples"), 240);
@@ -39,7 +40,7 @@ TEST(SampleCommand, GivesTheSameBytesWithOneAndTwoThreadsAndInShards) {
 }
 
 TEST(SampleCommand, GoesOnAfterAnInterruptionToTheSameBytes) {
-  const auto folder = scratch("resume");
+  const palp::TemporaryFolder folder;
   ASSERT_EQ(palp::test::palp(sample(folder / "whole.csv", {}, "100")).exit, 0);
   const std::filesystem::path file = folder / "cut.csv";
   const std::vector<std::string> words = sample(file, {}, "100");
@@ -60,14 +61,14 @@ TEST(SampleCommand, GoesOnAfterAnInterruptionToTheSameBytes) {
 }
 
 TEST(SampleCommand, SaysHowFarTheSamplesAreFromFullNewton) {
-  const auto folder = scratch("error");
+  const palp::TemporaryFolder folder;
   const json result = palp::test::palp(sample(folder / "s.csv")).json();
   EXPECT_LE(result.at("measured_error_relative").get<double>(), 1e-6);
   EXPECT_GT(result.at("solves").get<int>(), 0);
 }
 
 TEST(SampleCommand, LoadsAllAreasTogether) {
-  const auto folder = scratch("together");
+  const palp::TemporaryFolder folder;
   const Outcome outcome = palp::test::palp(sample(folder / "s.csv", {"--areas", "together"}, "20"));
   ASSERT_EQ(outcome.exit, 0) << outcome.errors;
   EXPECT_EQ(outcome.json().at("samples"), 20);
@@ -75,7 +76,7 @@ TEST(SampleCommand, LoadsAllAreasTogether) {
 }
 
 TEST(SampleCommand, RefusesShardsThatDoNotBelongTogether) {
-  const auto folder = scratch("apart");
+  const palp::TemporaryFolder folder;
   ASSERT_EQ(palp::test::palp(sample(folder / "a.csv", {"--shard", "1/2"})).exit, 0);
   ASSERT_EQ(palp::test::palp({"sample", "paper", "--per-area", "40", "--seed", "8", "--mesh-size", "6", "--shard",
                               "2/2", "-o", folder / "b.csv"})

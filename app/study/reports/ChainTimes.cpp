@@ -5,7 +5,9 @@
 #include "app/study/reports/Timing.h"
 #include "model/Error.h"
 #include "model/Text.h"
+#include "nn/LeaveOneOut.h"
 #include "nn/NetworkError.h"
+#include "nn/SpreadSweep.h"
 
 #include <cmath>
 
@@ -138,6 +140,21 @@ std::vector<DecoderTimes> decoderTimes(const ReportRequest& request, const TwoSe
     }
   }
   return result;
+}
+
+Timing leaveOneOutTimes(const ReportRequest& request, const TwoSets& sets, const std::stop_token& stop) {
+  DecoderInput centre;
+  centre.rows = {(request.design.rowWires() - 1) / 2};
+  centre.rowWires = request.design.rowWires();
+  centre.valuesPerRow = 3 * sets.training.electrodesPerRowWire;
+  const Eigen::MatrixXd inputs = inputsOf(sets.training, centre);
+  const std::vector<double> spreads = logarithmicRange(0.3, 30, kLeaveOneOutSpreads); // as palp sweep
+  return timed(kRepeats, [&] {
+    try {
+      (void)leaveOneOut(inputs, sets.training.forces_N, spreads, {}, stop);
+    } catch (const Cancelled&) { // the report ends
+    }
+  });
 }
 
 std::vector<ChainTimes> chainTimes(const ReportRequest& request, StageLog& stages, const ReportProgress& progress,

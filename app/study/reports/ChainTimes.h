@@ -41,6 +41,9 @@ struct SampleTimes {
 
 std::vector<DecoderTimes> decoderTimes(const ReportRequest& request, const TwoSets& sets, StageLog& stages,
                                        const ReportProgress& progress, const std::stop_token& stop);
+/// Seconds of the leave-one-out errors of so many spreads at once, from the clean displacements of the centre row-wire.
+inline constexpr int kLeaveOneOutSpreads = 40;
+Timing leaveOneOutTimes(const ReportRequest& request, const TwoSets& sets, const std::stop_token& stop);
 /// Size of the mesh whose samples chains are tested on.
 inline constexpr double kReferenceSize_mm = 3;
 /// Trained on samples of several meshes and counts, tested on others of the reference mesh.

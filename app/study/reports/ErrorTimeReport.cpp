@@ -152,7 +152,7 @@ private:
   void publishedTable() {
     if (solver_.published.empty()) return;
     ReportTable table{"Row-wire 4 against converged solutions of another program (hexahedra of high order), error [%]",
-                      {"mesh"},
+                      {"mesh", "to the first answer [s]"},
                       {},
                       {}};
     for (const PublishedSolution& published : solver_.published)
@@ -161,7 +161,7 @@ private:
                             ") N; stated to " + shortNumber(100 * published.statedError) + " %");
     for (const MeshTimes& mesh : solver_.meshes) {
       if (mesh.publishedErrors.empty()) continue;
-      std::vector<std::string> cells{mesh.mesh};
+      std::vector<std::string> cells{mesh.mesh, shortNumber(mesh.total_s())};
       for (std::size_t c = 0; c < mesh.publishedErrors.size(); ++c) {
         cells.push_back(shortNumber(100 * mesh.publishedErrors[c]));
         csv_.add({"published", mesh.family + ", " + mesh.mesh, solver_.published[c].name, "row-wire 4",
@@ -238,6 +238,13 @@ private:
       prediction.curves.back().y.push_back(d.error_percentOfRange);
     }
     content_.parts.emplace_back(std::move(table));
+    const Timing leaving = leaveOneOutTimes(request_, sets, stop_);
+    content_.parts.emplace_back(ReportWords{"Leave-one-out errors of " + std::to_string(kLeaveOneOutSpreads) +
+                                            " spreads at once, " + std::to_string(sets.training.size()) +
+                                            " samples as centres: " + spread(leaving) + " s."});
+    for (const double seconds : leaving.seconds)
+      csv_.add({"leave-one-out", std::to_string(kLeaveOneOutSpreads) + " spreads", std::to_string(sets.training.size()),
+                "", "", seconds, seconds / kLeaveOneOutSpreads, "", "", ""});
     content_.parts.emplace_back(std::move(training));
     content_.parts.emplace_back(std::move(prediction));
   }

@@ -1,3 +1,4 @@
+#include "app/study/ReportPage.h"
 #include "app/study/reports/NetworkCheck.h"
 #include "app/study/reports/StabilityRow.h"
 
@@ -16,6 +17,7 @@ namespace {
 constexpr double kNothing_percent = 28.9; // of range: an error that knowing nothing has
 /// A leave-one-out error may miss the true one by this factor: it is found on other points.
 constexpr double kEstimateFactor = 10;
+constexpr double kPoor_percent = 5; ///< of range: no such network is called right
 
 /// Resistances of the centre row-wire as inputs of a network.
 struct NetworkData {
@@ -47,12 +49,18 @@ void train(StabilityRow& row, const NetworkData& data, const RbfOptions& options
   const bool poor = !(row.error < kNothing_percent);
   const bool honest = !poor || promised_percent > kNothing_percent / kEstimateFactor || !fit.report.warnings.empty();
   if (poor) row.outcome = honest ? StabilityOutcome::Warned : StabilityOutcome::Wrong;
-  if (poor) row.words = "worse than knowing nothing; its leave-one-out error says " + text(promised_percent) + " %. ";
+  if (poor)
+    row.words = "worse than knowing nothing; its leave-one-out error says " + shortNumber(promised_percent) + " %. ";
   if (!poor && row.error > kEstimateFactor * promised_percent && row.error > 1 && fit.report.warnings.empty()) {
     row.outcome = StabilityOutcome::Wrong;
-    row.words = "its leave-one-out error promises " + text(promised_percent) + " %. ";
+    row.words = "its leave-one-out error promises " + shortNumber(promised_percent) + " %. ";
   }
-  for (const std::string& warning : fit.report.warnings) row.words += warning + " ";
+  if (row.outcome == StabilityOutcome::Right && row.error > kPoor_percent) {
+    row.outcome = StabilityOutcome::Warned;
+    row.words = "a poor network, and nothing but its leave-one-out error says so: " + shortNumber(promised_percent) +
+                " % of range. ";
+  }
+  for (const std::string& warning : fit.report.warnings) row.words += warning + ". ";
   if (row.outcome == StabilityOutcome::Right && !fit.report.warnings.empty()) row.outcome = StabilityOutcome::Warned;
 }
 

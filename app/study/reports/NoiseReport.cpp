@@ -16,6 +16,7 @@ const char* const kForces[3] = {"Fx", "Fy", "Fz"};
 constexpr std::array kNoises{1e-7, 1e-6, 1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 1e-2};
 constexpr std::array kTrainingNoises{0.0, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2};
 constexpr double kShownNoise = 1e-4;
+constexpr double kDrawnUpTo_percent = 300; ///< ten times knowing nothing: what lies above would press the rest flat
 
 /// Relative noise that rounding to so many bits makes where R is at full scale.
 double noiseOfBits(double bits) {
@@ -43,6 +44,12 @@ struct Rival {
 
 double rootMeanSquare(const Eigen::Vector3d& values) {
   return values.norm() / std::sqrt(3.0);
+}
+
+void addPoint(ReportCurve& curve, double noise, double percent) {
+  if (percent > kDrawnUpTo_percent) return;
+  curve.x.push_back(noise);
+  curve.y.push_back(percent);
 }
 
 class NoiseWriter {
@@ -121,10 +128,8 @@ private:
     for (const double noise : kNoises) {
       const NoiseBound bound = noiseBound(sets_->test, InputKind::Resistance, choice.rows, noise);
       const Eigen::Vector3d loose = bound.withoutPriorPercent, tight = bound.withPriorPercent;
-      without.x.push_back(noise);
-      without.y.push_back(rootMeanSquare(loose));
-      with.x.push_back(noise);
-      with.y.push_back(rootMeanSquare(tight));
+      addPoint(without, noise, rootMeanSquare(loose));
+      addPoint(with, noise, rootMeanSquare(tight));
       point(choice.name, without.name, noise, noise, loose);
       point(choice.name, with.name, noise, noise, tight);
     }
@@ -134,7 +139,8 @@ private:
 
   bool errorsOf(const RowChoice& choice, double share) {
     ReportChart chart{"noise_" + std::to_string(choice.rows.size()),
-                      "Force error against noise, " + choice.name,
+                      "Force error against noise, " + choice.name + "; above " + text(kDrawnUpTo_percent) +
+                          " % points are in the CSV alone, as most of a network that is trained clean",
                       "Force error, " + choice.name,
                       "relative noise of R (12 bits = 7e-5, 16 bits = 4.4e-6)",
                       "error, rms of Fx, Fy, Fz [% of range]",
@@ -156,11 +162,10 @@ private:
         say(share, choice.name + ": " + rival.name);
         const auto error = errorOf(choice, rival, noise, rival.trainedClean ? 0 : noise);
         if (!error) continue;
-        curve.x.push_back(noise);
-        curve.y.push_back(rootMeanSquare(*error));
+        addPoint(curve, noise, rootMeanSquare(*error));
         point(choice.name, rival.name, noise, noise, *error);
       }
-      chart.curves.push_back(std::move(curve));
+      if (!curve.x.empty()) chart.curves.push_back(std::move(curve));
     }
     content_.parts.emplace_back(std::move(chart));
     return true;

@@ -88,6 +88,8 @@ struct ReportRequest {
   std::uint64_t seed = 1;
   int threads = 0;     ///< 0: all cores
   std::string command; ///< that makes the report again; printed in it
+  /// Folder of palp and palp-studio, for the report that measures them; empty: they are not run.
+  std::filesystem::path programs{};
 };
 
 /// Gets a share 0..1 and what is being done; may be called from another thread, one call at a time.

@@ -18,7 +18,8 @@ const std::vector<ReportComputation>& reportComputations() {
       {"networks", "what is asked of the networks, line by line, on fresh forces and all areas", networksReport},
       {"noise", "force error against resistance noise, between the Cramer-Rao bounds", noiseReport},
       {"layout", "what the layout of the electrodes resolves, and a better one", layoutReport},
-      {"scenes", "what each scene computes, and that nothing is computed that is not shown", scenesReport},
+      {"scenes", "what each scene and each command costs, and that nothing is computed that is not shown",
+       scenesReport},
   };
   return all;
 }

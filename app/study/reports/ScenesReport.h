@@ -6,8 +6,9 @@
 
 namespace palp {
 
-/// What each scene computes on opening, on a change of load, material or layout, and when hidden: stages run, seconds,
-/// memory; the proof that nothing is computed that is not shown.
+/// What each scene and each command costs: stages run, seconds, memory, pictures drawn, on opening, on a change of
+/// load, material or layout, and when hidden; the proof that nothing is computed that is not shown. The window and the
+/// commands are run as programs where the request says where they lie.
 std::optional<ReportContent> scenesReport(const ReportRequest& request, const ReportProgress& progress,
                                           std::stop_token stop);
 

@@ -8,6 +8,7 @@
 #include "solver/SensorMesh.h"
 
 #include <cmath>
+#include <optional>
 
 namespace palp {
 
@@ -50,6 +51,7 @@ public:
     rest();
     otherMaterials();
     brokenMesh();
+    defaultMesh();
   }
 
 private:
@@ -248,6 +250,60 @@ private:
       row.outcome = StabilityOutcome::Wrong;
       row.words = "the mesh was taken as it is (" + std::to_string(problem.dof()) + " unknowns)";
     });
+  }
+
+  /// Tetrahedra with a bubble and a linear pressure, and hexahedra with a constant one, share nothing but the theory.
+  void defaultMesh() {
+    const auto add = [this](const std::string& what, const SensorDesign& design, const LoadCase& load) {
+      cases_.add("default mesh", what, [&](StabilityRow& row) { againstHexahedra(row, design, load); });
+    };
+    for (const double nu : {0.3, 0.4999999, 0.5}) {
+      SensorDesign design = request_.design;
+      design.material.poissonRatio = nu;
+      add("nu = " + text(nu), design, typical_);
+    }
+    for (const double thickness : {1.0, 30.0}) add(text(thickness) + " mm thick", withThickness(thickness), typical_);
+    for (const Eigen::Vector3d& force :
+         {Eigen::Vector3d(30, 0, 0), Eigen::Vector3d(0, 0, 60), Eigen::Vector3d(0, 0, -60), Eigen::Vector3d(0, 0, -150),
+          Eigen::Vector3d(3, 3, -60)})
+      add(words(force) + " on area 0", request_.design, onArea(0, force));
+  }
+
+  /// Two meshes of hexahedra tell how far they are from converged; the tetrahedra may be as far from the finer one.
+  void againstHexahedra(StabilityRow& row, const SensorDesign& design, const LoadCase& load) {
+    MeshOptions tets = request_.mesh, finer = mesh_;
+    if (tets.mapped) { // a quick look
+      tets = {};
+      tets.meshSize_mm = 12;
+    }
+    for (int& count : *finer.mapped) count = count * 5 / 3;
+    const HyperelasticProblem problem(design, sensorMesh(design, tets));
+    const Solution solution = solve(problem, load);
+    row.iterations = solution.iterations();
+    if (!solution.converged) {
+      row.outcome = StabilityOutcome::Stopped;
+      row.words = "reached load fraction " + shortNumber(solution.reachedLoadFraction) + "; " + solution.stopReason;
+      return;
+    }
+    const auto coarse = electrodesOf(design, load, mesh_), fine = electrodesOf(design, load, finer);
+    if (!coarse || !fine) {
+      row.outcome = StabilityOutcome::Warned;
+      row.words = "converged, but the hexahedra that it is judged by did not";
+      return;
+    }
+    const double allowed = 2 * difference(*coarse, *fine); // of first order in the size, 1.5 would be enough
+    row.error = difference(problem.electrodes(solution.state()).upper_mm, *fine);
+    row.errorOf = "electrodes of finer hexahedra; " + shortNumber(allowed) + " allowed, twice their own last step";
+    judge(row, allowed);
+  }
+
+  /// Displacements [mm] of the upper electrodes; empty where the load is not reached.
+  std::optional<Eigen::Matrix3Xd> electrodesOf(const SensorDesign& design, const LoadCase& load,
+                                               const MeshOptions& options) {
+    const HyperelasticProblem problem(design, sensorMesh(design, options));
+    const Solution solution = solve(problem, load);
+    if (!solution.converged) return {};
+    return problem.electrodes(solution.state()).upper_mm;
   }
 
   StabilityCases& cases_;
