@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kNothing_percent = 28.9; // of range: an error that knowing nothing has
 /// A leave-one-out error may miss the true one by this factor: it is found on other points.
-constexpr double kEstimateFactor = 10;
+constexpr double kEstimateFactor = 3;
 constexpr double kPoor_percent = 5; ///< of range: no such network is called right
 
 /// Resistances of the centre row-wire as inputs of a network.
@@ -57,8 +57,7 @@ void train(StabilityRow& row, const NetworkData& data, const RbfOptions& options
   }
   if (row.outcome == StabilityOutcome::Right && row.error > kPoor_percent) {
     row.outcome = StabilityOutcome::Warned;
-    row.words = "a poor network, and nothing but its leave-one-out error says so: " + shortNumber(promised_percent) +
-                " % of range. ";
+    row.words = "a poor network; its leave-one-out error says " + shortNumber(promised_percent) + " % of range. ";
   }
   for (const std::string& warning : fit.report.warnings) row.words += warning + ". ";
   if (row.outcome == StabilityOutcome::Right && !fit.report.warnings.empty()) row.outcome = StabilityOutcome::Warned;
