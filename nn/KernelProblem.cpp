@@ -80,6 +80,7 @@ std::vector<LeaveOneOutResult> KernelProblem::leaveOneOut(double spread, const s
 
 LeaveOneOutResult KernelProblem::byInverse(double spread, double ridge, const std::stop_token& stop) const {
   const Eigen::Index unknowns = right_.rows();
+  bool indefinite = false;
   for (;;) {
     stopIfAsked(stop);
     Eigen::MatrixXd phi = kernel(spread);
@@ -92,12 +93,16 @@ LeaveOneOutResult KernelProblem::byInverse(double spread, double ridge, const st
         throw NetworkError("leave-one-out: no ridge makes the system definite: the samples are too large for double "
                            "precision");
       ridge = std::max(10 * ridge, std::numeric_limits<double>::min());
+      indefinite = true;
       continue;
     }
     const Eigen::MatrixXd right = lapack::solveLower(factor, right_, false);
     space_.solveProjectionInPlace(phi);
     const auto half = phi.bottomRows(unknowns);
-    return result(spread, ridge, lapack::product(half, true, right, false), half.colwise().squaredNorm().transpose());
+    LeaveOneOutResult left =
+        result(spread, ridge, lapack::product(half, true, right, false), half.colwise().squaredNorm().transpose());
+    left.indefinite = indefinite;
+    return left;
   }
 }
 

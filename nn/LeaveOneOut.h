@@ -14,6 +14,7 @@ namespace palp {
 struct LeaveOneOutResult {
   double spread = 0;
   double ridge = 0;
+  bool indefinite = false;   ///< at the ridge asked for, to rounding: it was raised until it was not
   Eigen::MatrixXd residuals; ///< outputs x samples: target minus what a network without the sample predicts
   Eigen::VectorXd rms;       ///< one an output
   double score = 0;          ///< root mean square over the outputs of rms / (targets' standard deviation)

@@ -96,6 +96,10 @@ RbfFit trainRbf(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen::R
                                 std::to_string(std::lround(100 * std::min(left->score, 1e6))) +
                                 " % of the targets' deviation: at this spread and ridge the network says little about "
                                 "new samples; train with noise or a ridge, or with more inputs");
+    if (left->indefinite && report.warnings.empty())
+      report.warnings.push_back("the leave-one-out errors are those of a larger ridge: with this one the system is not "
+                                "definite to rounding, and the network may do worse on new samples; train with a "
+                                "ridge, a smaller spread or a linear tail");
     report.leaveOneOutResiduals = std::move(left->residuals);
   }
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

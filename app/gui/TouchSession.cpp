@@ -65,7 +65,8 @@ void TouchSession::run() {
     runner_.cancel(); // the panels say what is wrong; the last good result stays
     return;
   }
-  scrubbing_.reset(); // this replaces it
+  scrubbing_.reset();                       // this replaces it
+  if (wanted_.problem() == nullptr) rest(); // the new problem wants the memory of the old one's factor
   trace_ = std::make_shared<NewtonTrace>();
   const auto work = [this, touch = wanted_, target = need_, revision = revision_,
                      trace = trace_](const std::stop_token& stop, JobProgress& progress) mutable -> JobRunner::Taking {

@@ -65,6 +65,20 @@ TEST(LeaveOneOut, GoesOnBeyondTheGridWhileItsEndIsTheBest) {
   EXPECT_LE(choice.overall.score, choice.grid[23].score);
 }
 
+TEST(LeaveOneOut, OfALargerRidgeThanTheNetworksIsNotGivenWithoutAWord) {
+  const test::Touches set = test::touches(40, 30, 4);
+  const auto said = [&](double spread) {
+    RbfOptions options;
+    options.tail = Tail::Bias;
+    options.spread = spread;
+    const std::vector<std::string> warnings = trainRbf(set.samples, set.targets, options).report.warnings;
+    return std::any_of(warnings.begin(), warnings.end(),
+                       [](const std::string& text) { return text.find("larger ridge") != std::string::npos; });
+  };
+  EXPECT_TRUE(said(1000)); // flat: what is left beside the bias is rounding
+  EXPECT_FALSE(said(1));
+}
+
 TEST(LeaveOneOut, ManyRidgesByEigenvaluesAgreeWithOneByInverse) {
   const test::Touches set = test::touches(8, 6, 4);
   RbfOptions options;
