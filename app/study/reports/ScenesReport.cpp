@@ -195,7 +195,7 @@ private:
         "in Live, where the simulated board presses and draws on and on. Left alone and hidden are watched for 1 s. "
         "Pictures are renderings of 3D views, charts and heatmaps; drawn unseen adds every painting in scenes that "
         "are not seen. Held is what the process holds after the step, with the factorisation that the next load "
-        "needs; it is given back after 30 s of rest.");
+        "needs; it is given back after a rest.");
     content_.parts.emplace_back(std::move(table));
     if (!words.empty()) say("Not as it should be: " + words);
     if (!costs.failed.empty()) {
