@@ -90,19 +90,26 @@ int run(QApplication& application) {
   return QApplication::exec();
 }
 
-/// Neither a picture nor the costs need a display.
-void goWithoutDisplay(int argc, char** argv) {
-  const bool display = std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr;
+/// Without a display there are still pictures, costs and the help; false: a window was asked for.
+bool canStart(int argc, char** argv) {
+  for (const char* name : {"DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"})
+    if (std::getenv(name) != nullptr) return true;
   const bool unseen = std::any_of(argv, argv + argc, [](const std::string_view word) {
-    return word.starts_with("--snapshot") || word == "--costs";
+    return word.starts_with("--snapshot") || word == "--costs" || word == "--help" || word == "-h" ||
+           word == "--version" || word == "-v";
   });
-  if (unseen && !display) setenv("QT_QPA_PLATFORM", "offscreen", 0);
+  if (unseen) setenv("QT_QPA_PLATFORM", "offscreen", 0);
+  return unseen;
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
-  goWithoutDisplay(argc, argv);
+  if (!canStart(argc, argv)) {
+    std::cerr << "palp-studio: no display (DISPLAY and WAYLAND_DISPLAY are not set); --snapshot FILE makes a picture "
+                 "without one\n";
+    return 2;
+  }
   QApplication application(argc, argv);
   QApplication::setApplicationName("palp-studio");
   QApplication::setOrganizationName("palp");
