@@ -43,7 +43,7 @@ Mesh sensorMesh(const SensorDesign& design, const MeshOptions& options) {
   const double size = options.meshSize_mm.value_or(standardSize(design));
   const double smallest = std::cbrt(6 * design.block_mm.prod() / mostElements); // six tetrahedra a cube
   if (!(size >= smallest))
-    throw DesignError("mesh size " + text(size) + " mm; allowed is at least " + text(smallest) +
+    throw DesignError("mesh size " + text(size) + " mm; allowed is at least " + text(std::ceil(1e4 * smallest) / 1e4) +
                       " mm for this block, or there would be more than 1e6 elements");
   Mesh mesh = gradedTets(design, defaultGrading(design, size), options.discs, options.electrodesAsNodes);
   mesh.size_mm = size;

@@ -39,6 +39,7 @@ ChartView::ChartView(std::unique_ptr<Parts> parts, QWidget* parent)
 ChartView::~ChartView() = default;
 
 void ChartView::setChart(const ChartSpec& spec) {
+  if (spec == spec_) return;
   spec_ = spec;
   fill();
 }

@@ -161,7 +161,7 @@ ChartSpec trialsErrorChart(const std::vector<DecoderTrial>& trials, const std::v
   ChartSpec spec = againstSpread(input == InputKind::Displacement ? "All decoders, from displacements"
                                                                   : "All decoders, from resistances",
                                  "mean of Fx, Fy, Fz, Eq. (13) [%]");
-  ChartSeries curve = series("rbf, swept", Style::LineAndPoints, 6);
+  ChartSeries curve = series("rbf, swept", Style::LineAndPoints, 0); // in the colour of rbf, the first of them
   for (const SweepPoint& point : sweep) {
     curve.x.push_back(point.spread);
     curve.y.push_back(point.error.eq13Percent.mean());

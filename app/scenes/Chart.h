@@ -23,6 +23,8 @@ struct ChartSeries {
   Style style = Style::Line;
   bool dashed = false; ///< its points are diamonds
   int color = -1;      ///< place in the palette's series colours; -1: the series' own place
+
+  bool operator==(const ChartSeries&) const = default;
 };
 
 /// A chart of y against x; labels carry their unit.
@@ -37,6 +39,8 @@ struct ChartSpec {
   std::vector<std::pair<double, std::string>> topTicks{}; ///< its marks: x and text; empty: none
   std::optional<std::array<double, 2>> xRange;            ///< else: all the points and a little more
   std::optional<std::array<double, 2>> yRange;
+
+  bool operator==(const ChartSpec&) const = default;
 };
 
 /// Fills the chart, with the theme's colours; text grows with `scale` (1 on a plain screen). For a view that stays, of

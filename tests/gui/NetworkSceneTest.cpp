@@ -46,6 +46,21 @@ TEST_F(NetworkScene, GoesOnWithSamplesWhereItWasStopped) {
   EXPECT_EQ(network.samples()->test.resistances_ohm, other.samples()->test.resistances_ohm);
 }
 
+TEST_F(NetworkScene, DrawsNoChartAgainForALoadThatItDoesNotShow) {
+  settle();
+  auto& chart = find<ChartView>("sweepError");
+  const int before = chart.renderCount();
+  Project changed = workbench.project();
+  changed.load.areas[0].force_N.z() += 1;
+  workbench.edit("another load", changed);
+  settle();
+  EXPECT_EQ(chart.renderCount(), before);
+  changed.network.input = InputKind::Resistance; // the paper's points are others
+  workbench.edit("another input", changed);
+  settle();
+  EXPECT_EQ(chart.renderCount(), before + 1);
+}
+
 TEST_F(NetworkScene, PutsEveryDecoderOnTheSameAxes) {
   generate();
   find<QComboBox>("input").setCurrentIndex(1);

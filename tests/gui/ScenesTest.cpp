@@ -142,7 +142,7 @@ TEST(Deformation, LightsUpTheElectrodesOfACellInsideTheBlock) {
   std::size_t changed = 0;
   for (std::size_t k = 0; k + 2 < plain.rgb.size(); k += 3)
     if (!std::equal(&plain.rgb[k], &plain.rgb[k + 3], &lit.rgb[k])) ++changed;
-  // 13 spheres of 1.06 mm across, some 10 pixels a millimetre: discs of 80 pixels.
+  // 13 electrodes of some 80 pixels each, where nothing hides them.
   EXPECT_GT(changed, 500u);
   EXPECT_LT(changed, 4000u);
 }
