@@ -69,8 +69,7 @@ private:
     content_.parts.push_back(ReportHeading{"Solver: displacement error against wall time"});
     std::string words = "Error: relative L2 of the upper electrodes' displacements against Palp's own answer, "
                         "extrapolated (Richardson) from its three finest meshes of graded tetrahedra (sizes 1.5 apart) "
-                        "with the order that "
-                        "they show. ";
+                        "with the order that they show, taken as 0.5 at least and 4 at most. ";
     for (const JudgedLoad& load : solver_.loads)
       words += "Load '" + load.name + "': order " + shortNumber(load.order) + ", the reference is uncertain by " +
                shortNumber(100 * load.uncertainty) + " %; errors below that say nothing. ";
