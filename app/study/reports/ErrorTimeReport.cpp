@@ -107,7 +107,7 @@ private:
                       true,
                       true,
                       {}};
-    chart.caption = "Slopes of log error over log time:";
+    chart.caption = "Slopes of log error over log time: ";
     for (const std::string& family : families()) {
       ReportCurve curve{family, {}, {}, ReportCurve::Style::LineAndPoints, false};
       std::vector<const MeshTimes*> meshes;
@@ -119,7 +119,7 @@ private:
         curve.x.push_back(mesh->total_s());
         curve.y.push_back(100 * mesh->errors[l]);
       }
-      chart.caption += " " + family + " " + shortNumber(slope(curve.x, curve.y)) + ";";
+      chart.caption += (chart.curves.empty() ? "" : "; ") + family + " " + shortNumber(slope(curve.x, curve.y));
       chart.curves.push_back(std::move(curve));
     }
     content_.parts.emplace_back(std::move(chart));
