@@ -34,17 +34,20 @@ double standardMeshSize_mm(const SensorDesign& design) {
   return standardSize(design);
 }
 
-Mesh sensorMesh(const SensorDesign& design, const MeshOptions& options) {
+void requireMeshable(const SensorDesign& design, const MeshOptions& options) {
   requireValid(design);
-  if (options.mapped) {
-    requireMapped(*options.mapped);
-    return mappedMesh(design, *options.mapped);
-  }
+  if (options.mapped) return requireMapped(*options.mapped);
   const double size = options.meshSize_mm.value_or(standardSize(design));
   const double smallest = std::cbrt(6 * design.block_mm.prod() / mostElements); // six tetrahedra a cube
   if (!(size >= smallest))
     throw DesignError("mesh size " + text(size) + " mm; allowed is at least " + text(std::ceil(1e4 * smallest) / 1e4) +
                       " mm for this block, or there would be more than 1e6 elements");
+}
+
+Mesh sensorMesh(const SensorDesign& design, const MeshOptions& options) {
+  requireMeshable(design, options);
+  if (options.mapped) return mappedMesh(design, *options.mapped);
+  const double size = options.meshSize_mm.value_or(standardSize(design));
   Mesh mesh = gradedTets(design, defaultGrading(design, size), options.discs, options.electrodesAsNodes);
   mesh.size_mm = size;
   return mesh;

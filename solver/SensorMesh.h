@@ -28,9 +28,12 @@ struct MeshOptions {
   bool operator==(const MeshOptions&) const = default;
 };
 
+/// Throws DesignError where the options make no mesh of the design (size not above 0, more than a stated number of
+/// elements): before the work that needs one.
+void requireMeshable(const SensorDesign& design, const MeshOptions& options);
+
 /// Mesh of the block: by TetGen with the load areas' borders along faces and all upper electrodes as nodes, or mapped
-/// hexahedra. Throws DesignError where the options make no mesh (size not above 0, more than a stated number of
-/// elements).
+/// hexahedra. Throws as requireMeshable does.
 Mesh sensorMesh(const SensorDesign& design, const MeshOptions& options = {});
 
 /// Size in the bulk of the default mesh.

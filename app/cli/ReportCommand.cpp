@@ -50,6 +50,7 @@ Exit run(ReportArguments& arguments, Session& session) {
   request.design = designOption(arguments.design);
   request.folder = arguments.folder;
   request.mesh = arguments.mesh.options();
+  requireMeshable(request.design, request.mesh); // some kinds mesh late
   request.perArea = wholeNumber("--per-area", arguments.perArea, 5, 100000);
   request.seed = static_cast<std::uint64_t>(wholeNumber("--seed", arguments.seed, 0, 1'000'000));
   request.threads = session.threads;
