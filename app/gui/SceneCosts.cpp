@@ -2,7 +2,7 @@
 
 #include "app/gui/MainWindow.h"
 #include "app/gui/NetworkSession.h"
-#include "app/gui/VtkView.h"
+#include "app/gui/PictureView.h"
 #include "app/gui/Workbench.h"
 #include "app/study/reports/ProcessMemory.h"
 
@@ -94,13 +94,13 @@ bool SceneCosts::running() const {
   return workbench_.touch().runner().running() || network_.runner().running();
 }
 
-/// Pictures that VTK rendered in each scene.
+/// Pictures that the views of each scene drew.
 std::map<QString, int> SceneCosts::drawings() const {
   std::map<QString, int> result;
   const QWidget* scenes = window_.currentScene().parentWidget();
   for (const QString& name : window_.sceneNames())
     for (const auto* view :
-         scenes->findChild<QWidget*>(name, Qt::FindDirectChildrenOnly)->findChildren<const VtkView*>())
+         scenes->findChild<QWidget*>(name, Qt::FindDirectChildrenOnly)->findChildren<const PictureView*>())
       result[name] += view->renderCount();
   return result;
 }

@@ -4,8 +4,8 @@ namespace palp {
 
 namespace {
 
-constexpr int kKeepFactorFor_ms =
-    5000; // a hundred megabytes, against a third of a second for the next load after a pause
+/// A hundred megabytes, against a third of a second for the next load after a pause.
+constexpr int kKeepFactorFor_ms = 5000;
 
 } // namespace
 
@@ -65,8 +65,10 @@ void TouchSession::run() {
     runner_.cancel(); // the panels say what is wrong; the last good result stays
     return;
   }
-  scrubbing_.reset();                       // this replaces it
-  if (wanted_.problem() == nullptr) rest(); // the new problem wants the memory of the old one's factor
+  // This replaces it.
+  scrubbing_.reset();
+  // A new problem wants the memory of the old one's factor.
+  if (wanted_.problem() == nullptr) rest();
   trace_ = std::make_shared<NewtonTrace>();
   const auto work = [this, touch = wanted_, target = need_, revision = revision_,
                      trace = trace_](const std::stop_token& stop, JobProgress& progress) mutable -> JobRunner::Taking {

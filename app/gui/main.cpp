@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <iostream>
 #include <string_view>
@@ -29,8 +30,8 @@ palp::MeshOptions meshOf(const QString& size_mm, const QString& mapped) {
   palp::MeshOptions mesh;
   bool good = true;
   if (!size_mm.isEmpty()) mesh.meshSize_mm = size_mm.toDouble(&good);
-  if (!good || (mesh.meshSize_mm && !(*mesh.meshSize_mm > 0)))
-    throw palp::Error("--mesh-size " + size_mm.toStdString() + ": allowed is a number above 0");
+  if (!good || (mesh.meshSize_mm && !(*mesh.meshSize_mm > 0 && std::isfinite(*mesh.meshSize_mm))))
+    throw palp::Error("--mesh-size " + size_mm.toStdString() + ": allowed is a finite number above 0");
   if (mapped.isEmpty()) return mesh;
   const QStringList counts = mapped.split('x');
   std::array<int, 3> elements{};

@@ -41,6 +41,12 @@ TEST_F(SceneCostsTest, AChangeWhileHiddenIsComputedOnceWhenTheSceneIsSeenAgain) 
   EXPECT_GT(again["pictures"].toInt(), 0);
 }
 
+TEST_F(SceneCostsTest, EveryKindOfPictureIsCounted) {
+  const QJsonArray steps = SceneCosts(window, workbench, network).oneScene("resistance");
+  EXPECT_EQ(steps[2].toObject()["event"].toString(), "another load");
+  EXPECT_EQ(steps[2].toObject()["pictures"].toInt(), 4) << "the heatmap, its row and column, the block";
+}
+
 TEST_F(SceneCostsTest, PaintingsOfASceneThatIsNotSeenAreCounted) {
   ASSERT_TRUE(solved());
   SceneCosts costs(window, workbench, network);

@@ -42,7 +42,7 @@ public:
   std::optional<ReportContent> run() {
     content_.title = "Error against run time";
     if (!solver()) return {};
-    const auto sets = twoSets(request_.design, request_, content_.stages, part(0.45, 0.1), stop_);
+    const auto sets = twoSets(request_.design, request_, content_.stages, partOf(progress_, 0.45, 0.1), stop_);
     if (!sets) return {};
     networks(*sets);
     samples();
@@ -54,16 +54,11 @@ public:
   }
 
 private:
-  ReportProgress part(double from, double width) const {
-    return [this, from, width](double share, const std::string& what) {
-      if (progress_) progress_(from + width * share, what);
-    };
-  }
-
   bool solver() {
     const bool quick = request_.mesh.mapped.has_value();
     if (quick) repeats_ = 1;
-    const auto found = solverTimes(request_.design, quick, repeats_, request_.threads, part(0, 0.45), stop_);
+    const auto found =
+        solverTimes(request_.design, quick, repeats_, request_.threads, partOf(progress_, 0, 0.45), stop_);
     if (!found) return false;
     solver_ = *found;
     content_.parts.push_back(ReportHeading{"Solver: displacement error against wall time"});
@@ -198,7 +193,7 @@ private:
                                          "centre row-wire, and from all resistances with relative noise 1e-4, area "
                                          "unknown. Times: median (least to most) "
                                          "of 3 runs; what trains longer than 4 s runs once."});
-    decoders_ = decoderTimes(request_, sets, content_.stages, part(0.55, 0.2), stop_);
+    decoders_ = decoderTimes(request_, sets, content_.stages, partOf(progress_, 0.55, 0.2), stop_);
     ReportTable table{"Error: root mean square of the three forces in % of range",
                       {"decoder", "input", "error [%]", "training [s]", "prediction [us a sample]"},
                       {},
@@ -255,7 +250,7 @@ private:
                       {"way", "samples", "seconds", "samples a second", "relative error"},
                       {},
                       {}};
-    for (const SampleTimes& s : sampleTimes(request_, content_.stages, part(0.75, 0.1), stop_)) {
+    for (const SampleTimes& s : sampleTimes(request_, content_.stages, partOf(progress_, 0.75, 0.1), stop_)) {
       table.rows.push_back({s.what, std::to_string(s.samples), shortNumber(s.seconds),
                             shortNumber(s.samples / s.seconds), shortNumber(s.error)});
       csv_.add({"samples", s.what, std::to_string(s.samples), "electrode displacements, relative", s.error, s.seconds,
@@ -272,7 +267,7 @@ private:
                                          shortNumber(kReferenceSize_mm) +
                                          " mm): a "
                                          "coarse mesh's error becomes a force error, whatever the network."});
-    chains_ = chainTimes(request_, content_.stages, part(0.85, 0.15), stop_);
+    chains_ = chainTimes(request_, content_.stages, partOf(progress_, 0.85, 0.15), stop_);
     ReportTable table{"What each stage costs",
                       {"mesh", "samples an area", "mesh, factorisation [s]", "samples [s]", "training [s]", "whole [s]",
                        "force error [% of range]"},

@@ -72,6 +72,12 @@ void tellOrigin(ReportPage& page, const ReportContent& content, const ReportRequ
 
 } // namespace
 
+ReportProgress partOf(const ReportProgress& whole, double from, double width) {
+  return [whole, from, width](double share, const std::string& what) {
+    if (whole) whole(from + width * share, what);
+  };
+}
+
 ReportOutcome writeReport(const ReportContent& content, const ReportRequest& request, double seconds,
                           const ChartDrawer& draw) {
   std::filesystem::create_directories(request.folder);

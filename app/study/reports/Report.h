@@ -94,6 +94,8 @@ struct ReportRequest {
 
 /// Gets a share 0..1 and what is being done; may be called from another thread, one call at a time.
 using ReportProgress = std::function<void(double, const std::string&)>;
+/// The progress of a part that begins at the share `from` of the whole.
+ReportProgress partOf(const ReportProgress& whole, double from, double width);
 
 /// What a run of a report left behind.
 struct ReportOutcome {

@@ -114,11 +114,6 @@ public:
   }
 
 private:
-  ReportProgress part(double from, double width) const {
-    return [this, from, width](double share, const std::string& what) {
-      if (progress_) progress_(from + width * share, what);
-    };
-  }
   void say(const std::string& sentence) { content_.parts.emplace_back(ReportWords{sentence}); }
   [[nodiscard]] bool has(const std::string& program) const {
     return !request_.programs.empty() && std::filesystem::exists(request_.programs / program);
@@ -129,7 +124,7 @@ private:
     SceneMeter meter(request_, stop_);
     const std::vector<SceneNeed> all = scenes();
     for (std::size_t i = 0; i < all.size() && !stop_.stop_requested(); ++i) {
-      part(0, 0.15)(static_cast<double>(i) / static_cast<double>(all.size()), "the chain, " + all[i].name);
+      partOf(progress_, 0, 0.15)(static_cast<double>(i) / static_cast<double>(all.size()), "the chain, " + all[i].name);
       meter.run(all[i], costs);
     }
     ReportTable table{"A row is green where no stage ran that the scene does not show",
@@ -163,7 +158,7 @@ private:
       content_.summary += "The window was not run. ";
       return;
     }
-    const WindowCosts costs = windowCosts(request_, part(0.15, 0.4), stop_);
+    const WindowCosts costs = windowCosts(request_, partOf(progress_, 0.15, 0.4), stop_);
     if (stop_.stop_requested()) return;
     ReportTable table{"A row is green where no stage ran that the scene does not show or has already, and nothing was "
                       "drawn in a scene that is not seen",
@@ -216,7 +211,7 @@ private:
       content_.summary += "Commands were not run.";
       return;
     }
-    const std::vector<CommandCost> costs = commandCosts(request_, part(0.55, 0.45), stop_);
+    const std::vector<CommandCost> costs = commandCosts(request_, partOf(progress_, 0.55, 0.45), stop_);
     ReportTable table{"Each once in a process of its own, from its start to its end, one after the other in one folder",
                       {"command", "stages run", "pictures", "seconds", "CPU [s]", "at most [MB]"},
                       {},
