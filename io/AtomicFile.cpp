@@ -1,6 +1,6 @@
 #include "io/AtomicFile.h"
 
-#include "model/Error.h"
+#include "model/base/Error.h"
 
 #include <unistd.h>
 

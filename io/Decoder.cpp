@@ -1,6 +1,6 @@
 #include "io/Decoder.h"
 
-#include "model/Error.h"
+#include "model/base/Error.h"
 
 #include <array>
 #include <utility>

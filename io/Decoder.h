@@ -1,12 +1,12 @@
 #pragma once
 
 #include "model/SensorDesign.h"
-#include "nn/BackPropagation.h"
-#include "nn/ForwardModel.h"
-#include "nn/GaussianProcess.h"
-#include "nn/PolynomialRidge.h"
 #include "nn/RbfNetwork.h"
 #include "nn/RbfTrainer.h"
+#include "nn/rivals/BackPropagation.h"
+#include "nn/rivals/ForwardModel.h"
+#include "nn/rivals/GaussianProcess.h"
+#include "nn/rivals/PolynomialRidge.h"
 
 #include <optional>
 #include <string>

@@ -3,8 +3,8 @@
 #include "io/AtomicFile.h"
 #include "io/Fingerprint.h"
 #include "io/StrictJson.h"
-#include "model/Error.h"
-#include "model/Text.h"
+#include "model/base/Error.h"
+#include "model/base/Text.h"
 
 namespace palp {
 

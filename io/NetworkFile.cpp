@@ -2,7 +2,7 @@
 
 #include "io/AtomicFile.h"
 #include "io/NetworkJson.h"
-#include "model/Error.h"
+#include "model/base/Error.h"
 
 #include <cmath>
 #include <limits>

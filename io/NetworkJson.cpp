@@ -1,7 +1,7 @@
 #include "io/NetworkJson.h"
 
 #include "io/DesignFile.h"
-#include "model/Error.h"
+#include "model/base/Error.h"
 #include "nn/NetworkError.h"
 
 #include <cmath>

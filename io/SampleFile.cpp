@@ -2,7 +2,7 @@
 
 #include "io/AtomicFile.h"
 #include "io/SampleHead.h"
-#include "model/Error.h"
+#include "model/base/Error.h"
 
 #include <fcntl.h>
 #include <sys/file.h>

@@ -1,8 +1,8 @@
 #include "io/SampleHead.h"
 
 #include "io/SampleFile.h"
-#include "model/Error.h"
-#include "model/Text.h"
+#include "model/base/Error.h"
+#include "model/base/Text.h"
 
 #include <algorithm>
 #include <array>

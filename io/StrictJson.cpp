@@ -1,6 +1,6 @@
 #include "io/StrictJson.h"
 
-#include "model/Error.h"
+#include "model/base/Error.h"
 
 #include <algorithm>
 #include <limits>

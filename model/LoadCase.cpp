@@ -1,6 +1,6 @@
 #include "model/LoadCase.h"
 
-#include "model/Text.h"
+#include "model/base/Text.h"
 
 namespace palp {
 

@@ -1,6 +1,6 @@
 #include "model/SampleSet.h"
 
-#include "model/Text.h"
+#include "model/base/Text.h"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 #include "model/SensorDesign.h"
 
-#include "model/Error.h"
-#include "model/Text.h"
+#include "model/base/Error.h"
+#include "model/base/Text.h"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 #include "nn/Basis.h"
 
 #include "nn/NetworkError.h"
-#include "nn/VectorKernels.h"
+#include "nn/linear/VectorKernels.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "nn/FeatureScaler.h"
 
-#include "nn/Lapack.h"
 #include "nn/NetworkError.h"
+#include "nn/linear/Lapack.h"
 
 #include <array>
 #include <cassert>

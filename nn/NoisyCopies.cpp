@@ -1,7 +1,7 @@
 #include "nn/NoisyCopies.h"
 
 #include "nn/NetworkError.h"
-#include "nn/Random.h"
+#include "nn/linear/Random.h"
 
 namespace palp {
 

@@ -1,6 +1,6 @@
 #include "nn/RbfEvaluator.h"
 
-#include "nn/VectorKernels.h"
+#include "nn/linear/VectorKernels.h"
 
 #include <algorithm>
 #include <cassert>

@@ -2,8 +2,8 @@
 
 #include "nn/LeaveOneOut.h"
 #include "nn/NetworkError.h"
-#include "nn/RbfProblem.h"
 #include "nn/SpreadSweep.h"
+#include "nn/rbf/RbfProblem.h"
 
 #include <algorithm>
 #include <array>

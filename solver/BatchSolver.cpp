@@ -1,9 +1,9 @@
 #include "solver/BatchSolver.h"
 
-#include "model/Error.h"
-#include "solver/AreaSurrogate.h"
-#include "solver/BatchEngine.h"
+#include "model/base/Error.h"
 #include "solver/Parallel.h"
+#include "solver/batch/AreaSurrogate.h"
+#include "solver/batch/BatchEngine.h"
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 #include "solver/CalculixDeck.h"
 
-#include "model/Error.h"
-#include "solver/Discretisation.h"
-#include "solver/SurfaceTraction.h"
+#include "model/base/Error.h"
+#include "solver/assembly/Discretisation.h"
+#include "solver/assembly/SurfaceTraction.h"
 
 #include <cstdio>
 

@@ -1,7 +1,7 @@
 #include "solver/DiscretisationError.h"
 
-#include "model/Error.h"
-#include "model/Text.h"
+#include "model/base/Error.h"
+#include "model/base/Text.h"
 #include "solver/HyperelasticProblem.h"
 #include "solver/SensorMesh.h"
 

@@ -1,9 +1,9 @@
 #include "solver/HyperelasticProblem.h"
 
-#include "solver/NewtonSolver.h"
-#include "solver/NodalFields.h"
-#include "solver/ProblemParts.h"
-#include "solver/SurfaceTraction.h"
+#include "solver/assembly/NodalFields.h"
+#include "solver/assembly/SurfaceTraction.h"
+#include "solver/statics/NewtonSolver.h"
+#include "solver/statics/ProblemParts.h"
 
 #include <algorithm>
 #include <stdexcept>

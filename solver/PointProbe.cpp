@@ -1,8 +1,8 @@
 #include "solver/PointProbe.h"
 
-#include "model/Error.h"
-#include "model/Text.h"
-#include "solver/ElementGeometry.h"
+#include "model/base/Error.h"
+#include "model/base/Text.h"
+#include "solver/element/ElementGeometry.h"
 
 #include <Eigen/Dense>
 

@@ -1,9 +1,9 @@
 #include "solver/SensorMesh.h"
 
-#include "model/Error.h"
-#include "model/Text.h"
-#include "solver/BlockMesher.h"
-#include "solver/GradedTets.h"
+#include "model/base/Error.h"
+#include "model/base/Text.h"
+#include "solver/mesh/BlockMesher.h"
+#include "solver/mesh/GradedTets.h"
 
 #include <cmath>
 #include <string>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/study/StageLog.h"
-#include "model/Error.h"
+#include "model/base/Error.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>

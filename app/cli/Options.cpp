@@ -1,7 +1,7 @@
 #include "app/cli/Options.h"
 
 #include "io/DesignFile.h"
-#include "model/Text.h"
+#include "model/base/Text.h"
 
 #include <charconv>
 #include <cmath>

@@ -1,9 +1,9 @@
 #include "app/cli/Pictures.h"
 
-#include "app/scenes/DeformationPicture.h"
-#include "app/scenes/PaperFigures.h"
-#include "app/scenes/Reports.h"
 #include "app/scenes/VtuFile.h"
+#include "app/scenes/block/DeformationPicture.h"
+#include "app/scenes/charts/PaperFigures.h"
+#include "app/scenes/charts/Reports.h"
 
 namespace palp {
 

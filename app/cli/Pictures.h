@@ -2,10 +2,10 @@
 
 #include "app/cli/Cli.h"
 #include "app/cli/Options.h"
-#include "app/study/PaperProtocol.h"
-#include "app/study/PaperReport.h"
-#include "app/study/Touch.h"
+#include "app/study/paper/PaperProtocol.h"
+#include "app/study/paper/PaperReport.h"
 #include "app/study/reports/Report.h"
+#include "app/study/touch/Touch.h"
 #include "model/Mesh.h"
 #include "model/Solution.h"
 

@@ -1,10 +1,10 @@
-#include "app/gui/MainWindow.h"
-#include "app/gui/NetworkSession.h"
-#include "app/gui/ProjectFile.h"
-#include "app/gui/SceneCosts.h"
-#include "app/gui/Snapshot.h"
-#include "app/gui/Workbench.h"
-#include "model/Error.h"
+#include "app/gui/jobs/NetworkSession.h"
+#include "app/gui/project/ProjectFile.h"
+#include "app/gui/project/Workbench.h"
+#include "app/gui/window/MainWindow.h"
+#include "app/gui/window/SceneCosts.h"
+#include "app/gui/window/Snapshot.h"
+#include "model/base/Error.h"
 
 #include <QApplication>
 #include <QCommandLineParser>

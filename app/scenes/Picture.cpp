@@ -1,6 +1,6 @@
 #include "app/scenes/Picture.h"
 
-#include "model/Error.h"
+#include "model/base/Error.h"
 
 #include <vtkImageData.h>
 #include <vtkNew.h>

@@ -1,7 +1,7 @@
 #include "app/scenes/VtuFile.h"
 
 #include "app/scenes/Picture.h"
-#include "model/Error.h"
+#include "model/base/Error.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>

@@ -1,7 +1,7 @@
 #include "app/study/ChildProcess.h"
 
 #include "io/AtomicFile.h"
-#include "model/Error.h"
+#include "model/base/Error.h"
 
 #include <algorithm>
 #include <chrono>

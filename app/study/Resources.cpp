@@ -1,6 +1,6 @@
 #include "app/study/Resources.h"
 
-#include "model/Error.h"
+#include "model/base/Error.h"
 
 namespace palp {
 

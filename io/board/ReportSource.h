@@ -1,7 +1,7 @@
 #pragma once
 
 #include "io/board/Protocol.h"
-#include "model/Error.h"
+#include "model/base/Error.h"
 
 #include <chrono>
 #include <string>

@@ -2,13 +2,13 @@
 // frame, the CPU time of a frame of 1500 x 840 pixels and the memory; for single views the CPU time of a frame.
 // Usage: gui_benchmark [SCENE...]; without a display: QT_QPA_PLATFORM=offscreen.
 
-#include "app/gui/BlockView.h"
-#include "app/gui/ChartView.h"
-#include "app/gui/HeatmapSpecs.h"
-#include "app/gui/HeatmapView.h"
-#include "app/gui/MainWindow.h"
-#include "app/gui/NetworkSession.h"
-#include "app/gui/Workbench.h"
+#include "app/gui/jobs/NetworkSession.h"
+#include "app/gui/project/Workbench.h"
+#include "app/gui/views/BlockView.h"
+#include "app/gui/views/ChartView.h"
+#include "app/gui/views/HeatmapSpecs.h"
+#include "app/gui/views/HeatmapView.h"
+#include "app/gui/window/MainWindow.h"
 
 #include <QApplication>
 #include <QElapsedTimer>

@@ -3,10 +3,10 @@
 //   live_benchmark memory [SECONDS [RATE]]   resident memory each 10 s (default 600 s at 8000 reports/s)
 //   live_benchmark coverage                  forces against the truth, by network, noise and tare
 
-#include "app/study/LiveHistory.h"
-#include "app/study/LiveSource.h"
+#include "app/study/live/LiveHistory.h"
+#include "app/study/live/LiveSource.h"
 #include "io/NetworkFile.h"
-#include "tests/app/LiveFixture.h"
+#include "tests/app/study/live/LiveFixture.h"
 
 #include <sys/resource.h>
 #include <unistd.h>

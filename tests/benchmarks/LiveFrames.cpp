@@ -1,9 +1,9 @@
 // What a frame of the Live scene costs at 1500 x 840, all threads and the software renderer together, and what the
 // heatmap costs alone. Needs no display.
 
-#include "app/gui/HeatmapView.h"
-#include "app/gui/LivePage.h"
-#include "app/gui/LiveView.h"
+#include "app/gui/live/LivePage.h"
+#include "app/gui/live/LiveView.h"
+#include "app/gui/views/HeatmapView.h"
 
 #include <sys/resource.h>
 

@@ -2,7 +2,7 @@
 // same.
 
 #include "io/DesignFile.h"
-#include "model/Error.h"
+#include "model/base/Error.h"
 
 #include <cstdlib>
 

@@ -1,7 +1,7 @@
 // Fuzzing: any bytes as a recording. It is refused in a sentence, or read to its last whole entry.
 
 #include "io/board/Recording.h"
-#include "model/Error.h"
+#include "model/base/Error.h"
 
 #include <memory>
 #include <sstream>

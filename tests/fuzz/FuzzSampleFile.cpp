@@ -1,7 +1,7 @@
 // Fuzzing: any text as a sample file. It is refused with its line, or read to finite numbers.
 
 #include "io/SampleHead.h"
-#include "model/Error.h"
+#include "model/base/Error.h"
 
 #include <cstdlib>
 #include <sstream>

@@ -1,6 +1,6 @@
 #include "io/NetworkFile.h"
 
-#include "model/Error.h"
+#include "model/base/Error.h"
 #include "nn/RbfTrainer.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/Error.h"
+#include "model/base/Error.h"
 
 #include <string>
 #include <utility>

@@ -1,6 +1,6 @@
 #include "model/SensorDesign.h"
 
-#include "model/Error.h"
+#include "model/base/Error.h"
 
 #include <gtest/gtest.h>
 

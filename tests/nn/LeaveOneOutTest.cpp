@@ -1,5 +1,5 @@
 #include "nn/LeaveOneOut.h"
-#include "nn/Random.h"
+#include "nn/linear/Random.h"
 
 #include "tests/nn/Touches.h"
 

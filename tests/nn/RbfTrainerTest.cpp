@@ -1,13 +1,13 @@
 #include "nn/RbfTrainer.h"
 
-#include "nn/Lapack.h"
 #include "nn/LeaveOneOut.h"
-#include "nn/LinearSolve.h"
 #include "nn/NetworkError.h"
 #include "nn/NoisyCopies.h"
-#include "nn/PolynomialRidge.h"
 #include "nn/RbfEvaluator.h"
-#include "nn/RbfProblem.h"
+#include "nn/linear/Lapack.h"
+#include "nn/linear/LinearSolve.h"
+#include "nn/rbf/RbfProblem.h"
+#include "nn/rivals/PolynomialRidge.h"
 #include "tests/nn/Touches.h"
 
 #include <gtest/gtest.h>

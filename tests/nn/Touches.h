@@ -1,6 +1,6 @@
 #pragma once
 
-#include "nn/Random.h"
+#include "nn/linear/Random.h"
 
 #include <Eigen/Core>
 

@@ -1,4 +1,4 @@
-#include "TestBlocks.h"
+#include "tests/solver/TestBlocks.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
-#include "model/Error.h"
+#include "model/base/Error.h"
 #include "solver/BatchSolver.h"
 #include "solver/DiscretisationError.h"
 #include "solver/HyperelasticProblem.h"
-#include "solver/ProblemParts.h"
 #include "solver/SensorMesh.h"
+#include "solver/statics/ProblemParts.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

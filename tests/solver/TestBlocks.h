@@ -1,7 +1,7 @@
 #pragma once
 
-#include "solver/NewtonSolver.h"
-#include "solver/QuadraticTets.h"
+#include "solver/mesh/QuadraticTets.h"
+#include "solver/statics/NewtonSolver.h"
 
 #include <functional>
 #include <random>

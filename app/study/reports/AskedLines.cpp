@@ -1,7 +1,7 @@
 #include "app/study/reports/AskedLines.h"
 
 #include "app/study/Median.h"
-#include "app/study/ReportPage.h"
+#include "app/study/reports/ReportPage.h"
 
 #include <algorithm>
 #include <cmath>

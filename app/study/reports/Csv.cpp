@@ -1,6 +1,6 @@
 #include "app/study/reports/Csv.h"
 
-#include "model/Text.h"
+#include "model/base/Text.h"
 
 #include <cassert>
 

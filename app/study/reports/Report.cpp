@@ -1,7 +1,7 @@
 #include "app/study/reports/Report.h"
 
-#include "app/study/PaperReport.h"
-#include "app/study/ReportPage.h"
+#include "app/study/paper/PaperReport.h"
+#include "app/study/reports/ReportPage.h"
 #include "io/AtomicFile.h"
 #include "io/DesignFile.h"
 

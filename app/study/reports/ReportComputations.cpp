@@ -1,11 +1,11 @@
 #include "app/study/reports/ReportComputations.h"
 
-#include "app/study/reports/ErrorTimeReport.h"
-#include "app/study/reports/LayoutReport.h"
-#include "app/study/reports/NetworksReport.h"
-#include "app/study/reports/NoiseReport.h"
-#include "app/study/reports/ScenesReport.h"
-#include "app/study/reports/StabilityReport.h"
+#include "app/study/reports/errortime/ErrorTimeReport.h"
+#include "app/study/reports/layout/LayoutReport.h"
+#include "app/study/reports/networks/NetworksReport.h"
+#include "app/study/reports/networks/NoiseReport.h"
+#include "app/study/reports/scenes/ScenesReport.h"
+#include "app/study/reports/stability/StabilityReport.h"
 
 #include <chrono>
 

@@ -1,0 +1,67 @@
+#include "app/cli/Cli.h"
+#include "app/cli/Options.h"
+#include "app/cli/Pictures.h"
+#include "app/study/touch/Touch.h"
+#include "io/AtomicFile.h"
+#include "solver/CalculixDeck.h"
+
+#include <iostream>
+#include <memory>
+
+namespace palp {
+
+namespace {
+
+struct MeshArguments {
+  std::string design;
+  std::string format;
+  MeshChoice mesh;
+  LoadOptions loads;
+  OutputFile output;
+};
+
+Exit run(const MeshArguments& arguments, Session& session) {
+  const SensorDesign design = designOption(arguments.design);
+  const bool deck = arguments.format == "inp";
+  if (deck && arguments.output.path.empty()) throw UsageError("--format inp: give the file with -o deck.inp");
+  arguments.output.requireWritable();
+  LoadCase load;
+  if (deck) load = arguments.loads.loadCase(design);
+  Touch touch(design, load, arguments.mesh.options());
+  touch.advance(Stage::Mesh);
+  session.stages.add(touch.stages());
+  const Mesh& mesh = *touch.mesh();
+  const MeshQuality quality = meshQuality(mesh);
+  session.result["nodes"] = mesh.nodeCount();
+  session.result["elements"] = mesh.elementCount();
+  session.result["element_type"] = shapeName(mesh.shape);
+  session.result["dof"] = freeUnknowns(mesh);
+  session.result["min_dihedral_deg"] = quality.minDihedral_deg;
+  session.result["max_dihedral_deg"] = quality.maxDihedral_deg;
+  if (deck)
+    writeFile(arguments.output.path, calculixDeck(design, mesh, load), arguments.output.force);
+  else if (!arguments.output.path.empty())
+    exportVtu(arguments.output, mesh, nullptr, session);
+  if (!session.json)
+    std::cout << mesh.elementCount() << " elements (" << shapeName(mesh.shape) << "), " << mesh.nodeCount()
+              << " nodes, " << freeUnknowns(mesh) << " unknowns\ndihedral angles " << quality.minDihedral_deg << " to "
+              << quality.maxDihedral_deg << " deg\nmeshed in " << session.stages.counts().at("mesh").seconds << " s\n";
+  return Exit::Done;
+}
+
+} // namespace
+
+void addMesh(Cli& cli) {
+  auto arguments = std::make_shared<MeshArguments>();
+  CLI::App& command = cli.command("mesh", "mesh the block", "palp mesh sensor.json --mesh-size 2 -o mesh.vtu",
+                                  [arguments](Session& session) { return run(*arguments, session); });
+  command.add_option("design", arguments->design, "design file, or paper")->required();
+  arguments->mesh.declare(command, false);
+  arguments->loads.declare(command);
+  command.add_option("--format", arguments->format, "vtu, or inp: a CalculiX/Abaqus deck with the loads")
+      ->check(CLI::IsMember({"vtu", "inp"}))
+      ->default_val("vtu");
+  arguments->output.declare(command, "mesh file to write");
+}
+
+} // namespace palp

@@ -1,0 +1,131 @@
+#include "app/cli/commands/TrainArguments.h"
+#include "app/study/decoding/Decoder.h"
+#include "app/study/decoding/NoiseBound.h"
+#include "io/AtomicFile.h"
+#include "io/NetworkFile.h"
+#include "io/SampleFile.h"
+#include "model/base/Text.h"
+#include "nn/NoisyCopies.h"
+
+#include <iostream>
+#include <memory>
+
+namespace palp {
+namespace {
+
+struct Arguments {
+  std::string network;
+  std::string samples;
+  std::string noise;
+  std::string seed = "1";
+  bool bare = false;
+  OutputFile output;
+};
+
+nlohmann::ordered_json columnsJson(const Eigen::MatrixXd& matrix) {
+  nlohmann::ordered_json columns = nlohmann::ordered_json::array();
+  for (Eigen::Index i = 0; i < matrix.cols(); ++i) columns.push_back(listJson(matrix.col(i)));
+  return columns;
+}
+
+std::string outputName(const Decoder& decoder, Eigen::Index output) {
+  const std::string axis(1, "xyz"[output % 3]);
+  return (decoder.together ? "a" + std::to_string(output / 3) + "_" : "") + "f" + axis + "_N";
+}
+
+std::string csv(const Decoder& decoder, const Prediction& prediction) {
+  std::string text = "sample";
+  const bool deviation = prediction.standardDeviation_N.size() > 0, area = prediction.area.size() > 0;
+  for (Eigen::Index o = 0; o < decoder.outputs(); ++o) text += "," + outputName(decoder, o);
+  if (deviation)
+    for (Eigen::Index o = 0; o < decoder.outputs(); ++o) text += ",sd_" + outputName(decoder, o);
+  text += ",outside_training_range" + std::string(area ? ",area,area_confidence\n" : "\n");
+  for (Eigen::Index i = 0; i < prediction.forces_N.cols(); ++i) {
+    text += std::to_string(i);
+    for (const double force : prediction.forces_N.col(i)) text += "," + palp::text(force);
+    if (deviation)
+      for (const double sd : prediction.standardDeviation_N.col(i)) text += "," + palp::text(sd);
+    text += prediction.outsideTrainingRange[static_cast<std::size_t>(i)] ? ",1" : ",0";
+    if (area) text += "," + std::to_string(prediction.area(i)) + "," + palp::text(prediction.areaConfidence(i));
+    text += '\n';
+  }
+  return text;
+}
+
+void fill(const Decoder& decoder, const Prediction& prediction, const DecoderError& error, Session& session) {
+  nlohmann::ordered_json& result = session.result;
+  result["forces_N"] = columnsJson(prediction.forces_N);
+  result["standard_deviation_N"] = columnsJson(prediction.standardDeviation_N);
+  result["outside_training_range"] = prediction.outsideTrainingRange;
+  if (prediction.area.size() > 0) {
+    result["area"] = std::vector<int>(prediction.area.begin(), prediction.area.end());
+    result["area_confidence"] = listJson(prediction.areaConfidence);
+  }
+  result["error"] = errorJson(error.error);
+  if (error.rightAreas) result["right_areas"] = *error.rightAreas;
+  result["microseconds_per_sample"] = prediction.microsecondsPerSample;
+  result["decoder"] = name(decoder.kind);
+}
+
+void print(const Prediction& prediction, const DecoderError& error) {
+  const auto count = std::count(prediction.outsideTrainingRange.begin(), prediction.outsideTrainingRange.end(), true);
+  std::cout << "Eq. (13) [%]:                    " << error.error.eq13Percent.transpose() << '\n'
+            << "Eq. (13), |F| >= 0.05 N [%]:     " << error.error.eq13FlooredPercent.transpose() << '\n'
+            << "mean absolute error [N]:         " << error.error.meanAbsolute.transpose() << '\n'
+            << "RMSE [% of training range]:      " << error.error.rmsePercentOfRange.transpose() << '\n'
+            << prediction.forces_N.cols() << " samples, " << count << " outside the training range, "
+            << prediction.microsecondsPerSample << " us a sample\n";
+  if (error.rightAreas) std::cout << "right areas: " << 100 * *error.rightAreas << " %\n";
+}
+
+Exit run(const Arguments& arguments, Session& session) {
+  if (!arguments.output.path.empty()) arguments.output.requireWritable();
+  PredictOptions options;
+  options.standardDeviation = options.area = !arguments.bare;
+  if (!arguments.noise.empty()) {
+    options.noise = number("--noise", arguments.noise);
+    if (!(options.noise >= 0 && options.noise <= 0.5))
+      throw UsageError("--noise: '" + arguments.noise + "'; allowed is 0 to 0.5 (relative standard deviation)");
+  }
+  const int seed = wholeNumber("--seed", arguments.seed, 0, 2'147'483'647);
+  const Decoder decoder = readNetwork(arguments.network);
+  const SampleSet samples = loadSamples(arguments.samples);
+  const Eigen::MatrixXd clean = inputsOf(samples, decoder.input);
+  const Eigen::MatrixXd inputs = noisyCopies(clean, options.noise, 1, static_cast<std::uint64_t>(seed));
+  Prediction prediction = session.stages.measure("predict", [&] { return predict(decoder, inputs, options); });
+  if (samples.origin.designFingerprint != decoder.designFingerprint)
+    prediction.warnings.push_back(otherDesign(decoder, samples));
+  for (const std::string& warning : prediction.warnings) std::cerr << "palp predict: " << warning << '\n';
+  session.warnings.insert(session.warnings.end(), prediction.warnings.begin(), prediction.warnings.end());
+  const DecoderError error = decoderError(decoder, prediction, samples);
+  fill(decoder, prediction, error, session);
+  if (options.noise > 0) {
+    const NoiseBound bound = noiseBound(samples, decoder.input.kind, decoder.input.rows, options.noise);
+    session.result["noise_bound"] = {{"without_prior_percent_of_range", listJson(bound.withoutPriorPercent)},
+                                     {"with_prior_percent_of_range", listJson(bound.withPriorPercent)}};
+  }
+  if (!arguments.output.path.empty()) {
+    writeFile(arguments.output.path, csv(decoder, prediction), arguments.output.force);
+    session.result["file"] = arguments.output.path.string();
+  }
+  if (!session.json) print(prediction, error);
+  return Exit::Done;
+}
+
+} // namespace
+
+void addPredict(Cli& cli) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App& command = cli.command("predict", "forces of samples by a trained network, and its error",
+                                  "palp predict network.json test.csv --noise 1e-4 -o forces.csv",
+                                  [arguments](Session& session) { return run(*arguments, session); });
+  command.add_option("network", arguments->network, "network file")->required();
+  command.add_option("samples", arguments->samples, "sample file")->required();
+  command.add_option("--noise", arguments->noise,
+                     "relative noise that is put on the samples first and told in the standard deviations");
+  command.add_option("--seed", arguments->seed, "of the noise (default 1)");
+  command.add_flag("--bare", arguments->bare, "forces alone: no standard deviations, no areas");
+  arguments->output.declare(command, "CSV with the forces");
+}
+
+} // namespace palp

@@ -1,0 +1,75 @@
+#include "app/cli/Cli.h"
+#include "app/cli/Options.h"
+#include "app/cli/Pictures.h"
+#include "app/study/touch/Touch.h"
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+
+namespace palp {
+
+namespace {
+
+struct RenderArguments {
+  std::string design;
+  std::string quantity = "|u|";
+  std::string width = "1200", height = "800";
+  bool dark = false;
+  MeshChoice mesh;
+  LoadOptions loads;
+  OutputFile output;
+};
+
+void requireKnown(const std::string& quantity) {
+  const std::vector<std::string> names = quantityNames();
+  if (names.empty() || std::find(names.begin(), names.end(), quantity) != names.end()) return;
+  std::string allowed;
+  for (const std::string& name : names) allowed += (allowed.empty() ? "" : ", ") + name;
+  throw UsageError("--quantity: '" + quantity + "'; allowed is one of " + allowed);
+}
+
+Exit run(const RenderArguments& arguments, Session& session) {
+  const SensorDesign design = designOption(arguments.design);
+  const LoadCase load = arguments.loads.loadCase(design);
+  const PictureSize size{wholeNumber("--width", arguments.width, 200, 8000),
+                         wholeNumber("--height", arguments.height, 200, 8000), arguments.dark};
+  requireKnown(arguments.quantity);
+  if (arguments.output.path.extension() != ".png")
+    throw UsageError("--output: '" + arguments.output.path.string() + "'; allowed is a name that ends in .png");
+  arguments.output.requireWritable();
+  Touch touch(design, load, arguments.mesh.options());
+  NewtonOptions options;
+  options.threads = session.threads;
+  const bool converged = touch.advance(Stage::Displacements, options, {{}, session.stop});
+  session.stages.add(touch.stages());
+  session.result["converged"] = converged;
+  session.result["reached_load_fraction"] = touch.solution()->reachedLoadFraction;
+  if (!converged) {
+    session.result["stop_reason"] = touch.solution()->stopReason;
+    std::cerr << "palp render: " << touch.solution()->stopReason << "; the picture shows the last converged state\n";
+  }
+  if (session.stop.stop_requested()) return Exit::NoResult;
+  renderTouch(touch, arguments.quantity, size, arguments.output.path, session);
+  if (!session.json && session.result.contains("file")) std::cout << arguments.output.path.string() << " written\n";
+  return converged ? Exit::Done : Exit::NoResult;
+}
+
+} // namespace
+
+void addRender(Cli& cli) {
+  auto arguments = std::make_shared<RenderArguments>();
+  CLI::App& command = cli.command("render", "a picture of the deformed block; needs no display",
+                                  "palp render paper --load 0:1,0,-6 -o picture.png",
+                                  [arguments](Session& session) { return run(*arguments, session); });
+  command.add_option("design", arguments->design, "design file, or paper")->required();
+  arguments->loads.declare(command);
+  arguments->mesh.declare(command, false);
+  command.add_option("--quantity", arguments->quantity, "colour: |u| (default), ux, uy, uz, pressure, ...");
+  command.add_option("--width", arguments->width, "pixels (default 1200)");
+  command.add_option("--height", arguments->height, "pixels (default 800)");
+  command.add_flag("--dark", arguments->dark, "dark ground");
+  arguments->output.declare(command, "PNG file to write")->required();
+}
+
+} // namespace palp

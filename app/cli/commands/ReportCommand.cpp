@@ -1,0 +1,95 @@
+#include "app/cli/Cli.h"
+#include "app/cli/Options.h"
+#include "app/cli/Pictures.h"
+#include "app/cli/ProgressBar.h"
+#include "app/study/reports/ReportComputations.h"
+#include "model/base/Text.h"
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+
+namespace palp {
+
+namespace {
+
+struct ReportArguments {
+  std::string kind;
+  std::string design = "paper";
+  std::string perArea = "100";
+  std::string seed = "1";
+  MeshChoice mesh;
+  std::filesystem::path folder;
+  bool force = false;
+};
+
+std::vector<std::string> kindNames() {
+  std::vector<std::string> names;
+  for (const ReportComputation& kind : reportComputations()) names.push_back(kind.name);
+  return names;
+}
+
+/// The kinds and what they tell, for the help.
+std::string kindsInWords() {
+  std::string words;
+  for (const ReportComputation& kind : reportComputations())
+    words += (words.empty() ? "" : "; ") + kind.name + ": " + kind.what;
+  return words;
+}
+
+std::string commandLine(const ReportArguments& arguments) {
+  return "palp report " + arguments.kind + (arguments.design == "paper" ? "" : " --design " + arguments.design) +
+         " --per-area " + arguments.perArea + " --seed " + arguments.seed + arguments.mesh.asCommand() + " -o " +
+         arguments.folder.string();
+}
+
+Exit run(ReportArguments& arguments, Session& session) {
+  if (arguments.folder.empty()) arguments.folder = "palp-report-" + arguments.kind;
+  const OutputFolder folder(arguments.folder, arguments.force);
+  ReportRequest request;
+  request.design = designOption(arguments.design);
+  request.folder = arguments.folder;
+  request.mesh = arguments.mesh.options();
+  requireMeshable(request.design, request.mesh); // some kinds mesh late
+  request.perArea = wholeNumber("--per-area", arguments.perArea, 5, 100000);
+  request.seed = static_cast<std::uint64_t>(wholeNumber("--seed", arguments.seed, 0, 1'000'000));
+  request.threads = session.threads;
+  request.command = commandLine(arguments);
+  request.programs = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+
+  const std::vector<ReportComputation>& kinds = reportComputations();
+  const auto kind = std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) { return k.name == arguments.kind; });
+  ProgressBar bar("report " + arguments.kind, 1000);
+  const ReportOutcome outcome = runReport(
+      *kind, request, [&](double share, const std::string&) { bar.show(static_cast<std::size_t>(1000 * share)); },
+      session.stop, chartDrawer(session));
+  session.stages.add(outcome.stages);
+  session.warnings.insert(session.warnings.end(), outcome.warnings.begin(), outcome.warnings.end());
+  session.result["kind"] = arguments.kind;
+  if (!outcome.done) return Exit::NoResult;
+  session.result["report"] = outcome.page.string();
+  session.result["csv"] = outcome.csv.string();
+  session.result["summary"] = outcome.summary;
+  session.result["seconds"] = outcome.seconds;
+  if (!session.json)
+    std::cout << outcome.summary << "\n" << outcome.page.string() << " and " << outcome.csv.string() << " written\n";
+  return Exit::Done;
+}
+
+} // namespace
+
+void addReport(Cli& cli) {
+  auto arguments = std::make_shared<ReportArguments>();
+  CLI::App& command = cli.command("report", "reports with charts, a CSV of every point and how it was made",
+                                  "palp report layout -o out/layout",
+                                  [arguments](Session& session) { return run(*arguments, session); });
+  command.add_option("kind", arguments->kind, kindsInWords())->required()->check(CLI::IsMember(kindNames()));
+  command.add_option("--design", arguments->design, "design file, or paper (default)");
+  command.add_option("--per-area", arguments->perArea, "samples on each area, where the kind needs any (default 100)");
+  command.add_option("--seed", arguments->seed, "seed of everything random (default 1)");
+  arguments->mesh.declare(command, false);
+  command.add_option("-o,--output", arguments->folder, "folder of report.html, points.csv and the pictures");
+  command.add_flag("--force", arguments->force, "write into a folder that is not empty");
+}
+
+} // namespace palp

@@ -1,0 +1,118 @@
+#include "app/cli/Cli.h"
+#include "app/cli/Options.h"
+#include "app/cli/ProgressBar.h"
+#include "app/study/touch/SampleGenerator.h"
+#include "io/SampleFile.h"
+
+#include <chrono>
+#include <iostream>
+#include <memory>
+
+namespace palp {
+
+namespace {
+
+struct SampleArguments {
+  std::string design;
+  std::string perArea;
+  std::string seed = "1";
+  std::string areas = "each";
+  std::string shardText;
+  std::string tolerance = "1e-6";
+  bool surrogate = false;
+  MeshChoice mesh;
+  OutputFile output;
+};
+
+std::uint64_t seedOption(const std::string& text) {
+  return static_cast<std::uint64_t>(wholeNumber("--seed", text, 0, 2'147'483'647));
+}
+
+SampleRequest request(const SampleArguments& arguments, const Session& session) {
+  SampleRequest request;
+  request.perArea = wholeNumber("--per-area", arguments.perArea, 1, 10'000'000);
+  request.seed = seedOption(arguments.seed);
+  request.areas = arguments.areas;
+  request.surrogate = arguments.surrogate;
+  request.relativeTolerance = number("--tolerance", arguments.tolerance);
+  if (!(request.relativeTolerance >= 1e-10 && request.relativeTolerance <= 1e-2))
+    throw UsageError("--tolerance: '" + arguments.tolerance +
+                     "'; allowed is 1e-10 to 0.01 (relative, against full Newton)");
+  request.mesh = arguments.mesh.options();
+  request.threads = session.threads;
+  return request;
+}
+
+/// "I/N", shards counted from 1.
+SampleRange shardOption(const std::string& text, std::size_t total) {
+  if (text.empty()) return {0, total};
+  const std::size_t slash = text.find('/');
+  if (slash == std::string::npos) throw UsageError("--shard: '" + text + "'; allowed is I/N, for example 1/4");
+  const int count = wholeNumber("--shard (N)", text.substr(slash + 1), 1, 1'000'000);
+  return shard(total, wholeNumber("--shard (I)", text.substr(0, slash), 1, count), count);
+}
+
+Exit run(const SampleArguments& arguments, Session& session) {
+  const SensorDesign design = designOption(arguments.design);
+  arguments.output.requireWritable();
+  SampleGenerator generator(design, request(arguments, session));
+  const SampleRange range = shardOption(arguments.shardText, generator.total());
+  SampleSet head = generator.emptySet(session.stop);
+  if (session.stop.stop_requested()) { // before there is a head to write
+    session.stages.add(generator.stages());
+    session.result["samples"] = 0;
+    return Exit::NoResult;
+  }
+  head.origin.firstSample = range.first;
+  SamplePartWriter writer(arguments.output.path, head, arguments.output.force);
+  const std::size_t kept = writer.samplesKept();
+  if (kept > range.last - range.first)
+    throw UsageError(writer.partPath().string() + " holds " + std::to_string(kept) + " samples, more than the " +
+                     std::to_string(range.last - range.first) + " asked for; remove it to begin anew");
+  if (kept > 0) std::cerr << "going on after " << kept << " samples in " << writer.partPath().string() << '\n';
+
+  const auto start = std::chrono::steady_clock::now();
+  ProgressBar bar("samples", range.last - range.first);
+  const std::size_t made = generator.generate(
+      {range.first + kept, range.last}, [&](const SampleSet& block) { writer.append(block); },
+      [&](std::size_t done) { bar.show(kept + done); }, session.stop);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  session.stages.add(generator.stages());
+  const bool whole = kept + made == range.last - range.first;
+  if (whole) writer.finish();
+
+  session.result["samples"] = kept + made;
+  session.result["solves"] = generator.solves();
+  session.result["solves_per_s"] = seconds > 0 ? static_cast<double>(made) / seconds : 0;
+  session.result["measured_error_relative"] = generator.measuredError();
+  session.result["mesh"] = generator.origin().mesh;
+  session.result["file"] = whole ? arguments.output.path.string() : writer.partPath().string();
+  if (!session.json)
+    std::cout << kept + made << " samples in " << session.result["file"].get<std::string>() << "; "
+              << (arguments.surrogate ? "surrogate, measured error "
+                                      : "full solves, measured error against full Newton ")
+              << generator.measuredError() << '\n';
+  if (!whole && !session.json) std::cout << "stopped; the same command goes on from there\n";
+  return whole ? Exit::Done : Exit::NoResult;
+}
+
+} // namespace
+
+void addSample(Cli& cli) {
+  auto arguments = std::make_shared<SampleArguments>();
+  CLI::App& command = cli.command("sample", "labelled samples: force, electrode displacements, resistances",
+                                  "palp sample paper --per-area 100 --seed 1 -o samples.csv",
+                                  [arguments](Session& session) { return run(*arguments, session); });
+  command.add_option("design", arguments->design, "design file, or paper")->required();
+  command.add_option("--per-area", arguments->perArea, "samples on each area (with --areas together: in all)")
+      ->required();
+  command.add_option("--seed", arguments->seed, "seed of the forces (default 1)");
+  command.add_option("--areas", arguments->areas, "each, together, or the number of one area (default each)");
+  command.add_flag("--surrogate", arguments->surrogate, "per-area polynomial of full solves: many samples in seconds");
+  command.add_option("--tolerance", arguments->tolerance, "relative, against full Newton (default 1e-6)");
+  command.add_option("--shard", arguments->shardText, "I/N: this part of the samples; palp merge joins them");
+  arguments->mesh.declare(command, false);
+  arguments->output.declare(command, "sample file to write")->required();
+}
+
+} // namespace palp

@@ -1,0 +1,150 @@
+#include "app/cli/Cli.h"
+#include "app/cli/Options.h"
+#include "app/cli/Pictures.h"
+#include "app/study/touch/Touch.h"
+#include "solver/DiscretisationError.h"
+
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <unistd.h>
+
+namespace palp {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct SolveArguments {
+  std::string design;
+  MeshChoice mesh;
+  LoadOptions loads;
+  OutputFile output;
+};
+
+Json toJson(const std::vector<NewtonStep>& steps) {
+  Json json = Json::array();
+  for (const NewtonStep& step : steps)
+    json.push_back({{"load_fraction", step.loadFraction},
+                    {"iteration", step.iteration},
+                    {"relative_residual", step.relativeResidual}});
+  return json;
+}
+
+/// [row][electrode][3].
+Json displacementsJson(const SensorDesign& design, const ElectrodeDisplacements& displacements) {
+  Json rows = Json::array();
+  for (int r = 0; r < design.rowWires(); ++r) {
+    Json row = Json::array();
+    for (int e = 0; e < design.electrodesPerRowWire(); ++e) {
+      const Eigen::Vector3d u = displacements.upper_mm.col(r * design.electrodesPerRowWire() + e);
+      row.push_back({u.x(), u.y(), u.z()});
+    }
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+Json toJson(const Eigen::MatrixXd& matrix) {
+  Json rows = Json::array();
+  for (Eigen::Index r = 0; r < matrix.rows(); ++r) {
+    Json row = Json::array();
+    for (Eigen::Index c = 0; c < matrix.cols(); ++c) row.push_back(matrix(r, c));
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+void report(const Touch& touch, const DiscretisationError* error, Session& session) {
+  const Solution& solution = *touch.solution();
+  Json& result = session.result;
+  result["converged"] = solution.converged;
+  result["reached_load_fraction"] = solution.reachedLoadFraction;
+  if (!solution.stopReason.empty()) result["stop_reason"] = solution.stopReason;
+  result["newton"] = toJson(solution.newton);
+  result["dof"] = touch.problem()->dof();
+  result["elements"] = touch.mesh()->elementCount();
+  result["element_type"] = touch.problem()->elementType();
+  result["displacements_mm"] = displacementsJson(touch.design(), *touch.displacements());
+  result["resistances_ohm"] = toJson(*touch.resistances_ohm());
+  result["resistances_at_rest_ohm"] =
+      toJson(rowColumnResistances(touch.design(), ElectrodeDisplacements::atRest(touch.design())));
+  result["max_volume_error"] = solution.maxVolumeError;
+  if (!error) return;
+  result["error_estimate_relative"] = error->relative;
+  result["error_estimate_method"] = error->method;
+}
+
+void print(const Touch& touch, const DiscretisationError* error) {
+  const Solution& solution = *touch.solution();
+  const Eigen::Matrix3Xd& u = touch.displacements()->upper_mm;
+  if (solution.converged)
+    std::printf("converged in %d Newton iterations\n", solution.iterations());
+  else
+    std::printf("not converged: reached %.4g of the load; %s\n", solution.reachedLoadFraction,
+                solution.stopReason.c_str());
+  std::printf("%d elements (%s), %d unknowns\n", touch.mesh()->elementCount(), touch.problem()->elementType().c_str(),
+              touch.problem()->dof());
+  std::printf("largest electrode displacement %.6g mm, largest |J - 1| %.3g\n",
+              std::sqrt(u.colwise().squaredNorm().maxCoeff()), solution.maxVolumeError);
+  const Eigen::MatrixXd rest = rowColumnResistances(touch.design(), ElectrodeDisplacements::atRest(touch.design()));
+  std::printf("largest |dR/R| %.4g %%\n",
+              100 * ((*touch.resistances_ohm() - rest).cwiseQuotient(rest)).cwiseAbs().maxCoeff());
+  if (error)
+    std::printf("discretisation error of the electrode displacements about %.2g %% (%s)\n", 100 * error->relative,
+                error->method.c_str());
+}
+
+/// Newton as it goes, for a terminal.
+NewtonObserver observer(const Session& session) {
+  NewtonObserver observer;
+  observer.stop = session.stop;
+  if (isatty(STDERR_FILENO) == 1)
+    observer.step = [](const NewtonStep& step) {
+      std::fprintf(stderr, "load %.4f, iteration %d, residual %.2e\n", step.loadFraction, step.iteration,
+                   step.relativeResidual);
+    };
+  return observer;
+}
+
+Exit run(const SolveArguments& arguments, Session& session) {
+  const SensorDesign design = designOption(arguments.design);
+  const LoadCase load = arguments.loads.loadCase(design);
+  arguments.output.requireWritable();
+  Touch touch(design, load, arguments.mesh.options());
+  NewtonOptions options;
+  options.threads = session.threads;
+  if (const auto accuracy = arguments.mesh.relativeAccuracy())
+    touch.setMesh(session.stages.measure(
+        "mesh", [&] { return meshForAccuracy(design, load, *accuracy, session.stop, session.threads); }));
+  touch.advance(Stage::Resistances, options, observer(session));
+  session.stages.add(touch.stages());
+  std::optional<DiscretisationError> error;
+  if (touch.solution()->converged && !session.stop.stop_requested())
+    error = session.stages.measure("estimate", [&] {
+      return discretisationError(*touch.problem(), load, *touch.solution(), session.stop, session.threads);
+    });
+  report(touch, error ? &*error : nullptr, session);
+  if (!session.json) print(touch, error ? &*error : nullptr);
+  if (!arguments.output.path.empty()) {
+    const NodalFields fields = touch.problem()->fields(touch.solution()->state());
+    exportVtu(arguments.output, *touch.mesh(), &fields, session);
+  }
+  return touch.solution()->converged ? Exit::Done : Exit::NoResult;
+}
+
+} // namespace
+
+void addSolve(Cli& cli) {
+  auto arguments = std::make_shared<SolveArguments>();
+  CLI::App& command = cli.command("solve", "one nonlinear solve; all loads act together",
+                                  "palp solve paper --load 0:1,0,-6 --load 5:0,0.5,-2 --json",
+                                  [arguments](Session& session) { return run(*arguments, session); });
+  command.add_option("design", arguments->design, "design file, or paper")->required();
+  arguments->loads.declare(command);
+  arguments->mesh.declare(command, true);
+  arguments->output.declare(command, "VTU file with displacement, stress, pressure and volume ratio at the nodes");
+}
+
+} // namespace palp

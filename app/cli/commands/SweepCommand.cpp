@@ -1,0 +1,120 @@
+#include "app/cli/ProgressBar.h"
+#include "app/cli/commands/TrainArguments.h"
+#include "app/study/decoding/Decoder.h"
+#include "io/SampleFile.h"
+#include "model/base/Text.h"
+#include "nn/NetworkError.h"
+#include "nn/SpreadSweep.h"
+
+#include <cmath>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <sstream>
+
+namespace palp {
+namespace {
+
+struct Arguments {
+  std::string samples;
+  std::string test;
+  std::string spreads = "0.3:30:21";
+  TrainArguments train;
+};
+
+/// "0.8,0.9,1" or "FROM:TO:COUNT", evenly on a logarithmic scale.
+std::vector<double> spreadsOption(const std::string& value) {
+  std::vector<std::string> parts;
+  const bool range = value.find(':') != std::string::npos;
+  std::istringstream stream(value);
+  for (std::string part; std::getline(stream, part, range ? ':' : ',');) parts.push_back(part);
+  const std::string allowed = "'; allowed are numbers above 0 with commas between them, or FROM:TO:COUNT";
+  std::vector<double> spreads;
+  if (range) {
+    if (parts.size() != 3) throw UsageError("--spreads: '" + value + allowed);
+    const double from = number("--spreads", parts[0]), to = number("--spreads", parts[1]);
+    const int count = wholeNumber("--spreads (COUNT)", parts[2], 1, 10'000);
+    if (!(from > 0 && from <= to)) throw UsageError("--spreads: '" + value + allowed);
+    return logarithmicRange(from, to, count);
+  }
+  for (const std::string& part : parts) {
+    spreads.push_back(number("--spreads", part));
+    if (!(spreads.back() > 0)) throw UsageError("--spreads: '" + value + allowed);
+  }
+  if (spreads.empty()) throw UsageError("--spreads: '" + value + allowed);
+  return spreads;
+}
+
+nlohmann::ordered_json rowJson(const SweepRow& row) {
+  return {{"spread", row.spread},
+          {"error", errorJson(row.error)},
+          {"leave_one_out_N", listJson(row.report.leaveOneOut)},
+          {"ridge", row.report.ridge},
+          {"condition", std::isfinite(row.report.condition) ? nlohmann::ordered_json(row.report.condition)
+                                                            : nlohmann::ordered_json()},
+          {"train_seconds", row.report.seconds}};
+}
+
+void print(const std::vector<SweepRow>& rows) {
+  std::cout << "    spread  Eq. (13) [%] ...            RMSE [% of range] ...       condition  s\n"
+            << std::setprecision(3);
+  for (const SweepRow& row : rows)
+    std::cout << std::setw(10) << row.spread << "  " << row.error.eq13Percent.transpose() << "  |  "
+              << row.error.rmsePercentOfRange.transpose() << "  |  " << row.report.condition << "  "
+              << row.report.seconds << '\n';
+}
+
+Exit run(const Arguments& arguments, Session& session) {
+  TrainOptions options = arguments.train.options();
+  options.threads = session.threads;
+  if (options.decoder != DecoderKind::Rbf)
+    throw UsageError("--decoder: '" + arguments.train.decoder +
+                     "'; allowed is rbf: the others have no spread to sweep");
+  const std::vector<double> spreads = spreadsOption(arguments.spreads);
+  const SampleSet training = loadSamples(arguments.samples), test = loadSamples(arguments.test);
+  DecoderInput input;
+  input.kind = options.input;
+  input.rowWires = training.rowWires;
+  input.rows = rowsNamed(options.rows, training.rowWires);
+  input.valuesPerRow = input.kind == InputKind::Displacement ? 3 * training.electrodesPerRowWire : training.columnWires;
+  if (training.forces_N.rows() != test.forces_N.rows())
+    throw Error(arguments.test + ": " + std::to_string(test.forces_N.rows()) +
+                " forces a sample; the training samples have " + std::to_string(training.forces_N.rows()));
+  const SweepInput data{inputsOf(training, input), training.forces_N, inputsOf(test, input), test.forces_N,
+                        training.forces_N.rowwise().maxCoeff() - training.forces_N.rowwise().minCoeff()};
+  ProgressBar bar("spreads", spreads.size());
+  const std::vector<SweepRow> rows = session.stages.measure("train", [&] {
+    return sweepSpreads(
+        data, spreads, rbfOptions(options, training.size()), [&](std::size_t done) { bar.show(done); }, session.stop);
+  });
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  const SweepRow* best = nullptr;
+  for (const SweepRow& row : rows) {
+    list.push_back(rowJson(row));
+    if (!best || row.error.rmsePercentOfRange.norm() < best->error.rmsePercentOfRange.norm()) best = &row;
+  }
+  session.result["rows"] = list;
+  session.result["best_spread"] = best ? nlohmann::ordered_json(best->spread) : nlohmann::ordered_json();
+  if (best) session.warnings.insert(session.warnings.end(), best->report.warnings.begin(), best->report.warnings.end());
+  if (!session.json) {
+    print(rows);
+    if (best) std::cout << "least RMSE at spread " << best->spread << '\n';
+  }
+  return rows.size() == spreads.size() ? Exit::Done : Exit::NoResult;
+}
+
+} // namespace
+
+void addSweep(Cli& cli) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App& command =
+      cli.command("sweep", "error, leave-one-out, condition and time over the spread",
+                  "palp sweep samples.csv --test test.csv --input resistance --mode paper --spreads 0.3:10:20",
+                  [arguments](Session& session) { return run(*arguments, session); });
+  command.add_option("samples", arguments->samples, "sample file to train with")->required();
+  command.add_option("--test", arguments->test, "sample file to test with")->required();
+  command.add_option("--spreads", arguments->spreads, "0.8,0.9,1 or FROM:TO:COUNT (logarithmic; default 0.3:30:21)");
+  arguments->train.declare(command, false);
+}
+
+} // namespace palp

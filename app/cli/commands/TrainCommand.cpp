@@ -1,0 +1,105 @@
+#include "app/cli/ProgressBar.h"
+#include "app/cli/commands/TrainArguments.h"
+#include "app/study/decoding/Decoder.h"
+#include "app/study/decoding/NoiseBound.h"
+#include "io/NetworkFile.h"
+#include "io/SampleFile.h"
+#include "nn/NetworkError.h"
+
+#include <cmath>
+#include <iostream>
+#include <memory>
+
+namespace palp {
+namespace {
+
+struct Arguments {
+  std::string samples;
+  std::string design;
+  TrainArguments train;
+  OutputFile output;
+};
+
+nlohmann::ordered_json boundJson(const NoiseBound& bound) {
+  return {{"without_prior_percent_of_range", listJson(bound.withoutPriorPercent)},
+          {"with_prior_percent_of_range", listJson(bound.withPriorPercent)}};
+}
+
+void describe(const Decoder& decoder, Session& session) {
+  const FitReport& report = decoder.report;
+  session.result["decoder"] = name(decoder.kind);
+  session.result["mode"] = name(decoder.mode);
+  session.result["spread"] = report.spread;
+  if (const auto* network = std::get_if<RbfNetwork>(&decoder.model)) {
+    session.result["spread_convention"] = name(network->convention);
+    session.result["scaler"] = name(network->scaler.scaling);
+  }
+  session.result["ridge"] = report.ridge;
+  session.result["centers"] = report.centers;
+  session.result["condition"] =
+      std::isfinite(report.condition) ? nlohmann::ordered_json(report.condition) : nlohmann::ordered_json();
+  session.result["rank"] = report.rank;
+  session.result["largest_weight"] = report.largestWeight;
+  session.result["leave_one_out_N"] = listJson(report.leaveOneOut);
+  session.result["seconds"] = report.seconds;
+  session.warnings.insert(session.warnings.end(), report.warnings.begin(), report.warnings.end());
+}
+
+void print(const Decoder& decoder, const Session& session) {
+  const FitReport& report = decoder.report;
+  std::cout << name(decoder.kind) << " on " << decoder.inputs() << " " << name(decoder.input.kind) << "s";
+  if (decoder.kind == DecoderKind::Rbf)
+    std::cout << ": " << report.centers << " centres, spread " << report.spread << " ("
+              << session.result["spread_convention"].get<std::string>() << ", scaler "
+              << session.result["scaler"].get<std::string>() << "), ridge " << report.ridge << ", condition "
+              << report.condition << ", rank " << report.rank << ", largest weight " << report.largestWeight;
+  std::cout << "\nerror found in training [N]: " << report.leaveOneOut.transpose() << "; " << report.seconds << " s\n";
+  for (const std::string& warning : report.warnings) std::cerr << "palp train: " << warning << '\n';
+}
+
+Exit run(const Arguments& arguments, Session& session) {
+  TrainOptions options = arguments.train.options();
+  options.threads = session.threads;
+  arguments.output.requireWritable();
+  const SampleSet samples = loadSamples(arguments.samples);
+  std::optional<SensorDesign> design;
+  if (!arguments.design.empty()) design = designOption(arguments.design);
+  try {
+    ProgressBar bar("training", 1000);
+    const Decoder decoder = session.stages.measure("train", [&] {
+      return trainDecoder(samples, design ? &*design : nullptr, options, session.stop,
+                          [&](double share, const std::string&) { bar.show(static_cast<std::size_t>(1000 * share)); });
+    });
+    writeNetwork(decoder, arguments.output.path, arguments.output.force);
+    describe(decoder, session);
+    session.result["file"] = arguments.output.path.string();
+    if (options.noise > 0) {
+      const NoiseBound bound = noiseBound(samples, options.input, decoder.input.rows, options.noise);
+      session.result["noise_bound"] = boundJson(bound);
+      if (!session.json)
+        std::cout << "bound of the design at this noise, % of range: without prior "
+                  << bound.withoutPriorPercent.transpose() << "; with prior " << bound.withPriorPercent.transpose()
+                  << '\n';
+    }
+    if (!session.json) print(decoder, session);
+  } catch (const Cancelled&) {
+    std::cerr << "palp train: stopped before the fit was done; nothing was written\n";
+    return Exit::NoResult;
+  }
+  return Exit::Done;
+}
+
+} // namespace
+
+void addTrain(Cli& cli) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App& command = cli.command("train", "fit a network, or one of its rivals, to samples",
+                                  "palp train samples.csv --input resistance --rows all --noise 1e-4 -o network.json",
+                                  [arguments](Session& session) { return run(*arguments, session); });
+  command.add_option("samples", arguments->samples, "sample file")->required();
+  arguments->train.declare(command, true);
+  command.add_option("--design", arguments->design, "design file, or paper; two-step-gn inverts its Eq. (1)");
+  arguments->output.declare(command, "network file to write")->required();
+}
+
+} // namespace palp

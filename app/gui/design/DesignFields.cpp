@@ -1,0 +1,206 @@
+#include "app/gui/design/DesignFields.h"
+
+#include "model/base/Text.h"
+
+#include <QObject>
+#include <QStringList>
+
+#include <cmath>
+
+namespace palp {
+
+namespace {
+
+QString shortText(double value) {
+  return QString::fromStdString(text(value));
+}
+
+QString setNumber(double& target, const QString& words) {
+  bool good = false;
+  const double value = words.trimmed().toDouble(&good);
+  if (!good) return QObject::tr("\"%1\" is no number; write it with a point, as 0.5").arg(words);
+  target = value;
+  return {};
+}
+
+QString setCount(int& target, const QString& words) {
+  bool good = false;
+  const int value = words.trimmed().toInt(&good);
+  if (!good) return QObject::tr("\"%1\" is no whole number").arg(words);
+  target = value;
+  return {};
+}
+
+/// Goes on from the last two values in equal steps until `last`, or says what is wrong.
+QString goOn(std::vector<double>& values, double last) {
+  constexpr double kMost = 1000;
+  if (values.size() < 2) return QObject::tr("before \"...\" stand two numbers, as in 0.5, 1.5, ..., 29.5");
+  const double start = values.back(), step = start - values[values.size() - 2];
+  const double steps = (last - start) / step;
+  if (!(steps >= 1 - 1e-6 && steps <= kMost) || std::abs(steps - std::round(steps)) > 1e-6)
+    return QObject::tr("%1 is not reached from %2 in 1 to 1000 equal steps of %3")
+        .arg(shortText(last), shortText(start), shortText(step));
+  for (int k = 1; k < std::lround(steps); ++k) values.push_back(start + k * step);
+  values.push_back(last);
+  return {};
+}
+
+QString setList(std::vector<double>& target, const QString& words) {
+  std::vector<double> values;
+  bool evenly = false; // "..." stood before
+  for (const QString& word : words.split(',', Qt::SkipEmptyParts)) {
+    if (word.trimmed() == "..." && !evenly) {
+      evenly = true;
+      continue;
+    }
+    double value = 0;
+    if (const QString wrong = setNumber(value, word); !wrong.isEmpty()) return wrong;
+    if (!evenly)
+      values.push_back(value);
+    else if (const QString wrong = goOn(values, value); !wrong.isEmpty())
+      return wrong;
+    evenly = false;
+  }
+  if (evenly) return QObject::tr("after \"...\" stands the last number, as in 0.5, 1.5, ..., 29.5");
+  if (values.empty()) return QObject::tr("the list is empty; write numbers with commas between them");
+  target = values;
+  return {};
+}
+
+/// Evenly spaced numbers in short, where that gives the very same numbers back.
+QString listText(const std::vector<double>& values) {
+  QStringList texts;
+  for (const double value : values) texts << shortText(value);
+  if (values.size() > 4) {
+    const QString evenly = texts[0] + ", " + texts[1] + ", ..., " + texts.back();
+    std::vector<double> again;
+    if (setList(again, evenly).isEmpty() && again == values) return evenly;
+  }
+  return texts.join(", ");
+}
+
+/// Lists wire by wire are separated by semicolons.
+QString listsText(const std::vector<std::vector<double>>& lists) {
+  QStringList texts;
+  for (const std::vector<double>& list : lists) texts << listText(list);
+  return texts.join("; ");
+}
+
+QString setLists(std::vector<std::vector<double>>& target, const QString& words) {
+  std::vector<std::vector<double>> lists;
+  for (const QString& word : words.split(';')) {
+    lists.emplace_back();
+    if (const QString wrong = setList(lists.back(), word); !wrong.isEmpty()) return wrong;
+  }
+  target = lists;
+  return {};
+}
+
+template <class Part>
+DesignField number(const QString& key, const QString& group, const QString& label, const QString& unit,
+                   const QString& tip, Part part) {
+  return {key,
+          group,
+          label,
+          unit,
+          tip,
+          [part](SensorDesign design) { return shortText(part(design)); },
+          [part](SensorDesign& design, const QString& words) { return setNumber(part(design), words); }};
+}
+
+template <class Part>
+DesignField list(const QString& key, const QString& group, const QString& label, const QString& tip, Part part) {
+  return {key,
+          group,
+          label,
+          "mm",
+          tip,
+          [part](SensorDesign design) { return listText(part(design)); },
+          [part](SensorDesign& design, const QString& words) { return setList(part(design), words); }};
+}
+
+template <class Part>
+DesignField lists(const QString& key, const QString& group, const QString& label, const QString& tip, Part part) {
+  return {key,
+          group,
+          label,
+          "mm",
+          tip,
+          [part](SensorDesign design) { return listsText(part(design)); },
+          [part](SensorDesign& design, const QString& words) { return setLists(part(design), words); }};
+}
+
+template <class Part>
+DesignField count(const QString& key, const QString& group, const QString& label, const QString& tip, Part part) {
+  return {key,
+          group,
+          label,
+          "",
+          tip,
+          [part](SensorDesign design) { return QString::number(part(design)); },
+          [part](SensorDesign& design, const QString& words) { return setCount(part(design), words); }};
+}
+
+std::vector<DesignField> makeFields() {
+  using D = SensorDesign;
+  const auto tr = [](const char* words) { return QObject::tr(words); };
+  std::vector<DesignField> fields;
+  const std::vector<QString> axes{"x", "y", "z"};
+  for (int d = 0; d < 3; ++d)
+    fields.push_back(number(QString("block_mm[%1]").arg(d), tr("Block"),
+                            tr("size along %1").arg(axes[static_cast<std::size_t>(d)]), "mm",
+                            tr("above 0; the bottom face is fixed"), [d](D& s) -> double& { return s.block_mm[d]; }));
+  fields.push_back(number("material.c10_MPa", tr("Rubber"), "c10", "MPa", tr("Mooney-Rivlin constant, above 0"),
+                          [](D& s) -> double& { return s.material.c10_MPa; }));
+  fields.push_back(number("material.c01_MPa", tr("Rubber"), "c01", "MPa",
+                          tr("Mooney-Rivlin constant; c10 + c01 above 0"),
+                          [](D& s) -> double& { return s.material.c01_MPa; }));
+  fields.push_back(number("material.poisson_ratio", tr("Rubber"), tr("Poisson's ratio"), "",
+                          tr("0 to 0.5, in ANSYS's sense; 0.5 is incompressible"),
+                          [](D& s) -> double& { return s.material.poissonRatio; }));
+  fields.push_back(number("material.density_t_per_mm3", tr("Rubber"), tr("density"), "t/mm3", tr("above 0"),
+                          [](D& s) -> double& { return s.material.density_t_per_mm3; }));
+  fields.push_back(count("areas.columns", tr("Load areas"), tr("along x"), tr("1 to 50"),
+                         [](D& s) -> int& { return s.areas.columns; }));
+  fields.push_back(
+      count("areas.rows", tr("Load areas"), tr("along y"), tr("1 to 50"), [](D& s) -> int& { return s.areas.rows; }));
+  fields.push_back(list("upper_layer.row_wire_y_mm", tr("Upper layer"), tr("row-wires at y"),
+                        tr("one number a row-wire; evenly spaced ones as 1.5, 4.5, ..., 28.5"),
+                        [](D& s) -> std::vector<double>& { return s.upper.wire_mm; }));
+  fields.push_back(lists("upper_layer.electrode_x_mm", tr("Upper layer"), tr("electrodes at x"),
+                         tr("one list for all row-wires, or one a row-wire with ; between them"),
+                         [](D& s) -> std::vector<std::vector<double>>& { return s.upper.along_mm; }));
+  fields.push_back(lists("upper_layer.z_mm", tr("Upper layer"), tr("depth z"),
+                         tr("one for all, or one list a row-wire"),
+                         [](D& s) -> std::vector<std::vector<double>>& { return s.upper.z_mm; }));
+  fields.push_back(list("lower_layer.column_wire_x_mm", tr("Lower layer"), tr("column-wires at x"),
+                        tr("one number a column-wire; evenly spaced ones as 0.5, 1.5, ..., 29.5"),
+                        [](D& s) -> std::vector<double>& { return s.lower.wire_mm; }));
+  fields.push_back(lists("lower_layer.electrode_y_mm", tr("Lower layer"), tr("electrodes at y"),
+                         tr("one list for all column-wires, or one a column-wire with ; between them"),
+                         [](D& s) -> std::vector<std::vector<double>>& { return s.lower.along_mm; }));
+  fields.push_back(lists("lower_layer.z_mm", tr("Lower layer"), tr("depth z"), tr("below the upper layer"),
+                         [](D& s) -> std::vector<std::vector<double>>& { return s.lower.z_mm; }));
+  fields.push_back(number("resistance.rate_ohm_per_mm", tr("Resistance"), tr("rate g"), "ohm/mm",
+                          tr("above 0; a pair of electrodes has R = g x distance"),
+                          [](D& s) -> double& { return s.resistanceRate_ohm_per_mm; }));
+  for (int d = 0; d < 3; ++d) {
+    const QString& axis = axes[static_cast<std::size_t>(d)];
+    fields.push_back(number("force_range_N." + axis, tr("Force range"), tr("F%1 from").arg(axis), "N",
+                            tr("for samples and for % of range"),
+                            [d](D& s) -> double& { return s.forceRange.low_N[d]; }));
+    fields.push_back(number("force_range_N." + axis, tr("Force range"), tr("F%1 to").arg(axis), "N",
+                            tr("for samples and for % of range"),
+                            [d](D& s) -> double& { return s.forceRange.high_N[d]; }));
+  }
+  return fields;
+}
+
+} // namespace
+
+const std::vector<DesignField>& designFields() {
+  static const std::vector<DesignField> fields = makeFields();
+  return fields;
+}
+
+} // namespace palp

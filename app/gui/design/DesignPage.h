@@ -1,0 +1,65 @@
+#pragma once
+
+#include "app/gui/jobs/NetworkSession.h"
+#include "app/gui/project/Workbench.h"
+#include "app/gui/window/Scene.h"
+#include "app/scenes/block/DeformationScene.h"
+
+class QCheckBox;
+class QDoubleSpinBox;
+class QGroupBox;
+class QLabel;
+class QPushButton;
+
+namespace palp {
+
+class BlockView;
+class ChartView;
+class DesignPanel;
+
+/// The sensor at rest with all its parameters; the mesh only when asked for.
+class DesignPage : public Scene {
+  Q_OBJECT
+
+public:
+  DesignPage(Workbench& workbench, NetworkSession& network, QWidget* parent = nullptr);
+
+  [[nodiscard]] Stage stage() const override;
+  void setTheme(Theme theme) override;
+  [[nodiscard]] bool complete() const override;
+  [[nodiscard]] QString commands(const Project& project, const QString& designFile) const override;
+
+signals:
+  /// The page needs another stage than before.
+  void stageChanged();
+
+protected:
+  void showEvent(QShowEvent* event) override;
+
+private:
+  QWidget* buildSide();
+  QWidget* buildViews();
+  void displayProject();
+  void draw();
+  void displayMesh();
+  void displayNoiseFloor();
+  void editMesh();
+  QGroupBox* buildMesh();
+  QGroupBox* buildNoiseFloor();
+
+  Workbench& workbench_;
+  NetworkSession& network_;
+  DeformationOptions options_;
+  DesignPanel* panel_ = nullptr;
+  BlockView* block_ = nullptr;
+  QCheckBox* showMesh_ = nullptr;
+  QCheckBox* automaticSize_ = nullptr;
+  QDoubleSpinBox* size_ = nullptr;
+  QLabel* meshWords_ = nullptr;
+  ChartView* quality_ = nullptr;
+  QDoubleSpinBox* noise_ = nullptr;
+  QLabel* floorWords_ = nullptr;
+  QPushButton* floorSamples_ = nullptr;
+};
+
+} // namespace palp

@@ -1,0 +1,267 @@
+#include "app/gui/jobs/NetworkSession.h"
+
+#include "app/study/paper/PaperProtocol.h"
+#include "app/study/touch/SampleGenerator.h"
+#include "model/base/Error.h"
+#include "nn/SpreadSweep.h"
+
+#include <QElapsedTimer>
+
+#include <cmath>
+
+namespace palp {
+
+namespace {
+
+/// An empty set made wide enough for all that is asked.
+SampleSet allocated(SampleSet set, std::size_t total) {
+  const auto columns = static_cast<Eigen::Index>(total);
+  set.area.resize(columns);
+  set.forces_N.resize(3, columns);
+  set.displacements_mm.resize(3 * set.rowWires * set.electrodesPerRowWire, columns);
+  set.resistances_ohm.resize(set.rowWires * set.columnWires, columns);
+  return set;
+}
+
+void put(SampleSet& set, const SampleSet& block, std::size_t at) {
+  const auto first = static_cast<Eigen::Index>(at);
+  set.area.segment(first, block.size()) = block.area;
+  set.forces_N.middleCols(first, block.size()) = block.forces_N;
+  set.displacements_mm.middleCols(first, block.size()) = block.displacements_mm;
+  set.resistances_ohm.middleCols(first, block.size()) = block.resistances_ohm;
+}
+
+std::string timeLeft(double share, double elapsed_s) {
+  if (share < 0.02) return "";
+  const auto left_s = static_cast<long>(std::ceil(elapsed_s * (1 - share) / share));
+  return ", about " + std::to_string(left_s) + " s left";
+}
+
+NetworkFit fitOn(const NetworkSamples& samples, const SensorDesign& design, const NetworkSettings& settings,
+                 const TrainOptions& options, const std::stop_token& stop, JobProgress& progress) {
+  NetworkFit fit;
+  fit.settings = settings;
+  fit.decoder = trainDecoder(samples.training, &design, options, stop,
+                             [&](double share, const std::string& what) { progress.set(share, what); });
+  PredictOptions plain;
+  plain.standardDeviation = false;
+  plain.area = false;
+  fit.prediction = predict(fit.decoder, inputsOf(samples.test, fit.decoder.input), plain);
+  fit.error = decoderError(fit.decoder, fit.prediction, samples.test);
+  return fit;
+}
+
+} // namespace
+
+/// Training samples first, then those for testing; sample i depends on the request and i alone, so that what was
+/// stopped goes on to the same bytes.
+struct NetworkSession::Generation {
+  SampleSettings settings;
+  MeshOptions mesh;
+  SensorDesign design;
+  std::array<SampleSet, 2> sets;
+  std::array<std::size_t, 2> made{};
+  std::array<std::size_t, 2> total{};
+  double batchError = 0;
+};
+
+NetworkSession::NetworkSession(QObject* parent) : QObject(parent) {
+  connect(&runner_, &JobRunner::progressed, this, &NetworkSession::drain);
+  connect(&runner_, &JobRunner::finished, this, [this](bool cancelled) {
+    if (cancelled) emit samplesChanged();
+  });
+}
+
+NetworkSession::~NetworkSession() = default;
+
+std::array<std::size_t, 2> NetworkSession::stoppedAt() const {
+  if (!generation_ || runner_.running() || generation_->made[0] == 0) return {0, 0};
+  return {generation_->made[0] + generation_->made[1], 2 * generation_->total[0]};
+}
+
+void NetworkSession::dropResults() {
+  fit_.reset();
+  sweep_.clear();
+  trials_.clear();
+  emit samplesChanged();
+  emit fitChanged();
+  emit sweepChanged();
+  emit trialsChanged();
+}
+
+void NetworkSession::setDesign(const SensorDesign& design) {
+  if (design == design_) return;
+  design_ = design;
+  generation_.reset();
+  runner_.cancel();
+  if (!samples_) return;
+  samples_.reset();
+  dropResults();
+}
+
+void NetworkSession::generate(const SampleSettings& settings, const MeshOptions& mesh) {
+  if (!generation_ || !(generation_->settings == settings && generation_->mesh == mesh))
+    generation_ = std::make_shared<Generation>(Generation{settings, mesh, design_, {}, {}, {}, 0});
+  const auto work = [this, generation = generation_](const std::stop_token& stop,
+                                                     JobProgress& progress) -> JobRunner::Taking {
+    Generation& now = *generation;
+    QElapsedTimer clock;
+    clock.start();
+    StageLog stages;
+    const std::size_t before = now.made[0] + now.made[1];
+    progress.set(-1, "Meshing and preparing the solver");
+    for (std::size_t test = 0; test < 2; ++test) {
+      SampleRequest request;
+      request.perArea = now.settings.perArea;
+      request.seed = test == 1 ? testSeed(now.settings.seed) : now.settings.seed;
+      request.mesh = now.mesh;
+      SampleGenerator generator(now.design, request);
+      const std::size_t total = now.total[test] = generator.total();
+      const std::size_t kept = now.made[test];
+      if (kept == total && total > 0) continue;
+      if (kept == 0) now.sets[test] = allocated(generator.emptySet(stop), total);
+      if (stop.stop_requested()) return {};
+      generator.generate(
+          {kept, total},
+          [&](const SampleSet& block) {
+            put(now.sets[test], block, now.made[test]);
+            now.made[test] += static_cast<std::size_t>(block.size());
+          },
+          [&](std::size_t done) {
+            const std::size_t all = (test == 1 ? now.total[0] : 0) + kept + done;
+            const double share = static_cast<double>(all) / static_cast<double>(2 * total);
+            const double fresh = static_cast<double>(all - before) / static_cast<double>(2 * total - before);
+            progress.set(share, "Sample " + std::to_string(all) + " of " + std::to_string(2 * total) +
+                                    timeLeft(fresh, 1e-3 * static_cast<double>(clock.elapsed())));
+          },
+          stop);
+      now.batchError = std::max(now.batchError, generator.measuredError());
+      stages.add(generator.stages());
+      if (now.made[test] < total) return {};
+    }
+    return [this, generation, stages] {
+      if (!(generation->design == design_)) return;
+      auto samples = std::make_shared<NetworkSamples>();
+      samples->training = std::move(generation->sets[0]);
+      samples->test = std::move(generation->sets[1]);
+      samples->batchError = generation->batchError;
+      samples->settings = generation->settings;
+      if (generation_ == generation) generation_.reset();
+      samples_ = std::move(samples);
+      stages_.add(stages);
+      dropResults();
+    };
+  };
+  runner_.start(tr("Generating samples"), work);
+}
+
+void NetworkSession::train(const NetworkSettings& settings) {
+  if (!samples_) return;
+  const auto work = [this, settings, design = design_, samples = samples_](const std::stop_token& stop,
+                                                                           JobProgress& progress) -> JobRunner::Taking {
+    StageLog stages;
+    const auto fit = stages.measure("train", [&] {
+      return std::make_shared<const NetworkFit>(
+          fitOn(*samples, design, settings, settings.trainOptions(), stop, progress));
+    });
+    return [this, fit, samples, stages] {
+      if (samples != samples_) return;
+      fit_ = fit;
+      stages_.add(stages);
+      emit fitChanged();
+    };
+  };
+  runner_.start(tr("Training"), work);
+}
+
+void NetworkSession::sweep(const NetworkSettings& settings) {
+  if (!samples_) return;
+  sweep_.clear();
+  sweepSettings_ = settings;
+  rows_ = std::make_shared<Rows>();
+  emit sweepChanged();
+  const auto work = [this, settings, design = design_, samples = samples_,
+                     rows = rows_](const std::stop_token& stop, JobProgress& progress) -> JobRunner::Taking {
+    std::vector<double> spreads = logarithmicRange(settings.sweepFrom, settings.sweepTo, settings.sweepCount);
+    for (std::size_t k = 0; k < spreads.size() && !stop.stop_requested(); ++k) {
+      progress.set(static_cast<double>(k) / static_cast<double>(spreads.size()),
+                   "Spread " + std::to_string(k + 1) + " of " + std::to_string(spreads.size()));
+      TrainOptions options = settings.trainOptions();
+      options.spread = spreads[k];
+      JobProgress unseen;
+      const NetworkFit fit = fitOn(*samples, design, settings, options, stop, unseen);
+      const std::lock_guard lock(rows->mutex);
+      rows->points.push_back({spreads[k], fit.error.error, fit.decoder.report});
+    }
+    return [this] { drain(); };
+  };
+  runner_.start(tr("Sweeping the spread"), work);
+}
+
+void NetworkSession::compare(const NetworkSettings& settings) {
+  if (!samples_) return;
+  trials_.clear();
+  trialsInput_ = settings.input;
+  rows_ = std::make_shared<Rows>();
+  emit trialsChanged();
+  const auto work = [this, settings, design = design_, samples = samples_,
+                     rows = rows_](const std::stop_token& stop, JobProgress& progress) -> JobRunner::Taking {
+    const std::vector<DecoderKind> kinds = allDecoderKinds();
+    for (std::size_t k = 0; k < kinds.size() && !stop.stop_requested(); ++k) {
+      progress.set(static_cast<double>(k) / static_cast<double>(kinds.size()), "Training " + name(kinds[k]));
+      TrainOptions options = settings.trainOptions();
+      options.decoder = kinds[k];
+      JobProgress unseen;
+      DecoderTrial trial;
+      trial.kind = kinds[k];
+      try {
+        const NetworkFit fit = fitOn(*samples, design, settings, options, stop, unseen);
+        trial.error = fit.error.error;
+        trial.seconds = fit.decoder.report.seconds;
+        trial.microsecondsPerSample = fit.prediction.microsecondsPerSample;
+      } catch (const std::exception& refusal) {
+        trial.refusal = QString::fromStdString(refusal.what());
+      }
+      if (stop.stop_requested()) break;
+      const std::lock_guard lock(rows->mutex);
+      rows->trials.push_back(std::move(trial));
+    }
+    return [this] { drain(); };
+  };
+  runner_.start(tr("Comparing decoders"), work);
+}
+
+void NetworkSession::drain() {
+  if (!rows_) return;
+  std::vector<SweepPoint> points;
+  std::vector<DecoderTrial> trials;
+  {
+    const std::lock_guard lock(rows_->mutex);
+    points.swap(rows_->points);
+    trials.swap(rows_->trials);
+  }
+  if (!points.empty()) {
+    sweep_.insert(sweep_.end(), points.begin(), points.end());
+    emit sweepChanged();
+  }
+  if (!trials.empty()) {
+    trials_.insert(trials_.end(), trials.begin(), trials.end());
+    emit trialsChanged();
+  }
+}
+
+void NetworkSession::use(Decoder decoder) {
+  if (!samples_) throw Error("the network cannot be tried: there are no samples yet; generate samples first");
+  NetworkFit fit;
+  fit.decoder = std::move(decoder);
+  fit.settings.input = fit.decoder.input.kind;
+  fit.settings.mode = fit.decoder.mode;
+  fit.settings.decoder = fit.decoder.kind;
+  fit.settings.spread = fit.decoder.report.spread;
+  fit.prediction = predict(fit.decoder, samples_->test);
+  fit.error = decoderError(fit.decoder, fit.prediction, samples_->test);
+  fit_ = std::make_shared<const NetworkFit>(std::move(fit));
+  emit fitChanged();
+}
+
+} // namespace palp

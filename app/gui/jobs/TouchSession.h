@@ -1,0 +1,91 @@
+#pragma once
+
+#include "app/gui/jobs/JobRunner.h"
+#include "app/gui/project/Project.h"
+#include "app/study/touch/Touch.h"
+
+#include <QTimer>
+
+#include <memory>
+#include <mutex>
+#include <optional>
+
+namespace palp {
+
+/// What the background job tells of Newton's method while it runs.
+class NewtonTrace {
+public:
+  void add(const NewtonStep& step);
+  [[nodiscard]] std::vector<NewtonStep> steps() const;
+
+private:
+  mutable std::mutex mutex_;
+  std::vector<NewtonStep> steps_;
+};
+
+/// The chain of one touch behind the window: advanced in the background no farther than the visible scene needs, on
+/// copies; a result is taken only while its inputs still hold, and until then the last good one is shown.
+class TouchSession : public QObject {
+  Q_OBJECT
+
+public:
+  explicit TouchSession(QObject* parent = nullptr);
+
+  /// New inputs; what still holds is kept.
+  void setInputs(const SensorDesign& design, const LoadCase& load, const MeshOptions& mesh);
+  /// The furthest stage of the visible scene.
+  void need(Stage stage);
+  /// Computes what is needed again after a cancel.
+  void resume();
+  void cancel() { runner_.cancel(); }
+
+  /// The last good result; its design and load are those it was computed from.
+  [[nodiscard]] const Touch& touch() const { return shown_; }
+  /// False while inputs are newer than what is shown.
+  [[nodiscard]] bool upToDate() const { return shownRevision_ == revision_; }
+  /// Fields of the load increment that is shown; null before the first solution.
+  [[nodiscard]] const NodalFields* fields() const { return fields_.get(); }
+  [[nodiscard]] const ElectrodeDisplacements* electrodes() const { return electrodes_.get(); }
+  [[nodiscard]] int increment() const { return increment_; }
+  [[nodiscard]] int incrementCount() const;
+  [[nodiscard]] double loadFraction() const;
+  /// Residuals of the solve that runs, else of the one that is shown.
+  [[nodiscard]] std::vector<NewtonStep> newton() const;
+  [[nodiscard]] const StageLog& stages() const { return stages_; }
+  [[nodiscard]] JobRunner& runner() { return runner_; }
+
+  /// Shows another load increment of the solution; not while a solve runs.
+  void showIncrement(int increment);
+  /// The increment that will be shown when its fields are there.
+  [[nodiscard]] int scrubbingTo() const { return scrubbing_.value_or(increment_); }
+  /// Estimates the discretisation error of what is shown; the answer comes with errorEstimated().
+  void estimateError();
+  /// Gives back the memory that only another solve needs; called when nothing was computed for a while.
+  void rest();
+
+signals:
+  /// Another mesh, solution or increment is shown.
+  void changed(bool meshChanged);
+  void newtonStepped();
+  void errorEstimated(double relative, const QString& method);
+
+private:
+  void run();
+  void take(const Touch& touch, std::shared_ptr<const NodalFields> fields, quint64 revision);
+
+  JobRunner runner_;
+  QTimer idle_;
+  Touch wanted_; ///< inputs as they are now, with the results that still hold
+  Touch shown_;
+  Stage need_ = Stage::Design;
+  quint64 revision_ = 1;
+  quint64 shownRevision_ = 0;
+  std::shared_ptr<const NodalFields> fields_;
+  std::shared_ptr<const ElectrodeDisplacements> electrodes_;
+  std::shared_ptr<NewtonTrace> trace_;
+  int increment_ = -1;
+  std::optional<int> scrubbing_; ///< asked for and not there yet
+  StageLog stages_;
+};
+
+} // namespace palp

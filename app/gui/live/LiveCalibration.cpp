@@ -1,0 +1,260 @@
+#include "app/gui/live/LiveCalibration.h"
+
+#include "io/NetworkFile.h"
+#include "model/base/Error.h"
+
+#include <QDoubleSpinBox>
+#include <QFileDialog>
+#include <QFormLayout>
+#include <QGroupBox>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QSpinBox>
+#include <QTableWidget>
+#include <QVBoxLayout>
+
+#include <chrono>
+
+namespace palp {
+
+namespace {
+
+constexpr std::array<const char*, 3> kForces{"Fx", "Fy", "Fz"};
+constexpr double kMostForce_N = 500;
+constexpr double kDay_s = 86400;
+
+QPushButton* button(const QString& text, const QString& name, const QString& tip) {
+  auto* push = new QPushButton(text);
+  push->setObjectName(name);
+  push->setToolTip(tip);
+  return push;
+}
+
+QString reportText(const Calibration& calibration, double age_days) {
+  const CalibrationReport& report = calibration.report;
+  QString text = QObject::tr("<b>%1 frames</b>, by area").arg(report.samples);
+  for (const int count : report.samplesPerArea) text += QString(" %1").arg(count);
+  text += QObject::tr("; %1 days old.<table cellspacing=0 cellpadding=2><tr><td></td><td>labels [N]</td>"
+                      "<td>coverage</td><td>before [N]</td><td>after, unseen [N]</td><td>of range</td></tr>")
+              .arg(age_days, 0, 'f', 1);
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
+    text += QObject::tr("<tr><td>%1&nbsp;</td><td>%2 to %3&nbsp;</td><td>%4 %&nbsp;</td><td>%5</td><td>%6</td>"
+                        "<td>%7 %</td></tr>")
+                .arg(kForces[static_cast<std::size_t>(axis)])
+                .arg(report.lowest_N(axis), 0, 'g', 3)
+                .arg(report.highest_N(axis), 0, 'g', 3)
+                .arg(report.coverage_percent(axis), 0, 'f', 0)
+                .arg(report.rmseBefore_N(axis), 0, 'g', 3)
+                .arg(report.rmseAfter_N(axis), 0, 'g', 3)
+                .arg(report.rmseAfter_percentOfRange(axis), 0, 'f', 2);
+  text += QObject::tr("</table>Worst frame: %1, %2 N.").arg(report.worstSample).arg(report.worstError_N, 0, 'g', 3);
+  if (!report.improved)
+    text += QObject::tr(" <b>On frames that it has not seen, it is no better than the network before.</b>");
+  if (report.coverage_percent.minCoeff() < 50)
+    text += QObject::tr(" The labels cover less than half of the force range in some direction.");
+  return text;
+}
+
+} // namespace
+
+LiveCalibration::LiveCalibration(LiveHost& host, QWidget* parent) : QWidget(parent), host_(host) {
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(4, 4, 4, 4);
+  row->addWidget(buildLabel());
+  row->addWidget(buildFrames(), 2);
+  row->addWidget(buildFit(), 3);
+  connect(&runner_, &JobRunner::failed, this, [this](const QString& sentence) {
+    report_->setText(sentence);
+    emit told(sentence);
+  });
+  connect(&host_, &LiveHost::decoderChanged, this, [this] {
+    const SensorDesign& sensor = host_.sensor();
+    area_->setRange(0, std::max(0, sensor.areas.count() - 1));
+    displayFrames();
+  });
+  displayFrames();
+  displayFit();
+}
+
+QWidget* LiveCalibration::buildLabel() {
+  auto* box = new QGroupBox(tr("Known load now"));
+  auto* form = new QFormLayout(box);
+  area_ = new QSpinBox;
+  area_->setObjectName("labelArea");
+  area_->setToolTip(tr("Load area that is pressed; areas count from 0"));
+  form->addRow(tr("Area"), area_);
+  for (std::size_t d = 0; d < 3; ++d) {
+    force_[d] = new QDoubleSpinBox;
+    force_[d]->setObjectName(QString("label_%1").arg(kForces[d]));
+    force_[d]->setRange(-kMostForce_N, kMostForce_N);
+    force_[d]->setDecimals(4);
+    force_[d]->setSingleStep(0.1);
+    force_[d]->setSuffix(tr(" N"));
+    force_[d]->setToolTip(tr("What the rig says [N]; a push is negative in z"));
+    form->addRow(kForces[d], force_[d]);
+  }
+  count_ = new QSpinBox;
+  count_->setObjectName("labelFrames");
+  count_->setRange(1, 100000);
+  count_->setValue(50);
+  count_->setSuffix(tr(" frames"));
+  count_->setToolTip(tr("Frames that are averaged to one labelled frame"));
+  form->addRow(tr("Mean of"), count_);
+  collect_ = button(tr("Collect"), "collect", tr("Averages the next frames under this load"));
+  form->addRow(collect_);
+  progress_ = new QProgressBar;
+  progress_->setMaximumHeight(10);
+  progress_->setTextVisible(false);
+  form->addRow(progress_);
+  connect(collect_, &QPushButton::clicked, this, &LiveCalibration::collect);
+  return box;
+}
+
+QWidget* LiveCalibration::buildFrames() {
+  auto* box = new QGroupBox(tr("Labelled frames"));
+  auto* column = new QVBoxLayout(box);
+  table_ = new QTableWidget(0, 4);
+  table_->setObjectName("labelledFrames");
+  table_->setHorizontalHeaderLabels({tr("area"), tr("Fx [N]"), tr("Fy [N]"), tr("Fz [N]")});
+  table_->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
+  table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  table_->setSelectionBehavior(QAbstractItemView::SelectRows);
+  column->addWidget(table_, 1);
+  auto* row = new QHBoxLayout;
+  auto* load = button(tr("Load CSV..."), "loadFrames", tr("Adds the frames of palp listen --label ... --append"));
+  saveFrames_ = button(tr("Save CSV..."), "saveFrames", tr("For palp calibrate"));
+  remove_ = button(tr("Remove"), "removeFrame", tr("Takes the selected frame away"));
+  for (QPushButton* push : {load, saveFrames_, remove_}) row->addWidget(push);
+  column->addLayout(row);
+  connect(load, &QPushButton::clicked, this, [this] {
+    const QString file = QFileDialog::getOpenFileName(this, tr("Labelled frames"), {}, tr("Tables (*.csv)"));
+    if (file.isEmpty()) return;
+    guarded([&] {
+      frames_.load(file.toStdString());
+      file_ = file.toStdString();
+    });
+  });
+  connect(saveFrames_, &QPushButton::clicked, this, [this] {
+    const QString file = QFileDialog::getSaveFileName(this, tr("Labelled frames"), "frames.csv", tr("Tables (*.csv)"));
+    if (!file.isEmpty()) guarded([&] { frames_.save(file.toStdString()); });
+  });
+  connect(remove_, &QPushButton::clicked, this, [this] {
+    frames_.remove(table_->currentRow());
+    displayFrames();
+  });
+  return box;
+}
+
+QWidget* LiveCalibration::buildFit() {
+  auto* box = new QGroupBox(tr("Refined network"));
+  auto* column = new QVBoxLayout(box);
+  report_ = new QLabel;
+  report_->setObjectName("calibrationReport");
+  report_->setWordWrap(true);
+  report_->setAlignment(Qt::AlignTop);
+  report_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  column->addWidget(report_, 1);
+  auto* row = new QHBoxLayout;
+  fit_ = button(tr("Fit"), "fitCalibration",
+                tr("Gains and offset of the network's forces by recursive least squares, judged on frames left out"));
+  use_ = button(tr("Use"), "useCalibration", tr("Decodes with the refined network from now on"));
+  saveNetwork_ = button(tr("Save network..."), "saveCalibration", tr("For palp listen --network"));
+  for (QPushButton* push : {fit_, use_, saveNetwork_}) row->addWidget(push);
+  column->addLayout(row);
+  connect(fit_, &QPushButton::clicked, this, &LiveCalibration::fit);
+  connect(use_, &QPushButton::clicked, this, [this] {
+    host_.useDecoder(calibration_->decoder);
+    emit told(tr("Decoding with the refined network."));
+  });
+  connect(saveNetwork_, &QPushButton::clicked, this, [this] {
+    const QString file = QFileDialog::getSaveFileName(this, tr("Save network"), "better.json", tr("Networks (*.json)"));
+    if (!file.isEmpty()) guarded([&] { writeNetwork(calibration_->decoder, file.toStdString()); });
+  });
+  return box;
+}
+
+void LiveCalibration::guarded(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const std::exception& refusal) {
+    emit told(QString::fromStdString(refusal.what()));
+  }
+  displayFrames();
+}
+
+void LiveCalibration::collect() {
+  if (frames_.collecting()) {
+    frames_.stop();
+    displayFrames();
+    return;
+  }
+  if (!host_.decoder()) {
+    emit told(tr("There is no network: it says of which design the frames are."));
+    return;
+  }
+  guarded([&] {
+    const AreaLoad label{area_->value(), {force_[0]->value(), force_[1]->value(), force_[2]->value()}};
+    frames_.begin(*host_.decoder(), host_.sensor(), label, count_->value());
+  });
+}
+
+void LiveCalibration::take() {
+  if (!frames_.collecting()) return;
+  for (const auto& frame : host_.fresh()) {
+    if (host_.status().taring || !frames_.collecting()) break;
+    guarded([&] {
+      if (frames_.add(frame->forces)) newest_s_ = hostClock_s();
+    });
+  }
+  progress_->setValue(frames_.collected());
+}
+
+void LiveCalibration::displayFrames() {
+  const SampleSet& samples = frames_.samples();
+  collect_->setText(frames_.collecting() ? tr("Stop") : tr("Collect"));
+  progress_->setRange(0, std::max(1, frames_.wanted()));
+  progress_->setValue(frames_.collected());
+  const bool any = samples.size() > 0;
+  for (QPushButton* push : {remove_, saveFrames_, fit_}) push->setEnabled(any);
+  if (table_->rowCount() == samples.size()) return;
+  table_->setRowCount(static_cast<int>(samples.size()));
+  for (int row = 0; row < table_->rowCount(); ++row) {
+    table_->setItem(row, 0, new QTableWidgetItem(QString::number(samples.area(row))));
+    for (int d = 0; d < 3; ++d)
+      table_->setItem(row, d + 1, new QTableWidgetItem(QString::number(samples.forces_N(d, row), 'g', 5)));
+  }
+  table_->scrollToBottom();
+}
+
+void LiveCalibration::fit() {
+  if (!host_.decoder()) return;
+  runner_.start(tr("Refining the network"),
+                [this, decoder = *host_.decoder(), frames = frames_.samples()](const std::stop_token&, JobProgress&) {
+                  auto result = std::make_shared<Calibration>(calibrate(decoder, frames));
+                  return [this, result] {
+                    calibration_ = std::move(*result);
+                    displayFit();
+                  };
+                });
+}
+
+void LiveCalibration::displayFit() {
+  use_->setEnabled(calibration_.has_value());
+  saveNetwork_->setEnabled(calibration_.has_value());
+  if (!calibration_) {
+    report_->setText(tr("Put known loads on the sensor, one after the other, and collect a frame under each; at least "
+                        "8 of them, over the whole force range. Then fit."));
+    return;
+  }
+  double age_days = newest_s_ > 0 ? (hostClock_s() - newest_s_) / kDay_s : 0;
+  if (newest_s_ == 0 && !file_.empty()) {
+    const auto age = std::filesystem::file_time_type::clock::now() - std::filesystem::last_write_time(file_);
+    age_days = std::chrono::duration<double>(age).count() / kDay_s;
+  }
+  report_->setText(reportText(*calibration_, age_days));
+}
+
+} // namespace palp

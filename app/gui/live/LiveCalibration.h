@@ -1,0 +1,65 @@
+#pragma once
+
+#include "app/gui/live/LiveHost.h"
+#include "app/study/live/LabelledFrames.h"
+
+#include <QWidget>
+
+#include <array>
+
+class QDoubleSpinBox;
+class QLabel;
+class QProgressBar;
+class QPushButton;
+class QSpinBox;
+class QTableWidget;
+
+namespace palp {
+
+/// Labelled frames of the board: collected under known loads, or from a file; the network refined with them.
+class LiveCalibration : public QWidget {
+  Q_OBJECT
+
+public:
+  explicit LiveCalibration(LiveHost& host, QWidget* parent = nullptr);
+
+  /// Takes the frames of the last look.
+  void take();
+  [[nodiscard]] const LabelledFrames& frames() const { return frames_; }
+  [[nodiscard]] const std::optional<Calibration>& calibration() const { return calibration_; }
+  [[nodiscard]] JobRunner& runner() { return runner_; }
+
+signals:
+  void told(const QString& sentence);
+
+private:
+  QWidget* buildLabel();
+  QWidget* buildFrames();
+  QWidget* buildFit();
+  void collect();
+  void displayFrames();
+  void fit();
+  void displayFit();
+  void guarded(const std::function<void()>& act);
+
+  LiveHost& host_;
+  LabelledFrames frames_;
+  double newest_s_ = 0; ///< host clock of the newest frame; 0: none collected here
+  std::string file_;    ///< the last that was read
+  std::optional<Calibration> calibration_;
+  QSpinBox* area_ = nullptr;
+  std::array<QDoubleSpinBox*, 3> force_{};
+  QSpinBox* count_ = nullptr;
+  QPushButton* collect_ = nullptr;
+  QProgressBar* progress_ = nullptr;
+  QTableWidget* table_ = nullptr;
+  QPushButton* remove_ = nullptr;
+  QPushButton* saveFrames_ = nullptr;
+  QPushButton* fit_ = nullptr;
+  QPushButton* use_ = nullptr;
+  QPushButton* saveNetwork_ = nullptr;
+  QLabel* report_ = nullptr;
+  JobRunner runner_;
+};
+
+} // namespace palp

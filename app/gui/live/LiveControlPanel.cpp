@@ -1,0 +1,231 @@
+#include "app/gui/live/LiveControlPanel.h"
+
+#include <QComboBox>
+#include <QDir>
+#include <QDoubleSpinBox>
+#include <QFileDialog>
+#include <QFormLayout>
+#include <QGroupBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QSignalBlocker>
+#include <QSpinBox>
+#include <QVBoxLayout>
+
+namespace palp {
+
+namespace {
+
+constexpr double kMegabyte = 1e6;
+constexpr double kRecordedReport = 64 + 12; // bytes with kind, length and time
+
+QPushButton* button(const QString& text, const QString& name, const QString& tip) {
+  auto* push = new QPushButton(text);
+  push->setObjectName(name);
+  push->setToolTip(tip);
+  return push;
+}
+
+QLabel* words(const QString& name, const char* role) {
+  auto* label = new QLabel;
+  label->setObjectName(name);
+  label->setWordWrap(true);
+  label->setProperty("role", role);
+  label->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  return label;
+}
+
+QHBoxLayout* beside(std::initializer_list<QWidget*> widgets) {
+  auto* row = new QHBoxLayout;
+  for (QWidget* widget : widgets) row->addWidget(widget);
+  return row;
+}
+
+void setText(QLabel& label, const QString& text) {
+  if (label.text() != text) label.setText(text);
+  label.setVisible(!text.isEmpty());
+}
+
+} // namespace
+
+LiveControlPanel::LiveControlPanel(QWidget* parent) : QWidget(parent) {
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->addWidget(buildNetwork());
+  column->addWidget(buildRecording());
+  column->addWidget(buildScales());
+  column->addStretch(1);
+}
+
+QWidget* LiveControlPanel::buildNetwork() {
+  auto* box = new QGroupBox(tr("Network and tare"));
+  auto* column = new QVBoxLayout(box);
+  network_ = words("networkName", "hint");
+  networkProblem_ = words("networkProblem", "problem");
+  column->addWidget(network_);
+  column->addWidget(networkProblem_);
+  auto* open = button(tr("Open..."), "chooseNetwork", tr("A network that was trained with --input resistance"));
+  shipped_ = button(tr("The one of Palp"), "shippedNetwork",
+                    tr("The network that ships with Palp: all rows of the paper's design, noise 5e-6 of R"));
+  column->addLayout(beside({open, shipped_}));
+  tareFrames_ = new QSpinBox;
+  tareFrames_->setObjectName("tareFrames");
+  tareFrames_->setRange(1, 100000);
+  tareFrames_->setSuffix(tr(" frames"));
+  tareFrames_->setToolTip(tr("Frames that are averaged as rest; more of them leave less noise in the zero"));
+  tare_ = button(tr("Tare"), "tare",
+                 tr("Takes the next frames as rest: leave the sensor alone; it waits while the sensor moves (T)"));
+  clearTare_ = button(tr("Clear"), "clearTare", tr("Back to the resistances of the design at rest"));
+  column->addLayout(beside({tare_, tareFrames_, clearTare_}));
+  connect(open, &QPushButton::clicked, this, &LiveControlPanel::chooseNetwork);
+  connect(shipped_, &QPushButton::clicked, this,
+          [this] { edit(tr("network"), [](LiveSettings& settings) { settings.network.clear(); }); });
+  connect(tare_, &QPushButton::clicked, this, &LiveControlPanel::tareAsked);
+  connect(clearTare_, &QPushButton::clicked, this, &LiveControlPanel::clearTareAsked);
+  connect(tareFrames_, &QSpinBox::valueChanged, this, [this](int value) {
+    edit(tr("frames of the tare"), [&](LiveSettings& settings) { settings.tareFrames = value; });
+  });
+  return box;
+}
+
+QWidget* LiveControlPanel::buildRecording() {
+  auto* box = new QGroupBox(tr("Recording"));
+  auto* column = new QVBoxLayout(box);
+  file_ = new QLineEdit(QDir::home().filePath("touch.palprec"));
+  file_->setObjectName("recordFile");
+  file_->setToolTip(tr("File for the raw reports; one that exists is never overwritten"));
+  auto* choose = button(tr("..."), "chooseRecordFile", tr("Chooses the file"));
+  choose->setMaximumWidth(32);
+  column->addLayout(beside({file_, choose}));
+  record_ = button(tr("Record"), "record", tr("Writes the raw reports from now on; flushed each second (R)"));
+  record_->setCheckable(true);
+  pause_ = button(tr("Pause"), "pause", tr("Holds the views; a recording goes on (Space)"));
+  pause_->setCheckable(true);
+  column->addLayout(beside({record_, pause_}));
+  recorded_ = words("recorded", "hint");
+  column->addWidget(recorded_);
+  mark_ = new QLineEdit;
+  mark_->setObjectName("markText");
+  mark_->setPlaceholderText(tr("mark 1"));
+  mark_->setToolTip(tr("What the event mark says, in the curves and in the recording"));
+  auto* mark = button(tr("Mark"), "mark", tr("Marks this moment (M)"));
+  column->addLayout(beside({mark_, mark}));
+  auto* csv =
+      button(tr("Export CSV..."), "exportLive", tr("What the curves hold: time, forces [N], dR/R of all cells"));
+  column->addWidget(csv);
+  connect(choose, &QPushButton::clicked, this, [this] {
+    const QString file =
+        QFileDialog::getSaveFileName(this, tr("Record to"), file_->text(), tr("Recordings (*.palprec)"));
+    if (!file.isEmpty()) file_->setText(file);
+  });
+  connect(record_, &QPushButton::clicked, this, &LiveControlPanel::record);
+  connect(pause_, &QPushButton::clicked, this, [this] { emit pauseAsked(pause_->isChecked()); });
+  connect(mark, &QPushButton::clicked, this, [this] {
+    emit markAsked(markText());
+    mark_->clear();
+    mark_->setPlaceholderText(tr("mark %1").arg(++marks_ + 1));
+  });
+  connect(csv, &QPushButton::clicked, this, [this] {
+    const QString file = QFileDialog::getSaveFileName(this, tr("Export CSV"), "live.csv", tr("Tables (*.csv)"));
+    if (!file.isEmpty()) emit exportAsked(file);
+  });
+  return box;
+}
+
+QWidget* LiveControlPanel::buildScales() {
+  auto* box = new QGroupBox(tr("Scales (the same for all frames)"));
+  auto* form = new QFormLayout(box);
+  arrow_ = new QDoubleSpinBox;
+  arrow_->setObjectName("arrowScale");
+  arrow_->setRange(0.1, 100);
+  arrow_->setSingleStep(0.5);
+  arrow_->setDecimals(1);
+  arrow_->setSuffix(tr(" mm/N"));
+  arrow_->setToolTip(tr("Length of a force arrow [mm/N]"));
+  change_ = new QComboBox;
+  change_->setObjectName("changeScale");
+  for (const char* percent : {"0.005", "0.01", "0.02", "0.05", "0.1", "0.2", "0.3", "0.5", "1", "2", "5"})
+    change_->addItem(QString::fromUtf8("\u00b1%1 %").arg(percent), QString(percent).toDouble());
+  change_->setToolTip(tr("End of the colour scale and of the curves of dR/R [%]"));
+  window_ = new QSpinBox;
+  window_->setObjectName("window");
+  window_->setRange(1, 60);
+  window_->setSuffix(tr(" s"));
+  window_->setToolTip(tr("Time that the curves show [s]"));
+  form->addRow(tr("Arrows"), arrow_);
+  form->addRow(tr("dR/R"), change_);
+  form->addRow(tr("Curves"), window_);
+  connect(arrow_, &QDoubleSpinBox::valueChanged, this, [this](double value) {
+    edit(tr("scale of the arrows"), [&](LiveSettings& settings) { settings.arrow_mm_per_N = value; });
+  });
+  connect(change_, &QComboBox::currentIndexChanged, this, [this] {
+    edit(tr("scale of dR/R"), [&](LiveSettings& s) { s.change_percent = change_->currentData().toDouble(); });
+  });
+  connect(window_, &QSpinBox::valueChanged, this, [this](int value) {
+    edit(tr("time of the curves"), [&](LiveSettings& settings) { settings.window_s = value; });
+  });
+  return box;
+}
+
+void LiveControlPanel::edit(const QString& what, const std::function<void(LiveSettings&)>& change) {
+  LiveSettings next = settings_;
+  change(next);
+  if (next == settings_) return;
+  settings_ = next;
+  emit edited(what, next);
+}
+
+void LiveControlPanel::chooseNetwork() {
+  const QString file = QFileDialog::getOpenFileName(this, tr("Open a network"), {}, tr("Networks (*.json)"));
+  if (!file.isEmpty()) edit(tr("network"), [&](LiveSettings& settings) { settings.network = file.toStdString(); });
+}
+
+QString LiveControlPanel::markText() const {
+  return mark_->text().isEmpty() ? mark_->placeholderText() : mark_->text();
+}
+
+void LiveControlPanel::record() {
+  if (record_->isChecked()) {
+    emit recordAsked(file_->text());
+  } else {
+    emit stopRecordingAsked();
+  }
+}
+
+void LiveControlPanel::display(const LiveSettings& settings) {
+  settings_ = settings;
+  const QSignalBlocker quietArrow(arrow_), quietChange(change_), quietWindow(window_), quietTare(tareFrames_);
+  arrow_->setValue(settings.arrow_mm_per_N);
+  window_->setValue(static_cast<int>(settings.window_s));
+  tareFrames_->setValue(settings.tareFrames);
+  int place = change_->findData(settings.change_percent);
+  if (place < 0) {
+    change_->addItem(QString::fromUtf8("\u00b1%1 %").arg(settings.change_percent), settings.change_percent);
+    place = change_->count() - 1;
+  }
+  change_->setCurrentIndex(place);
+  shipped_->setEnabled(!settings.network.empty());
+}
+
+void LiveControlPanel::displayState(const LiveStatus& status, bool paused, const QString& network) {
+  setText(*network_, network);
+  setText(*networkProblem_, QString::fromStdString(status.decoderProblem));
+  tare_->setText(status.taring ? tr("Waits for rest") : tr("Tare"));
+  clearTare_->setEnabled(status.tared);
+  pause_->setChecked(paused);
+  record_->setChecked(status.recording);
+  record_->setText(status.recording ? tr("Stop recording") : tr("Record"));
+  QString recorded;
+  if (!status.recordingFailure.empty())
+    recorded = QString::fromStdString(status.recordingFailure);
+  else if (status.recording)
+    recorded = tr("%1 reports, %2 MB; %3 dropped")
+                   .arg(status.recordedReports)
+                   .arg(static_cast<double>(status.recordedReports) * kRecordedReport / kMegabyte, 0, 'f', 1)
+                   .arg(status.recordingDropped);
+  setText(*recorded_, recorded);
+}
+
+} // namespace palp

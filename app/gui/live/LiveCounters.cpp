@@ -1,0 +1,109 @@
+#include "app/gui/live/LiveCounters.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QStyle>
+#include <QVBoxLayout>
+
+namespace palp {
+
+namespace {
+
+QString milliseconds(double seconds) {
+  return QString::number(1e3 * seconds, 'f', seconds < 1e-3 ? 2 : 1);
+}
+
+QString triple(const LatencySummary& latency, std::uint64_t frames) {
+  if (frames == 0) return QObject::tr("none");
+  return milliseconds(latency.p50_s) + " / " + milliseconds(latency.p99_s) + " / " + milliseconds(latency.longest_s);
+}
+
+QString stateTitle(const LiveStatus& status, bool simulated) {
+  QString title = QString::fromLatin1(name(status.state));
+  if (simulated && status.state == LiveState::Streaming) title = QObject::tr("simulated");
+  title[0] = title[0].toUpper();
+  if (status.recording) title += QObject::tr(", recording");
+  return title;
+}
+
+} // namespace
+
+LiveCounters::LiveCounters(QWidget* parent) : QWidget(parent) {
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(6);
+  state_ = add(*row, "liveState", tr("State"), tr("What the source does now, and why"), 5);
+  rate_ = add(*row, "liveRate", tr("Measured rate"),
+              tr("Reports a second that came in the last second, and whole scans (frames) of them"), 4);
+  losses_ = add(*row, "liveLosses", tr("Lost / bad / late"),
+                tr("Reports missing in the sequence / with a wrong length, ID, checksum or range / frames that were "
+                   "decoded more than 20 ms after the board read them; all since the start"),
+                3);
+  latency_ = add(*row, "liveLatency", tr("Latency p50 / p99 / max"),
+                 tr("From the board's clock at the last reading of a frame to the decoded force [ms]; offset and drift "
+                    "of the two clocks are taken out"),
+                 4);
+  decoding_ = add(*row, "liveDecoding", tr("Report to force"),
+                  tr("Of the latency, what this program takes: from the report's arrival to the force [ms], "
+                     "p50 / p99 / max"),
+                  4);
+  climate_ = add(*row, "liveClimate", tr("Temperature"),
+                 tr("Of the board [degC]; relative noise of a reading: measured while taring, before that as the "
+                    "network was trained for"),
+                 3);
+}
+
+LiveCounters::Tile LiveCounters::add(QHBoxLayout& row, const QString& name, const QString& title, const QString& tip,
+                                     int stretch) {
+  auto* box = new QWidget;
+  box->setProperty("role", "tile");
+  box->setToolTip(tip);
+  auto* column = new QVBoxLayout(box);
+  column->setContentsMargins(8, 4, 8, 4);
+  column->setSpacing(0);
+  auto* head = new QLabel(title);
+  head->setProperty("role", "hint");
+  Tile tile{box, new QLabel, new QLabel};
+  tile.value->setObjectName(name);
+  tile.value->setProperty("role", "value");
+  tile.unit->setObjectName(name + "Unit");
+  tile.unit->setProperty("role", "hint");
+  for (QLabel* label : {head, tile.value, tile.unit}) {
+    label->setMinimumWidth(10); // a long text is cut, it does not widen the window
+    column->addWidget(label);
+  }
+  row.addWidget(box, stretch);
+  return tile;
+}
+
+void LiveCounters::set(const Tile& tile, const QString& value, const QString& unit, bool alarm) {
+  if (tile.value->text() != value) tile.value->setText(value);
+  if (tile.unit->text() != unit) tile.unit->setText(unit);
+  const QString role = alarm ? "problem" : "value";
+  if (tile.value->property("role").toString() == role) return;
+  tile.value->setProperty("role", role);
+  tile.value->style()->unpolish(tile.value);
+  tile.value->style()->polish(tile.value);
+}
+
+void LiveCounters::display(const LiveStatus& status, bool simulated) {
+  const bool alarm = status.state == LiveState::Refused || status.state == LiveState::Stalled ||
+                     (status.state == LiveState::Searching && status.connections > 0);
+  set(state_, stateTitle(status, simulated),
+      QString::fromStdString(status.reason.empty() ? status.source : status.reason), alarm);
+  state_.unit->setToolTip(state_.unit->text());
+  const QString wanted = status.configuration ? tr("of %1; ").arg(status.configuration->rate_Hz) : QString();
+  if (status.state != LiveState::Paused) // held with the views
+    set(rate_, tr("%1 reports/s").arg(status.reportsPerSecond, 0, 'f', 0),
+        wanted + tr("%1 frames/s").arg(status.framesPerSecond, 0, 'f', 0));
+  set(losses_, QString("%1 / %2 / %3").arg(status.counts.lost).arg(status.counts.bad).arg(status.lateFrames),
+      tr("of %1 reports").arg(status.counts.reports), status.counts.lost + status.counts.bad > 0);
+  set(latency_, triple(status.latency, status.counts.frames), tr("ms, board to force"));
+  set(decoding_, triple(status.decoding, status.counts.frames), tr("ms, p50 / p99 / max"));
+  set(climate_,
+      status.temperature_degC ? QString::fromUtf8("%1 \u00b0C").arg(*status.temperature_degC, 0, 'f', 1) : tr("none"),
+      status.noise > 0 ? tr("noise %1%2").arg(status.noise, 0, 'g', 2).arg(status.tared ? tr(", tared") : QString())
+                       : tr("noise not known"));
+}
+
+} // namespace palp

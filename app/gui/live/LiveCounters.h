@@ -1,0 +1,35 @@
+#pragma once
+
+#include "app/study/live/LiveSession.h"
+
+#include <QWidget>
+
+#include <vector>
+
+class QHBoxLayout;
+class QLabel;
+
+namespace palp {
+
+/// State, measured rate, losses, latency, temperature and noise in one line of tiles.
+class LiveCounters : public QWidget {
+  Q_OBJECT
+
+public:
+  explicit LiveCounters(QWidget* parent = nullptr);
+
+  void display(const LiveStatus& status, bool simulated);
+
+private:
+  struct Tile {
+    QWidget* box = nullptr;
+    QLabel* value = nullptr;
+    QLabel* unit = nullptr;
+  };
+  Tile add(QHBoxLayout& row, const QString& name, const QString& title, const QString& tip, int stretch);
+  static void set(const Tile& tile, const QString& value, const QString& unit, bool alarm = false);
+
+  Tile state_, rate_, losses_, latency_, decoding_, climate_;
+};
+
+} // namespace palp

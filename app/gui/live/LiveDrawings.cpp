@@ -1,0 +1,169 @@
+#include "app/gui/live/LiveDrawings.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace palp {
+
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kPercent = 100;
+constexpr std::array<const char*, 3> kForces{"Fx", "Fy", "Fz"};
+
+template <class... Values> std::string printed(const char* format, Values... values) {
+  std::array<char, 160> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), format, values...);
+  return buffer.data();
+}
+
+/// The first entry that the window shows.
+std::size_t firstShown(const LiveHistory& history, double window_s) {
+  const auto& entries = history.entries();
+  if (entries.empty()) return 0;
+  const double from_s = entries.back().t_s - window_s;
+  const auto first = std::lower_bound(entries.begin(), entries.end(), from_s,
+                                      [](const LiveHistory::Entry& entry, double t_s) { return entry.t_s < t_s; });
+  const auto place = static_cast<std::size_t>(first - entries.begin());
+  return place > 0 ? place - 1 : 0; // one before, so that the curve reaches the left edge
+}
+
+/// What all curves share: time, marks.
+StripSpec timeAxis(const LiveHistory& history, const LiveSettings& settings) {
+  StripSpec spec;
+  spec.window_s = settings.window_s;
+  const auto& entries = history.entries();
+  if (entries.empty()) return spec;
+  spec.end_s = entries.back().t_s;
+  for (std::size_t k = std::max<std::size_t>(1, firstShown(history, settings.window_s)); k < entries.size(); ++k)
+    if (entries[k].frame->mark != entries[k - 1].frame->mark)
+      spec.marks.emplace_back(entries[k].t_s, QString::fromStdString(entries[k].frame->mark));
+  return spec;
+}
+
+Eigen::Index strongest(const DecodedForces& forces) {
+  Eigen::Index column = 0;
+  forces.forces_N.colwise().squaredNorm().maxCoeff(&column);
+  return column;
+}
+
+/// Places of wires at `places_mm`: the one nearest to x.
+int nearest(const std::vector<double>& places_mm, double x_mm) {
+  const auto found = std::min_element(places_mm.begin(), places_mm.end(),
+                                      [&](double a, double b) { return std::abs(a - x_mm) < std::abs(b - x_mm); });
+  return static_cast<int>(found - places_mm.begin());
+}
+
+} // namespace
+
+HeatmapSpec changeHeatmap(const LiveFrame& frame, const std::string& restName, const LiveSettings& settings,
+                          const std::optional<std::array<int, 2>>& selected) {
+  HeatmapSpec spec;
+  spec.title = "Change of resistance since " + restName;
+  spec.values = kPercent * frame.change;
+  spec.colors = {ColorMap::Diverging, -settings.change_percent, settings.change_percent, "dR/R", "%"};
+  spec.selected = selected;
+  return spec;
+}
+
+StripSpec forceCurves(const LiveHistory& history, const LiveSettings& settings, const Decoder* decoder) {
+  StripSpec spec = timeAxis(history, settings);
+  spec.title = QObject::tr("Decoded force");
+  spec.yLabel = QObject::tr("force [N]");
+  spec.empty = QObject::tr("no forces yet");
+  if (decoder != nullptr) {
+    const double low = decoder->low_N.minCoeff(), high = decoder->high_N.maxCoeff();
+    const double margin = 0.1 * (high - low);
+    spec.yRange = {low - margin, high + margin};
+  }
+  const auto& entries = history.entries();
+  for (int axis = 0; axis < 3; ++axis) {
+    StripSeries curve;
+    curve.name = kForces[static_cast<std::size_t>(axis)];
+    curve.color = axis;
+    bool any = false;
+    for (std::size_t k = firstShown(history, settings.window_s); k < entries.size(); ++k) {
+      const DecodedForces& forces = entries[k].frame->forces;
+      any = any || forces.valid;
+      curve.t_s.push_back(entries[k].t_s);
+      curve.y.push_back(forces.valid ? forces.forces_N(axis, strongest(forces)) : kNone);
+    }
+    if (any) spec.series.push_back(std::move(curve));
+  }
+  return spec;
+}
+
+StripSpec changeCurves(const LiveHistory& history, const LiveSettings& settings,
+                       const std::vector<std::array<int, 2>>& cells) {
+  StripSpec spec = timeAxis(history, settings);
+  spec.title = QObject::tr("dR/R");
+  spec.yLabel = QObject::tr("dR/R [%]");
+  spec.yRange = {-settings.change_percent, settings.change_percent};
+  spec.empty = QObject::tr("no readings yet; click a cell of the heatmap to see its curve");
+  const auto& entries = history.entries();
+  if (entries.empty()) return spec;
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    StripSeries curve;
+    curve.name = QString("%1, %2").arg(cells[c][0]).arg(cells[c][1]);
+    curve.color = static_cast<int>(c);
+    for (std::size_t k = firstShown(history, settings.window_s); k < entries.size(); ++k) {
+      const Eigen::MatrixXd& change = entries[k].frame->change;
+      const bool there = cells[c][0] < change.rows() && cells[c][1] < change.cols();
+      curve.t_s.push_back(entries[k].t_s);
+      curve.y.push_back(there ? kPercent * change(cells[c][0], cells[c][1]) : kNone);
+    }
+    spec.series.push_back(std::move(curve));
+  }
+  return spec;
+}
+
+std::vector<std::array<int, 2>> areaCells(const SensorDesign& design, Eigen::Index rows, Eigen::Index columns) {
+  std::vector<std::array<int, 2>> cells;
+  for (int area = 0; area < design.areas.count(); ++area) {
+    const Rectangle box = design.areaRectangle(area);
+    const Eigen::Vector2d centre = 0.5 * (box.low_mm + box.high_mm);
+    const Eigen::Vector2d share = centre.cwiseQuotient(design.block_mm.head<2>());
+    const bool same = design.rowWires() == rows && design.columnWires() == columns;
+    const int row =
+        same ? nearest(design.upper.wire_mm, centre.y()) : static_cast<int>(share.y() * static_cast<double>(rows));
+    const int column =
+        same ? nearest(design.lower.wire_mm, centre.x()) : static_cast<int>(share.x() * static_cast<double>(columns));
+    cells.push_back({row, column});
+  }
+  return cells;
+}
+
+std::vector<LiveArrow> arrowsOf(const DecodedForces& forces) {
+  std::vector<LiveArrow> arrows;
+  if (!forces.valid) return arrows;
+  for (Eigen::Index column = 0; column < forces.forces_N.cols(); ++column) {
+    if (!forces.shown[static_cast<std::size_t>(column)]) continue;
+    const int area = forces.forces_N.cols() > 1 ? static_cast<int>(column) : forces.area.value_or(0);
+    arrows.push_back({area, forces.forces_N.col(column)});
+  }
+  return arrows;
+}
+
+std::vector<std::string> forceLines(const LiveFrame& frame, const LiveSettings& settings) {
+  std::vector<std::string> lines{printed("Force vectors, %g mm a newton", settings.arrow_mm_per_N)};
+  const DecodedForces& forces = frame.forces;
+  if (!forces.valid) {
+    if (!forces.reason.empty()) lines.push_back("no forces: " + forces.reason);
+    return lines;
+  }
+  for (Eigen::Index column = 0; column < forces.forces_N.cols(); ++column) {
+    if (!forces.shown[static_cast<std::size_t>(column)]) continue;
+    const Eigen::Vector3d sd = forces.standardDeviation_N.col(column);
+    lines.push_back(printed("standard deviation (%.1g, %.1g, %.1g) N", sd.x(), sd.y(), sd.z()));
+    if (forces.area && forces.forces_N.cols() == 1)
+      lines.push_back(printed("area %d, confidence %.0f %%", *forces.area, kPercent * forces.areaConfidence));
+  }
+  if (lines.size() == 1) lines.emplace_back("at rest: no force stands out of the noise");
+  if (forces.outsideTrainingRange) lines.emplace_back("outside of what the network was trained for");
+  return lines;
+}
+
+} // namespace palp

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "app/gui/project/LiveSettings.h"
+#include "app/gui/views/StripChart.h"
+#include "app/scenes/block/LiveScene.h"
+#include "app/scenes/charts/Heatmap.h"
+#include "app/study/live/LiveHistory.h"
+
+#include <optional>
+
+namespace palp {
+
+/// dR/R of all cells [%] on a scale that stays; cells of broken wires are no numbers.
+HeatmapSpec changeHeatmap(const LiveFrame& frame, const std::string& restName, const LiveSettings& settings,
+                          const std::optional<std::array<int, 2>>& selected);
+
+/// Forces of the touched area, or of the most loaded one where the network tells all areas at once.
+StripSpec forceCurves(const LiveHistory& history, const LiveSettings& settings, const Decoder* decoder);
+
+/// dR/R of some cells (row, column) over time.
+StripSpec changeCurves(const LiveHistory& history, const LiveSettings& settings,
+                       const std::vector<std::array<int, 2>>& cells);
+
+/// The cell that lies nearest to the middle of each load area.
+std::vector<std::array<int, 2>> areaCells(const SensorDesign& design, Eigen::Index rows, Eigen::Index columns);
+
+/// The arrows of a frame: forces that stand out of the noise.
+std::vector<LiveArrow> arrowsOf(const DecodedForces& forces);
+/// The forces in words, with their deviations; the first is the scale.
+std::vector<std::string> forceLines(const LiveFrame& frame, const LiveSettings& settings);
+
+} // namespace palp

@@ -1,0 +1,265 @@
+#include "app/gui/live/LiveHost.h"
+
+#include "app/study/live/LiveSource.h"
+#include "io/AtomicFile.h"
+#include "io/DesignFile.h"
+#include "io/Fingerprint.h"
+#include "io/NetworkFile.h"
+#include "model/base/Error.h"
+
+namespace palp {
+
+namespace {
+
+/// Whatever goes wrong while a source is opened is said in the session's state.
+template <class Open> std::unique_ptr<ReportSource> orRefuse(const Open& open) {
+  try {
+    return open();
+  } catch (const BoardError&) {
+    throw;
+  } catch (const std::exception& refusal) {
+    throw BoardError(refusal.what());
+  }
+}
+
+bool sameSource(const LiveSettings& a, const LiveSettings& b) {
+  return a.source == b.source && a.device == b.device && a.recording == b.recording &&
+         a.simulation.seed == b.simulation.seed;
+}
+
+struct LoadedNetwork {
+  Decoder decoder;
+  std::string fingerprint;
+};
+
+} // namespace
+
+LiveHost::LiveHost(BoardAccess access, QObject* parent)
+    : QObject(parent), access_(std::move(access)), sensor_(paperDesign()) {
+  connect(&loader_, &JobRunner::failed, this, [this](const QString& sentence) {
+    setDecoder({});
+    emit problem(sentence);
+  });
+}
+
+LiveHost::~LiveHost() = default;
+
+void LiveHost::setSettings(const LiveSettings& settings, const SensorDesign& design) {
+  const LiveSettings before = std::exchange(settings_, settings);
+  const bool otherDesign = !(design == std::exchange(design_, design));
+  if (replay_) replay_->speed = settings.replaySpeed;
+  if (simulation_) simulation_->set(faults(), disturbance());
+  if (before.network != settings.network) networkAsked_ = false;
+  if (!session_) return; // opened when the scene is first seen
+  if (!networkAsked_) loadNetwork();
+  if (otherDesign) setDecoder(decoder_);
+  if (!sameSource(before, settings)) return restart();
+  if (before.rate_Hz != settings.rate_Hz || before.row != settings.row) configured_ = 0;
+}
+
+BoardDisturbance LiveHost::disturbance() const {
+  BoardDisturbance disturbance;
+  disturbance.noise = settings_.simulation.noise;
+  disturbance.warming_degC = settings_.simulation.warming_degC;
+  disturbance.hysteresisShare = settings_.simulation.hysteresisShare;
+  return disturbance;
+}
+
+BoardFaults LiveHost::faults() const {
+  BoardFaults faults;
+  if (settings_.simulation.openRow >= 0) faults.openRows = {settings_.simulation.openRow};
+  if (settings_.simulation.openColumn >= 0) faults.openColumns = {settings_.simulation.openColumn};
+  faults.dropEvery = settings_.simulation.dropEvery;
+  return faults;
+}
+
+/// The project's design where the network is of it; none leaves the choice to the decoder.
+std::optional<SensorDesign> LiveHost::tareDesign() const {
+  if (decoder_ && designFingerprint(design_) == decoder_->designFingerprint) return design_;
+  return {};
+}
+
+LiveOptions LiveHost::options() {
+  LiveOptions options;
+  options.decoder = decoder_;
+  options.design = tareDesign();
+  simulation_ = std::make_shared<SimulationControl>();
+  simulation_->set(faults(), disturbance());
+  replay_.reset();
+  boardSeen_ = std::make_shared<std::atomic<bool>>(false);
+  const auto board = [open = access_.open, device = settings_.device] { return open(device); };
+  const auto simulated = [control = simulation_, rate_Hz = settings_.rate_Hz,
+                          seed = settings_.simulation.seed]() -> std::unique_ptr<ReportSource> {
+    if (!control->pluggedIn) return nullptr;
+    SimulatedBoardOptions wanted;
+    wanted.rate_Hz = rate_Hz;
+    wanted.seed = seed;
+    return orRefuse([&] { return openSimulatedBoard(wanted, control); });
+  };
+  switch (settings_.source) {
+  case LiveSourceKind::Automatic:
+    // Once a board was there, its absence is said and nothing else takes its place.
+    options.open = [simulated, access = access_, seen = boardSeen_]() -> std::unique_ptr<ReportSource> {
+      const bool there = !access.list().empty();
+      if (!there && !*seen) return simulated();
+      *seen = true;
+      return access.open({});
+    };
+    break;
+  case LiveSourceKind::Board:
+    *boardSeen_ = true;
+    options.open = board;
+    break;
+  case LiveSourceKind::Simulated:
+    options.open = simulated;
+    break;
+  case LiveSourceKind::Recording:
+    replay_ = std::make_shared<ReplayControl>();
+    replay_->speed = settings_.replaySpeed;
+    options.replay = replay_;
+    options.reconnect = false;
+    options.open = [path = settings_.recording, control = replay_] {
+      return orRefuse([&] { return std::make_unique<ReplaySource>(path, control); });
+    };
+    break;
+  }
+  return options;
+}
+
+void LiveHost::open() {
+  history_.clear();
+  fresh_.clear();
+  status_ = {};
+  configured_ = 0;
+  session_ = std::make_unique<LiveSession>(options());
+  applyPause();
+}
+
+void LiveHost::restart() {
+  paused_ = false;
+  // A source may take a tenth of a second to let go: not in the window's thread.
+  closing_ = std::async(std::launch::async, [old = std::move(session_)]() mutable { old.reset(); });
+  open();
+}
+
+void LiveHost::setVisible(bool visible) {
+  visible_ = visible;
+  if (!visible) watch_.reset();
+  if (visible && !watch_) watch_ = std::make_unique<BoardWatch>(access_);
+  if (visible && !session_) open();
+  if (visible && !networkAsked_) loadNetwork();
+  applyPause();
+}
+
+void LiveHost::applyPause() {
+  if (!session_) return;
+  const bool held = paused_ || !visible_; // a recording goes on all the same
+  if (replay_) {
+    replay_->paused = held;
+  } else {
+    session_->pause(held);
+  }
+}
+
+void LiveHost::loadNetwork() {
+  networkAsked_ = true;
+  loader_.start(tr("Reading the network"), [this, file = settings_.network](const std::stop_token&, JobProgress&) {
+    const std::filesystem::path path = file.empty() ? shippedNetwork() : std::filesystem::path(file);
+    auto loaded = std::make_shared<LoadedNetwork>(LoadedNetwork{readNetwork(path), fingerprint(readFile(path))});
+    return [this, loaded] {
+      networkFingerprint_ = loaded->fingerprint;
+      setDecoder(std::move(loaded->decoder));
+    };
+  });
+}
+
+void LiveHost::setDecoder(std::optional<Decoder> decoder) {
+  decoder_ = std::move(decoder);
+  const bool paper = decoder_ && designFingerprint(paperDesign()) == decoder_->designFingerprint;
+  sensor_ = tareDesign() || !paper ? design_ : paperDesign();
+  if (session_) session_->setDecoder(decoder_, tareDesign());
+  emit decoderChanged();
+}
+
+void LiveHost::useDecoder(Decoder decoder) {
+  networkFingerprint_.clear();
+  setDecoder(std::move(decoder));
+}
+
+bool LiveHost::look() {
+  if (!session_) return false;
+  status_ = session_->status();
+  fresh_ = session_->drain();
+  for (const auto& frame : fresh_) history_.add(frame);
+  if (watch_) watch_->setQuiet(*boardSeen_ && status_.state == LiveState::Streaming);
+  configureOnce();
+  const bool stoodIn = settings_.source == LiveSourceKind::Automatic && !*boardSeen_ && status_.connections > 0;
+  if (stoodIn && !status_.recording && !boards().empty())
+    restart(); // a board was plugged in: it takes the place of the simulated one
+  return !fresh_.empty();
+}
+
+/// Tells each connection its rate and rows.
+void LiveHost::configureOnce() {
+  if (replay_ || !status_.configuration || status_.state != LiveState::Streaming || configured_ == status_.connections)
+    return;
+  configured_ = status_.connections;
+  BoardConfiguration wanted = *status_.configuration;
+  const int rows = status_.info->rowWires;
+  const bool alone = settings_.row >= 0 && settings_.row < rows;
+  wanted.mode = alone ? BoardMode::SingleRow : BoardMode::Stream;
+  wanted.rowMask =
+      alone ? std::uint32_t{1} << settings_.row : static_cast<std::uint32_t>((std::uint64_t{1} << rows) - 1);
+  wanted.rate_Hz = std::min(settings_.rate_Hz, status_.info->highestRate_Hz);
+  if (!(wanted == *status_.configuration)) session_->configure(wanted);
+}
+
+std::vector<HidBoard> LiveHost::boards() const {
+  return watch_ ? watch_->boards() : std::vector<HidBoard>{};
+}
+
+bool LiveHost::simulated() const {
+  return !replay_ && boardSeen_ && !*boardSeen_;
+}
+
+void LiveHost::tare() {
+  if (session_) session_->tare(settings_.tareFrames);
+}
+
+void LiveHost::clearTare() {
+  if (session_) session_->clearTare();
+}
+
+void LiveHost::setPaused(bool paused) {
+  paused_ = paused;
+  applyPause();
+}
+
+void LiveHost::step(int frames) {
+  if (!replay_) return;
+  setPaused(true);
+  replay_->steps += frames;
+}
+
+void LiveHost::mark(const std::string& text) {
+  if (session_) session_->mark(text);
+}
+
+void LiveHost::setPluggedIn(bool in) {
+  if (simulation_) simulation_->pluggedIn = in;
+}
+
+bool LiveHost::pluggedIn() const {
+  return simulation_ && simulation_->pluggedIn;
+}
+
+void LiveHost::startRecording(const std::filesystem::path& path, bool force) {
+  if (!session_) throw Error(path.string() + ": nothing to record: no source is open");
+  session_->startRecording(path, networkFingerprint_, force);
+}
+
+void LiveHost::stopRecording() {
+  if (session_) session_->stopRecording();
+}
+
+} // namespace palp

@@ -1,0 +1,99 @@
+#pragma once
+
+#include "app/gui/jobs/JobRunner.h"
+#include "app/gui/project/LiveSettings.h"
+#include "app/study/live/BoardWatch.h"
+#include "app/study/live/LiveHistory.h"
+#include "io/board/SimulatedSource.h"
+
+#include <QObject>
+
+#include <future>
+
+namespace palp {
+
+/// The live session behind the Live scene: opened by the settings, drained when the scene looks. While the scene is
+/// hidden nothing is decoded; a recording goes on.
+class LiveHost : public QObject {
+  Q_OBJECT
+
+public:
+  explicit LiveHost(BoardAccess access = {}, QObject* parent = nullptr);
+  ~LiveHost() override;
+
+  /// Follows new settings: another source is opened, all else changes in the running session.
+  void setSettings(const LiveSettings& settings, const SensorDesign& design);
+  [[nodiscard]] const LiveSettings& settings() const { return settings_; }
+  /// The scene is seen or hidden.
+  void setVisible(bool visible);
+  /// Opens the source again: after a recording's end, or a refusal.
+  void restart();
+  /// Takes what has come since the last look; true where there is a new frame.
+  bool look();
+
+  [[nodiscard]] const LiveStatus& status() const { return status_; }
+  [[nodiscard]] const LiveHistory& history() const { return history_; }
+  /// Frames of the last look.
+  [[nodiscard]] const std::vector<std::shared_ptr<const LiveFrame>>& fresh() const { return fresh_; }
+  [[nodiscard]] std::vector<HidBoard> boards() const;
+  /// The source is the virtual board or a recording.
+  [[nodiscard]] bool simulated() const;
+  [[nodiscard]] bool replaying() const { return replay_ != nullptr; }
+  [[nodiscard]] ReplayControl* replay() const { return replay_.get(); }
+  /// Null before it is read, or where it cannot be.
+  [[nodiscard]] const std::optional<Decoder>& decoder() const { return decoder_; }
+  /// The network's design where it is known, else the project's.
+  [[nodiscard]] const SensorDesign& sensor() const { return sensor_; }
+  /// The network is being read.
+  [[nodiscard]] bool loading() const { return loader_.running(); }
+
+  void tare();
+  void clearTare();
+  void setPaused(bool paused);
+  [[nodiscard]] bool paused() const { return paused_; }
+  void step(int frames);
+  void mark(const std::string& text);
+  void setPluggedIn(bool in);
+  [[nodiscard]] bool pluggedIn() const;
+  /// Throws Error where nothing can be recorded.
+  void startRecording(const std::filesystem::path& path, bool force);
+  void stopRecording();
+  /// A refined network in place of the file's, until another is chosen.
+  void useDecoder(Decoder decoder);
+
+signals:
+  void decoderChanged();
+  void problem(const QString& sentence);
+
+private:
+  void open();
+  void loadNetwork();
+  void setDecoder(std::optional<Decoder> decoder);
+  void applyPause();
+  void configureOnce();
+  [[nodiscard]] LiveOptions options();
+  [[nodiscard]] BoardDisturbance disturbance() const;
+  [[nodiscard]] BoardFaults faults() const;
+  [[nodiscard]] std::optional<SensorDesign> tareDesign() const;
+
+  BoardAccess access_;
+  LiveSettings settings_;
+  SensorDesign design_, sensor_;
+  std::optional<Decoder> decoder_;
+  std::string networkFingerprint_;
+  bool networkAsked_ = false;
+  bool visible_ = false, paused_ = false;
+  std::shared_ptr<SimulationControl> simulation_;
+  std::shared_ptr<ReplayControl> replay_;
+  std::shared_ptr<std::atomic<bool>> boardSeen_; ///< a real board was opened since the start
+  std::unique_ptr<BoardWatch> watch_;
+  std::unique_ptr<LiveSession> session_;
+  std::future<void> closing_; ///< the session before this one ends
+  LiveStatus status_;
+  LiveHistory history_;
+  std::vector<std::shared_ptr<const LiveFrame>> fresh_;
+  std::uint64_t configured_ = 0; ///< the connection that was told its rate and rows
+  JobRunner loader_;
+};
+
+} // namespace palp

@@ -1,0 +1,93 @@
+#pragma once
+
+#include "app/gui/live/LiveHost.h"
+#include "app/gui/project/Workbench.h"
+#include "app/gui/window/Scene.h"
+
+#include <QTimer>
+
+#include <array>
+
+class QLabel;
+class QTabWidget;
+
+namespace palp {
+
+class HeatmapView;
+class LiveCalibration;
+class LiveControlPanel;
+class LiveCounters;
+class LiveSourcePanel;
+class LiveTwin;
+class LiveView;
+class StripChart;
+
+/// A live board: force vectors, heatmap and curves at no more than 30 frames a second, and only while it is seen.
+/// Meshes and solves nothing but the twin, when it is asked for.
+class LivePage : public Scene {
+  Q_OBJECT
+
+public:
+  explicit LivePage(Workbench& workbench, BoardAccess access = {}, QWidget* parent = nullptr);
+  ~LivePage() override;
+
+  [[nodiscard]] Stage stage() const override { return Stage::Design; }
+  void setTheme(Theme theme) override;
+  [[nodiscard]] bool complete() const override;
+  [[nodiscard]] QString commands(const Project& project, const QString& designFile) const override;
+  [[nodiscard]] LiveHost& host() { return host_; }
+  [[nodiscard]] LiveTwin& twin() { return *twin_; }
+  /// How often the views were brought up to date.
+  [[nodiscard]] int looks() const { return looks_; }
+
+signals:
+  void told(const QString& sentence);
+
+protected:
+  void showEvent(QShowEvent* event) override;
+  void hideEvent(QHideEvent* event) override;
+
+private:
+  QWidget* buildPanels();
+  QWidget* buildViews();
+  void buildKeys();
+  void connectPanels();
+  void displayProject();
+  void edit(const QString& what, const LiveSettings& settings);
+  void look();
+  void drawState();
+  void drawForces();
+  void drawHeatmap();
+  void drawCurves();
+  void toggleCell(int row, int column);
+  void chooseCells();
+  void record(const QString& file);
+  void solveTwin();
+  [[nodiscard]] QString networkWords() const;
+  [[nodiscard]] QString banner() const;
+
+  Workbench& workbench_;
+  LiveHost host_;
+  QTimer timer_;
+  LiveSourcePanel* source_ = nullptr;
+  LiveControlPanel* control_ = nullptr;
+  LiveCounters* counters_ = nullptr;
+  QLabel* banner_ = nullptr;
+  QTabWidget* blockTabs_ = nullptr;
+  QTabWidget* curveTabs_ = nullptr;
+  LiveView* block_ = nullptr;
+  LiveTwin* twin_ = nullptr;
+  HeatmapView* heatmap_ = nullptr;
+  StripChart* forces_ = nullptr;
+  StripChart* changes_ = nullptr;
+  LiveCalibration* calibration_ = nullptr;
+  std::vector<std::array<int, 2>> cells_; ///< row, column of each curve of dR/R
+  bool cellsChosen_ = false;              ///< by the user
+  Eigen::MatrixXd drawnChange_;
+  int looks_ = 0;
+  int stateLook_ = 0;
+  bool arrowSeen_ = false;
+  double shownSince_s_ = 0;
+};
+
+} // namespace palp

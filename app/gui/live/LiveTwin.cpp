@@ -1,0 +1,136 @@
+#include "app/gui/live/LiveTwin.h"
+
+#include "app/gui/views/BlockView.h"
+#include "model/base/Error.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QVBoxLayout>
+
+#include <cmath>
+
+namespace palp {
+
+struct LiveTwin::Result {
+  Touch touch;
+  std::shared_ptr<const NodalFields> fields;
+  Eigen::MatrixXd measured; ///< R / R at rest - 1
+};
+
+namespace {
+
+QString loadWords(const LoadCase& load) {
+  QStringList words;
+  for (const AreaLoad& area : load.areas)
+    words << QObject::tr("area %1: (%2, %3, %4) N")
+                 .arg(area.area)
+                 .arg(area.force_N.x(), 0, 'f', 3)
+                 .arg(area.force_N.y(), 0, 'f', 3)
+                 .arg(area.force_N.z(), 0, 'f', 3);
+  return words.join(", ");
+}
+
+/// How far the model's dR/R is from the board's, as share of the board's; none where the two do not compare.
+std::optional<double> mismatch(const Touch& touch, const Eigen::MatrixXd& measured) {
+  const Eigen::MatrixXd rest = rowColumnResistances(touch.design(), ElectrodeDisplacements::atRest(touch.design()));
+  if (touch.resistances_ohm() == nullptr || measured.rows() != rest.rows() || measured.cols() != rest.cols()) return {};
+  const Eigen::ArrayXXd model = touch.resistances_ohm()->array() / rest.array() - 1;
+  const auto good = measured.array().isFinite().eval();
+  const double difference = good.select((model - measured.array()).square(), 0.0).sum();
+  const double size = good.select(measured.array().square(), 0.0).sum();
+  return size > 0 ? std::optional(std::sqrt(difference / size)) : std::nullopt;
+}
+
+} // namespace
+
+LiveTwin::LiveTwin(QWidget* parent) : QWidget(parent) {
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  auto* row = new QHBoxLayout;
+  row->setContentsMargins(8, 8, 8, 2);
+  auto* solve = new QPushButton(tr("Solve for the force now"));
+  solve->setObjectName("solveTwin");
+  solve->setToolTip(tr("Meshes and solves the block under the force that was decoded last (W)"));
+  use_ = new QPushButton(tr("Take as the load"));
+  use_->setObjectName("takeLoad");
+  use_->setToolTip(tr("Sets this force on the Deformation scene; undo takes it back"));
+  use_->setEnabled(false);
+  words_ = new QLabel(tr("The model's deformation under the decoded force, on demand."));
+  words_->setObjectName("twinWords");
+  words_->setWordWrap(true);
+  row->addWidget(solve);
+  row->addWidget(use_);
+  row->addWidget(words_, 1);
+  column->addLayout(row);
+  view_ = new BlockView;
+  view_->setObjectName("twin");
+  column->addWidget(view_, 1);
+  options_.meshEdges = false;
+  connect(solve, &QPushButton::clicked, this, &LiveTwin::solveAsked);
+  connect(use_, &QPushButton::clicked, this, [this] { emit loadAsked(result_->touch.load()); });
+  connect(&runner_, &JobRunner::failed, words_, &QLabel::setText);
+  connect(&runner_, &JobRunner::progressed, this, [this](double, const QString& what) { words_->setText(what); });
+}
+
+LiveTwin::~LiveTwin() = default;
+
+const Touch* LiveTwin::touch() const {
+  return result_ ? &result_->touch : nullptr;
+}
+
+void LiveTwin::solve(const SensorDesign& design, const LoadCase& load, const MeshOptions& mesh,
+                     const Eigen::MatrixXd& measured) {
+  Touch start(design, load, mesh);
+  if (result_ && result_->touch.design() == design && result_->touch.meshOptions() == mesh) { // keeps the mesh
+    start = result_->touch;
+    start.setLoad(load);
+  }
+  const auto work = [this, touch = std::move(start), measured](const std::stop_token& stop,
+                                                               JobProgress& progress) mutable -> JobRunner::Taking {
+    progress.set(-1, "Solving the twin");
+    if (!touch.advance(Stage::Solution, {}, {{}, stop}) && !stop.stop_requested())
+      throw Error("the twin did not converge under this force; the last one stays");
+    if (stop.stop_requested()) return {};
+    touch.advance(Stage::Resistances);
+    auto fields = std::make_shared<const NodalFields>(touch.problem()->fields(touch.solution()->state()));
+    auto result = std::make_shared<const Result>(Result{std::move(touch), std::move(fields), measured});
+    return [this, result] { take(result); };
+  };
+  runner_.start(tr("Solving the twin"), work);
+}
+
+void LiveTwin::take(std::shared_ptr<const Result> result) {
+  const bool meshChanged = !result_ || result_->touch.mesh() != result->touch.mesh();
+  result_ = std::move(result);
+  stages_ = result_->touch.stages();
+  use_->setEnabled(true);
+  const Touch& touch = result_->touch;
+  QString words = loadWords(touch.load()) +
+                  tr("; at most %1 mm").arg(result_->fields->displacement_mm.colwise().norm().maxCoeff(), 0, 'g', 3);
+  if (const auto share = mismatch(touch, result_->measured))
+    words += tr("; its dR/R differs from the board's by %1 % (rms)").arg(100 * *share, 0, 'g', 2);
+  words_->setText(words);
+  draw(meshChanged);
+}
+
+void LiveTwin::draw(bool meshChanged) {
+  if (!result_) return;
+  const Touch& touch = result_->touch;
+  options_.scale = devicePixelRatioF();
+  DeformationState state;
+  state.design = &touch.design();
+  state.mesh = touch.mesh();
+  state.fields = result_->fields.get();
+  state.electrodes = touch.displacements();
+  state.load = &touch.load();
+  view_->show(state, options_, meshChanged);
+}
+
+void LiveTwin::setTheme(Theme theme) {
+  options_.theme = theme;
+  view_->setTheme(theme);
+  draw(false);
+}
+
+} // namespace palp

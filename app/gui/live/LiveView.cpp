@@ -1,0 +1,87 @@
+#include "app/gui/live/LiveView.h"
+
+#include <vtkRenderer.h>
+
+namespace palp {
+
+struct LiveView::Parts {
+  LiveScene scene;
+  SensorDesign design;
+  LiveSceneOptions options;
+  std::vector<LiveArrow> arrows;
+  std::vector<std::string> lines;
+  bool stale = false;
+};
+
+namespace {
+
+bool same(const std::vector<LiveArrow>& a, const std::vector<LiveArrow>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const LiveArrow& x, const LiveArrow& y) { return x.area == y.area && x.force_N == y.force_N; });
+}
+
+} // namespace
+
+LiveView::LiveView(QWidget* parent) : LiveView(std::make_unique<Parts>(), parent) {}
+
+LiveView::LiveView(std::unique_ptr<Parts> parts, QWidget* parent)
+    : VtkView(parts->scene.renderer(), nullptr, parent), parts_(std::move(parts)) {
+  parts_->design = paperDesign();
+  draw();
+  connect(this, &VtkView::doubleClicked, this, [this] {
+    parts_->scene.resetCamera(aspect());
+    invalidate();
+  });
+  connect(this, &VtkView::sizeChanged, this, [this] {
+    if (renderCount() == 0) parts_->scene.resetCamera(aspect());
+  });
+}
+
+LiveView::~LiveView() = default;
+
+void LiveView::draw() {
+  parts_->options.scale = devicePixelRatioF();
+  parts_->scene.showSensor(parts_->design, parts_->options);
+  parts_->scene.showForces(parts_->arrows, parts_->stale, parts_->lines);
+  invalidate();
+}
+
+void LiveView::showSensor(const SensorDesign& design, double mm_per_N, bool electrodes) {
+  const bool otherBlock = !(design.block_mm == parts_->design.block_mm);
+  parts_->design = design;
+  parts_->options.mm_per_N = mm_per_N;
+  parts_->options.electrodes = electrodes;
+  draw();
+  if (otherBlock) parts_->scene.resetCamera(aspect());
+}
+
+void LiveView::showForces(const std::vector<LiveArrow>& arrows, bool stale, const std::vector<std::string>& lines) {
+  const bool unchanged = same(arrows, parts_->arrows) && stale == parts_->stale && lines == parts_->lines;
+  if (unchanged && parts_->options.scale == devicePixelRatioF()) return;
+  parts_->arrows = arrows;
+  parts_->stale = stale;
+  parts_->lines = lines;
+  if (parts_->options.scale != devicePixelRatioF()) return draw();
+  parts_->scene.showForces(arrows, stale, lines);
+  invalidate();
+}
+
+void LiveView::setTheme(Theme theme) {
+  parts_->options.theme = theme;
+  draw();
+}
+
+void LiveView::lookAlong(const Eigen::Vector3d& direction) {
+  parts_->scene.resetCamera(aspect(), direction);
+  invalidate();
+}
+
+const std::vector<LiveArrow>& LiveView::arrows() const {
+  return parts_->arrows;
+}
+
+bool LiveView::stale() const {
+  return parts_->stale;
+}
+
+} // namespace palp

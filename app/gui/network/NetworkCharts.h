@@ -1,0 +1,27 @@
+#pragma once
+
+#include "app/gui/jobs/NetworkSession.h"
+#include "app/scenes/charts/Chart.h"
+
+namespace palp {
+
+/// Test error (Eq. 13) against spread, beside the paper's points for the same input.
+ChartSpec sweepErrorChart(const std::vector<SweepPoint>& points, const NetworkFit* fit, InputKind input);
+/// Leave-one-out error and condition of the system against spread.
+ChartSpec sweepLeaveOneOutChart(const std::vector<SweepPoint>& points);
+ChartSpec sweepConditionChart(const std::vector<SweepPoint>& points);
+/// Error against training time over a sweep.
+ChartSpec errorTimeChart(const std::vector<SweepPoint>& points);
+/// Decoupled against true force of one direction (0, 1, 2), all test samples of one area (Figs. 8-10, 13-15).
+ChartSpec decoupledChart(const NetworkSamples& samples, const NetworkFit& fit, int direction, int area);
+/// Relative error by sample of one area (Figs. 11, 16).
+ChartSpec relativeErrorChart(const NetworkSamples& samples, const NetworkFit& fit, int area);
+
+/// Mean error of each decoder (Eq. 13, over Fx, Fy, Fz) on the axes of the sweep: a sweep as a curve, the others, which
+/// have no spread, across its width.
+ChartSpec trialsErrorChart(const std::vector<DecoderTrial>& trials, const std::vector<SweepPoint>& sweep,
+                           InputKind input);
+/// The same errors against the time of training.
+ChartSpec trialsTimeChart(const std::vector<DecoderTrial>& trials);
+
+} // namespace palp

@@ -1,0 +1,242 @@
+#include "app/gui/network/NetworkPanel.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QFormLayout>
+#include <QGroupBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QSlider>
+#include <QSpinBox>
+#include <QVBoxLayout>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace palp {
+
+namespace {
+
+// The slider runs over the logarithm of the spread.
+constexpr double kLowSpread = 0.05;
+constexpr double kHighSpread = 50;
+constexpr int kSpreadSteps = 300;
+
+double spreadAt(int step) {
+  return kLowSpread * std::pow(kHighSpread / kLowSpread, double(step) / kSpreadSteps);
+}
+int stepOf(double spread) {
+  const double share = std::log(spread / kLowSpread) / std::log(kHighSpread / kLowSpread);
+  return static_cast<int>(std::lround(std::clamp(share, 0.0, 1.0) * kSpreadSteps));
+}
+
+QDoubleSpinBox* spreadBox(const char* name) {
+  auto* box = new QDoubleSpinBox;
+  box->setObjectName(name);
+  box->setRange(0.01, 1000);
+  box->setDecimals(3);
+  box->setKeyboardTracking(false);
+  return box;
+}
+
+} // namespace
+
+NetworkPanel::NetworkPanel(QWidget* parent) : QWidget(parent) {
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 6, 0);
+  buildSamples(*column);
+  buildTraining(*column);
+  buildSweep(*column);
+  column->addStretch(1);
+}
+
+void NetworkPanel::buildSamples(QVBoxLayout& column) {
+  auto* box = new QGroupBox(tr("Samples"));
+  auto* form = new QFormLayout(box);
+  perArea_ = new QSpinBox;
+  perArea_->setObjectName("perArea");
+  perArea_->setRange(5, 100000);
+  perArea_->setToolTip(
+      tr("Random forces on each area, for training and as many others for testing; the paper has 100"));
+  form->addRow(tr("On each area"), perArea_);
+  perArea_->setKeyboardTracking(false);
+  seed_ = new QSpinBox;
+  seed_->setObjectName("seed");
+  seed_->setKeyboardTracking(false);
+  seed_->setRange(0, 1000000000);
+  seed_->setToolTip(tr("The same seed gives the same samples"));
+  form->addRow(tr("Seed"), seed_);
+  generate_ = new QPushButton(tr("Generate samples"));
+  generate_->setObjectName("generate");
+  form->addRow(generate_);
+  samplesWords_ = new QLabel;
+  samplesWords_->setObjectName("samplesWords");
+  samplesWords_->setWordWrap(true);
+  samplesWords_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
+  samplesWords_->setMinimumHeight(2 * samplesWords_->fontMetrics().lineSpacing()); // what is below does not jump
+  form->addRow(samplesWords_);
+  column.addWidget(box);
+  connect(perArea_, &QSpinBox::valueChanged, this, [this] { tell(tr("Change the number of samples")); });
+  connect(seed_, &QSpinBox::valueChanged, this, [this] { tell(tr("Change the seed")); });
+  connect(generate_, &QPushButton::clicked, this, &NetworkPanel::generateAsked);
+}
+
+void NetworkPanel::buildTraining(QVBoxLayout& column) {
+  auto* box = new QGroupBox(tr("Network"));
+  auto* form = new QFormLayout(box);
+  input_ = new QComboBox;
+  input_->setObjectName("input");
+  input_->addItems({tr("displacements (Table 1)"), tr("resistances (Fig. 12)")});
+  form->addRow(tr("Input"), input_);
+  mode_ = new QComboBox;
+  mode_->setObjectName("mode");
+  mode_->addItems({tr("default"), tr("paper")});
+  mode_->setToolTip(tr("default: one global scale, linear tail, leave-one-out; paper: as the paper describes it"));
+  form->addRow(tr("Mode"), mode_);
+  decoder_ = new QComboBox;
+  decoder_->setObjectName("decoder");
+  for (const DecoderKind kind : allDecoderKinds()) decoder_->addItem(QString::fromStdString(name(kind)));
+  decoder_->setToolTip(tr("The way from what is read to the force: rbf is the paper's radial basis network"));
+  form->addRow(tr("Decoder"), decoder_);
+  rows_ = new QLineEdit;
+  rows_->setObjectName("rows");
+  rows_->setToolTip(tr("Row-wires that are read, counted from 0: 4, or 1,4,7, or all"));
+  form->addRow(tr("Row-wires"), rows_);
+  centers_ = new QSpinBox;
+  centers_->setObjectName("centers");
+  centers_->setRange(0, 100000);
+  centers_->setSpecialValueText(tr("as the mode says"));
+  centers_->setKeyboardTracking(false);
+  centers_->setToolTip(tr("Centres of the radial basis functions; fewer than samples make a smoother network"));
+  form->addRow(tr("Centres"), centers_);
+  noise_ = new QDoubleSpinBox;
+  noise_->setObjectName("noise");
+  noise_->setRange(0, 10);
+  noise_->setDecimals(5);
+  noise_->setSuffix(tr(" %"));
+  noise_->setKeyboardTracking(false);
+  noise_->setToolTip(tr("Relative noise of each input that the network is trained with"));
+  form->addRow(tr("Noise"), noise_);
+  automatic_ = new QCheckBox(tr("by leave-one-out"));
+  automatic_->setObjectName("automaticSpread");
+  spread_ = spreadBox("spread");
+  spread_->setToolTip(tr("Spread of the Gaussians (radbas: half height at this distance, in scaled inputs)"));
+  auto* row = new QHBoxLayout;
+  row->addWidget(spread_);
+  row->addWidget(automatic_);
+  form->addRow(tr("Spread"), row);
+  spreadSlider_ = new QSlider(Qt::Horizontal);
+  spreadSlider_->setObjectName("spreadSlider");
+  spreadSlider_->setRange(0, kSpreadSteps);
+  form->addRow(spreadSlider_);
+  train_ = new QPushButton(tr("Train"));
+  train_->setObjectName("train");
+  form->addRow(train_);
+  column.addWidget(box);
+
+  connect(input_, &QComboBox::currentIndexChanged, this, [this] { tell(tr("Change the network's input")); });
+  connect(mode_, &QComboBox::currentIndexChanged, this, [this] { tell(tr("Change the network's mode")); });
+  connect(decoder_, &QComboBox::currentIndexChanged, this, [this] { tell(tr("Change the decoder")); });
+  connect(rows_, &QLineEdit::editingFinished, this, [this] { tell(tr("Change the row-wires")); });
+  connect(centers_, &QSpinBox::valueChanged, this, [this] { tell(tr("Change the centres")); });
+  connect(noise_, &QDoubleSpinBox::valueChanged, this, [this] { tell(tr("Change the noise")); });
+  connect(automatic_, &QCheckBox::toggled, this, [this] { tell(tr("Change the spread")); });
+  connect(spread_, &QDoubleSpinBox::valueChanged, this, [this] { tell(tr("Change the spread")); });
+  connect(spreadSlider_, &QSlider::valueChanged, this, [this](int step) {
+    if (!displaying_) spread_->setValue(spreadAt(step));
+  });
+  connect(train_, &QPushButton::clicked, this, &NetworkPanel::trainAsked);
+}
+
+void NetworkPanel::buildSweep(QVBoxLayout& column) {
+  auto* box = new QGroupBox(tr("Sweep of the spread"));
+  auto* form = new QFormLayout(box);
+  from_ = spreadBox("sweepFrom");
+  to_ = spreadBox("sweepTo");
+  count_ = new QSpinBox;
+  count_->setObjectName("sweepCount");
+  count_->setRange(2, 100);
+  count_->setSuffix(tr(" spreads"));
+  auto* row = new QHBoxLayout;
+  row->addWidget(from_, 1);
+  row->addWidget(new QLabel(tr("to")));
+  row->addWidget(to_, 1);
+  form->addRow(row);
+  form->addRow(count_);
+  sweep_ = new QPushButton(tr("Sweep"));
+  sweep_->setObjectName("sweep");
+  form->addRow(sweep_);
+  compare_ = new QPushButton(tr("Compare all decoders"));
+  compare_->setObjectName("compare");
+  form->addRow(compare_);
+  column.addWidget(box);
+  for (QDoubleSpinBox* spin : {from_, to_})
+    connect(spin, &QDoubleSpinBox::valueChanged, this, [this] { tell(tr("Change the sweep")); });
+  connect(count_, &QSpinBox::valueChanged, this, [this] { tell(tr("Change the sweep")); });
+  connect(sweep_, &QPushButton::clicked, this, &NetworkPanel::sweepAsked);
+  connect(compare_, &QPushButton::clicked, this, &NetworkPanel::compareAsked);
+}
+
+void NetworkPanel::display(const Project& project) {
+  displaying_ = true;
+  samples_ = project.samples;
+  network_ = project.network;
+  perArea_->setValue(samples_.perArea);
+  seed_->setValue(static_cast<int>(samples_.seed));
+  input_->setCurrentIndex(network_.input == InputKind::Displacement ? 0 : 1);
+  mode_->setCurrentIndex(network_.mode == NetworkMode::Default ? 0 : 1);
+  decoder_->setCurrentText(QString::fromStdString(name(network_.decoder)));
+  rows_->setText(QString::fromStdString(network_.rows));
+  centers_->setValue(network_.centers);
+  noise_->setValue(100 * network_.noise);
+  automatic_->setChecked(network_.automaticSpread);
+  from_->setValue(network_.sweepFrom);
+  to_->setValue(network_.sweepTo);
+  count_->setValue(network_.sweepCount);
+  showSpread();
+  displaying_ = false;
+}
+
+void NetworkPanel::showSpread() {
+  spread_->setValue(network_.spread);
+  spreadSlider_->setValue(stepOf(network_.spread));
+  spread_->setEnabled(!network_.automaticSpread);
+  spreadSlider_->setEnabled(!network_.automaticSpread);
+}
+
+void NetworkPanel::displaySamples(bool there, const QString& words, bool goOn) {
+  samplesWords_->setText(words);
+  generate_->setText(goOn ? tr("Go on generating samples") : tr("Generate samples"));
+  const std::array<std::pair<QPushButton*, QString>, 3> buttons{
+      {{train_, tr("Fits the network to the training samples and tries it on the others")},
+       {sweep_, tr("Trains once for each spread")},
+       {compare_, tr("Trains every kind of decoder on the same samples: error and time on the same axes")}}};
+  for (const auto& [button, tip] : buttons) {
+    button->setEnabled(there);
+    button->setToolTip(there ? tip : tr("Generate samples first"));
+  }
+}
+
+void NetworkPanel::tell(const QString& what) {
+  if (displaying_) return;
+  samples_.perArea = perArea_->value();
+  samples_.seed = static_cast<std::uint64_t>(seed_->value());
+  network_.input = input_->currentIndex() == 0 ? InputKind::Displacement : InputKind::Resistance;
+  network_.mode = mode_->currentIndex() == 0 ? NetworkMode::Default : NetworkMode::Paper;
+  network_.decoder = decoderKindNamed(decoder_->currentText().toStdString());
+  network_.rows = rows_->text().trimmed().toStdString();
+  network_.centers = centers_->value();
+  network_.noise = noise_->value() / 100;
+  network_.automaticSpread = automatic_->isChecked();
+  network_.spread = spread_->value();
+  network_.sweepFrom = std::min(from_->value(), to_->value());
+  network_.sweepTo = std::max(from_->value(), to_->value());
+  network_.sweepCount = count_->value();
+  emit edited(what, samples_, network_);
+}
+
+} // namespace palp

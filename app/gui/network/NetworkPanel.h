@@ -1,0 +1,70 @@
+#pragma once
+
+#include "app/gui/project/Project.h"
+
+#include <QWidget>
+
+class QCheckBox;
+class QComboBox;
+class QDoubleSpinBox;
+class QLabel;
+class QLineEdit;
+class QPushButton;
+class QSlider;
+class QSpinBox;
+class QVBoxLayout;
+
+namespace palp {
+
+/// Samples, training options, spread and sweep.
+class NetworkPanel : public QWidget {
+  Q_OBJECT
+
+public:
+  explicit NetworkPanel(QWidget* parent = nullptr);
+
+  /// Emits nothing.
+  void display(const Project& project);
+  /// What there is to work with, and the state of the samples in words.
+  void displaySamples(bool there, const QString& words, bool goOn);
+
+signals:
+  /// By the user's hand only.
+  void edited(const QString& what, const palp::SampleSettings& samples, const palp::NetworkSettings& network);
+  void generateAsked();
+  void trainAsked();
+  void sweepAsked();
+  void compareAsked();
+
+private:
+  void buildSamples(QVBoxLayout& column);
+  void buildTraining(QVBoxLayout& column);
+  void buildSweep(QVBoxLayout& column);
+  void tell(const QString& what);
+  void showSpread();
+
+  SampleSettings samples_;
+  NetworkSettings network_;
+  bool displaying_ = false;
+  QSpinBox* perArea_ = nullptr;
+  QSpinBox* seed_ = nullptr;
+  QPushButton* generate_ = nullptr;
+  QLabel* samplesWords_ = nullptr;
+  QComboBox* input_ = nullptr;
+  QComboBox* mode_ = nullptr;
+  QComboBox* decoder_ = nullptr;
+  QLineEdit* rows_ = nullptr;
+  QCheckBox* automatic_ = nullptr;
+  QDoubleSpinBox* spread_ = nullptr;
+  QSlider* spreadSlider_ = nullptr;
+  QSpinBox* centers_ = nullptr;
+  QDoubleSpinBox* noise_ = nullptr;
+  QPushButton* train_ = nullptr;
+  QDoubleSpinBox* from_ = nullptr;
+  QDoubleSpinBox* to_ = nullptr;
+  QSpinBox* count_ = nullptr;
+  QPushButton* sweep_ = nullptr;
+  QPushButton* compare_ = nullptr;
+};
+
+} // namespace palp

@@ -1,0 +1,93 @@
+#include "app/gui/project/Command.h"
+
+#include "app/study/paper/PaperProtocol.h"
+#include "model/base/Text.h"
+
+namespace palp {
+
+namespace {
+
+QString triple(const Eigen::Vector3d& values) {
+  return QString::fromStdString(text(values.x()) + "," + text(values.y()) + "," + text(values.z()));
+}
+
+QString trainOptions(const NetworkSettings& network) {
+  QString options = " --input " + QString::fromStdString(name(network.input)) + " --rows " +
+                    QString::fromStdString(network.rows) + " --mode " + QString::fromStdString(name(network.mode)) +
+                    " --decoder " + QString::fromStdString(name(network.decoder));
+  if (network.noise > 0) options += " --noise " + QString::fromStdString(text(network.noise));
+  return options;
+}
+
+} // namespace
+
+QString meshOption(const MeshOptions& mesh) {
+  if (mesh.meshSize_mm) return " --mesh-size " + QString::fromStdString(text(*mesh.meshSize_mm));
+  if (mesh.mapped)
+    return QString(" --mapped %1x%2x%3").arg((*mesh.mapped)[0]).arg((*mesh.mapped)[1]).arg((*mesh.mapped)[2]);
+  return {};
+}
+
+QString meshCommands(const Project& project, const QString& designFile) {
+  return "palp design --check " + designFile + "\npalp mesh " + designFile + meshOption(project.mesh) + " -o mesh.vtu";
+}
+
+QString solveCommands(const Project& project, const QString& designFile) {
+  QString command;
+  for (const AreaLoad& load : project.load.areas)
+    command += QString(" --load %1:%2").arg(load.area).arg(triple(load.force_N));
+  for (const PatchLoad& patch : project.load.patches)
+    command += QString::fromStdString(" --patch " + text(patch.centre_mm.x()) + "," + text(patch.centre_mm.y()) + "," +
+                                      text(patch.radius_mm) + ":") +
+               triple(patch.force_N);
+  command += meshOption(project.mesh);
+  const QString quantity = QString::fromStdString(quantityName(project.view.quantity));
+  return "palp solve " + designFile + command + " -o deformed.vtu\npalp render " + designFile + command +
+         " --quantity \"" + quantity + "\" -o deformed.png";
+}
+
+QString networkCommands(const Project& project, const QString& designFile) {
+  const auto sample = [&](std::uint64_t seed, const QString& file) {
+    return QString("palp sample %1 --per-area %2 --seed %3").arg(designFile).arg(project.samples.perArea).arg(seed) +
+           meshOption(project.mesh) + " -o " + file;
+  };
+  const NetworkSettings& network = project.network;
+  const QString spread = network.automaticSpread ? "auto" : QString::fromStdString(text(network.spread));
+  return sample(project.samples.seed, "train.csv") + "\n" + sample(testSeed(project.samples.seed), "test.csv") +
+         "\npalp train train.csv" + trainOptions(network) + " --spread " + spread + " -o network.json" +
+         "\npalp sweep train.csv --test test.csv" + trainOptions(network) +
+         QString::fromStdString(" --spreads " + text(network.sweepFrom) + ":" + text(network.sweepTo) + ":") +
+         QString::number(network.sweepCount);
+}
+
+QString liveCommand(const LiveSettings& live) {
+  const auto option = [](const std::string& name, const std::string& value) {
+    return QString::fromStdString(" --" + name + " '" + value + "'");
+  };
+  const SimulationSettings& simulation = live.simulation;
+  QString command = "palp listen";
+  switch (live.source) {
+  case LiveSourceKind::Automatic:
+  case LiveSourceKind::Simulated:
+    command +=
+        " --simulate --rate " + QString::number(live.rate_Hz) +
+        QString::fromStdString(" --noise " + text(simulation.noise) + " --warming " + text(simulation.warming_degC) +
+                               " --hysteresis " + text(simulation.hysteresisShare)) +
+        " --seed " + QString::number(simulation.seed);
+    if (simulation.openRow >= 0) command += " --open-row " + QString::number(simulation.openRow);
+    if (simulation.openColumn >= 0) command += " --open-column " + QString::number(simulation.openColumn);
+    if (simulation.dropEvery > 0) command += " --drop-every " + QString::number(simulation.dropEvery);
+    break;
+  case LiveSourceKind::Board:
+    command += option("device", live.device);
+    break;
+  case LiveSourceKind::Recording:
+    command += option("replay", live.recording) + QString::fromStdString(" --speed " + text(live.replaySpeed));
+    break;
+  }
+  if (live.row >= 0) command += " --row " + QString::number(live.row);
+  if (!live.network.empty()) command += option("network", live.network);
+  return command + " --tare " + QString::number(live.tareFrames);
+}
+
+} // namespace palp

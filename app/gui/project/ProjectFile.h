@@ -1,0 +1,16 @@
+#pragma once
+
+#include "app/gui/project/Project.h"
+
+#include <filesystem>
+
+namespace palp {
+
+/// Written beside and renamed. Throws Error.
+void saveProject(const std::filesystem::path& path, const Project& project);
+
+/// A project file, or a design file: that one changes the design only and keeps the rest of `base`, less what cannot
+/// act on it. Reads strictly: throws Error with file, key, value and what is allowed.
+Project loadProject(const std::filesystem::path& path, const Project& base);
+
+} // namespace palp

@@ -1,0 +1,19 @@
+#include "app/gui/project/ViewSettings.h"
+
+namespace palp {
+
+DeformationOptions ViewSettings::blockOptions() const {
+  DeformationOptions options;
+  options.quantity = quantity;
+  options.warpFactor = warpFactor;
+  options.clipY_mm = clipY_mm;
+  options.undeformedGhost = ghost;
+  options.electrodes = electrodes;
+  options.forceArrows = arrows;
+  options.areaOutlines = outlines;
+  options.meshEdges = edges;
+  options.litCell = litCell;
+  return options;
+}
+
+} // namespace palp

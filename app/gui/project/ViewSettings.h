@@ -1,0 +1,41 @@
+#pragma once
+
+#include "app/scenes/block/DeformationScene.h"
+
+#include <array>
+#include <optional>
+#include <string>
+
+namespace palp {
+
+/// What the heatmap shows of the resistances.
+enum class ResistanceKind { Resistance, Change, RelativeChange };
+
+/// How the scenes show what was computed.
+struct ViewSettings {
+  std::string scene = "deformation"; ///< in which a saved project opens
+  Quantity quantity = Quantity::Displacement;
+  std::optional<double> warpFactor; ///< none: automatic
+  std::optional<double> clipY_mm;
+  bool ghost = true;
+  bool electrodes = true;
+  bool arrows = true;
+  bool outlines = true;
+  bool edges = false;
+  std::optional<std::array<int, 2>> litCell; ///< of the Deformation scene: row-wire, column-wire
+  int rowWire = 4;
+  std::array<double, 3> lineFrom_mm{0, 15, 5}; ///< ends of the line of a plot, at rest
+  std::array<double, 3> lineTo_mm{30, 15, 5};
+  bool mesh = false; ///< of the Design scene
+  double resistanceNoise = 1e-4;
+  ResistanceKind resistance = ResistanceKind::RelativeChange;
+  std::optional<std::array<double, 2>> resistanceRange; ///< of the colours; none: the values' own
+  std::array<int, 2> cell{4, 15};                       ///< of the Resistance scene
+  int testArea = 0;
+
+  bool operator==(const ViewSettings&) const = default;
+  /// Quantity, warp, clip, parts and lit cell of the Deformation scene; all else as by default.
+  [[nodiscard]] DeformationOptions blockOptions() const;
+};
+
+} // namespace palp

@@ -1,0 +1,75 @@
+#pragma once
+
+#include "app/gui/project/Workbench.h"
+#include "app/gui/window/Scene.h"
+#include "app/scenes/block/DeformationScene.h"
+
+class QLabel;
+class QSlider;
+
+namespace palp {
+
+class BlockView;
+class LoadPanel;
+class ResultPanel;
+class TouchTabs;
+class ViewPanel;
+
+/// The deformed block with the loads to set, and under it what else is known of the touch.
+class DeformationPage : public Scene {
+  Q_OBJECT
+
+public:
+  explicit DeformationPage(Workbench& workbench, QWidget* parent = nullptr);
+
+  [[nodiscard]] Stage stage() const override { return Stage::Resistances; }
+  void setTheme(Theme theme) override;
+  [[nodiscard]] bool complete() const override;
+  [[nodiscard]] BlockView& block() { return *block_; }
+  /// How the block is drawn now.
+  [[nodiscard]] DeformationOptions blockOptions() const;
+  [[nodiscard]] QString commands(const Project& project, const QString& designFile) const override;
+
+signals:
+  void told(const QString& sentence);
+
+protected:
+  void showEvent(QShowEvent* event) override;
+
+private:
+  /// What a click on the block does.
+  enum class Click { Load, Probe, Line };
+
+  QWidget* buildPanels();
+  QWidget* buildViews();
+  QWidget* buildClicks();
+  QWidget* buildIncrements();
+  void displayProject();
+  void displayTouch(bool meshChanged);
+  void drawBlock(bool meshChanged);
+  void displayIncrements();
+  void probe(int node);
+  void clicked(int node);
+  /// Chooses the area on which a node of the top face lies, and loads it where it bears no load.
+  void loadAreaOf(int node);
+  void addLineEnd(int node);
+  void setForce(int load, const Eigen::Vector3d& drawn_N);
+  void editView(const QString& what, const ViewSettings& view);
+
+  Workbench& workbench_;
+  Theme theme_ = Theme::Light;
+  bool meshDrawn_ = false;
+  ViewSettings drawn_; ///< as the block was drawn last
+  int probedNode_ = -1;
+  Click click_ = Click::Load;
+  int lineStart_ = -1; ///< node of the first end, while the second is awaited
+  LoadPanel* load_ = nullptr;
+  ViewPanel* view_ = nullptr;
+  ResultPanel* result_ = nullptr;
+  BlockView* block_ = nullptr;
+  TouchTabs* tabs_ = nullptr;
+  QSlider* increments_ = nullptr;
+  QLabel* incrementLabel_ = nullptr;
+};
+
+} // namespace palp

@@ -1,0 +1,175 @@
+#include "app/gui/touch/LoadPathAnimation.h"
+
+#include "app/gui/jobs/TouchSession.h"
+#include "app/gui/views/BlockView.h"
+#include "app/scenes/gl/OffscreenWindow.h"
+#include "model/base/Error.h"
+
+#include <vtkCamera.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+
+#include <algorithm>
+#include <condition_variable>
+#include <cstdio>
+
+namespace palp {
+
+namespace {
+
+/// One state on the path.
+struct State {
+  double fraction = 0;
+  NodalFields fields;
+  ElectrodeDisplacements electrodes;
+};
+
+template <class Values> Values between(const Values& a, const Values& b, double t) {
+  return (1 - t) * a + t * b;
+}
+
+State between(const State& a, const State& b, double fraction) {
+  const double t = (fraction - a.fraction) / (b.fraction - a.fraction);
+  State state = b;
+  state.fraction = fraction;
+  NodalFields& fields = state.fields;
+  fields.displacement_mm = between(a.fields.displacement_mm, b.fields.displacement_mm, t);
+  fields.cauchy_MPa = between(a.fields.cauchy_MPa, b.fields.cauchy_MPa, t);
+  fields.pressure_MPa = between(a.fields.pressure_MPa, b.fields.pressure_MPa, t);
+  fields.vonMises_MPa = between(a.fields.vonMises_MPa, b.fields.vonMises_MPa, t);
+  fields.volumeRatio = between(a.fields.volumeRatio, b.fields.volumeRatio, t);
+  state.electrodes.upper_mm = between(a.electrodes.upper_mm, b.electrodes.upper_mm, t);
+  state.electrodes.lower_mm = between(a.electrodes.lower_mm, b.electrodes.lower_mm, t);
+  return state;
+}
+
+/// The state at a load fraction; the ends where it lies outside of them.
+State stateAt(const std::vector<State>& path, double fraction) {
+  const auto after = std::find_if(path.begin(), path.end(), [&](const State& s) { return s.fraction >= fraction; });
+  if (after == path.begin()) return path.front();
+  if (after == path.end()) return path.back();
+  return between(*std::prev(after), *after, fraction);
+}
+
+std::string frameName(int frame) {
+  std::array<char, 32> name{};
+  std::snprintf(name.data(), name.size(), "load-%03d.png", frame);
+  return name.data();
+}
+
+} // namespace
+
+/// What the pictures are drawn with.
+struct LoadPathAnimation::Easel {
+  Easel() = default;
+  Easel(const Easel&) = delete;
+  Easel& operator=(const Easel&) = delete;
+  /// What the renderer holds belongs to the window's context: it goes first.
+  ~Easel() { window.vtk()->RemoveRenderer(scene.renderer()); }
+
+  DeformationScene scene;
+  OffscreenWindow window;
+  bool begun = false;
+};
+
+/// The computed touch and its states; shared with the job.
+struct LoadPathAnimation::Path {
+  Touch touch;
+  std::vector<State> states;
+};
+
+/// A picture asked of the window by the job, which waits for it.
+struct LoadPathAnimation::Order {
+  std::shared_ptr<const Path> path;
+  Settings settings;
+  State state;
+  std::mutex mutex;
+  std::condition_variable_any drawn;
+  std::optional<Picture> picture;
+  std::string problem; ///< why there is none
+};
+
+LoadPathAnimation::LoadPathAnimation(const TouchSession& session, const BlockView& view, QObject* parent)
+    : QObject(parent), session_(session), view_(view) {
+  connect(&runner_, &JobRunner::finished, this, [this] { easel_.reset(); });
+}
+
+LoadPathAnimation::~LoadPathAnimation() = default;
+
+bool LoadPathAnimation::start(const Settings& settings) {
+  if (session_.incrementCount() < 2) return false;
+  easel_.reset();
+  const auto work = [this, settings, touch = session_.touch()](const std::stop_token& stop,
+                                                               JobProgress& progress) -> JobRunner::Taking {
+    auto path = std::make_shared<Path>(Path{touch, {}});
+    progress.set(-1, "Fields along the load path");
+    for (const LoadIncrement& state : touch.solution()->increments) {
+      if (stop.stop_requested()) return {};
+      path->states.push_back({state.loadFraction, touch.problem()->fields(state), touch.problem()->electrodes(state)});
+    }
+    // One colour scale over the whole path.
+    Settings fixed = settings;
+    std::vector<double> all;
+    for (const State& state : path->states) {
+      const std::vector<double> values = quantityValues(settings.options.quantity, state.fields);
+      all.insert(all.end(), values.begin(), values.end());
+    }
+    fixed.options.fixedRange = quantityRange(settings.options.quantity, all);
+    if (!fixed.options.warpFactor)
+      fixed.options.warpFactor = automaticWarpFactor(touch.design(), path->states.back().fields.displacement_mm);
+    const double last = path->states.back().fraction;
+    for (int frame = 0; frame < settings.frames; ++frame) {
+      progress.set(static_cast<double>(frame) / settings.frames,
+                   "Picture " + std::to_string(frame + 1) + " of " + std::to_string(settings.frames));
+      auto order = std::make_shared<Order>();
+      order->path = path;
+      order->settings = fixed;
+      order->state = stateAt(path->states, last * frame / std::max(settings.frames - 1, 1));
+      if (!drawInWindow(order, stop)) return {};
+      if (!order->problem.empty()) throw Error(order->problem);
+      writePng(*order->picture, settings.folder / frameName(frame));
+    }
+    return [this, settings] {
+      emit done(tr("Wrote %1 pictures, %2.")
+                    .arg(settings.frames)
+                    .arg(QString::fromStdString((settings.folder / "load-*.png").string())));
+    };
+  };
+  runner_.start(tr("Drawing the load path"), work);
+  return true;
+}
+
+bool LoadPathAnimation::drawInWindow(const std::shared_ptr<Order>& order, const std::stop_token& stop) {
+  QMetaObject::invokeMethod(
+      this,
+      [this, order] {
+        Picture picture =
+            draw(*order->path, order->settings, order->state.fields, order->state.electrodes, order->state.fraction);
+        const std::lock_guard lock(order->mutex);
+        order->picture = std::move(picture);
+        order->drawn.notify_one();
+      },
+      Qt::QueuedConnection);
+  std::unique_lock lock(order->mutex);
+  return order->drawn.wait(lock, stop, [&] { return order->picture.has_value(); });
+}
+
+Picture LoadPathAnimation::draw(const Path& path, const Settings& settings, const NodalFields& fields,
+                                const ElectrodeDisplacements& electrodes, double fraction) {
+  if (!easel_) easel_ = std::make_unique<Easel>();
+  DeformationScene& scene = easel_->scene;
+  const SensorDesign& design = path.touch.design();
+  scene.show({&design, path.touch.mesh(), &fields, &electrodes, &path.touch.load(), fraction}, settings.options,
+             !easel_->begun);
+  if (!easel_->begun) {
+    easel_->window.setSize(settings.width, settings.height);
+    easel_->window.vtk()->AddRenderer(scene.renderer());
+    scene.renderer()->GetActiveCamera()->DeepCopy(view_.camera());
+    easel_->begun = true;
+  }
+  scene.renderer()->ResetCameraClippingRange();
+  easel_->window.render();
+  return easel_->window.picture();
+}
+
+} // namespace palp

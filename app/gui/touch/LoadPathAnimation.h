@@ -1,0 +1,54 @@
+#pragma once
+
+#include "app/gui/jobs/JobRunner.h"
+#include "app/scenes/Picture.h"
+#include "app/scenes/block/DeformationScene.h"
+
+#include <filesystem>
+
+namespace palp {
+
+class BlockView;
+class TouchSession;
+
+/// The way from rest to the full load as a series of pictures, with one warp factor and one colour scale throughout.
+/// Fields between two computed equilibria are interpolated; they and the files are made in the background, the pictures
+/// drawn in the window's thread, one an event.
+class LoadPathAnimation : public QObject {
+  Q_OBJECT
+
+public:
+  struct Settings {
+    DeformationOptions options;
+    int frames = 25;
+    int width = 1200;
+    int height = 800;
+    std::filesystem::path folder; ///< exists; gets load-000.png, load-001.png, ...
+  };
+
+  /// Looks at the block as `view` does.
+  LoadPathAnimation(const TouchSession& session, const BlockView& view, QObject* parent = nullptr);
+  ~LoadPathAnimation() override;
+
+  /// False where there is nothing to show yet.
+  bool start(const Settings& settings);
+  [[nodiscard]] JobRunner& runner() { return runner_; }
+
+signals:
+  void done(const QString& sentence);
+
+private:
+  struct Easel;
+  struct Path;
+  struct Order;
+  [[nodiscard]] Picture draw(const Path& path, const Settings& settings, const NodalFields& fields,
+                             const ElectrodeDisplacements& electrodes, double fraction);
+  [[nodiscard]] bool drawInWindow(const std::shared_ptr<Order>& order, const std::stop_token& stop);
+
+  const TouchSession& session_;
+  const BlockView& view_;
+  std::unique_ptr<Easel> easel_; ///< of the run; only touched in the window's thread
+  JobRunner runner_;
+};
+
+} // namespace palp

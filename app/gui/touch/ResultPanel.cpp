@@ -1,0 +1,90 @@
+#include "app/gui/touch/ResultPanel.h"
+
+#include "app/gui/jobs/TouchSession.h"
+
+#include <QLabel>
+#include <QPushButton>
+#include <QVBoxLayout>
+
+namespace palp {
+
+namespace {
+
+constexpr int kTextWidth_px = 250; ///< of the panels, less their frames
+
+/// As high as its words; a layout alone takes the height of the words before.
+void fitHeight(QLabel& label) {
+  label.setMinimumHeight(0);
+  label.setMinimumHeight(label.heightForWidth(kTextWidth_px));
+}
+
+QString number(double value, int digits = 4) {
+  return QString::number(value, 'g', digits);
+}
+
+} // namespace
+
+ResultPanel::ResultPanel(QWidget* parent) : QWidget(parent) {
+  auto* lines = new QVBoxLayout(this);
+  lines->setContentsMargins(0, 0, 0, 0);
+  result_ = new QLabel(tr("Not computed yet."));
+  result_->setObjectName("result");
+  estimate_ = new QPushButton(tr("Estimate the discretisation error"));
+  estimate_->setObjectName("estimate");
+  estimate_->setToolTip(tr("Solves again on a finer mesh and compares the electrodes' displacements"));
+  probe_ = new QLabel;
+  probe_->setObjectName("probe");
+  for (QLabel* label : {result_, probe_}) {
+    label->setWordWrap(true);
+    label->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  }
+  lines->addWidget(result_);
+  lines->addWidget(estimate_);
+  lines->addWidget(probe_);
+  connect(estimate_, &QPushButton::clicked, this, &ResultPanel::estimateAsked);
+}
+
+void ResultPanel::display(const TouchSession& session) {
+  const Solution* solution = session.touch().solution();
+  estimate_->setEnabled(solution != nullptr && solution->converged && session.upToDate());
+  if (solution == nullptr) {
+    result_->setText(tr("Not computed yet."));
+    return;
+  }
+  const Touch& touch = session.touch();
+  QStringList lines;
+  lines << (solution->converged
+                ? tr("Converged in %1 iterations.").arg(solution->iterations())
+                : tr("Stopped at load fraction %1: %2")
+                      .arg(number(solution->reachedLoadFraction, 3), QString::fromStdString(solution->stopReason)));
+  lines << tr("%1 elements (%2), %3 unknowns.")
+               .arg(touch.mesh()->elementCount())
+               .arg(QString::fromStdString(touch.problem()->elementType()))
+               .arg(touch.problem()->dof());
+  if (session.fields() != nullptr)
+    lines
+        << tr("Largest displacement %1 mm.").arg(number(session.fields()->displacement_mm.colwise().norm().maxCoeff()));
+  lines << tr("Largest volume error |J - 1|: %1.").arg(number(solution->maxVolumeError, 3));
+  lines << tr("Discretisation error: %1").arg(errorWords_.isEmpty() ? tr("not estimated yet.") : errorWords_ + ".");
+  if (!session.upToDate()) lines << tr("<i>The load has changed; this is the result before.</i>");
+  result_->setText(lines.join("<br>"));
+  fitHeight(*result_);
+}
+
+void ResultPanel::displayProbe(const TouchSession& session, int node) {
+  if (node < 0) {
+    probe_->setText(tr("Click on the block to probe a point."));
+    return;
+  }
+  const Eigen::Vector3d place = session.touch().mesh()->nodes_mm.col(node);
+  const NodalFields& fields = *session.fields();
+  const Eigen::Vector3d u = fields.displacement_mm.col(node);
+  probe_->setText(tr("<b>Point (%1, %2, %3) mm</b><br>u = (%4, %5, %6) mm<br>pressure %7 MPa, von Mises %8 MPa, "
+                     "J - 1 = %9")
+                      .arg(number(place.x()), number(place.y()), number(place.z()), number(u.x()), number(u.y()),
+                           number(u.z()), number(fields.pressure_MPa[node]), number(fields.vonMises_MPa[node]),
+                           number(fields.volumeRatio[node] - 1, 3)));
+  fitHeight(*probe_);
+}
+
+} // namespace palp

@@ -1,0 +1,245 @@
+#include "app/gui/touch/TouchTabs.h"
+
+#include "app/gui/jobs/TouchSession.h"
+#include "app/gui/views/ChartView.h"
+#include "app/gui/views/HeatmapSpecs.h"
+#include "app/gui/views/HeatmapView.h"
+
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QLineEdit>
+#include <QSignalBlocker>
+#include <QSpinBox>
+#include <QSplitter>
+#include <QTableWidget>
+#include <QVBoxLayout>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace palp {
+
+namespace {
+
+QString number(double value, int digits = 4) {
+  return QString::number(value, 'g', digits);
+}
+
+bool sameSteps(const std::vector<NewtonStep>& a, const std::vector<NewtonStep>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const NewtonStep& one, const NewtonStep& other) {
+    return one.loadFraction == other.loadFraction && one.relativeResidual == other.relativeResidual;
+  });
+}
+
+ChartView* chart(const char* name) {
+  auto* view = new ChartView;
+  view->setObjectName(name);
+  return view;
+}
+
+QString placeText(const std::array<double, 3>& place) {
+  return number(place[0], 6) + ", " + number(place[1], 6) + ", " + number(place[2], 6);
+}
+
+/// Three numbers with commas between them.
+std::optional<std::array<double, 3>> placeOf(const QString& words) {
+  const QStringList parts = words.split(',');
+  if (parts.size() != 3) return {};
+  std::array<double, 3> place{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    bool good = false;
+    place[k] = parts[static_cast<int>(k)].trimmed().toDouble(&good);
+    if (!good || !std::isfinite(place[k])) return {};
+  }
+  return place;
+}
+
+} // namespace
+
+TouchTabs::TouchTabs(const TouchSession& session, QWidget* parent) : QTabWidget(parent), session_(session) {
+  setObjectName("deformationTabs");
+  addTab(buildTouch(), tr("Resistances"));
+  addTab(buildRowWire(), tr("Row-wire"));
+  table_ = new QTableWidget;
+  table_->setObjectName("electrodeTable");
+  table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  table_->verticalHeader()->hide();
+  addTab(table_, tr("Electrodes"));
+  linePage_ = buildLine();
+  addTab(linePage_, tr("Along a line"));
+  connect(this, &QTabWidget::currentChanged, this, [this] {
+    draw();
+    emit lineShownChanged();
+  });
+}
+
+QWidget* TouchTabs::buildTouch() {
+  heatmap_ = new HeatmapView;
+  heatmap_->setObjectName("heatmap");
+  newton_ = chart("newton");
+  auto* touch = new QSplitter(Qt::Horizontal);
+  touch->setObjectName("touchSplitter");
+  touch->addWidget(heatmap_);
+  touch->addWidget(newton_);
+  touch->setSizes({600, 400});
+  connect(heatmap_, &HeatmapView::cellClicked, this, &TouchTabs::cellClicked);
+  return touch;
+}
+
+QWidget* TouchTabs::buildRowWire() {
+  auto* page = new QWidget;
+  auto* row = new QHBoxLayout(page);
+  row->setContentsMargins(4, 4, 4, 4);
+  auto* side = new QVBoxLayout;
+  side->addWidget(new QLabel(tr("Row-wire")));
+  rowWireNumber_ = new QSpinBox;
+  rowWireNumber_->setObjectName("rowWireNumber");
+  rowWireNumber_->setToolTip(tr("Row-wires count from 0, along y"));
+  side->addWidget(rowWireNumber_);
+  side->addStretch(1);
+  row->addLayout(side);
+  rowWire_ = chart("rowWire");
+  rowShape_ = chart("rowWireShape");
+  auto* charts = new QSplitter(Qt::Horizontal);
+  charts->setObjectName("rowWireSplitter");
+  charts->addWidget(rowWire_);
+  charts->addWidget(rowShape_);
+  row->addWidget(charts, 1);
+  connect(rowWireNumber_, &QSpinBox::valueChanged, this, [this](int rowWire) {
+    view_.rowWire = rowWire;
+    emit edited(tr("Choose a row-wire"), view_);
+  });
+  return page;
+}
+
+QWidget* TouchTabs::buildLine() {
+  auto* page = new QWidget;
+  auto* row = new QHBoxLayout(page);
+  row->setContentsMargins(4, 4, 4, 4);
+  auto* side = new QVBoxLayout;
+  constexpr std::array<const char*, 2> kNames{"lineFrom", "lineTo"};
+  for (std::size_t k = 0; k < 2; ++k) {
+    side->addWidget(new QLabel(k == 0 ? tr("From x, y, z [mm]") : tr("To x, y, z [mm]")));
+    ends_[k] = new QLineEdit;
+    ends_[k]->setObjectName(kNames[k]);
+    ends_[k]->setMaximumWidth(150);
+    ends_[k]->setToolTip(tr("A point of the block at rest; or choose Line above and click on both ends"));
+    side->addWidget(ends_[k]);
+    connect(ends_[k], &QLineEdit::editingFinished, this, &TouchTabs::readLine);
+  }
+  side->addStretch(1);
+  row->addLayout(side);
+  line_ = chart("linePlot");
+  row->addWidget(line_, 1);
+  return page;
+}
+
+void TouchTabs::readLine() {
+  ViewSettings next = view_;
+  const auto from = placeOf(ends_[0]->text());
+  const auto to = placeOf(ends_[1]->text());
+  if (!from || !to) {
+    ChartSpec refusal;
+    refusal.title = tr("Write three numbers with commas between them, as 0, 15, 5").toStdString();
+    line_->setChart(refusal);
+    return;
+  }
+  next.lineFrom_mm = *from;
+  next.lineTo_mm = *to;
+  if (!(next == view_)) emit edited(tr("Change the line"), next);
+}
+
+void TouchTabs::showLine() {
+  setCurrentWidget(linePage_);
+}
+
+bool TouchTabs::lineShown() const {
+  return currentWidget() == linePage_;
+}
+
+void TouchTabs::setTheme(Theme theme) {
+  heatmap_->setTheme(theme);
+  for (ChartView* view : {newton_, rowWire_, rowShape_, line_}) view->setTheme(theme);
+}
+
+void TouchTabs::displayProject(const Project& project) {
+  view_ = project.view;
+  const QSignalBlocker quiet(rowWireNumber_);
+  rowWireNumber_->setRange(0, project.design.rowWires() - 1);
+  rowWireNumber_->setValue(view_.rowWire);
+  const std::array places{view_.lineFrom_mm, view_.lineTo_mm};
+  for (std::size_t k = 0; k < 2; ++k)
+    if (placeOf(ends_[k]->text()) != places[k]) ends_[k]->setText(placeText(places[k]));
+  draw();
+}
+
+void TouchTabs::displayTouch(bool meshChanged) {
+  if (meshChanged) plot_.reset();
+  draw();
+}
+
+void TouchTabs::draw() {
+  if (!isVisible()) return;
+  if (heatmap_->isVisible() && session_.electrodes() != nullptr) {
+    HeatmapSpec spec =
+        resistanceHeatmap(session_.touch(), rowColumnResistances(session_.touch().design(), *session_.electrodes()),
+                          ResistanceKind::RelativeChange);
+    if (view_.litCell && (*view_.litCell)[0] < spec.values.rows() && (*view_.litCell)[1] < spec.values.cols())
+      spec.selected = view_.litCell;
+    heatmap_->setHeatmap(std::move(spec));
+  }
+  drawNewton();
+  drawRowWire();
+  drawLine();
+  fillTable();
+}
+
+void TouchTabs::drawNewton() {
+  if (!newton_->isVisible()) return;
+  std::vector<NewtonStep> steps = session_.newton();
+  if (sameSteps(steps, drawnSteps_)) return;
+  drawnSteps_ = std::move(steps);
+  newton_->setChart(newtonChart(drawnSteps_));
+}
+
+void TouchTabs::drawRowWire() {
+  if (session_.electrodes() == nullptr || !rowWire_->isVisible()) return;
+  const SensorDesign& design = session_.touch().design();
+  const int rowWire = std::min(view_.rowWire, design.rowWires() - 1);
+  rowWire_->setChart(rowWireChart(design, *session_.electrodes(), rowWire));
+  rowShape_->setChart(rowWireShapeChart(design, *session_.electrodes(), rowWire));
+}
+
+void TouchTabs::drawLine() {
+  if (session_.fields() == nullptr || !line_->isVisible()) return;
+  line_->setChart(plot_.chart(*session_.touch().mesh(), *session_.fields(), view_));
+}
+
+void TouchTabs::fillTable() {
+  if (session_.electrodes() == nullptr || !table_->isVisible()) return;
+  const SensorDesign& design = session_.touch().design();
+  const Eigen::Matrix3Xd places = design.upperElectrodes_mm();
+  table_->setColumnCount(8);
+  table_->setRowCount(static_cast<int>(places.cols()));
+  table_->setHorizontalHeaderLabels({tr("row-wire"), tr("electrode"), tr("x [mm]"), tr("y [mm]"), tr("z [mm]"),
+                                     tr("ux [mm]"), tr("uy [mm]"), tr("uz [mm]")});
+  for (int k = 0; k < places.cols(); ++k) {
+    QStringList cells{QString::number(k / design.electrodesPerRowWire()),
+                      QString::number(k % design.electrodesPerRowWire())};
+    for (const double value : places.col(k)) cells << number(value);
+    for (const double value : session_.electrodes()->upper_mm.col(k)) cells << number(value, 6);
+    for (int column = 0; column < cells.size(); ++column) {
+      QTableWidgetItem* cell = table_->item(k, column);
+      if (cell == nullptr) {
+        cell = new QTableWidgetItem;
+        cell->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
+        table_->setItem(k, column, cell);
+      }
+      cell->setText(cells[column]);
+    }
+  }
+}
+
+} // namespace palp

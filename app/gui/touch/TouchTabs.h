@@ -1,0 +1,65 @@
+#pragma once
+
+#include "app/gui/project/Project.h"
+#include "app/gui/touch/DeformationCharts.h"
+
+#include <QTabWidget>
+
+class QLineEdit;
+class QSpinBox;
+class QTableWidget;
+
+namespace palp {
+
+class ChartView;
+class HeatmapView;
+class TouchSession;
+
+/// Under the block: heatmap and Newton's residuals, a row-wire before and under the load, a plot along a line, the
+/// electrodes as a table. Only the visible tab is drawn.
+class TouchTabs : public QTabWidget {
+  Q_OBJECT
+
+public:
+  explicit TouchTabs(const TouchSession& session, QWidget* parent = nullptr);
+
+  void setTheme(Theme theme);
+  void displayProject(const Project& project);
+  void displayTouch(bool meshChanged);
+  void drawNewton();
+  /// Shows the plot along the line.
+  void showLine();
+  [[nodiscard]] bool lineShown() const;
+
+signals:
+  void lineShownChanged();
+  void cellClicked(int rowWire, int columnWire);
+  /// By the user's hand only.
+  void edited(const QString& what, const palp::ViewSettings& view);
+
+private:
+  QWidget* buildTouch();
+  QWidget* buildRowWire();
+  QWidget* buildLine();
+  void draw();
+  void drawRowWire();
+  void drawLine();
+  void fillTable();
+  void readLine();
+
+  const TouchSession& session_;
+  ViewSettings view_;
+  std::vector<NewtonStep> drawnSteps_;
+  LinePlot plot_;
+  HeatmapView* heatmap_ = nullptr;
+  ChartView* newton_ = nullptr;
+  ChartView* rowWire_ = nullptr;
+  ChartView* rowShape_ = nullptr;
+  QSpinBox* rowWireNumber_ = nullptr;
+  QWidget* linePage_ = nullptr;
+  std::array<QLineEdit*, 2> ends_{};
+  ChartView* line_ = nullptr;
+  QTableWidget* table_ = nullptr;
+};
+
+} // namespace palp

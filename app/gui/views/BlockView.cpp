@@ -1,0 +1,182 @@
+#include "app/gui/views/BlockView.h"
+
+#include <vtkCamera.h>
+#include <vtkCellPicker.h>
+#include <vtkNew.h>
+#include <vtkRenderer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace palp {
+
+namespace {
+
+constexpr double kGrip_px = 9; ///< around an arrow
+constexpr double kStep_N = 0.01;
+constexpr double kLeast_N = 0.01;
+
+double distance(const QPointF& place, const QPointF& from, const QPointF& to) {
+  const QPointF way = to - from;
+  const double length2 = QPointF::dotProduct(way, way);
+  const double t = length2 > 0 ? std::clamp(QPointF::dotProduct(place - from, way) / length2, 0.0, 1.0) : 0;
+  const QPointF off = place - (from + t * way);
+  return std::hypot(off.x(), off.y());
+}
+
+} // namespace
+
+struct BlockView::Parts {
+  DeformationScene scene;
+  std::optional<SensorDesign> design; ///< of the last state; none before the first
+};
+
+BlockView::BlockView(QWidget* parent) : BlockView(std::make_unique<Parts>(), parent) {}
+
+BlockView::BlockView(std::unique_ptr<Parts> parts, QWidget* parent)
+    : VtkView(parts->scene.renderer(), nullptr, parent), parts_(std::move(parts)) {
+  connect(this, &VtkView::clicked, this, &BlockView::pick);
+  connect(this, &VtkView::doubleClicked, this, &BlockView::resetCamera);
+  connect(this, &VtkView::sizeChanged, this, [this] {
+    if (renderCount() == 0) resetCamera();
+  });
+  connect(this, &VtkView::hovered, this, [this](const QPointF& place) {
+    if (movable_) setCursor(place.x() >= 0 && arrowAt(place) >= 0 ? Qt::OpenHandCursor : Qt::ArrowCursor);
+  });
+}
+
+BlockView::~BlockView() = default;
+
+void BlockView::show(const DeformationState& state, const DeformationOptions& options, bool meshChanged) {
+  parts_->scene.show(state, options, meshChanged);
+  const bool other = !parts_->design || parts_->design->block_mm != state.design->block_mm;
+  parts_->design = *state.design;
+  if (other) resetCamera();
+  invalidate();
+}
+
+void BlockView::setTheme(Theme theme) {
+  const Color& ground = palp::palette(theme).ground;
+  parts_->scene.renderer()->SetBackground(ground[0], ground[1], ground[2]);
+  invalidate();
+}
+
+void BlockView::resetCamera() {
+  if (!parts_->design) return;
+  parts_->scene.resetCamera(*parts_->design, aspect());
+  invalidate();
+}
+
+void BlockView::lookAlong(const Eigen::Vector3d& direction) {
+  if (!parts_->design) return;
+  parts_->scene.resetCamera(*parts_->design, aspect(), direction);
+  invalidate();
+}
+
+double BlockView::warpFactor() const {
+  return parts_->scene.warpFactor();
+}
+
+std::array<double, 3> BlockView::cameraPosition() const {
+  std::array<double, 3> place{};
+  parts_->scene.renderer()->GetActiveCamera()->GetPosition(place.data());
+  return place;
+}
+
+vtkCamera* BlockView::camera() const {
+  return parts_->scene.renderer()->GetActiveCamera();
+}
+
+QPointF BlockView::placeOf(const Eigen::Vector3d& drawn_mm) const {
+  vtkRenderer& renderer = *parts_->scene.renderer();
+  renderer.SetWorldPoint(drawn_mm.x(), drawn_mm.y(), drawn_mm.z(), 1);
+  renderer.WorldToDisplay();
+  const double* place = renderer.GetDisplayPoint();
+  return {place[0] / devicePixelRatioF(), height() - 1 - place[1] / devicePixelRatioF()};
+}
+
+void BlockView::markNode(int node) {
+  parts_->scene.markNode(node);
+  invalidate();
+}
+
+std::optional<QPointF> BlockView::gripOf(int load) const {
+  const double scale = parts_->scene.arrowScale_mmPerN();
+  for (const PlacedForce& force : parts_->scene.forces())
+    if (force.load == load) return placeOf(force.freeEnd_mm(scale));
+  return {};
+}
+
+int BlockView::arrowAt(const QPointF& place) const {
+  if (renderCount() == 0) return -1;
+  const std::vector<PlacedForce>& forces = parts_->scene.forces();
+  const double scale = parts_->scene.arrowScale_mmPerN();
+  int nearest = -1;
+  double least = kGrip_px;
+  for (std::size_t k = 0; k < forces.size(); ++k) {
+    if (!(forces[k].force_N.norm() > 0)) continue;
+    const Eigen::Vector3d end = forces[k].freeEnd_mm(scale);
+    const double away = distance(place, placeOf(end), placeOf(0.5 * (end + forces[k].place_mm)));
+    if (away >= least) continue;
+    least = away;
+    nearest = static_cast<int>(k);
+  }
+  return nearest;
+}
+
+Eigen::Vector3d BlockView::pointAt(const QPointF& place, const Eigen::Vector3d& anchor_mm) const {
+  vtkRenderer& renderer = *parts_->scene.renderer();
+  renderer.SetWorldPoint(anchor_mm.x(), anchor_mm.y(), anchor_mm.z(), 1);
+  renderer.WorldToDisplay();
+  const double depth = renderer.GetDisplayPoint()[2];
+  const QPointF device = devicePlace(place);
+  renderer.SetDisplayPoint(device.x(), device.y(), depth);
+  renderer.DisplayToWorld();
+  const double* point = renderer.GetWorldPoint();
+  return Eigen::Vector3d(point[0], point[1], point[2]) / point[3];
+}
+
+bool BlockView::grab(const QPointF& place) {
+  dragged_ = movable_ ? arrowAt(place) : -1;
+  if (dragged_ >= 0) setCursor(Qt::ClosedHandCursor);
+  return dragged_ >= 0;
+}
+
+void BlockView::dragTo(const QPointF& place, Qt::KeyboardModifiers modifiers) {
+  // Another state may have come while the button was down.
+  if (dragged_ >= static_cast<int>(parts_->scene.forces().size())) return;
+  const PlacedForce& force = parts_->scene.forces()[static_cast<std::size_t>(dragged_)];
+  const double scale = parts_->scene.arrowScale_mmPerN();
+  const bool push = force.force_N.z() < 0;
+  const Eigen::Vector3d arrow = pointAt(place, force.freeEnd_mm(scale)) - force.place_mm;
+  Eigen::Vector3d next = (push ? -1 : 1) / scale * arrow;
+  if (modifiers.testFlag(Qt::ShiftModifier)) { // the length alone
+    const Eigen::Vector3d along = force.force_N.normalized();
+    next = std::max(next.dot(along), 0.0) * along;
+  }
+  // A push stays a push: the arrow would jump to the other side of its place.
+  next.z() = push ? std::min(next.z(), -kLeast_N) : std::max(next.z(), 0.0);
+  for (double& component : next) component = std::round(component / kStep_N) * kStep_N;
+  parts_->scene.moveForce(static_cast<std::size_t>(dragged_), next);
+  invalidate();
+}
+
+void BlockView::drop() {
+  setCursor(Qt::OpenHandCursor);
+  const int arrow = std::exchange(dragged_, -1);
+  if (arrow < 0 || arrow >= static_cast<int>(parts_->scene.forces().size())) return;
+  const PlacedForce force = parts_->scene.forces()[static_cast<std::size_t>(arrow)];
+  emit forceDragged(force.load, force.force_N);
+}
+
+void BlockView::pick(const QPointF& place) {
+  vtkNew<vtkCellPicker> picker;
+  picker->SetTolerance(0.0005);
+  const QPointF device = devicePlace(place);
+  if (picker->Pick(device.x(), device.y(), 0, parts_->scene.renderer()) == 0) return;
+  const int node = parts_->scene.nearestNode(Eigen::Vector3d(picker->GetPickPosition()));
+  if (node >= 0) emit nodeClicked(node);
+}
+
+} // namespace palp

@@ -1,0 +1,142 @@
+#include "app/gui/views/PictureView.h"
+
+#include "model/base/Error.h"
+
+#include <QApplication>
+#include <QClipboard>
+#include <QFileDialog>
+#include <QInputDialog>
+#include <QMenu>
+#include <QMessageBox>
+#include <QMouseEvent>
+#include <QPainter>
+
+#include <cmath>
+
+namespace palp {
+
+namespace {
+
+constexpr double kClick_px = 4; ///< farther than this, pressing and releasing is a drag
+
+} // namespace
+
+PictureView::PictureView(QWidget* parent) : QWidget(parent) {
+  setAttribute(Qt::WA_OpaquePaintEvent);
+  setMouseTracking(true);
+  setMinimumSize(160, 120);
+}
+
+void PictureView::invalidate() {
+  changed_ = true;
+  update();
+}
+
+const QImage& PictureView::image() {
+  if (changed_) draw();
+  return image_;
+}
+
+double PictureView::aspect() const {
+  return height() > 0 ? static_cast<double>(width()) / height() : 1;
+}
+
+QPointF PictureView::devicePlace(const QPointF& place) const {
+  return {place.x() * devicePixelRatioF(), (height() - 1 - place.y()) * devicePixelRatioF()};
+}
+
+QSize PictureView::deviceSize() const {
+  return (QSizeF(size()) * devicePixelRatioF()).toSize().expandedTo({1, 1});
+}
+
+void PictureView::draw() {
+  changed_ = false;
+  if (image_.size() != deviceSize()) image_ = QImage(deviceSize(), QImage::Format_RGB32);
+  render(image_);
+  ++renderCount_;
+  image_.setDevicePixelRatio(devicePixelRatioF());
+}
+
+void PictureView::paintEvent(QPaintEvent*) {
+  if (changed_) draw();
+  QPainter painter(this);
+  painter.setCompositionMode(QPainter::CompositionMode_Source);
+  painter.drawImage(0, 0, image_);
+}
+
+void PictureView::resizeEvent(QResizeEvent*) {
+  changed_ = true;
+  emit sizeChanged();
+}
+
+void PictureView::mousePressEvent(QMouseEvent* event) {
+  pressed_ = event->position();
+}
+
+void PictureView::mouseReleaseEvent(QMouseEvent* event) {
+  const QPointF way = event->position() - pressed_;
+  if (std::hypot(way.x(), way.y()) > kClick_px) return;
+  if (event->button() == Qt::LeftButton) emit clicked(event->position());
+  if (event->button() == Qt::RightButton) offerPicture(event->globalPosition().toPoint());
+}
+
+void PictureView::mouseMoveEvent(QMouseEvent* event) {
+  if (event->buttons() == Qt::NoButton) emit hovered(event->position());
+}
+
+void PictureView::mouseDoubleClickEvent(QMouseEvent* event) {
+  if (event->button() == Qt::LeftButton) emit doubleClicked();
+}
+
+void PictureView::leaveEvent(QEvent*) {
+  emit hovered(QPointF(-1, -1));
+}
+
+void PictureView::offerPicture(const QPoint& globalPlace) {
+  QMenu menu(this);
+  const QAction* copy = menu.addAction(tr("Copy picture"));
+  const QSize now = image().size();
+  QList<QPair<QAction*, QSize>> sizes;
+  for (const int factor : {1, 2, 4}) {
+    const QSize size = now * factor;
+    sizes << qMakePair(menu.addAction(tr("Save picture, %1 x %2 pixels...").arg(size.width()).arg(size.height())),
+                       size);
+  }
+  const QAction* other = menu.addAction(tr("Save picture in another size..."));
+  const QAction* chosen = menu.exec(globalPlace);
+  if (chosen == other && chosen != nullptr) {
+    const QSize size = askSize(now);
+    if (!size.isEmpty()) savePicture(size);
+    return;
+  }
+  if (chosen == copy && chosen != nullptr) QApplication::clipboard()->setImage(image());
+  for (const auto& [action, size] : sizes) {
+    if (action != chosen || chosen == nullptr) continue;
+    savePicture(size);
+  }
+}
+
+QSize PictureView::askSize(const QSize& now) {
+  const QString proposal = QString("%1 x %2").arg(now.width()).arg(now.height());
+  const QString words = QInputDialog::getText(this, tr("Save picture"), tr("Width x height in pixels, up to 16384:"),
+                                              QLineEdit::Normal, proposal);
+  const QStringList parts = words.split('x');
+  if (words.isEmpty()) return {};
+  const QSize size = parts.size() == 2 ? QSize(parts[0].trimmed().toInt(), parts[1].trimmed().toInt()) : QSize();
+  if (size.width() >= 1 && size.height() >= 1 && size.width() <= 16384 && size.height() <= 16384) return size;
+  QMessageBox::warning(this, tr("Save picture"),
+                       tr("\"%1\" is no size; write two numbers from 1 to 16384, as 1600 x 900.").arg(words));
+  return {};
+}
+
+void PictureView::savePicture(const QSize& size) {
+  const QString file = QFileDialog::getSaveFileName(this, tr("Save picture"), "picture.png", tr("Pictures (*.png)"));
+  if (file.isEmpty()) return;
+  try {
+    writePng(picture(size.width(), size.height()), file.toStdString());
+  } catch (const Error& error) {
+    QMessageBox::warning(this, tr("Save picture"), QString::fromStdString(error.what()));
+  }
+}
+
+} // namespace palp

@@ -1,0 +1,237 @@
+#include "app/gui/views/StripChart.h"
+
+#include "app/scenes/ColorScale.h"
+
+#include <QApplication>
+#include <QClipboard>
+#include <QContextMenuEvent>
+#include <QFileDialog>
+#include <QMenu>
+#include <QMouseEvent>
+#include <QPainter>
+
+#include <algorithm>
+#include <cmath>
+
+namespace palp {
+
+namespace {
+
+constexpr double kLegendLine_px = 32; // of a legend's entry beside its name
+
+QColor ink(const Color& color) {
+  return QColor::fromRgbF(static_cast<float>(color[0]), static_cast<float>(color[1]), static_cast<float>(color[2]));
+}
+
+} // namespace
+
+StripChart::StripChart(QWidget* parent) : QWidget(parent) {
+  setAttribute(Qt::WA_OpaquePaintEvent);
+  setMouseTracking(true);
+  setMinimumSize(180, 110);
+}
+
+void StripChart::setChart(StripSpec spec) {
+  spec_ = std::move(spec);
+  update();
+}
+
+void StripChart::setTheme(Theme theme) {
+  theme_ = theme;
+  update();
+}
+
+QRectF StripChart::plotRectangle() const {
+  const QFontMetricsF metrics(font());
+  double widest = 0;
+  for (const std::string& text : tickTexts(roundTicks(spec_.yRange[0], spec_.yRange[1], 6)))
+    widest = std::max(widest, metrics.horizontalAdvance(QString::fromStdString(text)));
+  const double line = metrics.height();
+  return QRectF(rect()).adjusted(widest + line + 14, line + 14, -12, -2 * line - 10);
+}
+
+double StripChart::xOf(const QRectF& plot, double t_s) const {
+  return plot.right() - (spec_.end_s - t_s) / spec_.window_s * plot.width();
+}
+
+double StripChart::yOf(const QRectF& plot, double y) const {
+  return plot.bottom() - (y - spec_.yRange[0]) / (spec_.yRange[1] - spec_.yRange[0]) * plot.height();
+}
+
+void StripChart::paintEvent(QPaintEvent*) {
+  ++paintCount_;
+  QPainter painter(this);
+  painter.fillRect(rect(), ink(palp::palette(theme_).ground));
+  const QRectF plot = plotRectangle();
+  if (plot.width() < 10 || plot.height() < 10) return;
+  paintAxes(painter, plot);
+  const bool empty = std::all_of(spec_.series.begin(), spec_.series.end(),
+                                 [](const StripSeries& series) { return series.t_s.empty(); });
+  if (empty) {
+    const QRectF place = painter.boundingRect(plot, Qt::AlignCenter | Qt::TextWordWrap, spec_.empty);
+    painter.fillRect(place, ink(palp::palette(theme_).ground));
+    painter.setPen(QWidget::palette().color(QPalette::PlaceholderText));
+    painter.drawText(plot, Qt::AlignCenter | Qt::TextWordWrap, spec_.empty);
+    return;
+  }
+  paintCurves(painter, plot);
+  paintLegend(painter, plot);
+  paintReading(painter, plot);
+}
+
+void StripChart::paintAxes(QPainter& painter, const QRectF& plot) const {
+  const QColor text = ink(palp::palette(theme_).text);
+  const QColor grid = ink(palp::palette(theme_).grid);
+  const double line = QFontMetricsF(font()).height();
+  QFont bold = font();
+  bold.setBold(true);
+  painter.setFont(bold);
+  painter.setPen(text);
+  const double room = std::max(0.0, plot.width() - legendWidth());
+  painter.drawText(QRectF(plot.left(), 5, room, line + 2), Qt::AlignLeft | Qt::AlignVCenter,
+                   QFontMetricsF(bold).elidedText(spec_.title, Qt::ElideRight, room));
+  painter.setFont(font());
+  const std::vector<double> yTicks = roundTicks(spec_.yRange[0], spec_.yRange[1], 6);
+  const std::vector<std::string> yTexts = tickTexts(yTicks);
+  for (std::size_t k = 0; k < yTicks.size(); ++k) {
+    const double y = std::round(yOf(plot, yTicks[k])) + 0.5;
+    painter.setPen(QPen(yTicks[k] == 0 ? text : grid, 1));
+    painter.drawLine(QPointF(plot.left(), y), QPointF(plot.right(), y));
+    painter.setPen(text);
+    painter.drawText(QRectF(0, y - line / 2, plot.left() - 5, line), Qt::AlignRight | Qt::AlignVCenter,
+                     QString::fromStdString(yTexts[k]));
+  }
+  const std::vector<double> xTicks = roundTicks(-spec_.window_s, 0, 6);
+  const std::vector<std::string> xTexts = tickTexts(xTicks);
+  for (std::size_t k = 0; k < xTicks.size(); ++k) {
+    const double x = std::round(xOf(plot, spec_.end_s + xTicks[k])) + 0.5;
+    painter.setPen(QPen(grid, 1));
+    painter.drawLine(QPointF(x, plot.top()), QPointF(x, plot.bottom()));
+    painter.setPen(text);
+    painter.drawText(QRectF(x - 40, plot.bottom() + 3, 80, line), Qt::AlignHCenter | Qt::AlignTop,
+                     QString::fromStdString(xTexts[k]));
+  }
+  painter.setPen(text);
+  painter.drawText(QRectF(plot.left(), plot.bottom() + line + 3, plot.width(), line + 2), Qt::AlignCenter,
+                   tr("time before the last frame [s]"));
+  painter.save();
+  painter.translate(line / 2 + 4, plot.center().y());
+  painter.rotate(-90);
+  painter.drawText(QRectF(-plot.height() / 2, -line / 2, plot.height(), line), Qt::AlignCenter, spec_.yLabel);
+  painter.restore();
+  painter.setPen(QPen(text, 1));
+  painter.drawLine(plot.bottomLeft(), plot.bottomRight());
+  painter.drawLine(plot.topLeft(), plot.bottomLeft());
+}
+
+void StripChart::paintCurves(QPainter& painter, const QRectF& plot) const {
+  painter.save();
+  painter.setClipRect(plot.adjusted(0, -1, 0, 1));
+  painter.setRenderHint(QPainter::Antialiasing);
+  QPolygonF curve;
+  for (const StripSeries& series : spec_.series) {
+    painter.setPen(QPen(ink(seriesColor(series.color, theme_)), 1.6));
+    double column = -1; // of pixels; -1: none
+    const auto flush = [&] {
+      if (curve.size() > 1) painter.drawPolyline(curve);
+      curve.clear();
+      column = -1;
+    };
+    double least = 0, most = 0; // of the pixels' column, so that no peak is lost
+    for (std::size_t k = 0; k < series.t_s.size(); ++k) {
+      const double x = xOf(plot, series.t_s[k]);
+      if (x < plot.left() - 5) continue;
+      if (!std::isfinite(series.y[k])) {
+        flush();
+        continue;
+      }
+      const double y = yOf(plot, series.y[k]);
+      if (std::floor(x) == column) {
+        if (y < least || y > most) curve << QPointF(x, y);
+        least = std::min(least, y);
+        most = std::max(most, y);
+        continue;
+      }
+      column = std::floor(x);
+      least = most = y;
+      curve << QPointF(x, y);
+    }
+    flush();
+  }
+  painter.setPen(QPen(ink(palp::palette(theme_).selection), 1, Qt::DashLine));
+  for (const auto& [t_s, words] : spec_.marks) {
+    const double x = xOf(plot, t_s);
+    if (x < plot.left()) continue;
+    painter.drawLine(QPointF(x, plot.top()), QPointF(x, plot.bottom()));
+    painter.drawText(QPointF(x + 3, plot.bottom() - 4), words);
+  }
+  painter.restore();
+}
+
+double StripChart::legendWidth() const {
+  double width = 0;
+  for (const StripSeries& series : spec_.series)
+    width += QFontMetricsF(font()).horizontalAdvance(series.name) + kLegendLine_px;
+  return width;
+}
+
+void StripChart::paintLegend(QPainter& painter, const QRectF& plot) const {
+  const QFontMetricsF metrics(font());
+  double x = plot.right();
+  for (auto series = spec_.series.rbegin(); series != spec_.series.rend(); ++series) {
+    x -= metrics.horizontalAdvance(series->name);
+    painter.setPen(ink(palp::palette(theme_).text));
+    painter.drawText(QPointF(x, 5 + metrics.ascent()), series->name);
+    painter.setPen(QPen(ink(seriesColor(series->color, theme_)), 3));
+    painter.drawLine(QPointF(x - 18, 6 + metrics.height() / 2), QPointF(x - 5, 6 + metrics.height() / 2));
+    x -= kLegendLine_px;
+  }
+}
+
+/// The values under the pointer.
+void StripChart::paintReading(QPainter& painter, const QRectF& plot) const {
+  if (pointer_px_ < plot.left() || pointer_px_ > plot.right()) return;
+  const double t_s = spec_.end_s - (plot.right() - pointer_px_) / plot.width() * spec_.window_s;
+  QStringList words{tr("%1 s").arg(t_s - spec_.end_s, 0, 'f', 2)};
+  for (const StripSeries& series : spec_.series) {
+    const auto next = std::lower_bound(series.t_s.begin(), series.t_s.end(), t_s);
+    if (next == series.t_s.end()) continue;
+    const double value = series.y[static_cast<std::size_t>(next - series.t_s.begin())];
+    words << QString("%1 %2").arg(series.name, std::isfinite(value) ? QString::number(value, 'g', 4) : tr("none"));
+  }
+  painter.setPen(QPen(ink(palp::palette(theme_).text), 1));
+  painter.drawLine(QPointF(pointer_px_, plot.top()), QPointF(pointer_px_, plot.bottom()));
+  const QString text = words.join("   ");
+  const QFontMetricsF metrics(font());
+  QRectF box(0, plot.top() + 2, metrics.horizontalAdvance(text) + 10, metrics.height() + 4);
+  box.moveLeft(std::clamp(pointer_px_ + 4, plot.left(), std::max(plot.left(), plot.right() - box.width())));
+  QColor ground = ink(palp::palette(theme_).ground);
+  ground.setAlphaF(0.85F);
+  painter.fillRect(box, ground);
+  painter.drawText(box, Qt::AlignCenter, text);
+}
+
+void StripChart::mouseMoveEvent(QMouseEvent* event) {
+  pointer_px_ = event->position().x();
+  update();
+}
+
+void StripChart::leaveEvent(QEvent*) {
+  pointer_px_ = -1;
+  update();
+}
+
+void StripChart::contextMenuEvent(QContextMenuEvent* event) {
+  QMenu menu(this);
+  const QAction* copy = menu.addAction(tr("Copy picture"));
+  const QAction* save = menu.addAction(tr("Save picture..."));
+  const QAction* chosen = menu.exec(event->globalPos());
+  if (chosen == nullptr) return;
+  const QPixmap picture = grab();
+  if (chosen == copy) QApplication::clipboard()->setPixmap(picture);
+  if (chosen != save) return;
+  const QString file = QFileDialog::getSaveFileName(this, tr("Save picture"), "curves.png", tr("Pictures (*.png)"));
+  if (!file.isEmpty()) picture.save(file, "PNG");
+}
+
+} // namespace palp

@@ -1,0 +1,162 @@
+#include "app/gui/views/VtkView.h"
+
+#include "app/scenes/gl/OffscreenWindow.h"
+
+#include <QMouseEvent>
+#include <QWheelEvent>
+
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
+#include <vtkGenericRenderWindowInteractor.h>
+#include <vtkInteractorStyleTrackballCamera.h>
+#include <vtkNew.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+
+#include <cmath>
+
+namespace palp {
+
+namespace {
+
+constexpr int kWheelStep = 120; ///< eighths of a degree
+
+void invalidateView(vtkObject*, unsigned long, void* view, void*) {
+  static_cast<VtkView*>(view)->invalidate();
+}
+
+unsigned long pressEvent(Qt::MouseButton button) {
+  if (button == Qt::LeftButton) return vtkCommand::LeftButtonPressEvent;
+  return button == Qt::RightButton ? vtkCommand::RightButtonPressEvent : vtkCommand::MiddleButtonPressEvent;
+}
+
+unsigned long releaseEvent(Qt::MouseButton button) {
+  if (button == Qt::LeftButton) return vtkCommand::LeftButtonReleaseEvent;
+  return button == Qt::RightButton ? vtkCommand::RightButtonReleaseEvent : vtkCommand::MiddleButtonReleaseEvent;
+}
+
+} // namespace
+
+/// The window is opened when the view is first drawn: a context costs 30 MB on a software renderer, and a view that
+/// nobody looks at needs none.
+struct VtkView::Vtk {
+  vtkSmartPointer<vtkRenderer> renderer;
+  vtkSmartPointer<vtkInteractorObserver> style;
+  vtkNew<vtkCallbackCommand> changed;
+  std::unique_ptr<OffscreenWindow> window; ///< null before the first drawing
+  vtkNew<vtkGenericRenderWindowInteractor> interactor;
+
+  void open(const QSize& size) {
+    if (window) return;
+    window = std::make_unique<OffscreenWindow>();
+    window->vtk()->AddRenderer(renderer);
+    interactor->SetRenderWindow(window->vtk());
+    // The interactor asks for a rendering after each event; the view renders once a paint instead.
+    interactor->EnableRenderOff();
+    interactor->Initialize();
+    interactor->SetInteractorStyle(style);
+    interactor->AddObserver(vtkCommand::RenderEvent, changed);
+    interactor->UpdateSize(size.width(), size.height());
+  }
+  /// Hands an event on; before the first drawing there is nothing that it could change.
+  void invoke(unsigned long event) {
+    if (window) interactor->InvokeEvent(event);
+  }
+};
+
+VtkView::VtkView(vtkRenderer* renderer, vtkInteractorObserver* style, QWidget* parent)
+    : PictureView(parent), vtk_(std::make_unique<Vtk>()) {
+  vtk_->renderer = renderer;
+  vtk_->style = style;
+  if (style == nullptr) vtk_->style = vtkSmartPointer<vtkInteractorStyleTrackballCamera>::New();
+  vtk_->changed->SetCallback(invalidateView);
+  vtk_->changed->SetClientData(this);
+}
+
+VtkView::~VtkView() {
+  if (!vtk_->window) return;
+  vtk_->interactor->SetInteractorStyle(nullptr);
+  vtk_->interactor->SetRenderWindow(nullptr);
+  vtk_->window->vtk()->RemoveRenderer(vtk_->renderer);
+}
+
+void VtkView::render(QImage& image) {
+  vtk_->open(image.size());
+  vtk_->window->setSize(image.width(), image.height());
+  vtk_->window->render();
+  vtk_->window->copyBgra(image.bits(), static_cast<std::size_t>(image.bytesPerLine()));
+}
+
+Picture VtkView::renderPicture(int width, int height) {
+  vtk_->open({width, height});
+  vtk_->window->setSize(width, height);
+  vtk_->window->render();
+  Picture picture = vtk_->window->picture();
+  invalidate(); // the window has another size now
+  return picture;
+}
+
+void VtkView::resizeEvent(QResizeEvent* event) {
+  if (vtk_->window) vtk_->interactor->UpdateSize(deviceSize().width(), deviceSize().height());
+  PictureView::resizeEvent(event);
+}
+
+void VtkView::tellPlace(const QPointF& place, Qt::KeyboardModifiers modifiers) {
+  const QPointF device = devicePlace(place);
+  vtk_->interactor->SetEventInformation(
+      static_cast<int>(std::lround(device.x())), static_cast<int>(std::lround(device.y())),
+      modifiers.testFlag(Qt::ControlModifier) ? 1 : 0, modifiers.testFlag(Qt::ShiftModifier) ? 1 : 0);
+}
+
+bool VtkView::grab(const QPointF&) {
+  return false;
+}
+
+void VtkView::dragTo(const QPointF&, Qt::KeyboardModifiers) {}
+
+void VtkView::drop() {}
+
+void VtkView::mousePressEvent(QMouseEvent* event) {
+  PictureView::mousePressEvent(event);
+  grabbed_ = event->button() == Qt::LeftButton && grab(event->position());
+  if (grabbed_) return;
+  tellPlace(event->position(), event->modifiers());
+  vtk_->invoke(pressEvent(event->button()));
+}
+
+void VtkView::mouseReleaseEvent(QMouseEvent* event) {
+  if (grabbed_ && event->button() == Qt::LeftButton) {
+    grabbed_ = false;
+    drop();
+    return;
+  }
+  tellPlace(event->position(), event->modifiers());
+  vtk_->invoke(releaseEvent(event->button()));
+  PictureView::mouseReleaseEvent(event);
+}
+
+void VtkView::mouseMoveEvent(QMouseEvent* event) {
+  if (grabbed_) {
+    dragTo(event->position(), event->modifiers());
+    return;
+  }
+  tellPlace(event->position(), event->modifiers());
+  vtk_->invoke(vtkCommand::MouseMoveEvent);
+  PictureView::mouseMoveEvent(event);
+}
+
+void VtkView::wheelEvent(QWheelEvent* event) {
+  tellPlace(event->position(), event->modifiers());
+  wheel_ += event->angleDelta().y();
+  for (; wheel_ >= kWheelStep; wheel_ -= kWheelStep) vtk_->invoke(vtkCommand::MouseWheelForwardEvent);
+  for (; wheel_ <= -kWheelStep; wheel_ += kWheelStep) vtk_->invoke(vtkCommand::MouseWheelBackwardEvent);
+  event->accept();
+}
+
+void VtkView::leaveEvent(QEvent* event) {
+  vtk_->invoke(vtkCommand::LeaveEvent);
+  PictureView::leaveEvent(event);
+}
+
+} // namespace palp

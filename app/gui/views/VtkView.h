@@ -1,0 +1,45 @@
+#pragma once
+
+#include "app/gui/views/PictureView.h"
+
+#include <memory>
+
+class vtkInteractorObserver;
+class vtkRenderer;
+
+namespace palp {
+
+/// A VTK renderer in a plain widget: drawn without a surface, read back and painted.
+class VtkView : public PictureView {
+  Q_OBJECT
+
+public:
+  /// `style` may be null: then the mouse turns, pans and zooms the camera.
+  VtkView(vtkRenderer* renderer, vtkInteractorObserver* style, QWidget* parent = nullptr);
+  ~VtkView() override;
+
+protected:
+  /// Takes the left button for the view itself, before VTK: true at the press, then dragging until the release.
+  virtual bool grab(const QPointF& place);
+  virtual void dragTo(const QPointF& place, Qt::KeyboardModifiers modifiers);
+  virtual void drop();
+
+  void render(QImage& image) override;
+  [[nodiscard]] Picture renderPicture(int width, int height) override;
+  void resizeEvent(QResizeEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void wheelEvent(QWheelEvent* event) override;
+  void leaveEvent(QEvent* event) override;
+
+private:
+  void tellPlace(const QPointF& place, Qt::KeyboardModifiers modifiers);
+
+  struct Vtk;
+  std::unique_ptr<Vtk> vtk_;
+  int wheel_ = 0;
+  bool grabbed_ = false;
+};
+
+} // namespace palp

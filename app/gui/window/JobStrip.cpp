@@ -1,0 +1,45 @@
+#include "app/gui/window/JobStrip.h"
+
+#include "app/gui/jobs/JobRunner.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QProgressBar>
+#include <QPushButton>
+
+namespace palp {
+
+JobStrip::JobStrip(JobRunner& runner, QWidget* parent) : QWidget(parent) {
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(4, 0, 4, 0);
+  words_ = new QLabel;
+  bar_ = new QProgressBar;
+  bar_->setFixedWidth(140);
+  bar_->setMaximumHeight(14);
+  bar_->setTextVisible(false);
+  cancel_ = new QPushButton(tr("Cancel"));
+  cancel_->setObjectName("cancel");
+  cancel_->setToolTip(tr("Stops the work; the last good result stays (Esc)"));
+  row->addWidget(words_);
+  row->addWidget(bar_);
+  row->addWidget(cancel_);
+  hide();
+  connect(cancel_, &QPushButton::clicked, &runner, &JobRunner::cancel);
+  connect(&runner, &JobRunner::started, this, [this](const QString& title) {
+    words_->setText(title);
+    bar_->setRange(0, 0);
+    show();
+  });
+  connect(&runner, &JobRunner::progressed, this, [this](double share, const QString& what) {
+    words_->setText(what);
+    bar_->setRange(0, share < 0 ? 0 : 1000);
+    if (share >= 0) bar_->setValue(static_cast<int>(1000 * share));
+  });
+  connect(&runner, &JobRunner::finished, this, [this, &runner](bool cancelled) {
+    hide();
+    if (cancelled) emit told(tr("%1: cancelled; the last good result stays.").arg(runner.title()));
+  });
+  connect(&runner, &JobRunner::failed, this, &JobStrip::told);
+}
+
+} // namespace palp

@@ -1,0 +1,171 @@
+#include "app/gui/window/MainWindow.h"
+
+#include "app/gui/design/DesignPage.h"
+#include "app/gui/jobs/NetworkSession.h"
+#include "app/gui/live/LivePage.h"
+#include "app/gui/network/NetworkPage.h"
+#include "app/gui/project/Workbench.h"
+#include "app/gui/reports/ReportsPage.h"
+#include "app/gui/touch/DeformationPage.h"
+#include "app/gui/touch/LoadPathAnimation.h"
+#include "app/gui/touch/ResistancePage.h"
+#include "app/gui/window/JobStrip.h"
+#include "app/gui/window/Layout.h"
+#include "app/gui/window/Menus.h"
+#include "app/gui/window/Style.h"
+
+#include <QApplication>
+#include <QCloseEvent>
+#include <QDropEvent>
+#include <QHBoxLayout>
+#include <QListWidget>
+#include <QMimeData>
+#include <QSettings>
+#include <QShortcut>
+#include <QStackedWidget>
+#include <QStatusBar>
+
+namespace palp {
+
+namespace {
+
+constexpr int kRailWidth_px = 128;
+constexpr int kMessage_ms = 15000;
+
+} // namespace
+
+MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbench_(workbench), network_(network) {
+  setWindowTitle(tr("Palp"));
+  setWindowIcon(QIcon(":/icons/palp.svg"));
+  auto* centre = new QWidget;
+  auto* row = new QHBoxLayout(centre);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(0);
+  rail_ = new QListWidget;
+  rail_->setObjectName("rail");
+  rail_->setFixedWidth(kRailWidth_px);
+  scenes_ = new QStackedWidget;
+  row->addWidget(rail_);
+  row->addWidget(scenes_, 1);
+  setCentralWidget(centre);
+
+  auto* designPage = new DesignPage(workbench, network);
+  connect(designPage, &DesignPage::stageChanged, this, [this] { workbench_.touch().need(currentScene().stage()); });
+  addScene("design", tr("Design"), tr("The sensor at rest and all its parameters"), designPage);
+  deformation_ = new DeformationPage(workbench);
+  connect(deformation_, &DeformationPage::told, this, &MainWindow::tell);
+  animation_ = new LoadPathAnimation(workbench.touch(), deformation_->block(), this);
+  connect(animation_, &LoadPathAnimation::done, this, &MainWindow::tell);
+  addScene("deformation", tr("Deformation"), tr("The block under load"), deformation_);
+  addScene("resistance", tr("Resistance"), tr("Row-column resistances under the load"), new ResistancePage(workbench));
+  auto* networkPage = new NetworkPage(workbench, network);
+  connect(networkPage, &NetworkPage::refused, this, &MainWindow::tell);
+  addScene("network", tr("Network"), tr("Samples, training and the sweep of the spread"), networkPage);
+  auto* livePage = new LivePage(workbench);
+  connect(livePage, &LivePage::told, this, &MainWindow::tell);
+  addScene("live", tr("Live"), tr("A board, the simulated board or a recording, live"), livePage);
+  addScene("reports", tr("Reports"), tr("The paper reproduced, and the reports"), new ReportsPage(workbench));
+  buildStatusLine();
+  menus_ = new Menus(*this, workbench);
+  setAcceptDrops(true);
+  connect(new QShortcut(Qt::Key_Escape, this), &QShortcut::activated, this, [this] {
+    workbench_.touch().cancel();
+    network_.cancel();
+    animation_->runner().cancel();
+  });
+  connect(rail_, &QListWidget::currentRowChanged, this, &MainWindow::sceneChosen);
+  restoreLayout();
+  showScene("deformation");
+}
+
+void MainWindow::addScene(const QString& name, const QString& title, const QString& tip, Scene* scene) {
+  names_ << name;
+  scene->setObjectName(name);
+  auto* item = new QListWidgetItem(title, rail_);
+  item->setToolTip(tip + QString(" (Ctrl+%1)").arg(names_.size()));
+  scenes_->addWidget(scene);
+}
+
+void MainWindow::buildStatusLine() {
+  for (JobRunner* runner : {&workbench_.touch().runner(), &network_.runner(), &animation_->runner()}) {
+    auto* strip = new JobStrip(*runner);
+    connect(strip, &JobStrip::told, this, &MainWindow::tell);
+    statusBar()->addPermanentWidget(strip);
+  }
+}
+
+void MainWindow::sceneChosen(int index) {
+  if (index < 0) return;
+  scenes_->setCurrentIndex(index);
+  // Before the window is seen no scene is: what it opens on computes nothing for the others.
+  if (isVisible()) workbench_.touch().need(currentScene().stage());
+}
+
+void MainWindow::showEvent(QShowEvent* event) {
+  QMainWindow::showEvent(event);
+  workbench_.touch().need(currentScene().stage());
+}
+
+bool MainWindow::showScene(const QString& name) {
+  const auto index = names_.indexOf(name);
+  if (index < 0) return false;
+  rail_->setCurrentRow(static_cast<int>(index));
+  return true;
+}
+
+QStringList MainWindow::sceneNames() const {
+  return names_;
+}
+
+Scene& MainWindow::currentScene() const {
+  return static_cast<Scene&>(*scenes_->currentWidget());
+}
+
+void MainWindow::setTheme(Theme theme) {
+  theme_ = theme;
+  applyTheme(*qApp, theme);
+  for (int k = 0; k < scenes_->count(); ++k) static_cast<Scene*>(scenes_->widget(k))->setTheme(theme);
+}
+
+void MainWindow::animate(const QString& folder) {
+  LoadPathAnimation::Settings settings;
+  settings.options = deformation_->blockOptions();
+  settings.options.scale = 1;
+  settings.folder = folder.toStdString();
+  if (!animation_->start(settings))
+    tell(tr("There is no load path yet; wait until the Deformation scene has solved the load."));
+}
+
+void MainWindow::tell(const QString& sentence) {
+  statusBar()->showMessage(sentence, kMessage_ms);
+}
+
+void MainWindow::restoreLayout() {
+  QSettings settings;
+  resize(1500, 900);
+  restoreGeometry(settings.value("geometry").toByteArray());
+  restoreState(settings.value("state").toByteArray());
+  palp::restoreLayout(*this);
+  setTheme(settings.value("theme").toString() == "dark" ? Theme::Dark : Theme::Light);
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+  QSettings().setValue("geometry", saveGeometry());
+  QSettings().setValue("state", saveState());
+  saveLayout(*this);
+  workbench_.touch().cancel();
+  network_.cancel();
+  animation_->runner().cancel();
+  event->accept();
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
+  if (event->mimeData()->hasUrls()) event->acceptProposedAction();
+}
+
+void MainWindow::dropEvent(QDropEvent* event) {
+  const QList<QUrl> files = event->mimeData()->urls();
+  if (!files.isEmpty()) menus_->open(files.front().toLocalFile());
+}
+
+} // namespace palp

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "app/gui/window/Scene.h"
+
+#include <QMainWindow>
+
+class QListWidget;
+class QStackedWidget;
+
+namespace palp {
+
+class DeformationPage;
+class LoadPathAnimation;
+class Menus;
+class NetworkSession;
+class Workbench;
+
+/// Composes: a rail with the scenes, the scenes, the menus and the jobs' progress.
+class MainWindow : public QMainWindow {
+  Q_OBJECT
+
+public:
+  MainWindow(Workbench& workbench, NetworkSession& network);
+
+  /// By its name on the command line. False where there is no such scene.
+  bool showScene(const QString& name);
+  [[nodiscard]] QStringList sceneNames() const;
+  [[nodiscard]] Scene& currentScene() const;
+  void setTheme(Theme theme);
+  [[nodiscard]] Theme theme() const { return theme_; }
+  /// Draws the load path into a folder; says why where it cannot.
+  void animate(const QString& folder);
+  /// Says a sentence in the status line.
+  void tell(const QString& sentence);
+
+protected:
+  void showEvent(QShowEvent* event) override;
+  void closeEvent(QCloseEvent* event) override;
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
+
+private:
+  void addScene(const QString& name, const QString& title, const QString& tip, Scene* scene);
+  void buildStatusLine();
+  void sceneChosen(int index);
+  void restoreLayout();
+
+  Workbench& workbench_;
+  NetworkSession& network_;
+  DeformationPage* deformation_ = nullptr;
+  LoadPathAnimation* animation_ = nullptr;
+  Menus* menus_ = nullptr;
+  QListWidget* rail_ = nullptr;
+  QStackedWidget* scenes_ = nullptr;
+  QStringList names_;
+  Theme theme_ = Theme::Light;
+};
+
+} // namespace palp

@@ -1,0 +1,233 @@
+#include "app/gui/window/Menus.h"
+
+#include "app/gui/project/ProjectFile.h"
+#include "app/gui/project/ResultCsv.h"
+#include "app/gui/project/Workbench.h"
+#include "app/gui/window/HelpDialog.h"
+#include "app/gui/window/MainWindow.h"
+#include "app/scenes/VtuFile.h"
+#include "io/DesignFile.h"
+#include "model/base/Error.h"
+
+#include <QAction>
+#include <QApplication>
+#include <QClipboard>
+#include <QDockWidget>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QMenuBar>
+#include <QMessageBox>
+#include <QSettings>
+#include <QUndoView>
+
+namespace palp {
+
+namespace {
+
+constexpr int kRecentFiles = 8;
+constexpr const char* kRecentKey = "recentFiles";
+
+} // namespace
+
+Menus::Menus(MainWindow& window, Workbench& workbench) : QObject(&window), window_(window), workbench_(workbench) {
+  buildFile();
+  buildEdit();
+  buildView();
+  buildHelp();
+}
+
+QAction* Menus::add(QMenu& menu, const QString& text, const QString& tip, const QKeySequence& keys,
+                    const std::function<void()>& act) {
+  QAction* action = menu.addAction(text);
+  action->setShortcut(keys);
+  action->setStatusTip(tip);
+  connect(action, &QAction::triggered, this, act);
+  return action;
+}
+
+void Menus::buildFile() {
+  QMenu& menu = *window_.menuBar()->addMenu(tr("&File"));
+  add(menu, tr("&Paper's design"), tr("Starts anew from the paper's design and one example load"), QKeySequence::New,
+      [this] {
+        workbench_.replace(exampleProject());
+        file_.clear();
+      });
+  add(menu, tr("&Open..."), tr("Opens a design or a project file"), QKeySequence::Open, [this] {
+    const QString file = QFileDialog::getOpenFileName(&window_, tr("Open"), {}, tr("Designs and projects (*.json)"));
+    if (!file.isEmpty()) open(file);
+  });
+  recent_ = menu.addMenu(tr("Open &recent"));
+  connect(recent_, &QMenu::aboutToShow, this, &Menus::listRecent);
+  listRecent();
+  menu.addSeparator();
+  add(menu, tr("&Save project"), tr("Saves everything that was set"), QKeySequence::Save, [this] { save(file_); });
+  add(menu, tr("Save project &as..."), tr("Saves everything that was set in another file"),
+      QKeySequence("Ctrl+Shift+S"), [this] { save({}); });
+  add(menu, tr("Save &design..."), tr("Saves the design alone, for the command line"), {}, [this] {
+    exportTo(tr("Save design"), "sensor.json", tr("Designs (*.json)"),
+             [this](const QString& file) { saveDesign(file.toStdString(), workbench_.project().design, true); });
+  });
+  menu.addSeparator();
+  buildExport(menu);
+  menu.addSeparator();
+  add(menu, tr("&Quit"), tr("Ends the program"), QKeySequence("Ctrl+Q"), [this] { window_.close(); });
+}
+
+void Menus::buildExport(QMenu& menu) {
+  add(menu, tr("Export &VTU..."), tr("Mesh and fields of what is shown, for ParaView"), {}, [this] {
+    if (workbench_.touch().fields() == nullptr) {
+      window_.tell(tr("There is no solution to export yet; wait until it is computed on the Deformation scene."));
+      return;
+    }
+    exportTo(tr("Export VTU"), "deformed.vtu", tr("VTK files (*.vtu)"), [this](const QString& file) {
+      writeVtu(file.toStdString(), *workbench_.touch().touch().mesh(), nodalArrays(*workbench_.touch().fields()));
+    });
+  });
+  add(menu, tr("Export &CSV..."), tr("Electrode displacements and resistances of what is shown"), {}, [this] {
+    if (workbench_.touch().electrodes() == nullptr) {
+      window_.tell(tr("There are no displacements to export yet; wait until they are computed."));
+      return;
+    }
+    exportTo(tr("Export CSV"), "touch.csv", tr("Tables (*.csv)"), [this](const QString& file) {
+      writeResultCsv(file, workbench_.touch().touch().design(), *workbench_.touch().electrodes());
+    });
+  });
+  add(menu, tr("&Animation of the load path..."),
+      tr("25 pictures from rest to the full load, as the block is shown now, into a folder"), {}, [this] {
+        const QString folder = QFileDialog::getExistingDirectory(&window_, tr("Folder of the pictures"));
+        if (!folder.isEmpty()) window_.animate(folder);
+      });
+  add(menu, tr("&Picture of the window..."), tr("The window as PNG; a right click on a view saves that view alone"),
+      QKeySequence("Ctrl+P"), [this] {
+        exportTo(tr("Picture of the window"), "palp.png", tr("Pictures (*.png)"), [this](const QString& file) {
+          if (!window_.grab().save(file, "PNG")) throw Error(file.toStdString() + ": cannot be written");
+        });
+      });
+  add(menu, tr("Copy as co&mmand"), tr("The palp commands that do what the scene shows, to the clipboard"),
+      QKeySequence("Ctrl+Shift+C"), [this] {
+        const QString commands = window_.currentScene().commands(workbench_.project(), "sensor.json");
+        if (commands.isEmpty()) {
+          window_.tell(tr("This scene has no command of its own."));
+          return;
+        }
+        QApplication::clipboard()->setText(commands);
+        window_.tell(tr("Copied: %1   (sensor.json: File, Save design)").arg(commands.section('\n', 0, 0)));
+      });
+}
+
+void Menus::buildEdit() {
+  QMenu& menu = *window_.menuBar()->addMenu(tr("&Edit"));
+  QAction* undo = workbench_.history().createUndoAction(this, tr("Undo"));
+  undo->setShortcut(QKeySequence::Undo);
+  QAction* redo = workbench_.history().createRedoAction(this, tr("Redo"));
+  redo->setShortcuts({QKeySequence("Ctrl+Y"), QKeySequence("Ctrl+Shift+Z")});
+  menu.addActions({undo, redo});
+  menu.addSeparator();
+  add(menu, tr("&Compute again"), tr("Solves again after a cancel"), QKeySequence("F5"),
+      [this] { workbench_.touch().resume(); });
+  auto* dock = new QDockWidget(tr("History"), &window_);
+  dock->setObjectName("history");
+  dock->setWidget(new QUndoView(&workbench_.history()));
+  window_.addDockWidget(Qt::RightDockWidgetArea, dock);
+  dock->hide();
+  menu.addAction(dock->toggleViewAction());
+}
+
+void Menus::buildView() {
+  QMenu& menu = *window_.menuBar()->addMenu(tr("&View"));
+  int number = 1;
+  for (const QString& name : window_.sceneNames()) {
+    QString title = name;
+    title[0] = title[0].toUpper();
+    add(menu, title, tr("Shows the scene %1").arg(title), QKeySequence(QString("Ctrl+%1").arg(number++)),
+        [this, name] { window_.showScene(name); });
+  }
+  menu.addSeparator();
+  QAction* dark = add(menu, tr("&Dark theme"), tr("Light or dark"), QKeySequence("Ctrl+T"), [] {});
+  dark->setCheckable(true);
+  dark->setObjectName("darkTheme");
+  connect(&menu, &QMenu::aboutToShow, dark, [this, dark] { dark->setChecked(window_.theme() == Theme::Dark); });
+  connect(dark, &QAction::triggered, this, [this] {
+    window_.setTheme(window_.theme() == Theme::Dark ? Theme::Light : Theme::Dark);
+    QSettings().setValue("theme", window_.theme() == Theme::Dark ? "dark" : "light"); // the user's choice, kept
+  });
+}
+
+void Menus::buildHelp() {
+  QMenu& menu = *window_.menuBar()->addMenu(tr("&Help"));
+  add(menu, tr("&Help"), tr("What each scene does, what the mouse and the keys do"), QKeySequence("F1"),
+      [this] { showHelp(&window_, window_.currentScene().objectName()); });
+  add(menu, tr("&About Palp"), tr("What this program is"), {}, [this] {
+    QMessageBox::about(
+        &window_, tr("About Palp"),
+        tr("<b>Palp %1</b><br>Follows a touch on a three-axis tactile sensor of conductive rubber from the block to "
+           "the force.<br><br>Its model adds independent pairs of electrodes (Eq. 1): no sneak paths, no hysteresis, "
+           "creep or temperature, and the load areas are stuck to their traction. A real board is less kind.<br><br>"
+           "GNU Affero General Public License, version 3 or later.")
+            .arg(QApplication::applicationVersion()));
+  });
+}
+
+void Menus::open(const QString& file) {
+  try {
+    Project open = workbench_.project();
+    open.view.scene = window_.currentScene().objectName().toStdString();
+    const Project project = loadProject(file.toStdString(), open);
+    workbench_.replace(project);
+    window_.showScene(QString::fromStdString(project.view.scene));
+    rememberFile(file);
+    file_.clear();
+    window_.tell(tr("Opened %1.").arg(file));
+  } catch (const std::exception& error) {
+    QMessageBox::warning(&window_, tr("Cannot open"),
+                         tr("%1\n\nWhat was open stays as it is.").arg(QString::fromStdString(error.what())));
+  }
+}
+
+void Menus::save(const QString& file) {
+  const QString chosen = !file.isEmpty() ? file
+                                         : QFileDialog::getSaveFileName(&window_, tr("Save project"), "project.json",
+                                                                        tr("Projects (*.json)"));
+  if (chosen.isEmpty()) return;
+  try {
+    Project project = workbench_.project();
+    project.view.scene = window_.currentScene().objectName().toStdString();
+    saveProject(chosen.toStdString(), project);
+    file_ = chosen;
+    rememberFile(chosen);
+    window_.tell(tr("Saved %1.").arg(chosen));
+  } catch (const Error& error) {
+    QMessageBox::warning(&window_, tr("Cannot save"), QString::fromStdString(error.what()));
+  }
+}
+
+void Menus::rememberFile(const QString& file) {
+  QSettings settings;
+  QStringList files = settings.value(kRecentKey).toStringList();
+  const QString whole = QFileInfo(file).absoluteFilePath();
+  files.removeAll(whole);
+  files.prepend(whole);
+  settings.setValue(kRecentKey, files.mid(0, kRecentFiles));
+}
+
+void Menus::listRecent() {
+  recent_->clear();
+  const QStringList files = QSettings().value(kRecentKey).toStringList();
+  recent_->setEnabled(!files.isEmpty());
+  for (const QString& file : files) add(*recent_, file, tr("Opens %1").arg(file), {}, [this, file] { open(file); });
+  recent_->menuAction()->setEnabled(!files.isEmpty());
+}
+
+void Menus::exportTo(const QString& title, const QString& proposal, const QString& filter,
+                     const std::function<void(const QString&)>& write) {
+  const QString file = QFileDialog::getSaveFileName(&window_, title, proposal, filter);
+  if (file.isEmpty()) return;
+  try {
+    write(file);
+    window_.tell(tr("Wrote %1.").arg(file));
+  } catch (const Error& error) {
+    QMessageBox::warning(&window_, title, QString::fromStdString(error.what()));
+  }
+}
+
+} // namespace palp

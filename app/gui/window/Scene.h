@@ -1,0 +1,26 @@
+#pragma once
+
+#include "app/gui/project/Project.h"
+#include "app/scenes/Palette.h"
+#include "app/study/touch/Touch.h"
+
+#include <QString>
+#include <QWidget>
+
+namespace palp {
+
+/// A page of the window; hidden pages draw and compute nothing.
+class Scene : public QWidget {
+public:
+  using QWidget::QWidget;
+
+  /// The furthest stage of the chain that the page shows.
+  [[nodiscard]] virtual Stage stage() const = 0;
+  virtual void setTheme(Theme theme) = 0;
+  /// True where all that the page shows at the start is there.
+  [[nodiscard]] virtual bool complete() const = 0;
+  /// The palp commands that do what the page shows, one a line; empty where there are none.
+  [[nodiscard]] virtual QString commands(const Project&, const QString& /*designFile*/) const { return {}; }
+};
+
+} // namespace palp

@@ -1,0 +1,282 @@
+#include "app/scenes/block/DeformationScene.h"
+
+#include "app/scenes/block/BlockActors.h"
+#include "app/scenes/block/CameraFit.h"
+#include "app/scenes/block/ElectrodeActors.h"
+#include "app/scenes/block/Overlay.h"
+#include "app/scenes/gl/Blending.h"
+
+#include <vtkContextActor.h>
+#include <vtkContextScene.h>
+#include <vtkNew.h>
+#include <vtkRenderer.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace palp {
+
+namespace {
+
+struct QuantityTraits {
+  const char* name;
+  const char* unit;
+  ColorMap map;
+};
+
+const QuantityTraits& traits(Quantity quantity) {
+  static constexpr std::array<QuantityTraits, 7> all{{{"|u|", "mm", ColorMap::Viridis},
+                                                      {"ux", "mm", ColorMap::Diverging},
+                                                      {"uy", "mm", ColorMap::Diverging},
+                                                      {"uz", "mm", ColorMap::Diverging},
+                                                      {"pressure", "MPa", ColorMap::Diverging},
+                                                      {"J - 1", "", ColorMap::Diverging},
+                                                      {"von Mises stress", "MPa", ColorMap::Viridis}}};
+  return all[static_cast<std::size_t>(quantity)];
+}
+
+std::vector<double> listOf(const Eigen::VectorXd& values) {
+  return {values.begin(), values.end()};
+}
+
+std::string warpText(double factor) {
+  std::array<char, 64> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "displacements drawn %g times as large", factor);
+  return factor == 1 ? "displacements drawn in true size" : buffer.data();
+}
+
+std::string fractionText(double fraction) {
+  std::array<char, 64> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%.4g %% of the load", 100 * fraction);
+  return buffer.data();
+}
+
+} // namespace
+
+const std::vector<Quantity>& allQuantities() {
+  static const std::vector<Quantity> all{Quantity::Displacement,  Quantity::DisplacementX, Quantity::DisplacementY,
+                                         Quantity::DisplacementZ, Quantity::Pressure,      Quantity::VolumeChange,
+                                         Quantity::VonMises};
+  return all;
+}
+
+std::string quantityName(Quantity quantity) {
+  return traits(quantity).name;
+}
+
+std::string quantityUnit(Quantity quantity) {
+  return traits(quantity).unit;
+}
+
+std::vector<double> quantityValues(Quantity quantity, const NodalFields& fields) {
+  switch (quantity) {
+  case Quantity::Displacement:
+    return listOf(fields.displacement_mm.colwise().norm().transpose());
+  case Quantity::DisplacementX:
+    return listOf(fields.displacement_mm.row(0).transpose());
+  case Quantity::DisplacementY:
+    return listOf(fields.displacement_mm.row(1).transpose());
+  case Quantity::DisplacementZ:
+    return listOf(fields.displacement_mm.row(2).transpose());
+  case Quantity::Pressure:
+    return listOf(fields.pressure_MPa);
+  case Quantity::VolumeChange:
+    return listOf(fields.volumeRatio.array() - 1);
+  case Quantity::VonMises:
+    return listOf(fields.vonMises_MPa);
+  }
+  return {};
+}
+
+std::array<double, 2> quantityRange(Quantity quantity, const std::vector<double>& values) {
+  const ColorScale scale = fittingScale(traits(quantity).map, values, {}, {});
+  return {scale.low, scale.high};
+}
+
+double automaticWarpFactor(const SensorDesign& design, const Eigen::Matrix3Xd& displacement_mm) {
+  if (displacement_mm.cols() == 0) return 1;
+  const double largest_mm = displacement_mm.colwise().norm().maxCoeff();
+  if (!(largest_mm > 0)) return 1;
+  const double wanted = 0.2 * design.block_mm.minCoeff() / largest_mm;
+  if (!(wanted > 1)) return 1;
+  const double power = std::pow(10, std::floor(std::log10(wanted)));
+  for (const double step : {5.0, 2.0})
+    if (step * power <= wanted) return step * power;
+  return power;
+}
+
+struct DeformationScene::Parts {
+  vtkNew<vtkRenderer> renderer;
+  BlockActors block{*renderer};
+  ElectrodeActors electrodes{*renderer};
+  ForceArrows forces{*renderer};
+  Spheres mark{*renderer, 0.3};
+  vtkNew<vtkContextActor> overlayActor;
+  vtkNew<Overlay> overlay;
+  Polylines line{*renderer};
+  std::vector<PlacedForce> placed;
+  double mmPerN = 1;
+  Color forceColor{};
+  Color textColor{};
+  bool areaNumbers = true;
+  double warpFactor = 1;
+  int markedNode = -1;
+  Color markColor{};
+
+  /// Arrows and all words of the view: the forces, and the numbers of the areas where these are outlined.
+  void showForces() {
+    forces.showToScale(placed, mmPerN, forceColor);
+    overlay->words = forces.words();
+    if (!areaNumbers) return;
+    const std::vector<Eigen::Vector3d> places = block.areaLabels_mm();
+    for (std::size_t area = 0; area < places.size(); ++area)
+      overlay->words.push_back({places[area], std::to_string(area), textColor});
+  }
+  void showLine(const DeformationOptions& options, const Color& color) {
+    line.setVisible(options.line_mm.has_value());
+    if (!options.line_mm) return;
+    Eigen::Matrix3Xd ends(3, 2);
+    ends << (*options.line_mm)[0], (*options.line_mm)[1];
+    line.set(ends, {{0, 1}});
+    line.setLook(color, 3 * options.scale);
+  }
+  void showMark() {
+    Eigen::Matrix3Xd place(3, markedNode < 0 ? 0 : 1);
+    if (markedNode >= 0) place.col(0) = block.drawnPlace_mm(markedNode);
+    mark.set(place, markColor);
+    mark.setVisible(markedNode >= 0);
+  }
+};
+
+DeformationScene::DeformationScene() : parts_(std::make_unique<Parts>()) {
+  blendInOrder(*parts_->renderer);
+  parts_->overlayActor->GetScene()->AddItem(parts_->overlay);
+  parts_->overlayActor->GetScene()->SetRenderer(parts_->renderer);
+  parts_->renderer->AddActor(parts_->overlayActor);
+}
+
+DeformationScene::~DeformationScene() = default;
+
+vtkRenderer* DeformationScene::renderer() const {
+  return parts_->renderer;
+}
+
+namespace {
+
+/// The loads at their drawn places on the top face.
+std::vector<PlacedForce> placedForces(const DeformationState& state, const Eigen::Matrix3Xd& drawn_mm) {
+  std::vector<PlacedForce> forces;
+  if (state.load == nullptr) return forces;
+  const auto place = [&](const Eigen::Vector2d& xy_mm, const Eigen::Vector3d& force_N) {
+    const Eigen::Vector3d surface = topPoint(*state.mesh, xy_mm).of(drawn_mm);
+    forces.push_back({surface, force_N * state.loadFraction, static_cast<int>(forces.size())});
+  };
+  for (const AreaLoad& load : state.load->areas) {
+    const Rectangle box = state.design->areaRectangle(load.area);
+    place(0.5 * (box.low_mm + box.high_mm), load.force_N);
+  }
+  for (const PatchLoad& patch : state.load->patches) place(patch.centre_mm, patch.force_N);
+  return forces;
+}
+
+std::vector<std::string> overlayLines(const DeformationState& state, const DeformationOptions& options, double warp) {
+  if (state.fields == nullptr) return {"Block at rest"};
+  std::vector<std::string> lines{"Deformation, coloured by " + quantityName(options.quantity), warpText(warp)};
+  if (state.loadFraction != 1) lines.push_back(fractionText(state.loadFraction));
+  return lines;
+}
+
+ColorScale colorScale(const std::vector<double>& values, const DeformationOptions& options) {
+  ColorScale colors = fittingScale(traits(options.quantity).map, values, quantityName(options.quantity),
+                                   quantityUnit(options.quantity));
+  if (options.fixedRange) {
+    colors.low = (*options.fixedRange)[0];
+    colors.high = (*options.fixedRange)[1];
+  }
+  return colors;
+}
+
+} // namespace
+
+void DeformationScene::show(const DeformationState& state, const DeformationOptions& options, bool meshChanged) {
+  Parts& parts = *parts_;
+  const Palette& ink = palette(options.theme);
+  parts.renderer->SetBackground(ink.ground[0], ink.ground[1], ink.ground[2]);
+  if (meshChanged) {
+    parts.block.setMesh(*state.design, *state.mesh);
+    parts.markedNode = -1;
+  }
+  const Eigen::Matrix3Xd atRest = Eigen::Matrix3Xd::Zero(3, state.mesh->nodeCount());
+  const Eigen::Matrix3Xd& displacement = state.fields != nullptr ? state.fields->displacement_mm : atRest;
+  parts.warpFactor = options.warpFactor.value_or(automaticWarpFactor(*state.design, displacement));
+  const Eigen::Matrix3Xd drawnDisplacement = parts.warpFactor * displacement;
+  const std::vector<double> values =
+      state.fields != nullptr ? quantityValues(options.quantity, *state.fields) : std::vector<double>{};
+  const ColorScale colors = colorScale(values, options);
+  parts.block.show(*state.mesh, drawnDisplacement, values, colors, options);
+
+  const ElectrodeDisplacements rest = ElectrodeDisplacements::atRest(*state.design);
+  const ElectrodeDisplacements& electrodes = state.electrodes != nullptr ? *state.electrodes : rest;
+  parts.electrodes.show(*state.design, parts.warpFactor * electrodes.upper_mm, parts.warpFactor * electrodes.lower_mm,
+                        options);
+  parts.placed =
+      options.forceArrows ? placedForces(state, state.mesh->nodes_mm + drawnDisplacement) : std::vector<PlacedForce>{};
+  parts.mmPerN = palp::arrowScale_mmPerN(parts.placed, 0.3 * state.design->block_mm.maxCoeff());
+  parts.forceColor = ink.force;
+  parts.areaNumbers = options.areaOutlines;
+  parts.textColor = ink.text;
+  parts.showForces();
+  parts.showLine(options, ink.selection);
+  parts.overlay->lines = overlayLines(state, options, parts.warpFactor);
+  parts.overlay->legend = values.empty() ? std::nullopt : std::optional(colors);
+  parts.overlay->theme = options.theme;
+  parts.overlay->scale = options.scale;
+  parts.overlay->Modified();
+  parts.markColor = ink.selection;
+  parts.showMark();
+}
+
+void DeformationScene::resetCamera(const SensorDesign& design, double aspect) {
+  resetCamera(design, aspect, {0.45, 1.0, -0.75});
+}
+
+void DeformationScene::resetCamera(const SensorDesign& design, double aspect, const Eigen::Vector3d& direction) {
+  // Room above the middle for the arrows and their words.
+  Eigen::Matrix3Xd points(3, 9);
+  points << boxCorners(design.block_mm), 0.5 * design.block_mm;
+  points(2, 8) = design.block_mm.z() + 0.3 * design.block_mm.maxCoeff();
+  fitCamera(*parts_->renderer, points, direction, aspect,
+            {0.03, 0.03 + std::min(0.12 / aspect * 1.5, 0.25), 0.04, 0.08});
+}
+
+double DeformationScene::warpFactor() const {
+  return parts_->warpFactor;
+}
+
+int DeformationScene::nearestNode(const Eigen::Vector3d& drawn_mm) const {
+  return parts_->block.nearestNode(drawn_mm);
+}
+
+const std::vector<PlacedForce>& DeformationScene::forces() const {
+  return parts_->placed;
+}
+
+double DeformationScene::arrowScale_mmPerN() const {
+  return parts_->mmPerN;
+}
+
+void DeformationScene::moveForce(std::size_t arrow, const Eigen::Vector3d& force_N) {
+  if (arrow >= parts_->placed.size()) return;
+  parts_->placed[arrow].force_N = force_N;
+  parts_->showForces();
+  parts_->overlay->Modified();
+}
+
+void DeformationScene::markNode(int node) {
+  parts_->markedNode = node;
+  parts_->showMark();
+}
+
+} // namespace palp

@@ -1,0 +1,98 @@
+#pragma once
+
+#include "app/scenes/ColorScale.h"
+#include "app/scenes/block/ForceArrows.h"
+#include "model/LoadCase.h"
+#include "model/Mesh.h"
+#include "model/RowColumnResistance.h"
+#include "model/SensorDesign.h"
+#include "model/Solution.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+class vtkRenderer;
+
+namespace palp {
+
+/// What the block's surface is coloured by.
+enum class Quantity { Displacement, DisplacementX, DisplacementY, DisplacementZ, Pressure, VolumeChange, VonMises };
+
+/// All of them, in the order of a list to choose from.
+const std::vector<Quantity>& allQuantities();
+/// "|u|", "ux", ..., "J - 1", "von Mises stress", without the unit.
+std::string quantityName(Quantity quantity);
+std::string quantityUnit(Quantity quantity);
+/// The quantity at the nodes.
+std::vector<double> quantityValues(Quantity quantity, const NodalFields& fields);
+
+/// The range of the quantity's colours over these values.
+std::array<double, 2> quantityRange(Quantity quantity, const std::vector<double>& values);
+
+/// What is drawn, and how.
+struct DeformationOptions {
+  Quantity quantity = Quantity::Displacement;
+  std::optional<double> warpFactor; ///< of the drawn displacements; none: automatic, 1, 2 or 5 times a power of ten
+  bool undeformedGhost = true;
+  bool electrodes = true;
+  bool forceArrows = true;
+  bool areaOutlines = true;
+  bool meshEdges = true;
+  double opacity = 0.82;                           ///< of the coloured surface, while the electrodes show through it
+  std::optional<double> clipY_mm;                  ///< cut away what lies in front of this plane at rest
+  std::optional<std::array<double, 2>> fixedRange; ///< of the colours; else the values' own
+  std::optional<std::array<Eigen::Vector3d, 2>> line_mm; ///< ends at rest of a line that is drawn with the block
+  std::vector<int> selectedAreas;                        ///< outlined more strongly
+  std::optional<std::array<int, 2>> litCell;             ///< row-wire, column-wire whose electrodes light up
+  Theme theme = Theme::Light;
+  double scale = 1; ///< of text and lines
+};
+
+/// The load step to draw: what it was computed from and what came out. All but design and mesh may be null (at rest).
+struct DeformationState {
+  const SensorDesign* design = nullptr;
+  const Mesh* mesh = nullptr;
+  const NodalFields* fields = nullptr;
+  const ElectrodeDisplacements* electrodes = nullptr;
+  const LoadCase* load = nullptr;
+  double loadFraction = 1;
+};
+
+/// The largest 1, 2 or 5 times a power of ten that keeps the drawn displacements under a fifth of the block's thinnest
+/// side; at least 1.
+double automaticWarpFactor(const SensorDesign& design, const Eigen::Matrix3Xd& displacement_mm);
+
+/// The deformed block in a renderer that the caller puts into a window.
+class DeformationScene {
+public:
+  DeformationScene();
+  ~DeformationScene();
+
+  [[nodiscard]] vtkRenderer* renderer() const;
+  /// Draws the state; the mesh's surface is found again only where `meshChanged`.
+  void show(const DeformationState& state, const DeformationOptions& options, bool meshChanged);
+  /// Looks at the whole block from the front, above and the left, in a view `aspect` times as wide as high.
+  void resetCamera(const SensorDesign& design, double aspect);
+  /// Looks at it along a direction.
+  void resetCamera(const SensorDesign& design, double aspect, const Eigen::Vector3d& direction);
+
+  [[nodiscard]] double warpFactor() const;
+  /// The mesh node drawn nearest to a point of the scene [mm, warped]; -1 without a mesh.
+  [[nodiscard]] int nearestNode(const Eigen::Vector3d& drawn_mm) const;
+  /// Marks a mesh node; -1 marks none.
+  void markNode(int node);
+
+  /// The arrows as drawn, and their scale.
+  [[nodiscard]] const std::vector<PlacedForce>& forces() const;
+  [[nodiscard]] double arrowScale_mmPerN() const;
+  /// Draws one arrow for another force, while it is dragged; all else stays.
+  void moveForce(std::size_t arrow, const Eigen::Vector3d& force_N);
+
+private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+} // namespace palp

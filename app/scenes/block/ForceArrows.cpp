@@ -1,0 +1,87 @@
+#include "app/scenes/block/ForceArrows.h"
+
+#include <vtkArrowSource.h>
+#include <vtkDoubleArray.h>
+#include <vtkGlyph3DMapper.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+namespace palp {
+
+namespace {
+
+constexpr double kWordGap_mm = 0.7; // between an arrow's end and its words
+
+std::string forceText(const Eigen::Vector3d& force_N) {
+  std::array<char, 96> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "(%.3g, %.3g, %.3g) N", force_N.x(), force_N.y(), force_N.z());
+  return buffer.data();
+}
+
+constexpr double kWordsAbove_mm = 0.7; ///< the free end
+
+} // namespace
+
+Eigen::Vector3d PlacedForce::freeEnd_mm(double mmPerN) const {
+  return force_N.z() < 0 ? Eigen::Vector3d(place_mm - mmPerN * force_N) : Eigen::Vector3d(place_mm + mmPerN * force_N);
+}
+
+double arrowScale_mmPerN(const std::vector<PlacedForce>& forces, double largest_mm) {
+  double largest_N = 0;
+  for (const PlacedForce& force : forces) largest_N = std::max(largest_N, force.force_N.norm());
+  return largest_N > 0 ? largest_mm / largest_N : 1;
+}
+
+ForceArrows::ForceArrows(vtkRenderer& renderer)
+    : data_(vtkSmartPointer<vtkPolyData>::New()), actor_(vtkSmartPointer<vtkActor>::New()) {
+  vtkNew<vtkArrowSource> arrow;
+  arrow->SetTipResolution(24);
+  arrow->SetShaftResolution(16);
+  arrow->SetTipRadius(0.09);
+  arrow->SetTipLength(0.28);
+  arrow->SetShaftRadius(0.032);
+  vtkNew<vtkGlyph3DMapper> mapper;
+  mapper->SetInputData(data_);
+  mapper->SetSourceConnection(arrow->GetOutputPort());
+  mapper->SetOrientationArray("force");
+  mapper->SetOrientationModeToDirection();
+  mapper->SetScaleArray("force");
+  mapper->SetScaleModeToScaleByMagnitude();
+  actor_->SetMapper(mapper);
+  actor_->PickableOff();
+  renderer.AddActor(actor_);
+}
+
+void ForceArrows::showToScale(const std::vector<PlacedForce>& forces, double mm_per_N, const Color& color) {
+  words_.clear();
+  vtkNew<vtkPoints> starts;
+  vtkNew<vtkDoubleArray> arrows;
+  arrows->SetName("force");
+  arrows->SetNumberOfComponents(3);
+  for (const PlacedForce& force : forces) {
+    if (!(force.force_N.norm() > 0)) continue;
+    const Eigen::Vector3d far = force.freeEnd_mm(mm_per_N);
+    const Eigen::Vector3d start = force.force_N.z() < 0 ? far : force.place_mm;
+    const Eigen::Vector3d arrow = mm_per_N * force.force_N;
+    starts->InsertNextPoint(start.data());
+    arrows->InsertNextTuple(arrow.data());
+    words_.push_back({far + Eigen::Vector3d(0, 0, kWordsAbove_mm), forceText(force.force_N), color});
+  }
+  data_->SetPoints(starts);
+  data_->GetPointData()->Initialize();
+  data_->GetPointData()->AddArray(arrows);
+  data_->Modified();
+  actor_->SetVisibility(starts->GetNumberOfPoints() > 0 ? 1 : 0);
+  actor_->GetProperty()->SetColor(color[0], color[1], color[2]);
+  actor_->GetProperty()->SetAmbient(0.3);
+}
+
+} // namespace palp

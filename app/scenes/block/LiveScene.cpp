@@ -1,0 +1,177 @@
+#include "app/scenes/block/LiveScene.h"
+
+#include "app/scenes/block/CameraFit.h"
+#include "app/scenes/block/ElectrodeActors.h"
+#include "app/scenes/block/ForceArrows.h"
+#include "app/scenes/block/Overlay.h"
+#include "app/scenes/block/Polylines.h"
+#include "app/scenes/gl/Blending.h"
+
+#include <vtkActor.h>
+#include <vtkCellArray.h>
+#include <vtkContextActor.h>
+#include <vtkContextScene.h>
+#include <vtkCubeSource.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+
+#include <algorithm>
+
+namespace palp {
+
+namespace {
+
+constexpr Color kStale{0.55, 0.55, 0.55};
+constexpr double kLift_mm = 0.03; // above the top face, so that the two do not flicker
+
+Eigen::Vector3d onTop(const SensorDesign& design, double x_mm, double y_mm) {
+  return {x_mm, y_mm, design.block_mm.z() + kLift_mm};
+}
+
+Eigen::Matrix3Xd corners(const SensorDesign& design, int area) {
+  const Rectangle box = design.areaRectangle(area);
+  Eigen::Matrix3Xd points(3, 4);
+  points << onTop(design, box.low_mm.x(), box.low_mm.y()), onTop(design, box.high_mm.x(), box.low_mm.y()),
+      onTop(design, box.high_mm.x(), box.high_mm.y()), onTop(design, box.low_mm.x(), box.high_mm.y());
+  return points;
+}
+
+Eigen::Vector3d middle(const SensorDesign& design, int area) {
+  const Rectangle box = design.areaRectangle(area);
+  const Eigen::Vector2d centre = 0.5 * (box.low_mm + box.high_mm);
+  return onTop(design, centre.x(), centre.y());
+}
+
+} // namespace
+
+struct LiveScene::Parts {
+  vtkNew<vtkRenderer> renderer;
+  vtkNew<vtkCubeSource> box;
+  vtkNew<vtkActor> block;
+  vtkNew<vtkPolyData> touchedData;
+  vtkNew<vtkActor> touched; ///< the pressed areas, tinted
+  Polylines edges{*renderer};
+  Polylines borders{*renderer};
+  ElectrodeActors electrodes{*renderer};
+  ForceArrows forces{*renderer};
+  vtkNew<vtkContextActor> overlayActor;
+  vtkNew<Overlay> overlay;
+  SensorDesign design;
+  LiveSceneOptions options;
+  std::vector<LiveArrow> arrows;
+  bool stale = false;
+
+  void tintAreas(const Color& color);
+};
+
+void LiveScene::Parts::tintAreas(const Color& color) {
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> faces;
+  for (const LiveArrow& arrow : arrows) {
+    const Eigen::Matrix3Xd four = corners(design, arrow.area);
+    faces->InsertNextCell(4);
+    for (Eigen::Index k = 0; k < 4; ++k) faces->InsertCellPoint(points->InsertNextPoint(four.col(k).data()));
+  }
+  touchedData->SetPoints(points);
+  touchedData->SetPolys(faces);
+  touchedData->Modified();
+  touched->SetVisibility(arrows.empty() ? 0 : 1);
+  touched->GetProperty()->SetColor(color[0], color[1], color[2]);
+}
+
+LiveScene::LiveScene() : parts_(std::make_unique<Parts>()) {
+  Parts& parts = *parts_;
+  blendInOrder(*parts.renderer);
+  vtkNew<vtkPolyDataMapper> blockMapper;
+  blockMapper->SetInputConnection(parts.box->GetOutputPort());
+  parts.block->SetMapper(blockMapper);
+  parts.block->GetProperty()->SetOpacity(0.09);
+  vtkNew<vtkPolyDataMapper> touchedMapper;
+  touchedMapper->SetInputData(parts.touchedData);
+  parts.touched->SetMapper(touchedMapper);
+  parts.touched->GetProperty()->SetOpacity(0.35);
+  parts.touched->GetProperty()->LightingOff();
+  parts.touched->SetVisibility(0);
+  for (vtkActor* actor : {parts.block.Get(), parts.touched.Get()}) {
+    actor->PickableOff();
+    parts.renderer->AddActor(actor);
+  }
+  parts.overlayActor->GetScene()->AddItem(parts.overlay);
+  parts.overlayActor->GetScene()->SetRenderer(parts.renderer);
+  parts.renderer->AddActor(parts.overlayActor);
+}
+
+LiveScene::~LiveScene() = default;
+
+vtkRenderer* LiveScene::renderer() const {
+  return parts_->renderer;
+}
+
+void LiveScene::showSensor(const SensorDesign& design, const LiveSceneOptions& options) {
+  Parts& parts = *parts_;
+  parts.design = design;
+  parts.options = options;
+  const Palette& ink = palette(options.theme);
+  parts.renderer->SetBackground(ink.ground[0], ink.ground[1], ink.ground[2]);
+  const Eigen::Vector3d& size = design.block_mm;
+  parts.box->SetBounds(0, size.x(), 0, size.y(), 0, size.z());
+  parts.block->GetProperty()->SetColor(ink.text[0], ink.text[1], ink.text[2]);
+  parts.edges.set(boxCorners(size), boxEdges());
+  parts.edges.setLook(ink.text, 1.2 * options.scale, 0.6);
+  Eigen::Matrix3Xd points(3, 4 * design.areas.count());
+  std::vector<std::vector<int>> lines;
+  for (int area = 0; area < design.areas.count(); ++area) {
+    points.middleCols<4>(4 * area) = corners(design, area);
+    const int first = 4 * area;
+    lines.push_back({first, first + 1, first + 2, first + 3, first});
+  }
+  parts.borders.set(points, lines);
+  parts.borders.setLook(ink.text, 1.6 * options.scale);
+  DeformationOptions look;
+  look.electrodes = options.electrodes;
+  look.theme = options.theme;
+  look.scale = options.scale;
+  const ElectrodeDisplacements rest = ElectrodeDisplacements::atRest(design);
+  parts.electrodes.show(design, rest.upper_mm, rest.lower_mm, look);
+  std::erase_if(parts.arrows, [&](const LiveArrow& arrow) { return arrow.area >= design.areas.count(); });
+  showForces(parts.arrows, parts.stale, parts.overlay->lines);
+}
+
+void LiveScene::showForces(const std::vector<LiveArrow>& arrows, bool stale, const std::vector<std::string>& lines) {
+  Parts& parts = *parts_;
+  parts.arrows = arrows;
+  parts.stale = stale;
+  const Palette& ink = palette(parts.options.theme);
+  const Color& color = stale ? kStale : ink.force;
+  std::vector<PlacedForce> forces;
+  for (const LiveArrow& arrow : parts.arrows) forces.push_back({middle(parts.design, arrow.area), arrow.force_N});
+  parts.forces.showToScale(forces, parts.options.mm_per_N, color);
+  parts.tintAreas(color);
+  parts.overlay->words.clear();
+  for (int area = 0; area < parts.design.areas.count(); ++area)
+    parts.overlay->words.push_back({middle(parts.design, area), std::to_string(area), ink.text});
+  const std::vector<PlacedText>& words = parts.forces.words();
+  parts.overlay->words.insert(parts.overlay->words.end(), words.begin(), words.end());
+  parts.overlay->lines = lines;
+  parts.overlay->theme = parts.options.theme;
+  parts.overlay->scale = parts.options.scale;
+  parts.overlay->Modified();
+}
+
+void LiveScene::resetCamera(double aspect) {
+  resetCamera(aspect, {0.45, 1.0, -0.75});
+}
+
+void LiveScene::resetCamera(double aspect, const Eigen::Vector3d& direction) {
+  const Eigen::Vector3d& size = parts_->design.block_mm;
+  Eigen::Matrix3Xd points(3, 12);
+  points << boxCorners(size), boxCorners(size).rightCols<4>();
+  points.rightCols<4>().row(2).setConstant(size.z() + 0.4 * size.maxCoeff()); // room for the arrows
+  fitCamera(*parts_->renderer, points, direction, aspect, {0.04, 0.04, 0.05, 0.10});
+}
+
+} // namespace palp

@@ -1,0 +1,151 @@
+#include "app/scenes/block/Overlay.h"
+
+#include "app/scenes/charts/TextStyle.h"
+
+#include <vtkBrush.h>
+#include <vtkContext2D.h>
+#include <vtkContextScene.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkPen.h>
+#include <vtkRect.h>
+#include <vtkRenderer.h>
+#include <vtkTextProperty.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace palp {
+
+vtkStandardNewMacro(Overlay)
+
+    namespace {
+
+  constexpr double kMargin_px = 14;
+  constexpr double kWordHeight_px = 18; ///< of a word with its ground
+
+  void useText(vtkContext2D & painter, const Color& color, double size_px, bool bold = false) {
+    setTextStyle(*painter.GetTextProp(), color, size_px, bold);
+    painter.GetTextProp()->SetOrientation(0);
+    painter.GetTextProp()->SetJustificationToLeft();
+    painter.GetTextProp()->SetVerticalJustificationToCentered();
+  }
+
+} // namespace
+
+std::vector<double> legendTicks(const ColorScale& colors, double height_px, double scale) {
+  return roundTicks(colors.low, colors.high, std::clamp(static_cast<int>(height_px / (28 * scale)), 2, 8));
+}
+
+double legendWidth_px(vtkContext2D& painter, const ColorScale& colors, Theme theme, double scale) {
+  useText(painter, palette(theme).text, 12 * scale);
+  double widest = 0;
+  for (const std::string& text : tickTexts(legendTicks(colors, 200 * scale, scale)))
+    widest = std::max(widest, textWidth_px(painter, text));
+  const double numbers = (kLegendBar_px + 2 * kLegendTick_px) * scale + widest;
+  useText(painter, palette(theme).text, 13 * scale, true);
+  return std::max(numbers, textWidth_px(painter, colors.title()));
+}
+
+void paintLegend(vtkContext2D& painter, const ColorScale& colors, const LegendPlace& place, Theme theme, double scale,
+                 double right_px) {
+  const Palette& ink = palette(theme);
+  // One image: a call of the graphics library for each band costs 20 us by software.
+  constexpr int kBands = 128;
+  vtkNew<vtkImageData> bands;
+  bands->SetDimensions(1, kBands, 1);
+  bands->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
+  auto* byte = static_cast<unsigned char*>(bands->GetScalarPointer());
+  for (int band = 0; band < kBands; ++band) {
+    for (const double part : colors.color(colors.low + (colors.high - colors.low) * (band + 0.5) / kBands))
+      *byte++ = static_cast<unsigned char>(std::lround(255 * part));
+    *byte++ = 255;
+  }
+  painter.GetPen()->SetLineType(vtkPen::NO_PEN);
+  painter.DrawImage(vtkRectf(static_cast<float>(place.x), static_cast<float>(place.y), static_cast<float>(place.width),
+                             static_cast<float>(place.height)),
+                    bands);
+  painter.GetPen()->SetLineType(vtkPen::SOLID_LINE);
+  painter.GetPen()->SetWidth(static_cast<float>(scale));
+  painter.GetPen()->SetColorF(ink.text[0], ink.text[1], ink.text[2], 1);
+  useText(painter, ink.text, 12 * scale);
+  const std::vector<double> ticks = legendTicks(colors, place.height, scale);
+  const std::vector<std::string> texts = tickTexts(ticks);
+  std::vector<float> ends;
+  for (std::size_t k = 0; k < ticks.size(); ++k) {
+    const double y = place.y + (ticks[k] - colors.low) / (colors.high - colors.low) * place.height;
+    const double x = place.x + place.width;
+    ends.insert(ends.end(), {static_cast<float>(x), static_cast<float>(y),
+                             static_cast<float>(x + kLegendTick_px * scale), static_cast<float>(y)});
+    drawText(painter, x + 2 * kLegendTick_px * scale, y, texts[k]);
+  }
+  if (!ends.empty()) painter.DrawLines(ends.data(), static_cast<int>(ends.size() / 2));
+  useText(painter, ink.text, 13 * scale, true);
+  const double titleX = std::min(place.x, right_px - textWidth_px(painter, colors.title()));
+  drawText(painter, titleX, place.y + place.height + kLegendTitle_px * scale, colors.title());
+}
+
+std::vector<Overlay::WordBox> Overlay::wordBoxes(vtkContext2D& painter) {
+  vtkRenderer* renderer = GetScene()->GetRenderer();
+  if (renderer == nullptr) return {};
+  std::vector<WordBox> boxes;
+  for (const PlacedText& word : words) {
+    renderer->SetWorldPoint(word.place_mm.x(), word.place_mm.y(), word.place_mm.z(), 1);
+    renderer->WorldToDisplay();
+    const double* place = renderer->GetDisplayPoint();
+    useText(painter, word.color, 13 * scale, true);
+    const double width = textWidth_px(painter, word.text), sceneWidth = GetScene()->GetSceneWidth();
+    const double x = std::clamp(place[0] - 0.5 * width, 4.0, std::max(4.0, sceneWidth - width - 4));
+    boxes.push_back({&word, x, place[1], width});
+  }
+  // Short words, as numbers of areas, stay at their places; a longer one goes up until it covers none of them.
+  std::stable_sort(boxes.begin(), boxes.end(),
+                   [](const WordBox& a, const WordBox& b) { return a.word->text.size() < b.word->text.size(); });
+  for (auto box = boxes.begin(); box != boxes.end(); ++box)
+    for (bool moved = true; std::exchange(moved, false);)
+      for (auto other = boxes.begin(); other != box; ++other) {
+        const bool apart = std::abs(other->y - box->y) >= kWordHeight_px * scale ||
+                           other->x > box->x + box->width + 8 * scale || box->x > other->x + other->width + 8 * scale;
+        if (apart || other->word->text.size() == box->word->text.size()) continue;
+        box->y = other->y + (kWordHeight_px + 1) * scale;
+        moved = true;
+      }
+  return boxes;
+}
+
+void Overlay::paintWords(vtkContext2D& painter) {
+  const Color& ground = palette(theme).ground;
+  for (const WordBox& box : wordBoxes(painter)) {
+    painter.GetPen()->SetLineType(vtkPen::NO_PEN);
+    painter.GetBrush()->SetColorF(ground[0], ground[1], ground[2], 0.7);
+    painter.DrawRect(static_cast<float>(box.x - 4 * scale), static_cast<float>(box.y - 0.5 * kWordHeight_px * scale),
+                     static_cast<float>(box.width + 8 * scale), static_cast<float>(kWordHeight_px * scale));
+    useText(painter, box.word->color, 13 * scale, true);
+    drawText(painter, box.x, box.y, box.word->text);
+  }
+}
+
+bool Overlay::Paint(vtkContext2D* painter) {
+  const double width = GetScene()->GetSceneWidth();
+  const double height = GetScene()->GetSceneHeight();
+  const double margin = kMargin_px * scale;
+  paintWords(*painter);
+  double y = height - margin - 8 * scale;
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    useText(*painter, palette(theme).text, (k == 0 ? 14 : 12) * scale, k == 0);
+    drawText(*painter, margin, y, lines[k]);
+    y -= 20 * scale;
+  }
+  if (legend) {
+    const double need = legendWidth_px(*painter, *legend, theme, scale);
+    const double bar = std::min(0.55 * height, 320 * scale);
+    paintLegend(*painter, *legend, {width - margin - need, (height - bar) / 2, kLegendBar_px * scale, bar}, theme,
+                scale, width - margin);
+  }
+  return true;
+}
+
+} // namespace palp

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "app/study/paper/PaperProtocol.h"
+#include "app/study/paper/PaperReport.h"
+#include "app/study/touch/Touch.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace palp {
+
+/// The load of Figs. 4 and 7: the paper says "a 3-D force on the first area" and gives no number; this is ours.
+LoadCase paperFigureLoad();
+
+/// Table 1 and Fig. 12 as charts, Figs. 4, 6 and 7 from the touch (advanced to the displacements), Figs. 8-11 and 13-16
+/// from the traces of the first area, as PNG files in the folder.
+std::vector<ReportPicture> drawPaperFigures(const ProtocolResult& result, const Touch& touch,
+                                            const std::filesystem::path& folder);
+
+} // namespace palp

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "app/study/live/ForceDecoder.h"
+#include "model/LoadCase.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace palp {
+
+/// What is known of labelled frames as a training set for a network.
+struct CalibrationReport {
+  Eigen::Index samples = 0;
+  std::vector<int> samplesPerArea;
+  Eigen::Vector3d lowest_N, highest_N;       ///< of the labels
+  Eigen::Vector3d coverage_percent;          ///< of the network's force range
+  Eigen::Vector3d rmseBefore_N, rmseAfter_N; ///< after: each sample judged by a fit without it
+  Eigen::Vector3d rmseAfter_percentOfRange;
+  Eigen::Index worstSample = 0;
+  double worstError_N = 0; ///< |F' - F| of it, by a fit without it
+  bool improved = false;   ///< the refined network is better on samples that it has not seen
+};
+
+struct Calibration {
+  Decoder decoder; ///< refined
+  CalibrationReport report;
+};
+
+/// Refines a network with labelled frames of a real board: recursive least squares for F = A N(R) + b from A = 1, b =
+/// 0, which an RBF network takes into its weights and the polynomials of maximum likelihood into their arguments.
+/// Throws Error where the network is another one, the frames are of other wires or too few.
+Calibration calibrate(const Decoder& decoder, const SampleSet& frames);
+
+/// Mean of frames under one known load: one labelled frame for `calibrate`.
+class FrameAverage {
+public:
+  FrameAverage(const Decoder& decoder, const SensorDesign& design, const AreaLoad& label);
+  /// Takes the frame where it is valid.
+  void add(const DecodedForces& forces);
+  [[nodiscard]] int count() const { return count_; }
+  /// The mean so far.
+  [[nodiscard]] SampleSet sample() const;
+
+private:
+  SampleSet set_;
+  Eigen::MatrixXd sum_;
+  int count_ = 0;
+};
+
+/// Adds labelled frames to a file, which is made where it is not there. Throws Error where its frames are of another
+/// design.
+void appendFrames(const std::filesystem::path& path, const SampleSet& frames);
+
+} // namespace palp

@@ -1,0 +1,246 @@
+#include "app/study/decoding/Decoder.h"
+
+#include "app/study/decoding/DecoderTraining.h"
+#include "app/study/decoding/TwoStep.h"
+#include "model/base/Error.h"
+#include "model/base/Text.h"
+#include "nn/NetworkError.h"
+
+#include <chrono>
+#include <cmath>
+
+namespace palp {
+namespace {
+
+/// An input may lie this share of its training range, or this many standard deviations of noise, beyond the range.
+constexpr double marginOfRange = 0.02;
+constexpr double marginDeviations = 4;
+
+Eigen::MatrixXd forcesOf(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixXd>& inputs) {
+  return std::visit(
+      [&](const auto& model) -> Eigen::MatrixXd {
+        using Model = std::decay_t<decltype(model)>;
+        if constexpr (std::is_same_v<Model, TwoStep>)
+          return predict(model, inputs);
+        else if constexpr (std::is_same_v<Model, ForwardModel>)
+          return {};
+        else
+          return model.predict(inputs);
+      },
+      decoder.model);
+}
+
+/// dF/dx by central differences, for decoders that have no derivative of their own.
+Eigen::MatrixXd differences(const Decoder& decoder, const Eigen::VectorXd& input) {
+  const Eigen::Index n = input.size();
+  const Eigen::VectorXd step = (1e-5 * (decoder.input.high - decoder.input.low)).cwiseMax(1e-9 * input.cwiseAbs());
+  Eigen::MatrixXd shifted(n, 2 * n);
+  for (Eigen::Index d = 0; d < n; ++d) {
+    shifted.col(2 * d) = shifted.col(2 * d + 1) = input;
+    shifted(d, 2 * d) += step(d);
+    shifted(d, 2 * d + 1) -= step(d);
+  }
+  const Eigen::MatrixXd forces = forcesOf(decoder, shifted);
+  Eigen::MatrixXd slope(forces.rows(), n);
+  for (Eigen::Index d = 0; d < n; ++d)
+    slope.col(d) = step(d) > 0 ? Eigen::VectorXd((forces.col(2 * d) - forces.col(2 * d + 1)) / (2 * step(d)))
+                               : Eigen::VectorXd::Zero(forces.rows());
+  return slope;
+}
+
+Eigen::MatrixXd slopeAt(const Decoder& decoder, const Eigen::VectorXd& input) {
+  return std::visit(
+      [&](const auto& model) -> Eigen::MatrixXd {
+        using Model = std::decay_t<decltype(model)>;
+        if constexpr (std::is_same_v<Model, RbfNetwork> || std::is_same_v<Model, PolynomialRidge>)
+          return model.jacobian(input);
+        else if constexpr (std::is_same_v<Model, GaussianProcess>)
+          return model.mean.jacobian(input);
+        else
+          return differences(decoder, input);
+      },
+      decoder.model);
+}
+
+/// Noise of the inputs beyond what the decoder was trained with; its variance relative to the square of an input.
+double furtherNoise(const Decoder& decoder, const PredictOptions& options) {
+  return std::max(0.0, options.noise * options.noise - decoder.noise * decoder.noise);
+}
+
+ForwardModel withNoise(ForwardModel model, const Decoder& decoder, const PredictOptions& options) {
+  const Eigen::ArrayXd size = (decoder.input.low.array().square() + decoder.input.high.array().square()) / 2;
+  model.deviation = (model.deviation.array().square() + furtherNoise(decoder, options) * size).sqrt();
+  return model;
+}
+
+int areaOf(const Decoder& decoder, int classIndex) {
+  return decoder.areaOfClass.empty() ? classIndex : decoder.areaOfClass[static_cast<std::size_t>(classIndex)];
+}
+
+void decodeByLikelihood(const Decoder& decoder, const ForwardModel& model, const LikelihoodInversion& inversion,
+                        const Eigen::Ref<const Eigen::MatrixXd>& inputs, const PredictOptions& options,
+                        Prediction& result) {
+  result.forces_N.resize(decoder.outputs(), inputs.cols());
+  if (options.standardDeviation) result.standardDeviation_N.resize(decoder.outputs(), inputs.cols());
+  const bool tellArea = options.area && model.classes() > 1;
+  if (tellArea) {
+    result.area.resize(inputs.cols());
+    result.areaConfidence.resize(inputs.cols());
+  }
+  for (Eigen::Index i = 0; i < inputs.cols(); ++i) {
+    const LikelihoodEstimate estimate = inversion.estimate(inputs.col(i));
+    result.forces_N.col(i) = estimate.causes;
+    if (options.standardDeviation) result.standardDeviation_N.col(i) = estimate.standardDeviation;
+    if (!tellArea) continue;
+    result.area(i) = areaOf(decoder, estimate.classIndex);
+    result.areaConfidence(i) = estimate.confidence;
+  }
+}
+
+void tellAreas(const Decoder& decoder, const LikelihoodInversion& inversion,
+               const Eigen::Ref<const Eigen::MatrixXd>& inputs, Prediction& result) {
+  result.area.resize(inputs.cols());
+  result.areaConfidence.resize(inputs.cols());
+  for (Eigen::Index i = 0; i < inputs.cols(); ++i) {
+    const LikelihoodEstimate estimate = inversion.estimate(inputs.col(i));
+    result.area(i) = areaOf(decoder, estimate.classIndex);
+    result.areaConfidence(i) = estimate.confidence;
+  }
+}
+
+/// The error found in training (of the touched area, where it was told) and the inputs' further noise through dF/dx;
+/// never less than all their noise there, which training averaged over the range.
+void tellDeviations(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixXd>& inputs,
+                    const PredictOptions& options, Prediction& result) {
+  const double further = furtherNoise(decoder, options);
+  if (const auto* process = std::get_if<GaussianProcess>(&decoder.model))
+    result.standardDeviation_N = process->standardDeviation(inputs);
+  else {
+    const Eigen::VectorXd all = decoder.residual_N.rowwise().squaredNorm() / decoder.residual_N.cols();
+    result.standardDeviation_N.resize(decoder.outputs(), inputs.cols());
+    for (Eigen::Index i = 0; i < inputs.cols(); ++i)
+      result.standardDeviation_N.col(i) = result.area.size() > 0 && result.area(i) < decoder.residual_N.cols()
+                                              ? Eigen::VectorXd(decoder.residual_N.col(result.area(i)))
+                                              : Eigen::VectorXd(all.cwiseSqrt());
+  }
+  if (options.noise == 0) return;
+  for (Eigen::Index i = 0; i < inputs.cols(); ++i) {
+    const Eigen::MatrixXd slope = slopeAt(decoder, inputs.col(i)) * inputs.col(i).asDiagonal();
+    const Eigen::VectorXd square = slope.rowwise().squaredNorm();
+    const Eigen::VectorXd found = result.standardDeviation_N.col(i).cwiseAbs2() + further * square;
+    result.standardDeviation_N.col(i) = found.cwiseMax(options.noise * options.noise * square).cwiseSqrt();
+  }
+}
+
+std::vector<bool> outside(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixXd>& inputs, double noise) {
+  const DecoderInput& input = decoder.input;
+  const Eigen::ArrayXd size = input.low.array().abs().max(input.high.array().abs());
+  const Eigen::ArrayXd margin = marginOfRange * (input.high - input.low).array() + 1e-12 * size +
+                                marginDeviations * std::max(noise, decoder.noise) * size;
+  std::vector<bool> flags;
+  for (Eigen::Index i = 0; i < inputs.cols(); ++i) {
+    const Eigen::ArrayXd x = inputs.col(i);
+    flags.push_back(!((x >= input.low.array() - margin) && (x <= input.high.array() + margin)).all());
+  }
+  return flags;
+}
+
+void requireNumbers(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixXd>& inputs) {
+  if (inputs.rows() != decoder.inputs())
+    throw Error("inputs: " + std::to_string(inputs.rows()) + " values a sample; the decoder takes " +
+                std::to_string(decoder.inputs()));
+  if (!inputs.allFinite()) throw Error("inputs: a value is no finite number; the decoder takes finite numbers only");
+}
+
+} // namespace
+
+Eigen::MatrixXd inputsOf(const SampleSet& samples, const DecoderInput& input) {
+  const bool displacement = input.kind == InputKind::Displacement;
+  const Eigen::MatrixXd& all = displacement ? samples.displacements_mm : samples.resistances_ohm;
+  const int valuesPerRow = displacement ? 3 * samples.electrodesPerRowWire : samples.columnWires;
+  if (samples.rowWires != input.rowWires || valuesPerRow != input.valuesPerRow)
+    throw Error("samples: " + std::to_string(samples.rowWires) + " row-wires with " + std::to_string(valuesPerRow) +
+                " values each; the decoder takes " + std::to_string(input.rowWires) + " with " +
+                std::to_string(input.valuesPerRow));
+  if (all.rows() != static_cast<Eigen::Index>(samples.rowWires) * valuesPerRow)
+    throw Error("samples: no " + name(input.kind) + "s in the file; the decoder reads them");
+  Eigen::MatrixXd result(static_cast<Eigen::Index>(input.rows.size()) * valuesPerRow, samples.size());
+  for (std::size_t r = 0; r < input.rows.size(); ++r)
+    result.middleRows(static_cast<Eigen::Index>(r) * valuesPerRow, valuesPerRow) =
+        all.middleRows(static_cast<Eigen::Index>(input.rows[r]) * valuesPerRow, valuesPerRow);
+  return result;
+}
+
+Predictor::Predictor(const Decoder& decoder, const PredictOptions& options) : decoder_(decoder), options_(options) {
+  if (!(options.noise >= 0 && options.noise < 1))
+    throw Error("noise: " + std::to_string(options.noise) + "; allowed is 0 up to below 1 (relative)");
+  if (const auto* likelihood = std::get_if<ForwardModel>(&decoder.model))
+    inversion_.emplace(withNoise(*likelihood, decoder, options));
+  else if (options.area && decoder.areas)
+    inversion_.emplace(withNoise(*decoder.areas, decoder, options));
+}
+
+Prediction Predictor::operator()(const Eigen::Ref<const Eigen::MatrixXd>& inputs) const {
+  const Decoder& decoder = decoder_;
+  const PredictOptions& options = options_;
+  requireNumbers(decoder, inputs);
+  Prediction result;
+  result.outsideTrainingRange = outside(decoder, inputs, options.noise);
+  if (options.noise > 1.5 * decoder.noise)
+    result.warnings.push_back("noise of " + text(options.noise) + " is more than the decoder was trained for (" +
+                              text(decoder.noise) + "): it may make it far larger; train with this noise");
+  const auto* likelihood = std::get_if<ForwardModel>(&decoder.model);
+  const auto start = std::chrono::steady_clock::now();
+  if (likelihood)
+    decodeByLikelihood(decoder, *likelihood, *inversion_, inputs, options, result);
+  else
+    result.forces_N = forcesOf(decoder, inputs);
+  const std::chrono::duration<double, std::micro> time = std::chrono::steady_clock::now() - start;
+  result.microsecondsPerSample = inputs.cols() > 0 ? time.count() / static_cast<double>(inputs.cols()) : 0;
+  if (likelihood) return result;
+  if (options.area && decoder.areas) tellAreas(decoder, *inversion_, inputs, result);
+  if (options.standardDeviation) tellDeviations(decoder, inputs, options, result);
+  return result;
+}
+
+Prediction predict(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixXd>& inputs,
+                   const PredictOptions& options) {
+  return Predictor(decoder, options)(inputs);
+}
+
+Prediction predict(const Decoder& decoder, const SampleSet& samples, const PredictOptions& options) {
+  Prediction result = predict(decoder, inputsOf(samples, decoder.input), options);
+  if (samples.origin.designFingerprint != decoder.designFingerprint)
+    result.warnings.push_back(otherDesign(decoder, samples));
+  return result;
+}
+
+std::string otherDesign(const Decoder& decoder, const SampleSet& samples) {
+  return "the samples are of another design (" + samples.origin.designFingerprint + ") than the decoder (" +
+         decoder.designFingerprint + "): its forces mean little there";
+}
+
+DecoderError decoderError(const Decoder& decoder, const Prediction& prediction, const SampleSet& samples) {
+  if (samples.forces_N.rows() != decoder.outputs())
+    throw Error("samples: " + std::to_string(samples.forces_N.rows()) + " forces a sample; the decoder gives " +
+                std::to_string(decoder.outputs()));
+  DecoderError result;
+  result.error = predictionError(prediction.forces_N, samples.forces_N, decoder.high_N - decoder.low_N);
+  if (prediction.area.size() == samples.area.size() && samples.area.size() > 0)
+    result.rightAreas = static_cast<double>((prediction.area.array() == samples.area.array()).count()) /
+                        static_cast<double>(samples.area.size());
+  return result;
+}
+
+Decoder trainDecoder(const SampleSet& samples, const SensorDesign* design, const TrainOptions& options,
+                     const std::stop_token& stop, const std::function<void(double, const std::string&)>& progress) {
+  try {
+    return DecoderTraining(samples, design, options, stop, progress).run();
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const NetworkError& refusal) { // nn knows no palp::Error; its sentence is what the user needs
+    throw Error(refusal.what());
+  }
+}
+
+} // namespace palp

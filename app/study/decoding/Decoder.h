@@ -1,0 +1,72 @@
+#pragma once
+
+#include "app/study/decoding/TrainOptions.h"
+#include "io/Decoder.h"
+#include "model/SampleSet.h"
+#include "model/SensorDesign.h"
+#include "nn/RelativeError.h"
+
+#include <functional>
+#include <optional>
+#include <stop_token>
+
+namespace palp {
+
+/// Inputs x samples: the rows' displacements [mm] or resistances [ohm] out of a set. Throws Error where the set has
+/// other sizes than the input wants.
+Eigen::MatrixXd inputsOf(const SampleSet& samples, const DecoderInput& input);
+
+/// Fits a decoder. `design` is needed by two-step-gn only (Eq. (1)); without it that one throws Error, as everything
+/// does from which no decoder can be made, and Cancelled (nn/NetworkError.h) where it was stopped. `progress` gets a
+/// share 0..1 and what is being done.
+Decoder trainDecoder(const SampleSet& samples, const SensorDesign* design, const TrainOptions& options,
+                     const std::stop_token& stop = {},
+                     const std::function<void(double, const std::string&)>& progress = {});
+
+/// What a decoder says; one column a sample.
+struct Prediction {
+  Eigen::MatrixXd forces_N;
+  Eigen::MatrixXd standardDeviation_N;    ///< of each force: training error and input noise; empty: not asked
+  std::vector<bool> outsideTrainingRange; ///< some input lies outside what was trained
+  Eigen::VectorXi area;                   ///< most likely touched area; empty: not told
+  Eigen::VectorXd areaConfidence;         ///< its probability
+  double microsecondsPerSample = 0;       ///< of the forces alone
+  std::vector<std::string> warnings;
+};
+
+struct PredictOptions {
+  double noise = 0; ///< relative noise of the inputs, for the standard deviation
+  bool standardDeviation = true;
+  bool area = true;
+};
+
+/// For many calls: keeps what a decoder and a noise share. The decoder must outlive it.
+class Predictor {
+public:
+  explicit Predictor(const Decoder& decoder, const PredictOptions& options = {});
+  /// Inputs x samples. Throws Error where the number of inputs differs.
+  [[nodiscard]] Prediction operator()(const Eigen::Ref<const Eigen::MatrixXd>& inputs) const;
+
+private:
+  const Decoder& decoder_;
+  PredictOptions options_;
+  std::optional<LikelihoodInversion> inversion_; ///< of the forces, or of the touched area alone
+};
+
+/// Forces from inputs (inputs x samples, as inputsOf gives them). Throws Error where the number of inputs differs.
+Prediction predict(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixXd>& inputs,
+                   const PredictOptions& options = {});
+/// The same from a set; warns where the set is of another design.
+Prediction predict(const Decoder& decoder, const SampleSet& samples, const PredictOptions& options = {});
+
+/// The sentence for samples of another design than the decoder's.
+std::string otherDesign(const Decoder& decoder, const SampleSet& samples);
+
+/// Errors against the forces in the set, in % of the training range; where areas were told, the share of right ones.
+struct DecoderError {
+  PredictionError error;
+  std::optional<double> rightAreas;
+};
+DecoderError decoderError(const Decoder& decoder, const Prediction& prediction, const SampleSet& samples);
+
+} // namespace palp

@@ -1,0 +1,213 @@
+#include "app/study/decoding/DecoderTraining.h"
+
+#include "app/study/decoding/TwoStep.h"
+#include "model/base/Error.h"
+#include "nn/NetworkError.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+
+namespace palp {
+namespace {
+
+/// The touched area of each sample as classes without gaps.
+struct Classes {
+  Eigen::VectorXi ofSample;
+  std::vector<int> area;
+};
+
+Classes classesOf(const SampleSet& samples) {
+  Classes classes;
+  std::map<int, int> known;
+  for (const int area : samples.area) known.emplace(area, 0);
+  for (auto& [area, index] : known) {
+    index = static_cast<int>(classes.area.size());
+    classes.area.push_back(area);
+  }
+  classes.ofSample = samples.area.unaryExpr([&](int area) { return known.at(area); });
+  return classes;
+}
+
+Eigen::VectorXd rootMeanSquare(const Eigen::MatrixXd& residuals) {
+  return residuals.cols() == 0 ? Eigen::VectorXd(Eigen::VectorXd::Zero(residuals.rows()))
+                               : Eigen::VectorXd(residuals.array().square().rowwise().mean().sqrt());
+}
+
+} // namespace
+
+DecoderTraining::DecoderTraining(const SampleSet& samples, const SensorDesign* design, const TrainOptions& options,
+                                 const std::stop_token& stop,
+                                 const std::function<void(double, const std::string&)>& progress)
+    : samples_(samples), design_(design), options_(options), stop_(stop), progress_(progress) {}
+
+Decoder DecoderTraining::run() {
+  if (samples_.size() == 0) throw Error("samples: 0 in the set; training needs 1 or more");
+  const auto start = std::chrono::steady_clock::now();
+  describe();
+  say(0, "fitting " + name(options_.decoder));
+  fit();
+  if (stop_.stop_requested()) throw Cancelled();
+  say(0.9, "telling the areas");
+  tellAreas();
+  decoder_.report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  say(1, "trained");
+  return std::move(decoder_);
+}
+
+void DecoderTraining::describe() {
+  const bool displacement = options_.input == InputKind::Displacement;
+  decoder_.kind = options_.decoder;
+  decoder_.input.kind = options_.input;
+  decoder_.input.rows = rowsNamed(options_.rows, samples_.rowWires);
+  decoder_.input.rowWires = samples_.rowWires;
+  decoder_.input.valuesPerRow = displacement ? 3 * samples_.electrodesPerRowWire : samples_.columnWires;
+  decoder_.designFingerprint = samples_.origin.designFingerprint;
+  decoder_.trainedWith = "palp train" + asCommand(options_);
+  decoder_.mode = options_.mode;
+  decoder_.seed = options_.seed;
+  decoder_.noise = options_.noise;
+  decoder_.areaCount = samples_.areaCount;
+  decoder_.together = samples_.together();
+  decoder_.low_N = samples_.forces_N.rowwise().minCoeff();
+  decoder_.high_N = samples_.forces_N.rowwise().maxCoeff();
+  inputs_ = inputsOf(samples_, decoder_.input);
+  decoder_.input.low = inputs_.rowwise().minCoeff();
+  decoder_.input.high = inputs_.rowwise().maxCoeff();
+}
+
+void DecoderTraining::fit() {
+  switch (options_.decoder) {
+  case DecoderKind::Rbf:
+    return fitRbf();
+  case DecoderKind::Linear:
+    return fitPolynomial(1);
+  case DecoderKind::Polynomial2:
+    return fitPolynomial(2);
+  case DecoderKind::Polynomial3:
+    return fitPolynomial(3);
+  case DecoderKind::GaussianProcess:
+    return fitGaussianProcess();
+  case DecoderKind::BackPropagation:
+    return fitBackPropagation();
+  case DecoderKind::TwoStepBackPropagation:
+    return fitTwoStep(false);
+  case DecoderKind::TwoStepGaussNewton:
+    return fitTwoStep(true);
+  case DecoderKind::MaximumLikelihood:
+    return fitLikelihood();
+  }
+}
+
+void DecoderTraining::fitRbf() {
+  RbfFit fit = trainRbf(inputs_, samples_.forces_N, rbfOptions(options_, samples_.size()), stop_);
+  decoder_.model = std::move(fit.network);
+  decoder_.report = std::move(fit.report);
+  tellResiduals(decoder_.report.leaveOneOutResiduals, samples_.area);
+}
+
+void DecoderTraining::fitPolynomial(int degree) {
+  PolynomialOptions options;
+  options.degree = degree;
+  options.ridge = options_.ridge;
+  options.relativeInputNoise = options_.noise;
+  options.seed = options_.seed;
+  PolynomialFit fit = trainPolynomial(inputs_, samples_.forces_N, options, stop_);
+  decoder_.report.ridge = fit.ridge;
+  decoder_.report.condition = fit.condition;
+  decoder_.report.rank = fit.rank;
+  decoder_.report.centers = static_cast<int>(fit.model.centers.cols());
+  decoder_.report.largestWeight = fit.model.weights.cwiseAbs().maxCoeff();
+  decoder_.report.warnings = std::move(fit.warnings);
+  decoder_.model = std::move(fit.model);
+  tellResiduals(fit.leaveOneOutResiduals, samples_.area);
+}
+
+void DecoderTraining::fitGaussianProcess() {
+  GaussianProcessOptions options;
+  options.scaling = options_.scaling.value_or(Scaling::Global);
+  options.relativeInputNoise = options_.noise;
+  options.seed = options_.seed;
+  GaussianProcessFit fit = trainGaussianProcess(inputs_, samples_.forces_N, options, stop_);
+  FitReport& report = decoder_.report;
+  report.spread = fit.process.mean.spread;
+  report.ridge = fit.process.noiseVariance;
+  report.centers = static_cast<int>(fit.process.mean.centers.cols());
+  report.condition = fit.condition;
+  report.rank = report.centers;
+  report.largestWeight = fit.process.mean.weights.cwiseAbs().maxCoeff();
+  report.warnings = std::move(fit.warnings);
+  decoder_.model = std::move(fit.process);
+  tellResiduals(fit.leaveOneOutResiduals, samples_.area(fit.used));
+}
+
+void DecoderTraining::fitBackPropagation() {
+  BackPropagationOptions options;
+  options.relativeInputNoise = options_.noise;
+  options.seed = options_.seed;
+  BackPropagationFit fit = trainBackPropagation(inputs_, samples_.forces_N, options, stop_,
+                                                [this](double share) { say(0.9 * share, "back-propagation"); });
+  decoder_.report.warnings = std::move(fit.warnings);
+  decoder_.report.largestWeight =
+      std::max(fit.network.hiddenWeights.cwiseAbs().maxCoeff(), fit.network.outputWeights.cwiseAbs().maxCoeff());
+  decoder_.model = std::move(fit.network);
+  tellResiduals(fit.heldOutResiduals, samples_.area(fit.heldOut));
+}
+
+void DecoderTraining::fitTwoStep(bool gaussNewton) {
+  if (gaussNewton && !design_)
+    throw Error("decoder: two-step-gn inverts Eq. (1) of the design; give the design with --design");
+  TwoStepFit fit = trainTwoStep(samples_, gaussNewton ? design_ : nullptr, decoder_.input, options_, stop_,
+                                [this](double share, const std::string& what) { say(0.9 * share, what); });
+  decoder_.report = std::move(fit.report);
+  decoder_.model = std::move(fit.decoder);
+  tellResiduals(fit.residuals_N, samples_.area);
+}
+
+void DecoderTraining::fitLikelihood() {
+  ForwardModel model = forwardModel();
+  decoder_.report.rank = static_cast<int>(model.coefficients.front().cols());
+  decoder_.report.centers = 0;
+  decoder_.model = std::move(model);
+  // The samples serve again, with the noise: the model has few unknowns against their number.
+  decoder_.residual_N = Eigen::MatrixXd::Zero(samples_.forces_N.rows(), 1);
+  tellResiduals(samples_.forces_N - likelihoodForces(std::get<ForwardModel>(decoder_.model), inputs_, options_, stop_),
+                samples_.area);
+}
+
+ForwardModel DecoderTraining::forwardModel() {
+  const Classes classes = classesOf(samples_);
+  decoder_.areaOfClass = classes.area;
+  ForwardModelOptions options;
+  options.relativeNoise = options_.noise;
+  return fitForwardModel(inputs_, samples_.forces_N, classes.ofSample, options, &decoder_.report.warnings);
+}
+
+void DecoderTraining::tellAreas() {
+  if (samples_.together() || samples_.areaCount < 2 || options_.decoder == DecoderKind::MaximumLikelihood) return;
+  const Eigen::VectorXi& area = samples_.area;
+  if (area.minCoeff() == area.maxCoeff()) return; // one area only: there is nothing to tell apart
+  decoder_.areas = forwardModel();
+}
+
+/// Root mean square of each area's residuals; of all of them where an area has none.
+void DecoderTraining::tellResiduals(const Eigen::MatrixXd& residuals, const Eigen::VectorXi& areas) {
+  const Eigen::VectorXd all = rootMeanSquare(residuals);
+  decoder_.report.leaveOneOut = all;
+  const bool together = samples_.together();
+  decoder_.residual_N = all.replicate(1, together ? 1 : std::max(1, samples_.areaCount));
+  if (together) return;
+  for (int area = 0; area < samples_.areaCount; ++area) {
+    std::vector<Eigen::Index> members;
+    for (Eigen::Index i = 0; i < areas.size(); ++i)
+      if (areas(i) == area) members.push_back(i);
+    if (!members.empty()) decoder_.residual_N.col(area) = rootMeanSquare(residuals(Eigen::all, members));
+  }
+}
+
+void DecoderTraining::say(double share, const std::string& what) const {
+  if (progress_) progress_(share, what);
+}
+
+} // namespace palp

@@ -1,0 +1,61 @@
+#include "app/study/decoding/NoiseBound.h"
+
+#include "app/study/decoding/Decoder.h"
+#include "model/base/Error.h"
+#include "nn/rivals/ForwardModel.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include <cmath>
+#include <limits>
+
+namespace palp {
+namespace {
+
+/// diag(a^-1) for a symmetric a; infinite where a is singular to rounding.
+Eigen::VectorXd inverseDiagonal(const Eigen::MatrixXd& a) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(a);
+  const double least = 1e-14 * eigen.eigenvalues().maxCoeff();
+  if (!(eigen.eigenvalues().minCoeff() > least))
+    return Eigen::VectorXd::Constant(a.rows(), std::numeric_limits<double>::infinity());
+  return eigen.eigenvectors().cwiseAbs2() * eigen.eigenvalues().cwiseInverse();
+}
+
+} // namespace
+
+NoiseBound noiseBound(const SampleSet& samples, InputKind kind, const std::vector<int>& rows, double relativeNoise) {
+  if (!(relativeNoise > 0 && relativeNoise < 1))
+    throw Error("noise: " + std::to_string(relativeNoise) + "; a bound needs one above 0 and below 1 (relative)");
+  DecoderInput input;
+  input.kind = kind;
+  input.rows = rows;
+  input.rowWires = samples.rowWires;
+  input.valuesPerRow = kind == InputKind::Displacement ? 3 * samples.electrodesPerRowWire : samples.columnWires;
+  const Eigen::MatrixXd x = inputsOf(samples, input);
+  const int classes = samples.together() ? 1 : samples.area.maxCoeff() + 1;
+  const Eigen::Index outputs = samples.forces_N.rows();
+  const Eigen::ArrayXd range = samples.forces_N.rowwise().maxCoeff() - samples.forces_N.rowwise().minCoeff();
+  Eigen::ArrayXd without = Eigen::ArrayXd::Zero(outputs), with = without;
+  for (int c = 0; c < classes; ++c) {
+    std::vector<Eigen::Index> members;
+    for (Eigen::Index i = 0; i < samples.size(); ++i)
+      if (samples.together() || samples.area(i) == c) members.push_back(i);
+    if (members.empty()) continue;
+    const ForwardModel model = fitForwardModel(x(Eigen::all, members), samples.forces_N(Eigen::all, members),
+                                               Eigen::VectorXi::Zero(static_cast<Eigen::Index>(members.size())), {});
+    for (const Eigen::Index i : members) {
+      Eigen::MatrixXd slope;
+      const Eigen::VectorXd value = model.measurementsOf(0, samples.forces_N.col(i), &slope);
+      // In units of the force range, so that the square roots of large and small forces do not meet in one matrix.
+      const Eigen::MatrixXd j = value.cwiseInverse().asDiagonal() * slope * range.matrix().asDiagonal();
+      const Eigen::MatrixXd information = j.transpose() * j / (relativeNoise * relativeNoise);
+      without += inverseDiagonal(information).array();
+      with += inverseDiagonal(information + 12 * Eigen::MatrixXd::Identity(outputs, outputs)).array();
+    }
+  }
+  const double count = static_cast<double>(samples.size());
+  return {100 * (without / count).sqrt(), 100 * (with / count).sqrt()};
+}
+
+} // namespace palp

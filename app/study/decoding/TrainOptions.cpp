@@ -1,0 +1,108 @@
+#include "app/study/decoding/TrainOptions.h"
+
+#include "model/base/Error.h"
+#include "model/base/Text.h"
+
+#include <algorithm>
+#include <charconv>
+#include <numeric>
+#include <set>
+
+namespace palp {
+namespace {
+
+constexpr int mostCenters = 600;
+
+std::string name(CenterChoice choice) {
+  return choice == CenterChoice::Samples ? "samples" : choice == CenterChoice::KMeans ? "kmeans" : "random";
+}
+
+std::string name(Tail tail) {
+  switch (tail) {
+  case Tail::None:
+    return "none";
+  case Tail::Bias:
+    return "bias";
+  case Tail::Linear:
+    return "linear";
+  case Tail::LinearPenalised:
+    break;
+  }
+  return "penalised";
+}
+
+void chooseCenters(RbfOptions& result, const TrainOptions& options, Eigen::Index samples) {
+  const bool paper = options.mode == NetworkMode::Paper;
+  const int wanted = options.centers.value_or(paper || samples <= mostCenters ? 0 : mostCenters);
+  if (options.allCenters || (wanted == 0 && !options.centerChoice)) return;
+  result.centers = options.centerChoice.value_or(paper ? CenterChoice::KMeans : CenterChoice::Random);
+  result.centerCount = wanted;
+}
+
+int rowNamed(const std::string& text, const std::string& rows, int rowWires) {
+  int row = -1;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), row);
+  if (error != std::errc{} || end != text.data() + text.size() || row < 0 || row >= rowWires)
+    throw Error("rows: '" + text + "' in '" + rows + "'; allowed is all, or whole numbers from 0 to " +
+                std::to_string(rowWires - 1) + " with commas between them");
+  return row;
+}
+
+} // namespace
+
+RbfOptions rbfOptions(const TrainOptions& options, Eigen::Index samples) {
+  const bool paper = options.mode == NetworkMode::Paper;
+  const bool noisy = options.noise > 0;
+  RbfOptions result;
+  const bool minMax = paper && options.input == InputKind::Displacement;
+  result.scaling = options.scaling.value_or(minMax            ? Scaling::MinMax
+                                            : noisy && !paper ? Scaling::Whiten
+                                                              : Scaling::Global);
+  chooseCenters(result, options, samples);
+  result.spread = options.spread;
+  result.convention = options.convention.value_or(SpreadConvention::Radbas);
+  result.tail = options.tail.value_or(paper ? Tail::Bias : noisy ? Tail::LinearPenalised : Tail::Linear);
+  result.solver = options.solver.value_or(!paper && noisy ? Solver::Cholesky : Solver::PivotedQr);
+  result.ridge = options.ridge;
+  if (!options.ridge && !noisy) result.ridge = 0.0;
+  result.forgetting = options.forgetting;
+  result.relativeInputNoise = options.noise;
+  result.seed = options.seed;
+  result.threads = options.threads;
+  return result;
+}
+
+std::string asCommand(const TrainOptions& options) {
+  std::string text = " --input " + name(options.input) + " --rows " + options.rows + " --mode " + name(options.mode);
+  if (options.decoder != DecoderKind::Rbf) text += " --decoder " + name(options.decoder);
+  if (options.spread) text += " --spread " + palp::text(*options.spread);
+  if (options.allCenters) text += " --centers all";
+  if (options.centers) text += " --centers " + std::to_string(*options.centers);
+  if (options.centerChoice) text += " --centers-by " + name(*options.centerChoice);
+  if (options.solver) text += " --solver " + name(*options.solver);
+  if (options.ridge) text += " --ridge " + palp::text(*options.ridge);
+  if (options.scaling) text += " --scaler " + name(*options.scaling);
+  if (options.tail) text += " --tail " + name(*options.tail);
+  if (options.convention) text += " --convention " + name(*options.convention);
+  if (options.noise > 0) text += " --noise " + palp::text(options.noise);
+  if (options.forgetting != 1) text += " --forgetting " + palp::text(options.forgetting);
+  return text + " --seed " + std::to_string(options.seed);
+}
+
+std::vector<int> rowsNamed(const std::string& rows, int rowWires) {
+  if (rows == "all") {
+    std::vector<int> all(static_cast<std::size_t>(rowWires));
+    std::iota(all.begin(), all.end(), 0);
+    return all;
+  }
+  std::set<int> chosen;
+  for (std::size_t begin = 0;;) {
+    const std::size_t comma = std::min(rows.find(',', begin), rows.size());
+    chosen.insert(rowNamed(rows.substr(begin, comma - begin), rows, rowWires));
+    if (comma == rows.size()) break;
+    begin = comma + 1;
+  }
+  return {chosen.begin(), chosen.end()};
+}
+
+} // namespace palp

@@ -1,0 +1,205 @@
+#include "app/study/live/ForceDecoder.h"
+
+#include "io/DesignFile.h"
+#include "model/RowColumnResistance.h"
+#include "model/base/Error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace palp {
+
+namespace {
+
+// At rest, 3 components of 10,000 frames stay below 6 standard deviations with a probability of 0.99994.
+constexpr double kShowAbove = 6;
+constexpr double kHideBelow = 4;
+constexpr int kMostTareFrames = 100000;
+constexpr double kSameNoise = 0.1;  // nearer than this is the same noise
+constexpr double kMostNoise = 0.99; // relative
+constexpr Eigen::Index kRestCopies = 32;
+constexpr double kMoving = 2.5;  // times the noise of a frame: the sensor moved during the tare
+constexpr double kRestReach = 4; // deviations from rest, at which half of its error counts
+
+std::string sizes(int rows, int columns) {
+  return std::to_string(rows) + " row-wires x " + std::to_string(columns) + " column-wires";
+}
+
+void requireFit(const Decoder& decoder, const BoardInfo& info) {
+  if (decoder.input.kind != InputKind::Resistance)
+    throw Error("the network reads " + name(decoder.input.kind) +
+                "s; a board gives resistances: train one with --input resistance");
+  if (decoder.input.rowWires != info.rowWires || decoder.input.valuesPerRow != info.columnWires)
+    throw Error("the network is for " + sizes(decoder.input.rowWires, decoder.input.valuesPerRow) + ", the board has " +
+                sizes(info.rowWires, info.columnWires) + ": only raw readings can be shown");
+}
+
+/// Resistances at rest; empty where the network's design is not known.
+Eigen::MatrixXd restResistances(const Decoder& decoder, const std::optional<SensorDesign>& design) {
+  const SensorDesign known = design.value_or(paperDesign());
+  if (designFingerprint(known) == decoder.designFingerprint)
+    return rowColumnResistances(known, ElectrodeDisplacements::atRest(known));
+  if (design)
+    throw Error("the network is of design " + decoder.designFingerprint + ", the given design is " +
+                designFingerprint(known) + ": give the design that it was trained for");
+  return {};
+}
+
+/// The rows that the decoder reads, one after the other.
+Eigen::VectorXd inputOf(const Eigen::MatrixXd& resistances_ohm, const DecoderInput& input) {
+  Eigen::VectorXd values(input.low.size());
+  for (std::size_t i = 0; i < input.rows.size(); ++i)
+    values.segment(static_cast<Eigen::Index>(i) * input.valuesPerRow, input.valuesPerRow) =
+        resistances_ohm.row(input.rows[i]).transpose();
+  return values;
+}
+
+} // namespace
+
+ForceDecoder::ForceDecoder(Decoder decoder, const BoardInfo& info, std::optional<SensorDesign> design)
+    : decoder_(std::make_unique<const Decoder>(std::move(decoder))) {
+  requireFit(*decoder_, info);
+  rest_ohm_ = restResistances(*decoder_, design);
+  factor_ = Eigen::MatrixXd::Ones(info.rowWires, info.columnWires);
+  shown_.assign(static_cast<std::size_t>(decoder_->outputs() / 3), false);
+  setNoise(decoder_->noise);
+}
+
+void ForceDecoder::setNoise(double noise) {
+  if (predictor_ && std::abs(noise - noise_) <= kSameNoise * noise_) return;
+  noise_ = noise;
+  PredictOptions options;
+  // What is left in the mean of the tare's frames is in every frame since.
+  options.noise = std::min(tared_ ? noise * std::sqrt(1 + 1.0 / tareFrames_) : noise, kMostNoise);
+  predictor_.emplace(*decoder_, options);
+  restError_N_ = Eigen::Matrix3Xd::Zero(3, decoder_->outputs() / 3);
+  if (rest_ohm_.size() == 0) return;
+  // The mean over noise: it is not the answer for readings without any.
+  const Eigen::VectorXd rest_ohm = inputOf(rest_ohm_, decoder_->input);
+  Eigen::MatrixXd noisy_ohm = rest_ohm.replicate(1, kRestCopies);
+  std::mt19937_64 engine(1);
+  std::normal_distribution<double> normal;
+  for (double& reading_ohm : noisy_ohm.reshaped()) reading_ohm *= 1 + options.noise * normal(engine);
+  PredictOptions forcesAlone = options;
+  forcesAlone.standardDeviation = forcesAlone.area = false;
+  const Eigen::VectorXd mean_N = predict(*decoder_, noisy_ohm, forcesAlone).forces_N.rowwise().mean();
+  restError_N_ = mean_N.reshaped(3, restError_N_.cols());
+}
+
+/// Without a tare nobody has said what the board's noise is.
+void ForceDecoder::followNoise(const Eigen::VectorXd& raw_ohm) {
+  meter_.add(raw_ohm);
+  if (!tared_ && meter_.noise() > 0) setNoise(std::max(decoder_->noise, meter_.noise()));
+}
+
+std::string ForceDecoder::tareProblem() const {
+  if (rest_ohm_.size() > 0) return {};
+  return "tare needs the resistances at rest of design " + decoder_->designFingerprint +
+         ", for which the network was trained: name its file (--design)";
+}
+
+void ForceDecoder::startTare(int frames) {
+  if (const std::string problem = tareProblem(); !problem.empty()) throw Error(problem);
+  if (frames < 1 || frames > kMostTareFrames)
+    throw Error("tare over " + std::to_string(frames) + " frames; allowed is 1 to " + std::to_string(kMostTareFrames));
+  tareFrames_ = tareLeft_ = frames;
+  tareSum_ = tareSquares_ = Eigen::MatrixXd::Zero(factor_.rows(), factor_.cols());
+  tareFirst_.resize(0, 0);
+}
+
+void ForceDecoder::clearTare() {
+  tareLeft_ = 0;
+  tared_ = false;
+  factor_.setOnes();
+  meter_.restart();
+  predictor_.reset();
+  setNoise(decoder_->noise);
+}
+
+std::string ForceDecoder::reasonAgainst(const BoardFrame& frame) const {
+  const bool good = std::all_of(decoder_->input.rows.begin(), decoder_->input.rows.end(),
+                                [&](int row) { return frame.rowGood(row); });
+  if (good) return {};
+  for (const int row : decoder_->input.rows)
+    if (!frame.rowExpected[static_cast<std::size_t>(row)])
+      return "the board does not scan row-wire " + std::to_string(row) + ", which the network reads";
+  if (!frame.complete) return "a report of the frame is lost";
+  const std::vector<std::string> faults = wireFaults(frame);
+  std::string all;
+  for (const std::string& fault : faults) {
+    if (all.size() > 200) return all + ", ...";
+    all += (all.empty() ? "" : "; ") + fault;
+  }
+  return all;
+}
+
+/// Mean for the scale, scatter for the noise; sums about the first frame, because the scatter is 1e-6 of the mean.
+void ForceDecoder::addToTare(const Eigen::MatrixXd& raw_ohm) {
+  if (tareFirst_.size() == 0) tareFirst_ = raw_ohm;
+  const Eigen::MatrixXd relative = (tareFirst_.array() > 0).select(raw_ohm.array() / tareFirst_.array() - 1, 0.0);
+  tareSum_ += relative;
+  tareSquares_ += relative.cwiseAbs2();
+  if (--tareLeft_ > 0) return;
+  const Eigen::ArrayXXd mean = tareSum_.array() / tareFrames_;
+  double noise = noise_;
+  if (tareFrames_ > 1) {
+    const Eigen::MatrixXd variance = (tareSquares_.array() / tareFrames_ - mean.square()).cwiseMax(0.0);
+    noise = std::sqrt(inputOf(variance, decoder_->input).mean() * tareFrames_ / (tareFrames_ - 1));
+    if (meter_.ready() && noise > kMoving * meter_.noise()) return startTare(tareFrames_);
+  }
+  const Eigen::ArrayXXd boardRest_ohm = tareFirst_.array() * (1 + mean);
+  factor_ = (boardRest_ohm > 0).select(rest_ohm_.array() / boardRest_ohm, 1.0);
+  tared_ = true;
+  ++tares_;
+  predictor_.reset(); // also where the noise is the same: the mean has its own
+  setNoise(noise);
+}
+
+DecodedForces ForceDecoder::decode(const BoardFrame& frame) {
+  DecodedForces decoded;
+  decoded.reason = reasonAgainst(frame);
+  if (!decoded.reason.empty()) return decoded;
+  if (taring()) addToTare(frame.resistances_ohm);
+  followNoise(inputOf(frame.resistances_ohm, decoder_->input));
+  decoded.resistances_ohm = frame.resistances_ohm.cwiseProduct(factor_);
+  const Prediction prediction = (*predictor_)(inputOf(decoded.resistances_ohm, decoder_->input));
+  const Eigen::Index columns = decoder_->outputs() / 3;
+  decoded.forces_N = prediction.forces_N.reshaped(3, columns);
+  decoded.standardDeviation_N = prediction.standardDeviation_N.reshaped(3, columns);
+  decoded.outsideTrainingRange = prediction.outsideTrainingRange[0];
+  if (prediction.area.size() > 0) {
+    decoded.area = prediction.area(0);
+    decoded.areaConfidence = prediction.areaConfidence(0);
+  }
+  decoded.valid = decoded.forces_N.allFinite();
+  if (!decoded.valid) decoded.reason = "the network's answer is no number for these readings";
+  addRestError(decoded);
+  threshold(decoded);
+  return decoded;
+}
+
+/// A decoder that was trained with noise is drawn towards the middle of its range, most at rest, which lies at the
+/// range's edge. How far is known there: it counts in full for a force that may be rest, and fades as the force leaves
+/// it.
+void ForceDecoder::addRestError(DecodedForces& decoded) const {
+  const Eigen::Array3Xd away =
+      (decoded.forces_N - restError_N_).array() / (kRestReach * decoded.standardDeviation_N.array());
+  const Eigen::RowVectorXd share = (1 + away.square().colwise().sum()).inverse();
+  decoded.standardDeviation_N =
+      (decoded.standardDeviation_N.array().square() + (restError_N_ * share.asDiagonal()).array().square()).sqrt();
+}
+
+/// An arrow appears where a component stands out of the noise, and goes when all have sunk into it again.
+void ForceDecoder::threshold(DecodedForces& decoded) {
+  const bool known = tared_ || meter_.ready(); // else nothing is said of what stands out of the noise
+  for (std::size_t i = 0; i < shown_.size(); ++i) {
+    const auto column = static_cast<Eigen::Index>(i);
+    const double size =
+        (decoded.forces_N.col(column).array().abs() / decoded.standardDeviation_N.col(column).array()).maxCoeff();
+    shown_[i] = decoded.valid && known && size > (shown_[i] ? kHideBelow : kShowAbove);
+  }
+  decoded.shown = shown_;
+}
+
+} // namespace palp

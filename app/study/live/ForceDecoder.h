@@ -1,0 +1,81 @@
+#pragma once
+
+#include "app/study/decoding/Decoder.h"
+#include "app/study/live/NoiseMeter.h"
+#include "io/board/BoardFrame.h"
+#include "model/SensorDesign.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace palp {
+
+/// Forces of one frame of a board.
+struct DecodedForces {
+  bool valid = false;                   ///< false: `reason` says why, and there are no forces
+  std::string reason;                   ///< which wires are bad, or that the frame is incomplete
+  Eigen::Matrix3Xd forces_N;            ///< 3 x 1, of the touched area; `together`: 3 x areas
+  Eigen::Matrix3Xd standardDeviation_N; ///< of each; noise of frame and tare, error of the training and at rest
+  std::vector<bool> shown;              ///< one a column: stands out of the noise
+  std::optional<int> area;              ///< most likely touched, where the decoder tells
+  double areaConfidence = 0;
+  bool outsideTrainingRange = false;
+  Eigen::MatrixXd resistances_ohm; ///< tared, row-wires x column-wires; meaningful in the rows that the decoder reads
+};
+
+/// Resistances of a board's frames to forces. What wire or frame is bad never reaches the decoder. Tare is the host's:
+/// each resistance is scaled so that the board at rest reads as the design at rest does.
+class ForceDecoder {
+public:
+  /// `design` gives the resistances at rest for tare; none: the paper's where the decoder is of it. Throws Error where
+  /// the decoder cannot read this board, in a sentence.
+  ForceDecoder(Decoder decoder, const BoardInfo& info, std::optional<SensorDesign> design = {});
+
+  [[nodiscard]] DecodedForces decode(const BoardFrame& frame);
+
+  /// Averages the next frames that are whole, and begins anew while the sensor moves; throws Error where the design at
+  /// rest is not known.
+  void startTare(int frames);
+  [[nodiscard]] bool taring() const { return tareLeft_ > 0; }
+  [[nodiscard]] bool tared() const { return tared_; }
+  /// How many were finished.
+  [[nodiscard]] int tares() const { return tares_; }
+  /// What the board reads at rest, by the tare, row-wires x column-wires [ohm].
+  [[nodiscard]] Eigen::MatrixXd boardRest_ohm() const { return rest_ohm_.cwiseQuotient(factor_); }
+  void clearTare();
+  /// Why tare cannot be; empty where it can.
+  [[nodiscard]] std::string tareProblem() const;
+
+  /// Relative noise of the readings: measured while taring, before that from frame to frame, and then no less than the
+  /// decoder was trained for.
+  [[nodiscard]] double noise() const { return noise_; }
+  [[nodiscard]] const Decoder& decoder() const { return *decoder_; }
+  /// Of the design, row-wires x column-wires [ohm]; empty where it is not known.
+  [[nodiscard]] const Eigen::MatrixXd& restResistances_ohm() const { return rest_ohm_; }
+
+private:
+  [[nodiscard]] std::string reasonAgainst(const BoardFrame& frame) const;
+  void addToTare(const Eigen::MatrixXd& raw_ohm);
+  void followNoise(const Eigen::VectorXd& raw_ohm);
+  void setNoise(double noise);
+  void addRestError(DecodedForces& decoded) const;
+  void threshold(DecodedForces& decoded);
+
+  std::unique_ptr<const Decoder> decoder_;
+  std::optional<Predictor> predictor_; ///< for the noise now
+  Eigen::Matrix3Xd restError_N_;       ///< what the decoder says of the design at rest: there the truth is zero
+  NoiseMeter meter_;
+  Eigen::MatrixXd rest_ohm_; ///< of the design, row-wires x column-wires; empty: not known
+  Eigen::MatrixXd factor_;   ///< by which each raw resistance is scaled
+  Eigen::MatrixXd tareFirst_, tareSum_, tareSquares_;
+  int tareFrames_ = 0;
+  int tareLeft_ = 0;
+  int tares_ = 0;
+  bool tared_ = false;
+  double noise_ = 0;
+  std::vector<bool> shown_;
+};
+
+} // namespace palp

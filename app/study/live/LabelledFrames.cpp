@@ -1,0 +1,61 @@
+#include "app/study/live/LabelledFrames.h"
+
+#include "io/SampleFile.h"
+#include "model/base/Error.h"
+
+namespace palp {
+
+namespace {
+
+template <class Matrix> Matrix withoutColumn(const Matrix& all, Eigen::Index column) {
+  Matrix rest(all.rows(), all.cols() - 1);
+  rest.leftCols(column) = all.leftCols(column);
+  rest.rightCols(all.cols() - column - 1) = all.rightCols(all.cols() - column - 1);
+  return rest;
+}
+
+} // namespace
+
+void LabelledFrames::begin(const Decoder& decoder, const SensorDesign& design, const AreaLoad& label, int frames) {
+  if (const auto wrong = problem(LoadCase{{label}, {}}, design)) throw Error("label: " + *wrong);
+  average_.emplace(decoder, design, label);
+  wanted_ = frames;
+}
+
+bool LabelledFrames::add(const DecodedForces& forces) {
+  if (!average_) return false;
+  average_->add(forces);
+  if (average_->count() < wanted_) return false;
+  const SampleSet frame = average_->sample();
+  average_.reset();
+  append(frame, "the board");
+  return true;
+}
+
+void LabelledFrames::append(const SampleSet& frames, const std::string& from) {
+  if (samples_.size() > 0)
+    if (const std::string differs = difference(samples_.origin, frames.origin); !differs.empty())
+      throw Error(from + ": other frames than those that are here: " + differs);
+  palp::append(samples_, frames);
+}
+
+void LabelledFrames::remove(Eigen::Index sample) {
+  if (sample < 0 || sample >= samples_.size()) return;
+  if (samples_.size() == 1) return clear();
+  Eigen::VectorXi area(samples_.size() - 1);
+  area.head(sample) = samples_.area.head(sample);
+  area.tail(area.size() - sample) = samples_.area.tail(area.size() - sample);
+  samples_.area = area;
+  for (Eigen::MatrixXd* part : {&samples_.forces_N, &samples_.displacements_mm, &samples_.resistances_ohm})
+    *part = withoutColumn(*part, sample);
+}
+
+void LabelledFrames::load(const std::filesystem::path& path) {
+  append(loadSamples(path), path.string());
+}
+
+void LabelledFrames::save(const std::filesystem::path& path) const {
+  saveSamples(path, samples_, true);
+}
+
+} // namespace palp

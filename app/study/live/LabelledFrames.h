@@ -1,0 +1,39 @@
+#pragma once
+
+#include "app/study/decoding/Calibration.h"
+
+#include <filesystem>
+#include <optional>
+
+namespace palp {
+
+/// Labelled frames of a board as they are collected: each the mean of some frames under one known load.
+class LabelledFrames {
+public:
+  /// Begins to average under a load; what was being averaged is dropped. Throws Error where the load is none of the
+  /// design's.
+  void begin(const Decoder& decoder, const SensorDesign& design, const AreaLoad& label, int frames);
+  void stop() { average_.reset(); }
+  /// Takes a frame while one is collected; true where it was the last one.
+  bool add(const DecodedForces& forces);
+  [[nodiscard]] bool collecting() const { return average_.has_value(); }
+  [[nodiscard]] int collected() const { return average_ ? average_->count() : 0; }
+  [[nodiscard]] int wanted() const { return wanted_; }
+
+  [[nodiscard]] const SampleSet& samples() const { return samples_; }
+  void remove(Eigen::Index sample);
+  void clear() { samples_ = {}; }
+  /// Adds the frames of a file (palp listen --append). Throws Error where they are of another design.
+  void load(const std::filesystem::path& path);
+  /// Throws Error.
+  void save(const std::filesystem::path& path) const;
+
+private:
+  void append(const SampleSet& frames, const std::string& from);
+
+  std::optional<FrameAverage> average_;
+  int wanted_ = 0;
+  SampleSet samples_;
+};
+
+} // namespace palp

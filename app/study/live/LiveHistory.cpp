@@ -1,0 +1,85 @@
+#include "app/study/live/LiveHistory.h"
+
+#include "io/AtomicFile.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace palp {
+
+namespace {
+
+constexpr double kMostJump_s = 2; // device and host farther apart than this: another clock
+
+void writeNumbers(std::ostream& out, const Eigen::MatrixXd& values, Eigen::Index count) {
+  const auto all = values.reshaped();
+  for (Eigen::Index k = 0; k < count; ++k) {
+    out << ',';
+    if (k < all.size() && std::isfinite(all(k))) out << all(k);
+  }
+}
+
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return result + '"';
+}
+
+} // namespace
+
+void LiveHistory::add(std::shared_ptr<const LiveFrame> frame) {
+  const double host_s = frame->frame.hostTime_s;
+  const double device_s = frame->frame.time_s;
+  const bool otherClock = entries_.empty() || frame->frame.restarted ||
+                          std::abs(device_s + offset_s_ - host_s) > kMostJump_s ||
+                          device_s + offset_s_ < entries_.back().t_s;
+  if (otherClock) {
+    offset_s_ = host_s - device_s;
+    if (!entries_.empty()) offset_s_ = std::max(offset_s_, entries_.back().t_s - device_s);
+  }
+  if (frame->forces.valid) lastValid_ = frame;
+  entries_.push_back({device_s + offset_s_, std::move(frame)});
+  while (entries_.size() > kMostFrames || entries_.back().t_s - entries_.front().t_s > kLongest_s) entries_.pop_front();
+}
+
+void LiveHistory::clear() {
+  entries_.clear();
+  lastValid_.reset();
+}
+
+void writeLiveCsv(const std::filesystem::path& path, const LiveHistory& history) {
+  Eigen::Index forces = 0, readings = 0;
+  int rows = 0;
+  for (const LiveHistory::Entry& entry : history.entries()) {
+    forces = std::max(forces, entry.frame->forces.forces_N.size());
+    readings = std::max(readings, entry.frame->change.size());
+    rows = std::max(rows, static_cast<int>(entry.frame->change.rows()));
+  }
+  std::ostringstream out;
+  out.precision(17);
+  out << "t_s,frame,complete,valid,area,latency_ms,lost_reports,temperature_degC,mark";
+  for (Eigen::Index k = 0; k < forces; ++k)
+    out << ",a" << k / 3 << "_f"
+        << "xyz"[k % 3] << "_N";
+  for (Eigen::Index k = 0; k < forces; ++k)
+    out << ",a" << k / 3 << "_sd"
+        << "xyz"[k % 3] << "_N";
+  for (Eigen::Index k = 0; k < readings; ++k) out << ",dR_r" << k % rows << "_c" << k / rows << "_relative";
+  out << ",reason\n";
+  for (const LiveHistory::Entry& entry : history.entries()) {
+    const LiveFrame& live = *entry.frame;
+    out << live.frame.time_s << ',' << live.frame.number << ',' << live.frame.complete << ',' << live.forces.valid
+        << ',';
+    if (live.forces.area) out << *live.forces.area;
+    out << ',' << 1e3 * live.latency_s << ',' << live.lostReports << ',';
+    if (live.frame.temperature_degC) out << *live.frame.temperature_degC;
+    out << ',' << quoted(live.mark);
+    writeNumbers(out, live.forces.forces_N, forces);
+    writeNumbers(out, live.forces.standardDeviation_N, forces);
+    writeNumbers(out, live.change, readings);
+    out << ',' << quoted(live.forces.reason) << '\n';
+  }
+  writeFile(path, out.str(), true);
+}
+
+} // namespace palp

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "app/study/live/LiveSession.h"
+
+#include <deque>
+#include <filesystem>
+
+namespace palp {
+
+/// The frames of the last while, on one time axis.
+class LiveHistory {
+public:
+  struct Entry {
+    /// Device clock, brought to the host's at each connection and restart: never the time of arrival, which jitters.
+    double t_s = 0;
+    std::shared_ptr<const LiveFrame> frame;
+  };
+
+  void add(std::shared_ptr<const LiveFrame> frame);
+  void clear();
+  [[nodiscard]] const std::deque<Entry>& entries() const { return entries_; }
+  [[nodiscard]] const LiveFrame* last() const { return entries_.empty() ? nullptr : entries_.back().frame.get(); }
+  /// The last frame that gave forces; null where there was none.
+  [[nodiscard]] const LiveFrame* lastValid() const { return lastValid_.get(); }
+
+  static constexpr std::size_t kMostFrames = 4000;
+  static constexpr double kLongest_s = 60;
+
+private:
+  std::deque<Entry> entries_;
+  std::shared_ptr<const LiveFrame> lastValid_;
+  double offset_s_ = 0; ///< host's clock minus the device's
+};
+
+/// The entries as CSV: time, frame, forces with deviations, latency, lost reports, and the change of every reading.
+/// Throws Error where the file cannot be written.
+void writeLiveCsv(const std::filesystem::path& path, const LiveHistory& history);
+
+} // namespace palp

@@ -1,0 +1,121 @@
+#pragma once
+
+#include "app/study/live/ForceDecoder.h"
+#include "app/study/live/RestReference.h"
+#include "io/board/FrameAssembler.h"
+#include "io/board/LatencyMeter.h"
+#include "io/board/Recording.h"
+#include "io/board/ReplaySource.h"
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+namespace palp {
+
+class LiveWorker;
+
+enum class LiveState {
+  Searching, ///< no board; goes on by itself when one is plugged in
+  Refused,   ///< a board that may not or cannot be opened; `reason` says what to do
+  Streaming,
+  Stalled, ///< the board is there but nothing has come for 250 ms
+  Paused,
+  Ended ///< of the recording, or of a board of another protocol
+};
+const char* name(LiveState state);
+
+/// One frame with all that was made of it.
+struct LiveFrame {
+  BoardFrame frame;
+  std::vector<std::string> faults; ///< bad wires, in words
+  DecodedForces forces;            ///< not valid without a network
+  Eigen::MatrixXd change;          ///< R / R at rest - 1, row-wires x column-wires; NaN where a reading is not good
+  double latency_s = 0;            ///< from the device's clock to the decoded force
+  double decoding_s = 0;           ///< of it, from the report's arrival to the decoded force
+  std::uint64_t lostReports = 0;   ///< since the session's start
+  std::string mark;                ///< the last event mark of the user or the recording
+};
+
+struct LatencySummary {
+  double p50_s = 0, p99_s = 0, longest_s = 0;
+};
+
+/// A copy of everything that a window or a line of text shows.
+struct LiveStatus {
+  LiveState state = LiveState::Searching;
+  std::string reason;
+  std::string source;
+  std::optional<BoardInfo> info;
+  std::optional<BoardConfiguration> configuration;
+  ReportCounts counts;
+  std::uint64_t connections = 0;
+  std::uint64_t lateFrames = 0;                     ///< decoded more than 20 ms after the device read them
+  std::uint64_t overflowed = 0;                     ///< frames that nobody drained in time
+  double reportsPerSecond = 0, framesPerSecond = 0; ///< measured
+  LatencySummary latency;                           ///< device clock to force
+  LatencySummary decoding;                          ///< arrival of the report to force
+  std::optional<double> temperature_degC;
+  std::string decoderProblem; ///< why there are no forces; empty where there are
+  bool taring = false, tared = false;
+  std::string restName; ///< what LiveFrame::change counts from
+  double noise = 0;     ///< relative, of the readings
+  bool recording = false;
+  std::uint64_t recordedReports = 0, recordingDropped = 0;
+  std::string recordingFailure;
+  std::string lastEvent; ///< what the board said last
+};
+
+struct LiveOptions {
+  /// Opens the board, recording or virtual board; null where there is none now. Throws BoardError where it refuses.
+  std::function<std::unique_ptr<ReportSource>()> open;
+  bool reconnect = true; ///< search again when the board is gone
+  std::optional<Decoder> decoder;
+  std::optional<SensorDesign> design; ///< for tare
+  int tareFrames = 0;                 ///< tare with the first frames; 0: not
+  std::shared_ptr<ReplayControl> replay;
+  std::size_t ringFrames = 2048; ///< kept for a reader that drains late
+};
+
+/// A board, live: one thread owns the source, decodes, records and fills a ring that a window or a program drains.
+/// Meshes and solves nothing. A tare outlives a reconnection of a board of the same size.
+class LiveSession {
+public:
+  explicit LiveSession(LiveOptions options);
+  ~LiveSession();
+  LiveSession(const LiveSession&) = delete;
+  LiveSession& operator=(const LiveSession&) = delete;
+
+  [[nodiscard]] LiveStatus status() const;
+  /// Ends the thread and with it a recording; the status is then the last one.
+  void stop();
+  /// Frames since the last call, oldest first.
+  std::vector<std::shared_ptr<const LiveFrame>> drain();
+
+  // All of these take effect in the session's thread, between two reports.
+  void tare(int frames);
+  void clearTare();
+  void setDecoder(std::optional<Decoder> decoder, std::optional<SensorDesign> design);
+  void pause(bool paused); ///< decoding and display; a recording goes on
+  void configure(const BoardConfiguration& configuration);
+  void mark(const std::string& text);
+
+  /// Records from now on; throws Error where the file cannot be written. `network` is its fingerprint, for the head.
+  void startRecording(const std::filesystem::path& path, const std::string& network, bool force);
+  void stopRecording();
+
+private:
+  void run(const std::stop_token& stop);
+  void post(std::function<void(LiveWorker&)> request);
+
+  LiveOptions options_;
+  mutable std::mutex mutex_;
+  LiveStatus status_;
+  std::deque<std::shared_ptr<const LiveFrame>> ring_;
+  std::vector<std::function<void(LiveWorker&)>> requests_;
+  std::jthread thread_; ///< last: it uses all of the above
+};
+
+} // namespace palp

@@ -1,0 +1,41 @@
+#include "app/study/live/LiveSource.h"
+
+#include "app/study/Resources.h"
+#include "app/study/live/SimulatedTouch.h"
+#include "io/SampleFile.h"
+#include "model/base/Error.h"
+
+namespace palp {
+
+namespace {
+
+void refuseOutside(const std::string& what, const std::vector<int>& broken, int wires) {
+  for (const int wire : broken)
+    if (wire < 0 || wire >= wires)
+      throw Error("virtual board: broken " + what + ": " + std::to_string(wire) + "; allowed is 0 to " +
+                  std::to_string(wires - 1));
+}
+
+} // namespace
+
+std::unique_ptr<ReportSource> openBoard(const UsbId& id, const std::string& device) {
+  for (const HidBoard& board : hidBoards(id))
+    if (device.empty() || board.serial == device || board.path == device) return openHidBoard(board);
+  return nullptr;
+}
+
+std::unique_ptr<ReportSource> openSimulatedBoard(const SimulatedBoardOptions& options,
+                                                 std::shared_ptr<SimulationControl> control) {
+  const std::filesystem::path file = options.samples.empty() ? resource("board/paper-samples.csv") : options.samples;
+  Board board = simulatedBoard(loadSamples(file), options.disturbance, options.rate_Hz, options.seed);
+  refuseOutside("row-wire", options.faults.openRows, board.info().rowWires);
+  refuseOutside("column-wire", options.faults.openColumns, board.info().columnWires);
+  board.faults() = options.faults;
+  return std::make_unique<SimulatedSource>(std::move(board), std::move(control));
+}
+
+std::filesystem::path shippedNetwork() {
+  return resource("board/paper-network.json");
+}
+
+} // namespace palp

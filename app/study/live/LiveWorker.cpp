@@ -1,0 +1,273 @@
+#include "app/study/live/LiveWorker.h"
+
+#include "model/base/Error.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palp {
+
+namespace {
+
+constexpr auto kReadTimeout = std::chrono::milliseconds(100);
+constexpr auto kSearchInterval = std::chrono::milliseconds(100);
+constexpr double kStall_s = 0.25;
+constexpr double kLate_s = 0.02;
+constexpr int kStaleBeforeAsking = 20;
+constexpr double kAskAgain_s = 0.5;
+
+ReportCounts sum(const ReportCounts& a, const ReportCounts& b) {
+  return {a.reports + b.reports,       a.lost + b.lost,           a.bad + b.bad,
+          a.duplicates + b.duplicates, a.backwards + b.backwards, a.stale + b.stale,
+          a.restarts + b.restarts,     a.frames + b.frames,       a.incompleteFrames + b.incompleteFrames};
+}
+
+LatencySummary summary(const LatencyMeter& meter) {
+  return {meter.quantile_s(0.5), meter.quantile_s(0.99), meter.longest_s()};
+}
+
+std::span<const std::uint8_t> bytesOf(const std::string& text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+} // namespace
+
+LiveWorker::LiveWorker(LiveOptions options, TakeFrame take) : options_(std::move(options)), give_(std::move(take)) {}
+
+void LiveWorker::step() {
+  if (status_.state == LiveState::Ended) {
+    std::this_thread::sleep_for(kReadTimeout / 10);
+    return;
+  }
+  if (!source_) return search();
+  try {
+    read();
+  } catch (const BoardError& gone) { // the board went while it was asked something
+    disconnect(LiveState::Searching, gone.what());
+  }
+}
+
+void LiveWorker::search() {
+  if (searched_ && !hotplug_.wait(kSearchInterval)) return;
+  searched_ = true;
+  try {
+    if (std::unique_ptr<ReportSource> source = options_.open()) connect(std::move(source));
+  } catch (const BoardError& refused) {
+    status_.state = LiveState::Refused;
+    status_.reason = refused.what();
+  }
+}
+
+void LiveWorker::connect(std::unique_ptr<ReportSource> source) {
+  source_ = std::move(source);
+  if (assembler_) earlier_ = sum(earlier_, assembler_->counts());
+  const bool sameBoard = assembler_ && assembler_->info() == source_->info();
+  assembler_.emplace(source_->info(), source_->configuration());
+  latency_.restart();
+  arrival_s_ = rateStart_s_ = hostClock_s();
+  rateReports_ = rateFrames_ = 0;
+  ++status_.connections;
+  status_.state = LiveState::Streaming;
+  status_.reason.clear();
+  status_.source = source_->name();
+  status_.info = source_->info();
+  if (!sameBoard) makeDecoder();
+  if (writer_ && !sameBoard) {
+    status_.recordingFailure = "the recording ended because another board was connected";
+    writer_.reset();
+  }
+  if (!writer_) return;
+  writer_->append(RecordingEntry::Kind::Connected, arrival_s_, encode(source_->info()));
+  recordConfiguration();
+}
+
+void LiveWorker::disconnect(LiveState state, const std::string& reason) {
+  source_.reset();
+  status_.state = options_.reconnect ? state : LiveState::Ended;
+  status_.reason = reason;
+  status_.reportsPerSecond = status_.framesPerSecond = 0;
+}
+
+void LiveWorker::read() {
+  const ReportSource::Outcome outcome = source_->read(report_, kReadTimeout);
+  const double now_s = hostClock_s();
+  switch (outcome) {
+  case ReportSource::Outcome::Read:
+    arrival_s_ = now_s;
+    status_.state = paused_ ? LiveState::Paused : LiveState::Streaming;
+    take(report_);
+    break;
+  case ReportSource::Outcome::Nothing:
+    if (options_.replay && options_.replay->paused) {
+      status_.state = LiveState::Paused;
+    } else if (now_s - arrival_s_ > kStall_s) {
+      status_.state = LiveState::Stalled;
+      status_.reason =
+          "nothing has come from the board for " + std::to_string(std::lround(1e3 * (now_s - arrival_s_))) + " ms";
+    }
+    break;
+  case ReportSource::Outcome::Gone:
+    disconnect(LiveState::Searching, source_->reason());
+    return;
+  case ReportSource::Outcome::End:
+    status_.state = LiveState::Ended;
+    status_.reason = source_->reason();
+    return;
+  }
+  measureRates(now_s);
+}
+
+void LiveWorker::take(const RawReport& report) {
+  ++rateReports_;
+  status_.reason.clear();
+  if (writer_) writer_->append(RecordingEntry::Kind::Raw, report.hostTime_s, report.bytes);
+  if (paused_) return;
+  const auto decoded =
+      assembler_->add(report.bytes, report.hostTime_s, [this](const BoardFrame& frame) { takeFrame(frame); });
+  if (const auto* event = std::get_if<BoardEvent>(&decoded)) takeEvent(*event);
+  const auto* fault = std::get_if<ReportFault>(&decoded);
+  if (fault && *fault == ReportFault::Protocol) {
+    const std::string board = source_->name();
+    disconnect(LiveState::Refused, board + ": " + sentence(*fault) + "; a newer Palp may understand it");
+    return;
+  }
+  const double now_s = hostClock_s();
+  if (assembler_->staleInARow() < kStaleBeforeAsking || now_s < askedAgain_s_ + kAskAgain_s) return;
+  askedAgain_s_ = now_s;
+  readConfigurationAgain();
+}
+
+void LiveWorker::takeEvent(const BoardEvent& event) {
+  status_.lastEvent = event.text;
+  if (event.code == EventCode::ConfigurationChanged) readConfigurationAgain();
+}
+
+void LiveWorker::readConfigurationAgain() {
+  source_->readConfiguration();
+  if (source_->configuration() == assembler_->configuration()) return;
+  assembler_->setConfiguration(source_->configuration());
+  recordConfiguration();
+}
+
+void LiveWorker::recordConfiguration() {
+  if (writer_) writer_->append(RecordingEntry::Kind::Configuration, hostClock_s(), encode(source_->configuration()));
+}
+
+void LiveWorker::takeFrame(const BoardFrame& frame) {
+  ++rateFrames_;
+  auto live = std::make_shared<LiveFrame>();
+  live->frame = frame;
+  live->faults = wireFaults(frame);
+  rest_.add(frame);
+  if (decoder_) {
+    const int before = decoder_->tares();
+    live->forces = decoder_->decode(frame);
+    if (decoder_->tares() != before) rest_.setTare(decoder_->boardRest_ohm());
+  }
+  live->change = rest_.change(frame);
+  if (frame.restarted) latency_.restart();
+  // What waited in the source before it was handed over counts too; a recording's times are its own.
+  const double arrival_s = options_.replay ? arrival_s_ : std::min(arrival_s_, frame.hostTime_s);
+  live->decoding_s = hostClock_s() - arrival_s;
+  decoding_.add(live->decoding_s, 0);
+  live->latency_s = latency_.add(frame.hostTime_s + live->decoding_s, frame.endTime_s);
+  if (live->latency_s > kLate_s) ++status_.lateFrames;
+  live->lostReports = earlier_.lost + assembler_->counts().lost;
+  const auto* replay = dynamic_cast<const ReplaySource*>(source_.get());
+  live->mark = replay ? replay->mark() : mark_;
+  if (frame.temperature_degC) status_.temperature_degC = frame.temperature_degC;
+  if (options_.replay && options_.replay->steps > 0) --options_.replay->steps;
+  give_(std::move(live));
+}
+
+void LiveWorker::measureRates(double now_s) {
+  const double span_s = now_s - rateStart_s_;
+  if (span_s < 1) return;
+  status_.reportsPerSecond = static_cast<double>(rateReports_) / span_s;
+  status_.framesPerSecond = static_cast<double>(rateFrames_) / span_s;
+  rateStart_s_ = now_s;
+  rateReports_ = rateFrames_ = 0;
+}
+
+LiveStatus LiveWorker::status() {
+  if (assembler_) {
+    status_.counts = sum(earlier_, assembler_->counts());
+    status_.configuration = assembler_->configuration();
+  }
+  status_.latency = summary(latency_);
+  status_.decoding = summary(decoding_);
+  status_.taring = decoder_ && decoder_->taring();
+  status_.tared = decoder_ && decoder_->tared();
+  status_.restName = rest_.name();
+  status_.noise = decoder_ ? decoder_->noise() : 0;
+  status_.recording = writer_ && source_; // never "recording" while the board is gone
+  if (writer_) {
+    status_.recordedReports = writer_->reports();
+    status_.recordingDropped = writer_->dropped();
+    status_.recordingFailure = writer_->failure();
+  }
+  return status_;
+}
+
+void LiveWorker::makeDecoder() {
+  decoder_.reset();
+  rest_.reset({});
+  status_.decoderProblem = options_.decoder ? "" : "no network: raw readings only";
+  if (!options_.decoder || !status_.info) return;
+  try {
+    decoder_.emplace(*options_.decoder, *status_.info, options_.design);
+    rest_.reset(decoder_->restResistances_ohm());
+    if (options_.tareFrames > 0) tare(options_.tareFrames);
+  } catch (const Error& unfit) {
+    status_.decoderProblem = unfit.what();
+  }
+}
+
+void LiveWorker::tare(int frames) {
+  if (frames < 1) return;
+  if (!decoder_) return rest_.startTare(frames);
+  try {
+    decoder_->startTare(frames);
+  } catch (const Error& refused) {
+    status_.lastEvent = refused.what();
+  }
+}
+
+void LiveWorker::clearTare() {
+  rest_.clearTare();
+  if (decoder_) decoder_->clearTare();
+}
+
+void LiveWorker::setDecoder(std::optional<Decoder> decoder, std::optional<SensorDesign> design) {
+  options_.decoder = std::move(decoder);
+  options_.design = std::move(design);
+  makeDecoder();
+}
+
+void LiveWorker::pause(bool paused) {
+  if (paused_ && !paused && assembler_) assembler_->restart(); // what came meanwhile is no loss
+  paused_ = paused;
+}
+
+void LiveWorker::configure(const BoardConfiguration& configuration) {
+  if (!source_) return;
+  if (!source_->configure(configuration)) {
+    status_.lastEvent = "the board refuses the configuration";
+    return;
+  }
+  assembler_->setConfiguration(source_->configuration());
+  recordConfiguration();
+}
+
+void LiveWorker::mark(const std::string& text) {
+  mark_ = text;
+  if (writer_) writer_->append(RecordingEntry::Kind::Mark, hostClock_s(), bytesOf(text));
+}
+
+void LiveWorker::setWriter(std::shared_ptr<RecordingWriter> writer) {
+  writer_ = std::move(writer);
+  status_.recordingFailure.clear();
+  if (source_) recordConfiguration(); // it may have changed since the head was written
+}
+
+} // namespace palp

@@ -1,0 +1,64 @@
+#pragma once
+
+// Private to LiveSession: what its thread owns.
+
+#include "app/study/live/LiveSession.h"
+#include "io/board/Hotplug.h"
+
+namespace palp {
+
+/// The work of the session's thread; nobody else touches it while the thread runs.
+class LiveWorker {
+public:
+  using TakeFrame = std::function<void(std::shared_ptr<const LiveFrame>)>;
+
+  LiveWorker(LiveOptions options, TakeFrame take);
+
+  /// One report, one look for a board, or a short wait.
+  void step();
+  [[nodiscard]] LiveState state() const { return status_.state; }
+  [[nodiscard]] LiveStatus status();
+
+  void tare(int frames);
+  void clearTare();
+  void setDecoder(std::optional<Decoder> decoder, std::optional<SensorDesign> design);
+  void pause(bool paused);
+  void configure(const BoardConfiguration& configuration);
+  void mark(const std::string& text);
+  void setWriter(std::shared_ptr<RecordingWriter> writer);
+
+private:
+  void search();
+  void connect(std::unique_ptr<ReportSource> source);
+  void disconnect(LiveState state, const std::string& reason);
+  void read();
+  void take(const RawReport& report);
+  void takeFrame(const BoardFrame& frame);
+  void takeEvent(const BoardEvent& event);
+  void readConfigurationAgain();
+  void makeDecoder();
+  void recordConfiguration();
+  void measureRates(double now_s);
+
+  LiveOptions options_;
+  TakeFrame give_;
+  Hotplug hotplug_;
+  bool searched_ = false;
+  std::unique_ptr<ReportSource> source_;
+  std::optional<FrameAssembler> assembler_;
+  ReportCounts earlier_; ///< of the connections before this one
+  std::optional<ForceDecoder> decoder_;
+  RestReference rest_;
+  std::shared_ptr<RecordingWriter> writer_;
+  LatencyMeter latency_, decoding_;
+  RawReport report_;
+  LiveStatus status_;
+  bool paused_ = false;
+  std::string mark_;        ///< of the user, the last one
+  double arrival_s_ = 0;    ///< host clock at the last report
+  double askedAgain_s_ = 0; ///< host clock when the configuration was read again
+  double rateStart_s_ = 0;
+  std::uint64_t rateReports_ = 0, rateFrames_ = 0;
+};
+
+} // namespace palp

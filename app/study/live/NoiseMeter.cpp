@@ -1,0 +1,40 @@
+#include "app/study/live/NoiseMeter.h"
+
+#include "app/study/Median.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace palp {
+
+namespace {
+
+/// Of |x| for a normal x of deviation 1.
+constexpr double kMedianOfNormal = 0.6745;
+
+} // namespace
+
+void NoiseMeter::restart() {
+  before_ohm_.resize(0);
+  last_ohm_.resize(0);
+  recent_.clear();
+}
+
+void NoiseMeter::add(const Eigen::VectorXd& readings_ohm) {
+  if (before_ohm_.size() == readings_ohm.size() && readings_ohm.size() > 0) {
+    const Eigen::ArrayXd second = (readings_ohm - 2 * last_ohm_ + before_ohm_).array() / readings_ohm.array();
+    std::vector<double> sizes(static_cast<std::size_t>(second.size()));
+    for (std::size_t k = 0; k < sizes.size(); ++k) sizes[k] = std::abs(second(static_cast<Eigen::Index>(k)));
+    recent_.push_back(median(std::move(sizes)) / (std::sqrt(6.0) * kMedianOfNormal)); // 1 + 4 + 1
+    if (recent_.size() > kMost) recent_.pop_front();
+  }
+  before_ohm_ = std::move(last_ohm_);
+  last_ohm_ = readings_ohm;
+}
+
+double NoiseMeter::noise() const {
+  return recent_.empty() ? 0 : median(std::vector<double>(recent_.begin(), recent_.end()));
+}
+
+} // namespace palp

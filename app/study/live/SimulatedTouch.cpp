@@ -1,0 +1,87 @@
+#include "app/study/live/SimulatedTouch.h"
+
+#include "model/base/Error.h"
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+namespace palp {
+
+namespace {
+
+constexpr int kDegree = 3;     // 2e-7 of the displacements in the paper's range
+constexpr double kShear = 0.8; // share of the ranges that the touch goes through
+constexpr double kPress = 0.9;
+
+/// Column of the sample with the least force.
+Eigen::Index nearestRest(const SampleSet& samples) {
+  Eigen::Index nearest = 0;
+  samples.forces_N.colwise().squaredNorm().minCoeff(&nearest);
+  return nearest;
+}
+
+} // namespace
+
+SimulatedTouch::SimulatedTouch(const SampleSet& samples)
+    : rowWires_(samples.rowWires), columnWires_(samples.columnWires),
+      designFingerprint_(samples.origin.designFingerprint) {
+  if (samples.together() || samples.size() == 0 || samples.resistances_ohm.rows() == 0)
+    throw Error("the simulated touch needs samples with resistances and one area loaded at a time (--areas each)");
+  for (int area = 0; area < samples.areaCount; ++area)
+    if (!(samples.area.array() == area).any())
+      throw Error("the simulated touch needs samples on every area; area " + std::to_string(area) + " has none");
+  low_N_ = samples.forces_N.rowwise().minCoeff();
+  high_N_ = samples.forces_N.rowwise().maxCoeff();
+  // Differences from one sample keep the digits that the small changes of R need.
+  const Eigen::VectorXd base_ohm = samples.resistances_ohm.col(nearestRest(samples));
+  ForwardModelOptions options;
+  options.degree = kDegree;
+  response_ = fitForwardModel(samples.resistances_ohm.colwise() - base_ohm, samples.forces_N, samples.area, options);
+  rest_ohm_ = base_ohm;
+  for (std::size_t area = 0; area < response_.classes(); ++area) // each area's polynomial has a rest of its own
+    rest_ohm_ += response_.measurementsOf(area, Eigen::Vector3d::Zero()) / static_cast<double>(response_.classes());
+}
+
+SimulatedTouch::Truth SimulatedTouch::truth(double time_s) const {
+  const auto touch = static_cast<std::int64_t>(std::floor(time_s / kTouch_s));
+  const auto areas = static_cast<std::int64_t>(response_.classes());
+  Truth truth;
+  truth.area = static_cast<int>((touch % areas + areas) % areas);
+  const double phase = time_s / kTouch_s - static_cast<double>(touch); // 0..1; the first half is rest
+  if (phase < 0.5) return truth;
+  const double press = std::pow(std::sin(2 * std::numbers::pi * phase), 2);
+  const double angle = 4 * std::numbers::pi * phase;
+  truth.force_N = {kShear * press * std::cos(angle) * high_N_.x(), kShear * press * std::sin(angle) * high_N_.y(),
+                   kPress * press * low_N_.z()};
+  return truth;
+}
+
+Eigen::MatrixXd SimulatedTouch::resistances_ohm(const Truth& truth) const {
+  const auto area = static_cast<std::size_t>(truth.area);
+  const Eigen::VectorXd change =
+      response_.measurementsOf(area, truth.force_N) - response_.measurementsOf(area, Eigen::Vector3d::Zero());
+  return (rest_ohm_ + change).reshaped<Eigen::RowMajor>(rowWires_, columnWires_);
+}
+
+const Eigen::MatrixXd& SimulatedTouch::at(double time_s) {
+  now_ohm_ = resistances_ohm(truth(time_s));
+  return now_ohm_;
+}
+
+Board simulatedBoard(const SampleSet& samples, const BoardDisturbance& disturbance, int rate_Hz, std::uint64_t seed) {
+  const auto touch = std::make_shared<SimulatedTouch>(samples);
+  BoardSettings settings;
+  settings.info.rowWires = touch->rowWires();
+  settings.info.columnWires = touch->columnWires();
+  settings.info.electrodesPerRowWire = samples.electrodesPerRowWire;
+  settings.info.serial = "SIMULATED";
+  settings.info.model = "VIRTUAL";
+  settings.configuration.rowMask = static_cast<std::uint32_t>((std::uint64_t{1} << touch->rowWires()) - 1);
+  settings.configuration.rate_Hz = rate_Hz;
+  settings.disturbance = disturbance;
+  settings.seed = seed;
+  return {settings, [touch](double time_s) -> const Eigen::MatrixXd& { return touch->at(time_s); }};
+}
+
+} // namespace palp

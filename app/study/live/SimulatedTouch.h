@@ -1,0 +1,48 @@
+#pragma once
+
+#include "io/board/Board.h"
+#include "model/SampleSet.h"
+#include "nn/rivals/ForwardModel.h"
+
+namespace palp {
+
+/// A finger that presses one load area after the other: the resistances that the solver gives for it, by a polynomial
+/// an area through solved samples, so that nothing is solved while the board is simulated.
+class SimulatedTouch {
+public:
+  struct Truth {
+    int area = 0;
+    Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
+  };
+
+  /// Samples with one area loaded at a time, on every area. Throws Error where they are others.
+  explicit SimulatedTouch(const SampleSet& samples);
+
+  /// The touch at a time: each area for `kTouch_s`, the first half at rest (time to tare), then pressed with a
+  /// shear that goes round.
+  [[nodiscard]] Truth truth(double time_s) const;
+  /// Row-wires x column-wires [ohm].
+  [[nodiscard]] Eigen::MatrixXd resistances_ohm(const Truth& truth) const;
+  /// For Board: valid until the next call.
+  const Eigen::MatrixXd& at(double time_s);
+
+  [[nodiscard]] int rowWires() const { return rowWires_; }
+  [[nodiscard]] int columnWires() const { return columnWires_; }
+  [[nodiscard]] const std::string& designFingerprint() const { return designFingerprint_; }
+
+  static constexpr double kTouch_s = 2;
+
+private:
+  int rowWires_ = 0;
+  int columnWires_ = 0;
+  std::string designFingerprint_;
+  ForwardModel response_; ///< change of R since rest, row-wires times column-wires, of the force
+  Eigen::VectorXd rest_ohm_;
+  Eigen::Vector3d low_N_, high_N_; ///< range of the samples
+  Eigen::MatrixXd now_ohm_;
+};
+
+/// A virtual board of the sensor that the samples are of, under the simulated touch. Keeps what it needs.
+Board simulatedBoard(const SampleSet& samples, const BoardDisturbance& disturbance, int rate_Hz, std::uint64_t seed);
+
+} // namespace palp

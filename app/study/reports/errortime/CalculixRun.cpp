@@ -1,0 +1,63 @@
+#include "app/study/reports/errortime/CalculixRun.h"
+
+#include "app/study/ChildProcess.h"
+#include "io/AtomicFile.h"
+#include "solver/CalculixDeck.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+#include <thread>
+
+namespace palp {
+
+std::optional<std::string> calculixProgram() {
+  const auto program = programInPath("ccx");
+  if (!program) return {};
+  return program->string();
+}
+
+CalculixRun runCalculix(const std::string& program, const SensorDesign& design, const Mesh& mesh, const LoadCase& load,
+                        int threads, double limit_s, const std::stop_token& stop) {
+  const ScratchFolder folder;
+  writeFile(folder.path() / "job.inp", calculixDeck(design, mesh, load), true);
+  const int cores = threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  ChildOrder order{program, {"job"}, folder.path(), {}, limit_s};
+  for (const char* name : {"OMP_NUM_THREADS=", "CCX_NPROC_EQUATION_SOLVER=", "CCX_NPROC_STIFFNESS="})
+    order.environment.push_back(name + std::to_string(cores));
+  const ChildRun child = runChild(order, stop);
+  CalculixRun run;
+  run.seconds = child.seconds;
+  run.peak_MB = child.peak_MB;
+  run.failed = child.failed;
+  if (!run.failed.empty()) return run;
+  const std::filesystem::path results = folder.path() / "job.frd";
+  if (std::filesystem::exists(results)) run.displacements_mm = frdDisplacements(readFile(results), mesh.nodeCount());
+  if (run.displacements_mm.size() == 0) run.failed = "CalculiX ended without displacements";
+  return run;
+}
+
+Eigen::Matrix3Xd frdDisplacements(const std::string& frd, int nodes) {
+  // Fixed columns (CalculiX CrunchiX manual, "Node file format"): " -1", node in 10, then values of 12 characters.
+  constexpr std::size_t kNodeAt = 3, kNodeWidth = 10, kValueWidth = 12;
+  Eigen::Matrix3Xd result;
+  std::istringstream lines(frd);
+  bool inside = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind(" -4  DISP", 0) == 0) {
+      inside = true;
+      result = Eigen::Matrix3Xd::Zero(3, nodes); // the last step's stands
+    } else if (line.rfind(" -3", 0) == 0) {
+      inside = false;
+    }
+    if (!inside || line.rfind(" -1", 0) != 0 || line.size() < kNodeAt + kNodeWidth + 3 * kValueWidth) continue;
+    const int node = std::stoi(line.substr(kNodeAt, kNodeWidth)) - 1;
+    if (node < 0 || node >= nodes) return {};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      result(static_cast<Eigen::Index>(axis), node) =
+          std::stod(line.substr(kNodeAt + kNodeWidth + axis * kValueWidth, kValueWidth));
+  }
+  return result;
+}
+
+} // namespace palp

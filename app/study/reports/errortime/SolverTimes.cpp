@@ -1,0 +1,252 @@
+#include "app/study/reports/errortime/SolverTimes.h"
+
+#include "app/study/reports/ProcessMemory.h"
+#include "app/study/reports/ReportPage.h"
+#include "app/study/reports/errortime/CalculixRun.h"
+#include "io/DesignFile.h"
+#include "solver/CalculixDeck.h"
+#include "solver/HyperelasticProblem.h"
+#include "solver/statics/ProblemParts.h"
+
+#include <cmath>
+#include <limits>
+
+namespace palp {
+
+namespace {
+
+/// Ratio of the sizes of the three meshes that are extrapolated from.
+constexpr double kRefinement = 1.5;
+/// Unknowns above which a mesh runs once: three runs of it would take minutes.
+constexpr int kOnceAbove = 60000;
+constexpr double kFinest_mm = 1.6;
+constexpr int kPublishedRow = 4;
+constexpr double kCalculixOnceAbove_s = 15;
+constexpr double kCalculixLimit_s = 60;
+
+struct Plan {
+  std::string family;
+  MeshOptions options;
+};
+
+std::vector<Plan> plans(bool quick) {
+  std::vector<Plan> result;
+  const std::vector<double> sizes = quick ? std::vector{8.0, 5.4, 3.6} : std::vector{8.0, 5.4, 3.6, 2.4, kFinest_mm};
+  for (const double size : sizes) {
+    MeshOptions mesh;
+    mesh.meshSize_mm = size;
+    result.push_back({"tetrahedra, graded", mesh});
+  }
+  result.push_back({"tetrahedra, graded", {}}); // the default
+  using Counts = std::array<int, 3>;
+  const std::vector<Counts> counts = quick ? std::vector{Counts{5, 5, 3}, Counts{10, 10, 5}}
+                                           : std::vector{Counts{5, 5, 3}, Counts{10, 10, 5}, Counts{15, 15, 8},
+                                                         Counts{20, 20, 10}, Counts{30, 30, 15}};
+  for (const Counts& count : counts) {
+    MeshOptions mesh;
+    mesh.mapped = count;
+    result.push_back({"hexahedra, mapped", mesh});
+  }
+  return result;
+}
+
+std::string nameOf(const MeshOptions& mesh) {
+  if (mesh.meshSize_mm) return "--mesh-size " + shortNumber(*mesh.meshSize_mm);
+  if (!mesh.mapped) return "default";
+  const auto& [x, y, z] = *mesh.mapped;
+  return "--mapped " + std::to_string(x) + "x" + std::to_string(y) + "x" + std::to_string(z);
+}
+
+std::vector<JudgedLoad> judgedLoads(const SensorDesign& design) {
+  const Eigen::Vector3d low = design.forceRange.low_N, high = design.forceRange.high_N;
+  const int middle = design.areas.columns / 2;
+  std::vector<JudgedLoad> loads(3);
+  loads[0].name = "middle of the range on area 0";
+  loads[0].load.areas.push_back({0, (low + high) / 2});
+  loads[1].name = "corner of the range on area " + std::to_string(middle);
+  loads[1].load.areas.push_back({middle, {high.x(), high.y(), low.z()}});
+  loads[2].name = "shear alone on the last area";
+  loads[2].load.areas.push_back({design.areas.count() - 1, {high.x(), low.y(), 0}});
+  return loads;
+}
+
+/// Runs one mesh through its phases; displacements of the upper electrodes, a load.
+class MeshRun {
+public:
+  MeshRun(const SensorDesign& design, const Plan& plan, const std::vector<PublishedSolution>& published, int threads,
+          std::stop_token stop)
+      : design_(design), published_(published), stop_(std::move(stop)) {
+    times.family = plan.family;
+    times.options = plan.options;
+    times.mesh = nameOf(plan.options);
+    newton_.threads = threads;
+  }
+
+  void measure(const std::vector<JudgedLoad>& loads, int repeats) {
+    Mesh mesh;
+    times.meshing = timed(repeats, [&] { mesh = sensorMesh(design_, times.options); });
+    times.elements = mesh.elementCount();
+    times.size_mm = std::sqrt(design_.block_mm.x() * design_.block_mm.y() * design_.block_mm.z() / times.elements);
+    const int runs = freeUnknowns(mesh) > kOnceAbove ? 1 : repeats;
+    for (int i = 0; i < runs && !stop_.stop_requested(); ++i) {
+      resetPeakMemory();
+      const double before_MB = heldMemory_MB();
+      once(mesh, loads, i == 0);
+      if (i == 0) times.process_MB = peakMemory_MB() - before_MB;
+    }
+  }
+
+  MeshTimes times;
+  std::vector<Eigen::Matrix3Xd> displacements_mm;
+
+private:
+  void once(const Mesh& mesh, const std::vector<JudgedLoad>& loads, bool first) {
+    std::optional<HyperelasticProblem> problem;
+    times.pattern.seconds.push_back(secondsOf([&] {
+      problem.emplace(design_, mesh);
+      (void)problem->parts().plan();
+    }));
+    std::shared_ptr<const RestTangent> rest;
+    times.factorisation.seconds.push_back(
+        secondsOf([&] { rest = problem->parts().restTangent(newton_.threads, stop_); }));
+    if (!rest) return;
+    times.dof = problem->dof();
+    times.factor_MB = static_cast<double>(rest->factor.bytes()) / (1024.0 * 1024);
+    double seconds = 0;
+    std::vector<double> loadSeconds;
+    for (const JudgedLoad& load : loads) {
+      Solution solution;
+      loadSeconds.push_back(
+          secondsOf([&] { solution = problem->solve(load.load, newton_, {.step = {}, .stop = stop_}); }));
+      seconds += loadSeconds.back();
+      if (!solution.converged) times.failed = load.name + ": " + solution.stopReason;
+      if (first) displacements_mm.push_back(problem->electrodes(solution.state()).upper_mm);
+    }
+    if (first) times.loadSeconds = loadSeconds;
+    for (std::size_t l = 0; l < loads.size(); ++l)
+      times.loadSeconds[l] = std::min(times.loadSeconds[l], loadSeconds[l]);
+    times.solving.seconds.push_back(seconds / static_cast<double>(loads.size()));
+    if (first) judgeByPublished(*problem);
+  }
+
+  void judgeByPublished(const HyperelasticProblem& problem) {
+    for (const PublishedSolution& published : published_) {
+      LoadCase load;
+      load.areas.push_back({published.area, published.force_N});
+      const Solution solution = problem.solve(load, newton_, {.step = {}, .stop = stop_});
+      const Eigen::Index count = published.displacements_mm.cols();
+      const Eigen::Matrix3Xd ours =
+          problem.electrodes(solution.state()).upper_mm.middleCols(kPublishedRow * count, count);
+      times.publishedErrors.push_back(solution.converged ? (ours - published.displacements_mm).norm() /
+                                                               published.displacements_mm.norm()
+                                                         : std::numeric_limits<double>::quiet_NaN());
+    }
+  }
+
+  const SensorDesign& design_;
+  const std::vector<PublishedSolution>& published_;
+  std::stop_token stop_;
+  NewtonOptions newton_;
+};
+
+/// Richardson's extrapolation from meshes whose sizes fall by kRefinement, with the order that they show.
+void extrapolate(JudgedLoad& load, const Eigen::Matrix3Xd& coarse, const Eigen::Matrix3Xd& middle,
+                 const Eigen::Matrix3Xd& fine) {
+  const double ratio = (coarse - middle).norm() / (middle - fine).norm();
+  load.order = std::clamp(std::log(ratio) / std::log(kRefinement), 0.5, 4.0);
+  load.reference_mm = fine + (fine - middle) / (std::pow(kRefinement, load.order) - 1);
+  load.uncertainty = (load.reference_mm - fine).norm() / load.reference_mm.norm();
+}
+
+/// CalculiX on a mesh under every load, its whole process timed (the first load `repeats` times, the others once);
+/// meshed by us.
+MeshTimes calculixTimes(const std::string& program, const SensorDesign& design, const MeshOptions& options,
+                        const std::vector<JudgedLoad>& loads, int repeats, int threads, const std::stop_token& stop) {
+  MeshTimes times;
+  times.options = options;
+  times.family = options.mapped ? "CalculiX, C3D8 mapped" : "CalculiX, C3D10 graded";
+  times.mesh = "CalculiX " + nameOf(options);
+  Mesh mesh;
+  times.meshing = timed(repeats, [&] { mesh = sensorMesh(design, options); });
+  times.dof = freeUnknowns(mesh);
+  times.elements = mesh.elementCount();
+  times.factor_MB = std::numeric_limits<double>::quiet_NaN(); // it does not tell
+  for (std::size_t l = 0; l < loads.size() && times.failed.empty(); ++l) {
+    Timing timing;
+    const int runs = l == 0 ? repeats : 1;
+    for (int i = 0; i < runs && timing.median() < kCalculixOnceAbove_s; ++i) {
+      const CalculixRun run = runCalculix(program, design, mesh, loads[l].load, threads, kCalculixLimit_s, stop);
+      timing.seconds.push_back(run.seconds);
+      times.process_MB = std::max(times.process_MB, run.peak_MB);
+      if (!run.failed.empty()) {
+        times.failed = loads[l].name + ": " + run.failed;
+        break;
+      }
+      if (i > 0) continue;
+      constexpr Eigen::Index unknowns = 16; // zeros: neither bubble nor pressure is read at the nodes
+      const LoadIncrement state{1, run.displacements_mm, Eigen::MatrixXd::Zero(unknowns, mesh.elementCount())};
+      const Eigen::Matrix3Xd upper = PointProbe(mesh, design.upperElectrodes_mm()).displacements_mm(state);
+      times.errors.push_back((upper - loads[l].reference_mm).norm() / loads[l].reference_mm.norm());
+    }
+    times.loadSeconds.push_back(timing.median());
+    if (l == 0) times.solving = timing;
+  }
+  return times;
+}
+
+void addCalculix(SolverTimes& result, const SensorDesign& design, bool quick, int repeats, int threads,
+                 const ReportProgress& progress, const std::stop_token& stop) {
+  const auto program = calculixProgram();
+  if (!program || !(design.material.poissonRatio < 0.5)) return;
+  std::vector<MeshOptions> choices(quick ? 1 : 5);
+  choices[0].mapped = {10, 10, 5};
+  if (!quick) {
+    choices[1].mapped = {20, 20, 10};
+    choices[2].meshSize_mm = 8;
+    choices[3].meshSize_mm = 5.4;
+    choices[4].meshSize_mm = 3.6;
+  }
+  result.deck = calculixDeck(design, sensorMesh(design, choices[0]), result.loads[0].load);
+  for (const MeshOptions& options : choices) {
+    if (stop.stop_requested()) return;
+    if (progress) progress(1, "CalculiX, " + nameOf(options));
+    result.meshes.push_back(calculixTimes(*program, design, options, result.loads, repeats, threads, stop));
+  }
+}
+
+} // namespace
+
+double MeshTimes::total_s() const {
+  return meshing.median() + pattern.median() + factorisation.median() + solving.median();
+}
+
+std::optional<SolverTimes> solverTimes(const SensorDesign& design, bool quick, int repeats, int threads,
+                                       const ReportProgress& progress, std::stop_token stop) {
+  SolverTimes result;
+  result.loads = judgedLoads(design);
+  if (!quick && designFingerprint(design) == designFingerprint(paperDesign())) result.published = publishedSolutions();
+  std::vector<std::vector<Eigen::Matrix3Xd>> displacements;
+  const std::vector<Plan> all = plans(quick);
+  std::vector<std::size_t> tets;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    MeshRun run(design, all[i], result.published, threads, stop);
+    if (progress) progress(static_cast<double>(i) / static_cast<double>(all.size()), "solver, " + run.times.mesh);
+    run.measure(result.loads, repeats);
+    if (stop.stop_requested()) return {};
+    if (all[i].options.meshSize_mm) tets.push_back(i);
+    result.meshes.push_back(std::move(run.times));
+    displacements.push_back(std::move(run.displacements_mm));
+  }
+  const std::size_t fine = tets.back(), middle = tets[tets.size() - 2], coarse = tets[tets.size() - 3];
+  for (std::size_t l = 0; l < result.loads.size(); ++l) {
+    JudgedLoad& load = result.loads[l];
+    extrapolate(load, displacements[coarse][l], displacements[middle][l], displacements[fine][l]);
+    for (std::size_t i = 0; i < result.meshes.size(); ++i)
+      result.meshes[i].errors.push_back((displacements[i][l] - load.reference_mm).norm() / load.reference_mm.norm());
+  }
+  addCalculix(result, design, quick, repeats, threads, progress, stop);
+  if (stop.stop_requested()) return {};
+  return result;
+}
+
+} // namespace palp

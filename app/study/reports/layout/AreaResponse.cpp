@@ -1,0 +1,95 @@
+#include "app/study/reports/layout/AreaResponse.h"
+
+#include "model/base/Error.h"
+#include "solver/HyperelasticProblem.h"
+#include "solver/PointProbe.h"
+
+namespace palp {
+
+namespace {
+
+/// Half of the central difference's width [N]: the block is so nearly linear that its error is far below 1e-4, and the
+/// solver's tolerance far below it.
+constexpr double kStep_N = 0.05;
+
+LoadIncrement derivative(const LoadIncrement& above, const LoadIncrement& below) {
+  LoadIncrement result = above;
+  result.displacements_mm = (above.displacements_mm - below.displacements_mm) / (2 * kStep_N);
+  result.elementUnknowns = (above.elementUnknowns - below.elementUnknowns) / (2 * kStep_N);
+  return result;
+}
+
+/// Where the probe stands in the list of all electrodes.
+struct Place {
+  Eigen::Index first;
+  Eigen::Index count;
+};
+
+ElectrodeDisplacements read(const SensorDesign& layout, const LoadIncrement& state, const PointProbe& upper,
+                            const Place& place, const PointProbe* lower) {
+  ElectrodeDisplacements result = ElectrodeDisplacements::atRest(layout);
+  result.upper_mm.middleCols(place.first, place.count) = upper.displacements_mm(state);
+  if (layout.pressureLaw) result.upperPressure_MPa.segment(place.first, place.count) = upper.pressures_MPa(state);
+  if (lower) result.lower_mm = lower->displacements_mm(state);
+  return result;
+}
+
+} // namespace
+
+std::optional<AreaResponse> AreaResponse::solve(const SensorDesign& design, const MeshOptions& mesh, int threads,
+                                                StageLog& stages, const ReportProgress& progress,
+                                                std::stop_token stop) {
+  AreaResponse response;
+  response.mesh_ = stages.measure("mesh", [&] { return sensorMesh(design, mesh); });
+  const HyperelasticProblem problem =
+      stages.measure("factorise", [&] { return HyperelasticProblem(design, response.mesh_); });
+  NewtonOptions newton;
+  newton.threads = threads;
+  const auto solveFor = [&](int area, const Eigen::Vector3d& force_N) {
+    LoadCase load;
+    load.areas.push_back({area, force_N});
+    Solution solution =
+        stages.measure("solve", [&] { return problem.solve(load, newton, {.step = {}, .stop = stop}); });
+    if (!solution.converged && !solution.cancelled)
+      throw DesignError("force_range_N: its middle on area " + std::to_string(area) +
+                        " has no solution: " + solution.stopReason);
+    return std::move(solution.increments.back());
+  };
+  const Eigen::Vector3d middle_N = (design.forceRange.low_N + design.forceRange.high_N) / 2;
+  const int areas = design.areas.count();
+  for (int area = 0; area < areas; ++area) {
+    AreaState state;
+    state.middle = solveFor(area, middle_N);
+    for (int axis = 0; axis < 3; ++axis) {
+      if (stop.stop_requested()) return {};
+      const Eigen::Vector3d step = kStep_N * Eigen::Vector3d::Unit(axis);
+      const LoadIncrement above = solveFor(area, middle_N + step);
+      state.perNewton[static_cast<std::size_t>(axis)] = derivative(above, solveFor(area, middle_N - step));
+    }
+    if (stop.stop_requested()) return {};
+    response.areas_.push_back(std::move(state));
+    if (progress) progress((area + 1.0) / areas, "response of area " + std::to_string(area));
+  }
+  return response;
+}
+
+std::vector<ElectrodeResponse> AreaResponse::read(const SensorDesign& layout, int rowWire) const {
+  const Place place = rowWire < 0 ? Place{0, layout.upper.electrodes()}
+                                  : Place{static_cast<Eigen::Index>(rowWire) * layout.electrodesPerRowWire(),
+                                          layout.electrodesPerRowWire()};
+  const PointProbe upper(mesh_, layout.upperElectrodes_mm().middleCols(place.first, place.count));
+  std::optional<PointProbe> lower;
+  if (layout.lowerFollowsRubber) lower.emplace(mesh_, layout.lowerElectrodes_mm());
+  std::vector<ElectrodeResponse> result;
+  for (const AreaState& area : areas_) {
+    ElectrodeResponse response;
+    const PointProbe* const lowerProbe = lower ? &*lower : nullptr;
+    response.middle = palp::read(layout, area.middle, upper, place, lowerProbe);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      response.perNewton[axis] = palp::read(layout, area.perNewton[axis], upper, place, lowerProbe);
+    result.push_back(std::move(response));
+  }
+  return result;
+}
+
+} // namespace palp

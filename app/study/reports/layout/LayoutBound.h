@@ -1,0 +1,31 @@
+#pragma once
+
+#include "app/study/reports/layout/AreaResponse.h"
+
+#include <Eigen/Core>
+
+namespace palp {
+
+/// Cramer-Rao bounds of the force in the middle of the range, area known, in % of the force range; 3 forces x areas.
+/// Infinite where the resistances do not determine the force.
+struct LayoutBound {
+  Eigen::Matrix3Xd withoutPrior_percent;
+  Eigen::Matrix3Xd withPrior_percent;
+
+  /// Root mean square over the areas.
+  [[nodiscard]] Eigen::Vector3d withoutPrior() const;
+  [[nodiscard]] Eigen::Vector3d withPrior() const;
+  /// Geometric mean of the three forces of withoutPrior().
+  [[nodiscard]] double mean() const;
+};
+
+/// Of one row-wire, or of all with row-wire -1, for relative resistance noise.
+LayoutBound layoutBound(const SensorDesign& layout, const AreaResponse& response, int rowWire, double relativeNoise);
+
+/// Singular values of d ln R / d u of a row-wire at rest [1/mm], largest first.
+Eigen::VectorXd resistanceSingularValues(const SensorDesign& layout, int rowWire);
+
+/// Largest over smallest; infinite where the smallest is 0.
+double condition(const Eigen::VectorXd& singularValues);
+
+} // namespace palp

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "app/study/reports/layout/LayoutBound.h"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <stop_token>
+#include <string>
+
+namespace palp {
+
+/// What a maker can keep. Wires stay straight and where they are along the block; electrodes slide on their wires and
+/// layers change their depth.
+struct MakerLimits {
+  double grid_mm = 0.05;     ///< places are multiples of this; goes into 1 mm
+  double pitch_mm = 1;       ///< least distance between electrodes of a wire
+  double clearance_mm = 0.5; ///< least height of the upper layer over the lower one
+  double cover_mm = 0.5;     ///< least rubber over the upper layer, under the lower one and beside the last electrodes
+};
+
+/// How freely electrodes move.
+enum class LayoutFreedom {
+  SameOnEveryWire, ///< both depths, and the places on the column-wires, the same on all of them
+  WireByWire,      ///< besides, each column-wire has its own depth and places
+};
+
+struct LayoutSearchResult {
+  SensorDesign layout;
+  double before_percent = 0; ///< LayoutBound::mean()
+  double after_percent = 0;
+  int evaluations = 0;
+};
+
+/// Lowers the bound without prior of a row-wire by pattern search (Hooke and Jeeves, 1961) from the design and from
+/// random places; equal seeds give equal layouts. Empty where it was stopped.
+std::optional<LayoutSearchResult> betterLayout(const SensorDesign& design, const AreaResponse& response, int rowWire,
+                                               double relativeNoise, LayoutFreedom freedom, const MakerLimits& limits,
+                                               std::uint64_t seed, const std::stop_token& stop);
+
+/// Why a maker could not keep the layout; empty where he can.
+std::optional<std::string> makerProblem(const SensorDesign& layout, const MakerLimits& limits);
+
+} // namespace palp

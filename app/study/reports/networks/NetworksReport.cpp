@@ -1,0 +1,357 @@
+#include "app/study/reports/networks/NetworksReport.h"
+
+#include "app/study/Median.h"
+#include "app/study/paper/PaperProtocol.h"
+#include "app/study/reports/AskedLines.h"
+#include "app/study/reports/ReportPage.h"
+#include "app/study/reports/networks/NetworkCheck.h"
+#include "app/study/touch/SampleGenerator.h"
+#include "model/base/Error.h"
+#include "model/base/Text.h"
+#include "nn/NoisyCopies.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palp {
+
+namespace {
+
+struct Measured {
+  Eigen::Vector3d rmse_percentOfRange;
+  double within = 0; ///< share of errors within the standard deviation that the decoder tells
+};
+
+class NetworksWriter {
+public:
+  NetworksWriter(const ReportRequest& request, ReportProgress progress, std::stop_token stop)
+      : request_(request), progress_(std::move(progress)), stop_(std::move(stop)),
+        range_N_(request.design.forceRange.high_N - request.design.forceRange.low_N), lines_(request.seed) {
+    if (request.mesh.mapped) seeds_ = 2; // a quick look
+  }
+
+  std::optional<ReportContent> run() {
+    content_.title = "Networks: what is asked of them, and what they do";
+    content_.parts.push_back(ReportWords{
+        "Every line is measured on " + std::to_string(seeds_) + " sets of " + std::to_string(request_.perArea) +
+        " training forces on each area, tested on as many other forces on all areas (seeds " +
+        std::to_string(request_.seed) +
+        " on). 'Mean' and 'worst' are of the test areas, by Eq. (13) without a floor. "
+        "Green: every set keeps what is asked. Yellow: their median does. Red: neither."});
+    if (!protocol() || !bySeed() || !together()) return {};
+    content_.parts.emplace_back(lines_.table());
+    content_.parts.emplace_back(std::move(chart_));
+    content_.parts.push_back(ReportWords{kLeftOut});
+    content_.summary = lines_.summary();
+    content_.csv = lines_.csv();
+    return std::move(content_);
+  }
+
+private:
+  void say(double share, const std::string& what) const {
+    if (progress_) progress_(share, what);
+  }
+
+  const ProtocolCurve& curve(const ProtocolResult& result, const std::string& figure, const std::string& mode) const {
+    return *std::find_if(result.curves.begin(), result.curves.end(),
+                         [&](const ProtocolCurve& c) { return c.figure == figure && c.mode == mode; });
+  }
+
+  static const ProtocolRow& at(const ProtocolCurve& curve, double spread) {
+    return *std::find_if(curve.rows.begin(), curve.rows.end(),
+                         [&](const ProtocolRow& row) { return !row.spread || *row.spread == spread; });
+  }
+
+  static Triples areaErrors(const ProtocolRow& row, bool worst) {
+    Triples values;
+    for (const ProtocolErrors& error : row.errors)
+      values.push_back(worst ? Eigen::Vector3d(error.eq13_percent.rowwise().maxCoeff())
+                             : Eigen::Vector3d(error.eq13_percent.rowwise().mean()));
+    return values;
+  }
+
+  /// Table 1 and Fig. 12.
+  bool protocol() {
+    ProtocolOptions options;
+    options.perArea = request_.perArea;
+    options.seeds = seeds_;
+    options.firstSeed = request_.seed;
+    options.mesh = request_.mesh;
+    options.threads = request_.threads;
+    const auto result = runPaperProtocol(
+        request_.design, {"table1", "fig12"}, options,
+        [&](double share, const std::string& what) { say(0.4 * share, what); }, stop_);
+    if (!result) return false;
+    content_.stages.add(result->stages);
+    const ProtocolCurve& table = curve(*result, "table1", "default");
+    const ProtocolCurve& resistance = curve(*result, "fig12", "default");
+    for (const ProtocolRow& row : table.rows)
+      lines_.add("deformation, spread " + text(*row.spread) + ", worst area [%]; the paper's numbers",
+                 *row.published_percent, areaErrors(row, true), "");
+    lines_.add("deformation, spread 1.5, worst area [%]", {0.01, 0.02, 0.05}, areaErrors(at(table, 1.5), true), "");
+    lines_.add("resistance, spread 1, worst area [%]", {0.02, 0.1, 0.1}, areaErrors(at(resistance, 1), true), "");
+    const ProtocolRow& half = at(resistance, 0.5);
+    lines_.add("resistance, spread 0.5, mean of the areas [%]; the paper's numbers, median asked",
+               *half.published_percent, areaErrors(half, false), "");
+    const Triples linear = areaErrors(curve(*result, "table1", "linear").rows.front(), false);
+    const Triples network = areaErrors(at(table, 1.5), false);
+    lines_.add("deformation, spread 1.5: error over that of linear least squares", Eigen::Vector3d::Constant(1.0 / 50),
+               ratios(network, linear), "linear: " + triple(median(linear)) + " %");
+    paperMode(*result);
+    return true;
+  }
+
+  void paperMode(const ProtocolResult& result) {
+    const ProtocolCurve& table = curve(result, "table1", "paper");
+    const Triples from = areaErrors(at(table, 0.8), false), to = areaErrors(at(table, 1.5), false);
+    lines_.add("mode paper, Table 1: error at 1.5 over that at 0.8, median asked", Eigen::Vector3d::Constant(0.5),
+               ratios(to, from), "");
+    for (const char* mode : {"paper", "paper-minmax"}) {
+      const ProtocolCurve& figure = curve(result, "fig12", mode);
+      double best = 0, least = 0;
+      ReportCurve drawn{mode == std::string("paper") ? "one factor for all inputs" : "each input by itself",
+                        {},
+                        {},
+                        ReportCurve::Style::LineAndPoints,
+                        false};
+      for (const ProtocolRow& row : figure.rows) {
+        const double error = row.eq13Mean_percent().mean();
+        drawn.x.push_back(*row.spread);
+        drawn.y.push_back(error);
+        if (best == 0 || error < least) best = *row.spread, least = error;
+      }
+      double low = best, high = best; // where the curve is as good as flat
+      for (std::size_t i = 0; i < drawn.x.size(); ++i)
+        if (drawn.y[i] <= 1.5 * least) low = std::min(low, drawn.x[i]), high = std::max(high, drawn.x[i]);
+      chart_.curves.push_back(std::move(drawn));
+      if (mode != std::string("paper")) continue;
+      bestSpread_ = best;
+      lines_.addRow({"mode paper, Fig. 12: spread of the least error (mean of forces and areas)", "0.8 to 2",
+                     shortNumber(best), shortNumber(best),
+                     "at most 1.5 times that error from " + shortNumber(low) + " to " + shortNumber(high)},
+                    best >= 0.8 && best <= 2, best >= 0.8 && best <= 2);
+    }
+  }
+
+  TrainOptions options(InputKind input, const std::string& rows, double noise, std::uint64_t seed) const {
+    TrainOptions result;
+    result.input = input;
+    result.rows = rows;
+    result.noise = noise;
+    result.seed = seed;
+    result.threads = request_.threads;
+    return result;
+  }
+
+  /// The spread by leave-one-out, and noise.
+  bool bySeed() {
+    const std::string centre = std::to_string((request_.design.rowWires() - 1) / 2);
+    struct Case {
+      std::string what;
+      Eigen::Vector3d asked;
+      TrainOptions options;
+      Triples values, bounds;
+      std::vector<double> within;
+    };
+    const auto spreadAt = [&](double spread) {
+      TrainOptions result = options(InputKind::Resistance, centre, 0, 1);
+      result.spread = spread;
+      return result;
+    };
+    const double inf = std::numeric_limits<double>::infinity();
+    enum : std::size_t { DeformationAuto, ResistanceAuto, Spread200, AllRbf, OneRbf, OneMl, AllGp, AllMl };
+    std::vector<Case> cases{
+        {"deformation, spread auto [% of range]",
+         Eigen::Vector3d::Constant(0.001),
+         options(InputKind::Displacement, centre, 0, 1),
+         {},
+         {},
+         {}},
+        {"resistance, spread auto [% of range]",
+         Eigen::Vector3d::Constant(0.003),
+         options(InputKind::Resistance, centre, 0, 1),
+         {},
+         {},
+         {}},
+        {"resistance, spread 200 [% of range]", Eigen::Vector3d::Constant(5), spreadAt(200), {}, {}, {}},
+        {"all row-wires at noise 1e-4, rbf [% of range]",
+         Eigen::Vector3d::Constant(3.5),
+         options(InputKind::Resistance, "all", 1e-4, 1),
+         {},
+         {},
+         {}},
+        {"one row-wire at noise 1e-6, rbf [% of range]",
+         {4, 11, 7},
+         options(InputKind::Resistance, centre, 1e-6, 1),
+         {},
+         {},
+         {}},
+        {"one row-wire at noise 1e-6, ml [% of range]",
+         Eigen::Vector3d::Constant(inf),
+         options(InputKind::Resistance, centre, 1e-6, 1),
+         {},
+         {},
+         {}},
+        {"all row-wires at noise 1e-4, gp [% of range]",
+         Eigen::Vector3d::Constant(inf),
+         options(InputKind::Resistance, "all", 1e-4, 1),
+         {},
+         {},
+         {}},
+        {"all row-wires at noise 1e-4, ml [% of range]",
+         Eigen::Vector3d::Constant(inf),
+         options(InputKind::Resistance, "all", 1e-4, 1),
+         {},
+         {},
+         {}}};
+    cases[OneMl].options.decoder = cases[AllMl].options.decoder = DecoderKind::MaximumLikelihood;
+    cases[AllGp].options.decoder = DecoderKind::GaussianProcess;
+    for (int s = 0; s < seeds_; ++s) {
+      ReportRequest own = request_;
+      own.seed = request_.seed + static_cast<std::uint64_t>(s);
+      const double share = 0.4 + 0.5 * s / seeds_;
+      const auto sets = twoSets(request_.design, own, content_.stages, {}, stop_);
+      if (!sets) return false;
+      if (s == 0)
+        tellFactor(inputsOf(sets->training, {InputKind::Resistance,
+                                             rowsNamed(centre, request_.design.rowWires()),
+                                             request_.design.rowWires(),
+                                             request_.design.columnWires(),
+                                             {},
+                                             {}}));
+      for (Case& one : cases) {
+        if (stop_.stop_requested()) return false;
+        say(share, one.what);
+        one.options.seed = own.seed;
+        const Measured found = measured(*sets, one.options, own.seed);
+        one.values.push_back(found.rmse_percentOfRange);
+        one.within.push_back(found.within);
+        if (one.options.noise > 0)
+          one.bounds.emplace_back(noiseBound(sets->test, InputKind::Resistance,
+                                             rowsNamed(one.options.rows, request_.design.rowWires()), one.options.noise)
+                                      .withPriorPercent);
+      }
+    }
+    for (const Case& one : cases)
+      lines_.add(one.what, one.asked, one.values,
+                 one.bounds.empty() ? "" : "bound with prior " + triple(median(one.bounds)));
+    lines_.add("one row-wire at noise 1e-6: error of ml over that of rbf", Eigen::Vector3d::Constant(0.2),
+               ratios(cases[OneMl].values, cases[OneRbf].values), "");
+    for (const std::size_t c : {AllRbf, OneRbf, AllGp, AllMl, OneMl})
+      lines_.add(cases[c].what.substr(0, cases[c].what.find(" [")) +
+                     ": share of errors within one standard deviation, off 0.68 by",
+                 0.1, offsets(cases[c].within), "share " + shortNumber(median(cases[c].within)));
+    return true;
+  }
+
+  /// What one factor for all inputs means for a spread.
+  void tellFactor(const Eigen::MatrixXd& inputs) {
+    const double farthest = (inputs.colwise() - inputs.rowwise().mean()).colwise().norm().maxCoeff();
+    const double half = (inputs.rowwise().maxCoeff() - inputs.rowwise().minCoeff()).maxCoeff() / 2;
+    content_.parts.push_back(ReportWords{
+        "One factor for all inputs brings the sample farthest from the mean to distance 1, so that a spread means the "
+        "same for 30 inputs and for 300. Were half of the largest range of any input brought to 1 instead, the same "
+        "networks would be found at spreads " +
+        shortNumber(farthest / half) + " times as large: " + shortNumber(bestSpread_ * farthest / half) +
+        " in place of " + shortNumber(bestSpread_) + " for the least error of Fig. 12."});
+  }
+
+  static std::vector<double> offsets(const std::vector<double>& within) {
+    std::vector<double> result;
+    for (const double share : within) result.push_back(std::abs(share - 0.683));
+    return result;
+  }
+
+  Measured measured(const TwoSets& sets, const TrainOptions& options, std::uint64_t seed) {
+    const Decoder decoder =
+        content_.stages.measure("train", [&] { return trainDecoder(sets.training, &request_.design, options, stop_); });
+    const Eigen::MatrixXd inputs =
+        noisyCopies(inputsOf(sets.test, decoder.input), options.noise, 1, testSeed(seed)); // never the training's noise
+    PredictOptions asked;
+    asked.noise = options.noise;
+    asked.area = asked.standardDeviation = options.noise > 0;
+    const Prediction prediction = content_.stages.measure("predict", [&] { return predict(decoder, inputs, asked); });
+    const Eigen::MatrixXd error_N = prediction.forces_N - sets.test.forces_N;
+    Measured result;
+    const Eigen::Vector3d rms_N = error_N.cwiseAbs2().rowwise().mean().cwiseSqrt();
+    result.rmse_percentOfRange = 100 * rms_N.cwiseQuotient(range_N_);
+    if (asked.standardDeviation)
+      result.within = (error_N.array().abs() < prediction.standardDeviation_N.array()).cast<double>().mean();
+    return result;
+  }
+
+  /// All areas loaded at once.
+  bool together() {
+    say(0.9, "all areas at once");
+    SampleSet sets[2];
+    for (const bool test : {false, true}) {
+      SampleRequest wanted;
+      wanted.areas = "together";
+      wanted.perArea = request_.perArea * request_.design.areas.count();
+      wanted.seed = test ? testSeed(request_.seed) : request_.seed;
+      wanted.mesh = request_.mesh;
+      wanted.threads = request_.threads;
+      SampleGenerator generator(request_.design, wanted);
+      const std::size_t made = generator.generate(
+          {0, generator.total()}, [&](const SampleSet& block) { append(sets[test ? 1 : 0], block); }, {}, stop_);
+      content_.stages.add(generator.stages());
+      if (made < generator.total()) return false;
+    }
+    for (const double noise : {0.0, 1e-4}) {
+      if (stop_.stop_requested()) return false;
+      const Decoder decoder =
+          trainDecoder(sets[0], nullptr, options(InputKind::Resistance, "all", noise, request_.seed), stop_);
+      PredictOptions bare;
+      bare.area = bare.standardDeviation = false;
+      const Eigen::MatrixXd inputs = noisyCopies(inputsOf(sets[1], decoder.input), noise, 1, testSeed(request_.seed));
+      const Eigen::MatrixXd error_N = predict(decoder, inputs, bare).forces_N - sets[1].forces_N;
+      const Eigen::VectorXd rms_N = error_N.cwiseAbs2().rowwise().mean().cwiseSqrt();
+      Eigen::Vector3d percent;
+      for (int axis = 0; axis < 3; ++axis)
+        percent(axis) = 100 * rms_N.reshaped(3, rms_N.size() / 3).row(axis).maxCoeff() / range_N_(axis);
+      if (noise == 0) {
+        lines_.add("18 forces at once from all row-wires, worst area [% of range]", Eigen::Vector3d::Constant(0.001),
+                   {percent}, "spread auto");
+        continue;
+      }
+      std::vector<int> rows = rowsNamed("all", request_.design.rowWires());
+      const Eigen::VectorXd bound = noiseBound(sets[1], InputKind::Resistance, rows, noise).withoutPriorPercent;
+      Eigen::Vector3d ratio;
+      const Eigen::ArrayXd trainingRange_N =
+          sets[1].forces_N.rowwise().maxCoeff() - sets[1].forces_N.rowwise().minCoeff();
+      const Eigen::VectorXd overBound = (100 * rms_N.array() / trainingRange_N / bound.array()).matrix();
+      for (int axis = 0; axis < 3; ++axis)
+        ratio(axis) = overBound.reshaped(3, overBound.size() / 3).row(axis).maxCoeff();
+      lines_.add("18 forces at once at noise 1e-4: error over the bound without prior, worst area",
+                 Eigen::Vector3d::Constant(1.3), {ratio}, "error " + triple(percent) + " % of range");
+    }
+    return true;
+  }
+
+  const ReportRequest& request_;
+  ReportProgress progress_;
+  std::stop_token stop_;
+  Eigen::Vector3d range_N_;
+  int seeds_ = 5;
+  double bestSpread_ = 0;
+  ReportContent content_;
+  AskedLines lines_;
+  ReportChart chart_{"fig12",
+                     "Fig. 12 in mode paper, with one factor for all inputs and with each input scaled by itself",
+                     "Error from resistance against spread, mode paper",
+                     "spread (radbas)",
+                     "Eq. (13), mean of areas and forces [%]",
+                     true,
+                     true,
+                     {}};
+};
+
+} // namespace
+
+std::optional<ReportContent> networksReport(const ReportRequest& request, const ReportProgress& progress,
+                                            std::stop_token stop) {
+  requireValid(request.design);
+  return NetworksWriter(request, progress, std::move(stop)).run();
+}
+
+} // namespace palp

@@ -1,0 +1,284 @@
+#include "app/study/reports/networks/NoiseReport.h"
+
+#include "app/study/reports/Csv.h"
+#include "app/study/reports/ReportPage.h"
+#include "app/study/reports/networks/NetworkCheck.h"
+#include "model/base/Text.h"
+
+#include <array>
+#include <cmath>
+
+namespace palp {
+
+namespace {
+
+const char* const kForces[3] = {"Fx", "Fy", "Fz"};
+constexpr std::array kNoises{1e-7, 1e-6, 1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 1e-2};
+constexpr std::array kTrainingNoises{0.0, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2};
+constexpr double kShownNoise = 1e-4;
+constexpr double kDrawnUpTo_percent = 300; ///< ten times knowing nothing: what lies above would press the rest flat
+
+/// Relative noise that rounding to so many bits makes where R is at full scale.
+double noiseOfBits(double bits) {
+  return std::exp2(-bits) / std::sqrt(12.0);
+}
+
+double bitsOfNoise(double noise) {
+  return -std::log2(noise * std::sqrt(12.0));
+}
+
+/// Row-wires that are read together.
+struct RowChoice {
+  std::string name;
+  std::string option; ///< as of `palp train --rows`
+  std::vector<int> rows;
+};
+
+/// A way to decode over the noises.
+struct Rival {
+  std::string name;
+  DecoderKind kind;
+  bool trainedClean;
+  bool areaKnown;
+};
+
+double rootMeanSquare(const Eigen::Vector3d& values) {
+  return values.norm() / std::sqrt(3.0);
+}
+
+void addPoint(ReportCurve& curve, double noise, double percent) {
+  if (percent > kDrawnUpTo_percent) return;
+  curve.x.push_back(noise);
+  curve.y.push_back(percent);
+}
+
+class NoiseWriter {
+public:
+  NoiseWriter(const ReportRequest& request, ReportProgress progress, std::stop_token stop)
+      : request_(request), progress_(std::move(progress)), stop_(std::move(stop)),
+        range_N_(request.design.forceRange.high_N - request.design.forceRange.low_N) {}
+
+  std::optional<ReportContent> run() {
+    content_.title = "Noise: what force error a board's noise makes";
+    sets_ = twoSets(
+        request_.design, request_, content_.stages,
+        [&](double share, const std::string& what) { say(0.25 * share, what); }, stop_);
+    if (!sets_) return {};
+    chooseRows();
+    introduce();
+    for (std::size_t i = 0; i < choices_.size(); ++i)
+      if (!errorsOf(choices_[i], 0.25 + 0.5 * static_cast<double>(i) / static_cast<double>(choices_.size()))) return {};
+    content_.parts.emplace_back(std::move(table_));
+    if (!trainingNoise()) return {};
+    bits();
+    content_.parts.push_back(ReportHeading{"What the model leaves out"});
+    content_.parts.push_back(ReportWords{kLeftOut});
+    content_.csv = csv_.text();
+    return std::move(content_);
+  }
+
+private:
+  void say(double share, const std::string& what) const {
+    if (progress_) progress_(share, what);
+  }
+
+  void chooseRows() {
+    const int count = request_.design.rowWires();
+    const int centre = (count - 1) / 2;
+    choices_.push_back({"row-wire " + std::to_string(centre), std::to_string(centre), {centre}});
+    if (count >= 5) {
+      const std::vector<int> three{count / 10, centre, count - 1 - count / 5};
+      choices_.push_back({"three row-wires",
+                          std::to_string(three[0]) + "," + std::to_string(three[1]) + "," + std::to_string(three[2]),
+                          three});
+    }
+    if (count == 1) return;
+    RowChoice all{"all " + std::to_string(count) + " row-wires", "all", {}};
+    for (int row = 0; row < count; ++row) all.rows.push_back(row);
+    choices_.push_back(std::move(all));
+  }
+
+  void introduce() {
+    content_.parts.push_back(ReportHeading{"Error between the two bounds"});
+    content_.parts.push_back(ReportWords{
+        std::to_string(request_.perArea) +
+        " training forces on each area and as many others for testing, full "
+        "nonlinear solves; noise is normal, relative, independent on every resistance. Errors are root mean squares in "
+        "% of the force range (" +
+        triple(range_N_) +
+        " N); in the charts the root mean square of the three forces. "
+        "Bounds know the area: without prior no unbiased decoder is better, with prior (forces uniform over their "
+        "range) none at all; knowing nothing is 28.9 %. Decoders do not know the area, but for 'one an area'. 'Trained "
+        "clean' is a network fitted to noise-free data: it explodes on live data."});
+    table_.caption = "At relative noise " + text(kShownNoise) + ", Fx / Fy / Fz [% of range]";
+    table_.heads = {"rows read", "what", "error"};
+  }
+
+  void point(const std::string& rows, const std::string& what, double noise, double trained,
+             const Eigen::Vector3d& percent) {
+    for (int axis = 0; axis < 3; ++axis)
+      csv_.add({rows, what, noise, bitsOfNoise(noise), trained, kForces[axis], percent(axis),
+                percent(axis) / 100 * range_N_(axis)});
+    if (noise == kShownNoise && trained == noise) table_.rows.push_back({rows, what, triple(percent)});
+  }
+
+  void bounds(const RowChoice& choice, ReportChart& chart) {
+    ReportCurve without{"bound without prior", {}, {}, ReportCurve::Style::Line, true};
+    ReportCurve with{"bound with prior", {}, {}, ReportCurve::Style::Line, true};
+    for (const double noise : kNoises) {
+      const NoiseBound bound = noiseBound(sets_->test, InputKind::Resistance, choice.rows, noise);
+      const Eigen::Vector3d loose = bound.withoutPriorPercent, tight = bound.withPriorPercent;
+      addPoint(without, noise, rootMeanSquare(loose));
+      addPoint(with, noise, rootMeanSquare(tight));
+      point(choice.name, without.name, noise, noise, loose);
+      point(choice.name, with.name, noise, noise, tight);
+    }
+    chart.curves.push_back(std::move(without));
+    chart.curves.push_back(std::move(with));
+  }
+
+  bool errorsOf(const RowChoice& choice, double share) {
+    ReportChart chart{"noise_" + std::to_string(choice.rows.size()),
+                      "Force error against noise, " + choice.name + "; above " + text(kDrawnUpTo_percent) +
+                          " % points are in the CSV alone, as most of a network that is trained clean",
+                      "Force error, " + choice.name,
+                      "relative noise of R (12 bits = 7e-5, 16 bits = 4.4e-6)",
+                      "error, rms of Fx, Fy, Fz [% of range]",
+                      true,
+                      true,
+                      {},
+                      "bits of an ideal converter whose full scale is R",
+                      {}};
+    for (int count = 6; count <= 20; count += 2) chart.topTicks.emplace_back(noiseOfBits(count), std::to_string(count));
+    bounds(choice, chart);
+    for (const Rival& rival :
+         {Rival{"rbf", DecoderKind::Rbf, false, false}, Rival{"rbf, one an area", DecoderKind::Rbf, false, true},
+          Rival{"rbf, trained clean", DecoderKind::Rbf, true, false},
+          Rival{"linear", DecoderKind::Linear, false, false},
+          Rival{"ml", DecoderKind::MaximumLikelihood, false, false}}) {
+      ReportCurve curve{rival.name, {}, {}, ReportCurve::Style::LineAndPoints, false};
+      for (const double noise : kNoises) {
+        if (stop_.stop_requested()) return false;
+        say(share, choice.name + ": " + rival.name);
+        const auto error = errorOf(choice, rival, noise, rival.trainedClean ? 0 : noise);
+        if (!error) continue;
+        addPoint(curve, noise, rootMeanSquare(*error));
+        point(choice.name, rival.name, noise, noise, *error);
+      }
+      if (!curve.x.empty()) chart.curves.push_back(std::move(curve));
+    }
+    content_.parts.emplace_back(std::move(chart));
+    return true;
+  }
+
+  /// Error of a decoder trained at one noise and tested at another; a failure is listed and leaves a gap in the curve.
+  std::optional<Eigen::Vector3d> errorOf(const RowChoice& choice, const Rival& rival, double noise, double trained) {
+    TrainOptions options;
+    options.input = InputKind::Resistance;
+    options.rows = choice.option;
+    options.decoder = rival.kind;
+    options.noise = trained;
+    options.seed = request_.seed;
+    options.threads = request_.threads;
+    const NoisyError error = (rival.areaKnown ? noisyErrorAreaKnown : noisyError)(
+        request_.design, *sets_, options, noise, request_.seed, content_.stages, stop_);
+    if (error.failed.empty()) return error.rmse_percentOfRange;
+    content_.warnings.push_back(choice.name + ", " + rival.name + ", noise " + text(noise) +
+                                " failed: " + error.failed);
+    return {};
+  }
+
+  bool trainingNoise() {
+    content_.parts.push_back(ReportHeading{"Training noise"});
+    ReportChart chart{"training_noise",
+                      "Error at relative noise 1e-4 of networks trained with more or less noise than that",
+                      "Networks at noise 1e-4",
+                      "relative noise of the training (0 is drawn at 1e-8)",
+                      "error, rms of Fx, Fy, Fz [% of range]",
+                      true,
+                      true,
+                      {}};
+    for (const RowChoice* choice : {&choices_.front(), &choices_.back()}) {
+      ReportCurve curve{choice->name, {}, {}, ReportCurve::Style::LineAndPoints, false};
+      for (const double trained : kTrainingNoises) {
+        if (stop_.stop_requested()) return false;
+        say(0.85, "training noise " + text(trained));
+        const auto error = errorOf(*choice, {"rbf", DecoderKind::Rbf, false, true}, kShownNoise, trained);
+        if (!error) continue;
+        curve.x.push_back(trained > 0 ? trained : 1e-8);
+        curve.y.push_back(rootMeanSquare(*error));
+        for (int axis = 0; axis < 3; ++axis)
+          csv_.add({choice->name, "training noise: rbf, one an area", kShownNoise, bitsOfNoise(kShownNoise), trained,
+                    kForces[axis], (*error)(axis), (*error)(axis) / 100 * range_N_(axis)});
+      }
+      chart.curves.push_back(std::move(curve));
+    }
+    content_.parts.emplace_back(std::move(chart));
+    return true;
+  }
+
+  /// The same in bits and newtons, by the bound with prior of all row-wires.
+  void bits() {
+    content_.parts.push_back(ReportHeading{"What a converter resolves"});
+    ReportChart chart{
+        "bits",
+        "Bound with prior against the bits of an ideal converter whose full scale is the resistance at rest",
+        "What this design resolves",
+        "bits",
+        "root mean square error [N]",
+        false,
+        true,
+        {}};
+    ReportTable table{"Bound with prior in N, Fx / Fy / Fz; 'resolves' is their root mean square",
+                      {"bits", "relative noise"},
+                      {},
+                      {}};
+    for (const RowChoice& choice : choices_) {
+      table.heads.push_back(choice.name + " [N]");
+      table.heads.push_back("resolves [N]");
+      chart.curves.push_back({choice.name, {}, {}, ReportCurve::Style::LineAndPoints, false});
+    }
+    for (int count = 8; count <= 24; count += 2) {
+      std::vector<std::string> cells{std::to_string(count), shortNumber(noiseOfBits(count))};
+      for (std::size_t c = 0; c < choices_.size(); ++c) {
+        const NoiseBound bound = noiseBound(sets_->test, InputKind::Resistance, choices_[c].rows, noiseOfBits(count));
+        const Eigen::Vector3d error_N = bound.withPriorPercent.cwiseProduct(range_N_) / 100;
+        cells.push_back(triple(error_N));
+        cells.push_back(shortNumber(rootMeanSquare(error_N)));
+        chart.curves[c].x.push_back(count);
+        chart.curves[c].y.push_back(rootMeanSquare(error_N));
+        if (count == 12 || count == 16) tell(choices_[c], count, rootMeanSquare(error_N));
+      }
+      table.rows.push_back(std::move(cells));
+    }
+    content_.parts.emplace_back(std::move(table));
+    content_.parts.emplace_back(std::move(chart));
+  }
+
+  void tell(const RowChoice& choice, int count, double error_N) {
+    if (&choice != &choices_.front() && &choice != &choices_.back()) return;
+    content_.summary += (content_.summary.empty() ? "" : " ") + std::string("With ") + std::to_string(count) +
+                        " bits (noise " + shortNumber(noiseOfBits(count)) + ") and " + choice.name +
+                        ", this design resolves " + shortNumber(error_N) + " N at best (bound with prior).";
+  }
+
+  const ReportRequest& request_;
+  ReportProgress progress_;
+  std::stop_token stop_;
+  Eigen::Vector3d range_N_;
+  ReportContent content_;
+  Csv csv_{{"rows", "what", "relative_noise", "bits", "training_noise", "force", "error_percent_of_range", "error_N"}};
+  std::optional<TwoSets> sets_;
+  std::vector<RowChoice> choices_;
+  ReportTable table_;
+};
+
+} // namespace
+
+std::optional<ReportContent> noiseReport(const ReportRequest& request, const ReportProgress& progress,
+                                         std::stop_token stop) {
+  requireValid(request.design);
+  return NoiseWriter(request, progress, std::move(stop)).run();
+}
+
+} // namespace palp

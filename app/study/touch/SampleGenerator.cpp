@@ -1,0 +1,176 @@
+#include "app/study/touch/SampleGenerator.h"
+
+#include "io/DesignFile.h"
+#include "model/base/Error.h"
+#include "model/base/Text.h"
+
+#include <algorithm>
+#include <charconv>
+
+namespace palp {
+
+namespace {
+
+constexpr std::size_t kBlock = 192; // samples solved before they are handed out: about a second of work
+constexpr std::size_t kSurrogateBlock = 8192;
+constexpr int kMostPerArea = 10'000'000;
+
+/// The finaliser of SplitMix64 (Steele, Lea, Flood, 2014): a hash that turns counters into random bits.
+std::uint64_t mix(std::uint64_t x) {
+  x += 0x9E3779B97F4A7C15U;
+  x = (x ^ (x >> 30U)) * 0xBF58476D1CE4E5B9U;
+  x = (x ^ (x >> 27U)) * 0x94D049BB133111EBU;
+  return x ^ (x >> 31U);
+}
+
+/// Uniform in [0, 1), by counters alone: any sample can be made without those before it.
+double uniform(std::uint64_t seed, std::uint64_t area, std::uint64_t sample, std::uint64_t axis) {
+  const std::uint64_t bits = mix(mix(mix(mix(seed) ^ area) ^ sample) ^ axis);
+  return static_cast<double>(bits >> 11U) * 0x1p-53;
+}
+
+Eigen::Vector3d force_N(const ForceRange& range, std::uint64_t seed, int area, std::size_t sample) {
+  Eigen::Vector3d force;
+  for (int axis = 0; axis < 3; ++axis)
+    force(axis) = range.low_N(axis) +
+                  (range.high_N(axis) - range.low_N(axis)) *
+                      uniform(seed, static_cast<std::uint64_t>(area), sample, static_cast<std::uint64_t>(axis));
+  return force;
+}
+
+/// The number of one area, or none for `each` and `together`.
+std::optional<int> onlyArea(const std::string& areas, int count) {
+  if (areas == "each" || areas == "together") return {};
+  int area = -1;
+  const auto [end, error] = std::from_chars(areas.data(), areas.data() + areas.size(), area);
+  if (error != std::errc{} || end != areas.data() + areas.size() || area < 0 || area >= count)
+    throw DesignError("areas: '" + areas + "'; allowed is each, together or an area from 0 to " +
+                      std::to_string(count - 1));
+  return area;
+}
+
+} // namespace
+
+SampleRange shard(std::size_t total, int index, int count) {
+  const auto i = static_cast<std::size_t>(index);
+  const auto n = static_cast<std::size_t>(count);
+  return {total * (i - 1) / n, total * i / n};
+}
+
+SampleGenerator::SampleGenerator(SensorDesign design, SampleRequest request)
+    : design_(std::move(design)), request_(std::move(request)) {
+  requireValid(design_);
+  if (request_.perArea < 1 || request_.perArea > kMostPerArea)
+    throw DesignError("per-area: " + std::to_string(request_.perArea) + "; allowed is 1 to " +
+                      std::to_string(kMostPerArea));
+  onlyArea_ = onlyArea(request_.areas, design_.areas.count());
+  origin_.designFingerprint = designFingerprint(design_);
+  origin_.seed = request_.seed;
+  origin_.areas = request_.areas;
+  origin_.perArea = request_.perArea;
+  origin_.solverTolerance = request_.relativeTolerance;
+  origin_.surrogate = request_.surrogate;
+}
+
+std::size_t SampleGenerator::total() const {
+  const bool every = request_.areas == "each";
+  return static_cast<std::size_t>(request_.perArea) * static_cast<std::size_t>(every ? design_.areas.count() : 1);
+}
+
+LoadCase SampleGenerator::load(std::size_t i) const {
+  LoadCase load;
+  const auto perArea = static_cast<std::size_t>(request_.perArea);
+  if (request_.areas == "together") {
+    for (int area = 0; area < design_.areas.count(); ++area)
+      load.areas.push_back({area, force_N(design_.forceRange, request_.seed, area, i)});
+  } else {
+    const int area = onlyArea_.value_or(static_cast<int>(i / perArea));
+    load.areas.push_back({area, force_N(design_.forceRange, request_.seed, area, i % perArea)});
+  }
+  return load;
+}
+
+bool SampleGenerator::prepare(const std::stop_token& stop) {
+  if (!solver_) {
+    Mesh mesh = stages_.measure("mesh", [&] { return sensorMesh(design_, request_.mesh); });
+    stages_.measure("factorise", [&] {
+      problem_ = std::make_unique<HyperelasticProblem>(design_, std::move(mesh));
+      solver_ = std::make_unique<BatchSolver>(
+          *problem_, BatchOptions{request_.relativeTolerance, request_.surrogate, request_.threads});
+    });
+    origin_.mesh = problem_->elementType() + ", " + std::to_string(problem_->mesh().elementCount()) + " elements, " +
+                   std::to_string(problem_->mesh().nodeCount()) + " nodes";
+  }
+  // All loads together are more than the surrogates of single areas can answer.
+  if (!fitted_ && request_.surrogate && request_.areas != "together") {
+    std::vector<int> areas{onlyArea_.value_or(0)};
+    if (!onlyArea_)
+      for (int area = 1; area < design_.areas.count(); ++area) areas.push_back(area);
+    fitted_ = stages_.measure("surrogate", [&] { return solver_->fitSurrogates(areas, stop); });
+    if (!fitted_) return false;
+    origin_.surrogateError = solver_->surrogateError();
+  }
+  return true;
+}
+
+const SampleOrigin& SampleGenerator::origin() {
+  prepare();
+  return origin_;
+}
+
+SampleSet SampleGenerator::emptySet(const std::stop_token& stop) {
+  prepare(stop);
+  return block({0, 0}, {});
+}
+
+std::size_t SampleGenerator::generate(SampleRange range, const std::function<void(const SampleSet&)>& take,
+                                      const std::function<void(std::size_t)>& progress, const std::stop_token& stop) {
+  if (stop.stop_requested() || !prepare(stop)) return 0;
+  const std::size_t most = request_.surrogate ? kSurrogateBlock : kBlock;
+  std::size_t done = range.first;
+  while (done < range.last && !stop.stop_requested()) {
+    const SampleRange part{done, std::min(range.last, done + most)};
+    std::vector<LoadCase> loads;
+    for (std::size_t i = part.first; i < part.last; ++i) loads.push_back(load(i));
+    const std::vector<ElectrodeDisplacements> displacements = stages_.measure("sample", [&] {
+      return solver_->solve(
+          loads,
+          [&](std::size_t solved) {
+            if (progress) progress(done - range.first + solved);
+          },
+          stop);
+    });
+    if (displacements.size() < loads.size()) break; // cancelled
+    take(block(part, displacements));
+    done = part.last;
+  }
+  return done - range.first;
+}
+
+SampleSet SampleGenerator::block(SampleRange range, const std::vector<ElectrodeDisplacements>& displacements) const {
+  const auto count = static_cast<Eigen::Index>(range.last - range.first);
+  SampleSet set;
+  set.origin = origin_;
+  set.rowWires = design_.rowWires();
+  set.electrodesPerRowWire = design_.electrodesPerRowWire();
+  set.columnWires = design_.columnWires();
+  set.areaCount = design_.areas.count();
+  const bool together = request_.areas == "together";
+  set.area.resize(count);
+  set.forces_N.resize(together ? 3 * set.areaCount : 3, count);
+  set.displacements_mm.resize(3 * design_.upper.electrodes(), count);
+  set.resistances_ohm.resize(set.rowWires * set.columnWires, count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const LoadCase load = this->load(range.first + static_cast<std::size_t>(i));
+    set.area(i) = together ? -1 : load.areas[0].area;
+    for (std::size_t a = 0; a < load.areas.size(); ++a)
+      set.forces_N.block<3, 1>(3 * static_cast<Eigen::Index>(a), i) = load.areas[a].force_N;
+    const ElectrodeDisplacements& moved = displacements[static_cast<std::size_t>(i)];
+    set.displacements_mm.col(i) = moved.upper_mm.reshaped();
+    const Eigen::MatrixXd resistances = rowColumnResistances(design_, moved);
+    set.resistances_ohm.col(i) = resistances.reshaped<Eigen::RowMajor>();
+  }
+  return set;
+}
+
+} // namespace palp

@@ -1,0 +1,261 @@
+#include "nn/rivals/ForwardModel.h"
+
+#include "nn/NetworkError.h"
+#include "nn/linear/RidgeFit.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace palp {
+
+Eigen::Index monomialCount(Eigen::Index causes, int degree) {
+  double count = 1;
+  for (int d = 1; d <= degree; ++d) count = count * static_cast<double>(causes + d) / d;
+  return static_cast<Eigen::Index>(std::llround(std::min(count, 1e15)));
+}
+
+namespace {
+
+/// Exponents of all monomials of `causes` variables up to `degree`, one column each, the constant first.
+Eigen::MatrixXi exponents(Eigen::Index causes, int degree) {
+  std::vector<Eigen::VectorXi> all{Eigen::VectorXi::Zero(causes)};
+  std::size_t first = 0;
+  for (int d = 1; d <= degree; ++d) {
+    const std::size_t last = all.size();
+    for (std::size_t i = first; i < last; ++i) {
+      // Raise only variables from the last one in use on: each monomial comes up once.
+      Eigen::Index from = causes - 1;
+      while (from > 0 && all[i](from) == 0) --from;
+      for (Eigen::Index v = from; v < causes; ++v) {
+        all.push_back(all[i]);
+        ++all.back()(v);
+      }
+    }
+    first = last;
+  }
+  Eigen::MatrixXi result(causes, static_cast<Eigen::Index>(all.size()));
+  for (std::size_t i = 0; i < all.size(); ++i) result.col(static_cast<Eigen::Index>(i)) = all[i];
+  return result;
+}
+
+/// The monomials at y, and on request their derivatives (monomials x causes).
+Eigen::VectorXd monomials(const Eigen::MatrixXi& exponent, const Eigen::VectorXd& y, Eigen::MatrixXd* slope) {
+  const Eigen::Index causes = y.size();
+  const int degree = exponent.maxCoeff();
+  Eigen::MatrixXd power = Eigen::MatrixXd::Ones(causes, degree + 1);
+  for (int d = 1; d <= degree; ++d) power.col(d) = power.col(d - 1).cwiseProduct(y);
+  Eigen::VectorXd value = Eigen::VectorXd::Ones(exponent.cols());
+  if (slope) *slope = Eigen::MatrixXd::Zero(exponent.cols(), causes);
+  for (Eigen::Index m = 0; m < exponent.cols(); ++m) {
+    for (Eigen::Index v = 0; v < causes; ++v) value(m) *= power(v, exponent(v, m));
+    if (!slope) continue;
+    for (Eigen::Index v = 0; v < causes; ++v) {
+      if (exponent(v, m) == 0) continue;
+      double product = exponent(v, m) * power(v, exponent(v, m) - 1);
+      for (Eigen::Index w = 0; w < causes; ++w)
+        if (w != v) product *= power(w, exponent(w, m));
+      (*slope)(m, v) = product;
+    }
+  }
+  return value;
+}
+
+/// The highest degree whose monomials are at most half as many as the samples of every class.
+int affordableDegree(int wanted, Eigen::Index causes, Eigen::Index fewestSamples) {
+  int degree = wanted;
+  while (degree > 0 && 2 * monomialCount(causes, degree) > fewestSamples) --degree;
+  return degree;
+}
+
+/// 1 / variance of a scaled cause that is uniform over [-1, 1].
+constexpr double priorPrecision = 3;
+constexpr int mostIterations = 30;
+constexpr double enough = 1e-10;
+constexpr double rounding = 1e-12; ///< of the cost: less is no rise
+
+void requireSizes(const Eigen::Ref<const Eigen::MatrixXd>& measurements,
+                  const Eigen::Ref<const Eigen::MatrixXd>& causes, const Eigen::VectorXi& classes,
+                  const ForwardModelOptions& options) {
+  if (measurements.cols() == 0) throw NetworkError("samples: 0; allowed is 1 or more");
+  if (causes.cols() != measurements.cols() || classes.size() != measurements.cols())
+    throw NetworkError("a forward model wants one set of causes and one class a sample");
+  if (!measurements.allFinite() || !causes.allFinite()) throw NetworkError("samples hold values that are no numbers");
+  if (classes.minCoeff() < 0) throw NetworkError("classes: a negative one; allowed is 0 and above");
+  if (options.degree < 0 || options.degree > 6)
+    throw NetworkError("degree: " + std::to_string(options.degree) + "; allowed is 0 to 6");
+}
+
+std::vector<std::vector<Eigen::Index>> membersOf(const Eigen::VectorXi& classes) {
+  std::vector<std::vector<Eigen::Index>> members(static_cast<std::size_t>(classes.maxCoeff()) + 1);
+  for (Eigen::Index i = 0; i < classes.size(); ++i) members[static_cast<std::size_t>(classes(i))].push_back(i);
+  for (std::size_t c = 0; c < members.size(); ++c)
+    if (members[c].empty()) throw NetworkError("class " + std::to_string(c) + " has no sample; allowed is 1 or more");
+  return members;
+}
+
+} // namespace
+
+Eigen::VectorXd ForwardModel::measurementsOf(std::size_t c, const Eigen::Ref<const Eigen::VectorXd>& y,
+                                             Eigen::MatrixXd* jacobian) const {
+  const Eigen::VectorXd scaled = (y - causeOffset).cwiseProduct(causeFactor);
+  Eigen::MatrixXd slope;
+  const Eigen::VectorXd value = monomials(exponents(causes(), degree), scaled, jacobian ? &slope : nullptr);
+  if (jacobian) *jacobian = coefficients[c] * slope * causeFactor.asDiagonal();
+  return coefficients[c] * value;
+}
+
+ForwardModel fitForwardModel(const Eigen::Ref<const Eigen::MatrixXd>& measurements,
+                             const Eigen::Ref<const Eigen::MatrixXd>& causes, const Eigen::VectorXi& classes,
+                             const ForwardModelOptions& options, std::vector<std::string>* warnings) {
+  requireSizes(measurements, causes, classes, options);
+  const std::vector<std::vector<Eigen::Index>> members = membersOf(classes);
+  std::size_t fewest = members.front().size();
+  for (const auto& list : members) fewest = std::min(fewest, list.size());
+  ForwardModel model;
+  model.degree = affordableDegree(options.degree, causes.rows(), static_cast<Eigen::Index>(fewest));
+  if (model.degree < options.degree && warnings)
+    warnings->push_back("the forward model has degree " + std::to_string(model.degree) + " instead of " +
+                        std::to_string(options.degree) + ": a class has only " + std::to_string(fewest) + " samples");
+  const Eigen::VectorXd low = causes.rowwise().minCoeff(), high = causes.rowwise().maxCoeff();
+  model.causeOffset = (low + high) / 2;
+  model.causeFactor = (high - low).unaryExpr([](double range) { return range > 0 ? 2 / range : 0; });
+
+  const Eigen::MatrixXi exponent = exponents(causes.rows(), model.degree);
+  Eigen::VectorXd square = Eigen::VectorXd::Zero(measurements.rows());
+  for (const auto& list : members) {
+    Eigen::MatrixXd features(static_cast<Eigen::Index>(list.size()), exponent.cols());
+    Eigen::MatrixXd values(features.rows(), measurements.rows());
+    for (Eigen::Index k = 0; k < features.rows(); ++k) {
+      const Eigen::Index i = list[static_cast<std::size_t>(k)];
+      const Eigen::VectorXd scaled = (causes.col(i) - model.causeOffset).cwiseProduct(model.causeFactor);
+      features.row(k) = monomials(exponent, scaled, nullptr).transpose();
+      values.row(k) = measurements.col(i).transpose();
+    }
+    const RidgeFit fit = ridgeFit(features.rightCols(features.cols() - 1), values, 1, 0.0);
+    Eigen::MatrixXd coefficients(measurements.rows(), exponent.cols());
+    coefficients.col(0) = fit.constant;
+    coefficients.rightCols(exponent.cols() - 1) = fit.x.transpose();
+    model.coefficients.push_back(std::move(coefficients));
+    square += fit.residuals.cwiseAbs2().rowwise().sum();
+  }
+  const double samples = static_cast<double>(measurements.cols());
+  const Eigen::ArrayXd size = measurements.cwiseAbs2().rowwise().mean().cwiseSqrt();
+  model.deviation = (square.array() / samples + (options.relativeNoise * size).square()).sqrt();
+  // Never less than rounding, so that a measurement without any error does not get infinite weight.
+  const double largest = size.maxCoeff();
+  model.deviation = model.deviation.cwiseMax((1e-14 * size).max(1e-15 * largest).max(1e-300).matrix());
+  return model;
+}
+
+/// One class at its most likely causes.
+struct LikelihoodInversion::Posterior {
+  Eigen::VectorXd y; ///< scaled
+  Eigen::MatrixXd covariance;
+  double logEvidence = 0;
+  double chiSquare = 0;
+};
+
+LikelihoodInversion::LikelihoodInversion(const ForwardModel& model)
+    : causeOffset_(model.causeOffset),
+      causeWidth_(model.causeFactor.unaryExpr([](double f) { return f > 0 ? 1 / f : 0; })),
+      measurements_(model.measurements()), exponent_(exponents(model.causes(), model.degree)) {
+  const Eigen::VectorXd weight = model.deviation.cwiseInverse();
+  for (const Eigen::MatrixXd& coefficients : model.coefficients) {
+    Class c;
+    c.constant = coefficients.col(0);
+    c.weight = weight;
+    c.polynomial = weight.asDiagonal() * coefficients.rightCols(coefficients.cols() - 1);
+    c.gram = c.polynomial.transpose() * c.polynomial;
+    classes_.push_back(std::move(c));
+  }
+}
+
+/// Damped Gauss-Newton on |(x - f(y)) / deviation|^2 + 3 |y|^2 from the middle of the range. With f = c + P m(y) the
+/// sum of squares is |r|^2 - 2 m' P'r + m' P'P m, r = x - c.
+LikelihoodInversion::Posterior LikelihoodInversion::posterior(const Class& c,
+                                                              const Eigen::VectorXd& measurement) const {
+  const Eigen::VectorXd remainder = c.weight.cwiseProduct(measurement - c.constant);
+  const Eigen::VectorXd projected = c.polynomial.transpose() * remainder;
+  const double square = remainder.squaredNorm();
+  Posterior result;
+  result.y = Eigen::VectorXd::Zero(causeOffset_.size());
+  const Eigen::Index count = projected.size();
+  Eigen::MatrixXd allSlopes, slope;
+  Eigen::VectorXd gradient; // of the monomials: P'(r - P m)
+  const auto cost = [&](const Eigen::VectorXd& y, bool withSlope) {
+    const Eigen::VectorXd m = monomials(exponent_, y, withSlope ? &allSlopes : nullptr).tail(count);
+    const Eigen::VectorXd product = c.gram * m;
+    if (withSlope) {
+      slope = allSlopes.bottomRows(count);
+      gradient = projected - product;
+    }
+    result.chiSquare = std::max(0.0, square - 2 * m.dot(projected) + m.dot(product));
+    return result.chiSquare + priorPrecision * y.squaredNorm();
+  };
+  const auto precision = [&] {
+    Eigen::MatrixXd information = slope.transpose() * c.gram * slope;
+    information.diagonal().array() += priorPrecision;
+    return information;
+  };
+  double before = cost(result.y, true);
+  for (int i = 0; i < mostIterations; ++i) {
+    const Eigen::LDLT<Eigen::MatrixXd> normal(precision());
+    const Eigen::VectorXd step = normal.solve(slope.transpose() * gradient - priorPrecision * result.y);
+    const double most = before + rounding * (square + before);
+    double length = 1;
+    Eigen::VectorXd next = result.y + step;
+    while (!(cost(next, false) <= most) && length > 1e-4) {
+      length /= 2;
+      next = result.y + length * step;
+    }
+    if (!(cost(next, false) <= most)) break;
+    result.y = next;
+    before = cost(result.y, true);
+    if (length * step.norm() < enough) break;
+  }
+  const double least = cost(result.y, true);
+  const Eigen::LDLT<Eigen::MatrixXd> normal(precision());
+  result.covariance = normal.solve(Eigen::MatrixXd::Identity(result.y.size(), result.y.size()));
+  result.logEvidence = -0.5 * least - 0.5 * normal.vectorD().array().abs().log().sum();
+  return result;
+}
+
+LikelihoodEstimate LikelihoodInversion::estimate(const Eigen::Ref<const Eigen::VectorXd>& measurement) const {
+  if (measurement.size() != measurements_)
+    throw NetworkError("measurements: " + std::to_string(measurement.size()) + "; the forward model takes " +
+                       std::to_string(measurements_));
+  std::vector<Posterior> posteriors;
+  for (const Class& c : classes_) posteriors.push_back(posterior(c, measurement));
+  std::size_t best = 0;
+  for (std::size_t c = 1; c < posteriors.size(); ++c)
+    if (posteriors[c].logEvidence > posteriors[best].logEvidence) best = c;
+  double total = 0;
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(causeOffset_.size());
+  for (const Posterior& p : posteriors) {
+    const double share = std::exp(p.logEvidence - posteriors[best].logEvidence);
+    total += share;
+    mean += share * p.y;
+  }
+  mean /= total;
+  Eigen::VectorXd variance = Eigen::VectorXd::Zero(causeOffset_.size());
+  for (const Posterior& p : posteriors) {
+    const double share = std::exp(p.logEvidence - posteriors[best].logEvidence) / total;
+    variance += share * (p.covariance.diagonal() + (p.y - mean).cwiseAbs2());
+  }
+  LikelihoodEstimate estimate;
+  estimate.classIndex = static_cast<int>(best);
+  estimate.confidence = 1 / total;
+  estimate.causes = causeOffset_ + mean.cwiseProduct(causeWidth_);
+  estimate.standardDeviation = variance.cwiseSqrt().cwiseProduct(causeWidth_);
+  estimate.chiSquare = posteriors[best].chiSquare / static_cast<double>(measurements_);
+  return estimate;
+}
+
+LikelihoodEstimate maximumLikelihood(const ForwardModel& model, const Eigen::Ref<const Eigen::VectorXd>& measurement) {
+  return LikelihoodInversion(model).estimate(measurement);
+}
+
+} // namespace palp

@@ -1,0 +1,72 @@
+#pragma once
+
+#include "solver/BatchSolver.h"
+#include "solver/batch/ForcePolynomial.h"
+#include "solver/batch/LoadGroup.h"
+
+#include <atomic>
+#include <mutex>
+#include <optional>
+
+namespace palp {
+
+/// Where the iteration of a load on one area starts: a cubic polynomial in the force for the whole state, fitted to 32
+/// solves of its own, and how fast the iteration contracts there.
+struct AreaPredictor {
+  std::vector<double> displacements; ///< [3 nodes][terms]
+  std::vector<double> unknowns;      ///< [elements][unknowns][terms]
+  double contraction = 1;
+};
+
+/// Iterates loads in groups; the machinery of BatchSolver without its policy.
+class BatchEngine {
+public:
+  /// `tolerance` is what the predictors are made for; a solve may ask for another.
+  BatchEngine(const HyperelasticProblem& problem, std::shared_ptr<const RestTangent> rest, double tolerance,
+              int threads);
+
+  /// Answer of one load; without one: full Newton must find it.
+  using Answer = std::optional<ElectrodeDisplacements>;
+  /// Iterates each load to the tolerance. Empty: stopped.
+  [[nodiscard]] std::vector<Answer> solve(std::span<const LoadCase> loads, double tolerance,
+                                          const std::function<void(std::size_t)>& done, const std::stop_token& stop);
+  [[nodiscard]] std::size_t solves() const { return solves_; }
+
+private:
+  /// A load as the engine sees it: the forces of its areas summed, those of them that have a predictor.
+  struct Job {
+    std::size_t index = 0;
+    std::vector<AreaLoad> areas;
+    std::vector<int> predicted;
+    std::vector<TractionShares> patchShares;
+    const LoadCase* load = nullptr;
+  };
+  using Block = std::vector<Job>; ///< up to 8 with the same predictors
+
+  [[nodiscard]] Job job(const LoadCase& load, std::size_t index) const;
+  [[nodiscard]] bool makePredictors(const std::vector<Job>& jobs, const std::stop_token& stop);
+  [[nodiscard]] std::optional<AreaPredictor> fitPredictor(int area, const std::stop_token& stop);
+  [[nodiscard]] AreaPredictor fitted(const LoadGroup& group, const std::vector<Eigen::Vector3d>& forces) const;
+  [[nodiscard]] std::vector<Block> blocksOf(std::vector<Job> jobs) const;
+  void solveGroup(std::span<const Block> blocks, double tolerance, std::vector<Answer>& answers,
+                  const std::stop_token& stop);
+  void start(LoadGroup& group, int block, const Block& jobs) const;
+  [[nodiscard]] std::unique_ptr<LoadGroup> borrowGroup();
+  void giveBack(std::unique_ptr<LoadGroup> group);
+
+  const HyperelasticProblem& problem_;
+  std::shared_ptr<const RestTangent> rest_;
+  RestModel model_;
+  ForcePolynomial polynomial_;
+  int terms_; ///< of the polynomial, filled up to whole lanes
+  double predictorTolerance_;
+  int threads_;
+  std::vector<TractionShares> areaShares_;
+  std::vector<std::optional<AreaPredictor>> predictors_;
+  std::vector<char> tried_; ///< areas whose predictor was sought
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<LoadGroup>> idle_;
+  std::atomic<std::size_t> solves_{0};
+};
+
+} // namespace palp

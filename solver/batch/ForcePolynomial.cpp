@@ -1,0 +1,59 @@
+#include "solver/batch/ForcePolynomial.h"
+
+#include <Eigen/Dense>
+
+#include <cmath>
+
+namespace palp {
+
+namespace {
+
+double radicalInverse(int index, int base) {
+  double value = 0, digit = 1;
+  for (; index > 0; index /= base) {
+    digit /= base;
+    value += digit * (index % base);
+  }
+  return value;
+}
+
+} // namespace
+
+ForcePolynomial::ForcePolynomial(const ForceRange& range, int degree)
+    : scale_(range.low_N.cwiseAbs().cwiseMax(range.high_N.cwiseAbs())) {
+  for (int d = 0; d < 3; ++d)
+    if (scale_(d) == 0) scale_(d) = 1;
+  for (int n = 1; n <= degree; ++n)
+    for (int i = n; i >= 0; --i)
+      for (int j = n - i; j >= 0; --j) exponents_.push_back({i, j, n - i - j});
+}
+
+Eigen::VectorXd ForcePolynomial::monomials(const Eigen::Vector3d& force_N) const {
+  Eigen::VectorXd values(terms());
+  for (int t = 0; t < terms(); ++t) {
+    values(t) = 1;
+    for (int d = 0; d < 3; ++d)
+      for (int k = 0; k < exponents_[t][d]; ++k) values(t) *= force_N(d) / scale_(d);
+  }
+  return values;
+}
+
+Eigen::MatrixXd ForcePolynomial::fit(const std::vector<Eigen::Vector3d>& forces_N) const {
+  const auto count = static_cast<Eigen::Index>(forces_N.size());
+  Eigen::MatrixXd M(count, terms());
+  for (Eigen::Index i = 0; i < count; ++i) M.row(i) = monomials(forces_N[i]).transpose();
+  return M.completeOrthogonalDecomposition().pseudoInverse().transpose();
+}
+
+bool inRange(const ForceRange& range, const Eigen::Vector3d& force_N) {
+  return (force_N.array() >= range.low_N.array()).all() && (force_N.array() <= range.high_N.array()).all();
+}
+
+Eigen::Vector3d coveringForce(const ForceRange& range, int index) {
+  Eigen::Vector3d share;
+  for (int d = 0; d < 3; ++d)
+    share(d) = index < 8 ? double(index >> d & 1) : radicalInverse(index - 7, d == 0 ? 2 : d == 1 ? 3 : 5);
+  return range.low_N + share.cwiseProduct(range.high_N - range.low_N);
+}
+
+} // namespace palp

@@ -1,0 +1,35 @@
+#include "solver/batch/RestModel.h"
+
+#include <algorithm>
+
+namespace palp {
+
+namespace {
+
+/// Numbers in lanes [blocks][size][8], element by element.
+std::vector<double> byElement(const double* values, int elements, std::size_t size) {
+  std::vector<double> out(elements * size);
+  for (int e = 0; e < elements; ++e)
+    for (std::size_t i = 0; i < size; ++i) out[e * size + i] = values[(e / lanes * size + i) * lanes + e % lanes];
+  return out;
+}
+
+} // namespace
+
+RestModel::RestModel(const HyperelasticProblem::Parts& parts, const RestTangent& rest)
+    : mesh_(*parts.discretisation), rubber_(parts.assembler.rubber()), factor_(rest.factor),
+      geometrySize_(mesh_.kernels().geometrySize),
+      eliminationSize_(std::size_t(mesh_.unknowns()) * mesh_.elementDofs()),
+      inverseSize_(std::size_t(mesh_.unknowns()) * (mesh_.unknowns() + 1) / 2),
+      geometry_(byElement(mesh_.geometry(0), mesh_.elements(), geometrySize_)),
+      elimination_(byElement(rest.tangents.elimination.data(), mesh_.elements(), eliminationSize_)),
+      localInverse_(byElement(rest.tangents.localInverse.data(), mesh_.elements(), inverseSize_)),
+      places_(3 * std::size_t(mesh_.nodes()), -1) {
+  const std::vector<int>& order = rest.factor.plan().tree().order;
+  std::vector<int> placeOfUnknown(order.size());
+  for (std::size_t p = 0; p < order.size(); ++p) placeOfUnknown[order[p]] = static_cast<int>(p);
+  for (std::size_t i = 0; i < places_.size(); ++i)
+    if (const int unknown = mesh_.freeIndex(static_cast<int>(i)); unknown >= 0) places_[i] = placeOfUnknown[unknown];
+}
+
+} // namespace palp

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "solver/statics/ProblemParts.h"
+
+namespace palp {
+
+/// The tangent at rest laid out for many loads at once: element by element.
+class RestModel {
+public:
+  /// Both are to outlive it.
+  RestModel(const HyperelasticProblem::Parts& parts, const RestTangent& rest);
+
+  [[nodiscard]] const Discretisation& mesh() const { return mesh_; }
+  [[nodiscard]] const RubberConstants& rubber() const { return rubber_; }
+  [[nodiscard]] const double* geometry(int element) const { return item(geometry_, element, geometrySize_); }
+  [[nodiscard]] const double* elimination(int element) const { return item(elimination_, element, eliminationSize_); }
+  [[nodiscard]] const double* localInverse(int element) const { return item(localInverse_, element, inverseSize_); }
+  /// Place in the factor of each component (3 node + direction); -1 where it is prescribed.
+  [[nodiscard]] const std::vector<int>& places() const { return places_; }
+  [[nodiscard]] int placeCount() const { return mesh_.dof() + 1; } ///< the last one is the filling's
+  [[nodiscard]] BlockedFactor factor() const { return factor_.blocks(); }
+
+private:
+  static const double* item(const std::vector<double>& values, int element, std::size_t size) {
+    return values.data() + element * size;
+  }
+
+  const Discretisation& mesh_;
+  RubberConstants rubber_;
+  const SparseCholesky& factor_;
+  std::size_t geometrySize_, eliminationSize_, inverseSize_;
+  std::vector<double> geometry_, elimination_, localInverse_;
+  std::vector<int> places_;
+};
+
+} // namespace palp

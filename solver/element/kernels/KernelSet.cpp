@@ -1,0 +1,99 @@
+// Compiled once for each instruction set, with PALP_KERNEL (a name) and PALP_PACK (doubles at once) given.
+#include "solver/element/kernels/Condensation.h"
+#include "solver/element/kernels/HexKernel.h"
+#include "solver/element/kernels/LaneSolve.h"
+#include "solver/element/kernels/TetKernel.h"
+
+namespace palp::PALP_KERNEL {
+namespace {
+
+void tetResidual8(const RubberConstants& rubber, const ElementInput& in, const ElementResidual& out) {
+  for (int lane = 0; lane < 8; lane += packSize) tetResidual(rubber, tetGeometry(in.geometry + lane), in, out, lane);
+}
+
+void tetResidualOfLoads(const RubberConstants& rubber, const ElementInput& in, const ElementResidual& out) {
+  const SharedGeometry geometry = tetSharedGeometry(in.geometry);
+  for (int lane = 0; lane < 8; lane += packSize) tetResidual(rubber, geometry, in, out, lane);
+}
+
+void tetTangent(const RubberConstants& rubber, const ElementInput& in, const ElementResidual& out,
+                const ElementTangent& tangent) {
+  for (int lane = 0; lane < 8; lane += packSize) {
+    Pack K[37][37];
+    tetStiffness(rubber, in, out, lane, K);
+    eliminate<Tet::dofs, Tet::unknowns>(K, tangent.stiffness, tangent.elimination, tangent.localInverse, lane);
+  }
+}
+
+void hexResidual8(const RubberConstants& rubber, const ElementInput& in, const ElementResidual& out) {
+  for (int lane = 0; lane < 8; lane += packSize) hexElement<8, false>(rubber, in, out, lane, nullptr);
+}
+
+void hexResidualOfLoads(const RubberConstants& rubber, const ElementInput& in, const ElementResidual& out) {
+  for (int lane = 0; lane < 8; lane += packSize) hexElement<1, false>(rubber, in, out, lane, nullptr);
+}
+
+void hexTangent(const RubberConstants& rubber, const ElementInput& in, const ElementResidual& out,
+                const ElementTangent& tangent) {
+  for (int lane = 0; lane < 8; lane += packSize) {
+    Pack K[25][25];
+    for (int i = 0; i < 25; ++i)
+      for (int j = 0; j < 25; ++j) K[i][j] = Pack{};
+    hexElement<8, true>(rubber, in, out, lane, K);
+    eliminate<Hex::dofs, Hex::unknowns>(K, tangent.stiffness, tangent.elimination, tangent.localInverse, lane);
+  }
+}
+
+template <int D, int X, int Stride> void condense(const double* elimination, const double* local, double* forces) {
+  condenseForces<D, X, Stride>(elimination, local, forces);
+}
+
+template <int D, int X, int Stride>
+void recover(const double* elimination, const double* localInverse, const double* local, const double* du, double* dx) {
+  recoverUnknowns<D, X, Stride>(elimination, localInverse, local, du, dx);
+}
+
+template <class Element>
+constexpr ElementKernels kernelsOf(decltype(ElementKernels::residual) residual,
+                                   decltype(ElementKernels::residualOfLoads) residualOfLoads,
+                                   decltype(ElementKernels::tangent) tangent) {
+  constexpr int D = Element::dofs, X = Element::unknowns;
+  return {Element::nodes,        X,
+          Element::geometrySize, residual,
+          residualOfLoads,       tangent,
+          condense<D, X, 8>,     condense<D, X, 1>,
+          recover<D, X, 8>,      recover<D, X, 1>};
+}
+
+void forwardFactor(const BlockedFactor& L, int first, int last, float* x) {
+  forwardLanes(L, first, last, x);
+}
+
+void backwardFactor(const BlockedFactor& L, int first, int last, float* x) {
+  backwardLanes(L, first, last, x);
+}
+
+void forwardFactorOfOne(const BlockedFactor& L, int first, int last, double* x) {
+  for (int s = first; s < last; ++s) forwardSupernodeOfOne(L, s, x);
+}
+
+void backwardFactorOfOne(const BlockedFactor& L, int first, int last, double* x) {
+  for (int s = last - 1; s >= first; --s) backwardSupernodeOfOne(L, s, x);
+}
+
+void polynomials(const double* coefficients, int terms, const double* monomials, int rows, double* out, int stride) {
+  evaluatePolynomials(coefficients, terms, monomials, rows, out, stride);
+}
+
+} // namespace
+
+extern const ElementKernels tetKernels;
+extern const ElementKernels hexKernels;
+extern const LaneKernels laneKernelSet;
+const LaneKernels laneKernelSet = {forwardFactor, backwardFactor, forwardFactorOfOne, backwardFactorOfOne, polynomials};
+constexpr ElementKernels tetSet = kernelsOf<Tet>(tetResidual8, tetResidualOfLoads, tetTangent);
+constexpr ElementKernels hexSet = kernelsOf<Hex>(hexResidual8, hexResidualOfLoads, hexTangent);
+const ElementKernels tetKernels = tetSet;
+const ElementKernels hexKernels = hexSet;
+
+} // namespace palp::PALP_KERNEL

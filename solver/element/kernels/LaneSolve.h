@@ -1,0 +1,228 @@
+#pragma once
+
+#include "solver/element/LaneKernels.h"
+#include "solver/element/kernels/Pack.h"
+
+namespace palp::PALP_KERNEL {
+
+typedef float FloatPack __attribute__((vector_size(8 * PALP_PACK)));
+constexpr int floatPackSize = 2 * PALP_PACK;
+constexpr int rowsABlock = factorBlockRows;
+
+PALP_INLINE FloatPack loadFloats(const float* p) {
+  FloatPack v;
+  __builtin_memcpy(&v, p, sizeof v);
+  return v;
+}
+PALP_INLINE void storeFloats(float* p, FloatPack v) {
+  __builtin_memcpy(p, &v, sizeof v);
+}
+
+/// sums[r] = sum over k of block[k][r] x[k] for one block of rows.
+PALP_INLINE void rowSums(const float* block, int columns, const float* x, FloatPack sums[rowsABlock]) {
+  for (int r = 0; r < rowsABlock; ++r) sums[r] = FloatPack{};
+  for (int k = 0; k < columns; ++k) {
+    const FloatPack v = loadFloats(x + k * groupLanes);
+    for (int r = 0; r < rowsABlock; ++r) sums[r] += block[k * rowsABlock + r] * v;
+  }
+}
+
+/// x[k] -= sum over r of block[k][r] t[r] for one block of rows.
+PALP_INLINE void subtractTransposed(const float* block, int columns, const FloatPack t[rowsABlock], float* x) {
+  for (int k = 0; k < columns; ++k) {
+    FloatPack v = loadFloats(x + k * groupLanes);
+    for (int r = 0; r < rowsABlock; ++r) v -= block[k * rowsABlock + r] * t[r];
+    storeFloats(x + k * groupLanes, v);
+  }
+}
+
+/// Forward substitution through one supernode: its own rows, then those below.
+PALP_INLINE void forwardSupernode(const BlockedFactor& L, int s, float* x, int lane) {
+  const int width = L.first[s + 1] - L.first[s];
+  const float* block = L.values + L.start[s];
+  float* own = x + std::size_t(L.first[s]) * groupLanes + lane;
+  for (int r0 = 0; r0 < width; r0 += rowsABlock) {
+    FloatPack sums[rowsABlock];
+    rowSums(block, r0, own, sums);
+    const float* triangle = block + r0 * rowsABlock;
+    const int rows = width - r0 < rowsABlock ? width - r0 : rowsABlock;
+    for (int r = 0; r < rows; ++r) {
+      FloatPack v = loadFloats(own + (r0 + r) * groupLanes) - sums[r];
+      for (int k = 0; k < r; ++k) v -= triangle[k * rowsABlock + r] * loadFloats(own + (r0 + k) * groupLanes);
+      storeFloats(own + (r0 + r) * groupLanes, v * triangle[r * rowsABlock + r]);
+    }
+    block = triangle + rowsABlock * rowsABlock;
+  }
+  for (int b = L.blockStart[s]; b < L.blockStart[s + 1]; ++b, block += width * rowsABlock) {
+    FloatPack sums[rowsABlock];
+    rowSums(block, width, own, sums);
+    const int* rows = L.rows + std::size_t(b) * rowsABlock;
+    for (int r = 0; r < rowsABlock; ++r) {
+      float* y = x + std::size_t(rows[r]) * groupLanes + lane;
+      storeFloats(y, loadFloats(y) - sums[r]);
+    }
+  }
+}
+
+/// Backward substitution, in the opposite order over the same blocks.
+PALP_INLINE void backwardSupernode(const BlockedFactor& L, int s, float* x, int lane) {
+  const int width = L.first[s + 1] - L.first[s];
+  const float* block = L.values + L.start[s + 1];
+  float* own = x + std::size_t(L.first[s]) * groupLanes + lane;
+  for (int b = L.blockStart[s + 1] - 1; b >= L.blockStart[s]; --b) {
+    block -= width * rowsABlock;
+    const int* rows = L.rows + std::size_t(b) * rowsABlock;
+    FloatPack t[rowsABlock];
+    for (int r = 0; r < rowsABlock; ++r) t[r] = loadFloats(x + std::size_t(rows[r]) * groupLanes + lane);
+    subtractTransposed(block, width, t, own);
+  }
+  for (int r0 = (width - 1) / rowsABlock * rowsABlock; r0 >= 0; r0 -= rowsABlock) {
+    block -= (r0 + rowsABlock) * rowsABlock;
+    const float* triangle = block + r0 * rowsABlock;
+    const int rows = width - r0 < rowsABlock ? width - r0 : rowsABlock;
+    FloatPack t[rowsABlock];
+    for (int r = 0; r < rowsABlock; ++r) t[r] = FloatPack{};
+    for (int r = rows - 1; r >= 0; --r) {
+      FloatPack v = loadFloats(own + (r0 + r) * groupLanes);
+      for (int k = r + 1; k < rows; ++k) v -= triangle[r * rowsABlock + k] * t[k];
+      t[r] = v * triangle[r * rowsABlock + r];
+      storeFloats(own + (r0 + r) * groupLanes, t[r]);
+    }
+    subtractTransposed(block, r0, t, own);
+  }
+}
+
+PALP_INLINE void forwardLanes(const BlockedFactor& L, int first, int last, float* x) {
+  for (int s = first; s < last; ++s)
+    for (int lane = 0; lane < groupLanes; lane += floatPackSize) forwardSupernode(L, s, x, lane);
+}
+
+PALP_INLINE void backwardLanes(const BlockedFactor& L, int first, int last, float* x) {
+  for (int s = last - 1; s >= first; --s)
+    for (int lane = 0; lane < groupLanes; lane += floatPackSize) backwardSupernode(L, s, x, lane);
+}
+
+typedef float NarrowPack __attribute__((vector_size(4 * PALP_PACK)));
+constexpr int packsABlock = rowsABlock / packSize;
+
+/// The rows of a block in one column, in double precision.
+PALP_INLINE void widen(const float* column, Pack rows[packsABlock]) {
+  for (int i = 0; i < packsABlock; ++i) {
+    NarrowPack v;
+    __builtin_memcpy(&v, column + i * packSize, sizeof v);
+    rows[i] = __builtin_convertvector(v, Pack);
+  }
+}
+
+/// sums[r] = sum over k of block[k][r] x[k].
+PALP_INLINE void rowSumsOfOne(const float* block, int columns, const double* x, double sums[rowsABlock]) {
+  constexpr int chains = 4; // so that one addition need not wait for the last
+  Pack partial[chains][packsABlock] = {};
+  Pack rows[packsABlock];
+  int k = 0;
+  for (; k + chains <= columns; k += chains)
+    for (int c = 0; c < chains; ++c) {
+      widen(block + std::size_t(k + c) * rowsABlock, rows);
+      for (int i = 0; i < packsABlock; ++i) partial[c][i] += rows[i] * x[k + c];
+    }
+  for (; k < columns; ++k) {
+    widen(block + std::size_t(k) * rowsABlock, rows);
+    for (int i = 0; i < packsABlock; ++i) partial[0][i] += rows[i] * x[k];
+  }
+  for (int i = 0; i < packsABlock; ++i)
+    store(sums + i * packSize, (partial[0][i] + partial[1][i]) + (partial[2][i] + partial[3][i]));
+}
+
+/// x[k] -= sum over b and r of blocks[b][k][r] t[b][r], for some blocks that stand `size` numbers apart.
+template <int Blocks>
+PALP_INLINE void subtractTransposedOfOne(const float* blocks, std::size_t size, int columns, const double* t,
+                                         double* x) {
+  Pack factors[Blocks][packsABlock];
+  for (int b = 0; b < Blocks; ++b)
+    for (int i = 0; i < packsABlock; ++i) factors[b][i] = load(t + b * rowsABlock + i * packSize);
+  Pack rows[packsABlock];
+  for (int k = 0; k < columns; ++k) {
+    Pack products{};
+    for (int b = 0; b < Blocks; ++b) {
+      widen(blocks + b * size + std::size_t(k) * rowsABlock, rows);
+      for (int i = 0; i < packsABlock; ++i) products += rows[i] * factors[b][i];
+    }
+    double sum = 0;
+    for (int i = 0; i < packSize; ++i) sum += products[i];
+    x[k] -= sum;
+  }
+}
+
+PALP_INLINE void forwardSupernodeOfOne(const BlockedFactor& L, int s, double* x) {
+  const int width = L.first[s + 1] - L.first[s];
+  const float* block = L.values + L.start[s];
+  double* own = x + L.first[s];
+  for (int r0 = 0; r0 < width; r0 += rowsABlock) {
+    double sums[rowsABlock];
+    rowSumsOfOne(block, r0, own, sums);
+    const float* triangle = block + r0 * rowsABlock;
+    const int rows = width - r0 < rowsABlock ? width - r0 : rowsABlock;
+    for (int r = 0; r < rows; ++r) {
+      double v = own[r0 + r] - sums[r];
+      for (int k = 0; k < r; ++k) v -= double(triangle[k * rowsABlock + r]) * own[r0 + k];
+      own[r0 + r] = v * double(triangle[r * rowsABlock + r]);
+    }
+    block = triangle + rowsABlock * rowsABlock;
+  }
+  for (int b = L.blockStart[s]; b < L.blockStart[s + 1]; ++b, block += width * rowsABlock) {
+    double sums[rowsABlock];
+    rowSumsOfOne(block, width, own, sums);
+    const int* rows = L.rows + std::size_t(b) * rowsABlock;
+    for (int r = 0; r < rowsABlock; ++r) x[rows[r]] -= sums[r];
+  }
+}
+
+PALP_INLINE void backwardSupernodeOfOne(const BlockedFactor& L, int s, double* x) {
+  const int width = L.first[s + 1] - L.first[s];
+  const float* block = L.values + L.start[s + 1];
+  double* own = x + L.first[s];
+  constexpr int together = 4; // sums across lanes are slow
+  double t[together * rowsABlock];
+  const auto gather = [&](int b, int blocks) {
+    const int* rows = L.rows + std::size_t(b) * rowsABlock;
+    for (int r = 0; r < blocks * rowsABlock; ++r) t[r] = x[rows[r]];
+  };
+  const std::size_t size = std::size_t(width) * rowsABlock;
+  int b = L.blockStart[s + 1];
+  for (; b - together >= L.blockStart[s]; b -= together) {
+    block -= together * size;
+    gather(b - together, together);
+    subtractTransposedOfOne<together>(block, size, width, t, own);
+  }
+  for (; b > L.blockStart[s]; --b) {
+    block -= size;
+    gather(b - 1, 1);
+    subtractTransposedOfOne<1>(block, size, width, t, own);
+  }
+  for (int r0 = (width - 1) / rowsABlock * rowsABlock; r0 >= 0; r0 -= rowsABlock) {
+    block -= (r0 + rowsABlock) * rowsABlock;
+    const float* triangle = block + r0 * rowsABlock;
+    const int rows = width - r0 < rowsABlock ? width - r0 : rowsABlock;
+    for (int r = 0; r < rowsABlock; ++r) t[r] = 0;
+    for (int r = rows - 1; r >= 0; --r) {
+      double v = own[r0 + r];
+      for (int k = r + 1; k < rows; ++k) v -= double(triangle[r * rowsABlock + k]) * t[k];
+      own[r0 + r] = t[r] = v * double(triangle[r * rowsABlock + r]);
+    }
+    subtractTransposedOfOne<1>(block, 0, r0, t, own);
+  }
+}
+
+/// out[row][8] += sum over t of coefficients[row][t] monomials[t][8].
+PALP_INLINE void evaluatePolynomials(const double* coefficients, int terms, const double* monomials, int rows,
+                                     double* out, int stride) {
+  for (int row = 0; row < rows; ++row)
+    for (int lane = 0; lane < 8; lane += packSize) {
+      Pack sum = load(out + std::size_t(row) * stride + lane);
+      for (int t = 0; t < terms; ++t)
+        sum += coefficients[std::size_t(row) * terms + t] * load(monomials + 8 * t + lane);
+      store(out + std::size_t(row) * stride + lane, sum);
+    }
+}
+
+} // namespace palp::PALP_KERNEL

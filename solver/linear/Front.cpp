@@ -1,0 +1,103 @@
+#include "solver/linear/Front.h"
+
+#include <cblas.h>
+
+#include <algorithm>
+#include <vector>
+
+extern "C" void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
+
+namespace palp {
+
+namespace {
+
+constexpr int tile = frontTile;
+
+int tiles(int n) {
+  return (n + tile - 1) / tile;
+}
+
+bool factoriseDiagonal(double* a, int n, int stride) {
+  int info = 0;
+  dpotrf_("L", &n, a, &stride, &info);
+  return info == 0;
+}
+
+/// target -= rows columns^T for one tile; the lower triangle alone where the tile lies on the diagonal.
+void updateTile(const double* rows, int m, const double* columns, int n, int depth, int stride, double* target,
+                int targetStride, double beta, bool diagonal) {
+  if (diagonal) {
+    cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, n, depth, -1, columns, stride, beta, target, targetStride);
+    rows += n;
+    target += n;
+    m -= n;
+  }
+  if (m > 0)
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, m, n, depth, -1, rows, stride, columns, stride, beta, target,
+                targetStride);
+}
+
+/// C -= L L^T for the lower trapezium C (height x width) by tiles of columns, each cut into tiles of rows; `columnOf`
+/// is C's column, addressed by rows, and `strideOf` the distance to the next.
+template <class ColumnOf, class StrideOf>
+bool subtractProduct(const double* L, int height, int width, int depth, int stride, const ColumnOf& columnOf,
+                     const StrideOf& strideOf, double beta, const TaskRunner& run) {
+  struct Task {
+    int row, rows, column, columns;
+  };
+  std::vector<Task> tasks;
+  for (int c = 0; c < width; c += tile) {
+    const int columns = std::min(tile, width - c);
+    for (int r = c; r < height; r += 4 * tile) tasks.push_back({r, std::min(4 * tile, height - r), c, columns});
+  }
+  return run(static_cast<int>(tasks.size()), double(height) * width * depth, [&](int t) {
+    const auto [row, rows, column, columns] = tasks[t];
+    updateTile(L + row, rows, L + column, columns, depth, stride, columnOf(column) + row, strideOf(column), beta,
+               row == column);
+  });
+}
+
+} // namespace
+
+UpdateMatrix::UpdateMatrix(int size) : size_(size) {
+  std::size_t numbers = 0;
+  for (int j = 0; j < size; j += tile) numbers += std::size_t(std::min(tile, size - j)) * stride(j);
+  values_.resize(numbers);
+}
+
+std::size_t UpdateMatrix::start(int j) const {
+  const std::size_t block = j / tile, size = size_;
+  const std::size_t before = tile * block * size - tile * tile * (block * (block - 1) / 2);
+  return before + (j - block * tile) * (size - block * tile) - block * tile;
+}
+
+FrontOutcome factoriseFront(double* panel, int height, int width, UpdateMatrix& update, const TaskRunner& run) {
+  for (int k = 0; k < width; k += tile) {
+    const int depth = std::min(tile, width - k), below = height - k - depth;
+    double* diagonal = panel + k + std::size_t(k) * height;
+    if (!factoriseDiagonal(diagonal, depth, height)) return FrontOutcome::NotPositiveDefinite;
+    double* L = diagonal + depth;
+    const bool solved = run(tiles(below), double(below) * depth * depth, [&](int t) {
+      cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, std::min(tile, below - t * tile),
+                  depth, 1, diagonal, height, L + t * tile, height);
+    });
+    if (!solved) return FrontOutcome::Stopped;
+    double* rest = L + std::size_t(depth) * height;
+    if (!subtractProduct(
+            L, below, width - k - depth, depth, height, [&](int c) { return rest + std::size_t(c) * height; },
+            [&](int) { return height; }, 1, run))
+      return FrontOutcome::Stopped;
+  }
+  if (update.size() > 0 &&
+      !subtractProduct(
+          panel + width, update.size(), update.size(), width, height, [&](int c) { return update.column(c); },
+          [&](int c) { return update.stride(c); }, 0, run))
+    return FrontOutcome::Stopped;
+  return FrontOutcome::Done;
+}
+
+void useOneBlasThread() {
+  openblas_set_num_threads(1);
+}
+
+} // namespace palp

@@ -1,0 +1,90 @@
+#include "solver/linear/SupernodeTree.h"
+
+#include "solver/linear/NestedDissection.h"
+
+#include <cholmod.h>
+
+#include <stdexcept>
+
+namespace palp {
+
+namespace {
+
+/// Groups up to which supernodes are merged for more and more zeros; CHOLMOD's own are meant for single unknowns.
+constexpr std::size_t mergedUpTo[] = {2, 6, 16};
+
+/// CHOLMOD's workspace, freed at the end of its scope.
+struct Common {
+  cholmod_common c;
+  Common() {
+    cholmod_start(&c);
+    c.print = 0;
+    c.supernodal = CHOLMOD_SUPERNODAL;
+    c.nmethods = 1;
+    c.method[0].ordering = CHOLMOD_GIVEN;
+    c.postorder = 1;
+    for (int i = 0; i < 3; ++i) c.nrelax[i] = mergedUpTo[i];
+  }
+  ~Common() { cholmod_finish(&c); }
+  Common(const Common&) = delete;
+  Common& operator=(const Common&) = delete;
+};
+
+cholmod_sparse view(const std::vector<int>& columns, const std::vector<int>& rows) {
+  cholmod_sparse A{};
+  A.nrow = A.ncol = columns.size() - 1;
+  A.nzmax = rows.size();
+  A.p = const_cast<int*>(columns.data()); // read only
+  A.i = const_cast<int*>(rows.data());
+  A.stype = -1;
+  A.itype = CHOLMOD_INT;
+  A.xtype = CHOLMOD_PATTERN;
+  A.dtype = CHOLMOD_DOUBLE;
+  A.sorted = A.packed = 1;
+  return A;
+}
+
+/// The tree of the unknowns from that of their groups.
+SupernodeTree expanded(const cholmod_factor& factor, const SparsePattern& pattern) {
+  const auto groups = static_cast<int>(factor.n);
+  const int* groupAt = static_cast<const int*>(factor.Perm);
+  const int* super = static_cast<const int*>(factor.super);
+  const int* rowStart = static_cast<const int*>(factor.pi);
+  const int* rows = static_cast<const int*>(factor.s);
+  SupernodeTree tree;
+  std::vector<int> place{0}; // first of each group in the order
+  for (int p = 0; p < groups; ++p) {
+    for (int i = pattern.groupStart[groupAt[p]]; i < pattern.groupStart[groupAt[p] + 1]; ++i) tree.order.push_back(i);
+    place.push_back(static_cast<int>(tree.order.size()));
+  }
+  std::vector<int> supernodeOf(groups);
+  tree.first = {0};
+  tree.rowStart = {0};
+  for (int s = 0; s < static_cast<int>(factor.nsuper); ++s) {
+    tree.first.push_back(place[super[s + 1]]);
+    for (int p = super[s]; p < super[s + 1]; ++p) supernodeOf[p] = s;
+    for (int r = rowStart[s]; r < rowStart[s + 1]; ++r)
+      for (int i = place[rows[r]]; i < place[rows[r] + 1]; ++i) tree.rows.push_back(i);
+    tree.rowStart.push_back(tree.rows.size());
+  }
+  for (int s = 0; s < static_cast<int>(factor.nsuper); ++s) {
+    const int below = rowStart[s] + super[s + 1] - super[s];
+    tree.parent.push_back(below < rowStart[s + 1] ? supernodeOf[rows[below]] : -1);
+  }
+  return tree;
+}
+
+} // namespace
+
+SupernodeTree supernodeTree(const SparsePattern& pattern) {
+  Common common;
+  std::vector<int> order = nestedDissection(pattern);
+  cholmod_sparse groups = view(pattern.groupColumns, pattern.groupRows);
+  cholmod_factor* factor = cholmod_analyze_p(&groups, order.data(), nullptr, 0, &common.c);
+  if (!factor) throw std::runtime_error("the sparse matrix could not be analysed (memory?)");
+  SupernodeTree tree = expanded(*factor, pattern);
+  cholmod_free_factor(&factor, &common.c);
+  return tree;
+}
+
+} // namespace palp

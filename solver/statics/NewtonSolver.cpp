@@ -1,0 +1,244 @@
+#include "solver/statics/NewtonSolver.h"
+
+#include "model/base/Text.h"
+#include "solver/statics/ProblemParts.h"
+
+#include <cmath>
+
+namespace palp {
+
+namespace {
+
+constexpr double growthAfterSuccess = 1.5;
+constexpr double hopelessResidual = 1e8;
+constexpr double acceptedSlope = 0.9; // of the residual's work along the step, against its start
+constexpr int lineSearchTrials = 6;
+constexpr int definitenessTrials = 4;
+// Relative residual below which one or two more iterations with the same tangent end it.
+constexpr double keepFactorBelow = 1e-5;
+// So many more iterations with the same tangent cost less than a new one.
+constexpr double keptIterations = 3;
+// Where that small a residual does not fall any more, it is down to rounding.
+constexpr double stallsBelow = 1e-6;
+constexpr int stallsAtRounding = 3;
+
+} // namespace
+
+NewtonSolver::NewtonSolver(const Assembler& assembler, SparseCholesky& cholesky, NewtonOptions options,
+                           NewtonObserver observer)
+    : assembler_(assembler), cholesky_(cholesky), options_(options), observer_(std::move(observer)) {}
+
+NewtonSolver& NewtonSolver::startingWith(const RestTangent& rest) {
+  rest_ = &rest;
+  return *this;
+}
+
+NewtonResult NewtonSolver::solve(const Loading& loading) {
+  const Discretisation& mesh = assembler_.discretisation();
+  NewtonResult result;
+  result.increments.push_back({0, mesh.atRest()});
+  result.internalForces = Eigen::VectorXd::Zero(loading.forces.size());
+  const double load = mesh.freePart(loading.forces).norm();
+  scale_ = load > 0 ? load : 1;
+  double fraction = 0, size = 1;
+  while (fraction < 1) {
+    const double target = std::min(1.0, fraction + size);
+    ElementState state = result.increments.back().state;
+    const Outcome outcome = step(loading, fraction, target, state);
+    if (outcome == Outcome::Converged) {
+      fraction = target;
+      result.increments.push_back({fraction, std::move(state)});
+      result.internalForces = internal_;
+      result.smallestJ = forces_.smallestJ;
+      result.largestJ = forces_.largestJ;
+      size *= growthAfterSuccess;
+      continue;
+    }
+    size = (target - fraction) / 2;
+    if (outcome == Outcome::Cancelled || size < options_.smallestStep) {
+      result.cancelled = outcome == Outcome::Cancelled;
+      result.stopReason = reason(outcome, fraction, target);
+      break;
+    }
+  }
+  result.converged = fraction >= 1;
+  result.steps = std::move(steps_);
+  return result;
+}
+
+void NewtonSolver::setResidual(const Loading& loading, double fraction) {
+  const Discretisation& mesh = assembler_.discretisation();
+  const Eigen::VectorXd external = fraction * mesh.freePart(loading.forces);
+  internal_ = assembler_.sum(forces_.raw, options_.threads);
+  residual_ = external - mesh.freePart(assembler_.sum(forces_.forces, options_.threads));
+  // Condensed, the volumes' residuals would count kappa-fold.
+  relative_ = std::hypot((external - mesh.freePart(internal_)).norm(), assembler_.localNorm(forces_)) / scale_;
+}
+
+/// Residual of the state, condensed with the tangent in use.
+void NewtonSolver::evaluate(const Loading& loading, double fraction, const ElementState& state) {
+  assembler_.residual(state, *tangents_, forces_, options_.threads);
+  setResidual(loading, fraction);
+}
+
+/// Tangent and residual of the state; what moves by prescription pushes the rest.
+NewtonSolver::Outcome NewtonSolver::newTangent(const Loading& loading, double fraction, const ElementState& state,
+                                               const Eigen::VectorXd* prescribed) {
+  assembler_.tangent(state, ownTangents_, forces_, options_.threads, observer_.stop);
+  if (stopped()) return Outcome::Cancelled;
+  tangents_ = &ownTangents_;
+  setResidual(loading, fraction);
+  if (prescribed)
+    residual_ -= assembler_.discretisation().freePart(assembler_.stiffnessTimes(ownTangents_, *prescribed));
+  LaneVector matrix = assembler_.matrix(ownTangents_, options_.threads);
+  ownTangents_.stiffness = {}; // summed up; the factor needs its memory
+  const auto outcome = cholesky_.factorise(std::move(matrix), options_.threads, observer_.stop);
+  if (outcome == SparseCholesky::Outcome::Stopped) return Outcome::Cancelled;
+  if (outcome == SparseCholesky::Outcome::NotPositiveDefinite) return Outcome::Indefinite;
+  factor_ = &cholesky_;
+  return Outcome::Converged;
+}
+
+/// Tangent and residual at the start of a load step.
+NewtonSolver::Outcome NewtonSolver::firstTangent(const Loading& loading, double from, double to,
+                                                 const ElementState& state, const Eigen::VectorXd& prescribed) {
+  const bool moves = prescribed.cwiseAbs().maxCoeff() > 0;
+  if (from == 0 && rest_ && !moves) {
+    tangents_ = &rest_->tangents;
+    factor_ = &rest_->factor;
+    forces_ = rest_->forces;
+    setResidual(loading, to);
+    return Outcome::Converged;
+  }
+  const Outcome outcome = newTangent(loading, to, state, moves ? &prescribed : nullptr);
+  if (moves) relative_ = 1;
+  return outcome;
+}
+
+NewtonSolver::Direction NewtonSolver::direction(const ElementState& state, const Eigen::VectorXd& prescribed) const {
+  Direction direction{state, residual_, {}, 0};
+  factor_->solve(direction.du, observer_.stop);
+  direction.slope = residual_.dot(direction.du);
+  direction.du = assembler_.discretisation().withZeros(direction.du) + prescribed;
+  direction.dx = assembler_.recover(*tangents_, forces_, direction.du, options_.threads);
+  return direction;
+}
+
+namespace {
+
+void move(const ElementState& start, const Eigen::VectorXd& du, const LaneVector& dx, double length,
+          ElementState& state) {
+  state.displacements = start.displacements + length * du;
+  for (std::size_t i = 0; i < dx.size(); ++i) state.unknowns[i] = start.unknowns[i] + length * dx[i];
+}
+
+} // namespace
+
+/// A full step went too far: elements inside out, or a large residual whose work along the step did not fall.
+bool NewtonSolver::overshot(const Direction& direction) const {
+  if (forces_.smallestJ <= 0 || !std::isfinite(relative_)) return true;
+  const double work = residual_.dot(assembler_.discretisation().freePart(direction.du));
+  return relative_ > 1 && std::abs(work) > acceptedSlope * std::abs(direction.slope);
+}
+
+NewtonSolver::Outcome NewtonSolver::searchLine(const Loading& loading, double fraction, const Direction& direction,
+                                               ElementState& state) {
+  double length = 1;
+  for (int trial = 0; trial < lineSearchTrials; ++trial) {
+    if (stopped()) return Outcome::Cancelled;
+    length /= 2;
+    move(direction.start, direction.du, direction.dx, length, state);
+    evaluate(loading, fraction, state);
+    if (!overshot(direction)) return Outcome::Converged;
+  }
+  return forces_.smallestJ <= 0 ? Outcome::Inverted : Outcome::Diverged;
+}
+
+/// A new tangent; where it is not positive definite, the state goes back along its last step as far as needed.
+NewtonSolver::Outcome NewtonSolver::definiteTangent(const Loading& loading, double fraction, const Direction& way,
+                                                    ElementState& state) {
+  double length = 1;
+  for (int trial = 0;; ++trial) {
+    const Outcome outcome = newTangent(loading, fraction, state);
+    if (outcome != Outcome::Indefinite || trial == definitenessTrials) return outcome;
+    length /= 2;
+    move(way.start, way.du, way.dx, length, state);
+  }
+}
+
+/// Whether the tangent in use ends the iteration soon. That of the load step's start contracts all along as it does at
+/// first; one on the way does not.
+bool NewtonSolver::factorWillDo(double previous, bool ofTheStart) const {
+  if (relative_ <= keepFactorBelow) return true;
+  if (!ofTheStart) return false;
+  const double contraction = relative_ / previous;
+  return contraction < 1 && std::log(options_.relativeTolerance / relative_) >= keptIterations * std::log(contraction);
+}
+
+void NewtonSolver::record(double fraction, int iteration) {
+  steps_.push_back({fraction, iteration, relative_});
+  if (observer_.step) observer_.step(steps_.back());
+}
+
+NewtonSolver::Outcome NewtonSolver::step(const Loading& loading, double from, double to, ElementState& state) {
+  const Discretisation& mesh = assembler_.discretisation();
+  Eigen::VectorXd prescribed = (to - from) * (loading.prescribed - mesh.withZeros(mesh.freePart(loading.prescribed)));
+  const bool moves = prescribed.cwiseAbs().maxCoeff() > 0;
+  if (const Outcome outcome = firstTangent(loading, from, to, state, prescribed); outcome != Outcome::Converged)
+    return outcome;
+  record(to, 0);
+  double previous = relative_;
+  int stalled = 0;
+  bool ofTheStart = !moves;
+  for (int iteration = 1; iteration <= options_.iterationsAStep; ++iteration) {
+    if (stopped()) return Outcome::Cancelled;
+    const Direction way = direction(state, prescribed);
+    if (stopped()) return Outcome::Cancelled; // there may be no direction
+    move(way.start, way.du, way.dx, 1, state);
+    evaluate(loading, to, state);
+    if (moves && iteration == 1) { // now that there are reactions to measure by
+      scale_ = internal_.norm();
+      setResidual(loading, to);
+    }
+    // A prescribed motion is taken whole: its residual is no measure of overshooting.
+    if (moves && iteration == 1 ? forces_.smallestJ <= 0 : overshot(way)) {
+      if (moves && iteration == 1) return Outcome::Inverted;
+      if (const Outcome outcome = searchLine(loading, to, way, state); outcome != Outcome::Converged) return outcome;
+    }
+    prescribed.setZero();
+    record(to, iteration);
+    if (relative_ > hopelessResidual) return Outcome::Diverged;
+    stalled = relative_ < stallsBelow && relative_ > previous / 2 ? stalled + 1 : 0;
+    if (relative_ < options_.relativeTolerance || stalled == stallsAtRounding) return Outcome::Converged;
+    const bool keep = factorWillDo(previous, ofTheStart);
+    previous = relative_;
+    if (keep || iteration == options_.iterationsAStep) continue;
+    ofTheStart = false;
+    // Going back along the first step would take the prescribed motion back with it.
+    const Outcome outcome =
+        moves && iteration == 1 ? newTangent(loading, to, state) : definiteTangent(loading, to, way, state);
+    if (outcome != Outcome::Converged) return outcome;
+  }
+  return Outcome::TooManyIterations;
+}
+
+std::string NewtonSolver::reason(Outcome outcome, double reached, double tried) const {
+  const std::string where = " between load fractions " + text(reached) + " and " + text(tried);
+  switch (outcome) {
+  case Outcome::Converged:
+    return {};
+  case Outcome::Cancelled:
+    return "cancelled at load fraction " + text(reached);
+  case Outcome::Inverted:
+    return "elements turn inside out" + where;
+  case Outcome::Indefinite:
+    return "the tangent is no longer positive definite (the block loses stability)" + where;
+  case Outcome::TooManyIterations:
+    return "no convergence in " + std::to_string(options_.iterationsAStep) + " iterations" + where;
+  case Outcome::Diverged:
+    return "Newton's iteration diverges" + where;
+  }
+  return {};
+}
+
+} // namespace palp

@@ -1,0 +1,186 @@
+#include "tests/app/cli/Process.h"
+#include "tests/io/TemporaryFolder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+
+using nlohmann::json;
+using namespace palp::test;
+
+namespace {
+
+/// Exit 2, one line on standard error that holds all the words, nothing on standard output.
+void expectRefused(const Outcome& outcome, const std::vector<std::string>& words) {
+  EXPECT_EQ(outcome.exit, 2) << outcome.errors;
+  EXPECT_EQ(outcome.output, "");
+  EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
+  for (const std::string& word : words)
+    EXPECT_NE(outcome.errors.find(word), std::string::npos) << "'" << word << "' is missing in: " << outcome.errors;
+}
+
+json paper() {
+  return json::parse(palp::test::palp({"design"}).output);
+}
+
+struct BrokenDesign {
+  std::string name;
+  std::function<void(json&)> spoil;
+  std::vector<std::string> words;
+};
+
+const std::vector<BrokenDesign>& brokenDesigns() {
+  static const std::vector<BrokenDesign> designs{
+      {"ElectrodeOutside",
+       [](json& d) { d["upper_layer"]["row_wire_y_mm"][3] = 31; },
+       {"upper_layer.row_wire_y_mm", "31", "outside the block", "30"}},
+      {"LowerElectrodeOutside",
+       [](json& d) { d["lower_layer"]["column_wire_x_mm"][2] = -0.5; },
+       {"lower_layer.column_wire_x_mm", "-0.5", "outside"}},
+      {"AreaEmpty", [](json& d) { d["areas"]["columns"] = 0; }, {"areas.columns", "0", "allowed"}},
+      {"PoissonAboveHalf",
+       [](json& d) { d["material"]["poisson_ratio"] = 0.51; },
+       {"material.poisson_ratio", "0.51", "0 to 0.5"}},
+      {"PoissonNegative",
+       [](json& d) { d["material"]["poisson_ratio"] = -0.1; },
+       {"material.poisson_ratio", "-0.1", "0 to 0.5"}},
+      {"LayersCross", [](json& d) { d["lower_layer"]["z_mm"] = 4.5; }, {"lower_layer.z_mm", "cross", "4.5"}},
+      {"UnknownKey", [](json& d) { d["upper_layer"]["colour"] = "red"; }, {"upper_layer.colour"}},
+      {"MissingKey", [](json& d) { d.erase("material"); }, {"material"}},
+      {"DuplicateElectrode",
+       [](json& d) { d["upper_layer"]["electrode_x_mm"][1] = 1.5; },
+       {"upper_layer.electrode_x_mm", "duplicate"}},
+      {"NotANumber", [](json& d) { d["material"]["c10_MPa"] = "NaN"; }, {"material.c10_MPa", "NaN"}},
+      {"NoStiffness", [](json& d) { d["material"]["c01_MPa"] = -0.4; }, {"material.c01_MPa", "-0.4"}},
+      {"ZeroThickness", [](json& d) { d["block_mm"][2] = 0; }, {"block_mm", "0"}},
+      {"HugeBlock", [](json& d) { d["block_mm"][0] = 1e30; }, {"block_mm", "1e+30"}},
+      {"NewerVersion", [](json& d) { d["palp_design"] = 2; }, {"palp_design", "2"}},
+      {"ForceRangeReversed",
+       [](json& d) {
+         d["force_range_N"]["z"] = {0, -6};
+       },
+       {"force_range_N.z"}},
+  };
+  return designs;
+}
+
+class BrokenDesignTest : public testing::TestWithParam<BrokenDesign> {};
+
+} // namespace
+
+TEST_P(BrokenDesignTest, IsRefusedByEveryCommandThatReadsDesigns) {
+  const palp::TemporaryFolder folder;
+  json design = paper();
+  GetParam().spoil(design);
+  const std::string file = folder / "sensor.json";
+  writeAll(file, design.dump());
+  const std::string samples = folder / "samples.csv";
+  std::vector<std::string> words = GetParam().words;
+  words.push_back("sensor.json");
+  expectRefused(palp::test::palp({"design", "--check", file}), words);
+  expectRefused(palp::test::palp({"mesh", file}), words);
+  expectRefused(palp::test::palp({"solve", file, "--load", "0:0,0,-1"}), words);
+  expectRefused(palp::test::palp({"sample", file, "--per-area", "1", "-o", samples}), words);
+  expectRefused(palp::test::palp({"render", file, "--load", "0:0,0,-1", "-o", folder / "picture.png"}), words);
+  EXPECT_FALSE(std::filesystem::exists(samples));
+}
+
+INSTANTIATE_TEST_SUITE_P(Designs, BrokenDesignTest, testing::ValuesIn(brokenDesigns()),
+                         [](const auto& tested) { return tested.param.name; });
+
+TEST(BadInput, ATruncatedDesignIsRefusedWithItsPlace) {
+  const palp::TemporaryFolder folder;
+  const std::string text = paper().dump();
+  writeAll(folder / "cut.json", text.substr(0, text.size() / 2));
+  expectRefused(palp::test::palp({"design", "--check", folder / "cut.json"}), {"cut.json"});
+}
+
+TEST(BadInput, AMissingDesignIsRefused) {
+  expectRefused(palp::test::palp({"mesh", "nowhere.json"}), {"nowhere.json"});
+}
+
+struct BadOption {
+  std::string name;
+  std::vector<std::string> arguments;
+  std::vector<std::string> words;
+};
+
+class BadOptionTest : public testing::TestWithParam<BadOption> {};
+
+TEST_P(BadOptionTest, IsRefusedInOneLine) {
+  expectRefused(palp::test::palp(GetParam().arguments), GetParam().words);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Options, BadOptionTest,
+    testing::Values(
+        BadOption{"UnknownCommand", {"fly"}, {"fly"}},
+        BadOption{"UnknownOption", {"solve", "paper", "--lod", "0:0,0,-1"}, {"--lod"}},
+        BadOption{"NoLoad", {"solve", "paper"}, {"--load"}},
+        BadOption{"NoSuchArea", {"solve", "paper", "--load", "6:0,0,-1"}, {"--load", "6", "0 to 5"}},
+        BadOption{"ForceNotANumber", {"solve", "paper", "--load", "0:0,nan,-1"}, {"--load", "nan"}},
+        BadOption{"ForceTooLong", {"solve", "paper", "--load", "0:0,0,-1,2"}, {"--load", "3 numbers"}},
+        BadOption{"ForceHuge", {"solve", "paper", "--load", "0:0,0,-1e300"}, {"-1e+300"}},
+        BadOption{"LoadWithoutColon", {"solve", "paper", "--load", "5"}, {"--load", "AREA:FX,FY,FZ"}},
+        BadOption{"PatchOutside", {"solve", "paper", "--patch", "29,15,2:0,0,-1"}, {"patch", "29", "must lie"}},
+        BadOption{"PatchRadiusZero", {"solve", "paper", "--patch", "15,15,0:0,0,-1"}, {"patch", "radius 0"}},
+        BadOption{"MeshSizeZero", {"mesh", "paper", "--mesh-size", "0"}, {"0"}},
+        BadOption{"MeshSizeNegative", {"mesh", "paper", "--mesh-size", "-2"}, {"-2"}},
+        BadOption{"MeshSizeTiny", {"mesh", "paper", "--mesh-size", "1e-6"}, {"1e-06"}},
+        BadOption{"MappedOneNumber", {"mesh", "paper", "--mapped", "10"}, {"--mapped", "NxNxN"}},
+        BadOption{"MappedZero", {"mesh", "paper", "--mapped", "0x10x5"}, {"--mapped", "0"}},
+        BadOption{
+            "MappedAndSize", {"mesh", "paper", "--mapped", "2x2x2", "--mesh-size", "2"}, {"--mapped", "--mesh-size"}},
+        BadOption{"AccuracyZero", {"solve", "paper", "--load", "0:0,0,-1", "--accuracy", "0"}, {"--accuracy", "0"}},
+        BadOption{"DeckWithoutFile", {"mesh", "paper", "--format", "inp", "--load", "0:0,0,-1"}, {"--format", "-o"}},
+        BadOption{"FormatUnknown", {"mesh", "paper", "--format", "stl"}, {"--format", "stl"}},
+        BadOption{"FolderMissing", {"mesh", "paper", "-o", "no/such/folder/mesh.vtu"}, {"no/such/folder"}},
+        BadOption{"ThreadsZero", {"mesh", "paper", "--threads", "0"}, {"--threads", "0"}},
+        BadOption{"PresetUnknown", {"design", "--preset", "mine"}, {"--preset", "mine", "paper"}},
+        BadOption{"PerAreaZero", {"sample", "paper", "--per-area", "0", "-o", "x.csv"}, {"--per-area", "0"}},
+        BadOption{
+            "SeedNegative", {"sample", "paper", "--per-area", "1", "--seed", "-1", "-o", "x.csv"}, {"--seed", "-1"}},
+        BadOption{
+            "AreasUnknown", {"sample", "paper", "--per-area", "1", "--areas", "9", "-o", "x.csv"}, {"9", "0 to 5"}},
+        BadOption{
+            "ShardZero", {"sample", "paper", "--per-area", "1", "--shard", "0/2", "-o", "x.csv"}, {"--shard", "0"}},
+        BadOption{
+            "ShardBeyond", {"sample", "paper", "--per-area", "1", "--shard", "3/2", "-o", "x.csv"}, {"--shard", "3"}},
+        BadOption{"ToleranceZero",
+                  {"sample", "paper", "--per-area", "1", "--tolerance", "0", "-o", "x.csv"},
+                  {"--tolerance", "0"}},
+        BadOption{"MergeMissing", {"merge", "nowhere.csv", "-o", "x.csv"}, {"nowhere.csv"}},
+        BadOption{"ReproduceUnknown", {"reproduce", "fig99"}, {"fig99"}},
+        BadOption{"ReportUnknown", {"report", "fly"}, {"fly", "error-time"}},
+        BadOption{"ReportWithoutKind", {"report"}, {"kind"}},
+        BadOption{"ReportPerAreaTwo", {"report", "noise", "--per-area", "2"}, {"--per-area", "2", "5 to"}},
+        BadOption{"ReportSeedNegative", {"report", "noise", "--seed", "-1"}, {"--seed", "-1", "0 to"}},
+        BadOption{"ReportDesignMissing", {"report", "layout", "--design", "nowhere.json"}, {"nowhere.json"}},
+        BadOption{"ReportMappedTwoNumbers", {"report", "scenes", "--mapped", "2x2"}, {"--mapped", "2x2", "NxNxN"}},
+        BadOption{"ReportIntoAFile", {"report", "scenes", "-o", "/dev/null"}, {"--output", "/dev/null", "folder"}},
+        BadOption{"SeedsZero", {"reproduce", "table1", "--seeds", "0"}, {"--seeds", "0"}},
+        BadOption{"TrainMissing", {"train", "nowhere.csv", "--input", "displacement", "-o", "n.json"}, {"nowhere.csv"}},
+        BadOption{"PredictMissing", {"predict", "nowhere.json", "nowhere.csv"}, {"nowhere.json"}},
+        BadOption{"SweepMissing",
+                  {"sweep", "nowhere.csv", "--test", "t.csv", "--input", "displacement", "--spreads", "1"},
+                  {"nowhere.csv"}}),
+    [](const auto& tested) { return tested.param.name; });
+
+TEST(BadInput, ARefusedReportLeavesNoFolder) {
+  const palp::TemporaryFolder folder;
+  const std::string output = folder / "out";
+  expectRefused(palp::test::palp({"report", "stability", "--mesh-size", "1e-6", "-o", output}), {"mesh size"});
+  expectRefused(palp::test::palp({"report", "stability", "--design", "nowhere.json", "-o", output}), {"nowhere.json"});
+  EXPECT_FALSE(std::filesystem::exists(output));
+}
+
+TEST(BadInput, AnOutputThatExistsIsKept) {
+  const palp::TemporaryFolder folder;
+  const std::string file = folder / "sensor.json";
+  writeAll(file, "mine");
+  expectRefused(palp::test::palp({"design", "-o", file}), {"sensor.json", "--force"});
+  EXPECT_EQ(readAll(file), "mine");
+  EXPECT_EQ(palp::test::palp({"design", "-o", file, "--force"}).exit, 0);
+  EXPECT_NE(readAll(file), "mine");
+}

@@ -1,0 +1,113 @@
+#include "tests/app/cli/Process.h"
+#include "tests/io/TemporaryFolder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using nlohmann::json;
+using namespace palp::test;
+
+namespace {
+
+bool hasStage(const json& result, const std::string& stage) {
+  return result.at("stages").contains(stage);
+}
+
+} // namespace
+
+TEST(Commands, LookingAtTheDesignStartsNoMesh) {
+  const json result = palp::test::palp({"design", "--json"}).json();
+  EXPECT_EQ(result.at("command"), "design");
+  EXPECT_TRUE(result.at("stages").empty());
+  EXPECT_GT(result.at("peak_memory_MB").get<double>(), 0);
+}
+
+TEST(Commands, LookingAtTheMeshStartsNoSolve) {
+  const json result = palp::test::palp({"mesh", "paper", "--json"}).json();
+  EXPECT_EQ(result.at("stages").at("mesh").at("runs"), 1);
+  EXPECT_EQ(result.at("stages").size(), 1U);
+  EXPECT_GT(result.at("elements").get<int>(), 100);
+  EXPECT_GT(result.at("min_dihedral_deg").get<double>(), 1);
+  EXPECT_LT(result.at("max_dihedral_deg").get<double>(), 179);
+}
+
+TEST(Commands, SolveSaysAllThatToolsRelyOn) {
+  const Outcome outcome = palp::test::palp({"solve", "paper", "--load", "0:1,0,-6", "--json"});
+  ASSERT_EQ(outcome.exit, 0) << outcome.errors;
+  const json result = outcome.json();
+  EXPECT_TRUE(result.at("converged").get<bool>());
+  EXPECT_EQ(result.at("reached_load_fraction"), 1.0);
+  EXPECT_GE(result.at("newton").size(), 2U);
+  for (const char* key : {"load_fraction", "iteration", "relative_residual"})
+    EXPECT_TRUE(result.at("newton")[0].contains(key)) << key;
+  ASSERT_EQ(result.at("displacements_mm").size(), 10U);
+  ASSERT_EQ(result.at("displacements_mm")[4].size(), 10U);
+  ASSERT_EQ(result.at("displacements_mm")[4][0].size(), 3U);
+  ASSERT_EQ(result.at("resistances_ohm").size(), 10U);
+  ASSERT_EQ(result.at("resistances_ohm")[4].size(), 30U);
+  ASSERT_EQ(result.at("resistances_at_rest_ohm").size(), 10U);
+  EXPECT_GT(result.at("dof").get<int>(), 1000);
+  EXPECT_TRUE(result.contains("elements") && result.contains("element_type"));
+  EXPECT_LT(result.at("max_volume_error").get<double>(), 0.2);
+  EXPECT_GT(result.at("error_estimate_relative").get<double>(), 0);
+  EXPECT_TRUE(result.at("error_estimate_method").is_string());
+  for (const char* stage : {"mesh", "factorise", "solve"}) EXPECT_TRUE(hasStage(result, stage)) << stage;
+  // The paper's pressed corner moves down by some hundredths of a millimetre (converged: 0.0344 mm).
+  EXPECT_NEAR(result.at("displacements_mm")[4][0][2].get<double>(), -0.034354, 0.05 * 0.034354);
+}
+
+TEST(Commands, SolveOnThePapersMappedMesh) {
+  const json result =
+      palp::test::palp({"solve", "paper", "--load", "0:1,0,-6", "--mapped", "10x10x5", "--json"}).json();
+  EXPECT_TRUE(result.at("converged").get<bool>());
+  EXPECT_EQ(result.at("elements"), 500);
+  EXPECT_EQ(result.at("dof"), 3 * 11 * 11 * 5);
+}
+
+TEST(Commands, LoadsActTogether) {
+  const json one = palp::test::palp({"solve", "paper", "--load", "1:0,0,-6", "--mapped", "6x6x3", "--json"}).json();
+  const json two =
+      palp::test::palp({"solve", "paper", "--load", "1:0,0,-3", "--load", "1:0,0,-3", "--mapped", "6x6x3", "--json"})
+          .json();
+  const double a = one.at("displacements_mm")[4][4][2];
+  EXPECT_NEAR(two.at("displacements_mm")[4][4][2].get<double>(), a,
+              1e-9 * std::abs(a)); // same load, Newton's tolerance
+}
+
+TEST(Commands, AnHonestEndIsExitOneWithTheFractionReached) {
+  const Outcome outcome =
+      palp::test::palp({"solve", "paper", "--load", "1:10,-10,-2000", "--mapped", "6x6x3", "--json"});
+  EXPECT_EQ(outcome.exit, 1) << outcome.errors;
+  const json result = outcome.json();
+  EXPECT_FALSE(result.at("converged").get<bool>());
+  EXPECT_LT(result.at("reached_load_fraction").get<double>(), 1);
+  EXPECT_FALSE(result.at("stop_reason").get<std::string>().empty());
+}
+
+TEST(Commands, EveryCommandHasHelpWithAnExample) {
+  for (const char* command :
+       {"design", "mesh", "solve", "sample", "merge", "reproduce", "render", "train", "predict", "sweep"}) {
+    const Outcome outcome = palp::test::palp({command, "--help"});
+    EXPECT_EQ(outcome.exit, 0) << command;
+    EXPECT_NE(outcome.output.find(std::string("Example: palp ") + command), std::string::npos) << command;
+  }
+}
+
+TEST(Commands, ReproduceSetsThePapersNumbersBesideOurs) {
+  const palp::TemporaryFolder folder;
+  const Outcome outcome =
+      palp::test::palp({"reproduce", "table1", "--mesh-size", "6", "-o", folder / "paper", "--json"});
+  ASSERT_EQ(outcome.exit, 0) << outcome.errors;
+  const json table = outcome.json().at("table1");
+  ASSERT_EQ(table.at("default").at("rows").size(), 5U);
+  EXPECT_EQ(table.at("paper").at("rows")[4].at("published_percent")[2], 3.44);
+  EXPECT_EQ(table.at("linear").at("rows").size(), 1U);
+  for (const json& row : table.at("default").at("rows"))
+    for (int f = 0; f < 3; ++f)
+      EXPECT_LE(row.at("eq13_percent")[f].get<double>(), row.at("published_percent")[f].get<double>());
+  const std::string page = readAll(folder / "paper" / "report.html");
+  EXPECT_NE(page.find("<table>"), std::string::npos);
+  EXPECT_EQ(page.find("src=\"http"), std::string::npos); // opens with no network
+  EXPECT_TRUE(std::filesystem::exists(folder / "paper" / "errors.csv"));
+}

@@ -1,0 +1,116 @@
+#include "tests/app/cli/Process.h"
+#include "tests/io/TemporaryFolder.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+using nlohmann::json;
+using namespace palp::test;
+
+namespace {
+
+/// JSON Lines: an object a line.
+std::vector<json> lines(const std::string& text) {
+  std::vector<json> objects;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) objects.push_back(json::parse(line));
+  return objects;
+}
+
+std::string samplesFile() {
+  return PALP_SOURCE_DIR "/resources/board/paper-samples.csv";
+}
+
+TEST(ListenCommand, PrintsALineAFrameAndTheTotals) {
+  const Outcome outcome = palp::test::palp({"listen", "--simulate", "--frames", "20", "--json"});
+  ASSERT_EQ(outcome.exit, 0) << outcome.errors;
+  const std::vector<json> objects = lines(outcome.output);
+  ASSERT_GE(objects.size(), 21U);
+  for (const char* key :
+       {"t_s", "frame", "complete", "lost_reports", "forces_N", "standard_deviation_N", "valid", "latency_ms"})
+    EXPECT_TRUE(objects[0].contains(key)) << key;
+  EXPECT_TRUE(objects[0].at("valid").get<bool>());
+  EXPECT_EQ(objects[0].at("forces_N").size(), 3U);
+  const json& totals = objects.back();
+  for (const char* key : {"frames", "reports", "lost_reports", "bad_reports", "peak_memory_MB", "warnings"})
+    EXPECT_TRUE(totals.contains(key)) << key;
+  EXPECT_GE(totals.at("frames").get<int>(), 20);
+  EXPECT_TRUE(totals.at("latency_ms").contains("p99"));
+  EXPECT_TRUE(totals.at("stages").empty()); // meshes and solves nothing
+}
+
+TEST(ListenCommand, RecordsAndReplays) {
+  const palp::TemporaryFolder folder;
+  const std::string file = (folder / "a.palprec").string();
+  ASSERT_EQ(palp::test::palp({"listen", "--simulate", "--seconds", "1", "--record", file}).exit, 0);
+  const Outcome again = palp::test::palp({"listen", "--simulate", "--seconds", "1", "--record", file});
+  EXPECT_EQ(again.exit, 2);
+  EXPECT_NE(again.errors.find("--force"), std::string::npos);
+  const Outcome replay = palp::test::palp({"listen", "--replay", file, "--speed", "0", "--json"});
+  ASSERT_EQ(replay.exit, 0) << replay.errors;
+  const json totals = lines(replay.output).back();
+  EXPECT_EQ(totals.at("state"), "ended");
+  EXPECT_EQ(totals.at("lost_reports"), 0);
+  EXPECT_GT(totals.at("reports").get<int>(), 100);
+}
+
+TEST(ListenCommand, ChecksABoard) {
+  const Outcome outcome = palp::test::palp({"listen", "--check", "--simulate", "--seconds", "3", "--json"});
+  const json result = lines(outcome.output).back();
+  for (const json& check : result.at("checks")) {
+    if (check.at("what").get<std::string>().rfind("reports a second", 0) == 0) continue; // a busy machine is late
+    EXPECT_TRUE(check.at("passed").get<bool>()) << check;
+  }
+}
+
+TEST(ListenCommand, RefusesWhatCannotBe) {
+  const auto refuses = [](std::vector<std::string> arguments, const std::string& word) {
+    arguments.insert(arguments.begin(), "listen");
+    const Outcome outcome = palp::test::palp(arguments);
+    EXPECT_EQ(outcome.exit, 2) << outcome.errors;
+    EXPECT_NE(outcome.errors.find(word), std::string::npos) << outcome.errors;
+  };
+  refuses({"--simulate", "--replay", "x"}, "exclude each other");
+  refuses({"--replay", "/nonexistent"}, "/nonexistent");
+  refuses({"--replay", samplesFile()}, "no recording");
+  refuses({"--simulate", "--rate", "0"}, "--rate");
+  refuses({"--simulate", "--noise", "x"}, "--noise");
+  refuses({"--simulate", "--open-row", "10"}, "row-wire: 10; allowed is 0 to 9");
+  refuses({"--simulate", "--open-column", "30"}, "column-wire: 30; allowed is 0 to 29");
+  refuses({"--replay", "/nonexistent", "--noise", "1e-6"}, "--noise requires --simulate");
+  refuses({"--simulate", "--usb", "12", "--list"}, "--usb");
+  refuses({"--simulate", "--label", "0:0,0,-1"}, "--append");
+  refuses({"--simulate", "--network", samplesFile()}, "paper-samples.csv");
+}
+
+TEST(ListenCommand, EndsWithoutAResultWhereNoBoardIs) {
+  const Outcome outcome = palp::test::palp({"listen", "--usb", "1209:0fff", "--seconds", "0.3", "--json"});
+  EXPECT_EQ(outcome.exit, 1);
+  EXPECT_EQ(lines(outcome.output).back().at("reports"), 0);
+}
+
+TEST(CalibrateCommand, RefinesANetworkWithFramesOfTheBoard) {
+  const palp::TemporaryFolder folder;
+  const std::string network = (folder / "network.json").string();
+  const std::string frames = (folder / "frames.csv").string();
+  ASSERT_EQ(palp::test::palp(
+                {"train", samplesFile(), "--input", "resistance", "--spread", "2", "--ridge", "1e-6", "-o", network})
+                .exit,
+            0);
+  for (int i = 0; i < 8; ++i) { // the simulated board rests: the label says so
+    const Outcome outcome = palp::test::palp({"listen", "--simulate", "--network", network, "--label",
+                                              std::to_string(i % 6) + ":0,0,0", "--append", frames, "--average", "2"});
+    ASSERT_EQ(outcome.exit, 0) << outcome.errors;
+  }
+  const std::string better = (folder / "better.json").string();
+  const Outcome outcome = palp::test::palp({"calibrate", network, frames, "-o", better, "--json"});
+  ASSERT_EQ(outcome.exit, 0) << outcome.errors;
+  const json result = outcome.json();
+  EXPECT_EQ(result.at("samples"), 8);
+  EXPECT_FALSE(result.at("warnings").empty()); // rest alone covers no force
+  EXPECT_TRUE(std::filesystem::exists(better));
+  EXPECT_EQ(palp::test::palp({"calibrate", network, frames, "-o", better}).exit, 2); // no --force
+}
+
+} // namespace

@@ -1,0 +1,89 @@
+#include "tests/app/cli/Process.h"
+#include "tests/io/TemporaryFolder.h"
+
+#include <gtest/gtest.h>
+
+using nlohmann::json;
+using namespace palp::test;
+
+namespace {
+
+/// A coarse mesh: what is tested here are bytes, not accuracy.
+std::vector<std::string> sample(const std::filesystem::path& file, const std::vector<std::string>& more = {},
+                                const std::string& perArea = "40") {
+  std::vector<std::string> words{"sample",      "paper", "--per-area", perArea, "--seed", "7",
+                                 "--mesh-size", "6",     "-o",         file,    "--json"};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+} // namespace
+
+TEST(SampleCommand, GivesTheSameBytesWithOneAndTwoThreadsAndInShards) {
+  const palp::TemporaryFolder folder;
+  const Outcome one = palp::test::palp(sample(folder / "one.csv", {"--threads", "1"}));
+  ASSERT_EQ(one.exit, 0) << one.errors;
+  EXPECT_EQ(one.json().at("samples"), 240);
+  ASSERT_EQ(palp::test::palp(sample(folder / "two.csv", {"--threads", "2"})).exit, 0);
+  const std::string whole = readAll(folder / "one.csv");
+  EXPECT_TRUE(whole == readAll(folder / "two.csv"));
+
+  std::vector<std::string> merge{"merge"};
+  for (const char* part : {"1", "2", "3"}) {
+    const std::filesystem::path file = folder / (std::string("part") + part + ".csv");
+    ASSERT_EQ(palp::test::palp(sample(file, {"--shard", std::string(part) + "/3"})).exit, 0);
+    merge.push_back(file);
+  }
+  merge.insert(merge.end(), {"-o", folder / "merged.csv"});
+  ASSERT_EQ(palp::test::palp(merge).exit, 0);
+  EXPECT_TRUE(whole == readAll(folder / "merged.csv"));
+}
+
+TEST(SampleCommand, GoesOnAfterAnInterruptionToTheSameBytes) {
+  const palp::TemporaryFolder folder;
+  ASSERT_EQ(palp::test::palp(sample(folder / "whole.csv", {}, "100")).exit, 0);
+  const std::filesystem::path file = folder / "cut.csv";
+  const std::vector<std::string> words = sample(file, {}, "100");
+  const Outcome cut = palpInterrupted(words, file.string() + ".part", 100'000);
+  EXPECT_EQ(cut.exit, 130) << cut.errors;
+  EXPECT_FALSE(std::filesystem::exists(file));
+  ASSERT_TRUE(std::filesystem::exists(file.string() + ".part"));
+
+  const Outcome other = palp::test::palp(sample(file, {}, "99"));
+  EXPECT_EQ(other.exit, 2);
+  EXPECT_NE(other.errors.find("per_area"), std::string::npos) << other.errors;
+
+  const Outcome rest = palp::test::palp(words);
+  ASSERT_EQ(rest.exit, 0) << rest.errors;
+  EXPECT_NE(rest.errors.find("going on after"), std::string::npos);
+  EXPECT_TRUE(readAll(folder / "whole.csv") == readAll(file));
+  EXPECT_FALSE(std::filesystem::exists(file.string() + ".part"));
+}
+
+TEST(SampleCommand, SaysHowFarTheSamplesAreFromFullNewton) {
+  const palp::TemporaryFolder folder;
+  const json result = palp::test::palp(sample(folder / "s.csv")).json();
+  EXPECT_LE(result.at("measured_error_relative").get<double>(), 1e-6);
+  EXPECT_GT(result.at("solves").get<int>(), 0);
+}
+
+TEST(SampleCommand, LoadsAllAreasTogether) {
+  const palp::TemporaryFolder folder;
+  const Outcome outcome = palp::test::palp(sample(folder / "s.csv", {"--areas", "together"}, "20"));
+  ASSERT_EQ(outcome.exit, 0) << outcome.errors;
+  EXPECT_EQ(outcome.json().at("samples"), 20);
+  EXPECT_NE(readAll(folder / "s.csv").find("a5_fz_N"), std::string::npos);
+}
+
+TEST(SampleCommand, RefusesShardsThatDoNotBelongTogether) {
+  const palp::TemporaryFolder folder;
+  ASSERT_EQ(palp::test::palp(sample(folder / "a.csv", {"--shard", "1/2"})).exit, 0);
+  ASSERT_EQ(palp::test::palp({"sample", "paper", "--per-area", "40", "--seed", "8", "--mesh-size", "6", "--shard",
+                              "2/2", "-o", folder / "b.csv"})
+                .exit,
+            0);
+  const Outcome outcome = palp::test::palp({"merge", folder / "a.csv", folder / "b.csv", "-o", folder / "c.csv"});
+  EXPECT_EQ(outcome.exit, 2);
+  EXPECT_NE(outcome.errors.find("seed"), std::string::npos) << outcome.errors;
+  EXPECT_FALSE(std::filesystem::exists(folder / "c.csv"));
+}

@@ -1,0 +1,127 @@
+#include "tests/app/gui/WindowFixture.h"
+
+#include <QComboBox>
+#include <QElapsedTimer>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QTemporaryDir>
+#include <QTimer>
+
+#include <functional>
+#include <iostream>
+
+namespace palp {
+namespace {
+
+// Far above the 50 ms and 0.3 s that the window is built for: other tests may share the cores.
+constexpr qint64 kWorstGap_ms = 1000;
+constexpr qint64 kWorstCancel_ms = 3000;
+
+/// The longest time between two beats of the window's event loop.
+class Heart {
+public:
+  Heart() {
+    clock_.start();
+    QObject::connect(&beat_, &QTimer::timeout, &beat_, [this] { take(); });
+    beat_.start(2);
+  }
+  qint64 worst_ms() {
+    take();
+    return worst_;
+  }
+
+private:
+  void take() { worst_ = std::max(worst_, clock_.restart()); }
+  QElapsedTimer clock_;
+  QTimer beat_;
+  qint64 worst_ = 0;
+};
+
+class Heartbeat : public WindowFixture {
+protected:
+  /// Runs the work until `done`, then prints and judges the worst gap.
+  void expectFree(const char* what, const std::function<void()>& begin, const std::function<bool()>& done) {
+    // What a view draws for the first time in a process has its shaders compiled by a software renderer: once, and
+    // not what is measured here.
+    QTest::qWait(500);
+    Heart heart;
+    begin();
+    ASSERT_TRUE(QTest::qWaitFor(done, kPatience_ms)) << what;
+    const qint64 worst = heart.worst_ms();
+    std::cout << "worst heartbeat gap while " << what << ": " << worst << " ms\n";
+    EXPECT_LT(worst, kWorstGap_ms) << what;
+  }
+  /// Milliseconds from a cancel to the end of the work.
+  void expectCancelled(const char* what, JobRunner& runner) {
+    ASSERT_TRUE(runner.running()) << what;
+    QElapsedTimer clock;
+    clock.start();
+    QTest::keyClick(&window, Qt::Key_Escape);
+    ASSERT_TRUE(QTest::qWaitFor([&] { return !runner.running(); }, kPatience_ms)) << what;
+    std::cout << "from cancel to the end of " << what << ": " << clock.elapsed() << " ms\n";
+    EXPECT_LT(clock.elapsed(), kWorstCancel_ms) << what;
+  }
+  void click(const char* name) { QTest::mouseClick(&find<QPushButton>(name), Qt::LeftButton); }
+};
+
+TEST_F(Heartbeat, BeatsWhileSolvingAndCancelKeepsTheLastGoodResult) {
+  ASSERT_TRUE(solved());
+  Project standard = workbench.project();
+  standard.mesh = {};
+  expectFree(
+      "solving on the standard mesh", [&] { workbench.edit("standard mesh", standard); },
+      [&] { return workbench.touch().upToDate() && !workbench.touch().runner().running(); });
+  const Solution* good = workbench.touch().touch().solution();
+  standard.load.areas[0].force_N.z() = -9;
+  workbench.edit("deeper", standard);
+  QTest::qWait(150);
+  expectCancelled("a solve", workbench.touch().runner());
+  EXPECT_EQ(workbench.touch().touch().solution(), good);
+}
+
+TEST_F(Heartbeat, BeatsWhileSamplingTrainingAndSweeping) {
+  ASSERT_TRUE(solved());
+  Project project = workbench.project();
+  project.samples.perArea = 40;
+  project.network.sweepCount = 5;
+  workbench.edit("more", project);
+  window.showScene("network");
+  settle();
+  click("generate");
+  QTest::qWait(400);
+  if (network.runner().running()) expectCancelled("a generation of samples", network.runner());
+  expectFree(
+      "sampling", [&] { click("generate"); }, [&] { return network.samples() != nullptr; });
+  ASSERT_TRUE(idle());
+  expectFree(
+      "training", [&] { click("train"); }, [&] { return network.fit() != nullptr && !network.runner().running(); });
+  expectFree(
+      "sweeping", [&] { click("sweep"); }, [&] { return network.sweepPoints().size() == 5; });
+  ASSERT_TRUE(idle());
+  const NetworkFit* good = network.fit();
+  click("sweep");
+  if (network.runner().running()) expectCancelled("a sweep", network.runner());
+  EXPECT_EQ(network.fit(), good);
+}
+
+TEST_F(Heartbeat, BeatsWhileReporting) {
+  ASSERT_TRUE(solved());
+  const QTemporaryDir folder;
+  window.showScene("reports");
+  settle();
+  find<QLineEdit>("reportFolder").setText(folder.path());
+  auto& run = find<QPushButton>("runReport");
+  expectFree(
+      "reporting", [&] { click("runReport"); }, [waited = 0]() mutable { return ++waited > 100; });
+  if (!run.isEnabled()) { // where the command line program was built it still runs
+    QElapsedTimer clock;
+    clock.start();
+    click("cancelReport");
+    ASSERT_TRUE(QTest::qWaitFor([&] { return run.isEnabled(); }, kPatience_ms));
+    std::cout << "from cancel to the end of a report: " << clock.elapsed() << " ms\n";
+    EXPECT_LT(clock.elapsed(), kWorstCancel_ms);
+  }
+}
+
+} // namespace
+} // namespace palp

@@ -1,0 +1,255 @@
+#include "app/gui/views/BlockView.h"
+#include "app/gui/views/ChartView.h"
+#include "app/gui/views/HeatmapSpecs.h"
+#include "app/gui/views/HeatmapView.h"
+#include "tests/app/gui/WindowFixture.h"
+
+#include <QAbstractButton>
+#include <QAbstractSpinBox>
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDir>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QMenu>
+#include <QPushButton>
+#include <QSlider>
+#include <QTabBar>
+#include <QTemporaryDir>
+#include <QTimer>
+
+#include <cstdlib>
+#include <iostream>
+#include <random>
+
+namespace palp {
+namespace {
+
+/// Threads of this process; a job that is forgotten leaves its own.
+int threads() {
+  return static_cast<int>(QDir("/proc/self/task").entryList(QDir::Dirs | QDir::NoDotAndDotDot).size());
+}
+
+/// A user without a plan: clicks, drags, turns the wheel and types on whatever is there. The same seed does the same.
+class Monkey {
+public:
+  Monkey(MainWindow& window, unsigned seed) : window_(window), random_(seed) {}
+
+  void act() {
+    switch (upTo(16)) {
+    case 0:
+      window_.showScene(window_.sceneNames()[upTo(static_cast<int>(window_.sceneNames().size()))]);
+      break;
+    case 1:
+    case 2:
+      clickOn(any<QAbstractButton>());
+      break;
+    case 3:
+      if (auto* spin = any<QAbstractSpinBox>()) spin->stepBy(upTo(7) - 3);
+      break;
+    case 4:
+      if (auto* slider = any<QSlider>())
+        slider->setValue(slider->minimum() + upTo(slider->maximum() - slider->minimum() + 1));
+      break;
+    case 5:
+      if (auto* box = any<QComboBox>()) QTest::keyClick(box, upTo(2) == 0 ? Qt::Key_Down : Qt::Key_Up);
+      break;
+    case 6:
+      type();
+      break;
+    case 7:
+      if (auto* tabs = any<QTabBar>()) tabs->setCurrentIndex(upTo(tabs->count()));
+      break;
+    case 8:
+    case 9:
+      if (auto* view = any<PictureView>()) drag(*view, placeIn(*view), placeIn(*view), modifiers());
+      break;
+    case 10:
+      if (auto* view = any<PictureView>()) QTest::mouseClick(view, Qt::LeftButton, modifiers(), placeIn(*view));
+      break;
+    case 11:
+      if (auto* view = any<PictureView>()) wheel(*view, 120 * (upTo(3) - 1));
+      break;
+    case 12:
+      dragArrow();
+      break;
+    case 13:
+      QTest::keyClick(&window_, upTo(2) == 0 ? Qt::Key_Z : Qt::Key_Y, Qt::ControlModifier);
+      break;
+    case 14:
+      window_.setTheme(upTo(2) == 0 ? Theme::Light : Theme::Dark);
+      break;
+    case 15:
+      if (upTo(4) == 0) QTest::keyClick(&window_, Qt::Key_Escape);
+      if (upTo(8) == 0) window_.resize(900 + upTo(700), 600 + upTo(400));
+      break;
+    }
+  }
+
+private:
+  int upTo(int n) { return static_cast<int>(random_() % static_cast<unsigned>(std::max(n, 1))); }
+  QPoint placeIn(const QWidget& widget) { return {upTo(widget.width()), upTo(widget.height())}; }
+  Qt::KeyboardModifiers modifiers() { return upTo(4) == 0 ? Qt::ShiftModifier : Qt::NoModifier; }
+
+  /// One of the visible, usable widgets of the scene; null where there are none. Those that open a dialog, which would
+  /// wait for an answer, begin another program, or make the work long are left alone.
+  template <class Widget> Widget* any() {
+    QList<Widget*> usable;
+    for (Widget* widget : window_.currentScene().findChildren<Widget*>())
+      if (widget->isVisible() && widget->isEnabled() && !asks(*widget)) usable << widget;
+    return usable.isEmpty() ? nullptr : usable[upTo(static_cast<int>(usable.size()))];
+  }
+  static bool asks(const QWidget& widget) {
+    const QStringList longer{"meshSize", "automaticSize", "perArea", "sweepCount"};
+    if (longer.contains(widget.objectName()) || longer.contains(widget.parentWidget()->objectName())) return true;
+    const auto* button = qobject_cast<const QAbstractButton*>(&widget);
+    return button != nullptr && (button->text().contains("...") || button->objectName() == "runReport");
+  }
+  void clickOn(QAbstractButton* button) {
+    if (button != nullptr) QTest::mouseClick(button, Qt::LeftButton, modifiers());
+  }
+  void type() {
+    auto* edit = any<QLineEdit>();
+    if (edit == nullptr) return;
+    const QStringList words{"1", "-2.5", "0.4999", "abc", "", "1e9", "3, 4, 5", "all", "0,1", "99"};
+    edit->setFocus();
+    edit->selectAll();
+    QTest::keyClicks(edit, words[upTo(static_cast<int>(words.size()))]);
+    if (upTo(2) == 0) QTest::keyClick(edit, Qt::Key_Return);
+  }
+  void dragArrow() {
+    auto* block = window_.currentScene().findChild<BlockView*>("block");
+    if (block == nullptr) return;
+    if (const auto grip = block->gripOf(upTo(2))) drag(*block, grip->toPoint(), placeIn(*block), modifiers());
+  }
+
+  MainWindow& window_;
+  std::mt19937 random_;
+};
+
+class MonkeyWindow : public WindowFixture {
+protected:
+  /// The pictures of a scene, by the views' names.
+  static std::map<std::string, QImage> pictures(MainWindow& shown, const QString& scene) {
+    shown.showScene(scene);
+    QTest::qWait(150);
+    std::map<std::string, QImage> all;
+    for (auto* view : shown.currentScene().findChildren<PictureView*>()) {
+      if (!view->isVisible()) continue;
+      if (auto* block = qobject_cast<BlockView*>(view)) block->resetCamera();
+      all[view->objectName().toStdString()] = view->image().copy();
+    }
+    return all;
+  }
+
+  /// Writes a picture to look at; the file's name.
+  static std::string keep(const QImage& image, const std::string& name, const std::string& window) {
+    const std::string file = QDir::temp().filePath("gui_monkey").toStdString() + "-" + name + "-" + window + ".png";
+    return image.save(QString::fromStdString(file)) ? file : file + " (not written)";
+  }
+
+  bool quiet() { return !workbench.touch().runner().running() && !network.runner().running(); }
+  std::string running() {
+    return (workbench.touch().runner().running() ? workbench.touch().runner().title() : network.runner().title())
+        .toStdString();
+  }
+
+  /// What is drawn belongs to what is set, where nothing is being computed.
+  void expectRightPicture(int action) {
+    const TouchSession& touch = workbench.touch();
+    if (!touch.upToDate()) return; // cancelled: the window says so
+    const std::string where = "after action " + std::to_string(action);
+    EXPECT_EQ(touch.touch().design(), workbench.project().design) << where;
+    EXPECT_EQ(touch.touch().load(), workbench.project().load) << where;
+    QApplication::processEvents();
+    for (const char* name : {"heatmap", "resistanceHeatmap"}) {
+      const auto& view = find<HeatmapView>(name);
+      if (!view.isVisible() || touch.electrodes() == nullptr) continue;
+      const Eigen::MatrixXd now = rowColumnResistances(touch.touch().design(), *touch.electrodes());
+      const ResistanceKind kind =
+          std::string(name) == "heatmap" ? ResistanceKind::RelativeChange : workbench.project().view.resistance;
+      EXPECT_EQ(view.heatmap().values, resistanceHeatmap(touch.touch(), now, kind).values) << name << " " << where;
+    }
+    if (auto& slider = find<QSlider>("increments"); slider.isVisible()) {
+      EXPECT_EQ(slider.value(), std::max(touch.increment(), 0)) << where;
+    }
+    const NetworkSamples* samples = network.samples();
+    EXPECT_TRUE(network.fit() == nullptr || samples != nullptr) << where;
+    if (samples == nullptr) return;
+    EXPECT_EQ(samples->training.rowWires, workbench.project().design.rowWires()) << where;
+  }
+};
+
+/// Number of actions; more by the environment, for a longer night.
+int actions() {
+  const char* wanted = std::getenv("PALP_MONKEY_ACTIONS");
+  return wanted != nullptr ? std::atoi(wanted) : 1000;
+}
+
+TEST_F(MonkeyWindow, SurvivesAThousandActionsAndShowsWhatAFreshWindowShows) {
+  ASSERT_TRUE(solved());
+  const char* wanted = std::getenv("PALP_MONKEY_SEED");
+  const QTemporaryDir folder; // for the files that are written under whatever name was typed
+  QDir::setCurrent(folder.path());
+  Monkey monkey(window, wanted != nullptr ? static_cast<unsigned>(std::atoi(wanted)) : 20130911u);
+  // Whatever asks the user something is sent away.
+  QTimer closer;
+  QObject::connect(&closer, &QTimer::timeout, &closer, [] {
+    if (auto* dialog = QApplication::activeModalWidget()) dialog->close();
+    if (auto* popup = QApplication::activePopupWidget()) popup->close();
+  });
+  closer.start(20);
+  for (int action = 0; action < actions(); ++action) {
+    monkey.act();
+    QApplication::processEvents();
+    if (action % 50 != 49) continue;
+    if (!QTest::qWaitFor([&] { return quiet(); }, kPatience_ms / 12)) QTest::keyClick(&window, Qt::Key_Escape);
+    ASSERT_TRUE(idle()) << "a job does not end after action " << action << ": " << running();
+    expectRightPicture(action);
+  }
+  // Off the fields: one that is being edited keeps its words.
+  window.setFocus();
+  workbench.touch().cancel();
+  network.cancel();
+  ASSERT_TRUE(idle());
+  const int resting = threads();
+
+  // The same project in this window and in one that nobody has touched.
+  Project project = quickProject();
+  project.load.areas.push_back({4, {0.3, -0.2, -2.5}});
+  project.view.quantity = Quantity::VonMises;
+  workbench.replace(project);
+  window.setTheme(Theme::Light);
+  window.resize(1300, 800);
+  for (auto* tabs : window.findChildren<QTabWidget*>()) tabs->setCurrentIndex(0);
+  window.showScene("deformation");
+  workbench.touch().resume();
+  ASSERT_TRUE(solved());
+  ASSERT_TRUE(idle());
+  EXPECT_LE(threads(), resting) << "no job is left behind";
+
+  Workbench fresh(project);
+  NetworkSession freshNetwork;
+  MainWindow other(fresh, freshNetwork);
+  other.setTheme(Theme::Light);
+  for (auto* tabs : other.findChildren<QTabWidget*>()) tabs->setCurrentIndex(0);
+  other.resize(1300, 800);
+  other.show();
+  ASSERT_TRUE(
+      QTest::qWaitFor([&] { return fresh.touch().fields() != nullptr && fresh.touch().upToDate(); }, kPatience_ms));
+  for (const char* scene : {"deformation", "resistance", "design"}) {
+    const auto mine = pictures(window, scene);
+    const auto its = pictures(other, scene);
+    ASSERT_FALSE(its.empty()) << scene;
+    for (const auto& [name, image] : its) {
+      ASSERT_TRUE(mine.contains(name)) << scene << " " << name;
+      ASSERT_EQ(mine.at(name).size(), image.size()) << scene << " " << name;
+      EXPECT_TRUE(mine.at(name) == image)
+          << "another picture on " << scene << ": " << name << ", " << keep(mine.at(name), name, "touched") << " and "
+          << keep(image, name, "fresh");
+    }
+  }
+}
+
+} // namespace
+} // namespace palp

@@ -1,0 +1,70 @@
+#pragma once
+
+#include "app/gui/jobs/NetworkSession.h"
+#include "app/gui/project/Workbench.h"
+#include "app/gui/window/MainWindow.h"
+
+#include <QTest>
+#include <QWheelEvent>
+
+#include <gtest/gtest.h>
+
+namespace palp {
+
+/// Generous: the machine may be busy with other tests.
+constexpr int kPatience_ms = 60000;
+
+/// A coarse mesh, so that the tests are about the window.
+inline Project quickProject() {
+  Project project = exampleProject();
+  project.mesh.mapped = {9, 8, 2};
+  project.samples.perArea = 6;
+  project.network.sweepCount = 3;
+  return project;
+}
+
+/// The whole window on a quick project, shown.
+class WindowFixture : public testing::Test {
+protected:
+  WindowFixture() {
+    window.resize(1300, 800);
+    window.show();
+    EXPECT_TRUE(QTest::qWaitForWindowExposed(&window));
+  }
+  bool idle() {
+    return QTest::qWaitFor([&] { return !workbench.touch().runner().running() && !network.runner().running(); },
+                           kPatience_ms);
+  }
+  bool solved() {
+    return QTest::qWaitFor([&] { return workbench.touch().fields() != nullptr && workbench.touch().upToDate(); },
+                           kPatience_ms);
+  }
+  template <class Widget> Widget& find(const char* name) {
+    auto* widget = window.findChild<Widget*>(name);
+    EXPECT_NE(widget, nullptr) << name;
+    return *widget;
+  }
+  static void settle() { QTest::qWait(80); }
+
+  Workbench workbench{quickProject()};
+  NetworkSession network;
+  MainWindow window{workbench, network};
+};
+
+inline void drag(QWidget& widget, QPoint from, QPoint to, Qt::KeyboardModifiers modifiers = {}) {
+  QTest::mousePress(&widget, Qt::LeftButton, modifiers, from);
+  for (int k = 1; k <= 5; ++k) {
+    const QPoint place = from + (to - from) * k / 5;
+    QMouseEvent move(QEvent::MouseMove, place, widget.mapToGlobal(place), Qt::NoButton, Qt::LeftButton, modifiers);
+    QApplication::sendEvent(&widget, &move);
+  }
+  QTest::mouseRelease(&widget, Qt::LeftButton, modifiers, to);
+}
+
+inline void wheel(QWidget& widget, int angle) {
+  const QPointF place = widget.rect().center();
+  QWheelEvent event(place, widget.mapToGlobal(place), {}, {0, angle}, Qt::NoButton, {}, Qt::NoScrollPhase, false);
+  QApplication::sendEvent(&widget, &event);
+}
+
+} // namespace palp

@@ -1,0 +1,163 @@
+#include "app/gui/project/ProjectFile.h"
+
+#include "app/gui/project/Command.h"
+#include "io/DesignFile.h"
+#include "model/base/Error.h"
+
+#include <QFile>
+#include <QJsonDocument>
+#include <QJsonObject>
+#include <QTemporaryDir>
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+namespace palp {
+namespace {
+
+class ProjectFile : public testing::Test {
+protected:
+  std::filesystem::path path(const char* name) const { return folder_.filePath(name).toStdString(); }
+  std::string refusal(const std::string& content) const {
+    std::ofstream(path("bad.json")) << content;
+    try {
+      loadProject(path("bad.json"), exampleProject());
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  }
+  std::string savedText() const {
+    saveProject(path("good.json"), exampleProject());
+    std::stringstream text;
+    text << std::ifstream(path("good.json")).rdbuf();
+    return text.str();
+  }
+  static std::string with(std::string text, const std::string& from, const std::string& to) {
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return text.replace(at, from.size(), to);
+  }
+
+  QTemporaryDir folder_;
+};
+
+TEST_F(ProjectFile, ReadsBackEverythingThatWasSet) {
+  Project project = exampleProject();
+  project.design.material.poissonRatio = 0.4999;
+  project.load.areas.push_back({5, {0.1, -0.25, 1.5}});
+  project.load.patches.push_back({{10, 12}, 2.5, {0, 0, -3}});
+  project.mesh.meshSize_mm = 1.75;
+  project.samples = {33, 77};
+  project.network.input = InputKind::Resistance;
+  project.network.rows = "1,4,7";
+  project.network.spread = 0.1;
+  project.network.centers = 50;
+  project.view = {"network",
+                  Quantity::VonMises,
+                  25.5,
+                  7.25,
+                  false,
+                  false,
+                  false,
+                  false,
+                  true,
+                  std::array{3, 17},
+                  9,
+                  {1, 2, 3},
+                  {4, 5, 4.5},
+                  true,
+                  5e-6,
+                  ResistanceKind::Change,
+                  std::array{-0.25, 0.5},
+                  {7, 29},
+                  4};
+  saveProject(path("project.json"), project);
+  EXPECT_EQ(loadProject(path("project.json"), exampleProject()), project);
+}
+
+TEST_F(ProjectFile, ReadsADesignFileIntoTheOpenProject) {
+  SensorDesign design = paperDesign();
+  design.block_mm.z() = 6;
+  saveDesign(path("sensor.json"), design, false);
+  const Project project = loadProject(path("sensor.json"), exampleProject());
+  EXPECT_EQ(project.design, design);
+  EXPECT_EQ(project.load, exampleProject().load);
+}
+
+TEST_F(ProjectFile, DropsALoadThatCannotActOnTheOpenedDesign) {
+  SensorDesign design = paperDesign();
+  design.areas = {1, 1};
+  saveDesign(path("sensor.json"), design, false);
+  const Project project = loadProject(path("sensor.json"), exampleProject());
+  EXPECT_FALSE(problem(project.load, project.design).has_value());
+}
+
+TEST_F(ProjectFile, IsRefusedWithASentenceWhereItIsFromANewerPalp) {
+  const std::string sentence = refusal(with(savedText(), "\"palp_project\": 2", "\"palp_project\": 9"));
+  EXPECT_NE(sentence.find("newer"), std::string::npos) << sentence;
+}
+
+TEST_F(ProjectFile, OfTheFirstVersionIsReadWithTheUsualView) {
+  QJsonObject old = QJsonDocument::fromJson(QByteArray::fromStdString(savedText())).object();
+  old["palp_project"] = 1;
+  old.remove("view");
+  std::ofstream(path("old.json")) << QJsonDocument(old).toJson().toStdString();
+  EXPECT_EQ(loadProject(path("old.json"), exampleProject()), exampleProject());
+}
+
+TEST_F(ProjectFile, IsRefusedWithASentenceWhereItIsCutOff) {
+  const std::string text = savedText();
+  EXPECT_NE(refusal(text.substr(0, text.size() / 2)).find("broken"), std::string::npos);
+}
+
+TEST_F(ProjectFile, IsRefusedWithItsKeyWhereATypeIsWrong) {
+  const std::string sentence = refusal(with(savedText(), "\"spread\": 1", "\"spread\": \"wide\""));
+  EXPECT_NE(sentence.find("network.spread"), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find("wide"), std::string::npos) << sentence;
+}
+
+TEST_F(ProjectFile, IsRefusedWithItsKeyWhereItIsUnknown) {
+  const std::string sentence = refusal(with(savedText(), "\"per_area\"", "\"per_areas\""));
+  EXPECT_NE(sentence.find("per_area"), std::string::npos) << sentence;
+}
+
+TEST_F(ProjectFile, CutOffAnywhereIsRefusedAndNeverReadAsAnother) {
+  const std::string text = savedText();
+  const std::size_t end = text.find_last_of('}');
+  for (std::size_t size = 0; size < end; size += 37) EXPECT_NE(refusal(text.substr(0, size)), "") << size;
+}
+
+TEST_F(ProjectFile, IsRefusedWithTheKeyWhateverTypeIsWrong) {
+  const QJsonObject good = QJsonDocument::fromJson(QByteArray::fromStdString(savedText())).object();
+  for (const QString& part : QStringList{"load", "mesh", "samples", "network", "view"}) {
+    const QJsonObject inside = good[part].toObject();
+    for (const QString& key : inside.keys()) {
+      QJsonObject bad = good;
+      QJsonObject changed = inside;
+      changed[key] = QJsonObject{{"x", 1}};
+      bad[part] = changed;
+      const std::string sentence = refusal(QJsonDocument(bad).toJson().toStdString());
+      EXPECT_NE(sentence.find((part + "." + key).toStdString()), std::string::npos) << key.toStdString() << sentence;
+    }
+  }
+}
+
+TEST_F(ProjectFile, NamesAFileThatIsNotThere) {
+  EXPECT_THROW(loadProject(path("none.json"), exampleProject()), Error);
+}
+
+TEST(Command, SaysTheLoadAndTheMeshAsTheCommandLineReadsThem) {
+  Project project = exampleProject();
+  project.mesh.meshSize_mm = 2.5;
+  EXPECT_EQ(solveCommands(project, "s.json"),
+            "palp solve s.json --load 1:0.5,0.3,-6 --mesh-size 2.5 -o deformed.vtu\n"
+            "palp render s.json --load 1:0.5,0.3,-6 --mesh-size 2.5 --quantity \"|u|\" -o deformed.png");
+  EXPECT_TRUE(meshCommands(project, "s.json").contains("palp mesh s.json --mesh-size 2.5"));
+  EXPECT_TRUE(networkCommands(project, "s.json").contains("--rows 4 --mode default"));
+}
+
+} // namespace
+} // namespace palp

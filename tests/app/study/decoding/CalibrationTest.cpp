@@ -1,0 +1,100 @@
+#include "app/study/decoding/Calibration.h"
+
+#include "io/SampleFile.h"
+#include "tests/app/study/live/LiveFixture.h"
+#include "tests/io/Refusal.h"
+#include "tests/io/TemporaryFolder.h"
+
+#include <gtest/gtest.h>
+
+namespace palp {
+namespace {
+
+/// An RBF network that is quick to train: few samples, spread and ridge given.
+const Decoder& quickNetwork() {
+  static const Decoder decoder = [] {
+    TrainOptions options;
+    options.input = InputKind::Resistance;
+    options.rows = "4";
+    options.spread = 2;
+    options.ridge = 1e-6;
+    return trainDecoder(manySamples(20), nullptr, options);
+  }();
+  return decoder;
+}
+
+/// Frames of a board whose rubber is 10 % stiffer and whose rig reads 0.1 N too much.
+SampleSet frames(int perArea) {
+  SampleSet set = manySamples(perArea);
+  set.origin.mesh = "measured on a board";
+  set.forces_N *= 1.1;
+  set.forces_N.row(2).array() += 0.1;
+  return set;
+}
+
+TEST(Calibration, FindsGainAndOffsetOfTheRealBoard) {
+  const Calibration result = calibrate(quickNetwork(), frames(10));
+  const CalibrationReport& report = result.report;
+  EXPECT_EQ(report.samples, 60);
+  EXPECT_EQ(report.samplesPerArea, std::vector<int>(6, 10));
+  EXPECT_TRUE(report.improved);
+  for (int axis = 0; axis < 3; ++axis) EXPECT_LT(report.rmseAfter_N(axis), 0.5 * report.rmseBefore_N(axis)) << axis;
+  EXPECT_GE(report.worstError_N, report.rmseAfter_N.maxCoeff());
+}
+
+TEST(Calibration, TheRefinedNetworkSaysWhatTheFitSaid) {
+  const SampleSet labelled = frames(10);
+  const Calibration result = calibrate(quickNetwork(), labelled);
+  const Prediction prediction = predict(result.decoder, inputsOf(labelled, result.decoder.input));
+  const Eigen::Vector3d rms_N = ((prediction.forces_N - labelled.forces_N).rowwise().squaredNorm() / 60.0).cwiseSqrt();
+  for (int axis = 0; axis < 3; ++axis) EXPECT_LE(rms_N(axis), 1.001 * result.report.rmseAfter_N(axis)); // seen: better
+}
+
+TEST(Calibration, RefinesMaximumLikelihoodToo) {
+  const Decoder decoder = liveDecoder(5e-6);
+  const SampleSet labelled = frames(10);
+  const Calibration result = calibrate(decoder, labelled);
+  EXPECT_TRUE(result.report.improved);
+  const Eigen::MatrixXd inputs = inputsOf(labelled, decoder.input);
+  const Eigen::MatrixXd before_N = predict(decoder, inputs).forces_N;
+  const Eigen::MatrixXd after_N = predict(result.decoder, inputs).forces_N;
+  // The labels are 1.1 times what the network says, 0.1 N off in z.
+  const double before = (before_N - labelled.forces_N).norm(), after = (after_N - labelled.forces_N).norm();
+  EXPECT_LT(after, 0.05 * before);
+  EXPECT_EQ(predict(result.decoder, inputs).area, labelled.area);
+}
+
+TEST(Calibration, RefusesWhatItCannotUse) {
+  EXPECT_NE(refusal([] { calibrate(quickNetwork(), frames(1)); }).find("6 labelled frames"), std::string::npos);
+  SampleSet other = frames(10);
+  other.origin.designFingerprint = "0000000000000000";
+  EXPECT_NE(refusal([&] { calibrate(quickNetwork(), other); }).find("design"), std::string::npos);
+  Decoder linear = liveDecoder(5e-6, DecoderKind::Linear);
+  EXPECT_NE(refusal([&] { calibrate(linear, frames(10)); }).find("rbf or ml"), std::string::npos);
+}
+
+TEST(Calibration, AveragedFramesGoIntoOneFile) {
+  const TemporaryFolder folder;
+  DecodedForces forces;
+  forces.valid = true;
+  for (int area = 0; area < 3; ++area) {
+    FrameAverage average(quickNetwork(), paperDesign(), {area, {0, 0, -1.0 * area}});
+    for (const double value : {300.0, 302.0}) {
+      forces.resistances_ohm = Eigen::MatrixXd::Constant(10, 30, value);
+      average.add(forces);
+    }
+    EXPECT_EQ(average.count(), 2);
+    appendFrames(folder / "frames.csv", average.sample());
+  }
+  const SampleSet all = loadSamples(folder / "frames.csv");
+  EXPECT_EQ(all.area, Eigen::Vector3i(0, 1, 2));
+  EXPECT_EQ(all.forces_N(2, 2), -2);
+  EXPECT_TRUE((all.resistances_ohm.array() == 301).all());
+  DecodedForces bad;
+  FrameAverage none(quickNetwork(), paperDesign(), {0, {0, 0, -1}});
+  none.add(bad); // frames that are not valid do not count
+  EXPECT_EQ(none.count(), 0);
+}
+
+} // namespace
+} // namespace palp

@@ -1,0 +1,142 @@
+#include "app/study/live/LiveHistory.h"
+
+#include "app/study/live/LabelledFrames.h"
+#include "model/base/Error.h"
+#include "tests/app/study/live/LiveFixture.h"
+#include "tests/io/Refusal.h"
+#include "tests/io/TemporaryFolder.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+namespace palp {
+namespace {
+
+std::shared_ptr<LiveFrame> frame(double device_s, double host_s, bool restarted = false) {
+  auto live = std::make_shared<LiveFrame>();
+  live->frame.time_s = device_s;
+  live->frame.hostTime_s = host_s;
+  live->frame.restarted = restarted;
+  return live;
+}
+
+TEST(LiveHistory, TakesTheDevicesClockNotTheArrival) {
+  LiveHistory history;
+  history.add(frame(1.00, 500.0));
+  history.add(frame(1.02, 500.9)); // late
+  history.add(frame(1.04, 500.9));
+  EXPECT_NEAR(history.entries()[1].t_s - history.entries()[0].t_s, 0.02, 1e-9);
+  EXPECT_NEAR(history.entries()[2].t_s - history.entries()[1].t_s, 0.02, 1e-9);
+}
+
+TEST(LiveHistory, GoesOnInHostTimeWhereTheBoardBeginsAnew) {
+  LiveHistory history;
+  history.add(frame(100, 500));
+  history.add(frame(0, 507, true));
+  EXPECT_DOUBLE_EQ(history.entries()[1].t_s - history.entries()[0].t_s, 7);
+}
+
+TEST(LiveHistory, NeverRunsBackwardsNorGrowsWithoutEnd) {
+  LiveHistory history;
+  for (std::size_t k = 0; k < LiveHistory::kMostFrames + 500; ++k)
+    history.add(frame(1e-3 * static_cast<double>(k), 1e-3 * static_cast<double>(k)));
+  EXPECT_EQ(history.entries().size(), LiveHistory::kMostFrames);
+  history.add(frame(0.5, 0.5));
+  EXPECT_GE(history.entries().back().t_s, history.entries()[history.entries().size() - 2].t_s);
+  history.add(frame(1000, 1000));
+  EXPECT_LE(history.entries().back().t_s - history.entries().front().t_s, LiveHistory::kLongest_s);
+}
+
+TEST(LiveHistory, IsWrittenAsATableWithNothingWhereThereIsNothing) {
+  const TemporaryFolder folder;
+  LiveHistory history;
+  auto good = frame(1, 1);
+  good->forces.valid = true;
+  good->forces.forces_N = Eigen::Vector3d(0.25, 0, -2);
+  good->forces.standardDeviation_N = Eigen::Vector3d(0.5, 0.5, 0.5);
+  good->change = Eigen::MatrixXd::Constant(1, 2, 0.125);
+  good->mark = "a \"b\"";
+  auto bad = frame(2, 2);
+  bad->forces.reason = "column-wire 1: open";
+  bad->change = good->change;
+  bad->change(0, 1) = std::numeric_limits<double>::quiet_NaN();
+  history.add(good);
+  history.add(bad);
+  writeLiveCsv(folder / "a.csv", history);
+  std::ifstream file(folder / "a.csv");
+  std::string head, first, second;
+  std::getline(file, head);
+  std::getline(file, first);
+  std::getline(file, second);
+  EXPECT_NE(head.find("a0_fz_N"), std::string::npos);
+  EXPECT_NE(head.find("dR_r0_c1_relative"), std::string::npos);
+  EXPECT_NE(first.find(",0.25,0,-2,0.5,0.5,0.5,0.125,0.125,"), std::string::npos) << first;
+  EXPECT_NE(first.find("\"a \"\"b\"\"\""), std::string::npos) << first;
+  EXPECT_NE(second.find(",,,,,,,0.125,,\"column-wire 1: open\""), std::string::npos) << second;
+  EXPECT_THROW(writeLiveCsv("/no/such/folder/a.csv", history), Error);
+}
+
+BoardFrame readings(double value) {
+  BoardFrame frame;
+  frame.resistances_ohm = Eigen::MatrixXd::Constant(2, 3, value);
+  frame.state.setConstant(2, 3, ReadingState::Good);
+  return frame;
+}
+
+TEST(RestReference, CountsFromTheTareElseTheDesignElseTheFirstFrame) {
+  RestReference rest;
+  rest.add(readings(100));
+  EXPECT_NEAR(rest.change(readings(101))(0, 0), 0.01, 1e-12);
+  rest.reset(Eigen::MatrixXd::Constant(2, 3, 202));
+  EXPECT_NEAR(rest.change(readings(101))(1, 2), -0.5, 1e-12);
+  rest.startTare(2);
+  rest.add(readings(50));
+  rest.add(readings(60));
+  EXPECT_STREQ(rest.name(), "the tared frames");
+  EXPECT_NEAR(rest.change(readings(110))(0, 1), 1, 1e-12);
+  rest.clearTare();
+  EXPECT_STREQ(rest.name(), "the design at rest");
+}
+
+TEST(RestReference, GivesNoNumberForABadReadingAndTaresAroundIt) {
+  RestReference rest;
+  BoardFrame bad = readings(100);
+  bad.state(1, 1) = ReadingState::Open;
+  bad.resistances_ohm(1, 1) = 0;
+  rest.startTare(2);
+  rest.add(bad);
+  rest.add(readings(200));
+  EXPECT_TRUE(std::isnan(rest.change(bad)(1, 1)));
+  EXPECT_NEAR(rest.change(readings(150))(0, 0), 0, 1e-12);
+  EXPECT_NEAR(rest.change(readings(200))(1, 1), 0, 1e-12); // of the one frame that held it
+}
+
+TEST(LabelledFrames, CollectsUnderALoadAndTakesFramesAway) {
+  const TemporaryFolder folder;
+  const Decoder decoder = liveDecoder(5e-6);
+  LabelledFrames frames;
+  DecodedForces forces;
+  forces.valid = true;
+  for (int k = 0; k < 3; ++k) {
+    forces.resistances_ohm = Eigen::MatrixXd::Constant(10, 30, 300 + k);
+    frames.begin(decoder, paperDesign(), {k, {0, 0, -1.0 * k}}, 2);
+    EXPECT_FALSE(frames.add(forces));
+    EXPECT_FALSE(frames.add({})); // not valid: does not count
+    EXPECT_TRUE(frames.add(forces));
+    EXPECT_FALSE(frames.collecting());
+  }
+  frames.remove(1);
+  EXPECT_EQ(frames.samples().area, Eigen::Vector2i(0, 2));
+  EXPECT_EQ(frames.samples().resistances_ohm(0, 1), 302);
+  frames.save(folder / "frames.csv");
+  LabelledFrames again;
+  again.load(folder / "frames.csv");
+  EXPECT_EQ(again.samples().forces_N, frames.samples().forces_N);
+  EXPECT_NE(refusal([&] { frames.begin(decoder, paperDesign(), {6, {0, 0, -1}}, 2); }).find("area"), std::string::npos);
+}
+
+} // namespace
+} // namespace palp

@@ -1,0 +1,256 @@
+#include "app/study/live/LiveSession.h"
+
+#include "app/study/live/BoardCheck.h"
+#include "io/board/SimulatedSource.h"
+#include "tests/app/study/live/LiveFixture.h"
+#include "tests/io/Refusal.h"
+#include "tests/io/TemporaryFolder.h"
+
+#include <gtest/gtest.h>
+
+namespace palp {
+namespace {
+
+constexpr double kPatience_s = 10;
+
+Board paperBoard(int rate_Hz = 1000) {
+  return simulatedBoard(shippedSamples(), {}, rate_Hz, 3);
+}
+
+/// A board that can be pulled out, silenced or refused from the test.
+struct Plug {
+  std::atomic<bool> in{true}, silent{false}, refused{false};
+};
+
+class PluggedSource : public SimulatedSource {
+public:
+  PluggedSource(Board board, std::shared_ptr<Plug> plug) : SimulatedSource(std::move(board)), plug_(std::move(plug)) {}
+  Outcome read(RawReport& report, std::chrono::milliseconds timeout) override {
+    if (!plug_->in) return Outcome::Gone;
+    if (!plug_->silent) return SimulatedSource::read(report, timeout);
+    std::this_thread::sleep_for(timeout / 10);
+    return Outcome::Nothing;
+  }
+  [[nodiscard]] std::string reason() const override { return "pulled out"; }
+
+private:
+  std::shared_ptr<Plug> plug_;
+};
+
+LiveOptions plugged(const std::shared_ptr<Plug>& plug) {
+  LiveOptions options;
+  options.open = [plug]() -> std::unique_ptr<ReportSource> {
+    if (plug->refused) throw BoardPermissionError("no permission");
+    if (!plug->in) return nullptr;
+    return std::make_unique<PluggedSource>(paperBoard(), plug);
+  };
+  return options;
+}
+
+template <class Condition> bool waitFor(const LiveSession& live, const Condition& condition) {
+  const double end_s = hostClock_s() + kPatience_s;
+  while (hostClock_s() < end_s) {
+    if (condition(live.status())) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return false;
+}
+
+bool waitForState(const LiveSession& live, LiveState state) {
+  return waitFor(live, [state](const LiveStatus& status) { return status.state == state; });
+}
+
+bool waitForFrames(const LiveSession& live, std::uint64_t frames) {
+  return waitFor(live, [frames](const LiveStatus& status) { return status.counts.frames >= frames; });
+}
+
+TEST(LiveSession, StreamsFramesWithForces) {
+  LiveOptions options = plugged(std::make_shared<Plug>());
+  options.decoder = liveDecoder(5e-6);
+  options.tareFrames = 5;
+  LiveSession live(std::move(options));
+  ASSERT_TRUE(waitForFrames(live, 20));
+  live.stop();
+  const LiveStatus status = live.status();
+  EXPECT_EQ(status.counts.lost + status.counts.bad + status.counts.incompleteFrames, 0U);
+  EXPECT_TRUE(status.tared);
+  EXPECT_EQ(status.decoderProblem, "");
+  EXPECT_NEAR(status.temperature_degC.value_or(0), 23, 0.01);
+  const auto frames = live.drain();
+  ASSERT_GE(frames.size(), 20U);
+  EXPECT_TRUE(frames.back()->forces.valid);
+  for (std::size_t i = 1; i < frames.size(); ++i) EXPECT_GT(frames[i]->frame.time_s, frames[i - 1]->frame.time_s);
+  EXPECT_TRUE(live.drain().empty());
+}
+
+TEST(LiveSession, ShowsRawReadingsWithoutANetworkAndSaysSo) {
+  LiveSession live(plugged(std::make_shared<Plug>()));
+  ASSERT_TRUE(waitForFrames(live, 3));
+  EXPECT_NE(live.status().decoderProblem.find("raw readings only"), std::string::npos);
+  EXPECT_FALSE(live.drain().front()->forces.valid);
+}
+
+TEST(LiveSession, SaysThatTheNetworkIsOfAnotherBoard) {
+  LiveOptions options = plugged(std::make_shared<Plug>());
+  options.decoder = liveDecoder(5e-6);
+  options.decoder->input.valuesPerRow = 20;
+  LiveSession live(std::move(options));
+  ASSERT_TRUE(waitForFrames(live, 3));
+  EXPECT_NE(live.status().decoderProblem.find("20 column-wires"), std::string::npos);
+}
+
+TEST(LiveSession, ComesBackWithItsTareAfterAnUnplug) {
+  auto plug = std::make_shared<Plug>();
+  LiveOptions options = plugged(plug);
+  options.decoder = liveDecoder(5e-6);
+  options.tareFrames = 2;
+  LiveSession live(std::move(options));
+  ASSERT_TRUE(waitFor(live, [](const LiveStatus& status) { return status.tared; }));
+  plug->in = false;
+  ASSERT_TRUE(waitForState(live, LiveState::Searching));
+  EXPECT_EQ(live.status().reason, "pulled out");
+  plug->in = true;
+  ASSERT_TRUE(waitForState(live, LiveState::Streaming));
+  EXPECT_TRUE(live.status().tared);
+  EXPECT_EQ(live.status().connections, 2U);
+  EXPECT_EQ(live.status().counts.lost, 0U); // a restart is no loss
+}
+
+TEST(LiveSession, TellsASilentBoard) {
+  auto plug = std::make_shared<Plug>();
+  LiveSession live(plugged(plug));
+  ASSERT_TRUE(waitForFrames(live, 2));
+  plug->silent = true;
+  ASSERT_TRUE(waitForState(live, LiveState::Stalled));
+  EXPECT_NE(live.status().reason.find("nothing has come"), std::string::npos);
+  plug->silent = false;
+  EXPECT_TRUE(waitForState(live, LiveState::Streaming));
+}
+
+TEST(LiveSession, TriesAgainWhereABoardIsRefused) {
+  auto plug = std::make_shared<Plug>();
+  plug->refused = true;
+  LiveSession live(plugged(plug));
+  ASSERT_TRUE(waitForState(live, LiveState::Refused));
+  EXPECT_EQ(live.status().reason, "no permission");
+  plug->refused = false;
+  EXPECT_TRUE(waitForState(live, LiveState::Streaming));
+}
+
+TEST(LiveSession, StopsAtAnotherProtocolAndSaysSo) {
+  LiveOptions options;
+  options.reconnect = false;
+  options.open = [] {
+    Board board = paperBoard();
+    board.faults().wrongMajorEvery = 30;
+    return std::make_unique<SimulatedSource>(std::move(board));
+  };
+  LiveSession live(std::move(options));
+  ASSERT_TRUE(waitForState(live, LiveState::Ended));
+  EXPECT_NE(live.status().reason.find("another protocol"), std::string::npos);
+}
+
+TEST(LiveSession, FollowsAConfiguration) {
+  LiveSession live(plugged(std::make_shared<Plug>()));
+  ASSERT_TRUE(waitForFrames(live, 1));
+  BoardConfiguration wanted = *live.status().configuration;
+  wanted.mode = BoardMode::SingleRow;
+  wanted.rowMask = 1U << 4;
+  live.configure(wanted);
+  ASSERT_TRUE(waitFor(live, [](const LiveStatus& s) { return s.configuration->mode == BoardMode::SingleRow; }));
+  live.drain();
+  ASSERT_TRUE(waitForFrames(live, live.status().counts.frames + 5));
+  EXPECT_TRUE(live.drain().back()->frame.rowGood(4));
+  EXPECT_EQ(live.status().counts.stale, 0U);
+}
+
+TEST(LiveSession, PausesWithoutCountingALoss) {
+  LiveSession live(plugged(std::make_shared<Plug>()));
+  ASSERT_TRUE(waitForFrames(live, 2));
+  live.pause(true);
+  ASSERT_TRUE(waitForState(live, LiveState::Paused));
+  const std::uint64_t frames = live.status().counts.frames;
+  live.pause(false);
+  ASSERT_TRUE(waitForFrames(live, frames + 3));
+  EXPECT_EQ(live.status().counts.lost, 0U);
+}
+
+TEST(LiveSession, RecordingPlaysBackTheSameForces) {
+  const TemporaryFolder folder;
+  const Decoder decoder = liveDecoder(5e-6);
+  std::map<double, Eigen::Vector3d> recorded; // by host time of the frame
+  {
+    LiveOptions options = plugged(std::make_shared<Plug>());
+    options.decoder = decoder;
+    LiveSession live(std::move(options));
+    ASSERT_TRUE(waitForFrames(live, 2));
+    live.startRecording(folder / "a", "abc", false);
+    live.mark("begin");
+    ASSERT_TRUE(waitForFrames(live, 20));
+    EXPECT_TRUE(live.status().recording);
+    live.stop();
+    for (const auto& frame : live.drain()) recorded[frame->frame.hostTime_s] = frame->forces.forces_N.col(0);
+  }
+  LiveOptions options;
+  options.replay = std::make_shared<ReplayControl>();
+  options.replay->speed = 0;
+  options.reconnect = false;
+  options.decoder = decoder;
+  auto source =
+      std::make_shared<std::unique_ptr<ReportSource>>(std::make_unique<ReplaySource>(folder / "a", options.replay));
+  options.open = [source] { return std::move(*source); };
+  LiveSession replay(std::move(options));
+  ASSERT_TRUE(waitForState(replay, LiveState::Ended));
+  int same = 0;
+  for (const auto& frame : replay.drain()) {
+    if (!frame->forces.valid) continue; // the first and the last may be halves
+    ASSERT_TRUE(recorded.contains(frame->frame.hostTime_s));
+    EXPECT_EQ(frame->forces.forces_N.col(0), recorded[frame->frame.hostTime_s]); // to the last bit
+    EXPECT_EQ(frame->mark, "begin");
+    ++same;
+  }
+  EXPECT_GE(same, 10);
+}
+
+TEST(LiveSession, RefusesToRecordWithoutABoard) {
+  const TemporaryFolder folder;
+  auto plug = std::make_shared<Plug>();
+  plug->in = false;
+  LiveSession live(plugged(plug));
+  EXPECT_NE(refusal([&] { live.startRecording(folder / "a", "", false); }).find("nothing to record"),
+            std::string::npos);
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(LiveSession, NeverHoldsMoreFramesThanItsRing) {
+  LiveOptions options = plugged(std::make_shared<Plug>());
+  options.ringFrames = 3;
+  LiveSession live(std::move(options));
+  ASSERT_TRUE(waitForFrames(live, 8));
+  live.stop();
+  EXPECT_EQ(live.drain().size(), 3U);
+  EXPECT_EQ(live.status().overflowed, live.status().counts.frames - 3);
+}
+
+TEST(BoardCheck, PassesAGoodBoardAndFindsABadOne) {
+  for (const int corruptEvery : {0, 50}) {
+    LiveOptions options;
+    options.reconnect = false;
+    options.open = [corruptEvery] {
+      Board board = paperBoard();
+      board.faults().corruptEvery = corruptEvery;
+      return std::make_unique<SimulatedSource>(std::move(board));
+    };
+    LiveSession live(std::move(options));
+    ASSERT_TRUE(waitFor(live, [](const LiveStatus& status) { return status.counts.reports >= 500; }));
+    live.stop();
+    const LiveStatus status = live.status();
+    const std::vector<std::uint8_t> descriptor(reportDescriptor().begin(), reportDescriptor().end());
+    const auto results = checkBoard(status, static_cast<double>(status.counts.reports) / 1000, descriptor);
+    EXPECT_EQ(std::all_of(results.begin(), results.end(), [](const auto& result) { return result.passed; }),
+              corruptEvery == 0);
+  }
+}
+
+} // namespace
+} // namespace palp

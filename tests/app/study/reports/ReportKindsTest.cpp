@@ -1,0 +1,83 @@
+#include "app/study/reports/Csv.h"
+#include "app/study/reports/ReportComputations.h"
+#include "app/study/reports/Timing.h"
+#include "io/AtomicFile.h"
+#include "model/base/Error.h"
+#include "tests/io/TemporaryFolder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+namespace {
+
+palp::ReportRequest quickRequest(const palp::TemporaryFolder& folder) {
+  palp::ReportRequest request;
+  request.folder = folder.path();
+  request.mesh.mapped = std::array<int, 3>{4, 4, 2};
+  request.perArea = 8;
+  request.command = "palp report <kind>";
+  return request;
+}
+
+class EveryReport : public testing::TestWithParam<std::string> {
+protected:
+  [[nodiscard]] const palp::ReportComputation& kind() const {
+    for (const palp::ReportComputation& each : palp::reportComputations())
+      if (each.name == GetParam()) return each;
+    throw std::logic_error("no such report");
+  }
+};
+
+} // namespace
+
+TEST_P(EveryReport, WritesOnePageWithItsNumbersAndACsv) {
+  const palp::TemporaryFolder folder;
+  std::set<std::string> drawn;
+  const palp::ReportOutcome outcome = runReport(
+      kind(), quickRequest(folder), {}, {}, [&](const palp::ReportChart& chart, const std::filesystem::path& png) {
+        EXPECT_TRUE(drawn.insert(chart.file).second) << chart.file << " is drawn twice";
+        EXPECT_FALSE(chart.caption.empty()) << chart.file;
+        palp::writeFile(png, "picture", false);
+      });
+  ASSERT_TRUE(outcome.done);
+  EXPECT_FALSE(outcome.summary.empty());
+  const std::string page = palp::readFile(outcome.page);
+  EXPECT_NE(page.find("palp report &lt;kind&gt;"), std::string::npos) << "the command is missing";
+  EXPECT_EQ(page.find("src=\"http"), std::string::npos) << "the page needs a network";
+  const std::string csv = palp::readFile(outcome.csv);
+  EXPECT_GT(std::count(csv.begin(), csv.end(), '\n'), 20);
+}
+
+TEST_P(EveryReport, StopsAndWritesNothing) {
+  const palp::TemporaryFolder folder;
+  std::stop_source source;
+  source.request_stop();
+  EXPECT_FALSE(runReport(kind(), quickRequest(folder), {}, source.get_token(), {}).done);
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST_P(EveryReport, RefusesADesignThatCannotBe) {
+  const palp::TemporaryFolder folder;
+  palp::ReportRequest request = quickRequest(folder);
+  request.design.material.c10_MPa = -1;
+  EXPECT_THROW(runReport(kind(), request, {}, {}, {}), palp::Error);
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, EveryReport,
+                         testing::Values("error-time", "stability", "networks", "noise", "layout", "scenes"),
+                         [](const auto& tested) {
+                           return tested.param == "error-time" ? std::string("errorTime") : tested.param;
+                         });
+
+TEST(Csv, QuotesWhatHoldsACommaAndWritesNumbersExactly) {
+  palp::Csv csv({"a", "b"});
+  csv.add({"x, \"y\"", 0.1});
+  EXPECT_EQ(csv.text(), "a,b\n\"x, \"\"y\"\"\",0.1\n");
+}
+
+TEST(Timing, MedianIsTheMiddleOne) {
+  EXPECT_EQ((palp::Timing{{5, 1, 3}}.median()), 3);
+  EXPECT_EQ((palp::Timing{{1, 3}}.median()), 2);
+}

@@ -1,0 +1,107 @@
+#include "app/study/decoding/NoiseBound.h"
+#include "app/study/reports/layout/LayoutReport.h"
+#include "app/study/reports/layout/LayoutSearch.h"
+#include "app/study/touch/SampleGenerator.h"
+#include "io/DesignFile.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using palp::LayoutFreedom;
+using palp::SensorDesign;
+
+namespace {
+
+constexpr int kCentreRow = 4;
+constexpr double kNoise = 1e-4;
+
+palp::MeshOptions coarse() {
+  palp::MeshOptions mesh;
+  mesh.mapped = std::array<int, 3>{6, 6, 3};
+  return mesh;
+}
+
+const palp::AreaResponse& response() {
+  static palp::StageLog stages;
+  static const auto solved = palp::AreaResponse::solve(palp::paperDesign(), coarse(), 1, stages, {}, {});
+  return *solved;
+}
+
+} // namespace
+
+TEST(LayoutBound, InTheMiddleOfTheRangeIsThatOfNonlinearSamplesOverTheRange) {
+  palp::SampleRequest request;
+  request.mesh = coarse();
+  request.perArea = 40;
+  palp::SampleGenerator generator(palp::paperDesign(), request);
+  palp::SampleSet samples;
+  generator.generate({0, generator.total()}, [&](const palp::SampleSet& block) { append(samples, block); });
+  const palp::NoiseBound sampled = noiseBound(samples, palp::InputKind::Resistance, {kCentreRow}, kNoise);
+  const palp::LayoutBound bound = layoutBound(palp::paperDesign(), response(), kCentreRow, kNoise);
+  // The block's nonlinearity (1 to 2.5 %) acts on an inversion of condition 1e3, and 40 random forces do not span the
+  // whole range that percents are taken of.
+  for (int axis = 0; axis < 3; ++axis)
+    EXPECT_NEAR(bound.withPrior()(axis) / sampled.withPriorPercent(axis), 1, 0.1) << axis;
+}
+
+TEST(LayoutBound, NeverExceedsKnowingNothingWhereThePriorIsKnown) {
+  const palp::LayoutBound bound = layoutBound(palp::paperDesign(), response(), kCentreRow, 0.5);
+  EXPECT_LE(bound.withPrior_percent.maxCoeff(), 100 / std::sqrt(12.0) * (1 + 1e-12)); // rounding
+}
+
+TEST(LayoutBound, ConditionOfThePapersLayoutIsTheKnownOne) {
+  // An independent prototype found 2.1e6, with two digits.
+  EXPECT_NEAR(palp::condition(resistanceSingularValues(palp::paperDesign(), kCentreRow)), 2.1e6, 0.05e6);
+}
+
+TEST(LayoutSearch, FindsATenTimesBetterLayoutThatAMakerCanKeep) {
+  const palp::MakerLimits limits;
+  const auto better =
+      betterLayout(palp::paperDesign(), response(), kCentreRow, kNoise, LayoutFreedom::SameOnEveryWire, limits, 1, {});
+  ASSERT_TRUE(better);
+  EXPECT_EQ(makerProblem(better->layout, limits), std::nullopt);
+  EXPECT_TRUE(check(better->layout).empty());
+  EXPECT_LT(better->after_percent, better->before_percent / 10);
+  EXPECT_EQ(layoutBound(better->layout, response(), kCentreRow, kNoise).mean(), better->after_percent);
+}
+
+TEST(LayoutSearch, EqualSeedsGiveEqualLayouts) {
+  const auto search = [] {
+    return betterLayout(palp::paperDesign(), response(), kCentreRow, kNoise, LayoutFreedom::SameOnEveryWire, {}, 3, {});
+  };
+  EXPECT_EQ(search()->layout, search()->layout);
+}
+
+TEST(LayoutSearch, SaysWhatAMakerCannotKeep) {
+  SensorDesign crooked = palp::paperDesign();
+  crooked.lower.z_mm.assign(30, {1, 1, 1.5});
+  EXPECT_EQ(makerProblem(crooked, {}), "column-wire 0 is not straight");
+  SensorDesign close = palp::paperDesign();
+  close.lower.z_mm = {{3.8}};
+  EXPECT_EQ(makerProblem(close, {}), "the layers are nearer than 0.5 mm");
+  SensorDesign tight = palp::paperDesign();
+  tight.lower.along_mm = {{5, 5.5, 25}};
+  EXPECT_EQ(makerProblem(tight, {}), "column-wire 0 has electrodes nearer to each other than 1 mm");
+}
+
+TEST(LayoutReport, StopsWithoutAResult) {
+  palp::ReportRequest request;
+  request.mesh = coarse();
+  std::stop_source source;
+  source.request_stop();
+  EXPECT_EQ(layoutReport(request, {}, source.get_token()), std::nullopt);
+}
+
+TEST(LayoutReport, GivesTheBetterDesignsAndEveryPoint) {
+  palp::ReportRequest request;
+  request.mesh = coarse();
+  request.perArea = 10;
+  const auto report = layoutReport(request, {}, {});
+  ASSERT_TRUE(report);
+  ASSERT_EQ(report->files.size(), 2U);
+  for (const palp::ReportFile& file : report->files)
+    EXPECT_TRUE(check(palp::parseDesign(file.content, file.name)).empty()) << file.name;
+  EXPECT_NE(report->csv.find("\nbound without prior [%],before,4,0,Fx,,"), std::string::npos);
+  EXPECT_NE(report->csv.find("\n\"confirmed error [%], ml\",wire by wire,"), std::string::npos);
+}

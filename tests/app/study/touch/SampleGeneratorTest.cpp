@@ -1,0 +1,94 @@
+#include "app/study/touch/SampleGenerator.h"
+#include "model/base/Error.h"
+
+#include <gtest/gtest.h>
+
+using namespace palp;
+
+namespace {
+
+SampleRequest coarse(int perArea) {
+  SampleRequest request;
+  request.perArea = perArea;
+  request.mesh.mapped = std::array<int, 3>{3, 4, 2};
+  return request;
+}
+
+} // namespace
+
+TEST(SampleGenerator, DrawsForcesInsideTheRange) {
+  const SensorDesign design = paperDesign();
+  const SampleGenerator generator(design, coarse(200));
+  ASSERT_EQ(generator.total(), 1200U);
+  for (std::size_t i = 0; i < generator.total(); ++i) {
+    const LoadCase load = generator.load(i);
+    ASSERT_EQ(load.areas.size(), 1U);
+    EXPECT_EQ(load.areas[0].area, static_cast<int>(i / 200));
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_GE(load.areas[0].force_N(axis), design.forceRange.low_N(axis));
+      EXPECT_LE(load.areas[0].force_N(axis), design.forceRange.high_N(axis));
+    }
+  }
+}
+
+TEST(SampleGenerator, ForcesAreUniformAndUncorrelated) {
+  const SampleGenerator generator(paperDesign(), coarse(2000));
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
+  const auto n = static_cast<double>(generator.total());
+  for (std::size_t i = 0; i < generator.total(); ++i) {
+    const Eigen::Vector3d f = generator.load(i).areas[0].force_N.cwiseQuotient(Eigen::Vector3d(1, 1, 3)) +
+                              Eigen::Vector3d(0, 0, 1); // now uniform over [-1, 1]
+    mean += f / n;
+    products += f * f.transpose() / n;
+  }
+  // Standard errors: 0.577/sqrt(12000) = 0.0053 for the mean, about 0.003 for the products; 5 of them.
+  EXPECT_LT(mean.cwiseAbs().maxCoeff(), 0.027);
+  EXPECT_LT((products - Eigen::Matrix3d::Identity() / 3).cwiseAbs().maxCoeff(), 0.016);
+}
+
+TEST(SampleGenerator, ASampleDoesNotDependOnHowManyThereAre) {
+  const SampleGenerator few(paperDesign(), coarse(5));
+  const SampleGenerator many(paperDesign(), coarse(50));
+  EXPECT_EQ(few.load(3), many.load(3));
+  EXPECT_EQ(few.load(7), many.load(52)); // sample 2 of area 1
+}
+
+TEST(SampleGenerator, AnyRangeGivesTheSameNumbers) {
+  SampleGenerator whole(paperDesign(), coarse(9));
+  SampleGenerator part(paperDesign(), coarse(9));
+  SampleSet all;
+  SampleSet some;
+  whole.generate({0, whole.total()}, [&](const SampleSet& block) { append(all, block); });
+  part.generate({17, 31}, [&](const SampleSet& block) { append(some, block); });
+  ASSERT_EQ(all.size(), 54);
+  ASSERT_EQ(some.size(), 14);
+  EXPECT_EQ(some.displacements_mm, all.displacements_mm.middleCols(17, 14));
+  EXPECT_EQ(some.resistances_ohm, all.resistances_ohm.middleCols(17, 14));
+}
+
+TEST(SampleGenerator, StopsWhenAsked) {
+  SampleGenerator generator(paperDesign(), coarse(1000));
+  std::stop_source source;
+  source.request_stop();
+  EXPECT_EQ(generator.generate(
+                {0, generator.total()}, [](const SampleSet&) {}, {}, source.get_token()),
+            0U);
+  EXPECT_TRUE(generator.stages().counts().empty());
+}
+
+TEST(SampleGenerator, ShardsPartTheSamples) {
+  std::size_t next = 0;
+  for (int i = 1; i <= 7; ++i) {
+    const SampleRange range = shard(100, i, 7);
+    EXPECT_EQ(range.first, next);
+    next = range.last;
+  }
+  EXPECT_EQ(next, 100U);
+}
+
+TEST(SampleGenerator, RefusesAnUnknownArea) {
+  SampleRequest request = coarse(1);
+  request.areas = "6";
+  EXPECT_THROW(SampleGenerator(paperDesign(), request), DesignError);
+}

@@ -1,0 +1,144 @@
+#include "nn/NoisyCopies.h"
+#include "nn/RelativeError.h"
+#include "nn/SpreadSweep.h"
+#include "nn/rivals/BackPropagation.h"
+#include "nn/rivals/ForwardModel.h"
+#include "nn/rivals/GaussianProcess.h"
+#include "nn/rivals/PolynomialRidge.h"
+#include "nn/rivals/RecursiveLeastSquares.h"
+#include "tests/nn/Touches.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <gtest/gtest.h>
+
+namespace palp {
+namespace {
+
+const test::Touches training = test::touches(50, 20, 1), fresh = test::touches(30, 20, 2);
+
+/// Share of errors within one standard deviation.
+double within(const Eigen::MatrixXd& error, const Eigen::MatrixXd& deviation) {
+  return (error.array().abs() < deviation.array()).cast<double>().mean();
+}
+
+TEST(PolynomialRidge, DegreeOneIsPlainLeastSquares) {
+  Eigen::MatrixXd regressors(20 + 1, training.samples.cols());
+  regressors << training.samples, Eigen::RowVectorXd::Ones(training.samples.cols());
+  const Eigen::MatrixXd coefficients =
+      (regressors * regressors.transpose()).ldlt().solve(regressors * training.targets.transpose());
+  const Eigen::MatrixXd ours = trainPolynomial(training.samples, training.targets).model.predict(training.samples);
+  // Normal equations keep half of the digits.
+  EXPECT_LT((ours - (regressors.transpose() * coefficients).transpose()).cwiseAbs().maxCoeff(), 1e-4);
+}
+
+TEST(PolynomialRidge, HigherDegreesFollowTheCurvature) {
+  PolynomialOptions options;
+  const test::Touches many = test::touches(200, 20, 3); // 1200: enough for the cubic terms of 18 directions
+  double before =
+      test::worstRelativeError(trainPolynomial(many.samples, many.targets).model.predict(fresh.samples), fresh.targets);
+  for (const int degree : {2, 3}) {
+    options.degree = degree;
+    const PolynomialFit fit = trainPolynomial(many.samples, many.targets, options);
+    const double error = test::worstRelativeError(fit.model.predict(fresh.samples), fresh.targets);
+    EXPECT_LT(error, 0.8 * before) << degree; // the map has terms of all degrees: each takes its share
+    before = error;
+    const Eigen::VectorXd x = fresh.samples.col(0), step = 1e-5 * Eigen::VectorXd::Unit(20, 4);
+    const Eigen::VectorXd slope = (fit.model.predict(x + step) - fit.model.predict(x - step)) / 2e-5;
+    EXPECT_LT((slope - fit.model.jacobian(x).col(4)).cwiseAbs().maxCoeff(), 1e-3 * (1 + slope.norm()));
+  }
+}
+
+TEST(GaussianProcess, ItsDeviationHoldsWhereTheNoiseIs) {
+  GaussianProcessOptions options;
+  options.relativeInputNoise = 1e-4;
+  const GaussianProcessFit fit = trainGaussianProcess(training.samples, training.targets, options);
+  const Eigen::MatrixXd noisy = noisyCopies(fresh.samples, 1e-4, 1, 7);
+  const double share = within(fit.process.predict(noisy) - fresh.targets, fit.process.standardDeviation(noisy));
+  EXPECT_GT(share, 0.55); // 0.68 for a Gaussian; the noise differs from place to place
+  EXPECT_LT(share, 0.9);
+}
+
+TEST(BackPropagation, LearnsTheMap) {
+  const test::Touches many = test::touches(200, 20, 3);
+  const BackPropagationOptions options;
+  const BackPropagationFit fit = trainBackPropagation(many.samples, many.targets, options);
+  EXPECT_LT(test::worstRelativeError(fit.network.predict(fresh.samples), fresh.targets), 0.1);
+  EXPECT_LT(fit.trainingError.back(), fit.trainingError.front());
+  EXPECT_EQ(fit.heldOutResiduals.cols(), fit.heldOut.size());
+}
+
+TEST(ForwardModel, ItsDerivativeAgreesWithDifferences) {
+  const ForwardModel model = fitForwardModel(training.samples, training.targets, training.places, {});
+  const Eigen::Vector3d y(0.3, -0.2, -2);
+  Eigen::MatrixXd slope;
+  static_cast<void>(model.measurementsOf(2, y, &slope));
+  for (int d = 0; d < 3; ++d) {
+    const Eigen::VectorXd step = 1e-6 * Eigen::VectorXd::Unit(3, d);
+    const Eigen::VectorXd difference = (model.measurementsOf(2, y + step) - model.measurementsOf(2, y - step)) / 2e-6;
+    EXPECT_LT((difference - slope.col(d)).cwiseAbs().maxCoeff(), 1e-6); // rounding of 100 over the step is 1e-8
+  }
+}
+
+TEST(MaximumLikelihood, FindsPlaceAndCausesAndKnowsItsDeviation) {
+  constexpr double noise = 2e-4;
+  ForwardModelOptions options;
+  options.relativeNoise = noise;
+  const ForwardModel model = fitForwardModel(training.samples, training.targets, training.places, options);
+  const Eigen::MatrixXd noisy = noisyCopies(fresh.samples, noise, 1, 9);
+  Eigen::MatrixXd error(3, noisy.cols()), deviation(3, noisy.cols());
+  int right = 0;
+  for (Eigen::Index i = 0; i < noisy.cols(); ++i) {
+    const LikelihoodEstimate estimate = maximumLikelihood(model, noisy.col(i));
+    right += estimate.classIndex == fresh.places(i);
+    EXPECT_GT(estimate.confidence, 1.0 / 6 - 1e-12);
+    error.col(i) = estimate.causes - fresh.targets.col(i);
+    deviation.col(i) = estimate.standardDeviation;
+  }
+  EXPECT_GT(right, 0.95 * static_cast<double>(noisy.cols()));
+  // 540 values: the share's own deviation is 0.02.
+  EXPECT_NEAR(within(error, deviation), 0.68, 0.08);
+}
+
+TEST(RecursiveLeastSquares, ReachesTheLeastSquaresSolution) {
+  const Eigen::MatrixXd a = Eigen::MatrixXd::Random(40, 5), b = Eigen::MatrixXd::Random(40, 2);
+  RecursiveLeastSquares recursive(5, 2, 1e8);
+  for (int i = 0; i < 40; ++i) recursive.update(a.row(i).transpose(), b.row(i).transpose());
+  const Eigen::MatrixXd exact = (a.transpose() * a).inverse() * a.transpose() * b;
+  EXPECT_LT((recursive.weights() - exact).cwiseAbs().maxCoeff(), 1e-6); // the start acts as a ridge of 1e-8
+}
+
+TEST(RecursiveLeastSquares, ForgettingFollowsAChange) {
+  RecursiveLeastSquares recursive(1, 1, 1e6, 0.9);
+  for (int i = 0; i < 200; ++i)
+    recursive.update(Eigen::VectorXd::Ones(1), Eigen::VectorXd::Constant(1, i < 100 ? 1 : 3));
+  EXPECT_NEAR(recursive.weights()(0), 3, 1e-3); // 0.9^100 of the old is left
+}
+
+TEST(RelativeError, IsThePapersEquationWithAndWithoutFloor) {
+  const Eigen::MatrixXd truth = (Eigen::MatrixXd(1, 3) << 1, -2, 0.01).finished();
+  const Eigen::MatrixXd predicted = (Eigen::MatrixXd(1, 3) << 1.1, -2, 0.02).finished();
+  const PredictionError error = predictionError(predicted, truth, Eigen::VectorXd::Constant(1, 4));
+  EXPECT_NEAR(error.eq13Percent(0), (10 + 0 + 100) / 3.0, 1e-9);
+  EXPECT_NEAR(error.eq13FlooredPercent(0), (10 + 0 + 20) / 3.0, 1e-9);
+  EXPECT_NEAR(error.meanAbsolute(0), 0.11 / 3, 1e-12);
+  EXPECT_NEAR(error.rmsePercentOfRange(0), 100 * std::sqrt((0.01 + 0.0001) / 3) / 4, 1e-9);
+}
+
+TEST(SpreadSweep, GoesThroughTheSpreadsAndStopsWhenAsked) {
+  const SweepInput input{training.samples, training.targets, fresh.samples, fresh.targets, Eigen::Vector3d(2, 2, 6)};
+  std::stop_source stop;
+  const auto rows = sweepSpreads(
+      input, {0.5, 1, 2}, {},
+      [&](std::size_t done) {
+        if (done == 2) stop.request_stop();
+      },
+      stop.get_token());
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[1].spread, 1);
+  EXPECT_EQ(rows[1].predicted.cols(), fresh.targets.cols());
+  EXPECT_TRUE(rows[1].error.rmsePercentOfRange.allFinite());
+}
+
+} // namespace
+} // namespace palp

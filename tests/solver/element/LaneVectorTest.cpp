@@ -1,0 +1,49 @@
+#include "solver/element/LaneVector.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <fstream>
+#include <unistd.h>
+
+namespace palp {
+namespace {
+
+/// Memory of this process that is in use [bytes].
+double resident() {
+  double total = 0, pages = 0;
+  std::ifstream("/proc/self/statm") >> total >> pages;
+  return pages * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+TEST(LaneVector, LiesOnCacheLinesAtAnySize) {
+  for (std::size_t size : {1, 1000, 130'000, 131'072, 1'000'000}) {
+    const LaneVector vector(size);
+    const UnsetArray<double> array(size);
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(vector.data()) % 64, 0) << size;
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(array.data()) % 64, 0) << size;
+  }
+}
+
+TEST(LaneVector, GivesLargeMemoryBackToTheSystem) {
+  const double before = resident(), bytes = 64e6;
+  UnsetArray<double> array(static_cast<std::size_t>(bytes) / sizeof(double));
+  std::fill_n(array.data(), array.size(), 1.);
+  EXPECT_GT(resident(), before + 0.9 * bytes);
+  array = {};
+  EXPECT_EQ(array.size(), 0);
+  EXPECT_LT(resident(), before + 0.1 * bytes);
+}
+
+TEST(UnsetArray, KeepsItsNumbersWhenItMoves) {
+  UnsetArray<double> first(3);
+  first.data()[2] = 7;
+  UnsetArray<double> second = std::move(first);
+  EXPECT_EQ(second.size(), 3);
+  EXPECT_EQ(second.data()[2], 7);
+  EXPECT_EQ(first.size(), 0); // NOLINT(bugprone-use-after-move): a moved array is empty
+}
+
+} // namespace
+} // namespace palp

@@ -1,0 +1,121 @@
+#include "tests/solver/TestBlocks.h"
+
+#include "solver/linear/Front.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+
+using namespace palp;
+using namespace palp::test;
+
+namespace palp::baseline {
+extern const LaneKernels laneKernelSet;
+} // namespace palp::baseline
+
+namespace {
+
+/// The tangent at rest of a cube held at its bottom, with fronts wider than a tile.
+struct Tangent {
+  explicit Tangent(double poissonRatio)
+      : problem(cubeTets(8, 0.1), rubberOf(poissonRatio),
+                [](const Eigen::Vector3d& x, int) { return x.z() == 0 ? std::optional<double>(0) : std::nullopt; }) {
+    const Assembler& assembler = problem.assembler;
+    ElementTangents tangents;
+    ElementForces forces;
+    assembler.tangent(problem.discretisation->atRest(), tangents, forces, 1, {});
+    values = assembler.matrix(tangents, 1);
+    plan = std::make_shared<const CholeskyPlan>(assembler.pattern());
+  }
+  [[nodiscard]] Eigen::VectorXd times(const Eigen::VectorXd& x) const {
+    const SparsePattern& pattern = plan->pattern();
+    Eigen::VectorXd y = Eigen::VectorXd::Zero(x.size());
+    for (int j = 0; j < pattern.size(); ++j)
+      for (int k = pattern.columns[j]; k < pattern.columns[j + 1]; ++k) {
+        y(pattern.rows[k]) += values[k] * x(j);
+        if (pattern.rows[k] != j) y(j) += values[k] * x(pattern.rows[k]);
+      }
+    return y;
+  }
+  [[nodiscard]] Eigen::VectorXd rightSide() const {
+    return Eigen::VectorXd::NullaryExpr(plan->tree().size(), [](Eigen::Index i) { return std::sin(3. * double(i)); });
+  }
+
+  BoundaryValueProblem problem;
+  LaneVector values;
+  std::shared_ptr<const CholeskyPlan> plan;
+};
+
+class CholeskyOf : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(PoissonRatios, CholeskyOf, testing::Values(0.3, 0.4999, 0.5));
+
+TEST_P(CholeskyOf, SolvesWithTheSameBytesOnAnyNumberOfThreads) {
+  const Tangent tangent(GetParam());
+  const Eigen::VectorXd b = tangent.rightSide();
+  Eigen::VectorXd first;
+  for (const int threads : {1, 2, 5}) {
+    SparseCholesky cholesky(tangent.plan);
+    ASSERT_EQ(cholesky.factorise(tangent.values, threads, {}), SparseCholesky::Outcome::Done);
+    Eigen::VectorXd x = b;
+    cholesky.solve(x);
+    EXPECT_LT((b - tangent.times(x)).norm(), 1e-7 * b.norm());
+    if (threads == 1)
+      first = x;
+    else
+      EXPECT_EQ(std::memcmp(first.data(), x.data(), sizeof(double) * x.size()), 0) << threads;
+  }
+}
+
+TEST(Cholesky, RefusesWhatIsNotPositiveDefinite) {
+  Tangent tangent(0.3);
+  tangent.values[tangent.plan->pattern().columns[100]] *= -1; // on the diagonal
+  EXPECT_EQ(SparseCholesky(tangent.plan).factorise(tangent.values, 2, {}),
+            SparseCholesky::Outcome::NotPositiveDefinite);
+}
+
+TEST(Cholesky, StopsWhenAsked) {
+  const Tangent tangent(0.3);
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_EQ(SparseCholesky(tangent.plan).factorise(tangent.values, 2, stop.get_token()),
+            SparseCholesky::Outcome::Stopped);
+}
+
+TEST(Cholesky, OneRightSideAgreesWithLanesAndTheBaselineWithTheWidest) {
+  const Tangent tangent(0.4999);
+  SparseCholesky cholesky(tangent.plan);
+  ASSERT_EQ(cholesky.factorise(tangent.values, 2, {}), SparseCholesky::Outcome::Done);
+  const BlockedFactor L = cholesky.blocks();
+  const Eigen::Index size = tangent.plan->tree().size();
+  Eigen::VectorXd widest(size + 1), lane(size);
+  widest << tangent.rightSide(), 0;
+  Eigen::VectorXd baseline = widest;
+  std::vector<float, CacheLineAllocator<float>> lanes((size + 1) * groupLanes);
+  for (Eigen::Index i = 0; i < size; ++i) lanes[i * groupLanes + 5] = static_cast<float>(widest(i));
+  laneKernels().forwardOne(L, 0, L.count, widest.data());
+  laneKernels().backwardOne(L, 0, L.count, widest.data());
+  baseline::laneKernelSet.forwardOne(L, 0, L.count, baseline.data());
+  baseline::laneKernelSet.backwardOne(L, 0, L.count, baseline.data());
+  laneKernels().forward(L, 0, L.count, lanes.data());
+  laneKernels().backward(L, 0, L.count, lanes.data());
+  for (Eigen::Index i = 0; i < size; ++i) lane(i) = lanes[i * groupLanes + 5];
+  EXPECT_LT((widest - baseline).head(size).norm(), 1e-9 * widest.norm()); // rounding, times a condition of 1e6
+  EXPECT_LT((widest.head(size) - lane).norm(), 1e-2 * widest.norm());     // in single precision
+}
+
+TEST(UpdateMatrix, KeepsItsLowerTriangleInBlocksOfColumns) {
+  for (const int size : {1, 255, 256, 257, 700}) {
+    UpdateMatrix matrix(size);
+    for (int j = 0; j < size; ++j)
+      for (int i = j; i < size; ++i) matrix.column(j)[i] = 1000. * i + j;
+    for (int j = 0; j < size; ++j) {
+      for (int i = j; i < size; ++i) ASSERT_EQ(matrix.column(j)[i], 1000. * i + j) << size;
+      if (j % frontTile > 0) {
+        EXPECT_EQ(matrix.column(j) - matrix.column(j - 1), matrix.stride(j));
+      }
+    }
+  }
+}
+
+} // namespace
