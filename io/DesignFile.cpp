@@ -3,6 +3,7 @@
 #include "io/AtomicFile.h"
 #include "io/Fingerprint.h"
 #include "io/StrictJson.h"
+#include "model/DesignError.h"
 #include "model/base/Error.h"
 #include "model/base/Text.h"
 

@@ -1,7 +1,6 @@
 #include "io/NetworkJson.h"
 
 #include "io/DesignFile.h"
-#include "model/base/Error.h"
 #include "nn/NetworkError.h"
 
 #include <cmath>

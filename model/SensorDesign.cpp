@@ -1,6 +1,6 @@
 #include "model/SensorDesign.h"
 
-#include "model/base/Error.h"
+#include "model/DesignError.h"
 #include "model/base/Text.h"
 
 #include <cmath>

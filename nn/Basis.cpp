@@ -1,5 +1,6 @@
 #include "nn/Basis.h"
 
+#include "model/base/Cancelled.h"
 #include "nn/NetworkError.h"
 #include "nn/linear/VectorKernels.h"
 

@@ -1,7 +1,7 @@
 #include "nn/LeaveOneOut.h"
 
+#include "model/base/Parallel.h"
 #include "nn/NetworkError.h"
-#include "nn/Parallel.h"
 #include "nn/SpreadSweep.h"
 #include "nn/rbf/RbfProblem.h"
 

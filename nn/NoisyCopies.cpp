@@ -1,6 +1,6 @@
 #include "nn/NoisyCopies.h"
 
-#include "nn/NetworkError.h"
+#include "model/base/Cancelled.h"
 #include "nn/linear/Random.h"
 
 namespace palp {

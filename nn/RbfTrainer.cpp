@@ -1,5 +1,6 @@
 #include "nn/RbfTrainer.h"
 
+#include "model/base/Cancelled.h"
 #include "nn/LeaveOneOut.h"
 #include "nn/NetworkError.h"
 #include "nn/SpreadSweep.h"

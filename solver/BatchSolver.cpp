@@ -1,7 +1,7 @@
 #include "solver/BatchSolver.h"
 
-#include "model/base/Error.h"
-#include "solver/Parallel.h"
+#include "model/DesignError.h"
+#include "model/base/Parallel.h"
 #include "solver/batch/AreaSurrogate.h"
 #include "solver/batch/BatchEngine.h"
 

@@ -1,6 +1,6 @@
 #include "solver/CalculixDeck.h"
 
-#include "model/base/Error.h"
+#include "model/DesignError.h"
 #include "solver/assembly/Discretisation.h"
 #include "solver/assembly/SurfaceTraction.h"
 

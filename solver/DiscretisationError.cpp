@@ -1,6 +1,6 @@
 #include "solver/DiscretisationError.h"
 
-#include "model/base/Error.h"
+#include "model/DesignError.h"
 #include "model/base/Text.h"
 #include "solver/HyperelasticProblem.h"
 #include "solver/SensorMesh.h"

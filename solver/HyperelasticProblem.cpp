@@ -115,6 +115,15 @@ Solution HyperelasticProblem::solve(const LoadCase& load, const NewtonOptions& o
   return solution;
 }
 
+void HyperelasticProblem::findOrdering() const {
+  (void)parts_->plan();
+}
+
+std::size_t HyperelasticProblem::findFactor(int threads, const std::stop_token& stop) const {
+  const auto rest = parts_->restTangent(threads, stop);
+  return rest ? rest->factor.bytes() : 0;
+}
+
 void HyperelasticProblem::forgetFactor() const {
   parts_->forgetRestTangent();
 }

@@ -6,6 +6,7 @@
 #include "model/SensorDesign.h"
 #include "model/Solution.h"
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <stop_token>
@@ -45,6 +46,10 @@ public:
   [[nodiscard]] Solution solve(const LoadCase& load, const NewtonOptions& options = {},
                                const NewtonObserver& observer = {}) const;
 
+  /// What the first solve finds before anything else and keeps, for those who time it apart: the order of elimination,
+  void findOrdering() const;
+  /// and the factorisation at rest. Returns its bytes; 0: stopped.
+  [[nodiscard]] std::size_t findFactor(int threads, const std::stop_token& stop = {}) const;
   /// Gives back the memory of the factorisation at rest, most of what a problem holds; the next solve finds it anew.
   void forgetFactor() const;
 

@@ -1,6 +1,6 @@
 #include "solver/PointProbe.h"
 
-#include "model/base/Error.h"
+#include "model/DesignError.h"
 #include "model/base/Text.h"
 #include "solver/element/ElementGeometry.h"
 

@@ -1,6 +1,6 @@
 #include "solver/SensorMesh.h"
 
-#include "model/base/Error.h"
+#include "model/DesignError.h"
 #include "model/base/Text.h"
 #include "solver/mesh/BlockMesher.h"
 #include "solver/mesh/GradedTets.h"

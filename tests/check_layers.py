@@ -1,8 +1,10 @@
-"""The layers of Palp: fails on an include that a folder may not have, and on a package's header in more than one source.
+"""The layers and doors of Palp: fails on an include that a folder may not have, on an include of what is private to
+another folder, on a package's header in more than one source, and on a folder with too many sources at its root.
 
 Used by CTest: python3 tests/check_layers.py ROOT
 """
 
+import collections
 import pathlib
 import re
 import sys
@@ -11,7 +13,7 @@ FOLDERS = ["model", "nn", "solver", "io", "app/study", "app/scenes", "app/cli", 
 # Which of our own folders each may include.
 OWN = {
     "model": {"model"},
-    "nn": {"nn"},
+    "nn": {"nn", "model/base"},
     "solver": {"solver", "model"},
     "io": {"io", "model", "nn"},
     "app/study": {"app/study", "model", "nn", "solver", "io"},
@@ -19,6 +21,14 @@ OWN = {
     "app/cli": {"app/cli", "app/study", "app/scenes", "model", "nn", "solver", "io"},
     "app/gui": {"app/gui", "app/study", "app/scenes", "model", "nn", "solver", "io"},
 }
+# The headers that other folders may include (tests/ mirrors the tree and may include all of them).
+DOORS = {
+    "model": r"model/(base/)?\w+\.h",
+    "solver": r"solver/\w+\.h",
+    "nn": r"nn/(rivals/)?\w+\.h",
+}
+BASE = r"model/base/\w+\.h"  # stands below everything: it may include itself alone
+MOST_SOURCES = 30  # in one folder, its sub-folders apart
 # Packages by their headers, and the folders that may include them.
 PACKAGES = {
     r"Eigen/.*": set(FOLDERS),
@@ -47,6 +57,7 @@ def main(root):
     problems = []
     holders = {pattern: set() for pattern in ONE_SOURCE_ONLY}
     sources = [p for f in FOLDERS for end in ("*.h", "*.cpp") for p in (root / f).rglob(end)]
+    tests = {p for end in ("*.h", "*.cpp") for p in (root / "tests").rglob(end)}
     for source in sorted(set(sources)):
         name = source.relative_to(root).as_posix()
         folder = folder_of(name)
@@ -55,8 +66,15 @@ def main(root):
                 if re.fullmatch(pattern, header):
                     holders[pattern].add(name)
             if kind == '"':
+                owner = header.split("/")[0]
                 if "/" not in header or not any(header.startswith(f + "/") for f in OWN[folder]):
                     problems.append(f"{name}: may not include \"{header}\"")
+                elif re.fullmatch(BASE, name) and not re.fullmatch(BASE, header):
+                    problems.append(f"{name}: may not include \"{header}\", which is not of model/base")
+                elif owner != folder and owner in DOORS and not re.fullmatch(DOORS[owner], header):
+                    problems.append(f"{name}: may not include \"{header}\", which is private to {owner}/")
+                elif not (root / header).exists():
+                    problems.append(f"{name}: includes \"{header}\", which is not there")
                 continue
             if "/" not in header and "." not in header and not header.startswith("Q"):
                 continue  # the standard library
@@ -66,6 +84,10 @@ def main(root):
     for pattern, names in holders.items():
         if len(names) > 1 or any(n.endswith(".h") for n in names):
             problems.append(f"{pattern} is included in {', '.join(sorted(names))}; allowed is one .cpp")
+    for where, count in collections.Counter(s.parent for s in sorted(set(sources) | tests)).items():
+        if count > MOST_SOURCES:
+            problems.append(f"{where.relative_to(root).as_posix()}: {count} sources; allowed are {MOST_SOURCES}: "
+                            "which sub-folder would name what is inside?")
     for gui in (root / "app").rglob("*.h"):
         name = gui.relative_to(root).as_posix()
         if "Q_OBJECT" in gui.read_text() and not name.startswith("app/gui/"):

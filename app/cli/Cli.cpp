@@ -3,7 +3,6 @@
 #include "app/cli/Interrupt.h"
 #include "app/study/Blas.h"
 #include "app/study/reports/ProcessMemory.h"
-#include "nn/NetworkError.h"
 #include "solver/BatchSolver.h"
 
 #include <algorithm>
@@ -82,9 +81,9 @@ Exit Cli::runChosen() {
   } catch (const Error& refused) {
     std::cerr << "palp " << name << ": " << oneLine(refused.what()) << '\n';
     return Exit::BadInput;
-  } catch (const NetworkError& refused) {
-    std::cerr << "palp " << name << ": " << oneLine(refused.what()) << '\n';
-    return Exit::BadInput;
+  } catch (const Cancelled&) { // where a command had nothing of its own to say
+    std::cerr << "palp " << name << ": stopped before there was a result\n";
+    exit = Exit::NoResult;
   } catch (const ConvergenceError& stopped) { // an outcome, not a mistake: the JSON says how far it came
     std::cerr << "palp " << name << ": " << oneLine(stopped.what()) << '\n';
     session_.result["stop_reason"] = stopped.what();

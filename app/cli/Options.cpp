@@ -1,6 +1,7 @@
 #include "app/cli/Options.h"
 
 #include "io/DesignFile.h"
+#include "model/DesignError.h"
 #include "model/base/Text.h"
 
 #include <charconv>

@@ -4,14 +4,10 @@
 
 namespace palp {
 
-/// A refusal by the outside (file, device, option): the text says what, where, which value and what is allowed.
+/// A refusal by the outside (file, device, option): the text says what, where, which value and what is allowed. The
+/// base of every error of ours whose text is for the user.
 struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
-};
-
-/// A design or a load that cannot be built; the text names the key.
-struct DesignError : Error {
-  using Error::Error;
 };
 
 } // namespace palp

@@ -1,5 +1,6 @@
 #include "nn/linear/Lapack.h"
 
+#include "model/base/Cancelled.h"
 #include "nn/NetworkError.h"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 #include "nn/linear/LinearSolve.h"
 
+#include "model/base/Cancelled.h"
 #include "nn/NetworkError.h"
 #include "nn/linear/Lapack.h"
 #include "nn/rivals/RecursiveLeastSquares.h"

@@ -1,6 +1,6 @@
 #include "nn/linear/RidgeFit.h"
 
-#include "nn/NetworkError.h"
+#include "model/base/Cancelled.h"
 #include "nn/SpreadSweep.h"
 #include "nn/linear/Lapack.h"
 #include "nn/rbf/RbfProblem.h"

@@ -1,5 +1,6 @@
 #include "nn/rbf/KernelProblem.h"
 
+#include "model/base/Cancelled.h"
 #include "nn/Basis.h"
 #include "nn/NetworkError.h"
 #include "nn/linear/LinearSolve.h"

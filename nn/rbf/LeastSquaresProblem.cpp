@@ -1,7 +1,7 @@
 #include "nn/rbf/LeastSquaresProblem.h"
 
+#include "model/base/Cancelled.h"
 #include "nn/Basis.h"
-#include "nn/NetworkError.h"
 #include "nn/NoisyCopies.h"
 #include "nn/linear/RidgeFit.h"
 #include "nn/rbf/KMeans.h"

@@ -1,5 +1,6 @@
 #include "nn/rbf/RbfProblem.h"
 
+#include "model/base/Cancelled.h"
 #include "nn/NetworkError.h"
 #include "nn/rbf/KernelProblem.h"
 #include "nn/rbf/LeastSquaresProblem.h"

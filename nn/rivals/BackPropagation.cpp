@@ -1,5 +1,6 @@
 #include "nn/rivals/BackPropagation.h"
 
+#include "model/base/Cancelled.h"
 #include "nn/NetworkError.h"
 #include "nn/NoisyCopies.h"
 #include "nn/linear/Lapack.h"

@@ -1,6 +1,6 @@
 #include "solver/assembly/Assembler.h"
 
-#include "solver/Parallel.h"
+#include "model/base/Parallel.h"
 
 #include <algorithm>
 #include <array>

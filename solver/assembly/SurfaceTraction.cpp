@@ -1,6 +1,6 @@
 #include "solver/assembly/SurfaceTraction.h"
 
-#include "model/base/Error.h"
+#include "model/DesignError.h"
 
 #include <Eigen/Dense>
 

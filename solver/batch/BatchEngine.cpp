@@ -1,6 +1,6 @@
 #include "solver/batch/BatchEngine.h"
 
-#include "solver/Parallel.h"
+#include "model/base/Parallel.h"
 
 #include <algorithm>
 #include <map>

@@ -1,6 +1,6 @@
 #include "solver/element/ElementGeometry.h"
 
-#include "model/base/Error.h"
+#include "model/DesignError.h"
 
 #include <Eigen/Dense>
 

@@ -1,6 +1,6 @@
 #include "solver/linear/SparseCholesky.h"
 
-#include "solver/Parallel.h"
+#include "model/base/Parallel.h"
 #include "solver/linear/Front.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "solver/mesh/GradedTets.h"
 
-#include "model/base/Error.h"
+#include "model/DesignError.h"
 #include "model/base/Text.h"
 #include "solver/mesh/GridLines.h"
 #include "solver/mesh/QuadraticTets.h"

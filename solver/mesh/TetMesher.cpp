@@ -1,6 +1,6 @@
 #include "solver/mesh/TetMesher.h"
 
-#include "model/base/Error.h"
+#include "model/DesignError.h"
 
 #include <tetgen.h>
 

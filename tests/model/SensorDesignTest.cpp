@@ -1,6 +1,5 @@
 #include "model/SensorDesign.h"
-
-#include "model/base/Error.h"
+#include "model/DesignError.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
 #include "nn/RbfTrainer.h"
+#include "model/base/Cancelled.h"
 
 #include "nn/LeaveOneOut.h"
 #include "nn/NetworkError.h"

@@ -1,4 +1,4 @@
-#include "model/base/Error.h"
+#include "model/DesignError.h"
 #include "solver/BatchSolver.h"
 #include "solver/DiscretisationError.h"
 #include "solver/HyperelasticProblem.h"

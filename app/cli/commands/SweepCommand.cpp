@@ -3,7 +3,6 @@
 #include "app/study/decoding/Decoder.h"
 #include "io/SampleFile.h"
 #include "model/base/Text.h"
-#include "nn/NetworkError.h"
 #include "nn/SpreadSweep.h"
 
 #include <cmath>

@@ -1,7 +1,5 @@
 #include "app/cli/commands/TrainArguments.h"
 
-#include "nn/NetworkError.h"
-
 #include <array>
 #include <cmath>
 #include <utility>

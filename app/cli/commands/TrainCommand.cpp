@@ -4,7 +4,7 @@
 #include "app/study/decoding/NoiseBound.h"
 #include "io/NetworkFile.h"
 #include "io/SampleFile.h"
-#include "nn/NetworkError.h"
+#include "model/base/Cancelled.h"
 
 #include <cmath>
 #include <iostream>

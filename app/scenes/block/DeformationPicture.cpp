@@ -5,7 +5,7 @@
 #include "app/scenes/block/Overlay.h"
 #include "app/scenes/block/Polylines.h"
 #include "app/scenes/gl/OffscreenWindow.h"
-#include "model/base/Error.h"
+#include "model/DesignError.h"
 
 #include <vtkContextActor.h>
 #include <vtkContextScene.h>

@@ -4,7 +4,6 @@
 #include "app/study/decoding/TwoStep.h"
 #include "model/base/Error.h"
 #include "model/base/Text.h"
-#include "nn/NetworkError.h"
 
 #include <chrono>
 #include <cmath>
@@ -234,13 +233,7 @@ DecoderError decoderError(const Decoder& decoder, const Prediction& prediction, 
 
 Decoder trainDecoder(const SampleSet& samples, const SensorDesign* design, const TrainOptions& options,
                      const std::stop_token& stop, const std::function<void(double, const std::string&)>& progress) {
-  try {
-    return DecoderTraining(samples, design, options, stop, progress).run();
-  } catch (const Cancelled&) {
-    throw;
-  } catch (const NetworkError& refusal) { // nn knows no palp::Error; its sentence is what the user needs
-    throw Error(refusal.what());
-  }
+  return DecoderTraining(samples, design, options, stop, progress).run();
 }
 
 } // namespace palp

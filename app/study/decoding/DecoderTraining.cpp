@@ -1,8 +1,8 @@
 #include "app/study/decoding/DecoderTraining.h"
 
 #include "app/study/decoding/TwoStep.h"
+#include "model/base/Cancelled.h"
 #include "model/base/Error.h"
-#include "nn/NetworkError.h"
 
 #include <algorithm>
 #include <chrono>

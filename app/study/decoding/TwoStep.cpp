@@ -2,9 +2,9 @@
 
 #include "app/study/decoding/Decoder.h"
 #include "model/RowColumnResistance.h"
+#include "model/base/Cancelled.h"
 #include "model/base/Error.h"
 #include "model/base/Text.h"
-#include "nn/NetworkError.h"
 #include "nn/NoisyCopies.h"
 
 #include <Eigen/QR>

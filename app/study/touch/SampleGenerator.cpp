@@ -1,7 +1,7 @@
 #include "app/study/touch/SampleGenerator.h"
 
 #include "io/DesignFile.h"
-#include "model/base/Error.h"
+#include "model/DesignError.h"
 #include "model/base/Text.h"
 
 #include <algorithm>

@@ -3,10 +3,9 @@
 #include "app/study/paper/PaperProtocol.h"
 #include "app/study/reports/Timing.h"
 #include "app/study/touch/SampleGenerator.h"
-#include "model/base/Error.h"
+#include "model/base/Cancelled.h"
 #include "model/base/Text.h"
 #include "nn/LeaveOneOut.h"
-#include "nn/NetworkError.h"
 #include "nn/SpreadSweep.h"
 
 #include <cmath>

@@ -6,7 +6,7 @@
 #include "io/DesignFile.h"
 #include "solver/CalculixDeck.h"
 #include "solver/HyperelasticProblem.h"
-#include "solver/statics/ProblemParts.h"
+#include "solver/PointProbe.h"
 
 #include <cmath>
 #include <limits>
@@ -104,14 +104,14 @@ private:
     std::optional<HyperelasticProblem> problem;
     times.pattern.seconds.push_back(secondsOf([&] {
       problem.emplace(design_, mesh);
-      (void)problem->parts().plan();
+      problem->findOrdering();
     }));
-    std::shared_ptr<const RestTangent> rest;
+    std::size_t factorBytes = 0;
     times.factorisation.seconds.push_back(
-        secondsOf([&] { rest = problem->parts().restTangent(newton_.threads, stop_); }));
-    if (!rest) return;
+        secondsOf([&] { factorBytes = problem->findFactor(newton_.threads, stop_); }));
+    if (factorBytes == 0) return; // stopped
     times.dof = problem->dof();
-    times.factor_MB = static_cast<double>(rest->factor.bytes()) / (1024.0 * 1024);
+    times.factor_MB = static_cast<double>(factorBytes) / (1024.0 * 1024);
     double seconds = 0;
     std::vector<double> loadSeconds;
     for (const JudgedLoad& load : loads) {

@@ -1,6 +1,6 @@
 #include "app/study/reports/layout/AreaResponse.h"
 
-#include "model/base/Error.h"
+#include "model/DesignError.h"
 #include "solver/HyperelasticProblem.h"
 #include "solver/PointProbe.h"
 

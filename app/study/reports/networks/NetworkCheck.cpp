@@ -3,7 +3,6 @@
 #include "app/study/paper/PaperProtocol.h"
 #include "app/study/touch/SampleGenerator.h"
 #include "model/base/Error.h"
-#include "nn/NetworkError.h"
 #include "nn/NoisyCopies.h"
 
 #include <chrono>
@@ -70,8 +69,6 @@ NoisyError noisyError(const SensorDesign& design, const TwoSets& sets, const Tra
     result.microsecondsPerSample = prediction.microsecondsPerSample;
     result.rmse_percentOfRange = percentOfRange(design, prediction.forces_N, truth_N);
   } catch (const Error& refused) {
-    result.failed = refused.what();
-  } catch (const NetworkError& refused) {
     result.failed = refused.what();
   }
   return result;

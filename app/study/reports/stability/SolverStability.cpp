@@ -1,6 +1,6 @@
 #include "app/study/reports/ReportPage.h"
-#include "app/study/reports/stability/IndependentResidual.h"
 #include "app/study/reports/stability/StabilityRow.h"
+#include "solver/IndependentResidual.h"
 
 #include "model/base/Text.h"
 #include "solver/HyperelasticProblem.h"

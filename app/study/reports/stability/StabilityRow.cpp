@@ -2,7 +2,6 @@
 
 #include "model/base/Error.h"
 #include "model/base/Text.h"
-#include "nn/NetworkError.h"
 
 #include <chrono>
 
@@ -39,9 +38,6 @@ StabilityRow runCase(const std::string& group, const std::string& what,
   try {
     work(row);
   } catch (const Error& refused) {
-    row.outcome = StabilityOutcome::Refused;
-    row.words = refused.what();
-  } catch (const NetworkError& refused) {
     row.outcome = StabilityOutcome::Refused;
     row.words = refused.what();
   } catch (const std::exception& mistake) { // not hidden: the row turns red and says it

@@ -1,7 +1,6 @@
 #include "app/study/live/ForceDecoder.h"
 
 #include "io/NetworkFile.h"
-#include "model/base/Error.h"
 #include "tests/app/study/live/LiveFixture.h"
 #include "tests/io/Refusal.h"
 

@@ -1,5 +1,5 @@
 #include "app/study/touch/SampleGenerator.h"
-#include "model/base/Error.h"
+#include "model/DesignError.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "app/study/reports/stability/IndependentResidual.h"
+#include "solver/IndependentResidual.h"
 
 #include "solver/assembly/SurfaceTraction.h"
 #include "solver/element/ElementGeometry.h"
