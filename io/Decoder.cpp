@@ -19,7 +19,7 @@ constexpr std::array decoderNames{std::pair{DecoderKind::Rbf, "rbf"},
                                   std::pair{DecoderKind::TwoStepBackPropagation, "two-step-bp"},
                                   std::pair{DecoderKind::TwoStepGaussNewton, "two-step-gn"},
                                   std::pair{DecoderKind::MaximumLikelihood, "ml"}};
-constexpr std::array modeNames{std::pair{NetworkMode::Default, "default"}, std::pair{NetworkMode::Paper, "paper"}};
+constexpr std::array modeNames{std::pair{DecoderMode::Default, "default"}, std::pair{DecoderMode::Paper, "paper"}};
 
 template <class Names, class Value> std::string nameIn(const Names& names, Value value) {
   for (const auto& [known, text] : names)
@@ -50,10 +50,10 @@ std::string name(DecoderKind kind) {
 DecoderKind decoderKindNamed(const std::string& text) {
   return valueIn(decoderNames, text, "decoder");
 }
-std::string name(NetworkMode mode) {
+std::string name(DecoderMode mode) {
   return nameIn(modeNames, mode);
 }
-NetworkMode networkModeNamed(const std::string& text) {
+DecoderMode decoderModeNamed(const std::string& text) {
   return valueIn(modeNames, text, "mode");
 }
 

@@ -39,9 +39,9 @@ DecoderKind decoderKindNamed(const std::string& name);
 std::vector<DecoderKind> allDecoderKinds();
 
 /// The two modes of a network; every other option overrides what the mode says.
-enum class NetworkMode { Default, Paper };
-std::string name(NetworkMode mode);
-NetworkMode networkModeNamed(const std::string& name);
+enum class DecoderMode { Default, Paper };
+std::string name(DecoderMode mode);
+DecoderMode decoderModeNamed(const std::string& name);
 
 /// The paper's steps in a row: step 1, resistances -> displacements of the row-wires' electrodes; step 2,
 /// displacements -> force.
@@ -68,7 +68,7 @@ struct Decoder {
   DecoderInput input;
   std::string designFingerprint;
   std::string trainedWith; ///< the command line that makes it again
-  NetworkMode mode = NetworkMode::Default;
+  DecoderMode mode = DecoderMode::Default;
   std::uint64_t seed = 1;
   double noise = 0; ///< relative, of the inputs, that it was trained with
   int areaCount = 0;

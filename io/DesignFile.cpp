@@ -149,7 +149,7 @@ SensorDesign parseDesign(std::string_view json, const std::string& file) {
 
 SensorDesign loadDesign(const std::filesystem::path& path) {
   SensorDesign design = parseDesign(readFile(path), path.string());
-  const std::vector<DesignProblem> problems = check(design);
+  const std::vector<DesignFault> problems = check(design);
   if (!problems.empty()) throw DesignError(path.string() + ": " + problems[0].key + ": " + problems[0].sentence);
   return design;
 }

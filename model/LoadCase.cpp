@@ -34,7 +34,7 @@ Eigen::Vector3d LoadCase::totalForce_N() const {
   return total;
 }
 
-std::optional<std::string> problem(const LoadCase& load, const SensorDesign& design) {
+std::optional<std::string> whyInvalid(const LoadCase& load, const SensorDesign& design) {
   for (const AreaLoad& areaLoad : load.areas) {
     if (areaLoad.area < 0 || areaLoad.area >= design.areas.count())
       return "area " + std::to_string(areaLoad.area) + "; the design has areas 0 to " +

@@ -36,6 +36,6 @@ struct LoadCase {
 
 /// Why the load cannot act on the design (no such area, disc outside the face, a force that is no number); empty where
 /// it can.
-std::optional<std::string> problem(const LoadCase& load, const SensorDesign& design);
+std::optional<std::string> whyInvalid(const LoadCase& load, const SensorDesign& design);
 
 } // namespace palp

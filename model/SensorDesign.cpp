@@ -15,7 +15,7 @@ constexpr int kMostAreasAlong = 50;
 constexpr int kMostWires = 255; // the board's protocol counts wires in a byte
 constexpr double kSamePlace_mm = 1e-6;
 
-using Problems = std::vector<DesignProblem>;
+using Problems = std::vector<DesignFault>;
 
 void requirePositive(Problems& problems, const std::string& key, double value, double largest, const char* unit) {
   if (value > 0 && value <= largest) return; // false for NaN
@@ -192,7 +192,7 @@ SensorDesign paperDesign() {
   return design;
 }
 
-std::vector<DesignProblem> check(const SensorDesign& design) {
+std::vector<DesignFault> check(const SensorDesign& design) {
   Problems problems;
   for (int axis = 0; axis < 3; ++axis)
     requirePositive(problems, "block_mm[" + std::to_string(axis) + "]", design.block_mm(axis), kLargestLength_mm,
@@ -212,7 +212,7 @@ std::vector<DesignProblem> check(const SensorDesign& design) {
   return problems;
 }
 
-std::optional<std::string> squareSystemProblem(const SensorDesign& design) {
+std::optional<std::string> whyNotSquare(const SensorDesign& design) {
   const int unknowns = 3 * design.electrodesPerRowWire();
   if (design.columnWires() == unknowns) return {};
   return "Eq. (1) is square only where the column-wires are 3 x the electrodes of a row-wire: the design has " +

@@ -82,16 +82,16 @@ struct SensorDesign {
 SensorDesign paperDesign();
 
 /// One thing that is wrong: the key of the design file and a sentence with the value and what is allowed.
-struct DesignProblem {
+struct DesignFault {
   std::string key;
   std::string sentence;
 };
 
 /// Everything that is wrong with the design, in the order of the file; empty where it can be built.
-std::vector<DesignProblem> check(const SensorDesign& design);
+std::vector<DesignFault> check(const SensorDesign& design);
 
 /// Why Eq. (1) is not a square system for a row-wire (column-wires != 3 x electrodes of a row-wire); empty where it is.
-std::optional<std::string> squareSystemProblem(const SensorDesign& design);
+std::optional<std::string> whyNotSquare(const SensorDesign& design);
 
 /// Throws DesignError with the first problem, if there is one.
 void requireValid(const SensorDesign& design);

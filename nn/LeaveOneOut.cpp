@@ -3,7 +3,7 @@
 #include "model/base/Parallel.h"
 #include "nn/NetworkError.h"
 #include "nn/SpreadSweep.h"
-#include "nn/rbf/RbfProblem.h"
+#include "nn/rbf/RbfSystem.h"
 
 #include <algorithm>
 #include <array>
@@ -43,7 +43,7 @@ LeaveOneOutResult bestOf(std::vector<LeaveOneOutResult> results) {
 }
 
 /// From a twentieth of the samples' extent to 300 times it: from isolated bumps to the flat limit, a polynomial.
-std::vector<double> spreadsFor(const RbfProblem& problem, bool noisy) {
+std::vector<double> spreadsFor(const RbfSystem& problem, bool noisy) {
   const Eigen::MatrixXd& centers = problem.centers();
   const Eigen::VectorXd middle = centers.rowwise().mean();
   const double extent = std::sqrt((centers.colwise() - middle).colwise().squaredNorm().maxCoeff());
@@ -53,7 +53,7 @@ std::vector<double> spreadsFor(const RbfProblem& problem, bool noisy) {
 }
 
 /// Golden-section search for the least score on a logarithmic scale.
-LeaveOneOutResult refined(const RbfProblem& problem, const std::vector<double>& ridges, double low, double high,
+LeaveOneOutResult refined(const RbfSystem& problem, const std::vector<double>& ridges, double low, double high,
                           LeaveOneOutResult best, const std::stop_token& stop) {
   const double golden = (std::sqrt(5.0) - 1) / 2;
   double a = std::log(low), b = std::log(high);
@@ -78,7 +78,7 @@ LeaveOneOutResult refined(const RbfProblem& problem, const std::vector<double>& 
 
 /// A problem and a spread to try it at.
 struct Trial {
-  const RbfProblem* problem;
+  const RbfSystem* problem;
   double spread;
 };
 
@@ -91,7 +91,7 @@ std::vector<LeaveOneOutResult> tried(const std::vector<Trial>& trials, const std
   return results;
 }
 
-std::vector<LeaveOneOutResult> onGrid(const RbfProblem& problem, const std::vector<double>& spreads,
+std::vector<LeaveOneOutResult> onGrid(const RbfSystem& problem, const std::vector<double>& spreads,
                                       const std::vector<double>& ridges, int threads, const std::stop_token& stop) {
   std::vector<Trial> trials;
   for (const double spread : spreads) trials.push_back({&problem, spread});
@@ -107,7 +107,7 @@ std::size_t indexOfBest(const std::vector<LeaveOneOutResult>& results) {
 
 /// The half-steps beside the best spread, then the other powers of whitening at that spread and beside it.
 void refineNoisy(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen::Ref<const Eigen::MatrixXd>& targets,
-                 const RbfOptions& options, const RbfProblem& problem, int copies, const std::vector<double>& ridges,
+                 const RbfOptions& options, const RbfSystem& problem, int copies, const std::vector<double>& ridges,
                  const std::stop_token& stop, SpreadChoice& choice) {
   const auto& grid = choice.grid;
   const double step = grid.size() < 2 ? 1 : std::sqrt(grid[1].spread / grid[0].spread);
@@ -117,12 +117,12 @@ void refineNoisy(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen::
     choice.grid.push_back(std::move(result));
   }
   if (options.scaling != Scaling::Whiten || options.whitening) return;
-  std::vector<std::unique_ptr<RbfProblem>> others;
+  std::vector<std::unique_ptr<RbfSystem>> others;
   std::vector<Trial> trials;
   for (const double power : otherPowers) {
     RbfOptions changed = options;
     changed.whitening = power;
-    others.push_back(rbfProblem(samples, targets, changed, copies, stop));
+    others.push_back(rbfSystem(samples, targets, changed, copies, stop));
     for (const double factor : {1 / step, 1.0, step})
       trials.push_back({others.back().get(), choice.overall.spread * factor});
   }
@@ -144,7 +144,7 @@ std::vector<LeaveOneOutResult> leaveOneOut(const Eigen::Ref<const Eigen::MatrixX
   for (const double spread : spreads)
     if (!(spread > 0 && spread <= 1e100))
       throw NetworkError("spread: " + std::to_string(spread) + "; allowed is above 0 up to 1e100");
-  return onGrid(*rbfProblem(samples, targets, options, options.noiseCopies, stop), spreads,
+  return onGrid(*rbfSystem(samples, targets, options, options.noiseCopies, stop), spreads,
                 ridgesOf(options, finalRidges), options.threads, stop);
 }
 
@@ -154,7 +154,7 @@ SpreadChoice chooseSpread(const Eigen::Ref<const Eigen::MatrixXd>& samples,
   requireUsable(samples, targets, options);
   const bool noisy = options.relativeInputNoise > 0;
   const int copies = std::min(options.noiseCopies, choiceCopies);
-  const std::unique_ptr<RbfProblem> problem = rbfProblem(samples, targets, options, copies, stop);
+  const std::unique_ptr<RbfSystem> problem = rbfSystem(samples, targets, options, copies, stop);
   std::vector<double> spreads = spreadsFor(*problem, noisy);
   const std::vector<double> ridges = ridgesOf(options, noisy ? choiceRidges : finalRidges);
   SpreadChoice choice;

@@ -1,14 +1,15 @@
 #include "nn/NoisyCopies.h"
 
 #include "model/base/Cancelled.h"
-#include "nn/linear/Random.h"
+#include "nn/linear/RandomNumbers.h"
 
 namespace palp {
 
 Eigen::MatrixXd noisyCopies(const Eigen::Ref<const Eigen::MatrixXd>& samples, double relative, int copies,
                             std::uint64_t seed, const std::stop_token& stop) {
   Eigen::MatrixXd result(samples.rows(), samples.cols() * copies);
-  Random random(seed ^ 0x6e6f697365ULL); // "noise": other numbers than those that choose centres with the same seed
+  RandomNumbers random(seed ^
+                       0x6e6f697365ULL); // "noise": other numbers than those that choose centres with the same seed
   for (Eigen::Index i = 0; i < result.cols(); ++i) {
     stopIfAsked(stop);
     for (Eigen::Index d = 0; d < result.rows(); ++d) {

@@ -4,7 +4,7 @@
 #include "nn/LeaveOneOut.h"
 #include "nn/NetworkError.h"
 #include "nn/SpreadSweep.h"
-#include "nn/rbf/RbfProblem.h"
+#include "nn/rbf/RbfSystem.h"
 
 #include <algorithm>
 #include <array>
@@ -17,18 +17,19 @@ namespace {
 
 /// Leave-one-out error against the targets' deviation beyond which a reader is warned.
 constexpr double poorScore = 0.3;
-constexpr std::array solverNames{std::pair{Solver::PivotedQr, "qr"}, std::pair{Solver::Cholesky, "cholesky"},
-                                 std::pair{Solver::TruncatedSvd, "svd"}, std::pair{Solver::Recursive, "rls"}};
+constexpr std::array solverNames{
+    std::pair{LeastSquaresMethod::PivotedQr, "qr"}, std::pair{LeastSquaresMethod::Cholesky, "cholesky"},
+    std::pair{LeastSquaresMethod::TruncatedSvd, "svd"}, std::pair{LeastSquaresMethod::Recursive, "rls"}};
 
 /// The leave-one-out errors at the best of the ridges.
-LeaveOneOutResult atBestRidge(const RbfProblem& problem, double spread, const std::stop_token& stop) {
+LeaveOneOutResult atBestRidge(const RbfSystem& problem, double spread, const std::stop_token& stop) {
   std::vector<LeaveOneOutResult> results = problem.leaveOneOut(spread, logarithmicRange(1e-13, 10, 29), stop);
   const auto best =
       std::min_element(results.begin(), results.end(), [](const auto& a, const auto& b) { return a.score < b.score; });
   return std::move(*best);
 }
 
-void warn(FitReport& report, const RbfOptions& options, const RbfProblem& problem, Eigen::Index samples) {
+void warn(FitReport& report, const RbfOptions& options, const RbfSystem& problem, Eigen::Index samples) {
   if (options.centerCount > samples)
     report.warnings.push_back(std::to_string(options.centerCount) + " centres were asked for, there are " +
                               std::to_string(samples) + " samples: one centre a sample is used");
@@ -42,13 +43,13 @@ void warn(FitReport& report, const RbfOptions& options, const RbfProblem& proble
 
 } // namespace
 
-std::string name(Solver solver) {
+std::string name(LeastSquaresMethod solver) {
   for (const auto& [value, text] : solverNames)
     if (value == solver) return text;
   return {};
 }
 
-Solver solverNamed(const std::string& text) {
+LeastSquaresMethod leastSquaresMethodNamed(const std::string& text) {
   for (const auto& [value, known] : solverNames)
     if (text == known) return value;
   throw NetworkError("solver '" + text + "': not known, allowed are qr, cholesky, svd and rls");
@@ -65,7 +66,7 @@ RbfFit trainRbf(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen::R
     chosen.whitening = choice.whitening;
   }
   const double spread = *chosen.spread;
-  const std::unique_ptr<RbfProblem> problem = rbfProblem(samples, targets, chosen, options.noiseCopies, stop);
+  const std::unique_ptr<RbfSystem> problem = rbfSystem(samples, targets, chosen, options.noiseCopies, stop);
   std::optional<LeaveOneOutResult> left;
   if (!options.ridge) left = atBestRidge(*problem, spread, stop);
   stopIfAsked(stop);

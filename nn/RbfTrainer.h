@@ -13,15 +13,15 @@
 namespace palp {
 
 /// How the weights are found.
-enum class Solver {
+enum class LeastSquaresMethod {
   PivotedQr,    ///< column-pivoted QR, directions below rcond dropped
   Cholesky,     ///< with a ridge of at least 1e-12
   TruncatedSvd, ///< singular values below rcond dropped
   Recursive,    ///< recursive least squares with forgetting, the paper's way
 };
 /// As on the command line: qr, cholesky, svd, rls.
-std::string name(Solver solver);
-Solver solverNamed(const std::string& name);
+std::string name(LeastSquaresMethod solver);
+LeastSquaresMethod leastSquaresMethodNamed(const std::string& name);
 
 /// Where the Gaussians sit.
 enum class CenterChoice { Samples, KMeans, Random };
@@ -45,7 +45,7 @@ struct RbfOptions {
   SpreadConvention convention = SpreadConvention::Radbas;
   Tail tail = Tail::Linear;
   double tailVariance = 100; ///< LinearPenalised: prior variance of the tail's weights against the Gaussians'
-  Solver solver = Solver::PivotedQr;
+  LeastSquaresMethod solver = LeastSquaresMethod::PivotedQr;
   std::optional<double> ridge = 0.0; ///< none: by leave-one-out over 1e-13..10
   double rcond = 1e-15;
   double forgetting = 1; ///< Recursive: factor in (0, 1]

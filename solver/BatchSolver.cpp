@@ -34,14 +34,14 @@ struct BatchSolver::State {
 
   void requireLoads(std::span<const LoadCase> loads) const {
     for (std::size_t i = 0; i < loads.size(); ++i)
-      if (const auto why = palp::problem(loads[i], problem.design()))
+      if (const auto why = whyInvalid(loads[i], problem.design()))
         throw DesignError("load " + std::to_string(i) + ": " + *why);
   }
 
   /// False: stopped.
   bool prepare(const std::stop_token& stop) {
     if (engine) return true;
-    auto rest = problem.parts().restTangent(options.threads, stop);
+    auto rest = problem.parts().initialTangent(options.threads, stop);
     if (!rest || stop.stop_requested()) return false;
     engine = std::make_unique<BatchEngine>(problem, std::move(rest), options.relativeTolerance, options.threads);
     return true;

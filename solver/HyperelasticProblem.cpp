@@ -29,13 +29,13 @@ std::shared_ptr<const CholeskyPlan> HyperelasticProblem::Parts::plan() const {
   return plan_;
 }
 
-std::shared_ptr<const RestTangent> HyperelasticProblem::Parts::restTangent(int threads,
-                                                                           const std::stop_token& stop) const {
+std::shared_ptr<const InitialTangent> HyperelasticProblem::Parts::initialTangent(int threads,
+                                                                                 const std::stop_token& stop) const {
   if (stop.stop_requested()) return {};
   const auto symbolic = plan();
   const std::lock_guard lock(mutex_);
   if (rest_) return rest_;
-  auto rest = std::make_shared<RestTangent>(RestTangent{{}, {}, SparseCholesky(symbolic)});
+  auto rest = std::make_shared<InitialTangent>(InitialTangent{{}, {}, SparseCholesky(symbolic)});
   assembler.tangent(discretisation->atRest(), rest->tangents, rest->forces, threads, stop);
   if (stop.stop_requested()) return {};
   LaneVector matrix = assembler.matrix(rest->tangents, threads);
@@ -48,7 +48,7 @@ std::shared_ptr<const RestTangent> HyperelasticProblem::Parts::restTangent(int t
   return rest_;
 }
 
-void HyperelasticProblem::Parts::forgetRestTangent() const {
+void HyperelasticProblem::Parts::forgetInitialTangent() const {
   const std::lock_guard lock(mutex_);
   rest_.reset();
 }
@@ -90,7 +90,7 @@ Solution HyperelasticProblem::solve(const LoadCase& load, const NewtonOptions& o
   Loading loading{nodalForces(parts_->mesh, parts_->design, load),
                   Eigen::VectorXd::Zero(3 * Eigen::Index(mesh.nodes()))};
   Solution solution;
-  const auto rest = parts_->restTangent(options.threads, observer.stop);
+  const auto rest = parts_->initialTangent(options.threads, observer.stop);
   if (!rest) {
     solution.cancelled = true;
     solution.stopReason = "cancelled at load fraction 0";
@@ -120,12 +120,12 @@ void HyperelasticProblem::findOrdering() const {
 }
 
 std::size_t HyperelasticProblem::findFactor(int threads, const std::stop_token& stop) const {
-  const auto rest = parts_->restTangent(threads, stop);
+  const auto rest = parts_->initialTangent(threads, stop);
   return rest ? rest->factor.bytes() : 0;
 }
 
 void HyperelasticProblem::forgetFactor() const {
-  parts_->forgetRestTangent();
+  parts_->forgetInitialTangent();
 }
 
 ElectrodeDisplacements HyperelasticProblem::electrodes(const LoadIncrement& state) const {

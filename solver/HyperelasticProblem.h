@@ -64,12 +64,4 @@ private:
   std::unique_ptr<Parts> parts_;
 };
 
-/// Estimate of the discretisation error of the upper electrodes' displacements, relative L2, and how it was found.
-struct DiscretisationError {
-  double relative = 0;
-  std::string method;
-};
-DiscretisationError discretisationError(const HyperelasticProblem& problem, const LoadCase& load,
-                                        const Solution& solution, std::stop_token stop = {}, int threads = 0);
-
 } // namespace palp

@@ -1,4 +1,4 @@
-#include "solver/SensorMesh.h"
+#include "solver/MeshQuality.h"
 
 #include <Eigen/Dense>
 

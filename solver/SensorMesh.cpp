@@ -2,8 +2,8 @@
 
 #include "model/DesignError.h"
 #include "model/base/Text.h"
-#include "solver/mesh/BlockMesher.h"
 #include "solver/mesh/GradedTets.h"
+#include "solver/mesh/MappedHexes.h"
 
 #include <cmath>
 #include <string>

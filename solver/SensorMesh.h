@@ -39,12 +39,4 @@ Mesh sensorMesh(const SensorDesign& design, const MeshOptions& options = {});
 /// Size in the bulk of the default mesh.
 double standardMeshSize_mm(const SensorDesign& design);
 
-/// Shape of the elements (dihedral angles, of tetrahedra and hexahedra alike), and a histogram for the eye.
-struct MeshQuality {
-  double minDihedral_deg = 0;
-  double maxDihedral_deg = 0;
-  std::array<int, 18> minDihedralHistogram{}; ///< elements by their smallest dihedral angle, 10 degrees a bin
-};
-MeshQuality meshQuality(const Mesh& mesh);
-
 } // namespace palp

@@ -86,7 +86,7 @@ LoadCase LoadOptions::loadCase(const SensorDesign& design) const {
   }
   if (load.areas.empty() && load.patches.empty())
     throw UsageError("--load or --patch is missing; give at least one, for example --load 0:1,0,-6");
-  if (const auto wrong = problem(load, design)) throw UsageError(*wrong);
+  if (const auto wrong = whyInvalid(load, design)) throw UsageError(*wrong);
   return load;
 }
 

@@ -3,7 +3,7 @@
 #include "app/scenes/VtuFile.h"
 #include "app/scenes/block/DeformationPicture.h"
 #include "app/scenes/charts/PaperFigures.h"
-#include "app/scenes/charts/Reports.h"
+#include "app/scenes/charts/ReportCharts.h"
 
 namespace palp {
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "io/board/HostClock.h"
 #include "io/board/Protocol.h"
 #include "model/base/Error.h"
 
@@ -18,9 +19,6 @@ struct BoardError : Error {
 struct BoardPermissionError : BoardError {
   using BoardError::BoardError;
 };
-
-/// Seconds on the host's steady clock.
-double hostClock_s();
 
 /// One report as it came, of whatever length.
 struct RawReport {

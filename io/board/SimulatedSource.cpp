@@ -16,10 +16,6 @@ std::uint64_t microseconds(Clock::time_point time) {
 
 } // namespace
 
-double hostClock_s() {
-  return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
-}
-
 void SimulationControl::set(const BoardFaults& faults, const BoardDisturbance& disturbance) {
   const std::lock_guard lock(mutex_);
   faults_ = faults;
@@ -27,7 +23,7 @@ void SimulationControl::set(const BoardFaults& faults, const BoardDisturbance& d
   changed_ = true;
 }
 
-void SimulationControl::applyTo(Board& board) {
+void SimulationControl::applyTo(VirtualBoard& board) {
   if (!changed_) return;
   const std::lock_guard lock(mutex_);
   board.faults() = faults_;
@@ -35,7 +31,7 @@ void SimulationControl::applyTo(Board& board) {
   changed_ = false;
 }
 
-SimulatedSource::SimulatedSource(Board board, std::shared_ptr<SimulationControl> control)
+SimulatedSource::SimulatedSource(VirtualBoard board, std::shared_ptr<SimulationControl> control)
     : board_(std::move(board)), control_(std::move(control)) {}
 
 std::string SimulatedSource::name() const {

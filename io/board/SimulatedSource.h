@@ -1,7 +1,7 @@
 #pragma once
 
-#include "io/board/Board.h"
 #include "io/board/ReportSource.h"
+#include "io/board/VirtualBoard.h"
 
 #include <atomic>
 #include <memory>
@@ -16,7 +16,7 @@ public:
 
   void set(const BoardFaults& faults, const BoardDisturbance& disturbance);
   /// Takes what was set since the last call; in the source's thread.
-  void applyTo(Board& board);
+  void applyTo(VirtualBoard& board);
 
 private:
   std::mutex mutex_;
@@ -28,7 +28,7 @@ private:
 /// The virtual board on the host's clock.
 class SimulatedSource : public ReportSource {
 public:
-  explicit SimulatedSource(Board board, std::shared_ptr<SimulationControl> control = {});
+  explicit SimulatedSource(VirtualBoard board, std::shared_ptr<SimulationControl> control = {});
 
   [[nodiscard]] std::string name() const override;
   [[nodiscard]] const BoardInfo& info() const override { return board_.info(); }
@@ -38,10 +38,10 @@ public:
   bool send(const BoardCommand& command) override;
   [[nodiscard]] std::string reason() const override { return "the simulated board was pulled out"; }
 
-  Board& board() { return board_; }
+  VirtualBoard& board() { return board_; }
 
 private:
-  Board board_;
+  VirtualBoard board_;
   std::shared_ptr<SimulationControl> control_; ///< null: nobody interferes
   std::deque<RawReport> queue_;
 };

@@ -121,8 +121,9 @@ double smallestRidge(double size) {
   return 4 * std::numeric_limits<double>::epsilon() * size;
 }
 
-LinearSolution solveSymmetric(Eigen::MatrixXd a, const Eigen::MatrixXd& b, Solver solver, double ridge, double rcond) {
-  if (solver == Solver::Cholesky) {
+LinearSolution solveSymmetric(Eigen::MatrixXd a, const Eigen::MatrixXd& b, LeastSquaresMethod solver, double ridge,
+                              double rcond) {
+  if (solver == LeastSquaresMethod::Cholesky) {
     const double used = std::max(ridge, choleskyRidge);
     LinearSolution solution = byCholesky(a, b, used);
     if (solution.ridge > used)
@@ -131,7 +132,7 @@ LinearSolution solveSymmetric(Eigen::MatrixXd a, const Eigen::MatrixXd& b, Solve
     return solution;
   }
   a.diagonal().array() += ridge;
-  if (solver == Solver::PivotedQr) {
+  if (solver == LeastSquaresMethod::PivotedQr) {
     LinearSolution solution = bySemidefiniteQr(a, b, rcond);
     solution.ridge = ridge;
     return solution;
@@ -152,15 +153,15 @@ LinearSolution solveSymmetric(Eigen::MatrixXd a, const Eigen::MatrixXd& b, Solve
   return solution;
 }
 
-LinearSolution solveLeastSquares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, Solver solver, double ridge,
-                                 double rcond, double forgetting, const std::stop_token& stop) {
+LinearSolution solveLeastSquares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, LeastSquaresMethod solver,
+                                 double ridge, double rcond, double forgetting, const std::stop_token& stop) {
   LinearSolution solution;
-  if (solver == Solver::PivotedQr && a.rows() > 3 * a.cols()) {
+  if (solver == LeastSquaresMethod::PivotedQr && a.rows() > 3 * a.cols()) {
     const Triangular tall = triangular(a, b, stop);
     return solveLeastSquares(tall.r, tall.right, solver, ridge, rcond, forgetting, stop);
   }
-  if (solver == Solver::PivotedQr && ridge == 0) return byQr(a, b, rcond);
-  if (solver == Solver::PivotedQr) {
+  if (solver == LeastSquaresMethod::PivotedQr && ridge == 0) return byQr(a, b, rcond);
+  if (solver == LeastSquaresMethod::PivotedQr) {
     Eigen::MatrixXd stacked = Eigen::MatrixXd::Zero(a.rows() + a.cols(), a.cols());
     stacked.topRows(a.rows()) = a;
     stacked.bottomRows(a.cols()).diagonal().setConstant(std::sqrt(ridge));
@@ -168,13 +169,13 @@ LinearSolution solveLeastSquares(const Eigen::MatrixXd& a, const Eigen::MatrixXd
     right.topRows(a.rows()) = b;
     solution = byQr(std::move(stacked), right, rcond);
     solution.ridge = ridge;
-  } else if (solver == Solver::Cholesky) {
+  } else if (solver == LeastSquaresMethod::Cholesky) {
     const Eigen::MatrixXd normal = lapack::gram(a, stop);
     stopIfAsked(stop);
     const double largest = a.cols() == 0 ? 0 : normal.diagonal().sum();
     solution = byCholesky(normal, lapack::product(a, true, b, false),
                           std::max({ridge, choleskyRidge, smallestRidge(largest)}));
-  } else if (solver == Solver::TruncatedSvd) {
+  } else if (solver == LeastSquaresMethod::TruncatedSvd) {
     const lapack::ThinSvd svd = lapack::thinSvd(a);
     const double largest = svd.values.size() == 0 ? 0 : svd.values(0);
     const Eigen::VectorXd filter =

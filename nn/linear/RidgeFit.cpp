@@ -3,7 +3,7 @@
 #include "model/base/Cancelled.h"
 #include "nn/SpreadSweep.h"
 #include "nn/linear/Lapack.h"
-#include "nn/rbf/RbfProblem.h"
+#include "nn/rbf/RbfSystem.h"
 
 #include <Eigen/Cholesky>
 

@@ -2,7 +2,7 @@
 
 #include "nn/Basis.h"
 #include "nn/NetworkError.h"
-#include "nn/linear/Random.h"
+#include "nn/linear/RandomNumbers.h"
 
 #include <algorithm>
 #include <limits>
@@ -18,7 +18,7 @@ void requireCount(int count) {
 
 /// k-means++: each next centre is a sample, drawn with a probability that grows with its squared distance to those
 /// chosen. Stops early where every sample is a centre already.
-Eigen::MatrixXd firstCenters(const Eigen::MatrixXd& samples, int count, Random& random) {
+Eigen::MatrixXd firstCenters(const Eigen::MatrixXd& samples, int count, RandomNumbers& random) {
   std::vector<Eigen::Index> chosen{static_cast<Eigen::Index>(random.below(static_cast<std::uint64_t>(samples.cols())))};
   Eigen::VectorXd distance = squaredDistances(samples, samples.col(chosen[0]));
   while (static_cast<int>(chosen.size()) < count && distance.maxCoeff() > 0) {
@@ -62,7 +62,7 @@ KMeansResult kMeans(const Eigen::Ref<const Eigen::MatrixXd>& samples, int count,
                     int maxIterations) {
   requireCount(count);
   if (samples.cols() == 0) throw NetworkError("there is no sample to cluster; at least 1 is needed");
-  Random random(seed);
+  RandomNumbers random(seed);
   const Eigen::MatrixXd data = samples;
   KMeansResult result;
   result.centers = firstCenters(data, std::min(count, static_cast<int>(data.cols())), random);
@@ -78,7 +78,7 @@ KMeansResult kMeans(const Eigen::Ref<const Eigen::MatrixXd>& samples, int count,
 
 Eigen::VectorXi randomColumns(Eigen::Index samples, int count, std::uint64_t seed) {
   requireCount(count);
-  Random random(seed);
+  RandomNumbers random(seed);
   std::vector<int> order(static_cast<std::size_t>(samples));
   std::iota(order.begin(), order.end(), 0);
   const std::size_t taken = std::min(order.size(), static_cast<std::size_t>(count));

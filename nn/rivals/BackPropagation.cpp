@@ -4,9 +4,9 @@
 #include "nn/NetworkError.h"
 #include "nn/NoisyCopies.h"
 #include "nn/linear/Lapack.h"
-#include "nn/linear/Random.h"
+#include "nn/linear/RandomNumbers.h"
 #include "nn/rbf/KMeans.h"
-#include "nn/rbf/RbfProblem.h"
+#include "nn/rbf/RbfSystem.h"
 
 #include <nlopt.hpp>
 
@@ -118,7 +118,7 @@ Eigen::MatrixXd principalDirections(const Eigen::MatrixXd& scaled) {
 }
 
 std::vector<double> start(const Layout& layout, std::uint64_t seed) {
-  Random random(seed);
+  RandomNumbers random(seed);
   std::vector<double> parameters(static_cast<std::size_t>(layout.size()), 0.0);
   const double hiddenSize = 1 / std::sqrt(static_cast<double>(std::max<Eigen::Index>(1, layout.inputs)));
   const double outputSize = 1 / std::sqrt(static_cast<double>(layout.hidden));

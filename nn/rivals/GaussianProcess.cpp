@@ -4,7 +4,7 @@
 #include "nn/NetworkError.h"
 #include "nn/NoisyCopies.h"
 #include "nn/linear/Lapack.h"
-#include "nn/rbf/RbfProblem.h"
+#include "nn/rbf/RbfSystem.h"
 
 #include <nlopt.hpp>
 

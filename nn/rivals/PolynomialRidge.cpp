@@ -5,7 +5,7 @@
 #include "nn/NoisyCopies.h"
 #include "nn/linear/Lapack.h"
 #include "nn/linear/RidgeFit.h"
-#include "nn/rbf/RbfProblem.h"
+#include "nn/rbf/RbfSystem.h"
 
 #include <algorithm>
 #include <cmath>

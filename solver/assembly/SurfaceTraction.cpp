@@ -138,7 +138,7 @@ TractionShares tractionShares(const Mesh& mesh, const Eigen::Matrix2Xd& convexRe
 }
 
 Eigen::VectorXd nodalForces(const Mesh& mesh, const SensorDesign& design, const LoadCase& load) {
-  if (const auto why = problem(load, design)) throw DesignError(*why);
+  if (const auto why = whyInvalid(load, design)) throw DesignError(*why);
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(3 * Eigen::Index(mesh.nodeCount()));
   const auto add = [&](const Eigen::Matrix2Xd& region, const Eigen::Vector3d& force_N) {
     for (const NodeShare& s : tractionShares(mesh, region)) forces.segment<3>(3 * s.node) += s.share * force_N;

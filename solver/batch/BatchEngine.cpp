@@ -18,17 +18,17 @@ constexpr double cautionary = 1.5;         // on measured contractions
 /// Follows the change of each lane and tells when its error, by the geometric series, is below the tolerance.
 class LaneWatch {
 public:
-  LaneWatch(double tolerance, const std::array<double, groupLanes>& assumedContraction)
+  LaneWatch(double tolerance, const std::array<double, batchLanes>& assumedContraction)
       : tolerance_(tolerance), contraction_(assumedContraction) {}
 
-  std::array<bool, groupLanes> active{}, failed{};
-  std::array<double, groupLanes> change{};
+  std::array<bool, batchLanes> active{}, failed{};
+  std::array<double, batchLanes> change{};
 
   [[nodiscard]] bool anyActive() const { return std::find(active.begin(), active.end(), true) != active.end(); }
   [[nodiscard]] double contraction(int lane) const { return contraction_[lane]; }
 
   void judge(int iteration) {
-    for (int lane = 0; lane < groupLanes; ++lane) {
+    for (int lane = 0; lane < batchLanes; ++lane) {
       if (!active[lane]) continue;
       const double c = change[lane];
       if (iteration > 0 && previous_[lane] > 0) contraction_[lane] = cautionary * c / previous_[lane];
@@ -46,13 +46,13 @@ public:
 
 private:
   double tolerance_;
-  std::array<double, groupLanes> contraction_, previous_{};
+  std::array<double, batchLanes> contraction_, previous_{};
 };
 
 } // namespace
 
-BatchEngine::BatchEngine(const HyperelasticProblem& problem, std::shared_ptr<const RestTangent> rest, double tolerance,
-                         int threads)
+BatchEngine::BatchEngine(const HyperelasticProblem& problem, std::shared_ptr<const InitialTangent> rest,
+                         double tolerance, int threads)
     : problem_(problem), rest_(std::move(rest)), model_(problem.parts(), *rest_),
       polynomial_(problem.design().forceRange, predictorDegree),
       terms_((polynomial_.terms() + lanes - 1) / lanes * lanes), predictorTolerance_(fitShare * tolerance),
@@ -79,8 +79,8 @@ BatchEngine::Job BatchEngine::job(const LoadCase& load, std::size_t index) const
   return job;
 }
 
-std::unique_ptr<LoadGroup> BatchEngine::borrowGroup() {
-  std::unique_ptr<LoadGroup> group;
+std::unique_ptr<LoadBatch> BatchEngine::borrowGroup() {
+  std::unique_ptr<LoadBatch> group;
   {
     const std::lock_guard lock(mutex_);
     if (!idle_.empty()) {
@@ -88,12 +88,12 @@ std::unique_ptr<LoadGroup> BatchEngine::borrowGroup() {
       idle_.pop_back();
     }
   }
-  if (!group) group = std::make_unique<LoadGroup>(model_, problem_.parts().upperProbe());
+  if (!group) group = std::make_unique<LoadBatch>(model_, problem_.parts().upperProbe());
   group->reset();
   return group;
 }
 
-void BatchEngine::giveBack(std::unique_ptr<LoadGroup> group) {
+void BatchEngine::giveBack(std::unique_ptr<LoadBatch> group) {
   const std::lock_guard lock(mutex_);
   idle_.push_back(std::move(group));
 }
@@ -116,25 +116,25 @@ bool BatchEngine::makePredictors(const std::vector<Job>& jobs, const std::stop_t
 
 /// Solves 32 covering forces from rest; none where one of them does not converge.
 std::optional<AreaPredictor> BatchEngine::fitPredictor(int area, const std::stop_token& stop) {
-  std::unique_ptr<LoadGroup> group = borrowGroup();
+  std::unique_ptr<LoadBatch> group = borrowGroup();
   std::vector<Eigen::Vector3d> forces;
-  std::array<double, groupLanes> unknown;
+  std::array<double, batchLanes> unknown;
   unknown.fill(1);
   LaneWatch watch(predictorTolerance_, unknown);
-  for (int lane = 0; lane < groupLanes; ++lane) {
+  for (int lane = 0; lane < batchLanes; ++lane) {
     forces.push_back(coveringForce(problem_.design().forceRange, lane));
     group->addForce(lane, {&areaShares_[area], forces.back()});
   }
   watch.active.fill(true);
-  std::array<double, groupLanes> worst{};
+  std::array<double, batchLanes> worst{};
   for (int i = 0; watch.anyActive() && !stop.stop_requested(); ++i) {
     group->iterate(watch.active, watch.change, stop);
     const auto wasActive = watch.active;
     watch.judge(i);
-    for (int lane = 0; lane < groupLanes; ++lane)
+    for (int lane = 0; lane < batchLanes; ++lane)
       if (i > 0 && wasActive[lane]) worst[lane] = std::max(worst[lane], watch.contraction(lane));
   }
-  solves_ += groupLanes;
+  solves_ += batchLanes;
   std::optional<AreaPredictor> predictor;
   const bool converged = std::find(watch.failed.begin(), watch.failed.end(), true) == watch.failed.end();
   if (converged && !stop.stop_requested()) {
@@ -146,27 +146,27 @@ std::optional<AreaPredictor> BatchEngine::fitPredictor(int area, const std::stop
 }
 
 /// Coefficients by least squares: for each number of the state the row of 32 answers times the fit's matrix.
-AreaPredictor BatchEngine::fitted(const LoadGroup& group, const std::vector<Eigen::Vector3d>& forces) const {
+AreaPredictor BatchEngine::fitted(const LoadBatch& group, const std::vector<Eigen::Vector3d>& forces) const {
   const Eigen::MatrixXd fit = polynomial_.fit(forces); // points x terms
   AreaPredictor predictor;
   const int own = model_.mesh().unknowns(), rows = 3 * model_.mesh().nodes(), ownRows = own * model_.mesh().elements();
   predictor.displacements.resize(std::size_t(rows) * terms_);
   predictor.unknowns.resize(std::size_t(ownRows) * terms_);
-  LaneVector answers(std::size_t(ownRows) * groupLanes);
+  LaneVector answers(std::size_t(ownRows) * batchLanes);
   for (int row = 0; row < ownRows; ++row)
-    for (int lane = 0; lane < groupLanes; ++lane)
-      answers[std::size_t(row) * groupLanes + lane] =
-          group.unknowns()[((std::size_t(row / own) * LoadGroup::blocks + lane / lanes) * own + row % own) * lanes +
+    for (int lane = 0; lane < batchLanes; ++lane)
+      answers[std::size_t(row) * batchLanes + lane] =
+          group.unknowns()[((std::size_t(row / own) * LoadBatch::blocks + lane / lanes) * own + row % own) * lanes +
                            lane % lanes];
   for (int first = 0; first < terms_; first += lanes) {
-    LaneVector matrix(groupLanes * lanes);
-    for (int lane = 0; lane < groupLanes; ++lane)
+    LaneVector matrix(batchLanes * lanes);
+    for (int lane = 0; lane < batchLanes; ++lane)
       for (int t = first; t < std::min(first + lanes, polynomial_.terms()); ++t)
         matrix[lane * lanes + t - first] = fit(lane, t);
     const auto& kernels = laneKernels();
-    kernels.addPolynomials(group.displacements().data(), groupLanes, matrix.data(), rows,
+    kernels.addPolynomials(group.displacements().data(), batchLanes, matrix.data(), rows,
                            predictor.displacements.data() + first, terms_);
-    kernels.addPolynomials(answers.data(), groupLanes, matrix.data(), ownRows, predictor.unknowns.data() + first,
+    kernels.addPolynomials(answers.data(), batchLanes, matrix.data(), ownRows, predictor.unknowns.data() + first,
                            terms_);
   }
   return predictor;
@@ -187,7 +187,7 @@ std::vector<BatchEngine::Block> BatchEngine::blocksOf(std::vector<Job> jobs) con
 }
 
 /// Loads of a block and where its iteration starts: the predictors of its areas, superposed.
-void BatchEngine::start(LoadGroup& group, int block, const Block& jobs) const {
+void BatchEngine::start(LoadBatch& group, int block, const Block& jobs) const {
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     const int lane = block * lanes + static_cast<int>(i);
     for (const AreaLoad& area : jobs[i].areas) group.addForce(lane, {&areaShares_[area.area], area.force_N});
@@ -209,10 +209,10 @@ void BatchEngine::start(LoadGroup& group, int block, const Block& jobs) const {
 
 void BatchEngine::solveGroup(std::span<const Block> blocks, double tolerance, std::vector<Answer>& answers,
                              const std::stop_token& stop) {
-  std::unique_ptr<LoadGroup> group = borrowGroup();
-  std::array<double, groupLanes> contraction;
+  std::unique_ptr<LoadBatch> group = borrowGroup();
+  std::array<double, batchLanes> contraction;
   contraction.fill(1);
-  std::array<bool, groupLanes> used{};
+  std::array<bool, batchLanes> used{};
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     start(*group, static_cast<int>(b), blocks[b]);
     for (std::size_t i = 0; i < blocks[b].size(); ++i) {
@@ -247,7 +247,7 @@ std::vector<BatchEngine::Answer> BatchEngine::solve(std::span<const LoadCase> lo
   const std::vector<Block> blocks = blocksOf(std::move(jobs));
   std::vector<Answer> answers(loads.size());
   std::mutex doneMutex;
-  forChunks(static_cast<int>(blocks.size()), LoadGroup::blocks, threads_, [&](int begin, int end) {
+  forChunks(static_cast<int>(blocks.size()), LoadBatch::blocks, threads_, [&](int begin, int end) {
     if (stop.stop_requested()) return;
     const std::span<const Block> group(blocks.data() + begin, blocks.data() + end);
     solveGroup(group, tolerance, answers, stop);

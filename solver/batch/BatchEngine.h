@@ -2,7 +2,7 @@
 
 #include "solver/BatchSolver.h"
 #include "solver/batch/ForcePolynomial.h"
-#include "solver/batch/LoadGroup.h"
+#include "solver/batch/LoadBatch.h"
 
 #include <atomic>
 #include <mutex>
@@ -22,7 +22,7 @@ struct AreaPredictor {
 class BatchEngine {
 public:
   /// `tolerance` is what the predictors are made for; a solve may ask for another.
-  BatchEngine(const HyperelasticProblem& problem, std::shared_ptr<const RestTangent> rest, double tolerance,
+  BatchEngine(const HyperelasticProblem& problem, std::shared_ptr<const InitialTangent> rest, double tolerance,
               int threads);
 
   /// Answer of one load; without one: full Newton must find it.
@@ -46,17 +46,17 @@ private:
   [[nodiscard]] Job job(const LoadCase& load, std::size_t index) const;
   [[nodiscard]] bool makePredictors(const std::vector<Job>& jobs, const std::stop_token& stop);
   [[nodiscard]] std::optional<AreaPredictor> fitPredictor(int area, const std::stop_token& stop);
-  [[nodiscard]] AreaPredictor fitted(const LoadGroup& group, const std::vector<Eigen::Vector3d>& forces) const;
+  [[nodiscard]] AreaPredictor fitted(const LoadBatch& group, const std::vector<Eigen::Vector3d>& forces) const;
   [[nodiscard]] std::vector<Block> blocksOf(std::vector<Job> jobs) const;
   void solveGroup(std::span<const Block> blocks, double tolerance, std::vector<Answer>& answers,
                   const std::stop_token& stop);
-  void start(LoadGroup& group, int block, const Block& jobs) const;
-  [[nodiscard]] std::unique_ptr<LoadGroup> borrowGroup();
-  void giveBack(std::unique_ptr<LoadGroup> group);
+  void start(LoadBatch& group, int block, const Block& jobs) const;
+  [[nodiscard]] std::unique_ptr<LoadBatch> borrowGroup();
+  void giveBack(std::unique_ptr<LoadBatch> group);
 
   const HyperelasticProblem& problem_;
-  std::shared_ptr<const RestTangent> rest_;
-  RestModel model_;
+  std::shared_ptr<const InitialTangent> rest_;
+  ElementwiseTangent model_;
   ForcePolynomial polynomial_;
   int terms_; ///< of the polynomial, filled up to whole lanes
   double predictorTolerance_;
@@ -65,7 +65,7 @@ private:
   std::vector<std::optional<AreaPredictor>> predictors_;
   std::vector<char> tried_; ///< areas whose predictor was sought
   std::mutex mutex_;
-  std::vector<std::unique_ptr<LoadGroup>> idle_;
+  std::vector<std::unique_ptr<LoadBatch>> idle_;
   std::atomic<std::size_t> solves_{0};
 };
 

@@ -5,7 +5,7 @@
 namespace palp {
 
 /// Loads that are iterated together: one a lane.
-inline constexpr int groupLanes = 32;
+inline constexpr int batchLanes = 32;
 inline constexpr int factorBlockRows = 8;
 
 /// A Cholesky factor in single precision: it only preconditions iterations whose residuals are in double. Each
@@ -22,7 +22,7 @@ struct BlockedFactor {
 
 struct LaneKernels {
   /// Substitution through supernodes first .. last - 1, upwards by L or downwards by L^T, for x [places +
-  /// 1][groupLanes].
+  /// 1][batchLanes].
   void (*forward)(const BlockedFactor&, int first, int last, float* x);
   void (*backward)(const BlockedFactor&, int first, int last, float* x);
   /// The same for one right side x [places + 1].

@@ -2,9 +2,9 @@
 
 #include "model/DesignError.h"
 #include "model/base/Text.h"
+#include "solver/mesh/DelaunayTets.h"
 #include "solver/mesh/GridLines.h"
 #include "solver/mesh/QuadraticTets.h"
-#include "solver/mesh/TetMesher.h"
 
 #include <algorithm>
 #include <array>

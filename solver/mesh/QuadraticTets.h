@@ -1,7 +1,7 @@
 #pragma once
 
 #include "model/Mesh.h"
-#include "solver/mesh/TetMesher.h"
+#include "solver/mesh/DelaunayTets.h"
 
 namespace palp {
 

@@ -28,7 +28,7 @@ NewtonSolver::NewtonSolver(const Assembler& assembler, SparseCholesky& cholesky,
                            NewtonObserver observer)
     : assembler_(assembler), cholesky_(cholesky), options_(options), observer_(std::move(observer)) {}
 
-NewtonSolver& NewtonSolver::startingWith(const RestTangent& rest) {
+NewtonSolver& NewtonSolver::startingWith(const InitialTangent& rest) {
   rest_ = &rest;
   return *this;
 }

@@ -5,7 +5,7 @@
 
 namespace palp {
 
-struct RestTangent;
+struct InitialTangent;
 
 /// External forces and prescribed displacements of all components (3 node + direction) at full load; both grow in
 /// proportion to the load fraction.
@@ -38,7 +38,7 @@ class NewtonSolver {
 public:
   NewtonSolver(const Assembler& assembler, SparseCholesky& cholesky, NewtonOptions options, NewtonObserver observer);
   /// Takes the tangent at rest from here instead of assembling it again.
-  NewtonSolver& startingWith(const RestTangent& rest);
+  NewtonSolver& startingWith(const InitialTangent& rest);
   [[nodiscard]] NewtonResult solve(const Loading& loading);
 
 private:
@@ -73,7 +73,7 @@ private:
   SparseCholesky& cholesky_;
   NewtonOptions options_;
   NewtonObserver observer_;
-  const RestTangent* rest_ = nullptr;
+  const InitialTangent* rest_ = nullptr;
   ElementTangents ownTangents_;
   const ElementTangents* tangents_ = nullptr; ///< of the factorisation in use
   const SparseCholesky* factor_ = nullptr;

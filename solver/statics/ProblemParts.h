@@ -11,7 +11,7 @@
 namespace palp {
 
 /// The tangent at rest: every solve begins with it, all loads of a batch share it.
-struct RestTangent {
+struct InitialTangent {
   ElementTangents tangents; ///< without the stiffness, which is summed up
   ElementForces forces;     ///< zero
   SparseCholesky factor;
@@ -28,15 +28,15 @@ struct HyperelasticProblem::Parts {
 
   [[nodiscard]] std::shared_ptr<const CholeskyPlan> plan() const;
   /// Empty: stopped.
-  [[nodiscard]] std::shared_ptr<const RestTangent> restTangent(int threads, const std::stop_token& stop) const;
-  void forgetRestTangent() const;
+  [[nodiscard]] std::shared_ptr<const InitialTangent> initialTangent(int threads, const std::stop_token& stop) const;
+  void forgetInitialTangent() const;
   [[nodiscard]] const PointProbe& upperProbe() const;
   [[nodiscard]] const PointProbe& lowerProbe() const;
 
 private:
   mutable std::mutex mutex_; ///< guards what is made at first use
   mutable std::shared_ptr<const CholeskyPlan> plan_;
-  mutable std::shared_ptr<const RestTangent> rest_;
+  mutable std::shared_ptr<const InitialTangent> rest_;
   mutable std::optional<PointProbe> upperProbe_, lowerProbe_;
 };
 

@@ -5,7 +5,7 @@
 
 #include "app/study/live/LiveHistory.h"
 #include "app/study/live/LiveSource.h"
-#include "io/NetworkFile.h"
+#include "io/DecoderFile.h"
 #include "tests/app/study/live/LiveFixture.h"
 
 #include <sys/resource.h>
@@ -102,7 +102,7 @@ void memory(double seconds, int rate_Hz) {
 void cover(const std::string& what, const Decoder& decoder, double noise, int tareFrames) {
   BoardDisturbance disturbance;
   disturbance.noise = noise;
-  Board board = simulatedBoard(shippedSamples(), disturbance, 1000, 11);
+  VirtualBoard board = simulatedBoard(shippedSamples(), disturbance, 1000, 11);
   const BoardConfiguration configuration = board.configuration();
   VirtualStream stream(std::move(board), configuration);
   ForceDecoder live(decoder, stream.board().info(), paperDesign());

@@ -2,6 +2,7 @@
 // that of row-wire 4 in case A of tests/reference/converged.json, unless it says otherwise. With PALP_INSTRUCTION_SET
 // (baseline, avx2) the same on a processor that has less.
 #include "solver/BatchSolver.h"
+#include "solver/DiscretisationError.h"
 #include "solver/SensorMesh.h"
 #include "tests/benchmarks/CalculixBricks.h"
 #include "tests/solver/TestBlocks.h"

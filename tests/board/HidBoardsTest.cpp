@@ -36,7 +36,7 @@ private:
   __user_cap_data_struct before_[2] = {};
 };
 
-Board namedBoard(const std::string& serial) {
+VirtualBoard namedBoard(const std::string& serial) {
   BoardSettings settings = smallBoard();
   settings.info.serial = serial;
   return boardWith(settings);

@@ -51,7 +51,7 @@ std::string MockUsb::root() const {
   return text;
 }
 
-MockBoard::MockBoard(MockUsb& usb, Board board, int port, int node)
+MockBoard::MockBoard(MockUsb& usb, VirtualBoard board, int port, int node)
     : usb_(usb), board_(std::move(board)), port_(port), node_(node) {
   GError* error = nullptr;
   require(umockdev_testbed_add_from_string(usb_.testbed(), description().c_str(), &error), "add", error);

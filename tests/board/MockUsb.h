@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/board/Board.h"
+#include "io/board/VirtualBoard.h"
 
 #include <umockdev.h>
 
@@ -32,7 +32,7 @@ private:
 class MockBoard {
 public:
   /// USB port 1-`port`, node /dev/hidraw`node`.
-  MockBoard(MockUsb& usb, Board board, int port, int node);
+  MockBoard(MockUsb& usb, VirtualBoard board, int port, int node);
   ~MockBoard();
   MockBoard(const MockBoard&) = delete;
   MockBoard& operator=(const MockBoard&) = delete;
@@ -58,7 +58,7 @@ private:
 
   MockUsb& usb_;
   std::mutex mutex_; ///< of the board: its ioctls come from another thread than its reports
-  Board board_;
+  VirtualBoard board_;
   int port_;
   int node_;
   int pipe_ = -1;

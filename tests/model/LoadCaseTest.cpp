@@ -10,7 +10,7 @@ namespace {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 std::string problemOf(const LoadCase& load) {
-  return problem(load, paperDesign()).value_or("");
+  return whyInvalid(load, paperDesign()).value_or("");
 }
 
 TEST(LoadCase, AddsUpAllForces) {

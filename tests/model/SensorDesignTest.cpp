@@ -15,7 +15,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 TEST(SensorDesign, PaperPresetCanBeBuiltAndIsSquare) {
   const SensorDesign design = paperDesign();
   EXPECT_TRUE(check(design).empty());
-  EXPECT_FALSE(squareSystemProblem(design));
+  EXPECT_FALSE(whyNotSquare(design));
   EXPECT_NO_THROW(requireValid(design));
 }
 
@@ -74,7 +74,7 @@ class DesignSlip : public testing::TestWithParam<Slip> {};
 TEST_P(DesignSlip, IsOneProblemThatNamesKeyAndValue) {
   SensorDesign design = paperDesign();
   GetParam().make(design);
-  const std::vector<DesignProblem> problems = check(design);
+  const std::vector<DesignFault> problems = check(design);
   ASSERT_EQ(problems.size(), 1U);
   EXPECT_EQ(problems[0].key, GetParam().key);
   EXPECT_NE(problems[0].sentence.find(GetParam().value), std::string::npos) << problems[0].sentence;
@@ -167,7 +167,7 @@ TEST(SensorDesign, ABlockWithoutSizeNamesTheBlockFirst) {
     for (int axis = 0; axis < 3; ++axis) {
       SensorDesign design = paperDesign();
       design.block_mm(axis) = size;
-      const std::vector<DesignProblem> problems = check(design);
+      const std::vector<DesignFault> problems = check(design);
       ASSERT_FALSE(problems.empty());
       EXPECT_EQ(problems[0].key, "block_mm[" + std::to_string(axis) + "]");
     }
@@ -178,7 +178,7 @@ TEST(SensorDesign, FindsAllProblemsInTheOrderOfTheFile) {
   design.material.poissonRatio = 2;
   design.areas.rows = 0;
   design.forceRange.low_N.x() = 7;
-  const std::vector<DesignProblem> problems = check(design);
+  const std::vector<DesignFault> problems = check(design);
   ASSERT_EQ(problems.size(), 3U);
   EXPECT_EQ(problems[0].key, "material.poisson_ratio");
   EXPECT_EQ(problems[1].key, "areas.rows");
@@ -189,7 +189,7 @@ TEST(SensorDesign, SaysWhyEq1IsNotSquare) {
   SensorDesign design = paperDesign();
   design.lower.wire_mm.pop_back();
   EXPECT_TRUE(check(design).empty()); // allowed for learning
-  const std::optional<std::string> sentence = squareSystemProblem(design);
+  const std::optional<std::string> sentence = whyNotSquare(design);
   ASSERT_TRUE(sentence);
   EXPECT_NE(sentence->find("29 column-wires and 3 x 10 = 30"), std::string::npos) << *sentence;
 }

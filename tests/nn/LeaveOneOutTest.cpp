@@ -1,5 +1,5 @@
 #include "nn/LeaveOneOut.h"
-#include "nn/linear/Random.h"
+#include "nn/linear/RandomNumbers.h"
 
 #include "tests/nn/Touches.h"
 
@@ -32,7 +32,7 @@ TEST_P(LeaveOneOutOf, AgreesWithTrainingAgainWithoutEachSample) {
   options.centers = GetParam().centers;
   options.tail = GetParam().tail;
   options.spread = 1.0;
-  options.solver = Solver::Cholesky;
+  options.solver = LeastSquaresMethod::Cholesky;
   options.ridge = GetParam().ridge;
   const Eigen::MatrixXd closed = leaveOneOut(samples, set.targets, {1.0}, options).front().residuals;
   for (Eigen::Index i = 0; i < samples.cols(); ++i) {
@@ -51,7 +51,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, LeaveOneOutOf,
 
 TEST(LeaveOneOut, GoesOnBeyondTheGridWhileItsEndIsTheBest) {
   // A plane over more inputs than there are samples: the flatter the basis, the better.
-  Random random(5);
+  RandomNumbers random(5);
   const Eigen::MatrixXd samples = Eigen::MatrixXd::NullaryExpr(20, 18, [&](auto, auto) { return random.normal(); });
   const Eigen::MatrixXd targets = samples.colwise().sum();
   RbfOptions options;

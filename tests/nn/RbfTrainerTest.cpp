@@ -7,7 +7,7 @@
 #include "nn/RbfEvaluator.h"
 #include "nn/linear/Lapack.h"
 #include "nn/linear/LinearSolve.h"
-#include "nn/rbf/RbfProblem.h"
+#include "nn/rbf/RbfSystem.h"
 #include "nn/rivals/PolynomialRidge.h"
 #include "tests/nn/Touches.h"
 
@@ -46,7 +46,7 @@ TEST(RbfTrainer, AllSolversAgreeWhereTheSystemIsSound) {
   options.ridge = 1e-4;
   options.tail = Tail::Bias;
   const Eigen::MatrixXd qr = trainRbf(set.samples, set.targets, options).network.predict(fresh.samples);
-  for (const Solver solver : {Solver::Cholesky, Solver::TruncatedSvd}) {
+  for (const LeastSquaresMethod solver : {LeastSquaresMethod::Cholesky, LeastSquaresMethod::TruncatedSvd}) {
     options.solver = solver;
     const RbfFit fit = trainRbf(set.samples, set.targets, options);
     // Condition 1e6: ten digits are left.
@@ -62,7 +62,7 @@ TEST(RbfTrainer, RecursiveLeastSquaresComesNearLeastSquaresOnFewCentres) {
   options.centerCount = 12;
   options.tail = Tail::Bias;
   const Eigen::MatrixXd qr = trainRbf(set.samples, set.targets, options).network.predict(set.samples);
-  options.solver = Solver::Recursive;
+  options.solver = LeastSquaresMethod::Recursive;
   const RbfFit fit = trainRbf(set.samples, set.targets, options);
   EXPECT_LT((fit.network.predict(set.samples) - qr).cwiseAbs().maxCoeff(), 1e-2); // its start acts as a ridge of 1e-6
 }
@@ -114,7 +114,8 @@ void finiteOrRefused(const Eigen::MatrixXd& samples, const Eigen::MatrixXd& targ
 
 std::vector<RbfOptions> allKinds() {
   std::vector<RbfOptions> kinds;
-  for (const Solver solver : {Solver::PivotedQr, Solver::Cholesky, Solver::TruncatedSvd, Solver::Recursive})
+  for (const LeastSquaresMethod solver : {LeastSquaresMethod::PivotedQr, LeastSquaresMethod::Cholesky,
+                                          LeastSquaresMethod::TruncatedSvd, LeastSquaresMethod::Recursive})
     for (const Tail tail : {Tail::None, Tail::Bias, Tail::Linear, Tail::LinearPenalised})
       for (const Scaling scaling : {Scaling::Raw, Scaling::MinMax, Scaling::ZScore, Scaling::Global}) {
         RbfOptions options;
@@ -163,7 +164,7 @@ TEST(RbfTrainer, AutomaticSpreadStandsTheExtremesToo) {
     if (noise > 0) {
       options.ridge = {};
       options.tail = Tail::LinearPenalised;
-      options.solver = Solver::Cholesky;
+      options.solver = LeastSquaresMethod::Cholesky;
     }
     for (const int count : {1, 2, 3, 24})
       finiteOrRefused(set.samples.leftCols(count), set.targets.leftCols(count), options, "few samples");
@@ -210,13 +211,13 @@ TEST(RbfTrainer, EachLongStepOfANoisyFitStopsWhenAskedTo) {
   const std::stop_token stop = source.get_token();
   EXPECT_THROW(noisyCopies(set.samples, 1e-4, 10, 1, stop), Cancelled);
   EXPECT_THROW(squaredDistances(set.samples, set.samples, stop), Cancelled);
-  EXPECT_THROW(rbfProblem(set.samples, set.targets, options, 10, stop), Cancelled);
+  EXPECT_THROW(rbfSystem(set.samples, set.targets, options, 10, stop), Cancelled);
   EXPECT_THROW(chooseSpread(set.samples, set.targets, options, stop), Cancelled);
   EXPECT_THROW(lapack::gram(set.samples.transpose(), stop), Cancelled);
   EXPECT_THROW(lapack::svdOfGram(set.samples.transpose(), stop), Cancelled);
-  for (const Solver solver : {Solver::PivotedQr, Solver::Cholesky}) {
+  for (const LeastSquaresMethod solver : {LeastSquaresMethod::PivotedQr, LeastSquaresMethod::Cholesky}) {
     options.solver = solver;
-    const auto problem = rbfProblem(set.samples, set.targets, options, 10);
+    const auto problem = rbfSystem(set.samples, set.targets, options, 10);
     EXPECT_THROW(problem->leaveOneOut(1, {1e-6, 1e-3}, stop), Cancelled);
     EXPECT_THROW(problem->solve(1, 1e-6, stop), Cancelled);
     EXPECT_THROW(solveLeastSquares(set.samples.transpose(), set.targets.transpose(), solver, 1e-6, 1e-15, 1, stop),
@@ -228,8 +229,8 @@ TEST(RbfTrainer, EachLongStepOfANoisyFitStopsWhenAskedTo) {
 TEST(LinearSolve, ATallSystemInBlocksOfRowsHasTheSolutionOfOneInOnePiece) {
   const Eigen::MatrixXd a = Eigen::MatrixXd::Random(203, 20), b = Eigen::MatrixXd::Random(203, 3);
   for (const double ridge : {0.0, 0.1}) {
-    const LinearSolution blocks = solveLeastSquares(a, b, Solver::PivotedQr, ridge, 1e-15, 1);
-    const LinearSolution whole = solveLeastSquares(a, b, Solver::TruncatedSvd, ridge, 1e-15, 1);
+    const LinearSolution blocks = solveLeastSquares(a, b, LeastSquaresMethod::PivotedQr, ridge, 1e-15, 1);
+    const LinearSolution whole = solveLeastSquares(a, b, LeastSquaresMethod::TruncatedSvd, ridge, 1e-15, 1);
     EXPECT_LT((blocks.x - whole.x).cwiseAbs().maxCoeff(), 1e-13); // a well-conditioned system of numbers of order 1
     EXPECT_EQ(blocks.rank, 20);
   }
@@ -239,7 +240,7 @@ TEST(LinearSolve, ASemidefiniteSystemOfLowRankIsSolvedInItsRange) {
   const Eigen::MatrixXd factor = Eigen::MatrixXd::Random(40, 12);
   const Eigen::MatrixXd a = factor * factor.transpose(), truth = a * Eigen::MatrixXd::Random(40, 2);
   Eigen::MatrixXd lower = a.triangularView<Eigen::Lower>(); // the other triangle is not read
-  const LinearSolution solution = solveSymmetric(lower, a * truth, Solver::PivotedQr, 0, 1e-13);
+  const LinearSolution solution = solveSymmetric(lower, a * truth, LeastSquaresMethod::PivotedQr, 0, 1e-13);
   EXPECT_EQ(solution.rank, 12);
   EXPECT_LT((a * solution.x - a * truth).norm(), 1e-12 * (a * truth).norm());
   EXPECT_FALSE(solution.warnings.empty());
@@ -247,7 +248,7 @@ TEST(LinearSolve, ASemidefiniteSystemOfLowRankIsSolvedInItsRange) {
 
 /// Inputs of which a small direction tells what a large one does not; noise on all.
 test::Touches hiddenDirection(int count, std::uint64_t seed) {
-  Random random(seed);
+  RandomNumbers random(seed);
   test::Touches set{Eigen::MatrixXd(8, count), Eigen::MatrixXd(1, count), Eigen::VectorXi::Zero(count)};
   for (Eigen::Index i = 0; i < count; ++i) {
     const double large = 2 * random.uniform() - 1, small = 2 * random.uniform() - 1;
@@ -263,7 +264,7 @@ TEST(RbfTrainer, WhiteningFindsWhatASmallDirectionTellsUnderNoise) {
   options.relativeInputNoise = 2e-6;
   options.ridge = {};
   options.tail = Tail::LinearPenalised;
-  options.solver = Solver::Cholesky;
+  options.solver = LeastSquaresMethod::Cholesky;
   const auto error = [&](Scaling scaling) {
     options.scaling = scaling;
     const RbfNetwork network = trainRbf(training.samples, training.targets, options).network;
@@ -279,7 +280,8 @@ TEST(RbfTrainer, GivesTheSameBytesAtAnyNumberOfThreads) {
     RbfOptions options;
     options.relativeInputNoise = noise;
     options.scaling = noise > 0 ? Scaling::Whiten : Scaling::Global;
-    if (noise > 0) options.ridge = {}, options.tail = Tail::LinearPenalised, options.solver = Solver::Cholesky;
+    if (noise > 0)
+      options.ridge = {}, options.tail = Tail::LinearPenalised, options.solver = LeastSquaresMethod::Cholesky;
     options.threads = 1;
     const RbfFit one = trainRbf(set.samples, set.targets, options);
     options.threads = 3;

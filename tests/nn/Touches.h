@@ -1,6 +1,6 @@
 #pragma once
 
-#include "nn/linear/Random.h"
+#include "nn/linear/RandomNumbers.h"
 
 #include <Eigen/Core>
 
@@ -17,7 +17,7 @@ struct Touches {
 };
 
 inline Touches touches(int perPlace, int inputs, std::uint64_t seed) {
-  Random random(seed);
+  RandomNumbers random(seed);
   Touches set{Eigen::MatrixXd(inputs, 6 * perPlace), Eigen::MatrixXd(3, 6 * perPlace), Eigen::VectorXi(6 * perPlace)};
   for (Eigen::Index i = 0; i < set.samples.cols(); ++i) {
     const int place = static_cast<int>(i % 6);

@@ -11,7 +11,7 @@ using namespace palp;
 
 TEST(IndependentResidual, IsSmallForASolutionAndNotForOneThatIsPerturbed) {
   const SensorDesign design = paperDesign();
-  const HyperelasticProblem problem(design, sensorMesh(design, {.mapped = std::array{4, 4, 2}}));
+  const HyperelasticProblem problem(design, sensorMesh(design, {.meshSize_mm = {}, .mapped = std::array{4, 4, 2}}));
   LoadCase load;
   load.areas.push_back({1, {0.3, 0.2, -4}});
   Solution solution = problem.solve(load);

@@ -2,6 +2,7 @@
 #include "solver/BatchSolver.h"
 #include "solver/DiscretisationError.h"
 #include "solver/HyperelasticProblem.h"
+#include "solver/MeshQuality.h"
 #include "solver/SensorMesh.h"
 #include "solver/statics/ProblemParts.h"
 

@@ -1,7 +1,7 @@
 #include "app/cli/Cli.h"
 #include "app/cli/Options.h"
 #include "app/study/decoding/Calibration.h"
-#include "io/NetworkFile.h"
+#include "io/DecoderFile.h"
 #include "io/SampleFile.h"
 
 #include <chrono>

@@ -27,7 +27,7 @@ void describe(const SensorDesign& design, Session& session) {
   session.result["compressibility_per_MPa"] = rubber.compressibility_per_MPa();
   session.result["small_strain_young_MPa"] = rubber.smallStrainYoung_MPa();
   session.result["small_strain_poisson_ratio"] = rubber.smallStrainPoissonRatio();
-  if (auto why = squareSystemProblem(design))
+  if (auto why = whyNotSquare(design))
     session.result["square_system"] = *why;
   else
     session.result["square_system"] = true;

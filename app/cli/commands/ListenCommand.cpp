@@ -5,8 +5,8 @@
 #include "app/study/live/LiveSession.h"
 #include "app/study/live/LiveSource.h"
 #include "io/AtomicFile.h"
+#include "io/DecoderFile.h"
 #include "io/Fingerprint.h"
-#include "io/NetworkFile.h"
 
 #include <cstdio>
 #include <iostream>

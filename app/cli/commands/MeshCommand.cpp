@@ -4,6 +4,7 @@
 #include "app/study/touch/Touch.h"
 #include "io/AtomicFile.h"
 #include "solver/CalculixDeck.h"
+#include "solver/MeshQuality.h"
 
 #include <iostream>
 #include <memory>

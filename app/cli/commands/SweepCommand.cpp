@@ -1,6 +1,6 @@
 #include "app/cli/ProgressBar.h"
 #include "app/cli/commands/TrainArguments.h"
-#include "app/study/decoding/Decoder.h"
+#include "app/study/decoding/Prediction.h"
 #include "io/SampleFile.h"
 #include "model/base/Text.h"
 #include "nn/SpreadSweep.h"

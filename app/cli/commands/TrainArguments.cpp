@@ -63,7 +63,7 @@ TrainOptions TrainArguments::options() const {
   TrainOptions result;
   result.input = chosen("--input", input, inputKindNamed);
   result.rows = rows;
-  result.mode = chosen("--mode", mode, networkModeNamed);
+  result.mode = chosen("--mode", mode, decoderModeNamed);
   result.decoder = chosen("--decoder", decoder, decoderKindNamed);
   if (spread != "auto") {
     result.spread = number("--spread", spread);
@@ -77,7 +77,7 @@ TrainOptions TrainArguments::options() const {
     return [&names](const std::string& value) { return oneOf(names, value); };
   };
   if (!centersBy.empty()) result.centerChoice = chosen("--centers-by", centersBy, named(centerNames));
-  if (!solver.empty()) result.solver = chosen("--solver", solver, solverNamed);
+  if (!solver.empty()) result.solver = chosen("--solver", solver, leastSquaresMethodNamed);
   if (!ridge.empty()) result.ridge = numberIn("--ridge", ridge, 0, 1e100, "0 or above");
   if (!scaler.empty()) result.scaling = chosen("--scaler", scaler, scalingNamed);
   if (!tail.empty()) result.tail = chosen("--tail", tail, named(tailNames));

@@ -1,8 +1,8 @@
 #include "app/cli/ProgressBar.h"
 #include "app/cli/commands/TrainArguments.h"
-#include "app/study/decoding/Decoder.h"
 #include "app/study/decoding/NoiseBound.h"
-#include "io/NetworkFile.h"
+#include "app/study/decoding/Prediction.h"
+#include "io/DecoderFile.h"
 #include "io/SampleFile.h"
 #include "model/base/Cancelled.h"
 

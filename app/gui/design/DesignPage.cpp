@@ -6,6 +6,7 @@
 #include "app/gui/views/ChartView.h"
 #include "app/gui/window/SidePanel.h"
 #include "app/study/decoding/NoiseBound.h"
+#include "solver/MeshQuality.h"
 
 #include <QCheckBox>
 #include <QDoubleSpinBox>
@@ -79,7 +80,7 @@ DesignPage::DesignPage(Workbench& workbench, NetworkSession& network, QWidget* p
     Project next = workbench_.project();
     next.design = design;
     std::erase_if(next.load.areas, [&](const AreaLoad& load) { return load.area >= design.areas.count(); });
-    if (problem(next.load, design)) next.load.patches.clear();
+    if (whyInvalid(next.load, design)) next.load.patches.clear();
     workbench_.edit(what, next);
   });
   connect(showMesh_, &QCheckBox::toggled, this, [this](bool on) {

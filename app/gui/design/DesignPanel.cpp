@@ -159,7 +159,7 @@ void DesignPanel::read(const QString& what) {
   }
   QString lawSentence;
   if (good)
-    for (const DesignProblem& problem : check(next)) {
+    for (const DesignFault& problem : check(next)) {
       good = false;
       const QString key = QString::fromStdString(problem.key);
       const QString sentence = QString::fromStdString(problem.sentence);
@@ -185,7 +185,7 @@ void DesignPanel::tellDerived(const SensorDesign& design) {
   if (rubber == paperDesign().material)
     words += tr("<br><i>The paper also prints E = 2.08e5 N/mm2: steel, five orders of magnitude off c10 and c01; it is "
                 "not used.</i>");
-  if (const auto square = squareSystemProblem(design)) words += "<br>" + QString::fromStdString(*square);
+  if (const auto square = whyNotSquare(design)) words += "<br>" + QString::fromStdString(*square);
   derived_->setText(words);
 }
 

@@ -3,7 +3,7 @@
 #include "app/gui/jobs/JobRunner.h"
 #include "app/gui/project/Project.h"
 #include "app/study/StageLog.h"
-#include "app/study/decoding/Decoder.h"
+#include "app/study/decoding/Prediction.h"
 
 #include <array>
 #include <memory>

@@ -1,4 +1,5 @@
 #include "app/gui/jobs/TouchSession.h"
+#include "solver/DiscretisationError.h"
 
 namespace palp {
 
@@ -61,7 +62,7 @@ std::vector<NewtonStep> TouchSession::newton() const {
 }
 
 void TouchSession::run() {
-  if (check(wanted_.design()).empty() == false || problem(wanted_.load(), wanted_.design())) {
+  if (check(wanted_.design()).empty() == false || whyInvalid(wanted_.load(), wanted_.design())) {
     runner_.cancel(); // the panels say what is wrong; the last good result stays
     return;
   }

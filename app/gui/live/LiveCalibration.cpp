@@ -1,6 +1,6 @@
 #include "app/gui/live/LiveCalibration.h"
 
-#include "io/NetworkFile.h"
+#include "io/DecoderFile.h"
 #include "model/base/Error.h"
 
 #include <QDoubleSpinBox>

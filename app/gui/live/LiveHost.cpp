@@ -2,9 +2,9 @@
 
 #include "app/study/live/LiveSource.h"
 #include "io/AtomicFile.h"
+#include "io/DecoderFile.h"
 #include "io/DesignFile.h"
 #include "io/Fingerprint.h"
-#include "io/NetworkFile.h"
 #include "model/base/Error.h"
 
 namespace palp {

@@ -5,7 +5,7 @@
 #include "app/gui/project/Command.h"
 #include "app/gui/views/ChartView.h"
 #include "app/gui/window/SidePanel.h"
-#include "io/NetworkFile.h"
+#include "io/DecoderFile.h"
 #include "model/base/Error.h"
 
 #include <QFileDialog>

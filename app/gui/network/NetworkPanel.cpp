@@ -188,7 +188,7 @@ void NetworkPanel::display(const Project& project) {
   perArea_->setValue(samples_.perArea);
   seed_->setValue(static_cast<int>(samples_.seed));
   input_->setCurrentIndex(network_.input == InputKind::Displacement ? 0 : 1);
-  mode_->setCurrentIndex(network_.mode == NetworkMode::Default ? 0 : 1);
+  mode_->setCurrentIndex(network_.mode == DecoderMode::Default ? 0 : 1);
   decoder_->setCurrentText(QString::fromStdString(name(network_.decoder)));
   rows_->setText(QString::fromStdString(network_.rows));
   centers_->setValue(network_.centers);
@@ -226,7 +226,7 @@ void NetworkPanel::tell(const QString& what) {
   samples_.perArea = perArea_->value();
   samples_.seed = static_cast<std::uint64_t>(seed_->value());
   network_.input = input_->currentIndex() == 0 ? InputKind::Displacement : InputKind::Resistance;
-  network_.mode = mode_->currentIndex() == 0 ? NetworkMode::Default : NetworkMode::Paper;
+  network_.mode = mode_->currentIndex() == 0 ? DecoderMode::Default : DecoderMode::Paper;
   network_.decoder = decoderKindNamed(decoder_->currentText().toStdString());
   network_.rows = rows_->text().trimmed().toStdString();
   network_.centers = centers_->value();

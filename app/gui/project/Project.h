@@ -23,7 +23,7 @@ struct SampleSettings {
 /// How the Network scene trains and sweeps.
 struct NetworkSettings {
   InputKind input = InputKind::Displacement;
-  NetworkMode mode = NetworkMode::Default;
+  DecoderMode mode = DecoderMode::Default;
   DecoderKind decoder = DecoderKind::Rbf;
   std::string rows = "4";
   bool automaticSpread = false;

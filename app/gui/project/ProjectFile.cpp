@@ -93,7 +93,7 @@ NetworkSettings networkOf(const Place& place) {
   for (const DecoderKind kind : allDecoderKinds()) decoders << QString::fromStdString(name(kind));
   NetworkSettings network;
   network.input = inputKindNamed(place.word("input", {"displacement", "resistance"}).toStdString());
-  network.mode = networkModeNamed(place.word("mode", {"default", "paper"}).toStdString());
+  network.mode = decoderModeNamed(place.word("mode", {"default", "paper"}).toStdString());
   network.decoder = decoderKindNamed(place.word("decoder", decoders).toStdString());
   network.rows = place.word("rows").toStdString();
   network.automaticSpread = place.boolean("automatic_spread");
@@ -247,7 +247,7 @@ Project projectOf(const Place& root, const QString& file) {
   project.design = parseDesign(design.toStdString(), (file + ": design").toStdString());
   requireValid(project.design);
   project.load = loadOf(root.at("load"));
-  if (const auto wrong = problem(project.load, project.design))
+  if (const auto wrong = whyInvalid(project.load, project.design))
     throw Error((file + ": load: " + QString::fromStdString(*wrong)).toStdString());
   project.mesh = meshOf(root.at("mesh"));
   const Place samples = root.at("samples");
@@ -290,7 +290,7 @@ Project loadProject(const std::filesystem::path& path, const Project& base) {
   if (root.contains(kVersionKey)) return projectOf(Place(root, name), name);
   Project project = base;
   project.design = loadDesign(path);
-  if (problem(project.load, project.design)) project.load = {{{0, {0, 0, -1}}}, {}};
+  if (whyInvalid(project.load, project.design)) project.load = {{{0, {0, 0, -1}}}, {}};
   return project;
 }
 

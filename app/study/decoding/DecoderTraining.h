@@ -2,7 +2,7 @@
 
 // Private to study: the work behind trainDecoder.
 
-#include "app/study/decoding/Decoder.h"
+#include "app/study/decoding/Prediction.h"
 
 #include <functional>
 #include <stop_token>

@@ -1,6 +1,6 @@
 #include "app/study/decoding/NoiseBound.h"
 
-#include "app/study/decoding/Decoder.h"
+#include "app/study/decoding/Prediction.h"
 #include "model/base/Error.h"
 #include "nn/rivals/ForwardModel.h"
 

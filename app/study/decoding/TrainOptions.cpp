@@ -32,7 +32,7 @@ std::string name(Tail tail) {
 }
 
 void chooseCenters(RbfOptions& result, const TrainOptions& options, Eigen::Index samples) {
-  const bool paper = options.mode == NetworkMode::Paper;
+  const bool paper = options.mode == DecoderMode::Paper;
   const int wanted = options.centers.value_or(paper || samples <= mostCenters ? 0 : mostCenters);
   if (options.allCenters || (wanted == 0 && !options.centerChoice)) return;
   result.centers = options.centerChoice.value_or(paper ? CenterChoice::KMeans : CenterChoice::Random);
@@ -51,7 +51,7 @@ int rowNamed(const std::string& text, const std::string& rows, int rowWires) {
 } // namespace
 
 RbfOptions rbfOptions(const TrainOptions& options, Eigen::Index samples) {
-  const bool paper = options.mode == NetworkMode::Paper;
+  const bool paper = options.mode == DecoderMode::Paper;
   const bool noisy = options.noise > 0;
   RbfOptions result;
   const bool minMax = paper && options.input == InputKind::Displacement;
@@ -62,7 +62,8 @@ RbfOptions rbfOptions(const TrainOptions& options, Eigen::Index samples) {
   result.spread = options.spread;
   result.convention = options.convention.value_or(SpreadConvention::Radbas);
   result.tail = options.tail.value_or(paper ? Tail::Bias : noisy ? Tail::LinearPenalised : Tail::Linear);
-  result.solver = options.solver.value_or(!paper && noisy ? Solver::Cholesky : Solver::PivotedQr);
+  result.solver =
+      options.solver.value_or(!paper && noisy ? LeastSquaresMethod::Cholesky : LeastSquaresMethod::PivotedQr);
   result.ridge = options.ridge;
   if (!options.ridge && !noisy) result.ridge = 0.0;
   result.forgetting = options.forgetting;

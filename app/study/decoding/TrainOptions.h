@@ -14,13 +14,13 @@ namespace palp {
 struct TrainOptions {
   InputKind input = InputKind::Displacement;
   std::string rows = "4"; ///< row-wires that are read: "4", "1,4,7", "all"
-  NetworkMode mode = NetworkMode::Default;
+  DecoderMode mode = DecoderMode::Default;
   DecoderKind decoder = DecoderKind::Rbf;
   std::optional<double> spread; ///< none: auto
   std::optional<int> centers;   ///< none: as the mode says
   bool allCenters = false;      ///< one a sample, however many
   std::optional<CenterChoice> centerChoice;
-  std::optional<Solver> solver;
+  std::optional<LeastSquaresMethod> solver;
   std::optional<double> ridge;
   std::optional<Scaling> scaling;
   std::optional<Tail> tail;

@@ -1,6 +1,6 @@
 #include "app/study/decoding/TwoStep.h"
 
-#include "app/study/decoding/Decoder.h"
+#include "app/study/decoding/Prediction.h"
 #include "model/RowColumnResistance.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
@@ -25,7 +25,7 @@ constexpr double leastPivot = 1e-12;
 constexpr double fragile = 1e5;
 
 void requireInvertible(const SensorDesign& design) {
-  if (const auto problem = squareSystemProblem(design)) throw Error("decoder: two-step-gn: " + *problem);
+  if (const auto problem = whyNotSquare(design)) throw Error("decoder: two-step-gn: " + *problem);
   if (design.lowerFollowsRubber)
     throw Error("decoder: two-step-gn: the design's lower electrodes follow the rubber; Eq. (1) gives the upper "
                 "electrodes' displacements only where the lower ones are held");
@@ -187,7 +187,7 @@ TwoStepFit trainTwoStep(const SampleSet& samples, const SensorDesign* design, co
   step2.noise = 0; // the noise is in what step 1 gives
   RbfOptions rbf = rbfOptions(step2, samples.size());
   // What step 1 gives is never clean: its errors are to be averaged, not interpolated.
-  rbf.solver = options.solver.value_or(Solver::Cholesky);
+  rbf.solver = options.solver.value_or(LeastSquaresMethod::Cholesky);
   rbf.tail = options.tail.value_or(Tail::LinearPenalised);
   rbf.ridge = options.ridge;
   RbfFit force = trainRbf(seen_mm, samples.forces_N, rbf, stop);

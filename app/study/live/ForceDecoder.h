@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/study/decoding/Decoder.h"
+#include "app/study/decoding/Prediction.h"
 #include "app/study/live/NoiseMeter.h"
 #include "io/board/BoardFrame.h"
 #include "model/SensorDesign.h"

@@ -17,7 +17,7 @@ template <class Matrix> Matrix withoutColumn(const Matrix& all, Eigen::Index col
 } // namespace
 
 void LabelledFrames::begin(const Decoder& decoder, const SensorDesign& design, const AreaLoad& label, int frames) {
-  if (const auto wrong = problem(LoadCase{{label}, {}}, design)) throw Error("label: " + *wrong);
+  if (const auto wrong = whyInvalid(LoadCase{{label}, {}}, design)) throw Error("label: " + *wrong);
   average_.emplace(decoder, design, label);
   wanted_ = frames;
 }

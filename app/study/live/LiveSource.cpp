@@ -27,7 +27,7 @@ std::unique_ptr<ReportSource> openBoard(const UsbId& id, const std::string& devi
 std::unique_ptr<ReportSource> openSimulatedBoard(const SimulatedBoardOptions& options,
                                                  std::shared_ptr<SimulationControl> control) {
   const std::filesystem::path file = options.samples.empty() ? resource("board/paper-samples.csv") : options.samples;
-  Board board = simulatedBoard(loadSamples(file), options.disturbance, options.rate_Hz, options.seed);
+  VirtualBoard board = simulatedBoard(loadSamples(file), options.disturbance, options.rate_Hz, options.seed);
   refuseOutside("row-wire", options.faults.openRows, board.info().rowWires);
   refuseOutside("column-wire", options.faults.openColumns, board.info().columnWires);
   board.faults() = options.faults;

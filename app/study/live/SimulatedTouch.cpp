@@ -69,7 +69,8 @@ const Eigen::MatrixXd& SimulatedTouch::at(double time_s) {
   return now_ohm_;
 }
 
-Board simulatedBoard(const SampleSet& samples, const BoardDisturbance& disturbance, int rate_Hz, std::uint64_t seed) {
+VirtualBoard simulatedBoard(const SampleSet& samples, const BoardDisturbance& disturbance, int rate_Hz,
+                            std::uint64_t seed) {
   const auto touch = std::make_shared<SimulatedTouch>(samples);
   BoardSettings settings;
   settings.info.rowWires = touch->rowWires();

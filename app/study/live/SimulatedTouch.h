@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/board/Board.h"
+#include "io/board/VirtualBoard.h"
 #include "model/SampleSet.h"
 #include "nn/rivals/ForwardModel.h"
 
@@ -43,6 +43,7 @@ private:
 };
 
 /// A virtual board of the sensor that the samples are of, under the simulated touch. Keeps what it needs.
-Board simulatedBoard(const SampleSet& samples, const BoardDisturbance& disturbance, int rate_Hz, std::uint64_t seed);
+VirtualBoard simulatedBoard(const SampleSet& samples, const BoardDisturbance& disturbance, int rate_Hz,
+                            std::uint64_t seed);
 
 } // namespace palp

@@ -43,7 +43,7 @@ FigurePlan figurePlan(const std::string& figure, int rowWires) {
   options.rows = std::to_string((rowWires - 1) / 2); // the centre row-wire
   plan.curves.push_back(
       {"default", "one scale for all inputs, one centre a sample, radbas, linear tail, pivoted QR", options});
-  options.mode = NetworkMode::Paper;
+  options.mode = DecoderMode::Paper;
   plan.curves.push_back({"paper",
                          table ? "min-max to [-1, 1] for each input, one centre a sample, radbas, bias, pivoted QR"
                                : "one scale for all inputs, one centre a sample, radbas, bias, pivoted QR",

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/study/StageLog.h"
-#include "app/study/decoding/Decoder.h"
+#include "app/study/decoding/Prediction.h"
 #include "app/study/paper/PublishedNumbers.h"
 #include "model/SampleSet.h"
 #include "model/SensorDesign.h"

@@ -22,7 +22,7 @@ PALP_INLINE void storeFloats(float* p, FloatPack v) {
 PALP_INLINE void rowSums(const float* block, int columns, const float* x, FloatPack sums[rowsABlock]) {
   for (int r = 0; r < rowsABlock; ++r) sums[r] = FloatPack{};
   for (int k = 0; k < columns; ++k) {
-    const FloatPack v = loadFloats(x + k * groupLanes);
+    const FloatPack v = loadFloats(x + k * batchLanes);
     for (int r = 0; r < rowsABlock; ++r) sums[r] += block[k * rowsABlock + r] * v;
   }
 }
@@ -30,9 +30,9 @@ PALP_INLINE void rowSums(const float* block, int columns, const float* x, FloatP
 /// x[k] -= sum over r of block[k][r] t[r] for one block of rows.
 PALP_INLINE void subtractTransposed(const float* block, int columns, const FloatPack t[rowsABlock], float* x) {
   for (int k = 0; k < columns; ++k) {
-    FloatPack v = loadFloats(x + k * groupLanes);
+    FloatPack v = loadFloats(x + k * batchLanes);
     for (int r = 0; r < rowsABlock; ++r) v -= block[k * rowsABlock + r] * t[r];
-    storeFloats(x + k * groupLanes, v);
+    storeFloats(x + k * batchLanes, v);
   }
 }
 
@@ -40,16 +40,16 @@ PALP_INLINE void subtractTransposed(const float* block, int columns, const Float
 PALP_INLINE void forwardSupernode(const BlockedFactor& L, int s, float* x, int lane) {
   const int width = L.first[s + 1] - L.first[s];
   const float* block = L.values + L.start[s];
-  float* own = x + std::size_t(L.first[s]) * groupLanes + lane;
+  float* own = x + std::size_t(L.first[s]) * batchLanes + lane;
   for (int r0 = 0; r0 < width; r0 += rowsABlock) {
     FloatPack sums[rowsABlock];
     rowSums(block, r0, own, sums);
     const float* triangle = block + r0 * rowsABlock;
     const int rows = width - r0 < rowsABlock ? width - r0 : rowsABlock;
     for (int r = 0; r < rows; ++r) {
-      FloatPack v = loadFloats(own + (r0 + r) * groupLanes) - sums[r];
-      for (int k = 0; k < r; ++k) v -= triangle[k * rowsABlock + r] * loadFloats(own + (r0 + k) * groupLanes);
-      storeFloats(own + (r0 + r) * groupLanes, v * triangle[r * rowsABlock + r]);
+      FloatPack v = loadFloats(own + (r0 + r) * batchLanes) - sums[r];
+      for (int k = 0; k < r; ++k) v -= triangle[k * rowsABlock + r] * loadFloats(own + (r0 + k) * batchLanes);
+      storeFloats(own + (r0 + r) * batchLanes, v * triangle[r * rowsABlock + r]);
     }
     block = triangle + rowsABlock * rowsABlock;
   }
@@ -58,7 +58,7 @@ PALP_INLINE void forwardSupernode(const BlockedFactor& L, int s, float* x, int l
     rowSums(block, width, own, sums);
     const int* rows = L.rows + std::size_t(b) * rowsABlock;
     for (int r = 0; r < rowsABlock; ++r) {
-      float* y = x + std::size_t(rows[r]) * groupLanes + lane;
+      float* y = x + std::size_t(rows[r]) * batchLanes + lane;
       storeFloats(y, loadFloats(y) - sums[r]);
     }
   }
@@ -68,12 +68,12 @@ PALP_INLINE void forwardSupernode(const BlockedFactor& L, int s, float* x, int l
 PALP_INLINE void backwardSupernode(const BlockedFactor& L, int s, float* x, int lane) {
   const int width = L.first[s + 1] - L.first[s];
   const float* block = L.values + L.start[s + 1];
-  float* own = x + std::size_t(L.first[s]) * groupLanes + lane;
+  float* own = x + std::size_t(L.first[s]) * batchLanes + lane;
   for (int b = L.blockStart[s + 1] - 1; b >= L.blockStart[s]; --b) {
     block -= width * rowsABlock;
     const int* rows = L.rows + std::size_t(b) * rowsABlock;
     FloatPack t[rowsABlock];
-    for (int r = 0; r < rowsABlock; ++r) t[r] = loadFloats(x + std::size_t(rows[r]) * groupLanes + lane);
+    for (int r = 0; r < rowsABlock; ++r) t[r] = loadFloats(x + std::size_t(rows[r]) * batchLanes + lane);
     subtractTransposed(block, width, t, own);
   }
   for (int r0 = (width - 1) / rowsABlock * rowsABlock; r0 >= 0; r0 -= rowsABlock) {
@@ -83,10 +83,10 @@ PALP_INLINE void backwardSupernode(const BlockedFactor& L, int s, float* x, int 
     FloatPack t[rowsABlock];
     for (int r = 0; r < rowsABlock; ++r) t[r] = FloatPack{};
     for (int r = rows - 1; r >= 0; --r) {
-      FloatPack v = loadFloats(own + (r0 + r) * groupLanes);
+      FloatPack v = loadFloats(own + (r0 + r) * batchLanes);
       for (int k = r + 1; k < rows; ++k) v -= triangle[r * rowsABlock + k] * t[k];
       t[r] = v * triangle[r * rowsABlock + r];
-      storeFloats(own + (r0 + r) * groupLanes, t[r]);
+      storeFloats(own + (r0 + r) * batchLanes, t[r]);
     }
     subtractTransposed(block, r0, t, own);
   }
@@ -94,12 +94,12 @@ PALP_INLINE void backwardSupernode(const BlockedFactor& L, int s, float* x, int 
 
 PALP_INLINE void forwardLanes(const BlockedFactor& L, int first, int last, float* x) {
   for (int s = first; s < last; ++s)
-    for (int lane = 0; lane < groupLanes; lane += floatPackSize) forwardSupernode(L, s, x, lane);
+    for (int lane = 0; lane < batchLanes; lane += floatPackSize) forwardSupernode(L, s, x, lane);
 }
 
 PALP_INLINE void backwardLanes(const BlockedFactor& L, int first, int last, float* x) {
   for (int s = last - 1; s >= first; --s)
-    for (int lane = 0; lane < groupLanes; lane += floatPackSize) backwardSupernode(L, s, x, lane);
+    for (int lane = 0; lane < batchLanes; lane += floatPackSize) backwardSupernode(L, s, x, lane);
 }
 
 typedef float NarrowPack __attribute__((vector_size(4 * PALP_PACK)));

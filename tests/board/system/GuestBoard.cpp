@@ -1,8 +1,8 @@
 // The virtual board as a HID device of the kernel (uhid), in the machine of the system test.
 //   guest-board RATE CORRUPT_EVERY UNPLUG_AFTER_S PLUGS: PLUGS times plugged in, each time for UNPLUG_AFTER_S seconds.
 
-#include "io/board/Board.h"
 #include "io/board/ReportSource.h"
+#include "io/board/VirtualBoard.h"
 
 #include <fcntl.h>
 #include <linux/uhid.h>
@@ -21,7 +21,7 @@ namespace {
 
 class KernelBoard {
 public:
-  explicit KernelBoard(Board board) : board_(std::move(board)) {}
+  explicit KernelBoard(VirtualBoard board) : board_(std::move(board)) {}
 
   void plugIn() {
     board_.restart();
@@ -93,7 +93,7 @@ private:
     }
   }
 
-  Board board_;
+  VirtualBoard board_;
   int file_ = -1;
 };
 
@@ -111,7 +111,7 @@ int main(int argc, char** argv) {
   settings.configuration.rate_Hz = std::atoi(argv[1]);
   settings.faults.corruptEvery = std::atoi(argv[2]);
   const Eigen::MatrixXd resistances = Eigen::MatrixXd::Constant(10, 30, 400);
-  palp::KernelBoard board(palp::Board(settings, [&](double) -> const Eigen::MatrixXd& { return resistances; }));
+  palp::KernelBoard board(palp::VirtualBoard(settings, [&](double) -> const Eigen::MatrixXd& { return resistances; }));
   for (int plug = 0; plug < std::atoi(argv[4]); ++plug) {
     board.plugIn();
     board.runFor(std::atof(argv[3]));

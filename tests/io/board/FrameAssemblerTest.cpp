@@ -23,7 +23,7 @@ Assembled assemble(const std::vector<Bytes>& reports) {
 }
 
 std::vector<Bytes> smallReports(std::size_t count) {
-  Board board = boardWith(smallBoard());
+  VirtualBoard board = boardWith(smallBoard());
   return reportsOf(board, count);
 }
 
@@ -134,7 +134,7 @@ TEST(FrameAssembler, TheClockMayWrap) {
 }
 
 TEST(FrameAssembler, ARestartOfTheBoardIsNoLossAndBreaksTheFrame) {
-  Board board = boardWith(smallBoard());
+  VirtualBoard board = boardWith(smallBoard());
   std::vector<Bytes> reports = reportsOf(board, 12 * kFrameReports + 4); // more than can be late
   board.restart();
   for (const Bytes& report : reportsOf(board, 2 * kFrameReports)) reports.push_back(report);
@@ -152,7 +152,7 @@ TEST(FrameAssembler, SingleRowModeMakesAFrameOfEachRow) {
   BoardSettings settings = smallBoard();
   settings.configuration.mode = BoardMode::SingleRow;
   settings.configuration.rowMask = 0b110;
-  Board board = boardWith(settings);
+  VirtualBoard board = boardWith(settings);
   FrameAssembler assembler(settings.info, settings.configuration);
   const std::vector<BoardFrame> frames = framesOf(assembler, reportsOf(board, 30));
   ASSERT_EQ(frames.size(), 10U);
@@ -168,7 +168,7 @@ TEST(FrameAssembler, SingleRowModeMakesAFrameOfEachRow) {
 TEST(FrameAssembler, OnlyTheRowsOfTheMaskAreExpected) {
   BoardSettings settings = smallBoard();
   settings.configuration.rowMask = 0b101;
-  Board board = boardWith(settings);
+  VirtualBoard board = boardWith(settings);
   FrameAssembler assembler(settings.info, settings.configuration);
   const std::vector<BoardFrame> frames = framesOf(assembler, reportsOf(board, 12));
   ASSERT_EQ(frames.size(), 2U);
@@ -176,7 +176,7 @@ TEST(FrameAssembler, OnlyTheRowsOfTheMaskAreExpected) {
 }
 
 TEST(FrameAssembler, ReportsOfAnotherConfigurationAreStale) {
-  Board board = boardWith(smallBoard());
+  VirtualBoard board = boardWith(smallBoard());
   FrameAssembler assembler(smallBoard().info, smallBoard().configuration);
   BoardConfiguration changed = smallBoard().configuration;
   changed.rowMask = 0b001;

@@ -21,7 +21,7 @@ RecordingHead smallHead() {
 
 /// 30 reports at 1000/s with a mark after the tenth.
 std::vector<Bytes> record(const std::filesystem::path& path) {
-  Board board = boardWith(smallBoard());
+  VirtualBoard board = boardWith(smallBoard());
   const std::vector<Bytes> reports = reportsOf(board, 30);
   RecordingWriter writer(path, smallHead(), true);
   const std::string mark = "pressed";
@@ -76,7 +76,7 @@ TEST(Recording, OpensToItsLastWholeReportWhereverItIsCutOff) {
 
 TEST(Recording, IsOnDiskASecondLaterWithoutAnEnd) {
   const TemporaryFolder folder;
-  Board board = boardWith(smallBoard());
+  VirtualBoard board = boardWith(smallBoard());
   RecordingWriter writer(folder / "a", smallHead(), false);
   writer.append(Kind::Raw, 1, reportsOf(board, 1)[0]);
   for (int i = 0; i < 100 && !RecordingReader(folder / "a").next(); ++i)

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "io/board/Board.h"
 #include "io/board/FrameAssembler.h"
+#include "io/board/VirtualBoard.h"
 
 #include <vector>
 
@@ -28,7 +28,7 @@ inline Eigen::MatrixXd placeResistances(int rows = 3, int columns = 32) {
   return resistances;
 }
 
-inline Board boardWith(const BoardSettings& settings) {
+inline VirtualBoard boardWith(const BoardSettings& settings) {
   return {settings,
           [resistances = placeResistances(settings.info.rowWires, settings.info.columnWires)](
               double) -> const Eigen::MatrixXd& { return resistances; }};
@@ -37,7 +37,7 @@ inline Board boardWith(const BoardSettings& settings) {
 using Bytes = std::vector<std::uint8_t>;
 
 /// The first reports of a board on a virtual clock.
-inline std::vector<Bytes> reportsOf(Board& board, std::size_t count, std::uint64_t start_us = 1000) {
+inline std::vector<Bytes> reportsOf(VirtualBoard& board, std::size_t count, std::uint64_t start_us = 1000) {
   std::vector<Bytes> reports;
   for (std::uint64_t clock_us = start_us; reports.size() < count; clock_us += 100)
     board.advance(clock_us, [&](std::span<const std::uint8_t> bytes) {

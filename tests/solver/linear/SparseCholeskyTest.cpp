@@ -91,15 +91,15 @@ TEST(Cholesky, OneRightSideAgreesWithLanesAndTheBaselineWithTheWidest) {
   Eigen::VectorXd widest(size + 1), lane(size);
   widest << tangent.rightSide(), 0;
   Eigen::VectorXd baseline = widest;
-  std::vector<float, CacheLineAllocator<float>> lanes((size + 1) * groupLanes);
-  for (Eigen::Index i = 0; i < size; ++i) lanes[i * groupLanes + 5] = static_cast<float>(widest(i));
+  std::vector<float, CacheLineAllocator<float>> lanes((size + 1) * batchLanes);
+  for (Eigen::Index i = 0; i < size; ++i) lanes[i * batchLanes + 5] = static_cast<float>(widest(i));
   laneKernels().forwardOne(L, 0, L.count, widest.data());
   laneKernels().backwardOne(L, 0, L.count, widest.data());
   baseline::laneKernelSet.forwardOne(L, 0, L.count, baseline.data());
   baseline::laneKernelSet.backwardOne(L, 0, L.count, baseline.data());
   laneKernels().forward(L, 0, L.count, lanes.data());
   laneKernels().backward(L, 0, L.count, lanes.data());
-  for (Eigen::Index i = 0; i < size; ++i) lane(i) = lanes[i * groupLanes + 5];
+  for (Eigen::Index i = 0; i < size; ++i) lane(i) = lanes[i * batchLanes + 5];
   EXPECT_LT((widest - baseline).head(size).norm(), 1e-9 * widest.norm()); // rounding, times a condition of 1e6
   EXPECT_LT((widest.head(size) - lane).norm(), 1e-2 * widest.norm());     // in single precision
 }

@@ -44,7 +44,8 @@ std::vector<Way> ways(const TrainOptions& base, Eigen::Index samples) {
     result.push_back({"rbf, " + std::to_string(centers) + " centres", options});
   }
   if (base.noise > 0) return result;
-  for (const Solver solver : {Solver::Cholesky, Solver::TruncatedSvd, Solver::Recursive}) {
+  for (const LeastSquaresMethod solver :
+       {LeastSquaresMethod::Cholesky, LeastSquaresMethod::TruncatedSvd, LeastSquaresMethod::Recursive}) {
     TrainOptions options = base;
     options.solver = solver;
     options.spread = 10;

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/study/decoding/Decoder.h"
 #include "app/study/decoding/NoiseBound.h"
+#include "app/study/decoding/Prediction.h"
 #include "app/study/reports/Report.h"
 #include "model/SampleSet.h"
 

@@ -154,7 +154,8 @@ void addNetworkCases(StabilityCases& cases, const ReportRequest& request, StageL
       options.ridge = ridge;
       train(row, data, options, cases.stop());
     });
-  for (const Solver solver : {Solver::PivotedQr, Solver::Cholesky, Solver::TruncatedSvd, Solver::Recursive})
+  for (const LeastSquaresMethod solver : {LeastSquaresMethod::PivotedQr, LeastSquaresMethod::Cholesky,
+                                          LeastSquaresMethod::TruncatedSvd, LeastSquaresMethod::Recursive})
     cases.add("network: solver", name(solver) + ", spread 10", [&](StabilityRow& row) {
       RbfOptions options;
       options.spread = 10;

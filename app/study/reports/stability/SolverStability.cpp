@@ -4,6 +4,7 @@
 
 #include "model/base/Text.h"
 #include "solver/HyperelasticProblem.h"
+#include "solver/MeshQuality.h"
 #include "solver/PointProbe.h"
 #include "solver/SensorMesh.h"
 

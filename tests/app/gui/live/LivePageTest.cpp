@@ -250,7 +250,8 @@ struct Gate {
 
 class GatedSource : public SimulatedSource {
 public:
-  GatedSource(Board board, std::shared_ptr<Gate> gate) : SimulatedSource(std::move(board)), gate_(std::move(gate)) {}
+  GatedSource(VirtualBoard board, std::shared_ptr<Gate> gate)
+      : SimulatedSource(std::move(board)), gate_(std::move(gate)) {}
   Outcome read(RawReport& report, std::chrono::milliseconds timeout) override {
     if (!gate_->silent) return SimulatedSource::read(report, timeout);
     std::this_thread::sleep_for(timeout / 10);
@@ -272,7 +273,7 @@ protected:
               [shared](const std::string&) -> std::unique_ptr<ReportSource> {
                 if (!shared->permission)
                   throw BoardPermissionError("PALP-1 at /dev/hidraw3: no permission to open it; " + permissionRemedy());
-                Board board = simulatedBoard(loadSamples(resource("board/paper-samples.csv")), {}, 1000, 3);
+                VirtualBoard board = simulatedBoard(loadSamples(resource("board/paper-samples.csv")), {}, 1000, 3);
                 return std::make_unique<GatedSource>(std::move(board), shared);
               }}),
         gate(shared) {}

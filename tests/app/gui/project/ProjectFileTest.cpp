@@ -92,7 +92,7 @@ TEST_F(ProjectFile, DropsALoadThatCannotActOnTheOpenedDesign) {
   design.areas = {1, 1};
   saveDesign(path("sensor.json"), design, false);
   const Project project = loadProject(path("sensor.json"), exampleProject());
-  EXPECT_FALSE(problem(project.load, project.design).has_value());
+  EXPECT_FALSE(whyInvalid(project.load, project.design).has_value());
 }
 
 TEST_F(ProjectFile, IsRefusedWithASentenceWhereItIsFromANewerPalp) {

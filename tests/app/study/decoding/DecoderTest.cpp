@@ -1,8 +1,8 @@
-#include "app/study/decoding/Decoder.h"
+#include "app/study/decoding/Prediction.h"
 
 #include "app/study/decoding/NoiseBound.h"
 #include "app/study/decoding/TwoStep.h"
-#include "io/NetworkFile.h"
+#include "io/DecoderFile.h"
 #include "model/RowColumnResistance.h"
 #include "model/base/Error.h"
 

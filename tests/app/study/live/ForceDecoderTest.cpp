@@ -1,6 +1,6 @@
 #include "app/study/live/ForceDecoder.h"
 
-#include "io/NetworkFile.h"
+#include "io/DecoderFile.h"
 #include "tests/app/study/live/LiveFixture.h"
 #include "tests/io/Refusal.h"
 
@@ -23,7 +23,7 @@ const Decoder& decoderFor(double noise) {
 }
 
 VirtualStream streamWith(const BoardDisturbance& disturbance, std::uint64_t seed = 3) {
-  Board board = simulatedBoard(shippedSamples(), disturbance, 1000, seed);
+  VirtualBoard board = simulatedBoard(shippedSamples(), disturbance, 1000, seed);
   const BoardConfiguration configuration = board.configuration();
   return {std::move(board), configuration};
 }
@@ -94,7 +94,8 @@ TEST_P(ForceDecoderNoise, NoArrowAppearsAtRest) {
   const Eigen::MatrixXd rest = touch.resistances_ohm({});
   settings.disturbance.noise = GetParam().noise;
   settings.info.serial = "REST";
-  VirtualStream stream(Board(settings, [&](double) -> const Eigen::MatrixXd& { return rest; }), settings.configuration);
+  VirtualStream stream(VirtualBoard(settings, [&](double) -> const Eigen::MatrixXd& { return rest; }),
+                       settings.configuration);
   ForceDecoder decoder(network(), settings.info, paperDesign());
   if (GetParam().tareFrames > 0) decoder.startTare(GetParam().tareFrames);
   int shown = 0;
@@ -139,11 +140,11 @@ TEST(ForceDecoder, TareTakesAwayWhatABoardHasOfItsOwn) {
   Eigen::MatrixXd now;
   settings.disturbance.noise = kGood;
   settings.info.serial = "RAW";
-  VirtualStream stream(Board(settings,
-                             [&](double time_s) -> const Eigen::MatrixXd& {
-                               now = touch.resistances_ohm(touch.truth(time_s)).cwiseProduct(factors);
-                               return now;
-                             }),
+  VirtualStream stream(VirtualBoard(settings,
+                                    [&](double time_s) -> const Eigen::MatrixXd& {
+                                      now = touch.resistances_ohm(touch.truth(time_s)).cwiseProduct(factors);
+                                      return now;
+                                    }),
                        settings.configuration);
   ForceDecoder decoder(decoderFor(kGood), settings.info, paperDesign());
   decoder.startTare(40);
@@ -198,7 +199,8 @@ TEST(ForceDecoder, AWarmingBoardDriftsAwayFromItsTare) {
   BoardSettings settings;
   const Eigen::MatrixXd rest = touch.resistances_ohm({});
   settings.disturbance = warming;
-  VirtualStream stream(Board(settings, [&](double) -> const Eigen::MatrixXd& { return rest; }), settings.configuration);
+  VirtualStream stream(VirtualBoard(settings, [&](double) -> const Eigen::MatrixXd& { return rest; }),
+                       settings.configuration);
   ForceDecoder decoder(decoderFor(kGood), settings.info, paperDesign());
   decoder.startTare(5);
   double early_N = 0, late_N = 0;
@@ -260,7 +262,7 @@ TEST(ForceDecoder, IncompleteFramesGiveAReasonAndNoForces) {
 }
 
 TEST(ForceDecoder, SaysThatTheBoardDoesNotScanItsRows) {
-  Board board = simulatedBoard(shippedSamples(), noisy(kGood), 1000, 3);
+  VirtualBoard board = simulatedBoard(shippedSamples(), noisy(kGood), 1000, 3);
   BoardConfiguration single = board.configuration();
   single.mode = BoardMode::SingleRow;
   single.rowMask = 1U << 4;
@@ -277,7 +279,8 @@ TEST(ForceDecoder, WarnsOutsideTheTrainingRange) {
   const SimulatedTouch touch(shippedSamples());
   const Eigen::MatrixXd hard = touch.resistances_ohm({2, {0, 0, -12}});
   BoardSettings settings;
-  VirtualStream stream(Board(settings, [&](double) -> const Eigen::MatrixXd& { return hard; }), settings.configuration);
+  VirtualStream stream(VirtualBoard(settings, [&](double) -> const Eigen::MatrixXd& { return hard; }),
+                       settings.configuration);
   ForceDecoder decoder(decoderFor(kGood), settings.info, paperDesign());
   stream.run(1, [&](const BoardFrame& frame) { EXPECT_TRUE(decoder.decode(frame).outsideTrainingRange); });
 }

@@ -51,7 +51,7 @@ inline Decoder liveDecoder(double noise, DecoderKind kind = DecoderKind::Maximum
 /// Frames of a virtual board on a clock of its own, as fast as they can be made.
 class VirtualStream {
 public:
-  VirtualStream(Board board, const BoardConfiguration& configuration)
+  VirtualStream(VirtualBoard board, const BoardConfiguration& configuration)
       : board_(std::move(board)), assembler_(board_.info(), configuration) {}
 
   template <class Take> void run(std::uint64_t frames, const Take& take) {
@@ -63,10 +63,10 @@ public:
       });
     }
   }
-  Board& board() { return board_; }
+  VirtualBoard& board() { return board_; }
 
 private:
-  Board board_;
+  VirtualBoard board_;
   FrameAssembler assembler_;
   std::uint64_t clock_us_ = 0;
 };

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kPatience_s = 10;
 
-Board paperBoard(int rate_Hz = 1000) {
+VirtualBoard paperBoard(int rate_Hz = 1000) {
   return simulatedBoard(shippedSamples(), {}, rate_Hz, 3);
 }
 
@@ -24,7 +24,8 @@ struct Plug {
 
 class PluggedSource : public SimulatedSource {
 public:
-  PluggedSource(Board board, std::shared_ptr<Plug> plug) : SimulatedSource(std::move(board)), plug_(std::move(plug)) {}
+  PluggedSource(VirtualBoard board, std::shared_ptr<Plug> plug)
+      : SimulatedSource(std::move(board)), plug_(std::move(plug)) {}
   Outcome read(RawReport& report, std::chrono::milliseconds timeout) override {
     if (!plug_->in) return Outcome::Gone;
     if (!plug_->silent) return SimulatedSource::read(report, timeout);
@@ -141,7 +142,7 @@ TEST(LiveSession, StopsAtAnotherProtocolAndSaysSo) {
   LiveOptions options;
   options.reconnect = false;
   options.open = [] {
-    Board board = paperBoard();
+    VirtualBoard board = paperBoard();
     board.faults().wrongMajorEvery = 30;
     return std::make_unique<SimulatedSource>(std::move(board));
   };
@@ -237,7 +238,7 @@ TEST(BoardCheck, PassesAGoodBoardAndFindsABadOne) {
     LiveOptions options;
     options.reconnect = false;
     options.open = [corruptEvery] {
-      Board board = paperBoard();
+      VirtualBoard board = paperBoard();
       board.faults().corruptEvery = corruptEvery;
       return std::make_unique<SimulatedSource>(std::move(board));
     };

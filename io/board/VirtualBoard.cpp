@@ -1,4 +1,4 @@
-#include "io/board/Board.h"
+#include "io/board/VirtualBoard.h"
 
 #include "model/base/Error.h"
 
@@ -27,7 +27,7 @@ bool everyNth(int n, std::uint64_t count) {
 
 } // namespace
 
-Board::Board(BoardSettings settings, Resistances resistances)
+VirtualBoard::VirtualBoard(BoardSettings settings, Resistances resistances)
     : settings_(std::move(settings)), resistances_(std::move(resistances)), engine_(settings_.seed) {
   const BoardInfo& info = settings_.info;
   if (info.rowWires < 1 || info.rowWires > kMostRowWires || info.columnWires < 1 || info.columnWires > 255)
@@ -40,7 +40,7 @@ Board::Board(BoardSettings settings, Resistances resistances)
   restart();
 }
 
-void Board::restart() {
+void VirtualBoard::restart() {
   start_us_.reset();
   sent_ = 0;
   sequence_ = frame_ = 0;
@@ -52,13 +52,13 @@ void Board::restart() {
   now_ohm_ = nullptr;
 }
 
-std::optional<Report> Board::feature(std::uint8_t id) const {
+std::optional<Report> VirtualBoard::feature(std::uint8_t id) const {
   if (id == static_cast<std::uint8_t>(ReportId::Info)) return encode(settings_.info);
   if (id == static_cast<std::uint8_t>(ReportId::Configuration)) return encode(settings_.configuration);
   return {};
 }
 
-bool Board::setFeature(std::span<const std::uint8_t> report) {
+bool VirtualBoard::setFeature(std::span<const std::uint8_t> report) {
   const auto decoded = decodeConfiguration(report);
   const auto* wanted = std::get_if<BoardConfiguration>(&decoded);
   if (!wanted || wanted->rate_Hz < 1 || wanted->rate_Hz > settings_.info.highestRate_Hz) return false;
@@ -84,7 +84,7 @@ bool Board::setFeature(std::span<const std::uint8_t> report) {
   return true;
 }
 
-bool Board::output(std::span<const std::uint8_t> report) {
+bool VirtualBoard::output(std::span<const std::uint8_t> report) {
   const auto decoded = decodeCommand(report);
   const auto* command = std::get_if<BoardCommand>(&decoded);
   if (!command) return false;
@@ -92,7 +92,7 @@ bool Board::output(std::span<const std::uint8_t> report) {
   return true;
 }
 
-void Board::answer(const BoardCommand& command) {
+void VirtualBoard::answer(const BoardCommand& command) {
   BoardEvent event;
   event.tag = command.tag;
   event.opcode = static_cast<std::uint8_t>(command.opcode);
@@ -123,13 +123,13 @@ void Board::answer(const BoardCommand& command) {
   events_.push_back(event);
 }
 
-std::optional<std::uint64_t> Board::nextDue_us() const {
+std::optional<std::uint64_t> VirtualBoard::nextDue_us() const {
   if (!events_.empty() || !start_us_) return 0;
   if (!streaming_ || settings_.configuration.mode == BoardMode::Idle) return {};
   return streamStart_us_ + sent_ * kMicrosecondsPerSecond / static_cast<std::uint64_t>(settings_.configuration.rate_Hz);
 }
 
-void Board::advance(std::uint64_t clock_us, const Send& send) {
+void VirtualBoard::advance(std::uint64_t clock_us, const Send& send) {
   if (!start_us_) start_us_ = streamStart_us_ = clock_us;
   while (const std::optional<std::uint64_t> due_us = nextDue_us()) {
     if (*due_us > clock_us) break;
@@ -146,7 +146,7 @@ void Board::advance(std::uint64_t clock_us, const Send& send) {
   time_s_ = static_cast<double>(clock_us - *start_us_) * kSecondsPerMicrosecond;
 }
 
-Readings Board::nextReadings(std::uint64_t clock_us) {
+Readings VirtualBoard::nextReadings(std::uint64_t clock_us) {
   const BoardInfo& info = settings_.info;
   const BoardConfiguration& configuration = settings_.configuration;
   time_s_ = static_cast<double>(clock_us - *start_us_) * kSecondsPerMicrosecond;
@@ -180,7 +180,7 @@ Readings Board::nextReadings(std::uint64_t clock_us) {
   return readings;
 }
 
-std::uint32_t Board::code(int row, int column, double reference_ohm) {
+std::uint32_t VirtualBoard::code(int row, int column, double reference_ohm) {
   const BoardFaults& faults = settings_.faults;
   if (settings_.configuration.mode == BoardMode::TestPattern)
     return kPatternBase + kPatternRow * static_cast<std::uint32_t>(row) + static_cast<std::uint32_t>(column);
@@ -193,7 +193,7 @@ std::uint32_t Board::code(int row, int column, double reference_ohm) {
 }
 
 /// Play operator (rate-independent hysteresis), drift by temperature, noise.
-double Board::disturbed(int row, int column, double resistance_ohm) {
+double VirtualBoard::disturbed(int row, int column, double resistance_ohm) {
   const BoardDisturbance& d = settings_.disturbance;
   const double change = resistance_ohm / rest_ohm_(row, column) - 1;
   double& play = play_(row, column);
@@ -204,13 +204,13 @@ double Board::disturbed(int row, int column, double resistance_ohm) {
          (1 + d.noise * normal_(engine_));
 }
 
-double Board::temperature_degC() const {
+double VirtualBoard::temperature_degC() const {
   const BoardDisturbance& d = settings_.disturbance;
   return d.startTemperature_degC + d.warming_degC * (1 - std::exp(-time_s_ / d.warmingTime_s));
 }
 
 /// The configured range, or the one whose reference is nearest the row's resistances (the divider is finest there).
-int Board::rangeOf(int row) const {
+int VirtualBoard::rangeOf(int row) const {
   if (settings_.configuration.range != BoardConfiguration::kAutomaticRange) return settings_.configuration.range;
   const double typical_ohm = rest_ohm_.row(row).mean();
   int best = 0;
@@ -226,14 +226,14 @@ int Board::rangeOf(int row) const {
 }
 
 /// The next row-wire of the mask after this one, from the lowest again behind the highest.
-int Board::nextRow(int after) const {
+int VirtualBoard::nextRow(int after) const {
   const std::uint32_t mask = settings_.configuration.rowMask;
   for (int row = after + 1; row < settings_.info.rowWires; ++row)
     if ((mask >> row & 1) != 0) return row;
   return std::countr_zero(mask);
 }
 
-void Board::sendWithFaults(Report report, const Send& send) {
+void VirtualBoard::sendWithFaults(Report report, const Send& send) {
   const BoardFaults& faults = settings_.faults;
   const std::uint64_t count = sent_ - 1;
   if (everyNth(faults.dropEvery, count)) return;

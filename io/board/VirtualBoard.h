@@ -42,12 +42,12 @@ struct BoardSettings {
 
 /// The virtual board: answers features and commands and sends reports as a real one does, on a clock that is given to
 /// it. The simulated board of the application, of the tests and of the test machine are this class.
-class Board {
+class VirtualBoard {
 public:
   /// Resistances [ohm] of the sensor, row-wires x column-wires, at a time since the board's start.
   using Resistances = std::function<const Eigen::MatrixXd&(double time_s)>;
 
-  Board(BoardSettings settings, Resistances resistances);
+  VirtualBoard(BoardSettings settings, Resistances resistances);
 
   /// Feature 0x10 or 0x11; none for another ID.
   [[nodiscard]] std::optional<Report> feature(std::uint8_t id) const;

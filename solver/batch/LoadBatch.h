@@ -2,7 +2,7 @@
 
 #include "model/RowColumnResistance.h"
 #include "solver/assembly/SurfaceTraction.h"
-#include "solver/batch/RestModel.h"
+#include "solver/batch/ElementwiseTangent.h"
 
 #include <array>
 #include <stop_token>
@@ -17,11 +17,11 @@ struct LaneForce {
 
 /// Up to 32 loads, one a lane, iterated together by modified Newton with the tangent at rest. Lanes do not mix: what
 /// comes out of one depends on its own load alone, to the last byte.
-class LoadGroup {
+class LoadBatch {
 public:
-  static constexpr int blocks = groupLanes / lanes;
+  static constexpr int blocks = batchLanes / lanes;
 
-  LoadGroup(const RestModel& model, const PointProbe& upper);
+  LoadBatch(const ElementwiseTangent& model, const PointProbe& upper);
 
   /// All lanes at rest, without loads.
   void reset();
@@ -34,7 +34,7 @@ public:
   /// One iteration of the lanes that are active. `change` becomes the relative change of the upper electrodes'
   /// displacements; negative where elements turned inside out or the lane is beyond hope.
   /// Stopped on its way, it leaves the lanes unusable.
-  void iterate(const std::array<bool, groupLanes>& active, std::array<double, groupLanes>& change,
+  void iterate(const std::array<bool, batchLanes>& active, std::array<double, batchLanes>& change,
                const std::stop_token& stop);
 
   /// What the electrodes of all lanes feel.
@@ -46,7 +46,7 @@ public:
 
 private:
   void evaluateResiduals(const std::array<bool, blocks>& live, const std::stop_token& stop);
-  void solveDirections(const std::array<bool, groupLanes>& active, const std::stop_token& stop);
+  void solveDirections(const std::array<bool, batchLanes>& active, const std::stop_token& stop);
   void update(const std::array<bool, blocks>& live, const std::stop_token& stop);
   [[nodiscard]] LaneVector displacementsAt(const PointProbe& probe) const; ///< [3 points][32]
   [[nodiscard]] LaneVector pressuresAt(const PointProbe& probe) const;     ///< [points][32], compression positive
@@ -54,15 +54,15 @@ private:
     return x_[((std::size_t(element) * blocks + lane / lanes) * model_.mesh().unknowns() + k) * lanes + lane % lanes];
   }
 
-  const RestModel& model_;
+  const ElementwiseTangent& model_;
   const PointProbe& upper_;
-  std::array<std::vector<LaneForce>, groupLanes> forces_;
+  std::array<std::vector<LaneForce>, batchLanes> forces_;
   LaneVector u_, r_;            ///< [3 nodes][32]
   LaneVector x_, local_;        ///< [elements][blocks][unknowns][8]
   std::vector<float> solution_; ///< [places][32]
   bool atRest_ = true;
-  std::array<double, groupLanes> scale_{};
-  std::array<double, groupLanes> smallestJ_{};
+  std::array<double, batchLanes> scale_{};
+  std::array<double, batchLanes> smallestJ_{};
 };
 
 } // namespace palp

@@ -1,4 +1,4 @@
-#include "solver/batch/RestModel.h"
+#include "solver/batch/ElementwiseTangent.h"
 
 #include <algorithm>
 
@@ -16,7 +16,7 @@ std::vector<double> byElement(const double* values, int elements, std::size_t si
 
 } // namespace
 
-RestModel::RestModel(const HyperelasticProblem::Parts& parts, const RestTangent& rest)
+ElementwiseTangent::ElementwiseTangent(const HyperelasticProblem::Parts& parts, const InitialTangent& rest)
     : mesh_(*parts.discretisation), rubber_(parts.assembler.rubber()), factor_(rest.factor),
       geometrySize_(mesh_.kernels().geometrySize),
       eliminationSize_(std::size_t(mesh_.unknowns()) * mesh_.elementDofs()),

@@ -1,4 +1,4 @@
-#include "app/study/decoding/Decoder.h"
+#include "app/study/decoding/Prediction.h"
 
 #include "app/study/decoding/DecoderTraining.h"
 #include "app/study/decoding/TwoStep.h"

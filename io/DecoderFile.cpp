@@ -1,7 +1,7 @@
-#include "io/NetworkFile.h"
+#include "io/DecoderFile.h"
 
 #include "io/AtomicFile.h"
-#include "io/NetworkJson.h"
+#include "io/DecoderJson.h"
 #include "model/base/Error.h"
 
 #include <cmath>
@@ -171,7 +171,7 @@ Decoder parseNetwork(const std::string& text, const std::string& file) {
   Decoder decoder;
   try {
     decoder.kind = decoderKindNamed(root.at("decoder").string());
-    decoder.mode = networkModeNamed(root.at("mode").string());
+    decoder.mode = decoderModeNamed(root.at("mode").string());
   } catch (const Error& refusal) {
     throw Error(file + ": " + refusal.what());
   }

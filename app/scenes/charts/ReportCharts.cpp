@@ -1,4 +1,4 @@
-#include "app/scenes/charts/Reports.h"
+#include "app/scenes/charts/ReportCharts.h"
 
 #include "app/scenes/charts/Chart.h"
 #include "app/scenes/charts/PaperFigures.h"

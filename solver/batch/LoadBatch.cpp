@@ -1,4 +1,4 @@
-#include "solver/batch/LoadGroup.h"
+#include "solver/batch/LoadBatch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,44 +18,44 @@ inline void copyLanes(const double* from, double* to) {
 }
 
 std::size_t at(std::size_t row, int block) {
-  return row * groupLanes + std::size_t(block) * lanes;
+  return row * batchLanes + std::size_t(block) * lanes;
 }
 
 } // namespace
 
-LoadGroup::LoadGroup(const RestModel& model, const PointProbe& upper)
-    : model_(model), upper_(upper), u_(3 * std::size_t(model.mesh().nodes()) * groupLanes), r_(u_.size()),
-      x_(std::size_t(model.mesh().elements()) * model.mesh().unknowns() * groupLanes), local_(x_.size()),
-      solution_(std::size_t(model.placeCount()) * groupLanes) {}
+LoadBatch::LoadBatch(const ElementwiseTangent& model, const PointProbe& upper)
+    : model_(model), upper_(upper), u_(3 * std::size_t(model.mesh().nodes()) * batchLanes), r_(u_.size()),
+      x_(std::size_t(model.mesh().elements()) * model.mesh().unknowns() * batchLanes), local_(x_.size()),
+      solution_(std::size_t(model.placeCount()) * batchLanes) {}
 
-void LoadGroup::reset() {
+void LoadBatch::reset() {
   std::fill(u_.begin(), u_.end(), 0.);
   std::fill(x_.begin(), x_.end(), 0.);
   for (auto& forces : forces_) forces.clear();
   atRest_ = true;
 }
 
-void LoadGroup::addPolynomials(int block, const std::vector<double>& displacements, const std::vector<double>& unknowns,
+void LoadBatch::addPolynomials(int block, const std::vector<double>& displacements, const std::vector<double>& unknowns,
                                int terms, const double* monomials) {
   atRest_ = false;
   const auto& kernels = laneKernels();
   kernels.addPolynomials(displacements.data(), terms, monomials, 3 * model_.mesh().nodes(), u_.data() + block * lanes,
-                         groupLanes);
+                         batchLanes);
   const int own = model_.mesh().unknowns();
   for (int e = 0; e < model_.mesh().elements(); ++e)
     kernels.addPolynomials(unknowns.data() + std::size_t(e) * own * terms, terms, monomials, own,
                            x_.data() + (std::size_t(e) * blocks + block) * own * lanes, lanes);
 }
 
-void LoadGroup::evaluateResiduals(const std::array<bool, blocks>& live, const std::stop_token& stop) {
+void LoadBatch::evaluateResiduals(const std::array<bool, blocks>& live, const std::stop_token& stop) {
   const Discretisation& mesh = model_.mesh();
   const ElementKernels& kernels = mesh.kernels();
   const int own = mesh.unknowns();
   std::fill(r_.begin(), r_.end(), 0.);
-  for (int lane = 0; lane < groupLanes; ++lane)
+  for (int lane = 0; lane < batchLanes; ++lane)
     for (const auto& [shares, force_N] : forces_[lane])
       for (const auto& [node, share] : *shares)
-        for (int d = 0; d < 3; ++d) r_[(3 * std::size_t(node) + d) * groupLanes + lane] += share * force_N(d);
+        for (int d = 0; d < 3; ++d) r_[(3 * std::size_t(node) + d) * batchLanes + lane] += share * force_N(d);
   smallestJ_.fill(1);
   if (atRest_) { // no forces, no volume change
     std::fill(local_.begin(), local_.end(), 0.);
@@ -82,27 +82,27 @@ void LoadGroup::evaluateResiduals(const std::array<bool, blocks>& live, const st
           for (int lane = 0; lane < lanes; ++lane) r[lane] -= p[lane];
         }
     }
-  for (int lane = 0; lane < groupLanes; ++lane) smallestJ_[lane] = range[lane / lanes][lane % lanes];
+  for (int lane = 0; lane < batchLanes; ++lane) smallestJ_[lane] = range[lane / lanes][lane % lanes];
 }
 
 /// Residuals go to single precision relative to their norm, and the directions back; inactive lanes get none.
-void LoadGroup::solveDirections(const std::array<bool, groupLanes>& active, const std::stop_token& stop) {
+void LoadBatch::solveDirections(const std::array<bool, batchLanes>& active, const std::stop_token& stop) {
   const std::vector<int>& places = model_.places();
-  std::array<double, groupLanes> squares{};
+  std::array<double, batchLanes> squares{};
   for (std::size_t i = 0; i < places.size(); ++i)
     if (places[i] >= 0)
-      for (int lane = 0; lane < groupLanes; ++lane)
-        squares[lane] += r_[i * groupLanes + lane] * r_[i * groupLanes + lane];
-  std::array<double, groupLanes> inverse{};
-  for (int lane = 0; lane < groupLanes; ++lane) {
+      for (int lane = 0; lane < batchLanes; ++lane)
+        squares[lane] += r_[i * batchLanes + lane] * r_[i * batchLanes + lane];
+  std::array<double, batchLanes> inverse{};
+  for (int lane = 0; lane < batchLanes; ++lane) {
     scale_[lane] = active[lane] && std::isfinite(squares[lane]) ? std::sqrt(squares[lane]) : 0;
     inverse[lane] = scale_[lane] > 0 ? 1 / scale_[lane] : 0;
   }
   for (std::size_t i = 0; i < places.size(); ++i)
     if (places[i] >= 0)
-      for (int lane = 0; lane < groupLanes; ++lane) {
-        const double r = inverse[lane] > 0 ? r_[i * groupLanes + lane] * inverse[lane] : 0;
-        solution_[std::size_t(places[i]) * groupLanes + lane] = static_cast<float>(r);
+      for (int lane = 0; lane < batchLanes; ++lane) {
+        const double r = inverse[lane] > 0 ? r_[i * batchLanes + lane] * inverse[lane] : 0;
+        solution_[std::size_t(places[i]) * batchLanes + lane] = static_cast<float>(r);
       }
   const BlockedFactor factor = model_.factor();
   for (int first = 0; first < factor.count && !stop.stop_requested(); first += supernodesACall)
@@ -110,12 +110,12 @@ void LoadGroup::solveDirections(const std::array<bool, groupLanes>& active, cons
   for (int last = factor.count; last > 0 && !stop.stop_requested(); last -= supernodesACall)
     laneKernels().backward(factor, std::max(0, last - supernodesACall), last, solution_.data());
   for (std::size_t i = 0; i < places.size(); ++i)
-    for (int lane = 0; lane < groupLanes; ++lane)
-      r_[i * groupLanes + lane] =
-          places[i] >= 0 ? scale_[lane] * double(solution_[std::size_t(places[i]) * groupLanes + lane]) : 0;
+    for (int lane = 0; lane < batchLanes; ++lane)
+      r_[i * batchLanes + lane] =
+          places[i] >= 0 ? scale_[lane] * double(solution_[std::size_t(places[i]) * batchLanes + lane]) : 0;
 }
 
-void LoadGroup::update(const std::array<bool, blocks>& live, const std::stop_token& stop) {
+void LoadBatch::update(const std::array<bool, blocks>& live, const std::stop_token& stop) {
   const Discretisation& mesh = model_.mesh();
   const ElementKernels& kernels = mesh.kernels();
   const int own = mesh.unknowns();
@@ -134,66 +134,66 @@ void LoadGroup::update(const std::array<bool, blocks>& live, const std::stop_tok
   for (std::size_t i = 0; i < u_.size(); ++i) u_[i] += r_[i];
 }
 
-LaneVector LoadGroup::displacementsAt(const PointProbe& probe) const {
-  LaneVector out(3 * probe.holders().size() * groupLanes);
+LaneVector LoadBatch::displacementsAt(const PointProbe& probe) const {
+  LaneVector out(3 * probe.holders().size() * batchLanes);
   for (std::size_t i = 0; i < probe.holders().size(); ++i) {
     const PointProbe::Holder& holder = probe.holders()[i].front();
-    double* value = out.data() + 3 * i * groupLanes;
+    double* value = out.data() + 3 * i * batchLanes;
     for (Eigen::Index n = 0; n < holder.shapes.size(); ++n) {
       const double shape = holder.shapes(n);
       if (shape == 0) continue;
       const double* u =
-          u_.data() + 3 * std::size_t(model_.mesh().node(holder.element, static_cast<int>(n))) * groupLanes;
-      for (int k = 0; k < 3 * groupLanes; ++k) value[k] += shape * u[k];
+          u_.data() + 3 * std::size_t(model_.mesh().node(holder.element, static_cast<int>(n))) * batchLanes;
+      for (int k = 0; k < 3 * batchLanes; ++k) value[k] += shape * u[k];
     }
     if (holder.bubble != 0)
-      for (int k = 0; k < 3 * groupLanes; ++k)
-        value[k] += holder.bubble * unknown(holder.element, k / groupLanes, k % groupLanes);
+      for (int k = 0; k < 3 * batchLanes; ++k)
+        value[k] += holder.bubble * unknown(holder.element, k / batchLanes, k % batchLanes);
   }
   return out;
 }
 
-LaneVector LoadGroup::pressuresAt(const PointProbe& probe) const {
-  LaneVector out(probe.holders().size() * groupLanes);
+LaneVector LoadBatch::pressuresAt(const PointProbe& probe) const {
+  LaneVector out(probe.holders().size() * batchLanes);
   for (std::size_t i = 0; i < probe.holders().size(); ++i) {
     const auto& holders = probe.holders()[i];
     for (const PointProbe::Holder& holder : holders) {
       const int first = model_.mesh().unknowns() - static_cast<int>(holder.pressure.size());
       for (Eigen::Index k = 0; k < holder.pressure.size(); ++k)
-        for (int lane = 0; lane < groupLanes; ++lane)
-          out[i * groupLanes + lane] -=
+        for (int lane = 0; lane < batchLanes; ++lane)
+          out[i * batchLanes + lane] -=
               holder.pressure(k) * unknown(holder.element, first + static_cast<int>(k), lane) / double(holders.size());
     }
   }
   return out;
 }
 
-void LoadGroup::iterate(const std::array<bool, groupLanes>& active, std::array<double, groupLanes>& change,
+void LoadBatch::iterate(const std::array<bool, batchLanes>& active, std::array<double, batchLanes>& change,
                         const std::stop_token& stop) {
   std::array<bool, blocks> live{};
-  for (int lane = 0; lane < groupLanes; ++lane) live[lane / lanes] = live[lane / lanes] || active[lane];
+  for (int lane = 0; lane < batchLanes; ++lane) live[lane / lanes] = live[lane / lanes] || active[lane];
   const LaneVector before = displacementsAt(upper_);
   evaluateResiduals(live, stop);
   solveDirections(active, stop);
   update(live, stop);
   const LaneVector after = displacementsAt(upper_);
-  std::array<double, groupLanes> difference{}, norm{};
+  std::array<double, batchLanes> difference{}, norm{};
   for (std::size_t i = 0; i < after.size(); ++i) {
-    difference[i % groupLanes] += (after[i] - before[i]) * (after[i] - before[i]);
-    norm[i % groupLanes] += after[i] * after[i];
+    difference[i % batchLanes] += (after[i] - before[i]) * (after[i] - before[i]);
+    norm[i % batchLanes] += after[i] * after[i];
   }
-  for (int lane = 0; lane < groupLanes; ++lane) {
+  for (int lane = 0; lane < batchLanes; ++lane) {
     if (!active[lane]) continue;
     const double relative = norm[lane] > 0 ? std::sqrt(difference[lane] / norm[lane]) : 0;
     change[lane] = smallestJ_[lane] > 0 && std::isfinite(relative) ? relative : -1;
   }
 }
 
-ElementState LoadGroup::state(int lane) const {
+ElementState LoadBatch::state(int lane) const {
   const Discretisation& mesh = model_.mesh();
   ElementState state = mesh.atRest();
   for (Eigen::Index i = 0; i < state.displacements.size(); ++i)
-    state.displacements(i) = u_[std::size_t(i) * groupLanes + lane];
+    state.displacements(i) = u_[std::size_t(i) * batchLanes + lane];
   const std::size_t own = mesh.unknowns();
   for (int e = 0; e < lanes * mesh.blocks(); ++e) {
     const std::size_t from =
@@ -204,14 +204,14 @@ ElementState LoadGroup::state(int lane) const {
   return state;
 }
 
-std::vector<ElectrodeDisplacements> LoadGroup::electrodes(const PointProbe& lower) const {
+std::vector<ElectrodeDisplacements> LoadBatch::electrodes(const PointProbe& lower) const {
   const LaneVector up = displacementsAt(upper_), low = displacementsAt(lower), pressure = pressuresAt(upper_);
   const auto ofLane = [](const LaneVector& values, int lane) {
-    return Eigen::Map<const Eigen::VectorXd, 0, Eigen::InnerStride<groupLanes>>(
-        values.data() + lane, static_cast<Eigen::Index>(values.size() / groupLanes));
+    return Eigen::Map<const Eigen::VectorXd, 0, Eigen::InnerStride<batchLanes>>(
+        values.data() + lane, static_cast<Eigen::Index>(values.size() / batchLanes));
   };
   std::vector<ElectrodeDisplacements> all;
-  for (int l = 0; l < groupLanes; ++l)
+  for (int l = 0; l < batchLanes; ++l)
     all.push_back(
         {ofLane(up, l).reshaped(3, Eigen::AutoSize), ofLane(low, l).reshaped(3, Eigen::AutoSize), ofLane(pressure, l)});
   return all;

@@ -2,15 +2,15 @@
 
 // Private to nn.
 
-#include "nn/rbf/RbfProblem.h"
+#include "nn/rbf/RbfSystem.h"
 
 namespace palp {
 
 /// Interpolation with one centre a sample, as kriging: (Phi + ridge I) w + P c = y, P^T w = 0.
-class KernelProblem final : public RbfProblem {
+class KernelSystem final : public RbfSystem {
 public:
-  KernelProblem(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen::Ref<const Eigen::MatrixXd>& targets,
-                const RbfOptions& options);
+  KernelSystem(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen::Ref<const Eigen::MatrixXd>& targets,
+               const RbfOptions& options);
   [[nodiscard]] RbfSolution solve(double spread, double ridge, const std::stop_token& stop) const override;
   [[nodiscard]] std::vector<LeaveOneOutResult> leaveOneOut(double spread, const std::vector<double>& ridges,
                                                            const std::stop_token& stop) const override;

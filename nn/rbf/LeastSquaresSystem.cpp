@@ -1,11 +1,11 @@
-#include "nn/rbf/LeastSquaresProblem.h"
+#include "nn/rbf/LeastSquaresSystem.h"
 
 #include "model/base/Cancelled.h"
 #include "nn/Basis.h"
 #include "nn/NoisyCopies.h"
 #include "nn/linear/RidgeFit.h"
 #include "nn/rbf/KMeans.h"
-#include "nn/rbf/KernelProblem.h"
+#include "nn/rbf/KernelSystem.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,25 +26,25 @@ Eigen::MatrixXd chooseCenters(const Eigen::MatrixXd& scaled, const RbfOptions& o
 
 } // namespace
 
-LeastSquaresProblem::LeastSquaresProblem(const Eigen::Ref<const Eigen::MatrixXd>& samples,
-                                         const Eigen::Ref<const Eigen::MatrixXd>& targets, const RbfOptions& options,
-                                         int noiseCopies, const std::stop_token& stop)
+LeastSquaresSystem::LeastSquaresSystem(const Eigen::Ref<const Eigen::MatrixXd>& samples,
+                                       const Eigen::Ref<const Eigen::MatrixXd>& targets, const RbfOptions& options,
+                                       int noiseCopies, const std::stop_token& stop)
     : options_(options), scaler_(scalerFor(options, samples)),
       copies_(options.relativeInputNoise > 0 ? noiseCopies : 1),
       rows_(scaler_.apply(
           noisyCopies(samples, options.relativeInputNoise, static_cast<int>(copies_), options.seed, stop))),
       centers_(chooseCenters(scaler_.apply(samples), options)), distances_(squaredDistances(rows_, centers_, stop)),
       tail_(affordableTail(options.tail, rows_)),
-      tailIsUnknown_(tail_ == Tail::LinearPenalised || options.solver == Solver::Recursive),
+      tailIsUnknown_(tail_ == Tail::LinearPenalised || options.solver == LeastSquaresMethod::Recursive),
       space_(rows_, tailIsUnknown_ ? Tail::None : tail_), targets_(repeatedColumns(targets, copies_)),
       shift_(tail_ == Tail::None ? Eigen::VectorXd::Zero(targets.rows()) : Eigen::VectorXd(targets.rowwise().mean())),
       right_(space_.project((targets_.colwise() - shift_).transpose())) {}
 
-double LeastSquaresProblem::tailFactor() const {
+double LeastSquaresSystem::tailFactor() const {
   return tail_ == Tail::LinearPenalised ? std::sqrt(options_.tailVariance) : 1;
 }
 
-Eigen::MatrixXd LeastSquaresProblem::system(double spread, const std::stop_token& stop) const {
+Eigen::MatrixXd LeastSquaresSystem::system(double spread, const std::stop_token& stop) const {
   stopIfAsked(stop);
   Eigen::MatrixXd phi = distances_;
   basisInPlace(phi, gaussianRate(spread, options_.convention));
@@ -57,7 +57,7 @@ Eigen::MatrixXd LeastSquaresProblem::system(double spread, const std::stop_token
   return all;
 }
 
-RbfSolution LeastSquaresProblem::solve(double spread, double ridge, const std::stop_token& stop) const {
+RbfSolution LeastSquaresSystem::solve(double spread, double ridge, const std::stop_token& stop) const {
   const Eigen::MatrixXd a = system(spread, stop);
   const LinearSolution solved = solveLeastSquares(a, right_, options_.solver, ridge * static_cast<double>(copies_),
                                                   options_.rcond, options_.forgetting, stop);
@@ -83,8 +83,8 @@ RbfSolution LeastSquaresProblem::solve(double spread, double ridge, const std::s
   return solution;
 }
 
-std::vector<LeaveOneOutResult> LeastSquaresProblem::leaveOneOut(double spread, const std::vector<double>& ridges,
-                                                                const std::stop_token& stop) const {
+std::vector<LeaveOneOutResult> LeastSquaresSystem::leaveOneOut(double spread, const std::vector<double>& ridges,
+                                                               const std::stop_token& stop) const {
   const lapack::ThinSvd svd =
       copies_ > 1 ? lapack::svdOfGram(system(spread, stop), stop) : lapack::thinSvd(system(spread, stop));
   const Eigen::MatrixXd left = space_.embed(svd.u);

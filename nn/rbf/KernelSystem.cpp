@@ -1,4 +1,4 @@
-#include "nn/rbf/KernelProblem.h"
+#include "nn/rbf/KernelSystem.h"
 
 #include "model/base/Cancelled.h"
 #include "nn/Basis.h"
@@ -23,14 +23,14 @@ Tail affordableTail(Tail wanted, const Eigen::MatrixXd& scaled) {
   return 3 * rest < scaled.cols() ? Tail::LinearPenalised : wanted;
 }
 
-KernelProblem::KernelProblem(const Eigen::Ref<const Eigen::MatrixXd>& samples,
-                             const Eigen::Ref<const Eigen::MatrixXd>& targets, const RbfOptions& options)
+KernelSystem::KernelSystem(const Eigen::Ref<const Eigen::MatrixXd>& samples,
+                           const Eigen::Ref<const Eigen::MatrixXd>& targets, const RbfOptions& options)
     : options_(options), scaler_(scalerFor(options, samples)), scaled_(scaler_.apply(samples)),
       distances_(squaredDistances(scaled_)), tail_(affordableTail(options.tail, scaled_)), space_(scaled_, tail_),
       targets_(targets), shift_(shiftFor(tail_, targets_)),
       right_(space_.project((targets_.colwise() - shift_).transpose())) {}
 
-Eigen::MatrixXd KernelProblem::kernel(double spread) const {
+Eigen::MatrixXd KernelSystem::kernel(double spread) const {
   Eigen::MatrixXd phi = distances_;
   const double rate = gaussianRate(spread, options_.convention);
   for (Eigen::Index j = 0; j < phi.cols(); ++j) basisInPlace(phi.block(j, j, phi.rows() - j, 1), rate, form());
@@ -41,11 +41,11 @@ Eigen::MatrixXd KernelProblem::kernel(double spread) const {
   return phi;
 }
 
-BasisForm KernelProblem::form() const {
+BasisForm KernelSystem::form() const {
   return tail_ == Tail::Linear ? BasisForm::Remainder : BasisForm::Gaussian;
 }
 
-RbfSolution KernelProblem::solve(double spread, double ridge, const std::stop_token& stop) const {
+RbfSolution KernelSystem::solve(double spread, double ridge, const std::stop_token& stop) const {
   stopIfAsked(stop);
   const Eigen::MatrixXd phi = kernel(spread);
   const LinearSolution solved =
@@ -72,14 +72,14 @@ RbfSolution KernelProblem::solve(double spread, double ridge, const std::stop_to
   return solution;
 }
 
-std::vector<LeaveOneOutResult> KernelProblem::leaveOneOut(double spread, const std::vector<double>& ridges,
-                                                          const std::stop_token& stop) const {
+std::vector<LeaveOneOutResult> KernelSystem::leaveOneOut(double spread, const std::vector<double>& ridges,
+                                                         const std::stop_token& stop) const {
   stopIfAsked(stop);
   if (ridges.size() == 1) return {byInverse(spread, ridges.front(), stop)};
   return byEigen(spread, ridges, stop);
 }
 
-LeaveOneOutResult KernelProblem::byInverse(double spread, double ridge, const std::stop_token& stop) const {
+LeaveOneOutResult KernelSystem::byInverse(double spread, double ridge, const std::stop_token& stop) const {
   const Eigen::Index unknowns = right_.rows();
   bool indefinite = false;
   for (;;) {
@@ -107,8 +107,8 @@ LeaveOneOutResult KernelProblem::byInverse(double spread, double ridge, const st
   }
 }
 
-std::vector<LeaveOneOutResult> KernelProblem::byEigen(double spread, const std::vector<double>& ridges,
-                                                      const std::stop_token& stop) const {
+std::vector<LeaveOneOutResult> KernelSystem::byEigen(double spread, const std::vector<double>& ridges,
+                                                     const std::stop_token& stop) const {
   Eigen::MatrixXd system = space_.projectBothSides(kernel(spread));
   const double least = smallestRidge(system.rows() == 0 ? 0 : system.diagonal().sum());
   stopIfAsked(stop);
@@ -127,8 +127,8 @@ std::vector<LeaveOneOutResult> KernelProblem::byEigen(double spread, const std::
   return results;
 }
 
-LeaveOneOutResult KernelProblem::result(double spread, double ridge, const Eigen::MatrixXd& weights,
-                                        const Eigen::VectorXd& inverseDiagonal) const {
+LeaveOneOutResult KernelSystem::result(double spread, double ridge, const Eigen::MatrixXd& weights,
+                                       const Eigen::VectorXd& inverseDiagonal) const {
   // A sample that the tail alone fits whatever its target has a weight and a diagonal of 0: nothing is known of it.
   const Eigen::VectorXd divisor = (inverseDiagonal.array() > 0).select(inverseDiagonal, 1.0);
   Eigen::MatrixXd residuals = (divisor.cwiseInverse().asDiagonal() * weights).transpose();

@@ -10,9 +10,9 @@
 namespace palp {
 
 /// Random numbers that are the same with every standard library (its distributions are not).
-class Random {
+class RandomNumbers {
 public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
+  explicit RandomNumbers(std::uint64_t seed) : engine_(seed) {}
 
   /// In [0, 1), 53 bits.
   double uniform() { return static_cast<double>(engine_() >> 11) * 0x1.0p-53; }

@@ -28,9 +28,9 @@ struct RbfSolution {
 
 /// Samples, targets and everything about a network but spread and ridge. Immutable: spreads may be tried in parallel.
 /// All throw Cancelled soon after they are asked to stop.
-class RbfProblem {
+class RbfSystem {
 public:
-  virtual ~RbfProblem() = default;
+  virtual ~RbfSystem() = default;
   [[nodiscard]] virtual RbfSolution solve(double spread, double ridge, const std::stop_token& stop) const = 0;
   /// Leave-one-out errors at one spread and each of the ridges.
   [[nodiscard]] virtual std::vector<LeaveOneOutResult> leaveOneOut(double spread, const std::vector<double>& ridges,
@@ -43,9 +43,9 @@ public:
 
 /// The problem that options describe: interpolation with one centre a sample, or least squares on fewer centres or on
 /// noisy copies. Throws NetworkError where there can be none. `noiseCopies` overrides the options'.
-std::unique_ptr<RbfProblem> rbfProblem(const Eigen::Ref<const Eigen::MatrixXd>& samples,
-                                       const Eigen::Ref<const Eigen::MatrixXd>& targets, const RbfOptions& options,
-                                       int noiseCopies, const std::stop_token& stop = {});
+std::unique_ptr<RbfSystem> rbfSystem(const Eigen::Ref<const Eigen::MatrixXd>& samples,
+                                     const Eigen::Ref<const Eigen::MatrixXd>& targets, const RbfOptions& options,
+                                     int noiseCopies, const std::stop_token& stop = {});
 
 /// The scaler that the options describe.
 FeatureScaler scalerFor(const RbfOptions& options, const Eigen::Ref<const Eigen::MatrixXd>& samples);

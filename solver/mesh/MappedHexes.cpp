@@ -1,4 +1,4 @@
-#include "solver/mesh/BlockMesher.h"
+#include "solver/mesh/MappedHexes.h"
 
 #include <algorithm>
 

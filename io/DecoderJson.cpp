@@ -1,4 +1,4 @@
-#include "io/NetworkJson.h"
+#include "io/DecoderJson.h"
 
 #include "io/DesignFile.h"
 #include "nn/NetworkError.h"

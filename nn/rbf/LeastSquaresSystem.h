@@ -3,17 +3,16 @@
 // Private to nn.
 
 #include "nn/linear/LinearSolve.h"
-#include "nn/rbf/RbfProblem.h"
+#include "nn/rbf/RbfSystem.h"
 
 namespace palp {
 
 /// Least squares on given centres, and on noisy copies of the samples where there is noise: rows of regressors for the
 /// Gaussians, the tail exact (projected out) or as further unknowns.
-class LeastSquaresProblem final : public RbfProblem {
+class LeastSquaresSystem final : public RbfSystem {
 public:
-  LeastSquaresProblem(const Eigen::Ref<const Eigen::MatrixXd>& samples,
-                      const Eigen::Ref<const Eigen::MatrixXd>& targets, const RbfOptions& options, int noiseCopies,
-                      const std::stop_token& stop);
+  LeastSquaresSystem(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen::Ref<const Eigen::MatrixXd>& targets,
+                     const RbfOptions& options, int noiseCopies, const std::stop_token& stop);
   [[nodiscard]] RbfSolution solve(double spread, double ridge, const std::stop_token& stop) const override;
   [[nodiscard]] std::vector<LeaveOneOutResult> leaveOneOut(double spread, const std::vector<double>& ridges,
                                                            const std::stop_token& stop) const override;

@@ -5,10 +5,10 @@
 namespace palp {
 
 /// The tangent at rest laid out for many loads at once: element by element.
-class RestModel {
+class ElementwiseTangent {
 public:
   /// Both are to outlive it.
-  RestModel(const HyperelasticProblem::Parts& parts, const RestTangent& rest);
+  ElementwiseTangent(const HyperelasticProblem::Parts& parts, const InitialTangent& rest);
 
   [[nodiscard]] const Discretisation& mesh() const { return mesh_; }
   [[nodiscard]] const RubberConstants& rubber() const { return rubber_; }

@@ -1,4 +1,4 @@
-#include "io/board/Board.h"
+#include "io/board/VirtualBoard.h"
 
 #include "model/base/Error.h"
 #include "tests/io/board/SmallBoard.h"
@@ -10,20 +10,20 @@
 namespace palp {
 namespace {
 
-std::vector<BoardFrame> framesOfBoard(const BoardSettings& settings, Board& board, std::size_t reports) {
+std::vector<BoardFrame> framesOfBoard(const BoardSettings& settings, VirtualBoard& board, std::size_t reports) {
   FrameAssembler assembler(settings.info, board.configuration());
   return framesOf(assembler, reportsOf(board, reports));
 }
 
 TEST(Board, AnswersItsFeaturesAndNoOthers) {
-  const Board board = boardWith(smallBoard());
+  const VirtualBoard board = boardWith(smallBoard());
   EXPECT_EQ(std::get<BoardInfo>(decodeInfo(*board.feature(0x10))), smallBoard().info);
   EXPECT_EQ(std::get<BoardConfiguration>(decodeConfiguration(*board.feature(0x11))), smallBoard().configuration);
   EXPECT_FALSE(board.feature(0x12));
 }
 
 TEST(Board, CountsTheGenerationUpAtEachConfiguration) {
-  Board board = boardWith(smallBoard());
+  VirtualBoard board = boardWith(smallBoard());
   BoardConfiguration wanted = smallBoard().configuration;
   wanted.rate_Hz = 500;
   EXPECT_TRUE(board.setFeature(encode(wanted)));
@@ -44,7 +44,7 @@ TEST(Board, KeepsItsRateOnTheClockThatItIsGiven) {
   for (const int rate_Hz : {300, 1000, 8000}) {
     BoardSettings settings = smallBoard();
     settings.configuration.rate_Hz = rate_Hz;
-    Board board = boardWith(settings);
+    VirtualBoard board = boardWith(settings);
     int count = 0;
     for (std::uint64_t clock_us = 5'000'000; clock_us < 7'000'000; clock_us += 777)
       board.advance(clock_us, [&](std::span<const std::uint8_t>) { ++count; });
@@ -53,7 +53,7 @@ TEST(Board, KeepsItsRateOnTheClockThatItIsGiven) {
 }
 
 TEST(Board, StartsStopsAndAnswersWithTheTag) {
-  Board board = boardWith(smallBoard());
+  VirtualBoard board = boardWith(smallBoard());
   reportsOf(board, 3);
   ASSERT_TRUE(board.output(encode(BoardCommand{Opcode::Stop, 77, {}})));
   std::vector<Bytes> reports;
@@ -70,7 +70,7 @@ TEST(Board, StartsStopsAndAnswersWithTheTag) {
 }
 
 TEST(Board, RefusesWhatIsNotAmongItsCapabilities) {
-  Board board = boardWith(smallBoard());
+  VirtualBoard board = boardWith(smallBoard());
   board.output(encode(BoardCommand{Opcode::Tare, 5, {}}));
   const auto event = std::get<BoardEvent>(decodeInput(reportsOf(board, 1)[0], board.info()));
   EXPECT_EQ(event.code, EventCode::Refused);
@@ -80,7 +80,7 @@ TEST(Board, RefusesWhatIsNotAmongItsCapabilities) {
 TEST(Board, TestPatternTellsRowAndColumn) {
   BoardSettings settings = smallBoard();
   settings.configuration.mode = BoardMode::TestPattern;
-  Board board = boardWith(settings);
+  VirtualBoard board = boardWith(settings);
   const auto readings = std::get<Readings>(decodeInput(reportsOf(board, 5)[4], board.info()));
   EXPECT_EQ(readings.codes[3], 0x100000U + 0x1000 * 1 + 18); // second report of row-wire 1, fourth reading
 }
@@ -88,18 +88,18 @@ TEST(Board, TestPatternTellsRowAndColumn) {
 TEST(Board, TheSameSeedSendsTheSameBytes) {
   BoardSettings settings = smallBoard();
   settings.disturbance.noise = 1e-4;
-  Board one = boardWith(settings);
-  Board two = boardWith(settings);
+  VirtualBoard one = boardWith(settings);
+  VirtualBoard two = boardWith(settings);
   EXPECT_EQ(reportsOf(one, 100), reportsOf(two, 100));
   settings.seed = 2;
-  Board three = boardWith(settings);
+  VirtualBoard three = boardWith(settings);
   EXPECT_NE(reportsOf(one, 100), reportsOf(three, 100));
 }
 
 TEST(Board, NoiseHasItsSize) {
   BoardSettings settings = smallBoard();
   settings.disturbance.noise = 1e-4;
-  Board board = boardWith(settings);
+  VirtualBoard board = boardWith(settings);
   double squares = 0;
   const auto frames = framesOfBoard(settings, board, 900);
   for (const BoardFrame& frame : frames)
@@ -113,7 +113,7 @@ TEST(Board, DriftFollowsTheTemperature) {
   settings.disturbance.warming_degC = 10;
   settings.disturbance.warmingTime_s = 1;
   settings.disturbance.temperatureCoefficient = 1e-3;
-  Board board = boardWith(settings);
+  VirtualBoard board = boardWith(settings);
   const auto frames = framesOfBoard(settings, board, 9000);
   EXPECT_NEAR(*frames.back().temperature_degC, 33, 0.01); // the field's step; exp(-9) of the way is left
   EXPECT_NEAR(frames.back().resistances_ohm(1, 1) / frames.front().resistances_ohm(1, 1), 1.01, 1e-4);
@@ -124,7 +124,7 @@ TEST(Board, HysteresisKeepsAPartOfThePast) {
   settings.disturbance.hysteresisShare = 0.5;
   settings.disturbance.hysteresisWidth = 1e-3;
   Eigen::MatrixXd now = placeResistances();
-  Board board(settings, [&now](double time_s) -> const Eigen::MatrixXd& {
+  VirtualBoard board(settings, [&now](double time_s) -> const Eigen::MatrixXd& {
     now = placeResistances() * (time_s > 0.05 && time_s < 0.1 ? 1.01 : 1.0); // pressed for a while
     return now;
   });
@@ -138,7 +138,7 @@ TEST(Board, FaultsOfWiresShowAsSuch) {
   BoardSettings settings = smallBoard();
   settings.faults.openRows = {1};
   settings.faults.shortReadings = {{0, 4}};
-  Board board = boardWith(settings);
+  VirtualBoard board = boardWith(settings);
   const auto frames = framesOfBoard(settings, board, 9);
   EXPECT_EQ(wireFaults(frames[0]), (std::vector<std::string>{"row-wire 0, column-wire 4: short", "row-wire 1: open"}));
   board.faults() = {};
@@ -152,7 +152,7 @@ TEST(Board, FaultsOfWiresShowAsSuch) {
 TEST(Board, FaultsOfTheLineAreFoundByTheAssembler) {
   BoardSettings settings = smallBoard();
   settings.faults = {{}, {}, {}, false, 47, 71, 89, 113, 127};
-  Board board = boardWith(settings);
+  VirtualBoard board = boardWith(settings);
   FrameAssembler assembler(settings.info, settings.configuration);
   framesOf(assembler, reportsOf(board, 5000));
   const ReportCounts& counts = assembler.counts();
@@ -164,7 +164,7 @@ TEST(Board, FaultsOfTheLineAreFoundByTheAssembler) {
 
 TEST(Board, RefusesASensorOfOtherSize) {
   const Eigen::MatrixXd resistances = placeResistances(4, 32);
-  EXPECT_THROW(Board(smallBoard(), [&](double) -> const Eigen::MatrixXd& { return resistances; }), Error);
+  EXPECT_THROW(VirtualBoard(smallBoard(), [&](double) -> const Eigen::MatrixXd& { return resistances; }), Error);
   BoardSettings settings = smallBoard();
   settings.info.rowWires = 33;
   EXPECT_THROW(boardWith(settings), Error);

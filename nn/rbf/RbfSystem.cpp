@@ -1,9 +1,9 @@
-#include "nn/rbf/RbfProblem.h"
+#include "nn/rbf/RbfSystem.h"
 
 #include "model/base/Cancelled.h"
 #include "nn/NetworkError.h"
-#include "nn/rbf/KernelProblem.h"
-#include "nn/rbf/LeastSquaresProblem.h"
+#include "nn/rbf/KernelSystem.h"
+#include "nn/rbf/LeastSquaresSystem.h"
 
 #include <cmath>
 #include <sstream>
@@ -57,15 +57,15 @@ void requireUsable(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen
   if (options.noiseCopies < 1) refuse("noise copies", options.noiseCopies, "1 or more");
 }
 
-std::unique_ptr<RbfProblem> rbfProblem(const Eigen::Ref<const Eigen::MatrixXd>& samples,
-                                       const Eigen::Ref<const Eigen::MatrixXd>& targets, const RbfOptions& options,
-                                       int noiseCopies, const std::stop_token& stop) {
+std::unique_ptr<RbfSystem> rbfSystem(const Eigen::Ref<const Eigen::MatrixXd>& samples,
+                                     const Eigen::Ref<const Eigen::MatrixXd>& targets, const RbfOptions& options,
+                                     int noiseCopies, const std::stop_token& stop) {
   stopIfAsked(stop);
   const bool oneASample = options.centers == CenterChoice::Samples ||
                           (options.centerCount >= samples.cols() && options.centers != CenterChoice::KMeans);
-  if (oneASample && options.relativeInputNoise == 0 && options.solver != Solver::Recursive)
-    return std::make_unique<KernelProblem>(samples, targets, options);
-  return std::make_unique<LeastSquaresProblem>(samples, targets, options, noiseCopies, stop);
+  if (oneASample && options.relativeInputNoise == 0 && options.solver != LeastSquaresMethod::Recursive)
+    return std::make_unique<KernelSystem>(samples, targets, options);
+  return std::make_unique<LeastSquaresSystem>(samples, targets, options, noiseCopies, stop);
 }
 
 FeatureScaler scalerFor(const RbfOptions& options, const Eigen::Ref<const Eigen::MatrixXd>& samples) {

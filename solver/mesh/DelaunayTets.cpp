@@ -1,4 +1,4 @@
-#include "solver/mesh/TetMesher.h"
+#include "solver/mesh/DelaunayTets.h"
 
 #include "model/DesignError.h"
 

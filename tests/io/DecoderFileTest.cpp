@@ -1,4 +1,4 @@
-#include "io/NetworkFile.h"
+#include "io/DecoderFile.h"
 
 #include "model/base/Error.h"
 #include "nn/RbfTrainer.h"

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "model/Mesh.h"
+
+#include <array>
+
+namespace palp {
+
+/// Shape of the elements (dihedral angles, of tetrahedra and hexahedra alike), and a histogram for the eye.
+struct MeshQuality {
+  double minDihedral_deg = 0;
+  double maxDihedral_deg = 0;
+  std::array<int, 18> minDihedralHistogram{}; ///< elements by their smallest dihedral angle, 10 degrees a bin
+};
+MeshQuality meshQuality(const Mesh& mesh);
+
+} // namespace palp
