@@ -3,6 +3,8 @@
 #include "app/cli/Interrupt.h"
 #include "app/study/Blas.h"
 #include "app/study/reports/ProcessMemory.h"
+#include "model/base/Cancelled.h"
+#include "model/base/Error.h"
 #include "solver/BatchSolver.h"
 
 #include <algorithm>
