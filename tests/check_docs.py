@@ -1,6 +1,6 @@
 """The pages for people against the repository: every relative link and its anchor, every path of the repository that
-stands in backticks, every `palp COMMAND` and every --option of one must be there; comments of the sources cite nothing
-outside the repository.
+stands in backticks, every `palp COMMAND` and every --option of one must be there; README names every command, and
+environment.md every variable that is read; comments of the sources cite nothing outside the repository.
 
 Used by CTest: python3 tests/check_docs.py ROOT
 """
@@ -80,6 +80,19 @@ def command_problems(page, commands, options):
                 yield f"`{line}`: palp has no option {option}"
 
 
+def variable_problems(root):
+    """Environment variables of ours that a program, a test or a script reads, against their page."""
+    page = (root / "resources/docs/environment.md").read_text()
+    read = re.compile(r'getenv\("(PALP_[A-Z_]+)"|\$\{(PALP_[A-Z_]+):-|= "(PALP_[A-Z_]+)"')
+    files = [p for folder in SOURCES for p in (root / folder).rglob("*") if p.is_file() and p.suffix in (".cpp", ".h", ".sh", "", ".py")]
+    found = {next(filter(None, groups)) for p in files for groups in read.findall(p.read_text())}
+    for name in sorted(found):
+        if f"`{name}`" not in page:
+            yield f"resources/docs/environment.md: {name} is read, but not described"
+    for name in sorted(set(re.findall(r"^\| `(PALP_[A-Z_]+)`", page, flags=re.M)) - found):
+        yield f"resources/docs/environment.md: {name} is described, but nothing reads it"
+
+
 def comment_problems(root):
     for folder in SOURCES:
         for end in ("*.h", "*.cpp", "*.py", "*.txt", "*.sh"):
@@ -106,7 +119,9 @@ def main(root):
             problems += [f"{where}: {problem}" for problem in found]
         if page.name != "README.md" and f"docs/{page.name}" not in (root / "README.md").read_text():
             problems.append(f"{where}: the README does not link it")
-    problems += comment_problems(root)
+    problems += [f"README.md: palp {name} is not named" for name in sorted(commands)
+                 if f"`palp {name}`" not in pages[0].read_text()]
+    problems += [*variable_problems(root), *comment_problems(root)]
     print("\n".join(problems) if problems else f"{len(pages)} pages agree with the repository")
     return 1 if problems else 0
 
