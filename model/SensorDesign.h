@@ -78,7 +78,7 @@ struct SensorDesign {
   bool operator==(const SensorDesign&) const = default;
 };
 
-/// The preset `paper` (PHYSICS of the paper, sections 2 and 3; depths and positions are our choice).
+/// The preset `paper`: the paper's sections 3 and 4.2; depths and positions are our choice (resources/docs/physics.md).
 SensorDesign paperDesign();
 
 /// One thing that is wrong: the key of the design file and a sentence with the value and what is allowed.

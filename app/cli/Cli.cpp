@@ -2,6 +2,7 @@
 
 #include "app/cli/Interrupt.h"
 #include "app/study/Blas.h"
+#include "app/study/Resources.h"
 #include "app/study/reports/ProcessMemory.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
@@ -28,10 +29,25 @@ nlohmann::ordered_json toJson(const StageLog& stages) {
   return json;
 }
 
+/// Where to read on; nothing where the pages were not installed.
+std::string pagesInWords() {
+  try {
+    return "Pages to read: " + resource("docs/architecture.md").parent_path().string() +
+           "\n  architecture.md where to begin, how to add a command, a scene, a decoder or a report"
+           "\n  physics.md      the sensor, its equations, what can be compared with the paper"
+           "\n  numerics.md     elements, solver, networks, bounds: formulas and their sources"
+           "\n  formats.md      every file, with an example"
+           "\n  glossary.md, environment.md, contributing.md, changelog.md";
+  } catch (const Error&) {
+    return {};
+  }
+}
+
 } // namespace
 
 Cli::Cli() : app_("Palp: three-axis tactile sensors of conductive rubber, from the block to the force", "palp") {
   app_.require_subcommand(0, 1);
+  app_.footer(pagesInWords);
   app_.set_version_flag("--version", std::string("palp ") + PALP_VERSION);
   app_.fallthrough(false);
 }

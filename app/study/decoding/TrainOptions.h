@@ -31,7 +31,7 @@ struct TrainOptions {
   int threads = 0; ///< 0: all cores; the result is the same
 };
 
-/// The one place where a mode becomes options (see PHYSICS.md, the two modes): for `samples` samples.
+/// The one place where a mode becomes options (resources/docs/physics.md, the two modes): for `samples` samples.
 RbfOptions rbfOptions(const TrainOptions& options, Eigen::Index samples);
 
 /// The options as on the command line, those alone that were set: " --input resistance --rows all".

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <sstream>
 
 using nlohmann::json;
 using namespace palp::test;
@@ -12,6 +13,20 @@ namespace {
 
 bool hasStage(const json& result, const std::string& stage) {
   return result.at("stages").contains(stage);
+}
+
+/// The commands that `palp --help` lists: the lines below "Subcommands:" up to an empty one.
+std::vector<std::string> commandsInHelp() {
+  std::istringstream help(palp::test::palp({"--help"}).output);
+  std::vector<std::string> commands;
+  bool below = false;
+  for (std::string line; std::getline(help, line);) {
+    if (below && line.empty()) break;
+    std::istringstream words(line);
+    if (below) words >> commands.emplace_back();
+    below = below || line == "Subcommands:";
+  }
+  return commands;
 }
 
 } // namespace
@@ -86,12 +101,30 @@ TEST(Commands, AnHonestEndIsExitOneWithTheFractionReached) {
 }
 
 TEST(Commands, EveryCommandHasHelpWithAnExample) {
-  for (const char* command :
-       {"design", "mesh", "solve", "sample", "merge", "reproduce", "render", "train", "predict", "sweep"}) {
+  const std::vector<std::string> commands = commandsInHelp();
+  ASSERT_GT(commands.size(), 10U);
+  for (const std::string& command : commands) {
     const Outcome outcome = palp::test::palp({command, "--help"});
     EXPECT_EQ(outcome.exit, 0) << command;
-    EXPECT_NE(outcome.output.find(std::string("Example: palp ") + command), std::string::npos) << command;
+    EXPECT_NE(outcome.output.find("Example: palp " + command), std::string::npos) << command;
   }
+}
+
+TEST(Commands, HelpNamesThePagesThatAreThere) {
+  const std::string help = palp::test::palp({"--help"}).output;
+  const std::string begin = "Pages to read: ";
+  const std::size_t start = help.find(begin);
+  ASSERT_NE(start, std::string::npos) << help;
+  const std::filesystem::path folder = help.substr(start + begin.size(), help.find('\n', start) - start - begin.size());
+  int pages = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() != ".md") continue;
+    ++pages;
+    EXPECT_NE(help.find(entry.path().filename().string(), start), std::string::npos) << entry.path();
+  }
+  EXPECT_GT(pages, 0);
+  const std::string ofACommand = palp::test::palp({"mesh", "--help"}).output;
+  EXPECT_EQ(ofACommand.find(begin), std::string::npos) << "a command's help has its example there";
 }
 
 TEST(Commands, ReproduceSetsThePapersNumbersBesideOurs) {

@@ -1,0 +1,130 @@
+"""The pages for people against the repository: every relative link and its anchor, every path of the repository that
+stands in backticks, every `palp COMMAND` and every --option of one must be there; README names every command, and
+environment.md every variable that is read; comments of the sources cite nothing outside the repository.
+
+Used by CTest: python3 tests/check_docs.py ROOT
+"""
+
+import pathlib
+import re
+import sys
+
+SOURCES = ("model", "nn", "solver", "io", "app", "tests")
+# The folders and files at the root that a path in backticks may begin with.
+TOP = ("app", "io", "model", "nn", "resources", "solver", "tests", ".ci")
+LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
+QUOTED = re.compile(r"`([^`\n]+)`")
+# Pages of design notes that are no part of the repository.
+ELSEWHERE = re.compile(r"\b(PHYSICS|DESIGN|GUI|BOARD|CLI|CONVENTIONS|ROOMS|BODY|FIELD|TOUCH)\.md\b|/work/|PHYSICS of the paper")
+
+
+def without_code(text):
+    """The page without its indented and fenced code, in which brackets are no links."""
+    text = re.sub(r"^```.*?^```", "", text, flags=re.M | re.S)
+    return re.sub(r"^ {4}.*$", "", text, flags=re.M)
+
+
+def anchors(page):
+    """Anchors of a page's headings as GitHub makes them."""
+    heads = re.findall(r"^#+ (.*)$", page.read_text(), flags=re.M)
+    return {re.sub(r"[^\w\- ]", "", head.strip().lower()).replace(" ", "-") for head in heads}
+
+
+def link_problems(page):
+    for target in LINK.findall(without_code(page.read_text())):
+        if re.match(r"[a-z]+:", target):
+            continue
+        path, _, anchor = target.partition("#")
+        file = (page.parent / path).resolve() if path else page
+        if not file.exists():
+            yield f"link to {target}: no such file"
+        elif anchor and file.suffix == ".md" and anchor not in anchors(file):
+            yield f"link to {target}: no such heading"
+
+
+def exists(root, name):
+    """A file or folder, a pattern as solver/*.h, or a header and source named together without an ending."""
+    if any(c in name for c in "*?"):
+        return any(root.glob(name))
+    return (root / name).exists() or any((root / (name + end)).exists() for end in (".h", ".cpp"))
+
+
+def path_problems(root, page):
+    for quoted in QUOTED.findall(page.read_text()):
+        word = quoted.split()[0].removeprefix("./").rstrip("/,")
+        looks_like_path = "/" in word and word.split("/")[0] in TOP and re.fullmatch(r"[\w./*-]+", word)
+        if looks_like_path and not exists(root, word):
+            yield f"`{quoted}`: {word} is not in the repository"
+
+
+def commands_of(root):
+    """The commands of palp and the options that the sources declare anywhere."""
+    texts = [p.read_text() for p in (root / "app/cli").rglob("*.cpp")]
+    commands = {name for text in texts for name in re.findall(r'cli\.command\(\s*"([a-z-]+)"', text)}
+    options = {option for text in texts for line in re.findall(r'add_(?:option|flag)\(\s*"([^"]+)"', text)
+               for option in line.split(",")}
+    return commands, options | {"--help", "--version"}
+
+
+def command_problems(page, commands, options):
+    text = page.read_text()
+    lines = QUOTED.findall(text) + re.findall(r"^ {4}(.+)$", text, flags=re.M)
+    for line in lines:
+        found = re.match(r"(?:\$ )?(?:\./app/run |build/bin/)?palp ([a-z][a-z-]*)(?= |$)(.*)", line)
+        if not found:
+            continue
+        if found.group(1) not in commands:
+            yield f"`{line}`: palp has no command {found.group(1)}"
+        for option in re.findall(r"(?<=\s)(--[a-z-]+)", found.group(2).split(" # ")[0]):
+            if option not in options:
+                yield f"`{line}`: palp has no option {option}"
+
+
+def variable_problems(root):
+    """Environment variables of ours that a program, a test or a script reads, against their page."""
+    page = (root / "resources/docs/environment.md").read_text()
+    read = re.compile(r'getenv\("(PALP_[A-Z_]+)"|\$\{(PALP_[A-Z_]+):-|= "(PALP_[A-Z_]+)"')
+    files = [p for folder in SOURCES for p in (root / folder).rglob("*") if p.is_file() and p.suffix in (".cpp", ".h", ".sh", "", ".py")]
+    found = {next(filter(None, groups)) for p in files for groups in read.findall(p.read_text())}
+    for name in sorted(found):
+        if f"`{name}`" not in page:
+            yield f"resources/docs/environment.md: {name} is read, but not described"
+    for name in sorted(set(re.findall(r"^\| `(PALP_[A-Z_]+)`", page, flags=re.M)) - found):
+        yield f"resources/docs/environment.md: {name} is described, but nothing reads it"
+
+
+def comment_problems(root):
+    for folder in SOURCES:
+        for end in ("*.h", "*.cpp", "*.py", "*.txt", "*.sh"):
+            for source in (root / folder).rglob(end):
+                if source.name == "check_docs.py":
+                    continue
+                for number, line in enumerate(source.read_text().splitlines(), 1):
+                    if ELSEWHERE.search(line):
+                        yield f"{source.relative_to(root)}:{number}: cites what is outside the repository"
+                    for cited in re.findall(r"resources/docs/[\w./-]*\w", line):
+                        if not (root / cited).exists():
+                            yield f"{source.relative_to(root)}:{number}: cites {cited}, which is not there"
+
+
+def main(root):
+    pages = [root / "README.md", *sorted((root / "resources/docs").glob("*.md"))]
+    commands, options = commands_of(root)
+    problems = []
+    if len(pages) < 3 or not commands:
+        problems.append("no pages or no commands were found: is this the root of the repository?")
+    for page in pages:
+        where = page.relative_to(root)
+        for found in (link_problems(page), path_problems(root, page), command_problems(page, commands, options)):
+            problems += [f"{where}: {problem}" for problem in found]
+        if page.name != "README.md" and f"docs/{page.name}" not in (root / "README.md").read_text():
+            problems.append(f"{where}: the README does not link it")
+    problems += [f"README.md: palp {name} is not named" for name in sorted(commands)
+                 if f"`palp {name}`" not in pages[0].read_text()]
+    problems += [*variable_problems(root), *comment_problems(root)]
+    print("\n".join(problems) if problems else f"{len(pages)} pages agree with the repository")
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(pathlib.Path(sys.argv[1]).resolve()))
