@@ -17,8 +17,8 @@ struct Mesh {
   Eigen::MatrixXi elements;     ///< nodes of an element x elements
   Eigen::MatrixXi topFaces;     ///< nodes of a face (6 or 4) x faces of the top face, ordered as VTK's faces
   Eigen::VectorXi topFaceAreas; ///< load area of each top face
-  std::vector<int> upperElectrodeNodes; ///< node of each upper electrode; empty where they are not nodes
-  double size_mm = 0;                   ///< size in the bulk that a graded mesh was made for; 0: another mesh
+  std::vector<int> upperElectrodeNodes; ///< node of each upper electrode; empty if they are not nodes
+  double size_mm = 0;                   ///< bulk element size a graded mesh was made with; 0: not a graded mesh
 
   [[nodiscard]] int nodeCount() const { return static_cast<int>(nodes_mm.cols()); }
   [[nodiscard]] int elementCount() const { return static_cast<int>(elements.cols()); }

@@ -6,10 +6,11 @@
 
 namespace palp {
 
-/// What the electrodes feel under a load; the columns follow SensorDesign::upperElectrodes_mm and lowerElectrodes_mm.
+/// Displacements and pressures at the electrodes under a load; the columns follow SensorDesign::upperElectrodes_mm and
+/// lowerElectrodes_mm.
 struct ElectrodeDisplacements {
   Eigen::Matrix3Xd upper_mm;         ///< 3 x (row-wires * electrodes)
-  Eigen::Matrix3Xd lower_mm;         ///< 3 x (column-wires * electrodes), where the rubber would carry them
+  Eigen::Matrix3Xd lower_mm;         ///< 3 x (column-wires * electrodes), as if the rubber carried them
   Eigen::VectorXd upperPressure_MPa; ///< hydrostatic pressure (compression positive) at each upper electrode
 
   /// The block at rest.
@@ -18,8 +19,8 @@ struct ElectrodeDisplacements {
 
 /// Row-column resistances [ohm], row-wires x column-wires, by Eq. (1):
 /// 1/R_k = sum_i (1/g(p_i)) sum_j 1 / |D_ijk + u_i - v_jk|, D_ijk upper minus lower electrode at rest, v_jk the lower
-/// electrode's displacement where the design lets it follow the rubber (else 0), g(p) the resistance rate, constant
-/// unless the design has a pressure law (Fig. 1).
+/// electrode's displacement if the design lets it follow the rubber (else 0), g(p) the resistance rate, constant unless
+/// the design has a pressure law (Fig. 1). See resources/docs/physics.md.
 Eigen::MatrixXd rowColumnResistances(const SensorDesign& design, const ElectrodeDisplacements& displacements);
 
 /// Derivatives of the resistances R_k of one row-wire [ohm per ...]; row k is column-wire k.
@@ -29,7 +30,7 @@ struct RowResistanceJacobian {
   Eigen::MatrixXd pressure; ///< [ohm/MPa] column i: pressure at upper electrode i; 0 without a pressure law
 };
 
-/// Resistances [ohm] of one row-wire, one a column-wire, and on request their derivatives.
+/// Resistances [ohm] of one row-wire, one per column-wire, and their derivatives if asked for.
 Eigen::VectorXd rowResistances(const SensorDesign& design, const ElectrodeDisplacements& displacements, int rowWire,
                                RowResistanceJacobian* jacobian = nullptr);
 

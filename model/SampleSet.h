@@ -8,20 +8,20 @@
 
 namespace palp {
 
-/// How a set of samples came about; written as comment lines of its file.
+/// How a set of samples was made; written as comment lines of its file.
 struct SampleOrigin {
   std::string designFingerprint;
   std::uint64_t seed = 0;
   std::string areas = "each"; ///< each, together, or the number of one area
-  int perArea = 0;            ///< samples on each area (`together`: in all)
+  int perArea = 0;            ///< samples on each area (`together`: in total)
   std::string mesh;           ///< in words: element, size, elements, nodes
   double solverTolerance = 0; ///< relative, against full Newton
   bool surrogate = false;
   double surrogateError = 0;   ///< relative error against full solves; 0 for full solves
-  std::size_t firstSample = 0; ///< place of the first sample in the whole request; above 0 in a shard's file
+  std::size_t firstSample = 0; ///< index of the first sample within the whole request; above 0 only in shards
 };
 
-/// Labelled samples; one column a sample. Displacements or resistances have no rows where nobody knows them (frames of
+/// Labelled samples; one column per sample. Displacements or resistances have no rows if they are not known (frames of
 /// a real board).
 struct SampleSet {
   SampleOrigin origin;
@@ -29,7 +29,7 @@ struct SampleSet {
   int electrodesPerRowWire = 0;
   int columnWires = 0;
   int areaCount = 0;
-  Eigen::VectorXi area;             ///< loaded area of each sample; -1 where all are loaded together
+  Eigen::VectorXi area;             ///< loaded area of each sample; -1 if all are loaded together
   Eigen::MatrixXd forces_N;         ///< 3 x samples; `together`: (3 areas) x samples
   Eigen::MatrixXd displacements_mm; ///< (3 electrodes row-wires) x samples; row 3 (r E + e) + d
   Eigen::MatrixXd resistances_ohm;  ///< (row-wires column-wires) x samples; row r C + c
@@ -38,14 +38,14 @@ struct SampleSet {
   [[nodiscard]] bool together() const { return forces_N.rows() != 3 || (size() > 0 && area(0) < 0); }
 };
 
-/// Why two sets cannot stand in one file (other design, seed, mesh, kind); empty where they can. Where a shard begins
-/// is no difference.
+/// Why two sets cannot share one file (different design, seed, mesh or kind); empty if they can. The first sample of a
+/// shard does not count as a difference.
 std::string difference(const SampleOrigin& a, const SampleOrigin& b);
 
-/// The samples on one area alone.
+/// Only the samples on one area.
 SampleSet areaPart(const SampleSet& set, int area);
 
-/// Adds the samples of `block` at the end of `set`; an empty `set` becomes the block.
+/// Appends the samples of `block` to `set`; an empty `set` becomes the block.
 void append(SampleSet& set, const SampleSet& block);
 
 } // namespace palp

@@ -8,8 +8,8 @@
 
 namespace palp {
 
-/// The residual's norm over the load's norm at this load fraction, after an iteration of Newton's; iteration 0 is the
-/// start of a load step.
+/// The residual's norm over the load's norm at this load fraction after a Newton iteration; iteration 0 is the start of
+/// a load step.
 struct NewtonStep {
   double loadFraction = 0;
   int iteration = 0;
@@ -23,27 +23,27 @@ struct LoadIncrement {
   Eigen::MatrixXd elementUnknowns;   ///< the element's own unknowns (bubble, pressures) x elements
 };
 
-/// Result of one nonlinear solve. Where Newton could not go on, the last converged state and why.
+/// Result of one nonlinear solve. If Newton's method could not go on: the last converged state, and why.
 struct Solution {
   bool converged = false;
   bool cancelled = false;
   double reachedLoadFraction = 0;
-  std::string stopReason; ///< a sentence; empty where converged
+  std::string stopReason; ///< a sentence; empty if converged
   std::vector<NewtonStep> newton;
-  std::vector<LoadIncrement> increments; ///< at rest first (load fraction 0), the state that is the answer last
-  double maxVolumeError = 0;             ///< largest |J - 1| over the quadrature points
+  std::vector<LoadIncrement> increments;                ///< the state at rest first (load fraction 0), the answer last
+  double maxVolumeError = 0;                            ///< largest |J - 1| over the quadrature points
   Eigen::Vector3d reaction_N = Eigen::Vector3d::Zero(); ///< of the clamped face on the block, in the last state
 
   /// The last converged state.
   [[nodiscard]] const LoadIncrement& state() const { return increments.back(); }
-  /// Newton iterations of all load steps, those given up among them.
+  /// Newton iterations of all load steps, including steps that were given up.
   [[nodiscard]] int iterations() const {
     return static_cast<int>(
         std::count_if(newton.begin(), newton.end(), [](const NewtonStep& step) { return step.iteration > 0; }));
   }
 };
 
-/// Fields for the eye and the file, at the nodes (averaged over the elements around a node).
+/// Fields to be drawn or written, at the nodes (averaged over the elements around a node).
 struct NodalFields {
   Eigen::Matrix3Xd displacement_mm;                    ///< 3 x nodes
   Eigen::Matrix<double, 6, Eigen::Dynamic> cauchy_MPa; ///< xx, yy, zz, xy, yz, xz (VTK's order) x nodes

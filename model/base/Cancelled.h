@@ -5,13 +5,13 @@
 
 namespace palp {
 
-/// The work was stopped by a stop token before there was a result. No palp::Error: nobody made a mistake, and nothing
-/// that refuses bad input may catch it.
+/// The work was stopped through its stop token before there was a result. Not a palp::Error: nobody made a mistake, and
+/// code that reports bad input must not catch it.
 struct Cancelled : std::exception {
   [[nodiscard]] const char* what() const noexcept override { return "cancelled"; }
 };
 
-/// Throws Cancelled where it was asked to stop.
+/// Throws Cancelled if a stop was requested.
 inline void stopIfAsked(const std::stop_token& stop) {
   if (stop.stop_requested()) throw Cancelled();
 }

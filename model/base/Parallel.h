@@ -17,8 +17,8 @@ inline int threadCount(int asked) {
 }
 
 /// Calls work(begin, end) for chunks of 0 .. count - 1, each once, from at most `threads` threads (0: all cores), the
-/// caller's among them. Each chunk writes what is its own, so that the result does not depend on the number of threads.
-/// The first exception of any thread is thrown on in the caller's, after all threads have ended.
+/// caller's among them. Each chunk writes only what is its own, so the result does not depend on the number of threads.
+/// The first exception of any thread is rethrown in the caller's thread once all threads have ended.
 template <class Work> void forChunks(int count, int chunk, int threads, const Work& work) {
   const int chunks = (count + chunk - 1) / chunk;
   std::atomic<int> next{0};
