@@ -9,19 +9,19 @@
 
 namespace palp {
 
-/// An RbfNetwork laid out for speed: no allocation a sample, double precision, vector instructions of the machine it
-/// runs on. Immutable, so that threads may share it.
+/// An RbfNetwork laid out for speed: no allocation per sample, double precision, the machine's vector instructions.
+/// Immutable, so threads may share it.
 class RbfEvaluator {
 public:
   explicit RbfEvaluator(const RbfNetwork& network);
 
   [[nodiscard]] std::size_t inputs() const { return inputs_; }
   [[nodiscard]] std::size_t outputs() const { return outputs_; }
-  /// Doubles of scratch that `evaluate` wants from its caller.
+  /// Number of doubles of scratch memory that `evaluate` needs from its caller.
   [[nodiscard]] std::size_t scratchSize() const;
   /// One sample. Sizes are inputs(), outputs(), scratchSize().
   void evaluate(std::span<const double> sample, std::span<double> output, std::span<double> scratch) const;
-  /// Many samples, one column each; faster a sample than one by one. `output` is outputs x samples.
+  /// Many samples, one column each; faster per sample than one at a time. `output` is outputs x samples.
   void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& samples, Eigen::Ref<Eigen::MatrixXd> output) const;
 
 private:

@@ -17,7 +17,7 @@ struct RbfNetwork {
   BasisForm form = BasisForm::Gaussian;
   Eigen::MatrixXd weights; ///< outputs x centres
   Eigen::MatrixXd tail;    ///< outputs x scaled inputs; empty: no linear tail
-  Eigen::VectorXd bias;    ///< outputs; 0 where there is none
+  Eigen::VectorXd bias;    ///< outputs; 0 if there is none
 
   [[nodiscard]] Eigen::Index inputs() const { return scaler.inputs(); }
   [[nodiscard]] Eigen::Index outputs() const { return weights.rows(); }

@@ -4,17 +4,16 @@
 
 namespace palp {
 
-/// Errors of predictions, one entry an output.
+/// Errors of predictions, one entry per output.
 struct PredictionError {
-  Eigen::VectorXd eq13Percent;        ///< Eq. (13): mean of |F' - F| / |F| x 100 %; infinite where some F is 0
+  Eigen::VectorXd eq13Percent;        ///< Eq. (13): mean of |F' - F| / |F| x 100 %; infinite if some F is 0
   Eigen::VectorXd eq13FlooredPercent; ///< the same with |F| >= floor in the denominator
   Eigen::VectorXd meanAbsolute;       ///< in the targets' unit
   Eigen::VectorXd rmsePercentOfRange; ///< root mean square error in % of `range`
 };
 
-/// The paper's Eq. (13) and its companions; one column a sample. `range` is the targets' range (high - low), one an
-/// output; where it is 0 the RMSE is given in % of 1 unit. Throws NetworkError where sizes differ or there is no
-/// sample.
+/// The paper's Eq. (13) and its companions; one column per sample. `range` is the targets' range (high - low), one per
+/// output; if it is 0 the RMSE is given in % of 1 unit. Throws NetworkError if sizes differ or there is no sample.
 PredictionError predictionError(const Eigen::Ref<const Eigen::MatrixXd>& predicted,
                                 const Eigen::Ref<const Eigen::MatrixXd>& truth,
                                 const Eigen::Ref<const Eigen::VectorXd>& range, double floor = 0.05);

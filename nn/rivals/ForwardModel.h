@@ -12,18 +12,18 @@ namespace palp {
 struct ForwardModel {
   int degree = 4;
   Eigen::VectorXd causeOffset, causeFactor;  ///< causes to [-1, 1]: (y - offset) * factor
-  std::vector<Eigen::MatrixXd> coefficients; ///< one a class: measurements x monomials
+  std::vector<Eigen::MatrixXd> coefficients; ///< one per class: measurements x monomials
   Eigen::VectorXd deviation; ///< standard deviation of each measurement: noise and the model's own error
 
   [[nodiscard]] Eigen::Index measurements() const { return deviation.size(); }
   [[nodiscard]] Eigen::Index causes() const { return causeOffset.size(); }
   [[nodiscard]] std::size_t classes() const { return coefficients.size(); }
-  /// Measurements of class c under causes y; on request their derivatives, measurements x causes.
+  /// Measurements of class c under causes y; their derivatives (measurements x causes) if asked for.
   [[nodiscard]] Eigen::VectorXd measurementsOf(std::size_t c, const Eigen::Ref<const Eigen::VectorXd>& y,
                                                Eigen::MatrixXd* jacobian = nullptr) const;
 };
 
-/// Number of monomials of `causes` variables up to `degree`, the constant among them.
+/// Number of monomials of `causes` variables up to `degree`, including the constant.
 Eigen::Index monomialCount(Eigen::Index causes, int degree);
 
 struct ForwardModelOptions {
@@ -31,26 +31,25 @@ struct ForwardModelOptions {
   double relativeNoise = 0; ///< of each measurement
 };
 
-/// One column a sample; `classes` counts from 0, every class with at least one sample. The degree is lowered where a
-/// class has fewer samples than monomials (said in `warnings`).
+/// One column per sample; `classes` counts from 0, each class with at least one sample. The degree is lowered if a
+/// class has too few samples for it (`warnings` says so).
 ForwardModel fitForwardModel(const Eigen::Ref<const Eigen::MatrixXd>& measurements,
                              const Eigen::Ref<const Eigen::MatrixXd>& causes, const Eigen::VectorXi& classes,
                              const ForwardModelOptions& options, std::vector<std::string>* warnings = nullptr);
 
-/// Most likely class of one measurement vector, and its causes: maximum likelihood with the prior knowledge that each
-/// cause has the variance of its training range (which counts only where the noise is large), averaged over the classes
-/// by their probability where the class is in doubt.
+/// Most likely class of one measurement vector, and its causes: maximum likelihood, with the prior knowledge that each
+/// cause has the variance of its training range (which matters only when the noise is large), averaged over the classes
+/// by their probability when the class is in doubt.
 struct LikelihoodEstimate {
   int classIndex = 0;
   double confidence = 1; ///< posterior probability of the class (Laplace approximation)
   Eigen::VectorXd causes;
   Eigen::VectorXd standardDeviation;
-  double chiSquare = 0; ///< mean square of the residual, a measurement: 1 where model and noise fit
+  double chiSquare = 0; ///< mean square of the residual per measurement: 1 if model and noise fit
 };
 LikelihoodEstimate maximumLikelihood(const ForwardModel& model, const Eigen::Ref<const Eigen::VectorXd>& measurement);
 
-/// The same for many measurements: keeps each class's normal equations, in whose few monomials a measurement is then
-/// inverted at a tenth of the cost.
+/// The same for many measurements: keeps each class's normal equations, so that inverting one costs a tenth.
 class LikelihoodInversion {
 public:
   explicit LikelihoodInversion(const ForwardModel& model);
@@ -67,7 +66,7 @@ private:
   std::vector<Class> classes_;
 };
 
-/// One class of it: the polynomial is constant + polynomial' (monomials but the constant), in units of the deviation.
+/// One class: constant + polynomial * (monomials without the constant), in units of the deviation.
 struct LikelihoodInversion::Class {
   Eigen::VectorXd constant;   ///< measurements
   Eigen::VectorXd weight;     ///< 1 / deviation

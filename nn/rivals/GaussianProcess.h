@@ -12,7 +12,7 @@
 namespace palp {
 
 /// Gaussian process with a squared exponential and a linear kernel; scales and noise by maximum marginal likelihood
-/// (Rasmussen and Williams 2006, 5.4.1). Its mean is an RBF network; it knows its variance too.
+/// (Rasmussen and Williams 2006, 5.4.1). Its mean is an RBF network; it also gives its variance.
 struct GaussianProcess {
   RbfNetwork mean;
   Eigen::VectorXd outputVariance; ///< of each output's squared exponential kernel
@@ -31,7 +31,7 @@ struct GaussianProcess {
 
 struct GaussianProcessOptions {
   Scaling scaling = Scaling::Global;
-  int mostSamples = 1000; ///< more are thinned out evenly
+  int mostSamples = 1000; ///< more are thinned evenly
   double relativeInputNoise = 0;
   std::uint64_t seed = 1;
 };
@@ -42,11 +42,11 @@ struct GaussianProcessFit {
   int evaluations = 0; ///< of the likelihood
   double condition = 0;
   Eigen::MatrixXd leaveOneOutResiduals; ///< outputs x samples in use
-  Eigen::VectorXi used;                 ///< which samples
+  Eigen::VectorXi used;                 ///< which samples were used
   std::vector<std::string> warnings;
 };
 
-/// Throws NetworkError for data from which nothing can be made.
+/// Throws NetworkError for data that no process can be fitted to.
 GaussianProcessFit trainGaussianProcess(const Eigen::Ref<const Eigen::MatrixXd>& samples,
                                         const Eigen::Ref<const Eigen::MatrixXd>& targets,
                                         const GaussianProcessOptions& options = {}, const std::stop_token& stop = {});

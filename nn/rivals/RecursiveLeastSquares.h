@@ -4,11 +4,11 @@
 
 namespace palp {
 
-/// Linear least squares, one observation at a time, with exponential forgetting; the paper's way of training and the
-/// way to go on learning online. P is the inverse correlation matrix of the regressors.
+/// Linear least squares, one observation at a time, with exponential forgetting: how the paper trains, and how a
+/// network keeps learning online. P is the inverse correlation matrix of the regressors.
 class RecursiveLeastSquares {
 public:
-  /// `initialVariance` is P's start: large means that the first observations decide. `forgetting` in (0, 1].
+  /// `initialVariance` is the initial P: if large, the first observations decide. `forgetting` in (0, 1].
   RecursiveLeastSquares(Eigen::Index unknowns, Eigen::Index outputs, double initialVariance = 1e6,
                         double forgetting = 1);
   /// Starts from known weights (unknowns x outputs).
