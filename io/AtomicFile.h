@@ -6,14 +6,14 @@
 
 namespace palp {
 
-/// Throws Error where the file exists and `force` is not given, so that long work can refuse before it starts.
+/// Throws Error if the file exists and `force` is not given, so that long work can be refused before it starts.
 void requireFree(const std::filesystem::path& path, bool force);
 
-/// A file that is written beside its place and renamed into it when it is whole; dropped where it never is. A place
-/// that is no regular file (a terminal, a pipe, /dev/null) is written directly.
+/// A file that is written under another name in the same folder and renamed when complete; removed if it never is.
+/// Anything that is not a regular file (a terminal, a pipe, /dev/null) is written directly.
 class AtomicFile {
 public:
-  /// Throws Error where the file exists and `force` is not given.
+  /// Throws Error if the file exists and `force` is not given.
   AtomicFile(std::filesystem::path path, bool force);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
@@ -21,7 +21,7 @@ public:
 
   /// Where to write; has the extension of the final name.
   [[nodiscard]] const std::filesystem::path& beside() const { return beside_; }
-  /// Moves the written file into its place. Throws Error.
+  /// Renames the written file to its final name. Throws Error.
   void commit();
 
 private:
@@ -31,7 +31,7 @@ private:
   bool committed_ = false;
 };
 
-/// Writes the whole file beside its place and renames it. Throws Error.
+/// Writes the whole file as AtomicFile does. Throws Error.
 void writeFile(const std::filesystem::path& path, std::string_view content, bool force);
 
 /// The whole file. Throws Error.

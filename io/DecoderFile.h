@@ -9,13 +9,13 @@ namespace palp {
 
 /// The decoder as the text of its JSON file; numbers read back to the same bits.
 std::string networkText(const Decoder& decoder);
-/// `file` stands in the sentences of refusals. Throws Error naming file and key: unknown key, missing key, wrong type,
-/// sizes that do not fit together, a newer version, a truncated file.
+/// `file` is the name for error messages. Throws Error naming file and key: unknown key, missing key, wrong type, sizes
+/// that do not fit together, a newer version, a truncated file.
 Decoder parseNetwork(const std::string& json, const std::string& file);
 
 /// Throws Error.
 Decoder readNetwork(const std::filesystem::path& path);
-/// Written beside and renamed. Throws Error where the file exists and `force` is false.
+/// Written as AtomicFile does. Throws Error if the file exists and `force` is false.
 void writeNetwork(const Decoder& decoder, const std::filesystem::path& path, bool force = true);
 
 } // namespace palp

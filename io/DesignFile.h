@@ -8,22 +8,21 @@
 
 namespace palp {
 
-/// The design as the text of its JSON file; numbers read back as the same numbers. Depths and positions are written in
-/// the short form (one for all wires) where the design has it.
+/// The design as the text of its JSON file; numbers read back to the same bits. Depths and positions are written in the
+/// short form (one for all wires) if the design has it (resources/docs/formats.md).
 std::string toJson(const SensorDesign& design);
 
 /// Reads the text of a design file strictly: an unknown key, a missing one, a wrong type or a newer version throws
-/// Error with the file's name, the key, the value and what is allowed. Whether the design can be built is for check().
+/// Error with the file's name, the key, the value and what is allowed. Whether the design can be built, check() tells.
 SensorDesign parseDesign(std::string_view json, const std::string& file);
 
 /// A design that can be built, from a file. Throws Error.
 SensorDesign loadDesign(const std::filesystem::path& path);
 
-/// Throws Error where the design cannot be built, or where the file exists and `force` is not given.
+/// Throws Error if the design cannot be built, or if the file exists and `force` is not given.
 void saveDesign(const std::filesystem::path& path, const SensorDesign& design, bool force);
 
-/// FNV-1a (64 bits, hexadecimal) of the design's JSON without white space: the same design, the same text, on any
-/// machine.
+/// FNV-1a (64 bits, hexadecimal) of the design's JSON without white space: the same on any machine.
 std::string designFingerprint(const SensorDesign& design);
 
 } // namespace palp

@@ -8,40 +8,40 @@
 
 namespace palp {
 
-/// Samples are CSV: comment lines `# key: value` with the origin and the counts, one line with the columns' names, one
-/// line a sample; numbers read back as the same numbers. Columns of displacements or resistances that have no rows are
-/// left out.
+/// Samples are CSV: comment lines `# key: value` with the origin and the counts, one line of column names, one line per
+/// sample; numbers read back to the same bits. Displacements or resistances that have no rows have no columns
+/// (resources/docs/formats.md).
 
-/// The comment lines and the line of names.
+/// The comment lines and the line of column names.
 std::string sampleFileHead(const SampleSet& set);
 
-/// Throws Error where the file exists and `force` is not given.
+/// Throws Error if the file exists and `force` is not given.
 void saveSamples(const std::filesystem::path& path, const SampleSet& set, bool force);
 
-/// Reads strictly: a wrong count of numbers, something that is no finite number or a line that is cut off throws Error
-/// with the line's number.
+/// Reads strictly: a wrong count of numbers, anything that is not a finite number, or a truncated line throws Error
+/// with the line number.
 SampleSet loadSamples(const std::filesystem::path& path);
 
-/// Joins shards, in any order, to the bytes that one run would have written. Throws Error where they do not belong
+/// Joins shards, in any order, to the bytes that one run would have written. Throws Error if they do not belong
 /// together, overlap or leave a gap. Returns the number of samples.
 std::size_t mergeSampleFiles(const std::vector<std::filesystem::path>& parts, const std::filesystem::path& path,
                              bool force);
 
-/// Long work on one sample file: appends to NAME.part, and renames it when all is there. The same work begun again
-/// finds what was written; a line that was cut off is dropped.
+/// Long work on one sample file: appends to NAME.part and renames it when complete. The same work started again
+/// continues from it; a truncated last line is dropped.
 class SamplePartWriter {
 public:
-  /// `head` is the set without samples. Throws Error where NAME exists and `force` is not given, where NAME.part is of
-  /// other work (the text says what differs), or where another process writes it.
+  /// `head` is the set without samples. Throws Error if NAME exists and `force` is not given, if NAME.part belongs to
+  /// other work (the text says what differs), or if another process is writing it.
   SamplePartWriter(std::filesystem::path path, const SampleSet& head, bool force);
   ~SamplePartWriter();
   SamplePartWriter(const SamplePartWriter&) = delete;
   SamplePartWriter& operator=(const SamplePartWriter&) = delete;
 
-  /// Samples that were in NAME.part already.
+  /// Number of samples that NAME.part already held.
   [[nodiscard]] std::size_t samplesKept() const { return samplesKept_; }
   [[nodiscard]] const std::filesystem::path& partPath() const { return part_; }
-  /// Appends and hands over to the system. Throws Error.
+  /// Appends and flushes to the system. Throws Error.
   void append(const SampleSet& block);
   /// Renames NAME.part to NAME. Throws Error.
   void finish();
