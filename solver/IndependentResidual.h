@@ -7,9 +7,9 @@
 
 namespace palp {
 
-/// Imbalance of a state of a mapped mesh, found anew from the stress formula at the Gauss points and not by the
-/// solver's kernels: largest of |internal - external| over the free nodes / |external|, and of the volume equation
-/// mean(J) - 1 - p/kappa over the elements. What a silent wrong answer cannot pass.
+/// Imbalance of a state of a mapped mesh, computed independently of the solver's kernels from the stress formula at the
+/// Gauss points: the larger of |internal - external| / |external| over the free nodes and the largest
+/// |mean(J) - 1 - p/kappa| over the elements. A wrong answer cannot pass it unnoticed.
 double independentResidual(const SensorDesign& design, const Mesh& mesh, const LoadCase& load,
                            const Solution& solution);
 

@@ -9,25 +9,27 @@
 
 namespace palp {
 
-/// Reads displacement and pressure at points of the block. The displacement is that of the first element that holds
-/// the point (with its bubble); the pressure, which jumps between elements, is averaged over all that hold it.
+/// Reads displacement and pressure at points of the block. The displacement is taken from the first element that
+/// contains the point (with its bubble); the pressure, which jumps between elements, is averaged over all that contain
+/// it.
 class PointProbe {
 public:
-  /// Throws DesignError where a point lies outside the mesh.
+  /// Throws DesignError if a point lies outside the mesh.
   PointProbe(const Mesh& mesh, const Eigen::Matrix3Xd& points_mm);
 
   [[nodiscard]] Eigen::Matrix3Xd displacements_mm(const LoadIncrement& state) const;
-  /// Hydrostatic pressure, compression positive.
+  /// Hydrostatic pressure, positive in compression.
   [[nodiscard]] Eigen::VectorXd pressures_MPa(const LoadIncrement& state) const;
 
-  /// Weights of the nodes' and of the element's own unknowns for one point: the displacement is linear in them.
+  /// An element that contains the point, and the weights of its nodes' and its own unknowns: the displacement is linear
+  /// in them.
   struct Holder {
     int element = 0;
-    Eigen::VectorXd shapes;   ///< one a node of the element
+    Eigen::VectorXd shapes;   ///< one per node of the element
     double bubble = 0;        ///< weight of the bubble's displacement
-    Eigen::VectorXd pressure; ///< one a pressure unknown
+    Eigen::VectorXd pressure; ///< one per pressure unknown
   };
-  /// The elements that hold each point.
+  /// The elements that contain each point.
   [[nodiscard]] const std::vector<std::vector<Holder>>& holders() const { return holders_; }
 
 private:
