@@ -13,9 +13,9 @@ namespace palp {
 /// One layer of electrodes on parallel straight wires: row-wires run along x (upper layer), column-wires along y
 /// (lower layer).
 struct ElectrodeLayer {
-  std::vector<double> wire_mm;               ///< one per wire: y of a row-wire, x of a column-wire
-  std::vector<std::vector<double>> along_mm; ///< along the wire (x or y): one list for all wires, or one per wire
-  std::vector<std::vector<double>> z_mm;     ///< depth: {{z}} for all, or a list per wire, one value per electrode
+  std::vector<double> wire_mm;               ///< one a wire: y of a row-wire, x of a column-wire
+  std::vector<std::vector<double>> along_mm; ///< along the wire (x or y): one list for all wires, or a list a wire
+  std::vector<std::vector<double>> z_mm;     ///< depth: {{z}} for all, or a list (one value an electrode) a wire
 
   [[nodiscard]] int wires() const { return static_cast<int>(wire_mm.size()); }
   [[nodiscard]] int electrodesPerWire() const { return along_mm.empty() ? 0 : static_cast<int>(along_mm[0].size()); }
@@ -87,13 +87,13 @@ struct DesignFault {
   std::string sentence;
 };
 
-/// Everything that is wrong with the design, in the order of the file; empty if it can be built.
+/// Everything that is wrong with the design, in the order of the file; empty where it can be built.
 std::vector<DesignFault> check(const SensorDesign& design);
 
-/// Why Eq. (1) is not a square system for a row-wire (column-wires != 3 x electrodes of a row-wire); empty if it is.
+/// Why Eq. (1) is not a square system for a row-wire (column-wires != 3 x electrodes of a row-wire); empty where it is.
 std::optional<std::string> whyNotSquare(const SensorDesign& design);
 
-/// Throws DesignError with the first fault, if there is one.
+/// Throws DesignError with the first problem, if there is one.
 void requireValid(const SensorDesign& design);
 
 } // namespace palp

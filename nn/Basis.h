@@ -15,19 +15,19 @@ enum class SpreadConvention {
 
 /// The convention's name as in files: radbas, sigma.
 std::string name(SpreadConvention convention);
-/// Throws NetworkError if no convention has this name.
+/// Throws NetworkError where no convention has this name.
 SpreadConvention spreadConventionNamed(const std::string& name);
 
-/// How the basis is written. With an exact linear tail the weights are orthogonal to 1 and to the inputs, so 1 - gamma
-/// r^2 can be subtracted from the Gaussian without changing the network's function (only its bias). The remainder keeps
-/// its digits when the spread is large and all Gaussians are close to 1.
+/// How the basis is written. With an exact linear tail the weights are orthogonal to 1 and to the inputs, so that
+/// 1 - gamma r^2 may be taken off the Gaussian without changing the network's function (only its bias). What remains
+/// keeps its digits where the spread is large and all Gaussians are nearly 1.
 enum class BasisForm {
   Gaussian,  ///< exp(-gamma r^2)
   Remainder, ///< exp(-gamma r^2) - 1 + gamma r^2
 };
 /// The form's name as in files: gaussian, remainder.
 std::string name(BasisForm form);
-/// Throws NetworkError if no form has this name.
+/// Throws NetworkError where no form has this name.
 BasisForm basisFormNamed(const std::string& name);
 
 /// gamma of phi(r) = exp(-gamma r^2).
@@ -37,7 +37,7 @@ double gaussianRate(double spread, SpreadConvention convention);
 Eigen::MatrixXd squaredDistances(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b,
                                  const std::stop_token& stop = {});
 
-/// |a_i - a_j|^2 in the lower triangle, 0 above.
+/// |a_i - a_j|^2, the lower triangle; the other is 0.
 Eigen::MatrixXd squaredDistances(const Eigen::Ref<const Eigen::MatrixXd>& a);
 
 /// The basis at each entry of `squaredDistance`, in place.
