@@ -40,6 +40,7 @@ DecoderInput readInput(const JsonPlace& place) {
   input.rows = readIntegers(place.at("rows"));
   input.rowWires = place.at("row_wires").integer();
   input.valuesPerRow = place.at("values_per_row").integer();
+  if (input.rows.empty()) place.at("rows").refuse("one row-wire or more");
   if (input.valuesPerRow < 1) place.at("values_per_row").refuse("1 or more");
   for (const int row : input.rows)
     if (row < 0 || row >= input.rowWires) place.at("rows").refuse("0 to " + std::to_string(input.rowWires - 1));
@@ -123,19 +124,37 @@ Eigen::Index outputsOf(const Decoder& decoder) {
       decoder.model);
 }
 
+/// The area of each class: one of the design's; -1 alone where all are loaded together.
+void requireAreas(const JsonPlace& root, const Decoder& decoder) {
+  if (decoder.together && decoder.areas) root.at("areas").refuse("null where all areas are loaded together");
+  const ForwardModel* classes = decoder.areas ? &*decoder.areas : std::get_if<ForwardModel>(&decoder.model);
+  const JsonPlace areaOfClass = root.at("area_of_class");
+  requireSize(areaOfClass, static_cast<Eigen::Index>(decoder.areaOfClass.size()),
+              classes ? static_cast<Eigen::Index>(classes->classes()) : 0, "numbers, one a class");
+  for (const int area : decoder.areaOfClass) {
+    if (decoder.together && area != -1) areaOfClass.refuse("[-1] where all areas are loaded together");
+    if (!decoder.together && (area < 0 || area >= decoder.areaCount))
+      areaOfClass.refuse("numbers from 0 to " + std::to_string(decoder.areaCount - 1));
+  }
+  if (decoder.together && decoder.areaOfClass.size() > 1)
+    areaOfClass.refuse("[-1] where all areas are loaded together");
+}
+
 void requireFitting(const JsonPlace& root, const Decoder& decoder) {
   const Eigen::Index outputs = outputsOf(decoder);
+  const Eigen::Index forces = 3 * static_cast<Eigen::Index>(decoder.together ? decoder.areaCount : 1);
+  requireSize(root.at("model"), outputs, forces,
+              decoder.together ? "outputs, three an area" : "outputs, the components of one force");
   requireSize(root.at("input"), decoder.inputs(), inputsOf(decoder), "inputs, as the model takes");
   requireSize(root.at("low_N"), decoder.low_N.size(), outputs, "numbers, one an output");
   requireSize(root.at("high_N"), decoder.high_N.size(), outputs, "numbers, one an output");
   requireSize(root.at("residual_N"), decoder.residual_N.rows(), outputs, "rows, one an output");
   if (decoder.residual_N.cols() < 1) root.at("residual_N").refuse("one column or more");
-  const ForwardModel* told = decoder.areas ? &*decoder.areas : std::get_if<ForwardModel>(&decoder.model);
-  if (decoder.areas)
+  if (decoder.areas) {
     requireSize(root.at("areas"), decoder.areas->measurements(), decoder.inputs(), "measurements, one an input");
-  if (told)
-    requireSize(root.at("area_of_class"), static_cast<Eigen::Index>(decoder.areaOfClass.size()),
-                static_cast<Eigen::Index>(told->classes()), "numbers, one a class");
+    requireSize(root.at("areas"), decoder.areas->causes(), outputs, "causes, one an output");
+  }
+  requireAreas(root, decoder);
 }
 
 } // namespace
@@ -184,6 +203,7 @@ Decoder parseNetwork(const std::string& text, const std::string& file) {
   if (!(decoder.noise >= 0 && decoder.noise < 1)) root.at("noise_relative").refuse("0 up to below 1");
   decoder.input = readInput(root.at("input"));
   decoder.areaCount = root.at("area_count").integer();
+  if (decoder.areaCount < 1) root.at("area_count").refuse("1 or more");
   decoder.together = root.at("together").boolean();
   decoder.low_N = readVector(root.at("low_N"));
   decoder.high_N = readVector(root.at("high_N"));

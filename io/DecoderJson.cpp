@@ -165,10 +165,11 @@ PolynomialRidge readPolynomial(const JsonPlace& place) {
   model.bias = readVector(place.at("bias"));
   if (model.degree > 1) {
     model.centers = readMatrix(place.at("centers"));
-    requireSize(place.at("centers"), model.centers.rows(), model.inputs(), "rows, one an input");
+    requireSize(place.at("centers"), model.centers.rows(), model.scaler.dimensions(), "rows, one a scaled input");
   }
-  requireSize(place.at("weights"), model.weights.cols(), model.degree == 1 ? model.inputs() : model.centers.cols(),
-              model.degree == 1 ? "columns, one an input" : "columns, one a centre");
+  requireSize(place.at("weights"), model.weights.cols(),
+              model.degree == 1 ? model.scaler.dimensions() : model.centers.cols(),
+              model.degree == 1 ? "columns, one a scaled input" : "columns, one a centre");
   requireSize(place.at("weights"), model.weights.rows(), model.bias.size(), "rows, one an output");
   return model;
 }
@@ -200,7 +201,10 @@ BackPropagationNetwork readBackPropagation(const JsonPlace& place) {
   network.outputWeights = readMatrix(place.at("output_weights"));
   network.outputBias = readVector(place.at("output_bias"));
   const Eigen::Index hidden = network.hiddenBias.size(), outputs = network.outputBias.size();
-  requireSize(place.at("components"), network.components.cols(), network.inputs(), "columns, one an input");
+  if (network.outputScaler.rotation.size() > 0)
+    place.at("output_scaler").refuse("a scaler without rotation, which can be inverted");
+  requireSize(place.at("components"), network.components.cols(), network.inputScaler.dimensions(),
+              "columns, one a scaled input");
   requireSize(place.at("hidden_weights"), network.hiddenWeights.cols(), network.components.rows(),
               "columns, one a component");
   requireSize(place.at("hidden_weights"), network.hiddenWeights.rows(), hidden, "rows, one a hidden unit");

@@ -50,6 +50,12 @@ public:
     return result;
   }
 
+  int count(const std::string& key) {
+    const int result = number(key, kLargestCount);
+    if (result == 0) lines_.refuse("the head above this line says " + key + ": 0; allowed is 1 or more");
+    return result;
+  }
+
   void requireAllUsed() {
     if (!values_.empty())
       lines_.refuse("the head above this line has the unknown key " + shown(values_.begin()->first));
@@ -83,6 +89,15 @@ std::vector<std::string_view> split(std::string_view line) {
   }
 }
 
+std::size_t fieldCount(std::string_view line) {
+  return static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')) + 1;
+}
+
+/// By the head; SampleSet::together() asks the samples, which are not there yet.
+bool loadedTogether(const SampleSet& head) {
+  return head.origin.areas == "together";
+}
+
 SampleOrigin readOrigin(const SampleLines& lines, HeadLines& head) {
   SampleOrigin origin;
   origin.designFingerprint = head.text("design");
@@ -103,20 +118,30 @@ SampleOrigin readOrigin(const SampleLines& lines, HeadLines& head) {
 
 /// Sets the rows of the matrices by the names that are there.
 void readColumns(const SampleLines& lines, const std::string& line, SampleSet& set) {
-  const bool together = set.origin.areas == "together";
-  const int electrodes = set.rowWires * set.electrodesPerRowWire;
-  set.forces_N.resize(together ? 3 * set.areaCount : 3, 0);
-  set.displacements_mm.resize(line.find(",u_r") == std::string::npos ? 0 : 3 * electrodes, 0);
-  set.resistances_ohm.resize(line.find(",R_r") == std::string::npos ? 0 : set.rowWires * set.columnWires, 0);
+  const auto rowWires = static_cast<Eigen::Index>(set.rowWires);
+  const bool displacements = line.find(",u_r") != std::string::npos;
+  const bool resistances = line.find(",R_r") != std::string::npos;
+  set.forces_N.resize(loadedTogether(set) ? 3 * set.areaCount : 3, 0);
+  set.displacements_mm.resize(displacements ? 3 * rowWires * set.electrodesPerRowWire : 0, 0);
+  set.resistances_ohm.resize(resistances ? rowWires * set.columnWires : 0, 0);
+  // First the number, so that a head with sizes beyond reason is refused before all their names are made.
+  const std::size_t count = fieldCount(line);
+  if (count != sampleFields(set))
+    lines.refuse(std::to_string(count) + " columns; by the head there must be " + std::to_string(sampleFields(set)));
   const std::string expected = sampleColumns(set);
-  if (line == expected) return;
   const std::vector<std::string_view> names = split(line);
   const std::vector<std::string_view> wanted = split(expected);
-  for (std::size_t i = 0; i < std::min(names.size(), wanted.size()); ++i)
+  for (std::size_t i = 0; i < names.size(); ++i)
     if (names[i] != wanted[i])
       lines.refuse("column " + std::to_string(i + 1) + " is " + shown(names[i]) + "; by the head it must be " +
                    shown(wanted[i]));
-  lines.refuse(std::to_string(names.size()) + " columns; by the head there must be " + std::to_string(wanted.size()));
+}
+
+void requireArea(const SampleLines& lines, const SampleSet& head, int area) {
+  const std::string found = "area " + std::to_string(area) + "; allowed is ";
+  if (loadedTogether(head) && area != -1) lines.refuse(found + "-1: by the head all areas are loaded together");
+  if (!loadedTogether(head) && (area < 0 || area >= head.areaCount))
+    lines.refuse(found + "0 to " + std::to_string(head.areaCount - 1));
 }
 
 void append(std::string& text, double value) {
@@ -193,10 +218,10 @@ SampleSet readSampleHead(SampleLines& lines) {
     lines.refuse("the file is of version " + std::to_string(version) + "; this Palp reads version 1");
   SampleSet set;
   set.origin = readOrigin(lines, head);
-  set.rowWires = head.number("row_wires", kLargestCount);
-  set.electrodesPerRowWire = head.number("electrodes_per_row_wire", kLargestCount);
-  set.columnWires = head.number("column_wires", kLargestCount);
-  set.areaCount = head.number("area_count", kLargestCount);
+  set.rowWires = head.count("row_wires");
+  set.electrodesPerRowWire = head.count("electrodes_per_row_wire");
+  set.columnWires = head.count("column_wires");
+  set.areaCount = head.count("area_count");
   head.requireAllUsed();
   readColumns(lines, line, set);
   return set;
@@ -208,10 +233,9 @@ std::size_t sampleFields(const SampleSet& head) {
 }
 
 void readSampleLine(const SampleLines& lines, std::string_view line, SampleSet& set, Eigen::Index column) {
-  const auto fieldCount = static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')) + 1;
-  if (fieldCount != sampleFields(set))
-    lines.refuse(std::to_string(fieldCount) + " fields; by the head there must be " +
-                 std::to_string(sampleFields(set)));
+  const std::size_t count = fieldCount(line);
+  if (count != sampleFields(set))
+    lines.refuse(std::to_string(count) + " fields; by the head there must be " + std::to_string(sampleFields(set)));
   const char* next = line.data();
   const char* const end = line.data() + line.size();
   std::size_t field = 0;
@@ -224,9 +248,7 @@ void readSampleLine(const SampleLines& lines, std::string_view line, SampleSet& 
     ++field;
   };
   read(set.area(column));
-  if (set.area(column) < -1 || set.area(column) >= set.areaCount)
-    lines.refuse("area " + std::to_string(set.area(column)) + "; allowed is 0 to " + std::to_string(set.areaCount - 1) +
-                 ", or -1 where all are loaded together");
+  requireArea(lines, set, set.area(column));
   for (Eigen::MatrixXd* part : {&set.forces_N, &set.displacements_mm, &set.resistances_ohm})
     for (Eigen::Index row = 0; row < part->rows(); ++row) {
       read((*part)(row, column));

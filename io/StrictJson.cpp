@@ -1,8 +1,10 @@
 #include "io/StrictJson.h"
 
 #include "model/base/Error.h"
+#include "model/base/Text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 
@@ -87,9 +89,10 @@ double JsonPlace::number() const {
 }
 
 int JsonPlace::integer() const {
-  const double value = value_->is_number() ? value_->get<double>() : 0.5;
-  const bool whole = value == static_cast<double>(static_cast<long long>(value));
-  if (!whole || std::abs(value) > std::numeric_limits<int>::max()) refuse("a whole number");
+  constexpr double largest = std::numeric_limits<int>::max();
+  const double value = value_->is_number() ? value_->get<double>() : std::nan("");
+  if (!(std::abs(value) <= largest) || value != std::floor(value))
+    refuse("a whole number from -" + text(largest) + " to " + text(largest));
   return static_cast<int>(value);
 }
 

@@ -1,5 +1,6 @@
 #include "nn/SpreadSweep.h"
 
+#include "model/base/Cancelled.h"
 #include "nn/NetworkError.h"
 
 #include <cmath>
@@ -12,13 +13,17 @@ std::vector<SweepRow> sweepSpreads(const SweepInput& input, const std::vector<do
                                    const std::stop_token& stop) {
   std::vector<SweepRow> rows;
   for (const double spread : spreads) {
-    if (stop.stop_requested()) break;
     RbfOptions atSpread = options;
     atSpread.spread = spread;
-    const RbfFit fit = trainRbf(input.samples, input.targets, atSpread, {});
+    RbfFit fit;
+    try {
+      fit = trainRbf(input.samples, input.targets, atSpread, stop);
+    } catch (const Cancelled&) {
+      return rows;
+    }
     SweepRow row;
     row.spread = spread;
-    row.report = fit.report;
+    row.report = std::move(fit.report);
     row.predicted = fit.network.predict(input.testSamples);
     row.error = predictionError(row.predicted, input.testTargets, input.range);
     rows.push_back(std::move(row));

@@ -64,7 +64,8 @@ std::variant<Readings, BoardEvent, ReportFault> decodeReadings(std::span<const s
   const bool inRange = readings.rowWire < info.rowWires && readings.firstColumn % kReadingsPerReport == 0 &&
                        readings.count >= 1 && readings.count <= kReadingsPerReport &&
                        readings.firstColumn + readings.count <= info.columnWires &&
-                       readings.rangeIndex < static_cast<int>(info.reference_ohm.size());
+                       readings.rangeIndex < static_cast<int>(info.reference_ohm.size()) &&
+                       info.reference_ohm[static_cast<std::size_t>(readings.rangeIndex)] > 0; // 0: no such range
   if (!inRange) return ReportFault::OutOfRange;
   return readings;
 }

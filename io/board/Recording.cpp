@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <utility>
 
 namespace palp {
 
@@ -109,23 +110,32 @@ void RecordingWriter::append(RecordingEntry::Kind kind, double hostTime_s, std::
   }
   pending_.append(reinterpret_cast<const char*>(head.data()), head.size());
   pending_.append(reinterpret_cast<const char*>(bytes.data()), count);
-  if (kind == RecordingEntry::Kind::Raw) ++reports_;
+  ++pendingEntries_;
+  if (kind == RecordingEntry::Kind::Raw) ++pendingReports_;
 }
 
 void RecordingWriter::run() {
   std::string block;
   for (bool ending = false; !ending;) {
+    std::uint64_t entries = 0, reports = 0; // of the block
     {
       std::unique_lock lock(mutex_);
       wake_.wait_for(lock, kFlushInterval, [this] { return ending_; });
       ending = ending_;
       block.swap(pending_);
       pending_.clear();
+      entries = std::exchange(pendingEntries_, 0);
+      reports = std::exchange(pendingReports_, 0);
     }
     stream_.write(block.data(), static_cast<std::streamsize>(block.size())).flush();
-    if (stream_) continue;
+    const int reason = errno;
     const std::lock_guard lock(mutex_);
-    if (failure_.empty()) failure_ = path_.string() + ": cannot be written any more: " + std::strerror(errno);
+    if (stream_) {
+      reports_ += reports;
+      continue;
+    }
+    dropped_ += entries;
+    if (failure_.empty()) failure_ = path_.string() + ": cannot be written any more: " + std::strerror(reason);
   }
 }
 

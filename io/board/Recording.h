@@ -50,8 +50,9 @@ public:
 
   void append(RecordingEntry::Kind kind, double hostTime_s, std::span<const std::uint8_t> bytes);
 
+  /// Reports that the system has taken; those of the last half second may still wait.
   [[nodiscard]] std::uint64_t reports() const;
-  /// Entries that were dropped because the disk did not keep up; they are missing in the file.
+  /// Entries that may be missing in the file: the disk did not keep up, or is full.
   [[nodiscard]] std::uint64_t dropped() const;
   /// Why nothing is written any more (the disk is full); empty while all is well.
   [[nodiscard]] std::string failure() const;
@@ -64,6 +65,8 @@ private:
   mutable std::mutex mutex_;
   std::condition_variable wake_;
   std::string pending_;
+  std::uint64_t pendingEntries_ = 0;
+  std::uint64_t pendingReports_ = 0;
   std::string failure_;
   std::uint64_t reports_ = 0;
   std::uint64_t dropped_ = 0;

@@ -53,12 +53,20 @@ void require(int info, const char* routine) {
                        "): the samples hold values that are no numbers, or are too large for double precision");
 }
 
+/// dgemm and its kin believe the sizes they are given: a wrong one reads beyond the matrix.
+void requireSame(Eigen::Index a, Eigen::Index b, const char* what) {
+  if (a != b)
+    throw NetworkError(std::string(what) + ": matrices of " + std::to_string(a) + " and " + std::to_string(b) +
+                       " entries do not fit together");
+}
+
 } // namespace
 
 Eigen::MatrixXd product(const Input& a, bool transposeA, const Input& b, bool transposeB) {
   openblas_set_num_threads(1);
   const int m = size(transposeA ? a.cols() : a.rows()), k = size(transposeA ? a.rows() : a.cols());
   const int n = size(transposeB ? b.rows() : b.cols());
+  requireSame(k, transposeB ? b.cols() : b.rows(), "product");
   Eigen::MatrixXd c = Eigen::MatrixXd::Zero(m, n);
   if (m == 0 || n == 0 || k == 0) return c;
   const double one = 1, zero = 0;
@@ -71,6 +79,9 @@ Eigen::MatrixXd product(const Input& a, bool transposeA, const Input& b, bool tr
 void subtractProduct(const Input& a, const Input& b, Eigen::Ref<Eigen::MatrixXd> c) {
   openblas_set_num_threads(1);
   const int m = size(a.rows()), n = size(b.rows()), k = size(a.cols());
+  requireSame(k, b.cols(), "subtracted product");
+  requireSame(m, c.rows(), "subtracted product");
+  requireSame(n, c.cols(), "subtracted product");
   if (m == 0 || n == 0 || k == 0) return;
   const double minus = -1, one = 1;
   const int lda = leading(a.outerStride()), ldb = leading(b.outerStride()), ldc = leading(c.outerStride());
@@ -95,6 +106,8 @@ Eigen::MatrixXd gram(const Eigen::MatrixXd& a, const std::stop_token& stop) {
 Eigen::MatrixXd symmetricProduct(const Input& a, const Input& b) {
   openblas_set_num_threads(1);
   const int m = size(b.rows()), n = size(b.cols());
+  requireSame(a.rows(), a.cols(), "symmetric product");
+  requireSame(a.cols(), m, "symmetric product");
   const int lda = leading(a.outerStride()), ldb = leading(b.outerStride()), ldc = leading(m);
   Eigen::MatrixXd c(m, n);
   if (m == 0 || n == 0) return c;
@@ -106,6 +119,8 @@ Eigen::MatrixXd symmetricProduct(const Input& a, const Input& b) {
 void subtractRankTwo(const Input& u, const Input& v, Eigen::Ref<Eigen::MatrixXd> c) {
   openblas_set_num_threads(1);
   const int n = size(c.rows()), k = size(u.cols());
+  for (const Eigen::Index rows : {c.cols(), u.rows(), v.rows()}) requireSame(n, rows, "subtracted rank two");
+  requireSame(k, v.cols(), "subtracted rank two");
   const int ldu = leading(u.outerStride()), ldv = leading(v.outerStride()), ldc = leading(c.outerStride());
   if (n == 0 || k == 0) return;
   const double minus = -1, one = 1;
@@ -114,6 +129,7 @@ void subtractRankTwo(const Input& u, const Input& v, Eigen::Ref<Eigen::MatrixXd>
 
 std::vector<int> semidefinitePivots(Eigen::MatrixXd& a) {
   openblas_set_num_threads(1);
+  requireSame(a.rows(), a.cols(), "pivots");
   const int n = size(a.rows());
   std::vector<int> pivots(static_cast<std::size_t>(n));
   if (n == 0) return pivots;
@@ -167,6 +183,7 @@ PivotedQr::BlockReflector PivotedQr::blockReflector() const {
 
 Eigen::MatrixXd PivotedQr::applyQTransposed(Eigen::MatrixXd b) const {
   const int m = size(b.rows()), n = size(b.cols()), k = size(tau_.size()), lda = leading(qr_.rows()), query = -1;
+  requireSame(qr_.rows(), m, "product with Q");
   if (m == 0 || n == 0 || k == 0) return b;
   openblas_set_num_threads(1);
   int info = 0;
@@ -191,6 +208,7 @@ Eigen::MatrixXd PivotedQr::solveRotated(const Eigen::Ref<const Eigen::MatrixXd>&
 
 bool choleskyInPlace(Eigen::Ref<Eigen::MatrixXd> a) {
   openblas_set_num_threads(1);
+  requireSame(a.rows(), a.cols(), "Cholesky's factor");
   const int n = size(a.rows()), lda = leading(a.outerStride());
   int info = 0;
   if (n > 0) dpotrf_("L", &n, a.data(), &lda, &info);
@@ -200,6 +218,8 @@ bool choleskyInPlace(Eigen::Ref<Eigen::MatrixXd> a) {
 
 Eigen::MatrixXd solveLower(const Input& l, Eigen::MatrixXd b, bool transposed) {
   openblas_set_num_threads(1);
+  requireSame(l.rows(), l.cols(), "triangular solution");
+  requireSame(l.cols(), b.rows(), "triangular solution");
   const int n = size(b.rows()), m = size(b.cols()), lda = leading(l.outerStride()), ldb = leading(n);
   const double one = 1;
   if (n > 0 && m > 0) dtrsm_("L", "L", transposed ? "T" : "N", "N", &n, &m, &one, l.data(), &lda, b.data(), &ldb);

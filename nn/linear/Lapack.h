@@ -1,7 +1,7 @@
 #pragma once
 
 // Private to nn: the few LAPACK and BLAS routines it uses, in Eigen's types. Always one BLAS thread, so that results do
-// not depend on the number of cores.
+// not depend on the number of cores. Sizes that do not fit together throw NetworkError.
 
 #include <Eigen/Core>
 

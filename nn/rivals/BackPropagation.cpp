@@ -196,6 +196,9 @@ BackPropagationFit trainBackPropagation(const Eigen::Ref<const Eigen::MatrixXd>&
                     &progress,
                     options.iterations};
   optimise(training, options.seed);
+  if (training.bestParameters.empty())
+    throw NetworkError("back-propagation: no step had a finite error; the targets vary too little or too much for "
+                       "double precision");
   fit.iterations = training.steps;
   fit.trainingError = std::move(training.history);
 

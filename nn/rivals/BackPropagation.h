@@ -16,13 +16,13 @@ namespace palp {
 struct BackPropagationNetwork {
   FeatureScaler inputScaler;
   FeatureScaler outputScaler;
-  Eigen::MatrixXd components;    ///< components x inputs: the scaled inputs' principal directions, to variance 1
+  Eigen::MatrixXd components;    ///< components x scaled inputs: their principal directions, to variance 1
   Eigen::MatrixXd hiddenWeights; ///< hidden x components
   Eigen::VectorXd hiddenBias;
   Eigen::MatrixXd outputWeights; ///< outputs x hidden
   Eigen::VectorXd outputBias;
 
-  [[nodiscard]] Eigen::Index inputs() const { return inputScaler.offset.size(); }
+  [[nodiscard]] Eigen::Index inputs() const { return inputScaler.inputs(); }
   [[nodiscard]] Eigen::Index outputs() const { return outputWeights.rows(); }
   [[nodiscard]] Eigen::MatrixXd predict(const Eigen::Ref<const Eigen::MatrixXd>& samples) const;
 };

@@ -56,10 +56,10 @@ Eigen::MatrixXd PolynomialRidge::predict(const Eigen::Ref<const Eigen::MatrixXd>
 }
 
 Eigen::MatrixXd PolynomialRidge::jacobian(const Eigen::Ref<const Eigen::VectorXd>& sample) const {
-  if (degree == 1) return weights * scaler.factor.asDiagonal();
+  if (degree == 1) return weights * scaler.jacobian();
   const Eigen::MatrixXd scaled = scaler.apply(sample);
   const Eigen::VectorXd slope = kernel(centers, scaled, size, degree - 1).col(0) * (degree / size);
-  return weights * slope.asDiagonal() * centers.transpose() * scaler.factor.asDiagonal();
+  return weights * slope.asDiagonal() * centers.transpose() * scaler.jacobian();
 }
 
 PolynomialFit trainPolynomial(const Eigen::Ref<const Eigen::MatrixXd>& samples,

@@ -20,7 +20,7 @@ struct PolynomialRidge {
   FeatureScaler scaler;
   double size = 1;         ///< what the scaled inputs' products are divided by
   Eigen::MatrixXd centers; ///< scaled inputs x samples; degree 1: empty
-  Eigen::MatrixXd weights; ///< outputs x samples; degree 1: outputs x inputs
+  Eigen::MatrixXd weights; ///< outputs x samples; degree 1: outputs x scaled inputs
   Eigen::VectorXd bias;
 
   [[nodiscard]] Eigen::Index inputs() const { return scaler.inputs(); }

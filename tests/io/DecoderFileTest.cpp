@@ -2,27 +2,16 @@
 
 #include "model/base/Error.h"
 #include "nn/RbfTrainer.h"
+#include "tests/io/SmallDecoders.h"
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <functional>
+#include <set>
+
 namespace palp {
 namespace {
-
-Decoder smallDecoder() {
-  const Eigen::MatrixXd samples = Eigen::MatrixXd::Random(6, 20), forces = Eigen::MatrixXd::Random(3, 20);
-  Decoder decoder;
-  const RbfFit fit = trainRbf(samples, forces);
-  decoder.model = fit.network;
-  decoder.report = fit.report;
-  decoder.input = {InputKind::Resistance, {4}, 10, 6, samples.rowwise().minCoeff(), samples.rowwise().maxCoeff()};
-  decoder.designFingerprint = "0123456789abcdef";
-  decoder.trainedWith = "palp train --seed 1";
-  decoder.areaCount = 6;
-  decoder.low_N = forces.rowwise().minCoeff();
-  decoder.high_N = forces.rowwise().maxCoeff();
-  decoder.residual_N = Eigen::MatrixXd::Ones(3, 6);
-  return decoder;
-}
 
 std::string refusal(const std::string& text) {
   try {
@@ -40,7 +29,13 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 }
 
 TEST(NetworkFile, ReadsBackToTheSameBits) {
-  const Decoder decoder = smallDecoder();
+  for (const DecoderKind kind : allDecoderKinds()) {
+    const std::string text = networkText(smallDecoder(kind));
+    EXPECT_EQ(networkText(parseNetwork(text, "net.json")), text) << name(kind);
+  }
+  const std::string together = networkText(togetherDecoder());
+  EXPECT_EQ(networkText(parseNetwork(together, "net.json")), together);
+  const Decoder decoder = smallDecoder(DecoderKind::Rbf);
   const Decoder again = parseNetwork(networkText(decoder), "net.json");
   const auto& a = std::get<RbfNetwork>(decoder.model);
   const auto& b = std::get<RbfNetwork>(again.model);
@@ -49,17 +44,12 @@ TEST(NetworkFile, ReadsBackToTheSameBits) {
   EXPECT_EQ(a.tail, b.tail);
   EXPECT_EQ(a.spread, b.spread);
   EXPECT_EQ(a.form, b.form);
-  EXPECT_EQ(networkText(decoder), networkText(again));
 }
 
 TEST(NetworkFile, KeepsTheRotationOfWhitenedInputs) {
-  const Eigen::MatrixXd samples = Eigen::MatrixXd::Random(6, 20).array() + 100;
-  RbfOptions options;
-  options.scaling = Scaling::Whiten;
-  options.relativeInputNoise = 5e-3; // about the samples' own variation: some components are left out
-  options.spread = 1;
-  Decoder decoder = smallDecoder();
-  decoder.model = trainRbf(samples, Eigen::MatrixXd::Random(3, 20), options).network;
+  const Decoder decoder = whitenedDecoder();
+  const Eigen::MatrixXd samples = SmallSamples().inputs;
+  ASSERT_LT(std::get<RbfNetwork>(decoder.model).scaler.dimensions(), 3);
   const Decoder again = parseNetwork(networkText(decoder), "net.json");
   EXPECT_EQ(std::get<RbfNetwork>(again.model).predict(samples), std::get<RbfNetwork>(decoder.model).predict(samples));
   EXPECT_NE(
@@ -68,24 +58,103 @@ TEST(NetworkFile, KeepsTheRotationOfWhitenedInputs) {
 }
 
 TEST(NetworkFile, RefusesWhatItDoesNotKnow) {
-  const std::string text = networkText(smallDecoder());
+  const std::string text = networkText(smallDecoder(DecoderKind::Rbf));
   EXPECT_NE(refusal(replaced(text, "\"mode\"", "\"moed\"")).find("moed"), std::string::npos);
   EXPECT_NE(refusal(replaced(text, "\"palp_network\":1", "\"palp_network\":2")).find("newer"), std::string::npos);
   EXPECT_NE(refusal(replaced(text, "\"rbf\"", "\"svm\"")).find("svm"), std::string::npos);
 }
 
 TEST(NetworkFile, RefusesWrongTypesAndSizesWithTheKey) {
-  const std::string text = networkText(smallDecoder());
-  EXPECT_NE(refusal(replaced(text, "\"area_count\":6", "\"area_count\":\"six\"")).find("area_count"),
+  const std::string text = networkText(smallDecoder(DecoderKind::Rbf));
+  EXPECT_NE(refusal(replaced(text, "\"area_count\":2", "\"area_count\":\"two\"")).find("area_count"),
             std::string::npos);
-  EXPECT_NE(refusal(replaced(text, "\"values_per_row\":6", "\"values_per_row\":7")).find("input.low"),
+  EXPECT_NE(refusal(replaced(text, "\"values_per_row\":3", "\"values_per_row\":4")).find("input.low"),
             std::string::npos);
   EXPECT_NE(refusal(replaced(text, "\"spread_convention\":\"radbas\"", "\"spread_convention\":\"fwhm\"")).find("fwhm"),
             std::string::npos);
 }
 
+/// Why the file of a decoder is refused after a change; empty where it is not.
+std::string refusalWith(Decoder decoder, const std::function<void(Decoder&)>& change) {
+  EXPECT_EQ(refusal(networkText(decoder)), "");
+  change(decoder);
+  return refusal(networkText(decoder));
+}
+
+TEST(NetworkFile, RefusesAreasThatTheDesignDoesNotHave) {
+  const Decoder rbf = smallDecoder(DecoderKind::Rbf), likelihood = smallDecoder(DecoderKind::MaximumLikelihood);
+  for (const Decoder& decoder : {rbf, likelihood})
+    for (const int area : {-1, 2, 1000000})
+      EXPECT_NE(refusalWith(decoder, [&](Decoder& d) { d.areaOfClass[1] = area; }).find("area_of_class"),
+                std::string::npos)
+          << area;
+  EXPECT_NE(refusalWith(rbf, [](Decoder& d) { d.areaOfClass.pop_back(); }).find("area_of_class"), std::string::npos);
+  EXPECT_NE(refusalWith(rbf, [](Decoder& d) { d.areas.reset(); }).find("area_of_class"), std::string::npos);
+  EXPECT_NE(refusalWith(rbf, [](Decoder& d) { d.areaCount = 0; }).find("area_count is 0"), std::string::npos);
+  const std::string told = refusalWith(togetherDecoder(), [&](Decoder& d) {
+    d.areas = rbf.areas;
+    d.areaOfClass = {0, 1};
+  });
+  EXPECT_NE(told.find("areas"), std::string::npos) << told;
+}
+
+TEST(NetworkFile, RefusesOutputsThatAreNoForces) {
+  const auto twoOutputs = [](Decoder& d) {
+    auto& model = std::get<PolynomialRidge>(d.model);
+    model.weights.conservativeResize(2, Eigen::NoChange);
+    model.bias.conservativeResize(2);
+    d.low_N.conservativeResize(2);
+    d.high_N.conservativeResize(2);
+    d.residual_N.conservativeResize(2, Eigen::NoChange);
+  };
+  const std::string sentence = refusalWith(smallDecoder(DecoderKind::Polynomial2), twoOutputs);
+  EXPECT_NE(sentence.find("3 outputs, the components of one force, not 2"), std::string::npos) << sentence;
+  const std::string several = refusalWith(togetherDecoder(), [](Decoder& d) { d.areaCount = 3; });
+  EXPECT_NE(several.find("9 outputs, three an area, not 6"), std::string::npos) << several;
+}
+
+/// The product with a model's matrix takes what the rotation gives, not what goes into it.
+TEST(NetworkFile, RefusesModelsThatDoNotFitTheirScalersRotation) {
+  const auto rotate = [](Decoder& d) {
+    const Eigen::MatrixXd rotation = Eigen::MatrixXd::Ones(1, 3);
+    if (auto* polynomial = std::get_if<PolynomialRidge>(&d.model)) polynomial->scaler.rotation = rotation;
+    if (auto* network = std::get_if<BackPropagationNetwork>(&d.model)) network->inputScaler.rotation = rotation;
+  };
+  for (const DecoderKind kind : {DecoderKind::Linear, DecoderKind::Polynomial2, DecoderKind::BackPropagation})
+    EXPECT_NE(refusalWith(smallDecoder(kind), rotate)
+                  .find("1 " + std::string(kind == DecoderKind::Polynomial2 ? "rows" : "columns") +
+                        ", one a scaled input, not 3"),
+              std::string::npos)
+        << name(kind);
+  const auto rotateOutputs = [](Decoder& d) {
+    std::get<BackPropagationNetwork>(d.model).outputScaler.rotation = Eigen::MatrixXd::Identity(3, 3);
+  };
+  EXPECT_NE(refusalWith(smallDecoder(DecoderKind::BackPropagation), rotateOutputs).find("without rotation"),
+            std::string::npos);
+}
+
+TEST(NetworkFile, RefusesAnInputWithoutRows) {
+  const std::string sentence = refusalWith(smallDecoder(DecoderKind::Rbf), [](Decoder& d) { d.input.rows.clear(); });
+  EXPECT_NE(sentence.find("input.rows is []; allowed is one row-wire or more"), std::string::npos) << sentence;
+}
+
+TEST(NetworkFile, RefusesWholeNumbersThatAreNoInt) {
+  const std::string text = networkText(smallDecoder(DecoderKind::Rbf));
+  for (const char* number : {"1e300", "-1e300", "9223372036854775808", "2147483648", "2.5"})
+    EXPECT_NE(refusal(replaced(text, "\"area_count\":2", "\"area_count\":" + std::string(number))).find("whole number"),
+              std::string::npos)
+        << number;
+}
+
+TEST(NetworkFile, TheFuzzersSeedsAreNetworksOfAllKinds) {
+  std::set<DecoderKind> kinds;
+  for (const auto& file : std::filesystem::directory_iterator(PALP_SOURCE_DIR "/tests/fuzz/networks"))
+    kinds.insert(readNetwork(file.path()).kind);
+  EXPECT_EQ(kinds.size(), allDecoderKinds().size());
+}
+
 TEST(NetworkFile, RefusesEveryTruncation) {
-  const std::string text = networkText(smallDecoder());
+  const std::string text = networkText(smallDecoder(DecoderKind::Rbf));
   for (std::size_t length = 0; length + 2 < text.size(); length += 97) {
     const std::string sentence = refusal(text.substr(0, length));
     EXPECT_EQ(sentence.rfind("net.json", 0), 0U) << length;

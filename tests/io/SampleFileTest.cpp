@@ -136,12 +136,22 @@ INSTANTIATE_TEST_SUITE_P(
                     Slip{"Empty", replaced("0,0.25", "0,"), {"line 16", "field 2"}},
                     Slip{"FieldMissing", replaced("0,0.25,", "0,"), {"line 16", "21 fields", "22"}},
                     Slip{"AreaUnknown", replaced("\n0,0.25", "\n2,0.25"), {"line 16", "area 2", "0 to 1"}},
+                    Slip{"AreaOfAllInAFileOfSingleAreas",
+                         replaced("\n0,0.25", "\n-1,0.25"),
+                         {"line 16", "area -1", "allowed is 0 to 1"}},
                     Slip{"AreaBroken", replaced("\n0,0.25", "\n0.5,0.25"), {"line 16", "field 1", "0.5"}},
                     Slip{"CutOff", [](std::string& text) { text.resize(text.size() - 5); }, {"line 18", "cut off"}},
                     Slip{"HeadLineMissing", replaced("# seed: 7\n", ""), {"seed"}},
                     Slip{"HeadLineTwice", replaced("# seed: 7\n", "# seed: 7\n# seed: 8\n"), {"seed stands twice"}},
                     Slip{"HeadKeyUnknown", replaced("# seed: 7\n", "# seed: 7\n# salt: 8\n"), {"unknown key", "salt"}},
                     Slip{"HeadNumberBroken", replaced("# seed: 7", "# seed: -7"), {"seed", "-7"}},
+                    Slip{"CountOfZero", replaced("area_count: 2", "area_count: 0"), {"area_count: 0", "1 or more"}},
+                    Slip{"CountsBeyondAllReason", // their product is no int, and their names would fill the memory
+                         [](std::string& text) {
+                           replaced("row_wires: 2", "row_wires: 100000")(text);
+                           replaced("electrodes_per_row_wire: 2", "electrodes_per_row_wire: 100000")(text);
+                         },
+                         {"line 15", "22 columns", "30000300004"}},
                     Slip{"KindUnknown", replaced("full solves", "guess"), {"guess", "full solves or surrogate"}},
                     Slip{"Newer", replaced("palp_samples: 1", "palp_samples: 2"), {"version 2"}},
                     Slip{"ColumnRenamed", replaced("fy_N", "fy_kN"), {"column 3", "fy_kN", "fy_N"}},
@@ -149,6 +159,16 @@ INSTANTIATE_TEST_SUITE_P(
                     Slip{
                         "NoHeadAtAll", [](std::string& text) { text.erase(0, text.find("area,")); }, {"palp_samples"}}),
     [](const auto& each) { return each.param.name; });
+
+TEST(SampleFile, OfAreasLoadedTogetherNamesNoSingleOne) {
+  const TemporaryFolder folder;
+  saveSamples(folder / "a.csv", randomSet(3, 1, true), false);
+  std::string text = readFile(folder / "a.csv");
+  replaced("\n-1,", "\n1,")(text);
+  put(folder / "b.csv", text);
+  const std::string sentence = refusal([&] { loadSamples(folder / "b.csv"); });
+  EXPECT_NE(sentence.find("b.csv, line 16: area 1; allowed is -1"), std::string::npos) << sentence;
+}
 
 TEST(SampleFile, MergeOfShardsInAnyOrderIsTheBytesOfOneRun) {
   const TemporaryFolder folder;

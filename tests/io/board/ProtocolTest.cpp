@@ -114,7 +114,7 @@ TEST(Protocol, UnknownIdsAreRefused) {
   }
 }
 
-TEST(Protocol, AnotherMajorOrSampleFormatIsToldApart) {
+TEST(Protocol, AnotherMajorVersionOrSampleFormatIsRefusedAsSuch) {
   for (const int byte : {0x20, 0x00, 0x11}) {
     Report report = encode(goldenReadings());
     report[1] = static_cast<std::uint8_t>(byte);
@@ -140,6 +140,16 @@ TEST(Protocol, RowsColumnsAndCountsOutsideTheBoardAreRefused) {
   EXPECT_TRUE(faultWith([](Readings& r) { r.count = 0; }));
   EXPECT_TRUE(faultWith([](Readings& r) { r.count = 16; }));
   EXPECT_TRUE(faultWith([](Readings& r) { r.rangeIndex = 4; }));
+}
+
+TEST(Protocol, AReadingInARangeThatTheBoardDoesNotHaveIsRefused) {
+  BoardInfo info;
+  info.reference_ohm[3] = 0;
+  Readings readings = goldenReadings();
+  readings.rangeIndex = 2;
+  EXPECT_TRUE(std::holds_alternative<Readings>(decodeInput(encode(readings), info)));
+  readings.rangeIndex = 3; // any code of it would be a good reading of 0 ohm
+  EXPECT_EQ(std::get<ReportFault>(decodeInput(encode(readings), info)), ReportFault::OutOfRange);
 }
 
 TEST(Protocol, BoardsOfImpossibleSizeAreRefused) {

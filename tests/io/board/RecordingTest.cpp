@@ -8,6 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
+
+#include <csignal>
 #include <sstream>
 
 namespace palp {
@@ -17,6 +20,11 @@ using Kind = RecordingEntry::Kind;
 
 RecordingHead smallHead() {
   return {smallBoard().info, smallBoard().configuration, "SMALL-1 at /dev/hidraw0", "0123456789abcdef", 1'700'000'000};
+}
+
+/// Waits for the writer's thread, 10 s at most.
+template <class Condition> void waitUntil(const Condition& condition) {
+  for (int i = 0; i < 500 && !condition(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
 }
 
 /// 30 reports at 1000/s with a mark after the tenth.
@@ -29,6 +37,7 @@ std::vector<Bytes> record(const std::filesystem::path& path) {
     writer.append(Kind::Raw, 100 + 1e-3 * static_cast<double>(i), reports[i]);
     if (i == 9) writer.append(Kind::Mark, 100.0095, {reinterpret_cast<const std::uint8_t*>(mark.data()), mark.size()});
   }
+  waitUntil([&] { return writer.reports() == 30; });
   EXPECT_EQ(writer.reports(), 30U);
   EXPECT_EQ(writer.dropped(), 0U);
   EXPECT_EQ(writer.failure(), "");
@@ -79,8 +88,7 @@ TEST(Recording, IsOnDiskASecondLaterWithoutAnEnd) {
   VirtualBoard board = boardWith(smallBoard());
   RecordingWriter writer(folder / "a", smallHead(), false);
   writer.append(Kind::Raw, 1, reportsOf(board, 1)[0]);
-  for (int i = 0; i < 100 && !RecordingReader(folder / "a").next(); ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  waitUntil([&] { return RecordingReader(folder / "a").next().has_value(); });
   EXPECT_TRUE(RecordingReader(folder / "a").next());
 }
 
@@ -101,6 +109,42 @@ TEST(Recording, RefusesToOverwriteAndSaysThatTheDiskIsFull) {
   put(folder / "a", "precious");
   EXPECT_NE(refusal([&] { RecordingWriter(folder / "a", smallHead(), false); }).find("--force"), std::string::npos);
   EXPECT_NE(refusal([&] { RecordingWriter("/dev/full", smallHead(), true); }).find("No space"), std::string::npos);
+}
+
+/// Files of this process end at a size, as on a full disk.
+class FileSizeLimit {
+public:
+  explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+private:
+  void (*handler_)(int);
+  rlimit before_{};
+};
+
+TEST(Recording, CountsWhatWasWrittenAndNotWhatWasQueued) {
+  const TemporaryFolder folder;
+  VirtualBoard board = boardWith(smallBoard());
+  const std::vector<Bytes> reports = reportsOf(board, 100);
+  const FileSizeLimit limit(4000); // the head and some 40 entries of 76 bytes
+  RecordingWriter writer(folder / "a", smallHead(), false);
+  for (const Bytes& report : reports) writer.append(Kind::Raw, 1, report);
+  waitUntil([&] { return !writer.failure().empty(); });
+  EXPECT_NE(writer.failure().find("File too large"), std::string::npos) << writer.failure();
+  EXPECT_EQ(writer.reports() + writer.dropped(), 100U);
+  std::size_t there = 0;
+  for (RecordingReader reader(folder / "a"); reader.next();) ++there;
+  EXPECT_LT(there, 100U);
+  EXPECT_LE(writer.reports(), there);
 }
 
 std::size_t replayed(ReplaySource& source) {

@@ -1,3 +1,4 @@
+#include "nn/NetworkError.h"
 #include "nn/NoisyCopies.h"
 #include "nn/RelativeError.h"
 #include "nn/SpreadSweep.h"
@@ -11,6 +12,9 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
 
 namespace palp {
 namespace {
@@ -66,6 +70,12 @@ TEST(BackPropagation, LearnsTheMap) {
   EXPECT_LT(test::worstRelativeError(fit.network.predict(fresh.samples), fresh.targets), 0.1);
   EXPECT_LT(fit.trainingError.back(), fit.trainingError.front());
   EXPECT_EQ(fit.heldOutResiduals.cols(), fit.heldOut.size());
+}
+
+TEST(BackPropagation, RefusesTargetsWhoseErrorIsNeverFinite) {
+  Eigen::MatrixXd targets = training.targets;
+  targets *= 1e-310; // 1 / (half their range) is infinite
+  EXPECT_THROW(trainBackPropagation(training.samples, targets), NetworkError);
 }
 
 TEST(ForwardModel, ItsDerivativeAgreesWithDifferences) {
@@ -138,6 +148,22 @@ TEST(SpreadSweep, GoesThroughTheSpreadsAndStopsWhenAsked) {
   EXPECT_EQ(rows[1].spread, 1);
   EXPECT_EQ(rows[1].predicted.cols(), fresh.targets.cols());
   EXPECT_TRUE(rows[1].error.rmsePercentOfRange.allFinite());
+}
+
+TEST(SpreadSweep, IsStoppedWithinItsFirstFit) {
+  const test::Touches many = test::touches(100, 30, 1);
+  const SweepInput input{many.samples, many.targets, many.samples, many.targets, Eigen::Vector3d(2, 2, 6)};
+  RbfOptions options; // a fit of seconds, that looks at the token all the while
+  options.relativeInputNoise = 1e-3;
+  options.noiseCopies = 40;
+  options.ridge = {};
+  options.tail = Tail::LinearPenalised;
+  std::stop_source stop;
+  const std::jthread user([&stop] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    stop.request_stop();
+  });
+  EXPECT_TRUE(sweepSpreads(input, {1, 2}, options, {}, stop.get_token()).empty());
 }
 
 } // namespace
