@@ -1,12 +1,12 @@
 #include "app/gui/jobs/NetworkSession.h"
 #include "app/gui/project/ProjectFile.h"
 #include "app/gui/project/Workbench.h"
+#include "app/gui/window/Application.h"
 #include "app/gui/window/MainWindow.h"
 #include "app/gui/window/SceneCosts.h"
 #include "app/gui/window/Snapshot.h"
 #include "model/base/Error.h"
 
-#include <QApplication>
 #include <QCommandLineParser>
 
 #include <algorithm>
@@ -67,7 +67,7 @@ Wish parse(const QApplication& application) {
           parser.isSet(costs), meshOf(parser.value(size), parser.value(mapped))};
 }
 
-int run(QApplication& application) {
+int run(palp::Application& application) {
   const Wish wish = parse(application);
   palp::Project project = palp::exampleProject();
   if (!wish.file.isEmpty()) project = palp::loadProject(wish.file.toStdString(), project);
@@ -78,16 +78,21 @@ int run(QApplication& application) {
   if (!wish.theme.isEmpty() && wish.theme != "light" && wish.theme != "dark")
     throw palp::Error("--theme " + wish.theme.toStdString() + ": allowed is light or dark");
   if (!wish.theme.isEmpty()) window.setTheme(wish.theme == "dark" ? palp::Theme::Dark : palp::Theme::Light);
+  const bool unattended = wish.costs || !wish.snapshot.isEmpty();
+  QObject::connect(&application, &palp::Application::faulted, &window, [&window, unattended](const QString& what) {
+    if (unattended) std::_Exit(1); // nobody is there to read a box; standard error has the words
+    palp::showFault(window, what);
+  });
   window.showScene(QString::fromStdString(project.view.scene));
   if (!wish.scene.isEmpty() && !window.showScene(wish.scene))
     throw palp::Error("--scene " + wish.scene.toStdString() + ": allowed is " +
                       window.sceneNames().join(", ").toStdString());
   if (wish.costs) {
-    palp::printSceneCosts(window, workbench, network, wish.scene);
+    palp::printSceneCosts(window, workbench, wish.scene);
     return 0;
   }
   window.show();
-  if (!wish.snapshot.isEmpty()) palp::snapshotWhenComplete(window, workbench, network, wish.snapshot);
+  if (!wish.snapshot.isEmpty()) palp::snapshotWhenComplete(window, workbench, wish.snapshot);
   return QApplication::exec();
 }
 
@@ -111,7 +116,7 @@ int main(int argc, char** argv) {
                  "without one\n";
     return 2;
   }
-  QApplication application(argc, argv);
+  palp::Application application(argc, argv);
   QApplication::setApplicationName("palp-studio");
   QApplication::setOrganizationName("palp");
   QApplication::setApplicationVersion(PALP_VERSION);

@@ -5,6 +5,7 @@
 #include <QObject>
 #include <QStringList>
 
+#include <array>
 #include <cmath>
 
 namespace palp {
@@ -141,14 +142,23 @@ DesignField count(const QString& key, const QString& group, const QString& label
           [part](SensorDesign& design, const QString& words) { return setCount(part(design), words); }};
 }
 
-std::vector<DesignField> makeFields() {
-  using D = SensorDesign;
-  const auto tr = [](const char* words) { return QObject::tr(words); };
-  std::vector<DesignField> fields;
-  const std::vector<QString> axes{"x", "y", "z"};
+using D = SensorDesign;
+using Fields = std::vector<DesignField>;
+
+QString tr(const char* words) {
+  return QObject::tr(words);
+}
+
+const std::array<QString, 3>& axes() {
+  static const std::array<QString, 3> names{"x", "y", "z"};
+  return names;
+}
+
+/// Block, rubber and load areas.
+void addBody(Fields& fields) {
   for (int d = 0; d < 3; ++d)
     fields.push_back(number(QString("block_mm[%1]").arg(d), tr("Block"),
-                            tr("size along %1").arg(axes[static_cast<std::size_t>(d)]), "mm",
+                            tr("size along %1").arg(axes()[static_cast<std::size_t>(d)]), "mm",
                             tr("above 0; the bottom face is fixed"), [d](D& s) -> double& { return s.block_mm[d]; }));
   fields.push_back(number("material.c10_MPa", tr("Rubber"), "c10", "MPa", tr("Mooney-Rivlin constant, above 0"),
                           [](D& s) -> double& { return s.material.c10_MPa; }));
@@ -164,6 +174,9 @@ std::vector<DesignField> makeFields() {
                          [](D& s) -> int& { return s.areas.columns; }));
   fields.push_back(
       count("areas.rows", tr("Load areas"), tr("along y"), tr("1 to 50"), [](D& s) -> int& { return s.areas.rows; }));
+}
+
+void addElectrodeLayers(Fields& fields) {
   fields.push_back(list("upper_layer.row_wire_y_mm", tr("Upper layer"), tr("row-wires at y"),
                         tr("one number a row-wire; evenly spaced ones as 1.5, 4.5, ..., 28.5"),
                         [](D& s) -> std::vector<double>& { return s.upper.wire_mm; }));
@@ -181,11 +194,14 @@ std::vector<DesignField> makeFields() {
                          [](D& s) -> std::vector<std::vector<double>>& { return s.lower.along_mm; }));
   fields.push_back(lists("lower_layer.z_mm", tr("Lower layer"), tr("depth z"), tr("below the upper layer"),
                          [](D& s) -> std::vector<std::vector<double>>& { return s.lower.z_mm; }));
+}
+
+void addResistanceAndForces(Fields& fields) {
   fields.push_back(number("resistance.rate_ohm_per_mm", tr("Resistance"), tr("rate g"), "ohm/mm",
                           tr("above 0; a pair of electrodes has R = g x distance"),
                           [](D& s) -> double& { return s.resistanceRate_ohm_per_mm; }));
   for (int d = 0; d < 3; ++d) {
-    const QString& axis = axes[static_cast<std::size_t>(d)];
+    const QString& axis = axes()[static_cast<std::size_t>(d)];
     fields.push_back(number("force_range_N." + axis, tr("Force range"), tr("F%1 from").arg(axis), "N",
                             tr("for samples and for % of range"),
                             [d](D& s) -> double& { return s.forceRange.low_N[d]; }));
@@ -193,6 +209,13 @@ std::vector<DesignField> makeFields() {
                             tr("for samples and for % of range"),
                             [d](D& s) -> double& { return s.forceRange.high_N[d]; }));
   }
+}
+
+Fields makeFields() {
+  Fields fields;
+  addBody(fields);
+  addElectrodeLayers(fields);
+  addResistanceAndForces(fields);
   return fields;
 }
 

@@ -5,8 +5,9 @@
 #include "app/gui/views/BlockView.h"
 #include "app/gui/views/ChartView.h"
 #include "app/gui/window/SidePanel.h"
+#include "app/gui/window/SpinBoxes.h"
 #include "app/study/decoding/NoiseBound.h"
-#include "solver/MeshQuality.h"
+#include "model/base/Cancelled.h"
 
 #include <QCheckBox>
 #include <QDoubleSpinBox>
@@ -20,6 +21,7 @@
 
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace palp {
 
@@ -66,6 +68,16 @@ QString percents(const Eigen::VectorXd& values) {
   return texts.join(" / ") + " %";
 }
 
+QString boundWords(int row, const NoiseBound& one, const NoiseBound& every) {
+  return QObject::tr(
+             "Cramer-Rao bound of Fx / Fy / Fz, area known, with prior (forces uniform over their range), in % of "
+             "range:<br>row-wire %1 alone: <b>%2</b><br>all row-wires: <b>%3</b><br>without prior: %4 and %5"
+             "<br><i>Knowing nothing at all is 28.9 %. Real rubber adds hysteresis, creep and temperature.</i>")
+      .arg(row)
+      .arg(percents(one.withPriorPercent), percents(every.withPriorPercent), percents(one.withoutPriorPercent),
+           percents(every.withoutPriorPercent));
+}
+
 } // namespace
 
 DesignPage::DesignPage(Workbench& workbench, NetworkSession& network, QWidget* parent)
@@ -101,10 +113,22 @@ DesignPage::DesignPage(Workbench& workbench, NetworkSession& network, QWidget* p
   connect(&workbench_, &Workbench::projectChanged, this, &DesignPage::displayProject);
   connect(&workbench_.touch(), &TouchSession::changed, this, [this](bool meshChanged) {
     if (!meshChanged) return;
+    ++mesh_;
+    measured_.reset();
+    measureAsked_ = false;
     draw();
     displayMesh();
   });
-  connect(&network_, &NetworkSession::samplesChanged, this, &DesignPage::displayNoiseFloor);
+  connect(&network_, &NetworkSession::samplesChanged, this, [this] {
+    boundedFor_.reset();
+    displayNoiseFloor();
+  });
+  // What was cancelled is asked for again when the page is next brought up to date.
+  connect(&measuring_, &JobRunner::finished, this, [this](bool cancelled) { measureAsked_ &= !cancelled; });
+  connect(&bounding_, &JobRunner::finished, this, [this](bool cancelled) {
+    if (cancelled) boundedFor_.reset();
+  });
+  connect(&bounding_, &JobRunner::failed, floorWords_, &QLabel::setText);
   displayProject();
 }
 
@@ -215,16 +239,14 @@ void DesignPage::displayProject() {
   const Project& project = workbench_.project();
   panel_->display(project.design);
   const QSignalBlocker quietCheck(automaticSize_);
-  const QSignalBlocker quietSize(size_);
-  const bool automatic = !project.mesh.meshSize_mm;
+  const bool automatic = !project.mesh.meshSize_mm && !project.mesh.mapped;
   automaticSize_->setChecked(automatic);
-  size_->setEnabled(!automatic);
-  if (!automatic) size_->setValue(*project.mesh.meshSize_mm);
+  size_->setEnabled(project.mesh.meshSize_mm.has_value());
+  if (project.mesh.meshSize_mm) showExactly(*size_, *project.mesh.meshSize_mm);
   const QSignalBlocker quietMesh(showMesh_);
-  const QSignalBlocker quietNoise(noise_);
   const bool otherStage = showMesh_->isChecked() != project.view.mesh;
   showMesh_->setChecked(project.view.mesh);
-  noise_->setValue(100 * project.view.resistanceNoise);
+  showExactly(*noise_, 100 * project.view.resistanceNoise);
   if (otherStage && isVisible()) emit stageChanged();
   draw();
   displayMesh();
@@ -246,44 +268,75 @@ void DesignPage::draw() {
 }
 
 void DesignPage::displayMesh() {
+  if (!isVisible()) return;
   const TouchSession& touch = workbench_.touch();
   const bool meshed = showMesh_->isChecked() && touch.touch().mesh() != nullptr;
-  quality_->setVisible(meshed);
+  quality_->setVisible(meshed && measured_);
   if (!meshed) {
     meshWords_->setText(tr("Looking at the design makes no mesh."));
     return;
   }
   const Mesh& mesh = *touch.touch().mesh();
-  const MeshQuality quality = meshQuality(mesh);
-  meshWords_->setText(tr("%1 nodes, %2 elements; dihedral angles %3 to %4 degrees.")
-                          .arg(mesh.nodeCount())
-                          .arg(mesh.elementCount())
-                          .arg(quality.minDihedral_deg, 0, 'f', 1)
-                          .arg(quality.maxDihedral_deg, 0, 'f', 1));
-  quality_->setChart(qualityChart(quality));
+  QString words = tr("%1 nodes, %2 elements").arg(mesh.nodeCount()).arg(mesh.elementCount());
+  if (const auto& mapped = touch.touch().meshOptions().mapped)
+    words += tr(" (mapped, %1 x %2 x %3)").arg((*mapped)[0]).arg((*mapped)[1]).arg((*mapped)[2]);
+  if (!measured_) {
+    meshWords_->setText(words + ".");
+    measureMesh();
+    return;
+  }
+  words += tr("; dihedral angles %1 to %2 degrees.")
+               .arg(measured_->minDihedral_deg, 0, 'f', 1)
+               .arg(measured_->maxDihedral_deg, 0, 'f', 1);
+  if (meshWords_->text() == words) return;
+  meshWords_->setText(words);
+  quality_->setChart(qualityChart(*measured_));
+}
+
+void DesignPage::measureMesh() {
+  if (std::exchange(measureAsked_, true)) return;
+  measuring_.start(tr("Measuring the mesh"),
+                   [this, number = mesh_, touch = workbench_.touch().touch()](const std::stop_token&,
+                                                                              JobProgress&) -> JobRunner::Taking {
+                     const MeshQuality quality = meshQuality(*touch.mesh());
+                     return [this, number, quality] {
+                       if (number != mesh_) return;
+                       measured_ = quality;
+                       displayMesh();
+                     };
+                   });
 }
 
 void DesignPage::displayNoiseFloor() {
   if (!isVisible()) return;
-  const NetworkSamples* samples = network_.samples();
-  floorSamples_->setVisible(samples == nullptr);
-  if (samples == nullptr) {
+  const bool known = network_.samples() != nullptr;
+  floorSamples_->setVisible(!known);
+  if (!known) {
     floorWords_->setText(tr("Known once there are samples of this design."));
     return;
   }
   const double noise = workbench_.project().view.resistanceNoise;
-  std::vector<int> all(static_cast<std::size_t>(samples->training.rowWires));
-  std::iota(all.begin(), all.end(), 0);
-  const int centre = std::min(4, samples->training.rowWires - 1);
-  const NoiseBound one = noiseBound(samples->training, InputKind::Resistance, {centre}, noise);
-  const NoiseBound every = noiseBound(samples->training, InputKind::Resistance, all, noise);
-  floorWords_->setText(
-      tr("Cramer-Rao bound of Fx / Fy / Fz, area known, with prior (forces uniform over their range), in % of range:"
-         "<br>row-wire %1 alone: <b>%2</b><br>all row-wires: <b>%3</b><br>without prior: %4 and %5"
-         "<br><i>Knowing nothing at all is 28.9 %. Real rubber adds hysteresis, creep and temperature.</i>")
-          .arg(centre)
-          .arg(percents(one.withPriorPercent), percents(every.withPriorPercent), percents(one.withoutPriorPercent),
-               percents(every.withoutPriorPercent)));
+  if (boundedFor_ == noise) return;
+  boundedFor_ = noise;
+  floorWords_->setText(tr("Being computed..."));
+  boundErrors(noise);
+}
+
+void DesignPage::boundErrors(double noise) {
+  bounding_.start(tr("Bounding the errors"),
+                  [this, noise, samples = network_.sharedSamples()](const std::stop_token& stop,
+                                                                    JobProgress&) -> JobRunner::Taking {
+                    std::vector<int> all(static_cast<std::size_t>(samples->training.rowWires));
+                    std::iota(all.begin(), all.end(), 0);
+                    const int centre = std::min(4, samples->training.rowWires - 1);
+                    const NoiseBound one = noiseBound(samples->training, InputKind::Resistance, {centre}, noise);
+                    stopIfAsked(stop);
+                    const NoiseBound every = noiseBound(samples->training, InputKind::Resistance, all, noise);
+                    return [this, noise, samples, centre, one, every] {
+                      if (samples == network_.sharedSamples() && boundedFor_ == noise)
+                        floorWords_->setText(boundWords(centre, one, every));
+                    };
+                  });
 }
 
 void DesignPage::editMesh() {

@@ -4,6 +4,7 @@
 #include "app/gui/project/Workbench.h"
 #include "app/gui/window/Scene.h"
 #include "app/scenes/block/DeformationScene.h"
+#include "solver/MeshQuality.h"
 
 class QCheckBox;
 class QDoubleSpinBox;
@@ -27,6 +28,7 @@ public:
   [[nodiscard]] Stage stage() const override;
   void setTheme(Theme theme) override;
   [[nodiscard]] bool complete() const override;
+  [[nodiscard]] std::vector<JobRunner*> runners() override { return {&measuring_, &bounding_}; }
   [[nodiscard]] QString commands(const Project& project, const QString& designFile) const override;
 
 signals:
@@ -42,7 +44,9 @@ private:
   void displayProject();
   void draw();
   void displayMesh();
+  void measureMesh();
   void displayNoiseFloor();
+  void boundErrors(double noise);
   void editMesh();
   QGroupBox* buildMesh();
   QGroupBox* buildNoiseFloor();
@@ -60,6 +64,11 @@ private:
   QDoubleSpinBox* noise_ = nullptr;
   QLabel* floorWords_ = nullptr;
   QPushButton* floorSamples_ = nullptr;
+  quint64 mesh_ = 0;                    ///< number of the mesh that is shown
+  std::optional<MeshQuality> measured_; ///< of that mesh
+  bool measureAsked_ = false;
+  std::optional<double> boundedFor_; ///< noise of the bound that is shown, or being computed
+  JobRunner measuring_, bounding_;
 };
 
 } // namespace palp

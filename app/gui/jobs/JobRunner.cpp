@@ -1,5 +1,7 @@
 #include "app/gui/jobs/JobRunner.h"
 
+#include "model/base/Cancelled.h"
+
 #include <QMetaObject>
 
 #include <malloc.h>
@@ -15,6 +17,19 @@ void returnMemory() {
 #ifdef __GLIBC__
   malloc_trim(0);
 #endif
+}
+
+/// Runs `act`; what it threw, in words, else nothing. Whatever is thrown ends here: there is nobody above.
+template <class Act> QString failureOf(const Act& act) {
+  try {
+    act();
+  } catch (const Cancelled&) { // asked for, no failure
+  } catch (const std::exception& failure) {
+    return QString::fromStdString(failure.what());
+  } catch (...) {
+    return QObject::tr("Something failed and gave no reason.");
+  }
+  return {};
 }
 
 } // namespace
@@ -59,12 +74,7 @@ void JobRunner::launch(Order order) {
   progress_->set(-1, title_.toStdString());
   thread_ = std::jthread([this, work = std::move(order.work), progress = progress_](const std::stop_token& stop) {
     Taking taking;
-    QString error;
-    try {
-      taking = work(stop, *progress);
-    } catch (const std::exception& refusal) {
-      error = QString::fromStdString(refusal.what());
-    }
+    const QString error = failureOf([&] { taking = work(stop, *progress); });
     returnMemory();
     QMetaObject::invokeMethod(
         this, [this, taking = std::move(taking), error] { end(taking, error); }, Qt::QueuedConnection);
@@ -76,9 +86,12 @@ void JobRunner::launch(Order order) {
 void JobRunner::end(const Taking& taking, const QString& error) {
   thread_.join();
   timer_.stop();
-  const bool replaced = waiting_.has_value();
-  if (!error.isEmpty() && !cancelled_ && !replaced) emit failed(error);
-  if (taking && !cancelled_ && !replaced) taking();
+  const bool wanted = !cancelled_ && !waiting_;
+  if (!error.isEmpty() && wanted) emit failed(error);
+  if (taking && wanted) {
+    const QString refused = failureOf(taking);
+    if (!refused.isEmpty()) emit failed(refused);
+  }
   if (waiting_) {
     Order next = std::move(*waiting_);
     waiting_.reset();

@@ -16,7 +16,7 @@ namespace palp {
 /// Where a job stands; written by the job, read by the window's timer.
 class JobProgress {
 public:
-  /// Share 0..1 of the work, or below 0 where it cannot be told, and what is being done. From any thread.
+  /// Share 0..1 of the work, or below 0 where it is not known, and what is being done. From any thread.
   void set(double share, const std::string& what);
 
 private:
@@ -31,8 +31,8 @@ private:
   Values values_;
 };
 
-/// Runs one piece of work at a time off the window's thread; a new one stops and replaces the one before. Errors of the
-/// work come out as a sentence.
+/// Runs one piece of work at a time off the window's thread; a new one stops and replaces the one before. Whatever the
+/// work or the taking of its result throws comes out as a sentence, and nothing passes on.
 class JobRunner : public QObject {
   Q_OBJECT
 
@@ -53,7 +53,7 @@ public:
 
 signals:
   void started(const QString& title);
-  /// A few times a second while work runs; share below 0 where it cannot be told.
+  /// A few times a second while work runs; share below 0 where it is not known.
   void progressed(double share, const QString& what);
   void failed(const QString& sentence);
   /// Nothing runs and nothing waits.

@@ -2,6 +2,7 @@
 
 #include "app/study/paper/PaperProtocol.h"
 #include "app/study/touch/SampleGenerator.h"
+#include "io/DecoderFile.h"
 #include "model/base/Error.h"
 #include "nn/SpreadSweep.h"
 
@@ -37,6 +38,19 @@ std::string timeLeft(double share, double elapsed_s) {
   return ", about " + std::to_string(left_s) + " s left";
 }
 
+/// Time since a generation went on, and where it stood then.
+struct GenerationClock {
+  std::size_t before = 0; ///< samples that were there already
+  QElapsedTimer elapsed;
+
+  void report(std::size_t done, std::size_t all, JobProgress& progress) const {
+    const double fresh = static_cast<double>(done - before) / static_cast<double>(all - before);
+    progress.set(static_cast<double>(done) / static_cast<double>(all),
+                 "Sample " + std::to_string(done) + " of " + std::to_string(all) +
+                     timeLeft(fresh, 1e-3 * static_cast<double>(elapsed.elapsed())));
+  }
+};
+
 NetworkFit fitOn(const NetworkSamples& samples, const SensorDesign& design, const NetworkSettings& settings,
                  const TrainOptions& options, const std::stop_token& stop, JobProgress& progress) {
   NetworkFit fit;
@@ -63,7 +77,47 @@ struct NetworkSession::Generation {
   std::array<std::size_t, 2> made{};
   std::array<std::size_t, 2> total{};
   double batchError = 0;
+
+  /// Makes what is missing of the training samples (0) or those for testing (1); false where it was stopped.
+  bool makeSet(std::size_t set, const GenerationClock& clock, StageLog& stages, const std::stop_token& stop,
+               JobProgress& progress);
+  /// Hands all of them over.
+  std::shared_ptr<const NetworkSamples> samples();
 };
+
+bool NetworkSession::Generation::makeSet(std::size_t set, const GenerationClock& clock, StageLog& stages,
+                                         const std::stop_token& stop, JobProgress& progress) {
+  SampleRequest request;
+  request.perArea = settings.perArea;
+  request.seed = set == 1 ? testSeed(settings.seed) : settings.seed;
+  request.mesh = mesh;
+  SampleGenerator generator(design, request);
+  total[set] = generator.total();
+  const std::size_t kept = made[set];
+  if (kept == total[set] && kept > 0) return true;
+  if (kept == 0) sets[set] = allocated(generator.emptySet(stop), total[set]);
+  if (stop.stop_requested()) return false;
+  const std::size_t others = set == 1 ? total[0] : 0;
+  generator.generate(
+      {kept, total[set]},
+      [&](const SampleSet& block) {
+        put(sets[set], block, made[set]);
+        made[set] += static_cast<std::size_t>(block.size());
+      },
+      [&](std::size_t done) { clock.report(others + kept + done, 2 * total[set], progress); }, stop);
+  batchError = std::max(batchError, generator.measuredError());
+  stages.add(generator.stages());
+  return made[set] == total[set];
+}
+
+std::shared_ptr<const NetworkSamples> NetworkSession::Generation::samples() {
+  auto all = std::make_shared<NetworkSamples>();
+  all->training = std::move(sets[0]);
+  all->test = std::move(sets[1]);
+  all->batchError = batchError;
+  all->settings = settings;
+  return all;
+}
 
 NetworkSession::NetworkSession(QObject* parent) : QObject(parent) {
   connect(&runner_, &JobRunner::progressed, this, &NetworkSession::drain);
@@ -104,50 +158,16 @@ void NetworkSession::generate(const SampleSettings& settings, const MeshOptions&
     generation_ = std::make_shared<Generation>(Generation{settings, mesh, design_, {}, {}, {}, 0});
   const auto work = [this, generation = generation_](const std::stop_token& stop,
                                                      JobProgress& progress) -> JobRunner::Taking {
-    Generation& now = *generation;
-    QElapsedTimer clock;
-    clock.start();
-    StageLog stages;
-    const std::size_t before = now.made[0] + now.made[1];
     progress.set(-1, "Meshing and preparing the solver");
-    for (std::size_t test = 0; test < 2; ++test) {
-      SampleRequest request;
-      request.perArea = now.settings.perArea;
-      request.seed = test == 1 ? testSeed(now.settings.seed) : now.settings.seed;
-      request.mesh = now.mesh;
-      SampleGenerator generator(now.design, request);
-      const std::size_t total = now.total[test] = generator.total();
-      const std::size_t kept = now.made[test];
-      if (kept == total && total > 0) continue;
-      if (kept == 0) now.sets[test] = allocated(generator.emptySet(stop), total);
-      if (stop.stop_requested()) return {};
-      generator.generate(
-          {kept, total},
-          [&](const SampleSet& block) {
-            put(now.sets[test], block, now.made[test]);
-            now.made[test] += static_cast<std::size_t>(block.size());
-          },
-          [&](std::size_t done) {
-            const std::size_t all = (test == 1 ? now.total[0] : 0) + kept + done;
-            const double share = static_cast<double>(all) / static_cast<double>(2 * total);
-            const double fresh = static_cast<double>(all - before) / static_cast<double>(2 * total - before);
-            progress.set(share, "Sample " + std::to_string(all) + " of " + std::to_string(2 * total) +
-                                    timeLeft(fresh, 1e-3 * static_cast<double>(clock.elapsed())));
-          },
-          stop);
-      now.batchError = std::max(now.batchError, generator.measuredError());
-      stages.add(generator.stages());
-      if (now.made[test] < total) return {};
-    }
+    GenerationClock clock{generation->made[0] + generation->made[1], {}};
+    clock.elapsed.start();
+    StageLog stages;
+    for (const std::size_t set : {0, 1})
+      if (!generation->makeSet(set, clock, stages, stop, progress)) return {};
     return [this, generation, stages] {
       if (!(generation->design == design_)) return;
-      auto samples = std::make_shared<NetworkSamples>();
-      samples->training = std::move(generation->sets[0]);
-      samples->test = std::move(generation->sets[1]);
-      samples->batchError = generation->batchError;
-      samples->settings = generation->settings;
+      samples_ = generation->samples();
       if (generation_ == generation) generation_.reset();
-      samples_ = std::move(samples);
       stages_.add(stages);
       dropResults();
     };
@@ -250,18 +270,24 @@ void NetworkSession::drain() {
   }
 }
 
-void NetworkSession::use(Decoder decoder) {
+void NetworkSession::open(const std::filesystem::path& file) {
   if (!samples_) throw Error("the network cannot be tried: there are no samples yet; generate samples first");
-  NetworkFit fit;
-  fit.decoder = std::move(decoder);
-  fit.settings.input = fit.decoder.input.kind;
-  fit.settings.mode = fit.decoder.mode;
-  fit.settings.decoder = fit.decoder.kind;
-  fit.settings.spread = fit.decoder.report.spread;
-  fit.prediction = predict(fit.decoder, samples_->test);
-  fit.error = decoderError(fit.decoder, fit.prediction, samples_->test);
-  fit_ = std::make_shared<const NetworkFit>(std::move(fit));
-  emit fitChanged();
+  const auto work = [this, file, samples = samples_](const std::stop_token&, JobProgress&) -> JobRunner::Taking {
+    auto fit = std::make_shared<NetworkFit>();
+    fit->decoder = readNetwork(file);
+    fit->settings.input = fit->decoder.input.kind;
+    fit->settings.mode = fit->decoder.mode;
+    fit->settings.decoder = fit->decoder.kind;
+    fit->settings.spread = fit->decoder.report.spread;
+    fit->prediction = predict(fit->decoder, samples->test);
+    fit->error = decoderError(fit->decoder, fit->prediction, samples->test);
+    return [this, fit, samples] {
+      if (samples != samples_) return;
+      fit_ = fit;
+      emit fitChanged();
+    };
+  };
+  runner_.start(tr("Trying the network"), work);
 }
 
 } // namespace palp

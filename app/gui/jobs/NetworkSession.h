@@ -6,6 +6,7 @@
 #include "app/study/decoding/Prediction.h"
 
 #include <array>
+#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -61,10 +62,13 @@ public:
   /// Trains every kind of decoder with the same input, rows and noise.
   void compare(const NetworkSettings& settings);
   void cancel() { runner_.cancel(); }
-  /// Uses a network from a file on the test samples. Throws Error where it does not fit the samples.
-  void use(Decoder decoder);
+  /// Tries a network from a file on the test samples; the job fails where it cannot be read or does not fit them.
+  /// Throws Error where there are no samples.
+  void open(const std::filesystem::path& file);
 
   [[nodiscard]] const NetworkSamples* samples() const { return samples_.get(); }
+  /// The same, for a job that outlives them.
+  [[nodiscard]] std::shared_ptr<const NetworkSamples> sharedSamples() const { return samples_; }
   [[nodiscard]] const NetworkFit* fit() const { return fit_.get(); }
   [[nodiscard]] const std::vector<SweepPoint>& sweepPoints() const { return sweep_; }
   [[nodiscard]] const NetworkSettings& sweepSettings() const { return sweepSettings_; }

@@ -1,4 +1,5 @@
 #include "app/gui/jobs/TouchSession.h"
+
 #include "solver/DiscretisationError.h"
 
 namespace palp {
@@ -40,11 +41,15 @@ void TouchSession::setInputs(const SensorDesign& design, const LoadCase& load, c
 
 void TouchSession::need(Stage stage) {
   need_ = stage;
-  if (wanted_.reached() < need_ && !runner_.running()) run();
+  if (missing() && !computing()) run();
 }
 
 void TouchSession::resume() {
-  if (wanted_.reached() < need_) run();
+  if (missing()) run();
+}
+
+bool TouchSession::computing() const {
+  return runner_.running() && computed_ == revision_;
 }
 
 int TouchSession::incrementCount() const {
@@ -61,8 +66,12 @@ std::vector<NewtonStep> TouchSession::newton() const {
   return shown_.solution() != nullptr ? shown_.solution()->newton : std::vector<NewtonStep>{};
 }
 
+bool TouchSession::computable() const {
+  return check(wanted_.design()).empty() && !whyInvalid(wanted_.load(), wanted_.design());
+}
+
 void TouchSession::run() {
-  if (check(wanted_.design()).empty() == false || whyInvalid(wanted_.load(), wanted_.design())) {
+  if (!computable()) {
     runner_.cancel(); // the panels say what is wrong; the last good result stays
     return;
   }
@@ -71,6 +80,7 @@ void TouchSession::run() {
   // A new problem wants the memory of the old one's factor.
   if (wanted_.problem() == nullptr) rest();
   trace_ = std::make_shared<NewtonTrace>();
+  computed_ = revision_;
   const auto work = [this, touch = wanted_, target = need_, revision = revision_,
                      trace = trace_](const std::stop_token& stop, JobProgress& progress) mutable -> JobRunner::Taking {
     progress.set(-1, "Meshing");
@@ -96,7 +106,7 @@ void TouchSession::run() {
 }
 
 void TouchSession::take(const Touch& touch, std::shared_ptr<const NodalFields> fields, quint64 revision) {
-  if (revision != revision_) return;
+  if (revision != revision_) return; // whoever changed the inputs, or needed them since, has asked for the next run
   const bool meshChanged = touch.mesh() != shown_.mesh();
   wanted_ = touch;
   shown_ = touch;
@@ -109,13 +119,14 @@ void TouchSession::take(const Touch& touch, std::shared_ptr<const NodalFields> f
                     : nullptr;
   emit changed(meshChanged);
   emit newtonStepped();
-  if (wanted_.reached() < need_) run();
+  if (missing()) run();
 }
 
 void TouchSession::showIncrement(int increment) {
   if (increment < 0 || increment >= incrementCount() || increment == scrubbingTo()) return;
   if (runner_.running() && !scrubbing_) return;
   scrubbing_ = increment;
+  computed_ = 0;
   const auto work = [this, touch = shown_, increment, revision = revision_](const std::stop_token&,
                                                                             JobProgress&) -> JobRunner::Taking {
     const LoadIncrement& state = touch.solution()->increments[static_cast<std::size_t>(increment)];
@@ -135,9 +146,10 @@ void TouchSession::showIncrement(int increment) {
 
 void TouchSession::estimateError() {
   if (shown_.solution() == nullptr || !upToDate()) return;
+  computed_ = 0;
   const auto work = [this, touch = shown_, revision = revision_](const std::stop_token& stop,
                                                                  JobProgress& progress) -> JobRunner::Taking {
-    progress.set(-1, "Solving on a finer mesh");
+    progress.set(-1, "Solving on a coarser mesh");
     const DiscretisationError error = discretisationError(*touch.problem(), touch.load(), *touch.solution(), stop);
     return [this, error, revision] {
       if (revision == revision_) emit errorEstimated(error.relative, QString::fromStdString(error.method));

@@ -12,7 +12,7 @@
 
 namespace palp {
 
-/// What the background job tells of Newton's method while it runs.
+/// What the background job reports of Newton's method while it runs.
 class NewtonTrace {
 public:
   void add(const NewtonStep& step);
@@ -41,6 +41,10 @@ public:
 
   /// The last good result; its design and load are those it was computed from.
   [[nodiscard]] const Touch& touch() const { return shown_; }
+  /// Design and load can be computed; where not, the panels say why.
+  [[nodiscard]] bool computable() const;
+  /// Something that the visible scene needs has not been computed.
+  [[nodiscard]] bool missing() const { return wanted_.reached() < need_; }
   /// False while inputs are newer than what is shown.
   [[nodiscard]] bool upToDate() const { return shownRevision_ == revision_; }
   /// Fields of the load increment that is shown; null before the first solution.
@@ -71,6 +75,8 @@ signals:
 
 private:
   void run();
+  /// The job that runs computes the inputs as they are now.
+  [[nodiscard]] bool computing() const;
   void take(const Touch& touch, std::shared_ptr<const NodalFields> fields, quint64 revision);
 
   JobRunner runner_;
@@ -80,6 +86,7 @@ private:
   Stage need_ = Stage::Design;
   quint64 revision_ = 1;
   quint64 shownRevision_ = 0;
+  quint64 computed_ = 0; ///< revision that the runner's last job computes; 0: it computes no touch
   std::shared_ptr<const NodalFields> fields_;
   std::shared_ptr<const ElectrodeDisplacements> electrodes_;
   std::shared_ptr<NewtonTrace> trace_;

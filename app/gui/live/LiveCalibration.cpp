@@ -1,6 +1,7 @@
 #include "app/gui/live/LiveCalibration.h"
 
 #include "io/DecoderFile.h"
+#include "io/SampleFile.h"
 #include "model/base/Error.h"
 
 #include <QDoubleSpinBox>
@@ -131,11 +132,7 @@ QWidget* LiveCalibration::buildFrames() {
   column->addLayout(row);
   connect(load, &QPushButton::clicked, this, [this] {
     const QString file = QFileDialog::getOpenFileName(this, tr("Labelled frames"), {}, tr("Tables (*.csv)"));
-    if (file.isEmpty()) return;
-    guarded([&] {
-      frames_.load(file.toStdString());
-      file_ = file.toStdString();
-    });
+    if (!file.isEmpty()) this->load(file.toStdString());
   });
   connect(saveFrames_, &QPushButton::clicked, this, [this] {
     const QString file = QFileDialog::getSaveFileName(this, tr("Labelled frames"), "frames.csv", tr("Tables (*.csv)"));
@@ -183,6 +180,18 @@ void LiveCalibration::guarded(const std::function<void()>& act) {
     emit told(QString::fromStdString(refusal.what()));
   }
   displayFrames();
+}
+
+void LiveCalibration::load(const std::filesystem::path& file) {
+  runner_.start(tr("Reading the frames"), [this, file](const std::stop_token&, JobProgress&) -> JobRunner::Taking {
+    const auto frames = std::make_shared<const SampleSet>(loadSamples(file));
+    const auto written = std::filesystem::last_write_time(file);
+    return [this, file, frames, written] {
+      frames_.append(*frames, file.string());
+      written_ = written;
+      displayFrames();
+    };
+  });
 }
 
 void LiveCalibration::collect() {
@@ -250,8 +259,8 @@ void LiveCalibration::displayFit() {
     return;
   }
   double age_days = newest_s_ > 0 ? (hostClock_s() - newest_s_) / kDay_s : 0;
-  if (newest_s_ == 0 && !file_.empty()) {
-    const auto age = std::filesystem::file_time_type::clock::now() - std::filesystem::last_write_time(file_);
+  if (newest_s_ == 0 && written_) {
+    const auto age = std::filesystem::file_time_type::clock::now() - *written_;
     age_days = std::chrono::duration<double>(age).count() / kDay_s;
   }
   report_->setText(reportText(*calibration_, age_days));

@@ -36,6 +36,7 @@ private:
   QWidget* buildLabel();
   QWidget* buildFrames();
   QWidget* buildFit();
+  void load(const std::filesystem::path& file);
   void collect();
   void displayFrames();
   void fit();
@@ -45,7 +46,8 @@ private:
   LiveHost& host_;
   LabelledFrames frames_;
   double newest_s_ = 0; ///< host clock of the newest frame; 0: none collected here
-  std::string file_;    ///< the last that was read
+  /// When the file that was read last was written.
+  std::optional<std::filesystem::file_time_type> written_;
   std::optional<Calibration> calibration_;
   QSpinBox* area_ = nullptr;
   std::array<QDoubleSpinBox*, 3> force_{};

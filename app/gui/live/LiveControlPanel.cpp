@@ -1,5 +1,7 @@
 #include "app/gui/live/LiveControlPanel.h"
 
+#include "app/gui/window/SpinBoxes.h"
+
 #include <QComboBox>
 #include <QDir>
 #include <QDoubleSpinBox>
@@ -196,8 +198,8 @@ void LiveControlPanel::record() {
 
 void LiveControlPanel::display(const LiveSettings& settings) {
   settings_ = settings;
-  const QSignalBlocker quietArrow(arrow_), quietChange(change_), quietWindow(window_), quietTare(tareFrames_);
-  arrow_->setValue(settings.arrow_mm_per_N);
+  const QSignalBlocker quietChange(change_), quietWindow(window_), quietTare(tareFrames_);
+  showExactly(*arrow_, settings.arrow_mm_per_N);
   window_->setValue(static_cast<int>(settings.window_s));
   tareFrames_->setValue(settings.tareFrames);
   int place = change_->findData(settings.change_percent);

@@ -14,7 +14,7 @@ namespace palp {
 HeatmapSpec changeHeatmap(const LiveFrame& frame, const std::string& restName, const LiveSettings& settings,
                           const std::optional<std::array<int, 2>>& selected);
 
-/// Forces of the touched area, or of the most loaded one where the network tells all areas at once.
+/// Forces of the touched area, or of the most loaded one where the network gives the forces on all areas at once.
 StripSpec forceCurves(const LiveHistory& history, const LiveSettings& settings, const Decoder* decoder);
 
 /// dR/R of some cells (row, column) over time.

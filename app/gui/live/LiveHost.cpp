@@ -40,6 +40,9 @@ LiveHost::LiveHost(BoardAccess access, QObject* parent)
     setDecoder({});
     emit problem(sentence);
   });
+  connect(&loader_, &JobRunner::finished, this, [this](bool cancelled) {
+    if (cancelled) networkAsked_ = false; // it is read when the scene is next seen
+  });
 }
 
 LiveHost::~LiveHost() = default;
@@ -87,7 +90,9 @@ LiveOptions LiveHost::options() {
   simulation_->set(faults(), disturbance());
   replay_.reset();
   boardSeen_ = std::make_shared<std::atomic<bool>>(false);
-  const auto board = [open = access_.open, device = settings_.device] { return open(device); };
+  const auto board = [open = access_.open, device = settings_.device] {
+    return orRefuse([&] { return open(device); });
+  };
   const auto simulated = [control = simulation_, rate_Hz = settings_.rate_Hz,
                           seed = settings_.simulation.seed]() -> std::unique_ptr<ReportSource> {
     if (!control->pluggedIn) return nullptr;
@@ -100,10 +105,12 @@ LiveOptions LiveHost::options() {
   case LiveSourceKind::Automatic:
     // Once a board was there, its absence is said and nothing else takes its place.
     options.open = [simulated, access = access_, seen = boardSeen_]() -> std::unique_ptr<ReportSource> {
-      const bool there = !access.list().empty();
-      if (!there && !*seen) return simulated();
-      *seen = true;
-      return access.open({});
+      return orRefuse([&]() -> std::unique_ptr<ReportSource> {
+        const bool there = !access.list().empty();
+        if (!there && !*seen) return simulated();
+        *seen = true;
+        return access.open({});
+      });
     };
     break;
   case LiveSourceKind::Board:
@@ -135,16 +142,23 @@ void LiveHost::open() {
   applyPause();
 }
 
+// A source may take long to end, and a future waits where it is destroyed: neither in the window's thread.
+template <class Running> void LiveHost::letGo(std::unique_ptr<Running> old) {
+  std::erase_if(closing_, [](const std::future<void>& ending) {
+    return ending.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  });
+  if (old) closing_.push_back(std::async(std::launch::async, [old = std::move(old)]() mutable { old.reset(); }));
+}
+
 void LiveHost::restart() {
   paused_ = false;
-  // A source may take a tenth of a second to let go: not in the window's thread.
-  closing_ = std::async(std::launch::async, [old = std::move(session_)]() mutable { old.reset(); });
+  letGo(std::move(session_));
   open();
 }
 
 void LiveHost::setVisible(bool visible) {
   visible_ = visible;
-  if (!visible) watch_.reset();
+  if (!visible) letGo(std::move(watch_));
   if (visible && !watch_) watch_ = std::make_unique<BoardWatch>(access_);
   if (visible && !session_) open();
   if (visible && !networkAsked_) loadNetwork();
@@ -199,7 +213,7 @@ bool LiveHost::look() {
   return !fresh_.empty();
 }
 
-/// Tells each connection its rate and rows.
+/// Gives each connection its rate and rows.
 void LiveHost::configureOnce() {
   if (replay_ || !status_.configuration || status_.state != LiveState::Streaming || configured_ == status_.connections)
     return;

@@ -9,6 +9,7 @@
 #include <QObject>
 
 #include <future>
+#include <vector>
 
 namespace palp {
 
@@ -26,7 +27,7 @@ public:
   [[nodiscard]] const LiveSettings& settings() const { return settings_; }
   /// The scene is seen or hidden.
   void setVisible(bool visible);
-  /// Opens the source again: after a recording's end, or a refusal.
+  /// Opens the source again: after a recording's end, or a refusal. Waits for nothing.
   void restart();
   /// Takes what has come since the last look; true where there is a new frame.
   bool look();
@@ -44,6 +45,7 @@ public:
   [[nodiscard]] const std::optional<Decoder>& decoder() const { return decoder_; }
   /// The network's design where it is known, else the project's.
   [[nodiscard]] const SensorDesign& sensor() const { return sensor_; }
+  [[nodiscard]] JobRunner& loader() { return loader_; }
   /// The network is being read.
   [[nodiscard]] bool loading() const { return loader_.running(); }
 
@@ -67,6 +69,8 @@ signals:
 
 private:
   void open();
+  /// Ends a thread of its own without waiting for it.
+  template <class Running> void letGo(std::unique_ptr<Running> old);
   void loadNetwork();
   void setDecoder(std::optional<Decoder> decoder);
   void applyPause();
@@ -88,11 +92,11 @@ private:
   std::shared_ptr<std::atomic<bool>> boardSeen_; ///< a real board was opened since the start
   std::unique_ptr<BoardWatch> watch_;
   std::unique_ptr<LiveSession> session_;
-  std::future<void> closing_; ///< the session before this one ends
+  std::vector<std::future<void>> closing_; ///< sessions and watches before these, while they end
   LiveStatus status_;
   LiveHistory history_;
   std::vector<std::shared_ptr<const LiveFrame>> fresh_;
-  std::uint64_t configured_ = 0; ///< the connection that was told its rate and rows
+  std::uint64_t configured_ = 0; ///< the connection that has got its rate and rows
   JobRunner loader_;
 };
 

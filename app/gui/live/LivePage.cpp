@@ -84,6 +84,7 @@ QWidget* LivePage::buildViews() {
   block_ = new LiveView;
   block_->setObjectName("liveBlock");
   twin_ = new LiveTwin;
+  twin_->setObjectName("liveTwin");
   blockTabs_ = new QTabWidget;
   blockTabs_->setObjectName("blockTabs");
   blockTabs_->addTab(block_, tr("Forces"));
@@ -185,9 +186,13 @@ void LivePage::displayProject() {
   host_.setSettings(settings, workbench_.project().design);
   source_->display(settings);
   control_->display(settings);
-  block_->showSensor(host_.sensor(), settings.arrow_mm_per_N, true);
+  if (isVisible()) draw();
+}
+
+/// All views anew.
+void LivePage::draw() {
+  block_->showSensor(host_.sensor(), host_.settings().arrow_mm_per_N, true);
   drawnChange_.resize(0, 0);
-  if (!isVisible()) return;
   drawForces();
   drawHeatmap();
   drawCurves();
@@ -199,6 +204,10 @@ void LivePage::setTheme(Theme theme) {
   heatmap_->setTheme(theme);
   forces_->setTheme(theme);
   changes_->setTheme(theme);
+}
+
+std::vector<JobRunner*> LivePage::runners() {
+  return {&twin_->runner(), &calibration_->runner(), &host_.loader()};
 }
 
 QString LivePage::commands(const Project& project, const QString&) const {
@@ -215,6 +224,7 @@ void LivePage::showEvent(QShowEvent* event) {
   Scene::showEvent(event);
   shownSince_s_ = hostClock_s();
   stateLook_ = 0;
+  draw(); // what was edited while the page was hidden
   host_.setVisible(true);
   timer_.start();
 }

@@ -34,6 +34,7 @@ public:
   [[nodiscard]] Stage stage() const override { return Stage::Design; }
   void setTheme(Theme theme) override;
   [[nodiscard]] bool complete() const override;
+  [[nodiscard]] std::vector<JobRunner*> runners() override;
   [[nodiscard]] QString commands(const Project& project, const QString& designFile) const override;
   [[nodiscard]] LiveHost& host() { return host_; }
   [[nodiscard]] LiveTwin& twin() { return *twin_; }
@@ -53,6 +54,7 @@ private:
   void buildKeys();
   void connectPanels();
   void displayProject();
+  void draw();
   void edit(const QString& what, const LiveSettings& settings);
   void look();
   void drawState();

@@ -108,7 +108,7 @@ QWidget* LiveSourcePanel::buildScan() {
   rate_->setRange(1, 8000);
   rate_->setSuffix(tr(" reports/s"));
   rate_->setKeyboardTracking(false);
-  rate_->setToolTip(tr("Reports a second that the board is told to send [1/s]; two reports are one row-wire of 30"));
+  rate_->setToolTip(tr("Reports a second that the board is asked to send [1/s]; two reports are one row-wire of 30"));
   rows_ = new QComboBox;
   rows_->setObjectName("rows");
   rows_->addItem(tr("all row-wires"));
@@ -126,6 +126,25 @@ QWidget* LiveSourcePanel::buildScan() {
 QWidget* LiveSourcePanel::buildSimulation() {
   simulation_ = new QGroupBox(tr("Simulated board"));
   auto* form = new QFormLayout(simulation_);
+  buildDisturbances(*form);
+  buildFaults(*form);
+  plug_ = new QPushButton(tr("Pull out"));
+  plug_->setObjectName("plug");
+  plug_->setToolTip(tr("Pulls the simulated board out, or puts it in again"));
+  form->addRow(plug_);
+  connect(plug_, &QPushButton::clicked, this, [this] { emit plugAsked(plug_->text() != tr("Pull out")); });
+  return simulation_;
+}
+
+/// What `signal` of `box` gives goes into the simulation's settings.
+template <class Box, class Signal, class Change>
+void LiveSourcePanel::follow(Box* box, Signal signal, const QString& what, Change change) {
+  connect(box, signal, this,
+          [this, what, change](auto value) { edit(what, [&](LiveSettings& s) { change(s.simulation, value); }); });
+}
+
+/// What makes the readings of a board that works differ from those of a perfect one.
+void LiveSourcePanel::buildDisturbances(QFormLayout& form) {
   noise_ = numberBox("noise", {"5e-6", "1e-5", "1e-4"},
                      tr("Noise of a reading, relative to R (rms): 5e-6 is a good board, 1e-4 a plain one"));
   warming_ = new QDoubleSpinBox;
@@ -138,27 +157,9 @@ QWidget* LiveSourcePanel::buildSimulation() {
   hysteresis_->setRange(0, 100);
   hysteresis_->setSuffix(tr(" %"));
   hysteresis_->setToolTip(tr("Share of the change of R that goes through a play of 1e-4 of R [%]"));
-  openRow_ = wireBox("openRow", 31, tr("This row-wire is broken"));
-  openColumn_ = wireBox("openColumn", 254, tr("This column-wire is broken"));
-  dropEvery_ = new QSpinBox;
-  dropEvery_->setObjectName("dropEvery");
-  dropEvery_->setRange(0, 100000);
-  dropEvery_->setSpecialValueText(tr("none"));
-  dropEvery_->setToolTip(tr("Every n-th report is lost on its way"));
-  plug_ = new QPushButton(tr("Pull out"));
-  plug_->setObjectName("plug");
-  plug_->setToolTip(tr("Pulls the simulated board out, or puts it in again"));
-  form->addRow(tr("Noise"), noise_);
-  form->addRow(tr("Warming"), warming_);
-  form->addRow(tr("Hysteresis"), hysteresis_);
-  form->addRow(tr("Broken row-wire"), openRow_);
-  form->addRow(tr("Broken column-wire"), openColumn_);
-  form->addRow(tr("Lose every n-th"), dropEvery_);
-  form->addRow(plug_);
-  const auto follow = [this](auto* box, auto signal, const QString& what, auto change) {
-    connect(box, signal, this,
-            [this, what, change](auto value) { edit(what, [&](LiveSettings& s) { change(s.simulation, value); }); });
-  };
+  form.addRow(tr("Noise"), noise_);
+  form.addRow(tr("Warming"), warming_);
+  form.addRow(tr("Hysteresis"), hysteresis_);
   connect(noise_, &QComboBox::currentTextChanged, this, [this](const QString& text) {
     bool good = false;
     const double value = text.toDouble(&good);
@@ -169,14 +170,25 @@ QWidget* LiveSourcePanel::buildSimulation() {
          [](SimulationSettings& s, double value) { s.warming_degC = value; });
   follow(hysteresis_, &QDoubleSpinBox::valueChanged, tr("hysteresis"),
          [](SimulationSettings& s, double value) { s.hysteresisShare = value / 100; });
+}
+
+void LiveSourcePanel::buildFaults(QFormLayout& form) {
+  openRow_ = wireBox("openRow", 31, tr("This row-wire is broken"));
+  openColumn_ = wireBox("openColumn", 254, tr("This column-wire is broken"));
+  dropEvery_ = new QSpinBox;
+  dropEvery_->setObjectName("dropEvery");
+  dropEvery_->setRange(0, 100000);
+  dropEvery_->setSpecialValueText(tr("none"));
+  dropEvery_->setToolTip(tr("Every n-th report is lost on its way"));
+  form.addRow(tr("Broken row-wire"), openRow_);
+  form.addRow(tr("Broken column-wire"), openColumn_);
+  form.addRow(tr("Lose every n-th"), dropEvery_);
   follow(openRow_, &QSpinBox::valueChanged, tr("broken row-wire"),
          [](SimulationSettings& s, int value) { s.openRow = value; });
   follow(openColumn_, &QSpinBox::valueChanged, tr("broken column-wire"),
          [](SimulationSettings& s, int value) { s.openColumn = value; });
   follow(dropEvery_, &QSpinBox::valueChanged, tr("lost reports"),
          [](SimulationSettings& s, int value) { s.dropEvery = value; });
-  connect(plug_, &QPushButton::clicked, this, [this] { emit plugAsked(plug_->text() != tr("Pull out")); });
-  return simulation_;
 }
 
 QWidget* LiveSourcePanel::buildReplay() {
@@ -257,7 +269,7 @@ void LiveSourcePanel::display(const LiveSettings& settings) {
   rows_->setCurrentIndex(settings.row + 1);
 }
 
-/// Automatic, every board, the virtual one, the recording; the one in use tells its state.
+/// Automatic, every board, the virtual one, the recording; the one in use with its state.
 void LiveSourcePanel::listDevices(const LiveSourceState& state) {
   struct Line {
     QString text;

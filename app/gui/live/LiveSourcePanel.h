@@ -10,6 +10,7 @@
 
 class QComboBox;
 class QDoubleSpinBox;
+class QFormLayout;
 class QGroupBox;
 class QLabel;
 class QListWidget;
@@ -49,6 +50,10 @@ private:
   QWidget* buildDevices();
   QWidget* buildScan();
   QWidget* buildSimulation();
+  void buildDisturbances(QFormLayout& form);
+  void buildFaults(QFormLayout& form);
+  template <class Box, class Signal, class Change>
+  void follow(Box* box, Signal signal, const QString& what, Change change);
   QWidget* buildReplay();
   void edit(const QString& what, const std::function<void(LiveSettings&)>& change);
   void chooseDevice(int row);

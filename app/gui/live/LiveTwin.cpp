@@ -56,7 +56,7 @@ LiveTwin::LiveTwin(QWidget* parent) : QWidget(parent) {
   use_->setObjectName("takeLoad");
   use_->setToolTip(tr("Sets this force on the Deformation scene; undo takes it back"));
   use_->setEnabled(false);
-  words_ = new QLabel(tr("The model's deformation under the decoded force, on demand."));
+  words_ = new QLabel;
   words_->setObjectName("twinWords");
   words_->setWordWrap(true);
   row->addWidget(solve);
@@ -70,6 +70,10 @@ LiveTwin::LiveTwin(QWidget* parent) : QWidget(parent) {
   connect(solve, &QPushButton::clicked, this, &LiveTwin::solveAsked);
   connect(use_, &QPushButton::clicked, this, [this] { emit loadAsked(result_->touch.load()); });
   connect(&runner_, &JobRunner::failed, words_, &QLabel::setText);
+  connect(&runner_, &JobRunner::finished, this, [this](bool cancelled) {
+    if (cancelled) displayWords();
+  });
+  displayWords();
   connect(&runner_, &JobRunner::progressed, this, [this](double, const QString& what) { words_->setText(what); });
 }
 
@@ -105,13 +109,21 @@ void LiveTwin::take(std::shared_ptr<const Result> result) {
   result_ = std::move(result);
   stages_ = result_->touch.stages();
   use_->setEnabled(true);
+  displayWords();
+  draw(meshChanged);
+}
+
+void LiveTwin::displayWords() {
+  if (!result_) {
+    words_->setText(tr("The model's deformation under the decoded force, on demand."));
+    return;
+  }
   const Touch& touch = result_->touch;
   QString words = loadWords(touch.load()) +
                   tr("; at most %1 mm").arg(result_->fields->displacement_mm.colwise().norm().maxCoeff(), 0, 'g', 3);
   if (const auto share = mismatch(touch, result_->measured))
     words += tr("; its dR/R differs from the board's by %1 % (rms)").arg(100 * *share, 0, 'g', 2);
   words_->setText(words);
-  draw(meshChanged);
 }
 
 void LiveTwin::draw(bool meshChanged) {

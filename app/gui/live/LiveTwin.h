@@ -41,6 +41,7 @@ signals:
 private:
   struct Result;
   void take(std::shared_ptr<const Result> result);
+  void displayWords();
   void draw(bool meshChanged);
 
   BlockView* view_ = nullptr;

@@ -97,6 +97,7 @@ QWidget* NetworkPage::buildCharts() {
   area_->setToolTip(tr("Load area whose test samples are drawn"));
   save_ = new QPushButton(tr("Save network..."));
   open_ = new QPushButton(tr("Open network..."));
+  open_->setObjectName("openNetwork");
   bar->addWidget(save_);
   bar->addWidget(open_);
   column->addLayout(bar);
@@ -260,8 +261,8 @@ void NetworkPage::openNetwork() {
   const QString file = QFileDialog::getOpenFileName(this, tr("Open network"), {}, tr("Networks (*.json)"));
   if (file.isEmpty()) return;
   try {
-    session_.use(readNetwork(file.toStdString()));
-  } catch (const std::exception& error) {
+    session_.open(file.toStdString());
+  } catch (const Error& error) {
     emit refused(QString::fromStdString(error.what()));
   }
 }

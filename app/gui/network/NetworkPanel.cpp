@@ -1,5 +1,7 @@
 #include "app/gui/network/NetworkPanel.h"
 
+#include "app/gui/window/SpinBoxes.h"
+
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDoubleSpinBox>
@@ -88,31 +90,49 @@ void NetworkPanel::buildSamples(QVBoxLayout& column) {
 void NetworkPanel::buildTraining(QVBoxLayout& column) {
   auto* box = new QGroupBox(tr("Network"));
   auto* form = new QFormLayout(box);
+  buildInput(*form);
+  buildNetwork(*form);
+  buildSpread(*form);
+  train_ = new QPushButton(tr("Train"));
+  train_->setObjectName("train");
+  form->addRow(train_);
+  connect(train_, &QPushButton::clicked, this, &NetworkPanel::trainAsked);
+  column.addWidget(box);
+}
+
+/// What the network reads.
+void NetworkPanel::buildInput(QFormLayout& form) {
   input_ = new QComboBox;
   input_->setObjectName("input");
   input_->addItems({tr("displacements (Table 1)"), tr("resistances (Fig. 12)")});
-  form->addRow(tr("Input"), input_);
+  form.addRow(tr("Input"), input_);
+  rows_ = new QLineEdit;
+  rows_->setObjectName("rows");
+  rows_->setToolTip(tr("Row-wires that are read, counted from 0: 4, or 1,4,7, or all"));
+  form.addRow(tr("Row-wires"), rows_);
+  connect(input_, &QComboBox::currentIndexChanged, this, [this] { tell(tr("Change the network's input")); });
+  connect(rows_, &QLineEdit::editingFinished, this, [this] { tell(tr("Change the row-wires")); });
+}
+
+/// What it is, and the noise that it is trained with.
+void NetworkPanel::buildNetwork(QFormLayout& form) {
   mode_ = new QComboBox;
   mode_->setObjectName("mode");
   mode_->addItems({tr("default"), tr("paper")});
   mode_->setToolTip(tr("default: one global scale, linear tail, leave-one-out; paper: as the paper describes it"));
-  form->addRow(tr("Mode"), mode_);
+  form.addRow(tr("Mode"), mode_);
   decoder_ = new QComboBox;
   decoder_->setObjectName("decoder");
   for (const DecoderKind kind : allDecoderKinds()) decoder_->addItem(QString::fromStdString(name(kind)));
   decoder_->setToolTip(tr("The way from what is read to the force: rbf is the paper's radial basis network"));
-  form->addRow(tr("Decoder"), decoder_);
-  rows_ = new QLineEdit;
-  rows_->setObjectName("rows");
-  rows_->setToolTip(tr("Row-wires that are read, counted from 0: 4, or 1,4,7, or all"));
-  form->addRow(tr("Row-wires"), rows_);
+  form.addRow(tr("Decoder"), decoder_);
   centers_ = new QSpinBox;
   centers_->setObjectName("centers");
   centers_->setRange(0, 100000);
   centers_->setSpecialValueText(tr("as the mode says"));
   centers_->setKeyboardTracking(false);
   centers_->setToolTip(tr("Centres of the radial basis functions; fewer than samples make a smoother network"));
-  form->addRow(tr("Centres"), centers_);
+  form.addRow(tr("Centres"), centers_);
   noise_ = new QDoubleSpinBox;
   noise_->setObjectName("noise");
   noise_->setRange(0, 10);
@@ -120,7 +140,14 @@ void NetworkPanel::buildTraining(QVBoxLayout& column) {
   noise_->setSuffix(tr(" %"));
   noise_->setKeyboardTracking(false);
   noise_->setToolTip(tr("Relative noise of each input that the network is trained with"));
-  form->addRow(tr("Noise"), noise_);
+  form.addRow(tr("Noise"), noise_);
+  connect(mode_, &QComboBox::currentIndexChanged, this, [this] { tell(tr("Change the network's mode")); });
+  connect(decoder_, &QComboBox::currentIndexChanged, this, [this] { tell(tr("Change the decoder")); });
+  connect(centers_, &QSpinBox::valueChanged, this, [this] { tell(tr("Change the centres")); });
+  connect(noise_, &QDoubleSpinBox::valueChanged, this, [this] { tell(tr("Change the noise")); });
+}
+
+void NetworkPanel::buildSpread(QFormLayout& form) {
   automatic_ = new QCheckBox(tr("by leave-one-out"));
   automatic_->setObjectName("automaticSpread");
   spread_ = spreadBox("spread");
@@ -128,28 +155,16 @@ void NetworkPanel::buildTraining(QVBoxLayout& column) {
   auto* row = new QHBoxLayout;
   row->addWidget(spread_);
   row->addWidget(automatic_);
-  form->addRow(tr("Spread"), row);
+  form.addRow(tr("Spread"), row);
   spreadSlider_ = new QSlider(Qt::Horizontal);
   spreadSlider_->setObjectName("spreadSlider");
   spreadSlider_->setRange(0, kSpreadSteps);
-  form->addRow(spreadSlider_);
-  train_ = new QPushButton(tr("Train"));
-  train_->setObjectName("train");
-  form->addRow(train_);
-  column.addWidget(box);
-
-  connect(input_, &QComboBox::currentIndexChanged, this, [this] { tell(tr("Change the network's input")); });
-  connect(mode_, &QComboBox::currentIndexChanged, this, [this] { tell(tr("Change the network's mode")); });
-  connect(decoder_, &QComboBox::currentIndexChanged, this, [this] { tell(tr("Change the decoder")); });
-  connect(rows_, &QLineEdit::editingFinished, this, [this] { tell(tr("Change the row-wires")); });
-  connect(centers_, &QSpinBox::valueChanged, this, [this] { tell(tr("Change the centres")); });
-  connect(noise_, &QDoubleSpinBox::valueChanged, this, [this] { tell(tr("Change the noise")); });
+  form.addRow(spreadSlider_);
   connect(automatic_, &QCheckBox::toggled, this, [this] { tell(tr("Change the spread")); });
   connect(spread_, &QDoubleSpinBox::valueChanged, this, [this] { tell(tr("Change the spread")); });
   connect(spreadSlider_, &QSlider::valueChanged, this, [this](int step) {
     if (!displaying_) spread_->setValue(spreadAt(step));
   });
-  connect(train_, &QPushButton::clicked, this, &NetworkPanel::trainAsked);
 }
 
 void NetworkPanel::buildSweep(QVBoxLayout& column) {
@@ -192,17 +207,17 @@ void NetworkPanel::display(const Project& project) {
   decoder_->setCurrentText(QString::fromStdString(name(network_.decoder)));
   rows_->setText(QString::fromStdString(network_.rows));
   centers_->setValue(network_.centers);
-  noise_->setValue(100 * network_.noise);
+  showExactly(*noise_, 100 * network_.noise);
   automatic_->setChecked(network_.automaticSpread);
-  from_->setValue(network_.sweepFrom);
-  to_->setValue(network_.sweepTo);
+  showExactly(*from_, network_.sweepFrom);
+  showExactly(*to_, network_.sweepTo);
   count_->setValue(network_.sweepCount);
   showSpread();
   displaying_ = false;
 }
 
 void NetworkPanel::showSpread() {
-  spread_->setValue(network_.spread);
+  showExactly(*spread_, network_.spread);
   spreadSlider_->setValue(stepOf(network_.spread));
   spread_->setEnabled(!network_.automaticSpread);
   spreadSlider_->setEnabled(!network_.automaticSpread);

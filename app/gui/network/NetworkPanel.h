@@ -7,6 +7,7 @@
 class QCheckBox;
 class QComboBox;
 class QDoubleSpinBox;
+class QFormLayout;
 class QLabel;
 class QLineEdit;
 class QPushButton;
@@ -39,6 +40,9 @@ signals:
 private:
   void buildSamples(QVBoxLayout& column);
   void buildTraining(QVBoxLayout& column);
+  void buildInput(QFormLayout& form);
+  void buildNetwork(QFormLayout& form);
+  void buildSpread(QFormLayout& form);
   void buildSweep(QVBoxLayout& column);
   void tell(const QString& what);
   void showSpread();

@@ -22,6 +22,7 @@ public:
   bool mergeWith(const QUndoCommand* later) override {
     if (later->text() != text()) return false;
     after_ = static_cast<const ProjectEdit*>(later)->after_;
+    setObsolete(after_ == before_); // there and back again is nothing to undo
     return true;
   }
 

@@ -68,9 +68,17 @@ QString commandLineProgram() {
   return QDir(QCoreApplication::applicationDirPath()).filePath("palp");
 }
 
+QPushButton* button(const QString& text, const QString& name, const QString& tip) {
+  auto* push = new QPushButton(text);
+  push->setObjectName(name);
+  push->setToolTip(tip);
+  return push;
+}
+
 } // namespace
 
-ReportsPage::ReportsPage(Workbench& workbench, QWidget* parent) : Scene(parent), workbench_(workbench) {
+ReportsPage::ReportsPage(Workbench& workbench, QWidget* parent)
+    : Scene(parent), workbench_(workbench), program_(commandLineProgram()) {
   build();
   connect(run_, &QPushButton::clicked, this, &ReportsPage::start);
   connect(cancel_, &QPushButton::clicked, this, &ReportsPage::cancel);
@@ -85,10 +93,10 @@ ReportsPage::ReportsPage(Workbench& workbench, QWidget* parent) : Scene(parent),
   connect(&process_, &QProcess::readyRead, this, &ReportsPage::readMessages);
   connect(&process_, &QProcess::finished, this, &ReportsPage::end);
   connect(&process_, &QProcess::errorOccurred, this, [this](QProcess::ProcessError error) {
-    if (error == QProcess::FailedToStart)
-      state_->setText(tr("%1 cannot be started; it is built together with this program and lies beside it.")
-                          .arg(commandLineProgram()));
-    if (error == QProcess::FailedToStart) end(1, QProcess::CrashExit);
+    if (error != QProcess::FailedToStart) return; // finished() comes as well
+    ended();
+    state_->setText(
+        tr("%1 cannot be started; it is built together with this program and lies beside it.").arg(process_.program()));
   });
   connect(pictures_, &QListWidget::currentTextChanged, picture_,
           [this](const QString& file) { picture_->show(QPixmap(QDir(folder_).filePath(file))); });
@@ -106,48 +114,44 @@ ReportsPage::~ReportsPage() {
 void ReportsPage::build() {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(8, 8, 8, 8);
-  auto* bar = new QHBoxLayout;
-  kind_ = new QComboBox;
-  kind_->setObjectName("reportKind");
-  for (const Kind& kind : kinds()) kind_->addItem(kind.title);
-  target_ = new QLineEdit(
-      QSettings()
-          .value(kFolderKey,
-                 QDir(QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation)).filePath("palp-report"))
-          .toString());
-  target_->setObjectName("reportFolder");
-  target_->setToolTip(tr("Folder of report.html, CSV and pictures; what it holds of an earlier run is replaced"));
-  auto* choose = new QPushButton(tr("Folder..."));
-  connect(choose, &QPushButton::clicked, this, [this] {
-    const QString folder = QFileDialog::getExistingDirectory(this, tr("Folder of the report"), target_->text());
-    if (!folder.isEmpty()) target_->setText(folder);
-  });
-  run_ = new QPushButton(tr("Run"));
-  run_->setObjectName("runReport");
-  cancel_ = new QPushButton(tr("Cancel"));
-  cancel_->setObjectName("cancelReport");
-  cancel_->setEnabled(false);
-  openPage_ = new QPushButton(tr("Open the page"));
-  openPage_->setObjectName("openReport");
-  openPage_->setEnabled(false);
-  openPage_->setToolTip(tr("Opens report.html in the browser: one file, no network"));
-  openFolder_ = new QPushButton(tr("Open the folder"));
-  openFolder_->setObjectName("openReportFolder");
-  openFolder_->setEnabled(false);
-  openFolder_->setToolTip(tr("Page, CSV and pictures, to be passed on"));
-  run_->setToolTip(tr("Runs the report beside the window, which stays free"));
-  kind_->setToolTip(tr("Which report"));
-  bar->addWidget(kind_);
-  bar->addWidget(target_, 1);
-  for (QWidget* widget : {choose, run_, cancel_, openPage_, openFolder_}) bar->addWidget(widget);
-  column->addLayout(bar);
+  column->addLayout(buildBar());
   what_ = new QLabel(kinds().front().what);
   what_->setProperty("role", "hint");
   what_->setWordWrap(true);
   connect(kind_, &QComboBox::currentIndexChanged, this,
           [this](int k) { what_->setText(kinds()[static_cast<std::size_t>(k)].what); });
   column->addWidget(what_);
-  auto* state = new QHBoxLayout;
+  column->addLayout(buildState());
+  column->addWidget(buildViews(), 1);
+}
+
+QLayout* ReportsPage::buildBar() {
+  kind_ = new QComboBox;
+  kind_->setObjectName("reportKind");
+  kind_->setToolTip(tr("Which report"));
+  for (const Kind& kind : kinds()) kind_->addItem(kind.title);
+  const QString documents = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation);
+  target_ = new QLineEdit(QSettings().value(kFolderKey, QDir(documents).filePath("palp-report")).toString());
+  target_->setObjectName("reportFolder");
+  target_->setToolTip(tr("Folder of report.html, CSV and pictures; what it holds of an earlier run is replaced"));
+  auto* choose = button(tr("Folder..."), "chooseReportFolder", tr("Chooses the folder"));
+  connect(choose, &QPushButton::clicked, this, [this] {
+    const QString folder = QFileDialog::getExistingDirectory(this, tr("Folder of the report"), target_->text());
+    if (!folder.isEmpty()) target_->setText(folder);
+  });
+  run_ = button(tr("Run"), "runReport", tr("Runs the report beside the window, which stays free"));
+  cancel_ = button(tr("Cancel"), "cancelReport", tr("Stops the report"));
+  openPage_ = button(tr("Open the page"), "openReport", tr("Opens report.html in the browser: one file, no network"));
+  openFolder_ = button(tr("Open the folder"), "openReportFolder", tr("Page, CSV and pictures, to be passed on"));
+  auto* bar = new QHBoxLayout;
+  bar->addWidget(kind_);
+  bar->addWidget(target_, 1);
+  for (QPushButton* push : {choose, run_, cancel_, openPage_, openFolder_}) bar->addWidget(push);
+  for (QPushButton* push : {cancel_, openPage_, openFolder_}) push->setEnabled(false);
+  return bar;
+}
+
+QLayout* ReportsPage::buildState() {
   bar_ = new QProgressBar;
   bar_->setFixedWidth(160);
   bar_->setRange(0, 0);
@@ -155,10 +159,13 @@ void ReportsPage::build() {
   state_ = new QLabel(tr("Nothing was run yet."));
   state_->setObjectName("reportState");
   state_->setMinimumHeight(bar_->sizeHint().height()); // what is below stays where it is
+  auto* state = new QHBoxLayout;
   state->addWidget(bar_);
   state->addWidget(state_, 1);
-  column->addLayout(state);
+  return state;
+}
 
+QWidget* ReportsPage::buildViews() {
   log_ = new QPlainTextEdit;
   log_->setObjectName("reportLog");
   log_->setReadOnly(true);
@@ -178,7 +185,7 @@ void ReportsPage::build() {
   views->addWidget(left);
   views->addWidget(picture_);
   views->setSizes({480, 900});
-  column->addWidget(views, 1);
+  return views;
 }
 
 QStringList ReportsPage::arguments(const Project& project, const QString& folder) const {
@@ -225,7 +232,7 @@ void ReportsPage::start() {
   bar_->show();
   clock_.start();
   timer_.start();
-  process_.start(commandLineProgram(), all);
+  process_.start(program_, all);
 }
 
 void ReportsPage::readMessages() {
@@ -251,10 +258,7 @@ void ReportsPage::end(int status, QProcess::ExitStatus how) {
   readMessages();
   log_->appendPlainText(QString::fromUtf8(process_.readAll()).trimmed()); // a last line without an end
   log_->verticalScrollBar()->setValue(log_->verticalScrollBar()->maximum());
-  timer_.stop();
-  bar_->hide();
-  run_->setEnabled(true);
-  cancel_->setEnabled(false);
+  ended();
   const QString seconds = QString::number(1e-3 * static_cast<double>(clock_.elapsed()), 'f', 1);
   if (how == QProcess::NormalExit && status == 0) {
     state_->setText(tr("Done in %1 s: %2").arg(seconds, QDir(folder_).filePath("report.html")));
@@ -262,7 +266,11 @@ void ReportsPage::end(int status, QProcess::ExitStatus how) {
     openFolder_->setEnabled(true);
     showPictures();
   } else if (cancelled_) {
-    state_->setText(tr("Cancelled after %1 s; nothing was written.").arg(seconds));
+    const auto written = filesOfThisRun("*").size();
+    openFolder_->setEnabled(written > 0);
+    state_->setText(written == 0 ? tr("Cancelled after %1 s; nothing was written.").arg(seconds)
+                                 : tr("Cancelled after %1 s; %2 of the report's files were already written to %3.")
+                                       .arg(seconds, QString::number(written), folder_));
   } else if (status == 130 || status == 1) {
     state_->setText(tr("Ended without a result after %1 s; see the messages.").arg(seconds));
   } else {
@@ -270,10 +278,25 @@ void ReportsPage::end(int status, QProcess::ExitStatus how) {
   }
 }
 
+/// The program does not run any more.
+void ReportsPage::ended() {
+  timer_.stop();
+  bar_->hide();
+  run_->setEnabled(true);
+  cancel_->setEnabled(false);
+}
+
+/// Others in the folder are of another report.
+QStringList ReportsPage::filesOfThisRun(const QString& pattern) const {
+  QStringList names;
+  for (const QFileInfo& file : QDir(folder_).entryInfoList({pattern}, QDir::Files, QDir::Name))
+    if (file.lastModified() >= started_) names << file.fileName();
+  return names;
+}
+
 void ReportsPage::showPictures() {
   pictures_->clear();
-  for (const QFileInfo& file : QDir(folder_).entryInfoList({"*.png"}, QDir::Files, QDir::Name))
-    if (file.lastModified() >= started_) pictures_->addItem(file.fileName()); // others are of another report
+  pictures_->addItems(filesOfThisRun("*.png"));
   pictures_->setVisible(pictures_->count() > 0);
   if (pictures_->count() > 0) pictures_->setCurrentRow(0);
 }

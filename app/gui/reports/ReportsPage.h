@@ -9,6 +9,7 @@
 #include <QTimer>
 
 class QComboBox;
+class QLayout;
 class QLabel;
 class QLineEdit;
 class QListWidget;
@@ -34,18 +35,27 @@ public:
   [[nodiscard]] bool complete() const override { return true; }
   [[nodiscard]] QString commands(const Project& project, const QString& designFile) const override;
 
+  /// Another program in place of the palp that lies beside this one.
+  void setProgram(const QString& program) { program_ = program; }
+
 private:
   void build();
+  QLayout* buildBar();
+  QLayout* buildState();
+  QWidget* buildViews();
   /// Of palp, for the chosen report into a folder.
   [[nodiscard]] QStringList arguments(const Project& project, const QString& folder) const;
   void start();
   void cancel();
   void readMessages();
   void end(int status, QProcess::ExitStatus how);
+  void ended();
   void showPictures();
+  [[nodiscard]] QStringList filesOfThisRun(const QString& pattern) const;
   void tellTime();
 
   Workbench& workbench_;
+  QString program_;
   QProcess process_;
   QElapsedTimer clock_;
   QTimer timer_;

@@ -197,7 +197,7 @@ void DeformationPage::displayProject() {
   view_->display(project.view, project.design.block_mm);
   tabs_->displayProject(project);
   if (!workbench_.touch().upToDate()) result_->setErrorWords({});
-  result_->display(workbench_.touch());
+  if (isVisible()) result_->display(workbench_.touch());
   if (!(drawn_ == project.view)) drawBlock(false);
 }
 

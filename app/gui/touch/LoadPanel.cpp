@@ -152,6 +152,7 @@ void LoadPanel::showForce() {
     const double high = design_.forceRange.high_N[d];
     spins_[k]->setEnabled(load != nullptr);
     sliders_[k]->setEnabled(load != nullptr && high > low);
+    spins_[k]->setRange(std::min(-kMostForce_N, value), std::max(kMostForce_N, value)); // a file may hold more
     spins_[k]->setValue(value);
     if (high > low)
       sliders_[k]->setValue(

@@ -141,21 +141,31 @@ bool LoadPathAnimation::start(const Settings& settings) {
 
 bool LoadPathAnimation::drawInWindow(const std::shared_ptr<Order>& order, const std::stop_token& stop) {
   QMetaObject::invokeMethod(
-      this,
-      [this, order] {
-        Picture picture =
-            draw(*order->path, order->settings, order->state.fields, order->state.electrodes, order->state.fraction);
-        const std::lock_guard lock(order->mutex);
-        order->picture = std::move(picture);
-        order->drawn.notify_one();
-      },
-      Qt::QueuedConnection);
+      this, [this, order] { fill(*order); }, Qt::QueuedConnection);
   std::unique_lock lock(order->mutex);
-  return order->drawn.wait(lock, stop, [&] { return order->picture.has_value(); });
+  return order->drawn.wait(lock, stop, [&] { return order->picture || !order->problem.empty(); });
+}
+
+/// In the window's thread; a drawing that fails is the job's to report, for it waits.
+void LoadPathAnimation::fill(Order& order) {
+  std::optional<Picture> picture;
+  std::string problem;
+  try {
+    picture = draw(*order.path, order.settings, order.state.fields, order.state.electrodes, order.state.fraction);
+  } catch (const std::exception& failure) {
+    problem = std::string("the load path cannot be drawn: ") + failure.what();
+  } catch (...) {
+    problem = "the load path cannot be drawn";
+  }
+  const std::lock_guard lock(order.mutex);
+  order.picture = std::move(picture);
+  order.problem = std::move(problem);
+  order.drawn.notify_one();
 }
 
 Picture LoadPathAnimation::draw(const Path& path, const Settings& settings, const NodalFields& fields,
                                 const ElectrodeDisplacements& electrodes, double fraction) {
+  requireDrawable(settings.width, settings.height);
   if (!easel_) easel_ = std::make_unique<Easel>();
   DeformationScene& scene = easel_->scene;
   const SensorDesign& design = path.touch.design();

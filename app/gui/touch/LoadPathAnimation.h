@@ -43,6 +43,8 @@ private:
   struct Order;
   [[nodiscard]] Picture draw(const Path& path, const Settings& settings, const NodalFields& fields,
                              const ElectrodeDisplacements& electrodes, double fraction);
+  void fill(Order& order);
+  /// False where it was stopped first.
   [[nodiscard]] bool drawInWindow(const std::shared_ptr<Order>& order, const std::stop_token& stop);
 
   const TouchSession& session_;

@@ -31,7 +31,7 @@ ResultPanel::ResultPanel(QWidget* parent) : QWidget(parent) {
   result_->setObjectName("result");
   estimate_ = new QPushButton(tr("Estimate the discretisation error"));
   estimate_->setObjectName("estimate");
-  estimate_->setToolTip(tr("Solves again on a finer mesh and compares the electrodes' displacements"));
+  estimate_->setToolTip(tr("Solves again on a coarser mesh and compares the electrodes' displacements"));
   probe_ = new QLabel;
   probe_->setObjectName("probe");
   for (QLabel* label : {result_, probe_}) {

@@ -1,5 +1,7 @@
 #include "app/gui/touch/ViewPanel.h"
 
+#include "app/gui/window/SpinBoxes.h"
+
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDoubleSpinBox>
@@ -98,7 +100,7 @@ void ViewPanel::display(const ViewSettings& view, const Eigen::Vector3d& block_m
   const auto& all = allQuantities();
   quantity_->setCurrentIndex(static_cast<int>(std::find(all.begin(), all.end(), view.quantity) - all.begin()));
   automaticWarp_->setChecked(!view.warpFactor);
-  if (view.warpFactor) warp_->setValue(*view.warpFactor);
+  if (view.warpFactor) showExactly(*warp_, *view.warpFactor);
   clipY_->setMaximum(block_mm.y());
   clip_->setChecked(view.clipY_mm.has_value());
   if (view.clipY_mm) clipY_->setValue(*view.clipY_mm);

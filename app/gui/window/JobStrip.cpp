@@ -9,6 +9,12 @@
 
 namespace palp {
 
+namespace {
+
+constexpr int kShownAfter_ms = 150;
+
+} // namespace
+
 JobStrip::JobStrip(JobRunner& runner, QWidget* parent) : QWidget(parent) {
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(4, 0, 4, 0);
@@ -24,11 +30,14 @@ JobStrip::JobStrip(JobRunner& runner, QWidget* parent) : QWidget(parent) {
   row->addWidget(bar_);
   row->addWidget(cancel_);
   hide();
+  wait_.setSingleShot(true);
+  wait_.setInterval(kShownAfter_ms);
+  connect(&wait_, &QTimer::timeout, this, &QWidget::show);
   connect(cancel_, &QPushButton::clicked, &runner, &JobRunner::cancel);
   connect(&runner, &JobRunner::started, this, [this](const QString& title) {
     words_->setText(title);
     bar_->setRange(0, 0);
-    show();
+    if (!isVisible()) wait_.start();
   });
   connect(&runner, &JobRunner::progressed, this, [this](double share, const QString& what) {
     words_->setText(what);
@@ -36,6 +45,7 @@ JobStrip::JobStrip(JobRunner& runner, QWidget* parent) : QWidget(parent) {
     if (share >= 0) bar_->setValue(static_cast<int>(1000 * share));
   });
   connect(&runner, &JobRunner::finished, this, [this, &runner](bool cancelled) {
+    wait_.stop();
     hide();
     if (cancelled) emit told(tr("%1: cancelled; the last good result stays.").arg(runner.title()));
   });

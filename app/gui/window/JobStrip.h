@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QTimer>
 #include <QWidget>
 
 class QLabel;
@@ -10,7 +11,8 @@ namespace palp {
 
 class JobRunner;
 
-/// What a job does, how far it is, and a button that cancels it; hidden while nothing runs.
+/// What a job does, how far it is, and a button that cancels it; hidden while nothing runs, and for work that is done
+/// sooner than it could be read.
 class JobStrip : public QWidget {
   Q_OBJECT
 
@@ -25,6 +27,7 @@ private:
   QLabel* words_ = nullptr;
   QProgressBar* bar_ = nullptr;
   QPushButton* cancel_ = nullptr;
+  QTimer wait_; ///< before it is shown
 };
 
 } // namespace palp

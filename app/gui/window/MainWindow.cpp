@@ -25,6 +25,8 @@
 #include <QStackedWidget>
 #include <QStatusBar>
 
+#include <algorithm>
+
 namespace palp {
 
 namespace {
@@ -68,11 +70,7 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   buildStatusLine();
   menus_ = new Menus(*this, workbench);
   setAcceptDrops(true);
-  connect(new QShortcut(Qt::Key_Escape, this), &QShortcut::activated, this, [this] {
-    workbench_.touch().cancel();
-    network_.cancel();
-    animation_->runner().cancel();
-  });
+  connect(new QShortcut(Qt::Key_Escape, this), &QShortcut::activated, this, &MainWindow::cancelAll);
   connect(rail_, &QListWidget::currentRowChanged, this, &MainWindow::sceneChosen);
   restoreLayout();
   showScene("deformation");
@@ -87,11 +85,22 @@ void MainWindow::addScene(const QString& name, const QString& title, const QStri
 }
 
 void MainWindow::buildStatusLine() {
-  for (JobRunner* runner : {&workbench_.touch().runner(), &network_.runner(), &animation_->runner()}) {
+  runners_ = {&workbench_.touch().runner(), &network_.runner(), &animation_->runner()};
+  for (int k = 0; k < scenes_->count(); ++k)
+    for (JobRunner* runner : static_cast<Scene*>(scenes_->widget(k))->runners()) runners_.push_back(runner);
+  for (JobRunner* runner : runners_) {
     auto* strip = new JobStrip(*runner);
     connect(strip, &JobStrip::told, this, &MainWindow::tell);
     statusBar()->addPermanentWidget(strip);
   }
+}
+
+void MainWindow::cancelAll() {
+  for (JobRunner* runner : runners_) runner->cancel();
+}
+
+bool MainWindow::busy() const {
+  return std::any_of(runners_.begin(), runners_.end(), [](const JobRunner* runner) { return runner->running(); });
 }
 
 void MainWindow::sceneChosen(int index) {
@@ -153,9 +162,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
   QSettings().setValue("geometry", saveGeometry());
   QSettings().setValue("state", saveState());
   saveLayout(*this);
-  workbench_.touch().cancel();
-  network_.cancel();
-  animation_->runner().cancel();
+  cancelAll();
   event->accept();
 }
 

@@ -4,12 +4,15 @@
 
 #include <QMainWindow>
 
+#include <vector>
+
 class QListWidget;
 class QStackedWidget;
 
 namespace palp {
 
 class DeformationPage;
+class JobRunner;
 class LoadPathAnimation;
 class Menus;
 class NetworkSession;
@@ -28,6 +31,8 @@ public:
   [[nodiscard]] Scene& currentScene() const;
   void setTheme(Theme theme);
   [[nodiscard]] Theme theme() const { return theme_; }
+  /// Some background work runs.
+  [[nodiscard]] bool busy() const;
   /// Draws the load path into a folder; says why where it cannot.
   void animate(const QString& folder);
   /// Says a sentence in the status line.
@@ -42,6 +47,7 @@ protected:
 private:
   void addScene(const QString& name, const QString& title, const QString& tip, Scene* scene);
   void buildStatusLine();
+  void cancelAll();
   void sceneChosen(int index);
   void restoreLayout();
 
@@ -53,6 +59,7 @@ private:
   QListWidget* rail_ = nullptr;
   QStackedWidget* scenes_ = nullptr;
   QStringList names_;
+  std::vector<JobRunner*> runners_; ///< of all scenes
   Theme theme_ = Theme::Light;
 };
 

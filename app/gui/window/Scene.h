@@ -7,7 +7,11 @@
 #include <QString>
 #include <QWidget>
 
+#include <vector>
+
 namespace palp {
+
+class JobRunner;
 
 /// A page of the window; hidden pages draw and compute nothing.
 class Scene : public QWidget {
@@ -19,6 +23,8 @@ public:
   virtual void setTheme(Theme theme) = 0;
   /// True where all that the page shows at the start is there.
   [[nodiscard]] virtual bool complete() const = 0;
+  /// The page's own background work: the window shows its progress, and Esc cancels it.
+  [[nodiscard]] virtual std::vector<JobRunner*> runners() { return {}; }
   /// The palp commands that do what the page shows, one a line; empty where there are none.
   [[nodiscard]] virtual QString commands(const Project&, const QString& /*designFile*/) const { return {}; }
 };

@@ -1,6 +1,5 @@
 #include "app/gui/window/SceneCosts.h"
 
-#include "app/gui/jobs/NetworkSession.h"
 #include "app/gui/project/Workbench.h"
 #include "app/gui/views/PictureView.h"
 #include "app/gui/window/MainWindow.h"
@@ -77,8 +76,7 @@ QString another(const QString& name) {
 
 } // namespace
 
-SceneCosts::SceneCosts(MainWindow& window, Workbench& workbench, NetworkSession& network)
-    : window_(window), workbench_(workbench), network_(network) {
+SceneCosts::SceneCosts(MainWindow& window, Workbench& workbench) : window_(window), workbench_(workbench) {
   qApp->installEventFilter(this);
 }
 
@@ -88,10 +86,6 @@ bool SceneCosts::eventFilter(QObject* watched, QEvent* event) {
   for (const auto* widget = static_cast<const QWidget*>(watched); widget != nullptr; widget = widget->parentWidget())
     if (widget->parentWidget() == scenes) ++paintings_[widget->objectName()];
   return false;
-}
-
-bool SceneCosts::running() const {
-  return workbench_.touch().runner().running() || network_.runner().running();
 }
 
 /// Pictures that the views of each scene drew.
@@ -112,9 +106,12 @@ double SceneCosts::settle() {
   for (auto drawn = drawings();;) {
     spin(kLookEvery_ms);
     const double now_s = 1e-9 * static_cast<double>(clock.nsecsElapsed());
-    if (running()) ran_s = worked_s = now_s;
+    if (window_.busy()) ran_s = worked_s = now_s;
     if (!window_.currentScene().complete()) worked_s = now_s;
-    if (auto now = drawings(); now != drawn) drew_s = now_s, drawn = std::move(now);
+    if (auto now = drawings(); now != drawn) {
+      drew_s = now_s;
+      drawn = std::move(now);
+    }
     if (now_s - std::max(worked_s, drew_s) > kQuiet_s) return std::max(worked_s, drew_s);
     if (now_s - worked_s > kDrawsOn_s || now_s - ran_s > kIncomplete_s) return worked_s;
   }
@@ -154,7 +151,7 @@ QJsonObject SceneCosts::step(const QString& event, const std::function<void()>& 
   result["peak_MB"] = peakMemory_MB();
   result["shows_mesh"] = seen.stage() >= Stage::Mesh;
   result["shows_solution"] = seen.stage() >= Stage::Solution;
-  result["complete"] = !running() && seen.complete();
+  result["complete"] = !window_.busy() && seen.complete();
   return result;
 }
 
@@ -212,8 +209,8 @@ QJsonArray SceneCosts::allScenes() {
   return steps;
 }
 
-void printSceneCosts(MainWindow& window, Workbench& workbench, NetworkSession& network, const QString& scene) {
-  SceneCosts costs(window, workbench, network);
+void printSceneCosts(MainWindow& window, Workbench& workbench, const QString& scene) {
+  SceneCosts costs(window, workbench);
   const QJsonArray steps = scene.isEmpty() ? costs.allScenes() : costs.oneScene(scene);
   const QJsonObject all{{"scenes", QJsonArray::fromStringList(window.sceneNames())},
                         {"window_px", QJsonArray{window.width(), window.height()}},

@@ -10,14 +10,13 @@
 namespace palp {
 
 class MainWindow;
-class NetworkSession;
 class Workbench;
 
 /// Drives the window through its scenes and measures what each step costs: stages run, seconds, memory, pictures drawn
 /// in the scene that is seen, and whatever is drawn in those that are not. Spins the event loop until a step is over.
 class SceneCosts : public QObject {
 public:
-  SceneCosts(MainWindow& window, Workbench& workbench, NetworkSession& network);
+  SceneCosts(MainWindow& window, Workbench& workbench);
 
   /// One scene: opened, left alone, given another load, material, lower and upper layer; then hidden, given another
   /// load, and seen again. A window that was not yet seen is shown; its opening counts from the program's start.
@@ -34,17 +33,15 @@ private:
   QJsonObject step(const QString& event, const std::function<void()>& change, double exactly_s = 0);
   /// Seconds until the last of the work and its picture.
   double settle();
-  [[nodiscard]] bool running() const;
   [[nodiscard]] std::map<QString, int> drawings() const;
 
   MainWindow& window_;
   Workbench& workbench_;
-  NetworkSession& network_;
   std::map<QString, int> paintings_; ///< of the widgets of each scene
 };
 
 /// Prints the costs of a scene, or of all in turn where the name is empty, as one JSON object: `scenes`, `window_px`,
 /// `steps`. For palp report scenes.
-void printSceneCosts(MainWindow& window, Workbench& workbench, NetworkSession& network, const QString& scene);
+void printSceneCosts(MainWindow& window, Workbench& workbench, const QString& scene);
 
 } // namespace palp

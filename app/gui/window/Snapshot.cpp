@@ -1,6 +1,5 @@
 #include "app/gui/window/Snapshot.h"
 
-#include "app/gui/jobs/NetworkSession.h"
 #include "app/gui/project/Workbench.h"
 #include "app/gui/window/MainWindow.h"
 
@@ -18,15 +17,14 @@ constexpr int kQuietLooks = 3; ///< so that what came last is laid out as well
 
 } // namespace
 
-void snapshotWhenComplete(MainWindow& window, Workbench& workbench, NetworkSession& network, const QString& file) {
+void snapshotWhenComplete(MainWindow& window, Workbench& workbench, const QString& file) {
   auto* timer = new QTimer(&window);
   QObject::connect(&workbench.touch().runner(), &JobRunner::failed, &window, [](const QString& sentence) {
     std::cerr << "palp-studio: " << sentence.toStdString() << "\n";
     QApplication::exit(1);
   });
-  QObject::connect(timer, &QTimer::timeout, &window, [&window, &workbench, &network, file, timer, quiet = 0]() mutable {
-    const bool busy = workbench.touch().runner().running() || network.runner().running();
-    quiet = busy || !window.currentScene().complete() ? 0 : quiet + 1;
+  QObject::connect(timer, &QTimer::timeout, &window, [&window, file, timer, quiet = 0]() mutable {
+    quiet = window.busy() || !window.currentScene().complete() ? 0 : quiet + 1;
     if (quiet < kQuietLooks) return;
     timer->stop();
     if (window.grab().save(file, "PNG")) {

@@ -25,12 +25,12 @@ public:
   void clear() { samples_ = {}; }
   /// Adds the frames of a file (palp listen --append). Throws Error where they are of another design.
   void load(const std::filesystem::path& path);
+  /// Adds frames that were read from there. Throws Error where they are of another design.
+  void append(const SampleSet& frames, const std::string& from);
   /// Throws Error.
   void save(const std::filesystem::path& path) const;
 
 private:
-  void append(const SampleSet& frames, const std::string& from);
-
   std::optional<FrameAverage> average_;
   int wanted_ = 0;
   SampleSet samples_;

@@ -129,6 +129,13 @@ private:
 
 class MonkeyWindow : public WindowFixture {
 protected:
+  MonkeyWindow() {
+    JobRunner& runner = workbench.touch().runner();
+    QObject::connect(&runner, &JobRunner::started, &window, [this] { explained_ = false; });
+    QObject::connect(&runner, &JobRunner::failed, &window, [this] { explained_ = true; });
+    QObject::connect(&runner, &JobRunner::finished, &window, [this](bool cancelled) { explained_ |= cancelled; });
+  }
+
   /// The pictures of a scene, by the views' names.
   static std::map<std::string, QImage> pictures(MainWindow& shown, const QString& scene) {
     shown.showScene(scene);
@@ -157,8 +164,14 @@ protected:
   /// What is drawn belongs to what is set, where nothing is being computed.
   void expectRightPicture(int action) {
     const TouchSession& touch = workbench.touch();
-    if (!touch.upToDate()) return; // cancelled: the window says so
     const std::string where = "after action " + std::to_string(action);
+    if (touch.missing()) {
+      EXPECT_TRUE(explained_ || !touch.computable())
+          << "nothing runs, was cancelled or failed, and the inputs are valid: what the scene shows is missing "
+          << where;
+      return; // cancelled, failed or refused: the window says so
+    }
+    if (!touch.upToDate()) return; // changed while no scene needs it
     EXPECT_EQ(touch.touch().design(), workbench.project().design) << where;
     EXPECT_EQ(touch.touch().load(), workbench.project().load) << where;
     QApplication::processEvents();
@@ -178,6 +191,9 @@ protected:
     if (samples == nullptr) return;
     EXPECT_EQ(samples->training.rowWires, workbench.project().design.rowWires()) << where;
   }
+
+private:
+  bool explained_ = false; ///< the last computation was cancelled or failed, and the window said so
 };
 
 /// Number of actions; more by the environment, for a longer night.

@@ -29,13 +29,6 @@
 namespace palp {
 namespace {
 
-std::size_t colors(const Picture& picture) {
-  std::set<std::array<std::uint8_t, 3>> all;
-  for (std::size_t k = 0; k + 2 < picture.rgb.size(); k += 3)
-    all.insert({picture.rgb[k], picture.rgb[k + 1], picture.rgb[k + 2]});
-  return all.size();
-}
-
 MeshOptions coarse() {
   MeshOptions options;
   options.mapped = {6, 6, 2};
@@ -87,7 +80,10 @@ TEST(Chart, DrawsInBothThemesAndLeavesOutWhatALogAxisCannotShow) {
   for (const Theme theme : {Theme::Light, Theme::Dark}) {
     const Picture picture = drawChart(spec, 400, 300, theme);
     EXPECT_EQ(picture.width, 400);
-    EXPECT_GT(colors(picture), 10u);
+    // Without the two pairs that a logarithmic axis cannot show it is the same picture.
+    ChartSpec shown = spec;
+    shown.series[0] = {"curve", {10}, {100}};
+    EXPECT_EQ(picture.rgb, drawChart(shown, 400, 300, theme).rgb);
   }
 }
 
@@ -122,10 +118,13 @@ TEST(Deformation, DrawsEveryQuantity) {
   state.mesh = &mesh;
   state.fields = &fields;
   state.load = &load;
+  std::vector<Picture> pictures;
   for (const Quantity quantity : allQuantities()) {
     DeformationOptions options;
     options.quantity = quantity;
-    EXPECT_GT(colors(drawDeformation(state, options, 320, 240)), 50u) << quantityName(quantity);
+    const Picture picture = drawDeformation(state, options, 320, 240);
+    for (const Picture& other : pictures) EXPECT_NE(picture.rgb, other.rgb) << quantityName(quantity);
+    pictures.push_back(picture);
   }
 }
 

@@ -4,7 +4,10 @@
 #include "app/gui/project/Workbench.h"
 #include "app/gui/window/MainWindow.h"
 
+#include <QFileDialog>
+#include <QLineEdit>
 #include <QTest>
+#include <QTimer>
 #include <QWheelEvent>
 
 #include <gtest/gtest.h>
@@ -32,8 +35,7 @@ protected:
     EXPECT_TRUE(QTest::qWaitForWindowExposed(&window));
   }
   bool idle() {
-    return QTest::qWaitFor([&] { return !workbench.touch().runner().running() && !network.runner().running(); },
-                           kPatience_ms);
+    return QTest::qWaitFor([&] { return !window.busy(); }, kPatience_ms);
   }
   bool solved() {
     return QTest::qWaitFor([&] { return workbench.touch().fields() != nullptr && workbench.touch().upToDate(); },
@@ -50,6 +52,21 @@ protected:
   NetworkSession network;
   MainWindow window{workbench, network};
 };
+
+/// Answers the next file dialog with this file, as a user would.
+inline void answerFileDialog(const QString& file) {
+  QApplication::setAttribute(Qt::AA_DontUseNativeDialogs);
+  auto* timer = new QTimer(qApp);
+  QObject::connect(timer, &QTimer::timeout, timer, [timer, file] {
+    auto* dialog = qobject_cast<QFileDialog*>(QApplication::activeModalWidget());
+    if (dialog == nullptr) return;
+    timer->stop();
+    timer->deleteLater();
+    dialog->findChild<QLineEdit*>("fileNameEdit")->setText(file);
+    QTest::keyClick(dialog, Qt::Key_Return);
+  });
+  timer->start(20);
+}
 
 inline void drag(QWidget& widget, QPoint from, QPoint to, Qt::KeyboardModifiers modifiers = {}) {
   QTest::mousePress(&widget, Qt::LeftButton, modifiers, from);

@@ -76,6 +76,28 @@ TEST(JobRunner, SaysWhyWorkFailed) {
   EXPECT_EQ(failed[0][0].toString(), "area 7: allowed is 0 to 5");
 }
 
+TEST(JobRunner, SaysWhyAResultCannotBeTakenAndRunsOn) {
+  JobRunner runner;
+  QSignalSpy failed(&runner, &JobRunner::failed);
+  QSignalSpy finished(&runner, &JobRunner::finished);
+  runner.start("work", [](const std::stop_token&, JobProgress&) -> JobRunner::Taking {
+    return [] { throw Error("frames.csv: the file has gone"); };
+  });
+  ASSERT_TRUE(QTest::qWaitFor([&] { return finished.count() == 1; }, kPatience_ms));
+  ASSERT_EQ(failed.count(), 1);
+  EXPECT_EQ(failed[0][0].toString(), "frames.csv: the file has gone");
+  bool taken = false;
+  runner.start("work", [&](const std::stop_token&, JobProgress&) { return [&] { taken = true; }; });
+  EXPECT_TRUE(QTest::qWaitFor([&] { return taken; }, kPatience_ms));
+}
+
+TEST(JobRunner, WhateverWorkThrowsIsSaid) {
+  JobRunner runner;
+  QSignalSpy failed(&runner, &JobRunner::failed);
+  runner.start("work", [](const std::stop_token&, JobProgress&) -> JobRunner::Taking { throw 7; });
+  EXPECT_TRUE(QTest::qWaitFor([&] { return failed.count() == 1; }, kPatience_ms));
+}
+
 TEST(JobRunner, EndsItsWorkWhenItIsDestroyed) {
   std::atomic<bool> stopped = false;
   {

@@ -8,11 +8,13 @@
 #include "app/study/Resources.h"
 #include "app/study/live/SimulatedTouch.h"
 #include "io/SampleFile.h"
+#include "tests/app/gui/WindowFixture.h"
 
 #include <QApplication>
 #include <QClipboard>
 #include <QDoubleSpinBox>
 #include <QElapsedTimer>
+#include <QFile>
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
@@ -26,9 +28,6 @@
 
 namespace palp {
 namespace {
-
-/// Generous: the machine may be busy with other tests.
-constexpr int kPatience_ms = 60000;
 
 /// No board on USB, whatever the machine has.
 BoardAccess noBoards() {
@@ -223,6 +222,28 @@ TEST_F(Live, SolvesTheTwinOnDemandAndTakesItsLoad) {
   EXPECT_TRUE(workbench.touch().stages().counts().empty()) << "the Deformation scene was never shown";
 }
 
+TEST_F(Live, RefinesTheNetworkWithFramesOfAFileThatHasGoneSince) {
+  ASSERT_TRUE(waitForArrow());
+  page.findChild<QTabWidget*>("curveTabs")->setCurrentIndex(1);
+  auto& calibration = *page.findChild<LiveCalibration*>("calibration");
+  const QTemporaryDir folder;
+  const QString file = folder.filePath("frames.csv");
+  std::filesystem::copy_file(resource("board/paper-samples.csv"), file.toStdString());
+  answerFileDialog(file);
+  click("loadFrames");
+  ASSERT_TRUE(wait([&] { return calibration.frames().samples().size() > 8; })) << said.join("; ").toStdString();
+  ASSERT_TRUE(wait([&] { return !calibration.runner().running(); }));
+  ASSERT_TRUE(QFile::remove(file));
+  click("fitCalibration");
+  ASSERT_TRUE(wait([&] { return calibration.calibration().has_value(); })) << said.join("; ").toStdString();
+  EXPECT_TRUE(find<QLabel>("calibrationReport").text().contains("days old"));
+  const QString broken = folder.filePath("broken.csv");
+  ASSERT_TRUE(QFile(broken).open(QIODevice::WriteOnly));
+  answerFileDialog(broken);
+  click("loadFrames");
+  ASSERT_TRUE(wait([&] { return !said.isEmpty() && said.back().contains("broken.csv"); })) << "nothing was said";
+}
+
 TEST_F(Live, CollectsLabelledFramesAndRefinesTheNetwork) {
   ASSERT_TRUE(waitForArrow());
   page.findChild<QTabWidget*>("curveTabs")->setCurrentIndex(1);
@@ -243,15 +264,25 @@ TEST_F(Live, CollectsLabelledFramesAndRefinesTheNetwork) {
   EXPECT_EQ(page.host().status().decoderProblem, "");
 }
 
-/// A board that this user may not open until it is mended, and that can fall silent.
+constexpr int kClings_ms = 3000;
+
+/// A board that this user may not open until it is mended, that can fall silent, and that can be slow to let go.
 struct Gate {
   std::atomic<bool> permission{false}, silent{false};
+  std::atomic<bool> clings{false};    ///< a source does not let go while this is set
+  std::atomic<bool> waitedFor{false}; ///< and has waited for it in vain
 };
 
 class GatedSource : public SimulatedSource {
 public:
   GatedSource(VirtualBoard board, std::shared_ptr<Gate> gate)
       : SimulatedSource(std::move(board)), gate_(std::move(gate)) {}
+  ~GatedSource() override {
+    QElapsedTimer clock;
+    clock.start();
+    while (gate_->clings && clock.elapsed() < kClings_ms) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    if (gate_->clings) gate_->waitedFor = true; // nobody let go of it
+  }
   Outcome read(RawReport& report, std::chrono::milliseconds timeout) override {
     if (!gate_->silent) return SimulatedSource::read(report, timeout);
     std::this_thread::sleep_for(timeout / 10);
@@ -290,6 +321,18 @@ TEST_F(LiveWithABoard, ShowsTheRuleWhereItMayNotBeOpenedAndGoesOnWhenItMay) {
   gate->permission = true;
   ASSERT_TRUE(waitForState(LiveState::Streaming)) << "by itself";
   EXPECT_FALSE(page.host().simulated());
+}
+
+TEST_F(LiveWithABoard, OpensASourceAgainAndAgainWithoutWaitingForThoseBefore) {
+  gate->permission = true;
+  ASSERT_TRUE(waitForState(LiveState::Streaming));
+  gate->clings = true;
+  for (int k = 0; k < 3; ++k) {
+    page.host().restart();
+    EXPECT_FALSE(gate->waitedFor) << "the window has waited for a source that does not let go";
+    ASSERT_TRUE(waitForFrames(1));
+  }
+  gate->clings = false;
 }
 
 TEST_F(LiveWithABoard, ShowsThatTheBoardFellSilent) {

@@ -1,9 +1,12 @@
 #include "app/gui/views/ChartView.h"
+#include "app/study/Resources.h"
+#include "app/study/live/LiveSource.h"
 #include "tests/app/gui/WindowFixture.h"
 
 #include <QComboBox>
 #include <QLabel>
 #include <QPushButton>
+#include <QStatusBar>
 
 namespace palp {
 namespace {
@@ -59,6 +62,24 @@ TEST_F(NetworkScene, DrawsNoChartAgainForALoadThatItDoesNotShow) {
   workbench.edit("another input", changed);
   settle();
   EXPECT_EQ(chart.renderCount(), before + 1);
+}
+
+TEST_F(NetworkScene, TriesANetworkOfAFileInTheBackgroundAndSaysWhyAnotherCannotBe) {
+  generate();
+  answerFileDialog(QString::fromStdString(shippedNetwork().string()));
+  QTest::mouseClick(&find<QPushButton>("openNetwork"), Qt::LeftButton);
+  EXPECT_EQ(network.fit(), nullptr) << "read while the window waited";
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.fit() != nullptr; }, kPatience_ms));
+  EXPECT_EQ(network.fit()->settings.input, InputKind::Resistance);
+  EXPECT_EQ(network.fit()->prediction.forces_N.cols(), network.samples()->test.size());
+  ASSERT_TRUE(idle());
+  const NetworkFit* good = network.fit();
+  answerFileDialog(QString::fromStdString(resource("paper.json").string())); // a design is no network
+  QTest::mouseClick(&find<QPushButton>("openNetwork"), Qt::LeftButton);
+  ASSERT_TRUE(
+      QTest::qWaitFor([&] { return window.statusBar()->currentMessage().contains("paper.json"); }, kPatience_ms))
+      << window.statusBar()->currentMessage().toStdString();
+  EXPECT_EQ(network.fit(), good);
 }
 
 TEST_F(NetworkScene, PutsEveryDecoderOnTheSameAxes) {

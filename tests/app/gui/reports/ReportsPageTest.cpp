@@ -1,3 +1,5 @@
+#include "app/gui/reports/ReportsPage.h"
+
 #include "tests/app/gui/WindowFixture.h"
 
 #include <QComboBox>
@@ -63,6 +65,35 @@ TEST_F(ReportsPageTest, ACancelledReportSaysSoAndShowsNothingOfAnEarlierOne) {
   EXPECT_TRUE(find<QLabel>("reportPicture").pixmap().isNull());
   EXPECT_FALSE(find<QPushButton>("openReport").isEnabled());
   EXPECT_FALSE(QFile::exists(folder.filePath("report.html")));
+}
+
+TEST_F(ReportsPageTest, SaysThatTheProgramCannotBeStartedAndLeavesTheWordsThere) {
+  static_cast<ReportsPage&>(window.currentScene()).setProgram(folder.filePath("no-palp"));
+  run("stability");
+  ASSERT_TRUE(ended());
+  settle();
+  EXPECT_TRUE(state().contains("no-palp cannot be started")) << state().toStdString();
+  EXPECT_FALSE(find<QPushButton>("cancelReport").isEnabled());
+}
+
+TEST_F(ReportsPageTest, SaysWhichFilesACancelledReportHadWritten) {
+  const QString program = folder.filePath("half-palp");
+  QFile script(program);
+  ASSERT_TRUE(script.open(QIODevice::WriteOnly));
+  script.write("#!/bin/sh\nshift $(($# - 2))\ntrap 'exit 130' INT\necho 1 > \"$1/points.csv\"\n"
+               "while :; do sleep 0.02; done\n");
+  script.close();
+  ASSERT_TRUE(script.setPermissions(QFile::ReadOwner | QFile::WriteOwner | QFile::ExeOwner));
+  const QTemporaryDir report;
+  find<QLineEdit>("reportFolder").setText(report.path());
+  QTest::qWait(20); // the script is older than the report
+  static_cast<ReportsPage&>(window.currentScene()).setProgram(program);
+  run("stability");
+  ASSERT_TRUE(QTest::qWaitFor([&] { return QFile::exists(report.filePath("points.csv")); }, kPatience_ms));
+  QTest::mouseClick(&find<QPushButton>("cancelReport"), Qt::LeftButton);
+  ASSERT_TRUE(ended());
+  EXPECT_TRUE(state().contains("1 of the report's files")) << state().toStdString();
+  EXPECT_TRUE(find<QPushButton>("openReportFolder").isEnabled());
 }
 
 } // namespace

@@ -19,7 +19,7 @@ int sum(const QJsonArray& steps, const QString& key) {
 
 TEST_F(SceneCostsTest, AnUnchangedDesignIsSolvedOnceThroughAllScenesAndHiddenOnesDrawNothing) {
   ASSERT_TRUE(solved()); // the window opens on Deformation
-  const QJsonArray steps = SceneCosts(window, workbench, network).allScenes();
+  const QJsonArray steps = SceneCosts(window, workbench).allScenes();
   EXPECT_EQ(steps.size(), 2 * window.sceneNames().size());
   for (const char* stage : {"mesh", "factorise", "solve", "hidden_pictures"}) EXPECT_EQ(sum(steps, stage), 0) << stage;
   EXPECT_EQ(workbench.touch().stages().runs("solve"), 1);
@@ -27,7 +27,7 @@ TEST_F(SceneCostsTest, AnUnchangedDesignIsSolvedOnceThroughAllScenesAndHiddenOne
 }
 
 TEST_F(SceneCostsTest, AChangeWhileHiddenIsComputedOnceWhenTheSceneIsSeenAgain) {
-  const QJsonArray steps = SceneCosts(window, workbench, network).oneScene("deformation");
+  const QJsonArray steps = SceneCosts(window, workbench).oneScene("deformation");
   ASSERT_EQ(steps.size(), 9);
   EXPECT_EQ(sum(steps, "hidden_pictures"), 0);
   const QJsonObject alone = steps[1].toObject(), load = steps[2].toObject(), hidden = steps[7].toObject(),
@@ -42,14 +42,14 @@ TEST_F(SceneCostsTest, AChangeWhileHiddenIsComputedOnceWhenTheSceneIsSeenAgain) 
 }
 
 TEST_F(SceneCostsTest, EveryKindOfPictureIsCounted) {
-  const QJsonArray steps = SceneCosts(window, workbench, network).oneScene("resistance");
+  const QJsonArray steps = SceneCosts(window, workbench).oneScene("resistance");
   EXPECT_EQ(steps[2].toObject()["event"].toString(), "another load");
   EXPECT_EQ(steps[2].toObject()["pictures"].toInt(), 4) << "the heatmap, its row and column, the block";
 }
 
 TEST_F(SceneCostsTest, PaintingsOfASceneThatIsNotSeenAreCounted) {
   ASSERT_TRUE(solved());
-  SceneCosts costs(window, workbench, network);
+  SceneCosts costs(window, workbench);
   QWidget& hidden = *window.currentScene().parentWidget()->findChild<QWidget*>("live");
   const auto timer = QObject::connect(&workbench, &Workbench::projectChanged, &window, [&] {
     QEvent paint(QEvent::Paint); // as a scene that draws behind the others would get

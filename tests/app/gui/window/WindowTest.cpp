@@ -1,4 +1,6 @@
 #include "app/gui/design/DesignFields.h"
+#include "app/gui/live/LivePage.h"
+#include "app/gui/live/LiveTwin.h"
 #include "app/gui/project/ProjectFile.h"
 #include "app/gui/views/BlockView.h"
 #include "app/gui/views/ChartView.h"
@@ -20,6 +22,7 @@
 #include <QSlider>
 #include <QSpinBox>
 #include <QSplitter>
+#include <QStatusBar>
 #include <QTabWidget>
 #include <QTableWidget>
 #include <QTemporaryDir>
@@ -309,6 +312,109 @@ TEST_F(Window, ShowsARowWireAndTheTableOfElectrodes) {
   tabs.setCurrentIndex(2);
   settle();
   EXPECT_EQ(find<QTableWidget>("electrodeTable").rowCount(), 100);
+}
+
+TEST_F(Window, SolvesWhatWasEditedOnAnotherSceneWhileASolveRan) {
+  ASSERT_TRUE(solved());
+  Project heavy = workbench.project();
+  heavy.mesh = {1.2, {}}; // solved for so long that the clicks below come first
+  workbench.edit("finer", heavy);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return workbench.touch().runner().running(); }, kPatience_ms));
+  window.showScene("design");
+  auto& height = find<QLineEdit>("block_mm[2]");
+  height.setFocus();
+  height.selectAll();
+  QTest::keyClicks(&height, "6");
+  Project light = workbench.project();
+  ASSERT_EQ(light.design.block_mm.z(), 6);
+  light.mesh = quickProject().mesh;
+  workbench.edit("coarser", light);
+  ASSERT_TRUE(workbench.touch().runner().running()) << "the solve of the old inputs ended before the edit";
+  window.showScene("deformation");
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !workbench.touch().runner().running(); }, kPatience_ms));
+  EXPECT_TRUE(workbench.touch().upToDate()) << "nothing runs, and what is shown is of the old inputs";
+  EXPECT_EQ(workbench.touch().touch().design().block_mm.z(), 6);
+}
+
+TEST_F(Window, ComputesWhatIsNeededAgainWhereOnlyAnEstimateRuns) {
+  ASSERT_TRUE(solved());
+  workbench.touch().estimateError();
+  window.showScene("design");
+  Project next = workbench.project();
+  next.load.areas[0].force_N.z() = -2;
+  workbench.edit("force", next);
+  window.showScene("deformation");
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !workbench.touch().runner().running(); }, kPatience_ms));
+  EXPECT_TRUE(workbench.touch().upToDate());
+}
+
+TEST_F(Window, ShowsAProjectsOwnNumbersAndKeepsThemWhenOthersAreEdited) {
+  window.showScene("design");
+  Project project = workbench.project();
+  project.mesh = {0.333, {}}; // finer than the box offers, and with more digits
+  project.view.resistanceNoise = 5e-7;
+  project.network.noise = 2.5e-8;
+  project.network.spread = 0.0012345;
+  project.network.automaticSpread = false;
+  workbench.replace(project);
+  EXPECT_EQ(find<QDoubleSpinBox>("meshSize").value(), 0.333);
+  EXPECT_NEAR(find<QDoubleSpinBox>("resistanceNoise").value(), 5e-5, 1e-18);
+  EXPECT_EQ(find<QDoubleSpinBox>("spread").value(), 0.0012345);
+  // The panel hands over all of its boxes: one that showed another number would change the project.
+  window.showScene("network");
+  find<QSpinBox>("centers").setValue(17);
+  EXPECT_EQ(workbench.project().network.centers, 17);
+  EXPECT_NEAR(workbench.project().network.noise, 2.5e-8, 1e-22) << "a factor of 100 there and back";
+  EXPECT_EQ(workbench.project().network.spread, 0.0012345);
+  EXPECT_EQ(workbench.project().mesh.meshSize_mm, 0.333);
+}
+
+TEST_F(Window, MeasuresTheMeshAndTheNoiseFloorOffTheWindowsThreadAndOnlyWhileSeen) {
+  ASSERT_TRUE(solved());
+  network.setDesign(workbench.project().design);
+  network.generate(workbench.project().samples, workbench.project().mesh);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.samples() != nullptr; }, kPatience_ms));
+  auto& words = find<QLabel>("meshWords");
+  auto& floor = find<QLabel>("noiseFloor");
+  Project next = workbench.project();
+  next.view.mesh = true;
+  workbench.edit("mesh", next); // not seen: nothing is measured
+  EXPECT_FALSE(window.busy());
+  EXPECT_FALSE(words.text().contains("dihedral")) << words.text().toStdString();
+  EXPECT_FALSE(floor.text().contains("Cramer-Rao"));
+  window.showScene("design");
+  EXPECT_FALSE(floor.text().contains("Cramer-Rao")) << "computed while the window waited";
+  ASSERT_TRUE(QTest::qWaitFor([&] { return words.text().contains("dihedral") && floor.text().contains("Cramer-Rao"); },
+                              kPatience_ms));
+  find<QDoubleSpinBox>("resistanceNoise").setValue(1);
+  EXPECT_FALSE(floor.text().contains("Cramer-Rao")) << "the bound of another noise stays";
+  EXPECT_TRUE(QTest::qWaitFor([&] { return floor.text().contains("Cramer-Rao"); }, kPatience_ms));
+}
+
+TEST_F(Window, ShowsAndCancelsTheWorkOfTheLiveScene) {
+  ASSERT_TRUE(solved());
+  Project heavy = workbench.project();
+  heavy.mesh = {1.2, {}}; // solved for so long that the strip is seen
+  workbench.edit("finer", heavy);
+  window.showScene("live");
+  workbench.touch().cancel();
+  auto& page = static_cast<LivePage&>(window.currentScene());
+  auto& twin = find<LiveTwin>("liveTwin");
+  ASSERT_TRUE(
+      QTest::qWaitFor([&] { return page.complete() && page.host().history().lastValid() != nullptr; }, kPatience_ms));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !window.busy(); }, kPatience_ms));
+  twin.solve(heavy.design, heavy.load, heavy.mesh, {});
+  ASSERT_TRUE(QTest::qWaitFor(
+      [&] {
+        const auto strips = window.statusBar()->findChildren<QPushButton*>("cancel");
+        return std::any_of(strips.begin(), strips.end(), [](const QPushButton* cancel) { return cancel->isVisible(); });
+      },
+      kPatience_ms));
+  EXPECT_TRUE(window.busy());
+  QTest::keyClick(&window, Qt::Key_Escape);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !window.busy(); }, kPatience_ms));
+  EXPECT_EQ(twin.touch(), nullptr);
+  EXPECT_TRUE(find<QLabel>("twinWords").text().contains("on demand"));
 }
 
 TEST_F(Window, KeepsTheLastGoodResultAfterACancel) {

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <QApplication>
+
+namespace palp {
+
+/// The last catch of the window's thread: an exception that leaves a slot or an event handler would end the program
+/// together with all that was not saved. It ends here instead, is said on standard error and passed on as faulted().
+class Application : public QApplication {
+  Q_OBJECT
+
+public:
+  using QApplication::QApplication;
+
+  bool notify(QObject* receiver, QEvent* event) override;
+
+signals:
+  /// What happened, in the words of the exception.
+  void faulted(const QString& what);
+};
+
+/// Says what happened in a box beside the window; a fault that comes again and again changes the words of the box that
+/// is there.
+void showFault(QWidget& window, const QString& what);
+
+} // namespace palp

@@ -1,0 +1,58 @@
+#include "app/gui/window/Application.h"
+
+#include "model/base/Error.h"
+#include "tests/app/gui/WindowFixture.h"
+
+#include <QMessageBox>
+#include <QPushButton>
+#include <QSignalSpy>
+#include <QTimer>
+
+#include <gtest/gtest.h>
+
+namespace palp {
+namespace {
+
+/// A window on which faults are expected.
+class LastCatch : public WindowFixture {
+protected:
+  LastCatch() {
+    qApp->setProperty("faultExpected", true);
+    QObject::connect(&application, &Application::faulted, &window,
+                     [this](const QString& what) { showFault(window, what); });
+  }
+  ~LastCatch() override { qApp->setProperty("faultExpected", {}); }
+  QMessageBox* box() { return window.findChild<QMessageBox*>("fault"); }
+
+  Application& application = static_cast<Application&>(*qApp);
+};
+
+TEST_F(LastCatch, AnExceptionThatLeavesASlotIsSaidAndTheWindowGoesOn) {
+  ASSERT_TRUE(solved());
+  QPushButton button("fails", &window);
+  QObject::connect(&button, &QPushButton::clicked, [] { throw Error("frames.csv: the file has gone"); });
+  button.show();
+  EXPECT_NO_THROW(QTest::mouseClick(&button, Qt::LeftButton));
+  ASSERT_NE(box(), nullptr);
+  EXPECT_TRUE(box()->isVisible());
+  EXPECT_TRUE(box()->text().contains("frames.csv: the file has gone")) << box()->text().toStdString();
+  box()->close();
+  // The window still works: another force is solved.
+  Project next = workbench.project();
+  next.load.areas[0].force_N.z() = -2;
+  workbench.edit("another force", next);
+  EXPECT_TRUE(solved());
+}
+
+TEST_F(LastCatch, AFaultThatComesAgainAndAgainOpensOneBox) {
+  QSignalSpy faults(&application, &Application::faulted);
+  QTimer timer;
+  QObject::connect(&timer, &QTimer::timeout, [] { throw 7; }); // not even an exception of the library
+  timer.start(1);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return faults.count() >= 5; }, kPatience_ms));
+  timer.stop();
+  EXPECT_EQ(window.findChildren<QMessageBox*>("fault").size(), 1);
+}
+
+} // namespace
+} // namespace palp
