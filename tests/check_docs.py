@@ -85,7 +85,7 @@ def variable_problems(root):
     page = (root / "resources/docs/environment.md").read_text()
     read = re.compile(r'getenv\("(PALP_[A-Z_]+)"|\$\{(PALP_[A-Z_]+):-|= "(PALP_[A-Z_]+)"')
     files = [p for folder in SOURCES for p in (root / folder).rglob("*") if p.is_file() and p.suffix in (".cpp", ".h", ".sh", "", ".py")]
-    found = {next(filter(None, groups)) for p in files for groups in read.findall(p.read_text())}
+    found = {next(filter(None, groups)) for p in files for groups in read.findall(p.read_text(errors="replace"))}
     for name in sorted(found):
         if f"`{name}`" not in page:
             yield f"resources/docs/environment.md: {name} is read, but not described"
