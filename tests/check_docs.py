@@ -83,7 +83,7 @@ def command_problems(page, commands, options):
 def variable_problems(root):
     """Environment variables of ours that a program, a test or a script reads, against their page."""
     page = (root / "resources/docs/environment.md").read_text()
-    read = re.compile(r'getenv\("(PALP_[A-Z_]+)"|\$\{(PALP_[A-Z_]+):-|= "(PALP_[A-Z_]+)"')
+    read = re.compile(r'(?:getenv|qEnvironmentVariable\w*)\("(PALP_[A-Z_]+)"|\$\{(PALP_[A-Z_]+):-|= "(PALP_[A-Z_]+)"')
     files = [p for folder in SOURCES for p in (root / folder).rglob("*") if p.is_file() and p.suffix in (".cpp", ".h", ".sh", "", ".py")]
     found = {next(filter(None, groups)) for p in files for groups in read.findall(p.read_text(errors="replace"))}
     for name in sorted(found):

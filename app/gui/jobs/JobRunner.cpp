@@ -1,8 +1,7 @@
 #include "app/gui/jobs/JobRunner.h"
 
+#include "app/gui/jobs/CallLater.h"
 #include "model/base/Cancelled.h"
-
-#include <QMetaObject>
 
 #include <malloc.h>
 
@@ -76,8 +75,7 @@ void JobRunner::launch(Order order) {
     Taking taking;
     const QString error = failureOf([&] { taking = work(stop, *progress); });
     returnMemory();
-    QMetaObject::invokeMethod(
-        this, [this, taking = std::move(taking), error] { end(taking, error); }, Qt::QueuedConnection);
+    callLater(*this, [this, taking = std::move(taking), error] { end(taking, error); });
   });
   timer_.start();
   emit started(title_);

@@ -1,5 +1,6 @@
 #include "app/gui/touch/LoadPathAnimation.h"
 
+#include "app/gui/jobs/CallLater.h"
 #include "app/gui/jobs/TouchSession.h"
 #include "app/gui/views/BlockView.h"
 #include "app/scenes/gl/OffscreenWindow.h"
@@ -140,8 +141,7 @@ bool LoadPathAnimation::start(const Settings& settings) {
 }
 
 bool LoadPathAnimation::drawInWindow(const std::shared_ptr<Order>& order, const std::stop_token& stop) {
-  QMetaObject::invokeMethod(
-      this, [this, order] { fill(*order); }, Qt::QueuedConnection);
+  callLater(*this, [this, order] { fill(*order); });
   std::unique_lock lock(order->mutex);
   return order->drawn.wait(lock, stop, [&] { return order->picture || !order->problem.empty(); });
 }
