@@ -5,7 +5,7 @@
 
 namespace palp {
 
-/// FNV-1a of the bytes, 64 bits as 16 hexadecimal digits: tells files apart, protects nothing.
+/// FNV-1a of the bytes, 64 bits as 16 hexadecimal digits: distinguishes files, does not protect them.
 std::string fingerprint(std::string_view bytes);
 
 } // namespace palp

@@ -28,7 +28,7 @@ std::vector<LeaveOneOutResult> leaveOneOut(const Eigen::Ref<const Eigen::MatrixX
                                            const std::vector<double>& spreads, const RbfOptions& options,
                                            const std::stop_token& stop = {});
 
-/// The spread (and ridge and whitening, where the options leave them open) with the least leave-one-out score: a
+/// The spread (and ridge and whitening, where the options leave them open) with the smallest leave-one-out score: a
 /// logarithmic grid, then a golden-section refinement around its best point; where there is noise, and each spread
 /// costs more, the half-steps beside it.
 struct SpreadChoice {

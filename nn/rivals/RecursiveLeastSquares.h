@@ -5,7 +5,9 @@
 namespace palp {
 
 /// Linear least squares, one observation at a time, with exponential forgetting; the paper's way of training and the
-/// way to go on learning online. P is the inverse correlation matrix of the regressors.
+/// way to go on learning online (S. Haykin, Adaptive Filter Theory, 4th ed. 2002, chapter 9):
+///   k = P x / (lambda + x^T P x),  w <- w + k (y - w^T x)^T,  P <- (P - k x^T P) / lambda.
+/// P is the inverse correlation matrix of the regressors x, lambda the forgetting factor.
 class RecursiveLeastSquares {
 public:
   /// `initialVariance` is P's start: large means that the first observations decide. `forgetting` in (0, 1].
