@@ -1,6 +1,7 @@
 #pragma once
 
 #include "model/SensorDesign.h"
+#include "model/base/NamedEnum.h"
 #include "nn/RbfNetwork.h"
 #include "nn/RbfTrainer.h"
 #include "nn/rivals/BackPropagation.h"
@@ -17,12 +18,13 @@ namespace palp {
 
 /// What a decoder reads.
 enum class InputKind { Displacement, Resistance };
-/// displacement, resistance.
-std::string name(InputKind kind);
-InputKind inputKindNamed(const std::string& name);
+inline constexpr NamedEnum kInputKinds("input", std::array{std::pair{InputKind::Displacement, "displacement"},
+                                                           std::pair{InputKind::Resistance, "resistance"}});
+inline std::string name(InputKind kind) {
+  return kInputKinds.name(kind);
+}
 
-/// Ways from what is read to the force; as on the command line: rbf, linear, poly2, poly3, gp, bp, two-step-bp,
-/// two-step-gn, ml.
+/// Ways from what is read to the force.
 enum class DecoderKind {
   Rbf,
   Linear,
@@ -34,14 +36,25 @@ enum class DecoderKind {
   TwoStepGaussNewton,     ///< step 1 by inverting Eq. (1), then step 2
   MaximumLikelihood,      ///< inverts a polynomial forward model: area and force at once
 };
-std::string name(DecoderKind kind);
-DecoderKind decoderKindNamed(const std::string& name);
+inline constexpr NamedEnum kDecoderKinds(
+    "decoder", std::array{std::pair{DecoderKind::Rbf, "rbf"}, std::pair{DecoderKind::Linear, "linear"},
+                          std::pair{DecoderKind::Polynomial2, "poly2"}, std::pair{DecoderKind::Polynomial3, "poly3"},
+                          std::pair{DecoderKind::GaussianProcess, "gp"}, std::pair{DecoderKind::BackPropagation, "bp"},
+                          std::pair{DecoderKind::TwoStepBackPropagation, "two-step-bp"},
+                          std::pair{DecoderKind::TwoStepGaussNewton, "two-step-gn"},
+                          std::pair{DecoderKind::MaximumLikelihood, "ml"}});
+inline std::string name(DecoderKind kind) {
+  return kDecoderKinds.name(kind);
+}
 std::vector<DecoderKind> allDecoderKinds();
 
 /// The two modes of a network; every other option overrides what the mode says.
 enum class DecoderMode { Default, Paper };
-std::string name(DecoderMode mode);
-DecoderMode decoderModeNamed(const std::string& name);
+inline constexpr NamedEnum kDecoderModes("mode", std::array{std::pair{DecoderMode::Default, "default"},
+                                                            std::pair{DecoderMode::Paper, "paper"}});
+inline std::string name(DecoderMode mode) {
+  return kDecoderModes.name(mode);
+}
 
 /// The paper's steps in a row: step 1, resistances -> displacements of the row-wires' electrodes; step 2,
 /// displacements -> force.
@@ -75,7 +88,7 @@ struct Decoder {
   bool together = false;             ///< one force an area at once, 3 areas outputs
   Eigen::VectorXd low_N, high_N;     ///< training range of each output
   Eigen::MatrixXd residual_N;        ///< outputs x areas (1 where unknown): rms error found in training, per area
-  std::optional<ForwardModel> areas; ///< tells which area is touched; none for `together` or where there is one area
+  std::optional<ForwardModel> areas; ///< finds the touched area; none for `together` or where there is one area
   std::vector<int> areaOfClass;      ///< area of each class of `areas` (or of the maximum likelihood decoder)
   FitReport report;                  ///< of the fit; sizes in N
 

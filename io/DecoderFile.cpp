@@ -10,7 +10,7 @@
 namespace palp {
 namespace {
 
-constexpr int newestVersion = 1;
+constexpr int kNewestVersion = 1;
 
 OrderedJson inputJson(const DecoderInput& input) {
   return {{"kind", name(input.kind)},    {"rows", input.rows},
@@ -33,10 +33,7 @@ OrderedJson reportJson(const FitReport& report) {
 DecoderInput readInput(const JsonPlace& place) {
   place.onlyKeys({"kind", "rows", "row_wires", "values_per_row", "low", "high"});
   DecoderInput input;
-  const std::string kind = place.at("kind").string();
-  if (kind != name(InputKind::Displacement) && kind != name(InputKind::Resistance))
-    place.at("kind").refuse("displacement or resistance");
-  input.kind = inputKindNamed(kind);
+  input.kind = readNamed(place.at("kind"), kInputKinds);
   input.rows = readIntegers(place.at("rows"));
   input.rowWires = place.at("row_wires").integer();
   input.valuesPerRow = place.at("values_per_row").integer();
@@ -160,7 +157,7 @@ void requireFitting(const JsonPlace& root, const Decoder& decoder) {
 } // namespace
 
 std::string networkText(const Decoder& decoder) {
-  OrderedJson json = {{"palp_network", newestVersion},
+  OrderedJson json = {{"palp_network", kNewestVersion},
                       {"decoder", name(decoder.kind)},
                       {"mode", name(decoder.mode)},
                       {"trained_with", decoder.trainedWith},
@@ -183,17 +180,13 @@ std::string networkText(const Decoder& decoder) {
 Decoder parseNetwork(const std::string& text, const std::string& file) {
   const Json json = parseJson(text, file);
   const JsonPlace root(json, file);
-  formatVersion(root, "palp_network", newestVersion);
+  formatVersion(root, "palp_network", kNewestVersion);
   root.onlyKeys({"palp_network", "decoder", "mode", "trained_with", "design_fingerprint", "seed", "noise_relative",
                  "input", "area_count", "together", "low_N", "high_N", "residual_N", "fit", "model", "area_of_class",
                  "areas"});
   Decoder decoder;
-  try {
-    decoder.kind = decoderKindNamed(root.at("decoder").string());
-    decoder.mode = decoderModeNamed(root.at("mode").string());
-  } catch (const Error& refusal) {
-    throw Error(file + ": " + refusal.what());
-  }
+  decoder.kind = readNamed(root.at("decoder"), kDecoderKinds);
+  decoder.mode = readNamed(root.at("mode"), kDecoderModes);
   decoder.trainedWith = root.at("trained_with").string();
   decoder.designFingerprint = root.at("design_fingerprint").string();
   const double seed = root.at("seed").number();

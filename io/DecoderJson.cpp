@@ -1,7 +1,6 @@
 #include "io/DecoderJson.h"
 
 #include "io/DesignFile.h"
-#include "nn/NetworkError.h"
 
 #include <cmath>
 
@@ -15,19 +14,10 @@ OrderedJson scalerJson(const FeatureScaler& scaler) {
   return json;
 }
 
-/// A name that nn knows; its refusal becomes one with file and key.
-template <class Named> auto readNamed(const JsonPlace& place, Named&& named, const std::string& allowed) {
-  try {
-    return named(place.string());
-  } catch (const NetworkError&) {
-    place.refuse(allowed);
-  }
-}
-
 FeatureScaler readScaler(const JsonPlace& place) {
   place.onlyKeys({"scaling", "offset", "factor"}, {"rotation"});
   FeatureScaler scaler;
-  scaler.scaling = readNamed(place.at("scaling"), scalingNamed, "raw, minmax, zscore, global or whiten");
+  scaler.scaling = readNamed(place.at("scaling"), kScalings);
   scaler.offset = readVector(place.at("offset"));
   scaler.factor = readVector(place.at("factor"));
   requireSize(place.at("factor"), scaler.factor.size(), scaler.offset.size(), "entries, as offset has");
@@ -138,8 +128,8 @@ RbfNetwork readRbf(const JsonPlace& place) {
   RbfNetwork network;
   network.scaler = readScaler(place.at("scaler"));
   network.spread = readPositive(place.at("spread"));
-  network.convention = readNamed(place.at("spread_convention"), spreadConventionNamed, "radbas or sigma");
-  network.form = readNamed(place.at("basis"), basisFormNamed, "gaussian or remainder");
+  network.convention = readNamed(place.at("spread_convention"), kSpreadConventions);
+  network.form = readNamed(place.at("basis"), kBasisForms);
   network.centers = readMatrix(place.at("centers"));
   network.weights = readMatrix(place.at("weights"));
   if (!place.at("tail").isNull()) network.tail = readMatrix(place.at("tail"));

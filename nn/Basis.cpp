@@ -1,7 +1,6 @@
 #include "nn/Basis.h"
 
 #include "model/base/Cancelled.h"
-#include "nn/NetworkError.h"
 #include "nn/linear/VectorKernels.h"
 
 #include <algorithm>
@@ -12,29 +11,9 @@ namespace palp {
 namespace {
 
 /// Points whose inputs stay in the fastest cache while they meet all others.
-constexpr Eigen::Index cachedRows = 64;
+constexpr Eigen::Index kCachedRows = 64;
 
 } // namespace
-
-std::string name(SpreadConvention convention) {
-  return convention == SpreadConvention::Radbas ? "radbas" : "sigma";
-}
-
-SpreadConvention spreadConventionNamed(const std::string& text) {
-  for (const SpreadConvention convention : {SpreadConvention::Radbas, SpreadConvention::Sigma})
-    if (name(convention) == text) return convention;
-  throw NetworkError("spread convention '" + text + "': not known, allowed are radbas and sigma");
-}
-
-std::string name(BasisForm form) {
-  return form == BasisForm::Gaussian ? "gaussian" : "remainder";
-}
-
-BasisForm basisFormNamed(const std::string& text) {
-  for (const BasisForm form : {BasisForm::Gaussian, BasisForm::Remainder})
-    if (name(form) == text) return form;
-  throw NetworkError("basis '" + text + "': not known, allowed are gaussian and remainder");
-}
 
 double gaussianRate(double spread, SpreadConvention convention) {
   return (convention == SpreadConvention::Radbas ? std::numbers::ln2 : 0.5) / (spread * spread);
@@ -44,10 +23,10 @@ Eigen::MatrixXd squaredDistances(const Eigen::Ref<const Eigen::MatrixXd>& a, con
                                  const std::stop_token& stop) {
   Eigen::MatrixXd result(a.cols(), b.cols());
   const Eigen::MatrixXd rows = a.transpose(); // contiguous over the samples of a, as the kernel wants it
-  for (Eigen::Index first = 0; first < rows.rows(); first += cachedRows) {
+  for (Eigen::Index first = 0; first < rows.rows(); first += kCachedRows) {
     stopIfAsked(stop);
     for (Eigen::Index j = 0; j < b.cols(); ++j)
-      kernels::squaredDistancesToPoint(&rows(first, 0), rows.rows(), std::min(cachedRows, rows.rows() - first),
+      kernels::squaredDistancesToPoint(&rows(first, 0), rows.rows(), std::min(kCachedRows, rows.rows() - first),
                                        rows.cols(), b.col(j).data(), &result(first, j));
   }
   return result;
@@ -57,8 +36,8 @@ Eigen::MatrixXd squaredDistances(const Eigen::Ref<const Eigen::MatrixXd>& a) {
   const Eigen::Index count = a.cols();
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(count, count);
   const Eigen::MatrixXd rows = a.transpose();
-  for (Eigen::Index first = 0; first < count; first += cachedRows) {
-    const Eigen::Index last = std::min(first + cachedRows, count);
+  for (Eigen::Index first = 0; first < count; first += kCachedRows) {
+    const Eigen::Index last = std::min(first + kCachedRows, count);
     for (Eigen::Index j = 0; j < last; ++j) {
       const Eigen::Index top = std::max(first, j);
       kernels::squaredDistancesToPoint(&rows(top, 0), count, last - top, a.rows(), a.col(j).data(), &result(top, j));

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "model/base/NamedEnum.h"
+
 #include <Eigen/Core>
 
 #include <stop_token>
@@ -13,10 +15,12 @@ enum class SpreadConvention {
   Sigma,  ///< phi(r) = exp(-r^2 / (2 spread^2))
 };
 
-/// The convention's name as in files: radbas, sigma.
-std::string name(SpreadConvention convention);
-/// Throws NetworkError where no convention has this name.
-SpreadConvention spreadConventionNamed(const std::string& name);
+inline constexpr NamedEnum kSpreadConventions("spread convention",
+                                              std::array{std::pair{SpreadConvention::Radbas, "radbas"},
+                                                         std::pair{SpreadConvention::Sigma, "sigma"}});
+inline std::string name(SpreadConvention convention) {
+  return kSpreadConventions.name(convention);
+}
 
 /// How the basis is written. With an exact linear tail the weights are orthogonal to 1 and to the inputs, so that
 /// 1 - gamma r^2 may be taken off the Gaussian without changing the network's function (only its bias). What remains
@@ -25,10 +29,11 @@ enum class BasisForm {
   Gaussian,  ///< exp(-gamma r^2)
   Remainder, ///< exp(-gamma r^2) - 1 + gamma r^2
 };
-/// The form's name as in files: gaussian, remainder.
-std::string name(BasisForm form);
-/// Throws NetworkError where no form has this name.
-BasisForm basisFormNamed(const std::string& name);
+inline constexpr NamedEnum kBasisForms("basis", std::array{std::pair{BasisForm::Gaussian, "gaussian"},
+                                                           std::pair{BasisForm::Remainder, "remainder"}});
+inline std::string name(BasisForm form) {
+  return kBasisForms.name(form);
+}
 
 /// gamma of phi(r) = exp(-gamma r^2).
 double gaussianRate(double spread, SpreadConvention convention);

@@ -3,47 +3,29 @@
 #include "nn/NetworkError.h"
 #include "nn/linear/Lapack.h"
 
-#include <array>
 #include <cassert>
 #include <cmath>
-#include <utility>
 
 namespace palp {
 namespace {
 
 /// Relative to its size, an input whose range is below this does not vary: the rest is rounding.
-constexpr double noVariation = 1e-14;
+constexpr double kNoVariation = 1e-14;
 /// Components smaller than this share of the noise carry a hundredth of its variance and less; without noise, those
 /// smaller than the second number against the largest are rounding.
-constexpr double leastOfNoise = 0.1;
-constexpr double leastOfLargest = 1e-10;
-constexpr double defaultPower = 0.5;
-
-constexpr std::array scalingNames{std::pair{Scaling::Raw, "raw"}, std::pair{Scaling::MinMax, "minmax"},
-                                  std::pair{Scaling::ZScore, "zscore"}, std::pair{Scaling::Global, "global"},
-                                  std::pair{Scaling::Whiten, "whiten"}};
+constexpr double kLeastOfNoise = 0.1;
+constexpr double kLeastOfLargest = 1e-10;
+constexpr double kDefaultPower = 0.5;
 
 double inverseOrZero(double value, double size) {
-  return value > noVariation * size && value > 0 ? 1 / value : 0;
+  return value > kNoVariation * size && value > 0 ? 1 / value : 0;
 }
 
 } // namespace
 
-std::string name(Scaling scaling) {
-  for (const auto& [value, text] : scalingNames)
-    if (value == scaling) return text;
-  return {};
-}
-
-Scaling scalingNamed(const std::string& text) {
-  for (const auto& [value, known] : scalingNames)
-    if (text == known) return value;
-  throw NetworkError("scaler '" + text + "': not known, allowed are raw, minmax, zscore, global and whiten");
-}
-
 FeatureScaler FeatureScaler::fit(Scaling scaling, const Eigen::Ref<const Eigen::MatrixXd>& samples) {
   if (samples.cols() == 0) throw NetworkError("there is no sample to fit a scaler to; at least 1 is needed");
-  if (scaling == Scaling::Whiten) return whitened(samples, 0, defaultPower);
+  if (scaling == Scaling::Whiten) return whitened(samples, 0, kDefaultPower);
   FeatureScaler result;
   result.scaling = scaling;
   const Eigen::Index inputs = samples.rows();
@@ -81,10 +63,10 @@ FeatureScaler FeatureScaler::whitened(const Eigen::Ref<const Eigen::MatrixXd>& s
   const Eigen::VectorXd range = samples.rowwise().maxCoeff() - samples.rowwise().minCoeff();
   result.factor = size.unaryExpr([](double s) { return inverseOrZero(s, 0); });
   for (Eigen::Index i = 0; i < size.size(); ++i)
-    if (!(range(i) > noVariation * size(i))) result.factor(i) = 0;
+    if (!(range(i) > kNoVariation * size(i))) result.factor(i) = 0;
   const lapack::ThinSvd svd = lapack::thinSvd(result.apply(samples));
   const Eigen::VectorXd deviation = svd.values / std::sqrt(count);
-  const double least = std::max(leastOfNoise * relativeNoise, leastOfLargest * deviation(0));
+  const double least = std::max(kLeastOfNoise * relativeNoise, kLeastOfLargest * deviation(0));
   Eigen::Index kept = 0;
   while (kept < deviation.size() && deviation(kept) > least) ++kept;
   if (kept == 0) kept = 1; // nothing stands above the noise: the strongest direction stays

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "model/base/NamedEnum.h"
+
 #include <Eigen/Core>
 
 #include <string>
@@ -15,13 +17,16 @@ enum class Scaling {
   Whiten, ///< principal components, small ones raised and those lost in the noise left out; see whitened()
 };
 
-/// The scaling's name as on the command line: raw, minmax, zscore, global, whiten.
-std::string name(Scaling scaling);
-/// Throws NetworkError where no scaling has this name.
-Scaling scalingNamed(const std::string& name);
+inline constexpr NamedEnum
+    kScalings("scaler", std::array{std::pair{Scaling::Raw, "raw"}, std::pair{Scaling::MinMax, "minmax"},
+                                   std::pair{Scaling::ZScore, "zscore"}, std::pair{Scaling::Global, "global"},
+                                   std::pair{Scaling::Whiten, "whiten"}});
+inline std::string name(Scaling scaling) {
+  return kScalings.name(scaling);
+}
 
 /// Affine map of each input, (x - offset) * factor, and a rotation after it where there is one. An input that does not
-/// vary has factor 0: it tells nothing.
+/// vary has factor 0: it carries no information.
 struct FeatureScaler {
   Scaling scaling = Scaling::Raw;
   Eigen::VectorXd offset;

@@ -14,17 +14,17 @@ namespace palp {
 namespace {
 
 /// Copies with noise that the spread is chosen on; the fit itself takes the options' number.
-constexpr int choiceCopies = 4;
-constexpr int gridSpreads = 24;
-constexpr int refinements = 10;
+constexpr int kChoiceCopies = 4;
+constexpr int kGridSpreads = 24;
+constexpr int kRefinements = 10;
 /// Steps beyond the grid's upper end, while that is the best: where the samples are few for their inputs.
-constexpr int stepsBeyond = 12;
+constexpr int kStepsBeyond = 12;
 /// The optimum is flat where there is noise, and each spread costs more.
-constexpr int noisyGridSpreads = 6;
-constexpr int choiceRidges = 15;
-constexpr int finalRidges = 29;
-constexpr double firstPower = 0.5;
-constexpr std::array otherPowers{0.25, 0.75};
+constexpr int kNoisyGridSpreads = 6;
+constexpr int kChoiceRidges = 15;
+constexpr int kFinalRidges = 29;
+constexpr double kFirstPower = 0.5;
+constexpr std::array kOtherPowers{0.25, 0.75};
 
 std::vector<double> ridgesOf(const RbfOptions& options, int count) {
   if (options.ridge) return {*options.ridge};
@@ -43,23 +43,23 @@ LeaveOneOutResult bestOf(std::vector<LeaveOneOutResult> results) {
 }
 
 /// From a twentieth of the samples' extent to 300 times it: from isolated bumps to the flat limit, a polynomial.
-std::vector<double> spreadsFor(const RbfSystem& problem, bool noisy) {
-  const Eigen::MatrixXd& centers = problem.centers();
+std::vector<double> spreadsFor(const RbfSystem& system, bool noisy) {
+  const Eigen::MatrixXd& centers = system.centers();
   const Eigen::VectorXd middle = centers.rowwise().mean();
   const double extent = std::sqrt((centers.colwise() - middle).colwise().squaredNorm().maxCoeff());
   if (!(extent > 0)) return {1};
-  return noisy ? logarithmicRange(0.1 * extent, 18 * extent, noisyGridSpreads)
-               : logarithmicRange(0.05 * extent, 300 * extent, gridSpreads);
+  return noisy ? logarithmicRange(0.1 * extent, 18 * extent, kNoisyGridSpreads)
+               : logarithmicRange(0.05 * extent, 300 * extent, kGridSpreads);
 }
 
-/// Golden-section search for the least score on a logarithmic scale.
-LeaveOneOutResult refined(const RbfSystem& problem, const std::vector<double>& ridges, double low, double high,
+/// Golden-section search for the smallest score on a logarithmic scale.
+LeaveOneOutResult refined(const RbfSystem& system, const std::vector<double>& ridges, double low, double high,
                           LeaveOneOutResult best, const std::stop_token& stop) {
   const double golden = (std::sqrt(5.0) - 1) / 2;
   double a = std::log(low), b = std::log(high);
-  const auto at = [&](double logSpread) { return bestOf(problem.leaveOneOut(std::exp(logSpread), ridges, stop)); };
+  const auto at = [&](double logSpread) { return bestOf(system.leaveOneOut(std::exp(logSpread), ridges, stop)); };
   LeaveOneOutResult left = at(b - golden * (b - a)), right = at(a + golden * (b - a));
-  for (int i = 2; i < refinements; ++i) {
+  for (int i = 2; i < kRefinements; ++i) {
     const bool goLeft = better(left, right);
     if (better(goLeft ? left : right, best)) best = goLeft ? left : right;
     if (goLeft) {
@@ -76,9 +76,9 @@ LeaveOneOutResult refined(const RbfSystem& problem, const std::vector<double>& r
   return better(last, best) ? last : best;
 }
 
-/// A problem and a spread to try it at.
+/// A system and a spread to try it at.
 struct Trial {
-  const RbfSystem* problem;
+  const RbfSystem* system;
   double spread;
 };
 
@@ -86,15 +86,15 @@ std::vector<LeaveOneOutResult> tried(const std::vector<Trial>& trials, const std
                                      const std::stop_token& stop) {
   std::vector<LeaveOneOutResult> results(trials.size());
   inParallel(trials.size(), threads, [&](std::size_t i) {
-    results[i] = bestOf(trials[i].problem->leaveOneOut(trials[i].spread, ridges, stop));
+    results[i] = bestOf(trials[i].system->leaveOneOut(trials[i].spread, ridges, stop));
   });
   return results;
 }
 
-std::vector<LeaveOneOutResult> onGrid(const RbfSystem& problem, const std::vector<double>& spreads,
+std::vector<LeaveOneOutResult> onGrid(const RbfSystem& system, const std::vector<double>& spreads,
                                       const std::vector<double>& ridges, int threads, const std::stop_token& stop) {
   std::vector<Trial> trials;
-  for (const double spread : spreads) trials.push_back({&problem, spread});
+  for (const double spread : spreads) trials.push_back({&system, spread});
   return tried(trials, ridges, threads, stop);
 }
 
@@ -107,19 +107,19 @@ std::size_t indexOfBest(const std::vector<LeaveOneOutResult>& results) {
 
 /// The half-steps beside the best spread, then the other powers of whitening at that spread and beside it.
 void refineNoisy(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen::Ref<const Eigen::MatrixXd>& targets,
-                 const RbfOptions& options, const RbfSystem& problem, int copies, const std::vector<double>& ridges,
+                 const RbfOptions& options, const RbfSystem& system, int copies, const std::vector<double>& ridges,
                  const std::stop_token& stop, SpreadChoice& choice) {
   const auto& grid = choice.grid;
   const double step = grid.size() < 2 ? 1 : std::sqrt(grid[1].spread / grid[0].spread);
   const double middle = choice.overall.spread;
-  for (LeaveOneOutResult& result : onGrid(problem, {middle / step, middle * step}, ridges, options.threads, stop)) {
+  for (LeaveOneOutResult& result : onGrid(system, {middle / step, middle * step}, ridges, options.threads, stop)) {
     if (better(result, choice.overall)) choice.overall = result;
     choice.grid.push_back(std::move(result));
   }
   if (options.scaling != Scaling::Whiten || options.whitening) return;
   std::vector<std::unique_ptr<RbfSystem>> others;
   std::vector<Trial> trials;
-  for (const double power : otherPowers) {
+  for (const double power : kOtherPowers) {
     RbfOptions changed = options;
     changed.whitening = power;
     others.push_back(rbfSystem(samples, targets, changed, copies, stop));
@@ -130,7 +130,7 @@ void refineNoisy(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen::
   for (std::size_t i = 0; i < results.size(); ++i)
     if (better(results[i], choice.overall)) {
       choice.overall = results[i];
-      choice.whitening = otherPowers[i / 3];
+      choice.whitening = kOtherPowers[i / 3];
     }
 }
 
@@ -145,7 +145,7 @@ std::vector<LeaveOneOutResult> leaveOneOut(const Eigen::Ref<const Eigen::MatrixX
     if (!(spread > 0 && spread <= 1e100))
       throw NetworkError("spread: " + std::to_string(spread) + "; allowed is above 0 up to 1e100");
   return onGrid(*rbfSystem(samples, targets, options, options.noiseCopies, stop), spreads,
-                ridgesOf(options, finalRidges), options.threads, stop);
+                ridgesOf(options, kFinalRidges), options.threads, stop);
 }
 
 SpreadChoice chooseSpread(const Eigen::Ref<const Eigen::MatrixXd>& samples,
@@ -153,24 +153,24 @@ SpreadChoice chooseSpread(const Eigen::Ref<const Eigen::MatrixXd>& samples,
                           const std::stop_token& stop) {
   requireUsable(samples, targets, options);
   const bool noisy = options.relativeInputNoise > 0;
-  const int copies = std::min(options.noiseCopies, choiceCopies);
-  const std::unique_ptr<RbfSystem> problem = rbfSystem(samples, targets, options, copies, stop);
-  std::vector<double> spreads = spreadsFor(*problem, noisy);
-  const std::vector<double> ridges = ridgesOf(options, noisy ? choiceRidges : finalRidges);
+  const int copies = std::min(options.noiseCopies, kChoiceCopies);
+  const std::unique_ptr<RbfSystem> system = rbfSystem(samples, targets, options, copies, stop);
+  std::vector<double> spreads = spreadsFor(*system, noisy);
+  const std::vector<double> ridges = ridgesOf(options, noisy ? kChoiceRidges : kFinalRidges);
   SpreadChoice choice;
-  choice.whitening = options.whitening.value_or(firstPower);
-  choice.grid = onGrid(*problem, spreads, ridges, options.threads, stop);
+  choice.whitening = options.whitening.value_or(kFirstPower);
+  choice.grid = onGrid(*system, spreads, ridges, options.threads, stop);
   std::size_t best = indexOfBest(choice.grid);
-  for (int beyond = 0; !noisy && beyond < stepsBeyond && best > 0 && best + 1 == spreads.size(); ++beyond) {
+  for (int beyond = 0; !noisy && beyond < kStepsBeyond && best > 0 && best + 1 == spreads.size(); ++beyond) {
     spreads.push_back(spreads[best] * spreads[best] / spreads[best - 1]);
-    choice.grid.push_back(onGrid(*problem, {spreads.back()}, ridges, options.threads, stop).front());
+    choice.grid.push_back(onGrid(*system, {spreads.back()}, ridges, options.threads, stop).front());
     best = indexOfBest(choice.grid);
   }
   choice.overall = choice.grid[best];
   if (noisy)
-    refineNoisy(samples, targets, options, *problem, copies, ridges, stop, choice);
+    refineNoisy(samples, targets, options, *system, copies, ridges, stop, choice);
   else
-    choice.overall = refined(*problem, ridges, spreads[best == 0 ? 0 : best - 1],
+    choice.overall = refined(*system, ridges, spreads[best == 0 ? 0 : best - 1],
                              spreads[std::min(best + 1, spreads.size() - 1)], choice.grid[best], stop);
   for (Eigen::Index o = 0; o < targets.rows(); ++o) {
     const auto least = std::min_element(choice.grid.begin(), choice.grid.end(),

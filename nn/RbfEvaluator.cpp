@@ -8,9 +8,9 @@
 namespace palp {
 namespace {
 
-constexpr std::size_t lanes = kernels::blockLanes;
+constexpr std::size_t kLanes = kernels::blockLanes;
 /// Samples that go through a block of centres together.
-constexpr std::size_t together = 8;
+constexpr std::size_t kTogether = 8;
 
 std::vector<double> copyOf(const Eigen::MatrixXd& m) {
   return {m.data(), m.data() + m.size()};
@@ -19,18 +19,18 @@ std::vector<double> copyOf(const Eigen::MatrixXd& m) {
 /// [block][input][lane] from inputs x centres; missing lanes are 0.
 std::vector<double> packedCenters(const Eigen::MatrixXd& centers, std::size_t blocks) {
   const std::size_t rows = static_cast<std::size_t>(centers.rows());
-  std::vector<double> result(blocks * rows * lanes, 0.0);
+  std::vector<double> result(blocks * rows * kLanes, 0.0);
   for (Eigen::Index c = 0; c < centers.cols(); ++c)
     for (std::size_t r = 0; r < rows; ++r) {
       const std::size_t column = static_cast<std::size_t>(c);
-      result[(column / lanes * rows + r) * lanes + column % lanes] = centers(static_cast<Eigen::Index>(r), c);
+      result[(column / kLanes * rows + r) * kLanes + column % kLanes] = centers(static_cast<Eigen::Index>(r), c);
     }
   return result;
 }
 
 /// [output][lane of all blocks] from outputs x centres; missing lanes are 0.
 std::vector<double> packedWeights(const Eigen::MatrixXd& weights, std::size_t blocks) {
-  Eigen::MatrixXd padded = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(blocks * lanes), weights.rows());
+  Eigen::MatrixXd padded = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(blocks * kLanes), weights.rows());
   padded.topRows(weights.cols()) = weights.transpose();
   return copyOf(padded);
 }
@@ -41,7 +41,7 @@ RbfEvaluator::RbfEvaluator(const RbfNetwork& network)
     : inputs_(static_cast<std::size_t>(network.inputs())),
       dimensions_(static_cast<std::size_t>(network.scaler.dimensions())),
       outputs_(static_cast<std::size_t>(network.outputs())),
-      blocks_((static_cast<std::size_t>(network.centers.cols()) + lanes - 1) / lanes),
+      blocks_((static_cast<std::size_t>(network.centers.cols()) + kLanes - 1) / kLanes),
       rate_(gaussianRate(network.spread, network.convention)), remainder_(network.form == BasisForm::Remainder),
       offset_(copyOf(network.scaler.offset)), factor_(copyOf(network.scaler.factor)),
       rotation_(network.scaler.rotation.size() > 0 ? copyOf(network.scaler.jacobian()) : std::vector<double>()),
@@ -49,7 +49,7 @@ RbfEvaluator::RbfEvaluator(const RbfNetwork& network)
       tail_(copyOf(network.tail)), bias_(copyOf(network.bias)) {}
 
 std::size_t RbfEvaluator::scratchSize() const {
-  return dimensions_ + blocks_ * lanes;
+  return dimensions_ + blocks_ * kLanes;
 }
 
 void RbfEvaluator::scale(const double* sample, double* scaled, double* output) const {
@@ -80,8 +80,9 @@ void RbfEvaluator::evaluate(const Eigen::Ref<const Eigen::MatrixXd>& samples,
                             Eigen::Ref<Eigen::MatrixXd> output) const {
   const kernels::PackedNetwork network{dimensions_, outputs_,        blocks_,        rate_,
                                        remainder_,  centers_.data(), weights_.data()};
-  std::vector<double> scaled(together * dimensions_), basis(together * blocks_ * lanes), results(together * outputs_);
-  const Eigen::Index step = static_cast<Eigen::Index>(together);
+  std::vector<double> scaled(kTogether * dimensions_), basis(kTogether * blocks_ * kLanes),
+      results(kTogether * outputs_);
+  const Eigen::Index step = static_cast<Eigen::Index>(kTogether);
   for (Eigen::Index first = 0; first < samples.cols(); first += step) {
     const Eigen::Index count = std::min(step, samples.cols() - first);
     for (Eigen::Index s = 0; s < step; ++s) // a last group that is not full repeats its last sample

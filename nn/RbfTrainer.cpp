@@ -7,33 +7,30 @@
 #include "nn/rbf/RbfSystem.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 namespace palp {
 namespace {
 
 /// Leave-one-out error against the targets' deviation beyond which a reader is warned.
-constexpr double poorScore = 0.3;
-constexpr std::array solverNames{
-    std::pair{LeastSquaresMethod::PivotedQr, "qr"}, std::pair{LeastSquaresMethod::Cholesky, "cholesky"},
-    std::pair{LeastSquaresMethod::TruncatedSvd, "svd"}, std::pair{LeastSquaresMethod::Recursive, "rls"}};
+constexpr double kPoorScore = 0.3;
 
 /// The leave-one-out errors at the best of the ridges.
-LeaveOneOutResult atBestRidge(const RbfSystem& problem, double spread, const std::stop_token& stop) {
-  std::vector<LeaveOneOutResult> results = problem.leaveOneOut(spread, logarithmicRange(1e-13, 10, 29), stop);
+LeaveOneOutResult atBestRidge(const RbfSystem& system, double spread, const std::stop_token& stop) {
+  std::vector<LeaveOneOutResult> results = system.leaveOneOut(spread, logarithmicRange(1e-13, 10, 29), stop);
   const auto best =
       std::min_element(results.begin(), results.end(), [](const auto& a, const auto& b) { return a.score < b.score; });
   return std::move(*best);
 }
 
-void warn(FitReport& report, const RbfOptions& options, const RbfSystem& problem, Eigen::Index samples) {
+void warn(FitReport& report, const RbfOptions& options, const RbfSystem& system, Eigen::Index samples) {
   if (options.centerCount > samples)
     report.warnings.push_back(std::to_string(options.centerCount) + " centres were asked for, there are " +
                               std::to_string(samples) + " samples: one centre a sample is used");
-  if (problem.tail() != options.tail)
+  if (system.tail() != options.tail)
     report.warnings.push_back("too few samples (" + std::to_string(samples) +
                               ") for an exact linear tail: it is penalised instead");
   if (samples < 10)
@@ -42,18 +39,6 @@ void warn(FitReport& report, const RbfOptions& options, const RbfSystem& problem
 }
 
 } // namespace
-
-std::string name(LeastSquaresMethod solver) {
-  for (const auto& [value, text] : solverNames)
-    if (value == solver) return text;
-  return {};
-}
-
-LeastSquaresMethod leastSquaresMethodNamed(const std::string& text) {
-  for (const auto& [value, known] : solverNames)
-    if (text == known) return value;
-  throw NetworkError("solver '" + text + "': not known, allowed are qr, cholesky, svd and rls");
-}
 
 RbfFit trainRbf(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen::Ref<const Eigen::MatrixXd>& targets,
                 const RbfOptions& options, const std::stop_token& stop) {
@@ -66,14 +51,14 @@ RbfFit trainRbf(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen::R
     chosen.whitening = choice.whitening;
   }
   const double spread = *chosen.spread;
-  const std::unique_ptr<RbfSystem> problem = rbfSystem(samples, targets, chosen, options.noiseCopies, stop);
+  const std::unique_ptr<RbfSystem> system = rbfSystem(samples, targets, chosen, options.noiseCopies, stop);
   std::optional<LeaveOneOutResult> left;
-  if (!options.ridge) left = atBestRidge(*problem, spread, stop);
+  if (!options.ridge) left = atBestRidge(*system, spread, stop);
   stopIfAsked(stop);
 
-  RbfSolution solution = problem->solve(spread, left ? left->ridge : *options.ridge, stop);
+  RbfSolution solution = system->solve(spread, left ? left->ridge : *options.ridge, stop);
   RbfFit fit;
-  fit.network = {problem->scaler(),        problem->centers(),      spread,
+  fit.network = {system->scaler(),         system->centers(),       spread,
                  options.convention,       solution.form,           std::move(solution.weights),
                  std::move(solution.tail), std::move(solution.bias)};
   if (!fit.network.weights.allFinite() || !fit.network.bias.allFinite() || !fit.network.tail.allFinite())
@@ -82,18 +67,18 @@ RbfFit trainRbf(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen::R
   FitReport& report = fit.report;
   report.spread = spread;
   report.ridge = solution.ridge;
-  report.centers = static_cast<int>(problem->centers().cols());
+  report.centers = static_cast<int>(system->centers().cols());
   report.condition = solution.condition;
   report.rank = solution.rank;
   report.largestWeight = fit.network.weights.size() == 0 ? 0 : fit.network.weights.cwiseAbs().maxCoeff();
   report.warnings = std::move(solution.warnings);
-  warn(report, options, *problem, samples.cols());
+  warn(report, options, *system, samples.cols());
   if (options.leaveOneOut) {
-    // A solver may have raised the ridge to what double precision can carry.
+    // Cholesky may have raised the ridge to what double precision can carry.
     if (!left || std::abs(left->ridge - solution.ridge) > 1e-9 * solution.ridge)
-      left = problem->leaveOneOut(spread, {solution.ridge}, stop).front();
+      left = system->leaveOneOut(spread, {solution.ridge}, stop).front();
     report.leaveOneOut = left->rms;
-    if (left->score > poorScore)
+    if (left->score > kPoorScore)
       report.warnings.push_back("the leave-one-out error is " +
                                 std::to_string(std::lround(100 * std::min(left->score, 1e6))) +
                                 " % of the targets' deviation: at this spread and ridge the network says little about "

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "model/base/NamedEnum.h"
 #include "nn/RbfNetwork.h"
 
 #include <Eigen/Core>
@@ -19,12 +20,22 @@ enum class LeastSquaresMethod {
   TruncatedSvd, ///< singular values below rcond dropped
   Recursive,    ///< recursive least squares with forgetting, the paper's way
 };
-/// As on the command line: qr, cholesky, svd, rls.
-std::string name(LeastSquaresMethod solver);
-LeastSquaresMethod leastSquaresMethodNamed(const std::string& name);
+inline constexpr NamedEnum kLeastSquaresMethods("solver",
+                                                std::array{std::pair{LeastSquaresMethod::PivotedQr, "qr"},
+                                                           std::pair{LeastSquaresMethod::Cholesky, "cholesky"},
+                                                           std::pair{LeastSquaresMethod::TruncatedSvd, "svd"},
+                                                           std::pair{LeastSquaresMethod::Recursive, "rls"}});
+inline std::string name(LeastSquaresMethod method) {
+  return kLeastSquaresMethods.name(method);
+}
 
 /// Where the Gaussians sit.
 enum class CenterChoice { Samples, KMeans, Random };
+/// Those that choose among the samples; all of them is a number of centres, not a way to choose.
+inline constexpr NamedEnum kCenterChoices("choice of centres", std::array{std::pair{CenterChoice::KMeans, "kmeans"},
+                                                                          std::pair{CenterChoice::Random, "random"}});
+/// Centres where nobody says how many.
+inline constexpr int kMostCenters = 600;
 
 /// What is added to the Gaussians.
 enum class Tail {
@@ -33,6 +44,9 @@ enum class Tail {
   Linear,          ///< bias and linear tail, exact as in kriging: the weights are orthogonal to it
   LinearPenalised, ///< bias and linear tail as weights among the others; for noise and for few samples
 };
+inline constexpr NamedEnum kTails("tail", std::array{std::pair{Tail::None, "none"}, std::pair{Tail::Bias, "bias"},
+                                                     std::pair{Tail::Linear, "linear"},
+                                                     std::pair{Tail::LinearPenalised, "penalised"}});
 
 struct RbfOptions {
   Scaling scaling = Scaling::Global;
@@ -40,12 +54,12 @@ struct RbfOptions {
   /// ridge is chosen so too, else 0.5.
   std::optional<double> whitening;
   CenterChoice centers = CenterChoice::Samples;
-  int centerCount = 0;          ///< KMeans, Random: how many; 0: 600 at most. Samples: all
+  int centerCount = 0;          ///< KMeans, Random: how many; 0: kMostCenters at most. Samples: all
   std::optional<double> spread; ///< none: by leave-one-out
   SpreadConvention convention = SpreadConvention::Radbas;
   Tail tail = Tail::Linear;
   double tailVariance = 100; ///< LinearPenalised: prior variance of the tail's weights against the Gaussians'
-  LeastSquaresMethod solver = LeastSquaresMethod::PivotedQr;
+  LeastSquaresMethod method = LeastSquaresMethod::PivotedQr;
   std::optional<double> ridge = 0.0; ///< none: by leave-one-out over 1e-13..10
   double rcond = 1e-15;
   double forgetting = 1; ///< Recursive: factor in (0, 1]
@@ -78,7 +92,7 @@ struct RbfFit {
 };
 
 /// Fits a network to samples (inputs x samples) and targets (outputs x samples). Throws NetworkError for data from
-/// which no network can be made and for cancellation.
+/// which no network can be made, and Cancelled.
 RbfFit trainRbf(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen::Ref<const Eigen::MatrixXd>& targets,
                 const RbfOptions& options = {}, const std::stop_token& stop = {});
 

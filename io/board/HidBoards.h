@@ -11,7 +11,7 @@ namespace palp {
 /// A board that the system knows.
 struct HidBoard {
   std::string path;   ///< /dev/hidrawN; changes from plug to plug
-  std::string serial; ///< two boards may have the same: then the path tells them apart
+  std::string serial; ///< two boards may have the same: then they differ by their path
   std::string product;
   bool permission = true; ///< this user may open it
 };

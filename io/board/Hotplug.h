@@ -5,7 +5,7 @@
 
 namespace palp {
 
-/// Tells when HID devices come and go: by libudev, or, where that does not answer, once a second.
+/// Reports when HID devices come and go: by libudev, or, where that does not answer, once a second.
 class Hotplug {
 public:
   Hotplug();

@@ -7,8 +7,8 @@
 
 namespace palp {
 
-/// Latency of what comes from another clock: host time minus device time, above the least of the last seconds, so that
-/// neither the clocks' offset nor their slow drift counts. In constant memory.
+/// Latency of what comes from another clock: host time minus device time, above its minimum of the last seconds, so
+/// that neither the clocks' offset nor their slow drift counts. In constant memory.
 class LatencyMeter {
 public:
   /// Takes one event; returns its latency [s].

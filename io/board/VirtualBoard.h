@@ -51,7 +51,7 @@ public:
 
   /// Feature 0x10 or 0x11; none for another ID.
   [[nodiscard]] std::optional<Report> feature(std::uint8_t id) const;
-  /// Takes feature 0x11 where it can be; false where it is refused.
+  /// Applies feature 0x11; false where the board refuses it.
   bool setFeature(std::span<const std::uint8_t> report);
   /// Takes a command; its answer comes among the next reports. False where it is no command.
   bool output(std::span<const std::uint8_t> report);

@@ -94,9 +94,9 @@ Eigen::MatrixXd gram(const Eigen::MatrixXd& a, const std::stop_token& stop) {
   Eigen::MatrixXd c = Eigen::MatrixXd::Zero(n, n);
   if (n == 0) return c;
   const double one = 1;
-  for (Eigen::Index first = 0; first < a.rows(); first += rowsAtOnce) {
+  for (Eigen::Index first = 0; first < a.rows(); first += kRowsAtOnce) {
     stopIfAsked(stop);
-    const int k = size(std::min(rowsAtOnce, a.rows() - first));
+    const int k = size(std::min(kRowsAtOnce, a.rows() - first));
     dsyrk_("L", "T", &n, &k, &one, a.data() + first, &lda, &one, c.data(), &ldc);
   }
   c.triangularView<Eigen::StrictlyUpper>() = c.transpose();
@@ -297,9 +297,9 @@ ThinSvd svdOfGram(const Eigen::MatrixXd& a, const std::stop_token& stop) {
   result.vTransposed = eigen.vectors.rightCols(kept).rowwise().reverse().transpose();
   const Eigen::MatrixXd columns = result.vTransposed.transpose() * result.values.cwiseInverse().asDiagonal();
   result.u.resize(a.rows(), kept);
-  for (Eigen::Index first = 0; first < a.rows(); first += rowsAtOnce) {
+  for (Eigen::Index first = 0; first < a.rows(); first += kRowsAtOnce) {
     stopIfAsked(stop);
-    const Eigen::Index rows = std::min(rowsAtOnce, a.rows() - first);
+    const Eigen::Index rows = std::min(kRowsAtOnce, a.rows() - first);
     result.u.middleRows(first, rows) = product(a.middleRows(first, rows), false, columns, false);
   }
   return result;

@@ -13,7 +13,7 @@ namespace palp::lapack {
 using Input = Eigen::Ref<const Eigen::MatrixXd>;
 
 /// Rows of a tall matrix between two looks at the stop token: some 20 ms of work.
-inline constexpr Eigen::Index rowsAtOnce = 1024;
+inline constexpr Eigen::Index kRowsAtOnce = 1024;
 
 /// op(a) op(b) by dgemm.
 Eigen::MatrixXd product(const Input& a, bool transposeA, const Input& b, bool transposeB);

@@ -13,10 +13,10 @@
 namespace palp {
 namespace {
 
-/// The least ridge of the Cholesky solver: below it, rounding makes Gaussian kernels indefinite.
-constexpr double choleskyRidge = 1e-12;
+/// The smallest ridge of Cholesky's factorisation: below it, rounding makes Gaussian kernels indefinite.
+constexpr double kCholeskyRidge = 1e-12;
 /// Start of P in recursive least squares: weights of order 1e3 are as good as free.
-constexpr double recursiveStart = 1e6;
+constexpr double kRecursiveStart = 1e6;
 
 std::string shortNumber(double value) {
   std::ostringstream out;
@@ -121,22 +121,23 @@ double smallestRidge(double size) {
   return 4 * std::numeric_limits<double>::epsilon() * size;
 }
 
-LinearSolution solveSymmetric(Eigen::MatrixXd a, const Eigen::MatrixXd& b, LeastSquaresMethod solver, double ridge,
+LinearSolution solveSymmetric(Eigen::MatrixXd a, const Eigen::MatrixXd& b, LeastSquaresMethod method, double ridge,
                               double rcond) {
-  if (solver == LeastSquaresMethod::Cholesky) {
-    const double used = std::max(ridge, choleskyRidge);
+  if (method == LeastSquaresMethod::Cholesky) {
+    const double used = std::max(ridge, kCholeskyRidge);
     LinearSolution solution = byCholesky(a, b, used);
     if (solution.ridge > used)
       solution.warnings.push_back("the ridge was raised to " + shortNumber(solution.ridge) +
-                                  ", the least at which Cholesky's factorisation exists in double precision");
+                                  ", the smallest at which Cholesky's factorisation exists in double precision");
     return solution;
   }
   a.diagonal().array() += ridge;
-  if (solver == LeastSquaresMethod::PivotedQr) {
+  if (method == LeastSquaresMethod::PivotedQr) {
     LinearSolution solution = bySemidefiniteQr(a, b, rcond);
     solution.ridge = ridge;
     return solution;
   }
+  // Truncated: x = V diag(1 / l) V^T b over the eigenvalues |l| > rcond max |l|.
   const Eigen::Index unknowns = a.cols();
   const lapack::SymmetricEigen eigen = lapack::symmetricEigen(std::move(a));
   LinearSolution solution;
@@ -153,15 +154,16 @@ LinearSolution solveSymmetric(Eigen::MatrixXd a, const Eigen::MatrixXd& b, Least
   return solution;
 }
 
-LinearSolution solveLeastSquares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, LeastSquaresMethod solver,
+LinearSolution solveLeastSquares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, LeastSquaresMethod method,
                                  double ridge, double rcond, double forgetting, const std::stop_token& stop) {
   LinearSolution solution;
-  if (solver == LeastSquaresMethod::PivotedQr && a.rows() > 3 * a.cols()) {
+  if (method == LeastSquaresMethod::PivotedQr && a.rows() > 3 * a.cols()) {
     const Triangular tall = triangular(a, b, stop);
-    return solveLeastSquares(tall.r, tall.right, solver, ridge, rcond, forgetting, stop);
+    return solveLeastSquares(tall.r, tall.right, method, ridge, rcond, forgetting, stop);
   }
-  if (solver == LeastSquaresMethod::PivotedQr && ridge == 0) return byQr(a, b, rcond);
-  if (solver == LeastSquaresMethod::PivotedQr) {
+  if (method == LeastSquaresMethod::PivotedQr && ridge == 0) return byQr(a, b, rcond);
+  if (method == LeastSquaresMethod::PivotedQr) {
+    // |a x - b|^2 + ridge |x|^2 = |[a; sqrt(ridge) I] x - [b; 0]|^2
     Eigen::MatrixXd stacked = Eigen::MatrixXd::Zero(a.rows() + a.cols(), a.cols());
     stacked.topRows(a.rows()) = a;
     stacked.bottomRows(a.cols()).diagonal().setConstant(std::sqrt(ridge));
@@ -169,13 +171,16 @@ LinearSolution solveLeastSquares(const Eigen::MatrixXd& a, const Eigen::MatrixXd
     right.topRows(a.rows()) = b;
     solution = byQr(std::move(stacked), right, rcond);
     solution.ridge = ridge;
-  } else if (solver == LeastSquaresMethod::Cholesky) {
+  } else if (method == LeastSquaresMethod::Cholesky) {
+    // The normal equations (a^T a + ridge I) x = a^T b.
     const Eigen::MatrixXd normal = lapack::gram(a, stop);
     stopIfAsked(stop);
     const double largest = a.cols() == 0 ? 0 : normal.diagonal().sum();
     solution = byCholesky(normal, lapack::product(a, true, b, false),
-                          std::max({ridge, choleskyRidge, smallestRidge(largest)}));
-  } else if (solver == LeastSquaresMethod::TruncatedSvd) {
+                          std::max({ridge, kCholeskyRidge, smallestRidge(largest)}));
+  } else if (method == LeastSquaresMethod::TruncatedSvd) {
+    // x = V diag(s / (s^2 + ridge)) U^T b over the singular values s > rcond s1 (G. H. Golub, C. F. Van Loan, Matrix
+    // Computations, 4th ed. 2013, 5.5.5 and 6.1.4).
     const lapack::ThinSvd svd = lapack::thinSvd(a);
     const double largest = svd.values.size() == 0 ? 0 : svd.values(0);
     const Eigen::VectorXd filter =
@@ -188,10 +193,10 @@ LinearSolution solveLeastSquares(const Eigen::MatrixXd& a, const Eigen::MatrixXd
     warnOfCondition(solution);
     warnOfRank(solution, a.cols());
   } else {
-    RecursiveLeastSquares recursive(a.cols(), b.cols(), ridge > 0 ? 1 / ridge : recursiveStart, forgetting);
+    RecursiveLeastSquares recursive(a.cols(), b.cols(), ridge > 0 ? 1 / ridge : kRecursiveStart, forgetting);
     for (Eigen::Index i = 0; i < a.rows(); ++i) recursive.update(a.row(i).transpose(), b.row(i).transpose());
     solution.x = recursive.weights();
-    solution.ridge = ridge > 0 ? ridge : 1 / recursiveStart;
+    solution.ridge = ridge > 0 ? ridge : 1 / kRecursiveStart;
     solution.rank = static_cast<int>(std::min(a.rows(), a.cols()));
     solution.condition = lapack::PivotedQr(a).condition();
     warnOfCondition(solution);

@@ -22,11 +22,11 @@ struct LinearSolution {
 };
 
 /// (a + ridge I) x = b for a symmetric, positive semi-definite a, of which the lower triangle is read.
-LinearSolution solveSymmetric(Eigen::MatrixXd a, const Eigen::MatrixXd& b, LeastSquaresMethod solver, double ridge,
+LinearSolution solveSymmetric(Eigen::MatrixXd a, const Eigen::MatrixXd& b, LeastSquaresMethod method, double ridge,
                               double rcond);
 
 /// min |a x - b|^2 + ridge |x|^2. Throws Cancelled between blocks of rows.
-LinearSolution solveLeastSquares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, LeastSquaresMethod solver,
+LinearSolution solveLeastSquares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, LeastSquaresMethod method,
                                  double ridge, double rcond, double forgetting, const std::stop_token& stop = {});
 
 /// The smallest ridge that double precision can carry on a symmetric matrix whose largest eigenvalue is about `size`.

@@ -51,6 +51,7 @@ RidgeFit ridgeFit(const Eigen::MatrixXd& a, const Eigen::MatrixXd& y, Eigen::Ind
       if (next.score < best.score) best = std::move(next);
     }
 
+  // x = V diag(s / (s^2 + ridge s1^2)) U^T y over the singular values above rounding.
   RidgeFit fit;
   fit.ridge = best.ridge;
   const Eigen::VectorXd inverse = svd.values.unaryExpr(

@@ -9,12 +9,14 @@
 
 namespace palp {
 
-/// Leave-one-out errors e_g = (I - H_gg)^-1 r_g of least squares whose hat matrix is H = L L^T + T T^T, groups of
-/// `copies` rows left out together. `remainder` (rows x outputs) is (I - H) y; the result is outputs x rows.
+/// Leave-one-out errors of least squares without fitting again (R. D. Cook, S. Weisberg, Residuals and Influence in
+/// Regression, 1982, 2.2): e_g = (I - H_gg)^-1 r_g for groups g of `copies` rows that are left out together, with the
+/// hat matrix H = L L^T + T T^T. `remainder` (rows x outputs) is r = (I - H) y; the result is outputs x rows.
 Eigen::MatrixXd leftOutErrors(const Eigen::MatrixXd& remainder, const Eigen::MatrixXd& l, const Eigen::MatrixXd& t,
                               Eigen::Index copies);
 
-/// min |a x + 1 c - y|^2 + ridge |x|^2, the constant c not penalised.
+/// min |a x + 1 c - y|^2 + ridge s1^2 |x|^2, the constant c not penalised; s1 is the largest singular value of a
+/// without its columns' means.
 struct RidgeFit {
   Eigen::MatrixXd x;        ///< unknowns x outputs
   Eigen::VectorXd constant; ///< outputs

@@ -48,9 +48,10 @@ BasisForm KernelSystem::form() const {
 RbfSolution KernelSystem::solve(double spread, double ridge, const std::stop_token& stop) const {
   stopIfAsked(stop);
   const Eigen::MatrixXd phi = kernel(spread);
+  // (Q2^T Phi Q2 + ridge I) z = Q2^T y
   const LinearSolution solved =
-      solveSymmetric(space_.projectBothSides(phi), right_, options_.solver, ridge, options_.rcond);
-  const Eigen::MatrixXd weights = space_.embed(solved.x); // samples x outputs
+      solveSymmetric(space_.projectBothSides(phi), right_, options_.method, ridge, options_.rcond);
+  const Eigen::MatrixXd weights = space_.embed(solved.x); // w = Q2 z, samples x outputs
   RbfSolution solution;
   solution.ridge = solved.ridge;
   solution.condition = solved.condition;
@@ -64,6 +65,7 @@ RbfSolution KernelSystem::solve(double spread, double ridge, const std::stop_tok
     solution.tail = options_.tailVariance * lapack::product(weights, true, scaled_, true);
     solution.bias += options_.tailVariance * weights.colwise().sum().transpose();
   } else if (tail_ != Tail::None) {
+    // P c = y - Phi w; the ridge's part of the residual is orthogonal to P.
     const Eigen::MatrixXd rest = (targets_.colwise() - shift_).transpose() - lapack::symmetricProduct(phi, weights);
     const Eigen::MatrixXd coefficients = space_.coefficients(rest);
     solution.bias += coefficients.bottomRows(1).transpose();
@@ -97,6 +99,7 @@ LeaveOneOutResult KernelSystem::byInverse(double spread, double ridge, const std
       indefinite = true;
       continue;
     }
+    // A = L L^T. With H = L^-1 Q2^T: w = H^T (L^-1 Q2^T y), and diag(Q2 A^-1 Q2^T) are the squares of H's columns.
     const Eigen::MatrixXd right = lapack::solveLower(factor, right_, false);
     space_.solveProjectionInPlace(phi);
     const auto half = phi.bottomRows(unknowns);
@@ -114,6 +117,8 @@ std::vector<LeaveOneOutResult> KernelSystem::byEigen(double spread, const std::v
   stopIfAsked(stop);
   const lapack::SymmetricEigen eigen = lapack::symmetricEigen(std::move(system));
   stopIfAsked(stop);
+  // Q2^T Phi Q2 = V diag(l) V^T once, then for each ridge: w = U diag(1 / (l + ridge)) V^T Q2^T y, U = Q2 V, and the
+  // diagonal of the inverse is that of U diag(1 / (l + ridge)) U^T.
   const Eigen::MatrixXd vectors = space_.embed(eigen.vectors);
   const Eigen::MatrixXd squares = vectors.cwiseAbs2();
   const Eigen::MatrixXd rotated = lapack::product(eigen.vectors, true, right_, false);
@@ -129,7 +134,9 @@ std::vector<LeaveOneOutResult> KernelSystem::byEigen(double spread, const std::v
 
 LeaveOneOutResult KernelSystem::result(double spread, double ridge, const Eigen::MatrixXd& weights,
                                        const Eigen::VectorXd& inverseDiagonal) const {
-  // A sample that the tail alone fits whatever its target has a weight and a diagonal of 0: nothing is known of it.
+  // e_i = w_i / (A^-1)_ii (S. Rippa, Adv. Comput. Math. 11 (1999) 193), with a tail Q2 (Q2^T A Q2)^-1 Q2^T for A^-1,
+  // A = Phi + ridge I. A sample that the tail alone fits whatever its target has a weight and a diagonal of 0: nothing
+  // is known of it.
   const Eigen::VectorXd divisor = (inverseDiagonal.array() > 0).select(inverseDiagonal, 1.0);
   Eigen::MatrixXd residuals = (divisor.cwiseInverse().asDiagonal() * weights).transpose();
   return summarised(spread, ridge, std::move(residuals), targets_);

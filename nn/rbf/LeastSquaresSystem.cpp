@@ -13,12 +13,10 @@
 namespace palp {
 namespace {
 
-constexpr int mostCenters = 600;
-
 Eigen::MatrixXd chooseCenters(const Eigen::MatrixXd& scaled, const RbfOptions& options) {
   const int samples = static_cast<int>(scaled.cols());
   const bool all = options.centers == CenterChoice::Samples;
-  const int count = options.centerCount > 0 ? options.centerCount : all ? samples : mostCenters;
+  const int count = options.centerCount > 0 ? options.centerCount : all ? samples : kMostCenters;
   if (count >= samples) return scaled;
   if (options.centers == CenterChoice::KMeans) return kMeans(scaled, count, options.seed).centers;
   return scaled(Eigen::all, randomColumns(samples, count, options.seed));
@@ -35,7 +33,7 @@ LeastSquaresSystem::LeastSquaresSystem(const Eigen::Ref<const Eigen::MatrixXd>& 
           noisyCopies(samples, options.relativeInputNoise, static_cast<int>(copies_), options.seed, stop))),
       centers_(chooseCenters(scaler_.apply(samples), options)), distances_(squaredDistances(rows_, centers_, stop)),
       tail_(affordableTail(options.tail, rows_)),
-      tailIsUnknown_(tail_ == Tail::LinearPenalised || options.solver == LeastSquaresMethod::Recursive),
+      tailIsUnknown_(tail_ == Tail::LinearPenalised || options.method == LeastSquaresMethod::Recursive),
       space_(rows_, tailIsUnknown_ ? Tail::None : tail_), targets_(repeatedColumns(targets, copies_)),
       shift_(tail_ == Tail::None ? Eigen::VectorXd::Zero(targets.rows()) : Eigen::VectorXd(targets.rowwise().mean())),
       right_(space_.project((targets_.colwise() - shift_).transpose())) {}
@@ -59,7 +57,7 @@ Eigen::MatrixXd LeastSquaresSystem::system(double spread, const std::stop_token&
 
 RbfSolution LeastSquaresSystem::solve(double spread, double ridge, const std::stop_token& stop) const {
   const Eigen::MatrixXd a = system(spread, stop);
-  const LinearSolution solved = solveLeastSquares(a, right_, options_.solver, ridge * static_cast<double>(copies_),
+  const LinearSolution solved = solveLeastSquares(a, right_, options_.method, ridge * static_cast<double>(copies_),
                                                   options_.rcond, options_.forgetting, stop);
   RbfSolution solution;
   solution.ridge = solved.ridge / static_cast<double>(copies_);
@@ -87,6 +85,8 @@ std::vector<LeaveOneOutResult> LeastSquaresSystem::leaveOneOut(double spread, co
                                                                const std::stop_token& stop) const {
   const lapack::ThinSvd svd =
       copies_ > 1 ? lapack::svdOfGram(system(spread, stop), stop) : lapack::thinSvd(system(spread, stop));
+  // System = U diag(s) V^T: the hat matrix of the ridge is Q2 U diag(f) U^T Q2^T with f = s^2 / (s^2 + k ridge), and
+  // Q1 Q1^T of the exact tail beside it.
   const Eigen::MatrixXd left = space_.embed(svd.u);
   const Eigen::MatrixXd tailBasis = space_.tailBasis();
   const Eigen::MatrixXd rotated = lapack::product(svd.u, true, right_, false);

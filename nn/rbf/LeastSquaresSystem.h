@@ -7,8 +7,11 @@
 
 namespace palp {
 
-/// Least squares on given centres, and on noisy copies of the samples where there is noise: rows of regressors for the
-/// Gaussians, the tail exact (projected out) or as further unknowns.
+/// Least squares on given centres, and on noisy copies of the samples where there is noise:
+///   min |Phi w + P c - y|^2 + k ridge |w|^2,  Phi_ij = phi(|s(x_i) - c_j|),
+/// over the rows of all k copies, so that the ridge weighs the same against each sample however many copies it has. An
+/// exact tail P c is not penalised (TailSpace projects it out); a penalised one is among the unknowns, as columns
+/// sqrt(tailVariance) [s(x), 1].
 class LeastSquaresSystem final : public RbfSystem {
 public:
   LeastSquaresSystem(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen::Ref<const Eigen::MatrixXd>& targets,

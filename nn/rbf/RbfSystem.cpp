@@ -63,7 +63,7 @@ std::unique_ptr<RbfSystem> rbfSystem(const Eigen::Ref<const Eigen::MatrixXd>& sa
   stopIfAsked(stop);
   const bool oneASample = options.centers == CenterChoice::Samples ||
                           (options.centerCount >= samples.cols() && options.centers != CenterChoice::KMeans);
-  if (oneASample && options.relativeInputNoise == 0 && options.solver != LeastSquaresMethod::Recursive)
+  if (oneASample && options.relativeInputNoise == 0 && options.method != LeastSquaresMethod::Recursive)
     return std::make_unique<KernelSystem>(samples, targets, options);
   return std::make_unique<LeastSquaresSystem>(samples, targets, options, noiseCopies, stop);
 }

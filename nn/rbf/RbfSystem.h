@@ -41,8 +41,8 @@ public:
   [[nodiscard]] virtual Tail tail() const = 0;
 };
 
-/// The problem that options describe: interpolation with one centre a sample, or least squares on fewer centres or on
-/// noisy copies. Throws NetworkError where there can be none. `noiseCopies` overrides the options'.
+/// The system that the options describe: interpolation with one centre a sample, or least squares on fewer centres or
+/// on noisy copies. Throws NetworkError where there can be none. `noiseCopies` overrides the options'.
 std::unique_ptr<RbfSystem> rbfSystem(const Eigen::Ref<const Eigen::MatrixXd>& samples,
                                      const Eigen::Ref<const Eigen::MatrixXd>& targets, const RbfOptions& options,
                                      int noiseCopies, const std::stop_token& stop = {});

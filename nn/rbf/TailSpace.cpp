@@ -4,7 +4,7 @@ namespace palp {
 namespace {
 
 /// Directions of the inputs smaller than this against the largest are rounding of the samples.
-constexpr double tailRcond = 1e-13;
+constexpr double kTailRcond = 1e-13;
 
 } // namespace
 
@@ -15,7 +15,7 @@ TailSpace::TailSpace(const Eigen::MatrixXd& scaled, Tail tail) : samples_(scaled
   regressors.leftCols(inputs) = scaled.topRows(inputs).transpose();
   regressors.col(inputs).setOnes();
   qr_.emplace(std::move(regressors));
-  rank_ = qr_->rank(tailRcond);
+  rank_ = qr_->rank(kTailRcond);
   q_ = qr_->blockReflector();
   vt_ = q_.v * q_.t;
 }

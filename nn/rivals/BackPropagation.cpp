@@ -18,10 +18,10 @@ namespace palp {
 namespace {
 
 /// Principal directions below this share of the largest are left out, and more than this many.
-constexpr double leastDirection = 1e-4;
-constexpr Eigen::Index mostDirections = 30;
+constexpr double kLeastDirection = 1e-4;
+constexpr Eigen::Index kMostDirections = 30;
 /// Steps without a better held-out error after which training stops.
-constexpr int patience = 150;
+constexpr int kPatience = 150;
 
 /// Where the network's four blocks lie in the optimiser's vector.
 struct Layout {
@@ -65,7 +65,7 @@ double meanSquare(const Eigen::MatrixXd& m) {
   return m.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, m.size()));
 }
 
-/// Remembers the parameters with the least held-out error.
+/// Remembers the parameters with the smallest held-out error.
 void judge(Training& training, const std::vector<double>& parameters, double trainingError) {
   const double* p = parameters.data();
   const double held =
@@ -82,7 +82,7 @@ void judge(Training& training, const std::vector<double>& parameters, double tra
   }
   if (training.progress && *training.progress)
     (*training.progress)(static_cast<double>(training.steps) / training.mostSteps);
-  if (training.stop.stop_requested() || training.steps - training.lastBetter > patience) throw nlopt::forced_stop();
+  if (training.stop.stop_requested() || training.steps - training.lastBetter > kPatience) throw nlopt::forced_stop();
 }
 
 /// Mean square error and its gradient by back-propagation (Rumelhart, Hinton and Williams 1986).
@@ -111,7 +111,7 @@ double errorAndGradient(const std::vector<double>& parameters, std::vector<doubl
 Eigen::MatrixXd principalDirections(const Eigen::MatrixXd& scaled) {
   const lapack::ThinSvd svd = lapack::thinSvd(scaled);
   Eigen::Index kept = 0;
-  while (kept < std::min(mostDirections, svd.values.size()) && svd.values(kept) > leastDirection * svd.values(0))
+  while (kept < std::min(kMostDirections, svd.values.size()) && svd.values(kept) > kLeastDirection * svd.values(0))
     ++kept;
   const double size = std::sqrt(static_cast<double>(scaled.cols()));
   return (svd.values.head(kept).cwiseInverse() * size).asDiagonal() * svd.u.leftCols(kept).transpose();

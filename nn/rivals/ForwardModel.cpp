@@ -71,10 +71,10 @@ int affordableDegree(int wanted, Eigen::Index causes, Eigen::Index fewestSamples
 }
 
 /// 1 / variance of a scaled cause that is uniform over [-1, 1].
-constexpr double priorPrecision = 3;
-constexpr int mostIterations = 30;
-constexpr double enough = 1e-10;
-constexpr double rounding = 1e-12; ///< of the cost: less is no rise
+constexpr double kPriorPrecision = 3;
+constexpr int kMostIterations = 30;
+constexpr double kEnough = 1e-10;
+constexpr double kRounding = 1e-12; ///< of the cost: less is no rise
 
 void requireSizes(const Eigen::Ref<const Eigen::MatrixXd>& measurements,
                   const Eigen::Ref<const Eigen::MatrixXd>& causes, const Eigen::VectorXi& classes,
@@ -193,18 +193,18 @@ LikelihoodInversion::Posterior LikelihoodInversion::posterior(const Class& c,
       gradient = projected - product;
     }
     result.chiSquare = std::max(0.0, square - 2 * m.dot(projected) + m.dot(product));
-    return result.chiSquare + priorPrecision * y.squaredNorm();
+    return result.chiSquare + kPriorPrecision * y.squaredNorm();
   };
   const auto precision = [&] {
     Eigen::MatrixXd information = slope.transpose() * c.gram * slope;
-    information.diagonal().array() += priorPrecision;
+    information.diagonal().array() += kPriorPrecision;
     return information;
   };
   double before = cost(result.y, true);
-  for (int i = 0; i < mostIterations; ++i) {
+  for (int i = 0; i < kMostIterations; ++i) {
     const Eigen::LDLT<Eigen::MatrixXd> normal(precision());
-    const Eigen::VectorXd step = normal.solve(slope.transpose() * gradient - priorPrecision * result.y);
-    const double most = before + rounding * (square + before);
+    const Eigen::VectorXd step = normal.solve(slope.transpose() * gradient - kPriorPrecision * result.y);
+    const double most = before + kRounding * (square + before);
     double length = 1;
     Eigen::VectorXd next = result.y + step;
     while (!(cost(next, false) <= most) && length > 1e-4) {
@@ -214,7 +214,7 @@ LikelihoodInversion::Posterior LikelihoodInversion::posterior(const Class& c,
     if (!(cost(next, false) <= most)) break;
     result.y = next;
     before = cost(result.y, true);
-    if (length * step.norm() < enough) break;
+    if (length * step.norm() < kEnough) break;
   }
   const double least = cost(result.y, true);
   const Eigen::LDLT<Eigen::MatrixXd> normal(precision());

@@ -16,7 +16,7 @@
 namespace palp {
 namespace {
 
-constexpr int mostEvaluations = 120;
+constexpr int kMostEvaluations = 120;
 
 /// Logarithms of what the likelihood decides.
 struct Scales {
@@ -98,7 +98,7 @@ std::vector<double> mostLikely(Search& search) {
   optimiser.set_initial_step(std::vector<double>{1, 2, 4});
   optimiser.set_min_objective(negativeLogLikelihood, &search);
   optimiser.set_xtol_rel(1e-3);
-  optimiser.set_maxeval(mostEvaluations);
+  optimiser.set_maxeval(kMostEvaluations);
   double value = 0;
   try {
     optimiser.optimize(best, value);

@@ -15,9 +15,9 @@ namespace palp {
 namespace {
 
 /// Directions of the monomials smaller than this against the largest are rounding.
-constexpr double kernelRcond = 1e-14;
+constexpr double kKernelRcond = 1e-14;
 /// More samples than this carry the kernel no further and cost the square of their number.
-constexpr Eigen::Index mostCenters = 1000;
+constexpr Eigen::Index kMostCenters = 1000;
 
 /// (1 + a_i.b_j / size)^degree, columns of a x columns of b.
 Eigen::MatrixXd kernel(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double size, int degree) {
@@ -32,15 +32,15 @@ Eigen::MatrixXd directions(const Eigen::MatrixXd& kernelOfCenters) {
   const lapack::SymmetricEigen eigen = lapack::symmetricEigen(kernelOfCenters);
   const Eigen::Index all = eigen.values.size();
   Eigen::Index kept = 0;
-  while (kept < all && eigen.values(all - 1 - kept) > kernelRcond * eigen.values(all - 1)) ++kept;
+  while (kept < all && eigen.values(all - 1 - kept) > kKernelRcond * eigen.values(all - 1)) ++kept;
   return eigen.vectors.rightCols(kept) * eigen.values.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
 }
 
 /// Evenly taken columns, at most mostCenters of them.
 Eigen::MatrixXd thinned(const Eigen::MatrixXd& columns) {
-  if (columns.cols() <= mostCenters) return columns;
-  Eigen::MatrixXd result(columns.rows(), mostCenters);
-  for (Eigen::Index i = 0; i < mostCenters; ++i) result.col(i) = columns.col(i * columns.cols() / mostCenters);
+  if (columns.cols() <= kMostCenters) return columns;
+  Eigen::MatrixXd result(columns.rows(), kMostCenters);
+  for (Eigen::Index i = 0; i < kMostCenters; ++i) result.col(i) = columns.col(i * columns.cols() / kMostCenters);
   return result;
 }
 
@@ -93,9 +93,9 @@ PolynomialFit trainPolynomial(const Eigen::Ref<const Eigen::MatrixXd>& samples,
     stopIfAsked(stop);
     toWeights = directions(kernel(model.centers, model.centers, model.size, options.degree));
     features.resize(rows.cols(), toWeights.cols());
-    for (Eigen::Index first = 0; first < rows.cols(); first += lapack::rowsAtOnce) {
+    for (Eigen::Index first = 0; first < rows.cols(); first += lapack::kRowsAtOnce) {
       stopIfAsked(stop);
-      const Eigen::Index count = std::min(lapack::rowsAtOnce, rows.cols() - first);
+      const Eigen::Index count = std::min(lapack::kRowsAtOnce, rows.cols() - first);
       features.middleRows(first, count) = lapack::product(
           kernel(rows.middleCols(first, count), model.centers, model.size, options.degree), false, toWeights, false);
     }
@@ -111,7 +111,7 @@ PolynomialFit trainPolynomial(const Eigen::Ref<const Eigen::MatrixXd>& samples,
   result.leaveOneOutResiduals = std::move(fit.residuals);
   if (features.cols() + 1 > samples.cols() * copies)
     result.warnings.push_back("fewer samples (" + std::to_string(samples.cols()) + ") than unknowns (" +
-                              std::to_string(features.cols() + 1) + "): the least solution is taken");
+                              std::to_string(features.cols() + 1) + "): the smallest of all solutions is taken");
   return result;
 }
 

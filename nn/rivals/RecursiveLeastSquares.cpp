@@ -29,7 +29,7 @@ void RecursiveLeastSquares::update(const Eigen::Ref<const Eigen::VectorXd>& regr
                                    const Eigen::Ref<const Eigen::VectorXd>& targets) {
   const Eigen::VectorXd direction = variance_.selfadjointView<Eigen::Lower>() * regressors;
   const double denominator = forgetting_ + regressors.dot(direction);
-  if (!(denominator > 0)) return; // rounding has eaten P along this direction: nothing can be learned there
+  if (!(denominator > 0)) return; // rounding has made P indefinite along this direction: nothing can be learned there
   const Eigen::VectorXd gain = direction / denominator;
   weights_.noalias() += gain * (targets - weights_.transpose() * regressors).transpose();
   variance_.selfadjointView<Eigen::Lower>().rankUpdate(direction, -1 / denominator);

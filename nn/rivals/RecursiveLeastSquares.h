@@ -4,8 +4,10 @@
 
 namespace palp {
 
-/// Linear least squares, one observation at a time, with exponential forgetting: how the paper trains, and how a
-/// network keeps learning online. P is the inverse correlation matrix of the regressors.
+/// Linear least squares, one observation at a time, with exponential forgetting; the paper's way of training and the
+/// way to go on learning online (S. Haykin, Adaptive Filter Theory, 4th ed. 2002, chapter 9):
+///   k = P x / (lambda + x^T P x),  w <- w + k (y - w^T x)^T,  P <- (P - k x^T P) / lambda.
+/// P is the inverse correlation matrix of the regressors x, lambda the forgetting factor.
 class RecursiveLeastSquares {
 public:
   /// `initialVariance` is the initial P: if large, the first observations decide. `forgetting` in (0, 1].

@@ -108,7 +108,7 @@ void predictOneByOne300Inputs(benchmark::State& state) {
     options.scaling = Scaling::Whiten;
     options.relativeInputNoise = 1e-4;
     options.ridge = 1e-6;
-    options.solver = LeastSquaresMethod::Cholesky;
+    options.method = LeastSquaresMethod::Cholesky;
   }
   const RbfNetwork network = trainRbf(wide.samples, wide.targets, options).network;
   const RbfEvaluator evaluator(network);

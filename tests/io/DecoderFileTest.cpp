@@ -91,11 +91,11 @@ TEST(NetworkFile, RefusesAreasThatTheDesignDoesNotHave) {
   EXPECT_NE(refusalWith(rbf, [](Decoder& d) { d.areaOfClass.pop_back(); }).find("area_of_class"), std::string::npos);
   EXPECT_NE(refusalWith(rbf, [](Decoder& d) { d.areas.reset(); }).find("area_of_class"), std::string::npos);
   EXPECT_NE(refusalWith(rbf, [](Decoder& d) { d.areaCount = 0; }).find("area_count is 0"), std::string::npos);
-  const std::string told = refusalWith(togetherDecoder(), [&](Decoder& d) {
+  const std::string sentence = refusalWith(togetherDecoder(), [&](Decoder& d) {
     d.areas = rbf.areas;
     d.areaOfClass = {0, 1};
   });
-  EXPECT_NE(told.find("areas"), std::string::npos) << told;
+  EXPECT_NE(sentence.find("areas"), std::string::npos) << sentence;
 }
 
 TEST(NetworkFile, RefusesOutputsThatAreNoForces) {

@@ -1,6 +1,6 @@
 #include "nn/FeatureScaler.h"
 
-#include "nn/NetworkError.h"
+#include "model/base/Error.h"
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ TEST(FeatureScaler, ZScoreGivesMeanZeroAndDeviationOne) {
   EXPECT_NEAR(scaled.row(1).squaredNorm() / 4, 1, 1e-15);
 }
 
-TEST(FeatureScaler, AConstantInputTellsNothing) {
+TEST(FeatureScaler, AConstantInputIsScaledToZero) {
   for (const Scaling scaling : {Scaling::MinMax, Scaling::ZScore, Scaling::Global})
     EXPECT_EQ(FeatureScaler::fit(scaling, samples).apply(samples).row(2).cwiseAbs().maxCoeff(), 0) << name(scaling);
 }
@@ -63,7 +63,7 @@ TEST(FeatureScaler, WhiteningRaisesSmallComponentsAndLeavesOutThoseInTheNoise) {
   }
 }
 
-TEST(FeatureScaler, WhiteningStandsInputsThatTellNothing) {
+TEST(FeatureScaler, WhiteningCopesWithConstantInputs) {
   for (const Eigen::MatrixXd& inputs :
        {Eigen::MatrixXd(Eigen::MatrixXd::Constant(3, 4, 7)), Eigen::MatrixXd(Eigen::MatrixXd::Zero(3, 1))})
     for (const double noise : {0.0, 1e-3}) {
@@ -82,8 +82,8 @@ TEST(FeatureScaler, InvertingTheScaledGivesTheSamplesBack) {
 }
 
 TEST(FeatureScaler, AnUnknownNameIsRefusedWithTheKnownOnes) {
-  EXPECT_EQ(scalingNamed("zscore"), Scaling::ZScore);
-  EXPECT_THROW(scalingNamed("standard"), NetworkError);
+  EXPECT_EQ(kScalings.value("zscore"), Scaling::ZScore);
+  EXPECT_THROW(static_cast<void>(kScalings.value("standard")), Error);
 }
 
 } // namespace

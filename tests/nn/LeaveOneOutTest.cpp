@@ -32,7 +32,7 @@ TEST_P(LeaveOneOutOf, AgreesWithTrainingAgainWithoutEachSample) {
   options.centers = GetParam().centers;
   options.tail = GetParam().tail;
   options.spread = 1.0;
-  options.solver = LeastSquaresMethod::Cholesky;
+  options.method = LeastSquaresMethod::Cholesky;
   options.ridge = GetParam().ridge;
   const Eigen::MatrixXd closed = leaveOneOut(samples, set.targets, {1.0}, options).front().residuals;
   for (Eigen::Index i = 0; i < samples.cols(); ++i) {
@@ -89,7 +89,7 @@ TEST(LeaveOneOut, ManyRidgesByEigenvaluesAgreeWithOneByInverse) {
   EXPECT_NEAR(one.score / choice.overall.score, 1, 1e-2); // two roundings of a system that is nearly singular
 }
 
-TEST(LeaveOneOut, OfTheChosenSpreadForetellsTheErrorOnNewSamples) {
+TEST(LeaveOneOut, OfTheChosenSpreadPredictsTheErrorOnNewSamples) {
   const test::Touches training = test::touches(60, 30, 1), fresh = test::touches(40, 30, 2);
   RbfOptions options;
   options.spread = {};

@@ -46,11 +46,11 @@ TEST(RbfTrainer, AllSolversAgreeWhereTheSystemIsSound) {
   options.ridge = 1e-4;
   options.tail = Tail::Bias;
   const Eigen::MatrixXd qr = trainRbf(set.samples, set.targets, options).network.predict(fresh.samples);
-  for (const LeastSquaresMethod solver : {LeastSquaresMethod::Cholesky, LeastSquaresMethod::TruncatedSvd}) {
-    options.solver = solver;
+  for (const LeastSquaresMethod method : {LeastSquaresMethod::Cholesky, LeastSquaresMethod::TruncatedSvd}) {
+    options.method = method;
     const RbfFit fit = trainRbf(set.samples, set.targets, options);
     // Condition 1e6: ten digits are left.
-    EXPECT_LT((fit.network.predict(fresh.samples) - qr).cwiseAbs().maxCoeff(), 1e-8) << name(solver);
+    EXPECT_LT((fit.network.predict(fresh.samples) - qr).cwiseAbs().maxCoeff(), 1e-8) << name(method);
   }
 }
 
@@ -62,7 +62,7 @@ TEST(RbfTrainer, RecursiveLeastSquaresComesNearLeastSquaresOnFewCentres) {
   options.centerCount = 12;
   options.tail = Tail::Bias;
   const Eigen::MatrixXd qr = trainRbf(set.samples, set.targets, options).network.predict(set.samples);
-  options.solver = LeastSquaresMethod::Recursive;
+  options.method = LeastSquaresMethod::Recursive;
   const RbfFit fit = trainRbf(set.samples, set.targets, options);
   EXPECT_LT((fit.network.predict(set.samples) - qr).cwiseAbs().maxCoeff(), 1e-2); // its start acts as a ridge of 1e-6
 }
@@ -103,24 +103,24 @@ TEST(RbfTrainer, LostDigitsAreSaidInWords) {
 /// Every extreme here can be fitted, if not well: a refusal would be a fault.
 void expectFinite(const Eigen::MatrixXd& samples, const Eigen::MatrixXd& targets, const RbfOptions& options,
                   const std::string& what) {
-  const std::string method = name(options.solver) + ", " + name(options.scaling);
+  const std::string how = name(options.method) + ", " + name(options.scaling);
   try {
     const RbfFit fit = trainRbf(samples, targets, options);
-    EXPECT_TRUE(fit.network.predict(samples).allFinite()) << what << ", " << method;
-    EXPECT_TRUE(fit.report.leaveOneOut.allFinite()) << what << ", " << method;
+    EXPECT_TRUE(fit.network.predict(samples).allFinite()) << what << ", " << how;
+    EXPECT_TRUE(fit.report.leaveOneOut.allFinite()) << what << ", " << how;
   } catch (const NetworkError& refusal) {
-    ADD_FAILURE() << what << ", " << method << ": " << refusal.what();
+    ADD_FAILURE() << what << ", " << how << ": " << refusal.what();
   }
 }
 
 std::vector<RbfOptions> allKinds() {
   std::vector<RbfOptions> kinds;
-  for (const LeastSquaresMethod solver : {LeastSquaresMethod::PivotedQr, LeastSquaresMethod::Cholesky,
+  for (const LeastSquaresMethod method : {LeastSquaresMethod::PivotedQr, LeastSquaresMethod::Cholesky,
                                           LeastSquaresMethod::TruncatedSvd, LeastSquaresMethod::Recursive})
     for (const Tail tail : {Tail::None, Tail::Bias, Tail::Linear, Tail::LinearPenalised})
       for (const Scaling scaling : {Scaling::Raw, Scaling::MinMax, Scaling::ZScore, Scaling::Global}) {
         RbfOptions options;
-        options.solver = solver;
+        options.method = method;
         options.tail = tail;
         options.scaling = scaling;
         kinds.push_back(options);
@@ -166,7 +166,7 @@ TEST(RbfTrainer, AutomaticSpreadCopesWithTheExtremesToo) {
     if (noise > 0) {
       options.ridge = {};
       options.tail = Tail::LinearPenalised;
-      options.solver = LeastSquaresMethod::Cholesky;
+      options.method = LeastSquaresMethod::Cholesky;
     }
     for (const int count : {1, 2, 3, 24})
       expectFinite(set.samples.leftCols(count), set.targets.leftCols(count), options, "few samples");
@@ -218,12 +218,12 @@ TEST(RbfTrainer, EachLongStepOfANoisyFitStopsWhenAskedTo) {
   EXPECT_THROW(chooseSpread(set.samples, set.targets, options, stop), Cancelled);
   EXPECT_THROW(lapack::gram(set.samples.transpose(), stop), Cancelled);
   EXPECT_THROW(lapack::svdOfGram(set.samples.transpose(), stop), Cancelled);
-  for (const LeastSquaresMethod solver : {LeastSquaresMethod::PivotedQr, LeastSquaresMethod::Cholesky}) {
-    options.solver = solver;
+  for (const LeastSquaresMethod method : {LeastSquaresMethod::PivotedQr, LeastSquaresMethod::Cholesky}) {
+    options.method = method;
     const auto problem = rbfSystem(set.samples, set.targets, options, 10);
     EXPECT_THROW(problem->leaveOneOut(1, {1e-6, 1e-3}, stop), Cancelled);
     EXPECT_THROW(problem->solve(1, 1e-6, stop), Cancelled);
-    EXPECT_THROW(solveLeastSquares(set.samples.transpose(), set.targets.transpose(), solver, 1e-6, 1e-15, 1, stop),
+    EXPECT_THROW(solveLeastSquares(set.samples.transpose(), set.targets.transpose(), method, 1e-6, 1e-15, 1, stop),
                  Cancelled);
     EXPECT_TRUE(problem->solve(1, 1e-6, {}).weights.allFinite()); // the same work, not asked to stop
   }
@@ -249,7 +249,7 @@ TEST(LinearSolve, ASemidefiniteSystemOfLowRankIsSolvedInItsRange) {
   EXPECT_FALSE(solution.warnings.empty());
 }
 
-/// Inputs of which a small direction tells what a large one does not; noise on all.
+/// Inputs of which a small direction holds what a large one does not; noise on all.
 test::Touches hiddenDirection(int count, std::uint64_t seed) {
   RandomNumbers random(seed);
   test::Touches set{Eigen::MatrixXd(8, count), Eigen::MatrixXd(1, count), Eigen::VectorXi::Zero(count)};
@@ -261,13 +261,13 @@ test::Touches hiddenDirection(int count, std::uint64_t seed) {
   return set;
 }
 
-TEST(RbfTrainer, WhiteningFindsWhatASmallDirectionTellsUnderNoise) {
+TEST(RbfTrainer, WhiteningFindsWhatASmallDirectionHoldsUnderNoise) {
   const test::Touches training = hiddenDirection(300, 1), fresh = hiddenDirection(300, 2);
   RbfOptions options;
   options.relativeInputNoise = 2e-6;
   options.ridge = {};
   options.tail = Tail::LinearPenalised;
-  options.solver = LeastSquaresMethod::Cholesky;
+  options.method = LeastSquaresMethod::Cholesky;
   const auto error = [&](Scaling scaling) {
     options.scaling = scaling;
     const RbfNetwork network = trainRbf(training.samples, training.targets, options).network;
@@ -284,7 +284,7 @@ TEST(RbfTrainer, GivesTheSameBytesAtAnyNumberOfThreads) {
     options.relativeInputNoise = noise;
     options.scaling = noise > 0 ? Scaling::Whiten : Scaling::Global;
     if (noise > 0)
-      options.ridge = {}, options.tail = Tail::LinearPenalised, options.solver = LeastSquaresMethod::Cholesky;
+      options.ridge = {}, options.tail = Tail::LinearPenalised, options.method = LeastSquaresMethod::Cholesky;
     options.threads = 1;
     const RbfFit one = trainRbf(set.samples, set.targets, options);
     options.threads = 3;

@@ -242,7 +242,7 @@ void NetworkPanel::tell(const QString& what) {
   samples_.seed = static_cast<std::uint64_t>(seed_->value());
   network_.input = input_->currentIndex() == 0 ? InputKind::Displacement : InputKind::Resistance;
   network_.mode = mode_->currentIndex() == 0 ? DecoderMode::Default : DecoderMode::Paper;
-  network_.decoder = decoderKindNamed(decoder_->currentText().toStdString());
+  network_.decoder = kDecoderKinds.value(decoder_->currentText().toStdString());
   network_.rows = rows_->text().trimmed().toStdString();
   network_.centers = centers_->value();
   network_.noise = noise_->value() / 100;

@@ -92,9 +92,9 @@ NetworkSettings networkOf(const Place& place) {
   QStringList decoders;
   for (const DecoderKind kind : allDecoderKinds()) decoders << QString::fromStdString(name(kind));
   NetworkSettings network;
-  network.input = inputKindNamed(place.word("input", {"displacement", "resistance"}).toStdString());
-  network.mode = decoderModeNamed(place.word("mode", {"default", "paper"}).toStdString());
-  network.decoder = decoderKindNamed(place.word("decoder", decoders).toStdString());
+  network.input = kInputKinds.value(place.word("input", {"displacement", "resistance"}).toStdString());
+  network.mode = kDecoderModes.value(place.word("mode", {"default", "paper"}).toStdString());
+  network.decoder = kDecoderKinds.value(place.word("decoder", decoders).toStdString());
   network.rows = place.word("rows").toStdString();
   network.automaticSpread = place.boolean("automatic_spread");
   network.spread = place.number("spread", 1e-6, 1e6);
@@ -262,7 +262,7 @@ Project projectOf(const Place& root, const QString& file) {
 
 } // namespace
 
-void saveProject(const std::filesystem::path& path, const Project& project) {
+QByteArray projectText(const Project& project) {
   const QByteArray design = QByteArray::fromStdString(toJson(project.design));
   const QJsonObject root{{kVersionKey, kVersion},
                          {"design", QJsonDocument::fromJson(design).object()},
@@ -273,11 +273,26 @@ void saveProject(const std::filesystem::path& path, const Project& project) {
                          {"network", networkJson(project.network)},
                          {"view", viewJson(project.view)},
                          {"live", liveJson(project.live)}};
+  return QJsonDocument(root).toJson();
+}
+
+void saveProject(const std::filesystem::path& path, const Project& project) {
   QSaveFile file(QString::fromStdString(path.string()));
-  const QByteArray text = QJsonDocument(root).toJson();
+  const QByteArray text = projectText(project);
   if (!file.open(QIODevice::WriteOnly) || file.write(text) != text.size() || !file.commit())
     throw Error(path.string() + ": cannot be written (" + file.errorString().toStdString() +
                 "); allowed is a file in a folder that exists and may be written to");
+}
+
+Project parseProject(const QByteArray& text, const QString& file, const Project& base) {
+  const QJsonObject root = parse(text, file);
+  if (root.contains(kVersionKey)) return projectOf(Place(root, file), file);
+  Project project = base;
+  project.design = parseDesign({text.data(), static_cast<std::size_t>(text.size())}, file.toStdString());
+  const std::vector<DesignFault> faults = check(project.design);
+  if (!faults.empty()) throw Error(file.toStdString() + ": " + faults[0].key + ": " + faults[0].sentence);
+  if (whyInvalid(project.load, project.design)) project.load = {{{0, {0, 0, -1}}}, {}};
+  return project;
 }
 
 Project loadProject(const std::filesystem::path& path, const Project& base) {
@@ -286,12 +301,7 @@ Project loadProject(const std::filesystem::path& path, const Project& base) {
   if (!file.open(QIODevice::ReadOnly))
     throw Error(path.string() + ": cannot be read (" + file.errorString().toStdString() +
                 "); allowed is a design or project file");
-  const QJsonObject root = parse(file.readAll(), name);
-  if (root.contains(kVersionKey)) return projectOf(Place(root, name), name);
-  Project project = base;
-  project.design = loadDesign(path);
-  if (whyInvalid(project.load, project.design)) project.load = {{{0, {0, 0, -1}}}, {}};
-  return project;
+  return parseProject(file.readAll(), name, base);
 }
 
 } // namespace palp

@@ -2,6 +2,9 @@
 
 #include "app/gui/project/Project.h"
 
+#include <QByteArray>
+#include <QString>
+
 #include <filesystem>
 
 namespace palp {
@@ -9,8 +12,14 @@ namespace palp {
 /// Written beside and renamed. Throws Error.
 void saveProject(const std::filesystem::path& path, const Project& project);
 
+/// The text of a project file.
+QByteArray projectText(const Project& project);
+
 /// A project file, or a design file: that one changes the design only and keeps the rest of `base`, less what cannot
 /// act on it. Reads strictly: throws Error with file, key, value and what is allowed.
 Project loadProject(const std::filesystem::path& path, const Project& base);
+
+/// The same from the file's text; `file` is the name that refusals show.
+Project parseProject(const QByteArray& text, const QString& file, const Project& base);
 
 } // namespace palp

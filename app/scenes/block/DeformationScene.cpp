@@ -20,21 +20,10 @@ namespace palp {
 
 namespace {
 
-struct QuantityTraits {
-  const char* name;
-  const char* unit;
-  ColorMap map;
-};
-
-const QuantityTraits& traits(Quantity quantity) {
-  static constexpr std::array<QuantityTraits, 7> all{{{"|u|", "mm", ColorMap::Viridis},
-                                                      {"ux", "mm", ColorMap::Diverging},
-                                                      {"uy", "mm", ColorMap::Diverging},
-                                                      {"uz", "mm", ColorMap::Diverging},
-                                                      {"pressure", "MPa", ColorMap::Diverging},
-                                                      {"J - 1", "", ColorMap::Diverging},
-                                                      {"von Mises stress", "MPa", ColorMap::Viridis}}};
-  return all[static_cast<std::size_t>(quantity)];
+/// Diverging where both signs mean something.
+ColorMap colorMap(Quantity quantity) {
+  const bool ofOneSign = quantity == Quantity::Displacement || quantity == Quantity::VonMises;
+  return ofOneSign ? ColorMap::Viridis : ColorMap::Diverging;
 }
 
 std::vector<double> listOf(const Eigen::VectorXd& values) {
@@ -54,21 +43,6 @@ std::string fractionText(double fraction) {
 }
 
 } // namespace
-
-const std::vector<Quantity>& allQuantities() {
-  static const std::vector<Quantity> all{Quantity::Displacement,  Quantity::DisplacementX, Quantity::DisplacementY,
-                                         Quantity::DisplacementZ, Quantity::Pressure,      Quantity::VolumeChange,
-                                         Quantity::VonMises};
-  return all;
-}
-
-std::string quantityName(Quantity quantity) {
-  return traits(quantity).name;
-}
-
-std::string quantityUnit(Quantity quantity) {
-  return traits(quantity).unit;
-}
 
 std::vector<double> quantityValues(Quantity quantity, const NodalFields& fields) {
   switch (quantity) {
@@ -91,7 +65,7 @@ std::vector<double> quantityValues(Quantity quantity, const NodalFields& fields)
 }
 
 std::array<double, 2> quantityRange(Quantity quantity, const std::vector<double>& values) {
-  const ColorScale scale = fittingScale(traits(quantity).map, values, {}, {});
+  const ColorScale scale = fittingScale(colorMap(quantity), values, {}, {});
   return {scale.low, scale.high};
 }
 
@@ -189,8 +163,8 @@ std::vector<std::string> overlayLines(const DeformationState& state, const Defor
 }
 
 ColorScale colorScale(const std::vector<double>& values, const DeformationOptions& options) {
-  ColorScale colors = fittingScale(traits(options.quantity).map, values, quantityName(options.quantity),
-                                   quantityUnit(options.quantity));
+  ColorScale colors =
+      fittingScale(colorMap(options.quantity), values, quantityName(options.quantity), quantityUnit(options.quantity));
   if (options.fixedRange) {
     colors.low = (*options.fixedRange)[0];
     colors.high = (*options.fixedRange)[1];

@@ -2,6 +2,7 @@
 
 #include "app/scenes/ColorScale.h"
 #include "app/scenes/block/ForceArrows.h"
+#include "app/scenes/block/Quantity.h"
 #include "model/LoadCase.h"
 #include "model/Mesh.h"
 #include "model/RowColumnResistance.h"
@@ -17,14 +18,6 @@ class vtkRenderer;
 
 namespace palp {
 
-/// What the block's surface is coloured by.
-enum class Quantity { Displacement, DisplacementX, DisplacementY, DisplacementZ, Pressure, VolumeChange, VonMises };
-
-/// All of them, in the order of a list to choose from.
-const std::vector<Quantity>& allQuantities();
-/// "|u|", "ux", ..., "J - 1", "von Mises stress", without the unit.
-std::string quantityName(Quantity quantity);
-std::string quantityUnit(Quantity quantity);
 /// The quantity at the nodes.
 std::vector<double> quantityValues(Quantity quantity, const NodalFields& fields);
 

@@ -11,29 +11,9 @@
 namespace palp {
 namespace {
 
-constexpr int mostCenters = 600;
-
-std::string name(CenterChoice choice) {
-  return choice == CenterChoice::Samples ? "samples" : choice == CenterChoice::KMeans ? "kmeans" : "random";
-}
-
-std::string name(Tail tail) {
-  switch (tail) {
-  case Tail::None:
-    return "none";
-  case Tail::Bias:
-    return "bias";
-  case Tail::Linear:
-    return "linear";
-  case Tail::LinearPenalised:
-    break;
-  }
-  return "penalised";
-}
-
 void chooseCenters(RbfOptions& result, const TrainOptions& options, Eigen::Index samples) {
   const bool paper = options.mode == DecoderMode::Paper;
-  const int wanted = options.centers.value_or(paper || samples <= mostCenters ? 0 : mostCenters);
+  const int wanted = options.centers.value_or(paper || samples <= kMostCenters ? 0 : kMostCenters);
   if (options.allCenters || (wanted == 0 && !options.centerChoice)) return;
   result.centers = options.centerChoice.value_or(paper ? CenterChoice::KMeans : CenterChoice::Random);
   result.centerCount = wanted;
@@ -62,7 +42,7 @@ RbfOptions rbfOptions(const TrainOptions& options, Eigen::Index samples) {
   result.spread = options.spread;
   result.convention = options.convention.value_or(SpreadConvention::Radbas);
   result.tail = options.tail.value_or(paper ? Tail::Bias : noisy ? Tail::LinearPenalised : Tail::Linear);
-  result.solver =
+  result.method =
       options.solver.value_or(!paper && noisy ? LeastSquaresMethod::Cholesky : LeastSquaresMethod::PivotedQr);
   result.ridge = options.ridge;
   if (!options.ridge && !noisy) result.ridge = 0.0;
@@ -79,11 +59,11 @@ std::string asCommand(const TrainOptions& options) {
   if (options.spread) text += " --spread " + palp::text(*options.spread);
   if (options.allCenters) text += " --centers all";
   if (options.centers) text += " --centers " + std::to_string(*options.centers);
-  if (options.centerChoice) text += " --centers-by " + name(*options.centerChoice);
+  if (options.centerChoice) text += " --centers-by " + kCenterChoices.name(*options.centerChoice);
   if (options.solver) text += " --solver " + name(*options.solver);
   if (options.ridge) text += " --ridge " + palp::text(*options.ridge);
   if (options.scaling) text += " --scaler " + name(*options.scaling);
-  if (options.tail) text += " --tail " + name(*options.tail);
+  if (options.tail) text += " --tail " + kTails.name(*options.tail);
   if (options.convention) text += " --convention " + name(*options.convention);
   if (options.noise > 0) text += " --noise " + palp::text(options.noise);
   if (options.forgetting != 1) text += " --forgetting " + palp::text(options.forgetting);

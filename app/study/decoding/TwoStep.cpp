@@ -187,7 +187,7 @@ TwoStepFit trainTwoStep(const SampleSet& samples, const SensorDesign* design, co
   step2.noise = 0; // the noise is in what step 1 gives
   RbfOptions rbf = rbfOptions(step2, samples.size());
   // What step 1 gives is never clean: its errors are to be averaged, not interpolated.
-  rbf.solver = options.solver.value_or(LeastSquaresMethod::Cholesky);
+  rbf.method = options.solver.value_or(LeastSquaresMethod::Cholesky);
   rbf.tail = options.tail.value_or(Tail::LinearPenalised);
   rbf.ridge = options.ridge;
   RbfFit force = trainRbf(seen_mm, samples.forces_N, rbf, stop);

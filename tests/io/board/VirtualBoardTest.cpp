@@ -77,7 +77,7 @@ TEST(Board, RefusesWhatIsNotAmongItsCapabilities) {
   EXPECT_FALSE(event.text.empty());
 }
 
-TEST(Board, TestPatternTellsRowAndColumn) {
+TEST(Board, TestPatternEncodesRowAndColumn) {
   BoardSettings settings = smallBoard();
   settings.configuration.mode = BoardMode::TestPattern;
   VirtualBoard board = boardWith(settings);

@@ -85,7 +85,7 @@ TEST(Lapack, SubtractProductIsAnUpdateInPlace) {
 }
 
 TEST(Lapack, GramHasBothTrianglesInBlocksOfRowsToo) {
-  for (const Eigen::Index rows : {Eigen::Index{5}, lapack::rowsAtOnce, 2 * lapack::rowsAtOnce + 17}) {
+  for (const Eigen::Index rows : {Eigen::Index{5}, lapack::kRowsAtOnce, 2 * lapack::kRowsAtOnce + 17}) {
     const Eigen::MatrixXd a = randomMatrix(rows, 6);
     EXPECT_LT(distance(lapack::gram(a), a.transpose() * a), 1e-15 * static_cast<double>(rows) * 100) << rows;
   }
@@ -214,7 +214,7 @@ TEST(Lapack, ThinSvdIsEigensForTallAndForWideMatrices) {
 }
 
 TEST(Lapack, SvdOfGramIsTheSvdOfATallMatrixWithoutItsSmallestValues) {
-  Eigen::MatrixXd a = randomMatrix(lapack::rowsAtOnce + 100, 6);
+  Eigen::MatrixXd a = randomMatrix(lapack::kRowsAtOnce + 100, 6);
   a.col(5) = a.col(0) + 1e-9 * a.col(5); // below 1e-7 of the largest
   const lapack::ThinSvd ours = lapack::svdOfGram(a);
   const Eigen::JacobiSVD<Eigen::MatrixXd> reference(a);

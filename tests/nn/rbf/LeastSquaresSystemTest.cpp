@@ -38,7 +38,7 @@ RbfOptions optionsOf(const Case& one) {
   options.centerCount = 10;
   options.tail = one.tail;
   options.tailVariance = kTailVariance;
-  options.solver = one.method;
+  options.method = one.method;
   options.relativeInputNoise = one.noise;
   options.noiseCopies = 3;
   return options;

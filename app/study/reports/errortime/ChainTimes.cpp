@@ -44,12 +44,12 @@ std::vector<Way> ways(const TrainOptions& base, Eigen::Index samples) {
     result.push_back({"rbf, " + std::to_string(centers) + " centres", options});
   }
   if (base.noise > 0) return result;
-  for (const LeastSquaresMethod solver :
+  for (const LeastSquaresMethod method :
        {LeastSquaresMethod::Cholesky, LeastSquaresMethod::TruncatedSvd, LeastSquaresMethod::Recursive}) {
     TrainOptions options = base;
-    options.solver = solver;
+    options.solver = method;
     options.spread = 10;
-    result.push_back({"rbf, " + name(solver) + ", spread 10", options});
+    result.push_back({"rbf, " + name(method) + ", spread 10", options});
   }
   return result;
 }

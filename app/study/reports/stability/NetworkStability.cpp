@@ -154,12 +154,12 @@ void addNetworkCases(StabilityCases& cases, const ReportRequest& request, StageL
       options.ridge = ridge;
       train(row, data, options, cases.stop());
     });
-  for (const LeastSquaresMethod solver : {LeastSquaresMethod::PivotedQr, LeastSquaresMethod::Cholesky,
+  for (const LeastSquaresMethod method : {LeastSquaresMethod::PivotedQr, LeastSquaresMethod::Cholesky,
                                           LeastSquaresMethod::TruncatedSvd, LeastSquaresMethod::Recursive})
-    cases.add("network: solver", name(solver) + ", spread 10", [&](StabilityRow& row) {
+    cases.add("network: solver", name(method) + ", spread 10", [&](StabilityRow& row) {
       RbfOptions options;
       options.spread = 10;
-      options.solver = solver;
+      options.method = method;
       options.tail = Tail::Bias;
       train(row, data, options, cases.stop());
     });

@@ -44,6 +44,15 @@ protected:
   QTemporaryDir folder_;
 };
 
+TEST_F(ProjectFile, TheFuzzersSeedsAreProjectsAndDesigns) {
+  int seeds = 0;
+  for (const auto& file : std::filesystem::directory_iterator(PALP_SOURCE_DIR "/tests/fuzz/projects")) {
+    EXPECT_NO_THROW(loadProject(file.path(), exampleProject())) << file.path();
+    ++seeds;
+  }
+  EXPECT_EQ(seeds, 3);
+}
+
 TEST_F(ProjectFile, ReadsBackEverythingThatWasSet) {
   Project project = exampleProject();
   project.design.material.poissonRatio = 0.4999;
