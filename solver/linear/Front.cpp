@@ -71,6 +71,8 @@ std::size_t UpdateMatrix::start(int j) const {
   return before + (j - block * tile) * (size - block * tile) - block * tile;
 }
 
+// Right-looking, a tile of columns at a time: L11 of the tile by dpotrf, the rows below it by dtrsm, and what the tile
+// takes from the panel's remaining columns by dsyrk and dgemm; U after the last tile.
 FrontOutcome factoriseFront(double* panel, int height, int width, UpdateMatrix& update, const TaskRunner& run) {
   for (int k = 0; k < width; k += tile) {
     const int depth = std::min(tile, width - k), below = height - k - depth;
