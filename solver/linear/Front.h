@@ -2,7 +2,9 @@
 
 #include "solver/element/LaneVector.h"
 
+#include <cstddef>
 #include <functional>
+#include <vector>
 
 namespace palp {
 
@@ -21,16 +23,23 @@ public:
 
   [[nodiscard]] int size() const { return size_; }
   /// Column j, to be indexed by the triangle's rows; the rows above its block are not there.
-  [[nodiscard]] double* column(int j) { return values_.data() + start(j); }
-  [[nodiscard]] const double* column(int j) const { return values_.data() + start(j); }
+  [[nodiscard]] double* column(int j) { return blocks_[j / frontTile].data() + offset(j); }
+  [[nodiscard]] const double* column(int j) const { return blocks_[j / frontTile].data() + offset(j); }
   /// From one column of j's block to the next.
   [[nodiscard]] int stride(int j) const { return size_ - j / frontTile * frontTile; }
 
+  /// Gives back the memory of the blocks whose columns all come before column j: they are not to be read any more.
+  void forgetBefore(int j);
+
 private:
-  [[nodiscard]] std::size_t start(int j) const;
+  /// Of column j's row 0 (which is not there) in its block.
+  [[nodiscard]] std::ptrdiff_t offset(int j) const {
+    const int first = j / frontTile * frontTile;
+    return std::ptrdiff_t(j - first) * (size_ - first) - first;
+  }
 
   int size_ = 0;
-  UnsetArray<double> values_;
+  std::vector<UnsetArray<double>> blocks_; ///< of columns
 };
 
 enum class FrontOutcome { Done, NotPositiveDefinite, Stopped };

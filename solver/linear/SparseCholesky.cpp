@@ -242,9 +242,10 @@ public:
     std::vector<std::vector<Run>> runs;
     for (int child : children) {
       runs.push_back(runsInParent(tree_, child));
+      const std::size_t within = runsWithin(runs.back(), width);
       extendAdd(
-          updates_[child], runs.back(), 0, runsWithin(runs.back(), width),
-          [&](int c) { return panel + std::size_t(c) * height; }, 0);
+          updates_[child], runs.back(), 0, within, [&](int c) { return panel + std::size_t(c) * height; }, 0);
+      updates_[child].forgetBefore(within < runs.back().size() ? runs.back()[within].from : updates_[child].size());
     }
     UpdateMatrix update(tree_.below(s));
     FrontOutcome outcome = factoriseFront(panel, height, width, update, run);
