@@ -14,7 +14,7 @@ Eigen::MatrixXd elementUnknowns(const Discretisation& mesh, const LaneVector& un
   Eigen::MatrixXd x(mesh.unknowns(), mesh.elements());
   for (int e = 0; e < mesh.elements(); ++e)
     for (int k = 0; k < mesh.unknowns(); ++k)
-      x(k, e) = unknowns[(std::size_t(e / lanes) * mesh.unknowns() + k) * lanes + e % lanes];
+      x(k, e) = unknowns[laneIndex(e, mesh.unknowns(), k)];
   return x;
 }
 

@@ -56,7 +56,7 @@ void Assembler::findPattern() {
     nodeOfGroup_.push_back(node);
     pattern->groupStart.push_back(pattern->groupStart.back() + free);
   }
-  pattern->groupPlaces = mesh_->places_mm()(Eigen::all, nodeOfGroup_);
+  pattern->groupPositions_mm = mesh_->positions_mm()(Eigen::all, nodeOfGroup_);
   const auto groupSize = [&](int g) { return pattern->groupStart[g + 1] - pattern->groupStart[g]; };
   rowOffset_.assign(std::size_t(mesh_->elements()) * nodesAnElement * nodesAnElement, -1);
   pattern->groupColumns = {0};
@@ -191,8 +191,7 @@ Eigen::VectorXd Assembler::sum(const LaneVector& forces, int threads) const {
     for (int node = begin; node < end; ++node)
       for (int k = aroundStart_[node]; k < aroundStart_[node + 1]; ++k) {
         const int element = around_[k] / nodesAnElement, n = around_[k] % nodesAnElement;
-        const double* f = forces.data() + (element / lanes) * d * lanes + element % lanes;
-        for (int c = 0; c < 3; ++c) total(3 * node + c) += f[lanes * (3 * n + c)];
+        for (int c = 0; c < 3; ++c) total(3 * node + c) += forces[laneIndex(element, d, 3 * n + c)];
       }
   });
   return total;
@@ -203,7 +202,7 @@ double Assembler::localNorm(const ElementForces& forces) const {
   double squares = 0;
   for (int e = 0; e < mesh_->elements(); ++e)
     for (int k = 0; k < own; ++k) {
-      const double r = forces.local[(std::size_t(e / lanes) * own + k) * lanes + e % lanes];
+      const double r = forces.local[laneIndex(e, own, k)];
       const double force = k < bubbles ? r : volumeForce_[e] * r;
       squares += force * force;
     }

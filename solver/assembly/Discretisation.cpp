@@ -14,7 +14,7 @@ FixedComponents clampedBottom(const Mesh& mesh) {
 
 Discretisation::Discretisation(const Mesh& mesh, const FixedComponents& fixed)
     : kernels_(&elementKernels(mesh.shape)), nodes_(mesh.nodeCount()), elements_(mesh.elementCount()),
-      places_mm_(mesh.nodes_mm), freeIndex_(fixed.size(), -1),
+      positions_mm_(mesh.nodes_mm), freeIndex_(fixed.size(), -1),
       elementNodes_(mesh.elements.data(), mesh.elements.data() + mesh.elements.size()),
       geometry_(std::size_t(blocks()) * kernels_->geometrySize * lanes) {
   for (std::size_t i = 0; i < fixed.size(); ++i)
@@ -26,10 +26,10 @@ Discretisation::Discretisation(const Mesh& mesh, const FixedComponents& fixed)
 }
 
 double Discretisation::volume(int element) const {
-  const double* g = geometry(element / lanes) + element % lanes;
-  if (kernels_->nodes == 10) return g[12 * lanes];
+  const auto number = [&](int item) { return geometry_[laneIndex(element, kernels_->geometrySize, item)]; };
+  if (kernels_->nodes == 10) return number(12); // behind 4 gradients
   double sum = 0;
-  for (int q = 0; q < 8; ++q) sum += g[(25 * q + 24) * lanes];
+  for (int q = 0; q < 8; ++q) sum += number(25 * q + 24); // weights, each behind 8 gradients
   return sum;
 }
 

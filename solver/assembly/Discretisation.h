@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <vector>
 
 namespace palp {
@@ -39,7 +40,7 @@ public:
   [[nodiscard]] int unknowns() const { return kernels_->unknowns; }
   /// Number among the free components, -1 where prescribed.
   [[nodiscard]] int freeIndex(int component) const { return freeIndex_[component]; }
-  [[nodiscard]] const Eigen::Matrix3Xd& places_mm() const { return places_mm_; } ///< of the nodes, at rest
+  [[nodiscard]] const Eigen::Matrix3Xd& positions_mm() const { return positions_mm_; } ///< of the nodes, at rest
   [[nodiscard]] int node(int element, int n) const { return elementNodes_[element * kernels_->nodes + n]; }
   /// [geometrySize][8]
   [[nodiscard]] const double* geometry(int block) const {
@@ -60,7 +61,7 @@ public:
 private:
   const ElementKernels* kernels_;
   int nodes_ = 0, elements_ = 0, dof_ = 0;
-  Eigen::Matrix3Xd places_mm_;
+  Eigen::Matrix3Xd positions_mm_;
   std::vector<int> freeIndex_;
   std::vector<int> elementNodes_;
   LaneVector geometry_;

@@ -1,6 +1,7 @@
 #include "solver/batch/BatchEngine.h"
 
 #include "model/base/Parallel.h"
+#include "solver/batch/ProgressRelay.h"
 
 #include <algorithm>
 #include <map>
@@ -15,22 +16,36 @@ constexpr double fitShare = 10; // of the tolerance, for the predictors' solves:
 constexpr double slowestContraction = 0.8; // above it full Newton is the better way
 constexpr double cautionary = 1.5;         // on measured contractions
 
-/// Follows the change of each lane and tells when its error, by the geometric series, is below the tolerance.
+/// Follows the change c of each lane and says when its error is below the tolerance: what is left of a geometric series
+/// of contraction q after a change c is c q / (1 - q).
 class LaneWatch {
 public:
-  LaneWatch(double tolerance, const std::array<double, batchLanes>& assumedContraction)
-      : tolerance_(tolerance), contraction_(assumedContraction) {}
+  explicit LaneWatch(double tolerance) : tolerance_(tolerance) {}
 
   std::array<bool, batchLanes> active{}, failed{};
   std::array<double, batchLanes> change{};
 
+  /// A lane begins with the contraction that is assumed until it can be measured.
+  void begin(int lane, double assumedContraction) {
+    active[lane] = true;
+    failed[lane] = false;
+    iteration_[lane] = 0;
+    contraction_[lane] = assumedContraction;
+  }
   [[nodiscard]] bool anyActive() const { return std::find(active.begin(), active.end(), true) != active.end(); }
+  [[nodiscard]] bool anyActive(int block) const {
+    const auto* first = active.data() + block * lanes;
+    return std::find(first, first + lanes, true) != first + lanes;
+  }
+  /// Of the last iteration judged: measured, with caution, after the first.
   [[nodiscard]] double contraction(int lane) const { return contraction_[lane]; }
 
-  void judge(int iteration) {
+  /// Judges one iteration of the active lanes.
+  void judge() {
     for (int lane = 0; lane < batchLanes; ++lane) {
       if (!active[lane]) continue;
       const double c = change[lane];
+      const int iteration = iteration_[lane]++;
       if (iteration > 0 && previous_[lane] > 0) contraction_[lane] = cautionary * c / previous_[lane];
       const bool hopeless = iteration > 2 && contraction_[lane] > cautionary * slowestContraction;
       if (c < 0 || hopeless || iteration + 1 == mostIterations) {
@@ -46,7 +61,8 @@ public:
 
 private:
   double tolerance_;
-  std::array<double, batchLanes> contraction_, previous_{};
+  std::array<int, batchLanes> iteration_{};
+  std::array<double, batchLanes> contraction_{}, previous_{};
 };
 
 } // namespace
@@ -79,23 +95,21 @@ BatchEngine::Job BatchEngine::job(const LoadCase& load, std::size_t index) const
   return job;
 }
 
-std::unique_ptr<LoadBatch> BatchEngine::borrowGroup() {
-  std::unique_ptr<LoadBatch> group;
+std::unique_ptr<LoadBatch> BatchEngine::borrowBatch() {
   {
     const std::lock_guard lock(mutex_);
     if (!idle_.empty()) {
-      group = std::move(idle_.back());
+      std::unique_ptr<LoadBatch> batch = std::move(idle_.back());
       idle_.pop_back();
+      return batch;
     }
   }
-  if (!group) group = std::make_unique<LoadBatch>(model_, problem_.parts().upperProbe());
-  group->reset();
-  return group;
+  return std::make_unique<LoadBatch>(model_, problem_.parts().upperProbe());
 }
 
-void BatchEngine::giveBack(std::unique_ptr<LoadBatch> group) {
+void BatchEngine::giveBack(std::unique_ptr<LoadBatch> batch) {
   const std::lock_guard lock(mutex_);
-  idle_.push_back(std::move(group));
+  idle_.push_back(std::move(batch));
 }
 
 /// False: stopped.
@@ -116,21 +130,20 @@ bool BatchEngine::makePredictors(const std::vector<Job>& jobs, const std::stop_t
 
 /// Solves 32 covering forces from rest; none where one of them does not converge.
 std::optional<AreaPredictor> BatchEngine::fitPredictor(int area, const std::stop_token& stop) {
-  std::unique_ptr<LoadBatch> group = borrowGroup();
+  std::unique_ptr<LoadBatch> batch = borrowBatch();
+  for (int b = 0; b < LoadBatch::blocks; ++b) batch->reset(b);
   std::vector<Eigen::Vector3d> forces;
-  std::array<double, batchLanes> unknown;
-  unknown.fill(1);
-  LaneWatch watch(predictorTolerance_, unknown);
+  LaneWatch watch(predictorTolerance_);
   for (int lane = 0; lane < batchLanes; ++lane) {
     forces.push_back(coveringForce(problem_.design().forceRange, lane));
-    group->addForce(lane, {&areaShares_[area], forces.back()});
+    batch->addForce(lane, {&areaShares_[area], forces.back()});
+    watch.begin(lane, 1);
   }
-  watch.active.fill(true);
   std::array<double, batchLanes> worst{};
   for (int i = 0; watch.anyActive() && !stop.stop_requested(); ++i) {
-    group->iterate(watch.active, watch.change, stop);
+    batch->iterate(watch.active, watch.change, stop);
     const auto wasActive = watch.active;
-    watch.judge(i);
+    watch.judge();
     for (int lane = 0; lane < batchLanes; ++lane)
       if (i > 0 && wasActive[lane]) worst[lane] = std::max(worst[lane], watch.contraction(lane));
   }
@@ -138,15 +151,15 @@ std::optional<AreaPredictor> BatchEngine::fitPredictor(int area, const std::stop
   std::optional<AreaPredictor> predictor;
   const bool converged = std::find(watch.failed.begin(), watch.failed.end(), true) == watch.failed.end();
   if (converged && !stop.stop_requested()) {
-    predictor = fitted(*group, forces);
+    predictor = fitted(*batch, forces);
     predictor->contraction = *std::max_element(worst.begin(), worst.end());
   }
-  giveBack(std::move(group));
+  giveBack(std::move(batch));
   return predictor;
 }
 
 /// Coefficients by least squares: for each number of the state the row of 32 answers times the fit's matrix.
-AreaPredictor BatchEngine::fitted(const LoadBatch& group, const std::vector<Eigen::Vector3d>& forces) const {
+AreaPredictor BatchEngine::fitted(const LoadBatch& batch, const std::vector<Eigen::Vector3d>& forces) const {
   const Eigen::MatrixXd fit = polynomial_.fit(forces); // points x terms
   AreaPredictor predictor;
   const int own = model_.mesh().unknowns(), rows = 3 * model_.mesh().nodes(), ownRows = own * model_.mesh().elements();
@@ -155,16 +168,14 @@ AreaPredictor BatchEngine::fitted(const LoadBatch& group, const std::vector<Eige
   LaneVector answers(std::size_t(ownRows) * batchLanes);
   for (int row = 0; row < ownRows; ++row)
     for (int lane = 0; lane < batchLanes; ++lane)
-      answers[std::size_t(row) * batchLanes + lane] =
-          group.unknowns()[((std::size_t(row / own) * LoadBatch::blocks + lane / lanes) * own + row % own) * lanes +
-                           lane % lanes];
+      answers[std::size_t(row) * batchLanes + lane] = batch.unknown(row / own, row % own, lane);
   for (int first = 0; first < terms_; first += lanes) {
     LaneVector matrix(batchLanes * lanes);
     for (int lane = 0; lane < batchLanes; ++lane)
       for (int t = first; t < std::min(first + lanes, polynomial_.terms()); ++t)
         matrix[lane * lanes + t - first] = fit(lane, t);
     const auto& kernels = laneKernels();
-    kernels.addPolynomials(group.displacements().data(), batchLanes, matrix.data(), rows,
+    kernels.addPolynomials(batch.displacements().data(), batchLanes, matrix.data(), rows,
                            predictor.displacements.data() + first, terms_);
     kernels.addPolynomials(answers.data(), batchLanes, matrix.data(), ownRows, predictor.unknowns.data() + first,
                            terms_);
@@ -172,8 +183,15 @@ AreaPredictor BatchEngine::fitted(const LoadBatch& group, const std::vector<Eige
   return predictor;
 }
 
-/// Blocks of loads with the same predictors, in the loads' order.
+/// Blocks of loads with the same predictors, the smallest forces first: a predictor's error relative to the answer
+/// falls with the force, so that the loads of a block end their iterations together.
 std::vector<BatchEngine::Block> BatchEngine::blocksOf(std::vector<Job> jobs) const {
+  const auto force_N = [](const Job& job) {
+    double sum = 0;
+    for (const AreaLoad& area : job.areas) sum += area.force_N.norm();
+    return sum;
+  };
+  std::stable_sort(jobs.begin(), jobs.end(), [&](const Job& a, const Job& b) { return force_N(a) < force_N(b); });
   std::map<std::vector<int>, std::vector<Block>> byPredictors;
   for (Job& job : jobs) {
     std::erase_if(job.predicted, [&](int area) { return !predictors_[area]; });
@@ -187,12 +205,13 @@ std::vector<BatchEngine::Block> BatchEngine::blocksOf(std::vector<Job> jobs) con
 }
 
 /// Loads of a block and where its iteration starts: the predictors of its areas, superposed.
-void BatchEngine::start(LoadBatch& group, int block, const Block& jobs) const {
+void BatchEngine::start(LoadBatch& batch, int block, const Block& jobs) const {
+  batch.reset(block);
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     const int lane = block * lanes + static_cast<int>(i);
-    for (const AreaLoad& area : jobs[i].areas) group.addForce(lane, {&areaShares_[area.area], area.force_N});
+    for (const AreaLoad& area : jobs[i].areas) batch.addForce(lane, {&areaShares_[area.area], area.force_N});
     for (std::size_t p = 0; p < jobs[i].patchShares.size(); ++p)
-      group.addForce(lane, {&jobs[i].patchShares[p], jobs[i].load->patches[p].force_N});
+      batch.addForce(lane, {&jobs[i].patchShares[p], jobs[i].load->patches[p].force_N});
   }
   for (int area : jobs.front().predicted) {
     LaneVector monomials(std::size_t(terms_) * lanes);
@@ -202,40 +221,46 @@ void BatchEngine::start(LoadBatch& group, int block, const Block& jobs) const {
           const Eigen::VectorXd values = polynomial_.monomials(load.force_N);
           for (Eigen::Index t = 0; t < values.size(); ++t) monomials[t * lanes + i] = values(t);
         }
-    group.addPolynomials(block, predictors_[area]->displacements, predictors_[area]->unknowns, terms_,
+    batch.addPolynomials(block, predictors_[area]->displacements, predictors_[area]->unknowns, terms_,
                          monomials.data());
   }
 }
 
-void BatchEngine::solveGroup(std::span<const Block> blocks, double tolerance, std::vector<Answer>& answers,
-                             const std::stop_token& stop) {
-  std::unique_ptr<LoadBatch> group = borrowGroup();
-  std::array<double, batchLanes> contraction;
-  contraction.fill(1);
-  std::array<bool, batchLanes> used{};
-  for (std::size_t b = 0; b < blocks.size(); ++b) {
-    start(*group, static_cast<int>(b), blocks[b]);
-    for (std::size_t i = 0; i < blocks[b].size(); ++i) {
-      const Job& job = blocks[b][i];
-      used[b * lanes + i] = true;
-      if (job.predicted.size() == 1 && job.areas.size() == 1 && job.patchShares.empty())
-        contraction[b * lanes + i] = predictors_[job.predicted.front()]->contraction;
+/// That of its area's predictor where it says all about the load; 1: nothing is known.
+double BatchEngine::assumedContraction(const Job& job) const {
+  const bool predicted = job.predicted.size() == 1 && job.areas.size() == 1 && job.patchShares.empty();
+  return predicted ? predictors_[job.predicted.front()]->contraction : 1;
+}
+
+/// Takes blocks (take() gives the next, or null) and gives back each with its lanes' answers. A block whose loads have
+/// all been iterated makes room for the next, so that the substitutions' lanes stay full.
+template <class Take, class Give>
+void BatchEngine::solveBlocks(double tolerance, const Take& take, const Give& give, const std::stop_token& stop) {
+  std::unique_ptr<LoadBatch> batch = borrowBatch();
+  LaneWatch watch(tolerance);
+  std::array<const Block*, LoadBatch::blocks> inWork{};
+  while (!stop.stop_requested()) {
+    for (int b = 0; b < LoadBatch::blocks; ++b) {
+      if (inWork[b] || !(inWork[b] = take())) continue;
+      start(*batch, b, *inWork[b]);
+      for (std::size_t i = 0; i < inWork[b]->size(); ++i)
+        watch.begin(b * lanes + static_cast<int>(i), assumedContraction((*inWork[b])[i]));
+    }
+    if (!watch.anyActive()) break;
+    batch->iterate(watch.active, watch.change, stop);
+    if (stop.stop_requested()) break; // the iteration may be unfinished
+    watch.judge();
+    for (int b = 0; b < LoadBatch::blocks; ++b) {
+      if (!inWork[b] || watch.anyActive(b)) continue;
+      std::vector<ElectrodeDisplacements> found = batch->electrodes(b, problem_.parts().lowerProbe());
+      std::vector<Answer> answers(inWork[b]->size());
+      for (std::size_t i = 0; i < answers.size(); ++i)
+        if (!watch.failed[b * lanes + i]) answers[i] = std::move(found[i]);
+      give(*inWork[b], std::move(answers));
+      inWork[b] = nullptr;
     }
   }
-  LaneWatch watch(tolerance, contraction);
-  watch.active = used;
-  for (int i = 0; watch.anyActive() && !stop.stop_requested(); ++i) {
-    group->iterate(watch.active, watch.change, stop);
-    watch.judge(i);
-  }
-  if (!stop.stop_requested()) {
-    std::vector<ElectrodeDisplacements> all = group->electrodes(problem_.parts().lowerProbe());
-    for (std::size_t b = 0; b < blocks.size(); ++b)
-      for (std::size_t i = 0; i < blocks[b].size(); ++i)
-        if (const std::size_t lane = b * lanes + i; !watch.failed[lane])
-          answers[blocks[b][i].index] = std::move(all[lane]);
-  }
-  giveBack(std::move(group));
+  giveBack(std::move(batch));
 }
 
 std::vector<BatchEngine::Answer> BatchEngine::solve(std::span<const LoadCase> loads, double tolerance,
@@ -246,15 +271,24 @@ std::vector<BatchEngine::Answer> BatchEngine::solve(std::span<const LoadCase> lo
   if (!makePredictors(jobs, stop)) return {};
   const std::vector<Block> blocks = blocksOf(std::move(jobs));
   std::vector<Answer> answers(loads.size());
-  std::mutex doneMutex;
-  forChunks(static_cast<int>(blocks.size()), LoadBatch::blocks, threads_, [&](int begin, int end) {
-    if (stop.stop_requested()) return;
-    const std::span<const Block> group(blocks.data() + begin, blocks.data() + end);
-    solveGroup(group, tolerance, answers, stop);
-    std::size_t count = 0;
-    for (const Block& block : group) count += block.size();
-    const std::lock_guard lock(doneMutex);
-    if (done && !stop.stop_requested()) done(count);
+  ProgressRelay progress(done);
+  std::atomic<std::size_t> next{0};
+  const auto take = [&] {
+    const std::size_t i = next++;
+    return i < blocks.size() ? &blocks[i] : nullptr;
+  };
+  const auto give = [&](const Block& block, std::vector<Answer> found) {
+    for (std::size_t i = 0; i < block.size(); ++i) answers[block[i].index] = std::move(found[i]);
+    progress.add(block.size());
+  };
+  const auto batches = static_cast<int>((blocks.size() + LoadBatch::blocks - 1) / LoadBatch::blocks);
+  forChunks(std::min(batches, threadCount(threads_)), 1, threads_, [&](int, int) {
+    try {
+      solveBlocks(tolerance, take, give, stop);
+    } catch (...) {
+      next = blocks.size(); // the other threads need not go on
+      throw;
+    }
   });
   if (stop.stop_requested()) return {};
   solves_ += loads.size();

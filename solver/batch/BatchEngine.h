@@ -18,7 +18,7 @@ struct AreaPredictor {
   double contraction = 1;
 };
 
-/// Iterates loads in groups; the machinery of BatchSolver without its policy.
+/// Iterates loads in batches; the machinery of BatchSolver without its policy.
 class BatchEngine {
 public:
   /// `tolerance` is what the predictors are made for; a solve may ask for another.
@@ -46,13 +46,14 @@ private:
   [[nodiscard]] Job job(const LoadCase& load, std::size_t index) const;
   [[nodiscard]] bool makePredictors(const std::vector<Job>& jobs, const std::stop_token& stop);
   [[nodiscard]] std::optional<AreaPredictor> fitPredictor(int area, const std::stop_token& stop);
-  [[nodiscard]] AreaPredictor fitted(const LoadBatch& group, const std::vector<Eigen::Vector3d>& forces) const;
+  [[nodiscard]] AreaPredictor fitted(const LoadBatch& batch, const std::vector<Eigen::Vector3d>& forces) const;
   [[nodiscard]] std::vector<Block> blocksOf(std::vector<Job> jobs) const;
-  void solveGroup(std::span<const Block> blocks, double tolerance, std::vector<Answer>& answers,
-                  const std::stop_token& stop);
-  void start(LoadBatch& group, int block, const Block& jobs) const;
-  [[nodiscard]] std::unique_ptr<LoadBatch> borrowGroup();
-  void giveBack(std::unique_ptr<LoadBatch> group);
+  template <class Take, class Give>
+  void solveBlocks(double tolerance, const Take& take, const Give& give, const std::stop_token& stop);
+  void start(LoadBatch& batch, int block, const Block& jobs) const;
+  [[nodiscard]] double assumedContraction(const Job& job) const;
+  [[nodiscard]] std::unique_ptr<LoadBatch> borrowBatch();
+  void giveBack(std::unique_ptr<LoadBatch> batch);
 
   const HyperelasticProblem& problem_;
   std::shared_ptr<const InitialTangent> rest_;

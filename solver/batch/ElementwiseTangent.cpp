@@ -10,7 +10,7 @@ namespace {
 std::vector<double> byElement(const double* values, int elements, std::size_t size) {
   std::vector<double> out(elements * size);
   for (int e = 0; e < elements; ++e)
-    for (std::size_t i = 0; i < size; ++i) out[e * size + i] = values[(e / lanes * size + i) * lanes + e % lanes];
+    for (std::size_t i = 0; i < size; ++i) out[e * size + i] = values[laneIndex(e, size, i)];
   return out;
 }
 
@@ -24,12 +24,12 @@ ElementwiseTangent::ElementwiseTangent(const HyperelasticProblem::Parts& parts, 
       geometry_(byElement(mesh_.geometry(0), mesh_.elements(), geometrySize_)),
       elimination_(byElement(rest.tangents.elimination.data(), mesh_.elements(), eliminationSize_)),
       localInverse_(byElement(rest.tangents.localInverse.data(), mesh_.elements(), inverseSize_)),
-      places_(3 * std::size_t(mesh_.nodes()), -1) {
+      factorRows_(3 * std::size_t(mesh_.nodes()), -1) {
   const std::vector<int>& order = rest.factor.plan().tree().order;
-  std::vector<int> placeOfUnknown(order.size());
-  for (std::size_t p = 0; p < order.size(); ++p) placeOfUnknown[order[p]] = static_cast<int>(p);
-  for (std::size_t i = 0; i < places_.size(); ++i)
-    if (const int unknown = mesh_.freeIndex(static_cast<int>(i)); unknown >= 0) places_[i] = placeOfUnknown[unknown];
+  std::vector<int> rowOfUnknown(order.size());
+  for (std::size_t row = 0; row < order.size(); ++row) rowOfUnknown[order[row]] = static_cast<int>(row);
+  for (std::size_t i = 0; i < factorRows_.size(); ++i)
+    if (const int unknown = mesh_.freeIndex(static_cast<int>(i)); unknown >= 0) factorRows_[i] = rowOfUnknown[unknown];
 }
 
 } // namespace palp

@@ -4,10 +4,11 @@
 
 namespace palp {
 
-/// The tangent at rest laid out for many loads at once: element by element.
+/// The tangent at rest laid out for many loads at once: the numbers of one element stand together, where the assembler
+/// has those of eight elements side by side.
 class ElementwiseTangent {
 public:
-  /// Both are to outlive it.
+  /// Refers to both, which must outlive it.
   ElementwiseTangent(const HyperelasticProblem::Parts& parts, const InitialTangent& rest);
 
   [[nodiscard]] const Discretisation& mesh() const { return mesh_; }
@@ -15,9 +16,10 @@ public:
   [[nodiscard]] const double* geometry(int element) const { return item(geometry_, element, geometrySize_); }
   [[nodiscard]] const double* elimination(int element) const { return item(elimination_, element, eliminationSize_); }
   [[nodiscard]] const double* localInverse(int element) const { return item(localInverse_, element, inverseSize_); }
-  /// Place in the factor of each component (3 node + direction); -1 where it is prescribed.
-  [[nodiscard]] const std::vector<int>& places() const { return places_; }
-  [[nodiscard]] int placeCount() const { return mesh_.dof() + 1; } ///< the last one is the filling's
+  /// Row of the factor of each component (3 node + direction); -1 where it is prescribed.
+  [[nodiscard]] const std::vector<int>& factorRows() const { return factorRows_; }
+  /// Rows that a right side needs: one a free component, and one more that fills up the factor's blocks.
+  [[nodiscard]] int rightSideRows() const { return mesh_.dof() + 1; }
   [[nodiscard]] BlockedFactor factor() const { return factor_.blocks(); }
 
 private:
@@ -30,7 +32,7 @@ private:
   const SparseCholesky& factor_;
   std::size_t geometrySize_, eliminationSize_, inverseSize_;
   std::vector<double> geometry_, elimination_, localInverse_;
-  std::vector<int> places_;
+  std::vector<int> factorRows_;
 };
 
 } // namespace palp

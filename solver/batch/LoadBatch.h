@@ -15,16 +15,28 @@ struct LaneForce {
   Eigen::Vector3d force_N;
 };
 
-/// Up to 32 loads, one a lane, iterated together by modified Newton with the tangent at rest. Lanes do not mix: what
-/// comes out of one depends on its own load alone, to the last byte.
+/// Up to 32 loads, one a lane, iterated together by modified Newton with the tangent at rest:
+///
+///   r = f_ext - f_int(u, x), condensed;   K0 du = r;   dx = -Kxx^-1 r_x - W du;   u += du, x += dx,
+///
+/// where x are the elements' own unknowns and W eliminates them (ElementKernels.h). The 32 lanes are four blocks of 8:
+/// the elements' kernels take one block at a time, the substitutions all 32, and the factor is read once for all of
+/// them:
+///
+///   lane          0 .. 7    8 .. 15   16 .. 23  24 .. 31
+///   block         0         1         2         3           a block begins and ends for itself
+///   u, r          [3 nodes][32 lanes]                       for the substitutions
+///   x, local      [elements][4 blocks][unknowns][8 lanes]   for the elements
+///
+/// Lanes do not mix: what comes out of one depends on its own load alone, to the last byte.
 class LoadBatch {
 public:
   static constexpr int blocks = batchLanes / lanes;
 
   LoadBatch(const ElementwiseTangent& model, const PointProbe& upper);
 
-  /// All lanes at rest, without loads.
-  void reset();
+  /// A block's lanes at rest, without loads.
+  void reset(int block);
   void addForce(int lane, const LaneForce& force) { forces_[lane].push_back(force); }
   /// Adds polynomials' values to the displacements [3 nodes][terms] and the elements' unknowns
   /// [elements][unknowns][terms] of a block of 8 lanes; monomials [terms][8].
@@ -32,35 +44,34 @@ public:
                       int terms, const double* monomials);
 
   /// One iteration of the lanes that are active. `change` becomes the relative change of the upper electrodes'
-  /// displacements; negative where elements turned inside out or the lane is beyond hope.
+  /// displacements; negative where elements turned inside out or the numbers are not finite any more.
   /// Stopped on its way, it leaves the lanes unusable.
   void iterate(const std::array<bool, batchLanes>& active, std::array<double, batchLanes>& change,
                const std::stop_token& stop);
 
-  /// What the electrodes of all lanes feel.
-  [[nodiscard]] std::vector<ElectrodeDisplacements> electrodes(const PointProbe& lower) const;
-  /// The lane's state.
-  [[nodiscard]] ElementState state(int lane) const;
+  /// What the electrodes of a block's lanes feel.
+  [[nodiscard]] std::vector<ElectrodeDisplacements> electrodes(int block, const PointProbe& lower) const;
   [[nodiscard]] const LaneVector& displacements() const { return u_; } ///< [3 nodes][32]
-  [[nodiscard]] const LaneVector& unknowns() const { return x_; }      ///< [elements][blocks][unknowns][8]
+  /// The element's own unknown k.
+  [[nodiscard]] double unknown(int element, int k, int lane) const { return x_[unknownIndex(element, k, lane)]; }
 
 private:
   void evaluateResiduals(const std::array<bool, blocks>& live, const std::stop_token& stop);
   void solveDirections(const std::array<bool, batchLanes>& active, const std::stop_token& stop);
-  void update(const std::array<bool, blocks>& live, const std::stop_token& stop);
+  void updateUnknowns(const std::array<bool, blocks>& live, const std::stop_token& stop);
   [[nodiscard]] LaneVector displacementsAt(const PointProbe& probe) const; ///< [3 points][32]
   [[nodiscard]] LaneVector pressuresAt(const PointProbe& probe) const;     ///< [points][32], compression positive
-  [[nodiscard]] double unknown(int element, int k, int lane) const {
-    return x_[((std::size_t(element) * blocks + lane / lanes) * model_.mesh().unknowns() + k) * lanes + lane % lanes];
+  [[nodiscard]] std::size_t unknownIndex(int element, int k, int lane) const {
+    return laneIndex(std::size_t(element) * batchLanes + lane, model_.mesh().unknowns(), k);
   }
 
   const ElementwiseTangent& model_;
   const PointProbe& upper_;
   std::array<std::vector<LaneForce>, batchLanes> forces_;
-  LaneVector u_, r_;            ///< [3 nodes][32]
+  LaneVector u_, r_;            ///< [3 nodes][32]; r_ holds the directions after the substitutions
   LaneVector x_, local_;        ///< [elements][blocks][unknowns][8]
-  std::vector<float> solution_; ///< [places][32]
-  bool atRest_ = true;
+  std::vector<float> solution_; ///< [rows of the factor + 1][32]
+  std::array<bool, blocks> atRest_{};
   std::array<double, batchLanes> scale_{};
   std::array<double, batchLanes> smallestJ_{};
 };

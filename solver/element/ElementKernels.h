@@ -1,11 +1,19 @@
 #pragma once
 
+#include <cstddef>
+
 namespace palp {
 
 enum class ElementShape; // model/Mesh.h, kept out of the kernels' sources
 
 /// Numbers stand in blocks of 8 lanes, [item][8]: 8 elements of one load, or 8 loads on one element.
 inline constexpr int lanes = 8;
+
+/// Where number `item` of the `size` that each element has stands, [blocks][size][8]. Of loads on elements,
+/// [elements][blocks of loads][size][8], the index before it is element * loads + load.
+constexpr std::size_t laneIndex(std::size_t element, std::size_t size, std::size_t item) {
+  return (element / lanes * size + item) * lanes + element % lanes;
+}
 
 struct RubberConstants {
   double c10_MPa;

@@ -2,39 +2,52 @@
 
 #include "solver/element/LaneVector.h"
 
+#include <cstddef>
 #include <functional>
+#include <vector>
 
 namespace palp {
 
-/// Columns that are worked on together.
+/// Columns that are factorised together: a tile of them, 256 x 256 doubles, stays in a second-level cache.
 inline constexpr int frontTile = 256;
 
-/// Runs tasks 0 .. count - 1, perhaps in parallel; false where they were stopped.
+/// Runs tasks 0 .. count - 1, perhaps in parallel; `flops` is their work in all. False: stopped on the way.
 using TaskRunner = std::function<bool(int count, double flops, const std::function<void(int)>&)>;
 
-/// The lower triangle that a supernode hands to its parent, in blocks of columns without the rows above them.
+/// What a supernode hands to its parent (its Schur complement's part, U = -L21 L21^T): a lower triangle in blocks of
+/// 256 columns, each without the rows above it, in little more than half of the full square's memory.
 class UpdateMatrix {
 public:
   UpdateMatrix() = default;
   explicit UpdateMatrix(int size);
 
   [[nodiscard]] int size() const { return size_; }
-  /// Column j, addressed by rows, from the first of its block on.
-  [[nodiscard]] double* column(int j) { return values_.data() + start(j); }
-  [[nodiscard]] const double* column(int j) const { return values_.data() + start(j); }
-  /// Between the columns of j's block.
+  /// Column j, to be indexed by the triangle's rows; the rows above its block are not there.
+  [[nodiscard]] double* column(int j) { return blocks_[j / frontTile].data() + offset(j); }
+  [[nodiscard]] const double* column(int j) const { return blocks_[j / frontTile].data() + offset(j); }
+  /// From one column of j's block to the next.
   [[nodiscard]] int stride(int j) const { return size_ - j / frontTile * frontTile; }
 
+  /// Gives back the memory of the blocks whose columns all come before column j: they are not to be read any more.
+  void forgetBefore(int j);
+
 private:
-  [[nodiscard]] std::size_t start(int j) const;
+  /// Of column j's row 0 (which is not there) in its block.
+  [[nodiscard]] std::ptrdiff_t offset(int j) const {
+    const int first = j / frontTile * frontTile;
+    return std::ptrdiff_t(j - first) * (size_ - first) - first;
+  }
 
   int size_ = 0;
-  UnsetArray<double> values_;
+  std::vector<UnsetArray<double>> blocks_; ///< of columns
 };
 
 enum class FrontOutcome { Done, NotPositiveDefinite, Stopped };
 
-/// Factorises a panel of height x width in place; the update becomes -L21 L21^T.
+/// Eliminates the first `width` unknowns of a front (Duff and Reid 1983),
+///   [A11     ]   [L11  ] [I   ] [L11^T L21^T]
+///   [A21   0 ] = [L21 I] [   U] [        I  ] ,   A11 = L11 L11^T,  L21 = A21 L11^-T,  U = -L21 L21^T.
+/// The panel, A11 above A21 (height x width), becomes L11 above L21; the update becomes U.
 FrontOutcome factoriseFront(double* panel, int height, int width, UpdateMatrix& update, const TaskRunner& run);
 
 /// BLAS at one thread from here on: how its sums are cut depends on the number of threads.

@@ -10,7 +10,7 @@ namespace palp {
 
 namespace {
 
-constexpr int leaf = 6; // groups that are not cut any more
+constexpr int leaf = 6; // so many groups are not cut any further
 constexpr double samePlane = 1e-9;
 constexpr double dislikeOfUnequalHalves = 3;
 
@@ -22,8 +22,8 @@ constexpr std::array<std::array<int, 3>, directionCount> directions{
 
 /// Number of each group's plane along one axis.
 std::vector<int> planesAlong(const SparsePattern& pattern, int axis) {
-  const auto x = [&](int g) { return pattern.groupPlaces(axis, g); };
-  const auto groups = static_cast<int>(pattern.groupPlaces.cols());
+  const auto x = [&](int g) { return pattern.groupPositions_mm(axis, g); };
+  const auto groups = static_cast<int>(pattern.groupPositions_mm.cols());
   std::vector<int> sorted(groups), plane(groups);
   std::iota(sorted.begin(), sorted.end(), 0);
   std::sort(sorted.begin(), sorted.end(), [&](int a, int b) { return x(a) < x(b) || (x(a) == x(b) && a < b); });
@@ -41,7 +41,7 @@ struct Planes {
 Planes planesAcross(const SparsePattern& pattern, const std::array<std::vector<int>, 3>& along,
                     const std::array<int, 3>& direction) {
   Planes planes;
-  planes.own.resize(pattern.groupPlaces.cols());
+  planes.own.resize(pattern.groupPositions_mm.cols());
   for (std::size_t g = 0; g < planes.own.size(); ++g)
     for (int axis = 0; axis < 3; ++axis) planes.own[g] += direction[axis] * along[axis][g];
   planes.furthest = planes.own;
@@ -54,7 +54,7 @@ Planes planesAcross(const SparsePattern& pattern, const std::array<std::vector<i
   return planes;
 }
 
-/// The last plane of the lower half. Groups at or below it that reach beyond it make the cut.
+/// A cut behind `plane`, the last of the lower half: groups there or below with neighbours beyond it are the separator.
 struct Cut {
   int direction = -1;
   int plane = 0;
@@ -67,7 +67,7 @@ public:
     std::array<std::vector<int>, 3> along;
     for (int axis = 0; axis < 3; ++axis) along[axis] = planesAlong(pattern, axis);
     for (int d = 0; d < directionCount; ++d) planes_[d] = planesAcross(pattern, along, directions[d]);
-    order_.resize(pattern.groupPlaces.cols());
+    order_.resize(pattern.groupPositions_mm.cols());
     std::iota(order_.begin(), order_.end(), 0);
     dissect(order_);
   }

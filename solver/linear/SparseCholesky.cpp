@@ -12,20 +12,29 @@ namespace palp {
 namespace {
 
 constexpr double subtreeShare = 1. / 16; // of all work: a subtree above it is cut further
-constexpr double worthAThread = 2e7;     // flops
+constexpr double worthAThread = 2e7;     // flops: fewer are done before another thread has started
 constexpr int blocksATask = 16;
-constexpr int supernodesACall = 64;
+constexpr int supernodesACall = 64; // between looks at a stop request
 
+/// About 1 flop a number of the front for each column that is eliminated.
 double work(const SupernodeTree& tree, int s) {
   return double(tree.width(s)) * tree.height(s) * tree.height(s);
 }
 
-/// Rows that stand together in a child's update and in its parent's panel.
+// A child's rows below are a subset of its parent's rows. Both are ascending, so the subset falls into runs that stand
+// together in both, and a run is added without looking at row numbers:
+//
+//   row of the factor   40 41 42 43 44 45 46 | 60 70 90 91     the parent's own | below
+//   parent's rows        0  1  2  3  4  5  6 |  7  8  9 10
+//   child's rows below   0  1  2        3  4 |        5  6
+//   runs {from, to, length}:  {0, 0, 3}, {3, 5, 2}, {5, 9, 2}
+//
+// No run crosses from the parent's own rows (its panel) to those below (its update).
 struct Run {
   int from, to, length;
 };
 
-/// Where the rows below supernode s stand in its parent's panel.
+/// Where the rows below supernode s stand among its parent's rows.
 std::vector<Run> runsInParent(const SupernodeTree& tree, int s) {
   const int parent = tree.parent[s], below = tree.below(s);
   const int* rows = tree.rowsOf(s) + tree.width(s);
@@ -42,8 +51,9 @@ std::vector<Run> runsInParent(const SupernodeTree& tree, int s) {
   return runs;
 }
 
-/// Adds the columns of some runs of a child's update to a matrix whose first row and column are the parent's number
-/// `shift`; `columnOf` is that matrix's column, addressed by rows.
+/// Extend-add of the multifrontal method: out(to(i), to(j)) += U(i, j), i >= j, for the columns j of the runs firstRun
+/// .. lastRun - 1 of a child's update U and all its rows i. The matrix added to begins at the parent's row and column
+/// number `shift`; `columnOf` gives its columns, indexed by its own rows.
 template <class ColumnOf>
 void extendAdd(const UpdateMatrix& child, const std::vector<Run>& runs, std::size_t firstRun, std::size_t lastRun,
                const ColumnOf& columnOf, int shift) {
@@ -131,40 +141,52 @@ BlockedFactor CholeskyPlan::blocks(const float* values) const {
 void CholeskyPlan::findEntries() {
   const SparsePattern& pattern = *pattern_;
   const int n = tree_.size();
-  std::vector<int> place(n), supernode(n);
-  for (int i = 0; i < n; ++i) place[tree_.order[i]] = i;
+  std::vector<int> rowOf(n), supernode(n);
+  for (int i = 0; i < n; ++i) rowOf[tree_.order[i]] = i;
   for (int s = 0; s < tree_.count(); ++s)
     std::fill(supernode.begin() + tree_.first[s], supernode.begin() + tree_.first[s + 1], s);
   entryStart_.assign(tree_.count() + 1, 0);
   const auto forEntries = [&](const auto& visit) {
     for (int c = 0; c < n; ++c)
       for (int k = pattern.columns[c]; k < pattern.columns[c + 1]; ++k) {
-        const auto [low, high] = std::minmax(place[c], place[pattern.rows[k]]);
+        const auto [low, high] = std::minmax(rowOf[c], rowOf[pattern.rows[k]]);
         visit(k, low, high);
       }
   };
   forEntries([&](int, int low, int) { ++entryStart_[supernode[low] + 1]; });
   std::partial_sum(entryStart_.begin(), entryStart_.end(), entryStart_.begin());
   std::vector<std::size_t> next(entryStart_.begin(), entryStart_.end() - 1);
-  struct Place {
+  struct Rows {
     int low, high;
   };
-  std::vector<Place> places(pattern.rows.size());
+  std::vector<Rows> rows(pattern.rows.size());
   entries_.resize(pattern.rows.size());
   forEntries([&](int k, int low, int high) {
     const std::size_t slot = next[supernode[low]]++;
     entries_[slot].value = k;
-    places[slot] = {low, high};
+    rows[slot] = {low, high};
   });
   std::vector<int> rowInPanel(n);
   for (int s = 0; s < tree_.count(); ++s) {
     for (int i = 0; i < tree_.height(s); ++i) rowInPanel[tree_.rowsOf(s)[i]] = i;
     for (std::size_t e = entryStart_[s]; e < entryStart_[s + 1]; ++e)
-      entries_[e].position = (places[e].low - tree_.first[s]) * tree_.height(s) + rowInPanel[places[e].high];
+      entries_[e].position = (rows[e].low - tree_.first[s]) * tree_.height(s) + rowInPanel[rows[e].high];
   }
 }
 
-/// Cuts the tree where a subtree has little of the work, the same for any number of threads.
+// Cuts the tree into subtrees, each of which one thread works through alone, and the top above them, whose few large
+// fronts all threads work on together. From the root down, a supernode whose subtree (summed up in `below`) has more
+// than a sixteenth of all work belongs to the top; the first on each way down that has no more is a subtree's root:
+//
+//                root
+//          .------+------.
+//          x             y              root, x, y, z: the top
+//       .--+--.       .--+--.
+//      (2)   (4)     (1)    z           (1) .. (5): subtrees, the most work first
+//                        .--+--.
+//                       (3)   (5)
+//
+// The cut does not depend on the number of threads, and so neither does any sum.
 void CholeskyPlan::cutTree() {
   const int count = tree_.count();
   std::vector<double> below(count);
@@ -220,9 +242,10 @@ public:
     std::vector<std::vector<Run>> runs;
     for (int child : children) {
       runs.push_back(runsInParent(tree_, child));
+      const std::size_t within = runsWithin(runs.back(), width);
       extendAdd(
-          updates_[child], runs.back(), 0, runsWithin(runs.back(), width),
-          [&](int c) { return panel + std::size_t(c) * height; }, 0);
+          updates_[child], runs.back(), 0, within, [&](int c) { return panel + std::size_t(c) * height; }, 0);
+      updates_[child].forgetBefore(within < runs.back().size() ? runs.back()[within].from : updates_[child].size());
     }
     UpdateMatrix update(tree_.below(s));
     FrontOutcome outcome = factoriseFront(panel, height, width, update, run);

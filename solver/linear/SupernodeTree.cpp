@@ -52,19 +52,19 @@ SupernodeTree expanded(const cholmod_factor& factor, const SparsePattern& patter
   const int* rowStart = static_cast<const int*>(factor.pi);
   const int* rows = static_cast<const int*>(factor.s);
   SupernodeTree tree;
-  std::vector<int> place{0}; // first of each group in the order
+  std::vector<int> firstRow{0}; // of each group in the factor
   for (int p = 0; p < groups; ++p) {
     for (int i = pattern.groupStart[groupAt[p]]; i < pattern.groupStart[groupAt[p] + 1]; ++i) tree.order.push_back(i);
-    place.push_back(static_cast<int>(tree.order.size()));
+    firstRow.push_back(static_cast<int>(tree.order.size()));
   }
   std::vector<int> supernodeOf(groups);
   tree.first = {0};
   tree.rowStart = {0};
   for (int s = 0; s < static_cast<int>(factor.nsuper); ++s) {
-    tree.first.push_back(place[super[s + 1]]);
+    tree.first.push_back(firstRow[super[s + 1]]);
     for (int p = super[s]; p < super[s + 1]; ++p) supernodeOf[p] = s;
     for (int r = rowStart[s]; r < rowStart[s + 1]; ++r)
-      for (int i = place[rows[r]]; i < place[rows[r] + 1]; ++i) tree.rows.push_back(i);
+      for (int i = firstRow[rows[r]]; i < firstRow[rows[r] + 1]; ++i) tree.rows.push_back(i);
     tree.rowStart.push_back(tree.rows.size());
   }
   for (int s = 0; s < static_cast<int>(factor.nsuper); ++s) {

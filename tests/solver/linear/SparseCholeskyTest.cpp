@@ -104,6 +104,16 @@ TEST(Cholesky, OneRightSideAgreesWithLanesAndTheBaselineWithTheWidest) {
   EXPECT_LT((widest.head(size) - lane).norm(), 1e-2 * widest.norm());     // in single precision
 }
 
+TEST(UpdateMatrix, ForgetsBlocksOfColumnsThatHaveBeenAddedAndNoOthers) {
+  constexpr int size = 700;
+  UpdateMatrix matrix(size);
+  for (int j = 0; j < size; ++j) matrix.column(j)[size - 1] = j;
+  matrix.forgetBefore(600); // the third block begins at 512
+  for (int j = 512; j < size; ++j) ASSERT_EQ(matrix.column(j)[size - 1], j);
+  matrix.forgetBefore(size);
+  EXPECT_EQ(matrix.size(), size);
+}
+
 TEST(UpdateMatrix, KeepsItsLowerTriangleInBlocksOfColumns) {
   for (const int size : {1, 255, 256, 257, 700}) {
     UpdateMatrix matrix(size);
