@@ -13,8 +13,7 @@ namespace palp {
 Eigen::MatrixXd elementUnknowns(const Discretisation& mesh, const LaneVector& unknowns) {
   Eigen::MatrixXd x(mesh.unknowns(), mesh.elements());
   for (int e = 0; e < mesh.elements(); ++e)
-    for (int k = 0; k < mesh.unknowns(); ++k)
-      x(k, e) = unknowns[laneIndex(e, mesh.unknowns(), k)];
+    for (int k = 0; k < mesh.unknowns(); ++k) x(k, e) = unknowns[laneIndex(e, mesh.unknowns(), k)];
   return x;
 }
 

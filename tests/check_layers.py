@@ -43,6 +43,7 @@ PACKAGES = {
     r"vtk.*\.h|GL/.*|EGL/.*": {"app/scenes", "app/gui"},
     r"Q[A-Z].*|Qt.*": {"app/gui"},
     r"sys/mman\.h": {"solver"},  # huge pages
+    r"sanitizer/tsan_interface\.h": {"app/gui"},
     r"sys/.*|unistd\.h|dlfcn\.h|fcntl\.h|spawn\.h|poll\.h|pthread\.h|malloc\.h|linux/.*|termios\.h": {"io", "app/study", "app/scenes", "app/cli", "app/gui"},
 }
 ONE_SOURCE_ONLY = [r"tetgen\.h", r"hidapi(/hidapi)?\.h", r"(suitesparse/)?cholmod\.h"]

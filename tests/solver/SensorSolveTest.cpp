@@ -49,8 +49,7 @@ double smallestJ(const HyperelasticProblem& problem, const LoadIncrement& increm
   state.displacements = increment.displacements_mm.reshaped();
   for (int e = 0; e < lanes * mesh.blocks(); ++e)
     for (int k = 0; k < mesh.unknowns(); ++k)
-      state.unknowns[laneIndex(e, mesh.unknowns(), k)] =
-          increment.elementUnknowns(k, std::min(e, mesh.elements() - 1));
+      state.unknowns[laneIndex(e, mesh.unknowns(), k)] = increment.elementUnknowns(k, std::min(e, mesh.elements() - 1));
   ElementTangents tangents;
   ElementForces forces;
   assembler.tangent(state, tangents, forces, 1, {});
