@@ -48,7 +48,7 @@ inline std::string name(DecoderKind kind) {
 }
 std::vector<DecoderKind> allDecoderKinds();
 
-/// The two modes of a network; every other option overrides what the mode says.
+/// The two modes of a network; any other option overrides the mode.
 enum class DecoderMode { Default, Paper };
 inline constexpr NamedEnum kDecoderModes("mode", std::array{std::pair{DecoderMode::Default, "default"},
                                                             std::pair{DecoderMode::Paper, "paper"}});
@@ -56,7 +56,7 @@ inline std::string name(DecoderMode mode) {
   return kDecoderModes.name(mode);
 }
 
-/// The paper's steps in a row: step 1, resistances -> displacements of the row-wires' electrodes; step 2,
+/// The paper's two steps: step 1, resistances -> displacements of the row-wires' electrodes; step 2,
 /// displacements -> force.
 struct TwoStep {
   std::optional<BackPropagationNetwork> network; ///< step 1 as in the paper's reference [12]
@@ -65,7 +65,7 @@ struct TwoStep {
   RbfNetwork force; ///< step 2
 };
 
-/// What a decoder reads: kind and row-wires, and what they looked like in training.
+/// What a decoder reads: kind and row-wires, and their range in training.
 struct DecoderInput {
   InputKind kind = InputKind::Displacement;
   std::vector<int> rows;
@@ -74,18 +74,18 @@ struct DecoderInput {
   Eigen::VectorXd low, high; ///< training range of each input [mm or ohm]
 };
 
-/// A trained way from what the sensor reads to the force, with all that is needed to use it and to judge it.
+/// A trained map from the sensor's readings to the force, with everything needed to use and to judge it.
 struct Decoder {
   DecoderKind kind = DecoderKind::Rbf;
   std::variant<RbfNetwork, PolynomialRidge, GaussianProcess, BackPropagationNetwork, TwoStep, ForwardModel> model;
   DecoderInput input;
   std::string designFingerprint;
-  std::string trainedWith; ///< the command line that makes it again
+  std::string trainedWith; ///< the command that reproduces it
   DecoderMode mode = DecoderMode::Default;
   std::uint64_t seed = 1;
-  double noise = 0; ///< relative, of the inputs, that it was trained with
+  double noise = 0; ///< relative noise of the inputs it was trained with
   int areaCount = 0;
-  bool together = false;             ///< one force an area at once, 3 areas outputs
+  bool together = false;             ///< one force per area at once: 3 x areas outputs
   Eigen::VectorXd low_N, high_N;     ///< training range of each output
   Eigen::MatrixXd residual_N;        ///< outputs x areas (1 where unknown): rms error found in training, per area
   std::optional<ForwardModel> areas; ///< finds the touched area; none for `together` or where there is one area

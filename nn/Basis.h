@@ -22,9 +22,9 @@ inline std::string name(SpreadConvention convention) {
   return kSpreadConventions.name(convention);
 }
 
-/// How the basis is written. With an exact linear tail the weights are orthogonal to 1 and to the inputs, so that
-/// 1 - gamma r^2 may be taken off the Gaussian without changing the network's function (only its bias). What remains
-/// keeps its digits where the spread is large and all Gaussians are nearly 1.
+/// How the basis is written. With an exact linear tail the weights are orthogonal to 1 and to the inputs. So
+/// 1 - gamma r^2 can be subtracted from the Gaussian without changing the network's function (only its bias), and the
+/// remainder keeps its digits when the spread is large and all Gaussians are close to 1.
 enum class BasisForm {
   Gaussian,  ///< exp(-gamma r^2)
   Remainder, ///< exp(-gamma r^2) - 1 + gamma r^2
@@ -42,7 +42,7 @@ double gaussianRate(double spread, SpreadConvention convention);
 Eigen::MatrixXd squaredDistances(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b,
                                  const std::stop_token& stop = {});
 
-/// |a_i - a_j|^2, the lower triangle; the other is 0.
+/// |a_i - a_j|^2 in the lower triangle, 0 above.
 Eigen::MatrixXd squaredDistances(const Eigen::Ref<const Eigen::MatrixXd>& a);
 
 /// The basis at each entry of `squaredDistance`, in place.

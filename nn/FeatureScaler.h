@@ -8,13 +8,13 @@
 
 namespace palp {
 
-/// How inputs are brought to order 1 before distances are taken.
+/// How inputs are scaled to order 1 before distances are computed.
 enum class Scaling {
   Raw,    ///< left as they are
   MinMax, ///< each input to [-1, 1]
   ZScore, ///< each input to mean 0 and standard deviation 1
   Global, ///< mean subtracted, then one factor for all inputs: the sample farthest from the mean -> distance 1
-  Whiten, ///< principal components, small ones raised and those lost in the noise left out; see whitened()
+  Whiten, ///< principal components, small ones raised, those lost in noise dropped; see whitened()
 };
 
 inline constexpr NamedEnum
@@ -33,21 +33,21 @@ struct FeatureScaler {
   Eigen::VectorXd factor;
   Eigen::MatrixXd rotation; ///< scaled inputs x inputs; empty: none
 
-  /// Number of inputs, and of what they become.
+  /// Number of inputs, and of scaled inputs.
   [[nodiscard]] Eigen::Index inputs() const { return offset.size(); }
   [[nodiscard]] Eigen::Index dimensions() const { return rotation.size() > 0 ? rotation.rows() : offset.size(); }
 
-  /// From the columns of `samples`.
+  /// Fits the scaling to the columns of `samples`.
   static FeatureScaler fit(Scaling scaling, const Eigen::Ref<const Eigen::MatrixXd>& samples);
-  /// Principal components of the inputs relative to their size (so that relative noise is alike in all directions),
-  /// component k with deviation s_k times s_k / (s_k^2 + noise^2)^((1 + power) / 2): power 0 keeps the proportions of
-  /// what stands above the noise, 1 gives all of it the same size. Components of less than a tenth of the noise are
-  /// left out. Then one factor: the sample farthest from the mean -> distance 1.
+  /// Principal components of the inputs relative to their size (so that relative noise is the same in all directions).
+  /// Component k, of standard deviation s_k, is multiplied by s_k / (s_k^2 + noise^2)^((1 + power) / 2): power 0 keeps
+  /// the proportions of components above the noise, power 1 makes them equal. Components below a tenth of the noise are
+  /// dropped. Then one factor for all: the sample farthest from the mean -> distance 1.
   static FeatureScaler whitened(const Eigen::Ref<const Eigen::MatrixXd>& samples, double relativeNoise, double power);
   [[nodiscard]] Eigen::MatrixXd apply(const Eigen::Ref<const Eigen::MatrixXd>& samples) const;
   /// d scaled / d input, dimensions() x inputs().
   [[nodiscard]] Eigen::MatrixXd jacobian() const;
-  /// Of a scaler without rotation.
+  /// Only for a scaler without rotation.
   [[nodiscard]] Eigen::MatrixXd invert(const Eigen::Ref<const Eigen::MatrixXd>& scaled) const;
 };
 

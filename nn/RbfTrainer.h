@@ -18,7 +18,7 @@ enum class LeastSquaresMethod {
   PivotedQr,    ///< column-pivoted QR, directions below rcond dropped
   Cholesky,     ///< with a ridge of at least 1e-12
   TruncatedSvd, ///< singular values below rcond dropped
-  Recursive,    ///< recursive least squares with forgetting, the paper's way
+  Recursive,    ///< recursive least squares with forgetting, the paper's method
 };
 inline constexpr NamedEnum kLeastSquaresMethods("solver",
                                                 std::array{std::pair{LeastSquaresMethod::PivotedQr, "qr"},
@@ -42,7 +42,7 @@ enum class Tail {
   None,
   Bias,
   Linear,          ///< bias and linear tail, exact as in kriging: the weights are orthogonal to it
-  LinearPenalised, ///< bias and linear tail as weights among the others; for noise and for few samples
+  LinearPenalised, ///< bias and linear tail as ordinary weights; for noise and for few samples
 };
 inline constexpr NamedEnum kTails("tail", std::array{std::pair{Tail::None, "none"}, std::pair{Tail::Bias, "bias"},
                                                      std::pair{Tail::Linear, "linear"},
@@ -50,17 +50,17 @@ inline constexpr NamedEnum kTails("tail", std::array{std::pair{Tail::None, "none
 
 struct RbfOptions {
   Scaling scaling = Scaling::Global;
-  /// Whiten: the power by which small components are raised; none: 0.25, 0.5 or 0.75 by leave-one-out where spread or
-  /// ridge is chosen so too, else 0.5.
+  /// Whiten: the power that raises small components. Empty: 0.25, 0.5 or 0.75, chosen by leave-one-out if spread or
+  /// ridge is chosen that way too, else 0.5.
   std::optional<double> whitening;
   CenterChoice centers = CenterChoice::Samples;
   int centerCount = 0;          ///< KMeans, Random: how many; 0: kMostCenters at most. Samples: all
-  std::optional<double> spread; ///< none: by leave-one-out
+  std::optional<double> spread; ///< empty: by leave-one-out
   SpreadConvention convention = SpreadConvention::Radbas;
   Tail tail = Tail::Linear;
   double tailVariance = 100; ///< LinearPenalised: prior variance of the tail's weights against the Gaussians'
   LeastSquaresMethod method = LeastSquaresMethod::PivotedQr;
-  std::optional<double> ridge = 0.0; ///< none: by leave-one-out over 1e-13..10
+  std::optional<double> ridge = 0.0; ///< empty: by leave-one-out over 1e-13..10
   double rcond = 1e-15;
   double forgetting = 1; ///< Recursive: factor in (0, 1]
   /// Relative standard deviation of each input (sigma_i = |x_i| * it); 0: clean. Copies of the samples with noise of
@@ -72,7 +72,7 @@ struct RbfOptions {
   int threads = 0; ///< 0: as many as there are cores; the result is the same
 };
 
-/// What came out of a fit, and what a reader must know to trust it.
+/// What came out of a fit, and what one needs to know to trust it.
 struct FitReport {
   double spread = 0;
   double ridge = 0;
@@ -80,8 +80,8 @@ struct FitReport {
   double condition = 0; ///< estimate, of the system that was solved
   int rank = 0;
   double largestWeight = 0;
-  Eigen::VectorXd leaveOneOut; ///< root mean square of the leave-one-out errors, one an output; empty: not asked
-  Eigen::MatrixXd leaveOneOutResiduals; ///< outputs x samples; empty: not asked
+  Eigen::VectorXd leaveOneOut; ///< root mean square of the leave-one-out errors, one per output; empty: not asked for
+  Eigen::MatrixXd leaveOneOutResiduals; ///< outputs x samples; empty: not asked for
   double seconds = 0;
   std::vector<std::string> warnings; ///< whole sentences
 };
