@@ -48,7 +48,7 @@ public:
   explicit HelpDialog(QWidget* parent) : QDialog(parent) {
     setObjectName("help");
     setWindowTitle(tr("Palp: help"));
-    resize(1050, 720);
+    resize(1110, 720);
     list_->setObjectName("helpPages");
     for (const auto& [title, file] : helpPages()) {
       auto* item = new QListWidgetItem(title, list_);
@@ -61,7 +61,7 @@ public:
     both->addWidget(list_);
     both->addWidget(text_);
     both->setStretchFactor(1, 1);
-    both->setSizes({kListWidth_px, 860});
+    both->setSizes({kListWidth_px, 920});
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
     column->addWidget(both);

@@ -37,7 +37,7 @@ JobStrip::JobStrip(JobRunner& runner, QWidget* parent) : QWidget(parent) {
   connect(&runner, &JobRunner::started, this, [this](const QString& title) {
     words_->setText(title);
     bar_->setRange(0, 0);
-    if (!isVisible()) wait_.start();
+    if (!isVisible() && !wait_.isActive()) wait_.start();
   });
   connect(&runner, &JobRunner::progressed, this, [this](double share, const QString& what) {
     words_->setText(what);

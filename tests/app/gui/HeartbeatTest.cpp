@@ -117,13 +117,16 @@ TEST_F(Heartbeat, BeatsWhileReporting) {
   const QString program = QDir(QCoreApplication::applicationDirPath()).filePath("palp");
   if (!QFile::exists(program)) GTEST_SKIP() << program.toStdString() << ", which runs the reports, was not built";
   ASSERT_TRUE(solved());
+  Project project = workbench.project();
+  project.samples.perArea = 4000; // work for longer than any machine waits before the cancel
+  workbench.edit("many", project);
   const QTemporaryDir folder;
   window.showScene("reports");
   settle();
   find<QLineEdit>("reportFolder").setText(folder.path());
   auto& run = find<QPushButton>("runReport");
   auto& kinds = find<QComboBox>("reportKind");
-  kinds.setCurrentIndex(kinds.findText("networks")); // minutes
+  kinds.setCurrentIndex(kinds.findText("networks"));
   ASSERT_EQ(kinds.currentText(), "networks");
   expectFree(
       "reporting", [&] { click("runReport"); }, [waited = 0]() mutable { return ++waited > 100; });
