@@ -65,7 +65,9 @@ MeshOptions meshOf(const Place& place) {
   if (place.has("mesh_size_mm")) mesh.meshSize_mm = place.number("mesh_size_mm", 0.01, 1000);
   if (place.has("mapped")) {
     const Eigen::Vector3d given = place.numbers("mapped", 3);
-    if (!(given.minCoeff() >= 1 && given.maxCoeff() <= 1000)) place.refuse("mapped", "three whole numbers, 1 to 1000");
+    const bool whole = given == given.array().floor().matrix();
+    if (!whole || !(given.minCoeff() >= 1 && given.maxCoeff() <= 1000))
+      place.refuse("mapped", "three whole numbers, 1 to 1000");
     const Eigen::Vector3i counts = given.cast<int>();
     mesh.mapped = {counts[0], counts[1], counts[2]};
   }
@@ -134,7 +136,9 @@ QJsonObject viewJson(const ViewSettings& view) {
 
 std::array<int, 2> cellOf(const Place& place, const QString& key) {
   const Eigen::VectorXd numbers = place.numbers(key, 2);
-  if (!(numbers.minCoeff() >= 0 && numbers.maxCoeff() < 10000)) place.refuse(key, "a row-wire and a column-wire");
+  const bool whole = numbers == numbers.array().floor().matrix();
+  if (!whole || !(numbers.minCoeff() >= 0 && numbers.maxCoeff() < 10000))
+    place.refuse(key, "a row-wire and a column-wire, whole numbers from 0 on");
   return {static_cast<int>(numbers[0]), static_cast<int>(numbers[1])};
 }
 

@@ -44,6 +44,26 @@ protected:
   QTemporaryDir folder_;
 };
 
+TEST_F(ProjectFile, RefusesCountsThatAreNotWhole) {
+  Project project = exampleProject();
+  project.mesh.mapped = {4, 5, 6};
+  project.view.cell = {3, 7};
+  const std::string text = projectText(project).toStdString();
+  const auto refusalOf = [](const std::string& changed) -> std::string {
+    try {
+      parseProject(QByteArray::fromStdString(changed), "x.json", {});
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const auto compact = QJsonDocument::fromJson(QByteArray::fromStdString(text)).toJson(QJsonDocument::Compact);
+  EXPECT_EQ(refusalOf(text), "");
+  EXPECT_NE(refusalOf(with(compact.toStdString(), "[4,5,6]", "[4.5,5,6]")).find("mapped"), std::string::npos);
+  EXPECT_NE(refusalOf(with(compact.toStdString(), "\"cell\":[3,7]", "\"cell\":[3,7.5]")).find("cell"),
+            std::string::npos);
+}
+
 TEST_F(ProjectFile, TheFuzzersSeedsAreProjectsAndDesigns) {
   int seeds = 0;
   for (const auto& file : std::filesystem::directory_iterator(PALP_SOURCE_DIR "/tests/fuzz/projects")) {
