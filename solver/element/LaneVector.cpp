@@ -40,6 +40,10 @@ void* lineMemory(std::size_t bytes) {
   return memory;
 }
 
+void freeFirst(void* memory, std::size_t bytes, std::size_t first) {
+  if (bytes >= large && first >= page) madvise(memory, first / page * page, MADV_DONTNEED);
+}
+
 void freeLineMemory(void* memory, std::size_t bytes) {
   if (bytes >= large)
     munmap(memory, roundedUp(bytes, page));

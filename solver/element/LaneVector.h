@@ -12,6 +12,8 @@ namespace palp {
 /// third of the time.
 void* lineMemory(std::size_t bytes);
 void freeLineMemory(void* memory, std::size_t bytes);
+/// Gives the first so many bytes of a piece back to the system while the rest stays, where the piece is large.
+void freeFirst(void* memory, std::size_t bytes, std::size_t first);
 
 template <class T> struct CacheLineAllocator {
   using value_type = T;
@@ -36,6 +38,8 @@ public:
     memory_.reset(); // before the new memory is there
     if (size > 0) memory_ = {static_cast<T*>(lineMemory(size * sizeof(T))), Free{size}};
   }
+  /// The first so many numbers are unset again, and their memory need not be there.
+  void forgetFirst(std::size_t count) { freeFirst(data(), size() * sizeof(T), count * sizeof(T)); }
   [[nodiscard]] std::size_t size() const { return memory_ ? memory_.get_deleter().size : 0; }
   [[nodiscard]] T* data() { return memory_.get(); }
   [[nodiscard]] const T* data() const { return memory_.get(); }

@@ -60,12 +60,19 @@ bool subtractProduct(const double* L, int height, int width, int depth, int stri
 } // namespace
 
 UpdateMatrix::UpdateMatrix(int size) : size_(size) {
-  for (int j = 0; j < size; j += tile) blocks_.emplace_back(std::size_t(std::min(tile, size - j)) * stride(j));
+  std::size_t numbers = 0;
+  for (int j = 0; j < size; j += tile) numbers += std::size_t(std::min(tile, size - j)) * stride(j);
+  values_.resize(numbers);
+}
+
+std::size_t UpdateMatrix::start(int j) const {
+  const std::size_t block = j / tile, size = size_;
+  const std::size_t before = tile * block * size - tile * tile * (block * (block - 1) / 2);
+  return before + (j - block * tile) * (size - block * tile) - block * tile;
 }
 
 void UpdateMatrix::forgetBefore(int j) {
-  for (int block = 0; block < static_cast<int>(blocks_.size()) && std::min(size_, (block + 1) * tile) <= j; ++block)
-    blocks_[block] = {};
+  values_.forgetFirst(j < size_ ? start(j) + j / tile * tile : values_.size());
 }
 
 // Right-looking, a tile of columns at a time: L11 of the tile by dpotrf, the rows below it by dtrsm, and what the tile

@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <functional>
-#include <vector>
 
 namespace palp {
 
@@ -23,23 +22,20 @@ public:
 
   [[nodiscard]] int size() const { return size_; }
   /// Column j, to be indexed by the triangle's rows; the rows above its block are not there.
-  [[nodiscard]] double* column(int j) { return blocks_[j / frontTile].data() + offset(j); }
-  [[nodiscard]] const double* column(int j) const { return blocks_[j / frontTile].data() + offset(j); }
+  [[nodiscard]] double* column(int j) { return values_.data() + start(j); }
+  [[nodiscard]] const double* column(int j) const { return values_.data() + start(j); }
   /// From one column of j's block to the next.
   [[nodiscard]] int stride(int j) const { return size_ - j / frontTile * frontTile; }
 
-  /// Gives back the memory of the blocks whose columns all come before column j: they are not to be read any more.
+  /// Gives back the memory of the columns before column j, as far as the system takes it: they are not to be read any
+  /// more.
   void forgetBefore(int j);
 
 private:
-  /// Of column j's row 0 (which is not there) in its block.
-  [[nodiscard]] std::ptrdiff_t offset(int j) const {
-    const int first = j / frontTile * frontTile;
-    return std::ptrdiff_t(j - first) * (size_ - first) - first;
-  }
+  [[nodiscard]] std::size_t start(int j) const;
 
   int size_ = 0;
-  std::vector<UnsetArray<double>> blocks_; ///< of columns
+  UnsetArray<double> values_;
 };
 
 enum class FrontOutcome { Done, NotPositiveDefinite, Stopped };

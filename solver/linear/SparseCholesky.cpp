@@ -137,40 +137,57 @@ BlockedFactor CholeskyPlan::blocks(const float* values) const {
   return {tree_.count(), tree_.first.data(), blocksStart_.data(), blockBelow_.data(), blockRows_.data(), values};
 }
 
-/// Sorts the matrix's entries by the supernode whose panel they belong to.
+/// Sorts the matrix's blocks of entries by the supernode whose panel they belong to: that of the group that comes first
+/// in the factor.
 void CholeskyPlan::findEntries() {
   const SparsePattern& pattern = *pattern_;
-  const int n = tree_.size();
-  std::vector<int> rowOf(n), supernode(n);
-  for (int i = 0; i < n; ++i) rowOf[tree_.order[i]] = i;
+  std::vector<int> rowOf(tree_.size()), supernode(tree_.size());
+  for (int i = 0; i < tree_.size(); ++i) rowOf[tree_.order[i]] = i;
   for (int s = 0; s < tree_.count(); ++s)
     std::fill(supernode.begin() + tree_.first[s], supernode.begin() + tree_.first[s + 1], s);
+  const auto groups = static_cast<int>(pattern.groupStart.size()) - 1;
+  const auto firstRow = [&](int group) { return rowOf[pattern.groupStart[group]]; };
+  const auto supernodeOf = [&](int g, int h) { return supernode[std::min(firstRow(g), firstRow(h))]; };
   entryStart_.assign(tree_.count() + 1, 0);
-  const auto forEntries = [&](const auto& visit) {
-    for (int c = 0; c < n; ++c)
-      for (int k = pattern.columns[c]; k < pattern.columns[c + 1]; ++k) {
-        const auto [low, high] = std::minmax(rowOf[c], rowOf[pattern.rows[k]]);
-        visit(k, low, high);
-      }
-  };
-  forEntries([&](int, int low, int) { ++entryStart_[supernode[low] + 1]; });
+  for (int g = 0; g < groups; ++g)
+    for (int k = pattern.groupColumns[g]; k < pattern.groupColumns[g + 1]; ++k)
+      ++entryStart_[supernodeOf(g, pattern.groupRows[k]) + 1];
   std::partial_sum(entryStart_.begin(), entryStart_.end(), entryStart_.begin());
   std::vector<std::size_t> next(entryStart_.begin(), entryStart_.end() - 1);
-  struct Rows {
-    int low, high;
-  };
-  std::vector<Rows> rows(pattern.rows.size());
-  entries_.resize(pattern.rows.size());
-  forEntries([&](int k, int low, int high) {
-    const std::size_t slot = next[supernode[low]]++;
-    entries_[slot].value = k;
-    rows[slot] = {low, high};
-  });
-  std::vector<int> rowInPanel(n);
+  entries_.resize(pattern.groupRows.size());
+  for (int g = 0; g < groups; ++g) {
+    int value = pattern.columns[pattern.groupStart[g]];
+    for (int k = pattern.groupColumns[g]; k < pattern.groupColumns[g + 1]; ++k) {
+      const int h = pattern.groupRows[k];
+      entries_[next[supernodeOf(g, h)]++] = {g, h, value, 0, firstRow(h) < firstRow(g)};
+      value += pattern.groupStart[h + 1] - pattern.groupStart[h];
+    }
+  }
+  std::vector<int> rowInPanel(tree_.size());
   for (int s = 0; s < tree_.count(); ++s) {
     for (int i = 0; i < tree_.height(s); ++i) rowInPanel[tree_.rowsOf(s)[i]] = i;
-    for (std::size_t e = entryStart_[s]; e < entryStart_[s + 1]; ++e)
-      entries_[e].position = (rows[e].low - tree_.first[s]) * tree_.height(s) + rowInPanel[rows[e].high];
+    for (std::size_t e = entryStart_[s]; e < entryStart_[s + 1]; ++e) {
+      const int a = firstRow(entries_[e].columns), b = firstRow(entries_[e].rows);
+      const int low = std::min(a, b), high = std::max(a, b);
+      entries_[e].position = (low - tree_.first[s]) * tree_.height(s) + rowInPanel[high];
+    }
+  }
+}
+
+void CholeskyPlan::addMatrix(int s, std::span<const double> values, double* panel) const {
+  const SparsePattern& pattern = *pattern_;
+  const int height = tree_.height(s);
+  for (std::size_t e = entryStart_[s]; e < entryStart_[s + 1]; ++e) {
+    const EntryBlock& block = entries_[e];
+    const int* columns = pattern.columns.data() + pattern.groupStart[block.columns];
+    const int width = pattern.groupStart[block.columns + 1] - pattern.groupStart[block.columns];
+    const int rows = pattern.groupStart[block.rows + 1] - pattern.groupStart[block.rows];
+    for (int c = 0; c < width; ++c) {
+      // Column c of a group begins at its diagonal, c rows below the first column's.
+      const double* value = values.data() + block.value + (columns[c] - columns[0]) - c;
+      for (int r = block.columns == block.rows ? c : 0; r < rows; ++r)
+        panel[block.position + (block.transposed ? r * height + c : c * height + r)] += value[r];
+    }
   }
 }
 
@@ -238,7 +255,7 @@ public:
     const std::vector<int>& children = plan_.children(s);
     const int width = tree_.width(s), height = tree_.height(s);
     std::fill_n(panel, std::size_t(height) * width, 0.);
-    for (const auto& [value, position] : plan_.entries(s)) panel[position] += values_[value];
+    plan_.addMatrix(s, values_, panel);
     std::vector<std::vector<Run>> runs;
     for (int child : children) {
       runs.push_back(runsInParent(tree_, child));

@@ -19,16 +19,10 @@ class CholeskyPlan {
 public:
   explicit CholeskyPlan(std::shared_ptr<const SparsePattern> pattern);
 
-  struct Entry {
-    int value;    ///< in the pattern's values
-    int position; ///< in the supernode's panel
-  };
   [[nodiscard]] const SparsePattern& pattern() const { return *pattern_; }
   [[nodiscard]] const SupernodeTree& tree() const { return tree_; }
-  /// What the matrix adds to a supernode's panel.
-  [[nodiscard]] std::span<const Entry> entries(int s) const {
-    return {entries_.data() + entryStart_[s], entries_.data() + entryStart_[s + 1]};
-  }
+  /// Adds the matrix, given by the values of the pattern's entries, to a supernode's panel.
+  void addMatrix(int s, std::span<const double> values, double* panel) const;
   [[nodiscard]] const std::vector<int>& children(int s) const { return children_[s]; }
   /// Supernodes of each subtree, the largest first.
   [[nodiscard]] const std::vector<std::vector<int>>& subtrees() const { return subtrees_; }
@@ -39,6 +33,13 @@ public:
   [[nodiscard]] std::size_t factorSize() const { return blocksStart_.back(); }
 
 private:
+  /// The entries of one group of the pattern's rows in one group of its columns: up to 3 x 3 numbers, found as one.
+  struct EntryBlock {
+    int columns, rows; ///< groups
+    int value;         ///< of the first column and row, in the pattern's values
+    int position;      ///< of the same in the supernode's panel
+    bool transposed;   ///< the rows' unknowns come first in the factor
+  };
   void placeBlocks();
   void findEntries();
   void cutTree();
@@ -46,7 +47,7 @@ private:
   std::shared_ptr<const SparsePattern> pattern_;
   SupernodeTree tree_;
   std::vector<std::size_t> entryStart_; ///< of each supernode in entries_
-  std::vector<Entry> entries_;
+  std::vector<EntryBlock> entries_;
   std::vector<std::vector<int>> children_;
   std::vector<std::vector<int>> subtrees_;
   std::vector<int> top_;

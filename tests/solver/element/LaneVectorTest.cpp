@@ -36,6 +36,20 @@ TEST(LaneVector, GivesLargeMemoryBackToTheSystem) {
   EXPECT_LT(resident(), before + 0.1 * bytes);
 }
 
+TEST(UnsetArray, GivesBackItsFirstNumbersAloneWhenItForgetsThem) {
+  constexpr std::size_t size = 8'000'000, forgotten = 6'000'000; // 64 and 48 MB
+  UnsetArray<double> array(size);
+  std::fill_n(array.data(), size, 7.);
+  const double before = resident();
+  array.forgetFirst(forgotten);
+  EXPECT_LT(resident(), before - 0.9 * double(forgotten) * sizeof(double));
+  EXPECT_EQ(std::count(array.data() + forgotten, array.data() + size, 7.), size - forgotten);
+  UnsetArray<double> few(3); // too few for a page of their own: they stay where they are
+  few.data()[2] = 7;
+  few.forgetFirst(2);
+  EXPECT_EQ(few.data()[2], 7);
+}
+
 TEST(UnsetArray, KeepsItsNumbersWhenItMoves) {
   UnsetArray<double> first(3);
   first.data()[2] = 7;
