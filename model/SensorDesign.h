@@ -78,6 +78,11 @@ struct SensorDesign {
   bool operator==(const SensorDesign&) const = default;
 };
 
+/// The row-wire in the middle, counted from 0; the lower of two: row 4 of the paper's ten.
+constexpr int centreRowWire(int rowWires) {
+  return (rowWires - 1) / 2;
+}
+
 /// The preset `paper`: the paper's sections 3 and 4.2; depths and positions are our choice (resources/docs/physics.md).
 SensorDesign paperDesign();
 

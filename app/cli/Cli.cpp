@@ -9,6 +9,9 @@
 #include "solver/BatchSolver.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <iostream>
 #include <thread>
 
@@ -108,12 +111,18 @@ Exit Cli::runChosen() {
     exit = Exit::NoResult;
   } catch (const std::bad_alloc&) {
     std::cerr << "palp " << name << ": not enough memory for this size; ask for a coarser mesh or fewer samples\n";
-    return Exit::NoResult;
+    session_.result["stop_reason"] = "not enough memory";
+    exit = Exit::NoResult;
   }
   session_.result["warnings"] = session_.warnings;
   session_.result["peak_memory_MB"] = peakMemory_MB();
   session_.result["stages"] = toJson(session_.stages);
-  if (session_.json) std::cout << session_.result.dump(session_.indent) << std::endl;
+  if (session_.json) std::cout << session_.result.dump(session_.indent) << '\n';
+  if (!std::cout.flush() || std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    std::cerr << "palp " << name << ": standard output: cannot be written: " << std::strerror(errno) // NOLINT
+              << '\n';
+    return Exit::BadInput;
+  }
   return interrupt.token().stop_requested() ? Exit::Interrupted : exit;
 }
 

@@ -18,7 +18,7 @@ void exportVtu(const OutputFile& output, const Mesh&, const NodalFields*, Sessio
 }
 
 std::vector<ReportPicture> drawPaperFigures(const SensorDesign&, const ProtocolResult&, const MeshOptions&,
-                                            const std::filesystem::path&, Session& session) {
+                                            WrittenFiles&, Session& session) {
   warn(session, "drawing the figures");
   return {};
 }

@@ -4,6 +4,7 @@
 #include "app/scenes/block/DeformationPicture.h"
 #include "app/scenes/charts/PaperFigures.h"
 #include "app/scenes/charts/ReportCharts.h"
+#include "model/base/Cancelled.h"
 
 namespace palp {
 
@@ -14,14 +15,14 @@ void exportVtu(const OutputFile& output, const Mesh& mesh, const NodalFields* fi
 }
 
 std::vector<ReportPicture> drawPaperFigures(const SensorDesign& design, const ProtocolResult& result,
-                                            const MeshOptions& mesh, const std::filesystem::path& folder,
-                                            Session& session) {
+                                            const MeshOptions& mesh, WrittenFiles& files, Session& session) {
   Touch touch(design, paperFigureLoad(), mesh);
   NewtonOptions options;
   options.threads = session.threads;
   touch.advance(Stage::Displacements, options, {{}, session.stop});
+  stopIfAsked(session.stop); // half a load is no figure
   session.stages.add(touch.stages());
-  return session.stages.measure("render", [&] { return drawPaperFigures(result, touch, folder); });
+  return session.stages.measure("render", [&] { return drawPaperFigures(result, touch, files, session.stop); });
 }
 
 ChartDrawer chartDrawer(Session& session) {

@@ -5,6 +5,7 @@
 #include "app/study/paper/PaperProtocol.h"
 #include "app/study/paper/PaperReport.h"
 #include "app/study/reports/Report.h"
+#include "app/study/reports/WrittenFiles.h"
 #include "app/study/touch/Touch.h"
 #include "model/Mesh.h"
 #include "model/Solution.h"
@@ -19,10 +20,9 @@ namespace palp {
 /// VTU file of the mesh, with the fields at its nodes where there are any; sets `file` in the result.
 void exportVtu(const OutputFile& output, const Mesh& mesh, const NodalFields* fields, Session& session);
 
-/// Figs. 4, 6-16 as PNG files in the folder.
+/// Figs. 4, 6-16 as PNG files of the report. Throws Cancelled where the session is stopped.
 std::vector<ReportPicture> drawPaperFigures(const SensorDesign& design, const ProtocolResult& result,
-                                            const MeshOptions& mesh, const std::filesystem::path& folder,
-                                            Session& session);
+                                            const MeshOptions& mesh, WrittenFiles& files, Session& session);
 
 /// Draws a report's charts; nothing without VTK.
 ChartDrawer chartDrawer(Session& session);

@@ -1,9 +1,12 @@
 #include "app/cli/Cli.h"
+#include "app/study/Failure.h"
 
+#include <csignal>
 #include <exception>
 #include <iostream>
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN); // a file above the limit is refused in words, as a full disk is
   try {
     palp::Cli cli;
     palp::addDesign(cli);
@@ -20,8 +23,8 @@ int main(int argc, char** argv) {
     palp::addListen(cli);
     palp::addCalibrate(cli);
     return cli.main(argc, argv);
-  } catch (const std::exception& unexpected) { // the last resort: a mistake of ours, not of the user's
-    std::cerr << "palp: internal error: " << unexpected.what() << '\n';
+  } catch (...) { // the last resort: a mistake of ours, not of the user's
+    std::cerr << "palp: " << palp::failureInWords(std::current_exception()) << '\n';
     return static_cast<int>(palp::Exit::NoResult);
   }
 }

@@ -1,13 +1,14 @@
 #include "app/scenes/Picture.h"
 
+#include "io/AtomicFile.h"
 #include "model/base/Error.h"
 
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
-#include <fstream>
 #include <string>
 
 namespace palp {
@@ -39,27 +40,18 @@ void requireDrawable(int width, int height) {
                 " pixels: allowed is 1 to 16384 each way");
 }
 
-void requireWritable(const std::filesystem::path& path) {
-  if (!std::ofstream(path, std::ios::app))
-    throw Error(path.string() + ": cannot be written; allowed is a file in a folder that exists and may be written to");
-}
-
 void writePng(const Picture& picture, const std::filesystem::path& path) {
   if (picture.empty()) throw Error(path.string() + ": the picture is empty; allowed is at least 1 x 1 pixel");
-  const std::filesystem::path part = path.string() + ".part";
-  requireWritable(part);
   vtkNew<vtkImageData> image;
   fillFromTop(*image, picture);
   vtkNew<vtkPNGWriter> writer;
   writer->SetInputData(image);
-  writer->SetFileName(part.c_str());
+  writer->WriteToMemoryOn(); // VTK itself would not say why a file cannot be written
   writer->Write();
-  std::error_code failure;
-  if (writer->GetErrorCode() == 0) std::filesystem::rename(part, path, failure);
-  if (writer->GetErrorCode() != 0 || failure) {
-    std::filesystem::remove(part, failure);
-    throw Error(path.string() + ": cannot be written; allowed is a file in a folder that exists and may be written to");
-  }
+  vtkUnsignedCharArray* const png = writer->GetResult();
+  writeFile(path,
+            {reinterpret_cast<const char*>(png->GetPointer(0)), static_cast<std::size_t>(png->GetNumberOfValues())},
+            true);
 }
 
 } // namespace palp

@@ -22,9 +22,6 @@ Picture pictureOfBgra(std::span<const std::uint8_t> bgra, int width, int height)
 /// Throws Error unless a picture of this size can be drawn: 1 to 16384 pixels each way.
 void requireDrawable(int width, int height);
 
-/// Throws Error where the file cannot be written; VTK's writers would add lines of their own to standard error.
-void requireWritable(const std::filesystem::path& path);
-
 /// Writes the picture as PNG, beside the path and then renamed. Throws Error where the file cannot be written.
 void writePng(const Picture& picture, const std::filesystem::path& path);
 

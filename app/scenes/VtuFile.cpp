@@ -1,6 +1,6 @@
 #include "app/scenes/VtuFile.h"
 
-#include "app/scenes/Picture.h"
+#include "io/AtomicFile.h"
 #include "model/base/Error.h"
 
 #include <vtkCellArray.h>
@@ -59,19 +59,12 @@ void writeVtu(const std::filesystem::path& path, const Mesh& mesh, const std::ve
   vtkNew<vtkUnstructuredGrid> grid;
   fillGrid(*grid, mesh);
   for (const NodalArray& array : arrays) addArray(*grid, array);
-  const std::filesystem::path part = path.string() + ".part";
-  requireWritable(part);
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
-  writer->SetFileName(part.c_str());
   writer->SetInputData(grid);
   writer->SetDataModeToBinary();
-  std::error_code failure;
-  const bool written = writer->Write() == 1 && writer->GetErrorCode() == 0;
-  if (written) std::filesystem::rename(part, path, failure);
-  if (!written || failure) {
-    std::filesystem::remove(part, failure);
-    throw Error(path.string() + ": cannot be written; allowed is a file in a folder that exists and may be written to");
-  }
+  writer->WriteToOutputStringOn(); // VTK itself would not say why a file cannot be written, and would print besides
+  if (writer->Write() != 1) throw Error(path.string() + ": cannot be written: VTK refuses the mesh");
+  writeFile(path, writer->GetOutputString(), true);
 }
 
 } // namespace palp

@@ -61,7 +61,8 @@ Exit run(const CalibrateArguments& arguments, Session& session) {
   arguments.output.requireWritable();
   const Decoder decoder = readNetwork(arguments.network);
   const SampleSet frames = loadSamples(arguments.frames);
-  const Calibration calibration = session.stages.measure("train", [&] { return calibrate(decoder, frames); });
+  const Calibration calibration =
+      session.stages.measure("train", [&] { return calibrate(decoder, frames, session.stop); });
   const CalibrationReport& report = calibration.report;
   const double age_days = ageInDays(arguments.frames);
   if (!report.improved)

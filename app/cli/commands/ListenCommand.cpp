@@ -110,7 +110,10 @@ Json frameJson(const LiveFrame& live) {
   if (forces.valid) {
     json["shown"] = forces.shown;
     json["outside_training_range"] = forces.outsideTrainingRange;
-    if (forces.area) json["area"] = *forces.area, json["area_confidence"] = forces.areaConfidence;
+    if (forces.area) {
+      json["area"] = *forces.area;
+      json["area_confidence"] = forces.areaConfidence;
+    }
   } else if (!forces.reason.empty()) {
     json["reason"] = forces.reason;
   }
@@ -200,14 +203,14 @@ bool listen(LiveSession& live, const ListenArguments& arguments, Session& sessio
   const double start_s = hostClock_s();
   double line_s = 0;
   std::uint64_t frames = 0;
-  LiveState told = LiveState::Streaming;
+  LiveState reported = LiveState::Streaming;
   bool recording = arguments.record.empty();
   while (!session.stop.stop_requested()) {
     const LiveStatus status = live.status(); // before the frames: what ended has nothing to add
-    if (status.state != told && status.state != LiveState::Ended) {
+    if (status.state != reported && status.state != LiveState::Ended) {
       std::cerr << "palp listen: " << name(status.state) << (status.reason.empty() ? "" : ": ") << status.reason
                 << '\n';
-      told = status.state;
+      reported = status.state;
     }
     if (!recording && status.state == LiveState::Streaming) {
       live.startRecording(arguments.record, arguments.network.empty() ? "" : fingerprint(readFile(arguments.network)),
@@ -274,7 +277,7 @@ void configureRow(LiveSession& live, const std::string& row) {
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  throw UsageError("--row: no board that could be told to scan one row-wire");
+  throw UsageError("--row: no board that can be asked to scan one row-wire");
 }
 
 Exit run(const ListenArguments& arguments, Session& session) {

@@ -3,6 +3,7 @@
 #include "app/cli/Pictures.h"
 #include "app/study/touch/Touch.h"
 #include "io/AtomicFile.h"
+#include "model/base/Cancelled.h"
 #include "solver/CalculixDeck.h"
 #include "solver/MeshQuality.h"
 
@@ -31,6 +32,7 @@ Exit run(const MeshArguments& arguments, Session& session) {
   Touch touch(design, load, arguments.mesh.options());
   touch.advance(Stage::Mesh);
   session.stages.add(touch.stages());
+  stopIfAsked(session.stop);
   const Mesh& mesh = *touch.mesh();
   const MeshQuality quality = meshQuality(mesh);
   session.result["nodes"] = mesh.nodeCount();

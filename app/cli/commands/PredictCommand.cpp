@@ -4,6 +4,7 @@
 #include "io/AtomicFile.h"
 #include "io/DecoderFile.h"
 #include "io/SampleFile.h"
+#include "model/base/Cancelled.h"
 #include "model/base/Text.h"
 #include "nn/NoisyCopies.h"
 
@@ -97,6 +98,7 @@ Exit run(const Arguments& arguments, Session& session) {
     prediction.warnings.push_back(otherDesign(decoder, samples));
   for (const std::string& warning : prediction.warnings) std::cerr << "palp predict: " << warning << '\n';
   session.warnings.insert(session.warnings.end(), prediction.warnings.begin(), prediction.warnings.end());
+  stopIfAsked(session.stop);
   const DecoderError error = decoderError(decoder, prediction, samples);
   fill(decoder, prediction, error, session);
   if (options.noise > 0) {
@@ -104,6 +106,7 @@ Exit run(const Arguments& arguments, Session& session) {
     session.result["noise_bound"] = {{"without_prior_percent_of_range", listJson(bound.withoutPriorPercent)},
                                      {"with_prior_percent_of_range", listJson(bound.withPriorPercent)}};
   }
+  stopIfAsked(session.stop);
   if (!arguments.output.path.empty()) {
     writeFile(arguments.output.path, csv(decoder, prediction), arguments.output.force);
     session.result["file"] = arguments.output.path.string();
@@ -122,7 +125,7 @@ void addPredict(Cli& cli) {
   command.add_option("network", arguments->network, "network file")->required();
   command.add_option("samples", arguments->samples, "sample file")->required();
   command.add_option("--noise", arguments->noise,
-                     "relative noise that is put on the samples first and told in the standard deviations");
+                     "relative noise that is added to the samples and counted in the standard deviations");
   command.add_option("--seed", arguments->seed, "of the noise (default 1)");
   command.add_flag("--bare", arguments->bare, "forces alone: no standard deviations, no areas");
   arguments->output.declare(command, "CSV with the forces");

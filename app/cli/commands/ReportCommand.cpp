@@ -29,7 +29,7 @@ std::vector<std::string> kindNames() {
   return names;
 }
 
-/// The kinds and what they tell, for the help.
+/// The kinds and what they show, for the help.
 std::string kindsInWords() {
   std::string words;
   for (const ReportComputation& kind : reportComputations())

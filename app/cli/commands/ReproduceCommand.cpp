@@ -88,19 +88,21 @@ Exit run(const ReproduceArguments& arguments, Session& session) {
   if (!result) return Exit::NoResult;
   session.stages.add(result->stages);
 
+  WrittenFiles files(arguments.folder);
   std::vector<ReportPicture> pictures;
   if (arguments.what == "figures" || arguments.what == "all")
-    pictures = drawPaperFigures(design, *result, options.mesh, arguments.folder, session);
+    pictures = drawPaperFigures(design, *result, options.mesh, files, session);
   ReportRun run;
   run.command = "palp reproduce " + arguments.what + " --seeds " + arguments.seeds + " --first-seed " +
                 arguments.firstSeed + arguments.mesh.asCommand() + " -o " + arguments.folder.string();
   run.seeds = options.seeds;
   run.firstSeed = options.firstSeed;
   run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const std::filesystem::path page = arguments.folder / "report.html";
-  const std::filesystem::path csv = arguments.folder / "errors.csv";
+  const std::filesystem::path page = files.add("report.html");
+  const std::filesystem::path csv = files.add("errors.csv");
   writeFile(csv, protocolCsv(*result), true);
   writeFile(page, paperReportHtml(*result, pictures, run), true);
+  files.keep();
 
   for (const ProtocolCurve& curve : result->curves) session.result[curve.figure][curve.mode] = rowsJson(curve);
   session.result["samples"] = result->samples;

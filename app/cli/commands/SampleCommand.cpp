@@ -68,7 +68,7 @@ Exit run(const SampleArguments& arguments, Session& session) {
   const std::size_t kept = writer.samplesKept();
   if (kept > range.last - range.first)
     throw UsageError(writer.partPath().string() + " holds " + std::to_string(kept) + " samples, more than the " +
-                     std::to_string(range.last - range.first) + " asked for; remove it to begin anew");
+                     std::to_string(range.last - range.first) + " asked for; remove it to start over");
   if (kept > 0) std::cerr << "going on after " << kept << " samples in " << writer.partPath().string() << '\n';
 
   const auto start = std::chrono::steady_clock::now();

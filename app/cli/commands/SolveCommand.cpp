@@ -127,7 +127,7 @@ Exit run(const SolveArguments& arguments, Session& session) {
     });
   report(touch, error ? &*error : nullptr, session);
   if (!session.json) print(touch, error ? &*error : nullptr);
-  if (!arguments.output.path.empty()) {
+  if (!arguments.output.path.empty() && !session.stop.stop_requested()) { // half a solve is no result
     const NodalFields fields = touch.problem()->fields(touch.solution()->state());
     exportVtu(arguments.output, *touch.mesh(), &fields, session);
   }

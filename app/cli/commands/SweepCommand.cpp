@@ -97,7 +97,7 @@ Exit run(const Arguments& arguments, Session& session) {
   if (best) session.warnings.insert(session.warnings.end(), best->report.warnings.begin(), best->report.warnings.end());
   if (!session.json) {
     print(rows);
-    if (best) std::cout << "least RMSE at spread " << best->spread << '\n';
+    if (best) std::cout << "smallest RMSE at spread " << best->spread << '\n';
   }
   return rows.size() == spreads.size() ? Exit::Done : Exit::NoResult;
 }

@@ -1,10 +1,10 @@
 #include "app/cli/ProgressBar.h"
 #include "app/cli/commands/TrainArguments.h"
+#include "app/study/decoding/DecoderTraining.h"
 #include "app/study/decoding/NoiseBound.h"
 #include "app/study/decoding/Prediction.h"
 #include "io/DecoderFile.h"
 #include "io/SampleFile.h"
-#include "model/base/Cancelled.h"
 
 #include <cmath>
 #include <iostream>
@@ -64,28 +64,23 @@ Exit run(const Arguments& arguments, Session& session) {
   const SampleSet samples = loadSamples(arguments.samples);
   std::optional<SensorDesign> design;
   if (!arguments.design.empty()) design = designOption(arguments.design);
-  try {
+  const Decoder decoder = session.stages.measure("train", [&] {
     ProgressBar bar("training", 1000);
-    const Decoder decoder = session.stages.measure("train", [&] {
-      return trainDecoder(samples, design ? &*design : nullptr, options, session.stop,
-                          [&](double share, const std::string&) { bar.show(static_cast<std::size_t>(1000 * share)); });
-    });
-    writeNetwork(decoder, arguments.output.path, arguments.output.force);
-    describe(decoder, session);
-    session.result["file"] = arguments.output.path.string();
-    if (options.noise > 0) {
-      const NoiseBound bound = noiseBound(samples, options.input, decoder.input.rows, options.noise);
-      session.result["noise_bound"] = boundJson(bound);
-      if (!session.json)
-        std::cout << "bound of the design at this noise, % of range: without prior "
-                  << bound.withoutPriorPercent.transpose() << "; with prior " << bound.withPriorPercent.transpose()
-                  << '\n';
-    }
-    if (!session.json) print(decoder, session);
-  } catch (const Cancelled&) {
-    std::cerr << "palp train: stopped before the fit was done; nothing was written\n";
-    return Exit::NoResult;
+    return trainDecoder(samples, design ? &*design : nullptr, options, session.stop,
+                        [&](double share, const std::string&) { bar.show(static_cast<std::size_t>(1000 * share)); });
+  });
+  writeNetwork(decoder, arguments.output.path, arguments.output.force);
+  describe(decoder, session);
+  session.result["file"] = arguments.output.path.string();
+  if (options.noise > 0) {
+    const NoiseBound bound = noiseBound(samples, options.input, decoder.input.rows, options.noise);
+    session.result["noise_bound"] = boundJson(bound);
+    if (!session.json)
+      std::cout << "bound of the design at this noise, % of range: without prior "
+                << bound.withoutPriorPercent.transpose() << "; with prior " << bound.withPriorPercent.transpose()
+                << '\n';
   }
+  if (!session.json) print(decoder, session);
   return Exit::Done;
 }
 

@@ -328,7 +328,7 @@ void DesignPage::boundErrors(double noise) {
                                                                     JobProgress&) -> JobRunner::Taking {
                     std::vector<int> all(static_cast<std::size_t>(samples->training.rowWires));
                     std::iota(all.begin(), all.end(), 0);
-                    const int centre = std::min(4, samples->training.rowWires - 1);
+                    const int centre = centreRowWire(samples->training.rowWires);
                     const NoiseBound one = noiseBound(samples->training, InputKind::Resistance, {centre}, noise);
                     stopIfAsked(stop);
                     const NoiseBound every = noiseBound(samples->training, InputKind::Resistance, all, noise);

@@ -1,5 +1,6 @@
 #include "app/gui/jobs/NetworkSession.h"
 
+#include "app/study/decoding/DecoderTraining.h"
 #include "app/study/paper/PaperProtocol.h"
 #include "app/study/touch/SampleGenerator.h"
 #include "io/DecoderFile.h"

@@ -1,6 +1,6 @@
 #include "app/scenes/charts/Chart.h"
 
-#include "app/scenes/ColorScale.h"
+#include "app/scenes/charts/AxisMarks.h"
 #include "app/scenes/charts/ChartLegend.h"
 #include "app/scenes/charts/TextStyle.h"
 #include "app/scenes/gl/OffscreenWindow.h"
@@ -28,6 +28,12 @@
 namespace palp {
 
 namespace {
+
+// Labels of 12 px: estimates, a little large.
+constexpr double kLetter_px = 7.5;
+constexpr double kGap_px = 8;
+constexpr double kLine_px = 16;
+constexpr double kAroundPlot_px = 100; ///< of the picture along an axis
 
 struct Range {
   double low = std::numeric_limits<double>::infinity();
@@ -72,36 +78,13 @@ Range padded(Range range, bool logarithmic) {
   return {range.low - margin, range.high + margin};
 }
 
-/// 1, 2, 5 times powers of ten; powers alone where there are many.
-std::vector<double> logTicks(double low, double high) {
-  const double decades = std::log10(high / low);
-  if (decades < 0.8) return roundTicks(low, high, 8);
-  const int stride = std::max(1, static_cast<int>(std::ceil(decades / 8)));
-  std::vector<double> ticks;
-  const int first = static_cast<int>(std::floor(std::log10(low)));
-  for (int power = first; power <= static_cast<int>(std::ceil(std::log10(high))); power += stride)
-    for (const double factor : {1.0, 2.0, 5.0}) {
-      if (factor > 1 && decades > 3) break;
-      const double tick = factor * std::pow(10, power);
-      if (tick >= low * (1 - 1e-9) && tick <= high * (1 + 1e-9)) ticks.push_back(tick);
-    }
-  return ticks;
-}
-
-/// As short as it stays exact enough for a label.
-std::string shortText(double value) {
-  std::array<char, 32> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), "%g", value);
-  return buffer.data();
-}
-
 std::array<unsigned char, 4> bytes(const Color& color, double opacity = 1) {
   const auto byte = [](double value) { return static_cast<unsigned char>(std::lround(255 * value)); };
   return {byte(color[0]), byte(color[1]), byte(color[2]), byte(opacity)};
 }
 
 /// Custom marks; positions as the axis has them, logarithms on a logarithmic one.
-void setTicks(vtkAxis& axis, const std::vector<std::pair<double, std::string>>& ticks, bool logarithmic) {
+void setTicks(vtkAxis& axis, const AxisMarks& ticks, bool logarithmic) {
   vtkNew<vtkDoubleArray> positions;
   vtkNew<vtkStringArray> labels;
   for (const auto& [at, text] : ticks) {
@@ -111,23 +94,17 @@ void setTicks(vtkAxis& axis, const std::vector<std::pair<double, std::string>>& 
   axis.SetCustomTickPositions(positions, labels);
 }
 
-void setTicks(vtkAxis& axis, const Range& range, bool logarithmic) {
-  const std::vector<double> ticks =
-      logarithmic ? logTicks(range.low, range.high) : roundTicks(range.low, range.high, 8);
-  std::vector<std::string> texts = tickTexts(ticks);
-  if (logarithmic) std::transform(ticks.begin(), ticks.end(), texts.begin(), shortText);
-  std::vector<std::pair<double, std::string>> marks;
-  for (std::size_t k = 0; k < ticks.size(); ++k) marks.emplace_back(ticks[k], texts[k]);
-  setTicks(axis, marks, logarithmic);
-}
-
+/// `length_px` of the picture along the axis.
 void setAxis(vtkAxis& axis, const std::string& label, const Range& range, bool logarithmic, const Palette& colors,
-             double scale) {
+             double scale, double length_px) {
   axis.SetTitle(label);
   axis.SetLogScale(logarithmic);
   axis.SetBehavior(vtkAxis::FIXED);
   axis.SetUnscaledRange(range.low, range.high);
-  setTicks(axis, range, logarithmic);
+  const bool upright = axis.GetPosition() == vtkAxis::LEFT;
+  const AxisRoom room{length_px - kAroundPlot_px * scale, upright ? 0 : kLetter_px * scale,
+                      (upright ? kLine_px : kGap_px) * scale};
+  setTicks(axis, axisMarks(range.low, range.high, logarithmic, room), logarithmic);
   setTextStyle(*axis.GetTitleProperties(), colors.text, 13 * scale);
   setTextStyle(*axis.GetLabelProperties(), colors.text, 12 * scale);
   axis.GetPen()->SetColor(bytes(colors.text).data());
@@ -235,14 +212,14 @@ void fillChart(vtkChartXY& chart, const ChartSpec& spec, Theme theme, double sca
     }
     setLegend(chart, corner, colors, scale);
   }
-  setAxis(*chart.GetAxis(vtkAxis::BOTTOM), spec.xLabel, xShown, spec.logX, colors, scale);
-  setAxis(*chart.GetAxis(vtkAxis::LEFT), spec.yLabel, yShown, spec.logY, colors, scale);
+  setAxis(*chart.GetAxis(vtkAxis::BOTTOM), spec.xLabel, xShown, spec.logX, colors, scale, size_px[0]);
+  setAxis(*chart.GetAxis(vtkAxis::LEFT), spec.yLabel, yShown, spec.logY, colors, scale, size_px[1]);
   vtkAxis& top = *chart.GetAxis(vtkAxis::TOP);
   chart.SetAutoAxes(spec.topTicks.empty()); // else the chart hides axes that no curve belongs to
   chart.GetAxis(vtkAxis::RIGHT)->SetVisible(false);
   top.SetVisible(!spec.topTicks.empty());
   if (!spec.topTicks.empty()) {
-    setAxis(top, spec.topLabel, xShown, spec.logX, colors, scale);
+    setAxis(top, spec.topLabel, xShown, spec.logX, colors, scale, size_px[0]);
     top.SetGridVisible(false);
     setTicks(top, spec.topTicks, spec.logX);
   }

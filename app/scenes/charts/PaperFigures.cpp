@@ -2,6 +2,7 @@
 
 #include "app/scenes/block/DeformationPicture.h"
 #include "app/scenes/charts/Chart.h"
+#include "model/base/Cancelled.h"
 #include "model/base/Text.h"
 
 #include <cmath>
@@ -17,16 +18,19 @@ using Style = ChartSeries::Style;
 /// Writes pictures one by one and remembers them with their captions.
 class Album {
 public:
-  explicit Album(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  Album(WrittenFiles& files, const std::stop_token& stop) : files_(files), stop_(stop) {}
 
   void add(const Picture& picture, const std::string& file, const std::string& caption, const std::string& section) {
-    writePng(picture, folder_ / file);
-    pictures_.push_back({folder_ / file, caption, section});
+    stopIfAsked(stop_);
+    const std::filesystem::path png = files_.add(file);
+    writePng(picture, png);
+    pictures_.push_back({png, caption, section});
   }
   [[nodiscard]] const std::vector<ReportPicture>& pictures() const { return pictures_; }
 
 private:
-  std::filesystem::path folder_;
+  WrittenFiles& files_;
+  const std::stop_token& stop_;
   std::vector<ReportPicture> pictures_;
 };
 
@@ -43,7 +47,7 @@ void drawDeformations(Album& album, const Touch& touch) {
       drawDeformation(state), "fig04_deformation.png",
       "Fig. 4: deformation under (1, 0, -6) N on area 0; displacements drawn enlarged by the factor in the picture",
       "deformation");
-  const int centre = (design.rowWires() - 1) / 2;
+  const int centre = centreRowWire(design.rowWires());
   album.add(drawRowWire(design, centre, nullptr), "fig06_row_wire_at_rest.png",
             "Fig. 6: row-wire " + std::to_string(centre) + " with no force", "deformation");
   album.add(drawRowWire(design, centre, touch.displacements()), "fig07_row_wire_loaded.png",
@@ -166,9 +170,9 @@ LoadCase paperFigureLoad() {
   return load;
 }
 
-std::vector<ReportPicture> drawPaperFigures(const ProtocolResult& result, const Touch& touch,
-                                            const std::filesystem::path& folder) {
-  Album album(folder);
+std::vector<ReportPicture> drawPaperFigures(const ProtocolResult& result, const Touch& touch, WrittenFiles& files,
+                                            const std::stop_token& stop) {
+  Album album(files, stop);
   drawDeformations(album, touch);
   for (const char* figure : {"table1", "fig12"})
     for (const ProtocolCurve& curve : result.curves)

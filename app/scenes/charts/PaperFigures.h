@@ -2,9 +2,10 @@
 
 #include "app/study/paper/PaperProtocol.h"
 #include "app/study/paper/PaperReport.h"
+#include "app/study/reports/WrittenFiles.h"
 #include "app/study/touch/Touch.h"
 
-#include <filesystem>
+#include <stop_token>
 #include <vector>
 
 namespace palp {
@@ -13,8 +14,8 @@ namespace palp {
 LoadCase paperFigureLoad();
 
 /// Table 1 and Fig. 12 as charts, Figs. 4, 6 and 7 from the touch (advanced to the displacements), Figs. 8-11 and 13-16
-/// from the traces of the first area, as PNG files in the folder.
-std::vector<ReportPicture> drawPaperFigures(const ProtocolResult& result, const Touch& touch,
-                                            const std::filesystem::path& folder);
+/// from the traces of the first area, as PNG files among those of the report. Throws Cancelled between two pictures.
+std::vector<ReportPicture> drawPaperFigures(const ProtocolResult& result, const Touch& touch, WrittenFiles& files,
+                                            const std::stop_token& stop = {});
 
 } // namespace palp

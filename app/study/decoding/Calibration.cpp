@@ -1,6 +1,7 @@
 #include "app/study/decoding/Calibration.h"
 
 #include "io/SampleFile.h"
+#include "model/base/Cancelled.h"
 #include "model/base/Error.h"
 #include "nn/rivals/RecursiveLeastSquares.h"
 
@@ -110,7 +111,7 @@ void apply(ForwardModel& model, const Affine& affine) {
 
 } // namespace
 
-Calibration calibrate(const Decoder& decoder, const SampleSet& frames) {
+Calibration calibrate(const Decoder& decoder, const SampleSet& frames, const std::stop_token& stop) {
   requireUsable(decoder, frames);
   PredictOptions forcesAlone;
   forcesAlone.standardDeviation = forcesAlone.area = false;
@@ -130,6 +131,7 @@ Calibration calibrate(const Decoder& decoder, const SampleSet& frames) {
 
   Eigen::Matrix3Xd unseen_N(3, frames.size());
   for (Eigen::Index i = 0; i < frames.size(); ++i) {
+    stopIfAsked(stop); // the work grows with the square of the frames
     const Eigen::Vector3d corrected = fit(scaled, i).transpose() * regressors(scaled.said.col(i));
     unseen_N.col(i) = range_N.cwiseProduct(corrected - scaled.truth.col(i));
   }
@@ -148,7 +150,12 @@ Calibration calibrate(const Decoder& decoder, const SampleSet& frames) {
 }
 
 FrameAverage::FrameAverage(const Decoder& decoder, const SensorDesign& design, const AreaLoad& label) {
-  set_.origin = {decoder.designFingerprint, 0, "each", 1, "measured on a board", 0, false, 0, 0};
+  set_.origin.designFingerprint = decoder.designFingerprint;
+  set_.origin.seed = 0;
+  set_.origin.areas = "each";
+  set_.origin.perArea = 1;
+  set_.origin.mesh = "measured on a board";
+  set_.origin.solverTolerance = 0;
   set_.rowWires = decoder.input.rowWires;
   set_.electrodesPerRowWire = design.electrodesPerRowWire();
   set_.columnWires = decoder.input.valuesPerRow;

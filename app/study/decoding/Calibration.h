@@ -4,6 +4,7 @@
 #include "model/LoadCase.h"
 
 #include <filesystem>
+#include <stop_token>
 #include <vector>
 
 namespace palp {
@@ -28,8 +29,8 @@ struct Calibration {
 
 /// Refines a network with labelled frames of a real board: recursive least squares for F = A N(R) + b from A = 1, b =
 /// 0, which an RBF network takes into its weights and the polynomials of maximum likelihood into their arguments.
-/// Throws Error where the network is another one, the frames are of other wires or too few.
-Calibration calibrate(const Decoder& decoder, const SampleSet& frames);
+/// Throws Error where the network is another one, the frames are of other wires or too few, and Cancelled.
+Calibration calibrate(const Decoder& decoder, const SampleSet& frames, const std::stop_token& stop = {});
 
 /// Mean of frames under one known load: one labelled frame for `calibrate`.
 class FrameAverage {

@@ -1,5 +1,6 @@
 #include "app/study/decoding/DecoderTraining.h"
 
+#include "app/study/decoding/Prediction.h"
 #include "app/study/decoding/TwoStep.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
@@ -35,7 +36,36 @@ Eigen::VectorXd rootMeanSquare(const Eigen::MatrixXd& residuals) {
                                : Eigen::VectorXd(residuals.array().square().rowwise().mean().sqrt());
 }
 
-} // namespace
+/// The work of one training, step by step; `decoder_` and its report grow on the way.
+class DecoderTraining {
+public:
+  /// All arguments outlive the training.
+  DecoderTraining(const SampleSet& samples, const SensorDesign* design, const TrainOptions& options,
+                  const std::stop_token& stop, const std::function<void(double, const std::string&)>& progress);
+  Decoder run();
+
+private:
+  void describe();
+  void fit();
+  void fitRbf();
+  void fitPolynomial(int degree);
+  void fitGaussianProcess();
+  void fitBackPropagation();
+  void fitTwoStep(bool gaussNewton);
+  void fitLikelihood();
+  void recordResiduals(const Eigen::MatrixXd& residuals, const Eigen::VectorXi& areas);
+  void fitAreas();
+  [[nodiscard]] ForwardModel forwardModel();
+  void say(double share, const std::string& what) const;
+
+  const SampleSet& samples_;
+  const SensorDesign* design_;
+  const TrainOptions& options_;
+  const std::stop_token& stop_;
+  const std::function<void(double, const std::string&)>& progress_;
+  Eigen::MatrixXd inputs_;
+  Decoder decoder_;
+};
 
 DecoderTraining::DecoderTraining(const SampleSet& samples, const SensorDesign* design, const TrainOptions& options,
                                  const std::stop_token& stop,
@@ -49,8 +79,8 @@ Decoder DecoderTraining::run() {
   say(0, "fitting " + name(options_.decoder));
   fit();
   if (stop_.stop_requested()) throw Cancelled();
-  say(0.9, "telling the areas");
-  tellAreas();
+  say(0.9, "learning the areas");
+  fitAreas();
   decoder_.report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   say(1, "trained");
   return std::move(decoder_);
@@ -104,7 +134,7 @@ void DecoderTraining::fitRbf() {
   RbfFit fit = trainRbf(inputs_, samples_.forces_N, rbfOptions(options_, samples_.size()), stop_);
   decoder_.model = std::move(fit.network);
   decoder_.report = std::move(fit.report);
-  tellResiduals(decoder_.report.leaveOneOutResiduals, samples_.area);
+  recordResiduals(decoder_.report.leaveOneOutResiduals, samples_.area);
 }
 
 void DecoderTraining::fitPolynomial(int degree) {
@@ -121,7 +151,7 @@ void DecoderTraining::fitPolynomial(int degree) {
   decoder_.report.largestWeight = fit.model.weights.cwiseAbs().maxCoeff();
   decoder_.report.warnings = std::move(fit.warnings);
   decoder_.model = std::move(fit.model);
-  tellResiduals(fit.leaveOneOutResiduals, samples_.area);
+  recordResiduals(fit.leaveOneOutResiduals, samples_.area);
 }
 
 void DecoderTraining::fitGaussianProcess() {
@@ -139,7 +169,7 @@ void DecoderTraining::fitGaussianProcess() {
   report.largestWeight = fit.process.mean.weights.cwiseAbs().maxCoeff();
   report.warnings = std::move(fit.warnings);
   decoder_.model = std::move(fit.process);
-  tellResiduals(fit.leaveOneOutResiduals, samples_.area(fit.used));
+  recordResiduals(fit.leaveOneOutResiduals, samples_.area(fit.used));
 }
 
 void DecoderTraining::fitBackPropagation() {
@@ -152,7 +182,7 @@ void DecoderTraining::fitBackPropagation() {
   decoder_.report.largestWeight =
       std::max(fit.network.hiddenWeights.cwiseAbs().maxCoeff(), fit.network.outputWeights.cwiseAbs().maxCoeff());
   decoder_.model = std::move(fit.network);
-  tellResiduals(fit.heldOutResiduals, samples_.area(fit.heldOut));
+  recordResiduals(fit.heldOutResiduals, samples_.area(fit.heldOut));
 }
 
 void DecoderTraining::fitTwoStep(bool gaussNewton) {
@@ -162,7 +192,7 @@ void DecoderTraining::fitTwoStep(bool gaussNewton) {
                                 [this](double share, const std::string& what) { say(0.9 * share, what); });
   decoder_.report = std::move(fit.report);
   decoder_.model = std::move(fit.decoder);
-  tellResiduals(fit.residuals_N, samples_.area);
+  recordResiduals(fit.residuals_N, samples_.area);
 }
 
 void DecoderTraining::fitLikelihood() {
@@ -172,8 +202,9 @@ void DecoderTraining::fitLikelihood() {
   decoder_.model = std::move(model);
   // The samples serve again, with the noise: the model has few unknowns against their number.
   decoder_.residual_N = Eigen::MatrixXd::Zero(samples_.forces_N.rows(), 1);
-  tellResiduals(samples_.forces_N - likelihoodForces(std::get<ForwardModel>(decoder_.model), inputs_, options_, stop_),
-                samples_.area);
+  recordResiduals(samples_.forces_N -
+                      likelihoodForces(std::get<ForwardModel>(decoder_.model), inputs_, options_, stop_),
+                  samples_.area);
 }
 
 ForwardModel DecoderTraining::forwardModel() {
@@ -184,15 +215,15 @@ ForwardModel DecoderTraining::forwardModel() {
   return fitForwardModel(inputs_, samples_.forces_N, classes.ofSample, options, &decoder_.report.warnings);
 }
 
-void DecoderTraining::tellAreas() {
+void DecoderTraining::fitAreas() {
   if (samples_.together() || samples_.areaCount < 2 || options_.decoder == DecoderKind::MaximumLikelihood) return;
   const Eigen::VectorXi& area = samples_.area;
-  if (area.minCoeff() == area.maxCoeff()) return; // one area only: there is nothing to tell apart
+  if (area.minCoeff() == area.maxCoeff()) return; // one area only: nothing to distinguish
   decoder_.areas = forwardModel();
 }
 
 /// Root mean square of each area's residuals; of all of them where an area has none.
-void DecoderTraining::tellResiduals(const Eigen::MatrixXd& residuals, const Eigen::VectorXi& areas) {
+void DecoderTraining::recordResiduals(const Eigen::MatrixXd& residuals, const Eigen::VectorXi& areas) {
   const Eigen::VectorXd all = rootMeanSquare(residuals);
   decoder_.report.leaveOneOut = all;
   const bool together = samples_.together();
@@ -208,6 +239,13 @@ void DecoderTraining::tellResiduals(const Eigen::MatrixXd& residuals, const Eige
 
 void DecoderTraining::say(double share, const std::string& what) const {
   if (progress_) progress_(share, what);
+}
+
+} // namespace
+
+Decoder trainDecoder(const SampleSet& samples, const SensorDesign* design, const TrainOptions& options,
+                     const std::stop_token& stop, const std::function<void(double, const std::string&)>& progress) {
+  return DecoderTraining(samples, design, options, stop, progress).run();
 }
 
 } // namespace palp

@@ -13,6 +13,10 @@
 namespace palp {
 namespace {
 
+/// What is known of a force before any reading, in units of its range: a uniform density has the variance range^2 / 12,
+/// and a normal one of that variance carries 12 / range^2 of information (van Trees' bound).
+constexpr double kPriorInformation = 12;
+
 /// diag(a^-1) for a symmetric a; infinite where a is singular to rounding.
 Eigen::VectorXd inverseDiagonal(const Eigen::MatrixXd& a) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(a);
@@ -47,11 +51,13 @@ NoiseBound noiseBound(const SampleSet& samples, InputKind kind, const std::vecto
     for (const Eigen::Index i : members) {
       Eigen::MatrixXd slope;
       const Eigen::VectorXd value = model.measurementsOf(0, samples.forces_N.col(i), &slope);
-      // In units of the force range, so that the square roots of large and small forces do not meet in one matrix.
+      // Fisher information of a reading x with normal noise sigma x: I = J^T J / sigma^2, J = (dx/dF) / x; no unbiased
+      // estimate of F has a variance below diag(I^-1) (Cramer and Rao; Kay, Estimation Theory, section 3.7). In units
+      // of the force range, so that large and small forces are of one size in the matrix.
       const Eigen::MatrixXd j = value.cwiseInverse().asDiagonal() * slope * range.matrix().asDiagonal();
       const Eigen::MatrixXd information = j.transpose() * j / (relativeNoise * relativeNoise);
       without += inverseDiagonal(information).array();
-      with += inverseDiagonal(information + 12 * Eigen::MatrixXd::Identity(outputs, outputs)).array();
+      with += inverseDiagonal(information + kPriorInformation * Eigen::MatrixXd::Identity(outputs, outputs)).array();
     }
   }
   const double count = static_cast<double>(samples.size());

@@ -8,8 +8,8 @@
 namespace palp {
 
 /// Cramer-Rao bound of the force for relative noise of the inputs, area known, as % of the force range: root mean
-/// square over samples and areas, one entry an output. What no unbiased method (without prior) and no method at all
-/// (with prior: forces uniform over their range) can beat.
+/// square over samples and areas, one entry an output. Without prior: what no unbiased method can beat. With prior:
+/// what no method at all can beat where a force is known beforehand to within its range (variance range^2 / 12).
 struct NoiseBound {
   Eigen::VectorXd withoutPriorPercent; ///< infinite where the inputs do not determine the forces
   Eigen::VectorXd withPriorPercent;

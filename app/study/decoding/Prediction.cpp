@@ -1,6 +1,5 @@
 #include "app/study/decoding/Prediction.h"
 
-#include "app/study/decoding/DecoderTraining.h"
 #include "app/study/decoding/TwoStep.h"
 #include "model/base/Error.h"
 #include "model/base/Text.h"
@@ -107,7 +106,7 @@ void tellAreas(const Decoder& decoder, const LikelihoodInversion& inversion,
   }
 }
 
-/// The error found in training (of the touched area, where it was told) and the inputs' further noise through dF/dx;
+/// The error found in training (of the touched area, where it is known) and the inputs' further noise through dF/dx;
 /// never less than all their noise there, which training averaged over the range.
 void tellDeviations(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixXd>& inputs,
                     const PredictOptions& options, Prediction& result) {
@@ -229,11 +228,6 @@ DecoderError decoderError(const Decoder& decoder, const Prediction& prediction, 
     result.rightAreas = static_cast<double>((prediction.area.array() == samples.area.array()).count()) /
                         static_cast<double>(samples.area.size());
   return result;
-}
-
-Decoder trainDecoder(const SampleSet& samples, const SensorDesign* design, const TrainOptions& options,
-                     const std::stop_token& stop, const std::function<void(double, const std::string&)>& progress) {
-  return DecoderTraining(samples, design, options, stop, progress).run();
 }
 
 } // namespace palp

@@ -16,19 +16,12 @@ namespace palp {
 /// other sizes than the input wants.
 Eigen::MatrixXd inputsOf(const SampleSet& samples, const DecoderInput& input);
 
-/// Fits a decoder. `design` is needed by two-step-gn only (Eq. (1)); without it that one throws Error, as everything
-/// does from which no decoder can be made, and Cancelled (nn/NetworkError.h) where it was stopped. `progress` gets a
-/// share 0..1 and what is being done.
-Decoder trainDecoder(const SampleSet& samples, const SensorDesign* design, const TrainOptions& options,
-                     const std::stop_token& stop = {},
-                     const std::function<void(double, const std::string&)>& progress = {});
-
 /// What a decoder says; one column a sample.
 struct Prediction {
   Eigen::MatrixXd forces_N;
   Eigen::MatrixXd standardDeviation_N;    ///< of each force: training error and input noise; empty: not asked
   std::vector<bool> outsideTrainingRange; ///< some input lies outside what was trained
-  Eigen::VectorXi area;                   ///< most likely touched area; empty: not told
+  Eigen::VectorXi area;                   ///< most likely touched area; empty: not determined
   Eigen::VectorXd areaConfidence;         ///< its probability
   double microsecondsPerSample = 0;       ///< of the forces alone
   std::vector<std::string> warnings;
@@ -62,7 +55,8 @@ Prediction predict(const Decoder& decoder, const SampleSet& samples, const Predi
 /// The sentence for samples of another design than the decoder's.
 std::string otherDesign(const Decoder& decoder, const SampleSet& samples);
 
-/// Errors against the forces in the set, in % of the training range; where areas were told, the share of right ones.
+/// Errors against the forces in the set, in % of the training range; where areas were determined, the share of right
+/// ones.
 struct DecoderError {
   PredictionError error;
   std::optional<double> rightAreas;

@@ -10,7 +10,7 @@
 
 namespace palp {
 
-/// All that `palp train` can be told; what is not set follows from the mode.
+/// All options of `palp train`; what is not set follows from the mode.
 struct TrainOptions {
   InputKind input = InputKind::Displacement;
   std::string rows = "4"; ///< row-wires that are read: "4", "1,4,7", "all"

@@ -21,7 +21,7 @@ struct Inversion {
 };
 
 /// Displacements of a row-wire's electrodes whose Eq. (1) gives the resistances [ohm] (column-wires x samples), by
-/// damped Gauss-Newton from rest, the step of least norm where the system is singular. Throws Error where the system
+/// damped Gauss-Newton from rest, the step of smallest norm where the system is singular. Throws Error where the system
 /// is not square and where lower electrodes or resistivity follow the rubber, for then u alone does not decide R.
 Inversion invertRowResistances(const SensorDesign& design, int rowWire,
                                const Eigen::Ref<const Eigen::MatrixXd>& resistances_ohm,

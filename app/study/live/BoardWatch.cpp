@@ -1,5 +1,6 @@
 #include "app/study/live/BoardWatch.h"
 
+#include "app/study/Failure.h"
 #include "io/board/Hotplug.h"
 
 namespace palp {
@@ -18,14 +19,26 @@ std::vector<HidBoard> BoardWatch::boards() const {
   return boards_;
 }
 
+std::string BoardWatch::problem() const {
+  const std::lock_guard lock(mutex_);
+  return problem_;
+}
+
 void BoardWatch::run(const std::stop_token& stop) {
   Hotplug hotplug;
   while (!stop.stop_requested()) {
     const bool changed = hotplug.wait(kWait);
     if (looks_ > 0 && (quiet_ || !changed)) continue;
-    std::vector<HidBoard> boards = access_.list();
+    std::vector<HidBoard> boards;
+    std::string problem;
+    try {
+      boards = access_.list();
+    } catch (...) { // the last resort of this thread: no boards, and why
+      problem = failureInWords(std::current_exception());
+    }
     const std::lock_guard lock(mutex_);
     boards_ = std::move(boards);
+    problem_ = std::move(problem);
     ++looks_;
   }
 }

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <mutex>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -15,6 +16,8 @@ public:
   explicit BoardWatch(BoardAccess access = {});
 
   [[nodiscard]] std::vector<HidBoard> boards() const;
+  /// Why the last look failed; empty where it did not.
+  [[nodiscard]] std::string problem() const;
   /// False before the first look.
   [[nodiscard]] bool looked() const { return looks_ > 0; }
   /// While a board streams nobody enumerates: that would disturb it.
@@ -26,6 +29,7 @@ private:
   BoardAccess access_;
   mutable std::mutex mutex_;
   std::vector<HidBoard> boards_;
+  std::string problem_;
   std::atomic<int> looks_{0};
   std::atomic<bool> quiet_{false};
   std::jthread thread_; ///< last: it uses all of the above

@@ -173,7 +173,7 @@ DecodedForces ForceDecoder::decode(const BoardFrame& frame) {
     decoded.areaConfidence = prediction.areaConfidence(0);
   }
   decoded.valid = decoded.forces_N.allFinite();
-  if (!decoded.valid) decoded.reason = "the network's answer is no number for these readings";
+  if (!decoded.valid) decoded.reason = "the network's answer is not a number for these readings";
   addRestError(decoded);
   threshold(decoded);
   return decoded;

@@ -19,7 +19,7 @@ struct DecodedForces {
   Eigen::Matrix3Xd forces_N;            ///< 3 x 1, of the touched area; `together`: 3 x areas
   Eigen::Matrix3Xd standardDeviation_N; ///< of each; noise of frame and tare, error of the training and at rest
   std::vector<bool> shown;              ///< one a column: stands out of the noise
-  std::optional<int> area;              ///< most likely touched, where the decoder tells
+  std::optional<int> area;              ///< most likely touched, where the decoder determines it
   double areaConfidence = 0;
   bool outsideTrainingRange = false;
   Eigen::MatrixXd resistances_ohm; ///< tared, row-wires x column-wires; meaningful in the rows that the decoder reads
@@ -35,7 +35,7 @@ public:
 
   [[nodiscard]] DecodedForces decode(const BoardFrame& frame);
 
-  /// Averages the next frames that are whole, and begins anew while the sensor moves; throws Error where the design at
+  /// Averages the next frames that are whole, and starts over while the sensor moves; throws Error where the design at
   /// rest is not known.
   void startTare(int frames);
   [[nodiscard]] bool taring() const { return tareLeft_ > 0; }
@@ -45,7 +45,7 @@ public:
   /// What the board reads at rest, by the tare, row-wires x column-wires [ohm].
   [[nodiscard]] Eigen::MatrixXd boardRest_ohm() const { return rest_ohm_.cwiseQuotient(factor_); }
   void clearTare();
-  /// Why tare cannot be; empty where it can.
+  /// Why taring is impossible; empty where it is possible.
   [[nodiscard]] std::string tareProblem() const;
 
   /// Relative noise of the readings: measured while taring, before that from frame to frame, and then no less than the

@@ -57,7 +57,7 @@ void writeLiveCsv(const std::filesystem::path& path, const LiveHistory& history)
   }
   std::ostringstream out;
   out.precision(17);
-  out << "t_s,frame,complete,valid,area,latency_ms,lost_reports,temperature_degC,mark";
+  out << "t_s,board_s,frame,complete,valid,area,latency_ms,lost_reports,temperature_degC,mark";
   for (Eigen::Index k = 0; k < forces; ++k)
     out << ",a" << k / 3 << "_f"
         << "xyz"[k % 3] << "_N";
@@ -68,8 +68,8 @@ void writeLiveCsv(const std::filesystem::path& path, const LiveHistory& history)
   out << ",reason\n";
   for (const LiveHistory::Entry& entry : history.entries()) {
     const LiveFrame& live = *entry.frame;
-    out << live.frame.time_s << ',' << live.frame.number << ',' << live.frame.complete << ',' << live.forces.valid
-        << ',';
+    out << entry.t_s << ',' << live.frame.time_s << ',' << live.frame.number << ',' << live.frame.complete << ','
+        << live.forces.valid << ',';
     if (live.forces.area) out << *live.forces.area;
     out << ',' << 1e3 * live.latency_s << ',' << live.lostReports << ',';
     if (live.frame.temperature_degC) out << *live.frame.temperature_degC;

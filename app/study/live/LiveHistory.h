@@ -32,7 +32,8 @@ private:
   double offset_s_ = 0; ///< host's clock minus the device's
 };
 
-/// The entries as CSV: time, frame, forces with deviations, latency, lost reports, and the change of every reading.
+/// The entries as CSV: time as in Entry (it never jumps back), the board's own clock, frame, forces with deviations,
+/// latency, lost reports, and the change of every reading.
 /// Throws Error where the file cannot be written.
 void writeLiveCsv(const std::filesystem::path& path, const LiveHistory& history);
 

@@ -1,5 +1,6 @@
 #include "app/study/live/LiveSession.h"
 
+#include "app/study/Failure.h"
 #include "app/study/live/LiveWorker.h"
 #include "model/base/Error.h"
 
@@ -33,7 +34,15 @@ const char* name(LiveState state) {
 }
 
 LiveSession::LiveSession(LiveOptions options)
-    : options_(std::move(options)), thread_([this](const std::stop_token& stop) { run(stop); }) {}
+    : options_(std::move(options)), thread_([this](const std::stop_token& stop) {
+        try {
+          run(stop);
+        } catch (...) { // the last resort of this thread: the session ends, not the program
+          const std::lock_guard lock(mutex_);
+          status_.state = LiveState::Ended;
+          status_.reason = failureInWords(std::current_exception());
+        }
+      }) {}
 
 LiveSession::~LiveSession() = default; // the thread is asked to stop and joined first
 
@@ -61,7 +70,7 @@ void LiveSession::run(const std::stop_token& stop) {
       const std::lock_guard lock(mutex_);
       requests.swap(requests_);
     }
-    for (const auto& request : requests) request(worker);
+    for (const auto& request : requests) worker.guarded([&] { request(worker); });
     worker.step();
     const double now_s = hostClock_s();
     if (requests.empty() && worker.state() == state && now_s < published_s + kPublishInterval_s) continue;

@@ -19,11 +19,11 @@ class LiveWorker;
 
 enum class LiveState {
   Searching, ///< no board; goes on by itself when one is plugged in
-  Refused,   ///< a board that may not or cannot be opened; `reason` says what to do
+  Refused,   ///< a board that may not or cannot be opened or used; `reason` says what to do
   Streaming,
   Stalled, ///< the board is there but nothing has come for 250 ms
   Paused,
-  Ended ///< of the recording, or of a board of another protocol
+  Ended ///< the recording, or a board that is not searched again
 };
 const char* name(LiveState state);
 
@@ -65,11 +65,12 @@ struct LiveStatus {
   bool recording = false;
   std::uint64_t recordedReports = 0, recordingDropped = 0;
   std::string recordingFailure;
-  std::string lastEvent; ///< what the board said last
+  std::string lastEvent; ///< what the board said last, or what failed
 };
 
 struct LiveOptions {
-  /// Opens the board, recording or virtual board; null where there is none now. Throws BoardError where it refuses.
+  /// Opens the board, recording or virtual board; null where there is none now. What it throws is shown as a refusal,
+  /// and it is called again while `reconnect` holds.
   std::function<std::unique_ptr<ReportSource>()> open;
   bool reconnect = true; ///< search again when the board is gone
   std::optional<Decoder> decoder;

@@ -1,5 +1,6 @@
 #include "app/study/live/LiveWorker.h"
 
+#include "app/study/Failure.h"
 #include "model/base/Error.h"
 
 #include <algorithm>
@@ -39,23 +40,41 @@ void LiveWorker::step() {
     std::this_thread::sleep_for(kReadTimeout / 10);
     return;
   }
-  if (!source_) return search();
+  guarded([this] { source_ ? read() : search(); });
+}
+
+void LiveWorker::guarded(const std::function<void()>& call) {
   try {
-    read();
+    call();
   } catch (const BoardError& gone) { // the board went while it was asked something
+    status_.lastEvent = gone.what(); // stays when the connection is made again
     disconnect(LiveState::Searching, gone.what());
+  } catch (...) { // the last resort: whatever fails here must not end the program
+    status_.lastEvent = failureInWords(std::current_exception());
+    disconnect(LiveState::Refused, status_.lastEvent);
   }
 }
 
 void LiveWorker::search() {
   if (searched_ && !hotplug_.wait(kSearchInterval)) return;
   searched_ = true;
+  std::unique_ptr<ReportSource> source;
   try {
-    if (std::unique_ptr<ReportSource> source = options_.open()) connect(std::move(source));
-  } catch (const BoardError& refused) {
+    source = options_.open();
+  } catch (...) { // tried again: the permission may be given, the file mended
     status_.state = LiveState::Refused;
-    status_.reason = refused.what();
+    status_.reason = failureInWords(std::current_exception());
+    return;
   }
+  if (!source) { // also after a refusal: the board that was refused is gone
+    otherProtocol_.reset();
+    if (status_.state == LiveState::Refused) status_.reason.clear();
+    status_.state = LiveState::Searching;
+    return;
+  }
+  if (otherProtocol_ && *otherProtocol_ == BoardIdentity(source->name(), source->info())) return;
+  otherProtocol_.reset();
+  connect(std::move(source));
 }
 
 void LiveWorker::connect(std::unique_ptr<ReportSource> source) {
@@ -128,6 +147,7 @@ void LiveWorker::take(const RawReport& report) {
   const auto* fault = std::get_if<ReportFault>(&decoded);
   if (fault && *fault == ReportFault::Protocol) {
     const std::string board = source_->name();
+    otherProtocol_.emplace(board, source_->info());
     disconnect(LiveState::Refused, board + ": " + sentence(*fault) + "; a newer Palp may understand it");
     return;
   }
@@ -218,8 +238,9 @@ void LiveWorker::makeDecoder() {
     decoder_.emplace(*options_.decoder, *status_.info, options_.design);
     rest_.reset(decoder_->restResistances_ohm());
     if (options_.tareFrames > 0) tare(options_.tareFrames);
-  } catch (const Error& unfit) {
-    status_.decoderProblem = unfit.what();
+  } catch (...) { // the readings are of use without it
+    decoder_.reset();
+    status_.decoderProblem = failureInWords(std::current_exception());
   }
 }
 

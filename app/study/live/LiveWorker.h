@@ -14,8 +14,10 @@ public:
 
   LiveWorker(LiveOptions options, TakeFrame take);
 
-  /// One report, one look for a board, or a short wait.
+  /// One report, one look for a board, or a short wait. Throws nothing.
   void step();
+  /// Runs a call of the session's user. What it throws ends the connection, and the status says why.
+  void guarded(const std::function<void()>& call);
   [[nodiscard]] LiveState state() const { return status_.state; }
   [[nodiscard]] LiveStatus status();
 
@@ -45,6 +47,9 @@ private:
   Hotplug hotplug_;
   bool searched_ = false;
   std::unique_ptr<ReportSource> source_;
+  using BoardIdentity = std::pair<std::string, BoardInfo>; ///< name and what it says of itself
+  /// The board that sent reports of another protocol: left alone until it is gone or another one is there.
+  std::optional<BoardIdentity> otherProtocol_;
   std::optional<FrameAssembler> assembler_;
   ReportCounts earlier_; ///< of the connections before this one
   std::optional<ForceDecoder> decoder_;

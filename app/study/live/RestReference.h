@@ -10,7 +10,7 @@ namespace palp {
 /// design at rest, else the first reading that was good.
 class RestReference {
 public:
-  /// Begins anew; `design_ohm` may be empty (not known).
+  /// Starts over; `design_ohm` may be empty (not known).
   void reset(Eigen::MatrixXd design_ohm);
   /// Averages each reading over the next frames that hold it.
   void startTare(int frames);

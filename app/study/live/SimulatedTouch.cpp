@@ -2,6 +2,7 @@
 
 #include "model/base/Error.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -14,7 +15,7 @@ constexpr int kDegree = 3;     // 2e-7 of the displacements in the paper's range
 constexpr double kShear = 0.8; // share of the ranges that the touch goes through
 constexpr double kPress = 0.9;
 
-/// Column of the sample with the least force.
+/// Column of the sample with the smallest force.
 Eigen::Index nearestRest(const SampleSet& samples) {
   Eigen::Index nearest = 0;
   samples.forces_N.colwise().squaredNorm().minCoeff(&nearest);
@@ -78,7 +79,9 @@ VirtualBoard simulatedBoard(const SampleSet& samples, const BoardDisturbance& di
   settings.info.electrodesPerRowWire = samples.electrodesPerRowWire;
   settings.info.serial = "SIMULATED";
   settings.info.model = "VIRTUAL";
-  settings.configuration.rowMask = static_cast<std::uint32_t>((std::uint64_t{1} << touch->rowWires()) - 1);
+  // The lowest bits, one a row-wire; a board with more row-wires than bits is refused by VirtualBoard.
+  const int unused = std::clamp(kMostRowWires - touch->rowWires(), 0, kMostRowWires - 1);
+  settings.configuration.rowMask = ~std::uint32_t{0} >> unused;
   settings.configuration.rate_Hz = rate_Hz;
   settings.disturbance = disturbance;
   settings.seed = seed;

@@ -1,7 +1,9 @@
 #include "app/study/paper/PaperProtocol.h"
 
 #include "app/study/Median.h"
+#include "app/study/decoding/DecoderTraining.h"
 #include "app/study/touch/SampleGenerator.h"
+#include "model/base/Cancelled.h"
 
 #include <algorithm>
 #include <cmath>
@@ -40,7 +42,7 @@ FigurePlan figurePlan(const std::string& figure, int rowWires) {
 
   TrainOptions options;
   options.input = plan.input;
-  options.rows = std::to_string((rowWires - 1) / 2); // the centre row-wire
+  options.rows = std::to_string(centreRowWire(rowWires)); // the centre row-wire
   plan.curves.push_back(
       {"default", "one scale for all inputs, one centre a sample, radbas, linear tail, pivoted QR", options});
   options.mode = DecoderMode::Paper;
@@ -196,7 +198,7 @@ std::uint64_t testSeed(std::uint64_t trainingSeed) {
 std::optional<ProtocolResult> runPaperProtocol(const SensorDesign& design, const std::vector<std::string>& figures,
                                                const ProtocolOptions& options,
                                                const std::function<void(double, const std::string&)>& progress,
-                                               const std::stop_token& stop) {
+                                               const std::stop_token& stop) try {
   std::vector<FigurePlan> plans;
   for (const std::string& figure : figures) plans.push_back(figurePlan(figure, design.rowWires()));
   ProtocolResult result;
@@ -222,6 +224,8 @@ std::optional<ProtocolResult> runPaperProtocol(const SensorDesign& design, const
       }
   }
   return result;
+} catch (const Cancelled&) { // within a training
+  return {};
 }
 
 } // namespace palp

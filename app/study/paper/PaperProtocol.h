@@ -54,7 +54,7 @@ struct ProtocolRow {
   [[nodiscard]] Eigen::Vector3d rmse_percentOfRange() const;
 };
 
-/// A way to train over all its spreads.
+/// One way to train, at all its spreads.
 struct ProtocolCurve {
   std::string figure; ///< table1 or fig12
   std::string mode;   ///< default, paper, linear, paper-minmax (Fig. 12 with each input scaled by itself)
@@ -85,7 +85,7 @@ struct ProtocolResult {
 std::uint64_t testSeed(std::uint64_t trainingSeed);
 
 /// Runs the experiment for the figures (table1, fig12). `progress` gets a share 0..1 and what is being done. Empty
-/// where it was stopped.
+/// where it was stopped, within a training too.
 std::optional<ProtocolResult> runPaperProtocol(const SensorDesign& design, const std::vector<std::string>& figures,
                                                const ProtocolOptions& options,
                                                const std::function<void(double, const std::string&)>& progress = {},

@@ -152,8 +152,12 @@ std::string paperReportHtml(const ProtocolResult& result, const std::vector<Repo
                    "; largest difference to full Newton on the share that was solved again: " +
                    shortNumber(result.batchError) + " (relative). Numbers are medians over the repetitions.");
     page.paragraph(
-        "Conventions: spread is MATLAB's radbas, phi(r) = exp(-ln 2 (r/spread)^2); 'one scale' divides every "
-        "input by half of the largest range of any input. Networks are trained on 100 forces on each of the "
+        "Conventions: spread is MATLAB's radbas, phi(r) = exp(-ln 2 (r/spread)^2); 'one scale' takes the mean from "
+        "every input and divides all by one number, so that the training sample farthest from the mean is at distance "
+        "1; 'min-max' brings each input by itself to [-1, 1]. The paper does not say how it scaled its inputs, and a "
+        "spread is a length in scaled inputs: places on the spread axis are therefore ours. What can be compared with "
+        "the paper is the shape of the curve, the error at its best spread, and the error at the spread that "
+        "leave-one-out chooses. Networks are trained on 100 forces on each of the "
         "six areas and tested on 100 other forces on each. The paper tests one area that it does not name: "
         "which one it is changes the error by 10 to 1000 times, so the mean and the worst stand here.");
   }

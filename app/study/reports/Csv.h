@@ -6,7 +6,7 @@
 
 namespace palp {
 
-/// A cell of a CSV: text, or a number that reads back as the same number; no number where it does not apply.
+/// A cell of a CSV: text, or a number that reads back as the same number; empty where it does not apply.
 class CsvCell {
 public:
   CsvCell(const char* words);        // NOLINT(google-explicit-constructor): cells are written in place

@@ -8,7 +8,7 @@ double heldMemory_MB();
 /// The most that the process held since resetPeakMemory(), or since its start where the system cannot reset it [MB].
 /// rusage's ru_maxrss would be at least that of the process that started this one.
 double peakMemory_MB();
-/// Begins to watch the peak anew.
+/// Starts watching the peak again.
 void resetPeakMemory();
 
 } // namespace palp

@@ -2,8 +2,11 @@
 
 #include "app/study/paper/PaperReport.h"
 #include "app/study/reports/ReportPage.h"
+#include "app/study/reports/WrittenFiles.h"
 #include "io/AtomicFile.h"
 #include "io/DesignFile.h"
+#include "model/base/Cancelled.h"
+#include "model/base/Error.h"
 
 namespace palp {
 
@@ -33,8 +36,8 @@ std::string rowClass(ReportTable::Mark mark) {
 /// Adds the parts of a report to its page, one overload a kind of part.
 class PageWriter {
 public:
-  PageWriter(ReportPage& page, const std::filesystem::path& folder, const ChartDrawer& draw)
-      : page_(page), folder_(folder), draw_(draw) {}
+  PageWriter(ReportPage& page, WrittenFiles& files, const ChartDrawer& draw, const std::stop_token& stop)
+      : page_(page), files_(files), draw_(draw), stop_(stop) {}
 
   void operator()(const ReportHeading& heading) const { page_.heading(heading.text); }
   void operator()(const ReportWords& words) const { page_.paragraph(words.text); }
@@ -48,18 +51,20 @@ public:
       page_.paragraph(chart.title + ": not drawn, this palp was built without VTK; its points are in the CSV.");
       return;
     }
-    const std::filesystem::path png = folder_ / (chart.file + ".png");
+    stopIfAsked(stop_);
+    const std::filesystem::path png = files_.add(chart.file + ".png");
     draw_(chart, png);
     page_.picture(png, chart.caption);
   }
 
 private:
   ReportPage& page_;
-  const std::filesystem::path& folder_;
+  WrittenFiles& files_;
   const ChartDrawer& draw_;
+  const std::stop_token& stop_;
 };
 
-void tellOrigin(ReportPage& page, const ReportContent& content, const ReportRequest& request, double seconds) {
+void writeOrigin(ReportPage& page, const ReportContent& content, const ReportRequest& request, double seconds) {
   page.heading("How it was made");
   page.code(request.command);
   page.paragraph("Design " + designFingerprint(request.design) + ", seed " + std::to_string(request.seed) + ".");
@@ -79,22 +84,26 @@ ReportProgress partOf(const ReportProgress& whole, double from, double width) {
 }
 
 ReportOutcome writeReport(const ReportContent& content, const ReportRequest& request, double seconds,
-                          const ChartDrawer& draw) {
-  std::filesystem::create_directories(request.folder);
+                          const ChartDrawer& draw, const std::stop_token& stop) {
+  std::error_code failed;
+  std::filesystem::create_directories(request.folder, failed);
+  if (failed) throw Error(request.folder.string() + ": the folder cannot be made: " + failed.message());
+  WrittenFiles files(request.folder);
   ReportPage page(content.title);
   page.paragraph(content.summary);
-  const PageWriter writer(page, request.folder, draw);
+  const PageWriter writer(page, files, draw, stop);
   for (const ReportPart& part : content.parts) std::visit(writer, part);
   for (const std::string& warning : content.warnings) page.paragraph("Note: " + warning);
-  tellOrigin(page, content, request, seconds);
+  writeOrigin(page, content, request, seconds);
 
   ReportOutcome outcome;
   outcome.done = true;
-  outcome.page = request.folder / "report.html";
-  outcome.csv = request.folder / "points.csv";
-  for (const ReportFile& file : content.files) writeFile(request.folder / file.name, file.content, true);
+  outcome.page = files.add("report.html");
+  outcome.csv = files.add("points.csv");
+  for (const ReportFile& file : content.files) writeFile(files.add(file.name), file.content, true);
   writeFile(outcome.csv, content.csv, true);
   writeFile(outcome.page, page.html(), true);
+  files.keep();
   outcome.summary = content.summary;
   outcome.stages = content.stages;
   outcome.warnings = content.warnings;

@@ -18,23 +18,24 @@ namespace palp {
 struct ReportCurve {
   enum class Style { Line, Points, LineAndPoints };
 
-  std::string name;
-  std::vector<double> x;
-  std::vector<double> y;
+  std::string name{};
+  std::vector<double> x{};
+  std::vector<double> y{};
   Style style = Style::LineAndPoints;
   bool dashed = false;
+  int color = -1; ///< place among the series' colours, for what must look the same in several charts; -1: its own place
 };
 
 /// A chart of a report; labels carry their unit.
 struct ReportChart {
-  std::string file; ///< name of the picture, without folder and ending
-  std::string caption;
-  std::string title;
-  std::string xLabel;
-  std::string yLabel;
+  std::string file{}; ///< name of the picture, without folder and ending
+  std::string caption{};
+  std::string title{};
+  std::string xLabel{};
+  std::string yLabel{};
   bool logX = false;
   bool logY = false;
-  std::vector<ReportCurve> curves;
+  std::vector<ReportCurve> curves{};
   std::string topLabel{};                                 ///< a second x axis along the top: what it says
   std::vector<std::pair<double, std::string>> topTicks{}; ///< and where; empty: none
 };
@@ -43,10 +44,10 @@ struct ReportTable {
   /// How a row came out; plain rows have no colour.
   enum class Mark { Plain, Good, Doubtful, Bad };
 
-  std::string caption;
-  std::vector<std::string> heads;
-  std::vector<std::vector<std::string>> rows;
-  std::vector<Mark> marks; ///< one a row, or empty
+  std::string caption{};
+  std::vector<std::string> heads{};
+  std::vector<std::vector<std::string>> rows{};
+  std::vector<Mark> marks{}; ///< one a row, or empty
 };
 
 struct ReportHeading {
@@ -99,7 +100,7 @@ ReportProgress partOf(const ReportProgress& whole, double from, double width);
 
 /// What a run of a report left behind.
 struct ReportOutcome {
-  bool done = false; ///< false: cancelled, nothing was written
+  bool done = false; ///< false: cancelled, and no file of it is left
   std::filesystem::path page;
   std::filesystem::path csv;
   std::string summary;
@@ -112,8 +113,9 @@ struct ReportOutcome {
 using ChartDrawer = std::function<void(const ReportChart&, const std::filesystem::path&)>;
 
 /// Writes page, CSV, pictures and further files into the folder of the request. Without a drawer the page says that
-/// this program draws no charts. Throws Error where a file cannot be written.
+/// this program draws no charts. Throws Error where a file cannot be written and Cancelled where it was stopped; then
+/// none of its files stays.
 ReportOutcome writeReport(const ReportContent& content, const ReportRequest& request, double seconds,
-                          const ChartDrawer& draw);
+                          const ChartDrawer& draw, const std::stop_token& stop);
 
 } // namespace palp

@@ -6,6 +6,7 @@
 #include "app/study/reports/networks/NoiseReport.h"
 #include "app/study/reports/scenes/ScenesReport.h"
 #include "app/study/reports/stability/StabilityReport.h"
+#include "model/base/Cancelled.h"
 
 #include <chrono>
 
@@ -25,12 +26,16 @@ const std::vector<ReportComputation>& reportComputations() {
 }
 
 ReportOutcome runReport(const ReportComputation& kind, const ReportRequest& request, const ReportProgress& progress,
-                        std::stop_token stop, const ChartDrawer& draw) {
+                        const std::stop_token& stop, const ChartDrawer& draw) {
   const auto start = std::chrono::steady_clock::now();
-  const std::optional<ReportContent> content = kind.compute(request, progress, std::move(stop));
-  if (!content) return {};
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return writeReport(*content, request, seconds, draw);
+  try {
+    const std::optional<ReportContent> content = kind.compute(request, progress, stop);
+    if (!content) return {};
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return writeReport(*content, request, seconds, draw, stop);
+  } catch (const Cancelled&) { // from deep within a computation, or between two pictures
+    return {};
+  }
 }
 
 } // namespace palp

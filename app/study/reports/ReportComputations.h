@@ -17,8 +17,8 @@ struct ReportComputation {
 /// All of them, in the order of the command's help.
 const std::vector<ReportComputation>& reportComputations();
 
-/// Computes and writes; see writeReport.
+/// Computes and writes; see writeReport. Where it was stopped the outcome is not done.
 ReportOutcome runReport(const ReportComputation& kind, const ReportRequest& request, const ReportProgress& progress,
-                        std::stop_token stop, const ChartDrawer& draw);
+                        const std::stop_token& stop, const ChartDrawer& draw);
 
 } // namespace palp

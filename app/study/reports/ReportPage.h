@@ -31,7 +31,7 @@ private:
   std::string body_;
 };
 
-/// Four significant digits, or "-" for what is no number.
+/// Four significant digits, or "-" for what is not finite.
 std::string shortNumber(double value);
 /// x / y / z in short.
 std::string triple(const Eigen::Vector3d& values);

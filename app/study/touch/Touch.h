@@ -15,9 +15,9 @@ namespace palp {
 /// How far along the chain from the design to the resistances; each needs those before it.
 enum class Stage { Design, Mesh, Solution, Displacements, Resistances };
 
-/// One touch, followed the whole way and no farther than asked: a change drops what comes after it. The mesh is finer
-/// at the rims of the load's discs. Copies are cheap
-/// (results are shared and never changed), so that a background job takes a copy, advances it and hands it back.
+/// One touch, followed from the design to the resistances, no farther than asked: a change drops what comes after it.
+/// The mesh is finer at the rims of the load's discs. Copies are cheap (results are shared and never changed), so that
+/// a background job takes a copy, advances it and hands it back.
 class Touch {
 public:
   explicit Touch(SensorDesign design = paperDesign(), LoadCase load = {}, MeshOptions meshOptions = {});

@@ -2,10 +2,13 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdio>
+#include <cstdlib>
 #include <fcntl.h>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -19,7 +22,13 @@ struct Running {
   std::filesystem::path output, errors;
 };
 
-Running start(const std::vector<std::string>& arguments) {
+/// What the process finds beside its arguments.
+struct Surroundings {
+  bool progressLines = false; ///< "progress DONE TOTAL" on standard error
+  rlim_t largestFile_bytes = RLIM_INFINITY;
+};
+
+Running start(const std::vector<std::string>& arguments, const Surroundings& surroundings = {}) {
   static int count = 0;
   const std::filesystem::path folder = std::filesystem::temp_directory_path();
   const std::string stem = "palp-test-" + std::to_string(getpid()) + "-" + std::to_string(count++);
@@ -38,6 +47,11 @@ Running start(const std::vector<std::string>& arguments) {
   dup2(nothing, STDIN_FILENO);
   dup2(out, STDOUT_FILENO);
   dup2(err, STDERR_FILENO);
+  if (surroundings.progressLines) setenv("PALP_PROGRESS_LINES", "1", 1);
+  if (surroundings.largestFile_bytes != RLIM_INFINITY) {
+    const rlimit limit{surroundings.largestFile_bytes, surroundings.largestFile_bytes};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
   execv(raw[0], raw.data());
   _exit(127);
 }
@@ -54,7 +68,47 @@ Outcome finish(const Running& running) {
   return outcome;
 }
 
+/// The share that the last line of progress tells; 0 before the first one.
+double progressOf(const std::filesystem::path& errors) {
+  std::ifstream stream(errors);
+  double share = 0;
+  for (std::string line; std::getline(stream, line);) {
+    unsigned long long done = 0, total = 0;
+    if (std::sscanf(line.c_str(), "progress %llu %llu", &done, &total) == 2 && total > 0)
+      share = static_cast<double>(done) / static_cast<double>(total);
+  }
+  return share;
+}
+
+constexpr int kPatience_ms = 60000;
+
+/// Sends SIGINT once the condition holds, or after all patience; not where the process has ended by itself.
+template <class Condition> Outcome interruptOnce(const Running& running, const Condition& condition) {
+  siginfo_t ended{};
+  for (int i = 0; i < kPatience_ms && !condition(); ++i) {
+    if (waitid(P_PID, static_cast<id_t>(running.pid), &ended, WEXITED | WNOHANG | WNOWAIT) == 0 && ended.si_pid != 0)
+      return finish(running);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  kill(running.pid, SIGINT);
+  return finish(running);
+}
+
 } // namespace
+
+Outcome palpOnAFullDisk(const std::vector<std::string>& arguments, std::uintmax_t largestFile_bytes) {
+  return finish(start(arguments, {.largestFile_bytes = largestFile_bytes}));
+}
+
+Outcome palpInterruptedAt(const std::vector<std::string>& arguments, double share) {
+  const Running running = start(arguments, {.progressLines = true});
+  return interruptOnce(running, [&] { return progressOf(running.errors) >= share; });
+}
+
+Outcome palpInterruptedAfter(const std::vector<std::string>& arguments, int milliseconds) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(milliseconds);
+  return interruptOnce(start(arguments), [&] { return std::chrono::steady_clock::now() >= end; });
+}
 
 Outcome palp(const std::vector<std::string>& arguments) {
   return finish(start(arguments));
@@ -62,16 +116,11 @@ Outcome palp(const std::vector<std::string>& arguments) {
 
 Outcome palpInterrupted(const std::vector<std::string>& arguments, const std::filesystem::path& file,
                         std::uintmax_t bytes) {
-  const Running running = start(arguments);
-  for (int i = 0; i < 60000; ++i) {
+  return interruptOnce(start(arguments), [&] {
     std::error_code missing;
     const std::uintmax_t size = std::filesystem::file_size(file, missing);
-    if (!missing && size > bytes) break;
-    if (kill(running.pid, 0) != 0) break;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  kill(running.pid, SIGINT);
-  return finish(running);
+    return !missing && size > bytes;
+  });
 }
 
 std::string readAll(const std::filesystem::path& file) {

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -19,6 +20,15 @@ struct Outcome {
 
 /// Runs the palp binary without a terminal.
 Outcome palp(const std::vector<std::string>& arguments);
+
+/// Runs it where no file can grow above so many bytes, as on a full disk.
+Outcome palpOnAFullDisk(const std::vector<std::string>& arguments, std::uintmax_t largestFile_bytes);
+
+/// Starts it, sends SIGINT once its progress has reached this share, and waits for the end.
+Outcome palpInterruptedAt(const std::vector<std::string>& arguments, double share);
+
+/// Starts it, sends SIGINT after so many milliseconds, and waits for the end.
+Outcome palpInterruptedAfter(const std::vector<std::string>& arguments, int milliseconds);
 
 /// Starts it, sends SIGINT once `file` has grown above `bytes`, and waits for the end.
 Outcome palpInterrupted(const std::vector<std::string>& arguments, const std::filesystem::path& file,

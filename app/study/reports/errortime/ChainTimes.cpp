@@ -129,7 +129,7 @@ std::vector<DecoderTimes> decoderTimes(const ReportRequest& request, const TwoSe
   for (const InputKind input : {InputKind::Displacement, InputKind::Resistance}) {
     TrainOptions base;
     base.input = input;
-    base.rows = input == InputKind::Resistance ? "all" : std::to_string((request.design.rowWires() - 1) / 2);
+    base.rows = input == InputKind::Resistance ? "all" : std::to_string(centreRowWire(request.design.rowWires()));
     base.noise = input == InputKind::Resistance ? kNoise : 0;
     base.seed = request.seed;
     base.threads = request.threads;
@@ -144,7 +144,7 @@ std::vector<DecoderTimes> decoderTimes(const ReportRequest& request, const TwoSe
 
 Timing leaveOneOutTimes(const ReportRequest& request, const TwoSets& sets, const std::stop_token& stop) {
   DecoderInput centre;
-  centre.rows = {(request.design.rowWires() - 1) / 2};
+  centre.rows = {centreRowWire(request.design.rowWires())};
   centre.rowWires = request.design.rowWires();
   centre.valuesPerRow = 3 * sets.training.electrodesPerRowWire;
   const Eigen::MatrixXd inputs = inputsOf(sets.training, centre);

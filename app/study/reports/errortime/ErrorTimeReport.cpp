@@ -28,7 +28,10 @@ double slope(const std::vector<double>& x, const std::vector<double>& y) {
   const auto n = static_cast<double>(x.size());
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double a = std::log(x[i]), b = std::log(y[i]);
-    sx += a, sy += b, sxx += a * a, sxy += a * b;
+    sx += a;
+    sy += b;
+    sxx += a * a;
+    sxy += a * b;
   }
   return (n * sxy - sx * sy) / (n * sxx - sx * sx);
 }
@@ -94,17 +97,15 @@ private:
   }
 
   void solverChart(std::size_t l) {
-    ReportChart chart{"solver_" + std::to_string(l),
-                      "",
-                      solver_.loads[l].name,
-                      "wall time from nothing [s]",
-                      "error of electrode displacements [%]",
-                      true,
-                      true,
-                      {}};
-    chart.caption = "Slopes of log error over log time: ";
+    ReportChart chart{.file = "solver_" + std::to_string(l),
+                      .caption = "Slopes of log error over log time: ",
+                      .title = solver_.loads[l].name,
+                      .xLabel = "wall time from nothing [s]",
+                      .yLabel = "error of electrode displacements [%]",
+                      .logX = true,
+                      .logY = true};
     for (const std::string& family : families()) {
-      ReportCurve curve{family, {}, {}, ReportCurve::Style::LineAndPoints, false};
+      ReportCurve curve{.name = family};
       std::vector<const MeshTimes*> meshes;
       for (const MeshTimes& mesh : solver_.meshes)
         if (mesh.family == family && l < mesh.errors.size() && mesh.failed.empty()) meshes.push_back(&mesh);
@@ -173,7 +174,7 @@ private:
         {},
         {}};
     for (const MeshTimes& mesh : solver_.meshes) {
-      if (mesh.pattern.seconds.empty()) continue; // CalculiX does not tell its phases
+      if (mesh.pattern.seconds.empty()) continue; // CalculiX does not report its phases
       table.rows.push_back(
           {mesh.mesh, spread(mesh.meshing), spread(mesh.pattern), spread(mesh.factorisation), spread(mesh.solving)});
       for (const auto& [phase, timing] :
@@ -194,26 +195,23 @@ private:
                                          "unknown. Times: median (least to most) "
                                          "of 3 runs; what trains longer than 4 s runs once."});
     decoders_ = decoderTimes(request_, sets, content_.stages, partOf(progress_, 0.55, 0.2), stop_);
-    ReportTable table{"Error: root mean square of the three forces in % of range",
-                      {"decoder", "input", "error [%]", "training [s]", "prediction [us a sample]"},
-                      {},
-                      {}};
-    ReportChart training{"training",
-                         "Error against training time; decoders by name in the table",
-                         "Training",
-                         "training [s]",
-                         "error [% of range]",
-                         true,
-                         true,
-                         {}};
-    ReportChart prediction{"prediction",
-                           "Error against prediction time",
-                           "Prediction",
-                           "prediction [us a sample]",
-                           "error [% of range]",
-                           true,
-                           true,
-                           {}};
+    decoderTable();
+    leaveOneOut(sets);
+    decoderChart({.file = "training",
+                  .caption = "Error against training time; decoders by name in the table",
+                  .title = "Training",
+                  .xLabel = "training [s]"},
+                 [](const DecoderTimes& d) { return d.training.median(); });
+    decoderChart({.file = "prediction",
+                  .caption = "Error against prediction time",
+                  .title = "Prediction",
+                  .xLabel = "prediction [us a sample]"},
+                 [](const DecoderTimes& d) { return d.prediction.median(); });
+  }
+
+  void decoderTable() {
+    ReportTable table{.caption = "Error: root mean square of the three forces in % of range",
+                      .heads = {"decoder", "input", "error [%]", "training [s]", "prediction [us a sample]"}};
     for (const DecoderTimes& d : decoders_) {
       table.rows.push_back({d.what, d.input,
                             d.failed.empty() ? shortNumber(d.error_percentOfRange) : "failed: " + d.failed,
@@ -223,15 +221,11 @@ private:
       for (std::size_t i = 0; i < d.training.seconds.size(); ++i)
         csv_.add({"decoder", d.what, d.input, "force [% of range]", d.error_percentOfRange, d.training.seconds[i],
                   d.prediction.seconds[i] * 1e-6, "", "", ""});
-      if (training.curves.empty() || training.curves.back().name != d.input)
-        for (ReportChart* chart : {&training, &prediction})
-          chart->curves.push_back({d.input, {}, {}, ReportCurve::Style::Points, false});
-      training.curves.back().x.push_back(d.training.median());
-      training.curves.back().y.push_back(d.error_percentOfRange);
-      prediction.curves.back().x.push_back(d.prediction.median());
-      prediction.curves.back().y.push_back(d.error_percentOfRange);
     }
     content_.parts.emplace_back(std::move(table));
+  }
+
+  void leaveOneOut(const TwoSets& sets) {
     const Timing leaving = leaveOneOutTimes(request_, sets, stop_);
     content_.parts.emplace_back(ReportWords{"Leave-one-out errors of " + std::to_string(kLeaveOneOutSpreads) +
                                             " spreads at once, " + std::to_string(sets.training.size()) +
@@ -239,8 +233,20 @@ private:
     for (const double seconds : leaving.seconds)
       csv_.add({"leave-one-out", std::to_string(kLeaveOneOutSpreads) + " spreads", std::to_string(sets.training.size()),
                 "", "", seconds, seconds / kLeaveOneOutSpreads, "", "", ""});
-    content_.parts.emplace_back(std::move(training));
-    content_.parts.emplace_back(std::move(prediction));
+  }
+
+  /// Error of the decoders against one of their times, a cloud an input.
+  void decoderChart(ReportChart chart, double (*time)(const DecoderTimes&)) {
+    chart.yLabel = "error [% of range]";
+    chart.logX = chart.logY = true;
+    for (const DecoderTimes& d : decoders_) {
+      if (!d.failed.empty()) continue;
+      if (chart.curves.empty() || chart.curves.back().name != d.input)
+        chart.curves.push_back({.name = d.input, .style = ReportCurve::Style::Points});
+      chart.curves.back().x.push_back(time(d));
+      chart.curves.back().y.push_back(d.error_percentOfRange);
+    }
+    content_.parts.emplace_back(std::move(chart));
   }
 
   void samples() {
@@ -273,14 +279,13 @@ private:
                        "force error [% of range]"},
                       {},
                       {}};
-    ReportChart chart{"chain",
-                      "From nothing to a trained network",
-                      "Whole chain",
-                      "seconds from nothing",
-                      "force error [% of range]",
-                      true,
-                      true,
-                      {}};
+    ReportChart chart{.file = "chain",
+                      .caption = "From nothing to a trained network",
+                      .title = "Whole chain",
+                      .xLabel = "seconds from nothing",
+                      .yLabel = "force error [% of range]",
+                      .logX = true,
+                      .logY = true};
     for (const ChainTimes& c : chains_) {
       table.rows.push_back({c.mesh, std::to_string(c.perArea), shortNumber(c.prepare_s), shortNumber(c.sample_s),
                             shortNumber(c.train_s), shortNumber(c.total_s()),
@@ -289,8 +294,7 @@ private:
       if (!c.failed.empty()) continue;
       csv_.add({"chain", c.mesh, std::to_string(c.perArea), "force [% of range]", c.error_percentOfRange, c.total_s(),
                 c.sample_s, "", "", ""});
-      if (chart.curves.empty() || chart.curves.back().name != c.mesh)
-        chart.curves.push_back({c.mesh, {}, {}, ReportCurve::Style::LineAndPoints, false});
+      if (chart.curves.empty() || chart.curves.back().name != c.mesh) chart.curves.push_back({.name = c.mesh});
       chart.curves.back().x.push_back(c.total_s());
       chart.curves.back().y.push_back(c.error_percentOfRange);
     }

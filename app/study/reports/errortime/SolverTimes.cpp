@@ -170,7 +170,7 @@ MeshTimes calculixTimes(const std::string& program, const SensorDesign& design, 
   times.meshing = timed(repeats, [&] { mesh = sensorMesh(design, options); });
   times.dof = freeUnknowns(mesh);
   times.elements = mesh.elementCount();
-  times.factor_MB = std::numeric_limits<double>::quiet_NaN(); // it does not tell
+  times.factor_MB = std::numeric_limits<double>::quiet_NaN(); // not reported
   for (std::size_t l = 0; l < loads.size() && times.failed.empty(); ++l) {
     Timing timing;
     const int runs = l == 0 ? repeats : 1;

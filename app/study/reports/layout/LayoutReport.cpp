@@ -37,7 +37,7 @@ class LayoutWriter {
 public:
   LayoutWriter(const ReportRequest& request, ReportProgress progress, std::stop_token stop)
       : request_(request), progress_(std::move(progress)), stop_(std::move(stop)),
-        row_((request.design.rowWires() - 1) / 2) {
+        row_(centreRowWire(request.design.rowWires())) {
     content_.title = "Layout: what the electrodes' places resolve";
   }
 
@@ -100,7 +100,7 @@ private:
         "Condition of d ln R / d u at rest", {"layout", "largest [1/mm]", "smallest [1/mm]", "condition"}, {}, {}};
     for (const NamedLayout& layout : layouts_) {
       const Eigen::VectorXd values = resistanceSingularValues(layout.design, row_);
-      ReportCurve curve{layout.name, {}, {}, ReportCurve::Style::LineAndPoints, false};
+      ReportCurve curve{.name = layout.name};
       for (Eigen::Index i = 0; i < values.size(); ++i) {
         curve.x.push_back(static_cast<double>(i + 1));
         curve.y.push_back(values(i));
@@ -192,7 +192,7 @@ private:
       ReportChart chart{sweep.file, sweep.caption, sweep.title, sweep.xLabel, "bound without prior [% of range]",
                         false,      true,          {}};
       for (int axis = 0; axis < 3; ++axis) {
-        ReportCurve curve{kForces[axis], {}, {}, ReportCurve::Style::LineAndPoints, false};
+        ReportCurve curve{.name = kForces[axis]};
         for (const LayoutSweep::Point& point : sweep.points) {
           curve.x.push_back(point.at);
           curve.y.push_back(point.withoutPrior_percent(axis));
@@ -251,11 +251,12 @@ private:
       if (!confirm(layouts_[l], 0.65 + 0.35 * static_cast<double>(l) / static_cast<double>(layouts_.size()), table))
         return false;
     }
-    content_.parts.push_back(ReportWords{std::to_string(request_.perArea) +
-                                         " training forces and as many others for testing on each area, solved anew on "
-                                         "the layout's own mesh; the area is not told to the decoders, while the "
-                                         "bounds know it. A row is green up to 1.5 "
-                                         "times the bound with prior."});
+    content_.parts.push_back(
+        ReportWords{std::to_string(request_.perArea) +
+                    " training forces and as many others for testing on each area, solved again on "
+                    "the layout's own mesh; the decoders are not given the area, while the "
+                    "bounds know it. A row is green up to 1.5 "
+                    "times the bound with prior."});
     content_.parts.emplace_back(std::move(table));
     return true;
   }

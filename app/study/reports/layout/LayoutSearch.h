@@ -14,9 +14,9 @@ namespace palp {
 /// layers change their depth.
 struct MakerLimits {
   double grid_mm = 0.05;     ///< places are multiples of this; goes into 1 mm
-  double pitch_mm = 1;       ///< least distance between electrodes of a wire
-  double clearance_mm = 0.5; ///< least height of the upper layer over the lower one
-  double cover_mm = 0.5;     ///< least rubber over the upper layer, under the lower one and beside the last electrodes
+  double pitch_mm = 1;       ///< smallest distance between electrodes of a wire
+  double clearance_mm = 0.5; ///< smallest height of the upper layer over the lower one
+  double cover_mm = 0.5; ///< thinnest rubber over the upper layer, under the lower one and beside the last electrodes
 };
 
 /// How freely electrodes move.

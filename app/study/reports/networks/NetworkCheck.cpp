@@ -1,5 +1,6 @@
 #include "app/study/reports/networks/NetworkCheck.h"
 
+#include "app/study/decoding/DecoderTraining.h"
 #include "app/study/paper/PaperProtocol.h"
 #include "app/study/touch/SampleGenerator.h"
 #include "model/base/Error.h"

@@ -1,6 +1,7 @@
 #include "app/study/reports/networks/NetworksReport.h"
 
 #include "app/study/Median.h"
+#include "app/study/decoding/DecoderTraining.h"
 #include "app/study/paper/PaperProtocol.h"
 #include "app/study/reports/AskedLines.h"
 #include "app/study/reports/ReportPage.h"
@@ -11,7 +12,9 @@
 #include "nn/NoisyCopies.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 namespace palp {
 
@@ -19,7 +22,7 @@ namespace {
 
 struct Measured {
   Eigen::Vector3d rmse_percentOfRange;
-  double within = 0; ///< share of errors within the standard deviation that the decoder tells
+  double within = 0; ///< share of errors within the standard deviation that the decoder states
 };
 
 class NetworksWriter {
@@ -108,25 +111,23 @@ private:
                ratios(to, from), "");
     for (const char* mode : {"paper", "paper-minmax"}) {
       const ProtocolCurve& figure = curve(result, "fig12", mode);
-      double best = 0, least = 0;
-      ReportCurve drawn{mode == std::string("paper") ? "one factor for all inputs" : "each input by itself",
-                        {},
-                        {},
-                        ReportCurve::Style::LineAndPoints,
-                        false};
+      ReportCurve drawn{.name = mode == std::string("paper") ? "one factor for all inputs" : "each input by itself"};
       for (const ProtocolRow& row : figure.rows) {
-        const double error = row.eq13Mean_percent().mean();
         drawn.x.push_back(*row.spread);
-        drawn.y.push_back(error);
-        if (best == 0 || error < least) best = *row.spread, least = error;
+        drawn.y.push_back(row.eq13Mean_percent().mean());
       }
+      const auto least = std::min_element(drawn.y.begin(), drawn.y.end());
+      const double best = drawn.x[static_cast<std::size_t>(least - drawn.y.begin())];
       double low = best, high = best; // where the curve is as good as flat
-      for (std::size_t i = 0; i < drawn.x.size(); ++i)
-        if (drawn.y[i] <= 1.5 * least) low = std::min(low, drawn.x[i]), high = std::max(high, drawn.x[i]);
+      for (std::size_t i = 0; i < drawn.x.size(); ++i) {
+        if (drawn.y[i] > 1.5 * *least) continue;
+        low = std::min(low, drawn.x[i]);
+        high = std::max(high, drawn.x[i]);
+      }
       chart_.curves.push_back(std::move(drawn));
       if (mode != std::string("paper")) continue;
       bestSpread_ = best;
-      lines_.addRow({"mode paper, Fig. 12: spread of the least error (mean of forces and areas)", "0.8 to 2",
+      lines_.addRow({"mode paper, Fig. 12: spread of the smallest error (mean of forces and areas)", "0.8 to 2",
                      shortNumber(best), shortNumber(best),
                      "at most 1.5 times that error from " + shortNumber(low) + " to " + shortNumber(high)},
                     best >= 0.8 && best <= 2, best >= 0.8 && best <= 2);
@@ -143,109 +144,103 @@ private:
     return result;
   }
 
-  /// The spread by leave-one-out, and noise.
+  /// A way to train that is measured on every set of samples.
+  struct Case {
+    std::string what;
+    Eigen::Vector3d asked;
+    TrainOptions options;
+    Triples values{}, bounds{};
+    std::vector<double> within{};
+
+    /// Without its unit.
+    [[nodiscard]] std::string shortName() const { return what.substr(0, what.find(" [")); }
+  };
+
+  /// The cases by name, in the order of the table.
+  struct Cases {
+    Case deformationAuto, resistanceAuto, spread200, allRbf, oneRbf, oneLikelihood, allGaussian, allLikelihood;
+
+    std::array<Case*, 8> all() {
+      return {&deformationAuto, &resistanceAuto, &spread200,   &allRbf,
+              &oneRbf,          &oneLikelihood,  &allGaussian, &allLikelihood};
+    }
+  };
+
+  [[nodiscard]] Cases cases() const {
+    const std::string centre = centreRow();
+    const Eigen::Vector3d nothingAsked = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
+    const TrainOptions clean = options(InputKind::Resistance, centre, 0, 1);
+    const TrainOptions one = options(InputKind::Resistance, centre, 1e-6, 1);
+    const TrainOptions all = options(InputKind::Resistance, "all", 1e-4, 1);
+    Cases cases{.deformationAuto = {"deformation, spread auto [% of range]", Eigen::Vector3d::Constant(0.001),
+                                    options(InputKind::Displacement, centre, 0, 1)},
+                .resistanceAuto = {"resistance, spread auto [% of range]", Eigen::Vector3d::Constant(0.003), clean},
+                .spread200 = {"resistance, spread 200 [% of range]", Eigen::Vector3d::Constant(5), clean},
+                .allRbf = {"all row-wires at noise 1e-4, rbf [% of range]", Eigen::Vector3d::Constant(3.5), all},
+                .oneRbf = {"one row-wire at noise 1e-6, rbf [% of range]", {4, 11, 7}, one},
+                .oneLikelihood = {"one row-wire at noise 1e-6, ml [% of range]", nothingAsked, one},
+                .allGaussian = {"all row-wires at noise 1e-4, gp [% of range]", nothingAsked, all},
+                .allLikelihood = {"all row-wires at noise 1e-4, ml [% of range]", nothingAsked, all}};
+    cases.spread200.options.spread = 200;
+    cases.oneLikelihood.options.decoder = cases.allLikelihood.options.decoder = DecoderKind::MaximumLikelihood;
+    cases.allGaussian.options.decoder = DecoderKind::GaussianProcess;
+    return cases;
+  }
+
+  /// The spread by leave-one-out, and noise, on each set of samples.
   bool bySeed() {
-    const std::string centre = std::to_string((request_.design.rowWires() - 1) / 2);
-    struct Case {
-      std::string what;
-      Eigen::Vector3d asked;
-      TrainOptions options;
-      Triples values, bounds;
-      std::vector<double> within;
-    };
-    const auto spreadAt = [&](double spread) {
-      TrainOptions result = options(InputKind::Resistance, centre, 0, 1);
-      result.spread = spread;
-      return result;
-    };
-    const double inf = std::numeric_limits<double>::infinity();
-    enum : std::size_t { DeformationAuto, ResistanceAuto, Spread200, AllRbf, OneRbf, OneMl, AllGp, AllMl };
-    std::vector<Case> cases{
-        {"deformation, spread auto [% of range]",
-         Eigen::Vector3d::Constant(0.001),
-         options(InputKind::Displacement, centre, 0, 1),
-         {},
-         {},
-         {}},
-        {"resistance, spread auto [% of range]",
-         Eigen::Vector3d::Constant(0.003),
-         options(InputKind::Resistance, centre, 0, 1),
-         {},
-         {},
-         {}},
-        {"resistance, spread 200 [% of range]", Eigen::Vector3d::Constant(5), spreadAt(200), {}, {}, {}},
-        {"all row-wires at noise 1e-4, rbf [% of range]",
-         Eigen::Vector3d::Constant(3.5),
-         options(InputKind::Resistance, "all", 1e-4, 1),
-         {},
-         {},
-         {}},
-        {"one row-wire at noise 1e-6, rbf [% of range]",
-         {4, 11, 7},
-         options(InputKind::Resistance, centre, 1e-6, 1),
-         {},
-         {},
-         {}},
-        {"one row-wire at noise 1e-6, ml [% of range]",
-         Eigen::Vector3d::Constant(inf),
-         options(InputKind::Resistance, centre, 1e-6, 1),
-         {},
-         {},
-         {}},
-        {"all row-wires at noise 1e-4, gp [% of range]",
-         Eigen::Vector3d::Constant(inf),
-         options(InputKind::Resistance, "all", 1e-4, 1),
-         {},
-         {},
-         {}},
-        {"all row-wires at noise 1e-4, ml [% of range]",
-         Eigen::Vector3d::Constant(inf),
-         options(InputKind::Resistance, "all", 1e-4, 1),
-         {},
-         {},
-         {}}};
-    cases[OneMl].options.decoder = cases[AllMl].options.decoder = DecoderKind::MaximumLikelihood;
-    cases[AllGp].options.decoder = DecoderKind::GaussianProcess;
+    Cases cases = this->cases();
     for (int s = 0; s < seeds_; ++s) {
       ReportRequest own = request_;
       own.seed = request_.seed + static_cast<std::uint64_t>(s);
-      const double share = 0.4 + 0.5 * s / seeds_;
       const auto sets = twoSets(request_.design, own, content_.stages, {}, stop_);
       if (!sets) return false;
-      if (s == 0)
-        tellFactor(inputsOf(sets->training, {InputKind::Resistance,
-                                             rowsNamed(centre, request_.design.rowWires()),
-                                             request_.design.rowWires(),
-                                             request_.design.columnWires(),
-                                             {},
-                                             {}}));
-      for (Case& one : cases) {
+      if (s == 0) explainFactor(centreRowResistances(sets->training));
+      for (Case* one : cases.all()) {
         if (stop_.stop_requested()) return false;
-        say(share, one.what);
-        one.options.seed = own.seed;
-        const Measured found = measured(*sets, one.options, own.seed);
-        one.values.push_back(found.rmse_percentOfRange);
-        one.within.push_back(found.within);
-        if (one.options.noise > 0)
-          one.bounds.emplace_back(noiseBound(sets->test, InputKind::Resistance,
-                                             rowsNamed(one.options.rows, request_.design.rowWires()), one.options.noise)
-                                      .withPriorPercent);
+        say(0.4 + 0.5 * s / seeds_, one->what);
+        measure(*one, *sets, own.seed);
       }
     }
-    for (const Case& one : cases)
-      lines_.add(one.what, one.asked, one.values,
-                 one.bounds.empty() ? "" : "bound with prior " + triple(median(one.bounds)));
-    lines_.add("one row-wire at noise 1e-6: error of ml over that of rbf", Eigen::Vector3d::Constant(0.2),
-               ratios(cases[OneMl].values, cases[OneRbf].values), "");
-    for (const std::size_t c : {AllRbf, OneRbf, AllGp, AllMl, OneMl})
-      lines_.add(cases[c].what.substr(0, cases[c].what.find(" [")) +
-                     ": share of errors within one standard deviation, off 0.68 by",
-                 0.1, offsets(cases[c].within), "share " + shortNumber(median(cases[c].within)));
+    addLines(cases);
     return true;
   }
 
+  void measure(Case& one, const TwoSets& sets, std::uint64_t seed) {
+    one.options.seed = seed;
+    const Measured found = measured(sets, one.options, seed);
+    one.values.push_back(found.rmse_percentOfRange);
+    one.within.push_back(found.within);
+    if (one.options.noise == 0) return;
+    const std::vector<int> rows = rowsNamed(one.options.rows, request_.design.rowWires());
+    one.bounds.emplace_back(noiseBound(sets.test, InputKind::Resistance, rows, one.options.noise).withPriorPercent);
+  }
+
+  void addLines(Cases& cases) {
+    for (const Case* one : cases.all())
+      lines_.add(one->what, one->asked, one->values,
+                 one->bounds.empty() ? "" : "bound with prior " + triple(median(one->bounds)));
+    lines_.add("one row-wire at noise 1e-6: error of ml over that of rbf", Eigen::Vector3d::Constant(0.2),
+               ratios(cases.oneLikelihood.values, cases.oneRbf.values), "");
+    for (const Case* one :
+         {&cases.allRbf, &cases.oneRbf, &cases.allGaussian, &cases.allLikelihood, &cases.oneLikelihood})
+      lines_.add(one->shortName() + ": share of errors within one standard deviation, off 0.68 by", 0.1,
+                 offsets(one->within), "share " + shortNumber(median(one->within)));
+  }
+
+  [[nodiscard]] std::string centreRow() const { return std::to_string(centreRowWire(request_.design.rowWires())); }
+
+  [[nodiscard]] Eigen::MatrixXd centreRowResistances(const SampleSet& samples) const {
+    DecoderInput input;
+    input.kind = InputKind::Resistance;
+    input.rows = {centreRowWire(request_.design.rowWires())};
+    input.rowWires = request_.design.rowWires();
+    input.valuesPerRow = request_.design.columnWires();
+    return inputsOf(samples, input);
+  }
+
   /// What one factor for all inputs means for a spread.
-  void tellFactor(const Eigen::MatrixXd& inputs) {
+  void explainFactor(const Eigen::MatrixXd& inputs) {
     const double farthest = (inputs.colwise() - inputs.rowwise().mean()).colwise().norm().maxCoeff();
     const double half = (inputs.rowwise().maxCoeff() - inputs.rowwise().minCoeff()).maxCoeff() / 2;
     content_.parts.push_back(ReportWords{
@@ -253,7 +248,7 @@ private:
         "same for 30 inputs and for 300. Were half of the largest range of any input brought to 1 instead, the same "
         "networks would be found at spreads " +
         shortNumber(farthest / half) + " times as large: " + shortNumber(bestSpread_ * farthest / half) +
-        " in place of " + shortNumber(bestSpread_) + " for the least error of Fig. 12."});
+        " in place of " + shortNumber(bestSpread_) + " for the smallest error of Fig. 12."});
   }
 
   static std::vector<double> offsets(const std::vector<double>& within) {
@@ -336,14 +331,14 @@ private:
   double bestSpread_ = 0;
   ReportContent content_;
   AskedLines lines_;
-  ReportChart chart_{"fig12",
-                     "Fig. 12 in mode paper, with one factor for all inputs and with each input scaled by itself",
-                     "Error from resistance against spread, mode paper",
-                     "spread (radbas)",
-                     "Eq. (13), mean of areas and forces [%]",
-                     true,
-                     true,
-                     {}};
+  ReportChart chart_{.file = "fig12",
+                     .caption =
+                         "Fig. 12 in mode paper, with one factor for all inputs and with each input scaled by itself",
+                     .title = "Error from resistance against spread, mode paper",
+                     .xLabel = "spread (radbas)",
+                     .yLabel = "Eq. (13), mean of areas and forces [%]",
+                     .logX = true,
+                     .logY = true};
 };
 
 } // namespace

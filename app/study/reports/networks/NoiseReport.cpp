@@ -40,7 +40,11 @@ struct Rival {
   DecoderKind kind;
   bool trainedClean;
   bool areaKnown;
+  int color; ///< the same in every chart, also where another one fails and has no curve
 };
+
+constexpr int kWithoutPriorColor = 5;
+constexpr int kWithPriorColor = 6;
 
 double rootMeanSquare(const Eigen::Vector3d& values) {
   return values.norm() / std::sqrt(3.0);
@@ -84,7 +88,7 @@ private:
 
   void chooseRows() {
     const int count = request_.design.rowWires();
-    const int centre = (count - 1) / 2;
+    const int centre = centreRowWire(count);
     choices_.push_back({"row-wire " + std::to_string(centre), std::to_string(centre), {centre}});
     if (count >= 5) {
       const std::vector<int> three{count / 10, centre, count - 1 - count / 5};
@@ -122,9 +126,12 @@ private:
     if (noise == kShownNoise && trained == noise) table_.rows.push_back({rows, what, triple(percent)});
   }
 
-  void bounds(const RowChoice& choice, ReportChart& chart) {
-    ReportCurve without{"bound without prior", {}, {}, ReportCurve::Style::Line, true};
-    ReportCurve with{"bound with prior", {}, {}, ReportCurve::Style::Line, true};
+  /// Without prior and with it.
+  std::array<ReportCurve, 2> boundsOf(const RowChoice& choice) {
+    ReportCurve without{
+        .name = "bound without prior", .style = ReportCurve::Style::Line, .dashed = true, .color = kWithoutPriorColor};
+    ReportCurve with{
+        .name = "bound with prior", .style = ReportCurve::Style::Line, .dashed = true, .color = kWithPriorColor};
     for (const double noise : kNoises) {
       const NoiseBound bound = noiseBound(sets_->test, InputKind::Resistance, choice.rows, noise);
       const Eigen::Vector3d loose = bound.withoutPriorPercent, tight = bound.withPriorPercent;
@@ -133,30 +140,27 @@ private:
       point(choice.name, without.name, noise, noise, loose);
       point(choice.name, with.name, noise, noise, tight);
     }
-    chart.curves.push_back(std::move(without));
-    chart.curves.push_back(std::move(with));
+    return {std::move(without), std::move(with)};
   }
 
   bool errorsOf(const RowChoice& choice, double share) {
-    ReportChart chart{"noise_" + std::to_string(choice.rows.size()),
-                      "Force error against noise, " + choice.name + "; above " + text(kDrawnUpTo_percent) +
-                          " % points are in the CSV alone, as most of a network that is trained clean",
-                      "Force error, " + choice.name,
-                      "relative noise of R (12 bits = 7e-5, 16 bits = 4.4e-6)",
-                      "error, rms of Fx, Fy, Fz [% of range]",
-                      true,
-                      true,
-                      {},
-                      "bits of an ideal converter whose full scale is R",
-                      {}};
+    ReportChart chart{.file = "noise_" + std::to_string(choice.rows.size()),
+                      .caption = "Force error against noise, " + choice.name + "; above " + text(kDrawnUpTo_percent) +
+                                 " % points are in the CSV alone, as most of a network that is trained clean",
+                      .title = "Force error, " + choice.name,
+                      .xLabel = "relative noise of R (12 bits = 7e-5, 16 bits = 4.4e-6)",
+                      .yLabel = "error, rms of Fx, Fy, Fz [% of range]",
+                      .logX = true,
+                      .logY = true,
+                      .topLabel = "bits of an ideal converter whose full scale is R"};
     for (int count = 6; count <= 20; count += 2) chart.topTicks.emplace_back(noiseOfBits(count), std::to_string(count));
-    bounds(choice, chart);
+    std::array<ReportCurve, 2> bounds = boundsOf(choice);
     for (const Rival& rival :
-         {Rival{"rbf", DecoderKind::Rbf, false, false}, Rival{"rbf, one an area", DecoderKind::Rbf, false, true},
-          Rival{"rbf, trained clean", DecoderKind::Rbf, true, false},
-          Rival{"linear", DecoderKind::Linear, false, false},
-          Rival{"ml", DecoderKind::MaximumLikelihood, false, false}}) {
-      ReportCurve curve{rival.name, {}, {}, ReportCurve::Style::LineAndPoints, false};
+         {Rival{"rbf", DecoderKind::Rbf, false, false, 0}, Rival{"rbf, one an area", DecoderKind::Rbf, false, true, 1},
+          Rival{"rbf, trained clean", DecoderKind::Rbf, true, false, 2},
+          Rival{"linear", DecoderKind::Linear, false, false, 3},
+          Rival{"ml", DecoderKind::MaximumLikelihood, false, false, 4}}) {
+      ReportCurve curve{.name = rival.name, .color = rival.color};
       for (const double noise : kNoises) {
         if (stop_.stop_requested()) return false;
         say(share, choice.name + ": " + rival.name);
@@ -167,6 +171,8 @@ private:
       }
       if (!curve.x.empty()) chart.curves.push_back(std::move(curve));
     }
+    for (ReportCurve& bound : bounds)
+      chart.curves.push_back(std::move(bound)); // on top of the decoders that reach them
     content_.parts.emplace_back(std::move(chart));
     return true;
   }
@@ -190,20 +196,19 @@ private:
 
   bool trainingNoise() {
     content_.parts.push_back(ReportHeading{"Training noise"});
-    ReportChart chart{"training_noise",
-                      "Error at relative noise 1e-4 of networks trained with more or less noise than that",
-                      "Networks at noise 1e-4",
-                      "relative noise of the training (0 is drawn at 1e-8)",
-                      "error, rms of Fx, Fy, Fz [% of range]",
-                      true,
-                      true,
-                      {}};
+    ReportChart chart{.file = "training_noise",
+                      .caption = "Error at relative noise 1e-4 of networks trained with more or less noise than that",
+                      .title = "Networks at noise 1e-4",
+                      .xLabel = "relative noise of the training (0 is drawn at 1e-8)",
+                      .yLabel = "error, rms of Fx, Fy, Fz [% of range]",
+                      .logX = true,
+                      .logY = true};
     for (const RowChoice* choice : {&choices_.front(), &choices_.back()}) {
-      ReportCurve curve{choice->name, {}, {}, ReportCurve::Style::LineAndPoints, false};
+      ReportCurve curve{.name = choice->name};
       for (const double trained : kTrainingNoises) {
         if (stop_.stop_requested()) return false;
         say(0.85, "training noise " + text(trained));
-        const auto error = errorOf(*choice, {"rbf", DecoderKind::Rbf, false, true}, kShownNoise, trained);
+        const auto error = errorOf(*choice, {"rbf", DecoderKind::Rbf, false, true, 0}, kShownNoise, trained);
         if (!error) continue;
         curve.x.push_back(trained > 0 ? trained : 1e-8);
         curve.y.push_back(rootMeanSquare(*error));
@@ -221,22 +226,18 @@ private:
   void bits() {
     content_.parts.push_back(ReportHeading{"What a converter resolves"});
     ReportChart chart{
-        "bits",
-        "Bound with prior against the bits of an ideal converter whose full scale is the resistance at rest",
-        "What this design resolves",
-        "bits",
-        "root mean square error [N]",
-        false,
-        true,
-        {}};
-    ReportTable table{"Bound with prior in N, Fx / Fy / Fz; 'resolves' is their root mean square",
-                      {"bits", "relative noise"},
-                      {},
-                      {}};
+        .file = "bits",
+        .caption = "Bound with prior against the bits of an ideal converter whose full scale is the resistance at rest",
+        .title = "What this design resolves",
+        .xLabel = "bits",
+        .yLabel = "root mean square error [N]",
+        .logY = true};
+    ReportTable table{.caption = "Bound with prior in N, Fx / Fy / Fz; 'resolves' is their root mean square",
+                      .heads = {"bits", "relative noise"}};
     for (const RowChoice& choice : choices_) {
       table.heads.push_back(choice.name + " [N]");
       table.heads.push_back("resolves [N]");
-      chart.curves.push_back({choice.name, {}, {}, ReportCurve::Style::LineAndPoints, false});
+      chart.curves.push_back({.name = choice.name});
     }
     for (int count = 8; count <= 24; count += 2) {
       std::vector<std::string> cells{std::to_string(count), shortNumber(noiseOfBits(count))};
@@ -247,7 +248,7 @@ private:
         cells.push_back(shortNumber(rootMeanSquare(error_N)));
         chart.curves[c].x.push_back(count);
         chart.curves[c].y.push_back(rootMeanSquare(error_N));
-        if (count == 12 || count == 16) tell(choices_[c], count, rootMeanSquare(error_N));
+        if (count == 12 || count == 16) summarise(choices_[c], count, rootMeanSquare(error_N));
       }
       table.rows.push_back(std::move(cells));
     }
@@ -255,7 +256,7 @@ private:
     content_.parts.emplace_back(std::move(chart));
   }
 
-  void tell(const RowChoice& choice, int count, double error_N) {
+  void summarise(const RowChoice& choice, int count, double error_N) {
     if (&choice != &choices_.front() && &choice != &choices_.back()) return;
     content_.summary += (content_.summary.empty() ? "" : " ") + std::string("With ") + std::to_string(count) +
                         " bits (noise " + shortNumber(noiseOfBits(count)) + ") and " + choice.name +

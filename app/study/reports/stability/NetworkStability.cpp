@@ -1,3 +1,4 @@
+#include "app/study/decoding/DecoderTraining.h"
 #include "app/study/reports/ReportPage.h"
 #include "app/study/reports/networks/NetworkCheck.h"
 #include "app/study/reports/stability/StabilityRow.h"
@@ -28,7 +29,7 @@ struct NetworkData {
 NetworkData dataOf(const SensorDesign& design, const TwoSets& sets) {
   DecoderInput input;
   input.kind = InputKind::Displacement;
-  input.rows = {(design.rowWires() - 1) / 2};
+  input.rows = {centreRowWire(design.rowWires())};
   input.rowWires = design.rowWires();
   input.valuesPerRow = 3 * design.electrodesPerRowWire();
   return {inputsOf(sets.training, input), sets.training.forces_N, inputsOf(sets.test, input), sets.test.forces_N,
@@ -100,7 +101,7 @@ void addData(StabilityCases& cases, const NetworkData& data) {
   add("near-zero forces (times 1e-9)", changed);
   changed = data;
   changed.samples(0, 0) = std::numeric_limits<double>::quiet_NaN();
-  add("an input that is no number", changed);
+  add("an input that is not a number", changed);
   changed = data;
   changed.samples = data.samples.leftCols(1);
   changed.targets = data.targets.leftCols(1);
@@ -111,7 +112,7 @@ void addData(StabilityCases& cases, const NetworkData& data) {
 void addBrokenWires(StabilityCases& cases, const SensorDesign& design, const TwoSets& sets) {
   TrainOptions options;
   options.input = InputKind::Resistance;
-  options.rows = std::to_string((design.rowWires() - 1) / 2);
+  options.rows = std::to_string(centreRowWire(design.rowWires()));
   options.noise = 1e-4;
   const Decoder decoder = trainDecoder(sets.training, &design, options, cases.stop());
   for (const auto& [what, ohm] :
@@ -124,9 +125,9 @@ void addBrokenWires(StabilityCases& cases, const SensorDesign& design, const Two
       row.error = prediction.forces_N.allFinite() ? (prediction.forces_N - sets.test.forces_N.leftCols(1)).norm()
                                                   : std::numeric_limits<double>::infinity();
       row.errorOf = "true force [N]";
-      const bool told = !prediction.outsideTrainingRange.empty() && prediction.outsideTrainingRange[0];
-      row.outcome = told ? StabilityOutcome::Warned : StabilityOutcome::Wrong;
-      row.words = told ? "marked as outside of what was trained" : "not marked as outside of what was trained";
+      const bool marked = !prediction.outsideTrainingRange.empty() && prediction.outsideTrainingRange[0];
+      row.outcome = marked ? StabilityOutcome::Warned : StabilityOutcome::Wrong;
+      row.words = marked ? "marked as outside of what was trained" : "not marked as outside of what was trained";
     });
 }
 

@@ -78,7 +78,7 @@ void addResistanceCases(StabilityCases& cases, const ReportRequest& request) {
                 row.words = "the inversion says that the system has rank " + std::to_string(inversion.rank) + " of " +
                             std::to_string(3 * design.electrodesPerRowWire()) +
                             ": the displacements do not follow "
-                            "from the resistances here, and the step of least norm is taken";
+                            "from the resistances here, and the step of smallest norm is taken";
               });
 }
 

@@ -59,7 +59,7 @@ ReportChart spreadChart(const std::vector<StabilityRow>& rows) {
                     true,
                     {}};
   for (const char* group : {"network: spread, linear tail", "network: spread, bias only"}) {
-    ReportCurve curve{std::string(group).substr(17), {}, {}, ReportCurve::Style::LineAndPoints, false};
+    ReportCurve curve{.name = std::string(group).substr(17)};
     for (const StabilityRow& row : rows)
       if (row.group == group) {
         curve.x.push_back(std::stod(row.what.substr(7)));
@@ -104,7 +104,8 @@ std::optional<ReportContent> stabilityReport(const ReportRequest& request, const
       "Green: the result is right, or the input was refused with a sentence. Yellow: no full or no good result, and it "
       "was said (load fraction reached, rank, warning). Red: a wrong result without a word. Solver cases run on a "
       "coarse mapped mesh, for what is tested is not the mesh; their answers are checked by an equilibrium computed "
-      "anew from the stress formula, not by the solver's own residual. Those of the default mesh of tetrahedra are "
+      "independently from the stress formula, not by the solver's own residual. Those of the default mesh of "
+      "tetrahedra are "
       "compared with hexahedra, an element that has nothing in common with it: they agree to their discretisation "
       "errors."});
   std::vector<std::string> groups;

@@ -15,10 +15,10 @@ enum class StabilityOutcome {
   Stopped, ///< no full result, and it said so and why
   Warned,  ///< a poor result with a warning
   Refused, ///< input that cannot be, refused with a sentence
-  Wrong,   ///< a result whose check failed, without a word
+  Wrong,   ///< a result whose check failed, and nothing said so
 };
 
-/// An extreme case; what does not apply is no number.
+/// An extreme case; what does not apply is NaN.
 struct StabilityRow {
   std::string group;
   std::string what;

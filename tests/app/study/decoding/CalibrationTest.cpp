@@ -1,5 +1,6 @@
 #include "app/study/decoding/Calibration.h"
 
+#include "app/study/decoding/DecoderTraining.h"
 #include "io/SampleFile.h"
 #include "tests/app/study/live/LiveFixture.h"
 #include "tests/io/Refusal.h"

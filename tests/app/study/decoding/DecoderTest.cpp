@@ -1,5 +1,6 @@
 #include "app/study/decoding/Prediction.h"
 
+#include "app/study/decoding/DecoderTraining.h"
 #include "app/study/decoding/NoiseBound.h"
 #include "app/study/decoding/TwoStep.h"
 #include "io/DecoderFile.h"

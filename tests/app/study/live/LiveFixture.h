@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/study/decoding/DecoderTraining.h"
 #include "app/study/decoding/TrainOptions.h"
 #include "app/study/live/ForceDecoder.h"
 #include "app/study/live/SimulatedTouch.h"

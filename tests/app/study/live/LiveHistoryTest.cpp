@@ -50,6 +50,29 @@ TEST(LiveHistory, NeverRunsBackwardsNorGrowsWithoutEnd) {
   EXPECT_LE(history.entries().back().t_s - history.entries().front().t_s, LiveHistory::kLongest_s);
 }
 
+TEST(LiveHistory, WritesATimeThatNeverJumpsBackWithTheBoardsOwnBesideIt) {
+  const TemporaryFolder folder;
+  LiveHistory history;
+  history.add(frame(100, 500));
+  history.add(frame(100.5, 500.5));
+  history.add(frame(0, 507, true)); // plugged in again: the board counts from 0
+  writeLiveCsv(folder / "a.csv", history);
+  std::ifstream file(folder / "a.csv");
+  std::string line;
+  std::getline(file, line);
+  EXPECT_EQ(line.rfind("t_s,board_s,frame,", 0), 0U) << line;
+  std::vector<double> time_s, board_s;
+  while (std::getline(file, line)) {
+    std::istringstream cells(line);
+    char comma = 0;
+    time_s.emplace_back();
+    board_s.emplace_back();
+    cells >> time_s.back() >> comma >> board_s.back();
+  }
+  EXPECT_EQ(time_s, (std::vector<double>{500, 500.5, 507}));
+  EXPECT_EQ(board_s, (std::vector<double>{100, 100.5, 0}));
+}
+
 TEST(LiveHistory, IsWrittenAsATableWithNothingWhereThereIsNothing) {
   const TemporaryFolder folder;
   LiveHistory history;
@@ -77,41 +100,6 @@ TEST(LiveHistory, IsWrittenAsATableWithNothingWhereThereIsNothing) {
   EXPECT_NE(first.find("\"a \"\"b\"\"\""), std::string::npos) << first;
   EXPECT_NE(second.find(",,,,,,,0.125,,\"column-wire 1: open\""), std::string::npos) << second;
   EXPECT_THROW(writeLiveCsv("/no/such/folder/a.csv", history), Error);
-}
-
-BoardFrame readings(double value) {
-  BoardFrame frame;
-  frame.resistances_ohm = Eigen::MatrixXd::Constant(2, 3, value);
-  frame.state.setConstant(2, 3, ReadingState::Good);
-  return frame;
-}
-
-TEST(RestReference, CountsFromTheTareElseTheDesignElseTheFirstFrame) {
-  RestReference rest;
-  rest.add(readings(100));
-  EXPECT_NEAR(rest.change(readings(101))(0, 0), 0.01, 1e-12);
-  rest.reset(Eigen::MatrixXd::Constant(2, 3, 202));
-  EXPECT_NEAR(rest.change(readings(101))(1, 2), -0.5, 1e-12);
-  rest.startTare(2);
-  rest.add(readings(50));
-  rest.add(readings(60));
-  EXPECT_STREQ(rest.name(), "the tared frames");
-  EXPECT_NEAR(rest.change(readings(110))(0, 1), 1, 1e-12);
-  rest.clearTare();
-  EXPECT_STREQ(rest.name(), "the design at rest");
-}
-
-TEST(RestReference, GivesNoNumberForABadReadingAndTaresAroundIt) {
-  RestReference rest;
-  BoardFrame bad = readings(100);
-  bad.state(1, 1) = ReadingState::Open;
-  bad.resistances_ohm(1, 1) = 0;
-  rest.startTare(2);
-  rest.add(bad);
-  rest.add(readings(200));
-  EXPECT_TRUE(std::isnan(rest.change(bad)(1, 1)));
-  EXPECT_NEAR(rest.change(readings(150))(0, 0), 0, 1e-12);
-  EXPECT_NEAR(rest.change(readings(200))(1, 1), 0, 1e-12); // of the one frame that held it
 }
 
 TEST(LabelledFrames, CollectsUnderALoadAndTakesFramesAway) {

@@ -1,6 +1,7 @@
 #include "app/study/live/LiveSession.h"
 
 #include "app/study/live/BoardCheck.h"
+#include "app/study/live/BoardWatch.h"
 #include "io/board/SimulatedSource.h"
 #include "tests/app/study/live/LiveFixture.h"
 #include "tests/io/Refusal.h"
@@ -136,6 +137,161 @@ TEST(LiveSession, TriesAgainWhereABoardIsRefused) {
   EXPECT_EQ(live.status().reason, "no permission");
   plug->refused = false;
   EXPECT_TRUE(waitForState(live, LiveState::Streaming));
+}
+
+TEST(LiveSession, ForgetsARefusalWhenTheBoardIsGone) {
+  auto plug = std::make_shared<Plug>();
+  plug->refused = true;
+  LiveSession live(plugged(plug));
+  ASSERT_TRUE(waitForState(live, LiveState::Refused));
+  plug->in = plug->refused = false;
+  ASSERT_TRUE(waitForState(live, LiveState::Searching));
+  EXPECT_EQ(live.status().reason, "");
+}
+
+/// Where a source fails, and with what.
+enum class FailingCall { Open, Name, Info, Configuration, Read, Configure, ReadConfiguration };
+enum class Thrown { BoardGone, Refusal, Standard, Foreign };
+
+/// Throws at one of its calls while it is armed.
+struct Trap {
+  FailingCall call;
+  Thrown thrown;
+  std::atomic<bool> armed{false};
+  std::atomic<int> sprung{0};
+
+  void at(FailingCall now) {
+    if (!armed || now != call) return;
+    ++sprung;
+    switch (thrown) {
+    case Thrown::BoardGone:
+      throw BoardError("trapped");
+    case Thrown::Refusal:
+      throw Error("trapped");
+    case Thrown::Standard:
+      throw std::out_of_range("trapped");
+    case Thrown::Foreign:
+      throw 7; // NOLINT(hicpp-exception-baseclass): what no handler of a kind catches
+    }
+  }
+};
+
+class TrappedSource : public SimulatedSource {
+public:
+  explicit TrappedSource(std::shared_ptr<Trap> trap) : SimulatedSource(paperBoard()), trap_(std::move(trap)) {}
+  [[nodiscard]] std::string name() const override {
+    trap_->at(FailingCall::Name);
+    return SimulatedSource::name();
+  }
+  [[nodiscard]] const BoardInfo& info() const override {
+    trap_->at(FailingCall::Info);
+    return SimulatedSource::info();
+  }
+  [[nodiscard]] const BoardConfiguration& configuration() const override {
+    trap_->at(FailingCall::Configuration);
+    return SimulatedSource::configuration();
+  }
+  void readConfiguration() override { trap_->at(FailingCall::ReadConfiguration); }
+  Outcome read(RawReport& report, std::chrono::milliseconds timeout) override {
+    trap_->at(FailingCall::Read);
+    if (trap_->armed && trap_->call == FailingCall::ReadConfiguration) { // makes the session read it again
+      BoardEvent changed;
+      changed.code = EventCode::ConfigurationChanged;
+      const Report bytes = encode(changed);
+      report = {hostClock_s(), {bytes.begin(), bytes.end()}};
+      return Outcome::Read;
+    }
+    return SimulatedSource::read(report, timeout);
+  }
+  bool configure(const BoardConfiguration& configuration) override {
+    trap_->at(FailingCall::Configure);
+    return SimulatedSource::configure(configuration);
+  }
+
+private:
+  std::shared_ptr<Trap> trap_;
+};
+
+class LiveSessionFailure : public testing::TestWithParam<std::tuple<FailingCall, Thrown>> {};
+
+TEST_P(LiveSessionFailure, EndsTheConnectionAndSaysWhyNeverTheProgram) {
+  auto trap = std::make_shared<Trap>();
+  std::tie(trap->call, trap->thrown) = GetParam();
+  const bool opening = trap->call == FailingCall::Open;
+  const bool whileConnecting = trap->call <= FailingCall::Configuration;
+  trap->armed = whileConnecting;
+  LiveOptions options;
+  options.open = [trap] {
+    trap->at(FailingCall::Open);
+    return std::make_unique<TrappedSource>(trap);
+  };
+  LiveSession live(std::move(options));
+  if (!whileConnecting) {
+    ASSERT_TRUE(waitForFrames(live, 2));
+    trap->armed = true;
+    BoardConfiguration wanted = *live.status().configuration;
+    wanted.rate_Hz = 500;
+    live.configure(wanted);
+  }
+  const auto words = [&](const LiveStatus& now) { return opening ? now.reason : now.lastEvent; };
+  ASSERT_TRUE(waitFor(live, [&](const LiveStatus& now) { return trap->sprung > 0 && !words(now).empty(); }));
+  const std::string why = words(live.status());
+  EXPECT_NE(why.find(trap->thrown == Thrown::Foreign ? "internal error" : "trapped"), std::string::npos) << why;
+  trap->armed = false;
+  EXPECT_TRUE(waitForState(live, LiveState::Streaming)); // and goes on when all is well again
+}
+
+INSTANTIATE_TEST_SUITE_P(AtEachCall, LiveSessionFailure,
+                         testing::Combine(testing::Values(FailingCall::Open, FailingCall::Name, FailingCall::Info,
+                                                          FailingCall::Configuration, FailingCall::Read,
+                                                          FailingCall::Configure, FailingCall::ReadConfiguration),
+                                          testing::Values(Thrown::BoardGone, Thrown::Refusal, Thrown::Standard,
+                                                          Thrown::Foreign)));
+
+TEST(LiveSession, LeavesABoardOfAnotherProtocolAloneUntilItIsGone) {
+  auto plug = std::make_shared<Plug>();
+  auto foreign = std::make_shared<std::atomic<bool>>(true);
+  auto opened = std::make_shared<std::atomic<int>>(0);
+  LiveOptions options;
+  options.open = [=]() -> std::unique_ptr<ReportSource> {
+    ++*opened;
+    if (!plug->in) return nullptr;
+    VirtualBoard board = paperBoard();
+    board.faults().wrongMajorEvery = *foreign ? 30 : 0;
+    return std::make_unique<PluggedSource>(std::move(board), plug);
+  };
+  LiveSession live(std::move(options));
+  ASSERT_TRUE(waitForState(live, LiveState::Refused));
+  const int before = *opened;
+  ASSERT_TRUE(waitFor(live, [&](const LiveStatus&) { return *opened >= before + 2; })); // looked for twice more
+  EXPECT_EQ(live.status().state, LiveState::Refused);
+  EXPECT_NE(live.status().reason.find("another protocol"), std::string::npos);
+  EXPECT_EQ(live.status().connections, 1U);
+  plug->in = false;
+  ASSERT_TRUE(waitForState(live, LiveState::Searching));
+  *foreign = false;
+  plug->in = true;
+  EXPECT_TRUE(waitForState(live, LiveState::Streaming));
+}
+
+TEST(BoardWatch, SaysWhyALookFailedAndLooksAgain) {
+  auto broken = std::make_shared<std::atomic<bool>>(true);
+  BoardAccess access;
+  access.list = [broken]() -> std::vector<HidBoard> {
+    if (*broken) throw std::runtime_error("no list");
+    return {{"/dev/hidraw0", "A", "", true}};
+  };
+  const BoardWatch watch(access);
+  const auto waitUntil = [](const auto& condition) {
+    const double end_s = hostClock_s() + kPatience_s;
+    while (!condition() && hostClock_s() < end_s) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    return condition();
+  };
+  ASSERT_TRUE(waitUntil([&] { return watch.looked(); }));
+  EXPECT_NE(watch.problem().find("no list"), std::string::npos);
+  *broken = false;
+  EXPECT_TRUE(waitUntil([&] { return watch.boards().size() == 1; }));
+  EXPECT_EQ(watch.problem(), "");
 }
 
 TEST(LiveSession, StopsAtAnotherProtocolAndSaysSo) {

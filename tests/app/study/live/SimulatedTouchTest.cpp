@@ -2,6 +2,7 @@
 
 #include "model/base/Error.h"
 #include "tests/app/study/live/LiveFixture.h"
+#include "tests/io/Refusal.h"
 
 #include <gtest/gtest.h>
 
@@ -40,6 +41,33 @@ TEST(SimulatedTouch, RefusesSamplesThatLackSomething) {
   samples = shippedSamples();
   samples.resistances_ohm.resize(0, samples.size());
   EXPECT_THROW(SimulatedTouch{samples}, Error);
+}
+
+/// The shipped samples with every row-wire as often as it takes.
+SampleSet withRowWires(int rowWires) {
+  SampleSet samples = shippedSamples();
+  const Eigen::Index columns = samples.columnWires;
+  Eigen::MatrixXd resistances(rowWires * columns, samples.size());
+  for (int row = 0; row < rowWires; ++row)
+    resistances.middleRows(row * columns, columns) =
+        samples.resistances_ohm.middleRows((row % samples.rowWires) * columns, columns);
+  samples.resistances_ohm = std::move(resistances);
+  samples.rowWires = rowWires;
+  samples.displacements_mm.resize(0, samples.size());
+  return samples;
+}
+
+TEST(SimulatedBoard, ScansEveryRowWireUpToThoseThatItsMaskHolds) {
+  for (const int rowWires : {1, 10, 31, 32}) {
+    VirtualBoard board = simulatedBoard(withRowWires(rowWires), {}, 1000, 1);
+    EXPECT_EQ(board.configuration().rowMask, static_cast<std::uint32_t>((1ULL << rowWires) - 1)) << rowWires;
+  }
+}
+
+TEST(SimulatedBoard, RefusesMoreRowWiresThanTheProtocolHas) {
+  for (const int rowWires : {33, 64, 70})
+    EXPECT_NE(refusal([&] { simulatedBoard(withRowWires(rowWires), {}, 1000, 1); }).find("up to 32"), std::string::npos)
+        << rowWires;
 }
 
 } // namespace

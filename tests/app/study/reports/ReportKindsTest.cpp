@@ -30,9 +30,16 @@ protected:
   }
 };
 
+/// Those that are computed to their end here; the stability report is, case by case, in its own test.
+class FinishedReport : public EveryReport {};
+
+std::string nameOf(const testing::TestParamInfo<std::string>& tested) {
+  return tested.param == "error-time" ? std::string("errorTime") : tested.param;
+}
+
 } // namespace
 
-TEST_P(EveryReport, WritesOnePageWithItsNumbersAndACsv) {
+TEST_P(FinishedReport, WritesOnePageWithItsNumbersAndACsv) {
   const palp::TemporaryFolder folder;
   std::set<std::string> drawn;
   const palp::ReportOutcome outcome = runReport(
@@ -66,10 +73,44 @@ TEST_P(EveryReport, RefusesADesignThatCannotBe) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, EveryReport,
-                         testing::Values("error-time", "stability", "networks", "noise", "layout", "scenes"),
-                         [](const auto& tested) {
-                           return tested.param == "error-time" ? std::string("errorTime") : tested.param;
-                         });
+                         testing::Values("error-time", "stability", "networks", "noise", "layout", "scenes"), nameOf);
+
+INSTANTIATE_TEST_SUITE_P(Kinds, FinishedReport, testing::Values("error-time", "networks", "noise", "layout", "scenes"),
+                         nameOf);
+
+/// Draws nothing, and asks for a stop with the second picture.
+TEST(WrittenReport, IsGoneWhereItIsStoppedBetweenTwoPictures) {
+  const palp::TemporaryFolder folder;
+  palp::ReportComputation kind{"two", "two pictures", [](const auto&, const auto&, const auto&) {
+                                 palp::ReportContent content;
+                                 for (const char* file : {"a", "b"})
+                                   content.parts.emplace_back(palp::ReportChart{.file = file, .caption = file});
+                                 return std::optional(content);
+                               }};
+  std::stop_source source;
+  int drawn = 0;
+  const auto outcome = runReport(kind, quickRequest(folder), {}, source.get_token(),
+                                 [&](const palp::ReportChart&, const std::filesystem::path& png) {
+                                   palp::writeFile(png, "picture", false);
+                                   if (++drawn == 1) source.request_stop();
+                                 });
+  EXPECT_FALSE(outcome.done);
+  EXPECT_EQ(drawn, 1);
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(WrittenReport, IsGoneWhereAPictureCannotBeDrawn) {
+  const palp::TemporaryFolder folder;
+  palp::ReportContent content;
+  content.parts.emplace_back(palp::ReportChart{.file = "a", .caption = "a"});
+  content.parts.emplace_back(palp::ReportChart{.file = "b", .caption = "b"});
+  const auto draw = [](const palp::ReportChart& chart, const std::filesystem::path& png) {
+    if (chart.file == "b") throw palp::Error("the disk is full");
+    palp::writeFile(png, "picture", false);
+  };
+  EXPECT_THROW(writeReport(content, quickRequest(folder), 0, draw, {}), palp::Error);
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
 
 TEST(Csv, QuotesWhatHoldsACommaAndWritesNumbersExactly) {
   palp::Csv csv({"a", "b"});

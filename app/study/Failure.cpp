@@ -1,0 +1,26 @@
+#include "app/study/Failure.h"
+
+#include "model/base/Cancelled.h"
+#include "model/base/Error.h"
+
+#include <new>
+
+namespace palp {
+
+std::string failureInWords(const std::exception_ptr& failure) {
+  try {
+    std::rethrow_exception(failure);
+  } catch (const Error& refused) {
+    return refused.what();
+  } catch (const Cancelled& cancelled) {
+    return cancelled.what();
+  } catch (const std::bad_alloc&) {
+    return "not enough memory";
+  } catch (const std::exception& mistake) {
+    return std::string("internal error: ") + mistake.what();
+  } catch (...) {
+    return "internal error of an unknown kind";
+  }
+}
+
+} // namespace palp

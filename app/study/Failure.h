@@ -1,0 +1,12 @@
+#pragma once
+
+#include <exception>
+#include <string>
+
+namespace palp {
+
+/// What an exception says, for the last catch at the root of a thread: the text of an Error as it is; of others that
+/// they are a mistake of the program.
+std::string failureInWords(const std::exception_ptr& failure);
+
+} // namespace palp

@@ -1,0 +1,88 @@
+#include "app/study/decoding/NoiseBound.h"
+
+#include "model/base/Error.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace palp {
+namespace {
+
+constexpr double kRest_ohm = 300;
+const Eigen::Vector3d kSlope_perN{1e-3, 2e-3, 4e-4}; ///< dR/R of the column-wire that feels this force, a newton
+
+/// A sensor of one row-wire and three column-wires, each of which feels one force and is linear in it: R = R0 (1 + s
+/// F).
+SampleSet linearSensor() {
+  SampleSet set;
+  set.rowWires = 1;
+  set.columnWires = 3;
+  set.electrodesPerRowWire = 1;
+  set.areaCount = 1;
+  const Eigen::Index size = 200; // far more than the monomials of the fit, which is exact for a line
+  set.area = Eigen::VectorXi::Zero(size);
+  std::mt19937_64 engine(4);
+  std::uniform_real_distribution<double> side(-1, 1);
+  set.forces_N = Eigen::Matrix3Xd::NullaryExpr(3, size, [&](Eigen::Index, Eigen::Index) { return side(engine); });
+  set.displacements_mm.resize(0, size);
+  set.resistances_ohm = kRest_ohm * (1 + (kSlope_perN.asDiagonal() * set.forces_N).array());
+  return set;
+}
+
+Eigen::Array3d rangeOf(const SampleSet& set) {
+  return set.forces_N.rowwise().maxCoeff() - set.forces_N.rowwise().minCoeff();
+}
+
+/// Relative noise moves R by noise * R and F by noise * R / (dR/dF): sigma over the slope, in parts of the range.
+Eigen::Array3Xd deviations(const SampleSet& set, double noise) {
+  const Eigen::Array3Xd share = (kSlope_perN.asDiagonal() * set.forces_N).array();
+  return ((noise * (1 + share)).colwise() / (kSlope_perN.array() * rangeOf(set)));
+}
+
+TEST(NoiseBound, OfALinearSensorIsTheNoiseOverTheSlope) {
+  const SampleSet set = linearSensor();
+  for (const double noise : {1e-6, 1e-4, 1e-2}) {
+    const NoiseBound bound = noiseBound(set, InputKind::Resistance, {0}, noise);
+    const Eigen::Array3d closed = 100 * deviations(set, noise).square().rowwise().mean().sqrt();
+    for (int f = 0; f < 3; ++f) // the fit of a line by a polynomial loses some digits, the eigenvalues few
+      EXPECT_NEAR(bound.withoutPriorPercent(f), closed(f), 1e-6 * closed(f)) << noise;
+  }
+}
+
+TEST(NoiseBound, WithPriorAddsTheInformationOfTheRange) {
+  const SampleSet set = linearSensor();
+  for (const double noise : {1e-6, 1e-3, 1e-1}) {
+    const NoiseBound bound = noiseBound(set, InputKind::Resistance, {0}, noise);
+    // 1 / sigma^2 of the reading and 12 of the prior, whose variance is range^2 / 12, add up.
+    const Eigen::Array3d closed =
+        100 * (deviations(set, noise).square().inverse() + 12).inverse().rowwise().mean().sqrt();
+    for (int f = 0; f < 3; ++f) EXPECT_NEAR(bound.withPriorPercent(f), closed(f), 1e-6 * closed(f)) << noise;
+  }
+}
+
+TEST(NoiseBound, OfMuchNoiseIsKnowingNothing) {
+  const NoiseBound bound = noiseBound(linearSensor(), InputKind::Resistance, {0}, 0.99);
+  for (int f = 0; f < 3; ++f) {
+    EXPECT_LT(bound.withPriorPercent(f), 100 / std::sqrt(12.0)); // the deviation of a uniform density
+    EXPECT_GT(bound.withPriorPercent(f), 0.999 * 100 / std::sqrt(12.0));
+    EXPECT_GT(bound.withoutPriorPercent(f), 1000);
+  }
+}
+
+TEST(NoiseBound, IsInfiniteWhereAForceIsNotFelt) {
+  SampleSet set = linearSensor();
+  set.resistances_ohm.row(2).setConstant(kRest_ohm);
+  const NoiseBound bound = noiseBound(set, InputKind::Resistance, {0}, 1e-4);
+  EXPECT_TRUE(std::isinf(bound.withoutPriorPercent(2)));
+  EXPECT_NEAR(bound.withPriorPercent(2), 100 / std::sqrt(12.0), 1e-6);
+}
+
+TEST(NoiseBound, RefusesNoiseThatIsNone) {
+  for (const double noise : {0.0, -1e-4, 1.0, std::nan("")})
+    EXPECT_THROW(noiseBound(linearSensor(), InputKind::Resistance, {0}, noise), Error);
+}
+
+} // namespace
+} // namespace palp
