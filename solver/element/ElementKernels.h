@@ -7,6 +7,10 @@ enum class ElementShape; // model/Mesh.h, kept out of the kernels' sources
 /// Numbers stand in blocks of 8 lanes, [item][8]: 8 elements of one load, or 8 loads on one element.
 inline constexpr int lanes = 8;
 
+/// Corners of a tetrahedron's edges in VTK's order; the node on edge k is 4 + k. (No std::array: the kernels' sources,
+/// compiled for several processors, must not share inline functions.)
+inline constexpr int tetEdges[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
+
 struct RubberConstants {
   double c10_MPa;
   double c01_MPa;
