@@ -15,6 +15,10 @@ constexpr std::size_t laneIndex(std::size_t element, std::size_t size, std::size
   return (element / lanes * size + item) * lanes + element % lanes;
 }
 
+/// Corners of a tetrahedron's edges in VTK's order; the node on edge k is 4 + k. (No std::array: the kernels' sources,
+/// compiled for several processors, must not share inline functions.)
+inline constexpr int tetEdges[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
+
 struct RubberConstants {
   double c10_MPa;
   double c01_MPa;
