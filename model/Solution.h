@@ -23,12 +23,13 @@ struct LoadIncrement {
   Eigen::MatrixXd elementUnknowns;   ///< the element's own unknowns (bubble, pressures) x elements
 };
 
-/// Result of one nonlinear solve. Where Newton could not go on, the last converged state and why.
+/// Result of one nonlinear solve. Where Newton could not go on, the last converged state and why. Converged is also a
+/// solve whose residual, below 1e-6, falls no more though it is not below the tolerance: it is down to rounding.
 struct Solution {
   bool converged = false;
   bool cancelled = false;
   double reachedLoadFraction = 0;
-  std::string stopReason; ///< a sentence; empty where converged
+  std::string stopReason; ///< a sentence; empty where converged below the tolerance
   std::vector<NewtonStep> newton;
   std::vector<LoadIncrement> increments; ///< at rest first (load fraction 0), the state that is the answer last
   double maxVolumeError = 0;             ///< largest |J - 1| over the quadrature points

@@ -12,8 +12,6 @@ namespace palp {
 
 namespace {
 
-constexpr double mostElements = 1e6;
-
 void requireMapped(const std::array<int, 3>& counts) {
   const double elements = double(counts[0]) * counts[1] * counts[2];
   if (counts[0] < 1 || counts[1] < 1 || counts[2] < 1 || elements > mostElements)
@@ -44,11 +42,11 @@ void requireMeshable(const SensorDesign& design, const MeshOptions& options) {
                       " mm for this block, or there would be more than 1e6 elements");
 }
 
-Mesh sensorMesh(const SensorDesign& design, const MeshOptions& options) {
+Mesh sensorMesh(const SensorDesign& design, const MeshOptions& options, const std::stop_token& stop) {
   requireMeshable(design, options);
   if (options.mapped) return mappedMesh(design, *options.mapped);
   const double size = options.meshSize_mm.value_or(standardSize(design));
-  Mesh mesh = gradedTets(design, defaultGrading(design, size), options.discs, options.electrodesAsNodes);
+  Mesh mesh = gradedTets(design, defaultGrading(design, size), options.discs, options.electrodesAsNodes, stop);
   mesh.size_mm = size;
   return mesh;
 }

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <optional>
+#include <stop_token>
 #include <vector>
 
 namespace palp {
@@ -28,13 +29,17 @@ struct MeshOptions {
   bool operator==(const MeshOptions&) const = default;
 };
 
+/// Elements of the largest mesh that is made.
+inline constexpr double mostElements = 1e6;
+
 /// Throws DesignError where the options make no mesh of the design (size not above 0, more than a stated number of
 /// elements): before the work that needs one.
 void requireMeshable(const SensorDesign& design, const MeshOptions& options);
 
-/// Mesh of the block: by TetGen with the load areas' borders along faces and all upper electrodes as nodes, or mapped
-/// hexahedra. Throws as requireMeshable does.
-Mesh sensorMesh(const SensorDesign& design, const MeshOptions& options = {});
+/// Mesh of the block: by TetGen with the load areas' borders along faces and all upper electrodes as nodes (or none of
+/// them, where that would take too many elements: mesh/GradedTets.h), or mapped hexahedra. Throws as requireMeshable
+/// does, and Cancelled.
+Mesh sensorMesh(const SensorDesign& design, const MeshOptions& options = {}, const std::stop_token& stop = {});
 
 /// Size in the bulk of the default mesh.
 double standardMeshSize_mm(const SensorDesign& design);

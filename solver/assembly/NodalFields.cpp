@@ -1,11 +1,11 @@
 #include "solver/assembly/NodalFields.h"
 
 #include "solver/element/ElementGeometry.h"
+#include "solver/element/ElementKernels.h"
 #include "solver/element/MooneyRivlin.h"
 
 #include <Eigen/Dense>
 
-#include <array>
 #include <cmath>
 
 namespace palp {
@@ -19,9 +19,8 @@ struct PointState {
 };
 
 Eigen::Vector4d tetNode(int n) {
-  static constexpr std::array<std::array<int, 2>, 6> edges{{{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
   if (n < 4) return Eigen::Vector4d::Unit(n);
-  return (Eigen::Vector4d::Unit(edges[n - 4][0]) + Eigen::Vector4d::Unit(edges[n - 4][1])) / 2;
+  return (Eigen::Vector4d::Unit(tetEdges[n - 4][0]) + Eigen::Vector4d::Unit(tetEdges[n - 4][1])) / 2;
 }
 
 PointState tetAtNode(const Mesh& mesh, const TetGeometry& geometry, const LoadIncrement& state, int element, int n) {

@@ -54,7 +54,7 @@ private:
   [[nodiscard]] std::unique_ptr<LoadBatch> borrowGroup();
   void giveBack(std::unique_ptr<LoadBatch> group);
 
-  const HyperelasticProblem& problem_;
+  HyperelasticProblem problem_;
   std::shared_ptr<const InitialTangent> rest_;
   ElementwiseTangent model_;
   ForcePolynomial polynomial_;

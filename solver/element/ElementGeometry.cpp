@@ -1,18 +1,16 @@
 #include "solver/element/ElementGeometry.h"
 
 #include "model/DesignError.h"
+#include "solver/element/ElementKernels.h"
 
 #include <Eigen/Dense>
 
-#include <array>
 #include <cmath>
 #include <string>
 
 namespace palp {
 
 namespace {
-
-constexpr std::array<std::array<int, 2>, 6> tetEdges{{{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
 
 void requirePositive(double measure, int element) {
   if (!(measure > 0)) throw DesignError("mesh: element " + std::to_string(element) + " is inside out or flat");
@@ -42,7 +40,7 @@ Eigen::Matrix<double, 3, 10> tetShapeGradients(const TetGeometry& geometry, cons
   Eigen::Matrix<double, 3, 10> dN;
   for (int i = 0; i < 4; ++i) dN.col(i) = (4 * l(i) - 1) * geometry.gradients.col(i);
   for (int e = 0; e < 6; ++e) {
-    const auto [i, j] = tetEdges[e];
+    const int i = tetEdges[e][0], j = tetEdges[e][1];
     dN.col(4 + e) = 4 * (l(i) * geometry.gradients.col(j) + l(j) * geometry.gradients.col(i));
   }
   return dN;

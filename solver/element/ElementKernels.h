@@ -7,6 +7,10 @@ enum class ElementShape; // model/Mesh.h, kept out of the kernels' sources
 /// Numbers stand in blocks of 8 lanes, [item][8]: 8 elements of one load, or 8 loads on one element.
 inline constexpr int lanes = 8;
 
+/// Corners of a tetrahedron's edges in VTK's order; the node on edge k is 4 + k. (No std::array: the kernels' sources,
+/// compiled for several processors, must not share inline functions.)
+inline constexpr int tetEdges[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
+
 struct RubberConstants {
   double c10_MPa;
   double c01_MPa;
@@ -54,9 +58,14 @@ struct ElementKernels {
                        double* dx);
 };
 
-/// Kernels for the shape: 10-node tetrahedra with a quartic bubble and linear discontinuous pressure, geometry =
-/// 4 gradients of the barycentric coordinates and the volume; 8-node hexahedra with one pressure, geometry = for each
-/// of 8 points 8 shape gradients and the weight.
+/// What the kernels are compiled for.
+enum class InstructionSet { Baseline, Avx2, Avx512 };
+
+/// Kernels for the shape, by the widest instruction set of this processor: 10-node tetrahedra with a quartic bubble and
+/// linear discontinuous pressure, geometry = 4 gradients of the barycentric coordinates and the volume; 8-node
+/// hexahedra with one pressure, geometry = for each of 8 points 8 shape gradients and the weight.
 const ElementKernels& elementKernels(ElementShape shape);
+/// The same for one instruction set; null where this program or processor has not got it.
+const ElementKernels* elementKernels(ElementShape shape, InstructionSet set);
 
 } // namespace palp

@@ -2,6 +2,11 @@
 
 #include <Eigen/Core>
 
+#include <stop_token>
+#include <string>
+
+class tetgenio;
+
 namespace palp {
 
 /// Corners of tetrahedra, one column an element.
@@ -11,7 +16,13 @@ struct LinearTets {
 };
 
 /// Weighted Delaunay triangulation of the points' convex hull by TetGen; every point becomes a node. Throws DesignError
-/// with TetGen's reason where there is none.
-LinearTets weightedDelaunay(const Eigen::Matrix3Xd& points, const Eigen::VectorXd& weights);
+/// where there is none (fewer than four points, all in a plane, a coordinate that is no number) and Cancelled where it
+/// was asked to stop.
+LinearTets weightedDelaunay(const Eigen::Matrix3Xd& points, const Eigen::VectorXd& weights,
+                            const std::stop_token& stop = {});
+
+/// TetGen itself, one call at a time in the whole program: the filters of its predicates are globals, scaled by the
+/// body at hand. Nothing of it reaches standard output. Throws DesignError with TetGen's reason where it gives up.
+void tetrahedralise(std::string switches, tetgenio& in, tetgenio& out);
 
 } // namespace palp

@@ -1,15 +1,20 @@
 #include "solver/mesh/GradedTets.h"
 
 #include "model/DesignError.h"
+#include "model/base/Cancelled.h"
 #include "model/base/Text.h"
 #include "solver/mesh/DelaunayTets.h"
 #include "solver/mesh/GridLines.h"
 #include "solver/mesh/QuadraticTets.h"
 
+#include <Eigen/Dense>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
+#include <unordered_map>
 
 namespace palp {
 
@@ -19,8 +24,10 @@ namespace {
 /// from cell to cell: the weight grows with the square of the number of odd indices of a point (a function convex in
 /// the set of odd directions, whose extension is linear on the path simplices: Lovasz 1983).
 constexpr double weightOfOddIndices = 0.05;
-constexpr double furthestMove = 0.35; // of a cell, from a grid point to the electrode it is moved to
-constexpr double mostElements = 1e6;
+constexpr double furthestMove = 0.35;   // of a cell, from a grid point to the electrode it is moved to
+constexpr double smallestVolume = 0.15; // of a moved simplex, against where it was
+constexpr double thinnestCell = 0.005;  // of the wanted size
+constexpr double mostCellsForNodes = 4; // times the cells before: where electrodes take more they stay inside elements
 
 /// Lines along x, y, z; points are numbered along x, then y, then z.
 struct Grid {
@@ -29,6 +36,9 @@ struct Grid {
 
   [[nodiscard]] int count(int d) const { return static_cast<int>(lines[d].size()); }
   [[nodiscard]] int point(const Eigen::Vector3i& i) const { return (i(2) * count(1) + i(1)) * count(0) + i(0); }
+  [[nodiscard]] Eigen::Vector3d place(const Eigen::Vector3i& i) const {
+    return {lines[0][i(0)], lines[1][i(1)], lines[2][i(2)]};
+  }
   [[nodiscard]] double cells() const { return double(count(0) - 1) * (count(1) - 1) * (count(2) - 1); }
   [[nodiscard]] Eigen::Matrix3Xd indices() const {
     Eigen::Matrix3Xd all(3, Eigen::Index(count(0)) * count(1) * count(2));
@@ -48,8 +58,9 @@ void setHorizontal(Grid& grid, int d, double length, int parts, const Grading& g
   }
 }
 
-/// Makes the electrodes' coordinates stops, where they are few enough; others are met by moving grid points.
-void addStops(std::vector<double>& stops, const Eigen::RowVectorXd& electrodes) {
+/// Makes the electrodes' coordinates stops, where they are few enough and not too near to one another; others are met
+/// by moving grid points.
+void addStops(std::vector<double>& stops, const SizeAlong& size, const Eigen::RowVectorXd& electrodes) {
   constexpr std::size_t mostLinesForElectrodes = 40;
   std::vector<double> wanted(electrodes.begin(), electrodes.end());
   std::sort(wanted.begin(), wanted.end());
@@ -59,7 +70,8 @@ void addStops(std::vector<double>& stops, const Eigen::RowVectorXd& electrodes) 
   if (wanted.size() > mostLinesForElectrodes) return;
   for (const double x : wanted) {
     const auto above = std::lower_bound(stops.begin() + 1, stops.end() - 1, x);
-    if (x - *(above - 1) >= same && *above - x >= same) stops.insert(above, x);
+    const double room = thinnestCell * size(x);
+    if (x - *(above - 1) >= room && *above - x >= room) stops.insert(above, x);
   }
 }
 
@@ -86,14 +98,14 @@ Grid gradedGrid(const SensorDesign& design, const Grading& grading, const std::v
   // the rims of the clamped face get even indices, and the borders of the load areas the parity of the top face.
   for (const int d : {2, 0, 1}) {
     const std::vector<double> borders = grid.stops[d];
-    addStops(grid.stops[d], electrodes.row(d));
+    addStops(grid.stops[d], grid.sizes[d], electrodes.row(d));
     grid.lines[d] = gridLines(grid.stops[d], grid.sizes[d]);
     if (d < 2) meetParities(borders, (grid.count(2) - 1) % 2 == 1, grid.sizes[d], grid.lines[d]);
   }
   return grid;
 }
 
-/// The grid point nearest to an electrode and how far it would move, in cells.
+/// The grid point nearest to an electrode and how far it would move, in cells. Points of the block's faces stay there.
 struct Nearest {
   Eigen::Vector3i index;
   Eigen::Vector3d move;
@@ -106,36 +118,114 @@ Nearest nearest(const Grid& grid, const Eigen::Vector3d& p) {
     const double cell = *above - *(above - 1), part = (p(d) - *(above - 1)) / cell;
     result.index(d) = static_cast<int>(above - lines.begin()) - (part < 0.5 ? 1 : 0);
     result.move(d) = std::min(part, 1 - part);
-    const bool stop =
-        std::find(grid.stops[d].begin(), grid.stops[d].end(), lines[result.index(d)]) != grid.stops[d].end();
-    if (stop && result.move(d) > 1e-9) result.move(d) = 1; // it must stay on its plane
+    if (result.index(d) == 0 || result.index(d) + 1 == grid.count(d)) result.move(d) = 1;
   }
   return result;
 }
 
-/// Grid point of each electrode; where one is too far from all, a line is brought to it, which may need another round.
-std::vector<int> electrodePoints(Grid& grid, const Eigen::Matrix3Xd& electrodes) {
-  for (;;) {
-    std::vector<int> points;
-    std::vector<char> taken(grid.indices().cols());
-    bool complete = true;
-    for (Eigen::Index e = 0; e < electrodes.cols() && complete; ++e) {
-      const Nearest place = nearest(grid, electrodes.col(e));
-      Eigen::Index furthest = 0;
-      const bool near = place.move.maxCoeff(&furthest) <= furthestMove;
-      const int point = grid.point(place.index);
-      complete = near && !taken[point];
-      if (!complete) {
-        std::vector<double>& lines = grid.lines[furthest];
-        lines.insert(std::lower_bound(lines.begin(), lines.end(), electrodes(furthest, e)), electrodes(furthest, e));
-        break;
-      }
-      taken[point] = 1;
-      points.push_back(point);
+/// Volume of the path simplices of a cell, the smallest against that of the cell's in the grid; `at` gives the place of
+/// a grid point. A path goes from the corner whose indices are all even to the one where all are odd.
+template <class At> double smallestRelativeVolume(const Grid& grid, const Eigen::Vector3i& cell, const At& at) {
+  static constexpr std::array<std::array<int, 3>, 6> paths{
+      {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
+  double smallest = 1;
+  for (std::size_t k = 0; k < paths.size(); ++k) {
+    Eigen::Vector3i corner = cell + cell.unaryExpr([](int i) { return i % 2; });
+    const Eigen::Vector3d start = at(corner);
+    Eigen::Matrix3d edges;
+    double volume = k < 3 ? 1 : -1; // even permutations of the axes first
+    for (int step = 0; step < 3; ++step) {
+      const int d = paths[k][step], sign = cell(d) % 2 == 0 ? 1 : -1;
+      corner(d) += sign;
+      edges.col(step) = at(corner) - start;
+      volume *= sign * (grid.lines[d][cell(d) + 1] - grid.lines[d][cell(d)]);
     }
-    if (complete) return points;
+    smallest = std::min(smallest, edges.determinant() / volume);
   }
+  return smallest;
 }
+
+/// Finds a grid point for each electrode; where one is too far from all, where two want the same, or where moved points
+/// squeeze an element, brings lines to electrodes, in rounds. Each line ends the move of an electrode along a direction
+/// for good, and lines keep their distance, so there is an end.
+class ElectrodeNodes {
+public:
+  ElectrodeNodes(Grid& grid, const Eigen::Matrix3Xd& electrodes)
+      : grid_(grid), electrodes_(electrodes), mostCells_(mostCellsForNodes * grid.cells()) {}
+
+  /// None where that takes too many cells or too thin ones.
+  std::optional<std::vector<int>> find(const std::stop_token& stop) {
+    for (;;) {
+      stopIfAsked(stop);
+      changed_ = false;
+      bringLinesToTheFar();
+      if (!failed_ && !changed_) takePoints();
+      if (!failed_ && !changed_) relieveTheSqueezed();
+      if (failed_) return {};
+      if (changed_) continue;
+      std::vector<int> points;
+      for (const Nearest& place : places_) points.push_back(grid_.point(place.index));
+      return points;
+    }
+  }
+
+private:
+  /// A line through the electrode across the direction of its furthest move.
+  void bringLine(Eigen::Index e, const Nearest& place) {
+    Eigen::Index d = 0;
+    place.move.maxCoeff(&d);
+    std::vector<double>& lines = grid_.lines[d];
+    const double x = electrodes_(d, e), room = thinnestCell * grid_.sizes[d](x);
+    const auto above = std::lower_bound(lines.begin() + 1, lines.end() - 1, x);
+    failed_ = failed_ || x - *(above - 1) < room || *above - x < room;
+    if (failed_) return;
+    lines.insert(above, x);
+    changed_ = true;
+    failed_ = grid_.cells() > mostCells_;
+  }
+  void bringLinesToTheFar() {
+    places_.clear();
+    for (Eigen::Index e = 0; e < electrodes_.cols() && !failed_; ++e) {
+      places_.push_back(nearest(grid_, electrodes_.col(e)));
+      if (places_.back().move.maxCoeff() > furthestMove) bringLine(e, places_.back());
+    }
+  }
+  void takePoints() {
+    owners_.clear();
+    std::vector<Eigen::Index> crowded;
+    for (Eigen::Index e = 0; e < electrodes_.cols(); ++e) {
+      const auto [owner, first] = owners_.try_emplace(grid_.point(places_[e].index), e);
+      if (!first)
+        crowded.push_back(places_[e].move.maxCoeff() > places_[owner->second].move.maxCoeff() ? e : owner->second);
+    }
+    for (const Eigen::Index e : crowded)
+      if (!failed_) bringLine(e, places_[e]);
+  }
+  [[nodiscard]] Eigen::Vector3d at(const Eigen::Vector3i& index) const {
+    const auto owner = owners_.find(grid_.point(index));
+    return owner == owners_.end() ? grid_.place(index) : Eigen::Vector3d(electrodes_.col(owner->second));
+  }
+  void relieveTheSqueezed() {
+    for (Eigen::Index e = 0; e < electrodes_.cols() && !failed_; ++e) {
+      if (places_[e].move.maxCoeff() == 0) continue;
+      double smallest = 1;
+      for (int k = 0; k < 8; ++k) // the cells around the point
+        smallest = std::min(smallest,
+                            smallestRelativeVolume(grid_, places_[e].index - Eigen::Vector3i(k % 2, k / 2 % 2, k / 4),
+                                                   [&](const Eigen::Vector3i& index) { return at(index); }));
+      if (smallest >= smallestVolume) continue;
+      bringLine(e, places_[e]);
+      return; // indices have changed
+    }
+  }
+
+  Grid& grid_;
+  const Eigen::Matrix3Xd& electrodes_;
+  double mostCells_;
+  std::vector<Nearest> places_;
+  std::unordered_map<int, Eigen::Index> owners_; ///< electrode of a grid point
+  bool changed_ = false, failed_ = false;
+};
 
 /// Load area of each top face, by its centre.
 Eigen::VectorXi areasOfFaces(const SensorDesign& design, const Mesh& mesh) {
@@ -181,28 +271,30 @@ double standardSize(const SensorDesign& design) {
 }
 
 Mesh gradedTets(const SensorDesign& design, const Grading& grading, const std::vector<FineDisc>& discs,
-                bool electrodesAsNodes) {
-  const Eigen::Matrix3Xd electrodes = electrodesAsNodes ? design.upperElectrodes_mm() : Eigen::Matrix3Xd(3, 0);
+                bool electrodesAsNodes, const std::stop_token& stop) {
+  Eigen::Matrix3Xd electrodes = electrodesAsNodes ? design.upperElectrodes_mm() : Eigen::Matrix3Xd(3, 0);
   Grid grid = gradedGrid(design, grading, discs, electrodes);
   requireElements(grid);
-  const std::vector<int> electrodePoint = electrodePoints(grid, electrodes);
+  std::optional<std::vector<int>> electrodePoint = ElectrodeNodes(grid, electrodes).find(stop);
+  if (!electrodePoint) {
+    electrodes.resize(3, 0);
+    electrodePoint.emplace();
+    grid = gradedGrid(design, grading, discs, electrodes);
+  }
   requireElements(grid);
   const Eigen::Matrix3Xd indices = grid.indices();
   Eigen::VectorXd weights(indices.cols());
   Eigen::Matrix3Xd points(3, indices.cols());
   for (Eigen::Index i = 0; i < indices.cols(); ++i) {
-    double odd = 0;
-    for (int d = 0; d < 3; ++d) {
-      const auto index = static_cast<std::size_t>(indices(d, i));
-      odd += double(index % 2);
-      points(d, i) = grid.lines[d][index];
-    }
+    const Eigen::Vector3i index = indices.col(i).cast<int>();
+    const double odd = index.unaryExpr([](int k) { return k % 2; }).sum();
     weights(i) = weightOfOddIndices * odd * odd;
+    points.col(i) = grid.place(index);
   }
-  for (Eigen::Index e = 0; e < electrodes.cols(); ++e) points.col(electrodePoint[e]) = electrodes.col(e);
-  Mesh mesh = quadraticTets(points, weightedDelaunay(indices, weights));
+  for (Eigen::Index e = 0; e < electrodes.cols(); ++e) points.col((*electrodePoint)[e]) = electrodes.col(e);
+  Mesh mesh = quadraticTets(points, weightedDelaunay(indices, weights, stop), stop);
   mesh.topFaceAreas = areasOfFaces(design, mesh);
-  mesh.upperElectrodeNodes = electrodePoint;
+  mesh.upperElectrodeNodes = std::move(*electrodePoint);
   return mesh;
 }
 

@@ -4,6 +4,7 @@
 #include "model/SensorDesign.h"
 #include "solver/SensorMesh.h"
 
+#include <stop_token>
 #include <vector>
 
 namespace palp {
@@ -26,8 +27,10 @@ double standardSize(const SensorDesign& design);
 
 /// Quadratic tetrahedra by TetGen on the points of a graded grid whose lines meet the load areas' borders and, where
 /// `electrodesAsNodes`, the upper electrodes. Each cell becomes six path simplices, mirrored from cell to cell: no
-/// stretching along the axes makes them obtuse, and the mirroring halves the error of equal cells.
+/// stretching along the axes makes them obtuse, and the mirroring halves the error of equal cells. Electrodes that lie
+/// too irregularly, so that to be nodes they would take four times the cells or cells thinner than 1/200 of the
+/// wanted size, all stay inside elements. Throws DesignError where there are too many elements, and Cancelled.
 Mesh gradedTets(const SensorDesign& design, const Grading& grading, const std::vector<FineDisc>& discs = {},
-                bool electrodesAsNodes = true);
+                bool electrodesAsNodes = true, const std::stop_token& stop = {});
 
 } // namespace palp

@@ -1,17 +1,17 @@
 #include "solver/mesh/QuadraticTets.h"
 
+#include "model/base/Cancelled.h"
+#include "solver/element/ElementKernels.h"
+
 #include <Eigen/Dense>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <vector>
 
 namespace palp {
 
 namespace {
-
-constexpr std::array<std::array<int, 2>, 6> tetEdges{{{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
 
 /// All edges of the mesh, sorted; the place of an edge gives its midpoint's number.
 class Edges {
@@ -55,9 +55,11 @@ Eigen::Matrix4Xi turnedPositive(const Eigen::Matrix3Xd& points, Eigen::Matrix4Xi
 
 } // namespace
 
-Mesh quadraticTets(const Eigen::Matrix3Xd& points_mm, const LinearTets& tets) {
+Mesh quadraticTets(const Eigen::Matrix3Xd& points_mm, const LinearTets& tets, const std::stop_token& stop) {
   const Eigen::Matrix4Xi corners = turnedPositive(points_mm, tets.corners);
+  stopIfAsked(stop);
   const Edges edges(corners, points_mm.cols());
+  stopIfAsked(stop);
   Mesh mesh;
   mesh.shape = ElementShape::Tetrahedron10;
   mesh.nodes_mm = edges.withMidpoints(points_mm);

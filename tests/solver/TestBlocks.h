@@ -60,11 +60,11 @@ inline Mesh cylinderTets(int n, double radius, double height) {
       mesh.nodes_mm.col(i).head<2>().setZero();
     mesh.nodes_mm(2, i) *= height;
   }
-  const int edges[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
   for (int e = 0; e < mesh.elementCount(); ++e)
     for (int k = 0; k < 6; ++k)
       mesh.nodes_mm.col(mesh.elements(4 + k, e)) =
-          (mesh.nodes_mm.col(mesh.elements(edges[k][0], e)) + mesh.nodes_mm.col(mesh.elements(edges[k][1], e))) / 2;
+          (mesh.nodes_mm.col(mesh.elements(tetEdges[k][0], e)) + mesh.nodes_mm.col(mesh.elements(tetEdges[k][1], e))) /
+          2;
   return mesh;
 }
 

@@ -11,8 +11,6 @@ struct Tet {
   static constexpr int points = 14;
 };
 
-constexpr int tetEdge[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}; // VTK's order of nodes 4..9
-
 /// Walkington's rule of 14 points, exact to degree 5: two orbits of 4 and one of 6.
 struct TetRule {
   double l[Tet::points][4];
@@ -74,8 +72,8 @@ PALP_INLINE void tetState(const Geometry& geo, const double* u, const double* x,
       for (int d = 0; d < 3; ++d) coefficient[i][d] = (i == k ? 3.0 : -1.0) * ue[i][d];
     for (int e = 0; e < 6; ++e)
       for (int end = 0; end < 2; ++end)
-        if (tetEdge[e][end] == k)
-          for (int d = 0; d < 3; ++d) coefficient[tetEdge[e][1 - end]][d] += 4.0 * ue[4 + e][d];
+        if (tetEdges[e][end] == k)
+          for (int d = 0; d < 3; ++d) coefficient[tetEdges[e][1 - end]][d] += 4.0 * ue[4 + e][d];
     for (int r = 0; r < 3; ++r)
       for (int s = 0; s < 3; ++s)
         state.vertexGradient[k][r][s] = coefficient[0][r] * geo.g[0][s] + coefficient[1][r] * geo.g[1][s] +
@@ -141,7 +139,7 @@ PALP_INLINE void storeTetResidual(const Geometry& geo, const TetState& state, co
     }
   for (int e = 0; e < 6; ++e)
     for (int r = 0; r < 3; ++r) {
-      const int i = tetEdge[e][0], j = tetEdge[e][1];
+      const int i = tetEdges[e][0], j = tetEdges[e][1];
       Pack f = Pack{};
       for (int s = 0; s < 3; ++s) f += sums.stress[i][r][s] * geo.g[j][s] + sums.stress[j][r][s] * geo.g[i][s];
       store(out.forces + 8 * (3 * (4 + e) + r) + lane, 4.0 * f);
@@ -179,7 +177,7 @@ PALP_INLINE void tetShapeGradients(const LaneGeometry& geo, const double* l, con
   for (int d = 0; d < 3; ++d) {
     for (int i = 0; i < 4; ++i) N[i][d] = (4 * l[i] - 1) * geo.g[i][d];
     for (int e = 0; e < 6; ++e)
-      N[4 + e][d] = 4 * (l[tetEdge[e][0]] * geo.g[tetEdge[e][1]][d] + l[tetEdge[e][1]] * geo.g[tetEdge[e][0]][d]);
+      N[4 + e][d] = 4 * (l[tetEdges[e][0]] * geo.g[tetEdges[e][1]][d] + l[tetEdges[e][1]] * geo.g[tetEdges[e][0]][d]);
     N[10][d] = bubble[d];
   }
 }
