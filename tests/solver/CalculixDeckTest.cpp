@@ -3,6 +3,7 @@
 #include "model/DesignError.h"
 #include "solver/SensorMesh.h"
 
+#include <Eigen/Dense>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -100,7 +100,9 @@ TEST_P(Tractions, OfALoadAddUpItsPartsAndActOnTheTopFaceAlone) {
     const Eigen::Vector3d force = forces.segment<3>(3 * n);
     total += force;
     moment += mesh_.nodes_mm.col(n).cross(force);
-    if (mesh_.nodes_mm(2, n) < design_.block_mm.z()) EXPECT_EQ(force.norm(), 0) << n;
+    if (mesh_.nodes_mm(2, n) < design_.block_mm.z()) {
+      EXPECT_EQ(force.norm(), 0) << n;
+    }
   }
   const auto add = [&](const Eigen::Vector2d& at, const Eigen::Vector3d& force) {
     expected += Eigen::Vector3d(at.x(), at.y(), design_.block_mm.z()).cross(force);
