@@ -7,6 +7,7 @@ namespace palp {
 namespace {
 
 constexpr double kLargestForce_N = 1e6;
+constexpr double kSmallestRadius_mm = 0.01; // a force on a point has no finite displacement
 
 std::optional<std::string> forceProblem(const std::string& where, const Eigen::Vector3d& force_N) {
   if (force_N.allFinite() && force_N.cwiseAbs().maxCoeff() <= kLargestForce_N) return {};
@@ -17,11 +18,13 @@ std::optional<std::string> forceProblem(const std::string& where, const Eigen::V
 std::optional<std::string> patchProblem(const PatchLoad& patch, const Eigen::Vector3d& block_mm) {
   const double r = patch.radius_mm;
   const Eigen::Vector2d& c = patch.centre_mm;
-  const bool inside =
-      r > 0 && c.x() - r >= 0 && c.y() - r >= 0 && c.x() + r <= block_mm.x() && c.y() + r <= block_mm.y();
+  const bool inside = r >= kSmallestRadius_mm && c.x() - r >= 0 && c.y() - r >= 0 && c.x() + r <= block_mm.x() &&
+                      c.y() + r <= block_mm.y();
   if (!inside) // a NaN lands here as well
     return "patch at (" + text(c.x()) + ", " + text(c.y()) + ") mm with radius " + text(r) +
-           " mm; the whole disc must lie on the top face of " + text(block_mm.x()) + " x " + text(block_mm.y()) + " mm";
+           " mm; allowed is a radius of " + text(kSmallestRadius_mm) +
+           " mm or more and a disc that lies wholly on the top face of " + text(block_mm.x()) + " x " +
+           text(block_mm.y()) + " mm";
   return forceProblem("patch", patch.force_N);
 }
 

@@ -34,8 +34,8 @@ struct LoadCase {
   bool operator==(const LoadCase&) const = default;
 };
 
-/// Why the load cannot act on the design (no such area, disc outside the face, a force that is no number); empty where
-/// it can.
+/// Why the load cannot act on the design (no such area, a disc outside the face or smaller than 0.01 mm in radius, a
+/// force that is no number); empty where it can.
 std::optional<std::string> whyInvalid(const LoadCase& load, const SensorDesign& design);
 
 } // namespace palp

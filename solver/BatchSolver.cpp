@@ -21,7 +21,8 @@ enum class Way { Surrogate, Iteration, FullNewton };
 } // namespace
 
 struct BatchSolver::State {
-  const HyperelasticProblem& problem;
+  HyperelasticProblem problem;
+  std::size_t firstNumber = 0; ///< of this call's loads, where one is refused
   BatchOptions options;
   std::unique_ptr<BatchEngine> engine;
   std::vector<std::optional<AreaSurrogate>> surrogates;
@@ -35,7 +36,7 @@ struct BatchSolver::State {
   void requireLoads(std::span<const LoadCase> loads) const {
     for (std::size_t i = 0; i < loads.size(); ++i)
       if (const auto why = whyInvalid(loads[i], problem.design()))
-        throw DesignError("load " + std::to_string(i) + ": " + *why);
+        throw DesignError("load " + std::to_string(firstNumber + i) + ": " + *why);
   }
 
   /// False: stopped.
@@ -56,7 +57,8 @@ struct BatchSolver::State {
     const Solution solution = problem.solve(load, newton, {.step = {}, .stop = stop});
     ++fullSolves;
     if (solution.cancelled) return {};
-    if (!solution.converged) throw ConvergenceError("load " + std::to_string(index) + ": " + solution.stopReason);
+    if (!solution.converged)
+      throw ConvergenceError("load " + std::to_string(firstNumber + index) + ": " + solution.stopReason);
     return problem.electrodes(solution.state());
   }
 
@@ -124,8 +126,9 @@ BatchSolver::~BatchSolver() = default;
 
 std::vector<ElectrodeDisplacements> BatchSolver::solve(std::span<const LoadCase> loads,
                                                        const std::function<void(std::size_t)>& progress,
-                                                       std::stop_token stop) {
+                                                       std::stop_token stop, std::size_t firstNumber) {
   State& s = *state_;
+  s.firstNumber = firstNumber;
   s.requireLoads(loads);
   if (loads.empty() || !s.prepare(stop)) return {};
   std::vector<BatchEngine::Answer> answers(loads.size());

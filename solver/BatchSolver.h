@@ -26,10 +26,10 @@ public:
 
   /// Electrode displacements, one a load, in the loads' order. `progress` gets the number of loads done, from any
   /// thread, one call at a time. An empty result: cancelled. Throws DesignError where a load cannot act, and
-  /// ConvergenceError (with the load's number and why) where one has no solution.
+  /// ConvergenceError (with the load's number and why) where one has no solution; loads count from `firstNumber`.
   [[nodiscard]] std::vector<ElectrodeDisplacements> solve(std::span<const LoadCase> loads,
                                                           const std::function<void(std::size_t)>& progress = {},
-                                                          std::stop_token stop = {});
+                                                          std::stop_token stop = {}, std::size_t firstNumber = 0);
 
   /// Fits the surrogates of these areas now instead of at their first load; false: stopped.
   bool fitSurrogates(std::span<const int> areas, const std::stop_token& stop = {});

@@ -1,6 +1,7 @@
 #include "solver/DiscretisationError.h"
 
 #include "model/DesignError.h"
+#include "model/base/Cancelled.h"
 #include "model/base/Text.h"
 #include "solver/HyperelasticProblem.h"
 #include "solver/SensorMesh.h"
@@ -41,12 +42,12 @@ double difference(const HyperelasticProblem& fine, const Solution& fineSolution,
 
 /// The problem on a mesh at least 1.3 times coarser, with clearly fewer unknowns; its electrodes are no nodes, which
 /// would hold the mesh fine.
-HyperelasticProblem coarserTwin(const HyperelasticProblem& problem, const LoadCase& load) {
+HyperelasticProblem coarserTwin(const HyperelasticProblem& problem, const LoadCase& load, const std::stop_token& stop) {
   double size = problem.mesh().size_mm;
   for (int attempt = 0;; ++attempt) {
     size *= coarserBy;
     const MeshOptions options{.meshSize_mm = size, .mapped = {}, .discs = fineDiscs(load), .electrodesAsNodes = false};
-    HyperelasticProblem twin(problem.design(), sensorMesh(problem.design(), options));
+    HyperelasticProblem twin(problem.design(), sensorMesh(problem.design(), options, stop));
     if (twin.dof() < clearlyFewer * problem.dof() || attempt == mostCoarsenings) return twin;
   }
 }
@@ -63,13 +64,16 @@ DiscretisationError discretisationError(const HyperelasticProblem& problem, cons
                                         const Solution& solution, std::stop_token stop, int threads) {
   const bool graded = problem.mesh().size_mm > 0;
   const HyperelasticProblem other =
-      graded ? coarserTwin(problem, load)
+      graded ? coarserTwin(problem, load, stop)
              : HyperelasticProblem(
                    problem.design(),
-                   sensorMesh(problem.design(), {.meshSize_mm = {}, .mapped = {}, .discs = fineDiscs(load)}));
+                   sensorMesh(problem.design(), {.meshSize_mm = {}, .mapped = {}, .discs = fineDiscs(load)}, stop));
   const Solution reference =
       other.solve(scaled(load, solution.state().loadFraction), {.relativeTolerance = twinTolerance, .threads = threads},
-                  {.step = {}, .stop = std::move(stop)});
+                  {.step = {}, .stop = stop});
+  stopIfAsked(stop);
+  if (!reference.converged)
+    return {{}, "no estimate: the solve on the other mesh did not converge: " + reference.stopReason};
   const double scale = graded ? scaleOfDifference(problem, other) : 1;
   return {scale * difference(problem, solution, other, reference),
           graded ? "difference to a mesh 1.3 times coarser" : "difference to quadratic tetrahedra on the default mesh"};
@@ -81,15 +85,18 @@ Mesh meshForAccuracy(const SensorDesign& design, const LoadCase& load, double ac
     throw DesignError("accuracy " + text(accuracy) + "; allowed is a relative error between 0 and 1");
   MeshOptions options{.meshSize_mm = 1.5 * standardMeshSize_mm(design), .mapped = {}, .discs = fineDiscs(load)};
   for (int refinement = 0;; ++refinement) {
-    const HyperelasticProblem problem(design, sensorMesh(design, options));
+    const HyperelasticProblem problem(design, sensorMesh(design, options, stop));
     if (problem.dof() > mostDof || refinement == mostRefinements)
       throw DesignError("accuracy " + text(accuracy) + " is out of reach: it needs a mesh of " +
                         std::to_string(problem.dof()) + " unknowns or more, allowed are " + text(mostDof));
     const Solution solution = problem.solve(load, {.threads = threads}, {.step = {}, .stop = stop});
+    stopIfAsked(stop);
     if (!solution.converged) return problem.mesh();
-    const double error = discretisationError(problem, load, solution, stop, threads).relative;
-    if (error <= accuracy || stop.stop_requested()) return problem.mesh();
-    *options.meshSize_mm /= std::clamp(std::pow(1.1 * error / accuracy, 1 / order), smallestRefinement, 2.);
+    const auto error = discretisationError(problem, load, solution, stop, threads).relative;
+    if (error && *error <= accuracy) return problem.mesh();
+    // Without an estimate, as the coarser mesh bore the load no more, a finer mesh has a better twin.
+    const double finerBy = error ? std::pow(1.1 * *error / accuracy, 1 / order) : coarserBy;
+    *options.meshSize_mm /= std::clamp(finerBy, smallestRefinement, 2.);
   }
 }
 

@@ -6,9 +6,16 @@
 #include "solver/statics/ProblemParts.h"
 
 #include <algorithm>
+#include <chrono>
 #include <stdexcept>
 
 namespace palp {
+
+namespace {
+
+constexpr std::chrono::milliseconds lookForStopEvery{20};
+
+} // namespace
 
 Eigen::MatrixXd elementUnknowns(const Discretisation& mesh, const LaneVector& unknowns) {
   Eigen::MatrixXd x(mesh.unknowns(), mesh.elements());
@@ -23,17 +30,23 @@ HyperelasticProblem::Parts::Parts(SensorDesign d, Mesh m)
       assembler(discretisation, rubberConstants(design.material)) {}
 
 std::shared_ptr<const CholeskyPlan> HyperelasticProblem::Parts::plan() const {
-  const std::lock_guard lock(mutex_);
-  if (!plan_) plan_ = std::make_shared<const CholeskyPlan>(assembler.pattern());
+  std::call_once(planOnce_, [this] { plan_ = std::make_shared<const CholeskyPlan>(assembler.pattern()); });
   return plan_;
+}
+
+std::shared_ptr<const InitialTangent> HyperelasticProblem::Parts::keptTangent() const {
+  const std::lock_guard lock(tangentGuard_);
+  return tangent_;
 }
 
 std::shared_ptr<const InitialTangent> HyperelasticProblem::Parts::initialTangent(int threads,
                                                                                  const std::stop_token& stop) const {
   if (stop.stop_requested()) return {};
   const auto symbolic = plan();
-  const std::lock_guard lock(mutex_);
-  if (rest_) return rest_;
+  std::unique_lock making(making_, std::defer_lock);
+  while (!making.try_lock_for(lookForStopEvery)) // another thread makes it
+    if (stop.stop_requested()) return {};
+  if (auto kept = keptTangent()) return kept;
   auto rest = std::make_shared<InitialTangent>(InitialTangent{{}, {}, SparseCholesky(symbolic)});
   assembler.tangent(discretisation->atRest(), rest->tangents, rest->forces, threads, stop);
   if (stop.stop_requested()) return {};
@@ -43,32 +56,29 @@ std::shared_ptr<const InitialTangent> HyperelasticProblem::Parts::initialTangent
   if (outcome == SparseCholesky::Outcome::Stopped) return {};
   if (outcome == SparseCholesky::Outcome::NotPositiveDefinite)
     throw std::logic_error("the tangent at rest is not positive definite");
-  rest_ = std::move(rest);
-  return rest_;
+  const std::lock_guard lock(tangentGuard_);
+  tangent_ = std::move(rest);
+  return tangent_;
 }
 
-void HyperelasticProblem::Parts::forgetInitialTangent() const {
-  const std::lock_guard lock(mutex_);
-  rest_.reset();
+void HyperelasticProblem::Parts::releaseInitialTangent() const {
+  std::shared_ptr<const InitialTangent> last; // freed after the lock, which takes a while
+  const std::lock_guard lock(tangentGuard_);
+  last.swap(tangent_);
 }
 
 const PointProbe& HyperelasticProblem::Parts::upperProbe() const {
-  const std::lock_guard lock(mutex_);
-  if (!upperProbe_) upperProbe_.emplace(mesh, design.upperElectrodes_mm());
+  std::call_once(upperOnce_, [this] { upperProbe_.emplace(mesh, design.upperElectrodes_mm()); });
   return *upperProbe_;
 }
 
 const PointProbe& HyperelasticProblem::Parts::lowerProbe() const {
-  const std::lock_guard lock(mutex_);
-  if (!lowerProbe_) lowerProbe_.emplace(mesh, design.lowerElectrodes_mm());
+  std::call_once(lowerOnce_, [this] { lowerProbe_.emplace(mesh, design.lowerElectrodes_mm()); });
   return *lowerProbe_;
 }
 
 HyperelasticProblem::HyperelasticProblem(SensorDesign design, Mesh mesh)
-    : parts_(std::make_unique<Parts>(std::move(design), std::move(mesh))) {}
-HyperelasticProblem::~HyperelasticProblem() = default;
-HyperelasticProblem::HyperelasticProblem(HyperelasticProblem&&) noexcept = default;
-HyperelasticProblem& HyperelasticProblem::operator=(HyperelasticProblem&&) noexcept = default;
+    : parts_(std::make_shared<const Parts>(std::move(design), std::move(mesh))) {}
 
 const SensorDesign& HyperelasticProblem::design() const {
   return parts_->design;
@@ -123,8 +133,8 @@ std::size_t HyperelasticProblem::findFactor(int threads, const std::stop_token& 
   return rest ? rest->factor.bytes() : 0;
 }
 
-void HyperelasticProblem::forgetFactor() const {
-  parts_->forgetInitialTangent();
+void HyperelasticProblem::releaseFactor() const {
+  parts_->releaseInitialTangent();
 }
 
 ElectrodeDisplacements HyperelasticProblem::electrodes(const LoadIncrement& state) const {

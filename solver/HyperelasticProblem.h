@@ -22,20 +22,20 @@ struct NewtonOptions {
   int threads = 0;            ///< 0: all cores; changes the time, never the result
 };
 
-/// Told of every Newton iteration, in the calling thread; stops within 0.3 s of a request.
+/// `step` is called after every Newton iteration, in the calling thread; `stop` ends the solve within 0.3 s.
 struct NewtonObserver {
   std::function<void(const NewtonStep&)> step;
   std::stop_token stop;
 };
 
 /// The block as a nonlinear boundary value problem: mixed finite elements (pressure an unknown of its own, eliminated
-/// element by element), bottom face fixed. Finds the pattern once and keeps its factorisation.
+/// element by element), bottom face fixed. Finds the pattern once and keeps its factorisation. Copies share all of it
+/// and cost nothing; there is no moving, so that none is ever left empty.
 class HyperelasticProblem {
 public:
   HyperelasticProblem(SensorDesign design, Mesh mesh);
-  ~HyperelasticProblem();
-  HyperelasticProblem(HyperelasticProblem&&) noexcept;
-  HyperelasticProblem& operator=(HyperelasticProblem&&) noexcept;
+  HyperelasticProblem(const HyperelasticProblem&) = default;
+  HyperelasticProblem& operator=(const HyperelasticProblem&) = default;
 
   [[nodiscard]] const SensorDesign& design() const;
   [[nodiscard]] const Mesh& mesh() const;
@@ -51,17 +51,18 @@ public:
   /// and the factorisation at rest. Returns its bytes; 0: stopped.
   [[nodiscard]] std::size_t findFactor(int threads, const std::stop_token& stop = {}) const;
   /// Gives back the memory of the factorisation at rest, most of what a problem holds; the next solve finds it anew.
-  void forgetFactor() const;
+  /// Changes no answer, and so is const as the solve that keeps it is. Does not wait for a solve that is going on.
+  void releaseFactor() const;
 
   /// Displacements and pressure at the electrodes of both layers.
   [[nodiscard]] ElectrodeDisplacements electrodes(const LoadIncrement& state) const;
   [[nodiscard]] NodalFields fields(const LoadIncrement& state) const;
 
-  struct Parts; ///< what BatchSolver shares
+  struct Parts; ///< what copies and BatchSolver share
   [[nodiscard]] const Parts& parts() const { return *parts_; }
 
 private:
-  std::unique_ptr<Parts> parts_;
+  std::shared_ptr<const Parts> parts_;
 };
 
 } // namespace palp

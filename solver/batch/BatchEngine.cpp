@@ -69,7 +69,7 @@ private:
 
 BatchEngine::BatchEngine(const HyperelasticProblem& problem, std::shared_ptr<const InitialTangent> rest,
                          double tolerance, int threads)
-    : problem_(problem), rest_(std::move(rest)), model_(problem.parts(), *rest_),
+    : problem_(problem), rest_(std::move(rest)), model_(problem_.parts(), *rest_),
       polynomial_(problem.design().forceRange, predictorDegree),
       terms_((polynomial_.terms() + lanes - 1) / lanes * lanes), predictorTolerance_(fitShare * tolerance),
       threads_(threads) {

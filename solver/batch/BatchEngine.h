@@ -55,7 +55,7 @@ private:
   [[nodiscard]] std::unique_ptr<LoadBatch> borrowBatch();
   void giveBack(std::unique_ptr<LoadBatch> batch);
 
-  const HyperelasticProblem& problem_;
+  HyperelasticProblem problem_;
   std::shared_ptr<const InitialTangent> rest_;
   ElementwiseTangent model_;
   ForcePolynomial polynomial_;

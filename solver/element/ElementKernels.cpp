@@ -29,8 +29,6 @@ extern const LaneKernels laneKernelSet;
 
 namespace {
 
-enum class InstructionSet { Baseline, Avx2, Avx512 };
-
 InstructionSet widest() {
 #ifdef PALP_WIDE_KERNELS
   // x86-64-v4 and -v3; clang 14 knows no such names
@@ -55,12 +53,17 @@ InstructionSet instructionSet() {
 } // namespace
 
 const ElementKernels& elementKernels(ElementShape shape) {
+  return *elementKernels(shape, instructionSet());
+}
+
+const ElementKernels* elementKernels(ElementShape shape, InstructionSet set) {
   const bool tets = shape == ElementShape::Tetrahedron10;
+  if (set > widest()) return nullptr;
 #ifdef PALP_WIDE_KERNELS
-  if (instructionSet() == InstructionSet::Avx512) return tets ? avx512::tetKernels : avx512::hexKernels;
-  if (instructionSet() == InstructionSet::Avx2) return tets ? avx2::tetKernels : avx2::hexKernels;
+  if (set == InstructionSet::Avx512) return tets ? &avx512::tetKernels : &avx512::hexKernels;
+  if (set == InstructionSet::Avx2) return tets ? &avx2::tetKernels : &avx2::hexKernels;
 #endif
-  return tets ? baseline::tetKernels : baseline::hexKernels;
+  return tets ? &baseline::tetKernels : &baseline::hexKernels;
 }
 
 const LaneKernels& laneKernels() {

@@ -66,9 +66,14 @@ struct ElementKernels {
                        double* dx);
 };
 
-/// Kernels for the shape: 10-node tetrahedra with a quartic bubble and linear discontinuous pressure, geometry =
-/// 4 gradients of the barycentric coordinates and the volume; 8-node hexahedra with one pressure, geometry = for each
-/// of 8 points 8 shape gradients and the weight.
+/// What the kernels are compiled for.
+enum class InstructionSet { Baseline, Avx2, Avx512 };
+
+/// Kernels for the shape, by the widest instruction set of this processor: 10-node tetrahedra with a quartic bubble and
+/// linear discontinuous pressure, geometry = 4 gradients of the barycentric coordinates and the volume; 8-node
+/// hexahedra with one pressure, geometry = for each of 8 points 8 shape gradients and the weight.
 const ElementKernels& elementKernels(ElementShape shape);
+/// The same for one instruction set; null where this program or processor has not got it.
+const ElementKernels* elementKernels(ElementShape shape, InstructionSet set);
 
 } // namespace palp

@@ -29,15 +29,21 @@ struct HyperelasticProblem::Parts {
   [[nodiscard]] std::shared_ptr<const CholeskyPlan> plan() const;
   /// Empty: stopped.
   [[nodiscard]] std::shared_ptr<const InitialTangent> initialTangent(int threads, const std::stop_token& stop) const;
-  void forgetInitialTangent() const;
+  /// Does not wait for a thread that makes it.
+  void releaseInitialTangent() const;
   [[nodiscard]] const PointProbe& upperProbe() const;
   [[nodiscard]] const PointProbe& lowerProbe() const;
 
 private:
-  mutable std::mutex mutex_; ///< guards what is made at first use
+  [[nodiscard]] std::shared_ptr<const InitialTangent> keptTangent() const;
+
+  // A lock for each thing that is made at first use: a window that asks for a probe must not wait for a factorisation.
+  mutable std::once_flag planOnce_, upperOnce_, lowerOnce_;
   mutable std::shared_ptr<const CholeskyPlan> plan_;
-  mutable std::shared_ptr<const InitialTangent> rest_;
   mutable std::optional<PointProbe> upperProbe_, lowerProbe_;
+  mutable std::timed_mutex making_; ///< held while the tangent is made
+  mutable std::mutex tangentGuard_; ///< held for no longer than a pointer takes
+  mutable std::shared_ptr<const InitialTangent> tangent_;
 };
 
 /// The elements' own unknowns as in LoadIncrement (unknowns x elements).

@@ -38,12 +38,14 @@ TEST(LoadCase, NamesTheForceThatIsNoForce) {
   }
 }
 
-TEST(LoadCase, NamesTheDiscThatLeavesTheFace) {
-  for (const PatchLoad& patch : {PatchLoad{{1, 15}, 2, {}}, PatchLoad{{29, 15}, 2, {}}, PatchLoad{{15, 1}, 2, {}},
-                                 PatchLoad{{15, 29}, 2, {}}, PatchLoad{{15, 15}, 0, {}}, PatchLoad{{15, 15}, -1, {}},
-                                 PatchLoad{{15, 15}, kNan, {}}, PatchLoad{{kNan, 15}, 2, {}}}) {
+TEST(LoadCase, NamesTheDiscThatLeavesTheFaceOrIsAPoint) {
+  for (const PatchLoad& patch :
+       {PatchLoad{{1, 15}, 2, {}}, PatchLoad{{29, 15}, 2, {}}, PatchLoad{{15, 1}, 2, {}}, PatchLoad{{15, 29}, 2, {}},
+        PatchLoad{{15, 15}, 0, {}}, PatchLoad{{15, 15}, -1, {}}, PatchLoad{{15, 15}, kNan, {}},
+        PatchLoad{{15, 15}, 1e-200, {}}, PatchLoad{{15, 15}, 0.0099, {}}, PatchLoad{{kNan, 15}, 2, {}}}) {
     const std::string sentence = problemOf({{}, {patch}});
     EXPECT_NE(sentence.find("30 x 30 mm"), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("0.01 mm or more"), std::string::npos) << sentence;
   }
 }
 

@@ -72,7 +72,7 @@ void report(const Touch& touch, const DiscretisationError* error, Session& sessi
       toJson(rowColumnResistances(touch.design(), ElectrodeDisplacements::atRest(touch.design())));
   result["max_volume_error"] = solution.maxVolumeError;
   if (!error) return;
-  result["error_estimate_relative"] = error->relative;
+  result["error_estimate_relative"] = error->relative ? Json(*error->relative) : Json();
   result["error_estimate_method"] = error->method;
 }
 
@@ -80,7 +80,8 @@ void print(const Touch& touch, const DiscretisationError* error) {
   const Solution& solution = *touch.solution();
   const Eigen::Matrix3Xd& u = touch.displacements()->upper_mm;
   if (solution.converged)
-    std::printf("converged in %d Newton iterations\n", solution.iterations());
+    std::printf("converged in %d Newton iterations%s%s\n", solution.iterations(),
+                solution.stopReason.empty() ? "" : "; ", solution.stopReason.c_str());
   else
     std::printf("not converged: reached %.4g of the load; %s\n", solution.reachedLoadFraction,
                 solution.stopReason.c_str());
@@ -91,9 +92,11 @@ void print(const Touch& touch, const DiscretisationError* error) {
   const Eigen::MatrixXd rest = rowColumnResistances(touch.design(), ElectrodeDisplacements::atRest(touch.design()));
   std::printf("largest |dR/R| %.4g %%\n",
               100 * ((*touch.resistances_ohm() - rest).cwiseQuotient(rest)).cwiseAbs().maxCoeff());
-  if (error)
-    std::printf("discretisation error of the electrode displacements about %.2g %% (%s)\n", 100 * error->relative,
+  if (error && error->relative)
+    std::printf("discretisation error of the electrode displacements about %.2g %% (%s)\n", 100 * *error->relative,
                 error->method.c_str());
+  else if (error)
+    std::printf("discretisation error of the electrode displacements: %s\n", error->method.c_str());
 }
 
 /// Newton as it goes, for a terminal.

@@ -2,6 +2,8 @@
 
 #include "solver/DiscretisationError.h"
 
+#include <cmath>
+
 namespace palp {
 
 namespace {
@@ -84,7 +86,7 @@ void TouchSession::run() {
   const auto work = [this, touch = wanted_, target = need_, revision = revision_,
                      trace = trace_](const std::stop_token& stop, JobProgress& progress) mutable -> JobRunner::Taking {
     progress.set(-1, "Meshing");
-    touch.advance(std::min(target, Stage::Mesh));
+    touch.advance(std::min(target, Stage::Mesh), {}, {.step = {}, .stop = stop});
     if (stop.stop_requested()) return {};
     std::shared_ptr<const NodalFields> fields;
     if (target > Stage::Mesh) {
@@ -152,14 +154,15 @@ void TouchSession::estimateError() {
     progress.set(-1, "Solving on a coarser mesh");
     const DiscretisationError error = discretisationError(*touch.problem(), touch.load(), *touch.solution(), stop);
     return [this, error, revision] {
-      if (revision == revision_) emit errorEstimated(error.relative, QString::fromStdString(error.method));
+      if (revision == revision_)
+        emit errorEstimated(error.relative.value_or(std::nan("")), QString::fromStdString(error.method));
     };
   };
   runner_.start(tr("Estimating the discretisation error"), work);
 }
 
 void TouchSession::rest() {
-  if (!runner_.running() && shown_.problem() != nullptr) shown_.problem()->forgetFactor();
+  if (!runner_.running() && shown_.problem() != nullptr) shown_.problem()->releaseFactor();
 }
 
 } // namespace palp

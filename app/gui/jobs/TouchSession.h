@@ -71,6 +71,7 @@ signals:
   /// Another mesh, solution or increment is shown.
   void changed(bool meshChanged);
   void newtonStepped();
+  /// Not a number where there is no estimate; `method` says why.
   void errorEstimated(double relative, const QString& method);
 
 private:

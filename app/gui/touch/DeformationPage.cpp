@@ -74,7 +74,7 @@ DeformationPage::DeformationPage(Workbench& workbench, QWidget* parent) : Scene(
   connect(&workbench_.touch(), &TouchSession::changed, this, &DeformationPage::displayTouch);
   connect(&workbench_.touch(), &TouchSession::newtonStepped, this, [this] { tabs_->drawNewton(); });
   connect(&workbench_.touch(), &TouchSession::errorEstimated, this, [this](double relative, const QString& method) {
-    result_->setErrorWords(tr("%1 % (%2)").arg(100 * relative, 0, 'g', 3).arg(method));
+    result_->setErrorWords(std::isnan(relative) ? method : tr("%1 % (%2)").arg(100 * relative, 0, 'g', 3).arg(method));
     result_->display(workbench_.touch());
   });
   displayProject();

@@ -2,6 +2,7 @@
 
 #include "io/DesignFile.h"
 #include "model/DesignError.h"
+#include "model/base/Cancelled.h"
 #include "model/base/Text.h"
 
 #include <algorithm>
@@ -92,7 +93,12 @@ LoadCase SampleGenerator::load(std::size_t i) const {
 
 bool SampleGenerator::prepare(const std::stop_token& stop) {
   if (!solver_) {
-    Mesh mesh = stages_.measure("mesh", [&] { return sensorMesh(design_, request_.mesh); });
+    Mesh mesh;
+    try {
+      mesh = stages_.measure("mesh", [&] { return sensorMesh(design_, request_.mesh, stop); });
+    } catch (const Cancelled&) {
+      return false;
+    }
     stages_.measure("factorise", [&] {
       problem_ = std::make_unique<HyperelasticProblem>(design_, std::move(mesh));
       solver_ = std::make_unique<BatchSolver>(
@@ -138,7 +144,7 @@ std::size_t SampleGenerator::generate(SampleRange range, const std::function<voi
           [&](std::size_t solved) {
             if (progress) progress(done - range.first + solved);
           },
-          stop);
+          stop, part.first);
     });
     if (displacements.size() < loads.size()) break; // cancelled
     take(block(part, displacements));

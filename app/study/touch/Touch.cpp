@@ -48,7 +48,8 @@ void Touch::setMesh(Mesh mesh) {
 bool Touch::advance(Stage target, const NewtonOptions& options, const NewtonObserver& observer) {
   requireValid(design_);
   if (target >= Stage::Mesh && !mesh_)
-    mesh_ = stages_.measure("mesh", [&] { return std::make_shared<const Mesh>(sensorMesh(design_, meshing())); });
+    mesh_ = stages_.measure(
+        "mesh", [&] { return std::make_shared<const Mesh>(sensorMesh(design_, meshing(), observer.stop)); });
   if (target >= Stage::Solution && !solution_) {
     if (!problem_)
       problem_ =

@@ -29,7 +29,8 @@ public:
   void setMesh(Mesh mesh);
 
   /// Computes what is missing up to the stage. False where the solve did not converge or was cancelled: the last
-  /// converged state is kept and later stages speak of it. Throws DesignError where design, mesh or load cannot be.
+  /// converged state is kept and later stages speak of it. Throws DesignError where design, mesh or load cannot be, and
+  /// Cancelled where it is stopped while it meshes.
   bool advance(Stage target, const NewtonOptions& options = {}, const NewtonObserver& observer = {});
 
   [[nodiscard]] Stage reached() const;

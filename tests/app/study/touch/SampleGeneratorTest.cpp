@@ -92,3 +92,15 @@ TEST(SampleGenerator, RefusesAnUnknownArea) {
   request.areas = "6";
   EXPECT_THROW(SampleGenerator(paperDesign(), request), DesignError);
 }
+
+TEST(SampleGenerator, NamesTheSampleThatHasNoSolution) {
+  SensorDesign design = paperDesign();
+  design.forceRange = {{-9e5, -9e5, -9e5}, {9e5, 9e5, -8e5}}; // far beyond what any rubber bears
+  SampleGenerator generator(design, coarse(100));
+  try {
+    generator.generate({150, 152}, [](const SampleSet&) {});
+    FAIL() << "there is no such solution";
+  } catch (const ConvergenceError& refusal) {
+    EXPECT_EQ(std::string(refusal.what()).find("load 150: "), 0U) << refusal.what();
+  }
+}
