@@ -2,6 +2,7 @@
 #include "app/cli/Options.h"
 #include "app/cli/Pictures.h"
 #include "app/study/touch/Touch.h"
+#include "model/base/Cancelled.h"
 #include "solver/DiscretisationError.h"
 
 #include <cmath>
@@ -124,10 +125,14 @@ Exit run(const SolveArguments& arguments, Session& session) {
   touch.advance(Stage::Resistances, options, observer(session));
   session.stages.add(touch.stages());
   std::optional<DiscretisationError> error;
-  if (touch.solution()->converged && !session.stop.stop_requested())
-    error = session.stages.measure("estimate", [&] {
-      return discretisationError(*touch.problem(), load, *touch.solution(), session.stop, session.threads);
-    });
+  if (touch.solution()->converged) {
+    try {
+      error = session.stages.measure("estimate", [&] {
+        return discretisationError(*touch.problem(), load, *touch.solution(), session.stop, session.threads);
+      });
+    } catch (const Cancelled&) { // the solution stands all the same
+    }
+  }
   report(touch, error ? &*error : nullptr, session);
   if (!session.json) print(touch, error ? &*error : nullptr);
   if (!arguments.output.path.empty() && !session.stop.stop_requested()) { // half a solve is no result

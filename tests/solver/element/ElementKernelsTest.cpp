@@ -169,9 +169,10 @@ Written ofLoads(const ElementKernels& kernels, const Deformed& deformed) {
 }
 
 void expectSame(const Written& ours, const Written& theirs) {
-  for (std::size_t p = 0; p < ours.parts().size(); ++p) {
-    const auto& [name, a] = ours.parts()[p];
-    const std::vector<double>& b = *theirs.parts()[p].second;
+  const auto ourParts = ours.parts(), theirParts = theirs.parts();
+  for (std::size_t p = 0; p < ourParts.size(); ++p) {
+    const auto& [name, a] = ourParts[p];
+    const std::vector<double>& b = *theirParts[p].second;
     ASSERT_EQ(a->size(), b.size()) << name;
     double largest = 0, difference = 0;
     for (std::size_t i = 0; i < b.size(); ++i) {

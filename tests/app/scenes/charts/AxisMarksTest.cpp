@@ -38,7 +38,9 @@ TEST(AxisMarks, NeverMeetAndNeverVanish) {
           EXPECT_FALSE(marks.empty()) << low << " times " << factor;
           EXPECT_TRUE(labelsFit(marks, low, low * factor, logarithmic, room))
               << low << " times " << factor << " on " << length << " px";
-          for (const auto& [at, text] : marks) EXPECT_TRUE(at >= low * (1 - 1e-6) && at <= low * factor * (1 + 1e-6));
+          // A hair outside is allowed, of the axis as it is drawn: a linear one may begin at 0 instead of 1e-9.
+          const double hair = 1e-6 * (logarithmic ? low : low * (factor - 1));
+          for (const auto& [at, text] : marks) EXPECT_TRUE(at >= low - hair && at <= low * factor * (1 + 1e-6)) << at;
         }
 }
 
