@@ -23,10 +23,10 @@ installMissing() {
   "${asRoot[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "${missing[@]}" >&2
 }
 
-# configureAndBuild FOLDER [CMAKE OPTION ...]: Release with Ninja.
+# configureAndBuild FOLDER [CMAKE OPTION ...]: Release with Ninja; all, or the target named in $buildTarget.
 configureAndBuild() {
   local folder=$1
   shift
   cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release "$@" >&2
-  cmake --build "$folder" >&2
+  cmake --build "$folder" --target "${buildTarget:-all}" >&2
 }
