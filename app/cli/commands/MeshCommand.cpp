@@ -30,7 +30,7 @@ Exit run(const MeshArguments& arguments, Session& session) {
   LoadCase load;
   if (deck) load = arguments.loads.loadCase(design);
   Touch touch(design, load, arguments.mesh.options());
-  touch.advance(Stage::Mesh);
+  touch.advance(Stage::Mesh, {}, {{}, session.stop});
   session.stages.add(touch.stages());
   stopIfAsked(session.stop);
   const Mesh& mesh = *touch.mesh();
