@@ -6,8 +6,9 @@
 // Every function that takes or gives vectors is inlined into those below, so that no vector crosses a call.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
-// Only x86-64 has these names; elsewhere, or with PALP_ONE_MACHINE, the compiler's own target serves.
-#if defined(__x86_64__) && !defined(PALP_ONE_MACHINE)
+// Only x86-64 has these names; elsewhere, or with PALP_ONE_MACHINE, the compiler's own target serves. So it does under
+// the thread sanitizer, which is not there yet when the clone is chosen.
+#if defined(__x86_64__) && !defined(PALP_ONE_MACHINE) && !defined(__SANITIZE_THREAD__)
 #define PALP_MANY_MACHINES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #else
 #define PALP_MANY_MACHINES
