@@ -6,16 +6,9 @@
 #include "solver/statics/ProblemParts.h"
 
 #include <algorithm>
-#include <chrono>
 #include <stdexcept>
 
 namespace palp {
-
-namespace {
-
-constexpr std::chrono::milliseconds lookForStopEvery{20};
-
-} // namespace
 
 Eigen::MatrixXd elementUnknowns(const Discretisation& mesh, const LaneVector& unknowns) {
   Eigen::MatrixXd x(mesh.unknowns(), mesh.elements());
@@ -34,20 +27,33 @@ std::shared_ptr<const CholeskyPlan> HyperelasticProblem::Parts::plan() const {
   return plan_;
 }
 
-std::shared_ptr<const InitialTangent> HyperelasticProblem::Parts::keptTangent() const {
-  const std::lock_guard lock(tangentGuard_);
-  return tangent_;
-}
-
 std::shared_ptr<const InitialTangent> HyperelasticProblem::Parts::initialTangent(int threads,
                                                                                  const std::stop_token& stop) const {
+  {
+    std::unique_lock lock(tangentGuard_);
+    if (!made_.wait(lock, stop, [this] { return tangent_ || !making_; })) return {};
+    if (tangent_) return tangent_;
+    making_ = true;
+  }
+  const Making making{*this};
+  auto tangent = makeTangent(threads, stop);
+  const std::lock_guard lock(tangentGuard_);
+  tangent_ = tangent;
+  return tangent;
+}
+
+HyperelasticProblem::Parts::Making::~Making() {
+  {
+    const std::lock_guard lock(parts.tangentGuard_);
+    parts.making_ = false;
+  }
+  parts.made_.notify_all();
+}
+
+std::shared_ptr<const InitialTangent> HyperelasticProblem::Parts::makeTangent(int threads,
+                                                                              const std::stop_token& stop) const {
   if (stop.stop_requested()) return {};
-  const auto symbolic = plan();
-  std::unique_lock making(making_, std::defer_lock);
-  while (!making.try_lock_for(lookForStopEvery)) // another thread makes it
-    if (stop.stop_requested()) return {};
-  if (auto kept = keptTangent()) return kept;
-  auto rest = std::make_shared<InitialTangent>(InitialTangent{{}, {}, SparseCholesky(symbolic)});
+  auto rest = std::make_shared<InitialTangent>(InitialTangent{{}, {}, SparseCholesky(plan())});
   assembler.tangent(discretisation->atRest(), rest->tangents, rest->forces, threads, stop);
   if (stop.stop_requested()) return {};
   LaneVector matrix = assembler.matrix(rest->tangents, threads);
@@ -56,9 +62,7 @@ std::shared_ptr<const InitialTangent> HyperelasticProblem::Parts::initialTangent
   if (outcome == SparseCholesky::Outcome::Stopped) return {};
   if (outcome == SparseCholesky::Outcome::NotPositiveDefinite)
     throw std::logic_error("the tangent at rest is not positive definite");
-  const std::lock_guard lock(tangentGuard_);
-  tangent_ = std::move(rest);
-  return tangent_;
+  return rest;
 }
 
 void HyperelasticProblem::Parts::releaseInitialTangent() const {

@@ -5,6 +5,7 @@
 #include "solver/assembly/Assembler.h"
 #include "solver/linear/SparseCholesky.h"
 
+#include <condition_variable>
 #include <mutex>
 #include <optional>
 
@@ -35,15 +36,20 @@ struct HyperelasticProblem::Parts {
   [[nodiscard]] const PointProbe& lowerProbe() const;
 
 private:
-  [[nodiscard]] std::shared_ptr<const InitialTangent> keptTangent() const;
+  struct Making { ///< while it lives, one thread makes the tangent and others wait
+    const Parts& parts;
+    ~Making();
+  };
+  [[nodiscard]] std::shared_ptr<const InitialTangent> makeTangent(int threads, const std::stop_token& stop) const;
 
   // A lock for each thing that is made at first use: a window that asks for a probe must not wait for a factorisation.
   mutable std::once_flag planOnce_, upperOnce_, lowerOnce_;
   mutable std::shared_ptr<const CholeskyPlan> plan_;
   mutable std::optional<PointProbe> upperProbe_, lowerProbe_;
-  mutable std::timed_mutex making_; ///< held while the tangent is made
-  mutable std::mutex tangentGuard_; ///< held for no longer than a pointer takes
+  mutable std::mutex tangentGuard_; ///< of the two below; held for no longer than a pointer takes
+  mutable bool making_ = false;
   mutable std::shared_ptr<const InitialTangent> tangent_;
+  mutable std::condition_variable_any made_; ///< or given up
 };
 
 /// The elements' own unknowns as in LoadIncrement (unknowns x elements).
