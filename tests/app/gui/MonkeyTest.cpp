@@ -36,7 +36,7 @@ public:
   Monkey(MainWindow& window, unsigned seed) : window_(window), random_(seed) {}
 
   void act() {
-    switch (upTo(16)) {
+    switch (upTo(17)) {
     case 0:
       window_.showScene(window_.sceneNames()[upTo(static_cast<int>(window_.sceneNames().size()))]);
       break;
@@ -83,6 +83,9 @@ public:
       if (upTo(4) == 0) QTest::keyClick(&window_, Qt::Key_Escape);
       if (upTo(8) == 0) window_.resize(900 + upTo(700), 600 + upTo(400));
       break;
+    case 16:
+      editElsewhere();
+      break;
     }
   }
 
@@ -116,6 +119,17 @@ private:
     edit->selectAll();
     QTest::keyClicks(edit, words[upTo(static_cast<int>(words.size()))]);
     if (upTo(2) == 0) QTest::keyClick(edit, Qt::Key_Return);
+  }
+  /// Leaves a scene that may be computing, changes something on another one and comes back at once.
+  void editElsewhere() {
+    const QString here = window_.currentScene().objectName();
+    window_.showScene("design");
+    if (auto* edit = window_.currentScene().findChild<QLineEdit*>("block_mm[2]")) {
+      edit->setFocus();
+      edit->selectAll();
+      QTest::keyClicks(edit, QString::number(5 + 0.1 * upTo(10)));
+    }
+    window_.showScene(here);
   }
   void dragArrow() {
     auto* block = window_.currentScene().findChild<BlockView*>("block");
@@ -161,16 +175,20 @@ protected:
         .toStdString();
   }
 
+  /// What the scene shows is there, or being computed, or the window said why it is not.
+  void expectNothingForgotten(int action) {
+    const TouchSession& touch = workbench.touch();
+    EXPECT_TRUE(!touch.missing() || !quiet() || explained_ || !touch.computable())
+        << "nothing runs, was cancelled or failed, and the inputs are valid: what the scene shows is missing after "
+           "action "
+        << action;
+  }
+
   /// What is drawn belongs to what is set, where nothing is being computed.
   void expectRightPicture(int action) {
     const TouchSession& touch = workbench.touch();
     const std::string where = "after action " + std::to_string(action);
-    if (touch.missing()) {
-      EXPECT_TRUE(explained_ || !touch.computable())
-          << "nothing runs, was cancelled or failed, and the inputs are valid: what the scene shows is missing "
-          << where;
-      return; // cancelled, failed or refused: the window says so
-    }
+    if (touch.missing()) return;   // cancelled, failed or refused: the window says so
     if (!touch.upToDate()) return; // changed while no scene needs it
     EXPECT_EQ(touch.touch().design(), workbench.project().design) << where;
     EXPECT_EQ(touch.touch().load(), workbench.project().load) << where;
@@ -218,9 +236,12 @@ TEST_F(MonkeyWindow, SurvivesAThousandActionsAndShowsWhatAFreshWindowShows) {
   for (int action = 0; action < actions(); ++action) {
     monkey.act();
     QApplication::processEvents();
+    expectNothingForgotten(action);
+    if (HasFailure()) return; // the first one says most
     if (action % 50 != 49) continue;
     if (!QTest::qWaitFor([&] { return quiet(); }, kPatience_ms / 12)) QTest::keyClick(&window, Qt::Key_Escape);
     ASSERT_TRUE(idle()) << "a job does not end after action " << action << ": " << running();
+    expectNothingForgotten(action);
     expectRightPicture(action);
   }
   // Off the fields: one that is being edited keeps its words.
