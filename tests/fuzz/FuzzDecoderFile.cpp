@@ -4,6 +4,7 @@
 #include "app/study/decoding/Prediction.h"
 #include "io/DecoderFile.h"
 #include "model/base/Error.h"
+#include "nn/NetworkError.h"
 
 #include <cstdlib>
 
@@ -31,7 +32,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const palp::Decoder decoder = palp::parseNetwork(std::string(reinterpret_cast<const char*>(data), size), "fuzz");
     const std::string text = palp::networkText(decoder);
     if (palp::networkText(palp::parseNetwork(text, "fuzz")) != text) std::abort();
-    use(decoder);
+    try {
+      use(decoder);
+    } catch (const palp::NetworkError&) { // sizes that do not fit together are for the reader to refuse
+      std::abort();
+    }
   } catch (const palp::Error&) { // a refusal is an answer
   }
   return 0;
