@@ -23,12 +23,14 @@ struct LoadIncrement {
   Eigen::MatrixXd elementUnknowns;   ///< the element's own unknowns (bubble, pressures) x elements
 };
 
-/// Result of one nonlinear solve. If Newton's method could not go on: the last converged state, and why.
+/// Result of one nonlinear solve. If Newton's method could not go on: the last converged state, and why. A solve has
+/// also converged if its residual, below 1e-6, does not fall any further: it is down to rounding, and stopReason says
+/// so.
 struct Solution {
   bool converged = false;
   bool cancelled = false;
   double reachedLoadFraction = 0;
-  std::string stopReason; ///< a sentence; empty if converged
+  std::string stopReason; ///< a sentence; empty if converged below the tolerance
   std::vector<NewtonStep> newton;
   std::vector<LoadIncrement> increments;                ///< the state at rest first (load fraction 0), the answer last
   double maxVolumeError = 0;                            ///< largest |J - 1| over the quadrature points

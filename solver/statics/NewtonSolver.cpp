@@ -62,6 +62,9 @@ NewtonResult NewtonSolver::solve(const Loading& loading) {
     }
   }
   result.converged = fraction >= 1;
+  if (result.converged && relative_ >= options_.relativeTolerance)
+    result.stopReason = "the residual is down to rounding at " + text(relative_) + " of the load; " +
+                        text(options_.relativeTolerance) + " was asked for";
   result.steps = std::move(steps_);
   return result;
 }
@@ -99,24 +102,39 @@ NewtonSolver::Outcome NewtonSolver::newTangent(const Loading& loading, double fr
   return Outcome::Converged;
 }
 
-/// Tangent and residual at the start of a load step.
-NewtonSolver::Outcome NewtonSolver::firstTangent(const Loading& loading, double from, double to,
-                                                 const ElementState& state, const Eigen::VectorXd& prescribed) {
-  const bool moves = prescribed.cwiseAbs().maxCoeff() > 0;
-  if (from == 0 && rest_ && !moves) {
-    tangents_ = &rest_->tangents;
-    factor_ = &rest_->factor;
-    forces_ = rest_->forces;
-    setResidual(loading, to);
-    return Outcome::Converged;
-  }
-  const Outcome outcome = newTangent(loading, to, state, moves ? &prescribed : nullptr);
-  if (moves) relative_ = 1;
-  return outcome;
+/// Tangent and residual at the start of a load step under forces alone.
+NewtonSolver::Outcome NewtonSolver::startTangent(const Loading& loading, double from, double to,
+                                                 const ElementState& state) {
+  if (from > 0 || !rest_) return newTangent(loading, to, state);
+  tangents_ = &rest_->tangents;
+  factor_ = &rest_->factor;
+  forces_ = rest_->forces;
+  setResidual(loading, to);
+  return Outcome::Converged;
+}
+
+/// First step of a prescribed motion v: K du = R - K v on the free components, du = v on the others. The motion is
+/// taken whole, as its residual is no measure of overshooting, and the forces that it makes become the scale of
+/// residuals. Ends with a tangent for the next step: going back along this one would take the motion back with it.
+NewtonSolver::Outcome NewtonSolver::movePrescribed(const Loading& loading, double to, const Eigen::VectorXd& motion,
+                                                   ElementState& state) {
+  if (const Outcome outcome = newTangent(loading, to, state, &motion); outcome != Outcome::Converged) return outcome;
+  relative_ = 1;
+  record(to, 0);
+  if (stopped()) return Outcome::Cancelled;
+  const Direction first = direction(state, motion);
+  if (stopped()) return Outcome::Cancelled; // there may be no direction
+  move(first, state);
+  evaluate(loading, to, state);
+  scale_ = internal_.norm(); // now that there are reactions to measure by
+  setResidual(loading, to);
+  if (forces_.smallestJ <= 0) return Outcome::Inverted;
+  record(to, 1);
+  return relative_ <= keepFactorBelow ? Outcome::Converged : newTangent(loading, to, state);
 }
 
 NewtonSolver::Direction NewtonSolver::direction(const ElementState& state, const Eigen::VectorXd& prescribed) const {
-  Direction direction{state, residual_, {}, 0};
+  Direction direction{state, residual_, {}};
   factor_->solve(direction.du, observer_.stop);
   direction.slope = residual_.dot(direction.du);
   direction.du = assembler_.discretisation().withZeros(direction.du) + prescribed;
@@ -124,15 +142,11 @@ NewtonSolver::Direction NewtonSolver::direction(const ElementState& state, const
   return direction;
 }
 
-namespace {
-
-void move(const ElementState& start, const Eigen::VectorXd& du, const LaneVector& dx, double length,
-          ElementState& state) {
-  state.displacements = start.displacements + length * du;
-  for (std::size_t i = 0; i < dx.size(); ++i) state.unknowns[i] = start.unknowns[i] + length * dx[i];
+void NewtonSolver::move(const Direction& direction, ElementState& state) {
+  state.displacements = direction.start.displacements + direction.length * direction.du;
+  for (std::size_t i = 0; i < direction.dx.size(); ++i)
+    state.unknowns[i] = direction.start.unknowns[i] + direction.length * direction.dx[i];
 }
-
-} // namespace
 
 /// A full step went too far: elements inside out, or a large residual whose work along the step did not fall.
 bool NewtonSolver::overshot(const Direction& direction) const {
@@ -141,13 +155,12 @@ bool NewtonSolver::overshot(const Direction& direction) const {
   return relative_ > 1 && std::abs(work) > acceptedSlope * std::abs(direction.slope);
 }
 
-NewtonSolver::Outcome NewtonSolver::searchLine(const Loading& loading, double fraction, const Direction& direction,
+NewtonSolver::Outcome NewtonSolver::searchLine(const Loading& loading, double fraction, Direction& direction,
                                                ElementState& state) {
-  double length = 1;
   for (int trial = 0; trial < lineSearchTrials; ++trial) {
     if (stopped()) return Outcome::Cancelled;
-    length /= 2;
-    move(direction.start, direction.du, direction.dx, length, state);
+    direction.length /= 2;
+    move(direction, state);
     evaluate(loading, fraction, state);
     if (!overshot(direction)) return Outcome::Converged;
   }
@@ -155,14 +168,14 @@ NewtonSolver::Outcome NewtonSolver::searchLine(const Loading& loading, double fr
 }
 
 /// A new tangent; where it is not positive definite, the state goes back along its last step as far as needed.
-NewtonSolver::Outcome NewtonSolver::definiteTangent(const Loading& loading, double fraction, const Direction& way,
+NewtonSolver::Outcome NewtonSolver::definiteTangent(const Loading& loading, double fraction, Direction& last,
                                                     ElementState& state) {
-  double length = 1;
+  last.length = 1;
   for (int trial = 0;; ++trial) {
     const Outcome outcome = newTangent(loading, fraction, state);
     if (outcome != Outcome::Indefinite || trial == definitenessTrials) return outcome;
-    length /= 2;
-    move(way.start, way.du, way.dx, length, state);
+    last.length /= 2;
+    move(last, state);
   }
 }
 
@@ -180,32 +193,31 @@ void NewtonSolver::record(double fraction, int iteration) {
   if (observer_.step) observer_.step(steps_.back());
 }
 
+/// Equilibrium at the load fraction f = `to`: R(u, x) = f F - F_int(u, x) = 0 together with the elements' own equations
+/// in their own unknowns x (bubbles, pressures), by Newton's method on both (Bonet and Wood, Nonlinear Continuum
+/// Mechanics for Finite Element Analysis, 2008, chapter 9):
+///   (Kuu - Kux Kxx^-1 Kxu) du = R_u - Kux Kxx^-1 R_x,   dx = Kxx^-1 (R_x - Kxu du),   u += l du,   x += l dx,
+/// with l = 1 unless that goes too far. The pressures move linearly with the displacements instead of following them
+/// exactly, which is what keeps the steps large for nearly incompressible rubber.
 NewtonSolver::Outcome NewtonSolver::step(const Loading& loading, double from, double to, ElementState& state) {
   const Discretisation& mesh = assembler_.discretisation();
-  Eigen::VectorXd prescribed = (to - from) * (loading.prescribed - mesh.withZeros(mesh.freePart(loading.prescribed)));
-  const bool moves = prescribed.cwiseAbs().maxCoeff() > 0;
-  if (const Outcome outcome = firstTangent(loading, from, to, state, prescribed); outcome != Outcome::Converged)
-    return outcome;
-  record(to, 0);
+  const Eigen::VectorXd motion = (to - from) * (loading.prescribed - mesh.withZeros(mesh.freePart(loading.prescribed)));
+  const bool moves = motion.cwiseAbs().maxCoeff() > 0;
+  const Outcome start = moves ? movePrescribed(loading, to, motion, state) : startTangent(loading, from, to, state);
+  if (start != Outcome::Converged) return start;
+  if (!moves) record(to, 0);
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(motion.size());
   double previous = relative_;
   int stalled = 0;
-  bool ofTheStart = !moves;
-  for (int iteration = 1; iteration <= options_.iterationsAStep; ++iteration) {
+  bool ofTheStart = !moves; // the tangent in use
+  for (int iteration = moves ? 2 : 1; iteration <= options_.iterationsAStep; ++iteration) {
     if (stopped()) return Outcome::Cancelled;
-    const Direction way = direction(state, prescribed);
+    Direction newton = direction(state, none);
     if (stopped()) return Outcome::Cancelled; // there may be no direction
-    move(way.start, way.du, way.dx, 1, state);
+    move(newton, state);
     evaluate(loading, to, state);
-    if (moves && iteration == 1) { // now that there are reactions to measure by
-      scale_ = internal_.norm();
-      setResidual(loading, to);
-    }
-    // A prescribed motion is taken whole: its residual is no measure of overshooting.
-    if (moves && iteration == 1 ? forces_.smallestJ <= 0 : overshot(way)) {
-      if (moves && iteration == 1) return Outcome::Inverted;
-      if (const Outcome outcome = searchLine(loading, to, way, state); outcome != Outcome::Converged) return outcome;
-    }
-    prescribed.setZero();
+    if (overshot(newton))
+      if (const Outcome outcome = searchLine(loading, to, newton, state); outcome != Outcome::Converged) return outcome;
     record(to, iteration);
     if (relative_ > hopelessResidual) return Outcome::Diverged;
     stalled = relative_ < stallsBelow && relative_ > previous / 2 ? stalled + 1 : 0;
@@ -214,10 +226,8 @@ NewtonSolver::Outcome NewtonSolver::step(const Loading& loading, double from, do
     previous = relative_;
     if (keep || iteration == options_.iterationsAStep) continue;
     ofTheStart = false;
-    // Going back along the first step would take the prescribed motion back with it.
-    const Outcome outcome =
-        moves && iteration == 1 ? newTangent(loading, to, state) : definiteTangent(loading, to, way, state);
-    if (outcome != Outcome::Converged) return outcome;
+    if (const Outcome outcome = definiteTangent(loading, to, newton, state); outcome != Outcome::Converged)
+      return outcome;
   }
   return Outcome::TooManyIterations;
 }

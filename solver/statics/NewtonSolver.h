@@ -24,7 +24,7 @@ struct EquilibriumState {
 struct NewtonResult {
   bool converged = false;
   bool cancelled = false;
-  std::string stopReason;
+  std::string stopReason; ///< converged: empty, or that rounding allows no smaller residual than was reached
   std::vector<NewtonStep> steps;
   std::vector<EquilibriumState> increments; ///< at rest first
   Eigen::VectorXd internalForces;           ///< of the last equilibrium: the reactions on fixed components
@@ -48,20 +48,21 @@ private:
     ElementState start;
     Eigen::VectorXd du; ///< all components
     LaneVector dx;
-    double slope = 0; ///< the residual's work along du at the start
+    double slope = 0;  ///< the residual's work along du at the start
+    double length = 1; ///< share of it that is taken
   };
 
   [[nodiscard]] Outcome step(const Loading& loading, double from, double to, ElementState& state);
-  [[nodiscard]] Outcome firstTangent(const Loading& loading, double from, double to, const ElementState& state,
-                                     const Eigen::VectorXd& prescribed);
+  [[nodiscard]] Outcome startTangent(const Loading& loading, double from, double to, const ElementState& state);
+  [[nodiscard]] Outcome movePrescribed(const Loading& loading, double to, const Eigen::VectorXd& motion,
+                                       ElementState& state);
   [[nodiscard]] Outcome newTangent(const Loading& loading, double fraction, const ElementState& state,
                                    const Eigen::VectorXd* prescribed = nullptr);
   [[nodiscard]] Direction direction(const ElementState& state, const Eigen::VectorXd& prescribed) const;
+  static void move(const Direction& direction, ElementState& state);
   [[nodiscard]] bool overshot(const Direction& direction) const;
-  [[nodiscard]] Outcome searchLine(const Loading& loading, double fraction, const Direction& direction,
-                                   ElementState& state);
-  [[nodiscard]] Outcome definiteTangent(const Loading& loading, double fraction, const Direction& way,
-                                        ElementState& state);
+  [[nodiscard]] Outcome searchLine(const Loading& loading, double fraction, Direction& direction, ElementState& state);
+  [[nodiscard]] Outcome definiteTangent(const Loading& loading, double fraction, Direction& last, ElementState& state);
   [[nodiscard]] bool factorWillDo(double previous, bool ofTheStart) const;
   void evaluate(const Loading& loading, double fraction, const ElementState& state);
   void setResidual(const Loading& loading, double fraction);

@@ -149,6 +149,18 @@ TEST(Sensor, CarriesBigLoads) {
   }
 }
 
+TEST(Sensor, SaysWhetherToleranceOrRoundingEndsIt) {
+  const Solution below = paperProblem().solve(onArea(0, 1, 0, -6));
+  EXPECT_TRUE(below.converged);
+  EXPECT_TRUE(below.stopReason.empty()) << below.stopReason;
+  EXPECT_LT(below.newton.back().relativeResidual, 1e-9);
+  const Solution rounded = paperProblem().solve(onArea(0, 1, 0, -6), {.relativeTolerance = 1e-18});
+  EXPECT_TRUE(rounded.converged);
+  EXPECT_NE(rounded.stopReason.find("down to rounding"), std::string::npos) << rounded.stopReason;
+  EXPECT_NE(rounded.stopReason.find("1e-18"), std::string::npos) << rounded.stopReason;
+  EXPECT_LT(rounded.newton.back().relativeResidual, 1e-12);
+}
+
 TEST(Sensor, EndsHonestlyWhereTheBlockLosesStability) {
   const HyperelasticProblem problem = coarse(paperDesign(), 12);
   const Eigen::Vector3d force(60, -60, -720); // many times what the sensor is for

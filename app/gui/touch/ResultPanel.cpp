@@ -54,7 +54,9 @@ void ResultPanel::display(const TouchSession& session) {
   const Touch& touch = session.touch();
   QStringList lines;
   lines << (solution->converged
-                ? tr("Converged in %1 iterations.").arg(solution->iterations())
+                ? tr("Converged in %1 iterations%2.")
+                      .arg(solution->iterations())
+                      .arg(solution->stopReason.empty() ? "" : "; " + QString::fromStdString(solution->stopReason))
                 : tr("Stopped at load fraction %1: %2")
                       .arg(number(solution->reachedLoadFraction, 3), QString::fromStdString(solution->stopReason)));
   lines << tr("%1 elements (%2), %3 unknowns.")
