@@ -7,6 +7,7 @@
 #include <fcntl.h>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <stdexcept>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -80,6 +81,14 @@ double progressOf(const std::filesystem::path& errors) {
   return share;
 }
 
+/// The process has its own handler of SIGINT: its command has begun, all libraries are loaded.
+bool catchesInterrupts(pid_t pid) {
+  std::ifstream stream("/proc/" + std::to_string(pid) + "/status");
+  for (std::string line; std::getline(stream, line);)
+    if (line.rfind("SigCgt:", 0) == 0) return (std::stoull(line.substr(7), nullptr, 16) >> (SIGINT - 1) & 1U) != 0;
+  return false;
+}
+
 constexpr int kPatience_ms = 60000;
 
 /// Sends SIGINT once the condition holds, or after all patience; not where the process has ended by itself.
@@ -106,8 +115,13 @@ Outcome palpInterruptedAt(const std::vector<std::string>& arguments, double shar
 }
 
 Outcome palpInterruptedAfter(const std::vector<std::string>& arguments, int milliseconds) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(milliseconds);
-  return interruptOnce(start(arguments), [&] { return std::chrono::steady_clock::now() >= end; });
+  const Running running = start(arguments);
+  std::optional<std::chrono::steady_clock::time_point> end;
+  return interruptOnce(running, [&] {
+    const auto now = std::chrono::steady_clock::now();
+    if (!end && catchesInterrupts(running.pid)) end = now + std::chrono::milliseconds(milliseconds);
+    return end && now >= *end;
+  });
 }
 
 Outcome palp(const std::vector<std::string>& arguments) {

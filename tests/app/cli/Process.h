@@ -27,7 +27,7 @@ Outcome palpOnAFullDisk(const std::vector<std::string>& arguments, std::uintmax_
 /// Starts it, sends SIGINT once its progress has reached this share, and waits for the end.
 Outcome palpInterruptedAt(const std::vector<std::string>& arguments, double share);
 
-/// Starts it, sends SIGINT after so many milliseconds, and waits for the end.
+/// Starts it, sends SIGINT so many milliseconds after its command began, and waits for the end.
 Outcome palpInterruptedAfter(const std::vector<std::string>& arguments, int milliseconds);
 
 /// Starts it, sends SIGINT once `file` has grown above `bytes`, and waits for the end.
