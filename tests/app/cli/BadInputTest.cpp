@@ -123,7 +123,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadOption{"ForceTooLong", {"solve", "paper", "--load", "0:0,0,-1,2"}, {"--load", "3 numbers"}},
         BadOption{"ForceHuge", {"solve", "paper", "--load", "0:0,0,-1e300"}, {"-1e+300"}},
         BadOption{"LoadWithoutColon", {"solve", "paper", "--load", "5"}, {"--load", "AREA:FX,FY,FZ"}},
-        BadOption{"PatchOutside", {"solve", "paper", "--patch", "29,15,2:0,0,-1"}, {"patch", "29", "must lie"}},
+        BadOption{"PatchOutside", {"solve", "paper", "--patch", "29,15,2:0,0,-1"}, {"patch", "29", "lies wholly"}},
         BadOption{"PatchRadiusZero", {"solve", "paper", "--patch", "15,15,0:0,0,-1"}, {"patch", "radius 0"}},
         BadOption{"MeshSizeZero", {"mesh", "paper", "--mesh-size", "0"}, {"0"}},
         BadOption{"MeshSizeNegative", {"mesh", "paper", "--mesh-size", "-2"}, {"-2"}},
