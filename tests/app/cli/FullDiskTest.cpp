@@ -59,7 +59,8 @@ TEST(FullDisk, RefusesNetworkForcesAndSamplesWithTheReason) {
 
 TEST(FullDisk, LeavesNoHalfReport) {
   const palp::TemporaryFolder folder;
-  const Outcome outcome = palpOnAFullDisk({"reproduce", "figures", "--mesh-size", "6", "-o", folder / "paper"}, 30'000);
+  const Outcome outcome =
+      palpOnAFullDisk({"reproduce", "figures", "--mapped", "4x4x2", "-o", folder / "paper"}, 30'000);
   EXPECT_EQ(outcome.exit, 2);
   EXPECT_NE(outcome.errors.find("File too large"), std::string::npos) << outcome.errors;
   expectEmpty(folder.path());

@@ -26,7 +26,7 @@ Handler handlerOf(int signal) {
 }
 
 /// A coarse mesh and few samples: what is tested here is how the work ends.
-const std::vector<std::string> kSmall{"--mesh-size", "6", "--per-area", "20", "--json"};
+const std::vector<std::string> kSmall{"--mapped", "4x4x2", "--per-area", "20", "--json"};
 
 std::vector<std::string> joined(std::vector<std::string> words, const std::vector<std::string>& more) {
   words.insert(words.end(), more.begin(), more.end());
@@ -92,7 +92,7 @@ TEST_P(InterruptedReport, PrintsItsJsonAndLeavesNothing) {
   const palp::TemporaryFolder folder;
   std::vector<std::string> arguments{words.substr(0, words.find(' ')), words.substr(words.find(' ') + 1)};
   const bool reproduce = arguments[0] == "reproduce";
-  const std::vector<std::string> more = reproduce ? std::vector<std::string>{"--mesh-size", "6", "--json"} : kSmall;
+  const std::vector<std::string> more = reproduce ? std::vector<std::string>{"--mapped", "4x4x2", "--json"} : kSmall;
   const Outcome outcome = palpInterruptedAt(joined(joined(arguments, more), {"-o", folder / "out"}), share);
   expectCleanEnd(outcome, arguments[0]);
   EXPECT_FALSE(std::filesystem::exists(folder / "out")) << "something was left";
