@@ -104,7 +104,7 @@ std::unique_ptr<LoadBatch> BatchEngine::borrowBatch() {
       return batch;
     }
   }
-  return std::make_unique<LoadBatch>(model_, problem_.parts().upperProbe());
+  return std::make_unique<LoadBatch>(model_, problem_.parts().upperProbe(), problem_.parts().lowerProbe());
 }
 
 void BatchEngine::giveBack(std::unique_ptr<LoadBatch> batch) {
@@ -151,6 +151,7 @@ std::optional<AreaPredictor> BatchEngine::fitPredictor(int area, const std::stop
   std::optional<AreaPredictor> predictor;
   const bool converged = std::find(watch.failed.begin(), watch.failed.end(), true) == watch.failed.end();
   if (converged && !stop.stop_requested()) {
+    for (int b = 0; b < LoadBatch::blocks; ++b) batch->catchUp(b);
     predictor = fitted(*batch, forces);
     predictor->contraction = *std::max_element(worst.begin(), worst.end());
   }
@@ -252,7 +253,8 @@ void BatchEngine::solveBlocks(double tolerance, const Take& take, const Give& gi
     watch.judge();
     for (int b = 0; b < LoadBatch::blocks; ++b) {
       if (!inWork[b] || watch.anyActive(b)) continue;
-      std::vector<ElectrodeDisplacements> found = batch->electrodes(b, problem_.parts().lowerProbe());
+      std::vector<ElectrodeDisplacements> found = batch->electrodes(b);
+      batch->retire(b);
       std::vector<Answer> answers(inWork[b]->size());
       for (std::size_t i = 0; i < answers.size(); ++i)
         if (!watch.failed[b * lanes + i]) answers[i] = std::move(found[i]);
