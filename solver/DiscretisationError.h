@@ -11,20 +11,22 @@
 
 namespace palp {
 
-/// Estimate of the discretisation error of the upper electrodes' displacements, relative L2, and how it was found. On
-/// meshes graded by us it is the difference to the same load's solution on a mesh 1.3 times coarser, times a measured
-/// factor; on others the difference to the default mesh.
+/// The error that the mesh makes in the displacements of the upper electrodes, estimated: relative, over all electrodes
+/// (L2). On meshes graded by us it is the difference to the solution on a mesh 1.3 times coarser, times a measured
+/// factor; on others the difference to the default mesh. Its limits: within a factor of 3 of the error on every design
+/// and load that it was checked on (resources/docs/numerics.md); on meshes finer than the default rather too high; of a
+/// mapped mesh finer than the default it shows the default mesh's error; it knows nothing of the rubber's law.
 struct DiscretisationError {
-  std::optional<double> relative; ///< none where the solve on the other mesh did not converge; `method` says so
-  std::string method;
+  std::optional<double> relative; ///< none where the solve on the other mesh did not converge
+  std::string method;             ///< how it was found and how far it can be trusted, or why there is none
 };
-/// Of the last converged state of the solution. Throws Cancelled.
+/// Estimates the error of the last converged state of the solution. Throws Cancelled.
 DiscretisationError discretisationError(const HyperelasticProblem& problem, const LoadCase& load,
                                         const Solution& solution, std::stop_token stop = {}, int threads = 0);
 
-/// Mesh whose discretisation error under the load, as estimated above, is at most `accuracy`: starts at 1.5 times the
-/// default size and refines by what the estimate asks for, again and again. Where the load has no solution: the mesh
-/// reached so far. Throws DesignError where the accuracy is out of reach, and Cancelled.
+/// A mesh whose discretisation error under the load, as estimated above, is at most `accuracy`. Begins with 1.5 times
+/// the default size and refines by what the estimate asks for, until it is met. Where the load has no solution: the
+/// mesh reached so far. Throws DesignError where the accuracy is out of reach, and Cancelled.
 Mesh meshForAccuracy(const SensorDesign& design, const LoadCase& load, double accuracy, std::stop_token stop = {},
                      int threads = 0);
 

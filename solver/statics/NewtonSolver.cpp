@@ -3,6 +3,7 @@
 #include "model/base/Text.h"
 #include "solver/statics/ProblemParts.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace palp {
@@ -11,7 +12,9 @@ namespace {
 
 constexpr double growthAfterSuccess = 1.5;
 constexpr double hopelessResidual = 1e8;
-constexpr double acceptedSlope = 0.9; // of the residual's work along the step, against its start
+constexpr double acceptedSlope = 0.9;  // of the residual's work along the step, against its start
+constexpr double judgedAbove = 1e-4;   // relative residual; below it full steps are right and rounding is near
+constexpr double contractionAStep = 4; // a step l must shrink the correction to 1 - l / 4
 constexpr int lineSearchTrials = 6;
 constexpr int definitenessTrials = 4;
 // Relative residual below which one or two more iterations with the same tangent end it.
@@ -134,7 +137,7 @@ NewtonSolver::Outcome NewtonSolver::movePrescribed(const Loading& loading, doubl
 }
 
 NewtonSolver::Direction NewtonSolver::direction(const ElementState& state, const Eigen::VectorXd& prescribed) const {
-  Direction direction{state, residual_, {}};
+  Direction direction{.start = state, .du = residual_, .dx = {}, .residual = relative_};
   factor_->solve(direction.du, observer_.stop);
   direction.slope = residual_.dot(direction.du);
   direction.du = assembler_.discretisation().withZeros(direction.du) + prescribed;
@@ -148,11 +151,21 @@ void NewtonSolver::move(const Direction& direction, ElementState& state) {
     state.unknowns[i] = direction.start.unknowns[i] + direction.length * direction.dx[i];
 }
 
-/// A full step went too far: elements inside out, or a large residual whose work along the step did not fall.
+/// Whether a step l du went too far:
+///   elements are inside out; or
+///   |R| > |F| and the residual's work along the step did not fall, |R(u + l du) . du| > 0.9 |R(u) . du|; or
+///   |R| grew and so did the way that is left, |K^-1 R(u + l du)| > (1 - l / 4) |du|, K being the tangent of the step
+/// (the restricted natural monotonicity test: Deuflhard, Newton Methods for Nonlinear Problems, 2004, section 3.3).
+/// A residual that grows is no reason by itself: a long good step leaves pressures behind, which the next one mends. A
+/// way that grows is none either: in a tall block it does so on the right path, while the residual falls.
 bool NewtonSolver::overshot(const Direction& direction) const {
   if (forces_.smallestJ <= 0 || !std::isfinite(relative_)) return true;
-  const double work = residual_.dot(assembler_.discretisation().freePart(direction.du));
-  return relative_ > 1 && std::abs(work) > acceptedSlope * std::abs(direction.slope);
+  const Eigen::VectorXd du = assembler_.discretisation().freePart(direction.du);
+  if (relative_ > 1 && std::abs(residual_.dot(du)) > acceptedSlope * std::abs(direction.slope)) return true;
+  if (relative_ <= std::max(judgedAbove, direction.residual)) return false;
+  Eigen::VectorXd left = residual_;
+  factor_->solve(left, observer_.stop);
+  return left.norm() > (1 - direction.length / contractionAStep) * du.norm();
 }
 
 NewtonSolver::Outcome NewtonSolver::searchLine(const Loading& loading, double fraction, Direction& direction,
@@ -167,10 +180,9 @@ NewtonSolver::Outcome NewtonSolver::searchLine(const Loading& loading, double fr
   return forces_.smallestJ <= 0 ? Outcome::Inverted : Outcome::Diverged;
 }
 
-/// A new tangent; where it is not positive definite, the state goes back along its last step as far as needed.
+/// A new tangent; where it is not positive definite, the state goes back along what was taken of its last step.
 NewtonSolver::Outcome NewtonSolver::definiteTangent(const Loading& loading, double fraction, Direction& last,
                                                     ElementState& state) {
-  last.length = 1;
   for (int trial = 0;; ++trial) {
     const Outcome outcome = newTangent(loading, fraction, state);
     if (outcome != Outcome::Indefinite || trial == definitenessTrials) return outcome;

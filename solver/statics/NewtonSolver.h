@@ -48,8 +48,9 @@ private:
     ElementState start;
     Eigen::VectorXd du; ///< all components
     LaneVector dx;
-    double slope = 0;  ///< the residual's work along du at the start
-    double length = 1; ///< share of it that is taken
+    double residual = 0; ///< relative, at the start
+    double slope = 0;    ///< the residual's work along du at the start
+    double length = 1;   ///< share of it that is taken
   };
 
   [[nodiscard]] Outcome step(const Loading& loading, double from, double to, ElementState& state);

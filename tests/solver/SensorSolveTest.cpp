@@ -149,6 +149,17 @@ TEST(Sensor, CarriesBigLoads) {
   }
 }
 
+TEST(Sensor, CarriesABigLoadOnACornerInOneLoadStep) {
+  // Full steps lead from here to states whose tangent is not positive definite, at residuals below the load's.
+  const Solution s = paperProblem().solve(onArea(0, 0, 0, -150));
+  EXPECT_TRUE(s.converged) << s.stopReason;
+  EXPECT_LE(s.iterations(), 14); // as on the edge's area; on the default mesh 16
+  EXPECT_EQ(s.increments.size(), 2U);
+  // A step may leave a residual behind that the next one mends, but none that grows beyond Newton's reach.
+  for (std::size_t i = 1; i < s.newton.size(); ++i)
+    EXPECT_LT(s.newton[i].relativeResidual, 2 * s.newton[i - 1].relativeResidual) << i;
+}
+
 TEST(Sensor, SaysWhetherToleranceOrRoundingEndsIt) {
   const Solution below = paperProblem().solve(onArea(0, 1, 0, -6));
   EXPECT_TRUE(below.converged);
@@ -306,6 +317,26 @@ TEST(ErrorEstimate, IsRightWithinAFactorOfThree) {
     EXPECT_LT(estimate, 3 * error);
     EXPECT_GT(estimate, error / 3);
   }
+}
+
+TEST(ErrorEstimate, IsNoneWhereTheCoarserMeshDoesNotBearTheLoad) {
+  const HyperelasticProblem problem = coarse(paperDesign(), 12);
+  const LoadCase load = onArea(1, 0, 0, -1);
+  Solution s = problem.solve(load);
+  s.increments.back().loadFraction = 1e6; // as if this mesh had borne a million newtons
+  const DiscretisationError error = discretisationError(problem, load, s);
+  EXPECT_FALSE(error.relative.has_value());
+  EXPECT_NE(error.method.find("did not converge"), std::string::npos) << error.method;
+}
+
+TEST(ErrorEstimate, SaysHowFarItCanBeTrusted) {
+  const HyperelasticProblem tets = coarse(paperDesign(), 12),
+                            hexes(paperDesign(), sensorMesh(paperDesign(), {.meshSize_mm = {}, .mapped = {{6, 6, 3}}}));
+  const LoadCase load = onArea(1, 0, 0, -1);
+  const std::string graded = discretisationError(tets, load, tets.solve(load)).method;
+  EXPECT_NE(graded.find("within a factor of 3"), std::string::npos) << graded;
+  const std::string mapped = discretisationError(hexes, load, hexes.solve(load)).method;
+  EXPECT_NE(mapped.find("whose own error"), std::string::npos) << mapped;
 }
 
 TEST(Batch, AnswersAsFullNewtonWhateverStandsBesideALoad) {
