@@ -20,7 +20,8 @@ namespace palp::kernels {
 namespace {
 
 using Lanes = double __attribute__((vector_size(64)));
-using LanesUnaligned = double __attribute__((vector_size(64), aligned(8), may_alias));
+using LanesUnaligned __attribute__((vector_size(64), aligned(8), may_alias)) =
+    double; // there, or Clang aligns it by 64
 using Integers = std::int64_t __attribute__((vector_size(64)));
 constexpr std::size_t kWidth = 8;
 static_assert(kBlockLanes == 2 * kWidth);
