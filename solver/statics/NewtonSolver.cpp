@@ -180,9 +180,12 @@ NewtonSolver::Outcome NewtonSolver::searchLine(const Loading& loading, double fr
   return forces_.smallestJ <= 0 ? Outcome::Inverted : Outcome::Diverged;
 }
 
-/// A new tangent; where it is not positive definite, the state goes back along what was taken of its last step.
+/// A new tangent; where it is not positive definite, the state goes back along its last step as far as needed. That
+/// begins with half of the whole step, even where less was taken of it: closer to the start lie states about to lose
+/// stability, whose steps are huge.
 NewtonSolver::Outcome NewtonSolver::definiteTangent(const Loading& loading, double fraction, Direction& last,
                                                     ElementState& state) {
+  last.length = 1;
   for (int trial = 0;; ++trial) {
     const Outcome outcome = newTangent(loading, fraction, state);
     if (outcome != Outcome::Indefinite || trial == definitenessTrials) return outcome;
