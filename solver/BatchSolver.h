@@ -11,34 +11,35 @@
 namespace palp {
 
 struct BatchOptions {
-  double relativeTolerance = 1e-6; ///< of the electrode displacements against full Newton
-  bool surrogate = false;          ///< per-area polynomial in the force alone, labelled with its measured error
+  double relativeTolerance = 1e-6; ///< of the electrode displacements against full Newton's method
+  bool surrogate = false;          ///< answer by a polynomial in the force, one for each area, whose error is measured
   int threads = 0;                 ///< 0: all cores; changes the time, never the result
 };
 
-/// Many loads on one mesh: one factorisation of the tangent at rest, many right sides at once, predictors from solves
-/// of its own on fixed loads, full Newton where that does not converge. A load's answer depends neither on the loads
-/// beside it nor on threads or order, to the last byte.
+/// Solves many loads on one mesh: modified Newton's method with one factorisation, that of the tangent at rest, for
+/// many right sides at once, from predictors fitted to a fixed set of loads; full Newton's method where that does not
+/// converge. The answer to a load is the same to the last byte whatever loads stand beside it, in any order and on any
+/// number of threads.
 class BatchSolver {
 public:
   explicit BatchSolver(const HyperelasticProblem& problem, BatchOptions options = {});
   ~BatchSolver();
 
-  /// Electrode displacements, one a load, in the loads' order. `progress` gets the number of loads done, from any
-  /// thread, one call at a time. An empty result: cancelled. Throws DesignError where a load cannot act, and
-  /// ConvergenceError (with the load's number and why) where one has no solution; loads count from `firstNumber`.
+  /// Electrode displacements of each load, in the order of the loads; empty if cancelled. `progress` is given the
+  /// number of loads done, by any thread, one call at a time. Throws DesignError if a load cannot act, and
+  /// ConvergenceError if one has no solution; both name the load by its number, counted from `firstNumber`.
   [[nodiscard]] std::vector<ElectrodeDisplacements> solve(std::span<const LoadCase> loads,
                                                           const std::function<void(std::size_t)>& progress = {},
                                                           std::stop_token stop = {}, std::size_t firstNumber = 0);
 
-  /// Fits the surrogates of these areas now instead of at their first load; false: stopped.
+  /// Fits the surrogates of these areas now rather than at their first load; false if stopped.
   bool fitSurrogates(std::span<const int> areas, const std::stop_token& stop = {});
-  /// Largest error of the surrogates fitted so far, on loads kept from their fits.
+  /// Largest error of the surrogates fitted so far, on loads that were kept out of their fits.
   [[nodiscard]] double surrogateError() const;
 
-  /// Nonlinear solves done so far (predictor fits, corrections and fallbacks).
+  /// Number of nonlinear solves so far (for predictors, corrections and fallbacks).
   [[nodiscard]] std::size_t solves() const;
-  /// Largest relative error of the electrode displacements against full Newton, on the share of loads checked so far.
+  /// Largest relative error of the electrode displacements against full Newton's method, over the loads checked so far.
   [[nodiscard]] double measuredError() const;
 
 private:
@@ -46,7 +47,7 @@ private:
   std::unique_ptr<State> state_;
 };
 
-/// A load of a batch that has no converged solution.
+/// A load of a batch for which no solution was found.
 struct ConvergenceError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -14,12 +14,15 @@
 
 namespace palp {
 
-/// How Newton's method goes; the defaults serve every load of the paper.
+/// Settings of Newton's method; the defaults serve every load of the paper.
 struct NewtonOptions {
   double relativeTolerance = 1e-9; ///< of the residual, against the load's norm
   int iterationsAStep = 20;
-  double smallestStep = 1e-3; ///< load fraction below which it gives up
+  double smallestStep = 1e-3; ///< of the load fraction; it gives up rather than take a smaller one
   int threads = 0;            ///< 0: all cores; changes the time, never the result
+  /// Lets the tangent at rest go when one on the way takes its place: a third less memory at the peak, but the next
+  /// solve has to find it again. The same result.
+  bool oneTangent = false;
 };
 
 /// `step` is called after every Newton iteration, in the calling thread; `stop` ends the solve within 0.3 s.
@@ -28,9 +31,9 @@ struct NewtonObserver {
   std::stop_token stop;
 };
 
-/// The block as a nonlinear boundary value problem: mixed finite elements (pressure an unknown of its own, eliminated
-/// element by element), bottom face fixed. Finds the pattern once and keeps its factorisation. Copies share all of it
-/// and cost nothing; there is no moving, so that none is ever left empty.
+/// The block as a nonlinear boundary value problem: bottom face fixed, mixed finite elements whose pressures are
+/// unknowns of their own, eliminated element by element. Keeps the sparsity pattern and the factorisation at rest for
+/// all solves. Copies share them and cost nothing; moving copies, so that no problem is ever left empty.
 class HyperelasticProblem {
 public:
   HyperelasticProblem(SensorDesign design, Mesh mesh);
@@ -46,12 +49,13 @@ public:
   [[nodiscard]] Solution solve(const LoadCase& load, const NewtonOptions& options = {},
                                const NewtonObserver& observer = {}) const;
 
-  /// What the first solve finds before anything else and keeps, for those who time it apart: the order of elimination,
+  /// The first solve begins with these two and keeps what they find; here for those who measure them alone.
+  /// The order of elimination.
   void findOrdering() const;
-  /// and the factorisation at rest. Returns its bytes; 0: stopped.
+  /// The factorisation of the tangent at rest. Returns its size in bytes, 0 if stopped.
   [[nodiscard]] std::size_t findFactor(int threads, const std::stop_token& stop = {}) const;
-  /// Gives back the memory of the factorisation at rest, most of what a problem holds; the next solve finds it anew.
-  /// Changes no answer, and so is const as the solve that keeps it is. Does not wait for a solve that is going on.
+  /// Frees the factorisation at rest, most of the memory of a problem; the next solve finds it again. It changes no
+  /// answer, so it is const as `solve` is. Does not wait for a solve in progress.
   void releaseFactor() const;
 
   /// Displacements and pressure at the electrodes of both layers.

@@ -19,25 +19,26 @@ struct FineDisc {
 /// The discs of a load's patches.
 std::vector<FineDisc> fineDiscs(const LoadCase& load);
 
-/// Which mesh; at most one of the first two members is given. None: the default, graded to the load areas' borders, the
-/// free and the clamped edges and the electrodes, for about 1 % in the electrode displacements.
+/// Which mesh: at most one of the first two members is given. Without either it is the default mesh, graded to the
+/// borders of the load areas, the free and clamped edges and the electrodes, good for about 1 % in the electrodes'
+/// displacements.
 struct MeshOptions {
   std::optional<double> meshSize_mm;        ///< tetrahedra: size in the bulk; the grading scales with it
   std::optional<std::array<int, 3>> mapped; ///< the paper's mapped mesh: hexahedra along x, y, z
   std::vector<FineDisc> discs{};            ///< tetrahedra: finer at these discs' rims
-  bool electrodesAsNodes = true;            ///< tetrahedra: without it electrodes lie anywhere in the elements
+  bool electrodesAsNodes = true;            ///< tetrahedra: otherwise electrodes lie inside elements
   bool operator==(const MeshOptions&) const = default;
 };
 
 /// Elements of the largest mesh that is made.
 inline constexpr double mostElements = 1e6;
 
-/// Throws DesignError where the options make no mesh of the design (size not above 0, more than a stated number of
-/// elements): before the work that needs one.
+/// Throws DesignError if the options allow no mesh of the design (a size that is not positive, more elements than
+/// mostElements), to be called before work that needs one.
 void requireMeshable(const SensorDesign& design, const MeshOptions& options);
 
-/// Mesh of the block: by TetGen with the load areas' borders along faces and all upper electrodes as nodes (or none of
-/// them, where that would take too many elements: mesh/GradedTets.h), or mapped hexahedra. Throws as requireMeshable
+/// Mesh of the block. By TetGen: faces follow the borders of the load areas, and all upper electrodes are nodes, or
+/// none is if that would take too many elements (mesh/GradedTets.h). Or mapped hexahedra. Throws as requireMeshable
 /// does, and Cancelled.
 Mesh sensorMesh(const SensorDesign& design, const MeshOptions& options = {}, const std::stop_token& stop = {});
 

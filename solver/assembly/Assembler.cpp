@@ -198,7 +198,7 @@ Eigen::VectorXd Assembler::sum(const LaneVector& forces, int threads) const {
 }
 
 double Assembler::localNorm(const ElementForces& forces) const {
-  const int own = mesh_->unknowns(), bubbles = own > 3 ? 3 : 0;
+  const int own = mesh_->unknowns(), bubbles = mesh_->kernels().bubbles;
   double squares = 0;
   for (int e = 0; e < mesh_->elements(); ++e)
     for (int k = 0; k < own; ++k) {

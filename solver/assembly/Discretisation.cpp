@@ -27,9 +27,9 @@ Discretisation::Discretisation(const Mesh& mesh, const FixedComponents& fixed)
 
 double Discretisation::volume(int element) const {
   const auto number = [&](int item) { return geometry_[laneIndex(element, kernels_->geometrySize, item)]; };
-  if (kernels_->nodes == 10) return number(12); // behind 4 gradients
+  if (kernels_->nodes == TetLayout::nodes) return number(TetLayout::volume);
   double sum = 0;
-  for (int q = 0; q < 8; ++q) sum += number(25 * q + 24); // weights, each behind 8 gradients
+  for (int q = 0; q < HexLayout::points; ++q) sum += number(HexLayout::pointSize * q + HexLayout::weight);
   return sum;
 }
 

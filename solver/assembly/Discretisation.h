@@ -25,7 +25,7 @@ struct ElementState {
 };
 
 /// Elements in blocks of 8 lanes with their geometry, and the numbering of the free displacement components. The last
-/// block is filled up with copies of the last element, which nobody reads.
+/// block is filled up with copies of the last element, whose results are not read.
 class Discretisation {
 public:
   /// Throws DesignError where an element is inside out.

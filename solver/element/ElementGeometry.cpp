@@ -81,14 +81,14 @@ void elementGeometry(const Mesh& mesh, int element, double* out, int stride) {
   if (mesh.shape == ElementShape::Tetrahedron10) {
     const TetGeometry geometry = tetGeometry(mesh, element);
     requirePositive(geometry.volume, element);
-    for (int k = 0; k < 12; ++k) put(geometry.gradients(k % 3, k / 3));
+    for (int k = 0; k < TetLayout::volume; ++k) put(geometry.gradients(k % 3, k / 3));
     put(geometry.volume);
     return;
   }
-  for (int q = 0; q < 8; ++q) {
+  for (int q = 0; q < HexLayout::points; ++q) {
     const HexPointGeometry point = hexGeometry(mesh, element, hexCorner(q) / std::sqrt(3.));
     requirePositive(point.determinant, element);
-    for (int k = 0; k < 24; ++k) put(point.gradients(k % 3, k / 3));
+    for (int k = 0; k < HexLayout::weight; ++k) put(point.gradients(k % 3, k / 3));
     put(point.determinant);
   }
 }

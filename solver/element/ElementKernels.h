@@ -19,6 +19,24 @@ constexpr std::size_t laneIndex(std::size_t element, std::size_t size, std::size
 /// compiled for several processors, must not share inline functions.)
 inline constexpr int tetEdges[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
 
+/// Quadratic tetrahedra with a quartic bubble and linear discontinuous pressures: the order of the numbers of an
+/// element, which all share who write or read them.
+struct TetLayout {
+  static constexpr int nodes = 10, dofs = 3 * nodes;
+  static constexpr int bubbles = 3, pressures = 4, unknowns = bubbles + pressures;
+  static constexpr int firstPressure = dofs + bubbles, rows = dofs + unknowns; ///< of the stiffness before condensation
+  static constexpr int volume = 4 * 3, geometrySize = volume + 1; ///< geometry: 4 barycentric gradients, the volume
+};
+
+/// The same for trilinear hexahedra with one pressure.
+struct HexLayout {
+  static constexpr int nodes = 8, dofs = 3 * nodes;
+  static constexpr int bubbles = 0, pressures = 1, unknowns = bubbles + pressures;
+  static constexpr int firstPressure = dofs + bubbles, rows = dofs + unknowns;
+  static constexpr int points = 8, weight = nodes * 3, pointSize = weight + 1; ///< a point: 8 gradients, its weight
+  static constexpr int geometrySize = points * pointSize;
+};
+
 struct RubberConstants {
   double c10_MPa;
   double c01_MPa;
@@ -50,6 +68,7 @@ struct ElementTangent {
 struct ElementKernels {
   int nodes;
   int unknowns;
+  int bubbles; ///< the unknowns that come first; the others are pressures
   int geometrySize;
   /// 8 elements, one load.
   void (*residual)(const RubberConstants&, const ElementInput&, const ElementResidual&);
@@ -69,9 +88,8 @@ struct ElementKernels {
 /// What the kernels are compiled for.
 enum class InstructionSet { Baseline, Avx2, Avx512 };
 
-/// Kernels for the shape, by the widest instruction set of this processor: 10-node tetrahedra with a quartic bubble and
-/// linear discontinuous pressure, geometry = 4 gradients of the barycentric coordinates and the volume; 8-node
-/// hexahedra with one pressure, geometry = for each of 8 points 8 shape gradients and the weight.
+/// Kernels for the shape, by the widest instruction set of this processor; numbers in the order of TetLayout and
+/// HexLayout.
 const ElementKernels& elementKernels(ElementShape shape);
 /// The same for one instruction set; null where this program or processor has not got it.
 const ElementKernels* elementKernels(ElementShape shape, InstructionSet set);

@@ -6,6 +6,7 @@
 #include "solver/mesh/DelaunayTets.h"
 #include "solver/mesh/GridLines.h"
 #include "solver/mesh/QuadraticTets.h"
+#include "solver/mesh/TopFaces.h"
 
 #include <Eigen/Dense>
 
@@ -227,21 +228,6 @@ private:
   bool changed_ = false, failed_ = false;
 };
 
-/// Load area of each top face, by its centre.
-Eigen::VectorXi areasOfFaces(const SensorDesign& design, const Mesh& mesh) {
-  Eigen::VectorXi areas(mesh.topFaces.cols());
-  const auto part = [](double x, double length, int parts) {
-    return std::min(parts - 1, static_cast<int>(x / length * parts));
-  };
-  for (Eigen::Index f = 0; f < areas.size(); ++f) {
-    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-    for (int n = 0; n < 3; ++n) centre += mesh.nodes_mm.col(mesh.topFaces(n, f)) / 3;
-    areas(f) = part(centre.y(), design.block_mm.y(), design.areas.rows) * design.areas.columns +
-               part(centre.x(), design.block_mm.x(), design.areas.columns);
-  }
-  return areas;
-}
-
 void requireElements(const Grid& grid) {
   if (6 * grid.cells() > mostElements)
     throw DesignError("mesh: " + text(6 * grid.cells()) + " elements; allowed are 1e6: choose a larger mesh size");
@@ -293,7 +279,7 @@ Mesh gradedTets(const SensorDesign& design, const Grading& grading, const std::v
   }
   for (Eigen::Index e = 0; e < electrodes.cols(); ++e) points.col((*electrodePoint)[e]) = electrodes.col(e);
   Mesh mesh = quadraticTets(points, weightedDelaunay(indices, weights, stop), stop);
-  mesh.topFaceAreas = areasOfFaces(design, mesh);
+  mesh.topFaceAreas = areasOfTopFaces(design, mesh);
   mesh.upperElectrodeNodes = std::move(*electrodePoint);
   return mesh;
 }

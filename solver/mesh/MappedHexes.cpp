@@ -1,19 +1,8 @@
 #include "solver/mesh/MappedHexes.h"
 
-#include <algorithm>
+#include "solver/mesh/TopFaces.h"
 
 namespace palp {
-
-namespace {
-
-/// Load area of a point of the top face.
-int areaAt(const SensorDesign& design, const Eigen::Vector2d& p) {
-  const int column = static_cast<int>(p.x() / design.block_mm.x() * design.areas.columns);
-  const int row = static_cast<int>(p.y() / design.block_mm.y() * design.areas.rows);
-  return std::min(row, design.areas.rows - 1) * design.areas.columns + std::min(column, design.areas.columns - 1);
-}
-
-} // namespace
 
 Mesh mappedMesh(const SensorDesign& design, const std::array<int, 3>& counts) {
   const auto [nx, ny, nz] = counts;
@@ -33,12 +22,7 @@ Mesh mappedMesh(const SensorDesign& design, const std::array<int, 3>& counts) {
         mesh.elements.col(e) << node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k), node(i, j + 1, k),
             node(i, j, k + 1), node(i + 1, j, k + 1), node(i + 1, j + 1, k + 1), node(i, j + 1, k + 1);
   mesh.topFaces = mesh.elements.bottomRightCorner(4, Eigen::Index(nx) * ny);
-  mesh.topFaceAreas.resize(mesh.topFaces.cols());
-  for (Eigen::Index f = 0; f < mesh.topFaces.cols(); ++f) {
-    const Eigen::Vector3d centre =
-        (mesh.nodes_mm.col(mesh.topFaces(0, f)) + mesh.nodes_mm.col(mesh.topFaces(2, f))) / 2;
-    mesh.topFaceAreas(f) = areaAt(design, centre.head<2>());
-  }
+  mesh.topFaceAreas = areasOfTopFaces(design, mesh);
   return mesh;
 }
 

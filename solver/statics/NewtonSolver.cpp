@@ -31,8 +31,8 @@ NewtonSolver::NewtonSolver(const Assembler& assembler, SparseCholesky& cholesky,
                            NewtonObserver observer)
     : assembler_(assembler), cholesky_(cholesky), options_(options), observer_(std::move(observer)) {}
 
-NewtonSolver& NewtonSolver::startingWith(const InitialTangent& rest) {
-  rest_ = &rest;
+NewtonSolver& NewtonSolver::startingWith(LentTangent rest) {
+  rest_ = std::move(rest);
   return *this;
 }
 
@@ -90,6 +90,7 @@ void NewtonSolver::evaluate(const Loading& loading, double fraction, const Eleme
 /// Tangent and residual of the state; what moves by prescription pushes the rest.
 NewtonSolver::Outcome NewtonSolver::newTangent(const Loading& loading, double fraction, const ElementState& state,
                                                const Eigen::VectorXd* prescribed) {
+  rest_.letGo();
   assembler_.tangent(state, ownTangents_, forces_, options_.threads, observer_.stop);
   if (stopped()) return Outcome::Cancelled;
   tangents_ = &ownTangents_;
@@ -180,9 +181,12 @@ NewtonSolver::Outcome NewtonSolver::searchLine(const Loading& loading, double fr
   return forces_.smallestJ <= 0 ? Outcome::Inverted : Outcome::Diverged;
 }
 
-/// A new tangent; where it is not positive definite, the state goes back along what was taken of its last step.
+/// A new tangent; where it is not positive definite, the state goes back along its last step as far as needed. That
+/// begins with half of the whole step, even where less was taken of it: closer to the start lie states about to lose
+/// stability, whose steps are huge.
 NewtonSolver::Outcome NewtonSolver::definiteTangent(const Loading& loading, double fraction, Direction& last,
                                                     ElementState& state) {
+  last.length = 1;
   for (int trial = 0;; ++trial) {
     const Outcome outcome = newTangent(loading, fraction, state);
     if (outcome != Outcome::Indefinite || trial == definitenessTrials) return outcome;

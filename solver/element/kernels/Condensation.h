@@ -4,8 +4,13 @@
 
 namespace palp::PALP_KERNEL {
 
-/// Inverse of the symmetric indefinite block A (upper triangle given) by LDL^T in the given order: bubble first, then
-/// pressures, whose pivots -M/kappa - B Kbb^-1 B^T are negative without cancellation, at nu = 0.5 as well.
+// Static condensation (E. L. Wilson, IJNME 8, 1974): with u the displacements of an element's nodes, x its own unknowns
+// (bubble, pressures),
+//   | Kuu Kux | | du |   | -ru |        W  = Kxx^-1 Kxu
+//   | Kxu Kxx | | dx | = | -rx |   =>   Kc = Kuu - Kux W,   rc = ru - W^T rx,   dx = -Kxx^-1 rx - W du.
+
+/// Kxx^-1 of the symmetric indefinite block A = Kxx (upper triangle given) by A = L D L^T in the order bubble,
+/// pressures: the pressures' pivots, -M/kappa - B Kbb^-1 B^T, are negative without cancellation, at nu = 0.5 as well.
 template <int N> PALP_INLINE void invertLocal(Pack (*A)[N], Pack inverse[N][N]) {
   Pack L[N][N], pivotInverse[N];
   for (int i = 0; i < N; ++i)
@@ -31,7 +36,7 @@ template <int N> PALP_INLINE void invertLocal(Pack (*A)[N], Pack inverse[N][N]) 
   }
 }
 
-/// Eliminates the element's own unknowns (the last X rows of K) and stores what ElementTangent promises.
+/// Kc, W and Kxx^-1 as ElementTangent promises them; x are the last X rows of K.
 template <int D, int X>
 PALP_INLINE void eliminate(Pack (*K)[D + X], double* stiffness, double* elimination, double* localInverse, int lane) {
   Pack A[X][X], inverse[X][X];
@@ -65,6 +70,7 @@ template <int Stride> PALP_INLINE Pack item(const double* p, int index, int lane
   }
 }
 
+/// forces = ru - W^T rx, given ru in `forces` and rx in `local`.
 template <int D, int X, int Stride>
 PALP_INLINE void condenseForces(const double* elimination, const double* local, double* forces) {
   for (int lane = 0; lane < 8; lane += packSize) {
@@ -79,6 +85,7 @@ PALP_INLINE void condenseForces(const double* elimination, const double* local, 
   }
 }
 
+/// dx = -Kxx^-1 rx - W du.
 template <int D, int X, int Stride>
 PALP_INLINE void recoverUnknowns(const double* elimination, const double* localInverse, const double* local,
                                  const double* du, double* dx) {

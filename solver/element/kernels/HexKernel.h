@@ -5,9 +5,7 @@
 namespace palp::PALP_KERNEL {
 
 /// Trilinear hexahedron with one pressure; 8 points, each with the 8 shape gradients and the weight as geometry.
-struct Hex {
-  static constexpr int nodes = 8, unknowns = 1, dofs = 24, points = 8, geometrySize = 200;
-};
+struct Hex : HexLayout {};
 
 /// One number a lane (Stride 8) or one for all lanes (Stride 1).
 template <int Stride> PALP_INLINE Pack geometryItem(const double* geometry, int item, int lane) {
@@ -26,8 +24,8 @@ template <int Stride>
 PALP_INLINE void hexPoint(const double* geometry, int q, int lane, const Pack u[8][3], Pack pressure, HexPoint& point,
                           Rubber& m) {
   for (int n = 0; n < 8; ++n)
-    for (int d = 0; d < 3; ++d) point.N[n][d] = geometryItem<Stride>(geometry, 25 * q + 3 * n + d, lane);
-  point.weight = geometryItem<Stride>(geometry, 25 * q + 24, lane);
+    for (int d = 0; d < 3; ++d) point.N[n][d] = geometryItem<Stride>(geometry, Hex::pointSize * q + 3 * n + d, lane);
+  point.weight = geometryItem<Stride>(geometry, Hex::pointSize * q + Hex::weight, lane);
   for (int r = 0; r < 3; ++r)
     for (int s = 0; s < 3; ++s) {
       m.F[r][s] = all(r == s ? 1.0 : 0.0);
@@ -57,7 +55,7 @@ PALP_INLINE void addHexPoint(const Rubber& m, const HexPoint& point, HexSums& su
 /// Residual of the lanes and, where K is given, the uncondensed stiffness over 24 displacements and the pressure.
 template <int Stride, bool WithStiffness>
 PALP_INLINE void hexElement(const RubberConstants& rubber, const ElementInput& in, const ElementResidual& out, int lane,
-                            Pack K[25][25]) {
+                            Pack K[Hex::rows][Hex::rows]) {
   constexpr double one = 1; // the pressure's shape function
   Pack u[8][3];
   for (int n = 0; n < 8; ++n)
@@ -76,7 +74,8 @@ PALP_INLINE void hexElement(const RubberConstants& rubber, const ElementInput& i
     addHexPoint(m, point, sums);
     if constexpr (WithStiffness) addStiffness<8, 1>(m, point.N, point.weight, &one, K);
   }
-  if constexpr (WithStiffness) K[24][24] -= rubber.tangentCompressibility_per_MPa * sums.weight;
+  if constexpr (WithStiffness)
+    K[Hex::firstPressure][Hex::firstPressure] -= rubber.tangentCompressibility_per_MPa * sums.weight;
   for (int n = 0; n < 8; ++n)
     for (int d = 0; d < 3; ++d) store(out.forces + 8 * (3 * n + d) + lane, sums.forces[n][d]);
   store(out.local + lane, sums.volume - rubber.compressibility_per_MPa * sums.weight * pressure);

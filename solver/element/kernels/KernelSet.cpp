@@ -19,7 +19,7 @@ void tetResidualOfLoads(const RubberConstants& rubber, const ElementInput& in, c
 void tetTangent(const RubberConstants& rubber, const ElementInput& in, const ElementResidual& out,
                 const ElementTangent& tangent) {
   for (int lane = 0; lane < 8; lane += packSize) {
-    Pack K[37][37];
+    Pack K[Tet::rows][Tet::rows];
     tetStiffness(rubber, in, out, lane, K);
     eliminate<Tet::dofs, Tet::unknowns>(K, tangent.stiffness, tangent.elimination, tangent.localInverse, lane);
   }
@@ -36,9 +36,9 @@ void hexResidualOfLoads(const RubberConstants& rubber, const ElementInput& in, c
 void hexTangent(const RubberConstants& rubber, const ElementInput& in, const ElementResidual& out,
                 const ElementTangent& tangent) {
   for (int lane = 0; lane < 8; lane += packSize) {
-    Pack K[25][25];
-    for (int i = 0; i < 25; ++i)
-      for (int j = 0; j < 25; ++j) K[i][j] = Pack{};
+    Pack K[Hex::rows][Hex::rows];
+    for (int i = 0; i < Hex::rows; ++i)
+      for (int j = 0; j < Hex::rows; ++j) K[i][j] = Pack{};
     hexElement<8, true>(rubber, in, out, lane, K);
     eliminate<Hex::dofs, Hex::unknowns>(K, tangent.stiffness, tangent.elimination, tangent.localInverse, lane);
   }
@@ -58,11 +58,17 @@ constexpr ElementKernels kernelsOf(decltype(ElementKernels::residual) residual,
                                    decltype(ElementKernels::residualOfLoads) residualOfLoads,
                                    decltype(ElementKernels::tangent) tangent) {
   constexpr int D = Element::dofs, X = Element::unknowns;
-  return {Element::nodes,        X,
-          Element::geometrySize, residual,
-          residualOfLoads,       tangent,
-          condense<D, X, 8>,     condense<D, X, 1>,
-          recover<D, X, 8>,      recover<D, X, 1>};
+  return {.nodes = Element::nodes,
+          .unknowns = X,
+          .bubbles = Element::bubbles,
+          .geometrySize = Element::geometrySize,
+          .residual = residual,
+          .residualOfLoads = residualOfLoads,
+          .tangent = tangent,
+          .condense = condense<D, X, 8>,
+          .condenseLoads = condense<D, X, 1>,
+          .recover = recover<D, X, 8>,
+          .recoverLoads = recover<D, X, 1>};
 }
 
 void forwardFactor(const BlockedFactor& L, int first, int last, unsigned live, float* x) {

@@ -6,8 +6,7 @@ namespace palp::PALP_KERNEL {
 
 /// P2 tetrahedron with the quartic bubble 256 l0 l1 l2 l3 and linear discontinuous pressure. Without bubble F is linear
 /// in the barycentric coordinates l, so that four vertex gradients give it everywhere.
-struct Tet {
-  static constexpr int nodes = 10, unknowns = 7, dofs = 30, geometrySize = 13;
+struct Tet : TetLayout {
   static constexpr int points = 14;
 };
 
@@ -45,14 +44,14 @@ struct SharedGeometry {
 };
 PALP_INLINE LaneGeometry tetGeometry(const double* p) {
   LaneGeometry geometry;
-  for (int i = 0; i < 12; ++i) geometry.g[i / 3][i % 3] = load(p + 8 * i);
-  geometry.volume = load(p + 8 * 12);
+  for (int i = 0; i < Tet::volume; ++i) geometry.g[i / 3][i % 3] = load(p + 8 * i);
+  geometry.volume = load(p + 8 * Tet::volume);
   return geometry;
 }
 PALP_INLINE SharedGeometry tetSharedGeometry(const double* p) {
   SharedGeometry geometry;
-  for (int i = 0; i < 12; ++i) geometry.g[i / 3][i % 3] = p[i];
-  geometry.volume = p[12];
+  for (int i = 0; i < Tet::volume; ++i) geometry.g[i / 3][i % 3] = p[i];
+  geometry.volume = p[Tet::volume];
   return geometry;
 }
 
@@ -184,15 +183,15 @@ PALP_INLINE void tetShapeGradients(const LaneGeometry& geo, const double* l, con
 
 /// Residual and uncondensed stiffness of the elements in the lanes.
 PALP_INLINE void tetStiffness(const RubberConstants& rubber, const ElementInput& in, const ElementResidual& out,
-                              int lane, Pack K[37][37]) {
+                              int lane, Pack K[Tet::rows][Tet::rows]) {
   const LaneGeometry geo = tetGeometry(in.geometry + lane);
   TetState state;
   tetState(geo, in.displacements + lane, in.unknowns + lane, state);
   TetSums sums;
   sums.smallestJ = load(out.volumeRange + lane);
   sums.largestJ = load(out.volumeRange + 8 + lane);
-  for (int i = 0; i < 37; ++i)
-    for (int j = 0; j < 37; ++j) K[i][j] = Pack{};
+  for (int i = 0; i < Tet::rows; ++i)
+    for (int j = 0; j < Tet::rows; ++j) K[i][j] = Pack{};
   Rubber m;
   m.c10 = rubber.c10_MPa;
   m.c01 = rubber.c01_MPa;
@@ -207,7 +206,8 @@ PALP_INLINE void tetStiffness(const RubberConstants& rubber, const ElementInput&
   }
   for (int k = 0; k < 4; ++k)
     for (int n = k; n < 4; ++n)
-      K[33 + k][33 + n] -= (rubber.tangentCompressibility_per_MPa / 20 * (k == n ? 2.0 : 1.0)) * geo.volume;
+      K[Tet::firstPressure + k][Tet::firstPressure + n] -=
+          (rubber.tangentCompressibility_per_MPa / 20 * (k == n ? 2.0 : 1.0)) * geo.volume;
   storeTetResidual(geo, state, sums, rubber.compressibility_per_MPa, out, lane);
 }
 
