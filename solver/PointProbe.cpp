@@ -6,6 +6,7 @@
 
 #include <Eigen/Dense>
 
+#include <algorithm>
 #include <optional>
 
 namespace palp {
@@ -48,16 +49,24 @@ PointProbe::PointProbe(const Mesh& mesh, const Eigen::Matrix3Xd& points_mm)
   const bool tets = mesh.shape == ElementShape::Tetrahedron10;
   const int corners = tets ? 4 : 8;
   const double margin = 1e-9 * mesh.nodes_mm.maxCoeff();
+  // The points by their x: an element is compared only with those within its own range of x.
+  std::vector<Eigen::Index> byX;
+  for (Eigen::Index i = 0; i < points_mm.cols(); ++i)
+    if (points_mm.col(i).allFinite()) byX.push_back(i);
+  std::sort(byX.begin(), byX.end(), [&](Eigen::Index a, Eigen::Index b) { return points_mm(0, a) < points_mm(0, b); });
   for (int e = 0; e < mesh.elementCount(); ++e) {
     Eigen::Vector3d low = mesh.nodes_mm.col(mesh.elements(0, e)), high = low;
     for (int n = 1; n < corners; ++n) {
       low = low.cwiseMin(mesh.nodes_mm.col(mesh.elements(n, e)));
       high = high.cwiseMax(mesh.nodes_mm.col(mesh.elements(n, e)));
     }
-    for (Eigen::Index i = 0; i < points_mm.cols(); ++i) {
-      const Eigen::Vector3d p = points_mm.col(i);
+    auto next = std::lower_bound(byX.begin(), byX.end(), low.x() - margin,
+                                 [&](Eigen::Index i, double x) { return points_mm(0, i) < x; });
+    for (; next != byX.end() && points_mm(0, *next) <= high.x() + margin; ++next) {
+      const Eigen::Vector3d p = points_mm.col(*next);
       if (((p - low).array() < -margin).any() || ((high - p).array() < -margin).any()) continue;
-      if (auto holder = tets ? tetHolder(mesh, e, p) : hexHolder(mesh, e, p)) holders_[i].push_back(std::move(*holder));
+      if (auto holder = tets ? tetHolder(mesh, e, p) : hexHolder(mesh, e, p))
+        holders_[*next].push_back(std::move(*holder));
     }
   }
   for (Eigen::Index i = 0; i < points_mm.cols(); ++i)
