@@ -33,7 +33,7 @@ OrderedJson reportJson(const FitReport& report) {
 DecoderInput readInput(const JsonPlace& place) {
   place.onlyKeys({"kind", "rows", "row_wires", "values_per_row", "low", "high"});
   DecoderInput input;
-  input.kind = readNamed(place.at("kind"), kInputKinds);
+  input.kind = place.at("kind").named(kInputKinds);
   input.rows = readIntegers(place.at("rows"));
   input.rowWires = place.at("row_wires").integer();
   input.valuesPerRow = place.at("values_per_row").integer();
@@ -66,7 +66,7 @@ FitReport readReport(const JsonPlace& place) {
   return report;
 }
 
-void readModel(const JsonPlace& place, const std::string& file, Decoder& decoder) {
+void readModel(const JsonPlace& place, Decoder& decoder) {
   switch (decoder.kind) {
   case DecoderKind::Rbf:
     decoder.model = readRbf(place);
@@ -84,7 +84,7 @@ void readModel(const JsonPlace& place, const std::string& file, Decoder& decoder
     return;
   case DecoderKind::TwoStepBackPropagation:
   case DecoderKind::TwoStepGaussNewton:
-    decoder.model = readTwoStep(place, file);
+    decoder.model = readTwoStep(place);
     return;
   case DecoderKind::MaximumLikelihood:
     decoder.model = readForwardModel(place);
@@ -185,8 +185,8 @@ Decoder parseNetwork(const std::string& text, const std::string& file) {
                  "input", "area_count", "together", "low_N", "high_N", "residual_N", "fit", "model", "area_of_class",
                  "areas"});
   Decoder decoder;
-  decoder.kind = readNamed(root.at("decoder"), kDecoderKinds);
-  decoder.mode = readNamed(root.at("mode"), kDecoderModes);
+  decoder.kind = root.at("decoder").named(kDecoderKinds);
+  decoder.mode = root.at("mode").named(kDecoderModes);
   decoder.trainedWith = root.at("trained_with").string();
   decoder.designFingerprint = root.at("design_fingerprint").string();
   const double seed = root.at("seed").number();
@@ -202,7 +202,7 @@ Decoder parseNetwork(const std::string& text, const std::string& file) {
   decoder.high_N = readVector(root.at("high_N"));
   decoder.residual_N = readMatrix(root.at("residual_N"));
   decoder.report = readReport(root.at("fit"));
-  readModel(root.at("model"), file, decoder);
+  readModel(root.at("model"), decoder);
   decoder.areaOfClass = readIntegers(root.at("area_of_class"));
   if (!root.at("areas").isNull()) decoder.areas = readForwardModel(root.at("areas"));
   requireFitting(root, decoder);

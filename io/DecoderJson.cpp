@@ -17,7 +17,7 @@ OrderedJson scalerJson(const FeatureScaler& scaler) {
 FeatureScaler readScaler(const JsonPlace& place) {
   place.onlyKeys({"scaling", "offset", "factor"}, {"rotation"});
   FeatureScaler scaler;
-  scaler.scaling = readNamed(place.at("scaling"), kScalings);
+  scaler.scaling = place.at("scaling").named(kScalings);
   scaler.offset = readVector(place.at("offset"));
   scaler.factor = readVector(place.at("factor"));
   requireSize(place.at("factor"), scaler.factor.size(), scaler.offset.size(), "entries, as offset has");
@@ -128,8 +128,8 @@ RbfNetwork readRbf(const JsonPlace& place) {
   RbfNetwork network;
   network.scaler = readScaler(place.at("scaler"));
   network.spread = readPositive(place.at("spread"));
-  network.convention = readNamed(place.at("spread_convention"), kSpreadConventions);
-  network.form = readNamed(place.at("basis"), kBasisForms);
+  network.convention = place.at("spread_convention").named(kSpreadConventions);
+  network.form = place.at("basis").named(kBasisForms);
   network.centers = readMatrix(place.at("centers"));
   network.weights = readMatrix(place.at("weights"));
   if (!place.at("tail").isNull()) network.tail = readMatrix(place.at("tail"));
@@ -204,12 +204,12 @@ BackPropagationNetwork readBackPropagation(const JsonPlace& place) {
   return network;
 }
 
-TwoStep readTwoStep(const JsonPlace& place, const std::string& file) {
+TwoStep readTwoStep(const JsonPlace& place) {
   place.onlyKeys({"network", "design", "rows", "force"});
   TwoStep decoder;
   if (!place.at("network").isNull()) decoder.network = readBackPropagation(place.at("network"));
   if (!place.at("design").isNull()) {
-    decoder.design = parseDesign(place.at("design").json().dump(), file + ": model.design");
+    decoder.design = readDesign(place.at("design"));
     requireValid(*decoder.design);
   }
   if (decoder.network.has_value() == decoder.design.has_value())

@@ -27,15 +27,8 @@ RbfNetwork readRbf(const JsonPlace& place);
 PolynomialRidge readPolynomial(const JsonPlace& place);
 GaussianProcess readGaussianProcess(const JsonPlace& place);
 BackPropagationNetwork readBackPropagation(const JsonPlace& place);
-TwoStep readTwoStep(const JsonPlace& place, const std::string& file);
+TwoStep readTwoStep(const JsonPlace& place);
 ForwardModel readForwardModel(const JsonPlace& place);
-
-/// The value that a text names.
-template <class Names> auto readNamed(const JsonPlace& place, const Names& names) {
-  const auto value = names.find(place.string());
-  if (!value) place.refuse(names.allowed());
-  return *value;
-}
 
 /// Refuses `place` unless its size is what the rest of the file wants.
 void requireSize(const JsonPlace& place, Eigen::Index size, Eigen::Index wanted, const std::string& what);

@@ -126,6 +126,10 @@ SensorDesign parseDesign(std::string_view json, const std::string& file) {
   const Json value = parseJson(json, file);
   const JsonPlace root(value, file);
   if (!root.has("palp_design")) throw Error(file + ": no design file: palp_design is missing");
+  return readDesign(root);
+}
+
+SensorDesign readDesign(const JsonPlace& root) {
   formatVersion(root, "palp_design", kNewestVersion); // first: a newer file may well have other keys
   root.onlyKeys(
       {"palp_design", "block_mm", "material", "areas", "upper_layer", "lower_layer", "resistance", "force_range_N"});

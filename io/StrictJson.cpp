@@ -13,13 +13,18 @@ namespace palp {
 namespace {
 
 constexpr std::size_t kLongestShownValue = 60;
+constexpr int kDeepest = 50; ///< our own files are at most 6 deep; writing a value calls itself once a level
 
-/// Remembers the keys of the objects that are open, because the parser would take the last of two silently.
-class TwiceGuard {
+/// Looks at what the parser would take silently: the last of two equal keys, and any depth. Remembers the keys of the
+/// objects that are open.
+class ParseGuard {
 public:
-  explicit TwiceGuard(const std::string& file) : file_(file) {}
+  explicit ParseGuard(const std::string& file) : file_(file) {}
 
-  bool operator()(int /*depth*/, Json::parse_event_t event, const Json& parsed) {
+  bool operator()(int depth, Json::parse_event_t event, const Json& parsed) {
+    if (depth > kDeepest)
+      throw Error(file_ + ": lists and objects lie more than " + std::to_string(kDeepest) +
+                  " deep in each other; allowed are " + std::to_string(kDeepest));
     if (event == Json::parse_event_t::object_start) open_.emplace_back();
     if (event == Json::parse_event_t::object_end) open_.pop_back();
     if (event == Json::parse_event_t::key && !open_.back().insert(parsed.get<std::string>()).second)
@@ -47,7 +52,7 @@ std::string plain(const std::string& message) {
 } // namespace
 
 Json parseJson(std::string_view content, const std::string& file) {
-  TwiceGuard guard(file);
+  ParseGuard guard(file);
   try {
     return Json::parse(content,
                        [&](int depth, Json::parse_event_t event, Json& parsed) { return guard(depth, event, parsed); });
@@ -88,11 +93,21 @@ double JsonPlace::number() const {
   return value_->get<double>();
 }
 
-int JsonPlace::integer() const {
-  constexpr double largest = std::numeric_limits<int>::max();
+double JsonPlace::number(double low, double high) const {
   const double value = value_->is_number() ? value_->get<double>() : std::nan("");
-  if (!(std::abs(value) <= largest) || value != std::floor(value))
-    refuse("a whole number from -" + text(largest) + " to " + text(largest));
+  if (!(value >= low && value <= high)) refuse("a number from " + text(low) + " to " + text(high));
+  return value;
+}
+
+int JsonPlace::integer() const {
+  constexpr int largest = std::numeric_limits<int>::max();
+  return integer(-largest, largest);
+}
+
+int JsonPlace::integer(int low, int high) const {
+  const double value = value_->is_number() ? value_->get<double>() : std::nan("");
+  if (!(value >= low && value <= high) || value != std::floor(value))
+    refuse("a whole number from " + text(low) + " to " + text(high));
   return static_cast<int>(value);
 }
 

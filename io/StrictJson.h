@@ -1,6 +1,6 @@
 #pragma once
 
-// Private to io: keeps nlohmann-json out of every public header.
+// For sources only: keeps nlohmann-json out of every other header.
 
 #include <nlohmann/json.hpp>
 
@@ -12,7 +12,8 @@ namespace palp {
 
 using Json = nlohmann::json;
 
-/// Parses JSON; throws Error with line and column where it is broken, or with the key that stands twice.
+/// Parses JSON. Throws Error with line and column where it is broken, with the key that stands twice, or where objects
+/// and lists lie deeper in each other than any file of ours.
 Json parseJson(std::string_view content, const std::string& file);
 
 /// A value of a JSON file together with where it stands, so that each refusal is one sentence: file, dotted key, value,
@@ -36,16 +37,23 @@ public:
   }
 
   [[nodiscard]] double number() const;
+  [[nodiscard]] double number(double low, double high) const;
   [[nodiscard]] int integer() const;
+  [[nodiscard]] int integer(int low, int high) const;
   [[nodiscard]] bool boolean() const;
   [[nodiscard]] std::string string() const;
   [[nodiscard]] std::vector<double> numbers() const;
   [[nodiscard]] std::vector<double> numbers(std::size_t count) const;
   [[nodiscard]] std::vector<JsonPlace> list() const;
+  /// The value that a text names; `names` is a NamedEnum.
+  template <class Names> [[nodiscard]] auto named(const Names& names) const {
+    const auto value = names.find(string());
+    if (!value) refuse(names.allowed());
+    return *value;
+  }
 
   /// Throws Error: file, key, value, and what is allowed.
   [[noreturn]] void refuse(const std::string& allowed) const;
-  [[nodiscard]] const Json& json() const { return *value_; }
 
 private:
   const Json* value_;

@@ -35,7 +35,7 @@ struct LoadCase {
 };
 
 /// Why the load cannot act on the design (no such area, a disc outside the face or smaller than 0.01 mm in radius, a
-/// force that is no number); empty where it can.
+/// force that is not finite); empty if it can.
 std::optional<std::string> whyInvalid(const LoadCase& load, const SensorDesign& design);
 
 } // namespace palp

@@ -3,7 +3,10 @@
 #include "model/DesignError.h"
 #include "model/base/Text.h"
 
+#include <array>
 #include <cmath>
+#include <functional>
+#include <unordered_map>
 
 namespace palp {
 
@@ -95,19 +98,59 @@ void checkInside(Problems& problems, const Eigen::Matrix3Xd& positions_mm, int p
     }
 }
 
-void checkDuplicates(Problems& problems, const Eigen::Matrix3Xd& positions_mm, int perWire, const LayerNames& names) {
-  for (Eigen::Index i = 0; i < positions_mm.cols(); ++i)
-    for (Eigen::Index j = i + 1; j < positions_mm.cols(); ++j) {
-      if (!((positions_mm.col(i) - positions_mm.col(j)).norm() < kSamePlace_mm)) continue;
-      const auto name = [&](Eigen::Index k) {
-        return "electrode " + std::to_string(k % perWire) + " of " + names.wireName + " " + std::to_string(k / perWire);
-      };
-      const bool sameWire = i / perWire == j / perWire;
-      problems.push_back(
-          {names.layer + "." + (sameWire ? names.along : names.wire),
-           "duplicate electrode: " + name(j) + " is where " + name(i) + " is; allowed is one electrode a place"});
-      return;
+using Cell = std::array<double, 3>;
+struct CellHash {
+  std::size_t operator()(const Cell& cell) const {
+    std::size_t all = 0;
+    for (const double index : cell) all = all * 1000003 + std::hash<double>()(index);
+    return all;
+  }
+};
+
+/// The first two points, in the order of their columns, that are less than a distance apart. Points are looked for in
+/// cubes much wider than that, of which one point's surroundings seldom touch more than one: the time grows with the
+/// points and not with their pairs.
+std::optional<std::array<Eigen::Index, 2>> firstAtOnePlace(const Eigen::Matrix3Xd& points, double distance) {
+  const double width = 16 * distance;
+  const auto cellOf = [width](const Eigen::Vector3d& p) -> Cell {
+    return {std::floor(p.x() / width), std::floor(p.y() / width), std::floor(p.z() / width)};
+  };
+  std::unordered_map<Cell, std::vector<Eigen::Index>, CellHash> cells;
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    if (points.col(i).allFinite()) cells[cellOf(points.col(i))].push_back(i);
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    const Eigen::Vector3d p = points.col(i);
+    const Cell low = cellOf(p.array() - distance), high = cellOf(p.array() + distance);
+    Eigen::Index first = points.cols();
+    for (int corner = 0; corner < 8; ++corner) { // of the surroundings; mostly all in one cube
+      Cell cell = low;
+      bool again = false;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        if ((corner >> axis) % 2 == 1) {
+          again = again || high[axis] == low[axis];
+          cell[axis] = high[axis];
+        }
+      const auto found = again ? cells.end() : cells.find(cell);
+      if (found == cells.end()) continue;
+      for (const Eigen::Index j : found->second)
+        if (j > i && j < first && (points.col(j) - p).norm() < distance) first = j;
     }
+    if (first < points.cols()) return std::array{i, first};
+  }
+  return {};
+}
+
+void checkDuplicates(Problems& problems, const Eigen::Matrix3Xd& positions_mm, int perWire, const LayerNames& names) {
+  const auto twins = firstAtOnePlace(positions_mm, kSamePlace_mm);
+  if (!twins) return;
+  const auto [i, j] = *twins;
+  const auto name = [&](Eigen::Index k) {
+    return "electrode " + std::to_string(k % perWire) + " of " + names.wireName + " " + std::to_string(k / perWire);
+  };
+  const bool sameWire = i / perWire == j / perWire;
+  problems.push_back(
+      {names.layer + "." + (sameWire ? names.along : names.wire),
+       "duplicate electrode: " + name(j) + " is where " + name(i) + " is; allowed is one electrode a place"});
 }
 
 void checkElectrodes(Problems& problems, const SensorDesign& design) {

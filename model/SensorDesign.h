@@ -92,13 +92,14 @@ struct DesignFault {
   std::string sentence;
 };
 
-/// Everything that is wrong with the design, in the order of the file; empty where it can be built.
+/// Everything that is wrong with the design, in the order of the file; empty if it can be built.
 std::vector<DesignFault> check(const SensorDesign& design);
 
-/// Why Eq. (1) is not a square system for a row-wire (column-wires != 3 x electrodes of a row-wire); empty where it is.
+/// Why Eq. (1) is not a square system for a row-wire (column-wires != 3 x electrodes of a row-wire); empty if it is
+/// one.
 std::optional<std::string> whyNotSquare(const SensorDesign& design);
 
-/// Throws DesignError with the first problem, if there is one.
+/// Throws DesignError with the first fault, if there is one.
 void requireValid(const SensorDesign& design);
 
 } // namespace palp

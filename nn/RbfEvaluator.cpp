@@ -8,7 +8,7 @@
 namespace palp {
 namespace {
 
-constexpr std::size_t kLanes = kernels::blockLanes;
+constexpr std::size_t kLanes = kernels::kBlockLanes;
 /// Samples that go through a block of centres together.
 constexpr std::size_t kTogether = 8;
 

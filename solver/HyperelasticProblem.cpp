@@ -37,9 +37,13 @@ std::shared_ptr<const InitialTangent> HyperelasticProblem::Parts::initialTangent
   }
   const Making making{*this};
   auto tangent = makeTangent(threads, stop);
-  const std::lock_guard lock(tangentGuard_);
-  tangent_ = tangent;
+  keepInitialTangent(tangent);
   return tangent;
+}
+
+void HyperelasticProblem::Parts::keepInitialTangent(std::shared_ptr<const InitialTangent> tangent) const {
+  const std::lock_guard lock(tangentGuard_);
+  tangent_ = std::move(tangent);
 }
 
 HyperelasticProblem::Parts::Making::~Making() {
@@ -103,7 +107,14 @@ Solution HyperelasticProblem::solve(const LoadCase& load, const NewtonOptions& o
   Loading loading{nodalForces(parts_->mesh, parts_->design, load),
                   Eigen::VectorXd::Zero(3 * Eigen::Index(mesh.nodes()))};
   Solution solution;
-  const auto rest = parts_->initialTangent(options.threads, observer.stop);
+  // The problem's hold on it ends with the loan where Newton is to work with one tangent at a time.
+  const auto borrow = [&] {
+    auto rest = parts_->initialTangent(options.threads, observer.stop);
+    if (options.oneTangent) parts_->releaseInitialTangent();
+    return rest;
+  };
+  auto rest = borrow();
+  const std::weak_ptr<const InitialTangent> borrowed = rest;
   if (!rest) {
     solution.cancelled = true;
     solution.stopReason = "cancelled at load fraction 0";
@@ -112,7 +123,10 @@ Solution HyperelasticProblem::solve(const LoadCase& load, const NewtonOptions& o
     return solution;
   }
   SparseCholesky cholesky(parts_->plan());
-  NewtonResult result = NewtonSolver(parts_->assembler, cholesky, options, observer).startingWith(*rest).solve(loading);
+  NewtonSolver solver(parts_->assembler, cholesky, options, observer);
+  solver.startingWith({std::move(rest), options.oneTangent ? LentTangent::Find(borrow) : LentTangent::Find()});
+  NewtonResult result = solver.solve(loading);
+  if (auto still = borrowed.lock()) parts_->keepInitialTangent(std::move(still));
   solution.converged = result.converged;
   solution.cancelled = result.cancelled;
   solution.stopReason = std::move(result.stopReason);

@@ -20,6 +20,9 @@ struct NewtonOptions {
   int iterationsAStep = 20;
   double smallestStep = 1e-3; ///< of the load fraction; it gives up rather than take a smaller one
   int threads = 0;            ///< 0: all cores; changes the time, never the result
+  /// Lets the tangent at rest go when one on the way takes its place: a third less memory at the peak, but the next
+  /// solve has to find it again. The same result.
+  bool oneTangent = false;
 };
 
 /// `step` is called after every Newton iteration, in the calling thread; `stop` ends the solve within 0.3 s.

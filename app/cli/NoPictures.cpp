@@ -1,4 +1,5 @@
 #include "app/cli/Pictures.h"
+#include "model/base/Error.h"
 
 #include <iostream>
 
@@ -6,15 +7,20 @@ namespace palp {
 
 namespace {
 
+std::string needsVtk(const std::string& what) {
+  return what + " needs VTK, and this palp was built without it (PALP_GUI=OFF)";
+}
+
+/// Pictures of a report may be missing: the rest of it is written.
 void warn(Session& session, const std::string& what) {
-  session.warnings.push_back(what + " needs VTK, and this palp was built without it (PALP_GUI=OFF)");
+  session.warnings.push_back(needsVtk(what));
   std::cerr << "palp: " << session.warnings.back() << '\n';
 }
 
 } // namespace
 
-void exportVtu(const OutputFile& output, const Mesh&, const NodalFields*, Session& session) {
-  warn(session, output.path.string());
+void exportVtu(const OutputFile& output, const Mesh&, const NodalFields*, Session&) {
+  throw Error(needsVtk(output.path.string()));
 }
 
 std::vector<ReportPicture> drawPaperFigures(const SensorDesign&, const ProtocolResult&, const MeshOptions&,
@@ -28,9 +34,8 @@ ChartDrawer chartDrawer(Session& session) {
   return {};
 }
 
-void renderTouch(const Touch&, const std::string&, const PictureSize&, const std::filesystem::path& file,
-                 Session& session) {
-  warn(session, file.string());
+void renderTouch(const Touch&, const std::string&, const PictureSize&, const std::filesystem::path& file, Session&) {
+  throw Error(needsVtk(file.string()));
 }
 
 std::vector<std::string> quantityNames() {

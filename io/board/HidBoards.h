@@ -23,7 +23,7 @@ std::vector<HidBoard> hidBoards(const UsbId& id = {});
 /// remedy, or BoardError (gone, another protocol, no answer).
 std::unique_ptr<ReportSource> openHidBoard(const HidBoard& board);
 
-/// Report descriptor of the board as the kernel has it; empty where it does not tell.
+/// Report descriptor of the board as the kernel has it; empty if the kernel does not say.
 std::vector<std::uint8_t> reportDescriptorOf(const HidBoard& board);
 
 /// The udev rule's place and how to install it, in one sentence.

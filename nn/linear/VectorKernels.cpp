@@ -7,8 +7,9 @@
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 // Only x86-64 has these names; elsewhere, or with PALP_ONE_MACHINE, the compiler's own target serves. So it does under
-// the thread sanitizer, which is not there yet when the clone is chosen.
-#if defined(__x86_64__) && !defined(PALP_ONE_MACHINE) && !defined(__SANITIZE_THREAD__)
+// the thread sanitizer, which is not there yet when the clone is chosen, and with Clang, which makes no clones of
+// functions that work on vectors wider than the narrowest clone's.
+#if defined(__x86_64__) && !defined(PALP_ONE_MACHINE) && !defined(__SANITIZE_THREAD__) && !defined(__clang__)
 #define PALP_MANY_MACHINES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #else
 #define PALP_MANY_MACHINES
@@ -21,8 +22,8 @@ namespace {
 using Lanes = double __attribute__((vector_size(64)));
 using LanesUnaligned = double __attribute__((vector_size(64), aligned(8), may_alias));
 using Integers = std::int64_t __attribute__((vector_size(64)));
-constexpr std::size_t width = 8;
-static_assert(blockLanes == 2 * width);
+constexpr std::size_t kWidth = 8;
+static_assert(kBlockLanes == 2 * kWidth);
 
 PALP_INLINE Lanes load(const double* from) {
   return *reinterpret_cast<const LanesUnaligned*>(from);
@@ -93,7 +94,7 @@ PALP_INLINE Lanes smallRemainderOf(Lanes t) {
 
 PALP_INLINE double largest(Lanes v) {
   double result = v[0];
-  for (std::size_t i = 1; i < width; ++i) result = v[i] > result ? v[i] : result;
+  for (std::size_t i = 1; i < kWidth; ++i) result = v[i] > result ? v[i] : result;
   return result;
 }
 
@@ -123,18 +124,18 @@ PALP_INLINE void basisInPlace(double* values, std::size_t count, double rate, bo
   constexpr std::size_t group = 8;
   Lanes lanes[group];
   std::size_t i = 0;
-  for (; i + group * width <= count; i += group * width) {
-    for (std::size_t k = 0; k < group; ++k) lanes[k] = load(values + i + k * width);
+  for (; i + group * kWidth <= count; i += group * kWidth) {
+    for (std::size_t k = 0; k < group; ++k) lanes[k] = load(values + i + k * kWidth);
     basisOf<group>(lanes, rate, remainder);
-    for (std::size_t k = 0; k < group; ++k) store(values + i + k * width, lanes[k]);
+    for (std::size_t k = 0; k < group; ++k) store(values + i + k * kWidth, lanes[k]);
   }
-  for (; i + width <= count; i += width) {
+  for (; i + kWidth <= count; i += kWidth) {
     lanes[0] = load(values + i);
     basisOf<1>(lanes, rate, remainder);
     store(values + i, lanes[0]);
   }
   if (i == count) return;
-  double rest[width] = {};
+  double rest[kWidth] = {};
   std::memcpy(rest, values + i, (count - i) * sizeof(double));
   lanes[0] = load(rest);
   basisOf<1>(lanes, rate, remainder);
@@ -145,12 +146,12 @@ PALP_INLINE void basisInPlace(double* values, std::size_t count, double rate, bo
 /// The basis of `Samples` samples at `Blocks` blocks of centres: sums that do not wait for each other.
 template <std::size_t Samples, std::size_t Blocks>
 PALP_INLINE void fillBasis(const PackedNetwork& network, const double* scaled, std::size_t block, double* basis) {
-  const double* center = network.centers + block * network.inputs * blockLanes;
+  const double* center = network.centers + block * network.inputs * kBlockLanes;
   Lanes r2[Samples * Blocks * 2] = {};
   for (std::size_t d = 0; d < network.inputs; ++d)
     for (std::size_t b = 0; b < Blocks; ++b) {
-      const double* at = center + (b * network.inputs + d) * blockLanes;
-      const Lanes c0 = load(at), c1 = load(at + width);
+      const double* at = center + (b * network.inputs + d) * kBlockLanes;
+      const Lanes c0 = load(at), c1 = load(at + kWidth);
       for (std::size_t s = 0; s < Samples; ++s) {
         const double x = scaled[s * network.inputs + d];
         const Lanes d0 = c0 - x, d1 = c1 - x;
@@ -161,28 +162,28 @@ PALP_INLINE void fillBasis(const PackedNetwork& network, const double* scaled, s
   basisOf<Samples * Blocks * 2>(r2, network.rate, network.remainder);
   for (std::size_t s = 0; s < Samples; ++s)
     for (std::size_t k = 0; k < 2 * Blocks; ++k)
-      store(basis + s * network.blocks * blockLanes + block * blockLanes + k * width, r2[s * 2 * Blocks + k]);
+      store(basis + s * network.blocks * kBlockLanes + block * kBlockLanes + k * kWidth, r2[s * 2 * Blocks + k]);
 }
 
 /// Blocks whose terms are summed before they are added to the total: large weights of both signs cancel, and short sums
 /// lose less in rounding than a long one.
-constexpr std::size_t summedBlocks = 4;
+constexpr std::size_t kSummedBlocks = 4;
 
 template <std::size_t Samples>
 PALP_INLINE void addWeighted(const PackedNetwork& network, const double* basis, double* output) {
-  const std::size_t centers = network.blocks * blockLanes;
+  const std::size_t centers = network.blocks * kBlockLanes;
   for (std::size_t o = 0; o < network.outputs; ++o) {
     const double* weight = network.weights + o * centers;
     Lanes total[Samples] = {}, lost[Samples] = {};
-    for (std::size_t first = 0; first < centers; first += summedBlocks * blockLanes) {
+    for (std::size_t first = 0; first < centers; first += kSummedBlocks * kBlockLanes) {
       const std::size_t last =
-          first + summedBlocks * blockLanes < centers ? first + summedBlocks * blockLanes : centers;
+          first + kSummedBlocks * kBlockLanes < centers ? first + kSummedBlocks * kBlockLanes : centers;
       Lanes even[Samples] = {}, odd[Samples] = {};
-      for (std::size_t c = first; c < last; c += blockLanes) {
-        const Lanes w0 = load(weight + c), w1 = load(weight + c + width);
+      for (std::size_t c = first; c < last; c += kBlockLanes) {
+        const Lanes w0 = load(weight + c), w1 = load(weight + c + kWidth);
         for (std::size_t s = 0; s < Samples; ++s) {
           even[s] += w0 * load(basis + s * centers + c);
-          odd[s] += w1 * load(basis + s * centers + c + width);
+          odd[s] += w1 * load(basis + s * centers + c + kWidth);
         }
       }
       for (std::size_t s = 0; s < Samples; ++s) {
@@ -208,7 +209,7 @@ PALP_MANY_MACHINES void gaussianRemainder(double* squaredDistances, std::size_t 
 PALP_MANY_MACHINES void squaredDistancesToPoint(const double* rows, std::size_t stride, std::size_t count,
                                                 std::size_t dimensions, const double* point, double* result) {
   std::size_t i = 0;
-  for (; i + width <= count; i += width) {
+  for (; i + kWidth <= count; i += kWidth) {
     Lanes total = {};
     for (std::size_t d = 0; d < dimensions; ++d) {
       const Lanes difference = load(rows + d * stride + i) - point[d];

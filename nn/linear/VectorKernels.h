@@ -7,7 +7,7 @@
 namespace palp::kernels {
 
 /// Lanes that a block of packed centres has.
-inline constexpr std::size_t blockLanes = 16;
+inline constexpr std::size_t kBlockLanes = 16;
 
 /// values[i] = exp(-rate * values[i]), values >= 0, to 1 ulp or so; exponents below -708 give 0.
 void gaussian(double* values, std::size_t count, double rate);

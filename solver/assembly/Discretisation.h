@@ -41,7 +41,8 @@ public:
   /// Number among the free components, -1 where prescribed.
   [[nodiscard]] int freeIndex(int component) const { return freeIndex_[component]; }
   [[nodiscard]] const Eigen::Matrix3Xd& positions_mm() const { return positions_mm_; } ///< of the nodes, at rest
-  [[nodiscard]] int node(int element, int n) const { return elementNodes_[element * kernels_->nodes + n]; }
+  [[nodiscard]] const int* elementNodes(int element) const { return elementNodes_.data() + element * kernels_->nodes; }
+  [[nodiscard]] int node(int element, int n) const { return elementNodes(element)[n]; }
   /// [geometrySize][8]
   [[nodiscard]] const double* geometry(int block) const {
     return geometry_.data() + std::size_t(block) * kernels_->geometrySize * lanes;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 namespace palp {
 
@@ -104,7 +105,7 @@ std::unique_ptr<LoadBatch> BatchEngine::borrowBatch() {
       return batch;
     }
   }
-  return std::make_unique<LoadBatch>(model_, problem_.parts().upperProbe());
+  return std::make_unique<LoadBatch>(model_, problem_.parts().upperProbe(), problem_.parts().lowerProbe());
 }
 
 void BatchEngine::giveBack(std::unique_ptr<LoadBatch> batch) {
@@ -130,13 +131,16 @@ bool BatchEngine::makePredictors(const std::vector<Job>& jobs, const std::stop_t
 
 /// Solves 32 covering forces from rest; none where one of them does not converge.
 std::optional<AreaPredictor> BatchEngine::fitPredictor(int area, const std::stop_token& stop) {
+  std::vector<Eigen::Vector3d> forces;
+  for (int i = 0; i < batchLanes; ++i) forces.push_back(coveringForce(problem_.design().forceRange, i));
+  std::array<int, batchLanes> inLane{}; // the smallest first: a block's forces end their iterations together
+  std::iota(inLane.begin(), inLane.end(), 0);
+  std::stable_sort(inLane.begin(), inLane.end(), [&](int a, int b) { return forces[a].norm() < forces[b].norm(); });
   std::unique_ptr<LoadBatch> batch = borrowBatch();
   for (int b = 0; b < LoadBatch::blocks; ++b) batch->reset(b);
-  std::vector<Eigen::Vector3d> forces;
   LaneWatch watch(predictorTolerance_);
   for (int lane = 0; lane < batchLanes; ++lane) {
-    forces.push_back(coveringForce(problem_.design().forceRange, lane));
-    batch->addForce(lane, {&areaShares_[area], forces.back()});
+    batch->addForce(lane, {&areaShares_[area], forces[inLane[lane]]});
     watch.begin(lane, 1);
   }
   std::array<double, batchLanes> worst{};
@@ -151,7 +155,8 @@ std::optional<AreaPredictor> BatchEngine::fitPredictor(int area, const std::stop
   std::optional<AreaPredictor> predictor;
   const bool converged = std::find(watch.failed.begin(), watch.failed.end(), true) == watch.failed.end();
   if (converged && !stop.stop_requested()) {
-    predictor = fitted(*batch, forces);
+    for (int b = 0; b < LoadBatch::blocks; ++b) batch->catchUp(b);
+    predictor = fitted(*batch, forces, inLane);
     predictor->contraction = *std::max_element(worst.begin(), worst.end());
   }
   giveBack(std::move(batch));
@@ -159,27 +164,36 @@ std::optional<AreaPredictor> BatchEngine::fitPredictor(int area, const std::stop
 }
 
 /// Coefficients by least squares: for each number of the state the row of 32 answers times the fit's matrix.
-AreaPredictor BatchEngine::fitted(const LoadBatch& batch, const std::vector<Eigen::Vector3d>& forces) const {
+/// `inLane` is the force that each lane has.
+AreaPredictor BatchEngine::fitted(const LoadBatch& batch, const std::vector<Eigen::Vector3d>& forces,
+                                  const std::array<int, batchLanes>& inLane) const {
   const Eigen::MatrixXd fit = polynomial_.fit(forces); // points x terms
+  LaneVector matrix(std::size_t(batchLanes) * terms_); // [terms / 8][points][8]
+  for (int i = 0; i < batchLanes; ++i)
+    for (int t = 0; t < polynomial_.terms(); ++t) matrix[(t / lanes * batchLanes + i) * lanes + t % lanes] = fit(i, t);
+  constexpr int rowsAtOnce = 128; // 32 kB of answers
+  LaneVector answers(std::size_t(rowsAtOnce) * batchLanes);
+  const auto fitRows = [&](int rows, const auto& value, std::vector<double>& coefficients) {
+    coefficients.resize(std::size_t(rows) * terms_);
+    for (int first = 0; first < rows; first += rowsAtOnce) {
+      const int some = std::min(rowsAtOnce, rows - first);
+      for (int row = 0; row < some; ++row)
+        for (int lane = 0; lane < batchLanes; ++lane)
+          answers[row * batchLanes + inLane[lane]] = value(first + row, lane);
+      for (int t = 0; t < terms_; t += lanes)
+        laneKernels().addPolynomials(answers.data(), batchLanes, matrix.data() + std::size_t(t) * batchLanes, some,
+                                     coefficients.data() + std::size_t(first) * terms_ + t, terms_);
+    }
+  };
+  const int own = model_.mesh().unknowns();
+  const LaneVector& displacements = batch.displacements();
   AreaPredictor predictor;
-  const int own = model_.mesh().unknowns(), rows = 3 * model_.mesh().nodes(), ownRows = own * model_.mesh().elements();
-  predictor.displacements.resize(std::size_t(rows) * terms_);
-  predictor.unknowns.resize(std::size_t(ownRows) * terms_);
-  LaneVector answers(std::size_t(ownRows) * batchLanes);
-  for (int row = 0; row < ownRows; ++row)
-    for (int lane = 0; lane < batchLanes; ++lane)
-      answers[std::size_t(row) * batchLanes + lane] = batch.unknown(row / own, row % own, lane);
-  for (int first = 0; first < terms_; first += lanes) {
-    LaneVector matrix(batchLanes * lanes);
-    for (int lane = 0; lane < batchLanes; ++lane)
-      for (int t = first; t < std::min(first + lanes, polynomial_.terms()); ++t)
-        matrix[lane * lanes + t - first] = fit(lane, t);
-    const auto& kernels = laneKernels();
-    kernels.addPolynomials(batch.displacements().data(), batchLanes, matrix.data(), rows,
-                           predictor.displacements.data() + first, terms_);
-    kernels.addPolynomials(answers.data(), batchLanes, matrix.data(), ownRows, predictor.unknowns.data() + first,
-                           terms_);
-  }
+  fitRows(
+      3 * model_.mesh().nodes(), [&](int row, int lane) { return displacements[std::size_t(row) * batchLanes + lane]; },
+      predictor.displacements);
+  fitRows(
+      own * model_.mesh().elements(), [&](int row, int lane) { return batch.unknown(row / own, row % own, lane); },
+      predictor.unknowns);
   return predictor;
 }
 
@@ -252,7 +266,8 @@ void BatchEngine::solveBlocks(double tolerance, const Take& take, const Give& gi
     watch.judge();
     for (int b = 0; b < LoadBatch::blocks; ++b) {
       if (!inWork[b] || watch.anyActive(b)) continue;
-      std::vector<ElectrodeDisplacements> found = batch->electrodes(b, problem_.parts().lowerProbe());
+      std::vector<ElectrodeDisplacements> found = batch->electrodes(b);
+      batch->retire(b);
       std::vector<Answer> answers(inWork[b]->size());
       for (std::size_t i = 0; i < answers.size(); ++i)
         if (!watch.failed[b * lanes + i]) answers[i] = std::move(found[i]);

@@ -46,7 +46,8 @@ private:
   [[nodiscard]] Job job(const LoadCase& load, std::size_t index) const;
   [[nodiscard]] bool makePredictors(const std::vector<Job>& jobs, const std::stop_token& stop);
   [[nodiscard]] std::optional<AreaPredictor> fitPredictor(int area, const std::stop_token& stop);
-  [[nodiscard]] AreaPredictor fitted(const LoadBatch& batch, const std::vector<Eigen::Vector3d>& forces) const;
+  [[nodiscard]] AreaPredictor fitted(const LoadBatch& batch, const std::vector<Eigen::Vector3d>& forces,
+                                     const std::array<int, batchLanes>& inLane) const;
   [[nodiscard]] std::vector<Block> blocksOf(std::vector<Job> jobs) const;
   template <class Take, class Give>
   void solveBlocks(double tolerance, const Take& take, const Give& give, const std::stop_token& stop);

@@ -24,7 +24,7 @@ ElementwiseTangent::ElementwiseTangent(const HyperelasticProblem::Parts& parts, 
       geometry_(byElement(mesh_.geometry(0), mesh_.elements(), geometrySize_)),
       elimination_(byElement(rest.tangents.elimination.data(), mesh_.elements(), eliminationSize_)),
       localInverse_(byElement(rest.tangents.localInverse.data(), mesh_.elements(), inverseSize_)),
-      factorRows_(3 * std::size_t(mesh_.nodes()), -1) {
+      factorRows_(3 * std::size_t(mesh_.nodes()), fillingRow()) {
   const std::vector<int>& order = rest.factor.plan().tree().order;
   std::vector<int> rowOfUnknown(order.size());
   for (std::size_t row = 0; row < order.size(); ++row) rowOfUnknown[order[row]] = static_cast<int>(row);

@@ -16,10 +16,11 @@ public:
   [[nodiscard]] const double* geometry(int element) const { return item(geometry_, element, geometrySize_); }
   [[nodiscard]] const double* elimination(int element) const { return item(elimination_, element, eliminationSize_); }
   [[nodiscard]] const double* localInverse(int element) const { return item(localInverse_, element, inverseSize_); }
-  /// Row of the factor of each component (3 node + direction); -1 where it is prescribed.
+  /// Row of the factor of each component (3 node + direction); the filling row where it is prescribed.
   [[nodiscard]] const std::vector<int>& factorRows() const { return factorRows_; }
-  /// Rows that a right side needs: one a free component, and one more that fills up the factor's blocks.
+  /// Rows that a right side needs: one a free component, and the last that fills up the factor's blocks, of zeros.
   [[nodiscard]] int rightSideRows() const { return mesh_.dof() + 1; }
+  [[nodiscard]] int fillingRow() const { return mesh_.dof(); }
   [[nodiscard]] BlockedFactor factor() const { return factor_.blocks(); }
 
 private:

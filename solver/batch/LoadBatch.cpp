@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace palp {
 
@@ -11,11 +10,6 @@ namespace {
 constexpr int largestElementDofs = 30;
 constexpr int supernodesACall = 16; // between looks at a stop request
 using ElementLanes = std::array<double, largestElementDofs * lanes>;
-
-/// Inline, where std::copy becomes a call.
-inline void copyLanes(const double* from, double* to) {
-  std::memcpy(to, from, lanes * sizeof(double));
-}
 
 std::size_t at(std::size_t row, int block) {
   return row * batchLanes + std::size_t(block) * lanes;
@@ -31,10 +25,14 @@ inline void prefetch(const Discretisation& mesh, int element, int block, const d
 
 } // namespace
 
-LoadBatch::LoadBatch(const ElementwiseTangent& model, const PointProbe& upper)
-    : model_(model), upper_(upper), u_(3 * std::size_t(model.mesh().nodes()) * batchLanes), r_(u_.size()),
-      x_(std::size_t(model.mesh().elements()) * model.mesh().unknowns() * batchLanes), local_(x_.size()),
-      solution_(std::size_t(model.rightSideRows()) * batchLanes) {}
+LoadBatch::LoadBatch(const ElementwiseTangent& model, const PointProbe& upper, const PointProbe& lower)
+    : model_(model), upper_(upper), lower_(lower), u_(3 * std::size_t(model.mesh().nodes()) * batchLanes),
+      r_(u_.size()), x_(std::size_t(model.mesh().elements()) * model.mesh().unknowns() * batchLanes), local_(x_.size()),
+      solution_(std::size_t(model.rightSideRows()) * batchLanes), probed_(model.mesh().elements()) {
+  for (const PointProbe* probe : {&upper_, &lower_})
+    for (const auto& holders : probe->holders())
+      for (const PointProbe::Holder& holder : holders) probed_[holder.element] = 1;
+}
 
 void LoadBatch::reset(int block) {
   const std::size_t own = std::size_t(model_.mesh().unknowns()) * lanes;
@@ -44,6 +42,7 @@ void LoadBatch::reset(int block) {
     std::fill_n(x_.data() + (e * blocks + block) * own, own, 0.);
   for (int lane = 0; lane < lanes; ++lane) forces_[block * lanes + lane].clear();
   atRest_[block] = true;
+  behind_[block] = false;
 }
 
 void LoadBatch::addPolynomials(int block, const std::vector<double>& displacements, const std::vector<double>& unknowns,
@@ -58,10 +57,10 @@ void LoadBatch::addPolynomials(int block, const std::vector<double>& displacemen
                            x_.data() + (std::size_t(e) * blocks + block) * own * lanes, lanes);
 }
 
+/// Residuals of the live blocks, whose unknowns catch up on the way: they stand in the cache here.
 void LoadBatch::evaluateResiduals(const std::array<bool, blocks>& live, const std::stop_token& stop) {
   const Discretisation& mesh = model_.mesh();
   const ElementKernels& kernels = mesh.kernels();
-  const int own = mesh.unknowns();
   std::fill(r_.begin(), r_.end(), 0.);
   for (int lane = 0; lane < batchLanes; ++lane)
     for (const auto& [shares, force_N] : forces_[lane])
@@ -72,85 +71,86 @@ void LoadBatch::evaluateResiduals(const std::array<bool, blocks>& live, const st
   alignas(64) std::array<std::array<double, 2 * lanes>, blocks> range;
   for (auto& r : range) r.fill(1);
   for (int e = 0; e < mesh.elements() && !stop.stop_requested(); ++e) {
+    const int* nodes = mesh.elementNodes(e);
     for (int b = 0; b < blocks; ++b) {
       if (!live[b]) continue;
       prefetch(mesh, e + 1, b, u_.data());
       prefetch(mesh, e + 1, b, r_.data());
-      const std::size_t own0 = (std::size_t(e) * blocks + b) * own * lanes;
+      const std::size_t own = ownStart(e, b);
       if (atRest_[b]) { // no forces, no volume change, and no rounding errors of either
-        std::fill_n(local_.data() + own0, own * lanes, 0.);
+        std::fill_n(local_.data() + own, mesh.unknowns() * lanes, 0.);
         continue;
       }
-      for (int n = 0; n < kernels.nodes; ++n)
-        for (int d = 0; d < 3; ++d)
-          copyLanes(u_.data() + at(3 * std::size_t(mesh.node(e, n)) + d, b), u.data() + (3 * n + d) * lanes);
-      kernels.residualOfLoads(model_.rubber(), {model_.geometry(e), u.data(), x_.data() + own0},
-                              {f.data(), local_.data() + own0, range[b].data()});
-      kernels.condenseLoads(model_.elimination(e), local_.data() + own0, f.data());
-      for (int n = 0; n < kernels.nodes; ++n)
-        for (int d = 0; d < 3; ++d) {
-          double* r = r_.data() + at(3 * std::size_t(mesh.node(e, n)) + d, b);
-          const double* p = f.data() + (3 * n + d) * lanes;
-          for (int lane = 0; lane < lanes; ++lane) r[lane] -= p[lane];
-        }
+      if (behind_[b] && !probed_[e]) updateUnknowns(e, b);
+      laneKernels().gather(u_.data() + b * lanes, nodes, kernels.nodes, u.data());
+      kernels.residualOfLoads(model_.rubber(), {model_.geometry(e), u.data(), x_.data() + own},
+                              {f.data(), local_.data() + own, range[b].data()});
+      kernels.condenseLoads(model_.elimination(e), local_.data() + own, f.data());
+      laneKernels().subtract(f.data(), nodes, kernels.nodes, r_.data() + b * lanes);
     }
   }
   for (int lane = 0; lane < batchLanes; ++lane) smallestJ_[lane] = range[lane / lanes][lane % lanes];
-  for (int b = 0; b < blocks; ++b) atRest_[b] = atRest_[b] && !live[b];
+  for (int b = 0; b < blocks; ++b) {
+    atRest_[b] = atRest_[b] && !live[b];
+    behind_[b] = behind_[b] && !live[b];
+  }
 }
 
-/// K0 du = r; u += du. Residuals go to single precision relative to their norm, and the directions back, which stand
-/// where the residuals stood; inactive lanes get none.
+/// K0 du = r; u += du. Residuals go to single precision relative to their norm, and the directions back; inactive lanes
+/// get none.
 void LoadBatch::solveDirections(const std::array<bool, batchLanes>& active, const std::stop_token& stop) {
   const std::vector<int>& rows = model_.factorRows();
+  const int filling = model_.fillingRow();
   std::array<double, batchLanes> squares{};
   for (std::size_t i = 0; i < rows.size(); ++i)
-    if (rows[i] >= 0)
+    if (rows[i] != filling)
       for (int lane = 0; lane < batchLanes; ++lane)
         squares[lane] += r_[i * batchLanes + lane] * r_[i * batchLanes + lane];
   std::array<double, batchLanes> inverse{};
+  unsigned live = 0;
   for (int lane = 0; lane < batchLanes; ++lane) {
     scale_[lane] = active[lane] && std::isfinite(squares[lane]) ? std::sqrt(squares[lane]) : 0;
     inverse[lane] = scale_[lane] > 0 ? 1 / scale_[lane] : 0;
+    if (scale_[lane] > 0) live |= 1U << unsigned(lane / lanes);
   }
   for (std::size_t i = 0; i < rows.size(); ++i)
-    if (rows[i] >= 0)
+    if (rows[i] != filling)
       for (int lane = 0; lane < batchLanes; ++lane) {
         const double r = inverse[lane] > 0 ? r_[i * batchLanes + lane] * inverse[lane] : 0;
         solution_[std::size_t(rows[i]) * batchLanes + lane] = static_cast<float>(r);
       }
+  std::fill_n(solution_.data() + std::size_t(filling) * batchLanes, batchLanes, 0.F);
   const BlockedFactor factor = model_.factor();
   for (int first = 0; first < factor.count && !stop.stop_requested(); first += supernodesACall)
-    laneKernels().forward(factor, first, std::min(factor.count, first + supernodesACall), solution_.data());
+    laneKernels().forward(factor, first, std::min(factor.count, first + supernodesACall), live, solution_.data());
   for (int last = factor.count; last > 0 && !stop.stop_requested(); last -= supernodesACall)
-    laneKernels().backward(factor, std::max(0, last - supernodesACall), last, solution_.data());
+    laneKernels().backward(factor, std::max(0, last - supernodesACall), last, live, solution_.data());
   for (std::size_t i = 0; i < rows.size(); ++i)
-    for (int lane = 0; lane < batchLanes; ++lane) {
-      const std::size_t k = i * batchLanes + lane;
-      r_[k] = rows[i] >= 0 ? scale_[lane] * double(solution_[std::size_t(rows[i]) * batchLanes + lane]) : 0;
-      u_[k] += r_[k];
-    }
+    if (rows[i] != filling)
+      for (int lane = 0; lane < batchLanes; ++lane)
+        u_[i * batchLanes + lane] += scale_[lane] * double(solution_[std::size_t(rows[i]) * batchLanes + lane]);
 }
 
-/// dx = -Kxx^-1 local - W du with the directions du just found.
-void LoadBatch::updateUnknowns(const std::array<bool, blocks>& live, const std::stop_token& stop) {
+/// dx = -Kxx^-1 local - W du with the directions du found last.
+void LoadBatch::updateUnknowns(int element, int block) {
   const Discretisation& mesh = model_.mesh();
   const ElementKernels& kernels = mesh.kernels();
-  const int own = mesh.unknowns();
+  const std::size_t own = ownStart(element, block);
   alignas(64) ElementLanes du, dx;
-  for (int e = 0; e < mesh.elements() && !stop.stop_requested(); ++e) {
-    for (int b = 0; b < blocks; ++b) {
-      if (!live[b]) continue;
-      prefetch(mesh, e + 1, b, r_.data());
-      for (int n = 0; n < kernels.nodes; ++n)
-        for (int d = 0; d < 3; ++d)
-          copyLanes(r_.data() + at(3 * std::size_t(mesh.node(e, n)) + d, b), du.data() + (3 * n + d) * lanes);
-      const std::size_t own0 = (std::size_t(e) * blocks + b) * own * lanes;
-      kernels.recoverLoads(model_.elimination(e), model_.localInverse(e), local_.data() + own0, du.data(), dx.data());
-      for (int i = 0; i < own * lanes; ++i)
-        if (scale_[b * lanes + i % lanes] > 0) x_[own0 + i] += dx[i];
-    }
-  }
+  const double* scale = scale_.data() + block * lanes;
+  laneKernels().gatherScaled(solution_.data() + block * lanes, model_.factorRows().data(), scale,
+                             mesh.elementNodes(element), kernels.nodes, du.data());
+  kernels.recoverLoads(model_.elimination(element), model_.localInverse(element), local_.data() + own, du.data(),
+                       dx.data());
+  for (int i = 0; i < mesh.unknowns() * lanes; ++i)
+    if (scale[i % lanes] > 0) x_[own + i] += dx[i];
+}
+
+void LoadBatch::catchUp(int block) {
+  if (!behind_[block]) return;
+  for (int e = 0; e < model_.mesh().elements(); ++e)
+    if (!probed_[e]) updateUnknowns(e, block);
+  behind_[block] = false;
 }
 
 LaneVector LoadBatch::displacementsAt(const PointProbe& probe) const {
@@ -191,10 +191,15 @@ void LoadBatch::iterate(const std::array<bool, batchLanes>& active, std::array<d
                         const std::stop_token& stop) {
   std::array<bool, blocks> live{};
   for (int lane = 0; lane < batchLanes; ++lane) live[lane / lanes] = live[lane / lanes] || active[lane];
+  for (int b = 0; b < blocks; ++b)
+    if (!live[b]) catchUp(b); // before other directions take the place of its own
   const LaneVector before = displacementsAt(upper_);
   evaluateResiduals(live, stop);
   solveDirections(active, stop);
-  updateUnknowns(live, stop);
+  for (int e = 0; e < model_.mesh().elements(); ++e)
+    for (int b = 0; b < blocks; ++b)
+      if (probed_[e] && live[b]) updateUnknowns(e, b);
+  for (int b = 0; b < blocks; ++b) behind_[b] = behind_[b] || live[b];
   const LaneVector after = displacementsAt(upper_);
   std::array<double, batchLanes> difference{}, norm{};
   for (std::size_t i = 0; i < after.size(); ++i) {
@@ -208,8 +213,8 @@ void LoadBatch::iterate(const std::array<bool, batchLanes>& active, std::array<d
   }
 }
 
-std::vector<ElectrodeDisplacements> LoadBatch::electrodes(int block, const PointProbe& lower) const {
-  const LaneVector up = displacementsAt(upper_), low = displacementsAt(lower), pressure = pressuresAt(upper_);
+std::vector<ElectrodeDisplacements> LoadBatch::electrodes(int block) const {
+  const LaneVector up = displacementsAt(upper_), low = displacementsAt(lower_), pressure = pressuresAt(upper_);
   const auto ofLane = [](const LaneVector& values, int lane) {
     return Eigen::Map<const Eigen::VectorXd, 0, Eigen::InnerStride<batchLanes>>(
         values.data() + lane, static_cast<Eigen::Index>(values.size() / batchLanes));

@@ -33,7 +33,7 @@ class LoadBatch {
 public:
   static constexpr int blocks = batchLanes / lanes;
 
-  LoadBatch(const ElementwiseTangent& model, const PointProbe& upper);
+  LoadBatch(const ElementwiseTangent& model, const PointProbe& upper, const PointProbe& lower);
 
   /// A block's lanes at rest, without loads.
   void reset(int block);
@@ -50,28 +50,38 @@ public:
                const std::stop_token& stop);
 
   /// What the electrodes of a block's lanes feel.
-  [[nodiscard]] std::vector<ElectrodeDisplacements> electrodes(int block, const PointProbe& lower) const;
+  [[nodiscard]] std::vector<ElectrodeDisplacements> electrodes(int block) const;
   [[nodiscard]] const LaneVector& displacements() const { return u_; } ///< [3 nodes][32]
-  /// The element's own unknown k.
+  /// The elements' unknowns of a block follow its last iteration: most have no reader before the next, and none at all
+  /// where that was the last.
+  void catchUp(int block);
+  /// Nothing more will be asked of a block before it is reset.
+  void retire(int block) { behind_[block] = false; }
+  /// The element's own unknown k; of a block that has caught up.
   [[nodiscard]] double unknown(int element, int k, int lane) const { return x_[unknownIndex(element, k, lane)]; }
 
 private:
   void evaluateResiduals(const std::array<bool, blocks>& live, const std::stop_token& stop);
   void solveDirections(const std::array<bool, batchLanes>& active, const std::stop_token& stop);
-  void updateUnknowns(const std::array<bool, blocks>& live, const std::stop_token& stop);
+  void updateUnknowns(int element, int block);
   [[nodiscard]] LaneVector displacementsAt(const PointProbe& probe) const; ///< [3 points][32]
   [[nodiscard]] LaneVector pressuresAt(const PointProbe& probe) const;     ///< [points][32], compression positive
   [[nodiscard]] std::size_t unknownIndex(int element, int k, int lane) const {
     return laneIndex(std::size_t(element) * batchLanes + lane, model_.mesh().unknowns(), k);
   }
+  /// Of an element's own unknowns in x_ and local_, for the lanes of a block.
+  [[nodiscard]] std::size_t ownStart(int element, int block) const {
+    return (std::size_t(element) * blocks + block) * model_.mesh().unknowns() * lanes;
+  }
 
   const ElementwiseTangent& model_;
-  const PointProbe& upper_;
+  const PointProbe &upper_, &lower_;
   std::array<std::vector<LaneForce>, batchLanes> forces_;
-  LaneVector u_, r_;            ///< [3 nodes][32]; r_ holds the directions after the substitutions
+  LaneVector u_, r_;            ///< [3 nodes][32]
   LaneVector x_, local_;        ///< [elements][blocks][unknowns][8]
-  std::vector<float> solution_; ///< [rows of the factor + 1][32]
-  std::array<bool, blocks> atRest_{};
+  std::vector<float> solution_; ///< [rows of the factor + 1][32]; directions over scale_ after the substitutions
+  std::vector<char> probed_;    ///< elements that an electrode looks at: their unknowns are always up to date
+  std::array<bool, blocks> atRest_{}, behind_{};
   std::array<double, batchLanes> scale_{};
   std::array<double, batchLanes> smallestJ_{};
 };

@@ -22,15 +22,22 @@ struct BlockedFactor {
 
 struct LaneKernels {
   /// Substitution through supernodes first .. last - 1 for x [rows + 1][batchLanes]: x becomes L^-1 x from the first
-  /// supernode to the last (forward), or L^-T x from the last to the first (backward).
-  void (*forward)(const BlockedFactor&, int first, int last, float* x);
-  void (*backward)(const BlockedFactor&, int first, int last, float* x);
+  /// supernode to the last (forward), or L^-T x from the last to the first (backward). Lanes whose block of 8 is not
+  /// live (bit b for lanes 8 b .. 8 b + 7) may be left out.
+  void (*forward)(const BlockedFactor&, int first, int last, unsigned live, float* x);
+  void (*backward)(const BlockedFactor&, int first, int last, unsigned live, float* x);
   /// The same for one right side x [rows + 1].
   void (*forwardOne)(const BlockedFactor&, int first, int last, double* x);
   void (*backwardOne)(const BlockedFactor&, int first, int last, double* x);
   /// out[row * stride + lane] += sum over t of coefficients[row][t] monomials[t][lane], 8 lanes.
   void (*addPolynomials)(const double* coefficients, int terms, const double* monomials, int rows, double* out,
                          int stride);
+  /// An element's part [3 count][8] of values [3 nodes of the mesh][batchLanes], for the 8 lanes that `values` begins
+  /// with, and the opposite: values -= the element's forces.
+  void (*gather)(const double* values, const int* nodes, int count, double* out);
+  void (*subtract)(const double* forces, const int* nodes, int count, double* values);
+  /// scale[lane] x[rows[component]][lane], at the same components, for 8 lanes of x [rows + 1][batchLanes].
+  void (*gatherScaled)(const float* x, const int* rows, const double* scale, const int* nodes, int count, double* out);
 };
 const LaneKernels& laneKernels();
 

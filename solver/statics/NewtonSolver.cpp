@@ -31,8 +31,8 @@ NewtonSolver::NewtonSolver(const Assembler& assembler, SparseCholesky& cholesky,
                            NewtonObserver observer)
     : assembler_(assembler), cholesky_(cholesky), options_(options), observer_(std::move(observer)) {}
 
-NewtonSolver& NewtonSolver::startingWith(const InitialTangent& rest) {
-  rest_ = &rest;
+NewtonSolver& NewtonSolver::startingWith(LentTangent rest) {
+  rest_ = std::move(rest);
   return *this;
 }
 
@@ -90,6 +90,7 @@ void NewtonSolver::evaluate(const Loading& loading, double fraction, const Eleme
 /// Tangent and residual of the state; what moves by prescription pushes the rest.
 NewtonSolver::Outcome NewtonSolver::newTangent(const Loading& loading, double fraction, const ElementState& state,
                                                const Eigen::VectorXd* prescribed) {
+  rest_.letGo();
   assembler_.tangent(state, ownTangents_, forces_, options_.threads, observer_.stop);
   if (stopped()) return Outcome::Cancelled;
   tangents_ = &ownTangents_;

@@ -3,6 +3,9 @@
 #include "solver/HyperelasticProblem.h"
 #include "solver/assembly/Assembler.h"
 
+#include <functional>
+#include <memory>
+
 namespace palp {
 
 struct InitialTangent;
@@ -31,6 +34,30 @@ struct NewtonResult {
   double smallestJ = 1, largestJ = 1;       ///< of the last equilibrium
 };
 
+/// The tangent at rest, which is lent to a solve: held, or let go while another takes its place and found again.
+class LentTangent {
+public:
+  using Find = std::function<std::shared_ptr<const InitialTangent>()>;
+  LentTangent() = default;
+  /// Without `findAgain` it is held all the time.
+  LentTangent(std::shared_ptr<const InitialTangent> held, Find findAgain)
+      : held_(std::move(held)), findAgain_(std::move(findAgain)) {}
+
+  /// Whether there is one, found again if need be.
+  explicit operator bool() {
+    if (!held_ && findAgain_) held_ = findAgain_();
+    return held_ != nullptr;
+  }
+  const InitialTangent* operator->() const { return held_.get(); }
+  void letGo() {
+    if (findAgain_) held_.reset();
+  }
+
+private:
+  std::shared_ptr<const InitialTangent> held_;
+  Find findAgain_;
+};
+
 /// Newton's method with load stepping and line search. A load step that fails (elements inside out, a tangent that is
 /// not positive definite, no convergence) is taken again with half its size. A factorisation is kept for the next
 /// iteration where that is sure to end it.
@@ -38,7 +65,7 @@ class NewtonSolver {
 public:
   NewtonSolver(const Assembler& assembler, SparseCholesky& cholesky, NewtonOptions options, NewtonObserver observer);
   /// Takes the tangent at rest from here instead of assembling it again.
-  NewtonSolver& startingWith(const InitialTangent& rest);
+  NewtonSolver& startingWith(LentTangent rest);
   [[nodiscard]] NewtonResult solve(const Loading& loading);
 
 private:
@@ -75,7 +102,7 @@ private:
   SparseCholesky& cholesky_;
   NewtonOptions options_;
   NewtonObserver observer_;
-  const InitialTangent* rest_ = nullptr;
+  LentTangent rest_;
   ElementTangents ownTangents_;
   const ElementTangents* tangents_ = nullptr; ///< of the factorisation in use
   const SparseCholesky* factor_ = nullptr;

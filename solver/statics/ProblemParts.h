@@ -30,6 +30,7 @@ struct HyperelasticProblem::Parts {
   [[nodiscard]] std::shared_ptr<const CholeskyPlan> plan() const;
   /// Empty: stopped.
   [[nodiscard]] std::shared_ptr<const InitialTangent> initialTangent(int threads, const std::stop_token& stop) const;
+  void keepInitialTangent(std::shared_ptr<const InitialTangent> tangent) const;
   /// Does not wait for a thread that makes it.
   void releaseInitialTangent() const;
   [[nodiscard]] const PointProbe& upperProbe() const;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <limits>
 
@@ -183,6 +184,37 @@ TEST(SensorDesign, FindsAllProblemsInTheOrderOfTheFile) {
   EXPECT_EQ(problems[0].key, "material.poisson_ratio");
   EXPECT_EQ(problems[1].key, "areas.rows");
   EXPECT_EQ(problems[2].key, "force_range_N.x");
+}
+
+/// The least distance that two electrodes must keep is 1e-6 mm, wherever they are and in whichever direction.
+TEST(SensorDesign, RefusesElectrodesAtOnePlaceWhereverThatIs) {
+  for (int step = 0; step < 64; ++step) { // through more than one of the cubes of 16e-6 mm in which they are looked for
+    const double x = 3 + 0.7e-6 * step;
+    for (const double away : {-0.9e-6, 0.9e-6, -1.1e-6, 1.1e-6}) {
+      SensorDesign design = paperDesign();
+      design.upper.along_mm[0][3] = x;
+      design.upper.along_mm[0][1] = x + away;
+      const std::vector<DesignFault> faults = check(design);
+      ASSERT_EQ(faults.size(), std::abs(away) < 1e-6 ? 1U : 0U) << x << ' ' << away;
+      for (const DesignFault& fault : faults) EXPECT_EQ(fault.key, "upper_layer.electrode_x_mm");
+    }
+  }
+}
+
+TEST(SensorDesign, NamesTheFirstTwoElectrodesAtOnePlaceOfTheLargestDesign) {
+  SensorDesign design = paperDesign();
+  std::vector<double> places;
+  for (int i = 0; i < 255; ++i) places.push_back(0.05 + 0.117 * i);
+  design.upper.wire_mm = design.lower.wire_mm = places;
+  design.upper.along_mm = design.lower.along_mm = {places};
+  EXPECT_TRUE(check(design).empty());
+  design.upper.along_mm.assign(255, places);
+  for (const int wire : {200, 101}) design.upper.along_mm[wire][9] = design.upper.along_mm[wire][5];
+  const std::vector<DesignFault> faults = check(design);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].sentence,
+            "duplicate electrode: electrode 9 of row-wire 101 is where electrode 5 of row-wire 101 is; "
+            "allowed is one electrode a place");
 }
 
 TEST(SensorDesign, SaysWhyEq1IsNotSquare) {

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 namespace palp {
 namespace {
 
@@ -20,6 +22,10 @@ struct Case {
   Tail tail;
   double ridge;
 };
+/// In the names of the tests.
+void PrintTo(const Case& one, std::ostream* out) {
+  *out << one.what;
+}
 
 class LeaveOneOutOf : public testing::TestWithParam<Case> {};
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <ostream>
 
 using namespace palp;
 using namespace palp::test;
@@ -18,6 +19,10 @@ bool onBoundary(const Eigen::Vector3d& x) {
 }
 
 enum class Shape { Tets, Hexes };
+/// In the names of the tests.
+void PrintTo(Shape shape, std::ostream* out) {
+  *out << (shape == Shape::Tets ? "tetrahedra" : "hexahedra");
+}
 Mesh distorted(Shape shape) {
   return shape == Shape::Tets ? cubeTets(2, 0.2) : cubeHexes(3, 0.2);
 }

@@ -211,6 +211,27 @@ TEST(Sensor, FindsAnewTheFactorThatItReleased) {
   EXPECT_EQ(before.newton.size(), after.newton.size());
 }
 
+// A gentle load is solved with the tangent at rest alone, the second takes tangents on the way, and the third fails in
+// one step and goes back to rest.
+TEST(Sensor, HoldsOneTangentAtATimeWhereItIsAskedToAndSolvesTheSame) {
+  const HyperelasticProblem problem = coarse();
+  for (const double down_N : {-0.01, -6., -150.}) {
+    const LoadCase load = onArea(0, 0, 0, down_N);
+    std::weak_ptr<const InitialTangent> rest = problem.parts().initialTangent(1, {});
+    const Solution two = problem.solve(load, {.threads = 1});
+    EXPECT_FALSE(rest.expired());
+    bool held = true;
+    const Solution one = problem.solve(load, {.threads = 1, .oneTangent = true},
+                                       {[&](const NewtonStep&) { held = !rest.expired(); }, {}});
+    EXPECT_EQ(held, down_N > -1) << down_N;
+    EXPECT_EQ(rest.expired(), !held) << "kept for the next solve where it was not let go";
+    EXPECT_EQ(one.converged, two.converged);
+    EXPECT_EQ(one.newton.size(), two.newton.size());
+    EXPECT_EQ(one.state().displacements_mm, two.state().displacements_mm);
+    EXPECT_EQ(one.state().elementUnknowns, two.state().elementUnknowns);
+  }
+}
+
 TEST(Sensor, AnswersForProbesWhileItFactorises) {
   // Another thread holds the factorisation for seconds: nobody who asks for something else may wait for it.
   const HyperelasticProblem problem(paperDesign(), sensorMesh(paperDesign(), {.meshSize_mm = 2, .mapped = {}}));

@@ -119,6 +119,7 @@ Exit run(const SolveArguments& arguments, Session& session) {
   Touch touch(design, load, arguments.mesh.options());
   NewtonOptions options;
   options.threads = session.threads;
+  options.oneTangent = true; // there is no next solve
   if (const auto accuracy = arguments.mesh.relativeAccuracy())
     touch.setMesh(session.stages.measure(
         "mesh", [&] { return meshForAccuracy(design, load, *accuracy, session.stop, session.threads); }));

@@ -134,7 +134,7 @@ void DesignPanel::display(const SensorDesign& design) {
     edit->setEnabled(design.pressureLaw.has_value());
   }
   say(*lawProblem_, {});
-  tellDerived(design);
+  showDerived(design);
   displaying_ = false;
 }
 
@@ -171,11 +171,11 @@ void DesignPanel::read(const QString& what) {
   say(*lawProblem_, lawSentence);
   if (!good) return;
   design_ = next;
-  tellDerived(next);
+  showDerived(next);
   emit edited(what, next);
 }
 
-void DesignPanel::tellDerived(const SensorDesign& design) {
+void DesignPanel::showDerived(const SensorDesign& design) {
   const Material& rubber = design.material;
   const double kappa = rubber.bulkModulus_MPa();
   QString words =

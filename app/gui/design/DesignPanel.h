@@ -35,7 +35,7 @@ private:
   void buildFields();
   void buildSwitches();
   void read(const QString& what);
-  void tellDerived(const SensorDesign& design);
+  void showDerived(const SensorDesign& design);
 
   SensorDesign design_;
   bool displaying_ = false;

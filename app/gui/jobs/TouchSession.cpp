@@ -91,7 +91,7 @@ void TouchSession::run() {
     std::shared_ptr<const NodalFields> fields;
     if (target > Stage::Mesh) {
       progress.set(-1, "Solving");
-      touch.advance(Stage::Solution, {},
+      touch.advance(Stage::Solution, {.oneTangent = true},
                     {[&](const NewtonStep& step) {
                        trace->add(step);
                        progress.set(step.loadFraction, "Newton at load fraction " +

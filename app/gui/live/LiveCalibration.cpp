@@ -69,7 +69,7 @@ LiveCalibration::LiveCalibration(LiveHost& host, QWidget* parent) : QWidget(pare
   row->addWidget(buildFit(), 3);
   connect(&runner_, &JobRunner::failed, this, [this](const QString& sentence) {
     report_->setText(sentence);
-    emit told(sentence);
+    emit message(sentence);
   });
   connect(&host_, &LiveHost::decoderChanged, this, [this] {
     const SensorDesign& sensor = host_.sensor();
@@ -164,7 +164,7 @@ QWidget* LiveCalibration::buildFit() {
   connect(fit_, &QPushButton::clicked, this, &LiveCalibration::fit);
   connect(use_, &QPushButton::clicked, this, [this] {
     host_.useDecoder(calibration_->decoder);
-    emit told(tr("Decoding with the refined network."));
+    emit message(tr("Decoding with the refined network."));
   });
   connect(saveNetwork_, &QPushButton::clicked, this, [this] {
     const QString file = QFileDialog::getSaveFileName(this, tr("Save network"), "better.json", tr("Networks (*.json)"));
@@ -177,7 +177,7 @@ void LiveCalibration::guarded(const std::function<void()>& act) {
   try {
     act();
   } catch (const std::exception& refusal) {
-    emit told(QString::fromStdString(refusal.what()));
+    emit message(QString::fromStdString(refusal.what()));
   }
   displayFrames();
 }
@@ -201,7 +201,7 @@ void LiveCalibration::collect() {
     return;
   }
   if (!host_.decoder()) {
-    emit told(tr("There is no network: it says of which design the frames are."));
+    emit message(tr("There is no network: it says of which design the frames are."));
     return;
   }
   guarded([&] {

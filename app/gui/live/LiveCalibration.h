@@ -30,7 +30,7 @@ public:
   [[nodiscard]] JobRunner& runner() { return runner_; }
 
 signals:
-  void told(const QString& sentence);
+  void message(const QString& sentence);
 
 private:
   QWidget* buildLabel();

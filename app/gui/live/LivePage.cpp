@@ -149,29 +149,29 @@ void LivePage::connectPanels() {
   connect(control_, &LiveControlPanel::pauseAsked, &host_, &LiveHost::setPaused);
   connect(control_, &LiveControlPanel::markAsked, this, [this](const QString& text) {
     host_.mark(text.toStdString());
-    if (!host_.status().recording) emit told(tr("Marked; nothing is being recorded."));
+    if (!host_.status().recording) emit message(tr("Marked; nothing is being recorded."));
   });
   connect(control_, &LiveControlPanel::recordAsked, this, &LivePage::record);
   connect(control_, &LiveControlPanel::stopRecordingAsked, &host_, &LiveHost::stopRecording);
   connect(control_, &LiveControlPanel::exportAsked, this, [this](const QString& file) {
     try {
       writeLiveCsv(file.toStdString(), host_.history());
-      emit told(tr("Wrote %1 frames to %2.").arg(host_.history().entries().size()).arg(file));
+      emit message(tr("Wrote %1 frames to %2.").arg(host_.history().entries().size()).arg(file));
     } catch (const std::exception& refusal) {
-      emit told(QString::fromStdString(refusal.what()));
+      emit message(QString::fromStdString(refusal.what()));
     }
   });
   connect(heatmap_, &HeatmapView::cellClicked, this, &LivePage::toggleCell);
-  connect(&host_, &LiveHost::problem, this, &LivePage::told);
+  connect(&host_, &LiveHost::problem, this, &LivePage::message);
   connect(&host_, &LiveHost::decoderChanged, this, &LivePage::displayProject);
-  connect(calibration_, &LiveCalibration::told, this, &LivePage::told);
+  connect(calibration_, &LiveCalibration::message, this, &LivePage::message);
   connect(twin_, &LiveTwin::solveAsked, this, &LivePage::solveTwin);
   connect(twin_, &LiveTwin::loadAsked, this, [this](const LoadCase& load) {
     Project next = workbench_.project();
     next.design = host_.sensor();
     next.load = load;
     workbench_.edit(tr("load of the live force"), next);
-    emit told(tr("The decoded force is the load of the Deformation scene now."));
+    emit message(tr("The decoded force is the load of the Deformation scene now."));
   });
 }
 
@@ -360,9 +360,9 @@ void LivePage::toggleCell(int row, int column) {
 void LivePage::record(const QString& file) {
   try {
     host_.startRecording(file.toStdString(), false);
-    emit told(tr("Recording to %1.").arg(file));
+    emit message(tr("Recording to %1.").arg(file));
   } catch (const std::exception& refusal) {
-    emit told(QString::fromStdString(refusal.what()));
+    emit message(QString::fromStdString(refusal.what()));
   }
   stateLook_ = 0;
 }
@@ -370,13 +370,13 @@ void LivePage::record(const QString& file) {
 void LivePage::solveTwin() {
   const LiveFrame* last = host_.history().lastValid();
   if (last == nullptr) {
-    emit told(tr("No force has been decoded yet."));
+    emit message(tr("No force has been decoded yet."));
     return;
   }
   LoadCase load;
   for (const LiveArrow& arrow : arrowsOf(last->forces)) load.areas.push_back({arrow.area, arrow.force_N});
   if (load.areas.empty()) {
-    emit told(tr("The sensor is at rest: press it, then ask for the twin."));
+    emit message(tr("The sensor is at rest: press it, then ask for the twin."));
     return;
   }
   blockTabs_->setCurrentWidget(twin_);

@@ -42,7 +42,7 @@ public:
   [[nodiscard]] int looks() const { return looks_; }
 
 signals:
-  void told(const QString& sentence);
+  void message(const QString& sentence);
 
 protected:
   void showEvent(QShowEvent* event) override;

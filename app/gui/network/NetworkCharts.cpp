@@ -30,6 +30,15 @@ ChartSpec againstSpread(const std::string& title, const std::string& yLabel) {
   return spec;
 }
 
+ChartSpec errorAgainstTime() {
+  ChartSpec spec;
+  spec.title = "Error against training time";
+  spec.xLabel = "training time [s]";
+  spec.yLabel = "mean of Fx, Fy, Fz, Eq. (13) [%]";
+  spec.logX = spec.logY = true;
+  return spec;
+}
+
 /// One curve a force of a quantity of the sweep.
 template <class Value>
 void addCurves(ChartSpec& spec, const std::vector<SweepPoint>& points, const std::string& words, Value value) {
@@ -93,11 +102,7 @@ ChartSpec sweepConditionChart(const std::vector<SweepPoint>& points) {
 }
 
 ChartSpec errorTimeChart(const std::vector<SweepPoint>& points) {
-  ChartSpec spec;
-  spec.title = "Error against training time";
-  spec.xLabel = "training time [s]";
-  spec.yLabel = "mean of Fx, Fy, Fz, Eq. (13) [%]";
-  spec.logX = spec.logY = true;
+  ChartSpec spec = errorAgainstTime();
   ChartSeries cloud = series("", Style::Points, 0);
   for (const SweepPoint& point : points) {
     cloud.x.push_back(point.report.seconds);
@@ -181,11 +186,7 @@ ChartSpec trialsErrorChart(const std::vector<DecoderTrial>& trials, const std::v
 }
 
 ChartSpec trialsTimeChart(const std::vector<DecoderTrial>& trials) {
-  ChartSpec spec;
-  spec.title = "Error against training time";
-  spec.xLabel = "training time [s]";
-  spec.yLabel = "mean of Fx, Fy, Fz, Eq. (13) [%]";
-  spec.logX = spec.logY = true;
+  ChartSpec spec = errorAgainstTime();
   std::size_t place = 0;
   for (const DecoderTrial& trial : trials) {
     if (!trial.refusal.isEmpty()) continue;

@@ -82,8 +82,8 @@ void NetworkPanel::buildSamples(QVBoxLayout& column) {
   samplesWords_->setMinimumHeight(2 * samplesWords_->fontMetrics().lineSpacing()); // what is below does not jump
   form->addRow(samplesWords_);
   column.addWidget(box);
-  connect(perArea_, &QSpinBox::valueChanged, this, [this] { tell(tr("Change the number of samples")); });
-  connect(seed_, &QSpinBox::valueChanged, this, [this] { tell(tr("Change the seed")); });
+  connect(perArea_, &QSpinBox::valueChanged, this, [this] { read(tr("Change the number of samples")); });
+  connect(seed_, &QSpinBox::valueChanged, this, [this] { read(tr("Change the seed")); });
   connect(generate_, &QPushButton::clicked, this, &NetworkPanel::generateAsked);
 }
 
@@ -110,8 +110,8 @@ void NetworkPanel::buildInput(QFormLayout& form) {
   rows_->setObjectName("rows");
   rows_->setToolTip(tr("Row-wires that are read, counted from 0: 4, or 1,4,7, or all"));
   form.addRow(tr("Row-wires"), rows_);
-  connect(input_, &QComboBox::currentIndexChanged, this, [this] { tell(tr("Change the network's input")); });
-  connect(rows_, &QLineEdit::editingFinished, this, [this] { tell(tr("Change the row-wires")); });
+  connect(input_, &QComboBox::currentIndexChanged, this, [this] { read(tr("Change the network's input")); });
+  connect(rows_, &QLineEdit::editingFinished, this, [this] { read(tr("Change the row-wires")); });
 }
 
 /// What it is, and the noise that it is trained with.
@@ -141,10 +141,10 @@ void NetworkPanel::buildNetwork(QFormLayout& form) {
   noise_->setKeyboardTracking(false);
   noise_->setToolTip(tr("Relative noise of each input that the network is trained with"));
   form.addRow(tr("Noise"), noise_);
-  connect(mode_, &QComboBox::currentIndexChanged, this, [this] { tell(tr("Change the network's mode")); });
-  connect(decoder_, &QComboBox::currentIndexChanged, this, [this] { tell(tr("Change the decoder")); });
-  connect(centers_, &QSpinBox::valueChanged, this, [this] { tell(tr("Change the centres")); });
-  connect(noise_, &QDoubleSpinBox::valueChanged, this, [this] { tell(tr("Change the noise")); });
+  connect(mode_, &QComboBox::currentIndexChanged, this, [this] { read(tr("Change the network's mode")); });
+  connect(decoder_, &QComboBox::currentIndexChanged, this, [this] { read(tr("Change the decoder")); });
+  connect(centers_, &QSpinBox::valueChanged, this, [this] { read(tr("Change the centres")); });
+  connect(noise_, &QDoubleSpinBox::valueChanged, this, [this] { read(tr("Change the noise")); });
 }
 
 void NetworkPanel::buildSpread(QFormLayout& form) {
@@ -160,8 +160,8 @@ void NetworkPanel::buildSpread(QFormLayout& form) {
   spreadSlider_->setObjectName("spreadSlider");
   spreadSlider_->setRange(0, kSpreadSteps);
   form.addRow(spreadSlider_);
-  connect(automatic_, &QCheckBox::toggled, this, [this] { tell(tr("Change the spread")); });
-  connect(spread_, &QDoubleSpinBox::valueChanged, this, [this] { tell(tr("Change the spread")); });
+  connect(automatic_, &QCheckBox::toggled, this, [this] { read(tr("Change the spread")); });
+  connect(spread_, &QDoubleSpinBox::valueChanged, this, [this] { read(tr("Change the spread")); });
   connect(spreadSlider_, &QSlider::valueChanged, this, [this](int step) {
     if (!displaying_) spread_->setValue(spreadAt(step));
   });
@@ -190,8 +190,8 @@ void NetworkPanel::buildSweep(QVBoxLayout& column) {
   form->addRow(compare_);
   column.addWidget(box);
   for (QDoubleSpinBox* spin : {from_, to_})
-    connect(spin, &QDoubleSpinBox::valueChanged, this, [this] { tell(tr("Change the sweep")); });
-  connect(count_, &QSpinBox::valueChanged, this, [this] { tell(tr("Change the sweep")); });
+    connect(spin, &QDoubleSpinBox::valueChanged, this, [this] { read(tr("Change the sweep")); });
+  connect(count_, &QSpinBox::valueChanged, this, [this] { read(tr("Change the sweep")); });
   connect(sweep_, &QPushButton::clicked, this, &NetworkPanel::sweepAsked);
   connect(compare_, &QPushButton::clicked, this, &NetworkPanel::compareAsked);
 }
@@ -236,7 +236,7 @@ void NetworkPanel::displaySamples(bool there, const QString& words, bool goOn) {
   }
 }
 
-void NetworkPanel::tell(const QString& what) {
+void NetworkPanel::read(const QString& what) {
   if (displaying_) return;
   samples_.perArea = perArea_->value();
   samples_.seed = static_cast<std::uint64_t>(seed_->value());

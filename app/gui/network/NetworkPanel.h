@@ -44,7 +44,7 @@ private:
   void buildNetwork(QFormLayout& form);
   void buildSpread(QFormLayout& form);
   void buildSweep(QVBoxLayout& column);
-  void tell(const QString& what);
+  void read(const QString& what);
   void showSpread();
 
   SampleSettings samples_;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "model/base/NamedEnum.h"
+
 #include <cstdint>
 #include <string>
 
@@ -12,10 +14,10 @@ enum class LiveSourceKind {
   Simulated,
   Recording
 };
-/// As in project files: automatic, board, simulated, recording.
-std::string name(LiveSourceKind kind);
-/// Throws Error for any other name.
-LiveSourceKind liveSourceKindNamed(const std::string& name);
+inline constexpr NamedEnum kLiveSourceKinds("source", std::array{std::pair{LiveSourceKind::Automatic, "automatic"},
+                                                                 std::pair{LiveSourceKind::Board, "board"},
+                                                                 std::pair{LiveSourceKind::Simulated, "simulated"},
+                                                                 std::pair{LiveSourceKind::Recording, "recording"}});
 
 /// What the virtual board adds to its resistances, and what is wrong with it.
 struct SimulationSettings {

@@ -1,7 +1,7 @@
 #include "app/gui/project/ProjectFile.h"
 
-#include "app/gui/project/ProjectPlace.h"
 #include "io/DesignFile.h"
+#include "io/StrictJson.h"
 #include "model/base/Error.h"
 
 #include <QFile>
@@ -14,11 +14,9 @@ namespace palp {
 
 namespace {
 
-using Place = ProjectPlace;
-
-constexpr int kVersion = 2; ///< 1 had no view
+constexpr int kVersion = 2; ///< 1 had no view, and perhaps no live
 constexpr const char* kVersionKey = "palp_project";
-const QStringList kResistanceKinds{"R", "dR", "dR/R"}; ///< in the enumeration's order
+constexpr int kLargestIndex = 10000; ///< of an area or a wire: more than any design has
 
 QJsonArray jsonOf(const Eigen::Ref<const Eigen::VectorXd>& values) {
   QJsonArray array;
@@ -37,17 +35,23 @@ QJsonObject loadJson(const LoadCase& load) {
   return {{"areas", areas}, {"patches", patches}};
 }
 
-LoadCase loadOf(const Place& place) {
+Eigen::Vector3d vectorOf(const JsonPlace& place) {
+  const std::vector<double> numbers = place.numbers(3);
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+LoadCase loadOf(const JsonPlace& place) {
   place.onlyKeys({"areas", "patches"});
   LoadCase load;
-  for (const Place& area : place.list("areas")) {
+  for (const JsonPlace& area : place.at("areas").list()) {
     area.onlyKeys({"area", "force_N"});
-    load.areas.push_back({area.integer("area", 0, 10000), area.numbers("force_N", 3)});
+    load.areas.push_back({area.at("area").integer(0, kLargestIndex), vectorOf(area.at("force_N"))});
   }
-  for (const Place& patch : place.list("patches")) {
+  for (const JsonPlace& patch : place.at("patches").list()) {
     patch.onlyKeys({"centre_mm", "radius_mm", "force_N"});
+    const std::vector<double> centre = patch.at("centre_mm").numbers(2);
     load.patches.push_back(
-        {patch.numbers("centre_mm", 2), patch.number("radius_mm", 0, 1e4), patch.numbers("force_N", 3)});
+        {{centre[0], centre[1]}, patch.at("radius_mm").number(0, 1e4), vectorOf(patch.at("force_N"))});
   }
   return load;
 }
@@ -59,17 +63,14 @@ QJsonObject meshJson(const MeshOptions& mesh) {
   return object;
 }
 
-MeshOptions meshOf(const Place& place) {
-  place.onlyKeys({"mesh_size_mm", "mapped"});
+MeshOptions meshOf(const JsonPlace& place) {
+  place.onlyKeys({}, {"mesh_size_mm", "mapped"});
   MeshOptions mesh;
-  if (place.has("mesh_size_mm")) mesh.meshSize_mm = place.number("mesh_size_mm", 0.01, 1000);
+  if (place.has("mesh_size_mm")) mesh.meshSize_mm = place.at("mesh_size_mm").number(0.01, 1000);
   if (place.has("mapped")) {
-    const Eigen::Vector3d given = place.numbers("mapped", 3);
-    const bool whole = given == given.array().floor().matrix();
-    if (!whole || !(given.minCoeff() >= 1 && given.maxCoeff() <= 1000))
-      place.refuse("mapped", "three whole numbers, 1 to 1000");
-    const Eigen::Vector3i counts = given.cast<int>();
-    mesh.mapped = {counts[0], counts[1], counts[2]};
+    const std::vector<JsonPlace> counts = place.at("mapped").list();
+    if (counts.size() != 3) place.at("mapped").refuse("three whole numbers, 1 to 1000");
+    mesh.mapped = {counts[0].integer(1, 1000), counts[1].integer(1, 1000), counts[2].integer(1, 1000)};
   }
   return mesh;
 }
@@ -88,23 +89,22 @@ QJsonObject networkJson(const NetworkSettings& network) {
           {"sweep_count", network.sweepCount}};
 }
 
-NetworkSettings networkOf(const Place& place) {
-  place.onlyKeys({"input", "mode", "decoder", "rows", "automatic_spread", "spread", "centers", "noise", "sweep_from",
-                  "sweep_to", "sweep_count"});
-  QStringList decoders;
-  for (const DecoderKind kind : allDecoderKinds()) decoders << QString::fromStdString(name(kind));
+NetworkSettings networkOf(const JsonPlace& place) {
+  place.onlyKeys({"input", "mode", "decoder", "rows", "automatic_spread", "spread", "noise", "sweep_from", "sweep_to",
+                  "sweep_count"},
+                 {"centers"});
   NetworkSettings network;
-  network.input = kInputKinds.value(place.word("input", {"displacement", "resistance"}).toStdString());
-  network.mode = kDecoderModes.value(place.word("mode", {"default", "paper"}).toStdString());
-  network.decoder = kDecoderKinds.value(place.word("decoder", decoders).toStdString());
-  network.rows = place.word("rows").toStdString();
-  network.automaticSpread = place.boolean("automatic_spread");
-  network.spread = place.number("spread", 1e-6, 1e6);
-  if (place.has("centers")) network.centers = place.integer("centers", 0, 100000);
-  network.noise = place.number("noise", 0, 1);
-  network.sweepFrom = place.number("sweep_from", 1e-6, 1e6);
-  network.sweepTo = place.number("sweep_to", network.sweepFrom, 1e6);
-  network.sweepCount = place.integer("sweep_count", 2, 100);
+  network.input = place.at("input").named(kInputKinds);
+  network.mode = place.at("mode").named(kDecoderModes);
+  network.decoder = place.at("decoder").named(kDecoderKinds);
+  network.rows = place.at("rows").string();
+  network.automaticSpread = place.at("automatic_spread").boolean();
+  network.spread = place.at("spread").number(1e-6, 1e6);
+  if (place.has("centers")) network.centers = place.at("centers").integer(0, 100000);
+  network.noise = place.at("noise").number(0, 1);
+  network.sweepFrom = place.at("sweep_from").number(1e-6, 1e6);
+  network.sweepTo = place.at("sweep_to").number(network.sweepFrom, 1e6);
+  network.sweepCount = place.at("sweep_count").integer(2, 100);
   return network;
 }
 
@@ -123,7 +123,7 @@ QJsonObject viewJson(const ViewSettings& view) {
                      {"line_to_mm", place(view.lineTo_mm)},
                      {"mesh", view.mesh},
                      {"resistance_noise", view.resistanceNoise},
-                     {"resistance", kResistanceKinds[static_cast<int>(view.resistance)]},
+                     {"resistance", QString::fromStdString(kResistanceKinds.name(view.resistance))},
                      {"cell", cell(view.cell)},
                      {"test_area", view.testArea}};
   if (view.warpFactor) object["warp_factor"] = *view.warpFactor;
@@ -134,55 +134,51 @@ QJsonObject viewJson(const ViewSettings& view) {
   return object;
 }
 
-std::array<int, 2> cellOf(const Place& place, const QString& key) {
-  const Eigen::VectorXd numbers = place.numbers(key, 2);
-  const bool whole = numbers == numbers.array().floor().matrix();
-  if (!whole || !(numbers.minCoeff() >= 0 && numbers.maxCoeff() < 10000))
-    place.refuse(key, "a row-wire and a column-wire, whole numbers from 0 on");
-  return {static_cast<int>(numbers[0]), static_cast<int>(numbers[1])};
+std::array<int, 2> cellOf(const JsonPlace& place) {
+  const std::vector<JsonPlace> cell = place.list();
+  if (cell.size() != 2) place.refuse("a row-wire and a column-wire, whole numbers from 0 on");
+  return {cell[0].integer(0, kLargestIndex), cell[1].integer(0, kLargestIndex)};
 }
 
-std::array<double, 3> placeOf(const Place& place, const QString& key) {
-  const Eigen::VectorXd numbers = place.numbers(key, 3);
+std::array<double, 3> placeOf(const JsonPlace& place) {
+  const std::vector<double> numbers = place.numbers(3);
   return {numbers[0], numbers[1], numbers[2]};
 }
 
-ViewSettings viewOf(const Place& place) {
-  place.onlyKeys({"scene", "quantity", "warp_factor", "clip_y_mm", "ghost", "electrodes", "arrows", "outlines", "edges",
-                  "lit_cell", "row_wire", "line_from_mm", "line_to_mm", "mesh", "resistance_noise", "resistance",
-                  "resistance_range", "cell", "test_area"});
+ViewSettings viewOf(const JsonPlace& place) {
+  place.onlyKeys({"scene", "quantity", "ghost", "electrodes", "arrows", "outlines", "edges", "row_wire", "line_from_mm",
+                  "line_to_mm", "mesh", "resistance_noise", "resistance", "cell", "test_area"},
+                 {"warp_factor", "clip_y_mm", "lit_cell", "resistance_range"});
   ViewSettings view;
-  view.scene = place.word("scene").toStdString();
-  QStringList quantities;
-  for (const Quantity quantity : allQuantities()) quantities << QString::fromStdString(quantityName(quantity));
-  view.quantity = allQuantities()[static_cast<std::size_t>(quantities.indexOf(place.word("quantity", quantities)))];
-  if (place.has("warp_factor")) view.warpFactor = place.number("warp_factor", 0, 1e6);
-  if (place.has("clip_y_mm")) view.clipY_mm = place.number("clip_y_mm", 0, 1e4);
-  view.ghost = place.boolean("ghost");
-  view.electrodes = place.boolean("electrodes");
-  view.arrows = place.boolean("arrows");
-  view.outlines = place.boolean("outlines");
-  view.edges = place.boolean("edges");
-  if (place.has("lit_cell")) view.litCell = cellOf(place, "lit_cell");
-  view.rowWire = place.integer("row_wire", 0, 10000);
-  view.lineFrom_mm = placeOf(place, "line_from_mm");
-  view.lineTo_mm = placeOf(place, "line_to_mm");
-  view.mesh = place.boolean("mesh");
-  view.resistanceNoise = place.number("resistance_noise", 1e-7, 0.1);
-  view.resistance = static_cast<ResistanceKind>(kResistanceKinds.indexOf(place.word("resistance", kResistanceKinds)));
+  view.scene = place.at("scene").string();
+  view.quantity = place.at("quantity").named(kQuantities);
+  if (place.has("warp_factor")) view.warpFactor = place.at("warp_factor").number(0, 1e6);
+  if (place.has("clip_y_mm")) view.clipY_mm = place.at("clip_y_mm").number(0, 1e4);
+  view.ghost = place.at("ghost").boolean();
+  view.electrodes = place.at("electrodes").boolean();
+  view.arrows = place.at("arrows").boolean();
+  view.outlines = place.at("outlines").boolean();
+  view.edges = place.at("edges").boolean();
+  if (place.has("lit_cell")) view.litCell = cellOf(place.at("lit_cell"));
+  view.rowWire = place.at("row_wire").integer(0, kLargestIndex);
+  view.lineFrom_mm = placeOf(place.at("line_from_mm"));
+  view.lineTo_mm = placeOf(place.at("line_to_mm"));
+  view.mesh = place.at("mesh").boolean();
+  view.resistanceNoise = place.at("resistance_noise").number(1e-7, 0.1);
+  view.resistance = place.at("resistance").named(kResistanceKinds);
   if (place.has("resistance_range")) {
-    const Eigen::VectorXd range = place.numbers("resistance_range", 2);
-    if (!(range[0] < range[1])) place.refuse("resistance_range", "two numbers, the smaller one first");
+    const std::vector<double> range = place.at("resistance_range").numbers(2);
+    if (!(range[0] < range[1])) place.at("resistance_range").refuse("two numbers, the smaller one first");
     view.resistanceRange = {range[0], range[1]};
   }
-  view.cell = cellOf(place, "cell");
-  view.testArea = place.integer("test_area", 0, 10000);
+  view.cell = cellOf(place.at("cell"));
+  view.testArea = place.at("test_area").integer(0, kLargestIndex);
   return view;
 }
 
 QJsonObject liveJson(const LiveSettings& live) {
   const SimulationSettings& simulation = live.simulation;
-  return {{"source", QString::fromStdString(name(live.source))},
+  return {{"source", QString::fromStdString(kLiveSourceKinds.name(live.source))},
           {"device", QString::fromStdString(live.device)},
           {"recording", QString::fromStdString(live.recording)},
           {"replay_speed", live.replaySpeed},
@@ -202,62 +198,51 @@ QJsonObject liveJson(const LiveSettings& live) {
                                      {"drop_every", simulation.dropEvery}}}};
 }
 
-LiveSettings liveOf(const Place& place) {
+LiveSettings liveOf(const JsonPlace& place) {
   place.onlyKeys({"source", "device", "recording", "replay_speed", "rate_Hz", "row", "network", "tare_frames",
                   "arrow_mm_per_N", "change_percent", "window_s", "simulation"});
   LiveSettings live;
-  live.source =
-      liveSourceKindNamed(place.word("source", {"automatic", "board", "simulated", "recording"}).toStdString());
-  live.device = place.word("device").toStdString();
-  live.recording = place.word("recording").toStdString();
-  live.replaySpeed = place.number("replay_speed", 0, 1000);
-  live.rate_Hz = place.integer("rate_Hz", 1, 8000);
-  live.row = place.integer("row", -1, 31);
-  live.network = place.word("network").toStdString();
-  live.tareFrames = place.integer("tare_frames", 1, 100000);
-  live.arrow_mm_per_N = place.number("arrow_mm_per_N", 0.1, 100);
-  live.change_percent = place.number("change_percent", 1e-4, 100);
-  live.window_s = place.number("window_s", 1, 60);
-  const Place simulation = place.at("simulation");
+  live.source = place.at("source").named(kLiveSourceKinds);
+  live.device = place.at("device").string();
+  live.recording = place.at("recording").string();
+  live.replaySpeed = place.at("replay_speed").number(0, 1000);
+  live.rate_Hz = place.at("rate_Hz").integer(1, 8000);
+  live.row = place.at("row").integer(-1, 31);
+  live.network = place.at("network").string();
+  live.tareFrames = place.at("tare_frames").integer(1, 100000);
+  live.arrow_mm_per_N = place.at("arrow_mm_per_N").number(0.1, 100);
+  live.change_percent = place.at("change_percent").number(1e-4, 100);
+  live.window_s = place.at("window_s").number(1, 60);
+  const JsonPlace simulation = place.at("simulation");
   simulation.onlyKeys({"noise", "warming_degC", "hysteresis_share", "seed", "open_row", "open_column", "drop_every"});
-  live.simulation.noise = simulation.number("noise", 0, 1);
-  live.simulation.warming_degC = simulation.number("warming_degC", 0, 100);
-  live.simulation.hysteresisShare = simulation.number("hysteresis_share", 0, 1);
-  live.simulation.seed = static_cast<std::uint64_t>(simulation.integer("seed", 0, 1000000000));
-  live.simulation.openRow = simulation.integer("open_row", -1, 31);
-  live.simulation.openColumn = simulation.integer("open_column", -1, 254);
-  live.simulation.dropEvery = simulation.integer("drop_every", 0, 100000);
+  live.simulation.noise = simulation.at("noise").number(0, 1);
+  live.simulation.warming_degC = simulation.at("warming_degC").number(0, 100);
+  live.simulation.hysteresisShare = simulation.at("hysteresis_share").number(0, 1);
+  live.simulation.seed = static_cast<std::uint64_t>(simulation.at("seed").integer(0, 1000000000));
+  live.simulation.openRow = simulation.at("open_row").integer(-1, 31);
+  live.simulation.openColumn = simulation.at("open_column").integer(-1, 254);
+  live.simulation.dropEvery = simulation.at("drop_every").integer(0, 100000);
   return live;
 }
 
-QJsonObject parse(const QByteArray& text, const QString& file) {
-  QJsonParseError broken;
-  const QJsonDocument document = QJsonDocument::fromJson(text, &broken);
-  if (broken.error != QJsonParseError::NoError)
-    throw Error((file + ": broken at byte " + QString::number(broken.offset) + " (" + broken.errorString() +
-                 "); allowed is a JSON file of a design or a project")
-                    .toStdString());
-  if (!document.isObject())
-    throw Error((file + ": no JSON object; allowed is a design or a project file").toStdString());
-  return document.object();
+void requireBuildable(const SensorDesign& design, const std::string& where) {
+  const std::vector<DesignFault> faults = check(design);
+  if (!faults.empty()) throw Error(where + faults[0].key + ": " + faults[0].sentence);
 }
 
-Project projectOf(const Place& root, const QString& file) {
-  root.onlyKeys({kVersionKey, "design", "load", "mesh", "samples", "network", "view", "live"});
-  const int version = root.integer(kVersionKey, 1, 1000000);
-  if (version > kVersion) root.refuse(kVersionKey, QString("up to %1: the file is from a newer Palp").arg(kVersion));
+Project projectOf(const JsonPlace& root, const std::string& file) {
+  const int version = formatVersion(root, kVersionKey, kVersion); // first: a newer file may well have other keys
+  root.onlyKeys({kVersionKey, "design", "load", "mesh", "samples", "network"}, {"view", "live"});
   Project project;
-  const QByteArray design = QJsonDocument(root.at("design").object()).toJson();
-  project.design = parseDesign(design.toStdString(), (file + ": design").toStdString());
-  requireValid(project.design);
+  project.design = readDesign(root.at("design"));
+  requireBuildable(project.design, file + ": design.");
   project.load = loadOf(root.at("load"));
-  if (const auto wrong = whyInvalid(project.load, project.design))
-    throw Error((file + ": load: " + QString::fromStdString(*wrong)).toStdString());
+  if (const auto wrong = whyInvalid(project.load, project.design)) throw Error(file + ": load: " + *wrong);
   project.mesh = meshOf(root.at("mesh"));
-  const Place samples = root.at("samples");
+  const JsonPlace samples = root.at("samples");
   samples.onlyKeys({"per_area", "seed"});
-  project.samples.perArea = samples.integer("per_area", 5, 100000);
-  project.samples.seed = static_cast<std::uint64_t>(samples.integer("seed", 0, 1000000000));
+  project.samples.perArea = samples.at("per_area").integer(5, 100000);
+  project.samples.seed = static_cast<std::uint64_t>(samples.at("seed").integer(0, 1000000000));
   project.network = networkOf(root.at("network"));
   if (version >= 2) project.view = viewOf(root.at("view"));
   if (root.has("live")) project.live = liveOf(root.at("live")); // not in the files of the first version
@@ -289,12 +274,16 @@ void saveProject(const std::filesystem::path& path, const Project& project) {
 }
 
 Project parseProject(const QByteArray& text, const QString& file, const Project& base) {
-  const QJsonObject root = parse(text, file);
-  if (root.contains(kVersionKey)) return projectOf(Place(root, file), file);
+  const std::string name = file.toStdString();
+  const Json json = parseJson({text.data(), static_cast<std::size_t>(text.size())}, name);
+  const JsonPlace root(json, name);
+  if (root.has(kVersionKey)) return projectOf(root, name);
+  if (!root.has("palp_design"))
+    throw Error(name +
+                ": neither palp_project nor palp_design is among its keys; allowed is a design or a project file");
   Project project = base;
-  project.design = parseDesign({text.data(), static_cast<std::size_t>(text.size())}, file.toStdString());
-  const std::vector<DesignFault> faults = check(project.design);
-  if (!faults.empty()) throw Error(file.toStdString() + ": " + faults[0].key + ": " + faults[0].sentence);
+  project.design = readDesign(root);
+  requireBuildable(project.design, name + ": ");
   if (whyInvalid(project.load, project.design)) project.load = {{{0, {0, 0, -1}}}, {}};
   return project;
 }

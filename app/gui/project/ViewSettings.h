@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/scenes/block/DeformationScene.h"
+#include "model/base/NamedEnum.h"
 
 #include <array>
 #include <optional>
@@ -10,6 +11,10 @@ namespace palp {
 
 /// What the heatmap shows of the resistances.
 enum class ResistanceKind { Resistance, Change, RelativeChange };
+inline constexpr NamedEnum kResistanceKinds("resistance",
+                                            std::array{std::pair{ResistanceKind::Resistance, "R"},
+                                                       std::pair{ResistanceKind::Change, "dR"},
+                                                       std::pair{ResistanceKind::RelativeChange, "dR/R"}});
 
 /// How the scenes show what was computed.
 struct ViewSettings {

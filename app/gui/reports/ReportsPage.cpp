@@ -101,7 +101,7 @@ ReportsPage::ReportsPage(Workbench& workbench, QWidget* parent)
   connect(pictures_, &QListWidget::currentTextChanged, picture_,
           [this](const QString& file) { picture_->show(QPixmap(QDir(folder_).filePath(file))); });
   timer_.setInterval(500);
-  connect(&timer_, &QTimer::timeout, this, &ReportsPage::tellTime);
+  connect(&timer_, &QTimer::timeout, this, &ReportsPage::showTime);
 }
 
 ReportsPage::~ReportsPage() {
@@ -301,7 +301,7 @@ void ReportsPage::showPictures() {
   if (pictures_->count() > 0) pictures_->setCurrentRow(0);
 }
 
-void ReportsPage::tellTime() {
+void ReportsPage::showTime() {
   const qint64 spent_s = clock_.elapsed() / 1000;
   QString words = tr("Running for %1 s; the window stays free.").arg(spent_s);
   const double share = bar_->maximum() > 0 ? static_cast<double>(bar_->value()) / bar_->maximum() : 0;

@@ -52,7 +52,7 @@ private:
   void ended();
   void showPictures();
   [[nodiscard]] QStringList filesOfThisRun(const QString& pattern) const;
-  void tellTime();
+  void showTime();
 
   Workbench& workbench_;
   QString program_;

@@ -276,7 +276,7 @@ void DeformationPage::addLineEnd(int node) {
   if (lineStart_ < 0) {
     lineStart_ = node;
     block_->markNode(node);
-    emit told(tr("Now click on the other end of the line."));
+    emit message(tr("Now click on the other end of the line."));
     return;
   }
   const Eigen::Matrix3Xd& nodes = workbench_.touch().touch().mesh()->nodes_mm;

@@ -31,7 +31,7 @@ public:
   [[nodiscard]] QString commands(const Project& project, const QString& designFile) const override;
 
 signals:
-  void told(const QString& sentence);
+  void message(const QString& sentence);
 
 protected:
   void showEvent(QShowEvent* event) override;

@@ -18,6 +18,7 @@ namespace palp {
 namespace {
 
 constexpr double kLegendLine_px = 32; // of a legend's entry beside its name
+constexpr double kBeyond = 10;        // heights of the plot by which a curve leaves it at most
 
 QColor ink(const Color& color) {
   return QColor::fromRgbF(static_cast<float>(color[0]), static_cast<float>(color[1]), static_cast<float>(color[2]));
@@ -128,35 +129,38 @@ void StripChart::paintCurves(QPainter& painter, const QRectF& plot) const {
   painter.save();
   painter.setClipRect(plot.adjusted(0, -1, 0, 1));
   painter.setRenderHint(QPainter::Antialiasing);
-  QPolygonF curve;
+  // Lines, and no polyline: its stroke is one path, and a frame of a noisy signal took Qt's painter seconds to fill it.
+  QList<QLineF> lines;
   for (const StripSeries& series : spec_.series) {
     painter.setPen(QPen(ink(seriesColor(series.color, theme_)), 1.6));
-    double column = -1; // of pixels; -1: none
-    const auto flush = [&] {
-      if (curve.size() > 1) painter.drawPolyline(curve);
-      curve.clear();
-      column = -1;
+    double column = -1; // of pixels; -1: the curve begins
+    QPointF last;
+    const auto lineTo = [&](const QPointF& point) {
+      if (column >= 0) lines << QLineF(last, point);
+      last = point;
     };
     double least = 0, most = 0; // of the pixels' column, so that no peak is lost
     for (std::size_t k = 0; k < series.t_s.size(); ++k) {
       const double x = xOf(plot, series.t_s[k]);
       if (x < plot.left() - 5) continue;
       if (!std::isfinite(series.y[k])) {
-        flush();
+        column = -1;
         continue;
       }
-      const double y = yOf(plot, series.y[k]);
+      const double y = std::clamp(yOf(plot, series.y[k]), plot.top() - kBeyond * plot.height(),
+                                  plot.bottom() + kBeyond * plot.height());
       if (std::floor(x) == column) {
-        if (y < least || y > most) curve << QPointF(x, y);
+        if (y < least || y > most) lineTo({x, y});
         least = std::min(least, y);
         most = std::max(most, y);
         continue;
       }
+      lineTo({x, y});
       column = std::floor(x);
       least = most = y;
-      curve << QPointF(x, y);
     }
-    flush();
+    painter.drawLines(lines);
+    lines.clear();
   }
   painter.setPen(QPen(ink(palp::palette(theme_).selection), 1, Qt::DashLine));
   for (const auto& [t_s, words] : spec_.marks) {

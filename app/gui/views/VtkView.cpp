@@ -102,7 +102,7 @@ void VtkView::resizeEvent(QResizeEvent* event) {
   PictureView::resizeEvent(event);
 }
 
-void VtkView::tellPlace(const QPointF& place, Qt::KeyboardModifiers modifiers) {
+void VtkView::passPlace(const QPointF& place, Qt::KeyboardModifiers modifiers) {
   const QPointF device = devicePlace(place);
   vtk_->interactor->SetEventInformation(
       static_cast<int>(std::lround(device.x())), static_cast<int>(std::lround(device.y())),
@@ -121,7 +121,7 @@ void VtkView::mousePressEvent(QMouseEvent* event) {
   PictureView::mousePressEvent(event);
   grabbed_ = event->button() == Qt::LeftButton && grab(event->position());
   if (grabbed_) return;
-  tellPlace(event->position(), event->modifiers());
+  passPlace(event->position(), event->modifiers());
   vtk_->invoke(pressEvent(event->button()));
 }
 
@@ -131,7 +131,7 @@ void VtkView::mouseReleaseEvent(QMouseEvent* event) {
     drop();
     return;
   }
-  tellPlace(event->position(), event->modifiers());
+  passPlace(event->position(), event->modifiers());
   vtk_->invoke(releaseEvent(event->button()));
   PictureView::mouseReleaseEvent(event);
 }
@@ -141,13 +141,13 @@ void VtkView::mouseMoveEvent(QMouseEvent* event) {
     dragTo(event->position(), event->modifiers());
     return;
   }
-  tellPlace(event->position(), event->modifiers());
+  passPlace(event->position(), event->modifiers());
   vtk_->invoke(vtkCommand::MouseMoveEvent);
   PictureView::mouseMoveEvent(event);
 }
 
 void VtkView::wheelEvent(QWheelEvent* event) {
-  tellPlace(event->position(), event->modifiers());
+  passPlace(event->position(), event->modifiers());
   wheel_ += event->angleDelta().y();
   for (; wheel_ >= kWheelStep; wheel_ -= kWheelStep) vtk_->invoke(vtkCommand::MouseWheelForwardEvent);
   for (; wheel_ <= -kWheelStep; wheel_ += kWheelStep) vtk_->invoke(vtkCommand::MouseWheelBackwardEvent);

@@ -34,7 +34,7 @@ protected:
   void leaveEvent(QEvent* event) override;
 
 private:
-  void tellPlace(const QPointF& place, Qt::KeyboardModifiers modifiers);
+  void passPlace(const QPointF& place, Qt::KeyboardModifiers modifiers);
 
   struct Vtk;
   std::unique_ptr<Vtk> vtk_;

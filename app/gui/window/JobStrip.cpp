@@ -47,9 +47,9 @@ JobStrip::JobStrip(JobRunner& runner, QWidget* parent) : QWidget(parent) {
   connect(&runner, &JobRunner::finished, this, [this, &runner](bool cancelled) {
     wait_.stop();
     hide();
-    if (cancelled) emit told(tr("%1: cancelled; the last good result stays.").arg(runner.title()));
+    if (cancelled) emit message(tr("%1: cancelled; the last good result stays.").arg(runner.title()));
   });
-  connect(&runner, &JobRunner::failed, this, &JobStrip::told);
+  connect(&runner, &JobRunner::failed, this, &JobStrip::message);
 }
 
 } // namespace palp

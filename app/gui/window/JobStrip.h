@@ -21,7 +21,7 @@ public:
 
 signals:
   /// A sentence for the status line.
-  void told(const QString& sentence);
+  void message(const QString& sentence);
 
 private:
   QLabel* words_ = nullptr;

@@ -55,16 +55,16 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   connect(designPage, &DesignPage::stageChanged, this, [this] { workbench_.touch().need(currentScene().stage()); });
   addScene("design", tr("Design"), tr("The sensor at rest and all its parameters"), designPage);
   deformation_ = new DeformationPage(workbench);
-  connect(deformation_, &DeformationPage::told, this, &MainWindow::tell);
+  connect(deformation_, &DeformationPage::message, this, &MainWindow::showMessage);
   animation_ = new LoadPathAnimation(workbench.touch(), deformation_->block(), this);
-  connect(animation_, &LoadPathAnimation::done, this, &MainWindow::tell);
+  connect(animation_, &LoadPathAnimation::done, this, &MainWindow::showMessage);
   addScene("deformation", tr("Deformation"), tr("The block under load"), deformation_);
   addScene("resistance", tr("Resistance"), tr("Row-column resistances under the load"), new ResistancePage(workbench));
   auto* networkPage = new NetworkPage(workbench, network);
-  connect(networkPage, &NetworkPage::refused, this, &MainWindow::tell);
+  connect(networkPage, &NetworkPage::refused, this, &MainWindow::showMessage);
   addScene("network", tr("Network"), tr("Samples, training and the sweep of the spread"), networkPage);
   auto* livePage = new LivePage(workbench);
-  connect(livePage, &LivePage::told, this, &MainWindow::tell);
+  connect(livePage, &LivePage::message, this, &MainWindow::showMessage);
   addScene("live", tr("Live"), tr("A board, the simulated board or a recording, live"), livePage);
   addScene("reports", tr("Reports"), tr("The paper reproduced, and the reports"), new ReportsPage(workbench));
   buildStatusLine();
@@ -90,7 +90,7 @@ void MainWindow::buildStatusLine() {
     for (JobRunner* runner : static_cast<Scene*>(scenes_->widget(k))->runners()) runners_.push_back(runner);
   for (JobRunner* runner : runners_) {
     auto* strip = new JobStrip(*runner);
-    connect(strip, &JobStrip::told, this, &MainWindow::tell);
+    connect(strip, &JobStrip::message, this, &MainWindow::showMessage);
     statusBar()->addPermanentWidget(strip);
   }
 }
@@ -142,10 +142,10 @@ void MainWindow::animate(const QString& folder) {
   settings.options.scale = 1;
   settings.folder = folder.toStdString();
   if (!animation_->start(settings))
-    tell(tr("There is no load path yet; wait until the Deformation scene has solved the load."));
+    showMessage(tr("There is no load path yet; wait until the Deformation scene has solved the load."));
 }
 
-void MainWindow::tell(const QString& sentence) {
+void MainWindow::showMessage(const QString& sentence) {
   statusBar()->showMessage(sentence, kMessage_ms);
 }
 

@@ -36,7 +36,7 @@ public:
   /// Draws the load path into a folder; says why where it cannot.
   void animate(const QString& folder);
   /// Says a sentence in the status line.
-  void tell(const QString& sentence);
+  void showMessage(const QString& sentence);
 
 protected:
   void showEvent(QShowEvent* event) override;

@@ -76,7 +76,8 @@ void Menus::buildFile() {
 void Menus::buildExport(QMenu& menu) {
   add(menu, tr("Export &VTU..."), tr("Mesh and fields of what is shown, for ParaView"), {}, [this] {
     if (workbench_.touch().fields() == nullptr) {
-      window_.tell(tr("There is no solution to export yet; wait until it is computed on the Deformation scene."));
+      window_.showMessage(
+          tr("There is no solution to export yet; wait until it is computed on the Deformation scene."));
       return;
     }
     exportTo(tr("Export VTU"), "deformed.vtu", tr("VTK files (*.vtu)"), [this](const QString& file) {
@@ -85,7 +86,7 @@ void Menus::buildExport(QMenu& menu) {
   });
   add(menu, tr("Export &CSV..."), tr("Electrode displacements and resistances of what is shown"), {}, [this] {
     if (workbench_.touch().electrodes() == nullptr) {
-      window_.tell(tr("There are no displacements to export yet; wait until they are computed."));
+      window_.showMessage(tr("There are no displacements to export yet; wait until they are computed."));
       return;
     }
     exportTo(tr("Export CSV"), "touch.csv", tr("Tables (*.csv)"), [this](const QString& file) {
@@ -107,11 +108,11 @@ void Menus::buildExport(QMenu& menu) {
       QKeySequence("Ctrl+Shift+C"), [this] {
         const QString commands = window_.currentScene().commands(workbench_.project(), "sensor.json");
         if (commands.isEmpty()) {
-          window_.tell(tr("This scene has no command of its own."));
+          window_.showMessage(tr("This scene has no command of its own."));
           return;
         }
         QApplication::clipboard()->setText(commands);
-        window_.tell(tr("Copied: %1   (sensor.json: File, Save design)").arg(commands.section('\n', 0, 0)));
+        window_.showMessage(tr("Copied: %1   (sensor.json: File, Save design)").arg(commands.section('\n', 0, 0)));
       });
 }
 
@@ -177,7 +178,7 @@ void Menus::open(const QString& file) {
     window_.showScene(QString::fromStdString(project.view.scene));
     rememberFile(file);
     file_.clear();
-    window_.tell(tr("Opened %1.").arg(file));
+    window_.showMessage(tr("Opened %1.").arg(file));
   } catch (const std::exception& error) {
     QMessageBox::warning(&window_, tr("Cannot open"),
                          tr("%1\n\nWhat was open stays as it is.").arg(QString::fromStdString(error.what())));
@@ -195,7 +196,7 @@ void Menus::save(const QString& file) {
     saveProject(chosen.toStdString(), project);
     file_ = chosen;
     rememberFile(chosen);
-    window_.tell(tr("Saved %1.").arg(chosen));
+    window_.showMessage(tr("Saved %1.").arg(chosen));
   } catch (const Error& error) {
     QMessageBox::warning(&window_, tr("Cannot save"), QString::fromStdString(error.what()));
   }
@@ -224,7 +225,7 @@ void Menus::exportTo(const QString& title, const QString& proposal, const QStrin
   if (file.isEmpty()) return;
   try {
     write(file);
-    window_.tell(tr("Wrote %1.").arg(file));
+    window_.showMessage(tr("Wrote %1.").arg(file));
   } catch (const Error& error) {
     QMessageBox::warning(&window_, title, QString::fromStdString(error.what()));
   }

@@ -108,6 +108,7 @@ void BlockActors::show(const Mesh& mesh, const Eigen::Matrix3Xd& drawnDisplaceme
   surfaceActor_->GetProperty()->SetColor(rest[0], rest[1], rest[2]);
   surfaceActor_->GetProperty()->SetOpacity(options.electrodes ? (values.empty() ? 0.35 : options.opacity) : 1);
 
+  clipY_mm_ = options.clipY_mm;
   surfaceMapper_->RemoveAllClippingPlanes();
   if (options.clipY_mm) {
     plane_->SetOrigin(0, *options.clipY_mm, 0);
@@ -135,10 +136,13 @@ void BlockActors::show(const Mesh& mesh, const Eigen::Matrix3Xd& drawnDisplaceme
   selected_.setLook(ink.force, 3.5 * options.scale);
 }
 
-std::vector<Eigen::Vector3d> BlockActors::areaLabels_mm() const {
-  std::vector<Eigen::Vector3d> places;
-  for (const TopPoint& label : areaLabels_) places.push_back(label.of(drawn_mm_));
-  return places;
+std::vector<BlockActors::AreaLabel> BlockActors::areaLabels() const {
+  std::vector<AreaLabel> labels;
+  for (std::size_t area = 0; area < areaLabels_.size(); ++area) {
+    const Eigen::Vector3d place = areaLabels_[area].of(drawn_mm_);
+    if (!clipY_mm_ || place.y() >= *clipY_mm_) labels.push_back({static_cast<int>(area), place});
+  }
+  return labels;
 }
 
 int BlockActors::nearestNode(const Eigen::Vector3d& drawn_mm) const {

@@ -10,6 +10,7 @@
 #include <vtkPlane.h>
 #include <vtkSmartPointer.h>
 
+#include <optional>
 #include <vector>
 
 class vtkPolyData;
@@ -31,8 +32,12 @@ public:
   [[nodiscard]] int nearestNode(const Eigen::Vector3d& drawn_mm) const;
   [[nodiscard]] Eigen::Vector3d drawnPlace_mm(int node) const;
 
-  /// Where the number of each load area is written.
-  [[nodiscard]] std::vector<Eigen::Vector3d> areaLabels_mm() const;
+  struct AreaLabel {
+    int area = 0;
+    Eigen::Vector3d place_mm = Eigen::Vector3d::Zero();
+  };
+  /// Where the numbers of the load areas are written; none where the block is cut away.
+  [[nodiscard]] std::vector<AreaLabel> areaLabels() const;
 
 private:
   vtkSmartPointer<vtkPolyData> surfaceData_;
@@ -47,7 +52,8 @@ private:
   MeshSurface surface_;
   std::vector<std::vector<TopPoint>> areaBorders_;
   std::vector<TopPoint> areaLabels_;
-  Eigen::Matrix3Xd drawn_mm_; ///< places of the mesh's nodes
+  Eigen::Matrix3Xd drawn_mm_;      ///< places of the mesh's nodes
+  std::optional<double> clipY_mm_; ///< as drawn
 };
 
 } // namespace palp

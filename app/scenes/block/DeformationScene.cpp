@@ -104,9 +104,8 @@ struct DeformationScene::Parts {
     forces.showToScale(placed, mmPerN, forceColor);
     overlay->words = forces.words();
     if (!areaNumbers) return;
-    const std::vector<Eigen::Vector3d> places = block.areaLabels_mm();
-    for (std::size_t area = 0; area < places.size(); ++area)
-      overlay->words.push_back({places[area], std::to_string(area), textColor});
+    for (const BlockActors::AreaLabel& label : block.areaLabels())
+      overlay->words.push_back({label.place_mm, std::to_string(label.area), textColor});
   }
   void showLine(const DeformationOptions& options, const Color& color) {
     line.setVisible(options.line_mm.has_value());

@@ -1,40 +1,34 @@
 #include "app/scenes/block/Quantity.h"
 
-#include <array>
-
 namespace palp {
 
-namespace {
-
-struct Label {
-  const char* name;
-  const char* unit;
-};
-
-/// In the enumeration's order.
-constexpr std::array<Label, 7> kLabels{{{"|u|", "mm"},
-                                        {"ux", "mm"},
-                                        {"uy", "mm"},
-                                        {"uz", "mm"},
-                                        {"pressure", "MPa"},
-                                        {"J - 1", ""},
-                                        {"von Mises stress", "MPa"}}};
-
-} // namespace
-
 const std::vector<Quantity>& allQuantities() {
-  static const std::vector<Quantity> all{Quantity::Displacement,  Quantity::DisplacementX, Quantity::DisplacementY,
-                                         Quantity::DisplacementZ, Quantity::Pressure,      Quantity::VolumeChange,
-                                         Quantity::VonMises};
+  static const std::vector<Quantity> all = [] {
+    std::vector<Quantity> quantities;
+    for (const auto& [quantity, name] : kQuantities.all()) quantities.push_back(quantity);
+    return quantities;
+  }();
   return all;
 }
 
 std::string quantityName(Quantity quantity) {
-  return kLabels[static_cast<std::size_t>(quantity)].name;
+  return kQuantities.name(quantity);
 }
 
 std::string quantityUnit(Quantity quantity) {
-  return kLabels[static_cast<std::size_t>(quantity)].unit;
+  switch (quantity) {
+  case Quantity::Displacement:
+  case Quantity::DisplacementX:
+  case Quantity::DisplacementY:
+  case Quantity::DisplacementZ:
+    return "mm";
+  case Quantity::Pressure:
+  case Quantity::VonMises:
+    return "MPa";
+  case Quantity::VolumeChange:
+    return "";
+  }
+  return "";
 }
 
 } // namespace palp

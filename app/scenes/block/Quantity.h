@@ -1,5 +1,7 @@
 #pragma once
 
+#include "model/base/NamedEnum.h"
+
 #include <string>
 #include <vector>
 
@@ -7,6 +9,12 @@ namespace palp {
 
 /// What the block's surface is coloured by.
 enum class Quantity { Displacement, DisplacementX, DisplacementY, DisplacementZ, Pressure, VolumeChange, VonMises };
+inline constexpr NamedEnum
+    kQuantities("quantity",
+                std::array{std::pair{Quantity::Displacement, "|u|"}, std::pair{Quantity::DisplacementX, "ux"},
+                           std::pair{Quantity::DisplacementY, "uy"}, std::pair{Quantity::DisplacementZ, "uz"},
+                           std::pair{Quantity::Pressure, "pressure"}, std::pair{Quantity::VolumeChange, "J - 1"},
+                           std::pair{Quantity::VonMises, "von Mises stress"}});
 
 /// All of them, in the order of a list to choose from.
 const std::vector<Quantity>& allQuantities();

@@ -80,8 +80,8 @@ void decodeByLikelihood(const Decoder& decoder, const ForwardModel& model, const
                         Prediction& result) {
   result.forces_N.resize(decoder.outputs(), inputs.cols());
   if (options.standardDeviation) result.standardDeviation_N.resize(decoder.outputs(), inputs.cols());
-  const bool tellArea = options.area && model.classes() > 1;
-  if (tellArea) {
+  const bool withArea = options.area && model.classes() > 1;
+  if (withArea) {
     result.area.resize(inputs.cols());
     result.areaConfidence.resize(inputs.cols());
   }
@@ -89,14 +89,14 @@ void decodeByLikelihood(const Decoder& decoder, const ForwardModel& model, const
     const LikelihoodEstimate estimate = inversion.estimate(inputs.col(i));
     result.forces_N.col(i) = estimate.causes;
     if (options.standardDeviation) result.standardDeviation_N.col(i) = estimate.standardDeviation;
-    if (!tellArea) continue;
+    if (!withArea) continue;
     result.area(i) = areaOf(decoder, estimate.classIndex);
     result.areaConfidence(i) = estimate.confidence;
   }
 }
 
-void tellAreas(const Decoder& decoder, const LikelihoodInversion& inversion,
-               const Eigen::Ref<const Eigen::MatrixXd>& inputs, Prediction& result) {
+void addAreas(const Decoder& decoder, const LikelihoodInversion& inversion,
+              const Eigen::Ref<const Eigen::MatrixXd>& inputs, Prediction& result) {
   result.area.resize(inputs.cols());
   result.areaConfidence.resize(inputs.cols());
   for (Eigen::Index i = 0; i < inputs.cols(); ++i) {
@@ -108,8 +108,8 @@ void tellAreas(const Decoder& decoder, const LikelihoodInversion& inversion,
 
 /// The error found in training (of the touched area, where it is known) and the inputs' further noise through dF/dx;
 /// never less than all their noise there, which training averaged over the range.
-void tellDeviations(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixXd>& inputs,
-                    const PredictOptions& options, Prediction& result) {
+void addDeviations(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixXd>& inputs,
+                   const PredictOptions& options, Prediction& result) {
   const double further = furtherNoise(decoder, options);
   if (const auto* process = std::get_if<GaussianProcess>(&decoder.model))
     result.standardDeviation_N = process->standardDeviation(inputs);
@@ -196,8 +196,8 @@ Prediction Predictor::operator()(const Eigen::Ref<const Eigen::MatrixXd>& inputs
   const std::chrono::duration<double, std::micro> time = std::chrono::steady_clock::now() - start;
   result.microsecondsPerSample = inputs.cols() > 0 ? time.count() / static_cast<double>(inputs.cols()) : 0;
   if (likelihood) return result;
-  if (options.area && decoder.areas) tellAreas(decoder, *inversion_, inputs, result);
-  if (options.standardDeviation) tellDeviations(decoder, inputs, options, result);
+  if (options.area && decoder.areas) addAreas(decoder, *inversion_, inputs, result);
+  if (options.standardDeviation) addDeviations(decoder, inputs, options, result);
   return result;
 }
 

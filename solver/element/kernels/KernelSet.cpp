@@ -71,12 +71,12 @@ constexpr ElementKernels kernelsOf(decltype(ElementKernels::residual) residual,
           .recoverLoads = recover<D, X, 1>};
 }
 
-void forwardFactor(const BlockedFactor& L, int first, int last, float* x) {
-  forwardLanes(L, first, last, x);
+void forwardFactor(const BlockedFactor& L, int first, int last, unsigned live, float* x) {
+  forwardLanes(L, first, last, live, x);
 }
 
-void backwardFactor(const BlockedFactor& L, int first, int last, float* x) {
-  backwardLanes(L, first, last, x);
+void backwardFactor(const BlockedFactor& L, int first, int last, unsigned live, float* x) {
+  backwardLanes(L, first, last, live, x);
 }
 
 void forwardFactorOfOne(const BlockedFactor& L, int first, int last, double* x) {
@@ -91,12 +91,25 @@ void polynomials(const double* coefficients, int terms, const double* monomials,
   evaluatePolynomials(coefficients, terms, monomials, rows, out, stride);
 }
 
+void gather(const double* values, const int* nodes, int count, double* out) {
+  gatherRows(values, nodes, count, out);
+}
+
+void subtract(const double* forces, const int* nodes, int count, double* values) {
+  subtractRows(forces, nodes, count, values);
+}
+
+void gatherScaled(const float* x, const int* rows, const double* scale, const int* nodes, int count, double* out) {
+  gatherScaledRows(x, rows, scale, nodes, count, out);
+}
+
 } // namespace
 
 extern const ElementKernels tetKernels;
 extern const ElementKernels hexKernels;
 extern const LaneKernels laneKernelSet;
-const LaneKernels laneKernelSet = {forwardFactor, backwardFactor, forwardFactorOfOne, backwardFactorOfOne, polynomials};
+const LaneKernels laneKernelSet = {forwardFactor, backwardFactor, forwardFactorOfOne, backwardFactorOfOne,
+                                   polynomials,   gather,         subtract,           gatherScaled};
 constexpr ElementKernels tetSet = kernelsOf<Tet>(tetResidual8, tetResidualOfLoads, tetTangent);
 constexpr ElementKernels hexSet = kernelsOf<Hex>(hexResidual8, hexResidualOfLoads, hexTangent);
 const ElementKernels tetKernels = tetSet;

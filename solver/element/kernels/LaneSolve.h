@@ -18,88 +18,127 @@ PALP_INLINE void storeFloats(float* p, FloatPack v) {
   __builtin_memcpy(p, &v, sizeof v);
 }
 
+/// Packs that go through a block of the factor together, as many as there are registers for their 8 rows: the block is
+/// read once for them.
+constexpr int mostPacks = PALP_PACK == 8 ? 2 : 1;
+
+template <int Packs> struct Rows { FloatPack row[rowsABlock][Packs]; };
+
 /// sums[r] = sum over k of block[k][r] x[k] for one block of rows.
-PALP_INLINE void rowSums(const float* block, int columns, const float* x, FloatPack sums[rowsABlock]) {
-  for (int r = 0; r < rowsABlock; ++r) sums[r] = FloatPack{};
+template <int Packs> PALP_INLINE void rowSums(const float* block, int columns, const float* x, Rows<Packs>& sums) {
+  for (int r = 0; r < rowsABlock; ++r)
+    for (int p = 0; p < Packs; ++p) sums.row[r][p] = FloatPack{};
   for (int k = 0; k < columns; ++k) {
-    const FloatPack v = loadFloats(x + k * batchLanes);
-    for (int r = 0; r < rowsABlock; ++r) sums[r] += block[k * rowsABlock + r] * v;
+    FloatPack v[Packs];
+    for (int p = 0; p < Packs; ++p) v[p] = loadFloats(x + k * batchLanes + p * floatPackSize);
+    for (int r = 0; r < rowsABlock; ++r)
+      for (int p = 0; p < Packs; ++p) sums.row[r][p] += block[k * rowsABlock + r] * v[p];
   }
 }
 
 /// x[k] -= sum over r of block[k][r] t[r] for one block of rows.
-PALP_INLINE void subtractTransposed(const float* block, int columns, const FloatPack t[rowsABlock], float* x) {
+template <int Packs>
+PALP_INLINE void subtractTransposed(const float* block, int columns, const Rows<Packs>& t, float* x) {
   for (int k = 0; k < columns; ++k) {
-    FloatPack v = loadFloats(x + k * batchLanes);
-    for (int r = 0; r < rowsABlock; ++r) v -= block[k * rowsABlock + r] * t[r];
-    storeFloats(x + k * batchLanes, v);
+    FloatPack v[Packs];
+    for (int p = 0; p < Packs; ++p) v[p] = loadFloats(x + k * batchLanes + p * floatPackSize);
+    for (int r = 0; r < rowsABlock; ++r)
+      for (int p = 0; p < Packs; ++p) v[p] -= block[k * rowsABlock + r] * t.row[r][p];
+    for (int p = 0; p < Packs; ++p) storeFloats(x + k * batchLanes + p * floatPackSize, v[p]);
   }
 }
 
 /// Forward substitution through one supernode: its own rows, then those below.
-PALP_INLINE void forwardSupernode(const BlockedFactor& L, int s, float* x, int lane) {
+template <int Packs> PALP_INLINE void forwardSupernode(const BlockedFactor& L, int s, float* x, int lane) {
   const int width = L.first[s + 1] - L.first[s];
   const float* block = L.values + L.start[s];
   float* own = x + std::size_t(L.first[s]) * batchLanes + lane;
   for (int r0 = 0; r0 < width; r0 += rowsABlock) {
-    FloatPack sums[rowsABlock];
+    Rows<Packs> sums;
     rowSums(block, r0, own, sums);
     const float* triangle = block + r0 * rowsABlock;
     const int rows = width - r0 < rowsABlock ? width - r0 : rowsABlock;
-    for (int r = 0; r < rows; ++r) {
-      FloatPack v = loadFloats(own + (r0 + r) * batchLanes) - sums[r];
-      for (int k = 0; k < r; ++k) v -= triangle[k * rowsABlock + r] * loadFloats(own + (r0 + k) * batchLanes);
-      storeFloats(own + (r0 + r) * batchLanes, v * triangle[r * rowsABlock + r]);
-    }
+    for (int r = 0; r < rows; ++r)
+      for (int p = 0; p < Packs; ++p) {
+        float* column = own + p * floatPackSize;
+        FloatPack v = loadFloats(column + (r0 + r) * batchLanes) - sums.row[r][p];
+        for (int k = 0; k < r; ++k) v -= triangle[k * rowsABlock + r] * loadFloats(column + (r0 + k) * batchLanes);
+        storeFloats(column + (r0 + r) * batchLanes, v * triangle[r * rowsABlock + r]);
+      }
     block = triangle + rowsABlock * rowsABlock;
   }
   for (int b = L.blockStart[s]; b < L.blockStart[s + 1]; ++b, block += width * rowsABlock) {
-    FloatPack sums[rowsABlock];
+    Rows<Packs> sums;
     rowSums(block, width, own, sums);
     const int* rows = L.rows + std::size_t(b) * rowsABlock;
-    for (int r = 0; r < rowsABlock; ++r) {
-      float* y = x + std::size_t(rows[r]) * batchLanes + lane;
-      storeFloats(y, loadFloats(y) - sums[r]);
-    }
+    for (int r = 0; r < rowsABlock; ++r)
+      for (int p = 0; p < Packs; ++p) {
+        float* y = x + std::size_t(rows[r]) * batchLanes + lane + p * floatPackSize;
+        storeFloats(y, loadFloats(y) - sums.row[r][p]);
+      }
   }
 }
 
 /// Backward substitution, in the opposite order over the same blocks.
-PALP_INLINE void backwardSupernode(const BlockedFactor& L, int s, float* x, int lane) {
+template <int Packs> PALP_INLINE void backwardSupernode(const BlockedFactor& L, int s, float* x, int lane) {
   const int width = L.first[s + 1] - L.first[s];
   const float* block = L.values + L.start[s + 1];
   float* own = x + std::size_t(L.first[s]) * batchLanes + lane;
   for (int b = L.blockStart[s + 1] - 1; b >= L.blockStart[s]; --b) {
     block -= width * rowsABlock;
     const int* rows = L.rows + std::size_t(b) * rowsABlock;
-    FloatPack t[rowsABlock];
-    for (int r = 0; r < rowsABlock; ++r) t[r] = loadFloats(x + std::size_t(rows[r]) * batchLanes + lane);
+    Rows<Packs> t;
+    for (int r = 0; r < rowsABlock; ++r)
+      for (int p = 0; p < Packs; ++p)
+        t.row[r][p] = loadFloats(x + std::size_t(rows[r]) * batchLanes + lane + p * floatPackSize);
     subtractTransposed(block, width, t, own);
   }
   for (int r0 = (width - 1) / rowsABlock * rowsABlock; r0 >= 0; r0 -= rowsABlock) {
     block -= (r0 + rowsABlock) * rowsABlock;
     const float* triangle = block + r0 * rowsABlock;
     const int rows = width - r0 < rowsABlock ? width - r0 : rowsABlock;
-    FloatPack t[rowsABlock];
-    for (int r = 0; r < rowsABlock; ++r) t[r] = FloatPack{};
-    for (int r = rows - 1; r >= 0; --r) {
-      FloatPack v = loadFloats(own + (r0 + r) * batchLanes);
-      for (int k = r + 1; k < rows; ++k) v -= triangle[r * rowsABlock + k] * t[k];
-      t[r] = v * triangle[r * rowsABlock + r];
-      storeFloats(own + (r0 + r) * batchLanes, t[r]);
-    }
+    Rows<Packs> t;
+    for (int r = 0; r < rowsABlock; ++r)
+      for (int p = 0; p < Packs; ++p) t.row[r][p] = FloatPack{};
+    for (int r = rows - 1; r >= 0; --r)
+      for (int p = 0; p < Packs; ++p) {
+        FloatPack v = loadFloats(own + (r0 + r) * batchLanes + p * floatPackSize);
+        for (int k = r + 1; k < rows; ++k) v -= triangle[r * rowsABlock + k] * t.row[k][p];
+        t.row[r][p] = v * triangle[r * rowsABlock + r];
+        storeFloats(own + (r0 + r) * batchLanes + p * floatPackSize, t.row[r][p]);
+      }
     subtractTransposed(block, r0, t, own);
   }
 }
 
-PALP_INLINE void forwardLanes(const BlockedFactor& L, int first, int last, float* x) {
-  for (int s = first; s < last; ++s)
-    for (int lane = 0; lane < batchLanes; lane += floatPackSize) forwardSupernode(L, s, x, lane);
+/// Whether one of the lanes lane .. lane + count - 1 is in a live block.
+PALP_INLINE bool anyLive(unsigned live, int lane, int count) {
+  const int first = lane / 8, last = (lane + count - 1) / 8;
+  return (live >> first & ((2U << (last - first)) - 1)) != 0;
 }
 
-PALP_INLINE void backwardLanes(const BlockedFactor& L, int first, int last, float* x) {
+PALP_INLINE void forwardLanes(const BlockedFactor& L, int first, int last, unsigned live, float* x) {
+  for (int s = first; s < last; ++s)
+    for (int lane = 0; lane < batchLanes; lane += mostPacks * floatPackSize) {
+      const bool low = anyLive(live, lane, floatPackSize);
+      const bool high = mostPacks > 1 && anyLive(live, lane + floatPackSize, floatPackSize);
+      if (mostPacks > 1 && low && high)
+        forwardSupernode<mostPacks>(L, s, x, lane);
+      else if (low || high)
+        forwardSupernode<1>(L, s, x, low ? lane : lane + floatPackSize);
+    }
+}
+
+PALP_INLINE void backwardLanes(const BlockedFactor& L, int first, int last, unsigned live, float* x) {
   for (int s = last - 1; s >= first; --s)
-    for (int lane = 0; lane < batchLanes; lane += floatPackSize) backwardSupernode(L, s, x, lane);
+    for (int lane = 0; lane < batchLanes; lane += mostPacks * floatPackSize) {
+      const bool low = anyLive(live, lane, floatPackSize);
+      const bool high = mostPacks > 1 && anyLive(live, lane + floatPackSize, floatPackSize);
+      if (mostPacks > 1 && low && high)
+        backwardSupernode<mostPacks>(L, s, x, lane);
+      else if (low || high)
+        backwardSupernode<1>(L, s, x, low ? lane : lane + floatPackSize);
+    }
 }
 
 typedef float NarrowPack __attribute__((vector_size(4 * PALP_PACK)));
@@ -222,6 +261,37 @@ PALP_INLINE void evaluatePolynomials(const double* coefficients, int terms, cons
       for (int t = 0; t < terms; ++t)
         sum += coefficients[std::size_t(row) * terms + t] * load(monomials + 8 * t + lane);
       store(out + std::size_t(row) * stride + lane, sum);
+    }
+}
+
+/// An element's part of values at the nodes.
+PALP_INLINE void gatherRows(const double* values, const int* nodes, int count, double* out) {
+  for (int n = 0; n < count; ++n) {
+    const double* node = values + 3 * std::size_t(nodes[n]) * batchLanes;
+    for (int d = 0; d < 3; ++d, node += batchLanes, out += 8)
+      for (int lane = 0; lane < 8; lane += packSize) store(out + lane, load(node + lane));
+  }
+}
+
+/// values -= an element's forces at its nodes.
+PALP_INLINE void subtractRows(const double* forces, const int* nodes, int count, double* values) {
+  for (int n = 0; n < count; ++n) {
+    double* node = values + 3 * std::size_t(nodes[n]) * batchLanes;
+    for (int d = 0; d < 3; ++d, node += batchLanes, forces += 8)
+      for (int lane = 0; lane < 8; lane += packSize) store(node + lane, load(node + lane) - load(forces + lane));
+  }
+}
+
+PALP_INLINE void gatherScaledRows(const float* x, const int* rows, const double* scale, const int* nodes, int count,
+                                  double* out) {
+  for (int n = 0; n < count; ++n)
+    for (int d = 0; d < 3; ++d, out += 8) {
+      const float* row = x + std::size_t(rows[3 * nodes[n] + d]) * batchLanes;
+      for (int lane = 0; lane < 8; lane += packSize) {
+        NarrowPack v;
+        __builtin_memcpy(&v, row + lane, sizeof v);
+        store(out + lane, load(scale + lane) * __builtin_convertvector(v, Pack));
+      }
     }
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <ostream>
 
 using nlohmann::json;
 using namespace palp::test;
@@ -29,6 +30,10 @@ struct BrokenDesign {
   std::function<void(json&)> spoil;
   std::vector<std::string> words;
 };
+/// In the names of the tests.
+void PrintTo(const BrokenDesign& one, std::ostream* out) {
+  *out << one.name;
+}
 
 const std::vector<BrokenDesign>& brokenDesigns() {
   static const std::vector<BrokenDesign> designs{
@@ -105,6 +110,10 @@ struct BadOption {
   std::vector<std::string> arguments;
   std::vector<std::string> words;
 };
+/// In the names of the tests.
+void PrintTo(const BadOption& one, std::ostream* out) {
+  *out << one.name;
+}
 
 class BadOptionTest : public testing::TestWithParam<BadOption> {};
 

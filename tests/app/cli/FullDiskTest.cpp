@@ -26,21 +26,40 @@ void expectEmpty(const std::filesystem::path& folder) {
 
 } // namespace
 
-TEST(FullDisk, RefusesVtuDeckAndPictureWithTheReasonAndLeavesNothing) {
+TEST(FullDisk, RefusesADeckWithTheReasonAndLeavesNothing) {
   const palp::TemporaryFolder folder;
-  const std::filesystem::path vtu = folder / "a.vtu", deck = folder / "a.inp", png = folder / "a.png";
-  expectRefusal(
-      palpOnAFullDisk({"solve", "paper", "--load", "0:1,0,-6", "--mapped", "6x6x3", "-o", vtu, "--json"}, kFull_bytes),
-      vtu);
+  const std::filesystem::path deck = folder / "a.inp";
   expectRefusal(palpOnAFullDisk({"mesh", "paper", "--load", "0:1,0,-6", "--mapped", "6x6x3", "--format", "inp", "-o",
                                  deck, "--json"},
                                 kFull_bytes),
                 deck);
+  expectEmpty(folder.path());
+}
+
+#if PALP_PICTURES // VTK writes them
+TEST(FullDisk, RefusesVtuAndPictureWithTheReasonAndLeavesNothing) {
+  const palp::TemporaryFolder folder;
+  const std::filesystem::path vtu = folder / "a.vtu", png = folder / "a.png";
+  expectRefusal(
+      palpOnAFullDisk({"solve", "paper", "--load", "0:1,0,-6", "--mapped", "6x6x3", "-o", vtu, "--json"}, kFull_bytes),
+      vtu);
   expectRefusal(
       palpOnAFullDisk({"render", "paper", "--load", "0:1,0,-6", "--mapped", "6x6x3", "-o", png, "--json"}, kFull_bytes),
       png);
   expectEmpty(folder.path());
 }
+#else
+TEST(FullDisk, AProgramWithoutVtkRefusesVtuAndPicture) {
+  const palp::TemporaryFolder folder;
+  for (const auto& [command, name] : {std::pair{"solve", "a.vtu"}, std::pair{"render", "a.png"}}) {
+    const Outcome outcome =
+        palp::test::palp({command, "paper", "--load", "0:1,0,-6", "--mapped", "6x6x3", "-o", folder / name});
+    EXPECT_EQ(outcome.exit, 2) << outcome.output;
+    EXPECT_NE(outcome.errors.find(std::string(name) + " needs VTK"), std::string::npos) << outcome.errors;
+  }
+  expectEmpty(folder.path());
+}
+#endif
 
 TEST(FullDisk, RefusesNetworkForcesAndSamplesWithTheReason) {
   const palp::TemporaryFolder folder;

@@ -69,7 +69,7 @@ Outcome finish(const Running& running) {
   return outcome;
 }
 
-/// The share that the last line of progress tells; 0 before the first one.
+/// The share of the work in the last line of progress; 0 before the first one.
 double progressOf(const std::filesystem::path& errors) {
   std::ifstream stream(errors);
   double share = 0;

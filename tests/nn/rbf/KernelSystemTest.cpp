@@ -6,7 +6,15 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 namespace palp {
+
+/// In the names of the tests.
+static void PrintTo(Tail tail, std::ostream* out) {
+  *out << kTails.name(tail);
+}
+
 namespace {
 
 constexpr double kSpread = 1, kRidge = 1e-3;

@@ -8,6 +8,14 @@
 
 #include <cmath>
 #include <functional>
+#include <ostream>
+
+namespace palp {
+/// In the names of the tests.
+static void PrintTo(ElementShape shape, std::ostream* out) {
+  *out << (shape == ElementShape::Tetrahedron10 ? "tetrahedra" : "hexahedra");
+}
+} // namespace palp
 
 using namespace palp;
 

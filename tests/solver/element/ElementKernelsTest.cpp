@@ -8,7 +8,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <ostream>
 #include <tuple>
+
+namespace palp {
+/// In the names of the tests.
+static void PrintTo(InstructionSet set, std::ostream* out) {
+  constexpr std::array words{"baseline", "AVX2", "AVX-512"};
+  *out << words.at(static_cast<std::size_t>(set));
+}
+} // namespace palp
 
 using namespace palp;
 using namespace palp::test;

@@ -97,11 +97,37 @@ TEST(Cholesky, OneRightSideAgreesWithLanesAndTheBaselineWithTheWidest) {
   laneKernels().backwardOne(L, 0, L.count, widest.data());
   baseline::laneKernelSet.forwardOne(L, 0, L.count, baseline.data());
   baseline::laneKernelSet.backwardOne(L, 0, L.count, baseline.data());
-  laneKernels().forward(L, 0, L.count, lanes.data());
-  laneKernels().backward(L, 0, L.count, lanes.data());
+  laneKernels().forward(L, 0, L.count, 1U, lanes.data());
+  laneKernels().backward(L, 0, L.count, 1U, lanes.data());
   for (Eigen::Index i = 0; i < size; ++i) lane(i) = lanes[i * batchLanes + 5];
   EXPECT_LT((widest - baseline).head(size).norm(), 1e-9 * widest.norm()); // rounding, times a condition of 1e6
   EXPECT_LT((widest.head(size) - lane).norm(), 1e-2 * widest.norm());     // in single precision
+}
+
+// Which lanes go through the factor together depends on which are live; what comes out of them must not.
+TEST(LaneKernels, SubstituteTheSameBytesWhicheverOtherBlocksAreLive) {
+  const Tangent tangent(0.4999);
+  SparseCholesky cholesky(tangent.plan);
+  ASSERT_EQ(cholesky.factorise(tangent.values, 1, {}), SparseCholesky::Outcome::Done);
+  const BlockedFactor L = cholesky.blocks();
+  const std::size_t size = tangent.plan->tree().size();
+  const auto substituted = [&](const LaneKernels& kernels, unsigned live) {
+    std::vector<float> x((size + 1) * batchLanes);
+    for (std::size_t i = 0; i < size * batchLanes; ++i) x[i] = std::sin(3.F * static_cast<float>(i % 10007));
+    kernels.forward(L, 0, L.count, live, x.data());
+    kernels.backward(L, 0, L.count, live, x.data());
+    return x;
+  };
+  for (const LaneKernels* kernels : {&laneKernels(), &baseline::laneKernelSet}) {
+    const std::vector<float> all = substituted(*kernels, 15U);
+    for (unsigned live = 0; live < 15; ++live) {
+      const std::vector<float> some = substituted(*kernels, live);
+      for (std::size_t i = 0; i < some.size(); ++i)
+        if (live >> (i % batchLanes / lanes) & 1U) {
+          ASSERT_EQ(some[i], all[i]) << "live " << live << ", lane " << i % batchLanes;
+        }
+    }
+  }
 }
 
 TEST(UpdateMatrix, ForgetsColumnsThatHaveBeenAddedAndNoOthers) {

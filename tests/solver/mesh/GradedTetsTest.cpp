@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ostream>
 #include <random>
 
 using namespace palp;
@@ -103,6 +104,11 @@ struct Layout {
   double height_mm;
   bool wireByWire, depths;
 };
+/// In the names of the tests.
+void PrintTo(const Layout& layout, std::ostream* out) {
+  *out << layout.electrodes << " electrodes, " << layout.height_mm << " mm high"
+       << (layout.wireByWire ? ", wire by wire" : "") << (layout.depths ? ", at depths of their own" : "");
+}
 class IrregularElectrodes : public testing::TestWithParam<Layout> {};
 INSTANTIATE_TEST_SUITE_P(Layouts, IrregularElectrodes,
                          testing::Values(Layout{45, 5, false, false}, Layout{45, 1, false, false},

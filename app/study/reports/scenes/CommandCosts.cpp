@@ -41,7 +41,7 @@ nlohmann::json resultOf(const std::string& output) {
   return start == std::string::npos ? whole : nlohmann::json::parse(output.substr(start), nullptr, false);
 }
 
-void tellStages(CommandCost& cost, const std::string& output) {
+void addStages(CommandCost& cost, const std::string& output) {
   const nlohmann::json result = resultOf(output);
   if (!result.is_object() || !result.contains("stages")) return;
   for (const auto& [stage, count] : result["stages"].items()) {
@@ -117,7 +117,7 @@ std::vector<CommandCost> commandCosts(const ReportRequest& request, const Report
     cost.cpu_s = run.cpu_s;
     cost.peak_MB = run.peak_MB;
     cost.failed = run.failed;
-    tellStages(cost, run.output);
+    addStages(cost, run.output);
     costs.push_back(std::move(cost));
   }
   return costs;

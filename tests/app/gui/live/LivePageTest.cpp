@@ -37,7 +37,7 @@ BoardAccess noBoards() {
 class Live : public testing::Test {
 protected:
   explicit Live(BoardAccess access = noBoards()) : page(workbench, std::move(access)) {
-    QObject::connect(&page, &LivePage::told, &page, [this](const QString& sentence) { said << sentence; });
+    QObject::connect(&page, &LivePage::message, &page, [this](const QString& sentence) { said << sentence; });
     page.resize(1300, 800);
     page.show();
     EXPECT_TRUE(QTest::qWaitForWindowExposed(&page));

@@ -139,7 +139,7 @@ TEST_F(ProjectFile, OfTheFirstVersionIsReadWithTheUsualView) {
 
 TEST_F(ProjectFile, IsRefusedWithASentenceWhereItIsCutOff) {
   const std::string text = savedText();
-  EXPECT_NE(refusal(text.substr(0, text.size() / 2)).find("broken"), std::string::npos);
+  EXPECT_NE(refusal(text.substr(0, text.size() / 2)).find("no valid JSON"), std::string::npos);
 }
 
 TEST_F(ProjectFile, IsRefusedWithItsKeyWhereATypeIsWrong) {
@@ -151,6 +151,16 @@ TEST_F(ProjectFile, IsRefusedWithItsKeyWhereATypeIsWrong) {
 TEST_F(ProjectFile, IsRefusedWithItsKeyWhereItIsUnknown) {
   const std::string sentence = refusal(with(savedText(), "\"per_area\"", "\"per_areas\""));
   EXPECT_NE(sentence.find("per_area"), std::string::npos) << sentence;
+}
+
+TEST_F(ProjectFile, IsRefusedWhereAKeyStandsTwice) {
+  const std::string twice = with(savedText(), "\"per_area\"", "\"per_area\": 7, \"per_area\"");
+  EXPECT_NE(refusal(twice).find("\"per_area\" stands twice"), std::string::npos) << refusal(twice);
+}
+
+TEST_F(ProjectFile, IsRefusedWithFileAndKeyWhereItsDesignCannotBeBuilt) {
+  const std::string sentence = refusal(with(savedText(), "\"poisson_ratio\": 0.499", "\"poisson_ratio\": 0.7"));
+  EXPECT_NE(sentence.find("bad.json: design.material.poisson_ratio"), std::string::npos) << sentence;
 }
 
 TEST_F(ProjectFile, CutOffAnywhereIsRefusedAndNeverReadAsAnother) {

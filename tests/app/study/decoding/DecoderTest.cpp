@@ -10,9 +10,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ostream>
 #include <random>
 
 namespace palp {
+
+/// In the names of the tests.
+static void PrintTo(DecoderKind kind, std::ostream* out) {
+  *out << name(kind);
+}
+
 namespace {
 
 /// Samples of the paper's design under a smooth stand-in for the block: each area moves the electrodes around it.

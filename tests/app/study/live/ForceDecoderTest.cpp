@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <ostream>
 
 namespace palp {
 namespace {
@@ -47,6 +48,10 @@ struct NoiseCase {
   bool shipped; ///< else trained for this noise
   int tareFrames;
 };
+/// In the names of the tests.
+void PrintTo(const NoiseCase& one, std::ostream* out) {
+  *out << one.name;
+}
 
 std::string caseName(const testing::TestParamInfo<NoiseCase>& info) {
   return info.param.name;

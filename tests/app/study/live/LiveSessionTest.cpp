@@ -9,6 +9,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <ostream>
+
 namespace palp {
 namespace {
 
@@ -152,6 +155,15 @@ TEST(LiveSession, ForgetsARefusalWhenTheBoardIsGone) {
 /// Where a source fails, and with what.
 enum class FailingCall { Open, Name, Info, Configuration, Read, Configure, ReadConfiguration };
 enum class Thrown { BoardGone, Refusal, Standard, Foreign };
+/// In the names of the tests.
+void PrintTo(FailingCall call, std::ostream* out) {
+  constexpr std::array words{"open", "name", "info", "configuration", "read", "configure", "readConfiguration"};
+  *out << words.at(static_cast<std::size_t>(call));
+}
+void PrintTo(Thrown thrown, std::ostream* out) {
+  constexpr std::array words{"board gone", "refusal", "a standard exception", "a foreign exception"};
+  *out << words.at(static_cast<std::size_t>(thrown));
+}
 
 /// Throws at one of its calls while it is armed.
 struct Trap {

@@ -1,0 +1,53 @@
+#include "io/StrictJson.h"
+
+#include "io/DesignFile.h"
+#include "tests/io/Refusal.h"
+
+#include <gtest/gtest.h>
+
+namespace palp {
+namespace {
+
+/// What the reader says of `text` at its key "a".
+template <class Read> std::string refusalOf(const std::string& text, Read&& read) {
+  return refusal([&] {
+    const Json json = parseJson(text, "x.json");
+    read(JsonPlace(json, "x.json").at("a"));
+  });
+}
+
+TEST(StrictJson, TakesWhatLiesWithinTheLimitsAndTheLimitsThemselves) {
+  for (const char* text : {R"({"a": 2})", R"({"a": 3.0})", R"({"a": 5})"})
+    EXPECT_EQ(refusalOf(text, [](const JsonPlace& a) { EXPECT_GE(a.integer(2, 5), 2); }), "") << text;
+  EXPECT_EQ(refusalOf(R"({"a": 2.5})", [](const JsonPlace& a) { EXPECT_EQ(a.number(2.5, 3), 2.5); }), "");
+}
+
+TEST(StrictJson, SaysFileKeyValueAndLimits) {
+  const auto whole = [](const JsonPlace& a) { static_cast<void>(a.integer(2, 5)); };
+  for (const std::string value : {"1", "6", "2.5", "1e300", "\"3\"", "null", "[3]"})
+    EXPECT_EQ(refusalOf("{\"a\": " + value + "}", whole).rfind("x.json: a is ", 0), 0) << value;
+  EXPECT_EQ(refusalOf(R"({"a": 7})", whole), "x.json: a is 7; allowed is a whole number from 2 to 5");
+  const auto real = [](const JsonPlace& a) { static_cast<void>(a.number(0, 0.5)); };
+  EXPECT_EQ(refusalOf(R"({"a": 0.75})", real), "x.json: a is 0.75; allowed is a number from 0 to 0.5");
+}
+
+TEST(StrictJson, RefusesAKeyThatStandsTwice) {
+  const std::string sentence = refusal([] { parseJson(R"({"a": 1, "b": {"a": 2, "a": 3}})", "x.json"); });
+  EXPECT_EQ(sentence, "x.json: key \"a\" stands twice; allowed is once");
+}
+
+/// Writing such a value into a refusal calls itself once a level: 32 MB of brackets would end the program.
+TEST(StrictJson, RefusesListsThatLieTooDeepInEachOther) {
+  constexpr std::size_t depth = 1 << 20;
+  for (const auto& [open, close] : {std::pair{std::string("["), std::string("]")}, {"{\"a\":", "}"}}) {
+    std::string text;
+    for (std::size_t i = 0; i < depth; ++i) text += open;
+    text += "1";
+    for (std::size_t i = 0; i < depth; ++i) text += close;
+    const std::string sentence = refusal([&] { parseDesign("{\"palp_design\": " + text + "}", "x.json"); });
+    EXPECT_NE(sentence.find("deep in each other"), std::string::npos) << sentence;
+  }
+}
+
+} // namespace
+} // namespace palp
