@@ -37,6 +37,7 @@ namespace palp {
 
 namespace {
 
+constexpr int kFileClock_ms = 10; // by which the time of a file may lie before that of the clock
 constexpr int kEndWithin_ms = 3000;
 constexpr const char* kFolderKey = "reportFolder";
 
@@ -223,7 +224,7 @@ void ReportsPage::start() {
   pictures_->hide();
   picture_->clear();
   cancelled_ = false;
-  started_ = QDateTime::currentDateTime();
+  started_ = QDateTime::currentDateTime().addMSecs(-kFileClock_ms);
   run_->setEnabled(false);
   cancel_->setEnabled(true);
   openPage_->setEnabled(false);
