@@ -309,7 +309,7 @@ void DesignPage::measureMesh() {
 
 void DesignPage::displayNoiseFloor() {
   if (!isVisible()) return;
-  const bool known = network_.samples() != nullptr;
+  const bool known = network_.upToDate();
   floorSamples_->setVisible(!known);
   if (!known) {
     floorWords_->setText(tr("Known once there are samples of this design."));

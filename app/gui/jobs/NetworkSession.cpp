@@ -9,11 +9,14 @@
 
 #include <QElapsedTimer>
 
+#include <algorithm>
 #include <cmath>
 
 namespace palp {
 
 namespace {
+
+constexpr std::size_t kPastDesigns = 4; ///< whose results are kept: an edit and some undoing
 
 /// An empty set made wide enough for all that is asked.
 SampleSet allocated(SampleSet set, std::size_t total) {
@@ -134,10 +137,11 @@ std::array<std::size_t, 2> NetworkSession::stoppedAt() const {
   return {generation_->made[0] + generation_->made[1], 2 * generation_->total[0]};
 }
 
-void NetworkSession::dropResults() {
-  fit_.reset();
-  sweep_.clear();
-  trials_.clear();
+void NetworkSession::show(NetworkResults results) {
+  if (shown_.samples) past_.push_front(std::move(shown_));
+  std::erase_if(past_, [&](const NetworkResults& past) { return past.design == results.design; });
+  while (past_.size() > kPastDesigns) past_.pop_back();
+  shown_ = std::move(results);
   emit samplesChanged();
   emit fitChanged();
   emit sweepChanged();
@@ -149,9 +153,19 @@ void NetworkSession::setDesign(const SensorDesign& design) {
   design_ = design;
   generation_.reset();
   runner_.cancel();
-  if (!samples_) return;
-  samples_.reset();
-  dropResults();
+  const auto past = std::find_if(past_.begin(), past_.end(), [&](const auto& one) { return one.design == design; });
+  if (past != past_.end())
+    show(NetworkResults(*past));
+  else
+    emit samplesChanged(); // they are of another design now, or of this one again
+}
+
+void NetworkSession::clear() {
+  runner_.cancel();
+  generation_.reset();
+  past_.clear();
+  shown_ = {};
+  show({});
 }
 
 void NetworkSession::generate(const SampleSettings& settings, const MeshOptions& mesh) {
@@ -166,28 +180,29 @@ void NetworkSession::generate(const SampleSettings& settings, const MeshOptions&
     for (const std::size_t set : {0, 1})
       if (!generation->makeSet(set, clock, stages, stop, progress)) return {};
     return [this, generation, stages] {
-      if (!(generation->design == design_)) return;
-      samples_ = generation->samples();
+      NetworkResults results;
+      results.design = generation->design;
+      results.samples = generation->samples();
       if (generation_ == generation) generation_.reset();
       stages_.add(stages);
-      dropResults();
+      show(std::move(results));
     };
   };
   runner_.start(tr("Generating samples"), work);
 }
 
 void NetworkSession::train(const NetworkSettings& settings) {
-  if (!samples_) return;
-  const auto work = [this, settings, design = design_, samples = samples_](const std::stop_token& stop,
-                                                                           JobProgress& progress) -> JobRunner::Taking {
+  if (!upToDate()) return;
+  const auto work = [this, settings, design = design_, samples = shown_.samples](
+                        const std::stop_token& stop, JobProgress& progress) -> JobRunner::Taking {
     StageLog stages;
     const auto fit = stages.measure("train", [&] {
       return std::make_shared<const NetworkFit>(
           fitOn(*samples, design, settings, settings.trainOptions(), stop, progress));
     });
     return [this, fit, samples, stages] {
-      if (samples != samples_) return;
-      fit_ = fit;
+      if (samples != shown_.samples) return;
+      shown_.fit = fit;
       stages_.add(stages);
       emit fitChanged();
     };
@@ -196,12 +211,12 @@ void NetworkSession::train(const NetworkSettings& settings) {
 }
 
 void NetworkSession::sweep(const NetworkSettings& settings) {
-  if (!samples_) return;
-  sweep_.clear();
-  sweepSettings_ = settings;
+  if (!upToDate()) return;
+  shown_.sweep.clear();
+  shown_.sweepSettings = settings;
   rows_ = std::make_shared<Rows>();
   emit sweepChanged();
-  const auto work = [this, settings, design = design_, samples = samples_,
+  const auto work = [this, settings, design = design_, samples = shown_.samples,
                      rows = rows_](const std::stop_token& stop, JobProgress& progress) -> JobRunner::Taking {
     std::vector<double> spreads = logarithmicRange(settings.sweepFrom, settings.sweepTo, settings.sweepCount);
     for (std::size_t k = 0; k < spreads.size() && !stop.stop_requested(); ++k) {
@@ -220,12 +235,12 @@ void NetworkSession::sweep(const NetworkSettings& settings) {
 }
 
 void NetworkSession::compare(const NetworkSettings& settings) {
-  if (!samples_) return;
-  trials_.clear();
-  trialsInput_ = settings.input;
+  if (!upToDate()) return;
+  shown_.trials.clear();
+  shown_.trialsInput = settings.input;
   rows_ = std::make_shared<Rows>();
   emit trialsChanged();
-  const auto work = [this, settings, design = design_, samples = samples_,
+  const auto work = [this, settings, design = design_, samples = shown_.samples,
                      rows = rows_](const std::stop_token& stop, JobProgress& progress) -> JobRunner::Taking {
     const std::vector<DecoderKind> kinds = allDecoderKinds();
     for (std::size_t k = 0; k < kinds.size() && !stop.stop_requested(); ++k) {
@@ -262,18 +277,18 @@ void NetworkSession::drain() {
     trials.swap(rows_->trials);
   }
   if (!points.empty()) {
-    sweep_.insert(sweep_.end(), points.begin(), points.end());
+    shown_.sweep.insert(shown_.sweep.end(), points.begin(), points.end());
     emit sweepChanged();
   }
   if (!trials.empty()) {
-    trials_.insert(trials_.end(), trials.begin(), trials.end());
+    shown_.trials.insert(shown_.trials.end(), trials.begin(), trials.end());
     emit trialsChanged();
   }
 }
 
 void NetworkSession::open(const std::filesystem::path& file) {
-  if (!samples_) throw Error("the network cannot be tried: there are no samples yet; generate samples first");
-  const auto work = [this, file, samples = samples_](const std::stop_token&, JobProgress&) -> JobRunner::Taking {
+  if (!upToDate()) throw Error("the network cannot be tried: there are no samples yet; generate samples first");
+  const auto work = [this, file, samples = shown_.samples](const std::stop_token&, JobProgress&) -> JobRunner::Taking {
     auto fit = std::make_shared<NetworkFit>();
     fit->decoder = readNetwork(file);
     fit->settings.input = fit->decoder.input.kind;
@@ -283,8 +298,8 @@ void NetworkSession::open(const std::filesystem::path& file) {
     fit->prediction = predict(fit->decoder, samples->test);
     fit->error = decoderError(fit->decoder, fit->prediction, samples->test);
     return [this, fit, samples] {
-      if (samples != samples_) return;
-      fit_ = fit;
+      if (samples != shown_.samples) return;
+      shown_.fit = fit;
       emit fitChanged();
     };
   };

@@ -6,6 +6,7 @@
 #include "app/study/decoding/Prediction.h"
 
 #include <array>
+#include <deque>
 #include <filesystem>
 #include <memory>
 #include <mutex>
@@ -45,7 +46,20 @@ struct DecoderTrial {
   QString refusal; ///< why it cannot be trained; empty where it was
 };
 
-/// The samples and networks behind the Network scene: made in the background, only when asked.
+/// What was made of one design.
+struct NetworkResults {
+  SensorDesign design;
+  std::shared_ptr<const NetworkSamples> samples;
+  std::shared_ptr<const NetworkFit> fit;
+  std::vector<SweepPoint> sweep;
+  NetworkSettings sweepSettings;
+  std::vector<DecoderTrial> trials;
+  InputKind trialsInput = InputKind::Displacement;
+};
+
+/// The samples and networks behind the Network scene: made in the background, only when asked. They stay with the
+/// design that they were made of: another design leaves them to be looked at as those of an earlier one until it has
+/// samples of its own, and the design they belong to brings them back.
 class NetworkSession : public QObject {
   Q_OBJECT
 
@@ -53,8 +67,10 @@ public:
   explicit NetworkSession(QObject* parent = nullptr);
   ~NetworkSession() override;
 
-  /// Samples of another design are of no use any more: they are dropped.
+  /// The design that samples are made of from now on.
   void setDesign(const SensorDesign& design);
+  /// Gives everything back that was made of any design.
+  void clear();
   /// Goes on where the same samples were stopped before.
   void generate(const SampleSettings& samples, const MeshOptions& mesh);
   void train(const NetworkSettings& settings);
@@ -66,15 +82,17 @@ public:
   /// Throws Error where there are no samples.
   void open(const std::filesystem::path& file);
 
-  [[nodiscard]] const NetworkSamples* samples() const { return samples_.get(); }
+  [[nodiscard]] const NetworkSamples* samples() const { return shown_.samples.get(); }
+  /// There are samples, and they are of the design as it is now.
+  [[nodiscard]] bool upToDate() const { return shown_.samples && shown_.design == design_; }
   /// The same, for a job that outlives them.
-  [[nodiscard]] std::shared_ptr<const NetworkSamples> sharedSamples() const { return samples_; }
-  [[nodiscard]] const NetworkFit* fit() const { return fit_.get(); }
-  [[nodiscard]] const std::vector<SweepPoint>& sweepPoints() const { return sweep_; }
-  [[nodiscard]] const NetworkSettings& sweepSettings() const { return sweepSettings_; }
-  [[nodiscard]] const std::vector<DecoderTrial>& trials() const { return trials_; }
+  [[nodiscard]] std::shared_ptr<const NetworkSamples> sharedSamples() const { return shown_.samples; }
+  [[nodiscard]] const NetworkFit* fit() const { return shown_.fit.get(); }
+  [[nodiscard]] const std::vector<SweepPoint>& sweepPoints() const { return shown_.sweep; }
+  [[nodiscard]] const NetworkSettings& sweepSettings() const { return shown_.sweepSettings; }
+  [[nodiscard]] const std::vector<DecoderTrial>& trials() const { return shown_.trials; }
   /// The input that the trials read.
-  [[nodiscard]] InputKind trialsInput() const { return trialsInput_; }
+  [[nodiscard]] InputKind trialsInput() const { return shown_.trialsInput; }
   /// Samples of a generation that was stopped, of how many; {0, 0} where there is none.
   [[nodiscard]] std::array<std::size_t, 2> stoppedAt() const;
   [[nodiscard]] const StageLog& stages() const { return stages_; }
@@ -96,16 +114,13 @@ private:
   /// Samples on the way; written by the job alone while it runs.
   struct Generation;
   void drain();
-  void dropResults();
+  /// Shows other results, and keeps those that were shown while there is room.
+  void show(NetworkResults results);
 
   JobRunner runner_;
   SensorDesign design_;
-  std::shared_ptr<const NetworkSamples> samples_;
-  std::shared_ptr<const NetworkFit> fit_;
-  std::vector<SweepPoint> sweep_;
-  NetworkSettings sweepSettings_;
-  std::vector<DecoderTrial> trials_;
-  InputKind trialsInput_ = InputKind::Displacement;
+  NetworkResults shown_;
+  std::deque<NetworkResults> past_; ///< of other designs, the newest first
   std::shared_ptr<Generation> generation_;
   std::shared_ptr<Rows> rows_;
   StageLog stages_;

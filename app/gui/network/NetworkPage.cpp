@@ -49,7 +49,7 @@ NetworkPage::NetworkPage(Workbench& workbench, NetworkSession& session, QWidget*
   connect(panel_, &NetworkPanel::edited, this,
           [this](const QString& what, const SampleSettings& samples, const NetworkSettings& network) {
             Project next = workbench_.project();
-            const bool retrain = !(next.network == network) && session_.fit() != nullptr;
+            const bool retrain = !(next.network == network) && session_.fit() != nullptr && session_.upToDate();
             next.samples = samples;
             next.network = network;
             workbench_.edit(what, next);
@@ -182,9 +182,13 @@ void NetworkPage::displaySamples() {
                 .arg(samples->training.size())
                 .arg(samples->test.size())
                 .arg(samples->batchError, 0, 'g', 2);
+  if (samples != nullptr && !session_.upToDate())
+    words = tr("%1 for training, %2 for testing, of an earlier design: undo the change, or generate new ones.")
+                .arg(samples->training.size())
+                .arg(samples->test.size());
   if (all > 0) words += tr(" Stopped at sample %1 of %2; it goes on from there.").arg(made).arg(all);
-  panel_->displaySamples(samples != nullptr, words, all > 0);
-  if (session_.fit() == nullptr) displayFit(); // it says what comes next
+  panel_->displaySamples(session_.upToDate(), words, all > 0);
+  displayFit(); // it says whose it is and what comes next
 }
 
 void NetworkPage::displaySweep() {
@@ -205,7 +209,9 @@ void NetworkPage::displayFit() {
                                                      : tr("No network yet: train one on the samples."));
   } else {
     const PredictionError& error = fit->error.error;
-    fitWords_->setText(tr("<b>Test error Fx / Fy / Fz, all areas:</b> %1 by Eq. (13), %2 with a floor of 0.05 N, %3 of "
+    const QString whose = session_.upToDate() ? QString() : tr("<i>Of an earlier design.</i> ");
+    fitWords_->setText(whose +
+                       tr("<b>Test error Fx / Fy / Fz, all areas:</b> %1 by Eq. (13), %2 with a floor of 0.05 N, %3 of "
                           "range (RMSE). Spread %4, %5 centres, condition %6, trained in %7 s.")
                            .arg(triple(error.eq13Percent, "%"), triple(error.eq13FlooredPercent, "%"),
                                 triple(error.rmsePercentOfRange, "%"))
