@@ -124,6 +124,7 @@ void DesignPanel::display(const SensorDesign& design) {
     const bool same = field.set(written, rows_[k].edit->text()).isEmpty() && written == design;
     if (!same) rows_[k].edit->setText(field.text(design));
     say(*rows_[k].problem, {});
+    rows_[k].edit->setProperty("unapplied", false);
     rows_[k].edit->setCursorPosition(same ? rows_[k].edit->cursorPosition() : 0);
   }
   follows_->setChecked(design.lowerFollowsRubber);
@@ -167,7 +168,10 @@ void DesignPanel::read(const QString& what) {
       for (std::size_t k = 0; k < rows_.size(); ++k)
         if (key.startsWith(designFields()[k].key) && sentences[k].isEmpty()) sentences[k] = sentence;
     }
-  for (std::size_t k = 0; k < rows_.size(); ++k) say(*rows_[k].problem, sentences[k]);
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    say(*rows_[k].problem, sentences[k]);
+    rows_[k].edit->setProperty("unapplied", !good);
+  }
   say(*lawProblem_, lawSentence);
   if (!good) return;
   design_ = next;

@@ -1,5 +1,7 @@
 #include "app/gui/project/Workbench.h"
 
+#include "app/gui/project/ProjectChange.h"
+
 #include <QUndoCommand>
 
 namespace palp {
@@ -8,50 +10,110 @@ namespace {
 
 constexpr int kMergeId = 1;
 
+/// The same project, shown in another way and beside another board.
+Project shownAs(Project project, const Project& other) {
+  project.view = other.view;
+  project.live = other.live;
+  return project;
+}
+
 } // namespace
 
-/// One entry of the history: the project before and after.
+/// One entry of the history: the project before and after, or another one in its place.
 class ProjectEdit : public QUndoCommand {
 public:
-  ProjectEdit(Workbench& workbench, const QString& what, Project after)
-      : QUndoCommand(what), workbench_(workbench), before_(workbench.project()), after_(std::move(after)) {}
+  ProjectEdit(Workbench& workbench, QString kind, Workbench::Held after, bool replaces)
+      : workbench_(workbench), kind_(std::move(kind)), place_(workbench.place_), before_(workbench.held_),
+        after_(std::move(after)), replaces_(replaces) {
+    name();
+  }
 
-  void undo() override { workbench_.apply(before_); }
-  void redo() override { workbench_.apply(after_); }
+  void undo() override {
+    go(before_);
+    emit workbench_.wentBack(place_, QObject::tr("Undone: %1").arg(text()));
+  }
+  void redo() override {
+    go(after_);
+    if (std::exchange(done_, true)) emit workbench_.wentBack(place_, QObject::tr("Done again: %1").arg(text()));
+  }
   [[nodiscard]] int id() const override { return kMergeId; }
   bool mergeWith(const QUndoCommand* later) override {
-    if (later->text() != text()) return false;
-    after_ = static_cast<const ProjectEdit*>(later)->after_;
-    setObsolete(after_ == before_); // there and back again is nothing to undo
+    const auto& edit = *static_cast<const ProjectEdit*>(later);
+    if (!workbench_.entryOpen_ || replaces_ || edit.replaces_ || edit.kind_ != kind_) return false;
+    after_ = edit.after_;
+    setObsolete(after_.project == shownAs(before_.project, after_.project)); // there and back again: nothing to undo
+    name();
     return true;
   }
 
 private:
+  void name() { setText(replaces_ ? kind_ : changeWords(kind_, before_.project, after_.project)); }
+  /// Another project comes with its view; an edit leaves the view as it is now.
+  void go(const Workbench::Held& to) {
+    if (replaces_) {
+      workbench_.hold(to);
+      emit workbench_.projectReplaced();
+    } else {
+      workbench_.apply(shownAs(to.project, workbench_.project()));
+    }
+  }
+
   Workbench& workbench_;
-  Project before_;
-  Project after_;
+  QString kind_;
+  QString place_; ///< the scene it was made in
+  Workbench::Held before_, after_;
+  bool replaces_;
+  bool done_ = false;
 };
 
 Workbench::Workbench(const Project& project, QObject* parent) : QObject(parent) {
   history_.setUndoLimit(200);
+  held_.begun = project;
   apply(project);
 }
 
 void Workbench::edit(const QString& what, const Project& next) {
-  if (next == project_) return;
-  history_.push(new ProjectEdit(*this, what, next));
+  if (next == project()) return;
+  if (next == shownAs(project(), next)) { // nothing that stands in the history
+    apply(next);
+    return;
+  }
+  Held after = held_;
+  after.project = next;
+  held_.project = shownAs(project(), next); // what is shown changes at once and for good
+  history_.push(new ProjectEdit(*this, what, std::move(after), false));
+  entryOpen_ = true;
 }
 
-void Workbench::replace(const Project& project) {
-  history_.clear();
-  apply(project);
-  emit projectReplaced();
+void Workbench::replace(const QString& what, const Project& project, const QString& file) {
+  entryOpen_ = false;
+  if (!file.isEmpty()) saved_[file] = project;
+  history_.push(new ProjectEdit(*this, what, {project, file, project}, true));
+}
+
+bool Workbench::modified() const {
+  const auto kept = saved_.find(file());
+  Project last = kept == saved_.end() ? held_.begun : kept->second;
+  last.view = project().view;
+  return last != project();
+}
+
+void Workbench::saved(const QString& file) {
+  saved_[file] = project();
+  held_.file = file;
+  emit fileChanged();
+}
+
+void Workbench::hold(const Held& held) {
+  held_ = held;
+  apply(held.project);
 }
 
 void Workbench::apply(const Project& project) {
-  project_ = project;
-  touch_.setInputs(project_.design, project_.load, project_.mesh);
+  held_.project = project;
+  touch_.setInputs(project.design, project.load, project.mesh);
   emit projectChanged();
+  emit fileChanged();
 }
 
 } // namespace palp

@@ -6,20 +6,39 @@
 #include <QObject>
 #include <QUndoStack>
 
+#include <map>
+
 namespace palp {
 
-/// The project that all scenes share, its undo history, and what is computed from it.
+/// The project that all scenes share, the file it is kept in, its undo history, and what is computed from it.
 class Workbench : public QObject {
   Q_OBJECT
 
 public:
   explicit Workbench(const Project& project, QObject* parent = nullptr);
 
-  [[nodiscard]] const Project& project() const { return project_; }
-  /// An edit that can be undone; `what` stands in the history, and edits of the same kind in a row become one.
+  [[nodiscard]] const Project& project() const { return held_.project; }
+  /// A change. How things are shown and the live settings just change; all else becomes an entry of the history that
+  /// can be undone, named after what changed with its values, or `what` where that cannot be said shortly. Edits of the
+  /// same `what` in a row are one entry until closeEntry().
   void edit(const QString& what, const Project& next);
-  /// Another project in place of this one; the history begins anew.
-  void replace(const Project& project);
+  /// The next edit begins an entry of its own.
+  void closeEntry() { entryOpen_ = false; }
+  /// Another project in place of this one, kept in `file` (empty: in none yet). Can be undone.
+  void replace(const QString& what, const Project& project, const QString& file = {});
+
+  /// The project's file; empty before it is saved for the first time.
+  [[nodiscard]] const QString& file() const { return held_.file; }
+  /// More was set than the file holds; how things are shown does not count.
+  [[nodiscard]] bool modified() const;
+  /// The project as it is now stands in this file.
+  void saved(const QString& file);
+
+  /// Every panel shows the project again, instead of what was typed and could not be applied.
+  void showAgain() { emit projectChanged(); }
+
+  /// The scene in which edits are made from now on: undoing them leads there.
+  void setPlace(const QString& scene) { place_ = scene; }
 
   [[nodiscard]] TouchSession& touch() { return touch_; }
   [[nodiscard]] QUndoStack& history() { return history_; }
@@ -28,13 +47,27 @@ signals:
   void projectChanged();
   /// After projectChanged(): it is another project, not an edit of this one.
   void projectReplaced();
+  /// Its name, or whether it holds everything.
+  void fileChanged();
+  /// An edit that was made in this scene was undone or done again.
+  void wentBack(const QString& scene, const QString& sentence);
 
 private:
   friend class ProjectEdit;
+  /// A project and where it is kept.
+  struct Held {
+    Project project;
+    QString file;
+    Project begun; ///< as it was before anything was set in it
+  };
+  void hold(const Held& held);
   void apply(const Project& project);
 
-  Project project_;
+  Held held_;
+  std::map<QString, Project> saved_; ///< what the files hold
   QUndoStack history_;
+  bool entryOpen_ = false;
+  QString place_;
   TouchSession touch_;
 };
 

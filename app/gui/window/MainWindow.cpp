@@ -9,6 +9,7 @@
 #include "app/gui/touch/DeformationPage.h"
 #include "app/gui/touch/LoadPathAnimation.h"
 #include "app/gui/touch/ResistancePage.h"
+#include "app/gui/window/Document.h"
 #include "app/gui/window/JobStrip.h"
 #include "app/gui/window/Layout.h"
 #include "app/gui/window/Menus.h"
@@ -37,7 +38,6 @@ constexpr int kMessage_ms = 15000;
 } // namespace
 
 MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbench_(workbench), network_(network) {
-  setWindowTitle(tr("Palp"));
   setWindowIcon(QIcon(":/icons/palp.svg"));
   auto* centre = new QWidget;
   auto* row = new QHBoxLayout(centre);
@@ -68,7 +68,12 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   addScene("live", tr("Live"), tr("A board, the simulated board or a recording, live"), livePage);
   addScene("reports", tr("Reports"), tr("The paper reproduced, and the reports"), new ReportsPage(workbench));
   buildStatusLine();
-  menus_ = new Menus(*this, workbench);
+  document_ = new Document(*this, workbench);
+  new Menus(*this, workbench, *document_);
+  connect(&workbench, &Workbench::wentBack, this, [this](const QString& scene, const QString& sentence) {
+    showScene(scene); // nothing changes unseen
+    showMessage(sentence);
+  });
   setAcceptDrops(true);
   connect(new QShortcut(Qt::Key_Escape, this), &QShortcut::activated, this, &MainWindow::cancelAll);
   connect(rail_, &QListWidget::currentRowChanged, this, &MainWindow::sceneChosen);
@@ -106,6 +111,7 @@ bool MainWindow::busy() const {
 void MainWindow::sceneChosen(int index) {
   if (index < 0) return;
   scenes_->setCurrentIndex(index);
+  workbench_.setPlace(names_[index]);
   // Before the window is seen no scene is: what it opens on computes nothing for the others.
   if (isVisible()) workbench_.touch().need(currentScene().stage());
 }
@@ -159,6 +165,10 @@ void MainWindow::restoreLayout() {
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
+  if (!document_->mayLeave()) {
+    event->ignore();
+    return;
+  }
   QSettings().setValue("geometry", saveGeometry());
   QSettings().setValue("state", saveState());
   saveLayout(*this);
@@ -172,7 +182,7 @@ void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
 
 void MainWindow::dropEvent(QDropEvent* event) {
   const QList<QUrl> files = event->mimeData()->urls();
-  if (!files.isEmpty()) menus_->open(files.front().toLocalFile());
+  if (!files.isEmpty()) document_->open(files.front().toLocalFile());
 }
 
 } // namespace palp

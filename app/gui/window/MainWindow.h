@@ -12,9 +12,9 @@ class QStackedWidget;
 namespace palp {
 
 class DeformationPage;
+class Document;
 class JobRunner;
 class LoadPathAnimation;
-class Menus;
 class NetworkSession;
 class Workbench;
 
@@ -55,7 +55,7 @@ private:
   NetworkSession& network_;
   DeformationPage* deformation_ = nullptr;
   LoadPathAnimation* animation_ = nullptr;
-  Menus* menus_ = nullptr;
+  Document* document_ = nullptr;
   QListWidget* rail_ = nullptr;
   QStackedWidget* scenes_ = nullptr;
   QStringList names_;

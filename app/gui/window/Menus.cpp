@@ -1,10 +1,11 @@
 #include "app/gui/window/Menus.h"
 
-#include "app/gui/project/ProjectFile.h"
 #include "app/gui/project/ResultCsv.h"
 #include "app/gui/project/Workbench.h"
+#include "app/gui/window/Document.h"
 #include "app/gui/window/HelpDialog.h"
 #include "app/gui/window/MainWindow.h"
+#include "app/gui/window/UndoActions.h"
 #include "app/scenes/VtuFile.h"
 #include "io/DesignFile.h"
 #include "model/base/Error.h"
@@ -14,7 +15,6 @@
 #include <QClipboard>
 #include <QDockWidget>
 #include <QFileDialog>
-#include <QFileInfo>
 #include <QMenuBar>
 #include <QMessageBox>
 #include <QSettings>
@@ -22,14 +22,8 @@
 
 namespace palp {
 
-namespace {
-
-constexpr int kRecentFiles = 8;
-constexpr const char* kRecentKey = "recentFiles";
-
-} // namespace
-
-Menus::Menus(MainWindow& window, Workbench& workbench) : QObject(&window), window_(window), workbench_(workbench) {
+Menus::Menus(MainWindow& window, Workbench& workbench, Document& document)
+    : QObject(&window), window_(window), workbench_(workbench), document_(document) {
   buildFile();
   buildEdit();
   buildView();
@@ -48,21 +42,15 @@ QAction* Menus::add(QMenu& menu, const QString& text, const QString& tip, const 
 void Menus::buildFile() {
   QMenu& menu = *window_.menuBar()->addMenu(tr("&File"));
   add(menu, tr("&Paper's design"), tr("Starts anew from the paper's design and one example load"), QKeySequence::New,
-      [this] {
-        workbench_.replace(exampleProject());
-        file_.clear();
-      });
-  add(menu, tr("&Open..."), tr("Opens a design or a project file"), QKeySequence::Open, [this] {
-    const QString file = QFileDialog::getOpenFileName(&window_, tr("Open"), {}, tr("Designs and projects (*.json)"));
-    if (!file.isEmpty()) open(file);
-  });
+      [this] { document_.startAnew(); });
+  add(menu, tr("&Open..."), tr("Opens a design or a project file"), QKeySequence::Open, [this] { document_.open(); });
   recent_ = menu.addMenu(tr("Open &recent"));
   connect(recent_, &QMenu::aboutToShow, this, &Menus::listRecent);
   listRecent();
   menu.addSeparator();
-  add(menu, tr("&Save project"), tr("Saves everything that was set"), QKeySequence::Save, [this] { save(file_); });
+  add(menu, tr("&Save project"), tr("Saves everything that was set"), QKeySequence::Save, [this] { document_.save(); });
   add(menu, tr("Save project &as..."), tr("Saves everything that was set in another file"),
-      QKeySequence("Ctrl+Shift+S"), [this] { save({}); });
+      QKeySequence("Ctrl+Shift+S"), [this] { document_.saveAs(); });
   add(menu, tr("Save &design..."), tr("Saves the design alone, for the command line"), {}, [this] {
     exportTo(tr("Save design"), "sensor.json", tr("Designs (*.json)"),
              [this](const QString& file) { saveDesign(file.toStdString(), workbench_.project().design, true); });
@@ -118,11 +106,8 @@ void Menus::buildExport(QMenu& menu) {
 
 void Menus::buildEdit() {
   QMenu& menu = *window_.menuBar()->addMenu(tr("&Edit"));
-  QAction* undo = workbench_.history().createUndoAction(this, tr("Undo"));
-  undo->setShortcut(QKeySequence::Undo);
-  QAction* redo = workbench_.history().createRedoAction(this, tr("Redo"));
-  redo->setShortcuts({QKeySequence("Ctrl+Y"), QKeySequence("Ctrl+Shift+Z")});
-  menu.addActions({undo, redo});
+  auto* undoing = new UndoActions(workbench_, this);
+  menu.addActions({undoing->undo(), undoing->redo()});
   menu.addSeparator();
   add(menu, tr("&Compute again"), tr("Solves again after a cancel"), QKeySequence("F5"),
       [this] { workbench_.touch().resume(); });
@@ -169,54 +154,12 @@ void Menus::buildHelp() {
   });
 }
 
-void Menus::open(const QString& file) {
-  try {
-    Project open = workbench_.project();
-    open.view.scene = window_.currentScene().objectName().toStdString();
-    const Project project = loadProject(file.toStdString(), open);
-    workbench_.replace(project);
-    window_.showScene(QString::fromStdString(project.view.scene));
-    rememberFile(file);
-    file_.clear();
-    window_.showMessage(tr("Opened %1.").arg(file));
-  } catch (const std::exception& error) {
-    QMessageBox::warning(&window_, tr("Cannot open"),
-                         tr("%1\n\nWhat was open stays as it is.").arg(QString::fromStdString(error.what())));
-  }
-}
-
-void Menus::save(const QString& file) {
-  const QString chosen = !file.isEmpty() ? file
-                                         : QFileDialog::getSaveFileName(&window_, tr("Save project"), "project.json",
-                                                                        tr("Projects (*.json)"));
-  if (chosen.isEmpty()) return;
-  try {
-    Project project = workbench_.project();
-    project.view.scene = window_.currentScene().objectName().toStdString();
-    saveProject(chosen.toStdString(), project);
-    file_ = chosen;
-    rememberFile(chosen);
-    window_.showMessage(tr("Saved %1.").arg(chosen));
-  } catch (const Error& error) {
-    QMessageBox::warning(&window_, tr("Cannot save"), QString::fromStdString(error.what()));
-  }
-}
-
-void Menus::rememberFile(const QString& file) {
-  QSettings settings;
-  QStringList files = settings.value(kRecentKey).toStringList();
-  const QString whole = QFileInfo(file).absoluteFilePath();
-  files.removeAll(whole);
-  files.prepend(whole);
-  settings.setValue(kRecentKey, files.mid(0, kRecentFiles));
-}
-
 void Menus::listRecent() {
   recent_->clear();
-  const QStringList files = QSettings().value(kRecentKey).toStringList();
-  recent_->setEnabled(!files.isEmpty());
-  for (const QString& file : files) add(*recent_, file, tr("Opens %1").arg(file), {}, [this, file] { open(file); });
-  recent_->menuAction()->setEnabled(!files.isEmpty());
+  const QStringList files = Document::recent();
+  for (const QString& file : files)
+    add(*recent_, file, tr("Opens %1").arg(file), {}, [this, file] { document_.open(file); });
+  if (files.isEmpty()) recent_->addAction(tr("Nothing was opened or saved yet"))->setEnabled(false);
 }
 
 void Menus::exportTo(const QString& title, const QString& proposal, const QString& filter,

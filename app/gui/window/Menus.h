@@ -11,6 +11,7 @@ class QMenu;
 
 namespace palp {
 
+class Document;
 class MainWindow;
 class Workbench;
 
@@ -19,10 +20,7 @@ class Menus : public QObject {
   Q_OBJECT
 
 public:
-  Menus(MainWindow& window, Workbench& workbench);
-
-  /// Opens a design or project file; says why where it cannot be read, and keeps what was there.
-  void open(const QString& file);
+  Menus(MainWindow& window, Workbench& workbench, Document& document);
 
 private:
   void buildFile();
@@ -32,8 +30,6 @@ private:
   void buildHelp();
   QAction* add(QMenu& menu, const QString& text, const QString& tip, const QKeySequence& keys,
                const std::function<void()>& act);
-  void save(const QString& file);
-  void rememberFile(const QString& file);
   void listRecent();
   /// Asks for a file and lets `write` write it; says what came of it.
   void exportTo(const QString& title, const QString& proposal, const QString& filter,
@@ -41,8 +37,8 @@ private:
 
   MainWindow& window_;
   Workbench& workbench_;
+  Document& document_;
   QMenu* recent_ = nullptr;
-  QString file_; ///< project file; empty before the first save
 };
 
 } // namespace palp

@@ -1,0 +1,90 @@
+#include "app/gui/project/ProjectChange.h"
+
+#include "app/gui/design/DesignFields.h"
+
+#include <QObject>
+#include <QStringList>
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+namespace palp {
+
+namespace {
+
+constexpr int kLongest = 28; ///< characters of a value
+
+QString shortened(const QString& value) {
+  return value.size() <= kLongest ? value : value.left(kLongest - 3) + "...";
+}
+
+QString stepWords(const QString& name, const QString& from, const QString& to, const QString& unit = {}) {
+  const QString words = QString("%1 %2 -> %3").arg(name, shortened(from), shortened(to));
+  return unit.isEmpty() ? words : words + " " + unit;
+}
+
+/// What changed in the design; one sentence a parameter.
+QStringList designChanges(const SensorDesign& before, const SensorDesign& after) {
+  QStringList changes;
+  SensorDesign told = before; // with what the sentences say
+  for (const DesignField& field : designFields()) {
+    const QString from = field.text(before), to = field.text(after);
+    if (from == to) continue;
+    changes << stepWords(field.group.toLower() + " " + field.label, from, to, field.unit);
+    field.set(told, to);
+  }
+  if (told != after) changes << QString(); // more than the fields can say
+  return changes;
+}
+
+QString forceWords(const Eigen::Vector3d& force_N) {
+  return QString("(%1, %2, %3)").arg(force_N.x()).arg(force_N.y()).arg(force_N.z());
+}
+
+/// Of the load on one area; none: it carries none.
+std::optional<Eigen::Vector3d> forceOn(const LoadCase& load, int area) {
+  for (const AreaLoad& its : load.areas)
+    if (its.area == area) return its.force_N;
+  return std::nullopt;
+}
+
+QStringList loadChanges(const LoadCase& before, const LoadCase& after) {
+  QStringList changes;
+  if (before.patches != after.patches) changes << QString();
+  std::vector<int> areas;
+  for (const LoadCase* load : {&before, &after})
+    for (const AreaLoad& its : load->areas)
+      if (std::find(areas.begin(), areas.end(), its.area) == areas.end()) areas.push_back(its.area);
+  for (const int area : areas) {
+    const auto from = forceOn(before, area), to = forceOn(after, area);
+    if (from == to) continue;
+    const QString name = QObject::tr("area %1:").arg(area);
+    if (from && to)
+      changes << stepWords(name, forceWords(*from), forceWords(*to), "N");
+    else if (to)
+      changes << QObject::tr("%1 a load of %2 N").arg(name, forceWords(*to));
+    else
+      changes << QObject::tr("%1 no load").arg(name);
+  }
+  return changes;
+}
+
+QString meshWords(const MeshOptions& mesh) {
+  if (mesh.mapped) return QString("%1x%2x%3").arg((*mesh.mapped)[0]).arg((*mesh.mapped)[1]).arg((*mesh.mapped)[2]);
+  return mesh.meshSize_mm ? QString("%1 mm").arg(*mesh.meshSize_mm) : QObject::tr("standard");
+}
+
+} // namespace
+
+QString changeWords(const QString& what, const Project& before, const Project& after) {
+  QStringList changes = designChanges(before.design, after.design);
+  // A design takes loads with it that cannot act on it: that is no change of its own.
+  if (changes.isEmpty()) changes << loadChanges(before.load, after.load);
+  if (before.mesh != after.mesh)
+    changes << stepWords(QObject::tr("mesh size"), meshWords(before.mesh), meshWords(after.mesh));
+  const bool more = before.samples != after.samples || before.network != after.network;
+  return changes.size() == 1 && !more && !changes.front().isEmpty() ? changes.front() : what;
+}
+
+} // namespace palp
