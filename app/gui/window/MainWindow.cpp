@@ -90,7 +90,7 @@ void MainWindow::addScene(const QString& name, const QString& title, const QStri
 }
 
 void MainWindow::buildStatusLine() {
-  runners_ = {&workbench_.touch().runner(), &network_.runner(), &animation_->runner(), &document_->saving()};
+  runners_ = {&workbench_.touch().runner(), &network_.runner(), &animation_->runner(), &network_.writer()};
   for (int k = 0; k < scenes_->count(); ++k)
     for (JobRunner* runner : static_cast<Scene*>(scenes_->widget(k))->runners()) runners_.push_back(runner);
   for (JobRunner* runner : runners_) {
