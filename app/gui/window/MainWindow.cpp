@@ -1,6 +1,7 @@
 #include "app/gui/window/MainWindow.h"
 
 #include "app/gui/design/DesignPage.h"
+#include "app/gui/document/Document.h"
 #include "app/gui/jobs/NetworkSession.h"
 #include "app/gui/live/LivePage.h"
 #include "app/gui/network/NetworkPage.h"
@@ -9,7 +10,6 @@
 #include "app/gui/touch/DeformationPage.h"
 #include "app/gui/touch/LoadPathAnimation.h"
 #include "app/gui/touch/ResistancePage.h"
-#include "app/gui/window/Document.h"
 #include "app/gui/window/JobStrip.h"
 #include "app/gui/window/Layout.h"
 #include "app/gui/window/Menus.h"

@@ -1,5 +1,5 @@
+#include "app/gui/document/Document.h"
 #include "app/gui/project/ProjectFile.h"
-#include "app/gui/window/Document.h"
 #include "app/study/Resources.h"
 #include "app/study/live/LiveSource.h"
 #include "io/SampleFile.h"

@@ -1,9 +1,9 @@
-#include "app/gui/window/Autosave.h"
+#include "app/gui/document/Autosave.h"
 
+#include "app/gui/document/Document.h"
+#include "app/gui/document/Recovery.h"
 #include "app/gui/jobs/ResultFiles.h"
 #include "app/gui/project/ProjectFile.h"
-#include "app/gui/window/Document.h"
-#include "app/gui/window/Recovery.h"
 #include "tests/app/gui/WindowFixture.h"
 
 #include <QDir>

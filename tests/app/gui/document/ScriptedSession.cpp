@@ -1,8 +1,8 @@
 // A session that goes on until it is killed: forces are typed, samples made, networks trained, the project saved. Every
 // force is printed before it is typed, so that who kills it knows what was done.
 //   gui_session RECOVERY-FOLDER PROJECT-FILE
-#include "app/gui/window/Autosave.h"
-#include "app/gui/window/Document.h"
+#include "app/gui/document/Autosave.h"
+#include "app/gui/document/Document.h"
 #include "tests/app/gui/WindowFixture.h"
 
 #include <QDoubleSpinBox>
