@@ -13,6 +13,7 @@
 #include "app/gui/window/JobStrip.h"
 #include "app/gui/window/Layout.h"
 #include "app/gui/window/Menus.h"
+#include "app/gui/window/MessageLog.h"
 #include "app/gui/window/Style.h"
 
 #include <QApplication>
@@ -51,6 +52,9 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   row->addWidget(scenes_, 1);
   setCentralWidget(centre);
 
+  log_ = new MessageLog(this);
+  addDockWidget(Qt::BottomDockWidgetArea, log_);
+  log_->hide();
   auto* designPage = new DesignPage(workbench, network);
   connect(designPage, &DesignPage::stageChanged, this, [this] { workbench_.touch().need(currentScene().stage()); });
   addScene("design", tr("Design"), tr("The sensor at rest and all its parameters"), designPage);
@@ -153,6 +157,7 @@ void MainWindow::animate(const QString& folder) {
 
 void MainWindow::showMessage(const QString& sentence) {
   statusBar()->showMessage(sentence, kMessage_ms);
+  log_->add(sentence);
 }
 
 void MainWindow::restoreLayout() {
