@@ -61,6 +61,12 @@ QStringList Document::recent() {
   return QSettings().value(kRecentKey).toStringList();
 }
 
+Project Document::project() const {
+  Project project = workbench_.project();
+  project.view.scene = window_.currentScene().objectName().toStdString();
+  return project;
+}
+
 bool Document::unsaved() const {
   const NetworkResults& made = network_.results();
   const bool results = network_.upToDate() && (made.samples != savedSamples_ || made.fit != savedFit_);
@@ -151,9 +157,7 @@ void Document::open(const QString& file) {
 }
 
 void Document::openProject(const QString& file) {
-  Project base = workbench_.project();
-  base.view.scene = window_.currentScene().objectName().toStdString();
-  const Project opened = loadProject(file.toStdString(), base);
+  const Project opened = loadProject(file.toStdString(), project());
   if (!mayLeave()) return;
   const bool whole = fileKind(file) == FileKind::Project; // a design alone begins a project that has no file yet
   workbench_.replace(tr("Open %1").arg(QFileInfo(file).fileName()), opened,
@@ -180,9 +184,7 @@ bool Document::saveAs() {
 
 bool Document::write(const QString& file) {
   try {
-    Project project = workbench_.project();
-    project.view.scene = window_.currentScene().objectName().toStdString();
-    saveProject(file.toStdString(), project);
+    saveProject(file.toStdString(), project());
   } catch (const Error& error) {
     QMessageBox::warning(&window_, tr("Cannot save"), QString::fromStdString(error.what()));
     return false;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "app/gui/project/Project.h"
+
 #include <QObject>
 #include <QString>
 #include <QStringList>
@@ -25,6 +27,8 @@ class Document : public QObject {
 public:
   Document(MainWindow& window, Workbench& workbench, NetworkSession& network);
 
+  /// The project with the scene that is seen.
+  [[nodiscard]] Project project() const;
   /// Something would be lost if the program ended now.
   [[nodiscard]] bool unsaved() const;
   /// Nothing is unsaved, or the user has saved it or lets it go.
