@@ -80,8 +80,7 @@ Plausibility::Verdict Plausibility::judge(const PlausibilityInput& input) {
   if (heldDoubt_ == Doubt::Foreign) {
     if (verdict.misfit) heldMisfit_ = *verdict.misfit;
     std::array<char, 160> text{};
-    std::snprintf(text.data(), text.size(),
-                  "no touch that the network knows gives these readings: misfit %.2g, at most %.2g is noise",
+    std::snprintf(text.data(), text.size(), "no touch that the network knows reads so (misfit %.2g, noise up to %.2g)",
                   heldMisfit_, limit(input.readings_ohm.size(), input.noiseUncertainty));
     verdict.reason = text.data();
   }
