@@ -1,3 +1,5 @@
+#include "app/gui/document/Autosave.h"
+#include "app/gui/document/Recovery.h"
 #include "app/gui/jobs/NetworkSession.h"
 #include "app/gui/project/ProjectFile.h"
 #include "app/gui/project/Workbench.h"
@@ -8,6 +10,7 @@
 #include "model/base/Error.h"
 
 #include <QCommandLineParser>
+#include <QTimer>
 
 #include <algorithm>
 #include <array>
@@ -92,7 +95,14 @@ int run(palp::Application& application) {
     return 0;
   }
   window.show();
-  if (!wish.snapshot.isEmpty()) palp::snapshotWhenComplete(window, workbench, wish.snapshot);
+  if (!wish.snapshot.isEmpty()) {
+    palp::snapshotWhenComplete(window, workbench, wish.snapshot);
+    return QApplication::exec();
+  }
+  const QString root = palp::Autosave::standardRoot();
+  palp::Autosave autosave(workbench, network, window.document(), root);
+  QObject::connect(&autosave, &palp::Autosave::failed, &window, &palp::MainWindow::showMessage);
+  QTimer::singleShot(0, &window, [&window, root] { palp::offerRecovery(window, root); });
   return QApplication::exec();
 }
 

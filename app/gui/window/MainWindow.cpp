@@ -1,6 +1,7 @@
 #include "app/gui/window/MainWindow.h"
 
 #include "app/gui/design/DesignPage.h"
+#include "app/gui/document/Document.h"
 #include "app/gui/jobs/NetworkSession.h"
 #include "app/gui/live/LivePage.h"
 #include "app/gui/network/NetworkPage.h"
@@ -9,10 +10,10 @@
 #include "app/gui/touch/DeformationPage.h"
 #include "app/gui/touch/LoadPathAnimation.h"
 #include "app/gui/touch/ResistancePage.h"
-#include "app/gui/window/Document.h"
 #include "app/gui/window/JobStrip.h"
 #include "app/gui/window/Layout.h"
 #include "app/gui/window/Menus.h"
+#include "app/gui/window/MessageLog.h"
 #include "app/gui/window/Style.h"
 
 #include <QApplication>
@@ -51,6 +52,9 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   row->addWidget(scenes_, 1);
   setCentralWidget(centre);
 
+  log_ = new MessageLog(this);
+  addDockWidget(Qt::BottomDockWidgetArea, log_);
+  log_->hide();
   auto* designPage = new DesignPage(workbench, network);
   connect(designPage, &DesignPage::stageChanged, this, [this] { workbench_.touch().need(currentScene().stage()); });
   addScene("design", tr("Design"), tr("The sensor at rest and all its parameters"), designPage);
@@ -67,8 +71,8 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   connect(livePage, &LivePage::message, this, &MainWindow::showMessage);
   addScene("live", tr("Live"), tr("A board, the simulated board or a recording, live"), livePage);
   addScene("reports", tr("Reports"), tr("The paper reproduced, and the reports"), new ReportsPage(workbench));
+  document_ = new Document(*this, workbench, network);
   buildStatusLine();
-  document_ = new Document(*this, workbench);
   new Menus(*this, workbench, *document_);
   connect(&workbench, &Workbench::wentBack, this, [this](const QString& scene, const QString& sentence) {
     showScene(scene); // nothing changes unseen
@@ -90,7 +94,7 @@ void MainWindow::addScene(const QString& name, const QString& title, const QStri
 }
 
 void MainWindow::buildStatusLine() {
-  runners_ = {&workbench_.touch().runner(), &network_.runner(), &animation_->runner()};
+  runners_ = {&workbench_.touch().runner(), &network_.runner(), &animation_->runner(), &network_.writer()};
   for (int k = 0; k < scenes_->count(); ++k)
     for (JobRunner* runner : static_cast<Scene*>(scenes_->widget(k))->runners()) runners_.push_back(runner);
   for (JobRunner* runner : runners_) {
@@ -153,6 +157,7 @@ void MainWindow::animate(const QString& folder) {
 
 void MainWindow::showMessage(const QString& sentence) {
   statusBar()->showMessage(sentence, kMessage_ms);
+  log_->add(sentence);
 }
 
 void MainWindow::restoreLayout() {
@@ -181,8 +186,9 @@ void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
 }
 
 void MainWindow::dropEvent(QDropEvent* event) {
-  const QList<QUrl> files = event->mimeData()->urls();
-  if (!files.isEmpty()) document_->open(files.front().toLocalFile());
+  QStringList files;
+  for (const QUrl& url : event->mimeData()->urls()) files << url.toLocalFile();
+  if (!files.isEmpty()) document_->open(files);
 }
 
 } // namespace palp

@@ -1,8 +1,8 @@
 #include "app/gui/window/Menus.h"
 
+#include "app/gui/document/Document.h"
 #include "app/gui/project/ResultCsv.h"
 #include "app/gui/project/Workbench.h"
-#include "app/gui/window/Document.h"
 #include "app/gui/window/HelpDialog.h"
 #include "app/gui/window/MainWindow.h"
 #include "app/gui/window/UndoActions.h"
@@ -45,6 +45,7 @@ void Menus::buildFile() {
       [this] { document_.startAnew(); });
   add(menu, tr("&Open..."), tr("Opens a design or a project file"), QKeySequence::Open, [this] { document_.open(); });
   recent_ = menu.addMenu(tr("Open &recent"));
+  recent_->setObjectName("recent");
   connect(recent_, &QMenu::aboutToShow, this, &Menus::listRecent);
   listRecent();
   menu.addSeparator();
@@ -117,6 +118,7 @@ void Menus::buildEdit() {
   window_.addDockWidget(Qt::RightDockWidgetArea, dock);
   dock->hide();
   menu.addAction(dock->toggleViewAction());
+  menu.addAction(window_.findChild<QDockWidget*>("messages")->toggleViewAction());
 }
 
 void Menus::buildView() {
