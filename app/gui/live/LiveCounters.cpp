@@ -32,21 +32,26 @@ LiveCounters::LiveCounters(QWidget* parent) : QWidget(parent) {
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(0, 0, 0, 0);
   row->setSpacing(6);
-  state_ = add(*row, "liveState", tr("State"), tr("What the source does now, and why"), 5);
+  state_ = add(*row, "liveState", tr("State"), tr("What the source does now, and why"), 4);
   rate_ = add(*row, "liveRate", tr("Measured rate"),
               tr("Reports a second that came in the last second, and whole scans (frames) of them"), 4);
-  losses_ = add(*row, "liveLosses", tr("Lost / bad / late"),
+  losses_ = add(*row, "liveLosses", tr("Lost, bad, late"),
                 tr("Reports missing in the sequence / with a wrong length, ID, checksum or range / frames that were "
                    "decoded more than 20 ms after the board read them; all since the start"),
                 3);
-  latency_ = add(*row, "liveLatency", tr("Latency p50 / p99 / max"),
-                 tr("From the board's clock at the last reading of a frame to the decoded force [ms]; offset and drift "
-                    "of the two clocks are taken out"),
+  latency_ = add(*row, "liveLatency", tr("Latency [ms]"),
+                 tr("From the board's clock at the last reading of a frame to the decoded force [ms], median / 99 % / "
+                    "longest; offset and drift of the two clocks are taken out. Below: what this program takes of it, "
+                    "from the report's arrival to the force"),
                  4);
-  decoding_ = add(*row, "liveDecoding", tr("Report to force"),
-                  tr("Of the latency, what this program takes: from the report's arrival to the force [ms], "
-                     "p50 / p99 / max"),
-                  4);
+  trust_ =
+      add(*row, "liveTrust", tr("Trust"),
+          tr("Whether the readings are those of a touch that the network knows. Misfit: what the most likely touch "
+             "leaves of the readings, over what noise, tare and the network's model explain (rms); it is 1 where "
+             "all is well, and 1 % of good frames lie above the limit. Doubted: more than half of the last quarter "
+             "of a second lies above it, or the force lies outside of what was trained: drift, hysteresis, several "
+             "touches, or another sensor"),
+          4);
   climate_ = add(*row, "liveClimate", tr("Temperature"),
                  tr("Of the board [degC]; relative noise of a reading: measured while taring, before that as the "
                     "network was trained for"),
@@ -86,7 +91,16 @@ void LiveCounters::set(const Tile& tile, const QString& value, const QString& un
   tile.value->style()->polish(tile.value);
 }
 
-void LiveCounters::display(const LiveStatus& status, bool simulated) {
+void LiveCounters::displayTrust(const LiveFrame* last) {
+  if (last == nullptr || !last->forces.valid) return set(trust_, tr("none"), tr("no forces"));
+  const DecodedForces& forces = last->forces;
+  const bool doubted = !forces.doubt.empty();
+  const QString misfit = forces.misfit ? tr("misfit %1").arg(*forces.misfit, 0, 'g', 3) : tr("range of the readings");
+  set(trust_, doubted ? tr("doubted") : tr("fits"), doubted ? QString::fromStdString(forces.doubt) : misfit, doubted);
+  trust_.unit->setToolTip(doubted ? trust_.unit->text() : QString());
+}
+
+void LiveCounters::display(const LiveStatus& status, const LiveFrame* last, bool simulated) {
   const bool alarm = status.state == LiveState::Refused || status.state == LiveState::Stalled ||
                      (status.state == LiveState::Searching && status.connections > 0);
   set(state_, stateTitle(status, simulated),
@@ -98,8 +112,9 @@ void LiveCounters::display(const LiveStatus& status, bool simulated) {
         wanted + tr("%1 frames/s").arg(status.framesPerSecond, 0, 'f', 0));
   set(losses_, QString("%1 / %2 / %3").arg(status.counts.lost).arg(status.counts.bad).arg(status.lateFrames),
       tr("of %1 reports").arg(status.counts.reports), status.counts.lost + status.counts.bad > 0);
-  set(latency_, triple(status.latency, status.counts.frames), tr("ms, board to force"));
-  set(decoding_, triple(status.decoding, status.counts.frames), tr("ms, p50 / p99 / max"));
+  set(latency_, triple(status.latency, status.counts.frames),
+      status.counts.frames == 0 ? QString() : tr("of it here %1").arg(triple(status.decoding, status.counts.frames)));
+  displayTrust(last);
   set(climate_,
       status.temperature_degC ? QString::fromUtf8("%1 \u00b0C").arg(*status.temperature_degC, 0, 'f', 1) : tr("none"),
       status.noise > 0 ? tr("noise %1%2").arg(status.noise, 0, 'g', 2).arg(status.tared ? tr(", tared") : QString())

@@ -11,14 +11,15 @@ class QLabel;
 
 namespace palp {
 
-/// State, measured rate, losses, latency, temperature and noise in one line of tiles.
+/// State, measured rate, losses, latency, trust in the force, temperature and noise in one line of tiles.
 class LiveCounters : public QWidget {
   Q_OBJECT
 
 public:
   explicit LiveCounters(QWidget* parent = nullptr);
 
-  void display(const LiveStatus& status, bool simulated);
+  /// `last` may be null.
+  void display(const LiveStatus& status, const LiveFrame* last, bool simulated);
 
 private:
   struct Tile {
@@ -27,9 +28,10 @@ private:
     QLabel* unit = nullptr;
   };
   Tile add(QHBoxLayout& row, const QString& name, const QString& title, const QString& tip, int stretch);
+  void displayTrust(const LiveFrame* last);
   static void set(const Tile& tile, const QString& value, const QString& unit, bool alarm = false);
 
-  Tile state_, rate_, losses_, latency_, decoding_, climate_;
+  Tile state_, rate_, losses_, latency_, trust_, climate_;
 };
 
 } // namespace palp
