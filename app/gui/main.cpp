@@ -2,12 +2,15 @@
 #include "app/gui/project/ProjectFile.h"
 #include "app/gui/project/Workbench.h"
 #include "app/gui/window/Application.h"
+#include "app/gui/window/Autosave.h"
 #include "app/gui/window/MainWindow.h"
+#include "app/gui/window/Recovery.h"
 #include "app/gui/window/SceneCosts.h"
 #include "app/gui/window/Snapshot.h"
 #include "model/base/Error.h"
 
 #include <QCommandLineParser>
+#include <QTimer>
 
 #include <algorithm>
 #include <array>
@@ -92,7 +95,14 @@ int run(palp::Application& application) {
     return 0;
   }
   window.show();
-  if (!wish.snapshot.isEmpty()) palp::snapshotWhenComplete(window, workbench, wish.snapshot);
+  if (!wish.snapshot.isEmpty()) {
+    palp::snapshotWhenComplete(window, workbench, wish.snapshot);
+    return QApplication::exec();
+  }
+  const QString root = palp::Autosave::standardRoot();
+  palp::Autosave autosave(workbench, network, window.document(), root);
+  QObject::connect(&autosave, &palp::Autosave::failed, &window, &palp::MainWindow::showMessage);
+  QTimer::singleShot(0, &window, [&window, root] { palp::offerRecovery(window, root); });
   return QApplication::exec();
 }
 

@@ -8,6 +8,7 @@
 #include <array>
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -18,7 +19,7 @@ namespace palp {
 struct NetworkSamples {
   SampleSet training;
   SampleSet test;
-  double batchError = 0; ///< relative, against full Newton
+  double batchError = 0; ///< relative, against full Newton; 0: not measured here
   SampleSettings settings;
 };
 
@@ -81,7 +82,12 @@ public:
   /// Tries a network from a file on the test samples; the job fails where it cannot be read or does not fit them.
   /// Throws Error where there are no samples.
   void open(const std::filesystem::path& file);
+  /// Samples of files in place of generated ones; the job fails where they cannot be (ResultFiles.h).
+  void openSamples(const std::vector<std::filesystem::path>& files);
+  /// What a folder keeps of this design, if anything; then `opened` is called.
+  void openResults(const std::filesystem::path& folder, const std::function<void()>& opened);
 
+  [[nodiscard]] const NetworkResults& results() const { return shown_; }
   [[nodiscard]] const NetworkSamples* samples() const { return shown_.samples.get(); }
   /// There are samples, and they are of the design as it is now.
   [[nodiscard]] bool upToDate() const { return shown_.samples && shown_.design == design_; }

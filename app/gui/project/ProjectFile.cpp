@@ -297,9 +297,4 @@ Project loadProject(const std::filesystem::path& path, const Project& base) {
   return parseProject(file.readAll(), name, base);
 }
 
-bool isProjectFile(const std::filesystem::path& path) {
-  QFile file(QString::fromStdString(path.string()));
-  return file.open(QIODevice::ReadOnly) && QJsonDocument::fromJson(file.readAll()).object().contains(kVersionKey);
-}
-
 } // namespace palp

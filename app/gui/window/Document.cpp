@@ -1,14 +1,20 @@
 #include "app/gui/window/Document.h"
 
+#include "app/gui/jobs/NetworkSession.h"
+#include "app/gui/jobs/ResultFiles.h"
+#include "app/gui/project/FileKind.h"
 #include "app/gui/project/ProjectFile.h"
 #include "app/gui/project/Workbench.h"
 #include "app/gui/window/MainWindow.h"
 #include "model/base/Error.h"
 
+#include <QEventLoop>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QMessageBox>
 #include <QSettings>
+
+#include <algorithm>
 
 namespace palp {
 
@@ -31,11 +37,23 @@ QString withSuffix(const QString& file) {
   return file.endsWith(".json", Qt::CaseInsensitive) ? file : file + ".json";
 }
 
+/// Where the samples and the network of a project lie: NAME.palp beside NAME.json.
+std::filesystem::path resultsFolder(const QString& file) {
+  return std::filesystem::path(file.toStdString()).replace_extension(".palp");
+}
+
 } // namespace
 
-Document::Document(MainWindow& window, Workbench& workbench)
-    : QObject(&window), window_(window), workbench_(workbench) {
+Document::Document(MainWindow& window, Workbench& workbench, NetworkSession& network)
+    : QObject(&window), window_(window), workbench_(workbench), network_(network) {
+  for (const auto changed : {&NetworkSession::samplesChanged, &NetworkSession::fitChanged})
+    connect(&network, changed, this, &Document::showTitle);
   connect(&workbench, &Workbench::fileChanged, this, &Document::showTitle);
+  connect(&workbench, &Workbench::projectReplaced, this, [this] {
+    network_.clear(); // what the other project held
+    const QString& file = workbench_.file();
+    if (!file.isEmpty()) network_.openResults(resultsFolder(file), [this] { resultsSaved(); });
+  });
   showTitle();
 }
 
@@ -43,53 +61,106 @@ QStringList Document::recent() {
   return QSettings().value(kRecentKey).toStringList();
 }
 
+bool Document::unsaved() const {
+  const NetworkResults& made = network_.results();
+  const bool results = network_.upToDate() && (made.samples != savedSamples_ || made.fit != savedFit_);
+  return workbench_.modified() || results;
+}
+
 void Document::showTitle() {
   const QString& file = workbench_.file();
   window_.setWindowTitle(tr("%1[*] - Palp").arg(file.isEmpty() ? tr("Untitled") : QFileInfo(file).fileName()));
   window_.setWindowFilePath(file);
-  window_.setWindowModified(workbench_.modified());
+  window_.setWindowModified(unsaved());
+  emit unsavedChanged();
 }
 
 bool Document::mayLeave() {
-  if (!workbench_.modified()) return true;
-  QMessageBox question(
-      QMessageBox::Question, tr("Save the project?"),
-      tr("%1 has changes that are not saved.")
-          .arg(workbench_.file().isEmpty() ? tr("The project") : QFileInfo(workbench_.file()).fileName()),
-      QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, &window_);
+  if (!unsaved()) return true;
+  const QString name = workbench_.file().isEmpty() ? tr("The project") : QFileInfo(workbench_.file()).fileName();
+  QMessageBox question(QMessageBox::Question, tr("Save the project?"),
+                       workbench_.modified() ? tr("%1 has changes that are not saved.").arg(name)
+                                             : tr("The samples and networks of %1 are not saved.").arg(name),
+                       QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, &window_);
   question.setObjectName("unsaved");
   question.setDefaultButton(QMessageBox::Save);
-  switch (question.exec()) {
-  case QMessageBox::Save:
-    return save();
-  case QMessageBox::Discard:
-    return true;
-  default:
-    return false;
+  const int answer = question.exec();
+  if (answer == QMessageBox::Discard) return true;
+  if (answer != QMessageBox::Save || !save()) return false;
+  if (saving_.running()) { // the window goes on meanwhile
+    QEventLoop waiting;
+    connect(&saving_, &JobRunner::finished, &waiting, &QEventLoop::quit);
+    waiting.exec();
   }
+  return !unsaved();
 }
 
 void Document::open() {
-  const QString file = QFileDialog::getOpenFileName(&window_, tr("Open"), {}, tr("Designs and projects (*.json)"));
-  if (!file.isEmpty()) open(file);
+  const QStringList files = QFileDialog::getOpenFileNames(
+      &window_, tr("Open"), {}, tr("All files of Palp (*.json *.csv *.palprec);;All files (*)"));
+  if (!files.isEmpty()) open(files);
+}
+
+void Document::open(const QStringList& files) {
+  if (files.size() == 1) {
+    open(files.front());
+    return;
+  }
+  try {
+    std::vector<std::filesystem::path> samples;
+    for (const QString& file : files) {
+      if (fileKind(file) != FileKind::Samples)
+        throw Error(file.toStdString() +
+                    ": is no file of samples; several files are opened together where all of them are");
+      samples.emplace_back(file.toStdString());
+    }
+    window_.showScene("network");
+    network_.openSamples(samples);
+  } catch (const std::exception& error) {
+    QMessageBox::warning(&window_, tr("Cannot open"), QString::fromStdString(error.what()));
+  }
 }
 
 void Document::open(const QString& file) {
   try {
-    Project base = workbench_.project();
-    base.view.scene = window_.currentScene().objectName().toStdString();
-    const Project opened = loadProject(file.toStdString(), base);
-    if (!mayLeave()) return;
-    const bool whole = isProjectFile(file.toStdString()); // a design alone begins a project that has no file yet
-    workbench_.replace(tr("Open %1").arg(QFileInfo(file).fileName()), opened,
-                       whole ? QFileInfo(file).absoluteFilePath() : QString());
-    window_.showScene(QString::fromStdString(opened.view.scene));
-    remember(file);
-    window_.showMessage(tr("Opened %1.").arg(file));
+    const FileKind kind = fileKind(file);
+    if (kind == FileKind::Foreign) throw Error(foreignWords(file).toStdString());
+    if (kind == FileKind::Design || kind == FileKind::Project) {
+      openProject(file);
+    } else if (kind == FileKind::Samples) {
+      window_.showScene("network");
+      network_.openSamples({file.toStdString()});
+    } else if (kind == FileKind::Network && network_.upToDate() && window_.currentScene().objectName() != "live") {
+      window_.showScene("network");
+      network_.open(file.toStdString());
+    } else { // there are no samples to try a network on, or it is meant for the board
+      Project next = workbench_.project();
+      if (kind == FileKind::Network) {
+        next.live.network = file.toStdString();
+      } else {
+        next.live.source = LiveSourceKind::Recording;
+        next.live.recording = file.toStdString();
+      }
+      workbench_.edit(tr("Open %1").arg(QFileInfo(file).fileName()), next);
+      window_.showScene("live");
+    }
   } catch (const std::exception& error) {
     QMessageBox::warning(&window_, tr("Cannot open"),
                          tr("%1\n\nWhat was open stays as it is.").arg(QString::fromStdString(error.what())));
   }
+}
+
+void Document::openProject(const QString& file) {
+  Project base = workbench_.project();
+  base.view.scene = window_.currentScene().objectName().toStdString();
+  const Project opened = loadProject(file.toStdString(), base);
+  if (!mayLeave()) return;
+  const bool whole = fileKind(file) == FileKind::Project; // a design alone begins a project that has no file yet
+  workbench_.replace(tr("Open %1").arg(QFileInfo(file).fileName()), opened,
+                     whole ? QFileInfo(file).absoluteFilePath() : QString());
+  window_.showScene(QString::fromStdString(opened.view.scene));
+  remember(file);
+  window_.showMessage(tr("Opened %1.").arg(file));
 }
 
 void Document::startAnew() {
@@ -119,7 +190,39 @@ bool Document::write(const QString& file) {
   workbench_.saved(QFileInfo(file).absoluteFilePath());
   remember(file);
   window_.showMessage(tr("Saved %1.").arg(file));
+  saveResultsOf(workbench_.file());
   return true;
+}
+
+void Document::saveResultsOf(const QString& file) {
+  if (!network_.upToDate()) return;
+  const NetworkResults& now = network_.results();
+  const auto work = [this, file, results = now](const std::stop_token&, JobProgress&) -> JobRunner::Taking {
+    saveResults(resultsFolder(file), results);
+    return [this, results] {
+      savedSamples_ = results.samples;
+      savedFit_ = results.fit;
+      showTitle();
+    };
+  };
+  saving_.start(tr("Saving samples and network"), work);
+}
+
+void Document::resultsSaved() {
+  savedSamples_ = network_.results().samples;
+  savedFit_ = network_.results().fit;
+  showTitle();
+}
+
+void Document::recover(const QByteArray& project, const QString& file, const std::filesystem::path& results,
+                       const std::function<void()>& done) {
+  if (!file.isEmpty() && QFileInfo::exists(file)) // so that undoing leads to what the file holds
+    workbench_.replace(tr("Open %1").arg(QFileInfo(file).fileName()),
+                       loadProject(file.toStdString(), workbench_.project()), file);
+  const Project recovered = parseProject(project, tr("the recovered project"), workbench_.project());
+  workbench_.edit(tr("Recover unsaved work"), recovered);
+  window_.showScene(QString::fromStdString(recovered.view.scene));
+  network_.openResults(results, done);
 }
 
 } // namespace palp

@@ -1,43 +1,73 @@
 #pragma once
 
+#include "app/gui/jobs/JobRunner.h"
+
 #include <QObject>
 #include <QString>
 #include <QStringList>
 
+#include <filesystem>
+#include <functional>
+#include <memory>
+
 namespace palp {
 
 class MainWindow;
+class NetworkSession;
 class Workbench;
+struct NetworkFit;
+struct NetworkSamples;
 
-/// The project as a file of the user's: opens and saves it, asks before unsaved work would be lost, and keeps the
-/// window's title.
+/// The project as a file of the user's, its samples and network in a folder beside it (NAME.palp): opens and saves
+/// them, asks before unsaved work would be lost, and keeps the window's title.
 class Document : public QObject {
   Q_OBJECT
 
 public:
-  Document(MainWindow& window, Workbench& workbench);
+  Document(MainWindow& window, Workbench& workbench, NetworkSession& network);
 
+  /// Something would be lost if the program ended now.
+  [[nodiscard]] bool unsaved() const;
   /// Nothing is unsaved, or the user has saved it or lets it go.
   bool mayLeave();
-  /// A design or project file in place of what is open; asks first. Says why where it cannot be read, and keeps what
-  /// was there.
+  /// A file of ours: a design or a project in place of what is open (asks first), samples and networks in the Network
+  /// scene. Says why where it cannot be opened, and keeps what was there.
   void open(const QString& file);
-  /// The same for a file that the user chooses.
+  /// The same for several: all of them samples.
+  void open(const QStringList& files);
+  /// The same for files that the user chooses.
   void open();
   /// The paper's design; asks first.
   void startAnew();
   /// In its file, or in one that the user chooses. False where it was not saved.
   bool save();
   bool saveAs();
+  /// What another window has left, as unsaved work on the project in `file` (empty: in none yet); `done` once all
+  /// of it is open. Throws Error.
+  void recover(const QByteArray& project, const QString& file, const std::filesystem::path& results,
+               const std::function<void()>& done);
+  /// Writes samples and network.
+  [[nodiscard]] JobRunner& saving() { return saving_; }
   /// Files that were opened or saved, the newest first.
   [[nodiscard]] static QStringList recent();
 
+signals:
+  void unsavedChanged();
+
 private:
+  void openProject(const QString& file);
   bool write(const QString& file);
+  void saveResultsOf(const QString& file);
+  /// The samples and the network as they are now stand in a file.
+  void resultsSaved();
   void showTitle();
 
   MainWindow& window_;
   Workbench& workbench_;
+  NetworkSession& network_;
+  JobRunner saving_;
+  std::shared_ptr<const NetworkSamples> savedSamples_;
+  std::shared_ptr<const NetworkFit> savedFit_;
 };
 
 } // namespace palp

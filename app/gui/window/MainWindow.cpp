@@ -67,8 +67,8 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   connect(livePage, &LivePage::message, this, &MainWindow::showMessage);
   addScene("live", tr("Live"), tr("A board, the simulated board or a recording, live"), livePage);
   addScene("reports", tr("Reports"), tr("The paper reproduced, and the reports"), new ReportsPage(workbench));
+  document_ = new Document(*this, workbench, network);
   buildStatusLine();
-  document_ = new Document(*this, workbench);
   new Menus(*this, workbench, *document_);
   connect(&workbench, &Workbench::wentBack, this, [this](const QString& scene, const QString& sentence) {
     showScene(scene); // nothing changes unseen
@@ -90,7 +90,7 @@ void MainWindow::addScene(const QString& name, const QString& title, const QStri
 }
 
 void MainWindow::buildStatusLine() {
-  runners_ = {&workbench_.touch().runner(), &network_.runner(), &animation_->runner()};
+  runners_ = {&workbench_.touch().runner(), &network_.runner(), &animation_->runner(), &document_->saving()};
   for (int k = 0; k < scenes_->count(); ++k)
     for (JobRunner* runner : static_cast<Scene*>(scenes_->widget(k))->runners()) runners_.push_back(runner);
   for (JobRunner* runner : runners_) {
@@ -181,8 +181,9 @@ void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
 }
 
 void MainWindow::dropEvent(QDropEvent* event) {
-  const QList<QUrl> files = event->mimeData()->urls();
-  if (!files.isEmpty()) document_->open(files.front().toLocalFile());
+  QStringList files;
+  for (const QUrl& url : event->mimeData()->urls()) files << url.toLocalFile();
+  if (!files.isEmpty()) document_->open(files);
 }
 
 } // namespace palp

@@ -29,6 +29,7 @@ public:
   bool showScene(const QString& name);
   [[nodiscard]] QStringList sceneNames() const;
   [[nodiscard]] Scene& currentScene() const;
+  [[nodiscard]] Document& document() const { return *document_; }
   void setTheme(Theme theme);
   [[nodiscard]] Theme theme() const { return theme_; }
   /// Some background work runs.

@@ -45,6 +45,7 @@ void Menus::buildFile() {
       [this] { document_.startAnew(); });
   add(menu, tr("&Open..."), tr("Opens a design or a project file"), QKeySequence::Open, [this] { document_.open(); });
   recent_ = menu.addMenu(tr("Open &recent"));
+  recent_->setObjectName("recent");
   connect(recent_, &QMenu::aboutToShow, this, &Menus::listRecent);
   listRecent();
   menu.addSeparator();
