@@ -325,4 +325,19 @@ void NetworkSession::openResults(const std::filesystem::path& folder, const std:
   runner_.start(tr("Opening samples"), work);
 }
 
+void NetworkSession::saveSamples(const std::filesystem::path& file) {
+  writer_.start(tr("Saving samples"), [file, samples = shown_.samples](const auto&, JobProgress&) {
+    saveSampleFiles(file, *samples);
+    return JobRunner::Taking();
+  });
+}
+
+void NetworkSession::saveResults(const std::filesystem::path& folder,
+                                 const std::function<void(const NetworkResults&)>& saved) {
+  writer_.start(tr("Saving samples and network"), [folder, saved, results = shown_](const auto&, JobProgress&) {
+    palp::saveResults(folder, results);
+    return [saved, results] { saved(results); };
+  });
+}
+
 } // namespace palp

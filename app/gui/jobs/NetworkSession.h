@@ -86,6 +86,10 @@ public:
   void openSamples(const std::vector<std::filesystem::path>& files);
   /// What a folder keeps of this design, if anything; then `opened` is called.
   void openResults(const std::filesystem::path& folder, const std::function<void()>& opened);
+  /// The samples in NAME.csv and NAME-test.csv; there must be some.
+  void saveSamples(const std::filesystem::path& file);
+  /// Samples and network in a folder; then `saved` is called with them.
+  void saveResults(const std::filesystem::path& folder, const std::function<void(const NetworkResults&)>& saved);
 
   [[nodiscard]] const NetworkResults& results() const { return shown_; }
   [[nodiscard]] const NetworkSamples* samples() const { return shown_.samples.get(); }
@@ -103,6 +107,8 @@ public:
   [[nodiscard]] std::array<std::size_t, 2> stoppedAt() const;
   [[nodiscard]] const StageLog& stages() const { return stages_; }
   [[nodiscard]] JobRunner& runner() { return runner_; }
+  /// Writes files beside what runs.
+  [[nodiscard]] JobRunner& writer() { return writer_; }
 
 signals:
   void samplesChanged();
@@ -123,7 +129,7 @@ private:
   /// Shows other results, and keeps those that were shown while there is room.
   void show(NetworkResults results);
 
-  JobRunner runner_;
+  JobRunner runner_, writer_;
   SensorDesign design_;
   NetworkResults shown_;
   std::deque<NetworkResults> past_; ///< of other designs, the newest first

@@ -36,8 +36,9 @@ FileKind fileKind(const QString& file) {
 }
 
 QString foreignWords(const QString& file) {
-  const QString type =
-      QFileInfo(file).size() == 0 ? QObject::tr("empty") : QMimeDatabase().mimeTypeForFile(file).comment();
+  const QString type = QFileInfo(file).size() == 0
+                           ? QObject::tr("empty")
+                           : QMimeDatabase().mimeTypeForFile(file, QMimeDatabase::MatchContent).comment();
   return QObject::tr(
              "%1: is no file of Palp's (%2). Allowed is a design, a project or a network (.json), samples (.csv) "
              "or a recording (.palprec).")

@@ -1,6 +1,7 @@
 #include "app/gui/window/MainWindow.h"
 
 #include "app/gui/design/DesignPage.h"
+#include "app/gui/document/Document.h"
 #include "app/gui/jobs/NetworkSession.h"
 #include "app/gui/live/LivePage.h"
 #include "app/gui/network/NetworkPage.h"
@@ -9,10 +10,10 @@
 #include "app/gui/touch/DeformationPage.h"
 #include "app/gui/touch/LoadPathAnimation.h"
 #include "app/gui/touch/ResistancePage.h"
-#include "app/gui/window/Document.h"
 #include "app/gui/window/JobStrip.h"
 #include "app/gui/window/Layout.h"
 #include "app/gui/window/Menus.h"
+#include "app/gui/window/MessageLog.h"
 #include "app/gui/window/Style.h"
 
 #include <QApplication>
@@ -67,6 +68,9 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   row->addWidget(room, 1);
   setCentralWidget(centre);
 
+  log_ = new MessageLog(this);
+  addDockWidget(Qt::BottomDockWidgetArea, log_);
+  log_->hide();
   auto* designPage = new DesignPage(workbench, network);
   connect(designPage, &DesignPage::stageChanged, this, [this] { workbench_.touch().need(currentScene().stage()); });
   addScene("design", tr("Design"), tr("The sensor at rest and all its parameters"), designPage);
@@ -106,7 +110,7 @@ void MainWindow::addScene(const QString& name, const QString& title, const QStri
 }
 
 void MainWindow::buildStatusLine() {
-  runners_ = {&workbench_.touch().runner(), &network_.runner(), &animation_->runner(), &document_->saving()};
+  runners_ = {&workbench_.touch().runner(), &network_.runner(), &animation_->runner(), &network_.writer()};
   for (int k = 0; k < scenes_->count(); ++k)
     for (JobRunner* runner : static_cast<Scene*>(scenes_->widget(k))->runners()) runners_.push_back(runner);
   for (JobRunner* runner : runners_) {
@@ -176,6 +180,7 @@ void MainWindow::animate(const QString& folder) {
 
 void MainWindow::showMessage(const QString& sentence) {
   statusBar()->showMessage(sentence, kMessage_ms);
+  log_->add(sentence);
 }
 
 void MainWindow::restoreLayout() {

@@ -1,8 +1,8 @@
 #include "app/gui/window/Menus.h"
 
+#include "app/gui/document/Document.h"
 #include "app/gui/project/ResultCsv.h"
 #include "app/gui/project/Workbench.h"
-#include "app/gui/window/Document.h"
 #include "app/gui/window/HelpDialog.h"
 #include "app/gui/window/MainWindow.h"
 #include "app/gui/window/UndoActions.h"
@@ -118,6 +118,7 @@ void Menus::buildEdit() {
   window_.addDockWidget(Qt::RightDockWidgetArea, dock);
   dock->hide();
   menu.addAction(dock->toggleViewAction());
+  menu.addAction(window_.findChild<QDockWidget*>("messages")->toggleViewAction());
 }
 
 void Menus::buildView() {

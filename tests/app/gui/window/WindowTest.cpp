@@ -15,6 +15,7 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QMessageBox>
+#include <QPlainTextEdit>
 #include <QPushButton>
 #include <QSettings>
 #include <QSlider>
@@ -435,6 +436,14 @@ TEST_F(Window, HowThingsAreShownIsNoEntryOfTheHistory) {
   EXPECT_EQ(workbench.project().view.quantity, Quantity::Pressure);
   EXPECT_FALSE(workbench.history().canUndo());
   EXPECT_TRUE(workbench.touch().upToDate()) << "a view computes nothing";
+}
+
+TEST_F(Window, KeepsWhatItSaidInALog) {
+  window.showMessage("First.");
+  window.showMessage("Second.");
+  const QString lines = find<QPlainTextEdit>("messageLines").toPlainText();
+  EXPECT_TRUE(lines.contains("First.")) << lines.toStdString();
+  EXPECT_LT(lines.indexOf("First."), lines.indexOf("Second."));
 }
 
 TEST_F(Window, TakesAPreset) {

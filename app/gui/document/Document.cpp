@@ -1,4 +1,4 @@
-#include "app/gui/window/Document.h"
+#include "app/gui/document/Document.h"
 
 #include "app/gui/jobs/NetworkSession.h"
 #include "app/gui/jobs/ResultFiles.h"
@@ -52,7 +52,7 @@ Document::Document(MainWindow& window, Workbench& workbench, NetworkSession& net
   connect(&workbench, &Workbench::projectReplaced, this, [this] {
     network_.clear(); // what the other project held
     const QString& file = workbench_.file();
-    if (!file.isEmpty()) network_.openResults(resultsFolder(file), [this] { resultsSaved(); });
+    if (!file.isEmpty()) network_.openResults(resultsFolder(file), [this] { resultsSaved(network_.results()); });
   });
   showTitle();
 }
@@ -87,9 +87,9 @@ bool Document::mayLeave() {
   const int answer = question.exec();
   if (answer == QMessageBox::Discard) return true;
   if (answer != QMessageBox::Save || !save()) return false;
-  if (saving_.running()) { // the window goes on meanwhile
+  if (network_.writer().running()) { // the window goes on meanwhile
     QEventLoop waiting;
-    connect(&saving_, &JobRunner::finished, &waiting, &QEventLoop::quit);
+    connect(&network_.writer(), &JobRunner::finished, &waiting, &QEventLoop::quit);
     waiting.exec();
   }
   return !unsaved();
@@ -190,27 +190,14 @@ bool Document::write(const QString& file) {
   workbench_.saved(QFileInfo(file).absoluteFilePath());
   remember(file);
   window_.showMessage(tr("Saved %1.").arg(file));
-  saveResultsOf(workbench_.file());
+  if (network_.upToDate())
+    network_.saveResults(resultsFolder(workbench_.file()), [this](const auto& results) { resultsSaved(results); });
   return true;
 }
 
-void Document::saveResultsOf(const QString& file) {
-  if (!network_.upToDate()) return;
-  const NetworkResults& now = network_.results();
-  const auto work = [this, file, results = now](const std::stop_token&, JobProgress&) -> JobRunner::Taking {
-    saveResults(resultsFolder(file), results);
-    return [this, results] {
-      savedSamples_ = results.samples;
-      savedFit_ = results.fit;
-      showTitle();
-    };
-  };
-  saving_.start(tr("Saving samples and network"), work);
-}
-
-void Document::resultsSaved() {
-  savedSamples_ = network_.results().samples;
-  savedFit_ = network_.results().fit;
+void Document::resultsSaved(const NetworkResults& results) {
+  savedSamples_ = results.samples;
+  savedFit_ = results.fit;
   showTitle();
 }
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "app/gui/jobs/JobRunner.h"
-
 #include <QObject>
 #include <QString>
 #include <QStringList>
@@ -16,6 +14,7 @@ class MainWindow;
 class NetworkSession;
 class Workbench;
 struct NetworkFit;
+struct NetworkResults;
 struct NetworkSamples;
 
 /// The project as a file of the user's, its samples and network in a folder beside it (NAME.palp): opens and saves
@@ -46,8 +45,6 @@ public:
   /// of it is open. Throws Error.
   void recover(const QByteArray& project, const QString& file, const std::filesystem::path& results,
                const std::function<void()>& done);
-  /// Writes samples and network.
-  [[nodiscard]] JobRunner& saving() { return saving_; }
   /// Files that were opened or saved, the newest first.
   [[nodiscard]] static QStringList recent();
 
@@ -57,15 +54,13 @@ signals:
 private:
   void openProject(const QString& file);
   bool write(const QString& file);
-  void saveResultsOf(const QString& file);
-  /// The samples and the network as they are now stand in a file.
-  void resultsSaved();
+  /// These samples and this network stand in a file.
+  void resultsSaved(const NetworkResults& results);
   void showTitle();
 
   MainWindow& window_;
   Workbench& workbench_;
   NetworkSession& network_;
-  JobRunner saving_;
   std::shared_ptr<const NetworkSamples> savedSamples_;
   std::shared_ptr<const NetworkFit> savedFit_;
 };

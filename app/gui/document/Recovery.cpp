@@ -1,8 +1,8 @@
-#include "app/gui/window/Recovery.h"
+#include "app/gui/document/Recovery.h"
 
+#include "app/gui/document/Autosave.h"
+#include "app/gui/document/Document.h"
 #include "app/gui/jobs/JobRunner.h"
-#include "app/gui/window/Autosave.h"
-#include "app/gui/window/Document.h"
 #include "app/gui/window/MainWindow.h"
 
 #include <QFileInfo>

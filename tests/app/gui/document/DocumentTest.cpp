@@ -1,4 +1,4 @@
-#include "app/gui/window/Document.h"
+#include "app/gui/document/Document.h"
 #include "app/gui/project/ProjectFile.h"
 #include "tests/app/gui/WindowFixture.h"
 

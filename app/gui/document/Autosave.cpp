@@ -1,10 +1,10 @@
-#include "app/gui/window/Autosave.h"
+#include "app/gui/document/Autosave.h"
 
+#include "app/gui/document/Document.h"
 #include "app/gui/jobs/NetworkSession.h"
 #include "app/gui/jobs/ResultFiles.h"
 #include "app/gui/project/ProjectFile.h"
 #include "app/gui/project/Workbench.h"
-#include "app/gui/window/Document.h"
 #include "io/AtomicFile.h"
 #include "model/base/Error.h"
 
