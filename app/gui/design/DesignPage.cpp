@@ -179,6 +179,7 @@ QGroupBox* DesignPage::buildMesh() {
   meshWords_ = new QLabel;
   meshWords_->setObjectName("meshWords");
   meshWords_->setWordWrap(true);
+  meshWords_->setMinimumHeight(2 * meshWords_->fontMetrics().lineSpacing()); // also where the window is low
   column->addWidget(meshWords_);
   column->addStretch(1);
   return box;
@@ -198,6 +199,7 @@ QGroupBox* DesignPage::buildNoiseFloor() {
   column->addWidget(noise_);
   floorWords_ = new QLabel;
   floorWords_->setObjectName("noiseFloor");
+  floorWords_->setMinimumHeight(2 * floorWords_->fontMetrics().lineSpacing());
   floorWords_->setWordWrap(true);
   column->addWidget(floorWords_);
   floorSamples_ = new QPushButton(tr("Generate samples"));

@@ -22,6 +22,7 @@
 #include <QHBoxLayout>
 #include <QListWidget>
 #include <QMimeData>
+#include <QScrollArea>
 #include <QSettings>
 #include <QShortcut>
 #include <QStackedWidget>
@@ -33,8 +34,18 @@ namespace palp {
 
 namespace {
 
-constexpr int kRailWidth_px = 128;
+constexpr int kRailWidth_px = 128;  ///< at least
+constexpr int kRailMargins_px = 34; ///< of its style
 constexpr int kMessage_ms = 15000;
+
+/// As large as the scene that is shown needs it, whatever the others need.
+class SceneStack : public QStackedWidget {
+public:
+  [[nodiscard]] QSize minimumSizeHint() const override {
+    return currentWidget() == nullptr ? QSize() : currentWidget()->minimumSizeHint();
+  }
+  [[nodiscard]] QSize sizeHint() const override { return minimumSizeHint(); }
+};
 
 } // namespace
 
@@ -46,10 +57,15 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   row->setSpacing(0);
   rail_ = new QListWidget;
   rail_->setObjectName("rail");
-  rail_->setFixedWidth(kRailWidth_px);
-  scenes_ = new QStackedWidget;
+  rail_->setAccessibleName(tr("Scenes"));
+  scenes_ = new SceneStack;
+  auto* room = new QScrollArea; // on a small screen a scene is scrolled, so that the window always fits
+  room->setObjectName("sceneRoom");
+  room->setFrameShape(QFrame::NoFrame);
+  room->setWidgetResizable(true);
+  room->setWidget(scenes_);
   row->addWidget(rail_);
-  row->addWidget(scenes_, 1);
+  row->addWidget(room, 1);
   setCentralWidget(centre);
 
   log_ = new MessageLog(this);
@@ -115,6 +131,7 @@ bool MainWindow::busy() const {
 void MainWindow::sceneChosen(int index) {
   if (index < 0) return;
   scenes_->setCurrentIndex(index);
+  scenes_->updateGeometry(); // each needs its own room
   workbench_.setPlace(names_[index]);
   // Before the window is seen no scene is: what it opens on computes nothing for the others.
   if (isVisible()) workbench_.touch().need(currentScene().stage());
@@ -143,6 +160,12 @@ Scene& MainWindow::currentScene() const {
 void MainWindow::setTheme(Theme theme) {
   theme_ = theme;
   applyTheme(*qApp, theme);
+  QFont chosen = rail_->font();
+  chosen.setBold(true);
+  int width = kRailWidth_px;
+  for (int k = 0; k < rail_->count(); ++k)
+    width = std::max(width, QFontMetrics(chosen).horizontalAdvance(rail_->item(k)->text()) + kRailMargins_px);
+  rail_->setFixedWidth(width);
   for (int k = 0; k < scenes_->count(); ++k) static_cast<Scene*>(scenes_->widget(k))->setTheme(theme);
 }
 
@@ -166,7 +189,7 @@ void MainWindow::restoreLayout() {
   restoreGeometry(settings.value("geometry").toByteArray());
   restoreState(settings.value("state").toByteArray());
   palp::restoreLayout(*this);
-  setTheme(settings.value("theme").toString() == "dark" ? Theme::Dark : Theme::Light);
+  setTheme(kThemes.find(settings.value("theme").toString().toStdString()).value_or(Theme::Light));
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {

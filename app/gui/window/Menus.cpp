@@ -6,6 +6,7 @@
 #include "app/gui/window/HelpDialog.h"
 #include "app/gui/window/MainWindow.h"
 #include "app/gui/window/UndoActions.h"
+#include "app/gui/window/ViewActions.h"
 #include "app/scenes/VtuFile.h"
 #include "io/DesignFile.h"
 #include "model/base/Error.h"
@@ -17,7 +18,6 @@
 #include <QFileDialog>
 #include <QMenuBar>
 #include <QMessageBox>
-#include <QSettings>
 #include <QUndoView>
 
 namespace palp {
@@ -131,14 +131,7 @@ void Menus::buildView() {
         [this, name] { window_.showScene(name); });
   }
   menu.addSeparator();
-  QAction* dark = add(menu, tr("&Dark theme"), tr("Light or dark"), QKeySequence("Ctrl+T"), [] {});
-  dark->setCheckable(true);
-  dark->setObjectName("darkTheme");
-  connect(&menu, &QMenu::aboutToShow, dark, [this, dark] { dark->setChecked(window_.theme() == Theme::Dark); });
-  connect(dark, &QAction::triggered, this, [this] {
-    window_.setTheme(window_.theme() == Theme::Dark ? Theme::Light : Theme::Dark);
-    QSettings().setValue("theme", window_.theme() == Theme::Dark ? "dark" : "light"); // the user's choice, kept
-  });
+  new ViewActions(window_, menu);
 }
 
 void Menus::buildHelp() {
