@@ -51,8 +51,7 @@ Document::Document(MainWindow& window, Workbench& workbench, NetworkSession& net
   connect(&workbench, &Workbench::fileChanged, this, &Document::showTitle);
   connect(&workbench, &Workbench::projectReplaced, this, [this] {
     network_.clear(); // what the other project held
-    const QString& file = workbench_.file();
-    if (!file.isEmpty()) network_.openResults(resultsFolder(file), [this] { resultsSaved(network_.results()); });
+    openResults();
   });
   showTitle();
 }
@@ -165,6 +164,19 @@ void Document::openProject(const QString& file) {
   window_.showScene(QString::fromStdString(opened.view.scene));
   remember(file);
   window_.showMessage(tr("Opened %1.").arg(file));
+}
+
+void Document::beganWith(const QString& file) {
+  remember(file);
+  if (fileKind(file) != FileKind::Project) return;
+  workbench_.saved(QFileInfo(file).absoluteFilePath());
+  openResults();
+}
+
+/// Samples and network that lie beside the project.
+void Document::openResults() {
+  const QString& file = workbench_.file();
+  if (!file.isEmpty()) network_.openResults(resultsFolder(file), [this] { resultsSaved(network_.results()); });
 }
 
 void Document::startAnew() {

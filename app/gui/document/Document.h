@@ -40,6 +40,8 @@ public:
   void open(const QStringList& files);
   /// The same for files that the user chooses.
   void open();
+  /// The project of the program's start is what this file holds; a design alone is kept in no file yet.
+  void beganWith(const QString& file);
   /// The paper's design; asks first.
   void startAnew();
   /// In its file, or in one that the user chooses. False where it was not saved.
@@ -57,6 +59,7 @@ signals:
 
 private:
   void openProject(const QString& file);
+  void openResults();
   bool write(const QString& file);
   /// These samples and this network stand in a file.
   void resultsSaved(const NetworkResults& results);
