@@ -1,4 +1,5 @@
 #include "app/gui/document/Autosave.h"
+#include "app/gui/document/Document.h"
 #include "app/gui/document/Recovery.h"
 #include "app/gui/jobs/NetworkSession.h"
 #include "app/gui/project/ProjectFile.h"
