@@ -77,24 +77,45 @@ MeshOptions meshOf(const JsonPlace& place) {
   return mesh;
 }
 
+QJsonObject samplesJson(const SampleSettings& samples) {
+  QJsonObject object{{"per_area", samples.perArea}, {"seed", static_cast<double>(samples.seed)}};
+  if (samples.surrogate) object["surrogate"] = true;
+  return object;
+}
+
 QJsonObject networkJson(const NetworkSettings& network) {
-  return {{"input", QString::fromStdString(name(network.input))},
-          {"mode", QString::fromStdString(name(network.mode))},
-          {"decoder", QString::fromStdString(name(network.decoder))},
-          {"rows", QString::fromStdString(network.rows)},
-          {"automatic_spread", network.automaticSpread},
-          {"spread", network.spread},
-          {"centers", network.centers},
-          {"noise", network.noise},
-          {"sweep_from", network.sweepFrom},
-          {"sweep_to", network.sweepTo},
-          {"sweep_count", network.sweepCount}};
+  QJsonObject object{{"input", QString::fromStdString(name(network.input))},
+                     {"mode", QString::fromStdString(name(network.mode))},
+                     {"decoder", QString::fromStdString(name(network.decoder))},
+                     {"rows", QString::fromStdString(network.rows)},
+                     {"automatic_spread", network.automaticSpread},
+                     {"spread", network.spread},
+                     {"centers", network.centers},
+                     {"noise", network.noise},
+                     {"sweep_from", network.sweepFrom},
+                     {"sweep_to", network.sweepTo},
+                     {"sweep_count", network.sweepCount}};
+  if (network.testNoise > 0) object["test_noise"] = network.testNoise;
+  if (network.allCenters) object["all_centers"] = true;
+  if (network.forgetting != 1) object["forgetting"] = network.forgetting;
+  if (network.seed != 1) object["train_seed"] = static_cast<double>(network.seed);
+  const auto add = [&object](const char* key, const auto& value, const auto& names) {
+    if (value) object[key] = QString::fromStdString(names.name(*value));
+  };
+  add("centers_by", network.centerChoice, kCenterChoices);
+  add("solver", network.solver, kLeastSquaresMethods);
+  add("scaler", network.scaling, kScalings);
+  add("tail", network.tail, kTails);
+  add("convention", network.convention, kSpreadConventions);
+  if (network.ridge) object["ridge"] = *network.ridge;
+  return object;
 }
 
 NetworkSettings networkOf(const JsonPlace& place) {
   place.onlyKeys({"input", "mode", "decoder", "rows", "automatic_spread", "spread", "noise", "sweep_from", "sweep_to",
                   "sweep_count"},
-                 {"centers"});
+                 {"centers", "test_noise", "all_centers", "forgetting", "train_seed", "centers_by", "solver", "scaler",
+                  "tail", "convention", "ridge"});
   NetworkSettings network;
   network.input = place.at("input").named(kInputKinds);
   network.mode = place.at("mode").named(kDecoderModes);
@@ -107,6 +128,16 @@ NetworkSettings networkOf(const JsonPlace& place) {
   network.sweepFrom = place.at("sweep_from").number(1e-6, 1e6);
   network.sweepTo = place.at("sweep_to").number(network.sweepFrom, 1e6);
   network.sweepCount = place.at("sweep_count").integer(2, 100);
+  if (place.has("test_noise")) network.testNoise = place.at("test_noise").number(0, 0.5);
+  if (place.has("all_centers")) network.allCenters = place.at("all_centers").boolean();
+  if (place.has("forgetting")) network.forgetting = place.at("forgetting").number(1e-6, 1);
+  if (place.has("train_seed")) network.seed = static_cast<std::uint64_t>(place.at("train_seed").integer(0, 1000000000));
+  if (place.has("centers_by")) network.centerChoice = place.at("centers_by").named(kCenterChoices);
+  if (place.has("solver")) network.solver = place.at("solver").named(kLeastSquaresMethods);
+  if (place.has("scaler")) network.scaling = place.at("scaler").named(kScalings);
+  if (place.has("tail")) network.tail = place.at("tail").named(kTails);
+  if (place.has("convention")) network.convention = place.at("convention").named(kSpreadConventions);
+  if (place.has("ridge")) network.ridge = place.at("ridge").number(0, 1e100);
   return network;
 }
 
@@ -273,9 +304,10 @@ Project projectOf(const JsonPlace& root, const std::string& file) {
   if (const auto wrong = whyInvalid(project.load, project.design)) throw Error(file + ": load: " + *wrong);
   project.mesh = meshOf(root.at("mesh"));
   const JsonPlace samples = root.at("samples");
-  samples.onlyKeys({"per_area", "seed"});
+  samples.onlyKeys({"per_area", "seed"}, {"surrogate"});
   project.samples.perArea = samples.at("per_area").integer(5, 100000);
   project.samples.seed = static_cast<std::uint64_t>(samples.at("seed").integer(0, 1000000000));
+  if (samples.has("surrogate")) project.samples.surrogate = samples.at("surrogate").boolean();
   project.network = networkOf(root.at("network"));
   if (version >= 2) project.view = viewOf(root.at("view"));
   if (root.has("live")) project.live = liveOf(root.at("live")); // not in the files of the first version
@@ -284,14 +316,23 @@ Project projectOf(const JsonPlace& root, const std::string& file) {
 
 } // namespace
 
+QByteArray networkText(const NetworkSettings& network) {
+  return QJsonDocument(networkJson(network)).toJson();
+}
+
+NetworkSettings parseNetwork(const QByteArray& text, const QString& file) {
+  const std::string name = file.toStdString();
+  const Json json = parseJson({text.data(), static_cast<std::size_t>(text.size())}, name);
+  return networkOf(JsonPlace(json, name));
+}
+
 QByteArray projectText(const Project& project) {
   const QByteArray design = QByteArray::fromStdString(toJson(project.design));
   const QJsonObject root{{kVersionKey, kVersion},
                          {"design", QJsonDocument::fromJson(design).object()},
                          {"load", loadJson(project.load)},
                          {"mesh", meshJson(project.mesh)},
-                         {"samples", QJsonObject{{"per_area", project.samples.perArea},
-                                                 {"seed", static_cast<double>(project.samples.seed)}}},
+                         {"samples", samplesJson(project.samples)},
                          {"network", networkJson(project.network)},
                          {"view", viewJson(project.view)},
                          {"live", liveJson(project.live)}};

@@ -80,9 +80,8 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   connect(animation_, &LoadPathAnimation::done, this, &MainWindow::showMessage);
   addScene("deformation", tr("Deformation"), tr("The block under load"), deformation_);
   addScene("resistance", tr("Resistance"), tr("Row-column resistances under the load"), new ResistancePage(workbench));
-  auto* networkPage = new NetworkPage(workbench, network);
-  connect(networkPage, &NetworkPage::refused, this, &MainWindow::showMessage);
-  addScene("network", tr("Network"), tr("Samples, training and the sweep of the spread"), networkPage);
+  addScene("network", tr("Network"), tr("Samples, training and the sweep of the spread"),
+           new NetworkPage(workbench, network));
   auto* livePage = new LivePage(workbench);
   connect(livePage, &LivePage::message, this, &MainWindow::showMessage);
   addScene("live", tr("Live"), tr("A board, the simulated board or a recording, live"), livePage);

@@ -17,11 +17,12 @@ const std::vector<ReportComputation>& reportComputations() {
       {"error-time",
        "error against run time: solver, networks, samples and the whole chain",
        errorTimeReport,
-       {{"solver on meshes and elements", 0.45, 40},
-        {"samples", 0.55, 5},
+       {{"solver on its meshes", 0.2, 140},
+        {"solver, finer meshes and CalculiX", 0.45, 12},
+        {"samples", 0.55, 3},
         {"decoders", 0.75, 20},
-        {"samples a second", 0.85, 10},
-        {"the whole chain", 1, 30}}},
+        {"samples a second", 0.85, 16},
+        {"the whole chain", 1, 70}}},
       {"stability",
        "extreme cases of the solver, the networks and Eq. (1), and how each came out",
        stabilityReport,
@@ -51,7 +52,7 @@ const std::vector<ReportComputation>& reportComputations() {
       {"scenes",
        "what each scene and each command costs, and that nothing is computed that is not shown",
        scenesReport,
-       {{"the chain", 0.15, 3}, {"the window", 0.55, 20}, {"the commands", 1, 30}}},
+       {{"the chain", 0.15, 30}, {"the window", 0.55, 60}, {"the commands", 1, 65}}},
   };
   return all;
 }
