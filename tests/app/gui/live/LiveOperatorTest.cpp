@@ -266,7 +266,10 @@ TEST_F(LiveOperator, TheSimulatedBoardSimulatesTheProjectsDesign) {
 TEST_F(LiveOperator, PullingOutAndPluggingInMovesNoButton) {
   ASSERT_TRUE(waitForFrames());
   auto& plug = find<QPushButton>("plug");
-  const QPoint place = plug.mapTo(&page, QPoint());
+  QPoint place;
+  ASSERT_TRUE(wait([&] { // until the panels have their first sizes
+    return std::exchange(place, plug.mapTo(&page, QPoint())) == plug.mapTo(&page, QPoint());
+  }));
   for (int k = 0; k < 2; ++k) {
     click("plug");
     ASSERT_TRUE(waitForState(LiveState::Searching));
@@ -404,8 +407,9 @@ TEST_F(LiveOperator, HoldsATouchWhereOnePressesAndHowOneTypes) {
   ASSERT_TRUE(reads(4, -3));
   // The arrow is drawn where the area is: a press somewhere else moves the touch there.
   QSignalSpy pressed(&block(), &LiveView::areaPressed);
-  for (int x = 1; x < 10 && (pressed.isEmpty() || pressed.back()[0] == 4); ++x)
-    QTest::mouseClick(&block(), Qt::LeftButton, {}, {block().width() * x / 10, block().height() * 6 / 10});
+  for (int k = 11; k < 100 && (pressed.isEmpty() || pressed.back()[0] == 4); ++k)
+    QTest::mouseClick(&block(), Qt::LeftButton, {},
+                      {block().width() * (k % 10) / 10, block().height() * (k / 10) / 10});
   ASSERT_FALSE(pressed.isEmpty());
   const int area = pressed.back()[0].toInt();
   EXPECT_NE(area, 4);
