@@ -9,6 +9,7 @@
 #include "app/gui/touch/DeformationPage.h"
 #include "app/gui/touch/LoadPathAnimation.h"
 #include "app/gui/touch/ResistancePage.h"
+#include "app/gui/widgets/WheelGuard.h"
 #include "app/gui/window/Document.h"
 #include "app/gui/window/JobStrip.h"
 #include "app/gui/window/Layout.h"
@@ -39,6 +40,7 @@ constexpr int kMessage_ms = 15000;
 
 MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbench_(workbench), network_(network) {
   setWindowIcon(QIcon(":/icons/palp.svg"));
+  new WheelGuard(this);
   auto* centre = new QWidget;
   auto* row = new QHBoxLayout(centre);
   row->setContentsMargins(0, 0, 0, 0);

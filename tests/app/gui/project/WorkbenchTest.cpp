@@ -72,7 +72,7 @@ TEST(Workbench, ThereAndBackAgainLeavesNothingToUndo) {
 TEST(Workbench, AnotherProjectBeginsAHistoryAnew) {
   Workbench workbench(exampleProject());
   press(workbench, -1);
-  workbench.replace(exampleProject());
+  workbench.replace("Open", exampleProject());
   EXPECT_FALSE(workbench.history().canUndo());
 }
 

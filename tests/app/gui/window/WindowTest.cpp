@@ -155,17 +155,6 @@ TEST_F(Window, SolvesAgainAndDrawsAnotherPictureWhenAForceIsTyped) {
   EXPECT_NEAR(workbench.touch().fields()->displacement_mm.colwise().norm().maxCoeff(), deep, 1e-12 * deep);
 }
 
-TEST_F(Window, LoadsAnAreaByItsButtonAndTakesTheLoadAway) {
-  ASSERT_TRUE(solved());
-  QTest::mouseClick(&find<QPushButton>("area_4"), Qt::LeftButton);
-  ASSERT_EQ(workbench.project().load.areas.size(), 2u);
-  EXPECT_EQ(workbench.project().load.areas[1].area, 4);
-  QTest::mouseClick(&find<QPushButton>("clearLoad"), Qt::LeftButton);
-  ASSERT_EQ(workbench.project().load.areas.size(), 1u);
-  EXPECT_EQ(workbench.project().load.areas[0].area, 1);
-  EXPECT_TRUE(solved());
-}
-
 TEST_F(Window, ProbesThePointThatWasClicked) {
   ASSERT_TRUE(solved());
   settle();
@@ -176,7 +165,7 @@ TEST_F(Window, ProbesThePointThatWasClicked) {
   EXPECT_TRUE(words.contains("Point (")) << words.toStdString();
   EXPECT_TRUE(words.contains(", 5) mm")) << words.toStdString();
   // It is a point of this project: another one, even on the same mesh, begins without it.
-  workbench.replace(quickProject());
+  workbench.replace("Open", quickProject());
   EXPECT_FALSE(find<QLabel>("probe").text().contains("Point (")) << find<QLabel>("probe").text().toStdString();
 }
 
@@ -291,15 +280,15 @@ TEST_F(Window, LightsTheElectrodesOfAClickedCell) {
 TEST_F(Window, ScrubsThroughTheLoadIncrementsDownToRest) {
   ASSERT_TRUE(solved());
   ASSERT_TRUE(idle());
-  const int last = workbench.touch().increment();
+  const int last = workbench.touch().place();
   ASSERT_GT(last, 0);
   find<QSlider>("increments").setValue(0);
-  ASSERT_TRUE(QTest::qWaitFor([&] { return workbench.touch().increment() == 0; }, kPatience_ms));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return workbench.touch().place() == 0; }, kPatience_ms));
   EXPECT_EQ(workbench.touch().loadFraction(), 0);
   EXPECT_EQ(workbench.touch().fields()->displacement_mm.cwiseAbs().maxCoeff(), 0);
   EXPECT_EQ(workbench.touch().stages().runs("solve"), 1) << "nothing is solved again";
   find<QSlider>("increments").setValue(last);
-  ASSERT_TRUE(QTest::qWaitFor([&] { return workbench.touch().increment() == last; }, kPatience_ms));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return workbench.touch().place() == last; }, kPatience_ms));
 }
 
 TEST_F(Window, ShowsARowWireAndTheTableOfElectrodes) {
@@ -356,7 +345,7 @@ TEST_F(Window, ShowsAProjectsOwnNumbersAndKeepsThemWhenOthersAreEdited) {
   project.network.noise = 2.5e-8;
   project.network.spread = 0.0012345;
   project.network.automaticSpread = false;
-  workbench.replace(project);
+  workbench.replace("Open", project);
   EXPECT_EQ(find<QDoubleSpinBox>("meshSize").value(), 0.333);
   EXPECT_NEAR(find<QDoubleSpinBox>("resistanceNoise").value(), 5e-5, 1e-18);
   EXPECT_EQ(find<QDoubleSpinBox>("spread").value(), 0.0012345);
