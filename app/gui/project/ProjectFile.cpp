@@ -18,6 +18,7 @@ namespace {
 
 constexpr int kVersion = 2; ///< 1 had no view, and perhaps no live
 constexpr const char* kVersionKey = "palp_project";
+constexpr NamedEnum kAxes("axis", std::array{std::pair{0, "x"}, std::pair{1, "y"}, std::pair{2, "z"}});
 constexpr int kLargestIndex = 10000; ///< of an area or a wire: more than any design has
 
 QJsonArray jsonOf(const Eigen::Ref<const Eigen::VectorXd>& values) {
@@ -160,7 +161,12 @@ QJsonObject viewJson(const ViewSettings& view) {
                      {"cell", cell(view.cell)},
                      {"test_area", view.testArea}};
   if (view.warpFactor) object["warp_factor"] = *view.warpFactor;
-  if (view.clipY_mm) object["clip_y_mm"] = *view.clipY_mm;
+  if (view.cut)
+    object["cut"] =
+        QJsonObject{{"axis", QString::fromStdString(kAxes.name(view.cut->axis))}, {"at_mm", view.cut->at_mm}};
+  if (view.colorMap) object["color_map"] = QString::fromStdString(kColorMaps.name(*view.colorMap));
+  if (view.colorRange) object["color_range"] = QJsonArray{(*view.colorRange)[0], (*view.colorRange)[1]};
+  if (view.extremes) object["extremes"] = true;
   if (view.litCell) object["lit_cell"] = cell(*view.litCell);
   if (view.resistanceRange)
     object["resistance_range"] = QJsonArray{(*view.resistanceRange)[0], (*view.resistanceRange)[1]};
@@ -178,15 +184,31 @@ std::array<double, 3> placeOf(const JsonPlace& place) {
   return {numbers[0], numbers[1], numbers[2]};
 }
 
+std::array<double, 2> rangeOf(const JsonPlace& place) {
+  const std::vector<double> range = place.numbers(2);
+  if (!(range[0] < range[1])) place.refuse("two numbers, the smaller one first");
+  return {range[0], range[1]};
+}
+
+CutPlane cutOf(const JsonPlace& place) {
+  place.onlyKeys({"axis", "at_mm"});
+  return {place.at("axis").named(kAxes), place.at("at_mm").number(0, 1e4)};
+}
+
 ViewSettings viewOf(const JsonPlace& place) {
-  place.onlyKeys({"scene", "quantity", "ghost", "electrodes", "arrows", "outlines", "edges", "row_wire", "line_from_mm",
-                  "line_to_mm", "mesh", "resistance_noise", "resistance", "cell", "test_area"},
-                 {"warp_factor", "clip_y_mm", "lit_cell", "resistance_range"});
+  place.onlyKeys(
+      {"scene", "quantity", "ghost", "electrodes", "arrows", "outlines", "edges", "row_wire", "line_from_mm",
+       "line_to_mm", "mesh", "resistance_noise", "resistance", "cell", "test_area"},
+      {"warp_factor", "clip_y_mm", "cut", "color_map", "color_range", "extremes", "lit_cell", "resistance_range"});
   ViewSettings view;
   view.scene = place.at("scene").string();
   view.quantity = place.at("quantity").named(kQuantities);
   if (place.has("warp_factor")) view.warpFactor = place.at("warp_factor").number(0, 1e6);
-  if (place.has("clip_y_mm")) view.clipY_mm = place.at("clip_y_mm").number(0, 1e4);
+  if (place.has("clip_y_mm")) view.cut = CutPlane{1, place.at("clip_y_mm").number(0, 1e4)}; // of older files
+  if (place.has("cut")) view.cut = cutOf(place.at("cut"));
+  if (place.has("color_map")) view.colorMap = place.at("color_map").named(kColorMaps);
+  if (place.has("color_range")) view.colorRange = rangeOf(place.at("color_range"));
+  if (place.has("extremes")) view.extremes = place.at("extremes").boolean();
   view.ghost = place.at("ghost").boolean();
   view.electrodes = place.at("electrodes").boolean();
   view.arrows = place.at("arrows").boolean();
@@ -200,9 +222,7 @@ ViewSettings viewOf(const JsonPlace& place) {
   view.resistanceNoise = place.at("resistance_noise").number(1e-7, 0.1);
   view.resistance = place.at("resistance").named(kResistanceKinds);
   if (place.has("resistance_range")) {
-    const std::vector<double> range = place.at("resistance_range").numbers(2);
-    if (!(range[0] < range[1])) place.at("resistance_range").refuse("two numbers, the smaller one first");
-    view.resistanceRange = {range[0], range[1]};
+    view.resistanceRange = rangeOf(place.at("resistance_range"));
   }
   view.cell = cellOf(place.at("cell"));
   view.testArea = place.at("test_area").integer(0, kLargestIndex);
