@@ -108,6 +108,7 @@ int run(palp::Application& application) {
     palp::snapshotWhenComplete(window, workbench, wish.snapshot);
     return QApplication::exec();
   }
+  if (readable) window.document().beganWith(wish.file);
   const QString root = palp::Autosave::standardRoot();
   palp::Autosave autosave(workbench, network, window.document(), root);
   QObject::connect(&autosave, &palp::Autosave::failed, &window, &palp::MainWindow::showMessage);
