@@ -11,6 +11,7 @@
 #include "app/gui/touch/LoadPathAnimation.h"
 #include "app/gui/touch/ResistancePage.h"
 #include "app/gui/widgets/WheelGuard.h"
+#include "app/gui/window/AccessibleNames.h"
 #include "app/gui/window/JobStrip.h"
 #include "app/gui/window/Layout.h"
 #include "app/gui/window/Menus.h"
@@ -98,6 +99,7 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   setAcceptDrops(true);
   connect(new QShortcut(Qt::Key_Escape, this), &QShortcut::activated, this, &MainWindow::cancelAll);
   connect(rail_, &QListWidget::currentRowChanged, this, &MainWindow::sceneChosen);
+  nameControls(*this);
   restoreLayout();
   showScene("deformation");
 }

@@ -3,10 +3,13 @@
 #include <QApplication>
 #include <QFile>
 #include <QFontDatabase>
+#include <QPainter>
 #include <QPalette>
+#include <QProxyStyle>
 #include <QRegularExpression>
 #include <QSettings>
 #include <QStyleFactory>
+#include <QStyleOption>
 
 #include <algorithm>
 
@@ -15,6 +18,35 @@ namespace palp {
 namespace {
 
 constexpr const char* kTextKey = "textPercent";
+
+/// Fusion draws its outlines darker than the ground, which on black is nothing: these are white.
+class OutlinedStyle : public QProxyStyle {
+public:
+  OutlinedStyle() : QProxyStyle("Fusion") {}
+
+  void drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
+                     const QWidget* widget) const override {
+    QProxyStyle::drawPrimitive(element, option, painter, widget);
+    if (element == PE_PanelButtonCommand || element == PE_IndicatorCheckBox || element == PE_FrameLineEdit)
+      outline(*painter, option->rect, option->palette);
+  }
+  void drawComplexControl(ComplexControl control, const QStyleOptionComplex* option, QPainter* painter,
+                          const QWidget* widget) const override {
+    QProxyStyle::drawComplexControl(control, option, painter, widget);
+    if (control == CC_SpinBox || control == CC_ComboBox) outline(*painter, option->rect, option->palette);
+    if (control == CC_Slider)
+      outline(*painter, subControlRect(control, option, SC_SliderHandle, widget), option->palette);
+  }
+
+private:
+  static void outline(QPainter& painter, const QRect& rect, const QPalette& colors) {
+    painter.save();
+    painter.setBrush(Qt::NoBrush);
+    painter.setPen(colors.color(QPalette::WindowText));
+    painter.drawRect(rect.adjusted(0, 0, -1, -1));
+    painter.restore();
+  }
+};
 
 /// White on black, yellow for what is chosen: contrasts of 19:1 and 15:1.
 QPalette highContrast() {
@@ -78,7 +110,10 @@ QString scaled(QString sheet, double scale) {
 } // namespace
 
 void applyTheme(QApplication& application, Theme theme) {
-  QApplication::setStyle(QStyleFactory::create("Fusion"));
+  if (theme == Theme::Contrast)
+    QApplication::setStyle(new OutlinedStyle); // the application's
+  else
+    QApplication::setStyle(QStyleFactory::create("Fusion"));
   QApplication::setPalette(widgetColors(theme));
   const double scale = textPercent() / 100.0;
   QFont font = QFontDatabase::systemFont(QFontDatabase::GeneralFont);

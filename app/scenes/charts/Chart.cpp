@@ -33,6 +33,7 @@ namespace {
 constexpr double kLetter_px = 7.5;
 constexpr double kGap_px = 8;
 constexpr double kLine_px = 16;
+constexpr double kBesidePlot_px = 70;  ///< on one side, by which the plot is off the middle
 constexpr double kAroundPlot_px = 100; ///< of the picture along an axis
 
 struct Range {
@@ -94,6 +95,16 @@ void setTicks(vtkAxis& axis, const AxisMarks& ticks, bool logarithmic) {
   axis.SetCustomTickPositions(positions, labels);
 }
 
+/// The size of a text that stands centred over a plot: smaller where a picture of this length would cut it, yet never
+/// so small that nobody reads it.
+double fittingSize(const std::string& text, double size_px, double length_px, double scale) {
+  constexpr double kLetterShare = 0.58; // mean width of a letter, of the size
+  constexpr double kSmallest = 0.65;
+  const double room_px = length_px - kBesidePlot_px * scale;
+  const double needed_px = kLetterShare * size_px * static_cast<double>(text.size());
+  return size_px * std::clamp(room_px / std::max(needed_px, 1.0), kSmallest, 1.0);
+}
+
 /// `length_px` of the picture along the axis.
 void setAxis(vtkAxis& axis, const std::string& label, const Range& range, bool logarithmic, const Palette& colors,
              double scale, double length_px) {
@@ -105,7 +116,7 @@ void setAxis(vtkAxis& axis, const std::string& label, const Range& range, bool l
   const AxisRoom room{length_px - kAroundPlot_px * scale, upright ? 0 : kLetter_px * scale,
                       (upright ? kLine_px : kGap_px) * scale};
   setTicks(axis, axisMarks(range.low, range.high, logarithmic, room), logarithmic);
-  setTextStyle(*axis.GetTitleProperties(), colors.text, 13 * scale);
+  setTextStyle(*axis.GetTitleProperties(), colors.text, fittingSize(label, 13 * scale, length_px, scale));
   setTextStyle(*axis.GetLabelProperties(), colors.text, 12 * scale);
   axis.GetPen()->SetColor(bytes(colors.text).data());
   axis.GetGridPen()->SetColor(bytes(colors.grid).data());
@@ -224,7 +235,7 @@ void fillChart(vtkChartXY& chart, const ChartSpec& spec, Theme theme, double sca
     setTicks(top, spec.topTicks, spec.logX);
   }
   chart.SetTitle(spec.title);
-  setTextStyle(*chart.GetTitleProperties(), colors.text, 14 * scale, true);
+  setTextStyle(*chart.GetTitleProperties(), colors.text, fittingSize(spec.title, 14 * scale, size_px[0], scale), true);
 }
 
 Picture drawChart(const ChartSpec& spec, int width, int height, Theme theme) {

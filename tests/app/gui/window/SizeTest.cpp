@@ -4,6 +4,10 @@
 #include "tests/app/gui/WindowFixture.h"
 
 #include <QAbstractButton>
+#include <QAbstractSlider>
+#include <QAbstractSpinBox>
+#include <QAccessible>
+#include <QCheckBox>
 #include <QComboBox>
 #include <QLabel>
 #include <QListWidget>
@@ -14,6 +18,8 @@
 
 namespace palp {
 namespace {
+
+constexpr int kSettled_ms = 5000; ///< for layouts that follow texts which come later
 
 /// What the window shows cut: labels, buttons and boxes that are narrower or lower than their text.
 QStringList cutTexts(const QWidget& root) {
@@ -49,11 +55,11 @@ protected:
     for (const QString& name : window.sceneNames()) {
       window.showScene(name);
       window.resize(asked);
-      settle();
+      QStringList cut;
+      const bool whole = QTest::qWaitFor([&] { return (cut = cutTexts(window)).isEmpty(); }, kSettled_ms);
       EXPECT_EQ(window.size(), asked) << name.toStdString() << " needs " << window.minimumSizeHint().width() << " x "
                                       << window.minimumSizeHint().height();
-      const QStringList cut = cutTexts(window);
-      EXPECT_TRUE(cut.isEmpty()) << name.toStdString() << ": " << cut.join("; ").toStdString();
+      EXPECT_TRUE(whole) << name.toStdString() << ": " << cut.join("; ").toStdString();
     }
   }
 };
@@ -153,6 +159,32 @@ TEST_F(WindowSize, SplittersAreSeen) {
   const QColor ground = window.palette().color(QPalette::Window);
   const QColor middle = picture.pixelColor(picture.width() / 2, picture.height() / 2);
   EXPECT_GT(std::abs(middle.lightness() - ground.lightness()), 30);
+}
+
+TEST_F(WindowSize, HighContrastOutlinesABoxThatIsNotChecked) {
+  window.showScene("network");
+  QTest::keyClick(&window, Qt::Key_T, Qt::ControlModifier | Qt::ShiftModifier);
+  settle();
+  const QImage box = find<QCheckBox>("automaticSpread").grab().toImage().copy(0, 0, 16, 24);
+  int white = 0;
+  for (int y = 0; y < box.height(); ++y)
+    for (int x = 0; x < box.width(); ++x) white += box.pixelColor(x, y).lightness() > 200 ? 1 : 0;
+  EXPECT_GT(white, 30);
+}
+
+TEST_F(WindowSize, EveryControlHasANameForScreenReaders) {
+  QStringList nameless;
+  for (const auto* widget : window.findChildren<QWidget*>()) {
+    if (widget->focusPolicy() == Qt::NoFocus || widget->objectName().startsWith("qt_")) continue;
+    const bool control = qobject_cast<const QAbstractButton*>(widget) != nullptr ||
+                         qobject_cast<const QAbstractSpinBox*>(widget) != nullptr ||
+                         qobject_cast<const QComboBox*>(widget) != nullptr ||
+                         qobject_cast<const QAbstractSlider*>(widget) != nullptr;
+    const QAccessibleInterface* seen = QAccessible::queryAccessibleInterface(const_cast<QWidget*>(widget));
+    if (control && (seen == nullptr || seen->text(QAccessible::Name).isEmpty()))
+      nameless << QString(widget->metaObject()->className()) + " " + widget->objectName();
+  }
+  EXPECT_TRUE(nameless.isEmpty()) << nameless.join("; ").toStdString();
 }
 
 } // namespace
