@@ -52,10 +52,12 @@ LiveCounters::LiveCounters(QWidget* parent) : QWidget(parent) {
              "of a second lies above it, or the force lies outside of what was trained: drift, hysteresis, several "
              "touches, or another sensor"),
           4);
-  climate_ = add(*row, "liveClimate", tr("Temperature"),
-                 tr("Of the board [degC]; relative noise of a reading: measured while taring, before that as the "
-                    "network was trained for"),
-                 3);
+  climate_ =
+      add(*row, "liveClimate", tr("Temperature, drift"),
+          tr("Of the board [degC]; relative noise of a reading: measured while taring, before that from frame to "
+             "frame; drift: how far all readings have gone together since rest [millionths], seen while the "
+             "sensor is left alone. Where that reads as more than 1 % of the force range, a tare is suggested"),
+          3);
 }
 
 LiveCounters::Tile LiveCounters::add(QHBoxLayout& row, const QString& name, const QString& title, const QString& tip,
@@ -115,10 +117,18 @@ void LiveCounters::display(const LiveStatus& status, const LiveFrame* last, bool
   set(latency_, triple(status.latency, status.counts.frames),
       status.counts.frames == 0 ? QString() : tr("of it here %1").arg(triple(status.decoding, status.counts.frames)));
   displayTrust(last);
+  const QString drift = status.drift ? tr("drift %1 ppm").arg(1e6 * *status.drift, 0, 'f', 0) : QString();
+  const QString reads =
+      status.tareSuggested ? tr(" reads as %1 N: tare").arg(status.driftForce_N, 0, 'g', 2) : QString();
+  const QString noise =
+      status.noise > 0 ? tr("noise %1%2").arg(status.noise, 0, 'g', 2).arg(status.tared ? tr(", tared") : QString())
+                       : tr("noise not known");
   set(climate_,
       status.temperature_degC ? QString::fromUtf8("%1 \u00b0C").arg(*status.temperature_degC, 0, 'f', 1) : tr("none"),
-      status.noise > 0 ? tr("noise %1%2").arg(status.noise, 0, 'g', 2).arg(status.tared ? tr(", tared") : QString())
-                       : tr("noise not known"));
+      status.tareSuggested ? drift + reads
+      : drift.isEmpty()    ? noise
+                           : noise + ", " + drift,
+      status.tareSuggested);
 }
 
 } // namespace palp
