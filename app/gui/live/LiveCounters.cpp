@@ -34,16 +34,17 @@ LiveCounters::LiveCounters(QWidget* parent) : QWidget(parent) {
   row->setSpacing(6);
   state_ = add(*row, "liveState", tr("State"), tr("What the source does now, and why"), 4);
   rate_ = add(*row, "liveRate", tr("Measured rate"),
-              tr("Reports a second that came in the last second, and whole scans (frames) of them"), 4);
+              tr("Reports a second that came in the last second, and whole scans (frames) of them"), 5);
   losses_ = add(*row, "liveLosses", tr("Lost, bad, late"),
                 tr("Reports missing in the sequence / with a wrong length, ID, checksum or range / frames that were "
                    "decoded more than 20 ms after the board read them; all since the start"),
-                3);
+                4);
   latency_ = add(*row, "liveLatency", tr("Latency [ms]"),
                  tr("From the board's clock at the last reading of a frame to the decoded force [ms], median / 99 % / "
                     "longest; offset and drift of the two clocks are taken out. Below: what this program takes of it, "
+                    "median / 99 %, "
                     "from the report's arrival to the force"),
-                 4);
+                 5);
   trust_ =
       add(*row, "liveTrust", tr("Trust"),
           tr("Whether the readings are those of a touch that the network knows. Misfit: what the most likely touch "
@@ -53,11 +54,11 @@ LiveCounters::LiveCounters(QWidget* parent) : QWidget(parent) {
              "touches, or another sensor"),
           4);
   climate_ =
-      add(*row, "liveClimate", tr("Temperature, drift"),
+      add(*row, "liveClimate", tr("Temperature"),
           tr("Of the board [degC]; relative noise of a reading: measured while taring, before that from frame to "
              "frame; drift: how far all readings have gone together since rest [millionths], seen while the "
              "sensor is left alone. Where that reads as more than 1 % of the force range, a tare is suggested"),
-          3);
+          6);
 }
 
 LiveCounters::Tile LiveCounters::add(QHBoxLayout& row, const QString& name, const QString& title, const QString& tip,
@@ -66,7 +67,7 @@ LiveCounters::Tile LiveCounters::add(QHBoxLayout& row, const QString& name, cons
   box->setProperty("role", "tile");
   box->setToolTip(tip);
   auto* column = new QVBoxLayout(box);
-  column->setContentsMargins(8, 4, 8, 4);
+  column->setContentsMargins(6, 4, 6, 4);
   column->setSpacing(0);
   auto* head = new QLabel(title);
   head->setProperty("role", "hint");
@@ -113,11 +114,13 @@ void LiveCounters::display(const LiveStatus& status, const LiveFrame* last, bool
     set(rate_, tr("%1 reports/s").arg(status.reportsPerSecond, 0, 'f', 0),
         wanted + tr("%1 frames/s").arg(status.framesPerSecond, 0, 'f', 0));
   set(losses_, QString("%1 / %2 / %3").arg(status.counts.lost).arg(status.counts.bad).arg(status.lateFrames),
-      tr("of %1 reports").arg(status.counts.reports), status.counts.lost + status.counts.bad > 0);
+      tr("of %1").arg(status.counts.reports), status.counts.lost + status.counts.bad > 0);
   set(latency_, triple(status.latency, status.counts.frames),
-      status.counts.frames == 0 ? QString() : tr("of it here %1").arg(triple(status.decoding, status.counts.frames)));
+      status.counts.frames == 0
+          ? QString()
+          : tr("here %1 / %2").arg(milliseconds(status.decoding.p50_s), milliseconds(status.decoding.p99_s)));
   displayTrust(last);
-  const QString drift = status.drift ? tr("drift %1 ppm").arg(1e6 * *status.drift, 0, 'f', 0) : QString();
+  const QString drift = status.drift ? tr("%1 ppm").arg(1e6 * *status.drift, 0, 'f', 0) : QString();
   const QString reads =
       status.tareSuggested ? tr(" reads as %1 N: tare").arg(status.driftForce_N, 0, 'g', 2) : QString();
   const QString noise =
