@@ -51,7 +51,8 @@ struct NodalFields {
   Eigen::Matrix<double, 6, Eigen::Dynamic> cauchy_MPa; ///< xx, yy, zz, xy, yz, xz (VTK's order) x nodes
   Eigen::VectorXd pressure_MPa;                        ///< hydrostatic, compression positive
   Eigen::VectorXd vonMises_MPa;
-  Eigen::VectorXd volumeRatio; ///< J = det F
+  Eigen::VectorXd volumeRatio;         ///< J = det F
+  Eigen::Matrix3Xd principalStretches; ///< singular values of F, largest first; x nodes
 };
 
 } // namespace palp

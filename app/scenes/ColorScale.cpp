@@ -23,6 +23,9 @@ constexpr std::array kViridis{hex(0x440154), hex(0x482878), hex(0x3e4989), hex(0
                               hex(0x1f9e89), hex(0x35b779), hex(0x6ece58), hex(0xb5de2b), hex(0xfde725)};
 constexpr std::array kCividis{hex(0x00224e), hex(0x123570), hex(0x3b496c), hex(0x575d6d), hex(0x707173),
                               hex(0x8a8678), hex(0xa59c74), hex(0xc3b369), hex(0xe1cc55), hex(0xfee838)};
+// Ten equal steps of viridisLite's inferno.
+constexpr std::array kInferno{hex(0x000004), hex(0x1b0c42), hex(0x4b0c6b), hex(0x781c6d), hex(0xa52c60),
+                              hex(0xcf4446), hex(0xed6925), hex(0xfb9a06), hex(0xf7d03c), hex(0xfcffa4)};
 constexpr std::array kDiverging{hex(0x053061), hex(0x2166ac), hex(0x4393c3), hex(0x92c5de),
                                 hex(0xd1e5f0), hex(0xf7f7f7), hex(0xfddbc7), hex(0xf4a582),
                                 hex(0xd6604d), hex(0xb2182b), hex(0x67001f)};
@@ -34,6 +37,8 @@ std::span<const Color> stops(ColorMap map) {
     return kCividis;
   case ColorMap::Diverging:
     return kDiverging;
+  case ColorMap::Inferno:
+    return kInferno;
   case ColorMap::Viridis:
     break;
   }
@@ -50,6 +55,12 @@ Color ColorScale::color(double value) const {
   const double t = place - static_cast<double>(k);
   Color mixed{};
   for (std::size_t c = 0; c < 3; ++c) mixed[c] = (1 - t) * all[k][c] + t * all[k + 1][c];
+  return mixed;
+}
+
+Color ColorScale::shown(double value) const {
+  Color mixed = color(value);
+  for (std::size_t c = 0; c < 3; ++c) mixed[c] = opacity * mixed[c] + (1 - opacity) * ground[c];
   return mixed;
 }
 
@@ -77,7 +88,7 @@ ColorScale fittingScale(ColorMap map, const std::vector<double>& values, std::st
     low -= margin;
     high += margin;
   }
-  return {map, low, high, std::move(quantity), std::move(unit)};
+  return {map, low, high, std::move(quantity), std::move(unit), 1, {1, 1, 1}};
 }
 
 vtkSmartPointer<vtkLookupTable> lookupTable(const ColorScale& scale) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/scenes/Palette.h"
+#include "model/base/NamedEnum.h"
 
 #include <vtkSmartPointer.h>
 
@@ -12,7 +13,11 @@ class vtkLookupTable;
 namespace palp {
 
 /// Perceptually uniform maps; Diverging (blue, white, red) is for signed values and centred on 0.
-enum class ColorMap { Viridis, Cividis, Diverging };
+enum class ColorMap { Viridis, Cividis, Diverging, Inferno };
+inline constexpr NamedEnum kColorMaps("color map", std::array{std::pair{ColorMap::Viridis, "viridis"},
+                                                              std::pair{ColorMap::Cividis, "cividis"},
+                                                              std::pair{ColorMap::Inferno, "inferno"},
+                                                              std::pair{ColorMap::Diverging, "blue-white-red"}});
 
 /// A quantity's colours: map, range, name and unit. Everything coloured shows it as a legend.
 struct ColorScale {
@@ -21,8 +26,12 @@ struct ColorScale {
   double high = 1;
   std::string quantity; ///< "|u|"
   std::string unit;     ///< "mm"; empty for a pure number
+  double opacity = 1;   ///< of what is coloured, over `ground`
+  Color ground{1, 1, 1};
 
   [[nodiscard]] Color color(double value) const;
+  /// As it looks where it is drawn: the legend's colour.
+  [[nodiscard]] Color shown(double value) const;
   /// "quantity [unit]".
   [[nodiscard]] std::string title() const;
 };

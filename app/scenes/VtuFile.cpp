@@ -48,11 +48,13 @@ void addArray(vtkUnstructuredGrid& grid, const NodalArray& array) {
 } // namespace
 
 std::vector<NodalArray> nodalArrays(const NodalFields& fields) {
-  return {{"displacement_mm", fields.displacement_mm},
-          {"cauchy_MPa", fields.cauchy_MPa},
-          {"pressure_MPa", fields.pressure_MPa.transpose()},
-          {"von_mises_MPa", fields.vonMises_MPa.transpose()},
-          {"volume_ratio", fields.volumeRatio.transpose()}};
+  std::vector<NodalArray> arrays{{"displacement_mm", fields.displacement_mm},
+                                 {"cauchy_MPa", fields.cauchy_MPa},
+                                 {"pressure_MPa", fields.pressure_MPa.transpose()},
+                                 {"von_mises_MPa", fields.vonMises_MPa.transpose()},
+                                 {"volume_ratio", fields.volumeRatio.transpose()}};
+  if (fields.principalStretches.cols() > 0) arrays.push_back({"principal_stretches", fields.principalStretches});
+  return arrays;
 }
 
 void writeVtu(const std::filesystem::path& path, const Mesh& mesh, const std::vector<NodalArray>& arrays) {

@@ -56,6 +56,7 @@ NodalFields nodalFields(const Mesh& mesh, const Material& material, const LoadIn
   fields.displacement_mm = state.displacements_mm;
   fields.cauchy_MPa.setZero(6, nodes);
   fields.volumeRatio.setZero(nodes);
+  Eigen::Matrix<double, 9, Eigen::Dynamic> gradients = Eigen::Matrix<double, 9, Eigen::Dynamic>::Zero(9, nodes);
   Eigen::VectorXd count = Eigen::VectorXd::Zero(nodes);
   for (int e = 0; e < mesh.elementCount(); ++e) {
     const bool tet = mesh.shape == ElementShape::Tetrahedron10;
@@ -67,6 +68,7 @@ NodalFields nodalFields(const Mesh& mesh, const Material& material, const LoadIn
       fields.cauchy_MPa.col(node) +=
           (Eigen::Matrix<double, 6, 1>() << s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2)).finished();
       fields.volumeRatio(node) += point.F.determinant();
+      gradients.col(node) += point.F.reshaped();
       count(node) += 1;
     }
   }
@@ -74,7 +76,15 @@ NodalFields nodalFields(const Mesh& mesh, const Material& material, const LoadIn
   fields.volumeRatio.array() /= count.array();
   fields.pressure_MPa = -fields.cauchy_MPa.topRows<3>().colwise().sum().transpose() / 3;
   fields.vonMises_MPa.resize(nodes);
-  for (int i = 0; i < nodes; ++i) fields.vonMises_MPa(i) = vonMises(fields.cauchy_MPa.col(i));
+  fields.principalStretches.resize(3, nodes);
+  for (int i = 0; i < nodes; ++i) {
+    fields.vonMises_MPa(i) = vonMises(fields.cauchy_MPa.col(i));
+    const Eigen::Matrix3d F = (gradients.col(i) / count(i)).reshaped(3, 3);
+    // Eigenvalues of C = F^T F are their squares, smallest first.
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
+    eigen.computeDirect(F.transpose() * F, Eigen::EigenvaluesOnly);
+    fields.principalStretches.col(i) = eigen.eigenvalues().cwiseMax(0).cwiseSqrt().reverse();
+  }
   return fields;
 }
 

@@ -1,8 +1,10 @@
 #include "app/cli/ProgressBar.h"
 #include "app/cli/commands/TrainArguments.h"
 #include "app/study/decoding/Prediction.h"
+#include "app/study/paper/PaperProtocol.h"
 #include "io/SampleFile.h"
 #include "model/base/Text.h"
+#include "nn/NoisyCopies.h"
 #include "nn/SpreadSweep.h"
 
 #include <cmath>
@@ -18,6 +20,7 @@ struct Arguments {
   std::string samples;
   std::string test;
   std::string spreads = "0.3:30:21";
+  std::string testNoise = "0";
   TrainArguments train;
 };
 
@@ -70,6 +73,9 @@ Exit run(const Arguments& arguments, Session& session) {
     throw UsageError("--decoder: '" + arguments.train.decoder +
                      "'; allowed is rbf: the others have no spread to sweep");
   const std::vector<double> spreads = spreadsOption(arguments.spreads);
+  const double testNoise = number("--test-noise", arguments.testNoise);
+  if (!(testNoise >= 0 && testNoise <= 0.5))
+    throw UsageError("--test-noise: '" + arguments.testNoise + "'; allowed is 0 to 0.5 (relative standard deviation)");
   const SampleSet training = loadSamples(arguments.samples), test = loadSamples(arguments.test);
   DecoderInput input;
   input.kind = options.input;
@@ -79,7 +85,8 @@ Exit run(const Arguments& arguments, Session& session) {
   if (training.forces_N.rows() != test.forces_N.rows())
     throw Error(arguments.test + ": " + std::to_string(test.forces_N.rows()) +
                 " forces a sample; the training samples have " + std::to_string(training.forces_N.rows()));
-  const SweepInput data{inputsOf(training, input), training.forces_N, inputsOf(test, input), test.forces_N,
+  const SweepInput data{inputsOf(training, input), training.forces_N,
+                        noisyCopies(inputsOf(test, input), testNoise, 1, testSeed(options.seed)), test.forces_N,
                         training.forces_N.rowwise().maxCoeff() - training.forces_N.rowwise().minCoeff()};
   ProgressBar bar("spreads", spreads.size());
   const std::vector<SweepRow> rows = session.stages.measure("train", [&] {
@@ -113,6 +120,8 @@ void addSweep(Cli& cli) {
   command.add_option("samples", arguments->samples, "sample file to train with")->required();
   command.add_option("--test", arguments->test, "sample file to test with")->required();
   command.add_option("--spreads", arguments->spreads, "0.8,0.9,1 or FROM:TO:COUNT (logarithmic; default 0.3:30:21)");
+  command.add_option("--test-noise", arguments->testNoise,
+                     "relative noise that the test samples get, of another seed than the training's (default 0)");
   arguments->train.declare(command, false);
 }
 

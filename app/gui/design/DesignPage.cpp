@@ -1,9 +1,13 @@
 #include "app/gui/design/DesignPage.h"
 
+#include "app/gui/design/DesignComparison.h"
 #include "app/gui/design/DesignPanel.h"
+#include "app/gui/design/DesignSweep.h"
+#include "app/gui/design/LayoutFinder.h"
 #include "app/gui/project/Command.h"
 #include "app/gui/views/BlockView.h"
 #include "app/gui/views/ChartView.h"
+#include "app/gui/views/ViewBar.h"
 #include "app/gui/window/SidePanel.h"
 #include "app/gui/window/SpinBoxes.h"
 #include "app/study/decoding/NoiseBound.h"
@@ -17,6 +21,7 @@
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QSplitter>
+#include <QTabWidget>
 #include <QVBoxLayout>
 
 #include <cmath>
@@ -92,7 +97,7 @@ DesignPage::DesignPage(Workbench& workbench, NetworkSession& network, QWidget* p
     Project next = workbench_.project();
     next.design = design;
     std::erase_if(next.load.areas, [&](const AreaLoad& load) { return load.area >= design.areas.count(); });
-    if (whyInvalid(next.load, design)) next.load.patches.clear();
+    std::erase_if(next.load.patches, [&](const PatchLoad& disc) { return whyInvalid({{}, {disc}}, design); });
     workbench_.edit(what, next);
   });
   connect(showMesh_, &QCheckBox::toggled, this, [this](bool on) {
@@ -134,6 +139,7 @@ DesignPage::DesignPage(Workbench& workbench, NetworkSession& network, QWidget* p
 
 QWidget* DesignPage::buildSide() {
   panel_ = new DesignPanel;
+  panel_->setObjectName("designPanel");
   return sidePanel(panel_, kPanelWidth_px);
 }
 
@@ -142,18 +148,43 @@ QWidget* DesignPage::buildViews() {
   block_->setObjectName("designBlock");
   quality_ = new ChartView;
   quality_->setObjectName("quality");
-  auto* lower = new QWidget;
-  auto* row = new QHBoxLayout(lower);
-  row->setContentsMargins(0, 0, 0, 0);
+  auto* views = new QSplitter(Qt::Vertical);
+  views->setObjectName("designSplitter");
+  auto* upper = new QWidget;
+  auto* column = new QVBoxLayout(upper);
+  column->setContentsMargins(0, 0, 0, 0);
+  auto* bar = new QHBoxLayout;
+  bar->addStretch(1);
+  bar->addWidget(new ViewBar(*block_));
+  column->addLayout(bar);
+  column->addWidget(block_, 1);
+  views->addWidget(upper);
+  views->addWidget(buildStudies());
+  views->setSizes({560, 280});
+  return views;
+}
+
+QWidget* DesignPage::buildStudies() {
+  auto* first = new QWidget;
+  auto* row = new QHBoxLayout(first);
+  row->setContentsMargins(4, 4, 4, 4);
   row->addWidget(buildMesh(), 1);
   row->addWidget(quality_, 2);
   row->addWidget(buildNoiseFloor(), 1);
-  auto* views = new QSplitter(Qt::Vertical);
-  views->setObjectName("designSplitter");
-  views->addWidget(block_);
-  views->addWidget(lower);
-  views->setSizes({620, 220});
-  return views;
+  finder_ = new LayoutFinder(workbench_);
+  sweep_ = new DesignSweep(workbench_);
+  comparison_ = new DesignComparison(workbench_);
+  auto* tabs = new QTabWidget;
+  tabs->setObjectName("designTabs");
+  tabs->addTab(first, tr("Mesh and noise floor"));
+  tabs->addTab(finder_, tr("Better layout"));
+  tabs->addTab(sweep_, tr("Sweep"));
+  tabs->addTab(comparison_, tr("Compare"));
+  return tabs;
+}
+
+std::vector<JobRunner*> DesignPage::runners() {
+  return {&measuring_, &bounding_, &finder_->runner(), &sweep_->runner(), &comparison_->runner()};
 }
 
 QGroupBox* DesignPage::buildMesh() {
@@ -179,6 +210,7 @@ QGroupBox* DesignPage::buildMesh() {
   meshWords_ = new QLabel;
   meshWords_->setObjectName("meshWords");
   meshWords_->setWordWrap(true);
+  meshWords_->setMinimumHeight(2 * meshWords_->fontMetrics().lineSpacing()); // also where the window is low
   column->addWidget(meshWords_);
   column->addStretch(1);
   return box;
@@ -198,6 +230,7 @@ QGroupBox* DesignPage::buildNoiseFloor() {
   column->addWidget(noise_);
   floorWords_ = new QLabel;
   floorWords_->setObjectName("noiseFloor");
+  floorWords_->setMinimumHeight(2 * floorWords_->fontMetrics().lineSpacing());
   floorWords_->setWordWrap(true);
   column->addWidget(floorWords_);
   floorSamples_ = new QPushButton(tr("Generate samples"));
@@ -224,6 +257,8 @@ QString DesignPage::commands(const Project& project, const QString& designFile) 
 void DesignPage::setTheme(Theme theme) {
   options_.theme = theme;
   quality_->setTheme(theme);
+  sweep_->setTheme(theme);
+  comparison_->setTheme(theme);
   block_->setTheme(theme);
   draw();
 }
@@ -238,6 +273,8 @@ void DesignPage::showEvent(QShowEvent* event) {
 void DesignPage::displayProject() {
   const Project& project = workbench_.project();
   panel_->display(project.design);
+  finder_->displayProject();
+  comparison_->displayProject();
   const QSignalBlocker quietCheck(automaticSize_);
   const bool automatic = !project.mesh.meshSize_mm && !project.mesh.mapped;
   automaticSize_->setChecked(automatic);

@@ -16,7 +16,10 @@ namespace palp {
 
 class BlockView;
 class ChartView;
+class DesignComparison;
 class DesignPanel;
+class DesignSweep;
+class LayoutFinder;
 
 /// The sensor at rest with all its parameters; the mesh only when asked for.
 class DesignPage : public Scene {
@@ -28,7 +31,7 @@ public:
   [[nodiscard]] Stage stage() const override;
   void setTheme(Theme theme) override;
   [[nodiscard]] bool complete() const override;
-  [[nodiscard]] std::vector<JobRunner*> runners() override { return {&measuring_, &bounding_}; }
+  [[nodiscard]] std::vector<JobRunner*> runners() override;
   [[nodiscard]] QString commands(const Project& project, const QString& designFile) const override;
 
 signals:
@@ -41,6 +44,7 @@ protected:
 private:
   QWidget* buildSide();
   QWidget* buildViews();
+  QWidget* buildStudies();
   void displayProject();
   void draw();
   void displayMesh();
@@ -55,6 +59,9 @@ private:
   NetworkSession& network_;
   DeformationOptions options_;
   DesignPanel* panel_ = nullptr;
+  LayoutFinder* finder_ = nullptr;
+  DesignSweep* sweep_ = nullptr;
+  DesignComparison* comparison_ = nullptr;
   BlockView* block_ = nullptr;
   QCheckBox* showMesh_ = nullptr;
   QCheckBox* automaticSize_ = nullptr;

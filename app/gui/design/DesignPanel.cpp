@@ -2,6 +2,8 @@
 
 #include "app/gui/design/DesignFields.h"
 #include "app/gui/design/DesignPresets.h"
+#include "app/gui/design/WireScaling.h"
+#include "app/gui/widgets/WrappedLabel.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -10,6 +12,7 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QMap>
+#include <QStyle>
 #include <QVBoxLayout>
 
 #include <cmath>
@@ -22,17 +25,19 @@ QString number(double value) {
   return QString::number(value, 'g', 5);
 }
 
-QLabel* problemLabel() {
-  auto* label = new QLabel;
+WrappedLabel* problemLabel() {
+  auto* label = new WrappedLabel;
   label->setProperty("role", "problem");
-  label->setWordWrap(true);
   label->hide();
   return label;
 }
 
-void say(QLabel& label, const QString& sentence) {
-  label.setText(sentence);
-  label.setVisible(!sentence.isEmpty());
+/// Marked with a red frame.
+void markWrong(QLineEdit& edit, bool wrong) {
+  if (edit.property("wrong").toBool() == wrong) return;
+  edit.setProperty("wrong", wrong);
+  edit.style()->unpolish(&edit);
+  edit.style()->polish(&edit);
 }
 
 } // namespace
@@ -40,9 +45,8 @@ void say(QLabel& label, const QString& sentence) {
 DesignPanel::DesignPanel(QWidget* parent) : QWidget(parent) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 6, 0);
-  derived_ = new QLabel;
+  derived_ = new WrappedLabel;
   derived_->setObjectName("derived");
-  derived_->setWordWrap(true);
   derived_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   buildPresets();
   buildFields();
@@ -81,12 +85,24 @@ void DesignPanel::buildFields() {
     row.edit->setObjectName(field.key);
     row.edit->setToolTip(field.tip + QString("<br><i>%1</i>").arg(field.key));
     groups[field.group]->addRow(field.unit.isEmpty() ? field.label : field.label + " [" + field.unit + "]", row.edit);
+    row.problem->setObjectName(field.key + " problem");
+    row.edit->setAccessibleName(field.group + ", " + field.label);
     groups[field.group]->addRow(row.problem);
-    connect(row.edit, &QLineEdit::textEdited, this,
-            [this, label = field.group + " " + field.label] { read(tr("Change %1").arg(label.toLower())); });
+    const QString what = tr("Change %1").arg((field.group + " " + field.label).toLower());
+    const bool size = field.key.startsWith("block_mm");
+    connect(row.edit, &QLineEdit::textEdited, this, [this, what, size] { size ? readSize(what) : read(what); });
     rows_.push_back(row);
+    if (field.key == "block_mm[2]") addWireScaling(*groups[field.group]);
     if (field.key == "material.density_t_per_mm3") groups[field.group]->addRow(derived_);
   }
+}
+
+void DesignPanel::addWireScaling(QFormLayout& form) {
+  scaleWires_ = new QCheckBox(tr("scale the wires with the block"));
+  scaleWires_->setObjectName("scaleWires");
+  scaleWires_->setToolTip(tr("Another size of the block takes both layers of wires and electrodes with it, each in the "
+                             "same share of the block as before; else they stay where they are"));
+  form.addRow(scaleWires_);
 }
 
 void DesignPanel::buildSwitches() {
@@ -117,13 +133,15 @@ void DesignPanel::buildSwitches() {
 
 void DesignPanel::display(const SensorDesign& design) {
   displaying_ = true;
+  if (design != design_) scaledFrom_.reset(); // not by what is typed here
   design_ = design;
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     SensorDesign written = design;
     const DesignField& field = designFields()[k];
     const bool same = field.set(written, rows_[k].edit->text()).isEmpty() && written == design;
     if (!same) rows_[k].edit->setText(field.text(design));
-    say(*rows_[k].problem, {});
+    rows_[k].problem->say({});
+    markWrong(*rows_[k].edit, false);
     rows_[k].edit->setProperty("unapplied", false);
     rows_[k].edit->setCursorPosition(same ? rows_[k].edit->cursorPosition() : 0);
   }
@@ -134,13 +152,14 @@ void DesignPanel::display(const SensorDesign& design) {
     if (edit->text().toDouble() != value || edit->text().isEmpty()) edit->setText(QString::number(value));
     edit->setEnabled(design.pressureLaw.has_value());
   }
-  say(*lawProblem_, {});
+  lawProblem_->say({});
   showDerived(design);
   displaying_ = false;
 }
 
 void DesignPanel::read(const QString& what) {
   if (displaying_) return;
+  scaledFrom_.reset();
   SensorDesign next = design_;
   bool good = true;
   std::vector<QString> sentences(rows_.size());
@@ -168,15 +187,57 @@ void DesignPanel::read(const QString& what) {
       for (std::size_t k = 0; k < rows_.size(); ++k)
         if (key.startsWith(designFields()[k].key) && sentences[k].isEmpty()) sentences[k] = sentence;
     }
-  for (std::size_t k = 0; k < rows_.size(); ++k) {
-    say(*rows_[k].problem, sentences[k]);
-    rows_[k].edit->setProperty("unapplied", !good);
-  }
-  say(*lawProblem_, lawSentence);
+  sayUnderFields(sentences, good);
+  lawProblem_->say(lawSentence);
   if (!good) return;
   design_ = next;
   showDerived(next);
   emit edited(what, next);
+}
+
+void DesignPanel::readSize(const QString& what) {
+  if (!scaleWires_->isChecked()) {
+    read(what);
+    return;
+  }
+  if (!scaledFrom_) scaledFrom_ = design_;
+  SensorDesign next = design_;
+  bool good = true;
+  std::vector<QString> sentences(rows_.size());
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    if (!designFields()[k].key.startsWith("block_mm")) continue;
+    sentences[k] = designFields()[k].set(next, rows_[k].edit->text());
+    good = good && sentences[k].isEmpty();
+  }
+  const Eigen::Vector3d size_mm = next.block_mm;
+  if (good && (size_mm.array() > 0).all()) next = scaledTo(*scaledFrom_, size_mm);
+  for (const DesignFault& problem : good ? check(next) : std::vector<DesignFault>{}) {
+    good = false;
+    for (std::size_t k = 0; k < rows_.size(); ++k)
+      if (QString::fromStdString(problem.key).startsWith(designFields()[k].key) && sentences[k].isEmpty())
+        sentences[k] = QString::fromStdString(problem.sentence);
+  }
+  sayUnderFields(sentences, good);
+  if (!good) return;
+  design_ = next; // before display(), which tells by it who changed the design
+  emit edited(tr("%1, and the wires with it").arg(what), next);
+}
+
+void DesignPanel::sayUnderFields(const std::vector<QString>& sentences, bool applied) {
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    const DesignField& field = designFields()[k];
+    SensorDesign written = design_;
+    const bool inUse = field.set(written, rows_[k].edit->text()).isEmpty() && written == design_;
+    QString sentence = sentences[k];
+    if (!applied && !inUse) {
+      const QString used = field.text(design_) + (field.unit.isEmpty() ? QString() : " " + field.unit);
+      sentence = sentence.isEmpty() ? tr("Not applied while another field is wrong; in use is %1.").arg(used)
+                                    : tr("%1. In use is still %2.").arg(sentence, used);
+    }
+    rows_[k].problem->say(sentence);
+    markWrong(*rows_[k].edit, !sentence.isEmpty());
+    rows_[k].edit->setProperty("unapplied", !applied);
+  }
 }
 
 void DesignPanel::showDerived(const SensorDesign& design) {
@@ -190,7 +251,7 @@ void DesignPanel::showDerived(const SensorDesign& design) {
     words += tr("<br><i>The paper also prints E = 2.08e5 N/mm2: steel, five orders of magnitude off c10 and c01; it is "
                 "not used.</i>");
   if (const auto square = whyNotSquare(design)) words += "<br>" + QString::fromStdString(*square);
-  derived_->setText(words);
+  derived_->say(words);
 }
 
 } // namespace palp

@@ -4,15 +4,20 @@
 
 #include <QWidget>
 
+#include <optional>
 #include <vector>
 
 class QCheckBox;
+class QFormLayout;
 class QLabel;
 class QLineEdit;
 
 namespace palp {
 
-/// Every parameter of the design with its unit, checked while typing; what is wrong is said under the field.
+class WrappedLabel;
+
+/// Every parameter of the design with its unit, checked while typing; what is wrong or not in use is said under the
+/// field itself.
 class DesignPanel : public QWidget {
   Q_OBJECT
 
@@ -29,23 +34,29 @@ signals:
 private:
   struct Row {
     QLineEdit* edit = nullptr;
-    QLabel* problem = nullptr;
+    WrappedLabel* problem = nullptr;
   };
   void buildPresets();
   void buildFields();
   void buildSwitches();
+  void addWireScaling(QFormLayout& form);
   void read(const QString& what);
+  /// Another size of the block, with its wires in the same shares of it where that is wanted.
+  void readSize(const QString& what);
+  void sayUnderFields(const std::vector<QString>& sentences, bool applied);
   void showDerived(const SensorDesign& design);
 
   SensorDesign design_;
+  std::optional<SensorDesign> scaledFrom_; ///< as the wires lay before the size that is typed now
   bool displaying_ = false;
   std::vector<Row> rows_;
+  QCheckBox* scaleWires_ = nullptr;
   QCheckBox* follows_ = nullptr;
   QCheckBox* law_ = nullptr;
   QLineEdit* p0_ = nullptr;
   QLineEdit* exponent_ = nullptr;
-  QLabel* lawProblem_ = nullptr;
-  QLabel* derived_ = nullptr;
+  WrappedLabel* lawProblem_ = nullptr;
+  WrappedLabel* derived_ = nullptr;
 };
 
 } // namespace palp

@@ -102,7 +102,7 @@ void Autosave::keep() {
       drop();
       return;
     }
-    const QByteArray text = projectText(workbench_.project());
+    const QByteArray text = projectText(document_.project());
     const QDir folder(folder_);
     if (text != kept_) {
       writeFile(folder.filePath(kFile).toStdString(), workbench_.file().toStdString(), true);

@@ -51,14 +51,19 @@ Document::Document(MainWindow& window, Workbench& workbench, NetworkSession& net
   connect(&workbench, &Workbench::fileChanged, this, &Document::showTitle);
   connect(&workbench, &Workbench::projectReplaced, this, [this] {
     network_.clear(); // what the other project held
-    const QString& file = workbench_.file();
-    if (!file.isEmpty()) network_.openResults(resultsFolder(file), [this] { resultsSaved(network_.results()); });
+    openResults();
   });
   showTitle();
 }
 
 QStringList Document::recent() {
   return QSettings().value(kRecentKey).toStringList();
+}
+
+Project Document::project() const {
+  Project project = workbench_.project();
+  project.view.scene = window_.currentScene().objectName().toStdString();
+  return project;
 }
 
 bool Document::unsaved() const {
@@ -151,9 +156,7 @@ void Document::open(const QString& file) {
 }
 
 void Document::openProject(const QString& file) {
-  Project base = workbench_.project();
-  base.view.scene = window_.currentScene().objectName().toStdString();
-  const Project opened = loadProject(file.toStdString(), base);
+  const Project opened = loadProject(file.toStdString(), project());
   if (!mayLeave()) return;
   const bool whole = fileKind(file) == FileKind::Project; // a design alone begins a project that has no file yet
   workbench_.replace(tr("Open %1").arg(QFileInfo(file).fileName()), opened,
@@ -161,6 +164,19 @@ void Document::openProject(const QString& file) {
   window_.showScene(QString::fromStdString(opened.view.scene));
   remember(file);
   window_.showMessage(tr("Opened %1.").arg(file));
+}
+
+void Document::beganWith(const QString& file) {
+  remember(file);
+  if (fileKind(file) != FileKind::Project) return;
+  workbench_.saved(QFileInfo(file).absoluteFilePath());
+  openResults();
+}
+
+/// Samples and network that lie beside the project.
+void Document::openResults() {
+  const QString& file = workbench_.file();
+  if (!file.isEmpty()) network_.openResults(resultsFolder(file), [this] { resultsSaved(network_.results()); });
 }
 
 void Document::startAnew() {
@@ -180,9 +196,7 @@ bool Document::saveAs() {
 
 bool Document::write(const QString& file) {
   try {
-    Project project = workbench_.project();
-    project.view.scene = window_.currentScene().objectName().toStdString();
-    saveProject(file.toStdString(), project);
+    saveProject(file.toStdString(), project());
   } catch (const Error& error) {
     QMessageBox::warning(&window_, tr("Cannot save"), QString::fromStdString(error.what()));
     return false;

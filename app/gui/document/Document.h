@@ -1,5 +1,7 @@
 #pragma once
 
+#include "app/gui/project/Project.h"
+
 #include <QObject>
 #include <QString>
 #include <QStringList>
@@ -25,6 +27,8 @@ class Document : public QObject {
 public:
   Document(MainWindow& window, Workbench& workbench, NetworkSession& network);
 
+  /// The project with the scene that is seen.
+  [[nodiscard]] Project project() const;
   /// Something would be lost if the program ended now.
   [[nodiscard]] bool unsaved() const;
   /// Nothing is unsaved, or the user has saved it or lets it go.
@@ -36,6 +40,8 @@ public:
   void open(const QStringList& files);
   /// The same for files that the user chooses.
   void open();
+  /// The project of the program's start is what this file holds; a design alone is kept in no file yet.
+  void beganWith(const QString& file);
   /// The paper's design; asks first.
   void startAnew();
   /// In its file, or in one that the user chooses. False where it was not saved.
@@ -53,6 +59,7 @@ signals:
 
 private:
   void openProject(const QString& file);
+  void openResults();
   bool write(const QString& file);
   /// These samples and this network stand in a file.
   void resultsSaved(const NetworkResults& results);

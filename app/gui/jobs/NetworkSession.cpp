@@ -6,6 +6,7 @@
 #include "app/study/touch/SampleGenerator.h"
 #include "io/DecoderFile.h"
 #include "model/base/Error.h"
+#include "nn/NoisyCopies.h"
 #include "nn/SpreadSweep.h"
 
 #include <QElapsedTimer>
@@ -17,6 +18,7 @@ namespace palp {
 
 namespace {
 
+constexpr std::size_t kKeptNetworks = 20;
 constexpr std::size_t kPastDesigns = 4; ///< whose results are kept: an edit and some undoing
 
 /// An empty set made wide enough for all that is asked.
@@ -65,8 +67,13 @@ NetworkFit fitOn(const NetworkSamples& samples, const SensorDesign& design, cons
   PredictOptions plain;
   plain.standardDeviation = false;
   plain.area = false;
-  fit.prediction = predict(fit.decoder, inputsOf(samples.test, fit.decoder.input), plain);
+  const Eigen::MatrixXd clean = inputsOf(samples.test, fit.decoder.input);
+  // Of another seed than the training's noise: a network must not meet in the test what it was fitted to.
+  fit.prediction =
+      predict(fit.decoder, noisyCopies(clean, settings.testNoise, 1, testSeed(settings.seed), stop), plain);
   fit.error = decoderError(fit.decoder, fit.prediction, samples.test);
+  fit.made = QDateTime::currentDateTime();
+  fit.madeFrom = samples.settings;
   return fit;
 }
 
@@ -94,6 +101,7 @@ bool NetworkSession::Generation::makeSet(std::size_t set, const GenerationClock&
                                          const std::stop_token& stop, JobProgress& progress) {
   SampleRequest request;
   request.perArea = settings.perArea;
+  request.surrogate = settings.surrogate;
   request.seed = set == 1 ? testSeed(settings.seed) : settings.seed;
   request.mesh = mesh;
   SampleGenerator generator(design, request);
@@ -139,6 +147,8 @@ std::array<std::size_t, 2> NetworkSession::stoppedAt() const {
 }
 
 void NetworkSession::show(NetworkResults results) {
+  if (results.kept.empty() && results.design == shown_.design) results.kept = shown_.kept;
+  if (results.kept.empty() && results.fit) results.kept = {results.fit};
   if (shown_.samples) past_.push_front(std::move(shown_));
   std::erase_if(past_, [&](const NetworkResults& past) { return past.design == results.design; });
   while (past_.size() > kPastDesigns) past_.pop_back();
@@ -192,20 +202,67 @@ void NetworkSession::generate(const SampleSettings& settings, const MeshOptions&
   runner_.start(tr("Generating samples"), work);
 }
 
-void NetworkSession::train(const NetworkSettings& settings) {
+bool NetworkSession::fitIsCurrent() const {
+  return upToDate() && shown_.fit && shown_.fit->triedOn.lock() == shown_.samples;
+}
+
+void NetworkSession::take(const std::shared_ptr<const NetworkFit>& fit, bool follows) {
+  shown_.fit = fit;
+  auto& kept = shown_.kept;
+  if (follows && lastFollowed_ && !kept.empty()) kept.erase(kept.begin());
+  lastFollowed_ = follows;
+  kept.insert(kept.begin(), fit);
+  if (kept.size() > kKeptNetworks) kept.pop_back();
+  emit fitChanged();
+}
+
+void NetworkSession::goBackTo(std::size_t kept) {
+  if (!upToDate() || kept >= shown_.kept.size()) return;
+  const auto work = [this, old = shown_.kept[kept], samples = shown_.samples](const std::stop_token& stop,
+                                                                              JobProgress&) -> JobRunner::Taking {
+    auto fit = std::make_shared<NetworkFit>(*old);
+    if (fit->triedOn.lock() != samples) {
+      const Eigen::MatrixXd clean = inputsOf(samples->test, fit->decoder.input);
+      const NetworkSettings& settings = fit->settings;
+      PredictOptions plain;
+      plain.standardDeviation = plain.area = false;
+      fit->prediction =
+          predict(fit->decoder, noisyCopies(clean, settings.testNoise, 1, testSeed(settings.seed), stop), plain);
+      fit->error = decoderError(fit->decoder, fit->prediction, samples->test);
+      fit->triedOn = samples;
+    }
+    return [this, fit, old, samples] {
+      if (samples != shown_.samples) return;
+      const auto place = std::find(shown_.kept.begin(), shown_.kept.end(), old);
+      if (place != shown_.kept.end()) *place = fit;
+      shown_.fit = fit;
+      lastFollowed_ = false; // what is trained next is added, whatever begins it
+      emit fitChanged();
+    };
+  };
+  runner_.start(tr("Trying the network"), work);
+}
+
+void NetworkSession::takeAway(std::size_t kept) {
+  if (kept >= shown_.kept.size()) return;
+  shown_.kept.erase(shown_.kept.begin() + static_cast<std::ptrdiff_t>(kept));
+  lastFollowed_ = false;
+  emit fitChanged();
+}
+
+void NetworkSession::train(const NetworkSettings& settings, bool follows) {
   if (!upToDate()) return;
-  const auto work = [this, settings, design = design_, samples = shown_.samples](
+  const auto work = [this, settings, follows, design = design_, samples = shown_.samples](
                         const std::stop_token& stop, JobProgress& progress) -> JobRunner::Taking {
     StageLog stages;
     const auto fit = stages.measure("train", [&] {
-      return std::make_shared<const NetworkFit>(
-          fitOn(*samples, design, settings, settings.trainOptions(), stop, progress));
+      return std::make_shared<NetworkFit>(fitOn(*samples, design, settings, settings.trainOptions(), stop, progress));
     });
-    return [this, fit, samples, stages] {
+    fit->triedOn = samples;
+    return [this, fit, follows, samples, stages] {
       if (samples != shown_.samples) return;
-      shown_.fit = fit;
       stages_.add(stages);
-      emit fitChanged();
+      take(fit, follows);
     };
   };
   runner_.start(tr("Training"), work);
@@ -290,11 +347,11 @@ void NetworkSession::drain() {
 void NetworkSession::open(const std::filesystem::path& file) {
   if (!upToDate()) throw Error("the network cannot be tried: there are no samples yet; generate samples first");
   const auto work = [this, file, samples = shown_.samples](const std::stop_token&, JobProgress&) -> JobRunner::Taking {
-    const auto fit = triedOn(readNetwork(file), *samples);
+    const auto fit = std::make_shared<NetworkFit>(*triedOn(readNetwork(file), *samples));
+    fit->file = QString::fromStdString(file.string());
+    fit->triedOn = samples;
     return [this, fit, samples] {
-      if (samples != shown_.samples) return;
-      shown_.fit = fit;
-      emit fitChanged();
+      if (samples == shown_.samples) take(fit, false);
     };
   };
   runner_.start(tr("Trying the network"), work);

@@ -5,6 +5,8 @@
 #include "app/study/StageLog.h"
 #include "app/study/decoding/Prediction.h"
 
+#include <QDateTime>
+
 #include <array>
 #include <deque>
 #include <filesystem>
@@ -29,6 +31,10 @@ struct NetworkFit {
   Decoder decoder;
   Prediction prediction;
   DecoderError error;
+  QDateTime made;
+  QString file;                                ///< that it was opened from; empty: trained here
+  SampleSettings madeFrom;                     ///< the samples that it was trained with or tried on
+  std::weak_ptr<const NetworkSamples> triedOn; ///< whose test samples the prediction is of
 };
 
 /// One spread of a sweep.
@@ -52,6 +58,7 @@ struct NetworkResults {
   SensorDesign design;
   std::shared_ptr<const NetworkSamples> samples;
   std::shared_ptr<const NetworkFit> fit;
+  std::vector<std::shared_ptr<const NetworkFit>> kept; ///< that can be gone back to, the newest first
   std::vector<SweepPoint> sweep;
   NetworkSettings sweepSettings;
   std::vector<DecoderTrial> trials;
@@ -74,7 +81,8 @@ public:
   void clear();
   /// Goes on where the same samples were stopped before.
   void generate(const SampleSettings& samples, const MeshOptions& mesh);
-  void train(const NetworkSettings& settings);
+  /// `follows`: after an edit, not asked for by itself; of such networks the list keeps the last alone.
+  void train(const NetworkSettings& settings, bool follows = false);
   void sweep(const NetworkSettings& settings);
   /// Trains every kind of decoder with the same input, rows and noise.
   void compare(const NetworkSettings& settings);
@@ -98,6 +106,13 @@ public:
   /// The same, for a job that outlives them.
   [[nodiscard]] std::shared_ptr<const NetworkSamples> sharedSamples() const { return shown_.samples; }
   [[nodiscard]] const NetworkFit* fit() const { return shown_.fit.get(); }
+  /// The fit is of the samples that are there, and they are of the design as it is now.
+  [[nodiscard]] bool fitIsCurrent() const;
+  /// Networks of this design that can be gone back to, the newest first.
+  [[nodiscard]] const std::vector<std::shared_ptr<const NetworkFit>>& kept() const { return shown_.kept; }
+  /// Shows one of them again, tried on the samples that are there now.
+  void goBackTo(std::size_t kept);
+  void takeAway(std::size_t kept);
   [[nodiscard]] const std::vector<SweepPoint>& sweepPoints() const { return shown_.sweep; }
   [[nodiscard]] const NetworkSettings& sweepSettings() const { return shown_.sweepSettings; }
   [[nodiscard]] const std::vector<DecoderTrial>& trials() const { return shown_.trials; }
@@ -126,6 +141,8 @@ private:
   /// Samples on the way; written by the job alone while it runs.
   struct Generation;
   void drain();
+  /// Shows a network, and keeps it.
+  void take(const std::shared_ptr<const NetworkFit>& fit, bool follows);
   /// Shows other results, and keeps those that were shown while there is room.
   void show(NetworkResults results);
 
@@ -136,6 +153,7 @@ private:
   std::shared_ptr<Generation> generation_;
   std::shared_ptr<Rows> rows_;
   StageLog stages_;
+  bool lastFollowed_ = false; ///< the newest network of the list was trained after an edit
 };
 
 } // namespace palp

@@ -1,13 +1,18 @@
 #include "app/gui/jobs/ResultFiles.h"
 
+#include "app/gui/project/ProjectFile.h"
 #include "app/study/paper/PaperProtocol.h"
+#include "io/AtomicFile.h"
 #include "io/DecoderFile.h"
 #include "io/DesignFile.h"
 #include "io/SampleFile.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
 
+#include <QFile>
+
 #include <algorithm>
+#include <set>
 
 namespace palp {
 
@@ -17,6 +22,10 @@ namespace {
 
 constexpr const char* kSamples = "samples.csv";
 constexpr const char* kNetwork = "network.json";
+constexpr const char* kKept = "networks";
+constexpr const char* kDecoder = ".network.json";
+constexpr const char* kSettings = ".settings.json";
+constexpr const char* kMade = "yyyyMMdd-HHmmss-zzz";
 constexpr int kHeldOut = 5; ///< one sample of so many tests, where no set of its own does
 
 /// Shards of one request, and the file that is named where they do not fit.
@@ -57,6 +66,14 @@ std::array<SampleSet, 2> heldOut(const SampleSet& all) {
     chosen[before % kHeldOut == kHeldOut - 1 ? 1 : 0].push_back(s);
   }
   return {columns(all, chosen[0]), columns(all, chosen[1])};
+}
+
+/// As in the settings: "4", "1,4,7" or "all".
+std::string rowsInWords(const DecoderInput& input) {
+  if (static_cast<int>(input.rows.size()) == input.rowWires) return "all";
+  std::string words;
+  for (const int row : input.rows) words += (words.empty() ? "" : ",") + std::to_string(row);
+  return words;
 }
 
 void requireOf(const SensorDesign& design, const SampleSet& set, const fs::path& file) {
@@ -124,10 +141,66 @@ std::shared_ptr<const NetworkFit> triedOn(Decoder decoder, const NetworkSamples&
   fit->settings.mode = fit->decoder.mode;
   fit->settings.decoder = fit->decoder.kind;
   fit->settings.spread = fit->decoder.report.spread;
+  fit->settings.rows = rowsInWords(fit->decoder.input);
+  fit->settings.noise = fit->decoder.noise;
+  fit->settings.seed = fit->decoder.seed;
+  fit->madeFrom = samples.settings;
+  fit->made = QDateTime::currentDateTime();
   fit->prediction = predict(fit->decoder, samples.test);
   fit->error = decoderError(fit->decoder, fit->prediction, samples.test);
   return fit;
 }
+
+namespace {
+
+/// The name of a kept network's files, by the moment it was made.
+std::string stemOf(const NetworkFit& fit) {
+  return fit.made.toString(kMade).toStdString();
+}
+
+/// Those that are there stay as they are: a network does not change.
+void saveKept(const fs::path& folder, const NetworkResults& results) {
+  std::error_code ignored;
+  std::set<std::string> stems;
+  if (!results.kept.empty()) fs::create_directories(folder, ignored); // else the first file cannot be written
+  for (const auto& fit : results.kept) {
+    const std::string stem = stemOf(*fit);
+    stems.insert(stem);
+    if (!fs::exists(folder / (stem + kSettings)))
+      writeFile(folder / (stem + kSettings), networkText(fit->settings).toStdString(), true);
+    if (!fs::exists(folder / (stem + kDecoder))) writeNetwork(fit->decoder, folder / (stem + kDecoder));
+  }
+  std::vector<fs::path> old;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (!stems.contains(name.substr(0, name.find('.')))) old.push_back(entry.path());
+  }
+  for (const fs::path& file : old) fs::remove(file, ignored);
+}
+
+void openKept(const fs::path& folder, NetworkResults& results, const std::stop_token& stop) {
+  std::vector<std::string> stems;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder, none)) {
+    const std::string name = entry.path().filename().string();
+    if (name.ends_with(kDecoder)) stems.push_back(name.substr(0, name.size() - std::string(kDecoder).size()));
+  }
+  std::sort(stems.rbegin(), stems.rend()); // the newest first
+  for (const std::string& stem : stems) {
+    if (stop.stop_requested()) throw Cancelled();
+    auto fit = std::make_shared<NetworkFit>(*triedOn(readNetwork(folder / (stem + kDecoder)), *results.samples));
+    QFile settings(QString::fromStdString((folder / (stem + kSettings)).string()));
+    if (settings.open(QIODevice::ReadOnly)) fit->settings = parseNetwork(settings.readAll(), settings.fileName());
+    fit->made = QDateTime::fromString(QString::fromStdString(stem), kMade);
+    if (fit->settings.testNoise == 0) fit->triedOn = results.samples; // else with its noise when it is gone back to
+    const bool shown = results.fit && results.fit->decoder.trainedWith == fit->decoder.trainedWith &&
+                       results.fit->decoder.report.seconds == fit->decoder.report.seconds;
+    results.kept.push_back(fit);
+    if (shown) results.fit = fit;
+  }
+}
+
+} // namespace
 
 void saveResults(const fs::path& folder, const NetworkResults& results) {
   std::error_code failed;
@@ -138,6 +211,7 @@ void saveResults(const fs::path& folder, const NetworkResults& results) {
     writeNetwork(results.fit->decoder, folder / kNetwork);
   else
     fs::remove(folder / kNetwork, failed);
+  saveKept(folder / kKept, results);
 }
 
 NetworkResults openResults(const fs::path& folder, const SensorDesign& design, const std::stop_token& stop) {
@@ -145,7 +219,12 @@ NetworkResults openResults(const fs::path& folder, const SensorDesign& design, c
   results.design = design;
   if (!fs::exists(folder / kSamples)) return results;
   results.samples = std::make_shared<const NetworkSamples>(openSampleFiles({folder / kSamples}, design, stop));
-  if (fs::exists(folder / kNetwork)) results.fit = triedOn(readNetwork(folder / kNetwork), *results.samples);
+  if (fs::exists(folder / kNetwork)) {
+    auto fit = std::make_shared<NetworkFit>(*triedOn(readNetwork(folder / kNetwork), *results.samples));
+    fit->triedOn = results.samples;
+    results.fit = std::move(fit);
+  }
+  openKept(folder / kKept, results, stop);
   return results;
 }
 

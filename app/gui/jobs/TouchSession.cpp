@@ -54,13 +54,14 @@ bool TouchSession::computing() const {
   return runner_.running() && computed_ == revision_;
 }
 
-int TouchSession::incrementCount() const {
-  return shown_.solution() != nullptr ? static_cast<int>(shown_.solution()->increments.size()) : 0;
+int TouchSession::lastPlace() const {
+  const bool moves = shown_.solution() != nullptr && shown_.solution()->increments.size() > 1;
+  return moves ? static_cast<int>(std::lround(100 * shown_.solution()->increments.back().loadFraction)) : 0;
 }
 
 double TouchSession::loadFraction() const {
-  if (shown_.solution() == nullptr || increment_ < 0) return 0;
-  return shown_.solution()->increments[static_cast<std::size_t>(increment_)].loadFraction;
+  if (shown_.solution() == nullptr || place_ < 0) return 0;
+  return place_ == lastPlace() ? shown_.solution()->increments.back().loadFraction : 0.01 * place_;
 }
 
 std::vector<NewtonStep> TouchSession::newton() const {
@@ -115,7 +116,9 @@ void TouchSession::take(const Touch& touch, std::shared_ptr<const NodalFields> f
   shownRevision_ = revision;
   stages_ = touch.stages();
   fields_ = std::move(fields);
-  increment_ = incrementCount() - 1;
+  endFields_ = fields_;
+  path_.reset();
+  place_ = shown_.solution() != nullptr ? lastPlace() : -1;
   electrodes_ = touch.displacements() != nullptr
                     ? std::make_shared<const ElectrodeDisplacements>(*touch.displacements())
                     : nullptr;
@@ -124,26 +127,37 @@ void TouchSession::take(const Touch& touch, std::shared_ptr<const NodalFields> f
   if (missing()) run();
 }
 
-void TouchSession::showIncrement(int increment) {
-  if (increment < 0 || increment >= incrementCount() || increment == scrubbingTo()) return;
+void TouchSession::showPlace(int percent) {
+  if (percent < 0 || percent > lastPlace() || percent == scrubbingTo()) return;
   if (runner_.running() && !scrubbing_) return;
-  scrubbing_ = increment;
+  if (path_) {
+    showState(percent);
+    return;
+  }
+  const bool asked = scrubbing_.has_value();
+  scrubbing_ = percent;
+  if (asked) return; // the path is on its way
   computed_ = 0;
-  const auto work = [this, touch = shown_, increment, revision = revision_](const std::stop_token&,
-                                                                            JobProgress&) -> JobRunner::Taking {
-    const LoadIncrement& state = touch.solution()->increments[static_cast<std::size_t>(increment)];
-    auto fields = std::make_shared<const NodalFields>(touch.problem()->fields(state));
-    auto electrodes = std::make_shared<const ElectrodeDisplacements>(touch.problem()->electrodes(state));
-    return [this, fields, electrodes, increment, revision] {
-      if (revision != revision_) return;
-      fields_ = fields;
-      electrodes_ = electrodes;
-      increment_ = increment;
-      scrubbing_.reset();
-      emit changed(false);
+  const auto work = [this, touch = shown_, revision = revision_](const std::stop_token& stop,
+                                                                 JobProgress&) -> JobRunner::Taking {
+    auto path = std::make_shared<const std::vector<LoadPathState>>(loadPathStates(touch, stop));
+    if (stop.stop_requested()) return {};
+    return [this, path, revision] {
+      if (revision != revision_ || !scrubbing_) return;
+      path_ = path;
+      showState(*scrubbing_);
     };
   };
-  runner_.start(tr("Showing a load increment"), work);
+  runner_.start(tr("Showing the load path"), work);
+}
+
+void TouchSession::showState(int percent) {
+  scrubbing_.reset();
+  place_ = percent;
+  LoadPathState state = stateAt(*path_, loadFraction());
+  fields_ = std::make_shared<const NodalFields>(std::move(state.fields));
+  electrodes_ = std::make_shared<const ElectrodeDisplacements>(std::move(state.electrodes));
+  emit changed(false);
 }
 
 void TouchSession::estimateError() {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/gui/jobs/JobRunner.h"
+#include "app/gui/jobs/LoadPath.h"
 #include "app/gui/project/Project.h"
 #include "app/study/touch/Touch.h"
 
@@ -47,28 +48,31 @@ public:
   [[nodiscard]] bool missing() const { return wanted_.reached() < need_; }
   /// False while inputs are newer than what is shown.
   [[nodiscard]] bool upToDate() const { return shownRevision_ == revision_; }
-  /// Fields of the load increment that is shown; null before the first solution.
+  /// Fields of the place of the load path that is shown; null before the first solution.
   [[nodiscard]] const NodalFields* fields() const { return fields_.get(); }
   [[nodiscard]] const ElectrodeDisplacements* electrodes() const { return electrodes_.get(); }
-  [[nodiscard]] int increment() const { return increment_; }
-  [[nodiscard]] int incrementCount() const;
+  /// At the end of the load path, for scales that hold on all of it.
+  [[nodiscard]] const NodalFields* endFields() const { return endFields_.get(); }
+  /// The place that is shown on the way from rest to the load, in percent of it, and the last one that was reached.
+  [[nodiscard]] int place() const { return place_; }
+  [[nodiscard]] int lastPlace() const;
   [[nodiscard]] double loadFraction() const;
   /// Residuals of the solve that runs, else of the one that is shown.
   [[nodiscard]] std::vector<NewtonStep> newton() const;
   [[nodiscard]] const StageLog& stages() const { return stages_; }
   [[nodiscard]] JobRunner& runner() { return runner_; }
 
-  /// Shows another load increment of the solution; not while a solve runs.
-  void showIncrement(int increment);
-  /// The increment that will be shown when its fields are there.
-  [[nodiscard]] int scrubbingTo() const { return scrubbing_.value_or(increment_); }
+  /// Shows another place of the load path, linear between the equilibria that were computed; not while a solve runs.
+  void showPlace(int percent);
+  /// The place that will be shown when its fields are there.
+  [[nodiscard]] int scrubbingTo() const { return scrubbing_.value_or(place_); }
   /// Estimates the discretisation error of what is shown; the answer comes with errorEstimated().
   void estimateError();
   /// Gives back the memory that only another solve needs; called when nothing was computed for a while.
   void rest();
 
 signals:
-  /// Another mesh, solution or increment is shown.
+  /// Another mesh, solution or place of the load path is shown.
   void changed(bool meshChanged);
   void newtonStepped();
   /// Not a number where there is no estimate; `method` says why.
@@ -78,6 +82,7 @@ private:
   void run();
   /// The job that runs computes the inputs as they are now.
   [[nodiscard]] bool computing() const;
+  void showState(int percent);
   void take(const Touch& touch, std::shared_ptr<const NodalFields> fields, quint64 revision);
 
   JobRunner runner_;
@@ -91,7 +96,9 @@ private:
   std::shared_ptr<const NodalFields> fields_;
   std::shared_ptr<const ElectrodeDisplacements> electrodes_;
   std::shared_ptr<NewtonTrace> trace_;
-  int increment_ = -1;
+  std::shared_ptr<const NodalFields> endFields_;
+  std::shared_ptr<const std::vector<LoadPathState>> path_; ///< null until it is first scrubbed through
+  int place_ = -1;
   std::optional<int> scrubbing_; ///< asked for and not there yet
   StageLog stages_;
 };

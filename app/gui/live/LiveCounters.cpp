@@ -1,6 +1,6 @@
 #include "app/gui/live/LiveCounters.h"
 
-#include <QHBoxLayout>
+#include <QGridLayout>
 #include <QLabel>
 #include <QStyle>
 #include <QVBoxLayout>
@@ -8,6 +8,8 @@
 namespace palp {
 
 namespace {
+
+constexpr int kTileMargins_px = 24;
 
 QString milliseconds(double seconds) {
   return QString::number(1e3 * seconds, 'f', seconds < 1e-3 ? 2 : 1);
@@ -29,40 +31,55 @@ QString stateTitle(const LiveStatus& status, bool simulated) {
 } // namespace
 
 LiveCounters::LiveCounters(QWidget* parent) : QWidget(parent) {
-  auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(0, 0, 0, 0);
-  row->setSpacing(6);
-  state_ = add(*row, "liveState", tr("State"), tr("What the source does now, and why"), 4);
-  rate_ = add(*row, "liveRate", tr("Measured rate"),
-              tr("Reports a second that came in the last second, and whole scans (frames) of them"), 5);
-  losses_ = add(*row, "liveLosses", tr("Lost, bad, late"),
+  grid_ = new QGridLayout(this);
+  grid_->setContentsMargins(0, 0, 0, 0);
+  grid_->setSpacing(6);
+  state_ = add("liveState", tr("State"), tr("What the source does now, and why"));
+  rate_ = add("liveRate", tr("Measured rate"),
+              tr("Reports a second that came in the last second, and whole scans (frames) of them"));
+  losses_ = add("liveLosses", tr("Lost, bad, late"),
                 tr("Reports missing in the sequence / with a wrong length, ID, checksum or range / frames that were "
-                   "decoded more than 20 ms after the board read them; all since the start"),
-                4);
-  latency_ = add(*row, "liveLatency", tr("Latency [ms]"),
+                   "decoded more than 20 ms after the board read them; all since the start"));
+  latency_ = add("liveLatency", tr("Latency [ms]"),
                  tr("From the board's clock at the last reading of a frame to the decoded force [ms], median / 99 % / "
                     "longest; offset and drift of the two clocks are taken out. Below: what this program takes of it, "
                     "median / 99 %, "
-                    "from the report's arrival to the force"),
-                 5);
+                    "from the report's arrival to the force"));
   trust_ =
-      add(*row, "liveTrust", tr("Trust"),
+      add("liveTrust", tr("Trust"),
           tr("Whether the readings are those of a touch that the network knows. Misfit: what the most likely touch "
              "leaves of the readings, over what noise, tare and the network's model explain (rms); it is 1 where "
              "all is well, and 1 % of good frames lie above the limit. Doubted: more than half of the last quarter "
              "of a second lies above it, or the force lies outside of what was trained: drift, hysteresis, several "
-             "touches, or another sensor"),
-          4);
+             "touches, or another sensor"));
   climate_ =
-      add(*row, "liveClimate", tr("Temperature"),
+      add("liveClimate", tr("Temperature"),
           tr("Of the board [degC]; relative noise of a reading: measured while taring, before that from frame to "
              "frame; drift: how far all readings have gone together since rest [millionths], seen while the "
-             "sensor is left alone. Where that reads as more than 1 % of the force range, a tare is suggested"),
-          6);
+             "sensor is left alone. Where that reads as more than 1 % of the force range, a tare is suggested"));
+  state_.unit->setProperty("mayBeCut", true); // its tip has all of it
+  arrange(6);
 }
 
-LiveCounters::Tile LiveCounters::add(QHBoxLayout& row, const QString& name, const QString& title, const QString& tip,
-                                     int stretch) {
+void LiveCounters::arrange(int columns) {
+  if (columns == columns_) return;
+  columns_ = columns;
+  const std::array boxes{state_.box, rate_.box, losses_.box, latency_.box, trust_.box, climate_.box};
+  for (int k = 0; k < static_cast<int>(boxes.size()); ++k) {
+    grid_->addWidget(boxes[static_cast<std::size_t>(k)], k / columns, k % columns);
+    grid_->setColumnStretch(k, k < columns ? 1 : 0);
+  }
+}
+
+/// As many in a line as show their text, the lines equally long.
+void LiveCounters::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  const int needed = fontMetrics().horizontalAdvance(tr("of 1000; 1000.0 frames/s")) + kTileMargins_px;
+  const int most = width() / needed;
+  arrange(most >= 6 ? 6 : most >= 3 ? 3 : 2);
+}
+
+LiveCounters::Tile LiveCounters::add(const QString& name, const QString& title, const QString& tip) {
   auto* box = new QWidget;
   box->setProperty("role", "tile");
   box->setToolTip(tip);
@@ -80,7 +97,6 @@ LiveCounters::Tile LiveCounters::add(QHBoxLayout& row, const QString& name, cons
     label->setMinimumWidth(10); // a long text is cut, it does not widen the window
     column->addWidget(label);
   }
-  row.addWidget(box, stretch);
   return tile;
 }
 

@@ -4,14 +4,15 @@
 
 #include <QWidget>
 
-#include <vector>
+#include <array>
 
-class QHBoxLayout;
+class QGridLayout;
 class QLabel;
 
 namespace palp {
 
-/// State, measured rate, losses, latency, trust in the force, temperature and noise in one line of tiles.
+/// State, measured rate, losses, latency, trust in the force, temperature and noise in one line of tiles, or in more
+/// where it is narrow.
 class LiveCounters : public QWidget {
   Q_OBJECT
 
@@ -21,16 +22,22 @@ public:
   /// `last` may be null.
   void display(const LiveStatus& status, const LiveFrame* last, bool simulated);
 
+protected:
+  void resizeEvent(QResizeEvent* event) override;
+
 private:
   struct Tile {
     QWidget* box = nullptr;
     QLabel* value = nullptr;
     QLabel* unit = nullptr;
   };
-  Tile add(QHBoxLayout& row, const QString& name, const QString& title, const QString& tip, int stretch);
+  Tile add(const QString& name, const QString& title, const QString& tip);
+  void arrange(int columns);
   void displayTrust(const LiveFrame* last);
   static void set(const Tile& tile, const QString& value, const QString& unit, bool alarm = false);
 
+  QGridLayout* grid_;
+  int columns_ = 0;
   Tile state_, rate_, losses_, latency_, trust_, climate_;
 };
 

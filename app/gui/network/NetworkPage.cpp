@@ -1,9 +1,13 @@
 #include "app/gui/network/NetworkPage.h"
 
+#include "app/gui/network/FitWords.h"
 #include "app/gui/network/NetworkCharts.h"
 #include "app/gui/network/NetworkPanel.h"
+#include "app/gui/network/NetworkTables.h"
+#include "app/gui/network/TrainedNetworks.h"
 #include "app/gui/project/Command.h"
 #include "app/gui/views/ChartView.h"
+#include "app/gui/views/DataTable.h"
 #include "app/gui/window/SidePanel.h"
 #include "io/DecoderFile.h"
 #include "model/base/Error.h"
@@ -24,12 +28,6 @@ namespace {
 
 constexpr int kPanelWidth_px = 330;
 
-QString triple(const Eigen::VectorXd& values, const QString& unit) {
-  QStringList texts;
-  for (const double value : values) texts << QString::number(value, 'g', 3);
-  return texts.join(" / ") + " " + unit;
-}
-
 QSplitter* beside(std::initializer_list<QWidget*> widgets, Qt::Orientation orientation) {
   auto* splitter = new QSplitter(orientation);
   for (QWidget* widget : widgets) splitter->addWidget(widget);
@@ -46,15 +44,7 @@ NetworkPage::NetworkPage(Workbench& workbench, NetworkSession& session, QWidget*
   row->addWidget(sidePanel(panel_, kPanelWidth_px));
   row->addWidget(buildCharts(), 1);
 
-  connect(panel_, &NetworkPanel::edited, this,
-          [this](const QString& what, const SampleSettings& samples, const NetworkSettings& network) {
-            Project next = workbench_.project();
-            const bool retrain = !(next.network == network) && session_.fit() != nullptr && session_.upToDate();
-            next.samples = samples;
-            next.network = network;
-            workbench_.edit(what, next);
-            if (retrain) session_.train(network); // the error follows the spread
-          });
+  connect(panel_, &NetworkPanel::edited, this, &NetworkPage::edit);
   connect(panel_, &NetworkPanel::generateAsked, this,
           [this] { session_.generate(workbench_.project().samples, workbench_.project().mesh); });
   connect(panel_, &NetworkPanel::trainAsked, this, [this] { session_.train(workbench_.project().network); });
@@ -63,67 +53,154 @@ NetworkPage::NetworkPage(Workbench& workbench, NetworkSession& session, QWidget*
     tabs_->setCurrentIndex(2);
     session_.compare(workbench_.project().network);
   });
-  connect(&session_, &NetworkSession::trialsChanged, this, &NetworkPage::displayTrials);
   connect(&workbench_, &Workbench::projectChanged, this, &NetworkPage::displayProject);
-  connect(&session_, &NetworkSession::samplesChanged, this, &NetworkPage::displaySamples);
-  connect(&session_, &NetworkSession::fitChanged, this, &NetworkPage::displayFit);
-  connect(&session_, &NetworkSession::sweepChanged, this, &NetworkPage::displaySweep);
   connect(area_, &QSpinBox::valueChanged, this, [this](int area) {
     Project next = workbench_.project();
     next.view.testArea = area;
     workbench_.edit(tr("Choose a test area"), next);
   });
-  connect(panel_, &NetworkPanel::openSamplesAsked, this, &NetworkPage::openSamples);
-  connect(panel_, &NetworkPanel::saveSamplesAsked, this, &NetworkPage::saveSamples);
   connect(save_, &QPushButton::clicked, this, &NetworkPage::saveNetwork);
   connect(open_, &QPushButton::clicked, this, &NetworkPage::openNetwork);
+  connect(best_, &QPushButton::clicked, this, &NetworkPage::takeBestSpread);
+  connect(trained_, &TrainedNetworks::goBackAsked, this, &NetworkPage::goBackTo);
+  connect(trained_, &TrainedNetworks::takeAwayAsked, &session_, &NetworkSession::takeAway);
+  connectSession();
   displayProject();
   displaySamples();
+}
+
+void NetworkPage::connectSession() {
+  connect(&session_, &NetworkSession::samplesChanged, this, &NetworkPage::displaySamples);
+  connect(&session_, &NetworkSession::fitChanged, this, &NetworkPage::displayFit);
+  connect(&session_, &NetworkSession::sweepChanged, this, &NetworkPage::displaySweep);
+  connect(&session_, &NetworkSession::trialsChanged, this, &NetworkPage::displayTrials);
+  connect(&session_.runner(), &JobRunner::started, this, [this] { showProblem({}); });
+  connect(&session_.runner(), &JobRunner::failed, this, &NetworkPage::showProblem);
+}
+
+void NetworkPage::edit(const QString& what, const SampleSettings& samples, const NetworkSettings& network) {
+  Project next = workbench_.project();
+  const bool retrain = next.network != network && session_.fit() != nullptr && session_.upToDate();
+  next.samples = samples;
+  next.network = network;
+  workbench_.edit(what, next);
+  if (retrain) session_.train(network, true); // the error follows the spread
+}
+
+/// Where one looks: below the numbers that there are none of now.
+void NetworkPage::showProblem(const QString& sentence) {
+  problem_->setText(sentence);
+  problem_->setVisible(!sentence.isEmpty());
+}
+
+void NetworkPage::takeBestSpread() {
+  const auto best = bestSpread(session_.sweepPoints());
+  if (!best) return;
+  NetworkSettings network = workbench_.project().network;
+  network.spread = *best;
+  network.automaticSpread = false;
+  edit(tr("Take the best spread of the sweep"), workbench_.project().samples, network);
+}
+
+/// The panel shows what the network was trained with; it is not trained again.
+void NetworkPage::goBackTo(std::size_t network) {
+  Project next = workbench_.project();
+  const NetworkSettings then = session_.kept()[network]->settings;
+  const NetworkSettings now = next.network;
+  next.network = then;
+  next.network.sweepFrom = now.sweepFrom;
+  next.network.sweepTo = now.sweepTo;
+  next.network.sweepCount = now.sweepCount;
+  workbench_.closeEntry();
+  workbench_.edit(tr("Go back to a network"), next);
+  session_.goBackTo(network);
+}
+
+QLayout* NetworkPage::buildBar() {
+  auto* bar = new QHBoxLayout;
+  auto* words = new QLabel(tr("Test area"));
+  bar->addWidget(words);
+  area_ = new QSpinBox;
+  area_->setObjectName("testArea");
+  area_->setToolTip(tr("Load area whose test samples are drawn"));
+  words->setBuddy(area_);
+  bar->addWidget(area_);
+  bar->addStretch(1);
+  save_ = new QPushButton(tr("Save network..."));
+  save_->setObjectName("saveNetwork");
+  save_->setToolTip(tr("Saves the network that is shown, for Live and for palp predict"));
+  open_ = new QPushButton(tr("Open network..."));
+  open_->setObjectName("openNetwork");
+  open_->setToolTip(tr("Tries a network of a file on the test samples"));
+  bar->addWidget(save_);
+  bar->addWidget(open_);
+  return bar;
 }
 
 QWidget* NetworkPage::buildCharts() {
   auto* page = new QWidget;
   auto* column = new QVBoxLayout(page);
   column->setContentsMargins(0, 0, 0, 0);
-  auto* bar = new QHBoxLayout;
   fitWords_ = new QLabel;
   fitWords_->setObjectName("fitWords");
   fitWords_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   fitWords_->setWordWrap(true);
   fitWords_->setMinimumHeight(3 * fitWords_->fontMetrics().lineSpacing()); // the tabs stay where they are
-  bar->addWidget(fitWords_, 1);
-  bar->addWidget(new QLabel(tr("Test area")));
-  area_ = new QSpinBox;
-  area_->setObjectName("testArea");
-  bar->addWidget(area_);
-  area_->setToolTip(tr("Load area whose test samples are drawn"));
-  save_ = new QPushButton(tr("Save network..."));
-  open_ = new QPushButton(tr("Open network..."));
-  open_->setObjectName("openNetwork");
-  bar->addWidget(save_);
-  bar->addWidget(open_);
-  column->addLayout(bar);
+  column->addWidget(fitWords_);
+  problem_ = new QLabel;
+  problem_->setObjectName("trainingProblem");
+  problem_->setProperty("role", "problem");
+  problem_->setWordWrap(true);
+  problem_->hide();
+  column->addWidget(problem_);
+  column->addLayout(buildBar());
+  trained_ = new TrainedNetworks;
+  tabs_ = new QTabWidget;
+  tabs_->setObjectName("networkTabs");
+  tabs_->addTab(buildSweep(), tr("Spread"));
+  tabs_->addTab(buildFit(), tr("Decoupled against true force"));
+  tabs_->addTab(buildTrials(), tr("Decoders"));
+  tabs_->addTab(trained_, tr("Trained networks"));
+  column->addWidget(tabs_, 1);
+  return page;
+}
 
+QWidget* NetworkPage::buildSweep() {
   error_ = chart("sweepError");
   leaveOneOut_ = chart("leaveOneOut");
   condition_ = chart("condition");
   time_ = chart("errorTime");
+  sweepWords_ = new QLabel;
+  sweepWords_->setObjectName("sweepWords");
+  sweepWords_->setWordWrap(true);
+  best_ = new QPushButton(tr("Take the best spread"));
+  best_->setObjectName("bestSpread");
+  best_->setToolTip(tr("Sets the spread of the smallest RMSE of the sweep and trains with it"));
+  sweepTable_ = new DataTable("sweep.csv");
+  sweepTable_->setObjectName("sweepTable");
+  sweepTable_->setAccessibleName(tr("Table of the sweep"));
+  auto* bar = new QHBoxLayout;
+  bar->addWidget(sweepWords_, 1);
+  bar->addWidget(best_);
+  auto* list = new QWidget;
+  auto* column = new QVBoxLayout(list);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->addLayout(bar);
+  column->addWidget(sweepTable_, 1);
+  QSplitter* sweep = beside({error_, beside({leaveOneOut_, condition_, time_}, Qt::Horizontal), list}, Qt::Vertical);
+  sweep->setSizes({360, 240, 120});
+  sweep->setObjectName("networkSweep");
+  return sweep;
+}
+
+QWidget* NetworkPage::buildFit() {
   for (std::size_t d = 0; d < 3; ++d) decoupled_[d] = chart("decoupled");
   relative_ = chart("relativeError");
-  tabs_ = new QTabWidget;
-  tabs_->setObjectName("networkTabs");
-  QSplitter* sweep = beside({error_, beside({leaveOneOut_, condition_, time_}, Qt::Horizontal)}, Qt::Vertical);
-  sweep->setSizes({500, 260});
-  sweep->setObjectName("networkSweep");
-  tabs_->addTab(sweep, tr("Spread"));
   QSplitter* fit =
       beside({beside({decoupled_[0], decoupled_[1], decoupled_[2]}, Qt::Horizontal), relative_}, Qt::Vertical);
   fit->setSizes({360, 360});
   fit->setObjectName("networkFit");
-  tabs_->addTab(fit, tr("Decoupled against true force"));
-  tabs_->addTab(buildTrials(), tr("Decoders"));
-  column->addWidget(tabs_, 1);
-  return page;
+  return fit;
 }
 
 ChartView* NetworkPage::chart(const char* name) {
@@ -139,11 +216,15 @@ QWidget* NetworkPage::buildTrials() {
   trialsWords_ = new QLabel(tr("Compare all decoders trains each kind on the same samples."));
   trialsWords_->setObjectName("trialsWords");
   trialsWords_->setWordWrap(true);
+  trialsTable_ = new DataTable("decoders.csv");
+  trialsTable_->setObjectName("trialsTable");
+  trialsTable_->setAccessibleName(tr("Table of the decoders"));
   auto* page = new QWidget;
   auto* column = new QVBoxLayout(page);
   column->addWidget(trialsWords_);
-  QSplitter* charts = beside({trialsError_, trialsTime_}, Qt::Horizontal);
+  QSplitter* charts = beside({beside({trialsError_, trialsTime_}, Qt::Horizontal), trialsTable_}, Qt::Vertical);
   charts->setObjectName("networkTrials");
+  charts->setSizes({420, 200});
   column->addWidget(charts, 1);
   return page;
 }
@@ -172,7 +253,8 @@ void NetworkPage::displayProject() {
   area_->setValue(workbench_.project().view.testArea);
   displaySweep();
   displayTrials();
-  if (area_->value() != before) displayFit();
+  if (area_->value() != before || settingsShown_ != workbench_.project().network) displayFit();
+  settingsShown_ = workbench_.project().network;
 }
 
 void NetworkPage::displaySamples() {
@@ -203,27 +285,24 @@ void NetworkPage::displaySweep() {
   leaveOneOut_->setChart(sweepLeaveOneOutChart(points));
   condition_->setChart(sweepConditionChart(points));
   time_->setChart(errorTimeChart(points));
+  const QString reason = staleSweepReason(session_, workbench_.project().network);
+  for (ChartView* view : {error_, leaveOneOut_, condition_, time_}) view->setFaint(!reason.isEmpty());
+  const auto best = bestSpread(points);
+  best_->setEnabled(best.has_value() && session_.upToDate());
+  sweepWords_->setText(best ? tr("Smallest RMSE at spread %1. %2").arg(*best, 0, 'g', 4).arg(reason)
+                            : tr("A sweep trains once for each spread; its table stands here."));
+  const TableText table = sweepTable(points);
+  sweepTable_->show(table.heads, table.rows);
 }
 
 void NetworkPage::displayFit() {
   const NetworkFit* fit = session_.fit();
   save_->setEnabled(fit != nullptr);
-  if (fit == nullptr) {
-    fitWords_->setText(session_.samples() == nullptr ? tr("No network yet: generate samples, then train.")
-                                                     : tr("No network yet: train one on the samples."));
-  } else {
-    const PredictionError& error = fit->error.error;
-    const QString whose = session_.upToDate() ? QString() : tr("<i>Of an earlier design.</i> ");
-    fitWords_->setText(whose +
-                       tr("<b>Test error Fx / Fy / Fz, all areas:</b> %1 by Eq. (13), %2 with a floor of 0.05 N, %3 of "
-                          "range (RMSE). Spread %4, %5 centres, condition %6, trained in %7 s.")
-                           .arg(triple(error.eq13Percent, "%"), triple(error.eq13FlooredPercent, "%"),
-                                triple(error.rmsePercentOfRange, "%"))
-                           .arg(fit->decoder.report.spread, 0, 'g', 4)
-                           .arg(fit->decoder.report.centers)
-                           .arg(fit->decoder.report.condition, 0, 'g', 2)
-                           .arg(fit->decoder.report.seconds, 0, 'g', 2));
-  }
+  fitWords_->setText(fitWords(session_, workbench_.project().network));
+  const bool stale = !staleReason(session_, workbench_.project().network).isEmpty();
+  for (ChartView* view : decoupled_) view->setFaint(stale);
+  relative_->setFaint(stale);
+  trained_->display(session_);
   drawCharts();
 }
 
@@ -250,6 +329,9 @@ void NetworkPage::displayTrials() {
       session_.sweepSettings().input == session_.trialsInput() ? session_.sweepPoints() : std::vector<SweepPoint>{},
       session_.trialsInput()));
   trialsTime_->setChart(trialsTimeChart(trials));
+  for (ChartView* view : {trialsError_, trialsTime_}) view->setFaint(!trials.empty() && !session_.upToDate());
+  const TableText table = trialsTable(trials);
+  trialsTable_->show(table.heads, table.rows);
   QStringList words;
   for (const DecoderTrial& trial : trials)
     if (!trial.refusal.isEmpty()) words << tr("%1: %2").arg(QString::fromStdString(name(trial.kind)), trial.refusal);
@@ -275,7 +357,7 @@ void NetworkPage::saveNetwork() {
   try {
     writeNetwork(session_.fit()->decoder, file.toStdString());
   } catch (const Error& error) {
-    emit refused(QString::fromStdString(error.what()));
+    showProblem(QString::fromStdString(error.what()));
   }
 }
 
@@ -285,7 +367,7 @@ void NetworkPage::openNetwork() {
   try {
     session_.open(file.toStdString());
   } catch (const Error& error) {
-    emit refused(QString::fromStdString(error.what()));
+    showProblem(QString::fromStdString(error.what()));
   }
 }
 

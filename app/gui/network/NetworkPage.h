@@ -7,6 +7,7 @@
 #include <array>
 
 class QLabel;
+class QLayout;
 class QPushButton;
 class QSpinBox;
 class QTabWidget;
@@ -14,7 +15,9 @@ class QTabWidget;
 namespace palp {
 
 class ChartView;
+class DataTable;
 class NetworkPanel;
+class TrainedNetworks;
 
 /// Samples, training and the sweep of the spread, with the paper's numbers beside.
 class NetworkPage : public Scene {
@@ -29,14 +32,14 @@ public:
   [[nodiscard]] bool complete() const override { return true; }
   [[nodiscard]] QString commands(const Project& project, const QString& designFile) const override;
 
-signals:
-  void refused(const QString& sentence);
-
 protected:
   void showEvent(QShowEvent* event) override;
 
 private:
   QWidget* buildCharts();
+  QLayout* buildBar();
+  QWidget* buildSweep();
+  QWidget* buildFit();
   QWidget* buildTrials();
   ChartView* chart(const char* name);
   void displayProject();
@@ -47,13 +50,20 @@ private:
   void drawCharts();
   void openSamples();
   void saveSamples();
+  void edit(const QString& what, const SampleSettings& samples, const NetworkSettings& network);
+  void connectSession();
+  void showProblem(const QString& sentence);
+  void takeBestSpread();
+  void goBackTo(std::size_t network);
   void saveNetwork();
   void openNetwork();
 
   Workbench& workbench_;
   NetworkSession& session_;
+  NetworkSettings settingsShown_; ///< with which the words of the fit were made
   NetworkPanel* panel_ = nullptr;
   QLabel* fitWords_ = nullptr;
+  QLabel* problem_ = nullptr;
   QSpinBox* area_ = nullptr;
   QPushButton* save_ = nullptr;
   QPushButton* open_ = nullptr;
@@ -67,6 +77,11 @@ private:
   ChartView* trialsError_ = nullptr;
   ChartView* trialsTime_ = nullptr;
   QLabel* trialsWords_ = nullptr;
+  QLabel* sweepWords_ = nullptr;
+  QPushButton* best_ = nullptr;
+  DataTable* sweepTable_ = nullptr;
+  DataTable* trialsTable_ = nullptr;
+  TrainedNetworks* trained_ = nullptr;
   std::vector<ChartView*> all_;
 };
 

@@ -1,6 +1,8 @@
 #include "app/gui/network/NetworkPanel.h"
 
+#include "app/gui/network/AdvancedOptions.h"
 #include "app/gui/window/SpinBoxes.h"
+#include "model/base/Error.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -72,6 +74,11 @@ void NetworkPanel::buildSamples(QVBoxLayout& column) {
   seed_->setRange(0, 1000000000);
   seed_->setToolTip(tr("The same seed gives the same samples"));
   form->addRow(tr("Seed"), seed_);
+  surrogate_ = new QCheckBox(tr("by a surrogate"));
+  surrogate_->setObjectName("surrogate");
+  surrogate_->setToolTip(tr("A polynomial of full solves on each area: many samples in seconds, with an error that is "
+                            "measured and said"));
+  form->addRow(QString(), surrogate_);
   generate_ = new QPushButton(tr("Generate samples"));
   generate_->setObjectName("generate");
   form->addRow(generate_);
@@ -96,6 +103,7 @@ void NetworkPanel::buildSamples(QVBoxLayout& column) {
   column.addWidget(box);
   connect(perArea_, &QSpinBox::valueChanged, this, [this] { read(tr("Change the number of samples")); });
   connect(seed_, &QSpinBox::valueChanged, this, [this] { read(tr("Change the seed")); });
+  connect(surrogate_, &QCheckBox::toggled, this, [this] { read(tr("Change how samples are made")); });
   connect(generate_, &QPushButton::clicked, this, &NetworkPanel::generateAsked);
 }
 
@@ -105,6 +113,9 @@ void NetworkPanel::buildTraining(QVBoxLayout& column) {
   buildInput(*form);
   buildNetwork(*form);
   buildSpread(*form);
+  advanced_ = new AdvancedOptions;
+  form->addRow(advanced_);
+  connect(advanced_, &AdvancedOptions::edited, this, &NetworkPanel::read);
   train_ = new QPushButton(tr("Train"));
   train_->setObjectName("train");
   form->addRow(train_);
@@ -122,8 +133,14 @@ void NetworkPanel::buildInput(QFormLayout& form) {
   rows_->setObjectName("rows");
   rows_->setToolTip(tr("Row-wires that are read, counted from 0: 4, or 1,4,7, or all"));
   form.addRow(tr("Row-wires"), rows_);
+  rowsProblem_ = new QLabel;
+  rowsProblem_->setObjectName("rowsProblem");
+  rowsProblem_->setProperty("role", "problem");
+  rowsProblem_->setWordWrap(true);
+  rowsProblem_->hide();
+  form.addRow(rowsProblem_);
   connect(input_, &QComboBox::currentIndexChanged, this, [this] { read(tr("Change the network's input")); });
-  connect(rows_, &QLineEdit::editingFinished, this, [this] { read(tr("Change the row-wires")); });
+  connect(rows_, &QLineEdit::editingFinished, this, [this] { readRows(); });
 }
 
 /// What it is, and the noise that it is trained with.
@@ -153,10 +170,19 @@ void NetworkPanel::buildNetwork(QFormLayout& form) {
   noise_->setKeyboardTracking(false);
   noise_->setToolTip(tr("Relative noise of each input that the network is trained with"));
   form.addRow(tr("Noise"), noise_);
+  testNoise_ = new QDoubleSpinBox;
+  testNoise_->setObjectName("testNoise");
+  testNoise_->setRange(0, 50);
+  testNoise_->setDecimals(5);
+  testNoise_->setSuffix(tr(" %"));
+  testNoise_->setKeyboardTracking(false);
+  testNoise_->setToolTip(tr("Relative noise that the test samples get, apart from that of the training"));
+  form.addRow(tr("Noise of the test"), testNoise_);
   connect(mode_, &QComboBox::currentIndexChanged, this, [this] { read(tr("Change the network's mode")); });
   connect(decoder_, &QComboBox::currentIndexChanged, this, [this] { read(tr("Change the decoder")); });
   connect(centers_, &QSpinBox::valueChanged, this, [this] { read(tr("Change the centres")); });
   connect(noise_, &QDoubleSpinBox::valueChanged, this, [this] { read(tr("Change the noise")); });
+  connect(testNoise_, &QDoubleSpinBox::valueChanged, this, [this] { read(tr("Change the noise of the test")); });
 }
 
 void NetworkPanel::buildSpread(QFormLayout& form) {
@@ -218,6 +244,11 @@ void NetworkPanel::display(const Project& project) {
   mode_->setCurrentIndex(network_.mode == DecoderMode::Default ? 0 : 1);
   decoder_->setCurrentText(QString::fromStdString(name(network_.decoder)));
   rows_->setText(QString::fromStdString(network_.rows));
+  rowWires_ = project.design.rowWires();
+  rowsProblem_->hide();
+  surrogate_->setChecked(samples_.surrogate);
+  showExactly(*testNoise_, 100 * network_.testNoise);
+  advanced_->display(network_);
   centers_->setValue(network_.centers);
   showExactly(*noise_, 100 * network_.noise);
   automatic_->setChecked(network_.automaticSpread);
@@ -249,6 +280,21 @@ void NetworkPanel::displaySamples(bool there, const QString& words, bool goOn) {
   }
 }
 
+/// Rows that the design does not have stay in the field and are not used.
+void NetworkPanel::readRows() {
+  if (displaying_) return;
+  try {
+    rowsNamed(rows_->text().trimmed().toStdString(), rowWires_);
+  } catch (const Error& error) {
+    rowsProblem_->setText(
+        tr("%1. %2 is used.").arg(QString::fromStdString(error.what()), QString::fromStdString(network_.rows)));
+    rowsProblem_->show();
+    return;
+  }
+  rowsProblem_->hide();
+  read(tr("Change the row-wires"));
+}
+
 void NetworkPanel::read(const QString& what) {
   if (displaying_) return;
   samples_.perArea = perArea_->value();
@@ -256,7 +302,10 @@ void NetworkPanel::read(const QString& what) {
   network_.input = input_->currentIndex() == 0 ? InputKind::Displacement : InputKind::Resistance;
   network_.mode = mode_->currentIndex() == 0 ? DecoderMode::Default : DecoderMode::Paper;
   network_.decoder = kDecoderKinds.value(decoder_->currentText().toStdString());
-  network_.rows = rows_->text().trimmed().toStdString();
+  samples_.surrogate = surrogate_->isChecked();
+  network_.testNoise = testNoise_->value() / 100;
+  advanced_->read(network_);
+  if (rowsProblem_->isHidden()) network_.rows = rows_->text().trimmed().toStdString();
   network_.centers = centers_->value();
   network_.noise = noise_->value() / 100;
   network_.automaticSpread = automatic_->isChecked();

@@ -17,6 +17,8 @@ class QVBoxLayout;
 
 namespace palp {
 
+class AdvancedOptions;
+
 /// Samples, training options, spread and sweep.
 class NetworkPanel : public QWidget {
   Q_OBJECT
@@ -47,6 +49,7 @@ private:
   void buildSpread(QFormLayout& form);
   void buildSweep(QVBoxLayout& column);
   void read(const QString& what);
+  void readRows();
   void showSpread();
 
   SampleSettings samples_;
@@ -54,6 +57,7 @@ private:
   bool displaying_ = false;
   QSpinBox* perArea_ = nullptr;
   QSpinBox* seed_ = nullptr;
+  QCheckBox* surrogate_ = nullptr;
   QPushButton* generate_ = nullptr;
   QPushButton* saveSamples_ = nullptr;
   QLabel* samplesWords_ = nullptr;
@@ -61,11 +65,15 @@ private:
   QComboBox* mode_ = nullptr;
   QComboBox* decoder_ = nullptr;
   QLineEdit* rows_ = nullptr;
+  QLabel* rowsProblem_ = nullptr;
+  int rowWires_ = 0; ///< of the design
   QCheckBox* automatic_ = nullptr;
   QDoubleSpinBox* spread_ = nullptr;
   QSlider* spreadSlider_ = nullptr;
   QSpinBox* centers_ = nullptr;
   QDoubleSpinBox* noise_ = nullptr;
+  QDoubleSpinBox* testNoise_ = nullptr;
+  AdvancedOptions* advanced_ = nullptr;
   QPushButton* train_ = nullptr;
   QDoubleSpinBox* from_ = nullptr;
   QDoubleSpinBox* to_ = nullptr;

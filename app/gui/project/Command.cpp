@@ -12,11 +12,9 @@ QString triple(const Eigen::Vector3d& values) {
 }
 
 QString trainOptions(const NetworkSettings& network) {
-  QString options = " --input " + QString::fromStdString(name(network.input)) + " --rows " +
-                    QString::fromStdString(network.rows) + " --mode " + QString::fromStdString(name(network.mode)) +
-                    " --decoder " + QString::fromStdString(name(network.decoder));
-  if (network.noise > 0) options += " --noise " + QString::fromStdString(text(network.noise));
-  return options;
+  TrainOptions options = network.trainOptions();
+  options.spread.reset(); // said apart: a sweep has many
+  return QString::fromStdString(asCommand(options));
 }
 
 } // namespace
@@ -49,13 +47,19 @@ QString solveCommands(const Project& project, const QString& designFile) {
 QString networkCommands(const Project& project, const QString& designFile) {
   const auto sample = [&](std::uint64_t seed, const QString& file) {
     return QString("palp sample %1 --per-area %2 --seed %3").arg(designFile).arg(project.samples.perArea).arg(seed) +
-           meshOption(project.mesh) + " -o " + file;
+           meshOption(project.mesh) + (project.samples.surrogate ? " --surrogate" : "") + " -o " + file;
   };
   const NetworkSettings& network = project.network;
+  const auto noiseOf = [&](const char* option, const QString& more) {
+    return network.testNoise > 0 ? QString(" %1 %2").arg(option, QString::fromStdString(text(network.testNoise))) + more
+                                 : QString();
+  };
   const QString spread = network.automaticSpread ? "auto" : QString::fromStdString(text(network.spread));
   return sample(project.samples.seed, "train.csv") + "\n" + sample(testSeed(project.samples.seed), "test.csv") +
          "\npalp train train.csv" + trainOptions(network) + " --spread " + spread + " -o network.json" +
-         "\npalp sweep train.csv --test test.csv" + trainOptions(network) +
+         "\npalp predict network.json test.csv --bare" +
+         noiseOf("--noise", QString(" --seed %1").arg(testSeed(network.seed))) +
+         "\npalp sweep train.csv --test test.csv" + trainOptions(network) + noiseOf("--test-noise", {}) +
          QString::fromStdString(" --spreads " + text(network.sweepFrom) + ":" + text(network.sweepTo) + ":") +
          QString::number(network.sweepCount);
 }

@@ -11,7 +11,20 @@ TrainOptions NetworkSettings::trainOptions() const {
   options.noise = noise;
   if (centers > 0) options.centers = centers;
   if (!automaticSpread) options.spread = spread;
+  options.allCenters = allCenters;
+  options.centerChoice = centerChoice;
+  options.solver = solver;
+  options.ridge = ridge;
+  options.scaling = scaling;
+  options.tail = tail;
+  options.convention = convention;
+  options.forgetting = forgetting;
+  options.seed = seed;
   return options;
+}
+
+bool NetworkSettings::trainOptionsSet() const {
+  return centerChoice || allCenters || solver || ridge || scaling || tail || convention || forgetting != 1 || seed != 1;
 }
 
 Project exampleProject() {

@@ -8,6 +8,7 @@
 #include "solver/SensorMesh.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace palp {
@@ -16,6 +17,7 @@ namespace palp {
 struct SampleSettings {
   int perArea = 100;
   std::uint64_t seed = 1;
+  bool surrogate = false; ///< per-area polynomial instead of full solves
 
   bool operator==(const SampleSettings&) const = default;
 };
@@ -28,14 +30,26 @@ struct NetworkSettings {
   std::string rows = "4";
   bool automaticSpread = false;
   double spread = 1;
-  int centers = 0; ///< 0: as the mode says
-  double noise = 0;
+  int centers = 0;                          ///< 0: as the mode says
+  double noise = 0;                         ///< relative, that is trained with
+  double testNoise = 0;                     ///< relative, that the test samples get
+  std::optional<CenterChoice> centerChoice; ///< this and what follows: none where the mode decides
+  bool allCenters = false;
+  std::optional<LeastSquaresMethod> solver;
+  std::optional<double> ridge;
+  std::optional<Scaling> scaling;
+  std::optional<Tail> tail;
+  std::optional<SpreadConvention> convention;
+  double forgetting = 1;
+  std::uint64_t seed = 1; ///< of centres, noise and starts
   double sweepFrom = 0.3;
   double sweepTo = 10;
   int sweepCount = 9;
 
   bool operator==(const NetworkSettings&) const = default;
   [[nodiscard]] TrainOptions trainOptions() const;
+  /// Something is set that otherwise follows from the mode.
+  [[nodiscard]] bool trainOptionsSet() const;
 };
 
 /// Everything that a user sets and a project file keeps.

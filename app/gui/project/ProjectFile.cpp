@@ -18,6 +18,7 @@ namespace {
 
 constexpr int kVersion = 2; ///< 1 had no view, and perhaps no live
 constexpr const char* kVersionKey = "palp_project";
+constexpr NamedEnum kAxes("axis", std::array{std::pair{0, "x"}, std::pair{1, "y"}, std::pair{2, "z"}});
 constexpr int kLargestIndex = 10000; ///< of an area or a wire: more than any design has
 
 QJsonArray jsonOf(const Eigen::Ref<const Eigen::VectorXd>& values) {
@@ -77,24 +78,45 @@ MeshOptions meshOf(const JsonPlace& place) {
   return mesh;
 }
 
+QJsonObject samplesJson(const SampleSettings& samples) {
+  QJsonObject object{{"per_area", samples.perArea}, {"seed", static_cast<double>(samples.seed)}};
+  if (samples.surrogate) object["surrogate"] = true;
+  return object;
+}
+
 QJsonObject networkJson(const NetworkSettings& network) {
-  return {{"input", QString::fromStdString(name(network.input))},
-          {"mode", QString::fromStdString(name(network.mode))},
-          {"decoder", QString::fromStdString(name(network.decoder))},
-          {"rows", QString::fromStdString(network.rows)},
-          {"automatic_spread", network.automaticSpread},
-          {"spread", network.spread},
-          {"centers", network.centers},
-          {"noise", network.noise},
-          {"sweep_from", network.sweepFrom},
-          {"sweep_to", network.sweepTo},
-          {"sweep_count", network.sweepCount}};
+  QJsonObject object{{"input", QString::fromStdString(name(network.input))},
+                     {"mode", QString::fromStdString(name(network.mode))},
+                     {"decoder", QString::fromStdString(name(network.decoder))},
+                     {"rows", QString::fromStdString(network.rows)},
+                     {"automatic_spread", network.automaticSpread},
+                     {"spread", network.spread},
+                     {"centers", network.centers},
+                     {"noise", network.noise},
+                     {"sweep_from", network.sweepFrom},
+                     {"sweep_to", network.sweepTo},
+                     {"sweep_count", network.sweepCount}};
+  if (network.testNoise > 0) object["test_noise"] = network.testNoise;
+  if (network.allCenters) object["all_centers"] = true;
+  if (network.forgetting != 1) object["forgetting"] = network.forgetting;
+  if (network.seed != 1) object["train_seed"] = static_cast<double>(network.seed);
+  const auto add = [&object](const char* key, const auto& value, const auto& names) {
+    if (value) object[key] = QString::fromStdString(names.name(*value));
+  };
+  add("centers_by", network.centerChoice, kCenterChoices);
+  add("solver", network.solver, kLeastSquaresMethods);
+  add("scaler", network.scaling, kScalings);
+  add("tail", network.tail, kTails);
+  add("convention", network.convention, kSpreadConventions);
+  if (network.ridge) object["ridge"] = *network.ridge;
+  return object;
 }
 
 NetworkSettings networkOf(const JsonPlace& place) {
   place.onlyKeys({"input", "mode", "decoder", "rows", "automatic_spread", "spread", "noise", "sweep_from", "sweep_to",
                   "sweep_count"},
-                 {"centers"});
+                 {"centers", "test_noise", "all_centers", "forgetting", "train_seed", "centers_by", "solver", "scaler",
+                  "tail", "convention", "ridge"});
   NetworkSettings network;
   network.input = place.at("input").named(kInputKinds);
   network.mode = place.at("mode").named(kDecoderModes);
@@ -107,6 +129,16 @@ NetworkSettings networkOf(const JsonPlace& place) {
   network.sweepFrom = place.at("sweep_from").number(1e-6, 1e6);
   network.sweepTo = place.at("sweep_to").number(network.sweepFrom, 1e6);
   network.sweepCount = place.at("sweep_count").integer(2, 100);
+  if (place.has("test_noise")) network.testNoise = place.at("test_noise").number(0, 0.5);
+  if (place.has("all_centers")) network.allCenters = place.at("all_centers").boolean();
+  if (place.has("forgetting")) network.forgetting = place.at("forgetting").number(1e-6, 1);
+  if (place.has("train_seed")) network.seed = static_cast<std::uint64_t>(place.at("train_seed").integer(0, 1000000000));
+  if (place.has("centers_by")) network.centerChoice = place.at("centers_by").named(kCenterChoices);
+  if (place.has("solver")) network.solver = place.at("solver").named(kLeastSquaresMethods);
+  if (place.has("scaler")) network.scaling = place.at("scaler").named(kScalings);
+  if (place.has("tail")) network.tail = place.at("tail").named(kTails);
+  if (place.has("convention")) network.convention = place.at("convention").named(kSpreadConventions);
+  if (place.has("ridge")) network.ridge = place.at("ridge").number(0, 1e100);
   return network;
 }
 
@@ -129,7 +161,12 @@ QJsonObject viewJson(const ViewSettings& view) {
                      {"cell", cell(view.cell)},
                      {"test_area", view.testArea}};
   if (view.warpFactor) object["warp_factor"] = *view.warpFactor;
-  if (view.clipY_mm) object["clip_y_mm"] = *view.clipY_mm;
+  if (view.cut)
+    object["cut"] =
+        QJsonObject{{"axis", QString::fromStdString(kAxes.name(view.cut->axis))}, {"at_mm", view.cut->at_mm}};
+  if (view.colorMap) object["color_map"] = QString::fromStdString(kColorMaps.name(*view.colorMap));
+  if (view.colorRange) object["color_range"] = QJsonArray{(*view.colorRange)[0], (*view.colorRange)[1]};
+  if (view.extremes) object["extremes"] = true;
   if (view.litCell) object["lit_cell"] = cell(*view.litCell);
   if (view.resistanceRange)
     object["resistance_range"] = QJsonArray{(*view.resistanceRange)[0], (*view.resistanceRange)[1]};
@@ -147,15 +184,31 @@ std::array<double, 3> placeOf(const JsonPlace& place) {
   return {numbers[0], numbers[1], numbers[2]};
 }
 
+std::array<double, 2> rangeOf(const JsonPlace& place) {
+  const std::vector<double> range = place.numbers(2);
+  if (!(range[0] < range[1])) place.refuse("two numbers, the smaller one first");
+  return {range[0], range[1]};
+}
+
+CutPlane cutOf(const JsonPlace& place) {
+  place.onlyKeys({"axis", "at_mm"});
+  return {place.at("axis").named(kAxes), place.at("at_mm").number(0, 1e4)};
+}
+
 ViewSettings viewOf(const JsonPlace& place) {
-  place.onlyKeys({"scene", "quantity", "ghost", "electrodes", "arrows", "outlines", "edges", "row_wire", "line_from_mm",
-                  "line_to_mm", "mesh", "resistance_noise", "resistance", "cell", "test_area"},
-                 {"warp_factor", "clip_y_mm", "lit_cell", "resistance_range"});
+  place.onlyKeys(
+      {"scene", "quantity", "ghost", "electrodes", "arrows", "outlines", "edges", "row_wire", "line_from_mm",
+       "line_to_mm", "mesh", "resistance_noise", "resistance", "cell", "test_area"},
+      {"warp_factor", "clip_y_mm", "cut", "color_map", "color_range", "extremes", "lit_cell", "resistance_range"});
   ViewSettings view;
   view.scene = place.at("scene").string();
   view.quantity = place.at("quantity").named(kQuantities);
   if (place.has("warp_factor")) view.warpFactor = place.at("warp_factor").number(0, 1e6);
-  if (place.has("clip_y_mm")) view.clipY_mm = place.at("clip_y_mm").number(0, 1e4);
+  if (place.has("clip_y_mm")) view.cut = CutPlane{1, place.at("clip_y_mm").number(0, 1e4)}; // of older files
+  if (place.has("cut")) view.cut = cutOf(place.at("cut"));
+  if (place.has("color_map")) view.colorMap = place.at("color_map").named(kColorMaps);
+  if (place.has("color_range")) view.colorRange = rangeOf(place.at("color_range"));
+  if (place.has("extremes")) view.extremes = place.at("extremes").boolean();
   view.ghost = place.at("ghost").boolean();
   view.electrodes = place.at("electrodes").boolean();
   view.arrows = place.at("arrows").boolean();
@@ -169,9 +222,7 @@ ViewSettings viewOf(const JsonPlace& place) {
   view.resistanceNoise = place.at("resistance_noise").number(1e-7, 0.1);
   view.resistance = place.at("resistance").named(kResistanceKinds);
   if (place.has("resistance_range")) {
-    const std::vector<double> range = place.at("resistance_range").numbers(2);
-    if (!(range[0] < range[1])) place.at("resistance_range").refuse("two numbers, the smaller one first");
-    view.resistanceRange = {range[0], range[1]};
+    view.resistanceRange = rangeOf(place.at("resistance_range"));
   }
   view.cell = cellOf(place.at("cell"));
   view.testArea = place.at("test_area").integer(0, kLargestIndex);
@@ -273,9 +324,10 @@ Project projectOf(const JsonPlace& root, const std::string& file) {
   if (const auto wrong = whyInvalid(project.load, project.design)) throw Error(file + ": load: " + *wrong);
   project.mesh = meshOf(root.at("mesh"));
   const JsonPlace samples = root.at("samples");
-  samples.onlyKeys({"per_area", "seed"});
+  samples.onlyKeys({"per_area", "seed"}, {"surrogate"});
   project.samples.perArea = samples.at("per_area").integer(5, 100000);
   project.samples.seed = static_cast<std::uint64_t>(samples.at("seed").integer(0, 1000000000));
+  if (samples.has("surrogate")) project.samples.surrogate = samples.at("surrogate").boolean();
   project.network = networkOf(root.at("network"));
   if (version >= 2) project.view = viewOf(root.at("view"));
   if (root.has("live")) project.live = liveOf(root.at("live")); // not in the files of the first version
@@ -284,14 +336,23 @@ Project projectOf(const JsonPlace& root, const std::string& file) {
 
 } // namespace
 
+QByteArray networkText(const NetworkSettings& network) {
+  return QJsonDocument(networkJson(network)).toJson();
+}
+
+NetworkSettings parseNetwork(const QByteArray& text, const QString& file) {
+  const std::string name = file.toStdString();
+  const Json json = parseJson({text.data(), static_cast<std::size_t>(text.size())}, name);
+  return networkOf(JsonPlace(json, name));
+}
+
 QByteArray projectText(const Project& project) {
   const QByteArray design = QByteArray::fromStdString(toJson(project.design));
   const QJsonObject root{{kVersionKey, kVersion},
                          {"design", QJsonDocument::fromJson(design).object()},
                          {"load", loadJson(project.load)},
                          {"mesh", meshJson(project.mesh)},
-                         {"samples", QJsonObject{{"per_area", project.samples.perArea},
-                                                 {"seed", static_cast<double>(project.samples.seed)}}},
+                         {"samples", samplesJson(project.samples)},
                          {"network", networkJson(project.network)},
                          {"view", viewJson(project.view)},
                          {"live", liveJson(project.live)}};

@@ -9,6 +9,10 @@
 
 namespace palp {
 
+/// Settings of a training as they stand in a project file, and read back as strictly; `file` is for refusals.
+QByteArray networkText(const NetworkSettings& network);
+NetworkSettings parseNetwork(const QByteArray& text, const QString& file);
+
 /// Written beside and renamed. Throws Error.
 void saveProject(const std::filesystem::path& path, const Project& project);
 

@@ -1,7 +1,9 @@
 #include "app/gui/project/ResultCsv.h"
 
+#include "io/DesignFile.h"
 #include "model/base/Error.h"
 
+#include <QJsonDocument>
 #include <QSaveFile>
 
 namespace palp {
@@ -12,21 +14,41 @@ QString number(double value) {
   return QString::number(value, 'g', 17);
 }
 
+QString triple(const Eigen::Vector3d& values) {
+  return "(" + number(values.x()) + ", " + number(values.y()) + ", " + number(values.z()) + ")";
+}
+
+/// Load and design, each line after a "#": most programs that read tables can be told to pass over these.
+QString sourceLines(const ResultSource& source) {
+  QString text = "# palp, share of the load " + number(source.loadFraction) + "\n";
+  for (const AreaLoad& load : source.load.areas)
+    text += QString("# load on area %1: ").arg(load.area) + triple(load.force_N) + " N\n";
+  for (const PatchLoad& disc : source.load.patches)
+    text += "# load on a disc at (" + number(disc.centre_mm.x()) + ", " + number(disc.centre_mm.y()) +
+            ") mm with radius " + number(disc.radius_mm) + " mm: " + triple(disc.force_N) + " N\n";
+  const QJsonDocument design = QJsonDocument::fromJson(QByteArray::fromStdString(toJson(source.design)));
+  return text + "# design " + QString::fromUtf8(design.toJson(QJsonDocument::Compact)) + "\n";
+}
+
 } // namespace
 
-QString resultCsv(const SensorDesign& design, const ElectrodeDisplacements& displacements) {
-  QString text = "row_wire,electrode,x_mm,y_mm,z_mm,u_x_mm,u_y_mm,u_z_mm\n";
-  const Eigen::Matrix3Xd places = design.upperElectrodes_mm();
-  const int perRow = design.electrodesPerRowWire();
+QString electrodesCsv(const ResultSource& source, const ElectrodeDisplacements& displacements) {
+  QString text = sourceLines(source) + "row_wire,electrode,x_mm,y_mm,z_mm,u_x_mm,u_y_mm,u_z_mm\n";
+  const Eigen::Matrix3Xd places = source.design.upperElectrodes_mm();
+  const int perRow = source.design.electrodesPerRowWire();
   for (Eigen::Index k = 0; k < places.cols(); ++k) {
     text += QString("%1,%2").arg(k / perRow).arg(k % perRow);
     for (const double value : places.col(k)) text += "," + number(value);
     for (const double value : displacements.upper_mm.col(k)) text += "," + number(value);
     text += "\n";
   }
-  text += "\nrow_wire,column_wire,R_at_rest_ohm,R_ohm\n";
-  const Eigen::MatrixXd rest = rowColumnResistances(design, ElectrodeDisplacements::atRest(design));
-  const Eigen::MatrixXd loaded = rowColumnResistances(design, displacements);
+  return text;
+}
+
+QString resistancesCsv(const ResultSource& source, const ElectrodeDisplacements& displacements) {
+  QString text = sourceLines(source) + "row_wire,column_wire,R_at_rest_ohm,R_ohm\n";
+  const Eigen::MatrixXd rest = rowColumnResistances(source.design, ElectrodeDisplacements::atRest(source.design));
+  const Eigen::MatrixXd loaded = rowColumnResistances(source.design, displacements);
   for (Eigen::Index row = 0; row < rest.rows(); ++row)
     for (Eigen::Index column = 0; column < rest.cols(); ++column)
       text +=
@@ -34,10 +56,10 @@ QString resultCsv(const SensorDesign& design, const ElectrodeDisplacements& disp
   return text;
 }
 
-void writeResultCsv(const QString& file, const SensorDesign& design, const ElectrodeDisplacements& displacements) {
+void writeText(const QString& file, const QString& text) {
   QSaveFile out(file);
-  const QByteArray text = resultCsv(design, displacements).toUtf8();
-  if (!out.open(QIODevice::WriteOnly) || out.write(text) != text.size() || !out.commit())
+  const QByteArray bytes = text.toUtf8();
+  if (!out.open(QIODevice::WriteOnly) || out.write(bytes) != bytes.size() || !out.commit())
     throw Error((file + ": cannot be written (" + out.errorString() + "); allowed is a file in a folder that exists")
                     .toStdString());
 }

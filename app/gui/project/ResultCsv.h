@@ -1,15 +1,26 @@
 #pragma once
 
+#include "model/LoadCase.h"
 #include "model/RowColumnResistance.h"
 
 #include <QString>
 
 namespace palp {
 
-/// The upper electrodes' displacements [mm] and the resistances [ohm] at rest and under the load, as text with commas.
-QString resultCsv(const SensorDesign& design, const ElectrodeDisplacements& displacements);
+/// What a table of results was computed from.
+struct ResultSource {
+  const SensorDesign& design;
+  const LoadCase& load;
+  double loadFraction = 1;
+};
+
+/// The upper electrodes' displacements [mm]: one table with commas, under lines with "#" that say load and design.
+QString electrodesCsv(const ResultSource& source, const ElectrodeDisplacements& displacements);
+
+/// The resistances [ohm] at rest and under the load, in the same way.
+QString resistancesCsv(const ResultSource& source, const ElectrodeDisplacements& displacements);
 
 /// Written beside and renamed. Throws Error.
-void writeResultCsv(const QString& file, const SensorDesign& design, const ElectrodeDisplacements& displacements);
+void writeText(const QString& file, const QString& text);
 
 } // namespace palp

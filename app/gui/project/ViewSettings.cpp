@@ -6,7 +6,10 @@ DeformationOptions ViewSettings::blockOptions() const {
   DeformationOptions options;
   options.quantity = quantity;
   options.warpFactor = warpFactor;
-  options.clipY_mm = clipY_mm;
+  options.cut = cut;
+  options.colorMap = colorMap;
+  options.fixedRange = colorRange;
+  options.extremes = extremes;
   options.undeformedGhost = ghost;
   options.electrodes = electrodes;
   options.forceArrows = arrows;

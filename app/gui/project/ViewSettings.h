@@ -21,7 +21,10 @@ struct ViewSettings {
   std::string scene = "deformation"; ///< in which a saved project opens
   Quantity quantity = Quantity::Displacement;
   std::optional<double> warpFactor; ///< none: automatic
-  std::optional<double> clipY_mm;
+  std::optional<CutPlane> cut;
+  std::optional<ColorMap> colorMap;                ///< none: as the quantity asks for
+  std::optional<std::array<double, 2>> colorRange; ///< of the quantity's colours; none: the values' own
+  bool extremes = false;                           ///< marks the largest and the smallest value
   bool ghost = true;
   bool electrodes = true;
   bool arrows = true;
@@ -39,7 +42,7 @@ struct ViewSettings {
   int testArea = 0;
 
   bool operator==(const ViewSettings&) const = default;
-  /// Quantity, warp, clip, parts and lit cell of the Deformation scene; all else as by default.
+  /// Quantity, warp, cut, colours, parts and lit cell of the Deformation scene; all else as by default.
   [[nodiscard]] DeformationOptions blockOptions() const;
 };
 

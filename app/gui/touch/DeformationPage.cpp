@@ -2,10 +2,12 @@
 
 #include "app/gui/project/Command.h"
 #include "app/gui/touch/LoadPanel.h"
+#include "app/gui/touch/LoadPathBar.h"
 #include "app/gui/touch/ResultPanel.h"
 #include "app/gui/touch/TouchTabs.h"
 #include "app/gui/touch/ViewPanel.h"
 #include "app/gui/views/BlockView.h"
+#include "app/gui/views/ViewBar.h"
 #include "app/gui/window/SidePanel.h"
 
 #include <QButtonGroup>
@@ -13,7 +15,6 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QSignalBlocker>
-#include <QSlider>
 #include <QSplitter>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -48,10 +49,10 @@ DeformationPage::DeformationPage(Workbench& workbench, QWidget* parent) : Scene(
   row->addWidget(buildPanels());
   row->addWidget(buildViews(), 1);
 
-  connect(load_, &LoadPanel::edited, this, [this](const LoadCase& load) {
+  connect(load_, &LoadPanel::edited, this, [this](const QString& what, const LoadCase& load) {
     Project next = workbench_.project();
     next.load = load;
-    workbench_.edit(tr("Change the load on area %1").arg(load_->area()), next);
+    workbench_.edit(what, next);
   });
   connect(view_, &ViewPanel::edited, this,
           [this](const ViewSettings& view) { editView(tr("Change the view of the block"), view); });
@@ -64,6 +65,15 @@ DeformationPage::DeformationPage(Workbench& workbench, QWidget* parent) : Scene(
   });
   connect(tabs_, &TouchTabs::lineShownChanged, this, [this] { drawBlock(false); });
   connect(block_, &BlockView::nodeClicked, this, &DeformationPage::clicked);
+  connect(block_, &BlockView::materialClicked, this, &DeformationPage::press);
+  connect(block_, &BlockView::discDragged, this,
+          [this](int disc, const PatchLoad& to) { load_->changeDisc(disc, to.centre_mm, to.radius_mm); });
+  connect(block_, &BlockView::cutDragged, this, [this](double at_mm) {
+    ViewSettings view = workbench_.project().view;
+    if (!view.cut) return;
+    view.cut->at_mm = at_mm;
+    editView(tr("Drag the cut"), view);
+  });
   connect(block_, &BlockView::forceDragged, this, &DeformationPage::setForce);
   connect(result_, &ResultPanel::estimateAsked, this, [this] { workbench_.touch().estimateError(); });
   connect(&workbench_, &Workbench::projectChanged, this, &DeformationPage::displayProject);
@@ -106,7 +116,8 @@ QWidget* DeformationPage::buildViews() {
          "zoom; double click: all of it; right click: picture"));
   column->addWidget(buildClicks());
   column->addWidget(block_, 1);
-  column->addWidget(buildIncrements());
+  path_ = new LoadPathBar(workbench_.touch());
+  column->addWidget(path_);
   tabs_ = new TouchTabs(workbench_.touch());
   auto* views = new QSplitter(Qt::Vertical);
   views->setObjectName("deformationSplitter");
@@ -122,52 +133,37 @@ QWidget* DeformationPage::buildClicks() {
   struct Choice {
     Click click;
     const char* name;
+    QKeySequence key;
     QString words, tip;
   };
-  const std::array<Choice, 3> choices{
-      {{Click::Load, "clickLoad", tr("Load"), tr("A click on the top face chooses its load area, and loads it")},
-       {Click::Probe, "clickProbe", tr("Probe"), tr("A click reads displacement [mm] and stress [MPa] at a point")},
-       {Click::Line, "clickLine", tr("Line"), tr("Two clicks are the ends of a line to plot along")}}};
+  const std::array<Choice, 4> choices{
+      {{Click::Probe, "clickProbe", Qt::Key_P, tr("Probe"),
+        tr("A click reads displacement [mm] and stress [MPa] at a point")},
+       {Click::Load, "clickLoad", Qt::Key_A, tr("Press an area"),
+        tr("A click on the top face chooses its load area, and loads it")},
+       {Click::Disc, "clickDisc", Qt::Key_D, tr("Press a disc"),
+        tr("A click on the top face makes a round load; drag it to move it, its rim to size it; Shift-click takes it "
+           "away")},
+       {Click::Line, "clickLine", Qt::Key_L, tr("Line"), tr("Two clicks are the ends of a line to plot along")}}};
   auto* bar = new QWidget;
   auto* row = new QHBoxLayout(bar);
   row->setContentsMargins(0, 0, 0, 2);
-  row->addWidget(new QLabel(tr("A click")));
+  row->addWidget(new QLabel(tr("Tool")));
   auto* all = new QButtonGroup(this);
   for (const Choice& choice : choices) {
     auto* button = new QToolButton;
     button->setObjectName(choice.name);
     button->setText(choice.words);
-    button->setToolTip(choice.tip);
+    button->setToolTip(tr("%1 (key %2)").arg(choice.tip, choice.key.toString()));
+    button->setShortcut(choice.key);
     button->setCheckable(true);
     button->setChecked(choice.click == click_);
     all->addButton(button);
     row->addWidget(button);
-    connect(button, &QToolButton::clicked, this, [this, click = choice.click] {
-      click_ = click;
-      lineStart_ = -1;
-      if (click == Click::Line) tabs_->showLine();
-    });
+    connect(button, &QToolButton::clicked, this, [this, click = choice.click] { chooseTool(click); });
   }
   row->addStretch(1);
-  return bar;
-}
-
-QWidget* DeformationPage::buildIncrements() {
-  auto* bar = new QWidget;
-  auto* row = new QHBoxLayout(bar);
-  row->setContentsMargins(0, 0, 0, 0);
-  incrementLabel_ = new QLabel;
-  increments_ = new QSlider(Qt::Horizontal);
-  increments_->setObjectName("increments");
-  increments_->setToolTip(tr("Equilibria on the way from rest to the full load"));
-  row->addWidget(incrementLabel_);
-  row->addWidget(increments_, 1);
-  connect(increments_, &QSlider::valueChanged, this, [this](int k) {
-    workbench_.touch().showIncrement(k);
-    if (workbench_.touch().scrubbingTo() == k) return;
-    const QSignalBlocker quiet(increments_); // a solve runs: its result comes first
-    increments_->setValue(workbench_.touch().increment());
-  });
+  row->addWidget(new ViewBar(*block_));
   return bar;
 }
 
@@ -207,18 +203,9 @@ void DeformationPage::displayTouch(bool meshChanged) {
   tabs_->displayTouch(meshChanged);
   if (!isVisible()) return;
   drawBlock(meshChanged);
-  displayIncrements();
+  path_->display();
   result_->display(workbench_.touch());
   probe(probedNode_);
-}
-
-void DeformationPage::displayIncrements() {
-  const TouchSession& touch = workbench_.touch();
-  const QSignalBlocker quiet(increments_);
-  increments_->setRange(0, std::max(0, touch.incrementCount() - 1));
-  increments_->setEnabled(touch.incrementCount() > 1);
-  increments_->setValue(touch.increment());
-  incrementLabel_->setText(tr("Load fraction %1").arg(touch.loadFraction(), 0, 'g', 3));
 }
 
 DeformationOptions DeformationPage::blockOptions() const {
@@ -226,6 +213,12 @@ DeformationOptions DeformationPage::blockOptions() const {
   const Touch& touch = workbench_.touch().touch();
   DeformationOptions options = view.blockOptions();
   options.theme = theme_;
+  options.cutGrip = true;
+  // One scale and one warp on the whole load path.
+  if (const NodalFields* end = workbench_.touch().endFields(); end != nullptr) {
+    if (!options.fixedRange) options.fixedRange = quantityRange(options, quantityValues(options.quantity, *end));
+    if (!options.warpFactor) options.warpFactor = automaticWarpFactor(touch.design(), end->displacement_mm);
+  }
   options.scale = devicePixelRatioF();
   for (const AreaLoad& load : touch.load().areas) options.selectedAreas.push_back(load.area);
   if (options.litCell &&
@@ -245,31 +238,42 @@ void DeformationPage::drawBlock(bool meshChanged) {
       &design, touch.touch().mesh(), touch.fields(), touch.electrodes(), &touch.touch().load(), touch.loadFraction()};
   block_->show(state, blockOptions(), meshChanged || !meshDrawn_);
   meshDrawn_ = true;
-  view_->displayWarp(block_->warpFactor());
+  view_->displayDrawn(block_->warpFactor(), block_->colorRange());
+}
+
+void DeformationPage::chooseTool(Click click) {
+  click_ = click;
+  lineStart_ = -1;
+  block_->setDiscsMovable(click == Click::Disc);
+  if (click == Click::Line) tabs_->showLine();
 }
 
 void DeformationPage::clicked(int node) {
   if (workbench_.touch().fields() == nullptr) return;
-  if (click_ == Click::Line) {
-    addLineEnd(node);
-    return;
-  }
-  probe(node);
-  if (click_ == Click::Load) loadAreaOf(node);
+  click_ == Click::Line ? addLineEnd(node) : probe(node);
 }
 
-void DeformationPage::loadAreaOf(int node) {
-  const Touch& touch = workbench_.touch().touch();
-  const Eigen::Vector3d place = touch.mesh()->nodes_mm.col(node);
-  if (place.z() < touch.design().block_mm.z() * (1 - 1e-9)) return;
+void DeformationPage::press(const Eigen::Vector3d& rest_mm) {
   const SensorDesign& design = workbench_.project().design;
-  for (int area = 0; area < design.areas.count(); ++area) {
-    const Rectangle box = design.areaRectangle(area);
-    if ((place.head<2>().array() < box.low_mm.array()).any() || (place.head<2>().array() > box.high_mm.array()).any())
-      continue;
-    load_->chooseArea(area);
+  const bool pressing = click_ == Click::Load || click_ == Click::Disc;
+  if (!pressing || rest_mm.z() < workbench_.touch().touch().design().block_mm.z() * (1 - 1e-6)) return;
+  const Eigen::Vector2d place = rest_mm.head<2>();
+  if (click_ == Click::Load) {
+    for (int area = 0; area < design.areas.count(); ++area) {
+      const Rectangle box = design.areaRectangle(area);
+      if ((place.array() < box.low_mm.array()).any() || (place.array() > box.high_mm.array()).any()) continue;
+      load_->choose({false, area});
+      return;
+    }
     return;
   }
+  const std::vector<PatchLoad>& discs = workbench_.project().load.patches;
+  for (std::size_t k = discs.size(); k-- > 0;)
+    if ((place - discs[k].centre_mm).norm() <= discs[k].radius_mm) {
+      load_->takeAway({true, static_cast<int>(k)}); // Shift was held: else the disc would have been dragged
+      return;
+    }
+  load_->addDisc(place);
 }
 
 void DeformationPage::addLineEnd(int node) {
@@ -297,7 +301,8 @@ void DeformationPage::setForce(int load, const Eigen::Vector3d& drawn_N) {
   Eigen::Vector3d& force_N = load < areas ? next.load.areas[static_cast<std::size_t>(load)].force_N
                                           : next.load.patches[static_cast<std::size_t>(load - areas)].force_N;
   force_N = (drawn_N / fraction).cwiseMax(-kMostForce_N).cwiseMin(kMostForce_N);
-  if (load < areas) load_->chooseArea(next.load.areas[static_cast<std::size_t>(load)].area);
+  load_->choose(load < areas ? LoadPlace{false, next.load.areas[static_cast<std::size_t>(load)].area}
+                             : LoadPlace{true, load - areas});
   workbench_.edit(tr("Drag a force"), next);
 }
 

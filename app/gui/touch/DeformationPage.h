@@ -4,13 +4,11 @@
 #include "app/gui/window/Scene.h"
 #include "app/scenes/block/DeformationScene.h"
 
-class QLabel;
-class QSlider;
-
 namespace palp {
 
 class BlockView;
 class LoadPanel;
+class LoadPathBar;
 class ResultPanel;
 class TouchTabs;
 class ViewPanel;
@@ -38,20 +36,19 @@ protected:
 
 private:
   /// What a click on the block does.
-  enum class Click { Load, Probe, Line };
+  enum class Click { Probe, Load, Disc, Line };
 
   QWidget* buildPanels();
   QWidget* buildViews();
   QWidget* buildClicks();
-  QWidget* buildIncrements();
   void displayProject();
   void displayTouch(bool meshChanged);
   void drawBlock(bool meshChanged);
-  void displayIncrements();
   void probe(int node);
   void clicked(int node);
-  /// Chooses the area on which a node of the top face lies, and loads it where it bears no load.
-  void loadAreaOf(int node);
+  void chooseTool(Click click);
+  /// A press on the top face, as the tool says: chooses a load, makes one, or takes a disc away.
+  void press(const Eigen::Vector3d& rest_mm);
   void addLineEnd(int node);
   void setForce(int load, const Eigen::Vector3d& drawn_N);
   void editView(const QString& what, const ViewSettings& view);
@@ -61,15 +58,14 @@ private:
   bool meshDrawn_ = false;
   ViewSettings drawn_; ///< as the block was drawn last
   int probedNode_ = -1;
-  Click click_ = Click::Load;
+  Click click_ = Click::Probe;
   int lineStart_ = -1; ///< node of the first end, while the second is awaited
   LoadPanel* load_ = nullptr;
   ViewPanel* view_ = nullptr;
   ResultPanel* result_ = nullptr;
   BlockView* block_ = nullptr;
   TouchTabs* tabs_ = nullptr;
-  QSlider* increments_ = nullptr;
-  QLabel* incrementLabel_ = nullptr;
+  LoadPathBar* path_ = nullptr;
 };
 
 } // namespace palp

@@ -1,8 +1,11 @@
 #include "app/gui/touch/LoadPanel.h"
 
+#include "app/gui/views/DiscHandle.h"
+#include "app/gui/window/SpinBoxes.h"
+
+#include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QGridLayout>
-#include <QGuiApplication>
 #include <QLabel>
 #include <QPushButton>
 #include <QSignalBlocker>
@@ -20,27 +23,56 @@ constexpr double kMostForce_N = 500;
 constexpr int kSliderSteps = 200;
 constexpr std::array<const char*, 3> kDirections{"x", "y", "z"};
 
+double hundredth(double value) {
+  return std::round(100 * value) / 100;
+}
+
 } // namespace
 
 LoadPanel::LoadPanel(QWidget* parent) : QWidget(parent) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
-  auto* hint = new QLabel(tr("Load areas, seen from above. Click to choose one; Shift-click or the button below takes "
-                             "its load away."));
-  hint->setWordWrap(true);
-  hint->setProperty("role", "hint");
-  column->addWidget(hint);
-  plan_ = new QGridLayout;
-  plan_->setSpacing(2);
-  column->addLayout(plan_);
+  plan_ = new AreaPlan;
+  plan_->setToolTip(tr("Load areas and discs seen from above: a click chooses, Shift-click takes the load away"));
+  column->addWidget(plan_);
+  connect(plan_, &AreaPlan::chosen, this, &LoadPanel::choose);
+  connect(plan_, &AreaPlan::takenAway, this, &LoadPanel::takeAway);
+  buildChoice();
   buildForces();
+  buildDisc();
+}
+
+void LoadPanel::buildChoice() {
+  auto* column = static_cast<QVBoxLayout*>(layout());
+  list_ = new QComboBox;
+  list_->setObjectName("loads");
+  list_->setAccessibleName(tr("Loads"));
+  list_->setToolTip(tr("All loads of this touch; they act together"));
+  list_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  list_->setMinimumContentsLength(12);
+  column->addWidget(list_);
+  connect(list_, &QComboBox::activated, this, [this](int k) {
+    if (k < static_cast<int>(places().size())) choose(places()[static_cast<std::size_t>(k)]);
+  });
+  auto* row = new QHBoxLayout;
+  auto* add = new QPushButton(tr("Add a disc"));
+  add->setObjectName("addDisc");
+  add->setToolTip(tr("A round load anywhere on the top face; in the picture: the tool Disc, key D"));
+  clear_ = new QPushButton(tr("Take away"));
+  clear_->setObjectName("clearLoad");
+  clear_->setToolTip(tr("Takes the chosen load away"));
+  row->addWidget(add);
+  row->addWidget(clear_);
+  column->addLayout(row);
+  connect(add, &QPushButton::clicked, this, [this] { addDisc(0.5 * design_.block_mm.head<2>()); });
+  connect(clear_, &QPushButton::clicked, this, [this] { takeAway(chosen_); });
+  title_ = new QLabel;
+  title_->setObjectName("loadTitle");
+  title_->setProperty("role", "title");
+  column->addWidget(title_);
 }
 
 void LoadPanel::buildForces() {
-  auto* column = static_cast<QVBoxLayout*>(layout());
-  title_ = new QLabel;
-  title_->setProperty("role", "title");
-  column->addWidget(title_);
   auto* grid = new QGridLayout;
   for (int d = 0; d < 3; ++d) {
     const auto k = static_cast<std::size_t>(d);
@@ -51,10 +83,12 @@ void LoadPanel::buildForces() {
     spins_[k]->setSingleStep(0.1);
     spins_[k]->setSuffix(tr(" N"));
     spins_[k]->setKeyboardTracking(false);
+    spins_[k]->setAccessibleName(tr("Force along %1").arg(kDirections[k]));
     spins_[k]->setToolTip(
-        tr("Force along %1 on the area [N]; the slider spans the design's force range").arg(kDirections[k]));
+        tr("Force along %1 of the chosen load [N]; the slider spans the design's force range").arg(kDirections[k]));
     sliders_[k] = new QSlider(Qt::Horizontal);
     sliders_[k]->setObjectName(QString("slider_%1").arg(kDirections[k]));
+    sliders_[k]->setAccessibleName(spins_[k]->accessibleName());
     sliders_[k]->setRange(0, kSliderSteps);
     sliders_[k]->setMinimumWidth(90);
     grid->addWidget(new QLabel(QString("F<sub>%1</sub>").arg(kDirections[k])), d, 0);
@@ -67,107 +101,170 @@ void LoadPanel::buildForces() {
       setForce(d, std::round(1000 * (low + (high - low) * step / kSliderSteps)) / 1000);
     });
   }
-  column->addLayout(grid);
-  clear_ = new QPushButton(tr("Take this load away"));
-  clear_->setObjectName("clearLoad");
-  connect(clear_, &QPushButton::clicked, this, [this] { toggleArea(area_, false); });
-  column->addWidget(clear_);
+  static_cast<QVBoxLayout*>(layout())->addLayout(grid);
 }
 
-void LoadPanel::buildPlan() {
-  for (QPushButton* button : buttons_) button->deleteLater();
-  buttons_.clear();
-  for (int area = 0; area < design_.areas.count(); ++area) {
-    auto* button = new QPushButton(QString::number(area));
-    button->setObjectName(QString("area_%1").arg(area));
-    button->setCheckable(true);
-    button->setMinimumSize(24, 34);
-    connect(button, &QPushButton::clicked, this, [this, area] {
-      const bool away = QGuiApplication::keyboardModifiers().testFlag(Qt::ShiftModifier);
-      away ? toggleArea(area, false) : chooseArea(area);
-    });
-    // Seen from above with y up: the first row of areas is the lowest.
-    plan_->addWidget(button, design_.areas.rows - 1 - area / design_.areas.columns, area % design_.areas.columns);
-    buttons_.push_back(button);
+void LoadPanel::buildDisc() {
+  disc_ = new QWidget;
+  auto* grid = new QGridLayout(disc_);
+  grid->setContentsMargins(0, 0, 0, 0);
+  const std::array<QString, 3> labels{tr("centre x"), tr("centre y"), tr("radius")};
+  constexpr std::array<const char*, 3> kNames{"discX", "discY", "discRadius"};
+  for (int k = 0; k < 3; ++k) {
+    auto* spin = new QDoubleSpinBox;
+    discSpins_[static_cast<std::size_t>(k)] = spin;
+    spin->setObjectName(kNames[static_cast<std::size_t>(k)]);
+    spin->setAccessibleName(tr("Disc, %1").arg(labels[static_cast<std::size_t>(k)]));
+    spin->setDecimals(2);
+    spin->setSingleStep(0.5);
+    spin->setSuffix(tr(" mm"));
+    spin->setKeyboardTracking(false);
+    spin->setToolTip(tr("The disc stays on the top face: at its edge the centre gives way"));
+    grid->addWidget(new QLabel(labels[static_cast<std::size_t>(k)]), k, 0);
+    grid->addWidget(spin, k, 1);
+    connect(spin, &QDoubleSpinBox::valueChanged, this, &LoadPanel::readDisc);
   }
+  static_cast<QVBoxLayout*>(layout())->addWidget(disc_);
 }
 
-AreaLoad* LoadPanel::loadOf(int area) {
-  const auto found =
-      std::find_if(load_.areas.begin(), load_.areas.end(), [&](const AreaLoad& load) { return load.area == area; });
-  return found == load_.areas.end() ? nullptr : &*found;
+Eigen::Vector3d LoadPanel::firstPush_N() const {
+  return {0, 0, design_.forceRange.low_N.z() < 0 ? 0.5 * design_.forceRange.low_N.z() : -1};
+}
+
+std::vector<LoadPlace> LoadPanel::places() const {
+  std::vector<LoadPlace> all;
+  for (const AreaLoad& load : load_.areas) all.push_back({false, load.area});
+  for (std::size_t k = 0; k < load_.patches.size(); ++k) all.push_back({true, static_cast<int>(k)});
+  return all;
+}
+
+Eigen::Vector3d* LoadPanel::forceOf(const LoadPlace& place) {
+  if (place.disc) {
+    const auto k = static_cast<std::size_t>(place.number);
+    return k < load_.patches.size() ? &load_.patches[k].force_N : nullptr;
+  }
+  for (AreaLoad& load : load_.areas)
+    if (load.area == place.number) return &load.force_N;
+  return nullptr;
+}
+
+QString LoadPanel::name(const LoadPlace& place) const {
+  return (place.disc ? tr("disc %1") : tr("area %1")).arg(place.number);
 }
 
 void LoadPanel::display(const SensorDesign& design, const LoadCase& load) {
-  const bool otherPlan = buttons_.empty() || !(design.areas == design_.areas);
   design_ = design;
   load_ = load;
-  area_ = std::clamp(area_, 0, std::max(0, design.areas.count() - 1));
-  if (loadOf(area_) == nullptr && !load_.areas.empty()) area_ = load_.areas.front().area;
-  if (otherPlan) buildPlan();
-  showForce();
+  if (!chosen_.disc) chosen_.number = std::clamp(chosen_.number, 0, std::max(0, design.areas.count() - 1));
+  if (forceOf(chosen_) == nullptr && !places().empty()) chosen_ = places().front();
+  if (forceOf(chosen_) == nullptr) chosen_.disc = false;
+  showLoad();
 }
 
-void LoadPanel::chooseArea(int area) {
-  area_ = area;
-  if (loadOf(area) == nullptr) toggleArea(area, true);
-  showForce();
-  emit areaChosen(area);
-}
-
-void LoadPanel::toggleArea(int area, bool loaded) {
-  if (loaded == (loadOf(area) != nullptr)) {
-    showForce();
+void LoadPanel::choose(const LoadPlace& place) {
+  chosen_ = place;
+  if (forceOf(place) == nullptr && !place.disc) {
+    load_.areas.push_back({place.number, firstPush_N()});
+    showLoad();
+    emit edited(tr("Load area %1").arg(place.number), load_);
     return;
   }
-  if (loaded) {
-    const Eigen::Vector3d push(0, 0, design_.forceRange.low_N.z() < 0 ? 0.5 * design_.forceRange.low_N.z() : -1);
-    load_.areas.push_back({area, push});
-  } else {
-    std::erase_if(load_.areas, [&](const AreaLoad& load) { return load.area == area; });
-    if (!load_.areas.empty()) area_ = load_.areas.front().area;
-  }
-  showForce();
-  emit edited(load_);
+  showLoad();
+}
+
+void LoadPanel::addDisc(const Eigen::Vector2d& centre_mm) {
+  const double radius_mm = hundredth(std::min(2.5, 0.2 * design_.block_mm.head<2>().minCoeff()));
+  const Eigen::Vector2d centre(hundredth(centre_mm.x()), hundredth(centre_mm.y()));
+  load_.patches.push_back(insideFace({centre, radius_mm, firstPush_N()}, design_.block_mm));
+  chosen_ = {true, static_cast<int>(load_.patches.size()) - 1};
+  showLoad();
+  emit edited(tr("Add disc %1").arg(chosen_.number), load_);
+}
+
+void LoadPanel::changeDisc(int disc, const Eigen::Vector2d& centre_mm, double radius_mm) {
+  const auto k = static_cast<std::size_t>(disc);
+  if (disc < 0 || k >= load_.patches.size()) return;
+  chosen_ = {true, disc};
+  const PatchLoad next = insideFace({centre_mm, radius_mm, load_.patches[k].force_N}, design_.block_mm);
+  const bool other = next != load_.patches[k];
+  load_.patches[k] = next;
+  showLoad();
+  if (other) emit edited(tr("Change disc %1").arg(disc), load_);
+}
+
+void LoadPanel::takeAway(const LoadPlace& place) {
+  if (forceOf(place) == nullptr) return;
+  const QString what = tr("Take the load of %1 away").arg(name(place));
+  if (place.disc)
+    load_.patches.erase(load_.patches.begin() + place.number);
+  else
+    std::erase_if(load_.areas, [&](const AreaLoad& load) { return load.area == place.number; });
+  if (!places().empty())
+    chosen_ = places().front();
+  else
+    chosen_.disc = false;
+  showLoad();
+  emit edited(what, load_);
 }
 
 void LoadPanel::setForce(int direction, double value_N) {
-  AreaLoad* load = loadOf(area_);
-  if (load == nullptr || load->force_N[direction] == value_N) return;
-  load->force_N[direction] = value_N;
+  Eigen::Vector3d* force_N = forceOf(chosen_);
+  if (force_N == nullptr || (*force_N)[direction] == value_N) return;
+  (*force_N)[direction] = value_N;
+  showLoad();
+  emit edited(tr("Change the load on %1").arg(name(chosen_)), load_);
+}
+
+void LoadPanel::readDisc() {
+  if (chosen_.disc)
+    changeDisc(chosen_.number, {discSpins_[0]->value(), discSpins_[1]->value()}, discSpins_[2]->value());
+}
+
+void LoadPanel::showLoad() {
+  plan_->display(design_, load_, chosen_);
+  list_->clear();
+  int now = -1;
+  for (const LoadPlace& place : places()) {
+    const Eigen::Vector3d& force_N = *forceOf(place);
+    if (place == chosen_) now = list_->count();
+    list_->addItem(QString("%1: (%2, %3, %4) N").arg(name(place)).arg(force_N.x()).arg(force_N.y()).arg(force_N.z()));
+  }
+  list_->setCurrentIndex(now);
+  list_->setEnabled(list_->count() > 0);
+  const bool bears = forceOf(chosen_) != nullptr;
+  title_->setText(bears ? tr("Force on %1").arg(name(chosen_)) : tr("No load on %1").arg(name(chosen_)));
+  clear_->setEnabled(bears);
+  disc_->setVisible(chosen_.disc && bears);
+  if (chosen_.disc && bears) {
+    const PatchLoad& disc = load_.patches[static_cast<std::size_t>(chosen_.number)];
+    const std::array<double, 3> values{disc.centre_mm.x(), disc.centre_mm.y(), disc.radius_mm};
+    const std::array<double, 3> most{design_.block_mm.x(), design_.block_mm.y(),
+                                     0.5 * design_.block_mm.head<2>().minCoeff()};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const QSignalBlocker quiet(discSpins_[k]);
+      discSpins_[k]->setRange(k == 2 ? kSmallestDisc_mm : 0, most[k]);
+      showExactly(*discSpins_[k], values[k]);
+    }
+  }
   showForce();
-  emit edited(load_);
 }
 
 void LoadPanel::showForce() {
-  const AreaLoad* load = loadOf(area_);
-  title_->setText(load != nullptr ? tr("Force on area %1").arg(area_) : tr("No load on area %1").arg(area_));
-  clear_->setEnabled(load != nullptr);
+  const Eigen::Vector3d* force_N = forceOf(chosen_);
   for (std::size_t k = 0; k < 3; ++k) {
     const auto d = static_cast<Eigen::Index>(k);
     const QSignalBlocker quietSpin(spins_[k]);
     const QSignalBlocker quietSlider(sliders_[k]);
-    const double value = load != nullptr ? load->force_N[d] : 0;
+    const double value = force_N != nullptr ? (*force_N)[d] : 0;
     const double low = design_.forceRange.low_N[d];
     const double high = design_.forceRange.high_N[d];
-    spins_[k]->setEnabled(load != nullptr);
-    sliders_[k]->setEnabled(load != nullptr && high > low);
+    spins_[k]->setEnabled(force_N != nullptr);
+    sliders_[k]->setEnabled(force_N != nullptr && high > low);
     spins_[k]->setRange(std::min(-kMostForce_N, value), std::max(kMostForce_N, value)); // a file may hold more
     spins_[k]->setValue(value);
     if (high > low)
       sliders_[k]->setValue(
           static_cast<int>(std::lround(std::clamp((value - low) / (high - low), 0.0, 1.0) * kSliderSteps)));
-  }
-  for (std::size_t area = 0; area < buttons_.size(); ++area) {
-    const AreaLoad* its = loadOf(static_cast<int>(area));
-    buttons_[area]->setChecked(its != nullptr);
-    QFont font = buttons_[area]->font();
-    font.setBold(static_cast<int>(area) == area_ && its != nullptr);
-    buttons_[area]->setFont(font);
-    buttons_[area]->setToolTip(
-        its != nullptr
-            ? tr("area %1: (%2, %3, %4) N").arg(area).arg(its->force_N.x()).arg(its->force_N.y()).arg(its->force_N.z())
-            : tr("area %1: no load").arg(area));
   }
 }
 

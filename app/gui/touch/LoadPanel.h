@@ -1,13 +1,10 @@
 #pragma once
 
-#include "model/LoadCase.h"
-#include "model/SensorDesign.h"
-
-#include <QWidget>
+#include "app/gui/touch/AreaPlan.h"
 
 #include <array>
-#include <vector>
 
+class QComboBox;
 class QDoubleSpinBox;
 class QGridLayout;
 class QLabel;
@@ -16,7 +13,7 @@ class QSlider;
 
 namespace palp {
 
-/// The forces on the load areas: areas are chosen on a plan of the top face, the force of one by numbers or sliders.
+/// The forces on load areas and on discs: chosen on a plan of the top face or from a list, set by numbers or sliders.
 class LoadPanel : public QWidget {
   Q_OBJECT
 
@@ -25,30 +22,40 @@ public:
 
   /// Emits nothing.
   void display(const SensorDesign& design, const LoadCase& load);
-  /// Chooses an area as a click on its button does.
-  void chooseArea(int area);
-  [[nodiscard]] int area() const { return area_; }
+  /// Chooses a load as a click on the plan does; an area that bears none gets one.
+  void choose(const LoadPlace& place);
+  /// A new disc about a place of the top face.
+  void addDisc(const Eigen::Vector2d& centre_mm);
+  /// Another place and size of a disc, kept inside the face.
+  void changeDisc(int disc, const Eigen::Vector2d& centre_mm, double radius_mm);
+  void takeAway(const LoadPlace& place);
 
 signals:
   /// By the user's hand only.
-  void edited(const palp::LoadCase& load);
-  void areaChosen(int area);
+  void edited(const QString& what, const palp::LoadCase& load);
 
 private:
-  void buildPlan();
+  void buildChoice();
+  void buildDisc();
   void buildForces();
+  void showLoad();
   void showForce();
   void setForce(int direction, double value_N);
-  void toggleArea(int area, bool loaded);
-  AreaLoad* loadOf(int area);
+  void readDisc();
+  [[nodiscard]] Eigen::Vector3d* forceOf(const LoadPlace& place);
+  [[nodiscard]] QString name(const LoadPlace& place) const;
+  [[nodiscard]] std::vector<LoadPlace> places() const;
+  [[nodiscard]] Eigen::Vector3d firstPush_N() const;
 
   SensorDesign design_;
   LoadCase load_;
-  int area_ = 0;
-  QGridLayout* plan_ = nullptr;
-  std::vector<QPushButton*> buttons_;
+  LoadPlace chosen_;
+  AreaPlan* plan_ = nullptr;
+  QComboBox* list_ = nullptr;
   QLabel* title_ = nullptr;
   QPushButton* clear_ = nullptr;
+  QWidget* disc_ = nullptr;
+  std::array<QDoubleSpinBox*, 3> discSpins_{}; ///< x, y, radius
   std::array<QDoubleSpinBox*, 3> spins_{};
   std::array<QSlider*, 3> sliders_{};
 };

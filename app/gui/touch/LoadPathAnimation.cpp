@@ -1,6 +1,7 @@
 #include "app/gui/touch/LoadPathAnimation.h"
 
 #include "app/gui/jobs/CallLater.h"
+#include "app/gui/jobs/LoadPath.h"
 #include "app/gui/jobs/TouchSession.h"
 #include "app/gui/views/BlockView.h"
 #include "app/scenes/gl/OffscreenWindow.h"
@@ -17,40 +18,6 @@
 namespace palp {
 
 namespace {
-
-/// One state on the path.
-struct State {
-  double fraction = 0;
-  NodalFields fields;
-  ElectrodeDisplacements electrodes;
-};
-
-template <class Values> Values between(const Values& a, const Values& b, double t) {
-  return (1 - t) * a + t * b;
-}
-
-State between(const State& a, const State& b, double fraction) {
-  const double t = (fraction - a.fraction) / (b.fraction - a.fraction);
-  State state = b;
-  state.fraction = fraction;
-  NodalFields& fields = state.fields;
-  fields.displacement_mm = between(a.fields.displacement_mm, b.fields.displacement_mm, t);
-  fields.cauchy_MPa = between(a.fields.cauchy_MPa, b.fields.cauchy_MPa, t);
-  fields.pressure_MPa = between(a.fields.pressure_MPa, b.fields.pressure_MPa, t);
-  fields.vonMises_MPa = between(a.fields.vonMises_MPa, b.fields.vonMises_MPa, t);
-  fields.volumeRatio = between(a.fields.volumeRatio, b.fields.volumeRatio, t);
-  state.electrodes.upper_mm = between(a.electrodes.upper_mm, b.electrodes.upper_mm, t);
-  state.electrodes.lower_mm = between(a.electrodes.lower_mm, b.electrodes.lower_mm, t);
-  return state;
-}
-
-/// The state at a load fraction; the ends where it lies outside of them.
-State stateAt(const std::vector<State>& path, double fraction) {
-  const auto after = std::find_if(path.begin(), path.end(), [&](const State& s) { return s.fraction >= fraction; });
-  if (after == path.begin()) return path.front();
-  if (after == path.end()) return path.back();
-  return between(*std::prev(after), *after, fraction);
-}
 
 std::string frameName(int frame) {
   std::array<char, 32> name{};
@@ -76,14 +43,14 @@ struct LoadPathAnimation::Easel {
 /// The computed touch and its states; shared with the job.
 struct LoadPathAnimation::Path {
   Touch touch;
-  std::vector<State> states;
+  std::vector<LoadPathState> states;
 };
 
 /// A picture asked of the window by the job, which waits for it.
 struct LoadPathAnimation::Order {
   std::shared_ptr<const Path> path;
   Settings settings;
-  State state;
+  LoadPathState state;
   std::mutex mutex;
   std::condition_variable_any drawn;
   std::optional<Picture> picture;
@@ -98,24 +65,22 @@ LoadPathAnimation::LoadPathAnimation(const TouchSession& session, const BlockVie
 LoadPathAnimation::~LoadPathAnimation() = default;
 
 bool LoadPathAnimation::start(const Settings& settings) {
-  if (session_.incrementCount() < 2) return false;
+  if (session_.lastPlace() < 1) return false;
   easel_.reset();
   const auto work = [this, settings, touch = session_.touch()](const std::stop_token& stop,
                                                                JobProgress& progress) -> JobRunner::Taking {
     auto path = std::make_shared<Path>(Path{touch, {}});
     progress.set(-1, "Fields along the load path");
-    for (const LoadIncrement& state : touch.solution()->increments) {
-      if (stop.stop_requested()) return {};
-      path->states.push_back({state.loadFraction, touch.problem()->fields(state), touch.problem()->electrodes(state)});
-    }
+    path->states = loadPathStates(touch, stop);
+    if (stop.stop_requested()) return {};
     // One colour scale over the whole path.
     Settings fixed = settings;
     std::vector<double> all;
-    for (const State& state : path->states) {
+    for (const LoadPathState& state : path->states) {
       const std::vector<double> values = quantityValues(settings.options.quantity, state.fields);
       all.insert(all.end(), values.begin(), values.end());
     }
-    fixed.options.fixedRange = quantityRange(settings.options.quantity, all);
+    if (!fixed.options.fixedRange) fixed.options.fixedRange = quantityRange(settings.options, all);
     if (!fixed.options.warpFactor)
       fixed.options.warpFactor = automaticWarpFactor(touch.design(), path->states.back().fields.displacement_mm);
     const double last = path->states.back().fraction;

@@ -6,6 +6,8 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
+#include <cmath>
+
 namespace palp {
 
 namespace {
@@ -20,6 +22,14 @@ void fitHeight(QLabel& label) {
 
 QString number(double value, int digits = 4) {
   return QString::number(value, 'g', digits);
+}
+
+/// Three numbers, each no finer than a millionth of the largest: what is less is rounding.
+QString triple(const Eigen::Vector3d& values) {
+  const double least = 1e-6 * values.cwiseAbs().maxCoeff();
+  QStringList texts;
+  for (const double value : values) texts << number(std::abs(value) < least ? 0 : value);
+  return "(" + texts.join(", ") + ")";
 }
 
 } // namespace
@@ -63,9 +73,13 @@ void ResultPanel::display(const TouchSession& session) {
                .arg(touch.mesh()->elementCount())
                .arg(QString::fromStdString(touch.problem()->elementType()))
                .arg(touch.problem()->dof());
-  if (session.fields() != nullptr)
-    lines
-        << tr("Largest displacement %1 mm.").arg(number(session.fields()->displacement_mm.colwise().norm().maxCoeff()));
+  if (session.fields() != nullptr) {
+    Eigen::Index node = 0;
+    const double largest = session.fields()->displacement_mm.colwise().norm().maxCoeff(&node);
+    lines << tr("Largest displacement %1 mm at %2 mm.").arg(number(largest), triple(touch.mesh()->nodes_mm.col(node)));
+  }
+  lines << tr("Load %1 N, reaction at the bottom %2 N.")
+               .arg(triple(solution->reachedLoadFraction * touch.load().totalForce_N()), triple(solution->reaction_N));
   lines << tr("Largest volume error |J - 1|: %1.").arg(number(solution->maxVolumeError, 3));
   lines << tr("Discretisation error: %1").arg(errorWords_.isEmpty() ? tr("not estimated yet.") : errorWords_ + ".");
   if (!session.upToDate()) lines << tr("<i>The load has changed; this is the result before.</i>");
@@ -82,10 +96,11 @@ void ResultPanel::displayProbe(const TouchSession& session, int node) {
   const NodalFields& fields = *session.fields();
   const Eigen::Vector3d u = fields.displacement_mm.col(node);
   probe_->setText(tr("<b>Point (%1, %2, %3) mm</b><br>u = (%4, %5, %6) mm<br>pressure %7 MPa, von Mises %8 MPa, "
-                     "J - 1 = %9")
+                     "J - 1 = %9<br>stress xx, yy, zz = %10 MPa<br>xy, yz, xz = %11 MPa<br>principal stretches %12")
                       .arg(number(place.x()), number(place.y()), number(place.z()), number(u.x()), number(u.y()),
                            number(u.z()), number(fields.pressure_MPa[node]), number(fields.vonMises_MPa[node]),
-                           number(fields.volumeRatio[node] - 1, 3)));
+                           number(fields.volumeRatio[node] - 1, 3), triple(fields.cauchy_MPa.col(node).head<3>()),
+                           triple(fields.cauchy_MPa.col(node).tail<3>()), triple(fields.principalStretches.col(node))));
   fitHeight(*probe_);
 }
 

@@ -10,10 +10,13 @@
 #include <QSignalBlocker>
 
 #include <algorithm>
+#include <cmath>
 
 namespace palp {
 
 namespace {
+
+constexpr int kNarrow_px = 56; ///< of a number: a box asks for as much as its largest one
 
 QCheckBox* box(QFormLayout& form, const QString& text, const char* name, bool on, const QString& tip) {
   auto* check = new QCheckBox(text);
@@ -29,63 +32,137 @@ QCheckBox* box(QFormLayout& form, const QString& text, const char* name, bool on
 ViewPanel::ViewPanel(QWidget* parent) : QWidget(parent) {
   auto* form = new QFormLayout(this);
   form->setContentsMargins(0, 0, 0, 0);
+  buildColors(*form);
+  buildWarp(*form);
+  buildCut(*form);
+  extremes_ = box(*form, tr("largest and smallest value"), "extremes", false, tr("Marks both at their places"));
+  ghost_ = box(*form, tr("block at rest"), "ghost", true, tr("Edges of the block before the load"));
+  electrodes_ = box(*form, tr("electrodes and wires"), "electrodes", true, tr("Looks through the rubber"));
+  arrows_ = box(*form, tr("force arrows"), "arrows", true, tr("Forces of the loads, with their components in N"));
+  outlines_ = box(*form, tr("load areas"), "outlines", true, tr("Borders and numbers of the load areas"));
+  edges_ = box(*form, tr("mesh"), "edges", false, tr("Edges of the finite elements"));
+
+  connect(quantity_, &QComboBox::currentIndexChanged, this, &ViewPanel::chooseQuantity);
+  for (QComboBox* list : {colorMap_, cut_}) connect(list, &QComboBox::currentIndexChanged, this, &ViewPanel::read);
+  for (QDoubleSpinBox* spin : {warp_, cutAt_, range_[0], range_[1]})
+    connect(spin, &QDoubleSpinBox::valueChanged, this, &ViewPanel::read);
+  for (QCheckBox* check : {automaticWarp_, keepRange_, extremes_, ghost_, electrodes_, arrows_, outlines_, edges_})
+    connect(check, &QCheckBox::toggled, this, &ViewPanel::read);
+}
+
+void ViewPanel::buildColors(QFormLayout& form) {
   quantity_ = new QComboBox;
   quantity_->setObjectName("quantity");
   for (const Quantity quantity : allQuantities()) {
     const QString unit = QString::fromStdString(quantityUnit(quantity));
     quantity_->addItem(QString::fromStdString(quantityName(quantity)) + (unit.isEmpty() ? "" : " [" + unit + "]"));
   }
-  quantity_->setToolTip(tr("Displacements in mm, pressure (compression positive) and stress in MPa; J - 1 is the "
-                           "change of volume, 0 in ideal rubber"));
-  form->addRow(tr("Colour by"), quantity_);
+  quantity_->setToolTip(
+      tr("Displacements in mm, pressure (compression positive) and Cauchy stress in MPa; J - 1 is the "
+         "change of volume, 0 in ideal rubber; principal stretches are 1 at rest"));
+  quantity_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  quantity_->setMinimumContentsLength(10);
+  form.addRow(tr("Colour by"), quantity_);
+  colorMap_ = new QComboBox;
+  colorMap_->setObjectName("colorMap");
+  colorMap_->addItem(tr("as suits it"));
+  for (const auto& [map, name] : kColorMaps.all()) colorMap_->addItem(name);
+  colorMap_->setToolTip(tr("Equal steps of the value look equally large in all of them"));
+  form.addRow(tr("Colours"), colorMap_);
+  auto* row = new QHBoxLayout;
+  for (std::size_t k = 0; k < 2; ++k) {
+    range_[k] = new QDoubleSpinBox;
+    range_[k]->setObjectName(k == 0 ? "rangeFrom" : "rangeTo");
+    range_[k]->setAccessibleName(k == 0 ? tr("Legend from") : tr("Legend to"));
+    range_[k]->setToolTip(tr("Values at the ends of the legend; what lies beyond has the last colour"));
+    range_[k]->setDecimals(4);
+    range_[k]->setRange(-1e6, 1e6);
+    range_[k]->setSingleStep(0.01);
+    range_[k]->setButtonSymbols(QAbstractSpinBox::NoButtons);
+    range_[k]->setKeyboardTracking(false);
+    range_[k]->setEnabled(false);
+    range_[k]->setMinimumWidth(kNarrow_px);
+    row->addWidget(range_[k], 1);
+  }
+  keepRange_ = new QCheckBox(tr("keep"));
+  keepRange_->setObjectName("keepRange");
+  keepRange_->setToolTip(tr("The legend keeps this range whatever the load; else it fits the full load"));
+  row->addWidget(keepRange_);
+  form.addRow(tr("Legend"), row);
+}
+
+void ViewPanel::buildWarp(QFormLayout& form) {
   warp_ = new QDoubleSpinBox;
   warp_->setObjectName("warp");
   warp_->setRange(0, 1e6);
   warp_->setDecimals(1);
   warp_->setPrefix(tr("x "));
   warp_->setEnabled(false);
+  warp_->setMinimumWidth(kNarrow_px);
   warp_->setKeyboardTracking(false);
   warp_->setToolTip(tr("Factor by which displacements are drawn larger; 1 is true size"));
   automaticWarp_ = new QCheckBox(tr("automatic"));
   automaticWarp_->setObjectName("automaticWarp");
   automaticWarp_->setChecked(true);
-  auto* warpRow = new QHBoxLayout;
-  warpRow->addWidget(warp_);
-  warpRow->addWidget(automaticWarp_);
-  form->addRow(tr("Warp"), warpRow);
-  clip_ = new QCheckBox(tr("cut at y"));
-  clip_->setObjectName("clip");
-  clip_->setToolTip(tr("Takes away what lies in front of this plane, to look into the block"));
-  clipY_ = new QDoubleSpinBox;
-  clipY_->setObjectName("clipY");
-  clipY_->setRange(0, 30);
-  clipY_->setValue(7.5);
-  clipY_->setSuffix(tr(" mm"));
-  clipY_->setToolTip(tr("Place of the cut along y [mm]"));
-  clipY_->setEnabled(false);
-  auto* clipRow = new QHBoxLayout;
-  clipRow->addWidget(clip_);
-  clipRow->addWidget(clipY_);
-  form->addRow(clipRow);
-  ghost_ = box(*form, tr("block at rest"), "ghost", true, tr("Edges of the block before the load"));
-  electrodes_ = box(*form, tr("electrodes and wires"), "electrodes", true, tr("Looks through the rubber"));
-  arrows_ = box(*form, tr("force arrows"), "arrows", true, tr("Forces on the load areas, with their components in N"));
-  outlines_ = box(*form, tr("load areas"), "outlines", true, tr("Borders and numbers of the load areas"));
-  edges_ = box(*form, tr("mesh"), "edges", false, tr("Edges of the finite elements"));
+  auto* row = new QHBoxLayout;
+  row->addWidget(warp_);
+  row->addWidget(automaticWarp_);
+  form.addRow(tr("Warp"), row);
+}
 
-  connect(quantity_, &QComboBox::currentIndexChanged, this, &ViewPanel::read);
-  for (QDoubleSpinBox* spin : {warp_, clipY_}) connect(spin, &QDoubleSpinBox::valueChanged, this, &ViewPanel::read);
-  for (QCheckBox* check : {automaticWarp_, clip_, ghost_, electrodes_, arrows_, outlines_, edges_})
-    connect(check, &QCheckBox::toggled, this, &ViewPanel::read);
+void ViewPanel::buildCut(QFormLayout& form) {
+  cut_ = new QComboBox;
+  cut_->setObjectName("cut");
+  cut_->addItems({tr("none"), tr("across x"), tr("across y"), tr("across z")});
+  cut_->setToolTip(
+      tr("Takes away what lies before a plane, to look into the block; in the picture its knob is dragged"));
+  cutAt_ = new QDoubleSpinBox;
+  cutAt_->setObjectName("cutAt");
+  cutAt_->setAccessibleName(tr("Place of the cut"));
+  cutAt_->setSuffix(tr(" mm"));
+  cutAt_->setKeyboardTracking(false);
+  cutAt_->setToolTip(tr("Place of the cut [mm]"));
+  cutAt_->setEnabled(false);
+  cutAt_->setMinimumWidth(kNarrow_px);
+  auto* row = new QHBoxLayout;
+  row->addWidget(cut_, 1);
+  row->addWidget(cutAt_, 1);
+  form.addRow(tr("Cut"), row);
+}
+
+void ViewPanel::chooseQuantity() {
+  if (displaying_) return;
+  const Quantity next = allQuantities()[static_cast<std::size_t>(quantity_->currentIndex())];
+  // A range in mm means nothing for MPa.
+  if (quantityUnit(next) != quantityUnit(view_.quantity)) {
+    const QSignalBlocker quiet(keepRange_);
+    keepRange_->setChecked(false);
+  }
+  read();
 }
 
 void ViewPanel::read() {
   warp_->setDisabled(automaticWarp_->isChecked());
-  clipY_->setEnabled(clip_->isChecked());
+  cutAt_->setEnabled(cut_->currentIndex() > 0);
+  for (QDoubleSpinBox* end : range_) end->setEnabled(keepRange_->isChecked());
   if (displaying_) return;
   view_.quantity = allQuantities()[static_cast<std::size_t>(quantity_->currentIndex())];
+  view_.colorMap.reset();
+  if (const int map = colorMap_->currentIndex(); map > 0)
+    view_.colorMap = kColorMaps.all()[static_cast<std::size_t>(map - 1)].first;
+  view_.colorRange.reset();
+  if (keepRange_->isChecked()) {
+    const double low = range_[0]->value(), high = range_[1]->value();
+    view_.colorRange = {low, std::max(high, low + 1e-4)};
+  }
   view_.warpFactor = automaticWarp_->isChecked() ? std::nullopt : std::optional(warp_->value());
-  view_.clipY_mm = clip_->isChecked() ? std::optional(clipY_->value()) : std::nullopt;
+  if (const int axis = cut_->currentIndex() - 1; axis < 0) {
+    view_.cut.reset();
+  } else {
+    const bool other = !view_.cut || view_.cut->axis != axis; // begins in the middle
+    view_.cut = CutPlane{axis, other ? 0.5 * block_mm_[axis] : cutAt_->value()};
+  }
+  view_.extremes = extremes_->isChecked();
   view_.ghost = ghost_->isChecked();
   view_.electrodes = electrodes_->isChecked();
   view_.arrows = arrows_->isChecked();
@@ -97,13 +174,24 @@ void ViewPanel::read() {
 void ViewPanel::display(const ViewSettings& view, const Eigen::Vector3d& block_mm) {
   displaying_ = true;
   view_ = view;
+  block_mm_ = block_mm;
   const auto& all = allQuantities();
   quantity_->setCurrentIndex(static_cast<int>(std::find(all.begin(), all.end(), view.quantity) - all.begin()));
+  int map = 0;
+  for (std::size_t k = 0; k < kColorMaps.all().size(); ++k)
+    if (view.colorMap == kColorMaps.all()[k].first) map = static_cast<int>(k) + 1;
+  colorMap_->setCurrentIndex(map);
+  keepRange_->setChecked(view.colorRange.has_value());
+  if (view.colorRange)
+    for (std::size_t k = 0; k < 2; ++k) showExactly(*range_[k], (*view.colorRange)[k]);
   automaticWarp_->setChecked(!view.warpFactor);
   if (view.warpFactor) showExactly(*warp_, *view.warpFactor);
-  clipY_->setMaximum(block_mm.y());
-  clip_->setChecked(view.clipY_mm.has_value());
-  if (view.clipY_mm) clipY_->setValue(*view.clipY_mm);
+  cut_->setCurrentIndex(view.cut ? view.cut->axis + 1 : 0);
+  if (view.cut) {
+    cutAt_->setRange(0, block_mm[view.cut->axis]);
+    showExactly(*cutAt_, view.cut->at_mm);
+  }
+  extremes_->setChecked(view.extremes);
   ghost_->setChecked(view.ghost);
   electrodes_->setChecked(view.electrodes);
   arrows_->setChecked(view.arrows);
@@ -113,10 +201,20 @@ void ViewPanel::display(const ViewSettings& view, const Eigen::Vector3d& block_m
   displaying_ = false;
 }
 
-void ViewPanel::displayWarp(double factor) {
-  if (!automaticWarp_->isChecked()) return;
-  const QSignalBlocker quiet(warp_);
-  warp_->setValue(factor);
+void ViewPanel::displayDrawn(double warpFactor, const std::array<double, 2>& range) {
+  if (automaticWarp_->isChecked()) {
+    const QSignalBlocker quiet(warp_);
+    warp_->setValue(warpFactor);
+  }
+  if (keepRange_->isChecked()) return;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const QSignalBlocker quiet(range_[k]);
+    // Four digits of what is drawn, however small it is.
+    const double size = std::max(std::abs(range[0]), std::abs(range[1]));
+    range_[k]->setDecimals(size > 0 ? std::clamp(4 - static_cast<int>(std::floor(std::log10(size))) - 1, 0, 12) : 4);
+    range_[k]->setSingleStep(size > 0 ? 0.1 * size : 0.1);
+    range_[k]->setValue(range[k]);
+  }
 }
 
 } // namespace palp

@@ -4,13 +4,16 @@
 
 #include <QWidget>
 
+#include <array>
+
 class QCheckBox;
 class QComboBox;
 class QDoubleSpinBox;
+class QFormLayout;
 
 namespace palp {
 
-/// How the block is drawn: colour, warp, clip and what is shown with it.
+/// How the block is drawn: colour and legend, warp, cut and what is shown with it.
 class ViewPanel : public QWidget {
   Q_OBJECT
 
@@ -19,23 +22,32 @@ public:
 
   /// Emits nothing.
   void display(const ViewSettings& view, const Eigen::Vector3d& block_mm);
-  /// The factor that was drawn, shown while it is automatic.
-  void displayWarp(double factor);
+  /// The factor and the range of the colours that were drawn, shown while they are automatic.
+  void displayDrawn(double warpFactor, const std::array<double, 2>& range);
 
 signals:
   /// By the user's hand only.
   void edited(const palp::ViewSettings& view);
 
 private:
+  void buildColors(QFormLayout& form);
+  void buildWarp(QFormLayout& form);
+  void buildCut(QFormLayout& form);
   void read();
+  void chooseQuantity();
 
   ViewSettings view_;
+  Eigen::Vector3d block_mm_ = paperDesign().block_mm;
   bool displaying_ = false;
   QComboBox* quantity_ = nullptr;
+  QComboBox* colorMap_ = nullptr;
+  QCheckBox* keepRange_ = nullptr;
+  std::array<QDoubleSpinBox*, 2> range_{};
   QCheckBox* automaticWarp_ = nullptr;
   QDoubleSpinBox* warp_ = nullptr;
-  QCheckBox* clip_ = nullptr;
-  QDoubleSpinBox* clipY_ = nullptr;
+  QComboBox* cut_ = nullptr;
+  QDoubleSpinBox* cutAt_ = nullptr;
+  QCheckBox* extremes_ = nullptr;
   QCheckBox* ghost_ = nullptr;
   QCheckBox* electrodes_ = nullptr;
   QCheckBox* arrows_ = nullptr;

@@ -14,6 +14,7 @@ namespace palp {
 namespace {
 
 constexpr double kGrip_px = 9; ///< around an arrow
+constexpr double kCutGrip_px = 12;
 constexpr double kStep_N = 0.01;
 constexpr double kLeast_N = 0.01;
 
@@ -41,9 +42,7 @@ BlockView::BlockView(std::unique_ptr<Parts> parts, QWidget* parent)
   connect(this, &VtkView::sizeChanged, this, [this] {
     if (renderCount() == 0) resetCamera();
   });
-  connect(this, &VtkView::hovered, this, [this](const QPointF& place) {
-    if (movable_) setCursor(place.x() >= 0 && arrowAt(place) >= 0 ? Qt::OpenHandCursor : Qt::ArrowCursor);
-  });
+  connect(this, &VtkView::hovered, this, &BlockView::showCursor);
 }
 
 BlockView::~BlockView() = default;
@@ -52,6 +51,7 @@ void BlockView::show(const DeformationState& state, const DeformationOptions& op
   parts_->scene.show(state, options, meshChanged);
   const bool other = !parts_->design || parts_->design->block_mm != state.design->block_mm;
   parts_->design = *state.design;
+  cut_ = options.cutGrip ? options.cut : std::nullopt;
   if (other) resetCamera();
   invalidate();
 }
@@ -63,19 +63,22 @@ void BlockView::setTheme(Theme theme) {
 }
 
 void BlockView::resetCamera() {
-  if (!parts_->design) return;
-  parts_->scene.resetCamera(*parts_->design, aspect());
-  invalidate();
+  lookAlong(kFirstLook);
 }
 
 void BlockView::lookAlong(const Eigen::Vector3d& direction) {
   if (!parts_->design) return;
-  parts_->scene.resetCamera(*parts_->design, aspect(), direction);
+  parts_->scene.resetCamera(*parts_->design, aspect(), direction,
+                            std::clamp(kLegendRoom_px / std::max(width(), 1), 0.02, 0.4));
   invalidate();
 }
 
 double BlockView::warpFactor() const {
   return parts_->scene.warpFactor();
+}
+
+std::array<double, 2> BlockView::colorRange() const {
+  return parts_->scene.colorRange();
 }
 
 std::array<double, 3> BlockView::cameraPosition() const {
@@ -104,7 +107,7 @@ void BlockView::markNode(int node) {
 std::optional<QPointF> BlockView::gripOf(int load) const {
   const double scale = parts_->scene.arrowScale_mmPerN();
   for (const PlacedForce& force : parts_->scene.forces())
-    if (force.load == load) return placeOf(force.freeEnd_mm(scale));
+    if (force.load == load && !force.hidden) return placeOf(force.freeEnd_mm(scale));
   return {};
 }
 
@@ -115,7 +118,7 @@ int BlockView::arrowAt(const QPointF& place) const {
   int nearest = -1;
   double least = kGrip_px;
   for (std::size_t k = 0; k < forces.size(); ++k) {
-    if (!(forces[k].force_N.norm() > 0)) continue;
+    if (forces[k].hidden || !(forces[k].force_N.norm() > 0)) continue;
     const Eigen::Vector3d end = forces[k].freeEnd_mm(scale);
     const double away = distance(place, placeOf(end), placeOf(0.5 * (end + forces[k].place_mm)));
     if (away >= least) continue;
@@ -137,15 +140,93 @@ Eigen::Vector3d BlockView::pointAt(const QPointF& place, const Eigen::Vector3d& 
   return Eigen::Vector3d(point[0], point[1], point[2]) / point[3];
 }
 
-bool BlockView::grab(const QPointF& place) {
+std::optional<Eigen::Vector2d> BlockView::topPlace_mm(const QPointF& place) const {
+  if (!parts_->design || renderCount() == 0) return {};
+  vtkRenderer& renderer = *parts_->scene.renderer();
+  const QPointF device = devicePlace(place);
+  std::array<Eigen::Vector3d, 2> ends;
+  for (std::size_t k = 0; k < 2; ++k) {
+    renderer.SetDisplayPoint(device.x(), device.y(), static_cast<double>(k));
+    renderer.DisplayToWorld();
+    const double* point = renderer.GetWorldPoint();
+    ends[k] = Eigen::Vector3d(point[0], point[1], point[2]) / point[3];
+  }
+  const Eigen::Vector3d way = ends[1] - ends[0];
+  const double t = (parts_->design->block_mm.z() - ends[0].z()) / way.z();
+  if (!(t >= 0 && t <= 1)) return {};
+  return (ends[0] + t * way).head<2>();
+}
+
+void BlockView::showCursor(const QPointF& place) {
+  if (!movable_ && !discsMovable_ && !cut_) return;
+  Qt::CursorShape shape = Qt::ArrowCursor;
+  const auto top = topPlace_mm(place), beside = topPlace_mm(place + QPointF(kGrip_px, 0));
+  DiscHandle under;
+  if (place.x() >= 0 && (cutAt(place) || (movable_ && arrowAt(place) >= 0)))
+    shape = Qt::OpenHandCursor;
+  else if (discsMovable_ && top && beside && under.take(parts_->scene.discs(), *top, (*beside - *top).norm()))
+    shape = under.sizes() ? Qt::SizeAllCursor : Qt::OpenHandCursor;
+  setCursor(shape);
+}
+
+std::optional<QPointF> BlockView::cutGrip() const {
+  if (!cut_ || !parts_->design) return {};
+  return placeOf(cut_->grip_mm(parts_->design->block_mm));
+}
+
+bool BlockView::cutAt(const QPointF& place) const {
+  const auto grip = renderCount() > 0 ? cutGrip() : std::nullopt;
+  return grip && std::hypot(place.x() - grip->x(), place.y() - grip->y()) <= kCutGrip_px;
+}
+
+void BlockView::dragCut(const QPointF& place) {
+  if (!cut_ || !parts_->design) return;
+  // How far a millimetre along the axis goes in the view.
+  const Eigen::Vector3d& block_mm = parts_->design->block_mm;
+  CutPlane beside = *cut_;
+  beside.at_mm += 1;
+  const QPointF grip = placeOf(cut_->grip_mm(block_mm)), millimetre = placeOf(beside.grip_mm(block_mm)) - grip;
+  const double length2 = QPointF::dotProduct(millimetre, millimetre);
+  if (!(length2 > 1e-6)) return; // looked at along the axis
+  const double way_mm = QPointF::dotProduct(place - grip, millimetre) / length2;
+  const double at_mm = std::clamp(std::round(10 * (cut_->at_mm + way_mm)) / 10, 0.0, block_mm[cut_->axis]);
+  if (at_mm == cut_->at_mm) return;
+  cut_->at_mm = at_mm;
+  emit cutDragged(at_mm);
+}
+
+bool BlockView::grab(const QPointF& place, Qt::KeyboardModifiers modifiers) {
+  cutHeld_ = cutAt(place);
+  if (cutHeld_) {
+    dragged_ = -1;
+    disc_.release();
+    setCursor(Qt::ClosedHandCursor);
+    return true;
+  }
   dragged_ = movable_ ? arrowAt(place) : -1;
-  if (dragged_ >= 0) setCursor(Qt::ClosedHandCursor);
-  return dragged_ >= 0;
+  disc_.release();
+  const auto top = topPlace_mm(place), beside = topPlace_mm(place + QPointF(kGrip_px, 0));
+  if (dragged_ < 0 && discsMovable_ && !modifiers.testFlag(Qt::ShiftModifier) && top && beside)
+    disc_.take(parts_->scene.discs(), *top, (*beside - *top).norm());
+  const bool grabbed = dragged_ >= 0 || disc_.disc() >= 0;
+  if (grabbed) setCursor(Qt::ClosedHandCursor);
+  return grabbed;
 }
 
 void BlockView::dragTo(const QPointF& place, Qt::KeyboardModifiers modifiers) {
+  if (cutHeld_) {
+    dragCut(place);
+    return;
+  }
+  if (disc_.disc() >= 0) {
+    const auto top = topPlace_mm(place);
+    if (!top) return;
+    parts_->scene.moveDisc(static_cast<std::size_t>(disc_.disc()), disc_.draggedTo(*top, parts_->design->block_mm));
+    invalidate();
+    return;
+  }
   // Another state may have come while the button was down.
-  if (dragged_ >= static_cast<int>(parts_->scene.forces().size())) return;
+  if (dragged_ < 0 || dragged_ >= static_cast<int>(parts_->scene.forces().size())) return;
   const PlacedForce& force = parts_->scene.forces()[static_cast<std::size_t>(dragged_)];
   const double scale = parts_->scene.arrowScale_mmPerN();
   const bool push = force.force_N.z() < 0;
@@ -164,6 +245,15 @@ void BlockView::dragTo(const QPointF& place, Qt::KeyboardModifiers modifiers) {
 
 void BlockView::drop() {
   setCursor(Qt::OpenHandCursor);
+  if (std::exchange(cutHeld_, false)) return;
+  if (disc_.disc() >= 0) {
+    const auto disc = static_cast<std::size_t>(disc_.disc());
+    disc_.release();
+    if (disc >= parts_->scene.discs().size()) return;
+    const PatchLoad to = parts_->scene.discs()[disc];
+    emit discDragged(static_cast<int>(disc), to);
+    return;
+  }
   const int arrow = std::exchange(dragged_, -1);
   if (arrow < 0 || arrow >= static_cast<int>(parts_->scene.forces().size())) return;
   const PlacedForce force = parts_->scene.forces()[static_cast<std::size_t>(arrow)];
@@ -175,8 +265,12 @@ void BlockView::pick(const QPointF& place) {
   picker->SetTolerance(0.0005);
   const QPointF device = devicePlace(place);
   if (picker->Pick(device.x(), device.y(), 0, parts_->scene.renderer()) == 0) return;
-  const int node = parts_->scene.nearestNode(Eigen::Vector3d(picker->GetPickPosition()));
-  if (node >= 0) emit nodeClicked(node);
+  const Eigen::Vector3d drawn_mm(picker->GetPickPosition());
+  const int node = parts_->scene.nearestNode(drawn_mm);
+  if (node < 0) return;
+  const Eigen::Vector3d rest_mm = parts_->scene.restPlace_mm(picker->GetCellId(), drawn_mm);
+  emit nodeClicked(node);
+  emit materialClicked(rest_mm);
 }
 
 } // namespace palp

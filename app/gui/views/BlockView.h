@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/gui/views/DiscHandle.h"
 #include "app/gui/views/VtkView.h"
 #include "app/scenes/block/DeformationScene.h"
 
@@ -20,9 +21,10 @@ public:
   void resetCamera();
   /// The ground before anything is shown.
   void setTheme(Theme theme);
-  /// Looks along a direction, z or y up.
+  /// Looks along a direction, z up, or y where that is straight down or up.
   void lookAlong(const Eigen::Vector3d& direction);
   [[nodiscard]] double warpFactor() const;
+  [[nodiscard]] std::array<double, 2> colorRange() const;
   [[nodiscard]] std::array<double, 3> cameraPosition() const;
   [[nodiscard]] vtkCamera* camera() const;
   /// Where a point of the drawn scene lies in the widget.
@@ -31,17 +33,27 @@ public:
 
   /// Where the arrow of the k-th load can be gripped; none where it is not drawn.
   [[nodiscard]] std::optional<QPointF> gripOf(int load) const;
+  /// Where the cut is taken by the mouse; none where there is no cut.
+  [[nodiscard]] std::optional<QPointF> cutGrip() const;
   /// Lets the arrows be dragged.
   void setForcesMovable(bool movable) { movable_ = movable; }
+  /// Lets discs be moved, and sized at their rims.
+  void setDiscsMovable(bool movable) { discsMovable_ = movable; }
 
 signals:
   /// The mesh node drawn where the surface was clicked.
   void nodeClicked(int node);
+  /// The same click: where the material under it lies at rest.
+  void materialClicked(const Eigen::Vector3d& rest_mm);
   /// The free end of an arrow was dragged and let go: the force as drawn, which is the load's at the load fraction.
   void forceDragged(int load, const Eigen::Vector3d& drawn_N);
+  /// The cut is being dragged and lies here now.
+  void cutDragged(double at_mm);
+  /// A disc was taken by the mouse and let go, there or elsewhere.
+  void discDragged(int disc, const palp::PatchLoad& to);
 
 protected:
-  bool grab(const QPointF& place) override;
+  bool grab(const QPointF& place, Qt::KeyboardModifiers modifiers) override;
   void dragTo(const QPointF& place, Qt::KeyboardModifiers modifiers) override;
   void drop() override;
 
@@ -51,11 +63,20 @@ private:
   void pick(const QPointF& place);
   /// The point of the plane through `anchor`, parallel to the view, that is drawn at a place of the widget.
   [[nodiscard]] Eigen::Vector3d pointAt(const QPointF& place, const Eigen::Vector3d& anchor_mm) const;
+  /// Where the line of sight through a place of the widget meets the top face's plane at rest; none beside it.
+  [[nodiscard]] std::optional<Eigen::Vector2d> topPlace_mm(const QPointF& place) const;
+  void showCursor(const QPointF& place);
+  [[nodiscard]] bool cutAt(const QPointF& place) const;
+  void dragCut(const QPointF& place);
   /// The arrow whose free half lies under the place; -1 where none does.
   [[nodiscard]] int arrowAt(const QPointF& place) const;
 
   std::unique_ptr<Parts> parts_;
   bool movable_ = false;
+  bool discsMovable_ = false;
+  DiscHandle disc_;
+  std::optional<CutPlane> cut_; ///< as drawn, with its grip
+  bool cutHeld_ = false;
   int dragged_ = -1; ///< arrow
 };
 

@@ -1,5 +1,8 @@
 #include "app/gui/views/ChartView.h"
 
+#include "app/gui/views/CsvExport.h"
+#include "app/gui/views/TextScale.h"
+
 #include <vtkChartXY.h>
 #include <vtkContextActor.h>
 #include <vtkContextInteractorStyle.h>
@@ -7,9 +10,11 @@
 #include <vtkNew.h>
 #include <vtkRenderer.h>
 
+#include <QEvent>
 #include <QPainter>
 
 #include <algorithm>
+#include <utility>
 
 namespace palp {
 
@@ -53,8 +58,15 @@ void ChartView::paintEvent(QPaintEvent* event) {
   VtkView::paintEvent(event);
   const bool empty =
       std::all_of(spec_.series.begin(), spec_.series.end(), [](const ChartSeries& series) { return series.x.empty(); });
-  if (!empty) return;
   QPainter painter(this);
+  if (faint_ && !empty) {
+    const Color& ground = palp::palette(theme_).ground;
+    QColor veil =
+        QColor::fromRgbF(static_cast<float>(ground[0]), static_cast<float>(ground[1]), static_cast<float>(ground[2]));
+    veil.setAlphaF(0.6F);
+    painter.fillRect(rect(), veil);
+  }
+  if (!empty) return;
   painter.setPen(QWidget::palette().color(QPalette::PlaceholderText));
   const QString title = QString::fromStdString(spec_.title);
   painter.drawText(rect(), Qt::AlignCenter, title.isEmpty() ? tr("nothing yet") : title + tr(":\nnothing yet"));
@@ -64,8 +76,21 @@ void ChartView::fill() {
   const Color& ground = palp::palette(theme_).ground;
   parts_->renderer->SetBackground(ground[0], ground[1], ground[2]);
   const double ratio = devicePixelRatioF();
-  fillChart(*parts_->chart, spec_, theme_, ratio, {ratio * width(), ratio * height()});
+  fillChart(*parts_->chart, spec_, theme_, ratio * textScale(*this), {ratio * width(), ratio * height()});
   invalidate();
+}
+
+void ChartView::setFaint(bool faint) {
+  if (std::exchange(faint_, faint) != faint) update();
+}
+
+QString ChartView::table() const {
+  return spec_.series.empty() ? QString() : chartCsv(spec_);
+}
+
+void ChartView::changeEvent(QEvent* event) {
+  VtkView::changeEvent(event);
+  if (event->type() == QEvent::FontChange) fill();
 }
 
 } // namespace palp

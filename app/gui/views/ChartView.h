@@ -16,9 +16,14 @@ public:
   void setChart(const ChartSpec& spec);
   void setTheme(Theme theme);
   [[nodiscard]] const ChartSpec& chart() const { return spec_; }
+  /// Faint, for what does not hold any more.
+  void setFaint(bool faint);
+  [[nodiscard]] bool faint() const { return faint_; }
 
 protected:
   void paintEvent(QPaintEvent* event) override;
+  void changeEvent(QEvent* event) override;
+  [[nodiscard]] QString table() const override;
 
 private:
   struct Parts;
@@ -28,6 +33,7 @@ private:
   std::unique_ptr<Parts> parts_;
   ChartSpec spec_;
   Theme theme_ = Theme::Light;
+  bool faint_ = false;
 };
 
 } // namespace palp

@@ -1,5 +1,7 @@
 #include "app/gui/views/PictureView.h"
 
+#include "app/gui/views/CsvExport.h"
+
 #include "model/base/Error.h"
 
 #include <QApplication>
@@ -92,6 +94,11 @@ void PictureView::leaveEvent(QEvent*) {
   emit hovered(QPointF(-1, -1));
 }
 
+void PictureView::contextMenuEvent(QContextMenuEvent* event) {
+  // By the mouse it opens at the release, where the button was not dragged.
+  if (event->reason() == QContextMenuEvent::Keyboard) offerPicture(mapToGlobal(rect().center()));
+}
+
 void PictureView::offerPicture(const QPoint& globalPlace) {
   QMenu menu(this);
   const QAction* copy = menu.addAction(tr("Copy picture"));
@@ -103,12 +110,17 @@ void PictureView::offerPicture(const QPoint& globalPlace) {
                        size);
   }
   const QAction* other = menu.addAction(tr("Save picture in another size..."));
+  const QString numbers = table();
+  const QAction* copyTable = numbers.isEmpty() ? nullptr : menu.addAction(tr("Copy points"));
+  const QAction* saveTable = numbers.isEmpty() ? nullptr : menu.addAction(tr("Save points as CSV..."));
   const QAction* chosen = menu.exec(globalPlace);
   if (chosen == other && chosen != nullptr) {
     const QSize size = askSize(now);
     if (!size.isEmpty()) savePicture(size);
     return;
   }
+  if (chosen != nullptr && chosen == copyTable) QApplication::clipboard()->setText(numbers);
+  if (chosen != nullptr && chosen == saveTable) offerCsv(this, "points.csv", numbers);
   if (chosen == copy && chosen != nullptr) QApplication::clipboard()->setImage(image());
   for (const auto& [action, size] : sizes) {
     if (action != chosen || chosen == nullptr) continue;

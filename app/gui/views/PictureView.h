@@ -38,6 +38,8 @@ protected:
   /// Draws into an image of the view's size, RGB32.
   virtual void render(QImage& image) = 0;
   [[nodiscard]] virtual Picture renderPicture(int width, int height) = 0;
+  /// What the view shows as a table, offered beside the picture; empty: it has none.
+  [[nodiscard]] virtual QString table() const { return {}; }
   [[nodiscard]] QSize deviceSize() const;
 
   void paintEvent(QPaintEvent* event) override;
@@ -47,10 +49,11 @@ protected:
   void mouseMoveEvent(QMouseEvent* event) override;
   void mouseDoubleClickEvent(QMouseEvent* event) override;
   void leaveEvent(QEvent* event) override;
+  void contextMenuEvent(QContextMenuEvent* event) override;
 
 private:
   void draw();
-  /// Asks for a size and a file and saves the view as PNG; or copies it.
+  /// Asks for a size and a file and saves the view as PNG; or copies it, or its table.
   void offerPicture(const QPoint& globalPlace);
   /// Empty where none was given.
   [[nodiscard]] QSize askSize(const QSize& now);

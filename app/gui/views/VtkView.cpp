@@ -1,5 +1,6 @@
 #include "app/gui/views/VtkView.h"
 
+#include "app/gui/views/UprightCamera.h"
 #include "app/scenes/gl/OffscreenWindow.h"
 
 #include <QMouseEvent>
@@ -8,7 +9,6 @@
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
 #include <vtkGenericRenderWindowInteractor.h>
-#include <vtkInteractorStyleTrackballCamera.h>
 #include <vtkNew.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
@@ -69,7 +69,7 @@ VtkView::VtkView(vtkRenderer* renderer, vtkInteractorObserver* style, QWidget* p
     : PictureView(parent), vtk_(std::make_unique<Vtk>()) {
   vtk_->renderer = renderer;
   vtk_->style = style;
-  if (style == nullptr) vtk_->style = vtkSmartPointer<vtkInteractorStyleTrackballCamera>::New();
+  if (style == nullptr) vtk_->style = vtkSmartPointer<UprightCamera>::New();
   vtk_->changed->SetCallback(invalidateView);
   vtk_->changed->SetClientData(this);
 }
@@ -109,7 +109,7 @@ void VtkView::passPlace(const QPointF& place, Qt::KeyboardModifiers modifiers) {
       modifiers.testFlag(Qt::ControlModifier) ? 1 : 0, modifiers.testFlag(Qt::ShiftModifier) ? 1 : 0);
 }
 
-bool VtkView::grab(const QPointF&) {
+bool VtkView::grab(const QPointF&, Qt::KeyboardModifiers) {
   return false;
 }
 
@@ -119,7 +119,7 @@ void VtkView::drop() {}
 
 void VtkView::mousePressEvent(QMouseEvent* event) {
   PictureView::mousePressEvent(event);
-  grabbed_ = event->button() == Qt::LeftButton && grab(event->position());
+  grabbed_ = event->button() == Qt::LeftButton && grab(event->position(), event->modifiers());
   if (grabbed_) return;
   passPlace(event->position(), event->modifiers());
   vtk_->invoke(pressEvent(event->button()));

@@ -20,7 +20,7 @@ public:
 
 protected:
   /// Takes the left button for the view itself, before VTK: true at the press, then dragging until the release.
-  virtual bool grab(const QPointF& place);
+  virtual bool grab(const QPointF& place, Qt::KeyboardModifiers modifiers);
   virtual void dragTo(const QPointF& place, Qt::KeyboardModifiers modifiers);
   virtual void drop();
 

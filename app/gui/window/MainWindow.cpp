@@ -10,6 +10,7 @@
 #include "app/gui/touch/DeformationPage.h"
 #include "app/gui/touch/LoadPathAnimation.h"
 #include "app/gui/touch/ResistancePage.h"
+#include "app/gui/widgets/WheelGuard.h"
 #include "app/gui/window/JobStrip.h"
 #include "app/gui/window/Layout.h"
 #include "app/gui/window/Menus.h"
@@ -22,6 +23,7 @@
 #include <QHBoxLayout>
 #include <QListWidget>
 #include <QMimeData>
+#include <QScrollArea>
 #include <QSettings>
 #include <QShortcut>
 #include <QStackedWidget>
@@ -33,23 +35,39 @@ namespace palp {
 
 namespace {
 
-constexpr int kRailWidth_px = 128;
+constexpr int kRailWidth_px = 128;  ///< at least
+constexpr int kRailMargins_px = 34; ///< of its style
 constexpr int kMessage_ms = 15000;
+
+/// As large as the scene that is shown needs it, whatever the others need.
+class SceneStack : public QStackedWidget {
+public:
+  [[nodiscard]] QSize minimumSizeHint() const override {
+    return currentWidget() == nullptr ? QSize() : currentWidget()->minimumSizeHint();
+  }
+  [[nodiscard]] QSize sizeHint() const override { return minimumSizeHint(); }
+};
 
 } // namespace
 
 MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbench_(workbench), network_(network) {
   setWindowIcon(QIcon(":/icons/palp.svg"));
+  new WheelGuard(this);
   auto* centre = new QWidget;
   auto* row = new QHBoxLayout(centre);
   row->setContentsMargins(0, 0, 0, 0);
   row->setSpacing(0);
   rail_ = new QListWidget;
   rail_->setObjectName("rail");
-  rail_->setFixedWidth(kRailWidth_px);
-  scenes_ = new QStackedWidget;
+  rail_->setAccessibleName(tr("Scenes"));
+  scenes_ = new SceneStack;
+  auto* room = new QScrollArea; // on a small screen a scene is scrolled, so that the window always fits
+  room->setObjectName("sceneRoom");
+  room->setFrameShape(QFrame::NoFrame);
+  room->setWidgetResizable(true);
+  room->setWidget(scenes_);
   row->addWidget(rail_);
-  row->addWidget(scenes_, 1);
+  row->addWidget(room, 1);
   setCentralWidget(centre);
 
   log_ = new MessageLog(this);
@@ -64,9 +82,8 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   connect(animation_, &LoadPathAnimation::done, this, &MainWindow::showMessage);
   addScene("deformation", tr("Deformation"), tr("The block under load"), deformation_);
   addScene("resistance", tr("Resistance"), tr("Row-column resistances under the load"), new ResistancePage(workbench));
-  auto* networkPage = new NetworkPage(workbench, network);
-  connect(networkPage, &NetworkPage::refused, this, &MainWindow::showMessage);
-  addScene("network", tr("Network"), tr("Samples, training and the sweep of the spread"), networkPage);
+  addScene("network", tr("Network"), tr("Samples, training and the sweep of the spread"),
+           new NetworkPage(workbench, network));
   auto* livePage = new LivePage(workbench);
   connect(livePage, &LivePage::message, this, &MainWindow::showMessage);
   addScene("live", tr("Live"), tr("A board, the simulated board or a recording, live"), livePage);
@@ -115,6 +132,7 @@ bool MainWindow::busy() const {
 void MainWindow::sceneChosen(int index) {
   if (index < 0) return;
   scenes_->setCurrentIndex(index);
+  scenes_->updateGeometry(); // each needs its own room
   workbench_.setPlace(names_[index]);
   // Before the window is seen no scene is: what it opens on computes nothing for the others.
   if (isVisible()) workbench_.touch().need(currentScene().stage());
@@ -143,6 +161,12 @@ Scene& MainWindow::currentScene() const {
 void MainWindow::setTheme(Theme theme) {
   theme_ = theme;
   applyTheme(*qApp, theme);
+  QFont chosen = rail_->font();
+  chosen.setBold(true);
+  int width = kRailWidth_px;
+  for (int k = 0; k < rail_->count(); ++k)
+    width = std::max(width, QFontMetrics(chosen).horizontalAdvance(rail_->item(k)->text()) + kRailMargins_px);
+  rail_->setFixedWidth(width);
   for (int k = 0; k < scenes_->count(); ++k) static_cast<Scene*>(scenes_->widget(k))->setTheme(theme);
 }
 
@@ -166,7 +190,7 @@ void MainWindow::restoreLayout() {
   restoreGeometry(settings.value("geometry").toByteArray());
   restoreState(settings.value("state").toByteArray());
   palp::restoreLayout(*this);
-  setTheme(settings.value("theme").toString() == "dark" ? Theme::Dark : Theme::Light);
+  setTheme(kThemes.find(settings.value("theme").toString().toStdString()).value_or(Theme::Light));
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {

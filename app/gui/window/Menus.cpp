@@ -6,9 +6,11 @@
 #include "app/gui/window/HelpDialog.h"
 #include "app/gui/window/MainWindow.h"
 #include "app/gui/window/UndoActions.h"
+#include "app/gui/window/ViewActions.h"
 #include "app/scenes/VtuFile.h"
 #include "io/DesignFile.h"
 #include "model/base/Error.h"
+#include "solver/CalculixDeck.h"
 
 #include <QAction>
 #include <QApplication>
@@ -17,7 +19,6 @@
 #include <QFileDialog>
 #include <QMenuBar>
 #include <QMessageBox>
-#include <QSettings>
 #include <QUndoView>
 
 namespace palp {
@@ -73,16 +74,36 @@ void Menus::buildExport(QMenu& menu) {
       writeVtu(file.toStdString(), *workbench_.touch().touch().mesh(), nodalArrays(*workbench_.touch().fields()));
     });
   });
-  add(menu, tr("Export &CSV..."), tr("Electrode displacements and resistances of what is shown"), {}, [this] {
-    if (workbench_.touch().electrodes() == nullptr) {
-      window_.showMessage(tr("There are no displacements to export yet; wait until they are computed."));
-      return;
-    }
-    exportTo(tr("Export CSV"), "touch.csv", tr("Tables (*.csv)"), [this](const QString& file) {
-      writeResultCsv(file, workbench_.touch().touch().design(), *workbench_.touch().electrodes());
+  using Table = QString (*)(const ResultSource&, const ElectrodeDisplacements&);
+  const auto addTable = [&](const QString& text, const QString& tip, const QString& file, Table table) {
+    add(menu, text, tip, {}, [this, file, table] {
+      const TouchSession& touch = workbench_.touch();
+      if (touch.electrodes() == nullptr) {
+        window_.showMessage(tr("There are no displacements to export yet; wait until they are computed."));
+        return;
+      }
+      exportTo(tr("Export CSV"), file, tr("Tables (*.csv)"), [&touch, table](const QString& name) {
+        writeText(name,
+                  table({touch.touch().design(), touch.touch().load(), touch.loadFraction()}, *touch.electrodes()));
+      });
     });
-  });
-  add(menu, tr("&Animation of the load path..."),
+  };
+  addTable(tr("Export &electrodes (CSV)..."),
+           tr("Displacements of the upper electrodes as shown, with load and design"), "electrodes.csv", electrodesCsv);
+  addTable(tr("Export &resistances (CSV)..."), tr("Row-column resistances at rest and as shown, with load and design"),
+           "resistances.csv", resistancesCsv);
+  add(menu, tr("Export Calculi&X deck..."),
+      tr("Mesh, rubber and load as an input file for CalculiX or Abaqus, as palp solve --deck writes it"), {}, [this] {
+        const Touch& touch = workbench_.touch().touch();
+        if (touch.mesh() == nullptr) {
+          window_.showMessage(tr("There is no mesh to export yet; wait until the Deformation scene has made it."));
+          return;
+        }
+        exportTo(tr("Export CalculiX deck"), "touch.inp", tr("Input decks (*.inp)"), [&touch](const QString& file) {
+          writeText(file, QString::fromStdString(calculixDeck(touch.design(), *touch.mesh(), touch.load())));
+        });
+      });
+  add(menu, tr("&Film of the load path (pictures)..."),
       tr("25 pictures from rest to the full load, as the block is shown now, into a folder"), {}, [this] {
         const QString folder = QFileDialog::getExistingDirectory(&window_, tr("Folder of the pictures"));
         if (!folder.isEmpty()) window_.animate(folder);
@@ -131,14 +152,7 @@ void Menus::buildView() {
         [this, name] { window_.showScene(name); });
   }
   menu.addSeparator();
-  QAction* dark = add(menu, tr("&Dark theme"), tr("Light or dark"), QKeySequence("Ctrl+T"), [] {});
-  dark->setCheckable(true);
-  dark->setObjectName("darkTheme");
-  connect(&menu, &QMenu::aboutToShow, dark, [this, dark] { dark->setChecked(window_.theme() == Theme::Dark); });
-  connect(dark, &QAction::triggered, this, [this] {
-    window_.setTheme(window_.theme() == Theme::Dark ? Theme::Light : Theme::Dark);
-    QSettings().setValue("theme", window_.theme() == Theme::Dark ? "dark" : "light"); // the user's choice, kept
-  });
+  new ViewActions(window_, menu);
 }
 
 void Menus::buildHelp() {

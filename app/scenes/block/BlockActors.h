@@ -9,6 +9,7 @@
 #include <vtkActor.h>
 #include <vtkPlane.h>
 #include <vtkSmartPointer.h>
+#include <vtkType.h>
 
 #include <optional>
 #include <vector>
@@ -27,6 +28,13 @@ public:
   /// Displacements already multiplied by the warp factor; `values` at the mesh's nodes, empty at rest.
   void show(const Mesh& mesh, const Eigen::Matrix3Xd& drawnDisplacement_mm, const std::vector<double>& values,
             const ColorScale& colors, const DeformationOptions& options);
+
+  /// Outlines of loaded discs on the top face, as the block is drawn.
+  void showDiscs(const std::vector<PatchLoad>& discs, const DeformationOptions& options);
+  /// Where a point of the top face is drawn.
+  [[nodiscard]] Eigen::Vector3d drawnPlace_mm(const Eigen::Vector2d& top_mm) const;
+  /// Where the material that is drawn at a point of a triangle of the surface lies at rest.
+  [[nodiscard]] Eigen::Vector3d restPlace_mm(vtkIdType triangle, const Eigen::Vector3d& drawn_mm) const;
 
   /// Mesh node whose drawn place is nearest; -1 without a mesh.
   [[nodiscard]] int nearestNode(const Eigen::Vector3d& drawn_mm) const;
@@ -49,11 +57,14 @@ private:
   Polylines ghost_;
   Polylines borders_;
   Polylines selected_;
+  Polylines discs_;
   MeshSurface surface_;
+  std::optional<TopFace> top_;
   std::vector<std::vector<TopPoint>> areaBorders_;
   std::vector<TopPoint> areaLabels_;
-  Eigen::Matrix3Xd drawn_mm_;      ///< places of the mesh's nodes
-  std::optional<double> clipY_mm_; ///< as drawn
+  Eigen::Matrix3Xd rest_mm_;         ///< of the mesh's nodes
+  Eigen::Matrix3Xd drawn_mm_;        ///< places of the mesh's nodes
+  std::optional<CutPlane> cutPlane_; ///< as drawn
 };
 
 } // namespace palp

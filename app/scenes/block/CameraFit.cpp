@@ -37,7 +37,8 @@ void fitCamera(vtkRenderer& renderer, const Eigen::Matrix3Xd& points_mm, const E
                double aspect, const ViewMargins& margins) {
   Eigen::Matrix3d axes; // right, up, forward
   axes.col(2) = direction.normalized();
-  axes.col(0) = axes.col(2).cross(Eigen::Vector3d::UnitZ()).normalized();
+  const Eigen::Vector3d right = axes.col(2).cross(Eigen::Vector3d::UnitZ());
+  axes.col(0) = right.norm() > 1e-6 ? right.normalized() : Eigen::Vector3d::UnitX(); // from above: y up
   axes.col(1) = axes.col(0).cross(axes.col(2));
   const double half = std::tan(kHalfAngle);
   const Eigen::Array2d size(2 * half * aspect, 2 * half);
@@ -60,7 +61,7 @@ void fitCamera(vtkRenderer& renderer, const Eigen::Matrix3Xd& points_mm, const E
   camera.SetViewAngle(2 * kHalfAngle * 180 / 3.14159265358979);
   camera.SetFocalPoint(focus.x(), focus.y(), focus.z());
   camera.SetPosition(eye.x(), eye.y(), eye.z());
-  camera.SetViewUp(0, 0, 1);
+  camera.SetViewUp(axes.col(1).data());
   renderer.ResetCameraClippingRange();
 }
 

@@ -14,8 +14,8 @@ struct ViewMargins {
   double top = 0.04;
 };
 
-/// Looks along the direction with z up, so that the points fill what the margins leave of a view `aspect` times as wide
-/// as high.
+/// Looks along the direction with z up (y where it is looked at from above), so that the points fill what the margins
+/// leave of a view `aspect` times as wide as high.
 void fitCamera(vtkRenderer& renderer, const Eigen::Matrix3Xd& points_mm, const Eigen::Vector3d& direction,
                double aspect, const ViewMargins& margins);
 

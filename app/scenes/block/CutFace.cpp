@@ -24,8 +24,8 @@ CutFace::CutFace(vtkRenderer& renderer)
   actor_->SetMapper(mapper_);
   actor_->PickableOff();
   actor_->VisibilityOff();
-  actor_->GetProperty()->SetAmbient(0.6);
-  actor_->GetProperty()->SetDiffuse(0.4);
+  actor_->GetProperty()->SetAmbient(1); // unlit: the legend's colours
+  actor_->GetProperty()->SetDiffuse(0);
   renderer.AddActor(actor_);
 }
 
@@ -39,7 +39,7 @@ void CutFace::setMesh(const Mesh& mesh) {
 }
 
 void CutFace::show(const Eigen::Matrix3Xd& drawn_mm, const std::vector<double>& values, const ColorScale& colors,
-                   const Color& plain, vtkPlane* plane) {
+                   const Color& plain, double opacity, vtkPlane* plane) {
   vtkNew<vtkPoints> points;
   vtkNew<vtkFloatArray> scalars;
   points->SetNumberOfPoints(drawn_mm.cols());
@@ -53,6 +53,7 @@ void CutFace::show(const Eigen::Matrix3Xd& drawn_mm, const std::vector<double>& 
   mapper_->SetLookupTable(lookupTable(colors));
   mapper_->UseLookupTableScalarRangeOn();
   actor_->GetProperty()->SetColor(plain[0], plain[1], plain[2]);
+  actor_->GetProperty()->SetOpacity(opacity);
   actor_->VisibilityOn();
 }
 

@@ -24,7 +24,7 @@ public:
   void setMesh(const Mesh& mesh);
   /// Places and values at the mesh's nodes; what is coloured is the material that lies in the plane as drawn.
   void show(const Eigen::Matrix3Xd& drawn_mm, const std::vector<double>& values, const ColorScale& colors,
-            const Color& plain, vtkPlane* plane);
+            const Color& plain, double opacity, vtkPlane* plane);
   void hide();
 
 private:

@@ -12,6 +12,7 @@
 #include <vtkNew.h>
 #include <vtkRenderer.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <numeric>
@@ -21,7 +22,8 @@ namespace palp {
 Picture drawDeformation(const DeformationState& state, const DeformationOptions& options, int width, int height) {
   DeformationScene scene;
   scene.show(state, options, true);
-  scene.resetCamera(*state.design, static_cast<double>(width) / height);
+  scene.resetCamera(*state.design, static_cast<double>(width) / height, kFirstLook,
+                    std::clamp(kLegendRoom_px * options.scale / width, 0.02, 0.4));
   return drawOnce(scene.renderer(), width, height);
 }
 

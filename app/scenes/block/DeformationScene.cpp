@@ -22,7 +22,9 @@ namespace {
 
 /// Diverging where both signs mean something.
 ColorMap colorMap(Quantity quantity) {
-  const bool ofOneSign = quantity == Quantity::Displacement || quantity == Quantity::VonMises;
+  const bool ofOneSign = quantity == Quantity::Displacement || quantity == Quantity::VonMises ||
+                         quantity == Quantity::LargestStretch || quantity == Quantity::MiddleStretch ||
+                         quantity == Quantity::SmallestStretch;
   return ofOneSign ? ColorMap::Viridis : ColorMap::Diverging;
 }
 
@@ -60,13 +62,32 @@ std::vector<double> quantityValues(Quantity quantity, const NodalFields& fields)
     return listOf(fields.volumeRatio.array() - 1);
   case Quantity::VonMises:
     return listOf(fields.vonMises_MPa);
+  case Quantity::StressXX:
+  case Quantity::StressYY:
+  case Quantity::StressZZ:
+  case Quantity::StressXY:
+  case Quantity::StressYZ:
+  case Quantity::StressXZ:
+    return listOf(fields.cauchy_MPa.row(static_cast<int>(quantity) - static_cast<int>(Quantity::StressXX)).transpose());
+  case Quantity::LargestStretch:
+  case Quantity::MiddleStretch:
+  case Quantity::SmallestStretch:
+    return listOf(fields.principalStretches.row(static_cast<int>(quantity) - static_cast<int>(Quantity::LargestStretch))
+                      .transpose());
   }
   return {};
 }
 
-std::array<double, 2> quantityRange(Quantity quantity, const std::vector<double>& values) {
-  const ColorScale scale = fittingScale(colorMap(quantity), values, {}, {});
+std::array<double, 2> quantityRange(const DeformationOptions& options, const std::vector<double>& values) {
+  const ColorScale scale = fittingScale(options.colorMap.value_or(colorMap(options.quantity)), values, {}, {});
   return {scale.low, scale.high};
+}
+
+Eigen::Vector3d CutPlane::grip_mm(const Eigen::Vector3d& block_mm) const {
+  Eigen::Vector3d place(0.5 * block_mm.x(), 0.5 * block_mm.y(), block_mm.z()); // on the top face
+  if (axis == 2) place.y() = 0;                                                // on the front
+  place[axis] = at_mm;
+  return place;
 }
 
 double automaticWarpFactor(const SensorDesign& design, const Eigen::Matrix3Xd& displacement_mm) {
@@ -90,12 +111,18 @@ struct DeformationScene::Parts {
   vtkNew<vtkContextActor> overlayActor;
   vtkNew<Overlay> overlay;
   Polylines line{*renderer};
+  Polylines cutRim{*renderer};
+  Spheres cutGrip{*renderer, 0.45};
+  std::vector<PlacedText> marks; ///< of the largest and the smallest value
   std::vector<PlacedForce> placed;
+  std::vector<PatchLoad> discs;
+  DeformationOptions drawnAs;
   double mmPerN = 1;
   Color forceColor{};
   Color textColor{};
   bool areaNumbers = true;
   double warpFactor = 1;
+  std::array<double, 2> colorRange{};
   int markedNode = -1;
   Color markColor{};
 
@@ -103,6 +130,7 @@ struct DeformationScene::Parts {
   void showForces() {
     forces.showToScale(placed, mmPerN, forceColor);
     overlay->words = forces.words();
+    overlay->words.insert(overlay->words.end(), marks.begin(), marks.end());
     if (!areaNumbers) return;
     for (const BlockActors::AreaLabel& label : block.areaLabels())
       overlay->words.push_back({label.place_mm, std::to_string(label.area), textColor});
@@ -114,6 +142,20 @@ struct DeformationScene::Parts {
     ends << (*options.line_mm)[0], (*options.line_mm)[1];
     line.set(ends, {{0, 1}});
     line.setLook(color, 3 * options.scale);
+  }
+  void showCut(const Eigen::Vector3d& block_mm, const DeformationOptions& drawn, const Color& color) {
+    const bool visible = drawn.cut && drawn.cutGrip;
+    cutRim.setVisible(visible);
+    cutGrip.setVisible(visible);
+    if (!visible) return;
+    const int axis = drawn.cut->axis, u = (axis + 1) % 3, v = (axis + 2) % 3;
+    Eigen::Matrix3Xd rim = Eigen::Matrix3Xd::Zero(3, 4);
+    rim.row(axis).setConstant(drawn.cut->at_mm);
+    rim(u, 1) = rim(u, 2) = block_mm[u];
+    rim(v, 2) = rim(v, 3) = block_mm[v];
+    cutRim.set(rim, {{0, 1, 2, 3, 0}});
+    cutRim.setLook(color, 1.5 * drawn.scale);
+    cutGrip.set(drawn.cut->grip_mm(block_mm), color);
   }
   void showMark() {
     Eigen::Matrix3Xd place(3, markedNode < 0 ? 0 : 1);
@@ -139,12 +181,14 @@ vtkRenderer* DeformationScene::renderer() const {
 namespace {
 
 /// The loads at their drawn places on the top face.
-std::vector<PlacedForce> placedForces(const DeformationState& state, const Eigen::Matrix3Xd& drawn_mm) {
+std::vector<PlacedForce> placedForces(const DeformationState& state, const BlockActors& block,
+                                      const std::optional<CutPlane>& cut) {
   std::vector<PlacedForce> forces;
   if (state.load == nullptr) return forces;
   const auto place = [&](const Eigen::Vector2d& xy_mm, const Eigen::Vector3d& force_N) {
-    const Eigen::Vector3d surface = topPoint(*state.mesh, xy_mm).of(drawn_mm);
-    forces.push_back({surface, force_N * state.loadFraction, static_cast<int>(forces.size())});
+    const Eigen::Vector3d surface = block.drawnPlace_mm(xy_mm);
+    forces.push_back(
+        {surface, force_N * state.loadFraction, static_cast<int>(forces.size()), cut && !cut->keeps(surface)});
   };
   for (const AreaLoad& load : state.load->areas) {
     const Rectangle box = state.design->areaRectangle(load.area);
@@ -154,21 +198,46 @@ std::vector<PlacedForce> placedForces(const DeformationState& state, const Eigen
   return forces;
 }
 
+/// Nothing happened yet: such a field has no colours, unless they are fixed.
+bool unloaded(const NodalFields* fields) {
+  return fields == nullptr || !(fields->displacement_mm.cwiseAbs().maxCoeff() > 0);
+}
+
 std::vector<std::string> overlayLines(const DeformationState& state, const DeformationOptions& options, double warp) {
-  if (state.fields == nullptr) return {"Block at rest"};
+  if (unloaded(state.fields) && !(state.fields != nullptr && options.fixedRange)) return {"Block at rest"};
   std::vector<std::string> lines{"Deformation, coloured by " + quantityName(options.quantity), warpText(warp)};
   if (state.loadFraction != 1) lines.push_back(fractionText(state.loadFraction));
   return lines;
 }
 
 ColorScale colorScale(const std::vector<double>& values, const DeformationOptions& options) {
-  ColorScale colors =
-      fittingScale(colorMap(options.quantity), values, quantityName(options.quantity), quantityUnit(options.quantity));
+  ColorScale colors = fittingScale(options.colorMap.value_or(colorMap(options.quantity)), values,
+                                   quantityName(options.quantity), quantityUnit(options.quantity));
   if (options.fixedRange) {
     colors.low = (*options.fixedRange)[0];
     colors.high = (*options.fixedRange)[1];
   }
+  colors.ground = palette(options.theme).ground;
+  colors.opacity = options.electrodes ? options.opacity : 1;
   return colors;
+}
+
+std::string valueText(double value) {
+  std::array<char, 32> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%.4g", value);
+  return buffer.data();
+}
+
+/// The largest and the smallest value at their places.
+std::vector<PlacedText> extremeMarks(const std::vector<double>& values, const BlockActors& block,
+                                     const DeformationOptions& options) {
+  if (values.empty() || !options.extremes) return {};
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  std::vector<PlacedText> marks;
+  for (const auto& [value, name] : {std::pair{high, "+ largest "}, std::pair{low, "+ smallest "}})
+    marks.push_back({block.drawnPlace_mm(static_cast<int>(value - values.begin())), name + valueText(*value),
+                     palette(options.theme).selection});
+  return marks;
 }
 
 } // namespace
@@ -185,18 +254,23 @@ void DeformationScene::show(const DeformationState& state, const DeformationOpti
   const Eigen::Matrix3Xd& displacement = state.fields != nullptr ? state.fields->displacement_mm : atRest;
   parts.warpFactor = options.warpFactor.value_or(automaticWarpFactor(*state.design, displacement));
   const Eigen::Matrix3Xd drawnDisplacement = parts.warpFactor * displacement;
-  const std::vector<double> values =
-      state.fields != nullptr ? quantityValues(options.quantity, *state.fields) : std::vector<double>{};
+  const bool plain = unloaded(state.fields) && !(state.fields != nullptr && options.fixedRange);
+  const std::vector<double> values = plain ? std::vector<double>{} : quantityValues(options.quantity, *state.fields);
   const ColorScale colors = colorScale(values, options);
+  parts.colorRange = values.empty() ? std::array<double, 2>{} : std::array{colors.low, colors.high};
   parts.block.show(*state.mesh, drawnDisplacement, values, colors, options);
 
   const ElectrodeDisplacements rest = ElectrodeDisplacements::atRest(*state.design);
   const ElectrodeDisplacements& electrodes = state.electrodes != nullptr ? *state.electrodes : rest;
   parts.electrodes.show(*state.design, parts.warpFactor * electrodes.upper_mm, parts.warpFactor * electrodes.lower_mm,
                         options);
-  parts.placed =
-      options.forceArrows ? placedForces(state, state.mesh->nodes_mm + drawnDisplacement) : std::vector<PlacedForce>{};
+  parts.placed = options.forceArrows ? placedForces(state, parts.block, options.cut) : std::vector<PlacedForce>{};
+  parts.discs = state.load != nullptr ? state.load->patches : std::vector<PatchLoad>{};
+  parts.drawnAs = options;
+  parts.block.showDiscs(parts.discs, options);
   parts.mmPerN = palp::arrowScale_mmPerN(parts.placed, 0.3 * state.design->block_mm.maxCoeff());
+  parts.marks = extremeMarks(values, parts.block, options);
+  parts.showCut(state.design->block_mm, options, ink.selection);
   parts.forceColor = ink.force;
   parts.areaNumbers = options.areaOutlines;
   parts.textColor = ink.text;
@@ -204,6 +278,7 @@ void DeformationScene::show(const DeformationState& state, const DeformationOpti
   parts.showLine(options, ink.selection);
   parts.overlay->lines = overlayLines(state, options, parts.warpFactor);
   parts.overlay->legend = values.empty() ? std::nullopt : std::optional(colors);
+  parts.overlay->triad = true;
   parts.overlay->theme = options.theme;
   parts.overlay->scale = options.scale;
   parts.overlay->Modified();
@@ -212,20 +287,25 @@ void DeformationScene::show(const DeformationState& state, const DeformationOpti
 }
 
 void DeformationScene::resetCamera(const SensorDesign& design, double aspect) {
-  resetCamera(design, aspect, {0.45, 1.0, -0.75});
+  resetCamera(design, aspect, kFirstLook);
 }
 
-void DeformationScene::resetCamera(const SensorDesign& design, double aspect, const Eigen::Vector3d& direction) {
+void DeformationScene::resetCamera(const SensorDesign& design, double aspect, const Eigen::Vector3d& direction,
+                                   std::optional<double> legendShare) {
   // Room above the middle for the arrows and their words.
   Eigen::Matrix3Xd points(3, 9);
   points << boxCorners(design.block_mm), 0.5 * design.block_mm;
   points(2, 8) = design.block_mm.z() + 0.3 * design.block_mm.maxCoeff();
   fitCamera(*parts_->renderer, points, direction, aspect,
-            {0.03, 0.03 + std::min(0.12 / aspect * 1.5, 0.25), 0.04, 0.08});
+            {0.03, 0.03 + legendShare.value_or(std::min(0.12 / aspect * 1.5, 0.25)), 0.04, 0.08});
 }
 
 double DeformationScene::warpFactor() const {
   return parts_->warpFactor;
+}
+
+std::array<double, 2> DeformationScene::colorRange() const {
+  return parts_->colorRange;
 }
 
 int DeformationScene::nearestNode(const Eigen::Vector3d& drawn_mm) const {
@@ -238,6 +318,26 @@ const std::vector<PlacedForce>& DeformationScene::forces() const {
 
 double DeformationScene::arrowScale_mmPerN() const {
   return parts_->mmPerN;
+}
+
+const std::vector<PatchLoad>& DeformationScene::discs() const {
+  return parts_->discs;
+}
+
+void DeformationScene::moveDisc(std::size_t disc, const PatchLoad& to) {
+  if (disc >= parts_->discs.size()) return;
+  parts_->discs[disc] = to;
+  parts_->block.showDiscs(parts_->discs, parts_->drawnAs);
+  // Areas come first among the arrows.
+  const std::size_t areas = parts_->placed.size() - std::min(parts_->placed.size(), parts_->discs.size());
+  if (areas + disc < parts_->placed.size())
+    parts_->placed[areas + disc].place_mm = parts_->block.drawnPlace_mm(to.centre_mm);
+  parts_->showForces();
+  parts_->overlay->Modified();
+}
+
+Eigen::Vector3d DeformationScene::restPlace_mm(long long triangle, const Eigen::Vector3d& drawn_mm) const {
+  return parts_->block.restPlace_mm(triangle, drawn_mm);
 }
 
 void DeformationScene::moveForce(std::size_t arrow, const Eigen::Vector3d& force_N) {

@@ -21,8 +21,20 @@ namespace palp {
 /// The quantity at the nodes.
 std::vector<double> quantityValues(Quantity quantity, const NodalFields& fields);
 
-/// The range of the quantity's colours over these values.
-std::array<double, 2> quantityRange(Quantity quantity, const std::vector<double>& values);
+/// A plane across the block at rest: what lies before it, as the block is seen first, is cut away.
+struct CutPlane {
+  int axis = 1; ///< 0, 1, 2: across x, y, z
+  double at_mm = 0;
+
+  /// Points to what stays.
+  [[nodiscard]] Eigen::Vector3d normal() const { return (axis == 2 ? -1 : 1) * Eigen::Vector3d::Unit(axis); }
+  [[nodiscard]] bool keeps(const Eigen::Vector3d& place_mm) const {
+    return axis == 2 ? place_mm.z() <= at_mm : place_mm[axis] >= at_mm;
+  }
+  /// Where it is taken by the mouse.
+  [[nodiscard]] Eigen::Vector3d grip_mm(const Eigen::Vector3d& block_mm) const;
+  bool operator==(const CutPlane&) const = default;
+};
 
 /// What is drawn, and how.
 struct DeformationOptions {
@@ -33,9 +45,12 @@ struct DeformationOptions {
   bool forceArrows = true;
   bool areaOutlines = true;
   bool meshEdges = true;
-  double opacity = 0.82;                           ///< of the coloured surface, while the electrodes show through it
-  std::optional<double> clipY_mm;                  ///< cut away what lies in front of this plane at rest
-  std::optional<std::array<double, 2>> fixedRange; ///< of the colours; else the values' own
+  double opacity = 0.82; ///< of the coloured surface, while the electrodes show through it
+  std::optional<CutPlane> cut;
+  bool cutGrip = false;                                  ///< draws where the cut is taken by the mouse
+  bool extremes = false;                                 ///< marks the largest and the smallest value
+  std::optional<ColorMap> colorMap;                      ///< none: as the quantity asks for
+  std::optional<std::array<double, 2>> fixedRange;       ///< of the colours; else the values' own
   std::optional<std::array<Eigen::Vector3d, 2>> line_mm; ///< ends at rest of a line that is drawn with the block
   std::vector<int> selectedAreas;                        ///< outlined more strongly
   std::optional<std::array<int, 2>> litCell;             ///< row-wire, column-wire whose electrodes light up
@@ -53,9 +68,16 @@ struct DeformationState {
   double loadFraction = 1;
 };
 
+/// The range of the colours over these values, as the options choose quantity and map.
+std::array<double, 2> quantityRange(const DeformationOptions& options, const std::vector<double>& values);
+
 /// The largest 1, 2 or 5 times a power of ten that keeps the drawn displacements under a fifth of the block's thinnest
 /// side; at least 1.
 double automaticWarpFactor(const SensorDesign& design, const Eigen::Matrix3Xd& displacement_mm);
+
+/// From the front, above and the left.
+const Eigen::Vector3d kFirstLook(0.45, 1.0, -0.75);
+constexpr double kLegendRoom_px = 95; ///< at scale 1
 
 /// The deformed block in a renderer that the caller puts into a window.
 class DeformationScene {
@@ -68,10 +90,12 @@ public:
   void show(const DeformationState& state, const DeformationOptions& options, bool meshChanged);
   /// Looks at the whole block from the front, above and the left, in a view `aspect` times as wide as high.
   void resetCamera(const SensorDesign& design, double aspect);
-  /// Looks at it along a direction.
-  void resetCamera(const SensorDesign& design, double aspect, const Eigen::Vector3d& direction);
+  /// Looks at it along a direction; the legend takes this share of the width.
+  void resetCamera(const SensorDesign& design, double aspect, const Eigen::Vector3d& direction,
+                   std::optional<double> legendShare = {});
 
   [[nodiscard]] double warpFactor() const;
+  [[nodiscard]] std::array<double, 2> colorRange() const; ///< as drawn last
   /// The mesh node drawn nearest to a point of the scene [mm, warped]; -1 without a mesh.
   [[nodiscard]] int nearestNode(const Eigen::Vector3d& drawn_mm) const;
   /// Marks a mesh node; -1 marks none.
@@ -80,6 +104,13 @@ public:
   /// The arrows as drawn, and their scale.
   [[nodiscard]] const std::vector<PlacedForce>& forces() const;
   [[nodiscard]] double arrowScale_mmPerN() const;
+  /// The loaded discs as drawn.
+  [[nodiscard]] const std::vector<PatchLoad>& discs() const;
+  /// Draws a disc and its arrow at another place, while it is dragged; all else stays.
+  void moveDisc(std::size_t disc, const PatchLoad& to);
+  /// Where the material lies at rest that is drawn at a point of a triangle of the surface.
+  [[nodiscard]] Eigen::Vector3d restPlace_mm(long long triangle, const Eigen::Vector3d& drawn_mm) const;
+
   /// Draws one arrow for another force, while it is dragged; all else stays.
   void moveForce(std::size_t arrow, const Eigen::Vector3d& force_N);
 

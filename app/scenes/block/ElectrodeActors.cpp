@@ -3,6 +3,7 @@
 #include <vtkCellArray.h>
 #include <vtkNew.h>
 #include <vtkOpenGLSphereMapper.h>
+#include <vtkPlane.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkProperty.h>
@@ -25,6 +26,15 @@ std::vector<std::vector<int>> wires(int count, int perWire) {
     std::iota(lines[static_cast<std::size_t>(wire)].begin(), lines[static_cast<std::size_t>(wire)].end(),
               wire * perWire);
   return lines;
+}
+
+/// Those of the places that are not cut away.
+Eigen::Matrix3Xd kept(const Eigen::Matrix3Xd& places_mm, const std::optional<CutPlane>& cut) {
+  if (!cut) return places_mm;
+  std::vector<Eigen::Index> stay;
+  for (Eigen::Index k = 0; k < places_mm.cols(); ++k)
+    if (cut->keeps(places_mm.col(k))) stay.push_back(k);
+  return places_mm(Eigen::all, stay);
 }
 
 } // namespace
@@ -74,8 +84,15 @@ void ElectrodeActors::show(const SensorDesign& design, const Eigen::Matrix3Xd& u
   columnWires_.set(lower, wires(design.columnWires(), design.electrodesPerColumnWire()));
   rowWires_.setLook(ink.upper, options.scale);
   columnWires_.setLook(ink.lower, options.scale);
-  upper_.set(upper, ink.upper);
-  lower_.set(lower, ink.lower);
+  vtkNew<vtkPlane> plane;
+  if (options.cut) {
+    const Eigen::Vector3d origin = options.cut->at_mm * Eigen::Vector3d::Unit(options.cut->axis);
+    plane->SetOrigin(origin.x(), origin.y(), origin.z());
+    plane->SetNormal(options.cut->normal().data());
+  }
+  for (Polylines* lines : {&rowWires_, &columnWires_}) lines->clip(options.cut ? plane.Get() : nullptr);
+  upper_.set(kept(upper, options.cut), ink.upper);
+  lower_.set(kept(lower, options.cut), ink.lower);
 
   Eigen::Matrix3Xd lit(3, 0);
   if (options.litCell) {
@@ -85,7 +102,7 @@ void ElectrodeActors::show(const SensorDesign& design, const Eigen::Matrix3Xd& u
     lit << upper.middleCols((*options.litCell)[0] * perRow, perRow),
         lower.middleCols((*options.litCell)[1] * perColumn, perColumn);
   }
-  lit_.set(lit, ink.selection);
+  lit_.set(kept(lit, options.cut), ink.selection);
   for (Polylines* lines : {&rowWires_, &columnWires_}) lines->setVisible(options.electrodes);
   for (Spheres* spheres : {&upper_, &lower_}) spheres->setVisible(options.electrodes);
   lit_.setVisible(lit.cols() > 0);

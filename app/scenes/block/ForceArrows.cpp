@@ -67,7 +67,7 @@ void ForceArrows::showToScale(const std::vector<PlacedForce>& forces, double mm_
   arrows->SetName("force");
   arrows->SetNumberOfComponents(3);
   for (const PlacedForce& force : forces) {
-    if (!(force.force_N.norm() > 0)) continue;
+    if (force.hidden || !(force.force_N.norm() > 0)) continue;
     const Eigen::Vector3d far = force.freeEnd_mm(mm_per_N);
     const Eigen::Vector3d start = force.force_N.z() < 0 ? far : force.place_mm;
     const Eigen::Vector3d arrow = mm_per_N * force.force_N;

@@ -3,9 +3,11 @@
 #include "app/scenes/charts/TextStyle.h"
 
 #include <vtkBrush.h>
+#include <vtkCamera.h>
 #include <vtkContext2D.h>
 #include <vtkContextScene.h>
 #include <vtkImageData.h>
+#include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPen.h>
@@ -25,6 +27,8 @@ vtkStandardNewMacro(Overlay)
     namespace {
 
   constexpr double kMargin_px = 14;
+  constexpr double kLine_px = 20;       ///< from line to line
+  constexpr double kTriad_px = 24;      ///< length of its axes
   constexpr double kWordHeight_px = 18; ///< of a word with its ground
 
   void useText(vtkContext2D & painter, const Color& color, double size_px, bool bold = false) {
@@ -60,7 +64,7 @@ void paintLegend(vtkContext2D& painter, const ColorScale& colors, const LegendPl
   bands->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
   auto* byte = static_cast<unsigned char*>(bands->GetScalarPointer());
   for (int band = 0; band < kBands; ++band) {
-    for (const double part : colors.color(colors.low + (colors.high - colors.low) * (band + 0.5) / kBands))
+    for (const double part : colors.shown(colors.low + (colors.high - colors.low) * (band + 0.5) / kBands))
       *byte++ = static_cast<unsigned char>(std::lround(255 * part));
     *byte++ = 255;
   }
@@ -100,6 +104,7 @@ std::vector<Overlay::WordBox> Overlay::wordBoxes(vtkContext2D& painter) {
     const double width = textWidth_px(painter, word.text), sceneWidth = GetScene()->GetSceneWidth();
     const double x = std::clamp(place[0] - 0.5 * width, 4.0, std::max(4.0, sceneWidth - width - 4));
     boxes.push_back({&word, x, place[1], width});
+    keepClear(painter, boxes.back());
   }
   // Short words, as numbers of areas, stay at their places; a longer one goes up until it covers none of them.
   std::stable_sort(boxes.begin(), boxes.end(),
@@ -114,6 +119,56 @@ std::vector<Overlay::WordBox> Overlay::wordBoxes(vtkContext2D& painter) {
         moved = true;
       }
   return boxes;
+}
+
+void Overlay::keepClear(vtkContext2D& painter, WordBox& box) {
+  const double margin = kMargin_px * scale, half = 0.5 * kWordHeight_px * scale;
+  if (legend) {
+    const double free = GetScene()->GetSceneWidth() - 2 * margin - legendWidth_px(painter, *legend, theme, scale);
+    box.x = std::max(4.0, std::min(box.x, free - box.width));
+  }
+  double widest = 0;
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    useText(painter, palette(theme).text, (k == 0 ? 14 : 12) * scale, k == 0);
+    widest = std::max(widest, textWidth_px(painter, lines[k]));
+  }
+  const double lowest = GetScene()->GetSceneHeight() - margin - kLine_px * scale * static_cast<double>(lines.size());
+  if (box.x < margin + widest + 8 * scale) box.y = std::min(box.y, lowest - half);
+  box.y = std::min(box.y, GetScene()->GetSceneHeight() - half - 2);
+}
+
+void Overlay::paintTriad(vtkContext2D& painter) {
+  vtkRenderer* renderer = GetScene()->GetRenderer();
+  if (renderer == nullptr) return;
+  const vtkMatrix4x4& view = *renderer->GetActiveCamera()->GetViewTransformMatrix();
+  struct Axis {
+    double x, y, depth;
+    const char* name;
+    Color color;
+  };
+  const bool light = theme == Theme::Light;
+  const std::array<Color, 3> colors{light ? Color{0.78, 0.16, 0.16} : Color{1.0, 0.45, 0.42},
+                                    light ? Color{0.10, 0.50, 0.16} : Color{0.42, 0.85, 0.45},
+                                    light ? Color{0.10, 0.34, 0.80} : Color{0.50, 0.68, 1.0}};
+  constexpr std::array<const char*, 3> kNames{"x", "y", "z"};
+  std::array<Axis, 3> axes{};
+  for (int d = 0; d < 3; ++d) {
+    const auto k = static_cast<std::size_t>(d);
+    axes[k] = {view.GetElement(0, d), view.GetElement(1, d), view.GetElement(2, d), kNames[k], colors[k]};
+  }
+  // What points at the viewer is drawn last.
+  std::sort(axes.begin(), axes.end(), [](const Axis& a, const Axis& b) { return a.depth < b.depth; });
+  const double centre = (kMargin_px + kTriad_px) * scale;
+  for (const Axis& axis : axes) {
+    const double x = centre + kTriad_px * scale * axis.x, y = centre + kTriad_px * scale * axis.y;
+    painter.GetPen()->SetLineType(vtkPen::SOLID_LINE);
+    painter.GetPen()->SetWidth(static_cast<float>(2 * scale));
+    painter.GetPen()->SetColorF(axis.color[0], axis.color[1], axis.color[2], 1);
+    painter.DrawLine(static_cast<float>(centre), static_cast<float>(centre), static_cast<float>(x),
+                     static_cast<float>(y));
+    useText(painter, axis.color, 12 * scale, true);
+    drawText(painter, x + 7 * scale * axis.x - 3 * scale, y + 7 * scale * axis.y, axis.name);
+  }
 }
 
 void Overlay::paintWords(vtkContext2D& painter) {
@@ -133,11 +188,12 @@ bool Overlay::Paint(vtkContext2D* painter) {
   const double height = GetScene()->GetSceneHeight();
   const double margin = kMargin_px * scale;
   paintWords(*painter);
+  if (triad) paintTriad(*painter);
   double y = height - margin - 8 * scale;
   for (std::size_t k = 0; k < lines.size(); ++k) {
     useText(*painter, palette(theme).text, (k == 0 ? 14 : 12) * scale, k == 0);
     drawText(*painter, margin, y, lines[k]);
-    y -= 20 * scale;
+    y -= kLine_px * scale;
   }
   if (legend) {
     const double need = legendWidth_px(*painter, *legend, theme, scale);

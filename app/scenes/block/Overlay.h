@@ -30,6 +30,7 @@ public:
   std::vector<PlacedText> words;
   std::vector<std::string> lines;   ///< from the top left; the first is bold
   std::optional<ColorScale> legend; ///< at the right edge
+  bool triad = false;               ///< the directions x, y, z at the lower left
   Theme theme = Theme::Light;
   double scale = 1; ///< of all sizes; 1 on a plain screen
 
@@ -41,7 +42,10 @@ private:
   };
   /// None over a shorter one.
   std::vector<WordBox> wordBoxes(vtkContext2D& painter);
+  /// Keeps long words off the lines at the top left and the legend.
+  void keepClear(vtkContext2D& painter, WordBox& box);
   void paintWords(vtkContext2D& painter);
+  void paintTriad(vtkContext2D& painter);
 };
 
 /// A place of the view: lower left corner and size [px].

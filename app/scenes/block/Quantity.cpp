@@ -24,8 +24,17 @@ std::string quantityUnit(Quantity quantity) {
     return "mm";
   case Quantity::Pressure:
   case Quantity::VonMises:
+  case Quantity::StressXX:
+  case Quantity::StressYY:
+  case Quantity::StressZZ:
+  case Quantity::StressXY:
+  case Quantity::StressYZ:
+  case Quantity::StressXZ:
     return "MPa";
   case Quantity::VolumeChange:
+  case Quantity::LargestStretch:
+  case Quantity::MiddleStretch:
+  case Quantity::SmallestStretch:
     return "";
   }
   return "";

@@ -8,17 +8,39 @@
 namespace palp {
 
 /// What the block's surface is coloured by.
-enum class Quantity { Displacement, DisplacementX, DisplacementY, DisplacementZ, Pressure, VolumeChange, VonMises };
-inline constexpr NamedEnum
-    kQuantities("quantity",
-                std::array{std::pair{Quantity::Displacement, "|u|"}, std::pair{Quantity::DisplacementX, "ux"},
-                           std::pair{Quantity::DisplacementY, "uy"}, std::pair{Quantity::DisplacementZ, "uz"},
-                           std::pair{Quantity::Pressure, "pressure"}, std::pair{Quantity::VolumeChange, "J - 1"},
-                           std::pair{Quantity::VonMises, "von Mises stress"}});
+enum class Quantity {
+  Displacement,
+  DisplacementX,
+  DisplacementY,
+  DisplacementZ,
+  Pressure,
+  VolumeChange,
+  VonMises,
+  StressXX, ///< Cauchy stress, in the order of NodalFields
+  StressYY,
+  StressZZ,
+  StressXY,
+  StressYZ,
+  StressXZ,
+  LargestStretch, ///< principal stretches
+  MiddleStretch,
+  SmallestStretch
+};
+inline constexpr NamedEnum kQuantities(
+    "quantity",
+    std::array{std::pair{Quantity::Displacement, "|u|"}, std::pair{Quantity::DisplacementX, "ux"},
+               std::pair{Quantity::DisplacementY, "uy"}, std::pair{Quantity::DisplacementZ, "uz"},
+               std::pair{Quantity::Pressure, "pressure"}, std::pair{Quantity::VolumeChange, "J - 1"},
+               std::pair{Quantity::VonMises, "von Mises stress"}, std::pair{Quantity::StressXX, "stress xx"},
+               std::pair{Quantity::StressYY, "stress yy"}, std::pair{Quantity::StressZZ, "stress zz"},
+               std::pair{Quantity::StressXY, "stress xy"}, std::pair{Quantity::StressYZ, "stress yz"},
+               std::pair{Quantity::StressXZ, "stress xz"}, std::pair{Quantity::LargestStretch, "largest stretch"},
+               std::pair{Quantity::MiddleStretch, "middle stretch"},
+               std::pair{Quantity::SmallestStretch, "smallest stretch"}});
 
 /// All of them, in the order of a list to choose from.
 const std::vector<Quantity>& allQuantities();
-/// "|u|", "ux", ..., "J - 1", "von Mises stress", without the unit.
+/// "|u|", "ux", ..., "J - 1", "von Mises stress", "stress xx", ..., without the unit.
 std::string quantityName(Quantity quantity);
 std::string quantityUnit(Quantity quantity);
 

@@ -93,7 +93,7 @@ TEST_F(Baseline, TheBlockUnderALoad) {
 TEST_F(Baseline, TheBlockCutOpenInTheDark) {
   DeformationOptions options;
   options.quantity = Quantity::DisplacementZ;
-  options.clipY_mm = 7.5;
+  options.cut = CutPlane{1, 7.5};
   options.theme = Theme::Dark;
   options.litCell = {3, 7};
   EXPECT_TRUE(matchesBaseline(block(options), "block-cut-dark"));

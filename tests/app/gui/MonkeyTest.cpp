@@ -226,7 +226,7 @@ protected:
       EXPECT_EQ(view.heatmap().values, resistanceHeatmap(touch.touch(), now, kind).values) << name << " " << where;
     }
     if (auto& slider = find<QSlider>("increments"); slider.isVisible()) {
-      EXPECT_EQ(slider.value(), std::max(touch.increment(), 0)) << where;
+      EXPECT_EQ(slider.value(), std::max(touch.place(), 0)) << where;
     }
     const NetworkSamples* samples = network.samples();
     EXPECT_TRUE(network.fit() == nullptr || samples != nullptr) << where;

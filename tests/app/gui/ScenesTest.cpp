@@ -44,6 +44,7 @@ NodalFields pushedIn(const Mesh& mesh, double depth_mm) {
   fields.pressure_MPa = Eigen::VectorXd::LinSpaced(mesh.nodeCount(), -1, 1);
   fields.vonMises_MPa = fields.pressure_MPa.cwiseAbs();
   fields.volumeRatio = Eigen::VectorXd::Ones(mesh.nodeCount());
+  fields.principalStretches = Eigen::Matrix3Xd::Ones(3, mesh.nodeCount());
   return fields;
 }
 

@@ -43,6 +43,8 @@ TEST_P(Fields, OfIncompressibleUniaxialTensionAreTheClosedForm) {
     EXPECT_NEAR(f.vonMises_MPa(n), stress, 1e-12);
     EXPECT_NEAR(f.pressure_MPa(n), -stress / 3, 1e-12);
     EXPECT_NEAR(f.volumeRatio(n), 1, 1e-12);
+    EXPECT_LT((f.principalStretches.col(n) - Eigen::Vector3d(l, 1 / std::sqrt(l), 1 / std::sqrt(l))).norm(), 1e-7)
+        << "largest first; equal eigenvalues are found to the root of rounding";
     EXPECT_LT(
         (f.displacement_mm.col(n) - (stretches - Eigen::Vector3d::Ones()).cwiseProduct(mesh_.nodes_mm.col(n))).norm(),
         1e-12);
@@ -61,6 +63,9 @@ TEST_P(Fields, OfSimpleShearAreRivlins) {
                    2 * (m_.c10_MPa + m_.c01_MPa) * g)
                       .finished());
   EXPECT_NEAR(f.pressure_MPa(0), -p, 1e-12);
+  // lambda - 1 / lambda = g in the plane of the shear.
+  const double largest = g / 2 + std::sqrt(1 + g * g / 4);
+  EXPECT_LT((f.principalStretches.col(0) - Eigen::Vector3d(largest, 1, 1 / largest)).norm(), 1e-9);
 }
 
 TEST_P(Fields, OfSwellingAreThePressureAlone) {

@@ -150,6 +150,17 @@ TEST_F(DocumentTest, SavesAnOpenedProjectInItsOwnFile) {
   EXPECT_EQ(loadProject(inFolder("p.json").toStdString(), exampleProject()).load.areas[0].force_N.z(), -4);
 }
 
+TEST_F(DocumentTest, AProjectOfTheProgramsStartIsSavedInItsFile) {
+  saveProject(inFolder("p.json").toStdString(), workbench.project());
+  window.document().beganWith(inFolder("p.json"));
+  EXPECT_EQ(window.windowTitle(), "p.json[*] - Palp");
+  press(-4);
+  key(Qt::Key_S);
+  EXPECT_EQ(loadProject(inFolder("p.json").toStdString(), exampleProject()).load.areas[0].force_N.z(), -4);
+  window.document().beganWith(QString::fromStdString(PALP_SOURCE_DIR "/resources/paper.json"));
+  EXPECT_EQ(workbench.file(), inFolder("p.json")) << "a design is none to be overwritten";
+}
+
 TEST_F(DocumentTest, ADesignAloneIsNoProjectToBeOverwritten) {
   QFile::copy(QString::fromStdString(PALP_SOURCE_DIR "/resources/paper.json"), inFolder("sensor.json"));
   dropOn(window, inFolder("sensor.json"));

@@ -428,8 +428,9 @@ TEST_F(LiveOperator, HoldsATouchWhereOnePressesAndHowOneTypes) {
   ASSERT_TRUE(reads(4, -3));
   // The arrow is drawn where the area is: a press somewhere else moves the touch there.
   QSignalSpy pressed(&block(), &LiveView::areaPressed);
-  for (int x = 1; x < 10 && (pressed.isEmpty() || pressed.back()[0] == 4); ++x)
-    QTest::mouseClick(&block(), Qt::LeftButton, {}, {block().width() * x / 10, block().height() * 6 / 10});
+  for (int k = 11; k < 100 && (pressed.isEmpty() || pressed.back()[0] == 4); ++k)
+    QTest::mouseClick(&block(), Qt::LeftButton, {},
+                      {block().width() * (k % 10) / 10, block().height() * (k / 10) / 10});
   ASSERT_FALSE(pressed.isEmpty());
   const int area = pressed.back()[0].toInt();
   EXPECT_NE(area, 4);

@@ -1,12 +1,25 @@
+#include "app/gui/jobs/ResultFiles.h"
 #include "app/gui/views/ChartView.h"
+#include "app/gui/views/CsvExport.h"
+#include "app/gui/views/DataTable.h"
 #include "app/study/Resources.h"
 #include "app/study/live/LiveSource.h"
 #include "tests/app/gui/WindowFixture.h"
 
+#include <QClipboard>
 #include <QComboBox>
+#include <QFileInfo>
 #include <QLabel>
+#include <QLineEdit>
 #include <QPushButton>
+#include <QSpinBox>
 #include <QStatusBar>
+#include <QTabWidget>
+#include <QTemporaryDir>
+#include <QToolButton>
+#include <QTreeWidget>
+
+#include <limits>
 
 namespace palp {
 namespace {
@@ -20,6 +33,11 @@ protected:
   void generate() {
     QTest::mouseClick(&find<QPushButton>("generate"), Qt::LeftButton);
     ASSERT_TRUE(QTest::qWaitFor([&] { return network.samples() != nullptr; }, kPatience_ms));
+    ASSERT_TRUE(idle());
+  }
+  void trained() {
+    QTest::mouseClick(&find<QPushButton>("train"), Qt::LeftButton);
+    ASSERT_TRUE(QTest::qWaitFor([&] { return network.fit() != nullptr; }, kPatience_ms));
     ASSERT_TRUE(idle());
   }
 };
@@ -126,6 +144,182 @@ TEST_F(NetworkScene, AKeystrokeInTheDesignLosesNothingThatWasTrained) {
   EXPECT_EQ(network.fit(), fit);
   EXPECT_EQ(network.sweepPoints().size(), 3u);
   EXPECT_TRUE(network.upToDate());
+}
+
+TEST_F(NetworkScene, SaysErrorsWhereOneLooksUntilTheNextWorkBegins) {
+  generate();
+  answerFileDialog(QString::fromStdString(resource("paper.json").string())); // a design is no network
+  QTest::mouseClick(&find<QPushButton>("openNetwork"), Qt::LeftButton);
+  auto& problem = find<QLabel>("trainingProblem");
+  ASSERT_TRUE(QTest::qWaitFor([&] { return problem.isVisible(); }, kPatience_ms))
+      << problem.text().toStdString() << window.statusBar()->currentMessage().toStdString();
+  EXPECT_TRUE(problem.text().contains("paper.json")) << problem.text().toStdString();
+  QTest::mouseClick(&find<QPushButton>("train"), Qt::LeftButton);
+  EXPECT_TRUE(problem.isHidden());
+  ASSERT_TRUE(idle());
+}
+
+TEST_F(NetworkScene, RowsThatTheDesignDoesNotHaveAreRefusedAtTheField) {
+  auto& rows = find<QLineEdit>("rows");
+  rows.setFocus();
+  rows.selectAll();
+  QTest::keyClicks(&rows, "40");
+  QTest::keyClick(&rows, Qt::Key_Return);
+  EXPECT_TRUE(find<QLabel>("rowsProblem").isVisible());
+  EXPECT_EQ(workbench.project().network.rows, "4") << "what cannot be is not used";
+  rows.selectAll();
+  QTest::keyClicks(&rows, "1,2");
+  QTest::keyClick(&rows, Qt::Key_Return);
+  EXPECT_TRUE(find<QLabel>("rowsProblem").isHidden());
+  EXPECT_EQ(workbench.project().network.rows, "1,2");
+}
+
+TEST_F(NetworkScene, OldNumbersAreGreyWithTheReasonAndNeverBold) {
+  generate();
+  trained();
+  const auto words = [&] { return find<QLabel>("fitWords").text(); };
+  EXPECT_TRUE(words().contains("<b>")) << words().toStdString();
+  Project other = workbench.project();
+  other.design.block_mm.z() = 6;
+  workbench.edit("height", other);
+  EXPECT_FALSE(words().contains("<b>"));
+  EXPECT_TRUE(words().contains("Of an earlier design")) << words().toStdString();
+  workbench.history().undo();
+  EXPECT_TRUE(words().contains("<b>"));
+  network.cancel();
+  Project rows = workbench.project();
+  rows.network.rows = "all";
+  workbench.edit("rows", rows); // not by the panel: nothing trains
+  EXPECT_TRUE(words().contains("row-wires 4, now all")) << words().toStdString();
+  EXPECT_FALSE(words().contains("<b>"));
+}
+
+TEST_F(NetworkScene, NamesTheNetworkThatWasOpenedAndWhatItReads) {
+  generate();
+  answerFileDialog(QString::fromStdString(shippedNetwork().string()));
+  QTest::mouseClick(&find<QPushButton>("openNetwork"), Qt::LeftButton);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.fit() != nullptr; }, kPatience_ms));
+  const QString words = find<QLabel>("fitWords").text();
+  EXPECT_TRUE(words.contains("Opened: " + QFileInfo(network.fit()->file).fileName())) << words.toStdString();
+  EXPECT_TRUE(words.contains("from resistances, row-wires all")) << words.toStdString();
+}
+
+TEST_F(NetworkScene, GoesBackToAnEarlierNetworkWithItsSettings) {
+  generate();
+  trained();
+  const double first = network.fit()->decoder.report.spread;
+  find<QDoubleSpinBox>("spread").setValue(3); // trains at once
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.fit()->decoder.report.spread == 3; }, kPatience_ms));
+  ASSERT_TRUE(idle());
+  auto& list = find<QTreeWidget>("trainedNetworks");
+  ASSERT_EQ(list.topLevelItemCount(), 2);
+  find<QTabWidget>("networkTabs").setCurrentIndex(3);
+  list.setCurrentItem(list.topLevelItem(1));
+  QTest::mouseClick(&find<QPushButton>("goBack"), Qt::LeftButton);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.fit()->decoder.report.spread == first; }, kPatience_ms));
+  EXPECT_EQ(workbench.project().network.spread, first);
+  EXPECT_TRUE(find<QLabel>("fitWords").text().contains("<b>"));
+  ASSERT_TRUE(idle());
+  QTest::mouseClick(&find<QPushButton>("takeAway"), Qt::LeftButton);
+  EXPECT_EQ(list.topLevelItemCount(), 1);
+}
+
+TEST_F(NetworkScene, ASpreadThatIsDraggedLeavesOneNetworkInTheList) {
+  generate();
+  trained();
+  for (const double spread : {2.0, 3.0, 4.0}) {
+    find<QDoubleSpinBox>("spread").setValue(spread);
+    ASSERT_TRUE(QTest::qWaitFor([&] { return network.fit()->decoder.report.spread == spread; }, kPatience_ms));
+  }
+  EXPECT_EQ(network.kept().size(), 2u) << "the one that was asked for, and the last of those that followed";
+}
+
+TEST_F(NetworkScene, TheSweepsTableHasEveryPointAndItsBestSpreadIsTakenOver) {
+  generate();
+  trained();
+  QTest::mouseClick(&find<QPushButton>("sweep"), Qt::LeftButton);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.sweepPoints().size() == 3; }, kPatience_ms));
+  ASSERT_TRUE(idle());
+  auto& table = find<DataTable>("sweepTable");
+  ASSERT_EQ(table.rowCount(), 3);
+  EXPECT_EQ(table.csv().count('\n'), 4);
+  EXPECT_TRUE(table.csv().startsWith("spread,Fx Eq. (13) [%]")) << table.csv().toStdString();
+  table.setRangeSelected({0, 0, 1, 1}, true);
+  table.setFocus();
+  QTest::keyClick(&table, Qt::Key_C, Qt::ControlModifier);
+  EXPECT_EQ(QApplication::clipboard()->text().count('\t'), 2);
+  QTest::mouseClick(&find<QPushButton>("bestSpread"), Qt::LeftButton);
+  double best = 0, error = std::numeric_limits<double>::infinity();
+  for (const SweepPoint& point : network.sweepPoints())
+    if (point.error.rmsePercentOfRange.norm() < error) {
+      error = point.error.rmsePercentOfRange.norm();
+      best = point.spread;
+    }
+  EXPECT_EQ(workbench.project().network.spread, best);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.fit()->decoder.report.spread == best; }, kPatience_ms));
+}
+
+TEST_F(NetworkScene, TheFoldedOptionsTrainAsTheCommandThatIsShownSays) {
+  generate();
+  auto& more = find<QToolButton>("moreOptions");
+  EXPECT_FALSE(find<QComboBox>("scaler").isVisible());
+  QTest::mouseClick(&more, Qt::LeftButton);
+  EXPECT_TRUE(find<QComboBox>("scaler").isVisible());
+  find<QComboBox>("scaler").setCurrentText("minmax");
+  find<QComboBox>("tail").setCurrentText("bias");
+  auto& ridge = find<QLineEdit>("ridge");
+  ridge.setFocus();
+  QTest::keyClicks(&ridge, "0.001");
+  QTest::keyClick(&ridge, Qt::Key_Return);
+  find<QDoubleSpinBox>("testNoise").setValue(0.1);
+  trained();
+  EXPECT_DOUBLE_EQ(network.fit()->decoder.report.ridge, 0.001);
+  const QString trainedWith = QString::fromStdString(network.fit()->decoder.trainedWith);
+  const QString commands = window.currentScene().commands(workbench.project(), "sensor.json");
+  for (const char* option : {"--scaler minmax", "--tail bias", "--ridge 0.001"}) {
+    EXPECT_TRUE(trainedWith.contains(option)) << trainedWith.toStdString();
+    EXPECT_TRUE(commands.contains(option)) << commands.toStdString();
+  }
+  EXPECT_TRUE(commands.contains("--noise 0.001 --seed")) << commands.toStdString();
+  EXPECT_TRUE(commands.contains("--test-noise 0.001")) << commands.toStdString();
+  const double noisy = network.fit()->error.error.rmsePercentOfRange.norm();
+  find<QDoubleSpinBox>("testNoise").setValue(0);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.fit()->settings.testNoise == 0; }, kPatience_ms));
+  EXPECT_LT(network.fit()->error.error.rmsePercentOfRange.norm(), noisy);
+}
+
+TEST_F(NetworkScene, EveryChartGivesItsPoints) {
+  ChartSpec spec;
+  spec.xLabel = "spread";
+  spec.yLabel = "relative error, Eq. (13) [%]";
+  spec.series.resize(1);
+  spec.series[0].name = "Fx";
+  spec.series[0].x = {1, 2};
+  spec.series[0].y = {0.5, 0.25};
+  EXPECT_EQ(chartCsv(spec), "series,spread,\"relative error, Eq. (13) [%]\"\nFx,1,0.5\nFx,2,0.25\n");
+}
+
+TEST_F(NetworkScene, TheListOfNetworksIsKeptBesideTheProject) {
+  generate();
+  find<QDoubleSpinBox>("spread").setValue(2);
+  trained();
+  find<QDoubleSpinBox>("spread").setValue(3);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.fit()->decoder.report.spread == 3; }, kPatience_ms));
+  ASSERT_TRUE(idle());
+  const QTemporaryDir folder;
+  saveResults(folder.path().toStdString(), network.results());
+  const NetworkResults opened = openResults(folder.path().toStdString(), workbench.project().design, {});
+  ASSERT_EQ(opened.kept.size(), 2u);
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_EQ(opened.kept[k]->settings, network.kept()[k]->settings);
+    EXPECT_EQ(opened.kept[k]->made, network.kept()[k]->made);
+    EXPECT_EQ(opened.kept[k]->error.error.rmsePercentOfRange, network.kept()[k]->error.error.rmsePercentOfRange);
+  }
+  EXPECT_EQ(opened.fit, opened.kept[0]) << "the one that was shown";
+  NetworkResults less = network.results();
+  less.kept.pop_back();
+  saveResults(folder.path().toStdString(), less);
+  EXPECT_EQ(openResults(folder.path().toStdString(), workbench.project().design, {}).kept.size(), 1u);
 }
 
 } // namespace

@@ -87,7 +87,10 @@ TEST_F(ProjectFile, ReadsBackEverythingThatWasSet) {
   project.view = {"network",
                   Quantity::VonMises,
                   25.5,
-                  7.25,
+                  CutPlane{2, 3.25},
+                  ColorMap::Inferno,
+                  std::array{-0.5, 0.75},
+                  true,
                   false,
                   false,
                   false,
@@ -105,6 +108,24 @@ TEST_F(ProjectFile, ReadsBackEverythingThatWasSet) {
                   4};
   saveProject(path("project.json"), project);
   EXPECT_EQ(loadProject(path("project.json"), exampleProject()), project);
+}
+
+TEST_F(ProjectFile, ReadsTheCutOfAnOlderFile) {
+  const std::string text = with(savedText(), "\"arrows\"", "\"clip_y_mm\": 7.25, \"arrows\"");
+  std::ofstream(path("older.json")) << text;
+  EXPECT_EQ(loadProject(path("older.json"), {}).view.cut, (CutPlane{1, 7.25}));
+}
+
+TEST_F(ProjectFile, RefusesCutsAndColoursThatCannotBeInOneLine) {
+  for (const auto& [wrong, key] :
+       {std::pair{"\"cut\": {\"axis\": \"w\", \"at_mm\": 1}", "axis"},
+        std::pair{"\"cut\": {\"axis\": \"x\", \"at_mm\": -1}", "at_mm"},
+        std::pair{"\"cut\": {\"axis\": \"x\"}", "at_mm"}, std::pair{"\"color_map\": \"jet\"", "viridis"},
+        std::pair{"\"color_range\": [1, 1]", "color_range"}, std::pair{"\"extremes\": 1", "extremes"}}) {
+    const std::string words = refusal(with(savedText(), "\"arrows\"", std::string(wrong) + ", \"arrows\""));
+    EXPECT_NE(words.find(key), std::string::npos) << wrong << ": " << words;
+    EXPECT_EQ(words.find('\n'), std::string::npos) << words;
+  }
 }
 
 TEST_F(ProjectFile, ReadsADesignFileIntoTheOpenProject) {

@@ -3,9 +3,12 @@
 #include "model/base/Error.h"
 #include "tests/app/gui/WindowFixture.h"
 
+#include <QFile>
 #include <QMessageBox>
+#include <QProcess>
 #include <QPushButton>
 #include <QSignalSpy>
+#include <QTemporaryDir>
 #include <QTimer>
 
 #include <gtest/gtest.h>
@@ -52,6 +55,30 @@ TEST_F(LastCatch, AFaultThatComesAgainAndAgainOpensOneBox) {
   ASSERT_TRUE(QTest::qWaitFor([&] { return faults.count() >= 5; }, kPatience_ms));
   timer.stop();
   EXPECT_EQ(window.findChildren<QMessageBox*>("fault").size(), 1);
+}
+
+TEST(Start, ABadFileIsSaidAndTheWindowOpensAllTheSame) {
+  const QTemporaryDir home;
+  QFile bad(home.filePath("bad.json"));
+  ASSERT_TRUE(bad.open(QIODevice::WriteOnly));
+  bad.write("{ \"palp_design\": ");
+  bad.close();
+  QProcess studio;
+  QProcessEnvironment surroundings = QProcessEnvironment::systemEnvironment();
+  for (const char* place : {"XDG_CONFIG_HOME", "XDG_DATA_HOME", "HOME"}) surroundings.insert(place, home.path());
+  studio.setProcessEnvironment(surroundings);
+  studio.start(QCoreApplication::applicationDirPath() + "/palp-studio", {bad.fileName()});
+  QByteArray said;
+  ASSERT_TRUE(QTest::qWaitFor(
+      [&] {
+        said += studio.readAllStandardError();
+        return said.contains("bad.json") || studio.state() == QProcess::NotRunning;
+      },
+      kPatience_ms));
+  EXPECT_TRUE(said.contains("bad.json")) << said.toStdString();
+  EXPECT_FALSE(studio.waitForFinished(2000)) << "it ended instead of opening its window";
+  studio.kill();
+  studio.waitForFinished();
 }
 
 } // namespace

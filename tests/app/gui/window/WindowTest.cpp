@@ -154,17 +154,6 @@ TEST_F(Window, SolvesAgainAndDrawsAnotherPictureWhenAForceIsTyped) {
   EXPECT_NEAR(workbench.touch().fields()->displacement_mm.colwise().norm().maxCoeff(), deep, 1e-12 * deep);
 }
 
-TEST_F(Window, LoadsAnAreaByItsButtonAndTakesTheLoadAway) {
-  ASSERT_TRUE(solved());
-  QTest::mouseClick(&find<QPushButton>("area_4"), Qt::LeftButton);
-  ASSERT_EQ(workbench.project().load.areas.size(), 2u);
-  EXPECT_EQ(workbench.project().load.areas[1].area, 4);
-  QTest::mouseClick(&find<QPushButton>("clearLoad"), Qt::LeftButton);
-  ASSERT_EQ(workbench.project().load.areas.size(), 1u);
-  EXPECT_EQ(workbench.project().load.areas[0].area, 1);
-  EXPECT_TRUE(solved());
-}
-
 TEST_F(Window, ProbesThePointThatWasClicked) {
   ASSERT_TRUE(solved());
   settle();
@@ -291,15 +280,15 @@ TEST_F(Window, LightsTheElectrodesOfAClickedCell) {
 TEST_F(Window, ScrubsThroughTheLoadIncrementsDownToRest) {
   ASSERT_TRUE(solved());
   ASSERT_TRUE(idle());
-  const int last = workbench.touch().increment();
+  const int last = workbench.touch().place();
   ASSERT_GT(last, 0);
   find<QSlider>("increments").setValue(0);
-  ASSERT_TRUE(QTest::qWaitFor([&] { return workbench.touch().increment() == 0; }, kPatience_ms));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return workbench.touch().place() == 0; }, kPatience_ms));
   EXPECT_EQ(workbench.touch().loadFraction(), 0);
   EXPECT_EQ(workbench.touch().fields()->displacement_mm.cwiseAbs().maxCoeff(), 0);
   EXPECT_EQ(workbench.touch().stages().runs("solve"), 1) << "nothing is solved again";
   find<QSlider>("increments").setValue(last);
-  ASSERT_TRUE(QTest::qWaitFor([&] { return workbench.touch().increment() == last; }, kPatience_ms));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return workbench.touch().place() == last; }, kPatience_ms));
 }
 
 TEST_F(Window, ShowsARowWireAndTheTableOfElectrodes) {

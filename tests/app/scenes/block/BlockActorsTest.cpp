@@ -17,7 +17,7 @@ std::vector<int> numberedAreas(std::optional<double> clipY_mm, double moved_mm =
   BlockActors block(*renderer);
   block.setMesh(paperDesign(), mesh);
   DeformationOptions options;
-  options.clipY_mm = clipY_mm;
+  if (clipY_mm) options.cut = CutPlane{1, *clipY_mm};
   const Eigen::Vector3d displacement(0, moved_mm, 0);
   block.show(mesh, displacement.replicate(1, mesh.nodeCount()), {}, {}, options);
   std::vector<int> areas;
@@ -35,7 +35,7 @@ TEST(BlockActors, WriteNoNumberWhereTheBlockIsCutAway) {
 }
 
 TEST(BlockActors, CutTheBlockAsItIsDrawn) {
-  EXPECT_EQ(numberedAreas(10, 12), (std::vector{0, 1, 2, 3, 4, 5})); // numbers stand at y = 1.8 and 16.8 mm at rest
+  EXPECT_EQ(numberedAreas(10, 12), (std::vector{0, 1, 2, 3, 4, 5})); // numbers stand at y = 3 and 18 mm at rest
 }
 
 } // namespace

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "app/gui/jobs/JobRunner.h"
+#include "app/gui/project/Workbench.h"
+#include "app/study/reports/layout/DesignBounds.h"
+
+#include <QWidget>
+
+#include <optional>
+
+class QComboBox;
+class QLabel;
+class QPushButton;
+
+namespace palp {
+
+/// Searches places and depths of the electrodes that lower the noise floor, and takes them over by one click.
+class LayoutFinder : public QWidget {
+  Q_OBJECT
+
+public:
+  explicit LayoutFinder(Workbench& workbench, QWidget* parent = nullptr);
+
+  [[nodiscard]] JobRunner& runner() { return runner_; }
+  void displayProject();
+
+private:
+  struct Found {
+    SensorDesign from, layout;
+    double before_percent = 0, after_percent = 0;
+    DesignBounds before, after;
+  };
+  void search();
+  void takeOver();
+
+  Workbench& workbench_;
+  JobRunner runner_;
+  std::optional<Found> found_;
+  QComboBox* freedom_ = nullptr;
+  QPushButton* search_ = nullptr;
+  QPushButton* takeOver_ = nullptr;
+  QLabel* words_ = nullptr;
+};
+
+} // namespace palp

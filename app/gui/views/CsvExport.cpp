@@ -1,0 +1,40 @@
+#include "app/gui/views/CsvExport.h"
+
+#include "io/AtomicFile.h"
+#include "model/base/Error.h"
+
+#include <QFileDialog>
+#include <QMessageBox>
+
+#include <algorithm>
+
+namespace palp {
+
+QString csvCell(const QString& text) {
+  if (!text.contains(',') && !text.contains('"') && !text.contains('\n')) return text;
+  QString inner = text;
+  return '"' + inner.replace('"', "\"\"") + '"';
+}
+
+QString chartCsv(const ChartSpec& spec) {
+  const auto cell = [](const std::string& text) { return csvCell(QString::fromStdString(text)); };
+  QString csv = "series," + cell(spec.xLabel) + "," + cell(spec.yLabel) + "\n";
+  for (const ChartSeries& series : spec.series)
+    for (std::size_t k = 0; k < std::min(series.x.size(), series.y.size()); ++k)
+      csv += cell(series.name) + "," + QString::number(series.x[k], 'g', 17) + "," +
+             QString::number(series.y[k], 'g', 17) + "\n";
+  return csv;
+}
+
+void offerCsv(QWidget* parent, const QString& proposal, const QString& text) {
+  QString file =
+      QFileDialog::getSaveFileName(parent, QObject::tr("Save as CSV"), proposal, QObject::tr("Tables (*.csv)"));
+  if (file.isEmpty()) return;
+  try {
+    writeFile(file.toStdString(), text.toStdString(), true); // the dialog has asked
+  } catch (const Error& error) {
+    QMessageBox::warning(parent, QObject::tr("Save as CSV"), QString::fromStdString(error.what()));
+  }
+}
+
+} // namespace palp

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "app/scenes/charts/Chart.h"
+
+#include <QString>
+#include <QStringList>
+
+class QWidget;
+
+namespace palp {
+
+/// A cell of a CSV file: in quotation marks where it has to be.
+QString csvCell(const QString& text);
+/// Every point of every curve: `series,x,y`, the heads being the labels of the axes.
+QString chartCsv(const ChartSpec& spec);
+/// Asks for a file and writes the table there; says why where it cannot be written.
+void offerCsv(QWidget* parent, const QString& proposal, const QString& text);
+
+} // namespace palp

@@ -1,0 +1,79 @@
+#include "app/gui/views/DataTable.h"
+
+#include "app/gui/views/CsvExport.h"
+
+#include <QApplication>
+#include <QClipboard>
+#include <QContextMenuEvent>
+#include <QHeaderView>
+#include <QKeyEvent>
+#include <QMenu>
+
+namespace palp {
+
+DataTable::DataTable(const QString& file, QWidget* parent) : QTableWidget(parent), file_(file) {
+  setEditTriggers(QAbstractItemView::NoEditTriggers);
+  setSelectionMode(QAbstractItemView::ContiguousSelection);
+  setToolTip(tr("Mark cells and copy them with Ctrl+C; a right click saves all of it as CSV"));
+  verticalHeader()->hide();
+  horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+}
+
+void DataTable::show(const QStringList& heads, const std::vector<QStringList>& rows) {
+  setColumnCount(static_cast<int>(heads.size()));
+  setHorizontalHeaderLabels(heads);
+  setRowCount(static_cast<int>(rows.size()));
+  for (int row = 0; row < rowCount(); ++row)
+    for (int column = 0; column < columnCount(); ++column)
+      setItem(row, column, new QTableWidgetItem(rows[static_cast<std::size_t>(row)].value(column)));
+}
+
+QString DataTable::csv() const {
+  QStringList lines{{}};
+  for (int column = 0; column < columnCount(); ++column)
+    lines[0] += (column == 0 ? "" : ",") + csvCell(horizontalHeaderItem(column)->text());
+  for (int row = 0; row < rowCount(); ++row) {
+    QStringList cells;
+    for (int column = 0; column < columnCount(); ++column) cells << csvCell(item(row, column)->text());
+    lines << cells.join(',');
+  }
+  return lines.join('\n') + "\n";
+}
+
+QString DataTable::marked() const {
+  const QList<QTableWidgetSelectionRange> ranges = selectedRanges();
+  const bool all = ranges.isEmpty();
+  const QTableWidgetSelectionRange range =
+      all ? QTableWidgetSelectionRange(0, 0, rowCount() - 1, columnCount() - 1) : ranges.front();
+  QStringList lines, heads;
+  for (int column = range.leftColumn(); column <= range.rightColumn(); ++column)
+    heads << horizontalHeaderItem(column)->text();
+  if (all) lines << heads.join('\t');
+  for (int row = range.topRow(); row <= range.bottomRow(); ++row) {
+    QStringList cells;
+    for (int column = range.leftColumn(); column <= range.rightColumn(); ++column) cells << item(row, column)->text();
+    lines << cells.join('\t');
+  }
+  return lines.join('\n') + "\n";
+}
+
+void DataTable::copy() const {
+  QApplication::clipboard()->setText(marked());
+}
+
+void DataTable::keyPressEvent(QKeyEvent* event) {
+  if (event->matches(QKeySequence::Copy))
+    copy();
+  else
+    QTableWidget::keyPressEvent(event);
+}
+
+void DataTable::contextMenuEvent(QContextMenuEvent* event) {
+  QMenu menu(this);
+  menu.addAction(selectedRanges().isEmpty() ? tr("Copy all") : tr("Copy what is marked"), this, &DataTable::copy);
+  menu.addAction(tr("Mark all"), this, &QTableWidget::selectAll);
+  menu.addAction(tr("Save as CSV..."), this, [this] { offerCsv(this, file_, csv()); });
+  menu.exec(event->globalPos());
+}
+
+} // namespace palp

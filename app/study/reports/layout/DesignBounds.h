@@ -1,0 +1,22 @@
+#pragma once
+
+#include "app/study/reports/layout/LayoutBound.h"
+
+#include <optional>
+#include <stop_token>
+
+namespace palp {
+
+/// What a design resolves in the middle of its force range, from its own response: no samples are needed.
+struct DesignBounds {
+  LayoutBound centreRow; ///< of the row-wire in the middle alone
+  LayoutBound allRows;
+};
+
+DesignBounds designBounds(const SensorDesign& layout, const AreaResponse& response, double relativeNoise);
+
+/// The same for a design whose response is still to be solved. Empty where it was stopped.
+std::optional<DesignBounds> designBounds(const SensorDesign& design, const MeshOptions& mesh, double relativeNoise,
+                                         const ReportProgress& progress, const std::stop_token& stop);
+
+} // namespace palp

@@ -1,0 +1,45 @@
+#include "app/gui/project/ResultCsv.h"
+
+#include "io/DesignFile.h"
+#include "model/SensorDesign.h"
+
+#include <QStringList>
+
+#include <gtest/gtest.h>
+
+namespace palp {
+namespace {
+
+const LoadCase kLoad{{{1, {0.5, 0.25, -6}}}, {{{10, 12}, 2.5, {0, 0, -1}}}};
+
+/// The lines of a table below those that say what it was computed from.
+QStringList tableOf(const QString& text) {
+  QStringList lines = text.trimmed().split('\n');
+  while (lines.front().startsWith('#')) lines.removeFirst();
+  return lines;
+}
+
+TEST(ResultCsv, HoldsOneTableAFile) {
+  const SensorDesign design = paperDesign();
+  const ElectrodeDisplacements rest = ElectrodeDisplacements::atRest(design);
+  const QStringList electrodes = tableOf(electrodesCsv({design, kLoad}, rest));
+  ASSERT_EQ(electrodes.size(), 1 + 100);
+  const QStringList resistances = tableOf(resistancesCsv({design, kLoad}, rest));
+  ASSERT_EQ(resistances.size(), 1 + 300);
+  for (const QStringList& table : {electrodes, resistances})
+    for (const QString& line : table) EXPECT_EQ(line.count(','), table.front().count(',')) << line.toStdString();
+}
+
+TEST(ResultCsv, SaysTheLoadAndTheDesignItWasComputedFrom) {
+  SensorDesign design = paperDesign();
+  design.block_mm.z() = 6;
+  const QString text = resistancesCsv({design, kLoad, 0.5}, ElectrodeDisplacements::atRest(design));
+  EXPECT_TRUE(text.contains("# palp, share of the load 0.5\n"));
+  EXPECT_TRUE(text.contains("# load on area 1: (0.5, 0.25, -6) N\n"));
+  EXPECT_TRUE(text.contains("# load on a disc at (10, 12) mm with radius 2.5 mm: (0, 0, -1) N\n"));
+  const QString json = text.section("# design ", 1).section('\n', 0, 0);
+  EXPECT_EQ(parseDesign(json.toStdString(), "table"), design);
+}
+
+} // namespace
+} // namespace palp
