@@ -84,7 +84,8 @@ QWidget* LiveControlPanel::buildNetwork() {
   shipped_ = button(tr("The one of Palp"), "shippedNetwork",
                     tr("The network that ships with Palp: all rows of the paper's design, noise 5e-6 of R"));
   back_ = button(tr("Back"), "networkBack", tr("Back to the network that was in use before"));
-  column->addLayout(beside({open, shipped_, back_}));
+  column->addLayout(beside({open, shipped_}));
+  column->addWidget(back_);
   tareFrames_ = new QSpinBox;
   tareFrames_->setObjectName("tareFrames");
   tareFrames_->setRange(1, 100000);
@@ -178,6 +179,7 @@ QWidget* LiveControlPanel::buildAlarm() {
   for (QWidget* widget : {static_cast<QWidget*>(alarmOn_), static_cast<QWidget*>(alarmForce_),
                           static_cast<QWidget*>(alarmSide_), static_cast<QWidget*>(alarmLimit_)})
     row->addWidget(widget);
+  alarmLimit_->setMinimumWidth(72);
   connect(alarmOn_, &QCheckBox::toggled, this,
           [this](bool on) { edit(tr("alarm"), [&](LiveSettings& settings) { settings.alarmOn = on; }); });
   connect(alarmForce_, &QComboBox::currentIndexChanged, this, [this](int index) {
@@ -313,7 +315,8 @@ void LiveControlPanel::displayState(const LiveControlState& state) {
   const QString back = state.networkBefore.isEmpty() ? tr("Back to the network that was in use before")
                                                      : tr("Back to: %1").arg(state.networkBefore);
   if (back_->toolTip() != back) back_->setToolTip(back);
-  tare_->setText(status.taring ? tr("Waits for rest") : tr("Tare"));
+  tare_->setText(status.taring ? tr("Waits for rest") : status.tareSuggested ? tr("Tare: it drifted") : tr("Tare"));
+  tare_->setDefault(status.tareSuggested);
   clearTare_->setEnabled(status.tared);
   pause_->setChecked(state.paused);
   record_->setChecked(status.recording);

@@ -43,6 +43,7 @@ LiveCounters::LiveCounters(QWidget* parent) : QWidget(parent) {
   latency_ = add("liveLatency", tr("Latency [ms]"),
                  tr("From the board's clock at the last reading of a frame to the decoded force [ms], median / 99 % / "
                     "longest; offset and drift of the two clocks are taken out. Below: what this program takes of it, "
+                    "median / 99 %, "
                     "from the report's arrival to the force"));
   trust_ =
       add("liveTrust", tr("Trust"),
@@ -51,9 +52,11 @@ LiveCounters::LiveCounters(QWidget* parent) : QWidget(parent) {
              "all is well, and 1 % of good frames lie above the limit. Doubted: more than half of the last quarter "
              "of a second lies above it, or the force lies outside of what was trained: drift, hysteresis, several "
              "touches, or another sensor"));
-  climate_ = add("liveClimate", tr("Temperature"),
-                 tr("Of the board [degC]; relative noise of a reading: measured while taring, before that as the "
-                    "network was trained for"));
+  climate_ =
+      add("liveClimate", tr("Temperature"),
+          tr("Of the board [degC]; relative noise of a reading: measured while taring, before that from frame to "
+             "frame; drift: how far all readings have gone together since rest [millionths], seen while the "
+             "sensor is left alone. Where that reads as more than 1 % of the force range, a tare is suggested"));
   state_.unit->setProperty("mayBeCut", true); // its tip has all of it
   arrange(6);
 }
@@ -81,7 +84,7 @@ LiveCounters::Tile LiveCounters::add(const QString& name, const QString& title, 
   box->setProperty("role", "tile");
   box->setToolTip(tip);
   auto* column = new QVBoxLayout(box);
-  column->setContentsMargins(8, 4, 8, 4);
+  column->setContentsMargins(6, 4, 6, 4);
   column->setSpacing(0);
   auto* head = new QLabel(title);
   head->setProperty("role", "hint");
@@ -127,14 +130,24 @@ void LiveCounters::display(const LiveStatus& status, const LiveFrame* last, bool
     set(rate_, tr("%1 reports/s").arg(status.reportsPerSecond, 0, 'f', 0),
         wanted + tr("%1 frames/s").arg(status.framesPerSecond, 0, 'f', 0));
   set(losses_, QString("%1 / %2 / %3").arg(status.counts.lost).arg(status.counts.bad).arg(status.lateFrames),
-      tr("of %1 reports").arg(status.counts.reports), status.counts.lost + status.counts.bad > 0);
+      tr("of %1").arg(status.counts.reports), status.counts.lost + status.counts.bad > 0);
   set(latency_, triple(status.latency, status.counts.frames),
-      status.counts.frames == 0 ? QString() : tr("of it here %1").arg(triple(status.decoding, status.counts.frames)));
+      status.counts.frames == 0
+          ? QString()
+          : tr("here %1 / %2").arg(milliseconds(status.decoding.p50_s), milliseconds(status.decoding.p99_s)));
   displayTrust(last);
+  const QString drift = status.drift ? tr("%1 ppm").arg(1e6 * *status.drift, 0, 'f', 0) : QString();
+  const QString reads =
+      status.tareSuggested ? tr(" reads as %1 N: tare").arg(status.driftForce_N, 0, 'g', 2) : QString();
+  const QString noise =
+      status.noise > 0 ? tr("noise %1%2").arg(status.noise, 0, 'g', 2).arg(status.tared ? tr(", tared") : QString())
+                       : tr("noise not known");
   set(climate_,
       status.temperature_degC ? QString::fromUtf8("%1 \u00b0C").arg(*status.temperature_degC, 0, 'f', 1) : tr("none"),
-      status.noise > 0 ? tr("noise %1%2").arg(status.noise, 0, 'g', 2).arg(status.tared ? tr(", tared") : QString())
-                       : tr("noise not known"));
+      status.tareSuggested ? drift + reads
+      : drift.isEmpty()    ? noise
+                           : noise + ", " + drift,
+      status.tareSuggested);
 }
 
 } // namespace palp

@@ -82,7 +82,7 @@ int nearest(const std::vector<double>& places_mm, double x_mm) {
 HeatmapSpec changeHeatmap(const LiveFrame& frame, const std::string& restName, const LiveSettings& settings,
                           const std::optional<std::array<int, 2>>& selected) {
   HeatmapSpec spec;
-  spec.title = "Change of resistance since " + restName;
+  spec.title = "dR/R since " + restName;
   spec.values = kPercent * frame.change;
   spec.colors = {ColorMap::Diverging, -settings.change_percent, settings.change_percent, "dR/R", "%"};
   spec.selected = selected;

@@ -226,6 +226,7 @@ void LivePage::displayProject() {
   host_.setSettings(settings, workbench_.project().design);
   source_->display(settings);
   simulation_->display(settings);
+  block_->setPressable(host_.simulated() && settings.simulation.held);
   replay_->display(settings);
   control_->display(settings);
   if (isVisible()) draw();

@@ -35,6 +35,7 @@ LiveSourcePanel::LiveSourcePanel(QWidget* parent) : QWidget(parent) {
   column->setContentsMargins(0, 0, 0, 0);
   column->addWidget(buildDevices());
   column->addWidget(buildScan());
+  listDevices({}); // nothing moves when the first state comes
 }
 
 QWidget* LiveSourcePanel::buildDevices() {

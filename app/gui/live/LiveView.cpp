@@ -81,7 +81,7 @@ std::optional<Eigen::Vector2d> LiveView::topPlace(const QPointF& place) const {
   return parts_->scene.topPlace(device.x(), device.y());
 }
 
-bool LiveView::grab(const QPointF& place, Qt::KeyboardModifiers /*modifiers*/) {
+bool LiveView::grab(const QPointF& place, Qt::KeyboardModifiers) {
   if (!pressable_) return false;
   const std::optional<Eigen::Vector2d> at_mm = topPlace(place);
   if (!at_mm) return false;

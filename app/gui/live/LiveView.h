@@ -29,7 +29,7 @@ signals:
   void sheared(const Eigen::Vector2d& force_N);
 
 protected:
-  bool grab(const QPointF& place, Qt::KeyboardModifiers) override;
+  bool grab(const QPointF& place, Qt::KeyboardModifiers modifiers) override;
   void dragTo(const QPointF& place, Qt::KeyboardModifiers modifiers) override;
 
 private:

@@ -92,6 +92,8 @@ void SimulationPanel::buildTouch(QFormLayout& form) {
     force_[axis]->setRange(-kMostForce_N, kMostForce_N);
     force_[axis]->setDecimals(2);
     force_[axis]->setSingleStep(0.1);
+    force_[axis]->setButtonSymbols(QAbstractSpinBox::NoButtons); // three in a line
+    force_[axis]->setMinimumWidth(48);
     force_[axis]->setToolTip(tr("%1 of the touch [N]; a push is negative in z").arg(kNames[axis]));
     row->addWidget(force_[axis]);
     connect(force_[axis], &QDoubleSpinBox::valueChanged, this, [this, axis](double value) {

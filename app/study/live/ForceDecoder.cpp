@@ -182,6 +182,15 @@ DecodedForces ForceDecoder::decode(const BoardFrame& frame) {
   return decoded;
 }
 
+Eigen::Vector3d ForceDecoder::drifted_N(double relative) const {
+  if (rest_ohm_.size() == 0 || decoder_->outputs() != 3) return Eigen::Vector3d::Zero();
+  const Eigen::VectorXd rest_ohm = inputOf(rest_ohm_, decoder_->input);
+  Eigen::MatrixXd both(rest_ohm.size(), 2);
+  both << rest_ohm, rest_ohm * (1 + relative);
+  const Eigen::MatrixXd forces_N = (*predictor_)(both).forces_N;
+  return forces_N.col(1) - forces_N.col(0);
+}
+
 void ForceDecoder::judge(const BoardFrame& frame, const Prediction& prediction, const Eigen::VectorXd& readings_ohm,
                          DecodedForces& decoded) {
   PlausibilityInput input;

@@ -52,6 +52,10 @@ public:
   /// Why taring is impossible; empty where it is possible.
   [[nodiscard]] std::string tareProblem() const;
 
+  /// What a sensor at rest reads as where all its readings have gone by this factor since [N]; 0 where rest is not
+  /// known, or where the network gives several forces at once.
+  [[nodiscard]] Eigen::Vector3d drifted_N(double relative) const;
+
   /// Relative noise of the readings: measured while taring, before that from frame to frame, and then no less than the
   /// decoder was trained for.
   [[nodiscard]] double noise() const { return noise_; }

@@ -46,8 +46,8 @@ void LiveHistory::add(std::shared_ptr<const LiveFrame> frame) {
     const Entry& last = entries_.back();
     const double step_s = t_s - last.t_s;
     gap = frame->frame.restarted || frame->connection != last.frame->connection ||
-          (step_s > kGap_s && step_s > kGapPeriods * period_s_);
-    if (!gap) period_s_ = step_s;
+          (period_s_ > 0 && step_s > kGap_s && step_s > kGapPeriods * period_s_);
+    period_s_ = step_s;
   }
   entries_.push_back({t_s, std::move(frame), gap});
   while (entries_.size() > kMostFrames || entries_.back().t_s - entries_.front().t_s > kLongest_s) entries_.pop_front();

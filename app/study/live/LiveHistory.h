@@ -30,7 +30,7 @@ public:
 private:
   std::deque<Entry> entries_;
   std::shared_ptr<const LiveFrame> lastValid_;
-  double period_s_ = 0; ///< between the last two frames that follow each other
+  double period_s_ = 0; ///< between the last two frames; 0: there were none
   double offset_s_ = 0; ///< host's clock minus the device's
 };
 

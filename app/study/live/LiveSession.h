@@ -62,10 +62,13 @@ struct LiveStatus {
   std::optional<double> temperature_degC;
   std::string decoderProblem; ///< why there are no forces; empty where there are
   bool taring = false, tared = false;
-  std::string restName;  ///< what LiveFrame::change counts from
-  double noise = 0;      ///< relative, of the readings
-  std::string alarm;     ///< the alarm that is on, in words
-  std::string lastAlarm; ///< the last one that went off; `alarms` counts them
+  std::optional<double> drift; ///< relative, of all readings since rest; none: not seen at rest yet
+  double driftForce_N = 0;     ///< what the drift reads as
+  bool tareSuggested = false;  ///< it is more than 1 % of the force range
+  std::string restName;        ///< what LiveFrame::change counts from
+  double noise = 0;            ///< relative, of the readings
+  std::string alarm;           ///< the alarm that is on, in words
+  std::string lastAlarm;       ///< the last one that went off; `alarms` counts them
   std::uint64_t alarms = 0;
   bool recording = false;
   std::uint64_t recordedReports = 0, recordingDropped = 0;

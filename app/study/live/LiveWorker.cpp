@@ -14,6 +14,8 @@ constexpr auto kReadTimeout = std::chrono::milliseconds(100);
 constexpr auto kSearchInterval = std::chrono::milliseconds(100);
 constexpr double kStall_s = 0.25;
 constexpr double kLate_s = 0.02;
+constexpr double kDriftInterval_s = 0.5; // between two looks at what the drift reads as
+constexpr double kDriftShare = 0.01;     // of the force range, from which a tare is suggested
 constexpr int kStaleBeforeAsking = 20;
 constexpr double kAskAgain_s = 0.5;
 
@@ -206,6 +208,7 @@ void LiveWorker::takeFrame(const BoardFrame& frame) {
     watch(live->forces);
   }
   live->change = rest_.change(frame);
+  judgeDrift(*live);
   if (frame.restarted) latency_.restart();
   // What waited in the source before it was handed over counts too; a recording's times are its own.
   const double arrival_s = options_.replay ? arrival_s_ : std::min(arrival_s_, frame.hostTime_s);
@@ -230,6 +233,18 @@ void LiveWorker::watch(const DecodedForces& forces) {
   if (alarm_.words().empty()) return;
   status_.lastAlarm = *said;
   ++status_.alarms;
+}
+
+void LiveWorker::judgeDrift(const LiveFrame& live) {
+  if (!decoder_ || !live.forces.valid || decoder_->taring()) return drift_.restart();
+  drift_.add(live.change, decoder_->noise(), live.frame.time_s);
+  const double now_s = hostClock_s();
+  if (now_s < driftJudged_s_ + kDriftInterval_s) return;
+  driftJudged_s_ = now_s;
+  status_.drift = drift_.drift();
+  status_.driftForce_N = status_.drift ? decoder_->drifted_N(*status_.drift).norm() : 0;
+  const double range_N = (decoder_->decoder().high_N - decoder_->decoder().low_N).maxCoeff();
+  status_.tareSuggested = status_.driftForce_N > kDriftShare * range_N;
 }
 
 void LiveWorker::measureRates(double now_s) {
@@ -265,6 +280,9 @@ LiveStatus LiveWorker::status() {
 void LiveWorker::makeDecoder() {
   decoder_.reset();
   rest_.reset({});
+  drift_.restart();
+  status_.drift.reset();
+  status_.tareSuggested = false;
   status_.decoderProblem = options_.decoder ? "" : "no network: raw readings only";
   if (!options_.decoder || !status_.info) return;
   try {

@@ -2,6 +2,7 @@
 
 // Private to LiveSession: what its thread owns.
 
+#include "app/study/live/DriftMonitor.h"
 #include "app/study/live/LiveSession.h"
 #include "io/board/Hotplug.h"
 
@@ -44,6 +45,7 @@ private:
   void makeDecoder();
   void recordConfiguration();
   void watch(const DecodedForces& forces);
+  void judgeDrift(const LiveFrame& live);
   void measureRates(double now_s);
 
   LiveOptions options_;
@@ -59,6 +61,8 @@ private:
   std::optional<ForceDecoder> decoder_;
   RestReference rest_;
   AlarmWatch alarm_;
+  DriftMonitor drift_;
+  double driftJudged_s_ = 0; ///< host clock
   std::shared_ptr<RecordingWriter> writer_;
   LatencyMeter latency_, decoding_;
   RawReport report_;

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <sys/resource.h>
 
 #include <csignal>
@@ -181,6 +182,38 @@ TEST(ReplaySource, PlaysInItsOwnTimeOrFaster) {
     EXPECT_EQ(replayed(source), 30U);
     EXPECT_GE(hostClock_s() - start_s, 0.9 * 0.029 / speed); // never ahead of its time; how late is the machine's
   }
+}
+
+TEST(ReplaySource, GoesToAnyTimeOfTheRecordingAndPlaysALoop) {
+  const TemporaryFolder folder;
+  const std::vector<Bytes> reports = record(folder / "a");
+  auto control = std::make_shared<ReplayControl>();
+  control->speed = 0;
+  ReplaySource source(folder / "a", control);
+  EXPECT_NEAR(control->length_s, 0.029, 1e-9);
+  const auto next = [&] {
+    RawReport report;
+    EXPECT_EQ(source.read(report, std::chrono::milliseconds(1)), ReportSource::Outcome::Read);
+    return report.hostTime_s - 100;
+  };
+  control->seek(0.0195); // between two reports
+  EXPECT_NEAR(next(), 0.020, 1e-9);
+  EXPECT_TRUE(source.jumped());
+  EXPECT_FALSE(source.jumped());
+  control->seek(0.003); // back
+  EXPECT_NEAR(next(), 0.003, 1e-9);
+  EXPECT_NEAR(control->position_s, 0.003, 1e-9);
+  EXPECT_EQ(source.mark(), "") << "the mark lies ahead again";
+  EXPECT_EQ(replayed(source), 26U);
+  control->seek(1e9); // beyond its end: the last report
+  EXPECT_NEAR(next(), 0.029, 1e-9);
+
+  control->loopFrom_s = 0.0095;
+  control->loopTo_s = 0.0125;
+  control->loop = true;
+  std::vector<int> round;
+  for (int k = 0; k < 7; ++k) round.push_back(static_cast<int>(std::lround(1e3 * next())));
+  EXPECT_EQ(round, (std::vector<int>{10, 11, 12, 10, 11, 12, 10}));
 }
 
 TEST(ReplaySource, StandsStillWhilePaused) {

@@ -243,6 +243,26 @@ TEST_F(LiveOperator, SaysNothingAgainstTheUntouchedDemoAndDoubtsADriftingBoard) 
   EXPECT_EQ(find<QLabel>("liveTrust").property("role"), "problem");
 }
 
+TEST_F(LiveOperator, SuggestsATareWhereTheBoardHasDriftedUntilItIsDone) {
+  ASSERT_TRUE(waitForFrames());
+  find<QCheckBox>("touchHeld").click();
+  type<QDoubleSpinBox>("touch_Fz", "0");
+  type<QDoubleSpinBox>("warming", "20");
+  ASSERT_TRUE(wait([&] { return find<QPushButton>("tare").text() == "Tare: it drifted"; }));
+  EXPECT_TRUE(find<QLabel>("liveClimateUnit").text().contains("N: tare"));
+  type<QDoubleSpinBox>("warming", "0");
+  click("tare");
+  EXPECT_TRUE(wait([&] { return page.host().status().tared && find<QPushButton>("tare").text() == "Tare"; }));
+}
+
+TEST_F(LiveOperator, ThePanelsAreNoWiderThanTheirPlace) {
+  ASSERT_TRUE(waitForFrames());
+  for (const char* name : {"plug", "networkBack", "record", "alarmLimit", "forceScale", "touch_Fz", "openAgain"}) {
+    auto& widget = find<QWidget>(name);
+    EXPECT_LE(widget.mapTo(&page, QPoint(widget.width(), 0)).x(), 8 + 340) << name;
+  }
+}
+
 TEST_F(LiveOperator, TheSimulatedBoardSimulatesTheProjectsDesign) {
   Project small = workbench.project();
   small.design.lower.wire_mm.resize(12);
@@ -267,8 +287,9 @@ TEST_F(LiveOperator, PullingOutAndPluggingInMovesNoButton) {
   ASSERT_TRUE(waitForFrames());
   auto& plug = find<QPushButton>("plug");
   QPoint place;
-  ASSERT_TRUE(wait([&] { // until the panels have their first sizes
-    return std::exchange(place, plug.mapTo(&page, QPoint())) == plug.mapTo(&page, QPoint());
+  ASSERT_TRUE(wait([&] { // the layout is done
+    const QPoint before = std::exchange(place, plug.mapTo(&page, QPoint()));
+    return place == before && plug.isVisible();
   }));
   for (int k = 0; k < 2; ++k) {
     click("plug");

@@ -65,6 +65,26 @@ TEST(Calibration, RefinesMaximumLikelihoodToo) {
   EXPECT_EQ(predict(result.decoder, inputs).area, labelled.area);
 }
 
+TEST(Calibration, SaysThatALabelDoesNotBelongToItsFrame) {
+  const Decoder decoder = liveDecoder(5e-6);
+  SampleSet good = manySamples(10);
+  good.origin.mesh = "measured on a board";
+  const CalibrationReport right = calibrate(decoder, frames(10)).report;
+  EXPECT_TRUE(warningsOf(right).empty()) << warningsOf(right)[0];
+  EXPECT_LT(right.modelMismatch.value(), 0.2); // the labels are 10 % off
+  SampleSet mixed = good;                      // each frame under the label of another
+  for (Eigen::Index i = 0; i < mixed.size(); ++i) {
+    mixed.forces_N.col(i) = good.forces_N.col((i + 17) % mixed.size());
+    mixed.area(i) = good.area((i + 17) % mixed.size());
+  }
+  const CalibrationReport wrong = calibrate(decoder, mixed).report;
+  EXPECT_GT(wrong.modelMismatch.value(), 0.5);
+  std::string all;
+  for (const std::string& warning : warningsOf(wrong)) all += warning + "; ";
+  EXPECT_NE(all.find("the model under these labels"), std::string::npos) << all;
+  EXPECT_NE(all.find("off by"), std::string::npos) << all;
+}
+
 TEST(Calibration, RefusesWhatItCannotUse) {
   EXPECT_NE(refusal([] { calibrate(quickNetwork(), frames(1)); }).find("6 labelled frames"), std::string::npos);
   SampleSet other = frames(10);

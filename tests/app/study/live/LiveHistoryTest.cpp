@@ -50,6 +50,44 @@ TEST(LiveHistory, NeverRunsBackwardsNorGrowsWithoutEnd) {
   EXPECT_LE(history.entries().back().t_s - history.entries().front().t_s, LiveHistory::kLongest_s);
 }
 
+TEST(LiveHistory, KnowsWhereFramesAreMissing) {
+  LiveHistory history;
+  history.add(frame(1.00, 1.00));
+  history.add(frame(1.02, 1.02));
+  history.add(frame(2.00, 2.00)); // held for a second
+  history.add(frame(2.02, 2.02));
+  auto again = frame(2.04, 2.04);
+  again->connection = 1; // pulled out and put in again at once
+  history.add(again);
+  std::vector<bool> gaps;
+  for (const LiveHistory::Entry& entry : history.entries()) gaps.push_back(entry.gap);
+  EXPECT_EQ(gaps, (std::vector<bool>{false, false, true, false, true}));
+  LiveHistory slow;
+  for (int k = 0; k < 5; ++k) slow.add(frame(0.5 * k, 0.5 * k)); // a slow board misses nothing
+  EXPECT_FALSE(slow.entries().back().gap);
+}
+
+TEST(LiveHistory, HoldsNoMoreAfterThreeHoursThanAfterAMinute) {
+  constexpr double kRate_Hz = 100;
+  LiveHistory history;
+  std::weak_ptr<const LiveFrame> first;
+  const auto feed = [&](int from, int to) {
+    for (int k = from; k < to; ++k) {
+      auto live = frame(k / kRate_Hz, k / kRate_Hz);
+      live->forces.valid = true;
+      live->change = Eigen::MatrixXd::Zero(10, 30);
+      if (k == 0) first = live;
+      history.add(live);
+    }
+  };
+  feed(0, 60 * 100);
+  const std::size_t minute = history.entries().size();
+  feed(60 * 100, 3 * 3600 * 100);
+  EXPECT_LE(history.entries().size(), minute);
+  EXPECT_LE(history.entries().size(), LiveHistory::kMostFrames);
+  EXPECT_TRUE(first.expired()) << "an old frame is still held";
+}
+
 TEST(LiveHistory, WritesATimeThatNeverJumpsBackWithTheBoardsOwnBesideIt) {
   const TemporaryFolder folder;
   LiveHistory history;
@@ -100,6 +138,29 @@ TEST(LiveHistory, IsWrittenAsATableWithNothingWhereThereIsNothing) {
   EXPECT_NE(first.find("\"a \"\"b\"\"\""), std::string::npos) << first;
   EXPECT_NE(second.find(",,,,,,,0.125,,\"column-wire 1: open\""), std::string::npos) << second;
   EXPECT_THROW(writeLiveCsv("/no/such/folder/a.csv", history), Error);
+}
+
+TEST(LabelledFrames, RefuseALoadThatMovesAndKeepWhatTheNetworkSaid) {
+  const Decoder decoder = liveDecoder(5e-6);
+  LabelledFrames frames;
+  DecodedForces forces;
+  forces.valid = true;
+  forces.resistances_ohm = Eigen::MatrixXd::Constant(10, 30, 300);
+  const auto collect = [&](double slope_N) {
+    frames.begin(decoder, paperDesign(), {0, {0, 0, -2}}, 20);
+    for (int k = 0; k < 20; ++k) {
+      forces.forces_N = Eigen::Vector3d(0, 0, -2 + slope_N * k + (k % 2 == 0 ? 0.005 : -0.005));
+      frames.add(forces);
+    }
+  };
+  collect(0);
+  ASSERT_EQ(frames.samples().size(), 1);
+  EXPECT_NEAR(frames.said_N()(2, 0), -2, 1e-12);
+  const std::string why = refusal([&] { collect(0.02); });
+  EXPECT_NE(why.find("moved"), std::string::npos) << why;
+  EXPECT_NE(why.find("Fz"), std::string::npos) << why;
+  EXPECT_EQ(frames.samples().size(), 1);
+  EXPECT_FALSE(frames.collecting());
 }
 
 TEST(LabelledFrames, CollectsUnderALoadAndTakesFramesAway) {
