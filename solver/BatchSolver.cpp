@@ -54,6 +54,8 @@ struct BatchSolver::State {
     NewtonOptions newton;
     newton.threads = options.threads;
     newton.relativeTolerance = fullNewtonResidual;
+    if (engine) engine->rest(); // a tangent takes its place
+    newton.oneTangent = true;
     const Solution solution = problem.solve(load, newton, {.step = {}, .stop = stop});
     ++fullSolves;
     if (solution.cancelled) return {};

@@ -12,7 +12,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr int kWidth = 30;
 constexpr std::chrono::milliseconds kRedraw{100};
-/// Set by a program that shows the progress itself: "progress DONE TOTAL" a line.
+/// Set by a program that shows the progress itself: "progress DONE TOTAL WHAT" a line.
 constexpr const char* kLinesWanted = "PALP_PROGRESS_LINES";
 
 } // namespace
@@ -25,18 +25,18 @@ ProgressBar::~ProgressBar() {
   if (drawn_ && !lines_) std::fputs("\r\033[K", stderr);
 }
 
-void ProgressBar::show(std::size_t done) {
-  const Clock::time_point now = Clock::now();
-  if ((!terminal_ && !lines_) || total_ == 0 || (drawn_ && now - last_ < kRedraw)) return;
-  last_ = now;
+void ProgressBar::show(std::size_t done, const std::string& now) {
+  const Clock::time_point time = Clock::now();
+  if ((!terminal_ && !lines_) || total_ == 0 || (drawn_ && time - last_ < kRedraw)) return;
+  last_ = time;
   drawn_ = true;
   if (lines_) {
-    std::fprintf(stderr, "progress %zu %zu\n", done, total_);
+    std::fprintf(stderr, "progress %zu %zu%s%s\n", done, total_, now.empty() ? "" : " ", now.c_str());
     std::fflush(stderr);
     return;
   }
   const double share = static_cast<double>(done) / static_cast<double>(total_);
-  const double spent = std::chrono::duration<double>(now - start_).count();
+  const double spent = std::chrono::duration<double>(time - start_).count();
   const int filled = static_cast<int>(share * kWidth);
   std::string bar(static_cast<std::size_t>(filled), '#');
   bar.resize(kWidth, '.');

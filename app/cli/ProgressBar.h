@@ -13,7 +13,8 @@ public:
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
-  void show(std::size_t done);
+  /// `now`: what is being done, for a program that reads lines.
+  void show(std::size_t done, const std::string& now = {});
 
 private:
   std::string what_;

@@ -1,13 +1,19 @@
+#include "app/gui/document/Autosave.h"
+#include "app/gui/document/Document.h"
+#include "app/gui/document/Recovery.h"
 #include "app/gui/jobs/NetworkSession.h"
 #include "app/gui/project/ProjectFile.h"
 #include "app/gui/project/Workbench.h"
 #include "app/gui/window/Application.h"
+#include "app/gui/window/Layout.h"
 #include "app/gui/window/MainWindow.h"
 #include "app/gui/window/SceneCosts.h"
 #include "app/gui/window/Snapshot.h"
 #include "model/base/Error.h"
 
 #include <QCommandLineParser>
+#include <QScreen>
+#include <QTimer>
 
 #include <algorithm>
 #include <array>
@@ -51,7 +57,7 @@ Wish parse(const QApplication& application) {
   parser.addVersionOption();
   const QCommandLineOption scene("scene", "Open on this scene.", "NAME");
   const QCommandLineOption snapshot("snapshot", "Write a picture of the window when it is complete, and end.", "FILE");
-  const QCommandLineOption theme("theme", "light or dark.", "NAME");
+  const QCommandLineOption theme("theme", "light, dark or contrast.", "NAME");
   const QCommandLineOption costs(
       "costs", "Go through the scenes (or the one of --scene), print what each step costs as JSON, and end.");
   const QCommandLineOption size("mesh-size", "Size of the tetrahedra in the bulk [mm].", "MM");
@@ -70,15 +76,20 @@ Wish parse(const QApplication& application) {
 int run(palp::Application& application) {
   const Wish wish = parse(application);
   palp::Project project = palp::exampleProject();
-  if (!wish.file.isEmpty()) project = palp::loadProject(wish.file.toStdString(), project);
+  const bool unattended = wish.costs || !wish.snapshot.isEmpty();
+  bool readable = !wish.file.isEmpty();
+  try {
+    if (readable) project = palp::loadProject(wish.file.toStdString(), project);
+  } catch (const palp::Error& error) {
+    if (unattended) throw;
+    std::cerr << "palp-studio: " << error.what() << std::endl;
+    readable = false;
+  }
   if (wish.mesh.meshSize_mm || wish.mesh.mapped) project.mesh = wish.mesh;
   palp::Workbench workbench(project);
   palp::NetworkSession network;
   palp::MainWindow window(workbench, network);
-  if (!wish.theme.isEmpty() && wish.theme != "light" && wish.theme != "dark")
-    throw palp::Error("--theme " + wish.theme.toStdString() + ": allowed is light or dark");
-  if (!wish.theme.isEmpty()) window.setTheme(wish.theme == "dark" ? palp::Theme::Dark : palp::Theme::Light);
-  const bool unattended = wish.costs || !wish.snapshot.isEmpty();
+  if (!wish.theme.isEmpty()) window.setTheme(palp::kThemes.value(wish.theme.toStdString()));
   QObject::connect(&application, &palp::Application::faulted, &window, [&window, unattended](const QString& what) {
     if (unattended) std::_Exit(1); // nobody is there to read a box; standard error has the words
     palp::showFault(window, what);
@@ -91,8 +102,21 @@ int run(palp::Application& application) {
     palp::printSceneCosts(window, workbench, wish.scene);
     return 0;
   }
+  if (!unattended) palp::fitToScreen(window, window.screen()->availableGeometry());
   window.show();
-  if (!wish.snapshot.isEmpty()) palp::snapshotWhenComplete(window, workbench, wish.snapshot);
+  if (!wish.snapshot.isEmpty()) {
+    palp::snapshotWhenComplete(window, workbench, wish.snapshot);
+    return QApplication::exec();
+  }
+  if (readable) window.document().beganWith(wish.file);
+  const QString root = palp::Autosave::standardRoot();
+  palp::Autosave autosave(workbench, network, window.document(), root);
+  QObject::connect(&autosave, &palp::Autosave::failed, &window, &palp::MainWindow::showMessage);
+  QTimer::singleShot(0, &window, [&window, &wish, root, readable] {
+    // Other files of ours open where they belong; of those that are none the window says so and stays.
+    if (!wish.file.isEmpty() && !readable) window.document().open(wish.file);
+    palp::offerRecovery(window, root);
+  });
   return QApplication::exec();
 }
 

@@ -1,11 +1,15 @@
 #pragma once
 
+#include "model/base/NamedEnum.h"
+
 #include <array>
 
 namespace palp {
 
-/// Light or dark ground; everything drawn is readable on both.
-enum class Theme { Light, Dark };
+/// The ground; everything drawn is readable on each. Contrast: bright on black, for weak eyes and bad screens.
+enum class Theme { Light, Dark, Contrast };
+inline constexpr NamedEnum kThemes("theme", std::array{std::pair{Theme::Light, "light"}, std::pair{Theme::Dark, "dark"},
+                                                       std::pair{Theme::Contrast, "contrast"}});
 
 using Color = std::array<double, 3>; ///< red, green, blue in 0..1
 

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <memory>
+#include <utility>
 
 namespace palp {
 
@@ -11,7 +12,20 @@ namespace palp {
 struct ReplayControl {
   std::atomic<double> speed{1}; ///< times as fast as it was; 0 as fast as it can be read
   std::atomic<bool> paused{false};
-  std::atomic<int> steps{0}; ///< frames to go on while paused; the session counts them down
+  std::atomic<int> steps{0};         ///< frames to go on while paused; the session counts them down
+  std::atomic<double> length_s{0};   ///< of the recording, from its first report to its last; set by the source
+  std::atomic<double> position_s{0}; ///< that is reached; set by the source
+  std::atomic<bool> loop{false};     ///< between the next two, again and again
+  std::atomic<double> loopFrom_s{0}, loopTo_s{0};
+
+  /// Goes on from this time of the recording.
+  void seek(double to_s) { seek_s_ = to_s; }
+  /// A seek waits to be followed.
+  [[nodiscard]] bool sought() const { return seek_s_ >= 0; }
+
+private:
+  friend class ReplaySource;
+  std::atomic<double> seek_s_{-1}; ///< below 0: none
 };
 
 /// A recording as if it came from the board again: the same decoder takes it.
@@ -26,9 +40,15 @@ public:
   [[nodiscard]] std::string reason() const override;
   /// Text of the last mark that was passed; empty before the first.
   [[nodiscard]] const std::string& mark() const { return mark_; }
+  /// Since the last call it went to another place of the recording.
+  [[nodiscard]] bool jumped() { return std::exchange(jumped_, false); }
 
 private:
   void take(const RecordingEntry& entry);
+  void measure();
+  void follow();
+  void goTo(double to_s);
+  void skipToReport();
 
   std::filesystem::path path_;
   RecordingReader reader_;
@@ -39,6 +59,8 @@ private:
   double playedTo_s_ = 0; ///< host time of the recording that is reached
   double asked_s_ = 0;    ///< host clock when that was
   bool started_ = false;
+  bool jumped_ = false;
+  double first_s_ = 0, last_s_ = 0; ///< host time of the first and the last report
 };
 
 } // namespace palp

@@ -113,8 +113,22 @@ void BatchEngine::giveBack(std::unique_ptr<LoadBatch> batch) {
   idle_.push_back(std::move(batch));
 }
 
-/// False: stopped.
+void BatchEngine::rest() {
+  const std::lock_guard lock(mutex_);
+  idle_.clear();
+}
+
+/// Those of the areas that these loads do not touch are given back: they are the largest part of the memory (20 MB an
+/// area on the default mesh), and samples come area by area. False: stopped.
 bool BatchEngine::makePredictors(const std::vector<Job>& jobs, const std::stop_token& stop) {
+  std::vector<char> touched(predictors_.size(), 0);
+  for (const Job& job : jobs)
+    for (int area : job.predicted) touched[area] = 1;
+  for (std::size_t area = 0; area < predictors_.size(); ++area) {
+    if (touched[area]) continue;
+    predictors_[area].reset();
+    tried_[area] = 0;
+  }
   std::vector<int> wanted;
   for (const Job& job : jobs)
     for (int area : job.predicted)

@@ -32,6 +32,9 @@ public:
                                           const std::function<void(std::size_t)>& done, const std::stop_token& stop);
   [[nodiscard]] std::size_t solves() const { return solves_; }
 
+  /// Gives back what waits for the next call: the lanes' memory, which other work may need meanwhile.
+  void rest();
+
 private:
   /// A load as the engine sees it: the forces of its areas summed, those of them that have a predictor.
   struct Job {

@@ -110,6 +110,8 @@ Json frameJson(const LiveFrame& live) {
   if (forces.valid) {
     json["shown"] = forces.shown;
     json["outside_training_range"] = forces.outsideTrainingRange;
+    if (forces.misfit) json["misfit"] = *forces.misfit;
+    if (!forces.doubt.empty()) json["doubt"] = forces.doubt;
     if (forces.area) {
       json["area"] = *forces.area;
       json["area_confidence"] = forces.areaConfidence;

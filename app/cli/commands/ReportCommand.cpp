@@ -61,7 +61,8 @@ Exit run(ReportArguments& arguments, Session& session) {
   const auto kind = std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) { return k.name == arguments.kind; });
   ProgressBar bar("report " + arguments.kind, 1000);
   const ReportOutcome outcome = runReport(
-      *kind, request, [&](double share, const std::string&) { bar.show(static_cast<std::size_t>(1000 * share)); },
+      *kind, request,
+      [&](double share, const std::string& what) { bar.show(static_cast<std::size_t>(1000 * share), what); },
       session.stop, chartDrawer(session));
   session.stages.add(outcome.stages);
   session.warnings.insert(session.warnings.end(), outcome.warnings.begin(), outcome.warnings.end());

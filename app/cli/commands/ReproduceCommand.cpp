@@ -84,7 +84,8 @@ Exit run(const ReproduceArguments& arguments, Session& session) {
   ProgressBar bar("reproduce", 1000);
   const auto result = runPaperProtocol(
       design, figures(arguments.what), options,
-      [&](double share, const std::string&) { bar.show(static_cast<std::size_t>(1000 * share)); }, session.stop);
+      [&](double share, const std::string& what) { bar.show(static_cast<std::size_t>(1000 * share), what); },
+      session.stop);
   if (!result) return Exit::NoResult;
   session.stages.add(result->stages);
 

@@ -1,5 +1,6 @@
 #include "app/gui/jobs/NetworkSession.h"
 
+#include "app/gui/jobs/ResultFiles.h"
 #include "app/study/decoding/DecoderTraining.h"
 #include "app/study/paper/PaperProtocol.h"
 #include "app/study/touch/SampleGenerator.h"
@@ -289,14 +290,7 @@ void NetworkSession::drain() {
 void NetworkSession::open(const std::filesystem::path& file) {
   if (!upToDate()) throw Error("the network cannot be tried: there are no samples yet; generate samples first");
   const auto work = [this, file, samples = shown_.samples](const std::stop_token&, JobProgress&) -> JobRunner::Taking {
-    auto fit = std::make_shared<NetworkFit>();
-    fit->decoder = readNetwork(file);
-    fit->settings.input = fit->decoder.input.kind;
-    fit->settings.mode = fit->decoder.mode;
-    fit->settings.decoder = fit->decoder.kind;
-    fit->settings.spread = fit->decoder.report.spread;
-    fit->prediction = predict(fit->decoder, samples->test);
-    fit->error = decoderError(fit->decoder, fit->prediction, samples->test);
+    const auto fit = triedOn(readNetwork(file), *samples);
     return [this, fit, samples] {
       if (samples != shown_.samples) return;
       shown_.fit = fit;
@@ -304,6 +298,46 @@ void NetworkSession::open(const std::filesystem::path& file) {
     };
   };
   runner_.start(tr("Trying the network"), work);
+}
+
+void NetworkSession::openSamples(const std::vector<std::filesystem::path>& files) {
+  const auto work = [this, files, design = design_](const std::stop_token& stop, JobProgress&) -> JobRunner::Taking {
+    NetworkResults results;
+    results.design = design;
+    results.samples = std::make_shared<const NetworkSamples>(openSampleFiles(files, design, stop));
+    return [this, results] {
+      if (results.design == design_) show(results);
+    };
+  };
+  runner_.start(tr("Opening samples"), work);
+}
+
+void NetworkSession::openResults(const std::filesystem::path& folder, const std::function<void()>& opened) {
+  const auto work = [this, folder, opened, design = design_](const std::stop_token& stop,
+                                                             JobProgress&) -> JobRunner::Taking {
+    const NetworkResults results = palp::openResults(folder, design, stop);
+    return [this, results, opened] {
+      if (results.design != design_) return;
+      if (results.samples) show(results);
+      opened();
+    };
+  };
+  runner_.start(tr("Opening samples"), work);
+}
+
+void NetworkSession::saveSamples(const std::filesystem::path& file) {
+  writer_.start(tr("Saving samples"), [file, samples = shown_.samples](const auto&, JobProgress&) {
+    saveSampleFiles(file, *samples);
+    return JobRunner::Taking();
+  });
+}
+
+void NetworkSession::saveResults(const std::filesystem::path& folder,
+                                 const std::function<void(const NetworkResults&)>& saved) {
+  writer_.start(tr("Saving samples and network"), [folder, saved, results = shown_](const auto&, JobProgress&) {
+    palp::saveResults(folder, results);
+    return [saved, results] { saved(results); };
+  });
 }
 
 } // namespace palp

@@ -8,6 +8,7 @@
 #include <array>
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -18,7 +19,7 @@ namespace palp {
 struct NetworkSamples {
   SampleSet training;
   SampleSet test;
-  double batchError = 0; ///< relative, against full Newton
+  double batchError = 0; ///< relative, against full Newton; 0: not measured here
   SampleSettings settings;
 };
 
@@ -81,7 +82,16 @@ public:
   /// Tries a network from a file on the test samples; the job fails where it cannot be read or does not fit them.
   /// Throws Error where there are no samples.
   void open(const std::filesystem::path& file);
+  /// Samples of files in place of generated ones; the job fails where they cannot be (ResultFiles.h).
+  void openSamples(const std::vector<std::filesystem::path>& files);
+  /// What a folder keeps of this design, if anything; then `opened` is called.
+  void openResults(const std::filesystem::path& folder, const std::function<void()>& opened);
+  /// The samples in NAME.csv and NAME-test.csv; there must be some.
+  void saveSamples(const std::filesystem::path& file);
+  /// Samples and network in a folder; then `saved` is called with them.
+  void saveResults(const std::filesystem::path& folder, const std::function<void(const NetworkResults&)>& saved);
 
+  [[nodiscard]] const NetworkResults& results() const { return shown_; }
   [[nodiscard]] const NetworkSamples* samples() const { return shown_.samples.get(); }
   /// There are samples, and they are of the design as it is now.
   [[nodiscard]] bool upToDate() const { return shown_.samples && shown_.design == design_; }
@@ -97,6 +107,8 @@ public:
   [[nodiscard]] std::array<std::size_t, 2> stoppedAt() const;
   [[nodiscard]] const StageLog& stages() const { return stages_; }
   [[nodiscard]] JobRunner& runner() { return runner_; }
+  /// Writes files beside what runs.
+  [[nodiscard]] JobRunner& writer() { return writer_; }
 
 signals:
   void samplesChanged();
@@ -117,7 +129,7 @@ private:
   /// Shows other results, and keeps those that were shown while there is room.
   void show(NetworkResults results);
 
-  JobRunner runner_;
+  JobRunner runner_, writer_;
   SensorDesign design_;
   NetworkResults shown_;
   std::deque<NetworkResults> past_; ///< of other designs, the newest first

@@ -4,6 +4,7 @@
 #include "io/SampleFile.h"
 #include "model/base/Error.h"
 
+#include <QDateTime>
 #include <QDoubleSpinBox>
 #include <QFileDialog>
 #include <QFormLayout>
@@ -18,6 +19,7 @@
 #include <QVBoxLayout>
 
 #include <chrono>
+#include <cmath>
 
 namespace palp {
 
@@ -52,8 +54,10 @@ QString reportText(const Calibration& calibration, double age_days) {
                 .arg(report.rmseAfter_N(axis), 0, 'g', 3)
                 .arg(report.rmseAfter_percentOfRange(axis), 0, 'f', 2);
   text += QObject::tr("</table>Worst frame: %1, %2 N.").arg(report.worstSample).arg(report.worstError_N, 0, 'g', 3);
-  if (!report.improved)
-    text += QObject::tr(" <b>On frames that it has not seen, it is no better than the network before.</b>");
+  for (const std::string& warning : warningsOf(report))
+    text = QObject::tr("<p style='color:#d4303c'><b>A bad fit: %1.</b></p>")
+               .arg(QString::fromStdString(warning).toHtmlEscaped()) +
+           text;
   if (report.coverage_percent.minCoeff() < 50)
     text += QObject::tr(" The labels cover less than half of the force range in some direction.");
   return text;
@@ -67,17 +71,16 @@ LiveCalibration::LiveCalibration(LiveHost& host, QWidget* parent) : QWidget(pare
   row->addWidget(buildLabel());
   row->addWidget(buildFrames(), 2);
   row->addWidget(buildFit(), 3);
-  connect(&runner_, &JobRunner::failed, this, [this](const QString& sentence) {
-    report_->setText(sentence);
-    emit message(sentence);
-  });
+  connect(&runner_, &JobRunner::failed, this, [this](const QString& sentence) { complain(sentence); });
   connect(&host_, &LiveHost::decoderChanged, this, [this] {
     const SensorDesign& sensor = host_.sensor();
     area_->setRange(0, std::max(0, sensor.areas.count() - 1));
     displayFrames();
+    displayState();
   });
   displayFrames();
   displayFit();
+  displayState();
 }
 
 QWidget* LiveCalibration::buildLabel() {
@@ -106,27 +109,36 @@ QWidget* LiveCalibration::buildLabel() {
   form->addRow(tr("Mean of"), count_);
   collect_ = button(tr("Collect"), "collect", tr("Averages the next frames under this load"));
   form->addRow(collect_);
+  problem_ = new QLabel;
+  problem_->setObjectName("calibrationProblem");
+  problem_->setWordWrap(true);
+  problem_->setProperty("role", "problem");
+  problem_->hide();
   progress_ = new QProgressBar;
   progress_->setMaximumHeight(10);
   progress_->setTextVisible(false);
   form->addRow(progress_);
+  form->addRow(problem_);
   connect(collect_, &QPushButton::clicked, this, &LiveCalibration::collect);
   return box;
 }
 
 QWidget* LiveCalibration::buildFrames() {
-  auto* box = new QGroupBox(tr("Labelled frames"));
+  auto* box = new QGroupBox(tr("Labelled frames [N]"));
   auto* column = new QVBoxLayout(box);
-  table_ = new QTableWidget(0, 4);
+  table_ = new QTableWidget(0, 7);
   table_->setObjectName("labelledFrames");
-  table_->setHorizontalHeaderLabels({tr("area"), tr("Fx [N]"), tr("Fy [N]"), tr("Fz [N]")});
+  table_->setHorizontalHeaderLabels(
+      {tr("area"), tr("Fx"), tr("Fy"), tr("Fz"), tr("said Fx"), tr("said Fy"), tr("said Fz")});
   table_->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
+  table_->horizontalHeader()->setMinimumSectionSize(24);
+  table_->setToolTip(tr("The known loads, and beside them what the network in use said of the frames, their mean [N]"));
   table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
   column->addWidget(table_, 1);
   auto* row = new QHBoxLayout;
-  auto* load = button(tr("Load CSV..."), "loadFrames", tr("Adds the frames of palp listen --label ... --append"));
-  saveFrames_ = button(tr("Save CSV..."), "saveFrames", tr("For palp calibrate"));
+  auto* load = button(tr("Load CSV..."), "loadFrames", tr("Adds the labelled frames of a file"));
+  saveFrames_ = button(tr("Save CSV..."), "saveFrames", tr("Keeps the labelled frames in a file"));
   remove_ = button(tr("Remove"), "removeFrame", tr("Takes the selected frame away"));
   for (QPushButton* push : {load, saveFrames_, remove_}) row->addWidget(push);
   column->addLayout(row);
@@ -158,13 +170,15 @@ QWidget* LiveCalibration::buildFit() {
   fit_ = button(tr("Fit"), "fitCalibration",
                 tr("Gains and offset of the network's forces by recursive least squares, judged on frames left out"));
   use_ = button(tr("Use"), "useCalibration", tr("Decodes with the refined network from now on"));
-  saveNetwork_ = button(tr("Save network..."), "saveCalibration", tr("For palp listen --network"));
-  for (QPushButton* push : {fit_, use_, saveNetwork_}) row->addWidget(push);
+  saveNetwork_ = button(tr("Save network..."), "saveCalibration", tr("Keeps the refined network in a file"));
+  back_ = button(tr("Back"), "backFromCalibration", tr("Decodes with the network before again"));
+  for (QPushButton* push : {fit_, use_, back_, saveNetwork_}) row->addWidget(push);
   column->addLayout(row);
   connect(fit_, &QPushButton::clicked, this, &LiveCalibration::fit);
-  connect(use_, &QPushButton::clicked, this, [this] {
-    host_.useDecoder(calibration_->decoder);
-    emit message(tr("Decoding with the refined network."));
+  connect(use_, &QPushButton::clicked, this, &LiveCalibration::use);
+  connect(back_, &QPushButton::clicked, this, [this] {
+    host_.backToNetwork();
+    emit message(tr("Decoding with %1 again.").arg(host_.networkName()));
   });
   connect(saveNetwork_, &QPushButton::clicked, this, [this] {
     const QString file = QFileDialog::getSaveFileName(this, tr("Save network"), "better.json", tr("Networks (*.json)"));
@@ -177,9 +191,30 @@ void LiveCalibration::guarded(const std::function<void()>& act) {
   try {
     act();
   } catch (const std::exception& refusal) {
-    emit message(QString::fromStdString(refusal.what()));
+    complain(QString::fromStdString(refusal.what()));
   }
   displayFrames();
+}
+
+/// Red, where one looks, until the next try.
+void LiveCalibration::complain(const QString& sentence) {
+  problem_->setText(sentence);
+  problem_->setVisible(!sentence.isEmpty());
+  if (!sentence.isEmpty()) emit message(sentence);
+}
+
+void LiveCalibration::use() {
+  const QString name = tr("calibrated, %1 frames, %2")
+                           .arg(calibration_->report.samples)
+                           .arg(QDateTime::currentDateTime().toString("yyyy-MM-dd HH:mm"));
+  host_.useDecoder(calibration_->decoder, name);
+  emit message(tr("Decoding with the network %1; %2 can be had back.").arg(name, host_.networkBefore()));
+}
+
+void LiveCalibration::displayState() {
+  const QString& before = host_.networkBefore();
+  back_->setEnabled(!before.isEmpty());
+  back_->setText(before.isEmpty() ? tr("Back") : tr("Back to %1").arg(before.section(',', 0, 0)));
 }
 
 void LiveCalibration::load(const std::filesystem::path& file) {
@@ -195,13 +230,14 @@ void LiveCalibration::load(const std::filesystem::path& file) {
 }
 
 void LiveCalibration::collect() {
+  complain({});
   if (frames_.collecting()) {
     frames_.stop();
     displayFrames();
     return;
   }
   if (!host_.decoder()) {
-    emit message(tr("There is no network: it says of which design the frames are."));
+    complain(tr("There is no network: it says of which design the frames are."));
     return;
   }
   guarded([&] {
@@ -232,13 +268,17 @@ void LiveCalibration::displayFrames() {
   table_->setRowCount(static_cast<int>(samples.size()));
   for (int row = 0; row < table_->rowCount(); ++row) {
     table_->setItem(row, 0, new QTableWidgetItem(QString::number(samples.area(row))));
-    for (int d = 0; d < 3; ++d)
+    for (int d = 0; d < 3; ++d) {
       table_->setItem(row, d + 1, new QTableWidgetItem(QString::number(samples.forces_N(d, row), 'g', 5)));
+      const double said_N = frames_.said_N()(d, row);
+      table_->setItem(row, d + 4, new QTableWidgetItem(std::isnan(said_N) ? "" : QString::number(said_N, 'f', 3)));
+    }
   }
   table_->scrollToBottom();
 }
 
 void LiveCalibration::fit() {
+  complain({});
   if (!host_.decoder()) return;
   runner_.start(tr("Refining the network"),
                 [this, decoder = *host_.decoder(), frames = frames_.samples()](const std::stop_token&, JobProgress&) {

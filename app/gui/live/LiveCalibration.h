@@ -28,6 +28,8 @@ public:
   [[nodiscard]] const LabelledFrames& frames() const { return frames_; }
   [[nodiscard]] const std::optional<Calibration>& calibration() const { return calibration_; }
   [[nodiscard]] JobRunner& runner() { return runner_; }
+  /// What is in use, and what can be had back.
+  void displayState();
 
 signals:
   void message(const QString& sentence);
@@ -41,7 +43,9 @@ private:
   void displayFrames();
   void fit();
   void displayFit();
+  void use();
   void guarded(const std::function<void()>& act);
+  void complain(const QString& sentence);
 
   LiveHost& host_;
   LabelledFrames frames_;
@@ -59,6 +63,8 @@ private:
   QPushButton* saveFrames_ = nullptr;
   QPushButton* fit_ = nullptr;
   QPushButton* use_ = nullptr;
+  QPushButton* back_ = nullptr;
+  QLabel* problem_ = nullptr;
   QPushButton* saveNetwork_ = nullptr;
   QLabel* report_ = nullptr;
   JobRunner runner_;

@@ -2,9 +2,11 @@
 
 #include "app/gui/window/SpinBoxes.h"
 
+#include <QCheckBox>
 #include <QComboBox>
 #include <QDir>
 #include <QDoubleSpinBox>
+#include <QFile>
 #include <QFileDialog>
 #include <QFormLayout>
 #include <QGroupBox>
@@ -14,6 +16,7 @@
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QSpinBox>
+#include <QStyle>
 #include <QVBoxLayout>
 
 namespace palp {
@@ -45,6 +48,13 @@ QHBoxLayout* beside(std::initializer_list<QWidget*> widgets) {
   return row;
 }
 
+void setRole(QLabel& label, const char* role) {
+  if (label.property("role").toString() == role) return;
+  label.setProperty("role", role);
+  label.style()->unpolish(&label);
+  label.style()->polish(&label);
+}
+
 void setText(QLabel& label, const QString& text) {
   if (label.text() != text) label.setText(text);
   label.setVisible(!text.isEmpty());
@@ -57,6 +67,7 @@ LiveControlPanel::LiveControlPanel(QWidget* parent) : QWidget(parent) {
   column->setContentsMargins(0, 0, 0, 0);
   column->addWidget(buildNetwork());
   column->addWidget(buildRecording());
+  column->addWidget(buildAlarm());
   column->addWidget(buildScales());
   column->addStretch(1);
 }
@@ -68,10 +79,12 @@ QWidget* LiveControlPanel::buildNetwork() {
   networkProblem_ = words("networkProblem", "problem");
   column->addWidget(network_);
   column->addWidget(networkProblem_);
-  auto* open = button(tr("Open..."), "chooseNetwork", tr("A network that was trained with --input resistance"));
+  auto* open = button(tr("Open..."), "chooseNetwork",
+                      tr("A network that reads resistances; one that cannot be used leaves this one"));
   shipped_ = button(tr("The one of Palp"), "shippedNetwork",
                     tr("The network that ships with Palp: all rows of the paper's design, noise 5e-6 of R"));
-  column->addLayout(beside({open, shipped_}));
+  back_ = button(tr("Back"), "networkBack", tr("Back to the network that was in use before"));
+  column->addLayout(beside({open, shipped_, back_}));
   tareFrames_ = new QSpinBox;
   tareFrames_->setObjectName("tareFrames");
   tareFrames_->setRange(1, 100000);
@@ -84,6 +97,7 @@ QWidget* LiveControlPanel::buildNetwork() {
   connect(open, &QPushButton::clicked, this, &LiveControlPanel::chooseNetwork);
   connect(shipped_, &QPushButton::clicked, this,
           [this] { edit(tr("network"), [](LiveSettings& settings) { settings.network.clear(); }); });
+  connect(back_, &QPushButton::clicked, this, &LiveControlPanel::backAsked);
   connect(tare_, &QPushButton::clicked, this, &LiveControlPanel::tareAsked);
   connect(clearTare_, &QPushButton::clicked, this, &LiveControlPanel::clearTareAsked);
   connect(tareFrames_, &QSpinBox::valueChanged, this, [this](int value) {
@@ -97,7 +111,8 @@ QWidget* LiveControlPanel::buildRecording() {
   auto* column = new QVBoxLayout(box);
   file_ = new QLineEdit(QDir::home().filePath("touch.palprec"));
   file_->setObjectName("recordFile");
-  file_->setToolTip(tr("File for the raw reports; one that exists is never overwritten"));
+  file_->setToolTip(
+      tr("File for the raw reports; where it exists the next recording gets the date and time in its name"));
   auto* choose = button(tr("..."), "chooseRecordFile", tr("Chooses the file"));
   choose->setMaximumWidth(32);
   column->addLayout(beside({file_, choose}));
@@ -120,7 +135,9 @@ QWidget* LiveControlPanel::buildRecording() {
   connect(choose, &QPushButton::clicked, this, [this] {
     const QString file =
         QFileDialog::getSaveFileName(this, tr("Record to"), file_->text(), tr("Recordings (*.palprec)"));
-    if (!file.isEmpty()) file_->setText(file);
+    if (file.isEmpty()) return;
+    file_->setText(file.endsWith(".palprec") ? file : file + ".palprec");
+    replaceable_ = QFile::exists(file) ? file_->text() : QString(); // the dialog has asked
   });
   connect(record_, &QPushButton::clicked, this, &LiveControlPanel::record);
   connect(pause_, &QPushButton::clicked, this, [this] { emit pauseAsked(pause_->isChecked()); });
@@ -133,6 +150,44 @@ QWidget* LiveControlPanel::buildRecording() {
     const QString file = QFileDialog::getSaveFileName(this, tr("Export CSV"), "live.csv", tr("Tables (*.csv)"));
     if (!file.isEmpty()) emit exportAsked(file);
   });
+  return box;
+}
+
+QWidget* LiveControlPanel::buildAlarm() {
+  auto* box = new QGroupBox(tr("Alarm"));
+  auto* row = new QHBoxLayout(box);
+  alarmOn_ = new QCheckBox;
+  alarmOn_->setObjectName("alarmOn");
+  alarmOn_->setAccessibleName(tr("Alarm"));
+  alarmOn_->setToolTip(tr("Says where the decoded force passes the limit, marks it in the curves and in a recording"));
+  alarmForce_ = new QComboBox;
+  alarmForce_->setObjectName("alarmForce");
+  for (const auto& [value, text] : kForceQuantities.all()) alarmForce_->addItem(text, static_cast<int>(value));
+  alarmForce_->setToolTip(tr("Which force is watched; |F| is its size"));
+  alarmSide_ = new QComboBox;
+  alarmSide_->setObjectName("alarmSide");
+  for (const auto& [value, text] : kAlarmSides.all()) alarmSide_->addItem(tr(text), static_cast<int>(value));
+  alarmSide_->setToolTip(tr("On which side of the limit the alarm goes off; a push is negative in z"));
+  alarmLimit_ = new QDoubleSpinBox;
+  alarmLimit_->setObjectName("alarmLimit");
+  alarmLimit_->setRange(-1000, 1000);
+  alarmLimit_->setDecimals(2);
+  alarmLimit_->setSingleStep(0.5);
+  alarmLimit_->setSuffix(tr(" N"));
+  alarmLimit_->setToolTip(tr("The limit [N]; the alarm is over where the force has come back by 5 % of it"));
+  for (QWidget* widget : {static_cast<QWidget*>(alarmOn_), static_cast<QWidget*>(alarmForce_),
+                          static_cast<QWidget*>(alarmSide_), static_cast<QWidget*>(alarmLimit_)})
+    row->addWidget(widget);
+  connect(alarmOn_, &QCheckBox::toggled, this,
+          [this](bool on) { edit(tr("alarm"), [&](LiveSettings& settings) { settings.alarmOn = on; }); });
+  connect(alarmForce_, &QComboBox::currentIndexChanged, this, [this](int index) {
+    edit(tr("alarm"), [&](LiveSettings& s) { s.alarm.quantity = static_cast<ForceQuantity>(index); });
+  });
+  connect(alarmSide_, &QComboBox::currentIndexChanged, this, [this](int index) {
+    edit(tr("alarm"), [&](LiveSettings& settings) { settings.alarm.side = static_cast<AlarmSide>(index); });
+  });
+  connect(alarmLimit_, &QDoubleSpinBox::valueChanged, this,
+          [this](double value) { edit(tr("alarm"), [&](LiveSettings& settings) { settings.alarm.limit_N = value; }); });
   return box;
 }
 
@@ -159,6 +214,22 @@ QWidget* LiveControlPanel::buildScales() {
   form->addRow(tr("Arrows"), arrow_);
   form->addRow(tr("dR/R"), change_);
   form->addRow(tr("Curves"), window_);
+  force_ = new QComboBox;
+  force_->setObjectName("forceScale");
+  force_->addItem(tr("range of the network"), 0.0);
+  force_->addItem(tr("automatic"), -1.0);
+  for (const double newton : {0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0})
+    force_->addItem(QString::fromUtf8("\u00b1%1 N").arg(newton), newton);
+  force_->setToolTip(
+      tr("Scale of the force curves: the range the network was trained for, what the curves need, or fixed"));
+  form->addRow(tr("Force"), force_);
+  connect(force_, &QComboBox::currentIndexChanged, this, [this] {
+    const double value = force_->currentData().toDouble();
+    edit(tr("scale of the force"), [&](LiveSettings& settings) {
+      settings.forceScale = value > 0 ? ForceScale::Fixed : value < 0 ? ForceScale::Automatic : ForceScale::Network;
+      if (value > 0) settings.force_N = value;
+    });
+  });
   connect(arrow_, &QDoubleSpinBox::valueChanged, this, [this](double value) {
     edit(tr("scale of the arrows"), [&](LiveSettings& settings) { settings.arrow_mm_per_N = value; });
   });
@@ -190,7 +261,8 @@ QString LiveControlPanel::markText() const {
 
 void LiveControlPanel::record() {
   if (record_->isChecked()) {
-    emit recordAsked(file_->text());
+    const QString file = file_->text();
+    emit recordAsked(file, file == std::exchange(replaceable_, QString()));
   } else {
     emit stopRecordingAsked();
   }
@@ -198,7 +270,12 @@ void LiveControlPanel::record() {
 
 void LiveControlPanel::display(const LiveSettings& settings) {
   settings_ = settings;
-  const QSignalBlocker quietChange(change_), quietWindow(window_), quietTare(tareFrames_);
+  const QSignalBlocker quietForce(force_), quietChange(change_), quietWindow(window_), quietTare(tareFrames_);
+  const QSignalBlocker quietOn(alarmOn_), quietWhich(alarmForce_), quietSide(alarmSide_), quietLimit(alarmLimit_);
+  alarmOn_->setChecked(settings.alarmOn);
+  alarmForce_->setCurrentIndex(static_cast<int>(settings.alarm.quantity));
+  alarmSide_->setCurrentIndex(static_cast<int>(settings.alarm.side));
+  showExactly(*alarmLimit_, settings.alarm.limit_N);
   showExactly(*arrow_, settings.arrow_mm_per_N);
   window_->setValue(static_cast<int>(settings.window_s));
   tareFrames_->setValue(settings.tareFrames);
@@ -208,25 +285,50 @@ void LiveControlPanel::display(const LiveSettings& settings) {
     place = change_->count() - 1;
   }
   change_->setCurrentIndex(place);
+  const double force = settings.forceScale == ForceScale::Fixed       ? settings.force_N
+                       : settings.forceScale == ForceScale::Automatic ? -1
+                                                                      : 0;
+  if (force_->findData(force) < 0) force_->addItem(QString::fromUtf8("\u00b1%1 N").arg(force), force);
+  force_->setCurrentIndex(force_->findData(force));
   shipped_->setEnabled(!settings.network.empty());
 }
 
-void LiveControlPanel::displayState(const LiveStatus& status, bool paused, const QString& network) {
-  setText(*network_, network);
-  setText(*networkProblem_, QString::fromStdString(status.decoderProblem));
+void LiveControlPanel::displayNetworkProblem(const QString& sentence) {
+  networkRefused_ = sentence;
+  setText(*networkProblem_, sentence);
+}
+
+void LiveControlPanel::displayRecording(const QString& file, const QString& problem) {
+  if (problem.isEmpty()) file_->setText(file);
+  recordingProblem_ = problem;
+  if (!problem.isEmpty()) record_->setChecked(false);
+}
+
+void LiveControlPanel::displayState(const LiveControlState& state) {
+  const LiveStatus& status = state.status;
+  setText(*network_, state.network);
+  setText(*networkProblem_,
+          networkRefused_.isEmpty() ? QString::fromStdString(status.decoderProblem) : networkRefused_);
+  back_->setEnabled(!state.networkBefore.isEmpty());
+  const QString back = state.networkBefore.isEmpty() ? tr("Back to the network that was in use before")
+                                                     : tr("Back to: %1").arg(state.networkBefore);
+  if (back_->toolTip() != back) back_->setToolTip(back);
   tare_->setText(status.taring ? tr("Waits for rest") : tr("Tare"));
   clearTare_->setEnabled(status.tared);
-  pause_->setChecked(paused);
+  pause_->setChecked(state.paused);
   record_->setChecked(status.recording);
   record_->setText(status.recording ? tr("Stop recording") : tr("Record"));
   QString recorded;
-  if (!status.recordingFailure.empty())
-    recorded = QString::fromStdString(status.recordingFailure);
+  const QString problem =
+      recordingProblem_.isEmpty() ? QString::fromStdString(status.recordingFailure) : recordingProblem_;
+  if (!problem.isEmpty())
+    recorded = problem;
   else if (status.recording)
     recorded = tr("%1 reports, %2 MB; %3 dropped")
                    .arg(status.recordedReports)
                    .arg(static_cast<double>(status.recordedReports) * kRecordedReport / kMegabyte, 0, 'f', 1)
                    .arg(status.recordingDropped);
+  setRole(*recorded_, problem.isEmpty() ? "hint" : "problem");
   setText(*recorded_, recorded);
 }
 

@@ -7,6 +7,7 @@
 
 #include <functional>
 
+class QCheckBox;
 class QComboBox;
 class QDoubleSpinBox;
 class QLabel;
@@ -16,6 +17,14 @@ class QSpinBox;
 
 namespace palp {
 
+/// What the panel shows of the running session.
+struct LiveControlState {
+  LiveStatus status;
+  bool paused = false;
+  QString network;       ///< in words: name, decoder, wires, noise
+  QString networkBefore; ///< the one that can be had back; empty: none
+};
+
 /// What is done with the frames: network, tare, recording, marks, and the scales of the views.
 class LiveControlPanel : public QWidget {
   Q_OBJECT
@@ -24,8 +33,11 @@ public:
   explicit LiveControlPanel(QWidget* parent = nullptr);
 
   void display(const LiveSettings& settings);
-  /// `network` in words: decoder, wires, noise.
-  void displayState(const LiveStatus& status, bool paused, const QString& network);
+  void displayState(const LiveControlState& state);
+  /// Why the network that was chosen is not in use; stays until another is.
+  void displayNetworkProblem(const QString& sentence);
+  /// What is recorded to, or why nothing is.
+  void displayRecording(const QString& file, const QString& problem);
   /// Text for the next mark.
   [[nodiscard]] QString markText() const;
 
@@ -35,13 +47,17 @@ signals:
   void clearTareAsked();
   void pauseAsked(bool paused);
   void markAsked(const QString& text);
-  void recordAsked(const QString& file);
+  /// The network before is wanted back.
+  void backAsked();
+  /// `replace`: the user has said that a file of this name may go.
+  void recordAsked(const QString& file, bool replace);
   void stopRecordingAsked();
   void exportAsked(const QString& file);
 
 private:
   QWidget* buildNetwork();
   QWidget* buildRecording();
+  QWidget* buildAlarm();
   QWidget* buildScales();
   void edit(const QString& what, const std::function<void(LiveSettings&)>& change);
   void chooseNetwork();
@@ -51,6 +67,8 @@ private:
   QLabel* network_ = nullptr;
   QLabel* networkProblem_ = nullptr;
   QPushButton* shipped_ = nullptr;
+  QPushButton* back_ = nullptr;
+  QString networkRefused_;
   QSpinBox* tareFrames_ = nullptr;
   QPushButton* tare_ = nullptr;
   QPushButton* clearTare_ = nullptr;
@@ -58,10 +76,17 @@ private:
   QLineEdit* file_ = nullptr;
   QPushButton* record_ = nullptr;
   QLabel* recorded_ = nullptr;
+  QString replaceable_;      ///< the file that the user said may go
+  QString recordingProblem_; ///< stays until the next recording
   QLineEdit* mark_ = nullptr;
   int marks_ = 0;
   QDoubleSpinBox* arrow_ = nullptr;
   QComboBox* change_ = nullptr;
+  QComboBox* force_ = nullptr;
+  QCheckBox* alarmOn_ = nullptr;
+  QComboBox* alarmForce_ = nullptr;
+  QComboBox* alarmSide_ = nullptr;
+  QDoubleSpinBox* alarmLimit_ = nullptr;
   QSpinBox* window_ = nullptr;
 };
 

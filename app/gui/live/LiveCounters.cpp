@@ -1,6 +1,6 @@
 #include "app/gui/live/LiveCounters.h"
 
-#include <QHBoxLayout>
+#include <QGridLayout>
 #include <QLabel>
 #include <QStyle>
 #include <QVBoxLayout>
@@ -8,6 +8,8 @@
 namespace palp {
 
 namespace {
+
+constexpr int kTileMargins_px = 24;
 
 QString milliseconds(double seconds) {
   return QString::number(1e3 * seconds, 'f', seconds < 1e-3 ? 2 : 1);
@@ -29,32 +31,52 @@ QString stateTitle(const LiveStatus& status, bool simulated) {
 } // namespace
 
 LiveCounters::LiveCounters(QWidget* parent) : QWidget(parent) {
-  auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(0, 0, 0, 0);
-  row->setSpacing(6);
-  state_ = add(*row, "liveState", tr("State"), tr("What the source does now, and why"), 5);
-  rate_ = add(*row, "liveRate", tr("Measured rate"),
-              tr("Reports a second that came in the last second, and whole scans (frames) of them"), 4);
-  losses_ = add(*row, "liveLosses", tr("Lost / bad / late"),
+  grid_ = new QGridLayout(this);
+  grid_->setContentsMargins(0, 0, 0, 0);
+  grid_->setSpacing(6);
+  state_ = add("liveState", tr("State"), tr("What the source does now, and why"));
+  rate_ = add("liveRate", tr("Measured rate"),
+              tr("Reports a second that came in the last second, and whole scans (frames) of them"));
+  losses_ = add("liveLosses", tr("Lost, bad, late"),
                 tr("Reports missing in the sequence / with a wrong length, ID, checksum or range / frames that were "
-                   "decoded more than 20 ms after the board read them; all since the start"),
-                3);
-  latency_ = add(*row, "liveLatency", tr("Latency p50 / p99 / max"),
-                 tr("From the board's clock at the last reading of a frame to the decoded force [ms]; offset and drift "
-                    "of the two clocks are taken out"),
-                 4);
-  decoding_ = add(*row, "liveDecoding", tr("Report to force"),
-                  tr("Of the latency, what this program takes: from the report's arrival to the force [ms], "
-                     "p50 / p99 / max"),
-                  4);
-  climate_ = add(*row, "liveClimate", tr("Temperature"),
+                   "decoded more than 20 ms after the board read them; all since the start"));
+  latency_ = add("liveLatency", tr("Latency [ms]"),
+                 tr("From the board's clock at the last reading of a frame to the decoded force [ms], median / 99 % / "
+                    "longest; offset and drift of the two clocks are taken out. Below: what this program takes of it, "
+                    "from the report's arrival to the force"));
+  trust_ =
+      add("liveTrust", tr("Trust"),
+          tr("Whether the readings are those of a touch that the network knows. Misfit: what the most likely touch "
+             "leaves of the readings, over what noise, tare and the network's model explain (rms); it is 1 where "
+             "all is well, and 1 % of good frames lie above the limit. Doubted: more than half of the last quarter "
+             "of a second lies above it, or the force lies outside of what was trained: drift, hysteresis, several "
+             "touches, or another sensor"));
+  climate_ = add("liveClimate", tr("Temperature"),
                  tr("Of the board [degC]; relative noise of a reading: measured while taring, before that as the "
-                    "network was trained for"),
-                 3);
+                    "network was trained for"));
+  state_.unit->setProperty("mayBeCut", true); // its tip has all of it
+  arrange(6);
 }
 
-LiveCounters::Tile LiveCounters::add(QHBoxLayout& row, const QString& name, const QString& title, const QString& tip,
-                                     int stretch) {
+void LiveCounters::arrange(int columns) {
+  if (columns == columns_) return;
+  columns_ = columns;
+  const std::array boxes{state_.box, rate_.box, losses_.box, latency_.box, trust_.box, climate_.box};
+  for (int k = 0; k < static_cast<int>(boxes.size()); ++k) {
+    grid_->addWidget(boxes[static_cast<std::size_t>(k)], k / columns, k % columns);
+    grid_->setColumnStretch(k, k < columns ? 1 : 0);
+  }
+}
+
+/// As many in a line as show their text, the lines equally long.
+void LiveCounters::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  const int needed = fontMetrics().horizontalAdvance(tr("of 1000; 1000.0 frames/s")) + kTileMargins_px;
+  const int most = width() / needed;
+  arrange(most >= 6 ? 6 : most >= 3 ? 3 : 2);
+}
+
+LiveCounters::Tile LiveCounters::add(const QString& name, const QString& title, const QString& tip) {
   auto* box = new QWidget;
   box->setProperty("role", "tile");
   box->setToolTip(tip);
@@ -72,7 +94,6 @@ LiveCounters::Tile LiveCounters::add(QHBoxLayout& row, const QString& name, cons
     label->setMinimumWidth(10); // a long text is cut, it does not widen the window
     column->addWidget(label);
   }
-  row.addWidget(box, stretch);
   return tile;
 }
 
@@ -86,7 +107,16 @@ void LiveCounters::set(const Tile& tile, const QString& value, const QString& un
   tile.value->style()->polish(tile.value);
 }
 
-void LiveCounters::display(const LiveStatus& status, bool simulated) {
+void LiveCounters::displayTrust(const LiveFrame* last) {
+  if (last == nullptr || !last->forces.valid) return set(trust_, tr("none"), tr("no forces"));
+  const DecodedForces& forces = last->forces;
+  const bool doubted = !forces.doubt.empty();
+  const QString misfit = forces.misfit ? tr("misfit %1").arg(*forces.misfit, 0, 'g', 3) : tr("range of the readings");
+  set(trust_, doubted ? tr("doubted") : tr("fits"), doubted ? QString::fromStdString(forces.doubt) : misfit, doubted);
+  trust_.unit->setToolTip(doubted ? trust_.unit->text() : QString());
+}
+
+void LiveCounters::display(const LiveStatus& status, const LiveFrame* last, bool simulated) {
   const bool alarm = status.state == LiveState::Refused || status.state == LiveState::Stalled ||
                      (status.state == LiveState::Searching && status.connections > 0);
   set(state_, stateTitle(status, simulated),
@@ -98,8 +128,9 @@ void LiveCounters::display(const LiveStatus& status, bool simulated) {
         wanted + tr("%1 frames/s").arg(status.framesPerSecond, 0, 'f', 0));
   set(losses_, QString("%1 / %2 / %3").arg(status.counts.lost).arg(status.counts.bad).arg(status.lateFrames),
       tr("of %1 reports").arg(status.counts.reports), status.counts.lost + status.counts.bad > 0);
-  set(latency_, triple(status.latency, status.counts.frames), tr("ms, board to force"));
-  set(decoding_, triple(status.decoding, status.counts.frames), tr("ms, p50 / p99 / max"));
+  set(latency_, triple(status.latency, status.counts.frames),
+      status.counts.frames == 0 ? QString() : tr("of it here %1").arg(triple(status.decoding, status.counts.frames)));
+  displayTrust(last);
   set(climate_,
       status.temperature_degC ? QString::fromUtf8("%1 \u00b0C").arg(*status.temperature_degC, 0, 'f', 1) : tr("none"),
       status.noise > 0 ? tr("noise %1%2").arg(status.noise, 0, 'g', 2).arg(status.tared ? tr(", tared") : QString())

@@ -4,21 +4,26 @@
 
 #include <QWidget>
 
-#include <vector>
+#include <array>
 
-class QHBoxLayout;
+class QGridLayout;
 class QLabel;
 
 namespace palp {
 
-/// State, measured rate, losses, latency, temperature and noise in one line of tiles.
+/// State, measured rate, losses, latency, trust in the force, temperature and noise in one line of tiles, or in more
+/// where it is narrow.
 class LiveCounters : public QWidget {
   Q_OBJECT
 
 public:
   explicit LiveCounters(QWidget* parent = nullptr);
 
-  void display(const LiveStatus& status, bool simulated);
+  /// `last` may be null.
+  void display(const LiveStatus& status, const LiveFrame* last, bool simulated);
+
+protected:
+  void resizeEvent(QResizeEvent* event) override;
 
 private:
   struct Tile {
@@ -26,10 +31,14 @@ private:
     QLabel* value = nullptr;
     QLabel* unit = nullptr;
   };
-  Tile add(QHBoxLayout& row, const QString& name, const QString& title, const QString& tip, int stretch);
+  Tile add(const QString& name, const QString& title, const QString& tip);
+  void arrange(int columns);
+  void displayTrust(const LiveFrame* last);
   static void set(const Tile& tile, const QString& value, const QString& unit, bool alarm = false);
 
-  Tile state_, rate_, losses_, latency_, decoding_, climate_;
+  QGridLayout* grid_;
+  int columns_ = 0;
+  Tile state_, rate_, losses_, latency_, trust_, climate_;
 };
 
 } // namespace palp

@@ -44,6 +44,26 @@ StripSpec timeAxis(const LiveHistory& history, const LiveSettings& settings) {
   return spec;
 }
 
+/// A range that holds all values and 0, in steps of 1, 2 and 5, so that it rests while they move.
+std::array<double, 2> roundRange(const std::vector<StripSeries>& curves) {
+  double low = 0, high = 0;
+  for (const StripSeries& curve : curves)
+    for (const double value : curve.y)
+      if (std::isfinite(value)) low = std::min(low, value), high = std::max(high, value);
+  const double size = std::max(high - low, 0.02);
+  double step = std::pow(10, std::floor(std::log10(size)));
+  if (size / step < 5) step /= 2;
+  if (size / step < 5) step /= 2.5;
+  return {step * std::floor(low / step - 0.25), step * std::ceil(high / step + 0.25)};
+}
+
+/// Nothing is drawn through a time without frames.
+void breakAt(const LiveHistory::Entry& entry, StripSeries& curve) {
+  if (!entry.gap || curve.t_s.empty()) return;
+  curve.t_s.push_back(entry.t_s);
+  curve.y.push_back(kNone);
+}
+
 Eigen::Index strongest(const DecodedForces& forces) {
   Eigen::Index column = 0;
   forces.forces_N.colwise().squaredNorm().maxCoeff(&column);
@@ -79,6 +99,8 @@ StripSpec forceCurves(const LiveHistory& history, const LiveSettings& settings, 
     const double margin = 0.1 * (high - low);
     spec.yRange = {low - margin, high + margin};
   }
+  if (settings.forceScale == ForceScale::Fixed) spec.yRange = {-settings.force_N, settings.force_N};
+  if (settings.alarmOn && settings.alarm.quantity != ForceQuantity::Size) spec.limits = {settings.alarm.limit_N};
   const auto& entries = history.entries();
   for (int axis = 0; axis < 3; ++axis) {
     StripSeries curve;
@@ -88,11 +110,13 @@ StripSpec forceCurves(const LiveHistory& history, const LiveSettings& settings, 
     for (std::size_t k = firstShown(history, settings.window_s); k < entries.size(); ++k) {
       const DecodedForces& forces = entries[k].frame->forces;
       any = any || forces.valid;
+      breakAt(entries[k], curve);
       curve.t_s.push_back(entries[k].t_s);
       curve.y.push_back(forces.valid ? forces.forces_N(axis, strongest(forces)) : kNone);
     }
     if (any) spec.series.push_back(std::move(curve));
   }
+  if (settings.forceScale == ForceScale::Automatic) spec.yRange = roundRange(spec.series);
   return spec;
 }
 
@@ -110,6 +134,7 @@ StripSpec changeCurves(const LiveHistory& history, const LiveSettings& settings,
     curve.name = QString("%1, %2").arg(cells[c][0]).arg(cells[c][1]);
     curve.color = static_cast<int>(c);
     for (std::size_t k = firstShown(history, settings.window_s); k < entries.size(); ++k) {
+      breakAt(entries[k], curve);
       const Eigen::MatrixXd& change = entries[k].frame->change;
       const bool there = cells[c][0] < change.rows() && cells[c][1] < change.cols();
       curve.t_s.push_back(entries[k].t_s);
@@ -154,15 +179,20 @@ std::vector<std::string> forceLines(const LiveFrame& frame, const LiveSettings& 
     if (!forces.reason.empty()) lines.push_back("no forces: " + forces.reason);
     return lines;
   }
+  // Deviations and areas hold only where the readings are those of a touch that the network knows.
+  if (!forces.doubt.empty()) {
+    lines.push_back("not to be trusted: " + forces.doubt);
+    return lines;
+  }
   for (Eigen::Index column = 0; column < forces.forces_N.cols(); ++column) {
     if (!forces.shown[static_cast<std::size_t>(column)]) continue;
     const Eigen::Vector3d sd = forces.standardDeviation_N.col(column);
     lines.push_back(printed("standard deviation (%.1g, %.1g, %.1g) N", sd.x(), sd.y(), sd.z()));
     if (forces.area && forces.forces_N.cols() == 1)
-      lines.push_back(printed("area %d, confidence %.0f %%", *forces.area, kPercent * forces.areaConfidence));
+      lines.push_back(
+          printed("area %d; that it is no other one: %.0f %%", *forces.area, kPercent * forces.areaConfidence));
   }
   if (lines.size() == 1) lines.emplace_back("at rest: no force stands out of the noise");
-  if (forces.outsideTrainingRange) lines.emplace_back("outside of what the network was trained for");
   return lines;
 }
 

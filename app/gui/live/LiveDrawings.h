@@ -15,6 +15,7 @@ HeatmapSpec changeHeatmap(const LiveFrame& frame, const std::string& restName, c
                           const std::optional<std::array<int, 2>>& selected);
 
 /// Forces of the touched area, or of the most loaded one where the network gives the forces on all areas at once.
+/// The alarm's limit is drawn across.
 StripSpec forceCurves(const LiveHistory& history, const LiveSettings& settings, const Decoder* decoder);
 
 /// dR/R of some cells (row, column) over time.

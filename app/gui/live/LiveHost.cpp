@@ -27,21 +27,19 @@ bool sameSource(const LiveSettings& a, const LiveSettings& b) {
          a.simulation.seed == b.simulation.seed;
 }
 
-struct LoadedNetwork {
-  Decoder decoder;
-  std::string fingerprint;
-};
+/// Throws Error where the network cannot read this board.
+void requireUse(const Decoder& decoder, const std::optional<BoardInfo>& info) {
+  if (info) static_cast<void>(ForceDecoder(decoder, *info));
+}
 
 } // namespace
 
 LiveHost::LiveHost(BoardAccess access, QObject* parent)
     : QObject(parent), access_(std::move(access)), sensor_(paperDesign()) {
-  connect(&loader_, &JobRunner::failed, this, [this](const QString& sentence) {
-    setDecoder({});
-    emit problem(sentence);
-  });
+  connect(&loader_, &JobRunner::failed, this, [this](const QString& sentence) { emit networkRefused(sentence); });
+  connect(&simulatedDesign_, &SimulatedDesign::solved, this, &LiveHost::followDesign);
   connect(&loader_, &JobRunner::finished, this, [this](bool cancelled) {
-    if (cancelled) networkAsked_ = false; // it is read when the scene is next seen
+    if (cancelled) networkAsked_ = network_.decoder && network_.file == settings_.network; // else when next seen
   });
 }
 
@@ -52,10 +50,16 @@ void LiveHost::setSettings(const LiveSettings& settings, const SensorDesign& des
   const bool otherDesign = !(design == std::exchange(design_, design));
   if (replay_) replay_->speed = settings.replaySpeed;
   if (simulation_) simulation_->set(faults(), disturbance());
-  if (before.network != settings.network) networkAsked_ = false;
+  hold();
+  if (before.alarmOn != settings.alarmOn || !(before.alarm == settings.alarm))
+    if (session_) session_->setAlarm(alarm());
+  if (before.network != settings.network) {
+    networkAsked_ = network_.decoder && network_.file == settings.network; // the one in use was wanted back
+    if (networkAsked_) loader_.cancel();
+  }
   if (!session_) return; // opened when the scene is first seen
   if (!networkAsked_) loadNetwork();
-  if (otherDesign) setDecoder(decoder_);
+  if (otherDesign) followDesign();
   if (!sameSource(before, settings)) return restart();
   if (before.rate_Hz != settings.rate_Hz || before.row != settings.row) configured_ = 0;
 }
@@ -76,16 +80,44 @@ BoardFaults LiveHost::faults() const {
   return faults;
 }
 
+void LiveHost::hold() {
+  const SimulationSettings& simulation = settings_.simulation;
+  const auto& force_N = simulation.heldForce_N;
+  if (!simulation.held) return hand_->hold({});
+  hand_->hold(SimulatedTouch::Truth{simulation.heldArea, {force_N[0], force_N[1], force_N[2]}});
+}
+
+std::optional<ForceAlarm> LiveHost::alarm() const {
+  return settings_.alarmOn ? std::optional(settings_.alarm) : std::nullopt;
+}
+
+const SensorDesign& LiveHost::simulatedSensor() const {
+  static const SensorDesign paper = paperDesign();
+  return simulatedDesign_.of(design_) != nullptr ? design_ : paper;
+}
+
+/// The simulated board and the network that was trained on it go with the project's design.
+void LiveHost::followDesign() {
+  const bool other = simulation_ && simulated() && !(simulatedSensor() == running_);
+  const bool ofSimulation = network_.ofSimulation || simulatedDesign_.of(design_) != nullptr;
+  if (settings_.network.empty() && ofSimulation && networkAsked_ && session_)
+    loadNetwork();
+  else
+    setNetwork(network_);
+  if (other && session_) restart();
+}
+
 /// The project's design where the network is of it; none leaves the choice to the decoder.
 std::optional<SensorDesign> LiveHost::tareDesign() const {
-  if (decoder_ && designFingerprint(design_) == decoder_->designFingerprint) return design_;
+  if (network_.decoder && designFingerprint(design_) == network_.decoder->designFingerprint) return design_;
   return {};
 }
 
 LiveOptions LiveHost::options() {
   LiveOptions options;
-  options.decoder = decoder_;
+  options.decoder = network_.decoder;
   options.design = tareDesign();
+  options.alarm = alarm();
   simulation_ = std::make_shared<SimulationControl>();
   simulation_->set(faults(), disturbance());
   replay_.reset();
@@ -93,12 +125,17 @@ LiveOptions LiveHost::options() {
   const auto board = [open = access_.open, device = settings_.device] {
     return orRefuse([&] { return open(device); });
   };
-  const auto simulated = [control = simulation_, rate_Hz = settings_.rate_Hz,
+  const SimulatedDesign::Solved* own = simulatedDesign_.of(design_);
+  running_ = simulatedSensor();
+  const auto simulated = [control = simulation_, hand = hand_, solved = own != nullptr ? own->samples : nullptr,
+                          rate_Hz = settings_.rate_Hz,
                           seed = settings_.simulation.seed]() -> std::unique_ptr<ReportSource> {
     if (!control->pluggedIn) return nullptr;
     SimulatedBoardOptions wanted;
     wanted.rate_Hz = rate_Hz;
     wanted.seed = seed;
+    wanted.solved = solved;
+    wanted.hand = hand;
     return orRefuse([&] { return openSimulatedBoard(wanted, control); });
   };
   switch (settings_.source) {
@@ -168,6 +205,7 @@ void LiveHost::setVisible(bool visible) {
 void LiveHost::applyPause() {
   if (!session_) return;
   const bool held = paused_ || !visible_; // a recording goes on all the same
+  session_->idle(!visible_);
   if (replay_) {
     replay_->paused = held;
   } else {
@@ -177,27 +215,59 @@ void LiveHost::applyPause() {
 
 void LiveHost::loadNetwork() {
   networkAsked_ = true;
-  loader_.start(tr("Reading the network"), [this, file = settings_.network](const std::stop_token&, JobProgress&) {
+  const SimulatedDesign::Solved* own = simulatedDesign_.of(design_);
+  if (settings_.network.empty() && own != nullptr) {
+    loader_.cancel();
+    networkAsked_ = true;
+    before_ = {};
+    return setNetwork({own->decoder, {}, {}, tr("Made for the simulated design"), true});
+  }
+  // One that cannot read the board that is there does not take the place of one that can.
+  const std::optional<BoardInfo> info = network_.decoder ? status_.info : std::nullopt;
+  loader_.start(tr("Reading the network"), [this, file = settings_.network, info](const std::stop_token&,
+                                                                                  JobProgress&) {
     const std::filesystem::path path = file.empty() ? shippedNetwork() : std::filesystem::path(file);
-    auto loaded = std::make_shared<LoadedNetwork>(LoadedNetwork{readNetwork(path), fingerprint(readFile(path))});
+    auto loaded = std::make_shared<Network>(Network{readNetwork(path), file, fingerprint(readFile(path)), {}, false});
+    if (!file.empty()) requireUse(*loaded->decoder, info);
     return [this, loaded] {
-      networkFingerprint_ = loaded->fingerprint;
-      setDecoder(std::move(loaded->decoder));
+      before_ = {};
+      setNetwork(std::move(*loaded));
     };
   });
 }
 
-void LiveHost::setDecoder(std::optional<Decoder> decoder) {
-  decoder_ = std::move(decoder);
-  const bool paper = decoder_ && designFingerprint(paperDesign()) == decoder_->designFingerprint;
+void LiveHost::setNetwork(Network network) {
+  network_ = std::move(network);
+  const bool paper = network_.decoder && designFingerprint(paperDesign()) == network_.decoder->designFingerprint;
   sensor_ = tareDesign() || !paper ? design_ : paperDesign();
-  if (session_) session_->setDecoder(decoder_, tareDesign());
+  if (session_) session_->setDecoder(network_.decoder, tareDesign());
   emit decoderChanged();
 }
 
-void LiveHost::useDecoder(Decoder decoder) {
-  networkFingerprint_.clear();
-  setDecoder(std::move(decoder));
+QString LiveHost::networkName() const {
+  if (!network_.name.isEmpty()) return network_.name;
+  if (network_.file.empty()) return tr("Palp's own");
+  return QString::fromStdString(std::filesystem::path(network_.file).filename().string());
+}
+
+void LiveHost::useDecoder(Decoder decoder, const QString& name) {
+  before_ = network_;
+  before_.name = networkName();
+  mark(tr("network: %1").arg(name).toStdString());
+  setNetwork({std::move(decoder), network_.file, {}, name, network_.ofSimulation});
+}
+
+void LiveHost::backToNetwork() {
+  if (before_.name.isEmpty()) return;
+  Network back = std::exchange(before_, {});
+  mark(tr("network: %1").arg(back.name).toStdString());
+  setNetwork(std::move(back));
+}
+
+void LiveHost::seek(double to_s) {
+  if (!replay_) return;
+  replay_->seek(to_s);
+  if (paused_) ++replay_->steps; // so that one sees where one is
 }
 
 bool LiveHost::look() {
@@ -267,9 +337,11 @@ bool LiveHost::pluggedIn() const {
   return simulation_ && simulation_->pluggedIn;
 }
 
-void LiveHost::startRecording(const std::filesystem::path& path, bool force) {
+void LiveHost::startRecording(const std::filesystem::path& path, bool replace) {
   if (!session_) throw Error(path.string() + ": nothing to record: no source is open");
-  session_->startRecording(path, networkFingerprint_, force);
+  if (replay_ && std::filesystem::weakly_canonical(path) == std::filesystem::weakly_canonical(settings_.recording))
+    throw Error(path.string() + ": is being played; record to another file");
+  session_->startRecording(path, network_.fingerprint, replace);
 }
 
 void LiveHost::stopRecording() {

@@ -1,9 +1,11 @@
 #pragma once
 
 #include "app/gui/jobs/JobRunner.h"
+#include "app/gui/live/SimulatedDesign.h"
 #include "app/gui/project/LiveSettings.h"
 #include "app/study/live/BoardWatch.h"
 #include "app/study/live/LiveHistory.h"
+#include "app/study/live/SimulatedTouch.h"
 #include "io/board/SimulatedSource.h"
 
 #include <QObject>
@@ -42,10 +44,16 @@ public:
   [[nodiscard]] bool replaying() const { return replay_ != nullptr; }
   [[nodiscard]] ReplayControl* replay() const { return replay_.get(); }
   /// Null before it is read, or where it cannot be.
-  [[nodiscard]] const std::optional<Decoder>& decoder() const { return decoder_; }
+  [[nodiscard]] const std::optional<Decoder>& decoder() const { return network_.decoder; }
   /// The network's design where it is known, else the project's.
   [[nodiscard]] const SensorDesign& sensor() const { return sensor_; }
   [[nodiscard]] JobRunner& loader() { return loader_; }
+  /// Solves the project's design for the simulated board.
+  void simulateDesign(const MeshOptions& mesh) { simulatedDesign_.solve(design_, mesh); }
+  [[nodiscard]] JobRunner& simulator() { return simulatedDesign_.runner(); }
+  /// What the simulated board simulates.
+  [[nodiscard]] const SensorDesign& simulatedSensor() const;
+  [[nodiscard]] bool simulatesOwnDesign() const { return simulatedSensor() == design_; }
   /// The network is being read.
   [[nodiscard]] bool loading() const { return loader_.running(); }
 
@@ -58,35 +66,57 @@ public:
   void setPluggedIn(bool in);
   [[nodiscard]] bool pluggedIn() const;
   /// Throws Error where nothing can be recorded.
-  void startRecording(const std::filesystem::path& path, bool force);
+  void startRecording(const std::filesystem::path& path, bool replace);
   void stopRecording();
-  /// A refined network in place of the file's, until another is chosen.
-  void useDecoder(Decoder decoder);
+  /// A refined network in place of the one in use, which can be had back. Recordings get a mark.
+  void useDecoder(Decoder decoder, const QString& name);
+  /// The network that was in use before; its name is empty where there is none to go back to.
+  void backToNetwork();
+  [[nodiscard]] const QString& networkBefore() const { return before_.name; }
+  /// The network in use, in words: its file, or what was made of it.
+  [[nodiscard]] QString networkName() const;
+  /// Of the network in use; empty: the one that ships with Palp.
+  [[nodiscard]] const std::string& networkFile() const { return network_.file; }
+  /// Goes on from this time of the recording [s].
+  void seek(double to_s);
 
 signals:
   void decoderChanged();
-  void problem(const QString& sentence);
+  /// The file that was chosen is no network for this board; the one in use stays.
+  void networkRefused(const QString& sentence);
 
 private:
+  struct Network {
+    std::optional<Decoder> decoder;
+    std::string file;
+    std::string fingerprint;   ///< of the file; empty: it is in none
+    QString name;              ///< empty: its file says it
+    bool ofSimulation = false; ///< trained on the samples of the simulated board
+  };
   void open();
   /// Ends a thread of its own without waiting for it.
   template <class Running> void letGo(std::unique_ptr<Running> old);
   void loadNetwork();
-  void setDecoder(std::optional<Decoder> decoder);
+  void setNetwork(Network network);
   void applyPause();
   void configureOnce();
   [[nodiscard]] LiveOptions options();
   [[nodiscard]] BoardDisturbance disturbance() const;
   [[nodiscard]] BoardFaults faults() const;
   [[nodiscard]] std::optional<SensorDesign> tareDesign() const;
+  [[nodiscard]] std::optional<ForceAlarm> alarm() const;
+  void followDesign();
+  void hold();
 
   BoardAccess access_;
   LiveSettings settings_;
   SensorDesign design_, sensor_;
-  std::optional<Decoder> decoder_;
-  std::string networkFingerprint_;
+  SensorDesign running_;     ///< that the simulated board was opened with
+  Network network_, before_; ///< in use, and the one that can be had back
   bool networkAsked_ = false;
   bool visible_ = false, paused_ = false;
+  SimulatedDesign simulatedDesign_;
+  std::shared_ptr<TouchHand> hand_ = std::make_shared<TouchHand>(); ///< on the simulated board
   std::shared_ptr<SimulationControl> simulation_;
   std::shared_ptr<ReplayControl> replay_;
   std::shared_ptr<std::atomic<bool>> boardSeen_; ///< a real board was opened since the start

@@ -1,19 +1,23 @@
 #include "app/gui/live/LivePage.h"
 
+#include "app/gui/live/LiveBanner.h"
 #include "app/gui/live/LiveCalibration.h"
 #include "app/gui/live/LiveControlPanel.h"
 #include "app/gui/live/LiveCounters.h"
+#include "app/gui/live/LiveCurves.h"
 #include "app/gui/live/LiveDrawings.h"
 #include "app/gui/live/LiveSourcePanel.h"
 #include "app/gui/live/LiveTwin.h"
 #include "app/gui/live/LiveView.h"
+#include "app/gui/live/RecordingName.h"
+#include "app/gui/live/ReplayBar.h"
+#include "app/gui/live/SimulationPanel.h"
 #include "app/gui/project/Command.h"
 #include "app/gui/views/HeatmapView.h"
 #include "app/gui/window/SidePanel.h"
 
 #include <QAbstractButton>
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QShortcut>
 #include <QSplitter>
 #include <QTabWidget>
@@ -30,7 +34,6 @@ constexpr int kFrame_ms = 34;             // 30 frames a second at most
 constexpr int kStateEvery = 6;            // looks between two drawings of the counters, where the state is the same
 constexpr double kColorSteps = 256;       // a smaller change of a cell is not seen
 constexpr double kSnapshotPatience_s = 3; // for a source that gives nothing
-constexpr std::size_t kMostCells = 7;
 
 /// Some cell has another colour than it was drawn with.
 bool looksDifferent(const Eigen::MatrixXd& now, const Eigen::MatrixXd& drawn, double step) {
@@ -62,8 +65,10 @@ QWidget* LivePage::buildPanels() {
   auto* column = new QVBoxLayout(panels);
   column->setContentsMargins(0, 0, 4, 0);
   source_ = new LiveSourcePanel;
+  simulation_ = new SimulationPanel;
   control_ = new LiveControlPanel;
   column->addWidget(source_);
+  column->addWidget(simulation_);
   column->addWidget(control_, 1);
   return sidePanel(panels, kPanelWidth_px);
 }
@@ -74,15 +79,13 @@ QWidget* LivePage::buildViews() {
   column->setContentsMargins(0, 0, 0, 0);
   counters_ = new LiveCounters;
   column->addWidget(counters_);
-  banner_ = new QLabel;
-  banner_->setObjectName("liveBanner");
-  banner_->setProperty("role", "banner");
-  banner_->setWordWrap(true);
-  banner_->hide();
+  banner_ = new LiveBanner;
   column->addWidget(banner_);
-
+  replay_ = new ReplayBar(host_);
+  column->addWidget(replay_);
   block_ = new LiveView;
   block_->setObjectName("liveBlock");
+  block_->setAccessibleName(tr("Force vectors over the sensor"));
   twin_ = new LiveTwin;
   twin_->setObjectName("liveTwin");
   blockTabs_ = new QTabWidget;
@@ -97,18 +100,12 @@ QWidget* LivePage::buildViews() {
   upper->addWidget(heatmap_);
   upper->setSizes({520, 520});
 
-  forces_ = new StripChart;
-  forces_->setObjectName("forceCurves");
-  changes_ = new StripChart;
-  changes_->setObjectName("changeCurves");
+  curves_ = new LiveCurves(host_);
   calibration_ = new LiveCalibration(host_);
   calibration_->setObjectName("calibration");
-  auto* curves = new QSplitter(Qt::Horizontal);
-  curves->addWidget(forces_);
-  curves->addWidget(changes_);
   curveTabs_ = new QTabWidget;
   curveTabs_->setObjectName("curveTabs");
-  curveTabs_->addTab(curves, tr("Curves"));
+  curveTabs_->addTab(curves_, tr("Curves"));
   curveTabs_->addTab(calibration_, tr("Calibration"));
   auto* views = new QSplitter(Qt::Vertical);
   views->addWidget(upper);
@@ -140,9 +137,14 @@ void LivePage::buildKeys() {
 void LivePage::connectPanels() {
   connect(source_, &LiveSourcePanel::edited, this, &LivePage::edit);
   connect(control_, &LiveControlPanel::edited, this, &LivePage::edit);
-  connect(source_, &LiveSourcePanel::plugAsked, &host_, &LiveHost::setPluggedIn);
-  connect(source_, &LiveSourcePanel::pauseAsked, &host_, &LiveHost::setPaused);
-  connect(source_, &LiveSourcePanel::stepAsked, &host_, &LiveHost::step);
+  connectSimulation();
+  connect(replay_, &ReplayBar::speedAsked, this, [this](double speed) {
+    change(tr("replay speed"), [&](LiveSettings& settings) { settings.replaySpeed = speed; });
+  });
+  connect(replay_, &ReplayBar::boardAsked, this, [this] {
+    change(tr("source"), [](LiveSettings& settings) { settings.source = LiveSourceKind::Automatic; });
+  });
+  connect(control_, &LiveControlPanel::backAsked, &host_, &LiveHost::backToNetwork);
   connect(source_, &LiveSourcePanel::openAgainAsked, &host_, &LiveHost::restart);
   connect(control_, &LiveControlPanel::tareAsked, &host_, &LiveHost::tare);
   connect(control_, &LiveControlPanel::clearTareAsked, &host_, &LiveHost::clearTare);
@@ -162,8 +164,13 @@ void LivePage::connectPanels() {
     }
   });
   connect(heatmap_, &HeatmapView::cellClicked, this, &LivePage::toggleCell);
-  connect(&host_, &LiveHost::problem, this, &LivePage::message);
-  connect(&host_, &LiveHost::decoderChanged, this, &LivePage::displayProject);
+  connect(&host_, &LiveHost::networkRefused, this, &LivePage::refuseNetwork);
+  connect(&host_, &LiveHost::decoderChanged, this, [this] {
+    control_->displayNetworkProblem({});
+    stateLook_ = 0;
+    displayProject();
+  });
+  connect(curves_, &LiveCurves::message, this, &LivePage::message);
   connect(calibration_, &LiveCalibration::message, this, &LivePage::message);
   connect(twin_, &LiveTwin::solveAsked, this, &LivePage::solveTwin);
   connect(twin_, &LiveTwin::loadAsked, this, [this](const LoadCase& load) {
@@ -173,6 +180,39 @@ void LivePage::connectPanels() {
     workbench_.edit(tr("load of the live force"), next);
     emit message(tr("The decoded force is the load of the Deformation scene now."));
   });
+}
+
+void LivePage::connectSimulation() {
+  connect(simulation_, &SimulationPanel::edited, this, &LivePage::edit);
+  connect(simulation_, &SimulationPanel::plugAsked, &host_, &LiveHost::setPluggedIn);
+  connect(simulation_, &SimulationPanel::designAsked, this,
+          [this] { host_.simulateDesign(workbench_.project().mesh); });
+  connect(&host_.simulator(), &JobRunner::failed, this, &LivePage::message);
+  connect(block_, &LiveView::areaPressed, this, [this](int area) {
+    change(tr("simulated touch"), [&](LiveSettings& settings) {
+      settings.simulation.heldArea = area;
+      settings.simulation.heldForce_N[0] = settings.simulation.heldForce_N[1] = 0;
+    });
+  });
+  connect(block_, &LiveView::sheared, this, [this](const Eigen::Vector2d& force_N) {
+    change(tr("simulated touch"), [&](LiveSettings& settings) {
+      settings.simulation.heldForce_N[0] = force_N.x();
+      settings.simulation.heldForce_N[1] = force_N.y();
+    });
+  });
+}
+
+void LivePage::change(const QString& what, const std::function<void(LiveSettings&)>& change) {
+  LiveSettings settings = workbench_.project().live;
+  change(settings);
+  edit(what, settings);
+}
+
+/// What was chosen cannot be used: the network in use stays, and the settings name it again.
+void LivePage::refuseNetwork(const QString& sentence) {
+  if (host_.decoder()) change(tr("network"), [&](LiveSettings& settings) { settings.network = host_.networkFile(); });
+  control_->displayNetworkProblem(sentence);
+  emit message(sentence);
 }
 
 void LivePage::edit(const QString& what, const LiveSettings& settings) {
@@ -185,6 +225,8 @@ void LivePage::displayProject() {
   const LiveSettings& settings = workbench_.project().live;
   host_.setSettings(settings, workbench_.project().design);
   source_->display(settings);
+  simulation_->display(settings);
+  replay_->display(settings);
   control_->display(settings);
   if (isVisible()) draw();
 }
@@ -202,12 +244,11 @@ void LivePage::setTheme(Theme theme) {
   block_->setTheme(theme);
   twin_->setTheme(theme);
   heatmap_->setTheme(theme);
-  forces_->setTheme(theme);
-  changes_->setTheme(theme);
+  curves_->setTheme(theme);
 }
 
 std::vector<JobRunner*> LivePage::runners() {
-  return {&twin_->runner(), &calibration_->runner(), &host_.loader()};
+  return {&twin_->runner(), &calibration_->runner(), &host_.loader(), &host_.simulator()};
 }
 
 QString LivePage::commands(const Project& project, const QString&) const {
@@ -240,6 +281,7 @@ void LivePage::look() {
   const LiveState before = host_.status().state;
   const bool fresh = host_.look();
   if (host_.status().state != before || stateLook_++ % kStateEvery == 0) drawState();
+  replay_->displayState();
   if (!fresh) return;
   calibration_->take();
   drawForces();
@@ -250,50 +292,29 @@ void LivePage::look() {
 void LivePage::drawState() {
   const LiveStatus& status = host_.status();
   const bool simulated = host_.simulated();
-  counters_->display(status, simulated);
-  source_->displayState({status, host_.boards(), simulated, host_.replaying(), host_.paused(), host_.pluggedIn()});
-  control_->displayState(status, host_.paused(), networkWords());
-  const QString words = banner();
-  if (banner_->text() != words) banner_->setText(words);
-  banner_->setVisible(!words.isEmpty());
+  counters_->display(status, host_.history().last(), simulated);
+  source_->displayState({status, host_.boards(), host_.replaying()});
+  simulation_->setVisible(simulated);
+  simulation_->displayState({host_.pluggedIn(), host_.simulatesOwnDesign(), host_.simulatedSensor().areas.count(),
+                             host_.simulator().running()});
+  block_->setPressable(simulated && host_.settings().simulation.held);
+  control_->displayState({status, host_.paused(), networkWords(), host_.networkBefore()});
+  calibration_->displayState();
+  banner_->display(host_);
+  if (status.alarms != alarms_ && status.alarms > 0) emit message(QString::fromStdString(status.lastAlarm));
+  alarms_ = status.alarms;
   const bool streams = status.state == LiveState::Streaming || status.state == LiveState::Paused;
   if (!streams) drawForces(); // the arrows turn grey
-}
-
-/// What is wrong, in one line over the views.
-QString LivePage::banner() const {
-  const LiveStatus& status = host_.status();
-  switch (status.state) {
-  case LiveState::Searching:
-    return status.connections > 0 ? tr("No board: %1. It goes on by itself when the board is back.")
-                                        .arg(QString::fromStdString(status.reason))
-                                  : tr("No board is plugged in.");
-  case LiveState::Refused:
-  case LiveState::Stalled:
-    return QString::fromStdString(status.reason);
-  case LiveState::Ended:
-    return tr("Ended. %1").arg(QString::fromStdString(status.reason));
-  case LiveState::Streaming:
-  case LiveState::Paused:
-    break;
-  }
-  const LiveFrame* last = host_.history().last();
-  if (last == nullptr) return {};
-  QStringList faults;
-  for (const std::string& fault : last->faults) faults << QString::fromStdString(fault);
-  if (faults.size() > 4) faults = faults.mid(0, 4) << tr("%1 more").arg(faults.size() - 4);
-  return faults.join("; ");
 }
 
 QString LivePage::networkWords() const {
   const std::optional<Decoder>& decoder = host_.decoder();
   if (!decoder) return host_.loading() ? tr("Reading the network...") : tr("No network.");
-  const std::string& file = host_.settings().network;
   const QString rows = static_cast<int>(decoder->input.rows.size()) == decoder->input.rowWires
                            ? tr("all rows")
                            : tr("%1 rows").arg(decoder->input.rows.size());
   return tr("%1: %2, %3, trained for noise %4")
-      .arg(file.empty() ? tr("Palp's own") : QString::fromStdString(std::filesystem::path(file).filename().string()))
+      .arg(host_.networkName())
       .arg(QString::fromStdString(name(decoder->kind)), rows)
       .arg(decoder->noise, 0, 'g', 2);
 }
@@ -320,48 +341,28 @@ void LivePage::drawHeatmap() {
   const LiveSettings& settings = host_.settings();
   if (!looksDifferent(last->change, drawnChange_, 0.02 * settings.change_percent / kColorSteps)) return;
   drawnChange_ = last->change;
-  std::optional<std::array<int, 2>> selected;
-  if (cellsChosen_ && !cells_.empty()) selected = cells_.back();
-  heatmap_->setHeatmap(changeHeatmap(*last, host_.status().restName, settings, selected));
+  heatmap_->setHeatmap(changeHeatmap(*last, host_.status().restName, settings, curves_->chosenCell()));
 }
 
 void LivePage::drawCurves() {
-  if (curveTabs_->currentIndex() != 0) return;
-  chooseCells();
-  const Decoder* decoder = host_.decoder() ? &*host_.decoder() : nullptr;
-  forces_->setChart(forceCurves(host_.history(), host_.settings(), decoder));
-  changes_->setChart(changeCurves(host_.history(), host_.settings(), cells_));
-}
-
-/// The cells at the middles of the load areas, until the user chooses others.
-void LivePage::chooseCells() {
-  const LiveFrame* last = host_.history().last();
-  if (cellsChosen_ || last == nullptr) return;
-  cells_ = areaCells(host_.sensor(), last->change.rows(), last->change.cols());
-  if (cells_.size() > kMostCells) cells_.resize(kMostCells);
+  if (curveTabs_->currentIndex() == 0) curves_->draw();
 }
 
 void LivePage::toggleCell(int row, int column) {
-  if (!cellsChosen_) cells_.clear();
-  cellsChosen_ = true;
-  const auto found = std::find(cells_.begin(), cells_.end(), std::array{row, column});
-  if (found != cells_.end()) {
-    cells_.erase(found);
-  } else {
-    if (cells_.size() == kMostCells) cells_.erase(cells_.begin());
-    cells_.push_back({row, column});
-  }
-  cellsChosen_ = !cells_.empty(); // none: back to the areas' middles
+  curves_->toggleCell(row, column);
   drawnChange_.resize(0, 0);
   drawHeatmap();
-  drawCurves();
 }
 
-void LivePage::record(const QString& file) {
+void LivePage::record(const QString& file, bool replace) {
+  const std::filesystem::path wanted = file.toStdString();
+  const std::filesystem::path path = replace ? wanted : freeRecording(wanted, QDateTime::currentDateTime());
   try {
-    host_.startRecording(file.toStdString(), false);
-    emit message(tr("Recording to %1.").arg(file));
+    host_.startRecording(path, replace);
+    control_->displayRecording(QString::fromStdString(path.string()), {});
+    emit message(tr("Recording to %1.").arg(QString::fromStdString(path.string())));
   } catch (const std::exception& refusal) {
+    control_->displayRecording({}, QString::fromStdString(refusal.what()));
     emit message(QString::fromStdString(refusal.what()));
   }
   stateLook_ = 0;

@@ -6,21 +6,23 @@
 
 #include <QTimer>
 
-#include <array>
+#include <functional>
 
-class QLabel;
 class QTabWidget;
 
 namespace palp {
 
 class HeatmapView;
+class LiveBanner;
 class LiveCalibration;
 class LiveControlPanel;
 class LiveCounters;
+class LiveCurves;
 class LiveSourcePanel;
 class LiveTwin;
 class LiveView;
-class StripChart;
+class ReplayBar;
+class SimulationPanel;
 
 /// A live board: force vectors, heatmap and curves at no more than 30 frames a second, and only while it is seen.
 /// Meshes and solves nothing but the twin, when it is asked for.
@@ -53,41 +55,42 @@ private:
   QWidget* buildViews();
   void buildKeys();
   void connectPanels();
+  void connectSimulation();
   void displayProject();
   void draw();
   void edit(const QString& what, const LiveSettings& settings);
+  void change(const QString& what, const std::function<void(LiveSettings&)>& change);
+  void refuseNetwork(const QString& sentence);
   void look();
   void drawState();
   void drawForces();
   void drawHeatmap();
   void drawCurves();
   void toggleCell(int row, int column);
-  void chooseCells();
-  void record(const QString& file);
+  void record(const QString& file, bool replace);
   void solveTwin();
   [[nodiscard]] QString networkWords() const;
-  [[nodiscard]] QString banner() const;
 
   Workbench& workbench_;
   LiveHost host_;
   QTimer timer_;
   LiveSourcePanel* source_ = nullptr;
+  SimulationPanel* simulation_ = nullptr;
   LiveControlPanel* control_ = nullptr;
   LiveCounters* counters_ = nullptr;
-  QLabel* banner_ = nullptr;
+  LiveBanner* banner_ = nullptr;
+  ReplayBar* replay_ = nullptr;
   QTabWidget* blockTabs_ = nullptr;
   QTabWidget* curveTabs_ = nullptr;
   LiveView* block_ = nullptr;
   LiveTwin* twin_ = nullptr;
   HeatmapView* heatmap_ = nullptr;
-  StripChart* forces_ = nullptr;
-  StripChart* changes_ = nullptr;
+  LiveCurves* curves_ = nullptr;
   LiveCalibration* calibration_ = nullptr;
-  std::vector<std::array<int, 2>> cells_; ///< row, column of each curve of dR/R
-  bool cellsChosen_ = false;              ///< by the user
   Eigen::MatrixXd drawnChange_;
   int looks_ = 0;
   int stateLook_ = 0;
+  std::uint64_t alarms_ = 0; ///< that were said
   bool arrowSeen_ = false;
   double shownSince_s_ = 0;
 };

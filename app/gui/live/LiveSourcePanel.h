@@ -9,10 +9,6 @@
 #include <functional>
 
 class QComboBox;
-class QDoubleSpinBox;
-class QFormLayout;
-class QGroupBox;
-class QLabel;
 class QListWidget;
 class QPushButton;
 class QSpinBox;
@@ -23,13 +19,10 @@ namespace palp {
 struct LiveSourceState {
   LiveStatus status;
   std::vector<HidBoard> boards;
-  bool simulated = false; ///< the virtual board is what streams
   bool replaying = false;
-  bool paused = false;
-  bool pluggedIn = true; ///< of the virtual board
 };
 
-/// Where the reports come from: boards with their state, the virtual board with its faults, a recording.
+/// Where the reports come from: boards with their state, the simulated one, a recording; and how a board scans.
 class LiveSourcePanel : public QWidget {
   Q_OBJECT
 
@@ -41,20 +34,11 @@ public:
 
 signals:
   void edited(const QString& what, const LiveSettings& settings);
-  void plugAsked(bool in);
-  void pauseAsked(bool paused);
-  void stepAsked(int frames);
   void openAgainAsked();
 
 private:
   QWidget* buildDevices();
   QWidget* buildScan();
-  QWidget* buildSimulation();
-  void buildDisturbances(QFormLayout& form);
-  void buildFaults(QFormLayout& form);
-  template <class Box, class Signal, class Change>
-  void follow(Box* box, Signal signal, const QString& what, Change change);
-  QWidget* buildReplay();
   void edit(const QString& what, const std::function<void(LiveSettings&)>& change);
   void chooseDevice(int row);
   void listDevices(const LiveSourceState& state);
@@ -63,23 +47,9 @@ private:
   LiveSettings settings_;
   QListWidget* devices_ = nullptr;
   QStringList listed_; ///< what stands in the list, so that it is filled only where that changed
-  QLabel* reason_ = nullptr;
-  QPushButton* copyRemedy_ = nullptr;
   QPushButton* again_ = nullptr;
   QSpinBox* rate_ = nullptr;
   QComboBox* rows_ = nullptr;
-  QGroupBox* simulation_ = nullptr;
-  QComboBox* noise_ = nullptr;
-  QDoubleSpinBox* warming_ = nullptr;
-  QDoubleSpinBox* hysteresis_ = nullptr;
-  QSpinBox* openRow_ = nullptr;
-  QSpinBox* openColumn_ = nullptr;
-  QSpinBox* dropEvery_ = nullptr;
-  QPushButton* plug_ = nullptr;
-  QGroupBox* replay_ = nullptr;
-  QComboBox* speed_ = nullptr;
-  QPushButton* pause_ = nullptr;
-  QPushButton* step_ = nullptr;
 };
 
 } // namespace palp

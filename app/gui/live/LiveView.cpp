@@ -76,6 +76,29 @@ void LiveView::lookAlong(const Eigen::Vector3d& direction) {
   invalidate();
 }
 
+std::optional<Eigen::Vector2d> LiveView::topPlace(const QPointF& place) const {
+  const QPointF device = devicePlace(place);
+  return parts_->scene.topPlace(device.x(), device.y());
+}
+
+bool LiveView::grab(const QPointF& place, Qt::KeyboardModifiers) {
+  if (!pressable_) return false;
+  const std::optional<Eigen::Vector2d> at_mm = topPlace(place);
+  if (!at_mm) return false;
+  for (int area = 0; area < parts_->design.areas.count(); ++area) {
+    const Rectangle box = parts_->design.areaRectangle(area);
+    if ((at_mm->array() < box.low_mm.array()).any() || (at_mm->array() > box.high_mm.array()).any()) continue;
+    pressed_mm_ = *at_mm;
+    emit areaPressed(area);
+    return true;
+  }
+  return false;
+}
+
+void LiveView::dragTo(const QPointF& place, Qt::KeyboardModifiers) {
+  if (const auto at_mm = topPlace(place)) emit sheared((*at_mm - pressed_mm_) / parts_->options.mm_per_N);
+}
+
 const std::vector<LiveArrow>& LiveView::arrows() const {
   return parts_->arrows;
 }

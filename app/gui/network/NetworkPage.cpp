@@ -73,6 +73,8 @@ NetworkPage::NetworkPage(Workbench& workbench, NetworkSession& session, QWidget*
     next.view.testArea = area;
     workbench_.edit(tr("Choose a test area"), next);
   });
+  connect(panel_, &NetworkPanel::openSamplesAsked, this, &NetworkPage::openSamples);
+  connect(panel_, &NetworkPanel::saveSamplesAsked, this, &NetworkPage::saveSamples);
   connect(save_, &QPushButton::clicked, this, &NetworkPage::saveNetwork);
   connect(open_, &QPushButton::clicked, this, &NetworkPage::openNetwork);
   displayProject();
@@ -178,10 +180,12 @@ void NetworkPage::displaySamples() {
   const auto [made, all] = session_.stoppedAt();
   QString words = tr("None yet for this design.");
   if (samples != nullptr)
-    words = tr("%1 for training, %2 for testing; batch error against full Newton %3.")
+    words = tr("%1 for training, %2 for testing%3.")
                 .arg(samples->training.size())
                 .arg(samples->test.size())
-                .arg(samples->batchError, 0, 'g', 2);
+                .arg(samples->batchError > 0
+                         ? tr("; batch error against full Newton %1").arg(samples->batchError, 0, 'g', 2)
+                         : tr(", from a file"));
   if (samples != nullptr && !session_.upToDate())
     words = tr("%1 for training, %2 for testing, of an earlier design: undo the change, or generate new ones.")
                 .arg(samples->training.size())
@@ -251,6 +255,18 @@ void NetworkPage::displayTrials() {
     if (!trial.refusal.isEmpty()) words << tr("%1: %2").arg(QString::fromStdString(name(trial.kind)), trial.refusal);
   trialsWords_->setText(words.isEmpty() ? tr("Compare all decoders trains each kind on the same samples.")
                                         : tr("Not trained: ") + words.join("; "));
+}
+
+void NetworkPage::openSamples() {
+  const QStringList chosen = QFileDialog::getOpenFileNames(this, tr("Open samples"), {}, tr("Samples (*.csv)"));
+  std::vector<std::filesystem::path> files;
+  for (const QString& file : chosen) files.emplace_back(file.toStdString());
+  if (!files.empty()) session_.openSamples(files);
+}
+
+void NetworkPage::saveSamples() {
+  const QString file = QFileDialog::getSaveFileName(this, tr("Save samples"), "samples.csv", tr("Samples (*.csv)"));
+  if (!file.isEmpty() && session_.samples() != nullptr) session_.saveSamples(file.toStdString());
 }
 
 void NetworkPage::saveNetwork() {

@@ -45,6 +45,8 @@ private:
   void displayFit();
   void displayTrials();
   void drawCharts();
+  void openSamples();
+  void saveSamples();
   void saveNetwork();
   void openNetwork();
 

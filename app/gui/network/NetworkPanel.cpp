@@ -75,6 +75,18 @@ void NetworkPanel::buildSamples(QVBoxLayout& column) {
   generate_ = new QPushButton(tr("Generate samples"));
   generate_->setObjectName("generate");
   form->addRow(generate_);
+  auto* files = new QHBoxLayout;
+  auto* open = new QPushButton(tr("Open..."));
+  open->setObjectName("openSamples");
+  open->setToolTip(tr("Samples of this design from files; several parts of one set are joined"));
+  saveSamples_ = new QPushButton(tr("Save..."));
+  saveSamples_->setObjectName("saveSamples");
+  saveSamples_->setToolTip(tr("NAME.csv for training and NAME-test.csv beside it, as palp sample writes them"));
+  files->addWidget(open);
+  files->addWidget(saveSamples_);
+  form->addRow(files);
+  connect(open, &QPushButton::clicked, this, &NetworkPanel::openSamplesAsked);
+  connect(saveSamples_, &QPushButton::clicked, this, &NetworkPanel::saveSamplesAsked);
   samplesWords_ = new QLabel;
   samplesWords_->setObjectName("samplesWords");
   samplesWords_->setWordWrap(true);
@@ -225,6 +237,7 @@ void NetworkPanel::showSpread() {
 
 void NetworkPanel::displaySamples(bool there, const QString& words, bool goOn) {
   samplesWords_->setText(words);
+  saveSamples_->setEnabled(there);
   generate_->setText(goOn ? tr("Go on generating samples") : tr("Generate samples"));
   const std::array<std::pair<QPushButton*, QString>, 3> buttons{
       {{train_, tr("Fits the network to the training samples and tries it on the others")},

@@ -33,6 +33,8 @@ signals:
   /// By the user's hand only.
   void edited(const QString& what, const palp::SampleSettings& samples, const palp::NetworkSettings& network);
   void generateAsked();
+  void openSamplesAsked();
+  void saveSamplesAsked();
   void trainAsked();
   void sweepAsked();
   void compareAsked();
@@ -53,6 +55,7 @@ private:
   QSpinBox* perArea_ = nullptr;
   QSpinBox* seed_ = nullptr;
   QPushButton* generate_ = nullptr;
+  QPushButton* saveSamples_ = nullptr;
   QLabel* samplesWords_ = nullptr;
   QComboBox* input_ = nullptr;
   QComboBox* mode_ = nullptr;

@@ -1,7 +1,9 @@
 #pragma once
 
+#include "app/study/live/ForceAlarm.h"
 #include "model/base/NamedEnum.h"
 
+#include <array>
 #include <cstdint>
 #include <string>
 
@@ -27,9 +29,22 @@ struct SimulationSettings {
   std::uint64_t seed = 1;
   int openRow = -1, openColumn = -1; ///< a broken wire; -1: none
   int dropEvery = 0;                 ///< every n-th report is lost; 0: none
+  bool held = false;                 ///< the touch is the next two, instead of one that goes over the areas by itself
+  int heldArea = 0;
+  std::array<double, 3> heldForce_N{0, 0, -2};
 
   bool operator==(const SimulationSettings&) const = default;
 };
+
+/// The scale of the force curves.
+enum class ForceScale {
+  Network,   ///< the force range that the network was trained for
+  Automatic, ///< what the curves need
+  Fixed
+};
+inline constexpr NamedEnum kForceScales("force scale", std::array{std::pair{ForceScale::Network, "network"},
+                                                                  std::pair{ForceScale::Automatic, "automatic"},
+                                                                  std::pair{ForceScale::Fixed, "fixed"}});
 
 /// Everything that the Live scene keeps in a project.
 struct LiveSettings {
@@ -45,6 +60,10 @@ struct LiveSettings {
   double arrow_mm_per_N = 2;
   double change_percent = 0.3; ///< end of the scale of dR/R
   double window_s = 10;        ///< of the curves
+  ForceScale forceScale = ForceScale::Network;
+  double force_N = 5; ///< both ends of the fixed scale
+  bool alarmOn = false;
+  ForceAlarm alarm;
 
   bool operator==(const LiveSettings&) const = default;
 };

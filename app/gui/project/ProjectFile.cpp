@@ -10,6 +10,8 @@
 #include <QJsonObject>
 #include <QSaveFile>
 
+#include <cmath>
+
 namespace palp {
 
 namespace {
@@ -209,18 +211,29 @@ QJsonObject liveJson(const LiveSettings& live) {
           {"arrow_mm_per_N", live.arrow_mm_per_N},
           {"change_percent", live.change_percent},
           {"window_s", live.window_s},
+          {"force_scale", QString::fromStdString(kForceScales.name(live.forceScale))},
+          {"force_N", live.force_N},
+          {"alarm", QJsonObject{{"on", live.alarmOn},
+                                {"force", QString::fromStdString(kForceQuantities.name(live.alarm.quantity))},
+                                {"side", QString::fromStdString(kAlarmSides.name(live.alarm.side))},
+                                {"limit_N", live.alarm.limit_N}}},
           {"simulation", QJsonObject{{"noise", simulation.noise},
                                      {"warming_degC", simulation.warming_degC},
                                      {"hysteresis_share", simulation.hysteresisShare},
                                      {"seed", static_cast<double>(simulation.seed)},
                                      {"open_row", simulation.openRow},
                                      {"open_column", simulation.openColumn},
-                                     {"drop_every", simulation.dropEvery}}}};
+                                     {"drop_every", simulation.dropEvery},
+                                     {"held", simulation.held},
+                                     {"held_area", simulation.heldArea},
+                                     {"held_force_N", QJsonArray{simulation.heldForce_N[0], simulation.heldForce_N[1],
+                                                                 simulation.heldForce_N[2]}}}}};
 }
 
 LiveSettings liveOf(const JsonPlace& place) {
   place.onlyKeys({"source", "device", "recording", "replay_speed", "rate_Hz", "row", "network", "tare_frames",
-                  "arrow_mm_per_N", "change_percent", "window_s", "simulation"});
+                  "arrow_mm_per_N", "change_percent", "window_s", "simulation"},
+                 {"force_scale", "force_N", "alarm"});
   LiveSettings live;
   live.source = place.at("source").named(kLiveSourceKinds);
   live.device = place.at("device").string();
@@ -233,8 +246,19 @@ LiveSettings liveOf(const JsonPlace& place) {
   live.arrow_mm_per_N = place.at("arrow_mm_per_N").number(0.1, 100);
   live.change_percent = place.at("change_percent").number(1e-4, 100);
   live.window_s = place.at("window_s").number(1, 60);
+  if (place.has("force_scale")) live.forceScale = place.at("force_scale").named(kForceScales);
+  if (place.has("force_N")) live.force_N = place.at("force_N").number(0.01, 1000);
+  if (place.has("alarm")) {
+    const JsonPlace alarm = place.at("alarm");
+    alarm.onlyKeys({"on", "force", "side", "limit_N"});
+    live.alarmOn = alarm.at("on").boolean();
+    live.alarm.quantity = alarm.at("force").named(kForceQuantities);
+    live.alarm.side = alarm.at("side").named(kAlarmSides);
+    live.alarm.limit_N = alarm.at("limit_N").number(-1000, 1000);
+  }
   const JsonPlace simulation = place.at("simulation");
-  simulation.onlyKeys({"noise", "warming_degC", "hysteresis_share", "seed", "open_row", "open_column", "drop_every"});
+  simulation.onlyKeys({"noise", "warming_degC", "hysteresis_share", "seed", "open_row", "open_column", "drop_every"},
+                      {"held", "held_area", "held_force_N"});
   live.simulation.noise = simulation.at("noise").number(0, 1);
   live.simulation.warming_degC = simulation.at("warming_degC").number(0, 100);
   live.simulation.hysteresisShare = simulation.at("hysteresis_share").number(0, 1);
@@ -242,6 +266,15 @@ LiveSettings liveOf(const JsonPlace& place) {
   live.simulation.openRow = simulation.at("open_row").integer(-1, 31);
   live.simulation.openColumn = simulation.at("open_column").integer(-1, 254);
   live.simulation.dropEvery = simulation.at("drop_every").integer(0, 100000);
+  if (simulation.has("held")) live.simulation.held = simulation.at("held").boolean();
+  if (simulation.has("held_area")) live.simulation.heldArea = simulation.at("held_area").integer(0, kLargestIndex);
+  if (simulation.has("held_force_N")) {
+    const std::vector<double> force_N = simulation.at("held_force_N").numbers(3);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (!(std::abs(force_N[axis]) <= 1000)) simulation.at("held_force_N").refuse("three forces, -1000 to 1000 N");
+      live.simulation.heldForce_N[axis] = force_N[axis];
+    }
+  }
   return live;
 }
 
@@ -315,11 +348,6 @@ Project loadProject(const std::filesystem::path& path, const Project& base) {
     throw Error(path.string() + ": cannot be read (" + file.errorString().toStdString() +
                 "); allowed is a design or project file");
   return parseProject(file.readAll(), name, base);
-}
-
-bool isProjectFile(const std::filesystem::path& path) {
-  QFile file(QString::fromStdString(path.string()));
-  return file.open(QIODevice::ReadOnly) && QJsonDocument::fromJson(file.readAll()).object().contains(kVersionKey);
 }
 
 } // namespace palp

@@ -19,9 +19,6 @@ QByteArray projectText(const Project& project);
 /// act on it. Reads strictly: throws Error with file, key, value and what is allowed.
 Project loadProject(const std::filesystem::path& path, const Project& base);
 
-/// A readable file that claims to be a whole project, not a design alone.
-bool isProjectFile(const std::filesystem::path& path);
-
 /// The same from the file's text; `file` is the name that refusals show.
 Project parseProject(const QByteArray& text, const QString& file, const Project& base);
 

@@ -1,8 +1,9 @@
 #include "app/gui/reports/ReportsPage.h"
 
 #include "app/gui/project/Command.h"
+#include "app/gui/reports/ReportCases.h"
+#include "app/gui/reports/ReportKinds.h"
 #include "app/gui/reports/ReportPicture.h"
-#include "app/study/reports/ReportComputations.h"
 #include "io/DesignFile.h"
 #include "model/base/Error.h"
 
@@ -19,51 +20,25 @@
 #include <QListWidget>
 #include <QPixmap>
 #include <QPlainTextEdit>
-#include <QProcessEnvironment>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QScrollBar>
 #include <QSettings>
 #include <QSplitter>
 #include <QStandardPaths>
+#include <QTabWidget>
 #include <QUrl>
 #include <QVBoxLayout>
-
-#include <algorithm>
-#include <cmath>
-#include <csignal>
 
 namespace palp {
 
 namespace {
 
-constexpr int kFileClock_ms = 10; // by which the time of a file may lie before that of the clock
-constexpr int kEndWithin_ms = 3000;
-constexpr const char* kFolderKey = "reportFolder";
-
-struct Kind {
-  QString title;
-  QStringList arguments;
-  QString what;
-};
-
-std::vector<Kind> kinds() {
-  std::vector<Kind> all{
-      {QObject::tr("reproduce the paper"),
-       {"reproduce", "all"},
-       QObject::tr("Table 1, Fig. 12 and the figures of the paper from nothing, the printed numbers beside ours.")},
-      {QObject::tr("reproduce Table 1"),
-       {"reproduce", "table1"},
-       QObject::tr("Errors from displacements at the paper's spreads, both modes and the linear baseline.")},
-      {QObject::tr("reproduce Fig. 12"),
-       {"reproduce", "fig12"},
-       QObject::tr("Errors from resistances over the spread, both modes and the linear baseline.")}};
-  for (const ReportComputation& report : reportComputations())
-    all.push_back({QString::fromStdString(report.name),
-                   {"report", QString::fromStdString(report.name)},
-                   QString::fromStdString(report.what)});
-  return all;
-}
+constexpr const char* kFolderKey = "reportsFolder";
+constexpr const char* kPage = "report.html";
+constexpr const char* kMessages = "messages.txt"; ///< what a run of the window said
+constexpr const char* kDesign = "sensor.json";
+constexpr int kFolderRole = Qt::UserRole;
 
 QString commandLineProgram() {
   return QDir(QCoreApplication::applicationDirPath()).filePath("palp");
@@ -76,52 +51,49 @@ QPushButton* button(const QString& text, const QString& name, const QString& tip
   return push;
 }
 
+bool ofAnotherDesign(const QStringList& arguments, const Project& project) {
+  return arguments.front() == "report" && project.design != paperDesign();
+}
+
 } // namespace
 
 ReportsPage::ReportsPage(Workbench& workbench, QWidget* parent)
     : Scene(parent), workbench_(workbench), program_(commandLineProgram()) {
   build();
-  connect(run_, &QPushButton::clicked, this, &ReportsPage::start);
-  connect(cancel_, &QPushButton::clicked, this, &ReportsPage::cancel);
+  connect(start_, &QPushButton::clicked, this, &ReportsPage::start);
+  connect(cancel_, &QPushButton::clicked, &run_, &ReportRun::cancel);
   connect(openPage_, &QPushButton::clicked, this,
-          [this] { QDesktopServices::openUrl(QUrl::fromLocalFile(QDir(folder_).filePath("report.html"))); });
-  connect(openFolder_, &QPushButton::clicked, this,
-          [this] { QDesktopServices::openUrl(QUrl::fromLocalFile(folder_)); });
-  process_.setProcessChannelMode(QProcess::MergedChannels);
-  QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
-  environment.insert("PALP_PROGRESS_LINES", "1");
-  process_.setProcessEnvironment(environment);
-  connect(&process_, &QProcess::readyRead, this, &ReportsPage::readMessages);
-  connect(&process_, &QProcess::finished, this, &ReportsPage::end);
-  connect(&process_, &QProcess::errorOccurred, this, [this](QProcess::ProcessError error) {
-    if (error != QProcess::FailedToStart) return; // finished() comes as well
-    ended();
-    state_->setText(
-        tr("%1 cannot be started; it is built together with this program and lies beside it.").arg(process_.program()));
-  });
+          [this] { openOnDesktop(QDir(shown_).filePath(kPage), tr("The page")); });
+  connect(openFolder_, &QPushButton::clicked, this, [this] { openOnDesktop(shown_, tr("The folder")); });
+  connect(&run_, &ReportRun::said, log_, &QPlainTextEdit::appendPlainText);
+  connect(&run_, &ReportRun::progressed, this, &ReportsPage::setProgress);
+  connect(&run_, &ReportRun::ended, this, &ReportsPage::end);
   connect(pictures_, &QListWidget::currentTextChanged, picture_,
-          [this](const QString& file) { picture_->show(QPixmap(QDir(folder_).filePath(file))); });
+          [this](const QString& file) { picture_->show(QPixmap(QDir(shown_).filePath(file))); });
+  connect(written_, &QListWidget::itemActivated, this,
+          [this](const QListWidgetItem* item) { showWritten(item->data(kFolderRole).toString()); });
+  connect(written_, &QListWidget::itemClicked, this,
+          [this](const QListWidgetItem* item) { showWritten(item->data(kFolderRole).toString()); });
   timer_.setInterval(500);
   connect(&timer_, &QTimer::timeout, this, &ReportsPage::showTime);
+  chooseKind();
 }
 
 ReportsPage::~ReportsPage() {
-  process_.disconnect(this);
-  if (process_.state() == QProcess::NotRunning) return;
-  process_.terminate();
-  if (!process_.waitForFinished(kEndWithin_ms)) process_.kill();
+  run_.disconnect(this);
 }
 
 void ReportsPage::build() {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(8, 8, 8, 8);
   column->addLayout(buildBar());
-  what_ = new QLabel(kinds().front().what);
+  what_ = new QLabel;
+  what_->setObjectName("reportWhat");
   what_->setProperty("role", "hint");
   what_->setWordWrap(true);
-  connect(kind_, &QComboBox::currentIndexChanged, this,
-          [this](int k) { what_->setText(kinds()[static_cast<std::size_t>(k)].what); });
+  connect(kind_, &QComboBox::currentIndexChanged, this, &ReportsPage::chooseKind);
   column->addWidget(what_);
+  column->addLayout(buildFolder());
   column->addLayout(buildState());
   column->addWidget(buildViews(), 1);
 }
@@ -129,36 +101,55 @@ void ReportsPage::build() {
 QLayout* ReportsPage::buildBar() {
   kind_ = new QComboBox;
   kind_->setObjectName("reportKind");
+  kind_->setAccessibleName(tr("Report"));
   kind_->setToolTip(tr("Which report"));
-  for (const Kind& kind : kinds()) kind_->addItem(kind.title);
-  const QString documents = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation);
-  target_ = new QLineEdit(QSettings().value(kFolderKey, QDir(documents).filePath("palp-report")).toString());
-  target_->setObjectName("reportFolder");
-  target_->setToolTip(tr("Folder of report.html, CSV and pictures; what it holds of an earlier run is replaced"));
-  auto* choose = button(tr("Folder..."), "chooseReportFolder", tr("Chooses the folder"));
-  connect(choose, &QPushButton::clicked, this, [this] {
-    const QString folder = QFileDialog::getExistingDirectory(this, tr("Folder of the report"), target_->text());
-    if (!folder.isEmpty()) target_->setText(folder);
-  });
-  run_ = button(tr("Run"), "runReport", tr("Runs the report beside the window, which stays free"));
+  for (const ReportKind& kind : reportKinds()) kind_->addItem(kind.title);
+  start_ = button(tr("Run"), "runReport", tr("Runs the report beside the window, which stays free"));
   cancel_ = button(tr("Cancel"), "cancelReport", tr("Stops the report"));
   openPage_ = button(tr("Open the page"), "openReport", tr("Opens report.html in the browser: one file, no network"));
   openFolder_ = button(tr("Open the folder"), "openReportFolder", tr("Page, CSV and pictures, to be passed on"));
   auto* bar = new QHBoxLayout;
   bar->addWidget(kind_);
-  bar->addWidget(target_, 1);
-  for (QPushButton* push : {choose, run_, cancel_, openPage_, openFolder_}) bar->addWidget(push);
+  for (QPushButton* push : {start_, cancel_}) bar->addWidget(push);
+  bar->addStretch(1);
+  for (QPushButton* push : {openPage_, openFolder_}) bar->addWidget(push);
   for (QPushButton* push : {cancel_, openPage_, openFolder_}) push->setEnabled(false);
   return bar;
+}
+
+QLayout* ReportsPage::buildFolder() {
+  const QString documents = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation);
+  target_ = new QLineEdit(QSettings().value(kFolderKey, QDir(documents).filePath("palp-reports")).toString());
+  target_->setObjectName("reportFolder");
+  target_->setAccessibleName(tr("Folder of all reports"));
+  target_->setToolTip(tr("Where the reports are kept: each run makes a folder of its own in it, named after the report "
+                         "and the time, and leaves all others as they are"));
+  connect(target_, &QLineEdit::editingFinished, this, &ReportsPage::listReports);
+  auto* choose = button(tr("Folder..."), "chooseReportFolder", tr("Chooses the folder that the reports are kept in"));
+  connect(choose, &QPushButton::clicked, this, [this] {
+    const QString folder = QFileDialog::getExistingDirectory(this, tr("Folder of the reports"), target_->text());
+    if (folder.isEmpty()) return;
+    target_->setText(folder);
+    listReports();
+  });
+  auto* words = new QLabel(tr("Kept in"));
+  words->setBuddy(target_);
+  auto* row = new QHBoxLayout;
+  row->addWidget(words);
+  row->addWidget(target_, 1);
+  row->addWidget(choose);
+  return row;
 }
 
 QLayout* ReportsPage::buildState() {
   bar_ = new QProgressBar;
   bar_->setFixedWidth(160);
-  bar_->setRange(0, 0);
+  bar_->setRange(0, 1000);
   bar_->hide();
-  state_ = new QLabel(tr("Nothing was run yet."));
+  state_ = new QLabel;
   state_->setObjectName("reportState");
+  state_->setWordWrap(true);
+  state_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard); // paths are copied
   state_->setMinimumHeight(bar_->sizeHint().height()); // what is below stays where it is
   auto* state = new QHBoxLayout;
   state->addWidget(bar_);
@@ -167,19 +158,31 @@ QLayout* ReportsPage::buildState() {
 }
 
 QWidget* ReportsPage::buildViews() {
+  cases_ = new ReportCases;
   log_ = new QPlainTextEdit;
   log_->setObjectName("reportLog");
+  log_->setAccessibleName(tr("Messages of the report"));
   log_->setReadOnly(true);
   log_->setLineWrapMode(QPlainTextEdit::NoWrap); // tables
   log_->setPlaceholderText(tr("What the report says while it runs."));
   log_->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
+  written_ = new QListWidget;
+  written_->setObjectName("writtenReports");
+  written_->setAccessibleName(tr("Earlier reports"));
+  written_->setToolTip(tr("The reports in the folder; a click shows one again"));
   pictures_ = new QListWidget;
   pictures_->setObjectName("reportPictures");
+  pictures_->setAccessibleName(tr("Pictures of the report"));
   pictures_->hide(); // while there are none
   picture_ = new ReportPicture(tr("Pictures of the report appear here."));
+  tabs_ = new QTabWidget;
+  tabs_->setObjectName("reportTabs");
+  tabs_->addTab(cases_, tr("What runs"));
+  tabs_->addTab(log_, tr("Messages"));
+  tabs_->addTab(written_, tr("Earlier reports"));
   auto* left = new QSplitter(Qt::Vertical);
   left->setObjectName("reportsLeft");
-  left->addWidget(log_);
+  left->addWidget(tabs_);
   left->addWidget(pictures_);
   auto* views = new QSplitter(Qt::Horizontal);
   views->setObjectName("reportsSplitter");
@@ -189,125 +192,188 @@ QWidget* ReportsPage::buildViews() {
   return views;
 }
 
+QString ReportsPage::base() const {
+  return QDir(target_->text().trimmed()).absolutePath();
+}
+
+void ReportsPage::showEvent(QShowEvent* event) {
+  Scene::showEvent(event);
+  listReports();
+}
+
 QStringList ReportsPage::arguments(const Project& project, const QString& folder) const {
-  QStringList all = kinds()[static_cast<std::size_t>(kind_->currentIndex())].arguments;
+  QStringList all = reportKinds()[static_cast<std::size_t>(kind_->currentIndex())].arguments;
   if (all.front() == "report") all << "--per-area" << QString::number(project.samples.perArea);
-  return all + meshOption(project.mesh).split(' ', Qt::SkipEmptyParts) + QStringList{"-o", folder, "--force"};
+  return all + meshOption(project.mesh).split(' ', Qt::SkipEmptyParts) + QStringList{"-o", folder};
 }
 
 QString ReportsPage::commands(const Project& project, const QString& designFile) const {
   QStringList all = arguments(project, "palp-report");
-  if (all.front() == "report" && !(project.design == paperDesign())) all << "--design" << designFile;
+  if (ofAnotherDesign(all, project)) all << "--design" << designFile;
   return "palp " + all.join(' ');
 }
 
+/// What it runs, and for how long.
+void ReportsPage::chooseKind() {
+  if (run_.running()) return; // what runs stays in sight
+  const ReportKind& kind = reportKinds()[static_cast<std::size_t>(kind_->currentIndex())];
+  what_->setText(kind.what);
+  plan_ = std::make_unique<ReportPlan>(kind.arguments.join('-'), kind.parts);
+  cases_->show(*plan_);
+  tabs_->setCurrentWidget(cases_);
+  state_->setText(tr("Takes about %1%2.")
+                      .arg(roughly(plan_->seconds()),
+                           plan_->measuredHere() ? tr(", as the last time on this machine")
+                                                 : tr(" on two cores with 100 samples an area; not yet run here")));
+}
+
 void ReportsPage::start() {
-  folder_ = QDir(target_->text().trimmed()).absolutePath();
-  QStringList all = arguments(workbench_.project(), folder_);
-  if (!QDir().mkpath(folder_)) {
-    state_->setText(tr("%1 cannot be made; choose a folder that may be written to.").arg(folder_));
+  QStringList all;
+  try {
+    const ReportKind& kind = reportKinds()[static_cast<std::size_t>(kind_->currentIndex())];
+    runFolder_ = newReportFolder(base(), kind.arguments.back() == "all" ? "paper" : kind.arguments.back(),
+                                 QDateTime::currentDateTime());
+    all = arguments(workbench_.project(), runFolder_) << "--force"; // into the folder that was made just now
+    if (ofAnotherDesign(all, workbench_.project())) {
+      const QString design = QDir(runFolder_).filePath(kDesign);
+      saveDesign(design.toStdString(), workbench_.project().design, true);
+      all << "--design" << design;
+    }
+  } catch (const Error& error) {
+    state_->setText(QString::fromStdString(error.what()));
     return;
   }
-  if (all.front() == "report" && !(workbench_.project().design == paperDesign())) {
-    const QString design = QDir(folder_).filePath("sensor.json");
-    try {
-      saveDesign(design.toStdString(), workbench_.project().design, true);
-    } catch (const Error& error) {
-      state_->setText(QString::fromStdString(error.what()));
-      return;
-    }
-    all << "--design" << design;
-  }
-  QSettings().setValue(kFolderKey, folder_);
+  QSettings().setValue(kFolderKey, base());
+  chooseKind();
   log_->setPlainText("palp " + all.join(' '));
-  pictures_->clear();
-  pictures_->hide();
-  picture_->clear();
-  cancelled_ = false;
-  started_ = QDateTime::currentDateTime().addMSecs(-kFileClock_ms);
-  run_->setEnabled(false);
+  showFolder({}, false);
+  start_->setEnabled(false);
+  kind_->setEnabled(false);
   cancel_->setEnabled(true);
-  openPage_->setEnabled(false);
-  openFolder_->setEnabled(false);
-  bar_->setRange(0, 0);
+  bar_->setValue(0);
   bar_->show();
-  clock_.start();
+  share_ = 0;
+  run_.start(program_, all);
+  showTime();
   timer_.start();
-  process_.start(program_, all);
 }
 
-void ReportsPage::readMessages() {
-  while (process_.canReadLine()) {
-    const QString line = QString::fromUtf8(process_.readLine()).trimmed();
-    const QStringList words = line.split(' ');
-    if (words.size() != 3 || words.front() != "progress") {
-      if (!line.isEmpty()) log_->appendPlainText(line);
-      continue;
-    }
-    bar_->setRange(0, words[2].toInt());
-    bar_->setValue(words[1].toInt());
-  }
+void ReportsPage::setProgress(double share, const QString& what) {
+  share_ = share;
+  bar_->setValue(qRound(1000 * share));
+  cases_->setProgress(share, run_.seconds(), what);
 }
 
-void ReportsPage::cancel() {
-  if (process_.state() == QProcess::NotRunning) return;
-  cancelled_ = true;
-  ::kill(static_cast<pid_t>(process_.processId()), SIGINT);
-}
-
-void ReportsPage::end(int status, QProcess::ExitStatus how) {
-  readMessages();
-  log_->appendPlainText(QString::fromUtf8(process_.readAll()).trimmed()); // a last line without an end
-  log_->verticalScrollBar()->setValue(log_->verticalScrollBar()->maximum());
-  ended();
-  const QString seconds = QString::number(1e-3 * static_cast<double>(clock_.elapsed()), 'f', 1);
-  if (how == QProcess::NormalExit && status == 0) {
-    state_->setText(tr("Done in %1 s: %2").arg(seconds, QDir(folder_).filePath("report.html")));
-    openPage_->setEnabled(true);
-    openFolder_->setEnabled(true);
-    showPictures();
-  } else if (cancelled_) {
-    const auto written = filesOfThisRun("*").size();
-    openFolder_->setEnabled(written > 0);
-    state_->setText(written == 0 ? tr("Cancelled after %1 s; nothing was written.").arg(seconds)
-                                 : tr("Cancelled after %1 s; %2 of the report's files were already written to %3.")
-                                       .arg(seconds, QString::number(written), folder_));
-  } else if (status == 130 || status == 1) {
-    state_->setText(tr("Ended without a result after %1 s; see the messages.").arg(seconds));
-  } else {
-    state_->setText(tr("Failed with status %1; see the messages.").arg(status));
-  }
-}
-
-/// The program does not run any more.
-void ReportsPage::ended() {
+void ReportsPage::end(ReportRun::Ending how) {
   timer_.stop();
   bar_->hide();
-  run_->setEnabled(true);
+  start_->setEnabled(true);
+  kind_->setEnabled(true);
   cancel_->setEnabled(false);
+  log_->verticalScrollBar()->setValue(log_->verticalScrollBar()->maximum());
+  const QString seconds = QString::number(run_.seconds(), 'f', 1);
+  const bool done = how == ReportRun::Ending::Done;
+  if (done)
+    plan_->remember(cases_->finish(run_.seconds()));
+  else
+    cases_->stop();
+  switch (how) {
+  case ReportRun::Ending::Done:
+    state_->setText(tr("Done in %1 s: %2").arg(seconds, QDir(runFolder_).filePath(kPage)));
+    break;
+  case ReportRun::Ending::Cancelled:
+    state_->setText(cancelledWords());
+    break;
+  case ReportRun::Ending::NoResult:
+    state_->setText(tr("Ended without a result after %1 s; see the messages.").arg(seconds));
+    break;
+  case ReportRun::Ending::Failed:
+    state_->setText(tr("Failed with status %1; see the messages.").arg(run_.status()));
+    break;
+  case ReportRun::Ending::NotStarted:
+    state_->setText(
+        tr("%1 cannot be started; it is built together with this program and lies beside it.").arg(program_));
+    break;
+  }
+  if (how == ReportRun::Ending::NoResult || how == ReportRun::Ending::Failed) tabs_->setCurrentWidget(log_);
+  tidy();
+  if (QFileInfo::exists(runFolder_)) showFolder(runFolder_, done);
+  listReports();
 }
 
-/// Others in the folder are of another report.
-QStringList ReportsPage::filesOfThisRun(const QString& pattern) const {
-  QStringList names;
-  for (const QFileInfo& file : QDir(folder_).entryInfoList({pattern}, QDir::Files, QDir::Name))
-    if (file.lastModified() >= started_) names << file.fileName();
-  return names;
+QString ReportsPage::cancelledWords() {
+  QStringList written = QDir(runFolder_).entryList(QDir::Files);
+  written.removeAll(kDesign);
+  const QString seconds = QString::number(run_.seconds(), 'f', 1);
+  return written.isEmpty() ? tr("Cancelled after %1 s; nothing was written.").arg(seconds)
+                           : tr("Cancelled after %1 s; %2 of the report's files were already written to %3.")
+                                 .arg(seconds, QString::number(written.size()), runFolder_);
 }
 
-void ReportsPage::showPictures() {
+/// Keeps the messages beside what was written; a folder that holds nothing of the report goes.
+void ReportsPage::tidy() {
+  QDir folder(runFolder_);
+  QStringList written = folder.entryList(QDir::Files);
+  written.removeAll(kDesign);
+  if (written.isEmpty()) {
+    folder.remove(kDesign);
+    QDir().rmdir(runFolder_);
+    return;
+  }
+  QFile messages(folder.filePath(kMessages));
+  if (messages.open(QIODevice::WriteOnly)) messages.write(log_->toPlainText().toUtf8());
+}
+
+void ReportsPage::listReports() {
+  written_->clear();
+  for (const WrittenReport& report : reportsBelow(base())) {
+    auto* item = new QListWidgetItem(report.title, written_);
+    item->setData(kFolderRole, report.folder);
+    item->setToolTip(report.folder);
+    if (report.folder == shown_) written_->setCurrentItem(item);
+  }
+  tabs_->setTabText(tabs_->indexOf(written_), tr("Earlier reports (%1)").arg(written_->count()));
+}
+
+void ReportsPage::showWritten(const QString& folder) {
+  if (run_.running()) {
+    state_->setText(tr("A report runs; earlier ones are shown when it is done."));
+    return;
+  }
+  if (!QFileInfo::exists(QDir(folder).filePath(kPage))) {
+    state_->setText(tr("%1 is not there any more.").arg(folder));
+    listReports();
+    return;
+  }
+  QFile messages(QDir(folder).filePath(kMessages));
+  log_->setPlainText(messages.open(QIODevice::ReadOnly) ? QString::fromUtf8(messages.readAll())
+                                                        : tr("%1 holds no messages of its run.").arg(folder));
+  showFolder(folder, true);
+  state_->setText(tr("Shown again: %1").arg(QDir(folder).filePath(kPage)));
+}
+
+void ReportsPage::showFolder(const QString& folder, bool page) {
+  shown_ = folder;
+  openPage_->setEnabled(page);
+  openFolder_->setEnabled(!folder.isEmpty());
   pictures_->clear();
-  pictures_->addItems(filesOfThisRun("*.png"));
+  picture_->clear();
+  if (page) pictures_->addItems(QDir(folder).entryList({"*.png"}, QDir::Files, QDir::Name));
   pictures_->setVisible(pictures_->count() > 0);
   if (pictures_->count() > 0) pictures_->setCurrentRow(0);
 }
 
+/// The desktop does not say whether a program came up, so the path is always said.
+void ReportsPage::openOnDesktop(const QString& path, const QString& what) {
+  const bool asked = QDesktopServices::openUrl(QUrl::fromLocalFile(path));
+  state_->setText(
+      asked ? tr("%1 was given to the desktop to show; where nothing comes up, open it yourself: %2").arg(what, path)
+            : tr("Nothing on this machine shows it; open it with a program of yours. %1 is %2").arg(what, path));
+}
+
 void ReportsPage::showTime() {
-  const qint64 spent_s = clock_.elapsed() / 1000;
-  QString words = tr("Running for %1 s; the window stays free.").arg(spent_s);
-  const double share = bar_->maximum() > 0 ? static_cast<double>(bar_->value()) / bar_->maximum() : 0;
-  if (share > 0.02 && share < 1)
-    words += tr(" About %1 s left.").arg(std::ceil(static_cast<double>(spent_s) * (1 - share) / share));
+  QString words = tr("Running for %1 s; the window stays free.").arg(static_cast<int>(run_.seconds()));
+  if (share_ < 1) words += tr(" About %1 left.").arg(roughly(plan_->left_s(share_, run_.seconds())));
   state_->setText(words);
 }
 

@@ -1,11 +1,10 @@
 #pragma once
 
 #include "app/gui/project/Workbench.h"
+#include "app/gui/reports/ReportFolders.h"
+#include "app/gui/reports/ReportRun.h"
 #include "app/gui/window/Scene.h"
 
-#include <QDateTime>
-#include <QElapsedTimer>
-#include <QProcess>
 #include <QTimer>
 
 class QComboBox;
@@ -16,13 +15,17 @@ class QListWidget;
 class QPlainTextEdit;
 class QProgressBar;
 class QPushButton;
+class QTabWidget;
 
 namespace palp {
 
+class ReportCases;
 class ReportPicture;
+class ReportPlan;
 
 /// The reports, run by the command line program beside this one, so that a report can neither block nor break the
-/// window; its page and pictures are shown when it is done.
+/// window; its page and pictures are shown when it is done. Each run has a folder of its own, so that none takes the
+/// place of another, and those of before are listed and shown again.
 class ReportsPage : public Scene {
   Q_OBJECT
 
@@ -38,40 +41,53 @@ public:
   /// Another program in place of the palp that lies beside this one.
   void setProgram(const QString& program) { program_ = program; }
 
+protected:
+  void showEvent(QShowEvent* event) override;
+
 private:
   void build();
   QLayout* buildBar();
+  QLayout* buildFolder();
   QLayout* buildState();
   QWidget* buildViews();
   /// Of palp, for the chosen report into a folder.
   [[nodiscard]] QStringList arguments(const Project& project, const QString& folder) const;
+  [[nodiscard]] QString base() const;
+  void chooseKind();
   void start();
-  void cancel();
-  void readMessages();
-  void end(int status, QProcess::ExitStatus how);
-  void ended();
-  void showPictures();
-  [[nodiscard]] QStringList filesOfThisRun(const QString& pattern) const;
+  void setProgress(double share, const QString& what);
+  void end(ReportRun::Ending how);
+  QString cancelledWords();
+  void tidy();
   void showTime();
+  void listReports();
+  /// One that was written before.
+  void showWritten(const QString& folder);
+  /// The pictures of the folder, and its buttons.
+  void showFolder(const QString& folder, bool page);
+  void openOnDesktop(const QString& path, const QString& what);
 
   Workbench& workbench_;
   QString program_;
-  QProcess process_;
-  QElapsedTimer clock_;
+  ReportRun run_;
   QTimer timer_;
-  QString folder_;    ///< of the last run
-  QDateTime started_; ///< of the last run
-  bool cancelled_ = false;
+  std::unique_ptr<ReportPlan> plan_;
+  double share_ = 0;
+  QString runFolder_; ///< of the run
+  QString shown_;     ///< folder of the report that is shown
   QComboBox* kind_ = nullptr;
   QLabel* what_ = nullptr;
   QLineEdit* target_ = nullptr;
-  QPushButton* run_ = nullptr;
+  QPushButton* start_ = nullptr;
   QPushButton* cancel_ = nullptr;
   QPushButton* openPage_ = nullptr;
   QPushButton* openFolder_ = nullptr;
   QProgressBar* bar_ = nullptr;
   QLabel* state_ = nullptr;
+  QTabWidget* tabs_ = nullptr;
+  ReportCases* cases_ = nullptr;
   QPlainTextEdit* log_ = nullptr;
+  QListWidget* written_ = nullptr;
   QListWidget* pictures_ = nullptr;
   ReportPicture* picture_ = nullptr;
 };

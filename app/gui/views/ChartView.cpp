@@ -1,5 +1,7 @@
 #include "app/gui/views/ChartView.h"
 
+#include "app/gui/views/TextScale.h"
+
 #include <vtkChartXY.h>
 #include <vtkContextActor.h>
 #include <vtkContextInteractorStyle.h>
@@ -7,6 +9,7 @@
 #include <vtkNew.h>
 #include <vtkRenderer.h>
 
+#include <QEvent>
 #include <QPainter>
 
 #include <algorithm>
@@ -64,8 +67,13 @@ void ChartView::fill() {
   const Color& ground = palp::palette(theme_).ground;
   parts_->renderer->SetBackground(ground[0], ground[1], ground[2]);
   const double ratio = devicePixelRatioF();
-  fillChart(*parts_->chart, spec_, theme_, ratio, {ratio * width(), ratio * height()});
+  fillChart(*parts_->chart, spec_, theme_, ratio * textScale(*this), {ratio * width(), ratio * height()});
   invalidate();
+}
+
+void ChartView::changeEvent(QEvent* event) {
+  VtkView::changeEvent(event);
+  if (event->type() == QEvent::FontChange) fill();
 }
 
 } // namespace palp

@@ -2,12 +2,6 @@
 
 #include "app/scenes/ColorScale.h"
 
-#include <QApplication>
-#include <QClipboard>
-#include <QContextMenuEvent>
-#include <QFileDialog>
-#include <QMenu>
-#include <QMouseEvent>
 #include <QPainter>
 
 #include <algorithm>
@@ -29,11 +23,15 @@ QColor ink(const Color& color) {
 StripChart::StripChart(QWidget* parent) : QWidget(parent) {
   setAttribute(Qt::WA_OpaquePaintEvent);
   setMouseTracking(true);
+  setFocusPolicy(Qt::ClickFocus);
+  setToolTip(tr("Wheel: zoom in time, with Ctrl in value; drag: move; double click or Esc: let it run again"));
   setMinimumSize(180, 110);
 }
 
 void StripChart::setChart(StripSpec spec) {
+  if (held_) return;
   spec_ = std::move(spec);
+  now_s_ = spec_.end_s;
   update();
 }
 
@@ -102,10 +100,11 @@ void StripChart::paintAxes(QPainter& painter, const QRectF& plot) const {
     painter.drawText(QRectF(0, y - line / 2, plot.left() - 5, line), Qt::AlignRight | Qt::AlignVCenter,
                      QString::fromStdString(yTexts[k]));
   }
-  const std::vector<double> xTicks = roundTicks(-spec_.window_s, 0, 6);
+  const double end_s = spec_.end_s - now_s_; // 0 while it runs
+  const std::vector<double> xTicks = roundTicks(end_s - spec_.window_s, end_s, 6);
   const std::vector<std::string> xTexts = tickTexts(xTicks);
   for (std::size_t k = 0; k < xTicks.size(); ++k) {
-    const double x = std::round(xOf(plot, spec_.end_s + xTicks[k])) + 0.5;
+    const double x = std::round(xOf(plot, now_s_ + xTicks[k])) + 0.5;
     painter.setPen(QPen(grid, 1));
     painter.drawLine(QPointF(x, plot.top()), QPointF(x, plot.bottom()));
     painter.setPen(text);
@@ -114,7 +113,8 @@ void StripChart::paintAxes(QPainter& painter, const QRectF& plot) const {
   }
   painter.setPen(text);
   painter.drawText(QRectF(plot.left(), plot.bottom() + line + 3, plot.width(), line + 2), Qt::AlignCenter,
-                   tr("time before the last frame [s]"));
+                   held_ ? tr("time before the last frame [s], held: double click lets it run")
+                         : tr("time before the last frame [s]"));
   painter.save();
   painter.translate(line / 2 + 4, plot.center().y());
   painter.rotate(-90);
@@ -142,7 +142,8 @@ void StripChart::paintCurves(QPainter& painter, const QRectF& plot) const {
     double least = 0, most = 0; // of the pixels' column, so that no peak is lost
     for (std::size_t k = 0; k < series.t_s.size(); ++k) {
       const double x = xOf(plot, series.t_s[k]);
-      if (x < plot.left() - 5) continue;
+      const bool before = k + 1 < series.t_s.size() && xOf(plot, series.t_s[k + 1]) < plot.left();
+      if (before) continue;
       if (!std::isfinite(series.y[k])) {
         column = -1;
         continue;
@@ -162,10 +163,15 @@ void StripChart::paintCurves(QPainter& painter, const QRectF& plot) const {
     painter.drawLines(lines);
     lines.clear();
   }
+  painter.setPen(QPen(ink(palp::palette(theme_).force), 1, Qt::DotLine));
+  for (const double limit : spec_.limits) {
+    const double y = yOf(plot, limit);
+    if (y >= plot.top() && y <= plot.bottom()) painter.drawLine(QPointF(plot.left(), y), QPointF(plot.right(), y));
+  }
   painter.setPen(QPen(ink(palp::palette(theme_).selection), 1, Qt::DashLine));
   for (const auto& [t_s, words] : spec_.marks) {
     const double x = xOf(plot, t_s);
-    if (x < plot.left()) continue;
+    if (x < plot.left() || x > plot.right()) continue;
     painter.drawLine(QPointF(x, plot.top()), QPointF(x, plot.bottom()));
     painter.drawText(QPointF(x + 3, plot.bottom() - 4), words);
   }
@@ -196,7 +202,7 @@ void StripChart::paintLegend(QPainter& painter, const QRectF& plot) const {
 void StripChart::paintReading(QPainter& painter, const QRectF& plot) const {
   if (pointer_px_ < plot.left() || pointer_px_ > plot.right()) return;
   const double t_s = spec_.end_s - (plot.right() - pointer_px_) / plot.width() * spec_.window_s;
-  QStringList words{tr("%1 s").arg(t_s - spec_.end_s, 0, 'f', 2)};
+  QStringList words{tr("%1 s").arg(t_s - now_s_, 0, 'f', held_ ? 3 : 2)};
   for (const StripSeries& series : spec_.series) {
     const auto next = std::lower_bound(series.t_s.begin(), series.t_s.end(), t_s);
     if (next == series.t_s.end()) continue;
@@ -213,29 +219,6 @@ void StripChart::paintReading(QPainter& painter, const QRectF& plot) const {
   ground.setAlphaF(0.85F);
   painter.fillRect(box, ground);
   painter.drawText(box, Qt::AlignCenter, text);
-}
-
-void StripChart::mouseMoveEvent(QMouseEvent* event) {
-  pointer_px_ = event->position().x();
-  update();
-}
-
-void StripChart::leaveEvent(QEvent*) {
-  pointer_px_ = -1;
-  update();
-}
-
-void StripChart::contextMenuEvent(QContextMenuEvent* event) {
-  QMenu menu(this);
-  const QAction* copy = menu.addAction(tr("Copy picture"));
-  const QAction* save = menu.addAction(tr("Save picture..."));
-  const QAction* chosen = menu.exec(event->globalPos());
-  if (chosen == nullptr) return;
-  const QPixmap picture = grab();
-  if (chosen == copy) QApplication::clipboard()->setPixmap(picture);
-  if (chosen != save) return;
-  const QString file = QFileDialog::getSaveFileName(this, tr("Save picture"), "curves.png", tr("Pictures (*.png)"));
-  if (!file.isEmpty()) picture.save(file, "PNG");
 }
 
 } // namespace palp

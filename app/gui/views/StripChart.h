@@ -6,6 +6,7 @@
 #include <QWidget>
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace palp {
@@ -25,28 +26,54 @@ struct StripSpec {
   double window_s = 10;
   std::vector<StripSeries> series;
   std::vector<std::pair<double, QString>> marks; ///< events at their times
+  std::vector<double> limits;                    ///< drawn across
   QString empty;                                 ///< said where there is no curve
 };
 
-/// Curves of a live source. Painted by Qt itself: a chart of VTK costs several times as much a frame.
+/// Curves of a live source. The wheel zooms in time (Ctrl: in value), a drag moves: then the curves are held, until a
+/// double click lets them run again. Painted by Qt itself: a chart of VTK costs several times as much a frame.
 class StripChart : public QWidget {
   Q_OBJECT
 
 public:
   explicit StripChart(QWidget* parent = nullptr);
 
+  /// Draws another moment; nothing while it is held.
   void setChart(StripSpec spec);
+  /// The user looks at one moment.
+  [[nodiscard]] bool held() const { return held_; }
+  /// All that is to be looked at while it is held, in place of the last seconds.
+  void holdChart(StripSpec spec);
+  void release();
+  /// The curves as a table: time [s], one column a curve; nothing where one has no value.
+  [[nodiscard]] QString asCsv() const;
   void setTheme(Theme theme);
   [[nodiscard]] const StripSpec& chart() const { return spec_; }
   [[nodiscard]] int paintCount() const { return paintCount_; }
 
+signals:
+  /// The user begins to look at one moment: who has more than the last seconds may give it by holdChart.
+  void heldNow();
+  void released();
+  void message(const QString& sentence);
+
 protected:
+  void wheelEvent(QWheelEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void mouseDoubleClickEvent(QMouseEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
   void paintEvent(QPaintEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
   void leaveEvent(QEvent* event) override;
   void contextMenuEvent(QContextMenuEvent* event) override;
 
 private:
+  void hold();
+  void zoomTime(double factor, double about_px);
+  void zoomValue(double factor, double about_px);
+  void move(double byTime_s, double byValue);
+  void saveCsv();
   void paintAxes(QPainter& painter, const QRectF& plot) const;
   void paintCurves(QPainter& painter, const QRectF& plot) const;
   void paintLegend(QPainter& painter, const QRectF& plot) const;
@@ -59,6 +86,9 @@ private:
   StripSpec spec_;
   Theme theme_ = Theme::Light;
   double pointer_px_ = -1; ///< where the mouse is; -1: not here
+  bool held_ = false;
+  double now_s_ = 0;            ///< time of the last frame, which the axis counts from
+  std::optional<QPointF> drag_; ///< last place of the mouse while it moves the curves
   int paintCount_ = 0;
 };
 

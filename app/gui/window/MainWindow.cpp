@@ -1,6 +1,7 @@
 #include "app/gui/window/MainWindow.h"
 
 #include "app/gui/design/DesignPage.h"
+#include "app/gui/document/Document.h"
 #include "app/gui/jobs/NetworkSession.h"
 #include "app/gui/live/LivePage.h"
 #include "app/gui/network/NetworkPage.h"
@@ -10,10 +11,10 @@
 #include "app/gui/touch/LoadPathAnimation.h"
 #include "app/gui/touch/ResistancePage.h"
 #include "app/gui/widgets/WheelGuard.h"
-#include "app/gui/window/Document.h"
 #include "app/gui/window/JobStrip.h"
 #include "app/gui/window/Layout.h"
 #include "app/gui/window/Menus.h"
+#include "app/gui/window/MessageLog.h"
 #include "app/gui/window/Style.h"
 
 #include <QApplication>
@@ -22,6 +23,7 @@
 #include <QHBoxLayout>
 #include <QListWidget>
 #include <QMimeData>
+#include <QScrollArea>
 #include <QSettings>
 #include <QShortcut>
 #include <QStackedWidget>
@@ -33,8 +35,18 @@ namespace palp {
 
 namespace {
 
-constexpr int kRailWidth_px = 128;
+constexpr int kRailWidth_px = 128;  ///< at least
+constexpr int kRailMargins_px = 34; ///< of its style
 constexpr int kMessage_ms = 15000;
+
+/// As large as the scene that is shown needs it, whatever the others need.
+class SceneStack : public QStackedWidget {
+public:
+  [[nodiscard]] QSize minimumSizeHint() const override {
+    return currentWidget() == nullptr ? QSize() : currentWidget()->minimumSizeHint();
+  }
+  [[nodiscard]] QSize sizeHint() const override { return minimumSizeHint(); }
+};
 
 } // namespace
 
@@ -47,12 +59,20 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   row->setSpacing(0);
   rail_ = new QListWidget;
   rail_->setObjectName("rail");
-  rail_->setFixedWidth(kRailWidth_px);
-  scenes_ = new QStackedWidget;
+  rail_->setAccessibleName(tr("Scenes"));
+  scenes_ = new SceneStack;
+  auto* room = new QScrollArea; // on a small screen a scene is scrolled, so that the window always fits
+  room->setObjectName("sceneRoom");
+  room->setFrameShape(QFrame::NoFrame);
+  room->setWidgetResizable(true);
+  room->setWidget(scenes_);
   row->addWidget(rail_);
-  row->addWidget(scenes_, 1);
+  row->addWidget(room, 1);
   setCentralWidget(centre);
 
+  log_ = new MessageLog(this);
+  addDockWidget(Qt::BottomDockWidgetArea, log_);
+  log_->hide();
   auto* designPage = new DesignPage(workbench, network);
   connect(designPage, &DesignPage::stageChanged, this, [this] { workbench_.touch().need(currentScene().stage()); });
   addScene("design", tr("Design"), tr("The sensor at rest and all its parameters"), designPage);
@@ -69,8 +89,8 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   connect(livePage, &LivePage::message, this, &MainWindow::showMessage);
   addScene("live", tr("Live"), tr("A board, the simulated board or a recording, live"), livePage);
   addScene("reports", tr("Reports"), tr("The paper reproduced, and the reports"), new ReportsPage(workbench));
+  document_ = new Document(*this, workbench, network);
   buildStatusLine();
-  document_ = new Document(*this, workbench);
   new Menus(*this, workbench, *document_);
   connect(&workbench, &Workbench::wentBack, this, [this](const QString& scene, const QString& sentence) {
     showScene(scene); // nothing changes unseen
@@ -92,7 +112,7 @@ void MainWindow::addScene(const QString& name, const QString& title, const QStri
 }
 
 void MainWindow::buildStatusLine() {
-  runners_ = {&workbench_.touch().runner(), &network_.runner(), &animation_->runner()};
+  runners_ = {&workbench_.touch().runner(), &network_.runner(), &animation_->runner(), &network_.writer()};
   for (int k = 0; k < scenes_->count(); ++k)
     for (JobRunner* runner : static_cast<Scene*>(scenes_->widget(k))->runners()) runners_.push_back(runner);
   for (JobRunner* runner : runners_) {
@@ -113,6 +133,7 @@ bool MainWindow::busy() const {
 void MainWindow::sceneChosen(int index) {
   if (index < 0) return;
   scenes_->setCurrentIndex(index);
+  scenes_->updateGeometry(); // each needs its own room
   workbench_.setPlace(names_[index]);
   // Before the window is seen no scene is: what it opens on computes nothing for the others.
   if (isVisible()) workbench_.touch().need(currentScene().stage());
@@ -141,6 +162,12 @@ Scene& MainWindow::currentScene() const {
 void MainWindow::setTheme(Theme theme) {
   theme_ = theme;
   applyTheme(*qApp, theme);
+  QFont chosen = rail_->font();
+  chosen.setBold(true);
+  int width = kRailWidth_px;
+  for (int k = 0; k < rail_->count(); ++k)
+    width = std::max(width, QFontMetrics(chosen).horizontalAdvance(rail_->item(k)->text()) + kRailMargins_px);
+  rail_->setFixedWidth(width);
   for (int k = 0; k < scenes_->count(); ++k) static_cast<Scene*>(scenes_->widget(k))->setTheme(theme);
 }
 
@@ -155,6 +182,7 @@ void MainWindow::animate(const QString& folder) {
 
 void MainWindow::showMessage(const QString& sentence) {
   statusBar()->showMessage(sentence, kMessage_ms);
+  log_->add(sentence);
 }
 
 void MainWindow::restoreLayout() {
@@ -163,7 +191,7 @@ void MainWindow::restoreLayout() {
   restoreGeometry(settings.value("geometry").toByteArray());
   restoreState(settings.value("state").toByteArray());
   palp::restoreLayout(*this);
-  setTheme(settings.value("theme").toString() == "dark" ? Theme::Dark : Theme::Light);
+  setTheme(kThemes.find(settings.value("theme").toString().toStdString()).value_or(Theme::Light));
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
@@ -183,8 +211,9 @@ void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
 }
 
 void MainWindow::dropEvent(QDropEvent* event) {
-  const QList<QUrl> files = event->mimeData()->urls();
-  if (!files.isEmpty()) document_->open(files.front().toLocalFile());
+  QStringList files;
+  for (const QUrl& url : event->mimeData()->urls()) files << url.toLocalFile();
+  if (!files.isEmpty()) document_->open(files);
 }
 
 } // namespace palp

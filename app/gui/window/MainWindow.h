@@ -15,6 +15,7 @@ class DeformationPage;
 class Document;
 class JobRunner;
 class LoadPathAnimation;
+class MessageLog;
 class NetworkSession;
 class Workbench;
 
@@ -29,13 +30,14 @@ public:
   bool showScene(const QString& name);
   [[nodiscard]] QStringList sceneNames() const;
   [[nodiscard]] Scene& currentScene() const;
+  [[nodiscard]] Document& document() const { return *document_; }
   void setTheme(Theme theme);
   [[nodiscard]] Theme theme() const { return theme_; }
   /// Some background work runs.
   [[nodiscard]] bool busy() const;
   /// Draws the load path into a folder; says why where it cannot.
   void animate(const QString& folder);
-  /// Says a sentence in the status line.
+  /// Says a sentence in the status line, and keeps it in the log of messages.
   void showMessage(const QString& sentence);
 
 protected:
@@ -56,6 +58,7 @@ private:
   DeformationPage* deformation_ = nullptr;
   LoadPathAnimation* animation_ = nullptr;
   Document* document_ = nullptr;
+  MessageLog* log_ = nullptr;
   QListWidget* rail_ = nullptr;
   QStackedWidget* scenes_ = nullptr;
   QStringList names_;

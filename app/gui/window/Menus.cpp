@@ -1,11 +1,12 @@
 #include "app/gui/window/Menus.h"
 
+#include "app/gui/document/Document.h"
 #include "app/gui/project/ResultCsv.h"
 #include "app/gui/project/Workbench.h"
-#include "app/gui/window/Document.h"
 #include "app/gui/window/HelpDialog.h"
 #include "app/gui/window/MainWindow.h"
 #include "app/gui/window/UndoActions.h"
+#include "app/gui/window/ViewActions.h"
 #include "app/scenes/VtuFile.h"
 #include "io/DesignFile.h"
 #include "model/base/Error.h"
@@ -18,7 +19,6 @@
 #include <QFileDialog>
 #include <QMenuBar>
 #include <QMessageBox>
-#include <QSettings>
 #include <QUndoView>
 
 namespace palp {
@@ -46,6 +46,7 @@ void Menus::buildFile() {
       [this] { document_.startAnew(); });
   add(menu, tr("&Open..."), tr("Opens a design or a project file"), QKeySequence::Open, [this] { document_.open(); });
   recent_ = menu.addMenu(tr("Open &recent"));
+  recent_->setObjectName("recent");
   connect(recent_, &QMenu::aboutToShow, this, &Menus::listRecent);
   listRecent();
   menu.addSeparator();
@@ -138,6 +139,7 @@ void Menus::buildEdit() {
   window_.addDockWidget(Qt::RightDockWidgetArea, dock);
   dock->hide();
   menu.addAction(dock->toggleViewAction());
+  menu.addAction(window_.findChild<QDockWidget*>("messages")->toggleViewAction());
 }
 
 void Menus::buildView() {
@@ -150,14 +152,7 @@ void Menus::buildView() {
         [this, name] { window_.showScene(name); });
   }
   menu.addSeparator();
-  QAction* dark = add(menu, tr("&Dark theme"), tr("Light or dark"), QKeySequence("Ctrl+T"), [] {});
-  dark->setCheckable(true);
-  dark->setObjectName("darkTheme");
-  connect(&menu, &QMenu::aboutToShow, dark, [this, dark] { dark->setChecked(window_.theme() == Theme::Dark); });
-  connect(dark, &QAction::triggered, this, [this] {
-    window_.setTheme(window_.theme() == Theme::Dark ? Theme::Light : Theme::Dark);
-    QSettings().setValue("theme", window_.theme() == Theme::Dark ? "dark" : "light"); // the user's choice, kept
-  });
+  new ViewActions(window_, menu);
 }
 
 void Menus::buildHelp() {

@@ -2,14 +2,43 @@
 
 #include <QApplication>
 #include <QFile>
+#include <QFontDatabase>
 #include <QPalette>
+#include <QRegularExpression>
+#include <QSettings>
 #include <QStyleFactory>
+
+#include <algorithm>
 
 namespace palp {
 
 namespace {
 
+constexpr const char* kTextKey = "textPercent";
+
+/// White on black, yellow for what is chosen: contrasts of 19:1 and 15:1.
+QPalette highContrast() {
+  QPalette colors;
+  const QColor ground = Qt::black, ink = Qt::white, chosen(0xffd400), faint(0xb8b8b8);
+  for (const auto group : {QPalette::Active, QPalette::Inactive, QPalette::Disabled}) {
+    const QColor text = group == QPalette::Disabled ? faint : ink;
+    for (const auto role : {QPalette::Window, QPalette::Base, QPalette::AlternateBase, QPalette::Button,
+                            QPalette::ToolTipBase, QPalette::Dark})
+      colors.setColor(group, role, ground);
+    for (const auto role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText})
+      colors.setColor(group, role, text);
+    for (const auto role : {QPalette::Light, QPalette::Mid, QPalette::Midlight}) colors.setColor(group, role, faint);
+    colors.setColor(group, QPalette::PlaceholderText, QColor(0xd0d0d0));
+    colors.setColor(group, QPalette::Highlight, group == QPalette::Disabled ? faint : chosen);
+    colors.setColor(group, QPalette::HighlightedText, ground);
+    colors.setColor(group, QPalette::ToolTipText, ink);
+    colors.setColor(group, QPalette::Link, chosen);
+  }
+  return colors;
+}
+
 QPalette widgetColors(Theme theme) {
+  if (theme == Theme::Contrast) return highContrast();
   const bool light = theme == Theme::Light;
   QPalette colors;
   const QColor window = light ? QColor(0xf3f4f6) : QColor(0x25282d);
@@ -38,13 +67,36 @@ QPalette widgetColors(Theme theme) {
   return colors;
 }
 
+/// Sizes like @13px follow the text.
+QString scaled(QString sheet, double scale) {
+  static const QRegularExpression size("@(\\d+)px");
+  for (QRegularExpressionMatch match = size.match(sheet); match.hasMatch(); match = size.match(sheet))
+    sheet.replace(match.captured(0), QString("%1px").arg(qRound(match.captured(1).toInt() * scale)));
+  return sheet;
+}
+
 } // namespace
 
 void applyTheme(QApplication& application, Theme theme) {
   QApplication::setStyle(QStyleFactory::create("Fusion"));
   QApplication::setPalette(widgetColors(theme));
+  const double scale = textPercent() / 100.0;
+  QFont font = QFontDatabase::systemFont(QFontDatabase::GeneralFont);
+  if (font.pointSizeF() > 0)
+    font.setPointSizeF(font.pointSizeF() * scale);
+  else
+    font.setPixelSize(qRound(font.pixelSize() * scale));
+  QApplication::setFont(font);
   QFile sheet(":/style/palp.qss");
-  if (sheet.open(QIODevice::ReadOnly)) application.setStyleSheet(QString::fromUtf8(sheet.readAll()));
+  if (sheet.open(QIODevice::ReadOnly)) application.setStyleSheet(scaled(QString::fromUtf8(sheet.readAll()), scale));
+}
+
+int textPercent() {
+  return std::clamp(QSettings().value(kTextKey, 100).toInt(), kSmallestText_percent, kLargestText_percent);
+}
+
+void setTextPercent(int percent) {
+  QSettings().setValue(kTextKey, percent);
 }
 
 } // namespace palp

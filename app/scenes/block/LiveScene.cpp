@@ -20,6 +20,7 @@
 #include <vtkRenderer.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace palp {
 
@@ -160,6 +161,20 @@ void LiveScene::showForces(const std::vector<LiveArrow>& arrows, bool stale, con
   parts.overlay->theme = parts.options.theme;
   parts.overlay->scale = parts.options.scale;
   parts.overlay->Modified();
+}
+
+std::optional<Eigen::Vector2d> LiveScene::topPlace(double x_px, double y_px) const {
+  vtkRenderer& renderer = *parts_->renderer;
+  const auto worldAt = [&](double depth) {
+    renderer.SetDisplayPoint(x_px, y_px, depth);
+    renderer.DisplayToWorld();
+    const Eigen::Vector4d point(renderer.GetWorldPoint());
+    return Eigen::Vector3d(point.head<3>() / point.w());
+  };
+  const Eigen::Vector3d near = worldAt(0), along = worldAt(1) - near;
+  const double share = (parts_->design.block_mm.z() - near.z()) / along.z();
+  if (!std::isfinite(share) || share < 0) return {};
+  return Eigen::Vector2d((near + share * along).head<2>());
 }
 
 void LiveScene::resetCamera(double aspect) {

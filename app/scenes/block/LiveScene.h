@@ -4,6 +4,7 @@
 #include "model/SensorDesign.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,8 @@ public:
   /// Arrows to scale; `stale` draws them grey: the last known, while there are no forces. `lines` stand at the top
   /// left, the first in bold.
   void showForces(const std::vector<LiveArrow>& arrows, bool stale, const std::vector<std::string>& lines);
+  /// Where a pixel of the view (from the lower left) meets the plane of the top face [mm]; none beside it.
+  [[nodiscard]] std::optional<Eigen::Vector2d> topPlace(double x_px, double y_px) const;
   void resetCamera(double aspect);
   void resetCamera(double aspect, const Eigen::Vector3d& direction);
 

@@ -1,5 +1,6 @@
 #include "app/study/decoding/Calibration.h"
 
+#include "app/study/Median.h"
 #include "io/SampleFile.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
@@ -8,12 +9,20 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 
 namespace palp {
 
 namespace {
 
+constexpr double kBadError = 0.1;    // of the force range
+constexpr double kBadMismatch = 0.5; // of the change of R
+constexpr double kLoaded = 0.05;     // of the force range: less is rest
+constexpr std::size_t kFewestToJudge = 4;
+constexpr double kMovedNoise = 2.5;       // times the noise from frame to frame
+constexpr double kMovedRange = 0.01;      // of the force range: labels are good to 1 %
 constexpr Eigen::Index kFewestFrames = 8; // 4 unknowns for each force, and as many again to judge them by
 // Prior variance of gain and offset over that of a label: gains within 30 % are expected, labels are good to 1 %.
 constexpr double kPriorVariance = 1e3;
@@ -111,6 +120,52 @@ void apply(ForwardModel& model, const Affine& affine) {
 
 } // namespace
 
+namespace {
+
+/// Class of an area in a forward model; none where the model does not know it.
+std::optional<std::size_t> classOf(const Decoder& decoder, const ForwardModel& model, int area) {
+  if (decoder.areaOfClass.empty())
+    return area < static_cast<int>(model.classes()) ? std::optional(static_cast<std::size_t>(area)) : std::nullopt;
+  const auto found = std::find(decoder.areaOfClass.begin(), decoder.areaOfClass.end(), area);
+  if (found == decoder.areaOfClass.end()) return {};
+  return static_cast<std::size_t>(found - decoder.areaOfClass.begin());
+}
+
+std::optional<double> modelMismatch(const Decoder& decoder, const SampleSet& frames) {
+  const ForwardModel* model = decoder.areas ? &*decoder.areas : std::get_if<ForwardModel>(&decoder.model);
+  if (model == nullptr || model->causes() != 3) return {};
+  const Eigen::MatrixXd inputs = inputsOf(frames, decoder.input);
+  const Eigen::Vector3d range_N = decoder.high_N - decoder.low_N;
+  std::vector<double> shares;
+  for (Eigen::Index i = 0; i < frames.size(); ++i) {
+    const std::optional<std::size_t> c = classOf(decoder, *model, frames.area(i));
+    if (!c || frames.forces_N.col(i).cwiseQuotient(range_N).norm() < kLoaded) continue;
+    const Eigen::VectorXd rest = model->measurementsOf(*c, Eigen::Vector3d::Zero());
+    const Eigen::VectorXd expected = model->measurementsOf(*c, frames.forces_N.col(i));
+    const double size = std::max((inputs.col(i) - rest).norm(), (expected - rest).norm());
+    shares.push_back((inputs.col(i) - expected).norm() / size);
+  }
+  return shares.empty() ? std::nullopt : std::optional(median(std::move(shares)));
+}
+
+std::string percent(double share) {
+  return std::to_string(std::lround(100 * share)) + " %";
+}
+
+} // namespace
+
+std::vector<std::string> warningsOf(const CalibrationReport& report) {
+  std::vector<std::string> warnings;
+  const double error = report.rmseAfter_percentOfRange.maxCoeff() / 100;
+  if (!report.improved) warnings.push_back("on frames that it has not seen it is no better than the network before");
+  if (error > kBadError)
+    warnings.push_back("on frames that it has not seen it is off by " + percent(error) + " of the force range");
+  if (report.modelMismatch && *report.modelMismatch > kBadMismatch)
+    warnings.push_back("the model under these labels gives other readings than the frames hold (" +
+                       percent(*report.modelMismatch) + " of their change apart): areas, signs or loads are mixed up");
+  return warnings;
+}
+
 Calibration calibrate(const Decoder& decoder, const SampleSet& frames, const std::stop_token& stop) {
   requireUsable(decoder, frames);
   PredictOptions forcesAlone;
@@ -142,6 +197,8 @@ Calibration calibrate(const Decoder& decoder, const SampleSet& frames, const std
   report.improved =
       report.rmseAfter_N.cwiseQuotient(range_N).norm() < report.rmseBefore_N.cwiseQuotient(range_N).norm();
 
+  report.modelMismatch = modelMismatch(decoder, frames);
+
   const Affine affine = inNewton(fit(scaled, -1), range_N);
   if (auto* network = std::get_if<RbfNetwork>(&result.decoder.model)) apply(*network, affine);
   if (auto* model = std::get_if<ForwardModel>(&result.decoder.model)) apply(*model, affine);
@@ -164,12 +221,44 @@ FrameAverage::FrameAverage(const Decoder& decoder, const SensorDesign& design, c
   set_.forces_N = label.force_N;
   set_.displacements_mm.resize(0, 1);
   sum_ = Eigen::MatrixXd::Zero(set_.rowWires, set_.columnWires);
+  range_N_ = (decoder.high_N - decoder.low_N).head<3>();
 }
 
 void FrameAverage::add(const DecodedForces& forces) {
   if (!forces.valid) return;
   sum_ += forces.resistances_ohm;
   ++count_;
+  if (forces.forces_N.cols() == 1) said_N_.push_back(forces.forces_N.col(0));
+}
+
+Eigen::Vector3d FrameAverage::said_N() const {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& said : said_N_) sum += said;
+  return sum / static_cast<double>(said_N_.size()); // NaN where there is none
+}
+
+/// Noise jumps from frame to frame, a load that moves does not: its scatter is more than that of neighbours.
+std::string FrameAverage::moved() const {
+  if (said_N_.size() < kFewestToJudge) return {};
+  const Eigen::Vector3d mean = said_N();
+  Eigen::Array3d scatter = Eigen::Array3d::Zero(), neighbours = Eigen::Array3d::Zero();
+  for (std::size_t i = 0; i < said_N_.size(); ++i) {
+    scatter += (said_N_[i] - mean).array().square();
+    if (i > 0) neighbours += (said_N_[i] - said_N_[i - 1]).array().square() / 2;
+  }
+  const auto count = static_cast<double>(said_N_.size());
+  const Eigen::Array3d deviation = (scatter / (count - 1)).sqrt(), noise = (neighbours / (count - 1)).sqrt();
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    if (deviation(axis) <= std::max(kMovedNoise * noise(axis), kMovedRange * range_N_(axis))) continue;
+    const auto [low, high] =
+        std::minmax_element(said_N_.begin(), said_N_.end(),
+                            [axis](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a(axis) < b(axis); });
+    std::array<char, 80> text{};
+    std::snprintf(text.data(), text.size(), "F%c lay between %.3g and %.3g N", "xyz"[axis], (*low)(axis),
+                  (*high)(axis));
+    return text.data();
+  }
+  return {};
 }
 
 SampleSet FrameAverage::sample() const {

@@ -4,7 +4,9 @@
 #include "model/LoadCase.h"
 
 #include <filesystem>
+#include <optional>
 #include <stop_token>
+#include <string>
 #include <vector>
 
 namespace palp {
@@ -19,8 +21,14 @@ struct CalibrationReport {
   Eigen::Vector3d rmseAfter_percentOfRange;
   Eigen::Index worstSample = 0;
   double worstError_N = 0; ///< |F' - F| of it, by a fit without it
-  bool improved = false;   ///< the refined network is better on samples that it has not seen
+  /// How far the change of R that the network's design gives under each label is from the frame's, as share of the
+  /// frame's: median over the frames under load. None without a forward model.
+  std::optional<double> modelMismatch;
+  bool improved = false; ///< the refined network is better on samples that it has not seen
 };
+
+/// Why the labels can hardly belong to the frames, or the fit is of no use; empty where all is well.
+std::vector<std::string> warningsOf(const CalibrationReport& report);
 
 struct Calibration {
   Decoder decoder; ///< refined
@@ -39,12 +47,18 @@ public:
   /// Takes the frame where it is valid.
   void add(const DecodedForces& forces);
   [[nodiscard]] int count() const { return count_; }
+  /// Mean of what the network said of the frames [N]; NaN before the first.
+  [[nodiscard]] Eigen::Vector3d said_N() const;
+  /// The load was not the same in all of them: in words, which force went from where to where; empty where it was.
+  [[nodiscard]] std::string moved() const;
   /// The mean so far.
   [[nodiscard]] SampleSet sample() const;
 
 private:
   SampleSet set_;
   Eigen::MatrixXd sum_;
+  Eigen::Vector3d range_N_; ///< of the network
+  std::vector<Eigen::Vector3d> said_N_;
   int count_ = 0;
 };
 

@@ -79,6 +79,7 @@ void decodeByLikelihood(const Decoder& decoder, const ForwardModel& model, const
                         const Eigen::Ref<const Eigen::MatrixXd>& inputs, const PredictOptions& options,
                         Prediction& result) {
   result.forces_N.resize(decoder.outputs(), inputs.cols());
+  result.chiSquare.resize(inputs.cols());
   if (options.standardDeviation) result.standardDeviation_N.resize(decoder.outputs(), inputs.cols());
   const bool withArea = options.area && model.classes() > 1;
   if (withArea) {
@@ -88,6 +89,7 @@ void decodeByLikelihood(const Decoder& decoder, const ForwardModel& model, const
   for (Eigen::Index i = 0; i < inputs.cols(); ++i) {
     const LikelihoodEstimate estimate = inversion.estimate(inputs.col(i));
     result.forces_N.col(i) = estimate.causes;
+    result.chiSquare(i) = estimate.chiSquare;
     if (options.standardDeviation) result.standardDeviation_N.col(i) = estimate.standardDeviation;
     if (!withArea) continue;
     result.area(i) = areaOf(decoder, estimate.classIndex);
@@ -99,8 +101,12 @@ void addAreas(const Decoder& decoder, const LikelihoodInversion& inversion,
               const Eigen::Ref<const Eigen::MatrixXd>& inputs, Prediction& result) {
   result.area.resize(inputs.cols());
   result.areaConfidence.resize(inputs.cols());
+  result.chiSquare.resize(inputs.cols());
+  result.likely_N.resize(decoder.outputs(), inputs.cols());
   for (Eigen::Index i = 0; i < inputs.cols(); ++i) {
     const LikelihoodEstimate estimate = inversion.estimate(inputs.col(i));
+    result.chiSquare(i) = estimate.chiSquare;
+    result.likely_N.col(i) = estimate.causes;
     result.area(i) = areaOf(decoder, estimate.classIndex);
     result.areaConfidence(i) = estimate.confidence;
   }

@@ -23,7 +23,11 @@ struct Prediction {
   std::vector<bool> outsideTrainingRange; ///< some input lies outside what was trained
   Eigen::VectorXi area;                   ///< most likely touched area; empty: not determined
   Eigen::VectorXd areaConfidence;         ///< its probability
-  double microsecondsPerSample = 0;       ///< of the forces alone
+  /// Mean square of what the most likely touch leaves of the inputs, in their standard deviations (noise and model);
+  /// empty without a forward model.
+  Eigen::VectorXd chiSquare;
+  Eigen::MatrixXd likely_N;         ///< forces of that touch, where they are not the decoder's own
+  double microsecondsPerSample = 0; ///< of the forces alone
   std::vector<std::string> warnings;
 };
 

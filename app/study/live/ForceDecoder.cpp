@@ -29,7 +29,7 @@ std::string sizes(int rows, int columns) {
 void requireFit(const Decoder& decoder, const BoardInfo& info) {
   if (decoder.input.kind != InputKind::Resistance)
     throw Error("the network reads " + name(decoder.input.kind) +
-                "s; a board gives resistances: train one with --input resistance");
+                "s; a board gives resistances: train one that reads those");
   if (decoder.input.rowWires != info.rowWires || decoder.input.valuesPerRow != info.columnWires)
     throw Error("the network is for " + sizes(decoder.input.rowWires, decoder.input.valuesPerRow) + ", the board has " +
                 sizes(info.rowWires, info.columnWires) + ": only raw readings can be shown");
@@ -63,6 +63,7 @@ ForceDecoder::ForceDecoder(Decoder decoder, const BoardInfo& info, std::optional
   rest_ohm_ = restResistances(*decoder_, design);
   factor_ = Eigen::MatrixXd::Ones(info.rowWires, info.columnWires);
   shown_.assign(static_cast<std::size_t>(decoder_->outputs() / 3), false);
+  plausibility_.emplace(*decoder_);
   setNoise(decoder_->noise);
 }
 
@@ -73,6 +74,7 @@ void ForceDecoder::setNoise(double noise) {
   // What is left in the mean of the tare's frames is in every frame since.
   options.noise = std::min(tared_ ? noise * std::sqrt(1 + 1.0 / tareFrames_) : noise, kMostNoise);
   predictor_.emplace(*decoder_, options);
+  predictedNoise_ = options.noise;
   restError_N_ = Eigen::Matrix3Xd::Zero(3, decoder_->outputs() / 3);
   if (rest_ohm_.size() == 0) return;
   // The mean over noise: it is not the answer for readings without any.
@@ -96,7 +98,7 @@ void ForceDecoder::followNoise(const Eigen::VectorXd& raw_ohm) {
 std::string ForceDecoder::tareProblem() const {
   if (rest_ohm_.size() > 0) return {};
   return "tare needs the resistances at rest of design " + decoder_->designFingerprint +
-         ", for which the network was trained: name its file (--design)";
+         ", for which the network was trained: give that design";
 }
 
 void ForceDecoder::startTare(int frames) {
@@ -163,11 +165,11 @@ DecodedForces ForceDecoder::decode(const BoardFrame& frame) {
   if (taring()) addToTare(frame.resistances_ohm);
   followNoise(inputOf(frame.resistances_ohm, decoder_->input));
   decoded.resistances_ohm = frame.resistances_ohm.cwiseProduct(factor_);
-  const Prediction prediction = (*predictor_)(inputOf(decoded.resistances_ohm, decoder_->input));
+  const Eigen::VectorXd readings_ohm = inputOf(decoded.resistances_ohm, decoder_->input);
+  const Prediction prediction = (*predictor_)(readings_ohm);
   const Eigen::Index columns = decoder_->outputs() / 3;
   decoded.forces_N = prediction.forces_N.reshaped(3, columns);
   decoded.standardDeviation_N = prediction.standardDeviation_N.reshaped(3, columns);
-  decoded.outsideTrainingRange = prediction.outsideTrainingRange[0];
   if (prediction.area.size() > 0) {
     decoded.area = prediction.area(0);
     decoded.areaConfidence = prediction.areaConfidence(0);
@@ -176,7 +178,29 @@ DecodedForces ForceDecoder::decode(const BoardFrame& frame) {
   if (!decoded.valid) decoded.reason = "the network's answer is not a number for these readings";
   addRestError(decoded);
   threshold(decoded);
+  if (decoded.valid) judge(frame, prediction, readings_ohm, decoded);
   return decoded;
+}
+
+void ForceDecoder::judge(const BoardFrame& frame, const Prediction& prediction, const Eigen::VectorXd& readings_ohm,
+                         DecodedForces& decoded) {
+  PlausibilityInput input;
+  input.readings_ohm = readings_ohm;
+  input.forces_N = decoded.forces_N.reshaped();
+  input.standardDeviation_N = decoded.standardDeviation_N.reshaped();
+  if (prediction.chiSquare.size() > 0) input.chiSquare = prediction.chiSquare(0);
+  if (prediction.likely_N.size() > 0) input.likely_N = prediction.likely_N.col(0);
+  input.outsideInputs = prediction.outsideTrainingRange[0];
+  input.predictedNoise = predictedNoise_;
+  input.noiseUncertainty = meter_.uncertainty();
+  // What is left in the mean of the tare's frames is in every frame since.
+  if (meter_.ready()) input.noise = meter_.noise() * (tared_ ? std::sqrt(1 + 1.0 / tareFrames_) : 1.0);
+  input.time_s = frame.time_s;
+  const Plausibility::Verdict verdict = plausibility_->judge(input);
+  decoded.outsideTrainingRange = verdict.outside;
+  decoded.misfit = verdict.misfit;
+  decoded.doubted = verdict.doubted;
+  decoded.doubt = verdict.reason;
 }
 
 /// A decoder that was trained with noise is drawn towards the middle of its range, most at rest, which lies at the

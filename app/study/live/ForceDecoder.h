@@ -2,6 +2,7 @@
 
 #include "app/study/decoding/Prediction.h"
 #include "app/study/live/NoiseMeter.h"
+#include "app/study/live/Plausibility.h"
 #include "io/board/BoardFrame.h"
 #include "model/SensorDesign.h"
 
@@ -21,8 +22,11 @@ struct DecodedForces {
   std::vector<bool> shown;              ///< one a column: stands out of the noise
   std::optional<int> area;              ///< most likely touched, where the decoder determines it
   double areaConfidence = 0;
-  bool outsideTrainingRange = false;
-  Eigen::MatrixXd resistances_ohm; ///< tared, row-wires x column-wires; meaningful in the rows that the decoder reads
+  bool outsideTrainingRange = false; ///< of the forces; of the readings where there is no forward model
+  std::optional<double> misfit;      ///< Plausibility::Verdict::misfit
+  bool doubted = false;              ///< the forces of this frame can hardly be true
+  std::string doubt;                 ///< why forces are doubted for a while now; empty where they are not
+  Eigen::MatrixXd resistances_ohm;   ///< tared, row-wires x column-wires; meaningful in the rows that the decoder reads
 };
 
 /// Resistances of a board's frames to forces. What wire or frame is bad never reaches the decoder. Tare is the host's:
@@ -62,13 +66,17 @@ private:
   void setNoise(double noise);
   void addRestError(DecodedForces& decoded) const;
   void threshold(DecodedForces& decoded);
+  void judge(const BoardFrame& frame, const Prediction& prediction, const Eigen::VectorXd& readings_ohm,
+             DecodedForces& decoded);
 
   std::unique_ptr<const Decoder> decoder_;
   std::optional<Predictor> predictor_; ///< for the noise now
   Eigen::Matrix3Xd restError_N_;       ///< what the decoder says of the design at rest: there the truth is zero
   NoiseMeter meter_;
-  Eigen::MatrixXd rest_ohm_; ///< of the design, row-wires x column-wires; empty: not known
-  Eigen::MatrixXd factor_;   ///< by which each raw resistance is scaled
+  std::optional<Plausibility> plausibility_;
+  double predictedNoise_ = 0; ///< that the predictor counts with
+  Eigen::MatrixXd rest_ohm_;  ///< of the design, row-wires x column-wires; empty: not known
+  Eigen::MatrixXd factor_;    ///< by which each raw resistance is scaled
   Eigen::MatrixXd tareFirst_, tareSum_, tareSquares_;
   int tareFrames_ = 0;
   int tareLeft_ = 0;

@@ -3,6 +3,9 @@
 #include "io/SampleFile.h"
 #include "model/base/Error.h"
 
+#include <limits>
+#include <utility>
+
 namespace palp {
 
 namespace {
@@ -26,9 +29,11 @@ bool LabelledFrames::add(const DecodedForces& forces) {
   if (!average_) return false;
   average_->add(forces);
   if (average_->count() < wanted_) return false;
-  const SampleSet frame = average_->sample();
-  average_.reset();
-  append(frame, "the board");
+  const FrameAverage done = *std::exchange(average_, std::nullopt);
+  if (const std::string moved = done.moved(); !moved.empty())
+    throw Error("the load moved while it was averaged (" + moved + "): hold it still and collect again");
+  append(done.sample(), "the board");
+  said_N_.rightCols<1>() = done.said_N();
   return true;
 }
 
@@ -37,6 +42,14 @@ void LabelledFrames::append(const SampleSet& frames, const std::string& from) {
     if (const std::string differs = difference(samples_.origin, frames.origin); !differs.empty())
       throw Error(from + ": other frames than those that are here: " + differs);
   palp::append(samples_, frames);
+  const Eigen::Index before = said_N_.cols();
+  said_N_.conservativeResize(3, samples_.size());
+  said_N_.rightCols(samples_.size() - before).setConstant(std::numeric_limits<double>::quiet_NaN());
+}
+
+void LabelledFrames::clear() {
+  samples_ = {};
+  said_N_.resize(3, 0);
 }
 
 void LabelledFrames::remove(Eigen::Index sample) {
@@ -48,6 +61,7 @@ void LabelledFrames::remove(Eigen::Index sample) {
   samples_.area = area;
   for (Eigen::MatrixXd* part : {&samples_.forces_N, &samples_.displacements_mm, &samples_.resistances_ohm})
     *part = withoutColumn(*part, sample);
+  said_N_ = withoutColumn(said_N_, sample);
 }
 
 void LabelledFrames::load(const std::filesystem::path& path) {

@@ -14,7 +14,8 @@ public:
   /// design's.
   void begin(const Decoder& decoder, const SensorDesign& design, const AreaLoad& label, int frames);
   void stop() { average_.reset(); }
-  /// Takes a frame while one is collected; true where it was the last one.
+  /// Takes a frame while one is collected; true where it was the last one. Throws Error where the load moved meanwhile:
+  /// then nothing is added.
   bool add(const DecodedForces& forces);
   [[nodiscard]] bool collecting() const { return average_.has_value(); }
   [[nodiscard]] int collected() const { return average_ ? average_->count() : 0; }
@@ -22,11 +23,13 @@ public:
 
   [[nodiscard]] const SampleSet& samples() const { return samples_; }
   void remove(Eigen::Index sample);
-  void clear() { samples_ = {}; }
+  void clear();
   /// Adds the frames of a file (palp listen --append). Throws Error where they are of another design.
   void load(const std::filesystem::path& path);
   /// Adds frames that were read from there. Throws Error where they are of another design.
   void append(const SampleSet& frames, const std::string& from);
+  /// What the network in use said of each frame when it was collected [N]; NaN for those of a file.
+  [[nodiscard]] const Eigen::Matrix3Xd& said_N() const { return said_N_; }
   /// Throws Error.
   void save(const std::filesystem::path& path) const;
 
@@ -34,6 +37,7 @@ private:
   std::optional<FrameAverage> average_;
   int wanted_ = 0;
   SampleSet samples_;
+  Eigen::Matrix3Xd said_N_;
 };
 
 } // namespace palp

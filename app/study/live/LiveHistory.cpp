@@ -9,6 +9,8 @@ namespace palp {
 
 namespace {
 
+constexpr double kGap_s = 0.25;   // as long as a board may be silent before it counts as stalled
+constexpr double kGapPeriods = 3; // and of the time between the two frames before, where a board is slow
 constexpr double kMostJump_s = 2; // device and host farther apart than this: another clock
 
 void writeNumbers(std::ostream& out, const Eigen::MatrixXd& values, Eigen::Index count) {
@@ -38,13 +40,23 @@ void LiveHistory::add(std::shared_ptr<const LiveFrame> frame) {
     if (!entries_.empty()) offset_s_ = std::max(offset_s_, entries_.back().t_s - device_s);
   }
   if (frame->forces.valid) lastValid_ = frame;
-  entries_.push_back({device_s + offset_s_, std::move(frame)});
+  const double t_s = device_s + offset_s_;
+  bool gap = false;
+  if (!entries_.empty()) {
+    const Entry& last = entries_.back();
+    const double step_s = t_s - last.t_s;
+    gap = frame->frame.restarted || frame->connection != last.frame->connection ||
+          (step_s > kGap_s && step_s > kGapPeriods * period_s_);
+    if (!gap) period_s_ = step_s;
+  }
+  entries_.push_back({t_s, std::move(frame), gap});
   while (entries_.size() > kMostFrames || entries_.back().t_s - entries_.front().t_s > kLongest_s) entries_.pop_front();
 }
 
 void LiveHistory::clear() {
   entries_.clear();
   lastValid_.reset();
+  period_s_ = 0;
 }
 
 void writeLiveCsv(const std::filesystem::path& path, const LiveHistory& history) {
@@ -57,7 +69,7 @@ void writeLiveCsv(const std::filesystem::path& path, const LiveHistory& history)
   }
   std::ostringstream out;
   out.precision(17);
-  out << "t_s,board_s,frame,complete,valid,area,latency_ms,lost_reports,temperature_degC,mark";
+  out << "t_s,board_s,frame,complete,valid,area,latency_ms,lost_reports,temperature_degC,misfit,mark";
   for (Eigen::Index k = 0; k < forces; ++k)
     out << ",a" << k / 3 << "_f"
         << "xyz"[k % 3] << "_N";
@@ -73,11 +85,13 @@ void writeLiveCsv(const std::filesystem::path& path, const LiveHistory& history)
     if (live.forces.area) out << *live.forces.area;
     out << ',' << 1e3 * live.latency_s << ',' << live.lostReports << ',';
     if (live.frame.temperature_degC) out << *live.frame.temperature_degC;
+    out << ',';
+    if (live.forces.misfit) out << *live.forces.misfit;
     out << ',' << quoted(live.mark);
     writeNumbers(out, live.forces.forces_N, forces);
     writeNumbers(out, live.forces.standardDeviation_N, forces);
     writeNumbers(out, live.change, readings);
-    out << ',' << quoted(live.forces.reason) << '\n';
+    out << ',' << quoted(live.forces.valid ? live.forces.doubt : live.forces.reason) << '\n';
   }
   writeFile(path, out.str(), true);
 }

@@ -14,6 +14,7 @@ public:
     /// Device clock, brought to the host's at each connection and restart: never the time of arrival, which jitters.
     double t_s = 0;
     std::shared_ptr<const LiveFrame> frame;
+    bool gap = false; ///< frames are missing before it: the board was out, held or silent
   };
 
   void add(std::shared_ptr<const LiveFrame> frame);
@@ -29,11 +30,12 @@ public:
 private:
   std::deque<Entry> entries_;
   std::shared_ptr<const LiveFrame> lastValid_;
+  double period_s_ = 0; ///< between the last two frames that follow each other
   double offset_s_ = 0; ///< host's clock minus the device's
 };
 
 /// The entries as CSV: time as in Entry (it never jumps back), the board's own clock, frame, forces with deviations,
-/// latency, lost reports, and the change of every reading.
+/// latency, lost reports, misfit, why there are no forces or why they are doubted, and the change of every reading.
 /// Throws Error where the file cannot be written.
 void writeLiveCsv(const std::filesystem::path& path, const LiveHistory& history);
 

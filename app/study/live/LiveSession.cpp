@@ -123,12 +123,20 @@ void LiveSession::pause(bool paused) {
   post([paused](LiveWorker& worker) { worker.pause(paused); });
 }
 
+void LiveSession::idle(bool idle) {
+  post([idle](LiveWorker& worker) { worker.idle(idle); });
+}
+
 void LiveSession::configure(const BoardConfiguration& configuration) {
   post([configuration](LiveWorker& worker) { worker.configure(configuration); });
 }
 
 void LiveSession::mark(const std::string& text) {
   post([text](LiveWorker& worker) { worker.mark(text); });
+}
+
+void LiveSession::setAlarm(std::optional<ForceAlarm> alarm) {
+  post([alarm](LiveWorker& worker) { worker.setAlarm(alarm); });
 }
 
 void LiveSession::startRecording(const std::filesystem::path& path, const std::string& network, bool force) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/study/live/ForceAlarm.h"
 #include "app/study/live/ForceDecoder.h"
 #include "app/study/live/RestReference.h"
 #include "io/board/FrameAssembler.h"
@@ -36,6 +37,7 @@ struct LiveFrame {
   double latency_s = 0;            ///< from the device's clock to the decoded force
   double decoding_s = 0;           ///< of it, from the report's arrival to the decoded force
   std::uint64_t lostReports = 0;   ///< since the session's start
+  std::uint64_t connection = 0;    ///< how many the source had, at this frame
   std::string mark;                ///< the last event mark of the user or the recording
 };
 
@@ -60,8 +62,11 @@ struct LiveStatus {
   std::optional<double> temperature_degC;
   std::string decoderProblem; ///< why there are no forces; empty where there are
   bool taring = false, tared = false;
-  std::string restName; ///< what LiveFrame::change counts from
-  double noise = 0;     ///< relative, of the readings
+  std::string restName;  ///< what LiveFrame::change counts from
+  double noise = 0;      ///< relative, of the readings
+  std::string alarm;     ///< the alarm that is on, in words
+  std::string lastAlarm; ///< the last one that went off; `alarms` counts them
+  std::uint64_t alarms = 0;
   bool recording = false;
   std::uint64_t recordedReports = 0, recordingDropped = 0;
   std::string recordingFailure;
@@ -75,7 +80,8 @@ struct LiveOptions {
   bool reconnect = true; ///< search again when the board is gone
   std::optional<Decoder> decoder;
   std::optional<SensorDesign> design; ///< for tare
-  int tareFrames = 0;                 ///< tare with the first frames; 0: not
+  std::optional<ForceAlarm> alarm;
+  int tareFrames = 0; ///< tare with the first frames; 0: not
   std::shared_ptr<ReplayControl> replay;
   std::size_t ringFrames = 2048; ///< kept for a reader that drains late
 };
@@ -100,8 +106,12 @@ public:
   void clearTare();
   void setDecoder(std::optional<Decoder> decoder, std::optional<SensorDesign> design);
   void pause(bool paused); ///< decoding and display; a recording goes on
+  /// Nobody looks: nothing is read and no board is held open, but for a recording. The tare stays.
+  void idle(bool idle);
   void configure(const BoardConfiguration& configuration);
   void mark(const std::string& text);
+  /// Goes off in the marks and in the status; none: no alarm.
+  void setAlarm(std::optional<ForceAlarm> alarm);
 
   /// Records from now on; throws Error where the file cannot be written. `network` is its fingerprint, for the head.
   void startRecording(const std::filesystem::path& path, const std::string& network, bool force);

@@ -1,7 +1,6 @@
 #include "app/study/live/LiveSource.h"
 
 #include "app/study/Resources.h"
-#include "app/study/live/SimulatedTouch.h"
 #include "io/SampleFile.h"
 #include "model/base/Error.h"
 
@@ -27,7 +26,8 @@ std::unique_ptr<ReportSource> openBoard(const UsbId& id, const std::string& devi
 std::unique_ptr<ReportSource> openSimulatedBoard(const SimulatedBoardOptions& options,
                                                  std::shared_ptr<SimulationControl> control) {
   const std::filesystem::path file = options.samples.empty() ? resource("board/paper-samples.csv") : options.samples;
-  VirtualBoard board = simulatedBoard(loadSamples(file), options.disturbance, options.rate_Hz, options.seed);
+  VirtualBoard board = simulatedBoard(options.solved ? *options.solved : loadSamples(file), options.disturbance,
+                                      options.rate_Hz, options.seed, options.hand);
   refuseOutside("row-wire", options.faults.openRows, board.info().rowWires);
   refuseOutside("column-wire", options.faults.openColumns, board.info().columnWires);
   board.faults() = options.faults;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/study/live/SimulatedTouch.h"
 #include "io/board/HidBoards.h"
 #include "io/board/ReplaySource.h"
 #include "io/board/SimulatedSource.h"
@@ -25,7 +26,9 @@ struct BoardAccess {
 
 /// What the simulated board is.
 struct SimulatedBoardOptions {
-  std::filesystem::path samples; ///< solved samples that drive it; empty: those that ship with Palp
+  std::filesystem::path samples;           ///< solved samples that drive it; empty: those that ship with Palp
+  std::shared_ptr<const SampleSet> solved; ///< in place of a file
+  std::shared_ptr<const TouchHand> hand;   ///< null: the touch goes over the areas by itself
   BoardDisturbance disturbance;
   BoardFaults faults;
   int rate_Hz = 1000;

@@ -33,14 +33,31 @@ std::span<const std::uint8_t> bytesOf(const std::string& text) {
 
 } // namespace
 
-LiveWorker::LiveWorker(LiveOptions options, TakeFrame take) : options_(std::move(options)), give_(std::move(take)) {}
+LiveWorker::LiveWorker(LiveOptions options, TakeFrame take) : options_(std::move(options)), give_(std::move(take)) {
+  alarm_.set(options_.alarm);
+}
 
 void LiveWorker::step() {
+  if (idle_ && !writer_) return rest();
+  const bool sought = options_.replay && options_.replay->sought();
+  if (status_.state == LiveState::Ended && source_ && sought) status_.state = LiveState::Streaming;
   if (status_.state == LiveState::Ended) {
     std::this_thread::sleep_for(kReadTimeout / 10);
     return;
   }
   guarded([this] { source_ ? read() : search(); });
+}
+
+/// While nobody looks: a board that streams would cost what reading it costs.
+void LiveWorker::rest() {
+  if (source_ && !options_.replay) {
+    source_.reset();
+    searched_ = false;
+    status_.state = LiveState::Paused;
+    status_.reason.clear();
+    status_.reportsPerSecond = status_.framesPerSecond = 0;
+  }
+  std::this_thread::sleep_for(kReadTimeout);
 }
 
 void LiveWorker::guarded(const std::function<void()>& call) {
@@ -109,6 +126,8 @@ void LiveWorker::disconnect(LiveState state, const std::string& reason) {
 
 void LiveWorker::read() {
   const ReportSource::Outcome outcome = source_->read(report_, kReadTimeout);
+  if (auto* replay = dynamic_cast<ReplaySource*>(source_.get()); replay != nullptr && replay->jumped())
+    assembler_->restart(); // what lies between is no loss
   const double now_s = hostClock_s();
   switch (outcome) {
   case ReportSource::Outcome::Read:
@@ -177,12 +196,14 @@ void LiveWorker::takeFrame(const BoardFrame& frame) {
   ++rateFrames_;
   auto live = std::make_shared<LiveFrame>();
   live->frame = frame;
+  live->connection = status_.connections;
   live->faults = wireFaults(frame);
   rest_.add(frame);
   if (decoder_) {
     const int before = decoder_->tares();
     live->forces = decoder_->decode(frame);
     if (decoder_->tares() != before) rest_.setTare(decoder_->boardRest_ohm());
+    watch(live->forces);
   }
   live->change = rest_.change(frame);
   if (frame.restarted) latency_.restart();
@@ -198,6 +219,17 @@ void LiveWorker::takeFrame(const BoardFrame& frame) {
   if (frame.temperature_degC) status_.temperature_degC = frame.temperature_degC;
   if (options_.replay && options_.replay->steps > 0) --options_.replay->steps;
   give_(std::move(live));
+}
+
+/// An alarm stands among the marks, so that curves and recordings hold it.
+void LiveWorker::watch(const DecodedForces& forces) {
+  if (!forces.valid) return;
+  const std::optional<std::string> said = alarm_.add(forces.forces_N);
+  if (!said) return;
+  mark(*said);
+  if (alarm_.words().empty()) return;
+  status_.lastAlarm = *said;
+  ++status_.alarms;
 }
 
 void LiveWorker::measureRates(double now_s) {
@@ -219,6 +251,7 @@ LiveStatus LiveWorker::status() {
   status_.taring = decoder_ && decoder_->taring();
   status_.tared = decoder_ && decoder_->tared();
   status_.restName = rest_.name();
+  status_.alarm = alarm_.words();
   status_.noise = decoder_ ? decoder_->noise() : 0;
   status_.recording = writer_ && source_; // never "recording" while the board is gone
   if (writer_) {
@@ -268,6 +301,10 @@ void LiveWorker::setDecoder(std::optional<Decoder> decoder, std::optional<Sensor
 void LiveWorker::pause(bool paused) {
   if (paused_ && !paused && assembler_) assembler_->restart(); // what came meanwhile is no loss
   paused_ = paused;
+}
+
+void LiveWorker::idle(bool idle) {
+  idle_ = idle;
 }
 
 void LiveWorker::configure(const BoardConfiguration& configuration) {

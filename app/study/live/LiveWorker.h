@@ -25,11 +25,14 @@ public:
   void clearTare();
   void setDecoder(std::optional<Decoder> decoder, std::optional<SensorDesign> design);
   void pause(bool paused);
+  void idle(bool idle);
   void configure(const BoardConfiguration& configuration);
   void mark(const std::string& text);
+  void setAlarm(std::optional<ForceAlarm> alarm) { alarm_.set(alarm); }
   void setWriter(std::shared_ptr<RecordingWriter> writer);
 
 private:
+  void rest();
   void search();
   void connect(std::unique_ptr<ReportSource> source);
   void disconnect(LiveState state, const std::string& reason);
@@ -40,6 +43,7 @@ private:
   void readConfigurationAgain();
   void makeDecoder();
   void recordConfiguration();
+  void watch(const DecodedForces& forces);
   void measureRates(double now_s);
 
   LiveOptions options_;
@@ -54,11 +58,12 @@ private:
   ReportCounts earlier_; ///< of the connections before this one
   std::optional<ForceDecoder> decoder_;
   RestReference rest_;
+  AlarmWatch alarm_;
   std::shared_ptr<RecordingWriter> writer_;
   LatencyMeter latency_, decoding_;
   RawReport report_;
   LiveStatus status_;
-  bool paused_ = false;
+  bool paused_ = false, idle_ = false;
   std::string mark_;        ///< of the user, the last one
   double arrival_s_ = 0;    ///< host clock at the last report
   double askedAgain_s_ = 0; ///< host clock when the configuration was read again

@@ -33,6 +33,14 @@ void NoiseMeter::add(const Eigen::VectorXd& readings_ohm) {
   last_ohm_ = readings_ohm;
 }
 
+/// A frame's median of n readings is known to 1.17 / sqrt(2 n) of itself; neighbours share readings, so that three
+/// frames count as one, and the median over the frames is worth a factor of 1.25.
+double NoiseMeter::uncertainty() const {
+  if (recent_.empty() || last_ohm_.size() == 0) return 1;
+  const double frames = std::max(1.0, static_cast<double>(recent_.size()) / 3);
+  return 1.25 * 1.17 / std::sqrt(2 * static_cast<double>(last_ohm_.size()) * frames);
+}
+
 double NoiseMeter::noise() const {
   return recent_.empty() ? 0 : median(std::vector<double>(recent_.begin(), recent_.end()));
 }

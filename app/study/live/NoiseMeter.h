@@ -17,6 +17,8 @@ public:
   [[nodiscard]] bool ready() const { return recent_.size() >= kFewest; }
   /// rms, relative to R; 0 before the third frame.
   [[nodiscard]] double noise() const;
+  /// Standard deviation of noise(), relative to it.
+  [[nodiscard]] double uncertainty() const;
 
 private:
   static constexpr std::size_t kFewest = 6;

@@ -66,13 +66,29 @@ Eigen::MatrixXd SimulatedTouch::resistances_ohm(const Truth& truth) const {
 }
 
 const Eigen::MatrixXd& SimulatedTouch::at(double time_s) {
-  now_ohm_ = resistances_ohm(truth(time_s));
+  Truth now = truth(time_s);
+  if (const auto held = hand_ ? hand_->held() : std::nullopt) {
+    now = *held;
+    if (now.area < 0 || static_cast<std::size_t>(now.area) >= response_.classes()) now = {}; // not on this sensor
+  }
+  now_ohm_ = resistances_ohm(now);
   return now_ohm_;
 }
 
+void TouchHand::hold(const std::optional<SimulatedTouch::Truth>& touch) {
+  const std::lock_guard lock(mutex_);
+  touch_ = touch;
+}
+
+std::optional<SimulatedTouch::Truth> TouchHand::held() const {
+  const std::lock_guard lock(mutex_);
+  return touch_;
+}
+
 VirtualBoard simulatedBoard(const SampleSet& samples, const BoardDisturbance& disturbance, int rate_Hz,
-                            std::uint64_t seed) {
+                            std::uint64_t seed, std::shared_ptr<const TouchHand> hand) {
   const auto touch = std::make_shared<SimulatedTouch>(samples);
+  touch->follow(std::move(hand));
   BoardSettings settings;
   settings.info.rowWires = touch->rowWires();
   settings.info.columnWires = touch->columnWires();

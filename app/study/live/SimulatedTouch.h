@@ -4,7 +4,13 @@
 #include "model/SampleSet.h"
 #include "nn/rivals/ForwardModel.h"
 
+#include <memory>
+#include <mutex>
+#include <optional>
+
 namespace palp {
+
+class TouchHand;
 
 /// A finger that presses one load area after the other: the resistances that the solver gives for it, by a polynomial
 /// an area through solved samples, so that nothing is solved while the board is simulated.
@@ -23,6 +29,8 @@ public:
   [[nodiscard]] Truth truth(double time_s) const;
   /// Row-wires x column-wires [ohm].
   [[nodiscard]] Eigen::MatrixXd resistances_ohm(const Truth& truth) const;
+  /// Lets a hand hold the touch from now on.
+  void follow(std::shared_ptr<const TouchHand> hand) { hand_ = std::move(hand); }
   /// For Board: valid until the next call.
   const Eigen::MatrixXd& at(double time_s);
 
@@ -40,10 +48,23 @@ private:
   Eigen::VectorXd rest_ohm_;
   Eigen::Vector3d low_N_, high_N_; ///< range of the samples
   Eigen::MatrixXd now_ohm_;
+  std::shared_ptr<const TouchHand> hand_; ///< null: none
+};
+
+/// Holds the simulated touch, from any thread.
+class TouchHand {
+public:
+  /// None: the touch goes over the areas by itself.
+  void hold(const std::optional<SimulatedTouch::Truth>& touch);
+  [[nodiscard]] std::optional<SimulatedTouch::Truth> held() const;
+
+private:
+  mutable std::mutex mutex_;
+  std::optional<SimulatedTouch::Truth> touch_;
 };
 
 /// A virtual board of the sensor that the samples are of, under the simulated touch. Keeps what it needs.
 VirtualBoard simulatedBoard(const SampleSet& samples, const BoardDisturbance& disturbance, int rate_Hz,
-                            std::uint64_t seed);
+                            std::uint64_t seed, std::shared_ptr<const TouchHand> hand = {});
 
 } // namespace palp

@@ -195,6 +195,10 @@ std::uint64_t testSeed(std::uint64_t trainingSeed) {
   return trainingSeed + kTestSeedOffset;
 }
 
+std::vector<RunPart> protocolParts(int figures) {
+  return {{"samples for training", 0.35, 2.5}, {"samples for testing", 0.7, 2}, {"networks", 1, 2.0 * figures}};
+}
+
 std::optional<ProtocolResult> runPaperProtocol(const SensorDesign& design, const std::vector<std::string>& figures,
                                                const ProtocolOptions& options,
                                                const std::function<void(double, const std::string&)>& progress,
@@ -209,7 +213,7 @@ std::optional<ProtocolResult> runPaperProtocol(const SensorDesign& design, const
     };
     const auto made = samples(
         design, options, options.firstSeed + static_cast<std::uint64_t>(repetition), result,
-        [&](double share) { report(share * 0.7, "samples"); }, stop);
+        [&](double share) { report(share * 0.7, share < 0.5 ? "samples for training" : "samples for testing"); }, stop);
     if (!made) return {};
     Experiment experiment(design, *made, options.threads, result);
     std::size_t place = 0;

@@ -3,6 +3,7 @@
 #include "app/study/StageLog.h"
 #include "app/study/decoding/Prediction.h"
 #include "app/study/paper/PublishedNumbers.h"
+#include "app/study/reports/Report.h"
 #include "model/SampleSet.h"
 #include "model/SensorDesign.h"
 #include "solver/SensorMesh.h"
@@ -80,6 +81,9 @@ struct ProtocolResult {
   std::size_t solves = 0;
   StageLog stages;
 };
+
+/// The parts of its run, for so many of its two figures.
+std::vector<RunPart> protocolParts(int figures);
 
 /// Seed of the test samples that go with a training seed: never among the training seeds.
 std::uint64_t testSeed(std::uint64_t trainingSeed);

@@ -93,6 +93,14 @@ struct ReportRequest {
   std::filesystem::path programs{};
 };
 
+/// A part of a run, for those who wait for it: up to which share of its progress it goes, and how long it takes on two
+/// cores with the paper's design and 100 samples an area.
+struct RunPart {
+  std::string name{};
+  double until = 1;
+  double seconds = 0;
+};
+
 /// Gets a share 0..1 and what is being done; may be called from another thread, one call at a time.
 using ReportProgress = std::function<void(double, const std::string&)>;
 /// The progress of a part that begins at the share `from` of the whole.

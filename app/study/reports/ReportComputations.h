@@ -12,6 +12,7 @@ struct ReportComputation {
   std::string what; ///< in a sentence
   /// Empty where it was stopped. Throws Error where the design cannot be.
   std::function<std::optional<ReportContent>(const ReportRequest&, const ReportProgress&, std::stop_token)> compute;
+  std::vector<RunPart> parts; ///< in the order in which they run
 };
 
 /// All of them, in the order of the command's help.

@@ -1,7 +1,11 @@
+#include "app/gui/document/Autosave.h"
+#include "app/gui/document/Document.h"
 #include "app/gui/views/BlockView.h"
 #include "app/gui/views/ChartView.h"
 #include "app/gui/views/HeatmapSpecs.h"
 #include "app/gui/views/HeatmapView.h"
+#include "app/study/Resources.h"
+#include "app/study/live/LiveSource.h"
 #include "tests/app/gui/WindowFixture.h"
 
 #include <QAbstractButton>
@@ -36,7 +40,7 @@ public:
   Monkey(MainWindow& window, unsigned seed) : window_(window), random_(seed) {}
 
   void act() {
-    switch (upTo(17)) {
+    switch (upTo(19)) {
     case 0:
       window_.showScene(window_.sceneNames()[upTo(static_cast<int>(window_.sceneNames().size()))]);
       break;
@@ -86,6 +90,12 @@ public:
     case 16:
       editElsewhere();
       break;
+    case 17:
+      letFall();
+      break;
+    case 18:
+      tryToLeave();
+      break;
     }
   }
 
@@ -103,7 +113,7 @@ private:
     return usable.isEmpty() ? nullptr : usable[upTo(static_cast<int>(usable.size()))];
   }
   static bool asks(const QWidget& widget) {
-    const QStringList longer{"meshSize", "automaticSize", "perArea", "sweepCount"};
+    const QStringList longer{"meshSize", "automaticSize", "perArea", "sweepCount", "sweepSteps"};
     if (longer.contains(widget.objectName()) || longer.contains(widget.parentWidget()->objectName())) return true;
     const auto* button = qobject_cast<const QAbstractButton*>(&widget);
     return button != nullptr && (button->text().contains("...") || button->objectName() == "runReport");
@@ -130,6 +140,20 @@ private:
       QTest::keyClicks(edit, QString::number(5 + 0.1 * upTo(10)));
     }
     window_.showScene(here);
+  }
+  /// One of Palp's files, or none of them.
+  void letFall() {
+    const std::array files{resource("paper.json"), shippedNetwork(), resource("board/paper-samples.csv"),
+                           resource("icons/palp.svg")};
+    dropOn(window_, QString::fromStdString(files[static_cast<std::size_t>(upTo(4))].string()));
+  }
+  /// Asks for what would lose unsaved work; the question is then closed, which leaves all as it was.
+  void tryToLeave() {
+    if (!window_.document().unsaved()) return;
+    if (upTo(2) == 0)
+      EXPECT_FALSE(window_.close());
+    else
+      QTest::keyClick(&window_, Qt::Key_N, Qt::ControlModifier);
   }
   void dragArrow() {
     auto* block = window_.currentScene().findChild<BlockView*>("block");
@@ -206,7 +230,7 @@ protected:
     }
     const NetworkSamples* samples = network.samples();
     EXPECT_TRUE(network.fit() == nullptr || samples != nullptr) << where;
-    if (samples == nullptr) return;
+    if (samples == nullptr || !network.upToDate()) return;
     EXPECT_EQ(samples->training.rowWires, workbench.project().design.rowWires()) << where;
   }
 
@@ -225,6 +249,7 @@ TEST_F(MonkeyWindow, SurvivesAThousandActionsAndShowsWhatAFreshWindowShows) {
   const char* wanted = std::getenv("PALP_MONKEY_SEED");
   const QTemporaryDir folder; // for the files that are written under whatever name was typed
   QDir::setCurrent(folder.path());
+  const Autosave autosave(workbench, network, window.document(), folder.filePath("recovery"));
   Monkey monkey(window, wanted != nullptr ? static_cast<unsigned>(std::atoi(wanted)) : 20130911u);
   // Whatever asks the user something is sent away.
   QTimer closer;
@@ -255,7 +280,7 @@ TEST_F(MonkeyWindow, SurvivesAThousandActionsAndShowsWhatAFreshWindowShows) {
   Project project = quickProject();
   project.load.areas.push_back({4, {0.3, -0.2, -2.5}});
   project.view.quantity = Quantity::VonMises;
-  workbench.replace(project);
+  workbench.replace("another", project);
   window.setTheme(Theme::Light);
   window.resize(1300, 800);
   for (auto* tabs : window.findChildren<QTabWidget*>()) tabs->setCurrentIndex(0);

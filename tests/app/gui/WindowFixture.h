@@ -4,8 +4,11 @@
 #include "app/gui/project/Workbench.h"
 #include "app/gui/window/MainWindow.h"
 
+#include <QDropEvent>
 #include <QFileDialog>
 #include <QLineEdit>
+#include <QMimeData>
+#include <QSettings>
 #include <QTest>
 #include <QTimer>
 #include <QWheelEvent>
@@ -30,6 +33,7 @@ inline Project quickProject() {
 class WindowFixture : public testing::Test {
 protected:
   WindowFixture() {
+    QSettings().clear(); // of the windows of other tests
     window.resize(1300, 800);
     window.show();
     EXPECT_TRUE(QTest::qWaitForWindowExposed(&window));
@@ -66,6 +70,14 @@ inline void answerFileDialog(const QString& file) {
     QTest::keyClick(dialog, Qt::Key_Return);
   });
   timer->start(20);
+}
+
+/// Lets a file fall on the window.
+inline void dropOn(MainWindow& window, const QString& file) {
+  QMimeData mime;
+  mime.setUrls({QUrl::fromLocalFile(file)});
+  QDropEvent event({10, 10}, Qt::CopyAction, &mime, Qt::LeftButton, {});
+  static_cast<QObject&>(window).event(&event); // Qt's own way needs a drag that began outside
 }
 
 inline void drag(QWidget& widget, QPoint from, QPoint to, Qt::KeyboardModifiers modifiers = {}) {

@@ -196,10 +196,11 @@ private:
       const auto sets = twoSets(request_.design, own, content_.stages, {}, stop_);
       if (!sets) return false;
       if (s == 0) explainFactor(centreRowResistances(sets->training));
-      for (Case* one : cases.all()) {
+      const auto all = cases.all();
+      for (std::size_t k = 0; k < all.size(); ++k) {
         if (stop_.stop_requested()) return false;
-        say(0.4 + 0.5 * s / seeds_, one->what);
-        measure(*one, *sets, own.seed);
+        say(0.4 + 0.5 * (s + static_cast<double>(k) / static_cast<double>(all.size())) / seeds_, all[k]->what);
+        measure(*all[k], *sets, own.seed);
       }
     }
     addLines(cases);

@@ -71,7 +71,7 @@ public:
     chooseRows();
     introduce();
     for (std::size_t i = 0; i < choices_.size(); ++i)
-      if (!errorsOf(choices_[i], 0.25 + 0.5 * static_cast<double>(i) / static_cast<double>(choices_.size()))) return {};
+      if (!errorsOf(choices_[i], static_cast<double>(i) / static_cast<double>(choices_.size()))) return {};
     content_.parts.emplace_back(std::move(table_));
     if (!trainingNoise()) return {};
     bits();
@@ -143,7 +143,8 @@ private:
     return {std::move(without), std::move(with)};
   }
 
-  bool errorsOf(const RowChoice& choice, double share) {
+  /// `done`: share of the choices before this one.
+  bool errorsOf(const RowChoice& choice, double done) {
     ReportChart chart{.file = "noise_" + std::to_string(choice.rows.size()),
                       .caption = "Force error against noise, " + choice.name + "; above " + text(kDrawnUpTo_percent) +
                                  " % points are in the CSV alone, as most of a network that is trained clean",
@@ -155,15 +156,19 @@ private:
                       .topLabel = "bits of an ideal converter whose full scale is R"};
     for (int count = 6; count <= 20; count += 2) chart.topTicks.emplace_back(noiseOfBits(count), std::to_string(count));
     std::array<ReportCurve, 2> bounds = boundsOf(choice);
-    for (const Rival& rival :
-         {Rival{"rbf", DecoderKind::Rbf, false, false, 0}, Rival{"rbf, one an area", DecoderKind::Rbf, false, true, 1},
-          Rival{"rbf, trained clean", DecoderKind::Rbf, true, false, 2},
-          Rival{"linear", DecoderKind::Linear, false, false, 3},
-          Rival{"ml", DecoderKind::MaximumLikelihood, false, false, 4}}) {
+    const std::array rivals{Rival{"rbf", DecoderKind::Rbf, false, false, 0},
+                            Rival{"rbf, one an area", DecoderKind::Rbf, false, true, 1},
+                            Rival{"rbf, trained clean", DecoderKind::Rbf, true, false, 2},
+                            Rival{"linear", DecoderKind::Linear, false, false, 3},
+                            Rival{"ml", DecoderKind::MaximumLikelihood, false, false, 4}};
+    const auto steps = static_cast<double>(rivals.size() * kNoises.size() * choices_.size());
+    double share = 0.25 + 0.5 * done;
+    for (const Rival& rival : rivals) {
       ReportCurve curve{.name = rival.name, .color = rival.color};
       for (const double noise : kNoises) {
         if (stop_.stop_requested()) return false;
         say(share, choice.name + ": " + rival.name);
+        share += 0.5 / steps;
         const auto error = errorOf(choice, rival, noise, rival.trainedClean ? 0 : noise);
         if (!error) continue;
         addPoint(curve, noise, rootMeanSquare(*error));
@@ -203,11 +208,13 @@ private:
                       .yLabel = "error, rms of Fx, Fy, Fz [% of range]",
                       .logX = true,
                       .logY = true};
+    std::size_t step = 0;
     for (const RowChoice* choice : {&choices_.front(), &choices_.back()}) {
       ReportCurve curve{.name = choice->name};
       for (const double trained : kTrainingNoises) {
         if (stop_.stop_requested()) return false;
-        say(0.85, "training noise " + text(trained));
+        say(0.75 + 0.24 * static_cast<double>(step++) / static_cast<double>(2 * kTrainingNoises.size()),
+            "training noise " + text(trained));
         const auto error = errorOf(*choice, {"rbf", DecoderKind::Rbf, false, true, 0}, kShownNoise, trained);
         if (!error) continue;
         curve.x.push_back(trained > 0 ? trained : 1e-8);

@@ -96,16 +96,36 @@ TEST_F(NetworkScene, PutsEveryDecoderOnTheSameAxes) {
   EXPECT_EQ(find<ChartView>("trialsError").chart().series.size(), trained);
 }
 
-TEST_F(NetworkScene, DropsSamplesFitAndSweepOfAnotherDesign) {
+TEST_F(NetworkScene, AKeystrokeInTheDesignLosesNothingThatWasTrained) {
   generate();
   QTest::mouseClick(&find<QPushButton>("train"), Qt::LeftButton);
   ASSERT_TRUE(QTest::qWaitFor([&] { return network.fit() != nullptr; }, kPatience_ms));
-  Project other = workbench.project();
-  other.design.block_mm.z() = 6;
-  workbench.edit("height", other);
-  EXPECT_EQ(network.samples(), nullptr);
+  ASSERT_TRUE(idle());
+  QTest::mouseClick(&find<QPushButton>("sweep"), Qt::LeftButton);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.sweepPoints().size() == 3; }, kPatience_ms));
+  ASSERT_TRUE(idle());
+  const NetworkSamples* samples = network.samples();
+  const NetworkFit* fit = network.fit();
+  window.showScene("design");
+  auto& height = find<QLineEdit>("block_mm[2]");
+  height.setFocus();
+  height.selectAll();
+  QTest::keyClicks(&height, "6");
+  ASSERT_EQ(workbench.project().design.block_mm.z(), 6);
+  EXPECT_EQ(network.samples(), samples) << "they are still to be looked at";
+  EXPECT_FALSE(network.upToDate());
+  EXPECT_FALSE(find<QPushButton>("train").isEnabled()) << "but are not of this design";
+  EXPECT_TRUE(find<QLabel>("samplesWords").text().contains("earlier design"));
+  window.showScene("network");
+  generate();
+  EXPECT_NE(network.samples(), samples) << "samples of the other design";
   EXPECT_EQ(network.fit(), nullptr);
-  EXPECT_FALSE(find<QPushButton>("train").isEnabled());
+  QTest::keyClick(&window, Qt::Key_Z, Qt::ControlModifier);
+  ASSERT_EQ(workbench.project().design.block_mm.z(), 5);
+  EXPECT_EQ(network.samples(), samples);
+  EXPECT_EQ(network.fit(), fit);
+  EXPECT_EQ(network.sweepPoints().size(), 3u);
+  EXPECT_TRUE(network.upToDate());
 }
 
 } // namespace

@@ -69,11 +69,88 @@ TEST(Workbench, ThereAndBackAgainLeavesNothingToUndo) {
   EXPECT_EQ(fz_N(workbench), start_N);
 }
 
-TEST(Workbench, AnotherProjectBeginsAHistoryAnew) {
+TEST(Workbench, AClosedEntryTakesNoMoreEdits) {
   Workbench workbench(exampleProject());
   press(workbench, -1);
-  workbench.replace("Open", exampleProject());
-  EXPECT_FALSE(workbench.history().canUndo());
+  workbench.closeEntry();
+  press(workbench, -2);
+  EXPECT_EQ(workbench.history().count(), 2);
+}
+
+TEST(Workbench, NamesAnEntryAfterWhatChangedWithItsValues) {
+  Workbench workbench(exampleProject());
+  Project next = workbench.project();
+  next.design.block_mm.x() = 45.5;
+  workbench.edit("design", next);
+  EXPECT_EQ(workbench.history().text(0), "block size along x 30 -> 45.5 mm");
+  next.load.areas = {{0, {0, 0, -3}}};
+  const Project loaded = next;
+  workbench.edit("load", next);
+  next.load.areas[0].force_N.x() = 2;
+  workbench.closeEntry();
+  workbench.edit("load", next);
+  EXPECT_EQ(workbench.history().undoText(), "area 0: (0, 0, -3) -> (2, 0, -3) N");
+  next.load.areas.push_back({3, {0, 0, -1}});
+  workbench.closeEntry();
+  workbench.edit("load", next);
+  EXPECT_EQ(workbench.history().undoText(), "area 3: a load of (0, 0, -1) N");
+  next.load.areas = loaded.load.areas;
+  next.network.spread = 2;
+  workbench.closeEntry();
+  workbench.edit("the network", next);
+  EXPECT_EQ(workbench.history().undoText(), "the network") << "several things at once";
+}
+
+TEST(Workbench, HowThingsAreShownIsNoPartOfTheHistoryAndStaysWhenAnEditIsUndone) {
+  Workbench workbench(exampleProject());
+  press(workbench, -1);
+  Project next = workbench.project();
+  next.view.edges = !next.view.edges;
+  const auto view = next.view;
+  workbench.edit("view", next);
+  EXPECT_EQ(workbench.history().count(), 1);
+  workbench.history().undo();
+  EXPECT_EQ(workbench.project().view, view);
+  EXPECT_FALSE(workbench.modified()) << "a view is nothing to be saved";
+}
+
+TEST(Workbench, AnotherProjectIsAnEntryThatCanBeUndone) {
+  Workbench workbench(exampleProject());
+  press(workbench, -1);
+  const Project mine = workbench.project();
+  workbench.replace("The paper's design", exampleProject());
+  EXPECT_EQ(workbench.project(), exampleProject());
+  EXPECT_FALSE(workbench.modified());
+  workbench.history().undo();
+  EXPECT_EQ(workbench.project(), mine);
+  EXPECT_TRUE(workbench.modified()) << "its force was never saved";
+}
+
+TEST(Workbench, KnowsWhetherTheFileHoldsAllThatWasSet) {
+  Workbench workbench(exampleProject());
+  EXPECT_FALSE(workbench.modified());
+  press(workbench, -1);
+  EXPECT_TRUE(workbench.modified());
+  workbench.saved("mine.json");
+  EXPECT_EQ(workbench.file(), "mine.json");
+  EXPECT_FALSE(workbench.modified());
+  workbench.history().undo();
+  EXPECT_TRUE(workbench.modified()) << "the file holds the force";
+  workbench.history().redo();
+  EXPECT_FALSE(workbench.modified());
+}
+
+TEST(Workbench, LeadsBackToTheSceneWhereTheEditWasMade) {
+  Workbench workbench(exampleProject());
+  QStringList scenes;
+  QObject::connect(&workbench, &Workbench::wentBack, [&](const QString& scene, const QString&) { scenes << scene; });
+  workbench.setPlace("deformation");
+  press(workbench, -1);
+  workbench.setPlace("reports");
+  workbench.history().undo();
+  workbench.setPlace("live");
+  workbench.history().redo();
+  EXPECT_EQ(scenes, QStringList({"deformation", "deformation"}));
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "tests/app/gui/WindowFixture.h"
 
 #include <QComboBox>
+#include <QDesktopServices>
 #include <QDir>
 #include <QFile>
 #include <QLabel>
@@ -10,7 +11,9 @@
 #include <QListWidget>
 #include <QPlainTextEdit>
 #include <QPushButton>
+#include <QTabWidget>
 #include <QTemporaryDir>
+#include <QTreeWidget>
 
 #include <gtest/gtest.h>
 
@@ -23,38 +26,133 @@ class ReportsPageTest : public WindowFixture {
 protected:
   ReportsPageTest() {
     window.showScene("reports");
-    find<QLineEdit>("reportFolder").setText(folder.path());
+    keepIn(folder.path());
   }
-  void run(const QString& kind) {
+  /// As if typed.
+  void keepIn(const QString& path) {
+    auto& edit = find<QLineEdit>("reportFolder");
+    edit.setText(path);
+    QTest::keyClick(&edit, Qt::Key_Return);
+  }
+  void choose(const QString& kind) {
     auto& kinds = find<QComboBox>("reportKind");
     kinds.setCurrentIndex(kinds.findText(kind));
     ASSERT_EQ(kinds.currentText(), kind);
+  }
+  void run(const QString& kind) {
+    choose(kind);
     QTest::mouseClick(&find<QPushButton>("runReport"), Qt::LeftButton);
   }
   bool ended() {
     return QTest::qWaitFor([&] { return find<QPushButton>("runReport").isEnabled(); }, kReportPatience_ms);
   }
+  /// A stand-in for palp: a shell script that gets the report's folder as $folder.
+  void setProgram(const QByteArray& body) {
+    const QString program = programs.filePath("palp-stand-in");
+    QFile script(program);
+    ASSERT_TRUE(script.open(QIODevice::WriteOnly));
+    script.write("#!/bin/sh\nwhile [ \"$1\" != -o ]; do shift; done\nfolder=$2\n" + body);
+    script.close();
+    ASSERT_TRUE(script.setPermissions(QFile::ReadOwner | QFile::WriteOwner | QFile::ExeOwner));
+    static_cast<ReportsPage&>(window.currentScene()).setProgram(program);
+  }
+  QStringList reports() { return QDir(folder.path()).entryList(QDir::Dirs | QDir::NoDotAndDotDot, QDir::Name); }
+  QString inReport(const QString& file) {
+    return reports().isEmpty() ? QString() : QDir(folder.filePath(reports().back())).filePath(file);
+  }
   QString state() { return find<QLabel>("reportState").text(); }
   QListWidget& pictures() { return find<QListWidget>("reportPictures"); }
+  QListWidget& written() { return find<QListWidget>("writtenReports"); }
 
-  QTemporaryDir folder;
+  QTemporaryDir folder, programs;
 };
 
 TEST_F(ReportsPageTest, RunsAReportOfTheProjectsMeshAndShowsItsPicturesAlone) {
   QFile(folder.filePath("of_another_report.png")).open(QIODevice::WriteOnly);
-  settle();
   run("stability");
   EXPECT_TRUE(find<QPlainTextEdit>("reportLog").toPlainText().contains("--per-area 6 --mapped 9x8x2"));
   ASSERT_TRUE(ended());
   EXPECT_TRUE(state().startsWith("Done")) << state().toStdString();
   EXPECT_TRUE(find<QPushButton>("openReport").isEnabled());
-  EXPECT_TRUE(QFile::exists(folder.filePath("report.html")));
+  ASSERT_EQ(reports().size(), 1);
+  EXPECT_TRUE(reports().front().startsWith("stability-")) << reports().front().toStdString();
+  EXPECT_TRUE(QFile::exists(inReport("report.html")));
   ASSERT_EQ(pictures().count(), 1);
   EXPECT_EQ(pictures().item(0)->text(), "spread.png");
   EXPECT_FALSE(find<QLabel>("reportPicture").pixmap().isNull());
 }
 
-TEST_F(ReportsPageTest, ACancelledReportSaysSoAndShowsNothingOfAnEarlierOne) {
+TEST_F(ReportsPageTest, ASecondRunAndFilesOfOthersLeaveEveryFileAsItWas) {
+  QFile foreign(folder.filePath("report.html"));
+  ASSERT_TRUE(foreign.open(QIODevice::WriteOnly));
+  foreign.write("a page of somebody else");
+  foreign.close();
+  setProgram("echo run > \"$folder/report.html\"\n");
+  for (int k = 0; k < 3; ++k) { // within one second too
+    run("stability");
+    ASSERT_TRUE(ended());
+  }
+  ASSERT_EQ(reports().size(), 3);
+  for (const QString& report : reports()) EXPECT_TRUE(QFile::exists(folder.filePath(report + "/report.html")));
+  ASSERT_TRUE(foreign.open(QIODevice::ReadOnly));
+  EXPECT_EQ(foreign.readAll(), "a page of somebody else");
+}
+
+TEST_F(ReportsPageTest, ListsEarlierReportsAndShowsOneAgain) {
+  setProgram("echo the first one said this\necho page > \"$folder/report.html\"\n");
+  run("stability");
+  ASSERT_TRUE(ended());
+  setProgram("echo another\necho page > \"$folder/report.html\"\n");
+  run("noise");
+  ASSERT_TRUE(ended());
+  ASSERT_EQ(written().count(), 2);
+  QListWidgetItem* first = written().findItems("stability, ", Qt::MatchStartsWith).value(0);
+  ASSERT_NE(first, nullptr);
+  find<QTabWidget>("reportTabs").setCurrentWidget(&written());
+  QTest::mouseClick(written().viewport(), Qt::LeftButton, {}, written().visualItemRect(first).center());
+  EXPECT_TRUE(state().startsWith("Shown again")) << state().toStdString();
+  EXPECT_TRUE(state().contains("stability-"));
+  EXPECT_TRUE(find<QPlainTextEdit>("reportLog").toPlainText().contains("the first one said this"));
+  EXPECT_TRUE(find<QPushButton>("openReport").isEnabled());
+}
+
+TEST_F(ReportsPageTest, SaysBeforehandWhatRunsAndForHowLongAndThenWhatIsDone) {
+  choose("stability");
+  EXPECT_TRUE(state().startsWith("Takes about")) << state().toStdString();
+  auto& cases = find<QTreeWidget>("reportCases");
+  ASSERT_GT(cases.topLevelItemCount(), 2);
+  EXPECT_TRUE(cases.topLevelItem(0)->text(1).startsWith("about "));
+  setProgram("echo progress 400 1000 shear 2 N\nwhile [ ! -e \"$folder/go\" ]; do sleep 0.02; done\n"
+             "echo page > \"$folder/report.html\"\n");
+  run("stability");
+  ASSERT_TRUE(QTest::qWaitFor([&] { return cases.topLevelItem(1)->text(1) == "running"; }, kPatience_ms));
+  EXPECT_TRUE(cases.topLevelItem(0)->text(1).startsWith("done in"));
+  EXPECT_TRUE(cases.topLevelItem(1)->text(0).contains("shear 2 N"));
+  EXPECT_TRUE(QTest::qWaitFor([&] { return state().contains("left."); }, kPatience_ms)) << state().toStdString();
+  QFile(inReport("go")).open(QIODevice::WriteOnly);
+  ASSERT_TRUE(ended());
+  for (int k = 0; k < cases.topLevelItemCount(); ++k)
+    EXPECT_TRUE(cases.topLevelItem(k)->text(1).startsWith("done in")) << k;
+}
+
+TEST_F(ReportsPageTest, SaysThePathWhereNoProgramShowsThePage) {
+  setProgram("echo page > \"$folder/report.html\"\n");
+  run("stability");
+  ASSERT_TRUE(ended());
+  QTest::mouseClick(&find<QPushButton>("openReport"), Qt::LeftButton); // offscreen there is no desktop to ask
+  EXPECT_TRUE(state().startsWith("Nothing on this machine shows it")) << state().toStdString();
+  EXPECT_TRUE(state().contains(inReport("report.html")));
+}
+
+TEST_F(ReportsPageTest, AFolderThatCannotBeMadeIsNamed) {
+  QFile(folder.filePath("file")).open(QIODevice::WriteOnly);
+  keepIn(folder.filePath("file"));
+  run("stability");
+  EXPECT_TRUE(state().contains("cannot be made")) << state().toStdString();
+  EXPECT_TRUE(find<QPushButton>("runReport").isEnabled());
+}
+
+TEST_F(ReportsPageTest, ACancelledReportSaysSoAndLeavesNothing) {
   Project many = workbench.project();
   many.samples.perArea = 4000; // work for longer than any machine waits before the cancel
   workbench.edit("many", many);
@@ -67,7 +165,7 @@ TEST_F(ReportsPageTest, ACancelledReportSaysSoAndShowsNothingOfAnEarlierOne) {
   EXPECT_FALSE(pictures().isVisible());
   EXPECT_TRUE(find<QLabel>("reportPicture").pixmap().isNull());
   EXPECT_FALSE(find<QPushButton>("openReport").isEnabled());
-  EXPECT_FALSE(QFile::exists(folder.filePath("report.html")));
+  EXPECT_TRUE(reports().isEmpty()) << reports().join(' ').toStdString();
 }
 
 TEST_F(ReportsPageTest, SaysThatTheProgramCannotBeStartedAndLeavesTheWordsThere) {
@@ -77,22 +175,13 @@ TEST_F(ReportsPageTest, SaysThatTheProgramCannotBeStartedAndLeavesTheWordsThere)
   settle();
   EXPECT_TRUE(state().contains("no-palp cannot be started")) << state().toStdString();
   EXPECT_FALSE(find<QPushButton>("cancelReport").isEnabled());
+  EXPECT_TRUE(reports().isEmpty());
 }
 
 TEST_F(ReportsPageTest, SaysWhichFilesACancelledReportHadWritten) {
-  const QString program = folder.filePath("half-palp");
-  QFile script(program);
-  ASSERT_TRUE(script.open(QIODevice::WriteOnly));
-  script.write("#!/bin/sh\nshift $(($# - 2))\ntrap 'exit 130' INT\necho 1 > \"$1/points.csv\"\n"
-               "while :; do sleep 0.02; done\n");
-  script.close();
-  ASSERT_TRUE(script.setPermissions(QFile::ReadOwner | QFile::WriteOwner | QFile::ExeOwner));
-  const QTemporaryDir report;
-  find<QLineEdit>("reportFolder").setText(report.path());
-  QTest::qWait(20); // the script is older than the report
-  static_cast<ReportsPage&>(window.currentScene()).setProgram(program);
+  setProgram("trap 'exit 130' INT\necho 1 > \"$folder/points.csv\"\nwhile :; do sleep 0.02; done\n");
   run("stability");
-  ASSERT_TRUE(QTest::qWaitFor([&] { return QFile::exists(report.filePath("points.csv")); }, kPatience_ms));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return QFile::exists(inReport("points.csv")); }, kPatience_ms));
   QTest::mouseClick(&find<QPushButton>("cancelReport"), Qt::LeftButton);
   ASSERT_TRUE(ended());
   EXPECT_TRUE(state().contains("1 of the report's files")) << state().toStdString();

@@ -304,7 +304,7 @@ TEST(ForceDecoder, RefusesABoardOrADesignThatIsNotTheNetworks) {
   Decoder unknown = decoderFor(kGood);
   unknown.designFingerprint = "0000000000000000";
   ForceDecoder decoder(unknown, BoardInfo{});
-  EXPECT_NE(refusal([&] { decoder.startTare(10); }).find("--design"), std::string::npos);
+  EXPECT_NE(refusal([&] { decoder.startTare(10); }).find("give that design"), std::string::npos);
 }
 
 } // namespace

@@ -1,0 +1,229 @@
+#include "app/gui/document/Document.h"
+
+#include "app/gui/jobs/NetworkSession.h"
+#include "app/gui/jobs/ResultFiles.h"
+#include "app/gui/project/FileKind.h"
+#include "app/gui/project/ProjectFile.h"
+#include "app/gui/project/Workbench.h"
+#include "app/gui/window/MainWindow.h"
+#include "model/base/Error.h"
+
+#include <QEventLoop>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QMessageBox>
+#include <QSettings>
+
+#include <algorithm>
+
+namespace palp {
+
+namespace {
+
+constexpr int kRecentFiles = 8;
+constexpr const char* kRecentKey = "recentFiles";
+
+void remember(const QString& file) {
+  QSettings settings;
+  QStringList files = settings.value(kRecentKey).toStringList();
+  const QString whole = QFileInfo(file).absoluteFilePath();
+  files.removeAll(whole);
+  files.prepend(whole);
+  settings.setValue(kRecentKey, files.mid(0, kRecentFiles));
+}
+
+/// Projects are named so in dialogs and lists.
+QString withSuffix(const QString& file) {
+  return file.endsWith(".json", Qt::CaseInsensitive) ? file : file + ".json";
+}
+
+/// Where the samples and the network of a project lie: NAME.palp beside NAME.json.
+std::filesystem::path resultsFolder(const QString& file) {
+  return std::filesystem::path(file.toStdString()).replace_extension(".palp");
+}
+
+} // namespace
+
+Document::Document(MainWindow& window, Workbench& workbench, NetworkSession& network)
+    : QObject(&window), window_(window), workbench_(workbench), network_(network) {
+  for (const auto changed : {&NetworkSession::samplesChanged, &NetworkSession::fitChanged})
+    connect(&network, changed, this, &Document::showTitle);
+  connect(&workbench, &Workbench::fileChanged, this, &Document::showTitle);
+  connect(&workbench, &Workbench::projectReplaced, this, [this] {
+    network_.clear(); // what the other project held
+    openResults();
+  });
+  showTitle();
+}
+
+QStringList Document::recent() {
+  return QSettings().value(kRecentKey).toStringList();
+}
+
+Project Document::project() const {
+  Project project = workbench_.project();
+  project.view.scene = window_.currentScene().objectName().toStdString();
+  return project;
+}
+
+bool Document::unsaved() const {
+  const NetworkResults& made = network_.results();
+  const bool results = network_.upToDate() && (made.samples != savedSamples_ || made.fit != savedFit_);
+  return workbench_.modified() || results;
+}
+
+void Document::showTitle() {
+  const QString& file = workbench_.file();
+  window_.setWindowTitle(tr("%1[*] - Palp").arg(file.isEmpty() ? tr("Untitled") : QFileInfo(file).fileName()));
+  window_.setWindowFilePath(file);
+  window_.setWindowModified(unsaved());
+  emit unsavedChanged();
+}
+
+bool Document::mayLeave() {
+  if (!unsaved()) return true;
+  const QString name = workbench_.file().isEmpty() ? tr("The project") : QFileInfo(workbench_.file()).fileName();
+  QMessageBox question(QMessageBox::Question, tr("Save the project?"),
+                       workbench_.modified() ? tr("%1 has changes that are not saved.").arg(name)
+                                             : tr("The samples and networks of %1 are not saved.").arg(name),
+                       QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, &window_);
+  question.setObjectName("unsaved");
+  question.setDefaultButton(QMessageBox::Save);
+  const int answer = question.exec();
+  if (answer == QMessageBox::Discard) return true;
+  if (answer != QMessageBox::Save || !save()) return false;
+  if (network_.writer().running()) { // the window goes on meanwhile
+    QEventLoop waiting;
+    connect(&network_.writer(), &JobRunner::finished, &waiting, &QEventLoop::quit);
+    waiting.exec();
+  }
+  return !unsaved();
+}
+
+void Document::open() {
+  const QStringList files = QFileDialog::getOpenFileNames(
+      &window_, tr("Open"), {}, tr("All files of Palp (*.json *.csv *.palprec);;All files (*)"));
+  if (!files.isEmpty()) open(files);
+}
+
+void Document::open(const QStringList& files) {
+  if (files.size() == 1) {
+    open(files.front());
+    return;
+  }
+  try {
+    std::vector<std::filesystem::path> samples;
+    for (const QString& file : files) {
+      if (fileKind(file) != FileKind::Samples)
+        throw Error(file.toStdString() +
+                    ": is no file of samples; several files are opened together where all of them are");
+      samples.emplace_back(file.toStdString());
+    }
+    window_.showScene("network");
+    network_.openSamples(samples);
+  } catch (const std::exception& error) {
+    QMessageBox::warning(&window_, tr("Cannot open"), QString::fromStdString(error.what()));
+  }
+}
+
+void Document::open(const QString& file) {
+  try {
+    const FileKind kind = fileKind(file);
+    if (kind == FileKind::Foreign) throw Error(foreignWords(file).toStdString());
+    if (kind == FileKind::Design || kind == FileKind::Project) {
+      openProject(file);
+    } else if (kind == FileKind::Samples) {
+      window_.showScene("network");
+      network_.openSamples({file.toStdString()});
+    } else if (kind == FileKind::Network && network_.upToDate() && window_.currentScene().objectName() != "live") {
+      window_.showScene("network");
+      network_.open(file.toStdString());
+    } else { // there are no samples to try a network on, or it is meant for the board
+      Project next = workbench_.project();
+      if (kind == FileKind::Network) {
+        next.live.network = file.toStdString();
+      } else {
+        next.live.source = LiveSourceKind::Recording;
+        next.live.recording = file.toStdString();
+      }
+      workbench_.edit(tr("Open %1").arg(QFileInfo(file).fileName()), next);
+      window_.showScene("live");
+    }
+  } catch (const std::exception& error) {
+    QMessageBox::warning(&window_, tr("Cannot open"),
+                         tr("%1\n\nWhat was open stays as it is.").arg(QString::fromStdString(error.what())));
+  }
+}
+
+void Document::openProject(const QString& file) {
+  const Project opened = loadProject(file.toStdString(), project());
+  if (!mayLeave()) return;
+  const bool whole = fileKind(file) == FileKind::Project; // a design alone begins a project that has no file yet
+  workbench_.replace(tr("Open %1").arg(QFileInfo(file).fileName()), opened,
+                     whole ? QFileInfo(file).absoluteFilePath() : QString());
+  window_.showScene(QString::fromStdString(opened.view.scene));
+  remember(file);
+  window_.showMessage(tr("Opened %1.").arg(file));
+}
+
+void Document::beganWith(const QString& file) {
+  remember(file);
+  if (fileKind(file) != FileKind::Project) return;
+  workbench_.saved(QFileInfo(file).absoluteFilePath());
+  openResults();
+}
+
+/// Samples and network that lie beside the project.
+void Document::openResults() {
+  const QString& file = workbench_.file();
+  if (!file.isEmpty()) network_.openResults(resultsFolder(file), [this] { resultsSaved(network_.results()); });
+}
+
+void Document::startAnew() {
+  if (!mayLeave()) return;
+  workbench_.replace(tr("The paper's design"), exampleProject());
+}
+
+bool Document::save() {
+  return workbench_.file().isEmpty() ? saveAs() : write(workbench_.file());
+}
+
+bool Document::saveAs() {
+  const QString proposal = workbench_.file().isEmpty() ? "project.json" : workbench_.file();
+  const QString file = QFileDialog::getSaveFileName(&window_, tr("Save project"), proposal, tr("Projects (*.json)"));
+  return !file.isEmpty() && write(withSuffix(file));
+}
+
+bool Document::write(const QString& file) {
+  try {
+    saveProject(file.toStdString(), project());
+  } catch (const Error& error) {
+    QMessageBox::warning(&window_, tr("Cannot save"), QString::fromStdString(error.what()));
+    return false;
+  }
+  workbench_.saved(QFileInfo(file).absoluteFilePath());
+  remember(file);
+  window_.showMessage(tr("Saved %1.").arg(file));
+  if (network_.upToDate())
+    network_.saveResults(resultsFolder(workbench_.file()), [this](const auto& results) { resultsSaved(results); });
+  return true;
+}
+
+void Document::resultsSaved(const NetworkResults& results) {
+  savedSamples_ = results.samples;
+  savedFit_ = results.fit;
+  showTitle();
+}
+
+void Document::recover(const QByteArray& project, const QString& file, const std::filesystem::path& results,
+                       const std::function<void()>& done) {
+  if (!file.isEmpty() && QFileInfo::exists(file)) // so that undoing leads to what the file holds
+    workbench_.replace(tr("Open %1").arg(QFileInfo(file).fileName()),
+                       loadProject(file.toStdString(), workbench_.project()), file);
+  const Project recovered = parseProject(project, tr("the recovered project"), workbench_.project());
+  workbench_.edit(tr("Recover unsaved work"), recovered);
+  window_.showScene(QString::fromStdString(recovered.view.scene));
+  network_.openResults(results, done);
+}
+
+} // namespace palp

@@ -1,0 +1,75 @@
+#pragma once
+
+#include "app/gui/project/Project.h"
+
+#include <QObject>
+#include <QString>
+#include <QStringList>
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+
+namespace palp {
+
+class MainWindow;
+class NetworkSession;
+class Workbench;
+struct NetworkFit;
+struct NetworkResults;
+struct NetworkSamples;
+
+/// The project as a file of the user's, its samples and network in a folder beside it (NAME.palp): opens and saves
+/// them, asks before unsaved work would be lost, and keeps the window's title.
+class Document : public QObject {
+  Q_OBJECT
+
+public:
+  Document(MainWindow& window, Workbench& workbench, NetworkSession& network);
+
+  /// The project with the scene that is seen.
+  [[nodiscard]] Project project() const;
+  /// Something would be lost if the program ended now.
+  [[nodiscard]] bool unsaved() const;
+  /// Nothing is unsaved, or the user has saved it or lets it go.
+  bool mayLeave();
+  /// A file of ours: a design or a project in place of what is open (asks first), samples and networks in the Network
+  /// scene. Says why where it cannot be opened, and keeps what was there.
+  void open(const QString& file);
+  /// The same for several: all of them samples.
+  void open(const QStringList& files);
+  /// The same for files that the user chooses.
+  void open();
+  /// The project of the program's start is what this file holds; a design alone is kept in no file yet.
+  void beganWith(const QString& file);
+  /// The paper's design; asks first.
+  void startAnew();
+  /// In its file, or in one that the user chooses. False where it was not saved.
+  bool save();
+  bool saveAs();
+  /// What another window has left, as unsaved work on the project in `file` (empty: in none yet); `done` once all
+  /// of it is open. Throws Error.
+  void recover(const QByteArray& project, const QString& file, const std::filesystem::path& results,
+               const std::function<void()>& done);
+  /// Files that were opened or saved, the newest first.
+  [[nodiscard]] static QStringList recent();
+
+signals:
+  void unsavedChanged();
+
+private:
+  void openProject(const QString& file);
+  void openResults();
+  bool write(const QString& file);
+  /// These samples and this network stand in a file.
+  void resultsSaved(const NetworkResults& results);
+  void showTitle();
+
+  MainWindow& window_;
+  Workbench& workbench_;
+  NetworkSession& network_;
+  std::shared_ptr<const NetworkSamples> savedSamples_;
+  std::shared_ptr<const NetworkFit> savedFit_;
+};
+
+} // namespace palp

@@ -1,0 +1,80 @@
+#include "app/gui/live/LiveBanner.h"
+
+#include <QApplication>
+#include <QClipboard>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QStyle>
+
+namespace palp {
+
+namespace {
+
+constexpr qsizetype kMostFaults = 4;
+
+QString wordsOf(const LiveHost& host) {
+  const LiveStatus& status = host.status();
+  const QString reason = QString::fromStdString(status.reason);
+  switch (status.state) {
+  case LiveState::Searching:
+    return status.connections > 0
+               ? QObject::tr("No board: %1. It goes on by itself when the board is back.").arg(reason)
+               : QObject::tr("No board is plugged in.");
+  case LiveState::Refused:
+  case LiveState::Stalled:
+    return reason;
+  case LiveState::Ended:
+    if (!host.replaying()) return reason;
+    return QObject::tr("The recording is played to its end. %1").arg(reason);
+  case LiveState::Streaming:
+  case LiveState::Paused:
+    break;
+  }
+  if (!status.alarm.empty()) return QString::fromStdString(status.alarm).replace(0, 1, "A");
+  const LiveFrame* last = host.history().last();
+  if (last == nullptr) return {};
+  QStringList faults;
+  for (const std::string& fault : last->faults) faults << QString::fromStdString(fault);
+  if (faults.size() > kMostFaults)
+    faults = faults.mid(0, kMostFaults) << QObject::tr("%1 more").arg(faults.size() - kMostFaults);
+  return faults.join("; ");
+}
+
+} // namespace
+
+LiveBanner::LiveBanner(QWidget* parent) : QWidget(parent) {
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(0, 0, 0, 0);
+  words_ = new QLabel;
+  words_->setObjectName("liveBanner");
+  words_->setProperty("role", "banner");
+  words_->setWordWrap(true);
+  words_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  copyRemedy_ = new QPushButton(tr("Copy the command"));
+  copyRemedy_->setObjectName("copyRemedy");
+  copyRemedy_->setToolTip(tr("Copies the command that installs the udev rule"));
+  row->addWidget(words_, 1);
+  row->addWidget(copyRemedy_);
+  connect(copyRemedy_, &QPushButton::clicked, this, [] {
+    const QString remedy = QString::fromStdString(permissionRemedy());
+    QApplication::clipboard()->setText(remedy.section(": ", 1).section(" (", 0, 0));
+  });
+  hide();
+}
+
+void LiveBanner::display(const LiveHost& host) {
+  const QString words = wordsOf(host).trimmed();
+  if (words_->text() != words) words_->setText(words);
+  const bool ended = host.status().state == LiveState::Ended && host.replaying();
+  const QString role = ended ? "note" : "banner";
+  if (words_->property("role").toString() != role) {
+    words_->setProperty("role", role);
+    words_->style()->unpolish(words_);
+    words_->style()->polish(words_);
+  }
+  copyRemedy_->setVisible(host.status().state == LiveState::Refused && words.contains("permission"));
+  setVisible(!words.isEmpty());
+}
+
+} // namespace palp

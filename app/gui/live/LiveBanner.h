@@ -1,0 +1,26 @@
+#pragma once
+
+#include "app/gui/live/LiveHost.h"
+
+#include <QWidget>
+
+class QLabel;
+class QPushButton;
+
+namespace palp {
+
+/// What is to be known now, in one line over the views: red where something is wrong, plain where it only ended.
+class LiveBanner : public QWidget {
+  Q_OBJECT
+
+public:
+  explicit LiveBanner(QWidget* parent = nullptr);
+
+  void display(const LiveHost& host);
+
+private:
+  QLabel* words_ = nullptr;
+  QPushButton* copyRemedy_ = nullptr;
+};
+
+} // namespace palp

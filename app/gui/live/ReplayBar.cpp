@@ -1,0 +1,162 @@
+#include "app/gui/live/ReplayBar.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QMouseEvent>
+#include <QPushButton>
+#include <QSignalBlocker>
+#include <QSlider>
+#include <QStyle>
+#include <QVBoxLayout>
+
+namespace palp {
+
+namespace {
+
+constexpr int kSteps = 10000; // of the slider
+constexpr double kMostSpeed = 1000;
+
+/// A click goes to its place.
+class TimeLine : public QSlider {
+public:
+  TimeLine() : QSlider(Qt::Horizontal) {}
+
+protected:
+  void mousePressEvent(QMouseEvent* event) override {
+    if (event->button() == Qt::LeftButton)
+      setValue(QStyle::sliderValueFromPosition(minimum(), maximum(), qRound(event->position().x()), width()));
+    QSlider::mousePressEvent(event);
+  }
+};
+
+QDoubleSpinBox* timeBox(const QString& name, const QString& tip) {
+  auto* box = new QDoubleSpinBox;
+  box->setObjectName(name);
+  box->setDecimals(2);
+  box->setSuffix(QObject::tr(" s"));
+  box->setRange(0, 0);
+  box->setToolTip(tip);
+  return box;
+}
+
+} // namespace
+
+ReplayBar::ReplayBar(LiveHost& host, QWidget* parent) : QWidget(parent), host_(host) {
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(2);
+  buildTimeLine();
+  buildLoop();
+  auto* board = new QPushButton(tr("Back to the board"));
+  board->setObjectName("backToBoard");
+  board->setToolTip(tr("Ends the replay and listens to the first board again, or to the simulated one"));
+  auto* upper = new QHBoxLayout;
+  for (QWidget* widget : {static_cast<QWidget*>(pause_), static_cast<QWidget*>(step_)}) upper->addWidget(widget);
+  upper->addWidget(line_, 1);
+  upper->addWidget(time_);
+  auto* lower = new QHBoxLayout;
+  lower->addWidget(new QLabel(tr("Speed")));
+  lower->addWidget(speed_);
+  lower->addWidget(loop_);
+  lower->addWidget(from_);
+  lower->addWidget(new QLabel(tr("to")));
+  lower->addWidget(to_);
+  lower->addStretch(1);
+  lower->addWidget(board);
+  column->addLayout(upper);
+  column->addLayout(lower);
+  connect(board, &QPushButton::clicked, this, &ReplayBar::boardAsked);
+  hide();
+}
+
+void ReplayBar::buildTimeLine() {
+  pause_ = new QPushButton(tr("Hold"));
+  pause_->setObjectName("replayPause");
+  pause_->setToolTip(tr("Holds the recording, or goes on; from its start where it has ended (Space)"));
+  step_ = new QPushButton(tr("One frame on"));
+  step_->setObjectName("replayStep");
+  step_->setToolTip(tr("Goes on by one frame and holds (Period)"));
+  line_ = new TimeLine;
+  line_->setObjectName("replayLine");
+  line_->setAccessibleName(tr("Place in the recording"));
+  line_->setRange(0, kSteps);
+  line_->setPageStep(kSteps / 20);
+  line_->setSingleStep(kSteps / 200);
+  line_->setToolTip(tr("Place in the recording: click or drag to go there"));
+  time_ = new QLabel;
+  time_->setObjectName("replayTime");
+  connect(pause_, &QPushButton::clicked, this, [this] {
+    if (host_.status().state == LiveState::Ended) return host_.seek(0);
+    host_.setPaused(!host_.paused());
+  });
+  connect(step_, &QPushButton::clicked, this, [this] { host_.step(1); });
+  connect(line_, &QSlider::valueChanged, this, [this](int value) {
+    if (host_.replay() != nullptr) host_.seek(host_.replay()->length_s * value / kSteps);
+  });
+}
+
+void ReplayBar::buildLoop() {
+  speed_ = new QComboBox;
+  speed_->setObjectName("replaySpeed");
+  speed_->setEditable(true);
+  speed_->setInsertPolicy(QComboBox::NoInsert);
+  speed_->addItems({"0.1", "0.5", "1", "2", "10", "0"});
+  speed_->setToolTip(tr("Times as fast as it was recorded; 0: as fast as it can be read"));
+  loop_ = new QCheckBox(tr("Loop from"));
+  loop_->setObjectName("replayLoop");
+  loop_->setToolTip(tr("Plays between these two times again and again"));
+  from_ = timeBox("loopFrom", tr("Begin of the loop [s]"));
+  to_ = timeBox("loopTo", tr("End of the loop [s]"));
+  connect(speed_, &QComboBox::currentTextChanged, this, [this](const QString& text) {
+    bool good = false;
+    const double value = text.toDouble(&good);
+    if (good && value >= 0 && value <= kMostSpeed) emit speedAsked(value);
+  });
+  connect(loop_, &QCheckBox::toggled, this, &ReplayBar::loop);
+  connect(from_, &QDoubleSpinBox::valueChanged, this, &ReplayBar::loop);
+  connect(to_, &QDoubleSpinBox::valueChanged, this, &ReplayBar::loop);
+}
+
+void ReplayBar::loop() {
+  ReplayControl* replay = host_.replay();
+  if (replay == nullptr) return;
+  replay->loopFrom_s = from_->value();
+  replay->loopTo_s = to_->value();
+  const bool wasOff = !replay->loop.exchange(loop_->isChecked());
+  if (wasOff && loop_->isChecked() && host_.status().state == LiveState::Ended) host_.seek(from_->value());
+}
+
+void ReplayBar::display(const LiveSettings& settings) {
+  const QSignalBlocker quiet(speed_);
+  if (speed_->currentText().isEmpty() || speed_->currentText().toDouble() != settings.replaySpeed)
+    speed_->setEditText(QString::number(settings.replaySpeed, 'g', 6));
+}
+
+void ReplayBar::displayState() {
+  const ReplayControl* replay = host_.replay();
+  setVisible(replay != nullptr);
+  if (replay == nullptr) return;
+  const bool ended = host_.status().state == LiveState::Ended;
+  const double length_s = replay->length_s;
+  if (length_s != length_s_) { // another recording
+    length_s_ = length_s;
+    const QSignalBlocker quietFrom(from_), quietTo(to_), quietLoop(loop_);
+    from_->setRange(0, length_s);
+    to_->setRange(0, length_s);
+    from_->setValue(0);
+    to_->setValue(length_s);
+    loop_->setChecked(false);
+  }
+  pause_->setText(ended ? tr("Play again") : host_.paused() ? tr("Go on") : tr("Hold"));
+  step_->setEnabled(!ended);
+  const double position_s = ended ? length_s : replay->position_s.load();
+  time_->setText(tr("%1 of %2 s").arg(position_s, 0, 'f', 2).arg(length_s, 0, 'f', 2));
+  if (line_->isSliderDown()) return;
+  const QSignalBlocker quiet(line_);
+  line_->setValue(length_s > 0 ? qRound(kSteps * position_s / length_s) : 0);
+}
+
+} // namespace palp

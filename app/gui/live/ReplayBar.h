@@ -1,0 +1,48 @@
+#pragma once
+
+#include "app/gui/live/LiveHost.h"
+
+#include <QWidget>
+
+class QCheckBox;
+class QComboBox;
+class QDoubleSpinBox;
+class QLabel;
+class QPushButton;
+class QSlider;
+
+namespace palp {
+
+/// The time line of a recording that is played: hold, step, go anywhere, loop, and back to the board.
+class ReplayBar : public QWidget {
+  Q_OBJECT
+
+public:
+  explicit ReplayBar(LiveHost& host, QWidget* parent = nullptr);
+
+  void display(const LiveSettings& settings);
+  /// What has changed since the last look.
+  void displayState();
+
+signals:
+  void speedAsked(double speed);
+  void boardAsked();
+
+private:
+  void buildTimeLine();
+  void buildLoop();
+  void loop();
+
+  LiveHost& host_;
+  QPushButton* pause_ = nullptr;
+  QPushButton* step_ = nullptr;
+  QSlider* line_ = nullptr;
+  QLabel* time_ = nullptr;
+  QComboBox* speed_ = nullptr;
+  QCheckBox* loop_ = nullptr;
+  QDoubleSpinBox* from_ = nullptr;
+  QDoubleSpinBox* to_ = nullptr;
+  double length_s_ = -1;
+};
+
+} // namespace palp

@@ -1,0 +1,67 @@
+#include "app/gui/live/SimulatedDesign.h"
+
+#include "app/study/decoding/DecoderTraining.h"
+#include "app/study/touch/SampleGenerator.h"
+#include "model/base/Cancelled.h"
+
+#include <algorithm>
+
+namespace palp {
+
+namespace {
+
+constexpr int kPerArea = 24;     // as many as ship for the paper's design: a polynomial of degree 2 an area
+constexpr double kNoise = 5e-6;  // of a good board
+constexpr std::size_t kKept = 4; // designs
+
+SampleSet solvedSamples(const SensorDesign& design, const MeshOptions& mesh, const std::stop_token& stop,
+                        JobProgress& progress) {
+  SampleRequest request;
+  request.perArea = kPerArea;
+  request.mesh = mesh;
+  SampleGenerator generator(design, request);
+  progress.set(-1, "Meshing the simulated design");
+  SampleSet samples = generator.emptySet(stop);
+  if (stop.stop_requested()) throw Cancelled();
+  const auto total = static_cast<double>(generator.total());
+  generator.generate(
+      {0, generator.total()}, [&](const SampleSet& block) { append(samples, block); },
+      [&](std::size_t done) {
+        progress.set(static_cast<double>(done) / total, "Solving the simulated design: " + std::to_string(done) +
+                                                            " of " + std::to_string(generator.total()) + " loads");
+      },
+      stop);
+  if (stop.stop_requested()) throw Cancelled();
+  return samples;
+}
+
+} // namespace
+
+SimulatedDesign::SimulatedDesign(QObject* parent) : QObject(parent) {}
+
+const SimulatedDesign::Solved* SimulatedDesign::of(const SensorDesign& design) const {
+  const auto found =
+      std::find_if(kept_.begin(), kept_.end(), [&](const auto& solved) { return solved->design == design; });
+  return found == kept_.end() ? nullptr : found->get();
+}
+
+void SimulatedDesign::solve(const SensorDesign& design, const MeshOptions& mesh) {
+  runner_.start(tr("Solving the simulated design"),
+                [this, design, mesh](const std::stop_token& stop, JobProgress& progress) -> JobRunner::Taking {
+                  auto samples = std::make_shared<const SampleSet>(solvedSamples(design, mesh, stop, progress));
+                  TrainOptions options;
+                  options.input = InputKind::Resistance;
+                  options.rows = "all";
+                  options.decoder = DecoderKind::MaximumLikelihood;
+                  options.noise = kNoise;
+                  Decoder decoder = trainDecoder(*samples, &design, options, stop);
+                  const auto solved = std::make_shared<const Solved>(Solved{design, samples, std::move(decoder)});
+                  return [this, solved] {
+                    kept_.push_front(solved);
+                    if (kept_.size() > kKept) kept_.pop_back();
+                    emit this->solved();
+                  };
+                });
+}
+
+} // namespace palp

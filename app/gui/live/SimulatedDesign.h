@@ -1,0 +1,42 @@
+#pragma once
+
+#include "app/gui/jobs/JobRunner.h"
+#include "io/Decoder.h"
+#include "model/SampleSet.h"
+#include "solver/SensorMesh.h"
+
+#include <QObject>
+
+#include <deque>
+#include <memory>
+
+namespace palp {
+
+/// What the simulated board needs of a design that is not the paper's: solved samples, and a network for them. Solved
+/// when asked for; the last few designs are kept.
+class SimulatedDesign : public QObject {
+  Q_OBJECT
+
+public:
+  struct Solved {
+    SensorDesign design;
+    std::shared_ptr<const SampleSet> samples;
+    Decoder decoder;
+  };
+
+  explicit SimulatedDesign(QObject* parent = nullptr);
+
+  void solve(const SensorDesign& design, const MeshOptions& mesh);
+  /// Null before it was solved.
+  [[nodiscard]] const Solved* of(const SensorDesign& design) const;
+  [[nodiscard]] JobRunner& runner() { return runner_; }
+
+signals:
+  void solved();
+
+private:
+  std::deque<std::shared_ptr<const Solved>> kept_;
+  JobRunner runner_;
+};
+
+} // namespace palp

@@ -1,0 +1,206 @@
+#include "app/gui/live/SimulationPanel.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QFormLayout>
+#include <QGroupBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QSignalBlocker>
+#include <QSpinBox>
+#include <QVBoxLayout>
+
+#include <algorithm>
+
+namespace palp {
+
+namespace {
+
+constexpr double kMostForce_N = 100;
+
+QComboBox* numberBox(const QString& name, const QStringList& values, const QString& tip) {
+  auto* box = new QComboBox;
+  box->setObjectName(name);
+  box->setEditable(true);
+  box->setInsertPolicy(QComboBox::NoInsert);
+  box->addItems(values);
+  box->setToolTip(tip);
+  return box;
+}
+
+QSpinBox* wireBox(const QString& name, int most, const QString& tip) {
+  auto* box = new QSpinBox;
+  box->setObjectName(name);
+  box->setRange(-1, most);
+  box->setSpecialValueText(QObject::tr("none"));
+  box->setToolTip(tip);
+  return box;
+}
+
+} // namespace
+
+SimulationPanel::SimulationPanel(QWidget* parent) : QWidget(parent) {
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  auto* box = new QGroupBox(tr("Simulated board"));
+  auto* form = new QFormLayout(box);
+  plug_ = new QPushButton(tr("Pull out"));
+  plug_->setObjectName("plug");
+  plug_->setToolTip(tr("Pulls the simulated board out, or puts it in again"));
+  form->addRow(plug_);
+  buildDesign(*form);
+  buildTouch(*form);
+  buildDisturbances(*form);
+  buildFaults(*form);
+  column->addWidget(box);
+  connect(plug_, &QPushButton::clicked, this, [this] { emit plugAsked(plug_->text() != tr("Pull out")); });
+}
+
+void SimulationPanel::buildDesign(QFormLayout& form) {
+  design_ = new QLabel;
+  design_->setObjectName("simulatedDesign");
+  design_->setWordWrap(true);
+  simulate_ = new QPushButton(tr("Simulate the project's design"));
+  simulate_->setObjectName("simulateDesign");
+  simulate_->setToolTip(
+      tr("Solves 24 loads an area of the project's design, and trains a network on them where none is "
+         "chosen; takes a while, Esc cancels"));
+  form.addRow(design_);
+  form.addRow(simulate_);
+  connect(simulate_, &QPushButton::clicked, this, &SimulationPanel::designAsked);
+}
+
+/// A touch of one's own, in place of the one that goes over the areas by itself.
+void SimulationPanel::buildTouch(QFormLayout& form) {
+  held_ = new QCheckBox(tr("Touch by hand"));
+  held_->setObjectName("touchHeld");
+  held_->setToolTip(tr("Holds the touch below; press an area of the picture to move it there, and drag from there for "
+                       "the shear"));
+  form.addRow(held_);
+  area_ = new QSpinBox;
+  area_->setObjectName("touchArea");
+  area_->setToolTip(tr("Load area that is pressed; areas count from 0"));
+  form.addRow(tr("Area"), area_);
+  auto* row = new QHBoxLayout;
+  constexpr std::array<const char*, 3> kNames{"Fx", "Fy", "Fz"};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    force_[axis] = new QDoubleSpinBox;
+    force_[axis]->setObjectName(QString("touch_%1").arg(kNames[axis]));
+    force_[axis]->setAccessibleName(tr("%1 of the simulated touch").arg(kNames[axis]));
+    force_[axis]->setRange(-kMostForce_N, kMostForce_N);
+    force_[axis]->setDecimals(2);
+    force_[axis]->setSingleStep(0.1);
+    force_[axis]->setToolTip(tr("%1 of the touch [N]; a push is negative in z").arg(kNames[axis]));
+    row->addWidget(force_[axis]);
+    connect(force_[axis], &QDoubleSpinBox::valueChanged, this, [this, axis](double value) {
+      edit(tr("simulated touch"), [&](LiveSettings& s) { s.simulation.heldForce_N[axis] = value; });
+    });
+  }
+  form.addRow(tr("Force [N]"), row);
+  connect(held_, &QCheckBox::toggled, this,
+          [this](bool on) { edit(tr("simulated touch"), [&](LiveSettings& s) { s.simulation.held = on; }); });
+  follow(area_, &QSpinBox::valueChanged, tr("simulated touch"),
+         [](SimulationSettings& s, int value) { s.heldArea = value; });
+}
+
+/// What `signal` of `box` gives goes into the simulation's settings.
+template <class Box, class Signal, class Change>
+void SimulationPanel::follow(Box* box, Signal signal, const QString& what, Change change) {
+  connect(box, signal, this,
+          [this, what, change](auto value) { edit(what, [&](LiveSettings& s) { change(s.simulation, value); }); });
+}
+
+/// What makes the readings of a board that works differ from those of a perfect one.
+void SimulationPanel::buildDisturbances(QFormLayout& form) {
+  noise_ = numberBox("noise", {"5e-6", "1e-5", "1e-4"},
+                     tr("Noise of a reading, relative to R (rms): 5e-6 is a good board, 1e-4 a plain one"));
+  warming_ = new QDoubleSpinBox;
+  warming_->setObjectName("warming");
+  warming_->setRange(0, 100);
+  warming_->setSuffix(tr(" K"));
+  warming_->setToolTip(tr("The board warms up by this much [K] with a time constant of 5 min; R drifts by 0.1 %/K"));
+  hysteresis_ = new QDoubleSpinBox;
+  hysteresis_->setObjectName("hysteresis");
+  hysteresis_->setRange(0, 100);
+  hysteresis_->setSuffix(tr(" %"));
+  hysteresis_->setToolTip(tr("Share of the change of R that goes through a play of 1e-4 of R [%]"));
+  form.addRow(tr("Noise"), noise_);
+  form.addRow(tr("Warming"), warming_);
+  form.addRow(tr("Hysteresis"), hysteresis_);
+  connect(noise_, &QComboBox::currentTextChanged, this, [this](const QString& text) {
+    bool good = false;
+    const double value = text.toDouble(&good);
+    if (good && value >= 0 && value <= 1)
+      edit(tr("noise"), [&](LiveSettings& settings) { settings.simulation.noise = value; });
+  });
+  follow(warming_, &QDoubleSpinBox::valueChanged, tr("warming"),
+         [](SimulationSettings& s, double value) { s.warming_degC = value; });
+  follow(hysteresis_, &QDoubleSpinBox::valueChanged, tr("hysteresis"),
+         [](SimulationSettings& s, double value) { s.hysteresisShare = value / 100; });
+}
+
+void SimulationPanel::buildFaults(QFormLayout& form) {
+  openRow_ = wireBox("openRow", 31, tr("This row-wire is broken"));
+  openColumn_ = wireBox("openColumn", 254, tr("This column-wire is broken"));
+  dropEvery_ = new QSpinBox;
+  dropEvery_->setObjectName("dropEvery");
+  dropEvery_->setRange(0, 100000);
+  dropEvery_->setSpecialValueText(tr("none"));
+  dropEvery_->setToolTip(tr("Every n-th report is lost on its way"));
+  form.addRow(tr("Broken row-wire"), openRow_);
+  form.addRow(tr("Broken column-wire"), openColumn_);
+  form.addRow(tr("Lose every n-th"), dropEvery_);
+  follow(openRow_, &QSpinBox::valueChanged, tr("broken row-wire"),
+         [](SimulationSettings& s, int value) { s.openRow = value; });
+  follow(openColumn_, &QSpinBox::valueChanged, tr("broken column-wire"),
+         [](SimulationSettings& s, int value) { s.openColumn = value; });
+  follow(dropEvery_, &QSpinBox::valueChanged, tr("lost reports"),
+         [](SimulationSettings& s, int value) { s.dropEvery = value; });
+}
+
+void SimulationPanel::edit(const QString& what, const std::function<void(LiveSettings&)>& change) {
+  LiveSettings next = settings_;
+  change(next);
+  if (next == settings_) return;
+  settings_ = next;
+  emit edited(what, next);
+}
+
+void SimulationPanel::display(const LiveSettings& settings) {
+  settings_ = settings;
+  const SimulationSettings& simulation = settings.simulation;
+  const auto put = [](auto* box, auto value) {
+    const QSignalBlocker quiet(box);
+    box->setValue(value);
+  };
+  put(warming_, simulation.warming_degC);
+  put(hysteresis_, 100 * simulation.hysteresisShare);
+  put(openRow_, simulation.openRow);
+  put(openColumn_, simulation.openColumn);
+  put(dropEvery_, simulation.dropEvery);
+  put(area_, simulation.heldArea);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    put(force_[axis], simulation.heldForce_N[axis]);
+    force_[axis]->setEnabled(simulation.held);
+  }
+  area_->setEnabled(simulation.held);
+  const QSignalBlocker quietHeld(held_), quietNoise(noise_);
+  held_->setChecked(simulation.held);
+  if (noise_->currentText().isEmpty() || noise_->currentText().toDouble() != simulation.noise)
+    noise_->setEditText(QString::number(simulation.noise, 'g', 6));
+}
+
+void SimulationPanel::displayState(const SimulationState& state) {
+  plug_->setText(state.pluggedIn ? tr("Pull out") : tr("Plug in"));
+  const QSignalBlocker quiet(area_);
+  area_->setMaximum(std::max(0, state.areas - 1));
+  const QString words = state.solving     ? tr("Solving the project's design...")
+                        : state.ownDesign ? tr("It simulates the project's design.")
+                                          : tr("It simulates the paper's design, not the project's.");
+  if (design_->text() != words) design_->setText(words);
+  simulate_->setEnabled(!state.ownDesign && !state.solving);
+}
+
+} // namespace palp

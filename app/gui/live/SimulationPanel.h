@@ -1,0 +1,68 @@
+#pragma once
+
+#include "app/gui/project/LiveSettings.h"
+
+#include <QWidget>
+
+#include <array>
+#include <functional>
+
+class QCheckBox;
+class QComboBox;
+class QDoubleSpinBox;
+class QFormLayout;
+class QLabel;
+class QPushButton;
+class QSpinBox;
+
+namespace palp {
+
+/// What the panel shows of the simulated board.
+struct SimulationState {
+  bool pluggedIn = true;
+  bool ownDesign = true; ///< it simulates the project's design
+  int areas = 0;         ///< of the design that it simulates
+  bool solving = false;  ///< its samples are being solved
+};
+
+/// The simulated board: what it adds to its readings, what is broken, whose design it is, and the touch on it.
+class SimulationPanel : public QWidget {
+  Q_OBJECT
+
+public:
+  explicit SimulationPanel(QWidget* parent = nullptr);
+
+  void display(const LiveSettings& settings);
+  void displayState(const SimulationState& state);
+
+signals:
+  void edited(const QString& what, const LiveSettings& settings);
+  void plugAsked(bool in);
+  /// The project's design is to be simulated.
+  void designAsked();
+
+private:
+  void buildDesign(QFormLayout& form);
+  void buildTouch(QFormLayout& form);
+  void buildDisturbances(QFormLayout& form);
+  void buildFaults(QFormLayout& form);
+  template <class Box, class Signal, class Change>
+  void follow(Box* box, Signal signal, const QString& what, Change change);
+  void edit(const QString& what, const std::function<void(LiveSettings&)>& change);
+
+  LiveSettings settings_;
+  QLabel* design_ = nullptr;
+  QPushButton* simulate_ = nullptr;
+  QPushButton* plug_ = nullptr;
+  QCheckBox* held_ = nullptr;
+  QSpinBox* area_ = nullptr;
+  std::array<QDoubleSpinBox*, 3> force_{};
+  QComboBox* noise_ = nullptr;
+  QDoubleSpinBox* warming_ = nullptr;
+  QDoubleSpinBox* hysteresis_ = nullptr;
+  QSpinBox* openRow_ = nullptr;
+  QSpinBox* openColumn_ = nullptr;
+  QSpinBox* dropEvery_ = nullptr;
+};
+
+} // namespace palp

@@ -1,0 +1,48 @@
+#include "app/gui/project/FileKind.h"
+
+#include "model/base/Error.h"
+
+#include <QFile>
+#include <QFileInfo>
+#include <QMimeDatabase>
+#include <QObject>
+
+#include <array>
+
+namespace palp {
+
+namespace {
+
+constexpr qint64 kLooked_bytes = 65536;
+
+} // namespace
+
+FileKind fileKind(const QString& file) {
+  QFile source(file);
+  if (QFileInfo(file).isDir()) throw Error(file.toStdString() + ": is a folder; a file is needed");
+  if (!source.open(QIODevice::ReadOnly))
+    throw Error(file.toStdString() + ": cannot be read: " + source.errorString().toStdString());
+  const QByteArray head = source.read(kLooked_bytes);
+  if (head.startsWith("PALPREC")) return FileKind::Recording;
+  if (head.startsWith("# palp_samples")) return FileKind::Samples;
+  // A project holds a design: the outer key counts.
+  constexpr std::array keys{std::pair{"\"palp_project\"", FileKind::Project},
+                            std::pair{"\"palp_network\"", FileKind::Network},
+                            std::pair{"\"palp_design\"", FileKind::Design}};
+  for (const auto& [key, kind] : keys)
+    if (head.contains(key)) return kind;
+  // It may be one of ours that is broken: the reader says where.
+  return head.trimmed().startsWith('{') ? FileKind::Project : FileKind::Foreign;
+}
+
+QString foreignWords(const QString& file) {
+  const QString type = QFileInfo(file).size() == 0
+                           ? QObject::tr("empty")
+                           : QMimeDatabase().mimeTypeForFile(file, QMimeDatabase::MatchContent).comment();
+  return QObject::tr(
+             "%1: is no file of Palp's (%2). Allowed is a design, a project or a network (.json), samples (.csv) "
+             "or a recording (.palprec).")
+      .arg(file, type);
+}
+
+} // namespace palp

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <QString>
+
+namespace palp {
+
+/// What a file is, by what it says of itself.
+enum class FileKind { Design, Project, Samples, Network, Recording, Foreign };
+
+/// Looks at the first lines alone; whether the rest is whole is for who reads it. Throws Error where it cannot be read.
+FileKind fileKind(const QString& file);
+
+/// A foreign file by what the system takes it for ("PNG image"), and what Palp can open.
+QString foreignWords(const QString& file);
+
+} // namespace palp

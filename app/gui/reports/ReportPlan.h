@@ -1,0 +1,42 @@
+#pragma once
+
+#include "app/study/reports/ReportComputations.h"
+
+#include <QString>
+
+#include <vector>
+
+namespace palp {
+
+/// How long a report takes, part by part, and what is left of it.
+class ReportPlan {
+public:
+  ReportPlan() = default;
+  /// The parts with the times that the kind's last run on this machine took, else those that come with Palp.
+  ReportPlan(const QString& kind, std::vector<RunPart> parts);
+
+  [[nodiscard]] const std::vector<RunPart>& parts() const { return parts_; }
+  /// The times are of a run on this machine.
+  [[nodiscard]] bool measuredHere() const { return here_; }
+  [[nodiscard]] double seconds() const;
+  /// What is left at this share of the progress after so many seconds: the plan's rest, as much slower or faster as
+  /// the run was so far.
+  [[nodiscard]] double left_s(double share, double elapsed_s) const;
+  /// The part that a share lies in.
+  [[nodiscard]] std::size_t partAt(double share) const;
+
+  /// Keeps the times of a run that was done, one a part, for the next one.
+  void remember(const std::vector<double>& seconds) const;
+
+private:
+  [[nodiscard]] double planned_s(double share) const;
+
+  QString kind_;
+  std::vector<RunPart> parts_;
+  bool here_ = false;
+};
+
+/// "40 s", "3 min", as exact as such a guess is.
+QString roughly(double seconds);
+
+} // namespace palp

@@ -1,0 +1,199 @@
+// What mouse and keys do with the curves.
+
+#include "app/gui/views/StripChart.h"
+
+#include <QApplication>
+#include <QClipboard>
+#include <QContextMenuEvent>
+#include <QFile>
+#include <QFileDialog>
+#include <QKeyEvent>
+#include <QMenu>
+#include <QSaveFile>
+#include <QWheelEvent>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace palp {
+
+namespace {
+
+constexpr double kWheelStep = 1.25;
+constexpr double kNotch = 120;       // of a wheel
+constexpr double kKeyShare = 0.1;    // of the window that an arrow key moves
+constexpr double kShortest_s = 0.01; // that a zoom shows
+constexpr double kLongest_s = 120;
+constexpr double kDragFrom_px = 3;
+
+} // namespace
+
+void StripChart::hold() {
+  if (held_) return;
+  held_ = true;
+  emit heldNow();
+}
+
+void StripChart::holdChart(StripSpec spec) {
+  held_ = true;
+  // The moment that one looks at stays; only what lies around it is added.
+  spec.end_s = spec_.end_s;
+  spec.window_s = spec_.window_s;
+  spec.yRange = spec_.yRange;
+  spec_ = std::move(spec);
+  update();
+}
+
+void StripChart::release() {
+  if (!std::exchange(held_, false)) return;
+  emit released();
+  update();
+}
+
+void StripChart::zoomTime(double factor, double about_px) {
+  hold();
+  const QRectF plot = plotRectangle();
+  const double window_s = std::clamp(spec_.window_s * factor, kShortest_s, kLongest_s);
+  const double share = std::clamp((plot.right() - about_px) / plot.width(), 0.0, 1.0);
+  spec_.end_s += share * (window_s - spec_.window_s);
+  spec_.window_s = window_s;
+  update();
+}
+
+void StripChart::zoomValue(double factor, double about_px) {
+  hold();
+  const QRectF plot = plotRectangle();
+  auto& [low, high] = spec_.yRange;
+  const double about = low + (plot.bottom() - about_px) / plot.height() * (high - low);
+  if (!((high - low) * factor > 1e-9) || (high - low) * factor > 1e9) return;
+  low = about + (low - about) * factor;
+  high = about + (high - about) * factor;
+  update();
+}
+
+void StripChart::move(double byTime_s, double byValue) {
+  hold();
+  spec_.end_s += byTime_s;
+  for (double& end : spec_.yRange) end += byValue;
+  update();
+}
+
+void StripChart::wheelEvent(QWheelEvent* event) {
+  const double factor = std::pow(kWheelStep, -event->angleDelta().y() / kNotch);
+  if (event->modifiers().testFlag(Qt::ControlModifier))
+    zoomValue(factor, event->position().y());
+  else
+    zoomTime(factor, event->position().x());
+  event->accept();
+}
+
+void StripChart::mousePressEvent(QMouseEvent* event) {
+  if (event->button() == Qt::LeftButton) drag_ = event->position();
+}
+
+void StripChart::mouseReleaseEvent(QMouseEvent*) {
+  drag_.reset();
+}
+
+void StripChart::mouseDoubleClickEvent(QMouseEvent*) {
+  drag_.reset();
+  release();
+}
+
+void StripChart::mouseMoveEvent(QMouseEvent* event) {
+  pointer_px_ = event->position().x();
+  update();
+  if (!drag_ || !event->buttons().testFlag(Qt::LeftButton)) return;
+  const QPointF by = event->position() - *drag_;
+  if (!held_ && by.manhattanLength() < kDragFrom_px) return;
+  const QRectF plot = plotRectangle();
+  if (plot.width() < 1 || plot.height() < 1) return;
+  drag_ = event->position();
+  move(-by.x() / plot.width() * spec_.window_s, by.y() / plot.height() * (spec_.yRange[1] - spec_.yRange[0]));
+}
+
+void StripChart::keyPressEvent(QKeyEvent* event) {
+  const QPointF middle = plotRectangle().center();
+  const double height = spec_.yRange[1] - spec_.yRange[0];
+  switch (event->key()) {
+  case Qt::Key_Left:
+    return move(-kKeyShare * spec_.window_s, 0);
+  case Qt::Key_Right:
+    return move(kKeyShare * spec_.window_s, 0);
+  case Qt::Key_Up:
+    return move(0, kKeyShare * height);
+  case Qt::Key_Down:
+    return move(0, -kKeyShare * height);
+  case Qt::Key_Plus:
+    return zoomTime(1 / kWheelStep, middle.x());
+  case Qt::Key_Minus:
+    return zoomTime(kWheelStep, middle.x());
+  case Qt::Key_Escape:
+    if (held_) return release();
+    break;
+  default:
+    break;
+  }
+  QWidget::keyPressEvent(event);
+}
+
+void StripChart::leaveEvent(QEvent*) {
+  pointer_px_ = -1;
+  update();
+}
+
+QString StripChart::asCsv() const {
+  std::set<double> times;
+  for (const StripSeries& series : spec_.series) times.insert(series.t_s.begin(), series.t_s.end());
+  QString text = "t_s";
+  for (const StripSeries& series : spec_.series) text += ",\"" + series.name + " " + spec_.yLabel + "\"";
+  text += "\n";
+  std::vector<std::size_t> next(spec_.series.size(), 0);
+  for (const double t_s : times) {
+    text += QString::number(t_s - now_s_, 'f', 6);
+    for (std::size_t k = 0; k < spec_.series.size(); ++k) {
+      const StripSeries& series = spec_.series[k];
+      text += ',';
+      // A break and the value after it stand at one time: the value counts.
+      for (; next[k] < series.t_s.size() && series.t_s[next[k]] <= t_s; ++next[k])
+        if (series.t_s[next[k]] == t_s && std::isfinite(series.y[next[k]]))
+          text += QString::number(series.y[next[k]], 'g', 10);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+void StripChart::saveCsv() {
+  const QString table = asCsv(); // of the moment that was clicked on
+  const QString file = QFileDialog::getSaveFileName(this, tr("Save values"), "curves.csv", tr("Tables (*.csv)"));
+  if (file.isEmpty()) return;
+  QSaveFile out(file);
+  const QByteArray bytes = table.toUtf8();
+  const bool good = out.open(QIODevice::WriteOnly) && out.write(bytes) == bytes.size() && out.commit();
+  emit message(good ? tr("Wrote the curves to %1.").arg(file)
+                    : tr("%1: cannot be written (%2)").arg(file, out.errorString()));
+}
+
+void StripChart::contextMenuEvent(QContextMenuEvent* event) {
+  QMenu menu(this);
+  const QAction* copy = menu.addAction(tr("Copy picture"));
+  const QAction* save = menu.addAction(tr("Save picture..."));
+  const QAction* values = menu.addAction(tr("Save values (CSV)..."));
+  QAction* run = menu.addAction(tr("Let it run again"));
+  run->setEnabled(held_);
+  const QAction* chosen = menu.exec(event->globalPos());
+  if (chosen == nullptr) return;
+  if (chosen == run) return release();
+  if (chosen == values) return saveCsv();
+  const QPixmap picture = grab();
+  if (chosen == copy) QApplication::clipboard()->setPixmap(picture);
+  if (chosen != save) return;
+  const QString file = QFileDialog::getSaveFileName(this, tr("Save picture"), "curves.png", tr("Pictures (*.png)"));
+  if (file.isEmpty()) return;
+  emit message(picture.save(file, "PNG") ? tr("Wrote the picture to %1.").arg(file)
+                                         : tr("%1: cannot be written").arg(file));
+}
+
+} // namespace palp

@@ -1,0 +1,47 @@
+#include "app/study/live/ForceAlarm.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace palp {
+
+namespace {
+
+constexpr double kBack = 0.05;        // of the limit
+constexpr double kLeastBack_N = 0.02; // where the limit is near 0
+
+double valueOf(ForceQuantity quantity, const Eigen::Vector3d& force_N) {
+  return quantity == ForceQuantity::Size ? force_N.norm() : force_N(static_cast<Eigen::Index>(quantity));
+}
+
+} // namespace
+
+void AlarmWatch::set(std::optional<ForceAlarm> alarm) {
+  if (alarm == alarm_) return;
+  alarm_ = alarm;
+  words_.clear();
+}
+
+std::optional<std::string> AlarmWatch::add(const Eigen::Ref<const Eigen::Matrix3Xd>& forces_N) {
+  if (!alarm_ || forces_N.cols() == 0) return {};
+  Eigen::Index area = 0;
+  forces_N.colwise().squaredNorm().maxCoeff(&area);
+  const double value_N = valueOf(alarm_->quantity, forces_N.col(area));
+  const double beyond_N = alarm_->side == AlarmSide::Above ? value_N - alarm_->limit_N : alarm_->limit_N - value_N;
+  const double back_N = std::max(kBack * std::abs(alarm_->limit_N), kLeastBack_N);
+  std::array<char, 96> text{};
+  if (words_.empty() && beyond_N > 0) {
+    std::snprintf(text.data(), text.size(), "alarm: %s %.3g N is %s %.3g N",
+                  std::string(kForceQuantities.name(alarm_->quantity)).c_str(), value_N,
+                  std::string(kAlarmSides.name(alarm_->side)).c_str(), alarm_->limit_N);
+    words_ = text.data();
+    return words_;
+  }
+  if (words_.empty() || beyond_N > -back_N) return {};
+  words_.clear();
+  return "alarm over";
+}
+
+} // namespace palp

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "model/base/NamedEnum.h"
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <string>
+
+namespace palp {
+
+enum class ForceQuantity { Fx, Fy, Fz, Size };
+inline constexpr NamedEnum
+    kForceQuantities("force", std::array{std::pair{ForceQuantity::Fx, "Fx"}, std::pair{ForceQuantity::Fy, "Fy"},
+                                         std::pair{ForceQuantity::Fz, "Fz"}, std::pair{ForceQuantity::Size, "|F|"}});
+enum class AlarmSide { Above, Below };
+inline constexpr NamedEnum kAlarmSides("side", std::array{std::pair{AlarmSide::Above, "above"},
+                                                          std::pair{AlarmSide::Below, "below"}});
+
+/// A limit of the decoded force.
+struct ForceAlarm {
+  ForceQuantity quantity = ForceQuantity::Fz;
+  AlarmSide side = AlarmSide::Below;
+  double limit_N = -5;
+
+  bool operator==(const ForceAlarm&) const = default;
+};
+
+/// Goes off where a force passes the limit, and is over where it has come back by 5 % of the limit: noise about the
+/// limit is one alarm.
+class AlarmWatch {
+public:
+  void set(std::optional<ForceAlarm> alarm);
+  /// Takes the forces of a frame, 3 x areas: the largest one counts. Says what begins or is over; nothing else.
+  std::optional<std::string> add(const Eigen::Ref<const Eigen::Matrix3Xd>& forces_N);
+  /// In words, while it lasts; empty else.
+  [[nodiscard]] const std::string& words() const { return words_; }
+
+private:
+  std::optional<ForceAlarm> alarm_;
+  std::string words_;
+};
+
+} // namespace palp

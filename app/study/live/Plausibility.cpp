@@ -1,0 +1,100 @@
+#include "app/study/live/Plausibility.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace palp {
+
+namespace {
+
+constexpr double kQuantile99 = 2.326; // of a normal distribution
+constexpr double kCauses = 3;         // forces that are fitted to the readings
+constexpr double kMarginOfRange = 0.02;
+constexpr double kMarginDeviations = 4;
+constexpr double kDisagreement = 0.05; // of the range, at least
+constexpr double kMemory_s = 0.25;     // of what is said
+constexpr double kSayAbove = 0.5, kUnsayBelow = 0.1;
+constexpr double kLongestStep_s = 1;
+
+} // namespace
+
+Plausibility::Plausibility(const Decoder& decoder)
+    : low_N_(decoder.low_N), range_N_(decoder.high_N - decoder.low_N), trainedNoise_(decoder.noise) {
+  const ForwardModel* model = decoder.areas ? &*decoder.areas : std::get_if<ForwardModel>(&decoder.model);
+  if (model == nullptr) return;
+  size2_ohm2_ = (decoder.input.low.cwiseAbs2() + decoder.input.high.cwiseAbs2()) / 2;
+  // What training added for the noise is taken out again: this board's is put in its place.
+  modelVariance_ =
+      (model->deviation.array().square() - trainedNoise_ * trainedNoise_ * size2_ohm2_.array()).cwiseMax(0.0);
+}
+
+void Plausibility::restart() {
+  share_ = 0;
+  held_ = false;
+}
+
+double Plausibility::limit(Eigen::Index readings, double noiseUncertainty) {
+  const double freedom = std::max(1.0, static_cast<double>(readings) - kCauses);
+  const double variance = 2 / (9 * freedom) + 4 * noiseUncertainty * noiseUncertainty / 9;
+  const double cubeRoot = 1 - 2 / (9 * freedom) + kQuantile99 * std::sqrt(variance);
+  return std::pow(cubeRoot, 1.5); // of the rms: the square root of the third power
+}
+
+std::optional<double> Plausibility::misfit(const PlausibilityInput& input) const {
+  if (!input.chiSquare || modelVariance_.size() != input.readings_ohm.size() || input.noise <= 0) return {};
+  const double counted2 = std::max(input.predictedNoise * input.predictedNoise, trainedNoise_ * trainedNoise_);
+  const Eigen::ArrayXd expected =
+      modelVariance_.array() + input.noise * input.noise * input.readings_ohm.array().square();
+  const Eigen::ArrayXd counted = modelVariance_.array() + counted2 * size2_ohm2_.array();
+  const auto readings = static_cast<double>(input.readings_ohm.size());
+  const double fitted = std::max(1.0, readings - kCauses) / readings;
+  return std::sqrt(*input.chiSquare / (fitted * (expected / counted).mean()));
+}
+
+Plausibility::Verdict Plausibility::judge(const PlausibilityInput& input) {
+  Verdict verdict;
+  verdict.misfit = misfit(input);
+  Doubt doubt = Doubt::None;
+  const Eigen::ArrayXd sd = input.standardDeviation_N;
+  if (modelVariance_.size() == 0) {
+    verdict.outside = input.outsideInputs;
+  } else {
+    const Eigen::ArrayXd margin = kMarginOfRange * range_N_.array() + kMarginDeviations * sd;
+    const Eigen::ArrayXd above = input.forces_N.array() - low_N_.array();
+    verdict.outside = !((above >= -margin) && (above <= range_N_.array() + margin)).all();
+  }
+  if (verdict.outside) doubt = Doubt::Outside;
+  if (input.likely_N && input.likely_N->size() == input.forces_N.size()) {
+    const Eigen::ArrayXd apart = (input.forces_N - *input.likely_N).array().abs();
+    if ((apart > (kMarginDeviations * sd).max(kDisagreement * range_N_.array())).any()) doubt = Doubt::Disagrees;
+  }
+  if (verdict.misfit && *verdict.misfit > limit(input.readings_ohm.size(), input.noiseUncertainty))
+    doubt = Doubt::Foreign;
+  verdict.doubted = doubt != Doubt::None;
+  follow(doubt, input.time_s);
+  if (!held_) return verdict;
+  if (heldDoubt_ == Doubt::Outside) verdict.reason = "the force lies outside of what the network was trained for";
+  if (heldDoubt_ == Doubt::Disagrees) verdict.reason = "the network's force is not the one that the readings tell";
+  if (heldDoubt_ == Doubt::Foreign) {
+    if (verdict.misfit) heldMisfit_ = *verdict.misfit;
+    std::array<char, 160> text{};
+    std::snprintf(text.data(), text.size(), "no touch that the network knows reads so (misfit %.2g, noise up to %.2g)",
+                  heldMisfit_, limit(input.readings_ohm.size(), input.noiseUncertainty));
+    verdict.reason = text.data();
+  }
+  return verdict;
+}
+
+/// Doubts in more than half of the last quarter of a second are said, until they are fewer than a tenth.
+void Plausibility::follow(Doubt doubt, double time_s) {
+  const double step_s = std::clamp(time_s - last_s_, 0.0, kLongestStep_s);
+  last_s_ = time_s;
+  share_ += ((doubt == Doubt::None ? 0.0 : 1.0) - share_) * (1 - std::exp(-step_s / kMemory_s));
+  if (share_ > kSayAbove) held_ = true;
+  if (share_ < kUnsayBelow) held_ = false;
+  if (doubt != Doubt::None) heldDoubt_ = doubt;
+}
+
+} // namespace palp

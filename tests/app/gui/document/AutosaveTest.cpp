@@ -1,0 +1,185 @@
+#include "app/gui/document/Autosave.h"
+
+#include "app/gui/document/Document.h"
+#include "app/gui/document/Recovery.h"
+#include "app/gui/jobs/ResultFiles.h"
+#include "app/gui/project/ProjectFile.h"
+#include "tests/app/gui/WindowFixture.h"
+
+#include <QDir>
+#include <QElapsedTimer>
+#include <QMessageBox>
+#include <QProcess>
+#include <QPushButton>
+#include <QTemporaryDir>
+
+#include <map>
+#include <random>
+
+namespace palp {
+namespace {
+
+/// A session killed in the midst of it, and what it had done.
+struct Killed {
+  std::map<int, qint64> typed_ms; ///< the session's steps, and when they were seen
+  qint64 killed_ms = 0;
+};
+
+Killed killAfter(int wait_ms, const QString& root, const QString& file) {
+  Killed killed;
+  QProcess session;
+  session.setProcessChannelMode(QProcess::ForwardedErrorChannel);
+  QElapsedTimer clock;
+  clock.start();
+  session.start(QString(PALP_GUI_SESSION), {root, file});
+  EXPECT_TRUE(session.waitForStarted(kPatience_ms));
+  qint64 begun_ms = -1; // with the first step: a machine under load starts it late
+  while (begun_ms < 0 || clock.elapsed() - begun_ms < wait_ms) {
+    if (!session.waitForReadyRead(kPatience_ms)) break;
+    for (const QByteArray& line : session.readAllStandardOutput().split('\n'))
+      if (!line.isEmpty()) killed.typed_ms[line.toInt()] = clock.elapsed();
+    if (begun_ms < 0) begun_ms = clock.elapsed();
+  }
+  EXPECT_EQ(session.state(), QProcess::Running);
+  session.kill();
+  killed.killed_ms = clock.elapsed();
+  EXPECT_TRUE(session.waitForFinished(kPatience_ms));
+  return killed;
+}
+
+/// The step that typed this force.
+int stepOf(const Project& project) {
+  return static_cast<int>(std::lround(-100 * project.load.areas[0].force_N.z())) - 1;
+}
+
+/// PALP_KILLS kills it more often than in a usual run.
+int kills() {
+  const int asked = qEnvironmentVariableIntValue("PALP_KILLS");
+  return asked > 0 ? asked : 3;
+}
+
+TEST(Autosave, AtMostTenSecondsAreMissingAfterAKillAndNoFileIsBroken) {
+  std::mt19937 random(std::random_device{}()); // another moment each time: whatever it is, nothing may be lost
+  std::uniform_int_distribution<int> wait_ms(200, 9000);
+  for (int k = 0; k < kills(); ++k) {
+    const int wait = wait_ms(random);
+    SCOPED_TRACE("killed " + std::to_string(wait) + " ms after its first step");
+    const QTemporaryDir folder;
+    const QString root = folder.filePath("recovery"), file = folder.filePath("p.json");
+    const Killed killed = killAfter(wait, root, file);
+    ASSERT_FALSE(killed.typed_ms.empty());
+    int newest = stepOf(loadProject(file.toStdString(), exampleProject()));
+    const std::vector<LeftWork> left = Autosave::left(root);
+    ASSERT_LE(left.size(), 1U);
+    for (const LeftWork& work : left) {
+      EXPECT_EQ(work.file, file);
+      const Project project = parseProject(Autosave::project(work), "recovered", exampleProject());
+      newest = std::max(newest, stepOf(project));
+      EXPECT_NO_THROW(openResults(Autosave::results(work).toStdString(), project.design, {}));
+    }
+    EXPECT_NO_THROW(openResults(folder.filePath("p.palp").toStdString(), quickProject().design, {}));
+    const auto lost = killed.typed_ms.upper_bound(newest); // the first step that is in no file
+    if (lost != killed.typed_ms.end()) {
+      EXPECT_LE(killed.killed_ms - lost->second, 10000) << "step " << lost->first << " was lost";
+    }
+  }
+}
+
+/// A window with an autosave that is then forgotten as by a kill: what it kept stays.
+class AutosaveTest : public WindowFixture {
+protected:
+  AutosaveTest() : autosave(std::make_unique<Autosave>(workbench, network, window.document(), folder.filePath("r"))) {}
+  void press(double fz_N) {
+    Project next = workbench.project();
+    next.load.areas[0].force_N.z() = fz_N;
+    workbench.edit("force", next);
+  }
+  /// The folder that the window keeps its work in, as a killed one would leave it.
+  bool kept(const char* name) {
+    return QTest::qWaitFor(
+        [&] {
+          const QDir root(folder.filePath("r"));
+          for (const QString& one : root.entryList(QDir::Dirs | QDir::NoDotAndDotDot))
+            if (QFileInfo::exists(root.filePath(one) + "/" + name)) return true;
+          return false;
+        },
+        kPatience_ms);
+  }
+  /// Copies what is kept, without its lock.
+  QString copyOfLeft() {
+    const QDir root(folder.filePath("r"));
+    const QString from = root.filePath(root.entryList(QDir::Dirs | QDir::NoDotAndDotDot).front());
+    const QString to = folder.filePath("left/window");
+    std::filesystem::create_directories(to.toStdString());
+    std::filesystem::copy(from.toStdString(), to.toStdString(),
+                          std::filesystem::copy_options::recursive | std::filesystem::copy_options::overwrite_existing);
+    QFile::remove(to + "/lock");
+    return folder.filePath("left");
+  }
+
+  QTemporaryDir folder;
+  std::unique_ptr<Autosave> autosave;
+};
+
+TEST_F(AutosaveTest, KeepsNothingWhereNothingIsUnsavedAndLeavesNothingBehind) {
+  press(-2.5);
+  ASSERT_TRUE(kept("project.json"));
+  workbench.history().undo();
+  const QDir root(folder.filePath("r"));
+  EXPECT_TRUE(QTest::qWaitFor(
+      [&] {
+        const QStringList windows = root.entryList(QDir::Dirs | QDir::NoDotAndDotDot);
+        return windows.size() == 1 && !QFileInfo::exists(root.filePath(windows.front()) + "/project.json");
+      },
+      kPatience_ms));
+  press(-3);
+  autosave.reset(); // as at the end of the program
+  EXPECT_TRUE(root.isEmpty());
+}
+
+TEST_F(AutosaveTest, TakesNoWorkOfAWindowThatIsOpen) {
+  press(-2.5);
+  ASSERT_TRUE(kept("project.json"));
+  EXPECT_TRUE(Autosave::left(folder.filePath("r")).empty());
+}
+
+TEST_F(AutosaveTest, BringsProjectSamplesAndNetworkBackAndUndoLeadsToWhatTheFileHeld) {
+  const QString file = folder.filePath("mine.json");
+  workbench.saved(file);
+  saveProject(file.toStdString(), workbench.project());
+  const Project held = workbench.project();
+  press(-2.5);
+  window.showScene("network");
+  find<QPushButton>("generate").click();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.samples() != nullptr; }, kPatience_ms));
+  ASSERT_TRUE(idle());
+  find<QPushButton>("train").click();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.fit() != nullptr; }, kPatience_ms));
+  ASSERT_TRUE(kept("results/network.json"));
+  const QString left = copyOfLeft();
+
+  Workbench fresh(exampleProject());
+  NetworkSession none;
+  MainWindow next(fresh, none);
+  next.show();
+  QTimer answer;
+  QObject::connect(&answer, &QTimer::timeout, &answer, [] {
+    auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
+    if (box != nullptr && box->objectName() == "recovery") QTest::mouseClick(box->buttons().front(), Qt::LeftButton);
+  });
+  answer.start(20);
+  offerRecovery(next, left);
+  EXPECT_EQ(fresh.project().load, workbench.project().load);
+  EXPECT_EQ(fresh.file(), file);
+  EXPECT_TRUE(next.isWindowModified()) << "what was recovered is still unsaved";
+  ASSERT_TRUE(QTest::qWaitFor([&] { return none.fit() != nullptr; }, kPatience_ms));
+  EXPECT_EQ(none.samples()->training.resistances_ohm, network.samples()->training.resistances_ohm);
+  EXPECT_EQ(none.samples()->test.forces_N, network.samples()->test.forces_N);
+  EXPECT_EQ(none.fit()->prediction.forces_N, network.fit()->prediction.forces_N);
+  EXPECT_TRUE(Autosave::left(left).empty()) << "recovered once";
+  fresh.history().undo();
+  EXPECT_EQ(fresh.project().load, held.load);
+}
+
+} // namespace
+} // namespace palp

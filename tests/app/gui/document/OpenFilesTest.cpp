@@ -1,0 +1,174 @@
+#include "app/gui/document/Document.h"
+#include "app/gui/project/ProjectFile.h"
+#include "app/study/Resources.h"
+#include "app/study/live/LiveSource.h"
+#include "io/SampleFile.h"
+#include "tests/app/gui/WindowFixture.h"
+
+#include <QFile>
+#include <QImage>
+#include <QMessageBox>
+#include <QPushButton>
+#include <QTemporaryDir>
+
+namespace palp {
+namespace {
+
+class OpenFiles : public WindowFixture {
+protected:
+  OpenFiles() {
+    QObject::connect(&closer_, &QTimer::timeout, &closer_, [this] {
+      if (auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget())) {
+        said = box->text();
+        box->close();
+      }
+    });
+    closer_.start(20);
+  }
+  void generate() {
+    window.showScene("network");
+    find<QPushButton>("generate").click();
+    ASSERT_TRUE(QTest::qWaitFor([&] { return network.samples() != nullptr; }, kPatience_ms));
+    ASSERT_TRUE(idle());
+  }
+  QString inFolder(const char* name) { return folder_.filePath(name); }
+
+  QString said; ///< by the last box, which was closed
+
+private:
+  QTemporaryDir folder_;
+  QTimer closer_;
+};
+
+TEST_F(OpenFiles, SavesSamplesAndOpensThemAgainInANewSession) {
+  generate();
+  const SampleSet training = network.samples()->training, test = network.samples()->test;
+  answerFileDialog(inFolder("mine.csv"));
+  find<QPushButton>("saveSamples").click();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return QFile::exists(inFolder("mine.csv")) && !window.busy(); }, kPatience_ms));
+  EXPECT_TRUE(QFile::exists(inFolder("mine-test.csv")));
+  network.clear();
+  ASSERT_EQ(network.samples(), nullptr);
+  answerFileDialog(inFolder("mine.csv"));
+  find<QPushButton>("openSamples").click();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.samples() != nullptr; }, kPatience_ms));
+  EXPECT_EQ(network.samples()->training.resistances_ohm, training.resistances_ohm);
+  EXPECT_EQ(network.samples()->test.forces_N, test.forces_N);
+  EXPECT_TRUE(network.upToDate());
+}
+
+TEST_F(OpenFiles, JoinsDroppedShardsAndKeepsEveryFifthSampleForTesting) {
+  generate();
+  const SampleSet all = network.samples()->training;
+  SampleSet first = all, second = all;
+  const Eigen::Index half = all.size() / 2;
+  for (SampleSet* part : {&first, &second}) {
+    const bool later = part == &second;
+    part->area = later ? all.area.tail(all.size() - half).eval() : all.area.head(half).eval();
+    const auto columns = [&](const Eigen::MatrixXd& values) -> Eigen::MatrixXd {
+      return later ? values.rightCols(all.size() - half) : values.leftCols(half);
+    };
+    part->forces_N = columns(all.forces_N);
+    part->displacements_mm = columns(all.displacements_mm);
+    part->resistances_ohm = columns(all.resistances_ohm);
+  }
+  second.origin.firstSample = static_cast<std::size_t>(half);
+  saveSamples(inFolder("a.csv").toStdString(), second, false); // in the wrong order
+  saveSamples(inFolder("b.csv").toStdString(), first, false);
+  network.clear();
+  window.showScene("design");
+  window.document().open(QStringList{inFolder("a.csv"), inFolder("b.csv")});
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.samples() != nullptr; }, kPatience_ms)) << said.toStdString();
+  EXPECT_EQ(window.currentScene().objectName(), "network");
+  EXPECT_EQ(network.samples()->training.size() + network.samples()->test.size(), all.size());
+  EXPECT_EQ(network.samples()->test.size(), 6) << "one of the six on each area";
+  EXPECT_EQ(network.samples()->training.forces_N.leftCols(4), all.forces_N.leftCols(4));
+}
+
+TEST_F(OpenFiles, RefusesOnePartAloneAndSamplesOfAnotherDesign) {
+  generate();
+  SampleSet part = network.samples()->training;
+  const NetworkSamples* before = network.samples();
+  part.origin.firstSample = 36;
+  saveSamples(inFolder("second.csv").toStdString(), part, false);
+  QString failed;
+  QObject::connect(&network.runner(), &JobRunner::failed, [&](const QString& sentence) { failed = sentence; });
+  dropOn(window, inFolder("second.csv"));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !failed.isEmpty(); }, kPatience_ms));
+  EXPECT_TRUE(failed.contains("begin with number 36")) << failed.toStdString();
+  part.origin.firstSample = 0;
+  part.origin.designFingerprint = "0123456789abcdef";
+  saveSamples(inFolder("other.csv").toStdString(), part, false);
+  failed.clear();
+  dropOn(window, inFolder("other.csv"));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !failed.isEmpty(); }, kPatience_ms));
+  EXPECT_TRUE(failed.contains("0123456789abcdef")) << failed.toStdString();
+  EXPECT_EQ(network.samples(), before) << "what was there stays";
+}
+
+TEST_F(OpenFiles, ADroppedFileGoesWhereItBelongs) {
+  dropOn(window, QString::fromStdString(resource("paper.json").string()));
+  EXPECT_EQ(workbench.project().design, paperDesign());
+  EXPECT_TRUE(workbench.file().isEmpty()) << "a design alone is no project to be overwritten";
+  const QString decoder = QString::fromStdString(shippedNetwork().string());
+  dropOn(window, decoder); // there are no samples to try it on
+  EXPECT_EQ(window.currentScene().objectName(), "live");
+  EXPECT_EQ(QString::fromStdString(workbench.project().live.network), decoder);
+  generate();
+  dropOn(window, decoder);
+  EXPECT_EQ(window.currentScene().objectName(), "network");
+  EXPECT_TRUE(QTest::qWaitFor([&] { return network.fit() != nullptr; }, kPatience_ms));
+  QFile recording(inFolder("touch.palprec"));
+  ASSERT_TRUE(recording.open(QIODevice::WriteOnly));
+  recording.write("PALPREC1");
+  recording.close();
+  dropOn(window, inFolder("touch.palprec"));
+  EXPECT_EQ(window.currentScene().objectName(), "live");
+  EXPECT_EQ(workbench.project().live.source, LiveSourceKind::Recording);
+}
+
+TEST_F(OpenFiles, NamesAWrongFileByWhatItIs) {
+  const Project before = workbench.project();
+  QImage(4, 4, QImage::Format_RGB32).save(inFolder("picture.json"), "PNG");
+  dropOn(window, inFolder("picture.json"));
+  EXPECT_TRUE(said.contains("PNG")) << said.toStdString();
+  EXPECT_TRUE(said.contains("samples (.csv)")) << said.toStdString();
+  QFile empty(inFolder("empty.json"));
+  ASSERT_TRUE(empty.open(QIODevice::WriteOnly));
+  empty.close();
+  dropOn(window, inFolder("empty.json"));
+  EXPECT_TRUE(said.contains("empty")) << said.toStdString();
+  dropOn(window, inFolder("none.json"));
+  EXPECT_TRUE(said.contains("cannot be read")) << said.toStdString();
+  dropOn(window, inFolder(""));
+  EXPECT_TRUE(said.contains("folder")) << said.toStdString();
+  EXPECT_EQ(workbench.project(), before);
+}
+
+TEST_F(OpenFiles, AProjectComesBackWithItsSamplesAndItsNetwork) {
+  generate();
+  find<QPushButton>("train").click();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.fit() != nullptr; }, kPatience_ms));
+  ASSERT_TRUE(idle());
+  EXPECT_TRUE(window.isWindowModified()) << "samples that no file holds are unsaved work";
+  answerFileDialog(inFolder("p.json"));
+  ASSERT_TRUE(window.document().save());
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !window.isWindowModified(); }, kPatience_ms));
+  const Eigen::MatrixXd predicted = network.fit()->prediction.forces_N;
+
+  Workbench fresh(exampleProject());
+  NetworkSession other;
+  MainWindow next(fresh, other);
+  next.show();
+  dropOn(next, inFolder("p.json"));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return other.fit() != nullptr; }, kPatience_ms)) << said.toStdString();
+  EXPECT_EQ(other.fit()->prediction.forces_N, predicted);
+  EXPECT_FALSE(next.isWindowModified());
+  next.document().startAnew();
+  EXPECT_EQ(other.samples(), nullptr) << "what the project held is given back";
+  fresh.history().undo();
+  EXPECT_TRUE(QTest::qWaitFor([&] { return other.fit() != nullptr; }, kPatience_ms)) << "and read again";
+}
+
+} // namespace
+} // namespace palp
