@@ -19,6 +19,7 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
+#include <QScrollArea>
 #include <QSignalBlocker>
 #include <QSplitter>
 #include <QTabWidget>
@@ -65,6 +66,15 @@ ChartSpec qualityChart(const MeshQuality& quality) {
     }
   spec.series = {bars};
   return spec;
+}
+
+/// As wide and high as its place, and scrolled where that is too little.
+QScrollArea* scrolled(QWidget* content) {
+  auto* area = new QScrollArea;
+  area->setWidget(content);
+  area->setWidgetResizable(true);
+  area->setFrameShape(QFrame::NoFrame);
+  return area;
 }
 
 QString percents(const Eigen::VectorXd& values) {
@@ -177,9 +187,9 @@ QWidget* DesignPage::buildStudies() {
   auto* tabs = new QTabWidget;
   tabs->setObjectName("designTabs");
   tabs->addTab(first, tr("Mesh and noise floor"));
-  tabs->addTab(finder_, tr("Better layout"));
-  tabs->addTab(sweep_, tr("Sweep"));
-  tabs->addTab(comparison_, tr("Compare"));
+  tabs->addTab(scrolled(finder_), tr("Better layout"));
+  tabs->addTab(scrolled(sweep_), tr("Sweep"));
+  tabs->addTab(scrolled(comparison_), tr("Compare"));
   return tabs;
 }
 

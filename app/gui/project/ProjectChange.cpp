@@ -49,9 +49,42 @@ std::optional<Eigen::Vector3d> forceOn(const LoadCase& load, int area) {
   return std::nullopt;
 }
 
+QString pairWords(const Eigen::Vector2d& place_mm) {
+  return QString("(%1, %2)").arg(place_mm.x()).arg(place_mm.y());
+}
+
+/// Of the discs; empty where that is more than one thing.
+QString discChange(const std::vector<PatchLoad>& before, const std::vector<PatchLoad>& after) {
+  const std::size_t same = static_cast<std::size_t>(
+      std::mismatch(before.begin(), before.end(), after.begin(), after.end()).first - before.begin());
+  const QString name = QObject::tr("disc %1:").arg(same);
+  if (after.size() == before.size() + 1 && same == before.size())
+    return QObject::tr("%1 a load of %2 N at %3 mm")
+        .arg(name, forceWords(after[same].force_N), pairWords(after[same].centre_mm));
+  if (after.size() + 1 == before.size() && std::equal(after.begin() + static_cast<std::ptrdiff_t>(same), after.end(),
+                                                      before.begin() + static_cast<std::ptrdiff_t>(same) + 1))
+    return QObject::tr("%1 taken away").arg(name);
+  if (after.size() != before.size()) return {};
+  PatchLoad only = before[same];
+  for (std::size_t k = same + 1; k < after.size(); ++k)
+    if (before[k] != after[k]) return {};
+  const PatchLoad& now = after[same];
+  if (only.force_N != now.force_N) {
+    const QString words = stepWords(name, forceWords(only.force_N), forceWords(now.force_N), "N");
+    only.force_N = now.force_N;
+    return only == now ? words : QString();
+  }
+  if (only.centre_mm == now.centre_mm)
+    return stepWords(name + QObject::tr(" radius"), QString::number(only.radius_mm), QString::number(now.radius_mm),
+                     "mm");
+  if (only.radius_mm == now.radius_mm)
+    return stepWords(name + QObject::tr(" centre"), pairWords(only.centre_mm), pairWords(now.centre_mm), "mm");
+  return {};
+}
+
 QStringList loadChanges(const LoadCase& before, const LoadCase& after) {
   QStringList changes;
-  if (before.patches != after.patches) changes << QString();
+  if (before.patches != after.patches) changes << discChange(before.patches, after.patches);
   std::vector<int> areas;
   for (const LoadCase* load : {&before, &after})
     for (const AreaLoad& its : load->areas)

@@ -8,6 +8,7 @@
 #include "app/gui/touch/ViewPanel.h"
 #include "app/gui/views/BlockView.h"
 #include "app/gui/views/ViewBar.h"
+#include "app/gui/widgets/FoldingRow.h"
 #include "app/gui/window/SidePanel.h"
 
 #include <QButtonGroup>
@@ -162,9 +163,7 @@ QWidget* DeformationPage::buildClicks() {
     row->addWidget(button);
     connect(button, &QToolButton::clicked, this, [this, click = choice.click] { chooseTool(click); });
   }
-  row->addStretch(1);
-  row->addWidget(new ViewBar(*block_));
-  return bar;
+  return new FoldingRow(bar, new ViewBar(*block_));
 }
 
 void DeformationPage::setTheme(Theme theme) {
