@@ -8,8 +8,8 @@
 #include "app/gui/views/BlockView.h"
 #include "app/gui/views/ChartView.h"
 #include "app/gui/views/ViewBar.h"
+#include "app/gui/widgets/SpinBoxes.h"
 #include "app/gui/window/SidePanel.h"
-#include "app/gui/window/SpinBoxes.h"
 #include "app/study/decoding/NoiseBound.h"
 #include "model/base/Cancelled.h"
 

@@ -4,7 +4,7 @@
 #include "app/gui/design/DesignFields.h"
 #include "app/gui/project/ResultCsv.h"
 #include "app/gui/views/ChartView.h"
-#include "app/gui/window/SpinBoxes.h"
+#include "app/gui/widgets/SpinBoxes.h"
 #include "model/base/Error.h"
 
 #include <QComboBox>

@@ -1,6 +1,6 @@
 #include "app/gui/network/AdvancedOptions.h"
 
-#include "app/gui/window/SpinBoxes.h"
+#include "app/gui/widgets/SpinBoxes.h"
 #include "model/base/Text.h"
 
 #include <QCheckBox>

@@ -1,7 +1,7 @@
 #include "app/gui/network/NetworkPanel.h"
 
 #include "app/gui/network/AdvancedOptions.h"
-#include "app/gui/window/SpinBoxes.h"
+#include "app/gui/widgets/SpinBoxes.h"
 #include "model/base/Error.h"
 
 #include <QCheckBox>

@@ -1,7 +1,7 @@
 #include "app/gui/touch/LoadPanel.h"
 
 #include "app/gui/views/DiscHandle.h"
-#include "app/gui/window/SpinBoxes.h"
+#include "app/gui/widgets/SpinBoxes.h"
 
 #include <QComboBox>
 #include <QDoubleSpinBox>

@@ -1,6 +1,6 @@
 #include "app/gui/touch/ViewPanel.h"
 
-#include "app/gui/window/SpinBoxes.h"
+#include "app/gui/widgets/SpinBoxes.h"
 
 #include <QCheckBox>
 #include <QComboBox>

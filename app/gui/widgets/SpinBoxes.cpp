@@ -1,4 +1,4 @@
-#include "app/gui/window/SpinBoxes.h"
+#include "app/gui/widgets/SpinBoxes.h"
 
 #include <QDoubleSpinBox>
 #include <QSignalBlocker>
