@@ -1,4 +1,4 @@
-#include "app/gui/window/AccessibleNames.h"
+#include "app/gui/widgets/AccessibleNames.h"
 
 #include <QAbstractButton>
 #include <QAbstractItemView>
