@@ -8,6 +8,7 @@
 #include <QFile>
 #include <QImage>
 #include <QMessageBox>
+#include <QPlainTextEdit>
 #include <QPushButton>
 #include <QTemporaryDir>
 
@@ -45,7 +46,8 @@ TEST_F(OpenFiles, SavesSamplesAndOpensThemAgainInANewSession) {
   const SampleSet training = network.samples()->training, test = network.samples()->test;
   answerFileDialog(inFolder("mine.csv"));
   find<QPushButton>("saveSamples").click();
-  ASSERT_TRUE(QTest::qWaitFor([&] { return QFile::exists(inFolder("mine.csv")) && !window.busy(); }, kPatience_ms));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return QFile::exists(inFolder("mine.csv")) && !window.busy(); }, kPatience_ms))
+      << said.toStdString() << find<QPlainTextEdit>("messageLines").toPlainText().toStdString();
   EXPECT_TRUE(QFile::exists(inFolder("mine-test.csv")));
   network.clear();
   ASSERT_EQ(network.samples(), nullptr);
