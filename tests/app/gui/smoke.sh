@@ -26,7 +26,7 @@ DISPLAY=:$(cat "$home/display")
 export DISPLAY HOME=$home XDG_RUNTIME_DIR=$home QT_QPA_PLATFORM=xcb
 "$studio" &
 app=$!
-window=$(timeout 60 xdotool search --sync --onlyvisible --name '^Palp' | head -1)
+window=$(timeout 60 xdotool search --sync --onlyvisible --name 'Palp$' | head -1)
 xdotool windowmove "$window" 0 0 windowsize --sync "$window" 1500 900
 
 # Takes a picture when it has stayed the same for a second.
@@ -48,7 +48,7 @@ differs() {
 
 settled first
 # The spin box of Fz: third of the load panel.
-xdotool mousemove --window "$window" 360 267 click --repeat 3 --delay 60 1 key ctrl+a type --delay 40 -- '-2'
+xdotool mousemove --window "$window" 351 358 click --repeat 3 --delay 60 1 key ctrl+a type --delay 40 -- '-2'
 xdotool key Return Tab # off the field, whose cursor blinks
 settled typed
 differs first typed "typing another force left the picture as it was"
@@ -76,7 +76,7 @@ scene() { # NUMBER NAME
 }
 last_scene=later
 scene 1 design
-xdotool mousemove --window "$window" 500 687 click 1 # make and show the mesh
+xdotool mousemove --window "$window" 517 661 click 1 # make and show the mesh
 settled mesh
 differs design mesh "the Design scene made no mesh"
 scene 3 resistance
