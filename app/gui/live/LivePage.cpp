@@ -356,6 +356,7 @@ void LivePage::toggleCell(int row, int column) {
 }
 
 void LivePage::record(const QString& file, bool replace) {
+  if (host_.status().recording) return host_.stopRecording(); // the button has not heard of it yet
   const std::filesystem::path wanted = file.toStdString();
   const std::filesystem::path path = replace ? wanted : freeRecording(wanted, QDateTime::currentDateTime());
   try {
