@@ -59,6 +59,8 @@ NetworkPage::NetworkPage(Workbench& workbench, NetworkSession& session, QWidget*
     next.view.testArea = area;
     workbench_.edit(tr("Choose a test area"), next);
   });
+  connect(panel_, &NetworkPanel::openSamplesAsked, this, &NetworkPage::openSamples);
+  connect(panel_, &NetworkPanel::saveSamplesAsked, this, &NetworkPage::saveSamples);
   connect(save_, &QPushButton::clicked, this, &NetworkPage::saveNetwork);
   connect(open_, &QPushButton::clicked, this, &NetworkPage::openNetwork);
   connect(best_, &QPushButton::clicked, this, &NetworkPage::takeBestSpread);

@@ -81,12 +81,15 @@ INSTANTIATE_TEST_SUITE_P(Kinds, FinishedReport, testing::Values("error-time", "n
 /// Draws nothing, and asks for a stop with the second picture.
 TEST(WrittenReport, IsGoneWhereItIsStoppedBetweenTwoPictures) {
   const palp::TemporaryFolder folder;
-  palp::ReportComputation kind{"two", "two pictures", [](const auto&, const auto&, const auto&) {
+  palp::ReportComputation kind{"two",
+                               "two pictures",
+                               [](const auto&, const auto&, const auto&) {
                                  palp::ReportContent content;
                                  for (const char* file : {"a", "b"})
                                    content.parts.emplace_back(palp::ReportChart{.file = file, .caption = file});
                                  return std::optional(content);
-                               }};
+                               },
+                               {}};
   std::stop_source source;
   int drawn = 0;
   const auto outcome = runReport(kind, quickRequest(folder), {}, source.get_token(),
