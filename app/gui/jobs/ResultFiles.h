@@ -27,8 +27,9 @@ NetworkSamples openSampleFiles(const std::vector<std::filesystem::path>& files, 
 /// The decoder tried on the test samples. Throws Error where it does not fit them.
 std::shared_ptr<const NetworkFit> triedOn(Decoder decoder, const NetworkSamples& samples);
 
-/// Samples and networks of a design in a folder of their own, which is made: samples.csv, samples-test.csv, network.json
-/// and, in networks, those that can be gone back to, each with the settings it was trained with. Throws Error.
+/// Samples and networks of a design in a folder of their own, which is made: samples.csv, samples-test.csv,
+/// network.json and, in networks, those that can be gone back to, each with the settings it was trained with. Throws
+/// Error.
 void saveResults(const std::filesystem::path& folder, const NetworkResults& results);
 
 /// What saveResults() wrote; nothing where the folder holds no samples. Throws Error where it cannot be read or is of

@@ -60,6 +60,7 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   row->setSpacing(0);
   rail_ = new QListWidget;
   rail_->setObjectName("rail");
+  rail_->setFocusPolicy(Qt::TabFocus); // a click leads to the scene
   rail_->setAccessibleName(tr("Scenes"));
   scenes_ = new SceneStack;
   auto* room = new QScrollArea; // on a small screen a scene is scrolled, so that the window always fits
@@ -133,8 +134,10 @@ bool MainWindow::busy() const {
 
 void MainWindow::sceneChosen(int index) {
   if (index < 0) return;
+  const bool choosing = rail_->hasFocus();
   scenes_->setCurrentIndex(index);
-  scenes_->updateGeometry(); // each needs its own room
+  if (!choosing) currentScene().setFocus(Qt::OtherFocusReason); // its keys work, and no field takes them for text
+  scenes_->updateGeometry();                                    // each needs its own room
   workbench_.setPlace(names_[index]);
   // Before the window is seen no scene is: what it opens on computes nothing for the others.
   if (isVisible()) workbench_.touch().need(currentScene().stage());

@@ -427,6 +427,16 @@ TEST_F(Window, HowThingsAreShownIsNoEntryOfTheHistory) {
   EXPECT_TRUE(workbench.touch().upToDate()) << "a view computes nothing";
 }
 
+TEST_F(Window, GivesTheKeysToTheSceneThatIsChosen) {
+  find<QDoubleSpinBox>("force_z").setFocus();
+  QTest::keyClick(&window, Qt::Key_5, Qt::ControlModifier);
+  ASSERT_EQ(window.currentScene().objectName(), "live");
+  auto& page = static_cast<LivePage&>(window.currentScene());
+  EXPECT_EQ(QApplication::focusWidget(), &page) << "and to none of its fields";
+  QTest::keyClick(QApplication::focusWidget(), Qt::Key_Space);
+  EXPECT_TRUE(page.host().paused());
+}
+
 TEST_F(Window, KeepsWhatItSaidInALog) {
   window.showMessage("First.");
   window.showMessage("Second.");
