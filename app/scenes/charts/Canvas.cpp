@@ -1,6 +1,7 @@
 #include "app/scenes/charts/Canvas.h"
 
 #include <vtkImageData.h>
+#include <vtkNew.h>
 #include <vtkStdString.h>
 #include <vtkTextProperty.h>
 #include <vtkTextRenderer.h>
@@ -84,7 +85,9 @@ const WrittenWords::Word& Canvas::written(const std::string& text) {
   if (written_.all.size() >= kMost) written_.all.clear(); // a running scale has ever new numbers
   WrittenWords::Word word{vtkSmartPointer<vtkImageData>::New()};
   std::array<int, 2> size{};
-  if (!vtkTextRenderer::GetInstance()->RenderString(text_, text, word.letters, size.data(), kDotsPerInch))
+  const vtkNew<vtkTextProperty> style; // VTK keeps it, and looks at it later: ours changes from word to word
+  style->ShallowCopy(text_);
+  if (!vtkTextRenderer::GetInstance()->RenderString(style, text, word.letters, size.data(), kDotsPerInch))
     word.letters = nullptr;
   word.width_px = size[0];
   return written_.all.emplace(key.str(), word).first->second;

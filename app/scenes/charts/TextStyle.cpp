@@ -1,6 +1,7 @@
 #include "app/scenes/charts/TextStyle.h"
 
 #include <vtkContext2D.h>
+#include <vtkFreeTypeTools.h>
 #include <vtkStdString.h>
 #include <vtkTextProperty.h>
 
@@ -15,9 +16,18 @@ namespace {
 constexpr const char* kPlain = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 constexpr const char* kBold = "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf";
 
+/// VTK keeps 30 typefaces, one a style (colour and size count), and loads one that it gave up as the style that was
+/// handed to it has become by then: charts hand over one that changes from word to word. So none is given up. Before
+/// the first text is drawn.
+void keepTypefaces() {
+  vtkFreeTypeTools::GetInstance()->SetMaximumNumberOfFaces(1000);
+}
+
 } // namespace
 
 void setTextStyle(vtkTextProperty& text, const Color& color, double size_px, bool bold) {
+  static const bool kept = (keepTypefaces(), true);
+  static_cast<void>(kept);
   // VTK's own face draws square brackets as round ones and has no Greek.
   static const bool installed = std::filesystem::exists(kPlain) && std::filesystem::exists(kBold);
   if (installed) {
