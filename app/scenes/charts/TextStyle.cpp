@@ -17,8 +17,8 @@ constexpr const char* kPlain = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
 constexpr const char* kBold = "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf";
 
 /// VTK keeps 30 typefaces, one a style (colour and size count), and loads one that it gave up as the style that was
-/// handed to it has become by then: charts hand over one that changes from word to word. So none is given up. Before
-/// the first text is drawn.
+/// handed to it has become by then: charts hand over one that changes from word to word. So none is given up. To be
+/// called before the first text is drawn.
 void keepTypefaces() {
   vtkFreeTypeTools::GetInstance()->SetMaximumNumberOfFaces(1000);
 }
