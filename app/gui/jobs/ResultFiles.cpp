@@ -173,7 +173,10 @@ void saveKept(const fs::path& folder, const NetworkResults& results) {
   std::vector<fs::path> old;
   for (const auto& entry : fs::directory_iterator(folder, ignored)) {
     const std::string name = entry.path().filename().string();
-    if (!stems.contains(name.substr(0, name.find('.')))) old.push_back(entry.path());
+    const std::string stem = name.substr(0, name.find('.'));
+    const bool ours = (name == stem + kSettings || name == stem + kDecoder) &&
+                      QDateTime::fromString(QString::fromStdString(stem), kMade).isValid();
+    if (ours && !stems.contains(stem)) old.push_back(entry.path()); // what somebody else has put there stays
   }
   for (const fs::path& file : old) fs::remove(file, ignored);
 }

@@ -158,6 +158,13 @@ TEST_F(OpenFiles, AProjectComesBackWithItsSamplesAndItsNetwork) {
   ASSERT_TRUE(QTest::qWaitFor([&] { return !window.isWindowModified(); }, kPatience_ms));
   const Eigen::MatrixXd predicted = network.fit()->prediction.forces_N;
 
+  QFile foreign(inFolder("p.palp/networks/notes.json"));
+  ASSERT_TRUE(foreign.open(QIODevice::WriteOnly));
+  foreign.close();
+  ASSERT_TRUE(window.document().save());
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !window.busy(); }, kPatience_ms));
+  EXPECT_TRUE(foreign.exists()) << "a file of somebody else's";
+
   Workbench fresh(exampleProject());
   NetworkSession other;
   MainWindow next(fresh, other);
