@@ -61,6 +61,7 @@ struct Project {
   NetworkSettings network;
   ViewSettings view;
   LiveSettings live;
+  std::optional<SensorDesign> kept; ///< to compare the design with
 
   bool operator==(const Project&) const = default;
 };

@@ -167,6 +167,7 @@ QJsonObject viewJson(const ViewSettings& view) {
   if (view.colorMap) object["color_map"] = QString::fromStdString(kColorMaps.name(*view.colorMap));
   if (view.colorRange) object["color_range"] = QJsonArray{(*view.colorRange)[0], (*view.colorRange)[1]};
   if (view.extremes) object["extremes"] = true;
+  if (view.lessKept) object["less_kept"] = true;
   if (view.litCell) object["lit_cell"] = cell(*view.litCell);
   if (view.resistanceRange)
     object["resistance_range"] = QJsonArray{(*view.resistanceRange)[0], (*view.resistanceRange)[1]};
@@ -196,10 +197,10 @@ CutPlane cutOf(const JsonPlace& place) {
 }
 
 ViewSettings viewOf(const JsonPlace& place) {
-  place.onlyKeys(
-      {"scene", "quantity", "ghost", "electrodes", "arrows", "outlines", "edges", "row_wire", "line_from_mm",
-       "line_to_mm", "mesh", "resistance_noise", "resistance", "cell", "test_area"},
-      {"warp_factor", "clip_y_mm", "cut", "color_map", "color_range", "extremes", "lit_cell", "resistance_range"});
+  place.onlyKeys({"scene", "quantity", "ghost", "electrodes", "arrows", "outlines", "edges", "row_wire", "line_from_mm",
+                  "line_to_mm", "mesh", "resistance_noise", "resistance", "cell", "test_area"},
+                 {"warp_factor", "clip_y_mm", "cut", "color_map", "color_range", "extremes", "lit_cell",
+                  "resistance_range", "less_kept"});
   ViewSettings view;
   view.scene = place.at("scene").string();
   view.quantity = place.at("quantity").named(kQuantities);
@@ -209,6 +210,7 @@ ViewSettings viewOf(const JsonPlace& place) {
   if (place.has("color_map")) view.colorMap = place.at("color_map").named(kColorMaps);
   if (place.has("color_range")) view.colorRange = rangeOf(place.at("color_range"));
   if (place.has("extremes")) view.extremes = place.at("extremes").boolean();
+  if (place.has("less_kept")) view.lessKept = place.at("less_kept").boolean();
   view.ghost = place.at("ghost").boolean();
   view.electrodes = place.at("electrodes").boolean();
   view.arrows = place.at("arrows").boolean();
@@ -221,9 +223,7 @@ ViewSettings viewOf(const JsonPlace& place) {
   view.mesh = place.at("mesh").boolean();
   view.resistanceNoise = place.at("resistance_noise").number(1e-7, 0.1);
   view.resistance = place.at("resistance").named(kResistanceKinds);
-  if (place.has("resistance_range")) {
-    view.resistanceRange = rangeOf(place.at("resistance_range"));
-  }
+  if (place.has("resistance_range")) view.resistanceRange = rangeOf(place.at("resistance_range"));
   view.cell = cellOf(place.at("cell"));
   view.testArea = place.at("test_area").integer(0, kLargestIndex);
   return view;
@@ -316,7 +316,7 @@ void requireBuildable(const SensorDesign& design, const std::string& where) {
 
 Project projectOf(const JsonPlace& root, const std::string& file) {
   const int version = formatVersion(root, kVersionKey, kVersion); // first: a newer file may well have other keys
-  root.onlyKeys({kVersionKey, "design", "load", "mesh", "samples", "network"}, {"view", "live"});
+  root.onlyKeys({kVersionKey, "design", "load", "mesh", "samples", "network"}, {"view", "live", "kept_design"});
   Project project;
   project.design = readDesign(root.at("design"));
   requireBuildable(project.design, file + ": design.");
@@ -331,6 +331,9 @@ Project projectOf(const JsonPlace& root, const std::string& file) {
   project.network = networkOf(root.at("network"));
   if (version >= 2) project.view = viewOf(root.at("view"));
   if (root.has("live")) project.live = liveOf(root.at("live")); // not in the files of the first version
+  if (root.has("kept_design")) {
+    requireBuildable(project.kept.emplace(readDesign(root.at("kept_design"))), file + ": kept_design.");
+  }
   return project;
 }
 
@@ -347,15 +350,18 @@ NetworkSettings parseNetwork(const QByteArray& text, const QString& file) {
 }
 
 QByteArray projectText(const Project& project) {
-  const QByteArray design = QByteArray::fromStdString(toJson(project.design));
-  const QJsonObject root{{kVersionKey, kVersion},
-                         {"design", QJsonDocument::fromJson(design).object()},
-                         {"load", loadJson(project.load)},
-                         {"mesh", meshJson(project.mesh)},
-                         {"samples", samplesJson(project.samples)},
-                         {"network", networkJson(project.network)},
-                         {"view", viewJson(project.view)},
-                         {"live", liveJson(project.live)}};
+  const auto designJson = [](const SensorDesign& design) {
+    return QJsonDocument::fromJson(QByteArray::fromStdString(toJson(design))).object();
+  };
+  QJsonObject root{{kVersionKey, kVersion},
+                   {"design", designJson(project.design)},
+                   {"load", loadJson(project.load)},
+                   {"mesh", meshJson(project.mesh)},
+                   {"samples", samplesJson(project.samples)},
+                   {"network", networkJson(project.network)},
+                   {"view", viewJson(project.view)},
+                   {"live", liveJson(project.live)}};
+  if (project.kept) root["kept_design"] = designJson(*project.kept);
   return QJsonDocument(root).toJson();
 }
 

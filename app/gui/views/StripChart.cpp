@@ -23,7 +23,7 @@ QColor ink(const Color& color) {
 StripChart::StripChart(QWidget* parent) : QWidget(parent) {
   setAttribute(Qt::WA_OpaquePaintEvent);
   setMouseTracking(true);
-  setFocusPolicy(Qt::ClickFocus);
+  setFocusPolicy(Qt::StrongFocus);
   setToolTip(tr("Wheel: zoom in time, with Ctrl in value; drag: move; double click or Esc: let it run again"));
   setMinimumSize(180, 110);
 }
@@ -76,6 +76,10 @@ void StripChart::paintEvent(QPaintEvent*) {
   paintCurves(painter, plot);
   paintLegend(painter, plot);
   paintReading(painter, plot);
+  if (!hasFocus()) return;
+  painter.setPen(QPen(QWidget::palette().color(QPalette::Highlight), 2));
+  painter.setBrush(Qt::NoBrush);
+  painter.drawRect(rect().adjusted(1, 1, -1, -1));
 }
 
 void StripChart::paintAxes(QPainter& painter, const QRectF& plot) const {

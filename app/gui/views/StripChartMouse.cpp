@@ -23,6 +23,7 @@ namespace {
 constexpr double kWheelStep = 1.25;
 constexpr double kNotch = 120;       // of a wheel
 constexpr double kKeyShare = 0.1;    // of the window that an arrow key moves
+constexpr double kKeyPointer = 0.02; // of the plot that Ctrl and an arrow moves the pointer
 constexpr double kShortest_s = 0.01; // that a zoom shows
 constexpr double kLongest_s = 120;
 constexpr double kDragFrom_px = 3;
@@ -116,6 +117,13 @@ void StripChart::mouseMoveEvent(QMouseEvent* event) {
 void StripChart::keyPressEvent(QKeyEvent* event) {
   const QPointF middle = plotRectangle().center();
   const double height = spec_.yRange[1] - spec_.yRange[0];
+  if (event->modifiers().testFlag(Qt::ControlModifier) &&
+      (event->key() == Qt::Key_Left || event->key() == Qt::Key_Right)) { // the values under a pointer of the keys
+    const double from = pointer_px_ < 0 ? middle.x() : pointer_px_;
+    const double step = (event->key() == Qt::Key_Left ? -1 : 1) * kKeyPointer * plotRectangle().width();
+    pointer_px_ = std::clamp(from + step, plotRectangle().left(), plotRectangle().right());
+    return update();
+  }
   switch (event->key()) {
   case Qt::Key_Left:
     return move(-kKeyShare * spec_.window_s, 0);

@@ -2,6 +2,7 @@
 
 #include "app/gui/design/DesignPage.h"
 #include "app/gui/document/Document.h"
+#include "app/gui/jobs/ExportJob.h"
 #include "app/gui/jobs/NetworkSession.h"
 #include "app/gui/live/LivePage.h"
 #include "app/gui/network/NetworkPage.h"
@@ -10,6 +11,7 @@
 #include "app/gui/touch/DeformationPage.h"
 #include "app/gui/touch/LoadPathAnimation.h"
 #include "app/gui/touch/ResistancePage.h"
+#include "app/gui/views/PictureView.h"
 #include "app/gui/widgets/AccessibleNames.h"
 #include "app/gui/widgets/WheelGuard.h"
 #include "app/gui/window/JobStrip.h"
@@ -23,6 +25,7 @@
 #include <QDropEvent>
 #include <QHBoxLayout>
 #include <QListWidget>
+#include <QMessageBox>
 #include <QMimeData>
 #include <QScrollArea>
 #include <QSettings>
@@ -77,6 +80,7 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   log_->hide();
   auto* designPage = new DesignPage(workbench, network);
   connect(designPage, &DesignPage::stageChanged, this, [this] { workbench_.touch().need(currentScene().stage()); });
+  connect(designPage, &DesignPage::sceneAsked, this, &MainWindow::showScene);
   addScene("design", tr("Design"), tr("The sensor at rest and all its parameters"), designPage);
   deformation_ = new DeformationPage(workbench);
   connect(deformation_, &DeformationPage::message, this, &MainWindow::showMessage);
@@ -90,6 +94,12 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   connect(livePage, &LivePage::message, this, &MainWindow::showMessage);
   addScene("live", tr("Live"), tr("A board, the simulated board or a recording, live"), livePage);
   addScene("reports", tr("Reports"), tr("The paper reproduced, and the reports"), new ReportsPage(workbench));
+  for (const PictureView* view : findChildren<PictureView*>())
+    connect(view, &PictureView::message, this, &MainWindow::showMessage);
+  exports_ = new ExportJob(this);
+  connect(exports_, &ExportJob::done, this, &MainWindow::showMessage);
+  connect(&exports_->runner(), &JobRunner::failed, this,
+          [this](const QString& sentence) { QMessageBox::warning(this, tr("Export"), sentence); });
   document_ = new Document(*this, workbench, network);
   buildStatusLine();
   new Menus(*this, workbench, *document_);
@@ -114,9 +124,11 @@ void MainWindow::addScene(const QString& name, const QString& title, const QStri
 }
 
 void MainWindow::buildStatusLine() {
-  runners_ = {&workbench_.touch().runner(), &network_.runner(), &animation_->runner(), &network_.writer()};
+  runners_ = {&workbench_.touch().runner(), &workbench_.kept().runner(), &network_.runner(), &animation_->runner(),
+              &network_.writer()};
   for (int k = 0; k < scenes_->count(); ++k)
     for (JobRunner* runner : static_cast<Scene*>(scenes_->widget(k))->runners()) runners_.push_back(runner);
+  runners_.push_back(&exports_->runner());
   for (JobRunner* runner : runners_) {
     auto* strip = new JobStrip(*runner);
     connect(strip, &JobStrip::message, this, &MainWindow::showMessage);
@@ -179,6 +191,8 @@ void MainWindow::animate(const QString& folder) {
   LoadPathAnimation::Settings settings;
   settings.options = deformation_->blockOptions();
   settings.options.scale = 1;
+  settings.options.fullLoad = true;
+  settings.kept = deformation_->shownLess();
   settings.folder = folder.toStdString();
   if (!animation_->start(settings))
     showMessage(tr("There is no load path yet; wait until the Deformation scene has solved the load."));

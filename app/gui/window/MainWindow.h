@@ -13,6 +13,7 @@ namespace palp {
 
 class DeformationPage;
 class Document;
+class ExportJob;
 class JobRunner;
 class LoadPathAnimation;
 class MessageLog;
@@ -31,6 +32,7 @@ public:
   [[nodiscard]] QStringList sceneNames() const;
   [[nodiscard]] Scene& currentScene() const;
   [[nodiscard]] Document& document() const { return *document_; }
+  [[nodiscard]] ExportJob& exports() const { return *exports_; }
   void setTheme(Theme theme);
   [[nodiscard]] Theme theme() const { return theme_; }
   /// Some background work runs.
@@ -58,6 +60,7 @@ private:
   DeformationPage* deformation_ = nullptr;
   LoadPathAnimation* animation_ = nullptr;
   Document* document_ = nullptr;
+  ExportJob* exports_ = nullptr;
   MessageLog* log_ = nullptr;
   QListWidget* rail_ = nullptr;
   QStackedWidget* scenes_ = nullptr;
