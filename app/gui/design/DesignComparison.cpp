@@ -101,6 +101,7 @@ DesignComparison::DesignComparison(Workbench& workbench, QWidget* parent) : QWid
   difference_->setObjectName("comparisonMap");
   difference_->hide();
   row->addWidget(difference_, 1);
+  row->addStretch(); // beside the words alone
   connect(keep_, &QPushButton::clicked, this, &DesignComparison::keep);
   connect(compare_, &QPushButton::clicked, this, &DesignComparison::compare);
   connect(back_, &QPushButton::clicked, this, &DesignComparison::goBack);

@@ -46,7 +46,6 @@ ChartSpec curveChart(const HeatmapSpec& heatmap, const std::string& title, const
   ChartSeries mark;
   mark.style = ChartSeries::Style::Points;
   mark.color = kMarkColor;
-  mark.name = "the chosen cell";
   mark.x = {static_cast<double>(cell)};
   mark.y = {values[cell]};
   spec.series = {curve, mark};

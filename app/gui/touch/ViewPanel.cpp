@@ -86,11 +86,11 @@ void ViewPanel::buildColors(QFormLayout& form) {
     range_[k]->setMinimumWidth(kNarrow_px);
     row->addWidget(range_[k], 1);
   }
-  keepRange_ = new QCheckBox(tr("keep"));
+  keepRange_ = new QCheckBox(tr("keep this range"));
   keepRange_->setObjectName("keepRange");
   keepRange_->setToolTip(tr("The legend keeps this range whatever the load; else it fits the full load"));
-  row->addWidget(keepRange_);
   form.addRow(tr("Legend"), row);
+  form.addRow(QString(), keepRange_);
 }
 
 void ViewPanel::buildWarp(QFormLayout& form) {

@@ -38,6 +38,16 @@ public:
       outline(*painter, subControlRect(control, option, SC_SliderHandle, widget), option->palette);
   }
 
+  void drawControl(ControlElement element, const QStyleOption* option, QPainter* painter,
+                   const QWidget* widget) const override {
+    QProxyStyle::drawControl(element, option, painter, widget);
+    if (element != CE_TabBarTabShape && element != CE_HeaderSection) return;
+    outline(*painter, option->rect, option->palette);
+    if (element == CE_TabBarTabShape && option->state.testFlag(State_Selected)) // its ground is that of the others
+      painter->fillRect(option->rect.adjusted(2, 2, -2, 5 - option->rect.height()),
+                        option->palette.color(QPalette::Highlight));
+  }
+
 private:
   static void outline(QPainter& painter, const QRect& rect, const QPalette& colors) {
     painter.save();
