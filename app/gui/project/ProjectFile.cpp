@@ -362,7 +362,8 @@ QByteArray projectText(const Project& project) {
 void saveProject(const std::filesystem::path& path, const Project& project) {
   QSaveFile file(QString::fromStdString(path.string()));
   const QByteArray text = projectText(project);
-  if (!file.open(QIODevice::WriteOnly) || file.write(text) != text.size() || !file.commit())
+  // commit() alone does not see that the last of it was not written (Qt 6.4).
+  if (!file.open(QIODevice::WriteOnly) || file.write(text) != text.size() || !file.flush() || !file.commit())
     throw Error(path.string() + ": cannot be written (" + file.errorString().toStdString() +
                 "); allowed is a file in a folder that exists and may be written to");
 }

@@ -1,5 +1,6 @@
 #include "app/gui/reports/ReportsPage.h"
 
+#include "app/gui/jobs/TimeLeft.h"
 #include "app/gui/project/Command.h"
 #include "app/gui/reports/ReportCases.h"
 #include "app/gui/reports/ReportKinds.h"

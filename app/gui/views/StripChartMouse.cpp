@@ -171,7 +171,7 @@ void StripChart::saveCsv() {
   if (file.isEmpty()) return;
   QSaveFile out(file);
   const QByteArray bytes = table.toUtf8();
-  const bool good = out.open(QIODevice::WriteOnly) && out.write(bytes) == bytes.size() && out.commit();
+  const bool good = out.open(QIODevice::WriteOnly) && out.write(bytes) == bytes.size() && out.flush() && out.commit();
   emit message(good ? tr("Wrote the curves to %1.").arg(file)
                     : tr("%1: cannot be written (%2)").arg(file, out.errorString()));
 }
