@@ -14,6 +14,7 @@ constexpr int kMergeId = 1;
 Project shownAs(Project project, const Project& other) {
   project.view = other.view;
   project.live = other.live;
+  project.moreBoards = other.moreBoards;
   return project;
 }
 

@@ -4,8 +4,6 @@
 
 #include <QMainWindow>
 
-#include <vector>
-
 class QListWidget;
 class QStackedWidget;
 
@@ -13,10 +11,12 @@ namespace palp {
 
 class DeformationPage;
 class Document;
-class JobRunner;
+class LiveBoards;
 class LoadPathAnimation;
 class MessageLog;
 class NetworkSession;
+class ReportsPage;
+class StatusLamps;
 class Workbench;
 
 /// Composes: a rail with the scenes, the scenes, the menus and the jobs' progress.
@@ -49,7 +49,9 @@ protected:
 private:
   void addScene(const QString& name, const QString& title, const QString& tip, Scene* scene);
   void buildStatusLine();
+  /// What the scene that is seen does; where it does nothing, what all do.
   void cancelAll();
+  bool mayEndRecording();
   void sceneChosen(int index);
   void restoreLayout();
 
@@ -57,12 +59,14 @@ private:
   NetworkSession& network_;
   DeformationPage* deformation_ = nullptr;
   LoadPathAnimation* animation_ = nullptr;
+  LiveBoards* live_ = nullptr;
+  ReportsPage* reports_ = nullptr;
+  StatusLamps* lamps_ = nullptr;
   Document* document_ = nullptr;
   MessageLog* log_ = nullptr;
   QListWidget* rail_ = nullptr;
   QStackedWidget* scenes_ = nullptr;
   QStringList names_;
-  std::vector<JobRunner*> runners_; ///< of all scenes
   Theme theme_ = Theme::Light;
 };
 

@@ -1,4 +1,4 @@
-#include "app/gui/live/LivePage.h"
+#include "app/gui/live/LiveBoards.h"
 #include "app/gui/live/LiveTwin.h"
 #include "app/gui/views/BlockView.h"
 #include "app/study/Resources.h"
@@ -45,7 +45,7 @@ TEST_F(Window, ShowsAndCancelsTheWorkOfTheLiveScene) {
   workbench.edit("finer", heavy);
   window.showScene("live");
   workbench.touch().cancel();
-  auto& page = static_cast<LivePage&>(window.currentScene());
+  auto& page = static_cast<LiveBoards&>(window.currentScene()).page();
   auto& twin = find<LiveTwin>("liveTwin");
   ASSERT_TRUE(
       QTest::qWaitFor([&] { return page.complete() && page.host().history().lastValid() != nullptr; }, kPatience_ms));
@@ -68,7 +68,7 @@ TEST_F(Window, GivesTheKeysToTheSceneThatIsChosen) {
   find<QDoubleSpinBox>("force_z").setFocus();
   QTest::keyClick(&window, Qt::Key_5, Qt::ControlModifier);
   ASSERT_EQ(window.currentScene().objectName(), "live");
-  auto& page = static_cast<LivePage&>(window.currentScene());
+  auto& page = static_cast<LiveBoards&>(window.currentScene()).page();
   EXPECT_EQ(QApplication::focusWidget(), &page) << "and to none of its fields";
   QTest::keyClick(QApplication::focusWidget(), Qt::Key_Space);
   EXPECT_TRUE(page.host().paused());
