@@ -62,7 +62,7 @@ def commands_of(root):
     """The commands of palp and the options that the sources declare anywhere."""
     texts = [p.read_text() for p in (root / "app/cli").rglob("*.cpp")]
     commands = {name for text in texts for name in re.findall(r'cli\.command\(\s*"([a-z-]+)"', text)}
-    options = {option for text in texts for line in re.findall(r'add_(?:option|flag)\(\s*"([^"]+)"', text)
+    options = {option for text in texts for line in re.findall(r'\b(?:add_)?(?:option|flag)\(\s*"([^"]+)"', text)
                for option in line.split(",")}
     return commands, options | {"--help", "--version"}
 

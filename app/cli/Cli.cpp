@@ -8,6 +8,8 @@
 #include "model/base/Error.h"
 #include "solver/BatchSolver.h"
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
@@ -48,43 +50,47 @@ std::string pagesInWords() {
 
 } // namespace
 
-Cli::Cli() : app_("Palp: three-axis tactile sensors of conductive rubber, from the block to the force", "palp") {
-  app_.require_subcommand(0, 1);
-  app_.footer(pagesInWords);
-  app_.set_version_flag("--version", std::string("palp ") + PALP_VERSION);
-  app_.fallthrough(false);
+Cli::Cli()
+    : app_(std::make_unique<CLI::App>(
+          "Palp: three-axis tactile sensors of conductive rubber, from the block to the force", "palp")) {
+  app_->require_subcommand(0, 1);
+  app_->footer(pagesInWords);
+  app_->set_version_flag("--version", std::string("palp ") + PALP_VERSION);
+  app_->fallthrough(false);
 }
 
-CLI::App& Cli::command(const std::string& name, const std::string& what, const std::string& example, Run run) {
-  CLI::App* added = app_.add_subcommand(name, what);
+Cli::~Cli() = default;
+
+Command Cli::command(const std::string& name, const std::string& what, const std::string& example, Run run) {
+  CLI::App* added = app_->add_subcommand(name, what);
   added->footer("Example: " + example);
   added->add_flag("--json", session_.json, "print one JSON object on standard output and nothing else");
   added->add_option("--threads", session_.threads, "threads; changes the time, never the result (default: all cores)")
       ->check(CLI::Range(1, 4096));
   commands_.emplace_back(added, std::move(run));
-  return *added;
+  return Command(added);
 }
 
 int Cli::main(int argc, char** argv) {
   try {
-    app_.parse(argc, argv);
+    app_->parse(argc, argv);
   } catch (const CLI::Success& asked) { // help, version
-    return app_.exit(asked);
+    return app_->exit(asked);
   } catch (const CLI::ParseError& wrong) {
-    const auto chosen = app_.get_subcommands();
+    const auto chosen = app_->get_subcommands();
     std::cerr << "palp" << (chosen.empty() ? "" : " " + chosen[0]->get_name()) << ": " << oneLine(wrong.what())
               << " (see palp" << (chosen.empty() ? "" : " " + chosen[0]->get_name()) << " --help)\n";
     return static_cast<int>(Exit::BadInput);
   }
-  if (app_.get_subcommands().empty()) {
-    std::cout << app_.help();
+  if (app_->get_subcommands().empty()) {
+    std::cout << app_->help();
     return static_cast<int>(Exit::Done);
   }
   return static_cast<int>(runChosen());
 }
 
 Exit Cli::runChosen() {
-  const CLI::App* chosen = app_.get_subcommands()[0];
+  const CLI::App* chosen = app_->get_subcommands()[0];
   const std::string name = chosen->get_name();
   const auto run = std::find_if(commands_.begin(), commands_.end(), [&](const auto& c) { return c.first == chosen; });
   const Interrupt interrupt; // Ctrl-C becomes a stop request

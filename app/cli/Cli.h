@@ -1,12 +1,13 @@
 #pragma once
 
+#include "app/cli/Command.h"
 #include "app/study/StageLog.h"
 #include "model/base/Error.h"
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include <functional>
+#include <memory>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -39,15 +40,18 @@ public:
   using Run = std::function<Exit(Session&)>;
 
   Cli();
+  ~Cli();
+  Cli(const Cli&) = delete;
+  Cli& operator=(const Cli&) = delete;
   /// Adds a command; its options are declared on what is returned.
-  CLI::App& command(const std::string& name, const std::string& what, const std::string& example, Run run);
+  Command command(const std::string& name, const std::string& what, const std::string& example, Run run);
   /// Parses and runs; the process's exit status.
   int main(int argc, char** argv);
 
 private:
   Exit runChosen();
 
-  CLI::App app_;
+  std::unique_ptr<CLI::App> app_;
   std::vector<std::pair<CLI::App*, Run>> commands_;
   Session session_;
 };

@@ -66,11 +66,9 @@ SensorDesign designOption(const std::string& fileOrPreset) {
   return design;
 }
 
-void LoadOptions::declare(CLI::App& command) {
-  command.add_option("--load", loads, "AREA:FX,FY,FZ [N]: force on a load area; may be given several times")
-      ->allow_extra_args(false);
-  command.add_option("--patch", patches, "X,Y,RADIUS:FX,FY,FZ [mm, N]: force on a disc of the top face")
-      ->allow_extra_args(false);
+void LoadOptions::declare(Command command) {
+  command.option("--load", loads, "AREA:FX,FY,FZ [N]: force on a load area; may be given several times").oneValueEach();
+  command.option("--patch", patches, "X,Y,RADIUS:FX,FY,FZ [mm, N]: force on a disc of the top face").oneValueEach();
 }
 
 LoadCase LoadOptions::loadCase(const SensorDesign& design) const {
@@ -90,15 +88,14 @@ LoadCase LoadOptions::loadCase(const SensorDesign& design) const {
   return load;
 }
 
-void MeshChoice::declare(CLI::App& command, bool withAccuracy) {
-  CLI::Option* size = command.add_option("--mesh-size", meshSize, "size of the tetrahedra in the bulk [mm]");
-  CLI::Option* grid = command.add_option("--mapped", mapped, "NxNxN: mapped hexahedra, the paper's mesh is 10x10x5");
-  size->excludes(grid);
+void MeshChoice::declare(Command command, bool withAccuracy) {
+  Option size = command.option("--mesh-size", meshSize, "size of the tetrahedra in the bulk [mm]");
+  Option grid = command.option("--mapped", mapped, "NxNxN: mapped hexahedra, the paper's mesh is 10x10x5");
+  size.excludes(grid);
   if (!withAccuracy) return;
-  command
-      .add_option("--accuracy", accuracy, "relative L2 error wanted of the electrode displacements; chooses the mesh")
-      ->excludes(size)
-      ->excludes(grid);
+  command.option("--accuracy", accuracy, "relative L2 error wanted of the electrode displacements; chooses the mesh")
+      .excludes(size)
+      .excludes(grid);
 }
 
 MeshOptions MeshChoice::options() const {
@@ -129,9 +126,9 @@ std::string MeshChoice::asCommand() const {
   return command;
 }
 
-CLI::Option* OutputFile::declare(CLI::App& command, const std::string& what) {
-  command.add_flag("--force", force, "overwrite what is there");
-  return command.add_option("-o,--output", path, what);
+Option OutputFile::declare(Command command, const std::string& what) {
+  command.flag("--force", force, "overwrite what is there");
+  return command.option("-o,--output", path, what);
 }
 
 void OutputFile::requireWritable() const {

@@ -25,7 +25,7 @@ SensorDesign designOption(const std::string& fileOrPreset);
 struct LoadOptions {
   std::vector<std::string> loads;
   std::vector<std::string> patches;
-  void declare(CLI::App& command);
+  void declare(Command command);
   /// All loads together; UsageError names what is wrong with which.
   [[nodiscard]] LoadCase loadCase(const SensorDesign& design) const;
 };
@@ -35,7 +35,7 @@ struct MeshChoice {
   std::string meshSize;
   std::string mapped;
   std::string accuracy;
-  void declare(CLI::App& command, bool withAccuracy);
+  void declare(Command command, bool withAccuracy);
   [[nodiscard]] MeshOptions options() const;
   [[nodiscard]] std::optional<double> relativeAccuracy() const;
   /// The same options as on the command line, with a blank before each.
@@ -46,7 +46,7 @@ struct MeshChoice {
 struct OutputFile {
   std::filesystem::path path;
   bool force = false;
-  CLI::Option* declare(CLI::App& command, const std::string& what);
+  Option declare(Command command, const std::string& what);
   void requireWritable() const;
 };
 

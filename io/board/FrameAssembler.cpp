@@ -41,8 +41,26 @@ void FrameAssembler::setConfiguration(const BoardConfiguration& configuration) {
 }
 
 void FrameAssembler::restart() {
+  forget();
+  joins_ = true;
+  joined_.reset();
+}
+
+void FrameAssembler::forget() {
   last_.reset();
   open_ = false;
+}
+
+bool FrameAssembler::belongsToHalf(const Readings& readings) {
+  if (!joins_) return false;
+  const auto first = std::find(frame_.rowExpected.begin(), frame_.rowExpected.end(), true);
+  const bool begins = readings.rowWire == first - frame_.rowExpected.begin() && readings.firstColumn == 0;
+  if (!begins && (!joined_ || *joined_ == readings.frame)) {
+    joined_ = readings.frame;
+    return true;
+  }
+  joins_ = false;
+  return false;
 }
 
 std::variant<Readings, BoardEvent, ReportFault> FrameAssembler::add(std::span<const std::uint8_t> report,
@@ -71,7 +89,7 @@ bool FrameAssembler::follows(const Readings& readings, double hostTime_s) {
     }
     if (clockStep_us < 0) { // the clock began anew: so did the board
       ++counts_.restarts;
-      restart();
+      forget();
       restarted_ = true;
     } else {
       counts_.lost += static_cast<std::uint16_t>(sequenceStep - 1);
@@ -94,6 +112,7 @@ bool FrameAssembler::follows(const Readings& readings, double hostTime_s) {
 
 void FrameAssembler::addReadings(const Readings& readings, double hostTime_s, const TakeFrame& take) {
   if (open_ && readings.frame != frame_.number) endFrame(take);
+  if (belongsToHalf(readings)) return;
   if (!open_) beginFrame(readings);
   frame_.hostTime_s = hostTime_s;
   frame_.endTime_s = static_cast<double>(clock_us_) * kSecondsPerMicrosecond;

@@ -32,7 +32,8 @@ public:
                                                       const TakeFrame& take);
   /// The board's configuration is now another one; reports of older ones are stale.
   void setConfiguration(const BoardConfiguration& configuration);
-  /// Forgets the sequence and the half frame, not the counts (after a pause or on another connection).
+  /// Forgets the sequence and the half frame, not the counts: after a pause, or at another place of a recording. A
+  /// frame that is joined in its middle is left out then: nothing of it is lost.
   void restart();
 
   [[nodiscard]] const ReportCounts& counts() const { return counts_; }
@@ -44,6 +45,9 @@ public:
 private:
   bool follows(const Readings& readings, double hostTime_s);
   void addReadings(const Readings& readings, double hostTime_s, const TakeFrame& take);
+  void forget();
+  /// It belongs to a frame whose begin was not seen, after a restart().
+  bool belongsToHalf(const Readings& readings);
   void beginFrame(const Readings& readings);
   void endFrame(const TakeFrame& take);
   void place(const Readings& readings);
@@ -54,8 +58,10 @@ private:
   BoardFrame frame_;
   bool open_ = false; ///< a frame is being filled
   bool restarted_ = false;
-  int missingReports_ = 0;   ///< of the open frame
-  std::vector<bool> placed_; ///< reports of the open frame
+  bool joins_ = false;                  ///< until a frame is seen from its begin
+  std::optional<std::uint16_t> joined_; ///< the frame that was joined in its middle
+  int missingReports_ = 0;              ///< of the open frame
+  std::vector<bool> placed_;            ///< reports of the open frame
   std::optional<Readings> last_;
   std::optional<double> lastHostTime_s_;
   std::uint64_t clock_us_ = 0; ///< of the last report, unwrapped

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <mutex>
@@ -131,6 +132,15 @@ std::vector<HidBoard> hidBoards(const UsbId& id) {
     return std::tie(a.serial, a.path) < std::tie(b.serial, b.path);
   });
   return boards;
+}
+
+std::vector<std::string> hidNodes() {
+  std::vector<std::string> names;
+  std::error_code none; // a system without any has no such folder
+  for (std::filesystem::directory_iterator node("/sys/class/hidraw", none), end; node != end; node.increment(none))
+    names.push_back(node->path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 std::unique_ptr<ReportSource> openHidBoard(const HidBoard& board) {

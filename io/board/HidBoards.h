@@ -19,6 +19,9 @@ struct HidBoard {
 /// The boards that are plugged in. May be called from any thread.
 std::vector<HidBoard> hidBoards(const UsbId& id = {});
 
+/// Names of the HID devices that the system has, of whatever kind: asks no device anything.
+std::vector<std::string> hidNodes();
+
 /// Opens the board, reads its info and configuration and drops old reports. Throws BoardPermissionError with the
 /// remedy, or BoardError (gone, another protocol, no answer).
 std::unique_ptr<ReportSource> openHidBoard(const HidBoard& board);

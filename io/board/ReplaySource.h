@@ -4,9 +4,20 @@
 
 #include <atomic>
 #include <memory>
+#include <mutex>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace palp {
+
+/// An event mark of a recording.
+struct ReplayMark {
+  double at_s = 0; ///< from the recording's first report
+  std::string text;
+
+  bool operator==(const ReplayMark&) const = default;
+};
 
 /// How a recording is played; may be changed from another thread while it plays.
 struct ReplayControl {
@@ -22,9 +33,16 @@ struct ReplayControl {
   void seek(double to_s) { seek_s_ = to_s; }
   /// A seek waits to be followed.
   [[nodiscard]] bool sought() const { return seek_s_ >= 0; }
+  /// All marks of the recording; empty before it was opened.
+  [[nodiscard]] std::vector<ReplayMark> marks() const {
+    const std::lock_guard lock(mutex_);
+    return marks_;
+  }
 
 private:
   friend class ReplaySource;
+  mutable std::mutex mutex_;
+  std::vector<ReplayMark> marks_;
   std::atomic<double> seek_s_{-1}; ///< below 0: none
 };
 

@@ -83,12 +83,12 @@ Exit run(const CalibrateArguments& arguments, Session& session) {
 
 void addCalibrate(Cli& cli) {
   auto arguments = std::make_shared<CalibrateArguments>();
-  CLI::App& command = cli.command("calibrate", "refine a network with labelled frames of a real board",
-                                  "palp calibrate network.json frames.csv -o better.json",
-                                  [arguments](Session& session) { return run(*arguments, session); });
-  command.add_option("network", arguments->network, "network file (rbf or ml, one force)")->required();
-  command.add_option("frames", arguments->frames, "labelled frames, from palp listen --label ... --append")->required();
-  arguments->output.declare(command, "network file to write")->required();
+  Command command = cli.command("calibrate", "refine a network with labelled frames of a real board",
+                                "palp calibrate network.json frames.csv -o better.json",
+                                [arguments](Session& session) { return run(*arguments, session); });
+  command.option("network", arguments->network, "network file (rbf or ml, one force)").required();
+  command.option("frames", arguments->frames, "labelled frames, from palp listen --label ... --append").required();
+  arguments->output.declare(command, "network file to write").required();
 }
 
 } // namespace palp

@@ -64,10 +64,10 @@ Exit run(const DesignArguments& arguments, Session& session) {
 
 void addDesign(Cli& cli) {
   auto arguments = std::make_shared<DesignArguments>();
-  CLI::App& command = cli.command("design", "write a design file, or check one", "palp design -o sensor.json",
-                                  [arguments](Session& session) { return run(*arguments, session); });
-  CLI::Option* preset = command.add_option("--preset", arguments->preset, "paper: the design of the paper");
-  command.add_option("--check", arguments->checked, "design file to check")->excludes(preset);
+  Command command = cli.command("design", "write a design file, or check one", "palp design -o sensor.json",
+                                [arguments](Session& session) { return run(*arguments, session); });
+  Option preset = command.option("--preset", arguments->preset, "paper: the design of the paper");
+  command.option("--check", arguments->checked, "design file to check").excludes(preset);
   arguments->output.declare(command, "design file to write (default: standard output)");
 }
 

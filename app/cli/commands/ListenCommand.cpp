@@ -313,42 +313,40 @@ Exit run(const ListenArguments& arguments, Session& session) {
 
 void addListen(Cli& cli) {
   auto arguments = std::make_shared<ListenArguments>();
-  CLI::App& command = cli.command("listen", "forces of a live board, a recording or the virtual board",
-                                  "palp listen --simulate --network network.json --tare 50 --seconds 10",
-                                  [arguments](Session& session) { return run(*arguments, session); });
+  Command command = cli.command("listen", "forces of a live board, a recording or the virtual board",
+                                "palp listen --simulate --network network.json --tare 50 --seconds 10",
+                                [arguments](Session& session) { return run(*arguments, session); });
   ListenArguments& a = *arguments;
-  command.add_flag("--list", a.list, "show the boards that are plugged in");
-  command.add_flag("--check", a.check, "judge a board by the protocol (5 s, or --seconds)");
-  command.add_option("--device", a.device, "serial number or path of the board (default: the first)");
-  command.add_option("--usb", a.usb, "USB ID of the board, VENDOR:PRODUCT (default 1209:0001)");
-  command.add_option("--replay", a.replay, "recording to play");
-  command.add_option("--speed", a.speed, "of the replay; 0 as fast as it can be read (default 1)");
-  CLI::Option* simulate =
-      command.add_flag("--simulate", a.simulate, "the virtual board under a touch that moves over the areas");
-  command.add_option("--samples", a.samples, "solved samples that drive the virtual board (default: the paper's)")
-      ->needs(simulate);
-  command.add_option("--noise", a.noise, "of the virtual board, relative to R (default 5e-6)")->needs(simulate);
-  command.add_option("--warming", a.warming, "of the virtual board in degC (default 0)")->needs(simulate);
-  command.add_option("--hysteresis", a.hysteresis, "of the virtual board, share 0 to 1 (default 0)")->needs(simulate);
-  command.add_option("--rate", a.rate, "reports a second of the virtual board (default 1000)")->needs(simulate);
-  command.add_option("--seed", a.seed, "of the virtual board's noise (default 1)")->needs(simulate);
-  command.add_option("--open-row", a.openRow, "of the virtual board: this row-wire is broken")->needs(simulate);
-  command.add_option("--open-column", a.openColumn, "of the virtual board: this column-wire is broken")
-      ->needs(simulate);
-  command.add_option("--drop-every", a.dropEvery, "of the virtual board: every n-th report is lost (default 0: none)")
-      ->needs(simulate);
-  command.add_option("--network", a.network,
-                     "network that was trained with --input resistance (default with --simulate: the paper's)");
-  command.add_option("--design", a.design, "design of the network, for tare (default: paper)");
-  command.add_option("--tare", a.tare, "frames at the start that are averaged as rest (default 0: no tare)");
-  command.add_option("--row", a.row, "scan this row-wire alone");
-  command.add_option("--record", a.record, "record the raw reports to this file");
-  command.add_flag("--force", a.force, "overwrite the recording");
-  command.add_option("--frames", a.frames, "stop after so many frames (default 0: go on)");
-  command.add_option("--seconds", a.seconds, "stop after so many seconds (default 0: go on)");
-  command.add_option("--label", a.label, "AREA:FX,FY,FZ: the known load now on the sensor, for palp calibrate");
-  command.add_option("--append", a.append, "file of labelled frames to which the mean is added");
-  command.add_option("--average", a.average, "frames of that mean (default 50)");
+  command.flag("--list", a.list, "show the boards that are plugged in");
+  command.flag("--check", a.check, "judge a board by the protocol (5 s, or --seconds)");
+  command.option("--device", a.device, "serial number or path of the board (default: the first)");
+  command.option("--usb", a.usb, "USB ID of the board, VENDOR:PRODUCT (default 1209:0001)");
+  command.option("--replay", a.replay, "recording to play");
+  command.option("--speed", a.speed, "of the replay; 0 as fast as it can be read (default 1)");
+  Option simulate = command.flag("--simulate", a.simulate, "the virtual board under a touch that moves over the areas");
+  command.option("--samples", a.samples, "solved samples that drive the virtual board (default: the paper's)")
+      .needs(simulate);
+  command.option("--noise", a.noise, "of the virtual board, relative to R (default 5e-6)").needs(simulate);
+  command.option("--warming", a.warming, "of the virtual board in degC (default 0)").needs(simulate);
+  command.option("--hysteresis", a.hysteresis, "of the virtual board, share 0 to 1 (default 0)").needs(simulate);
+  command.option("--rate", a.rate, "reports a second of the virtual board (default 1000)").needs(simulate);
+  command.option("--seed", a.seed, "of the virtual board's noise (default 1)").needs(simulate);
+  command.option("--open-row", a.openRow, "of the virtual board: this row-wire is broken").needs(simulate);
+  command.option("--open-column", a.openColumn, "of the virtual board: this column-wire is broken").needs(simulate);
+  command.option("--drop-every", a.dropEvery, "of the virtual board: every n-th report is lost (default 0: none)")
+      .needs(simulate);
+  command.option("--network", a.network,
+                 "network that was trained with --input resistance (default with --simulate: the paper's)");
+  command.option("--design", a.design, "design of the network, for tare (default: paper)");
+  command.option("--tare", a.tare, "frames at the start that are averaged as rest (default 0: no tare)");
+  command.option("--row", a.row, "scan this row-wire alone");
+  command.option("--record", a.record, "record the raw reports to this file");
+  command.flag("--force", a.force, "overwrite the recording");
+  command.option("--frames", a.frames, "stop after so many frames (default 0: go on)");
+  command.option("--seconds", a.seconds, "stop after so many seconds (default 0: go on)");
+  command.option("--label", a.label, "AREA:FX,FY,FZ: the known load now on the sensor, for palp calibrate");
+  command.option("--append", a.append, "file of labelled frames to which the mean is added");
+  command.option("--average", a.average, "frames of that mean (default 50)");
 }
 
 } // namespace palp

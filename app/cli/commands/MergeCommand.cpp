@@ -30,11 +30,11 @@ Exit run(const MergeArguments& arguments, Session& session) {
 
 void addMerge(Cli& cli) {
   auto arguments = std::make_shared<MergeArguments>();
-  CLI::App& command = cli.command("merge", "join the shards of a sample file to the bytes of one run",
-                                  "palp merge part1.csv part2.csv -o samples.csv",
-                                  [arguments](Session& session) { return run(*arguments, session); });
-  command.add_option("parts", arguments->parts, "sample files in the order of their shards")->required();
-  arguments->output.declare(command, "sample file to write")->required();
+  Command command = cli.command("merge", "join the shards of a sample file to the bytes of one run",
+                                "palp merge part1.csv part2.csv -o samples.csv",
+                                [arguments](Session& session) { return run(*arguments, session); });
+  command.option("parts", arguments->parts, "sample files in the order of their shards").required();
+  arguments->output.declare(command, "sample file to write").required();
 }
 
 } // namespace palp

@@ -56,14 +56,14 @@ Exit run(const MeshArguments& arguments, Session& session) {
 
 void addMesh(Cli& cli) {
   auto arguments = std::make_shared<MeshArguments>();
-  CLI::App& command = cli.command("mesh", "mesh the block", "palp mesh sensor.json --mesh-size 2 -o mesh.vtu",
-                                  [arguments](Session& session) { return run(*arguments, session); });
-  command.add_option("design", arguments->design, "design file, or paper")->required();
+  Command command = cli.command("mesh", "mesh the block", "palp mesh sensor.json --mesh-size 2 -o mesh.vtu",
+                                [arguments](Session& session) { return run(*arguments, session); });
+  command.option("design", arguments->design, "design file, or paper").required();
   arguments->mesh.declare(command, false);
   arguments->loads.declare(command);
-  command.add_option("--format", arguments->format, "vtu, or inp: a CalculiX/Abaqus deck with the loads")
-      ->check(CLI::IsMember({"vtu", "inp"}))
-      ->default_val("vtu");
+  command.option("--format", arguments->format, "vtu, or inp: a CalculiX/Abaqus deck with the loads")
+      .oneOf({"vtu", "inp"})
+      .byDefault("vtu");
   arguments->output.declare(command, "mesh file to write");
 }
 

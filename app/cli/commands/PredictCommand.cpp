@@ -119,15 +119,15 @@ Exit run(const Arguments& arguments, Session& session) {
 
 void addPredict(Cli& cli) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App& command = cli.command("predict", "forces of samples by a trained network, and its error",
-                                  "palp predict network.json test.csv --noise 1e-4 -o forces.csv",
-                                  [arguments](Session& session) { return run(*arguments, session); });
-  command.add_option("network", arguments->network, "network file")->required();
-  command.add_option("samples", arguments->samples, "sample file")->required();
-  command.add_option("--noise", arguments->noise,
-                     "relative noise that is added to the samples and counted in the standard deviations");
-  command.add_option("--seed", arguments->seed, "of the noise (default 1)");
-  command.add_flag("--bare", arguments->bare, "forces alone: no standard deviations, no areas");
+  Command command = cli.command("predict", "forces of samples by a trained network, and its error",
+                                "palp predict network.json test.csv --noise 1e-4 -o forces.csv",
+                                [arguments](Session& session) { return run(*arguments, session); });
+  command.option("network", arguments->network, "network file").required();
+  command.option("samples", arguments->samples, "sample file").required();
+  command.option("--noise", arguments->noise,
+                 "relative noise that is added to the samples and counted in the standard deviations");
+  command.option("--seed", arguments->seed, "of the noise (default 1)");
+  command.flag("--bare", arguments->bare, "forces alone: no standard deviations, no areas");
   arguments->output.declare(command, "CSV with the forces");
 }
 

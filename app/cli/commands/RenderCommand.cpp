@@ -59,17 +59,17 @@ Exit run(const RenderArguments& arguments, Session& session) {
 
 void addRender(Cli& cli) {
   auto arguments = std::make_shared<RenderArguments>();
-  CLI::App& command = cli.command("render", "a picture of the deformed block; needs no display",
-                                  "palp render paper --load 0:1,0,-6 -o picture.png",
-                                  [arguments](Session& session) { return run(*arguments, session); });
-  command.add_option("design", arguments->design, "design file, or paper")->required();
+  Command command = cli.command("render", "a picture of the deformed block; needs no display",
+                                "palp render paper --load 0:1,0,-6 -o picture.png",
+                                [arguments](Session& session) { return run(*arguments, session); });
+  command.option("design", arguments->design, "design file, or paper").required();
   arguments->loads.declare(command);
   arguments->mesh.declare(command, false);
-  command.add_option("--quantity", arguments->quantity, "colour: |u| (default), ux, uy, uz, pressure, ...");
-  command.add_option("--width", arguments->width, "pixels (default 1200)");
-  command.add_option("--height", arguments->height, "pixels (default 800)");
-  command.add_flag("--dark", arguments->dark, "dark ground");
-  arguments->output.declare(command, "PNG file to write")->required();
+  command.option("--quantity", arguments->quantity, "colour: |u| (default), ux, uy, uz, pressure, ...");
+  command.option("--width", arguments->width, "pixels (default 1200)");
+  command.option("--height", arguments->height, "pixels (default 800)");
+  command.flag("--dark", arguments->dark, "dark ground");
+  arguments->output.declare(command, "PNG file to write").required();
 }
 
 } // namespace palp

@@ -81,16 +81,16 @@ Exit run(ReportArguments& arguments, Session& session) {
 
 void addReport(Cli& cli) {
   auto arguments = std::make_shared<ReportArguments>();
-  CLI::App& command = cli.command("report", "reports with charts, a CSV of every point and how it was made",
-                                  "palp report layout -o out/layout",
-                                  [arguments](Session& session) { return run(*arguments, session); });
-  command.add_option("kind", arguments->kind, kindsInWords())->required()->check(CLI::IsMember(kindNames()));
-  command.add_option("--design", arguments->design, "design file, or paper (default)");
-  command.add_option("--per-area", arguments->perArea, "samples on each area, where the kind needs any (default 100)");
-  command.add_option("--seed", arguments->seed, "seed of everything random (default 1)");
+  Command command = cli.command("report", "reports with charts, a CSV of every point and how it was made",
+                                "palp report layout -o out/layout",
+                                [arguments](Session& session) { return run(*arguments, session); });
+  command.option("kind", arguments->kind, kindsInWords()).required().oneOf(kindNames());
+  command.option("--design", arguments->design, "design file, or paper (default)");
+  command.option("--per-area", arguments->perArea, "samples on each area, where the kind needs any (default 100)");
+  command.option("--seed", arguments->seed, "seed of everything random (default 1)");
   arguments->mesh.declare(command, false);
-  command.add_option("-o,--output", arguments->folder, "folder of report.html, points.csv and the pictures");
-  command.add_flag("--force", arguments->force, "write into a folder that is not empty");
+  command.option("-o,--output", arguments->folder, "folder of report.html, points.csv and the pictures");
+  command.flag("--force", arguments->force, "write into a folder that is not empty");
 }
 
 } // namespace palp

@@ -122,16 +122,16 @@ Exit run(const ReproduceArguments& arguments, Session& session) {
 
 void addReproduce(Cli& cli) {
   auto arguments = std::make_shared<ReproduceArguments>();
-  CLI::App& command = cli.command("reproduce", "the paper's experiments from nothing, its printed numbers beside ours",
-                                  "palp reproduce all --seeds 5 -o out/paper",
-                                  [arguments](Session& session) { return run(*arguments, session); });
-  command.add_option("what", arguments->what, "table1, fig12, figures or all (default)")
-      ->check(CLI::IsMember({"table1", "fig12", "figures", "all"}));
-  command.add_option("--seeds", arguments->seeds, "repetitions with other forces; medians are printed (default 1)");
-  command.add_option("--first-seed", arguments->firstSeed, "seed of the first repetition (default 1)");
+  Command command = cli.command("reproduce", "the paper's experiments from nothing, its printed numbers beside ours",
+                                "palp reproduce all --seeds 5 -o out/paper",
+                                [arguments](Session& session) { return run(*arguments, session); });
+  command.option("what", arguments->what, "table1, fig12, figures or all (default)")
+      .oneOf({"table1", "fig12", "figures", "all"});
+  command.option("--seeds", arguments->seeds, "repetitions with other forces; medians are printed (default 1)");
+  command.option("--first-seed", arguments->firstSeed, "seed of the first repetition (default 1)");
   arguments->mesh.declare(command, false);
-  command.add_option("-o,--output", arguments->folder, "folder of report.html, errors.csv and the pictures");
-  command.add_flag("--force", arguments->force, "write into a folder that is not empty");
+  command.option("-o,--output", arguments->folder, "folder of report.html, errors.csv and the pictures");
+  command.flag("--force", arguments->force, "write into a folder that is not empty");
 }
 
 } // namespace palp

@@ -100,19 +100,18 @@ Exit run(const SampleArguments& arguments, Session& session) {
 
 void addSample(Cli& cli) {
   auto arguments = std::make_shared<SampleArguments>();
-  CLI::App& command = cli.command("sample", "labelled samples: force, electrode displacements, resistances",
-                                  "palp sample paper --per-area 100 --seed 1 -o samples.csv",
-                                  [arguments](Session& session) { return run(*arguments, session); });
-  command.add_option("design", arguments->design, "design file, or paper")->required();
-  command.add_option("--per-area", arguments->perArea, "samples on each area (with --areas together: in all)")
-      ->required();
-  command.add_option("--seed", arguments->seed, "seed of the forces (default 1)");
-  command.add_option("--areas", arguments->areas, "each, together, or the number of one area (default each)");
-  command.add_flag("--surrogate", arguments->surrogate, "per-area polynomial of full solves: many samples in seconds");
-  command.add_option("--tolerance", arguments->tolerance, "relative, against full Newton (default 1e-6)");
-  command.add_option("--shard", arguments->shardText, "I/N: this part of the samples; palp merge joins them");
+  Command command = cli.command("sample", "labelled samples: force, electrode displacements, resistances",
+                                "palp sample paper --per-area 100 --seed 1 -o samples.csv",
+                                [arguments](Session& session) { return run(*arguments, session); });
+  command.option("design", arguments->design, "design file, or paper").required();
+  command.option("--per-area", arguments->perArea, "samples on each area (with --areas together: in all)").required();
+  command.option("--seed", arguments->seed, "seed of the forces (default 1)");
+  command.option("--areas", arguments->areas, "each, together, or the number of one area (default each)");
+  command.flag("--surrogate", arguments->surrogate, "per-area polynomial of full solves: many samples in seconds");
+  command.option("--tolerance", arguments->tolerance, "relative, against full Newton (default 1e-6)");
+  command.option("--shard", arguments->shardText, "I/N: this part of the samples; palp merge joins them");
   arguments->mesh.declare(command, false);
-  arguments->output.declare(command, "sample file to write")->required();
+  arguments->output.declare(command, "sample file to write").required();
 }
 
 } // namespace palp

@@ -147,10 +147,10 @@ Exit run(const SolveArguments& arguments, Session& session) {
 
 void addSolve(Cli& cli) {
   auto arguments = std::make_shared<SolveArguments>();
-  CLI::App& command = cli.command("solve", "one nonlinear solve; all loads act together",
-                                  "palp solve paper --load 0:1,0,-6 --load 5:0,0.5,-2 --json",
-                                  [arguments](Session& session) { return run(*arguments, session); });
-  command.add_option("design", arguments->design, "design file, or paper")->required();
+  Command command = cli.command("solve", "one nonlinear solve; all loads act together",
+                                "palp solve paper --load 0:1,0,-6 --load 5:0,0.5,-2 --json",
+                                [arguments](Session& session) { return run(*arguments, session); });
+  command.option("design", arguments->design, "design file, or paper").required();
   arguments->loads.declare(command);
   arguments->mesh.declare(command, true);
   arguments->output.declare(command, "VTU file with displacement, stress, pressure and volume ratio at the nodes");

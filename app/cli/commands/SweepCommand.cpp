@@ -113,15 +113,15 @@ Exit run(const Arguments& arguments, Session& session) {
 
 void addSweep(Cli& cli) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App& command =
+  Command command =
       cli.command("sweep", "error, leave-one-out, condition and time over the spread",
                   "palp sweep samples.csv --test test.csv --input resistance --mode paper --spreads 0.3:10:20",
                   [arguments](Session& session) { return run(*arguments, session); });
-  command.add_option("samples", arguments->samples, "sample file to train with")->required();
-  command.add_option("--test", arguments->test, "sample file to test with")->required();
-  command.add_option("--spreads", arguments->spreads, "0.8,0.9,1 or FROM:TO:COUNT (logarithmic; default 0.3:30:21)");
-  command.add_option("--test-noise", arguments->testNoise,
-                     "relative noise that the test samples get, of another seed than the training's (default 0)");
+  command.option("samples", arguments->samples, "sample file to train with").required();
+  command.option("--test", arguments->test, "sample file to test with").required();
+  command.option("--spreads", arguments->spreads, "0.8,0.9,1 or FROM:TO:COUNT (logarithmic; default 0.3:30:21)");
+  command.option("--test-noise", arguments->testNoise,
+                 "relative noise that the test samples get, of another seed than the training's (default 0)");
   arguments->train.declare(command, false);
 }
 

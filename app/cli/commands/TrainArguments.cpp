@@ -20,25 +20,25 @@ double numberIn(const std::string& option, const std::string& value, double low,
 
 } // namespace
 
-void TrainArguments::declare(CLI::App& command, bool withSpread) {
-  command.add_option("--input", input, kInputKinds.allowed() + " (default displacement)");
-  command.add_option("--rows", rows, "row-wires that are read: 4, or 1,4,7, or all (default 4, the centre)");
-  command.add_option("--mode", mode, kDecoderModes.allowed() + ": what is not set below follows from it");
-  command.add_option("--decoder", decoder, kDecoderKinds.allowed() + " (default rbf)");
+void TrainArguments::declare(Command command, bool withSpread) {
+  command.option("--input", input, kInputKinds.allowed() + " (default displacement)");
+  command.option("--rows", rows, "row-wires that are read: 4, or 1,4,7, or all (default 4, the centre)");
+  command.option("--mode", mode, kDecoderModes.allowed() + ": what is not set below follows from it");
+  command.option("--decoder", decoder, kDecoderKinds.allowed() + " (default rbf)");
   if (withSpread)
-    command.add_option("--spread", spread, "auto (by leave-one-out, default) or a number above 0, of scaled inputs");
-  command.add_option("--centers", centers, "all, or how many");
-  command.add_option("--centers-by", centersBy, kCenterChoices.allowed() + " (default: as the mode says)");
-  command.add_option("--solver", solver, kLeastSquaresMethods.allowed());
-  command.add_option("--ridge", ridge, "0 or above; not given: 0, or by leave-one-out where there is noise");
-  command.add_option("--scaler", scaler,
-                     kScalings.allowed() + " (default: global; whiten with noise; in mode paper as in it)");
-  command.add_option("--tail", tail, kTails.allowed());
-  command.add_option("--convention", convention,
-                     "what a spread means: " + kSpreadConventions.allowed() + " (default radbas)");
-  command.add_option("--noise", noise, "relative noise of the inputs to train for (default 0)");
-  command.add_option("--forgetting", forgetting, "of rls, above 0 up to 1 (default 1)");
-  command.add_option("--seed", seed, "of centres, noise and starts (default 1)");
+    command.option("--spread", spread, "auto (by leave-one-out, default) or a number above 0, of scaled inputs");
+  command.option("--centers", centers, "all, or how many");
+  command.option("--centers-by", centersBy, kCenterChoices.allowed() + " (default: as the mode says)");
+  command.option("--solver", solver, kLeastSquaresMethods.allowed());
+  command.option("--ridge", ridge, "0 or above; not given: 0, or by leave-one-out where there is noise");
+  command.option("--scaler", scaler,
+                 kScalings.allowed() + " (default: global; whiten with noise; in mode paper as in it)");
+  command.option("--tail", tail, kTails.allowed());
+  command.option("--convention", convention,
+                 "what a spread means: " + kSpreadConventions.allowed() + " (default radbas)");
+  command.option("--noise", noise, "relative noise of the inputs to train for (default 0)");
+  command.option("--forgetting", forgetting, "of rls, above 0 up to 1 (default 1)");
+  command.option("--seed", seed, "of centres, noise and starts (default 1)");
 }
 
 TrainOptions TrainArguments::options() const {

@@ -19,7 +19,7 @@ struct TrainArguments {
   std::string noise = "0";
   std::string forgetting = "1";
   std::string seed = "1";
-  void declare(CLI::App& command, bool withSpread);
+  void declare(Command command, bool withSpread);
   /// UsageError names the option, its value and what is allowed.
   [[nodiscard]] TrainOptions options() const;
 };

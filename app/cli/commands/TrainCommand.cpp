@@ -88,13 +88,13 @@ Exit run(const Arguments& arguments, Session& session) {
 
 void addTrain(Cli& cli) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App& command = cli.command("train", "fit a network, or one of its rivals, to samples",
-                                  "palp train samples.csv --input resistance --rows all --noise 1e-4 -o network.json",
-                                  [arguments](Session& session) { return run(*arguments, session); });
-  command.add_option("samples", arguments->samples, "sample file")->required();
+  Command command = cli.command("train", "fit a network, or one of its rivals, to samples",
+                                "palp train samples.csv --input resistance --rows all --noise 1e-4 -o network.json",
+                                [arguments](Session& session) { return run(*arguments, session); });
+  command.option("samples", arguments->samples, "sample file").required();
   arguments->train.declare(command, true);
-  command.add_option("--design", arguments->design, "design file, or paper; two-step-gn inverts its Eq. (1)");
-  arguments->output.declare(command, "network file to write")->required();
+  command.option("--design", arguments->design, "design file, or paper; two-step-gn inverts its Eq. (1)");
+  arguments->output.declare(command, "network file to write").required();
 }
 
 } // namespace palp

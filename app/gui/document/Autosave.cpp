@@ -44,7 +44,7 @@ Autosave::Autosave(Workbench& workbench, NetworkSession& network, Document& docu
   lock_->tryLock(0);
   timer_.setSingleShot(true);
   connect(&timer_, &QTimer::timeout, this, &Autosave::keep);
-  connect(&runner_, &JobRunner::failed, this, &Autosave::failed);
+  connect(&runner_, &JobRunner::failed, this, &Autosave::say);
   connect(&workbench, &Workbench::projectChanged, this, &Autosave::changed);
   connect(&document, &Document::unsavedChanged, this, &Autosave::changed);
 }
@@ -111,8 +111,12 @@ void Autosave::keep() {
     }
     keepResults();
   } catch (const std::exception& error) {
-    emit failed(tr("Unsaved work cannot be kept for the case of a crash: %1").arg(error.what()));
+    say(QString::fromUtf8(error.what()));
   }
+}
+
+void Autosave::say(const QString& reason) {
+  emit failed(tr("Unsaved work cannot be kept for the case of a crash: %1").arg(reason));
 }
 
 void Autosave::keepResults() {
@@ -124,7 +128,7 @@ void Autosave::keepResults() {
   }
   const std::string folder = QDir(folder_).filePath(kResults).toStdString();
   runner_.start(tr("Keeping samples and network"), [this, folder, results = now](const auto&, JobProgress&) {
-    saveResults(folder, results);
+    saveResults(folder, results, resultFiles(folder));
     return [this, results] {
       keptSamples_ = results.samples;
       keptFit_ = results.fit;

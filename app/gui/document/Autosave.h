@@ -57,6 +57,7 @@ private:
   void keep();
   void keepResults();
   void drop();
+  void say(const QString& reason);
 
   Workbench& workbench_;
   NetworkSession& network_;

@@ -51,7 +51,16 @@ Document::Document(MainWindow& window, Workbench& workbench, NetworkSession& net
   connect(&workbench, &Workbench::fileChanged, this, &Document::showTitle);
   connect(&workbench, &Workbench::projectReplaced, this, [this] {
     network_.clear(); // what the other project held
+    ours_.clear();
     openResults();
+  });
+  connect(&network.writer(), &JobRunner::failed, this, [this](const QString& sentence) {
+    auto* box =
+        new QMessageBox(QMessageBox::Warning, tr("Cannot save"),
+                        tr("%1\n\nWhat was saved before stays as it is.").arg(sentence), QMessageBox::Ok, &window_);
+    box->setObjectName("cannotSave");
+    box->setAttribute(Qt::WA_DeleteOnClose);
+    box->open(); // the job ends meanwhile
   });
   showTitle();
 }
@@ -176,7 +185,25 @@ void Document::beganWith(const QString& file) {
 /// Samples and network that lie beside the project.
 void Document::openResults() {
   const QString& file = workbench_.file();
-  if (!file.isEmpty()) network_.openResults(resultsFolder(file), [this] { resultsSaved(network_.results()); });
+  if (file.isEmpty()) return;
+  network_.openResults(resultsFolder(file), [this](const OpenedResults& opened) {
+    ours_ = opened.opened;
+    sayProblems(opened);
+    resultsSaved(network_.results());
+  });
+}
+
+void Document::sayProblems(const OpenedResults& opened) {
+  if (opened.ofOtherDesigns > 0)
+    window_.showMessage(
+        tr("%1 of the trained networks are of other designs; they stay in their files and are not listed.")
+            .arg(opened.ofOtherDesigns));
+  QStringList all;
+  for (const std::string& problem : opened.problems) all << QString::fromStdString(problem);
+  if (all.isEmpty()) return;
+  all << tr("What cannot be opened stays as it is.");
+  network_.sayProblem(all.join("\n"));
+  window_.showMessage(all.join(' '));
 }
 
 void Document::startAnew() {
@@ -204,8 +231,13 @@ bool Document::write(const QString& file) {
   workbench_.saved(QFileInfo(file).absoluteFilePath());
   remember(file);
   window_.showMessage(tr("Saved %1.").arg(file));
-  if (network_.upToDate())
-    network_.saveResults(resultsFolder(workbench_.file()), [this](const auto& results) { resultsSaved(results); });
+  if (!network_.upToDate()) return true;
+  const std::filesystem::path folder = resultsFolder(workbench_.file());
+  network_.saveResults(folder, ours_, [this, folder](const NetworkResults& results, const QStringList& said) {
+    ours_.merge(resultFiles(folder));
+    for (const QString& sentence : said) window_.showMessage(sentence);
+    resultsSaved(results);
+  });
   return true;
 }
 
@@ -223,7 +255,13 @@ void Document::recover(const QByteArray& project, const QString& file, const std
   const Project recovered = parseProject(project, tr("the recovered project"), workbench_.project());
   workbench_.edit(tr("Recover unsaved work"), recovered);
   window_.showScene(QString::fromStdString(recovered.view.scene));
-  network_.openResults(results, done);
+  network_.openResults(results, [this, done, results](const OpenedResults& opened) {
+    sayProblems(opened);
+    if (opened.problems.empty())
+      done();
+    else
+      window_.showMessage(tr("What cannot be opened stays in %1.").arg(QString::fromStdString(results.string())));
+  });
 }
 
 } // namespace palp

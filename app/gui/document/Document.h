@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <set>
 
 namespace palp {
 
@@ -18,6 +19,7 @@ class Workbench;
 struct NetworkFit;
 struct NetworkResults;
 struct NetworkSamples;
+struct OpenedResults;
 
 /// The project as a file of the user's, its samples and network in a folder beside it (NAME.palp): opens and saves
 /// them, asks before unsaved work would be lost, and keeps the window's title.
@@ -48,7 +50,7 @@ public:
   bool save();
   bool saveAs();
   /// What another window has left, as unsaved work on the project in `file` (empty: in none yet); `done` once all
-  /// of it is open. Throws Error.
+  /// of it is open; where some of it cannot be, that is said and `done` is not called. Throws Error.
   void recover(const QByteArray& project, const QString& file, const std::filesystem::path& results,
                const std::function<void()>& done);
   /// Files that were opened or saved, the newest first.
@@ -61,6 +63,8 @@ private:
   void openProject(const QString& file);
   void openResults();
   bool write(const QString& file);
+  /// Says what could not be opened, and that it stays.
+  void sayProblems(const OpenedResults& opened);
   /// These samples and this network stand in a file.
   void resultsSaved(const NetworkResults& results);
   void showTitle();
@@ -70,6 +74,7 @@ private:
   NetworkSession& network_;
   std::shared_ptr<const NetworkSamples> savedSamples_;
   std::shared_ptr<const NetworkFit> savedFit_;
+  std::set<std::filesystem::path> ours_; ///< of the files beside the project: whose content was opened or written here
 };
 
 } // namespace palp

@@ -1,9 +1,11 @@
 #include "app/gui/jobs/NetworkSession.h"
 
 #include "app/gui/jobs/ResultFiles.h"
+#include "app/gui/jobs/SampleFiles.h"
+#include "app/gui/jobs/SampleGeneration.h"
+#include "app/gui/jobs/TimeLeft.h"
 #include "app/study/decoding/DecoderTraining.h"
 #include "app/study/paper/PaperProtocol.h"
-#include "app/study/touch/SampleGenerator.h"
 #include "io/DecoderFile.h"
 #include "model/base/Error.h"
 #include "nn/NoisyCopies.h"
@@ -12,7 +14,6 @@
 #include <QElapsedTimer>
 
 #include <algorithm>
-#include <cmath>
 
 namespace palp {
 
@@ -20,43 +21,6 @@ namespace {
 
 constexpr std::size_t kKeptNetworks = 20;
 constexpr std::size_t kPastDesigns = 4; ///< whose results are kept: an edit and some undoing
-
-/// An empty set made wide enough for all that is asked.
-SampleSet allocated(SampleSet set, std::size_t total) {
-  const auto columns = static_cast<Eigen::Index>(total);
-  set.area.resize(columns);
-  set.forces_N.resize(3, columns);
-  set.displacements_mm.resize(3 * set.rowWires * set.electrodesPerRowWire, columns);
-  set.resistances_ohm.resize(set.rowWires * set.columnWires, columns);
-  return set;
-}
-
-void put(SampleSet& set, const SampleSet& block, std::size_t at) {
-  const auto first = static_cast<Eigen::Index>(at);
-  set.area.segment(first, block.size()) = block.area;
-  set.forces_N.middleCols(first, block.size()) = block.forces_N;
-  set.displacements_mm.middleCols(first, block.size()) = block.displacements_mm;
-  set.resistances_ohm.middleCols(first, block.size()) = block.resistances_ohm;
-}
-
-std::string timeLeft(double share, double elapsed_s) {
-  if (share < 0.02) return "";
-  const auto left_s = static_cast<long>(std::ceil(elapsed_s * (1 - share) / share));
-  return ", about " + std::to_string(left_s) + " s left";
-}
-
-/// Time since a generation went on, and where it stood then.
-struct GenerationClock {
-  std::size_t before = 0; ///< samples that were there already
-  QElapsedTimer elapsed;
-
-  void report(std::size_t done, std::size_t all, JobProgress& progress) const {
-    const double fresh = static_cast<double>(done - before) / static_cast<double>(all - before);
-    progress.set(static_cast<double>(done) / static_cast<double>(all),
-                 "Sample " + std::to_string(done) + " of " + std::to_string(all) +
-                     timeLeft(fresh, 1e-3 * static_cast<double>(elapsed.elapsed())));
-  }
-};
 
 NetworkFit fitOn(const NetworkSamples& samples, const SensorDesign& design, const NetworkSettings& settings,
                  const TrainOptions& options, const std::stop_token& stop, JobProgress& progress) {
@@ -79,59 +43,6 @@ NetworkFit fitOn(const NetworkSamples& samples, const SensorDesign& design, cons
 
 } // namespace
 
-/// Training samples first, then those for testing; sample i depends on the request and i alone, so that what was
-/// stopped goes on to the same bytes.
-struct NetworkSession::Generation {
-  SampleSettings settings;
-  MeshOptions mesh;
-  SensorDesign design;
-  std::array<SampleSet, 2> sets;
-  std::array<std::size_t, 2> made{};
-  std::array<std::size_t, 2> total{};
-  double batchError = 0;
-
-  /// Makes what is missing of the training samples (0) or those for testing (1); false where it was stopped.
-  bool makeSet(std::size_t set, const GenerationClock& clock, StageLog& stages, const std::stop_token& stop,
-               JobProgress& progress);
-  /// Hands all of them over.
-  std::shared_ptr<const NetworkSamples> samples();
-};
-
-bool NetworkSession::Generation::makeSet(std::size_t set, const GenerationClock& clock, StageLog& stages,
-                                         const std::stop_token& stop, JobProgress& progress) {
-  SampleRequest request;
-  request.perArea = settings.perArea;
-  request.surrogate = settings.surrogate;
-  request.seed = set == 1 ? testSeed(settings.seed) : settings.seed;
-  request.mesh = mesh;
-  SampleGenerator generator(design, request);
-  total[set] = generator.total();
-  const std::size_t kept = made[set];
-  if (kept == total[set] && kept > 0) return true;
-  if (kept == 0) sets[set] = allocated(generator.emptySet(stop), total[set]);
-  if (stop.stop_requested()) return false;
-  const std::size_t others = set == 1 ? total[0] : 0;
-  generator.generate(
-      {kept, total[set]},
-      [&](const SampleSet& block) {
-        put(sets[set], block, made[set]);
-        made[set] += static_cast<std::size_t>(block.size());
-      },
-      [&](std::size_t done) { clock.report(others + kept + done, 2 * total[set], progress); }, stop);
-  batchError = std::max(batchError, generator.measuredError());
-  stages.add(generator.stages());
-  return made[set] == total[set];
-}
-
-std::shared_ptr<const NetworkSamples> NetworkSession::Generation::samples() {
-  auto all = std::make_shared<NetworkSamples>();
-  all->training = std::move(sets[0]);
-  all->test = std::move(sets[1]);
-  all->batchError = batchError;
-  all->settings = settings;
-  return all;
-}
-
 NetworkSession::NetworkSession(QObject* parent) : QObject(parent) {
   connect(&runner_, &JobRunner::progressed, this, &NetworkSession::drain);
   connect(&runner_, &JobRunner::finished, this, [this](bool cancelled) {
@@ -142,12 +53,12 @@ NetworkSession::NetworkSession(QObject* parent) : QObject(parent) {
 NetworkSession::~NetworkSession() = default;
 
 std::array<std::size_t, 2> NetworkSession::stoppedAt() const {
-  if (!generation_ || runner_.running() || generation_->made[0] == 0) return {0, 0};
-  return {generation_->made[0] + generation_->made[1], 2 * generation_->total[0]};
+  return generation_ && !runner_.running() ? generation_->state() : std::array<std::size_t, 2>{0, 0};
 }
 
 void NetworkSession::show(NetworkResults results) {
   if (results.kept.empty() && results.design == shown_.design) results.kept = shown_.kept;
+  results.takenAway.insert(shown_.takenAway.begin(), shown_.takenAway.end());
   if (results.kept.empty() && results.fit) results.kept = {results.fit};
   if (shown_.samples) past_.push_front(std::move(shown_));
   std::erase_if(past_, [&](const NetworkResults& past) { return past.design == results.design; });
@@ -180,19 +91,15 @@ void NetworkSession::clear() {
 }
 
 void NetworkSession::generate(const SampleSettings& settings, const MeshOptions& mesh) {
-  if (!generation_ || !(generation_->settings == settings && generation_->mesh == mesh))
-    generation_ = std::make_shared<Generation>(Generation{settings, mesh, design_, {}, {}, {}, 0});
+  if (!generation_ || !generation_->is(settings, mesh))
+    generation_ = std::make_shared<SampleGeneration>(settings, mesh, design_);
   const auto work = [this, generation = generation_](const std::stop_token& stop,
                                                      JobProgress& progress) -> JobRunner::Taking {
-    progress.set(-1, "Meshing and preparing the solver");
-    GenerationClock clock{generation->made[0] + generation->made[1], {}};
-    clock.elapsed.start();
     StageLog stages;
-    for (const std::size_t set : {0, 1})
-      if (!generation->makeSet(set, clock, stages, stop, progress)) return {};
+    if (!generation->make(stages, stop, progress)) return {};
     return [this, generation, stages] {
       NetworkResults results;
-      results.design = generation->design;
+      results.design = generation->design();
       results.samples = generation->samples();
       if (generation_ == generation) generation_.reset();
       stages_.add(stages);
@@ -209,10 +116,10 @@ bool NetworkSession::fitIsCurrent() const {
 void NetworkSession::take(const std::shared_ptr<const NetworkFit>& fit, bool follows) {
   shown_.fit = fit;
   auto& kept = shown_.kept;
-  if (follows && lastFollowed_ && !kept.empty()) kept.erase(kept.begin());
+  if (follows && lastFollowed_ && !kept.empty()) dropKept(0);
   lastFollowed_ = follows;
   kept.insert(kept.begin(), fit);
-  if (kept.size() > kKeptNetworks) kept.pop_back();
+  if (kept.size() > kKeptNetworks) kept.pop_back(); // where it was saved its file stays
   emit fitChanged();
 }
 
@@ -243,9 +150,15 @@ void NetworkSession::goBackTo(std::size_t kept) {
   runner_.start(tr("Trying the network"), work);
 }
 
+void NetworkSession::dropKept(std::size_t kept) {
+  const auto place = shown_.kept.begin() + static_cast<std::ptrdiff_t>(kept);
+  shown_.takenAway.insert((*place)->made);
+  shown_.kept.erase(place);
+}
+
 void NetworkSession::takeAway(std::size_t kept) {
   if (kept >= shown_.kept.size()) return;
-  shown_.kept.erase(shown_.kept.begin() + static_cast<std::ptrdiff_t>(kept));
+  dropKept(kept);
   lastFollowed_ = false;
   emit fitChanged();
 }
@@ -276,10 +189,15 @@ void NetworkSession::sweep(const NetworkSettings& settings) {
   emit sweepChanged();
   const auto work = [this, settings, design = design_, samples = shown_.samples,
                      rows = rows_](const std::stop_token& stop, JobProgress& progress) -> JobRunner::Taking {
-    std::vector<double> spreads = logarithmicRange(settings.sweepFrom, settings.sweepTo, settings.sweepCount);
+    const std::vector<double> spreads = logarithmicRange(settings.sweepFrom, settings.sweepTo, settings.sweepCount);
+    const auto all = static_cast<double>(spreads.size());
+    QElapsedTimer clock;
+    clock.start();
+    const TimeLeft left; // one fit takes as long as another
     for (std::size_t k = 0; k < spreads.size() && !stop.stop_requested(); ++k) {
-      progress.set(static_cast<double>(k) / static_cast<double>(spreads.size()),
-                   "Spread " + std::to_string(k + 1) + " of " + std::to_string(spreads.size()));
+      const auto done = static_cast<double>(k);
+      progress.set(done / all, "Spread " + std::to_string(k + 1) + " of " + std::to_string(spreads.size()) +
+                                   leftInWords(left.left_s(done, all, 1e-3 * static_cast<double>(clock.elapsed()))));
       TrainOptions options = settings.trainOptions();
       options.spread = spreads[k];
       JobProgress unseen;
@@ -369,14 +287,15 @@ void NetworkSession::openSamples(const std::vector<std::filesystem::path>& files
   runner_.start(tr("Opening samples"), work);
 }
 
-void NetworkSession::openResults(const std::filesystem::path& folder, const std::function<void()>& opened) {
+void NetworkSession::openResults(const std::filesystem::path& folder,
+                                 const std::function<void(const OpenedResults&)>& opened) {
   const auto work = [this, folder, opened, design = design_](const std::stop_token& stop,
                                                              JobProgress&) -> JobRunner::Taking {
-    const NetworkResults results = palp::openResults(folder, design, stop);
-    return [this, results, opened] {
-      if (results.design != design_) return;
-      if (results.samples) show(results);
-      opened();
+    const auto found = std::make_shared<const OpenedResults>(palp::openResults(folder, design, stop));
+    return [this, found, opened] {
+      if (found->results.design != design_) return;
+      if (found->results.samples) show(found->results);
+      opened(*found);
     };
   };
   runner_.start(tr("Opening samples"), work);
@@ -389,11 +308,20 @@ void NetworkSession::saveSamples(const std::filesystem::path& file) {
   });
 }
 
-void NetworkSession::saveResults(const std::filesystem::path& folder,
-                                 const std::function<void(const NetworkResults&)>& saved) {
-  writer_.start(tr("Saving samples and network"), [folder, saved, results = shown_](const auto&, JobProgress&) {
-    palp::saveResults(folder, results);
-    return [saved, results] { saved(results); };
+void NetworkSession::saveNetwork(const std::filesystem::path& file) {
+  writer_.start(tr("Saving the network"), [file, fit = shown_.fit](const auto&, JobProgress&) {
+    writeNetwork(fit->decoder, file);
+    return JobRunner::Taking();
+  });
+}
+
+void NetworkSession::saveResults(const std::filesystem::path& folder, const std::set<std::filesystem::path>& ours,
+                                 const std::function<void(const NetworkResults&, const QStringList&)>& saved) {
+  writer_.start(tr("Saving samples and network"), [folder, ours, saved, results = shown_](const auto&, JobProgress&) {
+    QStringList said;
+    for (const std::string& sentence : palp::saveResults(folder, results, ours))
+      said << QString::fromStdString(sentence);
+    return [saved, results, said] { saved(results, said); };
   });
 }
 

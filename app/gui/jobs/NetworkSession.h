@@ -6,6 +6,7 @@
 #include "app/study/decoding/Prediction.h"
 
 #include <QDateTime>
+#include <QStringList>
 
 #include <array>
 #include <deque>
@@ -13,9 +14,13 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <vector>
 
 namespace palp {
+
+class SampleGeneration;
+struct OpenedResults;
 
 /// Training and test samples of the design, 100 forces an area each unless set otherwise.
 struct NetworkSamples {
@@ -59,6 +64,7 @@ struct NetworkResults {
   std::shared_ptr<const NetworkSamples> samples;
   std::shared_ptr<const NetworkFit> fit;
   std::vector<std::shared_ptr<const NetworkFit>> kept; ///< that can be gone back to, the newest first
+  std::set<QDateTime> takenAway;                       ///< when the networks were made that were taken off that list
   std::vector<SweepPoint> sweep;
   NetworkSettings sweepSettings;
   std::vector<DecoderTrial> trials;
@@ -90,14 +96,21 @@ public:
   /// Tries a network from a file on the test samples; the job fails where it cannot be read or does not fit them.
   /// Throws Error where there are no samples.
   void open(const std::filesystem::path& file);
-  /// Samples of files in place of generated ones; the job fails where they cannot be (ResultFiles.h).
+  /// Samples of files in place of generated ones; the job fails where they cannot be (SampleFiles.h).
   void openSamples(const std::vector<std::filesystem::path>& files);
-  /// What a folder keeps of this design, if anything; then `opened` is called.
-  void openResults(const std::filesystem::path& folder, const std::function<void()>& opened);
+  /// What a folder keeps of this design, as far as it can be opened; then `opened` is called.
+  void openResults(const std::filesystem::path& folder, const std::function<void(const OpenedResults&)>& opened);
   /// The samples in NAME.csv and NAME-test.csv; there must be some.
   void saveSamples(const std::filesystem::path& file);
-  /// Samples and network in a folder; then `saved` is called with them.
-  void saveResults(const std::filesystem::path& folder, const std::function<void(const NetworkResults&)>& saved);
+  /// The network that is shown, which must be there.
+  void saveNetwork(const std::filesystem::path& file);
+  /// Samples and networks in a folder (saveResults in ResultFiles.h); then `saved` is called with them and with what is
+  /// to be said.
+  void saveResults(const std::filesystem::path& folder, const std::set<std::filesystem::path>& ours,
+                   const std::function<void(const NetworkResults&, const QStringList&)>& saved);
+
+  /// Of files that hold results: what the Network scene shows until the next work begins.
+  void sayProblem(const QString& sentence) { emit problem(sentence); }
 
   [[nodiscard]] const NetworkResults& results() const { return shown_; }
   [[nodiscard]] const NetworkSamples* samples() const { return shown_.samples.get(); }
@@ -130,6 +143,7 @@ signals:
   void fitChanged();
   void sweepChanged();
   void trialsChanged();
+  void problem(const QString& sentence);
 
 private:
   /// What the job has finished, drained by the window.
@@ -138,19 +152,19 @@ private:
     std::vector<SweepPoint> points;
     std::vector<DecoderTrial> trials;
   };
-  /// Samples on the way; written by the job alone while it runs.
-  struct Generation;
   void drain();
   /// Shows a network, and keeps it.
   void take(const std::shared_ptr<const NetworkFit>& fit, bool follows);
+  /// Takes a network off the list, and its files at the next saving.
+  void dropKept(std::size_t kept);
   /// Shows other results, and keeps those that were shown while there is room.
   void show(NetworkResults results);
 
   JobRunner runner_, writer_;
   SensorDesign design_;
   NetworkResults shown_;
-  std::deque<NetworkResults> past_; ///< of other designs, the newest first
-  std::shared_ptr<Generation> generation_;
+  std::deque<NetworkResults> past_;              ///< of other designs, the newest first
+  std::shared_ptr<SampleGeneration> generation_; ///< written by the job alone while it runs
   std::shared_ptr<Rows> rows_;
   StageLog stages_;
   bool lastFollowed_ = false; ///< the newest network of the list was trained after an edit

@@ -3,38 +3,36 @@
 #include "app/gui/jobs/NetworkSession.h"
 
 #include <filesystem>
+#include <set>
 #include <stop_token>
+#include <string>
 #include <vector>
 
 namespace palp {
 
-/// Files of samples and networks that the window opens and saves; all of it is work for a job. Training samples stand
-/// in NAME.csv and those for testing in NAME-test.csv beside it (resources/docs/formats.md).
-
-/// The name of the file with the test samples that belong to this one.
-std::filesystem::path testFileOf(const std::filesystem::path& file);
-
-/// Both sets, each written beside and renamed. Throws Error.
-void saveSampleFiles(const std::filesystem::path& file, const NetworkSamples& samples);
-
-/// Samples from files in any order: shards of one request are joined; where they are of two requests, the second one's
-/// are for testing (the one with the seed of a test, where there is one), and so is NAME-test.csv beside a single
-/// NAME.csv. Without any, every fifth sample of each area is kept for testing. Throws Error where they are no samples,
-/// of another design than this, leave a gap or were made with all areas loaded together.
-NetworkSamples openSampleFiles(const std::vector<std::filesystem::path>& files, const SensorDesign& design,
-                               const std::stop_token& stop);
-
 /// The decoder tried on the test samples. Throws Error where it does not fit them.
 std::shared_ptr<const NetworkFit> triedOn(Decoder decoder, const NetworkSamples& samples);
 
-/// Samples and networks of a design in a folder of their own, which is made: samples.csv, samples-test.csv,
-/// network.json and, in networks, those that can be gone back to, each with the settings it was trained with. Throws
-/// Error.
-void saveResults(const std::filesystem::path& folder, const NetworkResults& results);
+/// The files of a folder that hold what is there now: samples.csv, samples-test.csv and network.json.
+std::set<std::filesystem::path> resultFiles(const std::filesystem::path& folder);
 
-/// What saveResults() wrote; nothing where the folder holds no samples. Throws Error where it cannot be read or is of
-/// another design.
-NetworkResults openResults(const std::filesystem::path& folder, const SensorDesign& design,
-                           const std::stop_token& stop);
+/// Samples and networks of a design in a folder of their own, which is made: resultFiles() and, in networks, those that
+/// can be gone back to, each with the settings it was trained with. All of it or, where it cannot be written, nothing
+/// of what was there is touched. Networks leave the folder only where they were taken away, and of resultFiles() only
+/// `ours` are replaced, whose content is held or was written before: others that hold something else are kept under
+/// the name of this moment. Returns a sentence for each of them. Throws Error.
+std::vector<std::string> saveResults(const std::filesystem::path& folder, const NetworkResults& results,
+                                     const std::set<std::filesystem::path>& ours);
+
+/// What a folder held.
+struct OpenedResults {
+  NetworkResults results;
+  std::set<std::filesystem::path> opened; ///< of resultFiles(): whose content the results hold
+  std::vector<std::string> problems;      ///< a sentence for each file that cannot be opened
+  int ofOtherDesigns = 0;                 ///< networks there that are not listed
+};
+
+/// What saveResults() wrote; nothing where the folder holds no samples. What cannot be opened is left out.
+OpenedResults openResults(const std::filesystem::path& folder, const SensorDesign& design, const std::stop_token& stop);
 
 } // namespace palp

@@ -60,6 +60,10 @@ LiveBanner::LiveBanner(QWidget* parent) : QWidget(parent) {
     const QString remedy = QString::fromStdString(permissionRemedy());
     QApplication::clipboard()->setText(remedy.section(": ", 1).section(" (", 0, 0));
   });
+  // It moves nothing when it comes and goes.
+  QSizePolicy keeps = sizePolicy();
+  keeps.setRetainSizeWhenHidden(true);
+  setSizePolicy(keeps);
   hide();
 }
 

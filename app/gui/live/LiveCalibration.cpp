@@ -129,9 +129,11 @@ QWidget* LiveCalibration::buildFrames() {
   table_ = new QTableWidget(0, 7);
   table_->setObjectName("labelledFrames");
   table_->setHorizontalHeaderLabels(
-      {tr("area"), tr("Fx"), tr("Fy"), tr("Fz"), tr("said Fx"), tr("said Fy"), tr("said Fz")});
-  table_->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
+      {tr("area"), tr("Fx"), tr("Fy"), tr("Fz"), tr("said\nFx"), tr("said\nFy"), tr("said\nFz")});
+  table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   table_->horizontalHeader()->setMinimumSectionSize(24);
+  table_->verticalHeader()->hide();
+  table_->setWordWrap(false);
   table_->setToolTip(tr("The known loads, and beside them what the network in use said of the frames, their mean [N]"));
   table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
@@ -263,7 +265,9 @@ void LiveCalibration::displayFrames() {
   progress_->setRange(0, std::max(1, frames_.wanted()));
   progress_->setValue(frames_.collected());
   const bool any = samples.size() > 0;
-  for (QPushButton* push : {remove_, saveFrames_, fit_}) push->setEnabled(any);
+  for (QPushButton* push : {remove_, saveFrames_}) push->setEnabled(any);
+  fit_->setEnabled(samples.size() >= kFewestCalibrationFrames);
+  displayFit();
   if (table_->rowCount() == samples.size()) return;
   table_->setRowCount(static_cast<int>(samples.size()));
   for (int row = 0; row < table_->rowCount(); ++row) {
@@ -294,8 +298,11 @@ void LiveCalibration::displayFit() {
   use_->setEnabled(calibration_.has_value());
   saveNetwork_->setEnabled(calibration_.has_value());
   if (!calibration_) {
-    report_->setText(tr("Put known loads on the sensor, one after the other, and collect a frame under each; at least "
-                        "8 of them, over the whole force range. Then fit."));
+    report_->setText(
+        tr("Put known loads on the sensor, one after the other, and collect a frame under each; at least "
+           "%1 of them, over the whole force range: a load may be put on again. Then fit. %2 of %1 so far.")
+            .arg(kFewestCalibrationFrames)
+            .arg(frames_.samples().size()));
     return;
   }
   double age_days = newest_s_ > 0 ? (hostClock_s() - newest_s_) / kDay_s : 0;

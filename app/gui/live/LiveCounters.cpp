@@ -20,11 +20,13 @@ QString triple(const LatencySummary& latency, std::uint64_t frames) {
   return milliseconds(latency.p50_s) + " / " + milliseconds(latency.p99_s) + " / " + milliseconds(latency.longest_s);
 }
 
-QString stateTitle(const LiveStatus& status, bool simulated) {
+QString stateTitle(const LiveStatus& status, bool simulated, bool replaying) {
   QString title = QString::fromLatin1(name(status.state));
-  if (simulated && status.state == LiveState::Streaming) title = QObject::tr("simulated");
+  if (status.state == LiveState::Streaming && (simulated || replaying))
+    title = simulated ? QObject::tr("simulated") : QObject::tr("playing");
   title[0] = title[0].toUpper();
   if (status.recording) title += QObject::tr(", recording");
+  if (status.recordingWaits) title += QObject::tr(", recording waits");
   return title;
 }
 
@@ -82,7 +84,7 @@ void LiveCounters::resizeEvent(QResizeEvent* event) {
 LiveCounters::Tile LiveCounters::add(const QString& name, const QString& title, const QString& tip) {
   auto* box = new QWidget;
   box->setProperty("role", "tile");
-  box->setToolTip(tip);
+  box->setToolTip("<qt>" + tip.toHtmlEscaped() + "</qt>"); // broken into lines
   auto* column = new QVBoxLayout(box);
   column->setContentsMargins(6, 4, 6, 4);
   column->setSpacing(0);
@@ -110,7 +112,9 @@ void LiveCounters::set(const Tile& tile, const QString& value, const QString& un
   tile.value->style()->polish(tile.value);
 }
 
-void LiveCounters::displayTrust(const LiveFrame* last) {
+void LiveCounters::displayTrust(const LiveStatus& status, const LiveFrame* last) {
+  if (status.state != LiveState::Streaming && status.state != LiveState::Paused && status.state != LiveState::Ended)
+    return set(trust_, tr("none"), tr("no readings now"));
   if (last == nullptr || !last->forces.valid) return set(trust_, tr("none"), tr("no forces"));
   const DecodedForces& forces = last->forces;
   const bool doubted = !forces.doubt.empty();
@@ -119,10 +123,10 @@ void LiveCounters::displayTrust(const LiveFrame* last) {
   trust_.unit->setToolTip(doubted ? trust_.unit->text() : QString());
 }
 
-void LiveCounters::display(const LiveStatus& status, const LiveFrame* last, bool simulated) {
+void LiveCounters::display(const LiveStatus& status, const LiveFrame* last, bool simulated, bool replaying) {
   const bool alarm = status.state == LiveState::Refused || status.state == LiveState::Stalled ||
                      (status.state == LiveState::Searching && status.connections > 0);
-  set(state_, stateTitle(status, simulated),
+  set(state_, stateTitle(status, simulated, replaying),
       QString::fromStdString(status.reason.empty() ? status.source : status.reason), alarm);
   state_.unit->setToolTip(state_.unit->text());
   const QString wanted = status.configuration ? tr("of %1; ").arg(status.configuration->rate_Hz) : QString();
@@ -135,8 +139,8 @@ void LiveCounters::display(const LiveStatus& status, const LiveFrame* last, bool
       status.counts.frames == 0
           ? QString()
           : tr("here %1 / %2").arg(milliseconds(status.decoding.p50_s), milliseconds(status.decoding.p99_s)));
-  displayTrust(last);
-  const QString drift = status.drift ? tr("%1 ppm").arg(1e6 * *status.drift, 0, 'f', 0) : QString();
+  displayTrust(status, last);
+  const QString drift = status.drift ? tr("%1 ppm").arg(qRound64(1e6 * *status.drift)) : QString();
   const QString reads =
       status.tareSuggested ? tr(" reads as %1 N: tare").arg(status.driftForce_N, 0, 'g', 2) : QString();
   const QString noise =

@@ -20,7 +20,7 @@ public:
   explicit LiveCounters(QWidget* parent = nullptr);
 
   /// `last` may be null.
-  void display(const LiveStatus& status, const LiveFrame* last, bool simulated);
+  void display(const LiveStatus& status, const LiveFrame* last, bool simulated, bool replaying);
 
 protected:
   void resizeEvent(QResizeEvent* event) override;
@@ -33,7 +33,7 @@ private:
   };
   Tile add(const QString& name, const QString& title, const QString& tip);
   void arrange(int columns);
-  void displayTrust(const LiveFrame* last);
+  void displayTrust(const LiveStatus& status, const LiveFrame* last);
   static void set(const Tile& tile, const QString& value, const QString& unit, bool alarm = false);
 
   QGridLayout* grid_;

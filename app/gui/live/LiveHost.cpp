@@ -7,9 +7,13 @@
 #include "io/Fingerprint.h"
 #include "model/base/Error.h"
 
+#include <algorithm>
+
 namespace palp {
 
 namespace {
+
+constexpr double kStepBack = 2.5; // frames, from the end of one to the middle of the second before it
 
 /// Whatever goes wrong while a source is opened is said in the session's state.
 template <class Open> std::unique_ptr<ReportSource> orRefuse(const Open& open) {
@@ -22,17 +26,17 @@ template <class Open> std::unique_ptr<ReportSource> orRefuse(const Open& open) {
   }
 }
 
-bool sameSource(const LiveSettings& a, const LiveSettings& b) {
-  return a.source == b.source && a.device == b.device && a.recording == b.recording &&
-         a.simulation.seed == b.simulation.seed;
-}
-
 /// Throws Error where the network cannot read this board.
 void requireUse(const Decoder& decoder, const std::optional<BoardInfo>& info) {
   if (info) static_cast<void>(ForceDecoder(decoder, *info));
 }
 
 } // namespace
+
+bool sameSource(const LiveSettings& a, const LiveSettings& b) {
+  return a.source == b.source && a.device == b.device && a.recording == b.recording &&
+         a.simulation.seed == b.simulation.seed;
+}
 
 LiveHost::LiveHost(BoardAccess access, QObject* parent)
     : QObject(parent), access_(std::move(access)), sensor_(paperDesign()) {
@@ -51,8 +55,10 @@ void LiveHost::setSettings(const LiveSettings& settings, const SensorDesign& des
   if (replay_) replay_->speed = settings.replaySpeed;
   if (simulation_) simulation_->set(faults(), disturbance());
   hold();
-  if (before.alarmOn != settings.alarmOn || !(before.alarm == settings.alarm))
+  if (before.alarmOn != settings.alarmOn || !(before.alarm == settings.alarm)) {
     if (session_) session_->setAlarm(alarm());
+    if (!visible_) applyPause();
+  }
   if (before.network != settings.network) {
     networkAsked_ = network_.decoder && network_.file == settings.network; // the one in use was wanted back
     if (networkAsked_) loader_.cancel();
@@ -143,7 +149,8 @@ LiveOptions LiveHost::options() {
     // Once a board was there, its absence is said and nothing else takes its place.
     options.open = [simulated, access = access_, seen = boardSeen_]() -> std::unique_ptr<ReportSource> {
       return orRefuse([&]() -> std::unique_ptr<ReportSource> {
-        const bool there = !access.list().empty();
+        const std::vector<HidBoard> boards = access.list();
+        const bool there = std::any_of(boards.begin(), boards.end(), access.free);
         if (!there && !*seen) return simulated();
         *seen = true;
         return access.open({});
@@ -202,10 +209,27 @@ void LiveHost::setVisible(bool visible) {
   applyPause();
 }
 
+bool LiveHost::worksHidden() const {
+  return session_ && (watches() || recording());
+}
+
+void LiveHost::close() {
+  simulator().cancel();
+  loader_.cancel();
+  letGo(std::move(watch_));
+  letGo(std::move(session_));
+}
+
+bool LiveHost::closed() {
+  letGo<LiveSession>(nullptr); // forgets those that have ended
+  return closing_.empty() && !session_ && !watch_ && !loader_.running() && !simulator().running();
+}
+
 void LiveHost::applyPause() {
   if (!session_) return;
-  const bool held = paused_ || !visible_; // a recording goes on all the same
-  session_->idle(!visible_);
+  const bool idle = !visible_ && !watches();
+  const bool held = (visible_ && paused_) || idle; // a recording goes on all the same
+  session_->idle(idle);
   if (replay_) {
     replay_->paused = held;
   } else {
@@ -278,7 +302,9 @@ bool LiveHost::look() {
   if (watch_) watch_->setQuiet(*boardSeen_ && status_.state == LiveState::Streaming);
   configureOnce();
   const bool stoodIn = settings_.source == LiveSourceKind::Automatic && !*boardSeen_ && status_.connections > 0;
-  if (stoodIn && !status_.recording && !boards().empty())
+  if (!stoodIn || recording()) return !fresh_.empty();
+  const std::vector<HidBoard> there = boards();
+  if (std::any_of(there.begin(), there.end(), access_.free))
     restart(); // a board was plugged in: it takes the place of the simulated one
   return !fresh_.empty();
 }
@@ -322,7 +348,15 @@ void LiveHost::setPaused(bool paused) {
 void LiveHost::step(int frames) {
   if (!replay_) return;
   setPaused(true);
-  replay_->steps += frames;
+  if (frames > 0) {
+    replay_->steps += frames;
+    return;
+  }
+  // To the frame before: taken up in the middle of the one before that, which is left out then.
+  const LiveFrame* last = history_.last();
+  if (last == nullptr) return;
+  const double frame_s = last->frame.endTime_s - last->frame.time_s;
+  seek(std::max(0.0, replay_->position_s - kStepBack * frame_s));
 }
 
 void LiveHost::mark(const std::string& text) {
@@ -342,6 +376,8 @@ void LiveHost::startRecording(const std::filesystem::path& path, bool replace) {
   if (replay_ && std::filesystem::weakly_canonical(path) == std::filesystem::weakly_canonical(settings_.recording))
     throw Error(path.string() + ": is being played; record to another file");
   session_->startRecording(path, network_.fingerprint, replace);
+  recordingFile_ = path;
+  recordingSince_s_ = hostClock_s();
 }
 
 void LiveHost::stopRecording() {

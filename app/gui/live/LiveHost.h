@@ -15,8 +15,11 @@
 
 namespace palp {
 
-/// The live session behind the Live scene: opened by the settings, drained when the scene looks. While the scene is
-/// hidden nothing is decoded; a recording goes on.
+/// Both choose the same board, simulation or recording.
+[[nodiscard]] bool sameSource(const LiveSettings& a, const LiveSettings& b);
+
+/// The live session of one board in the Live scene: opened by the settings, drained when the scene looks. While the
+/// scene is hidden a recording goes on and an alarm that is set goes off; else nothing is read.
 class LiveHost : public QObject {
   Q_OBJECT
 
@@ -33,12 +36,20 @@ public:
   void restart();
   /// Takes what has come since the last look; true where there is a new frame.
   bool look();
+  /// Something is done while the scene is hidden too: a recording, or an alarm that is set.
+  [[nodiscard]] bool worksHidden() const;
+  /// Ends for good, without waiting; a recording is closed.
+  void close();
+  /// What was closed has ended.
+  [[nodiscard]] bool closed();
 
   [[nodiscard]] const LiveStatus& status() const { return status_; }
   [[nodiscard]] const LiveHistory& history() const { return history_; }
   /// Frames of the last look.
   [[nodiscard]] const std::vector<std::shared_ptr<const LiveFrame>>& fresh() const { return fresh_; }
   [[nodiscard]] std::vector<HidBoard> boards() const;
+  /// No other session of this program reads it.
+  [[nodiscard]] bool free(const HidBoard& board) const { return access_.free(board); }
   /// The source is the virtual board or a recording.
   [[nodiscard]] bool simulated() const;
   [[nodiscard]] bool replaying() const { return replay_ != nullptr; }
@@ -61,6 +72,7 @@ public:
   void clearTare();
   void setPaused(bool paused);
   [[nodiscard]] bool paused() const { return paused_; }
+  /// Of a recording, which is held then: one frame on, or back.
   void step(int frames);
   void mark(const std::string& text);
   void setPluggedIn(bool in);
@@ -68,6 +80,12 @@ public:
   /// Throws Error where nothing can be recorded.
   void startRecording(const std::filesystem::path& path, bool replace);
   void stopRecording();
+  /// It is recorded, or would be if the board were not out.
+  [[nodiscard]] bool recording() const { return status_.recording || status_.recordingWaits; }
+  /// Host clock when the last recording was begun.
+  [[nodiscard]] double recordingSince_s() const { return recordingSince_s_; }
+  /// The file of the last recording that was begun.
+  [[nodiscard]] const std::filesystem::path& recordingFile() const { return recordingFile_; }
   /// A refined network in place of the one in use, which can be had back. Recordings get a mark.
   void useDecoder(Decoder decoder, const QString& name);
   /// The network that was in use before; its name is empty where there is none to go back to.
@@ -99,6 +117,7 @@ private:
   void loadNetwork();
   void setNetwork(Network network);
   void applyPause();
+  [[nodiscard]] bool watches() const { return settings_.alarmOn && !replay_; }
   void configureOnce();
   [[nodiscard]] LiveOptions options();
   [[nodiscard]] BoardDisturbance disturbance() const;
@@ -115,6 +134,8 @@ private:
   Network network_, before_; ///< in use, and the one that can be had back
   bool networkAsked_ = false;
   bool visible_ = false, paused_ = false;
+  std::filesystem::path recordingFile_;
+  double recordingSince_s_ = 0;
   SimulatedDesign simulatedDesign_;
   std::shared_ptr<TouchHand> hand_ = std::make_shared<TouchHand>(); ///< on the simulated board
   std::shared_ptr<SimulationControl> simulation_;

@@ -2,56 +2,59 @@
 
 #include "app/gui/live/LiveBanner.h"
 #include "app/gui/live/LiveCalibration.h"
-#include "app/gui/live/LiveControlPanel.h"
 #include "app/gui/live/LiveCounters.h"
 #include "app/gui/live/LiveCurves.h"
 #include "app/gui/live/LiveDrawings.h"
-#include "app/gui/live/LiveSourcePanel.h"
 #include "app/gui/live/LiveTwin.h"
 #include "app/gui/live/LiveView.h"
 #include "app/gui/live/RecordingName.h"
 #include "app/gui/live/ReplayBar.h"
-#include "app/gui/live/SimulationPanel.h"
+#include "app/gui/live/panels/LiveControlPanel.h"
+#include "app/gui/live/panels/LiveSourcePanel.h"
+#include "app/gui/live/panels/SimulationPanel.h"
 #include "app/gui/project/Command.h"
 #include "app/gui/views/HeatmapView.h"
 #include "app/gui/window/SidePanel.h"
 
 #include <QAbstractButton>
+#include <QDir>
 #include <QHBoxLayout>
+#include <QMessageBox>
+#include <QScrollArea>
 #include <QShortcut>
 #include <QSplitter>
 #include <QTabWidget>
 #include <QVBoxLayout>
 
 #include <algorithm>
+#include <cmath>
 
 namespace palp {
 
 namespace {
 
 constexpr int kPanelWidth_px = 340;
-constexpr int kFrame_ms = 34;             // 30 frames a second at most
+constexpr int kFrame_ms = 34; // 30 frames a second at most
+constexpr int kHiddenLook_ms = 250;
+constexpr int kHiddenLooks = 4;           // until it is known that nothing is recorded or watched
+constexpr double kForceDigit_N = 0.01;    // that the panel shows
+constexpr double kMostHandForce_N = 100;  // that it takes
 constexpr int kStateEvery = 6;            // looks between two drawings of the counters, where the state is the same
-constexpr double kColorSteps = 256;       // a smaller change of a cell is not seen
 constexpr double kSnapshotPatience_s = 3; // for a source that gives nothing
-
-/// Some cell has another colour than it was drawn with.
-bool looksDifferent(const Eigen::MatrixXd& now, const Eigen::MatrixXd& drawn, double step) {
-  if (now.rows() != drawn.rows() || now.cols() != drawn.cols()) return true;
-  if ((now.array().isNaN() != drawn.array().isNaN()).any()) return true;
-  return ((now - drawn).array().abs() > step).any();
-}
 
 } // namespace
 
-LivePage::LivePage(Workbench& workbench, BoardAccess access, QWidget* parent)
-    : Scene(parent), workbench_(workbench), host_(std::move(access)) {
+LivePage::LivePage(Workbench& workbench, BoardAccess access, std::size_t board)
+    : workbench_(workbench), board_(board), host_(std::move(access)) {
+  setFocusPolicy(Qt::ClickFocus); // its keys are for the board that was clicked on
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(8, 8, 8, 8);
   row->addWidget(buildPanels());
   row->addWidget(buildViews(), 1);
   timer_.setInterval(kFrame_ms);
   connect(&timer_, &QTimer::timeout, this, &LivePage::look);
+  hiddenTimer_.setInterval(kHiddenLook_ms);
+  connect(&hiddenTimer_, &QTimer::timeout, this, &LivePage::lookHidden);
   connect(&workbench_, &Workbench::projectChanged, this, &LivePage::displayProject);
   connectPanels();
   buildKeys();
@@ -67,6 +70,7 @@ QWidget* LivePage::buildPanels() {
   source_ = new LiveSourcePanel;
   simulation_ = new SimulationPanel;
   control_ = new LiveControlPanel;
+  if (board_ > 0) control_->displayRecording(QDir::home().filePath(QString("touch-board%1.palprec").arg(board_)), {});
   column->addWidget(source_);
   column->addWidget(simulation_);
   column->addWidget(control_, 1);
@@ -95,10 +99,10 @@ QWidget* LivePage::buildViews() {
   blockTabs_->setTabToolTip(1, tr("The finite element model under the decoded force, on demand"));
   heatmap_ = new HeatmapView;
   heatmap_->setObjectName("liveHeatmap");
-  auto* upper = new QSplitter(Qt::Horizontal);
-  upper->addWidget(blockTabs_);
-  upper->addWidget(heatmap_);
-  upper->setSizes({520, 520});
+  upper_ = new QSplitter(Qt::Horizontal);
+  upper_->addWidget(blockTabs_);
+  upper_->addWidget(heatmap_);
+  upper_->setSizes({520, 520});
 
   curves_ = new LiveCurves(host_);
   calibration_ = new LiveCalibration(host_);
@@ -106,9 +110,13 @@ QWidget* LivePage::buildViews() {
   curveTabs_ = new QTabWidget;
   curveTabs_->setObjectName("curveTabs");
   curveTabs_->addTab(curves_, tr("Curves"));
-  curveTabs_->addTab(calibration_, tr("Calibration"));
+  auto* room = new QScrollArea; // its tables must not make the scene wider than the window
+  room->setFrameShape(QFrame::NoFrame);
+  room->setWidgetResizable(true);
+  room->setWidget(calibration_);
+  curveTabs_->addTab(room, tr("Calibration"));
   auto* views = new QSplitter(Qt::Vertical);
-  views->addWidget(upper);
+  views->addWidget(upper_);
   views->addWidget(curveTabs_);
   views->setSizes({430, 320});
   column->addWidget(views, 1);
@@ -127,15 +135,25 @@ void LivePage::buildKeys() {
     };
   };
   key(Qt::Key_T, click("tare"));
-  key(Qt::Key_R, click("record"));
+  key(Qt::Key_R, [this, press = click("record")] { // typed by mistake it must not end one
+    if (!host_.recording()) return press();
+    emit message(tr("A recording is running; Shift+R or the button ends it."));
+  });
+  key(Qt::SHIFT | Qt::Key_R, [this] {
+    if (host_.recording()) stopRecording();
+  });
   key(Qt::Key_M, click("mark"));
   key(Qt::Key_W, click("solveTwin"));
   key(Qt::Key_Period, click("replayStep"));
+  key(Qt::Key_Comma, click("replayBack"));
   key(Qt::Key_Space, [this] { host_.setPaused(!host_.paused()); });
 }
 
 void LivePage::connectPanels() {
-  connect(source_, &LiveSourcePanel::edited, this, &LivePage::edit);
+  connect(source_, &LiveSourcePanel::edited, this, [this](const QString& what, const LiveSettings& next) {
+    if (!host_.recording() || sameSource(settings(), next) || mayEndRecording()) return edit(what, next);
+    source_->display(settings());
+  });
   connect(control_, &LiveControlPanel::edited, this, &LivePage::edit);
   connectSimulation();
   connect(replay_, &ReplayBar::speedAsked, this, [this](double speed) {
@@ -146,15 +164,15 @@ void LivePage::connectPanels() {
   });
   connect(control_, &LiveControlPanel::backAsked, &host_, &LiveHost::backToNetwork);
   connect(source_, &LiveSourcePanel::openAgainAsked, &host_, &LiveHost::restart);
+  connect(source_, &LiveSourcePanel::anotherAsked, this, &LivePage::anotherAsked);
   connect(control_, &LiveControlPanel::tareAsked, &host_, &LiveHost::tare);
   connect(control_, &LiveControlPanel::clearTareAsked, &host_, &LiveHost::clearTare);
   connect(control_, &LiveControlPanel::pauseAsked, &host_, &LiveHost::setPaused);
   connect(control_, &LiveControlPanel::markAsked, this, [this](const QString& text) {
     host_.mark(text.toStdString());
-    if (!host_.status().recording) emit message(tr("Marked; nothing is being recorded."));
+    if (!host_.recording()) emit message(tr("Marked; nothing is being recorded."));
   });
   connect(control_, &LiveControlPanel::recordAsked, this, &LivePage::record);
-  connect(control_, &LiveControlPanel::stopRecordingAsked, &host_, &LiveHost::stopRecording);
   connect(control_, &LiveControlPanel::exportAsked, this, [this](const QString& file) {
     try {
       writeLiveCsv(file.toStdString(), host_.history());
@@ -194,18 +212,34 @@ void LivePage::connectSimulation() {
       settings.simulation.heldForce_N[0] = settings.simulation.heldForce_N[1] = 0;
     });
   });
-  connect(block_, &LiveView::sheared, this, [this](const Eigen::Vector2d& force_N) {
+  const auto press = [this](const Eigen::Vector3d& force_N) {
     change(tr("simulated touch"), [&](LiveSettings& settings) {
-      settings.simulation.heldForce_N[0] = force_N.x();
-      settings.simulation.heldForce_N[1] = force_N.y();
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        settings.simulation.heldForce_N[axis] =
+            std::clamp(std::round(force_N(static_cast<Eigen::Index>(axis)) / kForceDigit_N) * kForceDigit_N,
+                       -kMostHandForce_N, kMostHandForce_N);
     });
+  };
+  connect(block_, &LiveView::sheared, this, [this, press](const Eigen::Vector2d& force_N) {
+    press({force_N.x(), force_N.y(), settings().simulation.heldForce_N[2]});
+  });
+  connect(block_, &LiveView::forceStepped, this, [this, press](const Eigen::Vector3d& by_N) {
+    press(Eigen::Map<const Eigen::Vector3d>(settings().simulation.heldForce_N.data()) + by_N);
+  });
+  connect(block_, &LiveView::handAsked, this, [this] {
+    if (!host_.simulated()) return;
+    change(tr("simulated touch"), [](LiveSettings& settings) { settings.simulation.held = !settings.simulation.held; });
+  });
+  connect(block_, &PictureView::clicked, this, [this] {
+    if (host_.simulated() && !settings().simulation.held)
+      emit message(tr("To press here tick \"Touch by hand\" in the panel, or press Return."));
   });
 }
 
 void LivePage::change(const QString& what, const std::function<void(LiveSettings&)>& change) {
-  LiveSettings settings = workbench_.project().live;
-  change(settings);
-  edit(what, settings);
+  LiveSettings next = settings();
+  change(next);
+  edit(what, next);
 }
 
 /// What was chosen cannot be used: the network in use stays, and the settings name it again.
@@ -217,35 +251,21 @@ void LivePage::refuseNetwork(const QString& sentence) {
 
 void LivePage::edit(const QString& what, const LiveSettings& settings) {
   Project next = workbench_.project();
-  next.live = settings;
+  next.board(board_) = settings;
   workbench_.edit(what, next);
 }
 
 void LivePage::displayProject() {
-  const LiveSettings& settings = workbench_.project().live;
+  if (board_ >= workbench_.project().boards()) return; // it is about to go
+  const LiveSettings settings = this->settings();
+  if (host_.recording() && !sameSource(host_.settings(), settings)) stopRecording(); // and says so
   host_.setSettings(settings, workbench_.project().design);
   source_->display(settings);
   simulation_->display(settings);
-  block_->setPressable(host_.simulated() && settings.simulation.held);
+  block_->setPressable(host_.simulated() && settings.simulation.held, settings.simulation.heldArea);
   replay_->display(settings);
   control_->display(settings);
   if (isVisible()) draw();
-}
-
-/// All views anew.
-void LivePage::draw() {
-  block_->showSensor(host_.sensor(), host_.settings().arrow_mm_per_N, true);
-  drawnChange_.resize(0, 0);
-  drawForces();
-  drawHeatmap();
-  drawCurves();
-}
-
-void LivePage::setTheme(Theme theme) {
-  block_->setTheme(theme);
-  twin_->setTheme(theme);
-  heatmap_->setTheme(theme);
-  curves_->setTheme(theme);
 }
 
 std::vector<JobRunner*> LivePage::runners() {
@@ -253,7 +273,7 @@ std::vector<JobRunner*> LivePage::runners() {
 }
 
 QString LivePage::commands(const Project& project, const QString&) const {
-  return liveCommand(project.live);
+  return liveCommand(project.board(board_));
 }
 
 bool LivePage::complete() const {
@@ -264,6 +284,7 @@ bool LivePage::complete() const {
 
 void LivePage::showEvent(QShowEvent* event) {
   Scene::showEvent(event);
+  hiddenTimer_.stop();
   shownSince_s_ = hostClock_s();
   stateLook_ = 0;
   draw(); // what was edited while the page was hidden
@@ -275,12 +296,38 @@ void LivePage::hideEvent(QHideEvent* event) {
   Scene::hideEvent(event);
   timer_.stop();
   host_.setVisible(false);
+  hiddenLooks_ = 0;
+  hiddenTimer_.start();
+}
+
+void LivePage::resizeEvent(QResizeEvent* event) {
+  Scene::resizeEvent(event);
+  arrangeViews();
+}
+
+void LivePage::setMoreAllowed(bool allowed) {
+  source_->setMoreAllowed(allowed);
+}
+
+/// A recording or an alarm goes on out of sight; where there is neither, nothing runs.
+void LivePage::lookHidden() {
+  host_.look();
+  announceAlarm();
+  emit looked();
+  if (!host_.worksHidden() && ++hiddenLooks_ > kHiddenLooks) hiddenTimer_.stop();
+}
+
+void LivePage::announceAlarm() {
+  const QString alarm = watch_.take(host_, isVisible());
+  if (!alarm.isEmpty()) emit message(alarm);
 }
 
 void LivePage::look() {
   ++looks_;
   const LiveState before = host_.status().state;
   const bool fresh = host_.look();
+  announceAlarm();
+  emit looked();
   if (host_.status().state != before || stateLook_++ % kStateEvery == 0) drawState();
   replay_->displayState();
   if (!fresh) return;
@@ -290,73 +337,8 @@ void LivePage::look() {
   drawCurves();
 }
 
-void LivePage::drawState() {
-  const LiveStatus& status = host_.status();
-  const bool simulated = host_.simulated();
-  counters_->display(status, host_.history().last(), simulated);
-  source_->displayState({status, host_.boards(), host_.replaying()});
-  simulation_->setVisible(simulated);
-  simulation_->displayState({host_.pluggedIn(), host_.simulatesOwnDesign(), host_.simulatedSensor().areas.count(),
-                             host_.simulator().running()});
-  block_->setPressable(simulated && host_.settings().simulation.held);
-  control_->displayState({status, host_.paused(), networkWords(), host_.networkBefore()});
-  calibration_->displayState();
-  banner_->display(host_);
-  if (status.alarms != alarms_ && status.alarms > 0) emit message(QString::fromStdString(status.lastAlarm));
-  alarms_ = status.alarms;
-  const bool streams = status.state == LiveState::Streaming || status.state == LiveState::Paused;
-  if (!streams) drawForces(); // the arrows turn grey
-}
-
-QString LivePage::networkWords() const {
-  const std::optional<Decoder>& decoder = host_.decoder();
-  if (!decoder) return host_.loading() ? tr("Reading the network...") : tr("No network.");
-  const QString rows = static_cast<int>(decoder->input.rows.size()) == decoder->input.rowWires
-                           ? tr("all rows")
-                           : tr("%1 rows").arg(decoder->input.rows.size());
-  return tr("%1: %2, %3, trained for noise %4")
-      .arg(host_.networkName())
-      .arg(QString::fromStdString(name(decoder->kind)), rows)
-      .arg(decoder->noise, 0, 'g', 2);
-}
-
-void LivePage::drawForces() {
-  const LiveFrame* last = host_.history().last();
-  if (last == nullptr) return block_->showForces({}, false, {tr("Force vectors: nothing has come yet").toStdString()});
-  const LiveState state = host_.status().state;
-  const bool gone = state != LiveState::Streaming && state != LiveState::Paused;
-  const bool stale = gone || !last->forces.valid;
-  const LiveFrame* known = stale ? host_.history().lastValid() : last;
-  const std::vector<LiveArrow> arrows = known != nullptr ? arrowsOf(known->forces) : std::vector<LiveArrow>{};
-  arrowSeen_ = arrowSeen_ || std::any_of(arrows.begin(), arrows.end(), [](const LiveArrow& arrow) {
-                 return arrow.force_N.norm() > 3; // a picture of the scene shows a good press
-               });
-  std::vector<std::string> lines = forceLines(*last, host_.settings());
-  if (gone) lines = {lines.front(), std::string("last known; the source is ") + name(state)};
-  block_->showForces(arrows, stale, lines);
-}
-
-void LivePage::drawHeatmap() {
-  const LiveFrame* last = host_.history().last();
-  if (last == nullptr) return;
-  const LiveSettings& settings = host_.settings();
-  if (!looksDifferent(last->change, drawnChange_, 0.02 * settings.change_percent / kColorSteps)) return;
-  drawnChange_ = last->change;
-  heatmap_->setHeatmap(changeHeatmap(*last, host_.status().restName, settings, curves_->chosenCell()));
-}
-
-void LivePage::drawCurves() {
-  if (curveTabs_->currentIndex() == 0) curves_->draw();
-}
-
-void LivePage::toggleCell(int row, int column) {
-  curves_->toggleCell(row, column);
-  drawnChange_.resize(0, 0);
-  drawHeatmap();
-}
-
 void LivePage::record(const QString& file, bool replace) {
-  if (host_.status().recording) return host_.stopRecording(); // the button has not heard of it yet
+  if (host_.recording()) return stopRecording();
   const std::filesystem::path wanted = file.toStdString();
   const std::filesystem::path path = replace ? wanted : freeRecording(wanted, QDateTime::currentDateTime());
   try {
@@ -368,6 +350,22 @@ void LivePage::record(const QString& file, bool replace) {
     emit message(QString::fromStdString(refusal.what()));
   }
   stateLook_ = 0;
+}
+
+bool LivePage::mayEndRecording() {
+  const auto answer = QMessageBox::question(this, tr("A recording is running"),
+                                            tr("Another source ends the recording to %1. End it?")
+                                                .arg(QString::fromStdString(host_.recordingFile().string())));
+  if (answer != QMessageBox::Yes) return false;
+  stopRecording();
+  return true;
+}
+
+void LivePage::stopRecording() {
+  emit message(tr("Recorded %1 s to %2.")
+                   .arg(hostClock_s() - host_.recordingSince_s(), 0, 'f', 1)
+                   .arg(QString::fromStdString(host_.recordingFile().string())));
+  host_.stopRecording();
 }
 
 void LivePage::solveTwin() {

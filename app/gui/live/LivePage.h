@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/gui/live/LiveHost.h"
+#include "app/gui/live/LiveLamp.h"
 #include "app/gui/project/Workbench.h"
 #include "app/gui/window/Scene.h"
 
@@ -8,6 +9,7 @@
 
 #include <functional>
 
+class QSplitter;
 class QTabWidget;
 
 namespace palp {
@@ -25,12 +27,13 @@ class ReplayBar;
 class SimulationPanel;
 
 /// A live board: force vectors, heatmap and curves at no more than 30 frames a second, and only while it is seen.
-/// Meshes and solves nothing but the twin, when it is asked for.
+/// While it is hidden a recording and an alarm that is set go on. Meshes and solves nothing but the twin, when it is
+/// asked for.
 class LivePage : public Scene {
   Q_OBJECT
 
 public:
-  explicit LivePage(Workbench& workbench, BoardAccess access = {}, QWidget* parent = nullptr);
+  explicit LivePage(Workbench& workbench, BoardAccess access = {}, std::size_t board = 0);
   ~LivePage() override;
 
   [[nodiscard]] Stage stage() const override { return Stage::Design; }
@@ -42,13 +45,23 @@ public:
   [[nodiscard]] LiveTwin& twin() { return *twin_; }
   /// How often the views were brought up to date.
   [[nodiscard]] int looks() const { return looks_; }
+  /// Which of the project's boards it shows, from the next change of the project on.
+  void setBoard(std::size_t board) { board_ = board; }
+  /// What is told of it in every scene.
+  [[nodiscard]] LiveLampState lamp() const { return watch_.state(host_, isVisible()); }
+  /// Another board of the project is asked for beside this one.
+  void setMoreAllowed(bool allowed);
 
 signals:
   void message(const QString& sentence);
+  void anotherAsked();
+  /// After each look, seen or hidden.
+  void looked();
 
 protected:
   void showEvent(QShowEvent* event) override;
   void hideEvent(QHideEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
 
 private:
   QWidget* buildPanels();
@@ -62,24 +75,33 @@ private:
   void change(const QString& what, const std::function<void(LiveSettings&)>& change);
   void refuseNetwork(const QString& sentence);
   void look();
+  void lookHidden();
+  void announceAlarm();
+  void arrangeViews();
   void drawState();
   void drawForces();
   void drawHeatmap();
   void drawCurves();
   void toggleCell(int row, int column);
   void record(const QString& file, bool replace);
+  bool mayEndRecording();
+  void stopRecording();
   void solveTwin();
-  [[nodiscard]] QString networkWords() const;
+  [[nodiscard]] const LiveSettings& settings() const { return workbench_.project().board(board_); }
 
   Workbench& workbench_;
+  std::size_t board_;
   LiveHost host_;
   QTimer timer_;
+  QTimer hiddenTimer_; ///< runs only while something is done out of sight
+  LiveWatch watch_;
   LiveSourcePanel* source_ = nullptr;
   SimulationPanel* simulation_ = nullptr;
   LiveControlPanel* control_ = nullptr;
   LiveCounters* counters_ = nullptr;
   LiveBanner* banner_ = nullptr;
   ReplayBar* replay_ = nullptr;
+  QSplitter* upper_ = nullptr;
   QTabWidget* blockTabs_ = nullptr;
   QTabWidget* curveTabs_ = nullptr;
   LiveView* block_ = nullptr;
@@ -90,7 +112,7 @@ private:
   Eigen::MatrixXd drawnChange_;
   int looks_ = 0;
   int stateLook_ = 0;
-  std::uint64_t alarms_ = 0; ///< that were said
+  int hiddenLooks_ = 0;
   bool arrowSeen_ = false;
   double shownSince_s_ = 0;
 };

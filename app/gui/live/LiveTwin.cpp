@@ -61,8 +61,10 @@ LiveTwin::LiveTwin(QWidget* parent) : QWidget(parent) {
   words_->setWordWrap(true);
   row->addWidget(solve);
   row->addWidget(use_);
-  row->addWidget(words_, 1);
+  row->addStretch(1);
+  words_->setContentsMargins(8, 0, 8, 0);
   column->addLayout(row);
+  column->addWidget(words_);
   view_ = new BlockView;
   view_->setObjectName("twin");
   column->addWidget(view_, 1);

@@ -1,6 +1,12 @@
 #include "app/gui/live/LiveView.h"
 
+#include <QKeyEvent>
+#include <QPainter>
+
 #include <vtkRenderer.h>
+
+#include <algorithm>
+#include <array>
 
 namespace palp {
 
@@ -15,6 +21,8 @@ struct LiveView::Parts {
 
 namespace {
 
+constexpr double kForceStep_N = 0.1;
+
 bool same(const std::vector<LiveArrow>& a, const std::vector<LiveArrow>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [](const LiveArrow& x, const LiveArrow& y) { return x.area == y.area && x.force_N == y.force_N; });
@@ -27,6 +35,7 @@ LiveView::LiveView(QWidget* parent) : LiveView(std::make_unique<Parts>(), parent
 LiveView::LiveView(std::unique_ptr<Parts> parts, QWidget* parent)
     : VtkView(parts->scene.renderer(), nullptr, parent), parts_(std::move(parts)) {
   parts_->design = paperDesign();
+  setFocusPolicy(Qt::StrongFocus);
   draw();
   connect(this, &VtkView::doubleClicked, this, [this] {
     parts_->scene.resetCamera(aspect());
@@ -97,6 +106,59 @@ bool LiveView::grab(const QPointF& place, Qt::KeyboardModifiers) {
 
 void LiveView::dragTo(const QPointF& place, Qt::KeyboardModifiers) {
   if (const auto at_mm = topPlace(place)) emit sheared((*at_mm - pressed_mm_) / parts_->options.mm_per_N);
+}
+
+int LiveView::areaBeside(int dx, int dy) const {
+  const LoadAreas& areas = parts_->design.areas;
+  const int column = std::clamp(area_ % areas.columns + dx, 0, areas.columns - 1);
+  const int row = std::clamp(area_ / areas.columns + dy, 0, areas.rows - 1);
+  return row * areas.columns + column;
+}
+
+void LiveView::keyPressEvent(QKeyEvent* event) {
+  const auto way = [&]() -> std::optional<std::array<int, 2>> {
+    switch (event->key()) {
+    case Qt::Key_Left:
+      return std::array{-1, 0};
+    case Qt::Key_Right:
+      return std::array{1, 0};
+    case Qt::Key_Up:
+      return std::array{0, 1};
+    case Qt::Key_Down:
+      return std::array{0, -1};
+    default:
+      return {};
+    }
+  }();
+  const bool harder = event->key() == Qt::Key_Plus, softer = event->key() == Qt::Key_Minus;
+  if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter)
+    emit handAsked();
+  else if (pressable_ && way && event->modifiers().testFlag(Qt::ShiftModifier))
+    emit forceStepped(kForceStep_N * Eigen::Vector3d((*way)[0], (*way)[1], 0));
+  else if (pressable_ && way)
+    emit areaPressed(areaBeside((*way)[0], (*way)[1]));
+  else if (pressable_ && (harder || softer))
+    emit forceStepped({0, 0, harder ? -kForceStep_N : kForceStep_N}); // a push is negative in z
+  else
+    VtkView::keyPressEvent(event);
+}
+
+void LiveView::paintEvent(QPaintEvent* event) {
+  VtkView::paintEvent(event);
+  if (!hasFocus()) return;
+  QPainter painter(this);
+  painter.setPen(QPen(palette().color(QPalette::Highlight), 2));
+  painter.drawRect(rect().adjusted(1, 1, -1, -1));
+}
+
+void LiveView::focusInEvent(QFocusEvent* event) {
+  VtkView::focusInEvent(event);
+  update();
+}
+
+void LiveView::focusOutEvent(QFocusEvent* event) {
+  VtkView::focusOutEvent(event);
+  update();
 }
 
 const std::vector<LiveArrow>& LiveView::arrows() const {

@@ -5,7 +5,9 @@
 
 namespace palp {
 
-/// Force vectors over the sensor at rest; double click looks at all of it again.
+/// Force vectors over the sensor at rest; double click looks at all of it again. A touch on the simulated board is set
+/// by the mouse or by keys: Return takes it in hand and lets go, the arrows move it from area to area, + and - press
+/// harder and softer, Shift with the arrows shears.
 class LiveView : public VtkView {
   Q_OBJECT
 
@@ -18,7 +20,10 @@ public:
   void showForces(const std::vector<LiveArrow>& arrows, bool stale, const std::vector<std::string>& lines);
   void setTheme(Theme theme);
   /// A press on an area, and a drag from there, are a touch instead of a turn of the camera.
-  void setPressable(bool pressable) { pressable_ = pressable; }
+  void setPressable(bool pressable, int area) {
+    pressable_ = pressable;
+    area_ = area;
+  }
   void lookAlong(const Eigen::Vector3d& direction);
   [[nodiscard]] const std::vector<LiveArrow>& arrows() const;
   [[nodiscard]] bool stale() const;
@@ -27,10 +32,18 @@ signals:
   void areaPressed(int area);
   /// How far the press was dragged over the top face, as a force by the scale of the arrows [N].
   void sheared(const Eigen::Vector2d& force_N);
+  /// The force of the touch is to change by this [N].
+  void forceStepped(const Eigen::Vector3d& by_N);
+  /// The touch is to be taken in hand, or let go.
+  void handAsked();
 
 protected:
   bool grab(const QPointF& place, Qt::KeyboardModifiers modifiers) override;
   void dragTo(const QPointF& place, Qt::KeyboardModifiers modifiers) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void paintEvent(QPaintEvent* event) override;
+  void focusInEvent(QFocusEvent* event) override;
+  void focusOutEvent(QFocusEvent* event) override;
 
 private:
   struct Parts;
@@ -40,7 +53,11 @@ private:
   [[nodiscard]] std::optional<Eigen::Vector2d> topPlace(const QPointF& place) const;
 
   std::unique_ptr<Parts> parts_;
+  /// The area beside the touch that an arrow key leads to.
+  [[nodiscard]] int areaBeside(int dx, int dy) const;
+
   bool pressable_ = false;
+  int area_ = 0; ///< of the touch
   Eigen::Vector2d pressed_mm_ = Eigen::Vector2d::Zero();
 };
 

@@ -5,6 +5,7 @@
 #include <QDoubleSpinBox>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QLineEdit>
 #include <QMouseEvent>
 #include <QPushButton>
 #include <QSignalBlocker>
@@ -54,9 +55,10 @@ ReplayBar::ReplayBar(LiveHost& host, QWidget* parent) : QWidget(parent), host_(h
   board->setObjectName("backToBoard");
   board->setToolTip(tr("Ends the replay and listens to the first board again, or to the simulated one"));
   auto* upper = new QHBoxLayout;
-  for (QWidget* widget : {static_cast<QWidget*>(pause_), static_cast<QWidget*>(step_)}) upper->addWidget(widget);
+  for (QPushButton* button : {pause_, back_, step_}) upper->addWidget(button);
   upper->addWidget(line_, 1);
-  upper->addWidget(time_);
+  upper->addWidget(place_);
+  upper->addWidget(length_);
   auto* lower = new QHBoxLayout;
   lower->addWidget(new QLabel(tr("Speed")));
   lower->addWidget(speed_);
@@ -64,7 +66,7 @@ ReplayBar::ReplayBar(LiveHost& host, QWidget* parent) : QWidget(parent), host_(h
   lower->addWidget(from_);
   lower->addWidget(new QLabel(tr("to")));
   lower->addWidget(to_);
-  lower->addStretch(1);
+  lower->addWidget(marks_, 1);
   lower->addWidget(board);
   column->addLayout(upper);
   column->addLayout(lower);
@@ -73,12 +75,15 @@ ReplayBar::ReplayBar(LiveHost& host, QWidget* parent) : QWidget(parent), host_(h
 }
 
 void ReplayBar::buildTimeLine() {
-  pause_ = new QPushButton(tr("Hold"));
+  pause_ = new QPushButton(tr("Pause"));
   pause_->setObjectName("replayPause");
-  pause_->setToolTip(tr("Holds the recording, or goes on; from its start where it has ended (Space)"));
-  step_ = new QPushButton(tr("One frame on"));
+  pause_->setToolTip(tr("Pauses the recording, or goes on; from its start where it has ended (Space)"));
+  step_ = new QPushButton(tr("Frame on"));
   step_->setObjectName("replayStep");
-  step_->setToolTip(tr("Goes on by one frame and holds (Period)"));
+  step_->setToolTip(tr("Goes on by one frame and pauses (Period)"));
+  back_ = new QPushButton(tr("Frame back"));
+  back_->setObjectName("replayBack");
+  back_->setToolTip(tr("Goes back by one frame and pauses (Comma)"));
   line_ = new TimeLine;
   line_->setObjectName("replayLine");
   line_->setAccessibleName(tr("Place in the recording"));
@@ -86,8 +91,16 @@ void ReplayBar::buildTimeLine() {
   line_->setPageStep(kSteps / 20);
   line_->setSingleStep(kSteps / 200);
   line_->setToolTip(tr("Place in the recording: click or drag to go there"));
-  time_ = new QLabel;
-  time_->setObjectName("replayTime");
+  place_ = timeBox("replayPlace", tr("Place in the recording [s]: type a time to go there"));
+  place_->setKeyboardTracking(false);
+  length_ = new QLabel;
+  length_->setObjectName("replayLength");
+  typed_ = place_->findChild<QLineEdit*>();
+  connect(place_, &QDoubleSpinBox::valueChanged, this, [this](double to_s) {
+    typed_->setModified(false);
+    host_.seek(to_s);
+  });
+  connect(back_, &QPushButton::clicked, this, [this] { host_.step(-1); });
   connect(pause_, &QPushButton::clicked, this, [this] {
     if (host_.status().state == LiveState::Ended) return host_.seek(0);
     host_.setPaused(!host_.paused());
@@ -108,6 +121,13 @@ void ReplayBar::buildLoop() {
   loop_ = new QCheckBox(tr("Loop from"));
   loop_->setObjectName("replayLoop");
   loop_->setToolTip(tr("Plays between these two times again and again"));
+  marks_ = new QComboBox;
+  marks_->setObjectName("replayMarks");
+  marks_->setToolTip(tr("Event marks of the recording: choose one to go there"));
+  marks_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  connect(marks_, &QComboBox::activated, this, [this](int) {
+    if (marks_->currentData().isValid()) host_.seek(marks_->currentData().toDouble());
+  });
   from_ = timeBox("loopFrom", tr("Begin of the loop [s]"));
   to_ = timeBox("loopTo", tr("End of the loop [s]"));
   connect(speed_, &QComboBox::currentTextChanged, this, [this](const QString& text) {
@@ -127,6 +147,15 @@ void ReplayBar::loop() {
   replay->loopTo_s = to_->value();
   const bool wasOff = !replay->loop.exchange(loop_->isChecked());
   if (wasOff && loop_->isChecked() && host_.status().state == LiveState::Ended) host_.seek(from_->value());
+}
+
+void ReplayBar::listMarks() {
+  marks_->clear();
+  const std::vector<ReplayMark> marks = host_.replay()->marks();
+  marks_->addItem(marks.empty() ? tr("no marks") : tr("Go to a mark..."));
+  for (const ReplayMark& mark : marks)
+    marks_->addItem(tr("%1 s: %2").arg(mark.at_s, 0, 'f', 2).arg(QString::fromStdString(mark.text)), mark.at_s);
+  marks_->setEnabled(!marks.empty());
 }
 
 void ReplayBar::display(const LiveSettings& settings) {
@@ -149,11 +178,19 @@ void ReplayBar::displayState() {
     from_->setValue(0);
     to_->setValue(length_s);
     loop_->setChecked(false);
+    const QSignalBlocker quietPlace(place_);
+    place_->setRange(0, length_s);
+    length_->setText(tr("of %1 s").arg(length_s, 0, 'f', 2));
+    listMarks();
   }
-  pause_->setText(ended ? tr("Play again") : host_.paused() ? tr("Go on") : tr("Hold"));
+  pause_->setText(ended ? tr("Play again") : host_.paused() ? tr("Go on") : tr("Pause"));
   step_->setEnabled(!ended);
+  back_->setEnabled(!ended);
   const double position_s = ended ? length_s : replay->position_s.load();
-  time_->setText(tr("%1 of %2 s").arg(position_s, 0, 'f', 2).arg(length_s, 0, 'f', 2));
+  if (!place_->hasFocus() || !typed_->isModified()) { // else it is typed into
+    const QSignalBlocker quietPlace(place_);
+    place_->setValue(position_s);
+  }
   if (line_->isSliderDown()) return;
   const QSignalBlocker quiet(line_);
   line_->setValue(length_s > 0 ? qRound(kSteps * position_s / length_s) : 0);

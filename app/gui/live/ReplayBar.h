@@ -8,6 +8,7 @@ class QCheckBox;
 class QComboBox;
 class QDoubleSpinBox;
 class QLabel;
+class QLineEdit;
 class QPushButton;
 class QSlider;
 
@@ -32,12 +33,17 @@ private:
   void buildTimeLine();
   void buildLoop();
   void loop();
+  void listMarks();
 
   LiveHost& host_;
   QPushButton* pause_ = nullptr;
   QPushButton* step_ = nullptr;
   QSlider* line_ = nullptr;
-  QLabel* time_ = nullptr;
+  QPushButton* back_ = nullptr;
+  QDoubleSpinBox* place_ = nullptr;
+  QLineEdit* typed_ = nullptr; ///< of `place_`
+  QLabel* length_ = nullptr;
+  QComboBox* marks_ = nullptr;
   QComboBox* speed_ = nullptr;
   QCheckBox* loop_ = nullptr;
   QDoubleSpinBox* from_ = nullptr;

@@ -1,5 +1,6 @@
 #include "app/gui/network/NetworkPage.h"
 
+#include "app/gui/jobs/SampleFiles.h"
 #include "app/gui/network/FitWords.h"
 #include "app/gui/network/NetworkCharts.h"
 #include "app/gui/network/NetworkPanel.h"
@@ -9,12 +10,13 @@
 #include "app/gui/views/ChartView.h"
 #include "app/gui/views/DataTable.h"
 #include "app/gui/window/SidePanel.h"
-#include "io/DecoderFile.h"
 #include "model/base/Error.h"
 
 #include <QFileDialog>
+#include <QFileInfo>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QMessageBox>
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QSpinBox>
@@ -78,6 +80,7 @@ void NetworkPage::connectSession() {
   connect(&session_, &NetworkSession::trialsChanged, this, &NetworkPage::displayTrials);
   connect(&session_.runner(), &JobRunner::started, this, [this] { showProblem({}); });
   connect(&session_.runner(), &JobRunner::failed, this, &NetworkPage::showProblem);
+  connect(&session_, &NetworkSession::problem, this, &NetworkPage::showProblem);
 }
 
 void NetworkPage::edit(const QString& what, const SampleSettings& samples, const NetworkSettings& network) {
@@ -350,17 +353,19 @@ void NetworkPage::openSamples() {
 
 void NetworkPage::saveSamples() {
   const QString file = QFileDialog::getSaveFileName(this, tr("Save samples"), "samples.csv", tr("Samples (*.csv)"));
-  if (!file.isEmpty() && session_.samples() != nullptr) session_.saveSamples(file.toStdString());
+  if (file.isEmpty() || session_.samples() == nullptr) return;
+  const QString test = QString::fromStdString(testFileOf(file.toStdString()).string()); // of which nobody asked
+  if (QFileInfo::exists(test) &&
+      QMessageBox::question(this, tr("Save samples"),
+                            tr("The samples for testing go into %1, which is there already. Replace it?").arg(test)) !=
+          QMessageBox::Yes)
+    return;
+  session_.saveSamples(file.toStdString());
 }
 
 void NetworkPage::saveNetwork() {
   const QString file = QFileDialog::getSaveFileName(this, tr("Save network"), "network.json", tr("Networks (*.json)"));
-  if (file.isEmpty()) return;
-  try {
-    writeNetwork(session_.fit()->decoder, file.toStdString());
-  } catch (const Error& error) {
-    showProblem(QString::fromStdString(error.what()));
-  }
+  if (!file.isEmpty() && session_.fit() != nullptr) session_.saveNetwork(file.toStdString());
 }
 
 void NetworkPage::openNetwork() {

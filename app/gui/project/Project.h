@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace palp {
 
@@ -61,7 +62,15 @@ struct Project {
   NetworkSettings network;
   ViewSettings view;
   LiveSettings live;
-  std::optional<SensorDesign> kept; ///< to compare the design with
+  std::optional<SensorDesign> kept;     ///< to compare the design with
+  std::vector<LiveSettings> moreBoards; ///< beside that of `live`
+
+  static constexpr std::size_t kMostBoards = 4;
+
+  /// Boards of the Live scene count from 0.
+  [[nodiscard]] LiveSettings& board(std::size_t k) { return k == 0 ? live : moreBoards.at(k - 1); }
+  [[nodiscard]] const LiveSettings& board(std::size_t k) const { return k == 0 ? live : moreBoards.at(k - 1); }
+  [[nodiscard]] std::size_t boards() const { return 1 + moreBoards.size(); }
 
   bool operator==(const Project&) const = default;
 };

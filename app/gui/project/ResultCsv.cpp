@@ -59,7 +59,7 @@ QString resistancesCsv(const ResultSource& source, const ElectrodeDisplacements&
 void writeText(const QString& file, const QString& text) {
   QSaveFile out(file);
   const QByteArray bytes = text.toUtf8();
-  if (!out.open(QIODevice::WriteOnly) || out.write(bytes) != bytes.size() || !out.commit())
+  if (!out.open(QIODevice::WriteOnly) || out.write(bytes) != bytes.size() || !out.flush() || !out.commit())
     throw Error((file + ": cannot be written (" + out.errorString() + "); allowed is a file in a folder that exists")
                     .toStdString());
 }

@@ -15,6 +15,7 @@ Project shownAs(Project project, const Project& other) {
   project.view = other.view;
   project.live = other.live;
   project.kept = other.kept;
+  project.moreBoards = other.moreBoards;
   return project;
 }
 

@@ -1,5 +1,7 @@
 #include "app/gui/reports/ReportCases.h"
 
+#include "app/gui/jobs/TimeLeft.h"
+
 #include <QHeaderView>
 
 namespace palp {

@@ -1,6 +1,5 @@
 #include "app/gui/reports/ReportPlan.h"
 
-#include <QObject>
 #include <QSettings>
 
 #include <algorithm>
@@ -58,12 +57,6 @@ void ReportPlan::remember(const std::vector<double>& seconds) const {
   QStringList texts;
   for (const double value : seconds) texts << QString::number(value, 'g', 4);
   QSettings().setValue(key(kind_), texts);
-}
-
-QString roughly(double seconds) {
-  if (seconds < 10) return QObject::tr("%1 s").arg(std::max(1.0, std::ceil(seconds)));
-  if (seconds < 95) return QObject::tr("%1 s").arg(5 * std::ceil(seconds / 5));
-  return QObject::tr("%1 min").arg(std::ceil(seconds / 60));
 }
 
 } // namespace palp

@@ -36,7 +36,4 @@ private:
   bool here_ = false;
 };
 
-/// "40 s", "3 min", as exact as such a guess is.
-QString roughly(double seconds);
-
 } // namespace palp

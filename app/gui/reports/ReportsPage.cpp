@@ -1,5 +1,6 @@
 #include "app/gui/reports/ReportsPage.h"
 
+#include "app/gui/jobs/TimeLeft.h"
 #include "app/gui/project/Command.h"
 #include "app/gui/reports/ReportCases.h"
 #include "app/gui/reports/ReportKinds.h"
@@ -266,6 +267,7 @@ void ReportsPage::setProgress(double share, const QString& what) {
 
 void ReportsPage::end(ReportRun::Ending how) {
   timer_.stop();
+  emit runs({});
   bar_->hide();
   start_->setEnabled(true);
   kind_->setEnabled(true);
@@ -375,6 +377,9 @@ void ReportsPage::showTime() {
   QString words = tr("Running for %1 s; the window stays free.").arg(static_cast<int>(run_.seconds()));
   if (share_ < 1) words += tr(" About %1 left.").arg(roughly(plan_->left_s(share_, run_.seconds())));
   state_->setText(words);
+  const QString left =
+      share_ < 1 ? tr(", about %1 left").arg(roughly(plan_->left_s(share_, run_.seconds()))) : QString();
+  emit runs(tr("Report %1: %2 %").arg(QDir(runFolder_).dirName()).arg(qRound(100 * share_)) + left);
 }
 
 } // namespace palp

@@ -41,6 +41,13 @@ public:
   /// Another program in place of the palp that lies beside this one.
   void setProgram(const QString& program) { program_ = program; }
 
+  /// Stops a report that runs.
+  void cancel() { run_.cancel(); }
+
+signals:
+  /// What is told of the report in every scene while it runs; empty: none runs.
+  void runs(const QString& words);
+
 protected:
   void showEvent(QShowEvent* event) override;
 

@@ -24,7 +24,9 @@ StripChart::StripChart(QWidget* parent) : QWidget(parent) {
   setAttribute(Qt::WA_OpaquePaintEvent);
   setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);
-  setToolTip(tr("Wheel: zoom in time, with Ctrl in value; drag: move; double click or Esc: let it run again"));
+  setToolTip(
+      tr("Wheel: zoom in time, with Ctrl in value; drag: move; double click or Esc: let it run again. Keys: + and - "
+         "zoom, with Shift in value; arrows move; Ctrl and left or right move the cursor"));
   setMinimumSize(180, 110);
 }
 
@@ -78,7 +80,6 @@ void StripChart::paintEvent(QPaintEvent*) {
   paintReading(painter, plot);
   if (!hasFocus()) return;
   painter.setPen(QPen(QWidget::palette().color(QPalette::Highlight), 2));
-  painter.setBrush(Qt::NoBrush);
   painter.drawRect(rect().adjusted(1, 1, -1, -1));
 }
 
@@ -202,20 +203,33 @@ void StripChart::paintLegend(QPainter& painter, const QRectF& plot) const {
   }
 }
 
-/// The values under the pointer.
-void StripChart::paintReading(QPainter& painter, const QRectF& plot) const {
-  if (pointer_px_ < plot.left() || pointer_px_ > plot.right()) return;
+QString StripChart::reading() const {
+  const QRectF plot = plotRectangle();
+  if (pointer_px_ < plot.left() || pointer_px_ > plot.right()) return {};
   const double t_s = spec_.end_s - (plot.right() - pointer_px_) / plot.width() * spec_.window_s;
   QStringList words{tr("%1 s").arg(t_s - now_s_, 0, 'f', held_ ? 3 : 2)};
   for (const StripSeries& series : spec_.series) {
     const auto next = std::lower_bound(series.t_s.begin(), series.t_s.end(), t_s);
     if (next == series.t_s.end()) continue;
     const double value = series.y[static_cast<std::size_t>(next - series.t_s.begin())];
-    words << QString("%1 %2").arg(series.name, std::isfinite(value) ? QString::number(value, 'g', 4) : tr("none"));
+    const QString number = std::isfinite(value) ? QString::number(value, 'g', 4) + unit() : tr("none");
+    words << QString("%1 %2").arg(series.name, number);
   }
+  return words.join("   ");
+}
+
+/// Of the values: what stands in brackets in the axis' label.
+QString StripChart::unit() const {
+  const QString unit = spec_.yLabel.section('[', 1).section(']', 0, 0);
+  return unit.isEmpty() ? QString() : " " + unit;
+}
+
+/// The values under the pointer, or under the cursor that the keys moved.
+void StripChart::paintReading(QPainter& painter, const QRectF& plot) const {
+  const QString text = reading();
+  if (text.isEmpty()) return;
   painter.setPen(QPen(ink(palp::palette(theme_).text), 1));
   painter.drawLine(QPointF(pointer_px_, plot.top()), QPointF(pointer_px_, plot.bottom()));
-  const QString text = words.join("   ");
   const QFontMetricsF metrics(font());
   QRectF box(0, plot.top() + 2, metrics.horizontalAdvance(text) + 10, metrics.height() + 4);
   box.moveLeft(std::clamp(pointer_px_ + 4, plot.left(), std::max(plot.left(), plot.right() - box.width())));

@@ -48,6 +48,8 @@ public:
   /// The curves as a table: time [s], one column a curve; nothing where one has no value.
   [[nodiscard]] QString asCsv() const;
   void setTheme(Theme theme);
+  /// Time and values at the cursor, in words; empty where it is not in the plot.
+  [[nodiscard]] QString reading() const;
   [[nodiscard]] const StripSpec& chart() const { return spec_; }
   [[nodiscard]] int paintCount() const { return paintCount_; }
 
@@ -66,6 +68,8 @@ protected:
   void paintEvent(QPaintEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
   void leaveEvent(QEvent* event) override;
+  void focusInEvent(QFocusEvent* event) override;
+  void focusOutEvent(QFocusEvent* event) override;
   void contextMenuEvent(QContextMenuEvent* event) override;
 
 private:
@@ -73,12 +77,14 @@ private:
   void zoomTime(double factor, double about_px);
   void zoomValue(double factor, double about_px);
   void move(double byTime_s, double byValue);
+  void moveCursor(int steps);
   void saveCsv();
   void paintAxes(QPainter& painter, const QRectF& plot) const;
   void paintCurves(QPainter& painter, const QRectF& plot) const;
   void paintLegend(QPainter& painter, const QRectF& plot) const;
   void paintReading(QPainter& painter, const QRectF& plot) const;
   [[nodiscard]] double legendWidth() const;
+  [[nodiscard]] QString unit() const;
   [[nodiscard]] QRectF plotRectangle() const;
   [[nodiscard]] double xOf(const QRectF& plot, double t_s) const;
   [[nodiscard]] double yOf(const QRectF& plot, double y) const;

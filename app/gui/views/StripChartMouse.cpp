@@ -23,9 +23,9 @@ namespace {
 constexpr double kWheelStep = 1.25;
 constexpr double kNotch = 120;       // of a wheel
 constexpr double kKeyShare = 0.1;    // of the window that an arrow key moves
-constexpr double kKeyPointer = 0.02; // of the plot that Ctrl and an arrow moves the pointer
 constexpr double kShortest_s = 0.01; // that a zoom shows
 constexpr double kLongest_s = 120;
+constexpr double kCursorShare = 0.01; // of the plot that a key moves the cursor
 constexpr double kDragFrom_px = 3;
 
 } // namespace
@@ -117,14 +117,18 @@ void StripChart::mouseMoveEvent(QMouseEvent* event) {
 void StripChart::keyPressEvent(QKeyEvent* event) {
   const QPointF middle = plotRectangle().center();
   const double height = spec_.yRange[1] - spec_.yRange[0];
-  if (event->modifiers().testFlag(Qt::ControlModifier) &&
-      (event->key() == Qt::Key_Left || event->key() == Qt::Key_Right)) { // the values under a pointer of the keys
-    const double from = pointer_px_ < 0 ? middle.x() : pointer_px_;
-    const double step = (event->key() == Qt::Key_Left ? -1 : 1) * kKeyPointer * plotRectangle().width();
-    pointer_px_ = std::clamp(from + step, plotRectangle().left(), plotRectangle().right());
-    return update();
-  }
+  const bool cursor = event->modifiers().testFlag(Qt::ControlModifier);
+  if (cursor && (event->key() == Qt::Key_Left || event->key() == Qt::Key_Right))
+    return moveCursor(event->key() == Qt::Key_Right ? 1 : -1);
   switch (event->key()) {
+  case Qt::Key_Greater: // + and - with Shift, on keyboards of several countries
+  case Qt::Key_Asterisk:
+  case Qt::Key_PageUp:
+    return zoomValue(1 / kWheelStep, middle.y());
+  case Qt::Key_Less:
+  case Qt::Key_Underscore:
+  case Qt::Key_PageDown:
+    return zoomValue(kWheelStep, middle.y());
   case Qt::Key_Left:
     return move(-kKeyShare * spec_.window_s, 0);
   case Qt::Key_Right:
@@ -144,6 +148,25 @@ void StripChart::keyPressEvent(QKeyEvent* event) {
     break;
   }
   QWidget::keyPressEvent(event);
+}
+
+/// By keys; what stands there is said to screen readers too.
+void StripChart::moveCursor(int steps) {
+  const QRectF plot = plotRectangle();
+  if (pointer_px_ < plot.left() || pointer_px_ > plot.right()) pointer_px_ = plot.right();
+  pointer_px_ = std::clamp(pointer_px_ + steps * kCursorShare * plot.width(), plot.left(), plot.right());
+  setAccessibleDescription(reading());
+  update();
+}
+
+void StripChart::focusInEvent(QFocusEvent* event) {
+  QWidget::focusInEvent(event);
+  update();
+}
+
+void StripChart::focusOutEvent(QFocusEvent* event) {
+  QWidget::focusOutEvent(event);
+  update();
 }
 
 void StripChart::leaveEvent(QEvent*) {
@@ -179,7 +202,7 @@ void StripChart::saveCsv() {
   if (file.isEmpty()) return;
   QSaveFile out(file);
   const QByteArray bytes = table.toUtf8();
-  const bool good = out.open(QIODevice::WriteOnly) && out.write(bytes) == bytes.size() && out.commit();
+  const bool good = out.open(QIODevice::WriteOnly) && out.write(bytes) == bytes.size() && out.flush() && out.commit();
   emit message(good ? tr("Wrote the curves to %1.").arg(file)
                     : tr("%1: cannot be written (%2)").arg(file, out.errorString()));
 }

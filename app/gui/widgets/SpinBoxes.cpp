@@ -26,6 +26,7 @@ int decimalsOf(double value, int least) {
 } // namespace
 
 void showExactly(QDoubleSpinBox& box, double value) {
+  if (box.value() == value) return; // what is being typed stays as it is
   const QSignalBlocker quiet(box);
   if (!box.property(kOwnDecimals).isValid()) box.setProperty(kOwnDecimals, box.decimals());
   box.setDecimals(decimalsOf(value, box.property(kOwnDecimals).toInt()));

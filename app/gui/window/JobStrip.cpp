@@ -3,9 +3,9 @@
 #include "app/gui/jobs/JobRunner.h"
 
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QToolButton>
 
 namespace palp {
 
@@ -18,7 +18,11 @@ constexpr int kShownAfter_ms = 150;
 JobStrip::JobStrip(JobRunner& runner, QWidget* parent) : QWidget(parent) {
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(4, 0, 4, 0);
-  words_ = new QLabel;
+  words_ = new QToolButton;
+  words_->setObjectName("jobWords");
+  words_->setAutoRaise(true);
+  words_->setToolTip(tr("Shows the scene in which this is done"));
+  connect(words_, &QToolButton::clicked, this, &JobStrip::sceneAsked);
   bar_ = new QProgressBar;
   bar_->setFixedWidth(140);
   bar_->setMaximumHeight(14);

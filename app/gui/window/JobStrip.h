@@ -3,9 +3,9 @@
 #include <QTimer>
 #include <QWidget>
 
-class QLabel;
 class QProgressBar;
 class QPushButton;
+class QToolButton;
 
 namespace palp {
 
@@ -22,9 +22,11 @@ public:
 signals:
   /// A sentence for the status line.
   void message(const QString& sentence);
+  /// Its words were clicked on: where the work is done is to be seen.
+  void sceneAsked();
 
 private:
-  QLabel* words_ = nullptr;
+  QToolButton* words_ = nullptr;
   QProgressBar* bar_ = nullptr;
   QPushButton* cancel_ = nullptr;
   QTimer wait_; ///< before it is shown

@@ -4,7 +4,7 @@
 #include "app/gui/document/Document.h"
 #include "app/gui/jobs/ExportJob.h"
 #include "app/gui/jobs/NetworkSession.h"
-#include "app/gui/live/LivePage.h"
+#include "app/gui/live/LiveBoards.h"
 #include "app/gui/network/NetworkPage.h"
 #include "app/gui/project/Workbench.h"
 #include "app/gui/reports/ReportsPage.h"
@@ -14,10 +14,10 @@
 #include "app/gui/views/PictureView.h"
 #include "app/gui/widgets/AccessibleNames.h"
 #include "app/gui/widgets/WheelGuard.h"
-#include "app/gui/window/JobStrip.h"
 #include "app/gui/window/Layout.h"
 #include "app/gui/window/Menus.h"
 #include "app/gui/window/MessageLog.h"
+#include "app/gui/window/StatusLamps.h"
 #include "app/gui/window/Style.h"
 
 #include <QApplication>
@@ -90,10 +90,11 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   addScene("resistance", tr("Resistance"), tr("Row-column resistances under the load"), new ResistancePage(workbench));
   addScene("network", tr("Network"), tr("Samples, training and the sweep of the spread"),
            new NetworkPage(workbench, network));
-  auto* livePage = new LivePage(workbench);
-  connect(livePage, &LivePage::message, this, &MainWindow::showMessage);
-  addScene("live", tr("Live"), tr("A board, the simulated board or a recording, live"), livePage);
-  addScene("reports", tr("Reports"), tr("The paper reproduced, and the reports"), new ReportsPage(workbench));
+  live_ = new LiveBoards(workbench);
+  connect(live_, &LiveBoards::message, this, &MainWindow::showMessage);
+  addScene("live", tr("Live"), tr("Boards, the simulated board or a recording, live"), live_);
+  reports_ = new ReportsPage(workbench);
+  addScene("reports", tr("Reports"), tr("The paper reproduced, and the reports"), reports_);
   for (const PictureView* view : findChildren<PictureView*>())
     connect(view, &PictureView::message, this, &MainWindow::showMessage);
   exports_ = new ExportJob(this);
@@ -124,24 +125,31 @@ void MainWindow::addScene(const QString& name, const QString& title, const QStri
 }
 
 void MainWindow::buildStatusLine() {
-  runners_ = {&workbench_.touch().runner(), &workbench_.kept().runner(), &network_.runner(), &animation_->runner(),
-              &network_.writer()};
-  for (int k = 0; k < scenes_->count(); ++k)
-    for (JobRunner* runner : static_cast<Scene*>(scenes_->widget(k))->runners()) runners_.push_back(runner);
-  runners_.push_back(&exports_->runner());
-  for (JobRunner* runner : runners_) {
-    auto* strip = new JobStrip(*runner);
-    connect(strip, &JobStrip::message, this, &MainWindow::showMessage);
-    statusBar()->addPermanentWidget(strip);
-  }
+  auto* status = new StatusLamps(*live_, statusBar());
+  connect(status, &StatusLamps::message, this, &MainWindow::showMessage);
+  connect(status, &StatusLamps::sceneAsked, this, &MainWindow::showScene);
+  lamps_ = status;
+  connect(reports_, &ReportsPage::runs, lamps_, &StatusLamps::showReport);
+  const auto gather = [this] {
+    std::vector<SceneJob> jobs{{&workbench_.touch().runner(), "deformation"},
+                               {&network_.runner(), "network"},
+                               {&animation_->runner(), "deformation"},
+                               {&network_.writer(), "network"}};
+    for (int k = 0; k < scenes_->count(); ++k)
+      for (JobRunner* runner : static_cast<Scene*>(scenes_->widget(k))->runners()) jobs.push_back({runner, names_[k]});
+    lamps_->setJobs(jobs);
+  };
+  connect(live_, &LiveBoards::countChanged, this, gather);
+  gather();
 }
 
 void MainWindow::cancelAll() {
-  for (JobRunner* runner : runners_) runner->cancel();
+  if (&currentScene() == reports_) reports_->cancel();
+  lamps_->cancel(names_[scenes_->currentIndex()]);
 }
 
 bool MainWindow::busy() const {
-  return std::any_of(runners_.begin(), runners_.end(), [](const JobRunner* runner) { return runner->running(); });
+  return lamps_->busy();
 }
 
 void MainWindow::sceneChosen(int index) {
@@ -212,15 +220,24 @@ void MainWindow::restoreLayout() {
   setTheme(kThemes.find(settings.value("theme").toString().toStdString()).value_or(Theme::Light));
 }
 
+bool MainWindow::mayEndRecording() {
+  const QString files = live_->recording();
+  if (files.isEmpty()) return true;
+  const auto answer = QMessageBox::question(
+      this, tr("A recording is running"),
+      tr("%1 is being recorded. Quitting ends the recording; what has come is in the file. Quit?").arg(files));
+  return answer == QMessageBox::Yes;
+}
+
 void MainWindow::closeEvent(QCloseEvent* event) {
-  if (!document_->mayLeave()) {
+  if (!mayEndRecording() || !document_->mayLeave()) {
     event->ignore();
     return;
   }
   QSettings().setValue("geometry", saveGeometry());
   QSettings().setValue("state", saveState());
   saveLayout(*this);
-  cancelAll();
+  lamps_->cancelAll();
   event->accept();
 }
 

@@ -4,8 +4,6 @@
 
 #include <QMainWindow>
 
-#include <vector>
-
 class QListWidget;
 class QStackedWidget;
 
@@ -14,10 +12,12 @@ namespace palp {
 class DeformationPage;
 class Document;
 class ExportJob;
-class JobRunner;
+class LiveBoards;
 class LoadPathAnimation;
 class MessageLog;
 class NetworkSession;
+class ReportsPage;
+class StatusLamps;
 class Workbench;
 
 /// Composes: a rail with the scenes, the scenes, the menus and the jobs' progress.
@@ -51,7 +51,9 @@ protected:
 private:
   void addScene(const QString& name, const QString& title, const QString& tip, Scene* scene);
   void buildStatusLine();
+  /// What the scene that is seen does; where it does nothing, what all do.
   void cancelAll();
+  bool mayEndRecording();
   void sceneChosen(int index);
   void restoreLayout();
 
@@ -59,13 +61,15 @@ private:
   NetworkSession& network_;
   DeformationPage* deformation_ = nullptr;
   LoadPathAnimation* animation_ = nullptr;
+  LiveBoards* live_ = nullptr;
+  ReportsPage* reports_ = nullptr;
+  StatusLamps* lamps_ = nullptr;
   Document* document_ = nullptr;
   ExportJob* exports_ = nullptr;
   MessageLog* log_ = nullptr;
   QListWidget* rail_ = nullptr;
   QStackedWidget* scenes_ = nullptr;
   QStringList names_;
-  std::vector<JobRunner*> runners_; ///< of all scenes
   Theme theme_ = Theme::Light;
 };
 

@@ -12,7 +12,7 @@ namespace palp {
 
 namespace {
 
-constexpr int kLookEvery_ms = 50;
+constexpr int kLookAgain_ms = 50;
 constexpr int kQuietLooks = 3; ///< so that what came last is laid out as well
 
 } // namespace
@@ -35,7 +35,7 @@ void snapshotWhenComplete(MainWindow& window, Workbench& workbench, const QStrin
       QApplication::exit(1);
     }
   });
-  timer->start(kLookEvery_ms);
+  timer->start(kLookAgain_ms);
 }
 
 } // namespace palp

@@ -5,6 +5,7 @@
 #include "app/gui/window/Style.h"
 
 #include <QAction>
+#include <QApplication>
 #include <QMenu>
 #include <QSettings>
 
@@ -72,7 +73,13 @@ void ViewActions::addPanel(QMenu& menu) {
   QAction* panel = action(menu, tr("Side &panel"), tr("Shows the scene's panel or folds it away"), {QKeySequence("F9")},
                           "sidePanelShown");
   panel->setCheckable(true);
-  const auto its = [this] { return window_.currentScene().findChild<SidePanel*>(); };
+  const auto its = [this]() -> SidePanel* { // of several boards that of the one with the focus
+    const QList<SidePanel*> panels = window_.currentScene().findChildren<SidePanel*>();
+    const QWidget* focus = QApplication::focusWidget();
+    for (SidePanel* each : panels)
+      if (each->parentWidget() == focus || each->parentWidget()->isAncestorOf(focus)) return each;
+    return panels.isEmpty() ? nullptr : panels[0];
+  };
   connect(&menu, &QMenu::aboutToShow, panel, [panel, its] {
     panel->setEnabled(its() != nullptr);
     panel->setChecked(its() != nullptr && !its()->folded());

@@ -8,8 +8,8 @@ namespace palp {
 namespace {
 
 // As vtkChartLegend lays out a label of 12 px: estimates, a little large.
-constexpr double kLetter_px = 7.5;
-constexpr double kLine_px = 21;
+constexpr double kNameLetter_px = 7.5;
+constexpr double kNameLine_px = 21;
 constexpr double kFrame_px = 48; ///< symbol and padding
 constexpr double kAxes_px = 90;  ///< of the chart that are no plot, each way
 
@@ -18,8 +18,8 @@ constexpr double kAxes_px = 90;  ///< of the chart that are no plot, each way
 LegendShare legendShare(const std::vector<std::string>& names, double scale, const std::array<double, 2>& chart_px) {
   std::size_t longest = 0;
   for (const std::string& name : names) longest = std::max(longest, name.size());
-  const double width = scale * (kFrame_px + kLetter_px * static_cast<double>(longest));
-  const double height = scale * (12 + kLine_px * static_cast<double>(names.size()));
+  const double width = scale * (kFrame_px + kNameLetter_px * static_cast<double>(longest));
+  const double height = scale * (12 + kNameLine_px * static_cast<double>(names.size()));
   const auto share = [scale](double part, double whole) {
     return std::clamp(part / std::max(whole - scale * kAxes_px, 1.0), 0.0, 0.6);
   };

@@ -21,9 +21,8 @@ constexpr double kBadError = 0.1;    // of the force range
 constexpr double kBadMismatch = 0.5; // of the change of R
 constexpr double kLoaded = 0.05;     // of the force range: less is rest
 constexpr std::size_t kFewestToJudge = 4;
-constexpr double kMovedNoise = 2.5;       // times the noise from frame to frame
-constexpr double kMovedRange = 0.01;      // of the force range: labels are good to 1 %
-constexpr Eigen::Index kFewestFrames = 8; // 4 unknowns for each force, and as many again to judge them by
+constexpr double kMovedNoise = 2.5;  // times the noise from frame to frame
+constexpr double kMovedRange = 0.01; // of the force range: labels are good to 1 %
 // Prior variance of gain and offset over that of a label: gains within 30 % are expected, labels are good to 1 %.
 constexpr double kPriorVariance = 1e3;
 
@@ -63,9 +62,9 @@ void requireUsable(const Decoder& decoder, const SampleSet& frames) {
     throw Error("calibrate refines an rbf or ml network of one force; this network is " + name(decoder.kind) +
                 " with " + std::to_string(decoder.outputs()) + " outputs");
   if (frames.together()) throw Error("calibrate takes frames with one area loaded at a time");
-  if (frames.size() < kFewestFrames)
-    throw Error(std::to_string(frames.size()) + " labelled frames; at least " + std::to_string(kFewestFrames) +
-                " are needed");
+  if (frames.size() < kFewestCalibrationFrames)
+    throw Error(std::to_string(frames.size()) + " labelled frames; at least " +
+                std::to_string(kFewestCalibrationFrames) + " are needed");
   if (frames.origin.designFingerprint != decoder.designFingerprint)
     throw Error("the frames are of design " + frames.origin.designFingerprint + ", the network of " +
                 decoder.designFingerprint);

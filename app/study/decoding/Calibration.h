@@ -11,6 +11,9 @@
 
 namespace palp {
 
+/// Labelled frames that a calibration takes at least: 4 unknowns for each force, and as many again to judge them by.
+inline constexpr Eigen::Index kFewestCalibrationFrames = 8;
+
 /// What is known of labelled frames as a training set for a network.
 struct CalibrationReport {
   Eigen::Index samples = 0;

@@ -26,12 +26,15 @@ std::string BoardWatch::problem() const {
 
 void BoardWatch::run(const std::stop_token& stop) {
   Hotplug hotplug;
+  std::vector<std::string> nodes;
   while (!stop.stop_requested()) {
     const bool changed = hotplug.wait(kWait);
-    if (looks_ > 0 && (quiet_ || !changed)) continue;
+    if (looks_ > 0 && !changed) continue;
     std::vector<HidBoard> boards;
     std::string problem;
     try {
+      const std::vector<std::string> before = std::exchange(nodes, access_.nodes());
+      if (looks_ > 0 && quiet_ && nodes == before) continue;
       boards = access_.list();
     } catch (...) { // the last resort of this thread: no boards, and why
       problem = failureInWords(std::current_exception());

@@ -20,7 +20,7 @@ public:
   [[nodiscard]] std::string problem() const;
   /// False before the first look.
   [[nodiscard]] bool looked() const { return looks_ > 0; }
-  /// While a board streams nobody enumerates: that would disturb it.
+  /// While a board streams nobody enumerates, which would disturb it, unless a device has come or gone.
   void setQuiet(bool quiet) { quiet_ = quiet; }
 
 private:

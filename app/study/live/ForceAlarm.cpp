@@ -33,7 +33,7 @@ std::optional<std::string> AlarmWatch::add(const Eigen::Ref<const Eigen::Matrix3
   const double back_N = std::max(kBack * std::abs(alarm_->limit_N), kLeastBack_N);
   std::array<char, 96> text{};
   if (words_.empty() && beyond_N > 0) {
-    std::snprintf(text.data(), text.size(), "alarm: %s %.3g N is %s %.3g N",
+    std::snprintf(text.data(), text.size(), "alarm: %s %.3f N is %s %.4g N",
                   std::string(kForceQuantities.name(alarm_->quantity)).c_str(), value_N,
                   std::string(kAlarmSides.name(alarm_->side)).c_str(), alarm_->limit_N);
     words_ = text.data();

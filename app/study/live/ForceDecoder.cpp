@@ -5,7 +5,9 @@
 #include "model/base/Error.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <random>
 
 namespace palp {
@@ -20,6 +22,7 @@ constexpr double kSameNoise = 0.1;  // nearer than this is the same noise
 constexpr double kMostNoise = 0.99; // relative
 constexpr Eigen::Index kRestCopies = 32;
 constexpr double kMoving = 2.5;  // times the noise of a frame: the sensor moved during the tare
+constexpr double kDrowned = 0.5; // of the force range: a deviation that leaves nothing of the force
 constexpr double kRestReach = 4; // deviations from rest, at which half of its error counts
 
 std::string sizes(int rows, int columns) {
@@ -210,6 +213,16 @@ void ForceDecoder::judge(const BoardFrame& frame, const Prediction& prediction, 
   decoded.misfit = verdict.misfit;
   decoded.doubted = verdict.doubted;
   decoded.doubt = verdict.reason;
+  if (!decoded.doubt.empty() || !(tared_ || meter_.ready())) return;
+  const double deviation_N = decoded.standardDeviation_N.maxCoeff();
+  if (!(deviation_N > kDrowned * (decoder_->high_N - decoder_->low_N).maxCoeff())) return;
+  std::array<char, 160> text{};
+  std::snprintf(
+      text.data(), text.size(),
+      "the noise of the readings alone reads as %.2g N with this network; train one for this noise, on all rows",
+      deviation_N);
+  decoded.doubted = true;
+  decoded.doubt = text.data();
 }
 
 /// A decoder that was trained with noise is drawn towards the middle of its range, most at rest, which lies at the

@@ -30,6 +30,7 @@ std::string quoted(const std::string& text) {
 } // namespace
 
 void LiveHistory::add(std::shared_ptr<const LiveFrame> frame) {
+  if (!entries_.empty() && frame->jumps != entries_.back().frame->jumps) clear();
   const double host_s = frame->frame.hostTime_s;
   const double device_s = frame->frame.time_s;
   const bool otherClock = entries_.empty() || frame->frame.restarted ||
@@ -78,6 +79,7 @@ void writeLiveCsv(const std::filesystem::path& path, const LiveHistory& history)
         << "xyz"[k % 3] << "_N";
   for (Eigen::Index k = 0; k < readings; ++k) out << ",dR_r" << k % rows << "_c" << k / rows << "_relative";
   out << ",reason\n";
+  std::string mark;
   for (const LiveHistory::Entry& entry : history.entries()) {
     const LiveFrame& live = *entry.frame;
     out << entry.t_s << ',' << live.frame.time_s << ',' << live.frame.number << ',' << live.frame.complete << ','
@@ -87,7 +89,8 @@ void writeLiveCsv(const std::filesystem::path& path, const LiveHistory& history)
     if (live.frame.temperature_degC) out << *live.frame.temperature_degC;
     out << ',';
     if (live.forces.misfit) out << *live.forces.misfit;
-    out << ',' << quoted(live.mark);
+    out << ',' << quoted(live.mark == mark ? std::string() : live.mark);
+    mark = live.mark;
     writeNumbers(out, live.forces.forces_N, forces);
     writeNumbers(out, live.forces.standardDeviation_N, forces);
     writeNumbers(out, live.change, readings);

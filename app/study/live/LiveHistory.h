@@ -7,7 +7,7 @@
 
 namespace palp {
 
-/// The frames of the last while, on one time axis.
+/// The frames of the last while, on one time axis: of a recording those since it was taken up at another place.
 class LiveHistory {
 public:
   struct Entry {
@@ -35,8 +35,8 @@ private:
 };
 
 /// The entries as CSV: time as in Entry (it never jumps back), the board's own clock, frame, forces with deviations,
-/// latency, lost reports, misfit, why there are no forces or why they are doubted, and the change of every reading.
-/// Throws Error where the file cannot be written.
+/// latency, lost reports, misfit, a mark at the frame it begins with, why there are no forces or why they are doubted,
+/// and the change of every reading. Throws Error where the file cannot be written.
 void writeLiveCsv(const std::filesystem::path& path, const LiveHistory& history);
 
 } // namespace palp

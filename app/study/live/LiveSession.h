@@ -38,6 +38,7 @@ struct LiveFrame {
   double decoding_s = 0;           ///< of it, from the report's arrival to the decoded force
   std::uint64_t lostReports = 0;   ///< since the session's start
   std::uint64_t connection = 0;    ///< how many the source had, at this frame
+  std::uint64_t jumps = 0;         ///< how often the recording was taken up at another place, at this frame
   std::string mark;                ///< the last event mark of the user or the recording
 };
 
@@ -71,6 +72,7 @@ struct LiveStatus {
   std::string lastAlarm;       ///< the last one that went off; `alarms` counts them
   std::uint64_t alarms = 0;
   bool recording = false;
+  bool recordingWaits = false; ///< for the board, which is out; it goes on in the same file when it is back
   std::uint64_t recordedReports = 0, recordingDropped = 0;
   std::string recordingFailure;
   std::string lastEvent; ///< what the board said last, or what failed

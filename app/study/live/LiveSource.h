@@ -22,6 +22,10 @@ struct BoardAccess {
   std::function<std::unique_ptr<ReportSource>(const std::string& device)> open = [](const std::string& device) {
     return openBoard({}, device);
   };
+  /// What there is of devices: where it stays the same, so does `list`.
+  std::function<std::vector<std::string>()> nodes = [] { return hidNodes(); };
+  /// Nobody else in this program reads the board.
+  std::function<bool(const HidBoard&)> free = [](const HidBoard&) { return true; };
 };
 
 /// What the simulated board is.

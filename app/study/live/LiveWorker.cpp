@@ -101,6 +101,7 @@ void LiveWorker::connect(std::unique_ptr<ReportSource> source) {
   if (assembler_) earlier_ = sum(earlier_, assembler_->counts());
   const bool sameBoard = assembler_ && assembler_->info() == source_->info();
   assembler_.emplace(source_->info(), source_->configuration());
+  assembler_->restart(); // it sends already: what was sent of a frame before is not lost
   latency_.restart();
   arrival_s_ = rateStart_s_ = hostClock_s();
   rateReports_ = rateFrames_ = 0;
@@ -117,9 +118,11 @@ void LiveWorker::connect(std::unique_ptr<ReportSource> source) {
   if (!writer_) return;
   writer_->append(RecordingEntry::Kind::Connected, arrival_s_, encode(source_->info()));
   recordConfiguration();
+  mark("the board is back");
 }
 
 void LiveWorker::disconnect(LiveState state, const std::string& reason) {
+  if (source_ && writer_) mark("the board is out");
   source_.reset();
   status_.state = options_.reconnect ? state : LiveState::Ended;
   status_.reason = reason;
@@ -128,8 +131,7 @@ void LiveWorker::disconnect(LiveState state, const std::string& reason) {
 
 void LiveWorker::read() {
   const ReportSource::Outcome outcome = source_->read(report_, kReadTimeout);
-  if (auto* replay = dynamic_cast<ReplaySource*>(source_.get()); replay != nullptr && replay->jumped())
-    assembler_->restart(); // what lies between is no loss
+  if (auto* replay = dynamic_cast<ReplaySource*>(source_.get()); replay != nullptr && replay->jumped()) jumped();
   const double now_s = hostClock_s();
   switch (outcome) {
   case ReportSource::Outcome::Read:
@@ -155,6 +157,13 @@ void LiveWorker::read() {
     return;
   }
   measureRates(now_s);
+}
+
+/// The recording goes on at another place: what lies between is no loss, and nothing of before belongs to what follows.
+void LiveWorker::jumped() {
+  assembler_->restart();
+  drift_.restart();
+  ++jumps_;
 }
 
 void LiveWorker::take(const RawReport& report) {
@@ -199,6 +208,7 @@ void LiveWorker::takeFrame(const BoardFrame& frame) {
   auto live = std::make_shared<LiveFrame>();
   live->frame = frame;
   live->connection = status_.connections;
+  live->jumps = jumps_;
   live->faults = wireFaults(frame);
   rest_.add(frame);
   if (decoder_) {
@@ -227,7 +237,10 @@ void LiveWorker::takeFrame(const BoardFrame& frame) {
 /// An alarm stands among the marks, so that curves and recordings hold it.
 void LiveWorker::watch(const DecodedForces& forces) {
   if (!forces.valid) return;
-  const std::optional<std::string> said = alarm_.add(forces.forces_N);
+  Eigen::Matrix3Xd forces_N = forces.forces_N;
+  for (Eigen::Index column = 0; column < forces_N.cols(); ++column)
+    if (!forces.shown[static_cast<std::size_t>(column)]) forces_N.col(column).setZero(); // it may be noise alone
+  const std::optional<std::string> said = alarm_.add(forces_N);
   if (!said) return;
   mark(*said);
   if (alarm_.words().empty()) return;
@@ -269,6 +282,7 @@ LiveStatus LiveWorker::status() {
   status_.alarm = alarm_.words();
   status_.noise = decoder_ ? decoder_->noise() : 0;
   status_.recording = writer_ && source_; // never "recording" while the board is gone
+  status_.recordingWaits = writer_ && !source_;
   if (writer_) {
     status_.recordedReports = writer_->reports();
     status_.recordingDropped = writer_->dropped();

@@ -38,6 +38,7 @@ private:
   void connect(std::unique_ptr<ReportSource> source);
   void disconnect(LiveState state, const std::string& reason);
   void read();
+  void jumped();
   void take(const RawReport& report);
   void takeFrame(const BoardFrame& frame);
   void takeEvent(const BoardEvent& event);
@@ -69,6 +70,7 @@ private:
   LiveStatus status_;
   bool paused_ = false, idle_ = false;
   std::string mark_;        ///< of the user, the last one
+  std::uint64_t jumps_ = 0; ///< of the recording that is played
   double arrival_s_ = 0;    ///< host clock at the last report
   double askedAgain_s_ = 0; ///< host clock when the configuration was read again
   double rateStart_s_ = 0;

@@ -148,6 +148,20 @@ TEST(FrameAssembler, ARestartOfTheBoardIsNoLossAndBreaksTheFrame) {
   for (std::size_t i = 1; i < frames.size(); ++i) EXPECT_GT(frames[i].time_s, frames[i - 1].time_s);
 }
 
+TEST(FrameAssembler, AFrameThatIsJoinedInItsMiddleIsLeftOut) {
+  for (std::size_t first = 0; first <= kFrameReports; ++first) {
+    std::vector<Bytes> reports = smallReports(4 * kFrameReports);
+    reports.erase(reports.begin(), reports.begin() + static_cast<std::ptrdiff_t>(first));
+    FrameAssembler assembler(smallBoard().info, smallBoard().configuration);
+    assembler.restart();
+    const std::vector<BoardFrame> frames = framesOf(assembler, reports);
+    ASSERT_EQ(frames.size(), first == 0 ? 4U : 3U) << first;
+    EXPECT_EQ(frames[0].number, first == 0 ? 0 : 1) << first;
+    EXPECT_TRUE(frames[0].complete) << first;
+    EXPECT_EQ(assembler.counts().incompleteFrames + assembler.counts().lost, 0U) << first;
+  }
+}
+
 TEST(FrameAssembler, SingleRowModeMakesAFrameOfEachRow) {
   BoardSettings settings = smallBoard();
   settings.configuration.mode = BoardMode::SingleRow;

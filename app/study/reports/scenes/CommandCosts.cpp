@@ -16,7 +16,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-constexpr double kLimit_s = 240;
+constexpr double kCommandLimit_s = 240;
 constexpr int kManySamples = 100000; ///< of surrogates, where the request asks for 100 an area
 
 Words split(const std::string& text) {
@@ -106,7 +106,7 @@ std::vector<CommandCost> commandCosts(const ReportRequest& request, const Report
     CommandCost cost;
     cost.command = "palp " + joined(all[i]);
     if (progress) progress(static_cast<double>(i) / static_cast<double>(all.size()), cost.command);
-    ChildOrder order{request.programs / "palp", all[i], folder.path(), {}, kLimit_s};
+    ChildOrder order{request.programs / "palp", all[i], folder.path(), {}, kCommandLimit_s};
     order.arguments.emplace_back("--json");
     if (request.threads > 0)
       order.arguments.insert(order.arguments.end(), {"--threads", std::to_string(request.threads)});

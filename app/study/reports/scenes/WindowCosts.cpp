@@ -10,7 +10,7 @@ namespace palp {
 
 namespace {
 
-constexpr double kLimit_s = 240;
+constexpr double kWindowLimit_s = 240;
 
 WindowStep stepOf(const nlohmann::json& json) {
   WindowStep step;
@@ -34,7 +34,7 @@ std::vector<std::string> add(WindowCosts& costs, const ReportRequest& request, c
                              const std::stop_token& stop) {
   const ScratchFolder folder;
   saveDesign(folder.path() / "sensor.json", request.design, true);
-  ChildOrder order{request.programs / "palp-studio", {"--costs"}, folder.path(), {}, kLimit_s};
+  ChildOrder order{request.programs / "palp-studio", {"--costs"}, folder.path(), {}, kWindowLimit_s};
   if (!scene.empty()) order.arguments.insert(order.arguments.end(), {"--scene", scene});
   const std::vector<std::string> mesh = meshArguments(request.mesh);
   order.arguments.insert(order.arguments.end(), mesh.begin(), mesh.end());

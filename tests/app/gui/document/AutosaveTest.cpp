@@ -4,11 +4,15 @@
 #include "app/gui/document/Recovery.h"
 #include "app/gui/jobs/ResultFiles.h"
 #include "app/gui/project/ProjectFile.h"
+#include "io/AtomicFile.h"
+#include "tests/app/gui/FullDisk.h"
 #include "tests/app/gui/WindowFixture.h"
 
 #include <QDir>
 #include <QElapsedTimer>
+#include <QLabel>
 #include <QMessageBox>
+#include <QPlainTextEdit>
 #include <QProcess>
 #include <QPushButton>
 #include <QTemporaryDir>
@@ -75,9 +79,9 @@ TEST(Autosave, AtMostTenSecondsAreMissingAfterAKillAndNoFileIsBroken) {
       EXPECT_EQ(work.file, file);
       const Project project = parseProject(Autosave::project(work), "recovered", exampleProject());
       newest = std::max(newest, stepOf(project));
-      EXPECT_NO_THROW(openResults(Autosave::results(work).toStdString(), project.design, {}));
+      EXPECT_TRUE(openResults(Autosave::results(work).toStdString(), project.design, {}).problems.empty());
     }
-    EXPECT_NO_THROW(openResults(folder.filePath("p.palp").toStdString(), quickProject().design, {}));
+    EXPECT_TRUE(openResults(folder.filePath("p.palp").toStdString(), quickProject().design, {}).problems.empty());
     const auto lost = killed.typed_ms.upper_bound(newest); // the first step that is in no file
     if (lost != killed.typed_ms.end()) {
       EXPECT_LE(killed.killed_ms - lost->second, 10000) << "step " << lost->first << " was lost";
@@ -141,6 +145,48 @@ TEST_F(AutosaveTest, TakesNoWorkOfAWindowThatIsOpen) {
   press(-2.5);
   ASSERT_TRUE(kept("project.json"));
   EXPECT_TRUE(Autosave::left(folder.filePath("r")).empty());
+}
+
+TEST_F(AutosaveTest, AFullDiskIsSaidAndWhatWasKeptStaysUntilThereIsRoom) {
+  press(-2.5);
+  ASSERT_TRUE(kept("project.json"));
+  const auto keptForce_N = [&] {
+    const QString left = copyOfLeft();
+    const std::vector<LeftWork> work = Autosave::left(left);
+    return work.size() != 1
+               ? 0.0
+               : parseProject(Autosave::project(work[0]), "kept", exampleProject()).load.areas[0].force_N.z();
+  };
+  QString said;
+  QObject::connect(autosave.get(), &Autosave::failed, [&said](const QString& sentence) { said = sentence; });
+  {
+    const FullDisk full(100);
+    press(-3.5);
+    ASSERT_TRUE(QTest::qWaitFor([&] { return !said.isEmpty(); }, kPatience_ms));
+  }
+  EXPECT_TRUE(said.startsWith("Unsaved work cannot be kept")) << said.toStdString();
+  EXPECT_FALSE(said.contains('\n'));
+  EXPECT_EQ(keptForce_N(), -2.5);
+  press(-4.5);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return keptForce_N() == -4.5; }, kPatience_ms));
+}
+
+TEST_F(AutosaveTest, WhatCannotBeReadIsNotForgottenWithTheRest) {
+  const QString left = folder.filePath("left");
+  std::filesystem::create_directories((left + "/window/results").toStdString());
+  writeFile((left + "/window/project.json").toStdString(), projectText(quickProject()).toStdString(), true);
+  writeFile((left + "/window/results/samples.csv").toStdString(), "# palp_samples: 1\n", true);
+  QTimer answer;
+  QObject::connect(&answer, &QTimer::timeout, &answer, [] {
+    auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
+    if (box != nullptr && box->objectName() == "recovery") QTest::mouseClick(box->buttons().front(), Qt::LeftButton);
+  });
+  answer.start(20);
+  offerRecovery(window, left);
+  auto& problem = find<QLabel>("trainingProblem");
+  ASSERT_TRUE(QTest::qWaitFor([&] { return problem.text().contains("samples.csv"); }, kPatience_ms));
+  EXPECT_TRUE(find<QPlainTextEdit>("messageLines").toPlainText().contains(left + "/window/results"));
+  EXPECT_EQ(Autosave::left(left).size(), 1U) << "the next start asks again";
 }
 
 TEST_F(AutosaveTest, BringsProjectSamplesAndNetworkBackAndUndoLeadsToWhatTheFileHeld) {

@@ -1,8 +1,11 @@
 #include "app/gui/document/Document.h"
 #include "app/gui/project/ProjectFile.h"
+#include "io/AtomicFile.h"
+#include "tests/app/gui/FullDisk.h"
 #include "tests/app/gui/WindowFixture.h"
 
 #include <QAction>
+#include <QDir>
 #include <QDoubleSpinBox>
 #include <QFile>
 #include <QFileInfo>
@@ -159,6 +162,46 @@ TEST_F(DocumentTest, AProjectOfTheProgramsStartIsSavedInItsFile) {
   EXPECT_EQ(loadProject(inFolder("p.json").toStdString(), exampleProject()).load.areas[0].force_N.z(), -4);
   window.document().beganWith(QString::fromStdString(PALP_SOURCE_DIR "/resources/paper.json"));
   EXPECT_EQ(workbench.file(), inFolder("p.json")) << "a design is none to be overwritten";
+}
+
+TEST_F(DocumentTest, AFullDiskIsSaidAndLeavesTheFileAndTheWorkAsTheyAre) {
+  const std::string file = inFolder("mine.json").toStdString();
+  workbench.saved(inFolder("mine.json")); // so that no file dialog is needed
+  press(-2.5);
+  ASSERT_TRUE(window.document().save());
+  press(-3.5);
+  const std::string before = readFile(file);
+  answer(QMessageBox::Ok);
+  {
+    const FullDisk full(before.size() / 2);
+    key(Qt::Key_S);
+  }
+  EXPECT_EQ(questions_, 1) << "one box";
+  EXPECT_EQ(readFile(file), before);
+  EXPECT_TRUE(window.isWindowModified());
+  EXPECT_EQ(QDir(inFolder(".")).entryList(QDir::Files | QDir::Hidden), QStringList("mine.json"));
+  key(Qt::Key_S);
+  EXPECT_FALSE(window.isWindowModified()) << "and it is saved when there is room again";
+}
+
+TEST_F(DocumentTest, AFullDiskKeepsTheSamplesUnsavedAndTheProjectOpen) {
+  workbench.saved(inFolder("mine.json"));
+  window.showScene("network");
+  find<QPushButton>("generate").click();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.samples() != nullptr; }, kPatience_ms));
+  answer(QMessageBox::Ok);
+  QString said;
+  QObject::connect(&network.writer(), &JobRunner::failed, [&said](const QString& sentence) { said = sentence; });
+  {
+    const FullDisk full(1 << 14); // room for the project, not for the samples
+    EXPECT_TRUE(window.document().save());
+    ASSERT_TRUE(QTest::qWaitFor([&] { return questions_ == 1; }, kPatience_ms));
+  }
+  EXPECT_TRUE(said.contains("cannot be written")) << said.toStdString();
+  EXPECT_TRUE(window.isWindowModified());
+  EXPECT_TRUE(QDir(inFolder("mine.palp")).entryList(QDir::Files | QDir::Hidden).isEmpty());
+  ASSERT_TRUE(window.document().save());
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !window.isWindowModified(); }, kPatience_ms));
 }
 
 TEST_F(DocumentTest, ADesignAloneIsNoProjectToBeOverwritten) {

@@ -1,12 +1,15 @@
 #include "app/gui/document/Document.h"
 #include "app/gui/project/ProjectFile.h"
+#include "app/gui/views/HeatmapView.h"
 #include "app/study/Resources.h"
 #include "app/study/live/LiveSource.h"
 #include "io/SampleFile.h"
 #include "tests/app/gui/WindowFixture.h"
 
+#include <QDir>
 #include <QFile>
 #include <QImage>
+#include <QLabel>
 #include <QMessageBox>
 #include <QPlainTextEdit>
 #include <QPushButton>
@@ -177,6 +180,90 @@ TEST_F(OpenFiles, AProjectComesBackWithItsSamplesAndItsNetwork) {
   EXPECT_EQ(other.samples(), nullptr) << "what the project held is given back";
   fresh.history().undo();
   EXPECT_TRUE(QTest::qWaitFor([&] { return other.fit() != nullptr; }, kPatience_ms)) << "and read again";
+}
+
+TEST_F(OpenFiles, AProjectWithOneBrokenNetworkOpensWithTheOthersAndSavingLeavesItThere) {
+  generate();
+  for (int k = 0; k < 2; ++k) {
+    find<QPushButton>("train").click();
+    ASSERT_TRUE(
+        QTest::qWaitFor([&] { return network.kept().size() == static_cast<std::size_t>(k + 1); }, kPatience_ms));
+    ASSERT_TRUE(idle());
+  }
+  answerFileDialog(inFolder("p.json"));
+  ASSERT_TRUE(window.document().save());
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !window.isWindowModified(); }, kPatience_ms));
+  const QDir networks(inFolder("p.palp/networks"));
+  const QStringList files = networks.entryList({"*.network.json"}, QDir::Files, QDir::Name);
+  ASSERT_EQ(files.size(), 2);
+  QFile broken(networks.filePath(files[0]));
+  ASSERT_TRUE(broken.open(QIODevice::ReadWrite));
+  ASSERT_TRUE(broken.resize(100));
+  broken.close();
+
+  Workbench fresh(exampleProject());
+  NetworkSession other;
+  MainWindow next(fresh, other);
+  next.show();
+  dropOn(next, inFolder("p.json"));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return other.kept().size() == 1; }, kPatience_ms));
+  next.showScene("network");
+  auto* problem = next.findChild<QLabel*>("trainingProblem");
+  EXPECT_TRUE(problem->isVisible());
+  EXPECT_TRUE(problem->text().contains(files[0])) << problem->text().toStdString();
+  EXPECT_FALSE(next.isWindowModified());
+  next.findChild<QPushButton*>("train")->click();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return other.kept().size() == 2 && !next.busy(); }, kPatience_ms));
+  ASSERT_TRUE(next.document().save());
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !next.isWindowModified(); }, kPatience_ms));
+  EXPECT_EQ(broken.size(), 100);
+  EXPECT_EQ(networks.entryList({"*.network.json"}, QDir::Files).size(), 3);
+}
+
+TEST_F(OpenFiles, AsksBeforeTestSamplesOfAnotherFileAreReplaced) {
+  generate();
+  QFile test(inFolder("mine-test.csv"));
+  ASSERT_TRUE(test.open(QIODevice::WriteOnly));
+  test.close();
+  answerFileDialog(inFolder("mine.csv"));
+  find<QPushButton>("saveSamples").click(); // the question is closed, which means no
+  EXPECT_TRUE(said.contains("mine-test.csv")) << said.toStdString();
+  ASSERT_TRUE(idle());
+  EXPECT_EQ(test.size(), 0);
+  EXPECT_FALSE(QFile::exists(inFolder("mine.csv")));
+}
+
+TEST_F(OpenFiles, OpensADroppedProjectInItsScene) {
+  ASSERT_TRUE(solved());
+  Project project = quickProject();
+  project.load.areas[0].force_N = {0, 0, -2};
+  project.view.scene = "resistance";
+  project.view.cell = {2, 7};
+  const std::string file = inFolder("p.json").toStdString();
+  saveProject(file, project);
+  dropOn(window, QString::fromStdString(file));
+  EXPECT_EQ(said, "");
+  EXPECT_EQ(workbench.project(), project);
+  EXPECT_EQ(window.currentScene().objectName(), "resistance");
+  ASSERT_TRUE(solved());
+  settle();
+  EXPECT_EQ(find<HeatmapView>("resistanceHeatmap").heatmap().selected, (std::array{2, 7}));
+}
+
+TEST_F(OpenFiles, RefusesABrokenFileWithASentenceAndGoesOnWithWhatItHad) {
+  ASSERT_TRUE(solved());
+  const Project before = workbench.project();
+  const QString file = inFolder("p.json");
+  saveProject(file.toStdString(), before);
+  QFile text(file);
+  ASSERT_TRUE(text.open(QIODevice::ReadWrite));
+  ASSERT_TRUE(text.resize(text.size() / 3));
+  text.close();
+  dropOn(window, file);
+  EXPECT_TRUE(said.contains("no valid JSON: parse error at line")) << said.toStdString();
+  EXPECT_TRUE(said.contains("stays as it is")) << said.toStdString();
+  EXPECT_EQ(workbench.project(), before);
+  EXPECT_TRUE(workbench.touch().upToDate());
 }
 
 } // namespace

@@ -1,221 +1,19 @@
-// What an operator does in the first half hour, by real clicks and keys.
+// What an operator looks at and sets: the simulated board, curves, scales, alarms, the touch by hand.
 
-#include "app/gui/live/LiveCalibration.h"
-#include "app/gui/live/RecordingName.h"
+#include "app/gui/views/HeatmapView.h"
 #include "app/gui/views/StripChart.h"
-#include "io/board/Recording.h"
-#include "tests/app/gui/live/LivePageFixture.h"
+#include "tests/app/gui/live/LiveOperatorFixture.h"
 
 #include <QCheckBox>
 #include <QComboBox>
-#include <QDir>
 #include <QDoubleSpinBox>
-#include <QFile>
-#include <QMessageBox>
 #include <QSignalSpy>
-#include <QSlider>
 #include <QSpinBox>
-#include <QTabWidget>
-#include <QTableWidget>
-#include <QTemporaryDir>
 
 #include <cmath>
 
 namespace palp {
 namespace {
-
-/// Presses Yes where a dialog asks whether a file may be replaced.
-void answerYes() {
-  auto* timer = new QTimer(qApp);
-  QObject::connect(timer, &QTimer::timeout, timer, [timer] {
-    auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
-    if (box == nullptr) return;
-    timer->stop();
-    timer->deleteLater();
-    QTest::mouseClick(box->button(QMessageBox::Yes), Qt::LeftButton);
-  });
-  timer->start(20);
-}
-
-std::vector<std::string> marksOf(const QString& file) {
-  RecordingReader reader(file.toStdString());
-  std::vector<std::string> marks;
-  while (const auto entry = reader.next())
-    if (entry->kind == RecordingEntry::Kind::Mark) marks.emplace_back(entry->bytes.begin(), entry->bytes.end());
-  return marks;
-}
-
-class LiveOperator : public Live {
-protected:
-  void recordTo(const QString& file) { find<QLineEdit>("recordFile").setText(file); }
-  bool startsToRecord() {
-    click("record");
-    return wait([&] { return page.host().status().recording; });
-  }
-  bool stopsToRecord() {
-    click("record");
-    return wait([&] { return !page.host().status().recording; });
-  }
-  bool isRed(const char* label) {
-    auto& words = find<QLabel>(label);
-    return wait([&] { return words.isVisible() && words.property("role") == "problem" && !words.text().isEmpty(); });
-  }
-  LiveCalibration& calibration() { return find<LiveCalibration>("calibration"); }
-  /// Labelled frames of whatever is pressed now, with these forces in z.
-  bool collect(int frames, double force_N) {
-    page.findChild<QTabWidget*>("curveTabs")->setCurrentIndex(1);
-    type<QSpinBox>("labelFrames", "1");
-    for (int k = 0; k < frames; ++k) {
-      type<QSpinBox>("labelArea", QString::number(k % 6));
-      type<QDoubleSpinBox>("label_Fz", QString::number(force_N * k));
-      const Eigen::Index before = calibration().frames().samples().size();
-      click("collect");
-      if (!wait([&] { return calibration().frames().samples().size() == before + 1; })) return false;
-    }
-    return true;
-  }
-  bool fit() {
-    click("fitCalibration");
-    return wait([&] { return calibration().calibration().has_value() && !calibration().runner().running(); });
-  }
-  bool records(const QString& file, std::uint64_t frames) {
-    recordTo(file);
-    return startsToRecord() && waitForFrames(frames) && stopsToRecord();
-  }
-  bool plays(const QString& file) {
-    use([&](LiveSettings& live) {
-      live.source = LiveSourceKind::Recording;
-      live.recording = file.toStdString();
-    });
-    return wait([&] { return page.host().replaying() && page.host().history().last() != nullptr; });
-  }
-
-  QTemporaryDir folder;
-};
-
-TEST_F(LiveOperator, ASecondRecordingTakesTheNextFreeNameByItself) {
-  ASSERT_TRUE(waitForFrames());
-  const QString file = folder.filePath("touch.palprec");
-  recordTo(file);
-  ASSERT_TRUE(startsToRecord());
-  ASSERT_TRUE(stopsToRecord());
-  ASSERT_TRUE(startsToRecord()) << said.join("; ").toStdString();
-  const QString second = find<QLineEdit>("recordFile").text();
-  EXPECT_NE(second, file);
-  ASSERT_TRUE(stopsToRecord());
-  ASSERT_TRUE(startsToRecord());
-  ASSERT_TRUE(stopsToRecord());
-  EXPECT_EQ(QDir(folder.path()).entryList({"touch*.palprec"}).size(), 3);
-  EXPECT_NO_THROW(RecordingReader(second.toStdString()));
-  EXPECT_FALSE(said.join(' ').contains("--"));
-}
-
-TEST(RecordingName, IsDatedOnceAndCountedWhereTheDateIsThereToo) {
-  const QTemporaryDir folder;
-  const QDateTime now(QDate(2026, 11, 22), QTime(14, 5, 6));
-  const auto touched = [&](const QString& name) {
-    QFile file(folder.filePath(name));
-    EXPECT_TRUE(file.open(QIODevice::WriteOnly));
-    return std::filesystem::path(file.fileName().toStdString());
-  };
-  EXPECT_EQ(freeRecording(folder.filePath("a").toStdString(), now).filename(), "a.palprec");
-  EXPECT_EQ(freeRecording(touched("a.palprec"), now).filename(), "a-2026-11-22-140506.palprec");
-  EXPECT_EQ(freeRecording(touched("a-2026-11-22-140506.palprec"), now).filename(), "a-2026-11-22-140506-2.palprec");
-  EXPECT_EQ(freeRecording(touched("a-2026-11-22-140506-2.palprec"), now).filename(), "a-2026-11-22-140506-3.palprec");
-}
-
-TEST_F(LiveOperator, ReplacesTheFileThatTheDialogWasToldTo) {
-  ASSERT_TRUE(waitForFrames());
-  const QString file = folder.filePath("touch.palprec");
-  QFile old(file);
-  ASSERT_TRUE(old.open(QIODevice::WriteOnly));
-  old.write("an old recording");
-  old.close();
-  answerFileDialog(file);
-  answerYes();
-  click("chooseRecordFile");
-  ASSERT_EQ(find<QLineEdit>("recordFile").text(), file);
-  ASSERT_TRUE(startsToRecord()) << said.join("; ").toStdString();
-  ASSERT_TRUE(stopsToRecord());
-  EXPECT_EQ(QDir(folder.path()).entryList({"*.palprec"}).size(), 1);
-  EXPECT_NO_THROW(RecordingReader(file.toStdString()));
-  ASSERT_TRUE(startsToRecord()); // the leave to replace was for once
-  ASSERT_TRUE(stopsToRecord());
-  EXPECT_EQ(QDir(folder.path()).entryList({"*.palprec"}).size(), 2);
-}
-
-TEST_F(LiveOperator, SaysInRedAtTheRecordingWhyNothingIsRecorded) {
-  ASSERT_TRUE(waitForFrames());
-  recordTo(folder.filePath("no such folder/touch.palprec"));
-  click("record");
-  EXPECT_TRUE(isRed("recorded"));
-  EXPECT_TRUE(find<QLabel>("recorded").text().contains("no such folder"));
-  EXPECT_FALSE(find<QPushButton>("record").isChecked());
-  recordTo(folder.filePath("touch.palprec"));
-  ASSERT_TRUE(startsToRecord());
-  EXPECT_TRUE(wait([&] { return find<QLabel>("recorded").property("role") == "hint"; }));
-}
-
-TEST_F(LiveOperator, GoesBackToTheNetworkBeforeACalibrationAndMarksBothInTheRecording) {
-  ASSERT_TRUE(waitForArrow());
-  const QString file = folder.filePath("touch.palprec");
-  recordTo(file);
-  ASSERT_TRUE(startsToRecord());
-  ASSERT_TRUE(collect(9, -0.5));
-  ASSERT_TRUE(fit());
-  const std::string before = page.host().decoder()->trainedWith;
-  click("useCalibration");
-  auto& name = find<QLabel>("networkName");
-  EXPECT_TRUE(wait([&] { return name.text().startsWith("calibrated, 9 frames, 2"); })) << name.text().toStdString();
-  const Eigen::MatrixXd calibrated_N = page.host().decoder()->residual_N;
-  click("networkBack");
-  EXPECT_TRUE(wait([&] { return name.text().startsWith("Palp's own"); })) << name.text().toStdString();
-  EXPECT_NE(page.host().decoder()->residual_N, calibrated_N);
-  EXPECT_EQ(page.host().decoder()->trainedWith, before);
-  ASSERT_TRUE(waitForFrames());
-  ASSERT_TRUE(stopsToRecord());
-  ASSERT_TRUE(wait([&] { return marksOf(file).size() == 2; }));
-  EXPECT_EQ(marksOf(file)[0].rfind("network: calibrated, 9 frames", 0), 0U) << marksOf(file)[0];
-  EXPECT_EQ(marksOf(file)[1].rfind("network: Palp's own", 0), 0U) << marksOf(file)[1];
-}
-
-TEST_F(LiveOperator, SaysThatTheLabelsDoNotBelongToTheFrames) {
-  ASSERT_TRUE(waitForArrow());
-  ASSERT_TRUE(collect(12, -0.5)); // whatever was pressed
-  auto& table = find<QTableWidget>("labelledFrames");
-  EXPECT_FALSE(table.item(0, 6)->text().isEmpty()) << "what the network said stands beside the label";
-  ASSERT_TRUE(fit());
-  EXPECT_TRUE(find<QLabel>("calibrationReport").text().contains("A bad fit"));
-  EXPECT_TRUE(find<QLabel>("calibrationReport").text().contains("the model under these labels"));
-}
-
-TEST_F(LiveOperator, RefusesALoadThatMovesInsideAMean) {
-  ASSERT_TRUE(waitForArrow());
-  page.findChild<QTabWidget*>("curveTabs")->setCurrentIndex(1);
-  type<QSpinBox>("labelFrames", "120"); // longer than a touch of the demo
-  click("collect");
-  ASSERT_TRUE(isRed("calibrationProblem"));
-  EXPECT_TRUE(find<QLabel>("calibrationProblem").text().contains("moved")) << "nothing was said";
-  EXPECT_EQ(calibration().frames().samples().size(), 0);
-}
-
-TEST_F(LiveOperator, ANetworkThatCannotBeUsedLeavesTheOneInUse) {
-  ASSERT_TRUE(waitForArrow());
-  const QString broken = folder.filePath("broken.json");
-  QFile file(broken);
-  ASSERT_TRUE(file.open(QIODevice::WriteOnly));
-  file.write("{\"palp_network\": 1}");
-  file.close();
-  answerFileDialog(broken);
-  click("chooseNetwork");
-  ASSERT_TRUE(isRed("networkProblem"));
-  EXPECT_TRUE(find<QLabel>("networkProblem").text().contains("broken.json"));
-  EXPECT_EQ(workbench.project().live.network, "");
-  EXPECT_TRUE(page.host().decoder().has_value());
-  EXPECT_TRUE(find<QLabel>("networkName").text().startsWith("Palp's own"));
-  ASSERT_TRUE(waitForFrames());
-  EXPECT_TRUE(page.host().history().last()->forces.valid);
-}
 
 TEST_F(LiveOperator, DrawsNoCurveThroughTheTimeThatTheBoardWasOut) {
   ASSERT_TRUE(waitForFrames(20));
@@ -303,63 +101,6 @@ TEST_F(LiveOperator, PullingOutAndPluggingInMovesNoButton) {
   }
 }
 
-TEST_F(LiveOperator, PlaysARecordingFromAnyPlaceInALoopAndGoesBackToTheBoard) {
-  ASSERT_TRUE(waitForFrames());
-  const QString file = folder.filePath("touch.palprec");
-  ASSERT_TRUE(records(file, 60));
-  ASSERT_TRUE(plays(file));
-  auto& line = find<QSlider>("replayLine");
-  ASSERT_TRUE(wait([&] { return line.isVisible() && page.host().replay()->length_s > 0; }));
-  use([](LiveSettings& live) { live.replaySpeed = 0; });
-  ASSERT_TRUE(waitForState(LiveState::Ended));
-  EXPECT_TRUE(wait([&] { return find<QLabel>("liveBanner").property("role") == "note"; })) << "its end is no alarm";
-  EXPECT_NE(find<QLabel>("liveState").property("role"), "problem");
-
-  use([](LiveSettings& live) { live.replaySpeed = 0.1; });
-  const double length_s = page.host().replay()->length_s;
-  QTest::mouseClick(&line, Qt::LeftButton, {}, {line.width() / 2, line.height() / 2});
-  ASSERT_TRUE(wait([&] { return page.host().status().state == LiveState::Streaming; }));
-  ASSERT_TRUE(wait([&] { return page.host().replay()->position_s > 0.4 * length_s; }));
-  EXPECT_LT(page.host().replay()->position_s, 0.95 * length_s);
-
-  type<QDoubleSpinBox>("loopTo", QString::number(0.3 * length_s, 'f', 2));
-  find<QCheckBox>("replayLoop").click();
-  use([](LiveSettings& live) { live.replaySpeed = 2; });
-  const std::uint64_t frames = page.host().status().counts.frames;
-  ASSERT_TRUE(wait([&] { return page.host().status().counts.frames > frames + 100; })) << "more than it holds";
-  EXPECT_LE(page.host().replay()->position_s, 0.35 * length_s + 0.05);
-  EXPECT_EQ(page.host().status().counts.lost, 0U) << "what was skipped is no loss";
-
-  click("backToBoard");
-  ASSERT_TRUE(wait([&] { return page.host().simulated() && page.host().status().state == LiveState::Streaming; }));
-  EXPECT_TRUE(wait([&] { return !line.isVisible(); }));
-}
-
-TEST_F(LiveOperator, ReadsNothingWhileNobodyLooksUnlessItRecords) {
-  ASSERT_TRUE(waitForFrames());
-  const auto reports = [&] {
-    page.host().look();
-    return page.host().status().counts.reports;
-  };
-  const auto rests = [&] {
-    const std::uint64_t before = reports();
-    QTest::qWait(300);
-    return reports() == before;
-  };
-  page.hide();
-  EXPECT_TRUE(wait(rests));
-  page.show();
-  ASSERT_TRUE(waitForFrames());
-  recordTo(folder.filePath("touch.palprec"));
-  ASSERT_TRUE(startsToRecord());
-  page.hide();
-  const std::uint64_t before = page.host().status().recordedReports;
-  EXPECT_TRUE(wait([&] {
-    page.host().look();
-    return page.host().status().recordedReports > before + 300;
-  }));
-}
-
 TEST_F(LiveOperator, ZoomsAndMovesACurveWhileTheLiveOneWaits) {
   ASSERT_TRUE(waitForArrow());
   auto& chart = find<StripChart>("forceCurves");
@@ -439,6 +180,97 @@ TEST_F(LiveOperator, HoldsATouchWhereOnePressesAndHowOneTypes) {
   find<QCheckBox>("touchHeld").click();
   EXPECT_TRUE(wait([&] { return page.host().history().last()->forces.area != area; }))
       << "it goes over the areas again";
+}
+
+TEST_F(LiveOperator, TakesDecimalsAsTheyAreTyped) {
+  ASSERT_TRUE(waitForFrames());
+  find<QCheckBox>("touchHeld").click();
+  type<QDoubleSpinBox>("touch_Fz", "-3.75");
+  EXPECT_EQ(workbench.project().live.simulation.heldForce_N[2], -3.75);
+  type<QDoubleSpinBox>("alarmLimit", "-4.25");
+  EXPECT_EQ(workbench.project().live.alarm.limit_N, -4.25);
+  type<QDoubleSpinBox>("warming", "0.35");
+  EXPECT_EQ(workbench.project().live.simulation.warming_degC, 0.35);
+}
+
+TEST_F(LiveOperator, SetsATouchByKeysAlone) {
+  ASSERT_TRUE(waitForArrow());
+  const auto hand = [&]() -> const SimulationSettings& { return workbench.project().live.simulation; };
+  block().setFocus();
+  QTest::keyClick(&block(), Qt::Key_Return);
+  EXPECT_TRUE(hand().held);
+  QTest::keyClick(&block(), Qt::Key_Right);
+  EXPECT_EQ(hand().heldArea, 1);
+  QTest::keyClick(&block(), Qt::Key_Right, Qt::ShiftModifier);
+  QTest::keyClick(&block(), Qt::Key_Plus);
+  QTest::keyClick(&block(), Qt::Key_Plus);
+  QTest::keyClick(&block(), Qt::Key_Minus);
+  EXPECT_NEAR(hand().heldForce_N[0], 0.1, 1e-12);
+  EXPECT_NEAR(hand().heldForce_N[2], -2.1, 1e-12);
+  EXPECT_TRUE(wait([&] {
+    const LiveFrame* last = page.host().history().last();
+    return last->forces.valid && last->forces.area == 1 && std::abs(last->forces.forces_N(2, 0) + 2.1) < 0.05;
+  }));
+  for (int k = 0; k < 20; ++k) QTest::keyClick(&block(), Qt::Key_Left);
+  EXPECT_EQ(hand().heldArea, 0) << "there is no area beyond the edge";
+  QTest::keyClick(&block(), Qt::Key_Return);
+  EXPECT_FALSE(hand().held);
+  QTest::keyClick(&block(), Qt::Key_Right);
+  EXPECT_EQ(hand().heldArea, 0) << "nothing is pressed without the hand";
+}
+
+TEST_F(LiveOperator, SaysWhyAPressInThePictureDoesNothing) {
+  ASSERT_TRUE(waitForArrow());
+  QTest::mouseClick(&block(), Qt::LeftButton, {}, block().rect().center());
+  EXPECT_TRUE(said.join(' ').contains("Touch by hand"));
+  EXPECT_FALSE(workbench.project().live.simulation.held);
+}
+
+TEST_F(LiveOperator, ReadsZoomsAndMovesACurveByKeysAlone) {
+  ASSERT_TRUE(waitForArrow());
+  auto& chart = find<StripChart>("forceCurves");
+  chart.setFocus();
+  EXPECT_TRUE(chart.reading().isEmpty());
+  for (int k = 0; k < 3; ++k) QTest::keyClick(&chart, Qt::Key_Left, Qt::ControlModifier);
+  EXPECT_TRUE(chart.reading().contains("Fz ")) << chart.reading().toStdString();
+  EXPECT_TRUE(chart.reading().endsWith(" N")) << chart.reading().toStdString();
+  EXPECT_FALSE(chart.held()) << "the cursor alone holds nothing";
+  EXPECT_FALSE(chart.accessibleDescription().isEmpty());
+  const double window_s = chart.chart().window_s;
+  const double height = chart.chart().yRange[1] - chart.chart().yRange[0];
+  QTest::keyClick(&chart, Qt::Key_Plus);
+  EXPECT_LT(chart.chart().window_s, window_s);
+  QTest::keyClick(&chart, Qt::Key_PageUp);
+  EXPECT_LT(chart.chart().yRange[1] - chart.chart().yRange[0], height);
+  const double end_s = chart.chart().end_s;
+  QTest::keyClick(&chart, Qt::Key_Left);
+  EXPECT_LT(chart.chart().end_s, end_s);
+  QTest::keyClick(&chart, Qt::Key_Escape);
+  EXPECT_FALSE(chart.held());
+}
+
+TEST_F(LiveOperator, AnAlarmGoesOffOutOfSightAndIsToldUntilTheSceneIsSeen) {
+  ASSERT_TRUE(waitForFrames());
+  type<QDoubleSpinBox>("alarmLimit", "-1");
+  find<QCheckBox>("alarmOn").click();
+  ASSERT_TRUE(wait([&] { return page.host().status().alarms > 0; }));
+  page.hide();
+  const std::uint64_t before = page.host().status().alarms;
+  said.clear();
+  ASSERT_TRUE(wait([&] { return page.host().status().alarms > before + 1; })) << "nobody watches";
+  EXPECT_TRUE(said.join(' ').contains("is below -1 N"));
+  EXPECT_EQ(page.lamp().kind, LiveLampState::Kind::Alarm);
+  page.show();
+  EXPECT_TRUE(wait([&] { return page.lamp().kind == LiveLampState::Kind::Streams; })) << "the alarm was seen";
+  find<QCheckBox>("alarmOn").click();
+  page.hide();
+  QSignalSpy looked(&page, &LivePage::looked);
+  EXPECT_TRUE(wait([&] {
+    looked.clear();
+    QTest::qWait(700); // more than twice as long as there is between two looks
+    return looked.isEmpty();
+  })) << "it still looks";
+  EXPECT_EQ(page.lamp().kind, LiveLampState::Kind::Dark);
 }
 
 } // namespace

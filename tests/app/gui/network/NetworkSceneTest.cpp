@@ -307,8 +307,8 @@ TEST_F(NetworkScene, TheListOfNetworksIsKeptBesideTheProject) {
   ASSERT_TRUE(QTest::qWaitFor([&] { return network.fit()->decoder.report.spread == 3; }, kPatience_ms));
   ASSERT_TRUE(idle());
   const QTemporaryDir folder;
-  saveResults(folder.path().toStdString(), network.results());
-  const NetworkResults opened = openResults(folder.path().toStdString(), workbench.project().design, {});
+  saveResults(folder.path().toStdString(), network.results(), {});
+  const NetworkResults opened = openResults(folder.path().toStdString(), workbench.project().design, {}).results;
   ASSERT_EQ(opened.kept.size(), 2u);
   for (std::size_t k = 0; k < 2; ++k) {
     EXPECT_EQ(opened.kept[k]->settings, network.kept()[k]->settings);
@@ -316,10 +316,34 @@ TEST_F(NetworkScene, TheListOfNetworksIsKeptBesideTheProject) {
     EXPECT_EQ(opened.kept[k]->error.error.rmsePercentOfRange, network.kept()[k]->error.error.rmsePercentOfRange);
   }
   EXPECT_EQ(opened.fit, opened.kept[0]) << "the one that was shown";
-  NetworkResults less = network.results();
-  less.kept.pop_back();
-  saveResults(folder.path().toStdString(), less);
-  EXPECT_EQ(openResults(folder.path().toStdString(), workbench.project().design, {}).kept.size(), 1u);
+  auto& list = find<QTreeWidget>("trainedNetworks");
+  list.setCurrentItem(list.topLevelItem(1));
+  find<QTabWidget>("networkTabs").setCurrentIndex(3);
+  QTest::mouseClick(&find<QPushButton>("takeAway"), Qt::LeftButton);
+  saveResults(folder.path().toStdString(), network.results(), {});
+  const OpenedResults less = openResults(folder.path().toStdString(), workbench.project().design, {});
+  ASSERT_EQ(less.results.kept.size(), 1u);
+  EXPECT_EQ(less.results.kept[0]->made, opened.kept[0]->made);
+}
+
+TEST_F(NetworkScene, GeneratesTrainsAndSweepsFromTheNetworkScene) {
+  window.showScene("network");
+  EXPECT_FALSE(find<QPushButton>("train").isEnabled());
+  QTest::mouseClick(&find<QPushButton>("generate"), Qt::LeftButton);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.samples() != nullptr; }, kPatience_ms));
+  EXPECT_EQ(network.samples()->training.size(), 36);
+  EXPECT_NE(network.samples()->training.forces_N, network.samples()->test.forces_N);
+  ASSERT_TRUE(idle());
+  QTest::mouseClick(&find<QPushButton>("train"), Qt::LeftButton);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.fit() != nullptr; }, kPatience_ms));
+  ASSERT_TRUE(idle());
+  const NetworkFit* first = network.fit();
+  find<QDoubleSpinBox>("spread").setValue(2.5); // the error follows
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.fit() != first; }, kPatience_ms));
+  EXPECT_EQ(network.fit()->decoder.report.spread, 2.5);
+  ASSERT_TRUE(idle());
+  QTest::mouseClick(&find<QPushButton>("sweep"), Qt::LeftButton);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.sweepPoints().size() == 3; }, kPatience_ms));
 }
 
 } // namespace

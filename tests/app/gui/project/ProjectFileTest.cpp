@@ -113,6 +113,30 @@ TEST_F(ProjectFile, ReadsBackEverythingThatWasSet) {
   EXPECT_EQ(loadProject(path("project.json"), exampleProject()), project);
 }
 
+TEST_F(ProjectFile, KeepsTheBoardsBesideTheFirstAndRefusesMoreThanFit) {
+  Project project = exampleProject();
+  project.moreBoards.resize(2);
+  project.moreBoards[0].source = LiveSourceKind::Board;
+  project.moreBoards[0].device = "PALP-B";
+  project.moreBoards[1].simulation.seed = 7;
+  const std::string text = projectText(project).toStdString();
+  EXPECT_EQ(parseProject(QByteArray::fromStdString(text), "x.json", {}), project);
+  EXPECT_EQ(savedText().find("more_boards"), std::string::npos) << "one board needs no list";
+  const std::string wrong = refusal(with(text, "\"device\": \"PALP-B\"", "\"device\": 3"));
+  EXPECT_NE(wrong.find("more_boards[0].device"), std::string::npos) << wrong;
+  project.moreBoards.resize(Project::kMostBoards);
+  const std::string many = refusal(projectText(project).toStdString());
+  EXPECT_NE(many.find("at most 3 boards"), std::string::npos) << many;
+}
+
+TEST_F(ProjectFile, RefusesAlarmsThatAreNoNumbers) {
+  for (const char* limit : {"1e999", "\"5\"", "null", "-1001", "[]"}) {
+    const std::string said = refusal(with(savedText(), "\"limit_N\": -5", std::string("\"limit_N\": ") + limit));
+    EXPECT_FALSE(said.empty()) << limit;
+    EXPECT_EQ(said.find('\n'), std::string::npos) << said;
+  }
+}
+
 TEST_F(ProjectFile, ReadsTheCutOfAnOlderFile) {
   const std::string text = with(savedText(), "\"arrows\"", "\"clip_y_mm\": 7.25, \"arrows\"");
   std::ofstream(path("older.json")) << text;

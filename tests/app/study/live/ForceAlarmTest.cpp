@@ -9,7 +9,7 @@ TEST(ForceAlarm, GoesOffOnceAtItsSideAndIsOverWhereTheForceHasComeBack) {
   AlarmWatch watch;
   watch.set(ForceAlarm{ForceQuantity::Fz, AlarmSide::Below, -5});
   EXPECT_FALSE(watch.add(Eigen::Vector3d(6, 6, -4.99)));
-  EXPECT_EQ(watch.add(Eigen::Vector3d(0, 0, -5.5)), "alarm: Fz -5.5 N is below -5 N");
+  EXPECT_EQ(watch.add(Eigen::Vector3d(0, 0, -5.5)), "alarm: Fz -5.500 N is below -5 N");
   EXPECT_FALSE(watch.add(Eigen::Vector3d(0, 0, -4.9))) << "noise about the limit is one alarm";
   EXPECT_FALSE(watch.add(Eigen::Vector3d(0, 0, -5.1)));
   EXPECT_FALSE(watch.words().empty());
@@ -23,7 +23,7 @@ TEST(ForceAlarm, CountsTheLargestForceAndItsSize) {
   Eigen::Matrix3Xd forces_N = Eigen::Matrix3Xd::Zero(3, 2);
   EXPECT_FALSE(watch.add(forces_N));
   forces_N.col(1) = Eigen::Vector3d(3, 0, -4);
-  EXPECT_EQ(watch.add(forces_N), "alarm: |F| 5 N is above 4 N");
+  EXPECT_EQ(watch.add(forces_N), "alarm: |F| 5.000 N is above 4 N");
   watch.set({});
   EXPECT_FALSE(watch.add(forces_N));
   EXPECT_TRUE(watch.words().empty());

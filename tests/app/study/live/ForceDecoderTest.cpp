@@ -280,6 +280,24 @@ TEST(ForceDecoder, SaysThatTheBoardDoesNotScanItsRows) {
   });
 }
 
+TEST(ForceDecoder, SaysThatANetworkDrownsInTheNoise) {
+  TrainOptions options;
+  options.input = InputKind::Resistance;
+  options.rows = "4";
+  options.decoder = DecoderKind::Rbf; // without noise, of one row: it follows every change of the readings
+  VirtualStream stream = streamWith(noisy(kPlain));
+  ForceDecoder deaf(trainDecoder(manySamples(20), nullptr, options), stream.board().info(), paperDesign());
+  ForceDecoder good(decoderFor(kPlain), stream.board().info(), paperDesign());
+  std::string said;
+  bool doubted = false;
+  stream.run(200, [&](const BoardFrame& frame) {
+    said = deaf.decode(frame).doubt;
+    doubted = doubted || good.decode(frame).doubt.find("alone") != std::string::npos;
+  });
+  EXPECT_NE(said.find("the noise of the readings alone reads as"), std::string::npos) << said;
+  EXPECT_FALSE(doubted);
+}
+
 TEST(ForceDecoder, WarnsOutsideTheTrainingRange) {
   const SimulatedTouch touch(shippedSamples());
   const Eigen::MatrixXd hard = touch.resistances_ohm({2, {0, 0, -12}});

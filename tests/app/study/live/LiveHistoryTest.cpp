@@ -39,6 +39,32 @@ TEST(LiveHistory, GoesOnInHostTimeWhereTheBoardBeginsAnew) {
   EXPECT_DOUBLE_EQ(history.entries()[1].t_s - history.entries()[0].t_s, 7);
 }
 
+TEST(LiveHistory, HoldsNothingOfBeforeAJumpInARecording) {
+  LiveHistory history;
+  for (const double t_s : {10.0, 10.02, 10.04}) history.add(frame(t_s, t_s));
+  auto jumped = frame(10.06, 4);
+  jumped->jumps = 1;
+  history.add(jumped);
+  ASSERT_EQ(history.entries().size(), 1U);
+  EXPECT_DOUBLE_EQ(history.entries()[0].t_s, 4);
+}
+
+TEST(LiveHistory, WritesAMarkOnceWhereItBegins) {
+  const TemporaryFolder folder;
+  LiveHistory history;
+  for (int k = 0; k < 4; ++k) {
+    history.add(frame(k, k));
+    if (k >= 1) std::const_pointer_cast<LiveFrame>(history.entries().back().frame)->mark = "poke";
+  }
+  writeLiveCsv(folder / "a.csv", history);
+  std::ifstream file(folder / "a.csv");
+  std::string line;
+  std::vector<bool> marked;
+  std::getline(file, line);
+  while (std::getline(file, line)) marked.push_back(line.find("poke") != std::string::npos);
+  EXPECT_EQ(marked, (std::vector<bool>{false, true, false, false}));
+}
+
 TEST(LiveHistory, NeverRunsBackwardsNorGrowsWithoutEnd) {
   LiveHistory history;
   for (std::size_t k = 0; k < LiveHistory::kMostFrames + 500; ++k)

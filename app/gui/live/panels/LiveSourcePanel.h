@@ -18,7 +18,10 @@ namespace palp {
 /// What the panel shows of the running session.
 struct LiveSourceState {
   LiveStatus status;
-  std::vector<HidBoard> boards;
+  struct Board : HidBoard {
+    bool free = true; ///< no other one of the scene shows it
+  };
+  std::vector<Board> boards;
   bool replaying = false;
 };
 
@@ -31,10 +34,13 @@ public:
 
   void display(const LiveSettings& settings);
   void displayState(const LiveSourceState& state);
+  /// Another board may be shown beside this one.
+  void setMoreAllowed(bool allowed);
 
 signals:
   void edited(const QString& what, const LiveSettings& settings);
   void openAgainAsked();
+  void anotherAsked();
 
 private:
   QWidget* buildDevices();
@@ -48,6 +54,7 @@ private:
   QListWidget* devices_ = nullptr;
   QStringList listed_; ///< what stands in the list, so that it is filled only where that changed
   QPushButton* again_ = nullptr;
+  QPushButton* another_ = nullptr;
   QSpinBox* rate_ = nullptr;
   QComboBox* rows_ = nullptr;
 };

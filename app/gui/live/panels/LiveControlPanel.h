@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/gui/live/LiveHost.h"
 #include "app/gui/project/LiveSettings.h"
 #include "app/study/live/LiveSession.h"
 
@@ -21,9 +22,13 @@ namespace palp {
 struct LiveControlState {
   LiveStatus status;
   bool paused = false;
+  double recorded_s = 0; ///< since the recording was begun
   QString network;       ///< in words: name, decoder, wires, noise
   QString networkBefore; ///< the one that can be had back; empty: none
 };
+
+/// The network in use: name, decoder, wires, noise.
+QString networkWords(const LiveHost& host);
 
 /// What is done with the frames: network, tare, recording, marks, and the scales of the views.
 class LiveControlPanel : public QWidget {
@@ -49,9 +54,8 @@ signals:
   void markAsked(const QString& text);
   /// The network before is wanted back.
   void backAsked();
-  /// `replace`: the user has said that a file of this name may go.
+  /// A recording is to begin, or the one that runs is to end. `replace`: the user has said that a file of this name may go.
   void recordAsked(const QString& file, bool replace);
-  void stopRecordingAsked();
   void exportAsked(const QString& file);
 
 private:
@@ -77,6 +81,7 @@ private:
   QPushButton* record_ = nullptr;
   QLabel* recorded_ = nullptr;
   QString replaceable_;      ///< the file that the user said may go
+  QString recordedLast_;     ///< of a recording, what it came to
   QString recordingProblem_; ///< stays until the next recording
   QLineEdit* mark_ = nullptr;
   int marks_ = 0;

@@ -1,4 +1,4 @@
-#include "app/gui/live/SimulationPanel.h"
+#include "app/gui/live/panels/SimulationPanel.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -76,8 +76,10 @@ void SimulationPanel::buildDesign(QFormLayout& form) {
 void SimulationPanel::buildTouch(QFormLayout& form) {
   held_ = new QCheckBox(tr("Touch by hand"));
   held_->setObjectName("touchHeld");
-  held_->setToolTip(tr("Holds the touch below; press an area of the picture to move it there, and drag from there for "
-                       "the shear"));
+  held_->setToolTip(
+      tr("Holds the touch below; press an area of the picture to move it there, and drag from there for "
+         "the shear; in the picture Return takes it in hand, the arrows move it, + and - press, Shift and "
+         "the arrows shear"));
   form.addRow(held_);
   area_ = new QSpinBox;
   area_->setObjectName("touchArea");
@@ -174,6 +176,7 @@ void SimulationPanel::display(const LiveSettings& settings) {
   settings_ = settings;
   const SimulationSettings& simulation = settings.simulation;
   const auto put = [](auto* box, auto value) {
+    if (box->value() == value) return; // what is being typed stays as it is
     const QSignalBlocker quiet(box);
     box->setValue(value);
   };

@@ -1,4 +1,4 @@
-#include "app/gui/live/LiveControlPanel.h"
+#include "app/gui/live/panels/LiveControlPanel.h"
 
 #include "app/gui/widgets/SpinBoxes.h"
 
@@ -62,6 +62,18 @@ void setText(QLabel& label, const QString& text) {
 
 } // namespace
 
+QString networkWords(const LiveHost& host) {
+  const std::optional<Decoder>& decoder = host.decoder();
+  if (!decoder) return host.loading() ? QObject::tr("Reading the network...") : QObject::tr("No network.");
+  const QString rows = static_cast<int>(decoder->input.rows.size()) == decoder->input.rowWires
+                           ? QObject::tr("all rows")
+                           : QObject::tr("%1 rows").arg(decoder->input.rows.size());
+  return QObject::tr("%1: %2, %3, trained for noise %4")
+      .arg(host.networkName())
+      .arg(QString::fromStdString(name(decoder->kind)), rows)
+      .arg(decoder->noise, 0, 'g', 2);
+}
+
 LiveControlPanel::LiveControlPanel(QWidget* parent) : QWidget(parent) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
@@ -81,7 +93,7 @@ QWidget* LiveControlPanel::buildNetwork() {
   column->addWidget(networkProblem_);
   auto* open = button(tr("Open..."), "chooseNetwork",
                       tr("A network that reads resistances; one that cannot be used leaves this one"));
-  shipped_ = button(tr("The one of Palp"), "shippedNetwork",
+  shipped_ = button(tr("Palp's own"), "shippedNetwork",
                     tr("The network that ships with Palp: all rows of the paper's design, noise 5e-6 of R"));
   back_ = button(tr("Back"), "networkBack", tr("Back to the network that was in use before"));
   column->addLayout(beside({open, shipped_}));
@@ -117,12 +129,15 @@ QWidget* LiveControlPanel::buildRecording() {
   auto* choose = button(tr("..."), "chooseRecordFile", tr("Chooses the file"));
   choose->setMaximumWidth(32);
   column->addLayout(beside({file_, choose}));
-  record_ = button(tr("Record"), "record", tr("Writes the raw reports from now on; flushed each second (R)"));
+  record_ = button(tr("Record"), "record",
+                   tr("Writes the raw reports from now on; flushed each second (R; Shift+R ends it)"));
   record_->setCheckable(true);
   pause_ = button(tr("Pause"), "pause", tr("Holds the views; a recording goes on (Space)"));
   pause_->setCheckable(true);
   column->addLayout(beside({record_, pause_}));
   recorded_ = words("recorded", "hint");
+  recorded_->setAlignment(Qt::AlignTop);
+  recorded_->setMinimumHeight(2 * recorded_->fontMetrics().lineSpacing()); // what it says moves nothing below
   column->addWidget(recorded_);
   mark_ = new QLineEdit;
   mark_->setObjectName("markText");
@@ -130,8 +145,8 @@ QWidget* LiveControlPanel::buildRecording() {
   mark_->setToolTip(tr("What the event mark says, in the curves and in the recording"));
   auto* mark = button(tr("Mark"), "mark", tr("Marks this moment (M)"));
   column->addLayout(beside({mark_, mark}));
-  auto* csv =
-      button(tr("Export CSV..."), "exportLive", tr("What the curves hold: time, forces [N], dR/R of all cells"));
+  auto* csv = button(tr("Export CSV..."), "exportLive",
+                     tr("The frames that the curves hold, the last 60 s at most: time, forces [N], dR/R of all cells"));
   column->addWidget(csv);
   connect(choose, &QPushButton::clicked, this, [this] {
     const QString file =
@@ -157,10 +172,12 @@ QWidget* LiveControlPanel::buildRecording() {
 QWidget* LiveControlPanel::buildAlarm() {
   auto* box = new QGroupBox(tr("Alarm"));
   auto* row = new QHBoxLayout(box);
-  alarmOn_ = new QCheckBox;
+  alarmOn_ = new QCheckBox(tr("On"));
   alarmOn_->setObjectName("alarmOn");
   alarmOn_->setAccessibleName(tr("Alarm"));
-  alarmOn_->setToolTip(tr("Says where the decoded force passes the limit, marks it in the curves and in a recording"));
+  alarmOn_->setToolTip(
+      tr("Says where the decoded force passes the limit, marks it in the curves and in a recording. Goes off while "
+         "another scene is seen too: the board is read and decoded then, which takes some per cent of a core"));
   alarmForce_ = new QComboBox;
   alarmForce_->setObjectName("alarmForce");
   for (const auto& [value, text] : kForceQuantities.all()) alarmForce_->addItem(text, static_cast<int>(value));
@@ -262,12 +279,8 @@ QString LiveControlPanel::markText() const {
 }
 
 void LiveControlPanel::record() {
-  if (record_->isChecked()) {
-    const QString file = file_->text();
-    emit recordAsked(file, file == std::exchange(replaceable_, QString()));
-  } else {
-    emit stopRecordingAsked();
-  }
+  const QString file = file_->text();
+  emit recordAsked(file, file == std::exchange(replaceable_, QString()));
 }
 
 void LiveControlPanel::display(const LiveSettings& settings) {
@@ -279,8 +292,8 @@ void LiveControlPanel::display(const LiveSettings& settings) {
   alarmSide_->setCurrentIndex(static_cast<int>(settings.alarm.side));
   showExactly(*alarmLimit_, settings.alarm.limit_N);
   showExactly(*arrow_, settings.arrow_mm_per_N);
-  window_->setValue(static_cast<int>(settings.window_s));
-  tareFrames_->setValue(settings.tareFrames);
+  if (window_->value() != static_cast<int>(settings.window_s)) window_->setValue(static_cast<int>(settings.window_s));
+  if (tareFrames_->value() != settings.tareFrames) tareFrames_->setValue(settings.tareFrames);
   int place = change_->findData(settings.change_percent);
   if (place < 0) {
     change_->addItem(QString::fromUtf8("\u00b1%1 %").arg(settings.change_percent), settings.change_percent);
@@ -301,7 +314,11 @@ void LiveControlPanel::displayNetworkProblem(const QString& sentence) {
 }
 
 void LiveControlPanel::displayRecording(const QString& file, const QString& problem) {
-  if (problem.isEmpty()) file_->setText(file);
+  if (problem.isEmpty()) {
+    file_->setText(file);
+    file_->setCursorPosition(static_cast<int>(file.size())); // its name is seen
+    recordedLast_.clear();
+  }
   recordingProblem_ = problem;
   if (!problem.isEmpty()) record_->setChecked(false);
 }
@@ -319,18 +336,23 @@ void LiveControlPanel::displayState(const LiveControlState& state) {
   tare_->setDefault(status.tareSuggested);
   clearTare_->setEnabled(status.tared);
   pause_->setChecked(state.paused);
-  record_->setChecked(status.recording);
-  record_->setText(status.recording ? tr("Stop recording") : tr("Record"));
-  QString recorded;
+  const bool records = status.recording || status.recordingWaits;
+  record_->setChecked(records);
+  record_->setText(records ? tr("Stop recording") : tr("Record"));
   const QString problem =
       recordingProblem_.isEmpty() ? QString::fromStdString(status.recordingFailure) : recordingProblem_;
+  if (records)
+    recordedLast_ = tr("%1 s, %2 MB, %3 reports dropped")
+                        .arg(state.recorded_s, 0, 'f', 0)
+                        .arg(static_cast<double>(status.recordedReports) * kRecordedReport / kMegabyte, 0, 'f', 1)
+                        .arg(status.recordingDropped);
+  QString recorded = tr("Nothing is recorded.");
   if (!problem.isEmpty())
     recorded = problem;
-  else if (status.recording)
-    recorded = tr("%1 reports, %2 MB; %3 dropped")
-                   .arg(status.recordedReports)
-                   .arg(static_cast<double>(status.recordedReports) * kRecordedReport / kMegabyte, 0, 'f', 1)
-                   .arg(status.recordingDropped);
+  else if (status.recordingWaits)
+    recorded = tr("Waits for the board, then goes on: %1").arg(recordedLast_);
+  else if (!recordedLast_.isEmpty())
+    recorded = records ? tr("Records: %1").arg(recordedLast_) : tr("Recorded: %1").arg(recordedLast_);
   setRole(*recorded_, problem.isEmpty() ? "hint" : "problem");
   setText(*recorded_, recorded);
 }

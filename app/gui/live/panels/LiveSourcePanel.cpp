@@ -1,4 +1,4 @@
-#include "app/gui/live/LiveSourcePanel.h"
+#include "app/gui/live/panels/LiveSourcePanel.h"
 
 #include <QComboBox>
 #include <QFileDialog>
@@ -57,6 +57,13 @@ QWidget* LiveSourcePanel::buildDevices() {
   row->addWidget(open);
   row->addWidget(again_);
   column->addLayout(row);
+  another_ = new QPushButton(tr("Another board beside"));
+  another_->setObjectName("anotherBoard");
+  another_->setToolTip(
+      tr("Shows one more board beside this one, with settings, tare and recording of its own; where no "
+         "other is plugged in, a simulated one"));
+  column->addWidget(another_);
+  connect(another_, &QPushButton::clicked, this, &LiveSourcePanel::anotherAsked);
   connect(devices_, &QListWidget::itemClicked, this,
           [this](QListWidgetItem* item) { chooseDevice(devices_->row(item)); });
   connect(devices_, &QListWidget::itemActivated, this,
@@ -118,6 +125,7 @@ void LiveSourcePanel::chooseRecording() {
 
 void LiveSourcePanel::display(const LiveSettings& settings) {
   settings_ = settings;
+  listed_.clear(); // so that the line in use is the chosen one again
   const QSignalBlocker quietRate(rate_);
   rate_->setValue(settings.rate_Hz);
   const QSignalBlocker quiet(rows_);
@@ -139,14 +147,16 @@ void LiveSourcePanel::listDevices(const LiveSourceState& state) {
   std::vector<Line> lines{{stated(tr("First board, else simulated"), settings_.source == LiveSourceKind::Automatic),
                            LiveSourceKind::Automatic,
                            {}}};
-  for (const HidBoard& board : state.boards) {
+  for (const LiveSourceState::Board& board : state.boards) {
     const QString place = QString::fromStdString(board.path);
     const bool inUse = settings_.source == LiveSourceKind::Board &&
                        (settings_.device == board.serial || settings_.device == board.path);
     const bool twins = std::count_if(state.boards.begin(), state.boards.end(),
                                      [&](const HidBoard& other) { return other.serial == board.serial; }) > 1;
     lines.push_back({stated(QString::fromStdString(board.serial) + tr(" at ") + place, inUse,
-                            board.permission ? tr("ready") : tr("no permission")),
+                            !board.free        ? tr("shown beside")
+                            : board.permission ? tr("ready")
+                                               : tr("no permission")),
                      LiveSourceKind::Board, twins ? place : QString::fromStdString(board.serial)});
   }
   if (settings_.source == LiveSourceKind::Board && state.boards.empty())
@@ -175,6 +185,10 @@ void LiveSourcePanel::listDevices(const LiveSourceState& state) {
   }
   devices_->setFixedHeight(devices_->sizeHintForRow(0) * std::max(kFewestLines, devices_->count()) +
                            2 * devices_->frameWidth() + 2);
+}
+
+void LiveSourcePanel::setMoreAllowed(bool allowed) {
+  another_->setEnabled(allowed);
 }
 
 void LiveSourcePanel::displayState(const LiveSourceState& state) {

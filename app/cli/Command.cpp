@@ -1,0 +1,53 @@
+#include "app/cli/Command.h"
+
+#include <CLI/CLI.hpp>
+
+namespace palp {
+
+Option Option::required() {
+  option_->required();
+  return *this;
+}
+
+Option Option::needs(Option other) {
+  option_->needs(other.option_);
+  return *this;
+}
+
+Option Option::excludes(Option other) {
+  option_->excludes(other.option_);
+  return *this;
+}
+
+Option Option::oneOf(const std::vector<std::string>& allowed) {
+  option_->check(CLI::IsMember(allowed));
+  return *this;
+}
+
+Option Option::byDefault(const std::string& value) {
+  option_->default_val(value);
+  return *this;
+}
+
+Option Option::oneValueEach() {
+  option_->allow_extra_args(false);
+  return *this;
+}
+
+Option Command::flag(const std::string& names, bool& value, const std::string& what) {
+  return Option(app_->add_flag(names, value, what));
+}
+
+Option Command::option(const std::string& names, std::string& value, const std::string& what) {
+  return Option(app_->add_option(names, value, what));
+}
+
+Option Command::option(const std::string& names, std::filesystem::path& value, const std::string& what) {
+  return Option(app_->add_option(names, value, what));
+}
+
+Option Command::option(const std::string& names, std::vector<std::string>& values, const std::string& what) {
+  return Option(app_->add_option(names, values, what));
+}
+
+} // namespace palp

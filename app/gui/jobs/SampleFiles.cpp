@@ -1,0 +1,156 @@
+#include "app/gui/jobs/SampleFiles.h"
+
+#include "app/gui/jobs/FilesTogether.h"
+#include "app/gui/jobs/NetworkSession.h"
+#include "app/study/paper/PaperProtocol.h"
+#include "io/DesignFile.h"
+#include "io/SampleFile.h"
+#include "model/base/Cancelled.h"
+#include "model/base/Error.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+namespace palp {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kHeldOut = 5; ///< one sample of so many tests, where no set of its own does
+
+/// Shards of one request, and the file that is named where they do not fit.
+struct Shards {
+  fs::path file;
+  std::vector<SampleSet> parts;
+};
+
+SampleSet joined(Shards shards) {
+  std::sort(shards.parts.begin(), shards.parts.end(),
+            [](const SampleSet& a, const SampleSet& b) { return a.origin.firstSample < b.origin.firstSample; });
+  SampleSet all;
+  for (const SampleSet& part : shards.parts) {
+    const std::size_t next = part.origin.firstSample, held = static_cast<std::size_t>(all.size());
+    if (next != held)
+      throw Error(shards.file.string() + ": its samples begin with number " + std::to_string(next) +
+                  ", but those before it end with " + std::to_string(held) + "; choose all parts, each once");
+    append(all, part);
+  }
+  return all;
+}
+
+SampleSet columns(const SampleSet& set, const std::vector<Eigen::Index>& chosen) {
+  SampleSet part = set;
+  part.area = set.area(chosen);
+  part.forces_N = set.forces_N(Eigen::all, chosen);
+  part.displacements_mm = set.displacements_mm(Eigen::all, chosen);
+  part.resistances_ohm = set.resistances_ohm(Eigen::all, chosen);
+  return part;
+}
+
+/// Every fifth sample of each area goes to the second set.
+std::array<SampleSet, 2> heldOut(const SampleSet& all) {
+  std::array<std::vector<Eigen::Index>, 2> chosen;
+  std::vector<int> met(static_cast<std::size_t>(all.areaCount), 0);
+  for (Eigen::Index s = 0; s < all.size(); ++s) {
+    const int before = met[static_cast<std::size_t>(all.area(s))]++;
+    chosen[before % kHeldOut == kHeldOut - 1 ? 1 : 0].push_back(s);
+  }
+  return {columns(all, chosen[0]), columns(all, chosen[1])};
+}
+
+void requireOf(const SensorDesign& design, const SampleSet& set, const fs::path& file) {
+  const std::string ours = designFingerprint(design);
+  if (set.origin.designFingerprint != ours)
+    throw Error(file.string() + ": its samples are of the design " + set.origin.designFingerprint +
+                "; the design that is open is " + ours + ": open the one they were made of first");
+  if (set.together())
+    throw Error(file.string() + ": its samples load all areas together; allowed here are samples of one area each");
+}
+
+} // namespace
+
+fs::path testFileOf(const fs::path& file) {
+  return file.parent_path() / (file.stem().string() + "-test" + file.extension().string());
+}
+
+void addSamples(FilesTogether& writing, const fs::path& file, const NetworkSamples& samples) {
+  writing.add(testFileOf(file), [&](const fs::path& beside) { saveSamples(beside, samples.test, true); });
+  writing.add(file, [&](const fs::path& beside) { saveSamples(beside, samples.training, true); });
+}
+
+void saveSampleFiles(const fs::path& file, const NetworkSamples& samples) {
+  FilesTogether writing;
+  addSamples(writing, file, samples);
+  writing.commit();
+}
+
+namespace {
+
+/// Samples of one request, shard by shard, and of another one where there is one. `test`: this file's are for testing,
+/// whatever request it says.
+std::vector<Shards> requestsOf(const std::vector<fs::path>& files, const fs::path& test, const SensorDesign& design,
+                               const std::stop_token& stop) {
+  std::vector<Shards> requests;
+  std::optional<Shards> testing;
+  for (const fs::path& file : files) {
+    if (stop.stop_requested()) throw Cancelled();
+    SampleSet set = loadSamples(file);
+    requireOf(design, set, file);
+    const auto same = std::find_if(requests.begin(), requests.end(), [&](const Shards& request) {
+      return difference(request.parts[0].origin, set.origin).empty();
+    });
+    if (file == test)
+      testing = Shards{file, {std::move(set)}};
+    else if (same == requests.end())
+      requests.push_back({file, {std::move(set)}});
+    else
+      same->parts.push_back(std::move(set));
+  }
+  if (testing) requests.push_back(std::move(*testing));
+  return requests;
+}
+
+/// The one of two files that is for testing by its name.
+fs::path testAmong(const std::vector<fs::path>& files) {
+  if (files.size() != 2) return {};
+  if (files[1] == testFileOf(files[0])) return files[1];
+  return files[0] == testFileOf(files[1]) ? files[0] : fs::path();
+}
+
+} // namespace
+
+NetworkSamples openTheseSampleFiles(const std::vector<fs::path>& files, const SensorDesign& design,
+                                    const std::stop_token& stop) {
+  const fs::path test = testAmong(files);
+  std::vector<Shards> requests = requestsOf(files, test, design, stop);
+  if (requests.size() > 2)
+    throw Error(requests[2].file.string() + ": its samples belong to neither of the two sets before it (" +
+                difference(requests[0].parts[0].origin, requests[2].parts[0].origin) +
+                "); allowed is one set for training and one for testing");
+  const auto seed = [&](std::size_t k) { return requests[k].parts[0].origin.seed; };
+  if (test.empty() && requests.size() == 2 && seed(0) == testSeed(seed(1))) std::swap(requests[0], requests[1]);
+  NetworkSamples samples;
+  samples.training = joined(std::move(requests[0]));
+  if (requests.size() == 2) {
+    samples.test = joined(std::move(requests[1]));
+  } else {
+    std::array<SampleSet, 2> sets = heldOut(samples.training);
+    samples.training = std::move(sets[0]);
+    samples.test = std::move(sets[1]);
+  }
+  if (samples.training.size() == 0 || samples.test.size() == 0)
+    throw Error(files[0].string() + ": too few samples to train with and to test with");
+  samples.settings = {samples.training.origin.perArea, samples.training.origin.seed};
+  return samples;
+}
+
+NetworkSamples openSampleFiles(const std::vector<fs::path>& files, const SensorDesign& design,
+                               const std::stop_token& stop) {
+  std::vector<fs::path> all = files;
+  if (files.size() == 1 && fs::exists(testFileOf(files[0]))) all.push_back(testFileOf(files[0]));
+  return openTheseSampleFiles(all, design, stop);
+}
+
+} // namespace palp

@@ -1,0 +1,92 @@
+#include "app/gui/jobs/SampleGeneration.h"
+
+#include "app/study/paper/PaperProtocol.h"
+#include "app/study/touch/SampleGenerator.h"
+
+#include <algorithm>
+
+namespace palp {
+
+namespace {
+
+/// An empty set made wide enough for all that is asked.
+SampleSet allocated(SampleSet set, std::size_t total) {
+  const auto columns = static_cast<Eigen::Index>(total);
+  set.area.resize(columns);
+  set.forces_N.resize(3, columns);
+  set.displacements_mm.resize(3 * set.rowWires * set.electrodesPerRowWire, columns);
+  set.resistances_ohm.resize(set.rowWires * set.columnWires, columns);
+  return set;
+}
+
+void put(SampleSet& set, const SampleSet& block, std::size_t at) {
+  const auto first = static_cast<Eigen::Index>(at);
+  set.area.segment(first, block.size()) = block.area;
+  set.forces_N.middleCols(first, block.size()) = block.forces_N;
+  set.displacements_mm.middleCols(first, block.size()) = block.displacements_mm;
+  set.resistances_ohm.middleCols(first, block.size()) = block.resistances_ohm;
+}
+
+} // namespace
+
+bool SampleGeneration::make(StageLog& stages, const std::stop_token& stop, JobProgress& progress) {
+  progress.set(-1, "Meshing and preparing the solver");
+  clock_.start();
+  left_ = {};
+  for (const std::size_t set : {0, 1})
+    if (!makeSet(set, stages, stop, progress)) return false;
+  return true;
+}
+
+bool SampleGeneration::makeSet(std::size_t set, StageLog& stages, const std::stop_token& stop, JobProgress& progress) {
+  const double begun_s = now_s();
+  SampleRequest request;
+  request.perArea = settings_.perArea;
+  request.surrogate = settings_.surrogate;
+  request.seed = set == 1 ? testSeed(settings_.seed) : settings_.seed;
+  request.mesh = mesh_;
+  SampleGenerator generator(design_, request);
+  total_[set] = generator.total();
+  const std::size_t kept = made_[set];
+  if (kept == total_[set] && kept > 0) return true;
+  SampleSet empty = generator.emptySet(stop); // prepares
+  if (stop.stop_requested()) return false;
+  if (kept == 0) sets_[set] = allocated(std::move(empty), total_[set]);
+  preparation_s_ = now_s() - begun_s;
+  left_.begin(static_cast<double>(made_[0] + made_[1]), now_s());
+  generator.generate(
+      {kept, total_[set]},
+      [&](const SampleSet& block) {
+        put(sets_[set], block, made_[set]);
+        made_[set] += static_cast<std::size_t>(block.size());
+      },
+      [&](std::size_t done) { report(set, kept + done, progress); }, stop);
+  left_.pause(static_cast<double>(made_[0] + made_[1]), now_s());
+  batchError_ = std::max(batchError_, generator.measuredError());
+  stages.add(generator.stages());
+  return made_[set] == total_[set];
+}
+
+void SampleGeneration::report(std::size_t set, std::size_t done, JobProgress& progress) const {
+  const std::size_t all = 2 * total_[set], there = done + (set == 1 ? total_[0] : 0);
+  std::optional<double> left_s = left_.left_s(static_cast<double>(there), static_cast<double>(all), now_s());
+  if (left_s && set == 0) *left_s += preparation_s_; // of the samples for testing
+  progress.set(static_cast<double>(there) / static_cast<double>(all),
+               "Sample " + std::to_string(there) + " of " + std::to_string(all) + leftInWords(left_s));
+}
+
+std::shared_ptr<const NetworkSamples> SampleGeneration::samples() {
+  auto all = std::make_shared<NetworkSamples>();
+  all->training = std::move(sets_[0]);
+  all->test = std::move(sets_[1]);
+  all->batchError = batchError_;
+  all->settings = settings_;
+  return all;
+}
+
+std::array<std::size_t, 2> SampleGeneration::state() const {
+  if (made_[0] == 0) return {0, 0};
+  return {made_[0] + made_[1], 2 * total_[0]};
+}
+
+} // namespace palp

@@ -1,0 +1,247 @@
+#include "app/gui/live/LiveBoards.h"
+
+#include "app/gui/widgets/AccessibleNames.h"
+#include "app/gui/window/SidePanel.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QMessageBox>
+#include <QPushButton>
+#include <QSplitter>
+#include <QVBoxLayout>
+
+#include <algorithm>
+
+namespace palp {
+
+namespace {
+
+constexpr int kLeaving_ms = 50;
+constexpr int kPanelShare = 700; // of a board's width, beside 1000 of its views
+
+} // namespace
+
+LiveBoards::LiveBoards(Workbench& workbench, BoardAccess access, QWidget* parent)
+    : Scene(parent), workbench_(workbench), boards_(std::make_shared<SharedBoards>(std::move(access))) {
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  row_ = new QSplitter(Qt::Horizontal);
+  row_->setChildrenCollapsible(false);
+  column->addWidget(row_);
+  leavingTimer_.setInterval(kLeaving_ms);
+  connect(&leavingTimer_, &QTimer::timeout, this, &LiveBoards::tidy);
+  connect(&workbench_, &Workbench::projectChanged, this, [this] {
+    if (isVisible()) follow();
+  });
+  build();
+  arrange();
+}
+
+LiveBoards::~LiveBoards() {
+  qDeleteAll(leaving_);
+}
+
+void LiveBoards::showEvent(QShowEvent* event) {
+  Scene::showEvent(event);
+  follow();
+}
+
+/// As many pages as the project has boards.
+void LiveBoards::follow() {
+  const std::size_t wanted = workbench_.project().boards();
+  if (wanted == cells_.size()) return;
+  while (cells_.size() > wanted) takeAway(cells_.size() - 1);
+  while (cells_.size() < wanted) build();
+  arrange();
+}
+
+void LiveBoards::build() {
+  const std::size_t board = cells_.size();
+  Cell cell;
+  cell.box = new QWidget;
+  auto* column = new QVBoxLayout(cell.box);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  cell.head = new QWidget;
+  auto* head = new QHBoxLayout(cell.head);
+  head->setContentsMargins(8, 6, 8, 0);
+  cell.title = new QLabel;
+  cell.title->setObjectName("boardTitle");
+  cell.title->setProperty("role", "title");
+  cell.title->setProperty("mayBeCut", true); // its tip has all of it
+  cell.title->setMinimumWidth(10);
+  auto* away = new QPushButton(tr("Take away"));
+  away->setObjectName("takeBoardAway");
+  away->setToolTip(tr("Shows this board no longer; what is recorded stays in its file"));
+  head->addWidget(cell.title, 1);
+  head->addWidget(away);
+  cell.page = new LivePage(workbench_, boards_->accessOf(readers_++), board);
+  cell.page->setObjectName("board");
+  cell.page->setTheme(theme_);
+  column->addWidget(cell.head);
+  column->addWidget(cell.page, 1);
+  LivePage* page = cell.page;
+  connect(away, &QPushButton::clicked, this, [this, page] { remove(page); });
+  connect(page, &LivePage::anotherAsked, this, &LiveBoards::add);
+  connect(page, &LivePage::looked, this, [this] {
+    if (cells_.size() > 1 && isVisible()) displayTitles();
+    emit looked();
+  });
+  connect(page, &LivePage::message, this, [this, page](const QString& sentence) {
+    const auto its = std::find_if(cells_.begin(), cells_.end(), [&](const Cell& c) { return c.page == page; });
+    emit message(cells_.size() > 1 ? tr("Board %1: %2").arg(its - cells_.begin()).arg(sentence) : sentence);
+  });
+  cells_.push_back(cell);
+  nameControls(*cell.box);
+  row_->addWidget(cell.box);
+}
+
+/// The board's place, name and state stand over its page where there are several.
+void LiveBoards::arrange() {
+  const bool several = cells_.size() > 1;
+  for (std::size_t k = 0; k < cells_.size(); ++k) {
+    cells_[k].head->setVisible(several);
+    cells_[k].page->setMoreAllowed(cells_.size() < Project::kMostBoards);
+  }
+  row_->setSizes(QList<int>(static_cast<int>(cells_.size()), width()));
+  setFocusProxy(cells_[0].page);
+  displayTitles();
+  emit countChanged();
+}
+
+void LiveBoards::displayTitles() {
+  for (std::size_t k = 0; k < cells_.size(); ++k) {
+    const LiveStatus& status = cells_[k].page->host().status();
+    const QString source = QString::fromStdString(status.source);
+    QString words = tr("Board %1").arg(k) + (source.isEmpty() ? QString() : ": " + source);
+    words += QString::fromUtf8(" \u2014 ") + QString::fromLatin1(name(status.state));
+    if (status.recording) words += tr(", recording");
+    if (cells_[k].title->text() == words) continue;
+    cells_[k].title->setText(words);
+    cells_[k].title->setToolTip(words);
+    cells_[k].page->setAccessibleName(words);
+  }
+}
+
+/// The first board that nobody shows yet; where there is none, a simulated one that does not do what the others do.
+LiveSettings LiveBoards::settingsOfAnother() const {
+  LiveSettings settings = workbench_.project().live;
+  settings.source = LiveSourceKind::Simulated;
+  settings.device.clear();
+  for (std::size_t k = 0; k < cells_.size(); ++k)
+    settings.simulation.seed = std::max(settings.simulation.seed, workbench_.project().board(k).simulation.seed + 1);
+  const std::vector<HidBoard> there = cells_[0].page->host().boards();
+  for (const HidBoard& board : there) {
+    const bool shown = std::any_of(cells_.begin(), cells_.end(), [&](const Cell& cell) {
+      const LiveSettings& other = cell.page->host().settings();
+      return (other.source == LiveSourceKind::Board && (other.device == board.path || other.device == board.serial));
+    });
+    if (shown || !boards_->free(board.path, readers_)) continue;
+    const auto twins =
+        std::count_if(there.begin(), there.end(), [&](const HidBoard& other) { return other.serial == board.serial; });
+    settings.source = LiveSourceKind::Board;
+    settings.device = twins > 1 ? board.path : board.serial;
+    break;
+  }
+  return settings;
+}
+
+void LiveBoards::add() {
+  if (cells_.size() >= Project::kMostBoards) return;
+  Project next = workbench_.project();
+  next.moreBoards.push_back(settingsOfAnother());
+  workbench_.edit(tr("another board"), next);
+  // The panel of the new one alone, so that all have room.
+  for (std::size_t k = 0; k < cells_.size(); ++k)
+    for (auto* panel : cells_[k].box->findChildren<SidePanel*>()) panel->setFolded(k + 1 < cells_.size());
+  QList<int> widths(static_cast<int>(cells_.size()), 1000); // shares
+  widths.back() += kPanelShare;
+  row_->setSizes(widths);
+  cells_.back().page->setFocus();
+}
+
+void LiveBoards::remove(LivePage* page) {
+  const auto cell = std::find_if(cells_.begin(), cells_.end(), [&](const Cell& c) { return c.page == page; });
+  if (cell == cells_.end() || cells_.size() < 2) return;
+  if (page->host().recording()) {
+    const auto answer =
+        QMessageBox::question(this, tr("Take the board away"),
+                              tr("It is being recorded to %1. End the recording and take the board away?")
+                                  .arg(QString::fromStdString(page->host().recordingFile().string())));
+    if (answer != QMessageBox::Yes) return;
+  }
+  const auto board = static_cast<std::size_t>(cell - cells_.begin());
+  Project next = workbench_.project();
+  if (board == 0) next.live = next.moreBoards.front();
+  next.moreBoards.erase(next.moreBoards.begin() + static_cast<std::ptrdiff_t>(board == 0 ? 0 : board - 1));
+  takeAway(board);
+  for (std::size_t k = 0; k < cells_.size(); ++k) cells_[k].page->setBoard(k);
+  workbench_.edit(tr("board taken away"), next);
+  if (cells_.size() == 1)
+    for (auto* panel : cells_[0].box->findChildren<SidePanel*>()) panel->setFolded(false);
+  arrange();
+}
+
+/// Its session ends without the window's waiting.
+void LiveBoards::takeAway(std::size_t board) {
+  const Cell cell = cells_[board];
+  cells_.erase(cells_.begin() + static_cast<std::ptrdiff_t>(board));
+  cell.page->disconnect(this);
+  cell.page->setParent(nullptr); // hides it
+  for (JobRunner* runner : cell.page->runners()) runner->cancel();
+  cell.page->host().close();
+  delete cell.box;
+  leaving_.push_back(cell.page);
+  leavingTimer_.start();
+}
+
+void LiveBoards::tidy() {
+  std::erase_if(leaving_, [](LivePage* page) {
+    const std::vector<JobRunner*> runners = page->runners();
+    const bool works = std::any_of(runners.begin(), runners.end(), [](const JobRunner* job) { return job->running(); });
+    if (works || !page->host().closed()) return false;
+    page->deleteLater();
+    return true;
+  });
+  if (leaving_.empty()) leavingTimer_.stop();
+}
+
+void LiveBoards::setTheme(Theme theme) {
+  theme_ = theme;
+  for (const Cell& cell : cells_) cell.page->setTheme(theme);
+}
+
+bool LiveBoards::complete() const {
+  return std::all_of(cells_.begin(), cells_.end(), [](const Cell& cell) { return cell.page->complete(); });
+}
+
+std::vector<JobRunner*> LiveBoards::runners() {
+  std::vector<JobRunner*> all;
+  for (const Cell& cell : cells_)
+    for (JobRunner* runner : cell.page->runners()) all.push_back(runner);
+  return all;
+}
+
+QString LiveBoards::commands(const Project& project, const QString& designFile) const {
+  QStringList lines;
+  for (const Cell& cell : cells_) lines << cell.page->commands(project, designFile);
+  return lines.join('\n');
+}
+
+std::vector<LiveLampState> LiveBoards::lamps() const {
+  std::vector<LiveLampState> lamps;
+  for (std::size_t k = 0; k < cells_.size(); ++k) {
+    lamps.push_back(cells_[k].page->lamp());
+    if (cells_.size() > 1) lamps.back().words = tr("Board %1: %2").arg(k).arg(lamps.back().words);
+  }
+  return lamps;
+}
+
+QString LiveBoards::recording() const {
+  QStringList files;
+  for (const Cell& cell : cells_)
+    if (cell.page->host().recording()) files << QString::fromStdString(cell.page->host().recordingFile().string());
+  return files.join(", ");
+}
+
+} // namespace palp

@@ -1,0 +1,89 @@
+#include "app/gui/live/LiveLamp.h"
+
+#include <QStyle>
+
+namespace palp {
+
+namespace {
+
+constexpr int kSecondsOfAMinute = 60;
+
+QString roleOf(LiveLampState::Kind kind) {
+  switch (kind) {
+  case LiveLampState::Kind::Records:
+    return "records";
+  case LiveLampState::Kind::Alarm:
+    return "alarm";
+  case LiveLampState::Kind::Dark:
+  case LiveLampState::Kind::Streams:
+    break;
+  }
+  return "streams";
+}
+
+QString timeOf(double seconds) {
+  const int whole = static_cast<int>(seconds);
+  return QString("%1:%2").arg(whole / kSecondsOfAMinute).arg(whole % kSecondsOfAMinute, 2, 10, QChar('0'));
+}
+
+} // namespace
+
+QString LiveWatch::take(const LiveHost& host, bool seen) {
+  const LiveStatus& status = host.status();
+  if (seen) unseen_ = 0;
+  if (status.alarms < alarms_) alarms_ = 0; // another session
+  const std::uint64_t fresh = status.alarms - alarms_;
+  alarms_ = status.alarms;
+  if (fresh == 0) return {};
+  if (!seen) unseen_ += static_cast<int>(fresh);
+  return QString::fromStdString(status.lastAlarm);
+}
+
+LiveLampState LiveWatch::state(const LiveHost& host, bool seen) const {
+  const LiveStatus& status = host.status();
+  const QString file = QString::fromStdString(host.recordingFile().filename().string());
+  const QString recording =
+      status.recordingWaits ? QObject::tr("Recording %1 waits for the board").arg(file)
+      : status.recording    ? QObject::tr("Recording %1, %2").arg(file, timeOf(hostClock_s() - host.recordingSince_s()))
+                            : QString();
+  if (!status.alarm.empty() || unseen_ > 0) {
+    QString words = QString::fromStdString(status.alarm.empty() ? status.lastAlarm : status.alarm);
+    words.replace(0, 1, words.left(1).toUpper());
+    if (unseen_ > 1) words += QObject::tr(" (%1 times)").arg(unseen_);
+    return {LiveLampState::Kind::Alarm, recording.isEmpty() ? words : words + "; " + recording};
+  }
+  if (!recording.isEmpty()) return {LiveLampState::Kind::Records, recording};
+  const QString source = QString::fromStdString(status.source);
+  if (status.state != LiveState::Streaming) {
+    const bool missing = host.worksHidden() && !seen;
+    return missing ? LiveLampState{LiveLampState::Kind::Alarm, QObject::tr("Nothing is watched: the board is %1")
+                                                                   .arg(QString::fromLatin1(name(status.state)))}
+                   : LiveLampState{};
+  }
+  if (seen) return {LiveLampState::Kind::Streams, QObject::tr("Live: %1").arg(source)};
+  return host.worksHidden() ? LiveLampState{LiveLampState::Kind::Streams, QObject::tr("Alarm watches: %1").arg(source)}
+                            : LiveLampState{};
+}
+
+LiveLamp::LiveLamp(QWidget* parent) : QToolButton(parent) {
+  setObjectName("liveLamp");
+  setAutoRaise(true);
+  setProperty("role", "streams");
+  hide();
+}
+
+void LiveLamp::display(const LiveLampState& state) {
+  if (state == state_) return;
+  state_ = state;
+  setVisible(state.kind != LiveLampState::Kind::Dark);
+  setText(QString::fromUtf8("\u25CF ") + state.words);
+  setAccessibleName(state.words);
+  setToolTip(tr("%1. A click leads to the Live scene; only its Record button ends a recording.").arg(state.words));
+  const QString role = roleOf(state.kind);
+  if (property("role").toString() == role) return;
+  setProperty("role", role);
+  style()->unpolish(this);
+  style()->polish(this);
+}
+
+} // namespace palp

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "app/gui/live/LiveHost.h"
+
+#include <QToolButton>
+
+namespace palp {
+
+/// What a board does, for those who look at another scene.
+struct LiveLampState {
+  enum class Kind { Dark, Streams, Records, Alarm };
+  Kind kind = Kind::Dark;
+  QString words;
+
+  bool operator==(const LiveLampState&) const = default;
+};
+
+/// Remembers alarms until the scene is seen again.
+class LiveWatch {
+public:
+  /// After each look of the host; says a new alarm in words, once.
+  QString take(const LiveHost& host, bool seen);
+  [[nodiscard]] LiveLampState state(const LiveHost& host, bool seen) const;
+
+private:
+  std::uint64_t alarms_ = 0; ///< that were said
+  int unseen_ = 0;
+};
+
+/// A lamp in the window's status line; a click leads to the Live scene.
+class LiveLamp : public QToolButton {
+  Q_OBJECT
+
+public:
+  explicit LiveLamp(QWidget* parent = nullptr);
+
+  void display(const LiveLampState& state);
+  [[nodiscard]] const LiveLampState& state() const { return state_; }
+
+private:
+  LiveLampState state_;
+};
+
+} // namespace palp

@@ -1,0 +1,116 @@
+// What the Live page draws of what has come.
+
+#include "app/gui/live/LiveBanner.h"
+#include "app/gui/live/LiveCalibration.h"
+#include "app/gui/live/LiveCounters.h"
+#include "app/gui/live/LiveCurves.h"
+#include "app/gui/live/LiveDrawings.h"
+#include "app/gui/live/LivePage.h"
+#include "app/gui/live/LiveTwin.h"
+#include "app/gui/live/LiveView.h"
+#include "app/gui/live/panels/LiveControlPanel.h"
+#include "app/gui/live/panels/LiveSourcePanel.h"
+#include "app/gui/live/panels/SimulationPanel.h"
+#include "app/gui/views/HeatmapView.h"
+
+#include <QSplitter>
+#include <QTabWidget>
+
+#include <algorithm>
+
+namespace palp {
+
+namespace {
+
+constexpr double kColorSteps = 256; // a smaller change of a cell is not seen
+constexpr int kNarrow_px = 640;     // narrower views stand one above the other
+
+/// Some cell has another colour than it was drawn with.
+bool looksDifferent(const Eigen::MatrixXd& now, const Eigen::MatrixXd& drawn, double step) {
+  if (now.rows() != drawn.rows() || now.cols() != drawn.cols()) return true;
+  if ((now.array().isNaN() != drawn.array().isNaN()).any()) return true;
+  return ((now - drawn).array().abs() > step).any();
+}
+
+} // namespace
+
+/// Several boards share the window's width.
+void LivePage::arrangeViews() {
+  const bool narrow = upper_->parentWidget()->width() < kNarrow_px;
+  const Qt::Orientation way = narrow ? Qt::Vertical : Qt::Horizontal;
+  if (upper_->orientation() != way) upper_->setOrientation(way);
+  if (curves_->orientation() != way) curves_->setOrientation(way);
+}
+
+/// All views anew.
+void LivePage::draw() {
+  block_->showSensor(host_.sensor(), host_.settings().arrow_mm_per_N, true);
+  drawnChange_.resize(0, 0);
+  drawForces();
+  drawHeatmap();
+  drawCurves();
+}
+
+void LivePage::setTheme(Theme theme) {
+  block_->setTheme(theme);
+  twin_->setTheme(theme);
+  heatmap_->setTheme(theme);
+  curves_->setTheme(theme);
+}
+
+void LivePage::drawState() {
+  const LiveStatus& status = host_.status();
+  const bool simulated = host_.simulated();
+  counters_->display(status, host_.history().last(), simulated, host_.replaying());
+  std::vector<LiveSourceState::Board> boards;
+  for (const HidBoard& board : host_.boards()) boards.push_back({board, host_.free(board)});
+  source_->displayState({status, std::move(boards), host_.replaying()});
+  simulation_->setVisible(simulated);
+  simulation_->displayState({host_.pluggedIn(), host_.simulatesOwnDesign(), host_.simulatedSensor().areas.count(),
+                             host_.simulator().running()});
+  const SimulationSettings& hand = host_.settings().simulation;
+  block_->setPressable(simulated && hand.held, hand.heldArea);
+  control_->displayState(
+      {status, host_.paused(), hostClock_s() - host_.recordingSince_s(), networkWords(host_), host_.networkBefore()});
+  calibration_->displayState();
+  banner_->display(host_);
+  const bool streams = status.state == LiveState::Streaming || status.state == LiveState::Paused;
+  if (!streams) drawForces(); // the arrows turn grey
+}
+
+void LivePage::drawForces() {
+  const LiveFrame* last = host_.history().last();
+  if (last == nullptr) return block_->showForces({}, false, {tr("Force vectors: nothing has come yet").toStdString()});
+  const LiveState state = host_.status().state;
+  const bool gone = state != LiveState::Streaming && state != LiveState::Paused;
+  const bool stale = gone || !last->forces.valid;
+  const LiveFrame* known = stale ? host_.history().lastValid() : last;
+  const std::vector<LiveArrow> arrows = known != nullptr ? arrowsOf(known->forces) : std::vector<LiveArrow>{};
+  arrowSeen_ = arrowSeen_ || std::any_of(arrows.begin(), arrows.end(), [](const LiveArrow& arrow) {
+                 return arrow.force_N.norm() > 3; // a picture of the scene shows a good press
+               });
+  std::vector<std::string> lines = forceLines(*last, host_.settings());
+  if (gone) lines = {lines.front(), std::string("last known; the source is ") + name(state)};
+  block_->showForces(arrows, stale, lines);
+}
+
+void LivePage::drawHeatmap() {
+  const LiveFrame* last = host_.history().last();
+  if (last == nullptr) return;
+  const LiveSettings& settings = host_.settings();
+  if (!looksDifferent(last->change, drawnChange_, 0.02 * settings.change_percent / kColorSteps)) return;
+  drawnChange_ = last->change;
+  heatmap_->setHeatmap(changeHeatmap(*last, host_.status().restName, settings, curves_->chosenCell()));
+}
+
+void LivePage::drawCurves() {
+  if (curveTabs_->currentIndex() == 0) curves_->draw();
+}
+
+void LivePage::toggleCell(int row, int column) {
+  curves_->toggleCell(row, column);
+  drawnChange_.resize(0, 0);
+  drawHeatmap();
+}
+
+} // namespace palp

@@ -1,0 +1,109 @@
+// Calibration with known loads, and the network in use.
+
+#include "app/gui/live/LiveCalibration.h"
+#include "tests/app/gui/live/LiveOperatorFixture.h"
+
+#include <QDoubleSpinBox>
+#include <QFile>
+#include <QSpinBox>
+#include <QTabWidget>
+#include <QTableWidget>
+
+namespace palp {
+namespace {
+
+class LiveCalibrating : public LiveOperator {
+protected:
+  LiveCalibration& calibration() { return find<LiveCalibration>("calibration"); }
+  /// Labelled frames of whatever is pressed now, with these forces in z.
+  bool collect(int frames, double force_N) {
+    page.findChild<QTabWidget*>("curveTabs")->setCurrentIndex(1);
+    type<QSpinBox>("labelFrames", "1");
+    for (int k = 0; k < frames; ++k) {
+      type<QSpinBox>("labelArea", QString::number(k % 6));
+      type<QDoubleSpinBox>("label_Fz", QString::number(force_N * k));
+      const Eigen::Index before = calibration().frames().samples().size();
+      click("collect");
+      if (!wait([&] { return calibration().frames().samples().size() == before + 1; })) return false;
+    }
+    return true;
+  }
+  bool fit() {
+    click("fitCalibration");
+    return wait([&] { return calibration().calibration().has_value() && !calibration().runner().running(); });
+  }
+};
+
+TEST_F(LiveCalibrating, GoesBackToTheNetworkBeforeACalibrationAndMarksBothInTheRecording) {
+  ASSERT_TRUE(waitForArrow());
+  const QString file = folder.filePath("touch.palprec");
+  recordTo(file);
+  ASSERT_TRUE(startsToRecord());
+  ASSERT_TRUE(collect(9, -0.5));
+  ASSERT_TRUE(fit());
+  const std::string before = page.host().decoder()->trainedWith;
+  click("useCalibration");
+  auto& name = find<QLabel>("networkName");
+  EXPECT_TRUE(wait([&] { return name.text().startsWith("calibrated, 9 frames, 2"); })) << name.text().toStdString();
+  const Eigen::MatrixXd calibrated_N = page.host().decoder()->residual_N;
+  click("networkBack");
+  EXPECT_TRUE(wait([&] { return name.text().startsWith("Palp's own"); })) << name.text().toStdString();
+  EXPECT_NE(page.host().decoder()->residual_N, calibrated_N);
+  EXPECT_EQ(page.host().decoder()->trainedWith, before);
+  ASSERT_TRUE(waitForFrames());
+  ASSERT_TRUE(stopsToRecord());
+  ASSERT_TRUE(wait([&] { return marksOf(file).size() == 2; }));
+  EXPECT_EQ(marksOf(file)[0].rfind("network: calibrated, 9 frames", 0), 0U) << marksOf(file)[0];
+  EXPECT_EQ(marksOf(file)[1].rfind("network: Palp's own", 0), 0U) << marksOf(file)[1];
+}
+
+TEST_F(LiveCalibrating, SaysThatTheLabelsDoNotBelongToTheFrames) {
+  ASSERT_TRUE(waitForArrow());
+  ASSERT_TRUE(collect(12, -0.5)); // whatever was pressed
+  auto& table = find<QTableWidget>("labelledFrames");
+  EXPECT_FALSE(table.item(0, 6)->text().isEmpty()) << "what the network said stands beside the label";
+  ASSERT_TRUE(fit());
+  EXPECT_TRUE(find<QLabel>("calibrationReport").text().contains("A bad fit"));
+  EXPECT_TRUE(find<QLabel>("calibrationReport").text().contains("the model under these labels"));
+}
+
+TEST_F(LiveCalibrating, RefusesALoadThatMovesInsideAMean) {
+  ASSERT_TRUE(waitForArrow());
+  page.findChild<QTabWidget*>("curveTabs")->setCurrentIndex(1);
+  type<QSpinBox>("labelFrames", "120"); // longer than a touch of the demo
+  click("collect");
+  ASSERT_TRUE(isRed("calibrationProblem"));
+  EXPECT_TRUE(find<QLabel>("calibrationProblem").text().contains("moved")) << "nothing was said";
+  EXPECT_EQ(calibration().frames().samples().size(), 0);
+}
+
+TEST_F(LiveCalibrating, ANetworkThatCannotBeUsedLeavesTheOneInUse) {
+  ASSERT_TRUE(waitForArrow());
+  const QString broken = folder.filePath("broken.json");
+  QFile file(broken);
+  ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+  file.write("{\"palp_network\": 1}");
+  file.close();
+  answerFileDialog(broken);
+  click("chooseNetwork");
+  ASSERT_TRUE(isRed("networkProblem"));
+  EXPECT_TRUE(find<QLabel>("networkProblem").text().contains("broken.json"));
+  EXPECT_EQ(workbench.project().live.network, "");
+  EXPECT_TRUE(page.host().decoder().has_value());
+  EXPECT_TRUE(find<QLabel>("networkName").text().startsWith("Palp's own"));
+  ASSERT_TRUE(waitForFrames());
+  EXPECT_TRUE(page.host().history().last()->forces.valid);
+}
+
+TEST_F(LiveCalibrating, FitsOnlyWhereThereAreFramesEnoughAndSaysHowManyThereAre) {
+  ASSERT_TRUE(waitForArrow());
+  ASSERT_TRUE(collect(7, -0.5));
+  EXPECT_FALSE(find<QPushButton>("fitCalibration").isEnabled());
+  EXPECT_TRUE(find<QLabel>("calibrationReport").text().contains("7 of 8 so far"))
+      << find<QLabel>("calibrationReport").text().toStdString();
+  ASSERT_TRUE(collect(1, -0.5));
+  EXPECT_TRUE(find<QPushButton>("fitCalibration").isEnabled());
+}
+
+} // namespace
+} // namespace palp

@@ -1,0 +1,286 @@
+// Recordings: made, ended, and played.
+
+#include "app/gui/live/RecordingName.h"
+#include "app/gui/views/StripChart.h"
+#include "tests/app/gui/live/LiveOperatorFixture.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDir>
+#include <QDoubleSpinBox>
+#include <QFile>
+#include <QListWidget>
+#include <QSlider>
+
+namespace palp {
+namespace {
+
+using LiveRecording = LiveOperator;
+
+TEST_F(LiveRecording, ASecondRecordingTakesTheNextFreeNameByItself) {
+  ASSERT_TRUE(waitForFrames());
+  const QString file = folder.filePath("touch.palprec");
+  recordTo(file);
+  ASSERT_TRUE(startsToRecord());
+  ASSERT_TRUE(stopsToRecord());
+  ASSERT_TRUE(startsToRecord()) << said.join("; ").toStdString();
+  const QString second = find<QLineEdit>("recordFile").text();
+  EXPECT_NE(second, file);
+  ASSERT_TRUE(stopsToRecord());
+  ASSERT_TRUE(startsToRecord());
+  ASSERT_TRUE(stopsToRecord());
+  EXPECT_EQ(QDir(folder.path()).entryList({"touch*.palprec"}).size(), 3);
+  EXPECT_NO_THROW(RecordingReader(second.toStdString()));
+  EXPECT_FALSE(said.join(' ').contains("--"));
+}
+
+TEST(RecordingName, IsDatedOnceAndCountedWhereTheDateIsThereToo) {
+  const QTemporaryDir folder;
+  const QDateTime now(QDate(2026, 11, 22), QTime(14, 5, 6));
+  const auto touched = [&](const QString& name) {
+    QFile file(folder.filePath(name));
+    EXPECT_TRUE(file.open(QIODevice::WriteOnly));
+    return std::filesystem::path(file.fileName().toStdString());
+  };
+  EXPECT_EQ(freeRecording(folder.filePath("a").toStdString(), now).filename(), "a.palprec");
+  EXPECT_EQ(freeRecording(touched("a.palprec"), now).filename(), "a-2026-11-22-140506.palprec");
+  EXPECT_EQ(freeRecording(touched("a-2026-11-22-140506.palprec"), now).filename(), "a-2026-11-22-140506-2.palprec");
+  EXPECT_EQ(freeRecording(touched("a-2026-11-22-140506-2.palprec"), now).filename(), "a-2026-11-22-140506-3.palprec");
+}
+
+TEST_F(LiveRecording, ReplacesTheFileThatTheDialogWasToldTo) {
+  ASSERT_TRUE(waitForFrames());
+  const QString file = folder.filePath("touch.palprec");
+  QFile old(file);
+  ASSERT_TRUE(old.open(QIODevice::WriteOnly));
+  old.write("an old recording");
+  old.close();
+  answerFileDialog(file);
+  answerQuestion(QMessageBox::Yes);
+  click("chooseRecordFile");
+  ASSERT_EQ(find<QLineEdit>("recordFile").text(), file);
+  ASSERT_TRUE(startsToRecord()) << said.join("; ").toStdString();
+  ASSERT_TRUE(stopsToRecord());
+  EXPECT_EQ(QDir(folder.path()).entryList({"*.palprec"}).size(), 1);
+  EXPECT_NO_THROW(RecordingReader(file.toStdString()));
+  ASSERT_TRUE(startsToRecord()); // the leave to replace was for once
+  ASSERT_TRUE(stopsToRecord());
+  EXPECT_EQ(QDir(folder.path()).entryList({"*.palprec"}).size(), 2);
+}
+
+TEST_F(LiveRecording, SaysInRedAtTheRecordingWhyNothingIsRecorded) {
+  ASSERT_TRUE(waitForFrames());
+  recordTo(folder.filePath("no such folder/touch.palprec"));
+  click("record");
+  EXPECT_TRUE(isRed("recorded"));
+  EXPECT_TRUE(find<QLabel>("recorded").text().contains("no such folder"));
+  EXPECT_FALSE(find<QPushButton>("record").isChecked());
+  recordTo(folder.filePath("touch.palprec"));
+  ASSERT_TRUE(startsToRecord());
+  EXPECT_TRUE(wait([&] { return find<QLabel>("recorded").property("role") == "hint"; }));
+}
+
+TEST_F(LiveRecording, PlaysARecordingFromAnyPlaceInALoopAndGoesBackToTheBoard) {
+  ASSERT_TRUE(waitForFrames());
+  const QString file = folder.filePath("touch.palprec");
+  ASSERT_TRUE(records(file, 60));
+  ASSERT_TRUE(plays(file));
+  auto& line = find<QSlider>("replayLine");
+  ASSERT_TRUE(wait([&] { return line.isVisible() && page.host().replay()->length_s > 0; }));
+  use([](LiveSettings& live) { live.replaySpeed = 0; });
+  ASSERT_TRUE(waitForState(LiveState::Ended));
+  EXPECT_TRUE(wait([&] { return find<QLabel>("liveBanner").property("role") == "note"; })) << "its end is no alarm";
+  EXPECT_NE(find<QLabel>("liveState").property("role"), "problem");
+
+  use([](LiveSettings& live) { live.replaySpeed = 0.1; });
+  const double length_s = page.host().replay()->length_s;
+  QTest::mouseClick(&line, Qt::LeftButton, {}, {line.width() / 2, line.height() / 2});
+  ASSERT_TRUE(wait([&] { return page.host().status().state == LiveState::Streaming; }));
+  ASSERT_TRUE(wait([&] { return page.host().replay()->position_s > 0.4 * length_s; }));
+  EXPECT_LT(page.host().replay()->position_s, 0.95 * length_s);
+
+  type<QDoubleSpinBox>("loopTo", QString::number(0.3 * length_s, 'f', 2));
+  find<QCheckBox>("replayLoop").click();
+  use([](LiveSettings& live) { live.replaySpeed = 2; });
+  const std::uint64_t frames = page.host().status().counts.frames;
+  ASSERT_TRUE(wait([&] { return page.host().status().counts.frames > frames + 100; })) << "more than it holds";
+  EXPECT_LE(page.host().replay()->position_s, 0.35 * length_s + 0.05);
+  EXPECT_EQ(page.host().status().counts.lost, 0U) << "what was skipped is no loss";
+
+  click("backToBoard");
+  ASSERT_TRUE(wait([&] { return page.host().simulated() && page.host().status().state == LiveState::Streaming; }));
+  EXPECT_TRUE(wait([&] { return !line.isVisible(); }));
+}
+
+TEST_F(LiveRecording, ReadsNothingWhileNobodyLooksUnlessItRecords) {
+  ASSERT_TRUE(waitForFrames());
+  const auto reports = [&] {
+    page.host().look();
+    return page.host().status().counts.reports;
+  };
+  const auto rests = [&] {
+    const std::uint64_t before = reports();
+    QTest::qWait(300);
+    return reports() == before;
+  };
+  page.hide();
+  EXPECT_TRUE(wait(rests));
+  page.show();
+  ASSERT_TRUE(waitForFrames());
+  recordTo(folder.filePath("touch.palprec"));
+  ASSERT_TRUE(startsToRecord());
+  page.hide();
+  const std::uint64_t before = page.host().status().recordedReports;
+  EXPECT_TRUE(wait([&] {
+    page.host().look();
+    return page.host().status().recordedReports > before + 300;
+  }));
+}
+
+/// A recording that is played, 60 frames long.
+class LiveReplay : public LiveOperator {
+protected:
+  bool played() {
+    return waitForFrames() && records(folder.filePath("touch.palprec"), 60) &&
+           plays(folder.filePath("touch.palprec")) && wait([&] { return page.host().replay()->length_s > 0; });
+  }
+  bool held() {
+    if (!page.host().paused()) click("replayPause");
+    return waitForState(LiveState::Paused);
+  }
+  const LiveFrame* last() { return page.host().history().last(); }
+  double span_s() {
+    const auto& entries = page.host().history().entries();
+    return entries.empty() ? 0 : entries.back().t_s - entries.front().t_s;
+  }
+};
+
+TEST_F(LiveReplay, TheCurvesHoldOnlyWhatWasPlayedSinceTheLastJump) {
+  ASSERT_TRUE(played());
+  const double length_s = page.host().replay()->length_s;
+  ASSERT_TRUE(wait([&] { return page.host().replay()->position_s > 0.8 * length_s; }));
+  EXPECT_GT(span_s(), 0.5 * length_s);
+  type<QDoubleSpinBox>("loopTo", QString::number(0.3 * length_s, 'f', 2));
+  find<QCheckBox>("replayLoop").click();
+  const std::uint64_t frames = page.host().status().counts.frames;
+  ASSERT_TRUE(wait([&] { return page.host().status().counts.frames > frames + 60; })) << "several turns of the loop";
+  ASSERT_TRUE(wait([&] { return page.host().history().entries().size() > 5; }));
+  EXPECT_LE(span_s(), 0.3 * length_s + 0.05);
+  const auto& entries = page.host().history().entries();
+  for (std::size_t k = 1; k < entries.size(); ++k)
+    EXPECT_GT(entries[k].frame->frame.hostTime_s, entries[k - 1].frame->frame.hostTime_s) << "of two turns";
+}
+
+TEST_F(LiveReplay, GoesToAnyTimeThatIsTypedWithoutAFalseAlarm) {
+  ASSERT_TRUE(played());
+  ASSERT_TRUE(held());
+  const double length_s = page.host().replay()->length_s;
+  for (const double share : {0.51, 0.23, 0.377, 0.8}) {
+    const double to_s = share * length_s;
+    type<QDoubleSpinBox>("replayPlace", QString::number(to_s, 'f', 2));
+    ASSERT_TRUE(wait([&] { return last() != nullptr && std::abs(page.host().replay()->position_s - to_s) < 0.1; }))
+        << to_s;
+    ASSERT_TRUE(wait([&] { return last() != nullptr && last()->frame.complete; })) << to_s;
+    EXPECT_TRUE(last()->faults.empty()) << last()->faults[0];
+    EXPECT_TRUE(last()->forces.valid) << last()->forces.reason;
+  }
+  EXPECT_EQ(page.host().status().counts.incompleteFrames, 0U);
+}
+
+TEST_F(LiveReplay, GoesBackByOneFrame) {
+  ASSERT_TRUE(played());
+  ASSERT_TRUE(held());
+  type<QDoubleSpinBox>("replayPlace", QString::number(0.5 * page.host().replay()->length_s, 'f', 2));
+  ASSERT_TRUE(wait([&] { return page.host().history().entries().size() == 1; }));
+  for (int k = 0; k < 3; ++k) {
+    const auto number = last()->frame.number;
+    click("replayBack");
+    EXPECT_TRUE(wait([&] { return last() != nullptr && last()->frame.number == number - 1; }))
+        << number << " " << last()->frame.number;
+  }
+}
+
+TEST_F(LiveReplay, LeadsToItsMarks) {
+  ASSERT_TRUE(waitForFrames());
+  const QString file = folder.filePath("touch.palprec");
+  recordTo(file);
+  ASSERT_TRUE(startsToRecord());
+  ASSERT_TRUE(waitForFrames(20));
+  QTest::keyClicks(&find<QLineEdit>("markText"), "poke");
+  click("mark");
+  ASSERT_TRUE(waitForFrames(20));
+  ASSERT_TRUE(stopsToRecord());
+  ASSERT_TRUE(plays(file));
+  auto& marks = find<QComboBox>("replayMarks");
+  ASSERT_TRUE(wait([&] { return marks.count() == 2; })) << "one mark and the head";
+  EXPECT_TRUE(marks.itemText(1).endsWith(" s: poke")) << marks.itemText(1).toStdString();
+  ASSERT_TRUE(waitForState(LiveState::Ended));
+  const double at_s = marks.itemData(1).toDouble();
+  EXPECT_GT(at_s, 0.1 * page.host().replay()->length_s);
+  EXPECT_LT(at_s, 0.9 * page.host().replay()->length_s);
+  marks.setFocus();
+  QTest::keyClick(&marks, Qt::Key_Down);
+  EXPECT_TRUE(wait([&] { return last() != nullptr && page.host().status().state == LiveState::Streaming; }));
+  EXPECT_TRUE(wait([&] { return last() != nullptr && last()->mark == "poke"; }));
+}
+
+TEST_F(LiveRecording, TheKeyThatBeginsOneDoesNotEndIt) {
+  ASSERT_TRUE(waitForFrames());
+  recordTo(folder.filePath("touch.palprec"));
+  page.setFocus();
+  QTest::keyClick(&page, Qt::Key_R);
+  ASSERT_TRUE(wait([&] { return page.host().status().recording; }));
+  QTest::keyClick(&page, Qt::Key_R);
+  ASSERT_TRUE(waitForFrames(10));
+  EXPECT_TRUE(page.host().status().recording);
+  EXPECT_TRUE(said.join(' ').contains("Shift+R")) << "nothing was said";
+  QTest::keyClick(&page, Qt::Key_R, Qt::ShiftModifier);
+  EXPECT_TRUE(wait([&] { return !page.host().status().recording; }));
+  EXPECT_TRUE(said.back().startsWith("Recorded ")) << said.back().toStdString();
+  EXPECT_TRUE(wait([&] { return find<QLabel>("recorded").text().startsWith("Recorded: "); }));
+}
+
+TEST_F(LiveRecording, WaitsForABoardThatIsOutAndSaysSoAndCanBeEnded) {
+  ASSERT_TRUE(waitForFrames());
+  const QString file = folder.filePath("touch.palprec");
+  recordTo(file);
+  ASSERT_TRUE(startsToRecord());
+  click("plug");
+  ASSERT_TRUE(waitForState(LiveState::Searching));
+  EXPECT_TRUE(wait([&] { return find<QLabel>("recorded").text().startsWith("Waits for the board"); }));
+  EXPECT_EQ(find<QPushButton>("record").text(), "Stop recording");
+  EXPECT_TRUE(wait([&] { return find<QLabel>("liveTrust").text() == "none"; })) << "there is nothing to trust";
+  click("plug");
+  ASSERT_TRUE(wait([&] { return page.host().status().recording; }));
+  EXPECT_TRUE(wait([&] { return find<QLabel>("recorded").text().startsWith("Records: "); }));
+  click("plug");
+  ASSERT_TRUE(wait([&] { return page.host().status().recordingWaits; }));
+  click("record");
+  EXPECT_TRUE(wait([&] { return !page.host().recording(); }));
+  EXPECT_TRUE(wait([&] { return find<QPushButton>("record").text() == "Record"; }));
+  const std::vector<std::string> marks{"the board is out", "the board is back", "the board is out"};
+  EXPECT_TRUE(wait([&] { return marksOf(file) == marks; })) << marksOf(file).size();
+}
+
+TEST_F(LiveRecording, AnotherSourceEndsItOnlyWhereThatIsSaid) {
+  ASSERT_TRUE(waitForFrames());
+  recordTo(folder.filePath("touch.palprec"));
+  ASSERT_TRUE(startsToRecord());
+  auto& list = find<QListWidget>("devices");
+  const auto choose = [&] {
+    QTest::mouseClick(list.viewport(), Qt::LeftButton, {}, list.visualItemRect(list.item(1)).center());
+  };
+  answerQuestion(QMessageBox::No);
+  choose();
+  EXPECT_EQ(workbench.project().live.source, LiveSourceKind::Automatic);
+  EXPECT_TRUE(page.host().status().recording);
+  EXPECT_TRUE(wait([&] { return list.currentRow() == 0; })) << "the line in use is the chosen one";
+  answerQuestion(QMessageBox::Yes);
+  choose();
+  EXPECT_EQ(workbench.project().live.source, LiveSourceKind::Simulated);
+  EXPECT_TRUE(wait([&] { return !page.host().recording(); }));
+  EXPECT_TRUE(said.join(' ').contains("Recorded "));
+}
+
+} // namespace
+} // namespace palp
