@@ -1,6 +1,7 @@
 #include "solver/CalculixDeck.h"
 
 #include "model/DesignError.h"
+#include "model/base/Cancelled.h"
 #include "solver/assembly/Discretisation.h"
 #include "solver/assembly/SurfaceTraction.h"
 
@@ -17,10 +18,11 @@ std::string number(double value) {
 }
 
 /// A keyword's data lines hold at most 16 entries; all of ours but C3D10's 11 hold fewer.
-void writeElements(const Mesh& mesh, std::string& deck) {
+void writeElements(const Mesh& mesh, const std::stop_token& stop, std::string& deck) {
   deck += std::string("*ELEMENT, TYPE=") + (mesh.shape == ElementShape::Tetrahedron10 ? "C3D10" : "C3D8") +
           ", ELSET=BLOCK\n";
   for (int e = 0; e < mesh.elementCount(); ++e) {
+    stopIfAsked(stop);
     deck += std::to_string(e + 1);
     for (Eigen::Index n = 0; n < mesh.elements.rows(); ++n) deck += ", " + std::to_string(mesh.elements(n, e) + 1);
     deck += "\n";
@@ -34,16 +36,19 @@ void writeNodeSet(const std::string& name, const std::vector<int>& nodes, std::s
 
 } // namespace
 
-std::string calculixDeck(const SensorDesign& design, const Mesh& mesh, const LoadCase& load) {
+std::string calculixDeck(const SensorDesign& design, const Mesh& mesh, const LoadCase& load,
+                         const std::stop_token& stop) {
   const Material& m = design.material;
   if (m.compressibility_per_MPa() <= 0)
     throw DesignError("material.poisson_ratio 0.5: a displacement element's deck needs a value below 0.5");
   const Eigen::VectorXd forces = nodalForces(mesh, design, load);
   std::string deck = "*HEADING\nBlock of a tactile sensor [mm, N, MPa]\n*NODE, NSET=ALL\n";
-  for (int n = 0; n < mesh.nodeCount(); ++n)
+  for (int n = 0; n < mesh.nodeCount(); ++n) {
+    stopIfAsked(stop);
     deck += std::to_string(n + 1) + ", " + number(mesh.nodes_mm(0, n)) + ", " + number(mesh.nodes_mm(1, n)) + ", " +
             number(mesh.nodes_mm(2, n)) + "\n";
-  writeElements(mesh, deck);
+  }
+  writeElements(mesh, stop, deck);
   const FixedComponents fixed = clampedBottom(mesh);
   std::vector<int> bottom;
   for (int n = 0; n < mesh.nodeCount(); ++n)

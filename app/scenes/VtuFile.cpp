@@ -1,8 +1,10 @@
 #include "app/scenes/VtuFile.h"
 
 #include "io/AtomicFile.h"
+#include "model/base/Cancelled.h"
 #include "model/base/Error.h"
 
+#include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
@@ -57,16 +59,38 @@ std::vector<NodalArray> nodalArrays(const NodalFields& fields) {
   return arrays;
 }
 
-void writeVtu(const std::filesystem::path& path, const Mesh& mesh, const std::vector<NodalArray>& arrays) {
+namespace {
+
+/// VTK asks for nothing, it reports: the writer is told to end at the next report.
+void endWhereAsked(vtkObject* writer, unsigned long, void* stop, void*) {
+  if (static_cast<const std::stop_token*>(stop)->stop_requested()) static_cast<vtkAlgorithm*>(writer)->AbortExecuteOn();
+}
+
+} // namespace
+
+std::string vtuText(const Mesh& mesh, const std::vector<NodalArray>& arrays, const std::stop_token& stop) {
   vtkNew<vtkUnstructuredGrid> grid;
   fillGrid(*grid, mesh);
-  for (const NodalArray& array : arrays) addArray(*grid, array);
+  for (const NodalArray& array : arrays) {
+    stopIfAsked(stop);
+    addArray(*grid, array);
+  }
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
+  vtkNew<vtkCallbackCommand> reported;
+  reported->SetCallback(endWhereAsked);
+  reported->SetClientData(const_cast<std::stop_token*>(&stop)); // VTK knows no const; it is only read
+  writer->AddObserver(vtkCommand::ProgressEvent, reported);
   writer->SetInputData(grid);
   writer->SetDataModeToBinary();
   writer->WriteToOutputStringOn(); // VTK itself would not say why a file cannot be written, and would print besides
-  if (writer->Write() != 1) throw Error(path.string() + ": cannot be written: VTK refuses the mesh");
-  writeFile(path, writer->GetOutputString(), true);
+  const bool good = writer->Write() == 1;
+  stopIfAsked(stop);
+  if (!good) throw Error("VTK refuses to write the mesh");
+  return writer->GetOutputString();
+}
+
+void writeVtu(const std::filesystem::path& path, const Mesh& mesh, const std::vector<NodalArray>& arrays) {
+  writeFile(path, vtuText(mesh, arrays), true);
 }
 
 } // namespace palp

@@ -4,6 +4,7 @@
 #include "model/Solution.h"
 
 #include <filesystem>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,9 @@ struct NodalArray {
 /// The solution's fields under the names of the file: displacement_mm, cauchy_MPa (xx, yy, zz, xy, yz, xz),
 /// pressure_MPa, von_mises_MPa, volume_ratio.
 std::vector<NodalArray> nodalArrays(const NodalFields& fields);
+
+/// The mesh at rest and what is known at its nodes as the text of a VTU file. Throws Cancelled where it is stopped.
+std::string vtuText(const Mesh& mesh, const std::vector<NodalArray>& arrays, const std::stop_token& stop = {});
 
 /// Writes the mesh at rest and what is known at its nodes as VTU (ParaView, meshio), beside the path and then renamed.
 /// Throws Error where the file cannot be written.

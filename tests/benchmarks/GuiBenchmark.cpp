@@ -156,14 +156,14 @@ int measureViews() {
     chart.setChart(curve);
     showTimed("a chart", chart);
     HeatmapView heatmap;
-    heatmap.setHeatmap(resistanceHeatmap(touch, *touch.resistances_ohm(), ResistanceKind::RelativeChange));
+    heatmap.setHeatmap(resistanceHeatmap(touch.design(), *touch.resistances_ohm(), ResistanceKind::RelativeChange));
     showTimed("a heatmap", heatmap);
   }
   measureYardsticks(show);
   HeatmapView heatmap;
   show(heatmap);
   std::printf("heatmap alone, new values a frame  %5.1f ms CPU\n", cpuAFrame_ms({&heatmap}, [&](int frame) {
-                heatmap.setHeatmap(resistanceHeatmap(touch, (1 + 1e-4 * frame) * *touch.resistances_ohm(),
+                heatmap.setHeatmap(resistanceHeatmap(touch.design(), (1 + 1e-4 * frame) * *touch.resistances_ohm(),
                                                      ResistanceKind::RelativeChange));
               }));
   heatmap.hide();

@@ -1,7 +1,9 @@
 #include "app/gui/design/DesignComparison.h"
 
 #include "app/gui/design/BoundWords.h"
+#include "app/gui/views/HeatmapSpecs.h"
 #include "app/gui/views/HeatmapView.h"
+#include "app/study/touch/Touch.h"
 
 #include <QHBoxLayout>
 #include <QLabel>
@@ -45,23 +47,14 @@ Answer answerOf(const SensorDesign& design, const LoadCase& load, const MeshOpti
   return answer;
 }
 
-HeatmapSpec differenceMap(const Answer& kept, const Answer& now) {
-  HeatmapSpec spec;
-  spec.title = "dR/R of this design less that of the kept one, under the same load";
-  spec.values = now.change - kept.change;
-  spec.colors = fittingScale(ColorMap::Diverging, {spec.values.data(), spec.values.data() + spec.values.size()},
-                             "difference", "%");
-  return spec;
-}
-
 QString answerWords(const Answer& kept, const Answer& now) {
   for (const auto& [answer, name] :
        {std::pair{&kept, QObject::tr("The kept design")}, std::pair{&now, QObject::tr("This design")}})
     if (!answer->problem.isEmpty()) return QObject::tr("%1 cannot bear the load: %2.").arg(name, answer->problem);
-  QString words = QObject::tr("Largest displacement %1 mm, now %2 mm.")
+  QString words = QObject::tr("Largest displacement: kept design %1 mm, this design %2 mm.")
                       .arg(QString::number(kept.largest_mm, 'g', 4), QString::number(now.largest_mm, 'g', 4));
   if (kept.upper_mm->cols() == now.upper_mm->cols())
-    words += QObject::tr("<br>Upper electrodes move by up to %1 mm otherwise.")
+    words += QObject::tr("<br>Ways of the upper electrodes differ by up to %1 mm.")
                  .arg((*now.upper_mm - *kept.upper_mm).colwise().norm().maxCoeff(), 0, 'g', 4);
   if (kept.change.rows() != now.change.rows() || kept.change.cols() != now.change.cols())
     words += QObject::tr("<br>They have other numbers of wires: their resistances are not compared cell by cell.");
@@ -79,7 +72,7 @@ DesignComparison::DesignComparison(Workbench& workbench, QWidget* parent) : QWid
   auto* buttons = new QHBoxLayout;
   keep_ = new QPushButton(tr("Keep this design"));
   keep_->setObjectName("keepDesign");
-  keep_->setToolTip(tr("Remembers the design as it is now, to compare later ones with it until the window closes"));
+  keep_->setToolTip(tr("Remembers the design as it is now, to compare later ones with it; the project keeps it"));
   compare_ = new QPushButton(tr("Compare"));
   compare_->setObjectName("compareDesigns");
   compare_->setToolTip(tr("Solves both designs under the load and bounds the errors of both; Esc stops it"));
@@ -88,6 +81,10 @@ DesignComparison::DesignComparison(Workbench& workbench, QWidget* parent) : QWid
   back_->setToolTip(tr("Makes the kept design the design again; can be undone"));
   for (QPushButton* button : {keep_, compare_, back_}) buttons->addWidget(button);
   column->addLayout(buttons);
+  fields_ = new QPushButton(tr("Show the difference of the fields"));
+  fields_->setObjectName("keptFields");
+  fields_->setToolTip(tr("On the Deformation scene: this design less the kept one, in the colours of the block"));
+  column->addWidget(fields_);
   stale_ = new QLabel;
   stale_->setObjectName("comparisonState");
   stale_->setProperty("role", "hint");
@@ -104,19 +101,10 @@ DesignComparison::DesignComparison(Workbench& workbench, QWidget* parent) : QWid
   difference_->setObjectName("comparisonMap");
   difference_->hide();
   row->addWidget(difference_, 1);
-  connect(keep_, &QPushButton::clicked, this, [this] {
-    kept_ = workbench_.project().design;
-    displayProject();
-  });
+  connect(keep_, &QPushButton::clicked, this, &DesignComparison::keep);
   connect(compare_, &QPushButton::clicked, this, &DesignComparison::compare);
-  connect(back_, &QPushButton::clicked, this, [this] {
-    Project next = workbench_.project();
-    next.design = *kept_;
-    std::erase_if(next.load.areas, [&](const AreaLoad& load) { return load.area >= kept_->areas.count(); });
-    std::erase_if(next.load.patches, [&](const PatchLoad& disc) { return whyInvalid({{}, {disc}}, *kept_); });
-    workbench_.closeEntry();
-    workbench_.edit(tr("Go back to the kept design"), next);
-  });
+  connect(back_, &QPushButton::clicked, this, &DesignComparison::goBack);
+  connect(fields_, &QPushButton::clicked, this, &DesignComparison::showFields);
   connect(&runner_, &JobRunner::failed, words_, &QLabel::setText);
   connect(&runner_, &JobRunner::started, this, &DesignComparison::displayProject);
   connect(&runner_, &JobRunner::finished, this, &DesignComparison::displayProject);
@@ -127,18 +115,44 @@ void DesignComparison::setTheme(Theme theme) {
   difference_->setTheme(theme);
 }
 
+void DesignComparison::keep() {
+  Project next = workbench_.project();
+  next.kept = next.design;
+  workbench_.closeEntry();
+  workbench_.edit(tr("Keep this design"), next);
+}
+
+void DesignComparison::goBack() {
+  Project next = workbench_.project();
+  next.design = *next.kept;
+  std::erase_if(next.load.areas, [&](const AreaLoad& load) { return load.area >= next.design.areas.count(); });
+  std::erase_if(next.load.patches, [&](const PatchLoad& disc) { return whyInvalid({{}, {disc}}, next.design); });
+  workbench_.closeEntry();
+  workbench_.edit(tr("Go back to the kept design"), next);
+}
+
+void DesignComparison::showFields() {
+  Project next = workbench_.project();
+  if (!next.view.lessKept) next.view.colorRange.reset();
+  next.view.lessKept = true;
+  workbench_.edit(tr("Show the difference of the fields"), next);
+  emit fieldsAsked();
+}
+
 void DesignComparison::displayProject() {
   const SensorDesign& design = workbench_.project().design;
-  const bool other = kept_ && *kept_ != design;
-  compare_->setEnabled(other && !runner_.running());
+  const std::optional<SensorDesign>& kept = workbench_.project().kept;
+  const bool other = kept && *kept != design;
+  compare_->setEnabled(other);
   back_->setEnabled(other);
-  if (!kept_)
-    stale_->setText(tr("Keep a design, change it, and compare."));
+  fields_->setEnabled(other);
+  if (!kept)
+    stale_->setText(tr("Keep a design, change it, and compare. Was it changed already: undo, keep, redo."));
   else if (!other)
     stale_->setText(tr("This is the kept design: change something to compare."));
   else
-    stale_->setText(compared_ && *compared_ != design ? tr("The design has changed since it was compared.")
-                                                      : QString());
+    stale_->setText(compared_ && *compared_ != std::array{*kept, design} ? tr("This compares other designs than these.")
+                                                                         : QString());
   stale_->setVisible(!stale_->text().isEmpty());
 }
 
@@ -148,7 +162,7 @@ void DesignComparison::compare() {
   difference_->hide();
   runner_.start(
       tr("Comparing two designs"),
-      [this, kept = *kept_, now = project.design, load = project.load, mesh = project.mesh,
+      [this, kept = *project.kept, now = project.design, load = project.load, mesh = project.mesh,
        noise = project.view.resistanceNoise](const std::stop_token& stop, JobProgress& progress) -> JobRunner::Taking {
         progress.set(0.02, "Solving both under the load");
         const Answer keptAnswer = answerOf(kept, load, mesh, stop), nowAnswer = answerOf(now, load, mesh, stop);
@@ -163,14 +177,14 @@ void DesignComparison::compare() {
               stop);
           if (!bounds[k]) return {};
         }
-        return [this, now, keptAnswer, nowAnswer, keptBounds = *bounds[0], nowBounds = *bounds[1]] {
-          compared_ = now;
+        return [this, kept, now, keptAnswer, nowAnswer, keptBounds = *bounds[0], nowBounds = *bounds[1]] {
+          compared_ = {kept, now};
           words_->setText(boundTable(tr("kept"), keptBounds, tr("this design"), nowBounds) +
                           answerWords(keptAnswer, nowAnswer));
           const bool same = keptAnswer.change.rows() == nowAnswer.change.rows() &&
                             keptAnswer.change.cols() == nowAnswer.change.cols() && nowAnswer.change.size() > 0;
           difference_->setVisible(same);
-          if (same) difference_->setHeatmap(differenceMap(keptAnswer, nowAnswer));
+          if (same) difference_->setHeatmap(heatmapLessKept(nowAnswer.change, keptAnswer.change));
           displayProject();
         };
       });

@@ -6,6 +6,7 @@
 
 #include <QWidget>
 
+#include <array>
 #include <optional>
 
 class QLabel;
@@ -26,16 +27,23 @@ public:
   void setTheme(Theme theme);
   void displayProject();
 
+signals:
+  /// The difference of the fields is to be seen.
+  void fieldsAsked();
+
 private:
+  void keep();
+  void goBack();
+  void showFields();
   void compare();
 
   Workbench& workbench_;
   JobRunner runner_;
-  std::optional<SensorDesign> kept_;
-  std::optional<SensorDesign> compared_; ///< the other one of the comparison that is shown
+  std::optional<std::array<SensorDesign, 2>> compared_; ///< kept and other one of the comparison that is shown
   QPushButton* keep_ = nullptr;
   QPushButton* compare_ = nullptr;
   QPushButton* back_ = nullptr;
+  QPushButton* fields_ = nullptr;
   QLabel* words_ = nullptr;
   QLabel* stale_ = nullptr;
   HeatmapView* difference_ = nullptr;

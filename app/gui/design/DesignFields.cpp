@@ -183,8 +183,8 @@ void addElectrodeLayers(Fields& fields) {
   fields.push_back(lists("upper_layer.electrode_x_mm", tr("Upper layer"), tr("electrodes at x"),
                          tr("one list for all row-wires, or one a row-wire with ; between them"),
                          [](D& s) -> std::vector<std::vector<double>>& { return s.upper.along_mm; }));
-  fields.push_back(lists("upper_layer.z_mm", tr("Upper layer"), tr("depth z"),
-                         tr("one for all, or one list a row-wire"),
+  fields.push_back(lists("upper_layer.z_mm", tr("Upper layer"), tr("height z"),
+                         tr("over the bottom of the block; one for all, or one list a row-wire"),
                          [](D& s) -> std::vector<std::vector<double>>& { return s.upper.z_mm; }));
   fields.push_back(list("lower_layer.column_wire_x_mm", tr("Lower layer"), tr("column-wires at x"),
                         tr("one number a column-wire; evenly spaced ones as 0.5, 1.5, ..., 29.5"),
@@ -192,7 +192,8 @@ void addElectrodeLayers(Fields& fields) {
   fields.push_back(lists("lower_layer.electrode_y_mm", tr("Lower layer"), tr("electrodes at y"),
                          tr("one list for all column-wires, or one a column-wire with ; between them"),
                          [](D& s) -> std::vector<std::vector<double>>& { return s.lower.along_mm; }));
-  fields.push_back(lists("lower_layer.z_mm", tr("Lower layer"), tr("depth z"), tr("below the upper layer"),
+  fields.push_back(lists("lower_layer.z_mm", tr("Lower layer"), tr("height z"),
+                         tr("over the bottom of the block, below the upper layer"),
                          [](D& s) -> std::vector<std::vector<double>>& { return s.lower.z_mm; }));
 }
 

@@ -134,6 +134,7 @@ DesignPage::DesignPage(Workbench& workbench, NetworkSession& network, QWidget* p
     draw();
     displayMesh();
   });
+  connect(comparison_, &DesignComparison::fieldsAsked, this, [this] { emit sceneAsked("deformation"); });
   connect(&network_, &NetworkSession::samplesChanged, this, [this] {
     boundedFor_.reset();
     displayNoiseFloor();

@@ -37,6 +37,7 @@ public:
 signals:
   /// The page needs another stage than before.
   void stageChanged();
+  void sceneAsked(const QString& scene);
 
 protected:
   void showEvent(QShowEvent* event) override;

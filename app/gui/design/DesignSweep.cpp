@@ -4,12 +4,12 @@
 #include "app/gui/design/DesignFields.h"
 #include "app/gui/project/ResultCsv.h"
 #include "app/gui/views/ChartView.h"
+#include "app/gui/widgets/SaveDialog.h"
 #include "app/gui/widgets/SpinBoxes.h"
 #include "model/base/Error.h"
 
 #include <QComboBox>
 #include <QDoubleSpinBox>
-#include <QFileDialog>
 #include <QFormLayout>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -22,7 +22,7 @@ namespace palp {
 
 namespace {
 
-constexpr int kSideWidth_px = 270;
+constexpr int kSideWidth_px = 300;
 
 /// The number that a field shows; none where it shows a list or a count.
 std::optional<double> numberOf(const DesignField& field, const SensorDesign& design) {
@@ -36,18 +36,18 @@ ChartSpec sweepChart(const QString& label, const std::vector<double>& at, const 
   ChartSpec spec;
   spec.title = "What the design resolves";
   spec.xLabel = label.toStdString();
-  spec.yLabel = "bound without prior [% of range]";
+  spec.yLabel = "bound [% of range]";
   spec.logY = true;
   for (const bool all : {true, false})
     for (int d = 0; d < 3; ++d) {
       ChartSeries series;
-      series.name = std::string("F") + "xyz"[d] + (all ? ", all row-wires" : ", middle one");
+      series.name = std::string("F") + "xyz"[d] + (all ? ", all row-wires" : ", middle row-wire alone");
       series.style = ChartSeries::Style::LineAndPoints;
       series.dashed = !all;
       series.color = d;
       series.x = at;
       for (const DesignBounds& bound : bounds)
-        series.y.push_back((all ? bound.allRows : bound.centreRow).withoutPrior()[d]);
+        series.y.push_back((all ? bound.allRows : bound.centreRow).withPrior()[d]);
       spec.series.push_back(std::move(series));
     }
   return spec;
@@ -77,6 +77,7 @@ DesignSweep::DesignSweep(Workbench& workbench, QWidget* parent) : QWidget(parent
     box->setRange(0, 1e6);
     box->setKeyboardTracking(false);
   }
+  number_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   steps_ = new QSpinBox;
   steps_->setObjectName("sweepSteps");
   steps_->setRange(2, 50);
@@ -111,6 +112,12 @@ DesignSweep::DesignSweep(Workbench& workbench, QWidget* parent) : QWidget(parent
     start_->setEnabled(true);
     if (cancelled) words_->setText(tr("Stopped; the curves are those before."));
   });
+  // The range follows the design until somebody sets it.
+  for (QDoubleSpinBox* box : {from_, to_})
+    connect(box, &QDoubleSpinBox::valueChanged, this, [this] { proposed_ = false; });
+  connect(&workbench_, &Workbench::projectChanged, this, [this] {
+    if (proposed_) proposeRange();
+  });
   proposeRange();
 }
 
@@ -122,6 +129,7 @@ void DesignSweep::proposeRange() {
   for (const DesignField& field : designFields()) {
     if (field.key != number_->currentData().toString()) continue;
     const double now = numberOf(field, workbench_.project().design).value_or(0);
+    proposed_ = true;
     showExactly(*from_, 0.8 * now);
     showExactly(*to_, 1.2 * now);
     return;
@@ -187,14 +195,15 @@ void DesignSweep::showResult(const QString& label, const std::vector<Point>& poi
   const auto best = std::min_element(points.begin(), points.end(), [](const Point& a, const Point& b) {
     return a.bounds.allRows.mean() < b.bounds.allRows.mean();
   });
-  words_->setText(tr("Lowest at %1: all row-wires %2.%3")
+  words_->setText(tr("Lowest at %1: all row-wires %2 of the range (Fx / Fy / Fz, with prior, as the noise floor "
+                     "says it).%3")
                       .arg(best->at)
-                      .arg(boundPercents(best->bounds.allRows.withoutPrior()),
+                      .arg(boundPercents(best->bounds.allRows.withPrior()),
                            left > 0 ? tr(" %1 values make no design that can be built.").arg(left) : QString()));
 }
 
 void DesignSweep::saveTable() {
-  const QString file = QFileDialog::getSaveFileName(this, tr("Save table"), "design-sweep.csv", tr("Tables (*.csv)"));
+  const QString file = askFileToSave(this, tr("Save table"), "design-sweep.csv", tr("Tables (*.csv)"));
   if (file.isEmpty()) return;
   QString text = "# " + label_ + ", relative noise of the resistances " +
                  QString::number(workbench_.project().view.resistanceNoise) + "\nvalue";

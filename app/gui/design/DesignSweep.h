@@ -34,6 +34,7 @@ private:
     double at = 0;
     DesignBounds bounds;
   };
+  /// Around the number as it is now, until the user sets a range.
   void proposeRange();
   void run();
   void showResult(const QString& label, const std::vector<Point>& points, int left);
@@ -41,6 +42,7 @@ private:
 
   Workbench& workbench_;
   JobRunner runner_;
+  bool proposed_ = true;
   std::vector<Point> points_;
   QString label_; ///< of the number that was swept
   QComboBox* number_ = nullptr;

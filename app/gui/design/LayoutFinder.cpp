@@ -1,6 +1,7 @@
 #include "app/gui/design/LayoutFinder.h"
 
 #include "app/gui/design/BoundWords.h"
+#include "app/gui/design/DesignFields.h"
 #include "app/study/reports/layout/LayoutSearch.h"
 
 #include <QComboBox>
@@ -20,7 +21,7 @@ LayoutFinder::LayoutFinder(Workbench& workbench, QWidget* parent) : QWidget(pare
   freedom_->setObjectName("layoutFreedom");
   freedom_->addItems({tr("the same places on every column-wire"), tr("places wire by wire")});
   freedom_->setToolTip(
-      tr("Electrodes slide on their wires in steps of 0.05 mm and layers change their depth; 1 mm from "
+      tr("Electrodes slide on their wires in steps of 0.05 mm and layers change their height; 1 mm from "
          "electrode to electrode, 0.5 mm of rubber everywhere"));
   search_ = new QPushButton(tr("Find a better layout"));
   search_->setObjectName("findLayout");
@@ -50,6 +51,22 @@ LayoutFinder::LayoutFinder(Workbench& workbench, QWidget* parent) : QWidget(pare
     if (cancelled) words_->setText(tr("Stopped; nothing was changed."));
   });
 }
+
+namespace {
+
+/// What is otherwise in a layout, a line a number.
+QString layoutWords(const SensorDesign& before, const SensorDesign& after) {
+  QString words = "<table>";
+  for (const DesignField& field : designFields()) {
+    const QString from = field.text(before), to = field.text(after);
+    if (from == to) continue;
+    words += QString("<tr><td>%1, %2&nbsp;&nbsp;</td><td>%3 &rarr; <b>%4</b> %5</td></tr>")
+                 .arg(field.group, field.label, from.toHtmlEscaped(), to.toHtmlEscaped(), field.unit);
+  }
+  return words + "</table>";
+}
+
+} // namespace
 
 void LayoutFinder::search() {
   const Project& project = workbench_.project();
@@ -82,7 +99,8 @@ void LayoutFinder::search() {
           if (!better) found_.reset();
           words_->setText(better
                               ? tr("%1 layouts were tried. ").arg(tries) +
-                                    boundTable(tr("now"), found.before, tr("found"), found.after)
+                                    boundTable(tr("before"), found.before, tr("found"), found.after) +
+                                    layoutWords(found.from, found.layout)
                               : tr("%1 layouts were tried; none that can be made is better than this one.").arg(tries));
           displayProject();
         };

@@ -169,6 +169,7 @@ QJsonObject viewJson(const ViewSettings& view) {
   if (view.colorMap) object["color_map"] = QString::fromStdString(kColorMaps.name(*view.colorMap));
   if (view.colorRange) object["color_range"] = QJsonArray{(*view.colorRange)[0], (*view.colorRange)[1]};
   if (view.extremes) object["extremes"] = true;
+  if (view.lessKept) object["less_kept"] = true;
   if (view.litCell) object["lit_cell"] = cell(*view.litCell);
   if (view.resistanceRange)
     object["resistance_range"] = QJsonArray{(*view.resistanceRange)[0], (*view.resistanceRange)[1]};
@@ -198,10 +199,10 @@ CutPlane cutOf(const JsonPlace& place) {
 }
 
 ViewSettings viewOf(const JsonPlace& place) {
-  place.onlyKeys(
-      {"scene", "quantity", "ghost", "electrodes", "arrows", "outlines", "edges", "row_wire", "line_from_mm",
-       "line_to_mm", "mesh", "resistance_noise", "resistance", "cell", "test_area"},
-      {"warp_factor", "clip_y_mm", "cut", "color_map", "color_range", "extremes", "lit_cell", "resistance_range"});
+  place.onlyKeys({"scene", "quantity", "ghost", "electrodes", "arrows", "outlines", "edges", "row_wire", "line_from_mm",
+                  "line_to_mm", "mesh", "resistance_noise", "resistance", "cell", "test_area"},
+                 {"warp_factor", "clip_y_mm", "cut", "color_map", "color_range", "extremes", "lit_cell",
+                  "resistance_range", "less_kept"});
   ViewSettings view;
   view.scene = place.at("scene").string();
   view.quantity = place.at("quantity").named(kQuantities);
@@ -211,6 +212,7 @@ ViewSettings viewOf(const JsonPlace& place) {
   if (place.has("color_map")) view.colorMap = place.at("color_map").named(kColorMaps);
   if (place.has("color_range")) view.colorRange = rangeOf(place.at("color_range"));
   if (place.has("extremes")) view.extremes = place.at("extremes").boolean();
+  if (place.has("less_kept")) view.lessKept = place.at("less_kept").boolean();
   view.ghost = place.at("ghost").boolean();
   view.electrodes = place.at("electrodes").boolean();
   view.arrows = place.at("arrows").boolean();
@@ -223,9 +225,7 @@ ViewSettings viewOf(const JsonPlace& place) {
   view.mesh = place.at("mesh").boolean();
   view.resistanceNoise = place.at("resistance_noise").number(1e-7, 0.1);
   view.resistance = place.at("resistance").named(kResistanceKinds);
-  if (place.has("resistance_range")) {
-    view.resistanceRange = rangeOf(place.at("resistance_range"));
-  }
+  if (place.has("resistance_range")) view.resistanceRange = rangeOf(place.at("resistance_range"));
   view.cell = cellOf(place.at("cell"));
   view.testArea = place.at("test_area").integer(0, kLargestIndex);
   return view;
@@ -238,7 +238,8 @@ void requireBuildable(const SensorDesign& design, const std::string& where) {
 
 Project projectOf(const JsonPlace& root, const std::string& file) {
   const int version = formatVersion(root, kVersionKey, kVersion); // first: a newer file may well have other keys
-  root.onlyKeys({kVersionKey, "design", "load", "mesh", "samples", "network"}, {"view", "live", "more_boards"});
+  root.onlyKeys({kVersionKey, "design", "load", "mesh", "samples", "network"},
+                {"view", "live", "more_boards", "kept_design"});
   Project project;
   project.design = readDesign(root.at("design"));
   requireBuildable(project.design, file + ": design.");
@@ -254,6 +255,9 @@ Project projectOf(const JsonPlace& root, const std::string& file) {
   if (version >= 2) project.view = viewOf(root.at("view"));
   if (root.has("live")) project.live = liveOf(root.at("live")); // not in the files of the first version
   if (root.has("more_boards")) project.moreBoards = boardsOf(root.at("more_boards"));
+  if (root.has("kept_design")) {
+    requireBuildable(project.kept.emplace(readDesign(root.at("kept_design"))), file + ": kept_design.");
+  }
   return project;
 }
 
@@ -270,9 +274,11 @@ NetworkSettings parseNetwork(const QByteArray& text, const QString& file) {
 }
 
 QByteArray projectText(const Project& project) {
-  const QByteArray design = QByteArray::fromStdString(toJson(project.design));
+  const auto designJson = [](const SensorDesign& design) {
+    return QJsonDocument::fromJson(QByteArray::fromStdString(toJson(design))).object();
+  };
   QJsonObject root{{kVersionKey, kVersion},
-                   {"design", QJsonDocument::fromJson(design).object()},
+                   {"design", designJson(project.design)},
                    {"load", loadJson(project.load)},
                    {"mesh", meshJson(project.mesh)},
                    {"samples", samplesJson(project.samples)},
@@ -280,6 +286,7 @@ QByteArray projectText(const Project& project) {
                    {"view", viewJson(project.view)},
                    {"live", liveJson(project.live)}};
   if (!project.moreBoards.empty()) root["more_boards"] = boardsJson(project.moreBoards);
+  if (project.kept) root["kept_design"] = designJson(*project.kept);
   return QJsonDocument(root).toJson();
 }
 

@@ -16,6 +16,7 @@ DeformationOptions ViewSettings::blockOptions() const {
   options.areaOutlines = outlines;
   options.meshEdges = edges;
   options.litCell = litCell;
+  options.lessKept = lessKept;
   return options;
 }
 

@@ -10,11 +10,12 @@
 namespace palp {
 
 /// What the heatmap shows of the resistances.
-enum class ResistanceKind { Resistance, Change, RelativeChange };
+enum class ResistanceKind { Resistance, Change, RelativeChange, LessKept };
 inline constexpr NamedEnum kResistanceKinds("resistance",
                                             std::array{std::pair{ResistanceKind::Resistance, "R"},
                                                        std::pair{ResistanceKind::Change, "dR"},
-                                                       std::pair{ResistanceKind::RelativeChange, "dR/R"}});
+                                                       std::pair{ResistanceKind::RelativeChange, "dR/R"},
+                                                       std::pair{ResistanceKind::LessKept, "dR/R less kept"}});
 
 /// How the scenes show what was computed.
 struct ViewSettings {
@@ -40,6 +41,7 @@ struct ViewSettings {
   std::optional<std::array<double, 2>> resistanceRange; ///< of the colours; none: the values' own
   std::array<int, 2> cell{4, 15};                       ///< of the Resistance scene
   int testArea = 0;
+  bool lessKept = false; ///< the Deformation scene shows the design less the kept one
 
   bool operator==(const ViewSettings&) const = default;
   /// Quantity, warp, cut, colours, parts and lit cell of the Deformation scene; all else as by default.

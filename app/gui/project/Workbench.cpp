@@ -10,11 +10,12 @@ namespace {
 
 constexpr int kMergeId = 1;
 
-/// The same project, shown in another way and beside another board.
+/// The same project, shown in another way, beside another board and another design that is kept.
 Project shownAs(Project project, const Project& other) {
   project.view = other.view;
   project.live = other.live;
   project.moreBoards = other.moreBoards;
+  project.kept = other.kept;
   return project;
 }
 
@@ -110,8 +111,17 @@ void Workbench::hold(const Held& held) {
   apply(held.project);
 }
 
+std::shared_ptr<const KeptPath> Workbench::keptPath() const {
+  return project().kept ? kept_.pathFor(*project().kept, touch_.touch()) : nullptr;
+}
+
+void Workbench::needKept() {
+  if (project().kept && touch_.upToDate()) kept_.want(*project().kept, touch_.touch());
+}
+
 void Workbench::apply(const Project& project) {
   held_.project = project;
+  if (!project.kept) kept_.forget();
   touch_.setInputs(project.design, project.load, project.mesh);
   emit projectChanged();
   emit fileChanged();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/gui/jobs/KeptTouch.h"
 #include "app/gui/jobs/TouchSession.h"
 #include "app/gui/project/Project.h"
 
@@ -41,6 +42,11 @@ public:
   void setPlace(const QString& scene) { place_ = scene; }
 
   [[nodiscard]] TouchSession& touch() { return touch_; }
+  [[nodiscard]] KeptTouch& kept() { return kept_; }
+  /// The kept design beside the touch that is shown; null before it is computed and where nothing is kept.
+  [[nodiscard]] std::shared_ptr<const KeptPath> keptPath() const;
+  /// A scene shows the kept design: it is computed.
+  void needKept();
   [[nodiscard]] QUndoStack& history() { return history_; }
 
 signals:
@@ -69,6 +75,7 @@ private:
   bool entryOpen_ = false;
   QString place_;
   TouchSession touch_;
+  KeptTouch kept_;
 };
 
 } // namespace palp

@@ -105,9 +105,26 @@ std::string placeText(const std::array<double, 3>& place) {
   return "(" + shortText(place[0]) + ", " + shortText(place[1]) + ", " + shortText(place[2]) + ")";
 }
 
+/// Nodal values at the points of the line.
+ChartSeries curveAlong(const Mesh& mesh, const PointProbe& probe, const std::vector<double>& values, double length_mm) {
+  ChartSeries curve;
+  curve.color = 0;
+  for (int k = 0; k < kLinePoints; ++k) {
+    // Nodal fields: those of the first element that holds the point are as good as those of any other.
+    const PointProbe::Holder& holder = probe.holders()[static_cast<std::size_t>(k)].front();
+    double value = 0;
+    for (Eigen::Index n = 0; n < holder.shapes.size(); ++n)
+      value += holder.shapes[n] * values[static_cast<std::size_t>(mesh.elements(n, holder.element))];
+    curve.x.push_back(length_mm * k / (kLinePoints - 1));
+    curve.y.push_back(value);
+  }
+  return curve;
+}
+
 } // namespace
 
-ChartSpec LinePlot::chart(const Mesh& mesh, const NodalFields& fields, const ViewSettings& view) {
+ChartSpec LinePlot::chart(const Mesh& mesh, const NodalFields& fields, const ViewSettings& view,
+                          const NodalFields* kept) {
   const Eigen::Vector3d from = vectorOf(view.lineFrom_mm);
   const Eigen::Vector3d to = vectorOf(view.lineTo_mm);
   const std::string unit = quantityUnit(view.quantity);
@@ -129,19 +146,16 @@ ChartSpec LinePlot::chart(const Mesh& mesh, const NodalFields& fields, const Vie
       return spec;
     }
   }
-  const std::vector<double> values = quantityValues(view.quantity, fields);
-  ChartSeries curve;
-  curve.color = 0;
-  for (int k = 0; k < kLinePoints; ++k) {
-    // Nodal fields: those of the first element that holds the point are as good as those of any other.
-    const PointProbe::Holder& holder = probe_->holders()[static_cast<std::size_t>(k)].front();
-    double value = 0;
-    for (Eigen::Index n = 0; n < holder.shapes.size(); ++n)
-      value += holder.shapes[n] * values[static_cast<std::size_t>(mesh.elements(n, holder.element))];
-    curve.x.push_back((to - from).norm() * k / (kLinePoints - 1));
-    curve.y.push_back(value);
-  }
-  spec.series = {std::move(curve)};
+  const auto curve = [&](const NodalFields& its) {
+    return curveAlong(mesh, *probe_, quantityValues(view.quantity, its), (to - from).norm());
+  };
+  spec.series = {curve(fields)};
+  if (kept == nullptr) return spec;
+  spec.series[0].name = "this design";
+  spec.series.push_back(curve(*kept));
+  spec.series[1].name = "the kept design";
+  spec.series[1].color = 1;
+  spec.series[1].dashed = true;
   return spec;
 }
 

@@ -22,8 +22,9 @@ ChartSpec rowWireShapeChart(const SensorDesign& design, const ElectrodeDisplacem
 /// The coloured quantity along the straight line between two points at rest; keeps what finds the line in the mesh.
 class LinePlot {
 public:
-  /// A sentence instead of a title where the line leaves the block.
-  ChartSpec chart(const Mesh& mesh, const NodalFields& fields, const ViewSettings& view);
+  /// A sentence instead of a title where the line leaves the block. `kept`: fields of the kept design at the mesh's
+  /// nodes, drawn beside; may be null.
+  ChartSpec chart(const Mesh& mesh, const NodalFields& fields, const ViewSettings& view, const NodalFields* kept);
   /// The mesh it was found in is gone.
   void reset() { probe_.reset(); }
 

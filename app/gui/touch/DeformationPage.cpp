@@ -4,6 +4,7 @@
 #include "app/gui/touch/LoadPanel.h"
 #include "app/gui/touch/LoadPathBar.h"
 #include "app/gui/touch/ResultPanel.h"
+#include "app/gui/touch/StaleNote.h"
 #include "app/gui/touch/TouchTabs.h"
 #include "app/gui/touch/ViewPanel.h"
 #include "app/gui/views/BlockView.h"
@@ -83,10 +84,11 @@ DeformationPage::DeformationPage(Workbench& workbench, QWidget* parent) : Scene(
     probe(-1);
   });
   connect(&workbench_.touch(), &TouchSession::changed, this, &DeformationPage::displayTouch);
+  connect(&workbench_.kept(), &KeptTouch::changed, this, [this] { displayTouch(false); });
   connect(&workbench_.touch(), &TouchSession::newtonStepped, this, [this] { tabs_->drawNewton(); });
   connect(&workbench_.touch(), &TouchSession::errorEstimated, this, [this](double relative, const QString& method) {
     result_->setErrorWords(std::isnan(relative) ? method : tr("%1 % (%2)").arg(100 * relative, 0, 'g', 3).arg(method));
-    result_->display(workbench_.touch());
+    displayResult();
   });
   displayProject();
 }
@@ -112,6 +114,7 @@ QWidget* DeformationPage::buildViews() {
   block_ = new BlockView;
   block_->setObjectName("block");
   block_->setForcesMovable(true);
+  new StaleNote(*block_, workbench_);
   block_->setToolTip(
       tr("Drag an arrow: force (Shift: its size alone); drag: turn; Shift or middle button: move; wheel: "
          "zoom; double click: all of it; right click: picture"));
@@ -174,7 +177,8 @@ void DeformationPage::setTheme(Theme theme) {
 }
 
 bool DeformationPage::complete() const {
-  return workbench_.touch().fields() != nullptr && workbench_.touch().upToDate();
+  const bool compared = !lessKept() || shownLess() || !workbench_.kept().problem().isEmpty();
+  return workbench_.touch().fields() != nullptr && workbench_.touch().upToDate() && compared;
 }
 
 QString DeformationPage::commands(const Project& project, const QString& designFile) const {
@@ -189,21 +193,40 @@ void DeformationPage::showEvent(QShowEvent* event) {
 void DeformationPage::displayProject() {
   const Project& project = workbench_.project();
   load_->display(project.design, project.load);
-  view_->display(project.view, project.design.block_mm);
+  view_->display(project.view, project.design.block_mm, project.kept.has_value());
   tabs_->displayProject(project);
   if (!workbench_.touch().upToDate()) result_->setErrorWords({});
-  if (isVisible()) result_->display(workbench_.touch());
-  if (!(drawn_ == project.view)) drawBlock(false);
+  if (isVisible()) displayResult();
+  if (lessKept() || drawn_.lessKept)
+    displayTouch(false);
+  else if (!(drawn_ == project.view))
+    drawBlock(false);
+}
+
+bool DeformationPage::lessKept() const {
+  return workbench_.project().view.lessKept && workbench_.project().kept;
+}
+
+std::shared_ptr<const KeptPath> DeformationPage::shownLess() const {
+  return lessKept() ? workbench_.keptPath() : nullptr;
+}
+
+void DeformationPage::displayResult() {
+  result_->display(workbench_.touch());
+  const auto kept = shownLess();
+  result_->displayDifference(workbench_.project(), workbench_.touch(), kept.get(),
+                             lessKept() ? workbench_.kept().problem() : QString());
 }
 
 void DeformationPage::displayTouch(bool meshChanged) {
   meshDrawn_ = meshDrawn_ && !meshChanged;
   if (meshChanged) probedNode_ = lineStart_ = -1;
-  tabs_->displayTouch(meshChanged);
+  if (isVisible() && lessKept()) workbench_.needKept();
+  tabs_->displayTouch(meshChanged, shownLess());
   if (!isVisible()) return;
   drawBlock(meshChanged);
   path_->display();
-  result_->display(workbench_.touch());
+  displayResult();
   probe(probedNode_);
 }
 
@@ -213,9 +236,15 @@ DeformationOptions DeformationPage::blockOptions() const {
   DeformationOptions options = view.blockOptions();
   options.theme = theme_;
   options.cutGrip = true;
+  options.lessKept = lessKept();
+  const auto kept = shownLess();
   // One scale and one warp on the whole load path.
   if (const NodalFields* end = workbench_.touch().endFields(); end != nullptr) {
-    if (!options.fixedRange) options.fixedRange = quantityRange(options, quantityValues(options.quantity, *end));
+    if (!options.fixedRange && !options.lessKept)
+      options.fixedRange = quantityRange(options, quantityValues(options.quantity, *end));
+    if (!options.fixedRange && kept)
+      options.fixedRange = quantityRange(
+          options, quantityValues(options.quantity, *end, kept->at(touch.solution()->reachedLoadFraction).fields));
     if (!options.warpFactor) options.warpFactor = automaticWarpFactor(touch.design(), end->displacement_mm);
   }
   options.scale = devicePixelRatioF();
@@ -233,8 +262,14 @@ void DeformationPage::drawBlock(bool meshChanged) {
   if (touch.touch().mesh() == nullptr || !isVisible()) return;
   const SensorDesign& design = touch.touch().design();
   drawn_ = workbench_.project().view;
-  const DeformationState state{
+  DeformationState state{
       &design, touch.touch().mesh(), touch.fields(), touch.electrodes(), &touch.touch().load(), touch.loadFraction()};
+  const auto kept = shownLess();
+  std::optional<LoadPathState> less;
+  if (kept) {
+    state.keptDesign = &kept->design;
+    state.kept = &less.emplace(kept->at(touch.loadFraction())).fields;
+  }
   block_->show(state, blockOptions(), meshChanged || !meshDrawn_);
   meshDrawn_ = true;
   view_->displayDrawn(block_->warpFactor(), block_->colorRange());
@@ -316,7 +351,8 @@ void DeformationPage::probe(int node) {
   const bool known = node >= 0 && session.fields() != nullptr && node < session.touch().mesh()->nodeCount();
   probedNode_ = known ? node : -1;
   block_->markNode(probedNode_);
-  result_->displayProbe(session, probedNode_);
+  const auto kept = shownLess();
+  result_->displayProbe(session, probedNode_, kept.get());
 }
 
 } // namespace palp

@@ -26,6 +26,8 @@ public:
   [[nodiscard]] BlockView& block() { return *block_; }
   /// How the block is drawn now.
   [[nodiscard]] DeformationOptions blockOptions() const;
+  /// The kept design where the block is drawn less it; null where not, and before it is computed.
+  [[nodiscard]] std::shared_ptr<const KeptPath> shownLess() const;
   [[nodiscard]] QString commands(const Project& project, const QString& designFile) const override;
 
 signals:
@@ -35,6 +37,7 @@ protected:
   void showEvent(QShowEvent* event) override;
 
 private:
+  [[nodiscard]] bool lessKept() const;
   /// What a click on the block does.
   enum class Click { Probe, Load, Disc, Line };
 
@@ -44,6 +47,7 @@ private:
   void displayProject();
   void displayTouch(bool meshChanged);
   void drawBlock(bool meshChanged);
+  void displayResult();
   void probe(int node);
   void clicked(int node);
   void chooseTool(Click click);

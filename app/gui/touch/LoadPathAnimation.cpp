@@ -77,7 +77,10 @@ bool LoadPathAnimation::start(const Settings& settings) {
     Settings fixed = settings;
     std::vector<double> all;
     for (const LoadPathState& state : path->states) {
-      const std::vector<double> values = quantityValues(settings.options.quantity, state.fields);
+      const Quantity quantity = settings.options.quantity;
+      const std::vector<double> values =
+          settings.kept ? quantityValues(quantity, state.fields, settings.kept->at(state.fraction).fields)
+                        : quantityValues(quantity, state.fields);
       all.insert(all.end(), values.begin(), values.end());
     }
     if (!fixed.options.fixedRange) fixed.options.fixedRange = quantityRange(settings.options, all);
@@ -98,7 +101,8 @@ bool LoadPathAnimation::start(const Settings& settings) {
     return [this, settings] {
       emit done(tr("Wrote %1 pictures, %2.")
                     .arg(settings.frames)
-                    .arg(QString::fromStdString((settings.folder / "load-*.png").string())));
+                    .arg(QString::fromStdString((settings.folder / "load-*.png").string())) +
+                tr(" A program such as ffmpeg makes one film of them: ffmpeg -i load-%03d.png film.mp4"));
     };
   };
   runner_.start(tr("Drawing the load path"), work);
@@ -134,8 +138,13 @@ Picture LoadPathAnimation::draw(const Path& path, const Settings& settings, cons
   if (!easel_) easel_ = std::make_unique<Easel>();
   DeformationScene& scene = easel_->scene;
   const SensorDesign& design = path.touch.design();
-  scene.show({&design, path.touch.mesh(), &fields, &electrodes, &path.touch.load(), fraction}, settings.options,
-             !easel_->begun);
+  DeformationState state{&design, path.touch.mesh(), &fields, &electrodes, &path.touch.load(), fraction};
+  std::optional<LoadPathState> less;
+  if (settings.kept) {
+    state.keptDesign = &settings.kept->design;
+    state.kept = &less.emplace(settings.kept->at(fraction)).fields;
+  }
+  scene.show(state, settings.options, !easel_->begun);
   if (!easel_->begun) {
     easel_->window.setSize(settings.width, settings.height);
     easel_->window.vtk()->AddRenderer(scene.renderer());

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/gui/jobs/JobRunner.h"
+#include "app/gui/jobs/KeptTouch.h"
 #include "app/scenes/Picture.h"
 #include "app/scenes/block/DeformationScene.h"
 
@@ -20,6 +20,7 @@ class LoadPathAnimation : public QObject {
 public:
   struct Settings {
     DeformationOptions options;
+    std::shared_ptr<const KeptPath> kept; ///< that the colours are less of; null: of none
     int frames = 25;
     int width = 1200;
     int height = 800;

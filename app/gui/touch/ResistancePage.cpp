@@ -1,10 +1,12 @@
 #include "app/gui/touch/ResistancePage.h"
 
 #include "app/gui/project/Command.h"
+#include "app/gui/touch/StaleNote.h"
 #include "app/gui/views/BlockView.h"
 #include "app/gui/views/ChartView.h"
 #include "app/gui/views/HeatmapSpecs.h"
 #include "app/gui/views/HeatmapView.h"
+#include "app/gui/views/ViewBar.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -12,6 +14,7 @@
 #include <QLabel>
 #include <QSignalBlocker>
 #include <QSplitter>
+#include <QStandardItemModel>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -20,9 +23,15 @@ namespace palp {
 
 namespace {
 
-/// One row or column of the matrix against its index.
+constexpr int kMarkColor = 3;
+
+QString signedText(double value) {
+  return (value > 0 ? "+" : "") + QString::number(value, 'g', 4);
+}
+
+/// One row or column of the matrix against its index, and one of its cells.
 ChartSpec curveChart(const HeatmapSpec& heatmap, const std::string& title, const std::string& xLabel,
-                     const Eigen::VectorXd& values, int color) {
+                     const Eigen::VectorXd& values, int color, int cell) {
   ChartSpec spec;
   spec.title = title;
   spec.xLabel = xLabel;
@@ -34,7 +43,13 @@ ChartSpec curveChart(const HeatmapSpec& heatmap, const std::string& title, const
     curve.x.push_back(static_cast<double>(k));
     curve.y.push_back(values[k]);
   }
-  spec.series = {curve};
+  ChartSeries mark;
+  mark.style = ChartSeries::Style::Points;
+  mark.color = kMarkColor;
+  mark.name = "the chosen cell";
+  mark.x = {static_cast<double>(cell)};
+  mark.y = {values[cell]};
+  spec.series = {curve, mark};
   return spec;
 }
 
@@ -49,6 +64,7 @@ ResistancePage::ResistancePage(Workbench& workbench, QWidget* parent) : Scene(pa
   column->addWidget(buildBar());
   heatmap_ = new HeatmapView;
   heatmap_->setObjectName("resistanceHeatmap");
+  new StaleNote(*heatmap_, workbench_);
   row_ = new ChartView;
   row_->setObjectName("rowCurve");
   column_ = new ChartView;
@@ -59,7 +75,15 @@ ResistancePage::ResistancePage(Workbench& workbench, QWidget* parent) : Scene(pa
   lower->setObjectName("resistanceLower");
   lower->addWidget(row_);
   lower->addWidget(column_);
-  lower->addWidget(block_);
+  auto* third = new QWidget;
+  auto* around = new QVBoxLayout(third);
+  around->setContentsMargins(0, 0, 0, 0);
+  auto* looks = new QHBoxLayout;
+  looks->addStretch(1);
+  looks->addWidget(new ViewBar(*block_));
+  around->addLayout(looks);
+  around->addWidget(block_, 1);
+  lower->addWidget(third);
   lower->setSizes({420, 420, 520});
   auto* views = new QSplitter(Qt::Vertical);
   views->setObjectName("resistanceSplitter");
@@ -77,11 +101,12 @@ ResistancePage::ResistancePage(Workbench& workbench, QWidget* parent) : Scene(pa
   connect(fixed_, &QCheckBox::toggled, this, [this](bool on) {
     ViewSettings view = workbench_.project().view;
     const ColorScale& colors = heatmap_->heatmap().colors;
-    view.resistanceRange = on ? std::optional(std::array{colors.low, colors.high}) : std::nullopt;
+    view.resistanceRange =
+        on && heatmap_->heatmap().values.size() > 0 ? std::optional(std::array{colors.low, colors.high}) : std::nullopt;
     edit(tr("Keep the colour scale"), view);
   });
   connect(heatmap_, &HeatmapView::cellHovered, this, [this](const std::optional<std::array<int, 2>>& cell) {
-    reading_->setText(cell ? heatmap_->toolTip() : tr("Point at a cell to read it; click to see its row and column."));
+    if (workbench_.touch().electrodes() != nullptr) reading_->setText(cellWords(cell.value_or(this->cell())));
   });
   connect(heatmap_, &HeatmapView::cellClicked, this, [this](int rowWire, int columnWire) {
     ViewSettings view = workbench_.project().view;
@@ -90,6 +115,7 @@ ResistancePage::ResistancePage(Workbench& workbench, QWidget* parent) : Scene(pa
   });
   connect(&workbench_, &Workbench::projectChanged, this, &ResistancePage::displayProject);
   connect(&workbench_.touch(), &TouchSession::changed, this, &ResistancePage::draw);
+  connect(&workbench_.kept(), &KeptTouch::changed, this, [this] { draw(false); });
   displayProject();
 }
 
@@ -103,9 +129,24 @@ void ResistancePage::displayProject() {
   const ViewSettings& view = workbench_.project().view;
   const QSignalBlocker quietKind(kind_);
   const QSignalBlocker quietFixed(fixed_);
-  kind_->setCurrentIndex(static_cast<int>(view.resistance));
+  auto* less = static_cast<QStandardItemModel*>(kind_->model())->item(static_cast<int>(ResistanceKind::LessKept));
+  less->setEnabled(comparable());
+  less->setToolTip(comparable() ? tr("Under the same load, in percent of the resistance at rest")
+                                : tr("Nothing with as many wires is kept: Design, Compare, \"Keep this design\""));
+  kind_->setCurrentIndex(static_cast<int>(kind()));
   fixed_->setChecked(view.resistanceRange.has_value());
-  if (!(view == drawn_)) draw(false);
+  if (!(view == drawn_) || view.resistance == ResistanceKind::LessKept) draw(false);
+}
+
+bool ResistancePage::comparable() const {
+  const Project& project = workbench_.project();
+  return project.kept && project.kept->rowWires() == project.design.rowWires() &&
+         project.kept->columnWires() == project.design.columnWires();
+}
+
+ResistanceKind ResistancePage::kind() const {
+  const ResistanceKind chosen = workbench_.project().view.resistance;
+  return chosen == ResistanceKind::LessKept && !comparable() ? ResistanceKind::RelativeChange : chosen;
 }
 
 std::array<int, 2> ResistancePage::cell() const {
@@ -124,12 +165,14 @@ QWidget* ResistancePage::buildBar() {
   row->setContentsMargins(0, 0, 0, 0);
   kind_ = new QComboBox;
   kind_->setObjectName("resistanceKind");
-  kind_->addItems({tr("R [ohm]"), tr("change dR [ohm]"), tr("relative change dR/R [%]")});
+  kind_->addItems(
+      {tr("R [ohm]"), tr("change dR [ohm]"), tr("relative change dR/R [%]"), tr("dR/R less the kept design's [%]")});
   kind_->setToolTip(tr("R = g x distance of each pair of electrodes, added (Eq. 1); changes against rest"));
   fixed_ = new QCheckBox(tr("keep this colour scale"));
   fixed_->setObjectName("fixedScale");
   fixed_->setToolTip(tr("The colours keep their range when the load changes"));
-  reading_ = new QLabel(tr("Point at a cell to read it; click to see its row and column."));
+  reading_ = new QLabel;
+  reading_->setToolTip(tr("Of the cell under the pointer, else of the chosen one; click on a cell to choose it"));
   reading_->setObjectName("reading");
   row->addWidget(new QLabel(tr("Show")));
   row->addWidget(kind_);
@@ -149,7 +192,9 @@ void ResistancePage::setTheme(Theme theme) {
 }
 
 bool ResistancePage::complete() const {
-  return workbench_.touch().electrodes() != nullptr && workbench_.touch().upToDate();
+  const bool compared =
+      kind() != ResistanceKind::LessKept || workbench_.keptPath() || !workbench_.kept().problem().isEmpty();
+  return workbench_.touch().electrodes() != nullptr && workbench_.touch().upToDate() && compared;
 }
 
 void ResistancePage::showEvent(QShowEvent* event) {
@@ -161,17 +206,48 @@ void ResistancePage::draw(bool meshChanged) {
   meshDrawn_ = meshDrawn_ && !meshChanged;
   if (!isVisible() || workbench_.touch().electrodes() == nullptr) return;
   drawn_ = workbench_.project().view;
+  if (kind() == ResistanceKind::LessKept) workbench_.needKept();
   drawHeatmap();
   drawCurves();
   drawBlock(meshChanged);
+  reading_->setText(cellWords(cell()));
+}
+
+QString ResistancePage::cellWords(const std::array<int, 2>& cell) const {
+  const SensorDesign& design = workbench_.touch().touch().design();
+  const auto [row, column] = cell;
+  if (row >= design.rowWires() || column >= design.columnWires()) return {};
+  const double rest = rowColumnResistances(design, ElectrodeDisplacements::atRest(design))(row, column);
+  const double now = rowColumnResistances(design, *workbench_.touch().electrodes())(row, column);
+  return tr("Row-wire %1, column-wire %2: R = %3 ohm at rest, %4 ohm under the load (%5 ohm, %6 %)")
+      .arg(row)
+      .arg(column)
+      .arg(QString::number(rest, 'g', 6), QString::number(now, 'g', 6), signedText(now - rest),
+           signedText(100 * (now - rest) / rest));
+}
+
+HeatmapSpec ResistancePage::heatmap() const {
+  const TouchSession& touch = workbench_.touch();
+  const auto changes = [this](const SensorDesign& design, const ElectrodeDisplacements& electrodes) {
+    return resistanceHeatmap(design, rowColumnResistances(design, electrodes), kind());
+  };
+  HeatmapSpec shown = changes(touch.touch().design(), *touch.electrodes());
+  if (kind() != ResistanceKind::LessKept) return shown;
+  const auto kept = workbench_.keptPath();
+  HeatmapSpec none;
+  const QString& problem = workbench_.kept().problem();
+  none.title = (problem.isEmpty() ? tr("The kept design is being computed...") : problem).toStdString();
+  if (!kept) return none;
+  const HeatmapSpec less = changes(kept->design, kept->at(touch.loadFraction()).electrodes);
+  const bool alike = less.values.rows() == shown.values.rows() && less.values.cols() == shown.values.cols();
+  return alike ? heatmapLessKept(shown.values, less.values) : none; // else the touch is still of the design before
 }
 
 void ResistancePage::drawHeatmap() {
   const TouchSession& touch = workbench_.touch();
   if (touch.electrodes() == nullptr || !isVisible()) return;
-  HeatmapSpec spec = resistanceHeatmap(touch.touch(), rowColumnResistances(touch.touch().design(), *touch.electrodes()),
-                                       workbench_.project().view.resistance);
-  spec.selected = cell();
+  HeatmapSpec spec = heatmap();
+  if (spec.values.size() > 0) spec.selected = cell();
   if (const auto& range = workbench_.project().view.resistanceRange) {
     spec.colors.low = (*range)[0];
     spec.colors.high = (*range)[1];
@@ -181,12 +257,16 @@ void ResistancePage::drawHeatmap() {
 
 void ResistancePage::drawCurves() {
   const HeatmapSpec& spec = heatmap_->heatmap();
-  if (spec.values.size() == 0 || !isVisible()) return;
+  if (!isVisible()) return;
+  if (spec.values.size() == 0) {
+    for (ChartView* curve : {row_, column_}) curve->setChart({});
+    return;
+  }
   const auto [rowWire, columnWire] = cell();
-  row_->setChart(
-      curveChart(spec, "Row-wire " + std::to_string(rowWire), "column-wire", spec.values.row(rowWire).transpose(), 1));
-  column_->setChart(
-      curveChart(spec, "Column-wire " + std::to_string(columnWire), "row-wire", spec.values.col(columnWire), 0));
+  row_->setChart(curveChart(spec, "Row-wire " + std::to_string(rowWire), "column-wire",
+                            spec.values.row(rowWire).transpose(), 1, columnWire));
+  column_->setChart(curveChart(spec, "Column-wire " + std::to_string(columnWire), "row-wire",
+                               spec.values.col(columnWire), 0, rowWire));
 }
 
 void ResistancePage::drawBlock(bool meshChanged) {

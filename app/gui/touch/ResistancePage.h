@@ -3,6 +3,7 @@
 #include "app/gui/project/Workbench.h"
 #include "app/gui/window/Scene.h"
 #include "app/scenes/block/DeformationScene.h"
+#include "app/scenes/charts/Heatmap.h"
 
 class QCheckBox;
 class QComboBox;
@@ -39,6 +40,13 @@ private:
   void edit(const QString& what, const ViewSettings& view);
   /// The chosen cell, inside the shown design.
   [[nodiscard]] std::array<int, 2> cell() const;
+  /// Another design is kept that has as many wires: the changes can be compared.
+  [[nodiscard]] bool comparable() const;
+  /// As chosen, where that can be shown.
+  [[nodiscard]] ResistanceKind kind() const;
+  [[nodiscard]] HeatmapSpec heatmap() const;
+  /// Its resistance at rest and under the load.
+  [[nodiscard]] QString cellWords(const std::array<int, 2>& cell) const;
 
   Workbench& workbench_;
   DeformationOptions options_;

@@ -1,11 +1,14 @@
 #include "app/gui/touch/ResultPanel.h"
 
+#include "app/gui/jobs/KeptTouch.h"
 #include "app/gui/jobs/TouchSession.h"
+#include "app/gui/project/Project.h"
 
 #include <QLabel>
 #include <QPushButton>
 #include <QVBoxLayout>
 
+#include <algorithm>
 #include <cmath>
 
 namespace palp {
@@ -44,10 +47,14 @@ ResultPanel::ResultPanel(QWidget* parent) : QWidget(parent) {
   estimate_->setToolTip(tr("Solves again on a coarser mesh and compares the electrodes' displacements"));
   probe_ = new QLabel;
   probe_->setObjectName("probe");
-  for (QLabel* label : {result_, probe_}) {
+  difference_ = new QLabel;
+  difference_->setObjectName("difference");
+  difference_->hide();
+  for (QLabel* label : {difference_, result_, probe_}) {
     label->setWordWrap(true);
     label->setTextInteractionFlags(Qt::TextSelectableByMouse);
   }
+  lines->addWidget(difference_);
   lines->addWidget(result_);
   lines->addWidget(estimate_);
   lines->addWidget(probe_);
@@ -76,18 +83,49 @@ void ResultPanel::display(const TouchSession& session) {
   if (session.fields() != nullptr) {
     Eigen::Index node = 0;
     const double largest = session.fields()->displacement_mm.colwise().norm().maxCoeff(&node);
-    lines << tr("Largest displacement %1 mm at %2 mm.").arg(number(largest), triple(touch.mesh()->nodes_mm.col(node)));
+    if (largest > 0)
+      lines
+          << tr("Largest displacement %1 mm at %2 mm.").arg(number(largest), triple(touch.mesh()->nodes_mm.col(node)));
+    else
+      lines << tr("Nothing moves.");
   }
   lines << tr("Load %1 N, reaction at the bottom %2 N.")
                .arg(triple(solution->reachedLoadFraction * touch.load().totalForce_N()), triple(solution->reaction_N));
+  const bool between = session.place() != session.lastPlace();
+  if (between) lines.last() += tr(" (of the full load; shown is %1 %)").arg(number(100 * session.loadFraction(), 3));
   lines << tr("Largest volume error |J - 1|: %1.").arg(number(solution->maxVolumeError, 3));
   lines << tr("Discretisation error: %1").arg(errorWords_.isEmpty() ? tr("not estimated yet.") : errorWords_ + ".");
-  if (!session.upToDate()) lines << tr("<i>The load has changed; this is the result before.</i>");
+  if (!session.upToDate()) lines << tr("<i>Design, load or mesh have changed; this is the result before.</i>");
   result_->setText(lines.join("<br>"));
   fitHeight(*result_);
 }
 
-void ResultPanel::displayProbe(const TouchSession& session, int node) {
+void ResultPanel::displayDifference(const Project& project, const TouchSession& session, const KeptPath* kept,
+                                    const QString& problem) {
+  const bool shown = project.view.lessKept && project.kept && session.fields() != nullptr;
+  difference_->setVisible(shown);
+  if (!shown) return;
+  if (kept == nullptr) {
+    difference_->setText(problem.isEmpty() ? tr("<b>Less the kept design:</b> being computed...")
+                                           : tr("<b>Less the kept design:</b> %1.").arg(problem));
+  } else {
+    const Quantity quantity = project.view.quantity;
+    const NodalFields less = kept->at(session.loadFraction()).fields;
+    const std::vector<double> values = quantityValues(quantity, *session.fields(), less);
+    const auto most =
+        std::max_element(values.begin(), values.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+    const Eigen::Index node = most - values.begin();
+    const double now = quantityValues(quantity, *session.fields())[static_cast<std::size_t>(node)];
+    const QString unit = QString::fromStdString(quantityUnit(quantity));
+    difference_->setText(tr("<b>Less the kept design:</b> %1 differs most at %2 mm: by %3 %6 (%4, kept %5).")
+                             .arg(QString::fromStdString(quantityName(quantity)),
+                                  triple(session.touch().mesh()->nodes_mm.col(node)), number(*most), number(now),
+                                  number(now - *most), unit));
+  }
+  fitHeight(*difference_);
+}
+
+void ResultPanel::displayProbe(const TouchSession& session, int node, const KeptPath* kept) {
   if (node < 0) {
     probe_->setText(tr("Click on the block to probe a point."));
     return;
@@ -95,12 +133,22 @@ void ResultPanel::displayProbe(const TouchSession& session, int node) {
   const Eigen::Vector3d place = session.touch().mesh()->nodes_mm.col(node);
   const NodalFields& fields = *session.fields();
   const Eigen::Vector3d u = fields.displacement_mm.col(node);
-  probe_->setText(tr("<b>Point (%1, %2, %3) mm</b><br>u = (%4, %5, %6) mm<br>pressure %7 MPa, von Mises %8 MPa, "
-                     "J - 1 = %9<br>stress xx, yy, zz = %10 MPa<br>xy, yz, xz = %11 MPa<br>principal stretches %12")
-                      .arg(number(place.x()), number(place.y()), number(place.z()), number(u.x()), number(u.y()),
-                           number(u.z()), number(fields.pressure_MPa[node]), number(fields.vonMises_MPa[node]),
-                           number(fields.volumeRatio[node] - 1, 3), triple(fields.cauchy_MPa.col(node).head<3>()),
-                           triple(fields.cauchy_MPa.col(node).tail<3>()), triple(fields.principalStretches.col(node))));
+  const QString words =
+      tr("<b>Point (%1, %2, %3) mm</b><br>u = (%4, %5, %6) mm<br>pressure %7 MPa, von Mises %8 MPa, "
+         "J - 1 = %9<br>stress xx, yy, zz = %10 MPa<br>xy, yz, xz = %11 MPa<br>principal stretches %12")
+          .arg(number(place.x()), number(place.y()), number(place.z()), number(u.x()), number(u.y()), number(u.z()),
+               number(fields.pressure_MPa[node]), number(fields.vonMises_MPa[node]),
+               number(fields.volumeRatio[node] - 1, 3), triple(fields.cauchy_MPa.col(node).head<3>()),
+               triple(fields.cauchy_MPa.col(node).tail<3>()), triple(fields.principalStretches.col(node)));
+  QString beside;
+  if (kept != nullptr) {
+    const NodalFields less = kept->at(session.loadFraction()).fields;
+    beside = tr("<br><b>Kept design</b><br>u = %1 mm<br>pressure %2 MPa, von Mises %3 MPa<br>stress xx, yy, zz = %4 "
+                "MPa")
+                 .arg(triple(less.displacement_mm.col(node)), number(less.pressure_MPa[node]),
+                      number(less.vonMises_MPa[node]), triple(less.cauchy_MPa.col(node).head<3>()));
+  }
+  probe_->setText(words + beside);
   fitHeight(*probe_);
 }
 

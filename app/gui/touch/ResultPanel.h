@@ -8,6 +8,8 @@ class QPushButton;
 namespace palp {
 
 class TouchSession;
+struct KeptPath;
+struct Project;
 
 /// What came out of the solve in words, the estimate of its error, and the probed point.
 class ResultPanel : public QWidget {
@@ -20,7 +22,11 @@ public:
   /// The estimate of the discretisation error in words; empty: not estimated.
   void setErrorWords(const QString& words) { errorWords_ = words; }
   /// Displacement, pressure and stress at a mesh node; -1: none.
-  void displayProbe(const TouchSession& session, int node);
+  void displayProbe(const TouchSession& session, int node, const KeptPath* kept);
+  /// By how much the shown quantity differs most from that of the kept design, or why that is not known; nothing where
+  /// it is not shown.
+  void displayDifference(const Project& project, const TouchSession& session, const KeptPath* kept,
+                         const QString& problem);
 
 signals:
   void estimateAsked();
@@ -29,6 +35,7 @@ private:
   QLabel* result_ = nullptr;
   QPushButton* estimate_ = nullptr;
   QLabel* probe_ = nullptr;
+  QLabel* difference_ = nullptr;
   QString errorWords_;
 };
 

@@ -1,5 +1,6 @@
 #include "app/gui/touch/TouchTabs.h"
 
+#include "app/gui/jobs/KeptTouch.h"
 #include "app/gui/jobs/TouchSession.h"
 #include "app/gui/views/ChartView.h"
 #include "app/gui/views/HeatmapSpecs.h"
@@ -175,17 +176,18 @@ void TouchTabs::displayProject(const Project& project) {
   draw();
 }
 
-void TouchTabs::displayTouch(bool meshChanged) {
+void TouchTabs::displayTouch(bool meshChanged, std::shared_ptr<const KeptPath> kept) {
   if (meshChanged) plot_.reset();
+  kept_ = std::move(kept);
   draw();
 }
 
 void TouchTabs::draw() {
   if (!isVisible()) return;
   if (heatmap_->isVisible() && session_.electrodes() != nullptr) {
-    HeatmapSpec spec =
-        resistanceHeatmap(session_.touch(), rowColumnResistances(session_.touch().design(), *session_.electrodes()),
-                          ResistanceKind::RelativeChange);
+    HeatmapSpec spec = resistanceHeatmap(session_.touch().design(),
+                                         rowColumnResistances(session_.touch().design(), *session_.electrodes()),
+                                         ResistanceKind::RelativeChange);
     if (view_.litCell && (*view_.litCell)[0] < spec.values.rows() && (*view_.litCell)[1] < spec.values.cols())
       spec.selected = view_.litCell;
     heatmap_->setHeatmap(std::move(spec));
@@ -214,7 +216,8 @@ void TouchTabs::drawRowWire() {
 
 void TouchTabs::drawLine() {
   if (session_.fields() == nullptr || !line_->isVisible()) return;
-  line_->setChart(plot_.chart(*session_.touch().mesh(), *session_.fields(), view_));
+  const auto less = kept_ ? std::optional(kept_->at(session_.loadFraction())) : std::nullopt;
+  line_->setChart(plot_.chart(*session_.touch().mesh(), *session_.fields(), view_, less ? &less->fields : nullptr));
 }
 
 void TouchTabs::fillTable() {

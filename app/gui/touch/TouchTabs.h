@@ -14,6 +14,7 @@ namespace palp {
 class ChartView;
 class HeatmapView;
 class TouchSession;
+struct KeptPath;
 
 /// Under the block: heatmap and Newton's residuals, a row-wire before and under the load, a plot along a line, the
 /// electrodes as a table. Only the visible tab is drawn.
@@ -25,7 +26,8 @@ public:
 
   void setTheme(Theme theme);
   void displayProject(const Project& project);
-  void displayTouch(bool meshChanged);
+  /// `kept`: the design that is shown beside it; null: none.
+  void displayTouch(bool meshChanged, std::shared_ptr<const KeptPath> kept);
   void drawNewton();
   /// Shows the plot along the line.
   void showLine();
@@ -51,6 +53,7 @@ private:
   ViewSettings view_;
   std::vector<NewtonStep> drawnSteps_;
   LinePlot plot_;
+  std::shared_ptr<const KeptPath> kept_;
   HeatmapView* heatmap_ = nullptr;
   ChartView* newton_ = nullptr;
   ChartView* rowWire_ = nullptr;

@@ -33,6 +33,7 @@ ViewPanel::ViewPanel(QWidget* parent) : QWidget(parent) {
   auto* form = new QFormLayout(this);
   form->setContentsMargins(0, 0, 0, 0);
   buildColors(*form);
+  lessKept_ = box(*form, tr("less the kept design"), "lessKept", false, {});
   buildWarp(*form);
   buildCut(*form);
   extremes_ = box(*form, tr("largest and smallest value"), "extremes", false, tr("Marks both at their places"));
@@ -46,6 +47,7 @@ ViewPanel::ViewPanel(QWidget* parent) : QWidget(parent) {
   for (QComboBox* list : {colorMap_, cut_}) connect(list, &QComboBox::currentIndexChanged, this, &ViewPanel::read);
   for (QDoubleSpinBox* spin : {warp_, cutAt_, range_[0], range_[1]})
     connect(spin, &QDoubleSpinBox::valueChanged, this, &ViewPanel::read);
+  connect(lessKept_, &QCheckBox::toggled, this, &ViewPanel::chooseKept);
   for (QCheckBox* check : {automaticWarp_, keepRange_, extremes_, ghost_, electrodes_, arrows_, outlines_, edges_})
     connect(check, &QCheckBox::toggled, this, &ViewPanel::read);
 }
@@ -141,6 +143,15 @@ void ViewPanel::chooseQuantity() {
   read();
 }
 
+void ViewPanel::chooseKept() {
+  if (displaying_) return;
+  view_.lessKept = lessKept_->isChecked();
+  // The range of a quantity means little for a difference.
+  const QSignalBlocker quiet(keepRange_);
+  keepRange_->setChecked(false);
+  read();
+}
+
 void ViewPanel::read() {
   warp_->setDisabled(automaticWarp_->isChecked());
   cutAt_->setEnabled(cut_->currentIndex() > 0);
@@ -171,7 +182,7 @@ void ViewPanel::read() {
   emit edited(view_);
 }
 
-void ViewPanel::display(const ViewSettings& view, const Eigen::Vector3d& block_mm) {
+void ViewPanel::display(const ViewSettings& view, const Eigen::Vector3d& block_mm, bool somethingKept) {
   displaying_ = true;
   view_ = view;
   block_mm_ = block_mm;
@@ -181,6 +192,11 @@ void ViewPanel::display(const ViewSettings& view, const Eigen::Vector3d& block_m
   for (std::size_t k = 0; k < kColorMaps.all().size(); ++k)
     if (view.colorMap == kColorMaps.all()[k].first) map = static_cast<int>(k) + 1;
   colorMap_->setCurrentIndex(map);
+  lessKept_->setEnabled(somethingKept);
+  lessKept_->setChecked(view.lessKept && somethingKept);
+  lessKept_->setToolTip(somethingKept
+                            ? tr("Colours by the difference to the kept design under the same load, point by point")
+                            : tr("Nothing is kept to compare with: Design, Compare, \"Keep this design\""));
   keepRange_->setChecked(view.colorRange.has_value());
   if (view.colorRange)
     for (std::size_t k = 0; k < 2; ++k) showExactly(*range_[k], (*view.colorRange)[k]);

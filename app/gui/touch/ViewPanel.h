@@ -21,7 +21,7 @@ public:
   explicit ViewPanel(QWidget* parent = nullptr);
 
   /// Emits nothing.
-  void display(const ViewSettings& view, const Eigen::Vector3d& block_mm);
+  void display(const ViewSettings& view, const Eigen::Vector3d& block_mm, bool somethingKept);
   /// The factor and the range of the colours that were drawn, shown while they are automatic.
   void displayDrawn(double warpFactor, const std::array<double, 2>& range);
 
@@ -35,6 +35,7 @@ private:
   void buildCut(QFormLayout& form);
   void read();
   void chooseQuantity();
+  void chooseKept();
 
   ViewSettings view_;
   Eigen::Vector3d block_mm_ = paperDesign().block_mm;
@@ -42,6 +43,7 @@ private:
   QComboBox* quantity_ = nullptr;
   QComboBox* colorMap_ = nullptr;
   QCheckBox* keepRange_ = nullptr;
+  QCheckBox* lessKept_ = nullptr;
   std::array<QDoubleSpinBox*, 2> range_{};
   QCheckBox* automaticWarp_ = nullptr;
   QDoubleSpinBox* warp_ = nullptr;

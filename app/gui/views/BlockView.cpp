@@ -1,5 +1,7 @@
 #include "app/gui/views/BlockView.h"
 
+#include "app/gui/views/TextScale.h"
+
 #include <vtkCamera.h>
 #include <vtkCellPicker.h>
 #include <vtkNew.h>
@@ -52,6 +54,8 @@ void BlockView::show(const DeformationState& state, const DeformationOptions& op
   const bool other = !parts_->design || parts_->design->block_mm != state.design->block_mm;
   parts_->design = *state.design;
   cut_ = options.cutGrip ? options.cut : std::nullopt;
+  scale_ = options.scale;
+  scaleText();
   if (other) resetCamera();
   invalidate();
 }
@@ -69,7 +73,7 @@ void BlockView::resetCamera() {
 void BlockView::lookAlong(const Eigen::Vector3d& direction) {
   if (!parts_->design) return;
   parts_->scene.resetCamera(*parts_->design, aspect(), direction,
-                            std::clamp(kLegendRoom_px / std::max(width(), 1), 0.02, 0.4));
+                            std::clamp(kLegendRoom_px * textScale(*this) / std::max(width(), 1), 0.02, 0.4));
   invalidate();
 }
 
@@ -85,6 +89,22 @@ std::array<double, 3> BlockView::cameraPosition() const {
   std::array<double, 3> place{};
   parts_->scene.renderer()->GetActiveCamera()->GetPosition(place.data());
   return place;
+}
+
+void BlockView::setTextScale(double scale) {
+  parts_->scene.setTextScale(scale);
+}
+
+int BlockView::loadCount() const {
+  return static_cast<int>(parts_->scene.forces().size());
+}
+
+const std::vector<PatchLoad>& BlockView::discs() const {
+  return parts_->scene.discs();
+}
+
+double BlockView::height_mm() const {
+  return parts_->design ? parts_->design->block_mm.z() : 0;
 }
 
 vtkCamera* BlockView::camera() const {

@@ -8,7 +8,9 @@ class vtkCamera;
 
 namespace palp {
 
-/// The block in a view: turned, moved and zoomed by the mouse; double click looks at all of it again.
+/// The block in a view: turned, moved and zoomed by the mouse; double click looks at all of it again. By keys: a cross
+/// (Ctrl and arrows; N: to the next thing that can be taken) takes what lies under it, carries it and lets it go, or
+/// clicks there (space).
 class BlockView : public VtkView {
   Q_OBJECT
 
@@ -39,6 +41,8 @@ public:
   void setForcesMovable(bool movable) { movable_ = movable; }
   /// Lets discs be moved, and sized at their rims.
   void setDiscsMovable(bool movable) { discsMovable_ = movable; }
+  /// The cross of the keys; none before one of them was pressed.
+  [[nodiscard]] std::optional<QPointF> cross() const { return cross_; }
 
 signals:
   /// The mesh node drawn where the surface was clicked.
@@ -53,6 +57,11 @@ signals:
   void discDragged(int disc, const palp::PatchLoad& to);
 
 protected:
+  [[nodiscard]] Picture renderPicture(int width, int height) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void paintEvent(QPaintEvent* event) override;
+  void focusOutEvent(QFocusEvent* event) override;
+  void changeEvent(QEvent* event) override;
   bool grab(const QPointF& place, Qt::KeyboardModifiers modifiers) override;
   void dragTo(const QPointF& place, Qt::KeyboardModifiers modifiers) override;
   void drop() override;
@@ -61,6 +70,17 @@ private:
   struct Parts;
   BlockView(std::unique_ptr<Parts> parts, QWidget* parent);
   void pick(const QPointF& place);
+  void setTextScale(double scale);
+  [[nodiscard]] int loadCount() const;
+  [[nodiscard]] const std::vector<PatchLoad>& discs() const;
+  [[nodiscard]] double height_mm() const; ///< of the block; 0 before it is there
+  /// Words as large as the widget's.
+  void scaleText();
+  void moveCross(const QPointF& to);
+  void useCross(Qt::KeyboardModifiers modifiers);
+  void crossToNextGrip();
+  /// Places where something can be taken: arrows, the cut's knob, middles and rims of discs.
+  [[nodiscard]] std::vector<QPointF> grips() const;
   /// The point of the plane through `anchor`, parallel to the view, that is drawn at a place of the widget.
   [[nodiscard]] Eigen::Vector3d pointAt(const QPointF& place, const Eigen::Vector3d& anchor_mm) const;
   /// Where the line of sight through a place of the widget meets the top face's plane at rest; none beside it.
@@ -78,6 +98,10 @@ private:
   std::optional<CutPlane> cut_; ///< as drawn, with its grip
   bool cutHeld_ = false;
   int dragged_ = -1; ///< arrow
+  std::optional<QPointF> cross_;
+  bool crossHolds_ = false;
+  std::size_t nextGrip_ = 0;
+  double scale_ = 1; ///< of the last state's options
 };
 
 } // namespace palp

@@ -3,6 +3,7 @@
 #include "app/gui/views/CsvExport.h"
 #include "app/gui/views/TextScale.h"
 
+#include <vtkAxis.h>
 #include <vtkChartXY.h>
 #include <vtkContextActor.h>
 #include <vtkContextInteractorStyle.h>
@@ -36,8 +37,9 @@ ChartView::ChartView(QWidget* parent) : ChartView(std::make_unique<Parts>(), par
 
 ChartView::ChartView(std::unique_ptr<Parts> parts, QWidget* parent)
     : VtkView(parts->renderer, parts->style, parent), parts_(std::move(parts)) {
-  connect(this, &VtkView::doubleClicked, this, &ChartView::fill);
-  connect(this, &VtkView::sizeChanged, this, &ChartView::fill); // the legend's place
+  connect(this, &VtkView::doubleClicked, this, qOverload<>(&ChartView::fill));
+  connect(this, &VtkView::sizeChanged, this, qOverload<>(&ChartView::fill)); // the legend's place
+  connect(this, &VtkView::hovered, this, &ChartView::readAt);
   fill();
 }
 
@@ -46,6 +48,7 @@ ChartView::~ChartView() = default;
 void ChartView::setChart(const ChartSpec& spec) {
   if (spec == spec_) return;
   spec_ = spec;
+  read_.reset();
   fill();
 }
 
@@ -66,18 +69,33 @@ void ChartView::paintEvent(QPaintEvent* event) {
     veil.setAlphaF(0.6F);
     painter.fillRect(rect(), veil);
   }
-  if (!empty) return;
+  if (!empty) return paintReading(painter);
   painter.setPen(QWidget::palette().color(QPalette::PlaceholderText));
   const QString title = QString::fromStdString(spec_.title);
   painter.drawText(rect(), Qt::AlignCenter, title.isEmpty() ? tr("nothing yet") : title + tr(":\nnothing yet"));
 }
 
 void ChartView::fill() {
+  const double ratio = devicePixelRatioF();
+  fill(ratio * textScale(*this), ratio * QSizeF(size()));
+}
+
+void ChartView::fill(double scale, const QSizeF& size) {
   const Color& ground = palp::palette(theme_).ground;
   parts_->renderer->SetBackground(ground[0], ground[1], ground[2]);
-  const double ratio = devicePixelRatioF();
-  fillChart(*parts_->chart, spec_, theme_, ratio * textScale(*this), {ratio * width(), ratio * height()});
+  fillChart(*parts_->chart, spec_, theme_, scale, {size.width(), size.height()});
   invalidate();
+}
+
+Picture ChartView::renderPicture(int width, int height) {
+  fill(devicePixelRatioF() * textScale(*this) * magnification(width, height), QSizeF(width, height));
+  Picture picture = VtkView::renderPicture(width, height);
+  fill();
+  return picture;
+}
+
+vtkAxis& ChartView::axis(int position) const {
+  return *parts_->chart->GetAxis(position);
 }
 
 void ChartView::setFaint(bool faint) {

@@ -1,9 +1,9 @@
 #include "app/gui/views/CsvExport.h"
 
+#include "app/gui/widgets/SaveDialog.h"
 #include "io/AtomicFile.h"
 #include "model/base/Error.h"
 
-#include <QFileDialog>
 #include <QMessageBox>
 
 #include <algorithm>
@@ -27,8 +27,7 @@ QString chartCsv(const ChartSpec& spec) {
 }
 
 void offerCsv(QWidget* parent, const QString& proposal, const QString& text) {
-  QString file =
-      QFileDialog::getSaveFileName(parent, QObject::tr("Save as CSV"), proposal, QObject::tr("Tables (*.csv)"));
+  const QString file = askFileToSave(parent, QObject::tr("Save as CSV"), proposal, QObject::tr("Tables (*.csv)"));
   if (file.isEmpty()) return;
   try {
     writeFile(file.toStdString(), text.toStdString(), true); // the dialog has asked

@@ -1,16 +1,26 @@
 #include "app/gui/views/HeatmapSpecs.h"
 
+#include "model/RowColumnResistance.h"
+
 namespace palp {
 
-HeatmapSpec resistanceHeatmap(const Touch& touch, const Eigen::MatrixXd& resistances_ohm, ResistanceKind kind) {
-  const Eigen::MatrixXd rest = rowColumnResistances(touch.design(), ElectrodeDisplacements::atRest(touch.design()));
+namespace {
+
+ColorScale scaleOf(const Eigen::MatrixXd& values, ColorMap map, const std::string& quantity, const std::string& unit) {
+  return fittingScale(map, {values.data(), values.data() + values.size()}, quantity, unit);
+}
+
+} // namespace
+
+HeatmapSpec resistanceHeatmap(const SensorDesign& design, const Eigen::MatrixXd& resistances_ohm, ResistanceKind kind) {
+  const Eigen::MatrixXd rest = rowColumnResistances(design, ElectrodeDisplacements::atRest(design));
   HeatmapSpec spec;
   ColorMap map = ColorMap::Diverging;
   std::string quantity;
   std::string unit = "ohm";
   switch (kind) {
   case ResistanceKind::Resistance:
-    spec.title = "Row-column resistance";
+    spec.title = "Row-column resistance under the load";
     spec.values = resistances_ohm;
     map = ColorMap::Viridis;
     quantity = "R";
@@ -21,13 +31,22 @@ HeatmapSpec resistanceHeatmap(const Touch& touch, const Eigen::MatrixXd& resista
     quantity = "dR";
     break;
   case ResistanceKind::RelativeChange:
+  case ResistanceKind::LessKept:
     spec.title = "Relative change of resistance under the load";
     spec.values = 100 * (resistances_ohm - rest).cwiseQuotient(rest);
     quantity = "dR/R";
     unit = "%";
     break;
   }
-  spec.colors = fittingScale(map, {spec.values.data(), spec.values.data() + spec.values.size()}, quantity, unit);
+  spec.colors = scaleOf(spec.values, map, quantity, unit);
+  return spec;
+}
+
+HeatmapSpec heatmapLessKept(const Eigen::MatrixXd& shares, const Eigen::MatrixXd& kept) {
+  HeatmapSpec spec;
+  spec.title = "dR/R less the kept design's, same load";
+  spec.values = shares - kept;
+  spec.colors = scaleOf(spec.values, ColorMap::Diverging, "dR/R - kept", "%");
   return spec;
 }
 

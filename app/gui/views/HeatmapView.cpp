@@ -1,26 +1,91 @@
 #include "app/gui/views/HeatmapView.h"
 
+#include "app/gui/views/TextScale.h"
+
+#include <QKeyEvent>
+#include <QPainter>
+
+#include <algorithm>
+
 namespace palp {
 
 HeatmapView::HeatmapView(QWidget* parent) : PictureView(parent) {
-  connect(this, &PictureView::hovered, this, [this](const QPointF& place) {
-    const auto cell = cellAt(place);
-    if (cell) {
-      const HeatmapSpec& spec = heatmap();
-      const QString value = QString::number(spec.values((*cell)[0], (*cell)[1]), 'g', 6);
-      setToolTip(
-          QString("row-wire %1, column-wire %2: %3 = %4 %5")
-              .arg((*cell)[0])
-              .arg((*cell)[1])
-              .arg(QString::fromStdString(spec.colors.quantity), value, QString::fromStdString(spec.colors.unit)));
-    } else {
-      setToolTip({});
-    }
-    emit cellHovered(cell);
-  });
+  connect(this, &PictureView::hovered, this, [this](const QPointF& place) { point(cellAt(place)); });
   connect(this, &PictureView::clicked, this, [this](const QPointF& place) {
-    if (const auto cell = cellAt(place)) emit cellClicked((*cell)[0], (*cell)[1]);
+    if (const auto cell = cellAt(place)) {
+      walked_ = cell;
+      emit cellClicked((*cell)[0], (*cell)[1]);
+    }
   });
+}
+
+void HeatmapView::point(const std::optional<std::array<int, 2>>& cell) {
+  if (cell) {
+    const HeatmapSpec& spec = heatmap();
+    const QString value = QString::number(spec.values((*cell)[0], (*cell)[1]), 'g', 6);
+    setToolTip(QString("row-wire %1, column-wire %2: %3 = %4 %5")
+                   .arg((*cell)[0])
+                   .arg((*cell)[1])
+                   .arg(QString::fromStdString(spec.colors.quantity), value, QString::fromStdString(spec.colors.unit)));
+  } else {
+    setToolTip({});
+  }
+  emit cellHovered(cell);
+}
+
+void HeatmapView::walk(int rows, int columns) {
+  const HeatmapSpec& spec = heatmap();
+  if (spec.values.size() == 0) return;
+  const auto last = [](Eigen::Index count) { return static_cast<int>(count) - 1; };
+  std::array<int, 2> cell = walked_.value_or(spec.selected.value_or(std::array{0, 0}));
+  cell[0] = std::clamp(cell[0] + rows, 0, last(spec.values.rows()));
+  cell[1] = std::clamp(cell[1] + columns, 0, last(spec.values.cols()));
+  walked_ = cell;
+  point(cell);
+  setAccessibleDescription(toolTip());
+  update();
+}
+
+void HeatmapView::keyPressEvent(QKeyEvent* event) {
+  switch (event->key()) {
+  case Qt::Key_Left:
+    return walk(0, -1);
+  case Qt::Key_Right:
+    return walk(0, 1);
+  case Qt::Key_Up:
+    return walk(1, 0);
+  case Qt::Key_Down:
+    return walk(-1, 0);
+  case Qt::Key_Space:
+  case Qt::Key_Return:
+  case Qt::Key_Enter:
+    walk(0, 0);
+    if (walked_) emit cellClicked((*walked_)[0], (*walked_)[1]);
+    return;
+  default:
+    PictureView::keyPressEvent(event);
+  }
+}
+
+void HeatmapView::paintEvent(QPaintEvent* event) {
+  PictureView::paintEvent(event);
+  const HeatmapSpec& spec = heatmap();
+  if (!hasFocus() || !walked_ || (*walked_)[0] >= spec.values.rows() || (*walked_)[1] >= spec.values.cols()) return;
+  const auto box = heatmap_.cellBox(*walked_);
+  if (!box) return;
+  const double ratio = devicePixelRatioF();
+  const QRectF cell((*box)[0] / ratio, height() - ((*box)[1] + (*box)[3]) / ratio, (*box)[2] / ratio,
+                    (*box)[3] / ratio);
+  QPainter painter(this);
+  painter.setPen(QPen(palette().color(QPalette::Base), 4));
+  painter.drawRect(cell);
+  painter.setPen(QPen(palette().color(QPalette::WindowText), 2, Qt::DotLine));
+  painter.drawRect(cell);
+}
+
+void HeatmapView::changeEvent(QEvent* event) {
+  PictureView::changeEvent(event);
+  if (event->type() == QEvent::FontChange) invalidate();
 }
 
 void HeatmapView::setHeatmap(HeatmapSpec spec) {
@@ -34,12 +99,14 @@ void HeatmapView::setTheme(Theme theme) {
 }
 
 void HeatmapView::render(QImage& image) {
-  heatmap_.scale = devicePixelRatioF();
+  heatmap_.scale = devicePixelRatioF() * textScale(*this);
   heatmap_.paint(image.bits(), static_cast<std::size_t>(image.bytesPerLine()), image.width(), image.height());
 }
 
 Picture HeatmapView::renderPicture(int width, int height) {
-  return heatmap_.picture(width, height);
+  Heatmap larger = heatmap_;
+  larger.scale = devicePixelRatioF() * textScale(*this) * magnification(width, height);
+  return larger.picture(width, height);
 }
 
 std::optional<std::array<int, 2>> HeatmapView::cellAt(const QPointF& place) const {

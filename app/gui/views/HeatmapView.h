@@ -5,7 +5,7 @@
 
 namespace palp {
 
-/// The row-column matrix as a view of its own: hovering reads a cell, clicking chooses one.
+/// The row-column matrix as a view of its own: hovering reads a cell, clicking chooses one; so do arrows and space.
 class HeatmapView : public PictureView {
   Q_OBJECT
 
@@ -23,10 +23,17 @@ signals:
   void cellClicked(int row, int column);
 
 protected:
+  void keyPressEvent(QKeyEvent* event) override;
+  void paintEvent(QPaintEvent* event) override;
+  void changeEvent(QEvent* event) override;
   void render(QImage& image) override;
   [[nodiscard]] Picture renderPicture(int width, int height) override;
 
 private:
+  void point(const std::optional<std::array<int, 2>>& cell);
+  void walk(int rows, int columns);
+
+  std::optional<std::array<int, 2>> walked_; ///< cell under the keys
   Heatmap heatmap_;
 };
 

@@ -1,18 +1,19 @@
 #include "app/gui/views/PictureView.h"
 
 #include "app/gui/views/CsvExport.h"
+#include "app/gui/widgets/SaveDialog.h"
 
 #include "model/base/Error.h"
 
 #include <QApplication>
 #include <QClipboard>
-#include <QFileDialog>
 #include <QInputDialog>
 #include <QMenu>
 #include <QMessageBox>
 #include <QMouseEvent>
 #include <QPainter>
 
+#include <algorithm>
 #include <cmath>
 
 namespace palp {
@@ -27,6 +28,7 @@ PictureView::PictureView(QWidget* parent) : QWidget(parent) {
   setAttribute(Qt::WA_OpaquePaintEvent);
   setMouseTracking(true);
   setMinimumSize(160, 120);
+  setFocusPolicy(Qt::StrongFocus);
 }
 
 void PictureView::invalidate() {
@@ -51,6 +53,11 @@ QSize PictureView::deviceSize() const {
   return (QSizeF(size()) * devicePixelRatioF()).toSize().expandedTo({1, 1});
 }
 
+double PictureView::magnification(int width, int height) const {
+  const QSize own = deviceSize();
+  return std::min(static_cast<double>(width) / own.width(), static_cast<double>(height) / own.height());
+}
+
 void PictureView::draw() {
   changed_ = false;
   if (image_.size() != deviceSize()) image_ = QImage(deviceSize(), QImage::Format_RGB32);
@@ -64,6 +71,18 @@ void PictureView::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.setCompositionMode(QPainter::CompositionMode_Source);
   painter.drawImage(0, 0, image_);
+  if (!hasFocus()) return;
+  painter.setCompositionMode(QPainter::CompositionMode_SourceOver);
+  painter.setPen(QPen(palette().color(QPalette::Highlight), 2));
+  painter.drawRect(rect().adjusted(1, 1, -1, -1));
+}
+
+void PictureView::focusInEvent(QFocusEvent*) {
+  update();
+}
+
+void PictureView::focusOutEvent(QFocusEvent*) {
+  update();
 }
 
 void PictureView::resizeEvent(QResizeEvent*) {
@@ -142,10 +161,11 @@ QSize PictureView::askSize(const QSize& now) {
 }
 
 void PictureView::savePicture(const QSize& size) {
-  const QString file = QFileDialog::getSaveFileName(this, tr("Save picture"), "picture.png", tr("Pictures (*.png)"));
+  const QString file = askFileToSave(this, tr("Save picture"), "picture.png", tr("Pictures (*.png)"));
   if (file.isEmpty()) return;
   try {
     writePng(picture(size.width(), size.height()), file.toStdString());
+    emit message(tr("Wrote %1.").arg(file));
   } catch (const Error& error) {
     QMessageBox::warning(this, tr("Save picture"), QString::fromStdString(error.what()));
   }

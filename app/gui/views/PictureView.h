@@ -9,7 +9,7 @@
 namespace palp {
 
 /// A widget that shows one picture: drawn at most once a paint, and only where something changed; costs nothing while
-/// hidden. A right click offers it as PNG.
+/// hidden. A right click or the menu key offers it as PNG. It takes the focus, which a frame shows.
 class PictureView : public QWidget {
   Q_OBJECT
 
@@ -28,6 +28,8 @@ public:
   [[nodiscard]] QPointF devicePlace(const QPointF& place) const;
 
 signals:
+  /// A picture or its numbers were written.
+  void message(const QString& sentence);
   /// Pressed and released at one place.
   void clicked(const QPointF& place);
   void hovered(const QPointF& place);
@@ -41,6 +43,8 @@ protected:
   /// What the view shows as a table, offered beside the picture; empty: it has none.
   [[nodiscard]] virtual QString table() const { return {}; }
   [[nodiscard]] QSize deviceSize() const;
+  /// How much larger than the view a picture of this size is: its words and lines grow with it.
+  [[nodiscard]] double magnification(int width, int height) const;
 
   void paintEvent(QPaintEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
@@ -50,6 +54,8 @@ protected:
   void mouseDoubleClickEvent(QMouseEvent* event) override;
   void leaveEvent(QEvent* event) override;
   void contextMenuEvent(QContextMenuEvent* event) override;
+  void focusInEvent(QFocusEvent* event) override;
+  void focusOutEvent(QFocusEvent* event) override;
 
 private:
   void draw();

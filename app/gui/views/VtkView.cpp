@@ -3,6 +3,7 @@
 #include "app/gui/views/UprightCamera.h"
 #include "app/scenes/gl/OffscreenWindow.h"
 
+#include <QKeyEvent>
 #include <QMouseEvent>
 #include <QWheelEvent>
 
@@ -20,7 +21,8 @@ namespace palp {
 
 namespace {
 
-constexpr int kWheelStep = 120; ///< eighths of a degree
+constexpr int kWheelStep = 120;    ///< eighths of a degree
+constexpr double kKeyShare = 0.04; ///< of the view, that a key drags
 
 void invalidateView(vtkObject*, unsigned long, void* view, void*) {
   static_cast<VtkView*>(view)->invalidate();
@@ -66,7 +68,7 @@ struct VtkView::Vtk {
 };
 
 VtkView::VtkView(vtkRenderer* renderer, vtkInteractorObserver* style, QWidget* parent)
-    : PictureView(parent), vtk_(std::make_unique<Vtk>()) {
+    : PictureView(parent), vtk_(std::make_unique<Vtk>()), hasCamera_(style == nullptr) {
   vtk_->renderer = renderer;
   vtk_->style = style;
   if (style == nullptr) vtk_->style = vtkSmartPointer<UprightCamera>::New();
@@ -152,6 +154,42 @@ void VtkView::wheelEvent(QWheelEvent* event) {
   for (; wheel_ >= kWheelStep; wheel_ -= kWheelStep) vtk_->invoke(vtkCommand::MouseWheelForwardEvent);
   for (; wheel_ <= -kWheelStep; wheel_ += kWheelStep) vtk_->invoke(vtkCommand::MouseWheelBackwardEvent);
   event->accept();
+}
+
+void VtkView::dragCamera(const QPointF& way, bool moving) {
+  const Qt::KeyboardModifiers modifiers = moving ? Qt::ShiftModifier : Qt::NoModifier;
+  const QPointF middle = QRectF(rect()).center();
+  passPlace(middle, modifiers);
+  vtk_->invoke(vtkCommand::LeftButtonPressEvent);
+  passPlace(middle + way, modifiers);
+  vtk_->invoke(vtkCommand::MouseMoveEvent);
+  vtk_->invoke(vtkCommand::LeftButtonReleaseEvent);
+}
+
+void VtkView::keyPressEvent(QKeyEvent* event) {
+  const bool shift = event->modifiers().testFlag(Qt::ShiftModifier);
+  const auto drag = [&](double x, double y) { dragCamera({kKeyShare * width() * x, kKeyShare * height() * y}, shift); };
+  const bool plain = hasCamera_ && !(event->modifiers() & (Qt::ControlModifier | Qt::AltModifier));
+  switch (plain ? event->key() : 0) {
+  case Qt::Key_Left:
+    return drag(-1, 0);
+  case Qt::Key_Right:
+    return drag(1, 0);
+  case Qt::Key_Up:
+    return drag(0, -1);
+  case Qt::Key_Down:
+    return drag(0, 1);
+  case Qt::Key_Plus:
+  case Qt::Key_Equal:
+    return vtk_->invoke(vtkCommand::MouseWheelForwardEvent);
+  case Qt::Key_Minus:
+    return vtk_->invoke(vtkCommand::MouseWheelBackwardEvent);
+  case Qt::Key_Home:
+    emit doubleClicked();
+    return;
+  default:
+    QWidget::keyPressEvent(event);
+  }
 }
 
 void VtkView::leaveEvent(QEvent* event) {

@@ -9,7 +9,8 @@ class vtkRenderer;
 
 namespace palp {
 
-/// A VTK renderer in a plain widget: drawn without a surface, read back and painted.
+/// A VTK renderer in a plain widget: drawn without a surface, read back and painted. A camera is turned, moved and
+/// zoomed by mouse and keys.
 class VtkView : public PictureView {
   Q_OBJECT
 
@@ -32,12 +33,17 @@ protected:
   void mouseMoveEvent(QMouseEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
   void leaveEvent(QEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
 
 private:
   void passPlace(const QPointF& place, Qt::KeyboardModifiers modifiers);
 
+  /// As a drag from the middle would do it, with the left button or, moving, with Shift.
+  void dragCamera(const QPointF& way, bool moving);
+
   struct Vtk;
   std::unique_ptr<Vtk> vtk_;
+  bool hasCamera_; ///< and no style of its own
   int wheel_ = 0;
   bool grabbed_ = false;
 };

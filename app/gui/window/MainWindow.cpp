@@ -2,6 +2,7 @@
 
 #include "app/gui/design/DesignPage.h"
 #include "app/gui/document/Document.h"
+#include "app/gui/jobs/ExportJob.h"
 #include "app/gui/jobs/NetworkSession.h"
 #include "app/gui/live/LiveBoards.h"
 #include "app/gui/network/NetworkPage.h"
@@ -10,6 +11,7 @@
 #include "app/gui/touch/DeformationPage.h"
 #include "app/gui/touch/LoadPathAnimation.h"
 #include "app/gui/touch/ResistancePage.h"
+#include "app/gui/views/PictureView.h"
 #include "app/gui/widgets/AccessibleNames.h"
 #include "app/gui/widgets/WheelGuard.h"
 #include "app/gui/window/Layout.h"
@@ -78,6 +80,7 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   log_->hide();
   auto* designPage = new DesignPage(workbench, network);
   connect(designPage, &DesignPage::stageChanged, this, [this] { workbench_.touch().need(currentScene().stage()); });
+  connect(designPage, &DesignPage::sceneAsked, this, &MainWindow::showScene);
   addScene("design", tr("Design"), tr("The sensor at rest and all its parameters"), designPage);
   deformation_ = new DeformationPage(workbench);
   connect(deformation_, &DeformationPage::message, this, &MainWindow::showMessage);
@@ -92,6 +95,12 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   addScene("live", tr("Live"), tr("Boards, the simulated board or a recording, live"), live_);
   reports_ = new ReportsPage(workbench);
   addScene("reports", tr("Reports"), tr("The paper reproduced, and the reports"), reports_);
+  for (const PictureView* view : findChildren<PictureView*>())
+    connect(view, &PictureView::message, this, &MainWindow::showMessage);
+  exports_ = new ExportJob(this);
+  connect(exports_, &ExportJob::done, this, &MainWindow::showMessage);
+  connect(&exports_->runner(), &JobRunner::failed, this,
+          [this](const QString& sentence) { QMessageBox::warning(this, tr("Export"), sentence); });
   document_ = new Document(*this, workbench, network);
   buildStatusLine();
   new Menus(*this, workbench, *document_);
@@ -122,10 +131,9 @@ void MainWindow::buildStatusLine() {
   lamps_ = status;
   connect(reports_, &ReportsPage::runs, lamps_, &StatusLamps::showReport);
   const auto gather = [this] {
-    std::vector<SceneJob> jobs{{&workbench_.touch().runner(), "deformation"},
-                               {&network_.runner(), "network"},
-                               {&animation_->runner(), "deformation"},
-                               {&network_.writer(), "network"}};
+    std::vector<SceneJob> jobs{{&workbench_.touch().runner(), "deformation"}, {&network_.runner(), "network"},
+                               {&animation_->runner(), "deformation"},        {&network_.writer(), "network"},
+                               {&workbench_.kept().runner(), "deformation"},  {&exports_->runner(), "deformation"}};
     for (int k = 0; k < scenes_->count(); ++k)
       for (JobRunner* runner : static_cast<Scene*>(scenes_->widget(k))->runners()) jobs.push_back({runner, names_[k]});
     lamps_->setJobs(jobs);
@@ -190,6 +198,8 @@ void MainWindow::animate(const QString& folder) {
   LoadPathAnimation::Settings settings;
   settings.options = deformation_->blockOptions();
   settings.options.scale = 1;
+  settings.options.fullLoad = true;
+  settings.kept = deformation_->shownLess();
   settings.folder = folder.toStdString();
   if (!animation_->start(settings))
     showMessage(tr("There is no load path yet; wait until the Deformation scene has solved the load."));

@@ -11,6 +11,7 @@ namespace palp {
 
 class DeformationPage;
 class Document;
+class ExportJob;
 class LiveBoards;
 class LoadPathAnimation;
 class MessageLog;
@@ -31,6 +32,7 @@ public:
   [[nodiscard]] QStringList sceneNames() const;
   [[nodiscard]] Scene& currentScene() const;
   [[nodiscard]] Document& document() const { return *document_; }
+  [[nodiscard]] ExportJob& exports() const { return *exports_; }
   void setTheme(Theme theme);
   [[nodiscard]] Theme theme() const { return theme_; }
   /// Some background work runs.
@@ -63,6 +65,7 @@ private:
   ReportsPage* reports_ = nullptr;
   StatusLamps* lamps_ = nullptr;
   Document* document_ = nullptr;
+  ExportJob* exports_ = nullptr;
   MessageLog* log_ = nullptr;
   QListWidget* rail_ = nullptr;
   QStackedWidget* scenes_ = nullptr;

@@ -3,6 +3,7 @@
 #include "app/gui/document/Document.h"
 #include "app/gui/project/ResultCsv.h"
 #include "app/gui/project/Workbench.h"
+#include "app/gui/widgets/SaveDialog.h"
 #include "app/gui/window/HelpDialog.h"
 #include "app/gui/window/MainWindow.h"
 #include "app/gui/window/UndoActions.h"
@@ -15,8 +16,8 @@
 #include <QAction>
 #include <QApplication>
 #include <QClipboard>
+#include <QDir>
 #include <QDockWidget>
-#include <QFileDialog>
 #include <QMenuBar>
 #include <QMessageBox>
 #include <QUndoView>
@@ -63,6 +64,23 @@ void Menus::buildFile() {
   add(menu, tr("&Quit"), tr("Ends the program"), QKeySequence("Ctrl+Q"), [this] { window_.close(); });
 }
 
+/// Of what is shown now; the kept design beside it where that is shown too.
+ExportJob::Making Menus::vtuMaking() const {
+  const TouchSession& touch = workbench_.touch();
+  std::shared_ptr<const KeptPath> kept;
+  if (workbench_.project().view.lessKept) kept = workbench_.keptPath();
+  return [shown = touch.touch(), fields = *touch.fields(), kept,
+          fraction = touch.loadFraction()](const std::stop_token& stop) {
+    std::vector<NodalArray> arrays = nodalArrays(fields);
+    if (kept)
+      for (NodalArray& array : nodalArrays(kept->at(fraction).fields)) {
+        array.name = "kept_" + array.name;
+        arrays.push_back(std::move(array));
+      }
+    return vtuText(*shown.mesh(), arrays, stop);
+  };
+}
+
 void Menus::buildExport(QMenu& menu) {
   add(menu, tr("Export &VTU..."), tr("Mesh and fields of what is shown, for ParaView"), {}, [this] {
     if (workbench_.touch().fields() == nullptr) {
@@ -70,9 +88,8 @@ void Menus::buildExport(QMenu& menu) {
           tr("There is no solution to export yet; wait until it is computed on the Deformation scene."));
       return;
     }
-    exportTo(tr("Export VTU"), "deformed.vtu", tr("VTK files (*.vtu)"), [this](const QString& file) {
-      writeVtu(file.toStdString(), *workbench_.touch().touch().mesh(), nodalArrays(*workbench_.touch().fields()));
-    });
+    const QString file = askFileToSave(&window_, tr("Export VTU"), "deformed.vtu", tr("VTK files (*.vtu)"));
+    if (!file.isEmpty()) window_.exports().write(file, vtuMaking());
   });
   using Table = QString (*)(const ResultSource&, const ElectrodeDisplacements&);
   const auto addTable = [&](const QString& text, const QString& tip, const QString& file, Table table) {
@@ -99,14 +116,22 @@ void Menus::buildExport(QMenu& menu) {
           window_.showMessage(tr("There is no mesh to export yet; wait until the Deformation scene has made it."));
           return;
         }
-        exportTo(tr("Export CalculiX deck"), "touch.inp", tr("Input decks (*.inp)"), [&touch](const QString& file) {
-          writeText(file, QString::fromStdString(calculixDeck(touch.design(), *touch.mesh(), touch.load())));
+        const QString file =
+            askFileToSave(&window_, tr("Export CalculiX deck"), "touch.inp", tr("Input decks (*.inp)"));
+        if (file.isEmpty()) return;
+        window_.exports().write(file, [touch](const std::stop_token& stop) {
+          return calculixDeck(touch.design(), *touch.mesh(), touch.load(), stop);
         });
       });
   add(menu, tr("&Film of the load path (pictures)..."),
       tr("25 pictures from rest to the full load, as the block is shown now, into a folder"), {}, [this] {
-        const QString folder = QFileDialog::getExistingDirectory(&window_, tr("Folder of the pictures"));
-        if (!folder.isEmpty()) window_.animate(folder);
+        const QString folder =
+            askFileToSave(&window_, tr("Name of the film: a new folder for its 25 pictures"), "film", {});
+        if (folder.isEmpty()) return;
+        if (QDir().mkpath(folder))
+          window_.animate(folder);
+        else
+          QMessageBox::warning(&window_, tr("Film"), tr("%1: cannot be made as a folder").arg(folder));
       });
   add(menu, tr("&Picture of the window..."), tr("The window as PNG; a right click on a view saves that view alone"),
       QKeySequence("Ctrl+P"), [this] {
@@ -131,11 +156,16 @@ void Menus::buildEdit() {
   auto* undoing = new UndoActions(workbench_, this);
   menu.addActions({undoing->undo(), undoing->redo()});
   menu.addSeparator();
-  add(menu, tr("&Compute again"), tr("Solves again after a cancel"), QKeySequence("F5"),
-      [this] { workbench_.touch().resume(); });
+  add(menu, tr("&Compute again"), tr("Solves again after a cancel"), QKeySequence("F5"), [this] {
+    workbench_.touch().resume();
+    workbench_.kept().resume();
+  });
   auto* dock = new QDockWidget(tr("History"), &window_);
   dock->setObjectName("history");
-  dock->setWidget(new QUndoView(&workbench_.history()));
+  auto* list = new QUndoView(&workbench_.history());
+  list->setEmptyLabel(tr("as it was at first"));
+  list->setWordWrap(true);
+  dock->setWidget(list);
   window_.addDockWidget(Qt::RightDockWidgetArea, dock);
   dock->hide();
   menu.addAction(dock->toggleViewAction());
@@ -180,7 +210,7 @@ void Menus::listRecent() {
 
 void Menus::exportTo(const QString& title, const QString& proposal, const QString& filter,
                      const std::function<void(const QString&)>& write) {
-  const QString file = QFileDialog::getSaveFileName(&window_, title, proposal, filter);
+  const QString file = askFileToSave(&window_, title, proposal, filter);
   if (file.isEmpty()) return;
   try {
     write(file);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "app/gui/jobs/ExportJob.h"
+
 #include <QObject>
 #include <QString>
 
@@ -31,6 +33,7 @@ private:
   QAction* add(QMenu& menu, const QString& text, const QString& tip, const QKeySequence& keys,
                const std::function<void()>& act);
   void listRecent();
+  [[nodiscard]] ExportJob::Making vtuMaking() const;
   /// Asks for a file and lets `write` write it; says what came of it.
   void exportTo(const QString& title, const QString& proposal, const QString& filter,
                 const std::function<void(const QString&)>& write);

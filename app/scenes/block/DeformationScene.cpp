@@ -4,6 +4,7 @@
 #include "app/scenes/block/CameraFit.h"
 #include "app/scenes/block/ElectrodeActors.h"
 #include "app/scenes/block/Overlay.h"
+#include "app/scenes/block/SceneWords.h"
 #include "app/scenes/gl/Blending.h"
 
 #include <vtkContextActor.h>
@@ -21,7 +22,9 @@ namespace palp {
 namespace {
 
 /// Diverging where both signs mean something.
-ColorMap colorMap(Quantity quantity) {
+ColorMap colorMap(const DeformationOptions& options) {
+  const Quantity quantity = options.quantity;
+  if (options.lessKept) return ColorMap::Diverging;
   const bool ofOneSign = quantity == Quantity::Displacement || quantity == Quantity::VonMises ||
                          quantity == Quantity::LargestStretch || quantity == Quantity::MiddleStretch ||
                          quantity == Quantity::SmallestStretch;
@@ -30,18 +33,6 @@ ColorMap colorMap(Quantity quantity) {
 
 std::vector<double> listOf(const Eigen::VectorXd& values) {
   return {values.begin(), values.end()};
-}
-
-std::string warpText(double factor) {
-  std::array<char, 64> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), "displacements drawn %g times as large", factor);
-  return factor == 1 ? "displacements drawn in true size" : buffer.data();
-}
-
-std::string fractionText(double fraction) {
-  std::array<char, 64> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), "%.4g %% of the load", 100 * fraction);
-  return buffer.data();
 }
 
 } // namespace
@@ -78,8 +69,15 @@ std::vector<double> quantityValues(Quantity quantity, const NodalFields& fields)
   return {};
 }
 
+std::vector<double> quantityValues(Quantity quantity, const NodalFields& fields, const NodalFields& less) {
+  std::vector<double> values = quantityValues(quantity, fields);
+  const std::vector<double> other = quantityValues(quantity, less);
+  for (std::size_t k = 0; k < values.size(); ++k) values[k] -= other[k];
+  return values;
+}
+
 std::array<double, 2> quantityRange(const DeformationOptions& options, const std::vector<double>& values) {
-  const ColorScale scale = fittingScale(options.colorMap.value_or(colorMap(options.quantity)), values, {}, {});
+  const ColorScale scale = fittingScale(options.colorMap.value_or(colorMap(options)), values, {}, {});
   return {scale.low, scale.high};
 }
 
@@ -113,6 +111,7 @@ struct DeformationScene::Parts {
   Polylines line{*renderer};
   Polylines cutRim{*renderer};
   Spheres cutGrip{*renderer, 0.45};
+  Spheres extremes{*renderer, 0.3};
   std::vector<PlacedText> marks; ///< of the largest and the smallest value
   std::vector<PlacedForce> placed;
   std::vector<PatchLoad> discs;
@@ -198,21 +197,16 @@ std::vector<PlacedForce> placedForces(const DeformationState& state, const Block
   return forces;
 }
 
-/// Nothing happened yet: such a field has no colours, unless they are fixed.
-bool unloaded(const NodalFields* fields) {
-  return fields == nullptr || !(fields->displacement_mm.cwiseAbs().maxCoeff() > 0);
-}
-
-std::vector<std::string> overlayLines(const DeformationState& state, const DeformationOptions& options, double warp) {
-  if (unloaded(state.fields) && !(state.fields != nullptr && options.fixedRange)) return {"Block at rest"};
-  std::vector<std::string> lines{"Deformation, coloured by " + quantityName(options.quantity), warpText(warp)};
-  if (state.loadFraction != 1) lines.push_back(fractionText(state.loadFraction));
-  return lines;
+std::vector<double> shownValues(const DeformationState& state, const DeformationOptions& options) {
+  if (nothingColoured(state, options)) return {};
+  return options.lessKept ? quantityValues(options.quantity, *state.fields, *state.kept)
+                          : quantityValues(options.quantity, *state.fields);
 }
 
 ColorScale colorScale(const std::vector<double>& values, const DeformationOptions& options) {
-  ColorScale colors = fittingScale(options.colorMap.value_or(colorMap(options.quantity)), values,
-                                   quantityName(options.quantity), quantityUnit(options.quantity));
+  ColorScale colors = fittingScale(options.colorMap.value_or(colorMap(options)), values,
+                                   quantityName(options.quantity) + (options.lessKept ? " - kept" : ""),
+                                   quantityUnit(options.quantity));
   if (options.fixedRange) {
     colors.low = (*options.fixedRange)[0];
     colors.high = (*options.fixedRange)[1];
@@ -234,9 +228,10 @@ std::vector<PlacedText> extremeMarks(const std::vector<double>& values, const Bl
   if (values.empty() || !options.extremes) return {};
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   std::vector<PlacedText> marks;
-  for (const auto& [value, name] : {std::pair{high, "+ largest "}, std::pair{low, "+ smallest "}})
-    marks.push_back({block.drawnPlace_mm(static_cast<int>(value - values.begin())), name + valueText(*value),
-                     palette(options.theme).selection});
+  const std::string unit = quantityUnit(options.quantity);
+  for (const auto& [value, name] : {std::pair{high, "largest "}, std::pair{low, "smallest "}})
+    marks.push_back({block.drawnPlace_mm(static_cast<int>(value - values.begin())),
+                     name + valueText(*value) + (unit.empty() ? "" : " " + unit), palette(options.theme).selection});
   return marks;
 }
 
@@ -254,8 +249,7 @@ void DeformationScene::show(const DeformationState& state, const DeformationOpti
   const Eigen::Matrix3Xd& displacement = state.fields != nullptr ? state.fields->displacement_mm : atRest;
   parts.warpFactor = options.warpFactor.value_or(automaticWarpFactor(*state.design, displacement));
   const Eigen::Matrix3Xd drawnDisplacement = parts.warpFactor * displacement;
-  const bool plain = unloaded(state.fields) && !(state.fields != nullptr && options.fixedRange);
-  const std::vector<double> values = plain ? std::vector<double>{} : quantityValues(options.quantity, *state.fields);
+  const std::vector<double> values = shownValues(state, options);
   const ColorScale colors = colorScale(values, options);
   parts.colorRange = values.empty() ? std::array<double, 2>{} : std::array{colors.low, colors.high};
   parts.block.show(*state.mesh, drawnDisplacement, values, colors, options);
@@ -270,13 +264,20 @@ void DeformationScene::show(const DeformationState& state, const DeformationOpti
   parts.block.showDiscs(parts.discs, options);
   parts.mmPerN = palp::arrowScale_mmPerN(parts.placed, 0.3 * state.design->block_mm.maxCoeff());
   parts.marks = extremeMarks(values, parts.block, options);
+  Eigen::Matrix3Xd extremes(3, static_cast<Eigen::Index>(parts.marks.size()));
+  for (std::size_t k = 0; k < parts.marks.size(); ++k) {
+    extremes.col(static_cast<Eigen::Index>(k)) = parts.marks[k].place_mm;
+    parts.marks[k].place_mm.z() += 0.06 * state.design->block_mm.maxCoeff(); // the words beside their point
+  }
+  parts.extremes.set(extremes, ink.selection);
+  parts.extremes.setVisible(!parts.marks.empty());
   parts.showCut(state.design->block_mm, options, ink.selection);
   parts.forceColor = ink.force;
   parts.areaNumbers = options.areaOutlines;
   parts.textColor = ink.text;
   parts.showForces();
   parts.showLine(options, ink.selection);
-  parts.overlay->lines = overlayLines(state, options, parts.warpFactor);
+  parts.overlay->lines = sceneWords(state, options, parts.warpFactor);
   parts.overlay->legend = values.empty() ? std::nullopt : std::optional(colors);
   parts.overlay->triad = true;
   parts.overlay->theme = options.theme;
@@ -296,8 +297,15 @@ void DeformationScene::resetCamera(const SensorDesign& design, double aspect, co
   Eigen::Matrix3Xd points(3, 9);
   points << boxCorners(design.block_mm), 0.5 * design.block_mm;
   points(2, 8) = design.block_mm.z() + 0.3 * design.block_mm.maxCoeff();
+  // Straight views fill the picture to its corners, where words and legend stand.
+  const double more = direction.normalized().cwiseAbs().maxCoeff() > 1 - 1e-9 ? 0.07 : 0;
   fitCamera(*parts_->renderer, points, direction, aspect,
-            {0.03, 0.03 + legendShare.value_or(std::min(0.12 / aspect * 1.5, 0.25)), 0.04, 0.08});
+            {0.03, 0.03 + more + legendShare.value_or(std::min(0.12 / aspect * 1.5, 0.25)), 0.04, 0.08 + more});
+}
+
+void DeformationScene::setTextScale(double scale) {
+  parts_->overlay->scale = scale;
+  parts_->overlay->Modified();
 }
 
 double DeformationScene::warpFactor() const {

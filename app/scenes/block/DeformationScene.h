@@ -20,6 +20,8 @@ namespace palp {
 
 /// The quantity at the nodes.
 std::vector<double> quantityValues(Quantity quantity, const NodalFields& fields);
+/// Less that of other fields at the same nodes.
+std::vector<double> quantityValues(Quantity quantity, const NodalFields& fields, const NodalFields& less);
 
 /// A plane across the block at rest: what lies before it, as the block is seen first, is cut away.
 struct CutPlane {
@@ -48,6 +50,7 @@ struct DeformationOptions {
   double opacity = 0.82; ///< of the coloured surface, while the electrodes show through it
   std::optional<CutPlane> cut;
   bool cutGrip = false;                                  ///< draws where the cut is taken by the mouse
+  bool lessKept = false;                                 ///< colours by the difference to the kept design
   bool extremes = false;                                 ///< marks the largest and the smallest value
   std::optional<ColorMap> colorMap;                      ///< none: as the quantity asks for
   std::optional<std::array<double, 2>> fixedRange;       ///< of the colours; else the values' own
@@ -55,7 +58,8 @@ struct DeformationOptions {
   std::vector<int> selectedAreas;                        ///< outlined more strongly
   std::optional<std::array<int, 2>> litCell;             ///< row-wire, column-wire whose electrodes light up
   Theme theme = Theme::Light;
-  double scale = 1; ///< of text and lines
+  double scale = 1;      ///< of text and lines
+  bool fullLoad = false; ///< says "100 % of the load" too, as in a film
 };
 
 /// The load step to draw: what it was computed from and what came out. All but design and mesh may be null (at rest).
@@ -66,6 +70,9 @@ struct DeformationState {
   const ElectrodeDisplacements* electrodes = nullptr;
   const LoadCase* load = nullptr;
   double loadFraction = 1;
+  // Where the difference to a kept design is shown; null while that is not there.
+  const SensorDesign* keptDesign = nullptr;
+  const NodalFields* kept = nullptr; ///< its fields at the nodes of `mesh`
 };
 
 /// The range of the colours over these values, as the options choose quantity and map.
@@ -94,6 +101,8 @@ public:
   void resetCamera(const SensorDesign& design, double aspect, const Eigen::Vector3d& direction,
                    std::optional<double> legendShare = {});
 
+  /// Of words and legend alone, from now on; show() sets it to the scale of its options.
+  void setTextScale(double scale);
   [[nodiscard]] double warpFactor() const;
   [[nodiscard]] std::array<double, 2> colorRange() const; ///< as drawn last
   /// The mesh node drawn nearest to a point of the scene [mm, warped]; -1 without a mesh.

@@ -41,7 +41,13 @@ vtkStandardNewMacro(Overlay)
 } // namespace
 
 std::vector<double> legendTicks(const ColorScale& colors, double height_px, double scale) {
-  return roundTicks(colors.low, colors.high, std::clamp(static_cast<int>(height_px / (28 * scale)), 2, 8));
+  const int most = std::clamp(static_cast<int>(height_px / (28 * scale)), 2, 8);
+  std::vector<double> ticks = roundTicks(colors.low, colors.high, most);
+  // One number says no scale: a low legend gets two or three, closer together.
+  const int closest = static_cast<int>(height_px / (16 * scale));
+  for (int more = most + 1; ticks.size() < 3 && more <= closest; ++more)
+    ticks = roundTicks(colors.low, colors.high, more);
+  return ticks;
 }
 
 double legendWidth_px(vtkContext2D& painter, const ColorScale& colors, Theme theme, double scale) {

@@ -34,6 +34,7 @@ constexpr double kLetter_px = 7.5;
 constexpr double kGap_px = 8;
 constexpr double kLine_px = 16;
 constexpr double kBesidePlot_px = 70;  ///< on one side, by which the plot is off the middle
+constexpr double kMostLegend = 0.4;    ///< of the height that a legend may take from the curves
 constexpr double kAroundPlot_px = 100; ///< of the picture along an axis
 
 struct Range {
@@ -218,7 +219,7 @@ void fillChart(vtkChartXY& chart, const ChartSpec& spec, Theme theme, double sca
     const LegendShare share = legendShare(names, scale, size_px);
     LegendCorner corner = freestCorner(shares(all, xShown, yShown, spec), share);
     if (corner.covered > 0 && !spec.yRange) {
-      yShown = withRoomAbove(yShown, share.height, spec.logY);
+      yShown = withRoomAbove(yShown, std::min(share.height, kMostLegend), spec.logY);
       corner = {};
     }
     setLegend(chart, corner, colors, scale);

@@ -51,7 +51,12 @@ double legendWidth_px(Canvas& canvas, const ColorScale& colors, Theme theme, dou
 void Heatmap::paint(std::uint8_t* bgra, std::size_t stride, int width, int height) {
   Canvas canvas(bgra, stride, width, height, written_);
   canvas.clear(palette(theme).ground);
-  if (spec.values.size() == 0) return;
+  if (spec.values.size() == 0) {
+    cellWidth_ = cellHeight_ = 0;
+    useText(canvas, palette(theme).text, 14 * scale, true, VTK_TEXT_LEFT, VTK_TEXT_CENTERED);
+    canvas.words(12 * scale, canvas.height() - 24 * scale, spec.title);
+    return;
+  }
   const double margin = 12 * scale;
   const double legend = legendWidth_px(canvas, spec.colors, theme, scale);
   left_ = margin + 46 * scale;
@@ -131,6 +136,11 @@ std::optional<std::array<int, 2>> Heatmap::cellAt(double x_px, double y_px) cons
       column >= static_cast<double>(spec.values.cols()))
     return {};
   return std::array{static_cast<int>(row), static_cast<int>(column)};
+}
+
+std::optional<std::array<double, 4>> Heatmap::cellBox(const std::array<int, 2>& cell) const {
+  if (!(cellWidth_ > 0) || !(cellHeight_ > 0)) return {};
+  return std::array{columnEdge(cell[1]), rowEdge(cell[0]), cellWidth_, cellHeight_};
 }
 
 Picture Heatmap::picture(int width, int height) const {

@@ -35,6 +35,9 @@ public:
   /// Row and column of the cell at a point of the picture [px from the lower left], as last painted.
   [[nodiscard]] std::optional<std::array<int, 2>> cellAt(double x_px, double y_px) const;
 
+  /// The same cell's lower left corner and size [px]; empty before it was painted.
+  [[nodiscard]] std::optional<std::array<double, 4>> cellBox(const std::array<int, 2>& cell) const;
+
   HeatmapSpec spec;
   Theme theme = Theme::Light;
   double scale = 1;

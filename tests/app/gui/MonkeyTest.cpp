@@ -224,7 +224,9 @@ protected:
       const Eigen::MatrixXd now = rowColumnResistances(touch.touch().design(), *touch.electrodes());
       const ResistanceKind kind =
           std::string(name) == "heatmap" ? ResistanceKind::RelativeChange : workbench.project().view.resistance;
-      EXPECT_EQ(view.heatmap().values, resistanceHeatmap(touch.touch(), now, kind).values) << name << " " << where;
+      if (kind == ResistanceKind::LessKept && workbench.project().kept) continue; // of two touches
+      EXPECT_EQ(view.heatmap().values, resistanceHeatmap(touch.touch().design(), now, kind).values)
+          << name << " " << where;
     }
     if (auto& slider = find<QSlider>("increments"); slider.isVisible()) {
       EXPECT_EQ(slider.value(), std::max(touch.place(), 0)) << where;

@@ -105,7 +105,10 @@ TEST_F(ProjectFile, ReadsBackEverythingThatWasSet) {
                   ResistanceKind::Change,
                   std::array{-0.25, 0.5},
                   {7, 29},
-                  4};
+                  4,
+                  true};
+  project.kept = paperDesign();
+  project.kept->block_mm.z() = 6;
   saveProject(path("project.json"), project);
   EXPECT_EQ(loadProject(path("project.json"), exampleProject()), project);
 }
@@ -145,11 +148,23 @@ TEST_F(ProjectFile, RefusesCutsAndColoursThatCannotBeInOneLine) {
        {std::pair{"\"cut\": {\"axis\": \"w\", \"at_mm\": 1}", "axis"},
         std::pair{"\"cut\": {\"axis\": \"x\", \"at_mm\": -1}", "at_mm"},
         std::pair{"\"cut\": {\"axis\": \"x\"}", "at_mm"}, std::pair{"\"color_map\": \"jet\"", "viridis"},
-        std::pair{"\"color_range\": [1, 1]", "color_range"}, std::pair{"\"extremes\": 1", "extremes"}}) {
+        std::pair{"\"color_range\": [1, 1]", "color_range"}, std::pair{"\"extremes\": 1", "extremes"},
+        std::pair{"\"less_kept\": 1", "less_kept"}}) {
     const std::string words = refusal(with(savedText(), "\"arrows\"", std::string(wrong) + ", \"arrows\""));
     EXPECT_NE(words.find(key), std::string::npos) << wrong << ": " << words;
     EXPECT_EQ(words.find('\n'), std::string::npos) << words;
   }
+}
+
+TEST_F(ProjectFile, RefusesAKeptDesignThatCannotBeBuiltInOneLine) {
+  Project project = exampleProject();
+  project.kept = paperDesign();
+  const std::string text = projectText(project).toStdString();
+  const std::size_t at = text.find("\"kept_design\"");
+  ASSERT_NE(at, std::string::npos);
+  const std::string words = refusal(text.substr(0, at) + with(text.substr(at), "0.5", "-0.5"));
+  EXPECT_NE(words.find("kept_design"), std::string::npos) << words;
+  EXPECT_EQ(words.find('\n'), std::string::npos) << words;
 }
 
 TEST_F(ProjectFile, ReadsADesignFileIntoTheOpenProject) {

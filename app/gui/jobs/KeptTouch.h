@@ -1,0 +1,65 @@
+#pragma once
+
+#include "app/gui/jobs/JobRunner.h"
+#include "app/gui/jobs/LoadPath.h"
+#include "app/study/touch/Touch.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace palp {
+
+/// The design that was kept, under the load of the touch that is shown. The points of the two blocks that are compared
+/// are those at the same shares of the blocks' sides: the same places where the blocks are of one size.
+struct KeptPath {
+  SensorDesign design;
+  /// The equilibria on its load path, their fields at the nodes of the shown touch's mesh.
+  std::vector<LoadPathState> states;
+
+  [[nodiscard]] LoadPathState at(double fraction) const { return stateAt(states, fraction); }
+};
+
+/// Solves the kept design under the touch's load and reads its fields at the nodes of the touch's mesh. Throws
+/// Cancelled where it is stopped, Error where the kept design cannot bear the load.
+KeptPath keptPath(const SensorDesign& kept, const Touch& shown, const std::stop_token& stop);
+
+/// The same in the background, and only while a scene shows it.
+class KeptTouch : public QObject {
+  Q_OBJECT
+
+public:
+  explicit KeptTouch(QObject* parent = nullptr);
+
+  /// A scene shows this kept design beside this touch: computed unless that was done, or runs.
+  void want(const SensorDesign& kept, const Touch& shown);
+  /// Null before it is there, and where another one was wanted last.
+  [[nodiscard]] std::shared_ptr<const KeptPath> pathFor(const SensorDesign& kept, const Touch& shown) const;
+  /// Why there is none, in words; empty while it is computed.
+  [[nodiscard]] const QString& problem() const { return problem_; }
+  /// Computes it again after a cancel.
+  void resume();
+  /// Nothing is kept any more.
+  void forget();
+  [[nodiscard]] JobRunner& runner() { return runner_; }
+
+signals:
+  void changed();
+
+private:
+  /// What it is computed of; the touch shares its results.
+  struct Inputs {
+    SensorDesign kept;
+    Touch shown;
+  };
+
+  [[nodiscard]] bool wanted(const SensorDesign& kept, const Touch& shown) const;
+  void run();
+
+  JobRunner runner_;
+  std::optional<Inputs> wanted_;
+  std::shared_ptr<const KeptPath> path_;
+  QString problem_;
+};
+
+} // namespace palp
