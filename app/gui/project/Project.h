@@ -62,7 +62,6 @@ struct Project {
   NetworkSettings network;
   ViewSettings view;
   LiveSettings live;
-  std::optional<SensorDesign> kept;     ///< to compare the design with
   std::vector<LiveSettings> moreBoards; ///< beside that of `live`
 
   static constexpr std::size_t kMostBoards = 4;
@@ -71,6 +70,7 @@ struct Project {
   [[nodiscard]] LiveSettings& board(std::size_t k) { return k == 0 ? live : moreBoards.at(k - 1); }
   [[nodiscard]] const LiveSettings& board(std::size_t k) const { return k == 0 ? live : moreBoards.at(k - 1); }
   [[nodiscard]] std::size_t boards() const { return 1 + moreBoards.size(); }
+  std::optional<SensorDesign> kept; ///< to compare the design with
 
   bool operator==(const Project&) const = default;
 };

@@ -14,8 +14,8 @@ constexpr int kMergeId = 1;
 Project shownAs(Project project, const Project& other) {
   project.view = other.view;
   project.live = other.live;
-  project.kept = other.kept;
   project.moreBoards = other.moreBoards;
+  project.kept = other.kept;
   return project;
 }
 

@@ -80,6 +80,7 @@ void StripChart::paintEvent(QPaintEvent*) {
   paintReading(painter, plot);
   if (!hasFocus()) return;
   painter.setPen(QPen(QWidget::palette().color(QPalette::Highlight), 2));
+  painter.setBrush(Qt::NoBrush);
   painter.drawRect(rect().adjusted(1, 1, -1, -1));
 }
 

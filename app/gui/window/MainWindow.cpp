@@ -131,10 +131,9 @@ void MainWindow::buildStatusLine() {
   lamps_ = status;
   connect(reports_, &ReportsPage::runs, lamps_, &StatusLamps::showReport);
   const auto gather = [this] {
-    std::vector<SceneJob> jobs{{&workbench_.touch().runner(), "deformation"},
-                               {&network_.runner(), "network"},
-                               {&animation_->runner(), "deformation"},
-                               {&network_.writer(), "network"}};
+    std::vector<SceneJob> jobs{{&workbench_.touch().runner(), "deformation"}, {&network_.runner(), "network"},
+                               {&animation_->runner(), "deformation"},        {&network_.writer(), "network"},
+                               {&workbench_.kept().runner(), "deformation"},  {&exports_->runner(), "deformation"}};
     for (int k = 0; k < scenes_->count(); ++k)
       for (JobRunner* runner : static_cast<Scene*>(scenes_->widget(k))->runners()) jobs.push_back({runner, names_[k]});
     lamps_->setJobs(jobs);
