@@ -31,7 +31,7 @@ LiveBoards::LiveBoards(Workbench& workbench, BoardAccess access, QWidget* parent
   leavingTimer_.setInterval(kLeaving_ms);
   connect(&leavingTimer_, &QTimer::timeout, this, &LiveBoards::tidy);
   connect(&workbench_, &Workbench::projectChanged, this, [this] {
-    if (isVisible()) follow();
+    if (isVisible() || workbench_.project().boards() < cells_.size()) follow();
   });
   build();
   arrange();
@@ -186,6 +186,9 @@ void LiveBoards::remove(LivePage* page) {
 void LiveBoards::takeAway(std::size_t board) {
   const Cell cell = cells_[board];
   cells_.erase(cells_.begin() + static_cast<std::ptrdiff_t>(board));
+  if (cell.page->host().recording())
+    emit message(tr("The recording to %1 has ended with its board.")
+                     .arg(QString::fromStdString(cell.page->host().recordingFile().string())));
   cell.page->disconnect(this);
   cell.page->setParent(nullptr); // hides it
   for (JobRunner* runner : cell.page->runners()) runner->cancel();

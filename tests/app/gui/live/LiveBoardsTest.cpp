@@ -257,6 +257,9 @@ TEST_F(Boards, TheProjectKeepsThemAndAnotherProjectHasItsOwn) {
   EXPECT_EQ(scene.count(), 1U);
   workbench.history().undo();
   EXPECT_EQ(scene.count(), Project::kMostBoards);
+  scene.hide();
+  workbench.replace("another project", exampleProject());
+  EXPECT_EQ(scene.count(), 1U) << "boards of a project that is not there any more";
 }
 
 } // namespace

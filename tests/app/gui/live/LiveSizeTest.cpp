@@ -1,0 +1,67 @@
+#include "app/gui/live/LiveBoards.h"
+#include "tests/app/gui/WindowFixture.h"
+
+#include <QPushButton>
+#include <QScrollArea>
+#include <QScrollBar>
+#include <QTabWidget>
+
+#include <gtest/gtest.h>
+
+namespace palp {
+namespace {
+
+/// What is left of a screen for the window: without frame and title.
+struct Room {
+  const char* name;
+  QSize size;
+};
+void PrintTo(const Room& room, std::ostream* out) {
+  *out << room.name;
+}
+
+std::string roomName(const testing::TestParamInfo<Room>& info) {
+  return info.param.name;
+}
+
+class LiveSize : public WindowFixture, public testing::WithParamInterface<Room> {
+protected:
+  bool fits() {
+    const auto* bar = find<QScrollArea>("sceneRoom").horizontalScrollBar();
+    window.resize(GetParam().size);
+    settle();
+    return QTest::qWaitFor([&] { return window.size() == GetParam().size && !bar->isVisible(); }, kPatience_ms / 6);
+  }
+};
+
+TEST_P(LiveSize, ABoardIsNoWiderThanTheWindowWithItsPanelAndEveryTab) {
+  window.showScene("live");
+  auto& page = find<LiveBoards>("live").page();
+  EXPECT_TRUE(fits()) << page.minimumSizeHint().width();
+  for (const char* tabs : {"curveTabs", "blockTabs"}) {
+    page.findChild<QTabWidget*>(tabs)->setCurrentIndex(1);
+    EXPECT_TRUE(fits()) << tabs << " " << page.minimumSizeHint().width();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, LiveSize,
+                         testing::Values(Room{"At1280By800", {1272, 764}},
+                                         Room{"At1366By768With125Percent", {1085, 585}}),
+                         roomName);
+
+using LiveSizeOfTwo = WindowFixture;
+
+TEST_F(LiveSizeOfTwo, TwoBoardsFitBesideEachOtherAt1280By800) {
+  window.resize(1272, 764);
+  window.showScene("live");
+  auto& live = find<LiveBoards>("live");
+  ASSERT_TRUE(QTest::qWaitFor([&] { return live.page().host().status().counts.frames > 3; }, kPatience_ms));
+  QTest::mouseClick(live.page().findChild<QPushButton*>("anotherBoard"), Qt::LeftButton);
+  ASSERT_EQ(live.count(), 2U);
+  const auto* bar = find<QScrollArea>("sceneRoom").horizontalScrollBar();
+  settle();
+  EXPECT_TRUE(QTest::qWaitFor([&] { return !bar->isVisible(); }, kPatience_ms / 6)) << live.minimumSizeHint().width();
+}
+
+} // namespace
+} // namespace palp
