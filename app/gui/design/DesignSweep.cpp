@@ -22,7 +22,7 @@ namespace palp {
 
 namespace {
 
-constexpr int kSideWidth_px = 300;
+constexpr int kSweepSideWidth_px = 300;
 
 /// The number that a field shows; none where it shows a list or a count.
 std::optional<double> numberOf(const DesignField& field, const SensorDesign& design) {
@@ -58,7 +58,7 @@ ChartSpec sweepChart(const QString& label, const std::vector<double>& at, const 
 DesignSweep::DesignSweep(Workbench& workbench, QWidget* parent) : QWidget(parent), workbench_(workbench) {
   auto* row = new QHBoxLayout(this);
   auto* side = new QWidget;
-  side->setFixedWidth(kSideWidth_px);
+  side->setFixedWidth(kSweepSideWidth_px);
   auto* form = new QFormLayout(side);
   form->setContentsMargins(0, 0, 0, 0);
   number_ = new QComboBox;

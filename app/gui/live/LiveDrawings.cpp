@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kPercent = 100;
-constexpr std::array<const char*, 3> kForces{"Fx", "Fy", "Fz"};
+constexpr std::array<const char*, 3> kCurveNames{"Fx", "Fy", "Fz"};
 
 template <class... Values> std::string printed(const char* format, Values... values) {
   std::array<char, 160> buffer{};
@@ -104,7 +104,7 @@ StripSpec forceCurves(const LiveHistory& history, const LiveSettings& settings, 
   const auto& entries = history.entries();
   for (int axis = 0; axis < 3; ++axis) {
     StripSeries curve;
-    curve.name = kForces[static_cast<std::size_t>(axis)];
+    curve.name = kCurveNames[static_cast<std::size_t>(axis)];
     curve.color = axis;
     bool any = false;
     for (std::size_t k = firstShown(history, settings.window_s); k < entries.size(); ++k) {

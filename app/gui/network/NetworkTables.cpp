@@ -8,7 +8,7 @@ namespace palp {
 
 namespace {
 
-const QStringList kForces{"Fx", "Fy", "Fz"};
+const QStringList kForceNames{"Fx", "Fy", "Fz"};
 
 QString number(double value) {
   return QString::number(value, 'g', 6);
@@ -16,11 +16,11 @@ QString number(double value) {
 
 /// Three cells; empty where there are fewer numbers.
 void add(QStringList& row, const Eigen::VectorXd& values) {
-  for (Eigen::Index k = 0; k < kForces.size(); ++k) row << (k < values.size() ? number(values[k]) : QString());
+  for (Eigen::Index k = 0; k < kForceNames.size(); ++k) row << (k < values.size() ? number(values[k]) : QString());
 }
 
 void addHeads(QStringList& heads, const QString& what) {
-  for (const QString& force : kForces) heads << force + " " + what;
+  for (const QString& force : kForceNames) heads << force + " " + what;
 }
 
 } // namespace

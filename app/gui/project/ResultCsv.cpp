@@ -10,22 +10,22 @@ namespace palp {
 
 namespace {
 
-QString number(double value) {
+QString exactNumber(double value) {
   return QString::number(value, 'g', 17);
 }
 
-QString triple(const Eigen::Vector3d& values) {
-  return "(" + number(values.x()) + ", " + number(values.y()) + ", " + number(values.z()) + ")";
+QString exactTriple(const Eigen::Vector3d& values) {
+  return "(" + exactNumber(values.x()) + ", " + exactNumber(values.y()) + ", " + exactNumber(values.z()) + ")";
 }
 
 /// Load and design, each line after a "#": most programs that read tables can be told to pass over these.
 QString sourceLines(const ResultSource& source) {
-  QString text = "# palp, share of the load " + number(source.loadFraction) + "\n";
+  QString text = "# palp, share of the load " + exactNumber(source.loadFraction) + "\n";
   for (const AreaLoad& load : source.load.areas)
-    text += QString("# load on area %1: ").arg(load.area) + triple(load.force_N) + " N\n";
+    text += QString("# load on area %1: ").arg(load.area) + exactTriple(load.force_N) + " N\n";
   for (const PatchLoad& disc : source.load.patches)
-    text += "# load on a disc at (" + number(disc.centre_mm.x()) + ", " + number(disc.centre_mm.y()) +
-            ") mm with radius " + number(disc.radius_mm) + " mm: " + triple(disc.force_N) + " N\n";
+    text += "# load on a disc at (" + exactNumber(disc.centre_mm.x()) + ", " + exactNumber(disc.centre_mm.y()) +
+            ") mm with radius " + exactNumber(disc.radius_mm) + " mm: " + exactTriple(disc.force_N) + " N\n";
   const QJsonDocument design = QJsonDocument::fromJson(QByteArray::fromStdString(toJson(source.design)));
   return text + "# design " + QString::fromUtf8(design.toJson(QJsonDocument::Compact)) + "\n";
 }
@@ -38,8 +38,8 @@ QString electrodesCsv(const ResultSource& source, const ElectrodeDisplacements& 
   const int perRow = source.design.electrodesPerRowWire();
   for (Eigen::Index k = 0; k < places.cols(); ++k) {
     text += QString("%1,%2").arg(k / perRow).arg(k % perRow);
-    for (const double value : places.col(k)) text += "," + number(value);
-    for (const double value : displacements.upper_mm.col(k)) text += "," + number(value);
+    for (const double value : places.col(k)) text += "," + exactNumber(value);
+    for (const double value : displacements.upper_mm.col(k)) text += "," + exactNumber(value);
     text += "\n";
   }
   return text;
@@ -51,8 +51,8 @@ QString resistancesCsv(const ResultSource& source, const ElectrodeDisplacements&
   const Eigen::MatrixXd loaded = rowColumnResistances(source.design, displacements);
   for (Eigen::Index row = 0; row < rest.rows(); ++row)
     for (Eigen::Index column = 0; column < rest.cols(); ++column)
-      text +=
-          QString("%1,%2,").arg(row).arg(column) + number(rest(row, column)) + "," + number(loaded(row, column)) + "\n";
+      text += QString("%1,%2,").arg(row).arg(column) + exactNumber(rest(row, column)) + "," +
+              exactNumber(loaded(row, column)) + "\n";
   return text;
 }
 

@@ -29,7 +29,7 @@ namespace palp {
 namespace {
 
 constexpr int kPanelWidth_px = 300;
-constexpr double kMostForce_N = 500;
+constexpr double kMostGripForce_N = 500;
 
 QGroupBox* group(const QString& title, QWidget* content) {
   auto* box = new QGroupBox(title);
@@ -334,7 +334,7 @@ void DeformationPage::setForce(int load, const Eigen::Vector3d& drawn_N) {
   if (load >= areas + static_cast<int>(next.load.patches.size())) return;
   Eigen::Vector3d& force_N = load < areas ? next.load.areas[static_cast<std::size_t>(load)].force_N
                                           : next.load.patches[static_cast<std::size_t>(load - areas)].force_N;
-  force_N = (drawn_N / fraction).cwiseMax(-kMostForce_N).cwiseMin(kMostForce_N);
+  force_N = (drawn_N / fraction).cwiseMax(-kMostGripForce_N).cwiseMin(kMostGripForce_N);
   load_->choose(load < areas ? LoadPlace{false, next.load.areas[static_cast<std::size_t>(load)].area}
                              : LoadPlace{true, load - areas});
   workbench_.edit(tr("Drag a force"), next);

@@ -26,7 +26,7 @@ double shareOf(vtkAxis& axis, double value) {
   return ((axis.GetLogScaleActive() ? std::log10(value) : value) - low) / (high - low);
 }
 
-QString number(double value) {
+QString shortNumber(double value) {
   return QString::number(value, 'g', 5);
 }
 
@@ -48,7 +48,7 @@ QString ChartView::reading() const {
   if (!read_) return {};
   const ChartSeries& series = spec_.series[read_->series];
   const QString name = series.name.empty() ? QString() : QString::fromStdString(series.name) + ": ";
-  return name + QString("%1, %2").arg(number(series.x[read_->at]), number(series.y[read_->at]));
+  return name + QString("%1, %2").arg(shortNumber(series.x[read_->at]), shortNumber(series.y[read_->at]));
 }
 
 void ChartView::readAt(const QPointF& place) {

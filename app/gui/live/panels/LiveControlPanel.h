@@ -54,7 +54,8 @@ signals:
   void markAsked(const QString& text);
   /// The network before is wanted back.
   void backAsked();
-  /// A recording is to begin, or the one that runs is to end. `replace`: the user has said that a file of this name may go.
+  /// A recording is to begin, or the one that runs is to end. `replace`: the user has said that a file of this name may
+  /// go.
   void recordAsked(const QString& file, bool replace);
   void exportAsked(const QString& file);
 

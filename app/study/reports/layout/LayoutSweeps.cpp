@@ -42,7 +42,7 @@ double meanPitch(const ElectrodeLayer& layer) {
 }
 
 /// A sweep without its points: from where to where, and what a value changes.
-struct Plan {
+struct LayoutPlan {
   LayoutSweep sweep;
   double low = 0, high = 0;
   std::function<void(SensorDesign&, double)> change;
@@ -51,8 +51,8 @@ struct Plan {
 using Layer = ElectrodeLayer SensorDesign::*;
 
 /// All electrodes of a layer at one depth.
-Plan depthPlan(const std::string& file, const std::string& layerName, const std::string& wires, Layer layer, double low,
-               double high) {
+LayoutPlan depthPlan(const std::string& file, const std::string& layerName, const std::string& wires, Layer layer,
+                     double low, double high) {
   return {{file,
            "Depth of the " + layerName + " layer",
            "Bound against the height of the " + wires,
@@ -63,8 +63,8 @@ Plan depthPlan(const std::string& file, const std::string& layerName, const std:
           [layer](SensorDesign& d, double at) { (d.*layer).z_mm = {{at}}; }};
 }
 
-Plan pitchPlan(const std::string& file, const std::string& layerName, const std::string& wires, Layer layer,
-               const SensorDesign& design, double leastFactor, double length_mm) {
+LayoutPlan pitchPlan(const std::string& file, const std::string& layerName, const std::string& wires, Layer layer,
+                     const SensorDesign& design, double leastFactor, double length_mm) {
   const double pitch = meanPitch(design.*layer);
   return {{file,
            "Pitch of the " + layerName + " electrodes",
@@ -76,10 +76,10 @@ Plan pitchPlan(const std::string& file, const std::string& layerName, const std:
           [layer, pitch](SensorDesign& d, double at) { stretch(d.*layer, at / pitch); }};
 }
 
-std::vector<Plan> plans(const SensorDesign& design) {
+std::vector<LayoutPlan> plans(const SensorDesign& design) {
   const double top = design.upperElectrodes_mm().row(2).minCoeff(),
                bottom = design.lowerElectrodes_mm().row(2).maxCoeff();
-  std::vector<Plan> result;
+  std::vector<LayoutPlan> result;
   result.push_back(depthPlan("upper_depth", "upper", "row-wires", &SensorDesign::upper, bottom + kMargin_mm,
                              design.block_mm.z() - kMargin_mm));
   result.push_back(
@@ -98,7 +98,7 @@ std::vector<Plan> plans(const SensorDesign& design) {
 std::vector<LayoutSweep> layoutSweeps(const SensorDesign& design, const AreaResponse& response, int rowWire,
                                       double relativeNoise) {
   std::vector<LayoutSweep> sweeps;
-  for (Plan& plan : plans(design)) {
+  for (LayoutPlan& plan : plans(design)) {
     for (int i = 0; i < kPoints; ++i) {
       const double at = plan.low + (plan.high - plan.low) * i / (kPoints - 1);
       SensorDesign changed = design;
