@@ -3,8 +3,15 @@
 #include "model/base/NamedEnum.h"
 
 #include <array>
+#include <variant>
 
 namespace palp {
+
+/// Eq. (1): every pair of an upper and a lower electrode is a resistor of its own, R = rate x distance.
+struct PairsLaw {
+  double rate_ohm_per_mm = 1000;
+  bool operator==(const PairsLaw&) const = default;
+};
 
 /// Which wires carry which voltage while the resistance of a row-wire and a column-wire is read.
 enum class Readout {
@@ -29,5 +36,8 @@ struct FieldLaw {
   Readout readout = Readout::Floating;
   bool operator==(const FieldLaw&) const = default;
 };
+
+/// What turns the place of the electrodes into resistance.
+using ResistanceLaw = std::variant<PairsLaw, FieldLaw>;
 
 } // namespace palp

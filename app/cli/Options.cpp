@@ -66,6 +66,12 @@ SensorDesign designOption(const std::string& fileOrPreset) {
   return design;
 }
 
+SensorDesign pairsDesignOption(const std::string& fileOrPreset, const std::string& command) {
+  SensorDesign design = designOption(fileOrPreset);
+  requirePairs(design, fileOrPreset + ": palp " + command);
+  return design;
+}
+
 void LoadOptions::declare(CLI::App& command) {
   command.add_option("--load", loads, "AREA:FX,FY,FZ [N]: force on a load area; may be given several times")
       ->allow_extra_args(false);

@@ -59,6 +59,7 @@ const std::vector<ReportComputation>& reportComputations() {
 
 ReportOutcome runReport(const ReportComputation& kind, const ReportRequest& request, const ReportProgress& progress,
                         const std::stop_token& stop, const ChartDrawer& draw) {
+  requirePairs(request.design, "palp report " + kind.name);
   const auto start = std::chrono::steady_clock::now();
   try {
     const std::optional<ReportContent> content = kind.compute(request, progress, stop);
