@@ -68,7 +68,7 @@ SensorDesign designOption(const std::string& fileOrPreset) {
 
 SensorDesign pairsDesignOption(const std::string& fileOrPreset, const std::string& command) {
   SensorDesign design = designOption(fileOrPreset);
-  requirePairs(design, fileOrPreset + ": palp " + command);
+  requirePairs(design, fileOrPreset + ": " + command);
   return design;
 }
 

@@ -41,7 +41,9 @@ Exit run(const DesignArguments& arguments, Session& session) {
     session.result["file"] = arguments.checked;
     describe(design, session);
     for (const std::string& warning : designWarnings(design)) session.warnings.push_back(warning);
-    if (!session.json) std::cout << arguments.checked << ": the design can be built\n";
+    if (session.json) return Exit::Done;
+    std::cout << arguments.checked << ": the design can be built\n";
+    for (const std::string& warning : session.warnings) std::cout << "but " << warning << '\n';
     return Exit::Done;
   }
   if (arguments.preset != "paper") throw UsageError("--preset: '" + arguments.preset + "'; allowed is paper");
