@@ -5,7 +5,11 @@
 #include "io/StrictJson.h"
 #include "model/DesignError.h"
 #include "model/base/Error.h"
+#include "model/base/NamedEnum.h"
 #include "model/base/Text.h"
+
+#include <array>
+#include <variant>
 
 namespace palp {
 
@@ -42,6 +46,25 @@ std::string depths(const std::vector<std::vector<double>>& z) {
 std::string pressureLaw(const std::optional<PressureLaw>& law) {
   if (!law) return "null";
   return R"({ "p0_MPa": )" + text(law->p0_MPa) + R"(, "exponent": )" + text(law->exponent) + " }";
+}
+
+/// The kinds of ResistanceLaw in the order of its alternatives; pairs need not be said.
+enum class LawKind { Pairs, Field };
+constexpr NamedEnum kLaws("law", std::array{std::pair{LawKind::Pairs, "pairs"}, std::pair{LawKind::Field, "field"}});
+
+std::string numbersOf(const PairsLaw& law) {
+  return R"("rate_ohm_per_mm": )" + text(law.rate_ohm_per_mm);
+}
+
+std::string numbersOf(const FieldLaw& law) {
+  return R"("law": "field", "resistivity_ohm_mm": )" + text(law.resistivity_ohm_mm) + R"(, "electrode_radius_mm": )" +
+         text(law.electrodeRadius_mm) + R"(, "contact_ohm_mm2": )" + text(law.contact_ohm_mm2) + R"(, "wire_ohm": )" +
+         text(law.wire_ohm) + R"(, "readout": ")" + kReadouts.name(law.readout) + "\"";
+}
+
+std::string resistance(const SensorDesign& design) {
+  return R"({ )" + std::visit([](const auto& law) { return numbersOf(law); }, design.resistance) +
+         R"(, "pressure_law": )" + pressureLaw(design.pressureLaw) + " }";
 }
 
 std::string range(const ForceRange& forces, int axis) {
@@ -86,6 +109,19 @@ std::optional<PressureLaw> readPressureLaw(const JsonPlace& place) {
   return PressureLaw{place.at("p0_MPa").number(), place.at("exponent").number()};
 }
 
+ResistanceLaw readResistance(const JsonPlace& place) {
+  const LawKind kind = place.has("law") ? place.at("law").named(kLaws) : LawKind::Pairs;
+  if (kind == LawKind::Pairs) {
+    place.onlyKeys({"rate_ohm_per_mm", "pressure_law"}, {"law"});
+    return PairsLaw{place.at("rate_ohm_per_mm").number()};
+  }
+  place.onlyKeys(
+      {"law", "resistivity_ohm_mm", "electrode_radius_mm", "contact_ohm_mm2", "wire_ohm", "readout", "pressure_law"});
+  return FieldLaw{place.at("resistivity_ohm_mm").number(), place.at("electrode_radius_mm").number(),
+                  place.at("contact_ohm_mm2").number(), place.at("wire_ohm").number(),
+                  place.at("readout").named(kReadouts)};
+}
+
 ForceRange readForceRange(const JsonPlace& place) {
   place.onlyKeys({"x", "y", "z"});
   ForceRange forces;
@@ -97,6 +133,27 @@ ForceRange readForceRange(const JsonPlace& place) {
   return forces;
 }
 
+SensorDesign readAnyDesign(const JsonPlace& root) {
+  formatVersion(root, "palp_design", kNewestVersion); // first: a newer file may well have other keys
+  root.onlyKeys(
+      {"palp_design", "block_mm", "material", "areas", "upper_layer", "lower_layer", "resistance", "force_range_N"});
+  SensorDesign design;
+  design.block_mm = readVector(root.at("block_mm"));
+  design.material = readMaterial(root.at("material"));
+  const JsonPlace areas = root.at("areas").onlyKeys({"columns", "rows"});
+  design.areas = {areas.at("columns").integer(), areas.at("rows").integer()};
+  const JsonPlace upper = root.at("upper_layer").onlyKeys({"z_mm", "row_wire_y_mm", "electrode_x_mm"});
+  design.upper = readLayer(upper, "row_wire_y_mm", "electrode_x_mm");
+  const JsonPlace lower =
+      root.at("lower_layer").onlyKeys({"z_mm", "column_wire_x_mm", "electrode_y_mm", "follows_rubber"});
+  design.lower = readLayer(lower, "column_wire_x_mm", "electrode_y_mm");
+  design.lowerFollowsRubber = lower.at("follows_rubber").boolean();
+  const JsonPlace resistance = root.at("resistance");
+  design.resistance = readResistance(resistance);
+  design.pressureLaw = readPressureLaw(resistance.at("pressure_law"));
+  design.forceRange = readForceRange(root.at("force_range_N"));
+  return design;
+}
 } // namespace
 
 std::string toJson(const SensorDesign& d) {
@@ -115,8 +172,7 @@ std::string toJson(const SensorDesign& d) {
           ",\n    \"column_wire_x_mm\": " + list(d.lower.wire_mm) +
           ",\n    \"electrode_y_mm\": " + positions(d.lower.along_mm) +
           ",\n    \"follows_rubber\": " + (d.lowerFollowsRubber ? "true" : "false") + " },\n";
-  json += "  \"resistance\": { \"rate_ohm_per_mm\": " + text(d.resistanceRate_ohm_per_mm) +
-          ", \"pressure_law\": " + pressureLaw(d.pressureLaw) + " },\n";
+  json += "  \"resistance\": " + resistance(d) + ",\n";
   json += "  \"force_range_N\": { \"x\": " + range(d.forceRange, 0) + ", \"y\": " + range(d.forceRange, 1) +
           ", \"z\": " + range(d.forceRange, 2) + " } }\n";
   return json;
@@ -126,28 +182,12 @@ SensorDesign parseDesign(std::string_view json, const std::string& file) {
   const Json value = parseJson(json, file);
   const JsonPlace root(value, file);
   if (!root.has("palp_design")) throw Error(file + ": no design file: palp_design is missing");
-  return readDesign(root);
+  return readAnyDesign(root);
 }
 
 SensorDesign readDesign(const JsonPlace& root) {
-  formatVersion(root, "palp_design", kNewestVersion); // first: a newer file may well have other keys
-  root.onlyKeys(
-      {"palp_design", "block_mm", "material", "areas", "upper_layer", "lower_layer", "resistance", "force_range_N"});
-  SensorDesign design;
-  design.block_mm = readVector(root.at("block_mm"));
-  design.material = readMaterial(root.at("material"));
-  const JsonPlace areas = root.at("areas").onlyKeys({"columns", "rows"});
-  design.areas = {areas.at("columns").integer(), areas.at("rows").integer()};
-  const JsonPlace upper = root.at("upper_layer").onlyKeys({"z_mm", "row_wire_y_mm", "electrode_x_mm"});
-  design.upper = readLayer(upper, "row_wire_y_mm", "electrode_x_mm");
-  const JsonPlace lower =
-      root.at("lower_layer").onlyKeys({"z_mm", "column_wire_x_mm", "electrode_y_mm", "follows_rubber"});
-  design.lower = readLayer(lower, "column_wire_x_mm", "electrode_y_mm");
-  design.lowerFollowsRubber = lower.at("follows_rubber").boolean();
-  const JsonPlace resistance = root.at("resistance").onlyKeys({"rate_ohm_per_mm", "pressure_law"});
-  design.resistanceRate_ohm_per_mm = resistance.at("rate_ohm_per_mm").number();
-  design.pressureLaw = readPressureLaw(resistance.at("pressure_law"));
-  design.forceRange = readForceRange(root.at("force_range_N"));
+  SensorDesign design = readAnyDesign(root);
+  requirePairs(design, "the window and networks");
   return design;
 }
 

@@ -13,7 +13,7 @@ struct Conductivity {
 };
 
 Conductivity conductivity(const SensorDesign& design, double pressure_MPa) {
-  const double atRest = 1 / design.resistanceRate_ohm_per_mm;
+  const double atRest = 1 / std::get<PairsLaw>(design.resistance).rate_ohm_per_mm;
   if (!design.pressureLaw || !(pressure_MPa > 0)) return {atRest, 0};
   const auto [p0, n] = *design.pressureLaw;
   const double value = atRest * std::pow(1 + pressure_MPa / p0, n);
@@ -29,6 +29,7 @@ ElectrodeDisplacements ElectrodeDisplacements::atRest(const SensorDesign& design
 
 Eigen::VectorXd rowResistances(const SensorDesign& design, const ElectrodeDisplacements& displacements, int rowWire,
                                RowResistanceJacobian* jacobian) {
+  requirePairs(design, "resistances by Eq. (1)");
   const int electrodes = design.electrodesPerRowWire();
   const int columns = design.columnWires();
   const int perColumn = design.electrodesPerColumnWire();

@@ -20,7 +20,8 @@ struct ElectrodeDisplacements {
 /// Row-column resistances [ohm], row-wires x column-wires, by Eq. (1):
 /// 1/R_k = sum_i (1/g(p_i)) sum_j 1 / |D_ijk + u_i - v_jk|, D_ijk upper minus lower electrode at rest, v_jk the lower
 /// electrode's displacement if the design lets it follow the rubber (else 0), g(p) the resistance rate, constant unless
-/// the design has a pressure law (Fig. 1). See resources/docs/physics.md.
+/// the design has a pressure law (Fig. 1). See resources/docs/physics.md. Throws DesignError where
+/// the design has the law of the field.
 Eigen::MatrixXd rowColumnResistances(const SensorDesign& design, const ElectrodeDisplacements& displacements);
 
 /// Derivatives of the resistances R_k of one row-wire [ohm per ...]; row k is column-wire k.

@@ -2,6 +2,7 @@
 
 #include "model/DesignError.h"
 #include "model/base/Text.h"
+#include "model/field/FieldLawCheck.h"
 
 #include <array>
 #include <cmath>
@@ -23,6 +24,11 @@ using Problems = std::vector<DesignFault>;
 void requirePositive(Problems& problems, const std::string& key, double value, double largest, const char* unit) {
   if (value > 0 && value <= largest) return; // false for NaN
   problems.push_back({key, text(value) + unit + "; allowed is above 0 up to " + text(largest) + unit});
+}
+
+void requireNotNegative(Problems& problems, const std::string& key, double value, double largest, const char* unit) {
+  if (value >= 0 && value <= largest) return; // false for NaN
+  problems.push_back({key, text(value) + unit + "; allowed is 0 up to " + text(largest) + unit});
 }
 
 void checkMaterial(Problems& problems, const Material& material) {
@@ -175,6 +181,20 @@ void checkElectrodes(Problems& problems, const SensorDesign& design) {
                                                 " mm; the lower layer must lie below the upper one"});
 }
 
+/// `placed`: the block has a size and the electrodes have places in it.
+void checkResistance(Problems& problems, const SensorDesign& design, bool placed) {
+  if (const auto* pairs = std::get_if<PairsLaw>(&design.resistance))
+    return requirePositive(problems, "resistance.rate_ohm_per_mm", pairs->rate_ohm_per_mm, 1e12, " ohm/mm");
+  const FieldLaw& law = *design.field();
+  requirePositive(problems, "resistance.resistivity_ohm_mm", law.resistivity_ohm_mm, 1e12, " ohm mm");
+  requireNotNegative(problems, "resistance.contact_ohm_mm2", law.contact_ohm_mm2, 1e12, " ohm mm2");
+  requireNotNegative(problems, "resistance.wire_ohm", law.wire_ohm, 1e9, " ohm");
+  const std::size_t before = problems.size();
+  requirePositive(problems, "resistance.electrode_radius_mm", law.electrodeRadius_mm, kLargestLength_mm, " mm");
+  if (!placed || problems.size() > before) return;
+  if (const auto fault = sphereFault(design)) problems.push_back(*fault);
+}
+
 void checkForceRange(Problems& problems, const ForceRange& range) {
   for (int axis = 0; axis < 3; ++axis) {
     const double low = range.low_N(axis);
@@ -240,10 +260,12 @@ std::vector<DesignFault> check(const SensorDesign& design) {
   for (int axis = 0; axis < 3; ++axis)
     requirePositive(problems, "block_mm[" + std::to_string(axis) + "]", design.block_mm(axis), kLargestLength_mm,
                     " mm");
+  const bool block = problems.empty();
   checkMaterial(problems, design.material);
   checkAreas(problems, design.areas);
+  const std::size_t before = problems.size();
   checkElectrodes(problems, design);
-  requirePositive(problems, "resistance.rate_ohm_per_mm", design.resistanceRate_ohm_per_mm, 1e12, " ohm/mm");
+  checkResistance(problems, design, block && problems.size() == before);
   if (design.pressureLaw) {
     requirePositive(problems, "resistance.pressure_law.p0_MPa", design.pressureLaw->p0_MPa, kLargestModulus_MPa,
                     " MPa");
@@ -266,6 +288,11 @@ std::optional<std::string> whyNotSquare(const SensorDesign& design) {
 void requireValid(const SensorDesign& design) {
   const Problems problems = check(design);
   if (!problems.empty()) throw DesignError(problems[0].key + ": " + problems[0].sentence);
+}
+
+void requirePairs(const SensorDesign& design, const std::string& what) {
+  if (design.field())
+    throw DesignError(what + ": not yet under the field law; allowed is a design with resistance.law pairs");
 }
 
 } // namespace palp

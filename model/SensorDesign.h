@@ -1,6 +1,7 @@
 #pragma once
 
 #include "model/Material.h"
+#include "model/ResistanceLaw.h"
 
 #include <Eigen/Core>
 
@@ -53,7 +54,7 @@ struct ForceRange {
   bool operator==(const ForceRange&) const = default;
 };
 
-/// The sensor: block, rubber, load areas, two layers of electrodes and what turns distance into resistance.
+/// The sensor: block, rubber, load areas, two layers of electrodes and the law of its resistances.
 struct SensorDesign {
   Eigen::Vector3d block_mm{30, 30, 5}; ///< origin at a lower corner, z up, bottom face fixed
   Material material;
@@ -61,8 +62,8 @@ struct SensorDesign {
   ElectrodeLayer upper;            ///< row-wires
   ElectrodeLayer lower;            ///< column-wires
   bool lowerFollowsRubber = false; ///< the paper holds the lower electrodes still
-  double resistanceRate_ohm_per_mm = 1000;
-  std::optional<PressureLaw> pressureLaw;
+  ResistanceLaw resistance;
+  std::optional<PressureLaw> pressureLaw; ///< of the resistivity, under either law
   ForceRange forceRange;
 
   [[nodiscard]] int rowWires() const { return upper.wires(); }
@@ -75,6 +76,8 @@ struct SensorDesign {
   /// Positions 3 x (column-wires * electrodes) [mm] at rest; electrode j of column-wire k is column k * electrodes + j.
   [[nodiscard]] Eigen::Matrix3Xd lowerElectrodes_mm() const;
   [[nodiscard]] Rectangle areaRectangle(int area) const;
+  /// The law of the field, or none where Eq. (1) holds.
+  [[nodiscard]] const FieldLaw* field() const { return std::get_if<FieldLaw>(&resistance); }
   bool operator==(const SensorDesign&) const = default;
 };
 
@@ -99,7 +102,15 @@ std::vector<DesignFault> check(const SensorDesign& design);
 /// one.
 std::optional<std::string> whyNotSquare(const SensorDesign& design);
 
+/// What can be built but should be known, a sentence each: electrodes so near to each other that small spheres with
+/// dipoles are no longer a good model of them.
+std::vector<std::string> designWarnings(const SensorDesign& design);
+
 /// Throws DesignError with the first fault, if there is one.
 void requireValid(const SensorDesign& design);
+
+/// Throws DesignError where the design has the law of the field: what works by Eq. (1) alone must not be taken for it.
+/// `what` says what that is.
+void requirePairs(const SensorDesign& design, const std::string& what);
 
 } // namespace palp

@@ -66,6 +66,12 @@ SensorDesign designOption(const std::string& fileOrPreset) {
   return design;
 }
 
+SensorDesign pairsDesignOption(const std::string& fileOrPreset, const std::string& command) {
+  SensorDesign design = designOption(fileOrPreset);
+  requirePairs(design, fileOrPreset + ": " + command);
+  return design;
+}
+
 void LoadOptions::declare(Command command) {
   command.option("--load", loads, "AREA:FX,FY,FZ [N]: force on a load area; may be given several times").oneValueEach();
   command.option("--patch", patches, "X,Y,RADIUS:FX,FY,FZ [mm, N]: force on a disc of the top face").oneValueEach();

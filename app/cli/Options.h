@@ -20,6 +20,8 @@ int wholeNumber(const std::string& option, const std::string& value, int low, in
 
 /// The design that commands take: a file, or the preset's name `paper`.
 SensorDesign designOption(const std::string& fileOrPreset);
+/// The same for a command that works by Eq. (1) alone: refuses the field law before any work is done.
+SensorDesign pairsDesignOption(const std::string& fileOrPreset, const std::string& command);
 
 /// --load AREA:FX,FY,FZ and --patch X,Y,RADIUS:FX,FY,FZ, as often as wanted.
 struct LoadOptions {

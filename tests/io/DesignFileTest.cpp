@@ -1,5 +1,6 @@
 #include "io/DesignFile.h"
 
+#include "io/StrictJson.h"
 #include "tests/io/Refusal.h"
 #include "tests/io/TemporaryFolder.h"
 
@@ -30,8 +31,14 @@ SensorDesign detailedDesign() {
   return design;
 }
 
+SensorDesign fieldDesign() {
+  SensorDesign design = detailedDesign();
+  design.resistance = FieldLaw{1234.5, 0.15, 1.0 / 3, 2.5, Readout::RowsGrounded};
+  return design;
+}
+
 TEST(DesignFile, ReadsBackTheDesignThatItWrote) {
-  for (const SensorDesign& design : {paperDesign(), detailedDesign()})
+  for (const SensorDesign& design : {paperDesign(), detailedDesign(), fieldDesign()})
     EXPECT_EQ(parseDesign(toJson(design), "x.json"), design);
 }
 
@@ -39,6 +46,26 @@ TEST(DesignFile, WritesTheShortFormWhereTheDesignHasIt) {
   EXPECT_NE(toJson(paperDesign()).find("\"electrode_y_mm\": [5, 15, 25]"), std::string::npos);
   EXPECT_NE(toJson(paperDesign()).find("\"z_mm\": 4,"), std::string::npos);
   EXPECT_NE(toJson(detailedDesign()).find("[4.9, 15.1, 25]"), std::string::npos);
+}
+
+TEST(DesignFile, PairsNeedNotBeSaidAndAreNotWritten) {
+  const std::string piece = "\"resistance\": { ";
+  EXPECT_EQ(parseDesign(paperWith(piece, piece + "\"law\": \"pairs\", "), "x"), paperDesign());
+  EXPECT_EQ(toJson(paperDesign()).find("law\": \"pairs"), std::string::npos);
+}
+
+TEST(DesignFile, WritesTheFieldWithAllOfItsNumbers) {
+  EXPECT_NE(toJson(fieldDesign())
+                .find("\"resistance\": { \"law\": \"field\", \"resistivity_ohm_mm\": 1234.5, "
+                      "\"electrode_radius_mm\": 0.15, \"contact_ohm_mm2\": 0.3333333333333333, \"wire_ohm\": 2.5, "
+                      "\"readout\": \"rows_grounded\", \"pressure_law\": { "),
+            std::string::npos)
+      << toJson(fieldDesign());
+}
+
+TEST(DesignFile, WithinAnotherFileKnowsEq1Alone) {
+  const Json json = parseJson(toJson(fieldDesign()), "x");
+  EXPECT_NE(refusal([&] { readDesign(JsonPlace(json, "x")); }).find("not yet under the field law"), std::string::npos);
 }
 
 TEST(DesignFile, SavesAndLoads) {
@@ -67,6 +94,12 @@ TEST(DesignFile, FingerprintFollowsTheDesignAndNothingElse) {
   SensorDesign design = paperDesign();
   design.upper.wire_mm[3] = std::nextafter(design.upper.wire_mm[3], 100.0);
   EXPECT_NE(designFingerprint(design), paper);
+  design = paperDesign();
+  design.resistance = FieldLaw{};
+  const std::string field = designFingerprint(design);
+  EXPECT_NE(field, paper);
+  design.resistance = FieldLaw{.readout = Readout::VirtualGround}; // another board
+  EXPECT_NE(designFingerprint(design), field);
 }
 
 struct Slip {
@@ -114,6 +147,21 @@ INSTANTIATE_TEST_SUITE_P(
         Slip{"[5, 15, 25]", "[[5, 15, 25], [5, true]]", {"lower_layer.electrode_y_mm[1][1] is true"}},
         Slip{"\"follows_rubber\": false", "\"follows_rubber\": 0", {"lower_layer.follows_rubber", "true or false"}},
         Slip{"\"pressure_law\": null", "\"pressure_law\": {}", {"resistance.pressure_law.p0_MPa is missing"}},
+        Slip{"{ \"rate_ohm_per_mm\"",
+             "{ \"law\": \"eq1\", \"rate_ohm_per_mm\"",
+             {"resistance.law", "\"eq1\"", "pairs or field"}},
+        Slip{"{ \"rate_ohm_per_mm\"", "{ \"law\": 2, \"rate_ohm_per_mm\"", {"resistance.law is 2", "a text"}},
+        Slip{"{ \"rate_ohm_per_mm\"",
+             "{ \"readout\": \"floating\", \"rate_ohm_per_mm\"",
+             {"unknown key resistance.readout"}},
+        Slip{"{ \"rate_ohm_per_mm\"",
+             "{ \"law\": \"field\", \"rate_ohm_per_mm\"",
+             {"unknown key resistance.rate_ohm_per_mm"}},
+        Slip{"\"rate_ohm_per_mm\": 1000", "\"law\": \"field\"", {"resistance.resistivity_ohm_mm is missing"}},
+        Slip{"\"rate_ohm_per_mm\": 1000",
+             "\"law\": \"field\", \"resistivity_ohm_mm\": 1, \"electrode_radius_mm\": 0.2, \"contact_ohm_mm2\": 0, "
+             "\"wire_ohm\": 0, \"readout\": \"grounded\"",
+             {"resistance.readout is \"grounded\"", "virtual_ground"}},
         Slip{"\"x\": [-1, 1]", "\"x\": [-1]", {"force_range_N.x", "2 numbers"}},
         Slip{"\"rows\": 2", "\"rows\": 2, \"rows\": 3", {"\"rows\" stands twice"}},
         Slip{"] } }\n", "", {"no valid JSON"}}));

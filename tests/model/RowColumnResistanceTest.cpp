@@ -1,5 +1,7 @@
 #include "model/RowColumnResistance.h"
 
+#include "model/DesignError.h"
+
 #include <gtest/gtest.h>
 
 #include <random>
@@ -37,6 +39,12 @@ TEST(RowColumnResistance, OfOnePairIsRateTimesDistance) {
   EXPECT_DOUBLE_EQ(rowColumnResistances(design, displacements)(0, 0), 1000 * std::sqrt(18.0));
   displacements.upper_mm.col(0) << 3, 0, 1; // now straight above, 4 mm apart
   EXPECT_DOUBLE_EQ(rowColumnResistances(design, displacements)(0, 0), 4000);
+}
+
+TEST(RowColumnResistance, IsNotTakenForTheFields) {
+  SensorDesign design = paperDesign();
+  design.resistance = FieldLaw{};
+  EXPECT_THROW(rowColumnResistances(design, ElectrodeDisplacements::atRest(design)), DesignError);
 }
 
 TEST(RowColumnResistance, PairsOfAColumnWireAreParallel) {

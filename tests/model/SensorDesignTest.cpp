@@ -139,10 +139,43 @@ INSTANTIATE_TEST_SUITE_P(
         Slip{"SameWireTwice", [](SensorDesign& d) { d.lower.wire_mm[8] = 0.5; }, "lower_layer.column_wire_x_mm",
              "column-wire 8"},
         Slip{"LayersCross", [](SensorDesign& d) { d.lower.z_mm = {{4}}; }, "lower_layer.z_mm", "z = 4"},
-        Slip{"RateZero", [](SensorDesign& d) { d.resistanceRate_ohm_per_mm = 0; }, "resistance.rate_ohm_per_mm",
-             "0 ohm/mm"},
-        Slip{"RateInfinite", [](SensorDesign& d) { d.resistanceRate_ohm_per_mm = kInfinity; },
-             "resistance.rate_ohm_per_mm", "inf"},
+        Slip{"RateZero", [](SensorDesign& d) { d.resistance = PairsLaw{0}; }, "resistance.rate_ohm_per_mm", "0 ohm/mm"},
+        Slip{"RateInfinite", [](SensorDesign& d) { d.resistance = PairsLaw{kInfinity}; }, "resistance.rate_ohm_per_mm",
+             "inf"},
+        Slip{"ResistivityZero", [](SensorDesign& d) { d.resistance = FieldLaw{.resistivity_ohm_mm = 0}; },
+             "resistance.resistivity_ohm_mm", "0 ohm mm"},
+        Slip{"RadiusZero", [](SensorDesign& d) { d.resistance = FieldLaw{.electrodeRadius_mm = 0}; },
+             "resistance.electrode_radius_mm", "0 mm"},
+        Slip{"RadiusNan", [](SensorDesign& d) { d.resistance = FieldLaw{.electrodeRadius_mm = kNan}; },
+             "resistance.electrode_radius_mm", "nan"},
+        Slip{"ContactNegative", [](SensorDesign& d) { d.resistance = FieldLaw{.contact_ohm_mm2 = -1}; },
+             "resistance.contact_ohm_mm2", "-1 ohm mm2"},
+        Slip{"WireInfinite", [](SensorDesign& d) { d.resistance = FieldLaw{.wire_ohm = kInfinity}; },
+             "resistance.wire_ohm", "inf"},
+        Slip{"ElectrodesOverlap", [](SensorDesign& d) { d.resistance = FieldLaw{.electrodeRadius_mm = 0.5}; },
+             "resistance.electrode_radius_mm",
+             "0.5 mm: electrodes overlap (electrode 0 of column-wire 0, 0.5 mm from a face of the block); allowed is "
+             "below 0.5 mm"},
+        Slip{"ElectrodesOverlapEachOther",
+             [](SensorDesign& d) {
+               d.resistance = FieldLaw{.electrodeRadius_mm = 0.4};
+               d.upper.along_mm[0][3] = 12.75;
+             },
+             "resistance.electrode_radius_mm",
+             "electrode 3 of row-wire 0 and electrode 4 of row-wire 0, 0.75 mm apart); allowed is below 0.375 mm"},
+        Slip{"ElectrodeOnTheBottom",
+             [](SensorDesign& d) {
+               d.resistance = FieldLaw{};
+               d.lower.z_mm = {{0}};
+             },
+             "resistance.electrode_radius_mm", "0 mm from a face"},
+        Slip{"TooManyElectrodes",
+             [](SensorDesign& d) {
+               d.resistance = FieldLaw{.electrodeRadius_mm = 1e-3};
+               d.upper.along_mm[0].clear();
+               for (int i = 0; i < 200; ++i) d.upper.along_mm[0].push_back(0.1 + 0.149 * i);
+             },
+             "resistance.law", "2090 electrodes; allowed is up to 2000"},
         Slip{"PressureScaleZero",
              [](SensorDesign& d) {
                d.pressureLaw = PressureLaw{0, 0.5};
@@ -215,6 +248,36 @@ TEST(SensorDesign, NamesTheFirstTwoElectrodesAtOnePlaceOfTheLargestDesign) {
   EXPECT_EQ(faults[0].sentence,
             "duplicate electrode: electrode 9 of row-wire 101 is where electrode 5 of row-wire 101 is; "
             "allowed is one electrode a place");
+}
+
+/// Where the radius is above 0.35 of a gap, with the error of small spheres with dipoles there: against bispherical
+/// coordinates, as in FieldAtRestTest.
+TEST(SensorDesign, WarnsOfElectrodesTooNearForSmallSpheres) {
+  SensorDesign design = paperDesign();
+  EXPECT_TRUE(designWarnings(design).empty());
+  design.resistance = FieldLaw{.electrodeRadius_mm = 0.34}; // column-wires are 1 mm apart, and 0.5 mm from the faces
+  EXPECT_TRUE(designWarnings(design).empty());
+  design.lower.wire_mm.front() = 0.75; // nearer to its neighbour than to the face's mirror image
+  design.resistance = FieldLaw{.electrodeRadius_mm = 0.3};
+  ASSERT_TRUE(check(design).empty());
+  const std::vector<std::string> said = designWarnings(design);
+  ASSERT_EQ(said.size(), 1U);
+  for (const char* part : {"0.3 mm is 0.4 of the gap", "electrode 0 of column-wire 0 and electrode 0 of column-wire 1",
+                           "0.75 mm apart", "wrong by about 2.15 %"})
+    EXPECT_NE(said[0].find(part), std::string::npos) << said[0];
+}
+
+TEST(SensorDesign, WhatWorksByEq1AloneIsRefusedUnderTheField) {
+  SensorDesign design = paperDesign();
+  EXPECT_NO_THROW(requirePairs(design, "x"));
+  design.resistance = FieldLaw{};
+  ASSERT_TRUE(check(design).empty());
+  try {
+    requirePairs(design, "palp x");
+    FAIL();
+  } catch (const DesignError& refusal) {
+    EXPECT_STREQ(refusal.what(), "palp x: not yet under the field law; allowed is a design with resistance.law pairs");
+  }
 }
 
 TEST(SensorDesign, SaysWhyEq1IsNotSquare) {

@@ -23,6 +23,8 @@ void describe(const SensorDesign& design, Session& session) {
   session.result["column_wires"] = design.columnWires();
   session.result["electrodes_per_column_wire"] = design.electrodesPerColumnWire();
   session.result["areas"] = design.areas.count();
+  session.result["resistance_law"] = design.field() ? "field" : "pairs";
+  if (design.field()) session.result["readout"] = kReadouts.name(design.field()->readout);
   session.result["shear_modulus_MPa"] = rubber.shearModulus_MPa();
   session.result["compressibility_per_MPa"] = rubber.compressibility_per_MPa();
   session.result["small_strain_young_MPa"] = rubber.smallStrainYoung_MPa();
@@ -38,7 +40,10 @@ Exit run(const DesignArguments& arguments, Session& session) {
     const SensorDesign design = designOption(arguments.checked);
     session.result["file"] = arguments.checked;
     describe(design, session);
-    if (!session.json) std::cout << arguments.checked << ": the design can be built\n";
+    for (const std::string& warning : designWarnings(design)) session.warnings.push_back(warning);
+    if (session.json) return Exit::Done;
+    std::cout << arguments.checked << ": the design can be built\n";
+    for (const std::string& warning : session.warnings) std::cout << "but " << warning << '\n';
     return Exit::Done;
   }
   if (arguments.preset != "paper") throw UsageError("--preset: '" + arguments.preset + "'; allowed is paper");

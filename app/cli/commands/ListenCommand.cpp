@@ -71,7 +71,7 @@ LiveOptions liveOptions(const ListenArguments& arguments) {
     options.decoder = readNetwork(arguments.network);
   else if (arguments.simulate && arguments.samples.empty())
     options.decoder = readNetwork(shippedNetwork());
-  if (!arguments.design.empty()) options.design = designOption(arguments.design);
+  if (!arguments.design.empty()) options.design = pairsDesignOption(arguments.design, "listen");
   options.tareFrames = wholeNumber("--tare", arguments.tare, 0, 100'000);
   options.ringFrames = 8192;
   if (arguments.simulate || !arguments.replay.empty()) {

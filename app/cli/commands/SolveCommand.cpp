@@ -113,7 +113,7 @@ NewtonObserver observer(const Session& session) {
 }
 
 Exit run(const SolveArguments& arguments, Session& session) {
-  const SensorDesign design = designOption(arguments.design);
+  const SensorDesign design = pairsDesignOption(arguments.design, "solve");
   const LoadCase load = arguments.loads.loadCase(design);
   arguments.output.requireWritable();
   Touch touch(design, load, arguments.mesh.options());

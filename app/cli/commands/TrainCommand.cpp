@@ -63,7 +63,7 @@ Exit run(const Arguments& arguments, Session& session) {
   arguments.output.requireWritable();
   const SampleSet samples = loadSamples(arguments.samples);
   std::optional<SensorDesign> design;
-  if (!arguments.design.empty()) design = designOption(arguments.design);
+  if (!arguments.design.empty()) design = pairsDesignOption(arguments.design, "train");
   const Decoder decoder = session.stages.measure("train", [&] {
     ProgressBar bar("training", 1000);
     return trainDecoder(samples, design ? &*design : nullptr, options, session.stop,

@@ -200,7 +200,7 @@ void addElectrodeLayers(Fields& fields) {
 void addResistanceAndForces(Fields& fields) {
   fields.push_back(number("resistance.rate_ohm_per_mm", tr("Resistance"), tr("rate g"), "ohm/mm",
                           tr("above 0; a pair of electrodes has R = g x distance"),
-                          [](D& s) -> double& { return s.resistanceRate_ohm_per_mm; }));
+                          [](D& s) -> double& { return std::get<PairsLaw>(s.resistance).rate_ohm_per_mm; }));
   for (int d = 0; d < 3; ++d) {
     const QString& axis = axes()[static_cast<std::size_t>(d)];
     fields.push_back(number("force_range_N." + axis, tr("Force range"), tr("F%1 from").arg(axis), "N",

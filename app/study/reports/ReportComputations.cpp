@@ -41,7 +41,8 @@ const std::vector<ReportComputation>& reportComputations() {
       {"noise",
        "force error against resistance noise, between the Cramer-Rao bounds",
        noiseReport,
-       {{"samples", 0.25, 20}, {"decoders over the noise", 0.75, 90}, {"noise of the training", 1, 10}}},
+       {{"samples", 0.25, 20}, {"decoders over the noise", 0.75, 90}, {"noise of the training", 1, 10}},
+       true},
       {"layout",
        "what the layout of the electrodes resolves, and a better one",
        layoutReport,
@@ -59,6 +60,7 @@ const std::vector<ReportComputation>& reportComputations() {
 
 ReportOutcome runReport(const ReportComputation& kind, const ReportRequest& request, const ReportProgress& progress,
                         const std::stop_token& stop, const ChartDrawer& draw) {
+  if (!kind.underField) requirePairs(request.design, "report " + kind.name);
   const auto start = std::chrono::steady_clock::now();
   try {
     const std::optional<ReportContent> content = kind.compute(request, progress, stop);

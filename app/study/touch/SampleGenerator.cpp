@@ -61,6 +61,7 @@ SampleRange shard(std::size_t total, int index, int count) {
 SampleGenerator::SampleGenerator(SensorDesign design, SampleRequest request)
     : design_(std::move(design)), request_(std::move(request)) {
   requireValid(design_);
+  requirePairs(design_, "samples");
   if (request_.perArea < 1 || request_.perArea > kMostPerArea)
     throw DesignError("per-area: " + std::to_string(request_.perArea) + "; allowed is 1 to " +
                       std::to_string(kMostPerArea));

@@ -94,6 +94,29 @@ TEST_P(BrokenDesignTest, IsRefusedByEveryCommandThatReadsDesigns) {
 INSTANTIATE_TEST_SUITE_P(Designs, BrokenDesignTest, testing::ValuesIn(brokenDesigns()),
                          [](const auto& tested) { return tested.param.name; });
 
+/// What works by Eq. (1) alone says so in one line and leaves nothing behind.
+TEST(BadInput, TheFieldLawIsRefusedWhereEq1IsMeant) {
+  const palp::TemporaryFolder folder;
+  json design = paper();
+  design["resistance"] = {
+      {"law", "field"}, {"resistivity_ohm_mm", 2000},  {"electrode_radius_mm", 0.2}, {"contact_ohm_mm2", 0},
+      {"wire_ohm", 0},  {"readout", "virtual_ground"}, {"pressure_law", nullptr}};
+  const std::string file = folder / "field.json";
+  writeAll(file, design.dump());
+  const Outcome checked = palp::test::palp({"design", "--check", file, "--json"});
+  EXPECT_EQ(checked.exit, 0) << checked.errors;
+  EXPECT_EQ(checked.json().at("resistance_law"), "field");
+  EXPECT_EQ(checked.json().at("readout"), "virtual_ground");
+  const std::string out = folder / "out";
+  for (const std::vector<std::string>& command : {std::vector<std::string>{"solve", file, "--load", "0:0,0,-1"},
+                                                  {"sample", file, "--per-area", "5", "-o", out},
+                                                  {"report", "layout", "--design", file, "-o", out},
+                                                  {"report", "error-time", "--design", file, "-o", out},
+                                                  {"listen", "--simulate", "--design", file}})
+    expectRefused(palp::test::palp(command), {"not yet under the field law", "resistance.law pairs"});
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
 TEST(BadInput, ATruncatedDesignIsRefusedWithItsPlace) {
   const palp::TemporaryFolder folder;
   const std::string text = paper().dump();

@@ -12,6 +12,11 @@ namespace {
 /// solver's tolerance far below it.
 constexpr double kStep_N = 0.05;
 
+/// A force so small [N] that the block is linear under it to 1e-6, and the tolerance at which Newton's method stops
+/// after the first iteration, which is the linear answer.
+constexpr double kSmall_N = 1e-4;
+constexpr double kLinear = 1e-3;
+
 LoadIncrement derivative(const LoadIncrement& above, const LoadIncrement& below) {
   LoadIncrement result = above;
   result.displacements_mm = (above.displacements_mm - below.displacements_mm) / (2 * kStep_N);
@@ -71,6 +76,47 @@ std::optional<AreaResponse> AreaResponse::solve(const SensorDesign& design, cons
     if (progress) progress((area + 1.0) / areas, "response of area " + std::to_string(area));
   }
   return response;
+}
+
+std::optional<AreaResponse> AreaResponse::atRest(const SensorDesign& design, const MeshOptions& mesh, int threads,
+                                                 StageLog& stages, const ReportProgress& progress,
+                                                 std::stop_token stop) {
+  AreaResponse response;
+  response.mesh_ = stages.measure("mesh", [&] { return sensorMesh(design, mesh); });
+  const HyperelasticProblem problem =
+      stages.measure("factorise", [&] { return HyperelasticProblem(design, response.mesh_); });
+  NewtonOptions newton;
+  newton.threads = threads;
+  newton.relativeTolerance = kLinear;
+  const int areas = design.areas.count();
+  for (int area = 0; area < areas; ++area) {
+    AreaState state;
+    for (int axis = 0; axis < 3; ++axis) {
+      const LoadCase load{{{area, kSmall_N * Eigen::Vector3d::Unit(axis)}}, {}};
+      const Solution solution =
+          stages.measure("solve", [&] { return problem.solve(load, newton, {.step = {}, .stop = stop}); });
+      if (stop.stop_requested()) return {};
+      if (!solution.converged) throw DesignError("the block has no linear answer at rest: " + solution.stopReason);
+      state.middle = solution.increments.front();
+      LoadIncrement& slope = state.perNewton[static_cast<std::size_t>(axis)] = solution.increments.back();
+      slope.displacements_mm /= kSmall_N;
+      slope.elementUnknowns /= kSmall_N;
+    }
+    response.areas_.push_back(std::move(state));
+    if (progress) progress((area + 1.0) / areas, "response of area " + std::to_string(area));
+  }
+  return response;
+}
+
+std::vector<std::array<Eigen::Matrix3Xd, 3>>
+AreaResponse::perNewtonAt(const Eigen::Ref<const Eigen::Matrix3Xd>& points_mm) const {
+  const PointProbe probe(mesh_, points_mm);
+  std::vector<std::array<Eigen::Matrix3Xd, 3>> result;
+  for (const AreaState& area : areas_) {
+    std::array<Eigen::Matrix3Xd, 3>& slopes = result.emplace_back();
+    for (std::size_t axis = 0; axis < 3; ++axis) slopes[axis] = probe.displacements_mm(area.perNewton[axis]);
+  }
+  return result;
 }
 
 std::vector<ElectrodeResponse> AreaResponse::read(const SensorDesign& layout, int rowWire) const {

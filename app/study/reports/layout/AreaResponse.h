@@ -28,9 +28,18 @@ public:
   static std::optional<AreaResponse> solve(const SensorDesign& design, const MeshOptions& mesh, int threads,
                                            StageLog& stages, const ReportProgress& progress, std::stop_token stop);
 
+  /// The linear answer of the block at rest instead: one factorisation and a right side for each force. The middle is
+  /// then the state at rest.
+  static std::optional<AreaResponse> atRest(const SensorDesign& design, const MeshOptions& mesh, int threads,
+                                            StageLog& stages, const ReportProgress& progress, std::stop_token stop);
+
   /// Of the electrodes of one row-wire (those of the others stay at rest), or of all with row-wire -1; lower electrodes
   /// are read where they follow the rubber, pressures where the design has a law for them. One an area.
   [[nodiscard]] std::vector<ElectrodeResponse> read(const SensorDesign& layout, int rowWire) const;
+
+  /// Derivatives of the displacement by Fx, Fy, Fz [mm/N] at points of the block, 3 x points. One an area.
+  [[nodiscard]] std::vector<std::array<Eigen::Matrix3Xd, 3>>
+  perNewtonAt(const Eigen::Ref<const Eigen::Matrix3Xd>& points_mm) const;
 
   [[nodiscard]] const Mesh& mesh() const { return mesh_; }
 

@@ -58,12 +58,37 @@ double LayoutBound::mean() const {
   return std::cbrt(withoutPrior().prod());
 }
 
+std::vector<std::array<Eigen::MatrixXd, 3>> logSensitivity(const SensorDesign& layout, const AreaResponse& response) {
+  std::vector<std::array<Eigen::MatrixXd, 3>> result;
+  for (const ElectrodeResponse& area : response.read(layout, -1)) {
+    std::array<Eigen::MatrixXd, 3>& slopes = result.emplace_back();
+    slopes.fill(Eigen::MatrixXd(layout.rowWires(), layout.columnWires()));
+    for (int row = 0; row < layout.rowWires(); ++row) {
+      const Eigen::MatrixX3d ofRow = logSensitivity(layout, area, row);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        slopes[axis].row(row) = ofRow.col(static_cast<Eigen::Index>(axis)).transpose();
+    }
+  }
+  return result;
+}
+
+LayoutBound boundOf(const std::vector<Eigen::Matrix3d>& information) {
+  const auto count = static_cast<Eigen::Index>(information.size());
+  LayoutBound bound{Eigen::Matrix3Xd(3, count), Eigen::Matrix3Xd(3, count)};
+  for (Eigen::Index area = 0; area < count; ++area) {
+    const Eigen::Matrix3d& measured = information[static_cast<std::size_t>(area)];
+    bound.withoutPrior_percent.col(area) = 100 * deviations(measured);
+    bound.withPrior_percent.col(area) = 100 * deviations(measured + kUniformPrecision * Eigen::Matrix3d::Identity());
+  }
+  return bound;
+}
+
 LayoutBound layoutBound(const SensorDesign& layout, const AreaResponse& response, int rowWire, double relativeNoise) {
   const std::vector<ElectrodeResponse> areas = response.read(layout, rowWire);
   // In units of the force range, so that large and small forces do not meet in one matrix.
   const Eigen::Vector3d range_N = layout.forceRange.high_N - layout.forceRange.low_N;
   const auto count = static_cast<Eigen::Index>(areas.size());
-  LayoutBound bound{Eigen::Matrix3Xd(3, count), Eigen::Matrix3Xd(3, count)};
+  std::vector<Eigen::Matrix3d> ofAreas;
   for (Eigen::Index area = 0; area < count; ++area) {
     Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
     for (int row = rowWire < 0 ? 0 : rowWire; row <= (rowWire < 0 ? layout.rowWires() - 1 : rowWire); ++row) {
@@ -71,11 +96,9 @@ LayoutBound layoutBound(const SensorDesign& layout, const AreaResponse& response
           logSensitivity(layout, areas[static_cast<std::size_t>(area)], row) * range_N.asDiagonal();
       information += slope.transpose() * slope / (relativeNoise * relativeNoise);
     }
-    bound.withoutPrior_percent.col(area) = 100 * deviations(information);
-    information += kUniformPrecision * Eigen::Matrix3d::Identity();
-    bound.withPrior_percent.col(area) = 100 * deviations(information);
+    ofAreas.push_back(information);
   }
-  return bound;
+  return boundOf(ofAreas);
 }
 
 Eigen::VectorXd resistanceSingularValues(const SensorDesign& layout, int rowWire) {

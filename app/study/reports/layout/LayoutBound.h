@@ -19,6 +19,14 @@ struct LayoutBound {
   [[nodiscard]] double mean() const;
 };
 
+/// From Fisher's information of the forces in units of the range, J' J / noise^2 with J = d ln R / d(F / range); one an
+/// area.
+LayoutBound boundOf(const std::vector<Eigen::Matrix3d>& information);
+
+/// d ln R / dF [1/N] by Eq. (1) around the middle of the response, row-wires x column-wires for Fx, Fy, Fz. One an
+/// area.
+std::vector<std::array<Eigen::MatrixXd, 3>> logSensitivity(const SensorDesign& layout, const AreaResponse& response);
+
 /// Of one row-wire, or of all with row-wire -1, for relative resistance noise.
 LayoutBound layoutBound(const SensorDesign& layout, const AreaResponse& response, int rowWire, double relativeNoise);
 

@@ -2,6 +2,7 @@
 
 #include "app/study/reports/Csv.h"
 #include "app/study/reports/ReportPage.h"
+#include "app/study/reports/networks/FieldNoiseReport.h"
 #include "app/study/reports/networks/NetworkCheck.h"
 #include "model/base/Text.h"
 
@@ -286,6 +287,7 @@ private:
 std::optional<ReportContent> noiseReport(const ReportRequest& request, const ReportProgress& progress,
                                          std::stop_token stop) {
   requireValid(request.design);
+  if (request.design.field()) return fieldNoiseReport(request, progress, std::move(stop));
   return NoiseWriter(request, progress, std::move(stop)).run();
 }
 

@@ -1,0 +1,71 @@
+#include "app/study/reports/layout/FieldResponse.h"
+
+#include "model/DesignError.h"
+#include "model/FieldSensitivity.h"
+
+namespace palp {
+
+namespace {
+
+void requireSmooth(const SensorDesign& layout) {
+  if (layout.pressureLaw)
+    throw DesignError("resistance.pressure_law: bounds at rest, where it has a kink: not yet under the field law; "
+                      "allowed is null");
+}
+
+} // namespace
+
+FieldResponse::FieldResponse(const SensorDesign& layout, const FieldLaw& law, const AreaResponse& response, int threads)
+    : network_(networkAtRest(layout, law)), range_N_(layout.forceRange.high_N - layout.forceRange.low_N) {
+  requireSmooth(layout);
+  const FieldSensitivity field(layout, law);
+  const auto faces = response.perNewtonAt(field.facePoints_mm());
+  const std::vector<ElectrodeResponse> electrodes = response.read(layout, -1);
+  std::vector<SensorMotion> motions;
+  for (std::size_t area = 0; area < faces.size(); ++area)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const ElectrodeDisplacements& moved = electrodes[area].perNewton[axis];
+      SensorMotion motion;
+      motion.electrodes_mm.resize(3, moved.upper_mm.cols() + moved.lower_mm.cols());
+      motion.electrodes_mm << moved.upper_mm, moved.lower_mm; // these are read as 0 where they are held
+      motion.faces_mm = field.faceNormals().cwiseProduct(faces[area][axis]).colwise().sum();
+      motions.push_back(std::move(motion));
+    }
+  std::vector<Eigen::MatrixXd> changes = field.conductanceChanges(motions, threads);
+  for (std::size_t area = 0; area < faces.size(); ++area)
+    conductanceChanges_.push_back(
+        {std::move(changes[3 * area]), std::move(changes[3 * area + 1]), std::move(changes[3 * area + 2])});
+}
+
+Eigen::MatrixXd FieldResponse::resistances_ohm(Readout readout) const {
+  return NetworkReading(network_, readout).resistances_ohm();
+}
+
+std::vector<std::array<Eigen::MatrixXd, 3>> FieldResponse::logSensitivity(Readout readout) const {
+  const NetworkReading reading(network_, readout);
+  std::vector<std::array<Eigen::MatrixXd, 3>> result;
+  for (const auto& changes : conductanceChanges_) {
+    std::array<Eigen::MatrixXd, 3>& slopes = result.emplace_back();
+    for (std::size_t axis = 0; axis < 3; ++axis) slopes[axis] = reading.logChange(changes[axis]);
+  }
+  return result;
+}
+
+LayoutBound FieldResponse::bound(Readout readout, int rowWire, double relativeNoise) const {
+  std::vector<Eigen::Matrix3d> information;
+  for (const auto& slopes : logSensitivity(readout)) {
+    const Eigen::Index readings = rowWire < 0 ? slopes[0].size() : slopes[0].cols();
+    Eigen::MatrixX3d j(readings, 3);
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const Eigen::MatrixXd& all = slopes[static_cast<std::size_t>(axis)];
+      if (rowWire < 0)
+        j.col(axis) = range_N_(axis) * all.reshaped();
+      else
+        j.col(axis) = range_N_(axis) * all.row(rowWire).transpose();
+    }
+    information.emplace_back(j.transpose() * j / (relativeNoise * relativeNoise));
+  }
+  return boundOf(information);
+}
+
+} // namespace palp

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "app/study/reports/layout/LayoutBound.h"
+#include "model/TerminalNetwork.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <vector>
+
+namespace palp {
+
+/// How the resistances of a layout under the field follow the forces on each area, to first order at rest: no mesh for
+/// the field, and another read-out costs nothing.
+class FieldResponse {
+public:
+  /// `response` is that of the same block at rest (AreaResponse::atRest). Throws DesignError where the design has a
+  /// pressure law, which has a kink at rest.
+  FieldResponse(const SensorDesign& layout, const FieldLaw& law, const AreaResponse& response, int threads);
+
+  /// At rest, row-wires x column-wires.
+  [[nodiscard]] Eigen::MatrixXd resistances_ohm(Readout readout) const;
+  /// d ln R / dF [1/N] by Fx, Fy, Fz, row-wires x column-wires each. One an area.
+  [[nodiscard]] std::vector<std::array<Eigen::MatrixXd, 3>> logSensitivity(Readout readout) const;
+  /// Of one row-wire, or of all with row-wire -1, for relative resistance noise.
+  [[nodiscard]] LayoutBound bound(Readout readout, int rowWire, double relativeNoise) const;
+
+private:
+  TerminalNetwork network_;
+  Eigen::Vector3d range_N_;
+  std::vector<std::array<Eigen::MatrixXd, 3>> conductanceChanges_; ///< dY / dF, one an area
+};
+
+} // namespace palp

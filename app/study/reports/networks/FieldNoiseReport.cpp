@@ -1,0 +1,247 @@
+#include "app/study/reports/networks/FieldNoiseReport.h"
+
+#include "app/study/reports/Csv.h"
+#include "app/study/reports/ReportPage.h"
+#include "app/study/reports/layout/FieldResponse.h"
+#include "model/base/Text.h"
+
+#include <array>
+#include <cmath>
+#include <functional>
+
+namespace palp {
+
+namespace {
+
+const char* const kForces[3] = {"Fx", "Fy", "Fz"};
+constexpr std::array kNoises{1e-7, 1e-6, 1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 1e-2};
+constexpr double kShownNoise = 1e-4;
+constexpr double kDrawnUpTo_percent = 300; // ten times knowing nothing: what lies above would press the rest flat
+
+double rootMeanSquare(const Eigen::Vector3d& values) {
+  return values.norm() / std::sqrt(3.0);
+}
+
+using Sensitivity = std::vector<std::array<Eigen::MatrixXd, 3>>;
+
+/// A law with a read-out: its readings' answer to the forces, and its bounds.
+struct Reader {
+  std::string name;
+  Eigen::MatrixXd rest_ohm;
+  Sensitivity slopes; ///< d ln R / dF
+  std::function<LayoutBound(int rowWire, double noise)> bound;
+};
+
+/// All areas and readings of one force.
+Eigen::VectorXd slopesOf(const Reader& reader, std::size_t axis) {
+  Eigen::VectorXd all(0);
+  for (const auto& area : reader.slopes) {
+    const Eigen::Index before = all.size();
+    all.conservativeResize(before + area[axis].size());
+    all.tail(area[axis].size()) = area[axis].reshaped();
+  }
+  return all;
+}
+
+class FieldNoiseWriter {
+public:
+  FieldNoiseWriter(const ReportRequest& request, ReportProgress progress, std::stop_token stop)
+      : request_(request), law_(*request.design.field()), progress_(std::move(progress)), stop_(std::move(stop)),
+        row_(centreRowWire(request.design.rowWires())),
+        range_N_(request.design.forceRange.high_N - request.design.forceRange.low_N) {}
+
+  std::optional<ReportContent> run() {
+    content_.title = "Noise: what the read-outs of the field resolve";
+    content_.warnings = designWarnings(request_.design);
+    const auto response = AreaResponse::atRest(
+        request_.design, request_.mesh, request_.threads, content_.stages,
+        [&](double share, const std::string& what) { say(0.7 * share, what); }, stop_);
+    if (!response) return {};
+    say(0.7, "the field at rest");
+    makeReaders(*response);
+    if (stop_.stop_requested()) return {};
+    introduce();
+    signals();
+    bounds();
+    curves();
+    bits();
+    assumptions();
+    content_.csv = csv_.text();
+    return std::move(content_);
+  }
+
+private:
+  void say(double share, const std::string& what) const {
+    if (progress_) progress_(share, what);
+  }
+
+  void makeReaders(const AreaResponse& response) {
+    SensorDesign pairs = request_.design;
+    pairs.resistance = PairsLaw{};
+    readers_.push_back(
+        {"Eq. (1)", rowColumnResistances(pairs, ElectrodeDisplacements::atRest(pairs)), logSensitivity(pairs, response),
+         [pairs, &response](int row, double noise) { return layoutBound(pairs, response, row, noise); }});
+    field_.emplace(content_.stages.measure(
+        "field", [&] { return FieldResponse(request_.design, law_, response, request_.threads); }));
+    for (const auto& [readout, name] : kReadouts.all())
+      readers_.push_back({name, field_->resistances_ohm(readout), field_->logSensitivity(readout),
+                          [this, which = readout](int row, double noise) { return field_->bound(which, row, noise); }});
+  }
+
+  void introduce() {
+    content_.parts.push_back(ReportHeading{"Laws and read-outs side by side"});
+    content_.parts.push_back(
+        ReportWords{"The field of the whole block between spheres of " + text(law_.electrodeRadius_mm) +
+                    " mm radius, resistivity " + text(law_.resistivity_ohm_mm) + " ohm mm, contact " +
+                    text(law_.contact_ohm_mm2) + " ohm mm2, each wire and its switch " + text(law_.wire_ohm) +
+                    " ohm. Everything is linear, at rest: the field without a mesh, displacements of electrodes and "
+                    "faces by finite "
+                    "elements. The design reads by " +
+                    kReadouts.name(law_.readout) +
+                    ". Read-outs: floating: the two wires alone are driven; virtual_ground: all but "
+                    "the row-wire at 0 V, the column-wire's current is read; rows_grounded: the same "
+                    "while the other column-wires float; others_at_half: all other wires at half of "
+                    "the drive voltage."});
+  }
+
+  void signals() {
+    ReportTable table{"At rest: mean and spread of R, and the change of ln R with the forces beside Eq. (1), over all "
+                      "readings and areas, Fx / Fy / Fz",
+                      {"law and read-out", "mean R [ohm]", "largest over smallest", "signal, times that of Eq. (1)",
+                       "correlation with Eq. (1)"},
+                      {},
+                      {}};
+    for (const Reader& reader : readers_) {
+      Eigen::Vector3d factor, correlation;
+      for (Eigen::Index axis = 0; axis < 3; ++axis) {
+        const Eigen::VectorXd pairs = slopesOf(readers_.front(), static_cast<std::size_t>(axis));
+        const Eigen::VectorXd own = slopesOf(reader, static_cast<std::size_t>(axis));
+        factor(axis) = own.norm() / pairs.norm();
+        correlation(axis) = own.dot(pairs) / (own.norm() * pairs.norm());
+        csv_.add({"signal over that of Eq. (1)", reader.name, "", "", kForces[axis], factor(axis)});
+        csv_.add({"correlation with Eq. (1)", reader.name, "", "", kForces[axis], correlation(axis)});
+      }
+      table.rows.push_back({reader.name, shortNumber(reader.rest_ohm.mean()),
+                            shortNumber(reader.rest_ohm.maxCoeff() / reader.rest_ohm.minCoeff()), triple(factor),
+                            triple(correlation)});
+    }
+    content_.parts.emplace_back(std::move(table));
+  }
+
+  void bounds() {
+    content_.parts.push_back(ReportHeading{"What no decoder can beat"});
+    content_.parts.push_back(ReportWords{
+        "Cramer-Rao bounds of the force with the area known, in % of the range (" + triple(range_N_) +
+        " N), for normal noise that is relative and independent on every resistance. Without prior: no unbiased "
+        "decoder "
+        "is better. With prior: forces are uniform over their range, no decoder at all is better; knowing nothing is "
+        "28.9 %."});
+    ReportTable table{"At relative noise " + text(kShownNoise) +
+                          ", root mean square over the areas, Fx / Fy / Fz [% of range]",
+                      {"law and read-out", "row-wires read", "with prior", "without prior"},
+                      {},
+                      {}};
+    for (const Reader& reader : readers_)
+      for (const int row : {row_, -1}) {
+        const LayoutBound bound = reader.bound(row, kShownNoise);
+        table.rows.push_back({reader.name, row < 0 ? "all" : std::to_string(row), triple(bound.withPrior()),
+                              triple(bound.withoutPrior())});
+        if (row < 0 && reader.name == kReadouts.name(law_.readout)) summarise(bound);
+      }
+    content_.parts.emplace_back(std::move(table));
+  }
+
+  void curves() {
+    for (const int row : {row_, -1}) {
+      const std::string rows = row < 0 ? "all row-wires" : "row-wire " + std::to_string(row);
+      ReportChart chart{.file = row < 0 ? "field_all" : "field_row",
+                        .caption = "Bound with prior against noise, " + rows,
+                        .title = "What the read-outs resolve, " + rows,
+                        .xLabel = "relative noise of R",
+                        .yLabel = "bound with prior, rms of Fx, Fy, Fz [% of range]",
+                        .logX = true,
+                        .logY = true};
+      for (const Reader& reader : readers_) {
+        ReportCurve curve{.name = reader.name, .dashed = &reader == &readers_.front()};
+        for (const double noise : kNoises) {
+          const LayoutBound bound = reader.bound(row, noise);
+          addPoints(reader.name, row, noise, bound);
+          const double percent = rootMeanSquare(bound.withPrior());
+          if (percent > kDrawnUpTo_percent) continue;
+          curve.x.push_back(noise);
+          curve.y.push_back(percent);
+        }
+        chart.curves.push_back(std::move(curve));
+      }
+      content_.parts.emplace_back(std::move(chart));
+    }
+  }
+
+  void addPoints(const std::string& reader, int row, double noise, const LayoutBound& bound) {
+    const Eigen::Vector3d with = bound.withPrior(), without = bound.withoutPrior();
+    const std::string rows = row < 0 ? "all" : std::to_string(row);
+    for (int axis = 0; axis < 3; ++axis) {
+      csv_.add({"bound with prior [%]", reader, rows, noise, kForces[axis], with(axis)});
+      csv_.add({"bound without prior [%]", reader, rows, noise, kForces[axis], without(axis)});
+    }
+  }
+
+  /// The same in bits and newtons, all row-wires.
+  void bits() {
+    content_.parts.push_back(ReportHeading{"What a converter resolves"});
+    ReportTable table{
+        "Bound with prior of all row-wires, root mean square of the three forces [N], against the bits of "
+        "an ideal converter whose full scale is the resistance at rest",
+        {"bits", "relative noise"},
+        {},
+        {}};
+    for (const Reader& reader : readers_) table.heads.push_back(reader.name);
+    for (int count = 8; count <= 24; count += 2) {
+      const double noise = std::exp2(-count) / std::sqrt(12.0); // of rounding
+      std::vector<std::string> cells{std::to_string(count), shortNumber(noise)};
+      for (const Reader& reader : readers_) {
+        const Eigen::Vector3d error_N = reader.bound(-1, noise).withPrior().cwiseProduct(range_N_) / 100;
+        cells.push_back(shortNumber(rootMeanSquare(error_N)));
+      }
+      table.rows.push_back(std::move(cells));
+    }
+    content_.parts.emplace_back(std::move(table));
+  }
+
+  void assumptions() {
+    content_.parts.push_back(ReportHeading{"What is assumed"});
+    content_.parts.push_back(ReportWords{
+        "Electrodes are spheres of one radius, taken as point sources with the dipoles that the field induces in them. "
+        "The "
+        "rubber's conductivity is constant and the same in all directions, also where it is deformed: were the carbon "
+        "carried along by the strain, a change of shape would change no resistance. No hysteresis, creep or "
+        "temperature. "
+        "The load areas are stuck to their dead traction."});
+  }
+
+  void summarise(const LayoutBound& bound) {
+    content_.summary = "Read by " + kReadouts.name(law_.readout) + " with noise " + text(kShownNoise) +
+                       " on every resistance, all row-wires resolve " + triple(bound.withPrior()) +
+                       " % of the range of Fx / Fy / Fz at best (bound with prior, linear at rest).";
+  }
+
+  const ReportRequest& request_;
+  const FieldLaw law_;
+  ReportProgress progress_;
+  std::stop_token stop_;
+  int row_;
+  Eigen::Vector3d range_N_;
+  ReportContent content_;
+  Csv csv_{{"what", "law_and_readout", "rows", "relative_noise", "force", "value"}};
+  std::optional<FieldResponse> field_;
+  std::vector<Reader> readers_;
+};
+
+} // namespace
+
+std::optional<ReportContent> fieldNoiseReport(const ReportRequest& request, const ReportProgress& progress,
+                                              std::stop_token stop) {
+  return FieldNoiseWriter(request, progress, std::move(stop)).run();
+}
+
+} // namespace palp

@@ -1,0 +1,39 @@
+#include "model/FieldAtRest.h"
+
+#include "model/BoxGreen.h"
+
+#include <numbers>
+
+namespace palp {
+
+constexpr double kPi = std::numbers::pi;
+
+WireCounts wireCounts(const SensorDesign& design) {
+  return {design.rowWires(), design.electrodesPerRowWire(), design.columnWires(), design.electrodesPerColumnWire()};
+}
+
+Eigen::Matrix3Xd electrodes_mm(const SensorDesign& design) {
+  Eigen::Matrix3Xd all(3, design.upper.electrodes() + design.lower.electrodes());
+  all << design.upperElectrodes_mm(), design.lowerElectrodes_mm();
+  return all;
+}
+
+Eigen::MatrixXd potentialsAtRest_ohm(const Eigen::Vector3d& block_mm,
+                                     const Eigen::Ref<const Eigen::Matrix3Xd>& electrodes, const FieldLaw& law,
+                                     SphereModel model) {
+  const double a = law.electrodeRadius_mm;
+  const BoxGreen green = boxGreen(block_mm, electrodes);
+  Eigen::MatrixXd p = green.value;
+  p.diagonal().array() += 1 / (4 * kPi * a);
+  if (model == SphereModel::Dipoles)
+    for (const Eigen::MatrixXd& slope : green.slope) p -= 4 * kPi * a * a * a * slope.transpose() * slope;
+  p *= law.resistivity_ohm_mm;
+  p.diagonal().array() += law.contact_ohm_mm2 / (4 * kPi * a * a);
+  return p;
+}
+
+TerminalNetwork networkAtRest(const SensorDesign& design, const FieldLaw& law, SphereModel model) {
+  return {potentialsAtRest_ohm(design.block_mm, electrodes_mm(design), law, model), wireCounts(design), law.wire_ohm};
+}
+
+} // namespace palp

@@ -1,0 +1,92 @@
+#include "model/FieldSensitivity.h"
+
+#include "model/BoxGreen.h"
+#include "model/field/FaceField.h"
+#include "model/field/FaceGrid.h"
+
+#include <cassert>
+#include <numbers>
+
+namespace palp {
+
+namespace {
+
+Eigen::MatrixXd plusTranspose(const Eigen::MatrixXd& m) {
+  return m + m.transpose();
+}
+
+/// Where d2 / dx_i dx_j stands in BoxGreen::Curvature::own.
+constexpr std::size_t kOwn[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+
+} // namespace
+
+FieldSensitivity::FieldSensitivity(SensorDesign design, const FieldLaw& law, SphereModel model, double fineness)
+    : design_(std::move(design)), law_(law), network_(networkAtRest(design_, law_, model)),
+      dipole_(model == SphereModel::Dipoles ? 4 * std::numbers::pi * std::pow(law_.electrodeRadius_mm, 3) : 0),
+      faces_(movingFaces(design_, fineness)) {
+  const BoxGreen green = boxGreen(design_.block_mm, electrodes_mm(design_), dipole_ > 0);
+  const Eigen::MatrixXd& q = network_.currents();
+  for (std::size_t i = 0; i < 3; ++i) gradient_[i] = green.slope[i] * q;
+  pull_ = gradient_;
+  if (dipole_ > 0) {
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j)
+        pull_[j] -= dipole_ * green.curvature.mixed[3 * i + j].transpose() * gradient_[i];
+    for (std::size_t i = 0; i < 6; ++i) bend_[i] = green.curvature.own[i] * q;
+  }
+  Eigen::Index points = 0, at = 0;
+  for (const FaceGrid& face : faces_) points += face.count();
+  facePoints_mm_.resize(3, points);
+  faceNormals_ = Eigen::Matrix3Xd::Zero(3, points);
+  for (const FaceGrid& face : faces_) {
+    facePoints_mm_.middleCols(at, face.count()) = face.points_mm();
+    faceNormals_.row(face.axis).segment(at, face.count()).setConstant(face.high ? 1 : -1);
+    at += face.count();
+  }
+}
+
+FieldSensitivity::~FieldSensitivity() = default;
+FieldSensitivity::FieldSensitivity(FieldSensitivity&&) noexcept = default;
+
+/// With E_s the gradient at electrode s (rows of gradient_), c = 4 pi a^3 and u_s its displacement,
+///   Q' dP Q / rho = [Q' Z] + [Q' Z]',           Z_s = u_s . (E_s - c sum_r (d2G / dx_r dx_s)' E_r)
+///                 - c sum_s [(B_s u_s) . E_s] + [...]',   B_s the second derivatives at s of the potential of all
+///                 others.
+Eigen::MatrixXd FieldSensitivity::ofElectrodes(const Eigen::Matrix3Xd& motion_mm) const {
+  const Eigen::MatrixXd& q = network_.currents();
+  Eigen::MatrixXd z = Eigen::MatrixXd::Zero(q.rows(), q.cols());
+  for (std::size_t i = 0; i < 3; ++i) z += motion_mm.row(static_cast<Eigen::Index>(i)).asDiagonal() * pull_[i];
+  Eigen::MatrixXd change = plusTranspose(q.transpose() * z);
+  if (dipole_ == 0) return change;
+  for (std::size_t i = 0; i < 3; ++i) {
+    Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(q.rows(), q.cols());
+    for (std::size_t j = 0; j < 3; ++j)
+      moved += motion_mm.row(static_cast<Eigen::Index>(j)).asDiagonal() * bend_[kOwn[i][j]];
+    change -= dipole_ * plusTranspose(moved.transpose() * gradient_[i]);
+  }
+  return change;
+}
+
+std::vector<Eigen::MatrixXd> FieldSensitivity::conductanceChanges(std::span<const SensorMotion> motions,
+                                                                  int threads) const {
+  ElectrodeSources sources{electrodes_mm(design_), network_.currents(), {}};
+  if (dipole_ > 0)
+    for (std::size_t i = 0; i < 3; ++i) sources.dipoles[i] = -dipole_ * gradient_[i];
+  std::vector<Eigen::MatrixXd> changes;
+  Eigen::MatrixXd outward(facePoints_mm_.cols(), static_cast<Eigen::Index>(motions.size()));
+  for (const SensorMotion& motion : motions) {
+    assert(motion.faces_mm.size() == outward.rows() && "one displacement for each point of the faces");
+    outward.col(static_cast<Eigen::Index>(changes.size())) = motion.faces_mm;
+    changes.push_back(ofElectrodes(motion.electrodes_mm));
+  }
+  Eigen::Index at = 0;
+  for (const FaceGrid& face : faces_) {
+    const auto part = faceChanges(design_.block_mm, face, sources, outward.middleRows(at, face.count()), threads);
+    for (std::size_t m = 0; m < changes.size(); ++m) changes[m] += part[m];
+    at += face.count();
+  }
+  for (Eigen::MatrixXd& change : changes) change = network_.change(law_.resistivity_ohm_mm * change);
+  return changes;
+}
+
+} // namespace palp

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "model/FieldAtRest.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace palp {
+
+struct FaceGrid;
+
+/// A small motion of the sensor: what its resistances follow.
+struct SensorMotion {
+  Eigen::Matrix3Xd electrodes_mm; ///< displacements 3 x electrodes in the order of WireCounts; 0 where one is held
+  Eigen::VectorXd faces_mm;       ///< outward along the normal, at each of FieldSensitivity::facePoints_mm
+};
+
+/// How the resistances of a sensor at rest follow small motions of its electrodes and of its insulated faces, exactly
+/// to first order and without a mesh (resources/docs/numerics.md, "Small motions").
+class FieldSensitivity {
+public:
+  /// `fineness` divides the panels of the quadrature over the faces; 1 leaves about 1e-4 of d ln R, 2 about 1e-6.
+  FieldSensitivity(SensorDesign design, const FieldLaw& law, SphereModel model = SphereModel::Dipoles,
+                   double fineness = 1);
+  ~FieldSensitivity();
+  FieldSensitivity(FieldSensitivity&&) noexcept;
+
+  [[nodiscard]] const TerminalNetwork& network() const { return network_; }
+  /// 3 x points on all faces but the bottom, which is fixed, and the outward normal at each.
+  [[nodiscard]] const Eigen::Matrix3Xd& facePoints_mm() const { return facePoints_mm_; }
+  [[nodiscard]] const Eigen::Matrix3Xd& faceNormals() const { return faceNormals_; }
+
+  /// dY [1/ohm] of the network (wires x wires) for each motion; `threads` 0: all cores, the same bytes at any number.
+  [[nodiscard]] std::vector<Eigen::MatrixXd> conductanceChanges(std::span<const SensorMotion> motions,
+                                                                int threads = 0) const;
+
+private:
+  [[nodiscard]] Eigen::MatrixXd ofElectrodes(const Eigen::Matrix3Xd& motion_mm) const;
+
+  SensorDesign design_;
+  FieldLaw law_;
+  TerminalNetwork network_;
+  double dipole_;                           ///< 4 pi a^3, or 0
+  std::array<Eigen::MatrixXd, 3> gradient_; ///< at each electrode, of all others and of its own images; a wire a column
+  std::array<Eigen::MatrixXd, 3> pull_;     ///< what multiplies an electrode's current as it is moved
+  std::array<Eigen::MatrixXd, 6> bend_;     ///< how that gradient changes under an electrode that moves in it
+  std::vector<FaceGrid> faces_;
+  Eigen::Matrix3Xd facePoints_mm_, faceNormals_;
+};
+
+} // namespace palp

@@ -1,0 +1,155 @@
+#include "model/field/FaceField.h"
+
+#include "model/base/Parallel.h"
+#include "model/field/HeatKernel.h"
+
+#include <algorithm>
+
+namespace palp {
+
+namespace {
+
+constexpr int kPointsAPanel = 7;          // in time; the quadrature on the face is good to 1e-5
+constexpr Eigen::Index kLinePoints = 512; // points of a face that are worked on at a time
+
+/// Kernels along an axis from each electrode to each place, at all times: places x times.
+struct AxisKernels {
+  Eigen::MatrixXd k, place, source, both; ///< value, derivatives by the place, by the electrode's place, by both
+};
+
+AxisKernels axisKernels(const Eigen::Ref<const Eigen::ArrayXd>& places, double source, const Eigen::ArrayXd& times,
+                        double length) {
+  AxisKernels kernels;
+  for (Eigen::MatrixXd* part : {&kernels.k, &kernels.place, &kernels.source, &kernels.both})
+    part->resize(places.size(), times.size());
+  for (Eigen::Index t = 0; t < times.size(); ++t)
+    for (Eigen::Index i = 0; i < places.size(); ++i) {
+      const KernelJet near = circleKernel(places(i) - source, times(t), length);
+      const KernelJet far = circleKernel(places(i) + source, times(t), length);
+      kernels.k(i, t) = near.value + far.value;
+      kernels.place(i, t) = far.slope + near.slope;
+      kernels.source(i, t) = far.slope - near.slope;
+      kernels.both(i, t) = far.curvature - near.curvature;
+    }
+  return kernels;
+}
+
+/// Of each electrode those along one axis; electrodes of one coordinate share them.
+class KernelsByCoordinate {
+public:
+  KernelsByCoordinate(const Eigen::ArrayXd& places, const Eigen::RowVectorXd& coordinates, const Eigen::ArrayXd& times,
+                      double length, int threads) {
+    std::vector<double> distinct(coordinates.begin(), coordinates.end());
+    std::sort(distinct.begin(), distinct.end());
+    distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+    for (const double x : coordinates)
+      of_.push_back(static_cast<std::size_t>(std::lower_bound(distinct.begin(), distinct.end(), x) - distinct.begin()));
+    kernels_.resize(distinct.size());
+    inParallel(distinct.size(), threads,
+               [&](std::size_t i) { kernels_[i] = axisKernels(places, distinct[i], times, length); });
+  }
+  const AxisKernels& operator[](Eigen::Index electrode) const {
+    return kernels_[of_[static_cast<std::size_t>(electrode)]];
+  }
+
+private:
+  std::vector<std::size_t> of_;
+  std::vector<AxisKernels> kernels_;
+};
+
+/// Potentials of unit sources at the electrodes, differentiated along one direction of the face: points x electrodes,
+/// and points x (3 electrodes) of unit dipoles along x, y, z (x of all electrodes first).
+struct UnitFields {
+  Eigen::MatrixXd monopoles, dipoles;
+};
+
+class FaceWork {
+public:
+  FaceWork(const Eigen::Vector3d& block, const FaceGrid& face, const ElectrodeSources& sources, int threads)
+      : face_(face), sources_(sources), times_(heatTimes(face.nearest_mm, block.maxCoeff(), kPointsAPanel)),
+        normal_(Eigen::ArrayXd::Constant(1, face.at_mm), sources.electrodes_mm.row(face.axis), times_.time,
+                block(face.axis), threads),
+        u_(face.u_mm, sources.electrodes_mm.row(face.first), times_.time, block(face.first), threads),
+        v_(face.v_mm, sources.electrodes_mm.row(face.second), times_.time, block(face.second), threads),
+        moments_(3 * sources.currents.rows(), sources.currents.cols()) {
+    if (dipoles())
+      for (Eigen::Index axis = 0; axis < 3; ++axis)
+        moments_.middleRows(axis * sources.currents.rows(), sources.currents.rows()) =
+            sources.dipoles[static_cast<std::size_t>(axis)];
+  }
+
+  /// Adds what the lines v = [begin, end) of the face give to the sum of each motion.
+  void add(std::vector<Eigen::MatrixXd>& sums, const Eigen::Ref<const Eigen::MatrixXd>& motions, Eigen::Index begin,
+           Eigen::Index end) const {
+    const Eigen::Index along = face_.u_mm.size(), points = along * (end - begin);
+    const Eigen::VectorXd weights =
+        (face_.uWeights.matrix() * face_.vWeights.segment(begin, end - begin).matrix().transpose()).reshaped();
+    for (const bool alongU : {true, false}) {
+      const UnitFields unit = fields(alongU, begin, end);
+      const Eigen::MatrixXd phi = unit.monopoles * sources_.currents;
+      Eigen::MatrixXd half = phi / 2; // phi_a half_b + half_a phi_b is the integrand
+      if (dipoles()) half += unit.dipoles * moments_;
+      for (std::size_t m = 0; m < sums.size(); ++m) {
+        const Eigen::VectorXd shares =
+            weights.cwiseProduct(motions.col(static_cast<Eigen::Index>(m)).segment(begin * along, points));
+        sums[m].noalias() -= phi.transpose() * (shares.asDiagonal() * half);
+      }
+    }
+  }
+
+private:
+  [[nodiscard]] bool dipoles() const { return sources_.dipoles[0].size() > 0; }
+
+  [[nodiscard]] UnitFields fields(bool alongU, Eigen::Index begin, Eigen::Index end) const {
+    const Eigen::Index electrodes = sources_.currents.rows(), along = face_.u_mm.size(), lines = end - begin;
+    UnitFields unit{Eigen::MatrixXd(along * lines, electrodes),
+                    Eigen::MatrixXd(dipoles() ? along * lines : 0, 3 * electrodes)};
+    for (Eigen::Index p = 0; p < electrodes; ++p) {
+      const AxisKernels &n = normal_[p], &u = u_[p], &v = v_[p];
+      const Eigen::VectorXd level = times_.weight.matrix().cwiseProduct(n.k.row(0).transpose());
+      const Eigen::MatrixXd& uSide = alongU ? u.place : u.k;
+      const Eigen::MatrixXd& vSide = alongU ? v.k : v.place;
+      const Eigen::MatrixXd scaled = uSide * level.asDiagonal();
+      const auto product = [&](const Eigen::MatrixXd& left, const Eigen::MatrixXd& right) {
+        return (left * right.middleRows(begin, lines).transpose()).reshaped();
+      };
+      unit.monopoles.col(p) = product(scaled, vSide);
+      if (!dipoles()) continue;
+      const Eigen::VectorXd slope = times_.weight.matrix().cwiseProduct(n.source.row(0).transpose());
+      unit.dipoles.col(face_.axis * electrodes + p) = product(uSide * slope.asDiagonal(), vSide);
+      unit.dipoles.col(face_.first * electrodes + p) =
+          product((alongU ? u.both : u.source) * level.asDiagonal(), vSide);
+      unit.dipoles.col(face_.second * electrodes + p) = product(scaled, alongU ? v.source : v.both);
+    }
+    return unit;
+  }
+
+  const FaceGrid& face_;
+  const ElectrodeSources& sources_;
+  HeatTimes times_;
+  KernelsByCoordinate normal_, u_, v_;
+  Eigen::MatrixXd moments_;
+};
+
+} // namespace
+
+std::vector<Eigen::MatrixXd> faceChanges(const Eigen::Vector3d& block_mm, const FaceGrid& face,
+                                         const ElectrodeSources& sources,
+                                         const Eigen::Ref<const Eigen::MatrixXd>& motions, int threads) {
+  const FaceWork work(block_mm, face, sources, threads);
+  const Eigen::Index wires = sources.currents.cols();
+  const std::vector<Eigen::MatrixXd> zero(static_cast<std::size_t>(motions.cols()),
+                                          Eigen::MatrixXd::Zero(wires, wires));
+  const int lines = static_cast<int>(face.v_mm.size());
+  const int chunk = std::max(1, static_cast<int>(kLinePoints / face.u_mm.size()));
+  std::vector<std::vector<Eigen::MatrixXd>> parts(static_cast<std::size_t>((lines + chunk - 1) / chunk), zero);
+  forChunks(lines, chunk, threads,
+            [&](int begin, int end) { work.add(parts[static_cast<std::size_t>(begin / chunk)], motions, begin, end); });
+  std::vector<Eigen::MatrixXd> sums = zero;
+  for (const std::vector<Eigen::MatrixXd>& part : parts) // in one order at any number of threads
+    for (std::size_t m = 0; m < sums.size(); ++m) sums[m] += part[m];
+  for (Eigen::MatrixXd& sum : sums) sum = (sum + sum.transpose()).eval();
+  return sums;
+}
+
+} // namespace palp
