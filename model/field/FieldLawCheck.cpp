@@ -31,16 +31,24 @@ struct Neighbours {
   double distance_mm = 0;
 };
 
-Neighbours nearest(const SensorDesign& design) {
+Neighbours nearestToAFace(const SensorDesign& design) {
   const Eigen::Matrix3Xd points = electrodes_mm(design);
   Neighbours found{0, -1, 2 * design.block_mm.maxCoeff()};
-  const auto offer = [&](Eigen::Index p, Eigen::Index q, double distance) {
-    if (distance < found.distance_mm) found = {p, q, distance};
-  };
   for (Eigen::Index p = 0; p < points.cols(); ++p) {
-    offer(p, -1, 2 * std::min(points.col(p).minCoeff(), (design.block_mm - points.col(p)).minCoeff()));
-    for (Eigen::Index q = p + 1; q < points.cols(); ++q) offer(p, q, (points.col(p) - points.col(q)).norm());
+    const double depth = std::min(points.col(p).minCoeff(), (design.block_mm - points.col(p)).minCoeff());
+    if (2 * depth < found.distance_mm) found = {p, -1, 2 * depth};
   }
+  return found;
+}
+
+Neighbours nearestToEachOther(const SensorDesign& design) {
+  const Eigen::Matrix3Xd points = electrodes_mm(design);
+  Neighbours found{0, 1, 2 * design.block_mm.norm()};
+  for (Eigen::Index p = 0; p < points.cols(); ++p)
+    for (Eigen::Index q = p + 1; q < points.cols(); ++q) {
+      const double distance = (points.col(p) - points.col(q)).norm();
+      if (distance < found.distance_mm) found = {p, q, distance};
+    }
   return found;
 }
 
@@ -79,7 +87,8 @@ std::optional<DesignFault> sphereFault(const SensorDesign& design) {
     return DesignFault{"resistance.law", "field with " + std::to_string(count) + " electrodes; allowed is up to " +
                                              std::to_string(kMostElectrodes)};
   const double radius = design.field()->electrodeRadius_mm;
-  const Neighbours near = nearest(design);
+  const Neighbours pair = nearestToEachOther(design), face = nearestToAFace(design);
+  const Neighbours& near = pair.distance_mm < face.distance_mm ? pair : face;
   if (radius < near.distance_mm / 2) return {};
   return DesignFault{"resistance.electrode_radius_mm", text(radius) + " mm: electrodes overlap (" +
                                                            inWords(design, near) + "); allowed is below " +
@@ -88,13 +97,21 @@ std::optional<DesignFault> sphereFault(const SensorDesign& design) {
 
 std::vector<std::string> designWarnings(const SensorDesign& design) {
   if (!design.field() || !check(design).empty()) return {};
-  const Neighbours near = nearest(design);
-  const double share = design.field()->electrodeRadius_mm / near.distance_mm;
-  if (!(share > kNear)) return {};
-  return {"resistance.electrode_radius_mm: " + text(design.field()->electrodeRadius_mm) + " mm is " + digits(share) +
-          " of the gap of " + inWords(design, near) + (near.second < 0 ? ", counted to its mirror image" : "") +
-          "; up to 0.35 small spheres with dipoles are a good model, here they are wrong by about " +
-          digits(100 * errorOfDipoles(share, near.second < 0)) + " % of what these two resist"};
+  const double radius = design.field()->electrodeRadius_mm;
+  std::string warning;
+  double worst = 0;
+  for (const Neighbours& near : {nearestToEachOther(design), nearestToAFace(design)}) {
+    const bool mirror = near.second < 0;
+    const double share = radius / near.distance_mm;
+    if (!(share > kNear) || errorOfDipoles(share, mirror) < worst) continue;
+    worst = errorOfDipoles(share, mirror);
+    warning = "resistance.electrode_radius_mm: " + text(radius) + " mm is " + digits(share) + " of the gap of " +
+              inWords(design, near) + (mirror ? ", counted to its mirror image" : "") +
+              "; up to 0.35 small spheres with dipoles are a good model, here they are wrong by about " +
+              digits(100 * worst) + " % of what " + (mirror ? "it resists" : "these two resist");
+  }
+  if (warning.empty()) return {};
+  return {warning};
 }
 
 } // namespace palp

@@ -265,6 +265,11 @@ TEST(SensorDesign, WarnsOfElectrodesTooNearForSmallSpheres) {
   for (const char* part : {"0.3 mm is 0.4 of the gap", "electrode 0 of column-wire 0 and electrode 0 of column-wire 1",
                            "0.75 mm apart", "wrong by about 2.15 %"})
     EXPECT_NE(said[0].find(part), std::string::npos) << said[0];
+  // As far from a neighbour as from a mirror image: two that drive each other err by more than a sphere and its image.
+  design = paperDesign();
+  design.resistance = FieldLaw{.electrodeRadius_mm = 0.4};
+  ASSERT_EQ(designWarnings(design).size(), 1U);
+  EXPECT_NE(designWarnings(design)[0].find("1 mm apart"), std::string::npos) << designWarnings(design)[0];
 }
 
 TEST(SensorDesign, WhatWorksByEq1AloneIsRefusedUnderTheField) {
