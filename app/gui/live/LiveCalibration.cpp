@@ -25,8 +25,8 @@ namespace palp {
 
 namespace {
 
-constexpr std::array<const char*, 3> kForces{"Fx", "Fy", "Fz"};
-constexpr double kMostForce_N = 500;
+constexpr std::array<const char*, 3> kForceNames{"Fx", "Fy", "Fz"};
+constexpr double kMostLabel_N = 500;
 constexpr double kDay_s = 86400;
 
 QPushButton* button(const QString& text, const QString& name, const QString& tip) {
@@ -46,7 +46,7 @@ QString reportText(const Calibration& calibration, double age_days) {
   for (Eigen::Index axis = 0; axis < 3; ++axis)
     text += QObject::tr("<tr><td>%1&nbsp;</td><td>%2 to %3&nbsp;</td><td>%4 %&nbsp;</td><td>%5</td><td>%6</td>"
                         "<td>%7 %</td></tr>")
-                .arg(kForces[static_cast<std::size_t>(axis)])
+                .arg(kForceNames[static_cast<std::size_t>(axis)])
                 .arg(report.lowest_N(axis), 0, 'g', 3)
                 .arg(report.highest_N(axis), 0, 'g', 3)
                 .arg(report.coverage_percent(axis), 0, 'f', 0)
@@ -92,13 +92,13 @@ QWidget* LiveCalibration::buildLabel() {
   form->addRow(tr("Area"), area_);
   for (std::size_t d = 0; d < 3; ++d) {
     force_[d] = new QDoubleSpinBox;
-    force_[d]->setObjectName(QString("label_%1").arg(kForces[d]));
-    force_[d]->setRange(-kMostForce_N, kMostForce_N);
+    force_[d]->setObjectName(QString("label_%1").arg(kForceNames[d]));
+    force_[d]->setRange(-kMostLabel_N, kMostLabel_N);
     force_[d]->setDecimals(4);
     force_[d]->setSingleStep(0.1);
     force_[d]->setSuffix(tr(" N"));
     force_[d]->setToolTip(tr("What the rig says [N]; a push is negative in z"));
-    form->addRow(kForces[d], force_[d]);
+    form->addRow(kForceNames[d], force_[d]);
   }
   count_ = new QSpinBox;
   count_->setObjectName("labelFrames");

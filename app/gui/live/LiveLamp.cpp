@@ -60,6 +60,7 @@ LiveLampState LiveWatch::state(const LiveHost& host, bool seen) const {
                                                                    .arg(QString::fromLatin1(name(status.state)))}
                    : LiveLampState{};
   }
+  if (seen && host.replaying()) return {LiveLampState::Kind::Streams, QObject::tr("Playing the %1").arg(source)};
   if (seen) return {LiveLampState::Kind::Streams, QObject::tr("Live: %1").arg(source)};
   return host.worksHidden() ? LiveLampState{LiveLampState::Kind::Streams, QObject::tr("Alarm watches: %1").arg(source)}
                             : LiveLampState{};

@@ -22,9 +22,9 @@ namespace palp {
 
 namespace {
 
-constexpr double kColorSteps = 256; // a smaller change of a cell is not seen
-constexpr int kNarrow_px = 640;     // narrower views stand one above the other
-constexpr int kTower_px = 640;      // that four of them need to be read
+constexpr double kColorSteps = 256;  // a smaller change of a cell is not seen
+constexpr int kNarrowViews_px = 640; // narrower views stand one above the other
+constexpr int kTower_px = 640;       // that four of them need to be read
 
 /// Some cell has another colour than it was drawn with.
 bool looksDifferent(const Eigen::MatrixXd& now, const Eigen::MatrixXd& drawn, double step) {
@@ -38,7 +38,7 @@ bool looksDifferent(const Eigen::MatrixXd& now, const Eigen::MatrixXd& drawn, do
 /// Several boards share the window's width.
 void LivePage::arrangeViews() {
   QWidget& views = *upper_->parentWidget();
-  const bool narrow = views.width() < kNarrow_px;
+  const bool narrow = views.width() < kNarrowViews_px;
   views.setMinimumHeight(narrow ? kTower_px : 0);
   const Qt::Orientation way = narrow ? Qt::Vertical : Qt::Horizontal;
   if (upper_->orientation() != way) upper_->setOrientation(way);

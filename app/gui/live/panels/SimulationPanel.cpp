@@ -18,7 +18,7 @@ namespace palp {
 
 namespace {
 
-constexpr double kMostForce_N = 100;
+constexpr double kMostTouch_N = 100;
 
 QComboBox* numberBox(const QString& name, const QStringList& values, const QString& tip) {
   auto* box = new QComboBox;
@@ -91,7 +91,7 @@ void SimulationPanel::buildTouch(QFormLayout& form) {
     force_[axis] = new QDoubleSpinBox;
     force_[axis]->setObjectName(QString("touch_%1").arg(kNames[axis]));
     force_[axis]->setAccessibleName(tr("%1 of the simulated touch").arg(kNames[axis]));
-    force_[axis]->setRange(-kMostForce_N, kMostForce_N);
+    force_[axis]->setRange(-kMostTouch_N, kMostTouch_N);
     force_[axis]->setDecimals(2);
     force_[axis]->setSingleStep(0.1);
     force_[axis]->setButtonSymbols(QAbstractSpinBox::NoButtons); // three in a line
