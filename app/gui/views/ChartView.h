@@ -21,6 +21,8 @@ public:
   [[nodiscard]] bool faint() const { return faint_; }
 
 protected:
+  [[nodiscard]] bool standsStill() const override { return true; }
+  void render(QImage& image) override;
   void paintEvent(QPaintEvent* event) override;
   void changeEvent(QEvent* event) override;
   [[nodiscard]] QString table() const override;
@@ -29,6 +31,9 @@ private:
   struct Parts;
   ChartView(std::unique_ptr<Parts> parts, QWidget* parent);
   void fill();
+  /// Nothing to draw but words.
+  [[nodiscard]] bool empty() const;
+  [[nodiscard]] QColor ground() const;
 
   std::unique_ptr<Parts> parts_;
   ChartSpec spec_;

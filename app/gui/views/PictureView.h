@@ -41,6 +41,8 @@ protected:
   /// What the view shows as a table, offered beside the picture; empty: it has none.
   [[nodiscard]] virtual QString table() const { return {}; }
   [[nodiscard]] QSize deviceSize() const;
+  /// Lets the picture go; the next paint draws it anew.
+  void forget();
 
   void paintEvent(QPaintEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;

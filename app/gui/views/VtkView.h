@@ -18,11 +18,20 @@ public:
   VtkView(vtkRenderer* renderer, vtkInteractorObserver* style, QWidget* parent = nullptr);
   ~VtkView() override;
 
+  /// Gives back what drawing needs, about 10 MB on a software renderer, where the view is not seen or its picture
+  /// stands still; the next drawing begins anew.
+  void giveBack();
+  /// It holds what drawing needs.
+  [[nodiscard]] bool drawn() const;
+
 protected:
   /// Takes the left button for the view itself, before VTK: true at the press, then dragging until the release.
   virtual bool grab(const QPointF& place, Qt::KeyboardModifiers modifiers);
   virtual void dragTo(const QPointF& place, Qt::KeyboardModifiers modifiers);
   virtual void drop();
+
+  /// What is seen changes only where something new is shown: a picture of it does as long.
+  [[nodiscard]] virtual bool standsStill() const { return false; }
 
   void render(QImage& image) override;
   [[nodiscard]] Picture renderPicture(int width, int height) override;
@@ -34,6 +43,7 @@ protected:
   void leaveEvent(QEvent* event) override;
 
 private:
+  void open();
   void passPlace(const QPointF& place, Qt::KeyboardModifiers modifiers);
 
   struct Vtk;
@@ -41,5 +51,8 @@ private:
   int wheel_ = 0;
   bool grabbed_ = false;
 };
+
+/// What all views of a window that need not draw now hold for it goes back to the system.
+void giveBackViews(const QWidget& window);
 
 } // namespace palp

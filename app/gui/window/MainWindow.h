@@ -50,6 +50,8 @@ private:
   void addScene(const QString& name, const QString& title, const QString& tip, Scene* scene);
   void buildStatusLine();
   void cancelAll();
+  /// What only scenes need that are not seen.
+  void giveBackMemory();
   void sceneChosen(int index);
   void restoreLayout();
 
