@@ -54,6 +54,11 @@ Document::Document(MainWindow& window, Workbench& workbench, NetworkSession& net
     ours_.clear();
     openResults();
   });
+  connect(&network, &NetworkSession::saved, this, [this](const std::vector<std::filesystem::path>& files) {
+    QStringList names;
+    for (const std::filesystem::path& file : files) names << QString::fromStdString(file.string());
+    window_.showMessage(tr("Saved %1.").arg(names.join(tr(" and "))));
+  });
   connect(&network.writer(), &JobRunner::failed, this, [this](const QString& sentence) {
     auto* box =
         new QMessageBox(QMessageBox::Warning, tr("Cannot save"),
@@ -91,10 +96,12 @@ void Document::showTitle() {
 
 bool Document::mayLeave() {
   if (!unsaved()) return true;
-  const QString name = workbench_.file().isEmpty() ? tr("The project") : QFileInfo(workbench_.file()).fileName();
+  const bool named = !workbench_.file().isEmpty();
+  const QString name = QFileInfo(workbench_.file()).fileName();
   QMessageBox question(QMessageBox::Question, tr("Save the project?"),
-                       workbench_.modified() ? tr("%1 has changes that are not saved.").arg(name)
-                                             : tr("The samples and networks of %1 are not saved.").arg(name),
+                       workbench_.modified()
+                           ? tr("%1 has changes that are not saved.").arg(named ? name : tr("The project"))
+                           : tr("The samples and networks of %1 are not saved.").arg(named ? name : tr("the project")),
                        QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, &window_);
   question.setObjectName("unsaved");
   question.setDefaultButton(QMessageBox::Save);

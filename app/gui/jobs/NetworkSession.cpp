@@ -91,6 +91,7 @@ void NetworkSession::clear() {
 }
 
 void NetworkSession::generate(const SampleSettings& settings, const MeshOptions& mesh) {
+  emit memoryNeeded();
   if (!generation_ || !generation_->is(settings, mesh))
     generation_ = std::make_shared<SampleGeneration>(settings, mesh, design_);
   const auto work = [this, generation = generation_](const std::stop_token& stop,
@@ -113,10 +114,10 @@ bool NetworkSession::fitIsCurrent() const {
   return upToDate() && shown_.fit && shown_.fit->triedOn.lock() == shown_.samples;
 }
 
-void NetworkSession::take(const std::shared_ptr<const NetworkFit>& fit, bool follows) {
+void NetworkSession::take(const std::shared_ptr<const NetworkFit>& fit, const QString& follows) {
   shown_.fit = fit;
   auto& kept = shown_.kept;
-  if (follows && lastFollowed_ && !kept.empty()) dropKept(0);
+  if (!follows.isEmpty() && follows == lastFollowed_ && !kept.empty()) dropKept(0);
   lastFollowed_ = follows;
   kept.insert(kept.begin(), fit);
   if (kept.size() > kKeptNetworks) kept.pop_back(); // where it was saved its file stays
@@ -143,7 +144,7 @@ void NetworkSession::goBackTo(std::size_t kept) {
       const auto place = std::find(shown_.kept.begin(), shown_.kept.end(), old);
       if (place != shown_.kept.end()) *place = fit;
       shown_.fit = fit;
-      lastFollowed_ = false; // what is trained next is added, whatever begins it
+      lastFollowed_.clear(); // what is trained next is added, whatever begins it
       emit fitChanged();
     };
   };
@@ -159,11 +160,11 @@ void NetworkSession::dropKept(std::size_t kept) {
 void NetworkSession::takeAway(std::size_t kept) {
   if (kept >= shown_.kept.size()) return;
   dropKept(kept);
-  lastFollowed_ = false;
+  lastFollowed_.clear();
   emit fitChanged();
 }
 
-void NetworkSession::train(const NetworkSettings& settings, bool follows) {
+void NetworkSession::train(const NetworkSettings& settings, const QString& follows) {
   if (!upToDate()) return;
   const auto work = [this, settings, follows, design = design_, samples = shown_.samples](
                         const std::stop_token& stop, JobProgress& progress) -> JobRunner::Taking {
@@ -213,7 +214,7 @@ void NetworkSession::sweep(const NetworkSettings& settings) {
 void NetworkSession::compare(const NetworkSettings& settings) {
   if (!upToDate()) return;
   shown_.trials.clear();
-  shown_.trialsInput = settings.input;
+  shown_.trialsSettings = settings;
   rows_ = std::make_shared<Rows>();
   emit trialsChanged();
   const auto work = [this, settings, design = design_, samples = shown_.samples,
@@ -269,7 +270,7 @@ void NetworkSession::open(const std::filesystem::path& file) {
     fit->file = QString::fromStdString(file.string());
     fit->triedOn = samples;
     return [this, fit, samples] {
-      if (samples == shown_.samples) take(fit, false);
+      if (samples == shown_.samples) take(fit, {});
     };
   };
   runner_.start(tr("Trying the network"), work);
@@ -302,16 +303,16 @@ void NetworkSession::openResults(const std::filesystem::path& folder,
 }
 
 void NetworkSession::saveSamples(const std::filesystem::path& file) {
-  writer_.start(tr("Saving samples"), [file, samples = shown_.samples](const auto&, JobProgress&) {
+  writer_.start(tr("Saving samples"), [this, file, samples = shown_.samples](const auto&, JobProgress&) {
     saveSampleFiles(file, *samples);
-    return JobRunner::Taking();
+    return [this, file] { emit saved({file, testFileOf(file)}); };
   });
 }
 
 void NetworkSession::saveNetwork(const std::filesystem::path& file) {
-  writer_.start(tr("Saving the network"), [file, fit = shown_.fit](const auto&, JobProgress&) {
+  writer_.start(tr("Saving the network"), [this, file, fit = shown_.fit](const auto&, JobProgress&) {
     writeNetwork(fit->decoder, file);
-    return JobRunner::Taking();
+    return [this, file] { emit saved({file}); };
   });
 }
 

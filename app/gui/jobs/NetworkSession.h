@@ -27,6 +27,9 @@ struct NetworkSamples {
   SampleSet training;
   SampleSet test;
   double batchError = 0; ///< relative, against full Newton; 0: not measured here
+  double seconds = 0;    ///< that making them took; 0: not known
+  QString file;          ///< that they were opened from; empty: made here
+  bool split = false;    ///< the test samples were taken from the file of the training samples
   SampleSettings settings;
 };
 
@@ -68,7 +71,7 @@ struct NetworkResults {
   std::vector<SweepPoint> sweep;
   NetworkSettings sweepSettings;
   std::vector<DecoderTrial> trials;
-  InputKind trialsInput = InputKind::Displacement;
+  NetworkSettings trialsSettings;
 };
 
 /// The samples and networks behind the Network scene: made in the background, only when asked. They stay with the
@@ -87,8 +90,9 @@ public:
   void clear();
   /// Goes on where the same samples were stopped before.
   void generate(const SampleSettings& samples, const MeshOptions& mesh);
-  /// `follows`: after an edit, not asked for by itself; of such networks the list keeps the last alone.
-  void train(const NetworkSettings& settings, bool follows = false);
+  /// `follows`: the edit that it comes after, where it was not asked for by itself; of such networks of one edit (a
+  /// spread that is dragged) the list keeps the last alone.
+  void train(const NetworkSettings& settings, const QString& follows = {});
   void sweep(const NetworkSettings& settings);
   /// Trains every kind of decoder with the same input, rows and noise.
   void compare(const NetworkSettings& settings);
@@ -129,8 +133,7 @@ public:
   [[nodiscard]] const std::vector<SweepPoint>& sweepPoints() const { return shown_.sweep; }
   [[nodiscard]] const NetworkSettings& sweepSettings() const { return shown_.sweepSettings; }
   [[nodiscard]] const std::vector<DecoderTrial>& trials() const { return shown_.trials; }
-  /// The input that the trials read.
-  [[nodiscard]] InputKind trialsInput() const { return shown_.trialsInput; }
+  [[nodiscard]] const NetworkSettings& trialsSettings() const { return shown_.trialsSettings; }
   /// Samples of a generation that was stopped, of how many; {0, 0} where there is none.
   [[nodiscard]] std::array<std::size_t, 2> stoppedAt() const;
   [[nodiscard]] const StageLog& stages() const { return stages_; }
@@ -144,6 +147,10 @@ signals:
   void sweepChanged();
   void trialsChanged();
   void problem(const QString& sentence);
+  /// Samples or a network stand in these files now.
+  void saved(const std::vector<std::filesystem::path>& files);
+  /// Work begins that needs hundreds of megabytes.
+  void memoryNeeded();
 
 private:
   /// What the job has finished, drained by the window.
@@ -154,7 +161,7 @@ private:
   };
   void drain();
   /// Shows a network, and keeps it.
-  void take(const std::shared_ptr<const NetworkFit>& fit, bool follows);
+  void take(const std::shared_ptr<const NetworkFit>& fit, const QString& follows);
   /// Takes a network off the list, and its files at the next saving.
   void dropKept(std::size_t kept);
   /// Shows other results, and keeps those that were shown while there is room.
@@ -167,7 +174,7 @@ private:
   std::shared_ptr<SampleGeneration> generation_; ///< written by the job alone while it runs
   std::shared_ptr<Rows> rows_;
   StageLog stages_;
-  bool lastFollowed_ = false; ///< the newest network of the list was trained after an edit
+  QString lastFollowed_; ///< the edit that the newest network of the list was trained after
 };
 
 } // namespace palp

@@ -139,9 +139,11 @@ NetworkSamples openTheseSampleFiles(const std::vector<fs::path>& files, const Se
     std::array<SampleSet, 2> sets = heldOut(samples.training);
     samples.training = std::move(sets[0]);
     samples.test = std::move(sets[1]);
+    samples.split = true;
   }
   if (samples.training.size() == 0 || samples.test.size() == 0)
     throw Error(files[0].string() + ": too few samples to train with and to test with");
+  samples.file = QString::fromStdString(files[0].string());
   samples.settings = {samples.training.origin.perArea, samples.training.origin.seed};
   return samples;
 }

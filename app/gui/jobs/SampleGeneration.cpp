@@ -33,9 +33,10 @@ bool SampleGeneration::make(StageLog& stages, const std::stop_token& stop, JobPr
   progress.set(-1, "Meshing and preparing the solver");
   clock_.start();
   left_ = {};
-  for (const std::size_t set : {0, 1})
-    if (!makeSet(set, stages, stop, progress)) return false;
-  return true;
+  bool whole = true;
+  for (const std::size_t set : {0, 1}) whole = whole && makeSet(set, stages, stop, progress);
+  took_s_ += now_s();
+  return whole;
 }
 
 bool SampleGeneration::makeSet(std::size_t set, StageLog& stages, const std::stop_token& stop, JobProgress& progress) {
@@ -81,6 +82,7 @@ std::shared_ptr<const NetworkSamples> SampleGeneration::samples() {
   all->test = std::move(sets_[1]);
   all->batchError = batchError_;
   all->settings = settings_;
+  all->seconds = took_s_;
   return all;
 }
 

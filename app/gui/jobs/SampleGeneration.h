@@ -39,6 +39,7 @@ private:
   double batchError_ = 0;
   QElapsedTimer clock_; ///< of this run
   TimeLeft left_;
+  double took_s_ = 0;        ///< all runs together
   double preparation_s_ = 0; ///< of a set, mesh and solver
 };
 

@@ -97,8 +97,11 @@ AdvancedOptions::AdvancedOptions(QWidget* parent) : QWidget(parent) {
   connect(allCenters_, &QCheckBox::toggled, this, [tell] { tell(tr("Change the centres")); });
   connect(seed_, &QSpinBox::valueChanged, this, [tell] { tell(tr("Change the seed of the training")); });
   connect(forgetting_, &QDoubleSpinBox::valueChanged, this, [tell] { tell(tr("Change the forgetting")); });
-  for (QComboBox* box : {solver_, scaler_, tail_, convention_, centersBy_})
-    connect(box, &QComboBox::currentIndexChanged, this, [tell] { tell(tr("Change the training")); });
+  for (const auto& [box, what] :
+       {std::pair{solver_, tr("Change the solver")}, std::pair{scaler_, tr("Change the scaler")},
+        std::pair{tail_, tr("Change the tail")}, std::pair{convention_, tr("Change the convention")},
+        std::pair{centersBy_, tr("Change how centres are chosen")}})
+    connect(box, &QComboBox::currentIndexChanged, this, [tell, what = what] { tell(what); });
 }
 
 QComboBox* AdvancedOptions::choice(QFormLayout& form, const QString& label, const char* name, const QString& tip,

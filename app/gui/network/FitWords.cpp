@@ -1,5 +1,7 @@
 #include "app/gui/network/FitWords.h"
 
+#include "app/gui/jobs/TimeLeft.h"
+
 #include <QFileInfo>
 #include <QObject>
 #include <QStringList>
@@ -14,6 +16,25 @@ QString tr(const char* text) {
 
 QString trained(const std::string& text) {
   return QString::fromStdString(text);
+}
+
+/// As the boxes say it.
+QString percent(double share) {
+  return QString::number(100 * share, 'g', 3) + " %";
+}
+
+/// What was set that otherwise follows from the mode.
+QString optionsWords(const NetworkSettings& settings) {
+  QString words;
+  const auto add = [&words](const QString& what, const QString& value) { words += ", " + what + " " + value; };
+  if (settings.solver) add(tr("solver"), trained(name(*settings.solver)));
+  if (settings.ridge) add(tr("ridge"), QString::number(*settings.ridge, 'g', 3));
+  if (settings.scaling) add(tr("scaler"), trained(name(*settings.scaling)));
+  if (settings.tail) add(tr("tail"), trained(kTails.name(*settings.tail)));
+  if (settings.convention) add(tr("convention"), trained(name(*settings.convention)));
+  if (settings.centerChoice) add(tr("centres by"), trained(kCenterChoices.name(*settings.centerChoice)));
+  if (settings.seed != 1) add(tr("seed"), QString::number(settings.seed));
+  return words;
 }
 
 /// What the network was trained with, and what is set now instead.
@@ -31,8 +52,8 @@ QStringList differences(const NetworkSettings& then, const NetworkSettings& now)
   add(tr("decoder"), trained(name(then.decoder)), trained(name(now.decoder)));
   add(tr("spread"), spread(then), spread(now));
   add(tr("centres"), QString::number(then.centers), QString::number(now.centers));
-  add(tr("noise"), QString::number(then.noise), QString::number(now.noise));
-  add(tr("noise of the test"), QString::number(then.testNoise), QString::number(now.testNoise));
+  add(tr("noise"), percent(then.noise), percent(now.noise));
+  add(tr("noise of the test"), percent(then.testNoise), percent(now.testNoise));
   NetworkSettings rest = now; // what the sentences do not say
   rest.input = then.input;
   rest.rows = then.rows;
@@ -50,6 +71,22 @@ QStringList differences(const NetworkSettings& then, const NetworkSettings& now)
   return all;
 }
 
+QString madeWords(const NetworkSamples& samples) {
+  QString words;
+  if (samples.seconds > 0) words += tr(", made in %1").arg(roughly(samples.seconds));
+  if (samples.batchError > 0)
+    words += tr("; relative batch error against full Newton %1").arg(samples.batchError, 0, 'g', 2);
+  return words;
+}
+
+QString openedWords(const NetworkSamples& samples) {
+  return tr(" from %1 (%2 an area, seed %3)%4")
+      .arg(QFileInfo(samples.file).fileName())
+      .arg(samples.settings.perArea)
+      .arg(samples.settings.seed)
+      .arg(samples.split ? tr("; every fifth one tests, as there is no file of test samples") : QString());
+}
+
 } // namespace
 
 QString triple(const Eigen::VectorXd& values, const QString& unit) {
@@ -64,8 +101,12 @@ QString originWords(const NetworkFit& fit) {
                            trained(name(fit.settings.decoder)), trained(name(fit.settings.mode)))
                       .arg(fit.decoder.report.spread, 0, 'g', 4)
                       .arg(fit.decoder.report.centers);
-  if (fit.settings.noise > 0) words += tr(", trained for noise %1 %").arg(100 * fit.settings.noise, 0, 'g', 3);
-  if (fit.settings.testNoise > 0) words += tr(", tested with noise %1 %").arg(100 * fit.settings.testNoise, 0, 'g', 3);
+  words += optionsWords(fit.settings);
+  if (fit.settings.noise > 0) words += tr(", trained for noise %1").arg(percent(fit.settings.noise));
+  if (fit.settings.testNoise > 0)
+    words += tr(", tested with noise %1").arg(percent(fit.settings.testNoise));
+  else if (fit.settings.noise > 0)
+    words += tr(", tested without noise");
   return words;
 }
 
@@ -79,6 +120,15 @@ QString staleReason(const NetworkSession& session, const NetworkSettings& now) {
   return changes.isEmpty() ? QString() : tr("Trained with other settings (%1): train again.").arg(changes.join("; "));
 }
 
+QString staleTrialsReason(const NetworkSession& session, const NetworkSettings& now) {
+  if (session.trials().empty()) return {};
+  if (!session.upToDate()) return tr("The comparison is of an earlier design.");
+  NetworkSettings then = session.trialsSettings();
+  then.decoder = now.decoder;
+  const QStringList changes = differences(then, now);
+  return changes.isEmpty() ? QString() : tr("The comparison is of other settings (%1).").arg(changes.join("; "));
+}
+
 QString staleSweepReason(const NetworkSession& session, const NetworkSettings& now) {
   if (session.sweepPoints().empty()) return {};
   if (!session.upToDate()) return tr("The sweep is of an earlier design.");
@@ -89,6 +139,37 @@ QString staleSweepReason(const NetworkSession& session, const NetworkSettings& n
   return changes.isEmpty() ? QString() : tr("The sweep is of other settings (%1).").arg(changes.join("; "));
 }
 
+QString trialsWords(const NetworkSession& session, const NetworkSettings& now) {
+  const NetworkSettings& then = session.trialsSettings();
+  if (session.trials().empty()) return tr("Compare all decoders trains each kind on the same samples.");
+  QString words = tr("All from %1s, row-wires %2, noise %3, noise of the test %4.")
+                      .arg(trained(name(then.input)), trained(then.rows), percent(then.noise), percent(then.testNoise));
+  for (const DecoderTrial& trial : session.trials())
+    if (!trial.refusal.isEmpty()) words += tr(" Not trained: %1 (%2).").arg(trained(name(trial.kind)), trial.refusal);
+  const QString reason = staleTrialsReason(session, now);
+  return reason.isEmpty() ? words : reason + " " + words;
+}
+
+QString samplesWords(const NetworkSession& session) {
+  const NetworkSamples* samples = session.samples();
+  if (samples == nullptr) return tr("None yet for this design.");
+  const QString counts = tr("%1 for training, %2 for testing").arg(samples->training.size()).arg(samples->test.size());
+  if (!session.upToDate()) return counts + tr(", of an earlier design: undo the change, or generate new ones.");
+  return counts + (samples->file.isEmpty() ? madeWords(*samples) : openedWords(*samples)) + ".";
+}
+
+bool sweepAndTrialsAgree(const NetworkSession& session) {
+  NetworkSettings sweep = session.sweepSettings();
+  const NetworkSettings& trials = session.trialsSettings();
+  sweep.decoder = trials.decoder;
+  sweep.spread = trials.spread;
+  sweep.automaticSpread = trials.automaticSpread;
+  sweep.sweepFrom = trials.sweepFrom;
+  sweep.sweepTo = trials.sweepTo;
+  sweep.sweepCount = trials.sweepCount;
+  return sweep == trials;
+}
+
 QString fitWords(const NetworkSession& session, const NetworkSettings& now) {
   const NetworkFit* fit = session.fit();
   if (fit == nullptr)
@@ -96,9 +177,9 @@ QString fitWords(const NetworkSession& session, const NetworkSettings& now) {
                                         : tr("No network yet: train one on the samples.");
   const PredictionError& error = fit->error.error;
   const QString name = fit->file.isEmpty() ? tr("Trained here") : tr("Opened: %1").arg(QFileInfo(fit->file).fileName());
-  const QString numbers = tr("%1 by Eq. (13), %2 with a floor of 0.05 N, %3 of range (RMSE)")
+  const QString numbers = tr("%1 by Eq. (13), %2 with a floor of 0.05 N, %3 of range (RMSE), %4 on average")
                               .arg(triple(error.eq13Percent, "%"), triple(error.eq13FlooredPercent, "%"),
-                                   triple(error.rmsePercentOfRange, "%"));
+                                   triple(error.rmsePercentOfRange, "%"), triple(error.meanAbsolute, "N"));
   const QString rest = tr("%1 %2; condition %3, trained in %4 s.")
                            .arg(name.toHtmlEscaped(), originWords(*fit).toHtmlEscaped())
                            .arg(fit->decoder.report.condition, 0, 'g', 2)

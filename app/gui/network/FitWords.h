@@ -16,6 +16,17 @@ QString originWords(const NetworkFit& fit);
 QString staleReason(const NetworkSession& session, const NetworkSettings& now);
 /// The same for the points of the sweep.
 QString staleSweepReason(const NetworkSession& session, const NetworkSettings& now);
+/// The same for the comparison of decoders.
+QString staleTrialsReason(const NetworkSession& session, const NetworkSettings& now);
+
+/// What the comparison was made with, and who is missing in it.
+QString trialsWords(const NetworkSession& session, const NetworkSettings& now);
+
+/// What samples there are, and where from.
+QString samplesWords(const NetworkSession& session);
+
+/// The sweep was made as the comparison was, but for the decoder and the spread.
+bool sweepAndTrialsAgree(const NetworkSession& session);
 
 /// The network that is shown and its error as rich text; grey with the reason where it is stale.
 QString fitWords(const NetworkSession& session, const NetworkSettings& now);

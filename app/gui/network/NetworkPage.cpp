@@ -89,7 +89,7 @@ void NetworkPage::edit(const QString& what, const SampleSettings& samples, const
   next.samples = samples;
   next.network = network;
   workbench_.edit(what, next);
-  if (retrain) session_.train(network, true); // the error follows the spread
+  if (retrain) session_.train(network, what); // the error follows the spread
 }
 
 /// Where one looks: below the numbers that there are none of now.
@@ -101,10 +101,12 @@ void NetworkPage::showProblem(const QString& sentence) {
 void NetworkPage::takeBestSpread() {
   const auto best = bestSpread(session_.sweepPoints());
   if (!best) return;
-  NetworkSettings network = workbench_.project().network;
-  network.spread = *best;
-  network.automaticSpread = false;
-  edit(tr("Take the best spread of the sweep"), workbench_.project().samples, network);
+  Project next = workbench_.project();
+  next.network.spread = *best;
+  next.network.automaticSpread = false;
+  workbench_.closeEntry();
+  workbench_.edit(tr("Take the best spread of the sweep"), next);
+  session_.train(next.network); // asked for by itself: it stays in the list
 }
 
 /// The panel shows what the network was trained with; it is not trained again.
@@ -193,7 +195,7 @@ QWidget* NetworkPage::buildSweep() {
   column->addLayout(bar);
   column->addWidget(sweepTable_, 1);
   QSplitter* sweep = beside({error_, beside({leaveOneOut_, condition_, time_}, Qt::Horizontal), list}, Qt::Vertical);
-  sweep->setSizes({360, 240, 120});
+  sweep->setSizes({300, 220, 200});
   sweep->setObjectName("networkSweep");
   return sweep;
 }
@@ -211,6 +213,7 @@ QWidget* NetworkPage::buildFit() {
 ChartView* NetworkPage::chart(const char* name) {
   auto* view = new ChartView;
   view->setObjectName(name);
+  view->setToolTip(tr("A right click copies or saves the chart, as a picture or as its points"));
   all_.push_back(view);
   return view;
 }
@@ -218,7 +221,7 @@ ChartView* NetworkPage::chart(const char* name) {
 QWidget* NetworkPage::buildTrials() {
   trialsError_ = chart("trialsError");
   trialsTime_ = chart("trialsTime");
-  trialsWords_ = new QLabel(tr("Compare all decoders trains each kind on the same samples."));
+  trialsWords_ = new QLabel;
   trialsWords_->setObjectName("trialsWords");
   trialsWords_->setWordWrap(true);
   trialsTable_ = new DataTable("decoders.csv");
@@ -263,20 +266,8 @@ void NetworkPage::displayProject() {
 }
 
 void NetworkPage::displaySamples() {
-  const NetworkSamples* samples = session_.samples();
   const auto [made, all] = session_.stoppedAt();
-  QString words = tr("None yet for this design.");
-  if (samples != nullptr)
-    words = tr("%1 for training, %2 for testing%3.")
-                .arg(samples->training.size())
-                .arg(samples->test.size())
-                .arg(samples->batchError > 0
-                         ? tr("; batch error against full Newton %1").arg(samples->batchError, 0, 'g', 2)
-                         : tr(", from a file"));
-  if (samples != nullptr && !session_.upToDate())
-    words = tr("%1 for training, %2 for testing, of an earlier design: undo the change, or generate new ones.")
-                .arg(samples->training.size())
-                .arg(samples->test.size());
+  QString words = samplesWords(session_);
   if (all > 0) words += tr(" Stopped at sample %1 of %2; it goes on from there.").arg(made).arg(all);
   panel_->displaySamples(session_.upToDate(), words, all > 0);
   displayFit(); // it says whose it is and what comes next
@@ -329,19 +320,15 @@ void NetworkPage::drawCharts() {
 void NetworkPage::displayTrials() {
   if (!isVisible()) return;
   const std::vector<DecoderTrial>& trials = session_.trials();
-  trialsError_->setChart(trialsErrorChart(
-      trials,
-      session_.sweepSettings().input == session_.trialsInput() ? session_.sweepPoints() : std::vector<SweepPoint>{},
-      session_.trialsInput()));
+  trialsError_->setChart(
+      trialsErrorChart(trials, sweepAndTrialsAgree(session_) ? session_.sweepPoints() : std::vector<SweepPoint>{},
+                       session_.trialsSettings().input));
   trialsTime_->setChart(trialsTimeChart(trials));
-  for (ChartView* view : {trialsError_, trialsTime_}) view->setFaint(!trials.empty() && !session_.upToDate());
+  const bool stale = !staleTrialsReason(session_, workbench_.project().network).isEmpty();
+  for (ChartView* view : {trialsError_, trialsTime_}) view->setFaint(stale);
   const TableText table = trialsTable(trials);
   trialsTable_->show(table.heads, table.rows);
-  QStringList words;
-  for (const DecoderTrial& trial : trials)
-    if (!trial.refusal.isEmpty()) words << tr("%1: %2").arg(QString::fromStdString(name(trial.kind)), trial.refusal);
-  trialsWords_->setText(words.isEmpty() ? tr("Compare all decoders trains each kind on the same samples.")
-                                        : tr("Not trained: ") + words.join("; "));
+  trialsWords_->setText(trialsWords(session_, workbench_.project().network));
 }
 
 void NetworkPage::openSamples() {

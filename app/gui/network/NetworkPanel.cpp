@@ -162,18 +162,18 @@ void NetworkPanel::buildNetwork(QFormLayout& form) {
   centers_->setKeyboardTracking(false);
   centers_->setToolTip(tr("Centres of the radial basis functions; fewer than samples make a smoother network"));
   form.addRow(tr("Centres"), centers_);
-  noise_ = new QDoubleSpinBox;
+  noise_ = new ExponentBox;
   noise_->setObjectName("noise");
   noise_->setRange(0, 10);
-  noise_->setDecimals(5);
+  noise_->setDecimals(8);
   noise_->setSuffix(tr(" %"));
   noise_->setKeyboardTracking(false);
   noise_->setToolTip(tr("Relative noise of each input that the network is trained with"));
   form.addRow(tr("Noise"), noise_);
-  testNoise_ = new QDoubleSpinBox;
+  testNoise_ = new ExponentBox;
   testNoise_->setObjectName("testNoise");
   testNoise_->setRange(0, 50);
-  testNoise_->setDecimals(5);
+  testNoise_->setDecimals(8);
   testNoise_->setSuffix(tr(" %"));
   testNoise_->setKeyboardTracking(false);
   testNoise_->setToolTip(tr("Relative noise that the test samples get, apart from that of the training"));
@@ -189,6 +189,7 @@ void NetworkPanel::buildSpread(QFormLayout& form) {
   automatic_ = new QCheckBox(tr("by leave-one-out"));
   automatic_->setObjectName("automaticSpread");
   spread_ = spreadBox("spread");
+  spread_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed); // however many digits: the panel keeps its width
   spread_->setToolTip(tr("Spread of the Gaussians (radbas: half height at this distance, in scaled inputs)"));
   auto* row = new QHBoxLayout;
   row->addWidget(spread_);

@@ -13,13 +13,19 @@
 
 namespace palp {
 
+namespace {
+
+constexpr int kMadeRole = Qt::UserRole; ///< of a row: when its network was made
+
+} // namespace
+
 TrainedNetworks::TrainedNetworks(QWidget* parent) : QWidget(parent) {
   list_ = new QTreeWidget;
   list_->setObjectName("trainedNetworks");
   list_->setAccessibleName(tr("Trained networks"));
   list_->setRootIsDecorated(false);
   list_->setAlternatingRowColors(true);
-  list_->setHeaderLabels({tr("When"), tr("Error of range, Fx / Fy / Fz"), tr("Samples"), tr("How")});
+  list_->setHeaderLabels({tr("When"), tr("RMSE in % of range, Fx / Fy / Fz"), tr("Samples"), tr("How")});
   list_->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
   list_->setToolTip(tr("Enter or a double click goes back to a network, with the settings it was trained with"));
   back_ = new QPushButton(tr("Go back to this one"));
@@ -57,7 +63,8 @@ void TrainedNetworks::enableButtons() {
 }
 
 void TrainedNetworks::display(const NetworkSession& session) {
-  const int before = chosen();
+  const QDateTime before =
+      list_->currentItem() != nullptr ? list_->currentItem()->data(0, kMadeRole).toDateTime() : QDateTime();
   list_->clear();
   for (const auto& fit : session.kept()) {
     const QString file = fit->file.isEmpty() ? QString() : tr("%1: ").arg(QFileInfo(fit->file).fileName());
@@ -67,9 +74,13 @@ void TrainedNetworks::display(const NetworkSession& session) {
          tr("%1 an area, seed %2").arg(fit->madeFrom.perArea).arg(fit->madeFrom.seed), file + originWords(*fit)});
     QFont font = item->font(0);
     font.setBold(fit.get() == session.fit());
-    for (int column = 0; column < list_->columnCount(); ++column) item->setFont(column, font);
+    for (int column = 0; column < list_->columnCount(); ++column) {
+      item->setFont(column, font);
+      item->setToolTip(column, item->text(column));
+    }
+    item->setData(0, kMadeRole, fit->made);
+    if (before.isValid() && fit->made == before) list_->setCurrentItem(item); // the network, wherever it stands now
   }
-  if (before >= 0 && before < list_->topLevelItemCount()) list_->setCurrentItem(list_->topLevelItem(before));
   enableButtons();
 }
 

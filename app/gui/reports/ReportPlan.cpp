@@ -1,9 +1,10 @@
 #include "app/gui/reports/ReportPlan.h"
 
 #include <QSettings>
+#include <QStringList>
 
 #include <algorithm>
-#include <cmath>
+#include <numeric>
 
 namespace palp {
 
@@ -12,24 +13,62 @@ namespace {
 constexpr double kTrust = 0.05; ///< share of the plan that counts as run as planned, before anything is known
 constexpr double kShortest_s = 0.01;
 
+constexpr std::size_t kMoments = 100; ///< that are kept of a run
+constexpr const char* kSpeed =
+    "reportSpeed"; ///< seconds of the last report here for each second that it was said to take
+
 QString key(const QString& kind) {
   return "reportTimes/" + kind;
 }
 
+QString momentsKey(const QString& kind) {
+  return "reportMoments/" + kind;
+}
+
+double sum_s(const std::vector<RunPart>& parts) {
+  return std::accumulate(parts.begin(), parts.end(), 0.0,
+                         [](double before, const RunPart& part) { return before + part.seconds; });
+}
+
+/// "share seconds", ascending in both; nothing where that is not what the settings hold.
+std::vector<RunMoment> momentsOf(const QStringList& texts) {
+  std::vector<RunMoment> moments{{0, 0}};
+  for (const QString& text : texts) {
+    const QStringList pair = text.split(' ');
+    const RunMoment next{pair.value(0).toDouble(), pair.value(1).toDouble()};
+    if (!(next.share > moments.back().share && next.share <= 1 && next.seconds >= moments.back().seconds)) return {};
+    moments.push_back(next);
+  }
+  return moments.back().share == 1 ? moments : std::vector<RunMoment>{};
+}
+
 } // namespace
 
-ReportPlan::ReportPlan(const QString& kind, std::vector<RunPart> parts) : kind_(kind), parts_(std::move(parts)) {
-  const QStringList kept = QSettings().value(key(kind_)).toStringList();
+ReportPlan::ReportPlan(const QString& kind, std::vector<RunPart> parts)
+    : kind_(kind), parts_(std::move(parts)), shipped_s_(sum_s(parts_)) {
+  const QSettings settings;
+  const QStringList kept = settings.value(key(kind_)).toStringList();
   here_ = !parts_.empty() && kept.size() == static_cast<qsizetype>(parts_.size());
   for (std::size_t k = 0; here_ && k < parts_.size(); ++k)
     parts_[k].seconds = std::max(kept[static_cast<qsizetype>(k)].toDouble(), kShortest_s);
+  if (here_) moments_ = momentsOf(settings.value(momentsKey(kind_)).toStringList());
+  const double speed = settings.value(kSpeed, 1).toDouble();
+  for (RunPart& part : parts_)
+    if (!here_ && speed > 0) part.seconds *= speed;
 }
 
 double ReportPlan::seconds() const {
-  return planned_s(1);
+  return moments_.empty() ? sum_s(parts_) : moments_.back().seconds;
 }
 
 double ReportPlan::planned_s(double share) const {
+  if (!moments_.empty()) {
+    const auto next = std::find_if(moments_.begin() + 1, moments_.end() - 1,
+                                   [share](const RunMoment& moment) { return moment.share >= share; });
+    const RunMoment &before = *(next - 1), &after = *next;
+    const double way = std::clamp((share - before.share) / (after.share - before.share), 0.0, 1.0);
+    return before.seconds + way * (after.seconds - before.seconds);
+  }
   double planned = 0, from = 0;
   for (const RunPart& part : parts_) {
     if (share >= part.until)
@@ -52,11 +91,23 @@ std::size_t ReportPlan::partAt(double share) const {
   return std::min(static_cast<std::size_t>(part - parts_.begin()), parts_.empty() ? 0 : parts_.size() - 1);
 }
 
-void ReportPlan::remember(const std::vector<double>& seconds) const {
+void ReportPlan::remember(const std::vector<double>& seconds, const std::vector<RunMoment>& moments) const {
   if (seconds.size() != parts_.size()) return;
+  QSettings settings;
   QStringList texts;
   for (const double value : seconds) texts << QString::number(value, 'g', 4);
-  QSettings().setValue(key(kind_), texts);
+  settings.setValue(key(kind_), texts);
+  const double all = std::accumulate(seconds.begin(), seconds.end(), 0.0);
+  if (shipped_s_ > 0 && all > 0) settings.setValue(kSpeed, all / shipped_s_);
+  QStringList kept;
+  double last = 0;
+  for (const RunMoment& moment : moments) {
+    if (moment.share >= 1 || moment.share < last + 1.0 / kMoments) continue;
+    last = moment.share;
+    kept << QString("%1 %2").arg(moment.share, 0, 'g', 8).arg(moment.seconds, 0, 'f', 2);
+  }
+  kept << QString("1 %1").arg(all, 0, 'f', 2);
+  settings.setValue(momentsKey(kind_), kept);
 }
 
 } // namespace palp

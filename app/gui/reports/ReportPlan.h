@@ -8,11 +8,18 @@
 
 namespace palp {
 
+/// A moment of a run: how far it was.
+struct RunMoment {
+  double share = 0;
+  double seconds = 0;
+};
+
 /// How long a report takes, part by part, and what is left of it.
 class ReportPlan {
 public:
   ReportPlan() = default;
-  /// The parts with the times that the kind's last run on this machine took, else those that come with Palp.
+  /// The parts with the times that the kind's last run on this machine took, else those that come with Palp, as much
+  /// longer or shorter as the last report took here.
   ReportPlan(const QString& kind, std::vector<RunPart> parts);
 
   [[nodiscard]] const std::vector<RunPart>& parts() const { return parts_; }
@@ -25,14 +32,16 @@ public:
   /// The part that a share lies in.
   [[nodiscard]] std::size_t partAt(double share) const;
 
-  /// Keeps the times of a run that was done, one a part, for the next one.
-  void remember(const std::vector<double>& seconds) const;
+  /// Keeps the times of a run that was done, one a part, and its moments for the next one.
+  void remember(const std::vector<double>& seconds, const std::vector<RunMoment>& moments) const;
 
 private:
   [[nodiscard]] double planned_s(double share) const;
 
   QString kind_;
   std::vector<RunPart> parts_;
+  double shipped_s_ = 0;           ///< as Palp comes
+  std::vector<RunMoment> moments_; ///< of the last run: within a part, too, one share takes longer than another
   bool here_ = false;
 };
 

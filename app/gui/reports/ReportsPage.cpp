@@ -219,7 +219,8 @@ void ReportsPage::chooseKind() {
   if (run_.running()) return; // what runs stays in sight
   const ReportKind& kind = reportKinds()[static_cast<std::size_t>(kind_->currentIndex())];
   what_->setText(kind.what);
-  plan_ = std::make_unique<ReportPlan>(kind.arguments.join('-'), kind.parts);
+  const int perArea = workbench_.project().samples.perArea; // another number takes another time
+  plan_ = std::make_unique<ReportPlan>(kind.arguments.join('-') + QString::number(perArea), kind.parts);
   cases_->show(*plan_);
   tabs_->setCurrentWidget(cases_);
   state_->setText(tr("Takes about %1%2.")
@@ -254,6 +255,7 @@ void ReportsPage::start() {
   bar_->setValue(0);
   bar_->show();
   share_ = 0;
+  moments_.clear();
   run_.start(program_, all);
   showTime();
   timer_.start();
@@ -261,6 +263,7 @@ void ReportsPage::start() {
 
 void ReportsPage::setProgress(double share, const QString& what) {
   share_ = share;
+  if (moments_.empty() || share > moments_.back().share) moments_.push_back({share, run_.seconds()});
   bar_->setValue(qRound(1000 * share));
   cases_->setProgress(share, run_.seconds(), what);
 }
@@ -276,7 +279,7 @@ void ReportsPage::end(ReportRun::Ending how) {
   const QString seconds = QString::number(run_.seconds(), 'f', 1);
   const bool done = how == ReportRun::Ending::Done;
   if (done)
-    plan_->remember(cases_->finish(run_.seconds()));
+    plan_->remember(cases_->finish(run_.seconds()), moments_);
   else
     cases_->stop();
   switch (how) {

@@ -2,6 +2,7 @@
 
 #include "app/gui/project/Workbench.h"
 #include "app/gui/reports/ReportFolders.h"
+#include "app/gui/reports/ReportPlan.h"
 #include "app/gui/reports/ReportRun.h"
 #include "app/gui/window/Scene.h"
 
@@ -21,7 +22,6 @@ namespace palp {
 
 class ReportCases;
 class ReportPicture;
-class ReportPlan;
 
 /// The reports, run by the command line program beside this one, so that a report can neither block nor break the
 /// window; its page and pictures are shown when it is done. Each run has a folder of its own, so that none takes the
@@ -79,6 +79,7 @@ private:
   ReportRun run_;
   QTimer timer_;
   std::unique_ptr<ReportPlan> plan_;
+  std::vector<RunMoment> moments_; ///< of the run
   double share_ = 0;
   QString runFolder_; ///< of the run
   QString shown_;     ///< folder of the report that is shown

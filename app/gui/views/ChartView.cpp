@@ -57,19 +57,32 @@ void ChartView::setTheme(Theme theme) {
   fill();
 }
 
+bool ChartView::empty() const {
+  return std::all_of(spec_.series.begin(), spec_.series.end(),
+                     [](const ChartSeries& series) { return series.x.empty(); });
+}
+
+QColor ChartView::ground() const {
+  const Color& color = palp::palette(theme_).ground;
+  return QColor::fromRgbF(static_cast<float>(color[0]), static_cast<float>(color[1]), static_cast<float>(color[2]));
+}
+
+void ChartView::render(QImage& image) {
+  if (empty())
+    image.fill(ground()); // nothing that is worth a context of its own
+  else
+    VtkView::render(image);
+}
+
 void ChartView::paintEvent(QPaintEvent* event) {
   VtkView::paintEvent(event);
-  const bool empty =
-      std::all_of(spec_.series.begin(), spec_.series.end(), [](const ChartSeries& series) { return series.x.empty(); });
   QPainter painter(this);
-  if (faint_ && !empty) {
-    const Color& ground = palp::palette(theme_).ground;
-    QColor veil =
-        QColor::fromRgbF(static_cast<float>(ground[0]), static_cast<float>(ground[1]), static_cast<float>(ground[2]));
+  if (faint_ && !empty()) {
+    QColor veil = ground();
     veil.setAlphaF(0.6F);
     painter.fillRect(rect(), veil);
   }
-  if (!empty) return paintReading(painter);
+  if (!empty()) return paintReading(painter);
   painter.setPen(QWidget::palette().color(QPalette::PlaceholderText));
   const QString title = QString::fromStdString(spec_.title);
   painter.drawText(rect(), Qt::AlignCenter, title.isEmpty() ? tr("nothing yet") : title + tr(":\nnothing yet"));
@@ -81,8 +94,8 @@ void ChartView::fill() {
 }
 
 void ChartView::fill(double scale, const QSizeF& size) {
-  const Color& ground = palp::palette(theme_).ground;
-  parts_->renderer->SetBackground(ground[0], ground[1], ground[2]);
+  const Color& color = palp::palette(theme_).ground;
+  parts_->renderer->SetBackground(color[0], color[1], color[2]);
   fillChart(*parts_->chart, spec_, theme_, scale, {size.width(), size.height()});
   invalidate();
 }

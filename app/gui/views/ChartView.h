@@ -34,6 +34,8 @@ public:
   [[nodiscard]] std::optional<QPointF> placeOf(const Point& point) const;
 
 protected:
+  [[nodiscard]] bool standsStill() const override { return true; }
+  void render(QImage& image) override;
   void paintEvent(QPaintEvent* event) override;
   void changeEvent(QEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
@@ -52,6 +54,9 @@ private:
   /// The next point of the curve, or the same of the next curve.
   void readNext(int points, int curves);
   void paintReading(QPainter& painter) const;
+  /// Nothing to draw but words.
+  [[nodiscard]] bool empty() const;
+  [[nodiscard]] QColor ground() const;
 
   std::unique_ptr<Parts> parts_;
   ChartSpec spec_;

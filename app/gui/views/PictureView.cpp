@@ -36,6 +36,11 @@ void PictureView::invalidate() {
   update();
 }
 
+void PictureView::forget() {
+  image_ = {};
+  changed_ = true;
+}
+
 const QImage& PictureView::image() {
   if (changed_) draw();
   return image_;

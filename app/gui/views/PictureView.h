@@ -45,6 +45,8 @@ protected:
   [[nodiscard]] QSize deviceSize() const;
   /// How much larger than the view a picture of this size is: its words and lines grow with it.
   [[nodiscard]] double magnification(int width, int height) const;
+  /// Lets the picture go; the next paint draws it anew.
+  void forget();
 
   void paintEvent(QPaintEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;

@@ -16,6 +16,7 @@
 #include <vtkSmartPointer.h>
 
 #include <cmath>
+#include <malloc.h>
 
 namespace palp {
 
@@ -46,7 +47,7 @@ struct VtkView::Vtk {
   vtkSmartPointer<vtkRenderer> renderer;
   vtkSmartPointer<vtkInteractorObserver> style;
   vtkNew<vtkCallbackCommand> changed;
-  std::unique_ptr<OffscreenWindow> window; ///< null before the first drawing
+  std::unique_ptr<OffscreenWindow> window; ///< null before the first drawing, and after giveBack()
   vtkNew<vtkGenericRenderWindowInteractor> interactor;
 
   void open(const QSize& size) {
@@ -60,6 +61,15 @@ struct VtkView::Vtk {
     interactor->SetInteractorStyle(style);
     interactor->AddObserver(vtkCommand::RenderEvent, changed);
     interactor->UpdateSize(size.width(), size.height());
+  }
+  /// The style stays with its interactor: a chart's asks it for a timer whenever the chart changes.
+  void close() {
+    if (!window) return;
+    interactor->RemoveObserver(changed);
+    interactor->SetRenderWindow(nullptr);
+    window->vtk()->MakeCurrent(); // what it drew with is of its context
+    window->vtk()->RemoveRenderer(renderer);
+    window.reset();
   }
   /// Hands an event on; before the first drawing there is nothing that it could change.
   void invoke(unsigned long event) {
@@ -77,10 +87,25 @@ VtkView::VtkView(vtkRenderer* renderer, vtkInteractorObserver* style, QWidget* p
 }
 
 VtkView::~VtkView() {
-  if (!vtk_->window) return;
   vtk_->interactor->SetInteractorStyle(nullptr);
-  vtk_->interactor->SetRenderWindow(nullptr);
-  vtk_->window->vtk()->RemoveRenderer(vtk_->renderer);
+  vtk_->close();
+}
+
+void VtkView::giveBack() {
+  if (isVisible() && !standsStill()) return;
+  vtk_->close();
+  if (!isVisible()) forget();
+}
+
+void giveBackViews(const QWidget& window) {
+  for (VtkView* view : window.findChildren<VtkView*>()) view->giveBack();
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
+bool VtkView::drawn() const {
+  return vtk_->window != nullptr;
 }
 
 void VtkView::render(QImage& image) {
@@ -111,6 +136,13 @@ void VtkView::passPlace(const QPointF& place, Qt::KeyboardModifiers modifiers) {
       modifiers.testFlag(Qt::ControlModifier) ? 1 : 0, modifiers.testFlag(Qt::ShiftModifier) ? 1 : 0);
 }
 
+/// The mouse acts on what is drawn, which a picture alone is not.
+void VtkView::open() {
+  if (drawn()) return;
+  invalidate();
+  (void)image();
+}
+
 bool VtkView::grab(const QPointF&, Qt::KeyboardModifiers) {
   return false;
 }
@@ -123,6 +155,7 @@ void VtkView::mousePressEvent(QMouseEvent* event) {
   PictureView::mousePressEvent(event);
   grabbed_ = event->button() == Qt::LeftButton && grab(event->position(), event->modifiers());
   if (grabbed_) return;
+  open();
   passPlace(event->position(), event->modifiers());
   vtk_->invoke(pressEvent(event->button()));
 }
@@ -149,6 +182,7 @@ void VtkView::mouseMoveEvent(QMouseEvent* event) {
 }
 
 void VtkView::wheelEvent(QWheelEvent* event) {
+  open();
   passPlace(event->position(), event->modifiers());
   wheel_ += event->angleDelta().y();
   for (; wheel_ >= kWheelStep; wheel_ -= kWheelStep) vtk_->invoke(vtkCommand::MouseWheelForwardEvent);

@@ -19,11 +19,20 @@ public:
   VtkView(vtkRenderer* renderer, vtkInteractorObserver* style, QWidget* parent = nullptr);
   ~VtkView() override;
 
+  /// Gives back what drawing needs, about 10 MB on a software renderer, where the view is not seen or its picture
+  /// stands still; the next drawing begins anew.
+  void giveBack();
+  /// It holds what drawing needs.
+  [[nodiscard]] bool drawn() const;
+
 protected:
   /// Takes the left button for the view itself, before VTK: true at the press, then dragging until the release.
   virtual bool grab(const QPointF& place, Qt::KeyboardModifiers modifiers);
   virtual void dragTo(const QPointF& place, Qt::KeyboardModifiers modifiers);
   virtual void drop();
+
+  /// What is seen changes only where something new is shown: a picture of it does as long.
+  [[nodiscard]] virtual bool standsStill() const { return false; }
 
   void render(QImage& image) override;
   [[nodiscard]] Picture renderPicture(int width, int height) override;
@@ -36,6 +45,7 @@ protected:
   void keyPressEvent(QKeyEvent* event) override;
 
 private:
+  void open();
   void passPlace(const QPointF& place, Qt::KeyboardModifiers modifiers);
 
   /// As a drag from the middle would do it, with the left button or, moving, with Shift.
@@ -47,5 +57,8 @@ private:
   int wheel_ = 0;
   bool grabbed_ = false;
 };
+
+/// What all views of a window that need not draw now hold for it goes back to the system.
+void giveBackViews(const QWidget& window);
 
 } // namespace palp

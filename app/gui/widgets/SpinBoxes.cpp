@@ -1,6 +1,6 @@
 #include "app/gui/widgets/SpinBoxes.h"
 
-#include <QDoubleSpinBox>
+#include <QRegularExpression>
 #include <QSignalBlocker>
 #include <QVariant>
 
@@ -24,6 +24,31 @@ int decimalsOf(double value, int least) {
 }
 
 } // namespace
+
+QString ExponentBox::bare(const QString& text) const {
+  QString number = text;
+  if (!suffix().isEmpty() && number.endsWith(suffix())) number.chop(suffix().size());
+  return number.trimmed();
+}
+
+QValidator::State ExponentBox::validate(QString& text, int& place) const {
+  static const QRegularExpression withExponent("^[0-9]*[.,]?[0-9]*[eE][-+]?[0-9]*$");
+  const QString number = bare(text);
+  if (!withExponent.match(number).hasMatch()) return QDoubleSpinBox::validate(text, place);
+  bool whole = false;
+  const double value = locale().toDouble(number, &whole);
+  return whole && value >= minimum() && value <= maximum() ? QValidator::Acceptable : QValidator::Intermediate;
+}
+
+double ExponentBox::valueFromText(const QString& text) const {
+  bool whole = false;
+  const double value = locale().toDouble(bare(text), &whole);
+  return whole ? value : QDoubleSpinBox::valueFromText(text);
+}
+
+QString ExponentBox::textFromValue(double value) const {
+  return locale().toString(value, 'g', 12);
+}
 
 void showExactly(QDoubleSpinBox& box, double value) {
   if (box.value() == value) return; // what is being typed stays as it is

@@ -12,6 +12,7 @@
 #include "app/gui/touch/LoadPathAnimation.h"
 #include "app/gui/touch/ResistancePage.h"
 #include "app/gui/views/PictureView.h"
+#include "app/gui/views/VtkView.h"
 #include "app/gui/widgets/AccessibleNames.h"
 #include "app/gui/widgets/WheelGuard.h"
 #include "app/gui/window/Layout.h"
@@ -108,6 +109,9 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
     showScene(scene); // nothing changes unseen
     showMessage(sentence);
   });
+  connect(&network, &NetworkSession::memoryNeeded, this, &MainWindow::giveBackMemory);
+  connect(&workbench, &Workbench::projectReplaced, this,
+          &MainWindow::giveBackMemory); // after the document let go of it
   setAcceptDrops(true);
   connect(new QShortcut(Qt::Key_Escape, this), &QShortcut::activated, this, &MainWindow::cancelAll);
   connect(rail_, &QListWidget::currentRowChanged, this, &MainWindow::sceneChosen);
@@ -145,6 +149,11 @@ void MainWindow::buildStatusLine() {
 void MainWindow::cancelAll() {
   if (&currentScene() == reports_) reports_->cancel();
   lamps_->cancel(names_[scenes_->currentIndex()]);
+}
+
+void MainWindow::giveBackMemory() {
+  workbench_.touch().rest();
+  giveBackViews(*this);
 }
 
 bool MainWindow::busy() const {

@@ -54,6 +54,8 @@ private:
   /// What the scene that is seen does; where it does nothing, what all do.
   void cancelAll();
   bool mayEndRecording();
+  /// What only scenes need that are not seen.
+  void giveBackMemory();
   void sceneChosen(int index);
   void restoreLayout();
 

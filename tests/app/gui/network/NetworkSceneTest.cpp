@@ -1,4 +1,5 @@
 #include "app/gui/jobs/ResultFiles.h"
+#include "app/gui/network/FitWords.h"
 #include "app/gui/views/ChartView.h"
 #include "app/gui/views/CsvExport.h"
 #include "app/gui/views/DataTable.h"
@@ -286,6 +287,56 @@ TEST_F(NetworkScene, TheFoldedOptionsTrainAsTheCommandThatIsShownSays) {
   find<QDoubleSpinBox>("testNoise").setValue(0);
   ASSERT_TRUE(QTest::qWaitFor([&] { return network.fit()->settings.testNoise == 0; }, kPatience_ms));
   EXPECT_LT(network.fit()->error.error.rmsePercentOfRange.norm(), noisy);
+}
+
+TEST_F(NetworkScene, TheMarkInTheListStaysWithItsNetworkAndEachEditKeepsOne) {
+  generate();
+  trained();
+  auto& list = find<QTreeWidget>("trainedNetworks");
+  find<QTabWidget>("networkTabs").setCurrentIndex(3);
+  list.setCurrentItem(list.topLevelItem(0));
+  find<QDoubleSpinBox>("spread").setValue(2);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.kept().size() == 2; }, kPatience_ms));
+  ASSERT_TRUE(idle());
+  EXPECT_EQ(list.indexOfTopLevelItem(list.currentItem()), 1);
+  find<QComboBox>("scaler").setCurrentText("minmax"); // another edit: the network of the spread stays
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.kept().size() == 3; }, kPatience_ms));
+  EXPECT_EQ(list.indexOfTopLevelItem(list.currentItem()), 2);
+  EXPECT_TRUE(list.topLevelItem(0)->text(3).contains("scaler minmax")) << list.topLevelItem(0)->text(3).toStdString();
+  EXPECT_EQ(list.topLevelItem(0)->toolTip(3), list.topLevelItem(0)->text(3)) << "the column may be cut";
+}
+
+TEST_F(NetworkScene, ANumberWithAnExponentIsTakenAsItIsWritten) {
+  auto& noise = find<QDoubleSpinBox>("noise");
+  noise.setFocus();
+  noise.selectAll();
+  QTest::keyClicks(&noise, "1e-4");
+  QTest::keyClick(&noise, Qt::Key_Return);
+  EXPECT_DOUBLE_EQ(noise.value(), 1e-4);
+  EXPECT_DOUBLE_EQ(workbench.project().network.noise, 1e-6) << "the box is in %";
+  EXPECT_EQ(noise.text(), "0.0001 %");
+}
+
+TEST_F(NetworkScene, SaysTheErrorInNewtonAndWhetherItWasTestedWithNoise) {
+  generate();
+  find<QDoubleSpinBox>("noise").setValue(0.01);
+  trained();
+  const QString words = find<QLabel>("fitWords").text();
+  EXPECT_TRUE(words.contains(triple(network.fit()->error.error.meanAbsolute, "N") + " on average"))
+      << words.toStdString();
+  EXPECT_TRUE(words.contains("tested without noise")) << words.toStdString();
+}
+
+TEST_F(NetworkScene, AComparisonOfOtherSettingsIsFaintWithTheReason) {
+  generate();
+  QTest::mouseClick(&find<QPushButton>("compare"), Qt::LeftButton);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.trials().size() == allDecoderKinds().size(); }, kPatience_ms));
+  ASSERT_TRUE(idle());
+  EXPECT_FALSE(find<ChartView>("trialsError").faint());
+  find<QDoubleSpinBox>("noise").setValue(0.01);
+  EXPECT_TRUE(find<ChartView>("trialsError").faint());
+  EXPECT_TRUE(find<QLabel>("trialsWords").text().contains("noise 0 %, now 0.01 %"))
+      << find<QLabel>("trialsWords").text().toStdString();
 }
 
 TEST_F(NetworkScene, EveryChartGivesItsPoints) {

@@ -1,7 +1,11 @@
 #include "app/gui/reports/ReportPlan.h"
 #include "app/gui/reports/ReportKinds.h"
 
+#include <QSettings>
+
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 namespace palp {
 namespace {
@@ -9,6 +13,7 @@ namespace {
 const std::vector<RunPart> kParts{{"short", 0.5, 2}, {"long", 1, 18}};
 
 TEST(ReportPlan, LeavesTheRestOfThePlanAsMuchSlowerAsTheRunWasSoFar) {
+  QSettings().remove("reportSpeed"); // of the windows of other tests
   const ReportPlan plan("plan-a", kParts);
   EXPECT_DOUBLE_EQ(plan.seconds(), 20);
   EXPECT_DOUBLE_EQ(plan.left_s(0, 0), 20);
@@ -18,15 +23,34 @@ TEST(ReportPlan, LeavesTheRestOfThePlanAsMuchSlowerAsTheRunWasSoFar) {
 }
 
 TEST(ReportPlan, TakesTheTimesOfTheLastRunOnThisMachine) {
+  QSettings().remove("reportSpeed");
   const ReportPlan first("plan-b", kParts);
   EXPECT_FALSE(first.measuredHere());
-  first.remember({1, 4});
+  first.remember({1, 4}, {});
   const ReportPlan second("plan-b", kParts);
   EXPECT_TRUE(second.measuredHere());
   EXPECT_DOUBLE_EQ(second.seconds(), 5);
+  EXPECT_DOUBLE_EQ(ReportPlan("plan-new", kParts).seconds(), 5) << "a machine four times as fast";
   const ReportPlan other("plan-b", {{"another division", 1, 7}}); // of another version of Palp
   EXPECT_FALSE(other.measuredHere());
-  EXPECT_DOUBLE_EQ(other.seconds(), 7);
+  EXPECT_DOUBLE_EQ(other.seconds(), 7.0 / 4);
+}
+
+TEST(ReportPlan, IsRightWithinAThirdOnTheSecondRunHoweverUnevenThePartsAre) {
+  // Nine tenths of the second part's time pass within a tenth of its progress; the second run is a half slower.
+  const std::vector<RunMoment> moments{{0.25, 1}, {0.5, 2}, {0.9, 3}, {0.95, 12}, {1, 20}};
+  ReportPlan("plan-c", kParts).remember({2, 18}, moments);
+  const ReportPlan plan("plan-c", kParts);
+  EXPECT_DOUBLE_EQ(plan.seconds(), 20);
+  for (double share = 0.1; share < 0.99; share += 0.01) {
+    const auto next =
+        std::find_if(moments.begin(), moments.end(), [share](const RunMoment& one) { return one.share >= share; });
+    const RunMoment before = next == moments.begin() ? RunMoment{} : *(next - 1);
+    const double way = (share - before.share) / (next->share - before.share);
+    const double elapsed_s = 1.5 * (before.seconds + way * (next->seconds - before.seconds));
+    if (elapsed_s < 3 || elapsed_s > 27) continue; // 10 % to 90 % of the run
+    EXPECT_NEAR(plan.left_s(share, elapsed_s), 30 - elapsed_s, (30 - elapsed_s) / 3) << share;
+  }
 }
 
 TEST(ReportPlan, EveryKindHasPartsThatGoUpToTheWhole) {
