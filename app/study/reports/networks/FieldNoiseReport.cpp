@@ -3,6 +3,7 @@
 #include "app/study/reports/Csv.h"
 #include "app/study/reports/ReportPage.h"
 #include "app/study/reports/layout/FieldResponse.h"
+#include "app/study/reports/networks/NoiseAxis.h"
 #include "model/base/Text.h"
 
 #include <array>
@@ -12,15 +13,6 @@
 namespace palp {
 
 namespace {
-
-const char* const kForces[3] = {"Fx", "Fy", "Fz"};
-constexpr std::array kNoises{1e-7, 1e-6, 1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 1e-2};
-constexpr double kShownNoise = 1e-4;
-constexpr double kDrawnUpTo_percent = 300; // ten times knowing nothing: what lies above would press the rest flat
-
-double rootMeanSquare(const Eigen::Vector3d& values) {
-  return values.norm() / std::sqrt(3.0);
-}
 
 using Sensitivity = std::vector<std::array<Eigen::MatrixXd, 3>>;
 
@@ -118,8 +110,8 @@ private:
         const Eigen::VectorXd own = slopesOf(reader, static_cast<std::size_t>(axis));
         factor(axis) = own.norm() / pairs.norm();
         correlation(axis) = own.dot(pairs) / (own.norm() * pairs.norm());
-        csv_.add({"signal over that of Eq. (1)", reader.name, "", "", kForces[axis], factor(axis)});
-        csv_.add({"correlation with Eq. (1)", reader.name, "", "", kForces[axis], correlation(axis)});
+        csv_.add({"signal over that of Eq. (1)", reader.name, "", "", kForceNames[axis], factor(axis)});
+        csv_.add({"correlation with Eq. (1)", reader.name, "", "", kForceNames[axis], correlation(axis)});
       }
       table.rows.push_back({reader.name, shortNumber(reader.rest_ohm.mean()),
                             shortNumber(reader.rest_ohm.maxCoeff() / reader.rest_ohm.minCoeff()), triple(factor),
@@ -181,8 +173,8 @@ private:
     const Eigen::Vector3d with = bound.withPrior(), without = bound.withoutPrior();
     const std::string rows = row < 0 ? "all" : std::to_string(row);
     for (int axis = 0; axis < 3; ++axis) {
-      csv_.add({"bound with prior [%]", reader, rows, noise, kForces[axis], with(axis)});
-      csv_.add({"bound without prior [%]", reader, rows, noise, kForces[axis], without(axis)});
+      csv_.add({"bound with prior [%]", reader, rows, noise, kForceNames[axis], with(axis)});
+      csv_.add({"bound without prior [%]", reader, rows, noise, kForceNames[axis], without(axis)});
     }
   }
 

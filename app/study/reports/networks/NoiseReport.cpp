@@ -4,6 +4,7 @@
 #include "app/study/reports/ReportPage.h"
 #include "app/study/reports/networks/FieldNoiseReport.h"
 #include "app/study/reports/networks/NetworkCheck.h"
+#include "app/study/reports/networks/NoiseAxis.h"
 #include "model/base/Text.h"
 
 #include <array>
@@ -13,11 +14,7 @@ namespace palp {
 
 namespace {
 
-const char* const kForces[3] = {"Fx", "Fy", "Fz"};
-constexpr std::array kNoises{1e-7, 1e-6, 1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 1e-2};
 constexpr std::array kTrainingNoises{0.0, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2};
-constexpr double kShownNoise = 1e-4;
-constexpr double kDrawnUpTo_percent = 300; ///< ten times knowing nothing: what lies above would press the rest flat
 
 /// Relative noise that rounding to so many bits makes where R is at full scale.
 double noiseOfBits(double bits) {
@@ -46,10 +43,6 @@ struct Rival {
 
 constexpr int kWithoutPriorColor = 5;
 constexpr int kWithPriorColor = 6;
-
-double rootMeanSquare(const Eigen::Vector3d& values) {
-  return values.norm() / std::sqrt(3.0);
-}
 
 void addPoint(ReportCurve& curve, double noise, double percent) {
   if (percent > kDrawnUpTo_percent) return;
@@ -122,7 +115,7 @@ private:
   void point(const std::string& rows, const std::string& what, double noise, double trained,
              const Eigen::Vector3d& percent) {
     for (int axis = 0; axis < 3; ++axis)
-      csv_.add({rows, what, noise, bitsOfNoise(noise), trained, kForces[axis], percent(axis),
+      csv_.add({rows, what, noise, bitsOfNoise(noise), trained, kForceNames[axis], percent(axis),
                 percent(axis) / 100 * range_N_(axis)});
     if (noise == kShownNoise && trained == noise) table_.rows.push_back({rows, what, triple(percent)});
   }
@@ -222,7 +215,7 @@ private:
         curve.y.push_back(rootMeanSquare(*error));
         for (int axis = 0; axis < 3; ++axis)
           csv_.add({choice->name, "training noise: rbf, one an area", kShownNoise, bitsOfNoise(kShownNoise), trained,
-                    kForces[axis], (*error)(axis), (*error)(axis) / 100 * range_N_(axis)});
+                    kForceNames[axis], (*error)(axis), (*error)(axis) / 100 * range_N_(axis)});
       }
       chart.curves.push_back(std::move(curve));
     }
