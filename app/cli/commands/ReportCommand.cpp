@@ -46,8 +46,11 @@ std::string commandLine(const ReportArguments& arguments) {
 Exit run(ReportArguments& arguments, Session& session) {
   if (arguments.folder.empty()) arguments.folder = "palp-report-" + arguments.kind;
   const OutputFolder folder(arguments.folder, arguments.force);
+  const std::vector<ReportComputation>& kinds = reportComputations();
+  const auto kind = std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) { return k.name == arguments.kind; });
   ReportRequest request;
-  request.design = designOption(arguments.design);
+  request.design = kind->underField ? designOption(arguments.design)
+                                    : pairsDesignOption(arguments.design, "report " + arguments.kind);
   request.folder = arguments.folder;
   request.mesh = arguments.mesh.options();
   requireMeshable(request.design, request.mesh); // some kinds mesh late
@@ -57,8 +60,6 @@ Exit run(ReportArguments& arguments, Session& session) {
   request.command = commandLine(arguments);
   request.programs = std::filesystem::read_symlink("/proc/self/exe").parent_path();
 
-  const std::vector<ReportComputation>& kinds = reportComputations();
-  const auto kind = std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) { return k.name == arguments.kind; });
   ProgressBar bar("report " + arguments.kind, 1000);
   const ReportOutcome outcome = runReport(
       *kind, request,
