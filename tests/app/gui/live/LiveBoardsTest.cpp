@@ -6,13 +6,10 @@
 #include "app/study/Resources.h"
 #include "app/study/live/SimulatedTouch.h"
 #include "io/SampleFile.h"
-#include "io/board/Recording.h"
-#include "tests/app/gui/live/LivePageFixture.h"
+#include "tests/app/gui/live/LiveOperatorFixture.h"
 
 #include <QListWidget>
-#include <QMessageBox>
 #include <QSpinBox>
-#include <QTemporaryDir>
 
 namespace palp {
 namespace {
@@ -96,18 +93,6 @@ protected:
     find<QLineEdit>(board, "recordFile").setText(file);
     click(board, "record");
     return wait([&] { return status(board).recording; });
-  }
-  /// Answers the next question.
-  static void answer(QMessageBox::StandardButton button) {
-    auto* timer = new QTimer(qApp);
-    QObject::connect(timer, &QTimer::timeout, timer, [timer, button] {
-      auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
-      if (box == nullptr) return;
-      timer->stop();
-      timer->deleteLater();
-      QTest::mouseClick(box->button(button), Qt::LeftButton);
-    });
-    timer->start(20);
   }
 
   Workbench workbench{exampleProject()};
@@ -216,11 +201,11 @@ TEST_F(TwoBoards, ABoardThatIsTakenAwayIsLetGoAndTheOtherGoesOn) {
 TEST_F(TwoBoards, ARecordingIsEndedOnlyByWhoSaysSo) {
   ASSERT_TRUE(shown());
   ASSERT_TRUE(records(1, folder.filePath("b.palprec")));
-  answer(QMessageBox::No);
+  answerQuestion(QMessageBox::No);
   click(1, "takeBoardAway");
   EXPECT_EQ(scene.count(), 2U);
   EXPECT_TRUE(status(1).recording);
-  answer(QMessageBox::Yes);
+  answerQuestion(QMessageBox::Yes);
   click(1, "takeBoardAway");
   EXPECT_EQ(scene.count(), 1U);
   EXPECT_TRUE(wait([&] { return bus->boards[1].opened == 0; }));
