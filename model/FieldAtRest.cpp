@@ -21,8 +21,11 @@ Eigen::Matrix3Xd electrodes_mm(const SensorDesign& design) {
 Eigen::MatrixXd potentialsAtRest_ohm(const Eigen::Vector3d& block_mm,
                                      const Eigen::Ref<const Eigen::Matrix3Xd>& electrodes, const FieldLaw& law,
                                      SphereModel model) {
+  return potentialsAtRest_ohm(boxGreen(block_mm, electrodes), law, model);
+}
+
+Eigen::MatrixXd potentialsAtRest_ohm(const BoxGreen& green, const FieldLaw& law, SphereModel model) {
   const double a = law.electrodeRadius_mm;
-  const BoxGreen green = boxGreen(block_mm, electrodes);
   Eigen::MatrixXd p = green.value;
   p.diagonal().array() += 1 / (4 * kPi * a);
   if (model == SphereModel::Dipoles)

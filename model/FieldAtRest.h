@@ -7,6 +7,8 @@
 
 namespace palp {
 
+struct BoxGreen;
+
 /// How far the electrodes' size is taken into account: as point sources alone, or with the dipoles that the field of
 /// all others induces in the conducting spheres.
 enum class SphereModel { Monopoles, Dipoles };
@@ -22,6 +24,9 @@ Eigen::Matrix3Xd electrodes_mm(const SensorDesign& design);
 Eigen::MatrixXd potentialsAtRest_ohm(const Eigen::Vector3d& block_mm,
                                      const Eigen::Ref<const Eigen::Matrix3Xd>& electrodes_mm, const FieldLaw& law,
                                      SphereModel model = SphereModel::Dipoles);
+
+/// The same of G that is known already.
+Eigen::MatrixXd potentialsAtRest_ohm(const BoxGreen& green, const FieldLaw& law, SphereModel model);
 
 /// The wires of a design at rest under a law of the field.
 TerminalNetwork networkAtRest(const SensorDesign& design, const FieldLaw& law,
