@@ -1,5 +1,6 @@
 #include "model/BoxGreen.h"
 
+#include "model/base/Parallel.h"
 #include "model/field/HeatKernel.h"
 
 #include <algorithm>
@@ -12,7 +13,9 @@ namespace palp {
 
 namespace {
 
-constexpr int kPointsAPanel = 14;
+constexpr double kDigits = 16;
+/// The direct kernel at no distance, times t^1.5.
+const double kFree = std::pow(4 * std::numbers::pi, -1.5);
 
 /// The distinct coordinates along an axis and which of them each point has: layouts on straight wires have few.
 struct AxisPlaces {
@@ -107,15 +110,23 @@ double nearest(const Eigen::Vector3d& block, const Eigen::Ref<const Eigen::Matri
         least,
         std::sqrt(
             (points.rightCols(points.cols() - p - 1).colwise() - points.col(p)).colwise().squaredNorm().minCoeff()));
+  assert(least > 0 && "points lie inside the block, no two at one place");
   return least;
 }
 
-/// What one time adds to the sums.
+/// The sums over time, column by column.
 class Sums {
 public:
   Sums(const Eigen::Vector3d& block, const Eigen::Ref<const Eigen::Matrix3Xd>& points, bool withCurvature)
-      : block_(block), places_{AxisPlaces(points.row(0)), AxisPlaces(points.row(1)), AxisPlaces(points.row(2))},
-        self_(withCurvature ? static_cast<std::size_t>(points.cols()) : 0, Eigen::Matrix3d::Zero()) {
+      : withCurvature_(withCurvature), even_(1 / block.prod()),
+        times_(heatTimes(nearest(block, points), block.maxCoeff(), kDigits)), places_{AxisPlaces(points.row(0)),
+                                                                                      AxisPlaces(points.row(1)),
+                                                                                      AxisPlaces(points.row(2))},
+        tables_(static_cast<std::size_t>(times_.time.size())) {
+    for (std::size_t t = 0; t < tables_.size(); ++t)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        tables_[t][axis] =
+            tablesOf(places_[axis], times_.time(static_cast<Eigen::Index>(t)), block(static_cast<Eigen::Index>(axis)));
     const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(points.cols(), points.cols());
     green.value = zero;
     green.slope.fill(zero);
@@ -124,58 +135,48 @@ public:
     green.curvature.mixed.fill(zero);
   }
 
-  void add(double time, double weight) {
-    std::array<Tables, 3> tables;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      tables[axis] = tablesOf(places_[axis], time, block_(static_cast<Eigen::Index>(axis)));
-    const double even = 1 / block_.prod();
-    const double free = std::pow(4 * std::numbers::pi * time, -1.5); // the direct kernel at no distance
+  void addColumn(Eigen::Index q) {
     Column column;
-    for (Eigen::Index q = 0; q < green.value.cols(); ++q) {
-      for (std::size_t axis = 0; axis < 3; ++axis) column[axis].read(tables[axis], places_[axis], q);
+    Eigen::Matrix3d self = Eigen::Matrix3d::Zero();
+    for (std::size_t t = 0; t < tables_.size(); ++t) {
+      const double time = times_.time(static_cast<Eigen::Index>(t)),
+                   weight = times_.weight(static_cast<Eigen::Index>(t));
+      for (std::size_t axis = 0; axis < 3; ++axis) column[axis].read(tables_[t][axis], places_[axis], q);
       const auto& [x, y, z] = column;
-      green.value.col(q).array() += weight * (x.k * y.k * z.k - even);
-      green.value(q, q) -= weight * free;
+      green.value.col(q).array() += weight * (x.k * y.k * z.k - even_);
+      green.value(q, q) -= weight * kFree * std::pow(time, -1.5);
       green.slope[0].col(q).array() += weight * x.a * y.k * z.k;
       green.slope[1].col(q).array() += weight * x.k * y.a * z.k;
       green.slope[2].col(q).array() += weight * x.k * y.k * z.a;
-      if (self_.empty()) continue;
+      if (!withCurvature_) continue;
       addCurvature(green.curvature, column, q, weight);
-      addSelf(self_[static_cast<std::size_t>(q)], column, q, weight);
+      addSelf(self, column, q, weight);
     }
-  }
-
-  void finish(const HeatTimes& times) {
-    const double even = 1 / block_.prod();
-    green.value.array() -= times.first * even; // no kernel has arrived yet, its mean has
-    // of the direct kernel what lies beyond the last time
-    green.value.diagonal().array() -= 2 * std::pow(4 * std::numbers::pi, -1.5) / std::sqrt(times.last);
-    for (std::size_t q = 0; q < self_.size(); ++q) {
-      const auto at = static_cast<Eigen::Index>(q);
-      for (Eigen::MatrixXd& part : green.curvature.own) part(at, at) = 0;
-      for (std::size_t i = 0; i < 9; ++i)
-        green.curvature.mixed[i](at, at) = self_[q](static_cast<Eigen::Index>(i / 3), static_cast<Eigen::Index>(i % 3));
-    }
+    green.value.col(q).array() -= times_.before * even_; // no kernel has arrived yet, its mean has
+    green.value(q, q) -= times_.after * kFree;
+    if (!withCurvature_) return;
+    for (Eigen::MatrixXd& part : green.curvature.own) part(q, q) = 0;
+    for (std::size_t i = 0; i < 9; ++i)
+      green.curvature.mixed[i](q, q) = self(static_cast<Eigen::Index>(i / 3), static_cast<Eigen::Index>(i % 3));
   }
 
   BoxGreen green;
 
 private:
-  Eigen::Vector3d block_;
+  bool withCurvature_;
+  double even_; ///< what all comes to, 1 / V
+  HeatTimes times_;
   std::array<AxisPlaces, 3> places_;
-  std::vector<Eigen::Matrix3d> self_;
+  std::vector<std::array<Tables, 3>> tables_; ///< at each time
 };
 
 } // namespace
 
 BoxGreen boxGreen(const Eigen::Vector3d& block_mm, const Eigen::Ref<const Eigen::Matrix3Xd>& points_mm,
-                  bool withCurvature) {
-  const double least = nearest(block_mm, points_mm);
-  assert(least > 0 && "points lie inside the block, no two at one place");
-  const HeatTimes times = heatTimes(least, block_mm.maxCoeff(), kPointsAPanel);
+                  bool withCurvature, int threads) {
   Sums sums(block_mm, points_mm, withCurvature);
-  for (Eigen::Index i = 0; i < times.time.size(); ++i) sums.add(times.time(i), times.weight(i));
-  sums.finish(times);
+  inParallel(static_cast<std::size_t>(points_mm.cols()), threads,
+             [&](std::size_t q) { sums.addColumn(static_cast<Eigen::Index>(q)); });
   return std::move(sums.green);
 }
 

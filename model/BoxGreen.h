@@ -23,8 +23,9 @@ struct BoxGreen {
   Curvature curvature; ///< empty unless asked for
 };
 
-/// Of points (3 x n, no two at one place) inside the block, origin at a corner; exact to rounding.
+/// Of points (3 x n, no two at one place) inside the block, origin at a corner; exact to rounding. `threads` 0: all
+/// cores, the same bytes at any number.
 BoxGreen boxGreen(const Eigen::Vector3d& block_mm, const Eigen::Ref<const Eigen::Matrix3Xd>& points_mm,
-                  bool withCurvature = false);
+                  bool withCurvature = false, int threads = 1);
 
 } // namespace palp

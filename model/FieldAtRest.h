@@ -8,6 +8,8 @@
 
 namespace palp {
 
+struct BoxGreen;
+
 /// How far the electrodes' size is taken into account: as point sources alone, or with the dipoles that the field of
 /// all others induces in the conducting spheres.
 enum class SphereModel { Monopoles, Dipoles };

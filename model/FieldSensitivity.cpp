@@ -20,11 +20,17 @@ constexpr std::size_t kOwn[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
 
 } // namespace
 
-FieldSensitivity::FieldSensitivity(SensorDesign design, const FieldLaw& law, SphereModel model, double fineness)
-    : design_(std::move(design)), law_(law), network_(networkAtRest(design_, law_, model)),
+FieldSensitivity::FieldSensitivity(const SensorDesign& design, const FieldLaw& law, SphereModel model, double fineness,
+                                   int threads)
+    : FieldSensitivity(design, law, model, fineness,
+                       boxGreen(design.block_mm, electrodes_mm(design), model == SphereModel::Dipoles, threads)) {}
+
+FieldSensitivity::FieldSensitivity(SensorDesign design, const FieldLaw& law, SphereModel model, double fineness,
+                                   const BoxGreen& green)
+    : design_(std::move(design)), law_(law),
+      network_(potentials_ohm(green, law_, model), wireCounts(design_), law_.wire_ohm),
       dipole_(model == SphereModel::Dipoles ? 4 * std::numbers::pi * std::pow(law_.electrodeRadius_mm, 3) : 0),
       faces_(movingFaces(design_, fineness)) {
-  const BoxGreen green = boxGreen(design_.block_mm, electrodes_mm(design_), dipole_ > 0);
   const Eigen::MatrixXd& q = network_.currents();
   for (std::size_t i = 0; i < 3; ++i) gradient_[i] = green.slope[i] * q;
   pull_ = gradient_;

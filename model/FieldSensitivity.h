@@ -11,6 +11,7 @@
 
 namespace palp {
 
+struct BoxGreen;
 struct FaceGrid;
 
 /// A small motion of the sensor: what its resistances follow.
@@ -24,8 +25,9 @@ struct SensorMotion {
 class FieldSensitivity {
 public:
   /// `fineness` divides the panels of the quadrature over the faces; 1 leaves about 1e-4 of d ln R, 2 about 1e-6.
-  FieldSensitivity(SensorDesign design, const FieldLaw& law, SphereModel model = SphereModel::Dipoles,
-                   double fineness = 1);
+  /// `threads` 0: all cores, the same bytes at any number.
+  FieldSensitivity(const SensorDesign& design, const FieldLaw& law, SphereModel model = SphereModel::Dipoles,
+                   double fineness = 1, int threads = 1);
   ~FieldSensitivity();
   FieldSensitivity(FieldSensitivity&&) noexcept;
 
@@ -39,6 +41,7 @@ public:
                                                                 int threads = 0) const;
 
 private:
+  FieldSensitivity(SensorDesign design, const FieldLaw& law, SphereModel model, double fineness, const BoxGreen& green);
   [[nodiscard]] Eigen::MatrixXd ofElectrodes(const Eigen::Matrix3Xd& motion_mm) const;
 
   SensorDesign design_;

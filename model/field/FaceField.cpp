@@ -9,7 +9,7 @@ namespace palp {
 
 namespace {
 
-constexpr int kPointsAPanel = 7;          // in time; the quadrature on the face is good to 1e-5
+constexpr double kDigits = 7;             // of the integrals over time; the quadrature on the face leaves 1e-5
 constexpr Eigen::Index kLinePoints = 512; // points of a face that are worked on at a time
 
 /// Kernels along an axis from each electrode to each place, at all times: places x times.
@@ -66,7 +66,7 @@ struct UnitFields {
 class FaceWork {
 public:
   FaceWork(const Eigen::Vector3d& block, const FaceGrid& face, const ElectrodeSources& sources, int threads)
-      : face_(face), sources_(sources), times_(heatTimes(face.nearest_mm, block.maxCoeff(), kPointsAPanel)),
+      : face_(face), sources_(sources), times_(heatTimes(face.nearest_mm, block.maxCoeff(), kDigits)),
         normal_(Eigen::ArrayXd::Constant(1, face.at_mm), sources.electrodes_mm.row(face.axis), times_.time,
                 block(face.axis), threads),
         u_(face.u_mm, sources.electrodes_mm.row(face.first), times_.time, block(face.first), threads),
@@ -78,23 +78,23 @@ public:
             sources.dipoles[static_cast<std::size_t>(axis)];
   }
 
-  /// Adds what the lines v = [begin, end) of the face give to the sum of each motion.
-  void add(std::vector<Eigen::MatrixXd>& sums, const Eigen::Ref<const Eigen::MatrixXd>& motions, Eigen::Index begin,
-           Eigen::Index end) const {
-    const Eigen::Index along = face_.u_mm.size(), points = along * (end - begin);
-    const Eigen::VectorXd weights =
-        (face_.uWeights.matrix() * face_.vWeights.segment(begin, end - begin).matrix().transpose()).reshaped();
+  /// What the lines v = [begin, end) of the face give to each motion: pairs of wires (a <= b, by b) x motions.
+  [[nodiscard]] Eigen::MatrixXd ofLines(const Eigen::Ref<const Eigen::MatrixXd>& motions, Eigen::Index begin,
+                                        Eigen::Index end) const {
+    const Eigen::Index along = face_.u_mm.size(), points = along * (end - begin), wires = sources_.currents.cols();
+    Eigen::MatrixXd products = Eigen::MatrixXd::Zero(points, wires * (wires + 1) / 2);
     for (const bool alongU : {true, false}) {
       const UnitFields unit = fields(alongU, begin, end);
       const Eigen::MatrixXd phi = unit.monopoles * sources_.currents;
       Eigen::MatrixXd half = phi / 2; // phi_a half_b + half_a phi_b is the integrand
       if (dipoles()) half += unit.dipoles * moments_;
-      for (std::size_t m = 0; m < sums.size(); ++m) {
-        const Eigen::VectorXd shares =
-            weights.cwiseProduct(motions.col(static_cast<Eigen::Index>(m)).segment(begin * along, points));
-        sums[m].noalias() -= phi.transpose() * (shares.asDiagonal() * half);
-      }
+      for (Eigen::Index b = 0, pair = 0; b < wires; ++b)
+        for (Eigen::Index a = 0; a <= b; ++a, ++pair)
+          products.col(pair) += phi.col(a).cwiseProduct(half.col(b)) + half.col(a).cwiseProduct(phi.col(b));
     }
+    const Eigen::VectorXd weights =
+        (face_.uWeights.matrix() * face_.vWeights.segment(begin, end - begin).matrix().transpose()).reshaped();
+    return -(products.transpose() * (weights.asDiagonal() * motions.middleRows(begin * along, points)));
   }
 
 private:
@@ -137,19 +137,21 @@ std::vector<Eigen::MatrixXd> faceChanges(const Eigen::Vector3d& block_mm, const 
                                          const ElectrodeSources& sources,
                                          const Eigen::Ref<const Eigen::MatrixXd>& motions, int threads) {
   const FaceWork work(block_mm, face, sources, threads);
-  const Eigen::Index wires = sources.currents.cols();
-  const std::vector<Eigen::MatrixXd> zero(static_cast<std::size_t>(motions.cols()),
-                                          Eigen::MatrixXd::Zero(wires, wires));
   const int lines = static_cast<int>(face.v_mm.size());
   const int chunk = std::max(1, static_cast<int>(kLinePoints / face.u_mm.size()));
-  std::vector<std::vector<Eigen::MatrixXd>> parts(static_cast<std::size_t>((lines + chunk - 1) / chunk), zero);
-  forChunks(lines, chunk, threads,
-            [&](int begin, int end) { work.add(parts[static_cast<std::size_t>(begin / chunk)], motions, begin, end); });
-  std::vector<Eigen::MatrixXd> sums = zero;
-  for (const std::vector<Eigen::MatrixXd>& part : parts) // in one order at any number of threads
-    for (std::size_t m = 0; m < sums.size(); ++m) sums[m] += part[m];
-  for (Eigen::MatrixXd& sum : sums) sum = (sum + sum.transpose()).eval();
-  return sums;
+  std::vector<Eigen::MatrixXd> parts(static_cast<std::size_t>((lines + chunk - 1) / chunk));
+  forChunks(lines, chunk, threads, [&](int begin, int end) {
+    parts[static_cast<std::size_t>(begin / chunk)] = work.ofLines(motions, begin, end);
+  });
+  Eigen::MatrixXd sum = parts.front();
+  for (std::size_t i = 1; i < parts.size(); ++i) sum += parts[i]; // in one order at any number of threads
+  std::vector<Eigen::MatrixXd> changes;
+  for (Eigen::Index m = 0; m < motions.cols(); ++m) {
+    Eigen::MatrixXd& change = changes.emplace_back(sources.currents.cols(), sources.currents.cols());
+    for (Eigen::Index b = 0, pair = 0; b < change.cols(); ++b)
+      for (Eigen::Index a = 0; a <= b; ++a, ++pair) change(a, b) = change(b, a) = sum(pair, m);
+  }
+  return changes;
 }
 
 } // namespace palp

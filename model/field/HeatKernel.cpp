@@ -8,7 +8,6 @@ namespace palp {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kPanel = 1.9; // widest in ln t
 
 KernelJet byImages(double s, double time, double length) {
   const double norm = 1 / std::sqrt(4 * kPi * time);
@@ -44,15 +43,18 @@ KernelJet circleKernel(double s, double time, double length) {
   return time < length * length / kPi ? byImages(s, time, length) : byCosines(s, time, length);
 }
 
-HeatTimes heatTimes(double nearest_mm, double longest_mm, int pointsAPanel) {
+HeatTimes heatTimes(double nearest_mm, double longest_mm, double digits) {
+  const double exponent = digits * std::log(10.0), step = kPi * kPi / exponent;
+  const double end = exponent + 3;                                   // derivatives come with powers of it
+  const double first = nearest_mm * nearest_mm / (4 * end);          // exp(-d^2 / 4 t) = exp(-end)
+  const double last = end * (longest_mm / kPi) * (longest_mm / kPi); // exp(-(pi / L)^2 t) = exp(-end)
+  const auto steps = static_cast<Eigen::Index>(std::ceil(std::log(last / first) / step));
   HeatTimes times;
-  times.first = nearest_mm * nearest_mm / 160;               // exp(-d^2 / 4 t) = exp(-40)
-  times.last = 45 * (longest_mm / kPi) * (longest_mm / kPi); // exp(-(pi / L)^2 t) = exp(-45)
-  const double low = std::log(times.first), high = std::log(times.last);
-  const int panels = static_cast<int>(std::ceil((high - low) / kPanel));
-  const QuadratureRule rule = gaussOnPanels(Eigen::ArrayXd::LinSpaced(panels + 1, low, high), pointsAPanel);
-  times.time = rule.points.exp();
-  times.weight = rule.weights * times.time;
+  times.time = first * (step * Eigen::ArrayXd::LinSpaced(steps + 1, 0, static_cast<double>(steps))).exp();
+  times.weight = step * times.time;
+  // geometric series
+  times.before = step * first / std::expm1(step);
+  times.after = step / std::sqrt(times.time(steps)) / std::expm1(step / 2);
   return times;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/field/GaussLegendre.h"
+#include <Eigen/Core>
 
 namespace palp {
 
@@ -16,15 +16,17 @@ struct KernelJet {
 /// 1e-16 (Jacobi's imaginary transformation of the theta function). s within -2 L .. 2 L.
 KernelJet circleKernel(double s, double time, double length);
 
-/// Points and weights for integrals over time of products of three such kernels, by Gauss's rule in ln t.
+/// Points and weights for integrals over time of products of three such kernels: the trapezoidal rule in ln t, which
+/// converges as exp(-pi^2 / step) where the integrand is analytic for Re t > 0 (L. N. Trefethen, J. A. C. Weideman,
+/// SIAM Review 56, 2014, section 5).
 struct HeatTimes {
   Eigen::ArrayXd time;
   Eigen::ArrayXd weight;
-  double first = 0; ///< before it nothing has come as far as `nearest_mm`
-  double last = 0;  ///< after it all is even over `longest_mm`
+  double before = 0; ///< weights of all earlier times, where nothing has come as far as `nearest_mm`
+  double after = 0;  ///< weights / time^1.5 of all later times, where all is even over `longest_mm`
 };
 
-/// With 14 points a panel the integrals are good to 1e-16, with 7 to 1e-8.
-HeatTimes heatTimes(double nearest_mm, double longest_mm, int pointsAPanel);
+/// `digits` of the integrals: 16 for closed forms to rounding.
+HeatTimes heatTimes(double nearest_mm, double longest_mm, double digits);
 
 } // namespace palp

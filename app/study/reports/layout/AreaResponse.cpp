@@ -1,6 +1,7 @@
 #include "app/study/reports/layout/AreaResponse.h"
 
 #include "model/DesignError.h"
+#include "model/base/Parallel.h"
 #include "solver/HyperelasticProblem.h"
 #include "solver/PointProbe.h"
 
@@ -109,13 +110,16 @@ std::optional<AreaResponse> AreaResponse::atRest(const SensorDesign& design, con
 }
 
 std::vector<std::array<Eigen::Matrix3Xd, 3>>
-AreaResponse::perNewtonAt(const Eigen::Ref<const Eigen::Matrix3Xd>& points_mm) const {
-  const PointProbe probe(mesh_, points_mm);
-  std::vector<std::array<Eigen::Matrix3Xd, 3>> result;
-  for (const AreaState& area : areas_) {
-    std::array<Eigen::Matrix3Xd, 3>& slopes = result.emplace_back();
-    for (std::size_t axis = 0; axis < 3; ++axis) slopes[axis] = probe.displacements_mm(area.perNewton[axis]);
-  }
+AreaResponse::perNewtonAt(const Eigen::Ref<const Eigen::Matrix3Xd>& points_mm, int threads) const {
+  std::vector<std::array<Eigen::Matrix3Xd, 3>> result(areas_.size());
+  for (auto& slopes : result) slopes.fill(Eigen::Matrix3Xd(3, points_mm.cols()));
+  constexpr int kChunk = 2500;
+  forChunks(static_cast<int>(points_mm.cols()), kChunk, threads, [&](int begin, int end) {
+    const PointProbe probe(mesh_, points_mm.middleCols(begin, end - begin));
+    for (std::size_t area = 0; area < areas_.size(); ++area)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        result[area][axis].middleCols(begin, end - begin) = probe.displacements_mm(areas_[area].perNewton[axis]);
+  });
   return result;
 }
 

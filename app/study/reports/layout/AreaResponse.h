@@ -39,7 +39,7 @@ public:
 
   /// Derivatives of the displacement by Fx, Fy, Fz [mm/N] at points of the block, 3 x points. One an area.
   [[nodiscard]] std::vector<std::array<Eigen::Matrix3Xd, 3>>
-  perNewtonAt(const Eigen::Ref<const Eigen::Matrix3Xd>& points_mm) const;
+  perNewtonAt(const Eigen::Ref<const Eigen::Matrix3Xd>& points_mm, int threads) const;
 
   [[nodiscard]] const Mesh& mesh() const { return mesh_; }
 

@@ -15,11 +15,16 @@ void requireSmooth(const SensorDesign& layout) {
 
 } // namespace
 
-FieldResponse::FieldResponse(const SensorDesign& layout, const FieldLaw& law, const AreaResponse& response, int threads)
-    : network_(networkAtRest(layout, law)), range_N_(layout.forceRange.high_N - layout.forceRange.low_N) {
+FieldResponse::FieldResponse(const SensorDesign& layout, const FieldLaw& law, const AreaResponse& response, int threads,
+                             double fineness)
+    : FieldResponse(layout, FieldSensitivity(layout, law, SphereModel::Dipoles, fineness, threads), response, threads) {
+}
+
+FieldResponse::FieldResponse(const SensorDesign& layout, const FieldSensitivity& field, const AreaResponse& response,
+                             int threads)
+    : network_(field.network()), range_N_(layout.forceRange.high_N - layout.forceRange.low_N) {
   requireSmooth(layout);
-  const FieldSensitivity field(layout, law);
-  const auto faces = response.perNewtonAt(field.facePoints_mm());
+  const auto faces = response.perNewtonAt(field.facePoints_mm(), threads);
   const std::vector<ElectrodeResponse> electrodes = response.read(layout, -1);
   std::vector<SensorMotion> motions;
   for (std::size_t area = 0; area < faces.size(); ++area)

@@ -10,13 +10,16 @@
 
 namespace palp {
 
+class FieldSensitivity;
+
 /// How the resistances of a layout under the field follow the forces on each area, to first order at rest: no mesh for
 /// the field, and another read-out costs nothing.
 class FieldResponse {
 public:
-  /// `response` is that of the same block at rest (AreaResponse::atRest). Throws DesignError where the design has a
-  /// pressure law, which has a kink at rest.
-  FieldResponse(const SensorDesign& layout, const FieldLaw& law, const AreaResponse& response, int threads);
+  /// `response` is that of the same block at rest (AreaResponse::atRest); `fineness` as FieldSensitivity's. Throws
+  /// DesignError where the design has a pressure law, which has a kink at rest.
+  FieldResponse(const SensorDesign& layout, const FieldLaw& law, const AreaResponse& response, int threads,
+                double fineness = 1);
 
   /// At rest, row-wires x column-wires.
   [[nodiscard]] Eigen::MatrixXd resistances_ohm(Readout readout) const;
@@ -26,6 +29,8 @@ public:
   [[nodiscard]] LayoutBound bound(Readout readout, int rowWire, double relativeNoise) const;
 
 private:
+  FieldResponse(const SensorDesign& layout, const FieldSensitivity& field, const AreaResponse& response, int threads);
+
   TerminalNetwork network_;
   Eigen::Vector3d range_N_;
   std::vector<std::array<Eigen::MatrixXd, 3>> conductanceChanges_; ///< dY / dF, one an area

@@ -83,6 +83,15 @@ TEST(FieldResponse, OfASmallForceIsThatOfTheSolvedField) {
   }
 }
 
+TEST(FieldResponse, HasTheSameBytesAtAnyNumberOfThreads) {
+  const palp::FieldResponse one(followingDesign(), fieldLaw(), response(), 1),
+      three(followingDesign(), fieldLaw(), response(), 3);
+  const auto first = one.logSensitivity(Readout::Floating), second = three.logSensitivity(Readout::Floating);
+  for (std::size_t area = 0; area < first.size(); ++area)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      EXPECT_EQ(first[area][axis], second[area][axis]) << area << " " << axis;
+}
+
 TEST(FieldResponse, RefusesAPressureLaw) {
   palp::SensorDesign design = palp::paperDesign();
   design.pressureLaw = palp::PressureLaw{};
