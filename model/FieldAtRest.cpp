@@ -1,7 +1,5 @@
 #include "model/FieldAtRest.h"
 
-#include "model/BoxGreen.h"
-
 #include <numbers>
 
 namespace palp {
@@ -18,18 +16,25 @@ Eigen::Matrix3Xd electrodes_mm(const SensorDesign& design) {
   return all;
 }
 
-Eigen::MatrixXd potentialsAtRest_ohm(const Eigen::Vector3d& block_mm,
-                                     const Eigen::Ref<const Eigen::Matrix3Xd>& electrodes, const FieldLaw& law,
-                                     SphereModel model) {
+double contactResistance_ohm(const FieldLaw& law) {
+  return law.contact_ohm_mm2 / (4 * kPi * law.electrodeRadius_mm * law.electrodeRadius_mm);
+}
+
+Eigen::MatrixXd potentials_ohm(const BoxGreen& green, const FieldLaw& law, SphereModel model) {
   const double a = law.electrodeRadius_mm;
-  const BoxGreen green = boxGreen(block_mm, electrodes);
   Eigen::MatrixXd p = green.value;
   p.diagonal().array() += 1 / (4 * kPi * a);
   if (model == SphereModel::Dipoles)
     for (const Eigen::MatrixXd& slope : green.slope) p -= 4 * kPi * a * a * a * slope.transpose() * slope;
   p *= law.resistivity_ohm_mm;
-  p.diagonal().array() += law.contact_ohm_mm2 / (4 * kPi * a * a);
+  p.diagonal().array() += contactResistance_ohm(law);
   return p;
+}
+
+Eigen::MatrixXd potentialsAtRest_ohm(const Eigen::Vector3d& block_mm,
+                                     const Eigen::Ref<const Eigen::Matrix3Xd>& electrodes, const FieldLaw& law,
+                                     SphereModel model) {
+  return potentials_ohm(boxGreen(block_mm, electrodes), law, model);
 }
 
 TerminalNetwork networkAtRest(const SensorDesign& design, const FieldLaw& law, SphereModel model) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "model/BoxGreen.h"
 #include "model/SensorDesign.h"
 #include "model/TerminalNetwork.h"
 
@@ -22,6 +23,11 @@ Eigen::Matrix3Xd electrodes_mm(const SensorDesign& design);
 Eigen::MatrixXd potentialsAtRest_ohm(const Eigen::Vector3d& block_mm,
                                      const Eigen::Ref<const Eigen::Matrix3Xd>& electrodes_mm, const FieldLaw& law,
                                      SphereModel model = SphereModel::Dipoles);
+
+/// The same of any block, from Green's function between its electrodes (as BoxGreen has it) for conductivity 1.
+Eigen::MatrixXd potentials_ohm(const BoxGreen& green, const FieldLaw& law, SphereModel model = SphereModel::Dipoles);
+/// Of one electrode's contact with the rubber: contact / (4 pi a^2).
+double contactResistance_ohm(const FieldLaw& law);
 
 /// The wires of a design at rest under a law of the field.
 TerminalNetwork networkAtRest(const SensorDesign& design, const FieldLaw& law,

@@ -45,6 +45,11 @@ Eigen::MatrixXd WireCounts::sumsByWire(const Eigen::Ref<const Eigen::MatrixXd>& 
   return sums;
 }
 
+Eigen::VectorXd WireCounts::atElectrodes(const Eigen::Ref<const Eigen::VectorXd>& all) const {
+  assert(all.size() == this->wires() && "one value for each wire");
+  return incidence(*this) * all;
+}
+
 TerminalNetwork::TerminalNetwork(const Eigen::Ref<const Eigen::MatrixXd>& potentials_ohm, const WireCounts& counts,
                                  double wire_ohm)
     : counts_(counts) {

@@ -20,6 +20,8 @@ struct WireCounts {
   }
   /// Adds up the rows of a matrix that has one for each electrode: B' x, wires x columns.
   [[nodiscard]] Eigen::MatrixXd sumsByWire(const Eigen::Ref<const Eigen::MatrixXd>& electrodes) const;
+  /// What each electrode has of its wire: B x.
+  [[nodiscard]] Eigen::VectorXd atElectrodes(const Eigen::Ref<const Eigen::VectorXd>& wires) const;
 };
 
 /// The block as its wires see it. With V = P I + const, sum I = 0 between the electrodes and one potential v for all of
@@ -53,6 +55,10 @@ public:
 
   /// Row-wires x column-wires [ohm].
   [[nodiscard]] const Eigen::MatrixXd& resistances_ohm() const { return resistances_ohm_; }
+  /// The terminals' potentials while this resistance is read, in some unit and from some zero.
+  [[nodiscard]] Eigen::VectorXd potentials(int rowWire, int columnWire) const {
+    return drive_.col(rowWire + rows_ * columnWire);
+  }
   /// d ln R, row-wires x column-wires, for a small change of the conductances Y (symmetric): d ln R = - s a' dY b, with
   /// b the wires' potentials while R is read, a those that the theorem of adjoint networks belongs to and s a number
   /// (L. O. Chua, P.-M. Lin, Computer-Aided Analysis of Electronic Circuits, 1975, chapter 15).

@@ -18,11 +18,6 @@ struct PointState {
   double pressure = 0;
 };
 
-Eigen::Vector4d tetNode(int n) {
-  if (n < 4) return Eigen::Vector4d::Unit(n);
-  return (Eigen::Vector4d::Unit(tetEdges[n - 4][0]) + Eigen::Vector4d::Unit(tetEdges[n - 4][1])) / 2;
-}
-
 PointState tetAtNode(const Mesh& mesh, const TetGeometry& geometry, const LoadIncrement& state, int element, int n) {
   const Eigen::Vector4d l = tetNode(n);
   const Eigen::Matrix<double, 3, 10> dN = tetShapeGradients(geometry, l);

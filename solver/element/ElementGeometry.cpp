@@ -46,6 +46,11 @@ Eigen::Matrix<double, 3, 10> tetShapeGradients(const TetGeometry& geometry, cons
   return dN;
 }
 
+Eigen::Vector4d tetNode(int n) {
+  if (n < 4) return Eigen::Vector4d::Unit(n);
+  return (Eigen::Vector4d::Unit(tetEdges[n - 4][0]) + Eigen::Vector4d::Unit(tetEdges[n - 4][1])) / 2;
+}
+
 double tetBubble(const Eigen::Vector4d& l) {
   return 256 * l.prod();
 }

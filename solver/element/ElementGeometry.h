@@ -16,6 +16,8 @@ TetGeometry tetGeometry(const Mesh& mesh, int element);
 /// Quadratic shape functions at barycentric coordinates, in VTK's order; the quartic bubble.
 Eigen::Matrix<double, 10, 1> tetShapes(const Eigen::Vector4d& barycentric);
 Eigen::Matrix<double, 3, 10> tetShapeGradients(const TetGeometry& geometry, const Eigen::Vector4d& barycentric);
+/// Barycentric coordinates of node n.
+Eigen::Vector4d tetNode(int n);
 double tetBubble(const Eigen::Vector4d& barycentric);
 Eigen::Vector3d tetBubbleGradient(const TetGeometry& geometry, const Eigen::Vector4d& barycentric);
 

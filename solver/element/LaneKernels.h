@@ -20,6 +20,12 @@ struct BlockedFactor {
   const float* values;
 };
 
+/// Points of a surface, six numbers each in arrays of their own: place, and outward normal times area.
+struct SurfacePoints {
+  const double *x, *y, *z, *ax, *ay, *az;
+  std::ptrdiff_t count;
+};
+
 struct LaneKernels {
   /// Substitution through supernodes first .. last - 1 for x [rows + 1][batchLanes]: x becomes L^-1 x from the first
   /// supernode to the last (forward), or L^-T x from the last to the first (backward). Lanes whose block of 8 is not
@@ -38,6 +44,8 @@ struct LaneKernels {
   void (*subtract)(const double* forces, const int* nodes, int count, double* values);
   /// scale[lane] x[rows[component]][lane], at the same components, for 8 lanes of x [rows + 1][batchLanes].
   void (*gatherScaled)(const float* x, const int* rows, const double* scale, const int* nodes, int count, double* out);
+  /// potential += 1/r and flux -= area . r / r^3 at each point, r from the source at three coordinates.
+  void (*addPointSource)(const SurfacePoints&, const double* source, double* potential, double* flux);
 };
 const LaneKernels& laneKernels();
 

@@ -38,9 +38,8 @@ StripSpec timeAxis(const LiveHistory& history, const LiveSettings& settings) {
   const auto& entries = history.entries();
   if (entries.empty()) return spec;
   spec.end_s = entries.back().t_s;
-  for (std::size_t k = std::max<std::size_t>(1, firstShown(history, settings.window_s)); k < entries.size(); ++k)
-    if (entries[k].frame->mark != entries[k - 1].frame->mark)
-      spec.marks.emplace_back(entries[k].t_s, QString::fromStdString(entries[k].frame->mark));
+  for (std::size_t k = firstShown(history, settings.window_s); k < entries.size(); ++k)
+    if (entries[k].newMark) spec.marks.emplace_back(entries[k].t_s, QString::fromStdString(entries[k].frame->mark));
   return spec;
 }
 

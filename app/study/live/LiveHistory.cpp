@@ -30,7 +30,11 @@ std::string quoted(const std::string& text) {
 } // namespace
 
 void LiveHistory::add(std::shared_ptr<const LiveFrame> frame) {
-  if (!entries_.empty() && frame->jumps != entries_.back().frame->jumps) clear();
+  const bool jumped = !entries_.empty() && frame->jumps != entries_.back().frame->jumps;
+  if (jumped) clear();
+  // Where a recording is taken up at another place, the mark that stands there began before it.
+  const std::string markBefore = jumped ? frame->mark : entries_.empty() ? std::string() : entries_.back().frame->mark;
+  const bool newMark = !frame->mark.empty() && frame->mark != markBefore;
   const double host_s = frame->frame.hostTime_s;
   const double device_s = frame->frame.time_s;
   const bool otherClock = entries_.empty() || frame->frame.restarted ||
@@ -50,7 +54,7 @@ void LiveHistory::add(std::shared_ptr<const LiveFrame> frame) {
           (period_s_ > 0 && step_s > kGap_s && step_s > kGapPeriods * period_s_);
     period_s_ = step_s;
   }
-  entries_.push_back({t_s, std::move(frame), gap});
+  entries_.push_back({t_s, std::move(frame), gap, newMark});
   while (entries_.size() > kMostFrames || entries_.back().t_s - entries_.front().t_s > kLongest_s) entries_.pop_front();
 }
 

@@ -14,7 +14,8 @@ public:
     /// Device clock, brought to the host's at each connection and restart: never the time of arrival, which jitters.
     double t_s = 0;
     std::shared_ptr<const LiveFrame> frame;
-    bool gap = false; ///< frames are missing before it: the board was out, held or silent
+    bool gap = false;     ///< frames are missing before it: the board was out, held or silent
+    bool newMark = false; ///< its mark begins here, also where it is the first frame that came
   };
 
   void add(std::shared_ptr<const LiveFrame> frame);

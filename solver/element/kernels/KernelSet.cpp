@@ -103,13 +103,26 @@ void gatherScaled(const float* x, const int* rows, const double* scale, const in
   gatherScaledRows(x, rows, scale, nodes, count, out);
 }
 
+/// A plain loop: the compiler makes packs of it.
+void addSource(const SurfacePoints& p, const double* source, double* __restrict__ potential,
+               double* __restrict__ flux) {
+  const double cx = source[0], cy = source[1], cz = source[2];
+  for (std::ptrdiff_t k = 0; k < p.count; ++k) {
+    const double x = p.x[k] - cx, y = p.y[k] - cy, z = p.z[k] - cz;
+    const double inverse = 1 / __builtin_sqrt(x * x + y * y + z * z);
+    potential[k] += inverse;
+    flux[k] -= (x * p.ax[k] + y * p.ay[k] + z * p.az[k]) * (inverse * inverse * inverse);
+  }
+}
+
 } // namespace
 
 extern const ElementKernels tetKernels;
 extern const ElementKernels hexKernels;
 extern const LaneKernels laneKernelSet;
 const LaneKernels laneKernelSet = {forwardFactor, backwardFactor, forwardFactorOfOne, backwardFactorOfOne,
-                                   polynomials,   gather,         subtract,           gatherScaled};
+                                   polynomials,   gather,         subtract,           gatherScaled,
+                                   addSource};
 constexpr ElementKernels tetSet = kernelsOf<Tet>(tetResidual8, tetResidualOfLoads, tetTangent);
 constexpr ElementKernels hexSet = kernelsOf<Hex>(hexResidual8, hexResidualOfLoads, hexTangent);
 const ElementKernels tetKernels = tetSet;

@@ -104,7 +104,7 @@ TEST_F(Live, RecordsMarksAndPlaysStepByStep) {
   click("replayPause");
   ASSERT_TRUE(waitForState(LiveState::Ended));
   EXPECT_EQ(page.host().history().last()->mark, "poke");
-  EXPECT_FALSE(find<StripChart>("forceCurves").chart().marks.empty());
+  EXPECT_TRUE(wait([&] { return !find<StripChart>("forceCurves").chart().marks.empty(); })); // drawn at the next look
   click("openAgain");
   EXPECT_TRUE(waitForFrames(1));
 }

@@ -65,6 +65,24 @@ TEST(LiveHistory, WritesAMarkOnceWhereItBegins) {
   EXPECT_EQ(marked, (std::vector<bool>{false, true, false, false}));
 }
 
+TEST(LiveHistory, KnowsWhereAMarkBeginsAlsoAtTheFirstFrameButNotAfterAJumpBehindIt) {
+  LiveHistory history;
+  const auto add = [&](double t_s, const char* mark, std::uint64_t jumps) {
+    auto next = frame(t_s, t_s);
+    next->mark = mark;
+    next->jumps = jumps;
+    history.add(next);
+    return history.entries().back().newMark;
+  };
+  EXPECT_TRUE(add(0, "poke", 0));
+  EXPECT_FALSE(add(0.02, "poke", 0));
+  EXPECT_TRUE(add(0.04, "push", 0));
+  EXPECT_FALSE(add(0.01, "poke", 1));
+  EXPECT_TRUE(add(0.04, "push", 1));
+  history.clear();
+  EXPECT_FALSE(add(1, "", 1));
+}
+
 TEST(LiveHistory, NeverRunsBackwardsNorGrowsWithoutEnd) {
   LiveHistory history;
   for (std::size_t k = 0; k < LiveHistory::kMostFrames + 500; ++k)

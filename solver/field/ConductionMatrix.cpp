@@ -1,0 +1,203 @@
+#include "solver/field/ConductionMatrix.h"
+
+#include "model/base/Parallel.h"
+#include "solver/element/ElementGeometry.h"
+#include "solver/element/ElementKernels.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+
+namespace palp {
+
+namespace {
+
+constexpr int kPairs = 55; // of an element's ten nodes
+constexpr int kElementsAChunk = 256;
+constexpr int kSupernodesACall = 16; // between looks at a stop request
+
+/// N. J. Walkington, Quadrature on simplices of arbitrary dimension, 2000: 14 points, exact to degree 5.
+struct TetRule {
+  static constexpr int points = 14;
+  std::array<double, points> weights{};
+  Eigen::Matrix<double, 10, points> shapes;
+  std::array<Eigen::Matrix<double, 10, 3>, points> gradients; ///< by the last three barycentric coordinates
+
+  TetRule() {
+    std::array<Eigen::Vector4d, points> at;
+    std::size_t i = 0;
+    for (const auto& [a, w] :
+         {std::pair{0.3108859192633006, 0.1126879257180159}, std::pair{0.0927352503108912, 0.0734930431163619}})
+      for (int k = 0; k < 4; ++k, ++i) {
+        at[i].setConstant(a);
+        at[i](k) = 1 - 3 * a;
+        weights[i] = w;
+      }
+    constexpr double a = 0.0455037041256497;
+    for (int k = 0; k < 4; ++k)
+      for (int l = k + 1; l < 4; ++l, ++i) {
+        at[i].setConstant(0.5 - a);
+        at[i](k) = at[i](l) = a;
+        weights[i] = 0.0425460207770815;
+      }
+    TetGeometry unit; // gradients of the barycentric coordinates by the last three of them
+    unit.gradients << -1, 1, 0, 0, -1, 0, 1, 0, -1, 0, 0, 1;
+    for (i = 0; i < points; ++i) {
+      shapes.col(static_cast<Eigen::Index>(i)) = tetShapes(at[i]);
+      gradients[i] = tetShapeGradients(unit, at[i]).transpose();
+    }
+  }
+};
+
+const TetRule& tetRule() {
+  static const TetRule rule;
+  return rule;
+}
+
+} // namespace
+
+ConductionMatrix::ConductionMatrix(const FieldMesh& mesh) : mesh_(&mesh) {
+  const Eigen::MatrixXi& elements = mesh.tets().elements;
+  const int unknowns = mesh.nodes() - 1;
+  std::vector<std::vector<int>> below(static_cast<std::size_t>(unknowns));
+  for (Eigen::Index e = 0; e < elements.cols(); ++e)
+    for (int a = 0; a < 10; ++a)
+      for (int b = 0; b < 10; ++b)
+        if (elements(a, e) > 0 && elements(b, e) >= elements(a, e))
+          below[static_cast<std::size_t>(elements(a, e) - 1)].push_back(elements(b, e) - 1);
+  auto pattern = std::make_shared<SparsePattern>();
+  pattern->groupPositions_mm = mesh.tets().nodes_mm.rightCols(unknowns);
+  pattern->groupColumns = {0};
+  pattern->groupStart.push_back(0);
+  for (int i = 0; i < unknowns; ++i) {
+    std::vector<int>& rows = below[static_cast<std::size_t>(i)];
+    std::sort(rows.begin(), rows.end());
+    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+    pattern->groupRows.insert(pattern->groupRows.end(), rows.begin(), rows.end());
+    pattern->groupColumns.push_back(static_cast<int>(pattern->groupRows.size()));
+    pattern->groupStart.push_back(i + 1);
+  }
+  pattern->columns = pattern->groupColumns;
+  pattern->rows = pattern->groupRows;
+  entries_.assign(static_cast<std::size_t>(elements.cols()) * kPairs, -1);
+  std::size_t at = 0;
+  for (Eigen::Index e = 0; e < elements.cols(); ++e)
+    for (int a = 0; a < 10; ++a)
+      for (int b = 0; b <= a; ++b, ++at) {
+        const auto [low, high] = std::minmax(elements(a, e), elements(b, e));
+        if (low == 0) continue;
+        const auto first = pattern->rows.begin() + pattern->columns[static_cast<std::size_t>(low - 1)];
+        const auto last = pattern->rows.begin() + pattern->columns[static_cast<std::size_t>(low)];
+        entries_[at] = static_cast<int>(std::lower_bound(first, last, high - 1) - pattern->rows.begin());
+      }
+  plan_ = std::make_shared<const CholeskyPlan>(std::move(pattern));
+}
+
+ConductionMatrix::Values ConductionMatrix::at(const Eigen::Matrix3Xd& nodes_mm, const Eigen::VectorXd& conductivity,
+                                              int threads) const {
+  const TetRule& rule = tetRule();
+  const Eigen::MatrixXi& elements = mesh_->tets().elements;
+  UnsetArray<double> own(entries_.size()), load(10 * static_cast<std::size_t>(elements.cols()));
+  forChunks(mesh_->elements(), kElementsAChunk, threads, [&](int begin, int end) {
+    Eigen::Matrix<double, 3, 10> places;
+    Eigen::Matrix<double, 10, 1> sigma = Eigen::Matrix<double, 10, 1>::Ones();
+    for (int e = begin; e < end; ++e) {
+      for (int n = 0; n < 10; ++n) places.col(n) = nodes_mm.col(elements(n, e));
+      if (conductivity.size() > 0)
+        for (int n = 0; n < 10; ++n) sigma(n) = conductivity(elements(n, e));
+      Eigen::Matrix<double, 10, 10> stiffness = Eigen::Matrix<double, 10, 10>::Zero();
+      Eigen::Matrix<double, 10, 1> volumes = Eigen::Matrix<double, 10, 1>::Zero();
+      for (std::size_t q = 0; q < TetRule::points; ++q) {
+        const Eigen::Matrix3d map = places * rule.gradients[q];
+        const Eigen::Matrix<double, 10, 3> gradients = rule.gradients[q] * map.inverse();
+        const auto shapes = rule.shapes.col(static_cast<Eigen::Index>(q));
+        const double weight = rule.weights[q] * map.determinant() / 6;
+        stiffness.noalias() += (weight * shapes.dot(sigma)) * (gradients * gradients.transpose());
+        volumes += weight * shapes;
+      }
+      double* out = own.data() + static_cast<std::size_t>(e) * kPairs;
+      for (int a = 0; a < 10; ++a)
+        for (int b = 0; b <= a; ++b) *out++ = stiffness(a, b);
+      std::copy_n(volumes.data(), 10, load.data() + 10 * static_cast<std::size_t>(e));
+    }
+  });
+  Values values{LaneVector(plan_->pattern().rows.size()), Eigen::VectorXd::Zero(mesh_->nodes())};
+  for (std::size_t i = 0; i < entries_.size(); ++i)
+    if (entries_[i] >= 0) values.matrix[static_cast<std::size_t>(entries_[i])] += own.data()[i];
+  for (Eigen::Index e = 0; e < elements.cols(); ++e)
+    for (int n = 0; n < 10; ++n) values.volumes(elements(n, e)) += load.data()[10 * e + n];
+  return values;
+}
+
+ConductionSolve::ConductionSolve(std::shared_ptr<const CholeskyPlan> plan, LaneVector matrix, int threads,
+                                 const std::stop_token& stop)
+    : plan_(std::move(plan)), matrix_(std::move(matrix)), factor_(plan_) {
+  outcome_ = factor_.factorise(matrix_, threads, stop);
+  const std::vector<int>& order = plan_->tree().order;
+  rowOfUnknown_.resize(order.size());
+  for (std::size_t row = 0; row < order.size(); ++row)
+    rowOfUnknown_[static_cast<std::size_t>(order[row])] = static_cast<int>(row);
+}
+
+void ConductionSolve::substitute(const Eigen::Ref<const Rows>& b, std::vector<float, CacheLineAllocator<float>>& work,
+                                 Eigen::Ref<Rows> x, const std::stop_token& stop) const {
+  const Eigen::RowVectorXd norm = b.colwise().norm();
+  const auto sides = b.cols();
+  std::fill(work.begin(), work.end(), 0.F);
+  for (std::size_t i = 0; i < rowOfUnknown_.size(); ++i)
+    for (Eigen::Index k = 0; k < sides; ++k)
+      if (norm(k) > 0)
+        work[static_cast<std::size_t>(rowOfUnknown_[i]) * batchLanes + static_cast<std::size_t>(k)] =
+            static_cast<float>(b(static_cast<Eigen::Index>(i) + 1, k) / norm(k));
+  unsigned live = 0;
+  for (Eigen::Index k = 0; k < sides; ++k) live |= 1U << static_cast<unsigned>(k / lanes);
+  const BlockedFactor factor = factor_.blocks();
+  for (int first = 0; first < factor.count && !stop.stop_requested(); first += kSupernodesACall)
+    laneKernels().forward(factor, first, std::min(factor.count, first + kSupernodesACall), live, work.data());
+  for (int last = factor.count; last > 0 && !stop.stop_requested(); last -= kSupernodesACall)
+    laneKernels().backward(factor, std::max(0, last - kSupernodesACall), last, live, work.data());
+  for (std::size_t i = 0; i < rowOfUnknown_.size(); ++i)
+    for (Eigen::Index k = 0; k < sides; ++k)
+      x(static_cast<Eigen::Index>(i) + 1, k) +=
+          norm(k) * static_cast<double>(
+                        work[static_cast<std::size_t>(rowOfUnknown_[i]) * batchLanes + static_cast<std::size_t>(k)]);
+}
+
+void ConductionSolve::subtractProduct(const Eigen::Ref<const Rows>& x, Eigen::Ref<Rows> from) const {
+  const SparsePattern& pattern = plan_->pattern();
+  const Eigen::Index sides = x.cols();
+  for (int j = 0; j < pattern.size(); ++j) {
+    const double* xj = x.data() + (j + 1) * x.outerStride();
+    double* out = from.data() + (j + 1) * from.outerStride();
+    const int diagonal = pattern.columns[static_cast<std::size_t>(j)];
+    const double own = matrix_[static_cast<std::size_t>(diagonal)];
+    for (Eigen::Index s = 0; s < sides; ++s) out[s] -= own * xj[s];
+    for (int k = diagonal + 1; k < pattern.columns[static_cast<std::size_t>(j) + 1]; ++k) {
+      const double value = matrix_[static_cast<std::size_t>(k)];
+      const int i = pattern.rows[static_cast<std::size_t>(k)];
+      const double* xi = x.data() + (i + 1) * x.outerStride();
+      double* other = from.data() + (i + 1) * from.outerStride();
+      for (Eigen::Index s = 0; s < sides; ++s) {
+        out[s] -= value * xi[s];
+        other[s] -= value * xj[s];
+      }
+    }
+  }
+}
+
+void ConductionSolve::solve(const Eigen::Ref<const Rows>& b, Eigen::Ref<Rows> x, Eigen::Ref<Rows> left,
+                            const std::stop_token& stop) const {
+  std::vector<float, CacheLineAllocator<float>> work((rowOfUnknown_.size() + 1) * batchLanes);
+  x.setZero();
+  left = b;
+  left.row(0).setZero(); // node 0's equation follows from the others
+  for (int pass = 0; pass < 2; ++pass) {
+    substitute(left, work, x, stop);
+    left = b;
+    left.row(0).setZero();
+    subtractProduct(x, left);
+  }
+}
+
+} // namespace palp

@@ -1,0 +1,261 @@
+#include "solver/field/DeformedGreen.h"
+
+#include "model/DesignError.h"
+#include "model/base/Parallel.h"
+#include "solver/element/ElementGeometry.h"
+#include "solver/field/BoundaryQuadrature.h"
+#include "solver/linear/Front.h"
+
+#include <Eigen/Dense>
+#include <cblas.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace palp {
+
+namespace {
+
+constexpr double kFourPi = 4 * std::numbers::pi;
+using Rows = ConductionSolve::Rows;
+
+/// Faces that mirror: those nearer than so many times the edge of the mesh's faces. From there on the flux through a
+/// face is smooth on the scale of its elements.
+constexpr double kReachInEdges = 2.5;
+
+double reach_mm(const FieldMesh& mesh, const Eigen::Vector3d& b) {
+  const double area = 2 * (b.x() * b.y() + b.y() * b.z() + b.z() * b.x());
+  return kReachInEdges * std::sqrt(4 / std::sqrt(3.) * area / static_cast<double>(mesh.faces().cols()));
+}
+
+/// Gradients of the barycentric coordinates by the last three of them.
+TetGeometry unitTet() {
+  TetGeometry unit;
+  unit.gradients << -1, 1, 0, 0, -1, 0, 1, 0, -1, 0, 0, 1;
+  return unit;
+}
+
+/// Gradients in space of the shape functions in a deformed element.
+Eigen::Matrix<double, 3, 10> gradientsIn(const Eigen::Matrix<double, 3, 10>& nodes, const Eigen::Vector4d& l) {
+  const Eigen::Matrix<double, 3, 10> local = tetShapeGradients(unitTet(), l);
+  return (local * nodes.transpose()).inverse() * local;
+}
+
+/// Barycentric coordinates of a point in a deformed element, by Newton's method from a first guess.
+Eigen::Vector4d barycentricIn(const Eigen::Matrix<double, 3, 10>& nodes, const Eigen::Vector3d& point,
+                              Eigen::Vector4d l) {
+  for (int iteration = 0; iteration < 8; ++iteration) {
+    const Eigen::Matrix3d map = nodes * tetShapeGradients(unitTet(), l).transpose();
+    const Eigen::Vector3d change = map.inverse() * (point - nodes * tetShapes(l));
+    l.tail<3>() += change;
+    l(0) -= change.sum();
+    if (change.cwiseAbs().maxCoeff() < 1e-13) break;
+  }
+  return l;
+}
+
+} // namespace
+
+struct DeformedGreen::System {
+  std::vector<Eigen::Matrix3Xd> sources;
+  ConductionMatrix::Values values;
+  ConductionSolve solve;
+  BoundaryQuadrature boundary;
+
+  /// Right side of w for the flux of sources through the boundary: their whole current in all, but for quadrature,
+  /// taken up evenly over the volume.
+  [[nodiscard]] Eigen::VectorXd rightSide(const Eigen::Ref<const Eigen::VectorXd>& flux) const {
+    Eigen::VectorXd b = -boundary.atNodes(flux);
+    b -= values.volumes * (b.sum() / values.volumes.sum());
+    return b;
+  }
+};
+
+DeformedGreen::DeformedGreen(const Mesh& solverMesh, const Eigen::Vector3d& block_mm,
+                             const Eigen::Matrix3Xd& electrodes_mm)
+    : mesh_(solverMesh), sources_(mesh_, block_mm, electrodes_mm, reach_mm(mesh_, block_mm)), matrix_(mesh_) {
+  const Eigen::MatrixXi& elements = mesh_.tets().elements;
+  std::vector<std::vector<int>> around(static_cast<std::size_t>(mesh_.nodes()));
+  for (int e = 0; e < mesh_.elements(); ++e)
+    for (int n = 0; n < 4; ++n) around[static_cast<std::size_t>(elements(n, e))].push_back(e);
+  const PointProbe probe(mesh_.tets(), electrodes_mm);
+  for (const auto& holders : probe.holders()) {
+    std::vector<Place>& own = atRest_.emplace_back();
+    std::vector<int>& near = neighbours_.emplace_back();
+    for (const PointProbe::Holder& holder : holders) {
+      own.push_back({holder.element, holder.pressure});
+      for (int n = 0; n < 4; ++n) {
+        const std::vector<int>& more = around[static_cast<std::size_t>(elements(n, holder.element))];
+        near.insert(near.end(), more.begin(), more.end());
+      }
+    }
+    std::sort(near.begin(), near.end());
+    near.erase(std::unique(near.begin(), near.end()), near.end());
+  }
+}
+
+std::vector<std::vector<DeformedGreen::Place>> DeformedGreen::places(const FieldState& state) const {
+  constexpr double inside = 1e-7; // of barycentric coordinates: points on faces belong to both sides
+  std::vector<std::vector<Place>> all(atRest_.size());
+  for (std::size_t p = 0; p < all.size(); ++p) {
+    const Eigen::Vector3d point = state.electrodes_mm.col(static_cast<Eigen::Index>(p));
+    const auto in = [&](int e, const Eigen::Vector4d& guess) {
+      return barycentricIn(state.nodes_mm(Eigen::all, mesh_.tets().elements.col(e)), point, guess);
+    };
+    for (const Place& place : atRest_[p])
+      if (const Eigen::Vector4d l = in(place.element, place.barycentric); l.minCoeff() > -inside)
+        all[p].push_back({place.element, l});
+    if (!all[p].empty()) continue;
+    for (const int e : neighbours_[p]) { // the rubber has moved past an electrode that is held
+      const Eigen::Vector4d l = in(e, Eigen::Vector4d::Constant(0.25));
+      if (all[p].empty()) all[p].push_back({e, l});
+      if (l.minCoeff() > all[p].front().barycentric.minCoeff()) all[p].front() = {e, l};
+    }
+  }
+  return all;
+}
+
+std::unique_ptr<DeformedGreen::System> DeformedGreen::systemAt(const FieldState& state, int threads,
+                                                               const std::stop_token& stop) const {
+  useOneBlasThread();
+  ConductionMatrix::Values values = matrix_.at(state.nodes_mm, {}, threads);
+  if (stop.stop_requested()) return {};
+  ConductionSolve solve(matrix_.plan(), std::move(values.matrix), threads, stop);
+  if (solve.outcome() == SparseCholesky::Outcome::NotPositiveDefinite)
+    throw DesignError("the conduction field: the load turns an element inside out");
+  if (stop.stop_requested()) return {};
+  return std::make_unique<System>(System{sources_.at(state.nodes_mm, state.electrodes_mm), std::move(values),
+                                         std::move(solve), BoundaryQuadrature(mesh_, state.nodes_mm)});
+}
+
+std::optional<BoxGreen> DeformedGreen::at(const FieldState& state, int threads, const std::stop_token& stop) const {
+  const std::unique_ptr<System> system = systemAt(state, threads, stop);
+  if (!system) return {};
+  const auto count = static_cast<int>(state.electrodes_mm.cols());
+  const auto points = static_cast<int>(system->boundary.points());
+  const int batches = (count + batchLanes - 1) / batchLanes;
+  UnsetArray<double> potential(std::size_t(points) * count), flux(potential.size()); // points x electrodes
+  Rows right(mesh_.nodes(), count);
+  forChunks(count, 1, threads, [&](int q, int) {
+    if (stop.stop_requested()) return;
+    double* own = flux.data() + std::size_t(q) * points;
+    system->boundary.addSources(system->sources[std::size_t(q)], potential.data() + std::size_t(q) * points, own);
+    right.col(q) = system->rightSide(Eigen::Map<const Eigen::VectorXd>(own, points));
+  });
+
+  Rows field(mesh_.nodes(), count), twice(mesh_.nodes(), count); // w; 2 b - K w
+  forChunks(batches, 1, threads, [&](int b, int) {
+    if (stop.stop_requested()) return;
+    const int first = b * batchLanes, some = std::min(batchLanes, count - first);
+    const Rows side = right.middleCols(first, some);
+    Rows x(mesh_.nodes(), some), left(mesh_.nodes(), some);
+    system->solve.solve(side, x, left, stop);
+    field.middleCols(first, some) = x;
+    twice.middleCols(first, some) = side + left;
+  });
+  if (stop.stop_requested()) return {};
+
+  // Rows p <= q, by whole batches. w' (2 b - K w) is the energy up to the square of what substitution leaves.
+  BoxGreen green;
+  green.value.resize(count, count);
+  forChunks(batches, 1, threads, [&](int task, int) {
+    if (stop.stop_requested()) return;
+    const int first = (batches - 1 - task) * batchLanes, some = std::min(batchLanes, count - first);
+    double* out = green.value.data() + std::size_t(first) * count;
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, first + some, some, mesh_.nodes(), 1, field.data(), count,
+                twice.data() + first, count, 0, out, count);
+    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, first + some, some, points, -1, potential.data(), points,
+                flux.data() + std::size_t(first) * points, points, 1, out, count);
+  });
+  if (stop.stop_requested()) return {};
+
+  for (Eigen::MatrixXd& slope : green.slope) slope.setZero(count, count);
+  const std::vector<std::vector<Place>> where = places(state);
+  forChunks(count, 8, threads, [&](int begin, int end) {
+    for (int p = begin; p < end; ++p) {
+      for (int q = 0; q < count; ++q) {
+        const Eigen::Matrix3Xd& of = system->sources[std::size_t(q)];
+        for (Eigen::Index m = p == q ? 1 : 0; m < of.cols(); ++m) {
+          const Eigen::Vector3d d = state.electrodes_mm.col(p) - of.col(m);
+          const double inverse = 1 / d.norm();
+          if (p <= q) green.value(p, q) += inverse / kFourPi;
+          for (std::size_t i = 0; i < 3; ++i)
+            green.slope[i](p, q) -= d(static_cast<Eigen::Index>(i)) * inverse * inverse * inverse / kFourPi;
+        }
+      }
+      const std::vector<Place>& holders = where[std::size_t(p)];
+      for (const Place& place : holders) {
+        const auto nodes = mesh_.tets().elements.col(place.element);
+        const Eigen::Matrix<double, 3, 10> gradients =
+            gradientsIn(state.nodes_mm(Eigen::all, nodes), place.barycentric) / double(holders.size());
+        for (int k = 0; k < 10; ++k)
+          for (std::size_t i = 0; i < 3; ++i)
+            green.slope[i].row(p) += gradients(static_cast<Eigen::Index>(i), k) * field.row(nodes(k));
+      }
+    }
+  });
+  green.value.triangularView<Eigen::StrictlyLower>() = green.value.transpose();
+  return green;
+}
+
+std::optional<NodalPotential> DeformedGreen::potential(const FieldState& state, const Eigen::VectorXd& currents,
+                                                       double radius_mm, int threads,
+                                                       const std::stop_token& stop) const {
+  const std::unique_ptr<System> system = systemAt(state, threads, stop);
+  if (!system) return {};
+  Eigen::VectorXd flux = Eigen::VectorXd::Zero(system->boundary.points()), own(flux.size()), ignored(flux.size());
+  for (Eigen::Index q = 0; q < currents.size() && !stop.stop_requested(); ++q) {
+    system->boundary.addSources(system->sources[std::size_t(q)], ignored.data(), own.data());
+    flux += currents(q) * own;
+  }
+  const Rows right = system->rightSide(flux);
+  Rows field(right.rows(), 1), left(right.rows(), 1);
+  system->solve.solve(right, field, left, stop);
+  if (stop.stop_requested()) return {};
+
+  NodalPotential result{field, Eigen::Matrix3Xd::Zero(3, mesh_.nodes()), Eigen::VectorXd::Zero(currents.size())};
+  Eigen::VectorXd elementsAround = Eigen::VectorXd::Zero(mesh_.nodes());
+  for (int e = 0; e < mesh_.elements(); ++e) {
+    const auto nodes = mesh_.tets().elements.col(e);
+    const Eigen::Matrix<double, 3, 10> at = state.nodes_mm(Eigen::all, nodes);
+    const Eigen::Matrix<double, 10, 1> values = field(nodes, 0);
+    for (int n = 0; n < 10; ++n) {
+      result.gradient.col(nodes(n)) += gradientsIn(at, tetNode(n)) * values;
+      elementsAround(nodes(n)) += 1;
+    }
+  }
+  result.gradient.array().rowwise() /= elementsAround.transpose().array();
+
+  // The sources' part; within a sphere its own is that on its surface.
+  const auto addSources = [&](const Eigen::Vector3d& point, double& value, Eigen::Vector3d* gradient) {
+    for (Eigen::Index q = 0; q < currents.size(); ++q) {
+      const Eigen::Matrix3Xd& of = system->sources[std::size_t(q)];
+      for (Eigen::Index m = 0; m < of.cols(); ++m) {
+        const Eigen::Vector3d d = point - of.col(m);
+        const double r = d.norm();
+        const bool inside = r < radius_mm;
+        value += currents(q) / (kFourPi * (inside ? radius_mm : r));
+        if (gradient && !inside) *gradient -= currents(q) / (kFourPi * r * r * r) * d;
+      }
+    }
+  };
+  forChunks(mesh_.nodes(), 256, threads, [&](int begin, int end) {
+    if (stop.stop_requested()) return;
+    for (int n = begin; n < end; ++n) {
+      Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+      addSources(state.nodes_mm.col(n), result.value(n), &gradient);
+      result.gradient.col(n) += gradient;
+    }
+  });
+  if (stop.stop_requested()) return {};
+  const std::vector<std::vector<Place>> where = places(state);
+  for (Eigen::Index p = 0; p < currents.size(); ++p) {
+    const Place& place = where[std::size_t(p)].front();
+    result.electrodes(p) = tetShapes(place.barycentric).dot(field(mesh_.tets().elements.col(place.element), 0));
+    addSources(state.electrodes_mm.col(p), result.electrodes(p), nullptr);
+  }
+  return result;
+}
+
+} // namespace palp

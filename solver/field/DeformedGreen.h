@@ -1,0 +1,70 @@
+#pragma once
+
+#include "model/BoxGreen.h"
+#include "solver/field/ConductionMatrix.h"
+#include "solver/field/FieldSources.h"
+
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+namespace palp {
+
+/// Where nodes (of FieldMesh) and electrodes stand in a deformed block.
+struct FieldState {
+  Eigen::Matrix3Xd nodes_mm;
+  Eigen::Matrix3Xd electrodes_mm;
+};
+
+/// Potential and its gradient at all nodes [1/mm, 1/mm2] for conductivity 1, and the potential on each electrode.
+struct NodalPotential {
+  Eigen::VectorXd value;
+  Eigen::Matrix3Xd gradient;
+  Eigen::VectorXd electrodes;
+};
+
+/// Green's function of the insulated deformed block of conductivity 1 between its electrodes.
+///
+/// G(., x_q) = s_q + w_q with s_q the sources of FieldSources; w_q is smooth and the mesh's part:
+///   integral grad w_q . grad v = - oint s_q,n v dS - mean(v)   for all v.
+/// What stands at an electrode p follows from Green's identity rather than from w_q there, by the energy of two fields,
+/// whose error is of the square of their own:
+///   w_q(x_p) = integral grad w_p . grad w_q - oint s_p s_q,n dS + terms of q alone and of p alone,
+/// and such terms no current of zero sum sees. (resources/docs/numerics.md, "Conduction in the deformed block".)
+class DeformedGreen {
+public:
+  DeformedGreen(const Mesh& solverMesh, const Eigen::Vector3d& block_mm, const Eigen::Matrix3Xd& electrodes_mm);
+
+  [[nodiscard]] const FieldMesh& mesh() const { return mesh_; }
+
+  /// As boxGreen, but for terms of p alone and of q alone, without curvature. None: stopped. Throws DesignError where
+  /// an element is inside out.
+  [[nodiscard]] std::optional<BoxGreen> at(const FieldState& state, int threads, const std::stop_token& stop) const;
+
+  /// Potential of these currents (one an electrode, sum 0) from spheres of this radius, inside of which it is constant;
+  /// but for a constant. None: stopped.
+  [[nodiscard]] std::optional<NodalPotential> potential(const FieldState& state, const Eigen::VectorXd& currents,
+                                                        double radius_mm, int threads,
+                                                        const std::stop_token& stop) const;
+
+private:
+  /// An element and a point in it.
+  struct Place {
+    int element = 0;
+    Eigen::Vector4d barycentric;
+  };
+  /// Where each electrode lies in the deformed mesh: in all elements around it.
+  [[nodiscard]] std::vector<std::vector<Place>> places(const FieldState& state) const;
+  struct System; ///< a state's factorised matrix
+  [[nodiscard]] std::unique_ptr<System> systemAt(const FieldState& state, int threads,
+                                                 const std::stop_token& stop) const;
+
+  FieldMesh mesh_;
+  FieldSources sources_;
+  ConductionMatrix matrix_;
+  std::vector<std::vector<Place>> atRest_;
+  std::vector<std::vector<int>> neighbours_; ///< elements around those
+};
+
+} // namespace palp
