@@ -211,6 +211,7 @@ TwoStep readTwoStep(const JsonPlace& place) {
   if (!place.at("design").isNull()) {
     decoder.design = readDesign(place.at("design"));
     requireValid(*decoder.design);
+    requirePairs(*decoder.design, "the inversion of Eq. (1)");
   }
   if (decoder.network.has_value() == decoder.design.has_value())
     place.refuse("an object with either network or design, and null for the other");

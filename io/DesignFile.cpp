@@ -133,7 +133,9 @@ ForceRange readForceRange(const JsonPlace& place) {
   return forces;
 }
 
-SensorDesign readAnyDesign(const JsonPlace& root) {
+} // namespace
+
+SensorDesign readDesign(const JsonPlace& root) {
   formatVersion(root, "palp_design", kNewestVersion); // first: a newer file may well have other keys
   root.onlyKeys(
       {"palp_design", "block_mm", "material", "areas", "upper_layer", "lower_layer", "resistance", "force_range_N"});
@@ -154,7 +156,6 @@ SensorDesign readAnyDesign(const JsonPlace& root) {
   design.forceRange = readForceRange(root.at("force_range_N"));
   return design;
 }
-} // namespace
 
 std::string toJson(const SensorDesign& d) {
   const Material& m = d.material;
@@ -182,13 +183,7 @@ SensorDesign parseDesign(std::string_view json, const std::string& file) {
   const Json value = parseJson(json, file);
   const JsonPlace root(value, file);
   if (!root.has("palp_design")) throw Error(file + ": no design file: palp_design is missing");
-  return readAnyDesign(root);
-}
-
-SensorDesign readDesign(const JsonPlace& root) {
-  SensorDesign design = readAnyDesign(root);
-  requirePairs(design, "the window and networks");
-  return design;
+  return readDesign(root);
 }
 
 SensorDesign loadDesign(const std::filesystem::path& path) {

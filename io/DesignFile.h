@@ -18,8 +18,7 @@ std::string toJson(const SensorDesign& design);
 /// Error with the file's name, the key, the value and what is allowed. Whether the design can be built is for check()
 /// to say.
 SensorDesign parseDesign(std::string_view json, const std::string& file);
-/// The same of a design within another file: those who read it know Eq. (1) alone, so that one with the field law is
-/// refused.
+/// The same of a design within another file.
 SensorDesign readDesign(const JsonPlace& place);
 
 /// A design that can be built, from a file. Throws Error.

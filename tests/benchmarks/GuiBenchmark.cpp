@@ -156,14 +156,15 @@ int measureViews() {
     chart.setChart(curve);
     showTimed("a chart", chart);
     HeatmapView heatmap;
-    heatmap.setHeatmap(resistanceHeatmap(touch.design(), *touch.resistances_ohm(), ResistanceKind::RelativeChange));
+    heatmap.setHeatmap(resistanceHeatmap(touch.design(), *touch.displacements(), ResistanceKind::RelativeChange));
     showTimed("a heatmap", heatmap);
   }
   measureYardsticks(show);
+  const TouchResistances resistances = *resistancesOf(touch.design(), *touch.displacements());
   HeatmapView heatmap;
   show(heatmap);
   std::printf("heatmap alone, new values a frame  %5.1f ms CPU\n", cpuAFrame_ms({&heatmap}, [&](int frame) {
-                heatmap.setHeatmap(resistanceHeatmap(touch.design(), (1 + 1e-4 * frame) * *touch.resistances_ohm(),
+                heatmap.setHeatmap(resistanceHeatmap({resistances.rest_ohm, (1 + 1e-4 * frame) * resistances.now_ohm},
                                                      ResistanceKind::RelativeChange));
               }));
   heatmap.hide();

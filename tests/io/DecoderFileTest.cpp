@@ -138,6 +138,13 @@ TEST(NetworkFile, RefusesAnInputWithoutRows) {
   EXPECT_NE(sentence.find("input.rows is []; allowed is one row-wire or more"), std::string::npos) << sentence;
 }
 
+TEST(NetworkFile, RefusesToInvertEq1OfADesignUnderTheField) {
+  const std::string sentence = refusalWith(smallDecoder(DecoderKind::TwoStepGaussNewton), [](Decoder& d) {
+    std::get<TwoStep>(d.model).design->resistance = FieldLaw{};
+  });
+  EXPECT_NE(sentence.find("the inversion of Eq. (1): not yet under the field law"), std::string::npos) << sentence;
+}
+
 TEST(NetworkFile, RefusesWholeNumbersThatAreNoInt) {
   const std::string text = networkText(smallDecoder(DecoderKind::Rbf));
   for (const char* number : {"1e300", "-1e300", "9223372036854775808", "2147483648", "2.5"})

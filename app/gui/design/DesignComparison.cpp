@@ -1,6 +1,8 @@
 #include "app/gui/design/DesignComparison.h"
 
 #include "app/gui/design/BoundWords.h"
+#include "app/gui/design/RestFloor.h"
+#include "app/gui/jobs/TouchResistances.h"
 #include "app/gui/views/HeatmapSpecs.h"
 #include "app/gui/views/HeatmapView.h"
 #include "app/study/touch/Touch.h"
@@ -21,9 +23,10 @@ constexpr int kSideWidth_px = 420;
 /// A design under a load.
 struct Answer {
   double largest_mm = 0;                    ///< displacement
-  Eigen::MatrixXd change;                   ///< dR / R at rest [%]
+  Eigen::MatrixXd change;                   ///< dR / R at rest [%]; empty where the law has none
   std::optional<Eigen::Matrix3Xd> upper_mm; ///< displacements of the upper electrodes
-  QString problem;                          ///< why there is none
+  QString noChange;                         ///< why that is
+  QString problem;                          ///< why there is no answer
 };
 
 Answer answerOf(const SensorDesign& design, const LoadCase& load, const MeshOptions& mesh,
@@ -34,15 +37,16 @@ Answer answerOf(const SensorDesign& design, const LoadCase& load, const MeshOpti
     return answer;
   }
   Touch touch(design, load, mesh);
-  const bool good = touch.advance(Stage::Resistances, {}, {.step = {}, .stop = stop});
+  const bool good = touch.advance(Stage::Displacements, {}, {.step = {}, .stop = stop});
   if (stop.stop_requested()) return answer;
   if (!good) {
     answer.problem = QString::fromStdString(touch.solution()->stopReason);
     return answer;
   }
-  const Eigen::MatrixXd rest = rowColumnResistances(design, ElectrodeDisplacements::atRest(design));
   answer.largest_mm = touch.solution()->state().displacements_mm.colwise().norm().maxCoeff();
-  answer.change = 100 * (*touch.resistances_ohm() - rest).cwiseQuotient(rest);
+  if (const auto resistances = resistancesOf(design, *touch.displacements()))
+    answer.change = 100 * (resistances->now_ohm - resistances->rest_ohm).cwiseQuotient(resistances->rest_ohm);
+  answer.noChange = whyNoResistances(design);
   answer.upper_mm = touch.displacements()->upper_mm;
   return answer;
 }
@@ -56,7 +60,9 @@ QString answerWords(const Answer& kept, const Answer& now) {
   if (kept.upper_mm->cols() == now.upper_mm->cols())
     words += QObject::tr("<br>Ways of the upper electrodes differ by up to %1 mm.")
                  .arg((*now.upper_mm - *kept.upper_mm).colwise().norm().maxCoeff(), 0, 'g', 4);
-  if (kept.change.rows() != now.change.rows() || kept.change.cols() != now.change.cols())
+  if (const QString why = kept.noChange.isEmpty() ? now.noChange : kept.noChange; !why.isEmpty())
+    words += "<br>" + why;
+  else if (kept.change.rows() != now.change.rows() || kept.change.cols() != now.change.cols())
     words += QObject::tr("<br>They have other numbers of wires: their resistances are not compared cell by cell.");
   return words;
 }
@@ -169,18 +175,24 @@ void DesignComparison::compare() {
         const Answer keptAnswer = answerOf(kept, load, mesh, stop), nowAnswer = answerOf(now, load, mesh, stop);
         if (stop.stop_requested()) return {};
         std::array<std::optional<DesignBounds>, 2> bounds;
+        const bool atRest = kept.field() != nullptr || now.field() != nullptr; // where the field is known
+        std::shared_ptr<const RestFloor> floor;
         for (std::size_t k = 0; k < 2; ++k) {
-          bounds[k] = designBounds(
-              k == 0 ? kept : now, mesh, noise,
-              [&](double share, const std::string& what) {
-                progress.set(0.1 + 0.45 * (static_cast<double>(k) + share), what);
-              },
-              stop);
+          const auto part = [&](double share, const std::string& what) {
+            progress.set(0.1 + 0.45 * (static_cast<double>(k) + share), what);
+          };
+          if (atRest) {
+            floor = restFloor(k == 0 ? kept : now, mesh, floor, part, stop);
+            if (floor) bounds[k] = boundsAtRest(*floor, noise);
+          } else {
+            bounds[k] = designBounds(k == 0 ? kept : now, mesh, noise, part, stop);
+          }
           if (!bounds[k]) return {};
         }
-        return [this, kept, now, keptAnswer, nowAnswer, keptBounds = *bounds[0], nowBounds = *bounds[1]] {
+        return [this, kept, now, keptAnswer, nowAnswer, atRest, keptBounds = *bounds[0], nowBounds = *bounds[1]] {
           compared_ = {kept, now};
-          words_->setText(boundTable(tr("kept"), keptBounds, tr("this design"), nowBounds) +
+          words_->setText((atRest ? tr("Both at rest. ") : QString()) +
+                          boundTable(tr("kept"), keptBounds, tr("this design"), nowBounds) +
                           answerWords(keptAnswer, nowAnswer));
           const bool same = keptAnswer.change.rows() == nowAnswer.change.rows() &&
                             keptAnswer.change.cols() == nowAnswer.change.cols() && nowAnswer.change.size() > 0;

@@ -5,7 +5,9 @@
 #include <QObject>
 #include <QStringList>
 
+#include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 
 namespace palp {
@@ -197,10 +199,120 @@ void addElectrodeLayers(Fields& fields) {
                          [](D& s) -> std::vector<std::vector<double>>& { return s.lower.z_mm; }));
 }
 
-void addResistanceAndForces(Fields& fields) {
-  fields.push_back(number("resistance.rate_ohm_per_mm", tr("Resistance"), tr("rate g"), "ohm/mm",
-                          tr("above 0; a pair of electrodes has R = g x distance"),
-                          [](D& s) -> double& { return std::get<PairsLaw>(s.resistance).rate_ohm_per_mm; }));
+/// A number of one of the laws.
+template <class Law>
+DesignField ofLaw(const QString& key, const QString& label, const QString& unit, const QString& tip,
+                  double Law::*part) {
+  return {"resistance." + key,
+          resistanceGroup(),
+          label,
+          unit,
+          tip,
+          [part](const SensorDesign& design) {
+            const Law* law = std::get_if<Law>(&design.resistance);
+            return law != nullptr ? shortText(law->*part) : QString();
+          },
+          [part](SensorDesign& design, const QString& words) {
+            Law* law = std::get_if<Law>(&design.resistance);
+            return law != nullptr ? setNumber(law->*part, words) : QString();
+          },
+          {},
+          [](const SensorDesign& design) { return std::holds_alternative<Law>(design.resistance); }};
+}
+
+/// Which of the choices the words name, or what is wrong.
+QString setChoice(std::size_t& target, const std::vector<DesignChoice>& choices, const QString& words) {
+  for (std::size_t k = 0; k < choices.size(); ++k)
+    if (choices[k].words == words) {
+      target = k;
+      return {};
+    }
+  return QObject::tr("\"%1\" is none of the choices").arg(words);
+}
+
+DesignField law() {
+  // In the order of ResistanceLaw's alternatives.
+  const std::vector<DesignChoice> choices{
+      {tr("Eq. (1), independent pairs"), tr("The paper's law: every pair of an upper and a lower electrode is a "
+                                            "resistor g x distance of its own and knows "
+                                            "no other wire")},
+      {tr("conduction field"),
+       tr("One field in the rubber joins all electrodes, as in a block that conducts everywhere; "
+          "what is read depends on the read-out circuit")}};
+  return {"resistance.law",
+          resistanceGroup(),
+          tr("law"),
+          "",
+          tr("How the places of the electrodes become resistances"),
+          [choices](const SensorDesign& design) { return choices[design.resistance.index()].words; },
+          [choices](SensorDesign& design, const QString& words) {
+            std::size_t index = 0;
+            const QString wrong = setChoice(index, choices, words);
+            if (!wrong.isEmpty() || index == design.resistance.index()) return wrong;
+            design.resistance = index == 0 ? ResistanceLaw(PairsLaw{}) : ResistanceLaw(FieldLaw{});
+            return wrong;
+          },
+          choices};
+}
+
+DesignField readout() {
+  // In the order of Readout.
+  const std::vector<DesignChoice> choices{
+      {tr("floating"),
+       tr("One row-wire is driven against one column-wire; all other wires are left open. The current also "
+          "takes the other wires' metal as a short cut through the block")},
+      {tr("virtual ground"),
+       tr("One row-wire is driven; all column-wires and all other row-wires are held at 0 V, and the "
+          "current of each column-wire is read, as into a transimpedance amplifier")},
+      {tr("rows grounded"), tr("One row-wire is driven, all other row-wires are held at 0 V; the current of one "
+                               "column-wire at 0 V is read while the others are left open: a plain multiplexer")},
+      {tr("others at half"),
+       tr("One row-wire is driven and the current of one column-wire at 0 V is read, while all other "
+          "wires are held at half of the drive voltage")}};
+  return {"resistance.readout",
+          resistanceGroup(),
+          tr("read-out"),
+          "",
+          tr("Which wires carry which voltage while a row-wire and a column-wire are read"),
+          [choices](const SensorDesign& design) {
+            const FieldLaw* field = design.field();
+            return field != nullptr ? choices[static_cast<std::size_t>(field->readout)].words : QString();
+          },
+          [choices](SensorDesign& design, const QString& words) {
+            FieldLaw* field = std::get_if<FieldLaw>(&design.resistance);
+            if (field == nullptr) return QString();
+            auto index = static_cast<std::size_t>(field->readout);
+            const QString wrong = setChoice(index, choices, words);
+            field->readout = static_cast<Readout>(index);
+            return wrong;
+          },
+          choices,
+          [](const SensorDesign& design) { return design.field() != nullptr; }};
+}
+
+/// The law first: the others are its numbers.
+void addResistance(Fields& fields) {
+  fields.push_back(law());
+  fields.push_back(ofLaw("rate_ohm_per_mm", tr("rate g"), "ohm/mm",
+                         tr("above 0; a pair of electrodes has R = g x distance"), &PairsLaw::rate_ohm_per_mm));
+  fields.push_back(ofLaw("resistivity_ohm_mm", tr("resistivity"), "ohm mm",
+                         tr("above 0; of the rubber, the same in all directions, also where it is deformed"),
+                         &FieldLaw::resistivity_ohm_mm));
+  fields.push_back(
+      ofLaw("electrode_radius_mm", tr("electrode radius"), "mm",
+            tr("above 0 and below half of the nearest gap; an electrode is taken as a small sphere, a good "
+               "model up to 0.35 of the gap"),
+            &FieldLaw::electrodeRadius_mm));
+  fields.push_back(ofLaw("contact_ohm_mm2", tr("contact"), "ohm mm2",
+                         tr("0 or more; resistance between an electrode and the rubber times the electrode's surface"),
+                         &FieldLaw::contact_ohm_mm2));
+  fields.push_back(ofLaw("wire_ohm", tr("wire and switch"), "ohm",
+                         tr("0 or more; resistance of a wire and of its switch on the board, outside of the block"),
+                         &FieldLaw::wire_ohm));
+  fields.push_back(readout());
+}
+
+void addForces(Fields& fields) {
   for (int d = 0; d < 3; ++d) {
     const QString& axis = axes()[static_cast<std::size_t>(d)];
     fields.push_back(number("force_range_N." + axis, tr("Force range"), tr("F%1 from").arg(axis), "N",
@@ -216,7 +328,8 @@ Fields makeFields() {
   Fields fields;
   addBody(fields);
   addElectrodeLayers(fields);
-  addResistanceAndForces(fields);
+  addResistance(fields);
+  addForces(fields);
   return fields;
 }
 
@@ -225,6 +338,17 @@ Fields makeFields() {
 const std::vector<DesignField>& designFields() {
   static const std::vector<DesignField> fields = makeFields();
   return fields;
+}
+
+QString resistanceGroup() {
+  return tr("Resistance");
+}
+
+const DesignField& designField(const QString& key) {
+  const auto found = std::find_if(designFields().begin(), designFields().end(),
+                                  [&](const DesignField& field) { return field.key == key; });
+  assert(found != designFields().end() && "the key is one of the design's fields");
+  return *found;
 }
 
 } // namespace palp

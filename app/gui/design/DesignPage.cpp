@@ -4,28 +4,25 @@
 #include "app/gui/design/DesignPanel.h"
 #include "app/gui/design/DesignSweep.h"
 #include "app/gui/design/LayoutFinder.h"
+#include "app/gui/design/NoiseFloor.h"
 #include "app/gui/project/Command.h"
 #include "app/gui/views/BlockView.h"
 #include "app/gui/views/ChartView.h"
 #include "app/gui/views/ViewBar.h"
 #include "app/gui/widgets/SpinBoxes.h"
 #include "app/gui/window/SidePanel.h"
-#include "app/study/decoding/NoiseBound.h"
-#include "model/base/Cancelled.h"
 
 #include <QCheckBox>
 #include <QDoubleSpinBox>
 #include <QGroupBox>
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QPushButton>
 #include <QScrollArea>
 #include <QSignalBlocker>
 #include <QSplitter>
 #include <QTabWidget>
 #include <QVBoxLayout>
 
-#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -77,22 +74,6 @@ QScrollArea* scrolled(QWidget* content) {
   return area;
 }
 
-QString percents(const Eigen::VectorXd& values) {
-  QStringList texts;
-  for (const double value : values) texts << (std::isfinite(value) ? QString::number(value, 'f', 1) : QString("-"));
-  return texts.join(" / ") + " %";
-}
-
-QString boundWords(int row, const NoiseBound& one, const NoiseBound& every) {
-  return QObject::tr(
-             "Cramer-Rao bound of Fx / Fy / Fz, area known, with prior (forces uniform over their range), in % of "
-             "range:<br>row-wire %1 alone: <b>%2</b><br>all row-wires: <b>%3</b><br>without prior: %4 and %5"
-             "<br><i>Knowing nothing at all is 28.9 %. Real rubber adds hysteresis, creep and temperature.</i>")
-      .arg(row)
-      .arg(percents(one.withPriorPercent), percents(every.withPriorPercent), percents(one.withoutPriorPercent),
-           percents(every.withoutPriorPercent));
-}
-
 } // namespace
 
 DesignPage::DesignPage(Workbench& workbench, NetworkSession& network, QWidget* parent)
@@ -118,13 +99,6 @@ DesignPage::DesignPage(Workbench& workbench, NetworkSession& network, QWidget* p
   });
   connect(automaticSize_, &QCheckBox::toggled, this, &DesignPage::editMesh);
   connect(size_, &QDoubleSpinBox::valueChanged, this, &DesignPage::editMesh);
-  connect(noise_, &QDoubleSpinBox::valueChanged, this, [this](double percent) {
-    Project next = workbench_.project();
-    next.view.resistanceNoise = percent / 100;
-    workbench_.edit(tr("Change the noise of the resistances"), next);
-  });
-  connect(floorSamples_, &QPushButton::clicked, this,
-          [this] { network_.generate(workbench_.project().samples, workbench_.project().mesh); });
   connect(&workbench_, &Workbench::projectChanged, this, &DesignPage::displayProject);
   connect(&workbench_.touch(), &TouchSession::changed, this, [this](bool meshChanged) {
     if (!meshChanged) return;
@@ -135,16 +109,8 @@ DesignPage::DesignPage(Workbench& workbench, NetworkSession& network, QWidget* p
     displayMesh();
   });
   connect(comparison_, &DesignComparison::fieldsAsked, this, [this] { emit sceneAsked("deformation"); });
-  connect(&network_, &NetworkSession::samplesChanged, this, [this] {
-    boundedFor_.reset();
-    displayNoiseFloor();
-  });
   // What was cancelled is asked for again when the page is next brought up to date.
   connect(&measuring_, &JobRunner::finished, this, [this](bool cancelled) { measureAsked_ &= !cancelled; });
-  connect(&bounding_, &JobRunner::finished, this, [this](bool cancelled) {
-    if (cancelled) boundedFor_.reset();
-  });
-  connect(&bounding_, &JobRunner::failed, floorWords_, &QLabel::setText);
   displayProject();
 }
 
@@ -179,9 +145,10 @@ QWidget* DesignPage::buildStudies() {
   auto* first = new QWidget;
   auto* row = new QHBoxLayout(first);
   row->setContentsMargins(4, 4, 4, 4);
-  row->addWidget(buildMesh(), 1);
-  row->addWidget(quality_, 2);
-  row->addWidget(buildNoiseFloor(), 1);
+  row->addWidget(buildMesh(), 2);
+  row->addWidget(quality_, 3);
+  floor_ = new NoiseFloor(workbench_, network_);
+  row->addWidget(floor_, 3);
   finder_ = new LayoutFinder(workbench_);
   sweep_ = new DesignSweep(workbench_);
   comparison_ = new DesignComparison(workbench_);
@@ -195,7 +162,7 @@ QWidget* DesignPage::buildStudies() {
 }
 
 std::vector<JobRunner*> DesignPage::runners() {
-  return {&measuring_, &bounding_, &finder_->runner(), &sweep_->runner(), &comparison_->runner()};
+  return {&measuring_, &floor_->runner(), &finder_->runner(), &sweep_->runner(), &comparison_->runner()};
 }
 
 QGroupBox* DesignPage::buildMesh() {
@@ -227,32 +194,6 @@ QGroupBox* DesignPage::buildMesh() {
   return box;
 }
 
-QGroupBox* DesignPage::buildNoiseFloor() {
-  auto* box = new QGroupBox(tr("Noise floor of the design"));
-  auto* column = new QVBoxLayout(box);
-  noise_ = new QDoubleSpinBox;
-  noise_->setObjectName("resistanceNoise");
-  noise_->setRange(0.00001, 10);
-  noise_->setDecimals(5);
-  noise_->setPrefix(tr("noise of R: "));
-  noise_->setSuffix(tr(" %"));
-  noise_->setKeyboardTracking(false);
-  noise_->setToolTip(tr("Relative noise of each reading; a good board has 0.0005 %, a plain one 0.01 %"));
-  column->addWidget(noise_);
-  floorWords_ = new QLabel;
-  floorWords_->setObjectName("noiseFloor");
-  floorWords_->setMinimumHeight(2 * floorWords_->fontMetrics().lineSpacing());
-  floorWords_->setWordWrap(true);
-  column->addWidget(floorWords_);
-  floorSamples_ = new QPushButton(tr("Generate samples"));
-  floorSamples_->setObjectName("floorSamples");
-  floorSamples_->setToolTip(tr("As on the Network scene; the bound follows from how the resistances change with the "
-                               "force"));
-  column->addWidget(floorSamples_);
-  column->addStretch(1);
-  return box;
-}
-
 Stage DesignPage::stage() const {
   return showMesh_->isChecked() ? Stage::Mesh : Stage::Design;
 }
@@ -278,7 +219,6 @@ void DesignPage::showEvent(QShowEvent* event) {
   Scene::showEvent(event);
   draw();
   displayMesh();
-  displayNoiseFloor();
 }
 
 void DesignPage::displayProject() {
@@ -294,11 +234,10 @@ void DesignPage::displayProject() {
   const QSignalBlocker quietMesh(showMesh_);
   const bool otherStage = showMesh_->isChecked() != project.view.mesh;
   showMesh_->setChecked(project.view.mesh);
-  showExactly(*noise_, 100 * project.view.resistanceNoise);
   if (otherStage && isVisible()) emit stageChanged();
   draw();
   displayMesh();
-  displayNoiseFloor();
+  floor_->display();
 }
 
 void DesignPage::draw() {
@@ -353,38 +292,6 @@ void DesignPage::measureMesh() {
                        displayMesh();
                      };
                    });
-}
-
-void DesignPage::displayNoiseFloor() {
-  if (!isVisible()) return;
-  const bool known = network_.upToDate();
-  floorSamples_->setVisible(!known);
-  if (!known) {
-    floorWords_->setText(tr("Known once there are samples of this design."));
-    return;
-  }
-  const double noise = workbench_.project().view.resistanceNoise;
-  if (boundedFor_ == noise) return;
-  boundedFor_ = noise;
-  floorWords_->setText(tr("Being computed..."));
-  boundErrors(noise);
-}
-
-void DesignPage::boundErrors(double noise) {
-  bounding_.start(tr("Bounding the errors"),
-                  [this, noise, samples = network_.sharedSamples()](const std::stop_token& stop,
-                                                                    JobProgress&) -> JobRunner::Taking {
-                    std::vector<int> all(static_cast<std::size_t>(samples->training.rowWires));
-                    std::iota(all.begin(), all.end(), 0);
-                    const int centre = centreRowWire(samples->training.rowWires);
-                    const NoiseBound one = noiseBound(samples->training, InputKind::Resistance, {centre}, noise);
-                    stopIfAsked(stop);
-                    const NoiseBound every = noiseBound(samples->training, InputKind::Resistance, all, noise);
-                    return [this, noise, samples, centre, one, every] {
-                      if (samples == network_.sharedSamples() && boundedFor_ == noise)
-                        floorWords_->setText(boundWords(centre, one, every));
-                    };
-                  });
 }
 
 void DesignPage::editMesh() {

@@ -10,7 +10,6 @@ class QCheckBox;
 class QDoubleSpinBox;
 class QGroupBox;
 class QLabel;
-class QPushButton;
 
 namespace palp {
 
@@ -20,6 +19,7 @@ class DesignComparison;
 class DesignPanel;
 class DesignSweep;
 class LayoutFinder;
+class NoiseFloor;
 
 /// The sensor at rest with all its parameters; the mesh only when asked for.
 class DesignPage : public Scene {
@@ -50,11 +50,8 @@ private:
   void draw();
   void displayMesh();
   void measureMesh();
-  void displayNoiseFloor();
-  void boundErrors(double noise);
   void editMesh();
   QGroupBox* buildMesh();
-  QGroupBox* buildNoiseFloor();
 
   Workbench& workbench_;
   NetworkSession& network_;
@@ -69,14 +66,11 @@ private:
   QDoubleSpinBox* size_ = nullptr;
   QLabel* meshWords_ = nullptr;
   ChartView* quality_ = nullptr;
-  QDoubleSpinBox* noise_ = nullptr;
-  QLabel* floorWords_ = nullptr;
-  QPushButton* floorSamples_ = nullptr;
+  NoiseFloor* floor_ = nullptr;
   quint64 mesh_ = 0;                    ///< number of the mesh that is shown
   std::optional<MeshQuality> measured_; ///< of that mesh
   bool measureAsked_ = false;
-  std::optional<double> boundedFor_; ///< noise of the bound that is shown, or being computed
-  JobRunner measuring_, bounding_;
+  JobRunner measuring_;
 };
 
 } // namespace palp

@@ -1,7 +1,7 @@
 #include "app/gui/design/DesignPanel.h"
 
-#include "app/gui/design/DesignFields.h"
 #include "app/gui/design/DesignPresets.h"
+#include "app/gui/design/LawPanel.h"
 #include "app/gui/design/WireScaling.h"
 #include "app/gui/widgets/WrappedLabel.h"
 
@@ -9,10 +9,7 @@
 #include <QComboBox>
 #include <QFormLayout>
 #include <QGroupBox>
-#include <QLabel>
-#include <QLineEdit>
 #include <QMap>
-#include <QStyle>
 #include <QVBoxLayout>
 
 #include <cmath>
@@ -25,21 +22,6 @@ QString number(double value) {
   return QString::number(value, 'g', 5);
 }
 
-WrappedLabel* problemLabel() {
-  auto* label = new WrappedLabel;
-  label->setProperty("role", "problem");
-  label->hide();
-  return label;
-}
-
-/// Marked with a red frame.
-void markWrong(QLineEdit& edit, bool wrong) {
-  if (edit.property("wrong").toBool() == wrong) return;
-  edit.setProperty("wrong", wrong);
-  edit.style()->unpolish(&edit);
-  edit.style()->polish(&edit);
-}
-
 } // namespace
 
 DesignPanel::DesignPanel(QWidget* parent) : QWidget(parent) {
@@ -50,7 +32,6 @@ DesignPanel::DesignPanel(QWidget* parent) : QWidget(parent) {
   derived_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   buildPresets();
   buildFields();
-  buildSwitches();
   column->addStretch(1);
 }
 
@@ -76,24 +57,24 @@ void DesignPanel::buildFields() {
   auto* column = static_cast<QVBoxLayout*>(layout());
   QMap<QString, QFormLayout*> groups;
   for (const DesignField& field : designFields()) {
+    if (field.group == resistanceGroup()) {
+      if (law_ != nullptr) continue; // it has all of them
+      law_ = new LawPanel;
+      column->addWidget(law_);
+      connect(law_, &LawPanel::edited, this, &DesignPanel::read);
+      continue;
+    }
     if (!groups.contains(field.group)) {
       auto* box = new QGroupBox(field.group);
       groups[field.group] = new QFormLayout(box);
       column->addWidget(box);
     }
-    Row row{new QLineEdit, problemLabel()};
-    row.edit->setObjectName(field.key);
-    row.edit->setToolTip(field.tip + QString("<br><i>%1</i>").arg(field.key));
-    groups[field.group]->addRow(field.unit.isEmpty() ? field.label : field.label + " [" + field.unit + "]", row.edit);
-    row.problem->setObjectName(field.key + " problem");
-    row.edit->setAccessibleName(field.group + ", " + field.label);
-    groups[field.group]->addRow(row.problem);
     const QString what = tr("Change %1").arg((field.group + " " + field.label).toLower());
     const bool size = field.key.startsWith("block_mm");
-    connect(row.edit, &QLineEdit::textEdited, this, [this, what, size] { size ? readSize(what) : read(what); });
-    rows_.push_back(row);
+    rows_.add(field, *groups[field.group], [this, what, size] { size ? readSize(what) : read(what); });
     if (field.key == "block_mm[2]") addWireScaling(*groups[field.group]);
     if (field.key == "material.density_t_per_mm3") groups[field.group]->addRow(derived_);
+    if (field.key == "lower_layer.z_mm") addFollowing(*groups[field.group]);
   }
 }
 
@@ -105,54 +86,22 @@ void DesignPanel::addWireScaling(QFormLayout& form) {
   form.addRow(scaleWires_);
 }
 
-void DesignPanel::buildSwitches() {
-  auto* box = new QGroupBox(tr("Switches"));
-  auto* form = new QFormLayout(box);
-  follows_ = new QCheckBox(tr("lower electrodes follow the rubber"));
+void DesignPanel::addFollowing(QFormLayout& form) {
+  follows_ = new QCheckBox(tr("electrodes follow the rubber"));
   follows_->setObjectName("follows");
-  follows_->setToolTip(tr("The paper holds them still; where they follow, dR changes by more than half"));
-  form->addRow(follows_);
-  law_ = new QCheckBox(tr("resistivity falls with pressure (Fig. 1)"));
-  law_->setObjectName("pressureLaw");
-  law_->setToolTip(tr("g(p) = g (1 + max(p, 0) / p0)^(-n); the starting values are assumed, the figure prints none"));
-  form->addRow(law_);
-  p0_ = new QLineEdit;
-  p0_->setObjectName("p0");
-  exponent_ = new QLineEdit;
-  exponent_->setObjectName("exponent");
-  form->addRow(tr("p0 [MPa]"), p0_);
-  form->addRow(tr("n"), exponent_);
-  lawProblem_ = problemLabel();
-  form->addRow(lawProblem_);
-  static_cast<QVBoxLayout*>(layout())->addWidget(box);
+  follows_->setToolTip(
+      tr("The paper holds the lower electrodes still; where they follow, dR changes by more than half"));
+  form.addRow(follows_);
   connect(follows_, &QCheckBox::toggled, this, [this] { read(tr("Hold or free the lower electrodes")); });
-  connect(law_, &QCheckBox::toggled, this, [this] { read(tr("Change the pressure law")); });
-  for (QLineEdit* edit : {p0_, exponent_})
-    connect(edit, &QLineEdit::textEdited, this, [this] { read(tr("Change the pressure law")); });
 }
 
 void DesignPanel::display(const SensorDesign& design) {
   displaying_ = true;
   if (design != design_) scaledFrom_.reset(); // not by what is typed here
   design_ = design;
-  for (std::size_t k = 0; k < rows_.size(); ++k) {
-    SensorDesign written = design;
-    const DesignField& field = designFields()[k];
-    const bool same = field.set(written, rows_[k].edit->text()).isEmpty() && written == design;
-    if (!same) rows_[k].edit->setText(field.text(design));
-    rows_[k].problem->say({});
-    markWrong(*rows_[k].edit, false);
-    rows_[k].edit->setProperty("unapplied", false);
-    rows_[k].edit->setCursorPosition(same ? rows_[k].edit->cursorPosition() : 0);
-  }
+  rows_.display(design);
+  law_->display(design);
   follows_->setChecked(design.lowerFollowsRubber);
-  law_->setChecked(design.pressureLaw.has_value());
-  const PressureLaw law = design.pressureLaw.value_or(PressureLaw{});
-  for (auto [edit, value] : {std::pair{p0_, law.p0_MPa}, std::pair{exponent_, law.exponent}}) {
-    if (edit->text().toDouble() != value || edit->text().isEmpty()) edit->setText(QString::number(value));
-    edit->setEnabled(design.pressureLaw.has_value());
-  }
-  lawProblem_->say({});
   showDerived(design);
   displaying_ = false;
 }
@@ -161,36 +110,14 @@ void DesignPanel::read(const QString& what) {
   if (displaying_) return;
   scaledFrom_.reset();
   SensorDesign next = design_;
-  bool good = true;
-  std::vector<QString> sentences(rows_.size());
-  for (std::size_t k = 0; k < rows_.size(); ++k) {
-    sentences[k] = designFields()[k].set(next, rows_[k].edit->text());
-    good = good && sentences[k].isEmpty();
-  }
   next.lowerFollowsRubber = follows_->isChecked();
-  next.pressureLaw.reset();
-  if (law_->isChecked()) {
-    const PressureLaw standard;
-    bool goodP0 = false;
-    bool goodExponent = false;
-    const PressureLaw law{p0_->text().toDouble(&goodP0), exponent_->text().toDouble(&goodExponent)};
-    next.pressureLaw = law_->isChecked() && p0_->isEnabled() ? law : standard;
-    good = good && (!p0_->isEnabled() || (goodP0 && goodExponent));
-  }
-  QString lawSentence;
-  if (good)
-    for (const DesignFault& problem : check(next)) {
-      good = false;
-      const QString key = QString::fromStdString(problem.key);
-      const QString sentence = QString::fromStdString(problem.sentence);
-      if (key.startsWith("resistance.pressure_law")) lawSentence = sentence;
-      for (std::size_t k = 0; k < rows_.size(); ++k)
-        if (key.startsWith(designFields()[k].key) && sentences[k].isEmpty()) sentences[k] = sentence;
-    }
-  sayUnderFields(sentences, good);
-  lawProblem_->say(lawSentence);
+  const bool rows = rows_.read(next), law = law_->read(next);
+  std::vector<DesignFault> faults;
+  if (rows && law) faults = check(next);
+  const bool good = rows && law && faults.empty();
+  if (good) design_ = next;
+  say(faults, good);
   if (!good) return;
-  design_ = next;
   showDerived(next);
   emit edited(what, next);
 }
@@ -202,42 +129,20 @@ void DesignPanel::readSize(const QString& what) {
   }
   if (!scaledFrom_) scaledFrom_ = design_;
   SensorDesign next = design_;
-  bool good = true;
-  std::vector<QString> sentences(rows_.size());
-  for (std::size_t k = 0; k < rows_.size(); ++k) {
-    if (!designFields()[k].key.startsWith("block_mm")) continue;
-    sentences[k] = designFields()[k].set(next, rows_[k].edit->text());
-    good = good && sentences[k].isEmpty();
-  }
+  bool good = rows_.read(next, "block_mm");
   const Eigen::Vector3d size_mm = next.block_mm;
   if (good && (size_mm.array() > 0).all()) next = scaledTo(*scaledFrom_, size_mm);
-  for (const DesignFault& problem : good ? check(next) : std::vector<DesignFault>{}) {
-    good = false;
-    for (std::size_t k = 0; k < rows_.size(); ++k)
-      if (QString::fromStdString(problem.key).startsWith(designFields()[k].key) && sentences[k].isEmpty())
-        sentences[k] = QString::fromStdString(problem.sentence);
-  }
-  sayUnderFields(sentences, good);
+  const std::vector<DesignFault> faults = good ? check(next) : std::vector<DesignFault>{};
+  good = good && faults.empty();
+  say(faults, good);
   if (!good) return;
   design_ = next; // before display(), which tells by it who changed the design
   emit edited(tr("%1, and the wires with it").arg(what), next);
 }
 
-void DesignPanel::sayUnderFields(const std::vector<QString>& sentences, bool applied) {
-  for (std::size_t k = 0; k < rows_.size(); ++k) {
-    const DesignField& field = designFields()[k];
-    SensorDesign written = design_;
-    const bool inUse = field.set(written, rows_[k].edit->text()).isEmpty() && written == design_;
-    QString sentence = sentences[k];
-    if (!applied && !inUse) {
-      const QString used = field.text(design_) + (field.unit.isEmpty() ? QString() : " " + field.unit);
-      sentence = sentence.isEmpty() ? tr("Not applied while another field is wrong; in use is %1.").arg(used)
-                                    : tr("%1. In use is still %2.").arg(sentence, used);
-    }
-    rows_[k].problem->say(sentence);
-    markWrong(*rows_[k].edit, !sentence.isEmpty());
-    rows_[k].edit->setProperty("unapplied", !applied);
-  }
+void DesignPanel::say(const std::vector<DesignFault>& faults, bool applied) {
+  rows_.say(faults, design_, applied);
+  law_->say(faults, design_, applied);
 }
 
 void DesignPanel::showDerived(const SensorDesign& design) {

@@ -1,20 +1,16 @@
 #pragma once
 
-#include "model/SensorDesign.h"
+#include "app/gui/design/DesignRows.h"
 
 #include <QWidget>
 
 #include <optional>
-#include <vector>
 
 class QCheckBox;
-class QFormLayout;
-class QLabel;
-class QLineEdit;
 
 namespace palp {
 
-class WrappedLabel;
+class LawPanel;
 
 /// Every parameter of the design with its unit, checked while typing; what is wrong or not in use is said under the
 /// field itself.
@@ -32,30 +28,23 @@ signals:
   void edited(const QString& what, const palp::SensorDesign& design);
 
 private:
-  struct Row {
-    QLineEdit* edit = nullptr;
-    WrappedLabel* problem = nullptr;
-  };
   void buildPresets();
   void buildFields();
-  void buildSwitches();
   void addWireScaling(QFormLayout& form);
+  void addFollowing(QFormLayout& form);
   void read(const QString& what);
   /// Another size of the block, with its wires in the same shares of it where that is wanted.
   void readSize(const QString& what);
-  void sayUnderFields(const std::vector<QString>& sentences, bool applied);
+  void say(const std::vector<DesignFault>& faults, bool applied);
   void showDerived(const SensorDesign& design);
 
   SensorDesign design_;
   std::optional<SensorDesign> scaledFrom_; ///< as the wires lay before the size that is typed now
   bool displaying_ = false;
-  std::vector<Row> rows_;
+  DesignRows rows_;
+  LawPanel* law_ = nullptr;
   QCheckBox* scaleWires_ = nullptr;
   QCheckBox* follows_ = nullptr;
-  QCheckBox* law_ = nullptr;
-  QLineEdit* p0_ = nullptr;
-  QLineEdit* exponent_ = nullptr;
-  WrappedLabel* lawProblem_ = nullptr;
   WrappedLabel* derived_ = nullptr;
 };
 

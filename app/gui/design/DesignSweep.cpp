@@ -2,6 +2,7 @@
 
 #include "app/gui/design/BoundWords.h"
 #include "app/gui/design/DesignFields.h"
+#include "app/gui/design/RestFloor.h"
 #include "app/gui/project/ResultCsv.h"
 #include "app/gui/views/ChartView.h"
 #include "app/gui/widgets/SaveDialog.h"
@@ -14,6 +15,7 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
+#include <QSignalBlocker>
 #include <QSpinBox>
 
 #include <algorithm>
@@ -64,10 +66,6 @@ DesignSweep::DesignSweep(Workbench& workbench, QWidget* parent) : QWidget(parent
   number_ = new QComboBox;
   number_->setObjectName("sweepNumber");
   number_->setToolTip(tr("The number of the design that is changed; all else stays"));
-  for (const DesignField& field : designFields())
-    if (numberOf(field, paperDesign()))
-      number_->addItem(field.group + ": " + field.label + (field.unit.isEmpty() ? "" : " [" + field.unit + "]"),
-                       field.key);
   from_ = new QDoubleSpinBox;
   to_ = new QDoubleSpinBox;
   from_->setObjectName("sweepStart");
@@ -115,14 +113,31 @@ DesignSweep::DesignSweep(Workbench& workbench, QWidget* parent) : QWidget(parent
   // The range follows the design until somebody sets it.
   for (QDoubleSpinBox* box : {from_, to_})
     connect(box, &QDoubleSpinBox::valueChanged, this, [this] { proposed_ = false; });
-  connect(&workbench_, &Workbench::projectChanged, this, [this] {
-    if (proposed_) proposeRange();
-  });
-  proposeRange();
+  connect(&workbench_, &Workbench::projectChanged, this, &DesignSweep::displayProject);
+  displayProject();
 }
 
 void DesignSweep::setTheme(Theme theme) {
   chart_->setTheme(theme);
+}
+
+void DesignSweep::displayProject() {
+  const SensorDesign& design = workbench_.project().design;
+  if (number_->count() == 0 || law_ != design.resistance.index()) listNumbers(design);
+  if (proposed_) proposeRange();
+}
+
+void DesignSweep::listNumbers(const SensorDesign& design) {
+  law_ = design.resistance.index();
+  const QString chosen = number_->currentData().toString();
+  const QSignalBlocker quiet(number_);
+  number_->clear();
+  for (const DesignField& field : designFields())
+    if (field.has(design) && numberOf(field, design))
+      number_->addItem(field.group + ": " + field.label + (field.unit.isEmpty() ? "" : " [" + field.unit + "]"),
+                       field.key);
+  number_->setCurrentIndex(std::max(0, number_->findData(chosen)));
+  if (number_->currentData().toString() != chosen) proposed_ = true;
 }
 
 void DesignSweep::proposeRange() {
@@ -167,12 +182,22 @@ void DesignSweep::run() {
        noise = project.view.resistanceNoise](const std::stop_token& stop, JobProgress& progress) -> JobRunner::Taking {
         std::vector<Point> points;
         std::optional<AreaResponse> response;
+        std::shared_ptr<const RestFloor> floor; // under the field
         StageLog stages;
         for (std::size_t k = 0; k < designs.size(); ++k) {
           const auto report = [&](double share, const std::string& what) {
             progress.set(sameBlock ? share : (static_cast<double>(k) + share) / static_cast<double>(designs.size()),
                          what);
           };
+          if (designs[k].second.field() != nullptr) {
+            const auto part = [&](double share, const std::string& what) {
+              progress.set((static_cast<double>(k) + share) / static_cast<double>(designs.size()), what);
+            };
+            floor = restFloor(designs[k].second, mesh, floor, part, stop);
+            if (!floor) return {};
+            points.push_back({designs[k].first, boundsAtRest(*floor, noise)});
+            continue;
+          }
           if (!response || !sameBlock) response = AreaResponse::solve(designs[k].second, mesh, 0, stages, report, stop);
           if (!response || stop.stop_requested()) return {};
           points.push_back({designs[k].first, designBounds(designs[k].second, *response, noise)});

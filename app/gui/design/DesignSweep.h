@@ -34,6 +34,9 @@ private:
     double at = 0;
     DesignBounds bounds;
   };
+  void displayProject();
+  /// Those of the law that the design has.
+  void listNumbers(const SensorDesign& design);
   /// Around the number as it is now, until the user sets a range.
   void proposeRange();
   void run();
@@ -43,6 +46,7 @@ private:
   Workbench& workbench_;
   JobRunner runner_;
   bool proposed_ = true;
+  std::size_t law_ = 0; ///< whose numbers are listed
   std::vector<Point> points_;
   QString label_; ///< of the number that was swept
   QComboBox* number_ = nullptr;

@@ -35,6 +35,10 @@ LayoutFinder::LayoutFinder(Workbench& workbench, QWidget* parent) : QWidget(pare
   row->addWidget(takeOver_);
   row->addStretch(1);
   column->addLayout(row);
+  notYet_ = new QLabel(tr("Not under the conduction field: layouts are searched by Eq. (1) alone."));
+  notYet_->setObjectName("layoutLaw");
+  notYet_->hide();
+  column->addWidget(notYet_);
   words_ = new QLabel(tr("The block's response is solved once for every load area; then thousands of layouts are "
                          "read out of it."));
   words_->setObjectName("layoutWords");
@@ -45,9 +49,9 @@ LayoutFinder::LayoutFinder(Workbench& workbench, QWidget* parent) : QWidget(pare
   connect(search_, &QPushButton::clicked, this, &LayoutFinder::search);
   connect(takeOver_, &QPushButton::clicked, this, &LayoutFinder::takeOver);
   connect(&runner_, &JobRunner::failed, words_, &QLabel::setText);
-  connect(&runner_, &JobRunner::started, this, [this] { search_->setEnabled(false); });
+  connect(&runner_, &JobRunner::started, this, &LayoutFinder::displayProject);
   connect(&runner_, &JobRunner::finished, this, [this](bool cancelled) {
-    search_->setEnabled(true);
+    displayProject();
     if (cancelled) words_->setText(tr("Stopped; nothing was changed."));
   });
 }
@@ -109,6 +113,9 @@ void LayoutFinder::search() {
 
 void LayoutFinder::displayProject() {
   const SensorDesign& design = workbench_.project().design;
+  const bool pairs = design.field() == nullptr;
+  search_->setEnabled(pairs && !runner_.running());
+  notYet_->setVisible(!pairs);
   takeOver_->setEnabled(found_ && found_->from == design);
   takeOver_->setText(found_ && found_->layout == design ? tr("Taken over") : tr("Take it over"));
 }

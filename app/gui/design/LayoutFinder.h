@@ -39,6 +39,7 @@ private:
   QComboBox* freedom_ = nullptr;
   QPushButton* search_ = nullptr;
   QPushButton* takeOver_ = nullptr;
+  QLabel* notYet_ = nullptr; ///< why it cannot be searched
   QLabel* words_ = nullptr;
 };
 

@@ -54,7 +54,7 @@ NodalFields readAt(const std::vector<FoundPoint>& points, const NodalFields& fie
 KeptPath keptPath(const SensorDesign& kept, const Touch& shown, const std::stop_token& stop) {
   if (const auto wrong = whyInvalid(shown.load(), kept)) throw Error("the kept design: " + *wrong);
   Touch touch(kept, shown.load(), shown.meshOptions());
-  const bool good = touch.advance(Stage::Resistances, {.oneTangent = true}, {.step = {}, .stop = stop});
+  const bool good = touch.advance(Stage::Displacements, {.oneTangent = true}, {.step = {}, .stop = stop});
   stopIfAsked(stop);
   if (!good) throw Error("the kept design cannot bear the load: " + touch.solution()->stopReason);
   touch.problem()->releaseFactor();

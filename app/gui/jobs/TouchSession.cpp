@@ -1,7 +1,9 @@
 #include "app/gui/jobs/TouchSession.h"
 
+#include "app/gui/jobs/TouchResistances.h"
 #include "solver/DiscretisationError.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace palp {
@@ -50,6 +52,10 @@ void TouchSession::resume() {
   if (missing()) run();
 }
 
+Stage TouchSession::target() const {
+  return whyNoResistances(wanted_.design()).isEmpty() ? need_ : std::min(need_, Stage::Displacements);
+}
+
 bool TouchSession::computing() const {
   return runner_.running() && computed_ == revision_;
 }
@@ -84,7 +90,7 @@ void TouchSession::run() {
   if (wanted_.problem() == nullptr) rest();
   trace_ = std::make_shared<NewtonTrace>();
   computed_ = revision_;
-  const auto work = [this, touch = wanted_, target = need_, revision = revision_,
+  const auto work = [this, touch = wanted_, target = target(), revision = revision_,
                      trace = trace_](const std::stop_token& stop, JobProgress& progress) mutable -> JobRunner::Taking {
     progress.set(-1, "Meshing");
     touch.advance(std::min(target, Stage::Mesh), {}, {.step = {}, .stop = stop});
@@ -100,7 +106,7 @@ void TouchSession::run() {
                      },
                      stop});
       if (stop.stop_requested()) return {};
-      touch.advance(Stage::Resistances);
+      touch.advance(target);
       fields = std::make_shared<const NodalFields>(touch.problem()->fields(touch.solution()->state()));
     }
     return [this, touch, fields, revision] { take(touch, fields, revision); };

@@ -45,7 +45,7 @@ public:
   /// Design and load can be computed; where not, the panels say why.
   [[nodiscard]] bool computable() const;
   /// Something that the visible scene needs has not been computed.
-  [[nodiscard]] bool missing() const { return wanted_.reached() < need_; }
+  [[nodiscard]] bool missing() const { return wanted_.reached() < target(); }
   /// False while inputs are newer than what is shown.
   [[nodiscard]] bool upToDate() const { return shownRevision_ == revision_; }
   /// Fields of the place of the load path that is shown; null before the first solution.
@@ -80,6 +80,8 @@ signals:
 
 private:
   void run();
+  /// What is needed, as far as the law of the design lets a touch be followed.
+  [[nodiscard]] Stage target() const;
   /// The job that runs computes the inputs as they are now.
   [[nodiscard]] bool computing() const;
   void showState(int percent);

@@ -1,5 +1,6 @@
 #include "app/gui/live/LiveTwin.h"
 
+#include "app/gui/jobs/TouchResistances.h"
 #include "app/gui/views/BlockView.h"
 #include "model/base/Error.h"
 
@@ -33,9 +34,11 @@ QString loadWords(const LoadCase& load) {
 
 /// How far the model's dR/R is from the board's, as share of the board's; none where the two do not compare.
 std::optional<double> mismatch(const Touch& touch, const Eigen::MatrixXd& measured) {
-  const Eigen::MatrixXd rest = rowColumnResistances(touch.design(), ElectrodeDisplacements::atRest(touch.design()));
-  if (touch.resistances_ohm() == nullptr || measured.rows() != rest.rows() || measured.cols() != rest.cols()) return {};
-  const Eigen::ArrayXXd model = touch.resistances_ohm()->array() / rest.array() - 1;
+  const auto resistances = resistancesOf(touch.design(), *touch.displacements());
+  if (!resistances) return {};
+  const auto& [rest, now] = *resistances;
+  if (measured.rows() != rest.rows() || measured.cols() != rest.cols()) return {};
+  const Eigen::ArrayXXd model = now.array() / rest.array() - 1;
   const auto good = measured.array().isFinite().eval();
   const double difference = good.select((model - measured.array()).square(), 0.0).sum();
   const double size = good.select(measured.array().square(), 0.0).sum();
@@ -98,7 +101,7 @@ void LiveTwin::solve(const SensorDesign& design, const LoadCase& load, const Mes
     if (!touch.advance(Stage::Solution, {}, {{}, stop}) && !stop.stop_requested())
       throw Error("the twin did not converge under this force; the last one stays");
     if (stop.stop_requested()) return {};
-    touch.advance(Stage::Resistances);
+    touch.advance(Stage::Displacements);
     auto fields = std::make_shared<const NodalFields>(touch.problem()->fields(touch.solution()->state()));
     auto result = std::make_shared<const Result>(Result{std::move(touch), std::move(fields), measured});
     return [this, result] { take(result); };
@@ -125,6 +128,8 @@ void LiveTwin::displayWords() {
                   tr("; at most %1 mm").arg(result_->fields->displacement_mm.colwise().norm().maxCoeff(), 0, 'g', 3);
   if (const auto share = mismatch(touch, result_->measured))
     words += tr("; its dR/R differs from the board's by %1 % (rms)").arg(100 * *share, 0, 'g', 2);
+  else if (const QString why = whyNoResistances(touch.design()); !why.isEmpty())
+    words += ". " + why;
   words_->setText(words);
 }
 

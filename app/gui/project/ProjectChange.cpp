@@ -29,8 +29,13 @@ QStringList designChanges(const SensorDesign& before, const SensorDesign& after)
   QStringList changes;
   SensorDesign told = before; // with what the sentences say
   for (const DesignField& field : designFields()) {
+    if (!field.has(after)) continue;
     const QString from = field.text(before), to = field.text(after);
     if (from == to) continue;
+    if (!field.has(before)) { // comes with the law that was chosen
+      field.set(told, to);
+      continue;
+    }
     changes << stepWords(field.group.toLower() + " " + field.label, from, to, field.unit);
     field.set(told, to);
   }

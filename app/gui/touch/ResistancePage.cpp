@@ -216,8 +216,9 @@ QString ResistancePage::cellWords(const std::array<int, 2>& cell) const {
   const SensorDesign& design = workbench_.touch().touch().design();
   const auto [row, column] = cell;
   if (row >= design.rowWires() || column >= design.columnWires()) return {};
-  const double rest = rowColumnResistances(design, ElectrodeDisplacements::atRest(design))(row, column);
-  const double now = rowColumnResistances(design, *workbench_.touch().electrodes())(row, column);
+  const auto resistances = resistancesOf(design, *workbench_.touch().electrodes());
+  if (!resistances) return whyNoResistances(design);
+  const double rest = resistances->rest_ohm(row, column), now = resistances->now_ohm(row, column);
   return tr("Row-wire %1, column-wire %2: R = %3 ohm at rest, %4 ohm under the load (%5 ohm, %6 %)")
       .arg(row)
       .arg(column)
@@ -228,16 +229,17 @@ QString ResistancePage::cellWords(const std::array<int, 2>& cell) const {
 HeatmapSpec ResistancePage::heatmap() const {
   const TouchSession& touch = workbench_.touch();
   const auto changes = [this](const SensorDesign& design, const ElectrodeDisplacements& electrodes) {
-    return resistanceHeatmap(design, rowColumnResistances(design, electrodes), kind());
+    return resistanceHeatmap(design, electrodes, kind());
   };
   HeatmapSpec shown = changes(touch.touch().design(), *touch.electrodes());
-  if (kind() != ResistanceKind::LessKept) return shown;
+  if (kind() != ResistanceKind::LessKept || shown.values.size() == 0) return shown;
   const auto kept = workbench_.keptPath();
   HeatmapSpec none;
   const QString& problem = workbench_.kept().problem();
   none.title = (problem.isEmpty() ? tr("The kept design is being computed...") : problem).toStdString();
   if (!kept) return none;
   const HeatmapSpec less = changes(kept->design, kept->at(touch.loadFraction()).electrodes);
+  if (less.values.size() == 0) return less; // and says why
   const bool alike = less.values.rows() == shown.values.rows() && less.values.cols() == shown.values.cols();
   return alike ? heatmapLessKept(shown.values, less.values) : none; // else the touch is still of the design before
 }

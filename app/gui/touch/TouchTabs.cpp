@@ -185,9 +185,8 @@ void TouchTabs::displayTouch(bool meshChanged, std::shared_ptr<const KeptPath> k
 void TouchTabs::draw() {
   if (!isVisible()) return;
   if (heatmap_->isVisible() && session_.electrodes() != nullptr) {
-    HeatmapSpec spec = resistanceHeatmap(session_.touch().design(),
-                                         rowColumnResistances(session_.touch().design(), *session_.electrodes()),
-                                         ResistanceKind::RelativeChange);
+    HeatmapSpec spec =
+        resistanceHeatmap(session_.touch().design(), *session_.electrodes(), ResistanceKind::RelativeChange);
     if (view_.litCell && (*view_.litCell)[0] < spec.values.rows() && (*view_.litCell)[1] < spec.values.cols())
       spec.selected = view_.litCell;
     heatmap_->setHeatmap(std::move(spec));

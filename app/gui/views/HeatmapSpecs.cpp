@@ -1,7 +1,5 @@
 #include "app/gui/views/HeatmapSpecs.h"
 
-#include "model/RowColumnResistance.h"
-
 namespace palp {
 
 namespace {
@@ -12,8 +10,16 @@ ColorScale scaleOf(const Eigen::MatrixXd& values, ColorMap map, const std::strin
 
 } // namespace
 
-HeatmapSpec resistanceHeatmap(const SensorDesign& design, const Eigen::MatrixXd& resistances_ohm, ResistanceKind kind) {
-  const Eigen::MatrixXd rest = rowColumnResistances(design, ElectrodeDisplacements::atRest(design));
+HeatmapSpec resistanceHeatmap(const SensorDesign& design, const ElectrodeDisplacements& electrodes,
+                              ResistanceKind kind) {
+  if (const auto resistances = resistancesOf(design, electrodes)) return resistanceHeatmap(*resistances, kind);
+  HeatmapSpec none;
+  none.title = whyNoResistances(design).toStdString();
+  return none;
+}
+
+HeatmapSpec resistanceHeatmap(const TouchResistances& resistances, ResistanceKind kind) {
+  const auto& [rest, now] = resistances;
   HeatmapSpec spec;
   ColorMap map = ColorMap::Diverging;
   std::string quantity;
@@ -21,19 +27,19 @@ HeatmapSpec resistanceHeatmap(const SensorDesign& design, const Eigen::MatrixXd&
   switch (kind) {
   case ResistanceKind::Resistance:
     spec.title = "Row-column resistance under the load";
-    spec.values = resistances_ohm;
+    spec.values = now;
     map = ColorMap::Viridis;
     quantity = "R";
     break;
   case ResistanceKind::Change:
     spec.title = "Change of resistance under the load";
-    spec.values = resistances_ohm - rest;
+    spec.values = now - rest;
     quantity = "dR";
     break;
   case ResistanceKind::RelativeChange:
   case ResistanceKind::LessKept:
     spec.title = "Relative change of resistance under the load";
-    spec.values = 100 * (resistances_ohm - rest).cwiseQuotient(rest);
+    spec.values = 100 * (now - rest).cwiseQuotient(rest);
     quantity = "dR/R";
     unit = "%";
     break;

@@ -1,6 +1,7 @@
 #include "app/gui/window/Menus.h"
 
 #include "app/gui/document/Document.h"
+#include "app/gui/jobs/TouchResistances.h"
 #include "app/gui/project/ResultCsv.h"
 #include "app/gui/project/Workbench.h"
 #include "app/gui/widgets/SaveDialog.h"
@@ -97,6 +98,10 @@ void Menus::buildExport(QMenu& menu) {
       const TouchSession& touch = workbench_.touch();
       if (touch.electrodes() == nullptr) {
         window_.showMessage(tr("There are no displacements to export yet; wait until they are computed."));
+        return;
+      }
+      if (const QString why = whyNoResistances(touch.touch().design()); table == resistancesCsv && !why.isEmpty()) {
+        window_.showMessage(why);
         return;
       }
       exportTo(tr("Export CSV"), file, tr("Tables (*.csv)"), [&touch, table](const QString& name) {

@@ -41,7 +41,7 @@ public:
   Monkey(MainWindow& window, unsigned seed) : window_(window), random_(seed) {}
 
   void act() {
-    switch (upTo(19)) {
+    switch (upTo(20)) {
     case 0:
       window_.showScene(window_.sceneNames()[upTo(static_cast<int>(window_.sceneNames().size()))]);
       break;
@@ -97,6 +97,9 @@ public:
     case 18:
       tryToLeave();
       break;
+    case 19:
+      chooseLaw();
+      break;
     }
   }
 
@@ -141,6 +144,20 @@ private:
       QTest::keyClicks(edit, QString::number(5 + 0.1 * upTo(10)));
     }
     window_.showScene(here);
+  }
+  /// On the Design scene: the law, its read-out or a number of it.
+  void chooseLaw() {
+    window_.showScene("design");
+    const std::array boxes{"resistance.law", "resistance.readout"};
+    const std::array edits{"resistance.electrode_radius_mm", "resistance.wire_ohm", "resistance.contact_ohm_mm2"};
+    if (auto* box = window_.currentScene().findChild<QComboBox*>(boxes[static_cast<std::size_t>(upTo(2))]);
+        box != nullptr && box->isVisible())
+      QTest::keyClick(box, upTo(2) == 0 ? Qt::Key_Down : Qt::Key_Up);
+    auto* edit = window_.currentScene().findChild<QLineEdit*>(edits[static_cast<std::size_t>(upTo(3))]);
+    if (edit == nullptr || !edit->isVisible()) return;
+    edit->setFocus();
+    edit->selectAll();
+    QTest::keyClicks(edit, QString::number(0.1 * upTo(6)));
   }
   /// One of Palp's files, or none of them.
   void letFall() {
@@ -221,11 +238,10 @@ protected:
     for (const char* name : {"heatmap", "resistanceHeatmap"}) {
       const auto& view = find<HeatmapView>(name);
       if (!view.isVisible() || touch.electrodes() == nullptr) continue;
-      const Eigen::MatrixXd now = rowColumnResistances(touch.touch().design(), *touch.electrodes());
       const ResistanceKind kind =
           std::string(name) == "heatmap" ? ResistanceKind::RelativeChange : workbench.project().view.resistance;
       if (kind == ResistanceKind::LessKept && workbench.project().kept) continue; // of two touches
-      EXPECT_EQ(view.heatmap().values, resistanceHeatmap(touch.touch().design(), now, kind).values)
+      EXPECT_EQ(view.heatmap().values, resistanceHeatmap(touch.touch().design(), *touch.electrodes(), kind).values)
           << name << " " << where;
     }
     if (auto& slider = find<QSlider>("increments"); slider.isVisible()) {

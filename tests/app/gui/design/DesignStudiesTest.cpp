@@ -1,3 +1,4 @@
+#include "app/gui/design/RestFloor.h"
 #include "app/gui/views/ChartView.h"
 #include "app/gui/views/HeatmapView.h"
 #include "tests/app/gui/WindowFixture.h"
@@ -80,6 +81,53 @@ TEST_F(DesignStudies, SweepANumberWithTheNoiseFloorAsResult) {
   QFile file(folder.filePath("sweep.csv"));
   ASSERT_TRUE(file.open(QIODevice::ReadOnly));
   EXPECT_EQ(file.readAll().count('\n'), 2 + 3) << "two lines of heads and one a value";
+}
+
+TEST_F(DesignStudies, SweepTheElectrodesRadiusUnderTheFieldByItsReadout) {
+  Project field = workbench.project();
+  field.design.resistance = FieldLaw{.readout = Readout::VirtualGround};
+  workbench.edit("field", field);
+  open(2);
+  auto& number = find<QComboBox>("sweepNumber");
+  EXPECT_LT(number.findData("resistance.rate_ohm_per_mm"), 0) << "the field has no rate";
+  number.setCurrentIndex(number.findData("resistance.electrode_radius_mm"));
+  ASSERT_GE(number.currentIndex(), 0);
+  find<QDoubleSpinBox>("sweepStart").setValue(0.1);
+  find<QDoubleSpinBox>("sweepEnd").setValue(0.3);
+  find<QSpinBox>("sweepSteps").setValue(2);
+  QTest::mouseClick(&find<QPushButton>("sweepDesign"), Qt::LeftButton);
+  ASSERT_TRUE(done());
+  const ChartSpec& chart = find<ChartView>("sweepChart").chart();
+  ASSERT_EQ(chart.series.size(), 6u) << find<QLabel>("sweepWords").text().toStdString();
+  for (std::size_t k = 0; k < 3; ++k) {
+    StageLog stages;
+    SensorDesign wide = field.design;
+    std::get<FieldLaw>(wide.resistance).electrodeRadius_mm = chart.series[k].x[1];
+    const auto block = AreaResponse::atRest(wide, field.mesh, 0, stages, {}, {});
+    const FieldResponse response(wide, *wide.field(), *block, 0);
+    EXPECT_DOUBLE_EQ(chart.series[k].y[1], response.bound(Readout::VirtualGround, -1, field.view.resistanceNoise)
+                                               .withPrior()[static_cast<Eigen::Index>(k)]);
+  }
+  Project pairs = workbench.project();
+  pairs.design.resistance = PairsLaw{};
+  workbench.edit("pairs", pairs);
+  EXPECT_GE(number.findData("resistance.rate_ohm_per_mm"), 0);
+  EXPECT_LT(number.findData("resistance.electrode_radius_mm"), 0);
+}
+
+TEST_F(DesignStudies, CompareADesignWithItselfUnderTheFieldBothAtRest) {
+  open(3);
+  QTest::mouseClick(&find<QPushButton>("keepDesign"), Qt::LeftButton);
+  Project field = workbench.project();
+  field.design.resistance = FieldLaw{.readout = Readout::VirtualGround};
+  workbench.edit("field", field);
+  QTest::mouseClick(&find<QPushButton>("compareDesigns"), Qt::LeftButton);
+  ASSERT_TRUE(done());
+  const QString words = find<QLabel>("comparison").text();
+  EXPECT_TRUE(words.startsWith("Both at rest.")) << words.toStdString();
+  EXPECT_TRUE(words.contains("Cramer-Rao")) << words.toStdString();
+  EXPECT_TRUE(words.contains("Not under the conduction field")) << words.toStdString();
+  EXPECT_FALSE(find<HeatmapView>("comparisonMap").isVisible());
 }
 
 TEST_F(DesignStudies, CompareADesignWithTheOneThatWasKept) {

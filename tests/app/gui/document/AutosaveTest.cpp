@@ -189,6 +189,26 @@ TEST_F(AutosaveTest, WhatCannotBeReadIsNotForgottenWithTheRest) {
   EXPECT_EQ(Autosave::left(left).size(), 1U) << "the next start asks again";
 }
 
+TEST_F(AutosaveTest, KeepsADesignUnderTheField) {
+  Project next = workbench.project();
+  next.design.resistance = FieldLaw{.wire_ohm = 12.5, .readout = Readout::OthersAtHalf};
+  workbench.edit("field", next);
+  ASSERT_TRUE(kept("project.json"));
+  const QString left = copyOfLeft();
+  Workbench fresh(exampleProject());
+  NetworkSession none;
+  MainWindow other(fresh, none);
+  other.show();
+  QTimer answer;
+  QObject::connect(&answer, &QTimer::timeout, &answer, [] {
+    auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
+    if (box != nullptr && box->objectName() == "recovery") QTest::mouseClick(box->buttons().front(), Qt::LeftButton);
+  });
+  answer.start(20);
+  offerRecovery(other, left);
+  EXPECT_EQ(fresh.project().design, next.design);
+}
+
 TEST_F(AutosaveTest, BringsProjectSamplesAndNetworkBackAndUndoLeadsToWhatTheFileHeld) {
   const QString file = folder.filePath("mine.json");
   workbench.saved(file);

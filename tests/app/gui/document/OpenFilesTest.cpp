@@ -3,6 +3,7 @@
 #include "app/gui/views/HeatmapView.h"
 #include "app/study/Resources.h"
 #include "app/study/live/LiveSource.h"
+#include "io/DesignFile.h"
 #include "io/SampleFile.h"
 #include "tests/app/gui/WindowFixture.h"
 
@@ -130,6 +131,26 @@ TEST_F(OpenFiles, ADroppedFileGoesWhereItBelongs) {
   dropOn(window, inFolder("touch.palprec"));
   EXPECT_EQ(window.currentScene().objectName(), "live");
   EXPECT_EQ(workbench.project().live.source, LiveSourceKind::Recording);
+}
+
+TEST_F(OpenFiles, ADesignUnderTheFieldOpensSavesAndComesBackAsAny) {
+  SensorDesign design = paperDesign();
+  design.resistance = FieldLaw{.electrodeRadius_mm = 0.25, .readout = Readout::VirtualGround};
+  saveDesign(inFolder("field.json").toStdString(), design, false);
+  dropOn(window, inFolder("field.json"));
+  EXPECT_EQ(said, "");
+  EXPECT_EQ(workbench.project().design, design);
+  answerFileDialog(inFolder("project.json"));
+  QTest::keyClick(&window, Qt::Key_S, Qt::ControlModifier);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return workbench.file() == inFolder("project.json"); }, kPatience_ms));
+  ASSERT_TRUE(idle());
+  EXPECT_FALSE(window.isWindowModified());
+  workbench.history().undo();
+  EXPECT_EQ(workbench.project().design, quickProject().design);
+  dropOn(window, inFolder("project.json"));
+  EXPECT_EQ(said, "");
+  EXPECT_EQ(workbench.project().design, design);
+  EXPECT_TRUE(idle());
 }
 
 TEST_F(OpenFiles, NamesAWrongFileByWhatItIs) {

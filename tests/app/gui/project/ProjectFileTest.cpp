@@ -176,6 +176,40 @@ TEST_F(ProjectFile, ReadsADesignFileIntoTheOpenProject) {
   EXPECT_EQ(project.load, exampleProject().load);
 }
 
+SensorDesign underTheField() {
+  SensorDesign design = paperDesign();
+  design.resistance = FieldLaw{1500, 0.15, 0.5, 4, Readout::RowsGrounded};
+  design.pressureLaw = PressureLaw{0.1, 0.25};
+  return design;
+}
+
+TEST_F(ProjectFile, KeepsTheFieldOfTheDesignAndOfTheKeptOne) {
+  Project project = exampleProject();
+  project.design = underTheField();
+  project.kept = paperDesign();
+  saveProject(path("field.json"), project);
+  EXPECT_EQ(loadProject(path("field.json"), exampleProject()), project);
+  std::swap(project.design, *project.kept);
+  saveProject(path("kept.json"), project);
+  EXPECT_EQ(loadProject(path("kept.json"), exampleProject()), project);
+  saveDesign(path("sensor.json"), underTheField(), false);
+  EXPECT_EQ(loadProject(path("sensor.json"), exampleProject()).design, underTheField());
+}
+
+TEST_F(ProjectFile, RefusesAFieldThatCannotBeInOneLine) {
+  Project project = exampleProject();
+  project.design = underTheField();
+  const std::string text = QJsonDocument::fromJson(projectText(project)).toJson(QJsonDocument::Compact).toStdString();
+  for (const auto& [from, to, words] :
+       {std::tuple{"\"electrode_radius_mm\":0.15", "\"electrode_radius_mm\":0.6", "electrodes overlap"},
+        std::tuple{"\"readout\":\"rows_grounded\"", "\"readout\":\"loud\"", "virtual_ground"},
+        std::tuple{"\"wire_ohm\":4", "\"wire_ohm\":-4", "wire_ohm"}}) {
+    const std::string sentence = refusal(with(text, from, to));
+    EXPECT_NE(sentence.find(words), std::string::npos) << to << ": " << sentence;
+    EXPECT_EQ(sentence.find('\n'), std::string::npos) << sentence;
+  }
+}
+
 TEST_F(ProjectFile, DropsALoadThatCannotActOnTheOpenedDesign) {
   SensorDesign design = paperDesign();
   design.areas = {1, 1};

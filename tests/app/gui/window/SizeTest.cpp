@@ -80,6 +80,16 @@ TEST_F(WindowSize, CutsNoTextAt1280By800) {
   expectRoom({1280, 800});
 }
 
+TEST_F(WindowSize, CutsNoTextUnderTheFieldEither) {
+  Project field = workbench.project();
+  field.design.resistance = FieldLaw{.electrodeRadius_mm = 0.4, .readout = Readout::OthersAtHalf}; // with its warning
+  workbench.edit("field", field);
+  ASSERT_TRUE(solved());
+  expectRoom({1280, 800});
+  for (int k = 0; k < 3; ++k) QTest::keyClick(&window, Qt::Key_Plus, Qt::ControlModifier);
+  expectRoom({1280, 800});
+}
+
 TEST_F(WindowSize, CutsNoTextAt1366By768With125Percent) {
   ASSERT_TRUE(solved());
   expectRoom({1092, 614});

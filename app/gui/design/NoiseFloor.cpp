@@ -1,0 +1,205 @@
+#include "app/gui/design/NoiseFloor.h"
+
+#include "app/gui/design/BoundWords.h"
+#include "app/gui/design/DesignFields.h"
+#include "app/gui/widgets/SpinBoxes.h"
+#include "app/study/decoding/NoiseBound.h"
+#include "model/base/Cancelled.h"
+
+#include <QDoubleSpinBox>
+#include <QLabel>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QVBoxLayout>
+
+#include <cmath>
+#include <numeric>
+
+namespace palp {
+
+namespace {
+
+QString percents(const Eigen::VectorXd& values) {
+  QStringList texts;
+  for (const double value : values) texts << (std::isfinite(value) ? QString::number(value, 'f', 1) : QString("-"));
+  return texts.join(" / ") + " %";
+}
+
+QString sampleBoundWords(int row, const NoiseBound& one, const NoiseBound& every) {
+  return QObject::tr(
+             "Cramer-Rao bound of Fx / Fy / Fz, area known, with prior (forces uniform over their range), in % of "
+             "range:<br>row-wire %1 alone: <b>%2</b><br>all row-wires: <b>%3</b><br>without prior: %4 and %5"
+             "<br><i>Knowing nothing at all is 28.9 %. Real rubber adds hysteresis, creep and temperature.</i>")
+      .arg(row)
+      .arg(percents(one.withPriorPercent), percents(every.withPriorPercent), percents(one.withoutPriorPercent),
+           percents(every.withoutPriorPercent));
+}
+
+QString computing() {
+  return QObject::tr("Being computed...");
+}
+
+/// Side by side: the read-out in use is bold.
+QString restBoundWords(const RestBounds& bounds, const SensorDesign& design) {
+  QString rows;
+  const auto add = [&rows](const QString& name, const DesignBounds& bound, bool bold) {
+    QString cells;
+    for (QString cell : {name, boundPercents(bound.centreRow.withPrior()), boundPercents(bound.allRows.withPrior())}) {
+      cell.replace(' ', "&nbsp;");
+      cells += "<td>" + (bold ? "<b>" + cell + "</b>" : cell) + "&nbsp;&nbsp;</td>";
+    }
+    rows += "<tr>" + cells + "</tr>";
+  };
+  const std::vector<DesignChoice>& readouts = designField("resistance.readout").choices;
+  for (std::size_t k = 0; k < readouts.size(); ++k)
+    add(readouts[k].words, bounds.readouts[k], design.field()->readout == static_cast<Readout>(k));
+  add(QObject::tr("Eq. (1) would say"), bounds.pairs, false);
+  return QObject::tr("Cramer-Rao bound of Fx / Fy / Fz at rest, area known, with prior, in % of range:"
+                     "<table><tr><td></td><td>row-wire %1</td><td>all row-wires</td></tr>%2</table>"
+                     "<i>Knowing nothing at all is 28.9 %. The rubber conducts alike in all directions, also where it "
+                     "is deformed; real rubber adds hysteresis, creep and temperature.</i>")
+      .arg(centreRowWire(design.rowWires()))
+      .arg(rows);
+}
+
+} // namespace
+
+NoiseFloor::NoiseFloor(Workbench& workbench, NetworkSession& network, QWidget* parent)
+    : QGroupBox(tr("Noise floor of the design"), parent), workbench_(workbench), network_(network) {
+  auto* column = new QVBoxLayout(this);
+  noise_ = new QDoubleSpinBox;
+  noise_->setObjectName("resistanceNoise");
+  noise_->setRange(0.00001, 10);
+  noise_->setDecimals(5);
+  noise_->setPrefix(tr("noise of R: "));
+  noise_->setSuffix(tr(" %"));
+  noise_->setKeyboardTracking(false);
+  noise_->setToolTip(tr("Relative noise of each reading; a good board has 0.0005 %, a plain one 0.01 %"));
+  column->addWidget(noise_);
+  words_ = new QLabel;
+  words_->setObjectName("noiseFloor");
+  words_->setWordWrap(true);
+  words_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
+  words_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  auto* scrolled = new QScrollArea; // the table of all read-outs is higher than a low window
+  scrolled->setObjectName("noiseFloorScroll");
+  scrolled->setWidget(words_);
+  scrolled->setWidgetResizable(true);
+  scrolled->setFrameShape(QFrame::NoFrame);
+  scrolled->setMinimumHeight(2 * words_->fontMetrics().lineSpacing());
+  column->addWidget(scrolled, 1);
+  samples_ = new QPushButton(tr("Generate samples"));
+  samples_->setObjectName("floorSamples");
+  samples_->setToolTip(tr("As on the Network scene; the bound follows from how the resistances change with the force"));
+  column->addWidget(samples_);
+  connect(noise_, &QDoubleSpinBox::valueChanged, this, [this](double percent) {
+    Project next = workbench_.project();
+    next.view.resistanceNoise = percent / 100;
+    workbench_.edit(tr("Change the noise of the resistances"), next);
+  });
+  connect(samples_, &QPushButton::clicked, this,
+          [this] { network_.generate(workbench_.project().samples, workbench_.project().mesh); });
+  connect(&network_, &NetworkSession::samplesChanged, this, [this] {
+    boundedFor_.reset();
+    display();
+  });
+  // What was cancelled is asked for again when the page is next brought up to date.
+  connect(&bounding_, &JobRunner::finished, this, [this](bool cancelled) {
+    if (!cancelled) return;
+    forget();
+    if (words_->text() == computing()) words_->setText(tr("Stopped; any edit of the design computes it."));
+  });
+  connect(&bounding_, &JobRunner::failed, words_, &QLabel::setText);
+}
+
+void NoiseFloor::forget() {
+  boundedFor_.reset();
+  asked_.reset();
+  bounds_.reset();
+}
+
+void NoiseFloor::showEvent(QShowEvent* event) {
+  QGroupBox::showEvent(event);
+  display();
+}
+
+/// The block's answer is some 20 MB, computed again in a second or two.
+void NoiseFloor::hideEvent(QHideEvent* event) {
+  QGroupBox::hideEvent(event);
+  floor_.reset();
+}
+
+void NoiseFloor::display() {
+  const Project& project = workbench_.project();
+  showExactly(*noise_, 100 * project.view.resistanceNoise);
+  if (!isVisible()) return;
+  project.design.field() != nullptr ? displayField() : displayPairs();
+}
+
+void NoiseFloor::displayPairs() {
+  if (std::exchange(asked_, std::nullopt)) bounding_.cancel(); // the field's is wanted no more
+  const bool known = network_.upToDate();
+  samples_->setVisible(!known);
+  if (!known) {
+    words_->setText(tr("Known once there are samples of this design."));
+    return;
+  }
+  const double noise = workbench_.project().view.resistanceNoise;
+  if (boundedFor_ == noise) return;
+  boundedFor_ = noise;
+  words_->setText(computing());
+  boundPairs(noise);
+}
+
+void NoiseFloor::boundPairs(double noise) {
+  bounding_.start(tr("Bounding the errors"),
+                  [this, noise, samples = network_.sharedSamples()](const std::stop_token& stop,
+                                                                    JobProgress&) -> JobRunner::Taking {
+                    std::vector<int> all(static_cast<std::size_t>(samples->training.rowWires));
+                    std::iota(all.begin(), all.end(), 0);
+                    const int centre = centreRowWire(samples->training.rowWires);
+                    const NoiseBound one = noiseBound(samples->training, InputKind::Resistance, {centre}, noise);
+                    stopIfAsked(stop);
+                    const NoiseBound every = noiseBound(samples->training, InputKind::Resistance, all, noise);
+                    return [this, noise, samples, centre, one, every] {
+                      if (samples == network_.sharedSamples() && boundedFor_ == noise)
+                        words_->setText(sampleBoundWords(centre, one, every));
+                    };
+                  });
+}
+
+void NoiseFloor::displayField() {
+  boundedFor_.reset();
+  samples_->hide();
+  const Project& project = workbench_.project();
+  const double noise = project.view.resistanceNoise;
+  if (asked_ && asked_->isOf(project.design, project.mesh) && askedNoise_ == noise) {
+    if (bounds_) words_->setText(restBoundWords(*bounds_, project.design)); // of another read-out: all were computed
+    return;
+  }
+  asked_ = RestFloor{project.design, project.mesh, {}, {}};
+  askedNoise_ = noise;
+  bounds_.reset();
+  words_->setText(computing());
+  boundField(noise);
+}
+
+void NoiseFloor::boundField(double noise) {
+  bounding_.start(tr("Bounding the errors"),
+                  [this, noise, design = asked_->design, mesh = asked_->mesh,
+                   before = floor_](const std::stop_token& stop, JobProgress& progress) -> JobRunner::Taking {
+                    const auto floor = restFloor(
+                        design, mesh, before, [&](double share, const std::string& what) { progress.set(share, what); },
+                        stop);
+                    if (!floor) return {};
+                    const RestBounds bounds = restBounds(*floor, noise);
+                    return [this, noise, floor, bounds] {
+                      if (!asked_ || !floor->isOf(asked_->design, asked_->mesh) || askedNoise_ != noise) return;
+                      if (isVisible()) floor_ = floor;
+                      bounds_ = bounds;
+                      words_->setText(restBoundWords(bounds, workbench_.project().design));
+                    };
+                  });
+}
+
+} // namespace palp
