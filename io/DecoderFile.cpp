@@ -10,7 +10,7 @@
 namespace palp {
 namespace {
 
-constexpr int kNewestVersion = 1;
+constexpr int kNewestNetwork = 1;
 
 OrderedJson inputJson(const DecoderInput& input) {
   return {{"kind", name(input.kind)},    {"rows", input.rows},
@@ -157,7 +157,7 @@ void requireFitting(const JsonPlace& root, const Decoder& decoder) {
 } // namespace
 
 std::string networkText(const Decoder& decoder) {
-  OrderedJson json = {{"palp_network", kNewestVersion},
+  OrderedJson json = {{"palp_network", kNewestNetwork},
                       {"decoder", name(decoder.kind)},
                       {"mode", name(decoder.mode)},
                       {"trained_with", decoder.trainedWith},
@@ -180,7 +180,7 @@ std::string networkText(const Decoder& decoder) {
 Decoder parseNetwork(const std::string& text, const std::string& file) {
   const Json json = parseJson(text, file);
   const JsonPlace root(json, file);
-  formatVersion(root, "palp_network", kNewestVersion);
+  formatVersion(root, "palp_network", kNewestNetwork);
   root.onlyKeys({"palp_network", "decoder", "mode", "trained_with", "design_fingerprint", "seed", "noise_relative",
                  "input", "area_count", "together", "low_N", "high_N", "residual_N", "fit", "model", "area_of_class",
                  "areas"});

@@ -15,7 +15,7 @@ namespace palp {
 
 namespace {
 
-constexpr int kNewestVersion = 1;
+constexpr int kNewestDesign = 1;
 
 std::string list(const std::vector<double>& values) {
   std::string all = "[";
@@ -92,7 +92,7 @@ ElectrodeLayer readLayer(const JsonPlace& place, const char* wire, const char* a
   return layer;
 }
 
-Eigen::Vector3d readVector(const JsonPlace& place) {
+Eigen::Vector3d readVector3(const JsonPlace& place) {
   const std::vector<double> v = place.numbers(3);
   return {v[0], v[1], v[2]};
 }
@@ -136,11 +136,11 @@ ForceRange readForceRange(const JsonPlace& place) {
 } // namespace
 
 SensorDesign readDesign(const JsonPlace& root) {
-  formatVersion(root, "palp_design", kNewestVersion); // first: a newer file may well have other keys
+  formatVersion(root, "palp_design", kNewestDesign); // first: a newer file may well have other keys
   root.onlyKeys(
       {"palp_design", "block_mm", "material", "areas", "upper_layer", "lower_layer", "resistance", "force_range_N"});
   SensorDesign design;
-  design.block_mm = readVector(root.at("block_mm"));
+  design.block_mm = readVector3(root.at("block_mm"));
   design.material = readMaterial(root.at("material"));
   const JsonPlace areas = root.at("areas").onlyKeys({"columns", "rows"});
   design.areas = {areas.at("columns").integer(), areas.at("rows").integer()};

@@ -16,7 +16,7 @@ namespace palp {
 
 namespace {
 
-constexpr int kNewestVersion = 1;
+constexpr int kNewestSamples = 1;
 constexpr int kLargestCount = 100000;
 constexpr const char* kFullSolves = "full solves";
 constexpr const char* kSurrogate = "surrogate";
@@ -159,7 +159,7 @@ std::string sampleFileHead(const SampleSet& set) {
   const auto line = [&head](const char* key, const std::string& value) {
     head += std::string("# ") + key + ": " + value + "\n";
   };
-  line("palp_samples", std::to_string(kNewestVersion));
+  line("palp_samples", std::to_string(kNewestSamples));
   line("design", origin.designFingerprint);
   line("seed", std::to_string(origin.seed));
   line("areas", origin.areas);
@@ -214,7 +214,7 @@ SampleSet readSampleHead(SampleLines& lines) {
   while (lines.next(line) && !line.empty() && line[0] == '#') readComment(lines, line, values);
   HeadLines head(lines, std::move(values));
   const int version = head.number("palp_samples", kLargestCount);
-  if (version != kNewestVersion)
+  if (version != kNewestSamples)
     lines.refuse("the file is of version " + std::to_string(version) + "; this Palp reads version 1");
   SampleSet set;
   set.origin = readOrigin(lines, head);

@@ -4,8 +4,6 @@
 
 namespace palp {
 
-constexpr double kPi = std::numbers::pi;
-
 WireCounts wireCounts(const SensorDesign& design) {
   return {design.rowWires(), design.electrodesPerRowWire(), design.columnWires(), design.electrodesPerColumnWire()};
 }
@@ -17,15 +15,15 @@ Eigen::Matrix3Xd electrodes_mm(const SensorDesign& design) {
 }
 
 double contactResistance_ohm(const FieldLaw& law) {
-  return law.contact_ohm_mm2 / (4 * kPi * law.electrodeRadius_mm * law.electrodeRadius_mm);
+  return law.contact_ohm_mm2 / (4 * std::numbers::pi * law.electrodeRadius_mm * law.electrodeRadius_mm);
 }
 
 Eigen::MatrixXd potentials_ohm(const BoxGreen& green, const FieldLaw& law, SphereModel model) {
   const double a = law.electrodeRadius_mm;
   Eigen::MatrixXd p = green.value;
-  p.diagonal().array() += 1 / (4 * kPi * a);
+  p.diagonal().array() += 1 / (4 * std::numbers::pi * a);
   if (model == SphereModel::Dipoles)
-    for (const Eigen::MatrixXd& slope : green.slope) p -= 4 * kPi * a * a * a * slope.transpose() * slope;
+    for (const Eigen::MatrixXd& slope : green.slope) p -= 4 * std::numbers::pi * a * a * a * slope.transpose() * slope;
   p *= law.resistivity_ohm_mm;
   p.diagonal().array() += contactResistance_ohm(law);
   return p;

@@ -13,13 +13,13 @@ namespace palp {
 
 namespace {
 
-constexpr double inside = 1e-9; // of local coordinates: points on faces belong to both sides
+constexpr double localTolerance = 1e-9; // of local coordinates: points on faces belong to both sides
 
 std::optional<PointProbe::Holder> tetHolder(const Mesh& mesh, int element, const Eigen::Vector3d& p) {
   const TetGeometry geometry = tetGeometry(mesh, element);
   Eigen::Vector4d l = geometry.gradients.transpose() * (p - mesh.nodes_mm.col(mesh.elements(0, element)));
   l(0) += 1;
-  if (l.minCoeff() < -inside) return {};
+  if (l.minCoeff() < -localTolerance) return {};
   return PointProbe::Holder{element, tetShapes(l), tetBubble(l), l};
 }
 
@@ -38,7 +38,7 @@ std::optional<PointProbe::Holder> hexHolder(const Mesh& mesh, int element, const
     if (reference.cwiseAbs().maxCoeff() > 10) return {};
     if (change.norm() < 1e-13) break;
   }
-  if (reference.cwiseAbs().maxCoeff() > 1 + inside) return {};
+  if (reference.cwiseAbs().maxCoeff() > 1 + localTolerance) return {};
   return PointProbe::Holder{element, hexGeometry(mesh, element, reference).shapes, 0, Eigen::VectorXd::Ones(1)};
 }
 

@@ -15,8 +15,6 @@ namespace {
 
 constexpr Eigen::Index kMostElectrodes = 2000; // each pair of them has a potential
 constexpr double kNear = 0.35;                 // radius over distance, above which a warning is due
-constexpr double kPi = std::numbers::pi;
-
 /// Three digits, for sentences.
 std::string digits(double value) {
   std::ostringstream words;
@@ -74,8 +72,8 @@ double errorOfDipoles(double a, bool mirror) {
   const double mu = std::acosh(1 / (2 * a)), sign = mirror ? -1 : 1;
   double sum = 0; // of the capacitance over 4 pi a sinh(mu)
   for (int n = 1; n * mu < 40; ++n) sum += (n % 2 == 1 ? 1 : sign) / std::sinh(n * mu);
-  const double exact = 1 / (4 * kPi * a * std::sinh(mu) * sum);
-  const double model = (1 / a - sign - a * a * a) / (4 * kPi);
+  const double exact = 1 / (4 * std::numbers::pi * a * std::sinh(mu) * sum);
+  const double model = (1 / a - sign - a * a * a) / (4 * std::numbers::pi);
   return std::abs(model / exact - 1);
 }
 

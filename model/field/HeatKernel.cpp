@@ -7,10 +7,8 @@ namespace palp {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 KernelJet byImages(double s, double time, double length) {
-  const double norm = 1 / std::sqrt(4 * kPi * time);
+  const double norm = 1 / std::sqrt(4 * std::numbers::pi * time);
   KernelJet jet;
   for (int n = -3; n <= 3; ++n) {
     const double away = s + 2 * n * length;
@@ -26,7 +24,7 @@ KernelJet byImages(double s, double time, double length) {
 KernelJet byCosines(double s, double time, double length) {
   KernelJet jet{1 / (2 * length), 0, 0};
   for (int n = 1; n <= 3; ++n) {
-    const double k = n * kPi / length;
+    const double k = n * std::numbers::pi / length;
     const double size = std::exp(-k * k * time) / length;
     jet.value += size * std::cos(k * s);
     jet.slope -= size * k * std::sin(k * s);
@@ -40,14 +38,15 @@ KernelJet byCosines(double s, double time, double length) {
 KernelJet circleKernel(double s, double time, double length) {
   if (s > length) s -= 2 * length;
   if (s < -length) s += 2 * length;
-  return time < length * length / kPi ? byImages(s, time, length) : byCosines(s, time, length);
+  return time < length * length / std::numbers::pi ? byImages(s, time, length) : byCosines(s, time, length);
 }
 
 HeatTimes heatTimes(double nearest_mm, double longest_mm, double digits) {
-  const double exponent = digits * std::log(10.0), step = kPi * kPi / exponent;
-  const double end = exponent + 3;                                   // derivatives come with powers of it
-  const double first = nearest_mm * nearest_mm / (4 * end);          // exp(-d^2 / 4 t) = exp(-end)
-  const double last = end * (longest_mm / kPi) * (longest_mm / kPi); // exp(-(pi / L)^2 t) = exp(-end)
+  const double exponent = digits * std::log(10.0), step = std::numbers::pi * std::numbers::pi / exponent;
+  const double end = exponent + 3;                          // derivatives come with powers of it
+  const double first = nearest_mm * nearest_mm / (4 * end); // exp(-d^2 / 4 t) = exp(-end)
+  const double last =
+      end * (longest_mm / std::numbers::pi) * (longest_mm / std::numbers::pi); // exp(-(pi / L)^2 t) = exp(-end)
   const auto steps = static_cast<Eigen::Index>(std::ceil(std::log(last / first) / step));
   HeatTimes times;
   times.time = first * (step * Eigen::ArrayXd::LinSpaced(steps + 1, 0, static_cast<double>(steps))).exp();

@@ -7,9 +7,9 @@ namespace palp {
 namespace {
 
 constexpr int lowestDegree = 2, highestDegree = 6;
-constexpr int keptForces = 24;      // from the fit, to measure its error
-constexpr double pointsATerm = 1.5; // least squares of a polynomial on scattered points
-constexpr double fitShare = 0.01;   // of the tolerance, for the solves that are fitted
+constexpr int keptForces = 24;             // from the fit, to measure its error
+constexpr double pointsATerm = 1.5;        // least squares of a polynomial on scattered points
+constexpr double surrogateFitShare = 0.01; // of the tolerance, for the solves that are fitted
 
 /// Displacements of the upper, then of the lower electrodes, then the pressures.
 Eigen::VectorXd numbers(const ElectrodeDisplacements& e) {
@@ -27,7 +27,7 @@ bool addAnswers(BatchEngine& engine, const SensorDesign& design, int area, int l
     forces.push_back(coveringForce(design.forceRange, i));
     loads.push_back({{{area, forces.back()}}, {}});
   }
-  const auto found = engine.solve(loads, fitShare * tolerance, {}, stop);
+  const auto found = engine.solve(loads, surrogateFitShare * tolerance, {}, stop);
   if (found.size() != loads.size()) return false;
   for (const auto& answer : found) {
     if (!answer) return false;

@@ -13,7 +13,8 @@ namespace {
 
 constexpr int predictorDegree = 3;
 constexpr int mostIterations = 30;
-constexpr double fitShare = 10; // of the tolerance, for the predictors' solves: a correction follows, 20 times better
+constexpr double predictorFitShare =
+    10; // of the tolerance, for the predictors' solves: a correction follows, 20 times better
 constexpr double slowestContraction = 0.8; // above it full Newton is the better way
 constexpr double cautionary = 1.5;         // on measured contractions
 
@@ -72,7 +73,7 @@ BatchEngine::BatchEngine(const HyperelasticProblem& problem, std::shared_ptr<con
                          double tolerance, int threads)
     : problem_(problem), rest_(std::move(rest)), model_(problem_.parts(), *rest_),
       polynomial_(problem.design().forceRange, predictorDegree),
-      terms_((polynomial_.terms() + lanes - 1) / lanes * lanes), predictorTolerance_(fitShare * tolerance),
+      terms_((polynomial_.terms() + lanes - 1) / lanes * lanes), predictorTolerance_(predictorFitShare * tolerance),
       threads_(threads) {
   const int areas = problem.design().areas.count();
   for (int a = 0; a < areas; ++a)

@@ -64,13 +64,13 @@ TEST(FullDisk, AProgramWithoutVtkRefusesVtuAndPicture) {
 TEST(FullDisk, RefusesNetworkForcesAndSamplesWithTheReason) {
   const palp::TemporaryFolder folder;
   const std::string samples = folder / "samples.csv", network = folder / "network.json";
-  ASSERT_EQ(palp::test::palp({"sample", "paper", "--per-area", "20", "--mesh-size", "6", "-o", samples}).exit, 0);
+  ASSERT_EQ(palp::test::palp({"sample", "paper", "--per-area", "20", "--mapped", "6x6x2", "-o", samples}).exit, 0);
   expectRefusal(palpOnAFullDisk({"train", samples, "-o", network, "--json"}, kFull_bytes), network);
   ASSERT_EQ(palp::test::palp({"train", samples, "-o", network}).exit, 0);
   const std::filesystem::path forces = folder / "forces.csv", more = folder / "more.csv";
   expectRefusal(palpOnAFullDisk({"predict", network, samples, "-o", forces}, kFull_bytes), forces);
   const Outcome sampled =
-      palpOnAFullDisk({"sample", "paper", "--per-area", "20", "--mesh-size", "6", "-o", more}, kFull_bytes);
+      palpOnAFullDisk({"sample", "paper", "--per-area", "20", "--mapped", "6x6x2", "-o", more}, kFull_bytes);
   EXPECT_EQ(sampled.exit, 2);
   EXPECT_NE(sampled.errors.find("File too large"), std::string::npos) << sampled.errors;
   EXPECT_FALSE(std::filesystem::exists(more));
