@@ -49,8 +49,8 @@ struct BatchSolver::State {
   }
 
   /// Full Newton for one load, with all threads. Empty: stopped.
-  std::optional<ElectrodeDisplacements> fullNewton(const LoadCase& load, std::size_t index,
-                                                   const std::stop_token& stop) {
+  std::optional<ElectrodeDisplacements> fullNewton(const LoadCase& load, std::size_t index, const std::stop_token& stop,
+                                                   const TakeState& take = {}) {
     NewtonOptions newton;
     newton.threads = options.threads;
     newton.relativeTolerance = fullNewtonResidual;
@@ -61,7 +61,9 @@ struct BatchSolver::State {
     if (solution.cancelled) return {};
     if (!solution.converged)
       throw ConvergenceError("load " + std::to_string(firstNumber + index) + ": " + solution.stopReason);
-    return problem.electrodes(solution.state());
+    ElectrodeDisplacements moved = problem.electrodes(solution.state());
+    if (take) take(index, moved, solution.state().displacements_mm);
+    return moved;
   }
 
   /// Measures answers of this call, as many as are due and spread over it, against full Newton; false: stopped.
@@ -129,12 +131,25 @@ BatchSolver::~BatchSolver() = default;
 std::vector<ElectrodeDisplacements> BatchSolver::solve(std::span<const LoadCase> loads,
                                                        const std::function<void(std::size_t)>& progress,
                                                        std::stop_token stop, std::size_t firstNumber) {
+  return answer(loads, progress, stop, firstNumber, {});
+}
+
+std::vector<ElectrodeDisplacements> BatchSolver::solveStates(std::span<const LoadCase> loads, const TakeState& take,
+                                                             const std::function<void(std::size_t)>& progress,
+                                                             std::stop_token stop, std::size_t firstNumber) {
+  return answer(loads, progress, stop, firstNumber, take);
+}
+
+std::vector<ElectrodeDisplacements> BatchSolver::answer(std::span<const LoadCase> loads,
+                                                        const std::function<void(std::size_t)>& progress,
+                                                        const std::stop_token& stop, std::size_t firstNumber,
+                                                        const TakeState& take) {
   State& s = *state_;
   s.firstNumber = firstNumber;
   s.requireLoads(loads);
   if (loads.empty() || !s.prepare(stop)) return {};
   std::vector<BatchEngine::Answer> answers(loads.size());
-  if (s.options.surrogate && !s.fromSurrogates(loads, answers, stop)) return {};
+  if (s.options.surrogate && !take && !s.fromSurrogates(loads, answers, stop)) return {};
   std::vector<Way> ways(loads.size(), Way::Surrogate);
   std::vector<LoadCase> rest;
   std::vector<std::size_t> restIndices;
@@ -150,13 +165,14 @@ std::vector<ElectrodeDisplacements> BatchSolver::solve(std::span<const LoadCase>
     if (progress) progress(done);
   };
   if (done > 0) report(0);
-  std::vector<BatchEngine::Answer> solved = s.engine->solve(rest, s.options.relativeTolerance, report, stop);
+  // With states all loads are in the rest, under their own numbers.
+  std::vector<BatchEngine::Answer> solved = s.engine->solve(rest, s.options.relativeTolerance, report, stop, take);
   if (stop.stop_requested()) return {};
   for (std::size_t k = 0; k < rest.size(); ++k) answers[restIndices[k]] = std::move(solved[k]);
   for (std::size_t i = 0; i < loads.size(); ++i)
     if (!answers[i]) {
       ways[i] = Way::FullNewton;
-      answers[i] = s.fullNewton(loads[i], i, stop);
+      answers[i] = s.fullNewton(loads[i], i, stop, take);
       if (!answers[i]) return {};
     }
   if (!s.check(loads, answers, ways, stop)) return {};

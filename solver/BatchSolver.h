@@ -32,6 +32,14 @@ public:
                                                           const std::function<void(std::size_t)>& progress = {},
                                                           std::stop_token stop = {}, std::size_t firstNumber = 0);
 
+  /// What else is made of a load's state (its number in the call, its electrodes, the displacements [mm] of all nodes),
+  /// by any thread, several at a time.
+  using TakeState = std::function<void(std::size_t, const ElectrodeDisplacements&, const Eigen::Matrix3Xd&)>;
+  /// The same with the states, and never by a surrogate.
+  [[nodiscard]] std::vector<ElectrodeDisplacements> solveStates(std::span<const LoadCase> loads, const TakeState& take,
+                                                                const std::function<void(std::size_t)>& progress = {},
+                                                                std::stop_token stop = {}, std::size_t firstNumber = 0);
+
   /// Fits the surrogates of these areas now rather than at their first load; false if stopped.
   bool fitSurrogates(std::span<const int> areas, const std::stop_token& stop = {});
   /// Largest error of the surrogates fitted so far, on loads that were kept out of their fits.
@@ -43,6 +51,10 @@ public:
   [[nodiscard]] double measuredError() const;
 
 private:
+  std::vector<ElectrodeDisplacements> answer(std::span<const LoadCase> loads,
+                                             const std::function<void(std::size_t)>& progress,
+                                             const std::stop_token& stop, std::size_t firstNumber,
+                                             const TakeState& take);
   struct State;
   std::unique_ptr<State> state_;
 };

@@ -29,9 +29,8 @@ struct ConductionField::State {
       : problem(std::move(p)), law(fieldLaw(problem.design())), electrodes_mm(palp::electrodes_mm(problem.design())),
         green(problem.mesh(), problem.design().block_mm, electrodes_mm) {}
 
-  [[nodiscard]] FieldState places(const LoadIncrement& state) const {
-    const ElectrodeDisplacements moved = problem.electrodes(state);
-    FieldState at{green.mesh().tets().nodes_mm + green.mesh().atNodes(state.displacements_mm), electrodes_mm};
+  [[nodiscard]] FieldState places(const Eigen::Matrix3Xd& displacements_mm, const ElectrodeDisplacements& moved) const {
+    FieldState at{green.mesh().tets().nodes_mm + green.mesh().atNodes(displacements_mm), electrodes_mm};
     at.electrodes_mm.leftCols(moved.upper_mm.cols()) += moved.upper_mm;
     if (problem.design().lowerFollowsRubber) at.electrodes_mm.rightCols(moved.lower_mm.cols()) += moved.lower_mm;
     return at;
@@ -58,9 +57,15 @@ ConductionField::~ConductionField() = default;
 
 std::optional<TerminalNetwork> ConductionField::network(const LoadIncrement& state, int threads,
                                                         const std::stop_token& stop) const {
+  return network(state.displacements_mm, state_->problem.electrodes(state), threads, stop);
+}
+
+std::optional<TerminalNetwork> ConductionField::network(const Eigen::Matrix3Xd& displacements_mm,
+                                                        const ElectrodeDisplacements& electrodes, int threads,
+                                                        const std::stop_token& stop) const {
   const auto correction = state_->correction_ohm(threads, stop);
   if (!correction) return {};
-  const auto green = state_->green.at(state_->places(state), threads, stop);
+  const auto green = state_->green.at(state_->places(displacements_mm, electrodes), threads, stop);
   if (!green) return {};
   return TerminalNetwork(potentials_ohm(*green, state_->law) + *correction, wireCounts(state_->problem.design()),
                          state_->law.wire_ohm);
@@ -76,7 +81,8 @@ std::optional<CurrentField> ConductionField::current(const LoadIncrement& state,
   terminals = ((terminals.array() - terminals(column)) / (terminals(rowWire) - terminals(column))).matrix().eval();
   const Eigen::VectorXd wires = network->inBlock() * terminals;
   const Eigen::VectorXd currents = network->currents() * wires;
-  const auto found = state_->green.potential(state_->places(state), currents, law.electrodeRadius_mm, threads, stop);
+  const auto found = state_->green.potential(state_->places(state.displacements_mm, state_->problem.electrodes(state)),
+                                             currents, law.electrodeRadius_mm, threads, stop);
   if (!found) return {};
   // The constant that the field leaves open: that which the electrodes' potentials have in the mean.
   const double rho = law.resistivity_ohm_mm, contact = contactResistance_ohm(law);

@@ -34,6 +34,10 @@ public:
   /// threads (0: all cores).
   [[nodiscard]] std::optional<TerminalNetwork> network(const LoadIncrement& state, int threads = 0,
                                                        const std::stop_token& stop = {}) const;
+  /// The same of a state that is known by the displacements [mm] of all nodes and of the electrodes.
+  [[nodiscard]] std::optional<TerminalNetwork> network(const Eigen::Matrix3Xd& displacements_mm,
+                                                       const ElectrodeDisplacements& electrodes, int threads = 0,
+                                                       const std::stop_token& stop = {}) const;
   /// None: stopped.
   [[nodiscard]] std::optional<CurrentField> current(const LoadIncrement& state, int rowWire, int columnWire,
                                                     int threads = 0, const std::stop_token& stop = {}) const;

@@ -1,8 +1,10 @@
 #include "solver/DiscretisationError.h"
 
 #include "model/DesignError.h"
+#include "model/FieldAtRest.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Text.h"
+#include "solver/ConductionField.h"
 #include "solver/HyperelasticProblem.h"
 #include "solver/SensorMesh.h"
 
@@ -19,6 +21,9 @@ constexpr double order = 1.3;     // of the error's fall with the size, between 
 /// eight loads on meshes of 1, 1.25 and 1.5 times the default size against meshes twice as fine. On finer meshes it is
 /// less, and the estimate too high: 2.2 to 2.9 times at 0.6 of the default size.
 constexpr double errorOfDifference = 0.7;
+/// The same of d ln R: 0.9 to 2.1 for (0, 0, -0.3) N on area 0 of the paper's design and the four read-outs, against a
+/// mesh half as coarse.
+constexpr double errorOfResistanceDifference = 1.4;
 constexpr double smallestRefinement = 1.15;
 constexpr double clearlyFewer = 0.65;  // 1.3^-3 is 0.46; grids have whole numbers of cells
 constexpr double twinTolerance = 1e-4; // far below any difference between meshes
@@ -58,10 +63,25 @@ double scaleOfDifference(const HyperelasticProblem& problem, const HyperelasticP
   return errorOfDifference * (std::pow(coarserBy, order) - 1) / (std::pow(std::max(ratio, coarserBy), order) - 1);
 }
 
+/// Relative difference of d ln R, rms over all readings; 0 where nothing changes.
+double resistanceDifference(const SensorDesign& design, const Eigen::MatrixXd& resistances_ohm,
+                            const HyperelasticProblem& other, const Solution& otherSolution, int threads,
+                            const std::stop_token& stop) {
+  const FieldLaw& law = *design.field();
+  const auto network = ConductionField(other).network(otherSolution.state(), threads, stop);
+  if (!network) throw Cancelled();
+  const Eigen::ArrayXXd rest = NetworkReading(networkAtRest(design, law), law.readout).resistances_ohm().array().log();
+  const Eigen::ArrayXXd change = resistances_ohm.array().log() - rest;
+  const Eigen::ArrayXXd others = NetworkReading(*network, law.readout).resistances_ohm().array().log() - rest;
+  const double norm = change.matrix().norm();
+  return norm > 0 ? (change - others).matrix().norm() / norm : 0;
+}
+
 } // namespace
 
 DiscretisationError discretisationError(const HyperelasticProblem& problem, const LoadCase& load,
-                                        const Solution& solution, std::stop_token stop, int threads) {
+                                        const Solution& solution, std::stop_token stop, int threads,
+                                        const Eigen::MatrixXd* resistances_ohm) {
   const bool graded = problem.mesh().size_mm > 0;
   const HyperelasticProblem other =
       graded ? coarserTwin(problem, load, stop)
@@ -73,9 +93,13 @@ DiscretisationError discretisationError(const HyperelasticProblem& problem, cons
                   {.step = {}, .stop = stop});
   stopIfAsked(stop);
   if (!reference.converged)
-    return {{}, "no estimate: the solve on the other mesh did not converge: " + reference.stopReason};
+    return {{}, {}, "no estimate: the solve on the other mesh did not converge: " + reference.stopReason};
   const double scale = graded ? scaleOfDifference(problem, other) : 1;
-  return {scale * difference(problem, solution, other, reference),
+  std::optional<double> resistances;
+  if (resistances_ohm && problem.design().field())
+    resistances = (graded ? scale * errorOfResistanceDifference / errorOfDifference : 1) *
+                  resistanceDifference(problem.design(), *resistances_ohm, other, reference, threads, stop);
+  return {scale * difference(problem, solution, other, reference), resistances,
           graded ? "from the difference to a mesh 1.3 times coarser; within a factor of 3 of the error wherever it was "
                    "checked"
                  : "difference to quadratic tetrahedra on the default mesh, whose own error it does not see"};

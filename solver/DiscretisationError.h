@@ -18,11 +18,15 @@ namespace palp {
 /// mapped mesh finer than the default it shows the default mesh's error; it knows nothing of the rubber's law.
 struct DiscretisationError {
   std::optional<double> relative; ///< none where the solve on the other mesh did not converge
-  std::string method;             ///< how it was found and how far it can be trusted, or why there is none
+  /// The same of d ln R over all readings under the law of the field, where the resistances were given.
+  std::optional<double> resistances{};
+  std::string method; ///< how it was found and how far it can be trusted, or why there is none
 };
-/// Estimates the error of the last converged state of the solution. Throws Cancelled.
+/// Estimates the error of the last converged state of the solution, and of its resistances [ohm] where they are given
+/// and the design has the law of the field. Throws Cancelled.
 DiscretisationError discretisationError(const HyperelasticProblem& problem, const LoadCase& load,
-                                        const Solution& solution, std::stop_token stop = {}, int threads = 0);
+                                        const Solution& solution, std::stop_token stop = {}, int threads = 0,
+                                        const Eigen::MatrixXd* resistances_ohm = nullptr);
 
 /// A mesh whose discretisation error under the load, as estimated above, is at most `accuracy`. Begins with 1.5 times
 /// the default size and refines by what the estimate asks for, until it is met. Where the load has no solution: the

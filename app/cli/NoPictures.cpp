@@ -19,7 +19,7 @@ void warn(Session& session, const std::string& what) {
 
 } // namespace
 
-void exportVtu(const OutputFile& output, const Mesh&, const NodalFields*, Session&) {
+void exportVtu(const OutputFile& output, const Mesh&, const NodalFields*, const CurrentField*, Session&) {
   throw Error(needsVtk(output.path.string()));
 }
 

@@ -8,9 +8,16 @@
 
 namespace palp {
 
-void exportVtu(const OutputFile& output, const Mesh& mesh, const NodalFields* fields, Session& session) {
+void exportVtu(const OutputFile& output, const Mesh& mesh, const NodalFields* fields, const CurrentField* current,
+               Session& session) {
   output.requireWritable();
-  writeVtu(output.path, mesh, fields ? nodalArrays(*fields) : std::vector<NodalArray>{});
+  std::vector<NodalArray> arrays = fields ? nodalArrays(*fields) : std::vector<NodalArray>{};
+  if (current) {
+    arrays.push_back({"potential_V", current->potential_V.transpose()});
+    arrays.push_back({"current_density_A_per_mm2", current->currentDensity_A_per_mm2});
+    arrays.push_back({"power_density_W_per_mm3", current->powerDensity_W_per_mm3.transpose()});
+  }
+  writeVtu(output.path, mesh, arrays);
   session.result["file"] = output.path.string();
 }
 

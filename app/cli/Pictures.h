@@ -9,6 +9,7 @@
 #include "app/study/touch/Touch.h"
 #include "model/Mesh.h"
 #include "model/Solution.h"
+#include "solver/ConductionField.h"
 
 #include <filesystem>
 #include <vector>
@@ -17,8 +18,10 @@ namespace palp {
 
 // What needs VTK. Without it (PALP_GUI=OFF) each adds a warning that says so, and the command goes on.
 
-/// VTU file of the mesh, with the fields at its nodes where there are any; sets `file` in the result.
-void exportVtu(const OutputFile& output, const Mesh& mesh, const NodalFields* fields, Session& session);
+/// VTU file of the mesh, with the fields at its nodes and a current's way where there are any; sets `file` in the
+/// result.
+void exportVtu(const OutputFile& output, const Mesh& mesh, const NodalFields* fields, const CurrentField* current,
+               Session& session);
 
 /// Figs. 4, 6-16 as PNG files of the report. Throws Cancelled where the session is stopped.
 std::vector<ReportPicture> drawPaperFigures(const SensorDesign& design, const ProtocolResult& result,

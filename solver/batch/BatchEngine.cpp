@@ -282,11 +282,11 @@ void BatchEngine::solveBlocks(double tolerance, const Take& take, const Give& gi
     for (int b = 0; b < LoadBatch::blocks; ++b) {
       if (!inWork[b] || watch.anyActive(b)) continue;
       std::vector<ElectrodeDisplacements> found = batch->electrodes(b);
-      batch->retire(b);
       std::vector<Answer> answers(inWork[b]->size());
       for (std::size_t i = 0; i < answers.size(); ++i)
         if (!watch.failed[b * lanes + i]) answers[i] = std::move(found[i]);
-      give(*inWork[b], std::move(answers));
+      give(*inWork[b], std::move(answers), *batch, b);
+      batch->retire(b);
       inWork[b] = nullptr;
     }
   }
@@ -295,7 +295,7 @@ void BatchEngine::solveBlocks(double tolerance, const Take& take, const Give& gi
 
 std::vector<BatchEngine::Answer> BatchEngine::solve(std::span<const LoadCase> loads, double tolerance,
                                                     const std::function<void(std::size_t)>& done,
-                                                    const std::stop_token& stop) {
+                                                    const std::stop_token& stop, const BatchSolver::TakeState& state) {
   std::vector<Job> jobs;
   for (std::size_t i = 0; i < loads.size(); ++i) jobs.push_back(job(loads[i], i));
   if (!makePredictors(jobs, stop)) return {};
@@ -307,7 +307,9 @@ std::vector<BatchEngine::Answer> BatchEngine::solve(std::span<const LoadCase> lo
     const std::size_t i = next++;
     return i < blocks.size() ? &blocks[i] : nullptr;
   };
-  const auto give = [&](const Block& block, std::vector<Answer> found) {
+  const auto give = [&](const Block& block, std::vector<Answer> found, const LoadBatch& batch, int b) {
+    for (std::size_t i = 0; i < block.size() && state; ++i)
+      if (found[i]) state(block[i].index, *found[i], batch.displacementsOf(b * lanes + static_cast<int>(i)));
     for (std::size_t i = 0; i < block.size(); ++i) answers[block[i].index] = std::move(found[i]);
     progress.add(block.size());
   };

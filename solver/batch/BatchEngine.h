@@ -27,9 +27,11 @@ public:
 
   /// Answer of one load; without one: full Newton must find it.
   using Answer = std::optional<ElectrodeDisplacements>;
-  /// Iterates each load to the tolerance. Empty: stopped.
+  /// Iterates each load to the tolerance. Empty: stopped. `state` is given each load's number and displacements of all
+  /// nodes as they are found, by any thread, several at a time.
   [[nodiscard]] std::vector<Answer> solve(std::span<const LoadCase> loads, double tolerance,
-                                          const std::function<void(std::size_t)>& done, const std::stop_token& stop);
+                                          const std::function<void(std::size_t)>& done, const std::stop_token& stop,
+                                          const BatchSolver::TakeState& state = {});
   [[nodiscard]] std::size_t solves() const { return solves_; }
 
   /// Gives back what waits for the next call: the lanes' memory, which other work may need meanwhile.

@@ -146,6 +146,12 @@ void LoadBatch::updateUnknowns(int element, int block) {
     if (scale[i % lanes] > 0) x_[own + i] += dx[i];
 }
 
+Eigen::Matrix3Xd LoadBatch::displacementsOf(int lane) const {
+  return Eigen::Map<const Eigen::VectorXd, 0, Eigen::InnerStride<batchLanes>>(u_.data() + lane,
+                                                                              3 * model_.mesh().nodes())
+      .reshaped(3, model_.mesh().nodes());
+}
+
 void LoadBatch::catchUp(int block) {
   if (!behind_[block]) return;
   for (int e = 0; e < model_.mesh().elements(); ++e)

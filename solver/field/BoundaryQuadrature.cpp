@@ -27,7 +27,7 @@ constexpr Orbit kOrbits[] = {{0.090817990382754, 1. / 3, 1. / 3},
                              {0.072757916845420, 0.141707219414880, 0.307939838764121},
                              {0.028327242531057, 0.025003534762686, 0.246672560639903},
                              {0.009421666963733, 0.009540815400299, 0.066803251012200}};
-constexpr int kPoints = 25;
+constexpr int kPoints = BoundaryQuadrature::pointsAFace;
 
 /// Weights of sum 1, and the quadratic shape functions at the points with their derivatives by the first two
 /// barycentric coordinates.
@@ -66,7 +66,7 @@ const TriangleRule& triangleRule() {
 } // namespace
 
 BoundaryQuadrature::BoundaryQuadrature(const FieldMesh& mesh, const Eigen::Matrix3Xd& nodes_mm)
-    : mesh_(&mesh), at_(mesh.faces().cols() * kPoints, 6) {
+    : at_(mesh.faces().cols() * kPoints, 6) {
   const TriangleRule& rule = triangleRule();
   for (Eigen::Index f = 0; f < mesh.faces().cols(); ++f) {
     Eigen::Matrix<double, 3, 6> nodes;
@@ -80,26 +80,22 @@ BoundaryQuadrature::BoundaryQuadrature(const FieldMesh& mesh, const Eigen::Matri
   }
 }
 
-void BoundaryQuadrature::addSources(const Eigen::Matrix3Xd& sources_mm, double* potential, double* flux) const {
-  Eigen::Map<Eigen::VectorXd> potentials(potential, points()), fluxes(flux, points());
+void BoundaryQuadrature::sources(const Eigen::Matrix3Xd& sources_mm, int first, int count, double* potential,
+                                 double* flux) const {
+  const Eigen::Index from = Eigen::Index(first) * kPoints, points = Eigen::Index(count) * kPoints;
+  Eigen::Map<Eigen::VectorXd> potentials(potential, points), fluxes(flux, points);
   potentials.setZero();
   fluxes.setZero();
-  const SurfacePoints surface{at_.col(0).data(), at_.col(1).data(), at_.col(2).data(), at_.col(3).data(),
-                              at_.col(4).data(), at_.col(5).data(), at_.rows()};
+  const auto part = [&](Eigen::Index k) { return at_.col(k).data() + from; };
+  const SurfacePoints surface{part(0), part(1), part(2), part(3), part(4), part(5), points};
   for (Eigen::Index m = 0; m < sources_mm.cols(); ++m)
     laneKernels().addPointSource(surface, sources_mm.col(m).data(), potential, flux);
   potentials /= 4 * std::numbers::pi;
   fluxes /= 4 * std::numbers::pi;
 }
 
-Eigen::VectorXd BoundaryQuadrature::atNodes(const Eigen::Ref<const Eigen::VectorXd>& points) const {
-  const TriangleRule& rule = triangleRule();
-  Eigen::VectorXd sums = Eigen::VectorXd::Zero(mesh_->nodes());
-  for (Eigen::Index f = 0; f < mesh_->faces().cols(); ++f) {
-    const Eigen::Matrix<double, 6, 1> part = rule.shapes * points.segment<kPoints>(f * kPoints);
-    for (int n = 0; n < 6; ++n) sums(mesh_->faces()(n, f)) += part(n);
-  }
-  return sums;
+Eigen::Matrix<double, 6, 1> BoundaryQuadrature::onShapes(const double* points) {
+  return triangleRule().shapes * Eigen::Map<const Eigen::Matrix<double, kPoints, 1>>(points);
 }
 
 } // namespace palp

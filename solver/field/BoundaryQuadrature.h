@@ -12,14 +12,14 @@ class BoundaryQuadrature {
 public:
   BoundaryQuadrature(const FieldMesh& mesh, const Eigen::Matrix3Xd& nodes_mm);
 
-  [[nodiscard]] Eigen::Index points() const { return at_.rows(); }
-  /// Potential 1/(4 pi r) at each point of the sources (3 x sources) together, and its flux outward times the area.
-  void addSources(const Eigen::Matrix3Xd& sources_mm, double* potential, double* flux) const;
-  /// Integral of each node's shape function with what stands at the points, areas included.
-  [[nodiscard]] Eigen::VectorXd atNodes(const Eigen::Ref<const Eigen::VectorXd>& points) const;
+  static constexpr int pointsAFace = 25;
+  /// Potential 1/(4 pi r) of sources (3 x sources) together at the points of faces first .. first + count - 1, and its
+  /// flux outward times the area.
+  void sources(const Eigen::Matrix3Xd& sources_mm, int first, int count, double* potential, double* flux) const;
+  /// Integrals of a face's six shape functions with what stands at its points, areas included.
+  [[nodiscard]] static Eigen::Matrix<double, 6, 1> onShapes(const double* points);
 
 private:
-  const FieldMesh* mesh_;
   Eigen::Matrix<double, Eigen::Dynamic, 6> at_; ///< points x (place, normal times area)
 };
 

@@ -62,14 +62,6 @@ struct DeformedGreen::System {
   ConductionMatrix::Values values;
   ConductionSolve solve;
   BoundaryQuadrature boundary;
-
-  /// Right side of w for the flux of sources through the boundary: their whole current in all, but for quadrature,
-  /// taken up evenly over the volume.
-  [[nodiscard]] Eigen::VectorXd rightSide(const Eigen::Ref<const Eigen::VectorXd>& flux) const {
-    Eigen::VectorXd b = -boundary.atNodes(flux);
-    b -= values.volumes * (b.sum() / values.volumes.sum());
-    return b;
-  }
 };
 
 DeformedGreen::DeformedGreen(const Mesh& solverMesh, const Eigen::Vector3d& block_mm,
@@ -96,7 +88,9 @@ DeformedGreen::DeformedGreen(const Mesh& solverMesh, const Eigen::Vector3d& bloc
 }
 
 std::vector<std::vector<DeformedGreen::Place>> DeformedGreen::places(const FieldState& state) const {
-  constexpr double inside = 1e-7; // of barycentric coordinates: points on faces belong to both sides
+  // Of barycentric coordinates: the rubber moves past electrodes that are held, and what is read of the elements that
+  // held them at rest follows the load smoothly, where a change of elements would be a jump.
+  constexpr double inside = 0.3;
   std::vector<std::vector<Place>> all(atRest_.size());
   for (std::size_t p = 0; p < all.size(); ++p) {
     const Eigen::Vector3d point = state.electrodes_mm.col(static_cast<Eigen::Index>(p));
@@ -107,7 +101,7 @@ std::vector<std::vector<DeformedGreen::Place>> DeformedGreen::places(const Field
       if (const Eigen::Vector4d l = in(place.element, place.barycentric); l.minCoeff() > -inside)
         all[p].push_back({place.element, l});
     if (!all[p].empty()) continue;
-    for (const int e : neighbours_[p]) { // the rubber has moved past an electrode that is held
+    for (const int e : neighbours_[p]) { // far past it
       const Eigen::Vector4d l = in(e, Eigen::Vector4d::Constant(0.25));
       if (all[p].empty()) all[p].push_back({e, l});
       if (l.minCoeff() > all[p].front().barycentric.minCoeff()) all[p].front() = {e, l};
@@ -129,20 +123,57 @@ std::unique_ptr<DeformedGreen::System> DeformedGreen::systemAt(const FieldState&
                                          std::move(solve), BoundaryQuadrature(mesh_, state.nodes_mm)});
 }
 
+struct DeformedGreen::SourceIntegrals {
+  Rows right;               ///< of w: - oint s_q,n N_a - mean(N_a); nodes x electrodes
+  Eigen::MatrixXd products; ///< - oint s_p s_q,n, for p <= q by whole batches
+};
+
+/// By pieces of the boundary that fit into a cache, in parts whose number does not depend on that of the threads.
+DeformedGreen::SourceIntegrals DeformedGreen::integrals(const System& system, int threads,
+                                                        const std::stop_token& stop) const {
+  constexpr int parts = 8, facesAPiece = 32;
+  const auto faces = static_cast<int>(mesh_.faces().cols()), count = static_cast<int>(system.sources.size());
+  Rows onFaces(6 * Eigen::Index(faces), count);
+  std::vector<Eigen::MatrixXd> products(parts, Eigen::MatrixXd::Zero(count, count));
+  forChunks(parts, 1, threads, [&](int part, int) {
+    constexpr int points = facesAPiece * BoundaryQuadrature::pointsAFace;
+    UnsetArray<double> potential(std::size_t(points) * count), flux(potential.size()); // points x electrodes
+    const int last = (part + 1) * faces / parts;
+    for (int first = part * faces / parts; first < last && !stop.stop_requested(); first += facesAPiece) {
+      const int some = std::min(facesAPiece, last - first), rows = some * BoundaryQuadrature::pointsAFace;
+      for (int q = 0; q < count; ++q) {
+        double* own = flux.data() + std::size_t(q) * points;
+        system.boundary.sources(system.sources[std::size_t(q)], first, some, potential.data() + std::size_t(q) * points,
+                                own);
+        for (int f = 0; f < some; ++f)
+          onFaces.col(q).segment<6>(6 * Eigen::Index(first + f)) =
+              BoundaryQuadrature::onShapes(own + f * BoundaryQuadrature::pointsAFace);
+      }
+      for (int q = 0; q < count; q += batchLanes) {
+        const int columns = std::min(batchLanes, count - q);
+        cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, q + columns, columns, rows, -1, potential.data(), points,
+                    flux.data() + std::size_t(q) * points, points, 1,
+                    products[std::size_t(part)].data() + std::size_t(q) * count, count);
+      }
+    }
+  });
+  SourceIntegrals result{Rows::Zero(mesh_.nodes(), count), std::move(products.front())};
+  for (std::size_t part = 1; part < parts; ++part) result.products += products[part];
+  for (int f = 0; f < faces; ++f)
+    for (int n = 0; n < 6; ++n) result.right.row(mesh_.faces()(n, f)) -= onFaces.row(6 * Eigen::Index(f) + n);
+  // The sources' whole current, but for quadrature, taken up evenly over the volume.
+  const Eigen::RowVectorXd currents = result.right.colwise().sum();
+  result.right.noalias() -= system.values.volumes * (currents / system.values.volumes.sum());
+  return result;
+}
+
 std::optional<BoxGreen> DeformedGreen::at(const FieldState& state, int threads, const std::stop_token& stop) const {
   const std::unique_ptr<System> system = systemAt(state, threads, stop);
   if (!system) return {};
   const auto count = static_cast<int>(state.electrodes_mm.cols());
-  const auto points = static_cast<int>(system->boundary.points());
   const int batches = (count + batchLanes - 1) / batchLanes;
-  UnsetArray<double> potential(std::size_t(points) * count), flux(potential.size()); // points x electrodes
-  Rows right(mesh_.nodes(), count);
-  forChunks(count, 1, threads, [&](int q, int) {
-    if (stop.stop_requested()) return;
-    double* own = flux.data() + std::size_t(q) * points;
-    system->boundary.addSources(system->sources[std::size_t(q)], potential.data() + std::size_t(q) * points, own);
-    right.col(q) = system->rightSide(Eigen::Map<const Eigen::VectorXd>(own, points));
-  });
+  auto [right, products] = integrals(*system, threads, stop);
+  if (stop.stop_requested()) return {};
 
   Rows field(mesh_.nodes(), count), twice(mesh_.nodes(), count); // w; 2 b - K w
   forChunks(batches, 1, threads, [&](int b, int) {
@@ -158,15 +189,13 @@ std::optional<BoxGreen> DeformedGreen::at(const FieldState& state, int threads, 
 
   // Rows p <= q, by whole batches. w' (2 b - K w) is the energy up to the square of what substitution leaves.
   BoxGreen green;
-  green.value.resize(count, count);
+  green.value = std::move(products);
   forChunks(batches, 1, threads, [&](int task, int) {
     if (stop.stop_requested()) return;
     const int first = (batches - 1 - task) * batchLanes, some = std::min(batchLanes, count - first);
     double* out = green.value.data() + std::size_t(first) * count;
     cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, first + some, some, mesh_.nodes(), 1, field.data(), count,
-                twice.data() + first, count, 0, out, count);
-    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, first + some, some, points, -1, potential.data(), points,
-                flux.data() + std::size_t(first) * points, points, 1, out, count);
+                twice.data() + first, count, 1, out, count);
   });
   if (stop.stop_requested()) return {};
 
@@ -204,12 +233,7 @@ std::optional<NodalPotential> DeformedGreen::potential(const FieldState& state, 
                                                        const std::stop_token& stop) const {
   const std::unique_ptr<System> system = systemAt(state, threads, stop);
   if (!system) return {};
-  Eigen::VectorXd flux = Eigen::VectorXd::Zero(system->boundary.points()), own(flux.size()), ignored(flux.size());
-  for (Eigen::Index q = 0; q < currents.size() && !stop.stop_requested(); ++q) {
-    system->boundary.addSources(system->sources[std::size_t(q)], ignored.data(), own.data());
-    flux += currents(q) * own;
-  }
-  const Rows right = system->rightSide(flux);
+  const Rows right = integrals(*system, threads, stop).right * currents;
   Rows field(right.rows(), 1), left(right.rows(), 1);
   system->solve.solve(right, field, left, stop);
   if (stop.stop_requested()) return {};

@@ -57,6 +57,8 @@ private:
   /// Where each electrode lies in the deformed mesh: in all elements around it.
   [[nodiscard]] std::vector<std::vector<Place>> places(const FieldState& state) const;
   struct System; ///< a state's factorised matrix
+  struct SourceIntegrals;
+  [[nodiscard]] SourceIntegrals integrals(const System& system, int threads, const std::stop_token& stop) const;
   [[nodiscard]] std::unique_ptr<System> systemAt(const FieldState& state, int threads,
                                                  const std::stop_token& stop) const;
 

@@ -2,6 +2,7 @@
 // that of row-wire 4 in case A of tests/reference/converged.json, unless it says otherwise. With PALP_INSTRUCTION_SET
 // (baseline, avx2) the same on a processor that has less.
 #include "solver/BatchSolver.h"
+#include "solver/ConductionField.h"
 #include "solver/DiscretisationError.h"
 #include "solver/SensorMesh.h"
 #include "tests/benchmarks/CalculixBricks.h"
@@ -58,6 +59,26 @@ BENCHMARK(oneLoad)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime()
     ->Iterations(1);
+
+/// The network of the paper's wires under the field in one solved state, rest and meshing left out; the error is that
+/// of the mesh's displacements and field in d ln R, as estimated.
+void oneFieldState(benchmark::State& state) {
+  SensorDesign design = paperDesign();
+  design.resistance = FieldLaw{};
+  const HyperelasticProblem problem(design, sensorMesh(design));
+  const Solution solution = problem.solve(caseA);
+  const ConductionField field(problem);
+  benchmark::DoNotOptimize(field.network(solution.state())); // and the state at rest
+  for (auto _ : state) {
+    const auto network = field.network(solution.state());
+    const Eigen::MatrixXd resistances = NetworkReading(*network, Readout::Floating).resistances_ohm();
+    state.PauseTiming();
+    state.counters["error_percent"] =
+        100 * discretisationError(problem, caseA, solution, {}, 0, &resistances).resistances.value_or(0);
+    state.ResumeTiming();
+  }
+}
+BENCHMARK(oneFieldState)->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(3);
 
 /// The paper's 700 samples from nothing: 600 to train on all areas, 100 to test on one.
 void sevenHundredSamples(benchmark::State& state) {

@@ -44,7 +44,7 @@ Exit run(const MeshArguments& arguments, Session& session) {
   if (deck)
     writeFile(arguments.output.path, calculixDeck(design, mesh, load), arguments.output.force);
   else if (!arguments.output.path.empty())
-    exportVtu(arguments.output, mesh, nullptr, session);
+    exportVtu(arguments.output, mesh, nullptr, nullptr, session);
   if (!session.json)
     std::cout << mesh.elementCount() << " elements (" << shapeName(mesh.shape) << "), " << mesh.nodeCount()
               << " nodes, " << freeUnknowns(mesh) << " unknowns\ndihedral angles " << quality.minDihedral_deg << " to "

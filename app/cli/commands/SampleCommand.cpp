@@ -53,7 +53,7 @@ SampleRange shardOption(const std::string& text, std::size_t total) {
 }
 
 Exit run(const SampleArguments& arguments, Session& session) {
-  const SensorDesign design = pairsDesignOption(arguments.design, "sample");
+  const SensorDesign design = designOption(arguments.design);
   arguments.output.requireWritable();
   SampleGenerator generator(design, request(arguments, session));
   const SampleRange range = shardOption(arguments.shardText, generator.total());

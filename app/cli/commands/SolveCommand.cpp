@@ -21,6 +21,7 @@ struct SolveArguments {
   std::string design;
   MeshChoice mesh;
   LoadOptions loads;
+  std::string current;
   OutputFile output;
 };
 
@@ -69,12 +70,17 @@ void report(const Touch& touch, const DiscretisationError* error, Session& sessi
   result["element_type"] = touch.problem()->elementType();
   result["displacements_mm"] = displacementsJson(touch.design(), *touch.displacements());
   result["resistances_ohm"] = toJson(*touch.resistances_ohm());
-  result["resistances_at_rest_ohm"] =
-      toJson(rowColumnResistances(touch.design(), ElectrodeDisplacements::atRest(touch.design())));
+  result["resistances_at_rest_ohm"] = toJson(resistancesAtRest_ohm(touch.design()));
+  if (const FieldLaw* law = touch.design().field()) {
+    result["resistance_law"] = "field";
+    result["readout"] = kReadouts.name(law->readout);
+  }
   result["max_volume_error"] = solution.maxVolumeError;
   if (!error) return;
   result["error_estimate_relative"] = error->relative ? Json(*error->relative) : Json();
   result["error_estimate_method"] = error->method;
+  if (touch.design().field())
+    result["resistance_error_estimate"] = error->resistances ? Json(*error->resistances) : Json();
 }
 
 void print(const Touch& touch, const DiscretisationError* error) {
@@ -90,7 +96,7 @@ void print(const Touch& touch, const DiscretisationError* error) {
               touch.problem()->dof());
   std::printf("largest electrode displacement %.6g mm, largest |J - 1| %.3g\n",
               std::sqrt(u.colwise().squaredNorm().maxCoeff()), solution.maxVolumeError);
-  const Eigen::MatrixXd rest = rowColumnResistances(touch.design(), ElectrodeDisplacements::atRest(touch.design()));
+  const Eigen::MatrixXd rest = resistancesAtRest_ohm(touch.design());
   std::printf("largest |dR/R| %.4g %%\n",
               100 * ((*touch.resistances_ohm() - rest).cwiseQuotient(rest)).cwiseAbs().maxCoeff());
   if (error && error->relative)
@@ -98,6 +104,24 @@ void print(const Touch& touch, const DiscretisationError* error) {
                 error->method.c_str());
   else if (error)
     std::printf("discretisation error of the electrode displacements: %s\n", error->method.c_str());
+  if (error && error->resistances)
+    std::printf("discretisation error of d ln R, read by %s, about %.2g %%\n",
+                std::string(kReadouts.name(touch.design().field()->readout)).c_str(), 100 * *error->resistances);
+}
+
+/// Row-wire and column-wire of --current ROW,COLUMN.
+std::optional<std::pair<int, int>> currentOption(const SolveArguments& arguments, const SensorDesign& design) {
+  if (arguments.current.empty()) return {};
+  if (!design.field())
+    throw UsageError("--current: the design has the law pairs, which knows no current in the rubber; allowed is "
+                     "resistance.law field");
+  if (arguments.output.path.empty()) throw UsageError("--current: its fields go into a VTU file; give -o FILE");
+  const std::size_t comma = arguments.current.find(',');
+  if (comma == std::string::npos)
+    throw UsageError("--current: '" + arguments.current + "'; allowed is ROW,COLUMN, for example 4,15");
+  return std::pair{
+      wholeNumber("--current (row-wire)", arguments.current.substr(0, comma), 0, design.rowWires() - 1),
+      wholeNumber("--current (column-wire)", arguments.current.substr(comma + 1), 0, design.columnWires() - 1)};
 }
 
 /// Newton as it goes, for a terminal.
@@ -113,8 +137,9 @@ NewtonObserver observer(const Session& session) {
 }
 
 Exit run(const SolveArguments& arguments, Session& session) {
-  const SensorDesign design = pairsDesignOption(arguments.design, "solve");
+  const SensorDesign design = designOption(arguments.design);
   const LoadCase load = arguments.loads.loadCase(design);
+  const auto pair = currentOption(arguments, design);
   arguments.output.requireWritable();
   Touch touch(design, load, arguments.mesh.options());
   NewtonOptions options;
@@ -129,7 +154,8 @@ Exit run(const SolveArguments& arguments, Session& session) {
   if (touch.solution()->converged) {
     try {
       error = session.stages.measure("estimate", [&] {
-        return discretisationError(*touch.problem(), load, *touch.solution(), session.stop, session.threads);
+        return discretisationError(*touch.problem(), load, *touch.solution(), session.stop, session.threads,
+                                   touch.resistances_ohm());
       });
     } catch (const Cancelled&) { // the solution stands all the same
     }
@@ -138,7 +164,12 @@ Exit run(const SolveArguments& arguments, Session& session) {
   if (!session.json) print(touch, error ? &*error : nullptr);
   if (!arguments.output.path.empty() && !session.stop.stop_requested()) { // half a solve is no result
     const NodalFields fields = touch.problem()->fields(touch.solution()->state());
-    exportVtu(arguments.output, *touch.mesh(), &fields, session);
+    std::optional<CurrentField> current;
+    if (pair)
+      current =
+          touch.field()->current(touch.solution()->state(), pair->first, pair->second, session.threads, session.stop);
+    stopIfAsked(session.stop);
+    exportVtu(arguments.output, *touch.mesh(), &fields, current ? &*current : nullptr, session);
   }
   return touch.solution()->converged ? Exit::Done : Exit::NoResult;
 }
@@ -153,6 +184,10 @@ void addSolve(Cli& cli) {
   command.option("design", arguments->design, "design file, or paper").required();
   arguments->loads.declare(command);
   arguments->mesh.declare(command, true);
+  command.option(
+      "--current", arguments->current,
+      "ROW,COLUMN: under the field law potential, current density and power density for 1 V between the two, "
+      "into the VTU file");
   arguments->output.declare(command, "VTU file with displacement, stress, pressure and volume ratio at the nodes");
 }
 

@@ -61,7 +61,6 @@ SampleRange shard(std::size_t total, int index, int count) {
 SampleGenerator::SampleGenerator(SensorDesign design, SampleRequest request)
     : design_(std::move(design)), request_(std::move(request)) {
   requireValid(design_);
-  requirePairs(design_, "samples");
   if (request_.perArea < 1 || request_.perArea > kMostPerArea)
     throw DesignError("per-area: " + std::to_string(request_.perArea) + "; allowed is 1 to " +
                       std::to_string(kMostPerArea));
@@ -104,6 +103,9 @@ bool SampleGenerator::prepare(const std::stop_token& stop) {
       problem_ = std::make_unique<HyperelasticProblem>(design_, std::move(mesh));
       solver_ = std::make_unique<BatchSolver>(
           *problem_, BatchOptions{request_.relativeTolerance, request_.surrogate, request_.threads});
+      if (design_.field())
+        field_ = std::make_unique<ConductionBatch>(
+            *problem_, *solver_, BatchOptions{request_.relativeTolerance, request_.surrogate, request_.threads});
     });
     origin_.mesh = problem_->elementType() + ", " + std::to_string(problem_->mesh().elementCount()) + " elements, " +
                    std::to_string(problem_->mesh().nodeCount()) + " nodes";
@@ -113,11 +115,17 @@ bool SampleGenerator::prepare(const std::stop_token& stop) {
     std::vector<int> areas{onlyArea_.value_or(0)};
     if (!onlyArea_)
       for (int area = 1; area < design_.areas.count(); ++area) areas.push_back(area);
-    fitted_ = stages_.measure("surrogate", [&] { return solver_->fitSurrogates(areas, stop); });
+    fitted_ = stages_.measure("surrogate", [&] {
+      return solver_->fitSurrogates(areas, stop) && (!field_ || field_->fitSurrogates(areas, stop));
+    });
     if (!fitted_) return false;
-    origin_.surrogateError = solver_->surrogateError();
+    origin_.surrogateError = std::max(solver_->surrogateError(), field_ ? field_->surrogateError() : 0);
   }
   return true;
+}
+
+double SampleGenerator::measuredError() const {
+  return std::max(solver_ ? solver_->measuredError() : 0, field_ ? field_->surrogateError() : 0);
 }
 
 const SampleOrigin& SampleGenerator::origin() {
@@ -137,24 +145,34 @@ std::size_t SampleGenerator::generate(SampleRange range, const std::function<voi
   std::size_t done = range.first;
   while (done < range.last && !stop.stop_requested()) {
     const SampleRange part{done, std::min(range.last, done + most)};
-    std::vector<LoadCase> loads;
-    for (std::size_t i = part.first; i < part.last; ++i) loads.push_back(load(i));
-    const std::vector<ElectrodeDisplacements> displacements = stages_.measure("sample", [&] {
-      return solver_->solve(
-          loads,
+    const auto found = stages_.measure("sample", [&] {
+      return answers(
+          part,
           [&](std::size_t solved) {
             if (progress) progress(done - range.first + solved);
           },
-          stop, part.first);
+          stop);
     });
-    if (displacements.size() < loads.size()) break; // cancelled
-    take(block(part, displacements));
+    if (found.displacements.size() < part.last - part.first) break; // cancelled
+    take(block(part, found));
     done = part.last;
   }
   return done - range.first;
 }
 
-SampleSet SampleGenerator::block(SampleRange range, const std::vector<ElectrodeDisplacements>& displacements) const {
+ConductionBatch::Answers SampleGenerator::answers(const SampleRange& part,
+                                                  const std::function<void(std::size_t)>& progress,
+                                                  const std::stop_token& stop) {
+  std::vector<LoadCase> loads;
+  for (std::size_t i = part.first; i < part.last; ++i) loads.push_back(load(i));
+  if (field_) return field_->solve(loads, progress, stop, part.first);
+  ConductionBatch::Answers result{solver_->solve(loads, progress, stop, part.first), {}};
+  for (const ElectrodeDisplacements& moved : result.displacements)
+    result.resistances_ohm.push_back(rowColumnResistances(design_, moved));
+  return result;
+}
+
+SampleSet SampleGenerator::block(SampleRange range, const ConductionBatch::Answers& answers) const {
   const auto count = static_cast<Eigen::Index>(range.last - range.first);
   SampleSet set;
   set.origin = origin_;
@@ -172,10 +190,8 @@ SampleSet SampleGenerator::block(SampleRange range, const std::vector<ElectrodeD
     set.area(i) = together ? -1 : load.areas[0].area;
     for (std::size_t a = 0; a < load.areas.size(); ++a)
       set.forces_N.block<3, 1>(3 * static_cast<Eigen::Index>(a), i) = load.areas[a].force_N;
-    const ElectrodeDisplacements& moved = displacements[static_cast<std::size_t>(i)];
-    set.displacements_mm.col(i) = moved.upper_mm.reshaped();
-    const Eigen::MatrixXd resistances = rowColumnResistances(design_, moved);
-    set.resistances_ohm.col(i) = resistances.reshaped<Eigen::RowMajor>();
+    set.displacements_mm.col(i) = answers.displacements[static_cast<std::size_t>(i)].upper_mm.reshaped();
+    set.resistances_ohm.col(i) = answers.resistances_ohm[static_cast<std::size_t>(i)].reshaped<Eigen::RowMajor>();
   }
   return set;
 }

@@ -5,6 +5,7 @@
 #include "model/SampleSet.h"
 #include "model/SensorDesign.h"
 #include "solver/BatchSolver.h"
+#include "solver/ConductionBatch.h"
 #include "solver/SensorMesh.h"
 
 #include <functional>
@@ -56,13 +57,17 @@ public:
 
   [[nodiscard]] const StageLog& stages() const { return stages_; }
   [[nodiscard]] std::size_t solves() const { return solver_ ? solver_->solves() : 0; }
-  /// Largest relative error of the electrode displacements on the share that was solved again by full Newton.
-  [[nodiscard]] double measuredError() const { return solver_ ? solver_->measuredError() : 0; }
+  /// Largest relative error of the electrode displacements on the share that was solved again by full Newton; that of
+  /// the surrogates' d ln R under the law of the field where it is larger.
+  [[nodiscard]] double measuredError() const;
 
 private:
   /// False: stopped.
   bool prepare(const std::stop_token& stop = {});
-  SampleSet block(SampleRange range, const std::vector<ElectrodeDisplacements>& displacements) const;
+  /// Empty displacements: stopped.
+  ConductionBatch::Answers answers(const SampleRange& part, const std::function<void(std::size_t)>& progress,
+                                   const std::stop_token& stop);
+  SampleSet block(SampleRange range, const ConductionBatch::Answers& answers) const;
 
   SensorDesign design_;
   SampleRequest request_;
@@ -70,7 +75,8 @@ private:
   SampleOrigin origin_;
   std::unique_ptr<HyperelasticProblem> problem_;
   std::unique_ptr<BatchSolver> solver_;
-  bool fitted_ = false; ///< surrogates, where wanted
+  std::unique_ptr<ConductionBatch> field_; ///< under the law of the field
+  bool fitted_ = false;                    ///< surrogates, where wanted
   StageLog stages_;
 };
 

@@ -1,5 +1,8 @@
 #include "app/study/touch/Touch.h"
 
+#include "model/FieldAtRest.h"
+#include "model/base/Cancelled.h"
+
 namespace palp {
 
 namespace {
@@ -11,13 +14,20 @@ bool sameMesh(const SensorDesign& a, const SensorDesign& b) {
 
 } // namespace
 
+Eigen::MatrixXd resistancesAtRest_ohm(const SensorDesign& design) {
+  if (const FieldLaw* law = design.field())
+    return NetworkReading(networkAtRest(design, *law), law->readout).resistances_ohm();
+  return rowColumnResistances(design, ElectrodeDisplacements::atRest(design));
+}
+
 Touch::Touch(SensorDesign design, LoadCase load, MeshOptions meshOptions)
     : design_(std::move(design)), load_(std::move(load)), meshOptions_(std::move(meshOptions)) {}
 
 void Touch::setDesign(const SensorDesign& design) {
   if (design == design_) return;
   dropFrom(sameMesh(design, design_) ? Stage::Solution : Stage::Mesh);
-  problem_.reset(); // it holds the design
+  problem_.reset(); // these hold the design
+  field_.reset();
   design_ = design;
 }
 
@@ -59,9 +69,22 @@ bool Touch::advance(Stage target, const NewtonOptions& options, const NewtonObse
   }
   if (target >= Stage::Displacements && !displacements_)
     displacements_ = std::make_shared<const ElectrodeDisplacements>(problem_->electrodes(solution_->state()));
-  if (target >= Stage::Resistances && !resistances_)
+  if (target >= Stage::Resistances && !resistances_ && design_.field())
+    findNetwork(options, observer);
+  else if (target >= Stage::Resistances && !resistances_)
     resistances_ = std::make_shared<const Eigen::MatrixXd>(rowColumnResistances(design_, *displacements_));
   return target < Stage::Solution || solution_->converged;
+}
+
+void Touch::findNetwork(const NewtonOptions& options, const NewtonObserver& observer) {
+  auto network = stages_.measure("field", [&] {
+    if (!field_) field_ = std::make_shared<const ConductionField>(*problem_);
+    return field_->network(solution_->state(), options.threads, observer.stop);
+  });
+  if (!network) throw Cancelled();
+  network_ = std::make_shared<const TerminalNetwork>(std::move(*network));
+  resistances_ =
+      std::make_shared<const Eigen::MatrixXd>(NetworkReading(*network_, design_.field()->readout).resistances_ohm());
 }
 
 Stage Touch::reached() const {
@@ -73,10 +96,12 @@ Stage Touch::reached() const {
 
 void Touch::dropFrom(Stage stage) {
   resistances_.reset();
+  network_.reset();
   displacements_.reset();
   solution_.reset();
   if (stage > Stage::Mesh) return;
   problem_.reset();
+  field_.reset();
   mesh_.reset();
 }
 

@@ -4,6 +4,7 @@
 #include "model/LoadCase.h"
 #include "model/RowColumnResistance.h"
 #include "model/SensorDesign.h"
+#include "solver/ConductionField.h"
 #include "solver/HyperelasticProblem.h"
 #include "solver/SensorMesh.h"
 
@@ -14,6 +15,9 @@ namespace palp {
 
 /// How far along the chain from the design to the resistances; each needs those before it.
 enum class Stage { Design, Mesh, Solution, Displacements, Resistances };
+
+/// The resistances that the design's law gives at rest, row-wires x column-wires.
+Eigen::MatrixXd resistancesAtRest_ohm(const SensorDesign& design);
 
 /// One touch, followed from the design to the resistances, no farther than asked: a change drops what comes after it.
 /// The mesh is finer at the rims of the load's discs. Copies are cheap (results are shared and never changed), so that
@@ -30,7 +34,7 @@ public:
 
   /// Computes what is missing up to the stage. False where the solve did not converge or was cancelled: the last
   /// converged state is kept and later stages speak of it. Throws DesignError where design, mesh or load cannot be, and
-  /// Cancelled where it is stopped while it meshes.
+  /// Cancelled where it is stopped while it meshes or while it finds resistances under the law of the field.
   bool advance(Stage target, const NewtonOptions& options = {}, const NewtonObserver& observer = {});
 
   [[nodiscard]] Stage reached() const;
@@ -45,9 +49,13 @@ public:
   [[nodiscard]] const Solution* solution() const { return solution_.get(); }
   [[nodiscard]] const ElectrodeDisplacements* displacements() const { return displacements_.get(); }
   [[nodiscard]] const Eigen::MatrixXd* resistances_ohm() const { return resistances_.get(); }
+  /// Under the law of the field alone: what any read-out is made of, and the field itself.
+  [[nodiscard]] const TerminalNetwork* network() const { return network_.get(); }
+  [[nodiscard]] const ConductionField* field() const { return field_.get(); }
 
 private:
   void dropFrom(Stage stage);
+  void findNetwork(const NewtonOptions& options, const NewtonObserver& observer);
   /// The options with the load's discs in place of theirs.
   [[nodiscard]] MeshOptions meshing() const;
 
@@ -58,6 +66,8 @@ private:
   std::shared_ptr<const HyperelasticProblem> problem_;
   std::shared_ptr<const Solution> solution_;
   std::shared_ptr<const ElectrodeDisplacements> displacements_;
+  std::shared_ptr<const ConductionField> field_;
+  std::shared_ptr<const TerminalNetwork> network_;
   std::shared_ptr<const Eigen::MatrixXd> resistances_;
   StageLog stages_;
 };

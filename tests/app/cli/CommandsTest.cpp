@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <sstream>
 
 using nlohmann::json;
@@ -45,6 +47,51 @@ TEST(Commands, LookingAtTheMeshStartsNoSolve) {
   EXPECT_GT(result.at("elements").get<int>(), 100);
   EXPECT_GT(result.at("min_dihedral_deg").get<double>(), 1);
   EXPECT_LT(result.at("max_dihedral_deg").get<double>(), 179);
+}
+
+/// The paper's design under the field, virtual ground, in a file of this folder.
+std::string fieldDesign(const palp::TemporaryFolder& folder) {
+  json design = json::parse(palp::test::palp({"design"}).output);
+  design["resistance"] = {
+      {"law", "field"}, {"resistivity_ohm_mm", 2000},  {"electrode_radius_mm", 0.2}, {"contact_ohm_mm2", 0},
+      {"wire_ohm", 0},  {"readout", "virtual_ground"}, {"pressure_law", nullptr}};
+  const std::string file = folder / "field.json";
+  std::ofstream(file) << design;
+  return file;
+}
+
+TEST(Commands, SolveUnderTheFieldSaysItsLawReadOutAndError) {
+  const palp::TemporaryFolder folder;
+  const Outcome outcome = palp::test::palp({"solve", fieldDesign(folder), "--load", "0:0,0,-3", "--mapped", "8x8x4",
+                                            "--current", "4,15", "-o", folder / "field.vtu", "--json"});
+  ASSERT_EQ(outcome.exit, 0) << outcome.errors;
+  const json result = outcome.json();
+  EXPECT_EQ(result.at("resistance_law"), "field");
+  EXPECT_EQ(result.at("readout"), "virtual_ground");
+  EXPECT_GT(result.at("resistance_error_estimate").get<double>(), 0);
+  // the closed form of the box, monopoles and dipoles, times the resistivity
+  EXPECT_NEAR(result.at("resistances_at_rest_ohm")[4][15].get<double>(), 2000 * 3.37106704, 0.01);
+  EXPECT_NE(result.at("resistances_ohm")[4][15], result.at("resistances_at_rest_ohm")[4][15]);
+  std::ifstream file(folder / "field.vtu");
+  const std::string text((std::istreambuf_iterator<char>(file)), {});
+  for (const char* array : {"potential_V", "current_density_A_per_mm2", "power_density_W_per_mm3"})
+    EXPECT_NE(text.find(array), std::string::npos) << array;
+}
+
+TEST(Commands, SamplesOfTheFieldTrainANetwork) {
+  const palp::TemporaryFolder folder;
+  const std::string samples = folder / "samples.csv", network = folder / "network.json";
+  const Outcome made = palp::test::palp({"sample", fieldDesign(folder), "--per-area", "40", "--areas", "0", "--mapped",
+                                         "6x6x3", "--surrogate", "-o", samples, "--json"});
+  ASSERT_EQ(made.exit, 0) << made.errors;
+  EXPECT_LT(made.json().at("measured_error_relative").get<double>(), 1e-2);
+  const Outcome trained = palp::test::palp(
+      {"train", samples, "--input", "resistance", "--rows", "all", "--decoder", "linear", "-o", network, "--json"});
+  ASSERT_EQ(trained.exit, 0) << trained.errors;
+  const Outcome predicted = palp::test::palp({"predict", network, samples, "--json"});
+  ASSERT_EQ(predicted.exit, 0) << predicted.errors;
+  for (const json& percent : predicted.json().at("error").at("rmse_percent_of_range"))
+    EXPECT_LT(percent.get<double>(), 5);
 }
 
 TEST(Commands, SolveSaysAllThatToolsRelyOn) {
