@@ -1,5 +1,6 @@
 #include "model/field/FaceField.h"
 
+#include "model/base/Cancelled.h"
 #include "model/base/Parallel.h"
 #include "model/field/HeatKernel.h"
 
@@ -135,12 +136,14 @@ private:
 
 std::vector<Eigen::MatrixXd> faceChanges(const Eigen::Vector3d& block_mm, const FaceGrid& face,
                                          const ElectrodeSources& sources,
-                                         const Eigen::Ref<const Eigen::MatrixXd>& motions, int threads) {
+                                         const Eigen::Ref<const Eigen::MatrixXd>& motions, int threads,
+                                         const std::stop_token& stop) {
   const FaceWork work(block_mm, face, sources, threads);
   const int lines = static_cast<int>(face.v_mm.size());
   const int chunk = std::max(1, static_cast<int>(kLinePoints / face.u_mm.size()));
   std::vector<Eigen::MatrixXd> parts(static_cast<std::size_t>((lines + chunk - 1) / chunk));
   forChunks(lines, chunk, threads, [&](int begin, int end) {
+    if (stop.stop_requested()) throw Cancelled();
     parts[static_cast<std::size_t>(begin / chunk)] = work.ofLines(motions, begin, end);
   });
   Eigen::MatrixXd sum = parts.front();
