@@ -10,7 +10,7 @@ namespace palp {
 
 namespace {
 
-constexpr double kDigits = 7;             // of the integrals over time; the quadrature on the face leaves 1e-5
+constexpr double kDigitsOnFaces = 7;      // of the integrals over time; the quadrature on the face leaves 1e-5
 constexpr Eigen::Index kLinePoints = 512; // points of a face that are worked on at a time
 
 /// Kernels along an axis from each electrode to each place, at all times: places x times.
@@ -67,7 +67,7 @@ struct UnitFields {
 class FaceWork {
 public:
   FaceWork(const Eigen::Vector3d& block, const FaceGrid& face, const ElectrodeSources& sources, int threads)
-      : face_(face), sources_(sources), times_(heatTimes(face.nearest_mm, block.maxCoeff(), kDigits)),
+      : face_(face), sources_(sources), times_(heatTimes(face.nearest_mm, block.maxCoeff(), kDigitsOnFaces)),
         normal_(Eigen::ArrayXd::Constant(1, face.at_mm), sources.electrodes_mm.row(face.axis), times_.time,
                 block(face.axis), threads),
         u_(face.u_mm, sources.electrodes_mm.row(face.first), times_.time, block(face.first), threads),
