@@ -73,8 +73,8 @@ Eigen::MatrixXd FieldSensitivity::ofElectrodes(const Eigen::Matrix3Xd& motion_mm
   return change;
 }
 
-std::vector<Eigen::MatrixXd> FieldSensitivity::conductanceChanges(std::span<const SensorMotion> motions,
-                                                                  int threads) const {
+std::vector<Eigen::MatrixXd> FieldSensitivity::conductanceChanges(std::span<const SensorMotion> motions, int threads,
+                                                                  const std::stop_token& stop) const {
   ElectrodeSources sources{electrodes_mm(design_), network_.currents(), {}};
   if (dipole_ > 0)
     for (std::size_t i = 0; i < 3; ++i) sources.dipoles[i] = -dipole_ * gradient_[i];
@@ -87,7 +87,7 @@ std::vector<Eigen::MatrixXd> FieldSensitivity::conductanceChanges(std::span<cons
   }
   Eigen::Index at = 0;
   for (const FaceGrid& face : faces_) {
-    const auto part = faceChanges(design_.block_mm, face, sources, outward.middleRows(at, face.count()), threads);
+    const auto part = faceChanges(design_.block_mm, face, sources, outward.middleRows(at, face.count()), threads, stop);
     for (std::size_t m = 0; m < changes.size(); ++m) changes[m] += part[m];
     at += face.count();
   }

@@ -7,6 +7,7 @@
 #include <array>
 #include <memory>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 namespace palp {
@@ -37,8 +38,9 @@ public:
   [[nodiscard]] const Eigen::Matrix3Xd& faceNormals() const { return faceNormals_; }
 
   /// dY [1/ohm] of the network (wires x wires) for each motion; `threads` 0: all cores, the same bytes at any number.
-  [[nodiscard]] std::vector<Eigen::MatrixXd> conductanceChanges(std::span<const SensorMotion> motions,
-                                                                int threads = 0) const;
+  /// Throws Cancelled where it was stopped.
+  [[nodiscard]] std::vector<Eigen::MatrixXd> conductanceChanges(std::span<const SensorMotion> motions, int threads = 0,
+                                                                const std::stop_token& stop = {}) const;
 
 private:
   FieldSensitivity(SensorDesign design, const FieldLaw& law, SphereModel model, double fineness, const BoxGreen& green);

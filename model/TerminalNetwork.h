@@ -64,6 +64,10 @@ public:
   /// (L. O. Chua, P.-M. Lin, Computer-Aided Analysis of Electronic Circuits, 1975, chapter 15).
   [[nodiscard]] Eigen::MatrixXd logChange(const Eigen::Ref<const Eigen::MatrixXd>& conductanceChange) const;
 
+  /// Potentials of the wires' ends while each cell is read, wires x readings (reading row + rows * column), between the
+  /// two wires not 1 V for every read-out.
+  [[nodiscard]] const Eigen::MatrixXd& drive() const { return drive_; }
+
 private:
   void readFloating(const Eigen::MatrixXd& y);
   void readVirtualGround(const Eigen::MatrixXd& y);

@@ -1,5 +1,6 @@
 #include "model/field/FaceField.h"
 
+#include "model/base/Cancelled.h"
 #include "model/base/Parallel.h"
 #include "model/field/HeatKernel.h"
 
@@ -9,7 +10,7 @@ namespace palp {
 
 namespace {
 
-constexpr double kDigits = 7;             // of the integrals over time; the quadrature on the face leaves 1e-5
+constexpr double kDigitsOnFaces = 7;      // of the integrals over time; the quadrature on the face leaves 1e-5
 constexpr Eigen::Index kLinePoints = 512; // points of a face that are worked on at a time
 
 /// Kernels along an axis from each electrode to each place, at all times: places x times.
@@ -66,7 +67,7 @@ struct UnitFields {
 class FaceWork {
 public:
   FaceWork(const Eigen::Vector3d& block, const FaceGrid& face, const ElectrodeSources& sources, int threads)
-      : face_(face), sources_(sources), times_(heatTimes(face.nearest_mm, block.maxCoeff(), kDigits)),
+      : face_(face), sources_(sources), times_(heatTimes(face.nearest_mm, block.maxCoeff(), kDigitsOnFaces)),
         normal_(Eigen::ArrayXd::Constant(1, face.at_mm), sources.electrodes_mm.row(face.axis), times_.time,
                 block(face.axis), threads),
         u_(face.u_mm, sources.electrodes_mm.row(face.first), times_.time, block(face.first), threads),
@@ -135,12 +136,14 @@ private:
 
 std::vector<Eigen::MatrixXd> faceChanges(const Eigen::Vector3d& block_mm, const FaceGrid& face,
                                          const ElectrodeSources& sources,
-                                         const Eigen::Ref<const Eigen::MatrixXd>& motions, int threads) {
+                                         const Eigen::Ref<const Eigen::MatrixXd>& motions, int threads,
+                                         const std::stop_token& stop) {
   const FaceWork work(block_mm, face, sources, threads);
   const int lines = static_cast<int>(face.v_mm.size());
   const int chunk = std::max(1, static_cast<int>(kLinePoints / face.u_mm.size()));
   std::vector<Eigen::MatrixXd> parts(static_cast<std::size_t>((lines + chunk - 1) / chunk));
   forChunks(lines, chunk, threads, [&](int begin, int end) {
+    if (stop.stop_requested()) throw Cancelled();
     parts[static_cast<std::size_t>(begin / chunk)] = work.ofLines(motions, begin, end);
   });
   Eigen::MatrixXd sum = parts.front();

@@ -5,6 +5,8 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <stop_token>
+#include <vector>
 
 namespace palp {
 
@@ -20,8 +22,10 @@ struct ElectrodeSources {
 /// phi the potential of the currents and psi that of the dipoles in the insulated box of conductivity 1; wires x wires,
 /// symmetric. Along an insulated face gradients lie in the face. (J. Hadamard, Memoire sur le probleme d'analyse
 /// relatif a l'equilibre des plaques elastiques encastrees, 1908: how Green's function follows the boundary.)
+/// Throws Cancelled where it was stopped.
 std::vector<Eigen::MatrixXd> faceChanges(const Eigen::Vector3d& block_mm, const FaceGrid& face,
                                          const ElectrodeSources& sources,
-                                         const Eigen::Ref<const Eigen::MatrixXd>& motions, int threads);
+                                         const Eigen::Ref<const Eigen::MatrixXd>& motions, int threads,
+                                         const std::stop_token& stop);
 
 } // namespace palp

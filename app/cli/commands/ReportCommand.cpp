@@ -72,6 +72,7 @@ Exit run(ReportArguments& arguments, Session& session) {
   session.result["report"] = outcome.page.string();
   session.result["csv"] = outcome.csv.string();
   session.result["summary"] = outcome.summary;
+  for (const auto& [name, value] : outcome.figures) session.result["figures"][name] = value;
   session.result["seconds"] = outcome.seconds;
   if (!session.json)
     std::cout << outcome.summary << "\n" << outcome.page.string() << " and " << outcome.csv.string() << " written\n";

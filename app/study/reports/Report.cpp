@@ -17,6 +17,12 @@ const char* const kLeftOut = "Eq. (1) adds independent pairs of electrodes in a 
                              "The load areas are stuck to their dead traction: no contact, no friction. A board will "
                              "do worse than these numbers.";
 
+const char* const kFieldAssumed =
+    "Electrodes are spheres of one radius, taken as point sources with the dipoles that the field induces in them. The "
+    "rubber's conductivity is constant and the same in all directions, also where it is deformed: were the carbon "
+    "carried along by the strain, a change of shape would change no resistance. Everything is linear, at rest. No "
+    "hysteresis, creep or temperature. The load areas are stuck to their dead traction.";
+
 namespace {
 
 std::string rowClass(ReportTable::Mark mark) {
@@ -105,6 +111,7 @@ ReportOutcome writeReport(const ReportContent& content, const ReportRequest& req
   writeFile(outcome.page, page.html(), true);
   files.keep();
   outcome.summary = content.summary;
+  outcome.figures = content.figures;
   outcome.stages = content.stages;
   outcome.warnings = content.warnings;
   outcome.seconds = seconds;

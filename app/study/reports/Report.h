@@ -72,13 +72,16 @@ struct ReportContent {
   std::vector<ReportPart> parts;
   std::string csv; ///< every point of every curve and table
   std::vector<ReportFile> files;
-  std::string summary; ///< a sentence or two with the numbers that matter
+  std::string summary;                                 ///< a sentence or two with the numbers that matter
+  std::vector<std::pair<std::string, double>> figures; ///< such numbers by name with their unit, for programs
   StageLog stages;
   std::vector<std::string> warnings;
 };
 
 /// What the model leaves out, for reports whose numbers could be mistaken for a board's.
 extern const char* const kLeftOut;
+/// What is assumed of the field at rest, for the reports under it.
+extern const char* const kFieldAssumed;
 
 /// What is asked of every kind of report.
 struct ReportRequest {
@@ -112,6 +115,7 @@ struct ReportOutcome {
   std::filesystem::path page;
   std::filesystem::path csv;
   std::string summary;
+  std::vector<std::pair<std::string, double>> figures;
   StageLog stages;
   std::vector<std::string> warnings;
   double seconds = 0;

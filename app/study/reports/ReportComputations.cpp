@@ -4,6 +4,7 @@
 #include "app/study/reports/layout/LayoutReport.h"
 #include "app/study/reports/networks/NetworksReport.h"
 #include "app/study/reports/networks/NoiseReport.h"
+#include "app/study/reports/readout/ReadoutReport.h"
 #include "app/study/reports/scenes/ScenesReport.h"
 #include "app/study/reports/stability/StabilityReport.h"
 #include "model/base/Cancelled.h"
@@ -53,7 +54,13 @@ const std::vector<ReportComputation>& reportComputations() {
        {{"the block's response", 0.25, 40},
         {"search for a better layout", 0.55, 2},
         {"depth, pitch and laws", 0.65, 3},
-        {"confirmed by full samples", 1, 90}}},
+        {"confirmed by full samples", 1, 90}},
+       true},
+      {"readout",
+       "what the circuit decides under the field: read-out, electrode radius, contact, switches and noise",
+       readoutReport,
+       {{"the block's response", 0.3, 2}, {"the read-outs of the design", 0.4, 1}, {"radius, contact, switches", 1, 6}},
+       true},
       {"scenes",
        "what each scene and each command costs, and that nothing is computed that is not shown",
        scenesReport,

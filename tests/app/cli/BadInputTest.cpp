@@ -109,10 +109,29 @@ TEST(BadInput, TheFieldLawIsRefusedWhereEq1IsMeant) {
   EXPECT_EQ(checked.json().at("readout"), "virtual_ground");
   const std::string out = folder / "out";
   for (const std::vector<std::string>& command :
-       {std::vector<std::string>{"report", "layout", "--design", file, "-o", out},
+       {std::vector<std::string>{"report", "networks", "--design", file, "-o", out},
         {"report", "error-time", "--design", file, "-o", out},
         {"listen", "--simulate", "--design", file}})
     expectRefused(palp::test::palp(command), {"not yet under the field law", "resistance.law pairs"});
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+/// Bounds at rest, where the pressure law has a kink: no report begins to work.
+TEST(BadInput, APressureLawIsRefusedByTheReportsUnderTheField) {
+  const palp::TemporaryFolder folder;
+  json design = paper();
+  design["resistance"] = {{"law", "field"},
+                          {"resistivity_ohm_mm", 2000},
+                          {"electrode_radius_mm", 0.2},
+                          {"contact_ohm_mm2", 0},
+                          {"wire_ohm", 0},
+                          {"readout", "floating"},
+                          {"pressure_law", {{"p0_MPa", 0.05}, {"exponent", 0.5}}}};
+  const std::string file = folder / "field.json", out = folder / "out";
+  writeAll(file, design.dump());
+  for (const char* kind : {"noise", "layout", "readout"})
+    expectRefused(palp::test::palp({"report", kind, "--design", file, "-o", out}),
+                  {"resistance.pressure_law", "allowed is null"});
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 

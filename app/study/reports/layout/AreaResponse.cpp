@@ -45,6 +45,7 @@ ElectrodeDisplacements read(const SensorDesign& layout, const LoadIncrement& sta
 std::optional<AreaResponse> AreaResponse::solve(const SensorDesign& design, const MeshOptions& mesh, int threads,
                                                 StageLog& stages, const ReportProgress& progress,
                                                 std::stop_token stop) {
+  if (design.field()) return atRest(design, mesh, threads, stages, progress, std::move(stop));
   AreaResponse response;
   response.mesh_ = stages.measure("mesh", [&] { return sensorMesh(design, mesh); });
   const HyperelasticProblem problem =

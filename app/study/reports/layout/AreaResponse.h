@@ -24,7 +24,8 @@ struct ElectrodeResponse {
 /// electrodes is read out of them, for electrodes do not stiffen the rubber.
 class AreaResponse {
 public:
-  /// Empty where it was stopped. Throws DesignError where the middle of the range has no solution.
+  /// What bounds of the design need: under the law of the field `atRest`. Empty where it was stopped. Throws
+  /// DesignError where the middle of the range has no solution.
   static std::optional<AreaResponse> solve(const SensorDesign& design, const MeshOptions& mesh, int threads,
                                            StageLog& stages, const ReportProgress& progress, std::stop_token stop);
 

@@ -1,10 +1,17 @@
 #include "app/study/reports/layout/DesignBounds.h"
 
+#include "app/study/reports/layout/FieldResponse.h"
+
 namespace palp {
 
-DesignBounds designBounds(const SensorDesign& layout, const AreaResponse& response, double relativeNoise) {
-  return {layoutBound(layout, response, centreRowWire(layout.rowWires()), relativeNoise),
-          layoutBound(layout, response, -1, relativeNoise)};
+DesignBounds designBounds(const SensorDesign& layout, const AreaResponse& response, double relativeNoise,
+                          const std::stop_token& stop) {
+  const int row = centreRowWire(layout.rowWires());
+  if (const FieldLaw* law = layout.field()) {
+    const FieldResponse field(layout, *law, response, 0, 1, stop);
+    return {field.bound(law->readout, row, relativeNoise), field.bound(law->readout, -1, relativeNoise)};
+  }
+  return {layoutBound(layout, response, row, relativeNoise), layoutBound(layout, response, -1, relativeNoise)};
 }
 
 std::optional<DesignBounds> designBounds(const SensorDesign& design, const MeshOptions& mesh, double relativeNoise,
@@ -12,7 +19,7 @@ std::optional<DesignBounds> designBounds(const SensorDesign& design, const MeshO
   StageLog stages;
   const auto response = AreaResponse::solve(design, mesh, 0, stages, progress, stop);
   if (!response) return {};
-  return designBounds(design, *response, relativeNoise);
+  return designBounds(design, *response, relativeNoise, stop);
 }
 
 } // namespace palp

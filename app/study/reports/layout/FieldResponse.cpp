@@ -5,25 +5,21 @@
 
 namespace palp {
 
-namespace {
-
-void requireSmooth(const SensorDesign& layout) {
-  if (layout.pressureLaw)
+void requireSmoothAtRest(const SensorDesign& design) {
+  if (design.pressureLaw)
     throw DesignError("resistance.pressure_law: bounds at rest, where it has a kink: not yet under the field law; "
                       "allowed is null");
 }
 
-} // namespace
-
 FieldResponse::FieldResponse(const SensorDesign& layout, const FieldLaw& law, const AreaResponse& response, int threads,
-                             double fineness)
-    : FieldResponse(layout, FieldSensitivity(layout, law, SphereModel::Dipoles, fineness, threads), response, threads) {
-}
+                             double fineness, const std::stop_token& stop)
+    : FieldResponse(layout, FieldSensitivity(layout, law, SphereModel::Dipoles, fineness, threads), response, threads,
+                    stop) {}
 
 FieldResponse::FieldResponse(const SensorDesign& layout, const FieldSensitivity& field, const AreaResponse& response,
-                             int threads)
+                             int threads, const std::stop_token& stop)
     : network_(field.network()), range_N_(layout.forceRange.high_N - layout.forceRange.low_N) {
-  requireSmooth(layout);
+  requireSmoothAtRest(layout);
   const auto faces = response.perNewtonAt(field.facePoints_mm(), threads);
   const std::vector<ElectrodeResponse> electrodes = response.read(layout, -1);
   std::vector<SensorMotion> motions;
@@ -36,7 +32,7 @@ FieldResponse::FieldResponse(const SensorDesign& layout, const FieldSensitivity&
       motion.faces_mm = field.faceNormals().cwiseProduct(faces[area][axis]).colwise().sum();
       motions.push_back(std::move(motion));
     }
-  std::vector<Eigen::MatrixXd> changes = field.conductanceChanges(motions, threads);
+  std::vector<Eigen::MatrixXd> changes = field.conductanceChanges(motions, threads, stop);
   for (std::size_t area = 0; area < faces.size(); ++area)
     conductanceChanges_.push_back(
         {std::move(changes[3 * area]), std::move(changes[3 * area + 1]), std::move(changes[3 * area + 2])});
@@ -57,18 +53,23 @@ std::vector<std::array<Eigen::MatrixXd, 3>> FieldResponse::logSensitivity(Readou
 }
 
 LayoutBound FieldResponse::bound(Readout readout, int rowWire, double relativeNoise) const {
+  return bound(readout, rowWire,
+               Eigen::MatrixXd::Constant(network_.counts().rowWires, network_.counts().columnWires, relativeNoise));
+}
+
+LayoutBound FieldResponse::bound(Readout readout, int rowWire,
+                                 const Eigen::Ref<const Eigen::MatrixXd>& relativeNoise) const {
   std::vector<Eigen::Matrix3d> information;
   for (const auto& slopes : logSensitivity(readout)) {
-    const Eigen::Index readings = rowWire < 0 ? slopes[0].size() : slopes[0].cols();
-    Eigen::MatrixX3d j(readings, 3);
+    Eigen::MatrixX3d j(rowWire < 0 ? relativeNoise.size() : relativeNoise.cols(), 3);
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      const Eigen::MatrixXd& all = slopes[static_cast<std::size_t>(axis)];
+      const Eigen::MatrixXd all = range_N_(axis) * slopes[static_cast<std::size_t>(axis)].cwiseQuotient(relativeNoise);
       if (rowWire < 0)
-        j.col(axis) = range_N_(axis) * all.reshaped();
+        j.col(axis) = all.reshaped();
       else
-        j.col(axis) = range_N_(axis) * all.row(rowWire).transpose();
+        j.col(axis) = all.row(rowWire).transpose();
     }
-    information.emplace_back(j.transpose() * j / (relativeNoise * relativeNoise));
+    information.emplace_back(j.transpose() * j);
   }
   return boundOf(information);
 }

@@ -1,5 +1,7 @@
 #include "app/study/reports/layout/LayoutBound.h"
 
+#include "app/study/reports/layout/FieldResponse.h"
+
 #include <Eigen/Dense>
 
 #include <cmath>
@@ -83,7 +85,10 @@ LayoutBound boundOf(const std::vector<Eigen::Matrix3d>& information) {
   return bound;
 }
 
-LayoutBound layoutBound(const SensorDesign& layout, const AreaResponse& response, int rowWire, double relativeNoise) {
+LayoutBound layoutBound(const SensorDesign& layout, const AreaResponse& response, int rowWire, double relativeNoise,
+                        int threads, double fineness, const std::stop_token& stop) {
+  if (const FieldLaw* law = layout.field())
+    return FieldResponse(layout, *law, response, threads, fineness, stop).bound(law->readout, rowWire, relativeNoise);
   const std::vector<ElectrodeResponse> areas = response.read(layout, rowWire);
   // In units of the force range, so that large and small forces do not meet in one matrix.
   const Eigen::Vector3d range_N = layout.forceRange.high_N - layout.forceRange.low_N;

@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include <stop_token>
+
 namespace palp {
 
 /// Cramer-Rao bounds of the force in the middle of the range, area known, in % of the force range; 3 forces x areas.
@@ -27,8 +29,10 @@ LayoutBound boundOf(const std::vector<Eigen::Matrix3d>& information);
 /// area.
 std::vector<std::array<Eigen::MatrixXd, 3>> logSensitivity(const SensorDesign& layout, const AreaResponse& response);
 
-/// Of one row-wire, or of all with row-wire -1, for relative resistance noise.
-LayoutBound layoutBound(const SensorDesign& layout, const AreaResponse& response, int rowWire, double relativeNoise);
+/// Of one row-wire, or of all with row-wire -1, for relative resistance noise; by Eq. (1), or by the field at rest and
+/// the read-out of the layout's law. The rest as FieldResponse's.
+LayoutBound layoutBound(const SensorDesign& layout, const AreaResponse& response, int rowWire, double relativeNoise,
+                        int threads = 0, double fineness = 1, const std::stop_token& stop = {});
 
 /// Singular values of d ln R / d u of a row-wire at rest [1/mm], largest first.
 Eigen::VectorXd resistanceSingularValues(const SensorDesign& layout, int rowWire);

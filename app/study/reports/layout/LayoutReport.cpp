@@ -2,14 +2,13 @@
 
 #include "app/study/reports/Csv.h"
 #include "app/study/reports/ReportPage.h"
-#include "app/study/reports/layout/LayoutSearch.h"
-#include "app/study/reports/layout/LayoutSweeps.h"
+#include "app/study/reports/layout/FieldLayoutReport.h"
+#include "app/study/reports/layout/LayoutTables.h"
 #include "app/study/reports/networks/NetworkCheck.h"
 #include "io/DesignFile.h"
 #include "model/base/Text.h"
 
 #include <array>
-#include <map>
 
 namespace palp {
 
@@ -18,19 +17,6 @@ namespace {
 using Cells = std::vector<std::string>;
 constexpr double kNoise = 1e-4; // of a resistance, relative
 const char* const kForces[3] = {"Fx", "Fy", "Fz"};
-
-/// A layout that the report speaks of.
-struct NamedLayout {
-  std::string name;
-  SensorDesign design;
-};
-
-std::string placesText(const SensorDesign& design, int wire) {
-  std::string words;
-  for (int e = 0; e < design.electrodesPerColumnWire(); ++e)
-    words += (e > 0 ? ", " : "") + text(design.lower.along(wire, e));
-  return words;
-}
 
 /// Writes the report part by part; one member function a section.
 class LayoutWriter {
@@ -159,49 +145,23 @@ private:
 
   void places() {
     content_.parts.push_back(ReportHeading{"The better layouts"});
-    content_.parts.push_back(ReportWords{
-        "Found by pattern search on the geometric mean of the three bounds without prior of row-wire " +
-        std::to_string(row_) + " (" + std::to_string(evaluations_) + " layouts judged, seed " +
-        std::to_string(request_.seed) +
-        "), within what a maker can keep: straight wires that stay where they are along "
-        "the block, places on a grid of " +
-        text(limits_.grid_mm) + " mm, electrodes of a wire at least " + text(limits_.pitch_mm) +
-        " mm apart, layers at least " + text(limits_.clearance_mm) + " mm apart, at least " + text(limits_.cover_mm) +
-        " mm of rubber outside. The designs are better-same.json and better-wires.json."});
-    ReportTable table{"Depths and places [mm]; column-wires that are alike share a line",
-                      {"layout", "row-wires z", "column-wires", "z", "y of its electrodes"},
-                      {},
-                      {}};
-    for (const NamedLayout& layout : layouts_) {
-      std::map<std::pair<double, std::string>, std::string> wires; // of each depth and places
-      for (int wire = 0; wire < layout.design.columnWires(); ++wire) {
-        std::string& list = wires[{layout.design.lower.z(wire, 0), placesText(layout.design, wire)}];
-        list += (list.empty() ? "" : " ") + std::to_string(wire);
-      }
-      for (const auto& [places, list] : wires)
-        table.rows.push_back({layout.name, text(layout.design.upper.z(0, 0)), wires.size() == 1 ? "all" : list,
-                              text(places.first), places.second});
-    }
-    content_.parts.emplace_back(std::move(table));
+    content_.parts.push_back(
+        ReportWords{"Found by pattern search on the geometric mean of the three bounds without prior of row-wire " +
+                    std::to_string(row_) + " (" + std::to_string(evaluations_) + " layouts judged, seed " +
+                    std::to_string(request_.seed) + "), within what a maker can keep: " + inWords(limits_) +
+                    ". The designs are better-same.json and better-wires.json."});
+    content_.parts.emplace_back(placesTable(layouts_));
   }
 
   void sweeps(const AreaResponse& response) {
     say(0.55, "depth and pitch");
     content_.parts.push_back(ReportHeading{"Effect of each layer's depth and pitch, one at a time"});
-    for (LayoutSweep& sweep : layoutSweeps(request_.design, response, row_, kNoise)) {
-      ReportChart chart{sweep.file, sweep.caption, sweep.title, sweep.xLabel, "bound without prior [% of range]",
-                        false,      true,          {}};
-      for (int axis = 0; axis < 3; ++axis) {
-        ReportCurve curve{.name = kForces[axis]};
-        for (const LayoutSweep::Point& point : sweep.points) {
-          curve.x.push_back(point.at);
-          curve.y.push_back(point.withoutPrior_percent(axis));
+    for (const LayoutSweep& sweep : layoutSweeps(request_.design, response, row_, kNoise)) {
+      for (int axis = 0; axis < 3; ++axis)
+        for (const LayoutSweep::Point& point : sweep.points)
           csv_.add(
               {"sweep: " + sweep.title, "before", row_, "", kForces[axis], point.at, point.withoutPrior_percent(axis)});
-        }
-        chart.curves.push_back(std::move(curve));
-      }
-      content_.parts.emplace_back(std::move(chart));
+      content_.parts.emplace_back(sweepChart(sweep));
     }
   }
 
@@ -359,6 +319,7 @@ private:
 std::optional<ReportContent> layoutReport(const ReportRequest& request, const ReportProgress& progress,
                                           std::stop_token stop) {
   requireValid(request.design);
+  if (request.design.field()) return fieldLayoutReport(request, progress, std::move(stop));
   return LayoutWriter(request, progress, std::move(stop)).run();
 }
 

@@ -1,9 +1,11 @@
 #include "app/study/reports/layout/LayoutSearch.h"
 
+#include "model/base/Cancelled.h"
 #include "model/base/Text.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <random>
 #include <vector>
@@ -13,8 +15,11 @@ namespace palp {
 namespace {
 
 constexpr int kRandomStarts = 4;
-constexpr double kFirstStep_mm = 1.6; // halved down to the grid
-constexpr double kSlack_mm = 1e-9;    // limits are met by rounded numbers
+constexpr int kRandomStartsUnderField = 2;
+constexpr int kMostUnderField = 400;    // layouts a start; a layout by Eq. (1) costs a thousandth
+constexpr double kSearchFineness = 0.5; // of the field's quadrature: a percent of the bound is enough to choose by
+constexpr double kFirstStep_mm = 1.6;   // halved down to the grid
+constexpr double kSlack_mm = 1e-9;      // limits are met by rounded numbers
 
 using Places = std::vector<double>;
 
@@ -61,19 +66,21 @@ double onGrid(double value, double grid_mm) {
 class Search {
 public:
   Search(const Parameters& parameters, const AreaResponse& response, int rowWire, double noise,
-         const MakerLimits& limits, std::stop_token stop)
+         const MakerLimits& limits, std::stop_token stop, std::function<void(int)> judged)
       : parameters_(parameters), response_(response), rowWire_(rowWire), noise_(noise), limits_(limits),
-        stop_(std::move(stop)) {}
+        stop_(std::move(stop)), judged_(std::move(judged)) {}
 
   double value(const Places& places) {
     const SensorDesign layout = parameters_.layout(places);
-    if (makerProblem(layout, limits_)) return std::numeric_limits<double>::infinity();
-    ++evaluations_;
-    return layoutBound(layout, response_, rowWire_, noise_).mean();
+    if (makerProblem(layout, limits_) || !spheresFit(layout)) return std::numeric_limits<double>::infinity();
+    if (layout.field() && left_-- <= 0) return std::numeric_limits<double>::infinity();
+    judged_(++evaluations_);
+    return layoutBound(layout, response_, rowWire_, noise_, 0, kSearchFineness, stop_).mean();
   }
 
   /// Moves one place after the other while that helps, then halves the step.
   double descend(Places& places) {
+    left_ = kMostUnderField;
     for (double& place : places) place = onGrid(place, limits_.grid_mm);
     double best = value(places);
     double step = kFirstStep_mm;
@@ -88,6 +95,11 @@ public:
   [[nodiscard]] int evaluations() const { return evaluations_; }
 
 private:
+  /// Whether small spheres with dipoles are a good model of the electrodes.
+  static bool spheresFit(const SensorDesign& layout) {
+    return !layout.field() || (check(layout).empty() && designWarnings(layout).empty());
+  }
+
   double sweep(Places& places, double best, double step) {
     for (double& place : places)
       for (const double change : {step, -step}) {
@@ -110,7 +122,9 @@ private:
   double noise_;
   const MakerLimits& limits_;
   std::stop_token stop_;
+  std::function<void(int)> judged_; ///< told how many so far
   int evaluations_ = 0;
+  int left_ = kMostUnderField; ///< of this start
 };
 
 /// Places anywhere in the block that can be made.
@@ -180,24 +194,42 @@ std::optional<std::string> makerProblem(const SensorDesign& layout, const MakerL
 
 std::optional<LayoutSearchResult> betterLayout(const SensorDesign& design, const AreaResponse& response, int rowWire,
                                                double relativeNoise, LayoutFreedom freedom, const MakerLimits& limits,
-                                               std::uint64_t seed, const std::stop_token& stop) {
+                                               std::uint64_t seed, const std::stop_token& stop,
+                                               const ReportProgress& progress) {
   const Parameters parameters(design, freedom);
-  Search search(parameters, response, rowWire, relativeNoise, limits, stop);
-  std::mt19937_64 random(seed);
-  LayoutSearchResult result{design, layoutBound(design, response, rowWire, relativeNoise).mean(), 0, 0};
-  result.after_percent = result.before_percent;
   // From many places at once one start is enough and random ones are poor; few places deserve more starts.
-  const int starts = freedom == LayoutFreedom::WireByWire ? 0 : kRandomStarts;
-  for (int start = 0; start <= starts; ++start) {
-    Places places = start == 0 ? parameters.places() : randomPlaces(parameters, design, limits, random);
-    const double reached = search.descend(places);
-    if (stop.stop_requested()) return {};
-    if (!(reached < result.after_percent)) continue;
-    result.after_percent = reached;
-    result.layout = parameters.layout(places);
+  const int starts = freedom == LayoutFreedom::WireByWire ? 0
+                     : design.field()                     ? kRandomStartsUnderField
+                                                          : kRandomStarts;
+  int start = 0, before = 0; // layouts judged in earlier starts
+  Search search(parameters, response, rowWire, relativeNoise, limits, stop, [&](int judged) {
+    if (progress && design.field())
+      progress((start + static_cast<double>(judged - before) / kMostUnderField) / (starts + 1),
+               std::to_string(judged) + " layouts judged");
+  });
+  std::mt19937_64 random(seed);
+  const auto fullBound = [&](const SensorDesign& layout) {
+    return layoutBound(layout, response, rowWire, relativeNoise, 0, 1, stop).mean();
+  };
+  try {
+    LayoutSearchResult result{design, fullBound(design), 0, 0};
+    result.after_percent = result.before_percent;
+    for (; start <= starts; ++start, before = search.evaluations()) {
+      Places places = start == 0 ? parameters.places() : randomPlaces(parameters, design, limits, random);
+      const double judged = search.descend(places);
+      if (stop.stop_requested()) return {};
+      // of a start that cannot be made, and of those that are no better by the coarse judgement
+      if (!(judged < (design.field() ? 1.05 : 1) * result.after_percent)) continue;
+      const double reached = design.field() ? fullBound(parameters.layout(places)) : judged;
+      if (!(reached < result.after_percent)) continue;
+      result.after_percent = reached;
+      result.layout = parameters.layout(places);
+    }
+    result.evaluations = search.evaluations();
+    return result;
+  } catch (const Cancelled&) {
+    return {};
   }
-  result.evaluations = search.evaluations();
-  return result;
 }
 
 } // namespace palp

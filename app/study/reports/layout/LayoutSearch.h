@@ -32,11 +32,14 @@ struct LayoutSearchResult {
   int evaluations = 0;
 };
 
-/// Lowers the bound without prior of a row-wire by pattern search (Hooke and Jeeves, 1961) from the design and from
-/// random places; equal seeds give equal layouts. Empty where it was stopped.
+/// Lowers the bound without prior of a row-wire, or of all with row-wire -1, by pattern search (Hooke and Jeeves, 1961)
+/// from the design and from random places; equal seeds give equal layouts. Under the field layouts are judged on a
+/// coarse quadrature, fewer of them, and electrodes keep as far apart as small spheres need. Empty where it was
+/// stopped.
 std::optional<LayoutSearchResult> betterLayout(const SensorDesign& design, const AreaResponse& response, int rowWire,
                                                double relativeNoise, LayoutFreedom freedom, const MakerLimits& limits,
-                                               std::uint64_t seed, const std::stop_token& stop);
+                                               std::uint64_t seed, const std::stop_token& stop,
+                                               const ReportProgress& progress = {});
 
 /// Why a maker could not keep the layout; empty where he can.
 std::optional<std::string> makerProblem(const SensorDesign& layout, const MakerLimits& limits);

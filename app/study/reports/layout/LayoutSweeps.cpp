@@ -9,7 +9,9 @@ namespace palp {
 namespace {
 
 constexpr int kPoints = 25;
-constexpr double kMargin_mm = 0.25; // between the layers and to the faces
+constexpr int kPointsUnderField = 13;  // each costs a thousand times as much there,
+constexpr double kSweepFineness = 0.5; // and a hundredth of a percent is enough to draw
+constexpr double kMargin_mm = 0.25;    // between the layers and to the faces
 
 double middleOf(const std::vector<double>& places) {
   return std::accumulate(places.begin(), places.end(), 0.0) / static_cast<double>(places.size());
@@ -96,15 +98,23 @@ std::vector<LayoutPlan> plans(const SensorDesign& design) {
 } // namespace
 
 std::vector<LayoutSweep> layoutSweeps(const SensorDesign& design, const AreaResponse& response, int rowWire,
-                                      double relativeNoise) {
+                                      double relativeNoise, const ReportProgress& progress,
+                                      const std::stop_token& stop) {
   std::vector<LayoutSweep> sweeps;
-  for (LayoutPlan& plan : plans(design)) {
-    for (int i = 0; i < kPoints; ++i) {
-      const double at = plan.low + (plan.high - plan.low) * i / (kPoints - 1);
+  std::vector<LayoutPlan> planned = plans(design);
+  const int points = design.field() ? kPointsUnderField : kPoints;
+  for (LayoutPlan& plan : planned) {
+    for (int i = 0; i < points; ++i) {
+      if (progress)
+        progress((static_cast<double>(sweeps.size()) + static_cast<double>(i) / points) /
+                     static_cast<double>(planned.size()),
+                 plan.sweep.title);
+      const double at = plan.low + (plan.high - plan.low) * i / (points - 1);
       SensorDesign changed = design;
       plan.change(changed, at);
       if (!check(changed).empty()) continue; // a layout that cannot be is left out
-      plan.sweep.points.push_back({at, layoutBound(changed, response, rowWire, relativeNoise).withoutPrior()});
+      plan.sweep.points.push_back(
+          {at, layoutBound(changed, response, rowWire, relativeNoise, 0, kSweepFineness, stop).withoutPrior()});
     }
     sweeps.push_back(std::move(plan.sweep));
   }

@@ -3,6 +3,7 @@
 #include "app/study/reports/Csv.h"
 #include "app/study/reports/ReportPage.h"
 #include "app/study/reports/layout/FieldResponse.h"
+#include "app/study/reports/layout/SignalComparison.h"
 #include "app/study/reports/networks/NoiseAxis.h"
 #include "model/base/Text.h"
 
@@ -14,26 +15,13 @@ namespace palp {
 
 namespace {
 
-using Sensitivity = std::vector<std::array<Eigen::MatrixXd, 3>>;
-
 /// A law with a read-out: its readings' answer to the forces, and its bounds.
 struct Reader {
   std::string name;
   Eigen::MatrixXd rest_ohm;
-  Sensitivity slopes; ///< d ln R / dF
+  LogSensitivity slopes; ///< d ln R / dF
   std::function<LayoutBound(int rowWire, double noise)> bound;
 };
-
-/// All areas and readings of one force.
-Eigen::VectorXd slopesOf(const Reader& reader, std::size_t axis) {
-  Eigen::VectorXd all(0);
-  for (const auto& area : reader.slopes) {
-    const Eigen::Index before = all.size();
-    all.conservativeResize(before + area[axis].size());
-    all.tail(area[axis].size()) = area[axis].reshaped();
-  }
-  return all;
-}
 
 class FieldNoiseWriter {
 public:
@@ -104,14 +92,11 @@ private:
                       {},
                       {}};
     for (const Reader& reader : readers_) {
-      Eigen::Vector3d factor, correlation;
+      const auto& [factor, correlation] = comparedWith(readers_.front().slopes, reader.slopes);
       for (Eigen::Index axis = 0; axis < 3; ++axis) {
-        const Eigen::VectorXd pairs = slopesOf(readers_.front(), static_cast<std::size_t>(axis));
-        const Eigen::VectorXd own = slopesOf(reader, static_cast<std::size_t>(axis));
-        factor(axis) = own.norm() / pairs.norm();
-        correlation(axis) = own.dot(pairs) / (own.norm() * pairs.norm());
-        csv_.add({"signal over that of Eq. (1)", reader.name, "", "", kForceNames[axis], factor(axis)});
-        csv_.add({"correlation with Eq. (1)", reader.name, "", "", kForceNames[axis], correlation(axis)});
+        const char* const force = kForceNames[static_cast<std::size_t>(axis)];
+        csv_.add({"signal over that of Eq. (1)", reader.name, "", "", force, factor(axis)});
+        csv_.add({"correlation with Eq. (1)", reader.name, "", "", force, correlation(axis)});
       }
       table.rows.push_back({reader.name, shortNumber(reader.rest_ohm.mean()),
                             shortNumber(reader.rest_ohm.maxCoeff() / reader.rest_ohm.minCoeff()), triple(factor),
@@ -202,13 +187,7 @@ private:
 
   void assumptions() {
     content_.parts.push_back(ReportHeading{"What is assumed"});
-    content_.parts.push_back(ReportWords{
-        "Electrodes are spheres of one radius, taken as point sources with the dipoles that the field induces in them. "
-        "The "
-        "rubber's conductivity is constant and the same in all directions, also where it is deformed: were the carbon "
-        "carried along by the strain, a change of shape would change no resistance. No hysteresis, creep or "
-        "temperature. "
-        "The load areas are stuck to their dead traction."});
+    content_.parts.push_back(ReportWords{kFieldAssumed});
   }
 
   void summarise(const LayoutBound& bound) {
@@ -233,6 +212,7 @@ private:
 
 std::optional<ReportContent> fieldNoiseReport(const ReportRequest& request, const ReportProgress& progress,
                                               std::stop_token stop) {
+  requireSmoothAtRest(request.design);
   return FieldNoiseWriter(request, progress, std::move(stop)).run();
 }
 

@@ -1,6 +1,9 @@
 #include "app/study/reports/layout/FieldResponse.h"
 
+#include "app/study/reports/layout/LayoutReport.h"
+#include "app/study/reports/layout/LayoutSearch.h"
 #include "app/study/reports/networks/NoiseReport.h"
+#include "io/DesignFile.h"
 #include "model/DesignError.h"
 
 #include <gtest/gtest.h>
@@ -46,6 +49,16 @@ struct Findings {
   Eigen::Vector3d row, all;
   double percent;
 };
+
+/// Of few electrodes, so that a layout costs little.
+palp::SensorDesign smallDesign() {
+  palp::SensorDesign design = palp::paperDesign();
+  design.upper.wire_mm = {6, 15, 24};
+  design.upper.along_mm = {{6, 15, 24}};
+  design.lower.wire_mm = {3, 9, 15, 21, 27};
+  design.resistance = fieldLaw();
+  return design;
+}
 
 class PrototypesBounds : public testing::TestWithParam<Findings> {};
 
@@ -97,6 +110,76 @@ TEST(FieldResponse, RefusesAPressureLaw) {
   palp::SensorDesign design = palp::paperDesign();
   design.pressureLaw = palp::PressureLaw{};
   EXPECT_THROW(palp::FieldResponse(design, fieldLaw(), response(), 1), palp::DesignError);
+}
+
+TEST(FieldLayoutSearch, FindsAClearlyBetterLayoutWhoseElectrodesKeepApart) {
+  const palp::SensorDesign design = smallDesign();
+  const auto better = betterLayout(design, response(), -1, kNoise, palp::LayoutFreedom::SameOnEveryWire, {}, 1, {});
+  ASSERT_TRUE(better);
+  EXPECT_LT(better->after_percent, better->before_percent / 1.5);
+  EXPECT_EQ(layoutBound(better->layout, response(), -1, kNoise).mean(), better->after_percent);
+  EXPECT_EQ(makerProblem(better->layout, {}), std::nullopt);
+  EXPECT_TRUE(check(better->layout).empty());
+  EXPECT_TRUE(designWarnings(better->layout).empty());
+}
+
+/// By the search with seed 1: lower electrodes that are held want to be near the upper ones, those that follow the
+/// rubber far from them. A finer mesh gives the same factors.
+TEST(FieldLayoutSearch, BeatsThePapersLayoutWithStraightWires) {
+  const auto gain = [](bool follows, double upper_mm, double lower_mm, const std::vector<double>& along_mm) {
+    palp::SensorDesign design = palp::paperDesign();
+    design.lowerFollowsRubber = follows;
+    design.resistance = fieldLaw();
+    palp::SensorDesign found = design;
+    found.upper.z_mm = {{upper_mm}};
+    found.lower.z_mm = {{lower_mm}};
+    found.lower.along_mm = {along_mm};
+    EXPECT_EQ(makerProblem(found, {}), std::nullopt);
+    return layoutBound(design, response(), -1, kNoise).mean() / layoutBound(found, response(), -1, kNoise).mean();
+  };
+  EXPECT_GT(gain(false, 2.6, 2, {4.35, 16.2, 19.5}), 2.4); // 2.53
+  EXPECT_GT(gain(true, 4.4, 0.5, {0.75, 3.7, 5.3}), 1.55); // 1.62
+}
+
+TEST(FieldLayoutSearch, KeepsLargeElectrodesApart) {
+  palp::SensorDesign design = smallDesign();
+  palp::FieldLaw law = fieldLaw();
+  law.electrodeRadius_mm = 0.45; // spheres at the 0.5 mm that a maker can keep between the layers would overlap
+  design.resistance = law;
+  const auto better = betterLayout(design, response(), -1, kNoise, palp::LayoutFreedom::SameOnEveryWire, {}, 1, {});
+  ASSERT_TRUE(better);
+  EXPECT_LT(better->after_percent, better->before_percent);
+  EXPECT_TRUE(check(better->layout).empty());
+  EXPECT_TRUE(designWarnings(better->layout).empty());
+}
+
+TEST(FieldLayoutSearch, StopsBetweenTwoLayouts) {
+  std::stop_source source;
+  int told = 0;
+  const auto stopAtThird = [&](double, const std::string&) {
+    if (++told == 3) source.request_stop();
+  };
+  EXPECT_EQ(betterLayout(smallDesign(), response(), -1, kNoise, palp::LayoutFreedom::SameOnEveryWire, {}, 1,
+                         source.get_token(), stopAtThird),
+            std::nullopt);
+  EXPECT_EQ(told, 3);
+}
+
+TEST(FieldLayoutReport, GivesBetterDesignsUnderTheLawOfTheOldOne) {
+  palp::ReportRequest request;
+  request.design = smallDesign();
+  request.mesh.mapped = std::array<int, 3>{6, 6, 3};
+  const auto report = layoutReport(request, {}, {});
+  ASSERT_TRUE(report);
+  ASSERT_EQ(report->files.size(), 2U);
+  for (const palp::ReportFile& file : report->files) {
+    const palp::SensorDesign found = palp::parseDesign(file.content, file.name);
+    EXPECT_TRUE(check(found).empty()) << file.name;
+    EXPECT_EQ(found.resistance, request.design.resistance) << file.name;
+  }
+  for (const char* line : {"\nbound without prior [%],wire by wire,virtual_ground,all,0,Fx,,",
+                           "\nbound without prior on a finer mesh [%],before,"})
+    EXPECT_NE(report->csv.find(line), std::string::npos) << line;
 }
 
 TEST(FieldNoiseReport, GivesBoundsByLawAndReadOut) {

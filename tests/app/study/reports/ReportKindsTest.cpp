@@ -73,10 +73,11 @@ TEST_P(EveryReport, RefusesADesignThatCannotBe) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, EveryReport,
-                         testing::Values("error-time", "stability", "networks", "noise", "layout", "scenes"), nameOf);
-
-INSTANTIATE_TEST_SUITE_P(Kinds, FinishedReport, testing::Values("error-time", "networks", "noise", "layout", "scenes"),
+                         testing::Values("error-time", "stability", "networks", "noise", "layout", "readout", "scenes"),
                          nameOf);
+
+INSTANTIATE_TEST_SUITE_P(Kinds, FinishedReport,
+                         testing::Values("error-time", "networks", "noise", "layout", "readout", "scenes"), nameOf);
 
 /// Draws nothing, and asks for a stop with the second picture.
 TEST(WrittenReport, IsGoneWhereItIsStoppedBetweenTwoPictures) {

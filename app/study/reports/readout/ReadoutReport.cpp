@@ -1,0 +1,360 @@
+#include "app/study/reports/readout/ReadoutReport.h"
+
+#include "app/study/reports/Csv.h"
+#include "app/study/reports/ReportPage.h"
+#include "app/study/reports/layout/FieldResponse.h"
+#include "app/study/reports/layout/SignalComparison.h"
+#include "app/study/reports/networks/NoiseAxis.h"
+#include "app/study/reports/readout/CurrentPaths.h"
+#include "model/base/Text.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace palp {
+
+namespace {
+
+constexpr double kReadoutFineness = 0.5; // of the field's quadrature in sweeps: 1e-4 of a bound
+constexpr double kLoss = 1.1;            // of the bound, up to which a resistance in series is called harmless
+constexpr double kWanted_percent = 1;    // of the range, that the sentences ask for
+const std::array kRadii{0.5, 0.75, 1.0, 1.25, 1.5};   // times the design's
+const std::array kContacts{0.0, 0.3, 1.0, 3.0, 10.0}; // times an electrode's own spreading resistance
+const std::array kWires_ohm{0.0, 1.0, 5.0, 20.0, 100.0, 500.0};
+
+/// Noise of each reading that is the same on all of what the circuit measures, as a share of its largest: a resistance
+/// at constant current where two wires float alone, else a current at constant voltage.
+Eigen::MatrixXd fullScaleNoise(Readout readout, const Eigen::MatrixXd& resistances_ohm, double noise) {
+  if (readout == Readout::Floating) return noise * resistances_ohm.maxCoeff() * resistances_ohm.cwiseInverse();
+  return noise / resistances_ohm.minCoeff() * resistances_ohm;
+}
+
+struct OfReadout {
+  std::string name;
+  Readout readout = Readout::Floating;
+  double mean_percent = 0;          ///< bound without prior of all row-wires, geometric mean of the forces
+  double mean_percentFullScale = 0; ///< the same with noise of full scale
+  Eigen::Vector3d all_percent;      ///< with prior, all row-wires
+  double least_ohm = 0, most_ohm = 0;
+  CurrentPaths paths;
+};
+
+class ReadoutWriter {
+public:
+  ReadoutWriter(const ReportRequest& request, ReportProgress progress, std::stop_token stop)
+      : request_(request), law_(request.design.field() ? *request.design.field() : FieldLaw{}),
+        progress_(std::move(progress)), stop_(std::move(stop)), row_(centreRowWire(request.design.rowWires())) {
+    design_ = request.design;
+    design_.resistance = law_;
+    requireValid(design_); // electrodes of the usual radius may not fit a design by Eq. (1)
+  }
+
+  std::optional<ReportContent> run() {
+    content_.title = "Read-out: what the circuit decides";
+    content_.warnings = designWarnings(design_);
+    const auto response = AreaResponse::atRest(design_, request_.mesh, request_.threads, content_.stages,
+                                               partOf(progress_, 0, 0.3), stop_);
+    if (!response) return {};
+    introduce();
+    progress(0.3, "the read-outs of the design");
+    readouts(*response);
+    sweeps(*response);
+    sentences();
+    content_.parts.push_back(ReportHeading{"What is assumed"});
+    content_.parts.push_back(ReportWords{kFieldAssumed});
+    content_.parts.push_back(ReportWords{"Electrodes have one radius, " + text(law_.electrodeRadius_mm) +
+                                         " mm but for the table of radii: on a real board fit it to the resistances at "
+                                         "rest first."});
+    content_.csv = csv_.text();
+    return std::move(content_);
+  }
+
+private:
+  void progress(double share, const std::string& what) const {
+    if (progress_) progress_(share, what);
+  }
+
+  void introduce() {
+    content_.parts.push_back(ReportHeading{"The design"});
+    content_.parts.push_back(ReportWords{
+        std::string(request_.design.field() ? "The design's law is the conduction field"
+                                            : "The design's law is Eq. (1), which knows no read-out; here its block "
+                                              "is taken under the usual law of the field") +
+        ": electrodes are spheres of " + text(law_.electrodeRadius_mm) + " mm radius in rubber of " +
+        text(law_.resistivity_ohm_mm) + " ohm mm, contact " + text(law_.contact_ohm_mm2) +
+        " ohm mm2, each wire with its switch " + text(law_.wire_ohm) + " ohm. The lower electrodes " +
+        (design_.lowerFollowsRubber ? "follow the rubber." : "are held still.")});
+    content_.parts.push_back(ReportWords{
+        "Read-outs: floating: the two wires alone are driven, all others float. virtual_ground: the row-wire is "
+        "driven, every other wire is held at 0 V and the column-wire's current is read. rows_grounded: the same with "
+        "the other column-wires floating, which a cheap multiplexer does. others_at_half: all other wires at half of "
+        "the drive voltage."});
+  }
+
+  void readouts(const AreaResponse& response) {
+    const FieldResponse field(design_, law_, response, request_.threads, 1, stop_);
+    SensorDesign pairs = design_;
+    pairs.resistance = PairsLaw{};
+    const LogSensitivity byPairs = logSensitivity(pairs, response);
+    ReportTable bounds{"Bounds at noise " + text(kShownNoise) +
+                           ", root mean square over the areas, Fx / Fy / Fz [% of range]; knowing nothing is 28.9 %",
+                       {"read-out", "row-wires read", "noise of each reading, with prior", "without prior",
+                        "noise of full scale, with prior", "without prior"},
+                       {},
+                       {}};
+    ReportTable signals{"What is read at rest, and d ln R by the forces beside Eq. (1), Fx / Fy / Fz",
+                        {"read-out", "least R [ohm]", "largest R [ohm]", "signal over that of Eq. (1)",
+                         "correlation with Eq. (1)", "current straight from row to column",
+                         "current through other wires' metal"},
+                        {},
+                        {}};
+    for (const auto& [readout, name] : kReadouts.all()) {
+      const Eigen::MatrixXd rest = field.resistances_ohm(readout);
+      const LogSensitivity slopes = field.logSensitivity(readout);
+      OfReadout& of = found_.emplace_back();
+      of.name = name;
+      of.readout = readout;
+      of.least_ohm = rest.minCoeff();
+      of.most_ohm = rest.maxCoeff();
+      of.paths = currentPaths(field.network(), readout);
+      for (const int row : {row_, -1}) {
+        const LayoutBound each = field.bound(readout, row, kShownNoise);
+        const LayoutBound full = field.bound(readout, row, fullScaleNoise(readout, rest, kShownNoise));
+        bounds.rows.push_back({name, row < 0 ? "all" : std::to_string(row), triple(each.withPrior()),
+                               triple(each.withoutPrior()), triple(full.withPrior()), triple(full.withoutPrior())});
+        add(name, row, "noise of each reading", kShownNoise, each);
+        add(name, row, "noise of full scale", kShownNoise, full);
+        if (row >= 0) continue;
+        of.mean_percent = each.mean();
+        of.mean_percentFullScale = full.mean();
+        of.all_percent = each.withPrior();
+      }
+      const SignalComparison signal = comparedWith(byPairs, slopes);
+      signals.rows.push_back({name, shortNumber(of.least_ohm), shortNumber(of.most_ohm), triple(signal.factor),
+                              triple(signal.correlation), shortNumber(100 * of.paths.straight) + " %",
+                              shortNumber(100 * of.paths.metal) + " %"});
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto force = static_cast<Eigen::Index>(axis);
+        csv_.add({"signal over that of Eq. (1)", name, "all", "", kForceNames[axis], signal.factor(force)});
+        csv_.add({"correlation with Eq. (1)", name, "all", "", kForceNames[axis], signal.correlation(force)});
+      }
+      csv_.add({"current straight from row to column, share", name, "all", "", "", of.paths.straight});
+      csv_.add({"current through other wires' metal, share", name, "all", "", "", of.paths.metal});
+    }
+    content_.parts.push_back(ReportHeading{"Read-outs side by side"});
+    content_.parts.push_back(ReportWords{
+        "Cramer-Rao bounds of the force, area known. Noise of each reading is a share of that reading; noise of full "
+        "scale is the same on all that is measured, as a share of the largest of it: of the largest resistance where "
+        "two wires float alone, of the largest current else. The current is that which the row-wire is driven with; "
+        "what reaches other wires goes through their metal, to other electrodes of theirs or to their ground."});
+    content_.parts.emplace_back(std::move(bounds));
+    content_.parts.emplace_back(std::move(signals));
+  }
+
+  void add(const std::string& readout, int row, const std::string& what, double at, const LayoutBound& bound) {
+    const Eigen::Vector3d with = bound.withPrior(), without = bound.withoutPrior();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto force = static_cast<Eigen::Index>(axis);
+      const std::string rows = row < 0 ? "all" : std::to_string(row);
+      csv_.add({what + ": bound with prior [%]", readout, rows, at, kForceNames[axis], with(force)});
+      csv_.add({what + ": bound without prior [%]", readout, rows, at, kForceNames[axis], without(force)});
+    }
+  }
+
+  /// A number of the law and the values it is given.
+  struct LawSweep {
+    std::string file, heading, label, what;
+    std::vector<double> values, shown; ///< as the law has them, and as the chart does
+    double FieldLaw::*member = nullptr;
+  };
+
+  std::vector<LawSweep> lawSweeps() const {
+    LawSweep radius{"radius", "Which electrode radius",     "radius of the electrodes [mm]", "radius [mm]", {},
+                    {},       &FieldLaw::electrodeRadius_mm};
+    for (const double times : kRadii) {
+      SensorDesign design = design_;
+      FieldLaw law = law_;
+      law.electrodeRadius_mm *= times;
+      design.resistance = law;
+      if (check(design).empty()) radius.values.push_back(law.electrodeRadius_mm);
+    }
+    radius.shown = radius.values;
+    LawSweep contact{"contact",
+                     "Which contact",
+                     "contact, times an electrode's own spreading resistance",
+                     "contact over spreading resistance",
+                     {},
+                     {},
+                     &FieldLaw::contact_ohm_mm2};
+    for (const double times : kContacts) { // contact / (4 pi a^2) = times rho / (4 pi a)
+      contact.values.push_back(times * law_.resistivity_ohm_mm * law_.electrodeRadius_mm);
+      contact.shown.push_back(times);
+    }
+    LawSweep wire{"wire",
+                  "Which resistance of wires and switches",
+                  "resistance of each wire with its switch [ohm]",
+                  "wire and switch [ohm]",
+                  {kWires_ohm.begin(), kWires_ohm.end()},
+                  {kWires_ohm.begin(), kWires_ohm.end()},
+                  &FieldLaw::wire_ohm};
+    return {radius, contact, wire};
+  }
+
+  void sweeps(const AreaResponse& response) {
+    const std::vector<LawSweep> all = lawSweeps();
+    for (std::size_t s = 0; s < all.size(); ++s) {
+      const LawSweep& sweep = all[s];
+      content_.parts.push_back(ReportHeading{sweep.heading});
+      ReportTable table{"All row-wires, noise " + text(kShownNoise) +
+                            " of each reading: bound without prior, geometric mean of the forces [% of range]",
+                        {sweep.what},
+                        {},
+                        {}};
+      ReportChart chart{.file = sweep.file,
+                        .caption = "Bound without prior of all row-wires against the " + sweep.label,
+                        .title = sweep.heading,
+                        .xLabel = sweep.label,
+                        .yLabel = "bound, geometric mean [% of range]",
+                        .logY = true};
+      for (const OfReadout& of : found_) {
+        table.heads.push_back(of.name);
+        chart.curves.push_back({.name = of.name});
+      }
+      std::vector<std::vector<double>> means(found_.size());
+      for (std::size_t i = 0; i < sweep.values.size(); ++i) {
+        progress(
+            0.4 + 0.6 * (static_cast<double>(s) + static_cast<double>(i) / static_cast<double>(sweep.values.size())) /
+                      static_cast<double>(all.size()),
+            sweep.what + " " + shortNumber(sweep.shown[i]));
+        FieldLaw law = law_;
+        law.*sweep.member = sweep.values[i];
+        SensorDesign design = design_;
+        design.resistance = law;
+        const FieldResponse field(design, law, response, request_.threads, kReadoutFineness, stop_);
+        std::vector<std::string> cells{shortNumber(sweep.shown[i])};
+        for (std::size_t r = 0; r < found_.size(); ++r) {
+          const LayoutBound bound = field.bound(found_[r].readout, -1, kShownNoise);
+          add(found_[r].name, -1, sweep.what, sweep.shown[i], bound);
+          means[r].push_back(bound.mean());
+          cells.push_back(shortNumber(bound.mean()));
+          chart.curves[r].x.push_back(sweep.shown[i]);
+          chart.curves[r].y.push_back(bound.mean());
+        }
+        table.rows.push_back(std::move(cells));
+      }
+      means_.push_back(std::move(means));
+      content_.parts.emplace_back(std::move(table));
+      content_.parts.emplace_back(std::move(chart));
+    }
+    swept_ = all;
+  }
+
+  /// The value of a sweep up to which a read-out's bound stays within kLoss of that at the first value; between two
+  /// values linearly.
+  [[nodiscard]] double harmless(std::size_t sweep, std::size_t readout) const {
+    const std::vector<double>&means = means_[sweep][readout], &at = swept_[sweep].shown;
+    const double most = kLoss * means.front();
+    for (std::size_t i = 1; i < means.size(); ++i)
+      if (means[i] > most) return at[i - 1] + (at[i] - at[i - 1]) * (most - means[i - 1]) / (means[i] - means[i - 1]);
+    return at.back();
+  }
+
+  /// "8.8 times better than floating, 1.2 times better than rows_grounded".
+  [[nodiscard]] std::string othersBeside(const OfReadout& best) const {
+    std::string words;
+    for (const OfReadout& of : found_)
+      if (of.name != best.name)
+        words += (words.empty() ? "" : ", ") + shortNumber(of.mean_percent / best.mean_percent) +
+                 " times better than " + of.name;
+    return words;
+  }
+
+  /// Relative noise that leaves kWanted_percent without prior, which grows with the noise in proportion.
+  [[nodiscard]] static double noiseFor(double mean_percent) { return kShownNoise * kWanted_percent / mean_percent; }
+  [[nodiscard]] static double bitsFor(double noise) { return std::ceil(-std::log2(noise * std::sqrt(12.0))); }
+
+  void sentences() {
+    const auto best = std::min_element(found_.begin(), found_.end(), [](const OfReadout& a, const OfReadout& b) {
+      return a.mean_percent < b.mean_percent;
+    });
+    const auto worst = std::max_element(found_.begin(), found_.end(), [](const OfReadout& a, const OfReadout& b) {
+      return a.mean_percent < b.mean_percent;
+    });
+    const auto index = static_cast<std::size_t>(best - found_.begin());
+    const std::vector<double>& byRadius = means_[0][index];
+    const auto bestRadius =
+        static_cast<std::size_t>(std::min_element(byRadius.begin(), byRadius.end()) - byRadius.begin());
+    const double bits = bitsFor(noiseFor(best->mean_percentFullScale));
+    content_.parts.push_back(ReportHeading{"For who draws the board"});
+    content_.parts.push_back(ReportWords{"Build " + best->name + ": with equal noise of each reading it resolves " +
+                                         othersBeside(*best) +
+                                         " (all row-wires, without prior, geometric mean of the three forces)."});
+    content_.parts.push_back(ReportWords{
+        "It reads resistances from " + shortNumber(best->least_ohm) + " to " + shortNumber(best->most_ohm) +
+        " ohm, a ratio of " + shortNumber(best->most_ohm / best->least_ohm) + "; a row-wire draws up to " +
+        shortNumber(1000 * best->paths.mostPerVolt_A) + " mA for each volt, of which " +
+        shortNumber(100 * best->paths.straight) +
+        " % on average reach the column-wire that is read; the driver must give it and the others must sink it."});
+    content_.parts.push_back(
+        ReportWords{"For " + text(kWanted_percent) +
+                    " % of the range (without prior, geometric mean) each reading may have noise of " +
+                    shortNumber(noiseFor(best->mean_percent)) + " of itself, or of " +
+                    shortNumber(noiseFor(best->mean_percentFullScale)) +
+                    " of full scale, which an ideal converter of " + shortNumber(bits) + " bits has by rounding; by " +
+                    worst->name + " " + shortNumber(noiseFor(worst->mean_percent)) + " and " +
+                    shortNumber(noiseFor(worst->mean_percentFullScale)) + "."});
+    content_.parts.push_back(ReportWords{
+        "Wires and switches: up to about " + shortNumber(harmless(2, index)) + " ohm each cost no more than " +
+        shortNumber(100 * (kLoss - 1)) + " % of the bound, a contact up to " + shortNumber(harmless(1, index)) +
+        " times an electrode's own spreading resistance (" + shortNumber(spreading_ohm()) + " ohm)."});
+    content_.parts.push_back(
+        ReportWords{"Of the radii tried, " + shortNumber(swept_[0].shown[bestRadius]) + " mm is best for " +
+                    best->name + ": " + shortNumber(byRadius[bestRadius]) + " % of the range, " +
+                    shortNumber(byRadius.front()) + " % at " + shortNumber(swept_[0].shown.front()) + " mm and " +
+                    shortNumber(byRadius.back()) + " % at " + shortNumber(swept_[0].shown.back()) + " mm."});
+    for (const OfReadout& of : found_) {
+      content_.figures.emplace_back(of.name + "_bound_without_prior_percent", of.mean_percent);
+      content_.figures.emplace_back(of.name + "_bound_without_prior_full_scale_percent", of.mean_percentFullScale);
+      content_.figures.emplace_back(of.name + "_current_straight_share", of.paths.straight);
+      content_.figures.emplace_back(of.name + "_current_in_other_metal_share", of.paths.metal);
+    }
+    content_.figures.emplace_back("noise_of_reading_for_one_percent", noiseFor(best->mean_percent));
+    content_.figures.emplace_back("noise_of_full_scale_for_one_percent", noiseFor(best->mean_percentFullScale));
+    content_.figures.emplace_back("harmless_wire_ohm", harmless(2, index));
+    content_.figures.emplace_back("best_radius_mm", swept_[0].shown[bestRadius]);
+    content_.summary = "Best read by " + best->name + ": with noise " + text(kShownNoise) +
+                       " of each reading all row-wires resolve " + triple(best->all_percent) +
+                       " % of the range of Fx / Fy / Fz at best (with prior, linear at rest), " + othersBeside(*best) +
+                       ". Up to about " + shortNumber(harmless(2, index)) +
+                       " ohm in each wire and switch cost at most " + shortNumber(100 * (kLoss - 1)) + " % of that.";
+  }
+
+  [[nodiscard]] double spreading_ohm() const {
+    return law_.resistivity_ohm_mm / (4 * std::numbers::pi * law_.electrodeRadius_mm);
+  }
+
+  const ReportRequest& request_;
+  const FieldLaw law_;
+  SensorDesign design_;
+  ReportProgress progress_;
+  std::stop_token stop_;
+  int row_;
+  ReportContent content_;
+  Csv csv_{{"what", "readout", "rows", "at", "force", "value"}};
+  std::vector<OfReadout> found_;
+  std::vector<LawSweep> swept_;
+  std::vector<std::vector<std::vector<double>>> means_; ///< of each sweep, by read-out and value [%]
+};
+
+} // namespace
+
+std::optional<ReportContent> readoutReport(const ReportRequest& request, const ReportProgress& progress,
+                                           std::stop_token stop) {
+  requireValid(request.design);
+  requireSmoothAtRest(request.design);
+  return ReadoutWriter(request, progress, std::move(stop)).run();
+}
+
+} // namespace palp
