@@ -13,10 +13,10 @@ struct TouchResistances {
   Eigen::MatrixXd rest_ohm, now_ohm;
 };
 
-/// By the law of the design; empty where whyNoResistances() says why.
+/// By Eq. (1); empty where the design's law is another, of which whyNoResistances() says where it is shown.
 std::optional<TouchResistances> resistancesOf(const SensorDesign& design, const ElectrodeDisplacements& electrodes);
 
-/// Why there are no resistances of a touch on this design; empty where there are.
+/// Empty by Eq. (1).
 QString whyNoResistances(const SensorDesign& design);
 
 } // namespace palp

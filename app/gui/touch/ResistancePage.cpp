@@ -1,6 +1,7 @@
 #include "app/gui/touch/ResistancePage.h"
 
 #include "app/gui/project/Command.h"
+#include "app/gui/touch/LawBar.h"
 #include "app/gui/touch/StaleNote.h"
 #include "app/gui/views/BlockView.h"
 #include "app/gui/views/ChartView.h"
@@ -52,6 +53,20 @@ ChartSpec curveChart(const HeatmapSpec& heatmap, const std::string& title, const
   return spec;
 }
 
+/// d ln R of all readings.
+Eigen::VectorXd logChanges(const TouchResistances& resistances) {
+  return (resistances.now_ohm.array() / resistances.rest_ohm.array()).log().matrix().reshaped();
+}
+
+/// How the changes by the field compare with those by Eq. (1), over all readings.
+QString lawsWords(const TouchResistances& field, const TouchResistances& pairs) {
+  const Eigen::VectorXd a = logChanges(field), b = logChanges(pairs);
+  if (!(a.norm() > 0 && b.norm() > 0)) return QObject::tr("Nothing changes.");
+  return QObject::tr("Against Eq. (1), over all readings: changes of ln R are %1 times as large, correlation %2. The "
+                     "rubber conducts alike in all directions, also where it is deformed.")
+      .arg(QString::number(a.norm() / b.norm(), 'g', 3), QString::number(a.dot(b) / (a.norm() * b.norm()), 'f', 2));
+}
+
 } // namespace
 
 ResistancePage::ResistancePage(Workbench& workbench, QWidget* parent) : Scene(parent), workbench_(workbench) {
@@ -64,6 +79,20 @@ ResistancePage::ResistancePage(Workbench& workbench, QWidget* parent) : Scene(pa
   heatmap_ = new HeatmapView;
   heatmap_->setObjectName("resistanceHeatmap");
   new StaleNote(*heatmap_, workbench_);
+  pairs_ = new HeatmapView;
+  pairs_->setObjectName("pairsHeatmap");
+  pairs_->hide();
+  laws_ = new QLabel;
+  laws_->setObjectName("lawsCompared");
+  laws_->setWordWrap(true);
+  laws_->hide();
+  law_ = new LawBar;
+  law_->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Preferred);
+  auto* laws = new QHBoxLayout;
+  laws->addWidget(law_);
+  laws->addWidget(laws_, 1);
+  laws->addStretch();
+  column->addLayout(laws);
   row_ = new ChartView;
   row_->setObjectName("rowCurve");
   column_ = new ChartView;
@@ -86,7 +115,12 @@ ResistancePage::ResistancePage(Workbench& workbench, QWidget* parent) : Scene(pa
   lower->setSizes({420, 420, 520});
   auto* views = new QSplitter(Qt::Vertical);
   views->setObjectName("resistanceSplitter");
-  views->addWidget(heatmap_);
+  auto* maps = new QSplitter(Qt::Horizontal);
+  maps->setObjectName("resistanceMaps");
+  maps->addWidget(heatmap_);
+  maps->addWidget(pairs_);
+  maps->setSizes({500, 500});
+  views->addWidget(maps);
   views->addWidget(lower);
   views->setSizes({440, 400});
   column->addWidget(views, 1);
@@ -104,13 +138,25 @@ ResistancePage::ResistancePage(Workbench& workbench, QWidget* parent) : Scene(pa
         on && heatmap_->heatmap().values.size() > 0 ? std::optional(std::array{colors.low, colors.high}) : std::nullopt;
     edit(tr("Keep the colour scale"), view);
   });
-  connect(heatmap_, &HeatmapView::cellHovered, this, [this](const std::optional<std::array<int, 2>>& cell) {
-    if (workbench_.touch().electrodes() != nullptr) reading_->setText(cellWords(cell.value_or(this->cell())));
+  for (HeatmapView* map : {heatmap_, pairs_}) {
+    connect(map, &HeatmapView::cellHovered, this, [this](const std::optional<std::array<int, 2>>& cell) {
+      if (workbench_.touch().electrodes() != nullptr) reading_->setText(cellWords(cell.value_or(this->cell())));
+    });
+    connect(map, &HeatmapView::cellClicked, this, [this](int rowWire, int columnWire) {
+      ViewSettings view = workbench_.project().view;
+      view.cell = {rowWire, columnWire};
+      edit(tr("Choose a cell"), view);
+    });
+  }
+  connect(law_, &LawBar::edited, this, [this](const QString& what, const SensorDesign& design) {
+    Project next = workbench_.project();
+    next.design = design;
+    workbench_.edit(what, next);
   });
-  connect(heatmap_, &HeatmapView::cellClicked, this, [this](int rowWire, int columnWire) {
-    ViewSettings view = workbench_.project().view;
-    view.cell = {rowWire, columnWire};
-    edit(tr("Choose a cell"), view);
+  connect(law_, &LawBar::refused, reading_, &QLabel::setText);
+  connect(&field_, &FieldTouch::changed, this, [this] {
+    if (!isVisible()) field_.rest();
+    draw(false);
   });
   connect(&workbench_, &Workbench::projectChanged, this, &ResistancePage::displayProject);
   connect(&workbench_.touch(), &TouchSession::changed, this, &ResistancePage::draw);
@@ -126,6 +172,7 @@ void ResistancePage::edit(const QString& what, const ViewSettings& view) {
 
 void ResistancePage::displayProject() {
   const ViewSettings& view = workbench_.project().view;
+  law_->display(workbench_.project().design);
   const QSignalBlocker quietKind(kind_);
   const QSignalBlocker quietFixed(fixed_);
   auto* less = static_cast<QStandardItemModel*>(kind_->model())->item(static_cast<int>(ResistanceKind::LessKept));
@@ -166,7 +213,7 @@ QWidget* ResistancePage::buildBar() {
   kind_->setObjectName("resistanceKind");
   kind_->addItems(
       {tr("R [ohm]"), tr("change dR [ohm]"), tr("relative change dR/R [%]"), tr("dR/R less the kept design's [%]")});
-  kind_->setToolTip(tr("R = g x distance of each pair of electrodes, added (Eq. 1); changes against rest"));
+  kind_->setToolTip(tr("R of a row-wire and a column-wire by the law of the design; changes against rest"));
   fixed_ = new QCheckBox(tr("keep this colour scale"));
   fixed_->setObjectName("fixedScale");
   fixed_->setToolTip(tr("The colours keep their range when the load changes"));
@@ -184,6 +231,7 @@ QWidget* ResistancePage::buildBar() {
 void ResistancePage::setTheme(Theme theme) {
   options_.theme = theme;
   heatmap_->setTheme(theme);
+  pairs_->setTheme(theme);
   block_->setTheme(theme);
   row_->setTheme(theme);
   column_->setTheme(theme);
@@ -193,32 +241,66 @@ void ResistancePage::setTheme(Theme theme) {
 bool ResistancePage::complete() const {
   const bool compared =
       kind() != ResistanceKind::LessKept || workbench_.keptPath() || !workbench_.kept().problem().isEmpty();
-  return workbench_.touch().electrodes() != nullptr && workbench_.touch().upToDate() && compared;
+  const bool resistances = resistances_ || !field_.problem().isEmpty();
+  return workbench_.touch().electrodes() != nullptr && workbench_.touch().upToDate() && compared && resistances;
 }
 
 void ResistancePage::showEvent(QShowEvent* event) {
   Scene::showEvent(event);
+  field_.retry();
   draw(!meshDrawn_);
+}
+
+void ResistancePage::hideEvent(QHideEvent* event) {
+  Scene::hideEvent(event);
+  field_.rest();
 }
 
 void ResistancePage::draw(bool meshChanged) {
   meshDrawn_ = meshDrawn_ && !meshChanged;
   if (!isVisible() || workbench_.touch().electrodes() == nullptr) return;
   drawn_ = workbench_.project().view;
+  findResistances();
   if (kind() == ResistanceKind::LessKept) workbench_.needKept();
   drawHeatmap();
+  drawBeside();
   drawCurves();
   drawBlock(meshChanged);
   reading_->setText(cellWords(cell()));
+}
+
+void ResistancePage::findResistances() {
+  const TouchSession& touch = workbench_.touch();
+  if (touch.touch().design().field() == nullptr) {
+    resistances_ = resistancesOf(touch.touch().design(), *touch.electrodes());
+    field_.forget();
+    return;
+  }
+  if (touch.upToDate()) field_.want(touch.touch(), touch.loadFraction());
+  resistances_ = field_.of(touch.touch(), touch.loadFraction());
+}
+
+void ResistancePage::drawBeside() {
+  SensorDesign design = workbench_.touch().touch().design();
+  const bool beside = design.field() != nullptr && resistances_ && kind() != ResistanceKind::LessKept;
+  pairs_->setVisible(beside);
+  laws_->setVisible(beside);
+  if (!beside) return;
+  design.resistance = PairsLaw{};
+  const TouchResistances pairs = *resistancesOf(design, *workbench_.touch().electrodes());
+  laws_->setText(lawsWords(*resistances_, pairs));
+  HeatmapSpec spec = resistanceHeatmap(pairs, kind());
+  spec.title = tr("The same by Eq. (1), rate 1000 ohm/mm").toStdString();
+  spec.selected = cell();
+  pairs_->setHeatmap(std::move(spec));
 }
 
 QString ResistancePage::cellWords(const std::array<int, 2>& cell) const {
   const SensorDesign& design = workbench_.touch().touch().design();
   const auto [row, column] = cell;
   if (row >= design.rowWires() || column >= design.columnWires()) return {};
-  const auto resistances = resistancesOf(design, *workbench_.touch().electrodes());
-  if (!resistances) return whyNoResistances(design);
-  const double rest = resistances->rest_ohm(row, column), now = resistances->now_ohm(row, column);
+  if (!resistances_) return field_.problem();
+  const double rest = resistances_->rest_ohm(row, column), now = resistances_->now_ohm(row, column);
   return tr("Row-wire %1, column-wire %2: R = %3 ohm at rest, %4 ohm under the load (%5 ohm, %6 %)")
       .arg(row)
       .arg(column)
@@ -228,18 +310,23 @@ QString ResistancePage::cellWords(const std::array<int, 2>& cell) const {
 
 HeatmapSpec ResistancePage::heatmap() const {
   const TouchSession& touch = workbench_.touch();
-  const auto changes = [this](const SensorDesign& design, const ElectrodeDisplacements& electrodes) {
-    return resistanceHeatmap(design, electrodes, kind());
-  };
-  HeatmapSpec shown = changes(touch.touch().design(), *touch.electrodes());
-  if (kind() != ResistanceKind::LessKept || shown.values.size() == 0) return shown;
-  const auto kept = workbench_.keptPath();
   HeatmapSpec none;
+  if (!resistances_) {
+    none.title = field_.problem().isEmpty() ? tr("The conduction field is being computed...").toStdString()
+                                            : field_.problem().toStdString();
+    return none;
+  }
+  HeatmapSpec shown = resistanceHeatmap(*resistances_, kind());
+  if (kind() != ResistanceKind::LessKept) return shown;
+  const auto kept = workbench_.keptPath();
   const QString& problem = workbench_.kept().problem();
   none.title = (problem.isEmpty() ? tr("The kept design is being computed...") : problem).toStdString();
   if (!kept) return none;
-  const HeatmapSpec less = changes(kept->design, kept->at(touch.loadFraction()).electrodes);
-  if (less.values.size() == 0) return less; // and says why
+  if (kept->design.field() != nullptr) {
+    none.title = tr("Not under the conduction field: changes less those of a kept design under it.").toStdString();
+    return none;
+  }
+  const HeatmapSpec less = resistanceHeatmap(kept->design, kept->at(touch.loadFraction()).electrodes, kind());
   const bool alike = less.values.rows() == shown.values.rows() && less.values.cols() == shown.values.cols();
   return alike ? heatmapLessKept(shown.values, less.values) : none; // else the touch is still of the design before
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/gui/jobs/FieldTouch.h"
 #include "app/gui/project/Workbench.h"
 #include "app/gui/window/Scene.h"
 #include "app/scenes/block/DeformationScene.h"
@@ -14,8 +15,10 @@ namespace palp {
 class BlockView;
 class ChartView;
 class HeatmapView;
+class LawBar;
 
-/// Row-column resistances under the load: a heatmap, the row and the column of a cell as curves, its electrodes lit.
+/// Row-column resistances under the load by the law of the design: a heatmap, under the field with that of Eq. (1)
+/// beside it, the row and the column of a cell as curves, its electrodes lit.
 class ResistancePage : public Scene {
   Q_OBJECT
 
@@ -25,10 +28,12 @@ public:
   [[nodiscard]] Stage stage() const override { return Stage::Resistances; }
   void setTheme(Theme theme) override;
   [[nodiscard]] bool complete() const override;
+  [[nodiscard]] std::vector<JobRunner*> runners() override { return {&field_.runner()}; }
   [[nodiscard]] QString commands(const Project& project, const QString& designFile) const override;
 
 protected:
   void showEvent(QShowEvent* event) override;
+  void hideEvent(QHideEvent* event) override;
 
 private:
   QWidget* buildBar();
@@ -45,17 +50,26 @@ private:
   /// As chosen, where that can be shown.
   [[nodiscard]] ResistanceKind kind() const;
   [[nodiscard]] HeatmapSpec heatmap() const;
+  /// Of the touch that is shown, by its law; asks for the field where it is not there yet.
+  void findResistances();
+  /// How those of the field compare with those of Eq. (1).
+  void drawBeside();
   /// Its resistance at rest and under the load.
   [[nodiscard]] QString cellWords(const std::array<int, 2>& cell) const;
 
   Workbench& workbench_;
   DeformationOptions options_;
+  FieldTouch field_;
+  std::optional<TouchResistances> resistances_; ///< that are shown
   bool meshDrawn_ = false;
   ViewSettings drawn_; ///< as drawn last
+  LawBar* law_ = nullptr;
   QComboBox* kind_ = nullptr;
   QCheckBox* fixed_ = nullptr;
   QLabel* reading_ = nullptr;
+  QLabel* laws_ = nullptr;
   HeatmapView* heatmap_ = nullptr;
+  HeatmapView* pairs_ = nullptr; ///< by Eq. (1), beside the field
   ChartView* row_ = nullptr;
   ChartView* column_ = nullptr;
   BlockView* block_ = nullptr;

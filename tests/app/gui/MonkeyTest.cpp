@@ -238,6 +238,8 @@ protected:
     for (const char* name : {"heatmap", "resistanceHeatmap"}) {
       const auto& view = find<HeatmapView>(name);
       if (!view.isVisible() || touch.electrodes() == nullptr) continue;
+      if (touch.touch().design().field() != nullptr && std::string(name) == "resistanceHeatmap")
+        continue; // ResistanceFieldTest
       const ResistanceKind kind =
           std::string(name) == "heatmap" ? ResistanceKind::RelativeChange : workbench.project().view.resistance;
       if (kind == ResistanceKind::LessKept && workbench.project().kept) continue; // of two touches

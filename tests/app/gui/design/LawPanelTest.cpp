@@ -212,15 +212,11 @@ TEST_F(LawPanelTest, WhatIsNotUnderTheFieldYetSaysSoWhereOneLooksAndComesBackWit
   window.showScene("network");
   EXPECT_FALSE(find<QPushButton>("generate").isEnabled());
   EXPECT_TRUE(find<QLabel>("samplesWords").text().startsWith(sentence));
-  window.showScene("resistance");
-  ASSERT_TRUE(solved());
-  ASSERT_TRUE(idle());
-  EXPECT_EQ(find<HeatmapView>("resistanceHeatmap").heatmap().values.size(), 0);
-  EXPECT_TRUE(QString::fromStdString(find<HeatmapView>("resistanceHeatmap").heatmap().title).startsWith(sentence));
-  EXPECT_TRUE(find<QLabel>("reading").text().startsWith(sentence));
   window.showScene("deformation");
+  ASSERT_TRUE(solved());
   settle();
   EXPECT_EQ(find<HeatmapView>("heatmap").heatmap().values.size(), 0);
+  EXPECT_TRUE(QString::fromStdString(find<HeatmapView>("heatmap").heatmap().title).startsWith(sentence));
   window.showScene("design");
   choose("resistance.law", Qt::Key_Up);
   EXPECT_TRUE(find<QPushButton>("findLayout").isEnabled());
