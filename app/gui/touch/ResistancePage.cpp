@@ -232,7 +232,12 @@ HeatmapSpec ResistancePage::heatmap() const {
     return resistanceHeatmap(design, electrodes, kind());
   };
   HeatmapSpec shown = changes(touch.touch().design(), *touch.electrodes());
-  if (kind() != ResistanceKind::LessKept || shown.values.size() == 0) return shown;
+  const auto* end = touch.touch().displacements();
+  if (kind() != ResistanceKind::LessKept || shown.values.size() == 0) {
+    if (end != nullptr && shown.values.size() > 0)
+      shown.colors = changes(touch.touch().design(), *end).colors; // one scale on the whole load path
+    return shown;
+  }
   const auto kept = workbench_.keptPath();
   HeatmapSpec none;
   const QString& problem = workbench_.kept().problem();
@@ -241,7 +246,8 @@ HeatmapSpec ResistancePage::heatmap() const {
   const HeatmapSpec less = changes(kept->design, kept->at(touch.loadFraction()).electrodes);
   if (less.values.size() == 0) return less; // and says why
   const bool alike = less.values.rows() == shown.values.rows() && less.values.cols() == shown.values.cols();
-  return alike ? heatmapLessKept(shown.values, less.values) : none; // else the touch is still of the design before
+  return alike ? heatmapLess(shown.values - less.values, "the kept design's")
+               : none; // else the touch is still of the design before
 }
 
 void ResistancePage::drawHeatmap() {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <random>
 #include <vector>
@@ -73,11 +74,13 @@ public:
   }
 
   /// Moves one place after the other while that helps, then halves the step.
-  double descend(Places& places) {
+  double descend(Places& places, const std::function<void(double)>& progress) {
     for (double& place : places) place = onGrid(place, limits_.grid_mm);
     double best = value(places);
     double step = kFirstStep_mm;
+    const double halvings = std::log2(kFirstStep_mm / limits_.grid_mm) + 1;
     while (step > limits_.grid_mm * 0.99 && !stop_.stop_requested()) {
+      progress(std::log2(kFirstStep_mm / step) / halvings);
       const double before = best;
       best = sweep(places, best, step);
       if (!(best < before * (1 - 1e-3))) step /= 2;
@@ -180,7 +183,8 @@ std::optional<std::string> makerProblem(const SensorDesign& layout, const MakerL
 
 std::optional<LayoutSearchResult> betterLayout(const SensorDesign& design, const AreaResponse& response, int rowWire,
                                                double relativeNoise, LayoutFreedom freedom, const MakerLimits& limits,
-                                               std::uint64_t seed, const std::stop_token& stop) {
+                                               std::uint64_t seed, const std::stop_token& stop,
+                                               const std::function<void(double, int)>& progress) {
   const Parameters parameters(design, freedom);
   Search search(parameters, response, rowWire, relativeNoise, limits, stop);
   std::mt19937_64 random(seed);
@@ -190,7 +194,10 @@ std::optional<LayoutSearchResult> betterLayout(const SensorDesign& design, const
   const int starts = freedom == LayoutFreedom::WireByWire ? 0 : kRandomStarts;
   for (int start = 0; start <= starts; ++start) {
     Places places = start == 0 ? parameters.places() : randomPlaces(parameters, design, limits, random);
-    const double reached = search.descend(places);
+    const auto ofStart = [&](double share) {
+      if (progress) progress((start + share) / (starts + 1), search.evaluations());
+    };
+    const double reached = search.descend(places, ofStart);
     if (stop.stop_requested()) return {};
     if (!(reached < result.after_percent)) continue;
     result.after_percent = reached;

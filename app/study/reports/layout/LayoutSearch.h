@@ -33,10 +33,12 @@ struct LayoutSearchResult {
 };
 
 /// Lowers the bound without prior of a row-wire by pattern search (Hooke and Jeeves, 1961) from the design and from
-/// random places; equal seeds give equal layouts. Empty where it was stopped.
+/// random places; equal seeds give equal layouts. `progress` is told, roughly, which share of the search is done and
+/// how many layouts were tried. Empty where it was stopped.
 std::optional<LayoutSearchResult> betterLayout(const SensorDesign& design, const AreaResponse& response, int rowWire,
                                                double relativeNoise, LayoutFreedom freedom, const MakerLimits& limits,
-                                               std::uint64_t seed, const std::stop_token& stop);
+                                               std::uint64_t seed, const std::stop_token& stop,
+                                               const std::function<void(double, int)>& progress = {});
 
 /// Why a maker could not keep the layout; empty where he can.
 std::optional<std::string> makerProblem(const SensorDesign& layout, const MakerLimits& limits);
