@@ -36,6 +36,7 @@ PACKAGES = {
     r"(suitesparse/)?cholmod\.h": {"solver"},
     r"hidapi(/hidapi)?\.h": {"io"},
     r"libudev\.h": {"io"},
+    r"gif_lib\.h": {"app/scenes"},
     r"nlohmann/.*": {"io", "app/study", "app/scenes", "app/cli", "app/gui"},
     r"CLI/.*": {"app/cli"},
     r"nlopt\.(h|hpp)": {"nn", "app/study"},

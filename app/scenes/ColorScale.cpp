@@ -45,12 +45,22 @@ std::span<const Color> stops(ColorMap map) {
   return kViridis;
 }
 
+/// Where in the map a value stands, 0 to 1.
+double shareOf(double value, const ColorScale& scale) {
+  const double way = std::clamp((value - scale.low) / (scale.high - scale.low), 0.0, 1.0);
+  if (scale.map != ColorMap::Diverging) return way;
+  if (scale.low >= 0) return 0.5 + 0.5 * way;
+  if (scale.high <= 0) return 0.5 * way;
+  // Equal steps of the value look equally large on both sides of 0.
+  return 0.5 + 0.5 * std::clamp(value, scale.low, scale.high) / std::max(-scale.low, scale.high);
+}
+
 } // namespace
 
 Color ColorScale::color(double value) const {
   if (!std::isfinite(value)) return kNotANumber;
   const std::span<const Color> all = stops(map);
-  const double place = std::clamp((value - low) / (high - low), 0.0, 1.0) * static_cast<double>(all.size() - 1);
+  const double place = shareOf(value, *this) * static_cast<double>(all.size() - 1);
   const auto k = std::min(static_cast<std::size_t>(place), all.size() - 2);
   const double t = place - static_cast<double>(k);
   Color mixed{};

@@ -12,7 +12,8 @@ class vtkLookupTable;
 
 namespace palp {
 
-/// Perceptually uniform maps; Diverging (blue, white, red) is for signed values and centred on 0.
+/// Perceptually uniform maps; Diverging (blue, white, red) is for signed values: white is 0 whatever the range is, and
+/// the end next to 0 where the range has one sign.
 enum class ColorMap { Viridis, Cividis, Diverging, Inferno };
 inline constexpr NamedEnum kColorMaps("color map", std::array{std::pair{ColorMap::Viridis, "viridis"},
                                                               std::pair{ColorMap::Cividis, "cividis"},

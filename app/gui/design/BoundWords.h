@@ -1,15 +1,20 @@
 #pragma once
 
+#include "app/gui/project/DesignStudies.h"
 #include "app/study/reports/layout/DesignBounds.h"
 
 #include <QString>
 
 namespace palp {
 
-/// Fx / Fy / Fz in % of the force range, "-" where the resistances do not determine the force.
-QString boundPercents(const Eigen::Vector3d& bound_percent);
+BoundSummary summaryOf(const DesignBounds& bounds);
 
-/// Two columns of bounds as a table: a design and another one.
-QString boundTable(const QString& nameA, const DesignBounds& a, const QString& nameB, const DesignBounds& b);
+/// "1.20 / 0.97 / 1.24 %": equally many decimals, by the largest of the three, and "-" where there is no bound.
+QString boundPercents(const Eigen::Vector3d& bound_percent);
+/// The same in N: "0.024 / 0.019 / 0.074 N".
+QString boundNewtons(const Eigen::Vector3d& bound_percent, const ForceRange& range);
+
+/// Both designs' bounds beside each other, as a table in HTML.
+QString boundTable(const QString& nameA, const BoundSummary& a, const QString& nameB, const BoundSummary& b);
 
 } // namespace palp

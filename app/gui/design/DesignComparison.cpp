@@ -1,96 +1,114 @@
 #include "app/gui/design/DesignComparison.h"
 
 #include "app/gui/design/BoundWords.h"
-#include "app/gui/design/RestFloor.h"
-#include "app/gui/jobs/TouchResistances.h"
+#include "app/gui/design/ComparedAnswers.h"
+#include "app/gui/design/ProgressWords.h"
+#include "app/gui/jobs/TimeLeft.h"
 #include "app/gui/views/HeatmapSpecs.h"
 #include "app/gui/views/HeatmapView.h"
-#include "app/study/touch/Touch.h"
 
+#include <QComboBox>
+#include <QElapsedTimer>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
+#include <QSignalBlocker>
 #include <QVBoxLayout>
 
-#include <array>
+#include <algorithm>
 
 namespace palp {
 
 namespace {
 
-constexpr int kSideWidth_px = 420;
+constexpr int kSideWidth_px = 480;
 
-/// A design under a load.
-struct Answer {
-  double largest_mm = 0;                    ///< displacement
-  Eigen::MatrixXd change;                   ///< dR / R at rest [%]; empty where the law has none
-  std::optional<Eigen::Matrix3Xd> upper_mm; ///< displacements of the upper electrodes
-  QString noChange;                         ///< why that is
-  QString problem;                          ///< why there is no answer
-};
-
-Answer answerOf(const SensorDesign& design, const LoadCase& load, const MeshOptions& mesh,
-                const std::stop_token& stop) {
-  Answer answer;
-  if (const auto wrong = whyInvalid(load, design)) {
-    answer.problem = QString::fromStdString(*wrong);
-    return answer;
-  }
-  Touch touch(design, load, mesh);
-  const bool good = touch.advance(Stage::Displacements, {}, {.step = {}, .stop = stop});
-  if (stop.stop_requested()) return answer;
-  if (!good) {
-    answer.problem = QString::fromStdString(touch.solution()->stopReason);
-    return answer;
-  }
-  answer.largest_mm = touch.solution()->state().displacements_mm.colwise().norm().maxCoeff();
-  if (const auto resistances = resistancesOf(design, *touch.displacements()))
-    answer.change = 100 * (resistances->now_ohm - resistances->rest_ohm).cwiseQuotient(resistances->rest_ohm);
-  answer.noChange = whyNoResistances(design);
-  answer.upper_mm = touch.displacements()->upper_mm;
-  return answer;
+QString blockWords(const SensorDesign& design) {
+  const Eigen::Vector3d& size = design.block_mm;
+  return QObject::tr("block %1 x %2 x %3 mm").arg(size.x()).arg(size.y()).arg(size.z());
 }
 
-QString answerWords(const Answer& kept, const Answer& now) {
-  for (const auto& [answer, name] :
-       {std::pair{&kept, QObject::tr("The kept design")}, std::pair{&now, QObject::tr("This design")}})
-    if (!answer->problem.isEmpty()) return QObject::tr("%1 cannot bear the load: %2.").arg(name, answer->problem);
-  QString words = QObject::tr("Largest displacement: kept design %1 mm, this design %2 mm.")
-                      .arg(QString::number(kept.largest_mm, 'g', 4), QString::number(now.largest_mm, 'g', 4));
-  if (kept.upper_mm->cols() == now.upper_mm->cols())
-    words += QObject::tr("<br>Ways of the upper electrodes differ by up to %1 mm.")
-                 .arg((*now.upper_mm - *kept.upper_mm).colwise().norm().maxCoeff(), 0, 'g', 4);
-  if (const QString why = kept.noChange.isEmpty() ? now.noChange : kept.noChange; !why.isEmpty())
-    words += "<br>" + why;
-  else if (kept.change.rows() != now.change.rows() || kept.change.cols() != now.change.cols())
-    words += QObject::tr("<br>They have other numbers of wires: their resistances are not compared cell by cell.");
-  return words;
+/// The design before the last change. The sizes of a block are typed number by number: they are one change.
+std::size_t beforeLastChange(const std::vector<EarlierDesign>& earlier, const SensorDesign& now) {
+  std::size_t k = 0;
+  const SensorDesign* after = &now;
+  while (k + 1 < earlier.size() && !earlier[k + 1].undone && earlier[k].design.block_mm != after->block_mm &&
+         earlier[k + 1].design.block_mm != earlier[k].design.block_mm)
+    after = &earlier[k++].design;
+  return k;
+}
+
+Eigen::MatrixXd differenceOf(const DesignsCompared& compared) {
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  return Eigen::Map<const Rows>(compared.difference_percent.data(), compared.rows, compared.columns);
 }
 
 } // namespace
 
 DesignComparison::DesignComparison(Workbench& workbench, QWidget* parent) : QWidget(parent), workbench_(workbench) {
+  build();
+  connect(list_, &QComboBox::activated, this, &DesignComparison::choose);
+  connect(keep_, &QPushButton::clicked, this, &DesignComparison::keep);
+  connect(compare_, &QPushButton::clicked, this, &DesignComparison::compare);
+  connect(back_, &QPushButton::clicked, this, &DesignComparison::goBack);
+  connect(fields_, &QPushButton::clicked, this, &DesignComparison::showFields);
+  connect(&runner_, &JobRunner::failed, words_, &QLabel::setText);
+  connect(&runner_, &JobRunner::started, this, &DesignComparison::displayProject);
+  connect(&runner_, &JobRunner::finished, this, [this](bool cancelled) {
+    if (cancelled) {
+      shown_.reset();
+      showCompared();
+      if (!shown_) words_->setText(tr("Stopped; nothing was compared."));
+    }
+    displayProject();
+  });
+  connect(&workbench_, &Workbench::projectReplaced, this, [this] {
+    if (runner_.running()) runner_.cancel(); // of the other project
+    keptBefore_.clear();
+    asked_.reset();
+    displayProject();
+  });
+  // The history has its new entry only after the project has changed.
+  connect(&workbench_.history(), &QUndoStack::indexChanged, this, &DesignComparison::displayProject);
+  sayProgress(runner_, *words_);
+  displayProject();
+}
+
+void DesignComparison::build() {
   auto* row = new QHBoxLayout(this);
   auto* side = new QWidget;
   side->setFixedWidth(kSideWidth_px);
   auto* column = new QVBoxLayout(side);
   column->setContentsMargins(0, 0, 0, 0);
+  auto* with = new QHBoxLayout;
+  with->addWidget(new QLabel(tr("This design with")));
+  list_ = new QComboBox;
+  list_->setObjectName("compareWith");
+  list_->setAccessibleName(tr("Design to compare with"));
+  list_->setToolTip(tr("The designs that there were, each by the change that led away from it, and the one that was "
+                       "kept"));
+  list_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  with->addWidget(list_, 1);
+  column->addLayout(with);
   auto* buttons = new QHBoxLayout;
-  keep_ = new QPushButton(tr("Keep this design"));
-  keep_->setObjectName("keepDesign");
-  keep_->setToolTip(tr("Remembers the design as it is now, to compare later ones with it; the project keeps it"));
   compare_ = new QPushButton(tr("Compare"));
   compare_->setObjectName("compareDesigns");
   compare_->setToolTip(tr("Solves both designs under the load and bounds the errors of both; Esc stops it"));
-  back_ = new QPushButton(tr("Go back to it"));
-  back_->setObjectName("takeKept");
-  back_->setToolTip(tr("Makes the kept design the design again; can be undone"));
-  for (QPushButton* button : {keep_, compare_, back_}) buttons->addWidget(button);
-  column->addLayout(buttons);
   fields_ = new QPushButton(tr("Show the difference of the fields"));
   fields_->setObjectName("keptFields");
-  fields_->setToolTip(tr("On the Deformation scene: this design less the kept one, in the colours of the block"));
-  column->addWidget(fields_);
+  fields_->setToolTip(tr("On the Deformation scene: this design less the chosen one, in the colours of the block; the "
+                         "chosen one is kept for it"));
+  for (QPushButton* button : {compare_, fields_}) buttons->addWidget(button);
+  column->addLayout(buttons);
+  auto* more = new QHBoxLayout;
+  back_ = new QPushButton(tr("Go back to it"));
+  back_->setObjectName("takeKept");
+  back_->setToolTip(tr("Makes the chosen design the design again; can be undone"));
+  keep_ = new QPushButton(tr("Keep this design"));
+  keep_->setObjectName("keepDesign");
+  keep_->setToolTip(tr("Remembers the design as it is now, to compare later ones with it; the project keeps it"));
+  for (QPushButton* button : {back_, keep_}) more->addWidget(button);
+  column->addLayout(more);
   stale_ = new QLabel;
   stale_->setObjectName("comparisonState");
   stale_->setProperty("role", "hint");
@@ -108,97 +126,146 @@ DesignComparison::DesignComparison(Workbench& workbench, QWidget* parent) : QWid
   difference_->hide();
   row->addWidget(difference_, 1);
   row->addStretch(); // beside the words alone
-  connect(keep_, &QPushButton::clicked, this, &DesignComparison::keep);
-  connect(compare_, &QPushButton::clicked, this, &DesignComparison::compare);
-  connect(back_, &QPushButton::clicked, this, &DesignComparison::goBack);
-  connect(fields_, &QPushButton::clicked, this, &DesignComparison::showFields);
-  connect(&runner_, &JobRunner::failed, words_, &QLabel::setText);
-  connect(&runner_, &JobRunner::started, this, &DesignComparison::displayProject);
-  connect(&runner_, &JobRunner::finished, this, &DesignComparison::displayProject);
-  displayProject();
 }
 
 void DesignComparison::setTheme(Theme theme) {
   difference_->setTheme(theme);
 }
 
+const DesignComparison::Choice* DesignComparison::chosen() const {
+  const int index = list_->currentIndex();
+  return index < 0 ? nullptr : &choices_[static_cast<std::size_t>(index)];
+}
+
+void DesignComparison::listChoices() {
+  const Project& project = workbench_.project();
+  choices_.clear();
+  const auto offer = [&](const QString& name, const SensorDesign& design) {
+    const auto same = [&](const Choice& other) { return other.design == design; };
+    if (design != project.design && std::none_of(choices_.begin(), choices_.end(), same))
+      choices_.push_back({name, design});
+  };
+  const std::vector<EarlierDesign> earlier = workbench_.earlierDesigns();
+  for (const EarlierDesign& each : earlier)
+    offer((each.undone ? tr("%1, undone: %2") : tr("%1, before: %2")).arg(each.when.toString("HH:mm"), each.change) +
+              (each.design == project.kept ? tr(" (kept)") : QString()),
+          each.design);
+  if (project.kept) offer(tr("the kept design (%1)").arg(blockWords(*project.kept)), *project.kept);
+  for (const SensorDesign& each : keptBefore_) offer(tr("kept before (%1)").arg(blockWords(each)), each);
+  const auto& compared = project.studies.compared;
+  if (compared) offer(QString::fromStdString(compared->name), compared->earlier);
+  const QSignalBlocker quiet(list_);
+  list_->clear();
+  std::size_t wanted = earlier.empty() || earlier[0].undone ? 0 : beforeLastChange(earlier, project.design);
+  if ((earlier.empty() || earlier[0].undone) && project.kept) // nothing was changed here yet
+    for (std::size_t k = 0; k < choices_.size(); ++k)
+      if (choices_[k].design == *project.kept) wanted = k;
+  for (std::size_t k = 0; k < choices_.size(); ++k) {
+    list_->addItem(choices_[k].name);
+    list_->setItemData(static_cast<int>(k), choices_[k].name + ", " + blockWords(choices_[k].design), Qt::ToolTipRole);
+    const bool below = compared && compared->now == project.design && compared->earlier == choices_[k].design;
+    if (asked_ ? asked_ == choices_[k].design : below) wanted = k;
+  }
+  list_->setCurrentIndex(choices_.empty() ? -1 : static_cast<int>(std::min(wanted, choices_.size() - 1)));
+}
+
+void DesignComparison::choose(int index) {
+  asked_ = choices_[static_cast<std::size_t>(index)].design;
+  displayProject();
+}
+
 void DesignComparison::keep() {
   Project next = workbench_.project();
-  next.kept = next.design;
+  if (next.kept && next.kept != next.design) keptBefore_.insert(keptBefore_.begin(), *next.kept);
+  next.kept = asked_ = next.design;
   workbench_.closeEntry();
   workbench_.edit(tr("Keep this design"), next);
 }
 
 void DesignComparison::goBack() {
   Project next = workbench_.project();
-  next.design = *next.kept;
+  next.design = chosen()->design;
   std::erase_if(next.load.areas, [&](const AreaLoad& load) { return load.area >= next.design.areas.count(); });
   std::erase_if(next.load.patches, [&](const PatchLoad& disc) { return whyInvalid({{}, {disc}}, next.design); });
+  asked_.reset();
   workbench_.closeEntry();
-  workbench_.edit(tr("Go back to the kept design"), next);
+  workbench_.edit(tr("Go back to an earlier design"), next);
 }
 
 void DesignComparison::showFields() {
   Project next = workbench_.project();
-  if (!next.view.lessKept) next.view.colorRange.reset();
+  const SensorDesign with = chosen()->design;
+  if (next.kept && next.kept != with) keptBefore_.insert(keptBefore_.begin(), *next.kept);
+  next.kept = asked_ = with;
   next.view.lessKept = true;
   workbench_.edit(tr("Show the difference of the fields"), next);
   emit fieldsAsked();
 }
 
 void DesignComparison::displayProject() {
-  const SensorDesign& design = workbench_.project().design;
-  const std::optional<SensorDesign>& kept = workbench_.project().kept;
-  const bool other = kept && *kept != design;
-  compare_->setEnabled(other);
-  back_->setEnabled(other);
-  fields_->setEnabled(other);
-  if (!kept)
-    stale_->setText(tr("Keep a design, change it, and compare. Was it changed already: undo, keep, redo."));
-  else if (!other)
-    stale_->setText(tr("This is the kept design: change something to compare."));
-  else
-    stale_->setText(compared_ && *compared_ != std::array{*kept, design} ? tr("This compares other designs than these.")
-                                                                         : QString());
-  stale_->setVisible(!stale_->text().isEmpty());
+  listChoices();
+  const Project& project = workbench_.project();
+  const bool other = chosen() != nullptr;
+  for (QWidget* part : std::initializer_list<QWidget*>{list_, compare_, back_, fields_}) part->setEnabled(other);
+  if (project.studies.compared != shown_ && !runner_.running()) showCompared();
+  QString state;
+  if (!other)
+    state = project.kept ? tr("This is the kept design: change something to compare.")
+                         : tr("There is no other design yet: change something, and compare it with what was before.");
+  else if (shown_ && !runner_.running()) {
+    const DesignsCompared& of = *shown_;
+    if (of.now != project.design || of.earlier != chosen()->design)
+      state = tr("Below are other designs than these: \"Compare\" does it again.");
+    else if (of.load != project.load || of.noise != project.view.resistanceNoise)
+      state = tr("Below is another load, or another noise of the resistances: \"Compare\" does it again.");
+  }
+  stale_->setText(state);
+  stale_->setVisible(!state.isEmpty());
+  words_->setEnabled(state.isEmpty() || !shown_);
+}
+
+void DesignComparison::showCompared() {
+  shown_ = workbench_.project().studies.compared;
+  const bool map = shown_ && !shown_->difference_percent.empty();
+  const bool atRest = shown_ && (shown_->earlier.field() != nullptr || shown_->now.field() != nullptr);
+  words_->setText(shown_
+                      ? tr("<b>%1</b><br>").arg(QString::fromStdString(shown_->name).toHtmlEscaped()) +
+                            (atRest ? tr("Both at rest. ") : QString()) +
+                            boundTable(tr("that design"), shown_->earlierBounds, tr("this design"), shown_->nowBounds) +
+                            QString::fromStdString(shown_->words)
+                      : QString());
+  difference_->setVisible(map);
+  if (map) difference_->setHeatmap(heatmapLess(differenceOf(*shown_), tr("the earlier design's").toStdString()));
 }
 
 void DesignComparison::compare() {
   const Project& project = workbench_.project();
-  words_->setText(tr("Being computed..."));
+  DesignsCompared compared;
+  compared.earlier = chosen()->design;
+  compared.now = project.design;
+  compared.name = chosen()->name.toStdString();
+  compared.load = project.load;
+  compared.noise = project.view.resistanceNoise;
   difference_->hide();
+  words_->setText(tr("Being computed..."));
   runner_.start(
       tr("Comparing two designs"),
-      [this, kept = *project.kept, now = project.design, load = project.load, mesh = project.mesh,
-       noise = project.view.resistanceNoise](const std::stop_token& stop, JobProgress& progress) -> JobRunner::Taking {
-        progress.set(0.02, "Solving both under the load");
-        const Answer keptAnswer = answerOf(kept, load, mesh, stop), nowAnswer = answerOf(now, load, mesh, stop);
-        if (stop.stop_requested()) return {};
-        std::array<std::optional<DesignBounds>, 2> bounds;
-        const bool atRest = kept.field() != nullptr || now.field() != nullptr; // where the field is known
-        std::shared_ptr<const RestFloor> floor;
-        for (std::size_t k = 0; k < 2; ++k) {
-          const auto part = [&](double share, const std::string& what) {
-            progress.set(0.1 + 0.45 * (static_cast<double>(k) + share), what);
-          };
-          if (atRest) {
-            floor = restFloor(k == 0 ? kept : now, mesh, floor, part, stop);
-            if (floor) bounds[k] = boundsAtRest(*floor, noise);
-          } else {
-            bounds[k] = designBounds(k == 0 ? kept : now, mesh, noise, part, stop);
-          }
-          if (!bounds[k]) return {};
-        }
-        return [this, kept, now, keptAnswer, nowAnswer, atRest, keptBounds = *bounds[0], nowBounds = *bounds[1]] {
-          compared_ = {kept, now};
-          words_->setText((atRest ? tr("Both at rest. ") : QString()) +
-                          boundTable(tr("kept"), keptBounds, tr("this design"), nowBounds) +
-                          answerWords(keptAnswer, nowAnswer));
-          const bool same = keptAnswer.change.rows() == nowAnswer.change.rows() &&
-                            keptAnswer.change.cols() == nowAnswer.change.cols() && nowAnswer.change.size() > 0;
-          difference_->setVisible(same);
-          if (same) difference_->setHeatmap(heatmapLessKept(nowAnswer.change, keptAnswer.change));
-          displayProject();
+      [this, compared, mesh = project.mesh](const std::stop_token& stop, JobProgress& progress) -> JobRunner::Taking {
+        DesignsCompared result = compared;
+        QElapsedTimer clock;
+        clock.start();
+        TimeLeft left;
+        left.begin(0, 0);
+        const auto report = [&](double share, const std::string& what) {
+          const double now_s = 1e-3 * static_cast<double>(clock.elapsed());
+          progress.set(share, what + (share < 0.15 ? std::string() : leftInWords(left.left_s(share, 1, now_s))));
+        };
+        if (!compareDesigns(result, mesh, report, stop)) return {};
+        return [this, result] {
+          shown_.reset(); // also where it is what was found before
+          Project next = workbench_.project();
+          next.studies.compared = result;
+          workbench_.edit(tr("Compare two designs"), next);
         };
       });
 }

@@ -6,9 +6,10 @@
 
 #include <QWidget>
 
-#include <array>
 #include <optional>
+#include <vector>
 
+class QComboBox;
 class QLabel;
 class QPushButton;
 
@@ -16,7 +17,8 @@ namespace palp {
 
 class HeatmapView;
 
-/// The design beside one that was kept: what both resolve, and how their answers to the load differ.
+/// The design beside an earlier one, of the history or one that was kept: what both resolve, and how their answers to
+/// the load differ.
 class DesignComparison : public QWidget {
   Q_OBJECT
 
@@ -32,14 +34,28 @@ signals:
   void fieldsAsked();
 
 private:
+  /// A design that can be compared with.
+  struct Choice {
+    QString name;
+    SensorDesign design;
+  };
+  void build();
+  [[nodiscard]] const Choice* chosen() const;
+  void listChoices();
+  void choose(int index);
   void keep();
   void goBack();
   void showFields();
   void compare();
+  void showCompared();
 
   Workbench& workbench_;
   JobRunner runner_;
-  std::optional<std::array<SensorDesign, 2>> compared_; ///< kept and other one of the comparison that is shown
+  std::vector<Choice> choices_;
+  std::vector<SensorDesign> keptBefore_; ///< in whose place another one was kept since
+  std::optional<SensorDesign> asked_;    ///< chosen by hand, or just kept
+  std::optional<DesignsCompared> shown_; ///< as it is displayed
+  QComboBox* list_ = nullptr;
   QPushButton* keep_ = nullptr;
   QPushButton* compare_ = nullptr;
   QPushButton* back_ = nullptr;

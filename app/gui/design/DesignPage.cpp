@@ -91,6 +91,11 @@ DesignPage::DesignPage(Workbench& workbench, NetworkSession& network, QWidget* p
     std::erase_if(next.load.patches, [&](const PatchLoad& disc) { return whyInvalid({{}, {disc}}, design); });
     workbench_.edit(what, next);
   });
+  connect(panel_, &DesignPanel::scalingChosen, this, [this](bool on) {
+    Project next = workbench_.project();
+    next.studies.scaleWires = on;
+    workbench_.edit(tr("Scale the wires with the block"), next);
+  });
   connect(showMesh_, &QCheckBox::toggled, this, [this](bool on) {
     Project next = workbench_.project();
     next.view.mesh = on;
@@ -224,6 +229,7 @@ void DesignPage::showEvent(QShowEvent* event) {
 void DesignPage::displayProject() {
   const Project& project = workbench_.project();
   panel_->display(project.design);
+  panel_->displayScaling(project.studies.scaleWires);
   finder_->displayProject();
   comparison_->displayProject();
   const QSignalBlocker quietCheck(automaticSize_);

@@ -10,6 +10,7 @@
 #include <QFormLayout>
 #include <QGroupBox>
 #include <QMap>
+#include <QSignalBlocker>
 #include <QVBoxLayout>
 
 #include <cmath>
@@ -84,6 +85,12 @@ void DesignPanel::addWireScaling(QFormLayout& form) {
   scaleWires_->setToolTip(tr("Another size of the block takes both layers of wires and electrodes with it, each in the "
                              "same share of the block as before; else they stay where they are"));
   form.addRow(scaleWires_);
+  connect(scaleWires_, &QCheckBox::toggled, this, &DesignPanel::scalingChosen);
+}
+
+void DesignPanel::displayScaling(bool on) {
+  const QSignalBlocker quiet(scaleWires_);
+  scaleWires_->setChecked(on);
 }
 
 void DesignPanel::addFollowing(QFormLayout& form) {
@@ -153,8 +160,8 @@ void DesignPanel::showDerived(const SensorDesign& design) {
           .arg(number(rubber.shearModulus_MPa()), std::isfinite(kappa) ? number(kappa) + " MPa" : tr("infinite"),
                number(rubber.smallStrainYoung_MPa()), QString::number(rubber.smallStrainPoissonRatio(), 'g', 8));
   if (rubber == paperDesign().material)
-    words += tr("<br><i>The paper also prints E = 2.08e5 N/mm2: steel, five orders of magnitude off c10 and c01; it is "
-                "not used.</i>");
+    words += tr("<br><i>The rubber of the paper (F. Wang et al. 2013; Help, About). It also prints E = 2.08e5 "
+                "N/mm2: steel, five orders of magnitude off c10 and c01; it is not used.</i>");
   if (const auto square = whyNotSquare(design)) words += "<br>" + QString::fromStdString(*square);
   derived_->say(words);
 }

@@ -22,10 +22,13 @@ public:
 
   /// Emits nothing; fields that say the same already are left as they are written.
   void display(const SensorDesign& design);
+  /// Whether the wires scale with the block; emits nothing.
+  void displayScaling(bool on);
 
 signals:
   /// By the user's hand only, and only designs that can be built.
   void edited(const QString& what, const palp::SensorDesign& design);
+  void scalingChosen(bool on);
 
 private:
   void buildPresets();

@@ -15,7 +15,8 @@ std::vector<DesignPreset> designPresets() {
   fine.areas.rows = 3;
   SensorDesign piezoresistive = paper;
   piezoresistive.pressureLaw = PressureLaw{};
-  return {{QObject::tr("the paper's"), QObject::tr("30 x 30 x 5 mm, 10 x 30 wires, six load areas"), paper},
+  return {{QObject::tr("the paper's"),
+           QObject::tr("of F. Wang et al. 2013 (Help, About): 30 x 30 x 5 mm, 10 x 30 wires, six load areas"), paper},
           {QObject::tr("lower electrodes follow the rubber"),
            QObject::tr("the paper holds them still; where they follow, dR changes by more than half"), following},
           {QObject::tr("incompressible rubber"), QObject::tr("the paper's with Poisson's ratio 0.5"), incompressible},

@@ -2,7 +2,9 @@
 
 #include "app/gui/design/BoundWords.h"
 #include "app/gui/design/DesignFields.h"
+#include "app/gui/design/ProgressWords.h"
 #include "app/gui/design/RestFloor.h"
+#include "app/gui/jobs/TimeLeft.h"
 #include "app/gui/project/ResultCsv.h"
 #include "app/gui/views/ChartView.h"
 #include "app/gui/widgets/SaveDialog.h"
@@ -11,6 +13,7 @@
 
 #include <QComboBox>
 #include <QDoubleSpinBox>
+#include <QElapsedTimer>
 #include <QFormLayout>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -19,6 +22,7 @@
 #include <QSpinBox>
 
 #include <algorithm>
+#include <cmath>
 
 namespace palp {
 
@@ -34,22 +38,38 @@ std::optional<double> numberOf(const DesignField& field, const SensorDesign& des
   return value;
 }
 
-ChartSpec sweepChart(const QString& label, const std::vector<double>& at, const std::vector<DesignBounds>& bounds) {
+const DesignField* fieldOf(const std::string& key) {
+  const auto field = std::find_if(designFields().begin(), designFields().end(),
+                                  [&](const DesignField& each) { return each.key.toStdString() == key; });
+  return field == designFields().end() ? nullptr : &*field;
+}
+
+QString labelOf(const DesignField& field) {
+  return field.group + ": " + field.label + (field.unit.isEmpty() ? "" : " [" + field.unit + "]");
+}
+
+/// Geometric mean of the three forces without prior: what the lowest point has least of.
+double meanOf(const BoundSummary& bounds) {
+  return std::cbrt(bounds.allWithoutPrior.prod());
+}
+
+ChartSpec sweepChart(const DesignSweepCurve& curve) {
   ChartSpec spec;
   spec.title = "What the design resolves";
-  spec.xLabel = label.toStdString();
+  spec.xLabel = labelOf(*fieldOf(curve.number)).toStdString();
   spec.yLabel = "bound [% of range]";
   spec.logY = true;
   for (const bool all : {true, false})
     for (int d = 0; d < 3; ++d) {
       ChartSeries series;
-      series.name = std::string("F") + "xyz"[d] + (all ? ", all row-wires" : ", middle row-wire alone");
+      series.name = std::string("F") + "xyz"[d] + (all ? ", all rows" : ", middle row");
       series.style = ChartSeries::Style::LineAndPoints;
       series.dashed = !all;
       series.color = d;
-      series.x = at;
-      for (const DesignBounds& bound : bounds)
-        series.y.push_back((all ? bound.allRows : bound.centreRow).withPrior()[d]);
+      for (const DesignSweepCurve::Point& point : curve.points) {
+        series.x.push_back(point.at);
+        series.y.push_back((all ? point.bounds.allWithPrior : point.bounds.centreWithPrior)[d]);
+      }
       spec.series.push_back(std::move(series));
     }
   return spec;
@@ -58,6 +78,30 @@ ChartSpec sweepChart(const QString& label, const std::vector<double>& at, const 
 } // namespace
 
 DesignSweep::DesignSweep(Workbench& workbench, QWidget* parent) : QWidget(parent), workbench_(workbench) {
+  build();
+  connect(number_, &QComboBox::currentIndexChanged, this, [this] { readSettings(false); });
+  connect(steps_, &QSpinBox::valueChanged, this,
+          [this] { readSettings(!workbench_.project().studies.sweep.proposed); });
+  for (QDoubleSpinBox* box : {from_, to_})
+    connect(box, &QDoubleSpinBox::valueChanged, this, [this] { readSettings(true); });
+  connect(start_, &QPushButton::clicked, this, &DesignSweep::run);
+  connect(save_, &QPushButton::clicked, this, &DesignSweep::saveTable);
+  sayProgress(runner_, *words_);
+  connect(&runner_, &JobRunner::failed, words_, &QLabel::setText);
+  connect(&runner_, &JobRunner::started, this, [this] { start_->setEnabled(false); });
+  connect(&runner_, &JobRunner::finished, this, [this](bool cancelled) {
+    start_->setEnabled(true);
+    if (cancelled) words_->setText(tr("Stopped; the curves are those before."));
+    displayProject();
+  });
+  connect(&workbench_, &Workbench::projectChanged, this, &DesignSweep::displayProject);
+  connect(&workbench_, &Workbench::projectReplaced, this, [this] {
+    if (runner_.running()) runner_.cancel();
+  }); // of the other project
+  displayProject();
+}
+
+void DesignSweep::build() {
   auto* row = new QHBoxLayout(this);
   auto* side = new QWidget;
   side->setFixedWidth(kSweepSideWidth_px);
@@ -91,70 +135,76 @@ DesignSweep::DesignSweep(Workbench& workbench, QWidget* parent) : QWidget(parent
   words_ = new QLabel;
   words_->setObjectName("sweepWords");
   words_->setWordWrap(true);
+  stale_ = new QLabel;
+  stale_->setObjectName("designSweepState");
+  stale_->setProperty("role", "hint");
+  stale_->setWordWrap(true);
   form->addRow(tr("Number"), number_);
   form->addRow(tr("from"), from_);
   form->addRow(tr("to"), to_);
   form->addRow(tr("values"), steps_);
   form->addRow(start_, save_);
+  form->addRow(stale_);
   form->addRow(words_);
   row->addWidget(side);
   chart_ = new ChartView;
   chart_->setObjectName("sweepChart");
   row->addWidget(chart_, 1);
-  connect(number_, &QComboBox::currentIndexChanged, this, &DesignSweep::proposeRange);
-  connect(start_, &QPushButton::clicked, this, &DesignSweep::run);
-  connect(save_, &QPushButton::clicked, this, &DesignSweep::saveTable);
-  connect(&runner_, &JobRunner::failed, words_, &QLabel::setText);
-  connect(&runner_, &JobRunner::started, this, [this] { start_->setEnabled(false); });
-  connect(&runner_, &JobRunner::finished, this, [this](bool cancelled) {
-    start_->setEnabled(true);
-    if (cancelled) words_->setText(tr("Stopped; the curves are those before."));
-  });
-  // The range follows the design until somebody sets it.
-  for (QDoubleSpinBox* box : {from_, to_})
-    connect(box, &QDoubleSpinBox::valueChanged, this, [this] { proposed_ = false; });
-  connect(&workbench_, &Workbench::projectChanged, this, &DesignSweep::displayProject);
-  displayProject();
 }
 
 void DesignSweep::setTheme(Theme theme) {
   chart_->setTheme(theme);
 }
 
+void DesignSweep::readSettings(bool rangeByHand) {
+  Project next = workbench_.project();
+  DesignSweepSettings& sweep = next.studies.sweep;
+  sweep.number = number_->currentData().toString().toStdString();
+  sweep.values = steps_->value();
+  sweep.proposed = !rangeByHand;
+  sweep.from = rangeByHand ? from_->value() : 0;
+  sweep.to = rangeByHand ? to_->value() : 0;
+  workbench_.edit(tr("Change what is swept"), next);
+}
+
 void DesignSweep::displayProject() {
-  const SensorDesign& design = workbench_.project().design;
-  if (number_->count() == 0 || law_ != design.resistance.index()) listNumbers(design);
-  if (proposed_) proposeRange();
+  const Project& project = workbench_.project();
+  const DesignSweepSettings& sweep = project.studies.sweep;
+  const QSignalBlocker quietNumber(number_), quietSteps(steps_);
+  if (number_->count() == 0 || law_ != project.design.resistance.index()) listNumbers(project.design);
+  number_->setCurrentIndex(std::max(number_->findData(QString::fromStdString(sweep.number)), 0));
+  steps_->setValue(sweep.values);
+  const DesignField& field = *fieldOf(number_->currentData().toString().toStdString());
+  const double now = numberOf(field, project.design).value_or(0);
+  showExactly(*from_, sweep.proposed ? 0.8 * now : sweep.from); // around the number as it is now
+  showExactly(*to_, sweep.proposed ? 1.2 * now : sweep.to);
+  if (runner_.running()) return;
+  if (project.studies.curve != shown_) showCurve();
+  QString state;
+  if (shown_) {
+    SensorDesign there = project.design;
+    const DesignField* swept = fieldOf(shown_->number);
+    if (swept != nullptr && swept->has(there) && swept->has(shown_->design))
+      swept->set(there, swept->text(shown_->design));
+    if (there != shown_->design)
+      state = tr("The curves are of another design than the present one.");
+    else if (shown_->noise != project.view.resistanceNoise)
+      state = tr("The curves are for another noise of the resistances.");
+  }
+  stale_->setText(state);
+  stale_->setVisible(!state.isEmpty());
 }
 
 void DesignSweep::listNumbers(const SensorDesign& design) {
   law_ = design.resistance.index();
-  const QString chosen = number_->currentData().toString();
-  const QSignalBlocker quiet(number_);
   number_->clear();
   for (const DesignField& field : designFields())
-    if (field.has(design) && numberOf(field, design))
-      number_->addItem(field.group + ": " + field.label + (field.unit.isEmpty() ? "" : " [" + field.unit + "]"),
-                       field.key);
-  number_->setCurrentIndex(std::max(0, number_->findData(chosen)));
-  if (number_->currentData().toString() != chosen) proposed_ = true;
-}
-
-void DesignSweep::proposeRange() {
-  for (const DesignField& field : designFields()) {
-    if (field.key != number_->currentData().toString()) continue;
-    const double now = numberOf(field, workbench_.project().design).value_or(0);
-    proposed_ = true;
-    showExactly(*from_, 0.8 * now);
-    showExactly(*to_, 1.2 * now);
-    return;
-  }
+    if (field.has(design) && numberOf(field, design)) number_->addItem(labelOf(field), field.key);
 }
 
 void DesignSweep::run() {
   const QString key = number_->currentData().toString();
-  const auto field = std::find_if(designFields().begin(), designFields().end(),
-                                  [&](const DesignField& each) { return each.key == key; });
+  const DesignField* field = fieldOf(key.toStdString());
   const Project& project = workbench_.project();
   const double from = from_->value(), to = to_->value();
   const int steps = steps_->value();
@@ -174,73 +224,89 @@ void DesignSweep::run() {
     return;
   }
   words_->setText(tr("Being computed..."));
+  DesignSweepCurve curve;
+  curve.design = project.design;
+  curve.number = key.toStdString();
+  curve.noise = project.view.resistanceNoise;
+  curve.left = left;
   // Electrodes do not stiffen the rubber: other places of theirs are read out of the same response.
   const bool sameBlock = key.startsWith("upper_layer") || key.startsWith("lower_layer") || key.startsWith("resistance");
-  runner_.start(
-      tr("Sweeping a number of the design"),
-      [this, designs, left, sameBlock, label = number_->currentText(), mesh = project.mesh,
-       noise = project.view.resistanceNoise](const std::stop_token& stop, JobProgress& progress) -> JobRunner::Taking {
-        std::vector<Point> points;
-        std::optional<AreaResponse> response;
-        std::shared_ptr<const RestFloor> floor; // under the field
-        StageLog stages;
-        for (std::size_t k = 0; k < designs.size(); ++k) {
-          const auto report = [&](double share, const std::string& what) {
-            progress.set(sameBlock ? share : (static_cast<double>(k) + share) / static_cast<double>(designs.size()),
-                         what);
-          };
-          if (designs[k].second.field() != nullptr) {
-            const auto part = [&](double share, const std::string& what) {
-              progress.set((static_cast<double>(k) + share) / static_cast<double>(designs.size()), what);
-            };
-            floor = restFloor(designs[k].second, mesh, floor, part, stop);
-            if (!floor) return {};
-            points.push_back({designs[k].first, boundsAtRest(*floor, noise)});
-            continue;
-          }
-          if (!response || !sameBlock) response = AreaResponse::solve(designs[k].second, mesh, 0, stages, report, stop);
-          if (!response || stop.stop_requested()) return {};
-          points.push_back({designs[k].first, designBounds(designs[k].second, *response, noise)});
-        }
-        return [this, label, points, left] { showResult(label, points, left); };
-      });
+  runner_.start(tr("Sweeping a number of the design"),
+                [this, designs, sameBlock, empty = curve,
+                 mesh = project.mesh](const std::stop_token& stop, JobProgress& progress) -> JobRunner::Taking {
+                  DesignSweepCurve found = empty;
+                  std::optional<AreaResponse> response;
+                  StageLog stages;
+                  QElapsedTimer clock;
+                  clock.start();
+                  TimeLeft pace;
+                  pace.begin(0, 0);
+                  std::shared_ptr<const RestFloor> floor; // under the field
+                  for (std::size_t k = 0; k < designs.size(); ++k) {
+                    const bool byField = designs[k].second.field() != nullptr;
+                    const auto report = [&](double share, const std::string& what) {
+                      const double all = sameBlock && !byField
+                                             ? share
+                                             : (static_cast<double>(k) + share) / static_cast<double>(designs.size());
+                      const double now_s = 1e-3 * static_cast<double>(clock.elapsed());
+                      progress.set(all, what + (all < 0.05 ? std::string() : leftInWords(pace.left_s(all, 1, now_s))));
+                    };
+                    if (byField) {
+                      floor = restFloor(designs[k].second, mesh, floor, report, stop);
+                      if (!floor) return {};
+                      found.points.push_back({designs[k].first, summaryOf(boundsAtRest(*floor, found.noise))});
+                      continue;
+                    }
+                    if (!response || !sameBlock)
+                      response = AreaResponse::solve(designs[k].second, mesh, 0, stages, report, stop);
+                    if (!response || stop.stop_requested()) return {};
+                    found.points.push_back(
+                        {designs[k].first, summaryOf(designBounds(designs[k].second, *response, found.noise))});
+                  }
+                  return [this, found] {
+                    shown_.reset(); // also where it is what was found before
+                    Project next = workbench_.project();
+                    next.studies.curve = found;
+                    workbench_.edit(tr("Sweep a number of the design"), next);
+                  };
+                });
 }
 
-void DesignSweep::showResult(const QString& label, const std::vector<Point>& points, int left) {
-  points_ = points;
-  label_ = label;
-  save_->setEnabled(true);
-  std::vector<double> at;
-  std::vector<DesignBounds> bounds;
-  for (const Point& point : points) {
-    at.push_back(point.at);
-    bounds.push_back(point.bounds);
+void DesignSweep::showCurve() {
+  shown_ = workbench_.project().studies.curve;
+  if (shown_ && fieldOf(shown_->number) == nullptr) shown_.reset();
+  save_->setEnabled(shown_.has_value());
+  chart_->setChart(shown_ ? sweepChart(*shown_) : ChartSpec{});
+  if (!shown_) {
+    words_->clear();
+    return;
   }
-  chart_->setChart(sweepChart(label, at, bounds));
-  const auto best = std::min_element(points.begin(), points.end(), [](const Point& a, const Point& b) {
-    return a.bounds.allRows.mean() < b.bounds.allRows.mean();
-  });
-  words_->setText(tr("Lowest at %1: all row-wires %2 of the range (Fx / Fy / Fz, with prior, as the noise floor "
-                     "says it).%3")
-                      .arg(best->at)
-                      .arg(boundPercents(best->bounds.allRows.withPrior()),
-                           left > 0 ? tr(" %1 values make no design that can be built.").arg(left) : QString()));
+  const std::vector<DesignSweepCurve::Point>& points = shown_->points;
+  const auto best = std::min_element(points.begin(), points.end(),
+                                     [](const auto& a, const auto& b) { return meanOf(a.bounds) < meanOf(b.bounds); });
+  const DesignField& field = *fieldOf(shown_->number);
+  words_->setText(
+      tr("Lowest at %1: all row-wires %2 of the range, or %3 (Fx / Fy / Fz, with prior).%4")
+          .arg((QString::number(best->at, 'g', 6) + " " + field.unit).trimmed(),
+               boundPercents(best->bounds.allWithPrior),
+               boundNewtons(best->bounds.allWithPrior, shown_->design.forceRange),
+               shown_->left > 0 ? tr(" %1 values make no design that can be built.").arg(shown_->left) : QString()));
 }
 
 void DesignSweep::saveTable() {
   const QString file = askFileToSave(this, tr("Save table"), "design-sweep.csv", tr("Tables (*.csv)"));
   if (file.isEmpty()) return;
-  QString text = "# " + label_ + ", relative noise of the resistances " +
-                 QString::number(workbench_.project().view.resistanceNoise) + "\nvalue";
+  QString text = "# " + labelOf(*fieldOf(shown_->number)) + ", relative noise of the resistances " +
+                 QString::number(shown_->noise) + "\nvalue";
   for (const char* rows : {"all_rows", "middle_row"})
     for (const char* prior : {"without_prior", "with_prior"})
       for (const char* force : {"Fx", "Fy", "Fz"}) text += QString(",%1_%2_%3_percent").arg(force, rows, prior);
   text += "\n";
-  for (const Point& point : points_) {
-    text += QString::number(point.at, 'g', 12);
-    for (const LayoutBound* bound : {&point.bounds.allRows, &point.bounds.centreRow})
-      for (const Eigen::Vector3d& values : {bound->withoutPrior(), bound->withPrior()})
-        for (const double value : values) text += "," + QString::number(value, 'g', 8);
+  for (const auto& [at, bounds] : shown_->points) {
+    text += QString::number(at, 'g', 12);
+    for (const Eigen::Vector3d& values :
+         {bounds.allWithoutPrior, bounds.allWithPrior, bounds.centreWithoutPrior, bounds.centreWithPrior})
+      for (const double value : values) text += "," + QString::number(value, 'g', 8);
     text += "\n";
   }
   try {

@@ -3,11 +3,10 @@
 #include "app/gui/jobs/JobRunner.h"
 #include "app/gui/project/Workbench.h"
 #include "app/scenes/Palette.h"
-#include "app/study/reports/layout/DesignBounds.h"
 
 #include <QWidget>
 
-#include <vector>
+#include <optional>
 
 class QComboBox;
 class QDoubleSpinBox;
@@ -30,25 +29,20 @@ public:
   void setTheme(Theme theme);
 
 private:
-  struct Point {
-    double at = 0;
-    DesignBounds bounds;
-  };
+  void build();
   void displayProject();
   /// Those of the law that the design has.
   void listNumbers(const SensorDesign& design);
-  /// Around the number as it is now, until the user sets a range.
-  void proposeRange();
+  /// What the boxes say is what the project keeps; a range that was set by hand stays.
+  void readSettings(bool rangeByHand);
   void run();
-  void showResult(const QString& label, const std::vector<Point>& points, int left);
+  void showCurve();
   void saveTable();
 
   Workbench& workbench_;
   JobRunner runner_;
-  bool proposed_ = true;
   std::size_t law_ = 0; ///< whose numbers are listed
-  std::vector<Point> points_;
-  QString label_; ///< of the number that was swept
+  std::optional<DesignSweepCurve> shown_; ///< as it is displayed
   QComboBox* number_ = nullptr;
   QDoubleSpinBox* from_ = nullptr;
   QDoubleSpinBox* to_ = nullptr;
@@ -56,6 +50,7 @@ private:
   QPushButton* start_ = nullptr;
   QPushButton* save_ = nullptr;
   QLabel* words_ = nullptr;
+  QLabel* stale_ = nullptr;
   ChartView* chart_ = nullptr;
 };
 

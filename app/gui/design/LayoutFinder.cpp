@@ -2,17 +2,31 @@
 
 #include "app/gui/design/BoundWords.h"
 #include "app/gui/design/DesignFields.h"
+#include "app/gui/design/ProgressWords.h"
+#include "app/gui/jobs/TimeLeft.h"
 #include "app/study/reports/layout/LayoutSearch.h"
 
 #include <QComboBox>
+#include <QElapsedTimer>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
 #include <QVBoxLayout>
 
-#include <cmath>
-
 namespace palp {
+
+namespace {
+
+constexpr double kResponseShare = 0.7; ///< of the time, that the block's response takes
+
+QString intention() {
+  return QObject::tr(
+      "The block's response is solved once for every load area; then hundreds of layouts are read out of "
+      "it, only such as can be made: 1 mm from electrode to electrode, 0.5 mm of rubber between the "
+      "layers, over, under and beside them.");
+}
+
+} // namespace
 
 LayoutFinder::LayoutFinder(Workbench& workbench, QWidget* parent) : QWidget(parent), workbench_(workbench) {
   auto* column = new QVBoxLayout(this);
@@ -25,7 +39,9 @@ LayoutFinder::LayoutFinder(Workbench& workbench, QWidget* parent) : QWidget(pare
          "electrode to electrode, 0.5 mm of rubber everywhere"));
   search_ = new QPushButton(tr("Find a better layout"));
   search_->setObjectName("findLayout");
-  search_->setToolTip(tr("Lowers the noise floor of the middle row-wire; Esc stops it"));
+  search_->setToolTip(
+      tr("Lowers the noise floor of the middle row-wire, under the conduction field that of all row-wires; Esc "
+         "stops it"));
   takeOver_ = new QPushButton(tr("Take it over"));
   takeOver_->setObjectName("takeLayout");
   takeOver_->setToolTip(tr("Makes the layout that was found the design; can be undone"));
@@ -35,12 +51,7 @@ LayoutFinder::LayoutFinder(Workbench& workbench, QWidget* parent) : QWidget(pare
   row->addWidget(takeOver_);
   row->addStretch(1);
   column->addLayout(row);
-  notYet_ = new QLabel(tr("Not under the conduction field: layouts are searched by Eq. (1) alone."));
-  notYet_->setObjectName("layoutLaw");
-  notYet_->hide();
-  column->addWidget(notYet_);
-  words_ = new QLabel(tr("The block's response is solved once for every load area; then thousands of layouts are "
-                         "read out of it."));
+  words_ = new QLabel(intention());
   words_->setObjectName("layoutWords");
   words_->setWordWrap(true);
   words_->setTextInteractionFlags(Qt::TextSelectableByMouse);
@@ -48,12 +59,16 @@ LayoutFinder::LayoutFinder(Workbench& workbench, QWidget* parent) : QWidget(pare
   column->addStretch(1);
   connect(search_, &QPushButton::clicked, this, &LayoutFinder::search);
   connect(takeOver_, &QPushButton::clicked, this, &LayoutFinder::takeOver);
+  sayProgress(runner_, *words_);
   connect(&runner_, &JobRunner::failed, words_, &QLabel::setText);
   connect(&runner_, &JobRunner::started, this, &LayoutFinder::displayProject);
   connect(&runner_, &JobRunner::finished, this, [this](bool cancelled) {
     displayProject();
     if (cancelled) words_->setText(tr("Stopped; nothing was changed."));
   });
+  connect(&workbench_, &Workbench::projectReplaced, this, [this] {
+    if (runner_.running()) runner_.cancel();
+  }); // of the other project
 }
 
 namespace {
@@ -74,56 +89,72 @@ QString layoutWords(const SensorDesign& before, const SensorDesign& after) {
 
 void LayoutFinder::search() {
   const Project& project = workbench_.project();
-  found_.reset();
+  const bool same = freedom_->currentIndex() == 0;
   takeOver_->setEnabled(false);
   words_->setText(tr("Being searched..."));
-  const auto freedom = freedom_->currentIndex() == 0 ? LayoutFreedom::SameOnEveryWire : LayoutFreedom::WireByWire;
   runner_.start(
       tr("Finding a better layout"),
-      [this, freedom, design = project.design, mesh = project.mesh,
+      [this, same, design = project.design, mesh = project.mesh,
        noise = project.view.resistanceNoise](const std::stop_token& stop, JobProgress& progress) -> JobRunner::Taking {
         StageLog stages;
+        QElapsedTimer clock;
+        clock.start();
+        TimeLeft left;
+        left.begin(0, 0);
+        const auto report = [&](double share, const std::string& what) {
+          const double now_s = 1e-3 * static_cast<double>(clock.elapsed());
+          progress.set(share, what + (share < 0.05 ? std::string() : leftInWords(left.left_s(share, 1, now_s))));
+        };
         const auto response = AreaResponse::solve(
-            design, mesh, 0, stages, [&](double share, const std::string& what) { progress.set(0.7 * share, what); },
-            stop);
+            design, mesh, 0, stages,
+            [&](double share, const std::string& what) { report(kResponseShare * share, what); }, stop);
         if (!response) return {};
-        progress.set(0.75, "Trying layouts");
-        const int row = centreRowWire(design.rowWires());
-        const auto result = betterLayout(design, *response, row, noise, freedom, {}, 1, stop);
+        left = {}; // the search has a pace of its own
+        left.begin(kResponseShare, 1e-3 * static_cast<double>(clock.elapsed()));
+        const int row = design.field() != nullptr ? -1 : centreRowWire(design.rowWires()); // the field joins all wires
+        const auto result = betterLayout(design, *response, row, noise,
+                                         same ? LayoutFreedom::SameOnEveryWire : LayoutFreedom::WireByWire, {}, 1, stop,
+                                         [&](double share, const std::string& what) {
+                                           report(kResponseShare + (1 - kResponseShare) * share, what);
+                                         });
         if (!result) return {};
-        const Found found{design,
-                          result->layout,
-                          result->before_percent,
-                          result->after_percent,
-                          designBounds(design, *response, noise),
-                          designBounds(result->layout, *response, noise)};
-        return [this, found, tries = result->evaluations] {
-          found_ = found;
-          const bool better = found.after_percent < found.before_percent && found.layout != found.from;
-          if (!better) found_.reset();
-          words_->setText(better
-                              ? tr("%1 layouts were tried. ").arg(tries) +
-                                    boundTable(tr("before"), found.before, tr("found"), found.after) +
-                                    layoutWords(found.from, found.layout)
-                              : tr("%1 layouts were tried; none that can be made is better than this one.").arg(tries));
-          displayProject();
+        const FoundLayout found{design, result->layout, summaryOf(designBounds(design, *response, noise)),
+                                summaryOf(designBounds(result->layout, *response, noise)), result->evaluations};
+        const bool better = result->after_percent < result->before_percent && found.layout != found.from;
+        return [this, found, better] {
+          shown_.reset();
+          Project next = workbench_.project();
+          next.studies.found = better ? std::optional(found) : std::nullopt;
+          workbench_.edit(tr("Find a better layout"), next);
+          if (!better)
+            words_->setText(
+                tr("%1 layouts were tried; none that can be made is better than this one.").arg(found.tried));
         };
       });
 }
 
 void LayoutFinder::displayProject() {
-  const SensorDesign& design = workbench_.project().design;
-  const bool pairs = design.field() == nullptr;
-  search_->setEnabled(pairs && !runner_.running());
-  notYet_->setVisible(!pairs);
-  takeOver_->setEnabled(found_ && found_->from == design);
-  takeOver_->setText(found_ && found_->layout == design ? tr("Taken over") : tr("Take it over"));
+  const Project& project = workbench_.project();
+  const auto& found = project.studies.found;
+  search_->setEnabled(!runner_.running());
+  if (!runner_.running() && found != shown_) {
+    shown_ = found;
+    words_->setText(found ? tr("%1 layouts were tried. ").arg(found->tried) +
+                                boundTable(tr("before"), found->before, tr("found"), found->after) +
+                                layoutWords(found->from, found->layout)
+                          : intention());
+  }
+  const bool taken = found && found->layout == project.design;
+  takeOver_->setEnabled(found && found->from == project.design && !runner_.running());
+  takeOver_->setText(taken ? tr("Taken over") : tr("Take it over"));
+  words_->setEnabled(!found || taken || found->from == project.design || runner_.running());
+  words_->setToolTip(words_->isEnabled() ? QString() : tr("Found for another design than the present one"));
 }
 
 void LayoutFinder::takeOver() {
-  if (!found_) return;
   Project next = workbench_.project();
-  next.design = found_->layout;
+  if (!next.studies.found) return;
+  next.design = next.studies.found->layout;
   workbench_.closeEntry();
   workbench_.edit(tr("Take a better layout over"), next);
 }

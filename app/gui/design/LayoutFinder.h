@@ -2,7 +2,6 @@
 
 #include "app/gui/jobs/JobRunner.h"
 #include "app/gui/project/Workbench.h"
-#include "app/study/reports/layout/DesignBounds.h"
 
 #include <QWidget>
 
@@ -25,21 +24,15 @@ public:
   void displayProject();
 
 private:
-  struct Found {
-    SensorDesign from, layout;
-    double before_percent = 0, after_percent = 0;
-    DesignBounds before, after;
-  };
   void search();
   void takeOver();
 
   Workbench& workbench_;
   JobRunner runner_;
-  std::optional<Found> found_;
+  std::optional<FoundLayout> shown_; ///< as it is displayed
   QComboBox* freedom_ = nullptr;
   QPushButton* search_ = nullptr;
   QPushButton* takeOver_ = nullptr;
-  QLabel* notYet_ = nullptr; ///< why it cannot be searched
   QLabel* words_ = nullptr;
 };
 

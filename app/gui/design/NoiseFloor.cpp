@@ -19,20 +19,16 @@ namespace palp {
 
 namespace {
 
-QString percents(const Eigen::VectorXd& values) {
-  QStringList texts;
-  for (const double value : values) texts << (std::isfinite(value) ? QString::number(value, 'f', 1) : QString("-"));
-  return texts.join(" / ") + " %";
-}
-
-QString sampleBoundWords(int row, const NoiseBound& one, const NoiseBound& every) {
-  return QObject::tr(
-             "Cramer-Rao bound of Fx / Fy / Fz, area known, with prior (forces uniform over their range), in % of "
-             "range:<br>row-wire %1 alone: <b>%2</b><br>all row-wires: <b>%3</b><br>without prior: %4 and %5"
-             "<br><i>Knowing nothing at all is 28.9 %. Real rubber adds hysteresis, creep and temperature.</i>")
+QString sampleBoundWords(int row, const NoiseBound& one, const NoiseBound& every, const ForceRange& range) {
+  const auto both = [&](const NoiseBound& bound) {
+    return boundPercents(bound.withPriorPercent) + "</b><br>= <b>" + boundNewtons(bound.withPriorPercent, range);
+  };
+  return QObject::tr("Cramer-Rao bound of Fx / Fy / Fz from the samples, area known, with prior (forces uniform over "
+                     "their range), in % of range and in N:<br>row-wire %1 alone: <b>%2</b><br>all row-wires: "
+                     "<b>%3</b><br>without prior: row-wire %1 %4, all %5<br><i>Knowing nothing at all is 28.9 %. Real "
+                     "rubber adds hysteresis, creep and temperature.</i>")
       .arg(row)
-      .arg(percents(one.withPriorPercent), percents(every.withPriorPercent), percents(one.withoutPriorPercent),
-           percents(every.withoutPriorPercent));
+      .arg(both(one), both(every), boundPercents(one.withoutPriorPercent), boundPercents(every.withoutPriorPercent));
 }
 
 QString computing() {
@@ -163,7 +159,7 @@ void NoiseFloor::boundPairs(double noise) {
                     const NoiseBound every = noiseBound(samples->training, InputKind::Resistance, all, noise);
                     return [this, noise, samples, centre, one, every] {
                       if (samples == network_.sharedSamples() && boundedFor_ == noise)
-                        words_->setText(sampleBoundWords(centre, one, every));
+                        words_->setText(sampleBoundWords(centre, one, every, workbench_.project().design.forceRange));
                     };
                   });
 }

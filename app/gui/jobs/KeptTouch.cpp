@@ -1,5 +1,6 @@
 #include "app/gui/jobs/KeptTouch.h"
 
+#include "app/gui/jobs/MatchedLoad.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
 #include "solver/PointProbe.h"
@@ -52,13 +53,19 @@ NodalFields readAt(const std::vector<FoundPoint>& points, const NodalFields& fie
 } // namespace
 
 KeptPath keptPath(const SensorDesign& kept, const Touch& shown, const std::stop_token& stop) {
-  if (const auto wrong = whyInvalid(shown.load(), kept)) throw Error("the kept design: " + *wrong);
-  Touch touch(kept, shown.load(), shown.meshOptions());
+  const LoadCase load = [&] {
+    try {
+      return matchedLoad(shown.load(), shown.design(), kept);
+    } catch (const Error& error) {
+      throw Error(std::string("the kept design: ") + error.what());
+    }
+  }();
+  Touch touch(kept, load, shown.meshOptions());
   const bool good = touch.advance(Stage::Displacements, {.oneTangent = true}, {.step = {}, .stop = stop});
   stopIfAsked(stop);
   if (!good) throw Error("the kept design cannot bear the load: " + touch.solution()->stopReason);
   touch.problem()->releaseFactor();
-  KeptPath path{kept, loadPathStates(touch, stop)};
+  KeptPath path{kept, load, loadPathStates(touch, stop)};
   stopIfAsked(stop);
   const Eigen::Vector3d shares = kept.block_mm.cwiseQuotient(shown.design().block_mm);
   const Eigen::Matrix3Xd places = (shares.asDiagonal() * shown.mesh()->nodes_mm)

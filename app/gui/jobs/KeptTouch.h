@@ -14,14 +14,15 @@ namespace palp {
 /// are those at the same shares of the blocks' sides: the same places where the blocks are of one size.
 struct KeptPath {
   SensorDesign design;
+  LoadCase load; ///< as it acts on it: matchedLoad()
   /// The equilibria on its load path, their fields at the nodes of the shown touch's mesh.
   std::vector<LoadPathState> states;
 
   [[nodiscard]] LoadPathState at(double fraction) const { return stateAt(states, fraction); }
 };
 
-/// Solves the kept design under the touch's load and reads its fields at the nodes of the touch's mesh. Throws
-/// Cancelled where it is stopped, Error where the kept design cannot bear the load.
+/// Solves the kept design under the touch's load, at the same shares of the block, and reads its fields at the nodes of
+/// the touch's mesh. Throws Cancelled where it is stopped, Error where the kept design cannot bear the load.
 KeptPath keptPath(const SensorDesign& kept, const Touch& shown, const std::stop_token& stop);
 
 /// The same in the background, and only while a scene shows it.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/gui/project/DesignStudies.h"
 #include "app/gui/project/LiveSettings.h"
 #include "app/gui/project/ViewSettings.h"
 #include "app/study/decoding/TrainOptions.h"
@@ -71,6 +72,7 @@ struct Project {
   [[nodiscard]] const LiveSettings& board(std::size_t k) const { return k == 0 ? live : moreBoards.at(k - 1); }
   [[nodiscard]] std::size_t boards() const { return 1 + moreBoards.size(); }
   std::optional<SensorDesign> kept; ///< to compare the design with
+  DesignStudies studies;
 
   bool operator==(const Project&) const = default;
 };

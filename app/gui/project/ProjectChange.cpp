@@ -24,8 +24,33 @@ QString stepWords(const QString& name, const QString& from, const QString& to, c
   return unit.isEmpty() ? words : words + " " + unit;
 }
 
+/// Sizes of the block with the wires in the same shares of it as before: one change, however many numbers it moves.
+QString scaledWords(const SensorDesign& before, const SensorDesign& after) {
+  if (before.block_mm == after.block_mm || before.upper == after.upper) return {};
+  SensorDesign rest = after; // all else is as it was
+  rest.block_mm = before.block_mm;
+  rest.upper = before.upper;
+  rest.lower = before.lower;
+  if (rest != before) return {};
+  const auto places = [](const SensorDesign& design) {
+    Eigen::Matrix3Xd all(3, design.upperElectrodes_mm().cols() + design.lowerElectrodes_mm().cols());
+    all << design.upperElectrodes_mm(), design.lowerElectrodes_mm();
+    return Eigen::Matrix3Xd(design.block_mm.cwiseInverse().asDiagonal() * all);
+  };
+  const Eigen::Matrix3Xd from = places(before), to = places(after);
+  constexpr double kRounding = 1e-7; // of the places that scaling rounds
+  if (from.cols() != to.cols() || (from - to).cwiseAbs().maxCoeff() > kRounding) return {};
+  QStringList sizes;
+  for (int d = 0; d < 3; ++d)
+    if (before.block_mm[d] != after.block_mm[d])
+      sizes << stepWords(QObject::tr("size along %1").arg(QChar("xyz"[d])), QString::number(before.block_mm[d]),
+                         QString::number(after.block_mm[d]), "mm");
+  return QObject::tr("block %1, and the wires with it").arg(sizes.join(", "));
+}
+
 /// What changed in the design; one sentence a parameter.
 QStringList designChanges(const SensorDesign& before, const SensorDesign& after) {
+  if (const QString scaled = scaledWords(before, after); !scaled.isEmpty()) return {scaled};
   QStringList changes;
   SensorDesign told = before; // with what the sentences say
   for (const DesignField& field : designFields()) {

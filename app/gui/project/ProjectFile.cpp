@@ -1,5 +1,6 @@
 #include "app/gui/project/ProjectFile.h"
 
+#include "app/gui/project/DesignStudiesFile.h"
 #include "app/gui/project/LiveSettingsFile.h"
 
 #include "io/DesignFile.h"
@@ -22,44 +23,6 @@ constexpr int kVersion = 2; ///< 1 had no view, and perhaps no live
 constexpr const char* kVersionKey = "palp_project";
 constexpr NamedEnum kAxes("axis", std::array{std::pair{0, "x"}, std::pair{1, "y"}, std::pair{2, "z"}});
 constexpr int kLargestIndex = 10000; ///< of an area or a wire: more than any design has
-
-QJsonArray jsonOf(const Eigen::Ref<const Eigen::VectorXd>& values) {
-  QJsonArray array;
-  for (const double value : values) array.append(value);
-  return array;
-}
-
-QJsonObject loadJson(const LoadCase& load) {
-  QJsonArray areas;
-  for (const AreaLoad& area : load.areas)
-    areas.append(QJsonObject{{"area", area.area}, {"force_N", jsonOf(area.force_N)}});
-  QJsonArray patches;
-  for (const PatchLoad& patch : load.patches)
-    patches.append(QJsonObject{
-        {"centre_mm", jsonOf(patch.centre_mm)}, {"radius_mm", patch.radius_mm}, {"force_N", jsonOf(patch.force_N)}});
-  return {{"areas", areas}, {"patches", patches}};
-}
-
-Eigen::Vector3d vectorOf(const JsonPlace& place) {
-  const std::vector<double> numbers = place.numbers(3);
-  return {numbers[0], numbers[1], numbers[2]};
-}
-
-LoadCase loadOf(const JsonPlace& place) {
-  place.onlyKeys({"areas", "patches"});
-  LoadCase load;
-  for (const JsonPlace& area : place.at("areas").list()) {
-    area.onlyKeys({"area", "force_N"});
-    load.areas.push_back({area.at("area").integer(0, kLargestIndex), vectorOf(area.at("force_N"))});
-  }
-  for (const JsonPlace& patch : place.at("patches").list()) {
-    patch.onlyKeys({"centre_mm", "radius_mm", "force_N"});
-    const std::vector<double> centre = patch.at("centre_mm").numbers(2);
-    load.patches.push_back(
-        {{centre[0], centre[1]}, patch.at("radius_mm").number(0, 1e4), vectorOf(patch.at("force_N"))});
-  }
-  return load;
-}
 
 QJsonObject meshJson(const MeshOptions& mesh) {
   QJsonObject object;
@@ -168,6 +131,8 @@ QJsonObject viewJson(const ViewSettings& view) {
         QJsonObject{{"axis", QString::fromStdString(kAxes.name(view.cut->axis))}, {"at_mm", view.cut->at_mm}};
   if (view.colorMap) object["color_map"] = QString::fromStdString(kColorMaps.name(*view.colorMap));
   if (view.colorRange) object["color_range"] = QJsonArray{(*view.colorRange)[0], (*view.colorRange)[1]};
+  if (view.differenceRange)
+    object["difference_range"] = QJsonArray{(*view.differenceRange)[0], (*view.differenceRange)[1]};
   if (view.extremes) object["extremes"] = true;
   if (view.lessKept) object["less_kept"] = true;
   if (view.litCell) object["lit_cell"] = cell(*view.litCell);
@@ -201,8 +166,8 @@ CutPlane cutOf(const JsonPlace& place) {
 ViewSettings viewOf(const JsonPlace& place) {
   place.onlyKeys({"scene", "quantity", "ghost", "electrodes", "arrows", "outlines", "edges", "row_wire", "line_from_mm",
                   "line_to_mm", "mesh", "resistance_noise", "resistance", "cell", "test_area"},
-                 {"warp_factor", "clip_y_mm", "cut", "color_map", "color_range", "extremes", "lit_cell",
-                  "resistance_range", "less_kept"});
+                 {"warp_factor", "clip_y_mm", "cut", "color_map", "color_range", "difference_range", "extremes",
+                  "lit_cell", "resistance_range", "less_kept"});
   ViewSettings view;
   view.scene = place.at("scene").string();
   view.quantity = place.at("quantity").named(kQuantities);
@@ -211,6 +176,7 @@ ViewSettings viewOf(const JsonPlace& place) {
   if (place.has("cut")) view.cut = cutOf(place.at("cut"));
   if (place.has("color_map")) view.colorMap = place.at("color_map").named(kColorMaps);
   if (place.has("color_range")) view.colorRange = rangeOf(place.at("color_range"));
+  if (place.has("difference_range")) view.differenceRange = rangeOf(place.at("difference_range"));
   if (place.has("extremes")) view.extremes = place.at("extremes").boolean();
   if (place.has("less_kept")) view.lessKept = place.at("less_kept").boolean();
   view.ghost = place.at("ghost").boolean();
@@ -239,7 +205,7 @@ void requireBuildable(const SensorDesign& design, const std::string& where) {
 Project projectOf(const JsonPlace& root, const std::string& file) {
   const int version = formatVersion(root, kVersionKey, kVersion); // first: a newer file may well have other keys
   root.onlyKeys({kVersionKey, "design", "load", "mesh", "samples", "network"},
-                {"view", "live", "more_boards", "kept_design"});
+                {"view", "live", "more_boards", "kept_design", "design_studies"});
   Project project;
   project.design = readDesign(root.at("design"));
   requireBuildable(project.design, file + ": design.");
@@ -258,6 +224,7 @@ Project projectOf(const JsonPlace& root, const std::string& file) {
   if (root.has("kept_design")) {
     requireBuildable(project.kept.emplace(readDesign(root.at("kept_design"))), file + ": kept_design.");
   }
+  if (root.has("design_studies")) project.studies = studiesOf(root.at("design_studies"));
   return project;
 }
 
@@ -287,6 +254,7 @@ QByteArray projectText(const Project& project) {
                    {"live", liveJson(project.live)}};
   if (!project.moreBoards.empty()) root["more_boards"] = boardsJson(project.moreBoards);
   if (project.kept) root["kept_design"] = designJson(*project.kept);
+  if (const QJsonObject studies = studiesJson(project.studies); !studies.isEmpty()) root["design_studies"] = studies;
   return QJsonDocument(root).toJson();
 }
 

@@ -23,9 +23,10 @@ struct ViewSettings {
   Quantity quantity = Quantity::Displacement;
   std::optional<double> warpFactor; ///< none: automatic
   std::optional<CutPlane> cut;
-  std::optional<ColorMap> colorMap;                ///< none: as the quantity asks for
-  std::optional<std::array<double, 2>> colorRange; ///< of the quantity's colours; none: the values' own
-  bool extremes = false;                           ///< marks the largest and the smallest value
+  std::optional<ColorMap> colorMap;                     ///< none: as the quantity asks for
+  std::optional<std::array<double, 2>> colorRange;      ///< of the quantity's colours; none: the values' own
+  std::optional<std::array<double, 2>> differenceRange; ///< the same of the difference to the kept design
+  bool extremes = false;                                ///< marks the largest and the smallest value
   bool ghost = true;
   bool electrodes = true;
   bool arrows = true;
@@ -33,7 +34,7 @@ struct ViewSettings {
   bool edges = false;
   std::optional<std::array<int, 2>> litCell; ///< of the Deformation scene: row-wire, column-wire
   int rowWire = 4;
-  std::array<double, 3> lineFrom_mm{0, 15, 5}; ///< ends of the line of a plot, at rest
+  std::array<double, 3> lineFrom_mm{0, 15, 5}; ///< ends of the line of a plot, at rest; as here: not chosen yet
   std::array<double, 3> lineTo_mm{30, 15, 5};
   bool mesh = false; ///< of the Design scene
   double resistanceNoise = 1e-4;
@@ -44,6 +45,13 @@ struct ViewSettings {
   bool lessKept = false; ///< the Deformation scene shows the design less the kept one
 
   bool operator==(const ViewSettings&) const = default;
+  /// Of the colours that are shown: each of the two has a range of its own.
+  [[nodiscard]] std::optional<std::array<double, 2>>& shownRange() { return lessKept ? differenceRange : colorRange; }
+  [[nodiscard]] const std::optional<std::array<double, 2>>& shownRange() const {
+    return lessKept ? differenceRange : colorRange;
+  }
+  /// The ends of the line; through the middle of this block's top face along x until one was chosen.
+  [[nodiscard]] std::array<std::array<double, 3>, 2> lineIn(const Eigen::Vector3d& block_mm) const;
   /// Quantity, warp, cut, colours, parts and lit cell of the Deformation scene; all else as by default.
   [[nodiscard]] DeformationOptions blockOptions() const;
 };

@@ -4,18 +4,21 @@
 
 #include <QUndoCommand>
 
+#include <algorithm>
+
 namespace palp {
 
 namespace {
 
 constexpr int kMergeId = 1;
 
-/// The same project, shown in another way, beside another board and another design that is kept.
+/// The same project, shown in another way, beside another board, another design that is kept and other studies.
 Project shownAs(Project project, const Project& other) {
   project.view = other.view;
   project.live = other.live;
   project.moreBoards = other.moreBoards;
   project.kept = other.kept;
+  project.studies = other.studies;
   return project;
 }
 
@@ -31,18 +34,25 @@ public:
   }
 
   void undo() override {
+    const Project shown = workbench_.project();
     go(before_);
-    emit workbench_.wentBack(place_, QObject::tr("Undone: %1").arg(text()));
+    emit workbench_.wentBack(place_, QObject::tr("Undone: %1").arg(text()), shown);
   }
   void redo() override {
+    const Project shown = workbench_.project();
     go(after_);
-    if (std::exchange(done_, true)) emit workbench_.wentBack(place_, QObject::tr("Done again: %1").arg(text()));
+    if (std::exchange(done_, true)) emit workbench_.wentBack(place_, QObject::tr("Done again: %1").arg(text()), shown);
   }
   [[nodiscard]] int id() const override { return kMergeId; }
+  [[nodiscard]] bool replaces() const { return replaces_; }
+  [[nodiscard]] const SensorDesign& before() const { return before_.project.design; }
+  [[nodiscard]] const SensorDesign& after() const { return after_.project.design; }
+  [[nodiscard]] const QDateTime& when() const { return when_; }
   bool mergeWith(const QUndoCommand* later) override {
     const auto& edit = *static_cast<const ProjectEdit*>(later);
     if (!workbench_.entryOpen_ || replaces_ || edit.replaces_ || edit.kind_ != kind_) return false;
     after_ = edit.after_;
+    when_ = edit.when_;
     setObsolete(after_.project == shownAs(before_.project, after_.project)); // there and back again: nothing to undo
     name();
     return true;
@@ -64,6 +74,7 @@ private:
   QString kind_;
   QString place_; ///< the scene it was made in
   Workbench::Held before_, after_;
+  QDateTime when_ = QDateTime::currentDateTime();
   bool replaces_;
   bool done_ = false;
 };
@@ -91,6 +102,21 @@ void Workbench::replace(const QString& what, const Project& project, const QStri
   entryOpen_ = false;
   if (!file.isEmpty()) saved_[file] = project;
   history_.push(new ProjectEdit(*this, what, {project, file, project}, true));
+}
+
+std::vector<EarlierDesign> Workbench::earlierDesigns() const {
+  std::vector<EarlierDesign> all;
+  const auto add = [&](const ProjectEdit& edit, const SensorDesign& design, bool undone) {
+    const auto same = [&](const EarlierDesign& other) { return other.design == design; };
+    if (edit.before() == edit.after() || design == project().design || std::any_of(all.begin(), all.end(), same))
+      return;
+    all.push_back({design, edit.text(), edit.when(), undone});
+  };
+  const auto entry = [this](int k) { return static_cast<const ProjectEdit*>(history_.command(k)); };
+  for (int k = history_.index() - 1; k >= 0 && !entry(k)->replaces(); --k) add(*entry(k), entry(k)->before(), false);
+  for (int k = history_.index(); k < history_.count() && !entry(k)->replaces(); ++k)
+    add(*entry(k), entry(k)->after(), true);
+  return all;
 }
 
 bool Workbench::modified() const {

@@ -4,12 +4,22 @@
 #include "app/gui/jobs/TouchSession.h"
 #include "app/gui/project/Project.h"
 
+#include <QDateTime>
 #include <QObject>
 #include <QUndoStack>
 
 #include <map>
+#include <vector>
 
 namespace palp {
+
+/// A design that there was in the history of the project.
+struct EarlierDesign {
+  SensorDesign design;
+  QString change;      ///< that led away from it, as the history names it
+  QDateTime when;      ///< that was
+  bool undone = false; ///< it came after the present one
+};
 
 /// The project that all scenes share, the file it is kept in, its undo history, and what is computed from it.
 class Workbench : public QObject {
@@ -48,6 +58,9 @@ public:
   /// A scene shows the kept design: it is computed.
   void needKept();
   [[nodiscard]] QUndoStack& history() { return history_; }
+  /// The designs of this project that are not the present one, each once: those before it, the latest first, then those
+  /// that were undone.
+  [[nodiscard]] std::vector<EarlierDesign> earlierDesigns() const;
 
 signals:
   void projectChanged();
@@ -55,8 +68,8 @@ signals:
   void projectReplaced();
   /// Its name, or whether it holds everything.
   void fileChanged();
-  /// An edit that was made in this scene was undone or done again.
-  void wentBack(const QString& scene, const QString& sentence);
+  /// An edit that was made in this scene was undone or done again; `before` is the project as it was before that.
+  void wentBack(const QString& scene, const QString& sentence, const palp::Project& before);
 
 private:
   friend class ProjectEdit;

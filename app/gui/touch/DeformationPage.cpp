@@ -252,8 +252,10 @@ DeformationOptions DeformationPage::blockOptions() const {
   if (options.litCell &&
       ((*options.litCell)[0] >= touch.design().rowWires() || (*options.litCell)[1] >= touch.design().columnWires()))
     options.litCell.reset();
-  if (tabs_->lineShown())
-    options.line_mm = {Eigen::Vector3d(view.lineFrom_mm.data()), Eigen::Vector3d(view.lineTo_mm.data())};
+  if (tabs_->lineShown()) {
+    const auto line = view.lineIn(touch.design().block_mm);
+    options.line_mm = {Eigen::Vector3d(line[0].data()), Eigen::Vector3d(line[1].data())};
+  }
   return options;
 }
 
@@ -268,6 +270,7 @@ void DeformationPage::drawBlock(bool meshChanged) {
   std::optional<LoadPathState> less;
   if (kept) {
     state.keptDesign = &kept->design;
+    state.keptLoad = &kept->load;
     state.kept = &less.emplace(kept->at(touch.loadFraction())).fields;
   }
   block_->show(state, blockOptions(), meshChanged || !meshDrawn_);
@@ -279,7 +282,9 @@ void DeformationPage::chooseTool(Click click) {
   click_ = click;
   lineStart_ = -1;
   block_->setDiscsMovable(click == Click::Disc);
-  if (click == Click::Line) tabs_->showLine();
+  if (click != Click::Line) return;
+  tabs_->showLine();
+  emit message(tr("Click on one end of the line, then on the other."));
 }
 
 void DeformationPage::clicked(int node) {
@@ -324,6 +329,7 @@ void DeformationPage::addLineEnd(int node) {
   lineStart_ = -1;
   block_->markNode(-1);
   editView(tr("Change the line"), view);
+  emit message(tr("The line is plotted under \"Along a line\"; two more clicks draw another one."));
 }
 
 void DeformationPage::setForce(int load, const Eigen::Vector3d& drawn_N) {

@@ -2,18 +2,25 @@
 
 #include "app/gui/jobs/CallLater.h"
 #include "app/gui/jobs/LoadPath.h"
+#include "app/gui/jobs/TimeLeft.h"
 #include "app/gui/jobs/TouchSession.h"
 #include "app/gui/views/BlockView.h"
+#include "app/scenes/GifFilm.h"
 #include "app/scenes/gl/OffscreenWindow.h"
+#include "io/AtomicFile.h"
 #include "model/base/Error.h"
+
+#include <QElapsedTimer>
 
 #include <vtkCamera.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 
 #include <algorithm>
+#include <cmath>
 #include <condition_variable>
 #include <cstdio>
+#include <map>
 
 namespace palp {
 
@@ -23,6 +30,124 @@ std::string frameName(int frame) {
   std::array<char, 32> name{};
   std::snprintf(name.data(), name.size(), "load-%03d.png", frame);
   return name.data();
+}
+
+/// Says which picture is drawn, and how long the rest will take.
+class FrameProgress {
+public:
+  FrameProgress(JobProgress& progress, int frames) : progress_(progress), frames_(frames) {
+    clock_.start();
+    left_.begin(0, 0);
+  }
+  void next() {
+    const double now_s = 1e-3 * static_cast<double>(clock_.elapsed());
+    progress_.set(static_cast<double>(done_) / frames_, "Picture " + std::to_string(done_ + 1) + " of " +
+                                                            std::to_string(frames_) +
+                                                            leftInWords(left_.left_s(done_, frames_, now_s)));
+    ++done_;
+  }
+
+private:
+  JobProgress& progress_;
+  QElapsedTimer clock_;
+  TimeLeft left_;
+  int frames_;
+  int done_ = 0;
+};
+
+/// A picture of the film by its number; none where it was stopped.
+using Drawn = std::function<std::optional<Picture>(int)>;
+
+/// Takes away again what was written, unless all of it was.
+class WrittenPictures {
+public:
+  explicit WrittenPictures(std::filesystem::path folder) : folder_(std::move(folder)) {
+    std::error_code failed;
+    made_ = std::filesystem::create_directories(folder_, failed);
+    if (failed) throw Error(folder_.string() + ": cannot be made as a folder: " + failed.message());
+  }
+  ~WrittenPictures() {
+    std::error_code ignored;
+    for (const std::filesystem::path& file : files_) std::filesystem::remove(file, ignored);
+    if (made_ && !complete_) std::filesystem::remove(folder_, ignored); // where nothing else lies in it
+  }
+  WrittenPictures(const WrittenPictures&) = delete;
+  WrittenPictures& operator=(const WrittenPictures&) = delete;
+  void add(const Picture& picture, const std::string& name) {
+    const std::filesystem::path file = folder_ / name;
+    const bool there = std::filesystem::exists(file);
+    writePng(picture, file);
+    if (!there) files_.push_back(file);
+  }
+  void complete() {
+    complete_ = true;
+    files_.clear();
+  }
+
+private:
+  std::filesystem::path folder_;
+  std::vector<std::filesystem::path> files_;
+  bool made_ = false, complete_ = false;
+};
+
+/// False where it was stopped.
+bool drawPictures(const LoadPathAnimation::Settings& settings, const Drawn& drawn, FrameProgress& progress) {
+  WrittenPictures written(settings.folder);
+  for (int frame = 0; frame < settings.frames; ++frame) {
+    progress.next();
+    const auto picture = drawn(frame);
+    if (!picture) return false;
+    written.add(*picture, frameName(frame));
+  }
+  written.complete();
+  return true;
+}
+
+/// False where it was stopped.
+bool drawGif(const LoadPathAnimation::Settings& settings, const Drawn& drawn, FrameProgress& progress,
+             const std::stop_token& stop) {
+  requireFree(settings.gif, true); // a folder is said before the work
+  const int last = settings.frames - 1;
+  std::map<int, Picture> typical; // for the palette; they are not drawn twice
+  for (const int frame : {0, last / 2, last}) {
+    if (typical.contains(frame)) continue;
+    progress.next();
+    auto picture = drawn(frame);
+    if (!picture) return false;
+    typical.emplace(frame, std::move(*picture));
+  }
+  std::vector<Picture> pictures;
+  for (const auto& [frame, picture] : typical) pictures.push_back(picture);
+  GifFilm film(pictures);
+  int shown = 0; // hundredths of a second, rounded over the whole film
+  for (int frame = 0; frame < settings.frames; ++frame) {
+    auto picture = typical.contains(frame) ? std::optional(typical.at(frame)) : std::nullopt;
+    if (!picture) {
+      progress.next();
+      picture = drawn(frame);
+    }
+    if (!picture || stop.stop_requested()) return false;
+    const int until = static_cast<int>(std::lround(100 * settings.seconds * (frame + 1) / settings.frames));
+    film.add(*picture, until - shown);
+    shown = until;
+  }
+  writeFile(settings.gif, film.finish(), true);
+  return true;
+}
+
+QString filmSentence(const LoadPathAnimation::Settings& settings) {
+  if (!settings.gif.empty())
+    return QObject::tr("Wrote %1: %2 pictures, %3 s, %4 MB.")
+        .arg(QString::fromStdString(settings.gif.string()))
+        .arg(settings.frames)
+        .arg(settings.seconds)
+        .arg(static_cast<double>(std::filesystem::file_size(settings.gif)) / 1e6, 0, 'g', 2);
+  return QObject::tr("Wrote %1 pictures, %2. A program such as ffmpeg makes one film of them, in their folder: ffmpeg "
+                     "-framerate %3 -i ")
+             .arg(settings.frames)
+             .arg(QString::fromStdString((settings.folder / "load-*.png").string()))
+             .arg(settings.frames / settings.seconds, 0, 'g', 4) +
+         "load-%03d.png film.mp4";
 }
 
 } // namespace
@@ -87,23 +212,20 @@ bool LoadPathAnimation::start(const Settings& settings) {
     if (!fixed.options.warpFactor)
       fixed.options.warpFactor = automaticWarpFactor(touch.design(), path->states.back().fields.displacement_mm);
     const double last = path->states.back().fraction;
-    for (int frame = 0; frame < settings.frames; ++frame) {
-      progress.set(static_cast<double>(frame) / settings.frames,
-                   "Picture " + std::to_string(frame + 1) + " of " + std::to_string(settings.frames));
+    const auto drawn = [&](int frame) -> std::optional<Picture> {
       auto order = std::make_shared<Order>();
       order->path = path;
       order->settings = fixed;
       order->state = stateAt(path->states, last * frame / std::max(settings.frames - 1, 1));
       if (!drawInWindow(order, stop)) return {};
       if (!order->problem.empty()) throw Error(order->problem);
-      writePng(*order->picture, settings.folder / frameName(frame));
-    }
-    return [this, settings] {
-      emit done(tr("Wrote %1 pictures, %2.")
-                    .arg(settings.frames)
-                    .arg(QString::fromStdString((settings.folder / "load-*.png").string())) +
-                tr(" A program such as ffmpeg makes one film of them: ffmpeg -i load-%03d.png film.mp4"));
+      return std::move(order->picture);
     };
+    FrameProgress counted(progress, settings.frames);
+    const bool whole =
+        settings.gif.empty() ? drawPictures(settings, drawn, counted) : drawGif(settings, drawn, counted, stop);
+    if (!whole) return {};
+    return [this, sentence = filmSentence(settings)] { emit done(sentence); };
   };
   runner_.start(tr("Drawing the load path"), work);
   return true;
@@ -142,6 +264,7 @@ Picture LoadPathAnimation::draw(const Path& path, const Settings& settings, cons
   std::optional<LoadPathState> less;
   if (settings.kept) {
     state.keptDesign = &settings.kept->design;
+    state.keptLoad = &settings.kept->load;
     state.kept = &less.emplace(settings.kept->at(fraction)).fields;
   }
   scene.show(state, settings.options, !easel_->begun);

@@ -11,9 +11,10 @@ namespace palp {
 class BlockView;
 class TouchSession;
 
-/// The way from rest to the full load as a series of pictures, with one warp factor and one colour scale throughout.
-/// Fields between two computed equilibria are interpolated; they and the files are made in the background, the pictures
-/// drawn in the window's thread, one an event.
+/// The way from rest to the full load as an animated GIF or a series of pictures, with one warp factor and one colour
+/// scale throughout. Fields between two computed equilibria are interpolated; they and the files are made in the
+/// background, the pictures drawn in the window's thread, one an event. What is stopped or cannot be written leaves no
+/// part of a film.
 class LoadPathAnimation : public QObject {
   Q_OBJECT
 
@@ -24,7 +25,9 @@ public:
     int frames = 25;
     int width = 1200;
     int height = 800;
-    std::filesystem::path folder; ///< exists; gets load-000.png, load-001.png, ...
+    double seconds = 4;           ///< that the film lasts
+    std::filesystem::path gif;    ///< the film; empty: pictures
+    std::filesystem::path folder; ///< else: gets load-000.png, load-001.png, ...; made where it is not there
   };
 
   /// Looks at the block as `view` does.

@@ -317,7 +317,13 @@ HeatmapSpec ResistancePage::heatmap() const {
     return none;
   }
   HeatmapSpec shown = resistanceHeatmap(*resistances_, kind());
-  if (kind() != ResistanceKind::LessKept) return shown;
+  if (kind() != ResistanceKind::LessKept) {
+    const SensorDesign& design = touch.touch().design();
+    const auto* end = touch.touch().displacements();
+    if (design.field() == nullptr && end != nullptr && shown.values.size() > 0)
+      shown.colors = resistanceHeatmap(design, *end, kind()).colors; // one scale on the whole load path
+    return shown;
+  }
   const auto kept = workbench_.keptPath();
   const QString& problem = workbench_.kept().problem();
   none.title = (problem.isEmpty() ? tr("The kept design is being computed...") : problem).toStdString();
@@ -328,7 +334,8 @@ HeatmapSpec ResistancePage::heatmap() const {
   }
   const HeatmapSpec less = resistanceHeatmap(kept->design, kept->at(touch.loadFraction()).electrodes, kind());
   const bool alike = less.values.rows() == shown.values.rows() && less.values.cols() == shown.values.cols();
-  return alike ? heatmapLessKept(shown.values, less.values) : none; // else the touch is still of the design before
+  return alike ? heatmapLess(shown.values - less.values, "the kept design's")
+               : none; // else the touch is still of the design before
 }
 
 void ResistancePage::drawHeatmap() {

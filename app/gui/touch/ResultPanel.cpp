@@ -1,6 +1,7 @@
 #include "app/gui/touch/ResultPanel.h"
 
 #include "app/gui/jobs/KeptTouch.h"
+#include "app/gui/jobs/MatchedLoad.h"
 #include "app/gui/jobs/TouchSession.h"
 #include "app/gui/project/Project.h"
 
@@ -117,10 +118,13 @@ void ResultPanel::displayDifference(const Project& project, const TouchSession& 
     const Eigen::Index node = most - values.begin();
     const double now = quantityValues(quantity, *session.fields())[static_cast<std::size_t>(node)];
     const QString unit = QString::fromStdString(quantityUnit(quantity));
+    QString match = matchWords(session.touch().load(), session.touch().design(), kept->design);
+    if (!match.isEmpty()) match[0] = match[0].toUpper();
     difference_->setText(tr("<b>Less the kept design:</b> %1 differs most at %2 mm: by %3 %6 (%4, kept %5).")
                              .arg(QString::fromStdString(quantityName(quantity)),
                                   triple(session.touch().mesh()->nodes_mm.col(node)), number(*most), number(now),
-                                  number(now - *most), unit));
+                                  number(now - *most), unit) +
+                         (match.isEmpty() ? QString() : "<br>" + match + "."));
   }
   fitHeight(*difference_);
 }

@@ -24,7 +24,7 @@ namespace palp {
 
 namespace {
 
-QString number(double value, int digits = 4) {
+QString tabNumber(double value, int digits = 4) {
   return QString::number(value, 'g', digits);
 }
 
@@ -40,8 +40,8 @@ ChartView* chart(const char* name) {
   return view;
 }
 
-QString placeText(const std::array<double, 3>& place) {
-  return number(place[0], 6) + ", " + number(place[1], 6) + ", " + number(place[2], 6);
+QString lineEndText(const std::array<double, 3>& place) {
+  return tabNumber(place[0], 6) + ", " + tabNumber(place[1], 6) + ", " + tabNumber(place[2], 6);
 }
 
 /// Three numbers with commas between them.
@@ -147,6 +147,7 @@ void TouchTabs::readLine() {
     line_->setChart(refusal);
     return;
   }
+  if (std::array{*from, *to} == view_.lineIn(session_.touch().design().block_mm)) return;
   next.lineFrom_mm = *from;
   next.lineTo_mm = *to;
   if (!(next == view_)) emit edited(tr("Change the line"), next);
@@ -170,9 +171,9 @@ void TouchTabs::displayProject(const Project& project) {
   const QSignalBlocker quiet(rowWireNumber_);
   rowWireNumber_->setRange(0, project.design.rowWires() - 1);
   rowWireNumber_->setValue(view_.rowWire);
-  const std::array places{view_.lineFrom_mm, view_.lineTo_mm};
+  const std::array places = view_.lineIn(project.design.block_mm);
   for (std::size_t k = 0; k < 2; ++k)
-    if (placeOf(ends_[k]->text()) != places[k]) ends_[k]->setText(placeText(places[k]));
+    if (placeOf(ends_[k]->text()) != places[k]) ends_[k]->setText(lineEndText(places[k]));
   draw();
 }
 
@@ -187,6 +188,9 @@ void TouchTabs::draw() {
   if (heatmap_->isVisible() && session_.electrodes() != nullptr) {
     HeatmapSpec spec =
         resistanceHeatmap(session_.touch().design(), *session_.electrodes(), ResistanceKind::RelativeChange);
+    // One scale on the whole load path: that of its end.
+    if (const auto* end = session_.touch().displacements(); end != nullptr && spec.values.size() > 0)
+      spec.colors = resistanceHeatmap(session_.touch().design(), *end, ResistanceKind::RelativeChange).colors;
     if (view_.litCell && (*view_.litCell)[0] < spec.values.rows() && (*view_.litCell)[1] < spec.values.cols())
       spec.selected = view_.litCell;
     heatmap_->setHeatmap(std::move(spec));
@@ -216,7 +220,11 @@ void TouchTabs::drawRowWire() {
 void TouchTabs::drawLine() {
   if (session_.fields() == nullptr || !line_->isVisible()) return;
   const auto less = kept_ ? std::optional(kept_->at(session_.loadFraction())) : std::nullopt;
-  line_->setChart(plot_.chart(*session_.touch().mesh(), *session_.fields(), view_, less ? &less->fields : nullptr));
+  ViewSettings view = view_;
+  const auto line = view.lineIn(session_.touch().design().block_mm);
+  view.lineFrom_mm = line[0];
+  view.lineTo_mm = line[1];
+  line_->setChart(plot_.chart(*session_.touch().mesh(), *session_.fields(), view, less ? &less->fields : nullptr));
 }
 
 void TouchTabs::fillTable() {
@@ -230,8 +238,8 @@ void TouchTabs::fillTable() {
   for (int k = 0; k < places.cols(); ++k) {
     QStringList cells{QString::number(k / design.electrodesPerRowWire()),
                       QString::number(k % design.electrodesPerRowWire())};
-    for (const double value : places.col(k)) cells << number(value);
-    for (const double value : session_.electrodes()->upper_mm.col(k)) cells << number(value, 6);
+    for (const double value : places.col(k)) cells << tabNumber(value);
+    for (const double value : session_.electrodes()->upper_mm.col(k)) cells << tabNumber(value, 6);
     for (int column = 0; column < cells.size(); ++column) {
       QTableWidgetItem* cell = table_->item(k, column);
       if (cell == nullptr) {

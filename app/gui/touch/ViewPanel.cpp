@@ -137,6 +137,8 @@ void ViewPanel::chooseQuantity() {
   const Quantity next = allQuantities()[static_cast<std::size_t>(quantity_->currentIndex())];
   // A range in mm means nothing for MPa.
   if (quantityUnit(next) != quantityUnit(view_.quantity)) {
+    view_.colorRange.reset();
+    view_.differenceRange.reset();
     const QSignalBlocker quiet(keepRange_);
     keepRange_->setChecked(false);
   }
@@ -145,11 +147,9 @@ void ViewPanel::chooseQuantity() {
 
 void ViewPanel::chooseKept() {
   if (displaying_) return;
-  view_.lessKept = lessKept_->isChecked();
-  // The range of a quantity means little for a difference.
-  const QSignalBlocker quiet(keepRange_);
-  keepRange_->setChecked(false);
-  read();
+  ViewSettings next = view_; // the range of a quantity means little for a difference: each has its own
+  next.lessKept = lessKept_->isChecked();
+  emit edited(next);
 }
 
 void ViewPanel::read() {
@@ -161,10 +161,10 @@ void ViewPanel::read() {
   view_.colorMap.reset();
   if (const int map = colorMap_->currentIndex(); map > 0)
     view_.colorMap = kColorMaps.all()[static_cast<std::size_t>(map - 1)].first;
-  view_.colorRange.reset();
+  view_.shownRange().reset();
   if (keepRange_->isChecked()) {
     const double low = range_[0]->value(), high = range_[1]->value();
-    view_.colorRange = {low, std::max(high, low + 1e-4)};
+    view_.shownRange() = {low, std::max(high, low + 1e-4)};
   }
   view_.warpFactor = automaticWarp_->isChecked() ? std::nullopt : std::optional(warp_->value());
   if (const int axis = cut_->currentIndex() - 1; axis < 0) {
@@ -185,6 +185,7 @@ void ViewPanel::read() {
 void ViewPanel::display(const ViewSettings& view, const Eigen::Vector3d& block_mm, bool somethingKept) {
   displaying_ = true;
   view_ = view;
+  view_.lessKept = view.lessKept && somethingKept;
   block_mm_ = block_mm;
   const auto& all = allQuantities();
   quantity_->setCurrentIndex(static_cast<int>(std::find(all.begin(), all.end(), view.quantity) - all.begin()));
@@ -197,9 +198,10 @@ void ViewPanel::display(const ViewSettings& view, const Eigen::Vector3d& block_m
   lessKept_->setToolTip(somethingKept
                             ? tr("Colours by the difference to the kept design under the same load, point by point")
                             : tr("Nothing is kept to compare with: Design, Compare, \"Keep this design\""));
-  keepRange_->setChecked(view.colorRange.has_value());
-  if (view.colorRange)
-    for (std::size_t k = 0; k < 2; ++k) showExactly(*range_[k], (*view.colorRange)[k]);
+  const auto& range = view_.shownRange();
+  keepRange_->setChecked(range.has_value());
+  if (range)
+    for (std::size_t k = 0; k < 2; ++k) showExactly(*range_[k], (*range)[k]);
   automaticWarp_->setChecked(!view.warpFactor);
   if (view.warpFactor) showExactly(*warp_, *view.warpFactor);
   cut_->setCurrentIndex(view.cut ? view.cut->axis + 1 : 0);

@@ -33,6 +33,16 @@ double distance(const QPointF& place, const QPointF& from, const QPointF& to) {
 struct BlockView::Parts {
   DeformationScene scene;
   std::optional<SensorDesign> design; ///< of the last state; none before the first
+  Eigen::Vector3d look = kFirstLook;  ///< along which the camera was fitted last
+  std::array<double, 6> fitted{};     ///< where that put it
+
+  [[nodiscard]] std::array<double, 6> camera() const {
+    vtkCamera& its = *scene.renderer()->GetActiveCamera();
+    std::array<double, 6> places{};
+    its.GetPosition(places.data());
+    its.GetFocalPoint(places.data() + 3);
+    return places;
+  }
 };
 
 BlockView::BlockView(QWidget* parent) : BlockView(std::make_unique<Parts>(), parent) {}
@@ -42,7 +52,11 @@ BlockView::BlockView(std::unique_ptr<Parts> parts, QWidget* parent)
   connect(this, &VtkView::clicked, this, &BlockView::pick);
   connect(this, &VtkView::doubleClicked, this, &BlockView::resetCamera);
   connect(this, &VtkView::sizeChanged, this, [this] {
-    if (renderCount() == 0) resetCamera();
+    // A panel beside the view opened or closed: all of the block stays in sight, unless the user looks elsewhere.
+    if (renderCount() == 0)
+      resetCamera();
+    else if (parts_->camera() == parts_->fitted)
+      lookAlong(parts_->look);
   });
   connect(this, &VtkView::hovered, this, &BlockView::showCursor);
 }
@@ -74,6 +88,8 @@ void BlockView::lookAlong(const Eigen::Vector3d& direction) {
   if (!parts_->design) return;
   parts_->scene.resetCamera(*parts_->design, aspect(), direction,
                             std::clamp(kLegendRoom_px * textScale(*this) / std::max(width(), 1), 0.02, 0.4));
+  parts_->look = direction;
+  parts_->fitted = parts_->camera();
   invalidate();
 }
 

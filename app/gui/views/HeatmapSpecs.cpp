@@ -48,11 +48,11 @@ HeatmapSpec resistanceHeatmap(const TouchResistances& resistances, ResistanceKin
   return spec;
 }
 
-HeatmapSpec heatmapLessKept(const Eigen::MatrixXd& shares, const Eigen::MatrixXd& kept) {
+HeatmapSpec heatmapLess(const Eigen::MatrixXd& difference_percent, const std::string& whose) {
   HeatmapSpec spec;
-  spec.title = "dR/R less the kept design's, same load";
-  spec.values = shares - kept;
-  spec.colors = scaleOf(spec.values, ColorMap::Diverging, "dR/R - kept", "%");
+  spec.title = "dR/R less " + whose + ", same load";
+  spec.values = difference_percent;
+  spec.colors = scaleOf(spec.values, ColorMap::Diverging, "difference of dR/R", "%");
   return spec;
 }
 

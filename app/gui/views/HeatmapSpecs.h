@@ -14,7 +14,7 @@ HeatmapSpec resistanceHeatmap(const TouchResistances& resistances, ResistanceKin
 HeatmapSpec resistanceHeatmap(const SensorDesign& design, const ElectrodeDisplacements& electrodes,
                               ResistanceKind kind);
 
-/// The shares [%] of a design less those of a kept one with as many wires.
-HeatmapSpec heatmapLessKept(const Eigen::MatrixXd& shares, const Eigen::MatrixXd& kept);
+/// Shares [%] of a design less those of another one with as many wires: "the kept design's".
+HeatmapSpec heatmapLess(const Eigen::MatrixXd& difference_percent, const std::string& whose);
 
 } // namespace palp

@@ -165,6 +165,10 @@ QSize PictureView::askSize(const QSize& now) {
   return {};
 }
 
+void PictureView::savePicture() {
+  savePicture(2 * image().size());
+}
+
 void PictureView::savePicture(const QSize& size) {
   const QString file = askFileToSave(this, tr("Save picture"), "picture.png", tr("Pictures (*.png)"));
   if (file.isEmpty()) return;

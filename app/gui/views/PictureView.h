@@ -26,6 +26,8 @@ public:
   [[nodiscard]] double aspect() const;
   /// A place of the widget as VTK counts: device pixels from the lower left.
   [[nodiscard]] QPointF devicePlace(const QPointF& place) const;
+  /// Asks for a file and saves the view as PNG, twice as large as it is seen.
+  void savePicture();
 
 signals:
   /// A picture or its numbers were written.

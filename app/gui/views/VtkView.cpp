@@ -22,8 +22,8 @@ namespace palp {
 
 namespace {
 
-constexpr int kWheelStep = 120;    ///< eighths of a degree
-constexpr double kKeyShare = 0.04; ///< of the view, that a key drags
+constexpr int kWheelNotch = 120;       ///< eighths of a degree
+constexpr double kKeyDragShare = 0.04; ///< of the view, that a key drags
 
 void invalidateView(vtkObject*, unsigned long, void* view, void*) {
   static_cast<VtkView*>(view)->invalidate();
@@ -185,8 +185,8 @@ void VtkView::wheelEvent(QWheelEvent* event) {
   open();
   passPlace(event->position(), event->modifiers());
   wheel_ += event->angleDelta().y();
-  for (; wheel_ >= kWheelStep; wheel_ -= kWheelStep) vtk_->invoke(vtkCommand::MouseWheelForwardEvent);
-  for (; wheel_ <= -kWheelStep; wheel_ += kWheelStep) vtk_->invoke(vtkCommand::MouseWheelBackwardEvent);
+  for (; wheel_ >= kWheelNotch; wheel_ -= kWheelNotch) vtk_->invoke(vtkCommand::MouseWheelForwardEvent);
+  for (; wheel_ <= -kWheelNotch; wheel_ += kWheelNotch) vtk_->invoke(vtkCommand::MouseWheelBackwardEvent);
   event->accept();
 }
 
@@ -202,7 +202,9 @@ void VtkView::dragCamera(const QPointF& way, bool moving) {
 
 void VtkView::keyPressEvent(QKeyEvent* event) {
   const bool shift = event->modifiers().testFlag(Qt::ShiftModifier);
-  const auto drag = [&](double x, double y) { dragCamera({kKeyShare * width() * x, kKeyShare * height() * y}, shift); };
+  const auto drag = [&](double x, double y) {
+    dragCamera({kKeyDragShare * width() * x, kKeyDragShare * height() * y}, shift);
+  };
   const bool plain = hasCamera_ && !(event->modifiers() & (Qt::ControlModifier | Qt::AltModifier));
   switch (plain ? event->key() : 0) {
   case Qt::Key_Left:

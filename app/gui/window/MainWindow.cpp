@@ -11,6 +11,7 @@
 #include "app/gui/touch/DeformationPage.h"
 #include "app/gui/touch/LoadPathAnimation.h"
 #include "app/gui/touch/ResistancePage.h"
+#include "app/gui/views/BlockView.h"
 #include "app/gui/views/PictureView.h"
 #include "app/gui/views/VtkView.h"
 #include "app/gui/widgets/AccessibleNames.h"
@@ -20,6 +21,7 @@
 #include "app/gui/window/MessageLog.h"
 #include "app/gui/window/StatusLamps.h"
 #include "app/gui/window/Style.h"
+#include "app/gui/window/history/HistorySteps.h"
 
 #include <QApplication>
 #include <QCloseEvent>
@@ -105,10 +107,7 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   document_ = new Document(*this, workbench, network);
   buildStatusLine();
   new Menus(*this, workbench, *document_);
-  connect(&workbench, &Workbench::wentBack, this, [this](const QString& scene, const QString& sentence) {
-    showScene(scene); // nothing changes unseen
-    showMessage(sentence);
-  });
+  new HistorySteps(*this, workbench);
   connect(&network, &NetworkSession::memoryNeeded, this, &MainWindow::giveBackMemory);
   connect(&workbench, &Workbench::projectReplaced, this,
           &MainWindow::giveBackMemory); // after the document let go of it
@@ -203,13 +202,21 @@ void MainWindow::setTheme(Theme theme) {
   for (int k = 0; k < scenes_->count(); ++k) static_cast<Scene*>(scenes_->widget(k))->setTheme(theme);
 }
 
-void MainWindow::animate(const QString& folder) {
+QSize MainWindow::filmedSize() const {
+  return deformation_->block().size();
+}
+
+void MainWindow::animate(const QString& path, const FilmSettings& film) {
   LoadPathAnimation::Settings settings;
   settings.options = deformation_->blockOptions();
   settings.options.scale = 1;
   settings.options.fullLoad = true;
   settings.kept = deformation_->shownLess();
-  settings.folder = folder.toStdString();
+  settings.frames = film.pictures;
+  settings.width = film.width_px;
+  settings.height = filmHeight_px(film.width_px, filmedSize());
+  settings.seconds = film.seconds;
+  (film.gif ? settings.gif : settings.folder) = path.toStdString();
   if (!animation_->start(settings))
     showMessage(tr("There is no load path yet; wait until the Deformation scene has solved the load."));
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/gui/touch/FilmDialog.h"
 #include "app/gui/window/Scene.h"
 
 #include <QMainWindow>
@@ -37,8 +38,10 @@ public:
   [[nodiscard]] Theme theme() const { return theme_; }
   /// Some background work runs.
   [[nodiscard]] bool busy() const;
-  /// Draws the load path into a folder; says why where it cannot.
-  void animate(const QString& folder);
+  /// Size of the view that a film shows.
+  [[nodiscard]] QSize filmedSize() const;
+  /// Draws the load path into a GIF or a folder; says why where it cannot.
+  void animate(const QString& path, const FilmSettings& film);
   /// Says a sentence in the status line, and keeps it in the log of messages.
   void showMessage(const QString& sentence);
 

@@ -4,11 +4,13 @@
 #include "app/gui/jobs/TouchResistances.h"
 #include "app/gui/project/ResultCsv.h"
 #include "app/gui/project/Workbench.h"
+#include "app/gui/touch/FilmDialog.h"
+#include "app/gui/views/PictureView.h"
 #include "app/gui/widgets/SaveDialog.h"
 #include "app/gui/window/HelpDialog.h"
 #include "app/gui/window/MainWindow.h"
-#include "app/gui/window/UndoActions.h"
 #include "app/gui/window/ViewActions.h"
+#include "app/gui/window/history/UndoActions.h"
 #include "app/scenes/VtuFile.h"
 #include "io/DesignFile.h"
 #include "model/base/Error.h"
@@ -44,8 +46,9 @@ QAction* Menus::add(QMenu& menu, const QString& text, const QString& tip, const 
 
 void Menus::buildFile() {
   QMenu& menu = *window_.menuBar()->addMenu(tr("&File"));
-  add(menu, tr("&Paper's design"), tr("Starts anew from the paper's design and one example load"), QKeySequence::New,
-      [this] { document_.startAnew(); });
+  add(menu, tr("&Paper's design"),
+      tr("Starts anew from the sensor of F. Wang et al., Sensors & Transducers 159 (11), 2013, and one example load"),
+      QKeySequence::New, [this] { document_.startAnew(); });
   add(menu, tr("&Open..."), tr("Opens a design or a project file"), QKeySequence::Open, [this] { document_.open(); });
   recent_ = menu.addMenu(tr("Open &recent"));
   recent_->setObjectName("recent");
@@ -128,16 +131,11 @@ void Menus::buildExport(QMenu& menu) {
           return calculixDeck(touch.design(), *touch.mesh(), touch.load(), stop);
         });
       });
-  add(menu, tr("&Film of the load path (pictures)..."),
-      tr("25 pictures from rest to the full load, as the block is shown now, into a folder"), {}, [this] {
-        const QString folder =
-            askFileToSave(&window_, tr("Name of the film: a new folder for its 25 pictures"), "film", {});
-        if (folder.isEmpty()) return;
-        if (QDir().mkpath(folder))
-          window_.animate(folder);
-        else
-          QMessageBox::warning(&window_, tr("Film"), tr("%1: cannot be made as a folder").arg(folder));
-      });
+  add(menu, tr("&Film of the load path..."),
+      tr("From rest to the full load, as the block is shown now: an animated GIF, or numbered pictures"), {},
+      [this] { makeFilm(); });
+  add(menu, tr("Picture of the &view..."), tr("The block, map or chart of the scene alone as PNG, without the panels"),
+      QKeySequence("Ctrl+Shift+P"), [this] { saveView(); });
   add(menu, tr("&Picture of the window..."), tr("The window as PNG; a right click on a view saves that view alone"),
       QKeySequence("Ctrl+P"), [this] {
         exportTo(tr("Picture of the window"), "palp.png", tr("Pictures (*.png)"), [this](const QString& file) {
@@ -154,6 +152,28 @@ void Menus::buildExport(QMenu& menu) {
         QApplication::clipboard()->setText(commands);
         window_.showMessage(tr("Copied: %1   (sensor.json: File, Save design)").arg(commands.section('\n', 0, 0)));
       });
+}
+
+void Menus::makeFilm() {
+  const auto film = askForFilm(&window_, window_.filmedSize());
+  if (!film) return;
+  const QString path = film->gif ? askFileToSave(&window_, tr("Name of the film"), "film.gif", tr("Films (*.gif)"))
+                                 : askFileToSave(&window_, tr("A new folder for the pictures"), "film", {});
+  if (!path.isEmpty()) window_.animate(path, *film);
+}
+
+/// The largest view that is seen: the one that the scene is about.
+void Menus::saveView() {
+  PictureView* largest = nullptr;
+  for (PictureView* view : window_.currentScene().findChildren<PictureView*>()) {
+    if (!view->isVisible()) continue;
+    const auto area = [](const QWidget& of) { return of.width() * of.height(); };
+    if (largest == nullptr || area(*view) > area(*largest)) largest = view;
+  }
+  if (largest != nullptr)
+    largest->savePicture();
+  else
+    window_.showMessage(tr("This scene shows no picture now."));
 }
 
 void Menus::buildEdit() {
@@ -198,7 +218,11 @@ void Menus::buildHelp() {
     QMessageBox::about(
         &window_, tr("About Palp"),
         tr("<b>Palp %1</b><br>Follows a touch on a three-axis tactile sensor of conductive rubber from the block to "
-           "the force.<br><br>Its model adds independent pairs of electrodes (Eq. 1): no sneak paths, no hysteresis, "
+           "the force.<br><br>The paper that it reproduces, and whose sensor it starts with: F. Wang et al., "
+           "<i>Decoupling "
+           "research of a three-dimensional force flexible tactile sensor based on radial basis function neural "
+           "network</i>, Sensors &amp; Transducers 159 (11), 2013, 289-298.<br><br>Its model adds independent pairs of "
+           "electrodes (Eq. 1): no sneak paths, no hysteresis, "
            "creep or temperature, and the load areas are stuck to their traction. A real board is less kind.<br><br>"
            "GNU Affero General Public License, version 3 or later.")
             .arg(QApplication::applicationVersion()));

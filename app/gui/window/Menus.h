@@ -32,6 +32,8 @@ private:
   void buildHelp();
   QAction* add(QMenu& menu, const QString& text, const QString& tip, const QKeySequence& keys,
                const std::function<void()>& act);
+  void makeFilm();
+  void saveView();
   void listRecent();
   [[nodiscard]] ExportJob::Making vtuMaking() const;
   /// Asks for a file and lets `write` write it; says what came of it.

@@ -72,6 +72,7 @@ struct DeformationState {
   double loadFraction = 1;
   // Where the difference to a kept design is shown; null while that is not there.
   const SensorDesign* keptDesign = nullptr;
+  const LoadCase* keptLoad = nullptr;
   const NodalFields* kept = nullptr; ///< its fields at the nodes of `mesh`
 };
 

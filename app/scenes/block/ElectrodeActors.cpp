@@ -28,12 +28,14 @@ std::vector<std::vector<int>> wires(int count, int perWire) {
   return lines;
 }
 
-/// Those of the places that are not cut away.
+/// Those of the places that are not cut away. A sphere that the plane goes through stays whole: displacements of a
+/// rounding error would otherwise take single ones out of a row that lies in the plane.
 Eigen::Matrix3Xd kept(const Eigen::Matrix3Xd& places_mm, const std::optional<CutPlane>& cut) {
   if (!cut) return places_mm;
+  const Eigen::Vector3d reach = kRadius_mm * cut->normal();
   std::vector<Eigen::Index> stay;
   for (Eigen::Index k = 0; k < places_mm.cols(); ++k)
-    if (cut->keeps(places_mm.col(k))) stay.push_back(k);
+    if (cut->keeps(places_mm.col(k) + reach)) stay.push_back(k);
   return places_mm(Eigen::all, stay);
 }
 

@@ -24,12 +24,30 @@ bool unloaded(const NodalFields* fields) {
   return fields == nullptr || !(fields->displacement_mm.cwiseAbs().maxCoeff() > 0);
 }
 
+std::string sizeText(const Eigen::Vector3d& block_mm) {
+  std::array<char, 96> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%.4g x %.4g x %.4g", block_mm.x(), block_mm.y(), block_mm.z());
+  return buffer.data();
+}
+
+std::string placeText(const Eigen::Vector2d& place_mm) {
+  std::array<char, 64> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "(%.4g, %.4g)", place_mm.x(), place_mm.y());
+  return buffer.data();
+}
+
 std::vector<std::string> differenceLines(const DeformationState& state, const DeformationOptions& options) {
   if (state.kept == nullptr) return {"Difference to the kept design: not computed"};
   std::vector<std::string> lines{"Difference to the kept design: " + quantityName(options.quantity) +
                                  " of this design less that of the kept one"};
-  if (state.keptDesign->block_mm != state.design->block_mm)
-    lines.emplace_back("blocks of two sizes: compared at the same shares of their sides");
+  const Eigen::Vector3d &now = state.design->block_mm, &kept = state.keptDesign->block_mm;
+  if (now == kept) return lines;
+  lines.push_back("blocks of two sizes, " + sizeText(now) + " and kept " + sizeText(kept) +
+                  " mm: compared and pressed at the same shares of their sides");
+  const std::vector<PatchLoad>&discs = state.load->patches, &keptDiscs = state.keptLoad->patches;
+  for (std::size_t k = 0; k < discs.size() && k < keptDiscs.size(); ++k)
+    lines.push_back("pressed at " + placeText(discs[k].centre_mm) + " mm, the kept one at " +
+                    placeText(keptDiscs[k].centre_mm) + " mm");
   return lines;
 }
 

@@ -79,12 +79,14 @@ public:
   }
 
   /// Moves one place after the other while that helps, then halves the step.
-  double descend(Places& places) {
+  double descend(Places& places, const std::function<void(double)>& progress) {
     left_ = kMostUnderField;
     for (double& place : places) place = onGrid(place, limits_.grid_mm);
     double best = value(places);
     double step = kFirstStep_mm;
+    const double halvings = std::log2(kFirstStep_mm / limits_.grid_mm) + 1;
     while (step > limits_.grid_mm * 0.99 && !stop_.stop_requested()) {
+      progress(std::log2(kFirstStep_mm / step) / halvings);
       const double before = best;
       best = sweep(places, best, step);
       if (!(best < before * (1 - 1e-3))) step /= 2;
@@ -202,11 +204,16 @@ std::optional<LayoutSearchResult> betterLayout(const SensorDesign& design, const
                      : design.field()                     ? kRandomStartsUnderField
                                                           : kRandomStarts;
   int start = 0, before = 0; // layouts judged in earlier starts
-  Search search(parameters, response, rowWire, relativeNoise, limits, stop, [&](int judged) {
-    if (progress && design.field())
-      progress((start + static_cast<double>(judged - before) / kMostUnderField) / (starts + 1),
-               std::to_string(judged) + " layouts judged");
+  const auto tell = [&](double share, int tried) {
+    if (progress) progress((start + share) / (starts + 1), std::to_string(tried) + " layouts tried");
+  };
+  // Under the field a start ends after so many layouts; by Eq. (1) when its step is small.
+  Search search(parameters, response, rowWire, relativeNoise, limits, stop, [&](int tried) {
+    if (design.field()) tell(static_cast<double>(tried - before) / kMostUnderField, tried);
   });
+  const auto ofSteps = [&](double share) {
+    if (!design.field()) tell(share, search.evaluations());
+  };
   std::mt19937_64 random(seed);
   const auto fullBound = [&](const SensorDesign& layout) {
     return layoutBound(layout, response, rowWire, relativeNoise, 0, 1, stop).mean();
@@ -216,7 +223,7 @@ std::optional<LayoutSearchResult> betterLayout(const SensorDesign& design, const
     result.after_percent = result.before_percent;
     for (; start <= starts; ++start, before = search.evaluations()) {
       Places places = start == 0 ? parameters.places() : randomPlaces(parameters, design, limits, random);
-      const double judged = search.descend(places);
+      const double judged = search.descend(places, ofSteps);
       if (stop.stop_requested()) return {};
       // of a start that cannot be made, and of those that are no better by the coarse judgement
       if (!(judged < (design.field() ? 1.05 : 1) * result.after_percent)) continue;

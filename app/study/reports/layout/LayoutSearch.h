@@ -34,8 +34,8 @@ struct LayoutSearchResult {
 
 /// Lowers the bound without prior of a row-wire, or of all with row-wire -1, by pattern search (Hooke and Jeeves, 1961)
 /// from the design and from random places; equal seeds give equal layouts. Under the field layouts are judged on a
-/// coarse quadrature, fewer of them, and electrodes keep as far apart as small spheres need. Empty where it was
-/// stopped.
+/// coarse quadrature, fewer of them, and electrodes keep as far apart as small spheres need. `progress` is told,
+/// roughly, which share of the search is done. Empty where it was stopped.
 std::optional<LayoutSearchResult> betterLayout(const SensorDesign& design, const AreaResponse& response, int rowWire,
                                                double relativeNoise, LayoutFreedom freedom, const MakerLimits& limits,
                                                std::uint64_t seed, const std::stop_token& stop,

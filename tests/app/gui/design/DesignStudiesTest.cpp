@@ -1,18 +1,24 @@
+#include "app/gui/design/BoundWords.h"
 #include "app/gui/design/RestFloor.h"
+#include "app/gui/project/ProjectFile.h"
 #include "app/gui/views/ChartView.h"
 #include "app/gui/views/HeatmapView.h"
 #include "tests/app/gui/WindowFixture.h"
 
+#include <QCheckBox>
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QFile>
 #include <QLabel>
+#include <QLineEdit>
 #include <QPushButton>
 #include <QSpinBox>
 #include <QTabWidget>
 #include <QTemporaryDir>
 
 #include <gtest/gtest.h>
+
+#include <limits>
 
 namespace palp {
 namespace {
@@ -21,6 +27,12 @@ namespace {
 class DesignStudies : public WindowFixture {
 protected:
   DesignStudies() { window.showScene("design"); }
+  void soften() {
+    Project softer = workbench.project();
+    softer.design.material.c10_MPa *= 0.5;
+    softer.design.material.c01_MPa *= 0.5;
+    workbench.edit("softer", softer);
+  }
   void open(int tab) {
     find<QTabWidget>("designTabs").setCurrentIndex(tab);
     settle();
@@ -70,7 +82,8 @@ TEST_F(DesignStudies, SweepANumberWithTheNoiseFloorAsResult) {
   QTest::mouseClick(&find<QPushButton>("sweepDesign"), Qt::LeftButton);
   ASSERT_TRUE(done());
   const ChartSpec& chart = find<ChartView>("sweepChart").chart();
-  ASSERT_EQ(chart.series.size(), 6u) << find<QLabel>("sweepWords").text().toStdString();
+  ASSERT_EQ(chart.series.size(), 6u)
+      << find<QTabWidget>("designTabs").findChild<QLabel*>("sweepWords")->text().toStdString();
   EXPECT_EQ(chart.series[0].x, (std::vector<double>{3.5, 4, 4.5}));
   for (std::size_t k = 0; k < 3; ++k)
     for (std::size_t at = 0; at < 3; ++at)
@@ -98,7 +111,8 @@ TEST_F(DesignStudies, SweepTheElectrodesRadiusUnderTheFieldByItsReadout) {
   QTest::mouseClick(&find<QPushButton>("sweepDesign"), Qt::LeftButton);
   ASSERT_TRUE(done());
   const ChartSpec& chart = find<ChartView>("sweepChart").chart();
-  ASSERT_EQ(chart.series.size(), 6u) << find<QLabel>("sweepWords").text().toStdString();
+  ASSERT_EQ(chart.series.size(), 6u)
+      << find<QTabWidget>("designTabs").findChild<QLabel*>("sweepWords")->text().toStdString();
   for (std::size_t k = 0; k < 3; ++k) {
     StageLog stages;
     SensorDesign wide = field.design;
@@ -124,7 +138,7 @@ TEST_F(DesignStudies, CompareADesignWithItselfUnderTheFieldBothAtRest) {
   QTest::mouseClick(&find<QPushButton>("compareDesigns"), Qt::LeftButton);
   ASSERT_TRUE(done());
   const QString words = find<QLabel>("comparison").text();
-  EXPECT_TRUE(words.startsWith("Both at rest.")) << words.toStdString();
+  EXPECT_TRUE(words.contains("Both at rest.")) << words.toStdString();
   EXPECT_TRUE(words.contains("Cramer-Rao")) << words.toStdString();
   EXPECT_TRUE(words.contains("Not under the conduction field")) << words.toStdString();
   EXPECT_FALSE(find<HeatmapView>("comparisonMap").isVisible());
@@ -136,21 +150,132 @@ TEST_F(DesignStudies, CompareADesignWithTheOneThatWasKept) {
   EXPECT_FALSE(compare.isEnabled());
   QTest::mouseClick(&find<QPushButton>("keepDesign"), Qt::LeftButton);
   EXPECT_FALSE(compare.isEnabled()) << "with itself there is nothing to compare";
-  Project softer = workbench.project();
-  softer.design.material.c10_MPa *= 0.5;
-  softer.design.material.c01_MPa *= 0.5;
-  workbench.edit("softer", softer);
+  soften();
   ASSERT_TRUE(compare.isEnabled());
   QTest::mouseClick(&compare, Qt::LeftButton);
   ASSERT_TRUE(done());
   const QString words = find<QLabel>("comparison").text();
   EXPECT_TRUE(words.contains("Cramer-Rao")) << words.toStdString();
-  EXPECT_TRUE(words.contains("Largest displacement")) << words.toStdString();
+  EXPECT_TRUE(words.contains("largest displacement")) << words.toStdString();
   const auto& map = find<HeatmapView>("comparisonMap");
   EXPECT_TRUE(map.isVisible());
   EXPECT_GT(map.heatmap().values.cwiseAbs().maxCoeff(), 0) << "softer rubber answers more";
   QTest::mouseClick(&find<QPushButton>("takeKept"), Qt::LeftButton);
   EXPECT_EQ(workbench.project().design, paperDesign());
+}
+
+TEST_F(DesignStudies, CompareADesignAtOnceWithTheOneBeforeTheLastChange) {
+  soften();
+  Project pressed = workbench.project();
+  pressed.load.areas[0].force_N.z() = -2; // a load is no other design
+  workbench.edit("press", pressed);
+  Project next = workbench.project();
+  next.design.material.poissonRatio = 0.48;
+  workbench.edit("squeezable", next);
+  open(3);
+  auto& with = find<QComboBox>("compareWith");
+  ASSERT_EQ(with.count(), 2);
+  EXPECT_EQ(with.currentIndex(), 0);
+  EXPECT_TRUE(with.currentText().contains("before: rubber")) << with.currentText().toStdString();
+  EXPECT_TRUE(with.currentText().contains("-> 0.48")) << with.currentText().toStdString();
+  const int entries = workbench.history().count();
+  QTest::mouseClick(&find<QPushButton>("compareDesigns"), Qt::LeftButton);
+  ASSERT_TRUE(done());
+  ASSERT_TRUE(workbench.project().studies.compared);
+  EXPECT_EQ(workbench.project().studies.compared->earlier, pressed.design);
+  EXPECT_EQ(workbench.project().studies.compared->now, next.design);
+  EXPECT_EQ(workbench.history().count(), entries) << "neither undone nor done again";
+  EXPECT_TRUE(find<QLabel>("comparisonState").isHidden());
+  // Another one of the list, by hand.
+  with.setCurrentIndex(1);
+  emit with.activated(1);
+  EXPECT_FALSE(find<QLabel>("comparisonState").isHidden()) << "the table is of the other one";
+  QTest::mouseClick(&find<QPushButton>("keptFields"), Qt::LeftButton);
+  EXPECT_EQ(workbench.project().kept, paperDesign());
+  EXPECT_TRUE(workbench.project().view.lessKept);
+  EXPECT_EQ(window.currentScene().objectName(), "deformation");
+}
+
+TEST_F(DesignStudies, TheSizesOfABlockThatAreTypedOneByOneAreOneChange) {
+  Project softer = workbench.project();
+  softer.design.material.c10_MPa *= 0.9;
+  workbench.edit("softer", softer);
+  find<QCheckBox>("scaleWires").setChecked(true);
+  for (const auto& [name, size] : {std::pair{"block_mm[0]", "40"}, {"block_mm[1]", "40"}, {"block_mm[2]", "8"}}) {
+    auto& field = find<QLineEdit>(name);
+    field.setFocus();
+    field.selectAll();
+    QTest::keyClicks(&field, size);
+  }
+  open(3);
+  auto& with = find<QComboBox>("compareWith");
+  EXPECT_EQ(with.count(), 4);
+  EXPECT_TRUE(with.currentText().contains("size along x 30 -> 40 mm")) << with.currentText().toStdString();
+  EXPECT_TRUE(with.itemData(with.currentIndex(), Qt::ToolTipRole).toString().contains("30 x 30 x 5"));
+}
+
+TEST_F(DesignStudies, AComparisonThatIsStoppedSaysSoAndKeepsTheOneBefore) {
+  soften();
+  open(3);
+  auto& compare = find<QPushButton>("compareDesigns");
+  QTest::mouseClick(&compare, Qt::LeftButton);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return find<QLabel>("comparison").text().contains("%"); }, kPatience_ms))
+      << "how far it is";
+  QTest::keyClick(&window, Qt::Key_Escape);
+  ASSERT_TRUE(done());
+  EXPECT_TRUE(find<QLabel>("comparison").text().contains("Stopped"));
+  EXPECT_FALSE(workbench.project().studies.compared);
+  EXPECT_TRUE(compare.isEnabled());
+}
+
+TEST_F(DesignStudies, AreKeptByTheProjectAndFaintWhereTheDesignIsAnotherOne) {
+  Project next = workbench.project();
+  const SensorDesign before = next.design;
+  next.design.material.c10_MPa *= 0.5;
+  SensorDesign layout = next.design;
+  layout.upper.z_mm = {{3.5}};
+  const BoundSummary bounds{{11.1, 21, 15}, {19.3, 67.2, 61.1}, {2, 1.7, 2.1}, {2, 1.7, 2.1}};
+  next.studies.scaleWires = true;
+  next.studies.sweep = {"upper_layer.z_mm", 3, 4, 5, false};
+  next.studies.found = FoundLayout{next.design, layout, bounds, bounds, 640};
+  next.studies.curve = DesignSweepCurve{next.design, "upper_layer.z_mm", 1e-4, {{3, bounds}, {4, bounds}}, 1};
+  next.studies.compared = DesignsCompared{
+      before, next.design, "12:00, before: softer", next.load, 1e-4, bounds, bounds, "words", 1, 2, {0.5, -0.25}};
+  const Project again = parseProject(projectText(next), "x.json", {});
+  EXPECT_EQ(again.studies, next.studies);
+  workbench.replace("opened", again, "x.json");
+  open(1);
+  EXPECT_TRUE(find<QPushButton>("takeLayout").isEnabled()) << "a layout that was found is not lost";
+  EXPECT_TRUE(find<QLabel>("layoutWords").text().contains("640"));
+  open(2);
+  EXPECT_TRUE(find<QCheckBox>("scaleWires").isChecked());
+  EXPECT_EQ(find<QComboBox>("sweepNumber").currentData().toString(), "upper_layer.z_mm");
+  EXPECT_EQ(find<QDoubleSpinBox>("sweepStart").value(), 3);
+  EXPECT_EQ(find<QSpinBox>("sweepSteps").value(), 5);
+  EXPECT_EQ(find<ChartView>("sweepChart").chart().series.size(), 6u);
+  const QString best = find<QTabWidget>("designTabs").findChild<QLabel*>("sweepWords")->text();
+  EXPECT_TRUE(best.contains("Lowest at 3 mm")) << best.toStdString();
+  EXPECT_TRUE(best.contains(" N ")) << best.toStdString();
+  EXPECT_TRUE(find<QLabel>("designSweepState").isHidden());
+  open(3);
+  EXPECT_TRUE(find<QLabel>("comparison").text().contains("before: softer"));
+  EXPECT_TRUE(find<HeatmapView>("comparisonMap").isVisible());
+  EXPECT_TRUE(find<QLabel>("comparisonState").isHidden()) << find<QLabel>("comparisonState").text().toStdString();
+  Project other = workbench.project();
+  other.design.material.c01_MPa *= 0.5;
+  workbench.edit("softer", other);
+  EXPECT_FALSE(find<QLabel>("comparisonState").isHidden());
+  EXPECT_FALSE(find<QLabel>("designSweepState").isHidden());
+  EXPECT_FALSE(find<QPushButton>("takeLayout").isEnabled());
+  workbench.history().undo();
+  EXPECT_TRUE(find<QLabel>("designSweepState").isHidden()) << "the same design again";
+}
+
+TEST(BoundWords, GiveTheThreeForcesOneNumberOfDecimals) {
+  EXPECT_EQ(boundPercents({1.2, 0.971, 1.24}), "1.20 / 0.97 / 1.24 %");
+  EXPECT_EQ(boundPercents({19.31, 67.2, 6.11}), "19.3 / 67.2 / 6.1 %");
+  EXPECT_EQ(boundPercents({1, 120.4, std::numeric_limits<double>::infinity()}), "1 / 120 / - %");
+  EXPECT_EQ(boundNewtons({2, 1.7, 2.1}, {}), "0.040 / 0.034 / 0.126 N") << "of 2, 2 and 6 N";
 }
 
 } // namespace

@@ -143,7 +143,8 @@ TEST(Workbench, KnowsWhetherTheFileHoldsAllThatWasSet) {
 TEST(Workbench, LeadsBackToTheSceneWhereTheEditWasMade) {
   Workbench workbench(exampleProject());
   QStringList scenes;
-  QObject::connect(&workbench, &Workbench::wentBack, [&](const QString& scene, const QString&) { scenes << scene; });
+  QObject::connect(&workbench, &Workbench::wentBack,
+                   [&](const QString& scene, const QString&, const Project&) { scenes << scene; });
   workbench.setPlace("deformation");
   press(workbench, -1);
   workbench.setPlace("reports");
@@ -151,6 +152,48 @@ TEST(Workbench, LeadsBackToTheSceneWhereTheEditWasMade) {
   workbench.setPlace("live");
   workbench.history().redo();
   EXPECT_EQ(scenes, QStringList({"deformation", "deformation"}));
+}
+
+/// The block's size along x.
+void widen(Workbench& workbench, double size_mm) {
+  Project next = workbench.project();
+  next.design.block_mm.x() = size_mm;
+  workbench.closeEntry();
+  workbench.edit("wider", next);
+}
+
+TEST(EarlierDesigns, AreThoseOfTheHistoryTheLatestFirstAndEachOnce) {
+  Workbench workbench(exampleProject());
+  EXPECT_TRUE(workbench.earlierDesigns().empty());
+  widen(workbench, 32);
+  press(workbench, -1); // no other design
+  widen(workbench, 34);
+  widen(workbench, 32);
+  widen(workbench, 36);
+  const std::vector<EarlierDesign> earlier = workbench.earlierDesigns();
+  ASSERT_EQ(earlier.size(), 3u);
+  EXPECT_EQ(earlier[0].design.block_mm.x(), 32);
+  EXPECT_EQ(earlier[0].change, "block size along x 32 -> 36 mm");
+  EXPECT_EQ(earlier[1].design.block_mm.x(), 34);
+  EXPECT_EQ(earlier[2].design.block_mm.x(), 30);
+  for (const EarlierDesign& each : earlier) {
+    EXPECT_TRUE(each.when.isValid());
+    EXPECT_FALSE(each.undone);
+  }
+}
+
+TEST(EarlierDesigns, KnowWhatWasUndoneAndNothingOfAnotherProject) {
+  Workbench workbench(exampleProject());
+  widen(workbench, 32);
+  workbench.history().undo();
+  ASSERT_EQ(workbench.earlierDesigns().size(), 1u);
+  EXPECT_TRUE(workbench.earlierDesigns()[0].undone);
+  EXPECT_EQ(workbench.earlierDesigns()[0].design.block_mm.x(), 32);
+  workbench.history().redo();
+  Project other = exampleProject();
+  other.design.block_mm.z() = 9;
+  workbench.replace("another", other);
+  EXPECT_TRUE(workbench.earlierDesigns().empty());
 }
 
 } // namespace

@@ -179,13 +179,56 @@ TEST_F(DeformationPageTest, WritesTheLoadPathAsASeriesOfPictures) {
   ASSERT_TRUE(solved());
   ASSERT_TRUE(idle());
   const QTemporaryDir folder;
-  window.animate(folder.path());
-  const QString last = folder.filePath("load-024.png");
+  window.animate(folder.path(), {.gif = false, .pictures = 4, .width_px = 300, .seconds = 1});
+  const QString last = folder.filePath("load-003.png");
   ASSERT_TRUE(QTest::qWaitFor([&] { return QFile::exists(last); }, kPatience_ms));
   const QImage rest(folder.filePath("load-000.png"));
-  EXPECT_EQ(rest.size(), QSize(1200, 800));
+  EXPECT_EQ(rest.size(), QSize(300, filmHeight_px(300, find<BlockView>("block").size())));
   EXPECT_NE(QImage(last), rest);
   EXPECT_EQ(workbench.touch().stages().runs("solve"), 1) << "nothing is solved again";
+}
+
+TEST_F(DeformationPageTest, ALineThatWasNotChosenYetGoesThroughTheMiddleOfThePresentBlock) {
+  Project next = workbench.project();
+  next.design.block_mm = {40, 36, 8};
+  workbench.edit("another block", next);
+  ASSERT_TRUE(solved());
+  find<QTabWidget>("deformationTabs").setCurrentIndex(3);
+  settle();
+  EXPECT_EQ(find<QLineEdit>("lineFrom").text(), "0, 18, 8");
+  EXPECT_EQ(find<QLineEdit>("lineTo").text(), "40, 18, 8");
+  EXPECT_EQ(find<ChartView>("linePlot").chart().series.size(), 1u) << find<ChartView>("linePlot").chart().title;
+}
+
+TEST_F(DeformationPageTest, TheColoursOfTheResistancesHoldOnTheWholeLoadPath) {
+  ASSERT_TRUE(solved());
+  settle();
+  const ColorScale full = find<HeatmapView>("heatmap").heatmap().colors;
+  workbench.touch().showPlace(30);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return workbench.touch().place() == 30; }, kPatience_ms));
+  settle();
+  const HeatmapSpec& partly = find<HeatmapView>("heatmap").heatmap();
+  EXPECT_EQ(partly.colors.low, full.low);
+  EXPECT_EQ(partly.colors.high, full.high);
+  EXPECT_LT(partly.values.cwiseAbs().maxCoeff(), 0.6 * full.high) << "the change itself grows with the load";
+}
+
+TEST_F(DeformationPageTest, AllOfTheBlockStaysInSightWhereAPanelOpensBesideIt) {
+  ASSERT_TRUE(solved());
+  settle();
+  auto& block = find<BlockView>("block");
+  const double before = Eigen::Vector3d(block.cameraPosition().data()).norm();
+  window.resize(window.width() - 250, window.height());
+  settle();
+  EXPECT_GT(Eigen::Vector3d(block.cameraPosition().data()).norm(), before) << "seen from farther away";
+  QWheelEvent nearer({200, 200}, block.mapToGlobal(QPointF(200, 200)), {}, {0, 120}, Qt::NoButton, {},
+                     Qt::NoScrollPhase, false);
+  QApplication::sendEvent(&block, &nearer);
+  settle();
+  const auto chosen = block.cameraPosition();
+  window.resize(window.width() + 100, window.height());
+  settle();
+  EXPECT_EQ(block.cameraPosition(), chosen) << "a look of the user's own stays";
 }
 
 TEST_F(DeformationPageTest, LightsTheElectrodesOfAClickedCell) {

@@ -1,4 +1,5 @@
 #include "app/gui/jobs/KeptTouch.h"
+#include "app/gui/jobs/MatchedLoad.h"
 #include "app/gui/project/ProjectFile.h"
 #include "app/gui/views/BlockView.h"
 #include "app/gui/views/ChartView.h"
@@ -8,6 +9,7 @@
 
 #include <QCheckBox>
 #include <QComboBox>
+#include <QDoubleSpinBox>
 #include <QLabel>
 #include <QPushButton>
 #include <QTabWidget>
@@ -52,6 +54,45 @@ TEST(KeptPath, OfABlockOfAnotherSizeIsReadAtTheSameSharesOfItsSides) {
   EXPECT_LT((path.at(1).fields.displacement_mm - own.displacement_mm).cwiseAbs().maxCoeff(),
             1e-9 * own.displacement_mm.cwiseAbs().maxCoeff());
   EXPECT_TRUE(path.at(1).electrodes.upper_mm.isApprox(alone.displacements()->upper_mm, 1e-12));
+}
+
+TEST(KeptPath, OfABlockOfAnotherSizeIsPressedAtTheSameSharesOfItsSides) {
+  SensorDesign wide = paperDesign();
+  wide.block_mm = {40, 45, 8};
+  LoadCase load;
+  load.patches.push_back({{20, 30}, 5, {1, 0, -3}});
+  const LoadCase matched = matchedLoad(load, wide, paperDesign());
+  ASSERT_EQ(matched.patches.size(), 1u);
+  EXPECT_TRUE(matched.patches[0].centre_mm.isApprox(Eigen::Vector2d(15, 20), 1e-12));
+  EXPECT_EQ(matched.patches[0].radius_mm, 5) << "it is the same stamp";
+  EXPECT_EQ(matched.patches[0].force_N, load.patches[0].force_N);
+  EXPECT_EQ(matchedLoad(load, wide, wide), load);
+  MeshOptions mesh;
+  mesh.mapped = {8, 8, 2};
+  Touch shown(wide, load, mesh);
+  ASSERT_TRUE(shown.advance(Stage::Resistances));
+  const KeptPath path = keptPath(paperDesign(), shown, {});
+  EXPECT_EQ(path.load, matched);
+  // Both sink most at the same share of their sides: nothing is left of one that is pressed elsewhere.
+  const auto deepest = [&](const NodalFields& fields) {
+    Eigen::Index node = 0;
+    fields.displacement_mm.row(2).minCoeff(&node);
+    return Eigen::Vector3d(shown.mesh()->nodes_mm.col(node).cwiseQuotient(wide.block_mm));
+  };
+  EXPECT_LT((deepest(path.at(1).fields) - deepest(shown.problem()->fields(shown.solution()->state()))).norm(),
+            1.5 / 8); // a cell of the mesh
+}
+
+TEST(KeptPath, IsRefusedInASentenceWhereItsLoadAreasAreOtherPlaces) {
+  const Touch shown = solvedTouch(paperDesign(), {6, 6, 2});
+  SensorDesign four = paperDesign();
+  four.areas = {2, 2};
+  try {
+    keptPath(four, shown, {});
+    FAIL() << "area 1 is another place there";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("another place"), std::string::npos) << error.what();
+  }
 }
 
 TEST(KeptPath, IsRefusedInASentenceWhereTheKeptDesignHasNoSuchArea) {
@@ -190,6 +231,27 @@ TEST_F(KeptDesign, IsSubtractedFromTheHeatmapOfTheResistances) {
   ASSERT_EQ(shown.rows(), wanted.rows());
   EXPECT_LT((shown - wanted).cwiseAbs().maxCoeff(), 1e-12);
   EXPECT_GT(wanted.cwiseAbs().maxCoeff(), 0.01);
+}
+
+TEST_F(KeptDesign, ARangeThatIsKeptIsThereAgainAfterTheDifference) {
+  keepAndSoften();
+  window.showScene("deformation");
+  ASSERT_TRUE(solved());
+  find<QCheckBox>("keepRange").setChecked(true);
+  find<QDoubleSpinBox>("rangeTo").setValue(0.25);
+  find<QDoubleSpinBox>("rangeFrom").setValue(-0.04);
+  const std::array<double, 2> range{-0.04, 0.25};
+  ASSERT_EQ(find<BlockView>("block").colorRange(), range);
+  window.showScene("design");
+  QTest::mouseClick(&find<QPushButton>("keptFields"), Qt::LeftButton);
+  ASSERT_TRUE(compared());
+  settle();
+  EXPECT_FALSE(find<QCheckBox>("keepRange").isChecked()) << "a difference has a range of its own";
+  EXPECT_NE(find<BlockView>("block").colorRange(), range);
+  find<QCheckBox>("lessKept").click();
+  settle();
+  EXPECT_TRUE(find<QCheckBox>("keepRange").isChecked());
+  EXPECT_EQ(find<BlockView>("block").colorRange(), range);
 }
 
 } // namespace

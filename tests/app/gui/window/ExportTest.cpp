@@ -1,12 +1,21 @@
 #include "app/gui/jobs/ExportJob.h"
+#include "app/gui/touch/LoadPathAnimation.h"
+#include "app/gui/views/BlockView.h"
 #include "model/base/Cancelled.h"
+#include "tests/app/gui/FullDisk.h"
 #include "tests/app/gui/WindowFixture.h"
 
 #include <QAction>
+#include <QComboBox>
+#include <QDialogButtonBox>
 #include <QDir>
+#include <QDoubleSpinBox>
 #include <QFile>
+#include <QImageReader>
 #include <QMenuBar>
+#include <QPushButton>
 #include <QSignalSpy>
+#include <QSpinBox>
 #include <QTemporaryDir>
 
 #include <gtest/gtest.h>
@@ -96,13 +105,89 @@ TEST_F(Exporting, ATablesNameGetsItsEnding) {
   EXPECT_FALSE(QFile::exists(folder.filePath("table")));
 }
 
-TEST_F(Exporting, AFilmMakesItsFolder) {
+/// Answers the next question about a film, as a user would.
+void answerFilmDialog(bool gif, int pictures, double seconds) {
+  auto* timer = new QTimer(qApp);
+  QObject::connect(timer, &QTimer::timeout, timer, [=] {
+    QWidget* dialog = QApplication::activeModalWidget();
+    if (dialog == nullptr || dialog->objectName() != "film") return;
+    timer->stop();
+    timer->deleteLater();
+    dialog->findChild<QComboBox*>("filmKind")->setCurrentIndex(gif ? 0 : 1);
+    dialog->findChild<QSpinBox*>("filmPictures")->setValue(pictures);
+    dialog->findChild<QSpinBox*>("filmWidth")->setValue(320);
+    dialog->findChild<QDoubleSpinBox*>("filmSeconds")->setValue(seconds);
+    QTest::mouseClick(dialog->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok), Qt::LeftButton);
+  });
+  timer->start(20);
+}
+
+TEST_F(Exporting, AFilmIsAnAnimatedGifOfTheChosenLength) {
   ASSERT_TRUE(solved());
-  answerFileDialog(folder.filePath("film"));
+  answerFilmDialog(true, 5, 2);
+  answerFileDialog(folder.filePath("touch"));
   trigger("Film of the load path");
-  ASSERT_TRUE(QTest::qWaitFor([&] { return QFile::exists(folder.filePath("film/load-000.png")); }, kPatience_ms));
-  QTest::keyClick(&window, Qt::Key_Escape);
-  EXPECT_TRUE(idle());
+  const QString file = folder.filePath("touch.gif");
+  ASSERT_TRUE(written(file));
+  QImageReader reader(file); // Qt's own reader
+  ASSERT_TRUE(reader.supportsAnimation());
+  EXPECT_EQ(reader.imageCount(), 5);
+  EXPECT_EQ(reader.loopCount(), -1) << "for ever";
+  QImage first, last;
+  int time_ms = 0;
+  for (int k = 0; k < 5; ++k) {
+    last = reader.read();
+    if (k == 0) first = last.copy();
+    time_ms += reader.nextImageDelay();
+  }
+  EXPECT_EQ(first.width(), 320);
+  EXPECT_NE(first, last);
+  EXPECT_EQ(time_ms, 2000);
+}
+
+TEST_F(Exporting, AFilmThatIsStoppedLeavesNothing) {
+  ASSERT_TRUE(solved());
+  for (const bool gif : {true, false}) {
+    answerFilmDialog(gif, 500, 100);
+    answerFileDialog(folder.filePath("film"));
+    trigger("Film of the load path");
+    ASSERT_TRUE(window.busy());
+    if (!gif) {
+      ASSERT_TRUE(QTest::qWaitFor([&] { return QFile::exists(folder.filePath("film/load-000.png")); }, kPatience_ms));
+    }
+    window.activateWindow(); // the dialogs had the keys
+    ASSERT_TRUE(QTest::qWaitForWindowActive(&window));
+    QTest::keyClick(&window, Qt::Key_Escape);
+    ASSERT_TRUE(idle());
+    EXPECT_TRUE(QDir(folder.path()).isEmpty()) << "kind " << gif;
+  }
+}
+
+TEST_F(Exporting, AFilmThatDoesNotFitOnTheDiskIsSaidAndLeavesNothing) {
+  ASSERT_TRUE(solved());
+  for (const bool gif : {true, false}) {
+    answerFilmDialog(gif, 3, 1);
+    answerFileDialog(folder.filePath("film"));
+    QString said;
+    const auto listen = QObject::connect(&window.findChild<LoadPathAnimation*>()->runner(), &JobRunner::failed,
+                                         [&](const QString& sentence) { said = sentence; });
+    {
+      const FullDisk full(2000);
+      trigger("Film of the load path");
+      ASSERT_TRUE(idle());
+    }
+    QObject::disconnect(listen);
+    EXPECT_TRUE(said.contains("cannot be written")) << said.toStdString();
+    EXPECT_TRUE(QDir(folder.path()).isEmpty()) << "kind " << gif;
+  }
+}
+
+TEST_F(Exporting, TheViewAloneIsSavedFromTheMenu) {
+  ASSERT_TRUE(solved());
+  answerFileDialog(folder.filePath("slide"));
+  trigger("Picture of the view");
+  const QImage slide(folder.filePath("slide.png"));
+  EXPECT_EQ(slide.size(), 2 * find<BlockView>("block").image().size());
 }
 
 } // namespace

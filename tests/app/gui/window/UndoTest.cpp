@@ -1,5 +1,6 @@
 #include "tests/app/gui/WindowFixture.h"
 
+#include <QCheckBox>
 #include <QDoubleSpinBox>
 #include <QLineEdit>
 #include <QSpinBox>
@@ -81,9 +82,34 @@ TEST_F(Undo, ShowsTheSceneOfWhatItUndoesAndSaysWhat) {
   QTest::keyClick(&force, Qt::Key_Return);
   window.showScene("reports");
   undo(window);
-  EXPECT_EQ(window.currentScene().objectName(), "deformation");
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window.currentScene().objectName() == "deformation"; }, kPatience_ms));
   EXPECT_TRUE(window.statusBar()->currentMessage().startsWith("Undone: area 1: ("))
       << window.statusBar()->currentMessage().toStdString();
+}
+
+TEST_F(Undo, StaysOnASceneThatShowsTheChangeAlsoAcrossOtherSteps) {
+  window.showScene("design");
+  type(find<QLineEdit>("block_mm[0]"), "40");
+  window.showScene("deformation");
+  auto& force = find<QDoubleSpinBox>("force_z");
+  type(force, "-2.5");
+  QTest::keyClick(&force, Qt::Key_Return);
+  window.showScene("design");
+  workbench.history().setIndex(0); // a click on the first line of the history
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window.statusBar()->currentMessage().startsWith("Undone"); }, kPatience_ms));
+  EXPECT_EQ(window.currentScene().objectName(), "design");
+  window.showScene("resistance");
+  workbench.history().setIndex(2);
+  ASSERT_TRUE(
+      QTest::qWaitFor([&] { return window.statusBar()->currentMessage().startsWith("Done again"); }, kPatience_ms));
+  EXPECT_EQ(window.currentScene().objectName(), "resistance");
+}
+
+TEST_F(Undo, NamesASizeOfTheBlockWithItsValuesAlsoWhereTheWiresGoWithIt) {
+  window.showScene("design");
+  find<QCheckBox>("scaleWires").setChecked(true);
+  type(find<QLineEdit>("block_mm[0]"), "40");
+  EXPECT_EQ(workbench.history().undoText(), "block size along x 30 -> 40 mm, and the wires with it");
 }
 
 TEST_F(Undo, LeavesTheLiveSettingsAlone) {

@@ -1,4 +1,4 @@
-#include "app/gui/window/UndoActions.h"
+#include "app/gui/window/history/UndoActions.h"
 
 #include "app/gui/project/Workbench.h"
 

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "app/gui/project/DesignStudies.h"
+
+#include <QJsonObject>
+
+namespace palp {
+
+class JsonPlace;
+
+/// As a project file holds them; nothing where all is as by default.
+QJsonObject studiesJson(const DesignStudies& studies);
+/// Throws Error.
+DesignStudies studiesOf(const JsonPlace& place);
+
+/// As in the project file.
+QJsonObject loadJson(const LoadCase& load);
+/// Throws Error.
+LoadCase loadOf(const JsonPlace& place);
+
+} // namespace palp

@@ -1,0 +1,96 @@
+#include "app/gui/touch/FilmDialog.h"
+
+#include <QComboBox>
+#include <QDialog>
+#include <QDialogButtonBox>
+#include <QDoubleSpinBox>
+#include <QFormLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QSettings>
+#include <QSize>
+#include <QSpinBox>
+
+#include <algorithm>
+
+namespace palp {
+
+namespace {
+
+constexpr double kMostASecond = 50; ///< that a GIF can show: its times are hundredths of a second
+
+} // namespace
+
+int filmHeight_px(int width_px, const QSize& view) {
+  const double share = view.width() > 0 ? static_cast<double>(view.height()) / view.width() : 2.0 / 3;
+  return std::clamp(2 * qRound(0.5 * width_px * share), 2, 4096);
+}
+
+std::optional<FilmSettings> askForFilm(QWidget* parent, const QSize& view) {
+  const FilmSettings usual;
+  QSettings kept;
+  QDialog dialog(parent);
+  dialog.setObjectName("film");
+  dialog.setWindowTitle(QObject::tr("Film of the load path"));
+  auto* form = new QFormLayout(&dialog);
+  auto* kind = new QComboBox;
+  kind->setObjectName("filmKind");
+  kind->addItems({QObject::tr("animated GIF"), QObject::tr("numbered PNG pictures in a folder")});
+  kind->setCurrentIndex(kept.value("film/gif", usual.gif).toBool() ? 0 : 1);
+  kind->setToolTip(QObject::tr("A GIF plays in slides and browsers at once, with 256 colours; of PNG pictures another "
+                               "program makes a film in full colour"));
+  auto* pictures = new QSpinBox;
+  pictures->setObjectName("filmPictures");
+  pictures->setRange(2, 500);
+  pictures->setValue(kept.value("film/pictures", usual.pictures).toInt());
+  pictures->setToolTip(QObject::tr("From rest to the full load, in equal steps of the load"));
+  auto* width = new QSpinBox;
+  width->setObjectName("filmWidth");
+  width->setRange(100, 3840);
+  width->setSuffix(QObject::tr(" px"));
+  width->setValue(kept.value("film/width", usual.width_px).toInt());
+  width->setToolTip(QObject::tr("The pictures have the shape of the view"));
+  auto* seconds = new QDoubleSpinBox;
+  seconds->setObjectName("filmSeconds");
+  seconds->setRange(0.5, 120);
+  seconds->setDecimals(1);
+  seconds->setSuffix(QObject::tr(" s"));
+  seconds->setValue(kept.value("film/seconds", usual.seconds).toDouble());
+  seconds->setToolTip(QObject::tr("How long the film lasts before it begins again"));
+  auto* words = new QLabel;
+  words->setObjectName("filmWords");
+  words->setWordWrap(true);
+  form->addRow(QObject::tr("Make"), kind);
+  form->addRow(QObject::tr("Pictures"), pictures);
+  form->addRow(QObject::tr("Width"), width);
+  form->addRow(QObject::tr("Length"), seconds);
+  form->addRow(words);
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel);
+  buttons->button(QDialogButtonBox::Ok)->setText(QObject::tr("Choose a file..."));
+  form->addRow(buttons);
+  const auto say = [&] {
+    const double rate = pictures->value() / seconds->value();
+    const bool quick = kind->currentIndex() == 0 && rate > kMostASecond;
+    const QString size = QObject::tr("%1 x %2 pixels, %3 pictures a second.")
+                             .arg(width->value())
+                             .arg(filmHeight_px(width->value(), view))
+                             .arg(rate, 0, 'g', 3);
+    words->setText(quick ? size + QObject::tr(" A GIF shows at most 50 a second: fewer pictures, or longer.") : size);
+    buttons->button(QDialogButtonBox::Ok)->setEnabled(!quick);
+  };
+  QObject::connect(kind, &QComboBox::currentIndexChanged, &dialog, say);
+  for (QSpinBox* box : {pictures, width}) QObject::connect(box, &QSpinBox::valueChanged, &dialog, say);
+  QObject::connect(seconds, &QDoubleSpinBox::valueChanged, &dialog, say);
+  QObject::connect(buttons, &QDialogButtonBox::accepted, &dialog, &QDialog::accept);
+  QObject::connect(buttons, &QDialogButtonBox::rejected, &dialog, &QDialog::reject);
+  say();
+  if (dialog.exec() != QDialog::Accepted) return {};
+  const FilmSettings chosen{kind->currentIndex() == 0, pictures->value(), width->value(), seconds->value()};
+  kept.setValue("film/gif", chosen.gif);
+  kept.setValue("film/pictures", chosen.pictures);
+  kept.setValue("film/width", chosen.width_px);
+  kept.setValue("film/seconds", chosen.seconds);
+  return chosen;
+}
+
+} // namespace palp
