@@ -15,9 +15,10 @@ namespace palp {
 namespace {
 
 constexpr std::string_view kMagic = "PALPREC1";
+constexpr int kVersion = 2; // 1 had no tares
 constexpr std::size_t kLongestHead = 1 << 16;
 constexpr std::size_t kEntryHead = 12;
-constexpr std::size_t kLongestEntry = 4096;
+constexpr std::size_t kLongestEntry = 65535;   // a tare of the largest board the protocol knows takes 65,296
 constexpr std::size_t kMostPending = 64 << 20; // a minute and more at 8000 reports/s
 constexpr auto kFlushInterval = std::chrono::milliseconds(500);
 static_assert(std::endian::native == std::endian::little, "host times are copied byte by byte");
@@ -43,7 +44,7 @@ Report reportOf(const JsonPlace& place) {
 }
 
 std::string headText(const RecordingHead& head) {
-  const Json json{{"palp_recording", 1},
+  const Json json{{"palp_recording", kVersion},
                   {"source", head.source},
                   {"info", hexadecimal(encode(head.info))},
                   {"configuration", hexadecimal(encode(head.configuration))},
@@ -56,7 +57,7 @@ RecordingHead parseHead(std::string_view text, const std::string& file) {
   const Json json = parseJson(text, file);
   const JsonPlace root(json, file);
   root.onlyKeys({"palp_recording", "source", "info", "configuration", "network", "started_unix_s"});
-  formatVersion(root, "palp_recording", 1);
+  formatVersion(root, "palp_recording", kVersion);
   RecordingHead head;
   const auto info = decodeInfo(reportOf(root.at("info")));
   const auto configuration = decodeConfiguration(reportOf(root.at("configuration")));
@@ -190,7 +191,7 @@ std::optional<RecordingEntry> RecordingReader::next() {
   const std::size_t length = littleEndian<2>(start, 2);
   RecordingEntry entry;
   std::memcpy(&entry.hostTime_s, start.data() + 4, sizeof entry.hostTime_s);
-  const bool known = start[0] <= static_cast<std::uint8_t>(RecordingEntry::Kind::Connected) && start[1] == 0 &&
+  const bool known = start[0] <= static_cast<std::uint8_t>(RecordingEntry::Kind::Tare) && start[1] == 0 &&
                      length <= kLongestEntry && std::isfinite(entry.hostTime_s);
   if (*stream_ && known) {
     entry.kind = static_cast<RecordingEntry::Kind>(start[0]);

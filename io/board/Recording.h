@@ -28,6 +28,7 @@ struct RecordingEntry {
     Mark = 1,          ///< text of the user
     Configuration = 2, ///< feature 0x11, when it changed
     Connected = 3,     ///< feature 0x10 of the board after an interruption
+    Tare = 4,          ///< what counts as rest from here on (Tare.h); no bytes: no tare any more
   };
   Kind kind = Kind::Raw;
   double hostTime_s = 0;

@@ -7,7 +7,8 @@ namespace palp {
 
 namespace {
 
-constexpr double kLongestGap_s = 1; // longer pauses of the recording are cut to this
+constexpr double kLongestGap_s = 1;  // longer pauses of the recording are cut to this
+constexpr double kSameTime_s = 1e-6; // a time in the recording and back loses less
 
 } // namespace
 
@@ -29,6 +30,7 @@ void ReplaySource::measure() {
     if (!std::exchange(any, true)) first_s_ = entry->hostTime_s;
     last_s_ = entry->hostTime_s;
   }
+  control_->begin_s = first_s_;
   control_->length_s = std::max(0.0, last_s_ - first_s_);
   for (ReplayMark& mark : marks) mark.at_s = std::clamp<double>(mark.at_s - first_s_, 0, control_->length_s);
   const std::lock_guard lock(control_->mutex_);
@@ -49,9 +51,11 @@ void ReplaySource::goTo(double to_s) {
     reader_ = RecordingReader(path_);
     configuration_ = reader_.head().configuration;
     mark_.clear();
+    tare_.reset();
     next_ = reader_.next();
   }
   for (skipToReport(); next_ && next_->hostTime_s < first_s_ + to_s; skipToReport()) next_ = reader_.next();
+  takenUp_s_ = first_s_ + to_s - kSameTime_s;
   started_ = false;
   jumped_ = true;
 }
@@ -76,7 +80,14 @@ std::string ReplaySource::reason() const {
 
 /// Entries between the reports.
 void ReplaySource::take(const RecordingEntry& entry) {
-  if (entry.kind == RecordingEntry::Kind::Mark) mark_.assign(entry.bytes.begin(), entry.bytes.end());
+  if (entry.kind == RecordingEntry::Kind::Mark) {
+    mark_.assign(entry.bytes.begin(), entry.bytes.end());
+    markTime_s_ = entry.hostTime_s;
+  }
+  if (entry.kind == RecordingEntry::Kind::Tare) {
+    auto tare = decodeTare(entry.bytes, info().rowWires, info().columnWires);
+    tare_ = tare ? std::make_shared<const Tare>(std::move(*tare)) : nullptr;
+  }
   if (entry.kind != RecordingEntry::Kind::Configuration) return;
   const auto decoded = decodeConfiguration(entry.bytes);
   if (const auto* configuration = std::get_if<BoardConfiguration>(&decoded)) configuration_ = *configuration;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "io/board/Recording.h"
+#include "io/board/Tare.h"
 
 #include <atomic>
 #include <memory>
@@ -25,6 +26,7 @@ struct ReplayControl {
   std::atomic<bool> paused{false};
   std::atomic<int> steps{0};         ///< frames to go on while paused; the session counts them down
   std::atomic<double> length_s{0};   ///< of the recording, from its first report to its last; set by the source
+  std::atomic<double> begin_s{0};    ///< host time of its first report; set by the source
   std::atomic<double> position_s{0}; ///< that is reached; set by the source
   std::atomic<bool> loop{false};     ///< between the next two, again and again
   std::atomic<double> loopFrom_s{0}, loopTo_s{0};
@@ -58,6 +60,10 @@ public:
   [[nodiscard]] std::string reason() const override;
   /// Text of the last mark that was passed; empty before the first.
   [[nodiscard]] const std::string& mark() const { return mark_; }
+  /// That mark stands where the recording was taken up last, or behind that place: not before it.
+  [[nodiscard]] bool markFollowsJump() const { return markTime_s_ >= takenUp_s_; }
+  /// The tare that held at this place when it was recorded; null: none.
+  [[nodiscard]] const std::shared_ptr<const Tare>& tare() const { return tare_; }
   /// Since the last call it went to another place of the recording.
   [[nodiscard]] bool jumped() { return std::exchange(jumped_, false); }
 
@@ -74,6 +80,9 @@ private:
   BoardConfiguration configuration_;
   std::optional<RecordingEntry> next_;
   std::string mark_;
+  std::shared_ptr<const Tare> tare_;
+  double markTime_s_ = 0; ///< host time of the mark
+  double takenUp_s_ = 0;  ///< host time that was gone to last
   double playedTo_s_ = 0; ///< host time of the recording that is reached
   double asked_s_ = 0;    ///< host clock when that was
   bool started_ = false;

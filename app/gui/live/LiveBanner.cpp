@@ -13,7 +13,7 @@ namespace {
 
 constexpr qsizetype kMostFaults = 4;
 
-QString wordsOf(const LiveHost& host) {
+QString wordsOf(const LiveHost& host, const QString& alarm) {
   const LiveStatus& status = host.status();
   const QString reason = QString::fromStdString(status.reason);
   switch (status.state) {
@@ -31,7 +31,7 @@ QString wordsOf(const LiveHost& host) {
   case LiveState::Paused:
     break;
   }
-  if (!status.alarm.empty()) return QString::fromStdString(status.alarm).replace(0, 1, "A");
+  if (!alarm.isEmpty()) return alarm;
   const LiveFrame* last = host.history().last();
   if (last == nullptr) return {};
   QStringList faults;
@@ -67,8 +67,8 @@ LiveBanner::LiveBanner(QWidget* parent) : QWidget(parent) {
   hide();
 }
 
-void LiveBanner::display(const LiveHost& host) {
-  const QString words = wordsOf(host).trimmed();
+void LiveBanner::display(const LiveHost& host, const QString& alarm) {
+  const QString words = wordsOf(host, alarm).trimmed();
   if (words_->text() != words) words_->setText(words);
   const bool ended = host.status().state == LiveState::Ended && host.replaying();
   const QString role = ended ? "note" : "banner";

@@ -16,7 +16,7 @@ class LiveBanner : public QWidget {
 public:
   explicit LiveBanner(QWidget* parent = nullptr);
 
-  void display(const LiveHost& host);
+  void display(const LiveHost& host, const QString& alarm);
 
 private:
   QLabel* words_ = nullptr;

@@ -17,7 +17,7 @@ namespace palp {
 namespace {
 
 constexpr int kLeaving_ms = 50;
-constexpr int kPanelShare = 700; // of a board's width, beside 1000 of its views
+constexpr int kBoardWithPanel_px = 1000; // that a board needs with its panel
 
 } // namespace
 
@@ -73,7 +73,13 @@ void LiveBoards::build() {
   auto* away = new QPushButton(tr("Take away"));
   away->setObjectName("takeBoardAway");
   away->setToolTip(tr("Shows this board no longer; what is recorded stays in its file"));
+  auto* panelShown = new QPushButton(tr("Panel"));
+  panelShown->setObjectName("boardPanel");
+  panelShown->setCheckable(true);
+  panelShown->setChecked(true);
+  panelShown->setToolTip(tr("Shows the panel of this board, with source, tare and recording, or folds it away"));
   head->addWidget(cell.title, 1);
+  head->addWidget(panelShown);
   head->addWidget(away);
   cell.page = new LivePage(workbench_, boards_->accessOf(readers_++), board);
   cell.page->setObjectName("board");
@@ -81,6 +87,10 @@ void LiveBoards::build() {
   column->addWidget(cell.head);
   column->addWidget(cell.page, 1);
   LivePage* page = cell.page;
+  for (auto* panel : cell.page->findChildren<SidePanel*>()) {
+    connect(panelShown, &QPushButton::clicked, panel, [panel](bool shown) { panel->setFolded(!shown); });
+    connect(panel, &SidePanel::foldedNow, panelShown, [panelShown](bool folded) { panelShown->setChecked(!folded); });
+  }
   connect(away, &QPushButton::clicked, this, [this, page] { remove(page); });
   connect(page, &LivePage::anotherAsked, this, &LiveBoards::add);
   connect(page, &LivePage::looked, this, [this] {
@@ -151,12 +161,10 @@ void LiveBoards::add() {
   Project next = workbench_.project();
   next.moreBoards.push_back(settingsOfAnother());
   workbench_.edit(tr("another board"), next);
-  // The panel of the new one alone, so that all have room.
-  for (std::size_t k = 0; k < cells_.size(); ++k)
-    for (auto* panel : cells_[k].box->findChildren<SidePanel*>()) panel->setFolded(k + 1 < cells_.size());
-  QList<int> widths(static_cast<int>(cells_.size()), 1000); // shares
-  widths.back() += kPanelShare;
-  row_->setSizes(widths);
+  // Where it is narrow the views of all count more than a panel, which a button over each board brings back.
+  const bool narrow = width() < kBoardWithPanel_px * static_cast<int>(cells_.size());
+  for (const Cell& cell : cells_)
+    for (auto* panel : cell.box->findChildren<SidePanel*>()) panel->setFolded(narrow);
   cells_.back().page->setFocus();
 }
 

@@ -18,6 +18,7 @@
 #include <QTableWidget>
 #include <QVBoxLayout>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -28,6 +29,7 @@ namespace {
 constexpr std::array<const char*, 3> kForceNames{"Fx", "Fy", "Fz"};
 constexpr double kMostLabel_N = 500;
 constexpr double kDay_s = 86400;
+constexpr double kMinutesOfADay = 1440;
 
 QPushButton* button(const QString& text, const QString& name, const QString& tip) {
   auto* push = new QPushButton(text);
@@ -38,11 +40,20 @@ QPushButton* button(const QString& text, const QString& name, const QString& tip
 
 QString reportText(const Calibration& calibration, double age_days) {
   const CalibrationReport& report = calibration.report;
-  QString text = QObject::tr("<b>%1 frames</b>, by area").arg(report.samples);
-  for (const int count : report.samplesPerArea) text += QString(" %1").arg(count);
-  text += QObject::tr("; %1 days old.<table cellspacing=0 cellpadding=2><tr><td></td><td>labels [N]</td>"
-                      "<td>coverage</td><td>before [N]</td><td>after, unseen [N]</td><td>of range</td></tr>")
-              .arg(age_days, 0, 'f', 1);
+  QStringList with, without;
+  for (std::size_t area = 0; area < report.samplesPerArea.size(); ++area) {
+    const auto count = report.samplesPerArea[area];
+    if (count > 0) with << QObject::tr("%1 on area %2").arg(count).arg(area);
+    if (count == 0) without << QString::number(area);
+  }
+  QString text = QObject::tr("<b>%1 frames</b>: %2").arg(report.samples).arg(with.join(", "));
+  if (!without.isEmpty()) text += QObject::tr("; not calibrated: area %1").arg(without.join(", "));
+  text += QObject::tr(
+              ". The newest is %1 old.<table cellspacing=0 cellpadding=2><tr><td></td><td>labels [N]&nbsp;&nbsp;</td>"
+              "<td>coverage&nbsp;&nbsp;</td><td>before [N]&nbsp;&nbsp;</td><td>after, unseen [N]&nbsp;&nbsp;</td>"
+              "<td>of range</td></tr>")
+              .arg(age_days < 1 ? QObject::tr("%1 min").arg(age_days * kMinutesOfADay, 0, 'f', 0)
+                                : QObject::tr("%1 days").arg(age_days, 0, 'f', 1));
   for (Eigen::Index axis = 0; axis < 3; ++axis)
     text += QObject::tr("<tr><td>%1&nbsp;</td><td>%2 to %3&nbsp;</td><td>%4 %&nbsp;</td><td>%5</td><td>%6</td>"
                         "<td>%7 %</td></tr>")
@@ -174,7 +185,7 @@ QWidget* LiveCalibration::buildFit() {
   use_ = button(tr("Use"), "useCalibration", tr("Decodes with the refined network from now on"));
   saveNetwork_ = button(tr("Save network..."), "saveCalibration", tr("Keeps the refined network in a file"));
   back_ = button(tr("Back"), "backFromCalibration", tr("Decodes with the network before again"));
-  for (QPushButton* push : {fit_, use_, back_, saveNetwork_}) row->addWidget(push);
+  for (QPushButton* push : {fit_, use_, saveNetwork_, back_}) row->addWidget(push);
   column->addLayout(row);
   connect(fit_, &QPushButton::clicked, this, &LiveCalibration::fit);
   connect(use_, &QPushButton::clicked, this, &LiveCalibration::use);
@@ -275,7 +286,9 @@ void LiveCalibration::displayFrames() {
     for (int d = 0; d < 3; ++d) {
       table_->setItem(row, d + 1, new QTableWidgetItem(QString::number(samples.forces_N(d, row), 'g', 5)));
       const double said_N = frames_.said_N()(d, row);
-      table_->setItem(row, d + 4, new QTableWidgetItem(std::isnan(said_N) ? "" : QString::number(said_N, 'f', 3)));
+      table_->setItem(row, d + 4,
+                      new QTableWidgetItem(
+                          std::isnan(said_N) ? "" : QString::number(std::round(1e3 * said_N) / 1e3 + 0.0, 'f', 3)));
     }
   }
   table_->scrollToBottom();
@@ -298,11 +311,13 @@ void LiveCalibration::displayFit() {
   use_->setEnabled(calibration_.has_value());
   saveNetwork_->setEnabled(calibration_.has_value());
   if (!calibration_) {
-    report_->setText(
-        tr("Put known loads on the sensor, one after the other, and collect a frame under each; at least "
-           "%1 of them, over the whole force range: a load may be put on again. Then fit. %2 of %1 so far.")
-            .arg(kFewestCalibrationFrames)
-            .arg(frames_.samples().size()));
+    const auto count = frames_.samples().size();
+    report_->setText(tr("Put known loads on the sensor, one after the other, and collect a frame under each (a push is "
+                        "negative in z); "
+                        "at least %1 of them, over the whole force range: a load may be put on again. Then fit. ")
+                         .arg(kFewestCalibrationFrames) +
+                     (count < kFewestCalibrationFrames ? tr("%1 of %2 so far.").arg(count).arg(kFewestCalibrationFrames)
+                                                       : tr("%1 so far: enough to fit.").arg(count)));
     return;
   }
   double age_days = newest_s_ > 0 ? (hostClock_s() - newest_s_) / kDay_s : 0;
@@ -310,7 +325,7 @@ void LiveCalibration::displayFit() {
     const auto age = std::filesystem::file_time_type::clock::now() - *written_;
     age_days = std::chrono::duration<double>(age).count() / kDay_s;
   }
-  report_->setText(reportText(*calibration_, age_days));
+  report_->setText(reportText(*calibration_, std::max(0.0, age_days)));
 }
 
 } // namespace palp

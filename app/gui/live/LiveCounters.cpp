@@ -42,7 +42,7 @@ LiveCounters::LiveCounters(QWidget* parent) : QWidget(parent) {
   losses_ = add("liveLosses", tr("Lost, bad, late"),
                 tr("Reports missing in the sequence / with a wrong length, ID, checksum or range / frames that were "
                    "decoded more than 20 ms after the board read them; all since the start"));
-  latency_ = add("liveLatency", tr("Latency [ms]"),
+  latency_ = add("liveLatency", tr("Latency [ms], 50 / 99 / 100 %"),
                  tr("From the board's clock at the last reading of a frame to the decoded force [ms], median / 99 % / "
                     "longest; offset and drift of the two clocks are taken out. Below: what this program takes of it, "
                     "median / 99 %, "
@@ -55,7 +55,7 @@ LiveCounters::LiveCounters(QWidget* parent) : QWidget(parent) {
              "of a second lies above it, or the force lies outside of what was trained: drift, hysteresis, several "
              "touches, or another sensor"));
   climate_ =
-      add("liveClimate", tr("Temperature"),
+      add("liveClimate", tr("Temperature, noise, drift"),
           tr("Of the board [degC]; relative noise of a reading: measured while taring, before that from frame to "
              "frame; drift: how far all readings have gone together since rest [millionths], seen while the "
              "sensor is left alone. Where that reads as more than 1 % of the force range, a tare is suggested"));
@@ -138,14 +138,12 @@ void LiveCounters::display(const LiveStatus& status, const LiveFrame* last, bool
   set(latency_, triple(status.latency, status.counts.frames),
       status.counts.frames == 0
           ? QString()
-          : tr("here %1 / %2").arg(milliseconds(status.decoding.p50_s), milliseconds(status.decoding.p99_s)));
+          : tr("here %1 / %2 of it").arg(milliseconds(status.decoding.p50_s), milliseconds(status.decoding.p99_s)));
   displayTrust(status, last);
-  const QString drift = status.drift ? tr("%1 ppm").arg(qRound64(1e6 * *status.drift)) : QString();
+  const QString drift = status.drift ? tr("drift %1 ppm").arg(qRound64(1e6 * *status.drift)) : QString();
   const QString reads =
-      status.tareSuggested ? tr(" reads as %1 N: tare").arg(status.driftForce_N, 0, 'g', 2) : QString();
-  const QString noise =
-      status.noise > 0 ? tr("noise %1%2").arg(status.noise, 0, 'g', 2).arg(status.tared ? tr(", tared") : QString())
-                       : tr("noise not known");
+      status.tareSuggested ? tr(", reads as %1 N: tare").arg(status.driftForce_N, 0, 'g', 2) : QString();
+  const QString noise = status.noise > 0 ? tr("noise %1").arg(status.noise, 0, 'g', 2) : tr("noise not known");
   set(climate_,
       status.temperature_degC ? QString::fromUtf8("%1 \u00b0C").arg(*status.temperature_degC, 0, 'f', 1) : tr("none"),
       status.tareSuggested ? drift + reads

@@ -31,15 +31,23 @@ std::size_t firstShown(const LiveHistory& history, double window_s) {
   return place > 0 ? place - 1 : 0; // one before, so that the curve reaches the left edge
 }
 
-/// What all curves share: time, marks.
+/// What all curves share: time, marks, and the times of an alarm.
 StripSpec timeAxis(const LiveHistory& history, const LiveSettings& settings) {
   StripSpec spec;
   spec.window_s = settings.window_s;
   const auto& entries = history.entries();
   if (entries.empty()) return spec;
   spec.end_s = entries.back().t_s;
-  for (std::size_t k = firstShown(history, settings.window_s); k < entries.size(); ++k)
-    if (entries[k].newMark) spec.marks.emplace_back(entries[k].t_s, QString::fromStdString(entries[k].frame->mark));
+  bool alarm = false;
+  for (std::size_t k = firstShown(history, settings.window_s); k < entries.size(); ++k) {
+    const std::string& mark = entries[k].frame->mark;
+    const bool over = mark == kAlarmOver;
+    if (entries[k].newMark && !over) spec.marks.emplace_back(entries[k].t_s, QString::fromStdString(mark));
+    const bool begins = !alarm && mark.starts_with(kAlarmBegins);
+    if (begins) spec.spans.push_back({entries[k].t_s, entries[k].t_s});
+    alarm = (alarm || begins) && !over;
+    if (alarm || (over && entries[k].newMark && !spec.spans.empty())) spec.spans.back()[1] = entries[k].t_s;
+  }
   return spec;
 }
 

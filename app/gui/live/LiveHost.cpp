@@ -1,5 +1,6 @@
 #include "app/gui/live/LiveHost.h"
 
+#include "app/gui/project/FileKind.h"
 #include "app/study/live/LiveSource.h"
 #include "io/AtomicFile.h"
 #include "io/DecoderFile.h"
@@ -24,11 +25,6 @@ template <class Open> std::unique_ptr<ReportSource> orRefuse(const Open& open) {
   } catch (const std::exception& refusal) {
     throw BoardError(refusal.what());
   }
-}
-
-/// Throws Error where the network cannot read this board.
-void requireUse(const Decoder& decoder, const std::optional<BoardInfo>& info) {
-  if (info) static_cast<void>(ForceDecoder(decoder, *info));
 }
 
 } // namespace
@@ -66,6 +62,7 @@ void LiveHost::setSettings(const LiveSettings& settings, const SensorDesign& des
   if (!session_) return; // opened when the scene is first seen
   if (!networkAsked_) loadNetwork();
   if (otherDesign) followDesign();
+  if (before.simulation.seed != settings.simulation.seed) tares_.clear(); // another sensor
   if (!sameSource(before, settings)) return restart();
   if (before.rate_Hz != settings.rate_Hz || before.row != settings.row) configured_ = 0;
 }
@@ -110,7 +107,9 @@ void LiveHost::followDesign() {
     loadNetwork();
   else
     setNetwork(network_);
-  if (other && session_) restart();
+  if (!other || !session_) return;
+  tares_.clear(); // the simulated sensor is another one
+  restart();
 }
 
 /// The project's design where the network is of it; none leaves the choice to the decoder.
@@ -124,6 +123,7 @@ LiveOptions LiveHost::options() {
   options.decoder = network_.decoder;
   options.design = tareDesign();
   options.alarm = alarm();
+  options.tareOf = [kept = tares_](const BoardInfo& board) { return kept.of(board); };
   simulation_ = std::make_shared<SimulationControl>();
   simulation_->set(faults(), disturbance());
   replay_.reset();
@@ -164,7 +164,8 @@ LiveOptions LiveHost::options() {
   case LiveSourceKind::Simulated:
     options.open = simulated;
     break;
-  case LiveSourceKind::Recording:
+  case LiveSourceKind::Recording: // its tare stands in it
+    options.tareOf = {};
     replay_ = std::make_shared<ReplayControl>();
     replay_->speed = settings_.replaySpeed;
     options.replay = replay_;
@@ -227,8 +228,9 @@ bool LiveHost::closed() {
 
 void LiveHost::applyPause() {
   if (!session_) return;
+  recorded_ = recording();
   const bool idle = !visible_ && !watches();
-  const bool held = (visible_ && paused_) || idle; // a recording goes on all the same
+  const bool held = (visible_ && paused_) || (idle && !recorded_); // its curves have no hole where one was elsewhere
   session_->idle(idle);
   if (replay_) {
     replay_->paused = held;
@@ -250,9 +252,11 @@ void LiveHost::loadNetwork() {
   const std::optional<BoardInfo> info = network_.decoder ? status_.info : std::nullopt;
   loader_.start(tr("Reading the network"), [this, file = settings_.network, info](const std::stop_token&,
                                                                                   JobProgress&) {
+    if (!file.empty()) requireKind(QString::fromStdString(file), FileKind::Network);
     const std::filesystem::path path = file.empty() ? shippedNetwork() : std::filesystem::path(file);
     auto loaded = std::make_shared<Network>(Network{readNetwork(path), file, fingerprint(readFile(path)), {}, false});
-    if (!file.empty()) requireUse(*loaded->decoder, info);
+    if (!file.empty() && info)
+      static_cast<void>(ForceDecoder(*loaded->decoder, *info)); // throws where it cannot read it
     return [this, loaded] {
       before_ = {};
       setNetwork(std::move(*loaded));
@@ -281,6 +285,11 @@ void LiveHost::useDecoder(Decoder decoder, const QString& name) {
   setNetwork({std::move(decoder), network_.file, {}, name, network_.ofSimulation});
 }
 
+void LiveHost::useChosenNetwork() {
+  mark(tr("network: as it was chosen").toStdString());
+  loadNetwork();
+}
+
 void LiveHost::backToNetwork() {
   if (before_.name.isEmpty()) return;
   Network back = std::exchange(before_, {});
@@ -297,8 +306,10 @@ void LiveHost::seek(double to_s) {
 bool LiveHost::look() {
   if (!session_) return false;
   status_ = session_->status();
+  if (status_.info && !replay_) tares_.keep(*status_.info, status_.tare);
   fresh_ = session_->drain();
   for (const auto& frame : fresh_) history_.add(frame);
+  if (recording() != recorded_) applyPause();
   if (watch_) watch_->setQuiet(*boardSeen_ && status_.state == LiveState::Streaming);
   configureOnce();
   const bool stoodIn = settings_.source == LiveSourceKind::Automatic && !*boardSeen_ && status_.connections > 0;

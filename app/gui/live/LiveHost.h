@@ -6,6 +6,7 @@
 #include "app/study/live/BoardWatch.h"
 #include "app/study/live/LiveHistory.h"
 #include "app/study/live/SimulatedTouch.h"
+#include "io/board/KeptTares.h"
 #include "io/board/SimulatedSource.h"
 
 #include <QObject>
@@ -88,6 +89,8 @@ public:
   [[nodiscard]] const std::filesystem::path& recordingFile() const { return recordingFile_; }
   /// A refined network in place of the one in use, which can be had back. Recordings get a mark.
   void useDecoder(Decoder decoder, const QString& name);
+  /// The network of the settings again, in place of one that was refined since.
+  void useChosenNetwork();
   /// The network that was in use before; its name is empty where there is none to go back to.
   void backToNetwork();
   [[nodiscard]] const QString& networkBefore() const { return before_.name; }
@@ -134,6 +137,7 @@ private:
   Network network_, before_; ///< in use, and the one that can be had back
   bool networkAsked_ = false;
   bool visible_ = false, paused_ = false;
+  bool recorded_ = false; ///< at the last look
   std::filesystem::path recordingFile_;
   double recordingSince_s_ = 0;
   SimulatedDesign simulatedDesign_;
@@ -145,6 +149,7 @@ private:
   std::unique_ptr<LiveSession> session_;
   std::vector<std::future<void>> closing_; ///< sessions and watches before these, while they end
   LiveStatus status_;
+  KeptTares tares_;
   LiveHistory history_;
   std::vector<std::shared_ptr<const LiveFrame>> fresh_;
   std::uint64_t configured_ = 0; ///< the connection that has got its rate and rows

@@ -7,6 +7,7 @@ namespace palp {
 namespace {
 
 constexpr int kSecondsOfAMinute = 60;
+constexpr double kLeastAlarm_s = 1; // that an alarm is shown
 
 QString roleOf(LiveLampState::Kind kind) {
   switch (kind) {
@@ -35,8 +36,16 @@ QString LiveWatch::take(const LiveHost& host, bool seen) {
   const std::uint64_t fresh = status.alarms - alarms_;
   alarms_ = status.alarms;
   if (fresh == 0) return {};
+  began_s_ = hostClock_s();
   if (!seen) unseen_ += static_cast<int>(fresh);
   return QString::fromStdString(status.lastAlarm);
+}
+
+QString LiveWatch::alarm(const LiveHost& host) const {
+  const LiveStatus& status = host.status();
+  const bool fresh = host.settings().alarmOn && began_s_ > 0 && hostClock_s() - began_s_ < kLeastAlarm_s;
+  QString words = QString::fromStdString(status.alarm.empty() && fresh ? status.lastAlarm : status.alarm);
+  return words.replace(0, 1, words.left(1).toUpper());
 }
 
 LiveLampState LiveWatch::state(const LiveHost& host, bool seen) const {
@@ -46,8 +55,9 @@ LiveLampState LiveWatch::state(const LiveHost& host, bool seen) const {
       status.recordingWaits ? QObject::tr("Recording %1 waits for the board").arg(file)
       : status.recording    ? QObject::tr("Recording %1, %2").arg(file, timeOf(hostClock_s() - host.recordingSince_s()))
                             : QString();
-  if (!status.alarm.empty() || unseen_ > 0) {
-    QString words = QString::fromStdString(status.alarm.empty() ? status.lastAlarm : status.alarm);
+  const QString alarm = this->alarm(host);
+  if (!alarm.isEmpty() || unseen_ > 0) {
+    QString words = alarm.isEmpty() ? QString::fromStdString(status.lastAlarm) : alarm;
     words.replace(0, 1, words.left(1).toUpper());
     if (unseen_ > 1) words += QObject::tr(" (%1 times)").arg(unseen_);
     return {LiveLampState::Kind::Alarm, recording.isEmpty() ? words : words + "; " + recording};

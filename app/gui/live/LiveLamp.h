@@ -21,10 +21,13 @@ public:
   /// After each look of the host; says a new alarm in words, once.
   QString take(const LiveHost& host, bool seen);
   [[nodiscard]] LiveLampState state(const LiveHost& host, bool seen) const;
+  /// The alarm that is on, in words, for a second at least: a short touch is seen too. Empty: none.
+  [[nodiscard]] QString alarm(const LiveHost& host) const;
 
 private:
   std::uint64_t alarms_ = 0; ///< that were said
   int unseen_ = 0;
+  double began_s_ = 0; ///< host clock when the last one was said
 };
 
 /// A lamp in the window's status line; a click leads to the Live scene.

@@ -7,7 +7,6 @@
 #include "app/gui/live/LiveDrawings.h"
 #include "app/gui/live/LiveTwin.h"
 #include "app/gui/live/LiveView.h"
-#include "app/gui/live/RecordingName.h"
 #include "app/gui/live/ReplayBar.h"
 #include "app/gui/live/panels/LiveControlPanel.h"
 #include "app/gui/live/panels/LiveSourcePanel.h"
@@ -19,7 +18,6 @@
 #include <QAbstractButton>
 #include <QDir>
 #include <QHBoxLayout>
-#include <QMessageBox>
 #include <QScrollArea>
 #include <QShortcut>
 #include <QSplitter>
@@ -163,9 +161,10 @@ void LivePage::connectPanels() {
     change(tr("source"), [](LiveSettings& settings) { settings.source = LiveSourceKind::Automatic; });
   });
   connect(control_, &LiveControlPanel::backAsked, &host_, &LiveHost::backToNetwork);
+  connect(control_, &LiveControlPanel::shippedAsked, &host_, &LiveHost::useChosenNetwork);
   connect(source_, &LiveSourcePanel::openAgainAsked, &host_, &LiveHost::restart);
   connect(source_, &LiveSourcePanel::anotherAsked, this, &LivePage::anotherAsked);
-  connect(control_, &LiveControlPanel::tareAsked, &host_, &LiveHost::tare);
+  connect(control_, &LiveControlPanel::tareAsked, this, &LivePage::tare);
   connect(control_, &LiveControlPanel::clearTareAsked, &host_, &LiveHost::clearTare);
   connect(control_, &LiveControlPanel::pauseAsked, &host_, &LiveHost::setPaused);
   connect(control_, &LiveControlPanel::markAsked, this, [this](const QString& text) {
@@ -173,14 +172,7 @@ void LivePage::connectPanels() {
     if (!host_.recording()) emit message(tr("Marked; nothing is being recorded."));
   });
   connect(control_, &LiveControlPanel::recordAsked, this, &LivePage::record);
-  connect(control_, &LiveControlPanel::exportAsked, this, [this](const QString& file) {
-    try {
-      writeLiveCsv(file.toStdString(), host_.history());
-      emit message(tr("Wrote %1 frames to %2.").arg(host_.history().entries().size()).arg(file));
-    } catch (const std::exception& refusal) {
-      emit message(QString::fromStdString(refusal.what()));
-    }
-  });
+  connect(control_, &LiveControlPanel::exportAsked, this, &LivePage::exportFrames);
   connect(heatmap_, &HeatmapView::cellClicked, this, &LivePage::toggleCell);
   connect(&host_, &LiveHost::networkRefused, this, &LivePage::refuseNetwork);
   connect(&host_, &LiveHost::decoderChanged, this, [this] {
@@ -319,7 +311,9 @@ void LivePage::lookHidden() {
 
 void LivePage::announceAlarm() {
   const QString alarm = watch_.take(host_, isVisible());
-  if (!alarm.isEmpty()) emit message(alarm);
+  if (alarm.isEmpty()) return;
+  stateLook_ = 0; // it is seen at once
+  emit message(alarm);
 }
 
 void LivePage::look() {
@@ -335,55 +329,6 @@ void LivePage::look() {
   drawForces();
   drawHeatmap();
   drawCurves();
-}
-
-void LivePage::record(const QString& file, bool replace) {
-  if (host_.recording()) return stopRecording();
-  const std::filesystem::path wanted = file.toStdString();
-  const std::filesystem::path path = replace ? wanted : freeRecording(wanted, QDateTime::currentDateTime());
-  try {
-    host_.startRecording(path, replace);
-    control_->displayRecording(QString::fromStdString(path.string()), {});
-    emit message(tr("Recording to %1.").arg(QString::fromStdString(path.string())));
-  } catch (const std::exception& refusal) {
-    control_->displayRecording({}, QString::fromStdString(refusal.what()));
-    emit message(QString::fromStdString(refusal.what()));
-  }
-  stateLook_ = 0;
-}
-
-bool LivePage::mayEndRecording() {
-  const auto answer = QMessageBox::question(this, tr("A recording is running"),
-                                            tr("Another source ends the recording to %1. End it?")
-                                                .arg(QString::fromStdString(host_.recordingFile().string())));
-  if (answer != QMessageBox::Yes) return false;
-  stopRecording();
-  return true;
-}
-
-void LivePage::stopRecording() {
-  emit message(tr("Recorded %1 s to %2.")
-                   .arg(hostClock_s() - host_.recordingSince_s(), 0, 'f', 1)
-                   .arg(QString::fromStdString(host_.recordingFile().string())));
-  host_.stopRecording();
-}
-
-void LivePage::solveTwin() {
-  const LiveFrame* last = host_.history().lastValid();
-  if (last == nullptr) {
-    emit message(tr("No force has been decoded yet."));
-    return;
-  }
-  LoadCase load;
-  for (const LiveArrow& arrow : arrowsOf(last->forces)) load.areas.push_back({arrow.area, arrow.force_N});
-  if (load.areas.empty()) {
-    emit message(tr("The sensor is at rest: press it, then ask for the twin."));
-    return;
-  }
-  blockTabs_->setCurrentWidget(twin_);
-  const SensorDesign& sensor = host_.sensor();
-  const bool own = sensor == workbench_.project().design;
-  twin_->solve(sensor, load, own ? workbench_.project().mesh : MeshOptions{}, last->change);
 }
 
 } // namespace palp

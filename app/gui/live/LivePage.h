@@ -83,6 +83,8 @@ private:
   void drawHeatmap();
   void drawCurves();
   void toggleCell(int row, int column);
+  void tare();
+  void exportFrames(const QString& file);
   void record(const QString& file, bool replace);
   bool mayEndRecording();
   void stopRecording();

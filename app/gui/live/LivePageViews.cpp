@@ -76,7 +76,7 @@ void LivePage::drawState() {
   control_->displayState(
       {status, host_.paused(), hostClock_s() - host_.recordingSince_s(), networkWords(host_), host_.networkBefore()});
   calibration_->displayState();
-  banner_->display(host_);
+  banner_->display(host_, watch_.alarm(host_));
   const bool streams = status.state == LiveState::Streaming || status.state == LiveState::Paused;
   if (!streams) drawForces(); // the arrows turn grey
 }

@@ -35,6 +35,19 @@ FileKind fileKind(const QString& file) {
   return head.trimmed().startsWith('{') ? FileKind::Project : FileKind::Foreign;
 }
 
+void requireKind(const QString& file, FileKind wanted) {
+  constexpr std::array kWords{QT_TRANSLATE_NOOP("FileKind", "a design"), QT_TRANSLATE_NOOP("FileKind", "a project"),
+                              QT_TRANSLATE_NOOP("FileKind", "samples"), QT_TRANSLATE_NOOP("FileKind", "a network"),
+                              QT_TRANSLATE_NOOP("FileKind", "a recording")};
+  const FileKind kind = fileKind(file);
+  if (kind == wanted || kind == FileKind::Project) return; // which may be broken JSON
+  const QString is = kind == FileKind::Foreign ? QObject::tr("no file of Palp's")
+                                               : QObject::tr(kWords.at(static_cast<std::size_t>(kind)));
+  throw Error(QObject::tr("%1: is %2, not %3")
+                  .arg(file, is, QObject::tr(kWords.at(static_cast<std::size_t>(wanted))))
+                  .toStdString());
+}
+
 QString foreignWords(const QString& file) {
   const QString type = QFileInfo(file).size() == 0
                            ? QObject::tr("empty")

@@ -12,6 +12,8 @@ namespace palp {
 namespace {
 
 constexpr double kLegendLine_px = 32; // of a legend's entry beside its name
+constexpr double kMarkGap_px = 3;     // between a mark's line and its words
+constexpr double kLeastWords_px = 24; // of a mark that tell anything
 constexpr double kBeyond = 10;        // heights of the plot by which a curve leaves it at most
 
 QColor ink(const Color& color) {
@@ -134,6 +136,10 @@ void StripChart::paintAxes(QPainter& painter, const QRectF& plot) const {
 void StripChart::paintCurves(QPainter& painter, const QRectF& plot) const {
   painter.save();
   painter.setClipRect(plot.adjusted(0, -1, 0, 1));
+  QColor tint = ink(palp::palette(theme_).force);
+  tint.setAlphaF(0.15F);
+  for (const auto& [from_s, to_s] : spec_.spans)
+    painter.fillRect(QRectF(QPointF(xOf(plot, from_s), plot.top()), QPointF(xOf(plot, to_s), plot.bottom())), tint);
   painter.setRenderHint(QPainter::Antialiasing);
   // Lines, and no polyline: its stroke is one path, and a frame of a noisy signal took Qt's painter seconds to fill it.
   QList<QLineF> lines;
@@ -174,14 +180,31 @@ void StripChart::paintCurves(QPainter& painter, const QRectF& plot) const {
     const double y = yOf(plot, limit);
     if (y >= plot.top() && y <= plot.bottom()) painter.drawLine(QPointF(plot.left(), y), QPointF(plot.right(), y));
   }
-  painter.setPen(QPen(ink(palp::palette(theme_).selection), 1, Qt::DashLine));
-  for (const auto& [t_s, words] : spec_.marks) {
-    const double x = xOf(plot, t_s);
-    if (x < plot.left() || x > plot.right()) continue;
-    painter.drawLine(QPointF(x, plot.top()), QPointF(x, plot.bottom()));
-    painter.drawText(QPointF(x + 3, plot.bottom() - 4), words);
-  }
+  paintMarks(painter, plot);
   painter.restore();
+}
+
+/// The words of a mark end where the next one begins; the cursor reads them in full.
+void StripChart::paintMarks(QPainter& painter, const QRectF& plot) const {
+  const QFontMetricsF metrics(font());
+  QColor ground = ink(palp::palette(theme_).ground);
+  ground.setAlphaF(0.8F);
+  const QPen pen(ink(palp::palette(theme_).selection), 1, Qt::DashLine);
+  for (std::size_t k = 0; k < spec_.marks.size(); ++k) {
+    const double x = xOf(plot, spec_.marks[k].first);
+    if (x < plot.left() || x > plot.right()) continue;
+    painter.setPen(pen);
+    painter.drawLine(QPointF(x, plot.top()), QPointF(x, plot.bottom()));
+    const double next =
+        k + 1 < spec_.marks.size() ? std::min(xOf(plot, spec_.marks[k + 1].first), plot.right()) : plot.right();
+    const double room = next - x - 2 * kMarkGap_px;
+    if (room < kLeastWords_px) continue;
+    const QString words = metrics.elidedText(spec_.marks[k].second, Qt::ElideRight, room);
+    const QRectF place(x + kMarkGap_px, plot.bottom() - metrics.height() - 2, metrics.horizontalAdvance(words),
+                       metrics.height());
+    painter.fillRect(place, ground);
+    painter.drawText(place, Qt::AlignLeft | Qt::AlignVCenter, words);
+  }
 }
 
 double StripChart::legendWidth() const {
@@ -216,6 +239,8 @@ QString StripChart::reading() const {
     const QString number = std::isfinite(value) ? QString::number(value, 'g', 4) + unit() : tr("none");
     words << QString("%1 %2").arg(series.name, number);
   }
+  for (const auto& [mark_s, text] : spec_.marks)
+    if (std::abs(xOf(plot, mark_s) - pointer_px_) <= kMarkGap_px) words << text;
   return words.join("   ");
 }
 

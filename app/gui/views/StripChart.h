@@ -26,6 +26,7 @@ struct StripSpec {
   double window_s = 10;
   std::vector<StripSeries> series;
   std::vector<std::pair<double, QString>> marks; ///< events at their times
+  std::vector<std::array<double, 2>> spans;      ///< tinted times: from, to
   std::vector<double> limits;                    ///< drawn across
   QString empty;                                 ///< said where there is no curve
 };
@@ -81,6 +82,7 @@ private:
   void saveCsv();
   void paintAxes(QPainter& painter, const QRectF& plot) const;
   void paintCurves(QPainter& painter, const QRectF& plot) const;
+  void paintMarks(QPainter& painter, const QRectF& plot) const;
   void paintLegend(QPainter& painter, const QRectF& plot) const;
   void paintReading(QPainter& painter, const QRectF& plot) const;
   [[nodiscard]] double legendWidth() const;

@@ -6,6 +6,7 @@
 #include <QComboBox>
 #include <QEvent>
 #include <QScrollBar>
+#include <QWheelEvent>
 
 namespace palp {
 
@@ -25,17 +26,25 @@ WheelGuard::WheelGuard(QObject* parent) : QObject(parent) {
 }
 
 bool WheelGuard::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::MouseButtonPress) scrolledAt_ = {-1, -1};
   const bool wheel = event->type() == QEvent::Wheel;
-  if ((!wheel && event->type() != QEvent::Polish) || !turnsWithTheWheel(*watched)) return false;
-  auto& box = static_cast<QWidget&>(*watched);
+  if (!wheel && event->type() != QEvent::Polish) return false;
+  const bool turns = turnsWithTheWheel(*watched);
   if (!wheel) {
-    if (box.focusPolicy() == Qt::WheelFocus) box.setFocusPolicy(Qt::StrongFocus); // turning it would focus it first
+    auto* box = turns ? static_cast<QWidget*>(watched) : nullptr;
+    if (box != nullptr && box->focusPolicy() == Qt::WheelFocus)
+      box->setFocusPolicy(Qt::StrongFocus); // turning it would focus it first
     return false;
   }
+  if (!watched->isWidgetType()) return false; // the window of the system, before its widget
+  const QPointF place = static_cast<QWheelEvent&>(*event).globalPosition();
   const QWidget* focused = QApplication::focusWidget();
-  if (focused != nullptr && (focused == &box || box.isAncestorOf(focused))) return false;
-  event->ignore(); // goes on to the panel
-  return true;
+  const auto* box = turns ? static_cast<QWidget*>(watched) : nullptr;
+  const bool its = box != nullptr && focused != nullptr && (focused == box || box->isAncestorOf(focused));
+  if (its && place != scrolledAt_) return false;
+  scrolledAt_ = place;
+  if (turns) event->ignore(); // goes on to the panel
+  return turns;
 }
 
 } // namespace palp

@@ -146,6 +146,10 @@ void MainWindow::buildStatusLine() {
 }
 
 void MainWindow::cancelAll() {
+  if (QWidget* popup = QApplication::activePopupWidget(); popup != nullptr) { // what one sees
+    popup->close();
+    return;
+  }
   if (&currentScene() == reports_) reports_->cancel();
   lamps_->cancel(names_[scenes_->currentIndex()]);
 }
@@ -240,7 +244,8 @@ bool MainWindow::mayEndRecording() {
   if (files.isEmpty()) return true;
   const auto answer = QMessageBox::question(
       this, tr("A recording is running"),
-      tr("%1 is being recorded. Quitting ends the recording; what has come is in the file. Quit?").arg(files));
+      tr("%1 is being recorded. Quitting ends the recording; what has come is in the file. Quit?").arg(files),
+      QMessageBox::Yes | QMessageBox::No, QMessageBox::No);
   return answer == QMessageBox::Yes;
 }
 

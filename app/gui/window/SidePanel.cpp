@@ -43,6 +43,7 @@ void SidePanel::setFolded(bool folded) {
   strip_->setArrowType(folded ? Qt::RightArrow : Qt::LeftArrow);
   strip_->setToolTip(folded ? tr("Shows the panel (F9)") : tr("Folds the panel away (F9)"));
   strip_->setAccessibleName(folded ? tr("Show the panel") : tr("Fold the panel away"));
+  emit foldedNow(folded);
 }
 
 bool SidePanel::folded() const {

@@ -18,6 +18,9 @@ public:
   void setFolded(bool folded);
   [[nodiscard]] bool folded() const;
 
+signals:
+  void foldedNow(bool folded);
+
 protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
 

@@ -12,17 +12,30 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 
 namespace palp {
 
 namespace {
 
+constexpr double kSmall_N = 0.1;
 constexpr double kWordGap_mm = 0.7; // between an arrow's end and its words
 
 std::string forceText(const Eigen::Vector3d& force_N) {
   std::array<char, 96> buffer{};
   std::snprintf(buffer.data(), buffer.size(), "(%.3g, %.3g, %.3g) N", force_N.x(), force_N.y(), force_N.z());
+  return buffer.data();
+}
+
+/// Two decimals [N], three where the force is small.
+std::string steadyText(const Eigen::Vector3d& force_N) {
+  const int decimals = force_N.norm() < kSmall_N ? 3 : 2;
+  const double step_N = std::pow(10, -decimals);
+  const Eigen::Array3d shown_N = (force_N.array() / step_N).round() * step_N + 0.0; // no "-0.00"
+  std::array<char, 96> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "(%.*f, %.*f, %.*f) N", decimals, shown_N.x(), decimals, shown_N.y(),
+                decimals, shown_N.z());
   return buffer.data();
 }
 
@@ -60,7 +73,8 @@ ForceArrows::ForceArrows(vtkRenderer& renderer)
   renderer.AddActor(actor_);
 }
 
-void ForceArrows::showToScale(const std::vector<PlacedForce>& forces, double mm_per_N, const Color& color) {
+void ForceArrows::showToScale(const std::vector<PlacedForce>& forces, double mm_per_N, const Color& color,
+                              bool fixedDigits) {
   words_.clear();
   vtkNew<vtkPoints> starts;
   vtkNew<vtkDoubleArray> arrows;
@@ -73,7 +87,8 @@ void ForceArrows::showToScale(const std::vector<PlacedForce>& forces, double mm_
     const Eigen::Vector3d arrow = mm_per_N * force.force_N;
     starts->InsertNextPoint(start.data());
     arrows->InsertNextTuple(arrow.data());
-    words_.push_back({far + Eigen::Vector3d(0, 0, kWordsAbove_mm), forceText(force.force_N), color});
+    words_.push_back({far + Eigen::Vector3d(0, 0, kWordsAbove_mm),
+                      fixedDigits ? steadyText(force.force_N) : forceText(force.force_N), color});
   }
   data_->SetPoints(starts);
   data_->GetPointData()->Initialize();

@@ -35,7 +35,9 @@ public:
   explicit ForceArrows(vtkRenderer& renderer);
 
   /// Each newton has the given length.
-  void showToScale(const std::vector<PlacedForce>& forces, double mm_per_N, const Color& color);
+  /// `fixedDigits`: forces that change from frame to frame keep their decimals.
+  void showToScale(const std::vector<PlacedForce>& forces, double mm_per_N, const Color& color,
+                   bool fixedDigits = false);
   /// The forces in words, each at its arrow's free end.
   [[nodiscard]] const std::vector<PlacedText>& words() const { return words_; }
 

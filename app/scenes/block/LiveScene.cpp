@@ -150,7 +150,7 @@ void LiveScene::showForces(const std::vector<LiveArrow>& arrows, bool stale, con
   const Color& color = stale ? kStale : ink.force;
   std::vector<PlacedForce> forces;
   for (const LiveArrow& arrow : parts.arrows) forces.push_back({middle(parts.design, arrow.area), arrow.force_N});
-  parts.forces.showToScale(forces, parts.options.mm_per_N, color);
+  parts.forces.showToScale(forces, parts.options.mm_per_N, color, true);
   parts.tintAreas(color);
   parts.overlay->words.clear();
   for (int area = 0; area < parts.design.areas.count(); ++area)

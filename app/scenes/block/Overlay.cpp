@@ -47,6 +47,10 @@ std::vector<double> legendTicks(const ColorScale& colors, double height_px, doub
   const int closest = static_cast<int>(height_px / (16 * scale));
   for (int more = most + 1; ticks.size() < 3 && more <= closest; ++more)
     ticks = roundTicks(colors.low, colors.high, more);
+  // Lower still: the ends of a scale that lies about 0 are as round as its user chose them.
+  const bool ends = ticks.size() < 3 && colors.low == -colors.high && height_px > 28 * scale;
+  const double said = ends ? std::stod(tickTexts({colors.low, 0, colors.high})[2]) : 0;
+  if (ends && std::abs(said - colors.high) < 1e-6 * colors.high) ticks = {colors.low, 0, colors.high};
   return ticks;
 }
 
@@ -124,7 +128,41 @@ std::vector<Overlay::WordBox> Overlay::wordBoxes(vtkContext2D& painter) {
         box->y = other->y + (kWordHeight_px + 1) * scale;
         moved = true;
       }
+  // What was driven into the lines goes beside them, or under them where there is no room: over short words then.
+  for (WordBox& box : boxes) {
+    const double beside = kMargin_px * scale + widest_ + 12 * scale;
+    if (box.y + 0.5 * kWordHeight_px * scale <= linesEnd() || box.x >= beside - 4 * scale) continue;
+    if (beside + box.width + 4 <= GetScene()->GetSceneWidth() && !legend)
+      box.x = beside;
+    else
+      box.y = linesEnd() - 0.5 * kWordHeight_px * scale;
+  }
   return boxes;
+}
+
+double Overlay::linesEnd() {
+  return GetScene()->GetSceneHeight() - (kMargin_px + kLine_px * static_cast<double>(broken_.size())) * scale;
+}
+
+void Overlay::breakLines(vtkContext2D& painter) {
+  broken_.clear();
+  widest_ = 0;
+  const double room = GetScene()->GetSceneWidth() - 2 * kMargin_px * scale;
+  for (const std::string& line : lines) {
+    const bool first = broken_.empty();
+    useText(painter, palette(theme).text, (first ? 14 : 12) * scale, first);
+    std::string rest = line;
+    while (!rest.empty()) {
+      std::string part = rest;
+      double width = textWidth_px(painter, part);
+      for (std::size_t cut = 0; !first && width > room && (cut = part.rfind(' ')) != std::string::npos && cut > 0;
+           width = textWidth_px(painter, part))
+        part.resize(cut);
+      rest.erase(0, part.size() + 1); // with the space
+      widest_ = std::max(widest_, width);
+      broken_.push_back(std::move(part));
+    }
+  }
 }
 
 void Overlay::keepClear(vtkContext2D& painter, WordBox& box) {
@@ -133,13 +171,7 @@ void Overlay::keepClear(vtkContext2D& painter, WordBox& box) {
     const double free = GetScene()->GetSceneWidth() - 2 * margin - legendWidth_px(painter, *legend, theme, scale);
     box.x = std::max(4.0, std::min(box.x, free - box.width));
   }
-  double widest = 0;
-  for (std::size_t k = 0; k < lines.size(); ++k) {
-    useText(painter, palette(theme).text, (k == 0 ? 14 : 12) * scale, k == 0);
-    widest = std::max(widest, textWidth_px(painter, lines[k]));
-  }
-  const double lowest = GetScene()->GetSceneHeight() - margin - kLine_px * scale * static_cast<double>(lines.size());
-  if (box.x < margin + widest + 8 * scale) box.y = std::min(box.y, lowest - half);
+  if (box.x < margin + widest_ + 8 * scale) box.y = std::min(box.y, linesEnd() - half);
   box.y = std::min(box.y, GetScene()->GetSceneHeight() - half - 2);
 }
 
@@ -193,12 +225,13 @@ bool Overlay::Paint(vtkContext2D* painter) {
   const double width = GetScene()->GetSceneWidth();
   const double height = GetScene()->GetSceneHeight();
   const double margin = kMargin_px * scale;
+  breakLines(*painter);
   paintWords(*painter);
   if (triad) paintTriad(*painter);
   double y = height - margin - 8 * scale;
-  for (std::size_t k = 0; k < lines.size(); ++k) {
+  for (std::size_t k = 0; k < broken_.size(); ++k) {
     useText(*painter, palette(theme).text, (k == 0 ? 14 : 12) * scale, k == 0);
-    drawText(*painter, margin, y, lines[k]);
+    drawText(*painter, margin, y, broken_[k]);
     y -= kLine_px * scale;
   }
   if (legend) {

@@ -42,10 +42,17 @@ private:
   };
   /// None over a shorter one.
   std::vector<WordBox> wordBoxes(vtkContext2D& painter);
+  /// Breaks lines that are longer than the view.
+  void breakLines(vtkContext2D& painter);
   /// Keeps long words off the lines at the top left and the legend.
   void keepClear(vtkContext2D& painter, WordBox& box);
+  /// The lines at the top left end here [px from the lower left].
+  [[nodiscard]] double linesEnd();
   void paintWords(vtkContext2D& painter);
   void paintTriad(vtkContext2D& painter);
+
+  std::vector<std::string> broken_; ///< `lines`, none longer than the view
+  double widest_ = 0;               ///< of them [px]
 };
 
 /// A place of the view: lower left corner and size [px].

@@ -153,12 +153,20 @@ void ForceDecoder::addToTare(const Eigen::MatrixXd& raw_ohm) {
     noise = std::sqrt(inputOf(variance, decoder_->input).mean() * tareFrames_ / (tareFrames_ - 1));
     if (meter_.ready() && noise > kMoving * meter_.noise()) return startTare(tareFrames_);
   }
-  const Eigen::ArrayXXd boardRest_ohm = tareFirst_.array() * (1 + mean);
-  factor_ = (boardRest_ohm > 0).select(rest_ohm_.array() / boardRest_ohm, 1.0);
-  tared_ = true;
+  const Eigen::ArrayXXd seen_ohm = tareFirst_.array() * (1 + mean);
+  setTare({(seen_ohm > 0).select(seen_ohm, rest_ohm_.array()), noise, tareFrames_});
   ++tares_;
+}
+
+void ForceDecoder::setTare(const Tare& tare) {
+  if (tare.rest_ohm.rows() != rest_ohm_.rows() || tare.rest_ohm.cols() != rest_ohm_.cols()) return;
+  tare_ = tare;
+  factor_ = (tare.rest_ohm.array() > 0).select(rest_ohm_.array() / tare.rest_ohm.array(), 1.0);
+  tareFrames_ = tare.frames;
+  tareLeft_ = 0;
+  tared_ = true;
   predictor_.reset(); // also where the noise is the same: the mean has its own
-  setNoise(noise);
+  setNoise(tare.noise);
 }
 
 DecodedForces ForceDecoder::decode(const BoardFrame& frame) {

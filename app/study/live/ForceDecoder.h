@@ -4,6 +4,7 @@
 #include "app/study/live/NoiseMeter.h"
 #include "app/study/live/Plausibility.h"
 #include "io/board/BoardFrame.h"
+#include "io/board/Tare.h"
 #include "model/SensorDesign.h"
 
 #include <memory>
@@ -46,8 +47,10 @@ public:
   [[nodiscard]] bool tared() const { return tared_; }
   /// How many were finished.
   [[nodiscard]] int tares() const { return tares_; }
-  /// What the board reads at rest, by the tare, row-wires x column-wires [ohm].
-  [[nodiscard]] Eigen::MatrixXd boardRest_ohm() const { return rest_ohm_.cwiseQuotient(factor_); }
+  /// The one that holds.
+  [[nodiscard]] const Tare& tare() const { return tare_; }
+  /// One that was made before, also with another network; passed over where rest is not known.
+  void setTare(const Tare& tare);
   void clearTare();
   /// Why taring is impossible; empty where it is possible.
   [[nodiscard]] std::string tareProblem() const;
@@ -82,6 +85,7 @@ private:
   Eigen::MatrixXd rest_ohm_;  ///< of the design, row-wires x column-wires; empty: not known
   Eigen::MatrixXd factor_;    ///< by which each raw resistance is scaled
   Eigen::MatrixXd tareFirst_, tareSum_, tareSquares_;
+  Tare tare_;
   int tareFrames_ = 0;
   int tareLeft_ = 0;
   int tares_ = 0;

@@ -33,7 +33,8 @@ void LiveHistory::add(std::shared_ptr<const LiveFrame> frame) {
   const bool jumped = !entries_.empty() && frame->jumps != entries_.back().frame->jumps;
   if (jumped) clear();
   // Where a recording is taken up at another place, the mark that stands there began before it.
-  const std::string markBefore = jumped ? frame->mark : entries_.empty() ? std::string() : entries_.back().frame->mark;
+  std::string markBefore = entries_.empty() ? std::string() : entries_.back().frame->mark;
+  if (jumped && !frame->markFollowsJump) markBefore = frame->mark;
   const bool newMark = !frame->mark.empty() && frame->mark != markBefore;
   const double host_s = frame->frame.hostTime_s;
   const double device_s = frame->frame.time_s;
@@ -64,7 +65,8 @@ void LiveHistory::clear() {
   period_s_ = 0;
 }
 
-void writeLiveCsv(const std::filesystem::path& path, const LiveHistory& history) {
+void writeLiveCsv(const std::filesystem::path& path, const LiveHistory& history,
+                  std::optional<double> recordingBegin_s) {
   Eigen::Index forces = 0, readings = 0;
   int rows = 0;
   for (const LiveHistory::Entry& entry : history.entries()) {
@@ -74,7 +76,8 @@ void writeLiveCsv(const std::filesystem::path& path, const LiveHistory& history)
   }
   std::ostringstream out;
   out.precision(17);
-  out << "t_s,board_s,frame,complete,valid,area,latency_ms,lost_reports,temperature_degC,misfit,mark";
+  out << "t_s,board_s," << (recordingBegin_s ? "recording_s," : "")
+      << "frame,complete,valid,area,latency_ms,lost_reports,temperature_degC,misfit,mark";
   for (Eigen::Index k = 0; k < forces; ++k)
     out << ",a" << k / 3 << "_f"
         << "xyz"[k % 3] << "_N";
@@ -86,8 +89,9 @@ void writeLiveCsv(const std::filesystem::path& path, const LiveHistory& history)
   std::string mark;
   for (const LiveHistory::Entry& entry : history.entries()) {
     const LiveFrame& live = *entry.frame;
-    out << entry.t_s << ',' << live.frame.time_s << ',' << live.frame.number << ',' << live.frame.complete << ','
-        << live.forces.valid << ',';
+    out << entry.t_s << ',' << live.frame.time_s << ',';
+    if (recordingBegin_s) out << live.frame.hostTime_s - *recordingBegin_s << ',';
+    out << live.frame.number << ',' << live.frame.complete << ',' << live.forces.valid << ',';
     if (live.forces.area) out << *live.forces.area;
     out << ',' << 1e3 * live.latency_s << ',' << live.lostReports << ',';
     if (live.frame.temperature_degC) out << *live.frame.temperature_degC;

@@ -28,6 +28,10 @@ enum class LiveState {
 };
 const char* name(LiveState state);
 
+/// How the marks of an alarm (ForceAlarm.h) begin where it goes off, and what they say where it is over.
+inline constexpr const char* kAlarmBegins = "alarm: ";
+inline constexpr const char* kAlarmOver = "alarm over";
+
 /// One frame with all that was made of it.
 struct LiveFrame {
   BoardFrame frame;
@@ -40,6 +44,7 @@ struct LiveFrame {
   std::uint64_t connection = 0;    ///< how many the source had, at this frame
   std::uint64_t jumps = 0;         ///< how often the recording was taken up at another place, at this frame
   std::string mark;                ///< the last event mark of the user or the recording
+  bool markFollowsJump = false;    ///< it stands at or behind the place where the recording was taken up last
 };
 
 struct LatencySummary {
@@ -63,13 +68,15 @@ struct LiveStatus {
   std::optional<double> temperature_degC;
   std::string decoderProblem; ///< why there are no forces; empty where there are
   bool taring = false, tared = false;
-  std::optional<double> drift; ///< relative, of all readings since rest; none: not seen at rest yet
-  double driftForce_N = 0;     ///< what the drift reads as
-  bool tareSuggested = false;  ///< it is more than 1 % of the force range
-  std::string restName;        ///< what LiveFrame::change counts from
-  double noise = 0;            ///< relative, of the readings
-  std::string alarm;           ///< the alarm that is on, in words
-  std::string lastAlarm;       ///< the last one that went off; `alarms` counts them
+  std::shared_ptr<const Tare> tare; ///< that holds; null: none
+  bool tareOfRecording = false;     ///< it was made before or while that was recorded
+  std::optional<double> drift;      ///< relative, of all readings since rest; none: not seen at rest yet
+  double driftForce_N = 0;          ///< what the drift reads as
+  bool tareSuggested = false;       ///< it is more than 1 % of the force range
+  std::string restName;             ///< what LiveFrame::change counts from
+  double noise = 0;                 ///< relative, of the readings
+  std::string alarm;                ///< the alarm that is on, in words
+  std::string lastAlarm;            ///< the last one that went off; `alarms` counts them
   std::uint64_t alarms = 0;
   bool recording = false;
   bool recordingWaits = false; ///< for the board, which is out; it goes on in the same file when it is back
@@ -87,6 +94,8 @@ struct LiveOptions {
   std::optional<SensorDesign> design; ///< for tare
   std::optional<ForceAlarm> alarm;
   int tareFrames = 0; ///< tare with the first frames; 0: not
+  /// The tare that is known of a board from before; may be empty, and give null.
+  std::function<std::shared_ptr<const Tare>(const BoardInfo&)> tareOf;
   std::shared_ptr<ReplayControl> replay;
   std::size_t ringFrames = 2048; ///< kept for a reader that drains late
 };

@@ -110,7 +110,10 @@ void LiveWorker::connect(std::unique_ptr<ReportSource> source) {
   status_.reason.clear();
   status_.source = source_->name();
   status_.info = source_->info();
-  if (!sameBoard) makeDecoder();
+  if (!sameBoard) {
+    tare_ = options_.tareOf ? options_.tareOf(source_->info()) : nullptr;
+    makeDecoder();
+  }
   if (writer_ && !sameBoard) {
     status_.recordingFailure = "the recording ended because another board was connected";
     writer_.reset();
@@ -210,11 +213,16 @@ void LiveWorker::takeFrame(const BoardFrame& frame) {
   live->connection = status_.connections;
   live->jumps = jumps_;
   live->faults = wireFaults(frame);
+  const auto* replay = dynamic_cast<const ReplaySource*>(source_.get());
+  if (replay && !ownTare_ && replay->tare() != tare_) holdTare(replay->tare());
   rest_.add(frame);
   if (decoder_) {
     const int before = decoder_->tares();
     live->forces = decoder_->decode(frame);
-    if (decoder_->tares() != before) rest_.setTare(decoder_->boardRest_ohm());
+    if (decoder_->tares() != before) {
+      holdTare(std::make_shared<const Tare>(decoder_->tare()));
+      recordTare();
+    }
     watch(live->forces);
   }
   live->change = rest_.change(frame);
@@ -227,8 +235,8 @@ void LiveWorker::takeFrame(const BoardFrame& frame) {
   live->latency_s = latency_.add(frame.hostTime_s + live->decoding_s, frame.endTime_s);
   if (live->latency_s > kLate_s) ++status_.lateFrames;
   live->lostReports = earlier_.lost + assembler_->counts().lost;
-  const auto* replay = dynamic_cast<const ReplaySource*>(source_.get());
   live->mark = replay ? replay->mark() : mark_;
+  live->markFollowsJump = replay && replay->markFollowsJump();
   if (frame.temperature_degC) status_.temperature_degC = frame.temperature_degC;
   if (options_.replay && options_.replay->steps > 0) --options_.replay->steps;
   give_(std::move(live));
@@ -278,7 +286,9 @@ LiveStatus LiveWorker::status() {
   status_.decoding = summary(decoding_);
   status_.taring = decoder_ && decoder_->taring();
   status_.tared = decoder_ && decoder_->tared();
-  status_.restName = rest_.name();
+  status_.tare = tare_;
+  status_.tareOfRecording = tare_ && options_.replay && !ownTare_;
+  status_.restName = status_.tareOfRecording ? "the tare of the recording" : rest_.name();
   status_.alarm = alarm_.words();
   status_.noise = decoder_ ? decoder_->noise() : 0;
   status_.recording = writer_ && source_; // never "recording" while the board is gone
@@ -302,6 +312,7 @@ void LiveWorker::makeDecoder() {
   try {
     decoder_.emplace(*options_.decoder, *status_.info, options_.design);
     rest_.reset(decoder_->restResistances_ohm());
+    if (tare_) holdTare(tare_); // it is the board's, whatever reads it
     if (options_.tareFrames > 0) tare(options_.tareFrames);
   } catch (...) { // the readings are of use without it
     decoder_.reset();
@@ -309,8 +320,25 @@ void LiveWorker::makeDecoder() {
   }
 }
 
+/// What is known of a board at rest outlives networks and connections.
+void LiveWorker::holdTare(std::shared_ptr<const Tare> tare) {
+  tare_ = std::move(tare);
+  if (tare_) {
+    if (decoder_) decoder_->setTare(*tare_);
+    return rest_.setTare(tare_->rest_ohm);
+  }
+  rest_.clearTare();
+  if (decoder_) decoder_->clearTare();
+}
+
+void LiveWorker::recordTare() {
+  if (writer_)
+    writer_->append(RecordingEntry::Kind::Tare, hostClock_s(), tare_ ? encode(*tare_) : std::vector<std::uint8_t>{});
+}
+
 void LiveWorker::tare(int frames) {
   if (frames < 1) return;
+  ownTare_ = true;
   if (!decoder_) return rest_.startTare(frames);
   try {
     decoder_->startTare(frames);
@@ -320,8 +348,9 @@ void LiveWorker::tare(int frames) {
 }
 
 void LiveWorker::clearTare() {
-  rest_.clearTare();
-  if (decoder_) decoder_->clearTare();
+  ownTare_ = true;
+  holdTare(nullptr);
+  recordTare();
 }
 
 void LiveWorker::setDecoder(std::optional<Decoder> decoder, std::optional<SensorDesign> design) {
@@ -358,6 +387,7 @@ void LiveWorker::setWriter(std::shared_ptr<RecordingWriter> writer) {
   writer_ = std::move(writer);
   status_.recordingFailure.clear();
   if (source_) recordConfiguration(); // it may have changed since the head was written
+  if (tare_) recordTare();
 }
 
 } // namespace palp

@@ -29,7 +29,11 @@ public:
   void idle(bool idle);
   void configure(const BoardConfiguration& configuration);
   void mark(const std::string& text);
-  void setAlarm(std::optional<ForceAlarm> alarm) { alarm_.set(alarm); }
+  void setAlarm(std::optional<ForceAlarm> alarm) {
+    const bool was = !alarm_.words().empty();
+    alarm_.set(alarm);
+    if (was && alarm_.words().empty()) mark(kAlarmOver);
+  }
   void setWriter(std::shared_ptr<RecordingWriter> writer);
 
 private:
@@ -44,6 +48,8 @@ private:
   void takeEvent(const BoardEvent& event);
   void readConfigurationAgain();
   void makeDecoder();
+  void holdTare(std::shared_ptr<const Tare> tare);
+  void recordTare();
   void recordConfiguration();
   void watch(const DecodedForces& forces);
   void judgeDrift(const LiveFrame& live);
@@ -61,6 +67,8 @@ private:
   ReportCounts earlier_; ///< of the connections before this one
   std::optional<ForceDecoder> decoder_;
   RestReference rest_;
+  std::shared_ptr<const Tare> tare_; ///< that holds; null: none
+  bool ownTare_ = false;             ///< the user tared what is played: the recording's tare counts no more
   AlarmWatch alarm_;
   DriftMonitor drift_;
   double driftJudged_s_ = 0; ///< host clock

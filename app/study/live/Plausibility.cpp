@@ -75,12 +75,12 @@ Plausibility::Verdict Plausibility::judge(const PlausibilityInput& input) {
   verdict.doubted = doubt != Doubt::None;
   follow(doubt, input.time_s);
   if (!held_) return verdict;
-  if (heldDoubt_ == Doubt::Outside) verdict.reason = "the force lies outside of what the network was trained for";
+  if (heldDoubt_ == Doubt::Outside) verdict.reason = "outside of what the network was trained for";
   if (heldDoubt_ == Doubt::Disagrees) verdict.reason = "the network's force is not the one that the readings tell";
   if (heldDoubt_ == Doubt::Foreign) {
     if (verdict.misfit) heldMisfit_ = *verdict.misfit;
     std::array<char, 160> text{};
-    std::snprintf(text.data(), text.size(), "no touch that the network knows reads so (misfit %.2g, noise up to %.2g)",
+    std::snprintf(text.data(), text.size(), "no known touch: misfit %.2g, at most %.2g",
                   heldMisfit_, limit(input.readings_ohm.size(), input.noiseUncertainty));
     verdict.reason = text.data();
   }

@@ -84,6 +84,67 @@ TEST(Recording, OpensToItsLastWholeReportWhereverItIsCutOff) {
   }
 }
 
+TEST(Recording, HoldsTheLargestTareToTheLastBit) {
+  const TemporaryFolder folder;
+  Tare tare{Eigen::MatrixXd::Random(32, 255) * 100 + Eigen::MatrixXd::Constant(32, 255, 1000), 5.1e-6, 25};
+  {
+    RecordingWriter writer(folder / "a", smallHead(), false);
+    writer.append(Kind::Tare, 1, encode(tare));
+    writer.append(Kind::Tare, 2, {});
+  }
+  RecordingReader reader(folder / "a");
+  const auto first = reader.next(), second = reader.next();
+  ASSERT_TRUE(first && second);
+  const auto back = decodeTare(first->bytes, 32, 255);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->rest_ohm, tare.rest_ohm);
+  EXPECT_EQ(back->noise, tare.noise);
+  EXPECT_EQ(back->frames, 25);
+  EXPECT_FALSE(decodeTare(first->bytes, 255, 32)) << "of another board";
+  EXPECT_FALSE(decodeTare(second->bytes, 32, 255)) << "no tare any more";
+  tare.rest_ohm(3, 7) = std::nan("");
+  EXPECT_FALSE(decodeTare(encode(tare), 32, 255));
+}
+
+TEST(Recording, IsPlayedWithTheTareAndTheMarkOfEachPlace) {
+  const TemporaryFolder folder;
+  VirtualBoard board = boardWith(smallBoard());
+  const std::vector<Bytes> reports = reportsOf(board, 30);
+  const BoardInfo info = smallBoard().info;
+  const Tare tare{Eigen::MatrixXd::Constant(info.rowWires, info.columnWires, 512.5), 1e-5, 3};
+  const std::string words = "poke";
+  {
+    RecordingWriter writer(folder / "a", smallHead(), false);
+    for (std::size_t i = 0; i < reports.size(); ++i) {
+      if (i == 10) writer.append(Kind::Tare, 100.0099, encode(tare));
+      if (i == 15)
+        writer.append(Kind::Mark, 100.0149, {reinterpret_cast<const std::uint8_t*>(words.data()), words.size()});
+      if (i == 20) writer.append(Kind::Tare, 100.0199, {});
+      writer.append(Kind::Raw, 100 + 1e-3 * static_cast<double>(i), reports[i]);
+    }
+  }
+  auto control = std::make_shared<ReplayControl>();
+  control->speed = 0;
+  ReplaySource source(folder / "a", control);
+  RawReport report;
+  const auto tareAt = [&](double at_s) {
+    control->seek(at_s);
+    EXPECT_EQ(source.read(report, std::chrono::milliseconds(10)), ReportSource::Outcome::Read);
+    return source.tare() ? source.tare()->rest_ohm(0, 0) : 0;
+  };
+  EXPECT_EQ(tareAt(0.015), 512.5);
+  EXPECT_EQ(tareAt(0.002), 0) << "it was not tared yet";
+  EXPECT_EQ(tareAt(0.012), 512.5);
+  EXPECT_EQ(tareAt(0.025), 0) << "the tare was taken away";
+  ASSERT_EQ(control->marks().size(), 1U);
+  tareAt(control->marks()[0].at_s);
+  EXPECT_EQ(source.mark(), "poke");
+  EXPECT_TRUE(source.markFollowsJump()) << "gone to the mark itself";
+  tareAt(0.020);
+  EXPECT_EQ(source.mark(), "poke");
+  EXPECT_FALSE(source.markFollowsJump()) << "it began before";
+}
+
 TEST(Recording, IsOnDiskASecondLaterWithoutAnEnd) {
   const TemporaryFolder folder;
   VirtualBoard board = boardWith(smallBoard());

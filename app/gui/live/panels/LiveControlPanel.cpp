@@ -8,6 +8,7 @@
 #include <QDoubleSpinBox>
 #include <QFile>
 #include <QFileDialog>
+#include <QFileInfo>
 #include <QFormLayout>
 #include <QGroupBox>
 #include <QHBoxLayout>
@@ -107,9 +108,14 @@ QWidget* LiveControlPanel::buildNetwork() {
                  tr("Takes the next frames as rest: leave the sensor alone; it waits while the sensor moves (T)"));
   clearTare_ = button(tr("Clear"), "clearTare", tr("Back to the resistances of the design at rest"));
   column->addLayout(beside({tare_, tareFrames_, clearTare_}));
+  tareState_ = words("tareState", "hint");
+  tareState_->setText(tr("Not tared."));
+  column->addWidget(tareState_);
   connect(open, &QPushButton::clicked, this, &LiveControlPanel::chooseNetwork);
-  connect(shipped_, &QPushButton::clicked, this,
-          [this] { edit(tr("network"), [](LiveSettings& settings) { settings.network.clear(); }); });
+  connect(shipped_, &QPushButton::clicked, this, [this] {
+    if (settings_.network.empty()) return emit shippedAsked();
+    edit(tr("network"), [](LiveSettings& settings) { settings.network.clear(); });
+  });
   connect(back_, &QPushButton::clicked, this, &LiveControlPanel::backAsked);
   connect(tare_, &QPushButton::clicked, this, &LiveControlPanel::tareAsked);
   connect(clearTare_, &QPushButton::clicked, this, &LiveControlPanel::clearTareAsked);
@@ -148,12 +154,14 @@ QWidget* LiveControlPanel::buildRecording() {
   auto* csv = button(tr("Export CSV..."), "exportLive",
                      tr("The frames that the curves hold, the last 60 s at most: time, forces [N], dR/R of all cells"));
   column->addWidget(csv);
+  connect(file_, &QLineEdit::textChanged, this, &LiveControlPanel::lookForFile);
   connect(choose, &QPushButton::clicked, this, [this] {
     const QString file =
         QFileDialog::getSaveFileName(this, tr("Record to"), file_->text(), tr("Recordings (*.palprec)"));
     if (file.isEmpty()) return;
     file_->setText(file.endsWith(".palprec") ? file : file + ".palprec");
     replaceable_ = QFile::exists(file) ? file_->text() : QString(); // the dialog has asked
+    lookForFile();
   });
   connect(record_, &QPushButton::clicked, this, &LiveControlPanel::record);
   connect(pause_, &QPushButton::clicked, this, [this] { emit pauseAsked(pause_->isChecked()); });
@@ -305,7 +313,6 @@ void LiveControlPanel::display(const LiveSettings& settings) {
                                                                       : 0;
   if (force_->findData(force) < 0) force_->addItem(QString::fromUtf8("\u00b1%1 N").arg(force), force);
   force_->setCurrentIndex(force_->findData(force));
-  shipped_->setEnabled(!settings.network.empty());
 }
 
 void LiveControlPanel::displayNetworkProblem(const QString& sentence) {
@@ -323,36 +330,58 @@ void LiveControlPanel::displayRecording(const QString& file, const QString& prob
   if (!problem.isEmpty()) record_->setChecked(false);
 }
 
+void LiveControlPanel::displayTare(const LiveStatus& status) {
+  QString state = tr("Not tared: counts from %1.").arg(QString::fromStdString(status.restName));
+  if (status.restName.empty()) state = tr("Not tared.");
+  if (status.tareOfRecording) state = tr("Tared as it was recorded.");
+  if (status.tared && !status.tareOfRecording)
+    state = tr("Tared: %1 frames are rest.").arg(status.tare ? status.tare->frames : 0);
+  if (status.taring) state = tr("Takes the tare while the sensor rests...");
+  if (tareState_->text() != state) tareState_->setText(state);
+}
+
+/// That the next recording gets another name is said before it is made.
+void LiveControlPanel::lookForFile() {
+  const QFileInfo wanted(file_->text());
+  fileThere_ = file_->text() != replaceable_ && wanted.isFile() ? wanted.fileName() : QString();
+}
+
 void LiveControlPanel::displayState(const LiveControlState& state) {
   const LiveStatus& status = state.status;
   setText(*network_, state.network);
   setText(*networkProblem_,
           networkRefused_.isEmpty() ? QString::fromStdString(status.decoderProblem) : networkRefused_);
   back_->setEnabled(!state.networkBefore.isEmpty());
+  shipped_->setEnabled(!settings_.network.empty() || !state.networkBefore.isEmpty());
   const QString back = state.networkBefore.isEmpty() ? tr("Back to the network that was in use before")
                                                      : tr("Back to: %1").arg(state.networkBefore);
   if (back_->toolTip() != back) back_->setToolTip(back);
   tare_->setText(status.taring ? tr("Waits for rest") : status.tareSuggested ? tr("Tare: it drifted") : tr("Tare"));
   tare_->setDefault(status.tareSuggested);
   clearTare_->setEnabled(status.tared);
+  displayTare(status);
   pause_->setChecked(state.paused);
   const bool records = status.recording || status.recordingWaits;
+  if (std::exchange(records_, records) != records) lookForFile();
   record_->setChecked(records);
   record_->setText(records ? tr("Stop recording") : tr("Record"));
   const QString problem =
       recordingProblem_.isEmpty() ? QString::fromStdString(status.recordingFailure) : recordingProblem_;
   if (records)
     recordedLast_ = tr("%1 s, %2 MB, %3 reports dropped")
-                        .arg(state.recorded_s, 0, 'f', 0)
+                        .arg(state.recorded_s, 0, 'f', 1)
                         .arg(static_cast<double>(status.recordedReports) * kRecordedReport / kMegabyte, 0, 'f', 1)
                         .arg(status.recordingDropped);
-  QString recorded = tr("Nothing is recorded.");
+  QString recorded = fileThere_.isEmpty()
+                         ? tr("Nothing is recorded.")
+                         : tr("%1 is there: the next one gets date and time in its name.").arg(fileThere_);
   if (!problem.isEmpty())
     recorded = problem;
   else if (status.recordingWaits)
     recorded = tr("Waits for the board, then goes on: %1").arg(recordedLast_);
   else if (!recordedLast_.isEmpty())
-    recorded = records ? tr("Records: %1").arg(recordedLast_) : tr("Recorded: %1").arg(recordedLast_);
+    recorded = records ? tr("Records: %1").arg(recordedLast_)
+                       : tr("Recorded: %1; the next one gets a name of its own").arg(recordedLast_);
   setRole(*recorded_, problem.isEmpty() ? "hint" : "problem");
   setText(*recorded_, recorded);
 }

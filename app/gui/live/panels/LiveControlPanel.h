@@ -50,6 +50,8 @@ signals:
   void edited(const QString& what, const LiveSettings& settings);
   void tareAsked();
   void clearTareAsked();
+  /// The network that ships with Palp is wanted in place of one that was refined from it.
+  void shippedAsked();
   void pauseAsked(bool paused);
   void markAsked(const QString& text);
   /// The network before is wanted back.
@@ -67,6 +69,8 @@ private:
   void edit(const QString& what, const std::function<void(LiveSettings&)>& change);
   void chooseNetwork();
   void record();
+  void displayTare(const LiveStatus& status);
+  void lookForFile();
 
   LiveSettings settings_;
   QLabel* network_ = nullptr;
@@ -77,11 +81,14 @@ private:
   QSpinBox* tareFrames_ = nullptr;
   QPushButton* tare_ = nullptr;
   QPushButton* clearTare_ = nullptr;
+  QLabel* tareState_ = nullptr;
   QPushButton* pause_ = nullptr;
   QLineEdit* file_ = nullptr;
   QPushButton* record_ = nullptr;
   QLabel* recorded_ = nullptr;
-  QString replaceable_;      ///< the file that the user said may go
+  QString replaceable_; ///< the file that the user said may go
+  QString fileThere_;   ///< name of the wanted file where it is there already
+  bool records_ = false;
   QString recordedLast_;     ///< of a recording, what it came to
   QString recordingProblem_; ///< stays until the next recording
   QLineEdit* mark_ = nullptr;

@@ -19,6 +19,7 @@ namespace palp {
 namespace {
 
 constexpr double kMostTouch_N = 100;
+constexpr int kFirstLoss = 10; // of so many reports one is lost
 
 QComboBox* numberBox(const QString& name, const QStringList& values, const QString& tip) {
   auto* box = new QComboBox;
@@ -29,6 +30,15 @@ QComboBox* numberBox(const QString& name, const QStringList& values, const QStri
   box->setToolTip(tip);
   return box;
 }
+
+/// An arrow leads from none past 1, where nothing would come at all.
+class LossBox : public QSpinBox {
+public:
+  void stepBy(int steps) override {
+    const int next = value() + steps;
+    setValue(value() == 0 && steps > 0 ? kFirstLoss : next < 2 ? 0 : next);
+  }
+};
 
 QSpinBox* wireBox(const QString& name, int most, const QString& tip) {
   auto* box = new QSpinBox;
@@ -77,9 +87,9 @@ void SimulationPanel::buildTouch(QFormLayout& form) {
   held_ = new QCheckBox(tr("Touch by hand"));
   held_->setObjectName("touchHeld");
   held_->setToolTip(
-      tr("Holds the touch below; press an area of the picture to move it there, and drag from there for "
-         "the shear; in the picture Return takes it in hand, the arrows move it, + and - press, Shift and "
-         "the arrows shear"));
+      tr("<qt>Holds the touch below; press an area of the picture to move it there, and drag from there for "
+         "the shear; in the picture Return takes it in hand and lets go, the arrows move it, + and - press, Shift and "
+         "the arrows shear</qt>"));
   form.addRow(held_);
   area_ = new QSpinBox;
   area_->setObjectName("touchArea");
@@ -148,11 +158,11 @@ void SimulationPanel::buildDisturbances(QFormLayout& form) {
 void SimulationPanel::buildFaults(QFormLayout& form) {
   openRow_ = wireBox("openRow", 31, tr("This row-wire is broken"));
   openColumn_ = wireBox("openColumn", 254, tr("This column-wire is broken"));
-  dropEvery_ = new QSpinBox;
+  dropEvery_ = new LossBox;
   dropEvery_->setObjectName("dropEvery");
   dropEvery_->setRange(0, 100000);
   dropEvery_->setSpecialValueText(tr("none"));
-  dropEvery_->setToolTip(tr("Every n-th report is lost on its way"));
+  dropEvery_->setToolTip(tr("Every n-th report is lost on its way; 1 is all of them"));
   form.addRow(tr("Broken row-wire"), openRow_);
   form.addRow(tr("Broken column-wire"), openColumn_);
   form.addRow(tr("Lose every n-th"), dropEvery_);

@@ -10,6 +10,7 @@
 
 #include <QListWidget>
 #include <QSpinBox>
+#include <QToolButton>
 
 namespace palp {
 namespace {
@@ -230,6 +231,20 @@ TEST_F(Boards, WithoutHardwareTheOtherOneIsSimulatedAndDoesNotDoTheSame) {
   click(1, "plug");
   EXPECT_TRUE(wait([&] { return status(1).state == LiveState::Searching; }));
   EXPECT_TRUE(streams(0)) << "one plug is not the other's";
+}
+
+TEST_F(Boards, WhereTheyHaveNoRoomForPanelsAButtonBringsEachBack) {
+  ASSERT_TRUE(streams(0));
+  click(0, "anotherBoard");
+  ASSERT_TRUE(streams(1));
+  for (std::size_t k = 0; k < 2; ++k) EXPECT_FALSE(find<QLineEdit>(k, "recordFile").isVisible()) << k;
+  click(1, "boardPanel");
+  EXPECT_TRUE(find<QLineEdit>(1, "recordFile").isVisible());
+  EXPECT_FALSE(find<QLineEdit>(0, "recordFile").isVisible()) << "each has its own";
+  click(1, "boardPanel");
+  EXPECT_FALSE(find<QLineEdit>(1, "recordFile").isVisible());
+  QTest::mouseClick(&find<QToolButton>(1, "foldPanel"), Qt::LeftButton);
+  EXPECT_TRUE(find<QPushButton>(1, "boardPanel").isChecked()) << "as the strip at its edge does";
 }
 
 TEST_F(Boards, TheProjectKeepsThemAndAnotherProjectHasItsOwn) {

@@ -50,6 +50,7 @@ TEST_F(LiveCalibrating, GoesBackToTheNetworkBeforeACalibrationAndMarksBothInTheR
   EXPECT_TRUE(wait([&] { return name.text().startsWith("Palp's own"); })) << name.text().toStdString();
   EXPECT_NE(page.host().decoder()->residual_N, calibrated_N);
   EXPECT_EQ(page.host().decoder()->trainedWith, before);
+  ASSERT_TRUE(wait([&] { return !find<QPushButton>("shippedNetwork").isEnabled(); })) << "it is in use";
   ASSERT_TRUE(waitForFrames());
   ASSERT_TRUE(stopsToRecord());
   ASSERT_TRUE(wait([&] { return marksOf(file).size() == 2; }));
@@ -93,6 +94,28 @@ TEST_F(LiveCalibrating, ANetworkThatCannotBeUsedLeavesTheOneInUse) {
   EXPECT_TRUE(find<QLabel>("networkName").text().startsWith("Palp's own"));
   ASSERT_TRUE(waitForFrames());
   EXPECT_TRUE(page.host().history().last()->forces.valid);
+}
+
+TEST_F(LiveCalibrating, TheNetworkOfPalpIsHadBackAfterOneThatWasRefined) {
+  ASSERT_TRUE(waitForArrow());
+  ASSERT_TRUE(collect(9, -0.5));
+  ASSERT_TRUE(fit());
+  click("useCalibration");
+  ASSERT_TRUE(wait([&] { return find<QPushButton>("shippedNetwork").isEnabled(); }));
+  click("shippedNetwork");
+  auto& name = find<QLabel>("networkName");
+  EXPECT_TRUE(wait([&] { return name.text().startsWith("Palp's own"); })) << name.text().toStdString();
+  EXPECT_TRUE(page.host().networkBefore().isEmpty());
+}
+
+TEST_F(LiveCalibrating, ARecordingIsNamedWhereANetworkIsWanted) {
+  ASSERT_TRUE(waitForArrow());
+  const QString file = folder.filePath("touch.palprec");
+  ASSERT_TRUE(records(file, 5));
+  use([&](LiveSettings& live) { live.network = file.toStdString(); });
+  ASSERT_TRUE(isRed("networkProblem"));
+  EXPECT_TRUE(find<QLabel>("networkProblem").text().endsWith("touch.palprec: is a recording, not a network"))
+      << find<QLabel>("networkProblem").text().toStdString();
 }
 
 TEST_F(LiveCalibrating, FitsOnlyWhereThereAreFramesEnoughAndSaysHowManyThereAre) {

@@ -154,6 +154,54 @@ TEST_F(LiveOperator, AnAlarmGoesOffIsSeenAndMarked) {
   EXPECT_EQ(marksOf(file)[0].rfind("alarm: Fz", 0), 0U) << marksOf(file)[0];
 }
 
+TEST_F(LiveOperator, AnAlarmTintsItsTimeAndItsWordsStandOnce) {
+  ASSERT_TRUE(waitForFrames());
+  type<QDoubleSpinBox>("alarmLimit", "-1");
+  find<QCheckBox>("alarmOn").click();
+  ASSERT_TRUE(wait([&] { return page.host().status().alarms >= 2; }));
+  const auto& chart = find<StripChart>("forceCurves").chart();
+  ASSERT_TRUE(wait([&] { return chart.spans.size() >= 2; }));
+  ASSERT_FALSE(chart.marks.empty());
+  for (const auto& [t_s, words] : chart.marks) EXPECT_TRUE(words.startsWith("alarm: Fz")) << words.toStdString();
+  for (const auto& [from_s, to_s] : chart.spans) EXPECT_LE(to_s - from_s, 3) << "longer than a touch";
+  EXPECT_GT(chart.spans[0][1], chart.spans[0][0]);
+}
+
+TEST_F(LiveOperator, ATareUnderALoadIsAskedFor) {
+  ASSERT_TRUE(waitForFrames());
+  find<QCheckBox>("touchHeld").click();
+  type<QDoubleSpinBox>("touch_Fz", "-2");
+  type<QSpinBox>("tareFrames", "3");
+  const auto reads = [&](double fz_N) {
+    return wait([&] {
+      const LiveFrame* last = page.host().history().last();
+      return last != nullptr && last->forces.valid && last->forces.shown[0] && last->forces.doubt.empty() &&
+             std::abs(last->forces.forces_N(2, 0) - fz_N) < 0.1;
+    });
+  };
+  ASSERT_TRUE(reads(-2));
+  ASSERT_TRUE(waitForFrames(40)); // it is held
+  answerQuestion(QMessageBox::No);
+  click("tare");
+  ASSERT_TRUE(waitForFrames(10));
+  EXPECT_FALSE(page.host().status().tared);
+  EXPECT_FALSE(page.host().status().taring);
+  answerQuestion(QMessageBox::Yes);
+  click("tare");
+  EXPECT_TRUE(wait([&] { return page.host().status().tared; }));
+}
+
+TEST_F(LiveOperator, AnArrowOfTheLossesLeadsPastThatOfAllReports) {
+  ASSERT_TRUE(waitForFrames());
+  auto& losses = find<QSpinBox>("dropEvery");
+  losses.setFocus();
+  QTest::keyClick(&losses, Qt::Key_Up);
+  EXPECT_EQ(losses.value(), 10);
+  for (int k = 0; k < 9; ++k) QTest::keyClick(&losses, Qt::Key_Down);
+  EXPECT_EQ(losses.text(), "none");
+  EXPECT_EQ(workbench.project().live.simulation.dropEvery, 0);
+}
+
 TEST_F(LiveOperator, HoldsATouchWhereOnePressesAndHowOneTypes) {
   ASSERT_TRUE(waitForArrow());
   find<QCheckBox>("touchHeld").click();

@@ -200,6 +200,60 @@ TEST_F(LiveReplay, GoesBackByOneFrame) {
   }
 }
 
+TEST_F(LiveReplay, DrawsTheLineOfTheMarkThatOneWentTo) {
+  ASSERT_TRUE(waitForFrames());
+  const QString file = folder.filePath("touch.palprec");
+  recordTo(file);
+  ASSERT_TRUE(startsToRecord());
+  ASSERT_TRUE(waitForFrames(20));
+  QTest::keyClicks(&find<QLineEdit>("markText"), "poke");
+  click("mark");
+  ASSERT_TRUE(waitForFrames(20));
+  ASSERT_TRUE(stopsToRecord());
+  ASSERT_TRUE(plays(file));
+  ASSERT_TRUE(waitForState(LiveState::Ended));
+  auto& marks = find<QComboBox>("replayMarks");
+  ASSERT_TRUE(wait([&] { return marks.count() == 2; }));
+  const auto lines = [&] { return find<StripChart>("forceCurves").chart().marks; };
+  marks.setFocus();
+  QTest::keyClick(&marks, Qt::Key_Down);
+  EXPECT_TRUE(
+      wait([&] { return page.host().history().last() != nullptr && page.host().history().last()->jumps == 1; }));
+  EXPECT_TRUE(wait([&] { return lines().size() == 1 && lines()[0].second == "poke"; }));
+  ASSERT_TRUE(waitForState(LiveState::Ended));
+  type<QDoubleSpinBox>("replayPlace", QString::number(marks.itemData(1).toDouble() + 0.1, 'f', 2));
+  EXPECT_TRUE(wait([&] { return page.host().history().last()->jumps == 2; }));
+  EXPECT_TRUE(wait([&] { return lines().empty(); })) << "it began before";
+}
+
+TEST_F(LiveRecording, GoesOnInTheCurvesWhileAnotherSceneIsSeen) {
+  ASSERT_TRUE(waitForFrames());
+  recordTo(folder.filePath("touch.palprec"));
+  ASSERT_TRUE(startsToRecord());
+  ASSERT_TRUE(waitForFrames());
+  page.hide();
+  ASSERT_TRUE(waitForFrames(60)) << "it is not decoded";
+  page.show();
+  ASSERT_TRUE(waitForFrames());
+  ASSERT_TRUE(stopsToRecord());
+  const auto& entries = page.host().history().entries();
+  for (std::size_t k = 1; k < entries.size(); ++k) EXPECT_FALSE(entries[k].gap) << k;
+}
+
+TEST_F(LiveRecording, SaysBeforehandThatTheNextOneGetsAnotherName) {
+  ASSERT_TRUE(waitForFrames());
+  const QString file = folder.filePath("touch.palprec");
+  recordTo(file);
+  auto& words = find<QLabel>("recorded");
+  EXPECT_TRUE(wait([&] { return words.text() == "Nothing is recorded."; }));
+  QFile there(file);
+  ASSERT_TRUE(there.open(QIODevice::WriteOnly));
+  recordTo({});
+  recordTo(file);
+  EXPECT_TRUE(wait([&] { return words.text().startsWith("touch.palprec is there: the next one gets date"); }))
+      << words.text().toStdString();
+}
+
 TEST_F(LiveReplay, LeadsToItsMarks) {
   ASSERT_TRUE(waitForFrames());
   const QString file = folder.filePath("touch.palprec");

@@ -54,3 +54,25 @@ TEST(StripChart, AValueThatIsNoNumberBreaksTheCurve) {
   EXPECT_NE(broken, whole);
   EXPECT_EQ(broken, pictureOf(spec)); // what is left of the break; the last reading alone is no line
 }
+
+TEST(StripChart, TheWordsOfAMarkEndWhereTheNextOneBegins) {
+  StripSpec spec = jumping(0);
+  spec.marks = {{3, "a long alarm that says what it is about"}};
+  const auto inkRightOf = [&](double t_s) { // of the words' line
+    StripChart chart;
+    chart.resize(900, 300);
+    chart.setChart(spec);
+    const QImage with = chart.grab().toImage();
+    spec.marks[0].second = "";
+    chart.setChart(spec);
+    const QImage without = chart.grab().toImage();
+    spec.marks[0].second = "a long alarm that says what it is about";
+    int changed = 0;
+    for (int x = static_cast<int>(900 * t_s / 10); x < 900; ++x)
+      for (int y = 0; y < 300; ++y) changed += with.pixel(x, y) != without.pixel(x, y);
+    return changed;
+  };
+  EXPECT_GT(inkRightOf(4.5), 0) << "alone they have room";
+  spec.marks.emplace_back(4, "b");
+  EXPECT_EQ(inkRightOf(4.5), 0) << "over the next one's";
+}

@@ -78,5 +78,27 @@ TEST_F(WheelTest, TurnsTheBoxThatHasTheFocusAndScrollsThePanelOverAllOthers) {
   EXPECT_LT(force.value(), before);
 }
 
+TEST_F(WheelTest, ABoxThatComesUnderThePointerWhileThePanelScrollsKeepsItsValue) {
+  ASSERT_TRUE(solved());
+  window.resize(1300, 420);
+  settle();
+  auto& force = find<QDoubleSpinBox>("force_z");
+  window.activateWindow();
+  force.setFocus();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return force.hasFocus(); }, kPatience_ms));
+  const QPointF place = force.mapToGlobal(QPointF(force.rect().center()));
+  const auto turn = [&](QWidget& over) {
+    QWheelEvent event(over.mapFromGlobal(place), place, {}, {0, -120}, Qt::NoButton, {}, Qt::NoScrollPhase, false);
+    QApplication::sendEvent(&over, &event);
+  };
+  const double before = force.value();
+  turn(*force.parentWidget()); // which stood there before
+  turn(force);
+  EXPECT_EQ(force.value(), before);
+  QTest::mouseClick(&force, Qt::LeftButton); // it is meant now
+  turn(force);
+  EXPECT_LT(force.value(), before);
+}
+
 } // namespace
 } // namespace palp

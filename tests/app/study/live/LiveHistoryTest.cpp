@@ -83,6 +83,35 @@ TEST(LiveHistory, KnowsWhereAMarkBeginsAlsoAtTheFirstFrameButNotAfterAJumpBehind
   EXPECT_FALSE(add(1, "", 1));
 }
 
+TEST(LiveHistory, AMarkThatAJumpLeadsToBeginsThere) {
+  LiveHistory history;
+  const auto add = [&](double t_s, std::uint64_t jumps, bool follows) {
+    auto next = frame(t_s, t_s);
+    next->mark = "poke";
+    next->jumps = jumps;
+    next->markFollowsJump = follows;
+    history.add(next);
+    return history.entries().back().newMark;
+  };
+  add(7, 0, true);
+  EXPECT_TRUE(add(3, 1, true));
+  EXPECT_FALSE(add(3.02, 1, true)) << "once";
+  EXPECT_FALSE(add(5, 2, false)) << "it began before the place that was gone to";
+}
+
+TEST(LiveHistory, OfARecordingTheTableHoldsTheTimeInItToo) {
+  const TemporaryFolder folder;
+  LiveHistory history;
+  history.add(frame(7, 103.5));
+  writeLiveCsv(folder / "a.csv", history, 100.0);
+  std::ifstream file(folder / "a.csv");
+  std::string head, line;
+  std::getline(file, head);
+  std::getline(file, line);
+  EXPECT_EQ(head.rfind("t_s,board_s,recording_s,frame,", 0), 0U) << head;
+  EXPECT_EQ(line.rfind("103.5,7,3.5,", 0), 0U) << line;
+}
+
 TEST(LiveHistory, NeverRunsBackwardsNorGrowsWithoutEnd) {
   LiveHistory history;
   for (std::size_t k = 0; k < LiveHistory::kMostFrames + 500; ++k)

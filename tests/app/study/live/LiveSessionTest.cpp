@@ -415,6 +415,88 @@ TEST(LiveSession, RecordingPlaysBackTheSameForces) {
   EXPECT_GE(same, 10);
 }
 
+TEST(LiveSession, ARecordingOfATaredBoardPlaysBackTheSameForces) {
+  const TemporaryFolder folder;
+  const Decoder decoder = liveDecoder(5e-6);
+  std::map<double, Eigen::Vector3d> recorded; // by host time of the frame
+  {
+    LiveOptions options = plugged(std::make_shared<Plug>());
+    options.decoder = decoder;
+    options.tareFrames = 3;
+    LiveSession live(std::move(options));
+    ASSERT_TRUE(waitFor(live, [](const LiveStatus& status) { return status.tared; }));
+    EXPECT_FALSE(live.status().tareOfRecording);
+    live.drain();
+    live.startRecording(folder / "a", "", false);
+    ASSERT_TRUE(waitForFrames(live, live.status().counts.frames + 20));
+    live.stop();
+    for (const auto& frame : live.drain()) recorded[frame->frame.hostTime_s] = frame->forces.forces_N.col(0);
+  }
+  LiveOptions options;
+  options.replay = std::make_shared<ReplayControl>();
+  options.replay->speed = 0;
+  options.reconnect = false;
+  options.decoder = decoder;
+  options.open = [&, control = options.replay] { return std::make_unique<ReplaySource>(folder / "a", control); };
+  const std::shared_ptr<ReplayControl> control = options.replay;
+  LiveSession replay(std::move(options));
+  ASSERT_TRUE(waitForState(replay, LiveState::Ended));
+  EXPECT_TRUE(replay.status().tareOfRecording);
+  EXPECT_EQ(replay.status().restName, "the tare of the recording");
+  int same = 0;
+  for (const auto& frame : replay.drain()) {
+    if (!frame->forces.valid) continue;
+    ASSERT_TRUE(recorded.contains(frame->frame.hostTime_s));
+    EXPECT_EQ(frame->forces.forces_N.col(0), recorded[frame->frame.hostTime_s]); // to the last bit
+    ++same;
+  }
+  EXPECT_GE(same, 10);
+  replay.clearTare(); // what the user does with it counts more than what stands in the file
+  control->seek(0);
+  ASSERT_TRUE(waitFor(replay, [](const LiveStatus& status) { return !status.tared; }));
+  ASSERT_TRUE(waitForState(replay, LiveState::Ended));
+  EXPECT_FALSE(replay.status().tared);
+}
+
+TEST(LiveSession, ATareIsTheBoardsWhateverNetworkReadsIt) {
+  LiveOptions options = plugged(std::make_shared<Plug>());
+  options.decoder = liveDecoder(5e-6);
+  options.tareFrames = 2;
+  LiveSession live(std::move(options));
+  ASSERT_TRUE(waitFor(live, [](const LiveStatus& status) { return status.tared; }));
+  const std::shared_ptr<const Tare> tare = live.status().tare;
+  ASSERT_TRUE(tare);
+  live.clearTare();
+  ASSERT_TRUE(waitFor(live, [](const LiveStatus& status) { return !status.tared && !status.tare; }));
+
+  LiveOptions again = plugged(std::make_shared<Plug>());
+  again.decoder = liveDecoder(5e-6);
+  again.tareOf = [tare](const BoardInfo&) { return tare; };
+  LiveSession back(std::move(again));
+  ASSERT_TRUE(waitFor(back, [](const LiveStatus& status) { return status.tared; })) << "known from before";
+  back.setDecoder(liveDecoder(1e-5), std::nullopt);
+  ASSERT_TRUE(waitForFrames(back, back.status().counts.frames + 3));
+  EXPECT_TRUE(back.status().tared) << "with another network too";
+  EXPECT_EQ(back.status().tare->rest_ohm, tare->rest_ohm);
+}
+
+TEST(LiveSession, AnAlarmThatIsSwitchedOffIsOver) {
+  LiveOptions options = plugged(std::make_shared<Plug>());
+  options.decoder = liveDecoder(5e-6);
+  options.alarm = ForceAlarm{ForceQuantity::Fz, AlarmSide::Below, -0.5};
+  LiveSession live(std::move(options));
+  ASSERT_TRUE(waitFor(live, [](const LiveStatus& status) { return !status.alarm.empty(); }));
+  EXPECT_EQ(live.status().alarm.rfind(kAlarmBegins, 0), 0U) << live.status().alarm;
+  live.setAlarm({});
+  std::string mark;
+  const double end_s = hostClock_s() + kPatience_s;
+  while (mark != kAlarmOver && hostClock_s() < end_s) {
+    for (const auto& frame : live.drain()) mark = frame->mark;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  EXPECT_EQ(mark, kAlarmOver);
+}
+
 TEST(LiveSession, RefusesToRecordWithoutABoard) {
   const TemporaryFolder folder;
   auto plug = std::make_shared<Plug>();

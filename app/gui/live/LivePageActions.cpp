@@ -1,0 +1,122 @@
+// What the Live page does at a press of a button: tare, record, export, solve the twin.
+
+#include "app/gui/live/LiveDrawings.h"
+#include "app/gui/live/LivePage.h"
+#include "app/gui/live/LiveTwin.h"
+#include "app/gui/live/RecordingName.h"
+#include "app/gui/live/panels/LiveControlPanel.h"
+
+#include <QMessageBox>
+#include <QTabWidget>
+
+#include <algorithm>
+#include <cmath>
+
+namespace palp {
+
+namespace {
+
+constexpr double kHeld_s = 0.5;  // a force that stays for so long is held
+constexpr double kSteady = 0.05; // of it, that it may move meanwhile
+constexpr std::size_t kLeastFrames = 3;
+
+/// The force that has rested on the sensor for half a second; null where there is none that could be true.
+const LiveFrame* heldTouch(const LiveHistory& history) {
+  const auto& entries = history.entries();
+  double least_N = 0, most_N = 0;
+  std::size_t seen = 0;
+  for (auto entry = entries.rbegin(); entry != entries.rend() && entries.back().t_s - entry->t_s < kHeld_s; ++entry) {
+    const DecodedForces& forces = entry->frame->forces;
+    const bool shown = std::find(forces.shown.begin(), forces.shown.end(), true) != forces.shown.end();
+    if (!forces.valid || !shown || !forces.doubt.empty()) return nullptr;
+    const double size_N = std::sqrt(forces.forces_N.colwise().squaredNorm().maxCoeff());
+    least_N = seen == 0 ? size_N : std::min(least_N, size_N);
+    most_N = std::max(most_N, size_N);
+    ++seen;
+  }
+  return seen >= kLeastFrames && most_N - least_N < kSteady * most_N ? history.last() : nullptr;
+}
+
+} // namespace
+
+void LivePage::tare() {
+  const LiveFrame* held = host_.status().tareSuggested ? nullptr : heldTouch(host_.history());
+  if (held != nullptr) {
+    const LiveArrow touch = arrowsOf(held->forces).front();
+    const auto answer = QMessageBox::question(this, tr("Tare under a load?"),
+                                              tr("The network reads (%1, %2, %3) N on area %4. A tare takes what is "
+                                                 "read now as rest: this force reads as none "
+                                                 "from then on. Tare all the same?")
+                                                  .arg(touch.force_N.x(), 0, 'f', 2)
+                                                  .arg(touch.force_N.y(), 0, 'f', 2)
+                                                  .arg(touch.force_N.z(), 0, 'f', 2)
+                                                  .arg(touch.area),
+                                              QMessageBox::Yes | QMessageBox::No, QMessageBox::No);
+    if (answer != QMessageBox::Yes) return;
+  }
+  host_.tare();
+}
+
+void LivePage::exportFrames(const QString& file) {
+  try {
+    const ReplayControl* replay = host_.replay();
+    writeLiveCsv(file.toStdString(), host_.history(),
+                 replay != nullptr ? std::optional(replay->begin_s.load()) : std::nullopt);
+    const auto count = host_.history().entries().size();
+    emit message(replay != nullptr ? tr("Wrote the %1 frames played since the last jump to %2.").arg(count).arg(file)
+                                   : tr("Wrote the last %1 frames to %2.").arg(count).arg(file));
+  } catch (const std::exception& refusal) {
+    emit message(QString::fromStdString(refusal.what()));
+  }
+}
+
+void LivePage::record(const QString& file, bool replace) {
+  if (host_.recording()) return stopRecording();
+  const std::filesystem::path wanted = file.toStdString();
+  const std::filesystem::path path = replace ? wanted : freeRecording(wanted, QDateTime::currentDateTime());
+  try {
+    host_.startRecording(path, replace);
+    control_->displayRecording(QString::fromStdString(path.string()), {});
+    emit message(tr("Recording to %1.").arg(QString::fromStdString(path.string())));
+  } catch (const std::exception& refusal) {
+    control_->displayRecording({}, QString::fromStdString(refusal.what()));
+    emit message(QString::fromStdString(refusal.what()));
+  }
+  stateLook_ = 0;
+}
+
+bool LivePage::mayEndRecording() {
+  const auto answer = QMessageBox::question(this, tr("A recording is running"),
+                                            tr("Another source ends the recording to %1. End it?")
+                                                .arg(QString::fromStdString(host_.recordingFile().string())));
+  if (answer != QMessageBox::Yes) return false;
+  stopRecording();
+  return true;
+}
+
+void LivePage::stopRecording() {
+  emit message(tr("Recorded %1 s to %2.")
+                   .arg(hostClock_s() - host_.recordingSince_s(), 0, 'f', 1)
+                   .arg(QString::fromStdString(host_.recordingFile().string())));
+  host_.stopRecording();
+}
+
+void LivePage::solveTwin() {
+  const LiveFrame* last = host_.history().lastValid();
+  if (last == nullptr) {
+    emit message(tr("No force has been decoded yet."));
+    return;
+  }
+  LoadCase load;
+  for (const LiveArrow& arrow : arrowsOf(last->forces)) load.areas.push_back({arrow.area, arrow.force_N});
+  if (load.areas.empty()) {
+    emit message(tr("The sensor is at rest: press it, then ask for the twin."));
+    return;
+  }
+  blockTabs_->setCurrentWidget(twin_);
+  const SensorDesign& sensor = host_.sensor();
+  const bool own = sensor == workbench_.project().design;
+  twin_->solve(sensor, load, own ? workbench_.project().mesh : MeshOptions{}, last->change);
+}
+
+} // namespace palp
