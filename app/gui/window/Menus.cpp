@@ -3,6 +3,7 @@
 #include "app/gui/document/Document.h"
 #include "app/gui/project/ResultCsv.h"
 #include "app/gui/project/Workbench.h"
+#include "app/gui/views/SceneExport.h"
 #include "app/gui/widgets/SaveDialog.h"
 #include "app/gui/window/HelpDialog.h"
 #include "app/gui/window/MainWindow.h"
@@ -133,6 +134,9 @@ void Menus::buildExport(QMenu& menu) {
         else
           QMessageBox::warning(&window_, tr("Film"), tr("%1: cannot be made as a folder").arg(folder));
       });
+  add(menu, tr("Export all charts and &tables..."),
+      tr("Every chart and table of this scene into a new folder: pictures, their points and tables as CSV"),
+      QKeySequence("Ctrl+Shift+P"), [this] { window_.sceneExport().ask(window_.currentScene()); });
   add(menu, tr("&Picture of the window..."), tr("The window as PNG; a right click on a view saves that view alone"),
       QKeySequence("Ctrl+P"), [this] {
         exportTo(tr("Picture of the window"), "palp.png", tr("Pictures (*.png)"), [this](const QString& file) {
@@ -147,7 +151,11 @@ void Menus::buildExport(QMenu& menu) {
           return;
         }
         QApplication::clipboard()->setText(commands);
-        window_.showMessage(tr("Copied: %1   (sensor.json: File, Save design)").arg(commands.section('\n', 0, 0)));
+        const qsizetype more = commands.trimmed().count('\n');
+        window_.showMessage(more == 0 ? tr("Copied: %1   (sensor.json: File, Save design)").arg(commands.trimmed())
+                                      : tr("Copied %1 commands, the first: %2   (sensor.json: File, Save design)")
+                                            .arg(more + 1)
+                                            .arg(commands.section('\n', 0, 0)));
       });
 }
 
