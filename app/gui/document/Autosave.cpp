@@ -121,7 +121,7 @@ void Autosave::say(const QString& reason) {
 
 void Autosave::keepResults() {
   const NetworkResults& now = network_.results();
-  if (!network_.upToDate() || (now.samples == keptSamples_ && now.fit == keptFit_)) return;
+  if (!network_.upToDate() || (now.samples == keptSamples_ && now.fit == keptFit_ && now.listed() == keptList_)) return;
   if (runner_.running()) { // what it writes now is written to its end
     timer_.start(kWait_ms);
     return;
@@ -132,6 +132,7 @@ void Autosave::keepResults() {
     return [this, results] {
       keptSamples_ = results.samples;
       keptFit_ = results.fit;
+      keptList_ = results.listed();
     };
   });
 }

@@ -6,6 +6,7 @@
 #include <QLockFile>
 #include <QObject>
 #include <QString>
+#include <QStringList>
 #include <QTimer>
 
 #include <memory>
@@ -69,6 +70,7 @@ private:
   QByteArray kept_; ///< text of the project as it lies in the folder
   std::shared_ptr<const NetworkSamples> keptSamples_;
   std::shared_ptr<const NetworkFit> keptFit_;
+  QStringList keptList_;
 };
 
 } // namespace palp

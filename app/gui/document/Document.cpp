@@ -82,7 +82,8 @@ Project Document::project() const {
 
 bool Document::unsaved() const {
   const NetworkResults& made = network_.results();
-  const bool results = network_.upToDate() && (made.samples != savedSamples_ || made.fit != savedFit_);
+  const bool results =
+      network_.upToDate() && (made.samples != savedSamples_ || made.fit != savedFit_ || made.listed() != savedList_);
   return workbench_.modified() || results;
 }
 
@@ -251,6 +252,7 @@ bool Document::write(const QString& file) {
 void Document::resultsSaved(const NetworkResults& results) {
   savedSamples_ = results.samples;
   savedFit_ = results.fit;
+  savedList_ = results.listed();
   showTitle();
 }
 

@@ -74,6 +74,7 @@ private:
   NetworkSession& network_;
   std::shared_ptr<const NetworkSamples> savedSamples_;
   std::shared_ptr<const NetworkFit> savedFit_;
+  QStringList savedList_;
   std::set<std::filesystem::path> ours_; ///< of the files beside the project: whose content was opened or written here
 };
 

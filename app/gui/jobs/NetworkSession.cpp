@@ -5,21 +5,19 @@
 #include "app/gui/jobs/SampleGeneration.h"
 #include "app/gui/jobs/TimeLeft.h"
 #include "app/study/decoding/DecoderTraining.h"
-#include "app/study/paper/PaperProtocol.h"
 #include "io/DecoderFile.h"
 #include "model/base/Error.h"
-#include "nn/NoisyCopies.h"
 #include "nn/SpreadSweep.h"
 
 #include <QElapsedTimer>
 
 #include <algorithm>
+#include <utility>
 
 namespace palp {
 
 namespace {
 
-constexpr std::size_t kKeptNetworks = 20;
 constexpr std::size_t kPastDesigns = 4; ///< whose results are kept: an edit and some undoing
 
 NetworkFit fitOn(const NetworkSamples& samples, const SensorDesign& design, const NetworkSettings& settings,
@@ -28,25 +26,52 @@ NetworkFit fitOn(const NetworkSamples& samples, const SensorDesign& design, cons
   fit.settings = settings;
   fit.decoder = trainDecoder(samples.training, &design, options, stop,
                              [&](double share, const std::string& what) { progress.set(share, what); });
-  PredictOptions plain;
-  plain.standardDeviation = false;
-  plain.area = false;
-  const Eigen::MatrixXd clean = inputsOf(samples.test, fit.decoder.input);
-  // Of another seed than the training's noise: a network must not meet in the test what it was fitted to.
-  fit.prediction =
-      predict(fit.decoder, noisyCopies(clean, settings.testNoise, 1, testSeed(settings.seed), stop), plain);
-  fit.error = decoderError(fit.decoder, fit.prediction, samples.test);
+  tryOn(fit, samples, stop);
   fit.made = QDateTime::currentDateTime();
   fit.madeFrom = samples.settings;
   return fit;
 }
 
+/// Where it is not known whose test samples the errors are of, those of a repeated training are equal to the last
+/// digit.
+bool same(const NetworkFit& one, const NetworkFit& other) {
+  NetworkSettings settings = other.settings; // but for the sweep, which acts on none of them
+  settings.sweepFrom = one.settings.sweepFrom;
+  settings.sweepTo = one.settings.sweepTo;
+  settings.sweepCount = one.settings.sweepCount;
+  const Eigen::VectorXd &error = one.error.error.rmsePercentOfRange, &others = other.error.error.rmsePercentOfRange;
+  return one.settings == settings && one.file == other.file && one.madeFrom == other.madeFrom &&
+         error.size() == others.size() && error == others;
+}
+
 } // namespace
+
+namespace {
+
+bool equal(const SampleSet& one, const SampleSet& other) {
+  const auto same = [](const auto& a, const auto& b) { return a.rows() == b.rows() && a.cols() == b.cols() && a == b; };
+  return one.origin.designFingerprint == other.origin.designFingerprint && same(one.area, other.area) &&
+         same(one.forces_N, other.forces_N) && same(one.displacements_mm, other.displacements_mm) &&
+         same(one.resistances_ohm, other.resistances_ohm);
+}
+
+bool equal(const NetworkSamples& one, const NetworkSamples& other) {
+  return equal(one.training, other.training) && equal(one.test, other.test);
+}
+
+} // namespace
+
+QStringList NetworkResults::listed() const {
+  QStringList all;
+  for (const auto& network : kept) all << network->made.toString(Qt::ISODateWithMs) + " " + network->name;
+  return all;
+}
 
 NetworkSession::NetworkSession(QObject* parent) : QObject(parent) {
   connect(&runner_, &JobRunner::progressed, this, &NetworkSession::drain);
   connect(&runner_, &JobRunner::finished, this, [this](bool cancelled) {
-    if (cancelled) emit samplesChanged();
+    const bool opened = std::exchange(openingResults_, false);
+    if (cancelled || opened) emit samplesChanged();
   });
 }
 
@@ -114,14 +139,28 @@ bool NetworkSession::fitIsCurrent() const {
   return upToDate() && shown_.fit && shown_.fit->triedOn.lock() == shown_.samples;
 }
 
-void NetworkSession::take(const std::shared_ptr<const NetworkFit>& fit, const QString& follows) {
-  shown_.fit = fit;
+void NetworkSession::take(const std::shared_ptr<NetworkFit>& fit, const QString& slide) {
   auto& kept = shown_.kept;
-  if (!follows.isEmpty() && follows == lastFollowed_ && !kept.empty()) dropKept(0);
-  lastFollowed_ = follows;
+  if (!slide.isEmpty() && slide == lastSlide_ && !kept.empty() && kept.front()->name.isEmpty()) dropKept(0);
+  lastSlide_ = slide;
+  const auto known = std::find_if(kept.begin(), kept.end(), [&](const auto& other) { return same(*fit, *other); });
+  if (known != kept.end()) {
+    fit->name = (*known)->name;
+    dropKept(static_cast<std::size_t>(known - kept.begin()));
+  }
+  shown_.fit = fit;
   kept.insert(kept.begin(), fit);
-  if (kept.size() > kKeptNetworks) kept.pop_back(); // where it was saved its file stays
+  forgetOldest();
   emit fitChanged();
+}
+
+/// Where they were saved their files stay.
+void NetworkSession::forgetOldest() {
+  auto& kept = shown_.kept;
+  const auto unnamed = [](const auto& fit) { return fit->name.isEmpty(); };
+  for (auto count = static_cast<std::size_t>(std::count_if(kept.begin(), kept.end(), unnamed)); count > kKeptNetworks;
+       --count)
+    kept.erase(std::next(std::find_if(kept.rbegin(), kept.rend(), unnamed)).base());
 }
 
 void NetworkSession::goBackTo(std::size_t kept) {
@@ -130,13 +169,7 @@ void NetworkSession::goBackTo(std::size_t kept) {
                                                                               JobProgress&) -> JobRunner::Taking {
     auto fit = std::make_shared<NetworkFit>(*old);
     if (fit->triedOn.lock() != samples) {
-      const Eigen::MatrixXd clean = inputsOf(samples->test, fit->decoder.input);
-      const NetworkSettings& settings = fit->settings;
-      PredictOptions plain;
-      plain.standardDeviation = plain.area = false;
-      fit->prediction =
-          predict(fit->decoder, noisyCopies(clean, settings.testNoise, 1, testSeed(settings.seed), stop), plain);
-      fit->error = decoderError(fit->decoder, fit->prediction, samples->test);
+      tryOn(*fit, *samples, stop);
       fit->triedOn = samples;
     }
     return [this, fit, old, samples] {
@@ -144,7 +177,7 @@ void NetworkSession::goBackTo(std::size_t kept) {
       const auto place = std::find(shown_.kept.begin(), shown_.kept.end(), old);
       if (place != shown_.kept.end()) *place = fit;
       shown_.fit = fit;
-      lastFollowed_.clear(); // what is trained next is added, whatever begins it
+      lastSlide_.clear(); // what is trained next is added, whatever begins it
       emit fitChanged();
     };
   };
@@ -160,23 +193,33 @@ void NetworkSession::dropKept(std::size_t kept) {
 void NetworkSession::takeAway(std::size_t kept) {
   if (kept >= shown_.kept.size()) return;
   dropKept(kept);
-  lastFollowed_.clear();
+  lastSlide_.clear();
   emit fitChanged();
 }
 
-void NetworkSession::train(const NetworkSettings& settings, const QString& follows) {
+void NetworkSession::rename(std::size_t kept, const QString& name) {
+  if (kept >= shown_.kept.size() || shown_.kept[kept]->name == name) return;
+  const auto old = shown_.kept[kept];
+  const auto fit = std::make_shared<NetworkFit>(*old);
+  fit->name = name;
+  if (shown_.fit == old) shown_.fit = fit;
+  shown_.kept[kept] = fit;
+  emit fitChanged();
+}
+
+void NetworkSession::train(const NetworkSettings& settings, const QString& slide) {
   if (!upToDate()) return;
-  const auto work = [this, settings, follows, design = design_, samples = shown_.samples](
+  const auto work = [this, settings, slide, design = design_, samples = shown_.samples](
                         const std::stop_token& stop, JobProgress& progress) -> JobRunner::Taking {
     StageLog stages;
     const auto fit = stages.measure("train", [&] {
       return std::make_shared<NetworkFit>(fitOn(*samples, design, settings, settings.trainOptions(), stop, progress));
     });
     fit->triedOn = samples;
-    return [this, fit, follows, samples, stages] {
+    return [this, fit, slide, samples, stages] {
       if (samples != shown_.samples) return;
       stages_.add(stages);
-      take(fit, follows);
+      take(fit, slide);
     };
   };
   runner_.start(tr("Training"), work);
@@ -282,7 +325,12 @@ void NetworkSession::openSamples(const std::vector<std::filesystem::path>& files
     results.design = design;
     results.samples = std::make_shared<const NetworkSamples>(openSampleFiles(files, design, stop));
     return [this, results] {
-      if (results.design == design_) show(results);
+      if (results.design != design_) return;
+      if (upToDate() && equal(*results.samples, *shown_.samples))
+        emit problem(tr("%1 holds the samples that are there already: all that was made of them stays.")
+                         .arg(results.samples->file));
+      else
+        show(results);
     };
   };
   runner_.start(tr("Opening samples"), work);
@@ -291,15 +339,18 @@ void NetworkSession::openSamples(const std::vector<std::filesystem::path>& files
 void NetworkSession::openResults(const std::filesystem::path& folder,
                                  const std::function<void(const OpenedResults&)>& opened) {
   const auto work = [this, folder, opened, design = design_](const std::stop_token& stop,
-                                                             JobProgress&) -> JobRunner::Taking {
-    const auto found = std::make_shared<const OpenedResults>(palp::openResults(folder, design, stop));
+                                                             JobProgress& progress) -> JobRunner::Taking {
+    const auto found = std::make_shared<const OpenedResults>(palp::openResults(
+        folder, design, stop, [&progress](double share, const std::string& what) { progress.set(share, what); }));
     return [this, found, opened] {
       if (found->results.design != design_) return;
       if (found->results.samples) show(found->results);
       opened(*found);
     };
   };
-  runner_.start(tr("Opening samples"), work);
+  runner_.start(tr("Opening samples and networks"), work);
+  openingResults_ = true;
+  emit samplesChanged(); // there are none yet, for another reason
 }
 
 void NetworkSession::saveSamples(const std::filesystem::path& file) {

@@ -40,6 +40,7 @@ struct NetworkFit {
   Prediction prediction;
   DecoderError error;
   QDateTime made;
+  QString name;                                ///< that the user gave it; empty: none
   QString file;                                ///< that it was opened from; empty: trained here
   SampleSettings madeFrom;                     ///< the samples that it was trained with or tried on
   std::weak_ptr<const NetworkSamples> triedOn; ///< whose test samples the prediction is of
@@ -72,6 +73,9 @@ struct NetworkResults {
   NetworkSettings sweepSettings;
   std::vector<DecoderTrial> trials;
   NetworkSettings trialsSettings;
+
+  /// When each network of the list was made, and its name: another list is another state of the work.
+  [[nodiscard]] QStringList listed() const;
 };
 
 /// The samples and networks behind the Network scene: made in the background, only when asked. They stay with the
@@ -90,9 +94,9 @@ public:
   void clear();
   /// Goes on where the same samples were stopped before.
   void generate(const SampleSettings& samples, const MeshOptions& mesh);
-  /// `follows`: the edit that it comes after, where it was not asked for by itself; of such networks of one edit (a
-  /// spread that is dragged) the list keeps the last alone.
-  void train(const NetworkSettings& settings, const QString& follows = {});
+  /// The list keeps every network that was trained, those of equal settings and results once. `slide`: the movement
+  /// of a slider that it follows, of which the list keeps the last network alone; empty: of none.
+  void train(const NetworkSettings& settings, const QString& slide = {});
   void sweep(const NetworkSettings& settings);
   /// Trains every kind of decoder with the same input, rows and noise.
   void compare(const NetworkSettings& settings);
@@ -116,6 +120,9 @@ public:
   /// Of files that hold results: what the Network scene shows until the next work begins.
   void sayProblem(const QString& sentence) { emit problem(sentence); }
 
+  /// What lies beside the project is being opened.
+  [[nodiscard]] bool openingResults() const { return openingResults_; }
+
   [[nodiscard]] const NetworkResults& results() const { return shown_; }
   [[nodiscard]] const NetworkSamples* samples() const { return shown_.samples.get(); }
   /// There are samples, and they are of the design as it is now.
@@ -130,6 +137,10 @@ public:
   /// Shows one of them again, tried on the samples that are there now.
   void goBackTo(std::size_t kept);
   void takeAway(std::size_t kept);
+  /// Calls one of them by a name; empty: takes its name away.
+  void rename(std::size_t kept, const QString& name);
+  /// So many stay in the list, and all that have a name.
+  static constexpr std::size_t kKeptNetworks = 50;
   [[nodiscard]] const std::vector<SweepPoint>& sweepPoints() const { return shown_.sweep; }
   [[nodiscard]] const NetworkSettings& sweepSettings() const { return shown_.sweepSettings; }
   [[nodiscard]] const std::vector<DecoderTrial>& trials() const { return shown_.trials; }
@@ -161,7 +172,9 @@ private:
   };
   void drain();
   /// Shows a network, and keeps it.
-  void take(const std::shared_ptr<const NetworkFit>& fit, const QString& follows);
+  void take(const std::shared_ptr<NetworkFit>& fit, const QString& slide);
+  /// The oldest without a name leave the list where it is full.
+  void forgetOldest();
   /// Takes a network off the list, and its files at the next saving.
   void dropKept(std::size_t kept);
   /// Shows other results, and keeps those that were shown while there is room.
@@ -174,7 +187,8 @@ private:
   std::shared_ptr<SampleGeneration> generation_; ///< written by the job alone while it runs
   std::shared_ptr<Rows> rows_;
   StageLog stages_;
-  QString lastFollowed_; ///< the edit that the newest network of the list was trained after
+  bool openingResults_ = false;
+  QString lastSlide_; ///< the movement that the newest network of the list follows
 };
 
 } // namespace palp

@@ -3,11 +3,13 @@
 #include "app/gui/jobs/FilesTogether.h"
 #include "app/gui/jobs/SampleFiles.h"
 #include "app/gui/project/ProjectFile.h"
+#include "app/study/paper/PaperProtocol.h"
 #include "io/AtomicFile.h"
 #include "io/DecoderFile.h"
 #include "io/DesignFile.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
+#include "nn/NoisyCopies.h"
 
 #include <QFile>
 
@@ -25,6 +27,7 @@ constexpr const char* kNetwork = "network.json";
 constexpr const char* kKept = "networks";
 constexpr const char* kDecoder = ".network.json";
 constexpr const char* kSettings = ".settings.json";
+constexpr const char* kName = ".name.txt"; ///< that the user gave it
 constexpr const char* kMade = "yyyyMMdd-HHmmss-zzz";
 
 /// As in the settings: "4", "1,4,7" or "all".
@@ -35,22 +38,37 @@ std::string rowsInWords(const DecoderInput& input) {
   return words;
 }
 
+/// What a network says of itself; it is not tried yet.
+NetworkFit ofDecoder(Decoder decoder, const NetworkSamples& samples) {
+  NetworkFit fit;
+  fit.decoder = std::move(decoder);
+  fit.settings.input = fit.decoder.input.kind;
+  fit.settings.mode = fit.decoder.mode;
+  fit.settings.decoder = fit.decoder.kind;
+  fit.settings.spread = fit.decoder.report.spread;
+  fit.settings.rows = rowsInWords(fit.decoder.input);
+  fit.settings.noise = fit.decoder.noise;
+  fit.settings.seed = fit.decoder.seed;
+  fit.madeFrom = samples.settings;
+  fit.made = QDateTime::currentDateTime();
+  return fit;
+}
+
 } // namespace
 
+void tryOn(NetworkFit& fit, const NetworkSamples& samples, const std::stop_token& stop) {
+  PredictOptions plain;
+  plain.standardDeviation = plain.area = false;
+  const Eigen::MatrixXd clean = inputsOf(samples.test, fit.decoder.input);
+  // Of another seed than the training's noise: a network must not meet in the test what it was fitted to.
+  fit.prediction =
+      predict(fit.decoder, noisyCopies(clean, fit.settings.testNoise, 1, testSeed(fit.settings.seed), stop), plain);
+  fit.error = decoderError(fit.decoder, fit.prediction, samples.test);
+}
+
 std::shared_ptr<const NetworkFit> triedOn(Decoder decoder, const NetworkSamples& samples) {
-  auto fit = std::make_shared<NetworkFit>();
-  fit->decoder = std::move(decoder);
-  fit->settings.input = fit->decoder.input.kind;
-  fit->settings.mode = fit->decoder.mode;
-  fit->settings.decoder = fit->decoder.kind;
-  fit->settings.spread = fit->decoder.report.spread;
-  fit->settings.rows = rowsInWords(fit->decoder.input);
-  fit->settings.noise = fit->decoder.noise;
-  fit->settings.seed = fit->decoder.seed;
-  fit->madeFrom = samples.settings;
-  fit->made = QDateTime::currentDateTime();
-  fit->prediction = predict(fit->decoder, samples.test);
-  fit->error = decoderError(fit->decoder, fit->prediction, samples.test);
+  auto fit = std::make_shared<NetworkFit>(ofDecoder(std::move(decoder), samples));
+  tryOn(*fit, samples, {});
   return fit;
 }
 
@@ -65,7 +83,24 @@ QDateTime madeOf(const std::string& stem) {
   return QDateTime::fromString(QString::fromStdString(stem), kMade);
 }
 
-/// Those that are there stay as they are: a network does not change.
+/// One line of text; no file: no name.
+QString nameIn(const fs::path& file) {
+  constexpr int kLongest = 80;
+  QFile in(QString::fromStdString(file.string()));
+  return in.open(QIODevice::ReadOnly) ? QString::fromUtf8(in.read(4 * kLongest)).simplified().left(kLongest)
+                                      : QString();
+}
+
+void saveName(const fs::path& file, const QString& name) {
+  std::error_code ignored;
+  if (name == nameIn(file)) return;
+  if (name.isEmpty())
+    fs::remove(file, ignored);
+  else
+    writeFile(file, name.toStdString() + "\n", true);
+}
+
+/// Those that are there stay as they are but for their names: a network does not change.
 void saveKept(const fs::path& folder, const NetworkResults& results) {
   std::error_code ignored;
   if (!results.kept.empty()) fs::create_directories(folder, ignored); // else the first file cannot be written
@@ -74,6 +109,7 @@ void saveKept(const fs::path& folder, const NetworkResults& results) {
     if (!fs::exists(folder / (stem + kSettings)))
       writeFile(folder / (stem + kSettings), networkText(fit->settings).toStdString(), true);
     if (!fs::exists(folder / (stem + kDecoder))) writeNetwork(fit->decoder, folder / (stem + kDecoder));
+    saveName(folder / (stem + kName), fit->name);
   }
 }
 
@@ -83,7 +119,7 @@ void removeTakenAway(const fs::path& folder, const NetworkResults& results) {
   for (const QDateTime& made : results.takenAway) {
     const auto is = [&](const auto& fit) { return fit->made == made; };
     if (std::any_of(results.kept.begin(), results.kept.end(), is)) continue; // opened again
-    for (const char* end : {kSettings, kDecoder}) fs::remove(folder / (stemOf(made) + end), ignored);
+    for (const char* end : {kSettings, kDecoder, kName}) fs::remove(folder / (stemOf(made) + end), ignored);
   }
 }
 
@@ -99,29 +135,33 @@ void openNetwork(const fs::path& file, OpenedResults& opened) {
   }
 }
 
-void openOneKept(const fs::path& folder, const std::string& stem, const SensorDesign& design, OpenedResults& opened) {
+void openOneKept(const fs::path& folder, const std::string& stem, const SensorDesign& design, OpenedResults& opened,
+                 const std::stop_token& stop) {
   NetworkResults& results = opened.results;
   Decoder decoder = readNetwork(folder / (stem + kDecoder));
   if (decoder.designFingerprint != designFingerprint(design)) {
     ++opened.ofOtherDesigns;
     return;
   }
-  auto fit = std::make_shared<NetworkFit>(*triedOn(std::move(decoder), *results.samples));
+  auto fit = std::make_shared<NetworkFit>(ofDecoder(std::move(decoder), *results.samples));
   fit->made = madeOf(stem);
+  fit->name = nameIn(folder / (stem + kName));
   try {
     QFile settings(QString::fromStdString((folder / (stem + kSettings)).string()));
     if (settings.open(QIODevice::ReadOnly)) fit->settings = parseNetwork(settings.readAll(), settings.fileName());
   } catch (const Error& error) { // the network says most of them itself
     opened.problems.emplace_back(error.what());
   }
-  if (fit->settings.testNoise == 0) fit->triedOn = results.samples; // else with its noise when it is gone back to
+  tryOn(*fit, *results.samples, stop);
+  fit->triedOn = results.samples;
   const bool shown = results.fit && results.fit->decoder.trainedWith == fit->decoder.trainedWith &&
                      results.fit->decoder.report.seconds == fit->decoder.report.seconds;
   results.kept.push_back(fit);
   if (shown) results.fit = fit;
 }
 
-void openKept(const fs::path& folder, const SensorDesign& design, OpenedResults& opened, const std::stop_token& stop) {
+void openKept(const fs::path& folder, const SensorDesign& design, OpenedResults& opened, const std::stop_token& stop,
+              const OpeningProgress& progress) {
   std::vector<std::string> stems;
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(folder, none)) {
@@ -130,10 +170,19 @@ void openKept(const fs::path& folder, const SensorDesign& design, OpenedResults&
     if (name == stem + kDecoder && madeOf(stem).isValid()) stems.push_back(stem); // others are somebody else's
   }
   std::sort(stems.rbegin(), stems.rend()); // the newest first
-  for (const std::string& stem : stems) {
-    if (stop.stop_requested()) throw Cancelled();
+  std::size_t unnamed = 0;
+  for (std::size_t k = 0; k < stems.size(); ++k) {
+    const std::string& stem = stems[k];
+    stopIfAsked(stop);
+    progress(static_cast<double>(k) / static_cast<double>(stems.size()),
+             "Network " + std::to_string(k + 1) + " of " + std::to_string(stems.size()));
+    // Those that left the list because it was full stay away.
+    if (nameIn(folder / (stem + kName)).isEmpty() && unnamed == NetworkSession::kKeptNetworks) continue;
     try {
-      openOneKept(folder, stem, design, opened);
+      openOneKept(folder, stem, design, opened, stop);
+      if (!opened.results.kept.empty() && opened.results.kept.back()->made == madeOf(stem) &&
+          opened.results.kept.back()->name.isEmpty())
+        ++unnamed;
     } catch (const Error& error) {
       opened.problems.emplace_back(error.what());
     }
@@ -191,14 +240,15 @@ std::vector<std::string> saveResults(const fs::path& folder, const NetworkResult
   return said;
 }
 
-OpenedResults openResults(const fs::path& folder, const SensorDesign& design, const std::stop_token& stop) {
+OpenedResults openResults(const fs::path& folder, const SensorDesign& design, const std::stop_token& stop,
+                          const OpeningProgress& progress) {
   OpenedResults opened;
   opened.results.design = design;
   if (!fs::exists(folder / kSamples)) return opened;
   openSamples(folder, design, opened, stop);
   if (!opened.results.samples) return opened;
   openNetwork(folder / kNetwork, opened);
-  openKept(folder / kKept, design, opened, stop);
+  openKept(folder / kKept, design, opened, stop, progress);
   return opened;
 }
 

@@ -3,6 +3,7 @@
 #include "app/gui/jobs/NetworkSession.h"
 
 #include <filesystem>
+#include <functional>
 #include <set>
 #include <stop_token>
 #include <string>
@@ -10,7 +11,11 @@
 
 namespace palp {
 
-/// The decoder tried on the test samples. Throws Error where it does not fit them.
+/// Tries the network on the test samples, with the noise of the test that its settings say. Throws Error where it does
+/// not fit them, and Cancelled.
+void tryOn(NetworkFit& fit, const NetworkSamples& samples, const std::stop_token& stop);
+
+/// The decoder tried on the test samples, without noise. Throws Error where it does not fit them.
 std::shared_ptr<const NetworkFit> triedOn(Decoder decoder, const NetworkSamples& samples);
 
 /// The files of a folder that hold what is there now: samples.csv, samples-test.csv and network.json.
@@ -32,7 +37,13 @@ struct OpenedResults {
   int ofOtherDesigns = 0;                 ///< networks there that are not listed
 };
 
-/// What saveResults() wrote; nothing where the folder holds no samples. What cannot be opened is left out.
-OpenedResults openResults(const std::filesystem::path& folder, const SensorDesign& design, const std::stop_token& stop);
+/// Share 0..1 of the opening, and what is opened.
+using OpeningProgress = std::function<void(double share, const std::string& what)>;
+
+/// What saveResults() wrote; nothing where the folder holds no samples. What cannot be opened is left out, and so are
+/// networks without a name beyond those that a list keeps.
+OpenedResults openResults(
+    const std::filesystem::path& folder, const SensorDesign& design, const std::stop_token& stop,
+    const OpeningProgress& progress = [](double, const std::string&) {});
 
 } // namespace palp

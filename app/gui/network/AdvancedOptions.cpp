@@ -1,5 +1,6 @@
 #include "app/gui/network/AdvancedOptions.h"
 
+#include "app/gui/network/FitWords.h"
 #include "app/gui/widgets/SpinBoxes.h"
 #include "model/base/Text.h"
 
@@ -43,8 +44,8 @@ AdvancedOptions::AdvancedOptions(QWidget* parent) : QWidget(parent) {
   more_ = new QToolButton;
   more_->setObjectName("moreOptions");
   more_->setText(tr("More options"));
-  more_->setToolTip(
-      tr("Solver, ridge, scaler, tail, convention, centres and seed: what is not set follows from the mode"));
+  more_->setToolTip(tr("Solver, ridge, scaler, tail, convention, centres and seed: what is not set follows from the "
+                       "mode; what is grey does not act on the decoder that is chosen"));
   more_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   more_->setAutoRaise(true);
   more_->setCheckable(true);
@@ -77,8 +78,9 @@ AdvancedOptions::AdvancedOptions(QWidget* parent) : QWidget(parent) {
   seed_->setObjectName("trainSeed");
   seed_->setRange(0, 1000000000);
   seed_->setKeyboardTracking(false);
-  seed_->setToolTip(tr("Seed of centres, noise and starts; that of the samples is another"));
-  form->addRow(tr("Seed"), seed_);
+  seed_->setToolTip(tr("Seed of centres, noise and starts. Without noise it moves the centres alone; with a centre on "
+                       "every sample, the noise alone"));
+  form->addRow(tr("Seed of training"), seed_);
   forgetting_ = new QDoubleSpinBox;
   forgetting_->setObjectName("forgetting");
   forgetting_->setDecimals(6);
@@ -120,8 +122,40 @@ void AdvancedOptions::fold(bool open) {
   more_->setArrowType(open ? Qt::DownArrow : Qt::RightArrow);
 }
 
+/// What the mode says stands beside the words, where the decoder uses it.
+void AdvancedOptions::showMode(const NetworkSettings& network) {
+  NetworkSettings unset;
+  unset.input = network.input;
+  unset.mode = network.mode;
+  unset.noise = network.noise;
+  const RbfOptions mode = rbfOptions(unset.trainOptions(), 0);
+  const bool rbf = network.decoder == DecoderKind::Rbf;
+  const auto say = [rbf](QComboBox& box, const std::string& value) {
+    box.setItemText(0, rbf ? tr("as the mode says: %1").arg(QString::fromStdString(value)) : tr("as the mode says"));
+  };
+  say(*solver_, name(mode.method));
+  say(*scaler_, name(mode.scaling));
+  say(*tail_, kTails.name(mode.tail));
+  say(*convention_, name(mode.convention));
+  ridge_->setPlaceholderText(!rbf                ? tr("as the mode says")
+                             : network.noise > 0 ? tr("as the mode says: by leave-one-out")
+                                                 : tr("as the mode says: 0"));
+}
+
+/// DecoderTraining.cpp and TwoStep.cpp: which options each decoder takes.
+void AdvancedOptions::enableFor(DecoderKind decoder) {
+  for (QWidget* only :
+       std::initializer_list<QWidget*>{solver_, tail_, convention_, centersBy_, allCenters_, forgetting_})
+    only->setEnabled(hasSpread(decoder));
+  ridge_->setEnabled(hasRidge(decoder));
+  scaler_->setEnabled(hasSpread(decoder) || decoder == DecoderKind::GaussianProcess);
+  seed_->setEnabled(decoder != DecoderKind::MaximumLikelihood);
+}
+
 void AdvancedOptions::display(const NetworkSettings& network) {
   displaying_ = true;
+  showMode(network);
+  enableFor(network.decoder);
   choose(*solver_, network.solver, kLeastSquaresMethods);
   choose(*scaler_, network.scaling, kScalings);
   choose(*tail_, network.tail, kTails);

@@ -34,6 +34,8 @@ private:
   QComboBox* choice(QFormLayout& form, const QString& label, const char* name, const QString& tip,
                     const std::vector<std::string>& values);
   void fold(bool open);
+  void showMode(const NetworkSettings& network);
+  void enableFor(DecoderKind decoder);
 
   bool displaying_ = false;
   QToolButton* more_ = nullptr;

@@ -6,6 +6,8 @@
 #include <QObject>
 #include <QStringList>
 
+#include <cmath>
+
 namespace palp {
 
 namespace {
@@ -23,18 +25,15 @@ QString percent(double share) {
   return QString::number(100 * share, 'g', 3) + " %";
 }
 
-/// What was set that otherwise follows from the mode.
-QString optionsWords(const NetworkSettings& settings) {
-  QString words;
-  const auto add = [&words](const QString& what, const QString& value) { words += ", " + what + " " + value; };
-  if (settings.solver) add(tr("solver"), trained(name(*settings.solver)));
-  if (settings.ridge) add(tr("ridge"), QString::number(*settings.ridge, 'g', 3));
-  if (settings.scaling) add(tr("scaler"), trained(name(*settings.scaling)));
-  if (settings.tail) add(tr("tail"), trained(kTails.name(*settings.tail)));
-  if (settings.convention) add(tr("convention"), trained(name(*settings.convention)));
-  if (settings.centerChoice) add(tr("centres by"), trained(kCenterChoices.name(*settings.centerChoice)));
-  if (settings.seed != 1) add(tr("seed"), QString::number(settings.seed));
-  return words;
+/// What was not set of a network that was trained here; empty where its decoder has none of it.
+QString systemWords(const NetworkFit& fit) {
+  if (!fit.file.isEmpty() || fit.settings.decoder != DecoderKind::Rbf) return {};
+  const RbfOptions used = rbfOptions(fit.settings.trainOptions(), fit.decoder.report.centers);
+  QStringList words;
+  if (!fit.settings.scaling) words << tr("scaler %1").arg(trained(name(used.scaling)));
+  if (!fit.settings.tail) words << tr("tail %1").arg(trained(kTails.name(used.tail)));
+  if (!fit.settings.solver) words << tr("solver %1").arg(trained(name(used.method)));
+  return words.isEmpty() ? QString() : tr("; the mode says %1").arg(words.join(", "));
 }
 
 /// What the network was trained with, and what is set now instead.
@@ -95,19 +94,58 @@ QString triple(const Eigen::VectorXd& values, const QString& unit) {
   return texts.join(" / ") + " " + unit;
 }
 
+QString optionsWords(const NetworkSettings& settings) {
+  QStringList words;
+  const auto add = [&words](const QString& what, const QString& value) { words << what + " " + value; };
+  if (settings.solver) add(tr("solver"), trained(name(*settings.solver)));
+  if (settings.tail) add(tr("tail"), trained(kTails.name(*settings.tail)));
+  if (settings.convention) add(tr("convention"), trained(name(*settings.convention)));
+  if (settings.centerChoice) add(tr("centres by"), trained(kCenterChoices.name(*settings.centerChoice)));
+  if (settings.allCenters) words << tr("a centre on every sample");
+  if (settings.forgetting != 1) add(tr("forgetting"), QString::number(settings.forgetting));
+  return words.join(", ");
+}
+
+QString ridgeWords(const NetworkFit& fit) {
+  const double ridge = fit.decoder.report.ridge;
+  const bool chosen = fit.file.isEmpty() && !fit.settings.ridge && ridge > 0;
+  return QString::number(ridge, 'g', 3) + (chosen ? tr(" (by leave-one-out)") : QString());
+}
+
+QString scalerWords(const NetworkFit& fit) {
+  if (fit.settings.scaling) return trained(name(*fit.settings.scaling));
+  if (!fit.file.isEmpty() || fit.settings.decoder != DecoderKind::Rbf) return "-";
+  return trained(name(rbfOptions(fit.settings.trainOptions(), fit.decoder.report.centers).scaling));
+}
+
 QString originWords(const NetworkFit& fit) {
-  QString words = tr("from %1s, row-wires %2, %3, mode %4, spread %5, %6 centres")
+  QString words = tr("from %1s, row-wires %2, %3, mode %4")
                       .arg(trained(name(fit.settings.input)), trained(fit.settings.rows),
-                           trained(name(fit.settings.decoder)), trained(name(fit.settings.mode)))
-                      .arg(fit.decoder.report.spread, 0, 'g', 4)
-                      .arg(fit.decoder.report.centers);
-  words += optionsWords(fit.settings);
-  if (fit.settings.noise > 0) words += tr(", trained for noise %1").arg(percent(fit.settings.noise));
-  if (fit.settings.testNoise > 0)
-    words += tr(", tested with noise %1").arg(percent(fit.settings.testNoise));
-  else if (fit.settings.noise > 0)
-    words += tr(", tested without noise");
+                           trained(name(fit.settings.decoder)), trained(name(fit.settings.mode)));
+  if (fit.decoder.report.spread > 0) words += tr(", spread %1").arg(fit.decoder.report.spread, 0, 'g', 4);
+  if (fit.decoder.report.centers > 0) words += tr(", %1 centres").arg(fit.decoder.report.centers);
+  if (hasRidge(fit.settings.decoder)) words += tr(", ridge %1").arg(ridgeWords(fit));
+  if (fit.settings.scaling) words += tr(", scaler %1").arg(trained(name(*fit.settings.scaling)));
+  const QString options = optionsWords(fit.settings);
+  if (!options.isEmpty()) words += ", " + options;
+  if (fit.settings.seed != 1) words += tr(", seed %1").arg(fit.settings.seed);
+  const auto noise = [](double share) {
+    return share > 0 ? tr("for noise %1").arg(percent(share)) : tr("without noise");
+  };
+  words += tr(", trained %1").arg(noise(fit.settings.noise));
+  words += fit.settings.testNoise > 0 ? tr(", tested with noise %1").arg(percent(fit.settings.testNoise))
+                                      : tr(", tested without noise");
   return words;
+}
+
+bool hasRidge(DecoderKind kind) {
+  return hasSpread(kind) || kind == DecoderKind::Linear || kind == DecoderKind::Polynomial2 ||
+         kind == DecoderKind::Polynomial3;
+}
+
+bool hasSpread(DecoderKind kind) {
+  return kind == DecoderKind::Rbf || kind == DecoderKind::TwoStepBackPropagation ||
+         kind == DecoderKind::TwoStepGaussNewton;
 }
 
 QString staleReason(const NetworkSession& session, const NetworkSettings& now) {
@@ -152,7 +190,7 @@ QString trialsWords(const NetworkSession& session, const NetworkSettings& now) {
 
 QString samplesWords(const NetworkSession& session) {
   const NetworkSamples* samples = session.samples();
-  if (samples == nullptr) return tr("None yet for this design.");
+  if (samples == nullptr) return session.openingResults() ? tr("Being opened.") : tr("None yet for this design.");
   const QString counts = tr("%1 for training, %2 for testing").arg(samples->training.size()).arg(samples->test.size());
   if (!session.upToDate()) return counts + tr(", of an earlier design: undo the change, or generate new ones.");
   return counts + (samples->file.isEmpty() ? madeWords(*samples) : openedWords(*samples)) + ".";
@@ -170,24 +208,92 @@ bool sweepAndTrialsAgree(const NetworkSession& session) {
   return sweep == trials;
 }
 
-QString fitWords(const NetworkSession& session, const NetworkSettings& now) {
+namespace {
+
+/// A cell of the table of errors, which stands at the right.
+QString cell(const QString& text) {
+  return "<td align=\"right\">&nbsp;&nbsp;" + text + "</td>";
+}
+
+/// A column of three numbers below its head.
+struct Column {
+  QString head;
+  Eigen::VectorXd values;
+};
+
+QString inWords(double value) {
+  return std::isfinite(value) ? QString::number(value, 'g', 3) : QString("-");
+}
+
+QString table(const std::vector<Column>& columns, const QString& title) {
+  QString rows = "<tr><td>" + title + "</td>";
+  for (const Column& column : columns) rows += cell(column.head);
+  rows += "</tr>";
+  const QStringList forces{"Fx", "Fy", "Fz"};
+  for (int d = 0; d < forces.size(); ++d) {
+    rows += "<tr><td>" + forces[d] + "</td>";
+    for (const Column& column : columns)
+      rows += cell(d < column.values.size() ? inWords(column.values[d]) : QString("..."));
+    rows += "</tr>";
+  }
+  return "<table cellspacing=\"0\" cellpadding=\"0\">" + rows + "</table>";
+}
+
+/// The errors of the network that is shown, beside the bound and the network that was trained before it.
+std::vector<Column> columns(const NetworkSession& session, const NetworkFit& fit, const NoiseBound* bound) {
+  const PredictionError& error = fit.error.error;
+  std::vector<Column> all{{tr("Eq. (13) [%]"), error.eq13Percent},
+                          {tr("floored at 0.05 N [%]"), error.eq13FlooredPercent},
+                          {tr("mean [N]"), error.meanAbsolute},
+                          {tr("RMSE [% of range]"), error.rmsePercentOfRange}};
+  if (fit.settings.testNoise > 0 && session.fitIsCurrent())
+    all.push_back({tr("Cramer-Rao bound [%]"), bound != nullptr ? bound->withPriorPercent : Eigen::VectorXd()});
+  const auto& kept = session.kept();
+  if (kept.size() > 1 && kept.front()->made == fit.made)
+    all.push_back({tr("RMSE before [%]"), kept[1]->error.error.rmsePercentOfRange});
+  return all;
+}
+
+/// What a result calls for.
+QString adviceWords(const NetworkSession& session, const NetworkFit& fit) {
+  constexpr double kKnowingNothing_percent = 28.9; // of the range: a uniform density's deviation, 1 / sqrt(12)
+  if (!session.fitIsCurrent()) return {};
+  if (fit.settings.testNoise == 0)
+    return (fit.settings.mode == DecoderMode::Paper
+                ? tr(" The paper does not say how it scaled its inputs, so that its spreads are not ours: its smallest "
+                     "errors compare, places on the axis do not.")
+                : QString()) +
+           tr(" A noise of the test puts the noise bound (Cramer-Rao) beside the errors.");
+  if (fit.settings.noise < fit.settings.testNoise &&
+      fit.error.error.rmsePercentOfRange.maxCoeff() > kKnowingNothing_percent)
+    return tr(
+        " Worse than knowing nothing (28.9 % of range): the noise drowns it. Train it with the noise of the test.");
+  return {};
+}
+
+} // namespace
+
+QString fitWords(const NetworkSession& session, const NetworkSettings& now, const NoiseBound* bound) {
   const NetworkFit* fit = session.fit();
+  if (fit == nullptr && session.openingResults()) return tr("The networks of the project are being opened.");
   if (fit == nullptr)
     return session.samples() == nullptr ? tr("No network yet: generate samples, then train.")
                                         : tr("No network yet: train one on the samples.");
-  const PredictionError& error = fit->error.error;
-  const QString name = fit->file.isEmpty() ? tr("Trained here") : tr("Opened: %1").arg(QFileInfo(fit->file).fileName());
-  const QString numbers = tr("%1 by Eq. (13), %2 with a floor of 0.05 N, %3 of range (RMSE), %4 on average")
-                              .arg(triple(error.eq13Percent, "%"), triple(error.eq13FlooredPercent, "%"),
-                                   triple(error.rmsePercentOfRange, "%"), triple(error.meanAbsolute, "N"));
-  const QString rest = tr("%1 %2; condition %3, trained in %4 s.")
-                           .arg(name.toHtmlEscaped(), originWords(*fit).toHtmlEscaped())
+  QString name = fit->file.isEmpty() ? tr("Trained here") : tr("Opened: %1").arg(QFileInfo(fit->file).fileName());
+  if (!fit->name.isEmpty()) name = "\"" + fit->name + "\": " + name;
+  const QString rest = tr("%1 %2%3; condition %4, trained in %5 s.%6")
+                           .arg(name.toHtmlEscaped(), originWords(*fit).toHtmlEscaped(), systemWords(*fit))
                            .arg(fit->decoder.report.condition, 0, 'g', 2)
-                           .arg(fit->decoder.report.seconds, 0, 'g', 2);
+                           .arg(fit->decoder.report.seconds, 0, 'g', 2)
+                           .arg(adviceWords(session, *fit));
   const QString reason = staleReason(session, now);
-  if (reason.isEmpty()) return tr("<b>Test error Fx / Fy / Fz, all areas:</b> %1. %2").arg(numbers, rest);
-  return QString("<i>%1</i> <font color=\"#808890\">%2</font>")
-      .arg(reason.toHtmlEscaped(), tr("Test error Fx / Fy / Fz, all areas: %1. %2").arg(numbers, rest));
+  const bool current = reason.isEmpty();
+  const QString title = tr("Test error, all areas");
+  const QString errors = table(columns(session, *fit, bound), current ? "<b>" + title + "</b>" : title);
+  const QString both = "<table width=\"100%\" cellspacing=\"0\" cellpadding=\"0\"><tr><td>" + errors +
+                       "</td><td width=\"16\"></td><td>" +
+                       (current ? rest : "<i>" + reason.toHtmlEscaped() + "</i> " + rest) + "</td></tr></table>";
+  return current ? both : "<div style=\"color: #808890\">" + both + "</div>";
 }
 
 } // namespace palp

@@ -2,12 +2,24 @@
 
 #include "app/gui/jobs/NetworkSession.h"
 
+#include "app/study/decoding/NoiseBound.h"
+
 #include <QString>
 
 namespace palp {
 
 /// Three numbers and their unit: "1.2 / 3 / 0.5 %".
 QString triple(const Eigen::VectorXd& values, const QString& unit);
+
+/// What was set that otherwise follows from the mode, but for ridge, scaler and seed: "tail bias, solver svd".
+QString optionsWords(const NetworkSettings& settings);
+/// The ridge, and whether it was chosen by the samples: "1e-05 (by leave-one-out)".
+QString ridgeWords(const NetworkFit& fit);
+/// How its inputs are scaled, set or as the mode says; "-" where that is not known.
+QString scalerWords(const NetworkFit& fit);
+bool hasRidge(DecoderKind kind);
+/// It is a radial basis network, or ends in one: spread, centres and all other options act on it.
+bool hasSpread(DecoderKind kind);
 
 /// Where a network comes from and how it was trained: "from displacements, rows 4, rbf, default, 600 centres".
 QString originWords(const NetworkFit& fit);
@@ -28,7 +40,8 @@ QString samplesWords(const NetworkSession& session);
 /// The sweep was made as the comparison was, but for the decoder and the spread.
 bool sweepAndTrialsAgree(const NetworkSession& session);
 
-/// The network that is shown and its error as rich text; grey with the reason where it is stale.
-QString fitWords(const NetworkSession& session, const NetworkSettings& now);
+/// The network that is shown and its errors as rich text, beside the bound of the same noise (null: not known yet) and
+/// the network before it; grey with the reason where it is stale.
+QString fitWords(const NetworkSession& session, const NetworkSettings& now, const NoiseBound* bound);
 
 } // namespace palp

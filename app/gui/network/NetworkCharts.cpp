@@ -1,9 +1,15 @@
 #include "app/gui/network/NetworkCharts.h"
 
+#include "app/gui/views/ChartView.h"
 #include "app/study/paper/PublishedNumbers.h"
+
+#include <QObject>
+
+#include <algorithm>
 
 #include <array>
 #include <cmath>
+#include <cstdio>
 
 namespace palp {
 
@@ -39,6 +45,27 @@ ChartSpec errorAgainstTime() {
   return spec;
 }
 
+std::vector<PublishedPoint> printed(InputKind input) {
+  return publishedPoints(input == InputKind::Displacement ? "table1" : "fig12");
+}
+
+/// A line up and down at the paper's spread, as high as the paper's points.
+ChartSeries paperLine(InputKind input) {
+  const double spread = paperSpread(input);
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%g", spread);
+  ChartSeries line =
+      series("the paper's spread with the smallest error, " + std::string(text.data()), Style::Line, 6, true);
+  double low = 1e300, high = 0;
+  for (const PublishedPoint& point : printed(input)) {
+    low = std::min(low, point.error_percent.minCoeff());
+    high = std::max(high, point.error_percent.maxCoeff());
+  }
+  line.x = {spread, spread};
+  line.y = {low, high};
+  return line;
+}
+
 /// One curve a force of a quantity of the sweep.
 template <class Value>
 void addCurves(ChartSpec& spec, const std::vector<SweepPoint>& points, const std::string& words, Value value) {
@@ -56,6 +83,24 @@ void addCurves(ChartSpec& spec, const std::vector<SweepPoint>& points, const std
 
 } // namespace
 
+ChartView* networkChart(const char* name) {
+  auto* view = new ChartView;
+  view->setObjectName(name);
+  view->setToolTip(
+      QObject::tr("A right click copies or saves the chart, as a picture or as its points; File, Export all "
+                  "charts and tables saves every one"));
+  return view;
+}
+
+double paperSpread(InputKind input) {
+  const std::vector<PublishedPoint> points = printed(input);
+  return std::min_element(points.begin(), points.end(),
+                          [](const PublishedPoint& a, const PublishedPoint& b) {
+                            return a.error_percent.norm() < b.error_percent.norm();
+                          })
+      ->spread;
+}
+
 ChartSpec sweepErrorChart(const std::vector<SweepPoint>& points, const NetworkFit* fit, InputKind input) {
   const bool displacement = input == InputKind::Displacement;
   ChartSpec spec =
@@ -66,20 +111,23 @@ ChartSpec sweepErrorChart(const std::vector<SweepPoint>& points, const NetworkFi
   for (int d = 0; d < 3; ++d) {
     ChartSeries paper =
         series(std::string(kForces[static_cast<std::size_t>(d)]) + ", printed by the paper", Style::Points, d);
-    for (const PublishedPoint& point : publishedPoints(displacement ? "table1" : "fig12")) {
+    for (const PublishedPoint& point : printed(input)) {
       paper.x.push_back(point.spread);
       paper.y.push_back(point.error_percent[d]);
     }
     spec.series.push_back(std::move(paper));
   }
   if (fit != nullptr && fit->settings.input == input) {
-    ChartSeries now = series("trained now", Style::Points, 6);
-    for (Eigen::Index d = 0; d < fit->error.error.eq13Percent.size(); ++d) {
-      now.x.push_back(fit->decoder.report.spread);
-      now.y.push_back(fit->error.error.eq13Percent[d]);
+    const Eigen::VectorXd& errors = fit->error.error.eq13Percent;
+    for (int d = 0; d < std::min<int>(3, static_cast<int>(errors.size())); ++d) {
+      ChartSeries now =
+          series(std::string(kForces[static_cast<std::size_t>(d)]) + ", trained now", Style::Points, d, true);
+      now.x = {fit->decoder.report.spread};
+      now.y = {errors[d]};
+      spec.series.push_back(std::move(now));
     }
-    spec.series.push_back(std::move(now));
   }
+  spec.series.push_back(paperLine(input));
   return spec;
 }
 

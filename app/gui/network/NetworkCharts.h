@@ -3,7 +3,17 @@
 #include "app/gui/jobs/NetworkSession.h"
 #include "app/scenes/charts/Chart.h"
 
+#include <optional>
+
 namespace palp {
+
+class ChartView;
+
+/// A chart of the Network scene.
+ChartView* networkChart(const char* name);
+
+/// The spread of the smallest errors that the paper prints for this input.
+double paperSpread(InputKind input);
 
 /// Test error (Eq. 13) against spread, beside the paper's points for the same input.
 ChartSpec sweepErrorChart(const std::vector<SweepPoint>& points, const NetworkFit* fit, InputKind input);

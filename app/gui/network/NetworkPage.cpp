@@ -1,14 +1,16 @@
 #include "app/gui/network/NetworkPage.h"
 
 #include "app/gui/jobs/SampleFiles.h"
+#include "app/gui/network/DecodersTab.h"
 #include "app/gui/network/FitWords.h"
+#include "app/gui/network/NetworkBound.h"
 #include "app/gui/network/NetworkCharts.h"
 #include "app/gui/network/NetworkPanel.h"
 #include "app/gui/network/NetworkTables.h"
+#include "app/gui/network/SweepTab.h"
 #include "app/gui/network/TrainedNetworks.h"
 #include "app/gui/project/Command.h"
 #include "app/gui/views/ChartView.h"
-#include "app/gui/views/DataTable.h"
 #include "app/gui/window/SidePanel.h"
 #include "model/base/Error.h"
 
@@ -39,7 +41,7 @@ QSplitter* beside(std::initializer_list<QWidget*> widgets, Qt::Orientation orien
 } // namespace
 
 NetworkPage::NetworkPage(Workbench& workbench, NetworkSession& session, QWidget* parent)
-    : Scene(parent), workbench_(workbench), session_(session) {
+    : Scene(parent), workbench_(workbench), session_(session), bound_(new NetworkBound(session, this)) {
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(8, 8, 8, 8);
   panel_ = new NetworkPanel;
@@ -52,7 +54,7 @@ NetworkPage::NetworkPage(Workbench& workbench, NetworkSession& session, QWidget*
   connect(panel_, &NetworkPanel::trainAsked, this, [this] { session_.train(workbench_.project().network); });
   connect(panel_, &NetworkPanel::sweepAsked, this, [this] { session_.sweep(workbench_.project().network); });
   connect(panel_, &NetworkPanel::compareAsked, this, [this] {
-    tabs_->setCurrentIndex(2);
+    tabs_->setCurrentWidget(decoders_);
     session_.compare(workbench_.project().network);
   });
   connect(&workbench_, &Workbench::projectChanged, this, &NetworkPage::displayProject);
@@ -65,9 +67,10 @@ NetworkPage::NetworkPage(Workbench& workbench, NetworkSession& session, QWidget*
   connect(panel_, &NetworkPanel::saveSamplesAsked, this, &NetworkPage::saveSamples);
   connect(save_, &QPushButton::clicked, this, &NetworkPage::saveNetwork);
   connect(open_, &QPushButton::clicked, this, &NetworkPage::openNetwork);
-  connect(best_, &QPushButton::clicked, this, &NetworkPage::takeBestSpread);
+  connect(sweep_, &SweepTab::bestAsked, this, &NetworkPage::takeBestSpread);
   connect(trained_, &TrainedNetworks::goBackAsked, this, &NetworkPage::goBackTo);
   connect(trained_, &TrainedNetworks::takeAwayAsked, &session_, &NetworkSession::takeAway);
+  connect(trained_, &TrainedNetworks::nameAsked, &session_, &NetworkSession::rename);
   connectSession();
   displayProject();
   displaySamples();
@@ -78,6 +81,10 @@ void NetworkPage::connectSession() {
   connect(&session_, &NetworkSession::fitChanged, this, &NetworkPage::displayFit);
   connect(&session_, &NetworkSession::sweepChanged, this, &NetworkPage::displaySweep);
   connect(&session_, &NetworkSession::trialsChanged, this, &NetworkPage::displayTrials);
+  connect(bound_, &NetworkBound::changed, this, [this] {
+    displayWords();
+    displayTrials();
+  });
   connect(&session_.runner(), &JobRunner::started, this, [this] { showProblem({}); });
   connect(&session_.runner(), &JobRunner::failed, this, &NetworkPage::showProblem);
   connect(&session_, &NetworkSession::problem, this, &NetworkPage::showProblem);
@@ -89,7 +96,7 @@ void NetworkPage::edit(const QString& what, const SampleSettings& samples, const
   next.samples = samples;
   next.network = network;
   workbench_.edit(what, next);
-  if (retrain) session_.train(network, what); // the error follows the spread
+  if (retrain) session_.train(network, panel_->slide()); // the error follows the spread
 }
 
 /// Where one looks: below the numbers that there are none of now.
@@ -99,10 +106,10 @@ void NetworkPage::showProblem(const QString& sentence) {
 }
 
 void NetworkPage::takeBestSpread() {
-  const auto best = bestSpread(session_.sweepPoints());
+  const auto best = bestPoint(session_.sweepPoints());
   if (!best) return;
   Project next = workbench_.project();
-  next.network.spread = *best;
+  next.network.spread = session_.sweepPoints()[*best].spread;
   next.network.automaticSpread = false;
   workbench_.closeEntry();
   workbench_.edit(tr("Take the best spread of the sweep"), next);
@@ -152,7 +159,7 @@ QWidget* NetworkPage::buildCharts() {
   fitWords_->setObjectName("fitWords");
   fitWords_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   fitWords_->setWordWrap(true);
-  fitWords_->setMinimumHeight(3 * fitWords_->fontMetrics().lineSpacing()); // the tabs stay where they are
+  fitWords_->setMinimumHeight(5 * fitWords_->fontMetrics().lineSpacing()); // the tabs stay where they are
   column->addWidget(fitWords_);
   problem_ = new QLabel;
   problem_->setObjectName("trainingProblem");
@@ -161,48 +168,23 @@ QWidget* NetworkPage::buildCharts() {
   problem_->hide();
   column->addWidget(problem_);
   column->addLayout(buildBar());
+  sweep_ = new SweepTab;
+  decoders_ = new DecodersTab;
   trained_ = new TrainedNetworks;
   tabs_ = new QTabWidget;
   tabs_->setObjectName("networkTabs");
-  tabs_->addTab(buildSweep(), tr("Spread"));
+  tabs_->addTab(sweep_, tr("Spread"));
   tabs_->addTab(buildFit(), tr("Decoupled against true force"));
-  tabs_->addTab(buildTrials(), tr("Decoders"));
+  tabs_->addTab(decoders_, tr("Decoders"));
   tabs_->addTab(trained_, tr("Trained networks"));
   column->addWidget(tabs_, 1);
   return page;
 }
 
-QWidget* NetworkPage::buildSweep() {
-  error_ = chart("sweepError");
-  leaveOneOut_ = chart("leaveOneOut");
-  condition_ = chart("condition");
-  time_ = chart("errorTime");
-  sweepWords_ = new QLabel;
-  sweepWords_->setObjectName("sweepWords");
-  sweepWords_->setWordWrap(true);
-  best_ = new QPushButton(tr("Take the best spread"));
-  best_->setObjectName("bestSpread");
-  best_->setToolTip(tr("Sets the spread of the smallest RMSE of the sweep and trains with it"));
-  sweepTable_ = new DataTable("sweep.csv");
-  sweepTable_->setObjectName("sweepTable");
-  sweepTable_->setAccessibleName(tr("Table of the sweep"));
-  auto* bar = new QHBoxLayout;
-  bar->addWidget(sweepWords_, 1);
-  bar->addWidget(best_);
-  auto* list = new QWidget;
-  auto* column = new QVBoxLayout(list);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->addLayout(bar);
-  column->addWidget(sweepTable_, 1);
-  QSplitter* sweep = beside({error_, beside({leaveOneOut_, condition_, time_}, Qt::Horizontal), list}, Qt::Vertical);
-  sweep->setSizes({300, 220, 200});
-  sweep->setObjectName("networkSweep");
-  return sweep;
-}
-
 QWidget* NetworkPage::buildFit() {
-  for (std::size_t d = 0; d < 3; ++d) decoupled_[d] = chart("decoupled");
-  relative_ = chart("relativeError");
+  constexpr std::array kNames{"decoupledFx", "decoupledFy", "decoupledFz"};
+  for (std::size_t d = 0; d < 3; ++d) decoupled_[d] = networkChart(kNames[d]);
+  relative_ = networkChart("relativeError");
   QSplitter* fit =
       beside({beside({decoupled_[0], decoupled_[1], decoupled_[2]}, Qt::Horizontal), relative_}, Qt::Vertical);
   fit->setSizes({360, 360});
@@ -210,35 +192,8 @@ QWidget* NetworkPage::buildFit() {
   return fit;
 }
 
-ChartView* NetworkPage::chart(const char* name) {
-  auto* view = new ChartView;
-  view->setObjectName(name);
-  view->setToolTip(tr("A right click copies or saves the chart, as a picture or as its points"));
-  all_.push_back(view);
-  return view;
-}
-
-QWidget* NetworkPage::buildTrials() {
-  trialsError_ = chart("trialsError");
-  trialsTime_ = chart("trialsTime");
-  trialsWords_ = new QLabel;
-  trialsWords_->setObjectName("trialsWords");
-  trialsWords_->setWordWrap(true);
-  trialsTable_ = new DataTable("decoders.csv");
-  trialsTable_->setObjectName("trialsTable");
-  trialsTable_->setAccessibleName(tr("Table of the decoders"));
-  auto* page = new QWidget;
-  auto* column = new QVBoxLayout(page);
-  column->addWidget(trialsWords_);
-  QSplitter* charts = beside({beside({trialsError_, trialsTime_}, Qt::Horizontal), trialsTable_}, Qt::Vertical);
-  charts->setObjectName("networkTrials");
-  charts->setSizes({420, 200});
-  column->addWidget(charts, 1);
-  return page;
-}
-
 void NetworkPage::setTheme(Theme theme) {
-  for (ChartView* view : all_) view->setTheme(theme);
+  for (auto* view : findChildren<ChartView*>()) view->setTheme(theme);
 }
 
 void NetworkPage::showEvent(QShowEvent* event) {
@@ -250,6 +205,10 @@ void NetworkPage::showEvent(QShowEvent* event) {
 
 QString NetworkPage::commands(const Project& project, const QString& designFile) const {
   return networkCommands(project, designFile);
+}
+
+std::vector<JobRunner*> NetworkPage::runners() {
+  return {&bound_->runner()};
 }
 
 void NetworkPage::displayProject() {
@@ -277,27 +236,28 @@ void NetworkPage::displaySamples() {
 }
 
 void NetworkPage::displaySweep() {
+  if (isVisible()) sweep_->display(session_, workbench_.project().network);
+}
+
+void NetworkPage::displayTrials() {
   if (!isVisible()) return;
-  const std::vector<SweepPoint>& points = session_.sweepPoints();
-  const InputKind input = points.empty() ? workbench_.project().network.input : session_.sweepSettings().input;
-  error_->setChart(sweepErrorChart(points, session_.fit(), input));
-  leaveOneOut_->setChart(sweepLeaveOneOutChart(points));
-  condition_->setChart(sweepConditionChart(points));
-  time_->setChart(errorTimeChart(points));
-  const QString reason = staleSweepReason(session_, workbench_.project().network);
-  for (ChartView* view : {error_, leaveOneOut_, condition_, time_}) view->setFaint(!reason.isEmpty());
-  const auto best = bestSpread(points);
-  best_->setEnabled(best.has_value() && session_.upToDate());
-  sweepWords_->setText(best ? tr("Smallest RMSE at spread %1. %2").arg(*best, 0, 'g', 4).arg(reason)
-                            : tr("A sweep trains once for each spread; its table stands here."));
-  const TableText table = sweepTable(points);
-  sweepTable_->show(table.heads, table.rows);
+  const bool there = !session_.trials().empty();
+  decoders_->display(session_, workbench_.project().network, there ? bound_->of(session_.trialsSettings()) : nullptr);
+}
+
+/// The words alone: the charts stay.
+void NetworkPage::displayWords() {
+  const NetworkFit* fit = session_.fit();
+  const bool asked = isVisible() && fit != nullptr && session_.fitIsCurrent();
+  panel_->displayChosenSpread(
+      fit != nullptr && session_.fitIsCurrent() && fit->settings.automaticSpread ? fit->decoder.report.spread : 0);
+  fitWords_->setText(fitWords(session_, workbench_.project().network, asked ? bound_->of(fit->settings) : nullptr));
 }
 
 void NetworkPage::displayFit() {
   const NetworkFit* fit = session_.fit();
   save_->setEnabled(fit != nullptr);
-  fitWords_->setText(fitWords(session_, workbench_.project().network));
+  displayWords();
   const bool stale = !staleReason(session_, workbench_.project().network).isEmpty();
   for (ChartView* view : decoupled_) view->setFaint(stale);
   relative_->setFaint(stale);
@@ -318,20 +278,6 @@ void NetworkPage::drawCharts() {
   for (int d = 0; d < 3; ++d)
     decoupled_[static_cast<std::size_t>(d)]->setChart(decoupledChart(*samples, *fit, d, area_->value()));
   relative_->setChart(relativeErrorChart(*samples, *fit, area_->value()));
-}
-
-void NetworkPage::displayTrials() {
-  if (!isVisible()) return;
-  const std::vector<DecoderTrial>& trials = session_.trials();
-  trialsError_->setChart(
-      trialsErrorChart(trials, sweepAndTrialsAgree(session_) ? session_.sweepPoints() : std::vector<SweepPoint>{},
-                       session_.trialsSettings().input));
-  trialsTime_->setChart(trialsTimeChart(trials));
-  const bool stale = !staleTrialsReason(session_, workbench_.project().network).isEmpty();
-  for (ChartView* view : {trialsError_, trialsTime_}) view->setFaint(stale);
-  const TableText table = trialsTable(trials);
-  trialsTable_->show(table.heads, table.rows);
-  trialsWords_->setText(trialsWords(session_, workbench_.project().network));
 }
 
 void NetworkPage::openSamples() {

@@ -15,8 +15,10 @@ class QTabWidget;
 namespace palp {
 
 class ChartView;
-class DataTable;
+class DecodersTab;
+class NetworkBound;
 class NetworkPanel;
+class SweepTab;
 class TrainedNetworks;
 
 /// Samples, training and the sweep of the spread, with the paper's numbers beside.
@@ -30,6 +32,7 @@ public:
   [[nodiscard]] Stage stage() const override { return Stage::Design; }
   void setTheme(Theme theme) override;
   [[nodiscard]] bool complete() const override { return true; }
+  [[nodiscard]] std::vector<JobRunner*> runners() override;
   [[nodiscard]] QString commands(const Project& project, const QString& designFile) const override;
 
 protected:
@@ -38,13 +41,11 @@ protected:
 private:
   QWidget* buildCharts();
   QLayout* buildBar();
-  QWidget* buildSweep();
   QWidget* buildFit();
-  QWidget* buildTrials();
-  ChartView* chart(const char* name);
   void displayProject();
   void displaySamples();
   void displaySweep();
+  void displayWords();
   void displayFit();
   void displayTrials();
   void drawCharts();
@@ -60,6 +61,7 @@ private:
 
   Workbench& workbench_;
   NetworkSession& session_;
+  NetworkBound* bound_;
   NetworkSettings settingsShown_; ///< with which the words of the fit were made
   NetworkPanel* panel_ = nullptr;
   QLabel* fitWords_ = nullptr;
@@ -68,21 +70,11 @@ private:
   QPushButton* save_ = nullptr;
   QPushButton* open_ = nullptr;
   QTabWidget* tabs_ = nullptr;
-  ChartView* error_ = nullptr;
-  ChartView* leaveOneOut_ = nullptr;
-  ChartView* condition_ = nullptr;
-  ChartView* time_ = nullptr;
+  SweepTab* sweep_ = nullptr;
   std::array<ChartView*, 3> decoupled_{};
   ChartView* relative_ = nullptr;
-  ChartView* trialsError_ = nullptr;
-  ChartView* trialsTime_ = nullptr;
-  QLabel* trialsWords_ = nullptr;
-  QLabel* sweepWords_ = nullptr;
-  QPushButton* best_ = nullptr;
-  DataTable* sweepTable_ = nullptr;
-  DataTable* trialsTable_ = nullptr;
+  DecodersTab* decoders_ = nullptr;
   TrainedNetworks* trained_ = nullptr;
-  std::vector<ChartView*> all_;
 };
 
 } // namespace palp

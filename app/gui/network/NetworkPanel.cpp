@@ -1,6 +1,9 @@
 #include "app/gui/network/NetworkPanel.h"
 
 #include "app/gui/network/AdvancedOptions.h"
+#include "app/gui/network/FitWords.h"
+#include "app/gui/network/NetworkCharts.h"
+#include "app/gui/network/NetworkTables.h"
 #include "app/gui/widgets/SpinBoxes.h"
 #include "model/base/Error.h"
 
@@ -13,6 +16,7 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QSignalBlocker>
 #include <QSlider>
 #include <QSpinBox>
 #include <QVBoxLayout>
@@ -73,7 +77,7 @@ void NetworkPanel::buildSamples(QVBoxLayout& column) {
   seed_->setKeyboardTracking(false);
   seed_->setRange(0, 1000000000);
   seed_->setToolTip(tr("The same seed gives the same samples"));
-  form->addRow(tr("Seed"), seed_);
+  form->addRow(tr("Seed of samples"), seed_);
   surrogate_ = new QCheckBox(tr("by a surrogate"));
   surrogate_->setObjectName("surrogate");
   surrogate_->setToolTip(tr("A polynomial of full solves on each area: many samples in seconds, with an error that is "
@@ -119,6 +123,12 @@ void NetworkPanel::buildTraining(QVBoxLayout& column) {
   train_ = new QPushButton(tr("Train"));
   train_->setObjectName("train");
   form->addRow(train_);
+  auto* follows =
+      new QLabel(tr("Once there is a network, each change above trains at once; each one is kept in the tab "
+                    "Trained networks."));
+  follows->setProperty("role", "hint");
+  follows->setWordWrap(true);
+  form->addRow(follows);
   connect(train_, &QPushButton::clicked, this, &NetworkPanel::trainAsked);
   column.addWidget(box);
 }
@@ -131,7 +141,8 @@ void NetworkPanel::buildInput(QFormLayout& form) {
   form.addRow(tr("Input"), input_);
   rows_ = new QLineEdit;
   rows_->setObjectName("rows");
-  rows_->setToolTip(tr("Row-wires that are read, counted from 0: 4, or 1,4,7, or all"));
+  rows_->setToolTip(tr("Row-wires whose resistances are read, or whose electrodes' displacements, "
+                       "counted from 0: 4, or 1,4,7, or all"));
   form.addRow(tr("Row-wires"), rows_);
   rowsProblem_ = new QLabel;
   rowsProblem_->setObjectName("rowsProblem");
@@ -152,7 +163,10 @@ void NetworkPanel::buildNetwork(QFormLayout& form) {
   form.addRow(tr("Mode"), mode_);
   decoder_ = new QComboBox;
   decoder_->setObjectName("decoder");
-  for (const DecoderKind kind : allDecoderKinds()) decoder_->addItem(QString::fromStdString(name(kind)));
+  for (const DecoderKind kind : allDecoderKinds()) {
+    decoder_->addItem(QString::fromStdString(name(kind)));
+    decoder_->setItemData(decoder_->count() - 1, inWords(kind), Qt::ToolTipRole);
+  }
   decoder_->setToolTip(tr("The way from what is read to the force: rbf is the paper's radial basis network"));
   form.addRow(tr("Decoder"), decoder_);
   centers_ = new QSpinBox;
@@ -178,6 +192,10 @@ void NetworkPanel::buildNetwork(QFormLayout& form) {
   testNoise_->setKeyboardTracking(false);
   testNoise_->setToolTip(tr("Relative noise that the test samples get, apart from that of the training"));
   form.addRow(tr("Noise of the test"), testNoise_);
+  noiseWords_ = new QLabel;
+  noiseWords_->setObjectName("noiseWords");
+  noiseWords_->setProperty("role", "hint");
+  form.addRow(QString(), noiseWords_);
   connect(mode_, &QComboBox::currentIndexChanged, this, [this] { read(tr("Change the network's mode")); });
   connect(decoder_, &QComboBox::currentIndexChanged, this, [this] { read(tr("Change the decoder")); });
   connect(centers_, &QSpinBox::valueChanged, this, [this] { read(tr("Change the centres")); });
@@ -191,18 +209,31 @@ void NetworkPanel::buildSpread(QFormLayout& form) {
   spread_ = spreadBox("spread");
   spread_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed); // however many digits: the panel keeps its width
   spread_->setToolTip(tr("Spread of the Gaussians (radbas: half height at this distance, in scaled inputs)"));
+  form.addRow(tr("Spread"), spread_);
+  paper_ = new QPushButton;
+  paper_->setObjectName("paperSpread");
   auto* row = new QHBoxLayout;
-  row->addWidget(spread_);
-  row->addWidget(automatic_);
-  form.addRow(tr("Spread"), row);
+  row->addWidget(automatic_, 1);
+  row->addWidget(paper_);
+  form.addRow(row);
   spreadSlider_ = new QSlider(Qt::Horizontal);
   spreadSlider_->setObjectName("spreadSlider");
   spreadSlider_->setRange(0, kSpreadSteps);
   form.addRow(spreadSlider_);
   connect(automatic_, &QCheckBox::toggled, this, [this] { read(tr("Change the spread")); });
   connect(spread_, &QDoubleSpinBox::valueChanged, this, [this] { read(tr("Change the spread")); });
+  connect(spreadSlider_, &QSlider::sliderPressed, this, [this] { ++slides_; });
   connect(spreadSlider_, &QSlider::valueChanged, this, [this](int step) {
-    if (!displaying_) spread_->setValue(spreadAt(step));
+    if (displaying_) return;
+    sliding_ = true;
+    spread_->setValue(spreadAt(step));
+    sliding_ = false;
+  });
+  connect(paper_, &QPushButton::clicked, this, [this] {
+    const QSignalBlocker quietBox(spread_), quietCheck(automatic_); // one edit
+    spread_->setValue(paperSpread(network_.input));
+    automatic_->setChecked(false);
+    read(tr("Take the paper's spread"));
   });
 }
 
@@ -257,14 +288,30 @@ void NetworkPanel::display(const Project& project) {
   showExactly(*to_, network_.sweepTo);
   count_->setValue(network_.sweepCount);
   showSpread();
+  showNoise();
   displaying_ = false;
 }
 
+/// As others write it.
+void NetworkPanel::showNoise() {
+  const auto relative = [](double share) { return share > 0 ? QString::number(share, 'g', 3) : tr("none"); };
+  noiseWords_->setText(tr("of a reading: %1, test %2").arg(relative(network_.noise), relative(network_.testNoise)));
+}
+
 void NetworkPanel::showSpread() {
+  const bool rbf = hasSpread(network_.decoder);
+  const QString paper = QString::number(paperSpread(network_.input), 'g', 4);
+  paper_->setText(tr("the paper's: %1").arg(paper));
+  paper_->setToolTip(
+      tr("Sets the spread at which the paper prints its smallest errors from such an input; how it scaled "
+         "its inputs it does not say"));
+  paper_->setEnabled(rbf);
+  automatic_->setEnabled(rbf);
+  centers_->setEnabled(rbf);
   showExactly(*spread_, network_.spread);
   spreadSlider_->setValue(stepOf(network_.spread));
-  spread_->setEnabled(!network_.automaticSpread);
-  spreadSlider_->setEnabled(!network_.automaticSpread);
+  spread_->setEnabled(rbf && !network_.automaticSpread);
+  spreadSlider_->setEnabled(rbf && !network_.automaticSpread);
 }
 
 void NetworkPanel::displaySamples(bool there, bool makeable, const QString& words, bool goOn) {
@@ -280,6 +327,10 @@ void NetworkPanel::displaySamples(bool there, bool makeable, const QString& word
     button->setEnabled(there);
     button->setToolTip(there ? tip : tr("Generate samples first"));
   }
+}
+
+void NetworkPanel::displayChosenSpread(double spread) {
+  automatic_->setText(spread > 0 ? tr("by leave-one-out: %1").arg(spread, 0, 'g', 4) : tr("by leave-one-out"));
 }
 
 /// Rows that the design does not have stay in the field and are not used.
@@ -299,6 +350,7 @@ void NetworkPanel::readRows() {
 
 void NetworkPanel::read(const QString& what) {
   if (displaying_) return;
+  if (!sliding_) ++slides_;
   samples_.perArea = perArea_->value();
   samples_.seed = static_cast<std::uint64_t>(seed_->value());
   network_.input = input_->currentIndex() == 0 ? InputKind::Displacement : InputKind::Resistance;

@@ -31,6 +31,11 @@ public:
   /// What there is to work with, and the state of the samples in words.
   void displaySamples(bool there, bool makeable, const QString& words, bool goOn);
 
+  /// The spread that leave-one-out chose for the network that is shown; 0: none.
+  void displayChosenSpread(double spread);
+  /// While an edit of the slider is reported: which of its movements; empty: it is another edit.
+  [[nodiscard]] QString slide() const { return sliding_ ? QString::number(slides_) : QString(); }
+
 signals:
   /// By the user's hand only.
   void edited(const QString& what, const palp::SampleSettings& samples, const palp::NetworkSettings& network);
@@ -51,10 +56,13 @@ private:
   void read(const QString& what);
   void readRows();
   void showSpread();
+  void showNoise();
 
   SampleSettings samples_;
   NetworkSettings network_;
   bool displaying_ = false;
+  bool sliding_ = false;
+  int slides_ = 0; ///< another one after each press of the slider and each other edit
   QSpinBox* perArea_ = nullptr;
   QSpinBox* seed_ = nullptr;
   QCheckBox* surrogate_ = nullptr;
@@ -70,6 +78,8 @@ private:
   QCheckBox* automatic_ = nullptr;
   QDoubleSpinBox* spread_ = nullptr;
   QSlider* spreadSlider_ = nullptr;
+  QPushButton* paper_ = nullptr;
+  QLabel* noiseWords_ = nullptr;
   QSpinBox* centers_ = nullptr;
   QDoubleSpinBox* noise_ = nullptr;
   QDoubleSpinBox* testNoise_ = nullptr;

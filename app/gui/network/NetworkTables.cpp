@@ -1,5 +1,8 @@
 #include "app/gui/network/NetworkTables.h"
 
+#include "app/gui/network/FitWords.h"
+
+#include <QFileInfo>
 #include <QObject>
 
 #include <algorithm>
@@ -43,14 +46,38 @@ TableText sweepTable(const std::vector<SweepPoint>& points) {
   return table;
 }
 
-TableText trialsTable(const std::vector<DecoderTrial>& trials) {
+QString inWords(DecoderKind kind) {
+  switch (kind) {
+  case DecoderKind::Rbf:
+    return QObject::tr("radial basis functions (the paper's network)");
+  case DecoderKind::Linear:
+    return QObject::tr("linear regression");
+  case DecoderKind::Polynomial2:
+    return QObject::tr("polynomial of degree 2");
+  case DecoderKind::Polynomial3:
+    return QObject::tr("polynomial of degree 3");
+  case DecoderKind::GaussianProcess:
+    return QObject::tr("Gaussian process");
+  case DecoderKind::BackPropagation:
+    return QObject::tr("back-propagation network");
+  case DecoderKind::TwoStepBackPropagation:
+    return QObject::tr("displacements by back-propagation, then force");
+  case DecoderKind::TwoStepGaussNewton:
+    return QObject::tr("displacements by inverting Eq. (1), Gauss-Newton, then force");
+  case DecoderKind::MaximumLikelihood:
+    return QObject::tr("maximum likelihood with a forward model");
+  }
+  return {};
+}
+
+TableText trialsTable(const std::vector<DecoderTrial>& trials, const NoiseBound* bound) {
   TableText table;
-  table.heads << QObject::tr("decoder");
+  table.heads << QObject::tr("decoder") << QObject::tr("in words");
   addHeads(table.heads, QObject::tr("Eq. (13) [%]"));
   addHeads(table.heads, QObject::tr("RMSE [% of range]"));
   table.heads << QObject::tr("training [s]") << QObject::tr("a sample [us]") << QObject::tr("not trained because");
   for (const DecoderTrial& trial : trials) {
-    QStringList row{QString::fromStdString(name(trial.kind))};
+    QStringList row{QString::fromStdString(name(trial.kind)), inWords(trial.kind)};
     const bool there = trial.refusal.isEmpty();
     add(row, trial.error.eq13Percent);
     add(row, trial.error.rmsePercentOfRange);
@@ -58,14 +85,46 @@ TableText trialsTable(const std::vector<DecoderTrial>& trials) {
         << trial.refusal;
     table.rows.push_back(std::move(row));
   }
+  if (bound == nullptr || trials.empty()) return table;
+  QStringList row{QObject::tr("bound"), QObject::tr("Cramer-Rao, area known, with prior: no method is better")};
+  add(row, {});
+  add(row, bound->withPriorPercent);
+  table.rows.push_back(row << QString() << QString() << QString());
   return table;
 }
 
-std::optional<double> bestSpread(const std::vector<SweepPoint>& points) {
+TableText networksTable(const std::vector<std::shared_ptr<const NetworkFit>>& networks) {
+  TableText table;
+  table.heads << QObject::tr("name");
+  addHeads(table.heads, QObject::tr("[%]"));
+  table.heads << QObject::tr("input") << QObject::tr("row-wires") << QObject::tr("decoder") << QObject::tr("noise [%]")
+              << QObject::tr("test noise [%]") << QObject::tr("spread") << QObject::tr("centres")
+              << QObject::tr("ridge") << QObject::tr("scaler") << QObject::tr("seed") << QObject::tr("mode")
+              << QObject::tr("other options") << QObject::tr("samples") << QObject::tr("when") << QObject::tr("file");
+  const auto text = [](const std::string& words) { return QString::fromStdString(words); };
+  const auto used = [](double value) { return value > 0 ? QString::number(value, 'g', 4) : QString("-"); };
+  for (const auto& fit : networks) {
+    const NetworkSettings& settings = fit->settings;
+    QStringList row{fit->name};
+    for (const double error : fit->error.error.rmsePercentOfRange) row << QString::number(error, 'g', 4);
+    row << text(name(settings.input)) << text(settings.rows) << text(name(settings.decoder))
+        << QString::number(100 * settings.noise, 'g', 4) << QString::number(100 * settings.testNoise, 'g', 4)
+        << used(fit->decoder.report.spread) << used(fit->decoder.report.centers)
+        << (hasRidge(settings.decoder) ? ridgeWords(*fit) : QString("-")) << scalerWords(*fit)
+        << QString::number(settings.seed) << text(name(settings.mode)) << optionsWords(settings)
+        << QObject::tr("%1 an area, seed %2").arg(fit->madeFrom.perArea).arg(fit->madeFrom.seed)
+        << fit->made.toString("yyyy-MM-dd HH:mm:ss") << QFileInfo(fit->file).fileName();
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+std::optional<std::size_t> bestPoint(const std::vector<SweepPoint>& points) {
   const auto best = std::min_element(points.begin(), points.end(), [](const SweepPoint& a, const SweepPoint& b) {
     return a.error.rmsePercentOfRange.norm() < b.error.rmsePercentOfRange.norm();
   });
-  return best == points.end() ? std::nullopt : std::optional(best->spread);
+  if (best == points.end()) return std::nullopt;
+  return static_cast<std::size_t>(best - points.begin());
 }
 
 } // namespace palp

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/gui/jobs/NetworkSession.h"
+#include "app/study/decoding/NoiseBound.h"
 
 #include <QStringList>
 
@@ -16,9 +17,13 @@ struct TableText {
 
 /// A sweep, one spread a row.
 TableText sweepTable(const std::vector<SweepPoint>& points);
-/// The comparison, one decoder a row.
-TableText trialsTable(const std::vector<DecoderTrial>& trials);
-/// The spread of the smallest error (root mean square, as `palp sweep` chooses); none without points.
-std::optional<double> bestSpread(const std::vector<SweepPoint>& points);
+/// The comparison, one decoder a row, and below them what none can beat; null: not known.
+TableText trialsTable(const std::vector<DecoderTrial>& trials, const NoiseBound* bound);
+/// Trained networks with their errors and settings, one a row.
+TableText networksTable(const std::vector<std::shared_ptr<const NetworkFit>>& networks);
+/// A decoder's short name in whole words.
+QString inWords(DecoderKind kind);
+/// The point of the smallest error (root mean square, as `palp sweep` chooses); none without points.
+std::optional<std::size_t> bestPoint(const std::vector<SweepPoint>& points);
 
 } // namespace palp

@@ -1,87 +1,128 @@
 #include "app/gui/network/TrainedNetworks.h"
 
 #include "app/gui/network/FitWords.h"
+#include "app/gui/network/NetworkTables.h"
+#include "app/gui/views/DataTable.h"
 
-#include <QFileInfo>
 #include <QHBoxLayout>
-#include <QHeaderView>
 #include <QLabel>
-#include <QLocale>
+#include <QLineEdit>
 #include <QPushButton>
-#include <QTreeWidget>
+#include <QShortcut>
 #include <QVBoxLayout>
+
+#include <algorithm>
 
 namespace palp {
 
-namespace {
-
-constexpr int kMadeRole = Qt::UserRole; ///< of a row: when its network was made
-
-} // namespace
-
 TrainedNetworks::TrainedNetworks(QWidget* parent) : QWidget(parent) {
-  list_ = new QTreeWidget;
+  words_ = new QLabel;
+  words_->setObjectName("trainedWords");
+  words_->setProperty("role", "hint");
+  words_->setWordWrap(true);
+  list_ = new DataTable("networks.csv");
   list_->setObjectName("trainedNetworks");
   list_->setAccessibleName(tr("Trained networks"));
-  list_->setRootIsDecorated(false);
+  list_->setSelectionBehavior(QAbstractItemView::SelectRows);
   list_->setAlternatingRowColors(true);
-  list_->setHeaderLabels({tr("When"), tr("RMSE in % of range, Fx / Fy / Fz"), tr("Samples"), tr("How")});
-  list_->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
-  list_->setToolTip(tr("Enter or a double click goes back to a network, with the settings it was trained with"));
+  list_->setToolTip(
+      tr("Enter or a double click goes back to a network, with the settings it was trained with; F2 names "
+         "it; a right click saves the list as CSV"));
   back_ = new QPushButton(tr("Go back to this one"));
   back_->setObjectName("goBack");
   back_->setToolTip(tr("Shows the network again and sets the panel as it was; can be undone"));
   away_ = new QPushButton(tr("Take away"));
   away_->setObjectName("takeAway");
   away_->setToolTip(tr("Takes the network off the list; the one that is shown stays shown"));
+  name_ = new QLineEdit;
+  name_->setObjectName("networkName");
+  name_->setMaxLength(80);
+  name_->setPlaceholderText(tr("a name for the network that is marked (F2)"));
+  name_->setToolTip(tr("The name stands in the list and is saved with the project; a network with a name is never "
+                       "dropped from the list"));
+  auto* nameWords = new QLabel(tr("Name"));
+  nameWords->setBuddy(name_);
   auto* buttons = new QHBoxLayout;
   buttons->addWidget(back_);
   buttons->addWidget(away_);
-  buttons->addStretch(1);
+  buttons->addWidget(nameWords);
+  buttons->addWidget(name_, 1);
   auto* column = new QVBoxLayout(this);
+  column->addWidget(words_);
   column->addWidget(list_, 1);
   column->addLayout(buttons);
-  connect(list_, &QTreeWidget::itemActivated, this, &TrainedNetworks::ask);
-  connect(list_, &QTreeWidget::currentItemChanged, this, &TrainedNetworks::enableButtons);
+  connect(list_, &DataTable::itemActivated, this, &TrainedNetworks::ask);
+  connect(list_, &DataTable::currentCellChanged, this, [this](int row, int, int before, int) {
+    if (row != before) displayChosen();
+  });
   connect(back_, &QPushButton::clicked, this, &TrainedNetworks::ask);
   connect(away_, &QPushButton::clicked, this, [this] {
     if (chosen() >= 0) emit takeAwayAsked(static_cast<std::size_t>(chosen()));
   });
-  enableButtons();
+  connect(name_, &QLineEdit::editingFinished, this, &TrainedNetworks::askName);
+  connect(name_, &QLineEdit::returnPressed, list_, [this] { list_->setFocus(); });
+  auto* keys = new QShortcut(Qt::Key_F2, list_);
+  keys->setContext(Qt::WidgetShortcut);
+  connect(keys, &QShortcut::activated, name_, [this] { name_->setFocus(Qt::ShortcutFocusReason); });
+  displayChosen();
 }
 
 int TrainedNetworks::chosen() const {
-  return list_->indexOfTopLevelItem(list_->currentItem());
+  return list_->currentRow();
 }
 
 void TrainedNetworks::ask() {
   if (chosen() >= 0) emit goBackAsked(static_cast<std::size_t>(chosen()));
 }
 
-void TrainedNetworks::enableButtons() {
-  for (QPushButton* button : {back_, away_}) button->setEnabled(chosen() >= 0);
+void TrainedNetworks::askName() {
+  if (chosen() >= 0 && name_->isModified())
+    emit nameAsked(static_cast<std::size_t>(chosen()), name_->text().simplified());
+  name_->setModified(false);
+}
+
+void TrainedNetworks::displayChosen() {
+  for (QWidget* one : std::initializer_list<QWidget*>{back_, away_, name_}) one->setEnabled(chosen() >= 0);
+  const auto row = static_cast<std::size_t>(chosen());
+  name_->setText(chosen() >= 0 && row < shown_.size() ? shown_[row].second : QString());
 }
 
 void TrainedNetworks::display(const NetworkSession& session) {
-  const QDateTime before =
-      list_->currentItem() != nullptr ? list_->currentItem()->data(0, kMadeRole).toDateTime() : QDateTime();
-  list_->clear();
+  const auto marked = static_cast<std::size_t>(std::max(0, chosen()));
+  const QDateTime before = chosen() >= 0 && marked < shown_.size() ? shown_[marked].first : QDateTime();
+  const QString typed = name_->isModified() ? name_->text() : QString();
+  shown_.clear();
+  int now = -1;
   for (const auto& fit : session.kept()) {
-    const QString file = fit->file.isEmpty() ? QString() : tr("%1: ").arg(QFileInfo(fit->file).fileName());
-    auto* item = new QTreeWidgetItem(
-        list_,
-        {QLocale().toString(fit->made, "d MMM HH:mm:ss"), triple(fit->error.error.rmsePercentOfRange, "%"),
-         tr("%1 an area, seed %2").arg(fit->madeFrom.perArea).arg(fit->madeFrom.seed), file + originWords(*fit)});
-    QFont font = item->font(0);
-    font.setBold(fit.get() == session.fit());
-    for (int column = 0; column < list_->columnCount(); ++column) {
-      item->setFont(column, font);
-      item->setToolTip(column, item->text(column));
-    }
-    item->setData(0, kMadeRole, fit->made);
-    if (before.isValid() && fit->made == before) list_->setCurrentItem(item); // the network, wherever it stands now
+    if (fit->made == before) now = static_cast<int>(shown_.size()); // the network, wherever it stands now
+    shown_.emplace_back(fit->made, fit->name);
   }
-  enableButtons();
+  const TableText table = networksTable(session.kept());
+  list_->show(table.heads, table.rows);
+  const bool old = !session.upToDate();
+  for (int row = 0; row < list_->rowCount(); ++row) {
+    const NetworkFit& fit = *session.kept()[static_cast<std::size_t>(row)];
+    const QString origin = originWords(fit);
+    for (int column = 0; column < list_->columnCount(); ++column) {
+      list_->item(row, column)->setToolTip(origin);
+      if (old) list_->item(row, column)->setForeground(palette().color(QPalette::PlaceholderText));
+    }
+    if (!old && session.fit() != nullptr && fit.made == session.fit()->made) list_->mark(row);
+  }
+  if (now >= 0)
+    list_->setCurrentCell(now, std::max(0, list_->currentColumn()));
+  else
+    list_->setCurrentCell(-1, -1);
+  displayChosen();
+  if (now >= 0 && !typed.isEmpty()) { // what is being typed stays
+    name_->setText(typed);
+    name_->setModified(true);
+  }
+  words_->setText(old && !session.kept().empty()
+                      ? tr("These are of an earlier design: undo the change to have them back.")
+                      : tr("Every network that was trained; equal ones stand once. The last %1 stay, and all that have "
+                           "a name. Fx, Fy, Fz: RMSE of the test in % of range. Bold: the one that is shown.")
+                            .arg(NetworkSession::kKeptNetworks));
 }
 
 } // namespace palp

@@ -4,12 +4,17 @@
 
 #include <QWidget>
 
+#include <vector>
+
+class QLabel;
+class QLineEdit;
 class QPushButton;
-class QTreeWidget;
 
 namespace palp {
 
-/// The networks of this design that were trained or opened, with their errors: the way back to each.
+class DataTable;
+
+/// The networks of this design that were trained or opened, with their errors: the way back to each, and their names.
 class TrainedNetworks : public QWidget {
   Q_OBJECT
 
@@ -22,15 +27,20 @@ public:
 signals:
   void goBackAsked(std::size_t network);
   void takeAwayAsked(std::size_t network);
+  void nameAsked(std::size_t network, const QString& name);
 
 private:
   void ask();
+  void askName();
   [[nodiscard]] int chosen() const;
-  void enableButtons();
+  void displayChosen();
 
-  QTreeWidget* list_ = nullptr;
+  DataTable* list_ = nullptr;
+  QLabel* words_ = nullptr;
   QPushButton* back_ = nullptr;
   QPushButton* away_ = nullptr;
+  QLineEdit* name_ = nullptr;
+  std::vector<std::pair<QDateTime, QString>> shown_; ///< of each row: when its network was made, and its name
 };
 
 } // namespace palp

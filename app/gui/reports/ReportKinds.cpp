@@ -22,11 +22,12 @@ std::vector<ReportKind> allKinds() {
        {"reproduce", "fig12"},
        QObject::tr("Errors from resistances over the spread, both modes and the linear baseline."),
        protocolParts(1)}};
-  for (const ReportComputation& report : reportComputations())
-    all.push_back({QString::fromStdString(report.name),
-                   {"report", QString::fromStdString(report.name)},
-                   QString::fromStdString(report.what),
-                   report.parts});
+  for (const ReportComputation& report : reportComputations()) {
+    QString what = QString::fromStdString(report.what);
+    if (!what.isEmpty()) what[0] = what[0].toUpper();
+    all.push_back(
+        {QString::fromStdString(report.name), {"report", QString::fromStdString(report.name)}, what, report.parts});
+  }
   return all;
 }
 

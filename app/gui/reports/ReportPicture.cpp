@@ -1,5 +1,6 @@
 #include "app/gui/reports/ReportPicture.h"
 
+#include <QFontDatabase>
 #include <QLabel>
 
 #include <algorithm>
@@ -29,8 +30,18 @@ void ReportPicture::show(const QPixmap& picture) {
   fit();
 }
 
+void ReportPicture::say(const QString& text) {
+  clear();
+  label_->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
+  label_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
+  label_->setTextFormat(Qt::PlainText);
+  label_->setText(text);
+}
+
 void ReportPicture::clear() {
   picture_ = {};
+  label_->setFont(font());
+  label_->setAlignment(Qt::AlignCenter);
   label_->setText(words_);
 }
 

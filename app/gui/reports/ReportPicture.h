@@ -15,6 +15,8 @@ public:
 
   /// Nothing where the picture is null.
   void show(const QPixmap& picture);
+  /// A text in place of a picture, as it is.
+  void say(const QString& text);
   /// The words again.
   void clear();
 

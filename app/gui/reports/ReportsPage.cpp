@@ -365,7 +365,10 @@ void ReportsPage::showFolder(const QString& folder, bool page) {
   picture_->clear();
   if (page) pictures_->addItems(QDir(folder).entryList({"*.png"}, QDir::Files, QDir::Name));
   pictures_->setVisible(pictures_->count() > 0);
-  if (pictures_->count() > 0) pictures_->setCurrentRow(0);
+  if (pictures_->count() > 0)
+    pictures_->setCurrentRow(0);
+  else if (page)
+    picture_->say(tr("This report draws no pictures. It said:\n\n%1").arg(log_->toPlainText()));
 }
 
 /// The desktop does not say whether a program came up, so the path is always said.

@@ -20,6 +20,8 @@ public:
 
   void setChart(const ChartSpec& spec);
   void setTheme(Theme theme);
+  [[nodiscard]] QString table() const override;
+  [[nodiscard]] bool worthSaving() const override { return !empty(); }
   [[nodiscard]] const ChartSpec& chart() const { return spec_; }
   /// Faint, for what does not hold any more.
   void setFaint(bool faint);
@@ -40,7 +42,6 @@ protected:
   void changeEvent(QEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
   [[nodiscard]] Picture renderPicture(int width, int height) override;
-  [[nodiscard]] QString table() const override;
 
 private:
   struct Parts;

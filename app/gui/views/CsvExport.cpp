@@ -3,6 +3,7 @@
 #include "app/gui/widgets/SaveDialog.h"
 #include "io/AtomicFile.h"
 #include "model/base/Error.h"
+#include "model/base/Text.h"
 
 #include <QMessageBox>
 
@@ -21,18 +22,20 @@ QString chartCsv(const ChartSpec& spec) {
   QString csv = "series," + cell(spec.xLabel) + "," + cell(spec.yLabel) + "\n";
   for (const ChartSeries& series : spec.series)
     for (std::size_t k = 0; k < std::min(series.x.size(), series.y.size()); ++k)
-      csv += cell(series.name) + "," + QString::number(series.x[k], 'g', 17) + "," +
-             QString::number(series.y[k], 'g', 17) + "\n";
+      csv += cell(series.name) + "," + QString::fromStdString(text(series.x[k])) + "," +
+             QString::fromStdString(text(series.y[k])) + "\n";
   return csv;
 }
 
-void offerCsv(QWidget* parent, const QString& proposal, const QString& text) {
+QString offerCsv(QWidget* parent, const QString& proposal, const QString& text) {
   const QString file = askFileToSave(parent, QObject::tr("Save as CSV"), proposal, QObject::tr("Tables (*.csv)"));
-  if (file.isEmpty()) return;
+  if (file.isEmpty()) return {};
   try {
     writeFile(file.toStdString(), text.toStdString(), true); // the dialog has asked
+    return file;
   } catch (const Error& error) {
     QMessageBox::warning(parent, QObject::tr("Save as CSV"), QString::fromStdString(error.what()));
+    return {};
   }
 }
 

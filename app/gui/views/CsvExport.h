@@ -13,7 +13,7 @@ namespace palp {
 QString csvCell(const QString& text);
 /// Every point of every curve: `series,x,y`, the heads being the labels of the axes.
 QString chartCsv(const ChartSpec& spec);
-/// Asks for a file and writes the table there; says why where it cannot be written.
-void offerCsv(QWidget* parent, const QString& proposal, const QString& text);
+/// Asks for a file and writes the table there; says why where it cannot be written. Returns the file that was written.
+QString offerCsv(QWidget* parent, const QString& proposal, const QString& text);
 
 } // namespace palp

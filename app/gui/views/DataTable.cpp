@@ -24,8 +24,22 @@ void DataTable::show(const QStringList& heads, const std::vector<QStringList>& r
   setHorizontalHeaderLabels(heads);
   setRowCount(static_cast<int>(rows.size()));
   for (int row = 0; row < rowCount(); ++row)
-    for (int column = 0; column < columnCount(); ++column)
-      setItem(row, column, new QTableWidgetItem(rows[static_cast<std::size_t>(row)].value(column)));
+    for (int column = 0; column < columnCount(); ++column) {
+      const QString text = rows[static_cast<std::size_t>(row)].value(column);
+      auto* cell = new QTableWidgetItem(text);
+      bool number = false;
+      text.toDouble(&number);
+      if (number) cell->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
+      setItem(row, column, cell);
+    }
+}
+
+void DataTable::mark(int row) {
+  for (int column = 0; column < columnCount(); ++column) {
+    QFont font = item(row, column)->font();
+    font.setBold(true);
+    item(row, column)->setFont(font);
+  }
 }
 
 QString DataTable::csv() const {
@@ -72,7 +86,10 @@ void DataTable::contextMenuEvent(QContextMenuEvent* event) {
   QMenu menu(this);
   menu.addAction(selectedRanges().isEmpty() ? tr("Copy all") : tr("Copy what is marked"), this, &DataTable::copy);
   menu.addAction(tr("Mark all"), this, &QTableWidget::selectAll);
-  menu.addAction(tr("Save as CSV..."), this, [this] { offerCsv(this, file_, csv()); });
+  menu.addAction(tr("Save as CSV..."), this, [this] {
+    const QString written = offerCsv(this, file_, csv());
+    if (!written.isEmpty()) emit message(tr("Wrote %1.").arg(written));
+  });
   menu.exec(event->globalPos());
 }
 

@@ -15,9 +15,17 @@ public:
   explicit DataTable(const QString& file, QWidget* parent = nullptr);
 
   void show(const QStringList& heads, const std::vector<QStringList>& rows);
+  /// Bold.
+  void mark(int row);
+  /// The name that is proposed for the CSV.
+  [[nodiscard]] const QString& file() const { return file_; }
   [[nodiscard]] QString csv() const;
   /// What is marked, with tabs between the cells; all of it with its heads where nothing is marked.
   [[nodiscard]] QString marked() const;
+
+signals:
+  /// The table was written.
+  void message(const QString& sentence);
 
 protected:
   void keyPressEvent(QKeyEvent* event) override;

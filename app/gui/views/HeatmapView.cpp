@@ -1,6 +1,8 @@
 #include "app/gui/views/HeatmapView.h"
 
+#include "app/gui/views/CsvExport.h"
 #include "app/gui/views/TextScale.h"
+#include "model/base/Text.h"
 
 #include <QKeyEvent>
 #include <QPainter>
@@ -113,6 +115,19 @@ std::optional<std::array<int, 2>> HeatmapView::cellAt(const QPointF& place) cons
   if (place.x() < 0) return {};
   const QPointF device = devicePlace(place);
   return heatmap_.cellAt(device.x(), device.y());
+}
+
+/// One cell a line, named as on the axes.
+QString HeatmapView::table() const {
+  const HeatmapSpec& spec = heatmap_.spec;
+  if (spec.values.size() == 0) return {};
+  QString csv = csvCell(QString::fromStdString(spec.rowLabel)) + "," +
+                csvCell(QString::fromStdString(spec.columnLabel)) + "," + csvCell(QString::fromStdString(spec.title)) +
+                "\n";
+  for (Eigen::Index row = 0; row < spec.values.rows(); ++row)
+    for (Eigen::Index column = 0; column < spec.values.cols(); ++column)
+      csv += QString("%1,%2,").arg(row).arg(column) + QString::fromStdString(text(spec.values(row, column))) + "\n";
+  return csv;
 }
 
 } // namespace palp

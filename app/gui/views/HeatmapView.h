@@ -14,6 +14,8 @@ public:
 
   void setHeatmap(HeatmapSpec spec);
   void setTheme(Theme theme);
+  [[nodiscard]] QString table() const override;
+  [[nodiscard]] bool worthSaving() const override { return heatmap_.spec.values.size() > 0; }
   [[nodiscard]] const HeatmapSpec& heatmap() const { return heatmap_.spec; }
   /// The middle of a cell in the widget, as last painted.
   [[nodiscard]] std::optional<std::array<int, 2>> cellAt(const QPointF& place) const;

@@ -144,12 +144,19 @@ void PictureView::offerPicture(const QPoint& globalPlace) {
     return;
   }
   if (chosen != nullptr && chosen == copyTable) QApplication::clipboard()->setText(numbers);
-  if (chosen != nullptr && chosen == saveTable) offerCsv(this, "points.csv", numbers);
+  if (chosen != nullptr && chosen == saveTable) {
+    const QString written = offerCsv(this, fileName("points") + ".csv", numbers);
+    if (!written.isEmpty()) emit message(tr("Wrote %1.").arg(written));
+  }
   if (chosen == copy && chosen != nullptr) QApplication::clipboard()->setImage(image());
   for (const auto& [action, size] : sizes) {
     if (action != chosen || chosen == nullptr) continue;
     savePicture(size);
   }
+}
+
+QString PictureView::fileName(const QString& otherwise) const {
+  return objectName().isEmpty() ? otherwise : objectName();
 }
 
 QSize PictureView::askSize(const QSize& now) {
@@ -170,7 +177,7 @@ void PictureView::savePicture() {
 }
 
 void PictureView::savePicture(const QSize& size) {
-  const QString file = askFileToSave(this, tr("Save picture"), "picture.png", tr("Pictures (*.png)"));
+  const QString file = askFileToSave(this, tr("Save picture"), fileName("picture") + ".png", tr("Pictures (*.png)"));
   if (file.isEmpty()) return;
   try {
     writePng(picture(size.width(), size.height()), file.toStdString());

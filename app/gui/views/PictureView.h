@@ -22,6 +22,12 @@ public:
   [[nodiscard]] const QImage& image();
   /// The view in another size.
   [[nodiscard]] Picture picture(int width, int height) { return renderPicture(width, height); }
+  /// What the view shows as a table, offered beside the picture; empty: it has none.
+  [[nodiscard]] virtual QString table() const { return {}; }
+  /// There is something to be seen.
+  [[nodiscard]] virtual bool worthSaving() const { return true; }
+  /// The name that is proposed for its files, without an ending: that of the view.
+  [[nodiscard]] QString fileName(const QString& otherwise) const;
   [[nodiscard]] int renderCount() const { return renderCount_; }
   [[nodiscard]] double aspect() const;
   /// A place of the widget as VTK counts: device pixels from the lower left.
@@ -42,8 +48,6 @@ protected:
   /// Draws into an image of the view's size, RGB32.
   virtual void render(QImage& image) = 0;
   [[nodiscard]] virtual Picture renderPicture(int width, int height) = 0;
-  /// What the view shows as a table, offered beside the picture; empty: it has none.
-  [[nodiscard]] virtual QString table() const { return {}; }
   [[nodiscard]] QSize deviceSize() const;
   /// How much larger than the view a picture of this size is: its words and lines grow with it.
   [[nodiscard]] double magnification(int width, int height) const;

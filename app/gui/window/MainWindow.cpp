@@ -12,7 +12,9 @@
 #include "app/gui/touch/LoadPathAnimation.h"
 #include "app/gui/touch/ResistancePage.h"
 #include "app/gui/views/BlockView.h"
+#include "app/gui/views/DataTable.h"
 #include "app/gui/views/PictureView.h"
+#include "app/gui/views/SceneExport.h"
 #include "app/gui/views/VtkView.h"
 #include "app/gui/widgets/AccessibleNames.h"
 #include "app/gui/widgets/WheelGuard.h"
@@ -104,6 +106,12 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   connect(exports_, &ExportJob::done, this, &MainWindow::showMessage);
   connect(&exports_->runner(), &JobRunner::failed, this,
           [this](const QString& sentence) { QMessageBox::warning(this, tr("Export"), sentence); });
+  for (const DataTable* table : findChildren<DataTable*>())
+    connect(table, &DataTable::message, this, &MainWindow::showMessage);
+  sceneExport_ = new SceneExport(this);
+  connect(sceneExport_, &SceneExport::done, this, &MainWindow::showMessage);
+  connect(&sceneExport_->runner(), &JobRunner::failed, this,
+          [this](const QString& sentence) { QMessageBox::warning(this, tr("Export"), sentence); });
   document_ = new Document(*this, workbench, network);
   buildStatusLine();
   new Menus(*this, workbench, *document_);
@@ -136,7 +144,8 @@ void MainWindow::buildStatusLine() {
   const auto gather = [this] {
     std::vector<SceneJob> jobs{{&workbench_.touch().runner(), "deformation"}, {&network_.runner(), "network"},
                                {&animation_->runner(), "deformation"},        {&network_.writer(), "network"},
-                               {&workbench_.kept().runner(), "deformation"},  {&exports_->runner(), "deformation"}};
+                               {&workbench_.kept().runner(), "deformation"},  {&exports_->runner(), "deformation"},
+                               {&sceneExport_->runner(), "network"}};
     for (int k = 0; k < scenes_->count(); ++k)
       for (JobRunner* runner : static_cast<Scene*>(scenes_->widget(k))->runners()) jobs.push_back({runner, names_[k]});
     lamps_->setJobs(jobs);

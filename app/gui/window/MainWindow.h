@@ -18,6 +18,7 @@ class LoadPathAnimation;
 class MessageLog;
 class NetworkSession;
 class ReportsPage;
+class SceneExport;
 class StatusLamps;
 class Workbench;
 
@@ -34,6 +35,7 @@ public:
   [[nodiscard]] Scene& currentScene() const;
   [[nodiscard]] Document& document() const { return *document_; }
   [[nodiscard]] ExportJob& exports() const { return *exports_; }
+  [[nodiscard]] SceneExport& sceneExport() const { return *sceneExport_; }
   void setTheme(Theme theme);
   [[nodiscard]] Theme theme() const { return theme_; }
   /// Some background work runs.
@@ -71,6 +73,7 @@ private:
   StatusLamps* lamps_ = nullptr;
   Document* document_ = nullptr;
   ExportJob* exports_ = nullptr;
+  SceneExport* sceneExport_ = nullptr;
   MessageLog* log_ = nullptr;
   QListWidget* rail_ = nullptr;
   QStackedWidget* scenes_ = nullptr;

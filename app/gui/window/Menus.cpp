@@ -6,6 +6,7 @@
 #include "app/gui/project/Workbench.h"
 #include "app/gui/touch/FilmDialog.h"
 #include "app/gui/views/PictureView.h"
+#include "app/gui/views/SceneExport.h"
 #include "app/gui/widgets/SaveDialog.h"
 #include "app/gui/window/HelpDialog.h"
 #include "app/gui/window/MainWindow.h"
@@ -136,6 +137,9 @@ void Menus::buildExport(QMenu& menu) {
       [this] { makeFilm(); });
   add(menu, tr("Picture of the &view..."), tr("The block, map or chart of the scene alone as PNG, without the panels"),
       QKeySequence("Ctrl+Shift+P"), [this] { saveView(); });
+  add(menu, tr("Export all charts and &tables..."),
+      tr("Every chart and table of this scene into a new folder: pictures, their points and tables as CSV"),
+      QKeySequence("Ctrl+Shift+E"), [this] { window_.sceneExport().ask(window_.currentScene()); });
   add(menu, tr("&Picture of the window..."), tr("The window as PNG; a right click on a view saves that view alone"),
       QKeySequence("Ctrl+P"), [this] {
         exportTo(tr("Picture of the window"), "palp.png", tr("Pictures (*.png)"), [this](const QString& file) {
@@ -150,7 +154,11 @@ void Menus::buildExport(QMenu& menu) {
           return;
         }
         QApplication::clipboard()->setText(commands);
-        window_.showMessage(tr("Copied: %1   (sensor.json: File, Save design)").arg(commands.section('\n', 0, 0)));
+        const qsizetype more = commands.trimmed().count('\n');
+        window_.showMessage(more == 0 ? tr("Copied: %1   (sensor.json: File, Save design)").arg(commands.trimmed())
+                                      : tr("Copied %1 commands, the first: %2   (sensor.json: File, Save design)")
+                                            .arg(more + 1)
+                                            .arg(commands.section('\n', 0, 0)));
       });
 }
 

@@ -23,8 +23,9 @@ int rowNamed(const std::string& text, const std::string& rows, int rowWires) {
   int row = -1;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), row);
   if (error != std::errc{} || end != text.data() + text.size() || row < 0 || row >= rowWires)
-    throw Error("rows: '" + text + "' in '" + rows + "'; allowed is all, or whole numbers from 0 to " +
-                std::to_string(rowWires - 1) + " with commas between them");
+    throw Error("row-wires: '" + text + "'" + (text == rows ? "" : " in '" + rows + "'") +
+                "; allowed is all, or whole numbers from 0 to " + std::to_string(rowWires - 1) +
+                " with commas between them");
   return row;
 }
 

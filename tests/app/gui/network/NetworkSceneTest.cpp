@@ -13,12 +13,12 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QSlider>
 #include <QSpinBox>
 #include <QStatusBar>
 #include <QTabWidget>
 #include <QTemporaryDir>
 #include <QToolButton>
-#include <QTreeWidget>
 
 #include <limits>
 
@@ -212,27 +212,210 @@ TEST_F(NetworkScene, GoesBackToAnEarlierNetworkWithItsSettings) {
   find<QDoubleSpinBox>("spread").setValue(3); // trains at once
   ASSERT_TRUE(QTest::qWaitFor([&] { return network.fit()->decoder.report.spread == 3; }, kPatience_ms));
   ASSERT_TRUE(idle());
-  auto& list = find<QTreeWidget>("trainedNetworks");
-  ASSERT_EQ(list.topLevelItemCount(), 2);
+  auto& list = find<DataTable>("trainedNetworks");
+  ASSERT_EQ(list.rowCount(), 2);
   find<QTabWidget>("networkTabs").setCurrentIndex(3);
-  list.setCurrentItem(list.topLevelItem(1));
+  list.setCurrentCell(1, 0);
   QTest::mouseClick(&find<QPushButton>("goBack"), Qt::LeftButton);
   ASSERT_TRUE(QTest::qWaitFor([&] { return network.fit()->decoder.report.spread == first; }, kPatience_ms));
   EXPECT_EQ(workbench.project().network.spread, first);
   EXPECT_TRUE(find<QLabel>("fitWords").text().contains("<b>"));
   ASSERT_TRUE(idle());
   QTest::mouseClick(&find<QPushButton>("takeAway"), Qt::LeftButton);
-  EXPECT_EQ(list.topLevelItemCount(), 1);
+  EXPECT_EQ(list.rowCount(), 1);
 }
 
-TEST_F(NetworkScene, ASpreadThatIsDraggedLeavesOneNetworkInTheList) {
+TEST_F(NetworkScene, ASpreadThatIsDraggedLeavesOneNetworkInTheListAndOneThatIsTypedItsOwn) {
   generate();
   trained();
+  auto& slider = find<QSlider>("spreadSlider");
+  const auto moveTo = [&](int step) {
+    slider.setSliderPosition(step);
+    const double spread = workbench.project().network.spread;
+    return QTest::qWaitFor([&] { return network.fit()->decoder.report.spread == spread; }, kPatience_ms) && idle();
+  };
+  slider.setSliderDown(true); // tells that it is pressed
+  for (const int step : {170, 180, 190}) ASSERT_TRUE(moveTo(step));
+  slider.setSliderDown(false);
+  EXPECT_EQ(network.kept().size(), 2u) << "the one that was asked for, and the last of those of the movement";
+  slider.setSliderDown(true);
+  ASSERT_TRUE(moveTo(200));
+  slider.setSliderDown(false);
+  EXPECT_EQ(network.kept().size(), 3u) << "another movement";
   for (const double spread : {2.0, 3.0, 4.0}) {
     find<QDoubleSpinBox>("spread").setValue(spread);
     ASSERT_TRUE(QTest::qWaitFor([&] { return network.fit()->decoder.report.spread == spread; }, kPatience_ms));
+    ASSERT_TRUE(idle());
   }
-  EXPECT_EQ(network.kept().size(), 2u) << "the one that was asked for, and the last of those that followed";
+  EXPECT_EQ(network.kept().size(), 6u);
+}
+
+TEST_F(NetworkScene, EveryEditKeepsItsNetworkAndEqualOnesStandOnce) {
+  generate();
+  trained();
+  for (const char* decoder : {"linear", "poly2", "gp"}) {
+    find<QComboBox>("decoder").setCurrentText(decoder);
+    ASSERT_TRUE(QTest::qWaitFor([&] { return name(network.fit()->decoder.kind) == decoder; }, kPatience_ms));
+    ASSERT_TRUE(idle());
+  }
+  EXPECT_EQ(network.kept().size(), 4u) << find<DataTable>("trainedNetworks").csv().toStdString();
+  const NetworkFit* before = network.fit();
+  QTest::mouseClick(&find<QPushButton>("train"), Qt::LeftButton);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.fit() != before; }, kPatience_ms));
+  EXPECT_EQ(network.kept().size(), 4u) << "what is trained again stands once";
+}
+
+TEST_F(NetworkScene, ANetworkIsNamedInTheList) {
+  generate();
+  trained();
+  find<QTabWidget>("networkTabs").setCurrentIndex(3);
+  auto& list = find<DataTable>("trainedNetworks");
+  auto& field = find<QLineEdit>("networkName");
+  EXPECT_FALSE(field.isEnabled()) << "none is marked";
+  list.setCurrentCell(0, 0);
+  list.setFocus();
+  QTest::keyClick(&list, Qt::Key_F2);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return field.hasFocus(); }, kPatience_ms));
+  QTest::keyClicks(&field, "the first, clean");
+  QTest::keyClick(&field, Qt::Key_Return);
+  EXPECT_EQ(list.item(0, 0)->text(), "the first, clean");
+  EXPECT_TRUE(find<QLabel>("fitWords").text().contains("the first, clean"));
+  EXPECT_EQ(list.item(0, 6)->text(), "rbf") << list.csv().toStdString();
+  EXPECT_TRUE(list.item(0, 1)->font().bold());
+  EXPECT_TRUE(window.isWindowModified()) << "the name is part of the work";
+}
+
+TEST_F(NetworkScene, AFullListDropsTheOldestWithoutANameAndIsOpenedAsItWas) {
+  NetworkSession session; // without a window that draws every one
+  session.setDesign(workbench.project().design);
+  session.generate(workbench.project().samples, workbench.project().mesh);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return session.samples() != nullptr; }, kPatience_ms));
+  const std::size_t most = NetworkSession::kKeptNetworks;
+  const auto spread = [](std::size_t k) { return 1 + 0.01 * static_cast<double>(k); };
+  for (std::size_t k = 0; k < most + 3; ++k) {
+    NetworkSettings settings = workbench.project().network;
+    settings.spread = spread(k);
+    session.train(settings);
+    ASSERT_TRUE(QTest::qWaitFor(
+        [&] { return session.fit() != nullptr && session.fit()->decoder.report.spread == settings.spread; },
+        kPatience_ms));
+    if (k == 0) session.rename(0, "the first, clean");
+  }
+  ASSERT_EQ(session.kept().size(), most + 1);
+  EXPECT_EQ(session.kept().back()->name, "the first, clean");
+  EXPECT_EQ(session.kept()[most - 1]->settings.spread, spread(3)) << "the two oldest without a name have gone";
+  const QTemporaryDir folder;
+  saveResults(folder.path().toStdString(), session.results(), {});
+  const NetworkResults opened = openResults(folder.path().toStdString(), workbench.project().design, {}).results;
+  EXPECT_EQ(opened.listed(), session.results().listed());
+  session.rename(most, {});
+  saveResults(folder.path().toStdString(), session.results(), {});
+  EXPECT_EQ(openResults(folder.path().toStdString(), workbench.project().design, {}).results.kept.size(), most)
+      << "without its name it is one too many";
+}
+
+TEST_F(NetworkScene, NetworksThatWereTestedWithNoiseAreOpenedWithTheErrorsThatTheyHad) {
+  generate();
+  find<QComboBox>("input").setCurrentIndex(1);
+  find<QDoubleSpinBox>("noise").setValue(0.01);
+  find<QDoubleSpinBox>("testNoise").setValue(0.02);
+  find<QSpinBox>("trainSeed").setValue(7);
+  trained();
+  auto& rows = find<QLineEdit>("rows");
+  rows.setFocus();
+  rows.selectAll();
+  QTest::keyClicks(&rows, "all");
+  QTest::keyClick(&rows, Qt::Key_Return);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.fit()->settings.rows == "all"; }, kPatience_ms));
+  ASSERT_TRUE(idle());
+  const QTemporaryDir folder;
+  saveResults(folder.path().toStdString(), network.results(), {});
+  const NetworkResults opened = openResults(folder.path().toStdString(), workbench.project().design, {}).results;
+  ASSERT_EQ(opened.kept.size(), network.kept().size());
+  for (std::size_t k = 0; k < opened.kept.size(); ++k) {
+    EXPECT_EQ(opened.kept[k]->error.error.rmsePercentOfRange, network.kept()[k]->error.error.rmsePercentOfRange);
+    EXPECT_EQ(opened.kept[k]->triedOn.lock(), opened.samples) << "not of other samples";
+  }
+  ASSERT_TRUE(opened.fit);
+  EXPECT_EQ(opened.fit->error.error.rmsePercentOfRange, network.fit()->error.error.rmsePercentOfRange);
+}
+
+TEST_F(NetworkScene, TheNoiseBoundStandsBesideTheErrorsAndBelowTheDecoders) {
+  Project more = workbench.project();
+  more.samples.perArea = 20; // a curved response in three forces has ten coefficients
+  workbench.edit("more", more);
+  generate();
+  find<QComboBox>("input").setCurrentIndex(1);
+  find<QDoubleSpinBox>("noise").setValue(0.01);
+  trained();
+  const auto words = [&] { return find<QLabel>("fitWords").text(); };
+  EXPECT_FALSE(words().contains("Cramer-Rao bound [%]")) << "without noise there is none";
+  EXPECT_TRUE(words().contains("A noise of the test puts")) << words().toStdString();
+  find<QDoubleSpinBox>("testNoise").setValue(0.01);
+  const NoiseBound bound = noiseBound(network.samples()->training, InputKind::Resistance, {4}, 1e-4);
+  const QString fx = QString::number(bound.withPriorPercent[0], 'g', 3);
+  ASSERT_TRUE(
+      QTest::qWaitFor([&] { return words().contains("Cramer-Rao bound [%]") && words().contains(fx); }, kPatience_ms))
+      << fx.toStdString() << " in " << words().toStdString();
+  EXPECT_GT(network.fit()->error.error.rmsePercentOfRange[0], bound.withPriorPercent[0]);
+  QTest::mouseClick(&find<QPushButton>("compare"), Qt::LeftButton);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.trials().size() == allDecoderKinds().size(); }, kPatience_ms));
+  ASSERT_TRUE(idle());
+  auto& table = find<DataTable>("trialsTable");
+  const int last = table.rowCount() - 1;
+  EXPECT_EQ(last, static_cast<int>(allDecoderKinds().size()));
+  EXPECT_EQ(table.item(last, 0)->text(), "bound");
+  EXPECT_EQ(table.item(last, 5)->text(), QString::number(bound.withPriorPercent[0], 'g', 6));
+}
+
+TEST_F(NetworkScene, TheOptionsSayWhatTheModeSaysAndWhatDoesNotActIsGrey) {
+  QTest::mouseClick(&find<QToolButton>("moreOptions"), Qt::LeftButton);
+  const auto first = [&](const char* box) { return find<QComboBox>(box).itemText(0); };
+  EXPECT_EQ(first("scaler"), "as the mode says: global");
+  EXPECT_EQ(first("tail"), "as the mode says: linear");
+  find<QDoubleSpinBox>("noise").setValue(0.01);
+  EXPECT_EQ(first("scaler"), "as the mode says: whiten");
+  EXPECT_TRUE(find<QLineEdit>("ridge").placeholderText().contains("leave-one-out"));
+  find<QComboBox>("mode").setCurrentIndex(1);
+  EXPECT_EQ(first("scaler"), "as the mode says: minmax");
+  find<QComboBox>("decoder").setCurrentText("linear");
+  EXPECT_FALSE(find<QComboBox>("scaler").isEnabled());
+  EXPECT_FALSE(find<QDoubleSpinBox>("spread").isEnabled());
+  EXPECT_TRUE(find<QLineEdit>("ridge").isEnabled());
+}
+
+TEST_F(NetworkScene, OneClickTakesThePapersSpreadWhichTheChartMarks) {
+  generate();
+  trained();
+  auto& paper = find<QPushButton>("paperSpread");
+  EXPECT_EQ(paper.text(), "the paper's: 1.5");
+  QTest::mouseClick(&paper, Qt::LeftButton);
+  EXPECT_EQ(workbench.project().network.spread, 1.5);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.fit()->decoder.report.spread == 1.5; }, kPatience_ms));
+  const ChartSpec& chart = find<ChartView>("sweepError").chart();
+  ASSERT_FALSE(chart.series.empty());
+  EXPECT_EQ(chart.series.back().x, (std::vector<double>{1.5, 1.5}));
+  std::vector<std::string> now;
+  for (const ChartSeries& series : chart.series)
+    if (series.name.ends_with("trained now")) now.push_back(series.name);
+  EXPECT_EQ(now, (std::vector<std::string>{"Fx, trained now", "Fy, trained now", "Fz, trained now"}));
+}
+
+TEST_F(NetworkScene, OpeningTheSamplesThatAreThereKeepsWhatWasMadeOfThem) {
+  generate();
+  trained();
+  const QTemporaryDir folder;
+  const QString file = folder.filePath("samples.csv");
+  answerFileDialog(file);
+  QTest::mouseClick(&find<QPushButton>("saveSamples"), Qt::LeftButton);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return QFileInfo::exists(file) && !window.busy(); }, kPatience_ms));
+  const NetworkFit* fit = network.fit();
+  answerFileDialog(file);
+  QTest::mouseClick(&find<QPushButton>("openSamples"), Qt::LeftButton);
+  auto& said = find<QLabel>("trainingProblem");
+  ASSERT_TRUE(QTest::qWaitFor([&] { return said.text().contains("there already"); }, kPatience_ms))
+      << said.text().toStdString();
+  EXPECT_EQ(network.fit(), fit);
 }
 
 TEST_F(NetworkScene, TheSweepsTableHasEveryPointAndItsBestSpreadIsTakenOver) {
@@ -292,18 +475,18 @@ TEST_F(NetworkScene, TheFoldedOptionsTrainAsTheCommandThatIsShownSays) {
 TEST_F(NetworkScene, TheMarkInTheListStaysWithItsNetworkAndEachEditKeepsOne) {
   generate();
   trained();
-  auto& list = find<QTreeWidget>("trainedNetworks");
+  auto& list = find<DataTable>("trainedNetworks");
   find<QTabWidget>("networkTabs").setCurrentIndex(3);
-  list.setCurrentItem(list.topLevelItem(0));
+  list.setCurrentCell(0, 0);
   find<QDoubleSpinBox>("spread").setValue(2);
   ASSERT_TRUE(QTest::qWaitFor([&] { return network.kept().size() == 2; }, kPatience_ms));
   ASSERT_TRUE(idle());
-  EXPECT_EQ(list.indexOfTopLevelItem(list.currentItem()), 1);
+  EXPECT_EQ(list.currentRow(), 1);
   find<QComboBox>("scaler").setCurrentText("minmax"); // another edit: the network of the spread stays
   ASSERT_TRUE(QTest::qWaitFor([&] { return network.kept().size() == 3; }, kPatience_ms));
-  EXPECT_EQ(list.indexOfTopLevelItem(list.currentItem()), 2);
-  EXPECT_TRUE(list.topLevelItem(0)->text(3).contains("scaler minmax")) << list.topLevelItem(0)->text(3).toStdString();
-  EXPECT_EQ(list.topLevelItem(0)->toolTip(3), list.topLevelItem(0)->text(3)) << "the column may be cut";
+  EXPECT_EQ(list.currentRow(), 2);
+  EXPECT_TRUE(list.item(0, 0)->toolTip().contains("scaler minmax")) << list.item(0, 0)->toolTip().toStdString();
+  EXPECT_TRUE(list.csv().section('\n', 1, 1).contains(",minmax,")) << list.csv().toStdString();
 }
 
 TEST_F(NetworkScene, ANumberWithAnExponentIsTakenAsItIsWritten) {
@@ -322,8 +505,9 @@ TEST_F(NetworkScene, SaysTheErrorInNewtonAndWhetherItWasTestedWithNoise) {
   find<QDoubleSpinBox>("noise").setValue(0.01);
   trained();
   const QString words = find<QLabel>("fitWords").text();
-  EXPECT_TRUE(words.contains(triple(network.fit()->error.error.meanAbsolute, "N") + " on average"))
-      << words.toStdString();
+  EXPECT_TRUE(words.contains("mean [N]")) << words.toStdString();
+  for (const double mean : network.fit()->error.error.meanAbsolute)
+    EXPECT_TRUE(words.contains("&nbsp;" + QString::number(mean, 'g', 3) + "<")) << words.toStdString();
   EXPECT_TRUE(words.contains("tested without noise")) << words.toStdString();
 }
 
@@ -367,8 +551,8 @@ TEST_F(NetworkScene, TheListOfNetworksIsKeptBesideTheProject) {
     EXPECT_EQ(opened.kept[k]->error.error.rmsePercentOfRange, network.kept()[k]->error.error.rmsePercentOfRange);
   }
   EXPECT_EQ(opened.fit, opened.kept[0]) << "the one that was shown";
-  auto& list = find<QTreeWidget>("trainedNetworks");
-  list.setCurrentItem(list.topLevelItem(1));
+  auto& list = find<DataTable>("trainedNetworks");
+  list.setCurrentCell(1, 0);
   find<QTabWidget>("networkTabs").setCurrentIndex(3);
   QTest::mouseClick(&find<QPushButton>("takeAway"), Qt::LeftButton);
   saveResults(folder.path().toStdString(), network.results(), {});

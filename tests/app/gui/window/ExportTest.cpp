@@ -11,11 +11,13 @@
 #include <QDir>
 #include <QDoubleSpinBox>
 #include <QFile>
+#include <QImage>
 #include <QImageReader>
 #include <QMenuBar>
 #include <QPushButton>
 #include <QSignalSpy>
 #include <QSpinBox>
+#include <QStatusBar>
 #include <QTemporaryDir>
 
 #include <gtest/gtest.h>
@@ -188,6 +190,32 @@ TEST_F(Exporting, TheViewAloneIsSavedFromTheMenu) {
   trigger("Picture of the view");
   const QImage slide(folder.filePath("slide.png"));
   EXPECT_EQ(slide.size(), 2 * find<BlockView>("block").image().size());
+}
+
+TEST_F(Exporting, EveryChartAndTableOfTheSceneGoesIntoANewFolderAtOnce) {
+  window.showScene("network");
+  ASSERT_TRUE(solved());
+  QTest::mouseClick(window.findChild<QPushButton*>("generate"), Qt::LeftButton);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.samples() != nullptr && !window.busy(); }, kPatience_ms));
+  QTest::mouseClick(window.findChild<QPushButton*>("train"), Qt::LeftButton);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.fit() != nullptr && !window.busy(); }, kPatience_ms));
+  QTest::mouseClick(window.findChild<QPushButton*>("sweep"), Qt::LeftButton);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.sweepPoints().size() == 3 && !window.busy(); }, kPatience_ms));
+  const QDir charts(folder.filePath("charts"));
+  answerFileDialog(charts.path());
+  QTest::keyClick(&window, Qt::Key_E, Qt::ControlModifier | Qt::ShiftModifier);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window.statusBar()->currentMessage().startsWith("Wrote"); }, kPatience_ms))
+      << window.statusBar()->currentMessage().toStdString();
+  const QStringList files = charts.entryList(QDir::Files);
+  for (const char* file : {"sweepError.png", "sweepError.csv", "leaveOneOut.png", "decoupledFx.png", "decoupledFz.csv",
+                           "relativeError.csv", "sweep.csv", "networks.csv"})
+    EXPECT_TRUE(files.contains(file)) << file << " among " << files.join(' ').toStdString();
+  EXPECT_FALSE(files.contains("trialsError.png")) << "nothing was compared";
+  EXPECT_EQ(contentOf(charts.filePath("sweep.csv")).count('\n'), 4);
+  EXPECT_TRUE(contentOf(charts.filePath("sweepError.csv")).contains(",5.18") ||
+              contentOf(charts.filePath("sweepError.csv")).contains(",0.16"))
+      << "numbers as they are printed";
+  EXPECT_GT(QImage(charts.filePath("decoupledFx.png")).width(), 600) << "of a tab that was never seen";
 }
 
 } // namespace

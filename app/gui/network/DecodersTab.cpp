@@ -1,0 +1,50 @@
+#include "app/gui/network/DecodersTab.h"
+
+#include "app/gui/network/FitWords.h"
+#include "app/gui/network/NetworkCharts.h"
+#include "app/gui/network/NetworkTables.h"
+#include "app/gui/views/ChartView.h"
+#include "app/gui/views/DataTable.h"
+
+#include <QLabel>
+#include <QSplitter>
+#include <QVBoxLayout>
+
+namespace palp {
+
+DecodersTab::DecodersTab(QWidget* parent) : QWidget(parent) {
+  error_ = networkChart("trialsError");
+  time_ = networkChart("trialsTime");
+  words_ = new QLabel;
+  words_->setObjectName("trialsWords");
+  words_->setWordWrap(true);
+  table_ = new DataTable("decoders.csv");
+  table_->setObjectName("trialsTable");
+  table_->setAccessibleName(tr("Table of the decoders"));
+  auto* charts = new QSplitter(Qt::Horizontal);
+  charts->addWidget(error_);
+  charts->addWidget(time_);
+  auto* all = new QSplitter(Qt::Vertical);
+  all->setObjectName("networkTrials");
+  all->addWidget(charts);
+  all->addWidget(table_);
+  all->setSizes({340, 280});
+  auto* column = new QVBoxLayout(this);
+  column->addWidget(words_);
+  column->addWidget(all, 1);
+}
+
+void DecodersTab::display(const NetworkSession& session, const NetworkSettings& now, const NoiseBound* bound) {
+  const std::vector<DecoderTrial>& trials = session.trials();
+  const bool curve = !trials.empty() && sweepAndTrialsAgree(session);
+  error_->setChart(trialsErrorChart(trials, curve ? session.sweepPoints() : std::vector<SweepPoint>{},
+                                    session.trialsSettings().input));
+  time_->setChart(trialsTimeChart(trials));
+  const bool stale = !staleTrialsReason(session, now).isEmpty();
+  for (ChartView* view : {error_, time_}) view->setFaint(stale);
+  const TableText table = trialsTable(trials, bound);
+  table_->show(table.heads, table.rows);
+  words_->setText(trialsWords(session, now));
+}
+
+} // namespace palp

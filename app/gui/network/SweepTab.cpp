@@ -1,0 +1,72 @@
+#include "app/gui/network/SweepTab.h"
+
+#include "app/gui/network/FitWords.h"
+#include "app/gui/network/NetworkCharts.h"
+#include "app/gui/network/NetworkTables.h"
+#include "app/gui/views/ChartView.h"
+#include "app/gui/views/DataTable.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QSplitter>
+#include <QVBoxLayout>
+
+namespace palp {
+
+SweepTab::SweepTab(QWidget* parent) : QWidget(parent) {
+  error_ = networkChart("sweepError");
+  leaveOneOut_ = networkChart("leaveOneOut");
+  condition_ = networkChart("condition");
+  time_ = networkChart("errorTime");
+  words_ = new QLabel;
+  words_->setObjectName("sweepWords");
+  words_->setWordWrap(true);
+  best_ = new QPushButton(tr("Take the best spread"));
+  best_->setObjectName("bestSpread");
+  best_->setToolTip(
+      tr("Sets the spread of the smallest test error of the sweep (bold in the table) and trains with it"));
+  table_ = new DataTable("sweep.csv");
+  table_->setObjectName("sweepTable");
+  table_->setAccessibleName(tr("Table of the sweep"));
+  auto* bar = new QHBoxLayout;
+  bar->addWidget(words_, 1);
+  bar->addWidget(best_);
+  auto* list = new QWidget;
+  auto* below = new QVBoxLayout(list);
+  below->setContentsMargins(0, 0, 0, 0);
+  below->addLayout(bar);
+  below->addWidget(table_, 1);
+  auto* small = new QSplitter(Qt::Horizontal);
+  for (ChartView* view : {leaveOneOut_, condition_, time_}) small->addWidget(view);
+  auto* all = new QSplitter(Qt::Vertical);
+  all->setObjectName("networkSweep");
+  for (QWidget* part : std::initializer_list<QWidget*>{error_, small, list}) all->addWidget(part);
+  all->setSizes({280, 180, 260});
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->addWidget(all);
+  connect(best_, &QPushButton::clicked, this, &SweepTab::bestAsked);
+}
+
+void SweepTab::display(const NetworkSession& session, const NetworkSettings& now) {
+  const std::vector<SweepPoint>& points = session.sweepPoints();
+  const InputKind input = points.empty() ? now.input : session.sweepSettings().input;
+  error_->setChart(sweepErrorChart(points, session.fit(), input));
+  leaveOneOut_->setChart(sweepLeaveOneOutChart(points));
+  condition_->setChart(sweepConditionChart(points));
+  time_->setChart(errorTimeChart(points));
+  const QString reason = staleSweepReason(session, now);
+  for (ChartView* view : {error_, leaveOneOut_, condition_, time_}) view->setFaint(!reason.isEmpty());
+  const auto best = bestPoint(points);
+  best_->setEnabled(best.has_value() && session.upToDate());
+  words_->setText(best ? tr("Smallest test error at spread %1 (RMSE over Fx, Fy and Fz, in % of range). %2")
+                             .arg(points[*best].spread, 0, 'g', 4)
+                             .arg(reason)
+                       : tr("A sweep trains once for each spread; its table stands here."));
+  const TableText table = sweepTable(points);
+  table_->show(table.heads, table.rows);
+  if (best) table_->mark(static_cast<int>(*best));
+}
+
+} // namespace palp

@@ -1,0 +1,113 @@
+#include "app/gui/views/SceneExport.h"
+
+#include "app/gui/views/DataTable.h"
+#include "app/gui/views/PictureView.h"
+#include "app/gui/views/VtkView.h"
+#include "app/gui/widgets/SaveDialog.h"
+#include "io/AtomicFile.h"
+#include "model/base/Cancelled.h"
+
+#include <QDir>
+#include <QMessageBox>
+#include <QTimer>
+
+#include <algorithm>
+#include <memory>
+
+namespace palp {
+
+namespace {
+
+constexpr QSize kLeast(600, 400);
+
+/// Every view and table of the scene that shows something; those of other tabs too.
+std::vector<QPointer<QWidget>> worthSaving(const QWidget& scene) {
+  std::vector<QPointer<QWidget>> all;
+  for (auto* view : scene.findChildren<PictureView*>())
+    if (view->worthSaving() && !view->objectName().isEmpty()) all.emplace_back(view);
+  for (auto* table : scene.findChildren<DataTable*>())
+    if (table->rowCount() > 0) all.emplace_back(table);
+  return all;
+}
+
+} // namespace
+
+SceneExport::SceneExport(QObject* parent) : QObject(parent) {}
+
+void SceneExport::ask(QWidget& scene) {
+  if (running()) return;
+  if (worthSaving(scene).empty()) {
+    emit done(tr("This scene shows no chart or table yet."));
+    return;
+  }
+  const QString folder =
+      askFileToSave(&scene, tr("Name of a new folder for all charts and tables"), scene.objectName() + "-charts", {});
+  if (folder.isEmpty()) return;
+  const QDir there(folder);
+  if (there.exists() && !there.isEmpty())
+    QMessageBox::warning(&scene, tr("Export all charts and tables"),
+                         tr("%1 holds files already; choose the name of a new folder.").arg(folder));
+  else if (!QDir().mkpath(folder))
+    QMessageBox::warning(&scene, tr("Export all charts and tables"), tr("%1: cannot be made as a folder").arg(folder));
+  else
+    write(scene, folder);
+}
+
+void SceneExport::write(QWidget& scene, const QString& folder) {
+  folder_ = folder;
+  files_.clear();
+  left_ = worthSaving(scene);
+  QTimer::singleShot(0, this, &SceneExport::next);
+}
+
+/// One view, then the window's own events again.
+void SceneExport::next() {
+  if (left_.empty()) return finish();
+  QWidget* widget = left_.back();
+  left_.pop_back();
+  const QDir folder(folder_);
+  if (auto* table = qobject_cast<DataTable*>(widget))
+    files_.push_back({folder.filePath(table->file()), table->csv().toStdString(), {}});
+  if (auto* view = qobject_cast<PictureView*>(widget)) {
+    const QString name = free(folder.filePath(view->fileName({})));
+    const QString points = view->table();
+    if (!points.isEmpty()) files_.push_back({name + ".csv", points.toStdString(), {}});
+    const QSize size = 2 * view->size().expandedTo(kLeast); // a tab that was never seen has no size yet
+    files_.push_back({name + ".png", {}, view->picture(size.width(), size.height())});
+    auto* drawn = qobject_cast<VtkView*>(view);
+    if (drawn != nullptr && !drawn->isVisible()) drawn->giveBack(); // a context that nobody looks at
+  }
+  QTimer::singleShot(0, this, &SceneExport::next);
+}
+
+/// Views of several boards have the same names.
+QString SceneExport::free(const QString& name) const {
+  const auto taken = [this](const QString& path) {
+    return std::any_of(files_.begin(), files_.end(), [&](const File& file) { return file.path == path + ".png"; });
+  };
+  QString path = name;
+  for (int k = 2; taken(path); ++k) path = name + QString("-%1").arg(k);
+  return path;
+}
+
+void SceneExport::finish() {
+  const auto files = std::make_shared<std::vector<File>>(std::move(files_));
+  files_.clear();
+  writer_.start(
+      tr("Writing charts and tables"),
+      [this, files, folder = folder_](const std::stop_token& stop, JobProgress& progress) -> JobRunner::Taking {
+        for (std::size_t k = 0; k < files->size(); ++k) {
+          stopIfAsked(stop);
+          const File& file = (*files)[k];
+          progress.set(static_cast<double>(k) / static_cast<double>(files->size()), file.path.toStdString());
+          if (file.picture.empty())
+            writeFile(file.path.toStdString(), file.content, true); // the folder was empty
+          else
+            writePng(file.picture, file.path.toStdString());
+        }
+        return
+            [this, count = files->size(), folder] { emit done(tr("Wrote %1 files into %2.").arg(count).arg(folder)); };
+      });
+}
+
+} // namespace palp

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "app/gui/jobs/JobRunner.h"
+#include "app/scenes/Picture.h"
+
+#include <QPointer>
+#include <QWidget>
+
+#include <string>
+#include <vector>
+
+namespace palp {
+
+/// Every chart of a scene as a picture of twice its size and as its points, every view of the block as a picture and
+/// every table as CSV, into a folder. Views that show nothing yet are left out. The window draws one view at a time and
+/// stays free between them; the files are written beside it.
+class SceneExport : public QObject {
+  Q_OBJECT
+
+public:
+  explicit SceneExport(QObject* parent = nullptr);
+
+  /// Asks for the name of a new folder. One export at a time.
+  void ask(QWidget& scene);
+  /// Into a folder that is there.
+  void write(QWidget& scene, const QString& folder);
+  [[nodiscard]] bool running() const { return !left_.empty() || writer_.running(); }
+  [[nodiscard]] JobRunner& runner() { return writer_; }
+
+signals:
+  void done(const QString& sentence);
+
+private:
+  struct File {
+    QString path;
+    std::string content;
+    Picture picture; ///< in place of the content
+  };
+  void next();
+  void finish();
+  [[nodiscard]] QString free(const QString& name) const;
+
+  std::vector<QPointer<QWidget>> left_; ///< views and tables that are still to be drawn
+  std::vector<File> files_;
+  QString folder_;
+  JobRunner writer_;
+};
+
+} // namespace palp
