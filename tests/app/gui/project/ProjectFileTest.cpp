@@ -90,6 +90,7 @@ TEST_F(ProjectFile, ReadsBackEverythingThatWasSet) {
                   CutPlane{2, 3.25},
                   ColorMap::Inferno,
                   std::array{-0.5, 0.75},
+                  std::array{-0.1, 0.2},
                   true,
                   false,
                   false,
