@@ -15,7 +15,7 @@ namespace palp {
 namespace {
 
 constexpr std::string_view kMagic = "PALPREC1";
-constexpr int kVersion = 2; // 1 had no tares
+constexpr int kRecordingVersion = 2; // 1 had no tares
 constexpr std::size_t kLongestHead = 1 << 16;
 constexpr std::size_t kEntryHead = 12;
 constexpr std::size_t kLongestEntry = 65535;   // a tare of the largest board the protocol knows takes 65,296
@@ -44,12 +44,9 @@ Report reportOf(const JsonPlace& place) {
 }
 
 std::string headText(const RecordingHead& head) {
-  const Json json{{"palp_recording", kVersion},
-                  {"source", head.source},
-                  {"info", hexadecimal(encode(head.info))},
-                  {"configuration", hexadecimal(encode(head.configuration))},
-                  {"network", head.networkFingerprint},
-                  {"started_unix_s", head.startedUnix_s}};
+  const Json json{{"palp_recording", kRecordingVersion},    {"source", head.source},
+                  {"info", hexadecimal(encode(head.info))}, {"configuration", hexadecimal(encode(head.configuration))},
+                  {"network", head.networkFingerprint},     {"started_unix_s", head.startedUnix_s}};
   return json.dump(-1, ' ', true, Json::error_handler_t::replace);
 }
 
@@ -57,7 +54,7 @@ RecordingHead parseHead(std::string_view text, const std::string& file) {
   const Json json = parseJson(text, file);
   const JsonPlace root(json, file);
   root.onlyKeys({"palp_recording", "source", "info", "configuration", "network", "started_unix_s"});
-  formatVersion(root, "palp_recording", kVersion);
+  formatVersion(root, "palp_recording", kRecordingVersion);
   RecordingHead head;
   const auto info = decodeInfo(reportOf(root.at("info")));
   const auto configuration = decodeConfiguration(reportOf(root.at("configuration")));

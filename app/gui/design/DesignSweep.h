@@ -41,7 +41,7 @@ private:
 
   Workbench& workbench_;
   JobRunner runner_;
-  std::size_t law_ = 0; ///< whose numbers are listed
+  std::size_t law_ = 0;                   ///< whose numbers are listed
   std::optional<DesignSweepCurve> shown_; ///< as it is displayed
   QComboBox* number_ = nullptr;
   QDoubleSpinBox* from_ = nullptr;

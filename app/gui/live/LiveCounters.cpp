@@ -42,7 +42,7 @@ LiveCounters::LiveCounters(QWidget* parent) : QWidget(parent) {
   losses_ = add("liveLosses", tr("Lost, bad, late"),
                 tr("Reports missing in the sequence / with a wrong length, ID, checksum or range / frames that were "
                    "decoded more than 20 ms after the board read them; all since the start"));
-  latency_ = add("liveLatency", tr("Latency [ms], 50 / 99 / 100 %"),
+  latency_ = add("liveLatency", tr("Latency [ms]"),
                  tr("From the board's clock at the last reading of a frame to the decoded force [ms], median / 99 % / "
                     "longest; offset and drift of the two clocks are taken out. Below: what this program takes of it, "
                     "median / 99 %, "

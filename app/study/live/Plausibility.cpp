@@ -80,8 +80,8 @@ Plausibility::Verdict Plausibility::judge(const PlausibilityInput& input) {
   if (heldDoubt_ == Doubt::Foreign) {
     if (verdict.misfit) heldMisfit_ = *verdict.misfit;
     std::array<char, 160> text{};
-    std::snprintf(text.data(), text.size(), "no known touch: misfit %.2g, at most %.2g",
-                  heldMisfit_, limit(input.readings_ohm.size(), input.noiseUncertainty));
+    std::snprintf(text.data(), text.size(), "no known touch: misfit %.2g, at most %.2g", heldMisfit_,
+                  limit(input.readings_ohm.size(), input.noiseUncertainty));
     verdict.reason = text.data();
   }
   return verdict;

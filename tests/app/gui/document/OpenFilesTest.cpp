@@ -206,6 +206,9 @@ TEST_F(OpenFiles, AProjectComesBackWithItsSamplesAndItsNetwork) {
 TEST_F(OpenFiles, AProjectWithOneBrokenNetworkOpensWithTheOthersAndSavingLeavesItThere) {
   generate();
   for (int k = 0; k < 2; ++k) {
+    Project next = workbench.project();
+    next.network.spread = 1 + k; // equal networks stand once in the list
+    workbench.edit("spread", next);
     find<QPushButton>("train").click();
     ASSERT_TRUE(
         QTest::qWaitFor([&] { return network.kept().size() == static_cast<std::size_t>(k + 1); }, kPatience_ms));
