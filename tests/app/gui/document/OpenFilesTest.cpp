@@ -236,6 +236,9 @@ TEST_F(OpenFiles, AProjectWithOneBrokenNetworkOpensWithTheOthersAndSavingLeavesI
   EXPECT_TRUE(problem->isVisible());
   EXPECT_TRUE(problem->text().contains(files[0])) << problem->text().toStdString();
   EXPECT_FALSE(next.isWindowModified());
+  Project another = fresh.project();
+  another.network.spread = 3;
+  fresh.edit("spread", another);
   next.findChild<QPushButton*>("train")->click();
   ASSERT_TRUE(QTest::qWaitFor([&] { return other.kept().size() == 2 && !next.busy(); }, kPatience_ms));
   ASSERT_TRUE(next.document().save());
