@@ -112,9 +112,17 @@ TEST(FieldResponse, RefusesAPressureLaw) {
   EXPECT_THROW(palp::FieldResponse(design, fieldLaw(), response(), 1), palp::DesignError);
 }
 
+/// Steps of 0.25 mm: a search of a few seconds.
+palp::MakerLimits coarseSteps() {
+  palp::MakerLimits limits;
+  limits.grid_mm = 0.25;
+  return limits;
+}
+
 TEST(FieldLayoutSearch, FindsAClearlyBetterLayoutWhoseElectrodesKeepApart) {
   const palp::SensorDesign design = smallDesign();
-  const auto better = betterLayout(design, response(), -1, kNoise, palp::LayoutFreedom::SameOnEveryWire, {}, 1, {});
+  const auto better =
+      betterLayout(design, response(), -1, kNoise, palp::LayoutFreedom::SameOnEveryWire, coarseSteps(), 1, {});
   ASSERT_TRUE(better);
   EXPECT_LT(better->after_percent, better->before_percent / 1.5);
   EXPECT_EQ(layoutBound(better->layout, response(), -1, kNoise).mean(), better->after_percent);
@@ -146,7 +154,8 @@ TEST(FieldLayoutSearch, KeepsLargeElectrodesApart) {
   palp::FieldLaw law = fieldLaw();
   law.electrodeRadius_mm = 0.45; // spheres at the 0.5 mm that a maker can keep between the layers would overlap
   design.resistance = law;
-  const auto better = betterLayout(design, response(), -1, kNoise, palp::LayoutFreedom::SameOnEveryWire, {}, 1, {});
+  const auto better =
+      betterLayout(design, response(), -1, kNoise, palp::LayoutFreedom::SameOnEveryWire, coarseSteps(), 1, {});
   ASSERT_TRUE(better);
   EXPECT_LT(better->after_percent, better->before_percent);
   EXPECT_TRUE(check(better->layout).empty());
@@ -168,6 +177,9 @@ TEST(FieldLayoutSearch, StopsBetweenTwoLayouts) {
 TEST(FieldLayoutReport, GivesBetterDesignsUnderTheLawOfTheOldOne) {
   palp::ReportRequest request;
   request.design = smallDesign();
+  request.design.upper.wire_mm = {10, 20}; // fewer still: seconds
+  request.design.upper.along_mm = {{10, 20}};
+  request.design.lower.wire_mm = {8, 22};
   request.mesh.mapped = std::array<int, 3>{6, 6, 3};
   const auto report = layoutReport(request, {}, {});
   ASSERT_TRUE(report);
