@@ -3,6 +3,7 @@
 #include "app/cli/Pictures.h"
 #include "app/cli/ProgressBar.h"
 #include "app/study/reports/ReportComputations.h"
+#include "app/study/reports/layout/FieldResponse.h"
 #include "model/base/Text.h"
 
 #include <algorithm>
@@ -51,6 +52,7 @@ Exit run(ReportArguments& arguments, Session& session) {
   ReportRequest request;
   request.design = kind->underField ? designOption(arguments.design)
                                     : pairsDesignOption(arguments.design, "report " + arguments.kind);
+  if (request.design.field() != nullptr) requireSmoothAtRest(request.design); // before a word about charts
   request.folder = arguments.folder;
   request.mesh = arguments.mesh.options();
   requireMeshable(request.design, request.mesh); // some kinds mesh late
