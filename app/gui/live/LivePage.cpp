@@ -319,10 +319,12 @@ void LivePage::announceAlarm() {
 void LivePage::look() {
   ++looks_;
   const LiveState before = host_.status().state;
+  const bool recorded = host_.status().recording;
   const bool fresh = host_.look();
   announceAlarm();
   emit looked();
-  if (host_.status().state != before || stateLook_++ % kStateEvery == 0) drawState();
+  const bool changed = host_.status().state != before || host_.status().recording != recorded;
+  if (changed || stateLook_++ % kStateEvery == 0) drawState(); // also of a recording shorter than kStateEvery looks
   replay_->displayState();
   if (!fresh) return;
   calibration_->take();
