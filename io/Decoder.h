@@ -33,7 +33,7 @@ enum class DecoderKind {
   GaussianProcess,
   BackPropagation,
   TwoStepBackPropagation, ///< the paper's step 1 by a back-propagation network (its reference [12]), then step 2
-  TwoStepGaussNewton,     ///< step 1 by inverting Eq. (1), then step 2
+  TwoStepGaussNewton,     ///< step 1 by inverting Eq. (1), or the field, then step 2
   MaximumLikelihood,      ///< inverts a polynomial forward model: area and force at once
 };
 inline constexpr NamedEnum kDecoderKinds(
@@ -56,11 +56,26 @@ inline std::string name(DecoderMode mode) {
   return kDecoderModes.name(mode);
 }
 
+/// Step 1 under the law of the field: the resistances at rest, and how those of the read row-wires follow the block's
+/// answer to forces on its areas, solved for these forces, to first order.
+struct BlockInversion {
+  Eigen::VectorXd rest_ohm;       ///< readings
+  Eigen::MatrixXd forces_N;       ///< forces x readings: of ln R / R at rest
+  Eigen::MatrixXd modes_mm_per_N; ///< (3 electrodes of the rows) x forces
+
+  /// Displacements [mm] from resistances [ohm], one column a sample.
+  [[nodiscard]] Eigen::MatrixXd displacements_mm(const Eigen::Ref<const Eigen::MatrixXd>& resistances_ohm) const {
+    const Eigen::MatrixXd change = (rest_ohm.cwiseInverse().asDiagonal() * resistances_ohm).array().log();
+    return modes_mm_per_N * (forces_N * change);
+  }
+};
+
 /// The paper's two steps: step 1, resistances -> displacements of the row-wires' electrodes; step 2,
 /// displacements -> force.
 struct TwoStep {
   std::optional<BackPropagationNetwork> network; ///< step 1 as in the paper's reference [12]
   std::optional<SensorDesign> design;            ///< step 1 by inverting Eq. (1) of this design
+  std::optional<BlockInversion> block;           ///< step 1 under the law of the field
   std::vector<int> rows;
   RbfNetwork force; ///< step 2
 };
@@ -80,7 +95,8 @@ struct Decoder {
   std::variant<RbfNetwork, PolynomialRidge, GaussianProcess, BackPropagationNetwork, TwoStep, ForwardModel> model;
   DecoderInput input;
   std::string designFingerprint;
-  std::string trainedWith; ///< the command that reproduces it
+  std::optional<Readout> readout; ///< of the resistances it was trained on; none: Eq. (1), or not known
+  std::string trainedWith;        ///< the command that reproduces it
   DecoderMode mode = DecoderMode::Default;
   std::uint64_t seed = 1;
   double noise = 0; ///< relative noise of the inputs it was trained with

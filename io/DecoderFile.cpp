@@ -100,6 +100,7 @@ Eigen::Index inputsOf(const Decoder& decoder) {
           return model.measurements();
         else if constexpr (std::is_same_v<Model, TwoStep>)
           return model.network ? model.network->inputs()
+                 : model.block ? model.block->rest_ohm.size()
                                : static_cast<Eigen::Index>(model.rows.size()) * model.design->columnWires();
         else
           return model.inputs();
@@ -171,6 +172,7 @@ std::string networkText(const Decoder& decoder) {
                       {"high_N", toJson(decoder.high_N)},
                       {"residual_N", toJson(decoder.residual_N)},
                       {"fit", reportJson(decoder.report)}};
+  if (decoder.readout) json["readout"] = kReadouts.name(*decoder.readout);
   json["model"] = std::visit([](const auto& model) { return toJson(model); }, decoder.model);
   json["area_of_class"] = decoder.areaOfClass;
   json["areas"] = decoder.areas ? toJson(*decoder.areas) : OrderedJson();
@@ -180,15 +182,18 @@ std::string networkText(const Decoder& decoder) {
 Decoder parseNetwork(const std::string& text, const std::string& file) {
   const Json json = parseJson(text, file);
   const JsonPlace root(json, file);
+  if (!root.has("palp_network")) throw Error(file + ": no network of Palp: palp_network is missing");
   formatVersion(root, "palp_network", kNewestNetwork);
   root.onlyKeys({"palp_network", "decoder", "mode", "trained_with", "design_fingerprint", "seed", "noise_relative",
                  "input", "area_count", "together", "low_N", "high_N", "residual_N", "fit", "model", "area_of_class",
-                 "areas"});
+                 "areas"},
+                {"readout"});
   Decoder decoder;
   decoder.kind = root.at("decoder").named(kDecoderKinds);
   decoder.mode = root.at("mode").named(kDecoderModes);
   decoder.trainedWith = root.at("trained_with").string();
   decoder.designFingerprint = root.at("design_fingerprint").string();
+  if (root.has("readout")) decoder.readout = root.at("readout").named(kReadouts);
   const double seed = root.at("seed").number();
   if (!(seed >= 0 && seed <= 9e15 && seed == std::floor(seed))) root.at("seed").refuse("a whole number, 0 or more");
   decoder.seed = static_cast<std::uint64_t>(seed);

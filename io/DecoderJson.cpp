@@ -85,10 +85,15 @@ OrderedJson toJson(const BackPropagationNetwork& network) {
 }
 
 OrderedJson toJson(const TwoStep& decoder) {
-  return {{"network", decoder.network ? toJson(*decoder.network) : OrderedJson()},
-          {"design", decoder.design ? OrderedJson::parse(toJson(*decoder.design)) : OrderedJson()},
-          {"rows", decoder.rows},
-          {"force", toJson(decoder.force)}};
+  OrderedJson json{{"network", decoder.network ? toJson(*decoder.network) : OrderedJson()},
+                   {"design", decoder.design ? OrderedJson::parse(toJson(*decoder.design)) : OrderedJson()},
+                   {"rows", decoder.rows},
+                   {"force", toJson(decoder.force)}};
+  if (decoder.block)
+    json["block"] = {{"rest_ohm", toJson(decoder.block->rest_ohm)},
+                     {"forces_N", toJson(decoder.block->forces_N)},
+                     {"modes_mm_per_N", toJson(decoder.block->modes_mm_per_N)}};
+  return json;
 }
 
 OrderedJson toJson(const ForwardModel& model) {
@@ -204,8 +209,26 @@ BackPropagationNetwork readBackPropagation(const JsonPlace& place) {
   return network;
 }
 
+namespace {
+
+BlockInversion readBlockInversion(const JsonPlace& place) {
+  place.onlyKeys({"rest_ohm", "forces_N", "modes_mm_per_N"});
+  BlockInversion block;
+  block.rest_ohm = readVector(place.at("rest_ohm"));
+  if (block.rest_ohm.size() == 0 || !(block.rest_ohm.array() > 0).all())
+    place.at("rest_ohm").refuse("resistances above 0, one or more");
+  block.forces_N = readMatrix(place.at("forces_N"));
+  requireSize(place.at("forces_N"), block.forces_N.cols(), block.rest_ohm.size(), "columns, as rest_ohm has entries");
+  block.modes_mm_per_N = readMatrix(place.at("modes_mm_per_N"));
+  requireSize(place.at("modes_mm_per_N"), block.modes_mm_per_N.cols(), block.forces_N.rows(),
+              "columns, as forces_N has rows");
+  return block;
+}
+
+} // namespace
+
 TwoStep readTwoStep(const JsonPlace& place) {
-  place.onlyKeys({"network", "design", "rows", "force"});
+  place.onlyKeys({"network", "design", "rows", "force"}, {"block"});
   TwoStep decoder;
   if (!place.at("network").isNull()) decoder.network = readBackPropagation(place.at("network"));
   if (!place.at("design").isNull()) {
@@ -213,12 +236,16 @@ TwoStep readTwoStep(const JsonPlace& place) {
     requireValid(*decoder.design);
     requirePairs(*decoder.design, "the inversion of Eq. (1)");
   }
-  if (decoder.network.has_value() == decoder.design.has_value())
-    place.refuse("an object with either network or design, and null for the other");
+  if (place.has("block")) decoder.block = readBlockInversion(place.at("block"));
+  if (int(decoder.network.has_value()) + int(decoder.design.has_value()) + int(decoder.block.has_value()) != 1)
+    place.refuse("an object with one of network, design and block, null for network and design where they are not it");
   decoder.rows = readIntegers(place.at("rows"));
   decoder.force = readRbf(place.at("force"));
   if (decoder.network)
     requireSize(place.at("force"), decoder.force.inputs(), decoder.network->outputs(), "inputs, as step 1 gives");
+  if (decoder.block)
+    requireSize(place.at("force"), decoder.force.inputs(), decoder.block->modes_mm_per_N.rows(),
+                "inputs, as step 1 gives");
   if (decoder.design) {
     for (const int row : decoder.rows)
       if (row < 0 || row >= decoder.design->rowWires())

@@ -39,6 +39,8 @@ public:
     return value;
   }
 
+  [[nodiscard]] bool has(const std::string& key) const { return values_.contains(key); }
+
   template <class Number> Number number(const std::string& key, Number largest) {
     const std::string value = text(key);
     Number result{};
@@ -101,6 +103,12 @@ bool loadedTogether(const SampleSet& head) {
 SampleOrigin readOrigin(const SampleLines& lines, HeadLines& head) {
   SampleOrigin origin;
   origin.designFingerprint = head.text("design");
+  if (head.has("readout")) {
+    const std::string readout = head.text("readout");
+    origin.readout = kReadouts.find(readout);
+    if (!origin.readout)
+      lines.refuse("the head above this line says readout: " + shown(readout) + "; allowed is " + kReadouts.allowed());
+  }
   origin.seed = head.number("seed", ~std::uint64_t{0});
   origin.areas = head.text("areas");
   origin.perArea = head.number("per_area", std::numeric_limits<int>::max());
@@ -161,6 +169,7 @@ std::string sampleFileHead(const SampleSet& set) {
   };
   line("palp_samples", std::to_string(kNewestSamples));
   line("design", origin.designFingerprint);
+  if (origin.readout) line("readout", kReadouts.name(*origin.readout));
   line("seed", std::to_string(origin.seed));
   line("areas", origin.areas);
   line("per_area", std::to_string(origin.perArea));

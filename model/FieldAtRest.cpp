@@ -1,5 +1,6 @@
 #include "model/FieldAtRest.h"
 
+#include <cmath>
 #include <numbers>
 
 namespace palp {
@@ -14,16 +15,30 @@ Eigen::Matrix3Xd electrodes_mm(const SensorDesign& design) {
   return all;
 }
 
+double logConductivity(const PressureLaw& law, double pressure_MPa) {
+  return pressure_MPa > 0 ? law.exponent * std::log1p(pressure_MPa / law.p0_MPa) : 0;
+}
+
 double contactResistance_ohm(const FieldLaw& law) {
   return law.contact_ohm_mm2 / (4 * std::numbers::pi * law.electrodeRadius_mm * law.electrodeRadius_mm);
 }
 
-Eigen::MatrixXd potentials_ohm(const BoxGreen& green, const FieldLaw& law, SphereModel model) {
+Eigen::MatrixXd potentials_ohm(const BoxGreen& green, const FieldLaw& law, SphereModel model,
+                               const Eigen::VectorXd& conductivities) {
   const double a = law.electrodeRadius_mm;
+  const bool uneven = conductivities.size() > 0;
   Eigen::MatrixXd p = green.value;
-  p.diagonal().array() += 1 / (4 * std::numbers::pi * a);
+  if (uneven)
+    p.diagonal().array() += 1 / (4 * std::numbers::pi * a * conductivities.array());
+  else
+    p.diagonal().array() += 1 / (4 * std::numbers::pi * a);
   if (model == SphereModel::Dipoles)
-    for (const Eigen::MatrixXd& slope : green.slope) p -= 4 * std::numbers::pi * a * a * a * slope.transpose() * slope;
+    for (const Eigen::MatrixXd& slope : green.slope) {
+      if (uneven)
+        p -= 4 * std::numbers::pi * a * a * a * slope.transpose() * conductivities.asDiagonal() * slope;
+      else
+        p -= 4 * std::numbers::pi * a * a * a * slope.transpose() * slope;
+    }
   p *= law.resistivity_ohm_mm;
   p.diagonal().array() += contactResistance_ohm(law);
   return p;

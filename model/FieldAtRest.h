@@ -26,8 +26,12 @@ Eigen::MatrixXd potentialsAtRest_ohm(const Eigen::Vector3d& block_mm,
                                      const Eigen::Ref<const Eigen::Matrix3Xd>& electrodes_mm, const FieldLaw& law,
                                      SphereModel model = SphereModel::Dipoles);
 
-/// The same of any block, from Green's function between its electrodes (as BoxGreen has it) for conductivity 1.
-Eigen::MatrixXd potentials_ohm(const BoxGreen& green, const FieldLaw& law, SphereModel model = SphereModel::Dipoles);
+/// The same of any block, from Green's function between its electrodes (as BoxGreen has it) for conductivity 1, or for
+/// one that varies and is `conductivities` at the electrodes.
+Eigen::MatrixXd potentials_ohm(const BoxGreen& green, const FieldLaw& law, SphereModel model = SphereModel::Dipoles,
+                               const Eigen::VectorXd& conductivities = {});
+/// ln of the conductivity over that without pressure: n ln(1 + max(p, 0) / p0).
+double logConductivity(const PressureLaw& law, double pressure_MPa);
 /// Of one electrode's contact with the rubber: contact / (4 pi a^2).
 double contactResistance_ohm(const FieldLaw& law);
 

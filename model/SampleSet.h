@@ -1,9 +1,12 @@
 #pragma once
 
+#include "model/ResistanceLaw.h"
+
 #include <Eigen/Core>
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace palp {
@@ -17,8 +20,9 @@ struct SampleOrigin {
   std::string mesh;           ///< in words: element, size, elements, nodes
   double solverTolerance = 0; ///< relative, against full Newton
   bool surrogate = false;
-  double surrogateError = 0;   ///< relative error against full solves; 0 for full solves
-  std::size_t firstSample = 0; ///< index of the first sample within the whole request; above 0 only in shards
+  double surrogateError = 0;           ///< relative error against full solves; 0 for full solves
+  std::size_t firstSample = 0;         ///< index of the first sample within the whole request; above 0 only in shards
+  std::optional<Readout> readout = {}; ///< that the resistances are of; none: by Eq. (1), where wires do not meet
 };
 
 /// Labelled samples; one column per sample. Displacements or resistances have no rows if they are not known (frames of

@@ -26,8 +26,9 @@ struct ElectrodeLayer {
   bool operator==(const ElectrodeLayer&) const = default;
 };
 
-/// Fig. 1 of the paper: the resistivity falls with the hydrostatic pressure p at the upper electrode,
-/// g(p) = g0 (1 + max(p, 0) / p0)^(-n). The starting values are assumed; the figure's numbers are not in the text.
+/// Fig. 1 of the paper: the resistivity falls with the hydrostatic pressure p (by Eq. (1) that at the upper electrode,
+/// under the field that at every point), g(p) = g0 (1 + max(p, 0) / p0)^(-n). The starting values are assumed; the
+/// figure's numbers are not in the text.
 struct PressureLaw {
   double p0_MPa = 0.05;
   double exponent = 0.5;

@@ -62,7 +62,7 @@ struct BatchSolver::State {
     if (!solution.converged)
       throw ConvergenceError("load " + std::to_string(firstNumber + index) + ": " + solution.stopReason);
     ElectrodeDisplacements moved = problem.electrodes(solution.state());
-    if (take) take(index, moved, solution.state().displacements_mm);
+    if (take) take(index, moved, solution.state());
     return moved;
   }
 

@@ -32,9 +32,9 @@ public:
                                                           const std::function<void(std::size_t)>& progress = {},
                                                           std::stop_token stop = {}, std::size_t firstNumber = 0);
 
-  /// What else is made of a load's state (its number in the call, its electrodes, the displacements [mm] of all nodes),
-  /// by any thread, several at a time.
-  using TakeState = std::function<void(std::size_t, const ElectrodeDisplacements&, const Eigen::Matrix3Xd&)>;
+  /// What else is made of a load's state (its number in the call, its electrodes, all nodes), by any thread, several at
+  /// a time. The elements' unknowns are there where the design has a pressure law.
+  using TakeState = std::function<void(std::size_t, const ElectrodeDisplacements&, const LoadIncrement&)>;
   /// The same with the states, and never by a surrogate.
   [[nodiscard]] std::vector<ElectrodeDisplacements> solveStates(std::span<const LoadCase> loads, const TakeState& take,
                                                                 const std::function<void(std::size_t)>& progress = {},

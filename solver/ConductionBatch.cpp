@@ -35,8 +35,8 @@ struct ConductionBatch::State {
                    const std::stop_token& stop, std::size_t firstNumber) {
     Answers answers;
     answers.resistances_ohm.resize(loads.size());
-    const auto take = [&](std::size_t i, const ElectrodeDisplacements& electrodes, const Eigen::Matrix3Xd& nodes_mm) {
-      if (const auto network = field.network(nodes_mm, electrodes, 1, stop)) // the batch's threads are at work already
+    const auto take = [&](std::size_t i, const ElectrodeDisplacements& electrodes, const LoadIncrement& state) {
+      if (const auto network = field.network(state, electrodes, 1, stop)) // the batch's threads are at work already
         answers.resistances_ohm[i] = NetworkReading(*network, design.field()->readout).resistances_ohm();
     };
     answers.displacements = batch.solveStates(loads, take, progress, stop, firstNumber);

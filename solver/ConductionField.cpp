@@ -2,7 +2,10 @@
 
 #include "model/DesignError.h"
 #include "model/FieldAtRest.h"
+#include "solver/assembly/NodalFields.h"
 #include "solver/field/DeformedGreen.h"
+
+#include <Eigen/Dense>
 
 #include <mutex>
 
@@ -12,8 +15,6 @@ namespace {
 
 const FieldLaw& fieldLaw(const SensorDesign& design) {
   if (!design.field()) throw DesignError("resistance: the conduction field; allowed is a design with law field");
-  if (design.pressureLaw)
-    throw DesignError("resistance.pressure_law: in the deformed block under the field law: not yet; allowed is null");
   return *design.field();
 }
 
@@ -29,11 +30,33 @@ struct ConductionField::State {
       : problem(std::move(p)), law(fieldLaw(problem.design())), electrodes_mm(palp::electrodes_mm(problem.design())),
         green(problem.mesh(), problem.design().block_mm, electrodes_mm) {}
 
-  [[nodiscard]] FieldState places(const Eigen::Matrix3Xd& displacements_mm, const ElectrodeDisplacements& moved) const {
-    FieldState at{green.mesh().tets().nodes_mm + green.mesh().atNodes(displacements_mm), electrodes_mm};
+  [[nodiscard]] FieldState places(const LoadIncrement& state, const ElectrodeDisplacements& moved) const {
+    FieldState at{green.mesh().tets().nodes_mm + green.mesh().atNodes(state.displacements_mm), electrodes_mm};
     at.electrodes_mm.leftCols(moved.upper_mm.cols()) += moved.upper_mm;
     if (problem.design().lowerFollowsRubber) at.electrodes_mm.rightCols(moved.lower_mm.cols()) += moved.lower_mm;
+    if (const auto& byPressure = problem.design().pressureLaw) {
+      const Eigen::VectorXd pressures = nodalPressures_MPa(problem.mesh(), state);
+      const Eigen::VectorXd logarithms = pressures.unaryExpr([&](double p) { return logConductivity(*byPressure, p); });
+      if (!logarithms.isZero(0)) at.logConductivity = green.mesh().atNodes(logarithms.transpose()).transpose();
+    }
     return at;
+  }
+
+  /// P of a state. Empty: stopped.
+  [[nodiscard]] std::optional<Eigen::MatrixXd> potentials(const FieldState& state, int threads,
+                                                          const std::stop_token& stop) const {
+    const auto correction = correction_ohm(threads, stop);
+    if (!correction) return {};
+    const auto found = green.at(state, threads, stop);
+    if (!found) return {};
+    if (state.logConductivity.size() == 0) return potentials_ohm(*found, law) + *correction;
+    const Eigen::VectorXd conductivities = green.conductivities(state);
+    const Eigen::VectorXd inverse = conductivities.cwiseSqrt().cwiseInverse();
+    // Without terms of p alone and of q alone, which would become visible.
+    Eigen::MatrixXd seen = correction->rowwise() - correction->colwise().mean();
+    seen.colwise() -= seen.rowwise().mean().eval();
+    return potentials_ohm(*found, law, SphereModel::Dipoles, conductivities) +
+           inverse.asDiagonal() * seen * inverse.asDiagonal();
   }
 
   /// P of the box less that of the mesh at rest. Empty: stopped.
@@ -57,40 +80,40 @@ ConductionField::~ConductionField() = default;
 
 std::optional<TerminalNetwork> ConductionField::network(const LoadIncrement& state, int threads,
                                                         const std::stop_token& stop) const {
-  return network(state.displacements_mm, state_->problem.electrodes(state), threads, stop);
+  return network(state, state_->problem.electrodes(state), threads, stop);
 }
 
-std::optional<TerminalNetwork> ConductionField::network(const Eigen::Matrix3Xd& displacements_mm,
+std::optional<TerminalNetwork> ConductionField::network(const LoadIncrement& state,
                                                         const ElectrodeDisplacements& electrodes, int threads,
                                                         const std::stop_token& stop) const {
-  const auto correction = state_->correction_ohm(threads, stop);
-  if (!correction) return {};
-  const auto green = state_->green.at(state_->places(displacements_mm, electrodes), threads, stop);
-  if (!green) return {};
-  return TerminalNetwork(potentials_ohm(*green, state_->law) + *correction, wireCounts(state_->problem.design()),
-                         state_->law.wire_ohm);
+  const auto potentials = state_->potentials(state_->places(state, electrodes), threads, stop);
+  if (!potentials) return {};
+  return TerminalNetwork(*potentials, wireCounts(state_->problem.design()), state_->law.wire_ohm);
 }
 
-std::optional<CurrentField> ConductionField::current(const LoadIncrement& state, int rowWire, int columnWire,
-                                                     int threads, const std::stop_token& stop) const {
-  const auto network = this->network(state, threads, stop);
-  if (!network) return {};
+std::optional<CurrentField> ConductionField::current(const LoadIncrement& state, const TerminalNetwork& network,
+                                                     Readout readout, int rowWire, int columnWire, int threads,
+                                                     const std::stop_token& stop) const {
   const FieldLaw& law = state_->law;
-  Eigen::VectorXd terminals = NetworkReading(*network, law.readout).potentials(rowWire, columnWire);
-  const Eigen::Index column = network->counts().rowWires + columnWire;
+  Eigen::VectorXd terminals = NetworkReading(network, readout).potentials(rowWire, columnWire);
+  const Eigen::Index column = network.counts().rowWires + columnWire;
   terminals = ((terminals.array() - terminals(column)) / (terminals(rowWire) - terminals(column))).matrix().eval();
-  const Eigen::VectorXd wires = network->inBlock() * terminals;
-  const Eigen::VectorXd currents = network->currents() * wires;
-  const auto found = state_->green.potential(state_->places(state.displacements_mm, state_->problem.electrodes(state)),
-                                             currents, law.electrodeRadius_mm, threads, stop);
+  const Eigen::VectorXd wires = network.inBlock() * terminals;
+  const Eigen::VectorXd currents = network.currents() * wires;
+  const FieldState places = state_->places(state, state_->problem.electrodes(state));
+  const auto found = state_->green.potential(places, currents, law.electrodeRadius_mm, threads, stop);
   if (!found) return {};
   // The constant that the field leaves open: that which the electrodes' potentials have in the mean.
   const double rho = law.resistivity_ohm_mm, contact = contactResistance_ohm(law);
-  const Eigen::VectorXd electrodes = network->counts().atElectrodes(wires);
+  const Eigen::VectorXd electrodes = network.counts().atElectrodes(wires);
   const double shift = (electrodes - rho * found->electrodes - contact * currents).mean();
   const Eigen::Index nodes = state_->problem.mesh().nodeCount();
-  CurrentField field{(rho * found->value.head(nodes)).array() + shift, -found->gradient.leftCols(nodes), {}};
+  CurrentField field{(rho * found->value.head(nodes)).array() + shift, -found->gradient.leftCols(nodes), {}, currents};
+  if (places.logConductivity.size() > 0)
+    field.currentDensity_A_per_mm2 *= places.logConductivity.head(nodes).array().exp().matrix().asDiagonal();
   field.powerDensity_W_per_mm3 = rho * field.currentDensity_A_per_mm2.colwise().squaredNorm().transpose();
+  if (places.logConductivity.size() > 0)
+    field.powerDensity_W_per_mm3.array() *= (-places.logConductivity.head(nodes)).array().exp();
   return field;
 }
 

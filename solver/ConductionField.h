@@ -17,16 +17,18 @@ struct CurrentField {
   Eigen::VectorXd potential_V;               ///< measured from the column-wire
   Eigen::Matrix3Xd currentDensity_A_per_mm2; ///< 3 x nodes
   Eigen::VectorXd powerDensity_W_per_mm3;
+  Eigen::VectorXd electrodes_A; ///< from each electrode into the rubber
 };
 
 /// Resistances of the deformed block under the law of the field: quadratic tetrahedra on the displaced nodes of the
 /// solver's mesh, the fields of the electrodes themselves and of their mirror images taken off in closed form. Lower
 /// electrodes go with the rubber or are held, as the design says. What the mesh gives at rest is replaced by the closed
 /// form (model/FieldAtRest.h), so that its errors cancel: P = P_box + P_mesh(state) - P_mesh(rest).
-/// Threads may share it.
+/// Under a pressure law ln k is found at the nodes (nodalPressures_MPa) and is quadratic between; P_box - P_mesh(rest),
+/// with what no current sees taken off, is divided by m_p m_q. Threads may share it.
 class ConductionField {
 public:
-  /// Throws DesignError where the design has another law, or a pressure law.
+  /// Throws DesignError where the design has another law.
   explicit ConductionField(HyperelasticProblem problem);
   ~ConductionField();
 
@@ -34,13 +36,14 @@ public:
   /// threads (0: all cores).
   [[nodiscard]] std::optional<TerminalNetwork> network(const LoadIncrement& state, int threads = 0,
                                                        const std::stop_token& stop = {}) const;
-  /// The same of a state that is known by the displacements [mm] of all nodes and of the electrodes.
-  [[nodiscard]] std::optional<TerminalNetwork> network(const Eigen::Matrix3Xd& displacements_mm,
+  /// The same where the electrodes' displacements are known; the elements' unknowns matter under a pressure law alone.
+  [[nodiscard]] std::optional<TerminalNetwork> network(const LoadIncrement& state,
                                                        const ElectrodeDisplacements& electrodes, int threads = 0,
                                                        const std::stop_token& stop = {}) const;
-  /// None: stopped.
-  [[nodiscard]] std::optional<CurrentField> current(const LoadIncrement& state, int rowWire, int columnWire,
-                                                    int threads = 0, const std::stop_token& stop = {}) const;
+  /// The current's way in a state whose network is known, by any read-out. None: stopped.
+  [[nodiscard]] std::optional<CurrentField> current(const LoadIncrement& state, const TerminalNetwork& network,
+                                                    Readout readout, int rowWire, int columnWire, int threads = 0,
+                                                    const std::stop_token& stop = {}) const;
 
 private:
   struct State;

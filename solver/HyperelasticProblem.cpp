@@ -6,6 +6,7 @@
 #include "solver/statics/ProblemParts.h"
 
 #include <algorithm>
+#include <cassert>
 #include <stdexcept>
 
 namespace palp {
@@ -86,11 +87,22 @@ const PointProbe& HyperelasticProblem::Parts::lowerProbe() const {
 }
 
 HyperelasticProblem::HyperelasticProblem(SensorDesign design, Mesh mesh)
-    : parts_(std::make_shared<const Parts>(std::move(design), std::move(mesh))) {}
+    : parts_(std::make_shared<const Parts>(std::move(design), std::move(mesh))), design_(parts_, &parts_->design) {}
 
-const SensorDesign& HyperelasticProblem::design() const {
-  return parts_->design;
+bool sameButForLaw(const SensorDesign& a, const SensorDesign& b) {
+  SensorDesign other = b;
+  other.resistance = a.resistance;
+  other.pressureLaw = a.pressureLaw;
+  return a == other;
 }
+
+HyperelasticProblem HyperelasticProblem::withLawOf(const SensorDesign& design) const {
+  assert(sameButForLaw(design, this->design()) && "another block is another problem");
+  HyperelasticProblem other(*this);
+  other.design_ = std::make_shared<const SensorDesign>(design);
+  return other;
+}
+
 const Mesh& HyperelasticProblem::mesh() const {
   return parts_->mesh;
 }

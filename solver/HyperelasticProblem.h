@@ -31,6 +31,9 @@ struct NewtonObserver {
   std::stop_token stop;
 };
 
+/// The same block with the same wires and loads: one deformation, whatever resistances are read of it.
+bool sameButForLaw(const SensorDesign& a, const SensorDesign& b);
+
 /// The block as a nonlinear boundary value problem: bottom face fixed, mixed finite elements whose pressures are
 /// unknowns of their own, eliminated element by element. Keeps the sparsity pattern and the factorisation at rest for
 /// all solves. Copies share them and cost nothing; moving copies, so that no problem is ever left empty.
@@ -40,7 +43,9 @@ public:
   HyperelasticProblem(const HyperelasticProblem&) = default;
   HyperelasticProblem& operator=(const HyperelasticProblem&) = default;
 
-  [[nodiscard]] const SensorDesign& design() const;
+  [[nodiscard]] const SensorDesign& design() const { return *design_; }
+  /// The same block under another law of the resistances, of which the rubber feels nothing: all else is shared.
+  [[nodiscard]] HyperelasticProblem withLawOf(const SensorDesign& design) const;
   [[nodiscard]] const Mesh& mesh() const;
   [[nodiscard]] int dof() const;                 ///< free displacement unknowns after elimination
   [[nodiscard]] std::string elementType() const; ///< as in the JSON: "P2+bubble/P1d", "Q1/P0"
@@ -67,6 +72,7 @@ public:
 
 private:
   std::shared_ptr<const Parts> parts_;
+  std::shared_ptr<const SensorDesign> design_; ///< with its law; all else as in the parts
 };
 
 } // namespace palp

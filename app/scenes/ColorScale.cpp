@@ -47,7 +47,7 @@ std::span<const Color> stops(ColorMap map) {
 
 /// Where in the map a value stands, 0 to 1.
 double shareOf(double value, const ColorScale& scale) {
-  const double way = std::clamp((value - scale.low) / (scale.high - scale.low), 0.0, 1.0);
+  const double way = std::clamp(scale.share(value), 0.0, 1.0);
   if (scale.map != ColorMap::Diverging) return way;
   if (scale.low >= 0) return 0.5 + 0.5 * way;
   if (scale.high <= 0) return 0.5 * way;
@@ -56,6 +56,14 @@ double shareOf(double value, const ColorScale& scale) {
 }
 
 } // namespace
+
+double ColorScale::share(double value) const {
+  return logarithmic ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
+}
+
+double ColorScale::at(double share) const {
+  return logarithmic ? low * std::pow(high / low, share) : low + (high - low) * share;
+}
 
 Color ColorScale::color(double value) const {
   if (!std::isfinite(value)) return kNotANumber;
@@ -98,7 +106,7 @@ ColorScale fittingScale(ColorMap map, const std::vector<double>& values, std::st
     low -= margin;
     high += margin;
   }
-  return {map, low, high, std::move(quantity), std::move(unit), 1, {1, 1, 1}};
+  return {map, low, high, std::move(quantity), std::move(unit), 1, {1, 1, 1}, false};
 }
 
 vtkSmartPointer<vtkLookupTable> lookupTable(const ColorScale& scale) {
@@ -127,6 +135,19 @@ std::vector<double> roundTicks(double low, double high, int most) {
   std::vector<double> ticks;
   const double first = std::ceil(low / step - 1e-9);
   for (int k = 0; first + k <= high / step + 1e-9; ++k) ticks.push_back((first + k) * step + 0.0); // no -0
+  return ticks;
+}
+
+std::vector<double> decadeTicks(double low, double high, int most) {
+  std::vector<double> ticks;
+  for (const auto& factors : {std::vector<double>{1, 2, 5}, {1, 3}, {1}}) {
+    ticks.clear();
+    for (int power = static_cast<int>(std::floor(std::log10(low))); std::pow(10, power) <= high; ++power)
+      for (const double factor : factors)
+        if (const double tick = factor * std::pow(10, power); tick >= low * (1 - 1e-9) && tick <= high * (1 + 1e-9))
+          ticks.push_back(tick);
+    if (static_cast<int>(ticks.size()) <= most) break;
+  }
   return ticks;
 }
 

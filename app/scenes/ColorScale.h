@@ -29,7 +29,11 @@ struct ColorScale {
   std::string unit;     ///< "mm"; empty for a pure number
   double opacity = 1;   ///< of what is coloured, over `ground`
   Color ground{1, 1, 1};
+  bool logarithmic = false; ///< equal factors look equally large; of values above 0
 
+  /// Where a value stands between low and high, 0 to 1, and the value that stands there.
+  [[nodiscard]] double share(double value) const;
+  [[nodiscard]] double at(double share) const;
   [[nodiscard]] Color color(double value) const;
   /// As it looks where it is drawn: the legend's colour.
   [[nodiscard]] Color shown(double value) const;
@@ -45,6 +49,10 @@ vtkSmartPointer<vtkLookupTable> lookupTable(const ColorScale& scale);
 
 /// Round numbers (1, 2 or 5 times a power of ten apart) inside low..high, at most `most` of them.
 std::vector<double> roundTicks(double low, double high, int most);
+
+/// Numbers 1, 2 and 5, 1 and 3 or 1 times powers of ten inside low..high, at most `most` of them where there are fewer
+/// decades.
+std::vector<double> decadeTicks(double low, double high, int most);
 
 /// The numbers as text with equally many decimals, in the shortest form that keeps them apart.
 std::vector<std::string> tickTexts(const std::vector<double>& ticks);

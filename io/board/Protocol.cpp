@@ -13,6 +13,8 @@ constexpr std::uint8_t kVersion = 1;           // of feature, command and event 
 constexpr std::uint8_t kMajorAndFormat = 0x10; // protocol 1, u24 divider codes
 constexpr std::uint32_t kNoTemperature = 0x8000;
 constexpr double kDegreeStep_degC = 0.01;
+constexpr int kReadoutBit = 5; // of the capabilities: three bits, 0 of boards that do not say it, else 1 + Readout
+constexpr std::uint8_t kCapabilityBits = (1 << kReadoutBit) - 1;
 
 constexpr std::array<std::uint8_t, 48> kDescriptor{0x06, 0x00, 0xFF,                               // usage page FF00
                                                    0x0A, 0x53, 0x54,                               // usage 5453
@@ -43,6 +45,18 @@ std::optional<ReportFault> faultOf(std::span<const std::uint8_t> report, ReportI
 std::uint32_t temperatureField(const std::optional<double>& temperature_degC) {
   if (!temperature_degC) return kNoTemperature;
   return static_cast<std::uint32_t>(std::lround(*temperature_degC / kDegreeStep_degC)) & 0xFFFF;
+}
+
+std::uint8_t capabilitiesField(const BoardInfo& info) {
+  const int readout = info.readout ? 1 + static_cast<int>(*info.readout) : 0;
+  return static_cast<std::uint8_t>((info.capabilities & kCapabilityBits) | readout << kReadoutBit);
+}
+
+/// None also for one that this Palp does not know.
+std::optional<Readout> readoutOf(std::uint8_t field) {
+  const int readout = (field >> kReadoutBit) - 1;
+  if (readout < 0 || readout >= static_cast<int>(kReadouts.all().size())) return {};
+  return static_cast<Readout>(readout);
 }
 
 std::variant<Readings, BoardEvent, ReportFault> decodeReadings(std::span<const std::uint8_t> report,
@@ -151,7 +165,7 @@ Report encode(const BoardInfo& info) {
     putLittleEndian<4>(report, 12 + 4 * i, static_cast<std::uint32_t>(std::llround(1000 * info.reference_ohm[i])));
   putLittleEndian<2>(report, 28, static_cast<std::uint32_t>(info.excitation_mV));
   report[30] = static_cast<std::uint8_t>(info.effectiveBits);
-  report[31] = info.capabilities;
+  report[31] = capabilitiesField(info);
   putTextField(std::span(report).subspan(32, 16), info.serial);
   putLittleEndian<2>(report, 48, micrometres(info.pitchX_mm));
   putLittleEndian<2>(report, 50, micrometres(info.pitchY_mm));
@@ -221,7 +235,8 @@ std::variant<BoardInfo, ReportFault> decodeInfo(std::span<const std::uint8_t> re
   inRange = inRange && info.reference_ohm[0] > 0;
   info.excitation_mV = static_cast<int>(littleEndian<2>(report, 28));
   info.effectiveBits = report[30];
-  info.capabilities = report[31];
+  info.capabilities = report[31] & kCapabilityBits;
+  info.readout = readoutOf(report[31]);
   info.serial = textField(report.subspan(32, 16));
   info.pitchX_mm = littleEndian<2>(report, 48) / 1000.0;
   info.pitchY_mm = littleEndian<2>(report, 50) / 1000.0;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "model/ResistanceLaw.h"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -72,7 +74,8 @@ struct BoardInfo {
   double pitchX_mm = 3;
   double pitchY_mm = 1;
   double thickness_mm = 5;
-  std::string model; ///< up to 8 characters
+  std::string model;              ///< up to 8 characters
+  std::optional<Readout> readout; ///< what the other wires are at while two are read; none: the board does not say
   bool operator==(const BoardInfo&) const = default;
 };
 

@@ -107,13 +107,16 @@ double errorAndGradient(const std::vector<double>& parameters, std::vector<doubl
   return error;
 }
 
-/// Principal directions of the scaled inputs, to variance 1: the optimiser then sees all of them alike.
-Eigen::MatrixXd principalDirections(const Eigen::MatrixXd& scaled) {
+/// Principal directions of the scaled inputs, to variance 1: the optimiser then sees all of them alike. Those that
+/// drown in noise (of this deviation) are left out, for they would carry nothing but noise blown up to the others'
+/// size.
+Eigen::MatrixXd principalDirections(const Eigen::MatrixXd& scaled, double noise) {
   const lapack::ThinSvd svd = lapack::thinSvd(scaled);
-  Eigen::Index kept = 0;
-  while (kept < std::min(kMostDirections, svd.values.size()) && svd.values(kept) > kLeastDirection * svd.values(0))
-    ++kept;
   const double size = std::sqrt(static_cast<double>(scaled.cols()));
+  const double least = std::max(kLeastDirection * svd.values(0), noise * size);
+  Eigen::Index kept = 0;
+  while (kept < std::min(kMostDirections, svd.values.size()) && svd.values(kept) > least) ++kept;
+  if (kept == 0 && svd.values(0) > 0) kept = 1; // nothing stands above the noise: the strongest direction stays
   return (svd.values.head(kept).cwiseInverse() * size).asDiagonal() * svd.u.leftCols(kept).transpose();
 }
 
@@ -176,7 +179,9 @@ BackPropagationFit trainBackPropagation(const Eigen::Ref<const Eigen::MatrixXd>&
   BackPropagationNetwork& network = fit.network;
   network.inputScaler = FeatureScaler::fit(Scaling::Global, samples);
   network.outputScaler = FeatureScaler::fit(Scaling::MinMax, targets);
-  network.components = principalDirections(network.inputScaler.apply(samples));
+  const double noise = options.relativeInputNoise * (network.inputScaler.factor.asDiagonal() * samples).norm() /
+                       std::sqrt(static_cast<double>(samples.size()));
+  network.components = principalDirections(network.inputScaler.apply(samples), noise);
   const Eigen::MatrixXd reduced = lapack::product(
       network.components, false,
       network.inputScaler.apply(noisyCopies(samples, options.relativeInputNoise, 1, options.seed)), false);

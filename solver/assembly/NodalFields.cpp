@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 
 #include <cmath>
+#include <vector>
 
 namespace palp {
 
@@ -81,6 +82,70 @@ NodalFields nodalFields(const Mesh& mesh, const Material& material, const LoadIn
     fields.principalStretches.col(i) = eigen.eigenvalues().cwiseMax(0).cwiseSqrt().reverse();
   }
   return fields;
+}
+
+namespace {
+
+/// The mean of what the hexahedra around a node have.
+Eigen::VectorXd meanPressures(const Mesh& mesh, const LoadIncrement& state) {
+  Eigen::VectorXd pressures = Eigen::VectorXd::Zero(mesh.nodeCount()), count = pressures;
+  for (int e = 0; e < mesh.elementCount(); ++e)
+    for (int n = 0; n < 8; ++n) {
+      pressures(mesh.elements(n, e)) -= state.elementUnknowns(0, e);
+      count(mesh.elements(n, e)) += 1;
+    }
+  return pressures.cwiseQuotient(count);
+}
+
+/// The linear function that is nearest to the pressure in the tetrahedra around a corner (least squares over their
+/// volume; one alone determines it), and in the middle of an edge the mean of its two ends' functions.
+Eigen::VectorXd fittedPressures(const Mesh& mesh, const LoadIncrement& state) {
+  const auto nodes = static_cast<std::size_t>(mesh.nodeCount());
+  std::vector<Eigen::Matrix4d> squares(nodes, Eigen::Matrix4d::Zero());
+  std::vector<Eigen::Vector4d> fits(nodes, Eigen::Vector4d::Zero());
+  const auto basis = [](const Eigen::Vector3d& d) { return Eigen::Vector4d(1, d.x(), d.y(), d.z()); };
+  constexpr double far = 0.58541019662497, near = 0.13819660112501; // four points, exact to degree 2
+  for (int e = 0; e < mesh.elementCount(); ++e) {
+    const auto corners = mesh.elements.col(e).head<4>();
+    const Eigen::Matrix<double, 3, 4> places = mesh.nodes_mm(Eigen::all, corners);
+    const double volume = tetGeometry(mesh, e).volume / 4;
+    for (int q = 0; q < 4; ++q) {
+      Eigen::Vector4d l = Eigen::Vector4d::Constant(near);
+      l(q) = far;
+      const Eigen::Vector3d point = places * l;
+      const double pressure = -state.elementUnknowns.col(e).tail<4>().dot(l);
+      for (int k = 0; k < 4; ++k) {
+        const Eigen::Vector4d b = basis(point - places.col(k));
+        squares[static_cast<std::size_t>(corners(k))] += volume * b * b.transpose();
+        fits[static_cast<std::size_t>(corners(k))] += volume * pressure * b;
+      }
+    }
+  }
+  for (int e = 0; e < mesh.elementCount(); ++e)
+    for (int k = 0; k < 4; ++k) {
+      const auto node = static_cast<std::size_t>(mesh.elements(k, e));
+      if (squares[node].isZero(0)) continue; // found already
+      fits[node] = squares[node].ldlt().solve(fits[node]).eval();
+      squares[node].setZero();
+    }
+  Eigen::VectorXd pressures(mesh.nodeCount());
+  for (int e = 0; e < mesh.elementCount(); ++e) {
+    for (int k = 0; k < 4; ++k) pressures(mesh.elements(k, e)) = fits[static_cast<std::size_t>(mesh.elements(k, e))](0);
+    for (int edge = 0; edge < 6; ++edge) {
+      const int a = mesh.elements(tetEdges[edge][0], e), b = mesh.elements(tetEdges[edge][1], e);
+      const Eigen::Vector3d half = (mesh.nodes_mm.col(b) - mesh.nodes_mm.col(a)) / 2;
+      pressures(mesh.elements(4 + edge, e)) =
+          (fits[static_cast<std::size_t>(a)].dot(basis(half)) + fits[static_cast<std::size_t>(b)].dot(basis(-half))) /
+          2;
+    }
+  }
+  return pressures;
+}
+
+} // namespace
+
+Eigen::VectorXd nodalPressures_MPa(const Mesh& mesh, const LoadIncrement& state) {
+  return mesh.shape == ElementShape::Tetrahedron10 ? fittedPressures(mesh, state) : meanPressures(mesh, state);
 }
 
 } // namespace palp

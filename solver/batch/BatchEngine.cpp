@@ -307,9 +307,15 @@ std::vector<BatchEngine::Answer> BatchEngine::solve(std::span<const LoadCase> lo
     const std::size_t i = next++;
     return i < blocks.size() ? &blocks[i] : nullptr;
   };
-  const auto give = [&](const Block& block, std::vector<Answer> found, const LoadBatch& batch, int b) {
-    for (std::size_t i = 0; i < block.size() && state; ++i)
-      if (found[i]) state(block[i].index, *found[i], batch.displacementsOf(b * lanes + static_cast<int>(i)));
+  const auto give = [&](const Block& block, std::vector<Answer> found, LoadBatch& batch, int b) {
+    const bool withUnknowns = state && problem_.design().pressureLaw;
+    if (withUnknowns) batch.catchUp(b);
+    for (std::size_t i = 0; i < block.size() && state; ++i) {
+      const int lane = b * lanes + static_cast<int>(i);
+      if (found[i])
+        state(block[i].index, *found[i],
+              {1, batch.displacementsOf(lane), withUnknowns ? batch.unknownsOf(lane) : Eigen::MatrixXd()});
+    }
     for (std::size_t i = 0; i < block.size(); ++i) answers[block[i].index] = std::move(found[i]);
     progress.add(block.size());
   };

@@ -152,6 +152,13 @@ Eigen::Matrix3Xd LoadBatch::displacementsOf(int lane) const {
       .reshaped(3, model_.mesh().nodes());
 }
 
+Eigen::MatrixXd LoadBatch::unknownsOf(int lane) const {
+  Eigen::MatrixXd x(model_.mesh().unknowns(), model_.mesh().elements());
+  for (int e = 0; e < model_.mesh().elements(); ++e)
+    for (int k = 0; k < model_.mesh().unknowns(); ++k) x(k, e) = unknown(e, k, lane);
+  return x;
+}
+
 void LoadBatch::catchUp(int block) {
   if (!behind_[block]) return;
   for (int e = 0; e < model_.mesh().elements(); ++e)

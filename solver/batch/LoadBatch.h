@@ -52,6 +52,7 @@ public:
   /// What the electrodes of a block's lanes feel.
   [[nodiscard]] std::vector<ElectrodeDisplacements> electrodes(int block) const;
   [[nodiscard]] Eigen::Matrix3Xd displacementsOf(int lane) const;      ///< 3 x nodes
+  [[nodiscard]] Eigen::MatrixXd unknownsOf(int lane) const;            ///< of a block that has caught up, x elements
   [[nodiscard]] const LaneVector& displacements() const { return u_; } ///< [3 nodes][32]
   /// The elements' unknowns of a block follow its last iteration: most have no reader before the next, and none at all
   /// where that was the last.

@@ -98,4 +98,8 @@ Eigen::Matrix<double, 6, 1> BoundaryQuadrature::onShapes(const double* points) {
   return triangleRule().shapes * Eigen::Map<const Eigen::Matrix<double, kPoints, 1>>(points);
 }
 
+Eigen::Matrix<double, kPoints, 1> BoundaryQuadrature::atPoints(const Eigen::Matrix<double, 6, 1>& nodes) {
+  return triangleRule().shapes.transpose() * nodes;
+}
+
 } // namespace palp

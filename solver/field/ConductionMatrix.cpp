@@ -1,8 +1,8 @@
 #include "solver/field/ConductionMatrix.h"
 
 #include "model/base/Parallel.h"
-#include "solver/element/ElementGeometry.h"
 #include "solver/element/ElementKernels.h"
+#include "solver/field/TetRule.h"
 
 #include <Eigen/Dense>
 
@@ -16,44 +16,6 @@ namespace {
 constexpr int kPairs = 55; // of an element's ten nodes
 constexpr int kElementsAChunk = 256;
 constexpr int kSupernodesACall = 16; // between looks at a stop request
-
-/// N. J. Walkington, Quadrature on simplices of arbitrary dimension, 2000: 14 points, exact to degree 5.
-struct TetRule {
-  static constexpr int points = 14;
-  std::array<double, points> weights{};
-  Eigen::Matrix<double, 10, points> shapes;
-  std::array<Eigen::Matrix<double, 10, 3>, points> gradients; ///< by the last three barycentric coordinates
-
-  TetRule() {
-    std::array<Eigen::Vector4d, points> at;
-    std::size_t i = 0;
-    for (const auto& [a, w] :
-         {std::pair{0.3108859192633006, 0.1126879257180159}, std::pair{0.0927352503108912, 0.0734930431163619}})
-      for (int k = 0; k < 4; ++k, ++i) {
-        at[i].setConstant(a);
-        at[i](k) = 1 - 3 * a;
-        weights[i] = w;
-      }
-    constexpr double a = 0.0455037041256497;
-    for (int k = 0; k < 4; ++k)
-      for (int l = k + 1; l < 4; ++l, ++i) {
-        at[i].setConstant(0.5 - a);
-        at[i](k) = at[i](l) = a;
-        weights[i] = 0.0425460207770815;
-      }
-    TetGeometry unit; // gradients of the barycentric coordinates by the last three of them
-    unit.gradients << -1, 1, 0, 0, -1, 0, 1, 0, -1, 0, 0, 1;
-    for (i = 0; i < points; ++i) {
-      shapes.col(static_cast<Eigen::Index>(i)) = tetShapes(at[i]);
-      gradients[i] = tetShapeGradients(unit, at[i]).transpose();
-    }
-  }
-};
-
-const TetRule& tetRule() {
-  static const TetRule rule;
-  return rule;
-}
 
 } // namespace
 
@@ -94,18 +56,19 @@ ConductionMatrix::ConductionMatrix(const FieldMesh& mesh) : mesh_(&mesh) {
   plan_ = std::make_shared<const CholeskyPlan>(std::move(pattern));
 }
 
-ConductionMatrix::Values ConductionMatrix::at(const Eigen::Matrix3Xd& nodes_mm, const Eigen::VectorXd& conductivity,
+ConductionMatrix::Values ConductionMatrix::at(const Eigen::Matrix3Xd& nodes_mm, const Eigen::VectorXd& logConductivity,
                                               int threads) const {
   const TetRule& rule = tetRule();
   const Eigen::MatrixXi& elements = mesh_->tets().elements;
+  const bool uneven = logConductivity.size() > 0;
   UnsetArray<double> own(entries_.size()), load(10 * static_cast<std::size_t>(elements.cols()));
   forChunks(mesh_->elements(), kElementsAChunk, threads, [&](int begin, int end) {
     Eigen::Matrix<double, 3, 10> places;
-    Eigen::Matrix<double, 10, 1> sigma = Eigen::Matrix<double, 10, 1>::Ones();
+    Eigen::Matrix<double, 10, 1> atNodes = Eigen::Matrix<double, 10, 1>::Ones(); // ln k, or k = 1
     for (int e = begin; e < end; ++e) {
       for (int n = 0; n < 10; ++n) places.col(n) = nodes_mm.col(elements(n, e));
-      if (conductivity.size() > 0)
-        for (int n = 0; n < 10; ++n) sigma(n) = conductivity(elements(n, e));
+      if (uneven)
+        for (int n = 0; n < 10; ++n) atNodes(n) = logConductivity(elements(n, e));
       Eigen::Matrix<double, 10, 10> stiffness = Eigen::Matrix<double, 10, 10>::Zero();
       Eigen::Matrix<double, 10, 1> volumes = Eigen::Matrix<double, 10, 1>::Zero();
       for (std::size_t q = 0; q < TetRule::points; ++q) {
@@ -113,7 +76,8 @@ ConductionMatrix::Values ConductionMatrix::at(const Eigen::Matrix3Xd& nodes_mm, 
         const Eigen::Matrix<double, 10, 3> gradients = rule.gradients[q] * map.inverse();
         const auto shapes = rule.shapes.col(static_cast<Eigen::Index>(q));
         const double weight = rule.weights[q] * map.determinant() / 6;
-        stiffness.noalias() += (weight * shapes.dot(sigma)) * (gradients * gradients.transpose());
+        const double between = shapes.dot(atNodes), conductivity = uneven ? std::exp(between) : between;
+        stiffness.noalias() += (weight * conductivity) * (gradients * gradients.transpose());
         volumes += weight * shapes;
       }
       double* out = own.data() + static_cast<std::size_t>(e) * kPairs;

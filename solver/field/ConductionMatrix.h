@@ -12,7 +12,7 @@
 
 namespace palp {
 
-/// Matrix of div(sigma grad) on the deformed mesh with insulated faces: K_ab = integral sigma grad N_a . grad N_b. The
+/// Matrix of div(k grad) on the deformed mesh with insulated faces: K_ab = integral k grad N_a . grad N_b. The
 /// pattern and the order of elimination are found once. Node 0 is held at potential 0, as the field leaves a constant
 /// open.
 class ConductionMatrix {
@@ -24,8 +24,8 @@ public:
     LaneVector matrix;
     Eigen::VectorXd volumes; ///< integral N_a; their sum is the block's volume
   };
-  /// `conductivity`: sigma at the nodes, or empty for 1.
-  [[nodiscard]] Values at(const Eigen::Matrix3Xd& nodes_mm, const Eigen::VectorXd& conductivity, int threads) const;
+  /// `logConductivity`: ln k at the nodes, or empty for k = 1.
+  [[nodiscard]] Values at(const Eigen::Matrix3Xd& nodes_mm, const Eigen::VectorXd& logConductivity, int threads) const;
 
   [[nodiscard]] const std::shared_ptr<const CholeskyPlan>& plan() const { return plan_; }
 

@@ -17,7 +17,6 @@ namespace palp {
 
 namespace {
 
-constexpr double kFourPi = 4 * std::numbers::pi;
 using Rows = ConductionSolve::Rows;
 
 /// Faces that mirror: those nearer than so many times the edge of the mesh's faces. From there on the flux through a
@@ -58,6 +57,7 @@ Eigen::Vector4d barycentricIn(const Eigen::Matrix<double, 3, 10>& nodes, const E
 } // namespace
 
 struct DeformedGreen::System {
+  std::vector<AtElectrode> electrodes;
   std::vector<Eigen::Matrix3Xd> sources;
   ConductionMatrix::Values values;
   ConductionSolve solve;
@@ -66,7 +66,8 @@ struct DeformedGreen::System {
 
 DeformedGreen::DeformedGreen(const Mesh& solverMesh, const Eigen::Vector3d& block_mm,
                              const Eigen::Matrix3Xd& electrodes_mm)
-    : mesh_(solverMesh), sources_(mesh_, block_mm, electrodes_mm, reach_mm(mesh_, block_mm)), matrix_(mesh_) {
+    : mesh_(solverMesh), reach_mm_(reach_mm(mesh_, block_mm)), sources_(mesh_, block_mm, electrodes_mm, reach_mm_),
+      matrix_(mesh_) {
   const Eigen::MatrixXi& elements = mesh_.tets().elements;
   std::vector<std::vector<int>> around(static_cast<std::size_t>(mesh_.nodes()));
   for (int e = 0; e < mesh_.elements(); ++e)
@@ -110,44 +111,83 @@ std::vector<std::vector<DeformedGreen::Place>> DeformedGreen::places(const Field
   return all;
 }
 
+std::vector<AtElectrode> DeformedGreen::atElectrodes(const FieldState& state) const {
+  std::vector<AtElectrode> all(atRest_.size());
+  if (state.logConductivity.size() == 0) return all;
+  const std::vector<std::vector<Place>> where = places(state);
+  for (std::size_t p = 0; p < all.size(); ++p) {
+    const std::vector<Place>& holders = where[p];
+    for (const Place& place : holders) {
+      const auto nodes = mesh_.tets().elements.col(place.element);
+      const Eigen::Matrix<double, 10, 1> l = state.logConductivity(nodes) / (2 * double(holders.size()));
+      all[p].value += tetShapes(place.barycentric).dot(l);
+      all[p].slope += gradientsIn(state.nodes_mm(Eigen::all, nodes), place.barycentric) * l;
+    }
+    all[p].element = holders.front().element;
+    all[p].shapes = tetShapes(holders.front().barycentric);
+  }
+  return all;
+}
+
+Eigen::VectorXd DeformedGreen::conductivities(const FieldState& state) const {
+  const std::vector<AtElectrode> at = atElectrodes(state);
+  Eigen::VectorXd k(static_cast<Eigen::Index>(at.size()));
+  for (std::size_t p = 0; p < at.size(); ++p) k(static_cast<Eigen::Index>(p)) = std::exp(2 * at[p].value);
+  return k;
+}
+
 std::unique_ptr<DeformedGreen::System> DeformedGreen::systemAt(const FieldState& state, int threads,
                                                                const std::stop_token& stop) const {
   useOneBlasThread();
-  ConductionMatrix::Values values = matrix_.at(state.nodes_mm, {}, threads);
+  ConductionMatrix::Values values = matrix_.at(state.nodes_mm, state.logConductivity, threads);
   if (stop.stop_requested()) return {};
   ConductionSolve solve(matrix_.plan(), std::move(values.matrix), threads, stop);
   if (solve.outcome() == SparseCholesky::Outcome::NotPositiveDefinite)
     throw DesignError("the conduction field: the load turns an element inside out");
   if (stop.stop_requested()) return {};
-  return std::make_unique<System>(System{sources_.at(state.nodes_mm, state.electrodes_mm), std::move(values),
-                                         std::move(solve), BoundaryQuadrature(mesh_, state.nodes_mm)});
+  return std::make_unique<System>(System{atElectrodes(state), sources_.at(state.nodes_mm, state.electrodes_mm),
+                                         std::move(values), std::move(solve),
+                                         BoundaryQuadrature(mesh_, state.nodes_mm)});
 }
 
 struct DeformedGreen::SourceIntegrals {
-  Rows right;               ///< of w: - oint s_q,n N_a - mean(N_a); nodes x electrodes
-  Eigen::MatrixXd products; ///< - oint s_p s_q,n, for p <= q by whole batches
+  Rows right;               ///< of w: - oint s_q,n N_a - mean(N_a), or as k has it; nodes x electrodes
+  Eigen::MatrixXd products; ///< - oint s_p s_q,n, or as k has it, for p <= q by whole batches
 };
 
 /// By pieces of the boundary that fit into a cache, in parts whose number does not depend on that of the threads.
-DeformedGreen::SourceIntegrals DeformedGreen::integrals(const System& system, int threads,
+DeformedGreen::SourceIntegrals DeformedGreen::integrals(const FieldState& state, const System& system, int threads,
                                                         const std::stop_token& stop) const {
   constexpr int parts = 8, facesAPiece = 32;
+  using FacePoints = Eigen::Matrix<double, BoundaryQuadrature::pointsAFace, 1>;
+  const bool uneven = state.logConductivity.size() > 0;
   const auto faces = static_cast<int>(mesh_.faces().cols()), count = static_cast<int>(system.sources.size());
   Rows onFaces(6 * Eigen::Index(faces), count);
   std::vector<Eigen::MatrixXd> products(parts, Eigen::MatrixXd::Zero(count, count));
   forChunks(parts, 1, threads, [&](int part, int) {
     constexpr int points = facesAPiece * BoundaryQuadrature::pointsAFace;
     UnsetArray<double> potential(std::size_t(points) * count), flux(potential.size()); // points x electrodes
+    Eigen::Matrix<double, BoundaryQuadrature::pointsAFace, facesAPiece> roots;         // m
     const int last = (part + 1) * faces / parts;
     for (int first = part * faces / parts; first < last && !stop.stop_requested(); first += facesAPiece) {
       const int some = std::min(facesAPiece, last - first), rows = some * BoundaryQuadrature::pointsAFace;
+      for (int f = 0; f < some && uneven; ++f) {
+        const Eigen::Matrix<double, 6, 1> l = state.logConductivity(mesh_.faces().col(first + f)) / 2;
+        roots.col(f) = BoundaryQuadrature::atPoints(l).array().exp();
+      }
       for (int q = 0; q < count; ++q) {
         double* own = flux.data() + std::size_t(q) * points;
         system.boundary.sources(system.sources[std::size_t(q)], first, some, potential.data() + std::size_t(q) * points,
                                 own);
-        for (int f = 0; f < some; ++f)
-          onFaces.col(q).segment<6>(6 * Eigen::Index(first + f)) =
-              BoundaryQuadrature::onShapes(own + f * BoundaryQuadrature::pointsAFace);
+        for (int f = 0; f < some; ++f) {
+          const double* atPoints = own + f * BoundaryQuadrature::pointsAFace;
+          FacePoints weighted;
+          if (uneven) {
+            weighted = Eigen::Map<const FacePoints>(atPoints).cwiseProduct(roots.col(f));
+            atPoints = weighted.data();
+          }
+          onFaces.col(q).segment<6>(6 * Eigen::Index(first + f)) = BoundaryQuadrature::onShapes(atPoints);
+        }
       }
       for (int q = 0; q < count; q += batchLanes) {
         const int columns = std::min(batchLanes, count - q);
@@ -161,6 +201,14 @@ DeformedGreen::SourceIntegrals DeformedGreen::integrals(const System& system, in
   for (std::size_t part = 1; part < parts; ++part) result.products += products[part];
   for (int f = 0; f < faces; ++f)
     for (int n = 0; n < 6; ++n) result.right.row(mesh_.faces()(n, f)) -= onFaces.row(6 * Eigen::Index(f) + n);
+  if (uneven) {
+    UnevenConductivity(mesh_, state.nodes_mm, state.logConductivity, reach_mm_)
+        .addIntegrals(system.sources, system.electrodes, threads, stop, result.right, result.products);
+    Eigen::VectorXd inverse(count);
+    for (int p = 0; p < count; ++p) inverse(p) = std::exp(-system.electrodes[std::size_t(p)].value);
+    result.right *= inverse.asDiagonal();
+    result.products = (inverse.asDiagonal() * result.products * inverse.asDiagonal()).eval();
+  }
   // The sources' whole current, but for quadrature, taken up evenly over the volume.
   const Eigen::RowVectorXd currents = result.right.colwise().sum();
   result.right.noalias() -= system.values.volumes * (currents / system.values.volumes.sum());
@@ -172,7 +220,7 @@ std::optional<BoxGreen> DeformedGreen::at(const FieldState& state, int threads, 
   if (!system) return {};
   const auto count = static_cast<int>(state.electrodes_mm.cols());
   const int batches = (count + batchLanes - 1) / batchLanes;
-  auto [right, products] = integrals(*system, threads, stop);
+  auto [right, products] = integrals(state, *system, threads, stop);
   if (stop.stop_requested()) return {};
 
   Rows field(mesh_.nodes(), count), twice(mesh_.nodes(), count); // w; 2 b - K w
@@ -200,17 +248,24 @@ std::optional<BoxGreen> DeformedGreen::at(const FieldState& state, int threads, 
   if (stop.stop_requested()) return {};
 
   for (Eigen::MatrixXd& slope : green.slope) slope.setZero(count, count);
+  const std::vector<AtElectrode>& half = system->electrodes;
+  const bool uneven = state.logConductivity.size() > 0;
   const std::vector<std::vector<Place>> where = places(state);
   forChunks(count, 8, threads, [&](int begin, int end) {
     for (int p = begin; p < end; ++p) {
       for (int q = 0; q < count; ++q) {
         const Eigen::Matrix3Xd& of = system->sources[std::size_t(q)];
+        const double scale =
+            uneven ? kFourPi * std::exp(half[std::size_t(p)].value + half[std::size_t(q)].value) : kFourPi;
         for (Eigen::Index m = p == q ? 1 : 0; m < of.cols(); ++m) {
           const Eigen::Vector3d d = state.electrodes_mm.col(p) - of.col(m);
           const double inverse = 1 / d.norm();
-          if (p <= q) green.value(p, q) += inverse / kFourPi;
-          for (std::size_t i = 0; i < 3; ++i)
-            green.slope[i](p, q) -= d(static_cast<Eigen::Index>(i)) * inverse * inverse * inverse / kFourPi;
+          if (p <= q) green.value(p, q) += inverse / scale;
+          for (std::size_t i = 0; i < 3; ++i) {
+            const auto axis = static_cast<Eigen::Index>(i);
+            green.slope[i](p, q) -= d(axis) * inverse * inverse * inverse / scale;
+            if (uneven) green.slope[i](p, q) -= half[std::size_t(p)].slope(axis) * inverse / scale;
+          }
         }
       }
       const std::vector<Place>& holders = where[std::size_t(p)];
@@ -233,34 +288,43 @@ std::optional<NodalPotential> DeformedGreen::potential(const FieldState& state, 
                                                        const std::stop_token& stop) const {
   const std::unique_ptr<System> system = systemAt(state, threads, stop);
   if (!system) return {};
-  const Rows right = integrals(*system, threads, stop).right * currents;
+  const Rows right = integrals(state, *system, threads, stop).right * currents;
   Rows field(right.rows(), 1), left(right.rows(), 1);
   system->solve.solve(right, field, left, stop);
   if (stop.stop_requested()) return {};
 
   NodalPotential result{field, Eigen::Matrix3Xd::Zero(3, mesh_.nodes()), Eigen::VectorXd::Zero(currents.size())};
   Eigen::VectorXd elementsAround = Eigen::VectorXd::Zero(mesh_.nodes());
+  Eigen::Matrix3Xd halfSlopes = Eigen::Matrix3Xd::Zero(3, mesh_.nodes());
   for (int e = 0; e < mesh_.elements(); ++e) {
     const auto nodes = mesh_.tets().elements.col(e);
     const Eigen::Matrix<double, 3, 10> at = state.nodes_mm(Eigen::all, nodes);
     const Eigen::Matrix<double, 10, 1> values = field(nodes, 0);
     for (int n = 0; n < 10; ++n) {
-      result.gradient.col(nodes(n)) += gradientsIn(at, tetNode(n)) * values;
+      const Eigen::Matrix<double, 3, 10> gradients = gradientsIn(at, tetNode(n));
+      result.gradient.col(nodes(n)) += gradients * values;
+      if (state.logConductivity.size() > 0) halfSlopes.col(nodes(n)) += gradients * state.logConductivity(nodes) / 2;
       elementsAround(nodes(n)) += 1;
     }
   }
   result.gradient.array().rowwise() /= elementsAround.transpose().array();
+  halfSlopes.array().rowwise() /= elementsAround.transpose().array();
 
-  // The sources' part; within a sphere its own is that on its surface.
-  const auto addSources = [&](const Eigen::Vector3d& point, double& value, Eigen::Vector3d* gradient) {
+  // The sources' part s_q / (m m_q); within a sphere its own is that on its surface. `l` and its `slope` at the point.
+  const std::vector<AtElectrode>& half = system->electrodes;
+  const auto addSources = [&](const Eigen::Vector3d& point, double l, const Eigen::Vector3d& slope, double& value,
+                              Eigen::Vector3d* gradient) {
+    const double root = std::exp(-l);
     for (Eigen::Index q = 0; q < currents.size(); ++q) {
       const Eigen::Matrix3Xd& of = system->sources[std::size_t(q)];
       for (Eigen::Index m = 0; m < of.cols(); ++m) {
         const Eigen::Vector3d d = point - of.col(m);
         const double r = d.norm();
         const bool inside = r < radius_mm;
-        value += currents(q) / (kFourPi * (inside ? radius_mm : r));
-        if (gradient && !inside) *gradient -= currents(q) / (kFourPi * r * r * r) * d;
+        const double atSource = std::exp(-half[std::size_t(q)].value);
+        const double own = (inside ? atSource : root) * atSource * currents(q) / kFourPi;
+        value += own / (inside ? radius_mm : r);
+        if (gradient && !inside) *gradient -= own / r * (d / (r * r) + slope);
       }
     }
   };
@@ -268,7 +332,8 @@ std::optional<NodalPotential> DeformedGreen::potential(const FieldState& state, 
     if (stop.stop_requested()) return;
     for (int n = begin; n < end; ++n) {
       Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
-      addSources(state.nodes_mm.col(n), result.value(n), &gradient);
+      const double l = state.logConductivity.size() > 0 ? state.logConductivity(n) / 2 : 0;
+      addSources(state.nodes_mm.col(n), l, halfSlopes.col(n), result.value(n), &gradient);
       result.gradient.col(n) += gradient;
     }
   });
@@ -277,7 +342,8 @@ std::optional<NodalPotential> DeformedGreen::potential(const FieldState& state, 
   for (Eigen::Index p = 0; p < currents.size(); ++p) {
     const Place& place = where[std::size_t(p)].front();
     result.electrodes(p) = tetShapes(place.barycentric).dot(field(mesh_.tets().elements.col(place.element), 0));
-    addSources(state.electrodes_mm.col(p), result.electrodes(p), nullptr);
+    addSources(state.electrodes_mm.col(p), half[std::size_t(p)].value, half[std::size_t(p)].slope, result.electrodes(p),
+               nullptr);
   }
   return result;
 }

@@ -3,6 +3,7 @@
 #include "model/BoxGreen.h"
 #include "solver/field/ConductionMatrix.h"
 #include "solver/field/FieldSources.h"
+#include "solver/field/UnevenConductivity.h"
 
 #include <memory>
 #include <optional>
@@ -11,27 +12,29 @@
 
 namespace palp {
 
-/// Where nodes (of FieldMesh) and electrodes stand in a deformed block.
+/// Where nodes (of FieldMesh) and electrodes stand in a deformed block, and how well it conducts.
 struct FieldState {
   Eigen::Matrix3Xd nodes_mm;
   Eigen::Matrix3Xd electrodes_mm;
+  Eigen::VectorXd logConductivity{}; ///< ln k at the nodes; empty: k = 1
 };
 
-/// Potential and its gradient at all nodes [1/mm, 1/mm2] for conductivity 1, and the potential on each electrode.
+/// Potential and its gradient at all nodes [1/mm, 1/mm2] for conductivity k, and the potential on each electrode.
 struct NodalPotential {
   Eigen::VectorXd value;
   Eigen::Matrix3Xd gradient;
   Eigen::VectorXd electrodes;
 };
 
-/// Green's function of the insulated deformed block of conductivity 1 between its electrodes.
+/// Green's function of the insulated deformed block of conductivity k between its electrodes.
 ///
-/// G(., x_q) = s_q + w_q with s_q the sources of FieldSources; w_q is smooth and the mesh's part:
+/// For k = 1, G(., x_q) = s_q + w_q with s_q the sources of FieldSources; w_q is smooth and the mesh's part:
 ///   integral grad w_q . grad v = - oint s_q,n v dS - mean(v)   for all v.
 /// What stands at an electrode p follows from Green's identity rather than from w_q there, by the energy of two fields,
 /// whose error is of the square of their own:
 ///   w_q(x_p) = integral grad w_p . grad w_q - oint s_p s_q,n dS + terms of q alone and of p alone,
-/// and such terms no current of zero sum sees. (resources/docs/numerics.md, "Conduction in the deformed block".)
+/// and such terms no current of zero sum sees. Where k varies, G(., x_q) = s_q / (m m_q) + w_q as UnevenConductivity
+/// has it. (resources/docs/numerics.md, "Conduction in the deformed block".)
 class DeformedGreen {
 public:
   DeformedGreen(const Mesh& solverMesh, const Eigen::Vector3d& block_mm, const Eigen::Matrix3Xd& electrodes_mm);
@@ -41,6 +44,8 @@ public:
   /// As boxGreen, but for terms of p alone and of q alone, without curvature. None: stopped. Throws DesignError where
   /// an element is inside out.
   [[nodiscard]] std::optional<BoxGreen> at(const FieldState& state, int threads, const std::stop_token& stop) const;
+  /// k at the electrodes.
+  [[nodiscard]] Eigen::VectorXd conductivities(const FieldState& state) const;
 
   /// Potential of these currents (one an electrode, sum 0) from spheres of this radius, inside of which it is constant;
   /// but for a constant. None: stopped.
@@ -56,13 +61,16 @@ private:
   };
   /// Where each electrode lies in the deformed mesh: in all elements around it.
   [[nodiscard]] std::vector<std::vector<Place>> places(const FieldState& state) const;
+  [[nodiscard]] std::vector<AtElectrode> atElectrodes(const FieldState& state) const;
   struct System; ///< a state's factorised matrix
   struct SourceIntegrals;
-  [[nodiscard]] SourceIntegrals integrals(const System& system, int threads, const std::stop_token& stop) const;
+  [[nodiscard]] SourceIntegrals integrals(const FieldState& state, const System& system, int threads,
+                                          const std::stop_token& stop) const;
   [[nodiscard]] std::unique_ptr<System> systemAt(const FieldState& state, int threads,
                                                  const std::stop_token& stop) const;
 
   FieldMesh mesh_;
+  double reach_mm_; ///< faces nearer to an electrode mirror
   FieldSources sources_;
   ConductionMatrix matrix_;
   std::vector<std::vector<Place>> atRest_;

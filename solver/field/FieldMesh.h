@@ -5,7 +5,12 @@
 
 #include <Eigen/Core>
 
+#include <numbers>
+
 namespace palp {
+
+/// Of a source's own field 1/(4 pi r).
+inline constexpr double kFourPi = 4 * std::numbers::pi;
 
 /// The block as the conduction field sees it: quadratic tetrahedra on the solver's nodes. Hexahedra are cut into six
 /// each; their trilinear faces are reproduced exactly by curved quadratic ones.

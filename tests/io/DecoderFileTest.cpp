@@ -60,6 +60,7 @@ TEST(NetworkFile, KeepsTheRotationOfWhitenedInputs) {
 TEST(NetworkFile, RefusesWhatItDoesNotKnow) {
   const std::string text = networkText(smallDecoder(DecoderKind::Rbf));
   EXPECT_NE(refusal(replaced(text, "\"mode\"", "\"moed\"")).find("moed"), std::string::npos);
+  EXPECT_NE(refusal("{\"hello\": 1}").find("no network of Palp"), std::string::npos);
   EXPECT_NE(refusal(replaced(text, "\"palp_network\":1", "\"palp_network\":2")).find("newer"), std::string::npos);
   EXPECT_NE(refusal(replaced(text, "\"rbf\"", "\"svm\"")).find("svm"), std::string::npos);
 }
@@ -143,6 +144,34 @@ TEST(NetworkFile, RefusesToInvertEq1OfADesignUnderTheField) {
     std::get<TwoStep>(d.model).design->resistance = FieldLaw{};
   });
   EXPECT_NE(sentence.find("the inversion of Eq. (1): not yet under the field law"), std::string::npos) << sentence;
+}
+
+TEST(NetworkFile, KeepsAFirstStepThatInvertsTheField) {
+  const SmallSamples samples;
+  const Decoder decoder = fieldTwoStepDecoder();
+  const std::string text = networkText(decoder);
+  const Decoder again = parseNetwork(text, "net.json");
+  EXPECT_EQ(networkText(again), text);
+  EXPECT_EQ(std::get<TwoStep>(again.model).block->displacements_mm(samples.inputs),
+            std::get<TwoStep>(decoder.model).block->displacements_mm(samples.inputs));
+  // A network of Eq. (1) knows nothing of it: its bytes are as ever.
+  EXPECT_EQ(networkText(smallDecoder(DecoderKind::TwoStepGaussNewton)).find("\"block\""), std::string::npos);
+}
+
+TEST(NetworkFile, RefusesAFirstStepThatCannotInvertTheField) {
+  const auto refused = [](const std::function<void(TwoStep&)>& change) {
+    return refusalWith(fieldTwoStepDecoder(), [&](Decoder& d) { change(std::get<TwoStep>(d.model)); });
+  };
+  EXPECT_NE(refused([](TwoStep& t) { t.block->rest_ohm(1) = 0; }).find("rest_ohm"), std::string::npos);
+  EXPECT_NE(refused([](TwoStep& t) { t.block->forces_N.conservativeResize(3, 2); }).find("forces_N"),
+            std::string::npos);
+  EXPECT_NE(refused([](TwoStep& t) { t.block->modes_mm_per_N.conservativeResize(3, 2); }).find("modes_mm_per_N"),
+            std::string::npos);
+  EXPECT_NE(refused([](TwoStep& t) { t.block->modes_mm_per_N.conservativeResize(2, 3); }).find("force"),
+            std::string::npos);
+  EXPECT_NE(refused([](TwoStep& t) { t.design = squareDesign(); }).find("one of network, design and block"),
+            std::string::npos);
+  EXPECT_NE(refused([](TwoStep& t) { t.block.reset(); }).find("one of network, design and block"), std::string::npos);
 }
 
 TEST(NetworkFile, RefusesWholeNumbersThatAreNoInt) {

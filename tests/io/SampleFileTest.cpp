@@ -77,6 +77,19 @@ TEST(SampleFile, LeavesOutWhatNobodyKnows) {
   EXPECT_EQ(back.resistances_ohm, set.resistances_ohm);
 }
 
+TEST(SampleFile, SaysTheReadOutWhereThereIsOne) {
+  const TemporaryFolder folder;
+  SampleSet set = randomSet(2, 1);
+  EXPECT_EQ(sampleFileHead(set).find("readout"), std::string::npos); // files of Eq. (1) are as they were
+  set.origin.readout = Readout::OthersAtHalf;
+  saveSamples(folder / "a.csv", set, false);
+  EXPECT_EQ(loadSamples(folder / "a.csv").origin.readout, Readout::OthersAtHalf);
+  std::string text = readFile(folder / "a.csv");
+  text.replace(text.find("others_at_half"), 14, "others_at_rest");
+  put(folder / "b.csv", text);
+  EXPECT_NE(refusal([&] { loadSamples(folder / "b.csv"); }).find("readout: \"others_at_rest\""), std::string::npos);
+}
+
 TEST(SampleFile, NamesItsColumnsWithTheirUnits) {
   const std::string head = sampleFileHead(smallHead());
   for (const char* part : {"# seed: 7\n", "# kind: full solves\n", "\narea,fx_N,fy_N,fz_N,u_r0_e0_x_mm,",

@@ -119,6 +119,17 @@ inline Decoder whitenedDecoder() {
   return decoder;
 }
 
+/// A two-step decoder whose first step inverts the field.
+inline Decoder fieldTwoStepDecoder() {
+  const SmallSamples samples;
+  Decoder decoder = smallDecoder(DecoderKind::TwoStepGaussNewton);
+  TwoStep& twoStep = std::get<TwoStep>(decoder.model);
+  twoStep.design.reset();
+  twoStep.block = {Eigen::Vector3d::Constant(100), 0.1 * Eigen::MatrixXd::Identity(3, 3),
+                   Eigen::MatrixXd::Identity(3, 3)};
+  return decoder;
+}
+
 /// One force an area, both at once.
 inline Decoder togetherDecoder() {
   const SmallSamples samples;

@@ -3,6 +3,7 @@
 #include "model/DesignError.h"
 #include "model/FieldAtRest.h"
 #include "solver/ConductionBatch.h"
+#include "solver/DiscretisationError.h"
 #include "solver/SensorMesh.h"
 #include "tests/model/RandomLayout.h"
 
@@ -58,20 +59,89 @@ TEST(ConductionField, HeldElectrodesFeelTheBlockAndThoseThatFollowItFeelMore) {
   EXPECT_GT((a - b).norm(), 1e-3 * a.norm());
 }
 
-TEST(ConductionField, RefusesAnotherLawAndAPressureLaw) {
+TEST(ConductionField, RefusesAnotherLaw) {
   SensorDesign design = smallDesign();
   const Mesh mesh = sensorMesh(design, {.meshSize_mm = {}, .mapped = std::array<int, 3>{4, 4, 2}});
-  design.pressureLaw = PressureLaw{};
-  EXPECT_THROW(ConductionField(HyperelasticProblem(design, mesh)), DesignError);
-  design.pressureLaw.reset();
   design.resistance = PairsLaw{};
   EXPECT_THROW(ConductionField(HyperelasticProblem(design, mesh)), DesignError);
+}
+
+/// Against a mesh of 0.6 times the size; where nothing moves but by 1 % of the usual force, and where two directions
+/// act.
+TEST(ConductionField, TheEstimateIsWithinAFactorOfThreeOfTheError) {
+  const SensorDesign design = smallDesign(Readout::RowsGrounded);
+  const HyperelasticProblem coarse(design, sensorMesh(design));
+  const HyperelasticProblem fine(design,
+                                 sensorMesh(design, {.meshSize_mm = 0.6 * standardMeshSize_mm(design), .mapped = {}}));
+  const ConductionField onCoarse(coarse), onFine(fine);
+  const Eigen::MatrixXd rest = logAtRest(design, Readout::RowsGrounded);
+  for (const Eigen::Vector3d& force : {Eigen::Vector3d(0, 0, -0.01), Eigen::Vector3d(0.2, 0, -0.8)}) {
+    const LoadCase load{{{0, force}}, {}};
+    const auto read = [&](const ConductionField& field, const Solution& solution) -> Eigen::MatrixXd {
+      return NetworkReading(*field.network(solution.state()), Readout::RowsGrounded).resistances_ohm();
+    };
+    const Solution solution = coarse.solve(load);
+    const Eigen::MatrixXd found = read(onCoarse, solution);
+    const Eigen::MatrixXd better = read(onFine, fine.solve(load)).array().log().matrix() - rest;
+    const double error = (found.array().log().matrix() - rest - better).norm() / better.norm();
+    const auto estimate = discretisationError(coarse, load, solution, {}, 0, &found).resistances;
+    ASSERT_TRUE(estimate);
+    EXPECT_LT(*estimate, 3 * error);
+    EXPECT_GT(*estimate, error / 3);
+  }
+}
+
+SensorDesign piezoresistive(Readout readout = Readout::VirtualGround) {
+  SensorDesign design = smallDesign(readout);
+  design.pressureLaw = PressureLaw{};
+  return design;
+}
+
+TEST(ConductionField, UnderAPressureLawIsThatWithoutAtRestAndLowerUnderPressure) {
+  const Pressed resting(piezoresistive(), {0, 0, 0}), pressed(piezoresistive(), {0, 0, -0.8}),
+      without(smallDesign(), {0, 0, -0.8});
+  const Eigen::MatrixXd rest = logAtRest(smallDesign(), Readout::Floating);
+  EXPECT_LT((resting.logResistances(Readout::Floating) - rest).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT((pressed.logResistances(Readout::Floating) - without.logResistances(Readout::Floating)).maxCoeff(), 0);
+}
+
+/// A pressure that is the same everywhere is a conductivity that is the same everywhere.
+TEST(ConductionField, AnEvenPressureScalesAllResistances) {
+  const SensorDesign design = piezoresistive();
+  const Pressed block(design, {0, 0, 0});
+  LoadIncrement state = block.solution.state();
+  state.elementUnknowns.bottomRows(4).setConstant(-0.03); // tension positive
+  const double better = std::sqrt(1 + 0.03 / 0.05);
+  for (const Readout readout : {Readout::Floating, Readout::VirtualGround}) {
+    const Eigen::MatrixXd found =
+        NetworkReading(*block.field.network(state, 2), readout).resistances_ohm().array().log();
+    EXPECT_LT((found.array() + std::log(better) - logAtRest(design, readout).array()).abs().maxCoeff(), 1e-9);
+  }
+}
+
+TEST(ConductionField, UnderAPressureLawAFinerMeshSaysTheSame) {
+  const SensorDesign design = piezoresistive();
+  const HyperelasticProblem coarse(design, sensorMesh(design));
+  const HyperelasticProblem fine(design,
+                                 sensorMesh(design, {.meshSize_mm = 0.6 * standardMeshSize_mm(design), .mapped = {}}));
+  for (const Eigen::Vector3d& force : {Eigen::Vector3d(0.2, 0, -0.8), Eigen::Vector3d(0, -0.3, -0.4)}) {
+    const LoadCase load{{{0, force}}, {}};
+    const auto a = ConductionField(coarse).network(coarse.solve(load).state());
+    const auto b = ConductionField(fine).network(fine.solve(load).state());
+    for (const Readout readout : {Readout::Floating, Readout::VirtualGround, Readout::RowsGrounded}) {
+      const Eigen::ArrayXXd rest = logAtRest(design, readout).array();
+      const Eigen::MatrixXd there = NetworkReading(*b, readout).resistances_ohm().array().log() - rest;
+      const Eigen::MatrixXd here = NetworkReading(*a, readout).resistances_ohm().array().log() - rest;
+      EXPECT_LT((here - there).norm(), 0.05 * there.norm()) << kReadouts.name(readout);
+    }
+  }
 }
 
 TEST(ConductionField, TheCurrentsPowerIsThatOfOneVolt) {
   const SensorDesign design = smallDesign(Readout::Floating);
   const Pressed block(design);
-  const auto current = block.field.current(block.solution.state(), 0, 1);
+  const auto network = block.field.network(block.solution.state());
+  const auto current = block.field.current(block.solution.state(), *network, Readout::Floating, 0, 1);
   ASSERT_TRUE(current);
   EXPECT_GE(current->potential_V.minCoeff(), -0.05); // between those of the two wires, but for the mesh
   EXPECT_LE(current->potential_V.maxCoeff(), 1.05);
@@ -80,6 +150,10 @@ TEST(ConductionField, TheCurrentsPowerIsThatOfOneVolt) {
   const Eigen::VectorXd power =
       law.resistivity_ohm_mm * current->currentDensity_A_per_mm2.colwise().squaredNorm().transpose();
   EXPECT_LT((power - current->powerDensity_W_per_mm3).norm(), 1e-12 * power.norm());
+  const Eigen::VectorXd wires = network->counts().sumsByWire(current->electrodes_A);
+  const double ampere = 1 / NetworkReading(*network, Readout::Floating).resistances_ohm()(0, 1);
+  EXPECT_NEAR(wires(0), ampere, 1e-9 * ampere) << "the row-wire's, at 1 V";
+  EXPECT_NEAR(wires(network->counts().rowWires + 1), -ampere, 1e-9 * ampere);
 }
 
 TEST(ConductionField, StopsWhereItIsAsked) {
@@ -87,6 +161,19 @@ TEST(ConductionField, StopsWhereItIsAsked) {
   std::stop_source source;
   source.request_stop();
   EXPECT_FALSE(block.field.network(block.solution.state(), 1, source.get_token()));
+}
+
+TEST(ConductionBatch, KnowsThePressuresOfItsStates) {
+  const SensorDesign design = piezoresistive();
+  const Pressed block(design, {0.1, -0.2, -0.5});
+  const std::vector<LoadCase> loads{{{{0, {0.1, -0.2, -0.5}}}, {}}};
+  const BatchOptions options{.threads = 2};
+  BatchSolver batch(block.problem, options);
+  const auto answers = ConductionBatch(block.problem, batch, options).solve(loads, {}, {});
+  ASSERT_EQ(answers.resistances_ohm.size(), 1U);
+  const Eigen::MatrixXd rest = logAtRest(design, Readout::VirtualGround);
+  const Eigen::MatrixXd change = block.logResistances(Readout::VirtualGround) - rest;
+  EXPECT_LT((answers.resistances_ohm[0].array().log().matrix() - rest - change).norm(), 1e-4 * change.norm());
 }
 
 TEST(ConductionBatch, SolvesAndPolynomialsAgreeWithSingleStates) {

@@ -1,8 +1,11 @@
 #include "app/cli/Cli.h"
 #include "app/cli/Options.h"
 #include "app/study/decoding/Calibration.h"
+#include "app/study/decoding/RestRecording.h"
 #include "io/DecoderFile.h"
+#include "io/DesignFile.h"
 #include "io/SampleFile.h"
+#include "model/RestFit.h"
 
 #include <chrono>
 #include <cstdio>
@@ -18,6 +21,8 @@ using Json = nlohmann::ordered_json;
 struct CalibrateArguments {
   std::string network;
   std::string frames;
+  std::string rest;
+  std::string design;
   OutputFile output;
 };
 
@@ -57,7 +62,84 @@ void fill(Json& result, const CalibrationReport& report, double age_days) {
   result["age_days"] = age_days;
 }
 
+/// Of a board that says its read-out, and says another one than the design.
+void requireBoard(const CalibrateArguments& arguments, const SensorDesign& design, const RestRecording& rest) {
+  if (design.field() && rest.info.readout && *rest.info.readout != design.field()->readout)
+    throw Error(arguments.rest + ": the board is of read-out " + kReadouts.name(*rest.info.readout) +
+                ", the design of read-out " + kReadouts.name(design.field()->readout) + ": set the design's");
+  if (rest.faults.empty()) return;
+  std::string all;
+  for (const std::string& fault : rest.faults) {
+    if (all.size() > 200) {
+      all += ", ...";
+      break;
+    }
+    all += (all.empty() ? "" : "; ") + fault;
+  }
+  throw Error(arguments.rest + ": " + all + ": the field joins all wires, so mend that first");
+}
+
+void printFitted(const char* what, double value, double deviation, const char* unit) {
+  std::printf("%-12s %10.5g +- %.2g %s\n", what, value, deviation, unit);
+}
+
+void print(const RestRecording& rest, const RestFit& fit) {
+  std::printf("%d readings at rest, mean of %d frames, noise of the mean %.2g of R; the fit leaves %.2g (rms)\n",
+              fit.readings, rest.frames, rest.noise, fit.misfit);
+  printFitted("radius", fit.law.electrodeRadius_mm, fit.radiusDeviation_mm, "mm");
+  printFitted("resistivity", fit.law.resistivity_ohm_mm, fit.resistivityDeviation_ohm_mm, "ohm mm");
+  if (fit.keptContact.empty()) {
+    printFitted("contact", fit.law.contact_ohm_mm2, fit.contactDeviation_ohm_mm2, "ohm mm2");
+    std::printf("radius and contact go together: correlation %.4f\n", fit.correlation);
+  } else {
+    std::printf("%-12s %10.5g ohm mm2, not fitted: %s\n", "contact", fit.law.contact_ohm_mm2, fit.keptContact.c_str());
+  }
+}
+
+void fill(nlohmann::ordered_json& result, const RestRecording& rest, const RestFit& fit, const std::string& whyNot) {
+  result["frames"] = rest.frames;
+  result["readings"] = fit.readings;
+  result["noise"] = rest.noise;
+  result["misfit"] = fit.misfit;
+  result["electrode_radius_mm"] = fit.law.electrodeRadius_mm;
+  result["electrode_radius_deviation_mm"] = fit.radiusDeviation_mm;
+  result["resistivity_ohm_mm"] = fit.law.resistivity_ohm_mm;
+  result["resistivity_deviation_ohm_mm"] = fit.resistivityDeviation_ohm_mm;
+  result["contact_ohm_mm2"] = fit.law.contact_ohm_mm2;
+  result["contact_deviation_ohm_mm2"] = fit.keptContact.empty() ? Json(fit.contactDeviation_ohm_mm2) : Json();
+  result["contact_kept"] = fit.keptContact;
+  result["why_no_fit"] = whyNot;
+}
+
+/// Fits the design's law of the field to a board at rest; writes no design that does not fit.
+Exit runRest(const CalibrateArguments& arguments, Session& session) {
+  if (!arguments.network.empty() || arguments.design.empty())
+    throw UsageError("--rest fits a design: give --design, and no network and frames");
+  arguments.output.requireWritable();
+  SensorDesign design = designOption(arguments.design);
+  const RestRecording rest = readRest(arguments.rest);
+  requireBoard(arguments, design, rest);
+  const auto [fit, whyNot] = session.stages.measure("train", [&] {
+    const RestFit found = fitAtRest(design, rest.resistances_ohm, rest.noise);
+    return std::pair{found, whyNoFit(found, design, rest.resistances_ohm, rest.noise)};
+  });
+  design.resistance = fit.law;
+  fill(session.result, rest, fit, whyNot);
+  if (!session.json) print(rest, fit);
+  if (!whyNot.empty()) {
+    std::cerr << "palp calibrate: " << arguments.rest << ": " << whyNot << '\n';
+    return Exit::NoResult;
+  }
+  saveDesign(arguments.output.path, design, arguments.output.force);
+  session.result["file"] = arguments.output.path.string();
+  if (!session.json) std::cout << arguments.output.path.string() << " written\n";
+  return Exit::Done;
+}
+
 Exit run(const CalibrateArguments& arguments, Session& session) {
+  if (!arguments.rest.empty()) return runRest(arguments, session);
+  if (arguments.network.empty() || arguments.frames.empty() || !arguments.design.empty())
+    throw UsageError("give a network and labelled frames, or --rest RECORDING --design DESIGN");
   arguments.output.requireWritable();
   const Decoder decoder = readNetwork(arguments.network);
   const SampleSet frames = loadSamples(arguments.frames);
@@ -83,12 +165,16 @@ Exit run(const CalibrateArguments& arguments, Session& session) {
 
 void addCalibrate(Cli& cli) {
   auto arguments = std::make_shared<CalibrateArguments>();
-  Command command = cli.command("calibrate", "refine a network with labelled frames of a real board",
-                                "palp calibrate network.json frames.csv -o better.json",
-                                [arguments](Session& session) { return run(*arguments, session); });
-  command.option("network", arguments->network, "network file (rbf or ml, one force)").required();
-  command.option("frames", arguments->frames, "labelled frames, from palp listen --label ... --append").required();
-  arguments->output.declare(command, "network file to write").required();
+  Command command =
+      cli.command("calibrate", "refine a network with labelled frames of a real board, or fit a design to it at rest",
+                  "palp calibrate network.json frames.csv -o better.json",
+                  [arguments](Session& session) { return run(*arguments, session); });
+  command.option("network", arguments->network, "network file (rbf or ml, one force)");
+  command.option("frames", arguments->frames, "labelled frames, from palp listen --label ... --append");
+  command.option("--rest", arguments->rest,
+                 "recording of the board at rest: fits electrode radius, resistivity and contact of the field");
+  command.option("--design", arguments->design, "design under the field that --rest starts from");
+  arguments->output.declare(command, "network or, with --rest, design file to write").required();
 }
 
 } // namespace palp

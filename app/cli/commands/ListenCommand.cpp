@@ -6,6 +6,7 @@
 #include "app/study/live/LiveSource.h"
 #include "io/AtomicFile.h"
 #include "io/DecoderFile.h"
+#include "io/DesignFile.h"
 #include "io/Fingerprint.h"
 
 #include <cstdio>
@@ -71,7 +72,11 @@ LiveOptions liveOptions(const ListenArguments& arguments) {
     options.decoder = readNetwork(arguments.network);
   else if (arguments.simulate && arguments.samples.empty())
     options.decoder = readNetwork(shippedNetwork());
-  if (!arguments.design.empty()) options.design = pairsDesignOption(arguments.design, "listen");
+  if (!arguments.design.empty()) options.design = designOption(arguments.design);
+  if (options.decoder && options.design && designFingerprint(*options.design) != options.decoder->designFingerprint)
+    throw UsageError("--design " + arguments.design + " is of design " + designFingerprint(*options.design) +
+                     ", the network of " + options.decoder->designFingerprint +
+                     "; give the design that it was trained for");
   options.tareFrames = wholeNumber("--tare", arguments.tare, 0, 100'000);
   options.ringFrames = 8192;
   if (arguments.simulate || !arguments.replay.empty()) {
@@ -140,8 +145,19 @@ void printLine(const LiveStatus& status, const LiveFrame& live) {
   std::fflush(stdout);
 }
 
-void fillTotals(Session& session, const LiveStatus& status) {
+/// Whether the board's read-out can be held against the network's.
+void tellReadout(Session& session, const LiveStatus& status, const std::optional<Readout>& networks) {
+  if (!status.info) return;
+  const std::optional<Readout>& boards = status.info->readout;
+  session.result["readout"] = boards ? Json(kReadouts.name(*boards)) : Json();
+  if (networks && !boards)
+    session.warnings.push_back("the board does not say its read-out; the network was trained for " +
+                               kReadouts.name(*networks));
+}
+
+void fillTotals(Session& session, const LiveStatus& status, const std::optional<Readout>& networksReadout = {}) {
   Json& result = session.result;
+  tellReadout(session, status, networksReadout);
   result["source"] = status.source;
   result["state"] = name(status.state);
   if (!status.reason.empty()) result["reason"] = status.reason;
@@ -294,6 +310,7 @@ Exit run(const ListenArguments& arguments, Session& session) {
   if (!arguments.record.empty()) requireFree(arguments.record, arguments.force);
   LiveOptions options = liveOptions(arguments);
   std::optional<FrameAverage> average = labelledFrame(arguments, options);
+  const std::optional<Readout> networksReadout = options.decoder ? options.decoder->readout : std::nullopt;
   LiveSession live(std::move(options));
   if (!arguments.row.empty()) configureRow(live, arguments.row);
   if (arguments.check) return check(live, arguments, session, seconds > 0 ? seconds : kCheck_s);
@@ -305,7 +322,7 @@ Exit run(const ListenArguments& arguments, Session& session) {
   }
   live.stop();
   const LiveStatus status = live.status();
-  fillTotals(session, status);
+  fillTotals(session, status, networksReadout);
   return well && status.counts.reports > 0 ? Exit::Done : Exit::NoResult;
 }
 

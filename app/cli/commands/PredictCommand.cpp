@@ -91,6 +91,7 @@ Exit run(const Arguments& arguments, Session& session) {
   const int seed = wholeNumber("--seed", arguments.seed, 0, 2'147'483'647);
   const Decoder decoder = readNetwork(arguments.network);
   const SampleSet samples = loadSamples(arguments.samples);
+  requireReadout(decoder, samples.origin.readout, "the samples are");
   const Eigen::MatrixXd clean = inputsOf(samples, decoder.input);
   const Eigen::MatrixXd inputs = noisyCopies(clean, options.noise, 1, static_cast<std::uint64_t>(seed));
   Prediction prediction = session.stages.measure("predict", [&] { return predict(decoder, inputs, options); });

@@ -166,8 +166,8 @@ Exit run(const SolveArguments& arguments, Session& session) {
     const NodalFields fields = touch.problem()->fields(touch.solution()->state());
     std::optional<CurrentField> current;
     if (pair)
-      current =
-          touch.field()->current(touch.solution()->state(), pair->first, pair->second, session.threads, session.stop);
+      current = touch.field()->current(touch.solution()->state(), *touch.network(), touch.design().field()->readout,
+                                       pair->first, pair->second, session.threads, session.stop);
     stopIfAsked(session.stop);
     exportVtu(arguments.output, *touch.mesh(), &fields, current ? &*current : nullptr, session);
   }

@@ -63,7 +63,7 @@ Exit run(const Arguments& arguments, Session& session) {
   arguments.output.requireWritable();
   const SampleSet samples = loadSamples(arguments.samples);
   std::optional<SensorDesign> design;
-  if (!arguments.design.empty()) design = pairsDesignOption(arguments.design, "train");
+  if (!arguments.design.empty()) design = designOption(arguments.design);
   const Decoder decoder = session.stages.measure("train", [&] {
     ProgressBar bar("training", 1000);
     return trainDecoder(samples, design ? &*design : nullptr, options, session.stop,
@@ -93,7 +93,7 @@ void addTrain(Cli& cli) {
                                 [arguments](Session& session) { return run(*arguments, session); });
   command.option("samples", arguments->samples, "sample file").required();
   arguments->train.declare(command, true);
-  command.option("--design", arguments->design, "design file, or paper; two-step-gn inverts its Eq. (1)");
+  command.option("--design", arguments->design, "design file, or paper; two-step-gn inverts its resistance law");
   arguments->output.declare(command, "network file to write").required();
 }
 

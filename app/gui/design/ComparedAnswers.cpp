@@ -3,7 +3,6 @@
 #include "app/gui/design/BoundWords.h"
 #include "app/gui/design/RestFloor.h"
 #include "app/gui/jobs/MatchedLoad.h"
-#include "app/gui/jobs/TouchResistances.h"
 #include "app/study/touch/Touch.h"
 #include "model/base/Error.h"
 
@@ -18,9 +17,8 @@ namespace {
 /// A design under a load.
 struct Answer {
   double largest_mm = 0;                    ///< displacement
-  Eigen::MatrixXd change;                   ///< dR / R at rest [%]; empty where the law has none
+  Eigen::MatrixXd change;                   ///< dR / R at rest [%]
   std::optional<Eigen::Matrix3Xd> upper_mm; ///< displacements of the upper electrodes
-  QString noChange;                         ///< why that is
   QString problem;                          ///< why there is no answer
 };
 
@@ -29,16 +27,15 @@ Answer answerOf(const SensorDesign& design, const LoadCase& load, const SensorDe
   Answer answer;
   try {
     Touch touch(design, matchedLoad(load, loaded, design), mesh);
-    const bool good = touch.advance(Stage::Displacements, {}, {.step = {}, .stop = stop});
+    const bool good = touch.advance(Stage::Resistances, {}, {.step = {}, .stop = stop});
     if (stop.stop_requested()) return answer;
     if (!good) {
       answer.problem = QString::fromStdString(touch.solution()->stopReason);
       return answer;
     }
     answer.largest_mm = touch.solution()->state().displacements_mm.colwise().norm().maxCoeff();
-    if (const auto resistances = resistancesOf(design, *touch.displacements()))
-      answer.change = 100 * (resistances->now_ohm - resistances->rest_ohm).cwiseQuotient(resistances->rest_ohm);
-    answer.noChange = whyNoResistances(design);
+    const Eigen::MatrixXd rest_ohm = resistancesAtRest_ohm(design);
+    answer.change = 100 * (*touch.resistances_ohm() - rest_ohm).cwiseQuotient(rest_ohm);
     answer.upper_mm = touch.displacements()->upper_mm;
   } catch (const Error& error) {
     answer.problem = error.what();
@@ -59,9 +56,7 @@ QString answerWords(const Answer& earlier, const Answer& now, const DesignsCompa
   if (earlier.upper_mm->cols() == now.upper_mm->cols())
     words += QObject::tr("<br>How the upper electrodes are displaced differs by up to %1 mm.")
                  .arg((*now.upper_mm - *earlier.upper_mm).colwise().norm().maxCoeff(), 0, 'f', 4);
-  if (const QString why = earlier.noChange.isEmpty() ? now.noChange : earlier.noChange; !why.isEmpty())
-    words += "<br>" + why;
-  else if (earlier.change.rows() != now.change.rows() || earlier.change.cols() != now.change.cols())
+  if (earlier.change.rows() != now.change.rows() || earlier.change.cols() != now.change.cols())
     words += QObject::tr("<br>They have other numbers of wires: their resistances are not compared cell by cell.");
   return words;
 }

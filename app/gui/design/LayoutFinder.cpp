@@ -63,8 +63,11 @@ LayoutFinder::LayoutFinder(Workbench& workbench, QWidget* parent) : QWidget(pare
   connect(&runner_, &JobRunner::failed, words_, &QLabel::setText);
   connect(&runner_, &JobRunner::started, this, &LayoutFinder::displayProject);
   connect(&runner_, &JobRunner::finished, this, [this](bool cancelled) {
+    if (cancelled) shown_.reset(); // what was found before is shown again
     displayProject();
-    if (cancelled) words_->setText(tr("Stopped; nothing was changed."));
+    if (!cancelled) return;
+    const QString before = shown_ ? tr(" Found before:<br>") + words_->text() : QString();
+    words_->setText(tr("Stopped; nothing was changed.") + before);
   });
   connect(&workbench_, &Workbench::projectReplaced, this, [this] {
     if (runner_.running()) runner_.cancel();

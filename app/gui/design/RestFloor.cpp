@@ -46,7 +46,7 @@ std::shared_ptr<const RestFloor> restFloor(const SensorDesign& design, const Mes
   }
   progress(0.7, "The field at rest");
   if (design.field() != nullptr)
-    floor.field = std::make_shared<const FieldResponse>(design, *design.field(), *floor.block, 0);
+    floor.field = std::make_shared<const FieldResponse>(design, *design.field(), *floor.block, 0, 1, stop);
   if (stop.stop_requested()) return nullptr;
   return std::make_shared<const RestFloor>(std::move(floor));
 }

@@ -81,10 +81,12 @@ Project Document::project() const {
 }
 
 bool Document::unsaved() const {
+  return workbench_.modified() || resultsUnsaved();
+}
+
+bool Document::resultsUnsaved() const {
   const NetworkResults& made = network_.results();
-  const bool results =
-      network_.upToDate() && (made.samples != savedSamples_ || made.fit != savedFit_ || made.listed() != savedList_);
-  return workbench_.modified() || results;
+  return network_.upToDate() && (made.samples != savedSamples_ || made.fit != savedFit_ || made.listed() != savedList_);
 }
 
 void Document::showTitle() {
@@ -97,12 +99,22 @@ void Document::showTitle() {
 
 bool Document::mayLeave() {
   if (!unsaved()) return true;
-  const bool named = !workbench_.file().isEmpty();
-  const QString name = QFileInfo(workbench_.file()).fileName();
-  QMessageBox question(QMessageBox::Question, tr("Save the project?"),
-                       workbench_.modified()
-                           ? tr("%1 has changes that are not saved.").arg(named ? name : tr("The project"))
-                           : tr("The samples and networks of %1 are not saved.").arg(named ? name : tr("the project")),
+  const QString file = workbench_.file();
+  const QString name = file.isEmpty() ? tr("the project") : QFileInfo(file).fileName();
+  const auto what = [&] {
+    switch (workbench_.modification()) {
+    case Workbench::Modified::Project:
+      return file.isEmpty() ? tr("The project has changes that are not saved.")
+                            : tr("%1 has changes that are not saved.").arg(name);
+    case Workbench::Modified::LiveSettings:
+      if (resultsUnsaved()) break; // the dearer half is named
+      return tr("Settings of the Live scene have changed and are not saved in %1.").arg(name);
+    case Workbench::Modified::Nothing:
+      break;
+    }
+    return tr("The samples and networks of %1 are not saved.").arg(name);
+  };
+  QMessageBox question(QMessageBox::Question, tr("Save the project?"), what(),
                        QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, &window_);
   question.setObjectName("unsaved");
   question.setDefaultButton(QMessageBox::Save);

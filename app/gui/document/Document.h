@@ -33,6 +33,8 @@ public:
   [[nodiscard]] Project project() const;
   /// Something would be lost if the program ended now.
   [[nodiscard]] bool unsaved() const;
+  /// Samples or networks would be.
+  [[nodiscard]] bool resultsUnsaved() const;
   /// Nothing is unsaved, or the user has saved it or lets it go.
   bool mayLeave();
   /// A file of ours: a design or a project in place of what is open (asks first), samples and networks in the Network

@@ -9,7 +9,17 @@ namespace palp {
 
 namespace {
 
-/// Linear between the equilibria that were computed, as the scenes draw the load path.
+constexpr int kKeepFieldFor_ms = 5000;
+constexpr std::size_t kKnownStates = 8; ///< a hundred kilobytes each: scrubbing there and back
+
+/// As it is computed, for all read-outs.
+SensorDesign readSomehow(SensorDesign design) {
+  std::get<FieldLaw>(design.resistance).readout = Readout::Floating;
+  return design;
+}
+
+} // namespace
+
 LoadIncrement stateAt(const Solution& solution, double fraction) {
   const auto& all = solution.increments;
   const auto after =
@@ -25,15 +35,35 @@ LoadIncrement stateAt(const Solution& solution, double fraction) {
   return state;
 }
 
-} // namespace
+std::shared_ptr<const FieldFound> fieldFound(const Touch& touch, double loadFraction, const ConductionField& field,
+                                             const std::stop_token& stop) {
+  auto now = field.network(stateAt(*touch.solution(), loadFraction), 0, stop);
+  if (!now || stop.stop_requested()) return {};
+  const TerminalNetwork rest = networkAtRest(touch.design(), *touch.design().field());
+  auto found = std::make_shared<FieldFound>(FieldFound{std::move(*now), {}});
+  for (const auto& [readout, name] : kReadouts.all())
+    found->read.push_back(
+        {NetworkReading(rest, readout).resistances_ohm(), NetworkReading(found->network, readout).resistances_ohm()});
+  return found;
+}
+
+std::optional<TouchResistances> fieldResistances(const Touch& touch, double loadFraction, const std::stop_token& stop) {
+  const auto found = fieldFound(touch, loadFraction, ConductionField(*touch.problem()), stop);
+  if (!found) return {};
+  return found->read[static_cast<std::size_t>(touch.design().field()->readout)];
+}
 
 FieldTouch::FieldTouch(QObject* parent) : QObject(parent) {
+  idle_.setSingleShot(true);
+  idle_.setInterval(kKeepFieldFor_ms);
+  connect(&idle_, &QTimer::timeout, this, [this] { kept_.reset(); });
+  connect(&runner_, &JobRunner::finished, &idle_, qOverload<>(&QTimer::start));
   connect(&runner_, &JobRunner::failed, this, [this](const QString& sentence) {
     problem_ = sentence;
     emit changed();
   });
   connect(&runner_, &JobRunner::finished, this, [this](bool cancelled) {
-    if (!cancelled || !read_.empty()) return;
+    if (!cancelled || !wanted_ || find(*wanted_)) return;
     problem_ = tr("The field was not computed: stopped. Another scene and back computes it.");
     emit changed();
   });
@@ -42,57 +72,73 @@ FieldTouch::FieldTouch(QObject* parent) : QObject(parent) {
 FieldTouch::~FieldTouch() = default;
 
 FieldTouch::Inputs FieldTouch::inputsOf(const Touch& touch, double loadFraction) {
-  Inputs inputs{touch.design(), touch.load(), touch.meshOptions(), loadFraction};
-  std::get<FieldLaw>(inputs.design.resistance).readout = Readout::Floating;
-  return inputs;
+  return {readSomehow(touch.design()), touch.load(), touch.meshOptions(), loadFraction};
+}
+
+std::shared_ptr<const FieldFound> FieldTouch::find(const Inputs& inputs) const {
+  const auto known = std::find_if(known_.begin(), known_.end(), [&](const Known& one) { return one.inputs == inputs; });
+  return known == known_.end() ? nullptr : known->found;
 }
 
 void FieldTouch::want(const Touch& touch, double loadFraction) {
   if (touch.design().field() == nullptr || touch.solution() == nullptr) return;
   Inputs inputs = inputsOf(touch, loadFraction);
   if (wanted_ == inputs) return;
-  wanted_ = std::move(inputs);
-  read_.clear();
+  wanted_ = inputs;
   problem_.clear();
-  auto before = kept_ && kept_->touch.problem() == touch.problem() ? kept_->field : nullptr;
-  runner_.start(
-      tr("Computing the conduction field"),
-      [this, touch, loadFraction, before](const std::stop_token& stop, JobProgress& progress) -> JobRunner::Taking {
-        progress.set(-1, "The conduction field of the deformed block");
-        const auto field = before ? before : std::make_shared<const ConductionField>(*touch.problem());
-        const auto now = field->network(stateAt(*touch.solution(), loadFraction), 0, stop);
-        if (!now || stop.stop_requested()) return {};
-        const TerminalNetwork rest = networkAtRest(touch.design(), *touch.design().field());
-        std::vector<TouchResistances> read;
-        for (const auto& [readout, name] : kReadouts.all())
-          read.push_back(
-              {NetworkReading(rest, readout).resistances_ohm(), NetworkReading(*now, readout).resistances_ohm()});
-        return [this, read, touch, field] {
-          read_ = read;
-          kept_ = Kept{touch, field};
-          emit changed();
-        };
-      });
+  if (find(inputs)) {
+    runner_.cancel(); // another state, which nobody looks at any more
+    return;
+  }
+  runner_.start(tr("Computing the conduction field"),
+                [this, touch, inputs, before = field(touch)](const std::stop_token& stop,
+                                                             JobProgress& progress) -> JobRunner::Taking {
+                  progress.set(-1, "The conduction field of the deformed block");
+                  const auto field = before ? before : std::make_shared<const ConductionField>(*touch.problem());
+                  const auto found = fieldFound(touch, inputs.loadFraction, *field, stop);
+                  if (!found) return {};
+                  return [this, found, inputs, touch, field] {
+                    known_.push_front({inputs, found});
+                    const Inputs end = inputsOf(touch, touch.solution()->reachedLoadFraction);
+                    while (known_.size() > kKnownStates) {
+                      auto oldest = std::prev(known_.end());
+                      if (oldest->inputs == end) --oldest; // its colours hold on the whole load path
+                      known_.erase(oldest);
+                    }
+                    kept_ = Kept{touch, field};
+                    ++runs_;
+                    emit changed();
+                  };
+                });
+}
+
+std::shared_ptr<const ConductionField> FieldTouch::field(const Touch& touch) const {
+  const bool same = kept_ && kept_->touch.mesh() == touch.mesh() && touch.design().field() != nullptr &&
+                    readSomehow(kept_->touch.design()) == readSomehow(touch.design());
+  return same ? kept_->field : nullptr;
+}
+
+std::shared_ptr<const FieldFound> FieldTouch::found(const Touch& touch, double loadFraction) const {
+  return touch.design().field() == nullptr ? nullptr : find(inputsOf(touch, loadFraction));
 }
 
 std::optional<TouchResistances> FieldTouch::of(const Touch& touch, double loadFraction) const {
-  const FieldLaw* law = touch.design().field();
-  if (read_.empty() || law == nullptr || wanted_ != inputsOf(touch, loadFraction)) return {};
-  return read_[static_cast<std::size_t>(law->readout)];
+  const auto known = found(touch, loadFraction);
+  if (!known) return {};
+  return known->read[static_cast<std::size_t>(touch.design().field()->readout)];
 }
 
 void FieldTouch::retry() {
   if (problem_.isEmpty()) return;
   problem_.clear();
   wanted_.reset();
+  emit changed(); // the scene that shows it wants it again
 }
 
-void FieldTouch::forget() {
-  runner_.cancel();
+void FieldTouch::leave() {
   wanted_.reset();
-  read_.clear();
-  kept_.reset();
   problem_.clear();
+  runner_.cancel();
 }
 
 } // namespace palp

@@ -65,7 +65,8 @@ KeptPath keptPath(const SensorDesign& kept, const Touch& shown, const std::stop_
   stopIfAsked(stop);
   if (!good) throw Error("the kept design cannot bear the load: " + touch.solution()->stopReason);
   touch.problem()->releaseFactor();
-  KeptPath path{kept, load, loadPathStates(touch, stop)};
+  KeptPath path{kept, load, loadPathStates(touch, stop), {}};
+  if (kept.field() != nullptr) path.touch = touch;
   stopIfAsked(stop);
   const Eigen::Vector3d shares = kept.block_mm.cwiseQuotient(shown.design().block_mm);
   const Eigen::Matrix3Xd places = (shares.asDiagonal() * shown.mesh()->nodes_mm)
@@ -91,7 +92,7 @@ KeptTouch::KeptTouch(QObject* parent) : QObject(parent) {
 }
 
 bool KeptTouch::wanted(const SensorDesign& kept, const Touch& shown) const {
-  return wanted_ && wanted_->kept == kept && wanted_->shown.design() == shown.design() &&
+  return wanted_ && wanted_->kept == kept && sameButForLaw(wanted_->shown.design(), shown.design()) &&
          wanted_->shown.load() == shown.load() && wanted_->shown.meshOptions() == shown.meshOptions();
 }
 

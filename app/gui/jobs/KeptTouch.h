@@ -17,6 +17,7 @@ struct KeptPath {
   LoadCase load; ///< as it acts on it: matchedLoad()
   /// The equilibria on its load path, their fields at the nodes of the shown touch's mesh.
   std::vector<LoadPathState> states;
+  std::optional<Touch> touch; ///< under the law of the field, for the resistances
 
   [[nodiscard]] LoadPathState at(double fraction) const { return stateAt(states, fraction); }
 };

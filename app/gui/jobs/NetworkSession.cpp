@@ -141,13 +141,15 @@ bool NetworkSession::fitIsCurrent() const {
 
 void NetworkSession::take(const std::shared_ptr<NetworkFit>& fit, const QString& slide) {
   auto& kept = shown_.kept;
-  if (!slide.isEmpty() && slide == lastSlide_ && !kept.empty() && kept.front()->name.isEmpty()) dropKept(0);
+  const bool slides = !slide.isEmpty() && slide == lastSlide_ && !kept.empty() && kept.front()->name.isEmpty();
+  if (slides) dropKept(0);
   lastSlide_ = slide;
   const auto known = std::find_if(kept.begin(), kept.end(), [&](const auto& other) { return same(*fit, *other); });
   if (known != kept.end()) {
     fit->name = (*known)->name;
     dropKept(static_cast<std::size_t>(known - kept.begin()));
   }
+  if (!slides) shown_.before = shown_.fit;
   shown_.fit = fit;
   kept.insert(kept.begin(), fit);
   forgetOldest();

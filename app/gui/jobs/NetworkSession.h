@@ -67,6 +67,7 @@ struct NetworkResults {
   SensorDesign design;
   std::shared_ptr<const NetworkSamples> samples;
   std::shared_ptr<const NetworkFit> fit;
+  std::shared_ptr<const NetworkFit> before;            ///< that was shown when the newest was trained; to compare with
   std::vector<std::shared_ptr<const NetworkFit>> kept; ///< that can be gone back to, the newest first
   std::set<QDateTime> takenAway;                       ///< when the networks were made that were taken off that list
   std::vector<SweepPoint> sweep;
@@ -134,6 +135,8 @@ public:
   [[nodiscard]] bool fitIsCurrent() const;
   /// Networks of this design that can be gone back to, the newest first.
   [[nodiscard]] const std::vector<std::shared_ptr<const NetworkFit>>& kept() const { return shown_.kept; }
+  /// The network that was shown when the newest one was trained; null where none was.
+  [[nodiscard]] const NetworkFit* before() const { return shown_.before.get(); }
   /// Shows one of them again, tried on the samples that are there now.
   void goBackTo(std::size_t kept);
   void takeAway(std::size_t kept);

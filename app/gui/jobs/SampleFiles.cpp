@@ -112,6 +112,23 @@ std::vector<Shards> requestsOf(const std::vector<fs::path>& files, const fs::pat
   return requests;
 }
 
+/// Whether a file that nobody named holds samples of the design.
+bool isOf(const SensorDesign& design, const fs::path& file) {
+  try {
+    requireOf(design, loadSamples(file), file);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+/// "test" in place of "train" in the name; the file itself where it has none.
+fs::path testForTrain(const fs::path& file) {
+  std::string name = file.filename().string();
+  if (const std::size_t at = name.rfind("train"); at != std::string::npos) name.replace(at, 5, "test");
+  return file.parent_path() / name;
+}
+
 /// The one of two files that is for testing by its name.
 fs::path testAmong(const std::vector<fs::path>& files) {
   if (files.size() != 2) return {};
@@ -151,7 +168,13 @@ NetworkSamples openTheseSampleFiles(const std::vector<fs::path>& files, const Se
 NetworkSamples openSampleFiles(const std::vector<fs::path>& files, const SensorDesign& design,
                                const std::stop_token& stop) {
   std::vector<fs::path> all = files;
-  if (files.size() == 1 && fs::exists(testFileOf(files[0]))) all.push_back(testFileOf(files[0]));
+  if (files.size() == 1) {
+    const fs::path ours = testFileOf(files[0]), guessed = testForTrain(files[0]);
+    if (fs::exists(ours))
+      all.push_back(ours);
+    else if (guessed != files[0] && fs::exists(guessed) && isOf(design, guessed))
+      all.push_back(guessed);
+  }
   return openTheseSampleFiles(all, design, stop);
 }
 

@@ -4,10 +4,13 @@
 #include "app/study/touch/SampleGenerator.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace palp {
 
 namespace {
+
+constexpr double kFitsShare = 0.9; ///< of the time for samples by surrogates
 
 /// An empty set made wide enough for all that is asked.
 SampleSet allocated(SampleSet set, std::size_t total) {
@@ -33,27 +36,33 @@ bool SampleGeneration::make(StageLog& stages, const std::stop_token& stop, JobPr
   progress.set(-1, "Meshing and preparing the solver");
   clock_.start();
   left_ = {};
+  SampleRequest request;
+  request.perArea = settings_.perArea;
+  request.surrogate = settings_.surrogate;
+  request.mesh = mesh_;
+  SampleGenerator generator(design_, request); // both sets need one preparation
+  bool fits = false;
+  generator.whileFitting([&](std::size_t done, std::size_t all) {
+    if (!std::exchange(fits, true)) fitsBegun_s_ = now_s();
+    reportFits(done, all, progress);
+  });
   bool whole = true;
-  for (const std::size_t set : {0, 1}) whole = whole && makeSet(set, stages, stop, progress);
+  for (const std::size_t set : {0, 1}) whole = whole && makeSet(set, generator, stop, progress);
+  batchError_ = std::max(batchError_, generator.measuredError());
+  stages.add(generator.stages());
   took_s_ += now_s();
   return whole;
 }
 
-bool SampleGeneration::makeSet(std::size_t set, StageLog& stages, const std::stop_token& stop, JobProgress& progress) {
-  const double begun_s = now_s();
-  SampleRequest request;
-  request.perArea = settings_.perArea;
-  request.surrogate = settings_.surrogate;
-  request.seed = set == 1 ? testSeed(settings_.seed) : settings_.seed;
-  request.mesh = mesh_;
-  SampleGenerator generator(design_, request);
+bool SampleGeneration::makeSet(std::size_t set, SampleGenerator& generator, const std::stop_token& stop,
+                               JobProgress& progress) {
+  generator.setSeed(set == 1 ? testSeed(settings_.seed) : settings_.seed);
   total_[set] = generator.total();
   const std::size_t kept = made_[set];
   if (kept == total_[set] && kept > 0) return true;
   SampleSet empty = generator.emptySet(stop); // prepares
   if (stop.stop_requested()) return false;
   if (kept == 0) sets_[set] = allocated(std::move(empty), total_[set]);
-  preparation_s_ = now_s() - begun_s;
   left_.begin(static_cast<double>(made_[0] + made_[1]), now_s());
   generator.generate(
       {kept, total_[set]},
@@ -63,17 +72,24 @@ bool SampleGeneration::makeSet(std::size_t set, StageLog& stages, const std::sto
       },
       [&](std::size_t done) { report(set, kept + done, progress); }, stop);
   left_.pause(static_cast<double>(made_[0] + made_[1]), now_s());
-  batchError_ = std::max(batchError_, generator.measuredError());
-  stages.add(generator.stages());
   return made_[set] == total_[set];
 }
 
 void SampleGeneration::report(std::size_t set, std::size_t done, JobProgress& progress) const {
   const std::size_t all = 2 * total_[set], there = done + (set == 1 ? total_[0] : 0);
-  std::optional<double> left_s = left_.left_s(static_cast<double>(there), static_cast<double>(all), now_s());
-  if (left_s && set == 0) *left_s += preparation_s_; // of the samples for testing
-  progress.set(static_cast<double>(there) / static_cast<double>(all),
-               "Sample " + std::to_string(there) + " of " + std::to_string(all) + leftInWords(left_s));
+  const auto made = static_cast<double>(there), wanted = static_cast<double>(all);
+  const double fits = settings_.surrogate ? kFitsShare : 0;
+  progress.set(fits + (1 - fits) * made / wanted, "Sample " + std::to_string(there) + " of " + std::to_string(all) +
+                                                      leftInWords(left_.left_s(made, wanted, now_s())));
+}
+
+void SampleGeneration::reportFits(std::size_t done, std::size_t all, JobProgress& progress) const {
+  TimeLeft left; // one area takes about as long as another
+  left.begin(0, fitsBegun_s_);
+  const auto made = static_cast<double>(done), wanted = static_cast<double>(all);
+  progress.set(kFitsShare * made / wanted, "Surrogate of area " + std::to_string(done) + " (" +
+                                               std::to_string(done + 1) + " of " + std::to_string(all) + ")" +
+                                               leftInWords(left.left_s(made, wanted, now_s())));
 }
 
 std::shared_ptr<const NetworkSamples> SampleGeneration::samples() {

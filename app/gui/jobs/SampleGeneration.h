@@ -7,6 +7,8 @@
 
 namespace palp {
 
+class SampleGenerator;
+
 /// Samples on the way, for a job: training samples first, then those for testing. Sample i depends on the request and i
 /// alone, so that what was stopped goes on to the same bytes.
 class SampleGeneration {
@@ -26,8 +28,9 @@ public:
   [[nodiscard]] std::array<std::size_t, 2> state() const;
 
 private:
-  bool makeSet(std::size_t set, StageLog& stages, const std::stop_token& stop, JobProgress& progress);
+  bool makeSet(std::size_t set, SampleGenerator& generator, const std::stop_token& stop, JobProgress& progress);
   void report(std::size_t set, std::size_t done, JobProgress& progress) const;
+  void reportFits(std::size_t done, std::size_t all, JobProgress& progress) const;
   [[nodiscard]] double now_s() const { return 1e-3 * static_cast<double>(clock_.elapsed()); }
 
   SampleSettings settings_;
@@ -39,8 +42,8 @@ private:
   double batchError_ = 0;
   QElapsedTimer clock_; ///< of this run
   TimeLeft left_;
-  double took_s_ = 0;        ///< all runs together
-  double preparation_s_ = 0; ///< of a set, mesh and solver
+  double fitsBegun_s_ = 0; ///< of the surrogates
+  double took_s_ = 0;      ///< all runs together
 };
 
 } // namespace palp

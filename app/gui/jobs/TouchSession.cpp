@@ -40,7 +40,20 @@ void TouchSession::setInputs(const SensorDesign& design, const LoadCase& load, c
   wanted_.setLoad(load);
   wanted_.setMeshOptions(mesh);
   ++revision_;
+  if (takeLaw()) return;
   if (need_ > Stage::Design) run();
+}
+
+bool TouchSession::takeLaw() {
+  if (wanted_.solution() == nullptr || wanted_.solution() != shown_.solution() || !computable()) return false;
+  runner_.cancel(); // it follows inputs that came between
+  scrubbing_.reset();
+  wanted_.advance(target()); // Eq. (1) at most
+  shown_ = wanted_;
+  shownRevision_ = revision_;
+  stages_ = wanted_.stages();
+  emit changed(false);
+  return true;
 }
 
 void TouchSession::need(Stage stage) {

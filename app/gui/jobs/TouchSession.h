@@ -80,6 +80,8 @@ signals:
 
 private:
   void run();
+  /// Another law of the resistances alone: what is shown stays, read by it.
+  [[nodiscard]] bool takeLaw();
   /// What is needed, as far as the law of the design lets a touch be followed.
   [[nodiscard]] Stage target() const;
   /// The job that runs computes the inputs as they are now.

@@ -13,6 +13,8 @@
 #include <QStyle>
 #include <QVBoxLayout>
 
+#include <utility>
+
 namespace palp {
 
 namespace {
@@ -95,10 +97,13 @@ void ReplayBar::buildTimeLine() {
   place_->setKeyboardTracking(false);
   length_ = new QLabel;
   length_->setObjectName("replayLength");
-  typed_ = place_->findChild<QLineEdit*>();
   connect(place_, &QDoubleSpinBox::valueChanged, this, [this](double to_s) {
-    typed_->setModified(false);
+    sought_ = true;
     host_.seek(to_s);
+  });
+  connect(place_->findChild<QLineEdit*>(), &QLineEdit::returnPressed, this, [this] {
+    if (!std::exchange(sought_, false)) host_.seek(place_->value()); // the number that stood there already
+    line_->setFocus();                                               // the box follows the recording again
   });
   connect(back_, &QPushButton::clicked, this, [this] { host_.step(-1); });
   connect(pause_, &QPushButton::clicked, this, [this] {
@@ -187,7 +192,7 @@ void ReplayBar::displayState() {
   step_->setEnabled(!ended);
   back_->setEnabled(!ended);
   const double position_s = ended ? length_s : replay->position_s.load();
-  if (!place_->hasFocus() || !typed_->isModified()) { // else it is typed into
+  if (!place_->hasFocus()) { // else a number is chosen or typed there
     const QSignalBlocker quietPlace(place_);
     place_->setValue(position_s);
   }

@@ -8,7 +8,6 @@ class QCheckBox;
 class QComboBox;
 class QDoubleSpinBox;
 class QLabel;
-class QLineEdit;
 class QPushButton;
 class QSlider;
 
@@ -41,13 +40,13 @@ private:
   QSlider* line_ = nullptr;
   QPushButton* back_ = nullptr;
   QDoubleSpinBox* place_ = nullptr;
-  QLineEdit* typed_ = nullptr; ///< of `place_`
   QLabel* length_ = nullptr;
   QComboBox* marks_ = nullptr;
   QComboBox* speed_ = nullptr;
   QCheckBox* loop_ = nullptr;
   QDoubleSpinBox* from_ = nullptr;
   QDoubleSpinBox* to_ = nullptr;
+  bool sought_ = false; ///< by the number in `place_`
   double length_s_ = -1;
 };
 

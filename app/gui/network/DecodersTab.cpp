@@ -42,7 +42,7 @@ void DecodersTab::display(const NetworkSession& session, const NetworkSettings& 
   time_->setChart(trialsTimeChart(trials));
   const bool stale = !staleTrialsReason(session, now).isEmpty();
   for (ChartView* view : {error_, time_}) view->setFaint(stale);
-  const TableText table = trialsTable(trials, bound);
+  const TableText table = trialsTable(trials, bound, session.samples() != nullptr ? session.samples()->test.size() : 0);
   table_->show(table.heads, table.rows);
   words_->setText(trialsWords(session, now));
 }

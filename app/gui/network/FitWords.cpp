@@ -1,5 +1,6 @@
 #include "app/gui/network/FitWords.h"
 
+#include "app/gui/jobs/SampleFiles.h"
 #include "app/gui/jobs/TimeLeft.h"
 
 #include <QFileInfo>
@@ -7,6 +8,7 @@
 #include <QStringList>
 
 #include <cmath>
+#include <filesystem>
 
 namespace palp {
 
@@ -79,11 +81,16 @@ QString madeWords(const NetworkSamples& samples) {
 }
 
 QString openedWords(const NetworkSamples& samples) {
-  return tr(" from %1 (%2 an area, seed %3)%4")
-      .arg(QFileInfo(samples.file).fileName())
-      .arg(samples.settings.perArea)
-      .arg(samples.settings.seed)
-      .arg(samples.split ? tr("; every fifth one tests, as there is no file of test samples") : QString());
+  QString words = tr(" from %1 (%2 an area, seed %3)")
+                      .arg(QFileInfo(samples.file).fileName())
+                      .arg(samples.settings.perArea)
+                      .arg(samples.settings.seed);
+  if (!samples.split) return words;
+  const std::filesystem::path beside = testFileOf(samples.file.toStdString());
+  const QString test = QString::fromStdString(beside.filename().string());
+  words += std::filesystem::exists(beside) ? tr("; every fifth one tests, %1 was not taken").arg(test)
+                                           : tr("; every fifth one tests, as no %1 lies beside it").arg(test);
+  return words;
 }
 
 } // namespace
@@ -239,7 +246,7 @@ QString table(const std::vector<Column>& columns, const QString& title) {
   return "<table cellspacing=\"0\" cellpadding=\"0\">" + rows + "</table>";
 }
 
-/// The errors of the network that is shown, beside the bound and the network that was trained before it.
+/// The errors of the network that is shown, beside the bound and the network that was shown before it.
 std::vector<Column> columns(const NetworkSession& session, const NetworkFit& fit, const NoiseBound* bound) {
   const PredictionError& error = fit.error.error;
   std::vector<Column> all{{tr("Eq. (13) [%]"), error.eq13Percent},
@@ -247,10 +254,11 @@ std::vector<Column> columns(const NetworkSession& session, const NetworkFit& fit
                           {tr("mean [N]"), error.meanAbsolute},
                           {tr("RMSE [% of range]"), error.rmsePercentOfRange}};
   if (fit.settings.testNoise > 0 && session.fitIsCurrent())
-    all.push_back({tr("Cramer-Rao bound [%]"), bound != nullptr ? bound->withPriorPercent : Eigen::VectorXd()});
+    all.push_back(
+        {tr("Cramer-Rao bound [% of range]"), bound != nullptr ? bound->withPriorPercent : Eigen::VectorXd()});
   const auto& kept = session.kept();
-  if (kept.size() > 1 && kept.front()->made == fit.made)
-    all.push_back({tr("RMSE before [%]"), kept[1]->error.error.rmsePercentOfRange});
+  if (session.before() != nullptr && !kept.empty() && kept.front()->made == fit.made)
+    all.push_back({tr("RMSE before [% of range]"), session.before()->error.error.rmsePercentOfRange});
   return all;
 }
 

@@ -115,6 +115,7 @@ ChartSpec sweepErrorChart(const std::vector<SweepPoint>& points, const NetworkFi
       paper.x.push_back(point.spread);
       paper.y.push_back(point.error_percent[d]);
     }
+    paper.legend = d == 0 ? "squares: printed by the paper" : "";
     spec.series.push_back(std::move(paper));
   }
   if (fit != nullptr && fit->settings.input == input) {
@@ -124,6 +125,7 @@ ChartSpec sweepErrorChart(const std::vector<SweepPoint>& points, const NetworkFi
           series(std::string(kForces[static_cast<std::size_t>(d)]) + ", trained now", Style::Points, d, true);
       now.x = {fit->decoder.report.spread};
       now.y = {errors[d]};
+      now.legend = d == 0 ? "diamonds: trained now" : "";
       spec.series.push_back(std::move(now));
     }
   }

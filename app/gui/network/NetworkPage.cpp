@@ -228,10 +228,7 @@ void NetworkPage::displaySamples() {
   const auto [made, all] = session_.stoppedAt();
   QString words = samplesWords(session_);
   if (all > 0) words += tr(" Stopped at sample %1 of %2; it goes on from there.").arg(made).arg(all);
-  const bool makeable = workbench_.project().design.field() == nullptr;
-  if (!makeable && !session_.upToDate())
-    words = tr("Not under the conduction field: samples are made by Eq. (1) alone. ") + words;
-  panel_->displaySamples(session_.upToDate(), makeable, words, all > 0);
+  panel_->displaySamples(session_.upToDate(), words, all > 0);
   displayFit(); // it says whose it is and what comes next
 }
 

@@ -314,10 +314,9 @@ void NetworkPanel::showSpread() {
   spreadSlider_->setEnabled(rbf && !network_.automaticSpread);
 }
 
-void NetworkPanel::displaySamples(bool there, bool makeable, const QString& words, bool goOn) {
+void NetworkPanel::displaySamples(bool there, const QString& words, bool goOn) {
   samplesWords_->setText(words);
   saveSamples_->setEnabled(there);
-  generate_->setEnabled(makeable);
   generate_->setText(goOn ? tr("Go on generating samples") : tr("Generate samples"));
   const std::array<std::pair<QPushButton*, QString>, 3> buttons{
       {{train_, tr("Fits the network to the training samples and tries it on the others")},

@@ -29,7 +29,7 @@ public:
   /// Emits nothing.
   void display(const Project& project);
   /// What there is to work with, and the state of the samples in words.
-  void displaySamples(bool there, bool makeable, const QString& words, bool goOn);
+  void displaySamples(bool there, const QString& words, bool goOn);
 
   /// The spread that leave-one-out chose for the network that is shown; 0: none.
   void displayChosenSpread(double spread);

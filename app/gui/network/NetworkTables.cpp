@@ -6,6 +6,7 @@
 #include <QObject>
 
 #include <algorithm>
+#include <cmath>
 
 namespace palp {
 
@@ -63,14 +64,14 @@ QString inWords(DecoderKind kind) {
   case DecoderKind::TwoStepBackPropagation:
     return QObject::tr("displacements by back-propagation, then force");
   case DecoderKind::TwoStepGaussNewton:
-    return QObject::tr("displacements by inverting Eq. (1), Gauss-Newton, then force");
+    return QObject::tr("displacements by inverting the resistance law, Gauss-Newton, then force");
   case DecoderKind::MaximumLikelihood:
     return QObject::tr("maximum likelihood with a forward model");
   }
   return {};
 }
 
-TableText trialsTable(const std::vector<DecoderTrial>& trials, const NoiseBound* bound) {
+TableText trialsTable(const std::vector<DecoderTrial>& trials, const NoiseBound* bound, Eigen::Index testSamples) {
   TableText table;
   table.heads << QObject::tr("decoder") << QObject::tr("in words");
   addHeads(table.heads, QObject::tr("Eq. (13) [%]"));
@@ -85,8 +86,13 @@ TableText trialsTable(const std::vector<DecoderTrial>& trials, const NoiseBound*
         << trial.refusal;
     table.rows.push_back(std::move(row));
   }
-  if (bound == nullptr || trials.empty()) return table;
-  QStringList row{QObject::tr("bound"), QObject::tr("Cramer-Rao, area known, with prior: no method is better")};
+  if (bound == nullptr || trials.empty() || testSamples == 0) return table;
+  // The root mean square of n errors scatters by 1 / sqrt(2 n) of itself.
+  QStringList row{
+      QObject::tr("bound"),
+      QObject::tr("Cramer-Rao, area known, with prior: no method is better but by chance, %1 % on %2 samples")
+          .arg(100 / std::sqrt(2.0 * static_cast<double>(testSamples)), 0, 'g', 2)
+          .arg(testSamples)};
   add(row, {});
   add(row, bound->withPriorPercent);
   table.rows.push_back(row << QString() << QString() << QString());

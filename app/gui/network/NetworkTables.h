@@ -18,7 +18,7 @@ struct TableText {
 /// A sweep, one spread a row.
 TableText sweepTable(const std::vector<SweepPoint>& points);
 /// The comparison, one decoder a row, and below them what none can beat; null: not known.
-TableText trialsTable(const std::vector<DecoderTrial>& trials, const NoiseBound* bound);
+TableText trialsTable(const std::vector<DecoderTrial>& trials, const NoiseBound* bound, Eigen::Index testSamples);
 /// Trained networks with their errors and settings, one a row.
 TableText networksTable(const std::vector<std::shared_ptr<const NetworkFit>>& networks);
 /// A decoder's short name in whole words.

@@ -65,8 +65,11 @@ void SweepTab::display(const NetworkSession& session, const NetworkSettings& now
                              .arg(reason)
                        : tr("A sweep trains once for each spread; its table stands here."));
   const TableText table = sweepTable(points);
+  const bool grew = table_->rowCount() != static_cast<int>(table.rows.size());
   table_->show(table.heads, table.rows);
-  if (best) table_->mark(static_cast<int>(*best));
+  if (!best) return;
+  table_->mark(static_cast<int>(*best));
+  if (grew) table_->scrollToItem(table_->item(static_cast<int>(*best), 0));
 }
 
 } // namespace palp

@@ -135,6 +135,7 @@ QJsonObject viewJson(const ViewSettings& view) {
     object["difference_range"] = QJsonArray{(*view.differenceRange)[0], (*view.differenceRange)[1]};
   if (view.extremes) object["extremes"] = true;
   if (view.lessKept) object["less_kept"] = true;
+  if (view.currentWay) object["current_way"] = true;
   if (view.litCell) object["lit_cell"] = cell(*view.litCell);
   if (view.resistanceRange)
     object["resistance_range"] = QJsonArray{(*view.resistanceRange)[0], (*view.resistanceRange)[1]};
@@ -167,7 +168,7 @@ ViewSettings viewOf(const JsonPlace& place) {
   place.onlyKeys({"scene", "quantity", "ghost", "electrodes", "arrows", "outlines", "edges", "row_wire", "line_from_mm",
                   "line_to_mm", "mesh", "resistance_noise", "resistance", "cell", "test_area"},
                  {"warp_factor", "clip_y_mm", "cut", "color_map", "color_range", "difference_range", "extremes",
-                  "lit_cell", "resistance_range", "less_kept"});
+                  "lit_cell", "resistance_range", "less_kept", "current_way"});
   ViewSettings view;
   view.scene = place.at("scene").string();
   view.quantity = place.at("quantity").named(kQuantities);
@@ -179,6 +180,7 @@ ViewSettings viewOf(const JsonPlace& place) {
   if (place.has("difference_range")) view.differenceRange = rangeOf(place.at("difference_range"));
   if (place.has("extremes")) view.extremes = place.at("extremes").boolean();
   if (place.has("less_kept")) view.lessKept = place.at("less_kept").boolean();
+  if (place.has("current_way")) view.currentWay = place.at("current_way").boolean();
   view.ghost = place.at("ghost").boolean();
   view.electrodes = place.at("electrodes").boolean();
   view.arrows = place.at("arrows").boolean();

@@ -45,10 +45,9 @@ QString electrodesCsv(const ResultSource& source, const ElectrodeDisplacements& 
   return text;
 }
 
-QString resistancesCsv(const ResultSource& source, const ElectrodeDisplacements& displacements) {
+QString resistancesCsv(const ResultSource& source, const TouchResistances& resistances) {
   QString text = sourceLines(source) + "row_wire,column_wire,R_at_rest_ohm,R_ohm\n";
-  const Eigen::MatrixXd rest = rowColumnResistances(source.design, ElectrodeDisplacements::atRest(source.design));
-  const Eigen::MatrixXd loaded = rowColumnResistances(source.design, displacements);
+  const auto& [rest, loaded] = resistances;
   for (Eigen::Index row = 0; row < rest.rows(); ++row)
     for (Eigen::Index column = 0; column < rest.cols(); ++column)
       text += QString("%1,%2,").arg(row).arg(column) + exactNumber(rest(row, column)) + "," +

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/gui/jobs/TouchResistances.h"
 #include "model/LoadCase.h"
 #include "model/RowColumnResistance.h"
 
@@ -18,7 +19,7 @@ struct ResultSource {
 QString electrodesCsv(const ResultSource& source, const ElectrodeDisplacements& displacements);
 
 /// The resistances [ohm] at rest and under the load, in the same way.
-QString resistancesCsv(const ResultSource& source, const ElectrodeDisplacements& displacements);
+QString resistancesCsv(const ResultSource& source, const TouchResistances& resistances);
 
 /// Written beside and renamed. Throws Error.
 void writeText(const QString& file, const QString& text);

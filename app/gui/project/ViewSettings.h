@@ -41,6 +41,7 @@ struct ViewSettings {
   ResistanceKind resistance = ResistanceKind::RelativeChange;
   std::optional<std::array<double, 2>> resistanceRange; ///< of the colours; none: the values' own
   std::array<int, 2> cell{4, 15};                       ///< of the Resistance scene
+  bool currentWay = false;                              ///< in its block, under the law of the field
   int testArea = 0;
   bool lessKept = false; ///< the Deformation scene shows the design less the kept one
 

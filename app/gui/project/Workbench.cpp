@@ -119,11 +119,19 @@ std::vector<EarlierDesign> Workbench::earlierDesigns() const {
   return all;
 }
 
-bool Workbench::modified() const {
+Workbench::Modified Workbench::modification() const {
   const auto kept = saved_.find(file());
   Project last = kept == saved_.end() ? held_.begun : kept->second;
+  const LiveSettings& live = project().live;
   last.view = project().view;
-  return last != project();
+  last.live.source = live.source;
+  last.live.device = live.device;
+  last.live.recording = live.recording;
+  last.live.replaySpeed = live.replaySpeed;
+  last.live.simulation = live.simulation;
+  if (last == project()) return Modified::Nothing;
+  last.live = live;
+  return last == project() ? Modified::LiveSettings : Modified::Project;
 }
 
 void Workbench::saved(const QString& file) {
@@ -145,9 +153,40 @@ void Workbench::needKept() {
   if (project().kept && touch_.upToDate()) kept_.want(*project().kept, touch_.touch());
 }
 
+std::optional<TouchResistances> Workbench::resistances() const {
+  if (touch_.electrodes() == nullptr) return {};
+  if (touch_.touch().design().field() == nullptr) return resistancesOf(touch_.touch().design(), *touch_.electrodes());
+  return field_.of(touch_.touch(), touch_.loadFraction());
+}
+
+std::optional<TouchResistances> Workbench::resistancesAtEnd() const {
+  const Touch& touch = touch_.touch();
+  if (touch.displacements() == nullptr) return {};
+  if (touch.design().field() == nullptr) return resistancesOf(touch.design(), *touch.displacements());
+  return field_.of(touch, touch.solution()->reachedLoadFraction);
+}
+
+std::optional<TouchResistances> Workbench::keptResistances() const {
+  const auto kept = keptPath();
+  if (!kept) return {};
+  if (!kept->touch) return resistancesOf(kept->design, kept->at(touch_.loadFraction()).electrodes);
+  return keptField_.of(*kept->touch, touch_.loadFraction());
+}
+
+void Workbench::needResistances() {
+  if (touch_.upToDate()) field_.want(touch_.touch(), touch_.loadFraction());
+}
+
+void Workbench::needKeptResistances() {
+  needKept();
+  if (const auto kept = keptPath(); kept && kept->touch) keptField_.want(*kept->touch, touch_.loadFraction());
+}
+
 void Workbench::apply(const Project& project) {
   held_.project = project;
   if (!project.kept) kept_.forget();
+  if (!project.kept || project.kept->field() == nullptr) keptField_.leave();
+  if (project.design.field() == nullptr) field_.leave();
   touch_.setInputs(project.design, project.load, project.mesh);
   emit projectChanged();
   emit fileChanged();

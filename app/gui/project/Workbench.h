@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/gui/jobs/FieldTouch.h"
 #include "app/gui/jobs/KeptTouch.h"
 #include "app/gui/jobs/TouchSession.h"
 #include "app/gui/project/Project.h"
@@ -40,8 +41,11 @@ public:
 
   /// The project's file; empty before it is saved for the first time.
   [[nodiscard]] const QString& file() const { return held_.file; }
-  /// More was set than the file holds; how things are shown does not count.
-  [[nodiscard]] bool modified() const;
+  /// What was set that the file does not hold. How things are shown does not count, nor which board or recording Live
+  /// plays and what the simulated one does.
+  enum class Modified { Nothing, LiveSettings, Project };
+  [[nodiscard]] Modified modification() const;
+  [[nodiscard]] bool modified() const { return modification() != Modified::Nothing; }
   /// The project as it is now stands in this file.
   void saved(const QString& file);
 
@@ -57,6 +61,17 @@ public:
   [[nodiscard]] std::shared_ptr<const KeptPath> keptPath() const;
   /// A scene shows the kept design: it is computed.
   void needKept();
+  /// Under the law of the field: of the touch that is shown, and of the kept design beside it.
+  [[nodiscard]] FieldTouch& field() { return field_; }
+  [[nodiscard]] FieldTouch& keptField() { return keptField_; }
+  /// By the law of the touch that is shown, at the place of the load path that is shown; empty before they are there.
+  [[nodiscard]] std::optional<TouchResistances> resistances() const;
+  [[nodiscard]] std::optional<TouchResistances> keptResistances() const;
+  /// At the end of the load path, for scales that hold on all of it; under the field as far as they were computed.
+  [[nodiscard]] std::optional<TouchResistances> resistancesAtEnd() const;
+  /// A scene shows them: the field is computed where the law needs it.
+  void needResistances();
+  void needKeptResistances();
   [[nodiscard]] QUndoStack& history() { return history_; }
   /// The designs of this project that are not the present one, each once: those before it, the latest first, then those
   /// that were undone.
@@ -89,6 +104,7 @@ private:
   QString place_;
   TouchSession touch_;
   KeptTouch kept_;
+  FieldTouch field_, keptField_;
 };
 
 } // namespace palp

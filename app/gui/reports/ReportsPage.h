@@ -41,6 +41,7 @@ public:
   /// Another program in place of the palp that lies beside this one.
   void setProgram(const QString& program) { program_ = program; }
 
+  [[nodiscard]] bool running() const { return run_.running(); }
   /// Stops a report that runs.
   void cancel() { run_.cancel(); }
 

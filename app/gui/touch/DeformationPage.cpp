@@ -122,7 +122,7 @@ QWidget* DeformationPage::buildViews() {
   column->addWidget(block_, 1);
   path_ = new LoadPathBar(workbench_.touch());
   column->addWidget(path_);
-  tabs_ = new TouchTabs(workbench_.touch());
+  tabs_ = new TouchTabs(workbench_);
   auto* views = new QSplitter(Qt::Vertical);
   views->setObjectName("deformationSplitter");
   views->addWidget(upper);
@@ -178,7 +178,7 @@ void DeformationPage::setTheme(Theme theme) {
 
 bool DeformationPage::complete() const {
   const bool compared = !lessKept() || shownLess() || !workbench_.kept().problem().isEmpty();
-  return workbench_.touch().fields() != nullptr && workbench_.touch().upToDate() && compared;
+  return workbench_.touch().fields() != nullptr && workbench_.touch().upToDate() && compared && tabs_->complete();
 }
 
 QString DeformationPage::commands(const Project& project, const QString& designFile) const {
@@ -187,6 +187,7 @@ QString DeformationPage::commands(const Project& project, const QString& designF
 
 void DeformationPage::showEvent(QShowEvent* event) {
   Scene::showEvent(event);
+  workbench_.field().retry();
   displayTouch(!meshDrawn_);
 }
 

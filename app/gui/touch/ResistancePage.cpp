@@ -2,12 +2,14 @@
 
 #include "app/gui/project/Command.h"
 #include "app/gui/touch/LawBar.h"
+#include "app/gui/touch/ResistanceWords.h"
 #include "app/gui/touch/StaleNote.h"
 #include "app/gui/views/BlockView.h"
 #include "app/gui/views/ChartView.h"
 #include "app/gui/views/HeatmapSpecs.h"
 #include "app/gui/views/HeatmapView.h"
 #include "app/gui/views/ViewBar.h"
+#include "app/gui/widgets/FoldingRow.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -22,54 +24,8 @@
 
 namespace palp {
 
-namespace {
-
-constexpr int kMarkColor = 3;
-
-QString signedText(double value) {
-  return (value > 0 ? "+" : "") + QString::number(value, 'g', 4);
-}
-
-/// One row or column of the matrix against its index, and one of its cells.
-ChartSpec curveChart(const HeatmapSpec& heatmap, const std::string& title, const std::string& xLabel,
-                     const Eigen::VectorXd& values, int color, int cell) {
-  ChartSpec spec;
-  spec.title = title;
-  spec.xLabel = xLabel;
-  spec.yLabel = heatmap.colors.title();
-  ChartSeries curve;
-  curve.style = ChartSeries::Style::LineAndPoints;
-  curve.color = color;
-  for (Eigen::Index k = 0; k < values.size(); ++k) {
-    curve.x.push_back(static_cast<double>(k));
-    curve.y.push_back(values[k]);
-  }
-  ChartSeries mark;
-  mark.style = ChartSeries::Style::Points;
-  mark.color = kMarkColor;
-  mark.x = {static_cast<double>(cell)};
-  mark.y = {values[cell]};
-  spec.series = {curve, mark};
-  return spec;
-}
-
-/// d ln R of all readings.
-Eigen::VectorXd logChanges(const TouchResistances& resistances) {
-  return (resistances.now_ohm.array() / resistances.rest_ohm.array()).log().matrix().reshaped();
-}
-
-/// How the changes by the field compare with those by Eq. (1), over all readings.
-QString lawsWords(const TouchResistances& field, const TouchResistances& pairs) {
-  const Eigen::VectorXd a = logChanges(field), b = logChanges(pairs);
-  if (!(a.norm() > 0 && b.norm() > 0)) return QObject::tr("Nothing changes.");
-  return QObject::tr("Against Eq. (1), over all readings: changes of ln R are %1 times as large, correlation %2. The "
-                     "rubber conducts alike in all directions, also where it is deformed.")
-      .arg(QString::number(a.norm() / b.norm(), 'g', 3), QString::number(a.dot(b) / (a.norm() * b.norm()), 'f', 2));
-}
-
-} // namespace
-
-ResistancePage::ResistancePage(Workbench& workbench, QWidget* parent) : Scene(parent), workbench_(workbench) {
+ResistancePage::ResistancePage(Workbench& workbench, QWidget* parent)
+    : Scene(parent), workbench_(workbench), current_(workbench.field()) {
   options_.meshEdges = false;
   options_.forceArrows = true;
   options_.opacity = 0.4; // for the lit electrodes
@@ -106,10 +62,14 @@ ResistancePage::ResistancePage(Workbench& workbench, QWidget* parent) : Scene(pa
   auto* third = new QWidget;
   auto* around = new QVBoxLayout(third);
   around->setContentsMargins(0, 0, 0, 0);
-  auto* looks = new QHBoxLayout;
-  looks->addStretch(1);
-  looks->addWidget(new ViewBar(*block_));
-  around->addLayout(looks);
+  currentWay_ = new QCheckBox(tr("current's way"));
+  currentWay_->setObjectName("currentWay");
+  paths_ = new QLabel;
+  paths_->setObjectName("currentPaths");
+  paths_->setWordWrap(true);
+  paths_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  around->addWidget(new FoldingRow(currentWay_, new ViewBar(*block_)));
+  around->addWidget(paths_);
   around->addWidget(block_, 1);
   lower->addWidget(third);
   lower->setSizes({420, 420, 520});
@@ -140,7 +100,7 @@ ResistancePage::ResistancePage(Workbench& workbench, QWidget* parent) : Scene(pa
   });
   for (HeatmapView* map : {heatmap_, pairs_}) {
     connect(map, &HeatmapView::cellHovered, this, [this](const std::optional<std::array<int, 2>>& cell) {
-      if (workbench_.touch().electrodes() != nullptr) reading_->setText(cellWords(cell.value_or(this->cell())));
+      if (workbench_.touch().electrodes() != nullptr) displayWords(cell.value_or(this->cell()));
     });
     connect(map, &HeatmapView::cellClicked, this, [this](int rowWire, int columnWire) {
       ViewSettings view = workbench_.project().view;
@@ -148,15 +108,22 @@ ResistancePage::ResistancePage(Workbench& workbench, QWidget* parent) : Scene(pa
       edit(tr("Choose a cell"), view);
     });
   }
+  connect(currentWay_, &QCheckBox::toggled, this, [this](bool on) {
+    ViewSettings view = workbench_.project().view;
+    view.currentWay = on;
+    edit(tr("Show the current's way"), view);
+  });
   connect(law_, &LawBar::edited, this, [this](const QString& what, const SensorDesign& design) {
     Project next = workbench_.project();
     next.design = design;
     workbench_.edit(what, next);
   });
   connect(law_, &LawBar::refused, reading_, &QLabel::setText);
-  connect(&field_, &FieldTouch::changed, this, [this] {
-    if (!isVisible()) field_.rest();
-    draw(false);
+  for (FieldTouch* field : {&workbench_.field(), &workbench_.keptField()})
+    connect(field, &FieldTouch::changed, this, [this] { draw(false); });
+  connect(&current_, &CurrentWay::changed, this, [this] {
+    drawBlock(false);
+    if (isVisible() && workbench_.touch().electrodes() != nullptr) displayWords(cell());
   });
   connect(&workbench_, &Workbench::projectChanged, this, &ResistancePage::displayProject);
   connect(&workbench_.touch(), &TouchSession::changed, this, &ResistancePage::draw);
@@ -181,6 +148,15 @@ void ResistancePage::displayProject() {
                                 : tr("Nothing with as many wires is kept: Design, Compare, \"Keep this design\""));
   kind_->setCurrentIndex(static_cast<int>(kind()));
   fixed_->setChecked(view.resistanceRange.has_value());
+  const QSignalBlocker quietWay(currentWay_);
+  const bool field = workbench_.project().design.field() != nullptr;
+  currentWay_->setEnabled(field);
+  currentWay_->setChecked(field && view.currentWay);
+  currentWay_->setToolTip(
+      field ? tr("Follows the current through the block while the chosen cell is read: each line carries the same "
+                 "current, colours are its density for 1 A driven into the row-wire")
+            : tr("By Eq. (1) every pair of electrodes is a resistor of its own: it knows no current in the rubber. The "
+                 "conduction field does"));
   if (!(view == drawn_) || view.resistance == ResistanceKind::LessKept) draw(false);
 }
 
@@ -239,21 +215,23 @@ void ResistancePage::setTheme(Theme theme) {
 }
 
 bool ResistancePage::complete() const {
-  const bool compared =
-      kind() != ResistanceKind::LessKept || workbench_.keptPath() || !workbench_.kept().problem().isEmpty();
-  const bool resistances = resistances_ || !field_.problem().isEmpty();
-  return workbench_.touch().electrodes() != nullptr && workbench_.touch().upToDate() && compared && resistances;
+  const bool compared = kind() != ResistanceKind::LessKept || workbench_.keptResistances() || !keptProblem().isEmpty();
+  const bool resistances = resistances_ || !workbench_.field().problem().isEmpty();
+  const bool followed = !wayShown() || current_.lines() != nullptr || !current_.problem().isEmpty();
+  return workbench_.touch().electrodes() != nullptr && workbench_.touch().upToDate() && compared && resistances &&
+         followed;
 }
 
 void ResistancePage::showEvent(QShowEvent* event) {
   Scene::showEvent(event);
-  field_.retry();
+  workbench_.field().retry();
+  workbench_.keptField().retry();
   draw(!meshDrawn_);
 }
 
 void ResistancePage::hideEvent(QHideEvent* event) {
   Scene::hideEvent(event);
-  field_.rest();
+  current_.leave();
 }
 
 void ResistancePage::draw(bool meshChanged) {
@@ -261,23 +239,38 @@ void ResistancePage::draw(bool meshChanged) {
   if (!isVisible() || workbench_.touch().electrodes() == nullptr) return;
   drawn_ = workbench_.project().view;
   findResistances();
-  if (kind() == ResistanceKind::LessKept) workbench_.needKept();
+  if (kind() == ResistanceKind::LessKept) workbench_.needKeptResistances();
   drawHeatmap();
   drawBeside();
   drawCurves();
   drawBlock(meshChanged);
-  reading_->setText(cellWords(cell()));
+  displayWords(cell());
+}
+
+void ResistancePage::displayWords(const std::array<int, 2>& cell) {
+  const TouchSession& touch = workbench_.touch();
+  const SensorDesign& design = touch.touch().design();
+  if (cell[0] >= design.rowWires() || cell[1] >= design.columnWires()) return;
+  reading_->setText(resistances_ ? cellWords(*resistances_, cell) : workbench_.field().problem());
+  const auto found = workbench_.field().found(touch.touch(), touch.loadFraction());
+  paths_->setVisible(found != nullptr && resistances_);
+  if (!paths_->isHidden())
+    paths_->setText(pathWords(found->network, design.field()->readout, cell) +
+                    (wayShown() && !current_.problem().isEmpty() ? " " + current_.problem() : QString()));
+}
+
+bool ResistancePage::wayShown() const {
+  return workbench_.project().view.currentWay && workbench_.touch().touch().design().field() != nullptr;
+}
+
+QString ResistancePage::keptProblem() const {
+  if (!workbench_.kept().problem().isEmpty()) return workbench_.kept().problem();
+  return workbench_.keptPath() != nullptr ? workbench_.keptField().problem() : QString();
 }
 
 void ResistancePage::findResistances() {
-  const TouchSession& touch = workbench_.touch();
-  if (touch.touch().design().field() == nullptr) {
-    resistances_ = resistancesOf(touch.touch().design(), *touch.electrodes());
-    field_.forget();
-    return;
-  }
-  if (touch.upToDate()) field_.want(touch.touch(), touch.loadFraction());
-  resistances_ = field_.of(touch.touch(), touch.loadFraction());
+  workbench_.needResistances();
+  resistances_ = workbench_.resistances();
 }
 
 void ResistancePage::drawBeside() {
@@ -295,44 +288,19 @@ void ResistancePage::drawBeside() {
   pairs_->setHeatmap(std::move(spec));
 }
 
-QString ResistancePage::cellWords(const std::array<int, 2>& cell) const {
-  const SensorDesign& design = workbench_.touch().touch().design();
-  const auto [row, column] = cell;
-  if (row >= design.rowWires() || column >= design.columnWires()) return {};
-  if (!resistances_) return field_.problem();
-  const double rest = resistances_->rest_ohm(row, column), now = resistances_->now_ohm(row, column);
-  return tr("Row-wire %1, column-wire %2: R = %3 ohm at rest, %4 ohm under the load (%5 ohm, %6 %)")
-      .arg(row)
-      .arg(column)
-      .arg(QString::number(rest, 'g', 6), QString::number(now, 'g', 6), signedText(now - rest),
-           signedText(100 * (now - rest) / rest));
-}
-
 HeatmapSpec ResistancePage::heatmap() const {
-  const TouchSession& touch = workbench_.touch();
-  HeatmapSpec none;
-  if (!resistances_) {
-    none.title = field_.problem().isEmpty() ? tr("The conduction field is being computed...").toStdString()
-                                            : field_.problem().toStdString();
-    return none;
-  }
+  if (!resistances_) return noResistancesYet(workbench_.field().problem());
   HeatmapSpec shown = resistanceHeatmap(*resistances_, kind());
   if (kind() != ResistanceKind::LessKept) {
-    const SensorDesign& design = touch.touch().design();
-    const auto* end = touch.touch().displacements();
-    if (design.field() == nullptr && end != nullptr && shown.values.size() > 0)
-      shown.colors = resistanceHeatmap(design, *end, kind()).colors; // one scale on the whole load path
+    if (const auto end = workbench_.resistancesAtEnd(); end && shown.values.size() > 0)
+      shown.colors = resistanceHeatmap(*end, kind()).colors; // one scale on the whole load path
     return shown;
   }
-  const auto kept = workbench_.keptPath();
-  const QString& problem = workbench_.kept().problem();
-  none.title = (problem.isEmpty() ? tr("The kept design is being computed...") : problem).toStdString();
+  HeatmapSpec none;
+  none.title = (keptProblem().isEmpty() ? tr("The kept design is being computed...") : keptProblem()).toStdString();
+  const auto kept = workbench_.keptResistances();
   if (!kept) return none;
-  if (kept->design.field() != nullptr) {
-    none.title = tr("Not under the conduction field: changes less those of a kept design under it.").toStdString();
-    return none;
-  }
-  const HeatmapSpec less = resistanceHeatmap(kept->design, kept->at(touch.loadFraction()).electrodes, kind());
+  const HeatmapSpec less = resistanceHeatmap(*kept, kind());
   const bool alike = less.values.rows() == shown.values.rows() && less.values.cols() == shown.values.cols();
   return alike ? heatmapLess(shown.values - less.values, "the kept design's")
                : none; // else the touch is still of the design before
@@ -369,9 +337,18 @@ void ResistancePage::drawBlock(bool meshChanged) {
   if (touch.touch().mesh() == nullptr || !isVisible()) return;
   options_.litCell = cell();
   options_.scale = devicePixelRatioF();
-  const DeformationState state{&touch.touch().design(), touch.touch().mesh(),  touch.fields(),
-                               touch.electrodes(),      &touch.touch().load(), touch.loadFraction()};
-  block_->show(state, options_, meshChanged || !meshDrawn_);
+  DeformationState state{&touch.touch().design(), touch.touch().mesh(),  touch.fields(),
+                         touch.electrodes(),      &touch.touch().load(), touch.loadFraction()};
+  const CurrentLines none;
+  DeformationOptions options = options_;
+  if (wayShown()) {
+    options.forceArrows = options.areaOutlines = false; // before the lines
+    if (touch.upToDate()) current_.want(touch.touch(), touch.loadFraction(), cell());
+    state.current = current_.lines() != nullptr ? current_.lines() : &none;
+  } else {
+    current_.leave();
+  }
+  block_->show(state, options, meshChanged || !meshDrawn_);
   meshDrawn_ = true;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/gui/jobs/FieldTouch.h"
 #include "app/gui/project/Workbench.h"
+#include "app/gui/touch/CurrentWay.h"
 #include "app/gui/window/Scene.h"
 #include "app/scenes/block/DeformationScene.h"
 #include "app/scenes/charts/Heatmap.h"
@@ -28,7 +28,7 @@ public:
   [[nodiscard]] Stage stage() const override { return Stage::Resistances; }
   void setTheme(Theme theme) override;
   [[nodiscard]] bool complete() const override;
-  [[nodiscard]] std::vector<JobRunner*> runners() override { return {&field_.runner()}; }
+  [[nodiscard]] std::vector<JobRunner*> runners() override { return {&current_.runner()}; }
   [[nodiscard]] QString commands(const Project& project, const QString& designFile) const override;
 
 protected:
@@ -50,24 +50,30 @@ private:
   /// As chosen, where that can be shown.
   [[nodiscard]] ResistanceKind kind() const;
   [[nodiscard]] HeatmapSpec heatmap() const;
+  /// The block shows the current's way.
+  [[nodiscard]] bool wayShown() const;
+  /// Why there is nothing of the kept design; empty where there is, or while it is computed.
+  [[nodiscard]] QString keptProblem() const;
   /// Of the touch that is shown, by its law; asks for the field where it is not there yet.
   void findResistances();
   /// How those of the field compare with those of Eq. (1).
   void drawBeside();
-  /// Its resistance at rest and under the load.
-  [[nodiscard]] QString cellWords(const std::array<int, 2>& cell) const;
+  /// A cell's resistance at rest and under the load, and where its current goes.
+  void displayWords(const std::array<int, 2>& cell);
 
   Workbench& workbench_;
   DeformationOptions options_;
-  FieldTouch field_;
+  CurrentWay current_;
   std::optional<TouchResistances> resistances_; ///< that are shown
   bool meshDrawn_ = false;
   ViewSettings drawn_; ///< as drawn last
   LawBar* law_ = nullptr;
   QComboBox* kind_ = nullptr;
   QCheckBox* fixed_ = nullptr;
+  QCheckBox* currentWay_ = nullptr;
   QLabel* reading_ = nullptr;
   QLabel* laws_ = nullptr;
+  QLabel* paths_ = nullptr;
   HeatmapView* heatmap_ = nullptr;
   HeatmapView* pairs_ = nullptr; ///< by Eq. (1), beside the field
   ChartView* row_ = nullptr;

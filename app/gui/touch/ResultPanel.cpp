@@ -71,16 +71,6 @@ void ResultPanel::display(const TouchSession& session) {
   }
   const Touch& touch = session.touch();
   QStringList lines;
-  lines << (solution->converged
-                ? tr("Converged in %1 iterations%2.")
-                      .arg(solution->iterations())
-                      .arg(solution->stopReason.empty() ? "" : "; " + QString::fromStdString(solution->stopReason))
-                : tr("Stopped at load fraction %1: %2")
-                      .arg(number(solution->reachedLoadFraction, 3), QString::fromStdString(solution->stopReason)));
-  lines << tr("%1 elements (%2), %3 unknowns.")
-               .arg(touch.mesh()->elementCount())
-               .arg(QString::fromStdString(touch.problem()->elementType()))
-               .arg(touch.problem()->dof());
   if (session.fields() != nullptr) {
     Eigen::Index node = 0;
     const double largest = session.fields()->displacement_mm.colwise().norm().maxCoeff(&node);
@@ -94,6 +84,15 @@ void ResultPanel::display(const TouchSession& session) {
                .arg(triple(solution->reachedLoadFraction * touch.load().totalForce_N()), triple(solution->reaction_N));
   const bool between = session.place() != session.lastPlace();
   if (between) lines.last() += tr(" (of the full load; shown is %1 %)").arg(number(100 * session.loadFraction(), 3));
+  const QString how = QString::fromStdString(solution->stopReason);
+  if (solution->converged)
+    lines << tr("Converged in %1 iterations%2.").arg(solution->iterations()).arg(how.isEmpty() ? "" : "; " + how);
+  else
+    lines.prepend(tr("Stopped at load fraction %1: %2").arg(number(solution->reachedLoadFraction, 3), how));
+  lines << tr("%1 elements (%2), %3 unknowns.")
+               .arg(touch.mesh()->elementCount())
+               .arg(QString::fromStdString(touch.problem()->elementType()))
+               .arg(touch.problem()->dof());
   lines << tr("Largest volume error |J - 1|: %1.").arg(number(solution->maxVolumeError, 3));
   lines << tr("Discretisation error: %1").arg(errorWords_.isEmpty() ? tr("not estimated yet.") : errorWords_ + ".");
   if (!session.upToDate()) lines << tr("<i>Design, load or mesh have changed; this is the result before.</i>");

@@ -1,7 +1,6 @@
 #include "app/gui/touch/TouchTabs.h"
 
-#include "app/gui/jobs/KeptTouch.h"
-#include "app/gui/jobs/TouchSession.h"
+#include "app/gui/project/Workbench.h"
 #include "app/gui/views/ChartView.h"
 #include "app/gui/views/HeatmapSpecs.h"
 #include "app/gui/views/HeatmapView.h"
@@ -59,7 +58,8 @@ std::optional<std::array<double, 3>> placeOf(const QString& words) {
 
 } // namespace
 
-TouchTabs::TouchTabs(const TouchSession& session, QWidget* parent) : QTabWidget(parent), session_(session) {
+TouchTabs::TouchTabs(Workbench& workbench, QWidget* parent)
+    : QTabWidget(parent), workbench_(workbench), session_(workbench.touch()) {
   setObjectName("deformationTabs");
   addTab(buildTouch(), tr("Resistances"));
   addTab(buildRowWire(), tr("Row-wire"));
@@ -74,6 +74,7 @@ TouchTabs::TouchTabs(const TouchSession& session, QWidget* parent) : QTabWidget(
     draw();
     emit lineShownChanged();
   });
+  connect(&workbench_.field(), &FieldTouch::changed, this, &TouchTabs::drawHeatmap);
 }
 
 QWidget* TouchTabs::buildTouch() {
@@ -183,18 +184,29 @@ void TouchTabs::displayTouch(bool meshChanged, std::shared_ptr<const KeptPath> k
   draw();
 }
 
+bool TouchTabs::complete() const {
+  return !heatmap_->isVisible() || workbench_.resistances() || !workbench_.field().problem().isEmpty();
+}
+
+void TouchTabs::drawHeatmap() {
+  if (!heatmap_->isVisible() || session_.electrodes() == nullptr) return;
+  workbench_.needResistances();
+  const auto resistances = workbench_.resistances();
+  if (!resistances) {
+    heatmap_->setHeatmap(noResistancesYet(workbench_.field().problem()));
+    return;
+  }
+  HeatmapSpec spec = resistanceHeatmap(*resistances, ResistanceKind::RelativeChange);
+  if (const auto end = workbench_.resistancesAtEnd())
+    spec.colors = resistanceHeatmap(*end, ResistanceKind::RelativeChange).colors;
+  if (view_.litCell && (*view_.litCell)[0] < spec.values.rows() && (*view_.litCell)[1] < spec.values.cols())
+    spec.selected = view_.litCell;
+  heatmap_->setHeatmap(std::move(spec));
+}
+
 void TouchTabs::draw() {
   if (!isVisible()) return;
-  if (heatmap_->isVisible() && session_.electrodes() != nullptr) {
-    HeatmapSpec spec =
-        resistanceHeatmap(session_.touch().design(), *session_.electrodes(), ResistanceKind::RelativeChange);
-    // One scale on the whole load path: that of its end.
-    if (const auto* end = session_.touch().displacements(); end != nullptr && spec.values.size() > 0)
-      spec.colors = resistanceHeatmap(session_.touch().design(), *end, ResistanceKind::RelativeChange).colors;
-    if (view_.litCell && (*view_.litCell)[0] < spec.values.rows() && (*view_.litCell)[1] < spec.values.cols())
-      spec.selected = view_.litCell;
-    heatmap_->setHeatmap(std::move(spec));
-  }
+  drawHeatmap();
   drawNewton();
   drawRowWire();
   drawLine();

@@ -14,6 +14,7 @@ namespace palp {
 class ChartView;
 class HeatmapView;
 class TouchSession;
+class Workbench;
 struct KeptPath;
 
 /// Under the block: heatmap and Newton's residuals, a row-wire before and under the load, a plot along a line, the
@@ -22,7 +23,7 @@ class TouchTabs : public QTabWidget {
   Q_OBJECT
 
 public:
-  explicit TouchTabs(const TouchSession& session, QWidget* parent = nullptr);
+  explicit TouchTabs(Workbench& workbench, QWidget* parent = nullptr);
 
   void setTheme(Theme theme);
   void displayProject(const Project& project);
@@ -32,6 +33,8 @@ public:
   /// Shows the plot along the line.
   void showLine();
   [[nodiscard]] bool lineShown() const;
+  /// Nothing that the visible tab shows is being computed.
+  [[nodiscard]] bool complete() const;
 
 signals:
   void lineShownChanged();
@@ -44,11 +47,13 @@ private:
   QWidget* buildRowWire();
   QWidget* buildLine();
   void draw();
+  void drawHeatmap();
   void drawRowWire();
   void drawLine();
   void fillTable();
   void readLine();
 
+  Workbench& workbench_;
   const TouchSession& session_;
   ViewSettings view_;
   std::vector<NewtonStep> drawnSteps_;

@@ -1,5 +1,7 @@
 #include "app/gui/views/HeatmapSpecs.h"
 
+#include <QObject>
+
 namespace palp {
 
 namespace {
@@ -15,6 +17,12 @@ HeatmapSpec resistanceHeatmap(const SensorDesign& design, const ElectrodeDisplac
   if (const auto resistances = resistancesOf(design, electrodes)) return resistanceHeatmap(*resistances, kind);
   HeatmapSpec none;
   none.title = whyNoResistances(design).toStdString();
+  return none;
+}
+
+HeatmapSpec noResistancesYet(const QString& problem) {
+  HeatmapSpec none;
+  none.title = (problem.isEmpty() ? QObject::tr("The conduction field is being computed...") : problem).toStdString();
   return none;
 }
 

@@ -10,6 +10,9 @@ namespace palp {
 /// for LessKept.
 HeatmapSpec resistanceHeatmap(const TouchResistances& resistances, ResistanceKind kind);
 
+/// A sentence in their place: why there are none, empty while they are computed.
+HeatmapSpec noResistancesYet(const QString& problem);
+
 /// The same of a design; where its law has none a sentence in their place.
 HeatmapSpec resistanceHeatmap(const SensorDesign& design, const ElectrodeDisplacements& electrodes,
                               ResistanceKind kind);

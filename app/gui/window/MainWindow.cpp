@@ -142,10 +142,12 @@ void MainWindow::buildStatusLine() {
   lamps_ = status;
   connect(reports_, &ReportsPage::runs, lamps_, &StatusLamps::showReport);
   const auto gather = [this] {
-    std::vector<SceneJob> jobs{{&workbench_.touch().runner(), "deformation"}, {&network_.runner(), "network"},
-                               {&animation_->runner(), "deformation"},        {&network_.writer(), "network"},
-                               {&workbench_.kept().runner(), "deformation"},  {&exports_->runner(), "deformation"},
-                               {&sceneExport_->runner(), "network"}};
+    std::vector<SceneJob> jobs{
+        {&workbench_.touch().runner(), "deformation"}, {&network_.runner(), "network"},
+        {&animation_->runner(), "deformation"},        {&network_.writer(), "network"},
+        {&workbench_.kept().runner(), "deformation"},  {&exports_->runner(), "deformation"},
+        {&workbench_.field().runner(), "resistance"},  {&workbench_.keptField().runner(), "resistance"},
+        {&sceneExport_->runner(), "network"}};
     for (int k = 0; k < scenes_->count(); ++k)
       for (JobRunner* runner : static_cast<Scene*>(scenes_->widget(k))->runners()) jobs.push_back({runner, names_[k]});
     lamps_->setJobs(jobs);
@@ -248,7 +250,12 @@ void MainWindow::restoreLayout() {
   setTheme(kThemes.find(settings.value("theme").toString().toStdString()).value_or(Theme::Light));
 }
 
-bool MainWindow::mayEndRecording() {
+bool MainWindow::mayEndWhatRuns() {
+  if (reports_->running() &&
+      QMessageBox::question(this, tr("A report is running"),
+                            tr("Quitting stops the report; nothing of it is kept. Quit?"),
+                            QMessageBox::Yes | QMessageBox::No, QMessageBox::No) != QMessageBox::Yes)
+    return false;
   const QString files = live_->recording();
   if (files.isEmpty()) return true;
   const auto answer = QMessageBox::question(
@@ -259,7 +266,7 @@ bool MainWindow::mayEndRecording() {
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
-  if (!mayEndRecording() || !document_->mayLeave()) {
+  if (!document_->mayLeave() || !mayEndWhatRuns()) { // the recording last: after its Yes nothing goes on
     event->ignore();
     return;
   }

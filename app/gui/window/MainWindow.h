@@ -58,7 +58,7 @@ private:
   void buildStatusLine();
   /// What the scene that is seen does; where it does nothing, what all do.
   void cancelAll();
-  bool mayEndRecording();
+  bool mayEndWhatRuns();
   /// What only scenes need that are not seen.
   void giveBackMemory();
   void sceneChosen(int index);

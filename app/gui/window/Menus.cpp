@@ -1,7 +1,6 @@
 #include "app/gui/window/Menus.h"
 
 #include "app/gui/document/Document.h"
-#include "app/gui/jobs/TouchResistances.h"
 #include "app/gui/project/ResultCsv.h"
 #include "app/gui/project/Workbench.h"
 #include "app/gui/touch/FilmDialog.h"
@@ -14,6 +13,7 @@
 #include "app/gui/window/history/UndoActions.h"
 #include "app/scenes/VtuFile.h"
 #include "io/DesignFile.h"
+#include "model/base/Cancelled.h"
 #include "model/base/Error.h"
 #include "solver/CalculixDeck.h"
 
@@ -86,6 +86,23 @@ ExportJob::Making Menus::vtuMaking() const {
   };
 }
 
+/// Under the field they may not be there yet: the export computes them.
+void Menus::exportResistances() {
+  const TouchSession& session = workbench_.touch();
+  if (session.electrodes() == nullptr) {
+    window_.showMessage(tr("There are no displacements to export yet; wait until they are computed."));
+    return;
+  }
+  const QString file = askFileToSave(&window_, tr("Export CSV"), "resistances.csv", tr("Tables (*.csv)"));
+  if (file.isEmpty()) return;
+  window_.exports().write(file, [touch = session.touch(), fraction = session.loadFraction(),
+                                 known = workbench_.resistances()](const std::stop_token& stop) {
+    const auto resistances = known ? known : fieldResistances(touch, fraction, stop);
+    stopIfAsked(stop);
+    return resistancesCsv({touch.design(), touch.load(), fraction}, *resistances).toStdString();
+  });
+}
+
 void Menus::buildExport(QMenu& menu) {
   add(menu, tr("Export &VTU..."), tr("Mesh and fields of what is shown, for ParaView"), {}, [this] {
     if (workbench_.touch().fields() == nullptr) {
@@ -96,28 +113,20 @@ void Menus::buildExport(QMenu& menu) {
     const QString file = askFileToSave(&window_, tr("Export VTU"), "deformed.vtu", tr("VTK files (*.vtu)"));
     if (!file.isEmpty()) window_.exports().write(file, vtuMaking());
   });
-  using Table = QString (*)(const ResultSource&, const ElectrodeDisplacements&);
-  const auto addTable = [&](const QString& text, const QString& tip, const QString& file, Table table) {
-    add(menu, text, tip, {}, [this, file, table] {
-      const TouchSession& touch = workbench_.touch();
-      if (touch.electrodes() == nullptr) {
-        window_.showMessage(tr("There are no displacements to export yet; wait until they are computed."));
-        return;
-      }
-      if (const QString why = whyNoResistances(touch.touch().design()); table == resistancesCsv && !why.isEmpty()) {
-        window_.showMessage(why);
-        return;
-      }
-      exportTo(tr("Export CSV"), file, tr("Tables (*.csv)"), [&touch, table](const QString& name) {
-        writeText(name,
-                  table({touch.touch().design(), touch.touch().load(), touch.loadFraction()}, *touch.electrodes()));
+  add(menu, tr("Export &electrodes (CSV)..."),
+      tr("Displacements of the upper electrodes as shown, with load and design"), {}, [this] {
+        const TouchSession& touch = workbench_.touch();
+        if (touch.electrodes() == nullptr) {
+          window_.showMessage(tr("There are no displacements to export yet; wait until they are computed."));
+          return;
+        }
+        exportTo(tr("Export CSV"), "electrodes.csv", tr("Tables (*.csv)"), [&touch](const QString& name) {
+          writeText(name, electrodesCsv({touch.touch().design(), touch.touch().load(), touch.loadFraction()},
+                                        *touch.electrodes()));
+        });
       });
-    });
-  };
-  addTable(tr("Export &electrodes (CSV)..."),
-           tr("Displacements of the upper electrodes as shown, with load and design"), "electrodes.csv", electrodesCsv);
-  addTable(tr("Export &resistances (CSV)..."), tr("Row-column resistances at rest and as shown, with load and design"),
-           "resistances.csv", resistancesCsv);
+  add(menu, tr("Export &resistances (CSV)..."), tr("Row-column resistances at rest and as shown, with load and design"),
+      {}, [this] { exportResistances(); });
   add(menu, tr("Export Calculi&X deck..."),
       tr("Mesh, rubber and load as an input file for CalculiX or Abaqus, as palp solve --deck writes it"), {}, [this] {
         const Touch& touch = workbench_.touch().touch();
@@ -192,6 +201,8 @@ void Menus::buildEdit() {
   add(menu, tr("&Compute again"), tr("Solves again after a cancel"), QKeySequence("F5"), [this] {
     workbench_.touch().resume();
     workbench_.kept().resume();
+    workbench_.field().retry();
+    workbench_.keptField().retry();
   });
   auto* dock = new QDockWidget(tr("History"), &window_);
   dock->setObjectName("history");

@@ -33,6 +33,7 @@ private:
   QAction* add(QMenu& menu, const QString& text, const QString& tip, const QKeySequence& keys,
                const std::function<void()>& act);
   void makeFilm();
+  void exportResistances();
   void saveView();
   void listRecent();
   [[nodiscard]] ExportJob::Making vtuMaking() const;

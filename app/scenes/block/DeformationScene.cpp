@@ -2,6 +2,7 @@
 
 #include "app/scenes/block/BlockActors.h"
 #include "app/scenes/block/CameraFit.h"
+#include "app/scenes/block/CurrentActor.h"
 #include "app/scenes/block/ElectrodeActors.h"
 #include "app/scenes/block/Overlay.h"
 #include "app/scenes/block/SceneWords.h"
@@ -103,6 +104,7 @@ double automaticWarpFactor(const SensorDesign& design, const Eigen::Matrix3Xd& d
 struct DeformationScene::Parts {
   vtkNew<vtkRenderer> renderer;
   BlockActors block{*renderer};
+  CurrentActor current{*renderer};
   ElectrodeActors electrodes{*renderer};
   ForceArrows forces{*renderer};
   Spheres mark{*renderer, 0.3};
@@ -249,9 +251,11 @@ void DeformationScene::show(const DeformationState& state, const DeformationOpti
   const Eigen::Matrix3Xd& displacement = state.fields != nullptr ? state.fields->displacement_mm : atRest;
   parts.warpFactor = options.warpFactor.value_or(automaticWarpFactor(*state.design, displacement));
   const Eigen::Matrix3Xd drawnDisplacement = parts.warpFactor * displacement;
-  const std::vector<double> values = shownValues(state, options);
-  const ColorScale colors = colorScale(values, options);
-  parts.colorRange = values.empty() ? std::array<double, 2>{} : std::array{colors.low, colors.high};
+  const std::vector<double> values = state.current != nullptr ? std::vector<double>() : shownValues(state, options);
+  const ColorScale colors = state.current != nullptr ? currentColors(*state.current) : colorScale(values, options);
+  const bool coloured = !values.empty() || (state.current != nullptr && !state.current->lines.empty());
+  parts.colorRange = coloured ? std::array{colors.low, colors.high} : std::array<double, 2>{};
+  parts.current.show(state.current, parts.warpFactor, colors, 2 * options.scale);
   parts.block.show(*state.mesh, drawnDisplacement, values, colors, options);
 
   const ElectrodeDisplacements rest = ElectrodeDisplacements::atRest(*state.design);
@@ -278,7 +282,7 @@ void DeformationScene::show(const DeformationState& state, const DeformationOpti
   parts.showForces();
   parts.showLine(options, ink.selection);
   parts.overlay->lines = sceneWords(state, options, parts.warpFactor);
-  parts.overlay->legend = values.empty() ? std::nullopt : std::optional(colors);
+  parts.overlay->legend = coloured ? std::optional(colors) : std::nullopt;
   parts.overlay->triad = true;
   parts.overlay->theme = options.theme;
   parts.overlay->scale = options.scale;

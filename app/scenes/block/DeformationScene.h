@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/scenes/ColorScale.h"
+#include "app/scenes/block/CurrentLines.h"
 #include "app/scenes/block/ForceArrows.h"
 #include "app/scenes/block/Quantity.h"
 #include "model/LoadCase.h"
@@ -74,6 +75,8 @@ struct DeformationState {
   const SensorDesign* keptDesign = nullptr;
   const LoadCase* keptLoad = nullptr;
   const NodalFields* kept = nullptr; ///< its fields at the nodes of `mesh`
+  /// The current's way in this state: drawn in a block without colours.
+  const CurrentLines* current = nullptr;
 };
 
 /// The range of the colours over these values, as the options choose quantity and map.

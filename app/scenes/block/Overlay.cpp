@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 namespace palp {
@@ -42,6 +43,7 @@ vtkStandardNewMacro(Overlay)
 
 std::vector<double> legendTicks(const ColorScale& colors, double height_px, double scale) {
   const int most = std::clamp(static_cast<int>(height_px / (28 * scale)), 2, 8);
+  if (colors.logarithmic) return decadeTicks(colors.low, colors.high, most);
   std::vector<double> ticks = roundTicks(colors.low, colors.high, most);
   // One number says no scale: a low legend gets two or three, closer together.
   const int closest = static_cast<int>(height_px / (16 * scale));
@@ -54,10 +56,26 @@ std::vector<double> legendTicks(const ColorScale& colors, double height_px, doub
   return ticks;
 }
 
+namespace {
+
+/// Decades have each as many digits as they need.
+std::vector<std::string> legendTexts(const ColorScale& colors, const std::vector<double>& ticks) {
+  if (!colors.logarithmic) return tickTexts(ticks);
+  std::vector<std::string> texts;
+  for (const double tick : ticks) {
+    std::array<char, 32> buffer{};
+    std::snprintf(buffer.data(), buffer.size(), "%.3g", tick);
+    texts.emplace_back(buffer.data());
+  }
+  return texts;
+}
+
+} // namespace
+
 double legendWidth_px(vtkContext2D& painter, const ColorScale& colors, Theme theme, double scale) {
   useText(painter, palette(theme).text, 12 * scale);
   double widest = 0;
-  for (const std::string& text : tickTexts(legendTicks(colors, 200 * scale, scale)))
+  for (const std::string& text : legendTexts(colors, legendTicks(colors, 200 * scale, scale)))
     widest = std::max(widest, textWidth_px(painter, text));
   const double numbers = (kLegendBar_px + 2 * kLegendTick_px) * scale + widest;
   useText(painter, palette(theme).text, 13 * scale, true);
@@ -74,7 +92,7 @@ void paintLegend(vtkContext2D& painter, const ColorScale& colors, const LegendPl
   bands->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
   auto* byte = static_cast<unsigned char*>(bands->GetScalarPointer());
   for (int band = 0; band < kBands; ++band) {
-    for (const double part : colors.shown(colors.low + (colors.high - colors.low) * (band + 0.5) / kBands))
+    for (const double part : colors.shown(colors.at((band + 0.5) / kBands)))
       *byte++ = static_cast<unsigned char>(std::lround(255 * part));
     *byte++ = 255;
   }
@@ -87,10 +105,10 @@ void paintLegend(vtkContext2D& painter, const ColorScale& colors, const LegendPl
   painter.GetPen()->SetColorF(ink.text[0], ink.text[1], ink.text[2], 1);
   useText(painter, ink.text, 12 * scale);
   const std::vector<double> ticks = legendTicks(colors, place.height, scale);
-  const std::vector<std::string> texts = tickTexts(ticks);
+  const std::vector<std::string> texts = legendTexts(colors, ticks);
   std::vector<float> ends;
   for (std::size_t k = 0; k < ticks.size(); ++k) {
-    const double y = place.y + (ticks[k] - colors.low) / (colors.high - colors.low) * place.height;
+    const double y = place.y + colors.share(ticks[k]) * place.height;
     const double x = place.x + place.width;
     ends.insert(ends.end(), {static_cast<float>(x), static_cast<float>(y),
                              static_cast<float>(x + kLegendTick_px * scale), static_cast<float>(y)});
@@ -119,23 +137,32 @@ std::vector<Overlay::WordBox> Overlay::wordBoxes(vtkContext2D& painter) {
   // Short words, as numbers of areas, stay at their places; a longer one goes up until it covers none of them.
   std::stable_sort(boxes.begin(), boxes.end(),
                    [](const WordBox& a, const WordBox& b) { return a.word->text.size() < b.word->text.size(); });
+  const auto apart = [this](const WordBox& a, const WordBox& b) {
+    return std::abs(a.y - b.y) >= kWordHeight_px * scale || a.x > b.x + b.width + 8 * scale ||
+           b.x > a.x + a.width + 8 * scale;
+  };
   for (auto box = boxes.begin(); box != boxes.end(); ++box)
     for (bool moved = true; std::exchange(moved, false);)
       for (auto other = boxes.begin(); other != box; ++other) {
-        const bool apart = std::abs(other->y - box->y) >= kWordHeight_px * scale ||
-                           other->x > box->x + box->width + 8 * scale || box->x > other->x + other->width + 8 * scale;
-        if (apart || other->word->text.size() == box->word->text.size()) continue;
+        if (apart(*other, *box) || other->word->text.size() == box->word->text.size()) continue;
         box->y = other->y + (kWordHeight_px + 1) * scale;
         moved = true;
       }
-  // What was driven into the lines goes beside them, or under them where there is no room: over short words then.
+  // What was driven into the lines goes beside them, or under them and under other words where there is no room.
   for (WordBox& box : boxes) {
     const double beside = kMargin_px * scale + widest_ + 12 * scale;
     if (box.y + 0.5 * kWordHeight_px * scale <= linesEnd() || box.x >= beside - 4 * scale) continue;
-    if (beside + box.width + 4 <= GetScene()->GetSceneWidth() && !legend)
+    if (beside + box.width + 4 <= GetScene()->GetSceneWidth() && !legend) {
       box.x = beside;
-    else
-      box.y = linesEnd() - 0.5 * kWordHeight_px * scale;
+      continue;
+    }
+    box.y = linesEnd() - 0.5 * kWordHeight_px * scale;
+    for (bool moved = true; std::exchange(moved, false);)
+      for (const WordBox& other : boxes) {
+        if (&other == &box || apart(other, box)) continue;
+        box.y = other.y - (kWordHeight_px + 1) * scale;
+        moved = true;
+      }
   }
   return boxes;
 }

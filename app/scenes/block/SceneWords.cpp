@@ -30,6 +30,10 @@ std::string sizeText(const Eigen::Vector3d& block_mm) {
   return buffer.data();
 }
 
+std::string blockText(const DeformationState& state) {
+  return "block " + sizeText(state.design->block_mm) + " mm";
+}
+
 std::string placeText(const Eigen::Vector2d& place_mm) {
   std::array<char, 64> buffer{};
   std::snprintf(buffer.data(), buffer.size(), "(%.4g, %.4g)", place_mm.x(), place_mm.y());
@@ -59,14 +63,26 @@ bool nothingColoured(const DeformationState& state, const DeformationOptions& op
 }
 
 std::vector<std::string> sceneWords(const DeformationState& state, const DeformationOptions& options, double warp) {
+  if (state.current != nullptr && state.current->lines.empty()) return {"The current's way is not there yet"};
+  if (state.current != nullptr) {
+    std::array<char, 128> title{}, each{};
+    std::snprintf(title.data(), title.size(), "Current of row-wire %d, column-wire %d", state.current->rowWire,
+                  state.current->columnWire);
+    std::snprintf(each.data(), each.size(), "each line: %.2g %% of what is driven", 100 * state.current->current_A);
+    std::vector<std::string> lines{title.data(), each.data(), warpText(warp)};
+    if (state.loadFraction != 1 || options.fullLoad) lines.push_back(fractionText(state.loadFraction));
+    return lines;
+  }
   if (options.lessKept && state.fields != nullptr) {
     std::vector<std::string> lines = differenceLines(state, options);
     lines.push_back(warpText(warp));
     if (state.loadFraction != 1 || options.fullLoad) lines.push_back(fractionText(state.loadFraction));
     return lines;
   }
-  if (unloaded(state.fields) && !(state.fields != nullptr && options.fixedRange)) return {"Block at rest"};
-  std::vector<std::string> lines{"Deformation, coloured by " + quantityName(options.quantity), warpText(warp)};
+  if (unloaded(state.fields) && !(state.fields != nullptr && options.fixedRange))
+    return {"Block at rest", blockText(state)};
+  std::vector<std::string> lines{"Deformation, coloured by " + quantityName(options.quantity),
+                                 blockText(state) + ", " + warpText(warp)};
   if (state.loadFraction != 1 || options.fullLoad) lines.push_back(fractionText(state.loadFraction));
   return lines;
 }

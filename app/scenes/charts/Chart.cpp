@@ -32,7 +32,7 @@ namespace {
 // Labels of 12 px: estimates, a little large.
 constexpr double kLetter_px = 7.5;
 constexpr double kGap_px = 8;
-constexpr double kLine_px = 16;
+constexpr double kAxisLine_px = 16;
 constexpr double kBesidePlot_px = 70;  ///< on one side, by which the plot is off the middle
 constexpr double kMostLegend = 0.4;    ///< of the height that a legend may take from the curves
 constexpr double kAroundPlot_px = 100; ///< of the picture along an axis
@@ -115,7 +115,7 @@ void setAxis(vtkAxis& axis, const std::string& label, const Range& range, bool l
   axis.SetUnscaledRange(range.low, range.high);
   const bool upright = axis.GetPosition() == vtkAxis::LEFT;
   const AxisRoom room{length_px - kAroundPlot_px * scale, upright ? 0 : kLetter_px * scale,
-                      (upright ? kLine_px : kGap_px) * scale};
+                      (upright ? kAxisLine_px : kGap_px) * scale};
   setTicks(axis, axisMarks(range.low, range.high, logarithmic, room), logarithmic);
   setTextStyle(*axis.GetTitleProperties(), colors.text, fittingSize(label, 13 * scale, length_px, scale));
   setTextStyle(*axis.GetLabelProperties(), colors.text, 12 * scale);
@@ -144,7 +144,8 @@ void addSeries(vtkChartXY& chart, const ChartSeries& series, const Points& point
   // A line needs two points.
   const bool cloud = series.style == ChartSeries::Style::Points || points.x.size() == 1;
   auto* plot = vtkPlotPoints::SafeDownCast(chart.AddPlot(cloud ? vtkChart::POINTS : vtkChart::LINE));
-  plot->SetInputData(table(points, series.name.empty() ? "y" : series.name), 0, 1);
+  plot->SetInputData(table(points, series.legendWords().empty() ? "y" : series.legendWords()), 0, 1);
+  plot->SetLegendVisibility(!series.legend || !series.legend->empty());
   plot->GetPen()->SetColor(bytes(color).data());
   plot->GetPen()->SetWidth(static_cast<float>(2 * scale));
   if (series.dashed) plot->GetPen()->SetLineType(vtkPen::DASH_LINE);
@@ -209,7 +210,7 @@ void fillChart(vtkChartXY& chart, const ChartSpec& spec, Theme theme, double sca
     for (const double value : points.x) x.add(value);
     for (const double value : points.y) y.add(value);
     addSeries(chart, series, points, seriesColor(series.color < 0 ? static_cast<int>(k) : series.color, theme), scale);
-    if (!points.x.empty() && !series.name.empty()) names.push_back(series.name);
+    if (!points.x.empty() && !series.legendWords().empty()) names.push_back(series.legendWords());
     all.push_back(std::move(points));
   }
   const Range xShown = spec.xRange ? Range{(*spec.xRange)[0], (*spec.xRange)[1]} : padded(x, spec.logX);

@@ -17,13 +17,15 @@ namespace palp {
 struct ChartSeries {
   enum class Style { Line, Points, LineAndPoints };
 
-  std::string name; ///< for the legend
+  std::string name;
   std::vector<double> x;
   std::vector<double> y;
   Style style = Style::Line;
-  bool dashed = false; ///< its points are diamonds
-  int color = -1;      ///< place in the palette's series colours; -1: the series' own place
+  bool dashed = false;                 ///< its points are diamonds
+  int color = -1;                      ///< place in the palette's series colours; -1: the series' own place
+  std::optional<std::string> legend{}; ///< its words in the legend; none: the name, empty: it is not in it
 
+  [[nodiscard]] const std::string& legendWords() const { return legend ? *legend : name; }
   bool operator==(const ChartSeries&) const = default;
 };
 

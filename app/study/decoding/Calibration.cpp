@@ -65,6 +65,7 @@ void requireUsable(const Decoder& decoder, const SampleSet& frames) {
   if (frames.size() < kFewestCalibrationFrames)
     throw Error(std::to_string(frames.size()) + " labelled frames; at least " +
                 std::to_string(kFewestCalibrationFrames) + " are needed");
+  requireReadout(decoder, frames.origin.readout, "the frames are");
   if (frames.origin.designFingerprint != decoder.designFingerprint)
     throw Error("the frames are of design " + frames.origin.designFingerprint + ", the network of " +
                 decoder.designFingerprint);
@@ -207,6 +208,7 @@ Calibration calibrate(const Decoder& decoder, const SampleSet& frames, const std
 
 FrameAverage::FrameAverage(const Decoder& decoder, const SensorDesign& design, const AreaLoad& label) {
   set_.origin.designFingerprint = decoder.designFingerprint;
+  set_.origin.readout = decoder.readout;
   set_.origin.seed = 0;
   set_.origin.areas = "each";
   set_.origin.perArea = 1;

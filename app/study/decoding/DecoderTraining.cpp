@@ -94,6 +94,7 @@ void DecoderTraining::describe() {
   decoder_.input.rowWires = samples_.rowWires;
   decoder_.input.valuesPerRow = displacement ? 3 * samples_.electrodesPerRowWire : samples_.columnWires;
   decoder_.designFingerprint = samples_.origin.designFingerprint;
+  if (!displacement) decoder_.readout = samples_.origin.readout;
   decoder_.trainedWith = "palp train" + asCommand(options_);
   decoder_.mode = options_.mode;
   decoder_.seed = options_.seed;
@@ -187,7 +188,7 @@ void DecoderTraining::fitBackPropagation() {
 
 void DecoderTraining::fitTwoStep(bool gaussNewton) {
   if (gaussNewton && !design_)
-    throw Error("decoder: two-step-gn inverts Eq. (1) of the design; give the design with --design");
+    throw Error("decoder: two-step-gn inverts the resistance law of the design; give the design with --design");
   TwoStepFit fit = trainTwoStep(samples_, gaussNewton ? design_ : nullptr, decoder_.input, options_, stop_,
                                 [this](double share, const std::string& what) { say(0.9 * share, what); });
   decoder_.report = std::move(fit.report);

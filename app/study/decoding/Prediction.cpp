@@ -224,6 +224,12 @@ std::string otherDesign(const Decoder& decoder, const SampleSet& samples) {
          decoder.designFingerprint + "): its forces mean little there";
 }
 
+void requireReadout(const Decoder& decoder, const std::optional<Readout>& readout, const std::string& whatIs) {
+  if (!decoder.readout || !readout || *decoder.readout == *readout) return;
+  throw Error("the network was trained for read-out " + kReadouts.name(*decoder.readout) + ", " + whatIs +
+              " of read-out " + kReadouts.name(*readout) + ": train one for that");
+}
+
 DecoderError decoderError(const Decoder& decoder, const Prediction& prediction, const SampleSet& samples) {
   if (samples.forces_N.rows() != decoder.outputs())
     throw Error("samples: " + std::to_string(samples.forces_N.rows()) + " forces a sample; the decoder gives " +

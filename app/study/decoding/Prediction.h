@@ -59,6 +59,10 @@ Prediction predict(const Decoder& decoder, const SampleSet& samples, const Predi
 /// The sentence for samples of another design than the decoder's.
 std::string otherDesign(const Decoder& decoder, const SampleSet& samples);
 
+/// Throws Error where the network's read-out and this one are both known and are not the same; `whatIs`: "the board
+/// is".
+void requireReadout(const Decoder& decoder, const std::optional<Readout>& readout, const std::string& whatIs);
+
 /// Errors against the forces in the set, in % of the training range; where areas were determined, the share of right
 /// ones.
 struct DecoderError {

@@ -1,6 +1,8 @@
 #include "app/study/decoding/TwoStep.h"
 
+#include "app/study/decoding/BlockInversion.h"
 #include "app/study/decoding/Prediction.h"
+#include "io/DesignFile.h"
 #include "model/RowColumnResistance.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
@@ -145,6 +147,11 @@ Inversion invertRowResistances(const SensorDesign& design, int rowWire,
 
 Eigen::MatrixXd displacementsOf(const TwoStep& decoder, const Eigen::Ref<const Eigen::MatrixXd>& resistances_ohm) {
   if (decoder.network) return decoder.network->predict(resistances_ohm);
+  if (decoder.block) {
+    if (!(resistances_ohm.array() > 0).all())
+      throw Error("resistances: one is not above 0; a field gives positive ones");
+    return decoder.block->displacements_mm(resistances_ohm);
+  }
   return inverted(*decoder.design, decoder.rows, resistances_ohm, {}, nullptr);
 }
 
@@ -167,7 +174,17 @@ TwoStepFit trainTwoStep(const SampleSet& samples, const SensorDesign* design, co
   TwoStepFit fit;
   fit.decoder.rows = input.rows;
   Eigen::MatrixXd seen_mm;
-  if (design) {
+  if (design && design->field()) {
+    progress(0, "step 1: inverting the field at rest");
+    if (design->rowWires() != samples.rowWires || design->columnWires() != samples.columnWires ||
+        design->electrodesPerRowWire() != samples.electrodesPerRowWire)
+      throw Error("decoder: two-step-gn: the samples have other wires or electrodes than the design whose field it "
+                  "inverts");
+    fit.decoder.block = blockInversion(*design, input.rows, options.noise, options.threads, stop, fit.report);
+    if (samples.origin.designFingerprint != designFingerprint(*design))
+      fit.report.warnings.push_back("the samples are of another design than the one whose field is inverted");
+    seen_mm = displacementsOf(fit.decoder, measured_ohm);
+  } else if (design) {
     progress(0, "step 1: inverting Eq. (1)");
     fit.decoder.design = *design;
     seen_mm = inverted(*design, input.rows, measured_ohm, stop, &fit.report);

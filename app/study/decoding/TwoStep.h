@@ -38,8 +38,9 @@ struct TwoStepFit {
   Eigen::MatrixXd residuals_N; ///< outputs x samples: of both steps on the training samples, with the noise
 };
 
-/// Step 1 by Gauss-Newton where a design is given, else by a back-propagation network; step 2 a network trained on
-/// what step 1 gives. Throws Error unless the input is resistance.
+/// Step 1 by Gauss-Newton where a design is given (under the field one step of it from rest), else by a
+/// back-propagation network; step 2 a network trained on what step 1 gives. Throws Error unless the input is
+/// resistance.
 TwoStepFit trainTwoStep(const SampleSet& samples, const SensorDesign* design, const DecoderInput& input,
                         const TrainOptions& options, const std::stop_token& stop,
                         const std::function<void(double, const std::string&)>& progress);

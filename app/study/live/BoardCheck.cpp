@@ -32,6 +32,8 @@ void checkInfo(Results& results, const BoardInfo& info) {
        std::to_string(info.electrodesPerRowWire) + " and " + std::to_string(info.electrodesPerColumnWire)});
   results.push_back({"a serial number, for calibration to find its board", !info.serial.empty(), info.serial});
   results.push_back({"a model name", !info.model.empty(), info.model});
+  results.push_back({"read-out, where the board says it", true, // older boards do not
+                     info.readout ? kReadouts.name(*info.readout) : "not said"});
   results.push_back({"effective bits 12 to 24", info.effectiveBits >= 12 && info.effectiveBits <= 24,
                      std::to_string(info.effectiveBits)});
   results.push_back({"pitches and thickness above 0", info.pitchX_mm > 0 && info.pitchY_mm > 0 && info.thickness_mm > 0,

@@ -1,6 +1,7 @@
 #include "app/study/live/ForceDecoder.h"
 
 #include "io/DesignFile.h"
+#include "model/FieldAtRest.h"
 #include "model/RowColumnResistance.h"
 #include "model/base/Error.h"
 
@@ -36,13 +37,19 @@ void requireFit(const Decoder& decoder, const BoardInfo& info) {
   if (decoder.input.rowWires != info.rowWires || decoder.input.valuesPerRow != info.columnWires)
     throw Error("the network is for " + sizes(decoder.input.rowWires, decoder.input.valuesPerRow) + ", the board has " +
                 sizes(info.rowWires, info.columnWires) + ": only raw readings can be shown");
+  requireReadout(decoder, info.readout, "the board is");
+}
+
+Eigen::MatrixXd atRest(const SensorDesign& design) {
+  if (const FieldLaw* law = design.field())
+    return NetworkReading(networkAtRest(design, *law), law->readout).resistances_ohm();
+  return rowColumnResistances(design, ElectrodeDisplacements::atRest(design));
 }
 
 /// Resistances at rest; empty where the network's design is not known.
 Eigen::MatrixXd restResistances(const Decoder& decoder, const std::optional<SensorDesign>& design) {
   const SensorDesign known = design.value_or(paperDesign());
-  if (designFingerprint(known) == decoder.designFingerprint)
-    return rowColumnResistances(known, ElectrodeDisplacements::atRest(known));
+  if (designFingerprint(known) == decoder.designFingerprint) return atRest(known);
   if (design)
     throw Error("the network is of design " + decoder.designFingerprint + ", the given design is " +
                 designFingerprint(known) + ": give the design that it was trained for");

@@ -93,6 +93,7 @@ VirtualBoard simulatedBoard(const SampleSet& samples, const BoardDisturbance& di
   settings.info.rowWires = touch->rowWires();
   settings.info.columnWires = touch->columnWires();
   settings.info.electrodesPerRowWire = samples.electrodesPerRowWire;
+  settings.info.readout = samples.origin.readout;
   settings.info.serial = "SIMULATED";
   settings.info.model = "VIRTUAL";
   // The lowest bits, one a row-wire; a board with more row-wires than bits is refused by VirtualBoard.

@@ -6,13 +6,15 @@
 #include "model/base/Text.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 
 namespace palp {
 
 namespace {
 
-constexpr std::size_t kBlock = 192; // samples solved before they are handed out: about a second of work
+constexpr std::size_t kBlock = 192;     // samples solved before they are handed out: about a second of work
+constexpr std::size_t kFieldBlock = 64; // the same where each has a conduction field of its own
 constexpr std::size_t kSurrogateBlock = 8192;
 constexpr int kMostPerArea = 10'000'000;
 
@@ -66,6 +68,7 @@ SampleGenerator::SampleGenerator(SensorDesign design, SampleRequest request)
                       std::to_string(kMostPerArea));
   onlyArea_ = onlyArea(request_.areas, design_.areas.count());
   origin_.designFingerprint = designFingerprint(design_);
+  if (const FieldLaw* field = design_.field()) origin_.readout = field->readout;
   origin_.seed = request_.seed;
   origin_.areas = request_.areas;
   origin_.perArea = request_.perArea;
@@ -112,16 +115,25 @@ bool SampleGenerator::prepare(const std::stop_token& stop) {
   }
   // All loads together are more than the surrogates of single areas can answer.
   if (!fitted_ && request_.surrogate && request_.areas != "together") {
-    std::vector<int> areas{onlyArea_.value_or(0)};
-    if (!onlyArea_)
-      for (int area = 1; area < design_.areas.count(); ++area) areas.push_back(area);
-    fitted_ = stages_.measure("surrogate", [&] {
-      return solver_->fitSurrogates(areas, stop) && (!field_ || field_->fitSurrogates(areas, stop));
-    });
+    fitted_ = stages_.measure("surrogate", [&] { return fitSurrogates(stop); });
     if (!fitted_) return false;
     origin_.surrogateError = std::max(solver_->surrogateError(), field_ ? field_->surrogateError() : 0);
   }
   return true;
+}
+
+bool SampleGenerator::fitSurrogates(const std::stop_token& stop) {
+  const int first = onlyArea_.value_or(0), count = onlyArea_ ? 1 : design_.areas.count();
+  for (int k = 0; k < count; ++k) {
+    const std::array area{first + k};
+    if (fitting_) fitting_(static_cast<std::size_t>(k), static_cast<std::size_t>(count));
+    if (!solver_->fitSurrogates(area, stop) || (field_ && !field_->fitSurrogates(area, stop))) return false;
+  }
+  return true;
+}
+
+void SampleGenerator::setSeed(std::uint64_t seed) {
+  request_.seed = origin_.seed = seed;
 }
 
 double SampleGenerator::measuredError() const {
@@ -141,7 +153,7 @@ SampleSet SampleGenerator::emptySet(const std::stop_token& stop) {
 std::size_t SampleGenerator::generate(SampleRange range, const std::function<void(const SampleSet&)>& take,
                                       const std::function<void(std::size_t)>& progress, const std::stop_token& stop) {
   if (stop.stop_requested() || !prepare(stop)) return 0;
-  const std::size_t most = request_.surrogate ? kSurrogateBlock : kBlock;
+  const std::size_t most = request_.surrogate ? kSurrogateBlock : field_ ? kFieldBlock : kBlock;
   std::size_t done = range.first;
   while (done < range.last && !stop.stop_requested()) {
     const SampleRange part{done, std::min(range.last, done + most)};

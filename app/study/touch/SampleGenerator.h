@@ -50,6 +50,12 @@ public:
   std::size_t generate(SampleRange range, const std::function<void(const SampleSet&)>& take,
                        const std::function<void(std::size_t)>& progress = {}, const std::stop_token& stop = {});
 
+  /// The same request with another seed from now on; what was prepared stays.
+  void setSeed(std::uint64_t seed);
+  /// Called between the fits of surrogates, with the number of areas that have theirs and of all; they take longer than
+  /// the samples.
+  void whileFitting(std::function<void(std::size_t done, std::size_t all)> progress) { fitting_ = std::move(progress); }
+
   /// What the head of the file says; needs the mesh (and for surrogates the fit).
   const SampleOrigin& origin();
   /// An empty set with this request's origin and sizes. Stopped: its origin lacks what was not computed.
@@ -64,6 +70,7 @@ public:
 private:
   /// False: stopped.
   bool prepare(const std::stop_token& stop = {});
+  bool fitSurrogates(const std::stop_token& stop);
   /// Empty displacements: stopped.
   ConductionBatch::Answers answers(const SampleRange& part, const std::function<void(std::size_t)>& progress,
                                    const std::stop_token& stop);
@@ -77,6 +84,7 @@ private:
   std::unique_ptr<BatchSolver> solver_;
   std::unique_ptr<ConductionBatch> field_; ///< under the law of the field
   bool fitted_ = false;                    ///< surrogates, where wanted
+  std::function<void(std::size_t, std::size_t)> fitting_;
   StageLog stages_;
 };
 

@@ -20,6 +20,7 @@ enum class Stage { Design, Mesh, Solution, Displacements, Resistances };
 Eigen::MatrixXd resistancesAtRest_ohm(const SensorDesign& design);
 
 /// One touch, followed from the design to the resistances, no farther than asked: a change drops what comes after it.
+/// Another law of the resistances leaves the deformation as it is, another read-out the field too.
 /// The mesh is finer at the rims of the load's discs. Copies are cheap (results are shared and never changed), so that
 /// a background job takes a copy, advances it and hands it back.
 class Touch {
@@ -55,6 +56,7 @@ public:
 
 private:
   void dropFrom(Stage stage);
+  void setLaw(const SensorDesign& design);
   void findNetwork(const NewtonOptions& options, const NewtonObserver& observer);
   /// The options with the load's discs in place of theirs.
   [[nodiscard]] MeshOptions meshing() const;

@@ -109,10 +109,10 @@ TEST(BadInput, TheFieldLawIsRefusedWhereEq1IsMeant) {
   EXPECT_EQ(checked.json().at("readout"), "virtual_ground");
   const std::string out = folder / "out";
   for (const std::vector<std::string>& command :
-       {std::vector<std::string>{"report", "networks", "--design", file, "-o", out},
-        {"report", "error-time", "--design", file, "-o", out},
-        {"listen", "--simulate", "--design", file}})
+       {std::vector<std::string>{"report", "stability", "--design", file, "-o", out},
+        {"report", "error-time", "--design", file, "-o", out}})
     expectRefused(palp::test::palp(command), {"not yet under the field law", "resistance.law pairs"});
+  expectRefused(palp::test::palp({"listen", "--simulate", "--design", file}), {"--design", "trained for"});
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 

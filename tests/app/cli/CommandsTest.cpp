@@ -82,18 +82,20 @@ TEST(Commands, SolveUnderTheFieldSaysItsLawReadOutAndError) {
 
 TEST(Commands, SamplesOfTheFieldTrainANetwork) {
   const palp::TemporaryFolder folder;
-  const std::string samples = folder / "samples.csv", network = folder / "network.json";
-  const Outcome made = palp::test::palp({"sample", fieldDesign(folder), "--per-area", "40", "--areas", "0", "--mapped",
-                                         "6x6x3", "--surrogate", "-o", samples, "--json"});
+  const std::string samples = folder / "samples.csv", network = folder / "network.json", design = fieldDesign(folder);
+  const Outcome made = palp::test::palp({"sample", design, "--per-area", "40", "--areas", "0", "--mapped", "6x6x3",
+                                         "--surrogate", "-o", samples, "--json"});
   ASSERT_EQ(made.exit, 0) << made.errors;
   EXPECT_LT(made.json().at("measured_error_relative").get<double>(), 1e-2);
-  const Outcome trained = palp::test::palp(
-      {"train", samples, "--input", "resistance", "--rows", "all", "--decoder", "linear", "-o", network, "--json"});
-  ASSERT_EQ(trained.exit, 0) << trained.errors;
-  const Outcome predicted = palp::test::palp({"predict", network, samples, "--json"});
-  ASSERT_EQ(predicted.exit, 0) << predicted.errors;
-  const json said = predicted.json();
-  for (const json& percent : said.at("error").at("rmse_percent_of_range")) EXPECT_LT(percent.get<double>(), 5);
+  for (const char* decoder : {"linear", "two-step-gn"}) { // the second inverts the design's field
+    const Outcome trained = palp::test::palp({"train", samples, "--input", "resistance", "--rows", "all", "--decoder",
+                                              decoder, "--design", design, "--force", "-o", network, "--json"});
+    ASSERT_EQ(trained.exit, 0) << trained.errors;
+    const Outcome predicted = palp::test::palp({"predict", network, samples, "--json"});
+    ASSERT_EQ(predicted.exit, 0) << predicted.errors;
+    const json said = predicted.json();
+    for (const json& percent : said.at("error").at("rmse_percent_of_range")) EXPECT_LT(percent.get<double>(), 5);
+  }
 }
 
 TEST(Commands, SolveSaysAllThatToolsRelyOn) {

@@ -1,5 +1,6 @@
 #include "tests/app/gui/WindowFixture.h"
 
+#include <QCheckBox>
 #include <QComboBox>
 #include <QCoreApplication>
 #include <QDir>
@@ -116,6 +117,43 @@ TEST_F(Heartbeat, BeatsWhileSamplingTrainingAndSweeping) {
   click("sweep");
   expectCancelled("a sweep", network.runner());
   EXPECT_EQ(network.fit(), good);
+}
+
+TEST_F(Heartbeat, BeatsUnderTheConductionField) {
+  ASSERT_TRUE(solved());
+  Project standard = workbench.project();
+  standard.mesh = {};
+  workbench.edit("standard mesh", standard);
+  window.showScene("resistance");
+  ASSERT_TRUE(solved());
+  ASSERT_TRUE(idle());
+  const auto complete = [&] { return window.currentScene().complete() && !window.busy(); };
+  const auto choose = [&](const char* box, Qt::Key key) {
+    find<QComboBox>(box).setFocus();
+    QTest::keyClick(&find<QComboBox>(box), key);
+  };
+  expectFree(
+      "the field is computed", [&] { choose("lawBar", Qt::Key_Down); }, complete);
+  ASSERT_NE(workbench.project().design.field(), nullptr);
+  expectFree(
+      "another read-out is chosen", [&] { choose("readoutBar", Qt::Key_Down); }, complete);
+  auto& way = find<QCheckBox>("currentWay");
+  expectFree(
+      "the current is followed", [&] { QTest::mouseClick(&way, Qt::LeftButton, {}, QPoint(8, way.height() / 2)); },
+      complete);
+  ASSERT_TRUE(workbench.project().view.currentWay);
+  expectFree(
+      "the law is switched there and back",
+      [&] {
+        choose("lawBar", Qt::Key_Up);
+        choose("lawBar", Qt::Key_Down);
+      },
+      complete);
+  Project deeper = workbench.project();
+  deeper.load.areas[0].force_N.z() = -1.5;
+  workbench.edit("deeper", deeper);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return workbench.field().runner().running(); }, kPatience_ms));
+  expectCancelled("the field", workbench.field().runner());
 }
 
 TEST_F(Heartbeat, BeatsWhileReporting) {

@@ -37,5 +37,19 @@ TEST(DivergingColors, OfARangeWithOneSignAreOneSideOfTheMap) {
   EXPECT_LT(tint(below.color(-2.5)), -0.2);
 }
 
+TEST(LogarithmicColors, GiveEqualFactorsEqualSteps) {
+  ColorScale scale{ColorMap::Viridis, 1e-4, 1e-1, "current density", "A/mm2 per A"};
+  scale.logarithmic = true;
+  EXPECT_NEAR(scale.share(1e-4), 0, 1e-12);
+  EXPECT_NEAR(scale.share(1e-3), 1.0 / 3, 1e-12);
+  EXPECT_NEAR(scale.share(1e-1), 1, 1e-12);
+  for (const double share : {0.0, 0.3, 1.0}) EXPECT_NEAR(scale.share(scale.at(share)), share, 1e-12);
+  EXPECT_EQ(scale.color(1e-7), scale.color(1e-4)) << "beyond the range is its last colour";
+  const std::vector<double> ticks = decadeTicks(1e-4, 1e-1, 8), wanted{1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1};
+  ASSERT_EQ(ticks.size(), wanted.size());
+  for (std::size_t k = 0; k < ticks.size(); ++k) EXPECT_NEAR(ticks[k] / wanted[k], 1, 1e-12);
+  EXPECT_EQ(decadeTicks(0.9e-3, 2.5e-2, 8).size(), 5u) << "1, 2, 5, 10, 20 thousandths";
+}
+
 } // namespace
 } // namespace palp

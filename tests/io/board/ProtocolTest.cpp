@@ -74,6 +74,22 @@ TEST(Protocol, GoldenFeaturesAndMessagesReadAndWriteTheSameBytes) {
   EXPECT_EQ(listOf(encode(std::get<BoardEvent>(decodeInput(event, BoardInfo{})))), event);
 }
 
+TEST(Protocol, ABoardSaysItsReadOutOrNothingOfIt) {
+  const BoardInfo older = std::get<BoardInfo>(decodeInfo(golden("info.hex")));
+  EXPECT_FALSE(older.readout);
+  for (const auto& [readout, name] : kReadouts.all()) {
+    BoardInfo info = older;
+    info.readout = readout;
+    const Report report = encode(info);
+    EXPECT_EQ(report[31], (older.capabilities | (1 + static_cast<int>(readout)) << 5)) << name;
+    EXPECT_EQ(std::get<BoardInfo>(decodeInfo(report)), info) << name;
+  }
+  Report newer = encode(older);
+  newer[31] |= 7 << 5; // a read-out of later days
+  seal(newer);
+  EXPECT_EQ(std::get<BoardInfo>(decodeInfo(newer)), older);
+}
+
 TEST(Protocol, TemperatureMayBeBelowZeroOrMissing) {
   Readings readings = goldenReadings();
   for (const std::optional<double>& temperature : {std::optional<double>(-40), std::optional<double>(), {0.01}}) {

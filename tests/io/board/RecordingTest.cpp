@@ -65,6 +65,16 @@ TEST(Recording, ReadsBackWhatWasWritten) {
   EXPECT_FALSE(reader.cutOff());
 }
 
+TEST(Recording, KeepsTheReadOutOfItsBoard) {
+  const TemporaryFolder folder;
+  RecordingHead head;
+  head.info = smallBoard().info;
+  head.info.readout = Readout::RowsGrounded;
+  head.configuration = smallBoard().configuration;
+  { const RecordingWriter writer(folder / "a.palprec", head, false); }
+  EXPECT_EQ(RecordingReader(folder / "a.palprec").head().info.readout, Readout::RowsGrounded);
+}
+
 TEST(Recording, OpensToItsLastWholeReportWhereverItIsCutOff) {
   const TemporaryFolder folder;
   record(folder / "a.palprec");

@@ -72,6 +72,17 @@ TEST(BackPropagation, LearnsTheMap) {
   EXPECT_EQ(fit.heldOutResiduals.cols(), fit.heldOut.size());
 }
 
+/// The map's directions reach from the causes down to rounding; those below the noise must not be blown up to the size
+/// of the others.
+TEST(BackPropagation, LearnsTheMapThroughNoise) {
+  const test::Touches many = test::touches(100, 60, 3), others = test::touches(20, 60, 4);
+  BackPropagationOptions options;
+  options.relativeInputNoise = 3e-4; // 3 % of the largest signals
+  const BackPropagationFit fit = trainBackPropagation(many.samples, many.targets, options);
+  const Eigen::MatrixXd noisy = noisyCopies(others.samples, options.relativeInputNoise, 1, 5);
+  EXPECT_LT(test::worstRelativeError(fit.network.predict(noisy), others.targets), 0.5); // 1: the mean
+}
+
 TEST(BackPropagation, RefusesTargetsWhoseErrorIsNeverFinite) {
   Eigen::MatrixXd targets = training.targets;
   targets *= 1e-310; // 1 / (half their range) is infinite

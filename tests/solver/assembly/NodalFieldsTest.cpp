@@ -75,4 +75,19 @@ TEST_P(Fields, OfSwellingAreThePressureAlone) {
   EXPECT_LT(f.vonMises_MPa.maxCoeff(), 1e-7); // the root of a difference of squares
 }
 
+TEST(NodalPressures, OfTetrahedraThatAgreeOnALinearPressureAreThat) {
+  const Mesh mesh = cubeTets(3, 0.2);
+  const auto pressure = [](const Eigen::Vector3d& x) { return 0.3 - x.x() + 2 * x.y() + 0.5 * x.z(); };
+  LoadIncrement state = uniform(mesh, Eigen::Matrix3d::Identity(), 0);
+  for (int e = 0; e < mesh.elementCount(); ++e)
+    for (int k = 0; k < 4; ++k) state.elementUnknowns(3 + k, e) = -pressure(mesh.nodes_mm.col(mesh.elements(k, e)));
+  const Eigen::VectorXd found = nodalPressures_MPa(mesh, state);
+  for (int n = 0; n < mesh.nodeCount(); ++n) EXPECT_NEAR(found(n), pressure(mesh.nodes_mm.col(n)), 1e-11);
+}
+
+TEST_P(Fields, HaveTheElementsPressureAtAllNodes) {
+  const Eigen::VectorXd found = nodalPressures_MPa(mesh_, uniform(mesh_, Eigen::Matrix3d::Identity(), -0.02));
+  EXPECT_LT((found.array() - 0.02).abs().maxCoeff(), 1e-13);
+}
+
 } // namespace

@@ -47,7 +47,7 @@ std::optional<AreaResponse> AreaResponse::solve(const SensorDesign& design, cons
                                                 std::stop_token stop) {
   if (design.field()) return atRest(design, mesh, threads, stages, progress, std::move(stop));
   AreaResponse response;
-  response.mesh_ = stages.measure("mesh", [&] { return sensorMesh(design, mesh); });
+  response.mesh_ = stages.measure("mesh", [&] { return sensorMesh(design, mesh, stop); });
   const HyperelasticProblem problem =
       stages.measure("factorise", [&] { return HyperelasticProblem(design, response.mesh_); });
   NewtonOptions newton;
@@ -84,7 +84,7 @@ std::optional<AreaResponse> AreaResponse::atRest(const SensorDesign& design, con
                                                  StageLog& stages, const ReportProgress& progress,
                                                  std::stop_token stop) {
   AreaResponse response;
-  response.mesh_ = stages.measure("mesh", [&] { return sensorMesh(design, mesh); });
+  response.mesh_ = stages.measure("mesh", [&] { return sensorMesh(design, mesh, stop); });
   const HyperelasticProblem problem =
       stages.measure("factorise", [&] { return HyperelasticProblem(design, response.mesh_); });
   NewtonOptions newton;

@@ -4,24 +4,16 @@
 #include "app/study/reports/ReportPage.h"
 #include "app/study/reports/layout/FieldResponse.h"
 #include "app/study/reports/layout/SignalComparison.h"
+#include "app/study/reports/networks/LawsSideBySide.h"
 #include "app/study/reports/networks/NoiseAxis.h"
 #include "model/base/Text.h"
 
 #include <array>
 #include <cmath>
-#include <functional>
 
 namespace palp {
 
 namespace {
-
-/// A law with a read-out: its readings' answer to the forces, and its bounds.
-struct Reader {
-  std::string name;
-  Eigen::MatrixXd rest_ohm;
-  LogSensitivity slopes; ///< d ln R / dF
-  std::function<LayoutBound(int rowWire, double noise)> bound;
-};
 
 class FieldNoiseWriter {
 public:
@@ -38,8 +30,7 @@ public:
         [&](double share, const std::string& what) { say(0.7 * share, what); }, stop_);
     if (!response) return {};
     say(0.7, "the field at rest");
-    makeReaders(*response);
-    if (stop_.stop_requested()) return {};
+    laws_.emplace(request_.design, law_, *response, request_.threads, content_.stages, stop_);
     introduce();
     signals();
     bounds();
@@ -53,19 +44,6 @@ public:
 private:
   void say(double share, const std::string& what) const {
     if (progress_) progress_(share, what);
-  }
-
-  void makeReaders(const AreaResponse& response) {
-    SensorDesign pairs = request_.design;
-    pairs.resistance = PairsLaw{};
-    readers_.push_back(
-        {"Eq. (1)", rowColumnResistances(pairs, ElectrodeDisplacements::atRest(pairs)), logSensitivity(pairs, response),
-         [pairs, &response](int row, double noise) { return layoutBound(pairs, response, row, noise); }});
-    field_.emplace(content_.stages.measure(
-        "field", [&] { return FieldResponse(request_.design, law_, response, request_.threads); }));
-    for (const auto& [readout, name] : kReadouts.all())
-      readers_.push_back({name, field_->resistances_ohm(readout), field_->logSensitivity(readout),
-                          [this, which = readout](int row, double noise) { return field_->bound(which, row, noise); }});
   }
 
   void introduce() {
@@ -85,24 +63,15 @@ private:
   }
 
   void signals() {
-    ReportTable table{"At rest: mean and spread of R, and the change of ln R with the forces beside Eq. (1), over all "
-                      "readings and areas, Fx / Fy / Fz",
-                      {"law and read-out", "mean R [ohm]", "largest over smallest", "signal, times that of Eq. (1)",
-                       "correlation with Eq. (1)"},
-                      {},
-                      {}};
-    for (const Reader& reader : readers_) {
-      const auto& [factor, correlation] = comparedWith(readers_.front().slopes, reader.slopes);
+    content_.parts.emplace_back(laws_->signals());
+    for (const LawReading& reading : laws_->readings()) {
+      const auto& [factor, correlation] = comparedWith(laws_->readings().front().slopes, reading.slopes);
       for (Eigen::Index axis = 0; axis < 3; ++axis) {
         const char* const force = kForceNames[static_cast<std::size_t>(axis)];
-        csv_.add({"signal over that of Eq. (1)", reader.name, "", "", force, factor(axis)});
-        csv_.add({"correlation with Eq. (1)", reader.name, "", "", force, correlation(axis)});
+        csv_.add({"signal over that of Eq. (1)", reading.name, "", "", force, factor(axis)});
+        csv_.add({"correlation with Eq. (1)", reading.name, "", "", force, correlation(axis)});
       }
-      table.rows.push_back({reader.name, shortNumber(reader.rest_ohm.mean()),
-                            shortNumber(reader.rest_ohm.maxCoeff() / reader.rest_ohm.minCoeff()), triple(factor),
-                            triple(correlation)});
     }
-    content_.parts.emplace_back(std::move(table));
   }
 
   void bounds() {
@@ -113,19 +82,9 @@ private:
         "decoder "
         "is better. With prior: forces are uniform over their range, no decoder at all is better; knowing nothing is "
         "28.9 %."});
-    ReportTable table{"At relative noise " + text(kShownNoise) +
-                          ", root mean square over the areas, Fx / Fy / Fz [% of range]",
-                      {"law and read-out", "row-wires read", "with prior", "without prior"},
-                      {},
-                      {}};
-    for (const Reader& reader : readers_)
-      for (const int row : {row_, -1}) {
-        const LayoutBound bound = reader.bound(row, kShownNoise);
-        table.rows.push_back({reader.name, row < 0 ? "all" : std::to_string(row), triple(bound.withPrior()),
-                              triple(bound.withoutPrior())});
-        if (row < 0 && reader.name == kReadouts.name(law_.readout)) summarise(bound);
-      }
-    content_.parts.emplace_back(std::move(table));
+    content_.parts.emplace_back(laws_->bounds(kShownNoise, &content_.figures));
+    for (const LawReading& reading : laws_->readings())
+      if (reading.name == kReadouts.name(law_.readout)) summarise(reading.bound(-1, kShownNoise));
   }
 
   void curves() {
@@ -138,8 +97,8 @@ private:
                         .yLabel = "bound with prior, rms of Fx, Fy, Fz [% of range]",
                         .logX = true,
                         .logY = true};
-      for (const Reader& reader : readers_) {
-        ReportCurve curve{.name = reader.name, .dashed = &reader == &readers_.front()};
+      for (const LawReading& reader : laws_->readings()) {
+        ReportCurve curve{.name = reader.name, .dashed = &reader == &laws_->readings().front()};
         for (const double noise : kNoises) {
           const LayoutBound bound = reader.bound(row, noise);
           addPoints(reader.name, row, noise, bound);
@@ -172,11 +131,11 @@ private:
         {"bits", "relative noise"},
         {},
         {}};
-    for (const Reader& reader : readers_) table.heads.push_back(reader.name);
+    for (const LawReading& reader : laws_->readings()) table.heads.push_back(reader.name);
     for (int count = 8; count <= 24; count += 2) {
       const double noise = std::exp2(-count) / std::sqrt(12.0); // of rounding
       std::vector<std::string> cells{std::to_string(count), shortNumber(noise)};
-      for (const Reader& reader : readers_) {
+      for (const LawReading& reader : laws_->readings()) {
         const Eigen::Vector3d error_N = reader.bound(-1, noise).withPrior().cwiseProduct(range_N_) / 100;
         cells.push_back(shortNumber(rootMeanSquare(error_N)));
       }
@@ -204,8 +163,7 @@ private:
   Eigen::Vector3d range_N_;
   ReportContent content_;
   Csv csv_{{"what", "law_and_readout", "rows", "relative_noise", "force", "value"}};
-  std::optional<FieldResponse> field_;
-  std::vector<Reader> readers_;
+  std::optional<LawsSideBySide> laws_;
 };
 
 } // namespace

@@ -5,6 +5,7 @@
 #include "app/study/paper/PaperProtocol.h"
 #include "app/study/reports/AskedLines.h"
 #include "app/study/reports/ReportPage.h"
+#include "app/study/reports/networks/CrossTable.h"
 #include "app/study/reports/networks/NetworkCheck.h"
 #include "app/study/touch/SampleGenerator.h"
 #include "model/base/Error.h"
@@ -347,6 +348,7 @@ private:
 std::optional<ReportContent> networksReport(const ReportRequest& request, const ReportProgress& progress,
                                             std::stop_token stop) {
   requireValid(request.design);
+  if (request.design.field()) return crossTableReport(request, progress, std::move(stop));
   return NetworksWriter(request, progress, std::move(stop)).run();
 }
 

@@ -3,6 +3,7 @@
 #include "app/study/reports/Csv.h"
 #include "app/study/reports/ReportPage.h"
 #include "app/study/reports/networks/FieldNoiseReport.h"
+#include "app/study/reports/networks/LawsSideBySide.h"
 #include "app/study/reports/networks/NetworkCheck.h"
 #include "app/study/reports/networks/NoiseAxis.h"
 #include "model/base/Text.h"
@@ -69,6 +70,7 @@ public:
     content_.parts.emplace_back(std::move(table_));
     if (!trainingNoise()) return {};
     bits();
+    if (!otherLaws()) return {};
     content_.parts.push_back(ReportHeading{"What the model leaves out"});
     content_.parts.push_back(ReportWords{kLeftOut});
     content_.csv = csv_.text();
@@ -262,6 +264,46 @@ private:
     content_.summary += (content_.summary.empty() ? "" : " ") + std::string("With ") + std::to_string(count) +
                         " bits (noise " + shortNumber(noiseOfBits(count)) + ") and " + choice.name +
                         ", this design resolves " + shortNumber(error_N) + " N at best (bound with prior).";
+  }
+
+  /// The same design under the usual law of the field: the read-out decides more than the law. False: stopped.
+  bool otherLaws() {
+    content_.parts.push_back(ReportHeading{"Under other laws and read-outs"});
+    const FieldLaw law;
+    SensorDesign field = request_.design;
+    field.resistance = law;
+    if (const auto faults = check(field); !faults.empty() || field.pressureLaw) {
+      content_.parts.push_back(ReportWords{"Not found for this design: " +
+                                           (faults.empty() ? "it has a pressure law." : faults.front().sentence)});
+      return true;
+    }
+    say(0.99, "other laws and read-outs");
+    const auto response =
+        AreaResponse::atRest(request_.design, request_.mesh, request_.threads, content_.stages, {}, stop_);
+    if (!response) return false;
+    const LawsSideBySide laws(request_.design, law, *response, request_.threads, content_.stages, stop_);
+    content_.parts.push_back(ReportWords{
+        "Eq. (1) knows no read-out. In a block that conducts everywhere one field joins all electrodes; here the same "
+        "design between spheres of " +
+        text(law.electrodeRadius_mm) + " mm radius in rubber of " + text(law.resistivity_ohm_mm) +
+        " ohm mm. Bounds as above, but linear and at rest, without samples. A design with the law of the field gets "
+        "curves of its own law from this report."});
+    content_.parts.emplace_back(laws.signals());
+    content_.parts.emplace_back(laws.bounds(kShownNoise, &content_.figures));
+    for (const LawReading& reading : laws.readings())
+      for (const int row : {centreRowWire(request_.design.rowWires()), -1}) {
+        const LayoutBound bound = reading.bound(row, kShownNoise);
+        const std::string rows = row < 0 ? choices_.back().name : "row-wire " + std::to_string(row);
+        addBound(rows, "bound with prior at rest, " + reading.name, bound.withPrior());
+        addBound(rows, "bound without prior at rest, " + reading.name, bound.withoutPrior());
+      }
+    return true;
+  }
+
+  void addBound(const std::string& rows, const std::string& what, const Eigen::Vector3d& percent) {
+    for (int axis = 0; axis < 3; ++axis)
+      csv_.add({rows, what, kShownNoise, bitsOfNoise(kShownNoise), "", kForceNames[axis], percent(axis),
+                percent(axis) / 100 * range_N_(axis)});
   }
 
   const ReportRequest& request_;

@@ -63,6 +63,18 @@ TEST_F(OpenFiles, SavesSamplesAndOpensThemAgainInANewSession) {
   EXPECT_TRUE(network.upToDate());
 }
 
+TEST_F(OpenFiles, TakesTheTestSamplesThatTheCommandLineNamesBesideItsTrainingSamples) {
+  generate();
+  const SampleSet training = network.samples()->training, test = network.samples()->test;
+  saveSamples(inFolder("train.csv").toStdString(), training, true);
+  saveSamples(inFolder("test.csv").toStdString(), test, true);
+  network.clear();
+  window.document().open(inFolder("train.csv"));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.samples() != nullptr; }, kPatience_ms)) << said.toStdString();
+  EXPECT_EQ(network.samples()->training.forces_N, training.forces_N);
+  EXPECT_EQ(network.samples()->test.forces_N, test.forces_N);
+}
+
 TEST_F(OpenFiles, JoinsDroppedShardsAndKeepsEveryFifthSampleForTesting) {
   generate();
   const SampleSet all = network.samples()->training;

@@ -187,6 +187,28 @@ TEST_F(LiveReplay, GoesToAnyTimeThatIsTypedWithoutAFalseAlarm) {
   EXPECT_EQ(page.host().status().counts.incompleteFrames, 0U);
 }
 
+TEST_F(LiveReplay, TakesATimeThatIsTypedOverTheWholeBoxWhileItPlays) {
+  ASSERT_TRUE(played());
+  const double length_s = page.host().replay()->length_s;
+  find<QCheckBox>("replayLoop").click(); // it plays on and on
+  auto& box = find<QDoubleSpinBox>("replayPlace");
+  auto& typed = *box.findChild<QLineEdit*>();
+  for (int time = 0; time < 2; ++time) {
+    const auto jumps = [&] { return last() == nullptr ? 0 : last()->jumps; };
+    ASSERT_TRUE(wait([&] { return page.host().replay()->position_s > 0.5 * length_s; }));
+    const double shown_s = box.value();
+    QTest::mouseDClick(&typed, Qt::LeftButton);
+    typed.selectAll(); // as a third click does
+    ASSERT_TRUE(wait([&] { return std::abs(page.host().replay()->position_s - shown_s) > 0.05 * length_s; }));
+    const auto before = jumps();
+    QTest::keyClicks(&typed, QString::number(0.1 * length_s, 'f', 2));
+    QTest::keyClick(&typed, Qt::Key_Return);
+    EXPECT_NEAR(box.value(), 0.1 * length_s, 0.01);
+    EXPECT_TRUE(wait([&] { return jumps() > before; }));
+    EXPECT_TRUE(wait([&] { return box.value() > 0.3 * length_s; })) << "the box follows again";
+  }
+}
+
 TEST_F(LiveReplay, GoesBackByOneFrame) {
   ASSERT_TRUE(played());
   ASSERT_TRUE(held());

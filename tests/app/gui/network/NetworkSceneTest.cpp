@@ -225,6 +225,26 @@ TEST_F(NetworkScene, GoesBackToAnEarlierNetworkWithItsSettings) {
   EXPECT_EQ(list.rowCount(), 1);
 }
 
+TEST_F(NetworkScene, ComparesWithTheNetworkThatWasShownBefore) {
+  generate();
+  trained();
+  const double first = network.fit()->decoder.report.spread;
+  const auto trainedWith = [&](double spread) {
+    return QTest::qWaitFor([&] { return network.fit()->decoder.report.spread == spread; }, kPatience_ms) && idle();
+  };
+  find<QDoubleSpinBox>("spread").setValue(3);
+  ASSERT_TRUE(trainedWith(3));
+  ASSERT_NE(network.before(), nullptr);
+  EXPECT_EQ(network.before()->decoder.report.spread, first);
+  find<QTabWidget>("networkTabs").setCurrentIndex(3);
+  find<DataTable>("trainedNetworks").setCurrentCell(1, 0);
+  QTest::mouseClick(&find<QPushButton>("goBack"), Qt::LeftButton);
+  ASSERT_TRUE(trainedWith(first));
+  find<QDoubleSpinBox>("spread").setValue(2);
+  ASSERT_TRUE(trainedWith(2));
+  EXPECT_EQ(network.before()->decoder.report.spread, first) << "not that which was trained last";
+}
+
 TEST_F(NetworkScene, ASpreadThatIsDraggedLeavesOneNetworkInTheListAndOneThatIsTypedItsOwn) {
   generate();
   trained();
@@ -349,13 +369,13 @@ TEST_F(NetworkScene, TheNoiseBoundStandsBesideTheErrorsAndBelowTheDecoders) {
   find<QDoubleSpinBox>("noise").setValue(0.01);
   trained();
   const auto words = [&] { return find<QLabel>("fitWords").text(); };
-  EXPECT_FALSE(words().contains("Cramer-Rao bound [%]")) << "without noise there is none";
+  EXPECT_FALSE(words().contains("Cramer-Rao bound [% of range]")) << "without noise there is none";
   EXPECT_TRUE(words().contains("A noise of the test puts")) << words().toStdString();
   find<QDoubleSpinBox>("testNoise").setValue(0.01);
   const NoiseBound bound = noiseBound(network.samples()->training, InputKind::Resistance, {4}, 1e-4);
   const QString fx = QString::number(bound.withPriorPercent[0], 'g', 3);
-  ASSERT_TRUE(
-      QTest::qWaitFor([&] { return words().contains("Cramer-Rao bound [%]") && words().contains(fx); }, kPatience_ms))
+  ASSERT_TRUE(QTest::qWaitFor([&] { return words().contains("Cramer-Rao bound [% of range]") && words().contains(fx); },
+                              kPatience_ms))
       << fx.toStdString() << " in " << words().toStdString();
   EXPECT_GT(network.fit()->error.error.rmsePercentOfRange[0], bound.withPriorPercent[0]);
   QTest::mouseClick(&find<QPushButton>("compare"), Qt::LeftButton);

@@ -106,6 +106,7 @@ TEST_F(ProjectFile, ReadsBackEverythingThatWasSet) {
                   ResistanceKind::Change,
                   std::array{-0.25, 0.5},
                   {7, 29},
+                  true,
                   4,
                   true};
   project.kept = paperDesign();

@@ -24,7 +24,7 @@ TEST(ResultCsv, HoldsOneTableAFile) {
   const ElectrodeDisplacements rest = ElectrodeDisplacements::atRest(design);
   const QStringList electrodes = tableOf(electrodesCsv({design, kLoad}, rest));
   ASSERT_EQ(electrodes.size(), 1 + 100);
-  const QStringList resistances = tableOf(resistancesCsv({design, kLoad}, rest));
+  const QStringList resistances = tableOf(resistancesCsv({design, kLoad}, *resistancesOf(design, rest)));
   ASSERT_EQ(resistances.size(), 1 + 300);
   for (const QStringList& table : {electrodes, resistances})
     for (const QString& line : table) EXPECT_EQ(line.count(','), table.front().count(',')) << line.toStdString();
@@ -33,7 +33,8 @@ TEST(ResultCsv, HoldsOneTableAFile) {
 TEST(ResultCsv, SaysTheLoadAndTheDesignItWasComputedFrom) {
   SensorDesign design = paperDesign();
   design.block_mm.z() = 6;
-  const QString text = resistancesCsv({design, kLoad, 0.5}, ElectrodeDisplacements::atRest(design));
+  const QString text =
+      resistancesCsv({design, kLoad, 0.5}, *resistancesOf(design, ElectrodeDisplacements::atRest(design)));
   EXPECT_TRUE(text.contains("# palp, share of the load 0.5\n"));
   EXPECT_TRUE(text.contains("# load on area 1: (0.5, 0.25, -6) N\n"));
   EXPECT_TRUE(text.contains("# load on a disc at (10, 12) mm with radius 2.5 mm: (0, 0, -1) N\n"));

@@ -140,6 +140,21 @@ TEST(Workbench, KnowsWhetherTheFileHoldsAllThatWasSet) {
   EXPECT_FALSE(workbench.modified());
 }
 
+TEST(Workbench, WhatLivePlaysIsNothingToBeSavedButItsSettingsAre) {
+  Workbench workbench(exampleProject());
+  Project next = workbench.project();
+  next.live.source = LiveSourceKind::Recording;
+  next.live.recording = "touch.palprec";
+  next.live.simulation.held = true;
+  workbench.edit("recording", next);
+  EXPECT_EQ(workbench.modification(), Workbench::Modified::Nothing);
+  next.live.alarmOn = !next.live.alarmOn;
+  workbench.edit("alarm", next);
+  EXPECT_EQ(workbench.modification(), Workbench::Modified::LiveSettings);
+  press(workbench, -1);
+  EXPECT_EQ(workbench.modification(), Workbench::Modified::Project);
+}
+
 TEST(Workbench, LeadsBackToTheSceneWhereTheEditWasMade) {
   Workbench workbench(exampleProject());
   QStringList scenes;

@@ -9,10 +9,12 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
+#include <QMessageBox>
 #include <QPlainTextEdit>
 #include <QPushButton>
 #include <QTabWidget>
 #include <QTemporaryDir>
+#include <QTimer>
 #include <QTreeWidget>
 
 #include <gtest/gtest.h>
@@ -80,6 +82,30 @@ TEST_F(ReportsPageTest, RunsAReportOfTheProjectsMeshAndShowsItsPicturesAlone) {
   ASSERT_EQ(pictures().count(), 1);
   EXPECT_EQ(pictures().item(0)->text(), "spread.png");
   EXPECT_FALSE(find<QLabel>("reportPicture").pixmap().isNull());
+}
+
+TEST_F(ReportsPageTest, QuittingAsksBeforeItEndsAReport) {
+  setProgram("echo begun > \"$folder/begun\"\nexec sleep 600\n");
+  run("stability");
+  ASSERT_TRUE(QTest::qWaitFor([&] { return QFile::exists(inReport("begun")); }, kReportPatience_ms));
+  int asked = 0;
+  QMessageBox::StandardButton answer = QMessageBox::No;
+  QTimer answers;
+  QObject::connect(&answers, &QTimer::timeout, &answers, [&] {
+    auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
+    if (box == nullptr || box->button(answer) == nullptr) return;
+    ++asked;
+    box->button(answer)->click();
+  });
+  answers.start(20);
+  window.close();
+  EXPECT_TRUE(window.isVisible());
+  EXPECT_EQ(asked, 1);
+  EXPECT_FALSE(find<QPushButton>("runReport").isEnabled()) << "it still runs";
+  answer = QMessageBox::Yes;
+  window.close();
+  EXPECT_FALSE(window.isVisible());
+  EXPECT_EQ(asked, 2);
 }
 
 TEST_F(ReportsPageTest, ASecondRunAndFilesOfOthersLeaveEveryFileAsItWas) {

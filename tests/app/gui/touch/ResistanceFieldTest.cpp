@@ -1,10 +1,19 @@
+#include "app/gui/views/BlockView.h"
 #include "app/gui/views/HeatmapView.h"
+#include "app/study/reports/readout/CurrentPaths.h"
 #include "model/FieldAtRest.h"
 #include "solver/ConductionField.h"
 #include "tests/app/gui/WindowFixture.h"
 
+#include <QAction>
+#include <QCheckBox>
 #include <QComboBox>
+#include <QFile>
+#include <QFileInfo>
 #include <QLabel>
+#include <QRegularExpression>
+#include <QTabWidget>
+#include <QTemporaryDir>
 
 #include <gtest/gtest.h>
 
@@ -89,7 +98,8 @@ TEST_F(ResistanceField, FollowsTheReadoutAndTheLawThatAreSwitchedBesideIt) {
 }
 
 TEST_F(ResistanceField, IsNotComputedWhereNobodyLooksAndSaysWhereItWasStopped) {
-  ASSERT_TRUE(solved()); // on the Deformation scene
+  find<QTabWidget>("deformationTabs").setCurrentIndex(1); // one that shows no resistances
+  ASSERT_TRUE(solved());
   ASSERT_TRUE(idle());
   EXPECT_EQ(map().values.size(), 0);
   window.showScene("resistance");
@@ -101,6 +111,128 @@ TEST_F(ResistanceField, IsNotComputedWhereNobodyLooksAndSaysWhereItWasStopped) {
   window.showScene("design");
   window.showScene("resistance");
   EXPECT_TRUE(shown()) << map().title;
+}
+
+TEST_F(ResistanceField, ReadsAllReadoutsOfOneFieldAndSolvesNothingAgainForAnotherLaw) {
+  window.showScene("resistance");
+  ASSERT_TRUE(shown()) << map().title;
+  const Solution* solution = workbench.touch().touch().solution();
+  const int fields = workbench.field().runs(), solves = workbench.touch().stages().runs("solve");
+  choose("readoutBar", Qt::Key_Up);
+  ASSERT_TRUE(shown());
+  choose("lawBar", Qt::Key_Up);
+  ASSERT_EQ(workbench.project().design.field(), nullptr);
+  EXPECT_FALSE(window.busy()) << "Eq. (1) is known at once";
+  EXPECT_TRUE(workbench.touch().upToDate());
+  choose("lawBar", Qt::Key_Down);
+  ASSERT_NE(workbench.project().design.field(), nullptr);
+  EXPECT_FALSE(window.busy()) << "and so is the field that was computed";
+  ASSERT_TRUE(shown());
+  EXPECT_EQ(workbench.touch().touch().solution(), solution);
+  EXPECT_EQ(workbench.touch().stages().runs("solve"), solves);
+  EXPECT_EQ(workbench.field().runs(), fields);
+}
+
+TEST_F(ResistanceField, FollowsTheCurrentOfTheChosenCellWhereItIsAskedFor) {
+  window.showScene("resistance");
+  ASSERT_TRUE(shown()) << map().title;
+  auto& block = find<BlockView>("resistanceBlock");
+  auto& box = find<QCheckBox>("currentWay");
+  const auto& paths = find<QLabel>("currentPaths");
+  EXPECT_FALSE(box.isChecked());
+  const std::array<double, 2> displacement = block.colorRange();
+  ASSERT_TRUE(box.isEnabled());
+  QTest::mouseClick(&box, Qt::LeftButton, {}, QPoint(8, box.height() / 2));
+  ASSERT_TRUE(workbench.project().view.currentWay);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window.currentScene().complete() && !window.busy(); }, kPatience_ms));
+  EXPECT_NE(block.colorRange(), displacement);
+  EXPECT_GT(block.colorRange()[0], 0);
+  EXPECT_LT(block.colorRange()[1], 10) << "A/mm2 of 1 A: 1.99 on an electrode that carries all of it";
+  const auto found = workbench.field().found(workbench.touch().touch(), workbench.touch().loadFraction());
+  ASSERT_NE(found, nullptr);
+  const NetworkReading reading(found->network, Readout::VirtualGround);
+  const CurrentPaths of = currentPaths(found->network, reading, 4, 15);
+  EXPECT_TRUE(paths.text().contains(QString::number(100 * of.straight, 'f', 1) + " %")) << paths.text().toStdString();
+  EXPECT_TRUE(paths.text().contains(QString::number(of.metal, 'f', 2) + " A"));
+  const std::array<double, 2> first = block.colorRange();
+  ViewSettings other = workbench.project().view;
+  other.cell = {0, 0};
+  Project next = workbench.project();
+  next.view = other;
+  workbench.edit("another cell", next);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window.currentScene().complete() && !window.busy(); }, kPatience_ms));
+  EXPECT_NE(block.colorRange(), first) << "another cell, another way";
+  EXPECT_TRUE(paths.text().contains("row-wire 0")) << paths.text().toStdString();
+  choose("lawBar", Qt::Key_Up);
+  ASSERT_EQ(workbench.project().design.field(), nullptr);
+  EXPECT_FALSE(box.isEnabled());
+  EXPECT_TRUE(box.toolTip().contains("knows no current")) << box.toolTip().toStdString();
+  EXPECT_FALSE(paths.isVisible());
+  ASSERT_TRUE(idle());
+  EXPECT_EQ(block.colorRange(), displacement);
+}
+
+TEST_F(ResistanceField, FollowsNoCurrentWhereNobodyLooks) {
+  Project next = workbench.project();
+  next.view.currentWay = true;
+  workbench.edit("way", next);
+  ASSERT_TRUE(solved());
+  QStringList begun;
+  QObject here; // the window lives longer
+  for (JobRunner* runner : dynamic_cast<Scene&>(find<QWidget>("resistance")).runners())
+    QObject::connect(runner, &JobRunner::started, &here, [&](const QString& title) { begun << title; });
+  window.showScene("design");
+  next.load.areas[0].force_N.z() = -1;
+  workbench.edit("force", next);
+  settle();
+  ASSERT_TRUE(idle());
+  EXPECT_FALSE(begun.contains("Following the current")) << begun.join(", ").toStdString();
+  window.showScene("resistance");
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window.currentScene().complete() && !window.busy(); }, kPatience_ms));
+  EXPECT_EQ(begun.count("Following the current"), 1);
+}
+
+TEST_F(ResistanceField, StandsLessAKeptDesignWhateverLawThatHas) {
+  window.showScene("resistance");
+  ASSERT_TRUE(shown()) << map().title;
+  const Eigen::MatrixXd field = map().values;
+  for (const bool keptField : {false, true}) {
+    Project next = workbench.project();
+    next.kept = paperDesign();
+    if (keptField) next.kept->resistance = FieldLaw{.electrodeRadius_mm = 0.25, .readout = Readout::VirtualGround};
+    next.view.resistance = ResistanceKind::LessKept;
+    workbench.edit("keep", next);
+    ASSERT_TRUE(QTest::qWaitFor([&] { return map().values.size() > 0 && !window.busy(); }, kPatience_ms))
+        << map().title;
+    Touch kept(*next.kept, next.load, next.mesh);
+    ASSERT_TRUE(kept.advance(Stage::Resistances));
+    const Eigen::MatrixXd rest = resistancesAtRest_ohm(*next.kept);
+    const Eigen::MatrixXd wanted = field - 100 * (*kept.resistances_ohm() - rest).cwiseQuotient(rest);
+    EXPECT_LT((map().values - wanted).norm(), 1e-6 * field.norm()) << keptField;
+    EXPECT_NE(map().values.norm(), 0);
+  }
+}
+
+TEST_F(ResistanceField, StandsOnTheDeformationSceneAndInItsTable) {
+  ASSERT_TRUE(solved());
+  ASSERT_TRUE(QTest::qWaitFor([&] { return map("heatmap").values.size() > 0 && !window.busy(); }, kPatience_ms))
+      << map("heatmap").title;
+  EXPECT_EQ(map("heatmap").values, changes(Readout::VirtualGround));
+  const QTemporaryDir folder;
+  const QString file = folder.filePath("resistances.csv");
+  answerFileDialog(file);
+  QAction* entry = nullptr;
+  for (QAction* action : window.findChildren<QAction*>())
+    if (action->text().contains("&resistances")) entry = action;
+  ASSERT_NE(entry, nullptr);
+  entry->trigger();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return QFileInfo::exists(file) && !window.busy(); }, kPatience_ms));
+  QFile in(file);
+  ASSERT_TRUE(in.open(QIODevice::ReadOnly));
+  const QStringList rows = QString(in.readAll()).split('\n', Qt::SkipEmptyParts).filter(QRegularExpression("^[0-9]"));
+  ASSERT_EQ(rows.size(), map("heatmap").values.size());
+  const QStringList first = rows[0].split(',');
+  EXPECT_NEAR(100 * (first[3].toDouble() / first[2].toDouble() - 1), map("heatmap").values(0, 0), 1e-9);
 }
 
 } // namespace

@@ -319,6 +319,17 @@ TEST(ForceDecoder, RefusesABoardOrADesignThatIsNotTheNetworks) {
   Decoder displacement = decoderFor(kGood);
   displacement.input.kind = InputKind::Displacement;
   EXPECT_NE(refusal([&] { ForceDecoder(displacement, BoardInfo{}); }).find("displacement"), std::string::npos);
+  Decoder grounded = decoderFor(kGood);
+  grounded.readout = Readout::VirtualGround;
+  BoardInfo floating;
+  floating.readout = Readout::Floating;
+  EXPECT_EQ(
+      refusal([&] { ForceDecoder(grounded, floating); }),
+      "the network was trained for read-out virtual_ground, the board is of read-out floating: train one for that");
+  ForceDecoder(decoderFor(kGood), floating); // Eq. (1) has no read-out
+  ForceDecoder(grounded, BoardInfo{});       // the board does not say its own
+  floating.readout = Readout::VirtualGround;
+  ForceDecoder(grounded, floating);
   Decoder unknown = decoderFor(kGood);
   unknown.designFingerprint = "0000000000000000";
   ForceDecoder decoder(unknown, BoardInfo{});

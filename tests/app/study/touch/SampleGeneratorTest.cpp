@@ -104,3 +104,34 @@ TEST(SampleGenerator, NamesTheSampleThatHasNoSolution) {
     EXPECT_EQ(std::string(refusal.what()).find("load 150: "), 0U) << refusal.what();
   }
 }
+
+TEST(SampleGenerator, AnotherSeedNeedsNoOtherPreparation) {
+  SampleRequest second = coarse(2);
+  second.seed = 7;
+  SampleGenerator generator(paperDesign(), coarse(2)), alone(paperDesign(), second);
+  const auto all = [](SampleGenerator& from) {
+    SampleSet made;
+    EXPECT_EQ(from.generate({0, from.total()}, [&](const SampleSet& block) { made = block; }), from.total());
+    return made;
+  };
+  const SampleSet first = all(generator);
+  generator.setSeed(7);
+  const SampleSet next = all(generator), wanted = all(alone);
+  EXPECT_EQ(next.origin.seed, 7u);
+  EXPECT_EQ(next.resistances_ohm, wanted.resistances_ohm);
+  EXPECT_NE(next.forces_N, first.forces_N);
+  EXPECT_EQ(generator.stages().runs("mesh"), 1);
+}
+
+TEST(SampleGenerator, SaysWhichAreaItFitsASurrogateTo) {
+  SampleRequest request = coarse(1);
+  request.surrogate = true;
+  SampleGenerator generator(paperDesign(), request);
+  std::vector<std::size_t> said;
+  generator.whileFitting([&](std::size_t done, std::size_t all) {
+    said.push_back(done);
+    EXPECT_EQ(all, 6u);
+  });
+  generator.emptySet();
+  EXPECT_EQ(said, (std::vector<std::size_t>{0, 1, 2, 3, 4, 5}));
+}

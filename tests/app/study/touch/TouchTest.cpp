@@ -104,3 +104,37 @@ TEST(Touch, ACopyAdvancesAlone) {
   EXPECT_EQ(touch.reached(), Stage::Design);
   EXPECT_EQ(copy.reached(), Stage::Resistances);
 }
+
+TEST(Touch, AnotherLawKeepsTheDeformationAndAnotherReadoutTheField) {
+  Touch touch = coarseTouch();
+  ASSERT_TRUE(touch.advance(Stage::Resistances));
+  const palp::Solution* solution = touch.solution();
+  const Eigen::MatrixXd pairs = *touch.resistances_ohm();
+  palp::SensorDesign field = palp::paperDesign();
+  field.resistance = palp::FieldLaw{.readout = palp::Readout::VirtualGround};
+  touch.setDesign(field);
+  EXPECT_EQ(touch.reached(), Stage::Displacements);
+  ASSERT_TRUE(touch.advance(Stage::Resistances));
+  EXPECT_EQ(touch.stages().runs("field"), 1);
+  std::get<palp::FieldLaw>(field.resistance).readout = palp::Readout::Floating;
+  touch.setDesign(field);
+  ASSERT_TRUE(touch.advance(Stage::Resistances));
+  EXPECT_EQ(touch.stages().runs("field"), 1) << "all read-outs are read of one field";
+  const Eigen::MatrixXd floating = *touch.resistances_ohm();
+  std::get<palp::FieldLaw>(field.resistance).electrodeRadius_mm = 0.25;
+  touch.setDesign(field);
+  ASSERT_TRUE(touch.advance(Stage::Resistances));
+  EXPECT_EQ(touch.stages().runs("field"), 2) << "thicker electrodes are another field";
+  touch.setDesign(palp::paperDesign());
+  ASSERT_TRUE(touch.advance(Stage::Resistances));
+  EXPECT_EQ(*touch.resistances_ohm(), pairs);
+  EXPECT_EQ(touch.solution(), solution);
+  EXPECT_EQ(touch.stages().runs("solve"), 1);
+  EXPECT_EQ(touch.stages().runs("factorise"), 1);
+
+  std::get<palp::FieldLaw>(field.resistance).electrodeRadius_mm = 0.2;
+  Touch fresh(field, touch.load(), touch.meshOptions());
+  ASSERT_TRUE(fresh.advance(Stage::Resistances));
+  EXPECT_EQ(*fresh.resistances_ohm(), floating) << "the same as of a touch that never had another law";
+  EXPECT_EQ(fresh.design(), fresh.problem()->design());
+}

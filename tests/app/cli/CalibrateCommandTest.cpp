@@ -1,0 +1,92 @@
+#include "tests/app/cli/Process.h"
+
+#include "io/DesignFile.h"
+#include "tests/io/TemporaryFolder.h"
+#include "tests/io/board/BoardAtRest.h"
+
+#include <gtest/gtest.h>
+
+using nlohmann::json;
+using namespace palp::test;
+
+namespace {
+
+palp::SensorDesign fieldDesign(palp::Readout readout) {
+  palp::SensorDesign design = palp::paperDesign();
+  palp::FieldLaw law;
+  law.readout = readout;
+  design.resistance = law;
+  return design;
+}
+
+class CalibrateAtRest : public testing::Test {
+protected:
+  CalibrateAtRest() {
+    settings_.disturbance.noise = 1e-4;
+    palp::saveDesign(design_, fieldDesign(palp::Readout::VirtualGround), false);
+  }
+  void record(const palp::SensorDesign& design) {
+    palp::recordBoard(recording_, settings_, palp::fieldAtRest_ohm(design), 20);
+  }
+  Outcome calibrate() {
+    return palp::test::palp(
+        {"calibrate", "--rest", recording_.string(), "--design", design_.string(), "-o", fitted_.string(), "--json"});
+  }
+
+  palp::TemporaryFolder folder_;
+  std::filesystem::path design_ = folder_ / "design.json";
+  std::filesystem::path recording_ = folder_ / "rest.palprec";
+  std::filesystem::path fitted_ = folder_ / "fitted.json";
+  palp::BoardSettings settings_;
+};
+
+TEST_F(CalibrateAtRest, WritesTheDesignWithTheNumbersOfTheBoard) {
+  palp::SensorDesign twin = fieldDesign(palp::Readout::VirtualGround);
+  std::get<palp::FieldLaw>(twin.resistance).electrodeRadius_mm = 0.25;
+  std::get<palp::FieldLaw>(twin.resistance).contact_ohm_mm2 = 100;
+  record(twin);
+  const Outcome outcome = calibrate();
+  ASSERT_EQ(outcome.exit, 0) << outcome.errors;
+  const json result = json::parse(outcome.output);
+  const double deviation_mm = result.at("electrode_radius_deviation_mm");
+  EXPECT_GT(deviation_mm, 0);
+  EXPECT_EQ(result.at("why_no_fit"), "");
+  const palp::SensorDesign fitted = palp::loadDesign(fitted_);
+  EXPECT_NEAR(fitted.field()->electrodeRadius_mm, 0.25, 4 * deviation_mm);
+  EXPECT_EQ(fitted.field()->readout, palp::Readout::VirtualGround);
+  EXPECT_EQ(fitted.upper, twin.upper);
+}
+
+TEST_F(CalibrateAtRest, SaysThatABoardReadsOtherwiseThanTheDesign) {
+  record(fieldDesign(palp::Readout::Floating));
+  Outcome outcome = calibrate();
+  EXPECT_EQ(outcome.exit, 1) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("read-out floating leaves"), std::string::npos) << outcome.errors;
+  EXPECT_FALSE(std::filesystem::exists(fitted_));
+  settings_.info.readout = palp::Readout::Floating; // now it says so itself
+  record(fieldDesign(palp::Readout::Floating));
+  outcome = calibrate();
+  EXPECT_EQ(outcome.exit, 2) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("the board is of read-out floating, the design of read-out virtual_ground"),
+            std::string::npos)
+      << outcome.errors;
+}
+
+TEST_F(CalibrateAtRest, NamesABrokenWireAndRefusesWhatCannotBe) {
+  settings_.faults.openColumns = {12};
+  record(fieldDesign(palp::Readout::VirtualGround));
+  Outcome outcome = calibrate();
+  EXPECT_EQ(outcome.exit, 2);
+  EXPECT_NE(outcome.errors.find("column-wire 12"), std::string::npos) << outcome.errors;
+  outcome = palp::test::palp({"calibrate", "--rest", recording_.string(), "-o", fitted_.string()});
+  EXPECT_EQ(outcome.exit, 2);
+  EXPECT_NE(outcome.errors.find("give --design"), std::string::npos) << outcome.errors;
+  settings_.faults.openColumns.clear();
+  record(fieldDesign(palp::Readout::VirtualGround));
+  palp::saveDesign(design_, palp::paperDesign(), true);
+  outcome = calibrate();
+  EXPECT_EQ(outcome.exit, 2);
+  EXPECT_NE(outcome.errors.find("Eq. (1)"), std::string::npos) << outcome.errors;
+}
+
+} // namespace

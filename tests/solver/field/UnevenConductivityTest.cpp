@@ -1,0 +1,142 @@
+#include "solver/field/UnevenConductivity.h"
+
+#include "model/FieldAtRest.h"
+#include "solver/SensorMesh.h"
+#include "solver/field/DeformedGreen.h"
+#include "tests/model/RandomLayout.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+
+namespace palp {
+namespace {
+
+constexpr std::array kAll{Readout::Floating, Readout::VirtualGround, Readout::RowsGrounded, Readout::OthersAtHalf};
+
+/// A small random block at rest whose conductivity is ours to choose.
+struct Block {
+  explicit Block(unsigned seed, double meshSize = 1) : design(randomLayout(seed, 0.8)) {
+    mesh = sensorMesh(design, {.meshSize_mm = meshSize * standardMeshSize_mm(design), .mapped = {}});
+    electrodes = electrodes_mm(design);
+    green.emplace(mesh, design.block_mm, electrodes);
+  }
+  /// With ln k as it is at each node.
+  [[nodiscard]] FieldState with(const std::function<double(const Eigen::Vector3d&)>& logConductivity) const {
+    const Eigen::Matrix3Xd& nodes = green->mesh().tets().nodes_mm;
+    FieldState state{nodes, electrodes, Eigen::VectorXd(nodes.cols())};
+    for (Eigen::Index n = 0; n < nodes.cols(); ++n) state.logConductivity(n) = logConductivity(nodes.col(n));
+    return state;
+  }
+  [[nodiscard]] Eigen::MatrixXd potentials(const FieldState& state, int threads = 2) const {
+    const Eigen::VectorXd conductivities =
+        state.logConductivity.size() > 0 ? green->conductivities(state) : Eigen::VectorXd();
+    return potentials_ohm(*green->at(state, threads, {}), law, SphereModel::Dipoles, conductivities);
+  }
+  [[nodiscard]] Eigen::MatrixXd resistances(const FieldState& state, Readout readout) const {
+    return NetworkReading({potentials(state), wireCounts(design), 0}, readout).resistances_ohm();
+  }
+
+  SensorDesign design;
+  FieldLaw law{.electrodeRadius_mm = 0.1};
+  Mesh mesh;
+  Eigen::Matrix3Xd electrodes;
+  std::optional<DeformedGreen> green;
+};
+
+/// What a current of zero sum sees of P.
+Eigen::MatrixXd seen(const Eigen::MatrixXd& p) {
+  Eigen::MatrixXd rows = p.rowwise() - p.colwise().mean();
+  rows.colwise() -= rows.rowwise().mean().eval();
+  return rows;
+}
+
+class UnevenConductivityOf : public testing::TestWithParam<unsigned> {};
+
+TEST_P(UnevenConductivityOf, AnEvenOneScalesExactly) {
+  const Block block(GetParam());
+  const FieldState plain{block.green->mesh().tets().nodes_mm, block.electrodes, {}};
+  const FieldState better = block.with([](const Eigen::Vector3d&) { return std::log(1.7); });
+  for (const Readout readout : kAll)
+    EXPECT_LT((block.resistances(better, readout) * 1.7 - block.resistances(plain, readout)).norm(),
+              1e-9 * block.resistances(plain, readout).norm())
+        << kReadouts.name(readout);
+}
+
+/// k = 1 + e z changes P by - e integral z grad G_p . grad G_q, which Green's identity takes to the faces:
+///   - e (z_p + z_q) G_pq / 2 - e (integral over the bottom - that over the top of G_p G_q) / 2,
+/// and P_pp, its singular part with it, alike. Here of G in closed form.
+Eigen::MatrixXd changeBySlope(const Eigen::Vector3d& block_mm, const Eigen::Matrix3Xd& electrodes,
+                              const FieldLaw& law) {
+  constexpr int cells = 48; // by the midpoint rule, 1e-4 of what it is where electrodes are a fifth of the height away
+  constexpr double inside = 0.01; // G is even in the distance from a face
+  const Eigen::Index n = electrodes.cols();
+  Eigen::MatrixXd change = potentialsAtRest_ohm(block_mm, electrodes, law, SphereModel::Monopoles);
+  for (Eigen::Index p = 0; p < n; ++p)
+    for (Eigen::Index q = 0; q < n; ++q) change(p, q) *= -(electrodes(2, p) + electrodes(2, q)) / 2;
+  for (const bool top : {false, true}) {
+    Eigen::MatrixXd onFace(n, cells * cells);
+    for (int i = 0; i < cells; ++i) {
+      Eigen::Matrix3Xd points(3, n + cells);
+      points.leftCols(n) = electrodes;
+      for (int j = 0; j < cells; ++j)
+        points.col(n + j) << (i + 0.5) / cells * block_mm.x(), (j + 0.5) / cells * block_mm.y(),
+            top ? block_mm.z() - inside : inside;
+      onFace.middleCols(Eigen::Index(i) * cells, cells) = boxGreen(block_mm, points).value.topRightCorner(n, cells);
+    }
+    change += (top ? 1 : -1) * law.resistivity_ohm_mm * block_mm.x() * block_mm.y() / (2. * cells * cells) * onFace *
+              onFace.transpose();
+  }
+  return change;
+}
+
+TEST_P(UnevenConductivityOf, AWeakSlopeIsFirstOrderTheory) {
+  const Block block(GetParam());
+  constexpr double small = 1e-3;
+  const auto along = [&](double e) {
+    const FieldState state = block.with([&](const Eigen::Vector3d& x) { return std::log1p(e * x.z()); });
+    return potentials_ohm(*block.green->at(state, 2, {}), block.law, SphereModel::Monopoles,
+                          block.green->conductivities(state));
+  };
+  const Eigen::MatrixXd found = seen((along(small) - along(-small)) / (2 * small));
+  const Eigen::MatrixXd exact = seen(changeBySlope(block.design.block_mm, block.electrodes, block.law));
+  const Eigen::MatrixXd error = found - exact;
+  EXPECT_LT(error.norm(), 1e-3 * exact.norm());
+  Eigen::MatrixXd between = exact, errorBetween = error; // what is not at the electrodes themselves
+  between.diagonal().setZero();
+  errorBetween.diagonal().setZero();
+  EXPECT_LT(errorBetween.norm(), 1e-2 * between.norm());
+}
+
+TEST_P(UnevenConductivityOf, AStrongOneIsThatOfAFinerMesh) {
+  const Block coarse(GetParam()), fine(GetParam(), 0.6);
+  const auto bump = [](const Eigen::Vector3d& x) { // up to 3 times, as wide as the block is high
+    return std::log(3.) * std::exp(-(x - Eigen::Vector3d(2, 2, 2)).squaredNorm() / 4);
+  };
+  const FieldState plain{coarse.green->mesh().tets().nodes_mm, coarse.electrodes, {}};
+  for (const Readout readout : kAll) {
+    const Eigen::ArrayXXd rest = coarse.resistances(plain, readout).array().log();
+    const Eigen::ArrayXXd a = coarse.resistances(coarse.with(bump), readout).array().log() - rest;
+    const Eigen::ArrayXXd b = fine.resistances(fine.with(bump), readout).array().log() - rest;
+    EXPECT_GT(b.matrix().norm(), 0);
+    EXPECT_LT((a - b).matrix().norm(), 0.02 * b.matrix().norm()) << kReadouts.name(readout);
+  }
+}
+
+TEST_P(UnevenConductivityOf, BetterRubberAnywhereNeverRaisesTheFloatingResistance) {
+  const Block block(GetParam());
+  const FieldState plain{block.green->mesh().tets().nodes_mm, block.electrodes, {}};
+  const FieldState better = block.with([](const Eigen::Vector3d& x) { return std::max(0., std::sin(x.x() + x.y())); });
+  EXPECT_LT((block.resistances(better, Readout::Floating) - block.resistances(plain, Readout::Floating)).maxCoeff(), 0);
+}
+
+TEST_P(UnevenConductivityOf, IsTheSameOnAnyNumberOfThreads) {
+  const Block block(GetParam());
+  const FieldState state = block.with([](const Eigen::Vector3d& x) { return std::max(0., x.z() - 1); });
+  EXPECT_EQ(block.potentials(state, 1), block.potentials(state, 3));
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, UnevenConductivityOf, testing::Values(1U, 7U, 23U));
+
+} // namespace
+} // namespace palp
