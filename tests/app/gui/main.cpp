@@ -10,7 +10,10 @@
 
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
-  if (std::getenv("QT_QPA_PLATFORM") == nullptr) setenv("QT_QPA_PLATFORM", "offscreen", 1);
+  // What a session of a desktop would have set.
+  const QTemporaryDir runtime;
+  setenv("QT_QPA_PLATFORM", "offscreen", 0);
+  setenv("XDG_RUNTIME_DIR", runtime.path().toLocal8Bit().constData(), 0);
   setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1); // pictures of the software renderer, which are the same everywhere
   palp::Application application(argc, argv);
   // The last catch keeps a window alive; in a test what it caught is a failure, unless the test waits for it.
