@@ -13,7 +13,7 @@ namespace {
 constexpr double kTrust = 0.05; ///< share of the plan that counts as run as planned, before anything is known
 constexpr double kShortest_s = 0.01;
 
-constexpr std::size_t kMoments = 100; ///< that are kept of a run
+constexpr double kStep = 0.005; ///< share of the run's time that a step takes at least, to be kept as one
 constexpr const char* kSpeed =
     "reportSpeed"; ///< seconds of the last report here for each second that it was said to take
 
@@ -40,6 +40,22 @@ std::vector<RunMoment> momentsOf(const QStringList& texts) {
     moments.push_back(next);
   }
   return moments.back().share == 1 ? moments : std::vector<RunMoment>{};
+}
+
+/// The same of a run of `all` seconds, without the moments between which hardly any time passed: both ends of each
+/// step stay, because the progress stands still at the first of them.
+QStringList textsOf(const std::vector<RunMoment>& moments, double all) {
+  QStringList texts;
+  RunMoment kept;
+  for (std::size_t k = 0; k < moments.size(); ++k) {
+    const RunMoment& moment = moments[k];
+    const double next_s = k + 1 < moments.size() ? moments[k + 1].seconds : all;
+    const bool ends = moment.seconds - kept.seconds >= kStep * all, begins = next_s - moment.seconds >= kStep * all;
+    if (!(moment.share > kept.share && moment.share < 1 && (ends || begins))) continue;
+    kept = moment;
+    texts << QString("%1 %2").arg(moment.share, 0, 'g', 10).arg(moment.seconds, 0, 'f', 3);
+  }
+  return texts << QString("1 %1").arg(all, 0, 'f', 3);
 }
 
 } // namespace
@@ -80,9 +96,17 @@ double ReportPlan::planned_s(double share) const {
   return planned;
 }
 
-double ReportPlan::left_s(double share, double elapsed_s) const {
-  const double all = seconds(), done = planned_s(share);
-  return (all - done) * (elapsed_s + kTrust * all) / (done + kTrust * all);
+double ReportPlan::stepDone_s(double share) const {
+  if (moments_.empty()) return parts_.empty() ? 0 : planned_s(parts_[partAt(share)].until);
+  const auto next =
+      std::find_if(moments_.begin(), moments_.end(), [share](const RunMoment& moment) { return moment.share > share; });
+  return next == moments_.end() ? seconds() : next->seconds;
+}
+
+double ReportPlan::left_s(const RunMoment& last, double elapsed_s) const {
+  const double all = seconds(), done = planned_s(last.share);
+  const double pace = (last.seconds + kTrust * all) / (done + kTrust * all);
+  return std::max((all - done) * pace - (elapsed_s - last.seconds), (all - stepDone_s(last.share)) * pace);
 }
 
 std::size_t ReportPlan::partAt(double share) const {
@@ -99,15 +123,7 @@ void ReportPlan::remember(const std::vector<double>& seconds, const std::vector<
   settings.setValue(key(kind_), texts);
   const double all = std::accumulate(seconds.begin(), seconds.end(), 0.0);
   if (shipped_s_ > 0 && all > 0) settings.setValue(kSpeed, all / shipped_s_);
-  QStringList kept;
-  double last = 0;
-  for (const RunMoment& moment : moments) {
-    if (moment.share >= 1 || moment.share < last + 1.0 / kMoments) continue;
-    last = moment.share;
-    kept << QString("%1 %2").arg(moment.share, 0, 'g', 8).arg(moment.seconds, 0, 'f', 2);
-  }
-  kept << QString("1 %1").arg(all, 0, 'f', 2);
-  settings.setValue(momentsKey(kind_), kept);
+  settings.setValue(momentsKey(kind_), textsOf(moments, all));
 }
 
 } // namespace palp

@@ -8,10 +8,10 @@
 
 namespace palp {
 
-/// A moment of a run: how far it was.
+/// A moment of a run: how far it was, as its progress said it.
 struct RunMoment {
-  double share = 0;
-  double seconds = 0;
+  double share = 0;   ///< 0..1
+  double seconds = 0; ///< since its begin
 };
 
 /// How long a report takes, part by part, and what is left of it.
@@ -26,9 +26,10 @@ public:
   /// The times are of a run on this machine.
   [[nodiscard]] bool measuredHere() const { return here_; }
   [[nodiscard]] double seconds() const;
-  /// What is left at this share of the progress after so many seconds: the plan's rest, as much slower or faster as
-  /// the run was so far.
-  [[nodiscard]] double left_s(double share, double elapsed_s) const;
+  /// What is left [s] after so many seconds, where `last` is the moment at which the run's progress was told last: the
+  /// plan's rest, as much slower or faster as the run was until then, less what passed since. At least what the plan
+  /// asks for after the step that runs now, however long that step takes.
+  [[nodiscard]] double left_s(const RunMoment& last, double elapsed_s) const;
   /// The part that a share lies in.
   [[nodiscard]] std::size_t partAt(double share) const;
 
@@ -37,6 +38,8 @@ public:
 
 private:
   [[nodiscard]] double planned_s(double share) const;
+  /// When the step that runs at this share is done: the next moment of the last run, else the end of the part.
+  [[nodiscard]] double stepDone_s(double share) const;
 
   QString kind_;
   std::vector<RunPart> parts_;

@@ -56,6 +56,14 @@ bool ofAnotherDesign(const QStringList& arguments, const Project& project) {
   return arguments.front() == "report" && project.design != paperDesign();
 }
 
+/// Under which the times of a run are kept: another number of samples, mesh or design takes another time.
+QString settingsName(const QStringList& arguments, const Project& project) {
+  QStringList words = arguments;
+  words << QString::number(project.samples.perArea) << meshOption(project.mesh).split(' ', Qt::SkipEmptyParts);
+  if (ofAnotherDesign(arguments, project)) words << "design";
+  return words.join('-');
+}
+
 } // namespace
 
 ReportsPage::ReportsPage(Workbench& workbench, QWidget* parent)
@@ -219,8 +227,7 @@ void ReportsPage::chooseKind() {
   if (run_.running()) return; // what runs stays in sight
   const ReportKind& kind = reportKinds()[static_cast<std::size_t>(kind_->currentIndex())];
   what_->setText(kind.what);
-  const int perArea = workbench_.project().samples.perArea; // another number takes another time
-  plan_ = std::make_unique<ReportPlan>(kind.arguments.join('-') + QString::number(perArea), kind.parts);
+  plan_ = std::make_unique<ReportPlan>(settingsName(kind.arguments, workbench_.project()), kind.parts);
   cases_->show(*plan_);
   tabs_->setCurrentWidget(cases_);
   state_->setText(tr("Takes about %1%2.")
@@ -379,13 +386,16 @@ void ReportsPage::openOnDesktop(const QString& path, const QString& what) {
             : tr("Nothing on this machine shows it; open it with a program of yours. %1 is %2").arg(what, path));
 }
 
+double ReportsPage::left_s() const {
+  return plan_->left_s(moments_.empty() ? RunMoment{} : moments_.back(), run_.seconds());
+}
+
 void ReportsPage::showTime() {
-  QString words = tr("Running for %1 s; the window stays free.").arg(static_cast<int>(run_.seconds()));
-  if (share_ < 1) words += tr(" About %1 left.").arg(roughly(plan_->left_s(share_, run_.seconds())));
-  state_->setText(words);
-  const QString left =
-      share_ < 1 ? tr(", about %1 left").arg(roughly(plan_->left_s(share_, run_.seconds()))) : QString();
-  emit runs(tr("Report %1: %2 %").arg(QDir(runFolder_).dirName()).arg(qRound(100 * share_)) + left);
+  const QString left = share_ < 1 ? roughly(left_s()) : QString();
+  state_->setText(tr("Running for %1 s; the window stays free.").arg(static_cast<int>(run_.seconds())) +
+                  (left.isEmpty() ? QString() : tr(" About %1 left.").arg(left)));
+  emit runs(tr("Report %1: %2 %").arg(QDir(runFolder_).dirName()).arg(qRound(100 * share_)) +
+            (left.isEmpty() ? QString() : tr(", about %1 left").arg(left)));
 }
 
 } // namespace palp

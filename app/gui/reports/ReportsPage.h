@@ -66,6 +66,8 @@ private:
   void setProgress(double share, const QString& what);
   void end(ReportRun::Ending how);
   QString cancelledWords();
+  /// What is left of the run [s].
+  [[nodiscard]] double left_s() const;
   void tidy();
   void showTime();
   void listReports();

@@ -16,10 +16,10 @@ TEST(ReportPlan, LeavesTheRestOfThePlanAsMuchSlowerAsTheRunWasSoFar) {
   QSettings().remove("reportSpeed"); // of the windows of other tests
   const ReportPlan plan("plan-a", kParts);
   EXPECT_DOUBLE_EQ(plan.seconds(), 20);
-  EXPECT_DOUBLE_EQ(plan.left_s(0, 0), 20);
-  EXPECT_NEAR(plan.left_s(0.5, 2), 18, 1e-9);        // as planned, though half of the progress is done
-  EXPECT_NEAR(plan.left_s(0.75, 44), 36, 0.15 * 36); // four times as slow: 9 s of the plan are left
-  EXPECT_DOUBLE_EQ(plan.left_s(1, 50), 0);
+  EXPECT_DOUBLE_EQ(plan.left_s({0, 0}, 0), 20);
+  EXPECT_NEAR(plan.left_s({0.5, 2}, 2), 18, 1e-9);         // as planned, though half of the progress is done
+  EXPECT_NEAR(plan.left_s({0.75, 44}, 44), 36, 0.15 * 36); // four times as slow: 9 s of the plan are left
+  EXPECT_DOUBLE_EQ(plan.left_s({1, 50}, 50), 0);
 }
 
 TEST(ReportPlan, TakesTheTimesOfTheLastRunOnThisMachine) {
@@ -49,8 +49,26 @@ TEST(ReportPlan, IsRightWithinAThirdOnTheSecondRunHoweverUnevenThePartsAre) {
     const double way = (share - before.share) / (next->share - before.share);
     const double elapsed_s = 1.5 * (before.seconds + way * (next->seconds - before.seconds));
     if (elapsed_s < 3 || elapsed_s > 27) continue; // 10 % to 90 % of the run
-    EXPECT_NEAR(plan.left_s(share, elapsed_s), 30 - elapsed_s, (30 - elapsed_s) / 3) << share;
+    EXPECT_NEAR(plan.left_s({share, elapsed_s}, elapsed_s), 30 - elapsed_s, (30 - elapsed_s) / 3) << share;
   }
+}
+
+TEST(ReportPlan, CountsDownWhileTheProgressStandsStill) {
+  QSettings().remove("reportSpeed");
+  const ReportPlan first("plan-d", kParts);
+  EXPECT_NEAR(first.left_s({0.5, 2}, 12), 8, 1e-9); // 10 s into the long part, of which nothing was told
+  EXPECT_DOUBLE_EQ(first.left_s({0.25, 1}, 11), 18) << "the short part takes longer than planned: the long one is left";
+  // The second run tells its progress at the same shares: a step of 12 s stands between 0.6 and 0.61, much of the
+  // progress right before it takes no time.
+  const std::vector<RunMoment> moments{{0.5, 2}, {0.55, 2.001}, {0.6, 2.002}, {0.61, 14}, {0.99, 14.01}, {1, 20}};
+  first.remember({2, 18}, moments);
+  const ReportPlan second("plan-d", kParts);
+  for (double elapsed_s = 2.1; elapsed_s < 20; elapsed_s += 0.5) {
+    const auto next = std::find_if(moments.begin(), moments.end(),
+                                   [elapsed_s](const RunMoment& one) { return one.seconds > elapsed_s; });
+    EXPECT_NEAR(second.left_s(*(next - 1), elapsed_s), 20 - elapsed_s, 0.05) << elapsed_s;
+  }
+  EXPECT_NEAR(second.left_s({0.6, 2.002}, 30), 6, 0.05) << "the step takes too long: what comes after it is left";
 }
 
 TEST(ReportPlan, EveryKindHasPartsThatGoUpToTheWhole) {
