@@ -7,6 +7,7 @@
 #include "app/gui/jobs/TimeLeft.h"
 #include "app/gui/project/ResultCsv.h"
 #include "app/gui/views/ChartView.h"
+#include "app/gui/views/CsvExport.h"
 #include "app/gui/widgets/SaveDialog.h"
 #include "app/gui/widgets/SpinBoxes.h"
 #include "model/base/Error.h"
@@ -296,7 +297,7 @@ void DesignSweep::showCurve() {
 void DesignSweep::saveTable() {
   const QString file = askFileToSave(this, tr("Save table"), "design-sweep.csv", tr("Tables (*.csv)"));
   if (file.isEmpty()) return;
-  QString text = "# " + labelOf(*fieldOf(shown_->number)) + ", relative noise of the resistances " +
+  QString text = sourceOf(*this) + "# " + labelOf(*fieldOf(shown_->number)) + ", relative noise of the resistances " +
                  QString::number(shown_->noise) + "\nvalue";
   for (const char* rows : {"all_rows", "middle_row"})
     for (const char* prior : {"without_prior", "with_prior"})

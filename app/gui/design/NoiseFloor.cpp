@@ -63,14 +63,15 @@ QString restBoundWords(const RestBounds& bounds, const SensorDesign& design) {
 NoiseFloor::NoiseFloor(Workbench& workbench, NetworkSession& network, QWidget* parent)
     : QGroupBox(tr("Noise floor of the design"), parent), workbench_(workbench), network_(network) {
   auto* column = new QVBoxLayout(this);
-  noise_ = new QDoubleSpinBox;
+  noise_ = new PercentBox;
   noise_->setObjectName("resistanceNoise");
   noise_->setRange(0.00001, 10);
   noise_->setDecimals(5);
   noise_->setPrefix(tr("noise of R: "));
-  noise_->setSuffix(tr(" %"));
   noise_->setKeyboardTracking(false);
-  noise_->setToolTip(tr("Relative noise of each reading; a good board has 0.0005 %, a plain one 0.01 %"));
+  noise_->setToolTip(
+      tr("Relative noise of each reading, in percent or as a share with an exponent (1e-4 is 0.01 %); a good board "
+         "has 0.0005 %, a plain one 0.01 %"));
   column->addWidget(noise_);
   words_ = new QLabel;
   words_->setObjectName("noiseFloor");

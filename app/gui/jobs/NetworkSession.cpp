@@ -329,8 +329,8 @@ void NetworkSession::openSamples(const std::vector<std::filesystem::path>& files
     return [this, results] {
       if (results.design != design_) return;
       if (upToDate() && equal(*results.samples, *shown_.samples))
-        emit problem(tr("%1 holds the samples that are there already: all that was made of them stays.")
-                         .arg(results.samples->file));
+        emit note(tr("%1 holds the samples that are there already: all that was made of them stays.")
+                      .arg(results.samples->file));
       else
         show(results);
     };

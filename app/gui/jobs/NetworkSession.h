@@ -124,6 +124,8 @@ public:
   /// What lies beside the project is being opened.
   [[nodiscard]] bool openingResults() const { return openingResults_; }
 
+  /// The project's design now.
+  [[nodiscard]] const SensorDesign& design() const { return design_; }
   [[nodiscard]] const NetworkResults& results() const { return shown_; }
   [[nodiscard]] const NetworkSamples* samples() const { return shown_.samples.get(); }
   /// There are samples, and they are of the design as it is now.
@@ -161,6 +163,8 @@ signals:
   void sweepChanged();
   void trialsChanged();
   void problem(const QString& sentence);
+  /// What is worth knowing and no problem.
+  void note(const QString& sentence);
   /// Samples or a network stand in these files now.
   void saved(const std::vector<std::filesystem::path>& files);
   /// Work begins that needs hundreds of megabytes.

@@ -1,13 +1,12 @@
 #include "app/gui/live/LiveCalibration.h"
 
+#include "app/gui/live/panels/KnownLoad.h"
 #include "io/DecoderFile.h"
 #include "io/SampleFile.h"
 #include "model/base/Error.h"
 
 #include <QDateTime>
-#include <QDoubleSpinBox>
 #include <QFileDialog>
-#include <QFormLayout>
 #include <QGroupBox>
 #include <QHBoxLayout>
 #include <QHeaderView>
@@ -27,7 +26,6 @@ namespace palp {
 namespace {
 
 constexpr std::array<const char*, 3> kForceNames{"Fx", "Fy", "Fz"};
-constexpr double kMostLabel_N = 500;
 constexpr double kDay_s = 86400;
 constexpr double kMinutesOfADay = 1440;
 
@@ -36,6 +34,11 @@ QPushButton* button(const QString& text, const QString& name, const QString& tip
   push->setObjectName(name);
   push->setToolTip(tip);
   return push;
+}
+
+/// Of a network that gives one force whatever area is touched, that force.
+Eigen::Vector3d forceOn(const DecodedForces& forces, int area) {
+  return forces.forces_N.col(forces.forces_N.cols() > 1 ? std::min<Eigen::Index>(area, forces.forces_N.cols() - 1) : 0);
 }
 
 QString reportText(const Calibration& calibration, double age_days) {
@@ -84,8 +87,7 @@ LiveCalibration::LiveCalibration(LiveHost& host, QWidget* parent) : QWidget(pare
   row->addWidget(buildFit(), 3);
   connect(&runner_, &JobRunner::failed, this, [this](const QString& sentence) { complain(sentence); });
   connect(&host_, &LiveHost::decoderChanged, this, [this] {
-    const SensorDesign& sensor = host_.sensor();
-    area_->setRange(0, std::max(0, sensor.areas.count() - 1));
+    known_->setSensor(host_.sensor().areas.count(), host_.decoder() ? &*host_.decoder() : nullptr);
     displayFrames();
     displayState();
   });
@@ -96,30 +98,22 @@ LiveCalibration::LiveCalibration(LiveHost& host, QWidget* parent) : QWidget(pare
 
 QWidget* LiveCalibration::buildLabel() {
   auto* box = new QGroupBox(tr("Known load now"));
-  auto* form = new QFormLayout(box);
-  area_ = new QSpinBox;
-  area_->setObjectName("labelArea");
-  area_->setToolTip(tr("Load area that is pressed; areas count from 0"));
-  form->addRow(tr("Area"), area_);
-  for (std::size_t d = 0; d < 3; ++d) {
-    force_[d] = new QDoubleSpinBox;
-    force_[d]->setObjectName(QString("label_%1").arg(kForceNames[d]));
-    force_[d]->setRange(-kMostLabel_N, kMostLabel_N);
-    force_[d]->setDecimals(4);
-    force_[d]->setSingleStep(0.1);
-    force_[d]->setSuffix(tr(" N"));
-    force_[d]->setToolTip(tr("What the rig says [N]; a push is negative in z"));
-    form->addRow(kForceNames[d], force_[d]);
-  }
+  auto* column = new QVBoxLayout(box);
+  known_ = new KnownLoad;
+  known_->setSensor(host_.sensor().areas.count(), host_.decoder() ? &*host_.decoder() : nullptr);
+  column->addWidget(known_);
   count_ = new QSpinBox;
   count_->setObjectName("labelFrames");
   count_->setRange(1, 100000);
   count_->setValue(50);
+  count_->setPrefix(tr("mean of "));
   count_->setSuffix(tr(" frames"));
   count_->setToolTip(tr("Frames that are averaged to one labelled frame"));
-  form->addRow(tr("Mean of"), count_);
   collect_ = button(tr("Collect"), "collect", tr("Averages the next frames under this load"));
-  form->addRow(collect_);
+  auto* row = new QHBoxLayout;
+  row->addWidget(count_, 1);
+  row->addWidget(collect_);
+  column->addLayout(row);
   problem_ = new QLabel;
   problem_->setObjectName("calibrationProblem");
   problem_->setWordWrap(true);
@@ -128,8 +122,9 @@ QWidget* LiveCalibration::buildLabel() {
   progress_ = new QProgressBar;
   progress_->setMaximumHeight(10);
   progress_->setTextVisible(false);
-  form->addRow(progress_);
-  form->addRow(problem_);
+  column->addWidget(progress_);
+  column->addWidget(problem_);
+  column->addStretch(1);
   connect(collect_, &QPushButton::clicked, this, &LiveCalibration::collect);
   return box;
 }
@@ -140,7 +135,7 @@ QWidget* LiveCalibration::buildFrames() {
   table_ = new QTableWidget(0, 7);
   table_->setObjectName("labelledFrames");
   table_->setHorizontalHeaderLabels(
-      {tr("area"), tr("Fx"), tr("Fy"), tr("Fz"), tr("said\nFx"), tr("said\nFy"), tr("said\nFz")});
+      {tr("area"), tr("Fx"), tr("said\nFx"), tr("Fy"), tr("said\nFy"), tr("Fz"), tr("said\nFz")});
   table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   table_->horizontalHeader()->setMinimumSectionSize(24);
   table_->verticalHeader()->hide();
@@ -228,6 +223,10 @@ void LiveCalibration::displayState() {
   const QString& before = host_.networkBefore();
   back_->setEnabled(!before.isEmpty());
   back_->setText(before.isEmpty() ? tr("Back") : tr("Back to %1").arg(before.section(',', 0, 0)));
+  const LiveFrame* last = host_.history().last();
+  const bool reads = last != nullptr && last->forces.valid && last->forces.forces_N.cols() > 0;
+  known_->displayReading(reads ? std::optional<Eigen::Vector3d>(forceOn(last->forces, known_->load().area))
+                               : std::nullopt);
 }
 
 void LiveCalibration::load(const std::filesystem::path& file) {
@@ -253,10 +252,7 @@ void LiveCalibration::collect() {
     complain(tr("There is no network: it says of which design the frames are."));
     return;
   }
-  guarded([&] {
-    const AreaLoad label{area_->value(), {force_[0]->value(), force_[1]->value(), force_[2]->value()}};
-    frames_.begin(*host_.decoder(), host_.sensor(), label, count_->value());
-  });
+  guarded([&] { frames_.begin(*host_.decoder(), host_.sensor(), known_->load(), count_->value()); });
 }
 
 void LiveCalibration::take() {
@@ -284,9 +280,9 @@ void LiveCalibration::displayFrames() {
   for (int row = 0; row < table_->rowCount(); ++row) {
     table_->setItem(row, 0, new QTableWidgetItem(QString::number(samples.area(row))));
     for (int d = 0; d < 3; ++d) {
-      table_->setItem(row, d + 1, new QTableWidgetItem(QString::number(samples.forces_N(d, row), 'g', 5)));
+      table_->setItem(row, 2 * d + 1, new QTableWidgetItem(QString::number(samples.forces_N(d, row), 'g', 5)));
       const double said_N = frames_.said_N()(d, row);
-      table_->setItem(row, d + 4,
+      table_->setItem(row, 2 * d + 2,
                       new QTableWidgetItem(
                           std::isnan(said_N) ? "" : QString::number(std::round(1e3 * said_N) / 1e3 + 0.0, 'f', 3)));
     }
@@ -312,12 +308,13 @@ void LiveCalibration::displayFit() {
   saveNetwork_->setEnabled(calibration_.has_value());
   if (!calibration_) {
     const auto count = frames_.samples().size();
-    report_->setText(tr("Put known loads on the sensor, one after the other, and collect a frame under each (a push is "
-                        "negative in z); "
-                        "at least %1 of them, over the whole force range: a load may be put on again. Then fit. ")
-                         .arg(kFewestCalibrationFrames) +
-                     (count < kFewestCalibrationFrames ? tr("%1 of %2 so far.").arg(count).arg(kFewestCalibrationFrames)
-                                                       : tr("%1 so far: enough to fit.").arg(count)));
+    report_->setText(
+        tr("Put known loads on the sensor, one after the other, and collect a frame under each: begin with the "
+           "three weights that are suggested, on each area (a push is negative in z); "
+           "at least %1 of them, over the whole force range: a load may be put on again. Then fit. ")
+            .arg(kFewestCalibrationFrames) +
+        (count < kFewestCalibrationFrames ? tr("%1 of %2 so far.").arg(count).arg(kFewestCalibrationFrames)
+                                          : tr("%1 so far: enough to fit.").arg(count)));
     return;
   }
   double age_days = newest_s_ > 0 ? (hostClock_s() - newest_s_) / kDay_s : 0;

@@ -5,9 +5,6 @@
 
 #include <QWidget>
 
-#include <array>
-
-class QDoubleSpinBox;
 class QLabel;
 class QProgressBar;
 class QPushButton;
@@ -15,6 +12,8 @@ class QSpinBox;
 class QTableWidget;
 
 namespace palp {
+
+class KnownLoad;
 
 /// Labelled frames of the board: collected under known loads, or from a file; the network refined with them.
 class LiveCalibration : public QWidget {
@@ -28,7 +27,7 @@ public:
   [[nodiscard]] const LabelledFrames& frames() const { return frames_; }
   [[nodiscard]] const std::optional<Calibration>& calibration() const { return calibration_; }
   [[nodiscard]] JobRunner& runner() { return runner_; }
-  /// What is in use, and what can be had back.
+  /// What is in use, what can be had back, and what the network reads now.
   void displayState();
 
 signals:
@@ -53,8 +52,7 @@ private:
   /// When the file that was read last was written.
   std::optional<std::filesystem::file_time_type> written_;
   std::optional<Calibration> calibration_;
-  QSpinBox* area_ = nullptr;
-  std::array<QDoubleSpinBox*, 3> force_{};
+  KnownLoad* known_ = nullptr;
   QSpinBox* count_ = nullptr;
   QPushButton* collect_ = nullptr;
   QProgressBar* progress_ = nullptr;

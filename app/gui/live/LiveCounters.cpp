@@ -39,9 +39,10 @@ LiveCounters::LiveCounters(QWidget* parent) : QWidget(parent) {
   state_ = add("liveState", tr("State"), tr("What the source does now, and why"));
   rate_ = add("liveRate", tr("Measured rate"),
               tr("Reports a second that came in the last second, and whole scans (frames) of them"));
-  losses_ = add("liveLosses", tr("Lost, bad, late"),
-                tr("Reports missing in the sequence / with a wrong length, ID, checksum or range / frames that were "
-                   "decoded more than 20 ms after the board read them; all since the start"));
+  losses_ = add("liveLosses", tr("Lost reports"),
+                tr("Reports of the board that are missing in its sequence. Below: bad ones, which came with a wrong "
+                   "length, ID, checksum or range; late frames, decoded more than 20 ms after the board read them; and "
+                   "all reports that came. All since the start"));
   latency_ = add("liveLatency", tr("Latency [ms]"),
                  tr("From the board's clock at the last reading of a frame to the decoded force [ms], median / 99 % / "
                     "longest; offset and drift of the two clocks are taken out. Below: what this program takes of it, "
@@ -133,8 +134,10 @@ void LiveCounters::display(const LiveStatus& status, const LiveFrame* last, bool
   if (status.state != LiveState::Paused) // held with the views
     set(rate_, tr("%1 reports/s").arg(status.reportsPerSecond, 0, 'f', 0),
         wanted + tr("%1 frames/s").arg(status.framesPerSecond, 0, 'f', 0));
-  set(losses_, QString("%1 / %2 / %3").arg(status.counts.lost).arg(status.counts.bad).arg(status.lateFrames),
-      tr("of %1").arg(status.counts.reports), status.counts.lost + status.counts.bad > 0);
+  set(losses_, tr("%1 lost").arg(status.counts.lost),
+      tr("%1 bad, %2 late, of %3").arg(status.counts.bad).arg(status.lateFrames).arg(status.counts.reports),
+      status.counts.lost + status.counts.bad > 0);
+  losses_.unit->setToolTip(losses_.unit->text());
   set(latency_, triple(status.latency, status.counts.frames),
       status.counts.frames == 0
           ? QString()

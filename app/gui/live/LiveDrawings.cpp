@@ -69,6 +69,7 @@ void breakAt(const LiveHistory::Entry& entry, StripSeries& curve) {
   if (!entry.gap || curve.t_s.empty()) return;
   curve.t_s.push_back(entry.t_s);
   curve.y.push_back(kNone);
+  if (!curve.deviation.empty()) curve.deviation.push_back(kNone);
 }
 
 Eigen::Index strongest(const DecodedForces& forces) {
@@ -120,6 +121,9 @@ StripSpec forceCurves(const LiveHistory& history, const LiveSettings& settings, 
       breakAt(entries[k], curve);
       curve.t_s.push_back(entries[k].t_s);
       curve.y.push_back(forces.valid ? forces.forces_N(axis, strongest(forces)) : kNone);
+      // It holds only where the readings are those of a touch that the network knows.
+      const bool known = forces.valid && forces.doubt.empty();
+      curve.deviation.push_back(known ? forces.standardDeviation_N(axis, strongest(forces)) : kNone);
     }
     if (any) spec.series.push_back(std::move(curve));
   }

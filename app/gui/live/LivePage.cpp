@@ -69,6 +69,7 @@ QWidget* LivePage::buildPanels() {
   simulation_ = new SimulationPanel;
   control_ = new LiveControlPanel;
   if (board_ > 0) control_->displayRecording(QDir::home().filePath(QString("touch-board%1.palprec").arg(board_)), {});
+  column->addWidget(control_->recording());
   column->addWidget(source_);
   column->addWidget(simulation_);
   column->addWidget(control_, 1);

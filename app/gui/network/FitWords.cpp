@@ -2,6 +2,7 @@
 
 #include "app/gui/jobs/SampleFiles.h"
 #include "app/gui/jobs/TimeLeft.h"
+#include "app/gui/project/ProjectChange.h"
 
 #include <QFileInfo>
 #include <QObject>
@@ -155,10 +156,20 @@ bool hasSpread(DecoderKind kind) {
          kind == DecoderKind::TwoStepGaussNewton;
 }
 
+/// "an earlier design", and what has changed of it since.
+QString earlierDesign(const NetworkSession& session) {
+  Project then, now;
+  then.design = session.results().design;
+  now.design = session.design();
+  const QString since = sinceWords(then, now);
+  return since.isEmpty() ? tr("an earlier design") : tr("an earlier design (%1)").arg(since);
+}
+
 QString staleReason(const NetworkSession& session, const NetworkSettings& now) {
   const NetworkFit* fit = session.fit();
   if (fit == nullptr) return {};
-  if (!session.upToDate()) return tr("Of an earlier design: undo the change, or generate samples and train again.");
+  if (!session.upToDate())
+    return tr("Of %1: undo the change, or generate samples and train again.").arg(earlierDesign(session));
   if (!session.fitIsCurrent()) return tr("Of other samples than those that are there now: train again.");
   if (!fit->file.isEmpty()) return {};
   const QStringList changes = differences(fit->settings, now);
@@ -167,7 +178,7 @@ QString staleReason(const NetworkSession& session, const NetworkSettings& now) {
 
 QString staleTrialsReason(const NetworkSession& session, const NetworkSettings& now) {
   if (session.trials().empty()) return {};
-  if (!session.upToDate()) return tr("The comparison is of an earlier design.");
+  if (!session.upToDate()) return tr("The comparison is of %1.").arg(earlierDesign(session));
   NetworkSettings then = session.trialsSettings();
   then.decoder = now.decoder;
   const QStringList changes = differences(then, now);
@@ -176,7 +187,7 @@ QString staleTrialsReason(const NetworkSession& session, const NetworkSettings& 
 
 QString staleSweepReason(const NetworkSession& session, const NetworkSettings& now) {
   if (session.sweepPoints().empty()) return {};
-  if (!session.upToDate()) return tr("The sweep is of an earlier design.");
+  if (!session.upToDate()) return tr("The sweep is of %1.").arg(earlierDesign(session));
   NetworkSettings then = session.sweepSettings();
   then.spread = now.spread;
   then.automaticSpread = now.automaticSpread;
@@ -199,7 +210,8 @@ QString samplesWords(const NetworkSession& session) {
   const NetworkSamples* samples = session.samples();
   if (samples == nullptr) return session.openingResults() ? tr("Being opened.") : tr("None yet for this design.");
   const QString counts = tr("%1 for training, %2 for testing").arg(samples->training.size()).arg(samples->test.size());
-  if (!session.upToDate()) return counts + tr(", of an earlier design: undo the change, or generate new ones.");
+  if (!session.upToDate())
+    return counts + tr(", of %1: undo the change, or generate new ones.").arg(earlierDesign(session));
   return counts + (samples->file.isEmpty() ? madeWords(*samples) : openedWords(*samples)) + ".";
 }
 
@@ -281,6 +293,19 @@ QString adviceWords(const NetworkSession& session, const NetworkFit& fit) {
 
 } // namespace
 
+namespace {
+
+/// What palp train warns of on the command line.
+QString warningWords(const NetworkFit& fit) {
+  QString words;
+  for (const std::string& warning : fit.decoder.report.warnings)
+    words += "<div style=\"color: #d4303c\">" +
+             tr("Warning: %1.").arg(QString::fromStdString(warning).toHtmlEscaped()) + "</div>";
+  return words;
+}
+
+} // namespace
+
 QString fitWords(const NetworkSession& session, const NetworkSettings& now, const NoiseBound* bound) {
   const NetworkFit* fit = session.fit();
   if (fit == nullptr && session.openingResults()) return tr("The networks of the project are being opened.");
@@ -301,7 +326,7 @@ QString fitWords(const NetworkSession& session, const NetworkSettings& now, cons
   const QString both = "<table width=\"100%\" cellspacing=\"0\" cellpadding=\"0\"><tr><td>" + errors +
                        "</td><td width=\"16\"></td><td>" +
                        (current ? rest : "<i>" + reason.toHtmlEscaped() + "</i> " + rest) + "</td></tr></table>";
-  return current ? both : "<div style=\"color: #808890\">" + both + "</div>";
+  return (current ? both : "<div style=\"color: #808890\">" + both + "</div>") + warningWords(*fit);
 }
 
 } // namespace palp

@@ -223,12 +223,16 @@ ChartSpec trialsErrorChart(const std::vector<DecoderTrial>& trials, const std::v
   }
   const double from = sweep.empty() ? 0.3 : sweep.front().spread;
   const double to = sweep.empty() ? 10 : sweep.back().spread;
+  const auto trained = static_cast<double>(
+      std::count_if(trials.begin(), trials.end(), [](const DecoderTrial& trial) { return trial.refusal.isEmpty(); }));
   std::size_t place = 0;
   for (const DecoderTrial& trial : trials) {
     if (!trial.refusal.isEmpty()) continue;
-    ChartSeries level = trialSeries(trial, place++, Style::Line);
-    level.x = {from, to};
-    level.y.assign(2, trial.error.eq13Percent.mean());
+    // Flat lines: each has its marker at a place of its own, so that equal ones are seen as two.
+    const double at = from * std::pow(to / from, static_cast<double>(place + 1) / (trained + 1));
+    ChartSeries level = trialSeries(trial, place++, Style::LineAndPoints);
+    level.x = {from, at, to};
+    level.y.assign(3, trial.error.eq13Percent.mean());
     spec.series.push_back(std::move(level));
   }
   if (!curve.x.empty()) spec.series.push_back(std::move(curve));

@@ -23,6 +23,7 @@
 #include <QSignalBlocker>
 #include <QSpinBox>
 #include <QSplitter>
+#include <QStyle>
 #include <QTabWidget>
 #include <QVBoxLayout>
 
@@ -88,6 +89,7 @@ void NetworkPage::connectSession() {
   connect(&session_.runner(), &JobRunner::started, this, [this] { showProblem({}); });
   connect(&session_.runner(), &JobRunner::failed, this, &NetworkPage::showProblem);
   connect(&session_, &NetworkSession::problem, this, &NetworkPage::showProblem);
+  connect(&session_, &NetworkSession::note, this, [this](const QString& sentence) { showSentence(sentence, "hint"); });
 }
 
 void NetworkPage::edit(const QString& what, const SampleSettings& samples, const NetworkSettings& network) {
@@ -101,6 +103,13 @@ void NetworkPage::edit(const QString& what, const SampleSettings& samples, const
 
 /// Where one looks: below the numbers that there are none of now.
 void NetworkPage::showProblem(const QString& sentence) {
+  showSentence(sentence, "problem");
+}
+
+void NetworkPage::showSentence(const QString& sentence, const char* role) {
+  problem_->setProperty("role", role); // its colour
+  problem_->style()->unpolish(problem_);
+  problem_->style()->polish(problem_);
   problem_->setText(sentence);
   problem_->setVisible(!sentence.isEmpty());
 }

@@ -54,6 +54,7 @@ private:
   void edit(const QString& what, const SampleSettings& samples, const NetworkSettings& network);
   void connectSession();
   void showProblem(const QString& sentence);
+  void showSentence(const QString& sentence, const char* role);
   void takeBestSpread();
   void goBackTo(std::size_t network);
   void saveNetwork();

@@ -176,25 +176,28 @@ void NetworkPanel::buildNetwork(QFormLayout& form) {
   centers_->setKeyboardTracking(false);
   centers_->setToolTip(tr("Centres of the radial basis functions; fewer than samples make a smoother network"));
   form.addRow(tr("Centres"), centers_);
-  noise_ = new ExponentBox;
+  noise_ = new PercentBox;
   noise_->setObjectName("noise");
   noise_->setRange(0, 10);
   noise_->setDecimals(8);
-  noise_->setSuffix(tr(" %"));
   noise_->setKeyboardTracking(false);
-  noise_->setToolTip(tr("Relative noise of each input that the network is trained with"));
+  noise_->setToolTip(
+      tr("Relative noise of each input that the network is trained with: in percent, or as a share with an exponent "
+         "(1e-4 is 0.01 %)"));
   form.addRow(tr("Noise"), noise_);
-  testNoise_ = new ExponentBox;
+  testNoise_ = new PercentBox;
   testNoise_->setObjectName("testNoise");
   testNoise_->setRange(0, 50);
   testNoise_->setDecimals(8);
-  testNoise_->setSuffix(tr(" %"));
   testNoise_->setKeyboardTracking(false);
-  testNoise_->setToolTip(tr("Relative noise that the test samples get, apart from that of the training"));
+  testNoise_->setToolTip(
+      tr("Relative noise that the test samples get, apart from that of the training: in percent, or as a share with "
+         "an exponent (1e-4 is 0.01 %)"));
   form.addRow(tr("Noise of the test"), testNoise_);
   noiseWords_ = new QLabel;
   noiseWords_->setObjectName("noiseWords");
   noiseWords_->setProperty("role", "hint");
+  noiseWords_->setWordWrap(true);
   form.addRow(QString(), noiseWords_);
   connect(mode_, &QComboBox::currentIndexChanged, this, [this] { read(tr("Change the network's mode")); });
   connect(decoder_, &QComboBox::currentIndexChanged, this, [this] { read(tr("Change the decoder")); });
@@ -292,10 +295,9 @@ void NetworkPanel::display(const Project& project) {
   displaying_ = false;
 }
 
-/// As others write it.
+/// What was taken, also as others write it.
 void NetworkPanel::showNoise() {
-  const auto relative = [](double share) { return share > 0 ? QString::number(share, 'g', 3) : tr("none"); };
-  noiseWords_->setText(tr("of a reading: %1, test %2").arg(relative(network_.noise), relative(network_.testNoise)));
+  noiseWords_->setText(tr("taken: %1; test: %2").arg(percentWords(network_.noise), percentWords(network_.testNoise)));
 }
 
 void NetworkPanel::showSpread() {

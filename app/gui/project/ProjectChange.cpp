@@ -140,6 +140,18 @@ QString meshWords(const MeshOptions& mesh) {
 
 } // namespace
 
+QString sinceWords(const Project& then, const Project& now) {
+  constexpr qsizetype kNamed = 2;
+  QStringList changes = designChanges(then.design, now.design);
+  if (changes.isEmpty()) changes << loadChanges(then.load, now.load);
+  if (then.mesh != now.mesh) changes << stepWords(QObject::tr("mesh size"), meshWords(then.mesh), meshWords(now.mesh));
+  changes.removeAll(QString());
+  if (changes.isEmpty()) return {};
+  const qsizetype more = changes.size() - kNamed;
+  const QString words = changes.mid(0, kNamed).join(", ");
+  return more > 0 ? QObject::tr("%1 and %2 more since").arg(words).arg(more) : QObject::tr("%1 since").arg(words);
+}
+
 QString changeWords(const QString& what, const Project& before, const Project& after) {
   QStringList changes = designChanges(before.design, after.design);
   // A design takes loads with it that cannot act on it: that is no change of its own.

@@ -10,4 +10,9 @@ namespace palp {
 /// more than one such thing.
 QString changeWords(const QString& what, const Project& before, const Project& after);
 
+/// What design, load and mesh have become since results were computed, for the notes beside them: "block size along x
+/// 30
+/// -> 31 mm since"; at most two such things by name. Empty where nothing changed that can be said.
+QString sinceWords(const Project& then, const Project& now);
+
 } // namespace palp

@@ -1,9 +1,9 @@
 #include "app/gui/project/ResultCsv.h"
 
-#include "io/DesignFile.h"
+#include "app/gui/project/Command.h"
+#include "app/gui/project/ExportLines.h"
 #include "model/base/Error.h"
 
-#include <QJsonDocument>
 #include <QSaveFile>
 
 namespace palp {
@@ -18,7 +18,8 @@ QString exactTriple(const Eigen::Vector3d& values) {
   return "(" + exactNumber(values.x()) + ", " + exactNumber(values.y()) + ", " + exactNumber(values.z()) + ")";
 }
 
-/// Load and design, each line after a "#": most programs that read tables can be told to pass over these.
+} // namespace
+
 QString sourceLines(const ResultSource& source) {
   QString text = "# palp, share of the load " + exactNumber(source.loadFraction) + "\n";
   for (const AreaLoad& load : source.load.areas)
@@ -26,11 +27,10 @@ QString sourceLines(const ResultSource& source) {
   for (const PatchLoad& disc : source.load.patches)
     text += "# load on a disc at (" + exactNumber(disc.centre_mm.x()) + ", " + exactNumber(disc.centre_mm.y()) +
             ") mm with radius " + exactNumber(disc.radius_mm) + " mm: " + exactTriple(disc.force_N) + " N\n";
-  const QJsonDocument design = QJsonDocument::fromJson(QByteArray::fromStdString(toJson(source.design)));
-  return text + "# design " + QString::fromUtf8(design.toJson(QJsonDocument::Compact)) + "\n";
+  const QString mesh = meshOption(source.mesh).trimmed();
+  text += "# mesh " + (mesh.isEmpty() ? QString("as palp makes it by itself") : mesh) + "\n";
+  return text + exportLines({}, source.design, source.stale);
 }
-
-} // namespace
 
 QString electrodesCsv(const ResultSource& source, const ElectrodeDisplacements& displacements) {
   QString text = sourceLines(source) + "row_wire,electrode,x_mm,y_mm,z_mm,u_x_mm,u_y_mm,u_z_mm\n";

@@ -3,6 +3,7 @@
 #include "app/gui/jobs/TouchResistances.h"
 #include "model/LoadCase.h"
 #include "model/RowColumnResistance.h"
+#include "solver/SensorMesh.h"
 
 #include <QString>
 
@@ -13,7 +14,12 @@ struct ResultSource {
   const SensorDesign& design;
   const LoadCase& load;
   double loadFraction = 1;
+  MeshOptions mesh{};
+  QString stale{}; ///< what has changed since, in words; empty: nothing
 };
+
+/// Load, mesh, design and whether they still hold, each line after a "#".
+QString sourceLines(const ResultSource& source);
 
 /// The upper electrodes' displacements [mm]: one table with commas, under lines with "#" that say load and design.
 QString electrodesCsv(const ResultSource& source, const ElectrodeDisplacements& displacements);

@@ -53,4 +53,22 @@ std::vector<WrittenReport> reportsBelow(const QString& base) {
   return all;
 }
 
+QStringList writtenInto(const QString& folder) {
+  QStringList written = QDir(folder).entryList(QDir::Files);
+  written.removeAll(kReportDesign);
+  return written;
+}
+
+void tidyReport(const QString& folder, const QString& messages) {
+  if (folder.isEmpty()) return;
+  QDir place(folder);
+  if (writtenInto(folder).isEmpty()) {
+    place.remove(kReportDesign);
+    QDir().rmdir(folder);
+    return;
+  }
+  QFile file(place.filePath(kReportMessages));
+  if (file.open(QIODevice::WriteOnly)) file.write(messages.toUtf8());
+}
+
 } // namespace palp

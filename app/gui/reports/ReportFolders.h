@@ -2,6 +2,7 @@
 
 #include <QDateTime>
 #include <QString>
+#include <QStringList>
 
 #include <vector>
 
@@ -20,5 +21,16 @@ QString newReportFolder(const QString& base, const QString& kind, const QDateTim
 
 /// The reports in the folders right below `base` and in `base` itself, the newest first.
 std::vector<WrittenReport> reportsBelow(const QString& base);
+
+/// What a run puts into the folder beside the report: what it said, and the design that it is of.
+inline constexpr const char* kReportMessages = "messages.txt";
+inline constexpr const char* kReportDesign = "sensor.json";
+
+/// The report's own files in the folder.
+QStringList writtenInto(const QString& folder);
+
+/// Keeps the messages beside what was written; a folder that holds nothing of the report goes. Nothing where the folder
+/// is not there or has no name.
+void tidyReport(const QString& folder, const QString& messages);
 
 } // namespace palp

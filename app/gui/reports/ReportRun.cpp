@@ -27,6 +27,10 @@ ReportRun::ReportRun(QObject* parent) : QObject(parent) {
 }
 
 ReportRun::~ReportRun() {
+  kill();
+}
+
+void ReportRun::kill() {
   process_.disconnect(this);
   if (!running()) return;
   process_.terminate();

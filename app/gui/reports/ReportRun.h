@@ -18,6 +18,8 @@ public:
 
   void start(const QString& program, const QStringList& arguments);
   void cancel();
+  /// Ends it for good, within seconds, and says nothing of it.
+  void kill();
   [[nodiscard]] bool running() const { return process_.state() != QProcess::NotRunning; }
   [[nodiscard]] double seconds() const { return 1e-3 * static_cast<double>(clock_.elapsed()); }
   /// Of the program, after it failed.

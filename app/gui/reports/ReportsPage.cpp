@@ -37,8 +37,6 @@ namespace {
 
 constexpr const char* kFolderKey = "reportsFolder";
 constexpr const char* kPage = "report.html";
-constexpr const char* kMessages = "messages.txt"; ///< what a run of the window said
-constexpr const char* kDesign = "sensor.json";
 constexpr int kFolderRole = Qt::UserRole;
 
 QString commandLineProgram() {
@@ -90,6 +88,9 @@ ReportsPage::ReportsPage(Workbench& workbench, QWidget* parent)
 
 ReportsPage::~ReportsPage() {
   run_.disconnect(this);
+  if (!run_.running()) return;
+  run_.kill();
+  tidyReport(runFolder_, log_->toPlainText()); // quitting leaves no empty folder either
 }
 
 void ReportsPage::build() {
@@ -238,17 +239,19 @@ void ReportsPage::chooseKind() {
 
 void ReportsPage::start() {
   QStringList all;
+  runFolder_.clear();
   try {
     const ReportKind& kind = reportKinds()[static_cast<std::size_t>(kind_->currentIndex())];
     runFolder_ = newReportFolder(base(), kind.arguments.back() == "all" ? "paper" : kind.arguments.back(),
                                  QDateTime::currentDateTime());
     all = arguments(workbench_.project(), runFolder_) << "--force"; // into the folder that was made just now
     if (ofAnotherDesign(all, workbench_.project())) {
-      const QString design = QDir(runFolder_).filePath(kDesign);
+      const QString design = QDir(runFolder_).filePath(kReportDesign);
       saveDesign(design.toStdString(), workbench_.project().design, true);
       all << "--design" << design;
     }
   } catch (const Error& error) {
+    tidyReport(runFolder_, {});
     state_->setText(QString::fromStdString(error.what()));
     return;
   }
@@ -308,32 +311,17 @@ void ReportsPage::end(ReportRun::Ending how) {
     break;
   }
   if (how == ReportRun::Ending::NoResult || how == ReportRun::Ending::Failed) tabs_->setCurrentWidget(log_);
-  tidy();
+  tidyReport(runFolder_, log_->toPlainText());
   if (QFileInfo::exists(runFolder_)) showFolder(runFolder_, done);
   listReports();
 }
 
 QString ReportsPage::cancelledWords() {
-  QStringList written = QDir(runFolder_).entryList(QDir::Files);
-  written.removeAll(kDesign);
+  const qsizetype written = writtenInto(runFolder_).size();
   const QString seconds = QString::number(run_.seconds(), 'f', 1);
-  return written.isEmpty() ? tr("Cancelled after %1 s; nothing was written.").arg(seconds)
-                           : tr("Cancelled after %1 s; %2 of the report's files were already written to %3.")
-                                 .arg(seconds, QString::number(written.size()), runFolder_);
-}
-
-/// Keeps the messages beside what was written; a folder that holds nothing of the report goes.
-void ReportsPage::tidy() {
-  QDir folder(runFolder_);
-  QStringList written = folder.entryList(QDir::Files);
-  written.removeAll(kDesign);
-  if (written.isEmpty()) {
-    folder.remove(kDesign);
-    QDir().rmdir(runFolder_);
-    return;
-  }
-  QFile messages(folder.filePath(kMessages));
-  if (messages.open(QIODevice::WriteOnly)) messages.write(log_->toPlainText().toUtf8());
+  return written == 0 ? tr("Cancelled after %1 s; nothing was written.").arg(seconds)
+                      : tr("Cancelled after %1 s; %2 of the report's files were already written to %3.")
+                            .arg(seconds, QString::number(written), runFolder_);
 }
 
 void ReportsPage::listReports() {
@@ -357,7 +345,7 @@ void ReportsPage::showWritten(const QString& folder) {
     listReports();
     return;
   }
-  QFile messages(QDir(folder).filePath(kMessages));
+  QFile messages(QDir(folder).filePath(kReportMessages));
   log_->setPlainText(messages.open(QIODevice::ReadOnly) ? QString::fromUtf8(messages.readAll())
                                                         : tr("%1 holds no messages of its run.").arg(folder));
   showFolder(folder, true);

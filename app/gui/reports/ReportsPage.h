@@ -68,7 +68,6 @@ private:
   QString cancelledWords();
   /// What is left of the run [s].
   [[nodiscard]] double left_s() const;
-  void tidy();
   void showTime();
   void listReports();
   /// One that was written before.

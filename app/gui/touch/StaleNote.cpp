@@ -1,5 +1,6 @@
 #include "app/gui/touch/StaleNote.h"
 
+#include "app/gui/project/ProjectChange.h"
 #include "app/gui/project/Workbench.h"
 
 #include <QEvent>
@@ -30,11 +31,18 @@ void StaleNote::display() {
   setVisible(nothing || !touch.upToDate());
   if (isHidden()) return;
   const bool running = touch.runner().running();
+  Project then = workbench_.project();
+  then.design = touch.touch().design();
+  then.load = touch.touch().load();
+  then.mesh = touch.touch().meshOptions();
+  const QString since = sinceWords(then, workbench_.project());
+  const QString result =
+      since.isEmpty() ? tr("This is the result before") : tr("This is the result before (%1)").arg(since);
   if (nothing)
     setText(running ? tr("Being computed...") : tr("Not computed yet."));
   else
-    setText(running ? tr("This is the result before; the new one is being computed...")
-                    : tr("This is the result before; the new one is not computed."));
+    setText(running ? tr("%1; the new one is being computed...").arg(result)
+                    : tr("%1; the new one is not computed.").arg(result));
   adjustSize();
   move((parentWidget()->width() - width()) / 2, parentWidget()->height() - height() - 8);
 }

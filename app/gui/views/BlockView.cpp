@@ -1,7 +1,5 @@
 #include "app/gui/views/BlockView.h"
 
-#include "app/gui/views/TextScale.h"
-
 #include <vtkCamera.h>
 #include <vtkCellPicker.h>
 #include <vtkNew.h>
@@ -35,6 +33,7 @@ struct BlockView::Parts {
   std::optional<SensorDesign> design; ///< of the last state; none before the first
   Eigen::Vector3d look = kFirstLook;  ///< along which the camera was fitted last
   std::array<double, 6> fitted{};     ///< where that put it
+  double legendRoom_px = 0;           ///< that it left free
 
   [[nodiscard]] std::array<double, 6> camera() const {
     vtkCamera& its = *scene.renderer()->GetActiveCamera();
@@ -70,7 +69,10 @@ void BlockView::show(const DeformationState& state, const DeformationOptions& op
   cut_ = options.cutGrip ? options.cut : std::nullopt;
   scale_ = options.scale;
   scaleText();
-  if (other) resetCamera();
+  if (other)
+    resetCamera();
+  else if (parts_->legendRoom_px != parts_->scene.legendRoom_px() && parts_->camera() == parts_->fitted)
+    lookAlong(parts_->look); // another legend: the block keeps clear of it
   invalidate();
 }
 
@@ -86,8 +88,10 @@ void BlockView::resetCamera() {
 
 void BlockView::lookAlong(const Eigen::Vector3d& direction) {
   if (!parts_->design) return;
-  parts_->scene.resetCamera(*parts_->design, aspect(), direction,
-                            std::clamp(kLegendRoom_px * textScale(*this) / std::max(width(), 1), 0.02, 0.4));
+  parts_->scene.resetCamera(
+      *parts_->design, aspect(), direction,
+      std::clamp(parts_->scene.legendRoom_px() / (devicePixelRatioF() * std::max(width(), 1)), 0.02, 0.4));
+  parts_->legendRoom_px = parts_->scene.legendRoom_px();
   parts_->look = direction;
   parts_->fitted = parts_->camera();
   invalidate();

@@ -2,6 +2,7 @@
 
 #include "app/gui/views/CsvExport.h"
 #include "app/gui/views/TextScale.h"
+#include "app/scenes/charts/ChartSvg.h"
 
 #include <vtkAxis.h>
 #include <vtkChartXY.h>
@@ -117,6 +118,11 @@ void ChartView::setFaint(bool faint) {
 
 QString ChartView::table() const {
   return spec_.series.empty() ? QString() : chartCsv(spec_);
+}
+
+std::string ChartView::svg() const {
+  const QSize shown = size().expandedTo({600, 400}); // a tab that was never seen has no size yet
+  return chartSvg(spec_, shown.width(), shown.height(), theme_, textScale(*this));
 }
 
 void ChartView::changeEvent(QEvent* event) {

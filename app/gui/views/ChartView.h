@@ -20,6 +20,8 @@ public:
 
   void setChart(const ChartSpec& spec);
   void setTheme(Theme theme);
+  [[nodiscard]] bool hasSvg() const override { return !empty(); }
+  [[nodiscard]] std::string svg() const override;
   [[nodiscard]] QString table() const override;
   [[nodiscard]] bool worthSaving() const override { return !empty(); }
   [[nodiscard]] const ChartSpec& chart() const { return spec_; }

@@ -1,6 +1,7 @@
 #include "app/gui/views/CsvExport.h"
 
 #include "app/gui/widgets/SaveDialog.h"
+#include "app/gui/window/Scene.h"
 #include "io/AtomicFile.h"
 #include "model/base/Error.h"
 #include "model/base/Text.h"
@@ -27,11 +28,20 @@ QString chartCsv(const ChartSpec& spec) {
   return csv;
 }
 
+QString sourceOf(const QWidget& widget) {
+  for (const QWidget* place = &widget; place != nullptr; place = place->parentWidget())
+    if (const auto* scene = dynamic_cast<const Scene*>(place)) {
+      const QString lines = scene->exportSource();
+      if (!lines.isEmpty()) return lines; // a board's page lies in the scene of all boards
+    }
+  return {};
+}
+
 QString offerCsv(QWidget* parent, const QString& proposal, const QString& text) {
   const QString file = askFileToSave(parent, QObject::tr("Save as CSV"), proposal, QObject::tr("Tables (*.csv)"));
   if (file.isEmpty()) return {};
   try {
-    writeFile(file.toStdString(), text.toStdString(), true); // the dialog has asked
+    writeFile(file.toStdString(), (sourceOf(*parent) + text).toStdString(), true); // the dialog has asked
     return file;
   } catch (const Error& error) {
     QMessageBox::warning(parent, QObject::tr("Save as CSV"), QString::fromStdString(error.what()));

@@ -13,7 +13,10 @@ namespace palp {
 QString csvCell(const QString& text);
 /// Every point of every curve: `series,x,y`, the heads being the labels of the axes.
 QString chartCsv(const ChartSpec& spec);
-/// Asks for a file and writes the table there; says why where it cannot be written. Returns the file that was written.
+/// Lines after "#" that say what the tables of the widget's scene were made with; empty outside of a scene.
+QString sourceOf(const QWidget& widget);
+/// Asks for a file and writes the table there, below what it was made with; says why where it cannot be written.
+/// Returns the file that was written.
 QString offerCsv(QWidget* parent, const QString& proposal, const QString& text);
 
 } // namespace palp

@@ -2,7 +2,7 @@
 
 #include "app/gui/views/CsvExport.h"
 #include "app/gui/widgets/SaveDialog.h"
-
+#include "io/AtomicFile.h"
 #include "model/base/Error.h"
 
 #include <QApplication>
@@ -134,6 +134,7 @@ void PictureView::offerPicture(const QPoint& globalPlace) {
                        size);
   }
   const QAction* other = menu.addAction(tr("Save picture in another size..."));
+  const QAction* lines = hasSvg() ? menu.addAction(tr("Save as SVG...")) : nullptr;
   const QString numbers = table();
   const QAction* copyTable = numbers.isEmpty() ? nullptr : menu.addAction(tr("Copy points"));
   const QAction* saveTable = numbers.isEmpty() ? nullptr : menu.addAction(tr("Save points as CSV..."));
@@ -143,6 +144,7 @@ void PictureView::offerPicture(const QPoint& globalPlace) {
     if (!size.isEmpty()) savePicture(size);
     return;
   }
+  if (chosen != nullptr && chosen == lines) saveSvg();
   if (chosen != nullptr && chosen == copyTable) QApplication::clipboard()->setText(numbers);
   if (chosen != nullptr && chosen == saveTable) {
     const QString written = offerCsv(this, fileName("points") + ".csv", numbers);
@@ -152,6 +154,17 @@ void PictureView::offerPicture(const QPoint& globalPlace) {
   for (const auto& [action, size] : sizes) {
     if (action != chosen || chosen == nullptr) continue;
     savePicture(size);
+  }
+}
+
+void PictureView::saveSvg() {
+  const QString file = askFileToSave(this, tr("Save as SVG"), fileName("chart") + ".svg", tr("Drawings (*.svg)"));
+  if (file.isEmpty()) return;
+  try {
+    writeFile(file.toStdString(), svg(), true); // the dialog has asked
+    emit message(tr("Wrote %1.").arg(file));
+  } catch (const Error& error) {
+    QMessageBox::warning(this, tr("Save as SVG"), QString::fromStdString(error.what()));
   }
 }
 

@@ -6,6 +6,8 @@
 #include <QPointF>
 #include <QWidget>
 
+#include <string>
+
 namespace palp {
 
 /// A widget that shows one picture: drawn at most once a paint, and only where something changed; costs nothing while
@@ -24,6 +26,10 @@ public:
   [[nodiscard]] Picture picture(int width, int height) { return renderPicture(width, height); }
   /// What the view shows as a table, offered beside the picture; empty: it has none.
   [[nodiscard]] virtual QString table() const { return {}; }
+  /// What the view shows can be drawn by lines and letters, offered as SVG beside the picture.
+  [[nodiscard]] virtual bool hasSvg() const { return false; }
+  /// The text of an SVG file of the view's size. Throws Error.
+  [[nodiscard]] virtual std::string svg() const { return {}; }
   /// There is something to be seen.
   [[nodiscard]] virtual bool worthSaving() const { return true; }
   /// The name that is proposed for its files, without an ending: that of the view.
@@ -72,6 +78,7 @@ private:
   /// Empty where none was given.
   [[nodiscard]] QSize askSize(const QSize& now);
   void savePicture(const QSize& size);
+  void saveSvg();
 
   QImage image_;
   bool changed_ = true;

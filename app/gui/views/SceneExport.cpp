@@ -1,5 +1,6 @@
 #include "app/gui/views/SceneExport.h"
 
+#include "app/gui/views/CsvExport.h"
 #include "app/gui/views/DataTable.h"
 #include "app/gui/views/PictureView.h"
 #include "app/gui/views/VtkView.h"
@@ -67,11 +68,12 @@ void SceneExport::next() {
   left_.pop_back();
   const QDir folder(folder_);
   if (auto* table = qobject_cast<DataTable*>(widget))
-    files_.push_back({folder.filePath(table->file()), table->csv().toStdString(), {}});
+    files_.push_back({folder.filePath(table->file()), (sourceOf(*table) + table->csv()).toStdString(), {}});
   if (auto* view = qobject_cast<PictureView*>(widget)) {
     const QString name = free(folder.filePath(view->fileName({})));
     const QString points = view->table();
-    if (!points.isEmpty()) files_.push_back({name + ".csv", points.toStdString(), {}});
+    if (!points.isEmpty()) files_.push_back({name + ".csv", (sourceOf(*view) + points).toStdString(), {}});
+    if (view->hasSvg()) files_.push_back({name + ".svg", view->svg(), {}});
     const QSize size = 2 * view->size().expandedTo(kLeast); // a tab that was never seen has no size yet
     files_.push_back({name + ".png", {}, view->picture(size.width(), size.height())});
     auto* drawn = qobject_cast<VtkView*>(view);

@@ -14,6 +14,8 @@ namespace {
 constexpr double kLegendLine_px = 32; // of a legend's entry beside its name
 constexpr double kMarkGap_px = 3;     // between a mark's line and its words
 constexpr double kLeastWords_px = 24; // of a mark that tell anything
+constexpr double kSwatch_px = 18;     // of a curve's colour and the gap beside it, where it is read
+constexpr double kReadingGap_px = 6;  // around what is read
 constexpr double kBeyond = 10;        // heights of the plot by which a curve leaves it at most
 
 QColor ink(const Color& color) {
@@ -227,21 +229,31 @@ void StripChart::paintLegend(QPainter& painter, const QRectF& plot) const {
   }
 }
 
-QString StripChart::reading() const {
+std::vector<StripChart::ReadingLine> StripChart::readingLines() const {
   const QRectF plot = plotRectangle();
   if (pointer_px_ < plot.left() || pointer_px_ > plot.right()) return {};
   const double t_s = spec_.end_s - (plot.right() - pointer_px_) / plot.width() * spec_.window_s;
-  QStringList words{tr("%1 s").arg(t_s - now_s_, 0, 'f', held_ ? 3 : 2)};
+  std::vector<ReadingLine> lines{{tr("time"), tr("%1 s").arg(t_s - now_s_, 0, 'f', held_ ? 3 : 2), {}}};
   for (const StripSeries& series : spec_.series) {
     const auto next = std::lower_bound(series.t_s.begin(), series.t_s.end(), t_s);
     if (next == series.t_s.end()) continue;
-    const double value = series.y[static_cast<std::size_t>(next - series.t_s.begin())];
-    const QString number = std::isfinite(value) ? QString::number(value, 'g', 4) + unit() : tr("none");
-    words << QString("%1 %2").arg(series.name, number);
+    const auto place = static_cast<std::size_t>(next - series.t_s.begin());
+    const double value = series.y[place];
+    QString text = std::isfinite(value) ? QString::number(value, 'g', 4) : tr("none");
+    const bool known = std::isfinite(value) && place < series.deviation.size();
+    if (known && std::isfinite(series.deviation[place]))
+      text += QString::fromUtf8(" \u00b1 %1").arg(series.deviation[place], 0, 'g', 2);
+    lines.push_back({series.name, std::isfinite(value) ? text + unit() : text, series.color});
   }
   for (const auto& [mark_s, text] : spec_.marks)
-    if (std::abs(xOf(plot, mark_s) - pointer_px_) <= kMarkGap_px) words << text;
-  return words.join("   ");
+    if (std::abs(xOf(plot, mark_s) - pointer_px_) <= kMarkGap_px) lines.push_back({tr("mark"), text, {}});
+  return lines;
+}
+
+QString StripChart::reading() const {
+  QStringList words;
+  for (const ReadingLine& line : readingLines()) words << line.name + " " + line.value;
+  return words.join("\n");
 }
 
 /// Of the values: what stands in brackets in the axis' label.
@@ -250,19 +262,40 @@ QString StripChart::unit() const {
   return unit.isEmpty() ? QString() : " " + unit;
 }
 
-/// The values under the pointer, or under the cursor that the keys moved.
+/// The values under the pointer, or under the cursor that the keys moved, one below the other.
 void StripChart::paintReading(QPainter& painter, const QRectF& plot) const {
-  const QString text = reading();
-  if (text.isEmpty()) return;
+  const std::vector<ReadingLine> lines = readingLines();
+  if (lines.empty()) return;
   painter.setPen(QPen(ink(palp::palette(theme_).text), 1));
   painter.drawLine(QPointF(pointer_px_, plot.top()), QPointF(pointer_px_, plot.bottom()));
   const QFontMetricsF metrics(font());
-  QRectF box(0, plot.top() + 2, metrics.horizontalAdvance(text) + 10, metrics.height() + 4);
-  box.moveLeft(std::clamp(pointer_px_ + 4, plot.left(), std::max(plot.left(), plot.right() - box.width())));
+  double names = 0, values = 0;
+  for (const ReadingLine& line : lines) {
+    names = std::max(names, metrics.horizontalAdvance(line.name));
+    values = std::max(values, metrics.horizontalAdvance(line.value));
+  }
+  const double height = metrics.height();
+  QRectF box(0, plot.top() + 2, kSwatch_px + names + values + 4 * kReadingGap_px,
+             height * static_cast<double>(lines.size()) + kReadingGap_px);
+  const bool left = pointer_px_ + kReadingGap_px + box.width() > plot.right(); // it hides nothing newer than the cursor
+  box.moveLeft(std::max(plot.left(), left ? pointer_px_ - kReadingGap_px - box.width() : pointer_px_ + kReadingGap_px));
   QColor ground = ink(palp::palette(theme_).ground);
-  ground.setAlphaF(0.85F);
-  painter.fillRect(box, ground);
-  painter.drawText(box, Qt::AlignCenter, text);
+  ground.setAlphaF(0.9F);
+  painter.setBrush(ground);
+  painter.setPen(QPen(ink(palp::palette(theme_).grid), 1));
+  painter.drawRect(box);
+  QRectF row(box.left() + kReadingGap_px, box.top() + kReadingGap_px / 2, box.width() - 2 * kReadingGap_px, height);
+  for (const ReadingLine& line : lines) {
+    if (line.color) {
+      painter.setPen(QPen(ink(seriesColor(*line.color, theme_)), 3));
+      const double y = row.center().y();
+      painter.drawLine(QPointF(row.left(), y), QPointF(row.left() + kSwatch_px - kReadingGap_px, y));
+    }
+    painter.setPen(ink(palp::palette(theme_).text));
+    painter.drawText(row.adjusted(kSwatch_px, 0, 0, 0), Qt::AlignLeft | Qt::AlignVCenter, line.name);
+    painter.drawText(row, Qt::AlignRight | Qt::AlignVCenter, line.value);
+    row.translate(0, height);
+  }
 }
 
 } // namespace palp

@@ -16,6 +16,7 @@ struct StripSeries {
   QString name;
   int color = 0; ///< place in the palette's series colours
   std::vector<double> t_s, y;
+  std::vector<double> deviation{}; ///< standard deviation of each y, no number where it is not known; empty: of none
 };
 
 /// What is drawn: the last seconds, on a scale that stays.
@@ -49,7 +50,7 @@ public:
   /// The curves as a table: time [s], one column a curve; nothing where one has no value.
   [[nodiscard]] QString asCsv() const;
   void setTheme(Theme theme);
-  /// Time and values at the cursor, in words; empty where it is not in the plot.
+  /// Time, values with their deviations and marks at the cursor, a line each; empty where it is not in the plot.
   [[nodiscard]] QString reading() const;
   [[nodiscard]] const StripSpec& chart() const { return spec_; }
   [[nodiscard]] int paintCount() const { return paintCount_; }
@@ -80,11 +81,18 @@ private:
   void move(double byTime_s, double byValue);
   void moveCursor(int steps);
   void saveCsv();
+  void savePdf();
   void paintAxes(QPainter& painter, const QRectF& plot) const;
   void paintCurves(QPainter& painter, const QRectF& plot) const;
   void paintMarks(QPainter& painter, const QRectF& plot) const;
   void paintLegend(QPainter& painter, const QRectF& plot) const;
   void paintReading(QPainter& painter, const QRectF& plot) const;
+  /// What stands at the cursor: a curve's name and value, or one text alone.
+  struct ReadingLine {
+    QString name, value;
+    std::optional<int> color;
+  };
+  [[nodiscard]] std::vector<ReadingLine> readingLines() const;
   [[nodiscard]] double legendWidth() const;
   [[nodiscard]] QString unit() const;
   [[nodiscard]] QRectF plotRectangle() const;

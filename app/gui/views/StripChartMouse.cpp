@@ -1,5 +1,6 @@
 // What mouse and keys do with the curves.
 
+#include "app/gui/views/CsvExport.h"
 #include "app/gui/views/StripChart.h"
 
 #include <QApplication>
@@ -9,6 +10,9 @@
 #include <QFileDialog>
 #include <QKeyEvent>
 #include <QMenu>
+#include <QPageSize>
+#include <QPainter>
+#include <QPdfWriter>
 #include <QSaveFile>
 #include <QWheelEvent>
 
@@ -201,9 +205,29 @@ void StripChart::saveCsv() {
   const QString file = QFileDialog::getSaveFileName(this, tr("Save values"), "curves.csv", tr("Tables (*.csv)"));
   if (file.isEmpty()) return;
   QSaveFile out(file);
-  const QByteArray bytes = table.toUtf8();
+  const QByteArray bytes = (sourceOf(*this) + table).toUtf8();
   const bool good = out.open(QIODevice::WriteOnly) && out.write(bytes) == bytes.size() && out.flush() && out.commit();
   emit message(good ? tr("Wrote the curves to %1: all %2 times that they hold.").arg(file).arg(table.count('\n') - 1)
+                    : tr("%1: cannot be written (%2)").arg(file, out.errorString()));
+}
+
+void StripChart::savePdf() {
+  const QString file = QFileDialog::getSaveFileName(this, tr("Save picture"), "curves.pdf", tr("Drawings (*.pdf)"));
+  if (file.isEmpty()) return;
+  QSaveFile out(file);
+  bool good = out.open(QIODevice::WriteOnly);
+  if (good) {
+    QPdfWriter writer(&out);
+    writer.setPageSize(QPageSize(QSizeF(size()), QPageSize::Point));
+    writer.setPageMargins({});
+    QPainter painter(&writer);
+    const double pixel = writer.logicalDpiX() / 72.0; // of the widget, a point of the page
+    painter.scale(pixel, pixel);
+    render(&painter); // by lines and letters: it draws itself with Qt's painter
+    good = painter.end();
+  }
+  good = good && out.flush() && out.commit();
+  emit message(good ? tr("Wrote the drawing to %1.").arg(file)
                     : tr("%1: cannot be written (%2)").arg(file, out.errorString()));
 }
 
@@ -211,6 +235,7 @@ void StripChart::contextMenuEvent(QContextMenuEvent* event) {
   QMenu menu(this);
   const QAction* copy = menu.addAction(tr("Copy picture"));
   const QAction* save = menu.addAction(tr("Save picture..."));
+  const QAction* pdf = menu.addAction(tr("Save picture as PDF..."));
   const QAction* values = menu.addAction(tr("Save values (CSV)..."));
   QAction* run = menu.addAction(tr("Let it run again"));
   run->setEnabled(held_);
@@ -218,6 +243,7 @@ void StripChart::contextMenuEvent(QContextMenuEvent* event) {
   if (chosen == nullptr) return;
   if (chosen == run) return release();
   if (chosen == values) return saveCsv();
+  if (chosen == pdf) return savePdf();
   const QPixmap picture = grab();
   if (chosen == copy) QApplication::clipboard()->setPixmap(picture);
   if (chosen != save) return;

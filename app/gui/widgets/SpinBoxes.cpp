@@ -25,29 +25,41 @@ int decimalsOf(double value, int least) {
 
 } // namespace
 
-QString ExponentBox::bare(const QString& text) const {
-  QString number = text;
-  if (!suffix().isEmpty() && number.endsWith(suffix())) number.chop(suffix().size());
-  return number.trimmed();
+PercentBox::PercentBox(QWidget* parent) : QDoubleSpinBox(parent) {
+  setSuffix(tr(" %"));
 }
 
-QValidator::State ExponentBox::validate(QString& text, int& place) const {
-  static const QRegularExpression withExponent("^[0-9]*[.,]?[0-9]*[eE][-+]?[0-9]*$");
-  const QString number = bare(text);
-  if (!withExponent.match(number).hasMatch()) return QDoubleSpinBox::validate(text, place);
+std::optional<double> PercentBox::read(const QString& text, bool& whole) const {
+  static const QRegularExpression number("^([0-9]*[.,]?[0-9]*(?:([eE])[-+]?[0-9]*)?)(%?)$");
+  QString typed = text.startsWith(prefix()) ? text.mid(prefix().size()) : text;
+  if (!suffix().isEmpty() && typed.endsWith(suffix())) typed.chop(suffix().size()); // the box's own
+  const QRegularExpressionMatch parts = number.match(typed.trimmed());
+  const bool exponent = !parts.captured(2).isEmpty(), percent = !parts.captured(3).isEmpty();
+  if (!parts.hasMatch() || (!exponent && !percent)) return std::nullopt;
+  const double value = locale().toDouble(parts.captured(1), &whole);
+  return percent ? value : 100 * value;
+}
+
+QValidator::State PercentBox::validate(QString& text, int& place) const {
   bool whole = false;
-  const double value = locale().toDouble(number, &whole);
-  return whole && value >= minimum() && value <= maximum() ? QValidator::Acceptable : QValidator::Intermediate;
+  const auto value = read(text, whole);
+  if (!value) return QDoubleSpinBox::validate(text, place);
+  return whole && *value >= minimum() && *value <= maximum() ? QValidator::Acceptable : QValidator::Intermediate;
 }
 
-double ExponentBox::valueFromText(const QString& text) const {
+double PercentBox::valueFromText(const QString& text) const {
   bool whole = false;
-  const double value = locale().toDouble(bare(text), &whole);
-  return whole ? value : QDoubleSpinBox::valueFromText(text);
+  const auto value = read(text, whole);
+  return value && whole ? *value : QDoubleSpinBox::valueFromText(text);
 }
 
-QString ExponentBox::textFromValue(double value) const {
+QString PercentBox::textFromValue(double value) const {
   return locale().toString(value, 'g', 12);
+}
+
+QString percentWords(double share) {
+  if (!(share > 0)) return QObject::tr("none");
+  return QObject::tr("%1 % (a share of %2)").arg(100 * share, 0, 'g', 6).arg(share, 0, 'g', 6);
 }
 
 void showExactly(QDoubleSpinBox& box, double value) {

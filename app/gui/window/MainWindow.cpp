@@ -17,7 +17,9 @@
 #include "app/gui/views/SceneExport.h"
 #include "app/gui/views/VtkView.h"
 #include "app/gui/widgets/AccessibleNames.h"
+#include "app/gui/widgets/EscapeKey.h"
 #include "app/gui/widgets/WheelGuard.h"
+#include "app/gui/window/ExportSource.h"
 #include "app/gui/window/Layout.h"
 #include "app/gui/window/Menus.h"
 #include "app/gui/window/MessageLog.h"
@@ -34,7 +36,6 @@
 #include <QMimeData>
 #include <QScrollArea>
 #include <QSettings>
-#include <QShortcut>
 #include <QStackedWidget>
 #include <QStatusBar>
 
@@ -120,7 +121,7 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   connect(&workbench, &Workbench::projectReplaced, this,
           &MainWindow::giveBackMemory); // after the document let go of it
   setAcceptDrops(true);
-  connect(new QShortcut(Qt::Key_Escape, this), &QShortcut::activated, this, &MainWindow::cancelAll);
+  connect(new EscapeKey(this), &EscapeKey::pressed, this, &MainWindow::cancelAll);
   connect(rail_, &QListWidget::currentRowChanged, this, &MainWindow::sceneChosen);
   nameControls(*this);
   restoreLayout();
@@ -133,6 +134,7 @@ void MainWindow::addScene(const QString& name, const QString& title, const QStri
   auto* item = new QListWidgetItem(title, rail_);
   item->setToolTip(tip + QString(" (Ctrl+%1)").arg(names_.size()));
   scenes_->addWidget(scene);
+  scene->setExportSource([this, scene] { return exportSource(*scene, workbench_, network_); });
 }
 
 void MainWindow::buildStatusLine() {
@@ -201,6 +203,10 @@ QStringList MainWindow::sceneNames() const {
   return names_;
 }
 
+QString MainWindow::sceneTitle() const {
+  return rail_->currentItem()->text();
+}
+
 Scene& MainWindow::currentScene() const {
   return static_cast<Scene&>(*scenes_->currentWidget());
 }
@@ -250,12 +256,14 @@ void MainWindow::restoreLayout() {
   setTheme(kThemes.find(settings.value("theme").toString().toStdString()).value_or(Theme::Light));
 }
 
-bool MainWindow::mayEndWhatRuns() {
-  if (reports_->running() &&
-      QMessageBox::question(this, tr("A report is running"),
-                            tr("Quitting stops the report; nothing of it is kept. Quit?"),
-                            QMessageBox::Yes | QMessageBox::No, QMessageBox::No) != QMessageBox::Yes)
-    return false;
+bool MainWindow::mayEndReport() {
+  return !reports_->running() ||
+         QMessageBox::question(this, tr("A report is running"),
+                               tr("Quitting stops the report; nothing of it is kept. Quit?"),
+                               QMessageBox::Yes | QMessageBox::No, QMessageBox::No) == QMessageBox::Yes;
+}
+
+bool MainWindow::mayEndRecording() {
   const QString files = live_->recording();
   if (files.isEmpty()) return true;
   const auto answer = QMessageBox::question(
@@ -266,7 +274,9 @@ bool MainWindow::mayEndWhatRuns() {
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
-  if (!document_->mayLeave() || !mayEndWhatRuns()) { // the recording last: after its Yes nothing goes on
+  // A report that is to go on must not cost a saving or an answer about the project; the recording is last: after its
+  // Yes nothing goes on.
+  if (!mayEndReport() || !document_->mayLeave() || !mayEndRecording()) {
     event->ignore();
     return;
   }

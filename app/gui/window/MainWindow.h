@@ -33,6 +33,9 @@ public:
   bool showScene(const QString& name);
   [[nodiscard]] QStringList sceneNames() const;
   [[nodiscard]] Scene& currentScene() const;
+  /// As the rail names it.
+  [[nodiscard]] QString sceneTitle() const;
+  [[nodiscard]] const DeformationPage& deformation() const { return *deformation_; }
   [[nodiscard]] Document& document() const { return *document_; }
   [[nodiscard]] ExportJob& exports() const { return *exports_; }
   [[nodiscard]] SceneExport& sceneExport() const { return *sceneExport_; }
@@ -58,7 +61,8 @@ private:
   void buildStatusLine();
   /// What the scene that is seen does; where it does nothing, what all do.
   void cancelAll();
-  bool mayEndWhatRuns();
+  bool mayEndReport();
+  bool mayEndRecording();
   /// What only scenes need that are not seen.
   void giveBackMemory();
   void sceneChosen(int index);

@@ -3,10 +3,12 @@
 #include "app/gui/document/Document.h"
 #include "app/gui/project/ResultCsv.h"
 #include "app/gui/project/Workbench.h"
+#include "app/gui/touch/CutExport.h"
 #include "app/gui/touch/FilmDialog.h"
 #include "app/gui/views/PictureView.h"
 #include "app/gui/views/SceneExport.h"
 #include "app/gui/widgets/SaveDialog.h"
+#include "app/gui/window/ExportSource.h"
 #include "app/gui/window/HelpDialog.h"
 #include "app/gui/window/MainWindow.h"
 #include "app/gui/window/ViewActions.h"
@@ -96,10 +98,12 @@ void Menus::exportResistances() {
   const QString file = askFileToSave(&window_, tr("Export CSV"), "resistances.csv", tr("Tables (*.csv)"));
   if (file.isEmpty()) return;
   window_.exports().write(file, [touch = session.touch(), fraction = session.loadFraction(),
-                                 known = workbench_.resistances()](const std::stop_token& stop) {
+                                 known = workbench_.resistances(),
+                                 stale = touchStale(workbench_)](const std::stop_token& stop) {
     const auto resistances = known ? known : fieldResistances(touch, fraction, stop);
     stopIfAsked(stop);
-    return resistancesCsv({touch.design(), touch.load(), fraction}, *resistances).toStdString();
+    return resistancesCsv({touch.design(), touch.load(), fraction, touch.meshOptions(), stale}, *resistances)
+        .toStdString();
   });
 }
 
@@ -120,13 +124,24 @@ void Menus::buildExport(QMenu& menu) {
           window_.showMessage(tr("There are no displacements to export yet; wait until they are computed."));
           return;
         }
-        exportTo(tr("Export CSV"), "electrodes.csv", tr("Tables (*.csv)"), [&touch](const QString& name) {
-          writeText(name, electrodesCsv({touch.touch().design(), touch.touch().load(), touch.loadFraction()},
+        exportTo(tr("Export CSV"), "electrodes.csv", tr("Tables (*.csv)"), [this, &touch](const QString& name) {
+          writeText(name, electrodesCsv({touch.touch().design(), touch.touch().load(), touch.loadFraction(),
+                                         touch.touch().meshOptions(), touchStale(workbench_)},
                                         *touch.electrodes()));
         });
       });
   add(menu, tr("Export &resistances (CSV)..."), tr("Row-column resistances at rest and as shown, with load and design"),
       {}, [this] { exportResistances(); });
+  add(menu, tr("Export &field in the cut (CSV)..."),
+      tr("The values that colour the cut of the Deformation scene, with places, displacements, load and design"), {},
+      [this] {
+        if (const QString problem = cutProblem(workbench_, window_.deformation()); !problem.isEmpty()) {
+          window_.showMessage(problem);
+          return;
+        }
+        const QString file = askFileToSave(&window_, tr("Export CSV"), "cut.csv", tr("Tables (*.csv)"));
+        if (!file.isEmpty()) window_.exports().write(file, cutMaking(workbench_, window_.deformation()));
+      });
   add(menu, tr("Export Calculi&X deck..."),
       tr("Mesh, rubber and load as an input file for CalculiX or Abaqus, as palp solve --deck writes it"), {}, [this] {
         const Touch& touch = workbench_.touch().touch();

@@ -7,6 +7,8 @@
 #include <QString>
 #include <QWidget>
 
+#include <functional>
+#include <utility>
 #include <vector>
 
 namespace palp {
@@ -27,6 +29,13 @@ public:
   [[nodiscard]] virtual std::vector<JobRunner*> runners() { return {}; }
   /// The palp commands that do what the page shows, one a line; empty where there are none.
   [[nodiscard]] virtual QString commands(const Project&, const QString& /*designFile*/) const { return {}; }
+
+  /// Whom its tables ask, when they are saved, for lines that say what they were made with.
+  void setExportSource(std::function<QString()> source) { source_ = std::move(source); }
+  [[nodiscard]] QString exportSource() const { return source_ ? source_() : QString(); }
+
+private:
+  std::function<QString()> source_;
 };
 
 } // namespace palp

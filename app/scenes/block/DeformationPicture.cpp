@@ -23,7 +23,7 @@ Picture drawDeformation(const DeformationState& state, const DeformationOptions&
   DeformationScene scene;
   scene.show(state, options, true);
   scene.resetCamera(*state.design, static_cast<double>(width) / height, kFirstLook,
-                    std::clamp(kLegendRoom_px * options.scale / width, 0.02, 0.4));
+                    std::clamp(scene.legendRoom_px() / width, 0.02, 0.4));
   return drawOnce(scene.renderer(), width, height);
 }
 

@@ -307,6 +307,11 @@ void DeformationScene::resetCamera(const SensorDesign& design, double aspect, co
             {0.03, 0.03 + more + legendShare.value_or(std::min(0.12 / aspect * 1.5, 0.25)), 0.04, 0.08 + more});
 }
 
+double DeformationScene::legendRoom_px() const {
+  const double scale = parts_->overlay->scale;
+  return parts_->overlay->legend ? palp::legendRoom_px(*parts_->overlay->legend, scale) : kLegendRoom_px * scale;
+}
+
 void DeformationScene::setTextScale(double scale) {
   parts_->overlay->scale = scale;
   parts_->overlay->Modified();

@@ -88,7 +88,6 @@ double automaticWarpFactor(const SensorDesign& design, const Eigen::Matrix3Xd& d
 
 /// From the front, above and the left.
 const Eigen::Vector3d kFirstLook(0.45, 1.0, -0.75);
-constexpr double kLegendRoom_px = 95; ///< at scale 1
 
 /// The deformed block in a renderer that the caller puts into a window.
 class DeformationScene {
@@ -104,6 +103,9 @@ public:
   /// Looks at it along a direction; the legend takes this share of the width.
   void resetCamera(const SensorDesign& design, double aspect, const Eigen::Vector3d& direction,
                    std::optional<double> legendShare = {});
+
+  /// What the legend that is drawn, or will be, needs at the right side of the view [px].
+  [[nodiscard]] double legendRoom_px() const;
 
   /// Of words and legend alone, from now on; show() sets it to the scale of its options.
   void setTextScale(double scale);

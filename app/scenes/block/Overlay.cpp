@@ -82,6 +82,17 @@ double legendWidth_px(vtkContext2D& painter, const ColorScale& colors, Theme the
   return std::max(numbers, textWidth_px(painter, colors.title()));
 }
 
+double legendRoom_px(const ColorScale& colors, double scale) {
+  constexpr double kGap_px = 12, kStep_px = 20;
+  double widest = 0;
+  for (const std::string& text : legendTexts(colors, legendTicks(colors, 200 * scale, scale)))
+    widest = std::max(widest, textWidth_px(text, 12 * scale));
+  const double numbers = (kLegendBar_px + 2 * kLegendTick_px) * scale + widest;
+  const double width = std::max(numbers, textWidth_px(colors.title(), 13 * scale, true));
+  const double steps = std::ceil((width + (kMargin_px + kGap_px - kLegendRoom_px) * scale) / (kStep_px * scale));
+  return (kLegendRoom_px + kStep_px * std::max(0.0, steps)) * scale;
+}
+
 void paintLegend(vtkContext2D& painter, const ColorScale& colors, const LegendPlace& place, Theme theme, double scale,
                  double right_px) {
   const Palette& ink = palette(theme);

@@ -78,4 +78,9 @@ void paintLegend(vtkContext2D& painter, const ColorScale& colors, const LegendPl
 /// Pixels that a legend of this scale needs to the right of the bar's left side.
 double legendWidth_px(vtkContext2D& painter, const ColorScale& colors, Theme theme, double scale);
 
+/// What a view leaves free at its right side for this legend [px]: its width with its margin and a gap, at least
+/// `kLegendRoom_px` at scale 1, in steps, so that other digits move nothing.
+double legendRoom_px(const ColorScale& colors, double scale);
+constexpr double kLegendRoom_px = 95;
+
 } // namespace palp

@@ -2,9 +2,11 @@
 
 #include <vtkContext2D.h>
 #include <vtkFreeTypeTools.h>
+#include <vtkNew.h>
 #include <vtkStdString.h>
 #include <vtkTextProperty.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -49,6 +51,15 @@ double textWidth_px(vtkContext2D& painter, const std::string& text) {
   std::array<float, 4> bounds{}; // x, y, width, height
   painter.ComputeStringBounds(text.c_str(), bounds.data());
   return bounds[2];
+}
+
+double textWidth_px(const std::string& text, double size_px, bool bold) {
+  constexpr int kDotsPerInch = 72; // of a view: a point is a pixel
+  vtkNew<vtkTextProperty> style;
+  setTextStyle(*style, {}, size_px, bold);
+  std::array<int, 4> bounds{}; // xmin, xmax, ymin, ymax
+  vtkFreeTypeTools::GetInstance()->GetBoundingBox(style, text, kDotsPerInch, bounds.data());
+  return std::max(0, bounds[1] - bounds[0] + 1);
 }
 
 } // namespace palp

@@ -15,5 +15,7 @@ void setTextStyle(vtkTextProperty& text, const Color& color, double size_px, boo
 /// Draws the text at a place of the view [px].
 void drawText(vtkContext2D& painter, double x, double y, const std::string& text);
 double textWidth_px(vtkContext2D& painter, const std::string& text);
+/// The same where nothing is painted yet.
+double textWidth_px(const std::string& text, double size_px, bool bold = false);
 
 } // namespace palp

@@ -195,8 +195,8 @@ std::uint64_t testSeed(std::uint64_t trainingSeed) {
   return trainingSeed + kTestSeedOffset;
 }
 
-std::vector<RunPart> protocolParts(int figures) {
-  return {{"samples for training", 0.35, 2.5}, {"samples for testing", 0.7, 2}, {"networks", 1, 2.0 * figures}};
+std::vector<RunPart> protocolParts(double networks_s) {
+  return {{"samples for training", 0.35, 3.5}, {"samples for testing", 0.7, 2.2}, {"networks", 1, networks_s}};
 }
 
 std::optional<ProtocolResult> runPaperProtocol(const SensorDesign& design, const std::vector<std::string>& figures,

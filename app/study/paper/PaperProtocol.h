@@ -82,8 +82,8 @@ struct ProtocolResult {
   StageLog stages;
 };
 
-/// The parts of its run, for so many of its two figures.
-std::vector<RunPart> protocolParts(int figures);
+/// The parts of its run; training and testing the networks of its figures takes so long [s].
+std::vector<RunPart> protocolParts(double networks_s);
 
 /// Seed of the test samples that go with a training seed: never among the training seeds.
 std::uint64_t testSeed(std::uint64_t trainingSeed);

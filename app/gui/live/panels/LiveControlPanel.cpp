@@ -78,8 +78,9 @@ QString networkWords(const LiveHost& host) {
 LiveControlPanel::LiveControlPanel(QWidget* parent) : QWidget(parent) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
+  recording_ = buildRecording();
+  column->addWidget(recording_);
   column->addWidget(buildNetwork());
-  column->addWidget(buildRecording());
   column->addWidget(buildAlarm());
   column->addWidget(buildScales());
   column->addStretch(1);
@@ -128,6 +129,12 @@ QWidget* LiveControlPanel::buildNetwork() {
 QWidget* LiveControlPanel::buildRecording() {
   auto* box = new QGroupBox(tr("Recording"));
   auto* column = new QVBoxLayout(box);
+  record_ = button(tr("Record"), "record",
+                   tr("Writes the raw reports from now on; flushed each second (R; Shift+R ends it)"));
+  record_->setCheckable(true);
+  pause_ = button(tr("Pause"), "pause", tr("Holds the views; a recording goes on (Space)"));
+  pause_->setCheckable(true);
+  column->addLayout(beside({record_, pause_}));
   file_ = new QLineEdit(QDir::home().filePath("touch.palprec"));
   file_->setObjectName("recordFile");
   file_->setToolTip(
@@ -135,12 +142,6 @@ QWidget* LiveControlPanel::buildRecording() {
   auto* choose = button(tr("..."), "chooseRecordFile", tr("Chooses the file"));
   choose->setMaximumWidth(32);
   column->addLayout(beside({file_, choose}));
-  record_ = button(tr("Record"), "record",
-                   tr("Writes the raw reports from now on; flushed each second (R; Shift+R ends it)"));
-  record_->setCheckable(true);
-  pause_ = button(tr("Pause"), "pause", tr("Holds the views; a recording goes on (Space)"));
-  pause_->setCheckable(true);
-  column->addLayout(beside({record_, pause_}));
   recorded_ = words("recorded", "hint");
   recorded_->setAlignment(Qt::AlignTop);
   recorded_->setMinimumHeight(2 * recorded_->fontMetrics().lineSpacing()); // what it says moves nothing below

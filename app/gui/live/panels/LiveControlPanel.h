@@ -37,6 +37,9 @@ class LiveControlPanel : public QWidget {
 public:
   explicit LiveControlPanel(QWidget* parent = nullptr);
 
+  /// Record, pause and marks: a box of its own, for who shows it above all others.
+  [[nodiscard]] QWidget* recording() const { return recording_; }
+
   void display(const LiveSettings& settings);
   void displayState(const LiveControlState& state);
   /// Why the network that was chosen is not in use; stays until another is.
@@ -73,6 +76,7 @@ private:
   void lookForFile();
 
   LiveSettings settings_;
+  QWidget* recording_ = nullptr;
   QLabel* network_ = nullptr;
   QLabel* networkProblem_ = nullptr;
   QPushButton* shipped_ = nullptr;

@@ -34,8 +34,9 @@ HistorySteps::HistorySteps(MainWindow& window, Workbench& workbench)
 void HistorySteps::arrive() {
   const Project from = *from_;
   from_.reset();
-  if (!shows(window_.currentScene().objectName(), from, workbench_.project())) window_.showScene(scene_);
-  window_.showMessage(sentence_);
+  const bool elsewhere = !shows(window_.currentScene().objectName(), from, workbench_.project());
+  if (elsewhere) window_.showScene(scene_);
+  window_.showMessage(elsewhere ? tr("%1, in the scene %2").arg(sentence_, window_.sceneTitle()) : sentence_);
 }
 
 } // namespace palp

@@ -133,9 +133,13 @@ std::vector<DecoderTimes> decoderTimes(const ReportRequest& request, const TwoSe
     base.noise = input == InputKind::Resistance ? kNoise : 0;
     base.seed = request.seed;
     base.threads = request.threads;
-    for (const Way& way : ways(base, sets.training.size())) {
+    const std::vector<Way> all = ways(base, sets.training.size());
+    const double begun = input == InputKind::Displacement ? 0 : 0.5;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const Way& way = all[k];
       if (stop.stop_requested()) return result;
-      if (progress) progress(0, "decoder " + way.what);
+      if (progress)
+        progress(begun + 0.5 * static_cast<double>(k) / static_cast<double>(all.size()), "decoder " + way.what);
       result.push_back(measure(request.design, sets, way, stages, stop));
     }
   }
@@ -167,13 +171,17 @@ std::vector<ChainTimes> chainTimes(const ReportRequest& request, StageLog& stage
   if (!request.mesh.mapped) fine.mesh.meshSize_mm = kReferenceSize_mm;
   const auto reference = make(request.design, fine, stages, stop);
   if (!reference) return result;
-  for (const MeshChoice& choice : meshChoices(request.mesh))
+  const std::vector<MeshChoice> choices = meshChoices(request.mesh);
+  const auto steps = static_cast<double>(2 * choices.size() + 1); // the reference is one as well
+  for (const MeshChoice& choice : choices)
     for (const int divisor : {4, 1}) {
       if (stop.stop_requested()) return result;
       ReportRequest changed = request;
       changed.mesh = choice.mesh;
       changed.perArea = std::max(5, request.perArea / divisor);
-      if (progress) progress(0, "chain, " + choice.name + ", " + std::to_string(changed.perArea) + " an area");
+      if (progress)
+        progress(static_cast<double>(result.size() + 1) / steps,
+                 "chain, " + choice.name + ", " + std::to_string(changed.perArea) + " an area");
       auto made = make(request.design, sampleRequest(changed), stages, stop);
       if (!made) return result;
       ChainTimes chain{choice.name, changed.perArea, made->prepare_s, made->sample_s, 0, 0, {}};
@@ -202,7 +210,7 @@ std::vector<SampleTimes> sampleTimes(const ReportRequest& request, StageLog& sta
       SampleRequest wanted = sampleRequest(request);
       wanted.perArea *= factor;
       wanted.surrogate = surrogate;
-      if (progress) progress(0, surrogate ? "surrogate samples" : "full samples");
+      if (progress) progress(static_cast<double>(result.size()) / 3, surrogate ? "surrogate samples" : "full samples");
       const auto made = make(request.design, wanted, stages, stop);
       if (!made) return result;
       result.push_back({surrogate ? "surrogate" : "full solves", static_cast<int>(made->set.size()),

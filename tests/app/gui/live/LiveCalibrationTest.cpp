@@ -1,13 +1,17 @@
 // Calibration with known loads, and the network in use.
 
 #include "app/gui/live/LiveCalibration.h"
+#include "app/gui/live/panels/KnownLoad.h"
 #include "tests/app/gui/live/LiveOperatorFixture.h"
 
+#include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QFile>
 #include <QSpinBox>
 #include <QTabWidget>
 #include <QTableWidget>
+
+#include <cmath>
 
 namespace palp {
 namespace {
@@ -116,6 +120,58 @@ TEST_F(LiveCalibrating, ARecordingIsNamedWhereANetworkIsWanted) {
   ASSERT_TRUE(isRed("networkProblem"));
   EXPECT_TRUE(find<QLabel>("networkProblem").text().endsWith("touch.palprec: is a recording, not a network"))
       << find<QLabel>("networkProblem").text().toStdString();
+}
+
+TEST_F(LiveCalibrating, TakesAKnownLoadAsAMassThatRestsOnTheAreaOrPullsItSideways) {
+  ASSERT_TRUE(waitForArrow());
+  page.findChild<QTabWidget*>("curveTabs")->setCurrentIndex(1);
+  type<QDoubleSpinBox>("labelMass", "100");
+  const auto force_N = [&](const char* axis) { return find<QDoubleSpinBox>(axis).value(); };
+  EXPECT_NEAR(force_N("label_Fz"), -0.980665, 1e-4); // 0.1 kg times 9.80665 m/s2
+  EXPECT_EQ(force_N("label_Fx"), 0);
+  auto& direction = find<QComboBox>("labelDirection");
+  direction.setFocus();
+  QTest::keyClick(&direction, Qt::Key_Down);
+  EXPECT_EQ(direction.currentText(), "along +x");
+  EXPECT_NEAR(force_N("label_Fx"), 0.980665, 1e-4);
+  EXPECT_EQ(force_N("label_Fz"), 0) << "the thread carries none of it";
+  type<QDoubleSpinBox>("label_Fy", "-0.2");
+  EXPECT_EQ(find<QDoubleSpinBox>("labelMass").text(), "none") << "a force that was typed is no mass";
+  EXPECT_NEAR(force_N("label_Fx"), 0.980665, 1e-4);
+}
+
+TEST_F(LiveCalibrating, SuggestsThreeWeightsAndShowsWhatTheNetworkReadsBesideTheLabel) {
+  ASSERT_TRUE(waitForArrow());
+  page.findChild<QTabWidget*>("curveTabs")->setCurrentIndex(1);
+  const double most_N = -page.host().decoder()->low_N(2);
+  double before_N = most_N;
+  for (const char* name : {"suggestedMass0", "suggestedMass1", "suggestedMass2"}) {
+    click(name);
+    const double push_N = -find<QDoubleSpinBox>("label_Fz").value();
+    EXPECT_GT(push_N, 0) << name;
+    EXPECT_LE(push_N, before_N) << name;
+    before_N = push_N;
+  }
+  click("suggestedMass0");
+  EXPECT_GT(-find<QDoubleSpinBox>("label_Fz").value(), 0.35 * most_N) << "the heaviest uses the network's range";
+  EXPECT_TRUE(wait([&] {
+    bool ok = false;
+    const double reads_N = find<QLabel>("reads_Fz").text().toDouble(&ok);
+    return ok && reads_N < 0;
+  })) << "the demo presses";
+  type<QSpinBox>("labelFrames", "1");
+  click("collect");
+  ASSERT_TRUE(wait([&] { return calibration().frames().samples().size() == 1; }));
+  auto& table = find<QTableWidget>("labelledFrames");
+  EXPECT_NEAR(table.item(0, 5)->text().toDouble(), find<QDoubleSpinBox>("label_Fz").value(), 1e-4);
+  EXPECT_NEAR(table.item(0, 6)->text().toDouble(), calibration().frames().said_N()(2, 0), 1e-3);
+}
+
+TEST(SuggestedMasses, AreOfAnOrdinarySetOfWeightsWithinTheRange) {
+  EXPECT_EQ(suggestedMasses_g(3), (std::array<double, 3>{200, 100, 50})); // 306 g
+  EXPECT_EQ(suggestedMasses_g(0.03), (std::array<double, 3>{2, 1, 0}));   // 3.06 g
+  EXPECT_EQ(suggestedMasses_g(0), (std::array<double, 3>{0, 0, 0}));
+  EXPECT_EQ(suggestedMasses_g(std::nan("")), (std::array<double, 3>{0, 0, 0}));
 }
 
 TEST_F(LiveCalibrating, FitsOnlyWhereThereAreFramesEnoughAndSaysHowManyThereAre) {

@@ -281,7 +281,13 @@ TEST_F(LiveOperator, ReadsZoomsAndMovesACurveByKeysAlone) {
   EXPECT_TRUE(chart.reading().isEmpty());
   for (int k = 0; k < 3; ++k) QTest::keyClick(&chart, Qt::Key_Left, Qt::ControlModifier);
   EXPECT_TRUE(chart.reading().contains("Fz ")) << chart.reading().toStdString();
-  EXPECT_TRUE(chart.reading().endsWith(" N")) << chart.reading().toStdString();
+  const QStringList lines = chart.reading().split('\n'); // time and three forces, one below the other
+  ASSERT_GE(lines.size(), 4) << chart.reading().toStdString();
+  EXPECT_TRUE(lines[0].startsWith("time ") && lines[0].endsWith(" s")) << lines[0].toStdString();
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_TRUE(lines[axis + 1].endsWith(" N")) << lines[axis + 1].toStdString();
+    EXPECT_TRUE(lines[axis + 1].contains(QChar(0xb1))) << "its deviation: " << lines[axis + 1].toStdString();
+  }
   EXPECT_FALSE(chart.held()) << "the cursor alone holds nothing";
   EXPECT_FALSE(chart.accessibleDescription().isEmpty());
   const double window_s = chart.chart().window_s;

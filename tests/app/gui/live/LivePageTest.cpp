@@ -135,6 +135,17 @@ TEST_F(Live, CostsNothingWhileHiddenAndDrawsNoMoreThanThirtyFramesASecond) {
   EXPECT_EQ(page.host().status().counts.lost, 0u);
 }
 
+TEST_F(Live, CountsLostReportsApartFromBadOnes) {
+  ASSERT_TRUE(waitForFrames());
+  EXPECT_EQ(find<QLabel>("liveLosses").text(), "0 lost");
+  use([](LiveSettings& live) { live.simulation.dropEvery = 7; });
+  ASSERT_TRUE(wait([&] { return page.host().status().counts.lost > 0; }));
+  ASSERT_TRUE(wait([&] { return find<QLabel>("liveLosses").text() != "0 lost"; }));
+  EXPECT_TRUE(find<QLabel>("liveLosses").text().endsWith(" lost"));
+  EXPECT_TRUE(find<QLabel>("liveLossesUnit").text().startsWith("0 bad, "))
+      << find<QLabel>("liveLossesUnit").text().toStdString();
+}
+
 TEST_F(Live, ShowsTheCurveOfTheCellThatIsClicked) {
   ASSERT_TRUE(waitForArrow());
   auto& heatmap = find<HeatmapView>("liveHeatmap");

@@ -49,6 +49,26 @@ INSTANTIATE_TEST_SUITE_P(, LiveSize,
                                          Room{"At1366By768With125Percent", {1085, 585}}),
                          roomName);
 
+class LiveRecordButton : public WindowFixture {
+protected:
+  /// All of it can be clicked, without scrolling.
+  bool seen(const QSize& size) {
+    window.resize(size);
+    window.showScene("live");
+    settle();
+    const auto& record = find<QPushButton>("record");
+    return QTest::qWaitFor([&] { return record.visibleRegion().boundingRect() == record.rect(); }, kPatience_ms / 6);
+  }
+};
+
+TEST_F(LiveRecordButton, StandsOnTopAndIsNeverBelowTheFold) {
+  EXPECT_TRUE(seen({1500, 900}));
+  EXPECT_TRUE(seen({1272, 764}));
+  const int top = find<QPushButton>("record").mapTo(&window, QPoint()).y();
+  EXPECT_LT(top, find<QPushButton>("chooseNetwork").mapTo(&window, QPoint()).y());
+  EXPECT_LT(top, find<QPushButton>("plug").mapTo(&window, QPoint()).y()) << "of the simulated board";
+}
+
 using LiveSizeOfTwo = WindowFixture;
 
 TEST_F(LiveSizeOfTwo, TwoBoardsFitBesideEachOtherAt1280By800) {

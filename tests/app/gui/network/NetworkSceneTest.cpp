@@ -1,5 +1,6 @@
 #include "app/gui/jobs/ResultFiles.h"
 #include "app/gui/network/FitWords.h"
+#include "app/gui/network/NetworkCharts.h"
 #include "app/gui/views/ChartView.h"
 #include "app/gui/views/CsvExport.h"
 #include "app/gui/views/DataTable.h"
@@ -7,6 +8,7 @@
 #include "app/study/live/LiveSource.h"
 #include "tests/app/gui/WindowFixture.h"
 
+#include <QAbstractItemView>
 #include <QClipboard>
 #include <QComboBox>
 #include <QFileInfo>
@@ -21,6 +23,7 @@
 #include <QToolButton>
 
 #include <limits>
+#include <set>
 
 namespace palp {
 namespace {
@@ -134,7 +137,10 @@ TEST_F(NetworkScene, AKeystrokeInTheDesignLosesNothingThatWasTrained) {
   EXPECT_EQ(network.samples(), samples) << "they are still to be looked at";
   EXPECT_FALSE(network.upToDate());
   EXPECT_FALSE(find<QPushButton>("train").isEnabled()) << "but are not of this design";
-  EXPECT_TRUE(find<QLabel>("samplesWords").text().contains("earlier design"));
+  for (const char* words : {"samplesWords", "fitWords"})
+    EXPECT_TRUE(find<QLabel>(words).text().contains("an earlier design (block size along z 5 -&gt; 6 mm since)") ||
+                find<QLabel>(words).text().contains("an earlier design (block size along z 5 -> 6 mm since)"))
+        << find<QLabel>(words).text().toStdString();
   window.showScene("network");
   generate();
   EXPECT_NE(network.samples(), samples) << "samples of the other design";
@@ -436,6 +442,7 @@ TEST_F(NetworkScene, OpeningTheSamplesThatAreThereKeepsWhatWasMadeOfThem) {
   ASSERT_TRUE(QTest::qWaitFor([&] { return said.text().contains("there already"); }, kPatience_ms))
       << said.text().toStdString();
   EXPECT_EQ(network.fit(), fit);
+  EXPECT_EQ(said.property("role").toString(), "hint") << "nothing is wrong: it is not red";
 }
 
 TEST_F(NetworkScene, TheSweepsTableHasEveryPointAndItsBestSpreadIsTakenOver) {
@@ -509,15 +516,88 @@ TEST_F(NetworkScene, TheMarkInTheListStaysWithItsNetworkAndEachEditKeepsOne) {
   EXPECT_TRUE(list.csv().section('\n', 1, 1).contains(",minmax,")) << list.csv().toStdString();
 }
 
-TEST_F(NetworkScene, ANumberWithAnExponentIsTakenAsItIsWritten) {
-  auto& noise = find<QDoubleSpinBox>("noise");
-  noise.setFocus();
-  noise.selectAll();
-  QTest::keyClicks(&noise, "1e-4");
-  QTest::keyClick(&noise, Qt::Key_Return);
-  EXPECT_DOUBLE_EQ(noise.value(), 1e-4);
-  EXPECT_DOUBLE_EQ(workbench.project().network.noise, 1e-6) << "the box is in %";
-  EXPECT_EQ(noise.text(), "0.0001 %");
+TEST_F(NetworkScene, EscapeInAnOpenDropDownClosesOnlyThat) {
+  Project next = workbench.project();
+  next.samples.perArea = 100;
+  next.mesh = {}; // the default one: seconds
+  workbench.edit("many samples", next);
+  QTest::mouseClick(&find<QPushButton>("generate"), Qt::LeftButton);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window.busy(); }, kPatience_ms));
+  auto& decoder = find<QComboBox>("decoder");
+  decoder.setFocus();
+  decoder.showPopup();
+  ASSERT_TRUE(network.runner().running());
+  ASSERT_TRUE(QTest::qWaitFor([&] { return decoder.view()->isVisible(); }, kPatience_ms));
+  QTest::keyClick(window.windowHandle(), Qt::Key_Escape); // as the desktop delivers it
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !decoder.view()->isVisible(); }, kPatience_ms));
+  settle();
+  EXPECT_TRUE(network.runner().running()) << "the samples go on";
+  QTest::keyClick(window.windowHandle(), Qt::Key_Escape);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return !network.runner().running(); }, kPatience_ms)) << "the next one ends them";
+  EXPECT_EQ(network.samples(), nullptr);
+}
+
+TEST_F(NetworkScene, WarnsOfABadSystemAsTheCommandLineDoes) {
+  generate();
+  Project next = workbench.project();
+  next.network.spread = 10000;
+  next.network.solver = LeastSquaresMethod::PivotedQr; // of the plain system, without a ridge
+  next.network.ridge = 0;
+  workbench.edit("a bad system", next);
+  trained();
+  const std::vector<std::string>& warnings = network.fit()->decoder.report.warnings;
+  ASSERT_FALSE(warnings.empty());
+  for (const std::string& warning : warnings)
+    EXPECT_TRUE(find<QLabel>("fitWords").text().contains("Warning: " + QString::fromStdString(warning).toHtmlEscaped()))
+        << warning;
+}
+
+TEST_F(NetworkScene, EveryDecoderIsSeenInTheirChartWhereItsLineLiesOnAnother) {
+  DecoderTrial one;
+  one.error.eq13Percent = Eigen::Vector3d::Constant(0.5);
+  std::vector<DecoderTrial> trials(3, one);
+  trials[1].kind = DecoderKind::Linear;
+  trials[2].kind = DecoderKind::GaussianProcess;
+  const ChartSpec chart = trialsErrorChart(trials, {}, InputKind::Resistance);
+  ASSERT_EQ(chart.series.size(), 3U);
+  std::set<double> marks;
+  for (const ChartSeries& level : chart.series) {
+    EXPECT_EQ(level.style, ChartSeries::Style::LineAndPoints);
+    EXPECT_FALSE(level.legendWords().empty());
+    ASSERT_EQ(level.x.size(), 3U);
+    marks.insert(level.x[1]);
+  }
+  EXPECT_EQ(marks.size(), 3U) << "no marker hides another";
+}
+
+TEST_F(NetworkScene, NoiseIsUnderstoodAsAShareWithAnExponentAndAsPercentAndSaysWhatWasTaken) {
+  struct Typed {
+    const char* keys;
+    double share;
+    const char* shown;
+  };
+  for (const Typed& typed :
+       {Typed{"1e-4", 1e-4, "0.01 %"}, Typed{"2e-2%", 2e-4, "0.02 %"}, Typed{"0.03", 3e-4, "0.03 %"},
+        Typed{"0.04%", 4e-4, "0.04 %"}, Typed{"5E-6", 5e-6, "0.0005 %"}})
+    for (const char* name : {"noise", "testNoise"}) {
+      auto& noise = find<QDoubleSpinBox>(name);
+      noise.setFocus();
+      noise.selectAll();
+      QTest::keyClicks(&noise, typed.keys);
+      QTest::keyClick(&noise, Qt::Key_Return);
+      EXPECT_NEAR(noise.value(), 100 * typed.share, 1e-12) << typed.keys;
+      EXPECT_EQ(noise.text(), typed.shown) << typed.keys;
+      const QString words = find<QLabel>("noiseWords").text();
+      EXPECT_TRUE(words.contains(QString("%1 (a share of %2)").arg(typed.shown).arg(typed.share)))
+          << words.toStdString();
+    }
+  EXPECT_DOUBLE_EQ(workbench.project().network.noise, 5e-6);
+  EXPECT_DOUBLE_EQ(workbench.project().network.testNoise, 5e-6);
+  auto& floor = find<QDoubleSpinBox>("resistanceNoise"); // in Design; it has words before its number
+  floor.selectAll();
+  QTest::keyClicks(&floor, "1e-4");
+  QTest::keyClick(&floor, Qt::Key_Return);
+  EXPECT_DOUBLE_EQ(workbench.project().view.resistanceNoise, 1e-4);
 }
 
 TEST_F(NetworkScene, SaysTheErrorInNewtonAndWhetherItWasTestedWithNoise) {

@@ -108,6 +108,51 @@ TEST_F(ReportsPageTest, QuittingAsksBeforeItEndsAReport) {
   EXPECT_EQ(asked, 2);
 }
 
+TEST_F(ReportsPageTest, QuittingAsksAboutTheReportBeforeItAsksAboutTheProject) {
+  Project next = workbench.project();
+  next.design.block_mm.x() = 31;
+  workbench.edit("block", next); // not saved
+  setProgram("echo begun > \"$folder/begun\"\nexec sleep 600\n");
+  run("stability");
+  ASSERT_TRUE(QTest::qWaitFor([&] { return QFile::exists(inReport("begun")); }, kReportPatience_ms));
+  QStringList asked;
+  QTimer answers;
+  QObject::connect(&answers, &QTimer::timeout, &answers, [&] {
+    auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
+    if (box == nullptr) return;
+    asked << box->windowTitle();
+    box->button(box->button(QMessageBox::Yes) != nullptr ? QMessageBox::Yes : QMessageBox::Cancel)->click();
+  });
+  answers.start(20);
+  window.close();
+  EXPECT_EQ(asked, QStringList({"A report is running", "Save the project?"}));
+  EXPECT_TRUE(window.isVisible()) << "the second answer was to stay";
+  EXPECT_FALSE(find<QPushButton>("runReport").isEnabled()) << "the report goes on";
+}
+
+TEST_F(ReportsPageTest, ARefusedReportAndOneThatQuittingEndsLeaveNoFolder) {
+  setProgram("echo it cannot be >&2\nexit 2\n");
+  run("stability");
+  ASSERT_TRUE(ended());
+  EXPECT_TRUE(state().startsWith("Failed with status 2")) << state().toStdString();
+  EXPECT_TRUE(reports().isEmpty());
+  {
+    ReportsPage page(workbench);
+    page.findChild<QLineEdit*>("reportFolder")->setText(folder.path());
+    const QString program = programs.filePath("palp-that-waits");
+    QFile script(program);
+    ASSERT_TRUE(script.open(QIODevice::WriteOnly));
+    script.write("#!/bin/sh\nexec sleep 600\n");
+    script.close();
+    ASSERT_TRUE(script.setPermissions(QFile::ReadOwner | QFile::WriteOwner | QFile::ExeOwner));
+    page.setProgram(program);
+    page.findChild<QPushButton*>("runReport")->click();
+    ASSERT_TRUE(QTest::qWaitFor([&] { return page.running(); }, kReportPatience_ms));
+    EXPECT_EQ(reports().size(), 1);
+  }
+  EXPECT_TRUE(reports().isEmpty()) << reports().join(' ').toStdString();
+}
+
 TEST_F(ReportsPageTest, ASecondRunAndFilesOfOthersLeaveEveryFileAsItWas) {
   QFile foreign(folder.filePath("report.html"));
   ASSERT_TRUE(foreign.open(QIODevice::WriteOnly));

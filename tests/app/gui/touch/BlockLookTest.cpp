@@ -1,6 +1,7 @@
 #include "app/gui/jobs/LoadPath.h"
 #include "app/gui/views/BlockView.h"
 #include "app/scenes/block/DeformationPicture.h"
+#include "app/scenes/charts/TextStyle.h"
 #include "solver/SensorMesh.h"
 #include "tests/app/gui/WindowFixture.h"
 
@@ -51,6 +52,25 @@ protected:
     return Eigen::Vector3d(direction.data());
   }
 };
+
+TEST_F(BlockLook, TheBlockKeepsClearOfItsLegendWhateverItSays) {
+  window.resize(1272, 764); // a screen of 1280 x 800
+  ASSERT_TRUE(drawn());
+  auto& quantity = find<QComboBox>("quantity");
+  for (int k = 0; k < quantity.count(); ++k) {
+    quantity.setCurrentIndex(k);
+    static_cast<void>(block().image());
+    const Quantity shown = workbench.project().view.quantity;
+    const std::string title =
+        quantityName(shown) + (quantityUnit(shown).empty() ? "" : " [" + quantityUnit(shown) + "]");
+    const double legend_px = textWidth_px(title, 13, true) + 14;
+    const Eigen::Vector3d size_mm = workbench.project().design.block_mm;
+    for (int corner = 0; corner < 8; ++corner) {
+      const Eigen::Vector3d place_mm = size_mm.cwiseProduct(Eigen::Vector3d(corner & 1, corner >> 1 & 1, corner >> 2));
+      EXPECT_LE(block().placeOf(place_mm).x(), block().width() - legend_px) << title << ", corner " << corner;
+    }
+  }
+}
 
 TEST_F(BlockLook, LooksFromEverySideByKeysAndComesHome) {
   ASSERT_TRUE(drawn());

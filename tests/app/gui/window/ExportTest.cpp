@@ -22,7 +22,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
+#include <cmath>
 #include <thread>
 
 namespace palp {
@@ -31,6 +33,13 @@ namespace {
 QByteArray contentOf(const QString& file) {
   QFile in(file);
   return in.open(QIODevice::ReadOnly) ? in.readAll() : QByteArray();
+}
+
+/// The lines below those that say what the table was made with.
+QList<QByteArray> tableOf(const QByteArray& text) {
+  QList<QByteArray> lines = text.trimmed().split('\n');
+  while (!lines.isEmpty() && lines.front().startsWith('#')) lines.removeFirst();
+  return lines;
 }
 
 TEST(ExportJobs, AStopLeavesTheFileThatWasThereAndNothingBeside) {
@@ -105,6 +114,53 @@ TEST_F(Exporting, ATablesNameGetsItsEnding) {
   trigger("Export electrodes");
   EXPECT_TRUE(QFile::exists(folder.filePath("table.csv")));
   EXPECT_FALSE(QFile::exists(folder.filePath("table")));
+}
+
+TEST_F(Exporting, TheFieldInTheCutIsATableOfTheValuesThatColourIt) {
+  ASSERT_TRUE(solved());
+  trigger("Export field in the cut");
+  EXPECT_TRUE(window.statusBar()->currentMessage().startsWith("There is no cut"));
+  find<QComboBox>("cut").setCurrentIndex(2); // across y, in the middle
+  answerFileDialog(folder.filePath("cut"));
+  trigger("Export field in the cut");
+  ASSERT_TRUE(written(folder.filePath("cut.csv")));
+  const QByteArray text = contentOf(folder.filePath("cut.csv"));
+  EXPECT_TRUE(text.contains("# load on area 1: (")) << text.left(400).toStdString();
+  EXPECT_TRUE(text.contains("# mesh --mapped 9x8x2\n"));
+  EXPECT_TRUE(text.contains("# up to date when it was saved\n"));
+  const double at_mm = workbench.project().view.cut->at_mm;
+  EXPECT_TRUE(text.contains("# cut across y at " + QByteArray::number(at_mm) + " mm"));
+  const QList<QByteArray> table = tableOf(text);
+  EXPECT_EQ(table.front(), "x_mm,y_mm,z_mm,u_x_mm,u_y_mm,u_z_mm,\"" +
+                               QByteArray::fromStdString(quantityName(Quantity::Displacement)) + " [mm]\"");
+  ASSERT_GT(table.size(), 20);
+  const double warp = find<BlockView>("block").warpFactor();
+  for (const QByteArray& line : table.mid(1)) {
+    const QList<QByteArray> cells = line.split(',');
+    ASSERT_EQ(cells.size(), 7) << line.toStdString();
+    std::array<double, 7> v{};
+    for (int k = 0; k < 7; ++k) v[static_cast<std::size_t>(k)] = cells[k].toDouble();
+    EXPECT_NEAR(v[1] + warp * v[4], at_mm, 1e-6) << "on the plane as drawn; VTK weighs nodes in single precision";
+    const double size_mm = std::sqrt(v[3] * v[3] + v[4] * v[4] + v[5] * v[5]);
+    EXPECT_NEAR(v[6], size_mm, 0.05 * workbench.touch().fields()->displacement_mm.colwise().norm().maxCoeff())
+        << "between nodes both are interpolated";
+  }
+}
+
+TEST_F(Exporting, ATableSaysWhatHasChangedSinceItWasComputed) {
+  ASSERT_TRUE(solved());
+  ASSERT_TRUE(idle());
+  window.showScene("design"); // which computes no solution
+  Project next = workbench.project();
+  next.design.material.c10_MPa *= 2;
+  next.design.block_mm.x() = 31;
+  workbench.edit("softer", next);
+  answerFileDialog(folder.filePath("old"));
+  trigger("Export electrodes");
+  const QByteArray text = contentOf(folder.filePath("old.csv"));
+  EXPECT_TRUE(text.contains("# stale when it was saved: block size along x 30 -> 31 mm, "))
+      << text.left(300).toStdString();
+  EXPECT_TRUE(text.contains("\"block_mm\":[30,")) << "the design that it was computed from";
 }
 
 /// Answers the next question about a film, as a user would.
@@ -207,14 +263,23 @@ TEST_F(Exporting, EveryChartAndTableOfTheSceneGoesIntoANewFolderAtOnce) {
   ASSERT_TRUE(QTest::qWaitFor([&] { return window.statusBar()->currentMessage().startsWith("Wrote"); }, kPatience_ms))
       << window.statusBar()->currentMessage().toStdString();
   const QStringList files = charts.entryList(QDir::Files);
-  for (const char* file : {"sweepError.png", "sweepError.csv", "leaveOneOut.png", "decoupledFx.png", "decoupledFz.csv",
-                           "relativeError.csv", "sweep.csv", "networks.csv"})
+  for (const char* file : {"sweepError.png", "sweepError.csv", "sweepError.svg", "leaveOneOut.png", "decoupledFx.png",
+                           "decoupledFz.csv", "relativeError.csv", "sweep.csv", "networks.csv"})
     EXPECT_TRUE(files.contains(file)) << file << " among " << files.join(' ').toStdString();
   EXPECT_FALSE(files.contains("trialsError.png")) << "nothing was compared";
-  EXPECT_EQ(contentOf(charts.filePath("sweep.csv")).count('\n'), 4);
+  for (const char* file : {"sweep.csv", "sweepError.csv"}) {
+    const QByteArray table = contentOf(charts.filePath(file));
+    EXPECT_TRUE(table.contains("# palp sweep train.csv")) << "what it was made with";
+    EXPECT_TRUE(table.contains("# design {")) << file;
+    EXPECT_TRUE(table.contains("# up to date when it was saved\n")) << file;
+  }
+  EXPECT_EQ(tableOf(contentOf(charts.filePath("sweep.csv"))).size(), 4);
   EXPECT_TRUE(contentOf(charts.filePath("sweepError.csv")).contains(",5.18") ||
               contentOf(charts.filePath("sweepError.csv")).contains(",0.16"))
       << "numbers as they are printed";
+  const QByteArray drawing = contentOf(charts.filePath("decoupledFx.svg"));
+  EXPECT_TRUE(drawing.contains("<svg") && drawing.trimmed().endsWith("</svg>"));
+  EXPECT_FALSE(drawing.contains("<image")) << "lines and letters, no pixels";
   EXPECT_GT(QImage(charts.filePath("decoupledFx.png")).width(), 600) << "of a tab that was never seen";
 }
 

@@ -85,6 +85,8 @@ TEST_F(Undo, ShowsTheSceneOfWhatItUndoesAndSaysWhat) {
   ASSERT_TRUE(QTest::qWaitFor([&] { return window.currentScene().objectName() == "deformation"; }, kPatience_ms));
   EXPECT_TRUE(window.statusBar()->currentMessage().startsWith("Undone: area 1: ("))
       << window.statusBar()->currentMessage().toStdString();
+  EXPECT_TRUE(window.statusBar()->currentMessage().endsWith(", in the scene Deformation"))
+      << window.statusBar()->currentMessage().toStdString();
 }
 
 TEST_F(Undo, StaysOnASceneThatShowsTheChangeAlsoAcrossOtherSteps) {

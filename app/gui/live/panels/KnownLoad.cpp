@@ -1,0 +1,167 @@
+#include "app/gui/live/panels/KnownLoad.h"
+
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QFormLayout>
+#include <QGridLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QSignalBlocker>
+#include <QSpinBox>
+
+#include <algorithm>
+#include <cmath>
+
+namespace palp {
+
+namespace {
+
+constexpr std::array<const char*, 3> kAxes{"Fx", "Fy", "Fz"};
+constexpr double kMostForce_N = 500;
+constexpr double kNewtonPerGram = 9.80665e-3; ///< standard gravity, CGPM 1901
+constexpr double kMostMass_g = 50000;
+
+/// Where a mass pulls: the item's text, and the axis and sign of its force.
+struct Pull {
+  const char* text;
+  std::size_t axis;
+  double sign;
+};
+constexpr std::array<Pull, 5> kPulls{{{QT_TR_NOOP("down (-z)"), 2, -1},
+                                      {QT_TR_NOOP("along +x"), 0, 1},
+                                      {QT_TR_NOOP("along -x"), 0, -1},
+                                      {QT_TR_NOOP("along +y"), 1, 1},
+                                      {QT_TR_NOOP("along -y"), 1, -1}}};
+
+} // namespace
+
+std::array<double, 3> suggestedMasses_g(double most_N) {
+  std::array<double, 3> masses_g{};
+  for (double decade = 1; decade <= kMostMass_g; decade *= 10)
+    for (const double digit : {1.0, 2.0, 5.0})
+      if (decade * digit * kNewtonPerGram <= most_N) masses_g = {decade * digit, masses_g[0], masses_g[1]};
+  return masses_g;
+}
+
+KnownLoad::KnownLoad(QWidget* parent) : QWidget(parent) {
+  auto* form = new QFormLayout(this);
+  form->setContentsMargins(0, 0, 0, 0);
+  area_ = new QSpinBox;
+  area_->setObjectName("labelArea");
+  area_->setToolTip(tr("Load area that is pressed; areas count from 0"));
+  form->addRow(tr("Area"), area_);
+  form->addRow(tr("Mass"), buildMass());
+  form->addRow(tr("Try"), buildSuggestions());
+  form->addRow(buildForces());
+}
+
+QHBoxLayout* KnownLoad::buildMass() {
+  mass_g_ = new QDoubleSpinBox;
+  mass_g_->setObjectName("labelMass");
+  mass_g_->setAccessibleName(tr("Mass of the known load"));
+  mass_g_->setRange(0, kMostMass_g);
+  mass_g_->setDecimals(2);
+  mass_g_->setSingleStep(10);
+  mass_g_->setSuffix(tr(" g"));
+  mass_g_->setSpecialValueText(tr("none"));
+  mass_g_->setToolTip(tr("<qt>Mass that rests on the area, or hangs on a thread that pulls it sideways [g]; its weight "
+                         "(9.80665 N/kg) is the force below</qt>"));
+  direction_ = new QComboBox;
+  direction_->setObjectName("labelDirection");
+  direction_->setAccessibleName(tr("Direction of the mass"));
+  for (const Pull& pull : kPulls) direction_->addItem(tr(pull.text));
+  direction_->setToolTip(tr("Where the weight acts: down where it rests on the area, else as the thread pulls"));
+  connect(mass_g_, &QDoubleSpinBox::valueChanged, this, &KnownLoad::takeMass);
+  connect(direction_, &QComboBox::currentIndexChanged, this, &KnownLoad::takeMass);
+  auto* row = new QHBoxLayout;
+  row->addWidget(mass_g_, 1);
+  row->addWidget(direction_);
+  return row;
+}
+
+QHBoxLayout* KnownLoad::buildSuggestions() {
+  auto* row = new QHBoxLayout;
+  for (std::size_t k = 0; k < suggested_.size(); ++k) {
+    suggested_[k] = new QPushButton;
+    suggested_[k]->setObjectName(QString("suggestedMass%1").arg(k));
+    suggested_[k]->hide();
+    row->addWidget(suggested_[k]);
+    connect(suggested_[k], &QPushButton::clicked, this,
+            [this, k] { mass_g_->setValue(suggested_[k]->property("mass_g").toDouble()); });
+  }
+  return row;
+}
+
+QLayout* KnownLoad::buildForces() {
+  auto* grid = new QGridLayout;
+  auto* head = new QLabel(tr("reads"));
+  head->setToolTip(tr("What the network in use decodes now [N]"));
+  grid->addWidget(head, 0, 2, Qt::AlignRight);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const int row = static_cast<int>(axis) + 1;
+    force_N_[axis] = new QDoubleSpinBox;
+    force_N_[axis]->setObjectName(QString("label_%1").arg(kAxes[axis]));
+    force_N_[axis]->setAccessibleName(tr("%1 of the known load").arg(kAxes[axis]));
+    force_N_[axis]->setRange(-kMostForce_N, kMostForce_N);
+    force_N_[axis]->setDecimals(4);
+    force_N_[axis]->setSingleStep(0.1);
+    force_N_[axis]->setSuffix(tr(" N"));
+    force_N_[axis]->setToolTip(tr("What the rig says [N]; a push is negative in z"));
+    reads_[axis] = new QLabel;
+    reads_[axis]->setObjectName(QString("reads_%1").arg(kAxes[axis]));
+    reads_[axis]->setMinimumWidth(reads_[axis]->fontMetrics().horizontalAdvance("-00.000"));
+    reads_[axis]->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+    reads_[axis]->setToolTip(head->toolTip());
+    auto* name = new QLabel(kAxes[axis]);
+    name->setBuddy(force_N_[axis]);
+    grid->addWidget(name, row, 0);
+    grid->addWidget(force_N_[axis], row, 1);
+    grid->addWidget(reads_[axis], row, 2);
+    connect(force_N_[axis], &QDoubleSpinBox::valueChanged, this, [this] { // typed: it is no mass any more
+      const QSignalBlocker quiet(mass_g_);
+      mass_g_->setValue(0);
+    });
+  }
+  grid->setColumnStretch(1, 1);
+  return grid;
+}
+
+void KnownLoad::takeMass() {
+  if (mass_g_->value() == 0) return; // the force that is there stays
+  const Pull& pull = kPulls[static_cast<std::size_t>(direction_->currentIndex())];
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const QSignalBlocker quiet(force_N_[axis]);
+    force_N_[axis]->setValue(axis == pull.axis ? pull.sign * mass_g_->value() * kNewtonPerGram : 0);
+  }
+}
+
+void KnownLoad::setSensor(int areas, const Decoder* decoder) {
+  area_->setRange(0, std::max(0, areas - 1));
+  const std::array<double, 3> masses_g = suggestedMasses_g(decoder != nullptr ? -decoder->low_N(2) : 0);
+  for (std::size_t k = 0; k < suggested_.size(); ++k) {
+    const double mass_g = masses_g[k];
+    suggested_[k]->setVisible(mass_g > 0);
+    if (mass_g == 0) continue;
+    suggested_[k]->setProperty("mass_g", mass_g);
+    suggested_[k]->setText(mass_g < 1000 ? tr("%1 g").arg(mass_g) : tr("%1 kg").arg(mass_g / 1000));
+    suggested_[k]->setToolTip(tr("<qt>%1 N, within the %2 N of push that the network was trained for. Three weights on "
+                                 "each area in turn, one frame under each, tell gain and offset apart</qt>")
+                                  .arg(mass_g * kNewtonPerGram, 0, 'g', 3)
+                                  .arg(-decoder->low_N(2), 0, 'g', 3));
+  }
+}
+
+AreaLoad KnownLoad::load() const {
+  return {area_->value(), {force_N_[0]->value(), force_N_[1]->value(), force_N_[2]->value()}};
+}
+
+void KnownLoad::displayReading(const std::optional<Eigen::Vector3d>& force_N) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double value_N = force_N ? (*force_N)(static_cast<Eigen::Index>(axis)) : 0;
+    const QString text = force_N ? QString::number(std::round(1e3 * value_N) / 1e3 + 0.0, 'f', 3) : tr("none");
+    if (reads_[axis]->text() != text) reads_[axis]->setText(text);
+  }
+}
+
+} // namespace palp

@@ -1,0 +1,78 @@
+#include "app/gui/window/ExportSource.h"
+
+#include "app/gui/jobs/NetworkSession.h"
+#include "app/gui/network/FitWords.h"
+#include "app/gui/project/ExportLines.h"
+#include "app/gui/project/ProjectChange.h"
+#include "app/gui/project/Workbench.h"
+#include "app/gui/window/Scene.h"
+
+#include <QStringList>
+
+namespace palp {
+
+namespace {
+
+/// The project with the inputs of the touch that is shown.
+Project ofTouch(Workbench& workbench) {
+  const Touch& touch = workbench.touch().touch();
+  Project made = workbench.project();
+  made.design = touch.design();
+  made.load = touch.load();
+  made.mesh = touch.meshOptions();
+  return made;
+}
+
+/// The project with what the network that is shown, and its samples, were made with.
+Project ofNetwork(Workbench& workbench, const NetworkSession& network) {
+  Project made = workbench.project();
+  if (network.samples() == nullptr) return made;
+  made.design = network.results().design;
+  made.samples = network.samples()->settings;
+  if (network.fit() != nullptr) made.network = network.fit()->settings;
+  return made;
+}
+
+QString studiesStale(const Project& project) {
+  QStringList reasons;
+  const auto add = [&](const QString& what, const SensorDesign& of) {
+    Project then = project;
+    then.design = of;
+    const QString since = sinceWords(then, project);
+    if (!since.isEmpty()) reasons << QObject::tr("%1: %2").arg(what, since);
+  };
+  const DesignStudies& studies = project.studies;
+  if (studies.curve) add(QObject::tr("sweep of the design"), studies.curve->design);
+  if (studies.compared) add(QObject::tr("comparison"), studies.compared->now);
+  return reasons.join("; ");
+}
+
+} // namespace
+
+QString touchStale(Workbench& workbench) {
+  if (workbench.touch().upToDate()) return {};
+  const QString since = sinceWords(ofTouch(workbench), workbench.project());
+  return since.isEmpty() ? QObject::tr("something that it depends on has changed since") : since;
+}
+
+QString exportSource(const Scene& scene, Workbench& workbench, const NetworkSession& network) {
+  const QString name = scene.objectName();
+  const Project& now = workbench.project();
+  Project made = now;
+  QString stale;
+  if (name == "deformation" || name == "resistance") {
+    made = ofTouch(workbench);
+    stale = touchStale(workbench);
+  } else if (name == "network") {
+    made = ofNetwork(workbench, network);
+    QStringList reasons{staleReason(network, now.network), staleSweepReason(network, now.network),
+                        staleTrialsReason(network, now.network)};
+    reasons.removeAll(QString());
+    stale = reasons.join(' ');
+  } else if (name == "design") {
+    stale = studiesStale(now);
+  }
+  return exportLines(scene.commands(made, "sensor.json"), made.design, stale);
+}
+
+} // namespace palp
