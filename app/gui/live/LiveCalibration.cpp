@@ -7,6 +7,7 @@
 
 #include <QDateTime>
 #include <QFileDialog>
+#include <QGridLayout>
 #include <QGroupBox>
 #include <QHBoxLayout>
 #include <QHeaderView>
@@ -145,8 +146,8 @@ QWidget* LiveCalibration::buildFrames() {
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
   column->addWidget(table_, 1);
   auto* row = new QHBoxLayout;
-  auto* load = button(tr("Load CSV..."), "loadFrames", tr("Adds the labelled frames of a file"));
-  saveFrames_ = button(tr("Save CSV..."), "saveFrames", tr("Keeps the labelled frames in a file"));
+  auto* load = button(tr("Load..."), "loadFrames", tr("Adds the labelled frames of a file (CSV)"));
+  saveFrames_ = button(tr("Save..."), "saveFrames", tr("Keeps the labelled frames in a file (CSV)"));
   remove_ = button(tr("Remove"), "removeFrame", tr("Takes the selected frame away"));
   for (QPushButton* push : {load, saveFrames_, remove_}) row->addWidget(push);
   column->addLayout(row);
@@ -174,13 +175,14 @@ QWidget* LiveCalibration::buildFit() {
   report_->setAlignment(Qt::AlignTop);
   report_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   column->addWidget(report_, 1);
-  auto* row = new QHBoxLayout;
+  auto* row = new QGridLayout; // two in a line, for narrow windows
   fit_ = button(tr("Fit"), "fitCalibration",
                 tr("Gains and offset of the network's forces by recursive least squares, judged on frames left out"));
   use_ = button(tr("Use"), "useCalibration", tr("Decodes with the refined network from now on"));
   saveNetwork_ = button(tr("Save network..."), "saveCalibration", tr("Keeps the refined network in a file"));
   back_ = button(tr("Back"), "backFromCalibration", tr("Decodes with the network before again"));
-  for (QPushButton* push : {fit_, use_, saveNetwork_, back_}) row->addWidget(push);
+  for (const auto& [push, place] : {std::pair{fit_, 0}, {use_, 1}, {saveNetwork_, 2}, {back_, 3}})
+    row->addWidget(push, place / 2, place % 2);
   column->addLayout(row);
   connect(fit_, &QPushButton::clicked, this, &LiveCalibration::fit);
   connect(use_, &QPushButton::clicked, this, &LiveCalibration::use);

@@ -21,6 +21,7 @@ constexpr std::array<const char*, 3> kAxes{"Fx", "Fy", "Fz"};
 constexpr double kMostForce_N = 500;
 constexpr double kNewtonPerGram = 9.80665e-3; ///< standard gravity, CGPM 1901
 constexpr double kMostMass_g = 50000;
+constexpr int kNumber_px = 56; ///< that "-9.8067" takes
 
 /// Where a mass pulls: the item's text, and the axis and sign of its force.
 struct Pull {
@@ -74,6 +75,7 @@ QHBoxLayout* KnownLoad::buildMass() {
   direction_->setToolTip(tr("Where the weight acts: down where it rests on the area, else as the thread pulls"));
   connect(mass_g_, &QDoubleSpinBox::valueChanged, this, &KnownLoad::takeMass);
   connect(direction_, &QComboBox::currentIndexChanged, this, &KnownLoad::takeMass);
+  mass_g_->setMinimumWidth(kNumber_px);
   auto* row = new QHBoxLayout;
   row->addWidget(mass_g_, 1);
   row->addWidget(direction_);
@@ -85,6 +87,7 @@ QHBoxLayout* KnownLoad::buildSuggestions() {
   for (std::size_t k = 0; k < suggested_.size(); ++k) {
     suggested_[k] = new QPushButton;
     suggested_[k]->setObjectName(QString("suggestedMass%1").arg(k));
+    suggested_[k]->setMinimumWidth(kNumber_px);
     suggested_[k]->hide();
     row->addWidget(suggested_[k]);
     connect(suggested_[k], &QPushButton::clicked, this,
@@ -95,35 +98,36 @@ QHBoxLayout* KnownLoad::buildSuggestions() {
 
 QLayout* KnownLoad::buildForces() {
   auto* grid = new QGridLayout;
-  auto* head = new QLabel(tr("reads"));
-  head->setToolTip(tr("What the network in use decodes now [N]"));
-  grid->addWidget(head, 0, 2, Qt::AlignRight);
+  auto* known = new QLabel(tr("Force [N]"));
+  auto* reads = new QLabel(tr("reads [N]"));
+  reads->setToolTip(tr("What the network in use decodes now [N]"));
+  grid->addWidget(known, 1, 0);
+  grid->addWidget(reads, 2, 0);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const int row = static_cast<int>(axis) + 1;
+    const int column = static_cast<int>(axis) + 1;
+    auto* name = new QLabel(kAxes[axis]);
     force_N_[axis] = new QDoubleSpinBox;
     force_N_[axis]->setObjectName(QString("label_%1").arg(kAxes[axis]));
     force_N_[axis]->setAccessibleName(tr("%1 of the known load").arg(kAxes[axis]));
     force_N_[axis]->setRange(-kMostForce_N, kMostForce_N);
     force_N_[axis]->setDecimals(4);
     force_N_[axis]->setSingleStep(0.1);
-    force_N_[axis]->setSuffix(tr(" N"));
-    force_N_[axis]->setToolTip(tr("What the rig says [N]; a push is negative in z"));
+    force_N_[axis]->setButtonSymbols(QAbstractSpinBox::NoButtons); // three in a line
+    force_N_[axis]->setMinimumWidth(kNumber_px);
+    force_N_[axis]->setToolTip(tr("%1 that the rig says [N]; a push is negative in z").arg(kAxes[axis]));
+    name->setBuddy(force_N_[axis]);
     reads_[axis] = new QLabel;
     reads_[axis]->setObjectName(QString("reads_%1").arg(kAxes[axis]));
-    reads_[axis]->setMinimumWidth(reads_[axis]->fontMetrics().horizontalAdvance("-00.000"));
-    reads_[axis]->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
-    reads_[axis]->setToolTip(head->toolTip());
-    auto* name = new QLabel(kAxes[axis]);
-    name->setBuddy(force_N_[axis]);
-    grid->addWidget(name, row, 0);
-    grid->addWidget(force_N_[axis], row, 1);
-    grid->addWidget(reads_[axis], row, 2);
+    reads_[axis]->setToolTip(reads->toolTip());
+    grid->addWidget(name, 0, column);
+    grid->addWidget(force_N_[axis], 1, column);
+    grid->addWidget(reads_[axis], 2, column);
+    grid->setColumnStretch(column, 1);
     connect(force_N_[axis], &QDoubleSpinBox::valueChanged, this, [this] { // typed: it is no mass any more
       const QSignalBlocker quiet(mass_g_);
       mass_g_->setValue(0);
     });
   }
-  grid->setColumnStretch(1, 1);
   return grid;
 }
 

@@ -1,4 +1,4 @@
-#include "app/scenes/block/CutTable.h"
+#include "app/scenes/CutTable.h"
 
 #include "model/base/Cancelled.h"
 #include "model/base/Text.h"

@@ -1,10 +1,10 @@
-#include "app/gui/touch/CutExport.h"
+#include "app/gui/window/CutExport.h"
 
 #include "app/gui/project/ResultCsv.h"
 #include "app/gui/project/Workbench.h"
 #include "app/gui/touch/DeformationPage.h"
 #include "app/gui/window/ExportSource.h"
-#include "app/scenes/block/CutTable.h"
+#include "app/scenes/CutTable.h"
 
 #include <QObject>
 
