@@ -19,12 +19,12 @@
 #include "app/gui/widgets/AccessibleNames.h"
 #include "app/gui/widgets/EscapeKey.h"
 #include "app/gui/widgets/WheelGuard.h"
-#include "app/gui/window/ExportSource.h"
 #include "app/gui/window/Layout.h"
 #include "app/gui/window/Menus.h"
 #include "app/gui/window/MessageLog.h"
 #include "app/gui/window/StatusLamps.h"
 #include "app/gui/window/Style.h"
+#include "app/gui/window/exports/ExportSource.h"
 #include "app/gui/window/history/HistorySteps.h"
 
 #include <QApplication>

@@ -98,8 +98,8 @@ QHBoxLayout* KnownLoad::buildSuggestions() {
 
 QLayout* KnownLoad::buildForces() {
   auto* grid = new QGridLayout;
-  auto* known = new QLabel(tr("Force [N]"));
-  auto* reads = new QLabel(tr("reads [N]"));
+  auto* known = new QLabel(tr("Force"));
+  auto* reads = new QLabel(tr("reads"));
   reads->setToolTip(tr("What the network in use decodes now [N]"));
   grid->addWidget(known, 1, 0);
   grid->addWidget(reads, 2, 0);

@@ -1,4 +1,4 @@
-#include "app/gui/window/ExportSource.h"
+#include "app/gui/window/exports/ExportSource.h"
 
 #include "app/gui/jobs/NetworkSession.h"
 #include "app/gui/network/FitWords.h"

@@ -1,9 +1,9 @@
-#include "app/gui/window/CutExport.h"
+#include "app/gui/window/exports/CutExport.h"
 
 #include "app/gui/project/ResultCsv.h"
 #include "app/gui/project/Workbench.h"
 #include "app/gui/touch/DeformationPage.h"
-#include "app/gui/window/ExportSource.h"
+#include "app/gui/window/exports/ExportSource.h"
 #include "app/scenes/CutTable.h"
 
 #include <QObject>
