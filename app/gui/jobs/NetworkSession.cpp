@@ -149,6 +149,10 @@ void NetworkSession::take(const std::shared_ptr<NetworkFit>& fit, const QString&
     fit->name = (*known)->name;
     dropKept(static_cast<std::size_t>(known - kept.begin()));
   }
+  // The file that it is saved in is named by that time.
+  const auto taken = [&](const auto& other) { return other->made == fit->made; };
+  while (shown_.takenAway.contains(fit->made) || std::any_of(kept.begin(), kept.end(), taken))
+    fit->made = fit->made.addMSecs(1);
   if (!slides) shown_.before = shown_.fit;
   shown_.fit = fit;
   kept.insert(kept.begin(), fit);
