@@ -6,6 +6,7 @@
 
 #include <Eigen/Dense>
 
+#include <algorithm>
 #include <cmath>
 
 namespace palp {
@@ -102,6 +103,22 @@ std::optional<std::string> motionProblem(const Indenter& indenter, const Motion&
 }
 
 } // namespace
+
+bool Indenter::hasTwoParts() const {
+  const Eigen::Vector2d sideways = press() ? Eigen::Vector2d(press()->force_N.head<2>()) : motion()->shift_mm;
+  return friction > 0 && !sideways.isZero(0);
+}
+
+Indenter Indenter::at(double loadFraction) const {
+  const double down = hasTwoParts() ? std::min(1., 2 * loadFraction) : loadFraction;
+  const double sideways = hasTwoParts() ? std::max(0., 2 * loadFraction - 1) : loadFraction;
+  Indenter part = *this;
+  if (const Press* whole = press())
+    part.control = Press{{sideways * whole->force_N.x(), sideways * whole->force_N.y(), down * whole->force_N.z()}};
+  else
+    part.control = Motion{down * motion()->depth_mm, sideways * motion()->shift_mm};
+  return part;
+}
 
 std::string shapeName(IndenterShape shape) {
   return kIndenterShapes.name(shape);
