@@ -46,6 +46,8 @@ std::optional<std::string> whyInvalid(const LoadCase& load, const SensorDesign& 
   }
   for (const PatchLoad& patch : load.patches)
     if (auto wrong = patchProblem(patch, design.block_mm)) return wrong;
+  for (const Indenter& indenter : load.indenters)
+    if (auto wrong = whyInvalid(indenter, design)) return wrong;
   return {};
 }
 

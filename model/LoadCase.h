@@ -1,5 +1,6 @@
 #pragma once
 
+#include "model/Indenter.h"
 #include "model/SensorDesign.h"
 
 #include <Eigen/Core>
@@ -25,17 +26,19 @@ struct PatchLoad {
   bool operator==(const PatchLoad&) const = default;
 };
 
-/// Forces that act together.
+/// Forces and indenters that act together.
 struct LoadCase {
   std::vector<AreaLoad> areas;
   std::vector<PatchLoad> patches;
+  std::vector<Indenter> indenters{};
 
+  /// Of areas and patches; what indenters press with is found by the solve.
   [[nodiscard]] Eigen::Vector3d totalForce_N() const;
   bool operator==(const LoadCase&) const = default;
 };
 
 /// Why the load cannot act on the design (no such area, a disc outside the face or smaller than 0.01 mm in radius, a
-/// force that is not finite); empty if it can.
+/// force that is not finite, an indenter that cannot press); empty if it can.
 std::optional<std::string> whyInvalid(const LoadCase& load, const SensorDesign& design);
 
 } // namespace palp

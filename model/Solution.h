@@ -16,11 +16,23 @@ struct NewtonStep {
   double relativeResidual = 0;
 };
 
+/// What an indenter does.
+struct IndenterState {
+  Eigen::Vector3d force_N = Eigen::Vector3d::Zero();        ///< of it on the rubber
+  Eigen::Vector3d translation_mm = Eigen::Vector3d::Zero(); ///< from first touch of the body at rest
+  double contactArea_mm2 = 0;                               ///< of the surface at rest that touches
+  double contactRadius_mm = 0;                              ///< of a circle with as wide a spread of the pressure
+  double centrePressure_MPa = 0;                            ///< force an area at rest, around the deepest place
+  double slipShare = 0;                                     ///< of the contact area
+};
+
 /// Equilibrium at a load fraction on the way to the full load.
 struct LoadIncrement {
   double loadFraction = 0;
   Eigen::Matrix3Xd displacements_mm; ///< 3 x nodes
   Eigen::MatrixXd elementUnknowns;   ///< the element's own unknowns (bubble, pressures) x elements
+  std::vector<IndenterState> indenters{};    ///< of the load's indenters
+  Eigen::Matrix3Xd contactTraction_MPa{};    ///< 3 x nodes, on the surface at rest; empty without indenters
 };
 
 /// Result of one nonlinear solve. If Newton's method could not go on: the last converged state, and why. A solve has

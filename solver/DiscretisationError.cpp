@@ -35,6 +35,7 @@ constexpr double mostDof = 250000; // what 24 GB hold with the factor
 LoadCase scaled(LoadCase load, double fraction) {
   for (AreaLoad& area : load.areas) area.force_N *= fraction;
   for (PatchLoad& patch : load.patches) patch.force_N *= fraction;
+  for (Indenter& indenter : load.indenters) indenter = indenter.at(fraction);
   return load;
 }
 
@@ -52,7 +53,8 @@ HyperelasticProblem coarserTwin(const HyperelasticProblem& problem, const LoadCa
   double size = problem.mesh().size_mm;
   for (int attempt = 0;; ++attempt) {
     size *= coarserBy;
-    const MeshOptions options{.meshSize_mm = size, .mapped = {}, .discs = fineDiscs(load), .electrodesAsNodes = false};
+    const MeshOptions options =
+        meshFor(problem.design(), load, {.meshSize_mm = size, .mapped = {}, .electrodesAsNodes = false});
     HyperelasticProblem twin(problem.design(), sensorMesh(problem.design(), options, stop));
     if (twin.dof() < clearlyFewer * problem.dof() || attempt == mostCoarsenings) return twin;
   }
@@ -88,7 +90,7 @@ DiscretisationError discretisationError(const HyperelasticProblem& problem, cons
       graded ? coarserTwin(problem, load, stop)
              : HyperelasticProblem(
                    problem.design(),
-                   sensorMesh(problem.design(), {.meshSize_mm = {}, .mapped = {}, .discs = fineDiscs(load)}, stop));
+                   sensorMesh(problem.design(), meshFor(problem.design(), load, {}), stop));
   const Solution reference =
       other.solve(scaled(load, solution.state().loadFraction), {.relativeTolerance = twinTolerance, .threads = threads},
                   {.step = {}, .stop = stop});
@@ -116,7 +118,7 @@ Mesh meshForAccuracy(const SensorDesign& design, const LoadCase& load, double ac
                      int threads) {
   if (!(accuracy > 0 && accuracy < 1))
     throw DesignError("accuracy " + text(accuracy) + "; allowed is a relative error between 0 and 1");
-  MeshOptions options{.meshSize_mm = 1.5 * standardMeshSize_mm(design), .mapped = {}, .discs = fineDiscs(load)};
+  MeshOptions options = meshFor(design, load, {.meshSize_mm = 1.5 * standardMeshSize_mm(design), .mapped = {}});
   for (int refinement = 0;; ++refinement) {
     const HyperelasticProblem problem(design, sensorMesh(design, options, stop));
     if (problem.dof() > mostDof || refinement == mostRefinements)

@@ -2,6 +2,8 @@
 
 #include "solver/assembly/NodalFields.h"
 #include "solver/assembly/SurfaceTraction.h"
+#include "solver/contact/ContactSolver.h"
+#include "solver/contact/ContactSummary.h"
 #include "solver/statics/NewtonSolver.h"
 #include "solver/statics/ProblemParts.h"
 
@@ -113,12 +115,55 @@ std::string HyperelasticProblem::elementType() const {
   return parts_->mesh.shape == ElementShape::Tetrahedron10 ? "P2+bubble/P1d" : "Q1/P0";
 }
 
+namespace {
+
+/// All of it but the increments.
+Solution withoutIncrements(const Discretisation& mesh, NewtonResult& result) {
+  Solution solution;
+  solution.converged = result.converged;
+  solution.cancelled = result.cancelled;
+  solution.stopReason = std::move(result.stopReason);
+  solution.newton = std::move(result.steps);
+  for (Eigen::Index i = 0; i < result.internalForces.size(); ++i)
+    if (mesh.freeIndex(static_cast<int>(i)) < 0) solution.reaction_N(i % 3) += result.internalForces(i);
+  solution.maxVolumeError = std::max(result.largestJ - 1, 1 - result.smallestJ);
+  return solution;
+}
+
+LoadIncrement increment(const Discretisation& mesh, const EquilibriumState& equilibrium) {
+  return {equilibrium.loadFraction,
+          Eigen::Map<const Eigen::Matrix3Xd>(equilibrium.state.displacements.data(), 3, mesh.nodes()),
+          elementUnknowns(mesh, equilibrium.state.unknowns)};
+}
+
+Solution contactSolution(const HyperelasticProblem::Parts& parts, const LoadCase& load, const Loading& loading,
+                         const NewtonOptions& options, const NewtonObserver& observer) {
+  const Discretisation& mesh = *parts.discretisation;
+  ContactResult result =
+      ContactSolver(parts.assembler, parts.mesh, parts.design, load, options, observer).solve(loading);
+  Solution solution = withoutIncrements(mesh, result.newton);
+  for (const auto& [equilibrium, contact] : result.increments) {
+    LoadIncrement next = increment(mesh, equilibrium);
+    Eigen::Matrix3Xd positions(3, static_cast<Eigen::Index>(result.points.size()));
+    for (std::size_t p = 0; p < result.points.size(); ++p)
+      positions.col(static_cast<Eigen::Index>(p)) =
+          parts.mesh.nodes_mm.col(result.points[p].node) + next.displacements_mm.col(result.points[p].node);
+    next.indenters = indenterStates(load, parts.mesh, result.points, contact, positions);
+    next.contactTraction_MPa = contactTractions_MPa(parts.mesh, result.points, contact);
+    solution.increments.push_back(std::move(next));
+  }
+  solution.reachedLoadFraction = solution.state().loadFraction;
+  return solution;
+}
+
+} // namespace
+
 Solution HyperelasticProblem::solve(const LoadCase& load, const NewtonOptions& options,
                                     const NewtonObserver& observer) const {
   const Discretisation& mesh = *parts_->discretisation;
   Loading loading{nodalForces(parts_->mesh, parts_->design, load),
                   Eigen::VectorXd::Zero(3 * Eigen::Index(mesh.nodes()))};
-  Solution solution;
+  if (!load.indenters.empty()) return contactSolution(*parts_, load, loading, options, observer);
   // The problem's hold on it ends with the loan where Newton is to work with one tangent at a time.
   const auto borrow = [&] {
     auto rest = parts_->initialTangent(options.threads, observer.stop);
@@ -128,6 +173,7 @@ Solution HyperelasticProblem::solve(const LoadCase& load, const NewtonOptions& o
   auto rest = borrow();
   const std::weak_ptr<const InitialTangent> borrowed = rest;
   if (!rest) {
+    Solution solution;
     solution.cancelled = true;
     solution.stopReason = "cancelled at load fraction 0";
     solution.increments.push_back(
@@ -139,17 +185,9 @@ Solution HyperelasticProblem::solve(const LoadCase& load, const NewtonOptions& o
   solver.startingWith({std::move(rest), options.oneTangent ? LentTangent::Find(borrow) : LentTangent::Find()});
   NewtonResult result = solver.solve(loading);
   if (auto still = borrowed.lock()) parts_->keepInitialTangent(std::move(still));
-  solution.converged = result.converged;
-  solution.cancelled = result.cancelled;
-  solution.stopReason = std::move(result.stopReason);
-  solution.newton = std::move(result.steps);
-  for (Eigen::Index i = 0; i < result.internalForces.size(); ++i)
-    if (mesh.freeIndex(static_cast<int>(i)) < 0) solution.reaction_N(i % 3) += result.internalForces(i);
-  solution.maxVolumeError = std::max(result.largestJ - 1, 1 - result.smallestJ);
-  for (const auto& [fraction, state] : result.increments)
-    solution.increments.push_back({fraction,
-                                   Eigen::Map<const Eigen::Matrix3Xd>(state.displacements.data(), 3, mesh.nodes()),
-                                   elementUnknowns(mesh, state.unknowns)});
+  Solution solution = withoutIncrements(mesh, result);
+  for (const EquilibriumState& equilibrium : result.increments)
+    solution.increments.push_back(increment(mesh, equilibrium));
   solution.reachedLoadFraction = solution.state().loadFraction;
   return solution;
 }

@@ -2,6 +2,7 @@
 
 #include "model/DesignError.h"
 #include "model/base/Text.h"
+#include "solver/contact/ContactEstimate.h"
 #include "solver/mesh/GradedTets.h"
 #include "solver/mesh/MappedHexes.h"
 
@@ -28,6 +29,14 @@ std::vector<FineDisc> fineDiscs(const LoadCase& load) {
   return discs;
 }
 
+MeshOptions meshFor(const SensorDesign& design, const LoadCase& load, MeshOptions options) {
+  const bool graded = !options.mapped;
+  options.discs = graded ? fineDiscs(load) : std::vector<FineDisc>{};
+  options.zones = graded ? fineZones(design, load) : std::vector<FineZone>{};
+  options.fineBorders = load.indenters.empty() || !load.areas.empty();
+  return options;
+}
+
 double standardMeshSize_mm(const SensorDesign& design) {
   return standardSize(design);
 }
@@ -46,7 +55,11 @@ Mesh sensorMesh(const SensorDesign& design, const MeshOptions& options, const st
   requireMeshable(design, options);
   if (options.mapped) return mappedMesh(design, *options.mapped);
   const double size = options.meshSize_mm.value_or(standardSize(design));
-  Mesh mesh = gradedTets(design, defaultGrading(design, size), options.discs, options.electrodesAsNodes, stop);
+  Grading grading = defaultGrading(design, size);
+  if (!options.fineBorders) grading.border_mm = grading.bulk_mm;
+  std::vector<FineZone> zones = options.zones;
+  for (FineZone& zone : zones) zone.size_mm *= size / standardSize(design);
+  Mesh mesh = gradedTets(design, grading, options.discs, zones, options.electrodesAsNodes, stop);
   mesh.size_mm = size;
   return mesh;
 }

@@ -16,6 +16,12 @@ struct FineDisc {
   double x_mm = 0, y_mm = 0, radius_mm = 1;
   bool operator==(const FineDisc&) const = default;
 };
+/// A rectangle of the top face in which the mesh is to be as fine along x and y as where an indenter will touch it.
+struct FineZone {
+  Eigen::Vector2d centre_mm, half_mm;
+  Eigen::Vector2d size_mm; ///< along x, y, where the mesh has the default size in the bulk; it scales with that
+  bool operator==(const FineZone&) const = default;
+};
 /// The discs of a load's patches.
 std::vector<FineDisc> fineDiscs(const LoadCase& load);
 
@@ -27,8 +33,14 @@ struct MeshOptions {
   std::optional<std::array<int, 3>> mapped; ///< the paper's mapped mesh: hexahedra along x, y, z
   std::vector<FineDisc> discs{};            ///< tetrahedra: finer at these discs' rims
   bool electrodesAsNodes = true;            ///< tetrahedra: otherwise electrodes lie inside elements
+  std::vector<FineZone> zones{};            ///< tetrahedra: finer in these
+  bool fineBorders = true;                  ///< tetrahedra: finer at the borders of the load areas
   bool operator==(const MeshOptions&) const = default;
 };
+
+/// The options with what the load asks of a mesh of tetrahedra in place of theirs: discs and zones, and borders of the
+/// load areas where an area or patch is loaded or no indenter presses.
+MeshOptions meshFor(const SensorDesign& design, const LoadCase& load, MeshOptions options);
 
 /// Elements of the largest mesh that is made.
 inline constexpr double mostElements = 1e6;

@@ -1,5 +1,6 @@
 #include "app/cli/Options.h"
 
+#include "app/cli/IndenterOption.h"
 #include "io/DesignFile.h"
 #include "model/DesignError.h"
 #include "model/base/Text.h"
@@ -77,6 +78,14 @@ void LoadOptions::declare(Command command) {
   command.option("--patch", patches, "X,Y,RADIUS:FX,FY,FZ [mm, N]: force on a disc of the top face").oneValueEach();
 }
 
+void LoadOptions::declareIndenters(Command command) {
+  command
+      .option("--indenter", indenters,
+              "SHAPE:SIZES@X,Y:press=FX,FY,FZ[:mu=MU] or ...:depth=D[,SX,SY][:mu=MU] [mm, N]: a rigid body that "
+              "presses; shapes sphere:R, pin:R, flat:R,RIM, cylinder-x:R, cylinder-y:R, plane")
+      .oneValueEach();
+}
+
 LoadCase LoadOptions::loadCase(const SensorDesign& design) const {
   LoadCase load;
   for (const std::string& value : loads) {
@@ -88,7 +97,8 @@ LoadCase LoadOptions::loadCase(const SensorDesign& design) const {
     const std::vector<double> xyr = numbers("--patch", disc, 3);
     load.patches.push_back({{xyr[0], xyr[1]}, xyr[2], force});
   }
-  if (load.areas.empty() && load.patches.empty())
+  for (const std::string& value : indenters) load.indenters.push_back(indenterOption(value));
+  if (load.areas.empty() && load.patches.empty() && load.indenters.empty())
     throw UsageError("--load or --patch is missing; give at least one, for example --load 0:1,0,-6");
   if (const auto wrong = whyInvalid(load, design)) throw UsageError(*wrong);
   return load;

@@ -23,11 +23,14 @@ SensorDesign designOption(const std::string& fileOrPreset);
 /// The same for a command that works by Eq. (1) alone: refuses the field law before any work is done.
 SensorDesign pairsDesignOption(const std::string& fileOrPreset, const std::string& command);
 
-/// --load AREA:FX,FY,FZ and --patch X,Y,RADIUS:FX,FY,FZ, as often as wanted.
+/// --load AREA:FX,FY,FZ, --patch X,Y,RADIUS:FX,FY,FZ and, where the command knows them, --indenter (IndenterOption.h),
+/// as often as wanted.
 struct LoadOptions {
   std::vector<std::string> loads;
   std::vector<std::string> patches;
+  std::vector<std::string> indenters;
   void declare(Command command);
+  void declareIndenters(Command command);
   /// All loads together; UsageError names what is wrong with which.
   [[nodiscard]] LoadCase loadCase(const SensorDesign& design) const;
 };

@@ -38,6 +38,8 @@ public:
   [[nodiscard]] const Discretisation& discretisation() const { return *mesh_; }
   [[nodiscard]] const RubberConstants& rubber() const { return rubber_; }
   [[nodiscard]] const std::shared_ptr<const SparsePattern>& pattern() const { return pattern_; }
+  /// The pattern's group of a node; -1: all its components are prescribed.
+  [[nodiscard]] int group(int node) const { return groupOfNode_[node]; }
 
   /// Tangents of the state, and its forces condensed with them.
   void tangent(const ElementState& state, ElementTangents& tangents, ElementForces& forces, int threads,

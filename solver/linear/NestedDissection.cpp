@@ -39,7 +39,7 @@ struct Planes {
 };
 
 Planes planesAcross(const SparsePattern& pattern, const std::array<std::vector<int>, 3>& along,
-                    const std::array<int, 3>& direction) {
+                    const std::array<int, 3>& direction, const std::vector<bool>& isLast) {
   Planes planes;
   planes.own.resize(pattern.groupPositions_mm.cols());
   for (std::size_t g = 0; g < planes.own.size(); ++g)
@@ -48,6 +48,7 @@ Planes planesAcross(const SparsePattern& pattern, const std::array<std::vector<i
   for (int g = 0; g < static_cast<int>(planes.own.size()); ++g)
     for (int k = pattern.groupColumns[g]; k < pattern.groupColumns[g + 1]; ++k) {
       const int other = pattern.groupRows[k];
+      if (isLast[g] || isLast[other]) continue;
       planes.furthest[g] = std::max(planes.furthest[g], planes.own[other]);
       planes.furthest[other] = std::max(planes.furthest[other], planes.own[g]);
     }
@@ -66,10 +67,13 @@ public:
   explicit Dissection(const SparsePattern& pattern) {
     std::array<std::vector<int>, 3> along;
     for (int axis = 0; axis < 3; ++axis) along[axis] = planesAlong(pattern, axis);
-    for (int d = 0; d < directionCount; ++d) planes_[d] = planesAcross(pattern, along, directions[d]);
-    order_.resize(pattern.groupPositions_mm.cols());
-    std::iota(order_.begin(), order_.end(), 0);
+    std::vector<bool> isLast(pattern.groupPositions_mm.cols());
+    for (int g : pattern.lastGroups) isLast[g] = true;
+    for (int d = 0; d < directionCount; ++d) planes_[d] = planesAcross(pattern, along, directions[d], isLast);
+    for (int g = 0; g < static_cast<int>(isLast.size()); ++g)
+      if (!isLast[g]) order_.push_back(g);
     dissect(order_);
+    order_.insert(order_.end(), pattern.lastGroups.begin(), pattern.lastGroups.end());
   }
   [[nodiscard]] std::vector<int> order() && { return std::move(order_); }
 

@@ -115,6 +115,7 @@ CholeskyPlan::CholeskyPlan(std::shared_ptr<const SparsePattern> pattern)
   placeBlocks();
   findEntries();
   cutTree();
+  findLast();
 }
 
 void CholeskyPlan::placeBlocks() {
@@ -241,8 +242,9 @@ namespace {
 /// One factorisation: fronts and what they hand up.
 class Multifrontal {
 public:
-  Multifrontal(const CholeskyPlan& plan, std::span<const double> values, float* factor)
-      : plan_(plan), tree_(plan.tree()), values_(values), factor_(factor), updates_(tree_.count()) {}
+  Multifrontal(const CholeskyPlan& plan, std::span<const double> values, float* factor, Eigen::MatrixXd& lastRows)
+      : plan_(plan), tree_(plan.tree()), values_(values), factor_(factor), lastRows_(lastRows),
+        updates_(tree_.count()) {}
 
   /// Room for the panel of any of the supernodes.
   [[nodiscard]] UnsetArray<double> panelFor(const std::vector<int>& supernodes) const {
@@ -269,6 +271,7 @@ public:
     if (outcome == FrontOutcome::Done &&
         !packPanel(panel, height, width, factor_ + plan_.blocks(factor_).start[s], run))
       outcome = FrontOutcome::Stopped;
+    keepLastRows(s, panel);
     for (std::size_t c = 0; c < children.size(); ++c) {
       extendAdd(
           updates_[children[c]], runs[c], runsWithin(runs[c], width), runs[c].size(),
@@ -285,10 +288,19 @@ private:
     return std::find_if(runs.begin(), runs.end(), [&](const Run& r) { return r.to >= width; }) - runs.begin();
   }
 
+  /// What stands in a factorised panel of the last groups' columns.
+  void keepLastRows(int s, const double* panel) {
+    const int start = tree_.size() - plan_.lastUnknowns(), height = tree_.height(s);
+    for (int c = std::max(0, start - tree_.first[s]); c < tree_.width(s); ++c)
+      for (int r = c; r < height; ++r)
+        lastRows_(tree_.rowsOf(s)[r] - start, tree_.first[s] + c - start) = panel[std::size_t(c) * height + r];
+  }
+
   const CholeskyPlan& plan_;
   const SupernodeTree& tree_;
   std::span<const double> values_;
   float* factor_;
+  Eigen::MatrixXd& lastRows_;
   std::vector<UpdateMatrix> updates_;
 };
 
@@ -297,7 +309,8 @@ private:
 SparseCholesky::Outcome SparseCholesky::factorise(LaneVector values, int threads, const std::stop_token& stop) {
   useOneBlasThread();
   matrix_ = std::move(values);
-  Multifrontal fronts(*plan_, matrix_, factor_.data());
+  lastRows_.setZero(plan_->lastUnknowns(), plan_->lastUnknowns());
+  Multifrontal fronts(*plan_, matrix_, factor_.data(), lastRows_);
   std::atomic<FrontOutcome> worst{FrontOutcome::Done};
   const TaskRunner alone = [&](int count, double, const std::function<void(int)>& task) {
     for (int t = 0; t < count; ++t) task(t);

@@ -31,6 +31,8 @@ public:
   /// Where the factor's numbers go, and how many they are.
   [[nodiscard]] BlockedFactor blocks(const float* values) const;
   [[nodiscard]] std::size_t factorSize() const { return blocksStart_.back(); }
+  /// Unknowns of the pattern's last groups: the last rows of the factor.
+  [[nodiscard]] int lastUnknowns() const { return lastUnknowns_; }
 
 private:
   /// The entries of one group of the pattern's rows in one group of its columns: up to 3 x 3 numbers, found as one.
@@ -43,6 +45,7 @@ private:
   void placeBlocks();
   void findEntries();
   void cutTree();
+  void findLast();
 
   std::shared_ptr<const SparsePattern> pattern_;
   SupernodeTree tree_;
@@ -52,6 +55,7 @@ private:
   std::vector<std::vector<int>> subtrees_;
   std::vector<int> top_;
   std::vector<std::size_t> blocksStart_; ///< of each supernode in the factor's numbers, and their count
+  int lastUnknowns_ = 0;
   std::vector<int> blockBelow_;          ///< first block of the rows below each supernode
   std::vector<int> blockRows_;           ///< rows of the factor in those blocks
 };
@@ -70,6 +74,10 @@ public:
   /// nothing of what it has left. Stopped, it leaves no solution.
   void solve(Eigen::VectorXd& rightSide, const std::stop_token& stop = {}) const;
 
+  /// The inverse matrix between the unknowns of the pattern's last groups, in the groups' order, in double precision:
+  /// of the factor's last rows L, all other unknowns being eliminated, (L L^T)^-1.
+  [[nodiscard]] Eigen::MatrixXd inverseOfLast() const;
+
   [[nodiscard]] const CholeskyPlan& plan() const { return *plan_; }
   [[nodiscard]] std::size_t bytes() const { return factor_.size() * sizeof(float); } ///< of the factor's numbers
   [[nodiscard]] BlockedFactor blocks() const { return plan_->blocks(factor_.data()); }
@@ -81,6 +89,7 @@ private:
   std::shared_ptr<const CholeskyPlan> plan_;
   LaneVector matrix_;
   UnsetArray<float> factor_;
+  Eigen::MatrixXd lastRows_; ///< of the factor: unknowns of the last groups, lower triangle
 };
 
 } // namespace palp

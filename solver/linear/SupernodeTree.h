@@ -16,6 +16,7 @@ struct SparsePattern {
   std::vector<int> groupRows;         ///< groups at or below the diagonal, ascending, the diagonal first
   std::vector<int> columns;           ///< start of each unknown's column in rows
   std::vector<int> rows;              ///< unknowns at or below the diagonal, ascending
+  std::vector<int> lastGroups{};      ///< to be eliminated after all others; most often none
   [[nodiscard]] int size() const { return groupStart.back(); }
 };
 

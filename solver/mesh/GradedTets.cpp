@@ -82,7 +82,7 @@ double rimSize(const Grading& grading, const FineDisc& disc) {
 }
 
 Grid gradedGrid(const SensorDesign& design, const Grading& grading, const std::vector<FineDisc>& discs,
-                const Eigen::Matrix3Xd& electrodes) {
+                const std::vector<FineZone>& zones, const Eigen::Matrix3Xd& electrodes) {
   const Eigen::Vector3d& block = design.block_mm;
   Grid grid;
   setHorizontal(grid, 0, block.x(), design.areas.columns, grading);
@@ -92,8 +92,12 @@ Grid gradedGrid(const SensorDesign& design, const Grading& grading, const std::v
       grid.sizes[0].places.push_back({disc.x_mm + side * disc.radius_mm, rimSize(grading, disc)});
       grid.sizes[1].places.push_back({disc.y_mm + side * disc.radius_mm, rimSize(grading, disc)});
     }
+  for (const FineZone& zone : zones)
+    for (const int d : {0, 1})
+      grid.sizes[d].places.push_back({zone.centre_mm(d), zone.size_mm(d), zone.half_mm(d)});
   grid.stops[2] = {0, block.z()};
   grid.sizes[2] = {grading.vertical_mm, grading.growth, {{0, grading.bottom_mm}, {block.z(), grading.top_mm}}};
+  for (const FineZone& zone : zones) grid.sizes[2].places.push_back({block.z(), zone.size_mm.minCoeff()});
   // Face diagonals join the grid points whose indices are both even to those where both are odd. An edge where stresses
   // are singular is resolved better where diagonals run into it: its two indices are to be both even or both odd. So
   // the rims of the clamped face get even indices, and the borders of the load areas the parity of the top face.
@@ -257,15 +261,15 @@ double standardSize(const SensorDesign& design) {
 }
 
 Mesh gradedTets(const SensorDesign& design, const Grading& grading, const std::vector<FineDisc>& discs,
-                bool electrodesAsNodes, const std::stop_token& stop) {
+                const std::vector<FineZone>& zones, bool electrodesAsNodes, const std::stop_token& stop) {
   Eigen::Matrix3Xd electrodes = electrodesAsNodes ? design.upperElectrodes_mm() : Eigen::Matrix3Xd(3, 0);
-  Grid grid = gradedGrid(design, grading, discs, electrodes);
+  Grid grid = gradedGrid(design, grading, discs, zones, electrodes);
   requireElements(grid);
   std::optional<std::vector<int>> electrodePoint = ElectrodeNodes(grid, electrodes).find(stop);
   if (!electrodePoint) {
     electrodes.resize(3, 0);
     electrodePoint.emplace();
-    grid = gradedGrid(design, grading, discs, electrodes);
+    grid = gradedGrid(design, grading, discs, zones, electrodes);
   }
   requireElements(grid);
   const Eigen::Matrix3Xd indices = grid.indices();

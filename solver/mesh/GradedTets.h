@@ -31,6 +31,7 @@ double standardSize(const SensorDesign& design);
 /// too irregularly, so that to be nodes they would take four times the cells or cells thinner than 1/200 of the
 /// wanted size, all stay inside elements. Throws DesignError where there are too many elements, and Cancelled.
 Mesh gradedTets(const SensorDesign& design, const Grading& grading, const std::vector<FineDisc>& discs = {},
-                bool electrodesAsNodes = true, const std::stop_token& stop = {});
+                const std::vector<FineZone>& zones = {}, bool electrodesAsNodes = true,
+                const std::stop_token& stop = {});
 
 } // namespace palp

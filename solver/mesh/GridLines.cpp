@@ -14,7 +14,8 @@ constexpr double forgiven = 0.2; // of a cell: an interval of 2.2 cells gets 2
 
 double SizeAlong::operator()(double x_mm) const {
   double h = largest_mm;
-  for (const FinePlace& p : places) h = std::min(h, p.size_mm + growth * std::abs(x_mm - p.at_mm));
+  for (const FinePlace& p : places)
+    h = std::min(h, p.size_mm + growth * std::max(0., std::abs(x_mm - p.at_mm) - p.half_mm));
   return h;
 }
 

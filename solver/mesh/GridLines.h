@@ -8,9 +8,10 @@ namespace palp {
 struct FinePlace {
   double at_mm = 0;
   double size_mm = 0;
+  double half_mm = 0; ///< half of its width
 };
 
-/// Wanted size along one direction: h(x) = min(largest, size_i + growth |x - x_i|).
+/// Wanted size along one direction: h(x) = min(largest, size_i + growth d_i), d_i being the distance to the place.
 struct SizeAlong {
   double largest_mm = 1;
   double growth = 0.4;

@@ -58,6 +58,24 @@ Json toJson(const Eigen::MatrixXd& matrix) {
   return rows;
 }
 
+Json toJson(const Eigen::Vector3d& vector) {
+  return {vector.x(), vector.y(), vector.z()};
+}
+
+Json indentersJson(const Touch& touch) {
+  Json json = Json::array();
+  const std::vector<IndenterState>& states = touch.solution()->state().indenters;
+  for (std::size_t k = 0; k < states.size(); ++k)
+    json.push_back({{"shape", shapeName(touch.load().indenters[k].shape)},
+                    {"force_N", toJson(states[k].force_N)},
+                    {"translation_mm", toJson(states[k].translation_mm)},
+                    {"contact_area_mm2", states[k].contactArea_mm2},
+                    {"contact_radius_mm", states[k].contactRadius_mm},
+                    {"centre_pressure_MPa", states[k].centrePressure_MPa},
+                    {"slip_share", states[k].slipShare}});
+  return json;
+}
+
 void report(const Touch& touch, const DiscretisationError* error, Session& session) {
   const Solution& solution = *touch.solution();
   Json& result = session.result;
@@ -76,6 +94,7 @@ void report(const Touch& touch, const DiscretisationError* error, Session& sessi
     result["readout"] = kReadouts.name(law->readout);
   }
   result["max_volume_error"] = solution.maxVolumeError;
+  if (!touch.load().indenters.empty()) result["indenters"] = indentersJson(touch);
   if (!error) return;
   result["error_estimate_relative"] = error->relative ? Json(*error->relative) : Json();
   result["error_estimate_method"] = error->method;
@@ -96,6 +115,15 @@ void print(const Touch& touch, const DiscretisationError* error) {
               touch.problem()->dof());
   std::printf("largest electrode displacement %.6g mm, largest |J - 1| %.3g\n",
               std::sqrt(u.colwise().squaredNorm().maxCoeff()), solution.maxVolumeError);
+  const std::vector<IndenterState>& indenters = solution.state().indenters;
+  for (std::size_t k = 0; k < indenters.size(); ++k) {
+    const Eigen::Vector3d &f = indenters[k].force_N, &d = indenters[k].translation_mm;
+    std::printf("%s: force (%.6g, %.6g, %.6g) N, moved (%.6g, %.6g, %.6g) mm; contact %.4g mm2, radius %.4g mm, "
+                "pressure at its centre %.4g MPa, slides on %.0f %%\n",
+                shapeName(touch.load().indenters[k].shape).c_str(), f.x(), f.y(), f.z(), d.x(), d.y(), d.z(),
+                indenters[k].contactArea_mm2, indenters[k].contactRadius_mm, indenters[k].centrePressure_MPa,
+                100 * indenters[k].slipShare);
+  }
   const Eigen::MatrixXd rest = resistancesAtRest_ohm(touch.design());
   std::printf("largest |dR/R| %.4g %%\n",
               100 * ((*touch.resistances_ohm() - rest).cwiseQuotient(rest)).cwiseAbs().maxCoeff());
@@ -183,6 +211,7 @@ void addSolve(Cli& cli) {
                                 [arguments](Session& session) { return run(*arguments, session); });
   command.option("design", arguments->design, "design file, or paper").required();
   arguments->loads.declare(command);
+  arguments->loads.declareIndenters(command);
   arguments->mesh.declare(command, true);
   command.option(
       "--current", arguments->current,

@@ -67,9 +67,7 @@ void Touch::setMeshOptions(const MeshOptions& options) {
 }
 
 MeshOptions Touch::meshing() const {
-  MeshOptions options = meshOptions_;
-  options.discs = options.mapped ? std::vector<FineDisc>{} : fineDiscs(load_);
-  return options;
+  return meshFor(design_, load_, meshOptions_);
 }
 
 void Touch::setMesh(Mesh mesh) {

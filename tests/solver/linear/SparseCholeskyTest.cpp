@@ -67,6 +67,22 @@ TEST_P(CholeskyOf, SolvesWithTheSameBytesOnAnyNumberOfThreads) {
   }
 }
 
+TEST(Cholesky, GivesTheInverseBetweenItsLastGroups) {
+  const Tangent tangent(0.4999);
+  auto pattern = std::make_shared<SparsePattern>(tangent.plan->pattern());
+  pattern->lastGroups = {700, 12, 13, 801, 400};
+  SparseCholesky cholesky(std::make_shared<const CholeskyPlan>(pattern));
+  ASSERT_EQ(cholesky.factorise(tangent.values, 2, {}), SparseCholesky::Outcome::Done);
+  const Eigen::MatrixXd inverse = cholesky.inverseOfLast();
+  ASSERT_EQ(inverse.rows(), 15);
+  const auto unknown = [&](int i) { return pattern->groupStart[pattern->lastGroups[i / 3]] + i % 3; };
+  for (const int j : {0, 4, 11}) {
+    Eigen::VectorXd x = Eigen::VectorXd::Unit(pattern->size(), unknown(j));
+    cholesky.solve(x);
+    for (int i = 0; i < 15; ++i) EXPECT_NEAR(inverse(i, j), x(unknown(i)), 1e-5 * inverse(j, j));
+  }
+}
+
 TEST(Cholesky, RefusesWhatIsNotPositiveDefinite) {
   Tangent tangent(0.3);
   tangent.values[tangent.plan->pattern().columns[100]] *= -1; // on the diagonal

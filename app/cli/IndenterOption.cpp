@@ -1,0 +1,102 @@
+#include "app/cli/IndenterOption.h"
+
+#include "app/cli/Cli.h"
+#include "app/cli/Options.h"
+#include "model/base/Text.h"
+
+namespace palp {
+
+namespace {
+
+constexpr const char* kIndenterForm =
+    "SHAPE:SIZES@X,Y:press=FX,FY,FZ[:mu=MU] or SHAPE:SIZES@X,Y:depth=D[,SX,SY][:mu=MU], for example "
+    "sphere:5@15,7.5:press=1,0,-6:mu=0.5";
+
+[[noreturn]] void refuseIndenter(const std::string& value, const std::string& why) {
+  throw UsageError("--indenter: '" + value + "'; " + why);
+}
+
+/// What stands before the first separator, which is taken off with it; all of it where there is none.
+std::string takeUpTo(char separator, std::string& rest) {
+  const std::size_t end = rest.find(separator);
+  std::string part = rest.substr(0, end);
+  rest = end == std::string::npos ? "" : rest.substr(end + 1);
+  return part;
+}
+
+/// "name=value" in two.
+std::pair<std::string, std::string> setting(const std::string& value, std::string part) {
+  if (part.find('=') == std::string::npos) refuseIndenter(value, std::string("allowed is ") + kIndenterForm);
+  std::string name = takeUpTo('=', part);
+  return {name, part};
+}
+
+/// Sphere, pin and cylinders have a radius, a punch radius and rim, a plane nothing.
+void readSizes(const std::string& value, const std::string& sizes, Indenter& indenter) {
+  if (indenter.shape == IndenterShape::Plane) {
+    if (!sizes.empty()) refuseIndenter(value, "a plane has no sizes: allowed is plane@X,Y");
+    return;
+  }
+  const bool flat = indenter.shape == IndenterShape::Flat;
+  if (sizes.empty()) refuseIndenter(value, flat ? "allowed is flat:RADIUS,RIM [mm]" : "its radius is missing");
+  const std::vector<double> read = numbers("--indenter (sizes)", sizes, flat ? 2 : 1);
+  indenter.radius_mm = read[0];
+  if (flat) indenter.rim_mm = read[1];
+}
+
+} // namespace
+
+Indenter indenterOption(const std::string& value) {
+  std::string rest = value, body = rest.substr(0, rest.find('@'));
+  if (body.size() == rest.size()) refuseIndenter(value, std::string("allowed is ") + kIndenterForm);
+  rest.erase(0, body.size() + 1);
+  Indenter indenter;
+  const std::string name = takeUpTo(':', body);
+  const auto shape = indenterShape(name);
+  if (!shape) refuseIndenter(value, "shape '" + name + "'; allowed is " + indenterShapes());
+  indenter.shape = *shape;
+  readSizes(value, body, indenter);
+  const std::vector<double> place = numbers("--indenter (place)", takeUpTo(':', rest), 2);
+  indenter.place_mm = {place[0], place[1]};
+  bool controlled = false, rubbed = false;
+  while (!rest.empty()) {
+    const auto [what, how] = setting(value, takeUpTo(':', rest));
+    if ((what == "mu" && rubbed) || ((what == "press" || what == "depth") && controlled))
+      refuseIndenter(value, what + " comes once, and either press or depth");
+    if (what == "press") {
+      const std::vector<double> force = numbers("--indenter (press)", how, 3);
+      indenter.control = Press{{force[0], force[1], force[2]}};
+      controlled = true;
+    } else if (what == "depth") {
+      const bool sideways = how.find(',') != std::string::npos;
+      const std::vector<double> way = numbers("--indenter (depth)", how, sideways ? 3 : 1);
+      indenter.control = Motion{way[0], sideways ? Eigen::Vector2d(way[1], way[2]) : Eigen::Vector2d(0, 0)};
+      controlled = true;
+    } else if (what == "mu") {
+      indenter.friction = number("--indenter (mu)", how);
+      rubbed = true;
+    } else {
+      refuseIndenter(value, "'" + what + "' is not known; allowed are press, depth and mu");
+    }
+  }
+  if (!controlled) refuseIndenter(value, "press or depth is missing; allowed is " + std::string(kIndenterForm));
+  return indenter;
+}
+
+std::string asOption(const Indenter& indenter) {
+  std::string option = shapeName(indenter.shape);
+  if (indenter.shape != IndenterShape::Plane) option += ":" + text(indenter.radius_mm);
+  if (indenter.shape == IndenterShape::Flat) option += "," + text(indenter.rim_mm);
+  option += "@" + text(indenter.place_mm.x()) + "," + text(indenter.place_mm.y());
+  if (const Press* press = indenter.press()) {
+    option += ":press=" + text(press->force_N.x()) + "," + text(press->force_N.y()) + "," + text(press->force_N.z());
+  } else {
+    const Motion& motion = *indenter.motion();
+    option += ":depth=" + text(motion.depth_mm);
+    if (!motion.shift_mm.isZero(0)) option += "," + text(motion.shift_mm.x()) + "," + text(motion.shift_mm.y());
+  }
+  if (indenter.friction > 0) option += ":mu=" + text(indenter.friction);
+  return option;
+}
+
+} // namespace palp

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <string>
+#include <variant>
+
+namespace palp {
+
+struct SensorDesign;
+
+/// Rigid bodies that press from above, the axis of pin and punch upright.
+enum class IndenterShape {
+  Sphere,
+  Pin,       ///< upright round rod that ends in half a sphere
+  Flat,      ///< upright round punch, its flat end rounded at the rim
+  CylinderX, ///< lies along x, across the whole block
+  CylinderY, ///< lies along y
+  Plane
+};
+
+/// Presses with a force on the rubber [N]; free to move along x and y only with friction, which holds it.
+struct Press {
+  Eigen::Vector3d force_N{0, 0, -1};
+  bool operator==(const Press&) const = default;
+};
+
+/// Moves down by a depth from the first touch of the top face at rest, then sideways.
+struct Motion {
+  double depth_mm = 0.1;
+  Eigen::Vector2d shift_mm = Eigen::Vector2d::Zero();
+  bool operator==(const Motion&) const = default;
+};
+
+/// A rigid body that presses on the top face, with Coulomb friction.
+struct Indenter {
+  IndenterShape shape = IndenterShape::Sphere;
+  double radius_mm = 5;                               ///< of sphere, pin, cylinder and punch; a plane has none
+  double rim_mm = 0;                                  ///< radius of a punch's rim
+  Eigen::Vector2d place_mm = Eigen::Vector2d::Zero(); ///< of its axis or lowest point, before any shift
+  double friction = 0;                                ///< Coulomb's coefficient
+  std::variant<Press, Motion> control;
+  bool operator==(const Indenter&) const = default;
+
+  /// The same at a fraction of its load. Straight down it grows in proportion; where it also goes sideways with friction,
+  /// it presses during the first half and goes sideways during the second.
+  [[nodiscard]] Indenter at(double loadFraction) const;
+  [[nodiscard]] bool hasTwoParts() const; ///< presses first, then goes sideways
+  [[nodiscard]] const Press* press() const { return std::get_if<Press>(&control); }
+  [[nodiscard]] const Motion* motion() const { return std::get_if<Motion>(&control); }
+};
+
+/// An indenter's surface beside a point x: signed distance g (positive outside), its gradient n (a unit vector out of
+/// the indenter) and its second derivative H.
+struct IndenterDistance {
+  double gap_mm = 0;
+  Eigen::Vector3d normal = -Eigen::Vector3d::UnitZ();
+  Eigen::Matrix3d curvature_per_mm = Eigen::Matrix3d::Zero();
+};
+
+/// Distance of a point given from the indenter's lowest point (of a punch or plane: where its axis meets its end).
+IndenterDistance distance(const Indenter& indenter, const Eigen::Vector3d& fromTip_mm);
+
+/// As on the command line: "sphere", "cylinder-x".
+std::string shapeName(IndenterShape shape);
+std::optional<IndenterShape> indenterShape(const std::string& name);
+/// "sphere, pin, flat, cylinder-x, cylinder-y or plane".
+std::string indenterShapes();
+
+/// Why the indenter cannot press on the design (off the body, a rim wider than the punch, friction below 0 or above 2,
+/// a pull, a force sideways that no friction holds, a number that is not finite); empty if it can.
+std::optional<std::string> whyInvalid(const Indenter& indenter, const SensorDesign& design);
+
+} // namespace palp

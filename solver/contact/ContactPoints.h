@@ -1,0 +1,29 @@
+#pragma once
+
+#include "model/LoadCase.h"
+#include "model/Mesh.h"
+
+#include <vector>
+
+namespace palp {
+
+/// Where the top face may touch an indenter: a node with its share of the face at rest. On quadratic triangles these
+/// are the nodes in the middle of edges, each with a third of its faces' areas; the corners' shares are zero.
+struct ContactPoint {
+  int node = 0;
+  double area_mm2 = 0;
+  int indenter = 0; ///< that may touch it
+};
+
+/// All points of the top face, by ascending node.
+std::vector<ContactPoint> contactPoints(const Mesh& mesh);
+
+/// Where the lowest point of an indenter stands before it moves: on the top face, at its place.
+Eigen::Vector3d tipAtRest_mm(const Indenter& indenter, const Mesh& mesh);
+
+/// The points that the indenters may touch: those that lie inside of one while it goes its way through the undeformed
+/// body, `margin` times as deep as is expected.
+std::vector<ContactPoint> touchablePoints(const Mesh& mesh, const SensorDesign& design, const LoadCase& load,
+                                          double margin);
+
+} // namespace palp

@@ -1,0 +1,263 @@
+#include "solver/contact/ContactSolver.h"
+
+#include "model/DesignError.h"
+#include "model/base/Text.h"
+#include "solver/contact/ContactEstimate.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palp {
+
+namespace {
+
+constexpr double firstMargin = 1.3; // of the expected depth, for the points that may be touched
+constexpr double widerMargin = 1.6; // times the one before, where others were met
+constexpr int mostMargins = 5;
+constexpr double touchesBeyond_mm = 1e-6;
+constexpr double stepGrowth = 2;
+constexpr double hopeless = 1e8;
+constexpr int halvings = 6;
+constexpr double keepTangentBelow = 1e-5; // relative residual
+constexpr double goodContraction = 0.03;  // with which a tangent serves once more
+constexpr double longestMove = 0.5;       // of an indenter's expected depth, in one iteration
+constexpr double frictionSteps = 4;       // of each part of the way
+
+} // namespace
+
+ContactSolver::ContactSolver(const Assembler& assembler, const Mesh& mesh, const SensorDesign& design,
+                             const LoadCase& load, NewtonOptions options, NewtonObserver observer)
+    : assembler_(assembler), mesh_(mesh), design_(design), load_(load), options_(options),
+      observer_(std::move(observer)) {
+  tips_mm_.resize(3, static_cast<Eigen::Index>(load.indenters.size()));
+  for (std::size_t k = 0; k < load.indenters.size(); ++k)
+    tips_mm_.col(static_cast<Eigen::Index>(k)) = tipAtRest_mm(load.indenters[k], mesh);
+}
+
+void ContactSolver::choosePoints(double margin) {
+  points_ = touchablePoints(mesh_, design_, load_, margin);
+  std::vector<bool> met(load_.indenters.size());
+  for (const ContactPoint& point : points_) met[static_cast<std::size_t>(point.indenter)] = true;
+  for (std::size_t k = 0; k < met.size(); ++k)
+    if (!met[k])
+      throw DesignError("indenter " + std::to_string(k) + " (" + shapeName(load_.indenters[k].shape) +
+                        ") meets no node of the mesh; allowed is a finer mesh or a deeper touch");
+  auto pattern = std::make_shared<SparsePattern>(*assembler_.pattern());
+  for (const ContactPoint& point : points_) pattern->lastGroups.push_back(assembler_.group(point.node));
+  cholesky_.emplace(std::make_shared<const CholeskyPlan>(std::move(pattern)));
+  contact_.emplace(load_.indenters, points_, tips_mm_);
+}
+
+ContactResult ContactSolver::solve(const Loading& loading) {
+  double margin = firstMargin;
+  for (int attempt = 1;; ++attempt, margin *= widerMargin) {
+    choosePoints(margin);
+    ContactResult result = follow(loading);
+    const ContactIncrement& last = result.increments.back();
+    if (!result.newton.converged || attempt == mostMargins ||
+        !reachesBeyond({last.equilibrium.state, last.contact}))
+      return result;
+  }
+}
+
+double ContactSolver::firstStep() const {
+  double size = 1;
+  for (const Indenter& indenter : load_.indenters)
+    if (indenter.friction > 0) size = std::min(size, (indenter.hasTwoParts() ? 0.5 : 1) / frictionSteps);
+  return size;
+}
+
+ContactResult ContactSolver::follow(const Loading& loading) {
+  const Discretisation& mesh = assembler_.discretisation();
+  const auto indenters = static_cast<Eigen::Index>(load_.indenters.size());
+  const auto count = static_cast<Eigen::Index>(points_.size());
+  ContactResult result;
+  result.points = points_;
+  result.increments.push_back({{0, mesh.atRest()},
+                               {Eigen::Matrix3Xd::Zero(3, count), Eigen::Matrix3Xd::Zero(3, indenters),
+                                std::vector<Grip>(points_.size(), Grip::Free)}});
+  NewtonResult& newton = result.newton;
+  newton.internalForces = Eigen::VectorXd::Zero(loading.forces.size());
+  const double largest = firstStep();
+  double fraction = 0, size = largest;
+  while (fraction < 1) {
+    const double target = fraction + size > 1 - 1e-9 ? 1 : fraction + size;
+    const ContactIncrement& last = result.increments.back();
+    State state{last.equilibrium.state, last.contact};
+    const Outcome outcome = step(loading, fraction, target, state);
+    if (outcome == Outcome::Converged) {
+      fraction = target;
+      result.increments.push_back({{fraction, std::move(state.rubber)}, std::move(state.contact)});
+      newton.internalForces = internal_;
+      newton.smallestJ = forces_.smallestJ;
+      newton.largestJ = forces_.largestJ;
+      size = std::min(largest, stepGrowth * size);
+      continue;
+    }
+    size = (target - fraction) / 2;
+    if (outcome == Outcome::Cancelled || size < options_.smallestStep) {
+      newton.cancelled = outcome == Outcome::Cancelled;
+      newton.stopReason = reason(outcome, fraction, target);
+      break;
+    }
+  }
+  newton.converged = fraction >= 1;
+  newton.steps = std::move(steps_);
+  steps_.clear();
+  return result;
+}
+
+std::vector<ContactTarget> ContactSolver::targets(double fraction) const {
+  std::vector<ContactTarget> all;
+  for (const Indenter& indenter : load_.indenters) {
+    const Indenter part = indenter.at(fraction);
+    ContactTarget target{{false, false, false}, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
+                         longestMove * contactEstimate(indenter, design_).depth_mm};
+    if (const Press* press = part.press()) {
+      target.force_N = press->force_N;
+      target.free = {indenter.friction > 0, indenter.friction > 0, true};
+    } else {
+      target.translation_mm << part.motion()->shift_mm, -part.motion()->depth_mm;
+    }
+    all.push_back(target);
+  }
+  return all;
+}
+
+Eigen::Matrix3Xd ContactSolver::positions(const Eigen::VectorXd& displacements) const {
+  Eigen::Matrix3Xd x(3, static_cast<Eigen::Index>(points_.size()));
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const int node = points_[i].node;
+    x.col(static_cast<Eigen::Index>(i)) = mesh_.nodes_mm.col(node) + displacements.segment<3>(3 * Eigen::Index(node));
+  }
+  return x;
+}
+
+Eigen::VectorXd ContactSolver::onFreeComponents(const Eigen::Matrix3Xd& forces) const {
+  const Discretisation& mesh = assembler_.discretisation();
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(mesh.dof());
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    all.segment<3>(mesh.freeIndex(3 * points_[i].node)) = forces.col(static_cast<Eigen::Index>(i));
+  return all;
+}
+
+void ContactSolver::setResidual(const Loading& loading, double fraction, const State& state) {
+  const Discretisation& mesh = assembler_.discretisation();
+  const Eigen::VectorXd external =
+      fraction * mesh.freePart(loading.forces) + onFreeComponents(state.contact.forces_N);
+  internal_ = assembler_.sum(forces_.raw, options_.threads);
+  residual_ = external - mesh.freePart(assembler_.sum(forces_.forces, options_.threads));
+  const double scale = external.norm();
+  relative_ = scale > 0
+                  ? std::hypot((external - mesh.freePart(internal_)).norm(), assembler_.localNorm(forces_)) / scale
+                  : 1;
+}
+
+ContactSolver::Outcome ContactSolver::newTangent(const Loading& loading, double fraction, const State& state) {
+  assembler_.tangent(state.rubber, tangents_, forces_, options_.threads, observer_.stop);
+  if (stopped()) return Outcome::Cancelled;
+  setResidual(loading, fraction, state);
+  LaneVector matrix = assembler_.matrix(tangents_, options_.threads);
+  tangents_.stiffness = {};
+  const auto outcome = cholesky_->factorise(std::move(matrix), options_.threads, observer_.stop);
+  if (outcome == SparseCholesky::Outcome::Stopped) return Outcome::Cancelled;
+  if (outcome == SparseCholesky::Outcome::NotPositiveDefinite) return Outcome::Indefinite;
+  compliance_ = cholesky_->inverseOfLast();
+  return stopped() ? Outcome::Cancelled : Outcome::Converged;
+}
+
+/// Equilibrium and contact at the load fraction `to`. In an iteration, with K the tangent and R the residual without
+/// a change of the contact forces f:
+///   w = K^-1 R;  f' = contact of the points at X + u + w with the compliance C = K^-1;  du = w + K^-1 (f' - f).
+ContactSolver::Outcome ContactSolver::step(const Loading& loading, double from, double to, State& state) {
+  const Discretisation& mesh = assembler_.discretisation();
+  const std::vector<ContactTarget> goal = targets(to);
+  contact_->startStep(positions(state.rubber.displacements), state.contact);
+  if (from == 0)
+    for (std::size_t k = 0; k < goal.size(); ++k) {
+      const Indenter part = load_.indenters[k].at(to);
+      state.contact.translations_mm.col(static_cast<Eigen::Index>(k)).z() = -contactEstimate(part, design_).depth_mm;
+    }
+  if (const Outcome outcome = newTangent(loading, to, state); outcome != Outcome::Converged) return outcome;
+  record(to, 0);
+  double previous = 1;
+  for (int iteration = 1; iteration <= options_.iterationsAStep; ++iteration) {
+    if (stopped()) return Outcome::Cancelled;
+    const State start = state;
+    Eigen::VectorXd w = residual_;
+    if (!w.isZero(0)) cholesky_->solve(w, observer_.stop);
+    if (stopped()) return Outcome::Cancelled;
+    const Eigen::VectorXd expected = start.rubber.displacements + mesh.withZeros(w);
+    ContactState found = start.contact;
+    if (!contact_->solve(compliance_, positions(expected), goal, found, observer_.stop))
+      return stopped() ? Outcome::Cancelled : Outcome::NoContact;
+    Eigen::VectorXd pushed = onFreeComponents(found.forces_N - start.contact.forces_N);
+    cholesky_->solve(pushed, observer_.stop);
+    if (stopped()) return Outcome::Cancelled;
+    const Eigen::VectorXd du = mesh.withZeros(w + pushed);
+    // The elements' own residuals were condensed without the contact's change, which acts on nodes alone.
+    const LaneVector dx = assembler_.recover(tangents_, forces_, du, options_.threads);
+    double length = 1;
+    for (int trial = 0;; ++trial) {
+      state.rubber.displacements = start.rubber.displacements + length * du;
+      for (std::size_t i = 0; i < dx.size(); ++i)
+        state.rubber.unknowns[i] = start.rubber.unknowns[i] + length * dx[i];
+      state.contact = found;
+      state.contact.forces_N = start.contact.forces_N + length * (found.forces_N - start.contact.forces_N);
+      assembler_.residual(state.rubber, tangents_, forces_, options_.threads);
+      setResidual(loading, to, state);
+      if (forces_.smallestJ > 0) break;
+      if (trial == halvings) return Outcome::Inverted;
+      if (stopped()) return Outcome::Cancelled;
+      length /= 2;
+    }
+    record(to, iteration);
+    if (!(relative_ < hopeless)) return Outcome::Diverged;
+    if (length == 1 && relative_ < options_.relativeTolerance) return Outcome::Converged;
+    const bool keep = length == 1 && (relative_ < keepTangentBelow || relative_ < goodContraction * previous);
+    previous = relative_;
+    if (keep || iteration == options_.iterationsAStep) continue;
+    if (const Outcome outcome = newTangent(loading, to, state); outcome != Outcome::Converged) return outcome;
+  }
+  return Outcome::TooManyIterations;
+}
+
+bool ContactSolver::reachesBeyond(const State& state) const {
+  for (const ContactPoint& point : contactPoints(mesh_))
+    for (std::size_t k = 0; k < load_.indenters.size(); ++k) {
+      const auto column = static_cast<Eigen::Index>(k);
+      const Eigen::Vector3d place = mesh_.nodes_mm.col(point.node) +
+                                    state.rubber.displacements.segment<3>(3 * Eigen::Index(point.node)) -
+                                    tips_mm_.col(column) - state.contact.translations_mm.col(column);
+      if (distance(load_.indenters[k], place).gap_mm < -touchesBeyond_mm) return true;
+    }
+  return false;
+}
+
+void ContactSolver::record(double fraction, int iteration) {
+  steps_.push_back({fraction, iteration, relative_});
+  if (observer_.step) observer_.step(steps_.back());
+}
+
+std::string ContactSolver::reason(Outcome outcome, double reached, double tried) const {
+  const std::string where = " between load fractions " + text(reached) + " and " + text(tried);
+  switch (outcome) {
+  case Outcome::Converged:
+    return {};
+  case Outcome::Cancelled:
+    return "cancelled at load fraction " + text(reached);
+  case Outcome::Inverted:
+    return "elements turn inside out" + where;
+  case Outcome::Indefinite:
+    return "the tangent is no longer positive definite (the block loses stability)" + where;
+  case Outcome::NoContact:
+    return "no contact in equilibrium is found" + where;
+  case Outcome::TooManyIterations:
+    return "no convergence in " + std::to_string(options_.iterationsAStep) + " iterations" + where;
+  case Outcome::Diverged:
+    return "Newton's iteration diverges" + where;
+  }
+  return {};
+}
+
+} // namespace palp

@@ -1,0 +1,72 @@
+#pragma once
+
+#include "solver/HyperelasticProblem.h"
+#include "solver/contact/ReducedContact.h"
+#include "solver/statics/NewtonSolver.h"
+
+namespace palp {
+
+/// An equilibrium with indenters on the way.
+struct ContactIncrement {
+  EquilibriumState equilibrium;
+  ContactState contact;
+};
+
+struct ContactResult {
+  NewtonResult newton; ///< its increments are empty
+  std::vector<ContactPoint> points;
+  std::vector<ContactIncrement> increments; ///< at rest first
+};
+
+/// Newton's method with indenters. In each iteration the rubber is linear and the contact is not: the tangent is
+/// factorised with the touchable points' unknowns last, so that their compliance is exact and comes for nothing, and
+/// contact and friction are solved with it to the end (ReducedContact). So active points and slip cost no
+/// factorisation, and it converges like Newton's method without contact.
+class ContactSolver {
+public:
+  ContactSolver(const Assembler& assembler, const Mesh& mesh, const SensorDesign& design, const LoadCase& load,
+                NewtonOptions options, NewtonObserver observer);
+  /// `loading` are the forces of areas and discs. Throws DesignError where an indenter meets no point of the mesh.
+  [[nodiscard]] ContactResult solve(const Loading& loading);
+
+private:
+  enum class Outcome { Converged, Inverted, Indefinite, NoContact, TooManyIterations, Diverged, Cancelled };
+  struct State {
+    ElementState rubber;
+    ContactState contact;
+  };
+
+  void choosePoints(double margin);
+  [[nodiscard]] ContactResult follow(const Loading& loading);
+  [[nodiscard]] Outcome step(const Loading& loading, double from, double to, State& state);
+  [[nodiscard]] Outcome newTangent(const Loading& loading, double fraction, const State& state);
+  void setResidual(const Loading& loading, double fraction, const State& state);
+  [[nodiscard]] std::vector<ContactTarget> targets(double fraction) const;
+  [[nodiscard]] Eigen::Matrix3Xd positions(const Eigen::VectorXd& displacements) const;
+  [[nodiscard]] Eigen::VectorXd onFreeComponents(const Eigen::Matrix3Xd& forces) const;
+  [[nodiscard]] bool reachesBeyond(const State& state) const;
+  [[nodiscard]] double firstStep() const;
+  void record(double fraction, int iteration);
+  [[nodiscard]] bool stopped() const { return observer_.stop.stop_requested(); }
+  [[nodiscard]] std::string reason(Outcome outcome, double reached, double tried) const;
+
+  const Assembler& assembler_;
+  const Mesh& mesh_;
+  const SensorDesign& design_;
+  const LoadCase& load_;
+  NewtonOptions options_;
+  NewtonObserver observer_;
+  std::vector<ContactPoint> points_;
+  Eigen::Matrix3Xd tips_mm_;
+  std::optional<ReducedContact> contact_;
+  std::optional<SparseCholesky> cholesky_;
+  Eigen::MatrixXd compliance_; ///< between the points
+  ElementTangents tangents_;
+  ElementForces forces_;
+  Eigen::VectorXd internal_; ///< raw forces of all components
+  Eigen::VectorXd residual_; ///< free components, condensed
+  double relative_ = 1;
+  std::vector<NewtonStep> steps_;
+};
+
+} // namespace palp
