@@ -14,6 +14,7 @@ namespace {
 constexpr std::size_t loadsACheck = 700;     // the first and one load in so many is measured against full Newton
 constexpr int surrogateChecks = 3;           // of surrogates, whose error their fits have measured, in all calls
 constexpr double fullNewtonResidual = 1e-11; // of the solves that answers are checked against
+constexpr double fullContactResidual = 1e-9; // with indenters
 
 /// How an answer was found.
 enum class Way { Surrogate, Iteration, FullNewton };
@@ -53,7 +54,7 @@ struct BatchSolver::State {
                                                    const TakeState& take = {}) {
     NewtonOptions newton;
     newton.threads = options.threads;
-    newton.relativeTolerance = fullNewtonResidual;
+    newton.relativeTolerance = load.indenters.empty() ? fullNewtonResidual : fullContactResidual;
     if (engine) engine->rest(); // a tangent takes its place
     newton.oneTangent = true;
     const Solution solution = problem.solve(load, newton, {.step = {}, .stop = stop});

@@ -18,8 +18,9 @@ struct BatchOptions {
 
 /// Solves many loads on one mesh: modified Newton's method with one factorisation, that of the tangent at rest, for
 /// many right sides at once, from predictors fitted to a fixed set of loads; full Newton's method where that does not
-/// converge. The answer to a load is the same to the last byte whatever loads stand beside it, in any order and on any
-/// number of threads.
+/// converge. Indenters without friction are iterated along, their contact solved on the compliance of the top face;
+/// those with friction are left to full Newton. The answer to a load is the same to the last byte whatever loads stand
+/// beside it, in any order and on any number of threads.
 class BatchSolver {
 public:
   explicit BatchSolver(const HyperelasticProblem& problem, BatchOptions options = {});

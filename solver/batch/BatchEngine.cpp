@@ -12,60 +12,14 @@ namespace palp {
 namespace {
 
 constexpr int predictorDegree = 3;
-constexpr int mostIterations = 30;
+constexpr int contactSpan = 4; // iterations over which the contraction of a load with indenters is measured
 constexpr double predictorFitShare =
     10; // of the tolerance, for the predictors' solves: a correction follows, 20 times better
-constexpr double slowestContraction = 0.8; // above it full Newton is the better way
-constexpr double cautionary = 1.5;         // on measured contractions
 
-/// Follows the change c of each lane and says when its error is below the tolerance: what is left of a geometric series
-/// of contraction q after a change c is c q / (1 - q).
-class LaneWatch {
-public:
-  explicit LaneWatch(double tolerance) : tolerance_(tolerance) {}
-
-  std::array<bool, batchLanes> active{}, failed{};
-  std::array<double, batchLanes> change{};
-
-  /// A lane begins with the contraction that is assumed until it can be measured.
-  void begin(int lane, double assumedContraction) {
-    active[lane] = true;
-    failed[lane] = false;
-    iteration_[lane] = 0;
-    contraction_[lane] = assumedContraction;
-  }
-  [[nodiscard]] bool anyActive() const { return std::find(active.begin(), active.end(), true) != active.end(); }
-  [[nodiscard]] bool anyActive(int block) const {
-    const auto* first = active.data() + block * lanes;
-    return std::find(first, first + lanes, true) != first + lanes;
-  }
-  /// Of the last iteration judged: measured, with caution, after the first.
-  [[nodiscard]] double contraction(int lane) const { return contraction_[lane]; }
-
-  /// Judges one iteration of the active lanes.
-  void judge() {
-    for (int lane = 0; lane < batchLanes; ++lane) {
-      if (!active[lane]) continue;
-      const double c = change[lane];
-      const int iteration = iteration_[lane]++;
-      if (iteration > 0 && previous_[lane] > 0) contraction_[lane] = cautionary * c / previous_[lane];
-      const bool hopeless = iteration > 2 && contraction_[lane] > cautionary * slowestContraction;
-      if (c < 0 || hopeless || iteration + 1 == mostIterations) {
-        failed[lane] = true;
-        active[lane] = false;
-      } else if (c == 0 ||
-                 (contraction_[lane] < 1 && c * contraction_[lane] / (1 - contraction_[lane]) <= tolerance_)) {
-        active[lane] = false;
-      }
-      previous_[lane] = c;
-    }
-  }
-
-private:
-  double tolerance_;
-  std::array<int, batchLanes> iteration_{};
-  std::array<double, batchLanes> contraction_{}, previous_{};
-};
+bool hasFriction(const LoadCase& load) {
+  return std::any_of(load.indenters.begin(), load.indenters.end(),
+                     [](const Indenter& indenter) { return indenter.friction > 0; });
+}
 
 } // namespace
 
@@ -117,6 +71,14 @@ void BatchEngine::giveBack(std::unique_ptr<LoadBatch> batch) {
 void BatchEngine::rest() {
   const std::lock_guard lock(mutex_);
   idle_.clear();
+}
+
+/// False: stopped.
+bool BatchEngine::findCompliance(const std::vector<Job>& jobs, const std::stop_token& stop) {
+  const bool wanted =
+      std::any_of(jobs.begin(), jobs.end(), [](const Job& job) { return !job.load->indenters.empty(); });
+  if (wanted && !top_) top_ = TopCompliance::find(model_, problem_.mesh(), threads_, stop);
+  return !wanted || top_;
 }
 
 /// Those of the areas that these loads do not touch are given back: they are the largest part of the memory (20 MB an
@@ -218,6 +180,8 @@ std::vector<BatchEngine::Block> BatchEngine::blocksOf(std::vector<Job> jobs) con
   const auto force_N = [](const Job& job) {
     double sum = 0;
     for (const AreaLoad& area : job.areas) sum += area.force_N.norm();
+    for (const Indenter& indenter : job.load->indenters)
+      sum += indenter.press() ? indenter.press()->force_N.norm() : indenter.motion()->depth_mm;
     return sum;
   };
   std::stable_sort(jobs.begin(), jobs.end(), [&](const Job& a, const Job& b) { return force_N(a) < force_N(b); });
@@ -234,10 +198,15 @@ std::vector<BatchEngine::Block> BatchEngine::blocksOf(std::vector<Job> jobs) con
 }
 
 /// Loads of a block and where its iteration starts: the predictors of its areas, superposed.
-void BatchEngine::start(LoadBatch& batch, int block, const Block& jobs) const {
+void BatchEngine::start(LoadBatch& batch, LaneContacts& contacts, int block, const Block& jobs) const {
   batch.reset(block);
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     const int lane = block * lanes + static_cast<int>(i);
+    contacts[lane].reset();
+    if (!jobs[i].load->indenters.empty()) {
+      contacts[lane].emplace(jobs[i].load->indenters, top_);
+      batch.mix(lane);
+    }
     for (const AreaLoad& area : jobs[i].areas) batch.addForce(lane, {&areaShares_[area.area], area.force_N});
     for (std::size_t p = 0; p < jobs[i].patchShares.size(); ++p)
       batch.addForce(lane, {&jobs[i].patchShares[p], jobs[i].load->patches[p].force_N});
@@ -255,9 +224,28 @@ void BatchEngine::start(LoadBatch& batch, int block, const Block& jobs) const {
   }
 }
 
+/// Lanes whose indenters find no place fail.
+void BatchEngine::iterate(LoadBatch& batch, LaneContacts& contacts, LaneWatch& watch,
+                          const std::stop_token& stop) const {
+  const auto touched = [&](int lane) { return watch.active[lane] && contacts[lane]; };
+  bool any = false;
+  for (int lane = 0; lane < batchLanes; ++lane) any = any || touched(lane);
+  if (!any) return batch.iterate(watch.active, watch.change, stop);
+  batch.iterate(
+      watch.active, watch.change, top_->nodes(),
+      [&](int lane, const Eigen::Matrix3Xd& motion_mm) {
+        if (!contacts[lane]) return true;
+        if (!contacts[lane]->solve(motion_mm)) return false;
+        batch.setNodeForces(lane, contacts[lane]->forces());
+        return true;
+      },
+      stop);
+}
+
 /// That of its area's predictor where it says all about the load; 1: nothing is known.
 double BatchEngine::assumedContraction(const Job& job) const {
-  const bool predicted = job.predicted.size() == 1 && job.areas.size() == 1 && job.patchShares.empty();
+  const bool predicted =
+      job.predicted.size() == 1 && job.areas.size() == 1 && job.patchShares.empty() && job.load->indenters.empty();
   return predicted ? predictors_[job.predicted.front()]->contraction : 1;
 }
 
@@ -267,16 +255,18 @@ template <class Take, class Give>
 void BatchEngine::solveBlocks(double tolerance, const Take& take, const Give& give, const std::stop_token& stop) {
   std::unique_ptr<LoadBatch> batch = borrowBatch();
   LaneWatch watch(tolerance);
+  LaneContacts contacts;
   std::array<const Block*, LoadBatch::blocks> inWork{};
   while (!stop.stop_requested()) {
     for (int b = 0; b < LoadBatch::blocks; ++b) {
       if (inWork[b] || !(inWork[b] = take())) continue;
-      start(*batch, b, *inWork[b]);
+      start(*batch, contacts, b, *inWork[b]);
       for (std::size_t i = 0; i < inWork[b]->size(); ++i)
-        watch.begin(b * lanes + static_cast<int>(i), assumedContraction((*inWork[b])[i]));
+        watch.begin(b * lanes + static_cast<int>(i), assumedContraction((*inWork[b])[i]),
+                    (*inWork[b])[i].load->indenters.empty() ? 1 : contactSpan);
     }
     if (!watch.anyActive()) break;
-    batch->iterate(watch.active, watch.change, stop);
+    iterate(*batch, contacts, watch, stop);
     if (stop.stop_requested()) break; // the iteration may be unfinished
     watch.judge();
     for (int b = 0; b < LoadBatch::blocks; ++b) {
@@ -297,11 +287,14 @@ std::vector<BatchEngine::Answer> BatchEngine::solve(std::span<const LoadCase> lo
                                                     const std::function<void(std::size_t)>& done,
                                                     const std::stop_token& stop, const BatchSolver::TakeState& state) {
   std::vector<Job> jobs;
-  for (std::size_t i = 0; i < loads.size(); ++i) jobs.push_back(job(loads[i], i));
-  if (!makePredictors(jobs, stop)) return {};
+  for (std::size_t i = 0; i < loads.size(); ++i)
+    if (!hasFriction(loads[i])) jobs.push_back(job(loads[i], i)); // the others depend on their way
+  const std::size_t leftOut = loads.size() - jobs.size();
+  if (!findCompliance(jobs, stop) || !makePredictors(jobs, stop)) return {};
   const std::vector<Block> blocks = blocksOf(std::move(jobs));
   std::vector<Answer> answers(loads.size());
   ProgressRelay progress(done);
+  if (leftOut > 0) progress.add(leftOut);
   std::atomic<std::size_t> next{0};
   const auto take = [&] {
     const std::size_t i = next++;
@@ -329,7 +322,7 @@ std::vector<BatchEngine::Answer> BatchEngine::solve(std::span<const LoadCase> lo
     }
   });
   if (stop.stop_requested()) return {};
-  solves_ += loads.size();
+  solves_ += loads.size() - leftOut;
   return answers;
 }
 

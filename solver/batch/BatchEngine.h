@@ -2,7 +2,9 @@
 
 #include "solver/BatchSolver.h"
 #include "solver/batch/ForcePolynomial.h"
+#include "solver/batch/LaneWatch.h"
 #include "solver/batch/LoadBatch.h"
+#include "solver/contact/NormalContact.h"
 
 #include <atomic>
 #include <mutex>
@@ -49,6 +51,7 @@ private:
   using Block = std::vector<Job>; ///< up to 8 with the same predictors
 
   [[nodiscard]] Job job(const LoadCase& load, std::size_t index) const;
+  [[nodiscard]] bool findCompliance(const std::vector<Job>& jobs, const std::stop_token& stop);
   [[nodiscard]] bool makePredictors(const std::vector<Job>& jobs, const std::stop_token& stop);
   [[nodiscard]] std::optional<AreaPredictor> fitPredictor(int area, const std::stop_token& stop);
   [[nodiscard]] AreaPredictor fitted(const LoadBatch& batch, const std::vector<Eigen::Vector3d>& forces,
@@ -56,7 +59,9 @@ private:
   [[nodiscard]] std::vector<Block> blocksOf(std::vector<Job> jobs) const;
   template <class Take, class Give>
   void solveBlocks(double tolerance, const Take& take, const Give& give, const std::stop_token& stop);
-  void start(LoadBatch& batch, int block, const Block& jobs) const;
+  using LaneContacts = std::array<std::optional<NormalContact>, batchLanes>;
+  void start(LoadBatch& batch, LaneContacts& contacts, int block, const Block& jobs) const;
+  void iterate(LoadBatch& batch, LaneContacts& contacts, LaneWatch& watch, const std::stop_token& stop) const;
   [[nodiscard]] double assumedContraction(const Job& job) const;
   [[nodiscard]] std::unique_ptr<LoadBatch> borrowBatch();
   void giveBack(std::unique_ptr<LoadBatch> batch);
@@ -70,7 +75,8 @@ private:
   int threads_;
   std::vector<TractionShares> areaShares_;
   std::vector<std::optional<AreaPredictor>> predictors_;
-  std::vector<char> tried_; ///< areas whose predictor was sought
+  std::vector<char> tried_;                  ///< areas whose predictor was sought
+  std::shared_ptr<const TopCompliance> top_; ///< found at the first load with an indenter
   std::mutex mutex_;
   std::vector<std::unique_ptr<LoadBatch>> idle_;
   std::atomic<std::size_t> solves_{0};

@@ -40,9 +40,22 @@ void LoadBatch::reset(int block) {
     std::fill_n(u_.data() + at(row, block), lanes, 0.);
   for (std::size_t e = 0; e < std::size_t(model_.mesh().elements()); ++e)
     std::fill_n(x_.data() + (e * blocks + block) * own, own, 0.);
-  for (int lane = 0; lane < lanes; ++lane) forces_[block * lanes + lane].clear();
+  for (int lane = block * lanes; lane < (block + 1) * lanes; ++lane) {
+    forces_[lane].clear();
+    nodeForces_[lane].clear();
+    if (mixing_) mixing_->begin(lane, false);
+  }
   atRest_[block] = true;
   behind_[block] = false;
+}
+
+void LoadBatch::mix(int lane) {
+  if (!mixing_) {
+    mixing_ = std::make_unique<LaneMixing>(3 * std::size_t(model_.mesh().nodes()),
+                                           std::size_t(model_.mesh().elements()) * model_.mesh().unknowns());
+    steps_.resize(u_.size());
+  }
+  mixing_->begin(lane, true);
 }
 
 void LoadBatch::addPolynomials(int block, const std::vector<double>& displacements, const std::vector<double>& unknowns,
@@ -66,6 +79,7 @@ void LoadBatch::evaluateResiduals(const std::array<bool, blocks>& live, const st
     for (const auto& [shares, force_N] : forces_[lane])
       for (const auto& [node, share] : *shares)
         for (int d = 0; d < 3; ++d) r_[(3 * std::size_t(node) + d) * batchLanes + lane] += share * force_N(d);
+  for (int lane = 0; lane < batchLanes; ++lane) addNodeForces(lane, 1);
   smallestJ_.fill(1);
   alignas(64) ElementLanes u, f;
   alignas(64) std::array<std::array<double, 2 * lanes>, blocks> range;
@@ -96,9 +110,14 @@ void LoadBatch::evaluateResiduals(const std::array<bool, blocks>& live, const st
   }
 }
 
-/// K0 du = r; u += du. Residuals go to single precision relative to their norm, and the directions back; inactive lanes
+void LoadBatch::addNodeForces(int lane, double sign) {
+  for (const auto& [node, force_N] : nodeForces_[lane])
+    for (int d = 0; d < 3; ++d) r_[(3 * std::size_t(node) + d) * batchLanes + lane] += sign * force_N(d);
+}
+
+/// K0 du = r. Residuals go to single precision relative to their norm, and the directions back; inactive lanes
 /// get none.
-void LoadBatch::solveDirections(const std::array<bool, batchLanes>& active, const std::stop_token& stop) {
+void LoadBatch::substitute(const std::array<bool, batchLanes>& active, const std::stop_token& stop) {
   const std::vector<int>& rows = model_.factorRows();
   const int filling = model_.fillingRow();
   std::array<double, batchLanes> squares{};
@@ -125,10 +144,46 @@ void LoadBatch::solveDirections(const std::array<bool, batchLanes>& active, cons
     laneKernels().forward(factor, first, std::min(factor.count, first + supernodesACall), live, solution_.data());
   for (int last = factor.count; last > 0 && !stop.stop_requested(); last -= supernodesACall)
     laneKernels().backward(factor, std::max(0, last - supernodesACall), last, live, solution_.data());
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    if (rows[i] != filling)
+}
+
+/// The active lanes' forces where the directions would lead, instead of those that the directions were found for.
+void LoadBatch::answerMotion(const std::array<bool, batchLanes>& active, std::span<const int> nodes,
+                             const Answer& answer) {
+  Eigen::Matrix3Xd motion_mm(3, static_cast<Eigen::Index>(nodes.size()));
+  for (int lane = 0; lane < batchLanes; ++lane) {
+    if (!active[lane]) continue;
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+      for (int d = 0; d < 3; ++d) {
+        const std::size_t i = 3 * std::size_t(nodes[n]) + d;
+        const float du = solution_[std::size_t(model_.factorRows()[i]) * batchLanes + lane];
+        motion_mm(d, static_cast<Eigen::Index>(n)) = u_[i * batchLanes + lane] + scale_[lane] * double(du);
+      }
+    addNodeForces(lane, -1);
+    if (!answer(lane, motion_mm)) smallestJ_[lane] = -1;
+    addNodeForces(lane, 1);
+  }
+}
+
+/// u += du, or what is mixed of it.
+void LoadBatch::moveAlongDirections(const std::array<bool, batchLanes>& active) {
+  const std::vector<int>& rows = model_.factorRows();
+  const auto direction = [&](std::size_t i, int lane) {
+    return scale_[lane] * double(solution_[std::size_t(rows[i]) * batchLanes + lane]);
+  };
+  std::array<bool, batchLanes> mixed{};
+  for (int lane = 0; lane < batchLanes; ++lane)
+    mixed[lane] = mixing_ && mixing_->mixes(lane) && active[lane] && scale_[lane] > 0;
+  const bool any = std::find(mixed.begin(), mixed.end(), true) != mixed.end();
+  if (any) {
+    for (std::size_t i = 0; i < rows.size(); ++i)
       for (int lane = 0; lane < batchLanes; ++lane)
-        u_[i * batchLanes + lane] += scale_[lane] * double(solution_[std::size_t(rows[i]) * batchLanes + lane]);
+        steps_[i * batchLanes + lane] = rows[i] != model_.fillingRow() ? direction(i, lane) : 0;
+    mixing_->mixLeading(mixed, steps_.data());
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (rows[i] != model_.fillingRow())
+      for (int lane = 0; lane < batchLanes; ++lane)
+        u_[i * batchLanes + lane] += mixed[lane] ? steps_[i * batchLanes + lane] : direction(i, lane);
 }
 
 /// dx = -Kxx^-1 local - W du with the directions du found last.
@@ -142,8 +197,13 @@ void LoadBatch::updateUnknowns(int element, int block) {
                              mesh.elementNodes(element), kernels.nodes, du.data());
   kernels.recoverLoads(model_.elimination(element), model_.localInverse(element), local_.data() + own, du.data(),
                        dx.data());
-  for (int i = 0; i < mesh.unknowns() * lanes; ++i)
-    if (scale[i % lanes] > 0) x_[own + i] += dx[i];
+  for (int i = 0; i < mesh.unknowns() * lanes; ++i) {
+    const int lane = block * lanes + i % lanes;
+    if (!(scale[i % lanes] > 0)) continue;
+    const bool mixed = mixing_ && mixing_->mixes(lane);
+    x_[own + i] +=
+        mixed ? mixing_->mixFollowing(lane, std::size_t(element) * mesh.unknowns() + i / lanes, dx[i]) : dx[i];
+  }
 }
 
 Eigen::Matrix3Xd LoadBatch::displacementsOf(int lane) const {
@@ -202,13 +262,23 @@ LaneVector LoadBatch::pressuresAt(const PointProbe& probe) const {
 
 void LoadBatch::iterate(const std::array<bool, batchLanes>& active, std::array<double, batchLanes>& change,
                         const std::stop_token& stop) {
+  iterate(active, change, {}, {}, stop);
+}
+
+void LoadBatch::iterate(const std::array<bool, batchLanes>& active, std::array<double, batchLanes>& change,
+                        std::span<const int> nodes, const Answer& answer, const std::stop_token& stop) {
   std::array<bool, blocks> live{};
   for (int lane = 0; lane < batchLanes; ++lane) live[lane / lanes] = live[lane / lanes] || active[lane];
   for (int b = 0; b < blocks; ++b)
     if (!live[b]) catchUp(b); // before other directions take the place of its own
   const LaneVector before = displacementsAt(upper_);
   evaluateResiduals(live, stop);
-  solveDirections(active, stop);
+  substitute(active, stop);
+  if (answer) {
+    answerMotion(active, nodes, answer);
+    substitute(active, stop);
+  }
+  moveAlongDirections(active);
   for (int e = 0; e < model_.mesh().elements(); ++e)
     for (int b = 0; b < blocks; ++b)
       if (probed_[e] && live[b]) updateUnknowns(e, b);

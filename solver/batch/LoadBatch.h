@@ -3,8 +3,12 @@
 #include "model/RowColumnResistance.h"
 #include "solver/assembly/SurfaceTraction.h"
 #include "solver/batch/ElementwiseTangent.h"
+#include "solver/batch/LaneMixing.h"
 
 #include <array>
+#include <functional>
+#include <memory>
+#include <span>
 #include <stop_token>
 
 namespace palp {
@@ -13,6 +17,12 @@ namespace palp {
 struct LaneForce {
   const TractionShares* shares;
   Eigen::Vector3d force_N;
+};
+
+/// A force on one node of the mesh.
+struct NodeForce {
+  int node = 0;
+  Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
 };
 
 /// Up to 32 loads, one a lane, iterated together by modified Newton with the tangent at rest:
@@ -38,6 +48,10 @@ public:
   /// A block's lanes at rest, without loads.
   void reset(int block);
   void addForce(int lane, const LaneForce& force) { forces_[lane].push_back(force); }
+  /// A lane whose forces answer to the motion: its steps are mixed (LaneMixing.h).
+  void mix(int lane);
+  /// Forces that answer to the motion, on nodes; in place of those given before.
+  void setNodeForces(int lane, std::vector<NodeForce> forces) { nodeForces_[lane] = std::move(forces); }
   /// Adds polynomials' values to the displacements [3 nodes][terms] and the elements' unknowns
   /// [elements][unknowns][terms] of a block of 8 lanes; monomials [terms][8].
   void addPolynomials(int block, const std::vector<double>& displacements, const std::vector<double>& unknowns,
@@ -48,6 +62,12 @@ public:
   /// Stopped on its way, it leaves the lanes unusable.
   void iterate(const std::array<bool, batchLanes>& active, std::array<double, batchLanes>& change,
                const std::stop_token& stop);
+  /// The same for loads that answer to the motion. `answer` is given each active lane and the motion [3 x nodes] of
+  /// these nodes to which the iteration would lead under the present forces, and gives the forces to go on with (false:
+  /// there are none, and the lane's change becomes negative). Costs a second substitution.
+  using Answer = std::function<bool(int lane, const Eigen::Matrix3Xd& motion_mm)>;
+  void iterate(const std::array<bool, batchLanes>& active, std::array<double, batchLanes>& change,
+               std::span<const int> nodes, const Answer& answer, const std::stop_token& stop);
 
   /// What the electrodes of a block's lanes feel.
   [[nodiscard]] std::vector<ElectrodeDisplacements> electrodes(int block) const;
@@ -64,7 +84,10 @@ public:
 
 private:
   void evaluateResiduals(const std::array<bool, blocks>& live, const std::stop_token& stop);
-  void solveDirections(const std::array<bool, batchLanes>& active, const std::stop_token& stop);
+  void substitute(const std::array<bool, batchLanes>& active, const std::stop_token& stop);
+  void answerMotion(const std::array<bool, batchLanes>& active, std::span<const int> nodes, const Answer& answer);
+  void addNodeForces(int lane, double sign);
+  void moveAlongDirections(const std::array<bool, batchLanes>& active);
   void updateUnknowns(int element, int block);
   [[nodiscard]] LaneVector displacementsAt(const PointProbe& probe) const; ///< [3 points][32]
   [[nodiscard]] LaneVector pressuresAt(const PointProbe& probe) const;     ///< [points][32], compression positive
@@ -79,10 +102,13 @@ private:
   const ElementwiseTangent& model_;
   const PointProbe &upper_, &lower_;
   std::array<std::vector<LaneForce>, batchLanes> forces_;
-  LaneVector u_, r_;            ///< [3 nodes][32]
-  LaneVector x_, local_;        ///< [elements][blocks][unknowns][8]
-  std::vector<float> solution_; ///< [rows of the factor + 1][32]; directions over scale_ after the substitutions
-  std::vector<char> probed_;    ///< elements that an electrode looks at: their unknowns are always up to date
+  std::array<std::vector<NodeForce>, batchLanes> nodeForces_;
+  LaneVector u_, r_;                   ///< [3 nodes][32]
+  LaneVector x_, local_;               ///< [elements][blocks][unknowns][8]
+  std::unique_ptr<LaneMixing> mixing_; ///< of the lanes that ask for it
+  LaneVector steps_;                   ///< [3 nodes][32], where lanes are mixed
+  std::vector<float> solution_;        ///< [rows of the factor + 1][32]; directions over scale_ after the substitutions
+  std::vector<char> probed_;           ///< elements that an electrode looks at: their unknowns are always up to date
   std::array<bool, blocks> atRest_{}, behind_{};
   std::array<double, batchLanes> scale_{};
   std::array<double, batchLanes> smallestJ_{};

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "model/Indenter.h"
+#include "solver/batch/LoadBatch.h"
+#include "solver/contact/TopCompliance.h"
+
+#include <Eigen/Core>
+
+#include <memory>
+#include <vector>
+
+namespace palp {
+
+/// Frictionless contact of rigid indenters in the space of the nodes that they can press. With c the motion of those
+/// nodes without contact forces and C their compliance,
+///
+///   x_i = X_i + c_i + sum_j C_ij n_j f_j,   f_i >= 0,  g_i = g(x_i - d) >= 0,  f_i g_i = 0,   sum_i f_i n_i . e_z =
+///   F_z
+///
+/// is solved for the normal forces f [N] and, where an indenter's force is given, for its depth d_z [mm] by a
+/// primal-dual active set (Hintermueller, Ito, Kunisch 2003) whose normals are taken again in every step. A node
+/// belongs to the indenter that it is nearest to. One unknown a node where ReducedContact, which knows friction, has
+/// three: for the many touches of a batch.
+class NormalContact {
+public:
+  NormalContact(std::vector<Indenter> indenters, std::shared_ptr<const TopCompliance> top);
+
+  /// Forces on the nodes that move so [3 x nodes] under the forces found before, which are where it starts; none at
+  /// first. False: no answer.
+  [[nodiscard]] bool solve(const Eigen::Matrix3Xd& motion_mm);
+
+  /// The indenters' force on each node of the mesh that carries one.
+  [[nodiscard]] std::vector<NodeForce> forces() const;
+
+private:
+  /// A node near the indenter, and where it would be without contact forces.
+  struct FreeNode {
+    int node = 0;
+    Eigen::Vector3d place_mm;
+  };
+  /// What touches a place first.
+  struct Nearest {
+    std::size_t indenter = 0;
+    double gap_mm = 0;
+    Eigen::Vector3d normal;
+  };
+  [[nodiscard]] Nearest nearest(const Eigen::Vector3d& place_mm) const;
+  [[nodiscard]] std::vector<FreeNode> nearNodes(const Eigen::Matrix3Xd& motion_mm) const;
+  [[nodiscard]] Eigen::Vector3d motionByForces(int node) const;
+  [[nodiscard]] bool step(const std::vector<FreeNode>& near, bool& settled);
+
+  std::vector<Indenter> indenters_;
+  std::shared_ptr<const TopCompliance> top_;
+  std::vector<Eigen::Vector3d> tips_mm_; ///< where their lowest points are
+  std::vector<NodeForce> forces_;        ///< nodes counted as those of the compliance
+};
+
+} // namespace palp

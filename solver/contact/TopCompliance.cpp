@@ -1,0 +1,35 @@
+#include "solver/contact/TopCompliance.h"
+
+#include "model/base/Parallel.h"
+#include "solver/contact/ContactPoints.h"
+
+namespace palp {
+
+std::shared_ptr<const TopCompliance> TopCompliance::find(const ElementwiseTangent& tangent, const Mesh& mesh,
+                                                         int threads, const std::stop_token& stop) {
+  auto found = std::make_shared<TopCompliance>();
+  for (const ContactPoint& point : contactPoints(mesh)) found->nodes_.push_back(point.node);
+  found->places_mm_ = mesh.nodes_mm(Eigen::all, found->nodes_);
+  const int count = found->count();
+  found->blocks_.resize(3 * Eigen::Index(count), 3 * Eigen::Index(count));
+  const BlockedFactor factor = tangent.factor();
+  const auto row = [&](int i) { // of the factor, for unknown i of the pressed nodes
+    return std::size_t(tangent.factorRows()[3 * std::size_t(found->nodes_[i / 3]) + i % 3]);
+  };
+  forChunks(3 * count, batchLanes, threads, [&](int begin, int end) {
+    std::vector<float> x(std::size_t(tangent.rightSideRows()) * batchLanes);
+    for (int i = begin; i < end; ++i) x[row(i) * batchLanes + (i - begin)] = 1;
+    constexpr unsigned all = (1U << unsigned(batchLanes / lanes)) - 1;
+    constexpr int supernodesACall = 64; // between looks at a stop request
+    for (int first = 0; first < factor.count && !stop.stop_requested(); first += supernodesACall)
+      laneKernels().forward(factor, first, std::min(factor.count, first + supernodesACall), all, x.data());
+    for (int last = factor.count; last > 0 && !stop.stop_requested(); last -= supernodesACall)
+      laneKernels().backward(factor, std::max(0, last - supernodesACall), last, all, x.data());
+    for (int i = begin; i < end; ++i)
+      for (int k = 0; k < 3 * count; ++k) found->blocks_(k, i) = x[row(k) * batchLanes + (i - begin)];
+  });
+  if (stop.stop_requested()) return {};
+  return found;
+}
+
+} // namespace palp

@@ -1,0 +1,82 @@
+#include "solver/BatchSolver.h"
+#include "solver/SensorMesh.h"
+
+#include <gtest/gtest.h>
+
+namespace palp {
+namespace {
+
+HyperelasticProblem hexahedra() {
+  const SensorDesign design = paperDesign();
+  MeshOptions options;
+  options.mapped = {{15, 15, 4}};
+  return {design, sensorMesh(design, options)};
+}
+
+/// Fine enough all over the top for what presses there.
+HyperelasticProblem tetrahedra() {
+  const SensorDesign design = paperDesign();
+  MeshOptions options;
+  options.zones = {{design.block_mm.head<2>() / 2, design.block_mm.head<2>() / 2, {2, 2}}};
+  options.fineBorders = false;
+  return {design, sensorMesh(design, options)};
+}
+
+LoadCase touch(double radius_mm, double x_mm, double y_mm, double press_N) {
+  LoadCase load;
+  load.indenters = {{IndenterShape::Sphere, radius_mm, 0, {x_mm, y_mm}, 0, Press{{0, 0, -press_N}}}};
+  return load;
+}
+
+double difference(const ElectrodeDisplacements& a, const ElectrodeDisplacements& b) {
+  return (a.upper_mm - b.upper_mm).norm() / b.upper_mm.norm();
+}
+
+TEST(BatchContact, FindsWhatFullNewtonFinds) {
+  const HyperelasticProblem problem = tetrahedra();
+  const std::vector<LoadCase> loads{touch(5, 15, 7.5, 6), touch(3, 4, 22, 1)};
+  BatchOptions options;
+  options.relativeTolerance = 1e-6;
+  BatchSolver batch(problem, options);
+  const std::vector<ElectrodeDisplacements> answers = batch.solve(loads);
+  ASSERT_EQ(answers.size(), loads.size());
+  EXPECT_LT(batch.measuredError(), 1e-5) << "the share that it measures itself";
+  for (std::size_t i = 1; i < loads.size(); ++i) {
+    const Solution full = problem.solve(loads[i]);
+    ASSERT_TRUE(full.converged) << full.stopReason;
+    EXPECT_LT(difference(answers[i], problem.electrodes(full.state())), 1e-5) << i;
+  }
+}
+
+TEST(BatchContact, AnAnswerDependsOnItsOwnTouchAlone) {
+  const HyperelasticProblem problem = hexahedra();
+  LoadCase uniform;
+  uniform.areas = {{1, {0.2, 0, -3}}};
+  const std::vector<LoadCase> loads{touch(4, 9, 9, 2), uniform, touch(6, 20, 12, 4)};
+  BatchOptions one, three;
+  one.threads = 1;
+  three.threads = 3;
+  BatchSolver batch(problem, three);
+  const auto together = batch.solve(loads);
+  for (std::size_t i = 0; i < loads.size(); ++i)
+    EXPECT_TRUE(BatchSolver(problem, one).solve({&loads[i], 1})[0].upper_mm == together[i].upper_mm) << i;
+}
+
+TEST(BatchContact, TwoTouchesAtOnceAndAMotionAreSolvedAlong) {
+  const HyperelasticProblem problem = hexahedra();
+  LoadCase two = touch(5, 8, 15, 2);
+  two.indenters.push_back(touch(4, 22, 15, 1).indenters[0]);
+  LoadCase moved = touch(5, 15, 15, 1);
+  moved.indenters[0].control = Motion{0.3, Eigen::Vector2d::Zero()};
+  const std::vector<LoadCase> loads{two, moved};
+  BatchSolver batch(problem);
+  const auto answers = batch.solve(loads);
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    const Solution full = problem.solve(loads[i]);
+    ASSERT_TRUE(full.converged) << full.stopReason;
+    EXPECT_LT(difference(answers[i], problem.electrodes(full.state())), 1e-5) << i;
+  }
+}
+
+} // namespace
+} // namespace palp
