@@ -43,8 +43,8 @@ struct Indenter {
   std::variant<Press, Motion> control;
   bool operator==(const Indenter&) const = default;
 
-  /// The same at a fraction of its load. Straight down it grows in proportion; where it also goes sideways with friction,
-  /// it presses during the first half and goes sideways during the second.
+  /// The same at a fraction of its load. Straight down it grows in proportion; where it also goes sideways with
+  /// friction, it presses during the first half and goes sideways during the second.
   [[nodiscard]] Indenter at(double loadFraction) const;
   [[nodiscard]] bool hasTwoParts() const; ///< presses first, then goes sideways
   [[nodiscard]] const Press* press() const { return std::get_if<Press>(&control); }

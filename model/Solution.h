@@ -29,10 +29,10 @@ struct IndenterState {
 /// Equilibrium at a load fraction on the way to the full load.
 struct LoadIncrement {
   double loadFraction = 0;
-  Eigen::Matrix3Xd displacements_mm; ///< 3 x nodes
-  Eigen::MatrixXd elementUnknowns;   ///< the element's own unknowns (bubble, pressures) x elements
-  std::vector<IndenterState> indenters{};    ///< of the load's indenters
-  Eigen::Matrix3Xd contactTraction_MPa{};    ///< 3 x nodes, on the surface at rest; empty without indenters
+  Eigen::Matrix3Xd displacements_mm;      ///< 3 x nodes
+  Eigen::MatrixXd elementUnknowns;        ///< the element's own unknowns (bubble, pressures) x elements
+  std::vector<IndenterState> indenters{}; ///< of the load's indenters
+  Eigen::Matrix3Xd contactTraction_MPa{}; ///< 3 x nodes, on the surface at rest; empty without indenters
 };
 
 /// Result of one nonlinear solve. If Newton's method could not go on: the last converged state, and why. A solve has

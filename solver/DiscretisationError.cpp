@@ -88,9 +88,8 @@ DiscretisationError discretisationError(const HyperelasticProblem& problem, cons
   const bool graded = problem.mesh().size_mm > 0;
   const HyperelasticProblem other =
       graded ? coarserTwin(problem, load, stop)
-             : HyperelasticProblem(
-                   problem.design(),
-                   sensorMesh(problem.design(), meshFor(problem.design(), load, {}), stop));
+             : HyperelasticProblem(problem.design(),
+                                   sensorMesh(problem.design(), meshFor(problem.design(), load, {}), stop));
   const Solution reference =
       other.solve(scaled(load, solution.state().loadFraction), {.relativeTolerance = twinTolerance, .threads = threads},
                   {.step = {}, .stop = stop});

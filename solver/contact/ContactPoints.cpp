@@ -24,8 +24,7 @@ std::vector<ContactPoint> contactPoints(const Mesh& mesh) {
   for (Eigen::Index f = 0; f < mesh.topFaces.cols(); ++f) {
     const bool triangle = mesh.shape == ElementShape::Tetrahedron10;
     const double area = areaOfFace(mesh, f, 0, 1, 2) + (triangle ? 0 : areaOfFace(mesh, f, 0, 2, 3));
-    for (int n = triangle ? 3 : 0; n < (triangle ? 6 : 4); ++n)
-      areas[mesh.topFaces(n, f)] += area / (triangle ? 3 : 4);
+    for (int n = triangle ? 3 : 0; n < (triangle ? 6 : 4); ++n) areas[mesh.topFaces(n, f)] += area / (triangle ? 3 : 4);
   }
   std::vector<ContactPoint> points;
   for (const auto& [node, area] : areas) points.push_back({node, area});
@@ -49,8 +48,7 @@ std::vector<ContactPoint> touchablePoints(const Mesh& mesh, const SensorDesign& 
       const int places = shift.isZero(0) ? 0 : placesOnTheWay;
       for (int k = 0; k <= places; ++k) {
         const Eigen::Vector2d sideways = shift * (places > 0 ? double(k) / places : 0);
-        const Eigen::Vector3d tip =
-            tipAtRest_mm(indenter, mesh) + Eigen::Vector3d(sideways.x(), sideways.y(), -depth);
+        const Eigen::Vector3d tip = tipAtRest_mm(indenter, mesh) + Eigen::Vector3d(sideways.x(), sideways.y(), -depth);
         const double gap = distance(indenter, mesh.nodes_mm.col(point.node) - tip).gap_mm;
         if (gap >= deepest) continue;
         deepest = gap;

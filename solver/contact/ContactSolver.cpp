@@ -54,8 +54,7 @@ ContactResult ContactSolver::solve(const Loading& loading) {
     choosePoints(margin);
     ContactResult result = follow(loading);
     const ContactIncrement& last = result.increments.back();
-    if (!result.newton.converged || attempt == mostMargins ||
-        !reachesBeyond({last.equilibrium.state, last.contact}))
+    if (!result.newton.converged || attempt == mostMargins || !reachesBeyond({last.equilibrium.state, last.contact}))
       return result;
   }
 }
@@ -111,7 +110,9 @@ std::vector<ContactTarget> ContactSolver::targets(double fraction) const {
   std::vector<ContactTarget> all;
   for (const Indenter& indenter : load_.indenters) {
     const Indenter part = indenter.at(fraction);
-    ContactTarget target{{false, false, false}, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
+    ContactTarget target{{false, false, false},
+                         Eigen::Vector3d::Zero(),
+                         Eigen::Vector3d::Zero(),
                          longestMove * contactEstimate(indenter, design_).depth_mm};
     if (const Press* press = part.press()) {
       target.force_N = press->force_N;
@@ -143,14 +144,12 @@ Eigen::VectorXd ContactSolver::onFreeComponents(const Eigen::Matrix3Xd& forces) 
 
 void ContactSolver::setResidual(const Loading& loading, double fraction, const State& state) {
   const Discretisation& mesh = assembler_.discretisation();
-  const Eigen::VectorXd external =
-      fraction * mesh.freePart(loading.forces) + onFreeComponents(state.contact.forces_N);
+  const Eigen::VectorXd external = fraction * mesh.freePart(loading.forces) + onFreeComponents(state.contact.forces_N);
   internal_ = assembler_.sum(forces_.raw, options_.threads);
   residual_ = external - mesh.freePart(assembler_.sum(forces_.forces, options_.threads));
   const double scale = external.norm();
-  relative_ = scale > 0
-                  ? std::hypot((external - mesh.freePart(internal_)).norm(), assembler_.localNorm(forces_)) / scale
-                  : 1;
+  relative_ =
+      scale > 0 ? std::hypot((external - mesh.freePart(internal_)).norm(), assembler_.localNorm(forces_)) / scale : 1;
 }
 
 ContactSolver::Outcome ContactSolver::newTangent(const Loading& loading, double fraction, const State& state) {
@@ -200,8 +199,7 @@ ContactSolver::Outcome ContactSolver::step(const Loading& loading, double from, 
     double length = 1;
     for (int trial = 0;; ++trial) {
       state.rubber.displacements = start.rubber.displacements + length * du;
-      for (std::size_t i = 0; i < dx.size(); ++i)
-        state.rubber.unknowns[i] = start.rubber.unknowns[i] + length * dx[i];
+      for (std::size_t i = 0; i < dx.size(); ++i) state.rubber.unknowns[i] = start.rubber.unknowns[i] + length * dx[i];
       state.contact = found;
       state.contact.forces_N = start.contact.forces_N + length * (found.forces_N - start.contact.forces_N);
       assembler_.residual(state.rubber, tangents_, forces_, options_.threads);

@@ -10,8 +10,8 @@ namespace palp {
 namespace {
 
 constexpr int mostIterations = 60;
-constexpr double exactly = 1e-12;         // of the greatest move
-constexpr double slipBeforeTouch = 0.5;   // of a point's way in a step, where it comes to touch in that step
+constexpr double exactly = 1e-12;       // of the greatest move
+constexpr double slipBeforeTouch = 0.5; // of a point's way in a step, where it comes to touch in that step
 constexpr double smallestTranslation = 1e-9;
 
 } // namespace
@@ -151,7 +151,8 @@ bool ReducedContact::solve(const Eigen::MatrixXd& compliance, const Eigen::Matri
       }
     }
     for (int i = 0; i < count; ++i)
-      if (!std::binary_search(touching.begin(), touching.end(), i)) state.grips[static_cast<std::size_t>(i)] = Grip::Free;
+      if (!std::binary_search(touching.begin(), touching.end(), i))
+        state.grips[static_cast<std::size_t>(i)] = Grip::Free;
     for (std::size_t m = 0; m < moves.size(); ++m) {
       const auto& [k, c] = moves[m];
       double sum = 0;
@@ -177,7 +178,8 @@ bool ReducedContact::solve(const Eigen::MatrixXd& compliance, const Eigen::Matri
       const double longest = targets[static_cast<std::size_t>(moves[m].first)].longestMove_mm;
       share = std::min(share, longest / std::max(move, 1e-300));
     }
-    for (std::size_t a = 0; a < touching.size(); ++a) f.col(touching[a]) += share * change.segment<3>(static_cast<Eigen::Index>(3 * a));
+    for (std::size_t a = 0; a < touching.size(); ++a)
+      f.col(touching[a]) += share * change.segment<3>(static_cast<Eigen::Index>(3 * a));
     for (std::size_t m = 0; m < moves.size(); ++m)
       d(moves[m].second, moves[m].first) += share * change(unknowns + static_cast<Eigen::Index>(m));
     for (std::size_t k = 0; k < targets.size(); ++k)

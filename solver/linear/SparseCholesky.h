@@ -56,8 +56,8 @@ private:
   std::vector<int> top_;
   std::vector<std::size_t> blocksStart_; ///< of each supernode in the factor's numbers, and their count
   int lastUnknowns_ = 0;
-  std::vector<int> blockBelow_;          ///< first block of the rows below each supernode
-  std::vector<int> blockRows_;           ///< rows of the factor in those blocks
+  std::vector<int> blockBelow_; ///< first block of the rows below each supernode
+  std::vector<int> blockRows_;  ///< rows of the factor in those blocks
 };
 
 /// Multifrontal Cholesky factorisation on OpenBLAS (Duff and Reid 1983): subtrees in parallel, then the large fronts

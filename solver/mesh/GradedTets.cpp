@@ -93,8 +93,7 @@ Grid gradedGrid(const SensorDesign& design, const Grading& grading, const std::v
       grid.sizes[1].places.push_back({disc.y_mm + side * disc.radius_mm, rimSize(grading, disc)});
     }
   for (const FineZone& zone : zones)
-    for (const int d : {0, 1})
-      grid.sizes[d].places.push_back({zone.centre_mm(d), zone.size_mm(d), zone.half_mm(d)});
+    for (const int d : {0, 1}) grid.sizes[d].places.push_back({zone.centre_mm(d), zone.size_mm(d), zone.half_mm(d)});
   grid.stops[2] = {0, block.z()};
   grid.sizes[2] = {grading.vertical_mm, grading.growth, {{0, grading.bottom_mm}, {block.z(), grading.top_mm}}};
   for (const FineZone& zone : zones) grid.sizes[2].places.push_back({block.z(), zone.size_mm.minCoeff()});

@@ -153,7 +153,7 @@ TEST(GradedTets, LeaveElectrodesInsideElementsWhereTheyLieAlmostTogether) {
 TEST(GradedTets, AreSmallestAtTheBordersAndTheLoadedFaceAndGrowWithTheDistance) {
   const SensorDesign design = paperDesign();
   const Grading grading = defaultGrading(design, standardSize(design));
-  const Mesh mesh = gradedTets(design, grading, {}, false);
+  const Mesh mesh = gradedTets(design, grading, {}, {}, false);
   // Lines of the grid along x at the top edge y = 0, and along z at the corner.
   const auto lines = [&](int along) {
     std::vector<double> x;
@@ -186,7 +186,7 @@ TEST(GradedTets, AreSmallestAtTheBordersAndTheLoadedFaceAndGrowWithTheDistance) 
 TEST(GradedTets, RunDiagonalsIntoTheEdgesWhereStressesAreSingular) {
   // Each corner of the clamped face, and each point where borders of load areas cross, has a face diagonal.
   const SensorDesign design = paperDesign();
-  const Mesh mesh = gradedTets(design, defaultGrading(design, standardSize(design)), {}, false);
+  const Mesh mesh = gradedTets(design, defaultGrading(design, standardSize(design)), {}, {}, false);
   const auto hasDiagonal = [&](const Eigen::Vector3d& p) {
     for (int e = 0; e < mesh.elementCount(); ++e)
       for (int a = 0; a < 4; ++a)
@@ -207,9 +207,9 @@ TEST(GradedTets, RefuseMoreElementsThanAllowedAndStopWhenAsked) {
   EXPECT_THROW(static_cast<void>(meshOf(design, 0.1)), DesignError);
   std::stop_source stop;
   stop.request_stop();
-  EXPECT_THROW(
-      static_cast<void>(gradedTets(design, defaultGrading(design, standardSize(design)), {}, true, stop.get_token())),
-      Cancelled);
+  EXPECT_THROW(static_cast<void>(
+                   gradedTets(design, defaultGrading(design, standardSize(design)), {}, {}, true, stop.get_token())),
+               Cancelled);
 }
 
 } // namespace
