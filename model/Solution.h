@@ -63,8 +63,9 @@ struct NodalFields {
   Eigen::Matrix<double, 6, Eigen::Dynamic> cauchy_MPa; ///< xx, yy, zz, xy, yz, xz (VTK's order) x nodes
   Eigen::VectorXd pressure_MPa;                        ///< hydrostatic, compression positive
   Eigen::VectorXd vonMises_MPa;
-  Eigen::VectorXd volumeRatio;         ///< J = det F
-  Eigen::Matrix3Xd principalStretches; ///< singular values of F, largest first; x nodes
+  Eigen::VectorXd volumeRatio;            ///< J = det F
+  Eigen::Matrix3Xd principalStretches;    ///< singular values of F, largest first; x nodes
+  Eigen::Matrix3Xd contactTraction_MPa{}; ///< as in LoadIncrement
 };
 
 } // namespace palp

@@ -211,7 +211,9 @@ ElectrodeDisplacements HyperelasticProblem::electrodes(const LoadIncrement& stat
 }
 
 NodalFields HyperelasticProblem::fields(const LoadIncrement& state) const {
-  return nodalFields(parts_->mesh, parts_->design.material, state);
+  NodalFields fields = nodalFields(parts_->mesh, parts_->design.material, state);
+  fields.contactTraction_MPa = state.contactTraction_MPa;
+  return fields;
 }
 
 } // namespace palp

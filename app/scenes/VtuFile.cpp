@@ -56,6 +56,7 @@ std::vector<NodalArray> nodalArrays(const NodalFields& fields) {
                                  {"von_mises_MPa", fields.vonMises_MPa.transpose()},
                                  {"volume_ratio", fields.volumeRatio.transpose()}};
   if (fields.principalStretches.cols() > 0) arrays.push_back({"principal_stretches", fields.principalStretches});
+  if (fields.contactTraction_MPa.cols() > 0) arrays.push_back({"contact_traction_MPa", fields.contactTraction_MPa});
   return arrays;
 }
 

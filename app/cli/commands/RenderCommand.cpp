@@ -64,6 +64,7 @@ void addRender(Cli& cli) {
                                 [arguments](Session& session) { return run(*arguments, session); });
   command.option("design", arguments->design, "design file, or paper").required();
   arguments->loads.declare(command);
+  arguments->loads.declareIndenters(command);
   arguments->mesh.declare(command, false);
   command.option("--quantity", arguments->quantity, "colour: |u| (default), ux, uy, uz, pressure, ...");
   command.option("--width", arguments->width, "pixels (default 1200)");

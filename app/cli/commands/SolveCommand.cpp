@@ -217,7 +217,8 @@ void addSolve(Cli& cli) {
       "--current", arguments->current,
       "ROW,COLUMN: under the field law potential, current density and power density for 1 V between the two, "
       "into the VTU file");
-  arguments->output.declare(command, "VTU file with displacement, stress, pressure and volume ratio at the nodes");
+  arguments->output.declare(
+      command, "VTU file with displacement, stress, pressure, volume ratio and contact traction at the nodes");
 }
 
 } // namespace palp

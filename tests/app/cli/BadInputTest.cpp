@@ -174,6 +174,19 @@ INSTANTIATE_TEST_SUITE_P(
         BadOption{"ForceHuge", {"solve", "paper", "--load", "0:0,0,-1e300"}, {"-1e+300"}},
         BadOption{"LoadWithoutColon", {"solve", "paper", "--load", "5"}, {"--load", "AREA:FX,FY,FZ"}},
         BadOption{"PatchOutside", {"solve", "paper", "--patch", "29,15,2:0,0,-1"}, {"patch", "29", "lies wholly"}},
+        BadOption{"IndenterShape",
+                  {"solve", "paper", "--indenter", "cube:3@15,15:press=0,0,-1"},
+                  {"indenter", "cube", "sphere"}},
+        BadOption{
+            "IndenterOutside", {"solve", "paper", "--indenter", "sphere:3@40,15:press=0,0,-1"}, {"sphere at (40, 15)"}},
+        BadOption{
+            "IndenterPulls", {"solve", "paper", "--indenter", "sphere:3@15,15:press=0,0,1"}, {"sphere", "(0, 0, 1)"}},
+        BadOption{"IndenterAside", {"solve", "paper", "--indenter", "sphere:3@15,15:press=1,0,-1"}, {"needs friction"}},
+        BadOption{"IndenterRim", {"solve", "paper", "--indenter", "flat:3,4@15,15:depth=0.1"}, {"rim", "4"}},
+        BadOption{
+            "IndenterFriction", {"solve", "paper", "--indenter", "sphere:3@15,15:press=0,0,-1:mu=3"}, {"friction 3"}},
+        BadOption{
+            "IndenterNan", {"solve", "paper", "--indenter", "sphere:nan@15,15:press=0,0,-1"}, {"indenter", "nan"}},
         BadOption{"PatchRadiusZero", {"solve", "paper", "--patch", "15,15,0:0,0,-1"}, {"patch", "radius 0"}},
         BadOption{"MeshSizeZero", {"mesh", "paper", "--mesh-size", "0"}, {"0"}},
         BadOption{"MeshSizeNegative", {"mesh", "paper", "--mesh-size", "-2"}, {"-2"}},
