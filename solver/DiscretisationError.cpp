@@ -90,9 +90,13 @@ DiscretisationError discretisationError(const HyperelasticProblem& problem, cons
       graded ? coarserTwin(problem, load, stop)
              : HyperelasticProblem(problem.design(),
                                    sensorMesh(problem.design(), meshFor(problem.design(), load, {}), stop));
-  const Solution reference =
-      other.solve(scaled(load, solution.state().loadFraction), {.relativeTolerance = twinTolerance, .threads = threads},
-                  {.step = {}, .stop = stop});
+  Solution reference;
+  try {
+    reference = other.solve(scaled(load, solution.state().loadFraction),
+                            {.relativeTolerance = twinTolerance, .threads = threads}, {.step = {}, .stop = stop});
+  } catch (const DesignError& error) { // a coarser mesh has no node under a small indenter
+    return {{}, {}, "no estimate: on the other mesh " + std::string(error.what())};
+  }
   stopIfAsked(stop);
   if (!reference.converged)
     return {{}, {}, "no estimate: the solve on the other mesh did not converge: " + reference.stopReason};

@@ -83,20 +83,4 @@ Indenter indenterOption(const std::string& value) {
   return indenter;
 }
 
-std::string asOption(const Indenter& indenter) {
-  std::string option = shapeName(indenter.shape);
-  if (indenter.shape != IndenterShape::Plane) option += ":" + text(indenter.radius_mm);
-  if (indenter.shape == IndenterShape::Flat) option += "," + text(indenter.rim_mm);
-  option += "@" + text(indenter.place_mm.x()) + "," + text(indenter.place_mm.y());
-  if (const Press* press = indenter.press()) {
-    option += ":press=" + text(press->force_N.x()) + "," + text(press->force_N.y()) + "," + text(press->force_N.z());
-  } else {
-    const Motion& motion = *indenter.motion();
-    option += ":depth=" + text(motion.depth_mm);
-    if (!motion.shift_mm.isZero(0)) option += "," + text(motion.shift_mm.x()) + "," + text(motion.shift_mm.y());
-  }
-  if (indenter.friction > 0) option += ":mu=" + text(indenter.friction);
-  return option;
-}
-
 } // namespace palp

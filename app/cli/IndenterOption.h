@@ -10,7 +10,4 @@ namespace palp {
 /// sphere:5@15,7.5:press=1,0,-6:mu=0.5 or flat:3,0.3@20,20:depth=0.2. UsageError says what is wrong with it.
 Indenter indenterOption(const std::string& value);
 
-/// The same indenter as it would be given.
-std::string asOption(const Indenter& indenter);
-
 } // namespace palp

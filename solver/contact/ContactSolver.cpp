@@ -17,7 +17,14 @@ constexpr int mostMargins = 5;
 constexpr double touchesBeyond_mm = 1e-6;
 constexpr double stepGrowth = 2;
 constexpr double hopeless = 1e8;
-constexpr int halvings = 6;
+constexpr int halvings = 2;      // of one iteration's way, where elements turn inside out
+constexpr int mostShortened = 2; // iterations of a load step; then half of the load is tried
+// Where that small a residual does not fall any more, it is down to rounding (as in NewtonSolver).
+constexpr double roundingBelow = 1e-6;
+// An iteration that has not found the forces after so many tangents finds them sooner from half of the load.
+constexpr int tangentsToFindForces = 3;
+constexpr double forcesAreFoundBelow = 0.5;
+constexpr int stallsOfRounding = 3;
 constexpr double keepTangentBelow = 1e-5; // relative residual
 constexpr double goodContraction = 0.03;  // with which a tangent serves once more
 constexpr double longestMove = 0.5;       // of an indenter's expected depth, in one iteration
@@ -101,6 +108,9 @@ ContactResult ContactSolver::follow(const Loading& loading) {
     }
   }
   newton.converged = fraction >= 1;
+  if (newton.converged && relative_ >= options_.relativeTolerance)
+    newton.stopReason = "the residual is down to rounding at " + text(relative_) + " of the load; " +
+                        text(options_.relativeTolerance) + " was asked for";
   newton.steps = std::move(steps_);
   steps_.clear();
   return result;
@@ -180,6 +190,7 @@ ContactSolver::Outcome ContactSolver::step(const Loading& loading, double from, 
   if (const Outcome outcome = newTangent(loading, to, state); outcome != Outcome::Converged) return outcome;
   record(to, 0);
   double previous = 1;
+  int stalled = 0, shortened = 0;
   for (int iteration = 1; iteration <= options_.iterationsAStep; ++iteration) {
     if (stopped()) return Outcome::Cancelled;
     const State start = state;
@@ -210,8 +221,12 @@ ContactSolver::Outcome ContactSolver::step(const Loading& loading, double from, 
       length /= 2;
     }
     record(to, iteration);
-    if (!(relative_ < hopeless)) return Outcome::Diverged;
-    if (length == 1 && relative_ < options_.relativeTolerance) return Outcome::Converged;
+    const bool lost = iteration >= tangentsToFindForces && relative_ > forcesAreFoundBelow;
+    if (lost || !(relative_ < hopeless)) return Outcome::Diverged;
+    if (length < 1 && ++shortened > mostShortened) return Outcome::Inverted;
+    stalled = relative_ < roundingBelow && relative_ > previous / 2 ? stalled + 1 : 0;
+    if (length == 1 && (relative_ < options_.relativeTolerance || stalled == stallsOfRounding))
+      return Outcome::Converged;
     const bool keep = length == 1 && (relative_ < keepTangentBelow || relative_ < goodContraction * previous);
     previous = relative_;
     if (keep || iteration == options_.iterationsAStep) continue;
@@ -221,7 +236,10 @@ ContactSolver::Outcome ContactSolver::step(const Loading& loading, double from, 
 }
 
 bool ContactSolver::reachesBeyond(const State& state) const {
-  for (const ContactPoint& point : contactPoints(mesh_))
+  std::vector<bool> known(static_cast<std::size_t>(mesh_.nodeCount()));
+  for (const ContactPoint& point : points_) known[static_cast<std::size_t>(point.node)] = true;
+  for (const ContactPoint& point : contactPoints(mesh_)) {
+    if (known[static_cast<std::size_t>(point.node)]) continue;
     for (std::size_t k = 0; k < load_.indenters.size(); ++k) {
       const auto column = static_cast<Eigen::Index>(k);
       const Eigen::Vector3d place = mesh_.nodes_mm.col(point.node) +
@@ -229,6 +247,7 @@ bool ContactSolver::reachesBeyond(const State& state) const {
                                     tips_mm_.col(column) - state.contact.translations_mm.col(column);
       if (distance(load_.indenters[k], place).gap_mm < -touchesBeyond_mm) return true;
     }
+  }
   return false;
 }
 

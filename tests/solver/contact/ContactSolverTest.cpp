@@ -159,6 +159,30 @@ TEST(ContactSolver, APlaneOverAllOfTheTopFindsTheBondedBlocksStiffness) {
             1e-7 * solution.state().indenters[0].force_N.norm());
 }
 
+TEST(ContactSolver, EveryShapePressesWithWhatTheClampedFaceHolds) {
+  const SensorDesign design = paperDesign();
+  MeshOptions options;
+  options.mapped = {{15, 15, 4}};
+  const HyperelasticProblem problem(design, sensorMesh(design, options));
+  for (const Indenter& indenter : {Indenter{IndenterShape::Sphere, 6, 0, {10, 20}, 0.5, Press{{0.2, 0.1, -2}}},
+                                   Indenter{IndenterShape::Pin, 4, 0, {28, 16}, 0, Press{{0, 0, -0.5}}},
+                                   Indenter{IndenterShape::Flat, 4, 0.5, {20, 20}, 0.3, Motion{0.1, {0.05, 0}}},
+                                   Indenter{IndenterShape::CylinderX, 6, 0, {15, 15}, 0, Press{{0, 0, -10}}},
+                                   Indenter{IndenterShape::CylinderY, 6, 0, {15, 15}, 0, Motion{0.3, {0, 0}}},
+                                   Indenter{IndenterShape::Plane, 0, 0, {15, 15}, 0, Press{{0, 0, -20}}}}) {
+    SCOPED_TRACE(shapeName(indenter.shape));
+    const Solution solution = solved(problem, under(indenter));
+    ASSERT_TRUE(solution.converged) << solution.stopReason;
+    const Eigen::Vector3d force_N = solution.state().indenters[0].force_N;
+    if (const Press* press = indenter.press()) {
+      EXPECT_NEAR(force_N.z(), press->force_N.z(), 1e-8 * force_N.norm());
+    }
+    EXPECT_LT((solution.reaction_N + force_N).norm(), 1e-7 * force_N.norm());
+    for (const ContactPoint& point : contactPoints(problem.mesh()))
+      EXPECT_LE(solution.state().contactTraction_MPa(2, point.node), 1e-9) << "nothing pulls the top up";
+  }
+}
+
 TEST(ContactSolver, StopsAtOnce) {
   const SensorDesign design = paperDesign();
   const LoadCase load = under(sphere(5, 15, 15, {{0, 0, -1}}));
