@@ -124,7 +124,7 @@ TEST(Commands, SolveSaysAllThatToolsRelyOn) {
 }
 
 TEST(Commands, SolveWithAnIndenterSaysForceWayAndContact) {
-  const json result = palp::test::palp({"solve", "paper", "--indenter", "sphere:8@15,7.5:press=0.2,0,-3:mu=0.5",
+  const json result = palp::test::palp({"solve", "paper", "--indenter", "sphere:12@15,9:press=0.2,0,-3:mu=0.5",
                                         "--mapped", "15x15x4", "--json"})
                           .json();
   ASSERT_TRUE(result.at("converged").get<bool>());
