@@ -124,19 +124,18 @@ TEST(Commands, SolveSaysAllThatToolsRelyOn) {
 }
 
 TEST(Commands, SolveWithAnIndenterSaysForceWayAndContact) {
-  const json result = palp::test::palp({"solve", "paper", "--indenter", "sphere:12@15,9:press=0.2,0,-3:mu=0.5",
-                                        "--mapped", "15x15x4", "--json"})
-                          .json();
+  const json result =
+      palp::test::palp({"solve", "paper", "--indenter", "sphere:12@15,9:press=0,0,-3", "--mapped", "15x15x4", "--json"})
+          .json();
   ASSERT_TRUE(result.at("converged").get<bool>());
   ASSERT_EQ(result.at("indenters").size(), 1U);
   const json& sphere = result.at("indenters")[0];
   EXPECT_EQ(sphere.at("shape"), "sphere");
-  EXPECT_NEAR(sphere.at("force_N")[0].get<double>(), 0.2, 1e-6);
   EXPECT_NEAR(sphere.at("force_N")[2].get<double>(), -3, 1e-6);
   EXPECT_LT(sphere.at("translation_mm")[2].get<double>(), 0);
   for (const char* key : {"contact_area_mm2", "contact_radius_mm", "centre_pressure_MPa"})
     EXPECT_GT(sphere.at(key).get<double>(), 0) << key;
-  EXPECT_LT(sphere.at("slip_share").get<double>(), 1);
+  EXPECT_EQ(sphere.at("slip_share").get<double>(), 1) << "without friction nothing sticks";
 }
 
 TEST(Commands, SolveOnThePapersMappedMesh) {
