@@ -164,6 +164,21 @@ NewtonObserver observer(const Session& session) {
   return observer;
 }
 
+/// Nodes under one indenter below which its depth and contact are not to be trusted.
+constexpr Eigen::Index kFewNodes = 10;
+
+void warnWhereFewNodesTouch(const Touch& touch, Session& session) {
+  const Solution& solution = *touch.solution();
+  const Eigen::Index touching = (solution.state().contactTraction_MPa.colwise().squaredNorm().array() > 0).count();
+  const auto indenters = static_cast<Eigen::Index>(solution.state().indenters.size());
+  if (touching >= kFewNodes * indenters) return;
+  session.warnings.push_back("only " + std::to_string(touching) +
+                             " nodes of the mesh touch; depth and contact are wrong "
+                             "where they are fewer than about " +
+                             std::to_string(kFewNodes) + " under an indenter: take a finer mesh");
+  if (!session.json) std::cout << "warning: " << session.warnings.back() << '\n';
+}
+
 Exit run(const SolveArguments& arguments, Session& session) {
   const SensorDesign design = designOption(arguments.design);
   const LoadCase load = arguments.loads.loadCase(design);
@@ -190,6 +205,7 @@ Exit run(const SolveArguments& arguments, Session& session) {
   }
   report(touch, error ? &*error : nullptr, session);
   if (!session.json) print(touch, error ? &*error : nullptr);
+  if (!load.indenters.empty()) warnWhereFewNodesTouch(touch, session);
   if (!arguments.output.path.empty() && !session.stop.stop_requested()) { // half a solve is no result
     const NodalFields fields = touch.problem()->fields(touch.solution()->state());
     std::optional<CurrentField> current;

@@ -136,6 +136,8 @@ TEST(Commands, SolveWithAnIndenterSaysForceWayAndContact) {
   for (const char* key : {"contact_area_mm2", "contact_radius_mm", "centre_pressure_MPa"})
     EXPECT_GT(sphere.at(key).get<double>(), 0) << key;
   EXPECT_EQ(sphere.at("slip_share").get<double>(), 1) << "without friction nothing sticks";
+  ASSERT_EQ(result.at("warnings").size(), 1U) << "hexahedra of 2 mm are too coarse for it";
+  EXPECT_NE(result.at("warnings")[0].get<std::string>().find("nodes of the mesh touch"), std::string::npos);
 }
 
 TEST(Commands, SolveOnThePapersMappedMesh) {
