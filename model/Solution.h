@@ -20,6 +20,7 @@ struct NewtonStep {
 struct IndenterState {
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();        ///< of it on the rubber
   Eigen::Vector3d translation_mm = Eigen::Vector3d::Zero(); ///< from first touch of the body at rest
+  int touchingNodes = 0;                                    ///< of the mesh; with few of them the rest is wrong
   double contactArea_mm2 = 0;                               ///< of the surface at rest that touches
   double contactRadius_mm = 0;                              ///< of a circle with as wide a spread of the pressure
   double centrePressure_MPa = 0;                            ///< force an area at rest, around the deepest place

@@ -107,8 +107,7 @@ bool BatchSolver::State::fromSurrogates(std::span<const LoadCase> loads, std::ve
   const SensorDesign& design = problem.design();
   std::vector<std::vector<std::size_t>> byArea(surrogates.size());
   for (std::size_t i = 0; i < loads.size(); ++i)
-    if (loads[i].areas.size() == 1 && loads[i].patches.empty() && inRange(design.forceRange, loads[i].areas[0].force_N))
-      byArea[loads[i].areas[0].area].push_back(i);
+    if (onOneArea(loads[i], design.forceRange)) byArea[loads[i].areas[0].area].push_back(i);
   for (std::size_t area = 0; area < byArea.size(); ++area) {
     const std::vector<std::size_t>& indices = byArea[area];
     if (indices.empty()) continue;

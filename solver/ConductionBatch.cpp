@@ -83,9 +83,7 @@ ConductionBatch::Answers ConductionBatch::solve(std::span<const LoadCase> loads,
                                                 const std::function<void(std::size_t)>& progress,
                                                 const std::stop_token& stop, std::size_t firstNumber) {
   State& s = *state_;
-  const auto one = [&](const LoadCase& load) {
-    return load.areas.size() == 1 && load.patches.empty() && inRange(s.design.forceRange, load.areas[0].force_N);
-  };
+  const auto one = [&](const LoadCase& load) { return onOneArea(load, s.design.forceRange); };
   if (!s.options.surrogate || !std::all_of(loads.begin(), loads.end(), one))
     return s.bySolves(loads, progress, stop, firstNumber);
   for (const LoadCase& load : loads)

@@ -39,7 +39,7 @@ struct MeshOptions {
 };
 
 /// The options with what the load asks of a mesh of tetrahedra in place of theirs: discs and zones, and borders of the
-/// load areas where an area or patch is loaded or no indenter presses.
+/// load areas where an area is loaded or no indenter presses.
 MeshOptions meshFor(const SensorDesign& design, const LoadCase& load, MeshOptions options);
 
 /// Elements of the largest mesh that is made.

@@ -49,6 +49,11 @@ bool inRange(const ForceRange& range, const Eigen::Vector3d& force_N) {
   return (force_N.array() >= range.low_N.array()).all() && (force_N.array() <= range.high_N.array()).all();
 }
 
+bool onOneArea(const LoadCase& load, const ForceRange& range) {
+  return load.areas.size() == 1 && load.patches.empty() && load.indenters.empty() &&
+         inRange(range, load.areas.front().force_N);
+}
+
 Eigen::Vector3d coveringForce(const ForceRange& range, int index) {
   Eigen::Vector3d share;
   for (int d = 0; d < 3; ++d)

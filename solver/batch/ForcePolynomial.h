@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/SensorDesign.h"
+#include "model/LoadCase.h"
 
 #include <Eigen/Core>
 
@@ -26,6 +26,9 @@ private:
 
 /// Whether a force lies in the range.
 bool inRange(const ForceRange& range, const Eigen::Vector3d& force_N);
+
+/// Whether the load is one force on one area, in the range, and nothing else: what a polynomial of an area answers.
+bool onOneArea(const LoadCase& load, const ForceRange& range);
 
 /// Forces that cover the range: its 8 corners, then Halton's sequence.
 Eigen::Vector3d coveringForce(const ForceRange& range, int index);

@@ -103,7 +103,7 @@ ContactResult ContactSolver::follow(const Loading& loading) {
     size = (target - fraction) / 2;
     if (outcome == Outcome::Cancelled || size < options_.smallestStep) {
       newton.cancelled = outcome == Outcome::Cancelled;
-      newton.stopReason = reason(outcome, fraction, target);
+      newton.stopReason = stopReason(outcome, options_.iterationsAStep, fraction, target);
       break;
     }
   }
@@ -254,27 +254,6 @@ bool ContactSolver::reachesBeyond(const State& state) const {
 void ContactSolver::record(double fraction, int iteration) {
   steps_.push_back({fraction, iteration, relative_});
   if (observer_.step) observer_.step(steps_.back());
-}
-
-std::string ContactSolver::reason(Outcome outcome, double reached, double tried) const {
-  const std::string where = " between load fractions " + text(reached) + " and " + text(tried);
-  switch (outcome) {
-  case Outcome::Converged:
-    return {};
-  case Outcome::Cancelled:
-    return "cancelled at load fraction " + text(reached);
-  case Outcome::Inverted:
-    return "elements turn inside out" + where;
-  case Outcome::Indefinite:
-    return "the tangent is no longer positive definite (the block loses stability)" + where;
-  case Outcome::NoContact:
-    return "no contact in equilibrium is found" + where;
-  case Outcome::TooManyIterations:
-    return "no convergence in " + std::to_string(options_.iterationsAStep) + " iterations" + where;
-  case Outcome::Diverged:
-    return "Newton's iteration diverges" + where;
-  }
-  return {};
 }
 
 } // namespace palp

@@ -30,7 +30,7 @@ public:
   [[nodiscard]] ContactResult solve(const Loading& loading);
 
 private:
-  enum class Outcome { Converged, Inverted, Indefinite, NoContact, TooManyIterations, Diverged, Cancelled };
+  using Outcome = StepOutcome;
   struct State {
     ElementState rubber;
     ContactState contact;
@@ -48,7 +48,6 @@ private:
   [[nodiscard]] double firstStep() const;
   void record(double fraction, int iteration);
   [[nodiscard]] bool stopped() const { return observer_.stop.stop_requested(); }
-  [[nodiscard]] std::string reason(Outcome outcome, double reached, double tried) const;
 
   const Assembler& assembler_;
   const Mesh& mesh_;

@@ -33,6 +33,7 @@ IndenterState stateOf(const Indenter& indenter, int index, const Mesh& mesh, con
     const auto i = static_cast<Eigen::Index>(p);
     if (points[p].indenter != index || state.grips[p] == Grip::Free) continue;
     result.force_N += state.forces_N.col(i);
+    ++result.touchingNodes;
     result.contactArea_mm2 += points[p].area_mm2;
     if (state.grips[p] == Grip::Slides) sliding += points[p].area_mm2;
     const double share = state.forces_N.col(i).norm();

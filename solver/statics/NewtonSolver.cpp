@@ -60,7 +60,7 @@ NewtonResult NewtonSolver::solve(const Loading& loading) {
     size = (target - fraction) / 2;
     if (outcome == Outcome::Cancelled || size < options_.smallestStep) {
       result.cancelled = outcome == Outcome::Cancelled;
-      result.stopReason = reason(outcome, fraction, target);
+      result.stopReason = stopReason(outcome, options_.iterationsAStep, fraction, target);
       break;
     }
   }
@@ -246,25 +246,6 @@ NewtonSolver::Outcome NewtonSolver::step(const Loading& loading, double from, do
       return outcome;
   }
   return Outcome::TooManyIterations;
-}
-
-std::string NewtonSolver::reason(Outcome outcome, double reached, double tried) const {
-  const std::string where = " between load fractions " + text(reached) + " and " + text(tried);
-  switch (outcome) {
-  case Outcome::Converged:
-    return {};
-  case Outcome::Cancelled:
-    return "cancelled at load fraction " + text(reached);
-  case Outcome::Inverted:
-    return "elements turn inside out" + where;
-  case Outcome::Indefinite:
-    return "the tangent is no longer positive definite (the block loses stability)" + where;
-  case Outcome::TooManyIterations:
-    return "no convergence in " + std::to_string(options_.iterationsAStep) + " iterations" + where;
-  case Outcome::Diverged:
-    return "Newton's iteration diverges" + where;
-  }
-  return {};
 }
 
 } // namespace palp

@@ -2,6 +2,7 @@
 
 #include "solver/HyperelasticProblem.h"
 #include "solver/assembly/Assembler.h"
+#include "solver/statics/StepOutcome.h"
 
 #include <functional>
 #include <memory>
@@ -69,7 +70,7 @@ public:
   [[nodiscard]] NewtonResult solve(const Loading& loading);
 
 private:
-  enum class Outcome { Converged, Inverted, Indefinite, TooManyIterations, Diverged, Cancelled };
+  using Outcome = StepOutcome;
   /// A Newton direction and where it starts.
   struct Direction {
     ElementState start;
@@ -96,7 +97,6 @@ private:
   void setResidual(const Loading& loading, double fraction);
   void record(double fraction, int iteration);
   [[nodiscard]] bool stopped() const { return observer_.stop.stop_requested(); }
-  [[nodiscard]] std::string reason(Outcome outcome, double reached, double tried) const;
 
   const Assembler& assembler_;
   SparseCholesky& cholesky_;

@@ -164,19 +164,19 @@ NewtonObserver observer(const Session& session) {
   return observer;
 }
 
-/// Nodes under one indenter below which its depth and contact are not to be trusted.
-constexpr Eigen::Index kFewNodes = 10;
+/// Nodes under an indenter below which its depth and contact are not to be trusted.
+constexpr int kFewNodes = 10;
 
 void warnWhereFewNodesTouch(const Touch& touch, Session& session) {
-  const Solution& solution = *touch.solution();
-  const Eigen::Index touching = (solution.state().contactTraction_MPa.colwise().squaredNorm().array() > 0).count();
-  const auto indenters = static_cast<Eigen::Index>(solution.state().indenters.size());
-  if (touching >= kFewNodes * indenters) return;
-  session.warnings.push_back("only " + std::to_string(touching) +
-                             " nodes of the mesh touch; depth and contact are wrong "
-                             "where they are fewer than about " +
-                             std::to_string(kFewNodes) + " under an indenter: take a finer mesh");
-  if (!session.json) std::cout << "warning: " << session.warnings.back() << '\n';
+  const std::vector<IndenterState>& indenters = touch.solution()->state().indenters;
+  for (std::size_t k = 0; k < indenters.size(); ++k) {
+    if (indenters[k].touchingNodes >= kFewNodes) continue;
+    session.warnings.push_back(shapeName(touch.load().indenters[k].shape) + ": only " +
+                               std::to_string(indenters[k].touchingNodes) +
+                               " nodes of the mesh touch it; below about " + std::to_string(kFewNodes) +
+                               " its depth and contact are wrong: take a finer mesh");
+    if (!session.json) std::cout << "warning: " << session.warnings.back() << '\n';
+  }
 }
 
 Exit run(const SolveArguments& arguments, Session& session) {
@@ -205,7 +205,7 @@ Exit run(const SolveArguments& arguments, Session& session) {
   }
   report(touch, error ? &*error : nullptr, session);
   if (!session.json) print(touch, error ? &*error : nullptr);
-  if (!load.indenters.empty()) warnWhereFewNodesTouch(touch, session);
+  if (touch.solution()->converged) warnWhereFewNodesTouch(touch, session);
   if (!arguments.output.path.empty() && !session.stop.stop_requested()) { // half a solve is no result
     const NodalFields fields = touch.problem()->fields(touch.solution()->state());
     std::optional<CurrentField> current;

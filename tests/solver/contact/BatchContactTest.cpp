@@ -62,6 +62,18 @@ TEST(BatchContact, AnAnswerDependsOnItsOwnTouchAlone) {
     EXPECT_TRUE(BatchSolver(problem, one).solve({&loads[i], 1})[0].upper_mm == together[i].upper_mm) << i;
 }
 
+TEST(BatchContact, AnIndenterBesideALoadedAreaIsNotLeftOutByTheSurrogate) {
+  const HyperelasticProblem problem = hexahedra();
+  LoadCase load = touch(8, 20, 20, 2);
+  load.areas = {{0, {0.2, 0, -1}}};
+  BatchOptions surrogate;
+  surrogate.surrogate = true;
+  const auto answers = BatchSolver(problem, surrogate).solve({&load, 1});
+  const Solution full = problem.solve(load);
+  ASSERT_TRUE(full.converged) << full.stopReason;
+  EXPECT_LT(difference(answers[0], problem.electrodes(full.state())), 1e-5);
+}
+
 TEST(BatchContact, TwoTouchesAtOnceAndAMotionAreSolvedAlong) {
   const HyperelasticProblem problem = hexahedra();
   LoadCase two = touch(5, 8, 15, 2);
