@@ -1,5 +1,7 @@
 #include "io/board/ReplaySource.h"
 
+#include "io/board/Protocol.h"
+
 #include <algorithm>
 #include <thread>
 
@@ -46,24 +48,50 @@ void ReplaySource::skipToReport() {
 
 /// On from the first report at or after this time; marks and configurations on the way count.
 void ReplaySource::goTo(double to_s) {
-  const bool back = !next_ || next_->hostTime_s > first_s_ + to_s;
-  if (back) {
-    reader_ = RecordingReader(path_);
-    configuration_ = reader_.head().configuration;
-    mark_.clear();
-    tare_.reset();
+  if (!next_ || next_->hostTime_s > first_s_ + to_s) rewind();
+  for (skipToReport(); next_ && next_->hostTime_s < first_s_ + to_s; skipToReport()) next_ = reader_.next();
+  goOnFrom(first_s_ + to_s);
+}
+
+/// By the frames' numbers, not by their length: on a busy host many reports come at once and others late.
+void ReplaySource::goToFrameBefore(double end_s) {
+  rewind();
+  std::size_t report = 0, begin = 0, before = 0;
+  std::optional<std::uint16_t> frame;
+  for (skipToReport(); next_ && next_->hostTime_s <= end_s; skipToReport(), ++report) {
+    const auto decoded = decodeInput(next_->bytes, info());
+    if (const auto* readings = std::get_if<Readings>(&decoded); readings && frame != readings->frame) {
+      frame = readings->frame;
+      before = std::exchange(begin, report);
+    }
     next_ = reader_.next();
   }
-  for (skipToReport(); next_ && next_->hostTime_s < first_s_ + to_s; skipToReport()) next_ = reader_.next();
-  takenUp_s_ = first_s_ + to_s - kSameTime_s;
+  rewind();
+  for (skipToReport(); next_ && before > 0; skipToReport(), --before) next_ = reader_.next();
+  goOnFrom(next_ ? next_->hostTime_s : first_s_);
+}
+
+void ReplaySource::rewind() {
+  reader_ = RecordingReader(path_);
+  configuration_ = reader_.head().configuration;
+  mark_.clear();
+  tare_.reset();
+  next_ = reader_.next();
+}
+
+void ReplaySource::goOnFrom(double hostTime_s) {
+  takenUp_s_ = hostTime_s - kSameTime_s;
   started_ = false;
   jumped_ = true;
+  if (control_->paused) control_->steps = 1; // so that one sees where one is
 }
 
 /// What was asked for since: another place, or the loop's begin.
 void ReplaySource::follow() {
   const double sought_s = control_->seek_s_.exchange(-1);
   if (sought_s >= 0) return goTo(std::min<double>(sought_s, control_->length_s));
+  const double frameEnd_s = control_->frameEnd_s_.exchange(-1);
+  if (frameEnd_s >= 0) return goToFrameBefore(frameEnd_s);
   const double from_s = control_->loopFrom_s, to_s = control_->loopTo_s;
   if (!control_->loop || !(to_s > from_s) || control_->paused) return;
   const bool over = !next_ || next_->hostTime_s - first_s_ > to_s;

@@ -31,10 +31,13 @@ struct ReplayControl {
   std::atomic<bool> loop{false};     ///< between the next two, again and again
   std::atomic<double> loopFrom_s{0}, loopTo_s{0};
 
-  /// Goes on from this time of the recording.
+  /// Goes on from this time of the recording; while paused, to the end of the first frame there.
   void seek(double to_s) { seek_s_ = to_s; }
+  /// The same from the begin of the frame before the one whose last report came at this host time; the first has none
+  /// before it and is gone to itself.
+  void seekFrameBefore(double end_s) { frameEnd_s_ = end_s; }
   /// A seek waits to be followed.
-  [[nodiscard]] bool sought() const { return seek_s_ >= 0; }
+  [[nodiscard]] bool sought() const { return seek_s_ >= 0 || frameEnd_s_ >= 0; }
   /// All marks of the recording; empty before it was opened.
   [[nodiscard]] std::vector<ReplayMark> marks() const {
     const std::lock_guard lock(mutex_);
@@ -45,7 +48,8 @@ private:
   friend class ReplaySource;
   mutable std::mutex mutex_;
   std::vector<ReplayMark> marks_;
-  std::atomic<double> seek_s_{-1}; ///< below 0: none
+  std::atomic<double> seek_s_{-1};     ///< below 0: none
+  std::atomic<double> frameEnd_s_{-1}; ///< below 0: none
 };
 
 /// A recording as if it came from the board again: the same decoder takes it.
@@ -72,6 +76,9 @@ private:
   void measure();
   void follow();
   void goTo(double to_s);
+  void goToFrameBefore(double end_s);
+  void rewind();
+  void goOnFrom(double hostTime_s);
   void skipToReport();
 
   std::filesystem::path path_;

@@ -14,8 +14,6 @@ namespace palp {
 
 namespace {
 
-constexpr double kStepBack = 2.5; // frames, from the end of one to the middle of the second before it
-
 /// Whatever goes wrong while a source is opened is said in the session's state.
 template <class Open> std::unique_ptr<ReportSource> orRefuse(const Open& open) {
   try {
@@ -298,9 +296,7 @@ void LiveHost::backToNetwork() {
 }
 
 void LiveHost::seek(double to_s) {
-  if (!replay_) return;
-  replay_->seek(to_s);
-  if (paused_) ++replay_->steps; // so that one sees where one is
+  if (replay_) replay_->seek(to_s);
 }
 
 bool LiveHost::look() {
@@ -363,11 +359,7 @@ void LiveHost::step(int frames) {
     replay_->steps += frames;
     return;
   }
-  // To the frame before: taken up in the middle of the one before that, which is left out then.
-  const LiveFrame* last = history_.last();
-  if (last == nullptr) return;
-  const double frame_s = last->frame.endTime_s - last->frame.time_s;
-  seek(std::max(0.0, replay_->position_s - kStepBack * frame_s));
+  if (const LiveFrame* last = history_.last()) replay_->seekFrameBefore(last->frame.hostTime_s);
 }
 
 void LiveHost::mark(const std::string& text) {

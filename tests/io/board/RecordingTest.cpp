@@ -287,6 +287,49 @@ TEST(ReplaySource, GoesToAnyTimeOfTheRecordingAndPlaysALoop) {
   EXPECT_EQ(round, (std::vector<int>{10, 11, 12, 10, 11, 12, 10}));
 }
 
+TEST(ReplaySource, GoesBackByAFrameWhereReportsCameInBursts) {
+  const TemporaryFolder folder;
+  VirtualBoard board = boardWith(smallBoard());
+  const std::vector<Bytes> reports = reportsOf(board, 90); // ten frames
+  const auto time_s = [](std::size_t i) { return 100 + 0.02 * static_cast<double>(i / 16) + 1e-6 * double(i); };
+  {
+    RecordingWriter writer(folder / "a", smallHead(), true);
+    for (std::size_t i = 0; i < reports.size(); ++i) writer.append(Kind::Raw, time_s(i), reports[i]);
+    waitUntil([&] { return writer.reports() == 90; });
+  }
+  auto control = std::make_shared<ReplayControl>();
+  control->speed = 0;
+  ReplaySource source(folder / "a", control);
+  FrameAssembler assembler(smallBoard().info, smallBoard().configuration);
+  const auto nextFrame = [&] {
+    std::optional<BoardFrame> shown;
+    RawReport report;
+    while (!shown && source.read(report, std::chrono::milliseconds(1)) == ReportSource::Outcome::Read) {
+      if (source.jumped()) assembler.restart();
+      assembler.add(report.bytes, report.hostTime_s, [&](const BoardFrame& frame) { shown = frame; });
+    }
+    EXPECT_TRUE(shown && shown->complete);
+    return shown.value_or(BoardFrame());
+  };
+  BoardFrame frame;
+  for (int k = 0; k < 8; ++k) frame = nextFrame();
+  const auto first = frame.number - 7;
+  for (int k = 6; k >= 0; --k) {
+    control->seekFrameBefore(frame.hostTime_s);
+    EXPECT_TRUE(control->sought());
+    frame = nextFrame();
+    EXPECT_EQ(frame.number, first + static_cast<std::uint64_t>(k));
+  }
+  control->seekFrameBefore(frame.hostTime_s);
+  EXPECT_EQ(nextFrame().number, first) << "nothing lies before";
+
+  control->paused = true;
+  control->seekFrameBefore(time_s(89));
+  RawReport report;
+  EXPECT_EQ(source.read(report, std::chrono::milliseconds(1)), ReportSource::Outcome::Read);
+  EXPECT_EQ(control->steps, 1) << "the frame there is shown, then it stands";
+}
+
 TEST(ReplaySource, StandsStillWhilePaused) {
   const TemporaryFolder folder;
   record(folder / "a");
