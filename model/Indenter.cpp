@@ -1,7 +1,6 @@
 #include "model/Indenter.h"
 
 #include "model/SensorDesign.h"
-#include "model/base/NamedEnum.h"
 #include "model/base/Text.h"
 
 #include <Eigen/Dense>
@@ -12,11 +11,6 @@
 namespace palp {
 
 namespace {
-
-constexpr NamedEnum kIndenterShapes(
-    "shape", std::array{std::pair{IndenterShape::Sphere, "sphere"}, std::pair{IndenterShape::Pin, "pin"},
-                        std::pair{IndenterShape::Flat, "flat"}, std::pair{IndenterShape::CylinderX, "cylinder-x"},
-                        std::pair{IndenterShape::CylinderY, "cylinder-y"}, std::pair{IndenterShape::Plane, "plane"}});
 
 constexpr double kSmallestIndenter_mm = 0.05, kLargestIndenter_mm = 1e5;
 constexpr double kLargestFriction = 2;
@@ -153,6 +147,22 @@ IndenterDistance distance(const Indenter& indenter, const Eigen::Vector3d& fromT
     break;
   }
   return roundDistance(r, indenter.radius_mm, bending);
+}
+
+std::string asCommand(const Indenter& indenter) {
+  std::string command = "--indenter " + shapeName(indenter.shape);
+  if (indenter.shape != IndenterShape::Plane) command += ":" + text(indenter.radius_mm);
+  if (indenter.shape == IndenterShape::Flat) command += "," + text(indenter.rim_mm);
+  command += "@" + text(indenter.place_mm.x()) + "," + text(indenter.place_mm.y());
+  if (const Press* press = indenter.press()) {
+    const Eigen::Vector3d& force_N = press->force_N;
+    command += ":press=" + text(force_N.x()) + "," + text(force_N.y()) + "," + text(force_N.z());
+  } else {
+    const Motion& motion = *indenter.motion();
+    command += ":depth=" + text(motion.depth_mm);
+    if (!motion.shift_mm.isZero(0)) command += "," + text(motion.shift_mm.x()) + "," + text(motion.shift_mm.y());
+  }
+  return indenter.friction > 0 ? command + ":mu=" + text(indenter.friction) : command;
 }
 
 std::optional<std::string> whyInvalid(const Indenter& indenter, const SensorDesign& design) {

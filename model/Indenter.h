@@ -1,5 +1,7 @@
 #pragma once
 
+#include "model/base/NamedEnum.h"
+
 #include <Eigen/Core>
 
 #include <optional>
@@ -19,6 +21,11 @@ enum class IndenterShape {
   CylinderY, ///< lies along y
   Plane
 };
+
+inline constexpr NamedEnum kIndenterShapes(
+    "shape", std::array{std::pair{IndenterShape::Sphere, "sphere"}, std::pair{IndenterShape::Pin, "pin"},
+                        std::pair{IndenterShape::Flat, "flat"}, std::pair{IndenterShape::CylinderX, "cylinder-x"},
+                        std::pair{IndenterShape::CylinderY, "cylinder-y"}, std::pair{IndenterShape::Plane, "plane"}});
 
 /// Presses with a force on the rubber [N]; free to move along x and y only with friction, which holds it.
 struct Press {
@@ -67,6 +74,9 @@ std::string shapeName(IndenterShape shape);
 std::optional<IndenterShape> indenterShape(const std::string& name);
 /// "sphere, pin, flat, cylinder-x, cylinder-y or plane".
 std::string indenterShapes();
+
+/// As the option of the command line that makes it: "--indenter sphere:5@15,15:press=0,0,-3:mu=0.5".
+std::string asCommand(const Indenter& indenter);
 
 /// Why the indenter cannot press on the design (off the body, a rim wider than the punch, friction below 0 or above 2,
 /// a pull, a force sideways that no friction holds, a number that is not finite); empty if it can.

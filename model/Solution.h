@@ -16,6 +16,9 @@ struct NewtonStep {
   double relativeResidual = 0;
 };
 
+/// Below so many nodes that touch it an indenter's depth and contact are not to be trusted.
+constexpr int kFewTouchingNodes = 10;
+
 /// What an indenter does.
 struct IndenterState {
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();        ///< of it on the rubber

@@ -41,6 +41,8 @@ std::string calculixDeck(const SensorDesign& design, const Mesh& mesh, const Loa
   const Material& m = design.material;
   if (m.compressibility_per_MPa() <= 0)
     throw DesignError("material.poisson_ratio 0.5: a displacement element's deck needs a value below 0.5");
+  if (!load.indenters.empty())
+    throw DesignError("the load has an indenter: a deck holds forces on areas and discs, no contact");
   const Eigen::VectorXd forces = nodalForces(mesh, design, load);
   std::string deck = "*HEADING\nBlock of a tactile sensor [mm, N, MPa]\n*NODE, NSET=ALL\n";
   for (int n = 0; n < mesh.nodeCount(); ++n) {

@@ -52,6 +52,7 @@ void renderTouch(const Touch& touch, const std::string& quantity, const PictureS
   state.electrodes = touch.displacements();
   state.load = &touch.load();
   state.loadFraction = touch.solution()->reachedLoadFraction;
+  state.indenters = touch.solution()->state().indenters;
   session.stages.measure("render", [&] { writePng(drawDeformation(state, options, size.width, size.height), file); });
   session.result["file"] = file.string();
 }

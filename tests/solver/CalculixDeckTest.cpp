@@ -99,4 +99,10 @@ TEST_P(Deck, IsRefusedForIncompressibleRubber) {
   EXPECT_THROW(static_cast<void>(calculixDeck(design_, mesh_, {})), DesignError);
 }
 
+TEST_P(Deck, IsRefusedForAnIndenterThatItCannotHold) {
+  LoadCase load;
+  load.indenters.emplace_back().place_mm = {15, 15};
+  EXPECT_THROW(static_cast<void>(calculixDeck(design_, mesh_, load)), DesignError);
+}
+
 } // namespace

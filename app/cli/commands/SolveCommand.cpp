@@ -164,16 +164,13 @@ NewtonObserver observer(const Session& session) {
   return observer;
 }
 
-/// Nodes under an indenter below which its depth and contact are not to be trusted.
-constexpr int kFewNodes = 10;
-
 void warnWhereFewNodesTouch(const Touch& touch, Session& session) {
   const std::vector<IndenterState>& indenters = touch.solution()->state().indenters;
   for (std::size_t k = 0; k < indenters.size(); ++k) {
-    if (indenters[k].touchingNodes >= kFewNodes) continue;
+    if (indenters[k].touchingNodes >= kFewTouchingNodes) continue;
     session.warnings.push_back(shapeName(touch.load().indenters[k].shape) + ": only " +
                                std::to_string(indenters[k].touchingNodes) +
-                               " nodes of the mesh touch it; below about " + std::to_string(kFewNodes) +
+                               " nodes of the mesh touch it; below about " + std::to_string(kFewTouchingNodes) +
                                " its depth and contact are wrong: take a finer mesh");
     if (!session.json) std::cout << "warning: " << session.warnings.back() << '\n';
   }

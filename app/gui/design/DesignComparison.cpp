@@ -187,6 +187,7 @@ void DesignComparison::goBack() {
   next.design = chosen()->design;
   std::erase_if(next.load.areas, [&](const AreaLoad& load) { return load.area >= next.design.areas.count(); });
   std::erase_if(next.load.patches, [&](const PatchLoad& disc) { return whyInvalid({{}, {disc}}, next.design); });
+  std::erase_if(next.load.indenters, [&](const Indenter& its) { return whyInvalid(its, next.design); });
   asked_.reset();
   workbench_.closeEntry();
   workbench_.edit(tr("Go back to an earlier design"), next);

@@ -89,6 +89,7 @@ DesignPage::DesignPage(Workbench& workbench, NetworkSession& network, QWidget* p
     next.design = design;
     std::erase_if(next.load.areas, [&](const AreaLoad& load) { return load.area >= design.areas.count(); });
     std::erase_if(next.load.patches, [&](const PatchLoad& disc) { return whyInvalid({{}, {disc}}, design); });
+    std::erase_if(next.load.indenters, [&](const Indenter& its) { return whyInvalid(its, design); });
     workbench_.edit(what, next);
   });
   connect(panel_, &DesignPanel::scalingChosen, this, [this](bool on) {

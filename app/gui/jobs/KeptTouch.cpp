@@ -45,9 +45,13 @@ Eigen::VectorXd readAt(const std::vector<FoundPoint>& points, const Eigen::Vecto
 }
 
 NodalFields readAt(const std::vector<FoundPoint>& points, const NodalFields& fields) {
-  return {readAt(points, fields.displacement_mm), readAt(points, fields.cauchy_MPa),
-          readAt(points, fields.pressure_MPa),    readAt(points, fields.vonMises_MPa),
-          readAt(points, fields.volumeRatio),     readAt(points, fields.principalStretches)};
+  return {readAt(points, fields.displacement_mm),
+          readAt(points, fields.cauchy_MPa),
+          readAt(points, fields.pressure_MPa),
+          readAt(points, fields.vonMises_MPa),
+          readAt(points, fields.volumeRatio),
+          readAt(points, fields.principalStretches),
+          fields.contactTraction_MPa.cols() > 0 ? readAt(points, fields.contactTraction_MPa) : Eigen::Matrix3Xd()};
 }
 
 } // namespace

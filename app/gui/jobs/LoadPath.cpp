@@ -21,6 +21,17 @@ LoadPathState between(const LoadPathState& a, const LoadPathState& b, double fra
   fields.vonMises_MPa = between(a.fields.vonMises_MPa, b.fields.vonMises_MPa, t);
   fields.volumeRatio = between(a.fields.volumeRatio, b.fields.volumeRatio, t);
   fields.principalStretches = between(a.fields.principalStretches, b.fields.principalStretches, t);
+  const Eigen::Matrix3Xd &from = a.fields.contactTraction_MPa, &to = b.fields.contactTraction_MPa;
+  if (from.cols() == to.cols()) // at rest there is none
+    fields.contactTraction_MPa = between(from, to, t);
+  else
+    fields.contactTraction_MPa *= t;
+  for (std::size_t k = 0; k < state.indenters.size(); ++k) {
+    const IndenterState rest, &before = k < a.indenters.size() ? a.indenters[k] : rest;
+    IndenterState& now = state.indenters[k];
+    now.force_N = between(before.force_N, b.indenters[k].force_N, t);
+    now.translation_mm = between(before.translation_mm, b.indenters[k].translation_mm, t);
+  }
   ElectrodeDisplacements& electrodes = state.electrodes;
   electrodes.upper_mm = between(a.electrodes.upper_mm, b.electrodes.upper_mm, t);
   electrodes.lower_mm = between(a.electrodes.lower_mm, b.electrodes.lower_mm, t);
@@ -34,7 +45,8 @@ std::vector<LoadPathState> loadPathStates(const Touch& touch, const std::stop_to
   std::vector<LoadPathState> path;
   for (const LoadIncrement& state : touch.solution()->increments) {
     if (stop.stop_requested()) break;
-    path.push_back({state.loadFraction, touch.problem()->fields(state), touch.problem()->electrodes(state)});
+    path.push_back(
+        {state.loadFraction, touch.problem()->fields(state), touch.problem()->electrodes(state), state.indenters});
   }
   return path;
 }

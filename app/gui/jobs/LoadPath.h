@@ -12,6 +12,7 @@ struct LoadPathState {
   double fraction = 0;
   NodalFields fields;
   ElectrodeDisplacements electrodes;
+  std::vector<IndenterState> indenters; ///< of the load's indenters
 };
 
 /// The equilibria that were computed on the way, rest first; fewer where it was stopped.

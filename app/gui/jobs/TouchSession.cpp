@@ -141,6 +141,7 @@ void TouchSession::take(const Touch& touch, std::shared_ptr<const NodalFields> f
   electrodes_ = touch.displacements() != nullptr
                     ? std::make_shared<const ElectrodeDisplacements>(*touch.displacements())
                     : nullptr;
+  indenters_ = shown_.solution() != nullptr ? shown_.solution()->state().indenters : std::vector<IndenterState>{};
   emit changed(meshChanged);
   emit newtonStepped();
   if (missing()) run();
@@ -176,6 +177,7 @@ void TouchSession::showState(int percent) {
   LoadPathState state = stateAt(*path_, loadFraction());
   fields_ = std::make_shared<const NodalFields>(std::move(state.fields));
   electrodes_ = std::make_shared<const ElectrodeDisplacements>(std::move(state.electrodes));
+  indenters_ = std::move(state.indenters);
   emit changed(false);
 }
 

@@ -51,6 +51,8 @@ public:
   /// Fields of the place of the load path that is shown; null before the first solution.
   [[nodiscard]] const NodalFields* fields() const { return fields_.get(); }
   [[nodiscard]] const ElectrodeDisplacements* electrodes() const { return electrodes_.get(); }
+  /// What the load's indenters do at that place; empty before the first solution.
+  [[nodiscard]] const std::vector<IndenterState>& indenters() const { return indenters_; }
   /// At the end of the load path, for scales that hold on all of it.
   [[nodiscard]] const NodalFields* endFields() const { return endFields_.get(); }
   /// The place that is shown on the way from rest to the load, in percent of it, and the last one that was reached.
@@ -99,6 +101,7 @@ private:
   quint64 computed_ = 0; ///< revision that the runner's last job computes; 0: it computes no touch
   std::shared_ptr<const NodalFields> fields_;
   std::shared_ptr<const ElectrodeDisplacements> electrodes_;
+  std::vector<IndenterState> indenters_;
   std::shared_ptr<NewtonTrace> trace_;
   std::shared_ptr<const NodalFields> endFields_;
   std::shared_ptr<const std::vector<LoadPathState>> path_; ///< null until it is first scrubbed through

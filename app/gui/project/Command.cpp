@@ -38,6 +38,7 @@ QString solveCommands(const Project& project, const QString& designFile) {
     command += QString::fromStdString(" --patch " + text(patch.centre_mm.x()) + "," + text(patch.centre_mm.y()) + "," +
                                       text(patch.radius_mm) + ":") +
                triple(patch.force_N);
+  for (const Indenter& indenter : project.load.indenters) command += " " + QString::fromStdString(asCommand(indenter));
   command += meshOption(project.mesh);
   const QString quantity = QString::fromStdString(quantityName(project.view.quantity));
   return "palp solve " + designFile + command + " -o deformed.vtu\npalp render " + designFile + command +

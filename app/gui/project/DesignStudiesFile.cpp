@@ -163,6 +163,40 @@ Eigen::Vector3d vectorOf(const JsonPlace& place) {
   return {numbers[0], numbers[1], numbers[2]};
 }
 
+QJsonObject indenterJson(const Indenter& indenter) {
+  QJsonObject object{{"shape", QString::fromStdString(shapeName(indenter.shape))},
+                     {"radius_mm", indenter.radius_mm},
+                     {"rim_mm", indenter.rim_mm},
+                     {"place_mm", jsonOf(indenter.place_mm)},
+                     {"friction", indenter.friction}};
+  if (const Press* press = indenter.press()) {
+    object["force_N"] = jsonOf(press->force_N);
+  } else {
+    object["depth_mm"] = indenter.motion()->depth_mm;
+    object["shift_mm"] = jsonOf(indenter.motion()->shift_mm);
+  }
+  return object;
+}
+
+/// What cannot press is refused with the load as a whole.
+Indenter indenterOf(const JsonPlace& place) {
+  place.onlyKeys({"shape", "radius_mm", "rim_mm", "place_mm", "friction"}, {"force_N", "depth_mm", "shift_mm"});
+  Indenter indenter;
+  indenter.shape = place.at("shape").named(kIndenterShapes);
+  indenter.radius_mm = place.at("radius_mm").number(0, 1e6);
+  indenter.rim_mm = place.at("rim_mm").number(0, 1e6);
+  const std::vector<double> at = place.at("place_mm").numbers(2);
+  indenter.place_mm = {at[0], at[1]};
+  indenter.friction = place.at("friction").number(0, 1e3);
+  if (place.has("force_N")) {
+    indenter.control = Press{vectorOf(place.at("force_N"))};
+  } else {
+    const std::vector<double> shift = place.at("shift_mm").numbers(2);
+    indenter.control = Motion{place.at("depth_mm").number(0, 1e4), {shift[0], shift[1]}};
+  }
+  return indenter;
+}
+
 } // namespace
 
 QJsonObject loadJson(const LoadCase& load) {
@@ -173,11 +207,15 @@ QJsonObject loadJson(const LoadCase& load) {
   for (const PatchLoad& patch : load.patches)
     patches.append(QJsonObject{
         {"centre_mm", jsonOf(patch.centre_mm)}, {"radius_mm", patch.radius_mm}, {"force_N", jsonOf(patch.force_N)}});
-  return {{"areas", areas}, {"patches", patches}};
+  QJsonObject object{{"areas", areas}, {"patches", patches}};
+  QJsonArray indenters;
+  for (const Indenter& indenter : load.indenters) indenters.append(indenterJson(indenter));
+  if (!indenters.empty()) object["indenters"] = indenters; // as before where nothing new is in it
+  return object;
 }
 
 LoadCase loadOf(const JsonPlace& place) {
-  place.onlyKeys({"areas", "patches"});
+  place.onlyKeys({"areas", "patches"}, {"indenters"});
   LoadCase load;
   for (const JsonPlace& area : place.at("areas").list()) {
     area.onlyKeys({"area", "force_N"});
@@ -189,6 +227,8 @@ LoadCase loadOf(const JsonPlace& place) {
     load.patches.push_back(
         {{centre[0], centre[1]}, patch.at("radius_mm").number(0, 1e4), vectorOf(patch.at("force_N"))});
   }
+  if (place.has("indenters"))
+    for (const JsonPlace& indenter : place.at("indenters").list()) load.indenters.push_back(indenterOf(indenter));
   return load;
 }
 

@@ -112,9 +112,42 @@ QString discChange(const std::vector<PatchLoad>& before, const std::vector<Patch
   return {};
 }
 
+/// In a change's words: what it is, where, and how it presses.
+QString indenterWords(const Indenter& its) {
+  QString words = QString::fromStdString(shapeName(its.shape));
+  if (its.shape != IndenterShape::Plane) words += QString(" %1 mm").arg(its.radius_mm);
+  if (const Press* press = its.press())
+    words += " " + forceWords(press->force_N) + " N";
+  else
+    words += QObject::tr(" %1 mm deep").arg(its.motion()->depth_mm);
+  return words;
+}
+
+/// Of the indenters; empty where that is more than one thing.
+QString indenterChange(const std::vector<Indenter>& before, const std::vector<Indenter>& after) {
+  const auto same = static_cast<std::size_t>(
+      std::mismatch(before.begin(), before.end(), after.begin(), after.end()).first - before.begin());
+  const QString name = QObject::tr("indenter %1:").arg(same);
+  if (after.size() == before.size() + 1 && same == before.size())
+    return QString("%1 %2").arg(name, indenterWords(after[same]));
+  if (after.size() + 1 == before.size()) return QObject::tr("%1 taken away").arg(name);
+  if (after.size() != before.size()) return {};
+  const Indenter &from = before[same], &to = after[same];
+  Indenter moved = from;
+  moved.place_mm = to.place_mm;
+  if (moved == to)
+    return stepWords(name + QObject::tr(" place"), pairWords(from.place_mm), pairWords(to.place_mm), "mm");
+  Indenter rubbed = from;
+  rubbed.friction = to.friction;
+  if (rubbed == to)
+    return stepWords(name + QObject::tr(" friction"), QString::number(from.friction), QString::number(to.friction));
+  return stepWords(name, indenterWords(from), indenterWords(to));
+}
+
 QStringList loadChanges(const LoadCase& before, const LoadCase& after) {
   QStringList changes;
   if (before.patches != after.patches) changes << discChange(before.patches, after.patches);
+  if (before.indenters != after.indenters) changes << indenterChange(before.indenters, after.indenters);
   std::vector<int> areas;
   for (const LoadCase* load : {&before, &after})
     for (const AreaLoad& its : load->areas)

@@ -27,6 +27,8 @@ QString sourceLines(const ResultSource& source) {
   for (const PatchLoad& disc : source.load.patches)
     text += "# load on a disc at (" + exactNumber(disc.centre_mm.x()) + ", " + exactNumber(disc.centre_mm.y()) +
             ") mm with radius " + exactNumber(disc.radius_mm) + " mm: " + exactTriple(disc.force_N) + " N\n";
+  for (const Indenter& indenter : source.load.indenters)
+    text += "# indenter, as an option of palp solve: " + QString::fromStdString(asCommand(indenter)) + "\n";
   const QString mesh = meshOption(source.mesh).trimmed();
   text += "# mesh " + (mesh.isEmpty() ? QString("as palp makes it by itself") : mesh) + "\n";
   return text + exportLines({}, source.design, source.stale);

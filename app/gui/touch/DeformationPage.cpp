@@ -1,12 +1,12 @@
 #include "app/gui/touch/DeformationPage.h"
 
 #include "app/gui/project/Command.h"
-#include "app/gui/touch/LoadPanel.h"
 #include "app/gui/touch/LoadPathBar.h"
 #include "app/gui/touch/ResultPanel.h"
 #include "app/gui/touch/StaleNote.h"
 #include "app/gui/touch/TouchTabs.h"
 #include "app/gui/touch/ViewPanel.h"
+#include "app/gui/touch/loads/LoadPanel.h"
 #include "app/gui/views/BlockView.h"
 #include "app/gui/views/ViewBar.h"
 #include "app/gui/widgets/FoldingRow.h"
@@ -70,6 +70,7 @@ DeformationPage::DeformationPage(Workbench& workbench, QWidget* parent) : Scene(
   connect(block_, &BlockView::materialClicked, this, &DeformationPage::press);
   connect(block_, &BlockView::discDragged, this,
           [this](int disc, const PatchLoad& to) { load_->changeDisc(disc, to.centre_mm, to.radius_mm); });
+  connect(block_, &BlockView::indenterDragged, load_, &LoadPanel::changeIndenter);
   connect(block_, &BlockView::cutDragged, this, [this](double at_mm) {
     ViewSettings view = workbench_.project().view;
     if (!view.cut) return;
@@ -140,7 +141,7 @@ QWidget* DeformationPage::buildClicks() {
     QKeySequence key;
     QString words, tip;
   };
-  const std::array<Choice, 4> choices{
+  const std::array<Choice, 5> choices{
       {{Click::Probe, "clickProbe", Qt::Key_P, tr("Probe"),
         tr("A click reads displacement [mm] and stress [MPa] at a point")},
        {Click::Load, "clickLoad", Qt::Key_A, tr("Press an area"),
@@ -148,6 +149,9 @@ QWidget* DeformationPage::buildClicks() {
        {Click::Disc, "clickDisc", Qt::Key_D, tr("Press a disc"),
         tr("A click on the top face makes a round load; drag it to move it, its rim to size it; Shift-click takes it "
            "away")},
+       {Click::Indenter, "clickIndenter", Qt::Key_I, tr("Indenter"),
+        tr("A click on the top face presses with a rigid body there; drag it to move it, its rim to size it, its arrow "
+           "to press harder; Shift-click takes it away")},
        {Click::Line, "clickLine", Qt::Key_L, tr("Line"), tr("Two clicks are the ends of a line to plot along")}}};
   auto* bar = new QWidget;
   auto* row = new QHBoxLayout(bar);
@@ -194,7 +198,7 @@ void DeformationPage::showEvent(QShowEvent* event) {
 void DeformationPage::displayProject() {
   const Project& project = workbench_.project();
   load_->display(project.design, project.load);
-  view_->display(project.view, project.design.block_mm, project.kept.has_value());
+  view_->display(project.view, project.design.block_mm, project.kept.has_value(), !project.load.indenters.empty());
   tabs_->displayProject(project);
   if (!workbench_.touch().upToDate()) result_->setErrorWords({});
   if (isVisible()) displayResult();
@@ -267,6 +271,7 @@ void DeformationPage::drawBlock(bool meshChanged) {
   drawn_ = workbench_.project().view;
   DeformationState state{
       &design, touch.touch().mesh(), touch.fields(), touch.electrodes(), &touch.touch().load(), touch.loadFraction()};
+  state.indenters = touch.indenters();
   const auto kept = shownLess();
   std::optional<LoadPathState> less;
   if (kept) {
@@ -282,7 +287,9 @@ void DeformationPage::drawBlock(bool meshChanged) {
 void DeformationPage::chooseTool(Click click) {
   click_ = click;
   lineStart_ = -1;
-  block_->setDiscsMovable(click == Click::Disc);
+  block_->setMovable(click == Click::Disc       ? BlockView::Movable::Discs
+                     : click == Click::Indenter ? BlockView::Movable::Indenters
+                                                : BlockView::Movable::None);
   if (click != Click::Line) return;
   tabs_->showLine();
   emit message(tr("Click on one end of the line, then on the other."));
@@ -295,22 +302,29 @@ void DeformationPage::clicked(int node) {
 
 void DeformationPage::press(const Eigen::Vector3d& rest_mm) {
   const SensorDesign& design = workbench_.project().design;
-  const bool pressing = click_ == Click::Load || click_ == Click::Disc;
+  const bool pressing = click_ == Click::Load || click_ == Click::Disc || click_ == Click::Indenter;
   if (!pressing || rest_mm.z() < workbench_.touch().touch().design().block_mm.z() * (1 - 1e-6)) return;
   const Eigen::Vector2d place = rest_mm.head<2>();
   if (click_ == Click::Load) {
     for (int area = 0; area < design.areas.count(); ++area) {
       const Rectangle box = design.areaRectangle(area);
       if ((place.array() < box.low_mm.array()).any() || (place.array() > box.high_mm.array()).any()) continue;
-      load_->choose({false, area});
+      load_->choose({LoadKind::Area, area});
       return;
     }
     return;
   }
+  if (click_ == Click::Indenter) {
+    const std::vector<Indenter>& indenters = workbench_.project().load.indenters;
+    for (std::size_t k = indenters.size(); k-- > 0;)
+      if ((place - indenters[k].place_mm).norm() <= indenters[k].radius_mm)
+        return load_->takeAway({LoadKind::Indenter, static_cast<int>(k)}); // Shift was held, as below
+    return load_->addIndenter(place);
+  }
   const std::vector<PatchLoad>& discs = workbench_.project().load.patches;
   for (std::size_t k = discs.size(); k-- > 0;)
     if ((place - discs[k].centre_mm).norm() <= discs[k].radius_mm) {
-      load_->takeAway({true, static_cast<int>(k)}); // Shift was held: else the disc would have been dragged
+      load_->takeAway({LoadKind::Disc, static_cast<int>(k)}); // Shift was held: else the disc would have been dragged
       return;
     }
   load_->addDisc(place);
@@ -337,13 +351,21 @@ void DeformationPage::setForce(int load, const Eigen::Vector3d& drawn_N) {
   const double fraction = workbench_.touch().loadFraction();
   if (!(fraction > 0)) return;
   Project next = workbench_.project();
-  const auto areas = static_cast<int>(next.load.areas.size());
-  if (load >= areas + static_cast<int>(next.load.patches.size())) return;
-  Eigen::Vector3d& force_N = load < areas ? next.load.areas[static_cast<std::size_t>(load)].force_N
-                                          : next.load.patches[static_cast<std::size_t>(load - areas)].force_N;
-  force_N = (drawn_N / fraction).cwiseMax(-kMostGripForce_N).cwiseMin(kMostGripForce_N);
-  load_->choose(load < areas ? LoadPlace{false, next.load.areas[static_cast<std::size_t>(load)].area}
-                             : LoadPlace{true, load - areas});
+  const auto areas = static_cast<int>(next.load.areas.size()), discs = static_cast<int>(next.load.patches.size());
+  const Eigen::Vector3d force_N = (drawn_N / fraction).cwiseMax(-kMostGripForce_N).cwiseMin(kMostGripForce_N);
+  if (load < areas) {
+    AreaLoad& area = next.load.areas[static_cast<std::size_t>(load)];
+    area.force_N = force_N;
+    load_->choose({LoadKind::Area, area.area});
+  } else if (load < areas + discs) {
+    next.load.patches[static_cast<std::size_t>(load - areas)].force_N = force_N;
+    load_->choose({LoadKind::Disc, load - areas});
+  } else {
+    const auto k = static_cast<std::size_t>(load - areas - discs);
+    if (k >= next.load.indenters.size() || next.load.indenters[k].press() == nullptr) return;
+    next.load.indenters[k].control = Press{force_N};
+    load_->choose({LoadKind::Indenter, static_cast<int>(k)});
+  }
   workbench_.edit(tr("Drag a force"), next);
 }
 

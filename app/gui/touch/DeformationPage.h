@@ -39,7 +39,7 @@ protected:
 private:
   [[nodiscard]] bool lessKept() const;
   /// What a click on the block does.
-  enum class Click { Probe, Load, Disc, Line };
+  enum class Click { Probe, Load, Disc, Indenter, Line };
 
   QWidget* buildPanels();
   QWidget* buildViews();

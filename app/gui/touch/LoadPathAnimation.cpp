@@ -242,7 +242,7 @@ void LoadPathAnimation::fill(Order& order) {
   std::optional<Picture> picture;
   std::string problem;
   try {
-    picture = draw(*order.path, order.settings, order.state.fields, order.state.electrodes, order.state.fraction);
+    picture = draw(*order.path, order.settings, order.state);
   } catch (const std::exception& failure) {
     problem = std::string("the load path cannot be drawn: ") + failure.what();
   } catch (...) {
@@ -254,18 +254,18 @@ void LoadPathAnimation::fill(Order& order) {
   order.drawn.notify_one();
 }
 
-Picture LoadPathAnimation::draw(const Path& path, const Settings& settings, const NodalFields& fields,
-                                const ElectrodeDisplacements& electrodes, double fraction) {
+Picture LoadPathAnimation::draw(const Path& path, const Settings& settings, const LoadPathState& now) {
   requireDrawable(settings.width, settings.height);
   if (!easel_) easel_ = std::make_unique<Easel>();
   DeformationScene& scene = easel_->scene;
   const SensorDesign& design = path.touch.design();
-  DeformationState state{&design, path.touch.mesh(), &fields, &electrodes, &path.touch.load(), fraction};
+  DeformationState state{&design,      path.touch.mesh(), &now.fields, &now.electrodes, &path.touch.load(),
+                         now.fraction, now.indenters};
   std::optional<LoadPathState> less;
   if (settings.kept) {
     state.keptDesign = &settings.kept->design;
     state.keptLoad = &settings.kept->load;
-    state.kept = &less.emplace(settings.kept->at(fraction)).fields;
+    state.kept = &less.emplace(settings.kept->at(now.fraction)).fields;
   }
   scene.show(state, settings.options, !easel_->begun);
   if (!easel_->begun) {

@@ -45,8 +45,7 @@ private:
   struct Easel;
   struct Path;
   struct Order;
-  [[nodiscard]] Picture draw(const Path& path, const Settings& settings, const NodalFields& fields,
-                             const ElectrodeDisplacements& electrodes, double fraction);
+  [[nodiscard]] Picture draw(const Path& path, const Settings& settings, const LoadPathState& now);
   void fill(Order& order);
   /// False where it was stopped first.
   [[nodiscard]] bool drawInWindow(const std::shared_ptr<Order>& order, const std::stop_token& stop);

@@ -337,8 +337,8 @@ void ResistancePage::drawBlock(bool meshChanged) {
   if (touch.touch().mesh() == nullptr || !isVisible()) return;
   options_.litCell = cell();
   options_.scale = devicePixelRatioF();
-  DeformationState state{&touch.touch().design(), touch.touch().mesh(),  touch.fields(),
-                         touch.electrodes(),      &touch.touch().load(), touch.loadFraction()};
+  DeformationState state{&touch.touch().design(), touch.touch().mesh(), touch.fields(),   touch.electrodes(),
+                         &touch.touch().load(),   touch.loadFraction(), touch.indenters()};
   const CurrentLines none;
   DeformationOptions options = options_;
   if (wayShown()) {

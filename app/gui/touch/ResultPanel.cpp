@@ -36,6 +36,19 @@ QString triple(const Eigen::Vector3d& values) {
   return "(" + texts.join(", ") + ")";
 }
 
+QString contactWords(const Indenter& indenter, int index, const IndenterState& now) {
+  QString words =
+      QObject::tr("Indenter %1: %2 N, moved by %3 mm").arg(index).arg(triple(now.force_N), triple(now.translation_mm));
+  if (!(now.contactArea_mm2 > 0)) return words + ".";
+  words += QObject::tr("; contact radius %1 mm, area %2 mm<sup>2</sup>, %3 MPa in its centre")
+               .arg(number(now.contactRadius_mm, 3), number(now.contactArea_mm2, 3), number(now.centrePressure_MPa, 3));
+  if (indenter.friction > 0) words += QObject::tr("; %1 % of it slips").arg(number(100 * now.slipShare, 3));
+  if (now.touchingNodes < kFewTouchingNodes)
+    words += QObject::tr(". <b>Only %1 nodes of the mesh touch it: depth and contact are wrong; take a finer mesh</b>")
+                 .arg(now.touchingNodes);
+  return words + ".";
+}
+
 } // namespace
 
 ResultPanel::ResultPanel(QWidget* parent) : QWidget(parent) {
@@ -80,10 +93,13 @@ void ResultPanel::display(const TouchSession& session) {
     else
       lines << tr("Nothing moves.");
   }
-  lines << tr("Load %1 N, reaction at the bottom %2 N.")
-               .arg(triple(solution->reachedLoadFraction * touch.load().totalForce_N()), triple(solution->reaction_N));
+  Eigen::Vector3d load_N = solution->reachedLoadFraction * touch.load().totalForce_N();
+  for (const IndenterState& its : solution->state().indenters) load_N += its.force_N;
+  lines << tr("Load %1 N, reaction at the bottom %2 N.").arg(triple(load_N), triple(solution->reaction_N));
   const bool between = session.place() != session.lastPlace();
   if (between) lines.last() += tr(" (of the full load; shown is %1 %)").arg(number(100 * session.loadFraction(), 3));
+  for (std::size_t k = 0; k < session.indenters().size(); ++k)
+    lines << contactWords(touch.load().indenters[k], static_cast<int>(k), session.indenters()[k]);
   const QString how = QString::fromStdString(solution->stopReason);
   if (solution->converged)
     lines << tr("Converged in %1 iterations%2.").arg(solution->iterations()).arg(how.isEmpty() ? "" : "; " + how);

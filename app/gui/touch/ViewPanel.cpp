@@ -8,6 +8,7 @@
 #include <QFormLayout>
 #include <QHBoxLayout>
 #include <QSignalBlocker>
+#include <QStandardItemModel>
 
 #include <algorithm>
 #include <cmath>
@@ -182,13 +183,18 @@ void ViewPanel::read() {
   emit edited(view_);
 }
 
-void ViewPanel::display(const ViewSettings& view, const Eigen::Vector3d& block_mm, bool somethingKept) {
+void ViewPanel::display(const ViewSettings& view, const Eigen::Vector3d& block_mm, bool somethingKept, bool pressed) {
   displaying_ = true;
   view_ = view;
   view_.lessKept = view.lessKept && somethingKept;
   block_mm_ = block_mm;
   const auto& all = allQuantities();
   quantity_->setCurrentIndex(static_cast<int>(std::find(all.begin(), all.end(), view.quantity) - all.begin()));
+  // Nothing touches without an indenter; one that was chosen with it stays, all 0.
+  for (std::size_t k = 0; k < all.size(); ++k)
+    qobject_cast<QStandardItemModel*>(quantity_->model())
+        ->item(static_cast<int>(k))
+        ->setEnabled(pressed || !isOfContact(all[k]));
   int map = 0;
   for (std::size_t k = 0; k < kColorMaps.all().size(); ++k)
     if (view.colorMap == kColorMaps.all()[k].first) map = static_cast<int>(k) + 1;

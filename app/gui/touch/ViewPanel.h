@@ -21,7 +21,7 @@ public:
   explicit ViewPanel(QWidget* parent = nullptr);
 
   /// Emits nothing.
-  void display(const ViewSettings& view, const Eigen::Vector3d& block_mm, bool somethingKept);
+  void display(const ViewSettings& view, const Eigen::Vector3d& block_mm, bool somethingKept, bool pressed);
   /// The factor and the range of the colours that were drawn, shown while they are automatic.
   void displayDrawn(double warpFactor, const std::array<double, 2>& range);
 

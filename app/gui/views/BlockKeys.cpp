@@ -75,8 +75,8 @@ std::vector<QPointF> BlockView::grips() const {
     for (int load = 0; load < loadCount(); ++load)
       if (const auto grip = gripOf(load)) all.push_back(*grip);
   if (const auto knob = cutGrip()) all.push_back(*knob);
-  if (!discsMovable_ || height_mm() <= 0) return all;
-  for (const PatchLoad& disc : discs()) {
+  if (height_mm() <= 0) return all;
+  for (const PatchLoad& disc : handles()) {
     const Eigen::Vector3d middle(disc.centre_mm.x(), disc.centre_mm.y(), height_mm());
     all.push_back(placeOf(middle));
     all.push_back(placeOf(middle + Eigen::Vector3d(disc.radius_mm, 0, 0)));

@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kGrip_px = 9; ///< around an arrow
 constexpr double kCutGrip_px = 12;
+constexpr double kPlaneHandle_mm = 2; ///< a plane has no rim: it is taken near its place
 constexpr double kStep_N = 0.01;
 constexpr double kLeast_N = 0.01;
 
@@ -119,8 +120,16 @@ int BlockView::loadCount() const {
   return static_cast<int>(parts_->scene.forces().size());
 }
 
-const std::vector<PatchLoad>& BlockView::discs() const {
-  return parts_->scene.discs();
+std::vector<PatchLoad> BlockView::handles() const {
+  if (handles_ == Movable::Discs) return parts_->scene.discs();
+  std::vector<PatchLoad> all;
+  if (handles_ == Movable::Indenters)
+    for (const Indenter& indenter : parts_->scene.indenters()) {
+      PatchLoad& handle = all.emplace_back();
+      handle.centre_mm = indenter.place_mm;
+      handle.radius_mm = indenter.shape == IndenterShape::Plane ? kPlaneHandle_mm : indenter.radius_mm;
+    }
+  return all;
 }
 
 double BlockView::height_mm() const {
@@ -147,7 +156,7 @@ void BlockView::markNode(int node) {
 std::optional<QPointF> BlockView::gripOf(int load) const {
   const double scale = parts_->scene.arrowScale_mmPerN();
   for (const PlacedForce& force : parts_->scene.forces())
-    if (force.load == load && !force.hidden) return placeOf(force.freeEnd_mm(scale));
+    if (force.load == load && force.movable && !force.hidden) return placeOf(force.freeEnd_mm(scale));
   return {};
 }
 
@@ -158,7 +167,7 @@ int BlockView::arrowAt(const QPointF& place) const {
   int nearest = -1;
   double least = kGrip_px;
   for (std::size_t k = 0; k < forces.size(); ++k) {
-    if (forces[k].hidden || !(forces[k].force_N.norm() > 0)) continue;
+    if (forces[k].hidden || !forces[k].movable || !(forces[k].force_N.norm() > 0)) continue;
     const Eigen::Vector3d end = forces[k].freeEnd_mm(scale);
     const double away = distance(place, placeOf(end), placeOf(0.5 * (end + forces[k].place_mm)));
     if (away >= least) continue;
@@ -198,13 +207,13 @@ std::optional<Eigen::Vector2d> BlockView::topPlace_mm(const QPointF& place) cons
 }
 
 void BlockView::showCursor(const QPointF& place) {
-  if (!movable_ && !discsMovable_ && !cut_) return;
+  if (!movable_ && handles_ == Movable::None && !cut_) return;
   Qt::CursorShape shape = Qt::ArrowCursor;
   const auto top = topPlace_mm(place), beside = topPlace_mm(place + QPointF(kGrip_px, 0));
   DiscHandle under;
   if (place.x() >= 0 && (cutAt(place) || (movable_ && arrowAt(place) >= 0)))
     shape = Qt::OpenHandCursor;
-  else if (discsMovable_ && top && beside && under.take(parts_->scene.discs(), *top, (*beside - *top).norm()))
+  else if (top && beside && under.take(handles(), *top, (*beside - *top).norm()))
     shape = under.sizes() ? Qt::SizeAllCursor : Qt::OpenHandCursor;
   setCursor(shape);
 }
@@ -246,8 +255,8 @@ bool BlockView::grab(const QPointF& place, Qt::KeyboardModifiers modifiers) {
   dragged_ = movable_ ? arrowAt(place) : -1;
   disc_.release();
   const auto top = topPlace_mm(place), beside = topPlace_mm(place + QPointF(kGrip_px, 0));
-  if (dragged_ < 0 && discsMovable_ && !modifiers.testFlag(Qt::ShiftModifier) && top && beside)
-    disc_.take(parts_->scene.discs(), *top, (*beside - *top).norm());
+  if (dragged_ < 0 && !modifiers.testFlag(Qt::ShiftModifier) && top && beside)
+    disc_.take(handles(), *top, (*beside - *top).norm());
   const bool grabbed = dragged_ >= 0 || disc_.disc() >= 0;
   if (grabbed) setCursor(Qt::ClosedHandCursor);
   return grabbed;
@@ -261,7 +270,7 @@ void BlockView::dragTo(const QPointF& place, Qt::KeyboardModifiers modifiers) {
   if (disc_.disc() >= 0) {
     const auto top = topPlace_mm(place);
     if (!top) return;
-    parts_->scene.moveDisc(static_cast<std::size_t>(disc_.disc()), disc_.draggedTo(*top, parts_->design->block_mm));
+    moveHandle(disc_.draggedTo(*top, parts_->design->block_mm, handles_ == Movable::Discs));
     invalidate();
     return;
   }
@@ -283,15 +292,28 @@ void BlockView::dragTo(const QPointF& place, Qt::KeyboardModifiers modifiers) {
   invalidate();
 }
 
+void BlockView::moveHandle(const PatchLoad& to) {
+  const auto k = static_cast<std::size_t>(disc_.disc());
+  if (handles_ == Movable::Discs) return parts_->scene.moveDisc(k, to);
+  if (k >= parts_->scene.indenters().size()) return;
+  Indenter next = parts_->scene.indenters()[k];
+  next.place_mm = to.centre_mm;
+  if (next.shape != IndenterShape::Plane) next.radius_mm = std::max(to.radius_mm, next.rim_mm);
+  parts_->scene.moveIndenter(k, next);
+}
+
 void BlockView::drop() {
   setCursor(Qt::OpenHandCursor);
   if (std::exchange(cutHeld_, false)) return;
   if (disc_.disc() >= 0) {
     const auto disc = static_cast<std::size_t>(disc_.disc());
     disc_.release();
-    if (disc >= parts_->scene.discs().size()) return;
-    const PatchLoad to = parts_->scene.discs()[disc];
-    emit discDragged(static_cast<int>(disc), to);
+    const std::vector<PatchLoad> all = handles();
+    if (disc >= all.size()) return; // another load may have come while the button was down
+    if (handles_ == Movable::Discs)
+      emit discDragged(static_cast<int>(disc), all[disc]);
+    else
+      emit indenterDragged(static_cast<int>(disc), all[disc].centre_mm, all[disc].radius_mm);
     return;
   }
   const int arrow = std::exchange(dragged_, -1);

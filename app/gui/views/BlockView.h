@@ -39,8 +39,9 @@ public:
   [[nodiscard]] std::optional<QPointF> cutGrip() const;
   /// Lets the arrows be dragged.
   void setForcesMovable(bool movable) { movable_ = movable; }
-  /// Lets discs be moved, and sized at their rims.
-  void setDiscsMovable(bool movable) { discsMovable_ = movable; }
+  /// What the mouse moves on the top face, and sizes at its rim.
+  enum class Movable { None, Discs, Indenters };
+  void setMovable(Movable what) { handles_ = what; }
   /// The cross of the keys; none before one of them was pressed.
   [[nodiscard]] std::optional<QPointF> cross() const { return cross_; }
 
@@ -55,6 +56,8 @@ signals:
   void cutDragged(double at_mm);
   /// A disc was taken by the mouse and let go, there or elsewhere.
   void discDragged(int disc, const palp::PatchLoad& to);
+  /// The same of an indenter: its place and its radius.
+  void indenterDragged(int indenter, const Eigen::Vector2d& place_mm, double radius_mm);
 
 protected:
   [[nodiscard]] Picture renderPicture(int width, int height) override;
@@ -72,7 +75,8 @@ private:
   void pick(const QPointF& place);
   void setTextScale(double scale);
   [[nodiscard]] int loadCount() const;
-  [[nodiscard]] const std::vector<PatchLoad>& discs() const;
+  /// Discs that the mouse can take: the loads, or the indenters as seen from above.
+  [[nodiscard]] std::vector<PatchLoad> handles() const;
   [[nodiscard]] double height_mm() const; ///< of the block; 0 before it is there
   /// Words as large as the widget's.
   void scaleText();
@@ -88,12 +92,13 @@ private:
   void showCursor(const QPointF& place);
   [[nodiscard]] bool cutAt(const QPointF& place) const;
   void dragCut(const QPointF& place);
+  void moveHandle(const PatchLoad& to);
   /// The arrow whose free half lies under the place; -1 where none does.
   [[nodiscard]] int arrowAt(const QPointF& place) const;
 
   std::unique_ptr<Parts> parts_;
   bool movable_ = false;
-  bool discsMovable_ = false;
+  Movable handles_ = Movable::None;
   DiscHandle disc_;
   std::optional<CutPlane> cut_; ///< as drawn, with its grip
   bool cutHeld_ = false;

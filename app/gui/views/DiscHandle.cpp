@@ -24,6 +24,12 @@ PatchLoad insideFace(PatchLoad disc, const Eigen::Vector3d& block_mm) {
   return disc;
 }
 
+PatchLoad overFace(PatchLoad disc, const Eigen::Vector3d& block_mm) {
+  disc.radius_mm = std::max(disc.radius_mm, kSmallestDisc_mm);
+  disc.centre_mm = disc.centre_mm.cwiseMax(0).cwiseMin(block_mm.head<2>());
+  return disc;
+}
+
 bool DiscHandle::take(const std::vector<PatchLoad>& discs, const Eigen::Vector2d& at_mm, double tolerance_mm) {
   disc_ = -1;
   for (std::size_t k = discs.size(); k-- > 0 && disc_ < 0;) {
@@ -38,19 +44,20 @@ bool DiscHandle::take(const std::vector<PatchLoad>& discs, const Eigen::Vector2d
   return disc_ >= 0;
 }
 
-PatchLoad DiscHandle::draggedTo(const Eigen::Vector2d& at_mm, const Eigen::Vector3d& block_mm) const {
+PatchLoad DiscHandle::draggedTo(const Eigen::Vector2d& at_mm, const Eigen::Vector3d& block_mm, bool inside) const {
   if (at_mm == from_mm_) return held_;
   PatchLoad next = held_;
   if (rim_) {
     const double change = (at_mm - held_.centre_mm).norm() - (from_mm_ - held_.centre_mm).norm();
     // A rim grows no further than to the nearest edge: the centre stays.
     const double room = std::min(held_.centre_mm.minCoeff(), (block_mm.head<2>() - held_.centre_mm).minCoeff());
-    next.radius_mm = std::min(tenth(held_.radius_mm + change), room);
+    next.radius_mm = tenth(held_.radius_mm + change);
+    if (inside) next.radius_mm = std::min(next.radius_mm, room);
   } else {
     next.centre_mm += at_mm - from_mm_;
     next.centre_mm = {tenth(next.centre_mm.x()), tenth(next.centre_mm.y())};
   }
-  return insideFace(next, block_mm);
+  return inside ? insideFace(next, block_mm) : overFace(next, block_mm);
 }
 
 } // namespace palp

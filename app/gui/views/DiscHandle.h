@@ -11,6 +11,9 @@ constexpr double kSmallestDisc_mm = 0.1;
 /// The disc nearest to this one that lies wholly on the top face.
 PatchLoad insideFace(PatchLoad disc, const Eigen::Vector3d& block_mm);
 
+/// The disc nearest to this one whose centre lies on the top face: an indenter's, which may stand over an edge.
+PatchLoad overFace(PatchLoad disc, const Eigen::Vector3d& block_mm);
+
 /// A disc held by the mouse: at its rim it is sized, inside it is moved.
 class DiscHandle {
 public:
@@ -20,8 +23,9 @@ public:
 
   [[nodiscard]] int disc() const { return disc_; } ///< -1: none is held
   [[nodiscard]] bool sizes() const { return rim_; }
-  /// The disc with the mouse at another place, to a tenth of a millimetre.
-  [[nodiscard]] PatchLoad draggedTo(const Eigen::Vector2d& at_mm, const Eigen::Vector3d& block_mm) const;
+  /// The disc with the mouse at another place, to a tenth of a millimetre; kept inside the face, or over it.
+  [[nodiscard]] PatchLoad draggedTo(const Eigen::Vector2d& at_mm, const Eigen::Vector3d& block_mm,
+                                    bool inside = true) const;
 
 private:
   int disc_ = -1;

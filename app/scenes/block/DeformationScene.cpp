@@ -6,6 +6,7 @@
 #include "app/scenes/block/ElectrodeActors.h"
 #include "app/scenes/block/Overlay.h"
 #include "app/scenes/block/SceneWords.h"
+#include "app/scenes/block/loads/IndenterActors.h"
 #include "app/scenes/gl/Blending.h"
 
 #include <vtkContextActor.h>
@@ -28,7 +29,7 @@ ColorMap colorMap(const DeformationOptions& options) {
   if (options.lessKept) return ColorMap::Diverging;
   const bool ofOneSign = quantity == Quantity::Displacement || quantity == Quantity::VonMises ||
                          quantity == Quantity::LargestStretch || quantity == Quantity::MiddleStretch ||
-                         quantity == Quantity::SmallestStretch;
+                         quantity == Quantity::SmallestStretch || isOfContact(quantity);
   return ofOneSign ? ColorMap::Viridis : ColorMap::Diverging;
 }
 
@@ -66,6 +67,12 @@ std::vector<double> quantityValues(Quantity quantity, const NodalFields& fields)
   case Quantity::SmallestStretch:
     return listOf(fields.principalStretches.row(static_cast<int>(quantity) - static_cast<int>(Quantity::LargestStretch))
                       .transpose());
+  case Quantity::ContactPressure:
+  case Quantity::ContactShear:
+    if (fields.contactTraction_MPa.cols() == 0)
+      return std::vector<double>(static_cast<std::size_t>(fields.displacement_mm.cols()), 0.0);
+    if (quantity == Quantity::ContactPressure) return listOf(-fields.contactTraction_MPa.row(2).transpose());
+    return listOf(fields.contactTraction_MPa.topRows<2>().colwise().norm().transpose());
   }
   return {};
 }
@@ -110,6 +117,7 @@ struct DeformationScene::Parts {
   Spheres mark{*renderer, 0.3};
   vtkNew<vtkContextActor> overlayActor;
   vtkNew<Overlay> overlay;
+  IndenterActors indenters{*renderer};
   Polylines line{*renderer};
   Polylines cutRim{*renderer};
   Spheres cutGrip{*renderer, 0.45};
@@ -117,6 +125,7 @@ struct DeformationScene::Parts {
   std::vector<PlacedText> marks; ///< of the largest and the smallest value
   std::vector<PlacedForce> placed;
   std::vector<PatchLoad> discs;
+  std::size_t areas = 0; ///< that are loaded: their arrows come first, then the discs', then the indenters'
   DeformationOptions drawnAs;
   double mmPerN = 1;
   Color forceColor{};
@@ -191,11 +200,26 @@ std::vector<PlacedForce> placedForces(const DeformationState& state, const Block
     forces.push_back(
         {surface, force_N * state.loadFraction, static_cast<int>(forces.size()), cut && !cut->keeps(surface)});
   };
+  const auto onFace = [](const Eigen::Vector2d& xy_mm, const Eigen::Vector3d& block_mm) -> Eigen::Vector2d {
+    return xy_mm.cwiseMax(0).cwiseMin(block_mm.head<2>());
+  };
   for (const AreaLoad& load : state.load->areas) {
     const Rectangle box = state.design->areaRectangle(load.area);
     place(0.5 * (box.low_mm + box.high_mm), load.force_N);
   }
   for (const PatchLoad& patch : state.load->patches) place(patch.centre_mm, patch.force_N);
+  for (std::size_t k = 0; k < state.load->indenters.size(); ++k) {
+    const Indenter& indenter = state.load->indenters[k];
+    // Of one that is moved the solve finds the force, of one that is pressed the load gives it.
+    const Indenter sofar = indenter.at(state.loadFraction);
+    const IndenterState now = k < state.indenters.size() ? state.indenters[k] : IndenterState{};
+    const Eigen::Vector3d surface =
+        block.drawnPlace_mm(onFace(indenter.place_mm + now.translation_mm.head<2>(), state.design->block_mm));
+    PlacedForce& force =
+        forces.emplace_back(PlacedForce{surface, sofar.press() != nullptr ? sofar.press()->force_N : now.force_N,
+                                        static_cast<int>(forces.size()), cut && !cut->keeps(surface)});
+    force.movable = indenter.press() != nullptr;
+  }
   return forces;
 }
 
@@ -265,7 +289,9 @@ void DeformationScene::show(const DeformationState& state, const DeformationOpti
   parts.placed = options.forceArrows ? placedForces(state, parts.block, options.cut) : std::vector<PlacedForce>{};
   parts.discs = state.load != nullptr ? state.load->patches : std::vector<PatchLoad>{};
   parts.drawnAs = options;
+  parts.areas = state.load != nullptr ? state.load->areas.size() : 0;
   parts.block.showDiscs(parts.discs, options);
+  parts.indenters.show(state, parts.warpFactor);
   parts.mmPerN = palp::arrowScale_mmPerN(parts.placed, 0.3 * state.design->block_mm.maxCoeff());
   parts.marks = extremeMarks(values, parts.block, options);
   Eigen::Matrix3Xd extremes(3, static_cast<Eigen::Index>(parts.marks.size()));
@@ -345,10 +371,21 @@ void DeformationScene::moveDisc(std::size_t disc, const PatchLoad& to) {
   if (disc >= parts_->discs.size()) return;
   parts_->discs[disc] = to;
   parts_->block.showDiscs(parts_->discs, parts_->drawnAs);
-  // Areas come first among the arrows.
-  const std::size_t areas = parts_->placed.size() - std::min(parts_->placed.size(), parts_->discs.size());
-  if (areas + disc < parts_->placed.size())
-    parts_->placed[areas + disc].place_mm = parts_->block.drawnPlace_mm(to.centre_mm);
+  moveArrow(parts_->areas + disc, to.centre_mm);
+}
+
+const std::vector<Indenter>& DeformationScene::indenters() const {
+  return parts_->indenters.indenters();
+}
+
+void DeformationScene::moveIndenter(std::size_t indenter, const Indenter& to) {
+  if (indenter >= indenters().size()) return;
+  parts_->indenters.move(indenter, to);
+  moveArrow(parts_->areas + parts_->discs.size() + indenter, to.place_mm);
+}
+
+void DeformationScene::moveArrow(std::size_t arrow, const Eigen::Vector2d& top_mm) {
+  if (arrow < parts_->placed.size()) parts_->placed[arrow].place_mm = parts_->block.drawnPlace_mm(top_mm);
   parts_->showForces();
   parts_->overlay->Modified();
 }

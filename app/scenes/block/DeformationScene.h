@@ -2,8 +2,8 @@
 
 #include "app/scenes/ColorScale.h"
 #include "app/scenes/block/CurrentLines.h"
-#include "app/scenes/block/ForceArrows.h"
 #include "app/scenes/block/Quantity.h"
+#include "app/scenes/block/loads/ForceArrows.h"
 #include "model/LoadCase.h"
 #include "model/Mesh.h"
 #include "model/RowColumnResistance.h"
@@ -71,6 +71,7 @@ struct DeformationState {
   const ElectrodeDisplacements* electrodes = nullptr;
   const LoadCase* load = nullptr;
   double loadFraction = 1;
+  std::vector<IndenterState> indenters{}; ///< what the load's indenters do; empty at rest
   // Where the difference to a kept design is shown; null while that is not there.
   const SensorDesign* keptDesign = nullptr;
   const LoadCase* keptLoad = nullptr;
@@ -123,6 +124,9 @@ public:
   [[nodiscard]] const std::vector<PatchLoad>& discs() const;
   /// Draws a disc and its arrow at another place, while it is dragged; all else stays.
   void moveDisc(std::size_t disc, const PatchLoad& to);
+  /// The indenters as drawn, and the same for them.
+  [[nodiscard]] const std::vector<Indenter>& indenters() const;
+  void moveIndenter(std::size_t indenter, const Indenter& to);
   /// Where the material lies at rest that is drawn at a point of a triangle of the surface.
   [[nodiscard]] Eigen::Vector3d restPlace_mm(long long triangle, const Eigen::Vector3d& drawn_mm) const;
 
@@ -131,6 +135,7 @@ public:
 
 private:
   struct Parts;
+  void moveArrow(std::size_t arrow, const Eigen::Vector2d& top_mm);
   std::unique_ptr<Parts> parts_;
 };
 

@@ -2,9 +2,9 @@
 
 #include "app/scenes/block/CameraFit.h"
 #include "app/scenes/block/ElectrodeActors.h"
-#include "app/scenes/block/ForceArrows.h"
 #include "app/scenes/block/Overlay.h"
 #include "app/scenes/block/Polylines.h"
+#include "app/scenes/block/loads/ForceArrows.h"
 #include "app/scenes/gl/Blending.h"
 
 #include <vtkActor.h>

@@ -30,6 +30,8 @@ std::string quantityUnit(Quantity quantity) {
   case Quantity::StressXY:
   case Quantity::StressYZ:
   case Quantity::StressXZ:
+  case Quantity::ContactPressure:
+  case Quantity::ContactShear:
     return "MPa";
   case Quantity::VolumeChange:
   case Quantity::LargestStretch:

@@ -24,20 +24,27 @@ enum class Quantity {
   StressXZ,
   LargestStretch, ///< principal stretches
   MiddleStretch,
-  SmallestStretch
+  SmallestStretch,
+  ContactPressure, ///< of indenters: force an area at rest, along -z
+  ContactShear     ///< the same across z
 };
 inline constexpr NamedEnum kQuantities(
     "quantity",
-    std::array{std::pair{Quantity::Displacement, "|u|"}, std::pair{Quantity::DisplacementX, "ux"},
-               std::pair{Quantity::DisplacementY, "uy"}, std::pair{Quantity::DisplacementZ, "uz"},
-               std::pair{Quantity::Pressure, "pressure"}, std::pair{Quantity::VolumeChange, "J - 1"},
-               std::pair{Quantity::VonMises, "von Mises stress"}, std::pair{Quantity::StressXX, "stress xx"},
-               std::pair{Quantity::StressYY, "stress yy"}, std::pair{Quantity::StressZZ, "stress zz"},
-               std::pair{Quantity::StressXY, "stress xy"}, std::pair{Quantity::StressYZ, "stress yz"},
-               std::pair{Quantity::StressXZ, "stress xz"}, std::pair{Quantity::LargestStretch, "largest stretch"},
-               std::pair{Quantity::MiddleStretch, "middle stretch"},
-               std::pair{Quantity::SmallestStretch, "smallest stretch"}});
+    std::array{
+        std::pair{Quantity::Displacement, "|u|"}, std::pair{Quantity::DisplacementX, "ux"},
+        std::pair{Quantity::DisplacementY, "uy"}, std::pair{Quantity::DisplacementZ, "uz"},
+        std::pair{Quantity::Pressure, "pressure"}, std::pair{Quantity::VolumeChange, "J - 1"},
+        std::pair{Quantity::VonMises, "von Mises stress"}, std::pair{Quantity::StressXX, "stress xx"},
+        std::pair{Quantity::StressYY, "stress yy"}, std::pair{Quantity::StressZZ, "stress zz"},
+        std::pair{Quantity::StressXY, "stress xy"}, std::pair{Quantity::StressYZ, "stress yz"},
+        std::pair{Quantity::StressXZ, "stress xz"}, std::pair{Quantity::LargestStretch, "largest stretch"},
+        std::pair{Quantity::MiddleStretch, "middle stretch"}, std::pair{Quantity::SmallestStretch, "smallest stretch"},
+        std::pair{Quantity::ContactPressure, "contact pressure"}, std::pair{Quantity::ContactShear, "contact shear"}});
 
+/// Of indenters alone: 0 without them.
+inline bool isOfContact(Quantity quantity) {
+  return quantity == Quantity::ContactPressure || quantity == Quantity::ContactShear;
+}
 /// All of them, in the order of a list to choose from.
 const std::vector<Quantity>& allQuantities();
 /// "|u|", "ux", ..., "J - 1", "von Mises stress", "stress xx", ..., without the unit.

@@ -52,6 +52,10 @@ std::vector<std::string> differenceLines(const DeformationState& state, const De
   for (std::size_t k = 0; k < discs.size() && k < keptDiscs.size(); ++k)
     lines.push_back("pressed at " + placeText(discs[k].centre_mm) + " mm, the kept one at " +
                     placeText(keptDiscs[k].centre_mm) + " mm");
+  const std::vector<Indenter>&bodies = state.load->indenters, &keptBodies = state.keptLoad->indenters;
+  for (std::size_t k = 0; k < bodies.size() && k < keptBodies.size(); ++k)
+    lines.push_back("indenter at " + placeText(bodies[k].place_mm) + " mm, the kept one at " +
+                    placeText(keptBodies[k].place_mm) + " mm");
   return lines;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/gui/touch/AreaPlan.h"
+#include "app/gui/touch/loads/AreaPlan.h"
 
 #include <array>
 
@@ -13,7 +13,10 @@ class QSlider;
 
 namespace palp {
 
-/// The forces on load areas and on discs: chosen on a plan of the top face or from a list, set by numbers or sliders.
+class IndenterPanel;
+
+/// The forces on load areas and on discs, and the indenters: chosen on a plan of the top face or from a list, set by
+/// numbers or sliders.
 class LoadPanel : public QWidget {
   Q_OBJECT
 
@@ -28,6 +31,10 @@ public:
   void addDisc(const Eigen::Vector2d& centre_mm);
   /// Another place and size of a disc, kept inside the face.
   void changeDisc(int disc, const Eigen::Vector2d& centre_mm, double radius_mm);
+  /// A new indenter at a place of the top face: a sphere, or as the one that was edited last.
+  void addIndenter(const Eigen::Vector2d& place_mm);
+  /// Another place and size of an indenter.
+  void changeIndenter(int indenter, const Eigen::Vector2d& place_mm, double radius_mm);
   void takeAway(const LoadPlace& place);
 
 signals:
@@ -42,7 +49,11 @@ private:
   void showForce();
   void setForce(int direction, double value_N);
   void readDisc();
+  void setIndenter(int indenter, const Indenter& to);
+  [[nodiscard]] Indenter* chosenIndenter();
   [[nodiscard]] Eigen::Vector3d* forceOf(const LoadPlace& place);
+  [[nodiscard]] bool bears(const LoadPlace& place) const;
+  void chooseWhatIsThere();
   [[nodiscard]] QString name(const LoadPlace& place) const;
   [[nodiscard]] std::vector<LoadPlace> places() const;
   [[nodiscard]] Eigen::Vector3d firstPush_N() const;
@@ -55,6 +66,10 @@ private:
   QLabel* title_ = nullptr;
   QPushButton* clear_ = nullptr;
   QWidget* disc_ = nullptr;
+  QWidget* forces_ = nullptr;
+  IndenterPanel* indenter_ = nullptr;
+  QLabel* problem_ = nullptr;
+  Indenter last_;                              ///< that was edited: the next one is like it
   std::array<QDoubleSpinBox*, 3> discSpins_{}; ///< x, y, radius
   std::array<QDoubleSpinBox*, 3> spins_{};
   std::array<QSlider*, 3> sliders_{};

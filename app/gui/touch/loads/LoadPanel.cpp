@@ -1,5 +1,6 @@
-#include "app/gui/touch/LoadPanel.h"
+#include "app/gui/touch/loads/LoadPanel.h"
 
+#include "app/gui/touch/loads/IndenterPanel.h"
 #include "app/gui/views/DiscHandle.h"
 #include "app/gui/widgets/SpinBoxes.h"
 
@@ -14,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace palp {
 
@@ -40,6 +42,16 @@ LoadPanel::LoadPanel(QWidget* parent) : QWidget(parent) {
   buildChoice();
   buildForces();
   buildDisc();
+  indenter_ = new IndenterPanel;
+  column->addWidget(indenter_);
+  connect(indenter_, &IndenterPanel::edited, this, [this](const Indenter& to) {
+    if (chosenIndenter() != nullptr) setIndenter(chosen_.number, to);
+  });
+  problem_ = new QLabel;
+  problem_->setObjectName("loadProblem");
+  problem_->setProperty("role", "problem");
+  problem_->setWordWrap(true);
+  column->addWidget(problem_);
 }
 
 void LoadPanel::buildChoice() {
@@ -55,14 +67,20 @@ void LoadPanel::buildChoice() {
     if (k < static_cast<int>(places().size())) choose(places()[static_cast<std::size_t>(k)]);
   });
   auto* row = new QHBoxLayout;
-  auto* add = new QPushButton(tr("Add a disc"));
+  auto* add = new QPushButton(tr("Disc"));
   add->setObjectName("addDisc");
   add->setToolTip(tr("A round load anywhere on the top face; in the picture: the tool Disc, key D"));
   clear_ = new QPushButton(tr("Take away"));
   clear_->setObjectName("clearLoad");
   clear_->setToolTip(tr("Takes the chosen load away"));
+  auto* press = new QPushButton(tr("Indenter"));
+  press->setObjectName("addIndenter");
+  press->setToolTip(tr("A rigid body that presses anywhere on the top face, with or without friction; in the picture: "
+                       "the tool Indenter, key I"));
   row->addWidget(add);
+  row->addWidget(press);
   row->addWidget(clear_);
+  connect(press, &QPushButton::clicked, this, [this] { addIndenter(0.5 * design_.block_mm.head<2>()); });
   column->addLayout(row);
   connect(add, &QPushButton::clicked, this, [this] { addDisc(0.5 * design_.block_mm.head<2>()); });
   connect(clear_, &QPushButton::clicked, this, [this] { takeAway(chosen_); });
@@ -73,7 +91,9 @@ void LoadPanel::buildChoice() {
 }
 
 void LoadPanel::buildForces() {
-  auto* grid = new QGridLayout;
+  forces_ = new QWidget;
+  auto* grid = new QGridLayout(forces_);
+  grid->setContentsMargins(0, 0, 0, 0);
   for (int d = 0; d < 3; ++d) {
     const auto k = static_cast<std::size_t>(d);
     spins_[k] = new QDoubleSpinBox;
@@ -101,7 +121,7 @@ void LoadPanel::buildForces() {
       setForce(d, std::round(1000 * (low + (high - low) * step / kSliderSteps)) / 1000);
     });
   }
-  static_cast<QVBoxLayout*>(layout())->addLayout(grid);
+  layout()->addWidget(forces_);
 }
 
 void LoadPanel::buildDisc() {
@@ -133,15 +153,18 @@ Eigen::Vector3d LoadPanel::firstPush_N() const {
 
 std::vector<LoadPlace> LoadPanel::places() const {
   std::vector<LoadPlace> all;
-  for (const AreaLoad& load : load_.areas) all.push_back({false, load.area});
-  for (std::size_t k = 0; k < load_.patches.size(); ++k) all.push_back({true, static_cast<int>(k)});
+  for (const AreaLoad& load : load_.areas) all.push_back({LoadKind::Area, load.area});
+  for (std::size_t k = 0; k < load_.patches.size(); ++k) all.push_back({LoadKind::Disc, static_cast<int>(k)});
+  for (std::size_t k = 0; k < load_.indenters.size(); ++k) all.push_back({LoadKind::Indenter, static_cast<int>(k)});
   return all;
 }
 
 Eigen::Vector3d* LoadPanel::forceOf(const LoadPlace& place) {
-  if (place.disc) {
-    const auto k = static_cast<std::size_t>(place.number);
-    return k < load_.patches.size() ? &load_.patches[k].force_N : nullptr;
+  const auto k = static_cast<std::size_t>(place.number);
+  if (place.kind == LoadKind::Disc) return k < load_.patches.size() ? &load_.patches[k].force_N : nullptr;
+  if (place.kind == LoadKind::Indenter) {
+    Press* press = k < load_.indenters.size() ? std::get_if<Press>(&load_.indenters[k].control) : nullptr;
+    return press != nullptr ? &press->force_N : nullptr;
   }
   for (AreaLoad& load : load_.areas)
     if (load.area == place.number) return &load.force_N;
@@ -149,21 +172,39 @@ Eigen::Vector3d* LoadPanel::forceOf(const LoadPlace& place) {
 }
 
 QString LoadPanel::name(const LoadPlace& place) const {
-  return (place.disc ? tr("disc %1") : tr("area %1")).arg(place.number);
+  switch (place.kind) {
+  case LoadKind::Area:
+    return tr("area %1").arg(place.number);
+  case LoadKind::Disc:
+    return tr("disc %1").arg(place.number);
+  case LoadKind::Indenter:
+    return tr("indenter %1").arg(place.number);
+  }
+  return {};
+}
+
+Indenter* LoadPanel::chosenIndenter() {
+  const auto k = static_cast<std::size_t>(chosen_.number);
+  return chosen_.kind == LoadKind::Indenter && k < load_.indenters.size() ? &load_.indenters[k] : nullptr;
+}
+
+bool LoadPanel::bears(const LoadPlace& place) const {
+  const std::vector<LoadPlace> all = places();
+  return std::find(all.begin(), all.end(), place) != all.end();
 }
 
 void LoadPanel::display(const SensorDesign& design, const LoadCase& load) {
   design_ = design;
   load_ = load;
-  if (!chosen_.disc) chosen_.number = std::clamp(chosen_.number, 0, std::max(0, design.areas.count() - 1));
-  if (forceOf(chosen_) == nullptr && !places().empty()) chosen_ = places().front();
-  if (forceOf(chosen_) == nullptr) chosen_.disc = false;
+  if (chosen_.kind == LoadKind::Area)
+    chosen_.number = std::clamp(chosen_.number, 0, std::max(0, design_.areas.count() - 1));
+  chooseWhatIsThere();
   showLoad();
 }
 
 void LoadPanel::choose(const LoadPlace& place) {
   chosen_ = place;
-  if (forceOf(place) == nullptr && !place.disc) {
+  if (!bears(place) && place.kind == LoadKind::Area) {
     load_.areas.push_back({place.number, firstPush_N()});
     showLoad();
     emit edited(tr("Load area %1").arg(place.number), load_);
@@ -176,7 +217,7 @@ void LoadPanel::addDisc(const Eigen::Vector2d& centre_mm) {
   const double radius_mm = hundredth(std::min(2.5, 0.2 * design_.block_mm.head<2>().minCoeff()));
   const Eigen::Vector2d centre(hundredth(centre_mm.x()), hundredth(centre_mm.y()));
   load_.patches.push_back(insideFace({centre, radius_mm, firstPush_N()}, design_.block_mm));
-  chosen_ = {true, static_cast<int>(load_.patches.size()) - 1};
+  chosen_ = {LoadKind::Disc, static_cast<int>(load_.patches.size()) - 1};
   showLoad();
   emit edited(tr("Add disc %1").arg(chosen_.number), load_);
 }
@@ -184,7 +225,7 @@ void LoadPanel::addDisc(const Eigen::Vector2d& centre_mm) {
 void LoadPanel::changeDisc(int disc, const Eigen::Vector2d& centre_mm, double radius_mm) {
   const auto k = static_cast<std::size_t>(disc);
   if (disc < 0 || k >= load_.patches.size()) return;
-  chosen_ = {true, disc};
+  chosen_ = {LoadKind::Disc, disc};
   const PatchLoad next = insideFace({centre_mm, radius_mm, load_.patches[k].force_N}, design_.block_mm);
   const bool other = next != load_.patches[k];
   load_.patches[k] = next;
@@ -192,17 +233,55 @@ void LoadPanel::changeDisc(int disc, const Eigen::Vector2d& centre_mm, double ra
   if (other) emit edited(tr("Change disc %1").arg(disc), load_);
 }
 
+void LoadPanel::addIndenter(const Eigen::Vector2d& place_mm) {
+  Indenter next = last_;
+  next.place_mm = {hundredth(place_mm.x()), hundredth(place_mm.y())};
+  load_.indenters.push_back(next);
+  chosen_ = {LoadKind::Indenter, static_cast<int>(load_.indenters.size()) - 1};
+  showLoad();
+  emit edited(tr("Add indenter %1").arg(chosen_.number), load_);
+}
+
+void LoadPanel::changeIndenter(int indenter, const Eigen::Vector2d& place_mm, double radius_mm) {
+  const auto k = static_cast<std::size_t>(indenter);
+  if (indenter < 0 || k >= load_.indenters.size()) return;
+  Indenter next = load_.indenters[k];
+  next.place_mm = place_mm;
+  if (next.shape != IndenterShape::Plane) next.radius_mm = radius_mm;
+  setIndenter(indenter, next);
+}
+
+void LoadPanel::setIndenter(int indenter, const Indenter& to) {
+  chosen_ = {LoadKind::Indenter, indenter};
+  const bool other = std::exchange(load_.indenters[static_cast<std::size_t>(indenter)], to) != to;
+  last_ = to;
+  showLoad();
+  if (other) emit edited(tr("Change indenter %1").arg(indenter), load_);
+}
+
+void LoadPanel::chooseWhatIsThere() {
+  if (!bears(chosen_) && !places().empty()) chosen_ = places().front();
+  if (!bears(chosen_)) chosen_.kind = LoadKind::Area;
+}
+
 void LoadPanel::takeAway(const LoadPlace& place) {
-  if (forceOf(place) == nullptr) return;
+  if (!bears(place)) return;
   const QString what = tr("Take the load of %1 away").arg(name(place));
-  if (place.disc)
-    load_.patches.erase(load_.patches.begin() + place.number);
-  else
+  switch (place.kind) {
+  case LoadKind::Area:
     std::erase_if(load_.areas, [&](const AreaLoad& load) { return load.area == place.number; });
+    break;
+  case LoadKind::Disc:
+    load_.patches.erase(load_.patches.begin() + place.number);
+    break;
+  case LoadKind::Indenter:
+    load_.indenters.erase(load_.indenters.begin() + place.number);
+    break;
+  }
   if (!places().empty())
     chosen_ = places().front();
   else
-    chosen_.disc = false;
+    chosen_.kind = LoadKind::Area;
   showLoad();
   emit edited(what, load_);
 }
@@ -211,12 +290,13 @@ void LoadPanel::setForce(int direction, double value_N) {
   Eigen::Vector3d* force_N = forceOf(chosen_);
   if (force_N == nullptr || (*force_N)[direction] == value_N) return;
   (*force_N)[direction] = value_N;
+  if (const Indenter* indenter = chosenIndenter()) last_ = *indenter;
   showLoad();
   emit edited(tr("Change the load on %1").arg(name(chosen_)), load_);
 }
 
 void LoadPanel::readDisc() {
-  if (chosen_.disc)
+  if (chosen_.kind == LoadKind::Disc)
     changeDisc(chosen_.number, {discSpins_[0]->value(), discSpins_[1]->value()}, discSpins_[2]->value());
 }
 
@@ -225,19 +305,32 @@ void LoadPanel::showLoad() {
   list_->clear();
   int now = -1;
   for (const LoadPlace& place : places()) {
-    const Eigen::Vector3d& force_N = *forceOf(place);
     if (place == chosen_) now = list_->count();
-    list_->addItem(QString("%1: (%2, %3, %4) N").arg(name(place)).arg(force_N.x()).arg(force_N.y()).arg(force_N.z()));
+    const Eigen::Vector3d* force_N = forceOf(place);
+    list_->addItem(
+        name(place) + ": " +
+        (force_N != nullptr
+             ? QString("(%1, %2, %3) N").arg(force_N->x()).arg(force_N->y()).arg(force_N->z())
+             : tr("%1 mm deep").arg(load_.indenters[static_cast<std::size_t>(place.number)].motion()->depth_mm)));
   }
   list_->setCurrentIndex(now);
   list_->setEnabled(list_->count() > 0);
-  const bool bears = forceOf(chosen_) != nullptr;
-  title_->setText(bears ? tr("Force on %1").arg(name(chosen_)) : tr("No load on %1").arg(name(chosen_)));
-  clear_->setEnabled(bears);
-  disc_->setVisible(chosen_.disc && bears);
-  if (chosen_.disc && bears) {
-    const PatchLoad& disc = load_.patches[static_cast<std::size_t>(chosen_.number)];
-    const std::array<double, 3> values{disc.centre_mm.x(), disc.centre_mm.y(), disc.radius_mm};
+  const bool there = bears(chosen_), disc = there && chosen_.kind == LoadKind::Disc;
+  const Indenter* indenter = chosenIndenter();
+  title_->setText(indenter != nullptr ? tr("Indenter %1").arg(chosen_.number)
+                  : there             ? tr("Force on %1").arg(name(chosen_))
+                                      : tr("No load on %1").arg(name(chosen_)));
+  clear_->setEnabled(there);
+  disc_->setVisible(disc);
+  forces_->setVisible(indenter == nullptr || indenter->press() != nullptr);
+  indenter_->setVisible(indenter != nullptr);
+  if (indenter != nullptr) indenter_->display(*indenter, design_);
+  const auto wrong = whyInvalid(load_, design_);
+  problem_->setVisible(wrong.has_value());
+  problem_->setText(wrong ? tr("Not applied: %1").arg(QString::fromStdString(*wrong)) : QString());
+  if (disc) {
+    const PatchLoad& its = load_.patches[static_cast<std::size_t>(chosen_.number)];
+    const std::array<double, 3> values{its.centre_mm.x(), its.centre_mm.y(), its.radius_mm};
     const std::array<double, 3> most{design_.block_mm.x(), design_.block_mm.y(),
                                      0.5 * design_.block_mm.head<2>().minCoeff()};
     for (std::size_t k = 0; k < 3; ++k) {

@@ -1,4 +1,4 @@
-#include "app/gui/touch/LoadPanel.h"
+#include "app/gui/touch/loads/LoadPanel.h"
 
 #include "app/gui/views/BlockView.h"
 #include "tests/app/gui/WindowFixture.h"
@@ -117,10 +117,10 @@ TEST_F(LoadPanelTest, AStrayClickOnTheBlockLoadsNothing) {
 TEST_F(LoadPanelTest, ChoosesAndLoadsAreasOnThePlanByTheMouseAndByKeys) {
   ASSERT_TRUE(solved());
   auto& plan = find<AreaPlan>("areaPlan");
-  QTest::mouseClick(&plan, Qt::LeftButton, {}, plan.placeOf({false, 4}));
+  QTest::mouseClick(&plan, Qt::LeftButton, {}, plan.placeOf({LoadKind::Area, 4}));
   ASSERT_EQ(load().areas.size(), 2u);
   EXPECT_EQ(load().areas[1].area, 4);
-  QTest::mouseClick(&plan, Qt::LeftButton, Qt::ShiftModifier, plan.placeOf({false, 4}));
+  QTest::mouseClick(&plan, Qt::LeftButton, Qt::ShiftModifier, plan.placeOf({LoadKind::Area, 4}));
   ASSERT_EQ(load().areas.size(), 1u);
   plan.setFocus();
   QTest::keyClick(&plan, Qt::Key_Right); // from area 1
@@ -148,7 +148,7 @@ TEST_F(LoadPanelTest, FiftyColumnsOfAreasStayInThePanel) {
   EXPECT_GE(box.left(), seen.left());
   EXPECT_LE(box.right(), seen.right());
   auto& plan = find<AreaPlan>("areaPlan");
-  QTest::mouseClick(&plan, Qt::LeftButton, {}, plan.placeOf({false, 599}));
+  QTest::mouseClick(&plan, Qt::LeftButton, {}, plan.placeOf({LoadKind::Area, 599}));
   EXPECT_EQ(load().areas.back().area, 599);
 }
 

@@ -1,4 +1,4 @@
-#include "app/scenes/block/ForceArrows.h"
+#include "app/scenes/block/loads/ForceArrows.h"
 
 #include <vtkArrowSource.h>
 #include <vtkDoubleArray.h>

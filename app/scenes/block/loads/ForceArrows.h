@@ -19,8 +19,9 @@ namespace palp {
 struct PlacedForce {
   Eigen::Vector3d place_mm = Eigen::Vector3d::Zero();
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
-  int load = 0;        ///< place in the load case: areas first, then patches
+  int load = 0;        ///< place in the load case: areas first, then patches, then indenters
   bool hidden = false; ///< stands on what is cut away
+  bool movable = true; ///< by the mouse: the load gives it, not the solve
 
   /// The end of its arrow that is not on the surface: a push ends on the surface, a pull starts there.
   [[nodiscard]] Eigen::Vector3d freeEnd_mm(double mmPerN) const;

@@ -1,4 +1,4 @@
-#include "app/gui/touch/AreaPlan.h"
+#include "app/gui/touch/loads/AreaPlan.h"
 
 #include <QHelpEvent>
 #include <QKeyEvent>
@@ -15,6 +15,7 @@ namespace {
 constexpr int kHighest_px = 150;
 constexpr int kLowest_px = 60;
 constexpr double kRim_px = 1;          ///< around the face
+constexpr double kLargestGrip_px = 14; ///< of an indenter
 constexpr double kSmallestDisc_px = 4; ///< radius, so that a small disc can still be clicked
 
 QString forceWords(const Eigen::Vector3d& force_N) {
@@ -64,7 +65,9 @@ QRectF AreaPlan::box(const Rectangle& rectangle) const {
 }
 
 QPoint AreaPlan::placeOf(const LoadPlace& load) const {
-  if (load.disc) return place(load_.patches[static_cast<std::size_t>(load.number)].centre_mm).toPoint();
+  const auto k = static_cast<std::size_t>(load.number);
+  if (load.kind == LoadKind::Disc) return place(load_.patches[k].centre_mm).toPoint();
+  if (load.kind == LoadKind::Indenter) return place(load_.indenters[k].place_mm).toPoint();
   return box(design_.areaRectangle(load.number)).center().toPoint();
 }
 
@@ -74,14 +77,44 @@ const AreaLoad* AreaPlan::loadOn(int area) const {
   return its == load_.areas.end() ? nullptr : &*its;
 }
 
+QPainterPath AreaPlan::outline(const Indenter& indenter) const {
+  QPainterPath path;
+  const QRectF face = box({Eigen::Vector2d::Zero(), design_.block_mm.head<2>()});
+  const QPointF middle = place(indenter.place_mm);
+  const double radius = std::max(kSmallestDisc_px, scale() * indenter.radius_mm);
+  switch (indenter.shape) {
+  case IndenterShape::Sphere:
+  case IndenterShape::Pin:
+  case IndenterShape::Flat:
+    path.addEllipse(middle, radius, radius);
+    break;
+  case IndenterShape::CylinderX:
+    path.addRect(QRectF(face.left(), middle.y() - radius, face.width(), 2 * radius));
+    break;
+  case IndenterShape::CylinderY:
+    path.addRect(QRectF(middle.x() - radius, face.top(), 2 * radius, face.height()));
+    break;
+  case IndenterShape::Plane:
+    path.addRect(face.adjusted(3, 3, -3, -3));
+    break;
+  }
+  return path;
+}
+
 std::optional<LoadPlace> AreaPlan::at(const QPointF& where) const {
+  for (std::size_t k = load_.indenters.size(); k-- > 0;) {
+    // Of a body that covers much of the face its middle is taken: areas and discs can be chosen beside it.
+    const QPointF way = where - place(load_.indenters[k].place_mm);
+    const double reach = std::clamp(scale() * load_.indenters[k].radius_mm, kSmallestDisc_px, kLargestGrip_px);
+    if (std::hypot(way.x(), way.y()) <= reach) return LoadPlace{LoadKind::Indenter, static_cast<int>(k)};
+  }
   for (std::size_t k = load_.patches.size(); k-- > 0;) {
     const QPointF way = where - place(load_.patches[k].centre_mm);
     if (std::hypot(way.x(), way.y()) <= std::max(kSmallestDisc_px, scale() * load_.patches[k].radius_mm))
-      return LoadPlace{true, static_cast<int>(k)};
+      return LoadPlace{LoadKind::Disc, static_cast<int>(k)};
   }
   for (int area = 0; area < design_.areas.count(); ++area)
-    if (box(design_.areaRectangle(area)).contains(where)) return LoadPlace{false, area};
+    if (box(design_.areaRectangle(area)).contains(where)) return LoadPlace{LoadKind::Area, area};
   return {};
 }
 
@@ -92,7 +125,7 @@ void AreaPlan::paintEvent(QPaintEvent*) {
   const QColor loaded = colors.color(QPalette::Highlight);
   for (int area = 0; area < design_.areas.count(); ++area) {
     const QRectF cell = box(design_.areaRectangle(area));
-    const bool bears = loadOn(area) != nullptr, now = chosen_ == LoadPlace{false, area};
+    const bool bears = loadOn(area) != nullptr, now = chosen_ == LoadPlace{LoadKind::Area, area};
     painter.setPen(QPen(colors.color(QPalette::Mid), 1));
     painter.setBrush(bears ? loaded : colors.color(QPalette::Button));
     painter.drawRect(cell);
@@ -108,12 +141,22 @@ void AreaPlan::paintEvent(QPaintEvent*) {
   }
   for (std::size_t k = 0; k < load_.patches.size(); ++k) {
     const double radius = std::max(kSmallestDisc_px, scale() * load_.patches[k].radius_mm);
-    const bool now = chosen_ == LoadPlace{true, static_cast<int>(k)};
+    const bool now = chosen_ == LoadPlace{LoadKind::Disc, static_cast<int>(k)};
     QColor ground = colors.color(QPalette::Base);
     ground.setAlpha(190);
     painter.setBrush(ground);
     painter.setPen(QPen(loaded, now ? 3 : 1.5));
     painter.drawEllipse(place(load_.patches[k].centre_mm), radius, radius);
+  }
+  painter.setClipRect(box({Eigen::Vector2d::Zero(), design_.block_mm.head<2>()}).adjusted(-1, -1, 1, 1));
+  for (std::size_t k = 0; k < load_.indenters.size(); ++k) {
+    const bool now = chosen_ == LoadPlace{LoadKind::Indenter, static_cast<int>(k)};
+    painter.setBrush(Qt::NoBrush);
+    painter.setPen(QPen(colors.color(QPalette::WindowText), now ? 3 : 1.5));
+    painter.drawPath(outline(load_.indenters[k]));
+    const QPointF middle = place(load_.indenters[k].place_mm);
+    painter.drawLine(middle - QPointF(3, 0), middle + QPointF(3, 0));
+    painter.drawLine(middle - QPointF(0, 3), middle + QPointF(0, 3));
   }
 }
 
@@ -128,10 +171,11 @@ void AreaPlan::mousePressEvent(QMouseEvent* event) {
 
 void AreaPlan::keyPressEvent(QKeyEvent* event) {
   const LoadAreas& areas = design_.areas;
-  const int column = chosen_.disc ? 0 : chosen_.number % areas.columns;
-  const int row = chosen_.disc ? 0 : chosen_.number / areas.columns;
+  const bool onArea = chosen_.kind == LoadKind::Area;
+  const int column = !onArea ? 0 : chosen_.number % areas.columns;
+  const int row = !onArea ? 0 : chosen_.number / areas.columns;
   const auto walk = [&](int dx, int dy) {
-    chosen_ = {false,
+    chosen_ = {LoadKind::Area,
                std::clamp(row + dy, 0, areas.rows - 1) * areas.columns + std::clamp(column + dx, 0, areas.columns - 1)};
     update();
   };
@@ -162,7 +206,10 @@ bool AreaPlan::event(QEvent* event) {
   const auto& help = static_cast<const QHelpEvent&>(*event);
   const auto load = at(help.pos());
   QString words;
-  if (load && load->disc) {
+  if (load && load->kind == LoadKind::Indenter) {
+    const Indenter& its = load_.indenters[static_cast<std::size_t>(load->number)];
+    words = tr("indenter %1: %2").arg(load->number).arg(QString::fromStdString(shapeName(its.shape)));
+  } else if (load && load->kind == LoadKind::Disc) {
     const PatchLoad& disc = load_.patches[static_cast<std::size_t>(load->number)];
     words = tr("disc %1: %2").arg(load->number).arg(forceWords(disc.force_N));
   } else if (load) {

@@ -3,20 +3,24 @@
 #include "model/LoadCase.h"
 #include "model/SensorDesign.h"
 
+#include <QPainterPath>
 #include <QWidget>
 
 #include <optional>
 
 namespace palp {
 
-/// One load of a load case: on an area (by its number) or on a disc (by its place in the list).
+enum class LoadKind { Area, Disc, Indenter };
+
+/// One load of a load case: on an area (by its number), on a disc or of an indenter (by its place in the list).
 struct LoadPlace {
-  bool disc = false;
+  LoadKind kind = LoadKind::Area;
   int number = 0;
   bool operator==(const LoadPlace&) const = default;
 };
 
-/// The top face from above, to scale and never larger than the panel: the load areas, what they bear, and the discs.
+/// The top face from above, to scale and never larger than the panel: the load areas, what they bear, the discs and
+/// the indenters.
 /// Arrow keys walk over the areas, Space chooses, Delete takes a load away.
 class AreaPlan : public QWidget {
   Q_OBJECT
@@ -25,7 +29,7 @@ public:
   explicit AreaPlan(QWidget* parent = nullptr);
 
   void display(const SensorDesign& design, const LoadCase& load, const LoadPlace& chosen);
-  /// Middle of an area or of a disc in the widget.
+  /// Middle of an area, a disc or an indenter in the widget.
   [[nodiscard]] QPoint placeOf(const LoadPlace& load) const;
 
 signals:
@@ -44,9 +48,11 @@ private:
   [[nodiscard]] double scale() const; ///< pixels a mm
   [[nodiscard]] QPointF place(const Eigen::Vector2d& xy_mm) const;
   [[nodiscard]] QRectF box(const Rectangle& rectangle) const;
-  /// The disc under a place, else the area.
+  /// The indenter under a place, else the disc, else the area.
   [[nodiscard]] std::optional<LoadPlace> at(const QPointF& place) const;
   [[nodiscard]] const AreaLoad* loadOn(int area) const;
+  /// An indenter from above: a circle, a cylinder's strip, or all of the face.
+  [[nodiscard]] QPainterPath outline(const Indenter& indenter) const;
 
   SensorDesign design_;
   LoadCase load_;
