@@ -26,6 +26,7 @@ DOORS = {
     "model": r"model/(base/)?\w+\.h",
     "solver": r"solver/\w+\.h",
     "nn": r"nn/(rivals/)?\w+\.h",
+    "io": r"io/(board/)?\w+\.h",
 }
 BASE = r"model/base/\w+\.h"  # stands below everything: it may include itself alone
 MOST_SOURCES = 30  # in one folder, its sub-folders apart
@@ -36,6 +37,7 @@ PACKAGES = {
     r"(suitesparse/)?cholmod\.h": {"solver"},
     r"hidapi(/hidapi)?\.h": {"io"},
     r"libudev\.h": {"io"},
+    r"hdf5\.h|zlib\.h|libdeflate\.h|minizip/.*": {"io"},
     r"gif_lib\.h": {"app/scenes"},
     r"nlohmann/.*": {"io", "app/study", "app/scenes", "app/cli", "app/gui"},
     r"CLI/.*": {"app/cli"},
@@ -43,11 +45,12 @@ PACKAGES = {
     r"(cblas|lapacke?|openblas.*)\.h": {"nn", "solver"},
     r"vtk.*\.h|GL/.*|EGL/.*": {"app/scenes", "app/gui"},
     r"Q[A-Z].*|Qt.*": {"app/gui"},
-    r"sys/mman\.h": {"solver"},  # huge pages
+    r"sys/mman\.h": {"solver", "io"},  # huge pages
     r"sanitizer/tsan_interface\.h": {"app/gui"},
     r"sys/.*|unistd\.h|dlfcn\.h|fcntl\.h|spawn\.h|poll\.h|pthread\.h|malloc\.h|linux/.*|termios\.h": {"io", "app/study", "app/scenes", "app/cli", "app/gui"},
 }
-ONE_SOURCE_ONLY = [r"tetgen\.h", r"hidapi(/hidapi)?\.h", r"(suitesparse/)?cholmod\.h"]
+ONE_SOURCE_ONLY = [r"tetgen\.h", r"hidapi(/hidapi)?\.h", r"(suitesparse/)?cholmod\.h", r"hdf5\.h", r"zlib\.h",
+                   r"minizip/.*"]
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.M)
 
 

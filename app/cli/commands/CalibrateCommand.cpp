@@ -142,7 +142,7 @@ Exit run(const CalibrateArguments& arguments, Session& session) {
     throw UsageError("give a network and labelled frames, or --rest RECORDING --design DESIGN");
   arguments.output.requireWritable();
   const Decoder decoder = readNetwork(arguments.network);
-  const SampleSet frames = loadSamples(arguments.frames);
+  const SampleSet frames = loadSamples(arguments.frames, session.stop);
   const Calibration calibration =
       session.stages.measure("train", [&] { return calibrate(decoder, frames, session.stop); });
   const CalibrationReport& report = calibration.report;

@@ -16,8 +16,8 @@ struct MergeArguments {
 
 Exit run(const MergeArguments& arguments, Session& session) {
   arguments.output.requireWritable();
-  const std::size_t samples =
-      mergeSampleFiles({arguments.parts.begin(), arguments.parts.end()}, arguments.output.path, arguments.output.force);
+  const std::size_t samples = mergeSampleFiles({arguments.parts.begin(), arguments.parts.end()}, arguments.output.path,
+                                               arguments.output.force, session.stop);
   session.result["samples"] = samples;
   session.result["solves"] = 0;
   session.result["solves_per_s"] = 0;
@@ -33,8 +33,9 @@ void addMerge(Cli& cli) {
   Command command = cli.command("merge", "join the shards of a sample file to the bytes of one run",
                                 "palp merge part1.csv part2.csv -o samples.csv",
                                 [arguments](Session& session) { return run(*arguments, session); });
-  command.option("parts", arguments->parts, "sample files in the order of their shards").required();
-  arguments->output.declare(command, "sample file to write").required();
+  command.option("parts", arguments->parts, "sample files of all shards; one whole file is only written anew")
+      .required();
+  arguments->output.declare(command, "sample file to write: CSV, or .h5 or .npz").required();
 }
 
 } // namespace palp

@@ -90,7 +90,7 @@ Exit run(const Arguments& arguments, Session& session) {
   }
   const int seed = wholeNumber("--seed", arguments.seed, 0, 2'147'483'647);
   const Decoder decoder = readNetwork(arguments.network);
-  const SampleSet samples = loadSamples(arguments.samples);
+  const SampleSet samples = loadSamples(arguments.samples, session.stop);
   requireReadout(decoder, samples.origin.readout, "the samples are");
   const Eigen::MatrixXd clean = inputsOf(samples, decoder.input);
   const Eigen::MatrixXd inputs = noisyCopies(clean, options.noise, 1, static_cast<std::uint64_t>(seed));

@@ -2,7 +2,8 @@
 #include "app/cli/Options.h"
 #include "app/cli/ProgressBar.h"
 #include "app/study/touch/SampleGenerator.h"
-#include "io/SampleFile.h"
+#include "io/SamplePartWriter.h"
+#include "model/base/Cancelled.h"
 
 #include <chrono>
 #include <iostream>
@@ -78,8 +79,12 @@ Exit run(const SampleArguments& arguments, Session& session) {
       [&](std::size_t done) { bar.show(kept + done); }, session.stop);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   session.stages.add(generator.stages());
-  const bool whole = kept + made == range.last - range.first;
-  if (whole) writer.finish();
+  bool whole = kept + made == range.last - range.first;
+  try {
+    if (whole) writer.finish(session.stop);
+  } catch (const Cancelled&) { // while arrays were written of what is made
+    whole = false;
+  }
 
   session.result["samples"] = kept + made;
   session.result["solves"] = generator.solves();
@@ -111,7 +116,7 @@ void addSample(Cli& cli) {
   command.option("--tolerance", arguments->tolerance, "relative, against full Newton (default 1e-6)");
   command.option("--shard", arguments->shardText, "I/N: this part of the samples; palp merge joins them");
   arguments->mesh.declare(command, false);
-  arguments->output.declare(command, "sample file to write").required();
+  arguments->output.declare(command, "sample file to write: CSV, or .h5 or .npz").required();
 }
 
 } // namespace palp

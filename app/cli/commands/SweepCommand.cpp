@@ -76,7 +76,8 @@ Exit run(const Arguments& arguments, Session& session) {
   const double testNoise = number("--test-noise", arguments.testNoise);
   if (!(testNoise >= 0 && testNoise <= 0.5))
     throw UsageError("--test-noise: '" + arguments.testNoise + "'; allowed is 0 to 0.5 (relative standard deviation)");
-  const SampleSet training = loadSamples(arguments.samples), test = loadSamples(arguments.test);
+  const SampleSet training = loadSamples(arguments.samples, session.stop),
+                  test = loadSamples(arguments.test, session.stop);
   DecoderInput input;
   input.kind = options.input;
   input.rowWires = training.rowWires;

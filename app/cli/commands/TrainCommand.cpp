@@ -61,7 +61,7 @@ Exit run(const Arguments& arguments, Session& session) {
   TrainOptions options = arguments.train.options();
   options.threads = session.threads;
   arguments.output.requireWritable();
-  const SampleSet samples = loadSamples(arguments.samples);
+  const SampleSet samples = loadSamples(arguments.samples, session.stop);
   std::optional<SensorDesign> design;
   if (!arguments.design.empty()) design = designOption(arguments.design);
   const Decoder decoder = session.stages.measure("train", [&] {

@@ -131,7 +131,7 @@ bool Document::mayLeave() {
 
 void Document::open() {
   const QStringList files = QFileDialog::getOpenFileNames(
-      &window_, tr("Open"), {}, tr("All files of Palp (*.json *.csv *.palprec);;All files (*)"));
+      &window_, tr("Open"), {}, tr("All files of Palp (*.json *.csv *.h5 *.npz *.palprec);;All files (*)"));
   if (!files.isEmpty()) open(files);
 }
 

@@ -96,7 +96,7 @@ std::vector<Shards> requestsOf(const std::vector<fs::path>& files, const fs::pat
   std::optional<Shards> testing;
   for (const fs::path& file : files) {
     if (stop.stop_requested()) throw Cancelled();
-    SampleSet set = loadSamples(file);
+    SampleSet set = loadSamples(file, stop);
     requireOf(design, set, file);
     const auto same = std::find_if(requests.begin(), requests.end(), [&](const Shards& request) {
       return difference(request.parts[0].origin, set.origin).empty();

@@ -152,11 +152,13 @@ QWidget* LiveCalibration::buildFrames() {
   for (QPushButton* push : {load, saveFrames_, remove_}) row->addWidget(push);
   column->addLayout(row);
   connect(load, &QPushButton::clicked, this, [this] {
-    const QString file = QFileDialog::getOpenFileName(this, tr("Labelled frames"), {}, tr("Tables (*.csv)"));
+    const QString file =
+        QFileDialog::getOpenFileName(this, tr("Labelled frames"), {}, tr("Samples (*.csv *.h5 *.hdf5 *.npz)"));
     if (!file.isEmpty()) this->load(file.toStdString());
   });
   connect(saveFrames_, &QPushButton::clicked, this, [this] {
-    const QString file = QFileDialog::getSaveFileName(this, tr("Labelled frames"), "frames.csv", tr("Tables (*.csv)"));
+    const QString file = QFileDialog::getSaveFileName(this, tr("Labelled frames"), "frames.csv",
+                                                      tr("Samples (*.csv *.h5 *.hdf5 *.npz)"));
     if (!file.isEmpty()) guarded([&] { frames_.save(file.toStdString()); });
   });
   connect(remove_, &QPushButton::clicked, this, [this] {

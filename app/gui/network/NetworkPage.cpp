@@ -287,14 +287,16 @@ void NetworkPage::drawCharts() {
 }
 
 void NetworkPage::openSamples() {
-  const QStringList chosen = QFileDialog::getOpenFileNames(this, tr("Open samples"), {}, tr("Samples (*.csv)"));
+  const QStringList chosen =
+      QFileDialog::getOpenFileNames(this, tr("Open samples"), {}, tr("Samples (*.csv *.h5 *.hdf5 *.npz)"));
   std::vector<std::filesystem::path> files;
   for (const QString& file : chosen) files.emplace_back(file.toStdString());
   if (!files.empty()) session_.openSamples(files);
 }
 
 void NetworkPage::saveSamples() {
-  const QString file = QFileDialog::getSaveFileName(this, tr("Save samples"), "samples.csv", tr("Samples (*.csv)"));
+  const QString file =
+      QFileDialog::getSaveFileName(this, tr("Save samples"), "samples.csv", tr("Samples (*.csv *.h5 *.hdf5 *.npz)"));
   if (file.isEmpty() || session_.samples() == nullptr) return;
   const QString test = QString::fromStdString(testFileOf(file.toStdString()).string()); // of which nobody asked
   if (QFileInfo::exists(test) &&

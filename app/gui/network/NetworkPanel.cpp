@@ -92,7 +92,8 @@ void NetworkPanel::buildSamples(QVBoxLayout& column) {
   open->setToolTip(tr("Samples of this design from files; several parts of one set are joined"));
   saveSamples_ = new QPushButton(tr("Save..."));
   saveSamples_->setObjectName("saveSamples");
-  saveSamples_->setToolTip(tr("NAME.csv for training and NAME-test.csv beside it, as palp sample writes them"));
+  saveSamples_->setToolTip(
+      tr("NAME.csv for training and NAME-test.csv beside it, as palp sample writes them; .h5 and .npz as well"));
   files->addWidget(open);
   files->addWidget(saveSamples_);
   form->addRow(files);

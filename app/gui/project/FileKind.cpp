@@ -24,7 +24,8 @@ FileKind fileKind(const QString& file) {
     throw Error(file.toStdString() + ": cannot be read: " + source.errorString().toStdString());
   const QByteArray head = source.read(kLooked_bytes);
   if (head.startsWith("PALPREC")) return FileKind::Recording;
-  if (head.startsWith("# palp_samples")) return FileKind::Samples;
+  if (head.startsWith("# palp_samples") || head.startsWith("\x89HDF\r\n")) return FileKind::Samples;
+  if (head.startsWith("PK") && head.contains(".npy")) return FileKind::Samples;
   // A project holds a design: the outer key counts.
   constexpr std::array keys{std::pair{"\"palp_project\"", FileKind::Project},
                             std::pair{"\"palp_network\"", FileKind::Network},
@@ -52,9 +53,9 @@ QString foreignWords(const QString& file) {
   const QString type = QFileInfo(file).size() == 0
                            ? QObject::tr("empty")
                            : QMimeDatabase().mimeTypeForFile(file, QMimeDatabase::MatchContent).comment();
-  return QObject::tr(
-             "%1: is no file of Palp's (%2). Allowed is a design, a project or a network (.json), samples (.csv) "
-             "or a recording (.palprec).")
+  return QObject::tr("%1: is no file of Palp's (%2). Allowed is a design, a project or a network (.json), samples "
+                     "(.csv, .h5, .npz) "
+                     "or a recording (.palprec).")
       .arg(file, type);
 }
 

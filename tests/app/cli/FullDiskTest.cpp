@@ -36,6 +36,14 @@ TEST(FullDisk, RefusesADeckWithTheReasonAndLeavesNothing) {
   expectEmpty(folder.path());
 }
 
+TEST(FullDisk, RefusesSamplesAsArraysWithTheReasonAndLeavesNothing) {
+  const palp::TemporaryFolder folder;
+  const std::string samples = std::string(PALP_SOURCE_DIR) + "/resources/board/paper-samples.csv";
+  for (const char* name : {"a.h5", "a.npz"})
+    expectRefusal(palpOnAFullDisk({"merge", samples, "-o", folder / name, "--json"}, kFull_bytes), folder / name);
+  expectEmpty(folder.path());
+}
+
 #if PALP_PICTURES // VTK writes them
 TEST(FullDisk, RefusesVtuAndPictureWithTheReasonAndLeavesNothing) {
   const palp::TemporaryFolder folder;

@@ -46,6 +46,40 @@ TEST(SampleCommand, GivesTheSameBytesInShards) {
   EXPECT_TRUE(readAll(folder / "whole.csv") == readAll(folder / "merged.csv"));
 }
 
+TEST(SampleCommand, WritesShardsAsArraysThatMergeToTheBytesOfOneRun) {
+  const palp::TemporaryFolder folder;
+  for (const char* whole : {"whole.csv", "whole.h5", "whole.npz"})
+    ASSERT_EQ(palp::test::palp(sample(folder / whole, {}, "40", kHexahedra)).exit, 0);
+  std::vector<std::string> merge{"merge"};
+  for (const auto& [part, ending] : {std::pair{"3", ".csv"}, {"1", ".h5"}, {"2", ".npz"}}) {
+    const std::filesystem::path file = folder / (std::string("part") + part + ending);
+    ASSERT_EQ(palp::test::palp(sample(file, {"--shard", std::string(part) + "/3"}, "40", kHexahedra)).exit, 0);
+    merge.push_back(file);
+  }
+  for (const char* whole : {"whole.csv", "whole.h5", "whole.npz"}) {
+    std::vector<std::string> words = merge;
+    words.insert(words.end(), {"-o", folder / ("merged" + std::filesystem::path(whole).extension().string())});
+    ASSERT_EQ(palp::test::palp(words).exit, 0);
+    EXPECT_TRUE(readAll(folder / whole) == readAll(words.back())) << whole;
+  }
+}
+
+TEST(SampleCommand, NetworksOfAllFormatsAreTheSame) {
+  const palp::TemporaryFolder folder;
+  std::vector<json> results;
+  for (const char* name : {"s.csv", "s.h5", "s.npz"}) {
+    ASSERT_EQ(palp::test::palp(sample(folder / name, {}, "20", kHexahedra)).exit, 0);
+    ASSERT_EQ(palp::test::palp({"train", folder / name, "-o", folder / "n.json", "--force"}).exit, 0);
+    results.push_back(palp::test::palp({"predict", folder / "n.json", folder / name, "--json"}).json());
+    const Outcome swept =
+        palp::test::palp({"sweep", folder / name, "--test", folder / "s.csv", "--spreads", "1", "--json"});
+    ASSERT_EQ(swept.exit, 0) << swept.errors;
+    results.back()["swept"] = swept.json().at("rows")[0].at("error");
+  }
+  for (const json& result : results)
+    for (const char* key : {"forces_N", "error", "swept"}) EXPECT_EQ(result.at(key), results[0].at(key)) << key;
+}
+
 TEST(SampleCommand, GoesOnAfterAnInterruptionToTheSameBytes) {
   const palp::TemporaryFolder folder;
   ASSERT_EQ(palp::test::palp(sample(folder / "whole.csv", {}, "100")).exit, 0);

@@ -48,19 +48,22 @@ private:
 TEST_F(OpenFiles, SavesSamplesAndOpensThemAgainInANewSession) {
   generate();
   const SampleSet training = network.samples()->training, test = network.samples()->test;
-  answerFileDialog(inFolder("mine.csv"));
-  find<QPushButton>("saveSamples").click();
-  ASSERT_TRUE(QTest::qWaitFor([&] { return QFile::exists(inFolder("mine.csv")) && !window.busy(); }, kPatience_ms))
-      << said.toStdString() << find<QPlainTextEdit>("messageLines").toPlainText().toStdString();
-  EXPECT_TRUE(QFile::exists(inFolder("mine-test.csv")));
-  network.clear();
-  ASSERT_EQ(network.samples(), nullptr);
-  answerFileDialog(inFolder("mine.csv"));
-  find<QPushButton>("openSamples").click();
-  ASSERT_TRUE(QTest::qWaitFor([&] { return network.samples() != nullptr; }, kPatience_ms));
-  EXPECT_EQ(network.samples()->training.resistances_ohm, training.resistances_ohm);
-  EXPECT_EQ(network.samples()->test.forces_N, test.forces_N);
-  EXPECT_TRUE(network.upToDate());
+  for (const char* ending : {".csv", ".h5", ".npz"}) {
+    const QString file = inFolder("mine") + ending;
+    answerFileDialog(file);
+    find<QPushButton>("saveSamples").click();
+    ASSERT_TRUE(QTest::qWaitFor([&] { return QFile::exists(file) && !window.busy(); }, kPatience_ms))
+        << said.toStdString() << find<QPlainTextEdit>("messageLines").toPlainText().toStdString();
+    EXPECT_TRUE(QFile::exists(inFolder("mine-test") + ending));
+    network.clear();
+    ASSERT_EQ(network.samples(), nullptr);
+    answerFileDialog(file);
+    find<QPushButton>("openSamples").click();
+    ASSERT_TRUE(QTest::qWaitFor([&] { return network.samples() != nullptr; }, kPatience_ms)) << ending;
+    EXPECT_EQ(network.samples()->training.resistances_ohm, training.resistances_ohm);
+    EXPECT_EQ(network.samples()->test.forces_N, test.forces_N);
+    EXPECT_TRUE(network.upToDate());
+  }
 }
 
 TEST_F(OpenFiles, TakesTheTestSamplesThatTheCommandLineNamesBesideItsTrainingSamples) {
@@ -91,11 +94,11 @@ TEST_F(OpenFiles, JoinsDroppedShardsAndKeepsEveryFifthSampleForTesting) {
     part->resistances_ohm = columns(all.resistances_ohm);
   }
   second.origin.firstSample = static_cast<std::size_t>(half);
-  saveSamples(inFolder("a.csv").toStdString(), second, false); // in the wrong order
-  saveSamples(inFolder("b.csv").toStdString(), first, false);
+  saveSamples(inFolder("a.npz").toStdString(), second, false); // in the wrong order
+  saveSamples(inFolder("b.h5").toStdString(), first, false);
   network.clear();
   window.showScene("design");
-  window.document().open(QStringList{inFolder("a.csv"), inFolder("b.csv")});
+  window.document().open(QStringList{inFolder("a.npz"), inFolder("b.h5")});
   ASSERT_TRUE(QTest::qWaitFor([&] { return network.samples() != nullptr; }, kPatience_ms)) << said.toStdString();
   EXPECT_EQ(window.currentScene().objectName(), "network");
   EXPECT_EQ(network.samples()->training.size() + network.samples()->test.size(), all.size());
@@ -170,7 +173,7 @@ TEST_F(OpenFiles, NamesAWrongFileByWhatItIs) {
   QImage(4, 4, QImage::Format_RGB32).save(inFolder("picture.json"), "PNG");
   dropOn(window, inFolder("picture.json"));
   EXPECT_TRUE(said.contains("PNG")) << said.toStdString();
-  EXPECT_TRUE(said.contains("samples (.csv)")) << said.toStdString();
+  EXPECT_TRUE(said.contains("samples (.csv, .h5, .npz)")) << said.toStdString();
   QFile empty(inFolder("empty.json"));
   ASSERT_TRUE(empty.open(QIODevice::WriteOnly));
   empty.close();

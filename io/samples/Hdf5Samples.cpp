@@ -1,0 +1,182 @@
+#include "io/samples/Hdf5Samples.h"
+
+#include "io/samples/Hdf5.h"
+#include "io/samples/ShuffledDeflate.h"
+#include "model/base/Cancelled.h"
+#include "model/base/Error.h"
+#include "model/base/Parallel.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+
+namespace palp {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr Eigen::Index kChunksAtOnce = 8;            ///< of all arrays, so that every core has some
+constexpr std::size_t kLargestChunk_bytes = 1 << 26; ///< larger ones of other programs are left to the library
+
+/// One dataset of the file.
+struct Field {
+  std::string name;
+  Hdf5Number number = Hdf5Number::Double;
+  std::vector<std::uint64_t> shape;             ///< samples first
+  Eigen::MatrixXd SampleSet::*values = nullptr; ///< null: the areas
+
+  [[nodiscard]] std::size_t rowBytes() const {
+    std::size_t bytes = width(number);
+    for (std::size_t i = 1; i < shape.size(); ++i) bytes *= shape[i];
+    return bytes;
+  }
+  /// Where the numbers of a sample begin.
+  [[nodiscard]] unsigned char* at(SampleSet& set, Eigen::Index sample) const {
+    return values == nullptr ? reinterpret_cast<unsigned char*>(set.area.data() + sample)
+                             : reinterpret_cast<unsigned char*>((set.*values).col(sample).data());
+  }
+};
+
+std::vector<Field> fieldsOf(const SampleSet& head, Eigen::Index samples) {
+  const auto count = static_cast<std::uint64_t>(samples);
+  std::vector<Field> fields{{kAreaArray, Hdf5Number::Int32, {count}, nullptr}};
+  for (const SampleArray& array : sampleArrays(head)) {
+    fields.push_back({array.name, Hdf5Number::Double, {count}, array.values});
+    fields.back().shape.insert(fields.back().shape.end(), array.shape.begin(), array.shape.end());
+  }
+  return fields;
+}
+
+std::string shapeText(const std::vector<std::uint64_t>& shape) {
+  std::string text;
+  for (const std::uint64_t size : shape) text += (text.empty() ? "" : " x ") + std::to_string(size);
+  return text;
+}
+
+class Hdf5Samples : public SampleReader {
+public:
+  explicit Hdf5Samples(const fs::path& path) : path_(path), file_(path, Hdf5File::Open::ForReading) {
+    head_ = headFrom(path, file_.attributes(), file_.texts(kColumnsArray));
+    const std::vector<std::uint64_t> shape = file_.layout(kAreaArray, Hdf5Number::Int32).shape;
+    if (shape[0] > static_cast<std::uint64_t>(std::numeric_limits<std::int32_t>::max()))
+      file_.refuse(std::to_string(shape[0]) + " samples; allowed are up to 2147483647");
+    size_ = static_cast<Eigen::Index>(shape[0]);
+    fields_ = fieldsOf(head_, size_);
+    for (const Field& field : fields_) {
+      Hdf5Layout& layout = layouts_.emplace_back(file_.layout(field.name, field.number));
+      if (layout.shape != field.shape)
+        file_.refuse("dataset " + field.name + " is of " + shapeText(layout.shape) +
+                     " numbers; by the head and the areas it must be of " + shapeText(field.shape));
+      if (layout.chunkRows > kLargestChunk_bytes / field.rowBytes()) layout.shuffledDeflate = false;
+    }
+  }
+
+  [[nodiscard]] const SampleSet& head() const override { return head_; }
+  [[nodiscard]] std::optional<Eigen::Index> size() const override { return size_; }
+
+  Eigen::Index read(SampleSet& set, Eigen::Index first, Eigen::Index count, const std::stop_token& stop) override {
+    count = std::min(count, size_ - next_);
+    struct Piece {
+      std::size_t field;
+      Eigen::Index row, rows; ///< of the file
+    };
+    std::vector<Piece> pieces;
+    for (std::size_t f = 0; f < fields_.size(); ++f) {
+      const auto most = static_cast<Eigen::Index>(std::max<std::uint64_t>(1, layouts_[f].chunkRows));
+      const Eigen::Index atOnce = layouts_[f].chunkRows > 0 ? most : samplesAtOnce(head_);
+      for (Eigen::Index row = next_; row < next_ + count;) {
+        const Eigen::Index end = std::min(next_ + count, (row / atOnce + 1) * atOnce);
+        pieces.push_back({f, row, end - row});
+        row = end;
+      }
+    }
+    std::atomic<bool> finite{true};
+    inParallel(pieces.size(), 0, [&](std::size_t p) {
+      stopIfAsked(stop);
+      const auto [f, row, rows] = pieces[p];
+      readPiece(f, row, rows, set, first + row - next_);
+      const auto values = fields_[f].values;
+      if (values != nullptr && !(set.*values).middleCols(first + row - next_, rows).allFinite()) finite = false;
+    });
+    requireSamples(path_, set, first, count, next_ - first, finite);
+    next_ += count;
+    return count;
+  }
+
+private:
+  /// Rows within one chunk.
+  void readPiece(std::size_t f, Eigen::Index row, Eigen::Index rows, SampleSet& set, Eigen::Index column) const {
+    const Field& field = fields_[f];
+    if (!layouts_[f].shuffledDeflate) {
+      const auto start = static_cast<std::uint64_t>(row), number = static_cast<std::uint64_t>(rows);
+      if (field.values == nullptr)
+        file_.readRows(field.name, start, number, set.area.data() + column);
+      else
+        file_.readRows(field.name, start, number, (set.*field.values).col(column).data());
+      return;
+    }
+    const auto chunkRows = static_cast<Eigen::Index>(layouts_[f].chunkRows);
+    const Eigen::Index chunk = row / chunkRows * chunkRows;
+    const std::vector<unsigned char> packed = file_.readChunk(field.name, static_cast<std::uint64_t>(chunk));
+    const std::size_t chunkBytes = field.rowBytes() * layouts_[f].chunkRows;
+    const bool whole = rows == chunkRows;
+    std::vector<unsigned char> numbers(whole ? 0 : chunkBytes);
+    unsigned char* const to = field.at(set, column);
+    if (!inflateShuffled(packed, width(field.number), whole ? std::span(to, chunkBytes) : std::span(numbers)))
+      file_.refuse("dataset " + field.name + ", samples from " + std::to_string(chunk) + " on: the file is damaged");
+    if (!whole)
+      std::memcpy(to, numbers.data() + static_cast<std::size_t>(row - chunk) * field.rowBytes(),
+                  static_cast<std::size_t>(rows) * field.rowBytes());
+  }
+
+  fs::path path_;
+  Hdf5File file_;
+  SampleSet head_;
+  Eigen::Index size_ = 0, next_ = 0;
+  std::vector<Field> fields_;
+  std::vector<Hdf5Layout> layouts_;
+};
+
+} // namespace
+
+std::unique_ptr<SampleReader> openHdf5Samples(const fs::path& path) {
+  return std::make_unique<Hdf5Samples>(path);
+}
+
+void writeHdf5Samples(const fs::path& path, const SampleRows& rows, const std::stop_token& stop) {
+  Hdf5File file(path, Hdf5File::Open::ForWriting);
+  const Eigen::Index chunk = samplesAtOnce(rows.head);
+  for (const auto& [key, value] : headValues(rows.head)) file.setAttribute("", key, value);
+  file.addTexts(kColumnsArray, columnNames(rows.head));
+  file.addTexts(kNamesArray, arrayNames(rows.head));
+  const std::vector<Field> fields = fieldsOf(rows.head, rows.count);
+  for (const Field& field : fields)
+    file.addDataset(field.name, field.number, field.shape, static_cast<std::uint64_t>(chunk));
+  for (const SampleArray& array : sampleArrays(rows.head)) file.setAttribute(array.name, "unit", array.unit);
+  for (Eigen::Index first = 0; first < rows.count; first += kChunksAtOnce * chunk) {
+    stopIfAsked(stop);
+    SampleSet block = rows.block(first, std::min(kChunksAtOnce * chunk, rows.count - first));
+    const Eigen::Index samples = block.size(), chunks = (samples + chunk - 1) / chunk;
+    resizeSamples(block, chunks * chunk);
+    if (chunks * chunk > samples) { // the rest of a chunk is zeros
+      block.area.tail(chunks * chunk - samples).setZero();
+      for (const SampleArray& array : sampleArrays(block))
+        (block.*array.values).rightCols(chunks * chunk - samples).setZero();
+    }
+    std::vector<std::vector<unsigned char>> packed(fields.size() * static_cast<std::size_t>(chunks));
+    inParallel(packed.size(), 0, [&](std::size_t p) {
+      const Field& field = fields[p % fields.size()];
+      const auto place = static_cast<Eigen::Index>(p / fields.size()) * chunk;
+      packed[p] = shuffledDeflate({field.at(block, place), field.rowBytes() * static_cast<std::size_t>(chunk)},
+                                  width(field.number));
+    });
+    for (std::size_t p = 0; p < packed.size(); ++p)
+      file.writeChunk(fields[p % fields.size()].name,
+                      static_cast<std::uint64_t>(first + static_cast<Eigen::Index>(p / fields.size()) * chunk),
+                      packed[p]);
+  }
+  file.close();
+}
+
+} // namespace palp

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "model/SampleSet.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace palp {
+
+/// Two row-wires, two electrodes each, three column-wires, two areas.
+inline SampleSet smallHead(bool together = false) {
+  SampleSet set;
+  set.origin = {"0123456789abcdef", 7, together ? "together" : "each", 10, "tetrahedra, 2 mm", 1e-6, false, 0, 0};
+  set.rowWires = 2;
+  set.electrodesPerRowWire = 2;
+  set.columnWires = 3;
+  set.areaCount = 2;
+  set.forces_N.resize(together ? 6 : 3, 0);
+  set.displacements_mm.resize(12, 0);
+  set.resistances_ohm.resize(6, 0);
+  return set;
+}
+
+/// Samples with the awkward numbers of random bits.
+inline SampleSet randomSet(Eigen::Index size, unsigned seed, bool together = false) {
+  SampleSet set = smallHead(together);
+  std::mt19937_64 engine(seed);
+  std::normal_distribution<double> normal;
+  const auto fill = [&](Eigen::MatrixXd& part) {
+    part.resize(part.rows(), size);
+    for (double& value : part.reshaped()) value = normal(engine) * std::pow(10, 5 * normal(engine));
+  };
+  set.area.resize(size);
+  for (Eigen::Index i = 0; i < size; ++i) set.area(i) = together ? -1 : static_cast<int>(i % 2);
+  for (Eigen::MatrixXd* part : {&set.forces_N, &set.displacements_mm, &set.resistances_ohm}) fill(*part);
+  return set;
+}
+
+inline SampleSet slice(const SampleSet& set, Eigen::Index first, Eigen::Index count) {
+  SampleSet part = set;
+  part.area = set.area.segment(first, count);
+  part.forces_N = set.forces_N.middleCols(first, count);
+  part.displacements_mm = set.displacements_mm.middleCols(first, count);
+  part.resistances_ohm = set.resistances_ohm.middleCols(first, count);
+  return part;
+}
+
+inline void expectSame(const SampleSet& a, const SampleSet& b) {
+  EXPECT_EQ(difference(a.origin, b.origin), "");
+  EXPECT_EQ(a.origin.firstSample, b.origin.firstSample);
+  EXPECT_EQ(a.area, b.area);
+  EXPECT_EQ(a.forces_N, b.forces_N);
+  EXPECT_EQ(a.displacements_mm, b.displacements_mm);
+  EXPECT_EQ(a.resistances_ohm, b.resistances_ohm);
+}
+
+} // namespace palp
