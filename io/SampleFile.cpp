@@ -2,19 +2,13 @@
 
 #include "io/AtomicFile.h"
 #include "io/SampleHead.h"
-#include "io/samples/Hdf5Samples.h"
-#include "io/samples/NpzSamples.h"
-#include "io/samples/RowFile.h"
+#include "io/samples/SampleArrays.h"
 #include "io/samples/SampleReader.h"
+#include "io/samples/SampleWriter.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 
 namespace palp {
 
@@ -22,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr Eigen::Index kSamplesAtOnce = 256; ///< about 4 MB of text for the paper's design
+constexpr Eigen::Index kSamplesAtOnce = 256;
 
 std::string sizes(const SampleSet& set) {
   return std::to_string(set.rowWires) + " row-wires x " + std::to_string(set.electrodesPerRowWire) + " electrodes, " +
@@ -33,10 +27,6 @@ std::string sizes(const SampleSet& set) {
 std::size_t wholeRequest(const SampleSet& head) {
   const auto perArea = static_cast<std::size_t>(head.origin.perArea);
   return head.origin.areas == "each" ? perArea * static_cast<std::size_t>(head.areaCount) : perArea;
-}
-
-std::string systemReason() {
-  return std::strerror(errno); // NOLINT(concurrency-mt-unsafe)
 }
 
 struct Part {
@@ -80,24 +70,6 @@ std::size_t readParts(const std::vector<Part>& parts, const std::stop_token& sto
   return done;
 }
 
-/// A file without a name that is gone with this object.
-class NamelessFile {
-public:
-  explicit NamelessFile(const fs::path& beside) {
-    std::string name = beside.string() + ".XXXXXX";
-    id_ = ::mkstemp(name.data());
-    if (id_ < 0) throw Error(beside.string() + ": cannot be written: " + systemReason());
-    ::unlink(name.c_str());
-  }
-  ~NamelessFile() { ::close(id_); }
-  NamelessFile(const NamelessFile&) = delete;
-  NamelessFile& operator=(const NamelessFile&) = delete;
-  [[nodiscard]] int id() const { return id_; }
-
-private:
-  int id_;
-};
-
 } // namespace
 
 std::string differenceOfHeads(const SampleSet& a, const SampleSet& b) {
@@ -108,28 +80,20 @@ std::string differenceOfHeads(const SampleSet& a, const SampleSet& b) {
 }
 
 void saveSamples(const fs::path& path, const SampleSet& set, bool force, const std::stop_token& stop) {
-  AtomicFile target(path, force);
   const SampleFormat format = formatToWrite(path);
-  if (format != SampleFormat::Csv) {
-    writeSampleArrays(target.beside(), format,
-                      {samplesBetween(set, 0, 0), set.size(),
-                       [&set](Eigen::Index first, Eigen::Index count) { return samplesBetween(set, first, count); }},
-                      stop);
+  const auto block = [&set](Eigen::Index first, Eigen::Index count) { return samplesBetween(set, first, count); };
+  if (format != SampleFormat::Csv) { // the set is what is asked again and again
+    AtomicFile target(path, force);
+    writeSampleArrays(target.beside(), format, {block(0, 0), set.size(), block}, stop);
     target.commit();
     return;
   }
-  std::ofstream stream(target.beside(), std::ios::binary);
-  stream << sampleFileHead(set);
-  std::string lines;
-  for (Eigen::Index first = 0; first < set.size() && stream; first += kSamplesAtOnce) {
+  SampleWriter writer(path, set, force);
+  for (Eigen::Index first = 0; first < set.size(); first += kSamplesAtOnce) {
     stopIfAsked(stop);
-    lines.clear();
-    appendSampleLines(lines, set, first, std::min(kSamplesAtOnce, set.size() - first));
-    stream << lines;
+    writer.append(block(first, std::min(kSamplesAtOnce, set.size() - first)));
   }
-  stream.close();
-  if (!stream) throw Error(path.string() + ": cannot be written: " + systemReason());
-  target.commit();
+  writer.finish(stop);
 }
 
 SampleSet loadSamples(const fs::path& path, const std::stop_token& stop) {
@@ -153,35 +117,16 @@ SampleSet loadSamples(const fs::path& path, const std::stop_token& stop) {
 std::size_t mergeSampleFiles(const std::vector<fs::path>& paths, const fs::path& path, bool force,
                              const std::stop_token& stop) {
   if (paths.empty()) throw Error(path.string() + ": no shards to join; name at least one file");
-  AtomicFile target(path, force);
+  requireFree(path, force);
   const std::vector<Part> parts = readHeads(paths);
   SampleSet head = parts[0].head;
   head.origin.firstSample = 0;
-  const auto requireWhole = [&](std::size_t done) {
-    if (done != wholeRequest(head))
-      throw Error(path.string() + ": the shards hold " + std::to_string(done) + " samples; the whole request has " +
-                  std::to_string(wholeRequest(head)));
-    return done;
-  };
-  std::size_t done = 0;
-  if (formatToWrite(path) == SampleFormat::Csv) {
-    std::ofstream stream(target.beside(), std::ios::binary);
-    stream << sampleFileHead(head);
-    std::string lines;
-    done = requireWhole(readParts(parts, stop, [&](const SampleSet& block) {
-      lines.clear();
-      appendSampleLines(lines, block, 0, block.size());
-      stream << lines;
-    }));
-    stream.close();
-    if (!stream) throw Error(path.string() + ": cannot be written: " + systemReason());
-  } else {
-    const NamelessFile between(target.beside());
-    RowFile rows(between.id(), path, 0, head);
-    done = requireWhole(readParts(parts, stop, [&](const SampleSet& block) { rows.append(block); }));
-    writeSampleArrays(target.beside(), formatToWrite(path), rows.rows(), stop);
-  }
-  target.commit();
+  SampleWriter writer(path, head, force);
+  const std::size_t done = readParts(parts, stop, [&](const SampleSet& block) { writer.append(block); });
+  if (head.origin.perArea > 0 && done != wholeRequest(head)) // measured samples are of no request
+    throw Error(path.string() + ": the shards hold " + std::to_string(done) + " samples; the whole request has " +
+                std::to_string(wholeRequest(head)));
+  writer.finish(stop);
   return done;
 }
 

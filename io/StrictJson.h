@@ -30,6 +30,7 @@ public:
   [[nodiscard]] JsonPlace at(const std::string& key) const;
   [[nodiscard]] bool has(const std::string& key) const { return value_->is_object() && value_->contains(key); }
   [[nodiscard]] bool isNull() const { return value_->is_null(); }
+  [[nodiscard]] bool isString() const { return value_->is_string(); }
   [[nodiscard]] bool isNumber() const { return value_->is_number(); }
   /// A list whose first entry is a list.
   [[nodiscard]] bool isListOfLists() const {

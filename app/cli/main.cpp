@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
     palp::addRender(cli);
     palp::addSample(cli);
     palp::addMerge(cli);
+    palp::addImport(cli);
     palp::addReproduce(cli);
     palp::addTrain(cli);
     palp::addPredict(cli);

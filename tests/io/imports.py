@@ -1,0 +1,208 @@
+"""palp import on the tables of a rig that NumPy and pandas write: the samples are those of the table, networks train on
+them without a design, and each broken twin of table or map is refused in one line and leaves nothing.
+
+Used by CTest: python3 imports.py PALP
+"""
+
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import numpy as np
+import pandas as pd
+
+PALP = os.path.abspath(sys.argv[1])
+ROWS, COLUMNS, SAMPLES = 3, 4, 300
+MAP = {
+    "palp_import": 1,
+    "resistances": {"columns": "R{row}_{column}", "row_wires": ROWS, "column_wires": COLUMNS, "unit": "kohm"},
+    "forces": {"columns": ["Fx", "Fy", "Fz"], "unit": "mN", "signs": [1, 1, -1]},
+    "area": {"column": "pad", "count": 2, "first": 1},
+    "time": {"column": "t", "unit": "ms"},
+}
+
+
+def palp(*words):
+    return subprocess.run([PALP, *map(str, words)], capture_output=True, text=True, timeout=100)
+
+
+def made(*words):
+    result = palp(*words, "--json")
+    assert result.returncode == 0, result.stderr
+    return json.loads(result.stdout)
+
+
+def refused(table, map_file, *parts):
+    before = sorted(os.listdir("."))
+    for output in ("never.csv", "never.h5"):
+        result = palp("import", table, "--map", map_file, "-o", output)
+        assert result.returncode == 2, (parts, result)
+        assert result.stderr.count("\n") == 1 and result.stderr.startswith("palp import: "), result.stderr
+        for part in parts:
+            assert part in result.stderr, (part, result.stderr)
+    assert sorted(os.listdir(".")) == before
+
+
+def mapped(name="map.json", **changes):
+    """The map with other keys; None takes one away. `resistances__unit` is a key within `resistances`."""
+    changed = json.loads(json.dumps(MAP))
+    for key, value in changes.items():
+        inside = changed
+        *outer, last = key.split("__")
+        for step in outer:
+            inside = inside[step]
+        if value is None:
+            del inside[last]
+        else:
+            inside[last] = value
+    pathlib.Path(name).write_text(json.dumps(changed))
+    return name
+
+
+def measured(seed):
+    """A linear rig: each R answers the force in its own way, and a little to the pad."""
+    random = np.random.default_rng(seed)
+    pad = random.integers(0, 2, SAMPLES)
+    force_N = random.uniform([-1, -1, -6], [1, 1, 0], (SAMPLES, 3))
+    answer = np.random.default_rng(1).normal(size=(3, ROWS, COLUMNS))
+    ohm = 500 + 5 * np.einsum("nd,drc->nrc", force_N, answer) + pad[:, None, None]
+    return pad, force_N, ohm
+
+
+def frame_of(pad, force_N, ohm):
+    frame = pd.DataFrame({"t": 10.0 * np.arange(SAMPLES), "comment": 0, "pad": pad + 1})
+    for axis, (name, sign) in enumerate((("Fx", 1), ("Fy", 1), ("Fz", -1))):
+        frame[name] = sign * 1000 * force_N[:, axis]
+    for r in range(ROWS):
+        for c in range(COLUMNS):
+            frame[f"R{r}_{c}"] = ohm[:, r, c] / 1000
+    return frame
+
+
+def check_numbers():
+    pad, force_N, ohm = measured(2)
+    frame_of(pad, force_N, ohm).to_csv("table.csv", index=False)
+    result = made("import", "table.csv", "--map", mapped(), "-o", "samples.npz")
+    assert result["samples"] == SAMPLES and result["unused_columns"] == 1
+    samples = np.load("samples.npz")
+    assert (samples["area"] == pad).all() and str(samples["design"]) == result["design"]
+    np.testing.assert_allclose(samples["forces_N"], force_N, rtol=1e-14)
+    np.testing.assert_allclose(samples["resistances_ohm"], ohm, rtol=1e-14)
+
+    made("import", "table.csv", "--map", mapped(), "-o", "samples.h5")
+    made("import", "table.csv", "--map", mapped(), "-o", "samples.csv")
+    made("merge", "samples.h5", "-o", "back.csv")
+    assert open("back.csv").read() == open("samples.csv").read()
+
+    # The same as arrays; codes of a converter; a place in place of the area; another separator.
+    np.savez("table.npz", F=force_N, R=(ohm - 100) / 0.25, xy=np.column_stack([10 + 10 * pad, 5 + 0 * pad]) / 10)
+    arrays = {"time": None, "area": None, "forces": {"columns": ["F[0]", "F[1]", "F[2]"], "unit": "N"},
+              "place": {"columns": ["xy[0]", "xy[1]"], "unit": "cm", "block_mm": [30, 30], "areas": [2, 1]},
+              "resistances": {"columns": "R[{row},{column}]", "row_wires": ROWS, "column_wires": COLUMNS,
+                              "unit": "code", "ohm_per_code": 0.25, "zero_ohm": 100}}
+    made("import", "table.npz", "--map", mapped("arrays.json", **arrays), "-o", "arrays.npz")
+    again = np.load("arrays.npz")
+    assert (again["area"] == pad).all()
+    np.testing.assert_allclose(again["resistances_ohm"], ohm, rtol=1e-13)
+    frame_of(pad, force_N, ohm).to_csv("german.csv", index=False, sep=";", lineterminator="\r\n")
+    made("import", "german.csv", "--map", mapped("german.json", separator=";"), "-o", "german.npz")
+    assert (np.load("german.npz")["forces_N"] == samples["forces_N"]).all()
+
+
+def check_use():
+    """Train, sweep and predict without a design, on another table of the same rig."""
+    frame_of(*measured(3)).to_csv("test-table.csv", index=False)
+    made("import", "test-table.csv", "--map", mapped(), "-o", "test.h5")
+    options = ["--input", "resistance", "--rows", "all"]
+    made("train", "samples.h5", *options, "--noise", "1e-4", "-o", "network.json")
+    result = made("predict", "network.json", "test.h5")
+    assert not result["warnings"], result["warnings"]
+    assert max(result["error"]["mean_absolute_N"]) < 0.05, result["error"]
+    rows = made("sweep", "samples.h5", "--test", "test.h5", *options, "--spreads", "3,10")["rows"]
+    assert len(rows) == 2
+    result = palp("train", "samples.h5", "--input", "displacement", "-o", "never.json")
+    assert result.returncode == 2 and result.stderr.count("\n") == 1, result
+
+
+def twin(name, change):
+    lines = open("table.csv").read().splitlines()
+    change(lines)
+    pathlib.Path(name).write_text("\n".join(lines) + "\n")
+    return name
+
+
+def set_field(line, column, value):
+    def change(lines):
+        fields = lines[line].split(",")
+        fields[lines[0].split(",").index(column)] = value
+        lines[line] = ",".join(fields)
+    return change
+
+
+def cut_line(line):
+    def change(lines):
+        lines[line] = lines[line].rsplit(",", 1)[0]
+    return change
+
+
+def check_broken_tables():
+    good = mapped()
+    refused(twin("a.csv", set_field(7, "Fx", "nan")), good, "a.csv, line 8", "Fx", "nan", "finite")
+    refused(twin("b.csv", set_field(7, "R1_2", "1e400")), good, "line 8", "R1_2", "1e400")
+    refused(twin("c.csv", set_field(7, "R1_2", "-0.5")), good, "line 8", "R1_2", "above 0")
+    refused(twin("d.csv", set_field(7, "pad", "3")), good, "line 8", "area 2", "0 to 1")
+    refused(twin("e.csv", set_field(7, "pad", "1.5")), good, "line 8", "area 0.5")
+    refused(twin("f.csv", set_field(7, "t", "0")), good, "line 8", "time goes back")
+    refused(twin("g.csv", cut_line(200)), good, "line 201", "17 fields", "18")
+    refused(twin("h.csv", lambda lines: lines.__delitem__(slice(1, None))), good, "no rows")
+    refused(twin("i.csv", set_field(0, "Fy", "Fx")), good, '"Fx"', "twice")
+    refused(twin("j.csv", set_field(0, "Fy", "Fq")), good, '"Fy"', "not in j.csv")
+    refused("nowhere.csv", good, "nowhere.csv")
+    refused(".", good, "folder")
+    with open("sparse.csv", "w") as sparse:
+        sparse.truncate(10 << 30)
+    refused("sparse.csv", good, "sparse.csv, line 1", "4 MB")
+    with open("sparse-tail.csv", "w") as sparse:
+        sparse.write(open("table.csv").read())
+        sparse.truncate(10 << 30)
+    refused("sparse-tail.csv", good, "sparse-tail.csv, line 302", "4 MB")
+    os.remove("sparse.csv")
+    os.remove("sparse-tail.csv")
+    np.savez("short.npz", F=np.zeros((5, 3)), R=np.ones((4, 12)))
+    refused("short.npz", good, "rows")
+    np.savez("nan.npz", **{name: np.full(5, np.nan) for name in open("table.csv").readline().strip().split(",")})
+    refused("nan.npz", good, "row 0", "no finite number")
+
+
+def check_broken_maps():
+    for changes, parts in (
+            ({"resistances__unit": None}, ("resistances", "unit")),
+            ({"forces__unit": None}, ("forces", "unit")),
+            ({"time__unit": None}, ("time", "unit")),
+            ({"forces__unit": "pound"}, ("forces.unit", "pound", "mN")),
+            ({"resistances__unit": "code"}, ("ohm_per_code",)),
+            ({"resistances__columns": "R{row}"}, ("resistances.columns", "{column}")),
+            ({"resistances__columns": ["R0_0"]}, ("12 names",)),
+            ({"resistances__row_wires": 0}, ("resistances.row_wires", "0", "1 to 255")),
+            ({"resistances__column_wires": 5}, ('"R0_4"', "not in table.csv")),
+            ({"forces__columns": ["Fx", "Fy"]}, ("3 names",)),
+            ({"forces__signs": [1, 1, 0]}, ("forces.signs",)),
+            ({"salt": 1}, ("salt",)),
+            ({"palp_import": 2}, ("palp_import", "2")),
+            ({"place": {}}, ("not both",)),
+            ({"separator": "x"}, ("separator",))):
+        refused("table.csv", mapped("twin.json", **changes), "twin.json", *parts)
+    pathlib.Path("twin.json").write_text("{")
+    refused("table.csv", "twin.json", "twin.json")
+    result = palp("import", "table.csv", "--map", mapped(), "--design", "paper", "-o", "never.csv")
+    assert result.returncode == 2 and "3 row-wires; the design has 10" in result.stderr, result
+
+
+with tempfile.TemporaryDirectory() as folder:
+    os.chdir(folder)
+    for step in (check_numbers, check_use, check_broken_tables, check_broken_maps):
+        step()
+    os.chdir("/")
