@@ -40,6 +40,27 @@ ElectrodeDisplacements read(const SensorDesign& layout, const LoadIncrement& sta
   return result;
 }
 
+/// Tells progress after each solve. The mesh and its factorisation, before the first, take as long as some of them.
+class SolveCount {
+public:
+  SolveCount(const ReportProgress& progress, int solves) : progress_(progress), solves_(solves) { tell("the solves"); }
+  void done(int area) {
+    ++done_;
+    tell("response of area " + std::to_string(area));
+  }
+
+private:
+  static constexpr int kPreparing = 8;
+
+  void tell(const std::string& what) const {
+    if (progress_) progress_(static_cast<double>(kPreparing + done_) / (kPreparing + solves_), what);
+  }
+
+  const ReportProgress& progress_;
+  int solves_;
+  int done_ = 0;
+};
+
 } // namespace
 
 std::optional<AreaResponse> AreaResponse::solve(const SensorDesign& design, const MeshOptions& mesh, int threads,
@@ -52,18 +73,20 @@ std::optional<AreaResponse> AreaResponse::solve(const SensorDesign& design, cons
       stages.measure("factorise", [&] { return HyperelasticProblem(design, response.mesh_); });
   NewtonOptions newton;
   newton.threads = threads;
+  const int areas = design.areas.count();
+  SolveCount count{progress, 7 * areas}; // the middle and two steps an axis
   const auto solveFor = [&](int area, const Eigen::Vector3d& force_N) {
     LoadCase load;
     load.areas.push_back({area, force_N});
     Solution solution =
         stages.measure("solve", [&] { return problem.solve(load, newton, {.step = {}, .stop = stop}); });
+    count.done(area);
     if (!solution.converged && !solution.cancelled)
       throw DesignError("force_range_N: its middle on area " + std::to_string(area) +
                         " has no solution: " + solution.stopReason);
     return std::move(solution.increments.back());
   };
   const Eigen::Vector3d middle_N = (design.forceRange.low_N + design.forceRange.high_N) / 2;
-  const int areas = design.areas.count();
   for (int area = 0; area < areas; ++area) {
     AreaState state;
     state.middle = solveFor(area, middle_N);
@@ -75,7 +98,6 @@ std::optional<AreaResponse> AreaResponse::solve(const SensorDesign& design, cons
     }
     if (stop.stop_requested()) return {};
     response.areas_.push_back(std::move(state));
-    if (progress) progress((area + 1.0) / areas, "response of area " + std::to_string(area));
   }
   return response;
 }
@@ -91,6 +113,7 @@ std::optional<AreaResponse> AreaResponse::atRest(const SensorDesign& design, con
   newton.threads = threads;
   newton.relativeTolerance = kLinear;
   const int areas = design.areas.count();
+  SolveCount count{progress, 3 * areas};
   for (int area = 0; area < areas; ++area) {
     AreaState state;
     for (int axis = 0; axis < 3; ++axis) {
@@ -98,6 +121,7 @@ std::optional<AreaResponse> AreaResponse::atRest(const SensorDesign& design, con
       const Solution solution =
           stages.measure("solve", [&] { return problem.solve(load, newton, {.step = {}, .stop = stop}); });
       if (stop.stop_requested()) return {};
+      count.done(area);
       if (!solution.converged) throw DesignError("the block has no linear answer at rest: " + solution.stopReason);
       state.middle = solution.increments.front();
       LoadIncrement& slope = state.perNewton[static_cast<std::size_t>(axis)] = solution.increments.back();
@@ -105,7 +129,6 @@ std::optional<AreaResponse> AreaResponse::atRest(const SensorDesign& design, con
       slope.elementUnknowns /= kSmall_N;
     }
     response.areas_.push_back(std::move(state));
-    if (progress) progress((area + 1.0) / areas, "response of area " + std::to_string(area));
   }
   return response;
 }

@@ -16,6 +16,8 @@ namespace {
 
 using Cells = std::vector<std::string>;
 constexpr double kNoise = 1e-4; // of a resistance, relative
+// Shares of the report's time: what the response takes, and where the confirmation begins.
+constexpr double kResponse = 0.43, kConfirm = 0.46;
 const char* const kForces[3] = {"Fx", "Fy", "Fz"};
 
 /// Writes the report part by part; one member function a section.
@@ -31,7 +33,7 @@ public:
     say(0, "the block's response");
     const auto response = AreaResponse::solve(
         request_.design, request_.mesh, request_.threads, content_.stages,
-        [&](double share, const std::string& what) { say(0.25 * share, what); }, stop_);
+        [&](double share, const std::string& what) { say(kResponse * share, what); }, stop_);
     if (!response || !findLayouts(*response)) return {};
     singularValues();
     bounds(*response);
@@ -52,12 +54,12 @@ private:
 
   bool findLayouts(const AreaResponse& response) {
     layouts_.push_back({"before", request_.design});
-    say(0.25, "search: the same places on every wire");
+    say(kResponse, "search: the same places on every wire");
     const auto same = betterLayout(request_.design, response, row_, kNoise, LayoutFreedom::SameOnEveryWire, limits_,
                                    request_.seed, stop_);
     if (!same) return false;
     layouts_.push_back({"same on every wire", same->layout});
-    say(0.3, "search: wire by wire");
+    say(0.44, "search: wire by wire");
     const auto each =
         betterLayout(same->layout, response, row_, kNoise, LayoutFreedom::WireByWire, limits_, request_.seed, stop_);
     if (!each) return false;
@@ -154,7 +156,7 @@ private:
   }
 
   void sweeps(const AreaResponse& response) {
-    say(0.55, "depth and pitch");
+    say(0.456, "depth and pitch");
     content_.parts.push_back(ReportHeading{"Effect of each layer's depth and pitch, one at a time"});
     for (const LayoutSweep& sweep : layoutSweeps(request_.design, response, row_, kNoise)) {
       for (int axis = 0; axis < 3; ++axis)
@@ -166,7 +168,7 @@ private:
   }
 
   void laws(const AreaResponse& response) {
-    say(0.6, "held and following electrodes, both laws of resistivity");
+    say(0.458, "held and following electrodes, both laws of resistivity");
     content_.parts.push_back(
         ReportHeading{"Lower electrodes held or following, resistivity constant or by Fig. 1's law"});
     const PressureLaw law = request_.design.pressureLaw.value_or(PressureLaw{});
@@ -208,8 +210,7 @@ private:
         {},
         {}};
     for (std::size_t l = 0; l < layouts_.size(); ++l) {
-      if (!confirm(layouts_[l], 0.65 + 0.35 * static_cast<double>(l) / static_cast<double>(layouts_.size()), table))
-        return false;
+      if (!confirm(layouts_[l], l, table)) return false;
     }
     content_.parts.push_back(
         ReportWords{std::to_string(request_.perArea) +
@@ -221,16 +222,21 @@ private:
     return true;
   }
 
-  bool confirm(const NamedLayout& layout, double share, ReportTable& table) {
+  bool confirm(const NamedLayout& layout, std::size_t number, ReportTable& table) {
+    // Two thirds of a layout's time are its samples'.
+    const double each = (1 - kConfirm) / static_cast<double>(layouts_.size());
+    double share = kConfirm + each * static_cast<double>(number);
     const auto sets = twoSets(
         layout.design, request_, content_.stages,
-        [&](double part, const std::string& what) { say(share + 0.08 * part, what + ", " + layout.name); }, stop_);
+        [&](double part, const std::string& what) { say(share + 0.67 * each * part, what + ", " + layout.name); },
+        stop_);
     if (!sets) return false;
     const NoiseBound bound = noiseBound(sets->test, InputKind::Resistance, {row_}, kNoise);
     for (const Rival& rival : {Rival{"rbf", DecoderKind::Rbf, false}, Rival{"rbf, one an area", DecoderKind::Rbf, true},
                                Rival{"ml", DecoderKind::MaximumLikelihood, false}}) {
       if (stop_.stop_requested()) return false;
-      say(share + 0.09, "networks, " + layout.name);
+      share += (rival.kind == DecoderKind::Rbf && !rival.areaKnown ? 0.67 : 0.11) * each;
+      say(share, rival.name + ", " + layout.name);
       addRival(layout, *sets, rival, bound, table);
     }
     return true;
