@@ -8,7 +8,7 @@
 #include "app/gui/project/ResultCsv.h"
 #include "app/gui/views/ChartView.h"
 #include "app/gui/views/CsvExport.h"
-#include "app/gui/widgets/SaveDialog.h"
+#include "app/gui/widgets/FileDialogs.h"
 #include "app/gui/widgets/SpinBoxes.h"
 #include "model/base/Error.h"
 

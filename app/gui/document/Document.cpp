@@ -5,11 +5,11 @@
 #include "app/gui/project/FileKind.h"
 #include "app/gui/project/ProjectFile.h"
 #include "app/gui/project/Workbench.h"
+#include "app/gui/widgets/FileDialogs.h"
 #include "app/gui/window/MainWindow.h"
 #include "model/base/Error.h"
 
 #include <QEventLoop>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QMessageBox>
 #include <QSettings>
@@ -130,8 +130,8 @@ bool Document::mayLeave() {
 }
 
 void Document::open() {
-  const QStringList files = QFileDialog::getOpenFileNames(
-      &window_, tr("Open"), {}, tr("All files of Palp (*.json *.csv *.h5 *.npz *.palprec);;All files (*)"));
+  const QStringList files =
+      askFilesToOpen(&window_, tr("Open"), tr("All files of Palp (*.json *.csv *.h5 *.npz *.palprec);;All files (*)"));
   if (!files.isEmpty()) open(files);
 }
 
@@ -237,7 +237,7 @@ bool Document::save() {
 
 bool Document::saveAs() {
   const QString proposal = workbench_.file().isEmpty() ? "project.json" : workbench_.file();
-  const QString file = QFileDialog::getSaveFileName(&window_, tr("Save project"), proposal, tr("Projects (*.json)"));
+  const QString file = askFileToSave(&window_, tr("Save project"), proposal, tr("Projects (*.json)"));
   return !file.isEmpty() && write(withSuffix(file));
 }
 

@@ -1,12 +1,12 @@
 #include "app/gui/live/LiveCalibration.h"
 
 #include "app/gui/live/panels/KnownLoad.h"
+#include "app/gui/widgets/FileDialogs.h"
 #include "io/DecoderFile.h"
 #include "io/SampleFile.h"
 #include "model/base/Error.h"
 
 #include <QDateTime>
-#include <QFileDialog>
 #include <QGridLayout>
 #include <QGroupBox>
 #include <QHBoxLayout>
@@ -52,12 +52,13 @@ QString reportText(const Calibration& calibration, double age_days) {
   }
   QString text = QObject::tr("<b>%1 frames</b>: %2").arg(report.samples).arg(with.join(", "));
   if (!without.isEmpty()) text += QObject::tr("; not calibrated: area %1").arg(without.join(", "));
-  text += QObject::tr(
-              ". The newest is %1 old.<table cellspacing=0 cellpadding=2><tr><td></td><td>labels [N]&nbsp;&nbsp;</td>"
-              "<td>coverage&nbsp;&nbsp;</td><td>before [N]&nbsp;&nbsp;</td><td>after, unseen [N]&nbsp;&nbsp;</td>"
-              "<td>of range</td></tr>")
-              .arg(age_days < 1 ? QObject::tr("%1 min").arg(age_days * kMinutesOfADay, 0, 'f', 0)
-                                : QObject::tr("%1 days").arg(age_days, 0, 'f', 1));
+  text +=
+      QObject::tr(". The newest: %1.<table cellspacing=0 cellpadding=2><tr><td></td><td>labels [N]&nbsp;&nbsp;</td>"
+                  "<td>coverage&nbsp;&nbsp;</td><td>before [N]&nbsp;&nbsp;</td><td>after, unseen [N]&nbsp;&nbsp;</td>"
+                  "<td>after, of range</td></tr>")
+          .arg(age_days * kMinutesOfADay < 1 ? QObject::tr("just now")
+               : age_days < 1                ? QObject::tr("%1 min ago").arg(age_days * kMinutesOfADay, 0, 'f', 0)
+                                             : QObject::tr("%1 days ago").arg(age_days, 0, 'f', 1));
   for (Eigen::Index axis = 0; axis < 3; ++axis)
     text += QObject::tr("<tr><td>%1&nbsp;</td><td>%2 to %3&nbsp;</td><td>%4 %&nbsp;</td><td>%5</td><td>%6</td>"
                         "<td>%7 %</td></tr>")
@@ -133,10 +134,9 @@ QWidget* LiveCalibration::buildLabel() {
 QWidget* LiveCalibration::buildFrames() {
   auto* box = new QGroupBox(tr("Labelled frames [N]"));
   auto* column = new QVBoxLayout(box);
-  table_ = new QTableWidget(0, 7);
+  table_ = new QTableWidget(0, 3);
   table_->setObjectName("labelledFrames");
-  table_->setHorizontalHeaderLabels(
-      {tr("area"), tr("Fx"), tr("said\nFx"), tr("Fy"), tr("said\nFy"), tr("Fz"), tr("said\nFz")});
+  table_->setHorizontalHeaderLabels({tr("area"), tr("load\nFx, Fy, Fz"), tr("said\nFx, Fy, Fz")});
   table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   table_->horizontalHeader()->setMinimumSectionSize(24);
   table_->verticalHeader()->hide();
@@ -152,13 +152,12 @@ QWidget* LiveCalibration::buildFrames() {
   for (QPushButton* push : {load, saveFrames_, remove_}) row->addWidget(push);
   column->addLayout(row);
   connect(load, &QPushButton::clicked, this, [this] {
-    const QString file =
-        QFileDialog::getOpenFileName(this, tr("Labelled frames"), {}, tr("Samples (*.csv *.h5 *.hdf5 *.npz)"));
+    const QString file = askFileToOpen(this, tr("Labelled frames"), tr("Samples (*.csv *.h5 *.hdf5 *.npz)"));
     if (!file.isEmpty()) this->load(file.toStdString());
   });
   connect(saveFrames_, &QPushButton::clicked, this, [this] {
-    const QString file = QFileDialog::getSaveFileName(this, tr("Labelled frames"), "frames.csv",
-                                                      tr("Samples (*.csv *.h5 *.hdf5 *.npz)"));
+    const QString file =
+        askFileToSave(this, tr("Labelled frames"), "frames.csv", tr("Samples (*.csv *.h5 *.hdf5 *.npz)"));
     if (!file.isEmpty()) guarded([&] { frames_.save(file.toStdString()); });
   });
   connect(remove_, &QPushButton::clicked, this, [this] {
@@ -193,7 +192,7 @@ QWidget* LiveCalibration::buildFit() {
     emit message(tr("Decoding with %1 again.").arg(host_.networkName()));
   });
   connect(saveNetwork_, &QPushButton::clicked, this, [this] {
-    const QString file = QFileDialog::getSaveFileName(this, tr("Save network"), "better.json", tr("Networks (*.json)"));
+    const QString file = askFileToSave(this, tr("Save network"), "better.json", tr("Networks (*.json)"));
     if (!file.isEmpty()) guarded([&] { writeNetwork(calibration_->decoder, file.toStdString()); });
   });
   return box;
@@ -283,13 +282,14 @@ void LiveCalibration::displayFrames() {
   table_->setRowCount(static_cast<int>(samples.size()));
   for (int row = 0; row < table_->rowCount(); ++row) {
     table_->setItem(row, 0, new QTableWidgetItem(QString::number(samples.area(row))));
+    QStringList load, said;
     for (int d = 0; d < 3; ++d) {
-      table_->setItem(row, 2 * d + 1, new QTableWidgetItem(QString::number(samples.forces_N(d, row), 'g', 5)));
+      load << QString::number(samples.forces_N(d, row), 'g', 4);
       const double said_N = frames_.said_N()(d, row);
-      table_->setItem(row, 2 * d + 2,
-                      new QTableWidgetItem(
-                          std::isnan(said_N) ? "" : QString::number(std::round(1e3 * said_N) / 1e3 + 0.0, 'f', 3)));
+      if (!std::isnan(said_N)) said << QString::number(std::round(1e3 * said_N) / 1e3 + 0.0, 'f', 3);
     }
+    table_->setItem(row, 1, new QTableWidgetItem(load.join(", ")));
+    table_->setItem(row, 2, new QTableWidgetItem(said.join(", ")));
   }
   table_->scrollToBottom();
 }

@@ -64,6 +64,18 @@ std::array<double, 2> roundRange(const std::vector<StripSeries>& curves) {
   return {step * std::floor(low / step - 0.25), step * std::ceil(high / step + 0.25)};
 }
 
+/// The range, wider where a value lies outside of it: a force beyond what the network was trained for is seen too.
+std::array<double, 2> holding(const std::array<double, 2>& range, const std::vector<StripSeries>& curves) {
+  const std::array<double, 2> needed = roundRange(curves);
+  std::array<double, 2> wide = range;
+  for (const StripSeries& curve : curves)
+    for (const double value : curve.y) {
+      if (value < range[0]) wide[0] = std::min(range[0], needed[0]);
+      if (value > range[1]) wide[1] = std::max(range[1], needed[1]);
+    }
+  return wide;
+}
+
 /// Nothing is drawn through a time without frames.
 void breakAt(const LiveHistory::Entry& entry, StripSeries& curve) {
   if (!entry.gap || curve.t_s.empty()) return;
@@ -101,7 +113,7 @@ StripSpec forceCurves(const LiveHistory& history, const LiveSettings& settings, 
   StripSpec spec = timeAxis(history, settings);
   spec.title = QObject::tr("Decoded force");
   spec.yLabel = QObject::tr("force [N]");
-  spec.empty = QObject::tr("no forces yet");
+  spec.empty = QObject::tr("no forces");
   if (decoder != nullptr) {
     const double low = decoder->low_N.minCoeff(), high = decoder->high_N.maxCoeff();
     const double margin = 0.1 * (high - low);
@@ -128,6 +140,7 @@ StripSpec forceCurves(const LiveHistory& history, const LiveSettings& settings, 
     if (any) spec.series.push_back(std::move(curve));
   }
   if (settings.forceScale == ForceScale::Automatic) spec.yRange = roundRange(spec.series);
+  if (settings.forceScale == ForceScale::Network) spec.yRange = holding(spec.yRange, spec.series);
   return spec;
 }
 

@@ -155,6 +155,7 @@ void LivePage::connectPanels() {
   });
   connect(control_, &LiveControlPanel::edited, this, &LivePage::edit);
   connectSimulation();
+  connect(replay_, &ReplayBar::message, this, &LivePage::message);
   connect(replay_, &ReplayBar::speedAsked, this, [this](double speed) {
     change(tr("replay speed"), [&](LiveSettings& settings) { settings.replaySpeed = speed; });
   });

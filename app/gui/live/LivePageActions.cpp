@@ -5,6 +5,7 @@
 #include "app/gui/live/LiveTwin.h"
 #include "app/gui/live/RecordingName.h"
 #include "app/gui/live/panels/LiveControlPanel.h"
+#include "app/gui/views/CsvExport.h"
 
 #include <QMessageBox>
 #include <QTabWidget>
@@ -61,7 +62,8 @@ void LivePage::exportFrames(const QString& file) {
   try {
     const ReplayControl* replay = host_.replay();
     writeLiveCsv(file.toStdString(), host_.history(),
-                 replay != nullptr ? std::optional(replay->begin_s.load()) : std::nullopt);
+                 replay != nullptr ? std::optional(replay->begin_s.load()) : std::nullopt,
+                 sourceOf(*this).toStdString());
     const auto count = host_.history().entries().size();
     emit message(replay != nullptr ? tr("Wrote the %1 frames played since the last jump to %2.").arg(count).arg(file)
                                    : tr("Wrote the last %1 frames to %2.").arg(count).arg(file));

@@ -99,11 +99,11 @@ void ReplayBar::buildTimeLine() {
   length_->setObjectName("replayLength");
   connect(place_, &QDoubleSpinBox::valueChanged, this, [this](double to_s) {
     sought_ = true;
-    host_.seek(to_s);
+    goTo(to_s);
   });
   connect(place_->findChild<QLineEdit*>(), &QLineEdit::returnPressed, this, [this] {
-    if (!std::exchange(sought_, false)) host_.seek(place_->value()); // the number that stood there already
-    line_->setFocus();                                               // the box follows the recording again
+    if (!std::exchange(sought_, false)) goTo(place_->value()); // the number that stood there already
+    line_->setFocus();                                         // the box follows the recording again
   });
   connect(back_, &QPushButton::clicked, this, [this] { host_.step(-1); });
   connect(pause_, &QPushButton::clicked, this, [this] {
@@ -112,7 +112,7 @@ void ReplayBar::buildTimeLine() {
   });
   connect(step_, &QPushButton::clicked, this, [this] { host_.step(1); });
   connect(line_, &QSlider::valueChanged, this, [this](int value) {
-    if (host_.replay() != nullptr) host_.seek(host_.replay()->length_s * value / kSteps);
+    if (host_.replay() != nullptr) goTo(host_.replay()->length_s * value / kSteps);
   });
 }
 
@@ -131,7 +131,7 @@ void ReplayBar::buildLoop() {
   marks_->setToolTip(tr("Event marks of the recording: choose one to go there"));
   marks_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   connect(marks_, &QComboBox::activated, this, [this](int) {
-    if (marks_->currentData().isValid()) host_.seek(marks_->currentData().toDouble());
+    if (marks_->currentData().isValid()) goTo(marks_->currentData().toDouble());
   });
   from_ = timeBox("loopFrom", tr("Begin of the loop [s]"));
   to_ = timeBox("loopTo", tr("End of the loop [s]"));
@@ -152,6 +152,14 @@ void ReplayBar::loop() {
   replay->loopTo_s = to_->value();
   const bool wasOff = !replay->loop.exchange(loop_->isChecked());
   if (wasOff && loop_->isChecked() && host_.status().state == LiveState::Ended) host_.seek(from_->value());
+}
+
+void ReplayBar::goTo(double to_s) {
+  if (loop_->isChecked() && (to_s < from_->value() || to_s > to_->value())) {
+    loop_->setChecked(false);
+    emit message(tr("The loop is off: %1 s lies outside of it.").arg(to_s, 0, 'f', 2));
+  }
+  host_.seek(to_s);
 }
 
 void ReplayBar::listMarks() {

@@ -27,11 +27,13 @@ public:
 signals:
   void speedAsked(double speed);
   void boardAsked();
+  void message(const QString& sentence);
 
 private:
   void buildTimeLine();
   void buildLoop();
   void loop();
+  void goTo(double to_s); ///< where that lies outside of the loop, the loop ends
   void listMarks();
 
   LiveHost& host_;

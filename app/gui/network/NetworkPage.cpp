@@ -11,10 +11,10 @@
 #include "app/gui/network/TrainedNetworks.h"
 #include "app/gui/project/Command.h"
 #include "app/gui/views/ChartView.h"
+#include "app/gui/widgets/FileDialogs.h"
 #include "app/gui/window/SidePanel.h"
 #include "model/base/Error.h"
 
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -287,16 +287,14 @@ void NetworkPage::drawCharts() {
 }
 
 void NetworkPage::openSamples() {
-  const QStringList chosen =
-      QFileDialog::getOpenFileNames(this, tr("Open samples"), {}, tr("Samples (*.csv *.h5 *.hdf5 *.npz)"));
+  const QStringList chosen = askFilesToOpen(this, tr("Open samples"), tr("Samples (*.csv *.h5 *.hdf5 *.npz)"));
   std::vector<std::filesystem::path> files;
   for (const QString& file : chosen) files.emplace_back(file.toStdString());
   if (!files.empty()) session_.openSamples(files);
 }
 
 void NetworkPage::saveSamples() {
-  const QString file =
-      QFileDialog::getSaveFileName(this, tr("Save samples"), "samples.csv", tr("Samples (*.csv *.h5 *.hdf5 *.npz)"));
+  const QString file = askFileToSave(this, tr("Save samples"), "samples.csv", tr("Samples (*.csv *.h5 *.hdf5 *.npz)"));
   if (file.isEmpty() || session_.samples() == nullptr) return;
   const QString test = QString::fromStdString(testFileOf(file.toStdString()).string()); // of which nobody asked
   if (QFileInfo::exists(test) &&
@@ -308,12 +306,12 @@ void NetworkPage::saveSamples() {
 }
 
 void NetworkPage::saveNetwork() {
-  const QString file = QFileDialog::getSaveFileName(this, tr("Save network"), "network.json", tr("Networks (*.json)"));
+  const QString file = askFileToSave(this, tr("Save network"), "network.json", tr("Networks (*.json)"));
   if (!file.isEmpty() && session_.fit() != nullptr) session_.saveNetwork(file.toStdString());
 }
 
 void NetworkPage::openNetwork() {
-  const QString file = QFileDialog::getOpenFileName(this, tr("Open network"), {}, tr("Networks (*.json)"));
+  const QString file = askFileToOpen(this, tr("Open network"), tr("Networks (*.json)"));
   if (file.isEmpty()) return;
   try {
     session_.open(file.toStdString());

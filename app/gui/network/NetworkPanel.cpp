@@ -30,6 +30,7 @@ namespace palp {
 namespace {
 
 // The slider runs over the logarithm of the spread.
+constexpr double kLeastNoise = 1e-6; ///< of a board's readings, relative
 constexpr double kLowSpread = 0.05;
 constexpr double kHighSpread = 50;
 constexpr int kSpreadSteps = 300;
@@ -140,6 +141,13 @@ void NetworkPanel::buildInput(QFormLayout& form) {
   input_->setObjectName("input");
   input_->addItems({tr("displacements (Table 1)"), tr("resistances (Fig. 12)")});
   form.addRow(tr("Input"), input_);
+  forLive_ = new QPushButton(tr("Set for a board (Live)"));
+  forLive_->setObjectName("forLive");
+  forLive_->setToolTip(
+      tr("Resistances of all row-wires, with the noise of a board's readings as Live's simulation has it: a "
+         "network of displacements cannot read a board, one trained without noise makes much of it"));
+  form.addRow(QString(), forLive_);
+  connect(forLive_, &QPushButton::clicked, this, &NetworkPanel::takeLiveSettings);
   rows_ = new QLineEdit;
   rows_->setObjectName("rows");
   rows_->setToolTip(tr("Row-wires whose resistances are read, or whose electrodes' displacements, "
@@ -291,9 +299,27 @@ void NetworkPanel::display(const Project& project) {
   showExactly(*from_, network_.sweepFrom);
   showExactly(*to_, network_.sweepTo);
   count_->setValue(network_.sweepCount);
+  boardNoise_ = std::max(project.live.simulation.noise, kLeastNoise);
+  forLive_->setEnabled(!readableLive());
   showSpread();
   showNoise();
   displaying_ = false;
+}
+
+bool NetworkPanel::readableLive() const {
+  return network_.input == InputKind::Resistance && network_.rows == "all" && network_.noise >= boardNoise_;
+}
+
+void NetworkPanel::takeLiveSettings() {
+  {
+    const QSignalBlocker quietInput(input_), quietRows(rows_), quietNoise(noise_), quietTest(testNoise_); // one edit
+    input_->setCurrentIndex(1);
+    rows_->setText("all");
+    rowsProblem_->hide();
+    noise_->setValue(100 * boardNoise_);
+    testNoise_->setValue(100 * boardNoise_);
+  }
+  read(tr("Set the network for a board"));
 }
 
 /// What was taken, also as others write it.

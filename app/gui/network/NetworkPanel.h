@@ -57,6 +57,8 @@ private:
   void readRows();
   void showSpread();
   void showNoise();
+  void takeLiveSettings();
+  [[nodiscard]] bool readableLive() const;
 
   SampleSettings samples_;
   NetworkSettings network_;
@@ -70,11 +72,13 @@ private:
   QPushButton* saveSamples_ = nullptr;
   QLabel* samplesWords_ = nullptr;
   QComboBox* input_ = nullptr;
+  QPushButton* forLive_ = nullptr;
   QComboBox* mode_ = nullptr;
   QComboBox* decoder_ = nullptr;
   QLineEdit* rows_ = nullptr;
   QLabel* rowsProblem_ = nullptr;
   int rowWires_ = 0; ///< of the design
+  double boardNoise_ = 0;
   QCheckBox* automatic_ = nullptr;
   QDoubleSpinBox* spread_ = nullptr;
   QSlider* spreadSlider_ = nullptr;

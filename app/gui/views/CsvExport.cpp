@@ -1,6 +1,6 @@
 #include "app/gui/views/CsvExport.h"
 
-#include "app/gui/widgets/SaveDialog.h"
+#include "app/gui/widgets/FileDialogs.h"
 #include "app/gui/window/Scene.h"
 #include "io/AtomicFile.h"
 #include "model/base/Error.h"

@@ -1,7 +1,7 @@
 #include "app/gui/views/PictureView.h"
 
 #include "app/gui/views/CsvExport.h"
-#include "app/gui/widgets/SaveDialog.h"
+#include "app/gui/widgets/FileDialogs.h"
 #include "io/AtomicFile.h"
 #include "model/base/Error.h"
 

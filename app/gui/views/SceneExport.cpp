@@ -4,7 +4,7 @@
 #include "app/gui/views/DataTable.h"
 #include "app/gui/views/PictureView.h"
 #include "app/gui/views/VtkView.h"
-#include "app/gui/widgets/SaveDialog.h"
+#include "app/gui/widgets/FileDialogs.h"
 #include "io/AtomicFile.h"
 #include "model/base/Cancelled.h"
 
@@ -57,23 +57,28 @@ void SceneExport::ask(QWidget& scene) {
 void SceneExport::write(QWidget& scene, const QString& folder) {
   folder_ = folder;
   files_.clear();
-  left_ = worthSaving(scene);
+  left_.clear();
+  for (const QPointer<QWidget>& widget : worthSaving(scene)) left_.push_back({widget, {}});
   QTimer::singleShot(0, this, &SceneExport::next);
 }
 
-/// One view, then the window's own events again.
+/// One picture, then the window's own events again.
 void SceneExport::next() {
   if (left_.empty()) return finish();
-  QWidget* widget = left_.back();
+  const Piece piece = left_.back();
   left_.pop_back();
+  QWidget* widget = piece.widget;
   const QDir folder(folder_);
   if (auto* table = qobject_cast<DataTable*>(widget))
     files_.push_back({folder.filePath(table->file()), (sourceOf(*table) + table->csv()).toStdString(), {}});
-  if (auto* view = qobject_cast<PictureView*>(widget)) {
+  auto* view = qobject_cast<PictureView*>(widget);
+  if (view != nullptr && !piece.linesAs.isEmpty()) {
+    files_.push_back({piece.linesAs, view->svg(), {}});
+  } else if (view != nullptr) {
     const QString name = free(folder.filePath(view->fileName({})));
     const QString points = view->table();
     if (!points.isEmpty()) files_.push_back({name + ".csv", (sourceOf(*view) + points).toStdString(), {}});
-    if (view->hasSvg()) files_.push_back({name + ".svg", view->svg(), {}});
+    if (view->hasSvg()) left_.push_back({view, name + ".svg"});
     const QSize size = 2 * view->size().expandedTo(kLeast); // a tab that was never seen has no size yet
     files_.push_back({name + ".png", {}, view->picture(size.width(), size.height())});
     auto* drawn = qobject_cast<VtkView*>(view);

@@ -12,8 +12,8 @@
 namespace palp {
 
 /// Every chart of a scene as a picture of twice its size and as its points, every view of the block as a picture and
-/// every table as CSV, into a folder. Views that show nothing yet are left out. The window draws one view at a time and
-/// stays free between them; the files are written beside it.
+/// every table as CSV, into a folder. Views that show nothing yet are left out. The window draws one picture at a time
+/// and stays free between them; the files are written beside it.
 class SceneExport : public QObject {
   Q_OBJECT
 
@@ -40,7 +40,12 @@ private:
   void finish();
   [[nodiscard]] QString free(const QString& name) const;
 
-  std::vector<QPointer<QWidget>> left_; ///< views and tables that are still to be drawn
+  /// What is still to be drawn: a view or a table, or a chart's lines alone, under the name that it was given.
+  struct Piece {
+    QPointer<QWidget> widget;
+    QString linesAs;
+  };
+  std::vector<Piece> left_;
   std::vector<File> files_;
   QString folder_;
   JobRunner writer_;

@@ -47,7 +47,8 @@ public:
   /// All that is to be looked at while it is held, in place of the last seconds.
   void holdChart(StripSpec spec);
   void release();
-  /// The curves as a table: time [s], one column a curve; nothing where one has no value.
+  /// What is seen of the curves as a table: time [s], one column a curve, then one a deviation; nothing where one has
+  /// no value.
   [[nodiscard]] QString asCsv() const;
   void setTheme(Theme theme);
   /// Time, values with their deviations and marks at the cursor, a line each; empty where it is not in the plot.

@@ -2,12 +2,12 @@
 
 #include "app/gui/views/CsvExport.h"
 #include "app/gui/views/StripChart.h"
+#include "app/gui/widgets/FileDialogs.h"
 
 #include <QApplication>
 #include <QClipboard>
 #include <QContextMenuEvent>
 #include <QFile>
-#include <QFileDialog>
 #include <QKeyEvent>
 #include <QMenu>
 #include <QPageSize>
@@ -180,39 +180,47 @@ void StripChart::leaveEvent(QEvent*) {
 
 QString StripChart::asCsv() const {
   std::set<double> times;
-  for (const StripSeries& series : spec_.series) times.insert(series.t_s.begin(), series.t_s.end());
+  for (const StripSeries& series : spec_.series)
+    for (const double t_s : series.t_s)
+      if (t_s >= spec_.end_s - spec_.window_s && t_s <= spec_.end_s) times.insert(t_s);
   QString text = "t_s";
   for (const StripSeries& series : spec_.series) text += ",\"" + series.name + " " + spec_.yLabel + "\"";
+  for (const StripSeries& series : spec_.series)
+    if (!series.deviation.empty()) text += ",\"sd of " + series.name + " " + spec_.yLabel + "\"";
   text += "\n";
   std::vector<std::size_t> next(spec_.series.size(), 0);
   for (const double t_s : times) {
-    text += QString::number(t_s - now_s_, 'f', 6);
+    QString values, deviations;
     for (std::size_t k = 0; k < spec_.series.size(); ++k) {
       const StripSeries& series = spec_.series[k];
-      text += ',';
+      values += ',';
+      if (!series.deviation.empty()) deviations += ',';
       // A break and the value after it stand at one time: the value counts.
-      for (; next[k] < series.t_s.size() && series.t_s[next[k]] <= t_s; ++next[k])
-        if (series.t_s[next[k]] == t_s && std::isfinite(series.y[next[k]]))
-          text += QString::number(series.y[next[k]], 'g', 10);
+      for (; next[k] < series.t_s.size() && series.t_s[next[k]] <= t_s; ++next[k]) {
+        if (series.t_s[next[k]] != t_s || !std::isfinite(series.y[next[k]])) continue;
+        values += QString::number(series.y[next[k]], 'g', 10);
+        if (!series.deviation.empty() && std::isfinite(series.deviation[next[k]]))
+          deviations += QString::number(series.deviation[next[k]], 'g', 4);
+      }
     }
-    text += "\n";
+    text += QString::number(t_s - now_s_, 'f', 6) + values + deviations + "\n";
   }
   return text;
 }
 
 void StripChart::saveCsv() {
   const QString table = asCsv(); // of the moment that was clicked on
-  const QString file = QFileDialog::getSaveFileName(this, tr("Save values"), "curves.csv", tr("Tables (*.csv)"));
+  const QString file = askFileToSave(this, tr("Save values"), "curves.csv", tr("Tables (*.csv)"));
   if (file.isEmpty()) return;
   QSaveFile out(file);
   const QByteArray bytes = (sourceOf(*this) + table).toUtf8();
   const bool good = out.open(QIODevice::WriteOnly) && out.write(bytes) == bytes.size() && out.flush() && out.commit();
-  emit message(good ? tr("Wrote the curves to %1: all %2 times that they hold.").arg(file).arg(table.count('\n') - 1)
+  emit message(good ? tr("Wrote the %2 times that are seen to %1.").arg(file).arg(table.count('\n') - 1)
                     : tr("%1: cannot be written (%2)").arg(file, out.errorString()));
 }
 
 void StripChart::savePdf() {
-  const QString file = QFileDialog::getSaveFileName(this, tr("Save picture"), "curves.pdf", tr("Drawings (*.pdf)"));
+  const QString file = askFileToSave(this, tr("Save picture"), "curves.pdf", tr("Drawings (*.pdf)"));
   if (file.isEmpty()) return;
   QSaveFile out(file);
   bool good = out.open(QIODevice::WriteOnly);
@@ -247,7 +255,7 @@ void StripChart::contextMenuEvent(QContextMenuEvent* event) {
   const QPixmap picture = grab();
   if (chosen == copy) QApplication::clipboard()->setPixmap(picture);
   if (chosen != save) return;
-  const QString file = QFileDialog::getSaveFileName(this, tr("Save picture"), "curves.png", tr("Pictures (*.png)"));
+  const QString file = askFileToSave(this, tr("Save picture"), "curves.png", tr("Pictures (*.png)"));
   if (file.isEmpty()) return;
   emit message(picture.save(file, "PNG") ? tr("Wrote the picture to %1.").arg(file)
                                          : tr("%1: cannot be written").arg(file));

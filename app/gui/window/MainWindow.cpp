@@ -159,10 +159,6 @@ void MainWindow::buildStatusLine() {
 }
 
 void MainWindow::cancelAll() {
-  if (QWidget* popup = QApplication::activePopupWidget(); popup != nullptr) { // what one sees
-    popup->close();
-    return;
-  }
   if (&currentScene() == reports_) reports_->cancel();
   lamps_->cancel(names_[scenes_->currentIndex()]);
 }

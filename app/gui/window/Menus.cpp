@@ -6,7 +6,7 @@
 #include "app/gui/touch/FilmDialog.h"
 #include "app/gui/views/PictureView.h"
 #include "app/gui/views/SceneExport.h"
-#include "app/gui/widgets/SaveDialog.h"
+#include "app/gui/widgets/FileDialogs.h"
 #include "app/gui/window/HelpDialog.h"
 #include "app/gui/window/MainWindow.h"
 #include "app/gui/window/ViewActions.h"

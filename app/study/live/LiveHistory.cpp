@@ -65,8 +65,8 @@ void LiveHistory::clear() {
   period_s_ = 0;
 }
 
-void writeLiveCsv(const std::filesystem::path& path, const LiveHistory& history,
-                  std::optional<double> recordingBegin_s) {
+void writeLiveCsv(const std::filesystem::path& path, const LiveHistory& history, std::optional<double> recordingBegin_s,
+                  const std::string& head) {
   Eigen::Index forces = 0, readings = 0;
   int rows = 0;
   for (const LiveHistory::Entry& entry : history.entries()) {
@@ -76,7 +76,7 @@ void writeLiveCsv(const std::filesystem::path& path, const LiveHistory& history,
   }
   std::ostringstream out;
   out.precision(17);
-  out << "t_s,board_s," << (recordingBegin_s ? "recording_s," : "")
+  out << head << "t_s,board_s," << (recordingBegin_s ? "recording_s," : "")
       << "frame,complete,valid,area,latency_ms,lost_reports,temperature_degC,misfit,mark";
   for (Eigen::Index k = 0; k < forces; ++k)
     out << ",a" << k / 3 << "_f"

@@ -166,6 +166,8 @@ void LiveWorker::read() {
 void LiveWorker::jumped() {
   assembler_->restart();
   drift_.restart();
+  rateStart_s_ = hostClock_s(); // the jump itself took time
+  rateReports_ = rateFrames_ = 0;
   ++jumps_;
 }
 

@@ -1,5 +1,6 @@
 #include "app/gui/live/panels/LiveControlPanel.h"
 
+#include "app/gui/widgets/FileDialogs.h"
 #include "app/gui/widgets/SpinBoxes.h"
 
 #include <QCheckBox>
@@ -7,7 +8,6 @@
 #include <QDir>
 #include <QDoubleSpinBox>
 #include <QFile>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QFormLayout>
 #include <QGroupBox>
@@ -66,9 +66,10 @@ void setText(QLabel& label, const QString& text) {
 QString networkWords(const LiveHost& host) {
   const std::optional<Decoder>& decoder = host.decoder();
   if (!decoder) return host.loading() ? QObject::tr("Reading the network...") : QObject::tr("No network.");
-  const QString rows = static_cast<int>(decoder->input.rows.size()) == decoder->input.rowWires
-                           ? QObject::tr("all rows")
-                           : QObject::tr("%1 rows").arg(decoder->input.rows.size());
+  const QString rows =
+      static_cast<int>(decoder->input.rows.size()) == decoder->input.rowWires
+          ? QObject::tr("all rows")
+          : QObject::tr("%1 of %2 row-wires").arg(decoder->input.rows.size()).arg(decoder->input.rowWires);
   return QObject::tr("%1: %2, %3, trained for noise %4")
       .arg(host.networkName())
       .arg(QString::fromStdString(name(decoder->kind)), rows)
@@ -157,8 +158,7 @@ QWidget* LiveControlPanel::buildRecording() {
   column->addWidget(csv);
   connect(file_, &QLineEdit::textChanged, this, &LiveControlPanel::lookForFile);
   connect(choose, &QPushButton::clicked, this, [this] {
-    const QString file =
-        QFileDialog::getSaveFileName(this, tr("Record to"), file_->text(), tr("Recordings (*.palprec)"));
+    const QString file = askFileToSave(this, tr("Record to"), file_->text(), tr("Recordings (*.palprec)"));
     if (file.isEmpty()) return;
     file_->setText(file.endsWith(".palprec") ? file : file + ".palprec");
     replaceable_ = QFile::exists(file) ? file_->text() : QString(); // the dialog has asked
@@ -172,7 +172,7 @@ QWidget* LiveControlPanel::buildRecording() {
     mark_->setPlaceholderText(tr("mark %1").arg(++marks_ + 1));
   });
   connect(csv, &QPushButton::clicked, this, [this] {
-    const QString file = QFileDialog::getSaveFileName(this, tr("Export CSV"), "live.csv", tr("Tables (*.csv)"));
+    const QString file = askFileToSave(this, tr("Export CSV"), "live.csv", tr("Tables (*.csv)"));
     if (!file.isEmpty()) emit exportAsked(file);
   });
   return box;
@@ -279,7 +279,7 @@ void LiveControlPanel::edit(const QString& what, const std::function<void(LiveSe
 }
 
 void LiveControlPanel::chooseNetwork() {
-  const QString file = QFileDialog::getOpenFileName(this, tr("Open a network"), {}, tr("Networks (*.json)"));
+  const QString file = askFileToOpen(this, tr("Open a network"), tr("Networks (*.json)"));
   if (!file.isEmpty()) edit(tr("network"), [&](LiveSettings& settings) { settings.network = file.toStdString(); });
 }
 

@@ -1,7 +1,8 @@
 #include "app/gui/live/panels/LiveSourcePanel.h"
 
+#include "app/gui/widgets/FileDialogs.h"
+
 #include <QComboBox>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QFormLayout>
 #include <QGroupBox>
@@ -114,8 +115,7 @@ void LiveSourcePanel::chooseDevice(int row) {
 }
 
 void LiveSourcePanel::chooseRecording() {
-  const QString file =
-      QFileDialog::getOpenFileName(this, tr("Open a recording"), {}, tr("Recordings (*.palprec);;All files (*)"));
+  const QString file = askFileToOpen(this, tr("Open a recording"), tr("Recordings (*.palprec);;All files (*)"));
   if (file.isEmpty()) return;
   edit(tr("source"), [&](LiveSettings& settings) {
     settings.source = LiveSourceKind::Recording;

@@ -222,6 +222,32 @@ TEST_F(LiveReplay, GoesBackByOneFrame) {
   }
 }
 
+TEST_F(LiveReplay, AMarkOutsideOfTheLoopEndsTheLoopAndIsGoneTo) {
+  ASSERT_TRUE(waitForFrames());
+  const QString file = folder.filePath("touch.palprec");
+  recordTo(file);
+  ASSERT_TRUE(startsToRecord());
+  ASSERT_TRUE(waitForFrames(40));
+  QTest::keyClicks(&find<QLineEdit>("markText"), "poke");
+  click("mark");
+  ASSERT_TRUE(waitForFrames(20));
+  ASSERT_TRUE(stopsToRecord());
+  ASSERT_TRUE(plays(file));
+  auto& marks = find<QComboBox>("replayMarks");
+  ASSERT_TRUE(wait([&] { return marks.count() == 2; }));
+  const double mark_s = marks.itemData(1).toDouble();
+  type<QDoubleSpinBox>("loopTo", QString::number(0.4 * mark_s, 'f', 2));
+  auto& loop = find<QCheckBox>("replayLoop");
+  loop.click();
+  ASSERT_TRUE(loop.isChecked());
+  marks.setFocus();
+  QTest::keyClick(&marks, Qt::Key_Down);
+  EXPECT_FALSE(loop.isChecked());
+  EXPECT_FALSE(page.host().replay()->loop);
+  EXPECT_TRUE(said.join(' ').contains("The loop is off")) << said.join("; ").toStdString();
+  EXPECT_TRUE(wait([&] { return last() != nullptr && page.host().replay()->position_s >= mark_s; }));
+}
+
 TEST_F(LiveReplay, DrawsTheLineOfTheMarkThatOneWentTo) {
   ASSERT_TRUE(waitForFrames());
   const QString file = folder.filePath("touch.palprec");

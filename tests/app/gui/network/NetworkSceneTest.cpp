@@ -516,6 +516,19 @@ TEST_F(NetworkScene, TheMarkInTheListStaysWithItsNetworkAndEachEditKeepsOne) {
   EXPECT_TRUE(list.csv().section('\n', 1, 1).contains(",minmax,")) << list.csv().toStdString();
 }
 
+TEST_F(NetworkScene, IsSetForABoardByOneClick) {
+  EXPECT_EQ(workbench.project().network.input, InputKind::Displacement);
+  QTest::mouseClick(&find<QPushButton>("forLive"), Qt::LeftButton);
+  const NetworkSettings& now = workbench.project().network;
+  EXPECT_EQ(now.input, InputKind::Resistance);
+  EXPECT_EQ(now.rows, "all");
+  EXPECT_DOUBLE_EQ(now.noise, workbench.project().live.simulation.noise);
+  EXPECT_DOUBLE_EQ(now.testNoise, now.noise);
+  EXPECT_FALSE(find<QPushButton>("forLive").isEnabled()) << "it is so";
+  workbench.history().undo();
+  EXPECT_EQ(workbench.project().network.input, InputKind::Displacement) << "one edit";
+}
+
 TEST_F(NetworkScene, EscapeInAnOpenDropDownClosesOnlyThat) {
   Project next = workbench.project();
   next.samples.perArea = 100;

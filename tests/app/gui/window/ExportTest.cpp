@@ -1,4 +1,5 @@
 #include "app/gui/jobs/ExportJob.h"
+#include "app/gui/live/LiveBoards.h"
 #include "app/gui/touch/LoadPathAnimation.h"
 #include "app/gui/views/BlockView.h"
 #include "model/base/Cancelled.h"
@@ -281,6 +282,21 @@ TEST_F(Exporting, EveryChartAndTableOfTheSceneGoesIntoANewFolderAtOnce) {
   EXPECT_TRUE(drawing.contains("<svg") && drawing.trimmed().endsWith("</svg>"));
   EXPECT_FALSE(drawing.contains("<image")) << "lines and letters, no pixels";
   EXPECT_GT(QImage(charts.filePath("decoupledFx.png")).width(), 600) << "of a tab that was never seen";
+}
+
+TEST_F(Exporting, TheFramesOfTheLiveSceneSayWhatTheyWereMadeWith) {
+  window.showScene("live");
+  auto& page = find<LiveBoards>("live").page();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return page.host().history().entries().size() > 10; }, kPatience_ms));
+  const QString file = folder.filePath("live.csv");
+  answerFileDialog(file);
+  QTest::mouseClick(page.findChild<QPushButton*>("exportLive"), Qt::LeftButton);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return QFile::exists(file); }, kPatience_ms));
+  const QByteArray text = contentOf(file);
+  EXPECT_TRUE(text.startsWith("# palp listen --simulate")) << text.left(200).toStdString();
+  EXPECT_TRUE(text.contains("\n# design {"));
+  EXPECT_TRUE(tableOf(text).front().startsWith("t_s,board_s,"));
+  EXPECT_GT(tableOf(text).size(), 10);
 }
 
 } // namespace

@@ -1,0 +1,54 @@
+#include "app/gui/widgets/FileDialogs.h"
+
+#include <QAbstractItemView>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QSettings>
+
+namespace palp {
+
+namespace {
+
+constexpr const char* kLastFolder = "lastFolder";
+
+QString lastFolder() {
+  const QString folder = QSettings().value(kLastFolder).toString();
+  return QFileInfo(folder).isDir() ? folder : QString();
+}
+
+QStringList chosen(QFileDialog& dialog) {
+  if (dialog.exec() != QDialog::Accepted || dialog.selectedFiles().isEmpty()) return {};
+  QSettings().setValue(kLastFolder, QFileInfo(dialog.selectedFiles().front()).absolutePath());
+  return dialog.selectedFiles();
+}
+
+QStringList opened(QWidget* parent, const QString& title, const QString& filter, const QString& folder,
+                   QFileDialog::FileMode mode) {
+  QFileDialog dialog(parent, title, QFileInfo(folder).isDir() ? folder : lastFolder(), filter);
+  dialog.setFileMode(mode);
+  return chosen(dialog);
+}
+
+} // namespace
+
+QString askFileToSave(QWidget* parent, const QString& title, const QString& proposal, const QString& filter) {
+  QFileDialog dialog(parent, title, lastFolder(), filter);
+  dialog.setAcceptMode(QFileDialog::AcceptSave);
+  dialog.setFileMode(QFileDialog::AnyFile);
+  dialog.setDefaultSuffix(QFileInfo(proposal).suffix());
+  dialog.selectFile(proposal);
+  // A proposal that is there is chosen in the list too, and Qt would take it before a path that is typed.
+  for (auto* list : dialog.findChildren<QAbstractItemView*>())
+    if (list->selectionModel() != nullptr) list->selectionModel()->clear();
+  return chosen(dialog).value(0);
+}
+
+QString askFileToOpen(QWidget* parent, const QString& title, const QString& filter, const QString& folder) {
+  return opened(parent, title, filter, folder, QFileDialog::ExistingFile).value(0);
+}
+
+QStringList askFilesToOpen(QWidget* parent, const QString& title, const QString& filter) {
+  return opened(parent, title, filter, {}, QFileDialog::ExistingFiles);
+}
+
+} // namespace palp

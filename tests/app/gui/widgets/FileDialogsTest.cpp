@@ -1,0 +1,50 @@
+#include "app/gui/widgets/FileDialogs.h"
+
+#include "tests/app/gui/WindowFixture.h"
+
+#include <QDir>
+#include <QFile>
+#include <QTemporaryDir>
+
+#include <gtest/gtest.h>
+
+namespace palp {
+namespace {
+
+TEST(FileDialogs, BeginInTheFolderThatWasChosenLast) {
+  QSettings().clear();
+  const QTemporaryDir folder;
+  QDir(folder.path()).mkdir("work");
+  const QString file = folder.filePath("work/a.csv");
+  QFile made(file);
+  ASSERT_TRUE(made.open(QIODevice::WriteOnly));
+  made.close();
+  answerFileDialog(file);
+  EXPECT_EQ(askFileToOpen(nullptr, "Open", "Tables (*.csv)"), file);
+
+  QString began;
+  QTimer look;
+  QObject::connect(&look, &QTimer::timeout, [&] {
+    auto* dialog = qobject_cast<QFileDialog*>(QApplication::activeModalWidget());
+    if (dialog == nullptr) return;
+    look.stop();
+    began = dialog->directory().absolutePath();
+    dialog->reject();
+  });
+  look.start(20);
+  EXPECT_TRUE(askFileToSave(nullptr, "Save", "b.csv", "Tables (*.csv)").isEmpty());
+  EXPECT_EQ(began, QDir(folder.filePath("work")).absolutePath());
+}
+
+TEST(FileDialogs, TakeThePathThatIsTypedAndNotAProposalThatIsThere) {
+  const QTemporaryDir folder;
+  for (const char* name : {"old.csv", "new.csv"}) {
+    QFile made(folder.filePath(name));
+    ASSERT_TRUE(made.open(QIODevice::WriteOnly));
+  }
+  answerFileDialog(folder.filePath("other.csv"));
+  EXPECT_EQ(askFileToSave(nullptr, "Save", folder.filePath("old.csv"), "Tables (*.csv)"), folder.filePath("other.csv"));
+}
+
+} // namespace
+} // namespace palp
