@@ -19,12 +19,15 @@ double LatencyMeter::add(double hostTime_s, double deviceTime_s) {
   seconds_.back().least_s = std::min(seconds_.back().least_s, offset_s);
   double least_s = offset_s;
   for (const Second& second : seconds_) least_s = std::min(least_s, second.least_s);
-  const double latency_s = offset_s - least_s;
+  addMeasured(offset_s - least_s);
+  return offset_s - least_s;
+}
+
+void LatencyMeter::addMeasured(double latency_s) {
   const double bin = static_cast<double>(kBinsPerOctave) * std::log2(std::max(latency_s, kShortest_s) / kShortest_s);
   ++bins_[std::min(static_cast<std::size_t>(bin), bins_.size() - 1)];
   ++count_;
   longest_s_ = std::max(longest_s_, latency_s);
-  return latency_s;
 }
 
 void LatencyMeter::restart() {

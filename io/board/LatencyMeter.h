@@ -13,6 +13,8 @@ class LatencyMeter {
 public:
   /// Takes one event; returns its latency [s].
   double add(double hostTime_s, double deviceTime_s);
+  /// Takes one latency [s] that a single clock has measured.
+  void addMeasured(double latency_s);
   /// The device's clock began anew.
   void restart();
 

@@ -1,5 +1,6 @@
 #include "app/cli/Cli.h"
 #include "app/cli/Options.h"
+#include "app/cli/commands/ListenSenders.h"
 #include "app/study/decoding/Calibration.h"
 #include "app/study/live/BoardCheck.h"
 #include "app/study/live/LiveSession.h"
@@ -31,6 +32,7 @@ struct ListenArguments {
   std::string openRow, openColumn, dropEvery = "0";
   std::string frames = "0", seconds = "0", tare = "0", row, label, append, average = "50";
   bool force = false;
+  SendOptions send;
 };
 
 UsbId usbOption(const std::string& text) {
@@ -239,7 +241,7 @@ bool listen(LiveSession& live, const ListenArguments& arguments, Session& sessio
       ++frames;
       if (average && !status.taring && average->count() < limits.average) average->add(frame->forces);
       if (session.json) std::cout << frameJson(*frame).dump() << '\n';
-      if (!session.json && hostClock_s() > line_s + kLineInterval_s) {
+      if (!session.json && !arguments.send.takeStandardOutput() && hostClock_s() > line_s + kLineInterval_s) {
         line_s = hostClock_s();
         printLine(status, *frame);
       }
@@ -308,7 +310,11 @@ Exit run(const ListenArguments& arguments, Session& session) {
   Limits limits{static_cast<std::uint64_t>(wholeNumber("--frames", arguments.frames, 0, 2'000'000'000)), seconds,
                 wholeNumber("--average", arguments.average, 1, 100'000)};
   if (!arguments.record.empty()) requireFree(arguments.record, arguments.force);
+  if (session.json && arguments.send.takeStandardOutput())
+    throw UsageError("--send csv:-: standard output holds the JSON of --json; give one of the two");
   LiveOptions options = liveOptions(arguments);
+  const ListenSenders senders(arguments.send, arguments.force);
+  options.alsoTo = senders.taker();
   std::optional<FrameAverage> average = labelledFrame(arguments, options);
   const std::optional<Readout> networksReadout = options.decoder ? options.decoder->readout : std::nullopt;
   LiveSession live(std::move(options));
@@ -321,6 +327,7 @@ Exit run(const ListenArguments& arguments, Session& session) {
     session.result["file"] = arguments.append;
   }
   live.stop();
+  senders.finish(session);
   const LiveStatus status = live.status();
   fillTotals(session, status, networksReadout);
   return well && status.counts.reports > 0 ? Exit::Done : Exit::NoResult;
@@ -358,7 +365,8 @@ void addListen(Cli& cli) {
   command.option("--tare", a.tare, "frames at the start that are averaged as rest (default 0: no tare)");
   command.option("--row", a.row, "scan this row-wire alone");
   command.option("--record", a.record, "record the raw reports to this file");
-  command.flag("--force", a.force, "overwrite the recording");
+  command.flag("--force", a.force, "overwrite the recording, and a file of --send");
+  a.send.declare(command);
   command.option("--frames", a.frames, "stop after so many frames (default 0: go on)");
   command.option("--seconds", a.seconds, "stop after so many seconds (default 0: go on)");
   command.option("--label", a.label, "AREA:FX,FY,FZ: the known load now on the sensor, for palp calibrate");

@@ -49,7 +49,9 @@ LiveSession::~LiveSession() = default; // the thread is asked to stop and joined
 void LiveSession::run(const std::stop_token& stop) {
   const std::size_t most = options_.ringFrames;
   std::uint64_t overflowed = 0;
+  const auto alsoTo = options_.alsoTo;
   LiveWorker worker(std::move(options_), [&](std::shared_ptr<const LiveFrame> frame) {
+    if (alsoTo) alsoTo(frame);
     const std::lock_guard lock(mutex_);
     ring_.push_back(std::move(frame));
     if (ring_.size() <= most) return;

@@ -97,6 +97,8 @@ struct LiveOptions {
   /// The tare that is known of a board from before; may be empty, and give null.
   std::function<std::shared_ptr<const Tare>(const BoardInfo&)> tareOf;
   std::shared_ptr<ReplayControl> replay;
+  /// Gets each frame in the session's thread, before the ring: must return at once.
+  std::function<void(const std::shared_ptr<const LiveFrame>&)> alsoTo;
   std::size_t ringFrames = 2048; ///< kept for a reader that drains late
 };
 

@@ -1,0 +1,80 @@
+#include "app/study/live/send/ForceSender.h"
+
+#include <utility>
+
+namespace palp {
+
+namespace {
+
+constexpr std::size_t kMostWaiting = 1024;         ///< a second at the usual rate
+constexpr std::chrono::milliseconds kPatience{50}; ///< with one frame, before it is dropped
+
+OutgoingFrame outgoing(const LiveFrame& live, double unix_s) {
+  OutgoingFrame frame{live.frame.time_s,    unix_s,
+                      live.frame.number,    live.forces.valid,
+                      live.forces.forces_N, live.forces.standardDeviation_N,
+                      live.forces.area};
+  return frame;
+}
+
+} // namespace
+
+ForceSender::ForceSender(std::unique_ptr<ForceOutlet> outlet)
+    : outlet_(std::move(outlet)), thread_([this](const std::stop_token& stop) { run(stop); }) {}
+
+ForceSender::~ForceSender() {
+  thread_.request_stop();
+  changed_.notify_all();
+}
+
+void ForceSender::give(std::shared_ptr<const LiveFrame> frame, double host_unix_s) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (waiting_.size() >= kMostWaiting) {
+      ++counts_.dropped;
+      return;
+    }
+    waiting_.push_back({std::move(frame), host_unix_s, std::chrono::steady_clock::now()});
+  }
+  changed_.notify_all();
+}
+
+SenderCounts ForceSender::counts() const {
+  const std::lock_guard lock(mutex_);
+  SenderCounts now = counts_;
+  now.latency = {latency_.quantile_s(0.5), latency_.quantile_s(0.99), latency_.longest_s()};
+  return now;
+}
+
+void ForceSender::finish(std::chrono::milliseconds most) {
+  std::unique_lock lock(mutex_);
+  changed_.wait_for(lock, most, [this] { return waiting_.empty() && !sending_; });
+}
+
+void ForceSender::run(const std::stop_token& stop) {
+  std::unique_lock lock(mutex_);
+  while (changed_.wait(lock, stop, [this] { return !waiting_.empty(); })) {
+    const Waiting next = std::move(waiting_.front());
+    waiting_.pop_front();
+    sending_ = true;
+    lock.unlock();
+    bool sent = false;
+    try {
+      sent = outlet_->send(outgoing(*next.frame, next.host_unix_s), kPatience);
+    } catch (...) { // the root of this thread: a frame that cannot be sent is dropped
+    }
+    const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - next.given).count();
+    lock.lock();
+    sending_ = false;
+    if (sent) {
+      ++counts_.sent;
+      latency_.addMeasured(took_s);
+    } else {
+      ++counts_.dropped;
+    }
+    if (waiting_.empty()) changed_.notify_all();
+    if (stop.stop_requested()) break;
+  }
+}
+
+} // namespace palp

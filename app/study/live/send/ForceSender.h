@@ -1,0 +1,54 @@
+#pragma once
+
+#include "app/study/live/LiveSession.h"
+#include "io/ForceOutlet.h"
+
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <thread>
+
+namespace palp {
+
+/// What became of the frames of one outlet.
+struct SenderCounts {
+  std::uint64_t sent = 0;    ///< handed to the system
+  std::uint64_t dropped = 0; ///< nobody took them, or they came faster than they went
+  LatencySummary latency;    ///< from the decoded frame to its being sent
+};
+
+/// Sends frames to one outlet in a thread of its own. Who gives them never waits: a receiver that stops reading loses
+/// frames, and nothing else changes.
+class ForceSender {
+public:
+  explicit ForceSender(std::unique_ptr<ForceOutlet> outlet);
+  /// Ends at once; frames that wait are dropped.
+  ~ForceSender();
+  ForceSender(const ForceSender&) = delete;
+  ForceSender& operator=(const ForceSender&) = delete;
+
+  /// From any thread, with the host's clock since 1970-01-01 UTC, which all receivers are told alike.
+  void give(std::shared_ptr<const LiveFrame> frame, double host_unix_s);
+  [[nodiscard]] SenderCounts counts() const;
+  /// Waits until all that was given is sent or dropped, at most so long.
+  void finish(std::chrono::milliseconds most);
+
+private:
+  struct Waiting {
+    std::shared_ptr<const LiveFrame> frame;
+    double host_unix_s = 0;
+    std::chrono::steady_clock::time_point given;
+  };
+  void run(const std::stop_token& stop);
+
+  std::unique_ptr<ForceOutlet> outlet_;
+  mutable std::mutex mutex_;
+  std::condition_variable_any changed_;
+  std::deque<Waiting> waiting_;
+  bool sending_ = false;
+  SenderCounts counts_;
+  LatencyMeter latency_;
+  std::jthread thread_; ///< last: it uses all of the above
+};
+
+} // namespace palp

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace palp {
+
+/// What other programs get of one frame of a board (resources/docs/formats.md, Live forces).
+struct OutgoingFrame {
+  double device_s = 0;                  ///< device clock at the first reading
+  double host_unix_s = 0;               ///< host clock when the forces were decoded, since 1970-01-01 UTC
+  std::uint64_t frame = 0;              ///< number, as the board counts
+  bool valid = false;                   ///< false: there are no forces
+  Eigen::Matrix3Xd forces_N;            ///< 3 x 1, or 3 x areas
+  Eigen::Matrix3Xd standardDeviation_N; ///< of each; may be empty
+  std::optional<int> area;              ///< most likely touched
+};
+
+/// One JSON object without an end of line: what goes by UDP and ZeroMQ. Forces only where they are valid.
+std::string frameAsJson(const OutgoingFrame& frame);
+/// Names of the columns, with the end of line, for so many forces; and the line of a frame, whose forces are empty
+/// fields where they are not valid.
+std::string frameCsvHead(Eigen::Index forces);
+std::string frameAsCsv(const OutgoingFrame& frame, Eigen::Index forces);
+
+/// Where frames go: one receiver. Used by one thread, which it may not hold up for longer than `patience`.
+class ForceOutlet {
+public:
+  ForceOutlet() = default;
+  virtual ~ForceOutlet() = default;
+  ForceOutlet(const ForceOutlet&) = delete;
+  ForceOutlet& operator=(const ForceOutlet&) = delete;
+
+  /// Whether the frame was handed to the system; false: nobody takes it now, and it is lost.
+  virtual bool send(const OutgoingFrame& frame, std::chrono::milliseconds patience) = 0;
+};
+
+/// "udp:HOST:PORT", "osc:HOST:PORT", "zmq:HOST:PORT" (a publisher that connects to a subscriber which is bound there)
+/// or "csv:FILE" ("csv:-": standard output; a FIFO is waited for). Only sends; nothing is listened on. Throws Error
+/// with what is allowed; broadcast and multicast addresses only where they are asked for by `toMany`, and a file that
+/// exists with `force`.
+std::unique_ptr<ForceOutlet> openOutlet(const std::string& where, bool toMany, bool force);
+
+} // namespace palp

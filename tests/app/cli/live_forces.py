@@ -1,0 +1,170 @@
+"""palp listen --send with real receivers: the examples of resources/docs/live-forces.md (UDP, ZeroMQ, FIFO), liblo's
+oscdump, a pipe, and receivers that do not read. Waits for what was received, never for a time.
+
+Used by CTest: python3 live_forces.py PALP PAGE
+"""
+
+import csv
+import io
+import json
+import math
+import os
+import pathlib
+import re
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import threading
+
+PALP, PAGE = map(os.path.abspath, sys.argv[1:])
+WAIT_s = 100  # for what surely comes
+
+
+def free_port():
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as one:
+        one.bind(("127.0.0.1", 0))
+        return one.getsockname()[1]
+
+
+def listen(*words, **how):
+    return subprocess.Popen([PALP, "listen", "--simulate", *map(str, words)], stdout=subprocess.PIPE,
+                            stderr=subprocess.PIPE, text=True, **how)
+
+
+def end(process):
+    """Ends palp by Ctrl-C; its last line of JSON."""
+    process.send_signal(signal.SIGINT)
+    output, errors = process.communicate(timeout=WAIT_s)
+    assert process.returncode in (0, 130), errors
+    return json.loads(output.splitlines()[-1])
+
+
+def check_frame(frame):
+    assert float(frame["host_unix_s"]) > 1.7e9 and float(frame["device_s"]) >= 0, frame
+    assert int(frame["valid"]) == 1, frame
+    for name in ("fx_N", "fy_N", "fz_N", "sd_fx_N", "sd_fy_N", "sd_fz_N"):
+        assert math.isfinite(float(frame[name])), frame
+
+
+def run_example(block, port, send):
+    """One block of the page with another port; palp sends until it has its frames."""
+    with socket.socket() as reserved:
+        reserved.bind(("127.0.0.1", 0))
+        other = reserved.getsockname()[1] if send.startswith("zmq") else free_port()
+    block = block.replace(str(port), str(other))
+    names = {}
+    worker = threading.Thread(target=lambda: exec(compile(block, PAGE, "exec"), names), daemon=True)
+    worker.start()
+    process = listen("--json", "--send", send.replace(str(port), str(other)))
+    drain = threading.Thread(target=lambda: output.extend(process.stdout), daemon=True)
+    output = []
+    drain.start()
+    worker.join(WAIT_s)
+    assert not worker.is_alive(), send
+    process.send_signal(signal.SIGINT)
+    process.wait(WAIT_s)
+    drain.join(WAIT_s)
+    told = {line["frame"]: line for line in map(json.loads, output) if "frame" in line}
+    assert len(names["frames"]) == 100
+    both = [(frame, told[int(frame["frame"])]) for frame in names["frames"] if int(frame["frame"]) in told]
+    assert both # the last ones may be sent and not yet printed
+    for frame, printed in both:
+        check_frame(frame)
+        assert [float(frame[f"f{axis}_N"]) for axis in "xyz"] == printed["forces_N"], frame
+    counts = json.loads(output[-1])["sent_to"][0]
+    assert counts["receiver"].startswith(send[:4]) and counts["sent"] >= 100, counts
+
+
+def check_examples():
+    blocks = re.findall(r"^```python\n(.*?)^```", pathlib.Path(PAGE).read_text(), flags=re.M | re.S)
+    assert len(blocks) == 3
+    os.mkfifo("forces.fifo")
+    stdout, sys.stdout = sys.stdout, io.StringIO()
+    try:
+        run_example(blocks[0], 9870, "udp:127.0.0.1:9870")
+        run_example(blocks[1], 9871, "zmq:127.0.0.1:9871")
+        run_example(blocks[2], 9999, "csv:forces.fifo")
+    finally:
+        sys.stdout = stdout
+
+
+def check_osc():
+    port = free_port()
+    dump = subprocess.Popen(["stdbuf", "-oL", "oscdump", str(port)], stdout=subprocess.PIPE, text=True)
+    process = listen("--json", "--send", f"osc:127.0.0.1:{port}", "--frames", 10**6)
+    reader = threading.Thread(target=process.stdout.read, daemon=True)
+    reader.start()
+    lines = [dump.stdout.readline().split() for _ in range(20)]
+    dump.kill()
+    process.send_signal(signal.SIGINT)
+    process.wait(WAIT_s)
+    for words in lines:
+        assert words[1:3] == ["/palp/forces_N", "ddhiiffffff"], words
+        assert len(words) == 3 + 11 and words[6] == "1" and float(words[4]) > 1.7e9, words
+        assert all(math.isfinite(float(word)) for word in words[8:]), words
+
+
+def check_pipe_and_file():
+    process = listen("--send", "csv:-", "--send", "csv:file.csv", "--frames", 50)
+    output, errors = process.communicate(timeout=WAIT_s)
+    assert process.returncode == 0, errors
+    assert "csv:-: 50 frames sent, 0 dropped" in errors, errors
+    frames = list(csv.DictReader(io.StringIO(output)))
+    assert len(frames) == 50 and output == open("file.csv").read()
+    for frame in frames:
+        check_frame(frame)
+
+
+def check_bad_wire():
+    """Frames without a force have no forces in any form."""
+    process = listen("--open-column", 3, "--send", "csv:bad.csv", "--json", "--frames", 5)
+    output, errors = process.communicate(timeout=WAIT_s)
+    assert process.returncode == 0, errors
+    valid = [line["valid"] for line in map(json.loads, output.splitlines()) if "valid" in line]
+    frames = list(csv.DictReader(open("bad.csv")))
+    assert [frame["valid"] == "1" for frame in frames] == valid and not all(valid)
+    assert all(frame["fx_N"] == "" for frame, good in zip(frames, valid) if not good)
+
+
+def check_receivers_that_do_not_read():
+    """A FIFO that is open and never read, one that nobody opens, and a dead port: the board loses nothing."""
+    os.mkfifo("stuck.fifo")
+    os.mkfifo("unread.fifo")
+    stuck = os.open("stuck.fifo", os.O_RDONLY | os.O_NONBLOCK)
+    process = listen("--json", "--rate", 8000, "--send", "csv:stuck.fifo", "--send", "csv:unread.fifo", "--send",
+                     f"udp:127.0.0.1:{free_port()}", "--send", "csv:taken.csv", "--frames", 2000)
+    output, errors = process.communicate(timeout=WAIT_s)
+    os.close(stuck)
+    assert process.returncode == 0, errors
+    last = json.loads(output.splitlines()[-1])
+    stuck, unread, dead, taken = last["sent_to"]
+    assert stuck["dropped"] > 0 and unread["sent"] == 0 and unread["dropped"] > 0 and dead["dropped"] > 0, last
+    assert taken["dropped"] == 0 and taken["sent"] >= 2000, last
+    assert last["lost_reports"] == 0 and len(output.splitlines()) == 2001, last
+    assert open("taken.csv").read().count("\n") == taken["sent"] + 1
+
+
+def check_refusals():
+    open("there.csv", "w").write("precious")
+    for where, part in (("udp:224.0.0.1:9", "many receivers"), ("osc:255.255.255.255:9", "many receivers"),
+                        ("udp:[ff02::1]:9", "many receivers"), ("udp:nowhere.invalid:9", "not known"),
+                        ("udp:localhost:0", "1 to 65535"), ("udp:localhost", "udp:HOST:PORT"), ("fax:x:1", "csv:FILE"),
+                        ("csv:", "csv:FILE"), ("csv:/nowhere/x", "/nowhere/x"), ("csv:there.csv", "--force"),
+                        ("csv:.", "folder")):
+        result = subprocess.run([PALP, "listen", "--simulate", "--frames", "1", "--send", where], capture_output=True,
+                                text=True, timeout=WAIT_s)
+        assert result.returncode == 2 and result.stderr.count("\n") == 1 and part in result.stderr, (where, result)
+    assert open("there.csv").read() == "precious"
+    result = subprocess.run([PALP, "listen", "--simulate", "--json", "--send", "csv:-"], capture_output=True, text=True,
+                            timeout=WAIT_s)
+    assert result.returncode == 2 and "csv:-" in result.stderr, result
+
+
+with tempfile.TemporaryDirectory() as folder:
+    os.chdir(folder)
+    for step in (check_refusals, check_pipe_and_file, check_bad_wire, check_osc, check_examples,
+                 check_receivers_that_do_not_read):
+        step()
+    os.chdir("/")
