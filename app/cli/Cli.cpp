@@ -42,6 +42,8 @@ std::string pagesInWords() {
            "\n  physics.md      the sensor, its equations, what can be compared with the paper"
            "\n  numerics.md     elements, solver, networks, bounds: formulas and their sources"
            "\n  formats.md      every file, with an example"
+           "\n  notebooks.md    samples in h5py, NumPy and pandas"
+           "\n  live-forces.md  live forces in other programs, with receivers"
            "\n  glossary.md, environment.md, contributing.md, changelog.md";
   } catch (const Error&) {
     return {};

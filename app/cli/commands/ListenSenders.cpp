@@ -8,7 +8,7 @@ namespace palp {
 
 namespace {
 
-constexpr std::chrono::milliseconds kLastFrames{200};
+constexpr std::chrono::milliseconds kLastFrames{2000}, kAfterCancel{100};
 
 } // namespace
 
@@ -43,7 +43,7 @@ void ListenSenders::finish(Session& session) const {
   if (all_->senders.empty()) return;
   session.result["sent_to"] = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < all_->senders.size(); ++i) {
-    all_->senders[i]->finish(kLastFrames);
+    all_->senders[i]->finish(session.stop.stop_requested() ? kAfterCancel : kLastFrames);
     const SenderCounts counts = all_->senders[i]->counts();
     session.result["sent_to"].push_back({{"receiver", all_->where[i]},
                                          {"sent", counts.sent},
