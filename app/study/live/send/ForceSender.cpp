@@ -49,6 +49,8 @@ SenderCounts ForceSender::counts() const {
 void ForceSender::finish(std::chrono::milliseconds most) {
   std::unique_lock lock(mutex_);
   changed_.wait_for(lock, most, [this] { return waiting_.empty() && !sending_; });
+  counts_.dropped += waiting_.size();
+  waiting_.clear();
 }
 
 void ForceSender::run(const std::stop_token& stop) {

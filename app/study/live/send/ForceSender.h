@@ -30,7 +30,7 @@ public:
   /// From any thread, with the host's clock since 1970-01-01 UTC, which all receivers are told alike.
   void give(std::shared_ptr<const LiveFrame> frame, double host_unix_s);
   [[nodiscard]] SenderCounts counts() const;
-  /// Waits until all that was given is sent or dropped, at most so long.
+  /// Waits until all that was given is sent, at most so long; what still waits then is dropped.
   void finish(std::chrono::milliseconds most);
 
 private:
