@@ -192,7 +192,7 @@ TEST_F(Live, RefinesTheNetworkWithFramesOfAFileThatHasGoneSince) {
   ASSERT_TRUE(QFile::remove(file));
   click("fitCalibration");
   ASSERT_TRUE(wait([&] { return calibration.calibration().has_value(); })) << said.join("; ").toStdString();
-  EXPECT_TRUE(find<QLabel>("calibrationReport").text().contains("The newest is"));
+  EXPECT_TRUE(find<QLabel>("calibrationReport").text().contains("The newest:"));
   const QString broken = folder.filePath("broken.csv");
   ASSERT_TRUE(QFile(broken).open(QIODevice::WriteOnly));
   answerFileDialog(broken);
