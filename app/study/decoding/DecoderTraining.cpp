@@ -31,7 +31,7 @@ Classes classesOf(const SampleSet& samples) {
   return classes;
 }
 
-Eigen::VectorXd rootMeanSquare(const Eigen::MatrixXd& residuals) {
+Eigen::VectorXd residualRootMeanSquare(const Eigen::MatrixXd& residuals) {
   return residuals.cols() == 0 ? Eigen::VectorXd(Eigen::VectorXd::Zero(residuals.rows()))
                                : Eigen::VectorXd(residuals.array().square().rowwise().mean().sqrt());
 }
@@ -225,7 +225,7 @@ void DecoderTraining::fitAreas() {
 
 /// Root mean square of each area's residuals; of all of them where an area has none.
 void DecoderTraining::recordResiduals(const Eigen::MatrixXd& residuals, const Eigen::VectorXi& areas) {
-  const Eigen::VectorXd all = rootMeanSquare(residuals);
+  const Eigen::VectorXd all = residualRootMeanSquare(residuals);
   decoder_.report.leaveOneOut = all;
   const bool together = samples_.together();
   decoder_.residual_N = all.replicate(1, together ? 1 : std::max(1, samples_.areaCount));
@@ -234,7 +234,7 @@ void DecoderTraining::recordResiduals(const Eigen::MatrixXd& residuals, const Ei
     std::vector<Eigen::Index> members;
     for (Eigen::Index i = 0; i < areas.size(); ++i)
       if (areas(i) == area) members.push_back(i);
-    if (!members.empty()) decoder_.residual_N.col(area) = rootMeanSquare(residuals(Eigen::all, members));
+    if (!members.empty()) decoder_.residual_N.col(area) = residualRootMeanSquare(residuals(Eigen::all, members));
   }
 }
 

@@ -19,7 +19,7 @@ constexpr int kReferencePerArea = 25;
 constexpr int kRepeats = 3;
 constexpr double kOnceAbove_s = 4;
 
-double rootMeanSquare(const Eigen::Vector3d& values) {
+double errorRootMeanSquare(const Eigen::Vector3d& values) {
   return values.norm() / std::sqrt(3.0);
 }
 
@@ -65,7 +65,7 @@ DecoderTimes measure(const SensorDesign& design, const TwoSets& sets, const Way&
     if (!error.failed.empty()) break;
     result.training.seconds.push_back(error.seconds);
     result.prediction.seconds.push_back(error.microsecondsPerSample);
-    result.error_percentOfRange = rootMeanSquare(error.rmse_percentOfRange);
+    result.error_percentOfRange = errorRootMeanSquare(error.rmse_percentOfRange);
   } while (static_cast<int>(result.training.seconds.size()) < kRepeats && result.training.median() < kOnceAbove_s);
   return result;
 }
@@ -194,7 +194,7 @@ std::vector<ChainTimes> chainTimes(const ReportRequest& request, StageLog& stage
       const NoisyError error = noisyError(request.design, sets, options, kNoise, request.seed, stages, stop);
       chain.failed = error.failed;
       chain.train_s = error.seconds;
-      if (error.failed.empty()) chain.error_percentOfRange = rootMeanSquare(error.rmse_percentOfRange);
+      if (error.failed.empty()) chain.error_percentOfRange = errorRootMeanSquare(error.rmse_percentOfRange);
       result.push_back(std::move(chain));
     }
   return result;

@@ -42,18 +42,18 @@ Eigen::Vector3d deviations(const Eigen::Matrix3d& information) {
   return (eigen.eigenvectors().cwiseAbs2() * eigen.eigenvalues().cwiseInverse()).cwiseSqrt();
 }
 
-Eigen::Vector3d rootMeanSquare(const Eigen::Matrix3Xd& values) {
+Eigen::Vector3d rowsRootMeanSquare(const Eigen::Matrix3Xd& values) {
   return values.cwiseAbs2().rowwise().mean().cwiseSqrt();
 }
 
 } // namespace
 
 Eigen::Vector3d LayoutBound::withoutPrior() const {
-  return rootMeanSquare(withoutPrior_percent);
+  return rowsRootMeanSquare(withoutPrior_percent);
 }
 
 Eigen::Vector3d LayoutBound::withPrior() const {
-  return rootMeanSquare(withPrior_percent);
+  return rowsRootMeanSquare(withPrior_percent);
 }
 
 double LayoutBound::mean() const {
