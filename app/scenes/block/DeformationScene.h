@@ -2,7 +2,7 @@
 
 #include "app/scenes/ColorScale.h"
 #include "app/scenes/block/CurrentLines.h"
-#include "app/scenes/block/Quantity.h"
+#include "app/scenes/block/QuantityValues.h"
 #include "app/scenes/block/loads/ForceArrows.h"
 #include "model/LoadCase.h"
 #include "model/Mesh.h"
@@ -18,11 +18,6 @@
 class vtkRenderer;
 
 namespace palp {
-
-/// The quantity at the nodes.
-std::vector<double> quantityValues(Quantity quantity, const NodalFields& fields);
-/// Less that of other fields at the same nodes.
-std::vector<double> quantityValues(Quantity quantity, const NodalFields& fields, const NodalFields& less);
 
 /// A plane across the block at rest: what lies before it, as the block is seen first, is cut away.
 struct CutPlane {
