@@ -311,14 +311,13 @@ bool NetworkPanel::readableLive() const {
 }
 
 void NetworkPanel::takeLiveSettings() {
-  {
-    const QSignalBlocker quietInput(input_), quietRows(rows_), quietNoise(noise_), quietTest(testNoise_); // one edit
-    input_->setCurrentIndex(1);
-    rows_->setText("all");
-    rowsProblem_->hide();
-    noise_->setValue(100 * boardNoise_);
-    testNoise_->setValue(100 * boardNoise_);
-  }
+  displaying_ = true; // one edit
+  input_->setCurrentIndex(1);
+  rows_->setText("all");
+  rowsProblem_->hide();
+  noise_->setValue(100 * boardNoise_);
+  testNoise_->setValue(100 * boardNoise_);
+  displaying_ = false;
   read(tr("Set the network for a board"));
 }
 

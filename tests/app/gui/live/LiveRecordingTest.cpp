@@ -158,8 +158,7 @@ protected:
 TEST_F(LiveReplay, TheCurvesHoldOnlyWhatWasPlayedSinceTheLastJump) {
   ASSERT_TRUE(played());
   const double length_s = page.host().replay()->length_s;
-  ASSERT_TRUE(wait([&] { return page.host().replay()->position_s > 0.8 * length_s; }));
-  EXPECT_GT(span_s(), 0.5 * length_s);
+  ASSERT_TRUE(wait([&] { return span_s() > 0.5 * length_s; })) << "the curves follow what is played look by look";
   type<QDoubleSpinBox>("loopTo", QString::number(0.3 * length_s, 'f', 2));
   find<QCheckBox>("replayLoop").click();
   const std::uint64_t frames = page.host().status().counts.frames;
@@ -322,8 +321,8 @@ TEST_F(LiveReplay, LeadsToItsMarks) {
   EXPECT_LT(at_s, 0.9 * page.host().replay()->length_s);
   marks.setFocus();
   QTest::keyClick(&marks, Qt::Key_Down);
-  EXPECT_TRUE(wait([&] { return last() != nullptr && page.host().status().state == LiveState::Streaming; }));
-  EXPECT_TRUE(wait([&] { return last() != nullptr && last()->mark == "poke"; }));
+  EXPECT_TRUE(wait([&] { return last() != nullptr && last()->jumps == 1; })) << "it may have ended again";
+  EXPECT_TRUE(wait([&] { return last()->mark == "poke"; }));
 }
 
 TEST_F(LiveRecording, TheKeyThatBeginsOneDoesNotEndIt) {
