@@ -1,15 +1,17 @@
 # Sourced by app/run and tests/run: what both need to install and build. The repository's root is the current folder.
 
-# Names in app/packages.txt; with the argument `tests` also those below [tests].
+# packageNames [SECTION ...]: names in app/packages.txt above its first section, and those of the sections.
 packageNames() {
-  if [ "${1:-}" = tests ]; then sed -E '/^(#|\[|$)/d' app/packages.txt
-  else sed -E '/^\[tests\]/,$d; /^(#|$)/d' app/packages.txt; fi
+  awk -v wanted=" $* " '
+    /^#/ || !NF { next }
+    /^\[/ { section = substr($0, 2, length($0) - 2); next }
+    section == "" || index(wanted, " " section " ") { print }' app/packages.txt
 }
 
 # Installs the Debian packages that are missing, as root or with sudo.
 installMissing() {
   local name missing=()
-  for name in $(packageNames "${1:-}"); do
+  for name in $(packageNames "$@"); do
     [ "$(dpkg-query -W -f '${db:Status-Status}' "$name" 2>/dev/null)" = installed ] || missing+=("$name")
   done
   [ ${#missing[@]} -gt 0 ] || return 0

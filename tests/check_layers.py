@@ -48,7 +48,7 @@ PACKAGES = {
     r"Q[A-Z].*|Qt.*": {"app/gui"},
     r"sys/mman\.h": {"solver", "io"},  # huge pages
     r"sanitizer/tsan_interface\.h": {"app/gui"},
-    r"sys/.*|unistd\.h|dlfcn\.h|fcntl\.h|spawn\.h|poll\.h|pthread\.h|malloc\.h|linux/.*|termios\.h": {"io", "app/study", "app/scenes", "app/cli", "app/gui"},
+    r"sys/.*|unistd\.h|dlfcn\.h|link\.h|fcntl\.h|spawn\.h|poll\.h|pthread\.h|malloc\.h|linux/.*|termios\.h": {"io", "app/study", "app/scenes", "app/cli", "app/gui"},
 }
 ONE_SOURCE_ONLY = [r"tetgen\.h", r"hidapi(/hidapi)?\.h", r"(suitesparse/)?cholmod\.h", r"hdf5\.h", r"lo/lo\.h", r"zmq\.h", r"zlib\.h",
                    r"minizip/.*"]

@@ -3,6 +3,7 @@
 #include "app/cli/Interrupt.h"
 #include "app/study/Blas.h"
 #include "app/study/Resources.h"
+#include "app/study/Version.h"
 #include "app/study/reports/ProcessMemory.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
@@ -57,7 +58,7 @@ Cli::Cli()
           "Palp: three-axis tactile sensors of conductive rubber, from the block to the force", "palp")) {
   app_->require_subcommand(0, 1);
   app_->footer(pagesInWords);
-  app_->set_version_flag("--version", std::string("palp ") + PALP_VERSION);
+  app_->set_version_flag("--version", versionInWords);
   app_->fallthrough(false);
 }
 
@@ -103,7 +104,7 @@ Exit Cli::runChosen() {
     std::cerr << "palp: " << *slow << '\n';
   }
   session_.result["command"] = name;
-  session_.result["version"] = PALP_VERSION;
+  session_.result["version"] = version();
   Exit exit = Exit::Done;
   try {
     exit = run->second(session_);

@@ -86,12 +86,14 @@ void LoadOptions::declareIndenters(Command command) {
       .oneValueEach();
 }
 
+AreaLoad areaLoadOption(const std::string& option, const std::string& value, const SensorDesign& design) {
+  const auto [area, force] = forceAt(option, value, "AREA:FX,FY,FZ, for example 0:1,0,-6");
+  return {wholeNumber(option + " (area)", area, 0, design.areas.count() - 1), force};
+}
+
 LoadCase LoadOptions::loadCase(const SensorDesign& design) const {
   LoadCase load;
-  for (const std::string& value : loads) {
-    const auto [area, force] = forceAt("--load", value, "AREA:FX,FY,FZ, for example 0:1,0,-6");
-    load.areas.push_back({wholeNumber("--load (area)", area, 0, design.areas.count() - 1), force});
-  }
+  for (const std::string& value : loads) load.areas.push_back(areaLoadOption("--load", value, design));
   for (const std::string& value : patches) {
     const auto [disc, force] = forceAt("--patch", value, "X,Y,RADIUS:FX,FY,FZ, for example 15,15,2:0,0,-3");
     const std::vector<double> xyr = numbers("--patch", disc, 3);

@@ -35,6 +35,9 @@ struct LoadOptions {
   [[nodiscard]] LoadCase loadCase(const SensorDesign& design) const;
 };
 
+/// AREA:FX,FY,FZ as a force on an area that the design has. Throws UsageError.
+AreaLoad areaLoadOption(const std::string& option, const std::string& value, const SensorDesign& design);
+
 /// --mesh-size MM, --mapped NxNxN (and --accuracy REL where the command has loads to judge it by).
 struct MeshChoice {
   std::string meshSize;

@@ -9,6 +9,7 @@
 #include "app/gui/window/MainWindow.h"
 #include "app/gui/window/SceneCosts.h"
 #include "app/gui/window/Snapshot.h"
+#include "app/study/Version.h"
 #include "model/base/Error.h"
 
 #include <QCommandLineParser>
@@ -54,7 +55,6 @@ Wish parse(const QApplication& application) {
   parser.setApplicationDescription("Desktop workbench for three-axis tactile sensors of conductive rubber.\n"
                                    "Example: palp-studio --scene deformation --snapshot block.png sensor.json");
   parser.addHelpOption();
-  parser.addVersionOption();
   const QCommandLineOption scene("scene", "Open on this scene.", "NAME");
   const QCommandLineOption snapshot("snapshot", "Write a picture of the window when it is complete, and end.", "FILE");
   const QCommandLineOption theme("theme", "light, dark or contrast.", "NAME");
@@ -62,9 +62,14 @@ Wish parse(const QApplication& application) {
       "costs", "Go through the scenes (or the one of --scene), print what each step costs as JSON, and end.");
   const QCommandLineOption size("mesh-size", "Size of the tetrahedra in the bulk [mm].", "MM");
   const QCommandLineOption mapped("mapped", "Mapped hexahedra.", "NxNxN");
-  parser.addOptions({scene, snapshot, theme, costs, size, mapped});
+  const QCommandLineOption version({"v", "version"}, "Version, commit and libraries.");
+  parser.addOptions({version, scene, snapshot, theme, costs, size, mapped});
   parser.addPositionalArgument("design.json", "A design or project file.", "[design.json]");
   parser.process(application);
+  if (parser.isSet(version)) {
+    std::cout << palp::versionInWords() << std::endl;
+    std::exit(0);
+  }
   if (parser.positionalArguments().size() > 1)
     throw palp::Error("design.json: " + std::to_string(parser.positionalArguments().size()) +
                       " files were given; allowed is one");
@@ -143,7 +148,7 @@ int main(int argc, char** argv) {
   palp::Application application(argc, argv);
   QApplication::setApplicationName("palp-studio");
   QApplication::setOrganizationName("palp");
-  QApplication::setApplicationVersion(PALP_VERSION);
+  QApplication::setApplicationVersion(QString::fromStdString(palp::version()));
   try {
     return run(application);
   } catch (const std::exception& error) {

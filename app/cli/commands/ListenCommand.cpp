@@ -1,6 +1,7 @@
 #include "app/cli/Cli.h"
 #include "app/cli/Options.h"
 #include "app/cli/commands/ListenSenders.h"
+#include "app/cli/commands/ListenSimulation.h"
 #include "app/study/decoding/Calibration.h"
 #include "app/study/live/BoardCheck.h"
 #include "app/study/live/LiveSession.h"
@@ -26,10 +27,9 @@ constexpr double kLineInterval_s = 0.5; // of the lines for people
 constexpr double kCheck_s = 5;
 
 struct ListenArguments {
-  bool list = false, check = false, simulate = false;
-  std::string device, replay, samples, network, design, record, usb = "1209:0001";
-  std::string speed = "1", noise = "5e-6", warming = "0", hysteresis = "0", rate = "1000", seed = "1";
-  std::string openRow, openColumn, dropEvery = "0";
+  bool list = false, check = false;
+  std::string device, replay, network, design, record, usb = "1209:0001", speed = "1";
+  SimulationArguments simulation;
   std::string frames = "0", seconds = "0", tare = "0", row, label, append, average = "50";
   bool force = false;
   SendOptions send;
@@ -45,34 +45,12 @@ UsbId usbOption(const std::string& text) {
   return {hex(text.substr(0, colon)), hex(colon == std::string::npos ? "" : text.substr(colon + 1))};
 }
 
-double positive(const std::string& option, const std::string& value, double most) {
-  const double result = number(option, value);
-  if (!(result >= 0 && result <= most))
-    throw UsageError(option + ": '" + value + "'; allowed is 0 to " + std::to_string(static_cast<int>(most)));
-  return result;
-}
-
-std::unique_ptr<ReportSource> openSimulated(const ListenArguments& arguments) {
-  SimulatedBoardOptions options;
-  options.samples = arguments.samples;
-  options.disturbance.noise = positive("--noise", arguments.noise, 1);
-  options.disturbance.warming_degC = positive("--warming", arguments.warming, 100);
-  options.disturbance.hysteresisShare = positive("--hysteresis", arguments.hysteresis, 1);
-  if (!arguments.openRow.empty()) options.faults.openRows = {wholeNumber("--open-row", arguments.openRow, 0, 31)};
-  if (!arguments.openColumn.empty())
-    options.faults.openColumns = {wholeNumber("--open-column", arguments.openColumn, 0, 254)};
-  options.faults.dropEvery = wholeNumber("--drop-every", arguments.dropEvery, 0, 1'000'000);
-  options.rate_Hz = wholeNumber("--rate", arguments.rate, 1, 8000);
-  options.seed = static_cast<std::uint64_t>(wholeNumber("--seed", arguments.seed, 0, 2'147'483'647));
-  return openSimulatedBoard(options);
-}
-
 /// What can be opened once is opened here, so that its refusals come before the session begins.
 LiveOptions liveOptions(const ListenArguments& arguments) {
   LiveOptions options;
   if (!arguments.network.empty())
     options.decoder = readNetwork(arguments.network);
-  else if (arguments.simulate && arguments.samples.empty())
+  else if (arguments.simulation.on && arguments.simulation.samples.empty())
     options.decoder = readNetwork(shippedNetwork());
   if (!arguments.design.empty()) options.design = designOption(arguments.design);
   if (options.decoder && options.design && designFingerprint(*options.design) != options.decoder->designFingerprint)
@@ -81,13 +59,13 @@ LiveOptions liveOptions(const ListenArguments& arguments) {
                      "; give the design that it was trained for");
   options.tareFrames = wholeNumber("--tare", arguments.tare, 0, 100'000);
   options.ringFrames = 8192;
-  if (arguments.simulate || !arguments.replay.empty()) {
+  if (arguments.simulation.on || !arguments.replay.empty()) {
     std::shared_ptr<std::unique_ptr<ReportSource>> once;
-    if (arguments.simulate) {
-      once = std::make_shared<std::unique_ptr<ReportSource>>(openSimulated(arguments));
+    if (arguments.simulation.on) {
+      once = std::make_shared<std::unique_ptr<ReportSource>>(openSimulated(arguments.simulation, arguments.design));
     } else {
       options.replay = std::make_shared<ReplayControl>();
-      options.replay->speed = positive("--speed", arguments.speed, 1000);
+      options.replay->speed = numberUpTo("--speed", arguments.speed, 1000);
       once = std::make_shared<std::unique_ptr<ReportSource>>(
           std::make_unique<ReplaySource>(arguments.replay, options.replay));
     }
@@ -205,9 +183,7 @@ std::optional<FrameAverage> labelledFrame(const ListenArguments& arguments, cons
   if (arguments.label.empty()) return {};
   if (!options.decoder) throw UsageError("--label needs --network: it says of which design the frames are");
   const SensorDesign design = options.design.value_or(paperDesign());
-  LoadOptions loads;
-  loads.loads = {arguments.label};
-  return FrameAverage(*options.decoder, design, loads.loadCase(design).areas[0]);
+  return FrameAverage(*options.decoder, design, areaLoadOption("--label", arguments.label, design));
 }
 
 /// When to stop.
@@ -257,7 +233,7 @@ bool listen(LiveSession& live, const ListenArguments& arguments, Session& sessio
 }
 
 std::vector<std::uint8_t> descriptorOf(const ListenArguments& arguments, const std::string& source) {
-  if (arguments.simulate || !arguments.replay.empty()) return {};
+  if (arguments.simulation.on || !arguments.replay.empty()) return {};
   for (const HidBoard& board : hidBoards(usbOption(arguments.usb)))
     if (source.find(board.path) != std::string::npos) return reportDescriptorOf(board);
   return {};
@@ -303,10 +279,10 @@ void configureRow(LiveSession& live, const std::string& row) {
 Exit run(const ListenArguments& arguments, Session& session) {
   session.indent = -1; // JSON Lines
   const int sources = static_cast<int>(!arguments.device.empty()) + static_cast<int>(!arguments.replay.empty()) +
-                      static_cast<int>(arguments.simulate);
+                      static_cast<int>(arguments.simulation.on);
   if (sources > 1) throw UsageError("--device, --replay and --simulate exclude each other; give one of them");
   if (arguments.list) return listBoards(arguments, session);
-  const double seconds = positive("--seconds", arguments.seconds, 1e9);
+  const double seconds = numberUpTo("--seconds", arguments.seconds, 1e9);
   Limits limits{static_cast<std::uint64_t>(wholeNumber("--frames", arguments.frames, 0, 2'000'000'000)), seconds,
                 wholeNumber("--average", arguments.average, 1, 100'000)};
   if (!arguments.record.empty()) requireFree(arguments.record, arguments.force);
@@ -347,18 +323,7 @@ void addListen(Cli& cli) {
   command.option("--usb", a.usb, "USB ID of the board, VENDOR:PRODUCT (default 1209:0001)");
   command.option("--replay", a.replay, "recording to play");
   command.option("--speed", a.speed, "of the replay; 0 as fast as it can be read (default 1)");
-  Option simulate = command.flag("--simulate", a.simulate, "the virtual board under a touch that moves over the areas");
-  command.option("--samples", a.samples, "solved samples that drive the virtual board (default: the paper's)")
-      .needs(simulate);
-  command.option("--noise", a.noise, "of the virtual board, relative to R (default 5e-6)").needs(simulate);
-  command.option("--warming", a.warming, "of the virtual board in degC (default 0)").needs(simulate);
-  command.option("--hysteresis", a.hysteresis, "of the virtual board, share 0 to 1 (default 0)").needs(simulate);
-  command.option("--rate", a.rate, "reports a second of the virtual board (default 1000)").needs(simulate);
-  command.option("--seed", a.seed, "of the virtual board's noise (default 1)").needs(simulate);
-  command.option("--open-row", a.openRow, "of the virtual board: this row-wire is broken").needs(simulate);
-  command.option("--open-column", a.openColumn, "of the virtual board: this column-wire is broken").needs(simulate);
-  command.option("--drop-every", a.dropEvery, "of the virtual board: every n-th report is lost (default 0: none)")
-      .needs(simulate);
+  a.simulation.declare(command);
   command.option("--network", a.network,
                  "network that was trained with --input resistance (default with --simulate: the paper's)");
   command.option("--design", a.design, "design of the network, for tare (default: paper)");

@@ -231,6 +231,18 @@ void Document::startAnew() {
   workbench_.replace(tr("The paper's design"), exampleProject());
 }
 
+void Document::openExample(const QString& file, const QString& title) {
+  try {
+    const Project opened = loadProject(file.toStdString(), project());
+    if (!mayLeave()) return;
+    workbench_.replace(tr("Example: %1").arg(title), opened);
+    window_.showScene(QString::fromStdString(opened.view.scene));
+    window_.showMessage(tr("The example is a copy: it is saved under a name of your own."));
+  } catch (const Error& error) {
+    QMessageBox::warning(&window_, tr("Cannot open"), QString::fromStdString(error.what()));
+  }
+}
+
 bool Document::save() {
   return workbench_.file().isEmpty() ? saveAs() : write(workbench_.file());
 }

@@ -48,6 +48,8 @@ public:
   void beganWith(const QString& file);
   /// The paper's design; asks first.
   void startAnew();
+  /// A project that came with the program, as one that has no file yet; asks first. Says why where it cannot be opened.
+  void openExample(const QString& file, const QString& title);
   /// In its file, or in one that the user chooses. False where it was not saved.
   bool save();
   bool saveAs();

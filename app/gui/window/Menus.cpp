@@ -14,6 +14,8 @@
 #include "app/gui/window/exports/ExportSource.h"
 #include "app/gui/window/history/UndoActions.h"
 #include "app/scenes/VtuFile.h"
+#include "app/study/Resources.h"
+#include "app/study/Version.h"
 #include "io/DesignFile.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
@@ -28,7 +30,27 @@
 #include <QMessageBox>
 #include <QUndoView>
 
+#include <array>
+
 namespace palp {
+
+namespace {
+
+struct Example {
+  const char* file; ///< in resources/examples
+  const char* title;
+  const char* what;
+};
+
+constexpr std::array kExamples{
+    Example{"paper.json", "The paper's sensor", "30 x 30 x 5 mm, one area pressed with 6 N"},
+    Example{"better-layout.json", "A better layout",
+            "The paper's block, its electrodes where the layout report puts them: one row-wire resolves 15 times more"},
+    Example{"thick-soft-block.json", "A thick, soft block under a ball",
+            "36 x 36 x 12 mm of soft rubber, the conduction field, read by virtual ground"},
+};
+
+} // namespace
 
 Menus::Menus(MainWindow& window, Workbench& workbench, Document& document)
     : QObject(&window), window_(window), workbench_(workbench), document_(document) {
@@ -248,6 +270,16 @@ void Menus::buildHelp() {
   QMenu& menu = *window_.menuBar()->addMenu(tr("&Help"));
   add(menu, tr("&Help"), tr("What each scene does, what the mouse and the keys do"), QKeySequence("F1"),
       [this] { showHelp(&window_, window_.currentScene().objectName()); });
+  QMenu& examples = *menu.addMenu(tr("&Examples"));
+  for (const Example& example : kExamples)
+    add(examples, tr(example.title), tr(example.what), {}, [this, &example] {
+      try {
+        const std::string file = resource(std::string("examples/") + example.file).string();
+        document_.openExample(QString::fromStdString(file), tr(example.title));
+      } catch (const Error& missing) {
+        QMessageBox::warning(&window_, tr("Examples"), QString::fromStdString(missing.what()));
+      }
+    });
   add(menu, tr("&About Palp"), tr("What this program is"), {}, [this] {
     QMessageBox::about(
         &window_, tr("About Palp"),
@@ -258,8 +290,9 @@ void Menus::buildHelp() {
            "network</i>, Sensors &amp; Transducers 159 (11), 2013, 289-298.<br><br>Its model adds independent pairs of "
            "electrodes (Eq. 1): no sneak paths, no hysteresis, "
            "creep or temperature, and the load areas are stuck to their traction. A real board is less kind.<br><br>"
-           "GNU Affero General Public License, version 3 or later.")
-            .arg(QApplication::applicationVersion()));
+           "GNU Affero General Public License, version 3 or later.<br><br><small>%2</small>")
+            .arg(QApplication::applicationVersion(),
+                 QString::fromStdString(versionInWords()).toHtmlEscaped().replace('\n', "<br>")));
   });
 }
 

@@ -23,11 +23,14 @@ std::unique_ptr<ReportSource> openBoard(const UsbId& id, const std::string& devi
   return nullptr;
 }
 
+std::filesystem::path simulatedSamples(const SimulatedBoardOptions& options) {
+  return options.samples.empty() ? resource("board/paper-samples.csv") : options.samples;
+}
+
 std::unique_ptr<ReportSource> openSimulatedBoard(const SimulatedBoardOptions& options,
                                                  std::shared_ptr<SimulationControl> control) {
-  const std::filesystem::path file = options.samples.empty() ? resource("board/paper-samples.csv") : options.samples;
-  VirtualBoard board = simulatedBoard(options.solved ? *options.solved : loadSamples(file), options.disturbance,
-                                      options.rate_Hz, options.seed, options.hand);
+  VirtualBoard board = simulatedBoard(options.solved ? *options.solved : loadSamples(simulatedSamples(options)),
+                                      options.disturbance, options.rate_Hz, options.seed, options.hand);
   refuseOutside("row-wire", options.faults.openRows, board.info().rowWires);
   refuseOutside("column-wire", options.faults.openColumns, board.info().columnWires);
   board.faults() = options.faults;

@@ -38,6 +38,8 @@ struct SimulatedBoardOptions {
   int rate_Hz = 1000;
   std::uint64_t seed = 1;
 };
+/// The file of samples that drives it.
+std::filesystem::path simulatedSamples(const SimulatedBoardOptions& options);
 std::unique_ptr<ReportSource> openSimulatedBoard(const SimulatedBoardOptions& options,
                                                  std::shared_ptr<SimulationControl> control = {});
 

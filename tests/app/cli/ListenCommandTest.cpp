@@ -81,7 +81,25 @@ TEST(ListenCommand, RefusesWhatCannotBe) {
   refuses({"--replay", "/nonexistent", "--noise", "1e-6"}, "--noise requires --simulate");
   refuses({"--simulate", "--usb", "12", "--list"}, "--usb");
   refuses({"--simulate", "--label", "0:0,0,-1"}, "--append");
+  refuses({"--simulate", "--hold", "6:0,0,-1"}, "--hold (area): '6'");
+  refuses({"--simulate", "--hold", "0:0,0,-60"}, "--hold 0:0,0,-60: Fz is outside of the samples");
+  refuses({"--hold", "0:0,0,-1"}, "--hold requires --simulate");
   refuses({"--simulate", "--network", samplesFile()}, "paper-samples.csv");
+}
+
+TEST(ListenCommand, TheVirtualBoardCanBeHeld) {
+  const Outcome outcome =
+      palp::test::palp({"listen", "--simulate", "--hold", "2:0.4,-0.3,-4", "--frames", "5", "--json"});
+  ASSERT_EQ(outcome.exit, 0) << outcome.errors;
+  int frames = 0;
+  for (const json& line : lines(outcome.output)) {
+    if (!line.contains("forces_N")) continue;
+    ++frames;
+    EXPECT_EQ(line.at("area"), 2);
+    EXPECT_NEAR(line.at("forces_N")[0], 0.4, 0.1);
+    EXPECT_NEAR(line.at("forces_N")[2], -4, 0.3);
+  }
+  EXPECT_EQ(frames, 5);
 }
 
 TEST(ListenCommand, EndsWithoutAResultWhereNoBoardIs) {

@@ -204,6 +204,32 @@ TEST_F(DocumentTest, AFullDiskKeepsTheSamplesUnsavedAndTheProjectOpen) {
   ASSERT_TRUE(QTest::qWaitFor([&] { return !window.isWindowModified(); }, kPatience_ms));
 }
 
+TEST_F(DocumentTest, OpensTheExamplesAsCopies) {
+  QMenu* examples = nullptr;
+  for (QMenu* menu : window.findChildren<QMenu*>())
+    if (menu->title() == "&Examples") examples = menu;
+  ASSERT_NE(examples, nullptr);
+  ASSERT_EQ(examples->actions().size(), 3);
+  answer(QMessageBox::Discard);
+  QList<SensorDesign> seen;
+  for (QAction* example : examples->actions()) {
+    press(-2.5); // unsaved, so that each asks
+    const int before = questions_;
+    example->trigger();
+    EXPECT_EQ(questions_, before + 1) << example->text().toStdString();
+    EXPECT_TRUE(workbench.file().isEmpty()) << "an example must not be saved over";
+    EXPECT_FALSE(Document::recent().contains(example->text()));
+    EXPECT_TRUE(check(workbench.project().design).empty());
+    for (const SensorDesign& other : seen) EXPECT_NE(other, workbench.project().design);
+    seen.append(workbench.project().design);
+    if (workbench.project().load.areas.empty()) { // pressed by an indenter: the next press() needs an area
+      Project next = workbench.project();
+      next.load = exampleProject().load;
+      workbench.edit("area", next);
+    }
+  }
+}
+
 TEST_F(DocumentTest, ADesignAloneIsNoProjectToBeOverwritten) {
   QFile::copy(QString::fromStdString(PALP_SOURCE_DIR "/resources/paper.json"), inFolder("sensor.json"));
   dropOn(window, inFolder("sensor.json"));

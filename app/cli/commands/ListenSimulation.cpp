@@ -1,0 +1,81 @@
+#include "app/cli/commands/ListenSimulation.h"
+
+#include "app/cli/Options.h"
+#include "app/study/live/LiveSource.h"
+#include "app/study/live/SimulatedTouch.h"
+#include "io/DesignFile.h"
+#include "io/Fingerprint.h"
+#include "io/SampleFile.h"
+#include "model/base/Text.h"
+
+#include <algorithm>
+
+namespace palp {
+
+namespace {
+
+/// A hand that holds the touch of --hold on the sensor of the samples, which the polynomials of the board hold for.
+std::shared_ptr<const TouchHand> holdingHand(const std::string& held, const std::string& designName,
+                                             const SampleSet& samples) {
+  const SensorDesign design = designName.empty() ? paperDesign() : designOption(designName);
+  if (designFingerprint(design) != samples.origin.designFingerprint)
+    throw UsageError("--hold needs the design of the simulated board: the samples are of " +
+                     samples.origin.designFingerprint + ", --design is of " + designFingerprint(design));
+  const AreaLoad load = areaLoadOption("--hold", held, design);
+  const Eigen::Array3d low_N = samples.forces_N.rowwise().minCoeff(), high_N = samples.forces_N.rowwise().maxCoeff();
+  for (Eigen::Index k = 0; k < 3; ++k)
+    if (load.force_N(k) < std::min(low_N(k), 0.0) || load.force_N(k) > std::max(high_N(k), 0.0))
+      throw UsageError("--hold " + held + ": F" + std::string(1, "xyz"[k]) +
+                       " is outside of the samples that drive the board, " + text(low_N(k)) + " to " + text(high_N(k)) +
+                       " N");
+  auto hand = std::make_shared<TouchHand>();
+  hand->hold(SimulatedTouch::Truth{load.area, load.force_N});
+  return hand;
+}
+
+} // namespace
+
+void SimulationArguments::declare(Command command) {
+  const Option simulate = command.flag("--simulate", on, "the virtual board under a touch that moves over the areas");
+  command.option("--samples", samples, "solved samples that drive the virtual board (default: the paper's)")
+      .needs(simulate);
+  command.option("--hold", hold, "AREA:FX,FY,FZ [N]: this touch is held on the virtual board (needs its --design)")
+      .needs(simulate);
+  command.option("--noise", noise, "of the virtual board, relative to R (default 5e-6)").needs(simulate);
+  command.option("--warming", warming, "of the virtual board in degC (default 0)").needs(simulate);
+  command.option("--hysteresis", hysteresis, "of the virtual board, share 0 to 1 (default 0)").needs(simulate);
+  command.option("--rate", rate, "reports a second of the virtual board (default 1000)").needs(simulate);
+  command.option("--seed", seed, "of the virtual board's noise (default 1)").needs(simulate);
+  command.option("--open-row", openRow, "of the virtual board: this row-wire is broken").needs(simulate);
+  command.option("--open-column", openColumn, "of the virtual board: this column-wire is broken").needs(simulate);
+  command.option("--drop-every", dropEvery, "of the virtual board: every n-th report is lost (default 0: none)")
+      .needs(simulate);
+}
+
+double numberUpTo(const std::string& option, const std::string& value, double most) {
+  const double result = number(option, value);
+  if (!(result >= 0 && result <= most))
+    throw UsageError(option + ": '" + value + "'; allowed is 0 to " + std::to_string(static_cast<int>(most)));
+  return result;
+}
+
+std::unique_ptr<ReportSource> openSimulated(const SimulationArguments& arguments, const std::string& design) {
+  SimulatedBoardOptions options;
+  options.samples = arguments.samples;
+  options.disturbance.noise = numberUpTo("--noise", arguments.noise, 1);
+  options.disturbance.warming_degC = numberUpTo("--warming", arguments.warming, 100);
+  options.disturbance.hysteresisShare = numberUpTo("--hysteresis", arguments.hysteresis, 1);
+  if (!arguments.openRow.empty()) options.faults.openRows = {wholeNumber("--open-row", arguments.openRow, 0, 31)};
+  if (!arguments.openColumn.empty())
+    options.faults.openColumns = {wholeNumber("--open-column", arguments.openColumn, 0, 254)};
+  options.faults.dropEvery = wholeNumber("--drop-every", arguments.dropEvery, 0, 1'000'000);
+  options.rate_Hz = wholeNumber("--rate", arguments.rate, 1, 8000);
+  options.seed = static_cast<std::uint64_t>(wholeNumber("--seed", arguments.seed, 0, 2'147'483'647));
+  if (!arguments.hold.empty()) {
+    options.solved = std::make_shared<SampleSet>(loadSamples(simulatedSamples(options)));
+    options.hand = holdingHand(arguments.hold, design, *options.solved);
+  }
+  return openSimulatedBoard(options);
+}
+
+} // namespace palp

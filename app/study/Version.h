@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+namespace palp {
+
+/// This program's version, as "1.0.0".
+std::string version();
+
+/// What a report of a fault should begin with: version, the commit that was built (with "+" where files differed from
+/// it; "unknown" outside of git), compiler, and the libraries that are loaded, by their files.
+std::string versionInWords();
+
+} // namespace palp
