@@ -39,6 +39,7 @@ nlohmann::ordered_json toJson(const StageLog& stages) {
 std::string pagesInWords() {
   try {
     return "Pages to read: " + resource("docs/architecture.md").parent_path().string() +
+           "\n  guide.md        a first hour, from an empty folder to a calibrated recording"
            "\n  architecture.md where to begin, how to add a command, a scene, a decoder or a report"
            "\n  physics.md      the sensor, its equations, what can be compared with the paper"
            "\n  numerics.md     elements, solver, networks, bounds: formulas and their sources"
