@@ -7,6 +7,7 @@
 #include "nn/rivals/BackPropagation.h"
 #include "nn/rivals/ForwardModel.h"
 #include "nn/rivals/GaussianProcess.h"
+#include "nn/rivals/KernelInversion.h"
 #include "nn/rivals/PolynomialRidge.h"
 
 #include <optional>
@@ -35,18 +36,23 @@ enum class DecoderKind {
   TwoStepBackPropagation, ///< the paper's step 1 by a back-propagation network (its reference [12]), then step 2
   TwoStepGaussNewton,     ///< step 1 by inverting Eq. (1), or the field, then step 2
   MaximumLikelihood,      ///< inverts a polynomial forward model: area and force at once
+  TouchInversion,         ///< inverts a forward model of touches by Gaussians: force and place at once
 };
 inline constexpr NamedEnum kDecoderKinds(
-    "decoder", std::array{std::pair{DecoderKind::Rbf, "rbf"}, std::pair{DecoderKind::Linear, "linear"},
-                          std::pair{DecoderKind::Polynomial2, "poly2"}, std::pair{DecoderKind::Polynomial3, "poly3"},
-                          std::pair{DecoderKind::GaussianProcess, "gp"}, std::pair{DecoderKind::BackPropagation, "bp"},
-                          std::pair{DecoderKind::TwoStepBackPropagation, "two-step-bp"},
-                          std::pair{DecoderKind::TwoStepGaussNewton, "two-step-gn"},
-                          std::pair{DecoderKind::MaximumLikelihood, "ml"}});
+    "decoder",
+    std::array{std::pair{DecoderKind::Rbf, "rbf"}, std::pair{DecoderKind::Linear, "linear"},
+               std::pair{DecoderKind::Polynomial2, "poly2"}, std::pair{DecoderKind::Polynomial3, "poly3"},
+               std::pair{DecoderKind::GaussianProcess, "gp"}, std::pair{DecoderKind::BackPropagation, "bp"},
+               std::pair{DecoderKind::TwoStepBackPropagation, "two-step-bp"},
+               std::pair{DecoderKind::TwoStepGaussNewton, "two-step-gn"},
+               std::pair{DecoderKind::MaximumLikelihood, "ml"}, std::pair{DecoderKind::TouchInversion, "touch"}});
 inline std::string name(DecoderKind kind) {
   return kDecoderKinds.name(kind);
 }
+/// Those that learn forces on load areas: all but the one for touches alone.
 std::vector<DecoderKind> allDecoderKinds();
+/// Whether a decoder of this kind can give the place of a touch beside its force.
+bool takesPlace(DecoderKind kind);
 
 /// The two modes of a network; any other option overrides the mode.
 enum class DecoderMode { Default, Paper };
@@ -80,6 +86,20 @@ struct TwoStep {
   RbfNetwork force; ///< step 2
 };
 
+/// What a decoder gives.
+enum class DecoderTarget {
+  Force,
+  ForceAndPlace ///< of one touch: after the force its place on the top face
+};
+inline constexpr NamedEnum kDecoderTargets("target",
+                                           std::array{std::pair{DecoderTarget::Force, "force"},
+                                                      std::pair{DecoderTarget::ForceAndPlace, "force+place"}});
+
+/// Along x and y: training range of the place, and the rms error of it that was found in training.
+struct DecoderPlace {
+  Eigen::VectorXd low_mm, high_mm, residual_mm;
+};
+
 /// What a decoder reads: kind and row-wires, and their range in training.
 struct DecoderInput {
   InputKind kind = InputKind::Displacement;
@@ -92,7 +112,9 @@ struct DecoderInput {
 /// A trained map from the sensor's readings to the force, with everything needed to use and to judge it.
 struct Decoder {
   DecoderKind kind = DecoderKind::Rbf;
-  std::variant<RbfNetwork, PolynomialRidge, GaussianProcess, BackPropagationNetwork, TwoStep, ForwardModel> model;
+  std::variant<RbfNetwork, PolynomialRidge, GaussianProcess, BackPropagationNetwork, TwoStep, ForwardModel,
+               KernelForwardModel>
+      model;
   DecoderInput input;
   std::string designFingerprint;
   std::optional<Readout> readout; ///< of the resistances it was trained on; none: Eq. (1), or not known
@@ -102,12 +124,15 @@ struct Decoder {
   double noise = 0; ///< relative noise of the inputs it was trained with
   int areaCount = 0;
   bool together = false;             ///< one force per area at once: 3 x areas outputs
-  Eigen::VectorXd low_N, high_N;     ///< training range of each output
-  Eigen::MatrixXd residual_N;        ///< outputs x areas (1 where unknown): rms error found in training, per area
+  std::string touches;               ///< the indenters it was trained on, in words; empty: forces on whole areas
+  std::optional<DecoderPlace> place; ///< of a decoder of force and place, whose model gives x and y after the force
+  Eigen::VectorXd low_N, high_N;     ///< training range of each force
+  Eigen::MatrixXd residual_N;        ///< forces x areas (1 where unknown): rms error found in training, per area
   std::optional<ForwardModel> areas; ///< finds the touched area; none for `together` or where there is one area
   std::vector<int> areaOfClass;      ///< area of each class of `areas` (or of the maximum likelihood decoder)
   FitReport report;                  ///< of the fit; sizes in N
 
+  /// Components of the forces.
   [[nodiscard]] Eigen::Index outputs() const { return low_N.size(); }
   [[nodiscard]] Eigen::Index inputs() const { return input.low.size(); }
 };

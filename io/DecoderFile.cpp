@@ -66,6 +66,15 @@ FitReport readReport(const JsonPlace& place) {
   return report;
 }
 
+DecoderPlace readPlace(const JsonPlace& json) {
+  json.onlyKeys({"low_mm", "high_mm", "residual_mm"}, {});
+  DecoderPlace place{readVector(json.at("low_mm")), readVector(json.at("high_mm")), readVector(json.at("residual_mm"))};
+  for (const auto& [key, values] :
+       {std::pair{"low_mm", &place.low_mm}, {"high_mm", &place.high_mm}, {"residual_mm", &place.residual_mm}})
+    requireSize(json.at(key), values->size(), 2, "numbers, along x and y");
+  return place;
+}
+
 void readModel(const JsonPlace& place, Decoder& decoder) {
   switch (decoder.kind) {
   case DecoderKind::Rbf:
@@ -89,6 +98,9 @@ void readModel(const JsonPlace& place, Decoder& decoder) {
   case DecoderKind::MaximumLikelihood:
     decoder.model = readForwardModel(place);
     return;
+  case DecoderKind::TouchInversion:
+    decoder.model = readKernelForwardModel(place);
+    return;
   }
 }
 
@@ -96,7 +108,7 @@ Eigen::Index inputsOf(const Decoder& decoder) {
   return std::visit(
       [](const auto& model) -> Eigen::Index {
         using Model = std::decay_t<decltype(model)>;
-        if constexpr (std::is_same_v<Model, ForwardModel>)
+        if constexpr (std::is_same_v<Model, ForwardModel> || std::is_same_v<Model, KernelForwardModel>)
           return model.measurements();
         else if constexpr (std::is_same_v<Model, TwoStep>)
           return model.network ? model.network->inputs()
@@ -108,11 +120,16 @@ Eigen::Index inputsOf(const Decoder& decoder) {
       decoder.model);
 }
 
+constexpr Eigen::Index kTouchOutputs = 5; // force and place
+
 Eigen::Index outputsOf(const Decoder& decoder) {
   return std::visit(
       [](const auto& model) -> Eigen::Index {
         using Model = std::decay_t<decltype(model)>;
-        if constexpr (std::is_same_v<Model, ForwardModel>)
+        if constexpr (std::is_same_v<Model, KernelForwardModel>)
+          return std::min<Eigen::Index>(model.causes(),
+                                        kTouchOutputs); // after them what is found beside: size, friction
+        else if constexpr (std::is_same_v<Model, ForwardModel>)
           return model.causes();
         else if constexpr (std::is_same_v<Model, TwoStep>)
           return model.force.outputs();
@@ -139,18 +156,23 @@ void requireAreas(const JsonPlace& root, const Decoder& decoder) {
 }
 
 void requireFitting(const JsonPlace& root, const Decoder& decoder) {
-  const Eigen::Index outputs = outputsOf(decoder);
   const Eigen::Index forces = 3 * static_cast<Eigen::Index>(decoder.together ? decoder.areaCount : 1);
-  requireSize(root.at("model"), outputs, forces,
-              decoder.together ? "outputs, three an area" : "outputs, the components of one force");
+  if (decoder.place && (decoder.together || !takesPlace(decoder.kind)))
+    root.at("place").refuse("left out: this decoder gives none");
+  if (decoder.kind == DecoderKind::TouchInversion && !decoder.place)
+    root.at("model").refuse("beside \"place\": this decoder gives one");
+  requireSize(root.at("model"), outputsOf(decoder), forces + (decoder.place ? 2 : 0),
+              decoder.together ? "outputs, three an area"
+              : decoder.place  ? "outputs, the components of one force and the two of its place"
+                               : "outputs, the components of one force");
   requireSize(root.at("input"), decoder.inputs(), inputsOf(decoder), "inputs, as the model takes");
-  requireSize(root.at("low_N"), decoder.low_N.size(), outputs, "numbers, one an output");
-  requireSize(root.at("high_N"), decoder.high_N.size(), outputs, "numbers, one an output");
-  requireSize(root.at("residual_N"), decoder.residual_N.rows(), outputs, "rows, one an output");
+  requireSize(root.at("low_N"), decoder.low_N.size(), forces, "numbers, one a component of the force");
+  requireSize(root.at("high_N"), decoder.high_N.size(), forces, "numbers, one a component of the force");
+  requireSize(root.at("residual_N"), decoder.residual_N.rows(), forces, "rows, one a component of the force");
   if (decoder.residual_N.cols() < 1) root.at("residual_N").refuse("one column or more");
   if (decoder.areas) {
     requireSize(root.at("areas"), decoder.areas->measurements(), decoder.inputs(), "measurements, one an input");
-    requireSize(root.at("areas"), decoder.areas->causes(), outputs, "causes, one an output");
+    requireSize(root.at("areas"), decoder.areas->causes(), forces, "causes, one a component of the force");
   }
   requireAreas(root, decoder);
 }
@@ -172,6 +194,11 @@ std::string networkText(const Decoder& decoder) {
                       {"high_N", toJson(decoder.high_N)},
                       {"residual_N", toJson(decoder.residual_N)},
                       {"fit", reportJson(decoder.report)}};
+  if (!decoder.touches.empty()) json["touches"] = decoder.touches;
+  if (decoder.place)
+    json["place"] = {{"low_mm", toJson(decoder.place->low_mm)},
+                     {"high_mm", toJson(decoder.place->high_mm)},
+                     {"residual_mm", toJson(decoder.place->residual_mm)}};
   if (decoder.readout) json["readout"] = kReadouts.name(*decoder.readout);
   json["model"] = std::visit([](const auto& model) { return toJson(model); }, decoder.model);
   json["area_of_class"] = decoder.areaOfClass;
@@ -187,7 +214,7 @@ Decoder parseNetwork(const std::string& text, const std::string& file) {
   root.onlyKeys({"palp_network", "decoder", "mode", "trained_with", "design_fingerprint", "seed", "noise_relative",
                  "input", "area_count", "together", "low_N", "high_N", "residual_N", "fit", "model", "area_of_class",
                  "areas"},
-                {"readout"});
+                {"readout", "touches", "place"});
   Decoder decoder;
   decoder.kind = root.at("decoder").named(kDecoderKinds);
   decoder.mode = root.at("mode").named(kDecoderModes);
@@ -206,6 +233,8 @@ Decoder parseNetwork(const std::string& text, const std::string& file) {
   decoder.low_N = readVector(root.at("low_N"));
   decoder.high_N = readVector(root.at("high_N"));
   decoder.residual_N = readMatrix(root.at("residual_N"));
+  if (root.has("touches")) decoder.touches = root.at("touches").string();
+  if (root.has("place")) decoder.place = readPlace(root.at("place"));
   decoder.report = readReport(root.at("fit"));
   readModel(root.at("model"), decoder);
   decoder.areaOfClass = readIntegers(root.at("area_of_class"));

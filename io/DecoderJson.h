@@ -18,6 +18,7 @@ OrderedJson toJson(const GaussianProcess& process);
 OrderedJson toJson(const BackPropagationNetwork& network);
 OrderedJson toJson(const TwoStep& decoder);
 OrderedJson toJson(const ForwardModel& model);
+OrderedJson toJson(const KernelForwardModel& model);
 
 /// Readers throw Error with file, key, value and what is allowed; sizes that do not fit together too.
 Eigen::VectorXd readVector(const JsonPlace& place);
@@ -29,6 +30,7 @@ GaussianProcess readGaussianProcess(const JsonPlace& place);
 BackPropagationNetwork readBackPropagation(const JsonPlace& place);
 TwoStep readTwoStep(const JsonPlace& place);
 ForwardModel readForwardModel(const JsonPlace& place);
+KernelForwardModel readKernelForwardModel(const JsonPlace& place);
 
 /// Refuses `place` unless its size is what the rest of the file wants.
 void requireSize(const JsonPlace& place, Eigen::Index size, Eigen::Index wanted, const std::string& what);

@@ -1,6 +1,7 @@
 #include "io/SampleHead.h"
 
 #include "io/SampleFile.h"
+#include "model/Indenter.h"
 #include "model/base/Error.h"
 #include "model/base/Text.h"
 
@@ -112,6 +113,7 @@ SampleOrigin readOrigin(const SampleLines& lines, HeadLines& head) {
   origin.seed = head.number("seed", ~std::uint64_t{0});
   origin.areas = head.text("areas");
   origin.perArea = head.number("per_area", std::numeric_limits<int>::max());
+  if (head.has("touch_range")) origin.touches = head.text("touch_range");
   origin.mesh = head.text("mesh");
   origin.solverTolerance = head.number("solver_tolerance", 1e300);
   const std::string kind = head.text("kind");
@@ -129,6 +131,7 @@ void readColumns(const SampleLines& lines, const std::string& line, SampleSet& s
   const auto rowWires = static_cast<Eigen::Index>(set.rowWires);
   const bool displacements = line.find(",u_r") != std::string::npos;
   const bool resistances = line.find(",R_r") != std::string::npos;
+  set.touches.resize(set.origin.touches.empty() ? 0 : kTouchRows, 0);
   set.forces_N.resize(loadedTogether(set) ? 3 * set.areaCount : 3, 0);
   set.displacements_mm.resize(displacements ? 3 * rowWires * set.electrodesPerRowWire : 0, 0);
   set.resistances_ohm.resize(resistances ? rowWires * set.columnWires : 0, 0);
@@ -152,6 +155,13 @@ void requireArea(const SampleLines& lines, const SampleSet& head, int area) {
     lines.refuse(found + "0 to " + std::to_string(head.areaCount - 1));
 }
 
+/// The number that stands for a shape in SampleSet::touches.
+double readShape(const SampleLines& lines, const std::string& name) {
+  const auto shape = indenterShape(name);
+  if (!shape) lines.refuse("shape is " + shown(name) + "; allowed is " + indenterShapes());
+  return static_cast<double>(*shape);
+}
+
 void append(std::string& text, double value) {
   std::array<char, 32> digits{};
   const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
@@ -173,6 +183,7 @@ std::string sampleFileHead(const SampleSet& set) {
   line("seed", std::to_string(origin.seed));
   line("areas", origin.areas);
   line("per_area", std::to_string(origin.perArea));
+  if (!origin.touches.empty()) line("touch_range", origin.touches);
   line("mesh", origin.mesh);
   line("solver_tolerance", text(origin.solverTolerance));
   line("kind", origin.surrogate ? kSurrogate : kFullSolves);
@@ -187,6 +198,7 @@ std::string sampleFileHead(const SampleSet& set) {
 
 std::string sampleColumns(const SampleSet& set) {
   std::string names = "area";
+  if (set.touches.rows() > 0) names += ",shape,size_mm,friction,x_mm,y_mm";
   if (set.forces_N.rows() == 3) {
     names += ",fx_N,fy_N,fz_N";
   } else {
@@ -237,7 +249,7 @@ SampleSet readSampleHead(SampleLines& lines) {
 }
 
 std::size_t sampleFields(const SampleSet& head) {
-  return static_cast<std::size_t>(1 + head.forces_N.rows() + head.displacements_mm.rows() +
+  return static_cast<std::size_t>(1 + head.touches.rows() + head.forces_N.rows() + head.displacements_mm.rows() +
                                   head.resistances_ohm.rows());
 }
 
@@ -258,8 +270,15 @@ void readSampleLine(const SampleLines& lines, std::string_view line, SampleSet& 
   };
   read(set.area(column));
   requireArea(lines, set, set.area(column));
-  for (Eigen::MatrixXd* part : {&set.forces_N, &set.displacements_mm, &set.resistances_ohm})
+  for (Eigen::MatrixXd* part : {&set.touches, &set.forces_N, &set.displacements_mm, &set.resistances_ohm})
     for (Eigen::Index row = 0; row < part->rows(); ++row) {
+      if (part == &set.touches && row == kTouchShape) {
+        const char* const stop = std::find(next, end, ',');
+        set.touches(row, column) = readShape(lines, std::string(next, stop));
+        next = stop == end ? end : stop + 1;
+        ++field;
+        continue;
+      }
       read((*part)(row, column));
       if (!std::isfinite((*part)(row, column)))
         lines.refuse("field " + std::to_string(field) + " is " + text((*part)(row, column)) +
@@ -270,6 +289,10 @@ void readSampleLine(const SampleLines& lines, std::string_view line, SampleSet& 
 void appendSampleLines(std::string& text, const SampleSet& set, Eigen::Index first, Eigen::Index count) {
   for (Eigen::Index i = first; i < first + count; ++i) {
     text += std::to_string(set.area(i));
+    if (set.touches.rows() > 0) {
+      text += "," + shapeName(static_cast<IndenterShape>(set.touches(kTouchShape, i)));
+      for (Eigen::Index row = kTouchSize_mm; row < set.touches.rows(); ++row) append(text, set.touches(row, i));
+    }
     for (const Eigen::MatrixXd* part : {&set.forces_N, &set.displacements_mm, &set.resistances_ohm})
       for (Eigen::Index row = 0; row < part->rows(); ++row) append(text, (*part)(row, i));
     text.push_back('\n');

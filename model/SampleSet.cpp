@@ -13,6 +13,7 @@ std::string difference(const SampleOrigin& a, const SampleOrigin& b) {
   if (a.designFingerprint != b.designFingerprint) return differs("design", a.designFingerprint, b.designFingerprint);
   if (a.seed != b.seed) return differs("seed", std::to_string(a.seed), std::to_string(b.seed));
   if (a.areas != b.areas) return differs("areas", a.areas, b.areas);
+  if (a.touches != b.touches) return differs("touches", a.touches, b.touches);
   if (a.perArea != b.perArea) return differs("per_area", std::to_string(a.perArea), std::to_string(b.perArea));
   if (a.mesh != b.mesh) return differs("mesh", a.mesh, b.mesh);
   if (a.solverTolerance != b.solverTolerance)
@@ -28,6 +29,7 @@ SampleSet areaPart(const SampleSet& set, int area) {
     if (set.area(i) == area) chosen.push_back(i);
   SampleSet part = set;
   part.area = set.area(chosen);
+  if (set.hasTouches()) part.touches = set.touches(Eigen::all, chosen);
   part.forces_N = set.forces_N(Eigen::all, chosen);
   part.displacements_mm = set.displacements_mm(Eigen::all, chosen);
   part.resistances_ohm = set.resistances_ohm(Eigen::all, chosen);
@@ -47,6 +49,7 @@ void append(SampleSet& set, const SampleSet& block) {
     to.conservativeResize(Eigen::NoChange, before + added);
     to.rightCols(added) = from;
   };
+  if (set.hasTouches()) addColumns(set.touches, block.touches);
   addColumns(set.forces_N, block.forces_N);
   addColumns(set.displacements_mm, block.displacements_mm);
   addColumns(set.resistances_ohm, block.resistances_ohm);

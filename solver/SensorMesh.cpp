@@ -6,12 +6,16 @@
 #include "solver/mesh/GradedTets.h"
 #include "solver/mesh/MappedHexes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
 namespace palp {
 
 namespace {
+
+/// Cells for touches anywhere, in those of a mesh that is made for one touch: for the paper's block about 1 mm.
+constexpr double kCellsBesideOneTouch = 2.7;
 
 void requireMapped(const std::array<int, 3>& counts) {
   const double elements = double(counts[0]) * counts[1] * counts[2];
@@ -34,6 +38,25 @@ MeshOptions meshFor(const SensorDesign& design, const LoadCase& load, MeshOption
   options.discs = graded ? fineDiscs(load) : std::vector<FineDisc>{};
   options.zones = graded ? fineZones(design, load) : std::vector<FineZone>{};
   options.fineBorders = load.indenters.empty() || !load.areas.empty();
+  return options;
+}
+
+MeshOptions meshForTouches(const SensorDesign& design, const TouchRange& range, MeshOptions options) {
+  if (options.mapped) return options;
+  Indenter middle{range.shape,
+                  (range.smallest_mm + range.largest_mm) / 2,
+                  range.rim_mm,
+                  (range.low_mm + range.high_mm) / 2,
+                  0,
+                  Press{{0, 0, -(range.leastPress_N + range.mostPress_N) / 2}}};
+  options.zones = fineZones(design, {.areas = {}, .patches = {}, .indenters = {middle}});
+  options.zones.resize(
+      std::min<std::size_t>(options.zones.size(), 1)); // not those of a punch's rim: it may be anywhere
+  for (FineZone& zone : options.zones) {
+    zone.size_mm *= kCellsBesideOneTouch;
+    zone.half_mm += (range.high_mm - range.low_mm) / 2;
+  }
+  options.fineBorders = false;
   return options;
 }
 

@@ -3,6 +3,7 @@
 #include "model/LoadCase.h"
 #include "model/Mesh.h"
 #include "model/SensorDesign.h"
+#include "model/TouchRange.h"
 
 #include <array>
 #include <optional>
@@ -41,6 +42,10 @@ struct MeshOptions {
 /// The options with what the load asks of a mesh of tetrahedra in place of theirs: discs and zones, and borders of the
 /// load areas where an area is loaded or no indenter presses.
 MeshOptions meshFor(const SensorDesign& design, const LoadCase& load, MeshOptions options);
+
+/// The options with what touches anywhere in the range ask of a mesh of tetrahedra: cells of one size all over their
+/// rectangle, from the contact of a touch in the middle of the range.
+MeshOptions meshForTouches(const SensorDesign& design, const TouchRange& range, MeshOptions options);
 
 /// Elements of the largest mesh that is made.
 inline constexpr double mostElements = 1e6;

@@ -2,6 +2,7 @@
 
 #include "io/SampleFile.h"
 #include "io/SampleHead.h"
+#include "model/Indenter.h"
 #include "model/base/Error.h"
 #include "model/base/Text.h"
 
@@ -58,6 +59,12 @@ std::vector<SampleArray> sampleArrays(const SampleSet& head) {
   std::vector<SampleArray> arrays;
   const auto areas =
       head.forces_N.rows() == 3 ? std::vector<std::uint64_t>{3} : std::vector<std::uint64_t>{asSize(head.areaCount), 3};
+  if (head.touches.rows() > 0)
+    arrays.push_back(
+        {"touches",
+         "shape (0 sphere, 1 pin, 2 flat, 3 cylinder-x, 4 cylinder-y, 5 plane), size mm, friction 1, x mm, y mm",
+         {kTouchRows},
+         &SampleSet::touches});
   arrays.push_back({"forces_N", "N", areas, &SampleSet::forces_N});
   if (head.displacements_mm.rows() > 0)
     arrays.push_back({"displacements_mm",
@@ -81,6 +88,7 @@ void resizeSamples(SampleSet& set, Eigen::Index samples) {
     values.resize(values.rows(), samples); // without a copy
     hintHugePages(values);
   }
+  if (set.touches.rows() == 0) set.touches.resize(0, samples);
   if (set.displacements_mm.rows() == 0) set.displacements_mm.resize(0, samples);
   if (set.resistances_ohm.rows() == 0) set.resistances_ohm.resize(0, samples);
 }
@@ -93,7 +101,8 @@ SampleSet samplesBetween(const SampleSet& set, Eigen::Index first, Eigen::Index 
   part.columnWires = set.columnWires;
   part.areaCount = set.areaCount;
   part.area = set.area.segment(first, count);
-  for (const auto values : {&SampleSet::forces_N, &SampleSet::displacements_mm, &SampleSet::resistances_ohm})
+  for (const auto values :
+       {&SampleSet::touches, &SampleSet::forces_N, &SampleSet::displacements_mm, &SampleSet::resistances_ohm})
     part.*values = (set.*values).middleCols(first, (set.*values).cols() == 0 ? 0 : count);
   return part;
 }
@@ -152,6 +161,12 @@ void requireSamples(const std::filesystem::path& file, const SampleSet& set, Eig
     if (set.area(i) < low || set.area(i) > high)
       refuse(i, "area " + std::to_string(set.area(i)) + "; allowed is " +
                     (together ? "-1: by the head all areas are loaded together" : "0 to " + std::to_string(high)));
+  for (Eigen::Index i = first; set.touches.rows() > 0 && i < first + count; ++i) {
+    const double shape = set.touches(kTouchShape, i);
+    if (!(shape >= 0 && shape < static_cast<double>(kIndenterShapes.all().size()) && shape == std::floor(shape)))
+      refuse(i, "shape " + text(shape) + "; allowed is a whole number from 0 to " +
+                    std::to_string(kIndenterShapes.all().size() - 1));
+  }
   if (finite) return;
   for (const SampleArray& array : sampleArrays(set)) {
     const auto values = (set.*array.values).middleCols(first, count);

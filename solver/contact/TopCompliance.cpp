@@ -3,6 +3,9 @@
 #include "model/base/Parallel.h"
 #include "solver/contact/ContactPoints.h"
 
+#include <algorithm>
+#include <numeric>
+
 namespace palp {
 
 std::shared_ptr<const TopCompliance> TopCompliance::find(const ElementwiseTangent& tangent, const Mesh& mesh,
@@ -16,17 +19,26 @@ std::shared_ptr<const TopCompliance> TopCompliance::find(const ElementwiseTangen
   const auto row = [&](int i) { // of the factor, for unknown i of the pressed nodes
     return std::size_t(tangent.factorRows()[3 * std::size_t(found->nodes_[i / 3]) + i % 3]);
   };
+  // The inverse is symmetric: of each column only what belongs to later rows of the factor is found, which takes no
+  // supernode before the column's own. Columns that are solved together begin near each other.
+  std::vector<int> order(3 * std::size_t(count));
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return row(a) < row(b); });
   forChunks(3 * count, batchLanes, threads, [&](int begin, int end) {
     std::vector<float> x(std::size_t(tangent.rightSideRows()) * batchLanes);
-    for (int i = begin; i < end; ++i) x[row(i) * batchLanes + (i - begin)] = 1;
+    for (int i = begin; i < end; ++i) x[row(order[i]) * batchLanes + (i - begin)] = 1;
     constexpr unsigned all = (1U << unsigned(batchLanes / lanes)) - 1;
     constexpr int supernodesACall = 64; // between looks at a stop request
-    for (int first = 0; first < factor.count && !stop.stop_requested(); first += supernodesACall)
+    const auto own = std::upper_bound(factor.first, factor.first + factor.count, int(row(order[begin]))) - 1;
+    const int from = int(own - factor.first);
+    for (int first = from; first < factor.count && !stop.stop_requested(); first += supernodesACall)
       laneKernels().forward(factor, first, std::min(factor.count, first + supernodesACall), all, x.data());
-    for (int last = factor.count; last > 0 && !stop.stop_requested(); last -= supernodesACall)
-      laneKernels().backward(factor, std::max(0, last - supernodesACall), last, all, x.data());
+    for (int last = factor.count; last > from && !stop.stop_requested(); last -= supernodesACall)
+      laneKernels().backward(factor, std::max(from, last - supernodesACall), last, all, x.data());
     for (int i = begin; i < end; ++i)
-      for (int k = 0; k < 3 * count; ++k) found->blocks_(k, i) = x[row(k) * batchLanes + (i - begin)];
+      for (int k = i; k < 3 * count; ++k)
+        found->blocks_(order[k], order[i]) = found->blocks_(order[i], order[k]) =
+            x[row(order[k]) * batchLanes + (i - begin)];
   });
   if (stop.stop_requested()) return {};
   return found;

@@ -44,6 +44,18 @@ TEST_P(SampleArrays, ReadBackTheSameNumbers) {
     }
 }
 
+TEST_P(SampleArrays, KeepTheTouches) {
+  for (const Eigen::Index size : {1, 5000}) {
+    const SampleSet set = randomTouches(size, 4);
+    saveSamples(file("touches"), set, true);
+    expectSame(loadSamples(file("touches")), set);
+  }
+  SampleSet wrong = randomTouches(3, 4);
+  wrong.touches(kTouchShape, 1) = 6;
+  saveSamples(file("wrong"), wrong, true);
+  expectIn(sentenceOf(file("wrong")), {"sample 1", "shape 6; allowed is a whole number from 0 to 5"});
+}
+
 TEST_P(SampleArrays, KeepTheHead) {
   SampleSet set = randomSet(2, 1);
   set.origin.seed = std::numeric_limits<std::uint64_t>::max();

@@ -37,9 +37,23 @@ inline SampleSet randomSet(Eigen::Index size, unsigned seed, bool together = fal
   return set;
 }
 
+/// The same as touches by an indenter.
+inline SampleSet randomTouches(Eigen::Index size, unsigned seed) {
+  SampleSet set = randomSet(size, seed);
+  set.origin.areas = "touches";
+  set.origin.touches = "sphere:3..6@3,3,27,27 press 0.5..6";
+  std::mt19937_64 engine(seed);
+  set.touches.resize(kTouchRows, size);
+  for (Eigen::Index i = 0; i < size; ++i)
+    set.touches.col(i) << static_cast<double>(i % 6), std::ldexp(double(engine() >> 11U), -50), 0.25,
+        3 + 0.1 * double(i), std::ldexp(double(engine() >> 11U), -49);
+  return set;
+}
+
 inline SampleSet slice(const SampleSet& set, Eigen::Index first, Eigen::Index count) {
   SampleSet part = set;
   part.area = set.area.segment(first, count);
+  if (set.hasTouches()) part.touches = set.touches.middleCols(first, count);
   part.forces_N = set.forces_N.middleCols(first, count);
   part.displacements_mm = set.displacements_mm.middleCols(first, count);
   part.resistances_ohm = set.resistances_ohm.middleCols(first, count);
@@ -50,6 +64,10 @@ inline void expectSame(const SampleSet& a, const SampleSet& b) {
   EXPECT_EQ(difference(a.origin, b.origin), "");
   EXPECT_EQ(a.origin.firstSample, b.origin.firstSample);
   EXPECT_EQ(a.area, b.area);
+  EXPECT_EQ(a.hasTouches(), b.hasTouches());
+  if (a.hasTouches()) {
+    EXPECT_EQ(a.touches, b.touches);
+  }
   EXPECT_EQ(a.forces_N, b.forces_N);
   EXPECT_EQ(a.displacements_mm, b.displacements_mm);
   EXPECT_EQ(a.resistances_ohm, b.resistances_ohm);

@@ -40,12 +40,18 @@ std::string csv(const Decoder& decoder, const Prediction& prediction) {
   for (Eigen::Index o = 0; o < decoder.outputs(); ++o) text += "," + outputName(decoder, o);
   if (deviation)
     for (Eigen::Index o = 0; o < decoder.outputs(); ++o) text += ",sd_" + outputName(decoder, o);
+  const bool place = prediction.places_mm.size() > 0;
+  if (place) text += deviation ? ",x_mm,y_mm,sd_x_mm,sd_y_mm" : ",x_mm,y_mm";
   text += ",outside_training_range" + std::string(area ? ",area,area_confidence\n" : "\n");
   for (Eigen::Index i = 0; i < prediction.forces_N.cols(); ++i) {
     text += std::to_string(i);
     for (const double force : prediction.forces_N.col(i)) text += "," + palp::text(force);
     if (deviation)
       for (const double sd : prediction.standardDeviation_N.col(i)) text += "," + palp::text(sd);
+    if (place)
+      for (const double at : prediction.places_mm.col(i)) text += "," + palp::text(at);
+    if (place && deviation)
+      for (const double sd : prediction.placeDeviation_mm.col(i)) text += "," + palp::text(sd);
     text += prediction.outsideTrainingRange[static_cast<std::size_t>(i)] ? ",1" : ",0";
     if (area) text += "," + std::to_string(prediction.area(i)) + "," + palp::text(prediction.areaConfidence(i));
     text += '\n';
@@ -64,6 +70,15 @@ void fill(const Decoder& decoder, const Prediction& prediction, const DecoderErr
   }
   result["error"] = errorJson(error.error);
   if (error.rightAreas) result["right_areas"] = *error.rightAreas;
+  if (prediction.places_mm.size() > 0) {
+    result["place_mm"] = columnsJson(prediction.places_mm);
+    result["place_standard_deviation_mm"] = columnsJson(prediction.placeDeviation_mm);
+  }
+  if (error.place) {
+    result["place_error"] = {{"rms_mm", listJson(error.place->rms_mm)}, {"median_mm", error.place->median_mm}};
+    if (error.place->withinOneDeviation)
+      result["place_error"]["share_within_one_deviation"] = *error.place->withinOneDeviation;
+  }
   result["microseconds_per_sample"] = prediction.microsecondsPerSample;
   result["decoder"] = name(decoder.kind);
 }
@@ -76,6 +91,9 @@ void print(const Prediction& prediction, const DecoderError& error) {
             << "RMSE [% of training range]:      " << error.error.rmsePercentOfRange.transpose() << '\n'
             << prediction.forces_N.cols() << " samples, " << count << " outside the training range, "
             << prediction.microsecondsPerSample << " us a sample\n";
+  if (error.place)
+    std::cout << "place: rms " << error.place->rms_mm.transpose() << " mm along x, y; median distance "
+              << error.place->median_mm << " mm\n";
   if (error.rightAreas) std::cout << "right areas: " << 100 * *error.rightAreas << " %\n";
 }
 
@@ -95,14 +113,13 @@ Exit run(const Arguments& arguments, Session& session) {
   const Eigen::MatrixXd clean = inputsOf(samples, decoder.input);
   const Eigen::MatrixXd inputs = noisyCopies(clean, options.noise, 1, static_cast<std::uint64_t>(seed));
   Prediction prediction = session.stages.measure("predict", [&] { return predict(decoder, inputs, options); });
-  if (samples.origin.designFingerprint != decoder.designFingerprint)
-    prediction.warnings.push_back(otherDesign(decoder, samples));
+  for (std::string& warning : otherSamples(decoder, samples)) prediction.warnings.push_back(std::move(warning));
   for (const std::string& warning : prediction.warnings) std::cerr << "palp predict: " << warning << '\n';
   session.warnings.insert(session.warnings.end(), prediction.warnings.begin(), prediction.warnings.end());
   stopIfAsked(session.stop);
   const DecoderError error = decoderError(decoder, prediction, samples);
   fill(decoder, prediction, error, session);
-  if (options.noise > 0) {
+  if (options.noise > 0 && !samples.hasTouches()) { // the bound is of forces on known areas
     const NoiseBound bound = noiseBound(samples, decoder.input.kind, decoder.input.rows, options.noise);
     session.result["noise_bound"] = {{"without_prior_percent_of_range", listJson(bound.withoutPriorPercent)},
                                      {"with_prior_percent_of_range", listJson(bound.withPriorPercent)}};

@@ -1,6 +1,7 @@
 #include "app/cli/Cli.h"
 #include "app/cli/Options.h"
 #include "app/cli/ProgressBar.h"
+#include "app/cli/TouchOption.h"
 #include "app/study/touch/SampleGenerator.h"
 #include "io/SamplePartWriter.h"
 #include "model/base/Cancelled.h"
@@ -16,6 +17,7 @@ namespace {
 struct SampleArguments {
   std::string design;
   std::string perArea;
+  TouchArguments touches;
   std::string seed = "1";
   std::string areas = "each";
   std::string shardText;
@@ -29,9 +31,15 @@ std::uint64_t seedOption(const std::string& text) {
   return static_cast<std::uint64_t>(wholeNumber("--seed", text, 0, 2'147'483'647));
 }
 
-SampleRequest request(const SampleArguments& arguments, const Session& session) {
+SampleRequest request(const SampleArguments& arguments, const SensorDesign& design, const Session& session) {
   SampleRequest request;
-  request.perArea = wholeNumber("--per-area", arguments.perArea, 1, 10'000'000);
+  if (arguments.touches.given()) {
+    request.touches = arguments.touches.range(design);
+    request.perArea = wholeNumber("--count", arguments.touches.count, 1, 10'000'000);
+  } else {
+    if (arguments.perArea.empty()) throw UsageError("--per-area is missing (or --touch with --count)");
+    request.perArea = wholeNumber("--per-area", arguments.perArea, 1, 10'000'000);
+  }
   request.seed = seedOption(arguments.seed);
   request.areas = arguments.areas;
   request.surrogate = arguments.surrogate;
@@ -56,7 +64,7 @@ SampleRange shardOption(const std::string& text, std::size_t total) {
 Exit run(const SampleArguments& arguments, Session& session) {
   const SensorDesign design = designOption(arguments.design);
   arguments.output.requireWritable();
-  SampleGenerator generator(design, request(arguments, session));
+  SampleGenerator generator(design, request(arguments, design, session));
   const SampleRange range = shardOption(arguments.shardText, generator.total());
   SampleSet head = generator.emptySet(session.stop);
   if (session.stop.stop_requested()) { // before there is a head to write
@@ -109,10 +117,14 @@ void addSample(Cli& cli) {
                                 "palp sample paper --per-area 100 --seed 1 -o samples.csv",
                                 [arguments](Session& session) { return run(*arguments, session); });
   command.option("design", arguments->design, "design file, or paper").required();
-  command.option("--per-area", arguments->perArea, "samples on each area (with --areas together: in all)").required();
+  Option perArea =
+      command.option("--per-area", arguments->perArea, "samples on each area (with --areas together: in all)");
+  arguments->touches.declare(command, perArea);
   command.option("--seed", arguments->seed, "seed of the forces (default 1)");
-  command.option("--areas", arguments->areas, "each, together, or the number of one area (default each)");
-  command.flag("--surrogate", arguments->surrogate, "per-area polynomial of full solves: many samples in seconds");
+  command.option("--areas", arguments->areas, "each, together, or the number of one area (default each)")
+      .needs(perArea);
+  command.flag("--surrogate", arguments->surrogate, "per-area polynomial of full solves: many samples in seconds")
+      .needs(perArea);
   command.option("--tolerance", arguments->tolerance, "relative, against full Newton (default 1e-6)");
   command.option("--shard", arguments->shardText, "I/N: this part of the samples; palp merge joins them");
   arguments->mesh.declare(command, false);

@@ -25,8 +25,11 @@ void TrainArguments::declare(Command command, bool withSpread) {
   command.option("--rows", rows, "row-wires that are read: 4, or 1,4,7, or all (default 4, the centre)");
   command.option("--mode", mode, kDecoderModes.allowed() + ": what is not set below follows from it");
   command.option("--decoder", decoder, kDecoderKinds.allowed() + " (default rbf)");
-  if (withSpread)
+  if (withSpread) {
+    command.option("--target", target,
+                   kDecoderTargets.allowed() + ": of touches (palp sample --touch) the place as well (default force)");
     command.option("--spread", spread, "auto (by leave-one-out, default) or a number above 0, of scaled inputs");
+  }
   command.option("--centers", centers, "all, or how many");
   command.option("--centers-by", centersBy, kCenterChoices.allowed() + " (default: as the mode says)");
   command.option("--solver", solver, kLeastSquaresMethods.allowed());
@@ -47,6 +50,7 @@ TrainOptions TrainArguments::options() const {
   result.rows = rows;
   result.mode = chosen("--mode", mode, kDecoderModes);
   result.decoder = chosen("--decoder", decoder, kDecoderKinds);
+  result.target = chosen("--target", target, kDecoderTargets);
   if (spread != "auto") {
     result.spread = number("--spread", spread);
     if (!(*result.spread > 0)) throw UsageError("--spread: '" + spread + "'; allowed is auto or a number above 0");

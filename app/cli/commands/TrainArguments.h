@@ -14,6 +14,7 @@ struct TrainArguments {
   std::string rows = "4";
   std::string mode = "default";
   std::string decoder = "rbf";
+  std::string target = "force";
   std::string spread = "auto";
   std::string centers, centersBy, solver, ridge, scaler, tail, convention;
   std::string noise = "0";

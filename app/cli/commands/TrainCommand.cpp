@@ -53,7 +53,8 @@ void print(const Decoder& decoder, const Session& session) {
               << session.result["spread_convention"].get<std::string>() << ", scaler "
               << session.result["scaler"].get<std::string>() << "), ridge " << report.ridge << ", condition "
               << report.condition << ", rank " << report.rank << ", largest weight " << report.largestWeight;
-  std::cout << "\nerror found in training [N]: " << report.leaveOneOut.transpose() << "; " << report.seconds << " s\n";
+  std::cout << "\nerror found in training [N" << (decoder.place ? ", mm" : "")
+            << "]: " << report.leaveOneOut.transpose() << "; " << report.seconds << " s\n";
   for (const std::string& warning : report.warnings) std::cerr << "palp train: " << warning << '\n';
 }
 
@@ -72,7 +73,7 @@ Exit run(const Arguments& arguments, Session& session) {
   writeNetwork(decoder, arguments.output.path, arguments.output.force);
   describe(decoder, session);
   session.result["file"] = arguments.output.path.string();
-  if (options.noise > 0) {
+  if (options.noise > 0 && !samples.hasTouches()) { // the bound is of forces on known areas
     const NoiseBound bound = noiseBound(samples, options.input, decoder.input.rows, options.noise);
     session.result["noise_bound"] = boundJson(bound);
     if (!session.json)

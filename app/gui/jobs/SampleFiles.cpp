@@ -43,6 +43,7 @@ SampleSet joined(Shards shards) {
 SampleSet columns(const SampleSet& set, const std::vector<Eigen::Index>& chosen) {
   SampleSet part = set;
   part.area = set.area(chosen);
+  if (set.hasTouches()) part.touches = set.touches(Eigen::all, chosen);
   part.forces_N = set.forces_N(Eigen::all, chosen);
   part.displacements_mm = set.displacements_mm(Eigen::all, chosen);
   part.resistances_ohm = set.resistances_ohm(Eigen::all, chosen);

@@ -86,6 +86,7 @@ NetworkSettings networkOf(const JsonPlace& place) {
   network.input = place.at("input").named(kInputKinds);
   network.mode = place.at("mode").named(kDecoderModes);
   network.decoder = place.at("decoder").named(kDecoderKinds);
+  if (network.decoder == DecoderKind::TouchInversion) place.at("decoder").refuse("a decoder of forces on load areas");
   network.rows = place.at("rows").string();
   network.automaticSpread = place.at("automatic_spread").boolean();
   network.spread = place.at("spread").number(1e-6, 1e6);

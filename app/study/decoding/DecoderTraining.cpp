@@ -46,6 +46,7 @@ public:
 
 private:
   void describe();
+  void addPlace();
   void fit();
   void fitRbf();
   void fitPolynomial(int degree);
@@ -53,7 +54,8 @@ private:
   void fitBackPropagation();
   void fitTwoStep(bool gaussNewton);
   void fitLikelihood();
-  void recordResiduals(const Eigen::MatrixXd& residuals, const Eigen::VectorXi& areas);
+  void fitTouches();
+  void recordResiduals(const Eigen::MatrixXd& ofTargets, const Eigen::VectorXi& areas);
   void fitAreas();
   [[nodiscard]] ForwardModel forwardModel();
   void say(double share, const std::string& what) const;
@@ -64,6 +66,7 @@ private:
   const std::stop_token& stop_;
   const std::function<void(double, const std::string&)>& progress_;
   Eigen::MatrixXd inputs_;
+  Eigen::MatrixXd targets_; ///< forces, and below them the place where it is asked for
   Decoder decoder_;
 };
 
@@ -103,9 +106,25 @@ void DecoderTraining::describe() {
   decoder_.together = samples_.together();
   decoder_.low_N = samples_.forces_N.rowwise().minCoeff();
   decoder_.high_N = samples_.forces_N.rowwise().maxCoeff();
+  decoder_.touches = samples_.origin.touches;
+  targets_ = samples_.forces_N;
+  if (options_.target == DecoderTarget::ForceAndPlace) addPlace();
   inputs_ = inputsOf(samples_, decoder_.input);
   decoder_.input.low = inputs_.rowwise().minCoeff();
   decoder_.input.high = inputs_.rowwise().maxCoeff();
+}
+
+void DecoderTraining::addPlace() {
+  if (!samples_.hasTouches())
+    throw Error("target: force+place needs samples of touches (palp sample --touch); these load whole areas");
+  if (!takesPlace(options_.decoder))
+    throw Error("target: " + name(options_.decoder) +
+                " gives forces alone; force+place takes rbf, linear, poly2, "
+                "poly3, gp, bp or touch");
+  const Eigen::MatrixXd places_mm = samples_.touches.middleRows<2>(kTouchX_mm);
+  decoder_.place = DecoderPlace{places_mm.rowwise().minCoeff(), places_mm.rowwise().maxCoeff(), {}};
+  targets_.conservativeResize(targets_.rows() + 2, Eigen::NoChange);
+  targets_.bottomRows<2>() = places_mm;
 }
 
 void DecoderTraining::fit() {
@@ -128,11 +147,13 @@ void DecoderTraining::fit() {
     return fitTwoStep(true);
   case DecoderKind::MaximumLikelihood:
     return fitLikelihood();
+  case DecoderKind::TouchInversion:
+    return fitTouches();
   }
 }
 
 void DecoderTraining::fitRbf() {
-  RbfFit fit = trainRbf(inputs_, samples_.forces_N, rbfOptions(options_, samples_.size()), stop_);
+  RbfFit fit = trainRbf(inputs_, targets_, rbfOptions(options_, samples_.size()), stop_);
   decoder_.model = std::move(fit.network);
   decoder_.report = std::move(fit.report);
   recordResiduals(decoder_.report.leaveOneOutResiduals, samples_.area);
@@ -144,7 +165,7 @@ void DecoderTraining::fitPolynomial(int degree) {
   options.ridge = options_.ridge;
   options.relativeInputNoise = options_.noise;
   options.seed = options_.seed;
-  PolynomialFit fit = trainPolynomial(inputs_, samples_.forces_N, options, stop_);
+  PolynomialFit fit = trainPolynomial(inputs_, targets_, options, stop_);
   decoder_.report.ridge = fit.ridge;
   decoder_.report.condition = fit.condition;
   decoder_.report.rank = fit.rank;
@@ -160,7 +181,7 @@ void DecoderTraining::fitGaussianProcess() {
   options.scaling = options_.scaling.value_or(Scaling::Global);
   options.relativeInputNoise = options_.noise;
   options.seed = options_.seed;
-  GaussianProcessFit fit = trainGaussianProcess(inputs_, samples_.forces_N, options, stop_);
+  GaussianProcessFit fit = trainGaussianProcess(inputs_, targets_, options, stop_);
   FitReport& report = decoder_.report;
   report.spread = fit.process.mean.spread;
   report.ridge = fit.process.noiseVariance;
@@ -177,7 +198,7 @@ void DecoderTraining::fitBackPropagation() {
   BackPropagationOptions options;
   options.relativeInputNoise = options_.noise;
   options.seed = options_.seed;
-  BackPropagationFit fit = trainBackPropagation(inputs_, samples_.forces_N, options, stop_,
+  BackPropagationFit fit = trainBackPropagation(inputs_, targets_, options, stop_,
                                                 [this](double share) { say(0.9 * share, "back-propagation"); });
   decoder_.report.warnings = std::move(fit.warnings);
   decoder_.report.largestWeight =
@@ -208,6 +229,24 @@ void DecoderTraining::fitLikelihood() {
                   samples_.area);
 }
 
+void DecoderTraining::fitTouches() {
+  if (!decoder_.place) throw Error("decoder: touch gives force and place; ask for it with --target force+place");
+  // Size and friction are found beside them: where they vary, what is known of force and place depends on them.
+  Eigen::MatrixXd causes(targets_.rows() + 2, targets_.cols());
+  causes << targets_, samples_.touches.row(kTouchSize_mm), samples_.touches.row(kTouchFriction);
+  Eigen::VectorXi groups(causes.rows());
+  groups << 1, 1, 1, 0, 0, 2, 2;
+  const KernelForwardOptions options{options_.noise, options_.threads};
+  KernelForwardFit fit = fitKernelForwardModel(inputs_, causes, groups, options, stop_);
+  decoder_.report.centers = static_cast<int>(fit.model.network.centers.cols());
+  decoder_.report.rank = static_cast<int>(fit.model.components());
+  decoder_.report.spread = fit.model.network.spread;
+  decoder_.report.largestWeight = fit.model.network.weights.cwiseAbs().maxCoeff();
+  decoder_.report.warnings = std::move(fit.warnings);
+  decoder_.model = std::move(fit.model);
+  recordResiduals(fit.heldOutResiduals.topRows(targets_.rows()), samples_.area(fit.heldOut));
+}
+
 ForwardModel DecoderTraining::forwardModel() {
   const Classes classes = classesOf(samples_);
   decoder_.areaOfClass = classes.area;
@@ -217,6 +256,7 @@ ForwardModel DecoderTraining::forwardModel() {
 }
 
 void DecoderTraining::fitAreas() {
+  if (samples_.hasTouches()) return; // they lie on no area
   if (samples_.together() || samples_.areaCount < 2 || options_.decoder == DecoderKind::MaximumLikelihood) return;
   const Eigen::VectorXi& area = samples_.area;
   if (area.minCoeff() == area.maxCoeff()) return; // one area only: nothing to distinguish
@@ -224,9 +264,11 @@ void DecoderTraining::fitAreas() {
 }
 
 /// Root mean square of each area's residuals; of all of them where an area has none.
-void DecoderTraining::recordResiduals(const Eigen::MatrixXd& residuals, const Eigen::VectorXi& areas) {
+void DecoderTraining::recordResiduals(const Eigen::MatrixXd& ofTargets, const Eigen::VectorXi& areas) {
+  decoder_.report.leaveOneOut = residualRootMeanSquare(ofTargets);
+  if (decoder_.place) decoder_.place->residual_mm = decoder_.report.leaveOneOut.tail<2>();
+  const Eigen::MatrixXd residuals = ofTargets.topRows(samples_.forces_N.rows());
   const Eigen::VectorXd all = residualRootMeanSquare(residuals);
-  decoder_.report.leaveOneOut = all;
   const bool together = samples_.together();
   decoder_.residual_N = all.replicate(1, together ? 1 : std::max(1, samples_.areaCount));
   if (together) return;

@@ -1,5 +1,6 @@
 #include "app/study/decoding/Prediction.h"
 
+#include "app/study/Median.h"
 #include "app/study/decoding/TwoStep.h"
 #include "model/base/Error.h"
 #include "model/base/Text.h"
@@ -20,7 +21,7 @@ Eigen::MatrixXd forcesOf(const Decoder& decoder, const Eigen::Ref<const Eigen::M
         using Model = std::decay_t<decltype(model)>;
         if constexpr (std::is_same_v<Model, TwoStep>)
           return predict(model, inputs);
-        else if constexpr (std::is_same_v<Model, ForwardModel>)
+        else if constexpr (std::is_same_v<Model, ForwardModel> || std::is_same_v<Model, KernelForwardModel>)
           return {};
         else
           return model.predict(inputs);
@@ -63,6 +64,12 @@ Eigen::MatrixXd slopeAt(const Decoder& decoder, const Eigen::VectorXd& input) {
 /// Noise of the inputs beyond what the decoder was trained with; its variance relative to the square of an input.
 double furtherNoise(const Decoder& decoder, const PredictOptions& options) {
   return std::max(0.0, options.noise * options.noise - decoder.noise * decoder.noise);
+}
+
+/// Variance of noise beyond the training's, in that of the noise that the components of touches are counted in.
+double noiseBeyond(const Decoder& decoder, const PredictOptions& options) {
+  const double counted = std::max(decoder.noise, 1e-6);
+  return furtherNoise(decoder, options) / (counted * counted);
 }
 
 ForwardModel withNoise(ForwardModel model, const Decoder& decoder, const PredictOptions& options) {
@@ -121,11 +128,13 @@ void addDeviations(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixX
     result.standardDeviation_N = process->standardDeviation(inputs);
   else {
     const Eigen::VectorXd all = decoder.residual_N.rowwise().squaredNorm() / decoder.residual_N.cols();
-    result.standardDeviation_N.resize(decoder.outputs(), inputs.cols());
+    result.standardDeviation_N.resize(decoder.outputs() + (decoder.place ? 2 : 0), inputs.cols());
+    if (decoder.place) result.standardDeviation_N.bottomRows<2>().colwise() = decoder.place->residual_mm;
     for (Eigen::Index i = 0; i < inputs.cols(); ++i)
-      result.standardDeviation_N.col(i) = result.area.size() > 0 && result.area(i) < decoder.residual_N.cols()
-                                              ? Eigen::VectorXd(decoder.residual_N.col(result.area(i)))
-                                              : Eigen::VectorXd(all.cwiseSqrt());
+      result.standardDeviation_N.col(i).head(decoder.outputs()) =
+          result.area.size() > 0 && result.area(i) < decoder.residual_N.cols()
+              ? Eigen::VectorXd(decoder.residual_N.col(result.area(i)))
+              : Eigen::VectorXd(all.cwiseSqrt());
   }
   if (options.noise == 0) return;
   for (Eigen::Index i = 0; i < inputs.cols(); ++i) {
@@ -134,6 +143,28 @@ void addDeviations(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixX
     const Eigen::VectorXd found = result.standardDeviation_N.col(i).cwiseAbs2() + further * square;
     result.standardDeviation_N.col(i) = found.cwiseMax(options.noise * options.noise * square).cwiseSqrt();
   }
+}
+
+/// Forces and places with their deviations, and how well the model explains the inputs.
+void decodeTouches(const Decoder& decoder, const KernelInversion& inversion,
+                   const Eigen::Ref<const Eigen::MatrixXd>& inputs, Prediction& result) {
+  const Eigen::Index outputs = decoder.outputs() + 2;
+  result.forces_N.resize(outputs, inputs.cols());
+  result.standardDeviation_N.resize(outputs, inputs.cols());
+  result.chiSquare.resize(inputs.cols());
+  for (Eigen::Index i = 0; i < inputs.cols(); ++i) {
+    const KernelEstimate estimate = inversion.estimate(inputs.col(i));
+    result.forces_N.col(i) = estimate.causes.head(outputs);
+    result.standardDeviation_N.col(i) = estimate.standardDeviation.head(outputs);
+    result.chiSquare(i) = estimate.chiSquare;
+  }
+}
+
+/// The last two rows of what a model gives of a touch are its place.
+void splitPlace(Eigen::MatrixXd& all, Eigen::MatrixXd& place) {
+  if (all.size() == 0) return;
+  place = all.bottomRows<2>();
+  all.conservativeResize(all.rows() - 2, Eigen::NoChange);
 }
 
 std::vector<bool> outside(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixXd>& inputs, double noise) {
@@ -178,7 +209,11 @@ Eigen::MatrixXd inputsOf(const SampleSet& samples, const DecoderInput& input) {
 Predictor::Predictor(const Decoder& decoder, const PredictOptions& options) : decoder_(decoder), options_(options) {
   if (!(options.noise >= 0 && options.noise < 1))
     throw Error("noise: " + std::to_string(options.noise) + "; allowed is 0 up to below 1 (relative)");
-  if (const auto* likelihood = std::get_if<ForwardModel>(&decoder.model))
+  if (const auto* touches = std::get_if<KernelForwardModel>(&decoder.model)) {
+    touches_ = std::make_shared<KernelForwardModel>(*touches);
+    touches_->deviation = (touches_->deviation.array().square() + noiseBeyond(decoder, options)).sqrt();
+    touchInversion_.emplace(*touches_);
+  } else if (const auto* likelihood = std::get_if<ForwardModel>(&decoder.model))
     inversion_.emplace(withNoise(*likelihood, decoder, options));
   else if (options.area && decoder.areas)
     inversion_.emplace(withNoise(*decoder.areas, decoder, options));
@@ -197,13 +232,22 @@ Prediction Predictor::operator()(const Eigen::Ref<const Eigen::MatrixXd>& inputs
   const auto start = std::chrono::steady_clock::now();
   if (likelihood)
     decodeByLikelihood(decoder, *likelihood, *inversion_, inputs, options, result);
+  else if (touchInversion_)
+    decodeTouches(decoder, *touchInversion_, inputs, result);
   else
     result.forces_N = forcesOf(decoder, inputs);
   const std::chrono::duration<double, std::micro> time = std::chrono::steady_clock::now() - start;
   result.microsecondsPerSample = inputs.cols() > 0 ? time.count() / static_cast<double>(inputs.cols()) : 0;
   if (likelihood) return result;
   if (options.area && decoder.areas) addAreas(decoder, *inversion_, inputs, result);
-  if (options.standardDeviation) addDeviations(decoder, inputs, options, result);
+  if (!options.standardDeviation)
+    result.standardDeviation_N.resize(0, 0);
+  else if (!touchInversion_)
+    addDeviations(decoder, inputs, options, result);
+  if (decoder.place) {
+    splitPlace(result.forces_N, result.places_mm);
+    splitPlace(result.standardDeviation_N, result.placeDeviation_mm);
+  }
   return result;
 }
 
@@ -214,14 +258,22 @@ Prediction predict(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixX
 
 Prediction predict(const Decoder& decoder, const SampleSet& samples, const PredictOptions& options) {
   Prediction result = predict(decoder, inputsOf(samples, decoder.input), options);
-  if (samples.origin.designFingerprint != decoder.designFingerprint)
-    result.warnings.push_back(otherDesign(decoder, samples));
+  for (std::string& warning : otherSamples(decoder, samples)) result.warnings.push_back(std::move(warning));
   return result;
 }
 
-std::string otherDesign(const Decoder& decoder, const SampleSet& samples) {
-  return "the samples are of another design (" + samples.origin.designFingerprint + ") than the decoder (" +
-         decoder.designFingerprint + "): its forces mean little there";
+std::vector<std::string> otherSamples(const Decoder& decoder, const SampleSet& samples) {
+  std::vector<std::string> differences;
+  if (samples.origin.designFingerprint != decoder.designFingerprint)
+    differences.push_back("the samples are of another design (" + samples.origin.designFingerprint +
+                          ") than the decoder (" + decoder.designFingerprint + "): its forces mean little there");
+  if (samples.hasTouches() && decoder.touches.empty())
+    differences.emplace_back("the decoder was trained on forces that are spread over whole areas, the samples are "
+                             "touches by an indenter: its forces may be wrong by their own size; train on touches");
+  if (!samples.hasTouches() && !decoder.touches.empty())
+    differences.push_back("the decoder was trained on touches (" + decoder.touches +
+                          "), the samples load whole areas: its forces may be wrong by their own size");
+  return differences;
 }
 
 void requireReadout(const Decoder& decoder, const std::optional<Readout>& readout, const std::string& whatIs) {
@@ -229,6 +281,24 @@ void requireReadout(const Decoder& decoder, const std::optional<Readout>& readou
   throw Error("the network was trained for read-out " + kReadouts.name(*decoder.readout) + ", " + whatIs +
               " of read-out " + kReadouts.name(*readout) + ": train one for that");
 }
+
+namespace {
+
+PlaceError placeError(const Prediction& prediction, const SampleSet& samples) {
+  const Eigen::Matrix2Xd off = prediction.places_mm - samples.touches.middleRows<2>(kTouchX_mm);
+  PlaceError error;
+  error.rms_mm = off.array().square().rowwise().mean().sqrt();
+  std::vector<double> distances;
+  for (Eigen::Index i = 0; i < off.cols(); ++i) distances.push_back(off.col(i).norm());
+  error.median_mm = median(std::move(distances));
+  if (prediction.placeDeviation_mm.cols() == off.cols())
+    error.withinOneDeviation =
+        static_cast<double>((off.array().abs() <= prediction.placeDeviation_mm.array()).count()) /
+        static_cast<double>(off.size());
+  return error;
+}
+
+} // namespace
 
 DecoderError decoderError(const Decoder& decoder, const Prediction& prediction, const SampleSet& samples) {
   if (samples.forces_N.rows() != decoder.outputs())
@@ -239,6 +309,7 @@ DecoderError decoderError(const Decoder& decoder, const Prediction& prediction, 
   if (prediction.area.size() == samples.area.size() && samples.area.size() > 0)
     result.rightAreas = static_cast<double>((prediction.area.array() == samples.area.array()).count()) /
                         static_cast<double>(samples.area.size());
+  if (prediction.places_mm.cols() > 0 && samples.hasTouches()) result.place = placeError(prediction, samples);
   return result;
 }
 

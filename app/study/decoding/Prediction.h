@@ -7,6 +7,7 @@
 #include "nn/RelativeError.h"
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <stop_token>
 
@@ -20,6 +21,8 @@ Eigen::MatrixXd inputsOf(const SampleSet& samples, const DecoderInput& input);
 struct Prediction {
   Eigen::MatrixXd forces_N;
   Eigen::MatrixXd standardDeviation_N;    ///< of each force: training error and input noise; empty: not asked
+  Eigen::MatrixXd places_mm;              ///< 2 x samples: of the touch; empty: the decoder gives none
+  Eigen::MatrixXd placeDeviation_mm;      ///< of each place; empty: not asked
   std::vector<bool> outsideTrainingRange; ///< some input lies outside what was trained
   Eigen::VectorXi area;                   ///< most likely touched area; empty: not determined
   Eigen::VectorXd areaConfidence;         ///< its probability
@@ -48,6 +51,8 @@ private:
   const Decoder& decoder_;
   PredictOptions options_;
   std::optional<LikelihoodInversion> inversion_; ///< of the forces, or of the touched area alone
+  std::shared_ptr<KernelForwardModel> touches_;  ///< with the noise of the options
+  std::optional<KernelInversion> touchInversion_;
 };
 
 /// Forces from inputs (inputs x samples, as inputsOf gives them). Throws Error where the number of inputs differs.
@@ -56,18 +61,27 @@ Prediction predict(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixX
 /// The same from a set; warns where the set is of another design.
 Prediction predict(const Decoder& decoder, const SampleSet& samples, const PredictOptions& options = {});
 
-/// The sentence for samples of another design than the decoder's.
-std::string otherDesign(const Decoder& decoder, const SampleSet& samples);
+/// What makes the samples another thing than the decoder was trained for: their design, touches in place of forces on
+/// whole areas. Sentences for people; none where nothing does.
+std::vector<std::string> otherSamples(const Decoder& decoder, const SampleSet& samples);
 
 /// Throws Error where the network's read-out and this one are both known and are not the same; `whatIs`: "the board
 /// is".
 void requireReadout(const Decoder& decoder, const std::optional<Readout>& readout, const std::string& whatIs);
 
-/// Errors against the forces in the set, in % of the training range; where areas were determined, the share of right
-/// ones.
+/// Of the places of touches.
+struct PlaceError {
+  Eigen::Vector2d rms_mm = Eigen::Vector2d::Zero(); ///< along x and y
+  double median_mm = 0;                             ///< of the distances
+  std::optional<double> withinOneDeviation;         ///< share of the coordinates (0.68 expected)
+};
+
+/// Errors against the forces in the set, in % of the training range; where areas or places were determined, the share
+/// of right areas, the errors of the places.
 struct DecoderError {
   PredictionError error;
   std::optional<double> rightAreas;
+  std::optional<PlaceError> place;
 };
 DecoderError decoderError(const Decoder& decoder, const Prediction& prediction, const SampleSet& samples);
 

@@ -57,6 +57,7 @@ RbfOptions rbfOptions(const TrainOptions& options, Eigen::Index samples) {
 std::string asCommand(const TrainOptions& options) {
   std::string text = " --input " + name(options.input) + " --rows " + options.rows + " --mode " + name(options.mode);
   if (options.decoder != DecoderKind::Rbf) text += " --decoder " + name(options.decoder);
+  if (options.target != DecoderTarget::Force) text += " --target " + kDecoderTargets.name(options.target);
   if (options.spread) text += " --spread " + palp::text(*options.spread);
   if (options.allCenters) text += " --centers all";
   if (options.centers) text += " --centers " + std::to_string(*options.centers);

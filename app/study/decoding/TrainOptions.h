@@ -16,6 +16,7 @@ struct TrainOptions {
   std::string rows = "4"; ///< row-wires that are read: "4", "1,4,7", "all"
   DecoderMode mode = DecoderMode::Default;
   DecoderKind decoder = DecoderKind::Rbf;
+  DecoderTarget target = DecoderTarget::Force;
   std::optional<double> spread; ///< none: auto
   std::optional<int> centers;   ///< none: as the mode says
   bool allCenters = false;      ///< one a sample, however many

@@ -3,6 +3,7 @@
 #include "io/DesignFile.h"
 #include "model/DesignError.h"
 #include "model/base/Cancelled.h"
+#include "model/base/CounterRandom.h"
 #include "model/base/Text.h"
 
 #include <algorithm>
@@ -18,26 +19,12 @@ constexpr std::size_t kFieldBlock = 64; // the same where each has a conduction 
 constexpr std::size_t kSurrogateBlock = 8192;
 constexpr int kMostPerArea = 10'000'000;
 
-/// The finaliser of SplitMix64 (Steele, Lea, Flood, 2014): a hash that turns counters into random bits.
-std::uint64_t mix(std::uint64_t x) {
-  x += 0x9E3779B97F4A7C15U;
-  x = (x ^ (x >> 30U)) * 0xBF58476D1CE4E5B9U;
-  x = (x ^ (x >> 27U)) * 0x94D049BB133111EBU;
-  return x ^ (x >> 31U);
-}
-
-/// Uniform in [0, 1), by counters alone: any sample can be made without those before it.
-double uniform(std::uint64_t seed, std::uint64_t area, std::uint64_t sample, std::uint64_t axis) {
-  const std::uint64_t bits = mix(mix(mix(mix(seed) ^ area) ^ sample) ^ axis);
-  return static_cast<double>(bits >> 11U) * 0x1p-53;
-}
-
 Eigen::Vector3d force_N(const ForceRange& range, std::uint64_t seed, int area, std::size_t sample) {
   Eigen::Vector3d force;
   for (int axis = 0; axis < 3; ++axis)
     force(axis) = range.low_N(axis) +
                   (range.high_N(axis) - range.low_N(axis)) *
-                      uniform(seed, static_cast<std::uint64_t>(area), sample, static_cast<std::uint64_t>(axis));
+                      uniformAt(seed, static_cast<std::uint64_t>(area), sample, static_cast<std::uint64_t>(axis));
   return force;
 }
 
@@ -66,7 +53,14 @@ SampleGenerator::SampleGenerator(SensorDesign design, SampleRequest request)
   if (request_.perArea < 1 || request_.perArea > kMostPerArea)
     throw DesignError("per-area: " + std::to_string(request_.perArea) + "; allowed is 1 to " +
                       std::to_string(kMostPerArea));
-  onlyArea_ = onlyArea(request_.areas, design_.areas.count());
+  if (request_.touches) {
+    if (const auto wrong = whyInvalid(*request_.touches, design_)) throw DesignError("touches: " + *wrong);
+    if (request_.surrogate) throw DesignError("surrogate: touches have none; only forces on whole areas do");
+    request_.areas = "touches";
+    origin_.touches = inWords(*request_.touches);
+  } else {
+    onlyArea_ = onlyArea(request_.areas, design_.areas.count());
+  }
   origin_.designFingerprint = designFingerprint(design_);
   if (const FieldLaw* field = design_.field()) origin_.readout = field->readout;
   origin_.seed = request_.seed;
@@ -84,7 +78,9 @@ std::size_t SampleGenerator::total() const {
 LoadCase SampleGenerator::load(std::size_t i) const {
   LoadCase load;
   const auto perArea = static_cast<std::size_t>(request_.perArea);
-  if (request_.areas == "together") {
+  if (request_.touches) {
+    load.indenters.push_back(touchAt(*request_.touches, request_.seed, i));
+  } else if (request_.areas == "together") {
     for (int area = 0; area < design_.areas.count(); ++area)
       load.areas.push_back({area, force_N(design_.forceRange, request_.seed, area, i)});
   } else {
@@ -98,7 +94,9 @@ bool SampleGenerator::prepare(const std::stop_token& stop) {
   if (!solver_) {
     Mesh mesh;
     try {
-      mesh = stages_.measure("mesh", [&] { return sensorMesh(design_, request_.mesh, stop); });
+      const MeshOptions options =
+          request_.touches ? meshForTouches(design_, *request_.touches, request_.mesh) : request_.mesh;
+      mesh = stages_.measure("mesh", [&] { return sensorMesh(design_, options, stop); });
     } catch (const Cancelled&) {
       return false;
     }
@@ -195,11 +193,20 @@ SampleSet SampleGenerator::block(SampleRange range, const ConductionBatch::Answe
   const bool together = request_.areas == "together";
   set.area.resize(count);
   set.forces_N.resize(together ? 3 * set.areaCount : 3, count);
+  set.touches.resize(request_.touches ? kTouchRows : 0, count);
   set.displacements_mm.resize(3 * design_.upper.electrodes(), count);
   set.resistances_ohm.resize(set.rowWires * set.columnWires, count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const LoadCase load = this->load(range.first + static_cast<std::size_t>(i));
-    set.area(i) = together ? -1 : load.areas[0].area;
+    if (request_.touches) {
+      const Indenter& pressing = load.indenters[0];
+      set.area(i) = areaUnder(design_, pressing.place_mm);
+      set.touches.col(i) << static_cast<double>(pressing.shape), pressing.radius_mm, pressing.friction,
+          pressing.place_mm;
+      set.forces_N.col(i) = pressing.press()->force_N;
+    } else {
+      set.area(i) = together ? -1 : load.areas[0].area;
+    }
     for (std::size_t a = 0; a < load.areas.size(); ++a)
       set.forces_N.block<3, 1>(3 * static_cast<Eigen::Index>(a), i) = load.areas[a].force_N;
     set.displacements_mm.col(i) = answers.displacements[static_cast<std::size_t>(i)].upper_mm.reshaped();

@@ -4,6 +4,7 @@
 #include "model/LoadCase.h"
 #include "model/SampleSet.h"
 #include "model/SensorDesign.h"
+#include "model/TouchRange.h"
 #include "solver/BatchSolver.h"
 #include "solver/ConductionBatch.h"
 #include "solver/SensorMesh.h"
@@ -14,12 +15,13 @@
 
 namespace palp {
 
-/// Which samples: random forces, uniform over the design's force range.
+/// Which samples: random forces on areas, uniform over the design's force range, or random touches.
 struct SampleRequest {
   int perArea = 100; ///< on each area; `together`: in all
   std::uint64_t seed = 1;
-  std::string areas = "each"; ///< each (one area loaded at a time), together, or the number of one area
-  bool surrogate = false;     ///< per-area polynomial instead of full solves
+  std::string areas = "each";          ///< each (one area loaded at a time), together, or the number of one area
+  std::optional<TouchRange> touches{}; ///< indenters in place of areas: `perArea` of them in all
+  bool surrogate = false;              ///< per-area polynomial instead of full solves
   double relativeTolerance = 1e-6;
   MeshOptions mesh;
   int threads = 0; ///< 0: all cores

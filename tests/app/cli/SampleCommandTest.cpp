@@ -128,3 +128,65 @@ TEST(SampleCommand, RefusesShardsThatDoNotBelongTogether) {
   EXPECT_NE(outcome.errors.find("seed"), std::string::npos) << outcome.errors;
   EXPECT_FALSE(std::filesystem::exists(folder / "c.csv"));
 }
+
+TEST(SampleCommand, MakesTouchesWhoseForceAndPlaceADecoderLearns) {
+  const palp::TemporaryFolder folder;
+  const auto touches = [&](const std::string& file, const std::vector<std::string>& more) {
+    std::vector<std::string> words{"sample", "paper",    "--touch", "sphere:3..6@*", "--count", "40",         "--seed",
+                                   "3",      "--mapped", "12x12x2", "--json",        "-o",      folder / file};
+    words.insert(words.end(), more.begin(), more.end());
+    return palp::test::palp(words);
+  };
+  const Outcome whole = touches("whole.csv", {});
+  ASSERT_EQ(whole.exit, 0) << whole.errors;
+  EXPECT_LT(whole.json().at("measured_error_relative"), 1e-4);
+  ASSERT_EQ(touches("part1.h5", {"--shard", "1/2"}).exit, 0);
+  ASSERT_EQ(touches("part2.npz", {"--shard", "2/2"}).exit, 0);
+  ASSERT_EQ(palp::test::palp({"merge", folder / "part2.npz", folder / "part1.h5", "-o", folder / "merged.csv"}).exit,
+            0);
+  EXPECT_TRUE(readAll(folder / "whole.csv") == readAll(folder / "merged.csv"));
+  EXPECT_NE(readAll(folder / "whole.csv").find("\narea,shape,size_mm,friction,x_mm,y_mm,fx_N,fy_N,fz_N,u_r0"),
+            std::string::npos);
+  const std::string network = folder / "network.json";
+  ASSERT_EQ(palp::test::palp({"train", folder / "whole.csv", "--input", "resistance", "--rows", "all", "--decoder",
+                              "touch", "--target", "force+place", "--noise", "1e-5", "-o", network})
+                .exit,
+            0);
+  const Outcome used =
+      palp::test::palp({"predict", network, folder / "whole.csv", "-o", folder / "said.csv", "--json"});
+  ASSERT_EQ(used.exit, 0) << used.errors;
+  EXPECT_LT(used.json().at("place_error").at("median_mm"), 1); // on what it was fitted to
+  EXPECT_EQ(used.json().at("place_mm").size(), 40U);
+  EXPECT_EQ(
+      readAll(folder / "said.csv")
+          .find("sample,fx_N,fy_N,fz_N,sd_fx_N,sd_fy_N,sd_fz_N,x_mm,y_mm,sd_x_mm,sd_y_mm,outside_training_range\n"),
+      0U);
+}
+
+TEST(SampleCommand, RefusesTouchesThatCannotBe) {
+  const palp::TemporaryFolder folder;
+  const auto refuses = [&](const std::vector<std::string>& more, const std::string& word) {
+    std::vector<std::string> words{"sample", "paper", "-o", folder / "never.csv"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome outcome = palp::test::palp(words);
+    EXPECT_EQ(outcome.exit, 2);
+    EXPECT_NE(outcome.errors.find(word), std::string::npos) << outcome.errors;
+    EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
+  };
+  refuses({"--touch", "sphere:3..6"}, "--count");
+  refuses({"--count", "3"}, "--touch");
+  refuses({}, "--per-area is missing");
+  refuses({"--touch", "ball:3", "--count", "3"}, "shape 'ball'; allowed is sphere");
+  refuses({"--touch", "sphere", "--count", "3"}, "--touch (size)");
+  refuses({"--touch", "sphere:6..3", "--count", "3"}, "sizes 6..3");
+  refuses({"--touch", "flat:3", "--count", "3"}, "flat:FROM..TO,RIM");
+  refuses({"--touch", "plane:3", "--count", "3"}, "a plane has no sizes");
+  refuses({"--touch", "sphere:3@1,2,3", "--count", "3"}, "--touch (place)");
+  refuses({"--touch", "sphere:3@1,2,3,4", "--region", "1,2,3,4", "--count", "3"}, "both say where");
+  refuses({"--touch", "sphere:3", "--region", "-5,0,30,30", "--count", "3"}, "outside the body");
+  refuses({"--touch", "sphere:3", "--friction", "0.3..nan", "--count", "3"}, "--friction");
+  refuses({"--touch", "sphere:3", "--force-range", "0..6", "--count", "3"}, "presses 0..6");
+  refuses({"--touch", "sphere:3", "--grid", "5", "--count", "3"}, "--grid");
+  refuses({"--touch", "sphere:3", "--surrogate", "--count", "3"}, "--surrogate requires --per-area");
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}

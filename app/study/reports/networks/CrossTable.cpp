@@ -36,6 +36,7 @@ struct CrossLaw {
 SampleSet samplesAt(const SampleSet& set, const std::vector<Eigen::Index>& at) {
   SampleSet part = set;
   part.area = set.area(at);
+  if (set.hasTouches()) part.touches = set.touches(Eigen::all, at);
   part.forces_N = set.forces_N(Eigen::all, at);
   part.displacements_mm = set.displacements_mm(Eigen::all, at);
   part.resistances_ohm = set.resistances_ohm(Eigen::all, at);

@@ -87,6 +87,43 @@ TEST(SampleGenerator, ShardsPartTheSamples) {
   EXPECT_EQ(next, 100U);
 }
 
+TEST(SampleGenerator, TouchesAreFullSolvesOfTheirIndenters) {
+  SampleRequest request = coarse(6);
+  request.mesh.mapped = std::array<int, 3>{12, 12, 2};
+  request.touches = touchesOf(paperDesign());
+  SampleGenerator generator(paperDesign(), request);
+  ASSERT_EQ(generator.total(), 6U);
+  SampleSet all, part;
+  generator.generate({0, 6}, [&](const SampleSet& block) { append(all, block); });
+  SampleGenerator(paperDesign(), request).generate({4, 6}, [&](const SampleSet& block) { append(part, block); });
+  EXPECT_EQ(all.origin.areas, "touches");
+  EXPECT_EQ(all.origin.touches, inWords(*request.touches));
+  EXPECT_EQ(part.displacements_mm, all.displacements_mm.rightCols(2));
+  EXPECT_EQ(part.touches, all.touches.rightCols(2));
+  const HyperelasticProblem problem(paperDesign(), sensorMesh(paperDesign(), request.mesh));
+  for (const Eigen::Index i : {0, 5}) {
+    const LoadCase load = generator.load(static_cast<std::size_t>(i));
+    ASSERT_EQ(load.indenters.size(), 1U);
+    EXPECT_EQ(all.forces_N.col(i), load.indenters[0].press()->force_N);
+    EXPECT_EQ(all.area(i), areaUnder(paperDesign(), load.indenters[0].place_mm));
+    EXPECT_EQ(all.touches(kTouchSize_mm, i), load.indenters[0].radius_mm);
+    const Solution full = problem.solve(load);
+    ASSERT_TRUE(full.converged);
+    const Eigen::VectorXd expected = problem.electrodes(full.state()).upper_mm.reshaped();
+    EXPECT_LT((all.displacements_mm.col(i) - expected).norm(), 1e-4 * expected.norm()) << i;
+  }
+}
+
+TEST(SampleGenerator, RefusesTouchesThatCannotBe) {
+  SampleRequest request = coarse(2);
+  request.touches = touchesOf(paperDesign());
+  request.surrogate = true;
+  EXPECT_THROW(SampleGenerator(paperDesign(), request), DesignError);
+  request.surrogate = false;
+  request.touches->low_mm.x() = -1;
+  EXPECT_THROW(SampleGenerator(paperDesign(), request), DesignError);
+}
+
 TEST(SampleGenerator, RefusesAnUnknownArea) {
   SampleRequest request = coarse(1);
   request.areas = "6";

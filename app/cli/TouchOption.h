@@ -1,0 +1,20 @@
+#pragma once
+
+#include "app/cli/Command.h"
+#include "model/TouchRange.h"
+
+#include <string>
+
+namespace palp {
+
+/// --touch and what goes with it: random touches of an indenter in place of forces on areas.
+struct TouchArguments {
+  std::string touch, count, friction, forceRange, region, grid;
+  /// After this either --count or `perArea` is given.
+  void declare(Command command, Option perArea);
+  [[nodiscard]] bool given() const { return !touch.empty(); }
+  /// Throws UsageError.
+  [[nodiscard]] TouchRange range(const SensorDesign& design) const;
+};
+
+} // namespace palp

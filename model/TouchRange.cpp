@@ -1,0 +1,112 @@
+#include "model/TouchRange.h"
+
+#include "model/base/CounterRandom.h"
+#include "model/base/Text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace palp {
+
+namespace {
+
+constexpr std::uint64_t kStream = 0x746F756368; // apart from the streams of load areas, which are small numbers
+constexpr double kMarginShare = 0.1;            // of the shorter side
+constexpr double kLeastShare = 1. / 12;         // of the largest press
+constexpr double kCone = 0.7;
+
+double between(double low, double high, double share) {
+  return low + (high - low) * share;
+}
+
+std::string span(double low, double high) {
+  return low == high ? text(low) : text(low) + ".." + text(high);
+}
+
+} // namespace
+
+TouchRange touchesOf(const SensorDesign& design) {
+  TouchRange range;
+  const double margin_mm = kMarginShare * design.block_mm.head<2>().minCoeff();
+  range.low_mm.setConstant(margin_mm);
+  range.high_mm = design.block_mm.head<2>().array() - margin_mm;
+  range.mostPress_N = -design.forceRange.low_N.z();
+  range.leastPress_N = kLeastShare * range.mostPress_N;
+  range.cone = kCone;
+  return range;
+}
+
+Indenter touchAt(const TouchRange& range, std::uint64_t seed, std::size_t i) {
+  std::uint64_t axis = 0;
+  const auto draw = [&] { return uniformAt(seed, kStream, i, axis++); };
+  Indenter indenter;
+  indenter.shape = range.shape;
+  indenter.rim_mm = range.rim_mm;
+  indenter.radius_mm = between(range.smallest_mm, range.largest_mm, draw());
+  indenter.friction = between(range.leastFriction, range.mostFriction, draw());
+  Eigen::Array2d share(draw(), draw());
+  if (range.grid[0] > 0) {
+    const auto columns = static_cast<std::size_t>(range.grid[0]), rows = static_cast<std::size_t>(range.grid[1]);
+    const std::size_t cell = i % (columns * rows);
+    share = (Eigen::Array2d(static_cast<double>(cell % columns), static_cast<double>(cell / columns)) + 0.5) /
+            Eigen::Array2d(range.grid[0], range.grid[1]);
+  }
+  indenter.place_mm = range.low_mm.array() + share * (range.high_mm - range.low_mm).array();
+  const double press_N = between(range.leastPress_N, range.mostPress_N, draw());
+  const double aside_N = std::sqrt(draw()) * range.cone * indenter.friction * press_N;
+  const double angle = 2 * std::numbers::pi * draw();
+  indenter.control = Press{{0, 0, -press_N}};
+  if (aside_N > 0) indenter.control = Press{{aside_N * std::cos(angle), aside_N * std::sin(angle), -press_N}};
+  return indenter;
+}
+
+std::string inWords(const TouchRange& range) {
+  std::string words = shapeName(range.shape);
+  if (range.shape != IndenterShape::Plane) words += ":" + span(range.smallest_mm, range.largest_mm);
+  if (range.shape == IndenterShape::Flat) words += "," + text(range.rim_mm);
+  words += "@" + text(range.low_mm.x()) + "," + text(range.low_mm.y()) + "," + text(range.high_mm.x()) + "," +
+           text(range.high_mm.y());
+  if (range.grid[0] > 0) words += " grid " + std::to_string(range.grid[0]) + "x" + std::to_string(range.grid[1]);
+  words += " press " + span(range.leastPress_N, range.mostPress_N);
+  if (range.mostFriction > 0)
+    words += " friction " + span(range.leastFriction, range.mostFriction) + " cone " + text(range.cone);
+  return words;
+}
+
+std::optional<std::string> whyInvalid(const TouchRange& range, const SensorDesign& design) {
+  const auto wrong = [](const char* what, double low, double high, const char* allowed) {
+    return std::string(what) + " " + text(low) + ".." + text(high) + "; allowed is " + allowed;
+  };
+  const bool plane = range.shape == IndenterShape::Plane;
+  if (!plane && !(range.smallest_mm > 0 && range.largest_mm >= range.smallest_mm && std::isfinite(range.largest_mm)))
+    return wrong("sizes", range.smallest_mm, range.largest_mm, "a range above 0 mm, the smaller first");
+  if (!(range.leastPress_N > 0 && range.mostPress_N >= range.leastPress_N && std::isfinite(range.mostPress_N)))
+    return wrong("presses", range.leastPress_N, range.mostPress_N, "a range above 0 N, the smaller first");
+  if (!(range.leastFriction >= 0 && range.mostFriction >= range.leastFriction && range.mostFriction <= 2))
+    return wrong("friction", range.leastFriction, range.mostFriction, "a range from 0 to 2, the smaller first");
+  if (!(range.cone >= 0 && range.cone <= 0.95))
+    return "cone " + text(range.cone) + "; allowed is 0 to 0.95 of the limit of friction";
+  if (!(range.high_mm.array() >= range.low_mm.array()).all() || !(range.low_mm + range.high_mm).allFinite())
+    return "region " + text(range.low_mm.x()) + "," + text(range.low_mm.y()) + "," + text(range.high_mm.x()) + "," +
+           text(range.high_mm.y()) + "; allowed is X0,Y0,X1,Y1 [mm] with the lower corner first";
+  if (range.grid[0] < 0 || range.grid[1] < 0 || (range.grid[0] == 0) != (range.grid[1] == 0))
+    return "grid " + std::to_string(range.grid[0]) + "x" + std::to_string(range.grid[1]) + "; allowed is 1x1 or more";
+  for (const Eigen::Vector2d& corner : {range.low_mm, range.high_mm})
+    for (const double radius_mm : {range.smallest_mm, range.largest_mm}) {
+      Indenter indenter{range.shape, radius_mm,          range.rim_mm,
+                        corner,      range.mostFriction, Press{{0, 0, -range.mostPress_N}}};
+      if (auto why = whyInvalid(indenter, design)) return why;
+    }
+  return {};
+}
+
+int areaUnder(const SensorDesign& design, const Eigen::Vector2d& place_mm) {
+  const auto index = [](double at, double length, int count) {
+    return std::clamp(static_cast<int>(at / length * count), 0, count - 1);
+  };
+  return index(place_mm.y(), design.block_mm.y(), design.areas.rows) * design.areas.columns +
+         index(place_mm.x(), design.block_mm.x(), design.areas.columns);
+}
+
+} // namespace palp

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "model/Indenter.h"
+#include "model/SensorDesign.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace palp {
+
+/// What random touches are drawn from, each number uniformly: one indenter of this shape that presses somewhere in a
+/// rectangle of the top face.
+struct TouchRange {
+  IndenterShape shape = IndenterShape::Sphere;
+  double smallest_mm = 3, largest_mm = 6;                                              ///< radius; both 0 for a plane
+  double rim_mm = 0;                                                                   ///< of a punch
+  Eigen::Vector2d low_mm = Eigen::Vector2d::Zero(), high_mm = Eigen::Vector2d::Zero(); ///< rectangle of the place
+  std::array<int, 2> grid{0, 0}; ///< places in turn at the middles of so many cells along x and y; 0: anywhere
+  double leastFriction = 0, mostFriction = 0;
+  double leastPress_N = 0.5, mostPress_N = 6; ///< downwards
+  double cone = 0; ///< largest force sideways, as a share of friction times press; uniform over the disc
+  bool operator==(const TouchRange&) const = default;
+};
+
+/// The whole top face less a tenth of its shorter side all round; presses from a twelfth of the design's force range
+/// up; sideways up to 0.7 of the limit where there is friction.
+TouchRange touchesOf(const SensorDesign& design);
+
+/// Touch number `i`, from seed and number alone.
+Indenter touchAt(const TouchRange& range, std::uint64_t seed, std::size_t i);
+
+/// As the options of the command line that make it: "sphere:3..6@3,3,27,27 press 0.5..6 friction 0.3..0.8 cone 0.7".
+std::string inWords(const TouchRange& range);
+
+/// Why no touches can be drawn (a range that is empty or not finite, a rectangle off the face, ...): the first of its
+/// corners that cannot press; empty if they can.
+std::optional<std::string> whyInvalid(const TouchRange& range, const SensorDesign& design);
+
+/// Load area under a place of the top face.
+int areaUnder(const SensorDesign& design, const Eigen::Vector2d& place_mm);
+
+} // namespace palp

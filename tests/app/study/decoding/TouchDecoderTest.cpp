@@ -1,0 +1,156 @@
+// Decoders of force and place, on samples of touches.
+
+#include "app/study/decoding/DecoderTraining.h"
+#include "app/study/decoding/Prediction.h"
+#include "io/DecoderFile.h"
+#include "model/RowColumnResistance.h"
+#include "model/TouchRange.h"
+#include "model/base/Error.h"
+
+#include <gtest/gtest.h>
+
+#include <ostream>
+
+namespace palp {
+
+/// In the names of the tests.
+static void PrintTo(DecoderKind kind, std::ostream* out) {
+  *out << name(kind);
+}
+
+namespace {
+
+/// Touches of the paper's design under a smooth stand-in for the block: the electrodes around the place go down.
+SampleSet standInTouches(int count, std::uint64_t seed) {
+  const SensorDesign design = paperDesign();
+  const Eigen::Matrix3Xd electrodes = design.upperElectrodes_mm();
+  const TouchRange range = touchesOf(design);
+  SampleSet set;
+  set.origin.designFingerprint = "stand-in";
+  set.origin.areas = "touches";
+  set.origin.touches = inWords(range);
+  set.rowWires = design.rowWires();
+  set.electrodesPerRowWire = design.electrodesPerRowWire();
+  set.columnWires = design.columnWires();
+  set.areaCount = 6;
+  set.area.resize(count);
+  set.touches.resize(kTouchRows, count);
+  set.forces_N.resize(3, count);
+  set.displacements_mm.resize(electrodes.size(), count);
+  set.resistances_ohm.resize(static_cast<Eigen::Index>(set.rowWires) * set.columnWires, count);
+  for (int i = 0; i < count; ++i) {
+    const Indenter touch = touchAt(range, seed, static_cast<std::size_t>(i));
+    set.area(i) = areaUnder(design, touch.place_mm);
+    set.touches.col(i) << static_cast<double>(touch.shape), touch.radius_mm, touch.friction, touch.place_mm;
+    set.forces_N.col(i) = touch.press()->force_N;
+    ElectrodeDisplacements state = ElectrodeDisplacements::atRest(design);
+    for (Eigen::Index e = 0; e < electrodes.cols(); ++e) {
+      const Eigen::Vector2d away = (electrodes.col(e).head<2>() - touch.place_mm) / (4 + touch.radius_mm / 3);
+      const double near = 0.02 * touch.press()->force_N.z() * std::exp(-away.squaredNorm());
+      state.upper_mm.col(e) << -0.4 * near * away, near;
+    }
+    set.displacements_mm.col(i) = state.upper_mm.reshaped();
+    set.resistances_ohm.col(i) = rowColumnResistances(design, state).transpose().reshaped();
+  }
+  return set;
+}
+
+TrainOptions forceAndPlace(DecoderKind kind) {
+  TrainOptions options;
+  options.decoder = kind;
+  options.target = DecoderTarget::ForceAndPlace;
+  options.input = InputKind::Resistance;
+  options.rows = "all";
+  options.noise = 1e-5;
+  options.centers = 150;
+  return options;
+}
+
+class TouchDecoder : public testing::TestWithParam<DecoderKind> {};
+
+INSTANTIATE_TEST_SUITE_P(Kinds, TouchDecoder,
+                         testing::Values(DecoderKind::Rbf, DecoderKind::Polynomial2, DecoderKind::GaussianProcess,
+                                         DecoderKind::TouchInversion),
+                         [](const auto& one) { return name(one.param); });
+
+TEST_P(TouchDecoder, LearnsForceAndPlaceAndComesBackFromItsFile) {
+  const SampleSet train = standInTouches(250, 1), fresh = standInTouches(40, 2);
+  const Decoder decoder = trainDecoder(train, nullptr, forceAndPlace(GetParam()));
+  ASSERT_TRUE(decoder.place);
+  EXPECT_EQ(decoder.touches, train.origin.touches);
+  EXPECT_NE(decoder.trainedWith.find("--target force+place"), std::string::npos);
+  const std::string text = networkText(decoder);
+  EXPECT_EQ(networkText(parseNetwork(text, "net.json")), text);
+  PredictOptions options;
+  options.noise = 1e-5;
+  const Prediction prediction = predict(parseNetwork(text, "net.json"), fresh, options);
+  EXPECT_TRUE(prediction.warnings.empty());
+  ASSERT_EQ(prediction.forces_N.rows(), 3);
+  ASSERT_EQ(prediction.places_mm.rows(), 2);
+  ASSERT_EQ(prediction.placeDeviation_mm.cols(), 40);
+  EXPECT_TRUE((prediction.placeDeviation_mm.array() > 0).all());
+  const DecoderError error = decoderError(decoder, prediction, fresh);
+  ASSERT_TRUE(error.place);
+  // Places are drawn over 24 mm: guessing their middle is 9 mm off in the median, half of that is learnt for sure;
+  // forces over 5.5 N: 29 %.
+  EXPECT_LT(error.place->median_mm, 4.5);
+  EXPECT_LT(error.error.rmsePercentOfRange(2), 10);
+  EXPECT_EQ(error.error.rmsePercentOfRange(0), 0) << "frictionless: nothing goes sideways";
+}
+
+TEST(TouchInversion, IsBetterThanANetworkAndKnowsItsError) {
+  const SampleSet train = standInTouches(400, 1), fresh = standInTouches(80, 2);
+  const auto errorOf = [&](DecoderKind kind) {
+    const Decoder decoder = trainDecoder(train, nullptr, forceAndPlace(kind));
+    PredictOptions options;
+    options.noise = 1e-5;
+    return *decoderError(decoder, predict(decoder, fresh, options), fresh).place;
+  };
+  const PlaceError touch = errorOf(DecoderKind::TouchInversion);
+  EXPECT_LT(touch.median_mm, errorOf(DecoderKind::Rbf).median_mm);
+  ASSERT_TRUE(touch.withinOneDeviation);
+  // 160 coordinates: 0.68 with a standard error of 0.04.
+  EXPECT_GT(*touch.withinOneDeviation, 0.5);
+  EXPECT_LT(*touch.withinOneDeviation, 0.85);
+}
+
+TEST(TouchInversion, GivesTheSameBytesWithAnyNumberOfThreads) {
+  const SampleSet train = standInTouches(120, 1);
+  TrainOptions one = forceAndPlace(DecoderKind::TouchInversion), many = one;
+  one.threads = 1;
+  many.threads = 3;
+  Decoder first = trainDecoder(train, nullptr, one), second = trainDecoder(train, nullptr, many);
+  first.report.seconds = second.report.seconds = 0;
+  EXPECT_EQ(networkText(first), networkText(second));
+}
+
+TEST(TouchInversion, RefusesWhatHasNoPlace) {
+  const SampleSet train = standInTouches(60, 1);
+  TrainOptions options = forceAndPlace(DecoderKind::MaximumLikelihood);
+  EXPECT_THROW(trainDecoder(train, nullptr, options), Error);
+  options = forceAndPlace(DecoderKind::TouchInversion);
+  options.target = DecoderTarget::Force;
+  EXPECT_THROW(trainDecoder(train, nullptr, options), Error);
+  SampleSet areas = train;
+  areas.touches.resize(0, 0);
+  areas.origin.touches.clear();
+  EXPECT_THROW(trainDecoder(areas, nullptr, forceAndPlace(DecoderKind::Rbf)), Error);
+}
+
+TEST(TouchInversion, SaysWhereTouchesMeetADecoderOfAreasAndTheOtherWayRound) {
+  const SampleSet touches = standInTouches(60, 1);
+  SampleSet areas = touches;
+  areas.touches.resize(0, 0);
+  areas.origin.touches.clear();
+  TrainOptions options;
+  options.decoder = DecoderKind::Linear;
+  const Decoder ofAreas = trainDecoder(areas, nullptr, options), ofTouches = trainDecoder(touches, nullptr, options);
+  EXPECT_TRUE(otherSamples(ofAreas, areas).empty());
+  EXPECT_TRUE(otherSamples(ofTouches, touches).empty());
+  ASSERT_EQ(otherSamples(ofAreas, touches).size(), 1U);
+  EXPECT_NE(otherSamples(ofAreas, touches)[0].find("train on touches"), std::string::npos);
+  ASSERT_EQ(otherSamples(ofTouches, areas).size(), 1U);
+}
+
+} // namespace
+} // namespace palp

@@ -1,0 +1,84 @@
+#include "nn/rivals/KernelInversion.h"
+
+#include "model/base/Cancelled.h"
+#include "nn/NetworkError.h"
+#include "nn/linear/RandomNumbers.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace palp {
+namespace {
+
+/// A bump over a row of 24 measurements around 100 each: its place along them, its height, its width.
+struct Bumps {
+  Eigen::MatrixXd causes, measurements;
+  explicit Bumps(int count, std::uint64_t seed, double noise = 0) : causes(4, count), measurements(24, count) {
+    RandomNumbers random(seed);
+    for (int i = 0; i < count; ++i) {
+      const double place = 4 + 16 * random.uniform(), height = 1 + 4 * random.uniform(), width = 3 + random.uniform();
+      causes.col(i) << height, 0, place, width; // the second never varies
+      for (int m = 0; m < 24; ++m) measurements(m, i) = 100 + height * std::exp(-std::pow((m - place) / width, 2));
+      for (int m = 0; m < 24 && noise > 0; ++m) measurements(m, i) *= 1 + noise * random.normal();
+    }
+  }
+};
+
+const Eigen::VectorXi kGroups = (Eigen::VectorXi(4) << 1, 1, 0, 2).finished();
+
+TEST(KernelInversion, FindsThePlaceTheHeightAndTheWidthOfABump) {
+  const Bumps train(300, 1), fresh(100, 2, 1e-4);
+  const KernelForwardFit fit = fitKernelForwardModel(train.measurements, train.causes, kGroups, {1e-4, 1});
+  const KernelInversion inversion(fit.model);
+  int within = 0;
+  for (Eigen::Index i = 0; i < 100; ++i) {
+    const KernelEstimate found = inversion.estimate(fresh.measurements.col(i));
+    const Eigen::VectorXd off = (found.causes - fresh.causes.col(i)).cwiseAbs();
+    // Noise of 0.01 on bumps 1 to 5 high, 6 measurements wide: about 0.01 / sqrt(6) in the height at best.
+    EXPECT_LT(off(0), 0.1);
+    EXPECT_EQ(off(1), 0);
+    EXPECT_EQ(found.standardDeviation(1), 0);
+    EXPECT_LT(off(2), 0.1);
+    for (const int k : {0, 2}) within += off(k) <= found.standardDeviation(k);
+  }
+  // 200 numbers of which 0.68 are expected: 0.033 each way is one standard error.
+  EXPECT_GT(within, 110);
+  EXPECT_LT(within, 170);
+}
+
+TEST(KernelInversion, HoldsOutEveryFifthSample) {
+  const Bumps train(103, 1);
+  const KernelForwardFit fit = fitKernelForwardModel(train.measurements, train.causes, kGroups, {1e-4, 1});
+  ASSERT_EQ(fit.heldOut.size(), 20U);
+  EXPECT_EQ(fit.heldOut[1], 9);
+  EXPECT_EQ(fit.heldOutResiduals.cols(), 20);
+  EXPECT_EQ(fit.model.network.centers.cols(), 103);
+}
+
+TEST(KernelInversion, WhatNoBumpExplainsLeavesAResidual) {
+  const Bumps train(300, 1);
+  const KernelForwardFit fit = fitKernelForwardModel(train.measurements, train.causes, kGroups, {1e-4, 1});
+  const KernelInversion inversion(fit.model);
+  EXPECT_LT(inversion.estimate(train.measurements.col(7)).chiSquare, 3);
+  Eigen::VectorXd two(24); // bumps, side by side
+  for (int m = 0; m < 24; ++m)
+    two(m) = 100 + 4 * std::exp(-std::pow((m - 6) / 3.5, 2)) + 4 * std::exp(-std::pow((m - 18) / 3.5, 2));
+  EXPECT_GT(inversion.estimate(two).chiSquare, 100);
+}
+
+TEST(KernelInversion, RefusesWhatNothingCanBeFittedTo) {
+  const Bumps few(4, 1), some(50, 1);
+  EXPECT_THROW(fitKernelForwardModel(few.measurements, few.causes, kGroups, {}), NetworkError);
+  EXPECT_THROW(fitKernelForwardModel(some.measurements, few.causes, kGroups, {}), NetworkError);
+  Eigen::MatrixXd still = some.causes;
+  still.row(2).setConstant(3);
+  EXPECT_THROW(fitKernelForwardModel(some.measurements, still, kGroups, {}), NetworkError);
+  EXPECT_THROW(fitKernelForwardModel(Eigen::MatrixXd::Ones(24, 50), some.causes, kGroups, {}), NetworkError);
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_THROW(fitKernelForwardModel(some.measurements, some.causes, kGroups, {}, stop.get_token()), Cancelled);
+}
+
+} // namespace
+} // namespace palp
