@@ -17,6 +17,14 @@ constexpr double kSwatch_px = 18;     // of a curve's colour and the gap beside 
 constexpr double kReadingGap_px = 6;  // around what is read
 constexpr double kBeyond = 10;        // heights of the plot by which a curve leaves it at most
 
+/// Ticks of the value's axis, so few that no number covers the next.
+std::vector<double> valueTicks(const std::array<double, 2>& range, double height_px, double line_px) {
+  std::vector<double> ticks = roundTicks(range[0], range[1], 6);
+  for (int most = 5; most > 1 && static_cast<double>(ticks.size()) * line_px > height_px + line_px; --most)
+    ticks = roundTicks(range[0], range[1], most);
+  return ticks;
+}
+
 QColor ink(const Color& color) {
   return QColor::fromRgbF(static_cast<float>(color[0]), static_cast<float>(color[1]), static_cast<float>(color[2]));
 }
@@ -100,7 +108,7 @@ void StripChart::paintAxes(QPainter& painter, const QRectF& plot) const {
   painter.drawText(QRectF(plot.left(), 5, plot.width(), line + 2), Qt::AlignLeft | Qt::AlignVCenter,
                    QFontMetricsF(bold).elidedText(spec_.title, Qt::ElideRight, plot.width()));
   painter.setFont(font());
-  const std::vector<double> yTicks = roundTicks(spec_.yRange[0], spec_.yRange[1], 6);
+  const std::vector<double> yTicks = valueTicks(spec_.yRange, plot.height(), line);
   const std::vector<std::string> yTexts = tickTexts(yTicks);
   for (std::size_t k = 0; k < yTicks.size(); ++k) {
     const double y = std::round(yOf(plot, yTicks[k])) + 0.5;
@@ -126,9 +134,11 @@ void StripChart::paintAxes(QPainter& painter, const QRectF& plot) const {
                    held_ ? tr("time before the last frame [s], held: double click lets it run")
                          : tr("time before the last frame [s]"));
   painter.save();
-  painter.translate(line / 2 + 4, plot.center().y());
+  const double label = std::max(plot.height(), QFontMetricsF(font()).horizontalAdvance(spec_.yLabel) + 2);
+  const double middle = std::max(label / 2, std::min(plot.center().y(), height() - label / 2)); // whole, if it can be
+  painter.translate(line / 2 + 4, middle);
   painter.rotate(-90);
-  painter.drawText(QRectF(-plot.height() / 2, -line / 2, plot.height(), line), Qt::AlignCenter, spec_.yLabel);
+  painter.drawText(QRectF(-label / 2, -line / 2, label, line), Qt::AlignCenter, spec_.yLabel);
   painter.restore();
   painter.setPen(QPen(text, 1));
   painter.drawLine(plot.bottomLeft(), plot.bottomRight());

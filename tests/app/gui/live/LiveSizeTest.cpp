@@ -63,6 +63,19 @@ protected:
   }
 };
 
+TEST_F(LiveRecordButton, TheCalibrationScrollsDownAtMost) {
+  window.resize({1272, 764});
+  window.showScene("live");
+  settle();
+  auto& tabs = *find<LiveBoards>("live").page().findChild<QTabWidget*>("curveTabs");
+  tabs.setCurrentIndex(1);
+  const auto* room = qobject_cast<QScrollArea*>(tabs.currentWidget());
+  ASSERT_NE(room, nullptr);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return room->isVisible() && room->horizontalScrollBar()->maximum() == 0; },
+                              kPatience_ms / 6))
+      << room->widget()->minimumSizeHint().width() << " in " << room->viewport()->width();
+}
+
 TEST_F(LiveRecordButton, StandsOnTopAndIsNeverBelowTheFold) {
   EXPECT_TRUE(seen({1500, 900}));
   EXPECT_TRUE(seen({1272, 764}));
