@@ -1,53 +1,16 @@
 #include "app/scenes/VtuFile.h"
 
+#include "app/scenes/MeshGrid.h"
 #include "io/AtomicFile.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
 
 #include <vtkCallbackCommand.h>
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkCellType.h>
-#include <vtkDoubleArray.h>
 #include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
-#include <cassert>
-
 namespace palp {
-
-namespace {
-
-void fillGrid(vtkUnstructuredGrid& grid, const Mesh& mesh) {
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(mesh.nodeCount());
-  for (int node = 0; node < mesh.nodeCount(); ++node) points->SetPoint(node, mesh.nodes_mm.col(node).data());
-  vtkNew<vtkCellArray> cells;
-  for (int element = 0; element < mesh.elementCount(); ++element) {
-    cells->InsertNextCell(static_cast<int>(mesh.elements.rows()));
-    for (Eigen::Index k = 0; k < mesh.elements.rows(); ++k) cells->InsertCellPoint(mesh.elements(k, element));
-  }
-  grid.SetPoints(points);
-  grid.SetCells(mesh.shape == ElementShape::Tetrahedron10 ? VTK_QUADRATIC_TETRA : VTK_HEXAHEDRON, cells);
-}
-
-void addArray(vtkUnstructuredGrid& grid, const NodalArray& array) {
-  assert(array.values.cols() == grid.GetNumberOfPoints() && "one column a node");
-  vtkNew<vtkDoubleArray> data;
-  data->SetName(array.name.c_str());
-  data->SetNumberOfComponents(static_cast<int>(array.values.rows()));
-  data->SetNumberOfTuples(array.values.cols());
-  for (Eigen::Index node = 0; node < array.values.cols(); ++node)
-    for (Eigen::Index k = 0; k < array.values.rows(); ++k)
-      data->SetComponent(node, static_cast<int>(k), array.values(k, node));
-  grid.GetPointData()->AddArray(data);
-}
-
-} // namespace
 
 std::vector<NodalArray> nodalArrays(const NodalFields& fields) {
   std::vector<NodalArray> arrays{{"displacement_mm", fields.displacement_mm},
@@ -71,10 +34,10 @@ void endWhereAsked(vtkObject* writer, unsigned long, void* stop, void*) {
 
 std::string vtuText(const Mesh& mesh, const std::vector<NodalArray>& arrays, const std::stop_token& stop) {
   vtkNew<vtkUnstructuredGrid> grid;
-  fillGrid(*grid, mesh);
+  fillGrid(*grid, mesh, mesh.nodes_mm);
   for (const NodalArray& array : arrays) {
     stopIfAsked(stop);
-    addArray(*grid, array);
+    addNodalArray(*grid, array.name, array.values);
   }
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
   vtkNew<vtkCallbackCommand> reported;

@@ -46,29 +46,53 @@ void ReplaySource::skipToReport() {
   }
 }
 
-/// On from the first report at or after this time; marks and configurations on the way count.
-void ReplaySource::goTo(double to_s) {
-  if (!next_ || next_->hostTime_s > first_s_ + to_s) rewind();
-  for (skipToReport(); next_ && next_->hostTime_s < first_s_ + to_s; skipToReport()) next_ = reader_.next();
-  goOnFrom(first_s_ + to_s);
+/// How many reports came before this host time.
+std::size_t ReplaySource::reportAt(double hostTime_s) {
+  rewind();
+  for (skipToReport(); next_ && next_->hostTime_s < hostTime_s; skipToReport()) skip(1);
+  return report_;
+}
+
+void ReplaySource::skip(std::size_t reports) {
+  for (skipToReport(); next_ && reports > 0; skipToReport(), --reports, ++report_) next_ = reader_.next();
+}
+
+/// On from the first report at or after this time.
+void ReplaySource::goTo(double to_s, double past_s) {
+  const double hostTime_s = first_s_ + to_s;
+  goTo(reportAt(hostTime_s), hostTime_s, past_s);
+}
+
+/// On from this report, with what came before it; marks and configurations on the way count.
+void ReplaySource::goTo(std::size_t report, double hostTime_s, double past_s) {
+  const double from_s = std::max(first_s_, hostTime_s - past_s);
+  if (past_s > 0) {
+    static_cast<void>(reportAt(from_s));
+  } else {
+    rewind();
+    skip(report);
+  }
+  goOnFrom(past_s > 0 ? from_s : hostTime_s);
+  target_ = report;
+  target_s_ = hostTime_s;
+  control_->position_s = hostTime_s - first_s_;
 }
 
 /// By the frames' numbers, not by their length: on a busy host many reports come at once and others late.
 void ReplaySource::goToFrameBefore(double end_s) {
   rewind();
-  std::size_t report = 0, begin = 0, before = 0;
+  std::size_t begin = 0, before = 0;
   std::optional<std::uint16_t> frame;
-  for (skipToReport(); next_ && next_->hostTime_s <= end_s; skipToReport(), ++report) {
+  for (skipToReport(); next_ && next_->hostTime_s <= end_s; skip(1)) {
     const auto decoded = decodeInput(next_->bytes, info());
     if (const auto* readings = std::get_if<Readings>(&decoded); readings && frame != readings->frame) {
       frame = readings->frame;
-      before = std::exchange(begin, report);
+      before = std::exchange(begin, report_);
     }
-    next_ = reader_.next();
   }
   rewind();
-  for (skipToReport(); next_ && before > 0; skipToReport(), --before) next_ = reader_.next();
-  goOnFrom(next_ ? next_->hostTime_s : first_s_);
+  skip(before);
+  goTo(before, next_ ? next_->hostTime_s : first_s_, control_->past_s);
 }
 
 void ReplaySource::rewind() {
@@ -76,6 +100,8 @@ void ReplaySource::rewind() {
   configuration_ = reader_.head().configuration;
   mark_.clear();
   tare_.reset();
+  report_ = target_ = 0;
+  target_s_ = first_s_;
   next_ = reader_.next();
 }
 
@@ -89,13 +115,13 @@ void ReplaySource::goOnFrom(double hostTime_s) {
 /// What was asked for since: another place, or the loop's begin.
 void ReplaySource::follow() {
   const double sought_s = control_->seek_s_.exchange(-1);
-  if (sought_s >= 0) return goTo(std::min<double>(sought_s, control_->length_s));
+  if (sought_s >= 0) return goTo(std::min<double>(sought_s, control_->length_s), control_->past_s);
   const double frameEnd_s = control_->frameEnd_s_.exchange(-1);
   if (frameEnd_s >= 0) return goToFrameBefore(frameEnd_s);
   const double from_s = control_->loopFrom_s, to_s = control_->loopTo_s;
   if (!control_->loop || !(to_s > from_s) || control_->paused) return;
   const bool over = !next_ || next_->hostTime_s - first_s_ > to_s;
-  if (over && from_s < control_->length_s) goTo(from_s);
+  if (over && from_s < control_->length_s) goTo(from_s, 0);
 }
 
 std::string ReplaySource::name() const {
@@ -126,7 +152,8 @@ ReportSource::Outcome ReplaySource::read(RawReport& report, std::chrono::millise
   follow();
   if (!next_) return Outcome::End;
   const bool stepping = control_->paused && control_->steps > 0;
-  if (control_->paused && !stepping) {
+  const bool past = report_ < target_;
+  if (control_->paused && !stepping && !past) {
     std::this_thread::sleep_for(std::min(timeout, std::chrono::milliseconds(20)));
     asked_s_ = hostClock_s();
     return Outcome::Nothing;
@@ -136,16 +163,17 @@ ReportSource::Outcome ReplaySource::read(RawReport& report, std::chrono::millise
   if (!started_) playedTo_s_ = next_->hostTime_s;
   playedTo_s_ = std::max(playedTo_s_, next_->hostTime_s - kLongestGap_s);
   if (started_ && speed > 0) playedTo_s_ += (now_s - asked_s_) * speed;
-  started_ = true;
+  started_ = !past;
   asked_s_ = now_s;
-  const double wait_s = speed > 0 && !stepping ? (next_->hostTime_s - playedTo_s_) / speed : 0;
+  const double wait_s = speed > 0 && !stepping && !past ? (next_->hostTime_s - playedTo_s_) / speed : 0;
   if (wait_s > 0) {
     const auto wait = std::min<std::chrono::duration<double>>(std::chrono::duration<double>(wait_s), timeout);
     std::this_thread::sleep_for(wait);
     if (wait_s > std::chrono::duration<double>(timeout).count()) return Outcome::Nothing;
   }
   report.hostTime_s = next_->hostTime_s;
-  control_->position_s = next_->hostTime_s - first_s_;
+  if (!past) control_->position_s = next_->hostTime_s - first_s_;
+  ++report_;
   std::swap(report.bytes, next_->bytes);
   next_ = reader_.next();
   return Outcome::Read;

@@ -30,6 +30,8 @@ struct ReplayControl {
   std::atomic<double> position_s{0}; ///< that is reached; set by the source
   std::atomic<bool> loop{false};     ///< between the next two, again and again
   std::atomic<double> loopFrom_s{0}, loopTo_s{0};
+  /// That is read first, as fast as it can be, from before a place that is gone to; its frames are LiveFrame::past.
+  std::atomic<double> past_s{0};
 
   /// Goes on from this time of the recording; while paused, to the end of the first frame there.
   void seek(double to_s) { seek_s_ = to_s; }
@@ -68,6 +70,10 @@ public:
   [[nodiscard]] bool markFollowsJump() const { return markTime_s_ >= takenUp_s_; }
   /// The tare that held at this place when it was recorded; null: none.
   [[nodiscard]] const std::shared_ptr<const Tare>& tare() const { return tare_; }
+  /// A frame that ended at this host time, with the last report, lies before the place that was gone to.
+  [[nodiscard]] bool past(double hostTime_s) const { return report_ <= target_ || hostTime_s < target_s_; }
+  /// The last report was from before the place that was gone to.
+  [[nodiscard]] bool inPast() const { return report_ <= target_; }
   /// Since the last call it went to another place of the recording.
   [[nodiscard]] bool jumped() { return std::exchange(jumped_, false); }
 
@@ -75,7 +81,10 @@ private:
   void take(const RecordingEntry& entry);
   void measure();
   void follow();
-  void goTo(double to_s);
+  void goTo(double to_s, double past_s);
+  void goTo(std::size_t report, double hostTime_s, double past_s);
+  [[nodiscard]] std::size_t reportAt(double hostTime_s);
+  void skip(std::size_t reports);
   void goToFrameBefore(double end_s);
   void rewind();
   void goOnFrom(double hostTime_s);
@@ -88,10 +97,13 @@ private:
   std::optional<RecordingEntry> next_;
   std::string mark_;
   std::shared_ptr<const Tare> tare_;
-  double markTime_s_ = 0; ///< host time of the mark
-  double takenUp_s_ = 0;  ///< host time that was gone to last
-  double playedTo_s_ = 0; ///< host time of the recording that is reached
-  double asked_s_ = 0;    ///< host clock when that was
+  double markTime_s_ = 0;  ///< host time of the mark
+  double takenUp_s_ = 0;   ///< host time from which it was read on last
+  std::size_t report_ = 0; ///< reports before next_, from the recording's first
+  std::size_t target_ = 0; ///< before the place that was gone to last
+  double target_s_ = 0;    ///< host time of that place
+  double playedTo_s_ = 0;  ///< host time of the recording that is reached
+  double asked_s_ = 0;     ///< host clock when that was
   bool started_ = false;
   bool jumped_ = false;
   double first_s_ = 0, last_s_ = 0; ///< host time of the first and the last report

@@ -97,8 +97,11 @@ void Document::showTitle() {
   emit unsavedChanged();
 }
 
-bool Document::mayLeave() {
-  if (!unsaved()) return true;
+bool Document::mayLeave(const QStringList& ends) {
+  if (!unsaved())
+    return ends.isEmpty() ||
+           QMessageBox::question(&window_, tr("Quit?"), ends.join("\n\n") + tr("\n\nQuit?"),
+                                 QMessageBox::Yes | QMessageBox::No, QMessageBox::No) == QMessageBox::Yes;
   const QString file = workbench_.file();
   const QString name = file.isEmpty() ? tr("the project") : QFileInfo(file).fileName();
   const auto what = [&] {
@@ -114,7 +117,7 @@ bool Document::mayLeave() {
     }
     return tr("The samples and networks of %1 are not saved.").arg(name);
   };
-  QMessageBox question(QMessageBox::Question, tr("Save the project?"), what(),
+  QMessageBox question(QMessageBox::Question, tr("Save the project?"), (QStringList(what()) + ends).join("\n\n"),
                        QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, &window_);
   question.setObjectName("unsaved");
   question.setDefaultButton(QMessageBox::Save);

@@ -35,8 +35,9 @@ public:
   [[nodiscard]] bool unsaved() const;
   /// Samples or networks would be.
   [[nodiscard]] bool resultsUnsaved() const;
-  /// Nothing is unsaved, or the user has saved it or lets it go.
-  bool mayLeave();
+  /// Nothing is unsaved and nothing ends, or the user has saved what is unsaved, or lets it go. `ends`: sentences on
+  /// what runs and would end too; one question is asked about all.
+  bool mayLeave(const QStringList& ends = {});
   /// A file of ours: a design or a project in place of what is open (asks first), samples and networks in the Network
   /// scene. Says why where it cannot be opened, and keeps what was there.
   void open(const QString& file);

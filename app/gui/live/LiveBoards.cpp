@@ -1,6 +1,7 @@
 #include "app/gui/live/LiveBoards.h"
 
 #include "app/gui/widgets/AccessibleNames.h"
+#include "app/gui/widgets/ElidedLabel.h"
 #include "app/gui/window/SidePanel.h"
 
 #include <QHBoxLayout>
@@ -65,11 +66,9 @@ void LiveBoards::build() {
   cell.head = new QWidget;
   auto* head = new QHBoxLayout(cell.head);
   head->setContentsMargins(8, 6, 8, 0);
-  cell.title = new QLabel;
+  cell.title = new ElidedLabel;
   cell.title->setObjectName("boardTitle");
   cell.title->setProperty("role", "title");
-  cell.title->setProperty("mayBeCut", true); // its tip has all of it
-  cell.title->setMinimumWidth(10);
   auto* away = new QPushButton(tr("Take away"));
   away->setObjectName("takeBoardAway");
   away->setToolTip(tr("Shows this board no longer; what is recorded stays in its file"));
@@ -111,6 +110,7 @@ void LiveBoards::arrange() {
   const bool several = cells_.size() > 1;
   for (std::size_t k = 0; k < cells_.size(); ++k) {
     cells_[k].head->setVisible(several);
+    cells_[k].page->setBeside(several);
     cells_[k].page->setMoreAllowed(cells_.size() < Project::kMostBoards);
   }
   row_->setSizes(QList<int>(static_cast<int>(cells_.size()), width()));
@@ -128,7 +128,6 @@ void LiveBoards::displayTitles() {
     if (status.recording) words += tr(", recording");
     if (cells_[k].title->text() == words) continue;
     cells_[k].title->setText(words);
-    cells_[k].title->setToolTip(words);
     cells_[k].page->setAccessibleName(words);
   }
 }

@@ -145,11 +145,13 @@ QWidget* LiveCalibration::buildFrames() {
   table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
   column->addWidget(table_, 1);
-  auto* row = new QHBoxLayout;
+  auto* row = new QGridLayout; // two in a line, for narrow windows
   auto* load = button(tr("Load..."), "loadFrames", tr("Adds the labelled frames of a file (CSV)"));
   saveFrames_ = button(tr("Save..."), "saveFrames", tr("Keeps the labelled frames in a file (CSV)"));
   remove_ = button(tr("Remove"), "removeFrame", tr("Takes the selected frame away"));
-  for (QPushButton* push : {load, saveFrames_, remove_}) row->addWidget(push);
+  row->addWidget(load, 0, 0);
+  row->addWidget(saveFrames_, 0, 1);
+  row->addWidget(remove_, 1, 0, 1, 2);
   column->addLayout(row);
   connect(load, &QPushButton::clicked, this, [this] {
     const QString file = askFileToOpen(this, tr("Labelled frames"), tr("Samples (*.csv *.h5 *.hdf5 *.npz)"));

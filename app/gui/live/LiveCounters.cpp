@@ -1,5 +1,7 @@
 #include "app/gui/live/LiveCounters.h"
 
+#include "app/gui/widgets/ElidedLabel.h"
+
 #include <QGridLayout>
 #include <QLabel>
 #include <QStyle>
@@ -60,7 +62,6 @@ LiveCounters::LiveCounters(QWidget* parent) : QWidget(parent) {
           tr("Of the board [degC]; relative noise of a reading: measured while taring, before that from frame to "
              "frame; drift: how far all readings have gone together since rest [millionths], seen while the "
              "sensor is left alone. Where that reads as more than 1 % of the force range, a tare is suggested"));
-  state_.unit->setProperty("mayBeCut", true); // its tip has all of it
   arrange(6);
 }
 
@@ -74,11 +75,14 @@ void LiveCounters::arrange(int columns) {
   }
 }
 
+int LiveCounters::tileWidth() const {
+  return fontMetrics().horizontalAdvance(tr("of 1000; 1000.0 frames/s")) + kTileMargins_px;
+}
+
 /// As many in a line as show their text, the lines equally long.
 void LiveCounters::resizeEvent(QResizeEvent* event) {
   QWidget::resizeEvent(event);
-  const int needed = fontMetrics().horizontalAdvance(tr("of 1000; 1000.0 frames/s")) + kTileMargins_px;
-  const int most = width() / needed;
+  const int most = width() / tileWidth();
   arrange(most >= 6 ? 6 : most >= 3 ? 3 : 2);
 }
 
@@ -91,15 +95,13 @@ LiveCounters::Tile LiveCounters::add(const QString& name, const QString& title, 
   column->setSpacing(0);
   auto* head = new QLabel(title);
   head->setProperty("role", "hint");
-  Tile tile{box, new QLabel, new QLabel};
+  Tile tile{box, new ElidedLabel, new ElidedLabel};
   tile.value->setObjectName(name);
   tile.value->setProperty("role", "value");
   tile.unit->setObjectName(name + "Unit");
   tile.unit->setProperty("role", "hint");
-  for (QLabel* label : {head, tile.value, tile.unit}) {
-    label->setMinimumWidth(10); // a long text is cut, it does not widen the window
-    column->addWidget(label);
-  }
+  head->setMinimumWidth(10);
+  for (QLabel* label : {head, tile.value, tile.unit}) column->addWidget(label);
   return tile;
 }
 
@@ -121,7 +123,6 @@ void LiveCounters::displayTrust(const LiveStatus& status, const LiveFrame* last)
   const bool doubted = !forces.doubt.empty();
   const QString misfit = forces.misfit ? tr("misfit %1").arg(*forces.misfit, 0, 'g', 3) : tr("range of the readings");
   set(trust_, doubted ? tr("doubted") : tr("fits"), doubted ? QString::fromStdString(forces.doubt) : misfit, doubted);
-  trust_.unit->setToolTip(doubted ? trust_.unit->text() : QString());
 }
 
 void LiveCounters::display(const LiveStatus& status, const LiveFrame* last, bool simulated, bool replaying) {
@@ -129,7 +130,6 @@ void LiveCounters::display(const LiveStatus& status, const LiveFrame* last, bool
                      (status.state == LiveState::Searching && status.connections > 0);
   set(state_, stateTitle(status, simulated, replaying),
       QString::fromStdString(status.reason.empty() ? status.source : status.reason), alarm);
-  state_.unit->setToolTip(state_.unit->text());
   const QString wanted = status.configuration ? tr("of %1; ").arg(status.configuration->rate_Hz) : QString();
   if (status.state != LiveState::Paused) // held with the views
     set(rate_, tr("%1 reports/s").arg(status.reportsPerSecond, 0, 'f', 0),
@@ -137,7 +137,6 @@ void LiveCounters::display(const LiveStatus& status, const LiveFrame* last, bool
   set(losses_, tr("%1 lost").arg(status.counts.lost),
       tr("%1 bad, %2 late, of %3").arg(status.counts.bad).arg(status.lateFrames).arg(status.counts.reports),
       status.counts.lost + status.counts.bad > 0);
-  losses_.unit->setToolTip(losses_.unit->text());
   set(latency_, triple(status.latency, status.counts.frames),
       status.counts.frames == 0
           ? QString()

@@ -22,6 +22,9 @@ public:
   /// `last` may be null.
   void display(const LiveStatus& status, const LiveFrame* last, bool simulated, bool replaying);
 
+  /// That a tile needs for its usual words [px].
+  [[nodiscard]] int tileWidth() const;
+
 protected:
   void resizeEvent(QResizeEvent* event) override;
 

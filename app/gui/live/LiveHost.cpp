@@ -46,7 +46,10 @@ LiveHost::~LiveHost() = default;
 void LiveHost::setSettings(const LiveSettings& settings, const SensorDesign& design) {
   const LiveSettings before = std::exchange(settings_, settings);
   const bool otherDesign = !(design == std::exchange(design_, design));
-  if (replay_) replay_->speed = settings.replaySpeed;
+  if (replay_) {
+    replay_->speed = settings.replaySpeed;
+    replay_->past_s = settings.window_s;
+  }
   if (simulation_) simulation_->set(faults(), disturbance());
   hold();
   if (before.alarmOn != settings.alarmOn || !(before.alarm == settings.alarm)) {
@@ -166,6 +169,7 @@ LiveOptions LiveHost::options() {
     options.tareOf = {};
     replay_ = std::make_shared<ReplayControl>();
     replay_->speed = settings_.replaySpeed;
+    replay_->past_s = settings_.window_s;
     options.replay = replay_;
     options.reconnect = false;
     options.open = [path = settings_.recording, control = replay_] {
@@ -179,6 +183,7 @@ LiveOptions LiveHost::options() {
 void LiveHost::open() {
   history_.clear();
   fresh_.clear();
+  waiting_.clear();
   status_ = {};
   configured_ = 0;
   session_ = std::make_unique<LiveSession>(options());
@@ -295,15 +300,11 @@ void LiveHost::backToNetwork() {
   setNetwork(std::move(back));
 }
 
-void LiveHost::seek(double to_s) {
-  if (replay_) replay_->seek(to_s);
-}
-
 bool LiveHost::look() {
   if (!session_) return false;
   status_ = session_->status();
   if (status_.info && !replay_) tares_.keep(*status_.info, status_.tare);
-  fresh_ = session_->drain();
+  drain();
   for (const auto& frame : fresh_) history_.add(frame);
   if (recording() != recorded_) applyPause();
   if (watch_) watch_->setQuiet(*boardSeen_ && status_.state == LiveState::Streaming);
@@ -352,16 +353,6 @@ void LiveHost::setPaused(bool paused) {
   applyPause();
 }
 
-void LiveHost::step(int frames) {
-  if (!replay_) return;
-  setPaused(true);
-  if (frames > 0) {
-    replay_->steps += frames;
-    return;
-  }
-  if (const LiveFrame* last = history_.last()) replay_->seekFrameBefore(last->frame.hostTime_s);
-}
-
 void LiveHost::mark(const std::string& text) {
   if (session_) session_->mark(text);
 }
@@ -372,19 +363,6 @@ void LiveHost::setPluggedIn(bool in) {
 
 bool LiveHost::pluggedIn() const {
   return simulation_ && simulation_->pluggedIn;
-}
-
-void LiveHost::startRecording(const std::filesystem::path& path, bool replace) {
-  if (!session_) throw Error(path.string() + ": nothing to record: no source is open");
-  if (replay_ && std::filesystem::weakly_canonical(path) == std::filesystem::weakly_canonical(settings_.recording))
-    throw Error(path.string() + ": is being played; record to another file");
-  session_->startRecording(path, network_.fingerprint, replace);
-  recordingFile_ = path;
-  recordingSince_s_ = hostClock_s();
-}
-
-void LiveHost::stopRecording() {
-  if (session_) session_->stopRecording();
 }
 
 } // namespace palp

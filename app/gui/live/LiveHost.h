@@ -84,7 +84,8 @@ public:
   /// It is recorded, or would be if the board were not out.
   [[nodiscard]] bool recording() const { return status_.recording || status_.recordingWaits; }
   /// Host clock when the last recording was begun.
-  [[nodiscard]] double recordingSince_s() const { return recordingSince_s_; }
+  /// How long the recording has gone on, or the last one went on.
+  [[nodiscard]] double recorded_s() const;
   /// The file of the last recording that was begun.
   [[nodiscard]] const std::filesystem::path& recordingFile() const { return recordingFile_; }
   /// A refined network in place of the one in use, which can be had back. Recordings get a mark.
@@ -122,6 +123,7 @@ private:
   void applyPause();
   [[nodiscard]] bool watches() const { return settings_.alarmOn && !replay_; }
   void configureOnce();
+  void drain();
   [[nodiscard]] LiveOptions options();
   [[nodiscard]] BoardDisturbance disturbance() const;
   [[nodiscard]] BoardFaults faults() const;
@@ -140,6 +142,7 @@ private:
   bool recorded_ = false; ///< at the last look
   std::filesystem::path recordingFile_;
   double recordingSince_s_ = 0;
+  std::optional<double> recordingEnd_s_; ///< of the last one; none: it goes on
   SimulatedDesign simulatedDesign_;
   std::shared_ptr<TouchHand> hand_ = std::make_shared<TouchHand>(); ///< on the simulated board
   std::shared_ptr<SimulationControl> simulation_;
@@ -152,7 +155,8 @@ private:
   KeptTares tares_;
   LiveHistory history_;
   std::vector<std::shared_ptr<const LiveFrame>> fresh_;
-  std::uint64_t configured_ = 0; ///< the connection that has got its rate and rows
+  std::vector<std::shared_ptr<const LiveFrame>> waiting_; ///< frames of the past, for the place that was gone to
+  std::uint64_t configured_ = 0;                          ///< the connection that has got its rate and rows
   JobRunner loader_;
 };
 

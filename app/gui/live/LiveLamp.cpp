@@ -51,10 +51,9 @@ QString LiveWatch::alarm(const LiveHost& host) const {
 LiveLampState LiveWatch::state(const LiveHost& host, bool seen) const {
   const LiveStatus& status = host.status();
   const QString file = QString::fromStdString(host.recordingFile().filename().string());
-  const QString recording =
-      status.recordingWaits ? QObject::tr("Recording %1 waits for the board").arg(file)
-      : status.recording    ? QObject::tr("Recording %1, %2").arg(file, timeOf(hostClock_s() - host.recordingSince_s()))
-                            : QString();
+  const QString recording = status.recordingWaits ? QObject::tr("Recording %1 waits for the board").arg(file)
+                            : status.recording    ? QObject::tr("Recording %1, %2").arg(file, timeOf(host.recorded_s()))
+                                                  : QString();
   const QString alarm = this->alarm(host);
   if (!alarm.isEmpty() || unseen_ > 0) {
     QString words = alarm.isEmpty() ? QString::fromStdString(status.lastAlarm) : alarm;
@@ -64,11 +63,13 @@ LiveLampState LiveWatch::state(const LiveHost& host, bool seen) const {
   }
   if (!recording.isEmpty()) return {LiveLampState::Kind::Records, recording};
   const QString source = QString::fromStdString(status.source);
+  const QString state = QString::fromLatin1(name(status.state));
   if (status.state != LiveState::Streaming) {
-    const bool missing = host.worksHidden() && !seen;
-    return missing ? LiveLampState{LiveLampState::Kind::Alarm, QObject::tr("Nothing is watched: the board is %1")
-                                                                   .arg(QString::fromLatin1(name(status.state)))}
-                   : LiveLampState{};
+    if (!seen && host.worksHidden())
+      return {LiveLampState::Kind::Alarm, QObject::tr("Nothing is watched: the board is %1").arg(state)};
+    const bool gone = status.connections > 0 && status.state != LiveState::Paused && status.state != LiveState::Ended;
+    if (seen && gone) return {LiveLampState::Kind::Alarm, QObject::tr("Live: %1 is out, %2").arg(source, state)};
+    return seen ? LiveLampState{LiveLampState::Kind::Streams, QObject::tr("Live: %1").arg(state)} : LiveLampState{};
   }
   if (seen && host.replaying()) return {LiveLampState::Kind::Streams, QObject::tr("Playing the %1").arg(source)};
   if (seen) return {LiveLampState::Kind::Streams, QObject::tr("Live: %1").arg(source)};

@@ -7,16 +7,17 @@
 #include "app/gui/live/LiveDrawings.h"
 #include "app/gui/live/LiveTwin.h"
 #include "app/gui/live/LiveView.h"
-#include "app/gui/live/ReplayBar.h"
 #include "app/gui/live/panels/LiveControlPanel.h"
 #include "app/gui/live/panels/LiveSourcePanel.h"
 #include "app/gui/live/panels/SimulationPanel.h"
+#include "app/gui/live/recordings/ReplayBar.h"
 #include "app/gui/project/Command.h"
 #include "app/gui/views/HeatmapView.h"
 #include "app/gui/window/SidePanel.h"
 
 #include <QAbstractButton>
 #include <QDir>
+#include <QEvent>
 #include <QHBoxLayout>
 #include <QScrollArea>
 #include <QShortcut>
@@ -48,7 +49,9 @@ LivePage::LivePage(Workbench& workbench, BoardAccess access, std::size_t board)
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(8, 8, 8, 8);
   row->addWidget(buildPanels());
-  row->addWidget(buildViews(), 1);
+  views_ = buildViews();
+  row->addWidget(views_, 1);
+  row->addStretch(0); // beside a panel that stands alone
   timer_.setInterval(kFrame_ms);
   connect(&timer_, &QTimer::timeout, this, &LivePage::look);
   hiddenTimer_.setInterval(kHiddenLook_ms);
@@ -73,7 +76,9 @@ QWidget* LivePage::buildPanels() {
   column->addWidget(source_);
   column->addWidget(simulation_);
   column->addWidget(control_, 1);
-  return sidePanel(panels, kPanelWidth_px);
+  panels_ = new SidePanel(panels, kPanelWidth_px);
+  connect(panels_, &SidePanel::foldedNow, this, &LivePage::arrangeViews);
+  return panels_;
 }
 
 QWidget* LivePage::buildViews() {
@@ -118,6 +123,7 @@ QWidget* LivePage::buildViews() {
   views->addWidget(upper_);
   views->addWidget(curveTabs_);
   views->setSizes({430, 320});
+  views->installEventFilter(this);
   column->addWidget(views, 1);
   return page;
 }
@@ -299,8 +305,19 @@ void LivePage::resizeEvent(QResizeEvent* event) {
   arrangeViews();
 }
 
+/// The views have another size, after a fold of the panel too: they are arranged when the layout has settled.
+bool LivePage::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::Resize) QMetaObject::invokeMethod(this, &LivePage::arrangeViews, Qt::QueuedConnection);
+  return Scene::eventFilter(watched, event);
+}
+
 void LivePage::setMoreAllowed(bool allowed) {
   source_->setMoreAllowed(allowed);
+}
+
+void LivePage::setBeside(bool beside) {
+  beside_ = beside;
+  arrangeViews();
 }
 
 /// A recording or an alarm goes on out of sight; where there is neither, nothing runs.

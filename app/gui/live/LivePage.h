@@ -24,6 +24,7 @@ class LiveSourcePanel;
 class LiveTwin;
 class LiveView;
 class ReplayBar;
+class SidePanel;
 class SimulationPanel;
 
 /// A live board: force vectors, heatmap and curves at no more than 30 frames a second, and only while it is seen.
@@ -51,6 +52,8 @@ public:
   [[nodiscard]] LiveLampState lamp() const { return watch_.state(host_, isVisible()); }
   /// Another board of the project is asked for beside this one.
   void setMoreAllowed(bool allowed);
+  /// It shares the window with others: where it is too narrow for views beside its panel, the panel takes their place.
+  void setBeside(bool beside);
 
 signals:
   void message(const QString& sentence);
@@ -62,6 +65,7 @@ protected:
   void showEvent(QShowEvent* event) override;
   void hideEvent(QHideEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
+  bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
   QWidget* buildPanels();
@@ -78,6 +82,7 @@ private:
   void lookHidden();
   void announceAlarm();
   void arrangeViews();
+  void placeHeatmap(bool inTab);
   void drawState();
   void drawForces();
   void drawHeatmap();
@@ -103,6 +108,8 @@ private:
   LiveCounters* counters_ = nullptr;
   LiveBanner* banner_ = nullptr;
   ReplayBar* replay_ = nullptr;
+  SidePanel* panels_ = nullptr;
+  QWidget* views_ = nullptr; ///< all that stands beside the panels
   QSplitter* upper_ = nullptr;
   QTabWidget* blockTabs_ = nullptr;
   QTabWidget* curveTabs_ = nullptr;
@@ -116,6 +123,7 @@ private:
   int stateLook_ = 0;
   int hiddenLooks_ = 0;
   bool arrowSeen_ = false;
+  bool beside_ = false;
   double shownSince_s_ = 0;
 };
 

@@ -3,8 +3,8 @@
 #include "app/gui/live/LiveDrawings.h"
 #include "app/gui/live/LivePage.h"
 #include "app/gui/live/LiveTwin.h"
-#include "app/gui/live/RecordingName.h"
 #include "app/gui/live/panels/LiveControlPanel.h"
+#include "app/gui/live/recordings/RecordingName.h"
 #include "app/gui/views/CsvExport.h"
 
 #include <QMessageBox>
@@ -65,8 +65,9 @@ void LivePage::exportFrames(const QString& file) {
                  replay != nullptr ? std::optional(replay->begin_s.load()) : std::nullopt,
                  sourceOf(*this).toStdString());
     const auto count = host_.history().entries().size();
-    emit message(replay != nullptr ? tr("Wrote the %1 frames played since the last jump to %2.").arg(count).arg(file)
-                                   : tr("Wrote the last %1 frames to %2.").arg(count).arg(file));
+    emit message(replay != nullptr
+                     ? tr("Wrote the %1 frames of the recording that the curves hold to %2.").arg(count).arg(file)
+                     : tr("Wrote the last %1 frames to %2.").arg(count).arg(file));
   } catch (const std::exception& refusal) {
     emit message(QString::fromStdString(refusal.what()));
   }
@@ -97,10 +98,10 @@ bool LivePage::mayEndRecording() {
 }
 
 void LivePage::stopRecording() {
-  emit message(tr("Recorded %1 s to %2.")
-                   .arg(hostClock_s() - host_.recordingSince_s(), 0, 'f', 1)
-                   .arg(QString::fromStdString(host_.recordingFile().string())));
   host_.stopRecording();
+  emit message(tr("Recorded %1 s to %2.")
+                   .arg(host_.recorded_s(), 0, 'f', 1)
+                   .arg(QString::fromStdString(host_.recordingFile().string())));
 }
 
 void LivePage::solveTwin() {

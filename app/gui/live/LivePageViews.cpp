@@ -12,6 +12,7 @@
 #include "app/gui/live/panels/LiveSourcePanel.h"
 #include "app/gui/live/panels/SimulationPanel.h"
 #include "app/gui/views/HeatmapView.h"
+#include "app/gui/window/SidePanel.h"
 
 #include <QSplitter>
 #include <QTabWidget>
@@ -25,6 +26,7 @@ namespace {
 constexpr double kColorSteps = 256;  // a smaller change of a cell is not seen
 constexpr int kNarrowViews_px = 640; // narrower views stand one above the other
 constexpr int kTower_px = 640;       // that four of them need to be read
+constexpr int kLowTower_px = 400;    // that three of them need
 
 /// Some cell has another colour than it was drawn with.
 bool looksDifferent(const Eigen::MatrixXd& now, const Eigen::MatrixXd& drawn, double step) {
@@ -37,12 +39,28 @@ bool looksDifferent(const Eigen::MatrixXd& now, const Eigen::MatrixXd& drawn, do
 
 /// Several boards share the window's width.
 void LivePage::arrangeViews() {
+  const int rest_px = width() - panels_->sizeHint().width();
+  views_->setVisible(!beside_ || panels_->folded() || rest_px >= 2 * counters_->tileWidth());
   QWidget& views = *upper_->parentWidget();
   const bool narrow = views.width() < kNarrowViews_px;
-  views.setMinimumHeight(narrow ? kTower_px : 0);
+  views.setMinimumHeight(narrow ? kLowTower_px : 0);
+  placeHeatmap(narrow && views.height() < kTower_px);
   const Qt::Orientation way = narrow ? Qt::Vertical : Qt::Horizontal;
   if (upper_->orientation() != way) upper_->setOrientation(way);
   if (curves_->orientation() != way) curves_->setOrientation(way);
+}
+
+/// A tab of its own where there is no room for it under the forces.
+void LivePage::placeHeatmap(bool inTab) {
+  const bool isInTab = blockTabs_->indexOf(heatmap_) >= 0;
+  if (inTab == isInTab) return;
+  if (inTab) {
+    blockTabs_->addTab(heatmap_, tr("dR/R"));
+    return;
+  }
+  upper_->addWidget(heatmap_); // which takes it out of the tabs
+  heatmap_->show();
+  upper_->setSizes({width(), width()});
 }
 
 /// All views anew.
@@ -73,8 +91,7 @@ void LivePage::drawState() {
                              host_.simulator().running()});
   const SimulationSettings& hand = host_.settings().simulation;
   block_->setPressable(simulated && hand.held, hand.heldArea);
-  control_->displayState(
-      {status, host_.paused(), hostClock_s() - host_.recordingSince_s(), networkWords(host_), host_.networkBefore()});
+  control_->displayState({status, host_.paused(), host_.recorded_s(), networkWords(host_), host_.networkBefore()});
   calibration_->displayState();
   banner_->display(host_, watch_.alarm(host_));
   const bool streams = status.state == LiveState::Streaming || status.state == LiveState::Paused;

@@ -111,6 +111,13 @@ Picture HeatmapView::renderPicture(int width, int height) {
   return larger.picture(width, height);
 }
 
+std::string HeatmapView::svg() const {
+  const QSize shown = size().expandedTo({600, 400}); // a tab that was never seen has no size yet
+  Heatmap drawn = heatmap_;
+  drawn.scale = textScale(*this);
+  return drawn.svg(shown.width(), shown.height());
+}
+
 std::optional<std::array<int, 2>> HeatmapView::cellAt(const QPointF& place) const {
   if (place.x() < 0) return {};
   const QPointF device = devicePlace(place);

@@ -15,6 +15,8 @@ public:
   void setHeatmap(HeatmapSpec spec);
   void setTheme(Theme theme);
   [[nodiscard]] QString table() const override;
+  [[nodiscard]] bool hasSvg() const override { return heatmap_.spec.values.size() > 0; }
+  [[nodiscard]] std::string svg() const override;
   [[nodiscard]] bool worthSaving() const override { return heatmap_.spec.values.size() > 0; }
   [[nodiscard]] const HeatmapSpec& heatmap() const { return heatmap_.spec; }
   /// The middle of a cell in the widget, as last painted.

@@ -13,10 +13,17 @@ namespace {
 
 constexpr double kLegendLine_px = 32; // of a legend's entry beside its name
 constexpr double kMarkGap_px = 3;     // between a mark's line and its words
-constexpr double kLeastWords_px = 24; // of a mark that tell anything
 constexpr double kSwatch_px = 18;     // of a curve's colour and the gap beside it, where it is read
 constexpr double kReadingGap_px = 6;  // around what is read
 constexpr double kBeyond = 10;        // heights of the plot by which a curve leaves it at most
+
+/// Ticks of the value's axis, so few that no number covers the next.
+std::vector<double> valueTicks(const std::array<double, 2>& range, double height_px, double line_px) {
+  std::vector<double> ticks = roundTicks(range[0], range[1], 6);
+  for (int most = 5; most > 1 && static_cast<double>(ticks.size()) * line_px > height_px + line_px; --most)
+    ticks = roundTicks(range[0], range[1], most);
+  return ticks;
+}
 
 QColor ink(const Color& color) {
   return QColor::fromRgbF(static_cast<float>(color[0]), static_cast<float>(color[1]), static_cast<float>(color[2]));
@@ -52,7 +59,9 @@ QRectF StripChart::plotRectangle() const {
   for (const std::string& text : tickTexts(roundTicks(spec_.yRange[0], spec_.yRange[1], 6)))
     widest = std::max(widest, metrics.horizontalAdvance(QString::fromStdString(text)));
   const double line = metrics.height();
-  return QRectF(rect()).adjusted(widest + line + 14, line + 14, -12, -2 * line - 10);
+  QRectF plot = QRectF(rect()).adjusted(widest + line + 14, line + 14, -12, -2 * line - 10);
+  plot.setTop(plot.top() + (linesAbove(plot.width()) - 1) * line);
+  return plot;
 }
 
 double StripChart::xOf(const QRectF& plot, double t_s) const {
@@ -96,11 +105,10 @@ void StripChart::paintAxes(QPainter& painter, const QRectF& plot) const {
   bold.setBold(true);
   painter.setFont(bold);
   painter.setPen(text);
-  const double room = std::max(0.0, plot.width() - legendWidth());
-  painter.drawText(QRectF(plot.left(), 5, room, line + 2), Qt::AlignLeft | Qt::AlignVCenter,
-                   QFontMetricsF(bold).elidedText(spec_.title, Qt::ElideRight, room));
+  painter.drawText(QRectF(plot.left(), 5, plot.width(), line + 2), Qt::AlignLeft | Qt::AlignVCenter,
+                   QFontMetricsF(bold).elidedText(spec_.title, Qt::ElideRight, plot.width()));
   painter.setFont(font());
-  const std::vector<double> yTicks = roundTicks(spec_.yRange[0], spec_.yRange[1], 6);
+  const std::vector<double> yTicks = valueTicks(spec_.yRange, plot.height(), line);
   const std::vector<std::string> yTexts = tickTexts(yTicks);
   for (std::size_t k = 0; k < yTicks.size(); ++k) {
     const double y = std::round(yOf(plot, yTicks[k])) + 0.5;
@@ -126,9 +134,11 @@ void StripChart::paintAxes(QPainter& painter, const QRectF& plot) const {
                    held_ ? tr("time before the last frame [s], held: double click lets it run")
                          : tr("time before the last frame [s]"));
   painter.save();
-  painter.translate(line / 2 + 4, plot.center().y());
+  const double label = std::max(plot.height(), QFontMetricsF(font()).horizontalAdvance(spec_.yLabel) + 2);
+  const double middle = std::max(label / 2, std::min(plot.center().y(), height() - label / 2)); // whole, if it can be
+  painter.translate(line / 2 + 4, middle);
   painter.rotate(-90);
-  painter.drawText(QRectF(-plot.height() / 2, -line / 2, plot.height(), line), Qt::AlignCenter, spec_.yLabel);
+  painter.drawText(QRectF(-label / 2, -line / 2, label, line), Qt::AlignCenter, spec_.yLabel);
   painter.restore();
   painter.setPen(QPen(text, 1));
   painter.drawLine(plot.bottomLeft(), plot.bottomRight());
@@ -186,46 +196,89 @@ void StripChart::paintCurves(QPainter& painter, const QRectF& plot) const {
   painter.restore();
 }
 
-/// The words of a mark end where the next one begins; the cursor reads them in full.
-void StripChart::paintMarks(QPainter& painter, const QRectF& plot) const {
+/// Each right of its mark, or as far left as the plot asks for, in the lowest line where it covers no other.
+std::vector<StripChart::WordsOfMark> StripChart::wordsOfMarks(const QRectF& plot) const {
   const QFontMetricsF metrics(font());
+  const double height = metrics.height();
+  const int most = std::max(1, static_cast<int>(plot.height() / height));
+  std::vector<WordsOfMark> all;
+  for (const auto& [t_s, text] : spec_.marks) {
+    const double x = xOf(plot, t_s);
+    if (x < plot.left() || x > plot.right() || text.isEmpty()) continue;
+    const QString words = metrics.elidedText(text, Qt::ElideRight, plot.width() - 2 * kMarkGap_px);
+    const double width = metrics.horizontalAdvance(words);
+    QRectF place(std::min(x + kMarkGap_px, plot.right() - kMarkGap_px - width), plot.bottom() - height - 2, width,
+                 height);
+    const auto covers = [&](const WordsOfMark& other) {
+      return other.place.adjusted(-kMarkGap_px, 1, kMarkGap_px, -1).intersects(place);
+    };
+    for (int line = 1; line < most && std::any_of(all.begin(), all.end(), covers); ++line) place.translate(0, -height);
+    if (std::none_of(all.begin(), all.end(), covers)) all.push_back({place, words}); // else the cursor reads it
+  }
+  return all;
+}
+
+void StripChart::paintMarks(QPainter& painter, const QRectF& plot) const {
   QColor ground = ink(palp::palette(theme_).ground);
   ground.setAlphaF(0.8F);
-  const QPen pen(ink(palp::palette(theme_).selection), 1, Qt::DashLine);
-  for (std::size_t k = 0; k < spec_.marks.size(); ++k) {
-    const double x = xOf(plot, spec_.marks[k].first);
-    if (x < plot.left() || x > plot.right()) continue;
-    painter.setPen(pen);
-    painter.drawLine(QPointF(x, plot.top()), QPointF(x, plot.bottom()));
-    const double next =
-        k + 1 < spec_.marks.size() ? std::min(xOf(plot, spec_.marks[k + 1].first), plot.right()) : plot.right();
-    const double room = next - x - 2 * kMarkGap_px;
-    if (room < kLeastWords_px) continue;
-    const QString words = metrics.elidedText(spec_.marks[k].second, Qt::ElideRight, room);
-    const QRectF place(x + kMarkGap_px, plot.bottom() - metrics.height() - 2, metrics.horizontalAdvance(words),
-                       metrics.height());
-    painter.fillRect(place, ground);
-    painter.drawText(place, Qt::AlignLeft | Qt::AlignVCenter, words);
+  painter.setPen(QPen(ink(palp::palette(theme_).selection), 1, Qt::DashLine));
+  for (const auto& mark : spec_.marks) {
+    const double x = xOf(plot, mark.first);
+    if (x >= plot.left() && x <= plot.right()) painter.drawLine(QPointF(x, plot.top()), QPointF(x, plot.bottom()));
+  }
+  for (const WordsOfMark& mark : wordsOfMarks(plot)) {
+    painter.fillRect(mark.place, ground);
+    painter.drawText(mark.place, Qt::AlignLeft | Qt::AlignVCenter, mark.words);
   }
 }
 
-double StripChart::legendWidth() const {
+double StripChart::legendWidth(std::size_t first, std::size_t count) const {
   double width = 0;
-  for (const StripSeries& series : spec_.series)
-    width += QFontMetricsF(font()).horizontalAdvance(series.name) + kLegendLine_px;
+  for (std::size_t k = first; k < first + count; ++k)
+    width += QFontMetricsF(font()).horizontalAdvance(spec_.series[k].name) + kLegendLine_px;
   return width;
+}
+
+std::vector<std::size_t> StripChart::legendLines(double room_px) const {
+  std::vector<std::size_t> lines{0};
+  std::size_t first = 0;
+  for (std::size_t k = 0; k < spec_.series.size(); ++k) {
+    if (lines.back() > 0 && legendWidth(first, lines.back() + 1) > room_px) {
+      lines.push_back(0);
+      first = k;
+    }
+    ++lines.back();
+  }
+  return lines;
+}
+
+int StripChart::linesAbove(double room_px) const {
+  const std::vector<std::size_t> lines = legendLines(room_px);
+  QFont bold = font();
+  bold.setBold(true);
+  const double title = QFontMetricsF(bold).horizontalAdvance(spec_.title);
+  const bool shared = lines[0] == 0 || title + legendWidth(0, lines[0]) <= room_px;
+  return static_cast<int>(lines.size()) + (shared ? 0 : 1);
 }
 
 void StripChart::paintLegend(QPainter& painter, const QRectF& plot) const {
   const QFontMetricsF metrics(font());
-  double x = plot.right();
-  for (auto series = spec_.series.rbegin(); series != spec_.series.rend(); ++series) {
-    x -= metrics.horizontalAdvance(series->name);
-    painter.setPen(ink(palp::palette(theme_).text));
-    painter.drawText(QPointF(x, 5 + metrics.ascent()), series->name);
-    painter.setPen(QPen(ink(seriesColor(series->color, theme_)), 3));
-    painter.drawLine(QPointF(x - 18, 6 + metrics.height() / 2), QPointF(x - 5, 6 + metrics.height() / 2));
-    x -= kLegendLine_px;
+  const std::vector<std::size_t> lines = legendLines(plot.width());
+  double y = 5 + (linesAbove(plot.width()) - static_cast<double>(lines.size())) * metrics.height();
+  std::size_t first = 0;
+  for (const std::size_t count : lines) {
+    double x = plot.right();
+    for (std::size_t k = first + count; k-- > first;) {
+      const StripSeries& series = spec_.series[k];
+      x -= metrics.horizontalAdvance(series.name);
+      painter.setPen(ink(palp::palette(theme_).text));
+      painter.drawText(QPointF(x, y + metrics.ascent()), series.name);
+      painter.setPen(QPen(ink(seriesColor(series.color, theme_)), 3));
+      painter.drawLine(QPointF(x - 18, y + 1 + metrics.height() / 2), QPointF(x - 5, y + 1 + metrics.height() / 2));
+      x -= kLegendLine_px;
+    }
+    first += count;
+    y += metrics.height();
   }
 }
 

@@ -76,6 +76,11 @@ protected:
   void contextMenuEvent(QContextMenuEvent* event) override;
 
 private:
+  struct WordsOfMark {
+    QRectF place;
+    QString words;
+  };
+  [[nodiscard]] std::vector<WordsOfMark> wordsOfMarks(const QRectF& plot) const;
   void hold();
   void zoomTime(double factor, double about_px);
   void zoomValue(double factor, double about_px);
@@ -94,7 +99,11 @@ private:
     std::optional<int> color;
   };
   [[nodiscard]] std::vector<ReadingLine> readingLines() const;
-  [[nodiscard]] double legendWidth() const;
+  /// The legend's lines: how many curves stand in each, from the first.
+  [[nodiscard]] std::vector<std::size_t> legendLines(double room_px) const;
+  [[nodiscard]] double legendWidth(std::size_t first, std::size_t count) const;
+  /// The title stands in a line of its own where it has no room beside the legend's first.
+  [[nodiscard]] int linesAbove(double room_px) const;
   [[nodiscard]] QString unit() const;
   [[nodiscard]] QRectF plotRectangle() const;
   [[nodiscard]] double xOf(const QRectF& plot, double t_s) const;

@@ -252,27 +252,17 @@ void MainWindow::restoreLayout() {
   setTheme(kThemes.find(settings.value("theme").toString().toStdString()).value_or(Theme::Light));
 }
 
-bool MainWindow::mayEndReport() {
-  return !reports_->running() ||
-         QMessageBox::question(this, tr("A report is running"),
-                               tr("Quitting stops the report; nothing of it is kept. Quit?"),
-                               QMessageBox::Yes | QMessageBox::No, QMessageBox::No) == QMessageBox::Yes;
-}
-
-bool MainWindow::mayEndRecording() {
+QStringList MainWindow::endedByQuitting() const {
+  QStringList ends;
+  if (reports_->running()) ends << tr("A report is running: quitting stops it, and nothing of it is kept.");
   const QString files = live_->recording();
-  if (files.isEmpty()) return true;
-  const auto answer = QMessageBox::question(
-      this, tr("A recording is running"),
-      tr("%1 is being recorded. Quitting ends the recording; what has come is in the file. Quit?").arg(files),
-      QMessageBox::Yes | QMessageBox::No, QMessageBox::No);
-  return answer == QMessageBox::Yes;
+  if (!files.isEmpty())
+    ends << tr("%1 is being recorded: quitting ends the recording; what has come is in the file.").arg(files);
+  return ends;
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
-  // A report that is to go on must not cost a saving or an answer about the project; the recording is last: after its
-  // Yes nothing goes on.
-  if (!mayEndReport() || !document_->mayLeave() || !mayEndRecording()) {
+  if (!document_->mayLeave(endedByQuitting())) {
     event->ignore();
     return;
   }

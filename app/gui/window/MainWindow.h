@@ -61,8 +61,8 @@ private:
   void buildStatusLine();
   /// What the scene that is seen does; where it does nothing, what all do.
   void cancelAll();
-  bool mayEndReport();
-  bool mayEndRecording();
+  /// What runs and would end, a sentence each.
+  [[nodiscard]] QStringList endedByQuitting() const;
   /// What only scenes need that are not seen.
   void giveBackMemory();
   void sceneChosen(int index);

@@ -30,19 +30,21 @@ class Canvas {
 public:
   /// Paints on pixels of 4 bytes (blue, green, red, 255), rows from the top, `stride` bytes apart.
   Canvas(std::uint8_t* bgra, std::size_t stride, int width, int height, WrittenWords& written);
-  ~Canvas();
+  virtual ~Canvas();
+  Canvas(const Canvas&) = delete;
+  Canvas& operator=(const Canvas&) = delete;
 
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
 
   void clear(const Color& color);
   /// A rectangle, its edges on the nearest whole pixels.
-  void fill(double left, double bottom, double right, double top, const Color& color);
+  virtual void fill(double left, double bottom, double right, double top, const Color& color);
   /// The frame of a rectangle, `thickness` pixels to its inside.
   void frame(double left, double bottom, double right, double top, double thickness, const Color& color);
   /// Typeface, colour, turning and justification of the words to come.
   [[nodiscard]] vtkTextProperty& textStyle() const;
-  void words(double x, double y, const std::string& text);
+  virtual void words(double x, double y, const std::string& text);
   [[nodiscard]] double wordsWidth_px(const std::string& text);
 
 private:

@@ -2,6 +2,7 @@
 
 #include "app/scenes/charts/AxisMarks.h"
 #include "app/scenes/charts/ChartLegend.h"
+#include "app/scenes/charts/ChartRenderer.h"
 #include "app/scenes/charts/TextStyle.h"
 #include "app/scenes/gl/OffscreenWindow.h"
 
@@ -9,7 +10,6 @@
 #include <vtkBrush.h>
 #include <vtkChartLegend.h>
 #include <vtkChartXY.h>
-#include <vtkContextActor.h>
 #include <vtkContextScene.h>
 #include <vtkDoubleArray.h>
 #include <vtkNew.h>
@@ -243,14 +243,7 @@ void fillChart(vtkChartXY& chart, const ChartSpec& spec, Theme theme, double sca
 Picture drawChart(const ChartSpec& spec, int width, int height, Theme theme) {
   vtkNew<vtkChartXY> chart;
   fillChart(*chart, spec, theme, 1, {static_cast<double>(width), static_cast<double>(height)});
-  vtkNew<vtkContextActor> actor;
-  actor->GetScene()->AddItem(chart);
-  vtkNew<vtkRenderer> renderer;
-  const Color& ground = palette(theme).ground;
-  renderer->SetBackground(ground[0], ground[1], ground[2]);
-  renderer->AddActor(actor);
-  actor->GetScene()->SetRenderer(renderer);
-  return drawOnce(renderer, width, height);
+  return drawOnce(chartRenderer(*chart, theme), width, height);
 }
 
 } // namespace palp

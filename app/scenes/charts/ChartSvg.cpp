@@ -1,12 +1,11 @@
 #include "app/scenes/charts/ChartSvg.h"
 
+#include "app/scenes/charts/ChartRenderer.h"
 #include "app/scenes/gl/OffscreenWindow.h"
 #include "io/AtomicFile.h"
 #include "model/base/Error.h"
 
 #include <vtkChartXY.h>
-#include <vtkContextActor.h>
-#include <vtkContextScene.h>
 #include <vtkNew.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
@@ -45,13 +44,7 @@ private:
 std::string chartSvg(const ChartSpec& spec, int width, int height, Theme theme, double scale) {
   vtkNew<vtkChartXY> chart;
   fillChart(*chart, spec, theme, scale, {static_cast<double>(width), static_cast<double>(height)});
-  vtkNew<vtkContextActor> actor;
-  actor->GetScene()->AddItem(chart);
-  vtkNew<vtkRenderer> renderer;
-  const Color& ground = palette(theme).ground;
-  renderer->SetBackground(ground[0], ground[1], ground[2]);
-  renderer->AddActor(actor);
-  actor->GetScene()->SetRenderer(renderer);
+  const vtkSmartPointer<vtkRenderer> renderer = chartRenderer(*chart, theme);
   OffscreenWindow window; // the chart is laid out as it is drawn
   window.vtk()->AddRenderer(renderer);
   window.setSize(width, height);

@@ -1,6 +1,7 @@
 #include "app/scenes/charts/Heatmap.h"
 
 #include "app/scenes/block/Overlay.h"
+#include "app/scenes/charts/SvgCanvas.h"
 #include "app/scenes/charts/TextStyle.h"
 
 #include <vtkLookupTable.h>
@@ -50,6 +51,10 @@ double legendWidth_px(Canvas& canvas, const ColorScale& colors, Theme theme, dou
 
 void Heatmap::paint(std::uint8_t* bgra, std::size_t stride, int width, int height) {
   Canvas canvas(bgra, stride, width, height, written_);
+  paint(canvas);
+}
+
+void Heatmap::paint(Canvas& canvas) {
   canvas.clear(palette(theme).ground);
   if (spec.values.size() == 0) {
     cellWidth_ = cellHeight_ = 0;
@@ -104,7 +109,8 @@ void Heatmap::paintAxes(Canvas& canvas) const {
   canvas.textStyle().SetOrientation(90);
   canvas.words(18 * scale, centreY, spec.rowLabel);
   useText(canvas, ink, 14 * scale, true, VTK_TEXT_LEFT, VTK_TEXT_CENTERED);
-  canvas.words(left_, top + 18 * scale, spec.title);
+  const double room = canvas.width() - 12 * scale - canvas.wordsWidth_px(spec.title); // a long one begins further left
+  canvas.words(std::clamp(room, 12 * scale, left_), top + 18 * scale, spec.title);
 }
 
 void Heatmap::paintLegend(Canvas& canvas, vtkLookupTable& table, double x, double width) const {
@@ -141,6 +147,14 @@ std::optional<std::array<int, 2>> Heatmap::cellAt(double x_px, double y_px) cons
 std::optional<std::array<double, 4>> Heatmap::cellBox(const std::array<int, 2>& cell) const {
   if (!(cellWidth_ > 0) || !(cellHeight_ > 0)) return {};
   return std::array{columnEdge(cell[1]), rowEdge(cell[0]), cellWidth_, cellHeight_};
+}
+
+std::string Heatmap::svg(int width, int height) const {
+  requireDrawable(width, height);
+  Heatmap copy = *this; // the cells that cellAt knows stay those of the view
+  SvgCanvas canvas(width, height, copy.written_);
+  copy.paint(canvas);
+  return canvas.svg();
 }
 
 Picture Heatmap::picture(int width, int height) const {

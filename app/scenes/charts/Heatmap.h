@@ -30,6 +30,8 @@ class Heatmap {
 public:
   /// Onto pixels as Canvas takes them.
   void paint(std::uint8_t* bgra, std::size_t stride, int width, int height);
+  /// The same as the text of an SVG file: rectangles and letters.
+  [[nodiscard]] std::string svg(int width, int height) const;
   /// The same in a picture of its own.
   [[nodiscard]] Picture picture(int width, int height) const;
   /// Row and column of the cell at a point of the picture [px from the lower left], as last painted.
@@ -48,6 +50,7 @@ private:
     return left_ + cellWidth_ * static_cast<double>(column);
   }
   [[nodiscard]] double rowEdge(Eigen::Index row) const { return bottom_ + cellHeight_ * static_cast<double>(row); }
+  void paint(Canvas& canvas);
   void paintCells(Canvas& canvas, vtkLookupTable& table) const;
   void paintAxes(Canvas& canvas) const;
   void paintLegend(Canvas& canvas, vtkLookupTable& table, double x, double width) const;

@@ -51,7 +51,7 @@ void LiveSession::run(const std::stop_token& stop) {
   std::uint64_t overflowed = 0;
   const auto alsoTo = options_.alsoTo;
   LiveWorker worker(std::move(options_), [&](std::shared_ptr<const LiveFrame> frame) {
-    if (alsoTo) alsoTo(frame);
+    if (alsoTo && !frame->past) alsoTo(frame);
     const std::lock_guard lock(mutex_);
     ring_.push_back(std::move(frame));
     if (ring_.size() <= most) return;

@@ -44,6 +44,7 @@ struct LiveFrame {
   std::uint64_t connection = 0;    ///< how many the source had, at this frame
   std::uint64_t jumps = 0;         ///< how often the recording was taken up at another place, at this frame
   std::string mark;                ///< the last event mark of the user or the recording
+  bool past = false;               ///< from before the place of the recording that was gone to: for its curves alone
   bool markFollowsJump = false;    ///< it stands at or behind the place where the recording was taken up last
 };
 

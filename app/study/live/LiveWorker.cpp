@@ -141,6 +141,7 @@ void LiveWorker::read() {
     arrival_s_ = now_s;
     status_.state = paused_ ? LiveState::Paused : LiveState::Streaming;
     take(report_);
+    if (inPast()) restartRates(now_s); // it was read as fast as it can be
     break;
   case ReportSource::Outcome::Nothing:
     if (options_.replay && options_.replay->paused) {
@@ -166,15 +167,19 @@ void LiveWorker::read() {
 void LiveWorker::jumped() {
   assembler_->restart();
   drift_.restart();
-  rateStart_s_ = hostClock_s(); // the jump itself took time
-  rateReports_ = rateFrames_ = 0;
+  restartRates(hostClock_s()); // the jump itself took time
   ++jumps_;
+}
+
+void LiveWorker::restartRates(double now_s) {
+  rateStart_s_ = now_s;
+  rateReports_ = rateFrames_ = 0;
 }
 
 void LiveWorker::take(const RawReport& report) {
   ++rateReports_;
   status_.reason.clear();
-  if (writer_) writer_->append(RecordingEntry::Kind::Raw, report.hostTime_s, report.bytes);
+  if (writer_ && !inPast()) writer_->append(RecordingEntry::Kind::Raw, report.hostTime_s, report.bytes);
   if (paused_) return;
   const auto decoded =
       assembler_->add(report.bytes, report.hostTime_s, [this](const BoardFrame& frame) { takeFrame(frame); });
@@ -215,7 +220,8 @@ void LiveWorker::takeFrame(const BoardFrame& frame) {
   live->connection = status_.connections;
   live->jumps = jumps_;
   live->faults = wireFaults(frame);
-  const auto* replay = dynamic_cast<const ReplaySource*>(source_.get());
+  const ReplaySource* replay = this->replay();
+  live->past = replay && replay->past(frame.hostTime_s);
   if (replay && !ownTare_ && replay->tare() != tare_) holdTare(replay->tare());
   rest_.add(frame);
   if (decoder_) {
@@ -225,7 +231,7 @@ void LiveWorker::takeFrame(const BoardFrame& frame) {
       holdTare(std::make_shared<const Tare>(decoder_->tare()));
       recordTare();
     }
-    watch(live->forces);
+    if (!live->past) watch(live->forces);
   }
   live->change = rest_.change(frame);
   judgeDrift(*live);
@@ -240,7 +246,7 @@ void LiveWorker::takeFrame(const BoardFrame& frame) {
   live->mark = replay ? replay->mark() : mark_;
   live->markFollowsJump = replay && replay->markFollowsJump();
   if (frame.temperature_degC) status_.temperature_degC = frame.temperature_degC;
-  if (options_.replay && options_.replay->steps > 0) --options_.replay->steps;
+  if (!live->past && options_.replay && options_.replay->steps > 0) --options_.replay->steps;
   give_(std::move(live));
 }
 
@@ -275,8 +281,7 @@ void LiveWorker::measureRates(double now_s) {
   if (span_s < 1) return;
   status_.reportsPerSecond = static_cast<double>(rateReports_) / span_s;
   status_.framesPerSecond = static_cast<double>(rateFrames_) / span_s;
-  rateStart_s_ = now_s;
-  rateReports_ = rateFrames_ = 0;
+  restartRates(now_s);
 }
 
 LiveStatus LiveWorker::status() {

@@ -43,6 +43,8 @@ private:
   void disconnect(LiveState state, const std::string& reason);
   void read();
   void jumped();
+  [[nodiscard]] const ReplaySource* replay() const { return dynamic_cast<const ReplaySource*>(source_.get()); }
+  [[nodiscard]] bool inPast() const { return replay() != nullptr && replay()->inPast(); }
   void take(const RawReport& report);
   void takeFrame(const BoardFrame& frame);
   void takeEvent(const BoardEvent& event);
@@ -54,6 +56,7 @@ private:
   void watch(const DecodedForces& forces);
   void judgeDrift(const LiveFrame& live);
   void measureRates(double now_s);
+  void restartRates(double now_s);
 
   LiveOptions options_;
   TakeFrame give_;

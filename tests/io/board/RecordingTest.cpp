@@ -287,6 +287,34 @@ TEST(ReplaySource, GoesToAnyTimeOfTheRecordingAndPlaysALoop) {
   EXPECT_EQ(round, (std::vector<int>{10, 11, 12, 10, 11, 12, 10}));
 }
 
+TEST(ReplaySource, ReadsThePastOfAPlaceFirstAlsoWhereItIsHeld) {
+  const TemporaryFolder folder;
+  const std::vector<Bytes> reports = record(folder / "a");
+  auto control = std::make_shared<ReplayControl>();
+  control->past_s = 0.0095;
+  control->paused = true;
+  ReplaySource source(folder / "a", control);
+  RawReport report;
+  control->seek(0.0195);
+  std::vector<int> past;
+  while (source.read(report, std::chrono::milliseconds(1)) == ReportSource::Outcome::Read && source.inPast()) {
+    past.push_back(static_cast<int>(std::lround(1e3 * (report.hostTime_s - 100))));
+    EXPECT_TRUE(source.past(report.hostTime_s));
+    EXPECT_NEAR(control->position_s, 0.0195, 1e-9) << "the place that was gone to";
+  }
+  EXPECT_EQ(past, (std::vector<int>{10, 11, 12, 13, 14, 15, 16, 17, 18, 19}));
+  EXPECT_NEAR(report.hostTime_s, 100.020, 1e-9) << "then the place itself";
+  EXPECT_FALSE(source.past(report.hostTime_s));
+  EXPECT_EQ(control->steps, 1) << "of which one frame is shown";
+  control->steps = 0;
+  EXPECT_EQ(source.read(report, std::chrono::milliseconds(1)), ReportSource::Outcome::Nothing) << "and it stands";
+
+  control->seek(0.004); // less past than asked for
+  ASSERT_EQ(source.read(report, std::chrono::milliseconds(1)), ReportSource::Outcome::Read);
+  EXPECT_NEAR(report.hostTime_s, 100, 1e-9);
+  EXPECT_TRUE(source.inPast());
+}
+
 TEST(ReplaySource, GoesBackByAFrameWhereReportsCameInBursts) {
   const TemporaryFolder folder;
   VirtualBoard board = boardWith(smallBoard());

@@ -133,9 +133,9 @@ QWidget* LiveControlPanel::buildRecording() {
   record_ = button(tr("Record"), "record",
                    tr("Writes the raw reports from now on; flushed each second (R; Shift+R ends it)"));
   record_->setCheckable(true);
-  pause_ = button(tr("Pause"), "pause", tr("Holds the views; a recording goes on (Space)"));
+  pause_ = button(tr("Hold views"), "pause", tr("Holds the pictures and curves; a recording goes on (Space)"));
   pause_->setCheckable(true);
-  column->addLayout(beside({record_, pause_}));
+  column->addWidget(record_);
   file_ = new QLineEdit(QDir::home().filePath("touch.palprec"));
   file_->setObjectName("recordFile");
   file_->setToolTip(
@@ -155,7 +155,7 @@ QWidget* LiveControlPanel::buildRecording() {
   column->addLayout(beside({mark_, mark}));
   auto* csv = button(tr("Export CSV..."), "exportLive",
                      tr("The frames that the curves hold, the last 60 s at most: time, forces [N], dR/R of all cells"));
-  column->addWidget(csv);
+  column->addLayout(beside({pause_, csv}));
   connect(file_, &QLineEdit::textChanged, this, &LiveControlPanel::lookForFile);
   connect(choose, &QPushButton::clicked, this, [this] {
     const QString file = askFileToSave(this, tr("Record to"), file_->text(), tr("Recordings (*.palprec)"));
@@ -363,12 +363,13 @@ void LiveControlPanel::displayState(const LiveControlState& state) {
   displayTare(status);
   pause_->setChecked(state.paused);
   const bool records = status.recording || status.recordingWaits;
+  const bool ends = records_ && !records;
   if (std::exchange(records_, records) != records) lookForFile();
   record_->setChecked(records);
   record_->setText(records ? tr("Stop recording") : tr("Record"));
   const QString problem =
       recordingProblem_.isEmpty() ? QString::fromStdString(status.recordingFailure) : recordingProblem_;
-  if (records)
+  if (records || ends) // of the end too: the last look was before it
     recordedLast_ = tr("%1 s, %2 MB, %3 reports dropped")
                         .arg(state.recorded_s, 0, 'f', 1)
                         .arg(static_cast<double>(status.recordedReports) * kRecordedReport / kMegabyte, 0, 'f', 1)

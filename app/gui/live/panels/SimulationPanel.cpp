@@ -31,8 +31,27 @@ QComboBox* numberBox(const QString& name, const QStringList& values, const QStri
   return box;
 }
 
+/// None stands at the least value: the word can be typed as well as read.
+class NoneBox : public QSpinBox {
+public:
+  NoneBox() { setSpecialValueText(QObject::tr("none")); }
+
+  QValidator::State validate(QString& text, int& place) const override {
+    const QString typed = text.trimmed();
+    if (typed.compare(specialValueText(), Qt::CaseInsensitive) == 0) return QValidator::Acceptable;
+    if (specialValueText().startsWith(typed, Qt::CaseInsensitive)) return QValidator::Intermediate;
+    return QSpinBox::validate(text, place);
+  }
+
+protected:
+  [[nodiscard]] int valueFromText(const QString& text) const override {
+    const bool none = text.trimmed().compare(specialValueText(), Qt::CaseInsensitive) == 0;
+    return none ? minimum() : QSpinBox::valueFromText(text);
+  }
+};
+
 /// An arrow leads from none past 1, where nothing would come at all.
-class LossBox : public QSpinBox {
+class LossBox : public NoneBox {
 public:
   void stepBy(int steps) override {
     const int next = value() + steps;
@@ -41,10 +60,9 @@ public:
 };
 
 QSpinBox* wireBox(const QString& name, int most, const QString& tip) {
-  auto* box = new QSpinBox;
+  auto* box = new NoneBox;
   box->setObjectName(name);
   box->setRange(-1, most);
-  box->setSpecialValueText(QObject::tr("none"));
   box->setToolTip(tip);
   return box;
 }
@@ -161,7 +179,6 @@ void SimulationPanel::buildFaults(QFormLayout& form) {
   dropEvery_ = new LossBox;
   dropEvery_->setObjectName("dropEvery");
   dropEvery_->setRange(0, 100000);
-  dropEvery_->setSpecialValueText(tr("none"));
   dropEvery_->setToolTip(tr("Every n-th report is lost on its way; 1 is all of them"));
   form.addRow(tr("Broken row-wire"), openRow_);
   form.addRow(tr("Broken column-wire"), openColumn_);

@@ -47,7 +47,7 @@ TEST_F(TouchSessionTest, KeepsTheLastGoodResultAfterACancel) {
   Project heavy = workbench.project();
   heavy.mesh = {1.2, {}};
   workbench.edit("finer", heavy);
-  QTest::qWait(100);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return workbench.touch().runner().running(); }, kPatience_ms));
   QTest::keyClick(&window, Qt::Key_Escape);
   ASSERT_TRUE(idle());
   EXPECT_EQ(workbench.touch().touch().solution(), good);

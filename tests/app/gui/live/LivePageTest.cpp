@@ -49,7 +49,8 @@ TEST_F(Live, GreysAndNamesTheWireThatBreaksUntilItIsMended) {
   EXPECT_TRUE(heatmap.values.col(7).array().isNaN().all());
   EXPECT_FALSE(heatmap.values.col(8).array().isNaN().any());
   EXPECT_FALSE(workbench.history().canUndo()) << "the live settings are no part of the design's history";
-  use([](LiveSettings& live) { live.simulation.openColumn = -1; });
+  type<QSpinBox>("openColumn", "none");
+  EXPECT_EQ(workbench.project().live.simulation.openColumn, -1);
   EXPECT_TRUE(wait([&] { return banner().isEmpty(); }));
   EXPECT_TRUE(waitForArrow());
 }
@@ -97,7 +98,7 @@ TEST_F(Live, RecordsMarksAndPlaysStepByStep) {
   for (int step = 1; step <= 3; ++step) {
     click("replayStep");
     ASSERT_TRUE(wait([&] { return page.host().status().counts.frames >= before + static_cast<unsigned>(step); }));
-    QTest::qWait(60);
+    ASSERT_EQ(page.host().replay()->steps, 0);
     EXPECT_EQ(page.host().status().counts.frames, before + static_cast<unsigned>(step));
   }
   use([](LiveSettings& live) { live.replaySpeed = 0; });
@@ -120,7 +121,7 @@ TEST_F(Live, CostsNothingWhileHiddenAndDrawsNoMoreThanThirtyFramesASecond) {
   EXPECT_LE(page.looks() - looks, most);
   EXPECT_LE(block().renderCount() - renders, most);
   page.hide();
-  QTest::qWait(150);
+  QCoreApplication::processEvents();
   const int hiddenLooks = page.looks();
   const int hiddenRenders = block().renderCount() + find<HeatmapView>("liveHeatmap").renderCount();
   const int hiddenPaints = find<StripChart>("forceCurves").paintCount();

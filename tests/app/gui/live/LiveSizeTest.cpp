@@ -1,4 +1,6 @@
 #include "app/gui/live/LiveBoards.h"
+#include "app/gui/widgets/ElidedLabel.h"
+#include "app/gui/window/SidePanel.h"
 #include "tests/app/gui/WindowFixture.h"
 
 #include <QPushButton>
@@ -61,6 +63,19 @@ protected:
   }
 };
 
+TEST_F(LiveRecordButton, TheCalibrationScrollsDownAtMost) {
+  window.resize({1272, 764});
+  window.showScene("live");
+  settle();
+  auto& tabs = *find<LiveBoards>("live").page().findChild<QTabWidget*>("curveTabs");
+  tabs.setCurrentIndex(1);
+  const auto* room = qobject_cast<QScrollArea*>(tabs.currentWidget());
+  ASSERT_NE(room, nullptr);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return room->isVisible() && room->horizontalScrollBar()->maximum() == 0; },
+                              kPatience_ms / 6))
+      << room->widget()->minimumSizeHint().width() << " in " << room->viewport()->width();
+}
+
 TEST_F(LiveRecordButton, StandsOnTopAndIsNeverBelowTheFold) {
   EXPECT_TRUE(seen({1500, 900}));
   EXPECT_TRUE(seen({1272, 764}));
@@ -81,6 +96,35 @@ TEST_F(LiveSizeOfTwo, TwoBoardsFitBesideEachOtherAt1280By800) {
   const auto* bar = find<QScrollArea>("sceneRoom").horizontalScrollBar();
   settle();
   EXPECT_TRUE(QTest::qWaitFor([&] { return !bar->isVisible(); }, kPatience_ms / 6)) << live.minimumSizeHint().width();
+  const auto* down = find<QScrollArea>("sceneRoom").verticalScrollBar();
+  EXPECT_TRUE(QTest::qWaitFor([&] { return !down->isVisible(); }, kPatience_ms / 6)) << "all views are seen at once";
+  auto& tabs = *live.page().findChild<QTabWidget*>("blockTabs");
+  EXPECT_EQ(tabs.indexOf(live.page().findChild<QWidget*>("liveHeatmap")), 2) << "low and narrow: a tab";
+
+  // The panel of one takes the place of its views, and leaves those of the other as they were.
+  const auto* block = live.page(0).findChild<QWidget*>("liveBlock");
+  QTest::mouseClick(live.page(0).parentWidget()->findChild<QPushButton*>("boardPanel"), Qt::LeftButton);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return !block->isVisible(); }, kPatience_ms));
+  EXPECT_TRUE(live.page(0).findChild<QPushButton*>("record")->isVisible());
+  EXPECT_TRUE(live.page(1).findChild<QWidget*>("liveBlock")->isVisible());
+  QTest::mouseClick(live.page(0).parentWidget()->findChild<QPushButton*>("boardPanel"), Qt::LeftButton);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return block->isVisible(); }, kPatience_ms));
+
+  // With room for it the heatmap stands beside the forces again.
+  QTest::mouseClick(live.page(1).parentWidget()->findChild<QPushButton*>("takeBoardAway"), Qt::LeftButton);
+  ASSERT_EQ(live.count(), 1U);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return tabs.count() == 2; }, kPatience_ms));
+  EXPECT_TRUE(
+      QTest::qWaitFor([&] { return live.page().findChild<QWidget*>("liveHeatmap")->isVisible(); }, kPatience_ms));
+}
+
+TEST(ElidedLabel, EndsInDotsWhereItIsTooNarrowAndKeepsItsWords) {
+  ElidedLabel label("noise 5e-06, drift 1200 ppm");
+  label.resize(label.sizeHint());
+  EXPECT_EQ(label.shownWords(), label.text());
+  label.resize(label.sizeHint().width() / 2, label.height());
+  EXPECT_TRUE(label.shownWords().endsWith(QChar(0x2026))) << label.shownWords().toStdString();
+  EXPECT_EQ(label.text(), "noise 5e-06, drift 1200 ppm");
 }
 
 } // namespace

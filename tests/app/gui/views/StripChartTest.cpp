@@ -55,24 +55,45 @@ TEST(StripChart, AValueThatIsNoNumberBreaksTheCurve) {
   EXPECT_EQ(broken, pictureOf(spec)); // what is left of the break; the last reading alone is no line
 }
 
-TEST(StripChart, TheWordsOfAMarkEndWhereTheNextOneBegins) {
+/// Pixels that differ between x = `from` and x = `to`.
+int changed(const QImage& a, const QImage& b, int from, int to) {
+  int count = 0;
+  for (int x = from; x < to; ++x)
+    for (int y = 0; y < a.height(); ++y) count += a.pixel(x, y) != b.pixel(x, y);
+  return count;
+}
+
+TEST(StripChart, MarksCloseToEachOtherHaveTheirWholeWords) {
   StripSpec spec = jumping(0);
-  spec.marks = {{3, "a long alarm that says what it is about"}};
-  const auto inkRightOf = [&](double t_s) { // of the words' line
+  spec.marks = {{3, ""}, {4, "b"}};
+  const QImage without = pictureOf(spec);
+  spec.marks[0].second = "a long alarm that says what it is about";
+  EXPECT_GT(changed(pictureOf(spec), without, 500, 600), 0) << "they end where the next mark begins";
+  spec.marks[1].second = "";
+  const QImage alone = pictureOf(spec);
+  spec.marks[1].second = "b";
+  EXPECT_GT(changed(pictureOf(spec), alone, 0, 900), 0) << "the second has words as well";
+}
+
+TEST(StripChart, AMarkThatIsNewHasItsWordsLeftOfTheEdge) {
+  StripSpec spec = jumping(0);
+  spec.marks = {{9.9, ""}};
+  const QImage without = pictureOf(spec);
+  spec.marks[0].second = "poke";
+  EXPECT_GT(changed(pictureOf(spec), without, 600, 900), 0);
+}
+
+TEST(StripChart, ALegendThatIsTooWideHasSeveralLines) {
+  StripSpec spec = jumping(0.5);
+  spec.series.clear();
+  for (int k = 0; k < 6; ++k) spec.series.push_back({QString("7, %1").arg(k), k, {1, 9}, {0.1 * k, 0.1 * k}});
+  const auto narrow = [&] {
     StripChart chart;
-    chart.resize(900, 300);
+    chart.resize(260, 200);
     chart.setChart(spec);
-    const QImage with = chart.grab().toImage();
-    spec.marks[0].second = "";
-    chart.setChart(spec);
-    const QImage without = chart.grab().toImage();
-    spec.marks[0].second = "a long alarm that says what it is about";
-    int changed = 0;
-    for (int x = static_cast<int>(900 * t_s / 10); x < 900; ++x)
-      for (int y = 0; y < 300; ++y) changed += with.pixel(x, y) != without.pixel(x, y);
-    return changed;
+    return chart.grab().toImage();
   };
-  EXPECT_GT(inkRightOf(4.5), 0) << "alone they have room";
-  spec.marks.emplace_back(4, "b");
-  EXPECT_EQ(inkRightOf(4.5), 0) << "over the next one's";
+  const QImage first = narrow();
+  spec.series[0].name = "7, 9";
+  EXPECT_GT(changed(first, narrow(), 0, 260), 0) << "the first curve's name is seen";
 }

@@ -27,18 +27,6 @@ protected:
     QTest::mouseClick(page().findChild<QPushButton*>("record"), Qt::LeftButton);
     return wait([&] { return page().host().status().recording; });
   }
-  /// Presses a button of the next question.
-  static void answer(QMessageBox::StandardButton button) {
-    auto* timer = new QTimer(qApp);
-    QObject::connect(timer, &QTimer::timeout, timer, [timer, button] {
-      auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
-      if (box == nullptr || box->button(button) == nullptr) return;
-      timer->stop();
-      timer->deleteLater();
-      QTest::mouseClick(box->button(button), Qt::LeftButton);
-    });
-    timer->start(20);
-  }
   QTemporaryDir folder;
 };
 
@@ -64,25 +52,41 @@ TEST_F(StatusLampsTest, NothingIsToldWhereNothingGoesOn) {
   ASSERT_TRUE(wait([&] { return live.page().host().status().state == LiveState::Streaming; }));
   auto& lamp = find<QToolButton>("liveLamp");
   EXPECT_TRUE(wait([&] { return lamp.isVisible() && lamp.text().contains("simulated board"); }));
+  QTest::mouseClick(live.page().findChild<QPushButton*>("plug"), Qt::LeftButton);
+  EXPECT_TRUE(wait([&] { return lamp.text().contains("is out"); })) << lamp.text().toStdString();
+  EXPECT_TRUE(lamp.isVisible()) << "where one looks for it";
+  EXPECT_EQ(lamp.property("role"), "alarm");
+  QTest::mouseClick(live.page().findChild<QPushButton*>("plug"), Qt::LeftButton);
+  EXPECT_TRUE(wait([&] { return lamp.property("role") == "streams"; }));
   window.showScene("reports");
   EXPECT_TRUE(wait([&] { return !lamp.isVisible(); }));
 }
 
-TEST_F(StatusLampsTest, QuittingAsksBeforeItEndsARecording) {
+TEST_F(StatusLampsTest, QuittingAsksOnceBeforeItEndsARecording) {
   ASSERT_TRUE(records(folder.filePath("touch.palprec")));
-  answer(QMessageBox::No);
+  Project next = workbench.project();
+  next.design.block_mm.x() = 31;
+  workbench.edit("block", next); // not saved
+  QStringList asked;
+  QMessageBox::StandardButton button = QMessageBox::Cancel;
+  QTimer answers;
+  QObject::connect(&answers, &QTimer::timeout, &answers, [&] {
+    auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
+    if (box == nullptr || box->button(button) == nullptr) return;
+    asked << box->text();
+    QTest::mouseClick(box->button(button), Qt::LeftButton);
+  });
+  answers.start(20);
   window.close();
   EXPECT_TRUE(window.isVisible());
   EXPECT_TRUE(page().host().status().recording);
-  answer(QMessageBox::Yes);
-  auto* discard = new QTimer(&window); // what is not saved is another question
-  QObject::connect(discard, &QTimer::timeout, discard, [] {
-    auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
-    if (box != nullptr && box->button(QMessageBox::Discard) != nullptr) box->button(QMessageBox::Discard)->click();
-  });
-  discard->start(20);
+  ASSERT_EQ(asked.size(), 1);
+  EXPECT_TRUE(asked[0].contains("not saved")) << asked[0].toStdString();
+  EXPECT_TRUE(asked[0].contains("touch.palprec is being recorded")) << asked[0].toStdString();
+  button = QMessageBox::Discard;
   window.close();
   EXPECT_FALSE(window.isVisible());
+  EXPECT_EQ(asked.size(), 2);
 }
 
 TEST_F(StatusLampsTest, AJobLeadsToItsScene) {

@@ -1,73 +1,13 @@
 #include "app/study/live/LiveSession.h"
 
-#include "app/study/live/BoardCheck.h"
-#include "app/study/live/BoardWatch.h"
-#include "io/board/SimulatedSource.h"
-#include "tests/app/study/live/LiveFixture.h"
+#include "tests/app/study/live/PluggedBoard.h"
 #include "tests/io/Refusal.h"
 #include "tests/io/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
 
-#include <array>
-#include <ostream>
-
 namespace palp {
 namespace {
-
-constexpr double kPatience_s = 10;
-
-VirtualBoard paperBoard(int rate_Hz = 1000) {
-  return simulatedBoard(shippedSamples(), {}, rate_Hz, 3);
-}
-
-/// A board that can be pulled out, silenced or refused from the test.
-struct Plug {
-  std::atomic<bool> in{true}, silent{false}, refused{false};
-};
-
-class PluggedSource : public SimulatedSource {
-public:
-  PluggedSource(VirtualBoard board, std::shared_ptr<Plug> plug)
-      : SimulatedSource(std::move(board)), plug_(std::move(plug)) {}
-  Outcome read(RawReport& report, std::chrono::milliseconds timeout) override {
-    if (!plug_->in) return Outcome::Gone;
-    if (!plug_->silent) return SimulatedSource::read(report, timeout);
-    std::this_thread::sleep_for(timeout / 10);
-    return Outcome::Nothing;
-  }
-  [[nodiscard]] std::string reason() const override { return "pulled out"; }
-
-private:
-  std::shared_ptr<Plug> plug_;
-};
-
-LiveOptions plugged(const std::shared_ptr<Plug>& plug) {
-  LiveOptions options;
-  options.open = [plug]() -> std::unique_ptr<ReportSource> {
-    if (plug->refused) throw BoardPermissionError("no permission");
-    if (!plug->in) return nullptr;
-    return std::make_unique<PluggedSource>(paperBoard(), plug);
-  };
-  return options;
-}
-
-template <class Condition> bool waitFor(const LiveSession& live, const Condition& condition) {
-  const double end_s = hostClock_s() + kPatience_s;
-  while (hostClock_s() < end_s) {
-    if (condition(live.status())) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
-  return false;
-}
-
-bool waitForState(const LiveSession& live, LiveState state) {
-  return waitFor(live, [state](const LiveStatus& status) { return status.state == state; });
-}
-
-bool waitForFrames(const LiveSession& live, std::uint64_t frames) {
-  return waitFor(live, [frames](const LiveStatus& status) { return status.counts.frames >= frames; });
-}
 
 TEST(LiveSession, StreamsFramesWithForces) {
   LiveOptions options = plugged(std::make_shared<Plug>());
@@ -152,114 +92,6 @@ TEST(LiveSession, ForgetsARefusalWhenTheBoardIsGone) {
   EXPECT_EQ(live.status().reason, "");
 }
 
-/// Where a source fails, and with what.
-enum class FailingCall { Open, Name, Info, Configuration, Read, Configure, ReadConfiguration };
-enum class Thrown { BoardGone, Refusal, Standard, Foreign };
-/// In the names of the tests.
-void PrintTo(FailingCall call, std::ostream* out) {
-  constexpr std::array words{"open", "name", "info", "configuration", "read", "configure", "readConfiguration"};
-  *out << words.at(static_cast<std::size_t>(call));
-}
-void PrintTo(Thrown thrown, std::ostream* out) {
-  constexpr std::array words{"board gone", "refusal", "a standard exception", "a foreign exception"};
-  *out << words.at(static_cast<std::size_t>(thrown));
-}
-
-/// Throws at one of its calls while it is armed.
-struct Trap {
-  FailingCall call;
-  Thrown thrown;
-  std::atomic<bool> armed{false};
-  std::atomic<int> sprung{0};
-
-  void at(FailingCall now) {
-    if (!armed || now != call) return;
-    ++sprung;
-    switch (thrown) {
-    case Thrown::BoardGone:
-      throw BoardError("trapped");
-    case Thrown::Refusal:
-      throw Error("trapped");
-    case Thrown::Standard:
-      throw std::out_of_range("trapped");
-    case Thrown::Foreign:
-      throw 7; // NOLINT(hicpp-exception-baseclass): what no handler of a kind catches
-    }
-  }
-};
-
-class TrappedSource : public SimulatedSource {
-public:
-  explicit TrappedSource(std::shared_ptr<Trap> trap) : SimulatedSource(paperBoard()), trap_(std::move(trap)) {}
-  [[nodiscard]] std::string name() const override {
-    trap_->at(FailingCall::Name);
-    return SimulatedSource::name();
-  }
-  [[nodiscard]] const BoardInfo& info() const override {
-    trap_->at(FailingCall::Info);
-    return SimulatedSource::info();
-  }
-  [[nodiscard]] const BoardConfiguration& configuration() const override {
-    trap_->at(FailingCall::Configuration);
-    return SimulatedSource::configuration();
-  }
-  void readConfiguration() override { trap_->at(FailingCall::ReadConfiguration); }
-  Outcome read(RawReport& report, std::chrono::milliseconds timeout) override {
-    trap_->at(FailingCall::Read);
-    if (trap_->armed && trap_->call == FailingCall::ReadConfiguration) { // makes the session read it again
-      BoardEvent changed;
-      changed.code = EventCode::ConfigurationChanged;
-      const Report bytes = encode(changed);
-      report = {hostClock_s(), {bytes.begin(), bytes.end()}};
-      return Outcome::Read;
-    }
-    return SimulatedSource::read(report, timeout);
-  }
-  bool configure(const BoardConfiguration& configuration) override {
-    trap_->at(FailingCall::Configure);
-    return SimulatedSource::configure(configuration);
-  }
-
-private:
-  std::shared_ptr<Trap> trap_;
-};
-
-class LiveSessionFailure : public testing::TestWithParam<std::tuple<FailingCall, Thrown>> {};
-
-TEST_P(LiveSessionFailure, EndsTheConnectionAndSaysWhyNeverTheProgram) {
-  auto trap = std::make_shared<Trap>();
-  std::tie(trap->call, trap->thrown) = GetParam();
-  const bool opening = trap->call == FailingCall::Open;
-  const bool whileConnecting = trap->call <= FailingCall::Configuration;
-  trap->armed = whileConnecting;
-  LiveOptions options;
-  options.open = [trap] {
-    trap->at(FailingCall::Open);
-    return std::make_unique<TrappedSource>(trap);
-  };
-  LiveSession live(std::move(options));
-  if (!whileConnecting) {
-    ASSERT_TRUE(waitForFrames(live, 2));
-    trap->armed = true;
-    BoardConfiguration wanted = *live.status().configuration;
-    wanted.rate_Hz = 500;
-    live.configure(wanted);
-  }
-  const auto words = [&](const LiveStatus& now) { return opening ? now.reason : now.lastEvent; };
-  ASSERT_TRUE(waitFor(live, [&](const LiveStatus& now) { return trap->sprung > 0 && !words(now).empty(); }));
-  const std::string why = words(live.status());
-  EXPECT_NE(why.find(trap->thrown == Thrown::Foreign ? "internal error" : "trapped"), std::string::npos) << why;
-  trap->armed = false;
-  EXPECT_TRUE(waitForState(live, LiveState::Streaming)); // and goes on when all is well again
-}
-
-INSTANTIATE_TEST_SUITE_P(AtEachCall, LiveSessionFailure,
-                         testing::Combine(testing::Values(FailingCall::Open, FailingCall::Name, FailingCall::Info,
-                                                          FailingCall::Configuration, FailingCall::Read,
-                                                          FailingCall::Configure, FailingCall::ReadConfiguration),
-                                          testing::Values(Thrown::BoardGone, Thrown::Refusal, Thrown::Standard,
-                                                          Thrown::Foreign)));
-
 TEST(LiveSession, LeavesABoardOfAnotherProtocolAloneUntilItIsGone) {
   auto plug = std::make_shared<Plug>();
   auto foreign = std::make_shared<std::atomic<bool>>(true);
@@ -284,58 +116,6 @@ TEST(LiveSession, LeavesABoardOfAnotherProtocolAloneUntilItIsGone) {
   *foreign = false;
   plug->in = true;
   EXPECT_TRUE(waitForState(live, LiveState::Streaming));
-}
-
-TEST(BoardWatch, SeesABoardThatIsPluggedInWhileAnotherStreams) {
-  std::mutex mutex;
-  std::vector<HidBoard> boards{{"/dev/hidraw0", "A", "", true}};
-  std::atomic<int> lists{0};
-  BoardAccess access;
-  access.list = [&] {
-    ++lists;
-    const std::lock_guard lock(mutex);
-    return boards;
-  };
-  access.nodes = [&] {
-    const std::lock_guard lock(mutex);
-    std::vector<std::string> names;
-    for (const HidBoard& board : boards) names.push_back(board.path);
-    return names;
-  };
-  BoardWatch watch(access);
-  const auto until = [](const auto& condition) {
-    while (!condition()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  };
-  until([&] { return watch.looked(); });
-  watch.setQuiet(true);
-  {
-    const std::lock_guard lock(mutex);
-    boards.push_back({"/dev/hidraw1", "B", "", true});
-  }
-  until([&] { return watch.boards().size() == 2; });
-  const int before = lists;
-  std::this_thread::sleep_for(std::chrono::milliseconds(1500)); // longer than it is between two looks at the devices
-  EXPECT_EQ(lists, before) << "a board that streams is disturbed though nothing has changed";
-}
-
-TEST(BoardWatch, SaysWhyALookFailedAndLooksAgain) {
-  auto broken = std::make_shared<std::atomic<bool>>(true);
-  BoardAccess access;
-  access.list = [broken]() -> std::vector<HidBoard> {
-    if (*broken) throw std::runtime_error("no list");
-    return {{"/dev/hidraw0", "A", "", true}};
-  };
-  const BoardWatch watch(access);
-  const auto waitUntil = [](const auto& condition) {
-    const double end_s = hostClock_s() + kPatience_s;
-    while (!condition() && hostClock_s() < end_s) std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    return condition();
-  };
-  ASSERT_TRUE(waitUntil([&] { return watch.looked(); }));
-  EXPECT_NE(watch.problem().find("no list"), std::string::npos);
-  *broken = false;
-  EXPECT_TRUE(waitUntil([&] { return watch.boards().size() == 1; }));
-  EXPECT_EQ(watch.problem(), "");
 }
 
 TEST(LiveSession, StopsAtAnotherProtocolAndSaysSo) {
@@ -515,26 +295,6 @@ TEST(LiveSession, NeverHoldsMoreFramesThanItsRing) {
   live.stop();
   EXPECT_EQ(live.drain().size(), 3U);
   EXPECT_EQ(live.status().overflowed, live.status().counts.frames - 3);
-}
-
-TEST(BoardCheck, PassesAGoodBoardAndFindsABadOne) {
-  for (const int corruptEvery : {0, 50}) {
-    LiveOptions options;
-    options.reconnect = false;
-    options.open = [corruptEvery] {
-      VirtualBoard board = paperBoard();
-      board.faults().corruptEvery = corruptEvery;
-      return std::make_unique<SimulatedSource>(std::move(board));
-    };
-    LiveSession live(std::move(options));
-    ASSERT_TRUE(waitFor(live, [](const LiveStatus& status) { return status.counts.reports >= 500; }));
-    live.stop();
-    const LiveStatus status = live.status();
-    const std::vector<std::uint8_t> descriptor(reportDescriptor().begin(), reportDescriptor().end());
-    const auto results = checkBoard(status, static_cast<double>(status.counts.reports) / 1000, descriptor);
-    EXPECT_EQ(std::all_of(results.begin(), results.end(), [](const auto& result) { return result.passed; }),
-              corruptEvery == 0);
-  }
 }
 
 } // namespace

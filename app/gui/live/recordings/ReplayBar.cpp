@@ -1,4 +1,4 @@
-#include "app/gui/live/ReplayBar.h"
+#include "app/gui/live/recordings/ReplayBar.h"
 
 #include <QCheckBox>
 #include <QComboBox>

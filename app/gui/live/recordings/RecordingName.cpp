@@ -1,4 +1,4 @@
-#include "app/gui/live/RecordingName.h"
+#include "app/gui/live/recordings/RecordingName.h"
 
 #include <QRegularExpression>
 
