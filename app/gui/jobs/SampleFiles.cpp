@@ -66,6 +66,9 @@ void requireOf(const SensorDesign& design, const SampleSet& set, const fs::path&
   if (set.origin.designFingerprint != ours)
     throw Error(file.string() + ": its samples are of the design " + set.origin.designFingerprint +
                 "; the design that is open is " + ours + ": open the one they were made of first");
+  if (set.hasTouches())
+    throw Error(file.string() + ": its samples are touches by an indenter; allowed here are forces on load areas (palp "
+                                "train and palp predict take touches)");
   if (set.together())
     throw Error(file.string() + ": its samples load all areas together; allowed here are samples of one area each");
 }

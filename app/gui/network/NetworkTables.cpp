@@ -67,6 +67,8 @@ QString inWords(DecoderKind kind) {
     return QObject::tr("displacements by inverting the resistance law, Gauss-Newton, then force");
   case DecoderKind::MaximumLikelihood:
     return QObject::tr("maximum likelihood with a forward model");
+  case DecoderKind::TouchInversion:
+    return QObject::tr("force and place of a touch, by inverting a forward model");
   }
   return {};
 }
