@@ -103,7 +103,7 @@ SampleSet samplesBetween(const SampleSet& set, Eigen::Index first, Eigen::Index 
   part.area = set.area.segment(first, count);
   for (const auto values :
        {&SampleSet::touches, &SampleSet::forces_N, &SampleSet::displacements_mm, &SampleSet::resistances_ohm})
-    part.*values = (set.*values).middleCols(first, (set.*values).cols() == 0 ? 0 : count);
+    if ((set.*values).cols() > 0) part.*values = (set.*values).middleCols(first, count);
   return part;
 }
 
