@@ -102,8 +102,13 @@ SampleSet samplesBetween(const SampleSet& set, Eigen::Index first, Eigen::Index 
   part.areaCount = set.areaCount;
   part.area = set.area.segment(first, count);
   for (const auto values :
-       {&SampleSet::touches, &SampleSet::forces_N, &SampleSet::displacements_mm, &SampleSet::resistances_ohm})
-    if ((set.*values).cols() > 0) part.*values = (set.*values).middleCols(first, count);
+       {&SampleSet::touches, &SampleSet::forces_N, &SampleSet::displacements_mm, &SampleSet::resistances_ohm}) {
+    const Eigen::Index rows = (set.*values).rows(); // of a head too: they say what there is
+    if (rows == 0 || (set.*values).cols() == 0)
+      (part.*values).resize(rows, rows == 0 ? count : 0);
+    else
+      part.*values = (set.*values).middleCols(first, count);
+  }
   return part;
 }
 
