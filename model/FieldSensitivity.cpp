@@ -1,6 +1,8 @@
 #include "model/FieldSensitivity.h"
 
 #include "model/BoxGreen.h"
+#include "model/base/Cancelled.h"
+#include "model/base/Parallel.h"
 #include "model/field/FaceField.h"
 #include "model/field/FaceGrid.h"
 
@@ -73,11 +75,16 @@ Eigen::MatrixXd FieldSensitivity::ofElectrodes(const Eigen::Matrix3Xd& motion_mm
   return change;
 }
 
-std::vector<Eigen::MatrixXd> FieldSensitivity::conductanceChanges(std::span<const SensorMotion> motions, int threads,
-                                                                  const std::stop_token& stop) const {
+ElectrodeSources FieldSensitivity::sources() const {
   ElectrodeSources sources{electrodes_mm(design_), network_.currents(), {}};
   if (dipole_ > 0)
     for (std::size_t i = 0; i < 3; ++i) sources.dipoles[i] = -dipole_ * gradient_[i];
+  return sources;
+}
+
+std::vector<Eigen::MatrixXd> FieldSensitivity::conductanceChanges(std::span<const SensorMotion> motions, int threads,
+                                                                  const std::stop_token& stop) const {
+  const ElectrodeSources electrodes = sources();
   std::vector<Eigen::MatrixXd> changes;
   Eigen::MatrixXd outward(facePoints_mm_.cols(), static_cast<Eigen::Index>(motions.size()));
   for (const SensorMotion& motion : motions) {
@@ -87,12 +94,47 @@ std::vector<Eigen::MatrixXd> FieldSensitivity::conductanceChanges(std::span<cons
   }
   Eigen::Index at = 0;
   for (const FaceGrid& face : faces_) {
-    const auto part = faceChanges(design_.block_mm, face, sources, outward.middleRows(at, face.count()), threads, stop);
+    const auto part =
+        faceChanges(design_.block_mm, face, electrodes, outward.middleRows(at, face.count()), threads, stop);
     for (std::size_t m = 0; m < changes.size(); ++m) changes[m] += part[m];
     at += face.count();
   }
   for (Eigen::MatrixXd& change : changes) change = network_.change(law_.resistivity_ohm_mm * change);
   return changes;
+}
+
+ReadingGradient FieldSensitivity::readingGradient(Readout readout, int threads, const std::stop_token& stop) const {
+  const NetworkReading reading(network_, readout);
+  const auto readings = [&](const Eigen::MatrixXd& change) -> Eigen::VectorXd {
+    return reading.logChange(network_.change(law_.resistivity_ohm_mm * change)).reshaped();
+  };
+  const Eigen::Index wires = network_.counts().wires(), count = reading.resistances_ohm().size();
+  Eigen::MatrixXd sums(wires * (wires + 1) / 2, count); // of the pairs of wires, for each reading
+  for (Eigen::Index b = 0, pair = 0; b < wires; ++b)
+    for (Eigen::Index a = 0; a <= b; ++a, ++pair) {
+      Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(wires, wires);
+      unit(a, b) = unit(b, a) = 1;
+      sums.row(pair) = readings(unit).transpose();
+    }
+  ReadingGradient gradient;
+  const Eigen::Index electrodes = network_.counts().electrodes();
+  gradient.electrodes_per_mm.resize(count, 3 * electrodes);
+  forChunks(static_cast<int>(electrodes), 1, threads, [&](int electrode, int) {
+    if (stop.stop_requested()) throw Cancelled();
+    Eigen::Matrix3Xd motion = Eigen::Matrix3Xd::Zero(3, electrodes);
+    for (int axis = 0; axis < 3; ++axis) {
+      motion.col(electrode) = Eigen::Vector3d::Unit(axis);
+      gradient.electrodes_per_mm.col(3 * electrode + axis) = readings(ofElectrodes(motion));
+    }
+  });
+  gradient.faces_per_mm.resize(count, facePoints_mm_.cols());
+  Eigen::Index at = 0;
+  for (const FaceGrid& face : faces_) {
+    gradient.faces_per_mm.middleCols(at, face.count()) =
+        faceWeights(design_.block_mm, face, sources(), sums, threads, stop).transpose();
+    at += face.count();
+  }
+  return gradient;
 }
 
 } // namespace palp

@@ -13,12 +13,21 @@
 namespace palp {
 
 struct BoxGreen;
+struct ElectrodeSources;
 struct FaceGrid;
 
 /// A small motion of the sensor: what its resistances follow.
 struct SensorMotion {
   Eigen::Matrix3Xd electrodes_mm; ///< displacements 3 x electrodes in the order of WireCounts; 0 where one is held
   Eigen::VectorXd faces_mm;       ///< outward along the normal, at each of FieldSensitivity::facePoints_mm
+};
+
+/// What each reading (row-wire + row-wires * column-wire) makes of such motions: d ln R per mm of an electrode's
+/// displacement (readings x 3 electrodes, x, y, z of the first one first), and per mm of the outward motion of each
+/// point of the faces (readings x points; the points' shares of the faces are in it).
+struct ReadingGradient {
+  Eigen::MatrixXd electrodes_per_mm;
+  Eigen::MatrixXd faces_per_mm;
 };
 
 /// How the resistances of a sensor at rest follow small motions of its electrodes and of its insulated faces, exactly
@@ -41,9 +50,13 @@ public:
   /// Throws Cancelled where it was stopped.
   [[nodiscard]] std::vector<Eigen::MatrixXd> conductanceChanges(std::span<const SensorMotion> motions, int threads = 0,
                                                                 const std::stop_token& stop = {}) const;
+  /// The same the other way round: what each reading makes of any motion, without one. Throws Cancelled.
+  [[nodiscard]] ReadingGradient readingGradient(Readout readout, int threads = 0,
+                                                const std::stop_token& stop = {}) const;
 
 private:
   FieldSensitivity(SensorDesign design, const FieldLaw& law, SphereModel model, double fineness, const BoxGreen& green);
+  [[nodiscard]] ElectrodeSources sources() const;
   [[nodiscard]] Eigen::MatrixXd ofElectrodes(const Eigen::Matrix3Xd& motion_mm) const;
 
   SensorDesign design_;

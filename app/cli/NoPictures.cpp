@@ -29,7 +29,7 @@ std::vector<ReportPicture> drawPaperFigures(const SensorDesign&, const ProtocolR
   return {};
 }
 
-ChartDrawer chartDrawer(Session& session) {
+ReportDrawer reportDrawer(Session& session) {
   warn(session, "drawing the charts");
   return {};
 }

@@ -32,10 +32,11 @@ std::vector<ReportPicture> drawPaperFigures(const SensorDesign& design, const Pr
   return session.stages.measure("render", [&] { return drawPaperFigures(result, touch, files, session.stop); });
 }
 
-ChartDrawer chartDrawer(Session& session) {
-  return [&session](const ReportChart& chart, const std::filesystem::path& png) {
-    session.stages.measure("render", [&] { drawReportChart(chart, png); });
+ReportDrawer reportDrawer(Session& session) {
+  const auto drawn = [&session](const auto& drawing, const std::filesystem::path& png) {
+    session.stages.measure("render", [&] { drawReport(drawing, png); });
   };
+  return {drawn, drawn};
 }
 
 void renderTouch(const Touch& touch, const std::string& quantity, const PictureSize& size,

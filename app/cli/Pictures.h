@@ -27,8 +27,8 @@ void exportVtu(const OutputFile& output, const Mesh& mesh, const NodalFields* fi
 std::vector<ReportPicture> drawPaperFigures(const SensorDesign& design, const ProtocolResult& result,
                                             const MeshOptions& mesh, WrittenFiles& files, Session& session);
 
-/// Draws a report's charts; nothing without VTK.
-ChartDrawer chartDrawer(Session& session);
+/// Draws a report's charts and maps; nothing without VTK.
+ReportDrawer reportDrawer(Session& session);
 
 struct PictureSize {
   int width = 1200;

@@ -62,6 +62,32 @@ void TouchArguments::declare(Command command, Option perArea) {
   command.option("--grid", grid, "with --touch: NXxNY: places in turn on a grid of the region, not anywhere").needs(on);
 }
 
+void TouchArguments::declareForMap(Command command) {
+  Option on = command.option("--touch", touch,
+                             "of a map: SHAPE:FROM..TO[@*] [mm], sphere, pin or flat (default sphere:3..6); "
+                             "@X0,Y0,X1,Y1 where");
+  command
+      .option("--force-range", forceRange,
+              "with --touch: FZ..FZ [N]; the map is for its middle (default: a twelfth of the design's largest to all "
+              "of it)")
+      .needs(on);
+  command.option("--region", region, "with --touch: X0,Y0,X1,Y1 [mm] (default: the face less a tenth of its width)")
+      .needs(on);
+  command
+      .option("--grid", grid,
+              "with --touch: NXxNY places from side to side of the region (default: a thirtieth of the face apart)")
+      .needs(on);
+}
+
+std::string TouchArguments::asCommand() const {
+  std::string words;
+  for (const auto& [option, value] :
+       {std::pair{" --touch ", &touch}, std::pair{" --count ", &count}, std::pair{" --friction ", &friction},
+        std::pair{" --force-range ", &forceRange}, std::pair{" --region ", &region}, std::pair{" --grid ", &grid}})
+    if (!value->empty()) words += option + *value;
+  return words;
+}
+
 TouchRange TouchArguments::range(const SensorDesign& design) const {
   TouchRange range = touchesOf(design);
   const std::size_t at = touch.find('@');

@@ -82,8 +82,29 @@ public:
   /// What the lines v = [begin, end) of the face give to each motion: pairs of wires (a <= b, by b) x motions.
   [[nodiscard]] Eigen::MatrixXd ofLines(const Eigen::Ref<const Eigen::MatrixXd>& motions, Eigen::Index begin,
                                         Eigen::Index end) const {
-    const Eigen::Index along = face_.u_mm.size(), points = along * (end - begin), wires = sources_.currents.cols();
-    Eigen::MatrixXd products = Eigen::MatrixXd::Zero(points, wires * (wires + 1) / 2);
+    const Eigen::Index along = face_.u_mm.size();
+    return -(products(begin, end).transpose() *
+             (weights(begin, end).asDiagonal() * motions.middleRows(begin * along, along * (end - begin))));
+  }
+
+  /// What multiplies the motion of the points of these lines in sums of the pairs' changes: points x sums.
+  [[nodiscard]] Eigen::MatrixXd weightsOfLines(const Eigen::Ref<const Eigen::MatrixXd>& sums, Eigen::Index begin,
+                                               Eigen::Index end) const {
+    return -(weights(begin, end).asDiagonal() * (products(begin, end) * sums));
+  }
+
+private:
+  [[nodiscard]] bool dipoles() const { return sources_.dipoles[0].size() > 0; }
+
+  /// Of the quadrature over these lines.
+  [[nodiscard]] Eigen::VectorXd weights(Eigen::Index begin, Eigen::Index end) const {
+    return (face_.uWeights.matrix() * face_.vWeights.segment(begin, end - begin).matrix().transpose()).reshaped();
+  }
+
+  /// The integrand at their points: points x pairs.
+  [[nodiscard]] Eigen::MatrixXd products(Eigen::Index begin, Eigen::Index end) const {
+    const Eigen::Index points = face_.u_mm.size() * (end - begin), wires = sources_.currents.cols();
+    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(points, wires * (wires + 1) / 2);
     for (const bool alongU : {true, false}) {
       const UnitFields unit = fields(alongU, begin, end);
       const Eigen::MatrixXd phi = unit.monopoles * sources_.currents;
@@ -91,15 +112,10 @@ public:
       if (dipoles()) half += unit.dipoles * moments_;
       for (Eigen::Index b = 0, pair = 0; b < wires; ++b)
         for (Eigen::Index a = 0; a <= b; ++a, ++pair)
-          products.col(pair) += phi.col(a).cwiseProduct(half.col(b)) + half.col(a).cwiseProduct(phi.col(b));
+          result.col(pair) += phi.col(a).cwiseProduct(half.col(b)) + half.col(a).cwiseProduct(phi.col(b));
     }
-    const Eigen::VectorXd weights =
-        (face_.uWeights.matrix() * face_.vWeights.segment(begin, end - begin).matrix().transpose()).reshaped();
-    return -(products.transpose() * (weights.asDiagonal() * motions.middleRows(begin * along, points)));
+    return result;
   }
-
-private:
-  [[nodiscard]] bool dipoles() const { return sources_.dipoles[0].size() > 0; }
 
   [[nodiscard]] UnitFields fields(bool alongU, Eigen::Index begin, Eigen::Index end) const {
     const Eigen::Index electrodes = sources_.currents.rows(), along = face_.u_mm.size(), lines = end - begin;
@@ -132,6 +148,10 @@ private:
   Eigen::MatrixXd moments_;
 };
 
+int linesAtOnce(const FaceGrid& face) {
+  return std::max(1, static_cast<int>(kLinePoints / face.u_mm.size()));
+}
+
 } // namespace
 
 std::vector<Eigen::MatrixXd> faceChanges(const Eigen::Vector3d& block_mm, const FaceGrid& face,
@@ -139,8 +159,7 @@ std::vector<Eigen::MatrixXd> faceChanges(const Eigen::Vector3d& block_mm, const 
                                          const Eigen::Ref<const Eigen::MatrixXd>& motions, int threads,
                                          const std::stop_token& stop) {
   const FaceWork work(block_mm, face, sources, threads);
-  const int lines = static_cast<int>(face.v_mm.size());
-  const int chunk = std::max(1, static_cast<int>(kLinePoints / face.u_mm.size()));
+  const int lines = static_cast<int>(face.v_mm.size()), chunk = linesAtOnce(face);
   std::vector<Eigen::MatrixXd> parts(static_cast<std::size_t>((lines + chunk - 1) / chunk));
   forChunks(lines, chunk, threads, [&](int begin, int end) {
     if (stop.stop_requested()) throw Cancelled();
@@ -155,6 +174,18 @@ std::vector<Eigen::MatrixXd> faceChanges(const Eigen::Vector3d& block_mm, const 
       for (Eigen::Index a = 0; a <= b; ++a, ++pair) change(a, b) = change(b, a) = sum(pair, m);
   }
   return changes;
+}
+
+Eigen::MatrixXd faceWeights(const Eigen::Vector3d& block_mm, const FaceGrid& face, const ElectrodeSources& sources,
+                            const Eigen::Ref<const Eigen::MatrixXd>& sums, int threads, const std::stop_token& stop) {
+  const FaceWork work(block_mm, face, sources, threads);
+  Eigen::MatrixXd weights(face.count(), sums.cols());
+  forChunks(static_cast<int>(face.v_mm.size()), linesAtOnce(face), threads, [&](int begin, int end) {
+    if (stop.stop_requested()) throw Cancelled();
+    const Eigen::Index along = face.u_mm.size();
+    weights.middleRows(begin * along, (end - begin) * along) = work.weightsOfLines(sums, begin, end);
+  });
+  return weights;
 }
 
 } // namespace palp

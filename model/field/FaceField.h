@@ -28,4 +28,10 @@ std::vector<Eigen::MatrixXd> faceChanges(const Eigen::Vector3d& block_mm, const 
                                          const Eigen::Ref<const Eigen::MatrixXd>& motions, int threads,
                                          const std::stop_token& stop);
 
+/// For motions that are not known yet: what multiplies the motion of each point of the face in sums of those changes'
+/// entries. `sums` has the coefficients of each sum in a column, a row for each pair of wires a <= b (by b; an entry
+/// and its mirror count as one); points x sums. Throws Cancelled where it was stopped.
+Eigen::MatrixXd faceWeights(const Eigen::Vector3d& block_mm, const FaceGrid& face, const ElectrodeSources& sources,
+                            const Eigen::Ref<const Eigen::MatrixXd>& sums, int threads, const std::stop_token& stop);
+
 } // namespace palp

@@ -95,6 +95,26 @@ TEST(FieldSensitivity, AMotionOfTheWholeBlockChangesNothing) {
   }
 }
 
+/// The same reading the other way round, under every read-out.
+TEST(FieldSensitivity, AReadingsGradientGivesWhatAMotionChanges) {
+  const SensorDesign design = randomLayout(3, 0.5);
+  const FieldSensitivity field(design, lawWith(0.2));
+  SensorMotion motion = still(field, design);
+  std::mt19937 engine(5);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (double& value : motion.electrodes_mm.reshaped()) value = uniform(engine);
+  for (double& value : motion.faces_mm) value = uniform(engine);
+  const Eigen::MatrixXd change = field.conductanceChanges(std::array{motion})[0];
+  for (const auto& [readout, name] : kReadouts.all()) {
+    const ReadingGradient gradient = field.readingGradient(readout);
+    const Eigen::VectorXd found =
+        gradient.electrodes_per_mm * motion.electrodes_mm.reshaped() + gradient.faces_per_mm * motion.faces_mm;
+    const Eigen::VectorXd wanted = NetworkReading(field.network(), readout).logChange(change).reshaped();
+    EXPECT_LT((found - wanted).norm(), 1e-12 * wanted.norm()) << name;
+    EXPECT_EQ(gradient.faces_per_mm, field.readingGradient(readout, 3).faces_per_mm) << name;
+  }
+}
+
 /// What the usual panels leave of a bulge that is no polynomial, against panels of a third of their width.
 TEST(FieldSensitivity, ItsPanelsLeaveATenthOfAThousandth) {
   for (unsigned seed = 1; seed <= 4; ++seed) {

@@ -2,6 +2,7 @@
 #include "app/cli/Options.h"
 #include "app/cli/Pictures.h"
 #include "app/cli/ProgressBar.h"
+#include "app/cli/TouchOption.h"
 #include "app/study/reports/ReportComputations.h"
 #include "app/study/reports/layout/FieldResponse.h"
 #include "model/base/Text.h"
@@ -20,6 +21,7 @@ struct ReportArguments {
   std::string perArea = "100";
   std::string seed = "1";
   MeshChoice mesh;
+  TouchArguments touches;
   std::filesystem::path folder;
   bool force = false;
 };
@@ -40,8 +42,8 @@ std::string kindsInWords() {
 
 std::string commandLine(const ReportArguments& arguments) {
   return "palp report " + arguments.kind + (arguments.design == "paper" ? "" : " --design " + arguments.design) +
-         " --per-area " + arguments.perArea + " --seed " + arguments.seed + arguments.mesh.asCommand() + " -o " +
-         arguments.folder.string();
+         " --per-area " + arguments.perArea + " --seed " + arguments.seed + arguments.mesh.asCommand() +
+         arguments.touches.asCommand() + " -o " + arguments.folder.string();
 }
 
 Exit run(ReportArguments& arguments, Session& session) {
@@ -58,6 +60,11 @@ Exit run(ReportArguments& arguments, Session& session) {
   requireMeshable(request.design, request.mesh); // some kinds mesh late
   request.perArea = wholeNumber("--per-area", arguments.perArea, 5, 100000);
   request.seed = static_cast<std::uint64_t>(wholeNumber("--seed", arguments.seed, 0, 1'000'000));
+  if (arguments.touches.given()) {
+    if (arguments.kind != "map")
+      throw UsageError("--touch is for the map; report " + arguments.kind + " has no touches");
+    request.touches = arguments.touches.range(request.design);
+  }
   request.threads = session.threads;
   request.command = commandLine(arguments);
   request.programs = std::filesystem::read_symlink("/proc/self/exe").parent_path();
@@ -66,7 +73,7 @@ Exit run(ReportArguments& arguments, Session& session) {
   const ReportOutcome outcome = runReport(
       *kind, request,
       [&](double share, const std::string& what) { bar.show(static_cast<std::size_t>(1000 * share), what); },
-      session.stop, chartDrawer(session));
+      session.stop, reportDrawer(session));
   session.stages.add(outcome.stages);
   session.warnings.insert(session.warnings.end(), outcome.warnings.begin(), outcome.warnings.end());
   session.result["kind"] = arguments.kind;
@@ -93,6 +100,7 @@ void addReport(Cli& cli) {
   command.option("--per-area", arguments->perArea, "samples on each area, where the kind needs any (default 100)");
   command.option("--seed", arguments->seed, "seed of everything random (default 1)");
   arguments->mesh.declare(command, false);
+  arguments->touches.declareForMap(command);
   command.option("-o,--output", arguments->folder, "folder of report.html, points.csv and the pictures");
   command.flag("--force", arguments->force, "write into a folder that is not empty");
 }

@@ -28,6 +28,11 @@ Color mapped(vtkLookupTable& table, double value) {
   return color;
 }
 
+/// What stands at a cell of an axis.
+std::string tick(const std::vector<std::string>& words, int cell) {
+  return words.empty() ? std::to_string(cell) : words[static_cast<std::size_t>(cell)];
+}
+
 /// Upright words about a place; `justification` as VTK counts: 0 left or bottom, 1 centre, 2 right or top.
 void useText(const Canvas& canvas, const Color& color, double size_px, bool bold, int across, int along) {
   vtkTextProperty& text = canvas.textStyle();
@@ -80,11 +85,13 @@ void Heatmap::paintCells(Canvas& canvas, vtkLookupTable& table) const {
   // All edges on whole pixels, so that all gaps are equally wide.
   const double gap = std::min(cellWidth_, cellHeight_) > 6 * scale ? std::round(scale) : 0;
   for (Eigen::Index row = 0; row < spec.values.rows(); ++row)
-    for (Eigen::Index column = 0; column < spec.values.cols(); ++column)
+    for (Eigen::Index column = 0; column < spec.values.cols(); ++column) {
+      if (std::isnan(spec.values(row, column))) continue; // a hole
       canvas.fill(std::round(columnEdge(column)), std::round(rowEdge(row)),
                   std::round(columnEdge(column + 1)) - (column + 1 < spec.values.cols() ? gap : 0),
                   std::round(rowEdge(row + 1)) - (row + 1 < spec.values.rows() ? gap : 0),
                   mapped(table, spec.values(row, column)));
+    }
   if (!spec.selected) return;
   const double thickness = std::round(2.5 * scale), outside = std::round(0.5 * thickness);
   const auto [row, column] = *spec.selected;
@@ -99,12 +106,12 @@ void Heatmap::paintAxes(Canvas& canvas) const {
   useText(canvas, ink, 12 * scale, false, VTK_TEXT_CENTERED, VTK_TEXT_TOP);
   const int columnStride = labelStride(cellWidth_, 24 * scale);
   for (int column = 0; column < spec.values.cols(); column += columnStride)
-    canvas.words(columnEdge(column) + 0.5 * cellWidth_, bottom_ - 5 * scale, std::to_string(column));
+    canvas.words(columnEdge(column) + 0.5 * cellWidth_, bottom_ - 5 * scale, tick(spec.columnTicks, column));
   canvas.words(centreX, bottom_ - 23 * scale, spec.columnLabel);
   useText(canvas, ink, 12 * scale, false, VTK_TEXT_RIGHT, VTK_TEXT_CENTERED);
   const int rowStride = labelStride(cellHeight_, 16 * scale);
   for (int row = 0; row < spec.values.rows(); row += rowStride)
-    canvas.words(left_ - 6 * scale, rowEdge(row) + 0.5 * cellHeight_, std::to_string(row));
+    canvas.words(left_ - 6 * scale, rowEdge(row) + 0.5 * cellHeight_, tick(spec.rowTicks, row));
   useText(canvas, ink, 12 * scale, false, VTK_TEXT_CENTERED, VTK_TEXT_CENTERED);
   canvas.textStyle().SetOrientation(90);
   canvas.words(18 * scale, centreY, spec.rowLabel);

@@ -9,6 +9,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 class vtkLookupTable;
 
@@ -21,7 +22,8 @@ struct HeatmapSpec {
   ColorScale colors;
   std::string rowLabel = "row-wire";
   std::string columnLabel = "column-wire";
-  std::optional<std::array<int, 2>> selected; ///< row, column outlined
+  std::optional<std::array<int, 2>> selected;         ///< row, column outlined
+  std::vector<std::string> rowTicks{}, columnTicks{}; ///< words at the cells; empty: their numbers
 };
 
 /// The heatmap with axes and legend, for a view that stays. VTK's colours and letters, painted by the processor: some

@@ -42,7 +42,7 @@ std::string rowClass(ReportTable::Mark mark) {
 /// Adds the parts of a report to its page, one overload a kind of part.
 class PageWriter {
 public:
-  PageWriter(ReportPage& page, WrittenFiles& files, const ChartDrawer& draw, const std::stop_token& stop)
+  PageWriter(ReportPage& page, WrittenFiles& files, const ReportDrawer& draw, const std::stop_token& stop)
       : page_(page), files_(files), draw_(draw), stop_(stop) {}
 
   void operator()(const ReportHeading& heading) const { page_.heading(heading.text); }
@@ -52,21 +52,24 @@ public:
     for (const ReportTable::Mark mark : table.marks) classes.push_back(rowClass(mark));
     page_.table(table.heads, table.rows, table.caption, classes);
   }
-  void operator()(const ReportChart& chart) const {
-    if (!draw_) {
-      page_.paragraph(chart.title + ": not drawn, this palp was built without VTK; its points are in the CSV.");
+  void operator()(const ReportChart& chart) const { picture(chart, draw_.chart); }
+  void operator()(const ReportMap& map) const { picture(map, draw_.map); }
+
+private:
+  template <class Drawing, class Draw> void picture(const Drawing& drawing, const Draw& draw) const {
+    if (!draw) {
+      page_.paragraph(drawing.title + ": not drawn, this palp was built without VTK; its points are in the CSV.");
       return;
     }
     stopIfAsked(stop_);
-    const std::filesystem::path png = files_.add(chart.file + ".png");
-    draw_(chart, png);
-    page_.picture(png, chart.caption);
+    const std::filesystem::path png = files_.add(drawing.file + ".png");
+    draw(drawing, png);
+    page_.picture(png, drawing.caption);
   }
 
-private:
   ReportPage& page_;
   WrittenFiles& files_;
-  const ChartDrawer& draw_;
+  const ReportDrawer& draw_;
   const std::stop_token& stop_;
 };
 
@@ -90,7 +93,7 @@ ReportProgress partOf(const ReportProgress& whole, double from, double width) {
 }
 
 ReportOutcome writeReport(const ReportContent& content, const ReportRequest& request, double seconds,
-                          const ChartDrawer& draw, const std::stop_token& stop) {
+                          const ReportDrawer& draw, const std::stop_token& stop) {
   std::error_code failed;
   std::filesystem::create_directories(request.folder, failed);
   if (failed) throw Error(request.folder.string() + ": the folder cannot be made: " + failed.message());

@@ -2,10 +2,12 @@
 
 #include "app/study/StageLog.h"
 #include "model/SensorDesign.h"
+#include "model/TouchRange.h"
 #include "solver/SensorMesh.h"
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <utility>
@@ -50,6 +52,17 @@ struct ReportTable {
   std::vector<Mark> marks{}; ///< one a row, or empty
 };
 
+/// Values over a rectangle of the sensor's face, as coloured cells; app/scenes draws them.
+struct ReportMap {
+  std::string file{}; ///< as ReportChart's
+  std::string caption{};
+  std::string title{};
+  std::string quantity{}, unit{}; ///< of the colours
+  Eigen::MatrixXd values{};       ///< along y x along x; not a number where there is none
+  Eigen::Vector2d low_mm{0, 0};   ///< place of the first value
+  Eigen::Vector2d high_mm{0, 0};  ///< of the last
+};
+
 struct ReportHeading {
   std::string text;
 };
@@ -58,7 +71,7 @@ struct ReportWords {
   std::string text;
 };
 
-using ReportPart = std::variant<ReportHeading, ReportWords, ReportTable, ReportChart>;
+using ReportPart = std::variant<ReportHeading, ReportWords, ReportTable, ReportChart, ReportMap>;
 
 /// A file that goes with a report (a better design, a deck for another program).
 struct ReportFile {
@@ -90,8 +103,9 @@ struct ReportRequest {
   MeshOptions mesh;             ///< none: the kind's own
   int perArea = 100;            ///< samples on each area, where the kind needs any
   std::uint64_t seed = 1;
-  int threads = 0;     ///< 0: all cores
-  std::string command; ///< that makes the report again; printed in it
+  std::optional<TouchRange> touches{}; ///< of the kind that maps them; none: the design's usual ones
+  int threads = 0;                     ///< 0: all cores
+  std::string command;                 ///< that makes the report again; printed in it
   /// Folder of palp and palp-studio, for the report that measures them; empty: they are not run.
   std::filesystem::path programs{};
 };
@@ -121,13 +135,16 @@ struct ReportOutcome {
   double seconds = 0;
 };
 
-/// Draws a chart into a PNG file.
-using ChartDrawer = std::function<void(const ReportChart&, const std::filesystem::path&)>;
+/// Draw charts and maps into PNG files.
+struct ReportDrawer {
+  std::function<void(const ReportChart&, const std::filesystem::path&)> chart{};
+  std::function<void(const ReportMap&, const std::filesystem::path&)> map{};
+};
 
 /// Writes page, CSV, pictures and further files into the folder of the request. Without a drawer the page says that
 /// this program draws no charts. Throws Error where a file cannot be written and Cancelled where it was stopped; then
 /// none of its files stays.
 ReportOutcome writeReport(const ReportContent& content, const ReportRequest& request, double seconds,
-                          const ChartDrawer& draw, const std::stop_token& stop);
+                          const ReportDrawer& draw, const std::stop_token& stop);
 
 } // namespace palp

@@ -2,6 +2,7 @@
 
 #include "app/study/reports/errortime/ErrorTimeReport.h"
 #include "app/study/reports/layout/LayoutReport.h"
+#include "app/study/reports/map/MapReport.h"
 #include "app/study/reports/networks/NetworksReport.h"
 #include "app/study/reports/networks/NoiseReport.h"
 #include "app/study/reports/readout/ReadoutReport.h"
@@ -84,6 +85,15 @@ const std::vector<ReportComputation>& reportComputations() {
         {"the read-outs of the design", 0.4, 0.6},
         {"radius, contact, switches", 1, 3}},
        true},
+      {"map",
+       "what is resolved of a touch at each place of the surface: smallest force, place, two touches apart",
+       mapReport,
+       {{"the readings at rest", 0.1, 1},
+        {"mesh and factorisation", 0.3, 9},
+        {"influence surfaces", 0.6, 6},
+        {"maps", 0.75, 6},
+        {"touches solved as they are", 1, 14}},
+       true},
       {"scenes",
        "what each scene and each command costs, and that nothing is computed that is not shown",
        scenesReport,
@@ -93,7 +103,7 @@ const std::vector<ReportComputation>& reportComputations() {
 }
 
 ReportOutcome runReport(const ReportComputation& kind, const ReportRequest& request, const ReportProgress& progress,
-                        const std::stop_token& stop, const ChartDrawer& draw) {
+                        const std::stop_token& stop, const ReportDrawer& draw) {
   if (!kind.underField) requirePairs(request.design, "report " + kind.name);
   const auto start = std::chrono::steady_clock::now();
   try {

@@ -21,6 +21,6 @@ const std::vector<ReportComputation>& reportComputations();
 
 /// Computes and writes; see writeReport. Where it was stopped the outcome is not done.
 ReportOutcome runReport(const ReportComputation& kind, const ReportRequest& request, const ReportProgress& progress,
-                        const std::stop_token& stop, const ChartDrawer& draw);
+                        const std::stop_token& stop, const ReportDrawer& draw);
 
 } // namespace palp

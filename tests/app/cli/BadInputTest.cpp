@@ -129,7 +129,7 @@ TEST(BadInput, APressureLawIsRefusedByTheReportsUnderTheField) {
                           {"pressure_law", {{"p0_MPa", 0.05}, {"exponent", 0.5}}}};
   const std::string file = folder / "field.json", out = folder / "out";
   writeAll(file, design.dump());
-  for (const char* kind : {"noise", "layout", "readout"})
+  for (const char* kind : {"noise", "layout", "readout", "map"})
     expectRefused(palp::test::palp({"report", kind, "--design", file, "-o", out}),
                   {"resistance.pressure_law", "allowed is null"});
   EXPECT_FALSE(std::filesystem::exists(out));
@@ -221,6 +221,16 @@ INSTANTIATE_TEST_SUITE_P(
         BadOption{"ReportSeedNegative", {"report", "noise", "--seed", "-1"}, {"--seed", "-1", "0 to"}},
         BadOption{"ReportDesignMissing", {"report", "layout", "--design", "nowhere.json"}, {"nowhere.json"}},
         BadOption{"ReportMappedTwoNumbers", {"report", "scenes", "--mapped", "2x2"}, {"--mapped", "2x2", "NxNxN"}},
+        BadOption{"ReportMapOfACylinder", {"report", "map", "--touch", "cylinder-x:3"}, {"cylinder-x", "sphere, pin"}},
+        BadOption{"ReportMapOfNothing", {"report", "map", "--touch", "ball:3"}, {"ball", "sphere"}},
+        BadOption{"ReportMapOfOnePlace",
+                  {"report", "map", "--touch", "sphere:3", "--grid", "1x5"},
+                  {"1 places", "at least 2"}},
+        BadOption{"ReportMapTooFine",
+                  {"report", "map", "--touch", "sphere:3", "--grid", "1000x1000"},
+                  {"1000 x 1000", "1e5"}},
+        BadOption{"ReportMapPulled", {"report", "map", "--touch", "sphere:3", "--force-range", "-3..-1"}, {"-3"}},
+        BadOption{"ReportTouchOfAnotherKind", {"report", "noise", "--touch", "sphere:3"}, {"--touch", "map"}},
         BadOption{"ReportIntoAFile", {"report", "scenes", "-o", "/dev/null"}, {"--output", "/dev/null", "folder"}},
         BadOption{"SeedsZero", {"reproduce", "table1", "--seeds", "0"}, {"--seeds", "0"}},
         BadOption{"TrainMissing", {"train", "nowhere.csv", "--input", "displacement", "-o", "n.json"}, {"nowhere.csv"}},

@@ -42,12 +42,12 @@ std::string nameOf(const testing::TestParamInfo<std::string>& tested) {
 TEST_P(FinishedReport, WritesOnePageWithItsNumbersAndACsv) {
   const palp::TemporaryFolder folder;
   std::set<std::string> drawn;
-  const palp::ReportOutcome outcome = runReport(
-      kind(), quickRequest(folder), {}, {}, [&](const palp::ReportChart& chart, const std::filesystem::path& png) {
-        EXPECT_TRUE(drawn.insert(chart.file).second) << chart.file << " is drawn twice";
-        EXPECT_FALSE(chart.caption.empty()) << chart.file;
-        palp::writeFile(png, "picture", false);
-      });
+  const auto draw = [&](const auto& drawing, const std::filesystem::path& png) {
+    EXPECT_TRUE(drawn.insert(drawing.file).second) << drawing.file << " is drawn twice";
+    EXPECT_FALSE(drawing.caption.empty()) << drawing.file;
+    palp::writeFile(png, "picture", false);
+  };
+  const palp::ReportOutcome outcome = runReport(kind(), quickRequest(folder), {}, {}, {draw, draw});
   ASSERT_TRUE(outcome.done);
   EXPECT_FALSE(outcome.summary.empty());
   const std::string page = palp::readFile(outcome.page);
@@ -73,11 +73,13 @@ TEST_P(EveryReport, RefusesADesignThatCannotBe) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, EveryReport,
-                         testing::Values("error-time", "stability", "networks", "noise", "layout", "readout", "scenes"),
+                         testing::Values("error-time", "stability", "networks", "noise", "layout", "readout", "map",
+                                         "scenes"),
                          nameOf);
 
 INSTANTIATE_TEST_SUITE_P(Kinds, FinishedReport,
-                         testing::Values("error-time", "networks", "noise", "layout", "readout", "scenes"), nameOf);
+                         testing::Values("error-time", "networks", "noise", "layout", "readout", "map", "scenes"),
+                         nameOf);
 
 /// Draws nothing, and asks for a stop with the second picture.
 TEST(WrittenReport, IsGoneWhereItIsStoppedBetweenTwoPictures) {
@@ -94,10 +96,10 @@ TEST(WrittenReport, IsGoneWhereItIsStoppedBetweenTwoPictures) {
   std::stop_source source;
   int drawn = 0;
   const auto outcome = runReport(kind, quickRequest(folder), {}, source.get_token(),
-                                 [&](const palp::ReportChart&, const std::filesystem::path& png) {
+                                 {.chart = [&](const palp::ReportChart&, const std::filesystem::path& png) {
                                    palp::writeFile(png, "picture", false);
                                    if (++drawn == 1) source.request_stop();
-                                 });
+                                 }});
   EXPECT_FALSE(outcome.done);
   EXPECT_EQ(drawn, 1);
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
@@ -112,7 +114,7 @@ TEST(WrittenReport, IsGoneWhereAPictureCannotBeDrawn) {
     if (chart.file == "b") throw palp::Error("the disk is full");
     palp::writeFile(png, "picture", false);
   };
-  EXPECT_THROW(writeReport(content, quickRequest(folder), 0, draw, {}), palp::Error);
+  EXPECT_THROW(writeReport(content, quickRequest(folder), 0, {.chart = draw}, {}), palp::Error);
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "model/SensorDesign.h"
+#include "solver/InfluenceSurfaces.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <stop_token>
+
+namespace palp {
+
+/// d ln R of all readings (row-wire + row-wires * column-wire) of the design at rest by small motions, by its law and
+/// read-out. Throws DesignError where the design has a pressure law, which has a kink at rest, and Cancelled.
+LinearReadings readingsAtRest(const SensorDesign& design, int threads, const std::stop_token& stop = {});
+
+/// Touches of one indenter over a rectangle of the top face.
+struct TouchMapRequest {
+  Indenter touch; ///< presses down; its place does not matter
+  Eigen::Vector2d low_mm, high_mm;
+  std::array<int, 2> places{2, 2}; ///< along x and y, those at the rectangle's sides included
+  double relativeNoise = 1e-4;     ///< of each resistance
+};
+
+/// What a sensor resolves of a touch at each place: Cramer-Rao bounds of the linear sensor at rest, all row-wires read
+/// (S. M. Kay, Fundamentals of Statistical Signal Processing: Estimation Theory, 1993, chapter 3). No estimate without
+/// a bias has smaller deviations. Matrices are places along x x places along y.
+struct TouchMap {
+  double contactRadius_mm = 0;
+  /// Straight down whose signal is 3 deviations of the noise, at a known place.
+  Eigen::MatrixXd smallestForce_N;
+  /// Of the indenter without friction: Fz, x and y unknown.
+  Eigen::MatrixXd slipperyForce_N, slipperyPlace_mm;
+  /// Of one that friction holds: Fx, Fy, Fz, x and y unknown.
+  std::array<Eigen::MatrixXd, 3> heldForce_N;
+  Eigen::MatrixXd heldPlace_mm;
+  /// Distance at which two touches of half the force differ from every one touch of the whole by 3 deviations, without
+  /// friction, along x or y, whichever is worse; not a number where no such pair lies in the rectangle.
+  Eigen::MatrixXd twoPoint_mm;
+};
+/// Deviations of a place are the root of the sum of squares of those along x and y.
+
+/// Throws Cancelled where it was stopped.
+TouchMap touchMap(const InfluenceSurfaces& surfaces, const TouchMapRequest& request, int threads,
+                  const std::stop_token& stop = {});
+
+/// Places of a map, x first: 2 x places.
+Eigen::Matrix2Xd placesOf(const TouchMapRequest& request);
+
+} // namespace palp

@@ -1,0 +1,182 @@
+#include "solver/InfluenceSurfaces.h"
+
+#include "model/base/Cancelled.h"
+#include "model/base/Parallel.h"
+#include "solver/PointProbe.h"
+#include "solver/contact/ContactEstimate.h"
+#include "solver/statics/ProblemParts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace palp {
+
+namespace {
+
+constexpr double kShiftShare = 0.05; // of the block's height: half the width of the central difference over the place
+constexpr double kNothing = 1e-12;   // weight of a bubble on a face of its element, but for rounding
+constexpr int kTouchesAtOnce = 8;
+
+/// Gauss's rule of five points on (0, 1).
+constexpr std::array kNodes{0.046910077030668, 0.230765344947158, 0.5, 0.769234655052842, 0.953089922969332};
+constexpr std::array kWeights{0.118463442528095, 0.239314335249683, 0.284444444444444, 0.239314335249683,
+                              0.118463442528095};
+constexpr int kAngles = 24;
+constexpr int kPoints = kAngles * static_cast<int>(kNodes.size());
+
+/// Points of a disc of radius 1 and their shares of a force on it. With t = sqrt(1 - r^2) the pressure under a flat end
+/// goes as 1 / t, Hertz's as t, and r dr = -t dt.
+struct Disc {
+  Eigen::Matrix2Xd points{2, kPoints};
+  Eigen::VectorXd flat{kPoints}, hertz{kPoints};
+
+  Disc() {
+    for (std::size_t ring = 0; ring < kNodes.size(); ++ring)
+      for (int k = 0; k < kAngles; ++k) {
+        const double t = kNodes[ring], r = std::sqrt(1 - t * t);
+        const double angle = 2 * std::numbers::pi * (k + 0.5 * static_cast<double>(ring % 2)) / kAngles;
+        const Eigen::Index i = static_cast<Eigen::Index>(ring) * kAngles + k;
+        points.col(i) << r * std::cos(angle), r * std::sin(angle);
+        flat(i) = kWeights[ring] / kAngles;
+        hertz(i) = 3 * t * t * kWeights[ring] / kAngles;
+      }
+  }
+};
+
+/// The gradient of a reading as a load on the free displacements. The elements' own unknowns follow their nodes by
+/// x = -W u.
+Eigen::VectorXd loadOf(const LinearReadings& readings, Eigen::Index reading, const PointProbe& probe,
+                       const HyperelasticProblem::Parts& parts, const InitialTangent& rest) {
+  const Discretisation& mesh = *parts.discretisation;
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(3 * Eigen::Index(mesh.nodes()));
+  for (Eigen::Index p = 0; p < readings.points_mm.cols(); ++p) {
+    const Eigen::Vector3d gradient = readings.gradient_per_mm.row(reading).segment<3>(3 * p);
+    const PointProbe::Holder& holder = probe.holders()[static_cast<std::size_t>(p)].front();
+    const int e = holder.element;
+    for (int n = 0; n < holder.shapes.size(); ++n)
+      load.segment<3>(3 * Eigen::Index(mesh.node(e, n))) += holder.shapes(n) * gradient;
+    if (!(std::abs(holder.bubble) > kNothing)) continue;
+    const std::size_t dofs = static_cast<std::size_t>(mesh.elementDofs());
+    const double* const elimination = rest.tangents.elimination.data() +
+                                      std::size_t(e / lanes) * std::size_t(mesh.unknowns()) * dofs * lanes + e % lanes;
+    for (int n = 0; n < holder.shapes.size(); ++n)
+      for (int d = 0; d < 3; ++d)
+        for (std::size_t i = 0; i < 3; ++i) // the bubble's displacement comes first
+          load(3 * Eigen::Index(mesh.node(e, n)) + d) -=
+              holder.bubble * gradient(Eigen::Index(i)) * elimination[(i * dofs + 3 * std::size_t(n) + d) * lanes];
+  }
+  return mesh.freePart(load);
+}
+
+} // namespace
+
+std::optional<InfluenceSurfaces> InfluenceSurfaces::find(const HyperelasticProblem& problem,
+                                                         const LinearReadings& readings, int threads,
+                                                         const std::stop_token& stop) {
+  const HyperelasticProblem::Parts& parts = problem.parts();
+  const PointProbe probe(parts.mesh, readings.points_mm);
+  const auto rest = parts.initialTangent(threads, stop);
+  if (!rest) return {};
+  InfluenceSurfaces found(problem);
+  const double top_mm = parts.design.block_mm.z();
+  std::vector<int> nodes;
+  found.topNode_.assign(static_cast<std::size_t>(parts.mesh.nodes_mm.cols()), -1);
+  for (Eigen::Index n = 0; n < parts.mesh.nodes_mm.cols(); ++n)
+    if (parts.mesh.nodes_mm(2, n) > (1 - 1e-9) * top_mm) {
+      found.topNode_[static_cast<std::size_t>(n)] = static_cast<int>(nodes.size());
+      nodes.push_back(static_cast<int>(n));
+    }
+  const Eigen::Index count = readings.gradient_per_mm.rows();
+  found.surfaces_.resize(3 * count, static_cast<Eigen::Index>(nodes.size()));
+  inParallel(static_cast<std::size_t>(count), threads, [&](std::size_t k) {
+    if (stop.stop_requested()) return;
+    const auto reading = static_cast<Eigen::Index>(k);
+    Eigen::VectorXd x = loadOf(readings, reading, probe, parts, *rest);
+    rest->factor.solve(x, stop);
+    if (stop.stop_requested()) return;
+    const Eigen::VectorXd all = parts.discretisation->withZeros(x);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      for (Eigen::Index axis = 0; axis < 3; ++axis)
+        found.surfaces_(axis * count + reading, Eigen::Index(i)) = all(3 * Eigen::Index(nodes[i]) + axis);
+  });
+  if (stop.stop_requested()) return {};
+  return found;
+}
+
+Eigen::MatrixXd InfluenceSurfaces::influence(const Eigen::Ref<const Eigen::Matrix2Xd>& points_mm,
+                                             const Eigen::Ref<const Eigen::MatrixXd>& sums) const {
+  const Mesh& mesh = problem_.mesh();
+  const Eigen::Vector3d block_mm = problem_.design().block_mm;
+  Eigen::Matrix3Xd places(3, points_mm.cols());
+  places.topRows<2>() = points_mm.cwiseMax(0).cwiseMin(block_mm.head<2>().replicate(1, points_mm.cols()));
+  places.row(2).setConstant(block_mm.z());
+  const PointProbe probe(mesh, places);
+  Eigen::MatrixXd shares = Eigen::MatrixXd::Zero(surfaces_.cols(), sums.cols());
+  std::vector<int> used; // few nodes share in a sum: the others cost nothing
+  for (Eigen::Index p = 0; p < points_mm.cols(); ++p) {
+    const PointProbe::Holder& holder = probe.holders()[static_cast<std::size_t>(p)].front();
+    for (Eigen::Index n = 0; n < holder.shapes.size(); ++n) {
+      const int top = topNode_[static_cast<std::size_t>(mesh.elements(n, holder.element))];
+      if (top < 0) continue; // its shape function is 0 on the face
+      if (shares.row(top).isZero(0)) used.push_back(top);
+      shares.row(top) += holder.shapes(n) * sums.row(p);
+    }
+  }
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  return surfaces_(Eigen::all, used) * shares(used, Eigen::all);
+}
+
+std::vector<Eigen::MatrixX3d> InfluenceSurfaces::at(const Eigen::Ref<const Eigen::Matrix2Xd>& points_mm) const {
+  const Eigen::MatrixXd all = influence(points_mm, Eigen::MatrixXd::Identity(points_mm.cols(), points_mm.cols()));
+  std::vector<Eigen::MatrixX3d> result;
+  for (Eigen::Index p = 0; p < points_mm.cols(); ++p) result.emplace_back(all.col(p).reshaped(all.rows() / 3, 3));
+  return result;
+}
+
+std::vector<TouchInfluence> InfluenceSurfaces::of(std::span<const Indenter> touches, int threads,
+                                                  const std::stop_token& stop) const {
+  static const Disc disc;
+  const double shift_mm = kShiftShare * problem_.design().block_mm.z();
+  const std::array<Eigen::Vector2d, 5> shifts{Eigen::Vector2d::Zero(), Eigen::Vector2d(shift_mm, 0),
+                                              Eigen::Vector2d(-shift_mm, 0), Eigen::Vector2d(0, shift_mm),
+                                              Eigen::Vector2d(0, -shift_mm)};
+  const Eigen::Index count = surfaces_.rows() / 3;
+  std::vector<TouchInfluence> result(touches.size());
+  forChunks(static_cast<int>(touches.size()), kTouchesAtOnce, threads, [&](int begin, int end) {
+    if (stop.stop_requested()) throw Cancelled();
+    constexpr Eigen::Index sumsEach = 6; // pressed at the five places, and sideways in the middle
+    const Eigen::Index pointsEach = 5 * kPoints;
+    Eigen::Matrix2Xd points(2, pointsEach * (end - begin));
+    Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(points.cols(), sumsEach * (end - begin));
+    for (int i = begin; i < end; ++i) {
+      const Indenter& touch = touches[static_cast<std::size_t>(i)];
+      const double radius_mm = contactEstimate(touch, problem_.design()).half_mm.x();
+      result[static_cast<std::size_t>(i)].radius_mm = radius_mm;
+      const Eigen::VectorXd& pressure = touch.shape == IndenterShape::Flat ? disc.flat : disc.hertz;
+      for (Eigen::Index s = 0; s < 5; ++s) {
+        const Eigen::Index first = pointsEach * (i - begin) + s * kPoints;
+        points.middleCols(first, kPoints) =
+            (radius_mm * disc.points).colwise() + (touch.place_mm + shifts[static_cast<std::size_t>(s)]);
+        sums.col(sumsEach * (i - begin) + s).segment(first, kPoints) = pressure;
+      }
+      sums.col(sumsEach * (i - begin) + 5).segment(pointsEach * (i - begin), kPoints) = disc.flat;
+    }
+    const Eigen::MatrixXd all = influence(points, sums);
+    for (int i = begin; i < end; ++i) {
+      TouchInfluence& of = result[static_cast<std::size_t>(i)];
+      const auto pressed = [&](Eigen::Index s) { return all.col(sumsEach * (i - begin) + s).tail(count); };
+      of.perNewton.resize(count, 3);
+      of.perNewton.leftCols<2>() = all.col(sumsEach * (i - begin) + 5).head(2 * count).reshaped(count, 2);
+      of.perNewton.col(2) = pressed(0);
+      of.byPlace_per_Nmm.resize(count, 2);
+      of.byPlace_per_Nmm.col(0) = (pressed(1) - pressed(2)) / (2 * shift_mm);
+      of.byPlace_per_Nmm.col(1) = (pressed(3) - pressed(4)) / (2 * shift_mm);
+    }
+  });
+  return result;
+}
+
+} // namespace palp
