@@ -46,6 +46,7 @@ LiveHost::~LiveHost() = default;
 void LiveHost::setSettings(const LiveSettings& settings, const SensorDesign& design) {
   const LiveSettings before = std::exchange(settings_, settings);
   const bool otherDesign = !(design == std::exchange(design_, design));
+  if (session_) sending_.follow(settings.receivers); // else when it is first seen
   if (replay_) {
     replay_->speed = settings.replaySpeed;
     replay_->past_s = settings.window_s;
@@ -56,6 +57,7 @@ void LiveHost::setSettings(const LiveSettings& settings, const SensorDesign& des
     if (session_) session_->setAlarm(alarm());
     if (!visible_) applyPause();
   }
+  if (before.receivers != settings.receivers && !visible_) applyPause();
   if (before.network != settings.network) {
     networkAsked_ = network_.decoder && network_.file == settings.network; // the one in use was wanted back
     if (networkAsked_) loader_.cancel();
@@ -124,6 +126,7 @@ LiveOptions LiveHost::options() {
   options.decoder = network_.decoder;
   options.design = tareDesign();
   options.alarm = alarm();
+  options.alsoTo = sending_.taker();
   options.tareOf = [kept = tares_](const BoardInfo& board) { return kept.of(board); };
   simulation_ = std::make_shared<SimulationControl>();
   simulation_->set(faults(), disturbance());
@@ -187,6 +190,7 @@ void LiveHost::open() {
   status_ = {};
   configured_ = 0;
   session_ = std::make_unique<LiveSession>(options());
+  sending_.follow(settings_.receivers);
   applyPause();
 }
 
@@ -220,13 +224,14 @@ bool LiveHost::worksHidden() const {
 void LiveHost::close() {
   simulator().cancel();
   loader_.cancel();
+  sending_.follow({});
   letGo(std::move(watch_));
   letGo(std::move(session_));
 }
 
 bool LiveHost::closed() {
   letGo<LiveSession>(nullptr); // forgets those that have ended
-  return closing_.empty() && !session_ && !watch_ && !loader_.running() && !simulator().running();
+  return closing_.empty() && sending_.settled() && !session_ && !watch_ && !loader_.running() && !simulator().running();
 }
 
 void LiveHost::applyPause() {

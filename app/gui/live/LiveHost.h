@@ -2,6 +2,7 @@
 
 #include "app/gui/jobs/JobRunner.h"
 #include "app/gui/live/SimulatedDesign.h"
+#include "app/gui/live/send/LiveSending.h"
 #include "app/gui/project/LiveSettings.h"
 #include "app/study/live/BoardWatch.h"
 #include "app/study/live/LiveHistory.h"
@@ -84,6 +85,10 @@ public:
   /// It is recorded, or would be if the board were not out.
   [[nodiscard]] bool recording() const { return status_.recording || status_.recordingWaits; }
   /// Host clock when the last recording was begun.
+  /// No receiver that was switched off is still ending.
+  [[nodiscard]] bool sendingSettled() const { return sending_.settled(); }
+  /// Of each receiver of the settings.
+  [[nodiscard]] std::vector<SendingState> sending() { return sending_.states(settings_.receivers); }
   /// How long the recording has gone on, or the last one went on.
   [[nodiscard]] double recorded_s() const;
   /// The file of the last recording that was begun.
@@ -121,7 +126,7 @@ private:
   void loadNetwork();
   void setNetwork(Network network);
   void applyPause();
-  [[nodiscard]] bool watches() const { return settings_.alarmOn && !replay_; }
+  [[nodiscard]] bool watches() const { return (settings_.alarmOn || sending_.on()) && !replay_; }
   void configureOnce();
   void drain();
   [[nodiscard]] LiveOptions options();
@@ -150,6 +155,7 @@ private:
   std::shared_ptr<std::atomic<bool>> boardSeen_; ///< a real board was opened since the start
   std::unique_ptr<BoardWatch> watch_;
   std::unique_ptr<LiveSession> session_;
+  LiveSending sending_;
   std::vector<std::future<void>> closing_; ///< sessions and watches before these, while they end
   LiveStatus status_;
   KeptTares tares_;

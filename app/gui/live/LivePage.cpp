@@ -11,6 +11,7 @@
 #include "app/gui/live/panels/LiveSourcePanel.h"
 #include "app/gui/live/panels/SimulationPanel.h"
 #include "app/gui/live/recordings/ReplayBar.h"
+#include "app/gui/live/send/SendPanel.h"
 #include "app/gui/project/Command.h"
 #include "app/gui/views/HeatmapView.h"
 #include "app/gui/window/SidePanel.h"
@@ -75,6 +76,8 @@ QWidget* LivePage::buildPanels() {
   column->addWidget(control_->recording());
   column->addWidget(source_);
   column->addWidget(simulation_);
+  send_ = new SendPanel;
+  column->addWidget(send_);
   column->addWidget(control_, 1);
   panels_ = new SidePanel(panels, kPanelWidth_px);
   connect(panels_, &SidePanel::foldedNow, this, &LivePage::arrangeViews);
@@ -160,6 +163,7 @@ void LivePage::connectPanels() {
     source_->display(settings());
   });
   connect(control_, &LiveControlPanel::edited, this, &LivePage::edit);
+  connect(send_, &SendPanel::edited, this, &LivePage::edit);
   connectSimulation();
   connect(replay_, &ReplayBar::message, this, &LivePage::message);
   connect(replay_, &ReplayBar::speedAsked, this, [this](double speed) {
@@ -262,6 +266,7 @@ void LivePage::displayProject() {
   host_.setSettings(settings, workbench_.project().design);
   source_->display(settings);
   simulation_->display(settings);
+  send_->display(settings);
   block_->setPressable(host_.simulated() && settings.simulation.held, settings.simulation.heldArea);
   replay_->display(settings);
   control_->display(settings);

@@ -25,6 +25,7 @@ class LiveTwin;
 class LiveView;
 class ReplayBar;
 class SidePanel;
+class SendPanel;
 class SimulationPanel;
 
 /// A live board: force vectors, heatmap and curves at no more than 30 frames a second, and only while it is seen.
@@ -104,6 +105,7 @@ private:
   LiveWatch watch_;
   LiveSourcePanel* source_ = nullptr;
   SimulationPanel* simulation_ = nullptr;
+  SendPanel* send_ = nullptr;
   LiveControlPanel* control_ = nullptr;
   LiveCounters* counters_ = nullptr;
   LiveBanner* banner_ = nullptr;

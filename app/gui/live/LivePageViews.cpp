@@ -11,6 +11,7 @@
 #include "app/gui/live/panels/LiveControlPanel.h"
 #include "app/gui/live/panels/LiveSourcePanel.h"
 #include "app/gui/live/panels/SimulationPanel.h"
+#include "app/gui/live/send/SendPanel.h"
 #include "app/gui/views/HeatmapView.h"
 #include "app/gui/window/SidePanel.h"
 
@@ -92,6 +93,7 @@ void LivePage::drawState() {
   const SimulationSettings& hand = host_.settings().simulation;
   block_->setPressable(simulated && hand.held, hand.heldArea);
   control_->displayState({status, host_.paused(), host_.recorded_s(), networkWords(host_), host_.networkBefore()});
+  send_->displayState(host_.sending());
   calibration_->displayState();
   banner_->display(host_, watch_.alarm(host_));
   const bool streams = status.state == LiveState::Streaming || status.state == LiveState::Paused;

@@ -92,6 +92,8 @@ QString liveCommand(const LiveSettings& live) {
   }
   if (live.row >= 0) command += " --row " + QString::number(live.row);
   if (!live.network.empty()) command += option("network", live.network);
+  for (const LiveReceiver& receiver : live.receivers)
+    if (receiver.on) command += option("send", receiver.to);
   return command + " --tare " + QString::number(live.tareFrames);
 }
 

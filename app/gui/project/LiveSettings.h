@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace palp {
 
@@ -46,6 +47,14 @@ inline constexpr NamedEnum kForceScales("force scale", std::array{std::pair{Forc
                                                                   std::pair{ForceScale::Automatic, "automatic"},
                                                                   std::pair{ForceScale::Fixed, "fixed"}});
 
+/// Another program that gets the forces, as `palp listen --send` names it.
+struct LiveReceiver {
+  std::string to;
+  bool on = true;
+
+  bool operator==(const LiveReceiver&) const = default;
+};
+
 /// Everything that the Live scene keeps in a project.
 struct LiveSettings {
   LiveSourceKind source = LiveSourceKind::Automatic;
@@ -64,6 +73,9 @@ struct LiveSettings {
   double force_N = 5; ///< both ends of the fixed scale
   bool alarmOn = false;
   ForceAlarm alarm;
+  std::vector<LiveReceiver> receivers; ///< no two of one address
+
+  static constexpr std::size_t kMostReceivers = 8;
 
   bool operator==(const LiveSettings&) const = default;
 };

@@ -14,40 +14,64 @@ constexpr int kLargestArea = 10000; ///< more than any design has
 
 QJsonObject liveJson(const LiveSettings& live) {
   const SimulationSettings& simulation = live.simulation;
-  return {{"source", QString::fromStdString(kLiveSourceKinds.name(live.source))},
-          {"device", QString::fromStdString(live.device)},
-          {"recording", QString::fromStdString(live.recording)},
-          {"replay_speed", live.replaySpeed},
-          {"rate_Hz", live.rate_Hz},
-          {"row", live.row},
-          {"network", QString::fromStdString(live.network)},
-          {"tare_frames", live.tareFrames},
-          {"arrow_mm_per_N", live.arrow_mm_per_N},
-          {"change_percent", live.change_percent},
-          {"window_s", live.window_s},
-          {"force_scale", QString::fromStdString(kForceScales.name(live.forceScale))},
-          {"force_N", live.force_N},
-          {"alarm", QJsonObject{{"on", live.alarmOn},
-                                {"force", QString::fromStdString(kForceQuantities.name(live.alarm.quantity))},
-                                {"side", QString::fromStdString(kAlarmSides.name(live.alarm.side))},
-                                {"limit_N", live.alarm.limit_N}}},
-          {"simulation", QJsonObject{{"noise", simulation.noise},
-                                     {"warming_degC", simulation.warming_degC},
-                                     {"hysteresis_share", simulation.hysteresisShare},
-                                     {"seed", static_cast<double>(simulation.seed)},
-                                     {"open_row", simulation.openRow},
-                                     {"open_column", simulation.openColumn},
-                                     {"drop_every", simulation.dropEvery},
-                                     {"held", simulation.held},
-                                     {"held_area", simulation.heldArea},
-                                     {"held_force_N", QJsonArray{simulation.heldForce_N[0], simulation.heldForce_N[1],
-                                                                 simulation.heldForce_N[2]}}}}};
+  QJsonObject json{
+      {"source", QString::fromStdString(kLiveSourceKinds.name(live.source))},
+      {"device", QString::fromStdString(live.device)},
+      {"recording", QString::fromStdString(live.recording)},
+      {"replay_speed", live.replaySpeed},
+      {"rate_Hz", live.rate_Hz},
+      {"row", live.row},
+      {"network", QString::fromStdString(live.network)},
+      {"tare_frames", live.tareFrames},
+      {"arrow_mm_per_N", live.arrow_mm_per_N},
+      {"change_percent", live.change_percent},
+      {"window_s", live.window_s},
+      {"force_scale", QString::fromStdString(kForceScales.name(live.forceScale))},
+      {"force_N", live.force_N},
+      {"alarm", QJsonObject{{"on", live.alarmOn},
+                            {"force", QString::fromStdString(kForceQuantities.name(live.alarm.quantity))},
+                            {"side", QString::fromStdString(kAlarmSides.name(live.alarm.side))},
+                            {"limit_N", live.alarm.limit_N}}},
+      {"simulation", QJsonObject{{"noise", simulation.noise},
+                                 {"warming_degC", simulation.warming_degC},
+                                 {"hysteresis_share", simulation.hysteresisShare},
+                                 {"seed", static_cast<double>(simulation.seed)},
+                                 {"open_row", simulation.openRow},
+                                 {"open_column", simulation.openColumn},
+                                 {"drop_every", simulation.dropEvery},
+                                 {"held", simulation.held},
+                                 {"held_area", simulation.heldArea},
+                                 {"held_force_N", QJsonArray{simulation.heldForce_N[0], simulation.heldForce_N[1],
+                                                             simulation.heldForce_N[2]}}}}};
+  QJsonArray receivers;
+  for (const LiveReceiver& receiver : live.receivers)
+    receivers.append(QJsonObject{{"to", QString::fromStdString(receiver.to)}, {"on", receiver.on}});
+  if (!receivers.isEmpty()) json["send"] = receivers;
+  return json;
 }
+
+namespace {
+
+std::vector<LiveReceiver> receiversOf(const JsonPlace& place) {
+  std::vector<LiveReceiver> receivers;
+  for (const JsonPlace& one : place.list()) {
+    one.onlyKeys({"to", "on"});
+    LiveReceiver receiver{one.at("to").string(), one.at("on").boolean()};
+    for (const LiveReceiver& other : receivers)
+      if (other.to == receiver.to) one.at("to").refuse("an address that no other receiver has");
+    receivers.push_back(std::move(receiver));
+  }
+  if (receivers.size() > LiveSettings::kMostReceivers)
+    place.refuse("at most " + std::to_string(LiveSettings::kMostReceivers) + " receivers");
+  return receivers;
+}
+
+} // namespace
 
 LiveSettings liveOf(const JsonPlace& place) {
   place.onlyKeys({"source", "device", "recording", "replay_speed", "rate_Hz", "row", "network", "tare_frames",
                   "arrow_mm_per_N", "change_percent", "window_s", "simulation"},
-                 {"force_scale", "force_N", "alarm"});
+                 {"force_scale", "force_N", "alarm", "send"});
   LiveSettings live;
   live.source = place.at("source").named(kLiveSourceKinds);
   live.device = place.at("device").string();
@@ -70,6 +94,7 @@ LiveSettings liveOf(const JsonPlace& place) {
     live.alarm.side = alarm.at("side").named(kAlarmSides);
     live.alarm.limit_N = alarm.at("limit_N").number(-1000, 1000);
   }
+  if (place.has("send")) live.receivers = receiversOf(place.at("send"));
   const JsonPlace simulation = place.at("simulation");
   simulation.onlyKeys({"noise", "warming_degC", "hysteresis_share", "seed", "open_row", "open_column", "drop_every"},
                       {"held", "held_area", "held_force_N"});

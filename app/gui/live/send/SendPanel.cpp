@@ -1,0 +1,177 @@
+#include "app/gui/live/send/SendPanel.h"
+
+#include "app/gui/widgets/WrappedLabel.h"
+
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QSignalBlocker>
+#include <QToolButton>
+#include <QTreeWidget>
+#include <QVBoxLayout>
+
+#include <algorithm>
+
+namespace palp {
+
+namespace {
+
+enum SendColumn { kTo, kSent, kDropped };
+constexpr int kLines = 4; // of the list
+
+} // namespace
+
+SendPanel::SendPanel(QWidget* parent) : QWidget(parent) {
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  head_ = new QToolButton;
+  head_->setObjectName("sendForces");
+  head_->setText(tr("Send forces to other programs"));
+  head_->setToolTip(tr("Forces of each frame by UDP, OSC, ZeroMQ or as lines of CSV"));
+  head_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  head_->setAutoRaise(true);
+  head_->setCheckable(true);
+  column->addWidget(head_);
+  content_ = build();
+  column->addWidget(content_);
+  connect(head_, &QToolButton::toggled, this, &SendPanel::fold);
+  fold(false);
+}
+
+QWidget* SendPanel::build() {
+  auto* content = new QWidget;
+  auto* column = new QVBoxLayout(content);
+  column->setContentsMargins(0, 0, 0, 0);
+  list_ = new QTreeWidget;
+  list_->setObjectName("receivers");
+  list_->setAccessibleName(tr("Receivers of the forces"));
+  list_->setRootIsDecorated(false);
+  list_->setHeaderLabels({tr("receiver"), tr("sent"), tr("dropped")});
+  list_->header()->setStretchLastSection(false);
+  list_->header()->setSectionResizeMode(kTo, QHeaderView::Stretch);
+  list_->header()->setSectionResizeMode(kSent, QHeaderView::ResizeToContents);
+  list_->header()->setSectionResizeMode(kDropped, QHeaderView::ResizeToContents);
+  list_->setFixedHeight((kLines + 2) * list_->fontMetrics().lineSpacing());
+  list_->setToolTip(tr("Ticked ones get each frame; frames that a receiver does not take in time are dropped, and "
+                       "nothing else changes"));
+  column->addWidget(list_);
+  auto* row = new QHBoxLayout;
+  address_ = new QLineEdit;
+  address_->setObjectName("receiver");
+  address_->setPlaceholderText("udp:localhost:9870");
+  address_->setToolTip(tr("udp:HOST:PORT (JSON, for PlotJuggler), osc:HOST:PORT, zmq:HOST:PORT or csv:FILE"));
+  add_ = new QPushButton(tr("Add"));
+  add_->setObjectName("addReceiver");
+  remove_ = new QPushButton(tr("Remove"));
+  remove_->setObjectName("removeReceiver");
+  row->addWidget(address_, 1);
+  row->addWidget(add_);
+  row->addWidget(remove_);
+  column->addLayout(row);
+  problem_ = new WrappedLabel;
+  problem_->setObjectName("sendProblem");
+  problem_->setProperty("role", "problem");
+  column->addWidget(problem_);
+  connect(add_, &QPushButton::clicked, this, &SendPanel::add);
+  connect(address_, &QLineEdit::returnPressed, this, &SendPanel::add);
+  connect(remove_, &QPushButton::clicked, this, &SendPanel::remove);
+  connect(list_, &QTreeWidget::itemChanged, this, [this](QTreeWidgetItem* item, int) {
+    const auto place = static_cast<std::size_t>(list_->indexOfTopLevelItem(item));
+    std::vector<LiveReceiver> next = settings_.receivers;
+    next[place].on = item->checkState(kTo) == Qt::Checked;
+    edit(tr("sending of forces"), next);
+  });
+  return content;
+}
+
+void SendPanel::fold(bool open) {
+  content_->setVisible(open);
+  head_->setArrowType(open ? Qt::DownArrow : Qt::RightArrow);
+}
+
+void SendPanel::add() {
+  const QString typed = address_->text().trimmed();
+  const std::string to = (typed.isEmpty() ? address_->placeholderText() : typed).toStdString();
+  std::vector<LiveReceiver> next = settings_.receivers;
+  const auto same = std::find_if(next.begin(), next.end(), [&](const LiveReceiver& other) { return other.to == to; });
+  if (same != next.end())
+    same->on = true;
+  else if (next.size() < LiveSettings::kMostReceivers)
+    next.push_back({to, true});
+  address_->clear();
+  edit(tr("receiver of forces"), next);
+}
+
+void SendPanel::remove() {
+  const int place = list_->indexOfTopLevelItem(list_->currentItem());
+  if (place < 0) return;
+  std::vector<LiveReceiver> next = settings_.receivers;
+  next.erase(next.begin() + place);
+  edit(tr("receiver taken away"), next);
+}
+
+void SendPanel::edit(const QString& what, const std::vector<LiveReceiver>& receivers) {
+  if (receivers == settings_.receivers) return;
+  LiveSettings next = settings_;
+  next.receivers = receivers;
+  emit edited(what, next);
+}
+
+void SendPanel::display(const LiveSettings& settings) {
+  const bool other = settings.receivers != settings_.receivers || list_->topLevelItemCount() == 0;
+  settings_ = settings;
+  if (!other) return;
+  const QSignalBlocker quiet(list_);
+  const int current = list_->indexOfTopLevelItem(list_->currentItem());
+  list_->clear();
+  for (const LiveReceiver& receiver : settings.receivers) {
+    auto* item = new QTreeWidgetItem(list_, {QString::fromStdString(receiver.to)});
+    item->setToolTip(kTo, QString::fromStdString(receiver.to));
+    item->setCheckState(kTo, receiver.on ? Qt::Checked : Qt::Unchecked);
+    item->setTextAlignment(kSent, Qt::AlignRight);
+    item->setTextAlignment(kDropped, Qt::AlignRight);
+  }
+  list_->setCurrentItem(list_->topLevelItem(std::min(current, list_->topLevelItemCount() - 1)));
+  remove_->setEnabled(!settings.receivers.empty());
+  add_->setEnabled(settings.receivers.size() < LiveSettings::kMostReceivers);
+}
+
+void SendPanel::displayState(const std::vector<SendingState>& states) {
+  QStringList problems;
+  const QSignalBlocker quiet(list_);
+  for (std::size_t k = 0; k < states.size() && k < settings_.receivers.size(); ++k) {
+    QTreeWidgetItem& item = *list_->topLevelItem(static_cast<int>(k));
+    const SendingState& state = states[k];
+    const auto put = [&item](int column, const QString& text) {
+      if (item.text(column) != text) item.setText(column, text);
+    };
+    switch (state.kind) {
+    case SendingState::Kind::Off:
+      put(kSent, tr("off"));
+      put(kDropped, {});
+      break;
+    case SendingState::Kind::Opening:
+      put(kSent, tr("opens..."));
+      put(kDropped, {});
+      break;
+    case SendingState::Kind::Refused:
+      put(kSent, tr("refused"));
+      put(kDropped, {});
+      problems << QString::fromStdString(state.problem);
+      break;
+    case SendingState::Kind::Sending:
+      put(kSent, QString::number(state.sent));
+      put(kDropped, QString::number(state.dropped));
+      break;
+    }
+  }
+  problem_->say(problems.join("\n"));
+  const auto sending = std::count_if(states.begin(), states.end(),
+                                     [](const SendingState& s) { return s.kind == SendingState::Kind::Sending; });
+  const QString words =
+      sending > 0 ? tr("Send forces to other programs: %1 on").arg(sending) : tr("Send forces to other programs");
+  if (head_->text() != words) head_->setText(words);
+}
+
+} // namespace palp
