@@ -43,6 +43,7 @@ public:
   [[nodiscard]] int integer(int low, int high) const;
   [[nodiscard]] bool boolean() const;
   [[nodiscard]] std::string string() const;
+  [[nodiscard]] std::string asJson() const { return value_->dump(); } ///< whatever it is
   [[nodiscard]] std::vector<double> numbers() const;
   [[nodiscard]] std::vector<double> numbers(std::size_t count) const;
   [[nodiscard]] std::vector<JsonPlace> list() const;

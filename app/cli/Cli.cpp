@@ -46,6 +46,7 @@ std::string pagesInWords() {
            "\n  formats.md      every file, with an example"
            "\n  notebooks.md    samples in h5py, NumPy and pandas"
            "\n  live-forces.md  live forces in other programs, with receivers"
+           "\n  clusters.md     studies of many designs, and Slurm"
            "\n  glossary.md, environment.md, contributing.md, changelog.md";
   } catch (const Error&) {
     return {};

@@ -61,6 +61,8 @@ void addMesh(Cli& cli);
 void addSolve(Cli& cli);
 void addRender(Cli& cli);
 void addSample(Cli& cli);
+void addStudy(Cli& cli);
+void addCluster(Cli& cli);
 void addImport(Cli& cli);
 void addMerge(Cli& cli);
 void addReproduce(Cli& cli);

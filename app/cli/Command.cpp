@@ -50,4 +50,9 @@ Option Command::option(const std::string& names, std::vector<std::string>& value
   return Option(app_->add_option(names, values, what));
 }
 
+void Command::rest(std::vector<std::string>& words) {
+  app_->allow_extras();
+  app_->callback([app = app_, &words] { words = app->remaining(); });
+}
+
 } // namespace palp

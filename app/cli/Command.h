@@ -37,6 +37,9 @@ public:
   Option option(const std::string& names, std::filesystem::path& value, const std::string& what);
   Option option(const std::string& names, std::vector<std::string>& values, const std::string& what);
 
+  /// Words and options that this command does not know, in their order, for another one.
+  void rest(std::vector<std::string>& words);
+
 private:
   CLI::App* app_;
 };

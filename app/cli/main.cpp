@@ -16,6 +16,8 @@ int main(int argc, char** argv) {
     palp::addSample(cli);
     palp::addMerge(cli);
     palp::addImport(cli);
+    palp::addStudy(cli);
+    palp::addCluster(cli);
     palp::addReproduce(cli);
     palp::addTrain(cli);
     palp::addPredict(cli);

@@ -1,6 +1,7 @@
 #include "app/cli/Cli.h"
 #include "app/cli/Options.h"
 #include "app/cli/ProgressBar.h"
+#include "app/cli/ShardOption.h"
 #include "app/cli/TouchOption.h"
 #include "app/study/touch/SampleGenerator.h"
 #include "io/SamplePartWriter.h"
@@ -52,15 +53,6 @@ SampleRequest request(const SampleArguments& arguments, const SensorDesign& desi
   return request;
 }
 
-/// "I/N", shards counted from 1.
-SampleRange shardOption(const std::string& text, std::size_t total) {
-  if (text.empty()) return {0, total};
-  const std::size_t slash = text.find('/');
-  if (slash == std::string::npos) throw UsageError("--shard: '" + text + "'; allowed is I/N, for example 1/4");
-  const int count = wholeNumber("--shard (N)", text.substr(slash + 1), 1, 1'000'000);
-  return shard(total, wholeNumber("--shard (I)", text.substr(0, slash), 1, count), count);
-}
-
 Exit run(const SampleArguments& arguments, Session& session) {
   const SensorDesign design = designOption(arguments.design);
   arguments.output.requireWritable();
@@ -95,6 +87,7 @@ Exit run(const SampleArguments& arguments, Session& session) {
   }
 
   session.result["samples"] = kept + made;
+  session.result["samples_of_all_shards"] = generator.total();
   session.result["solves"] = generator.solves();
   session.result["solves_per_s"] = seconds > 0 ? static_cast<double>(made) / seconds : 0;
   session.result["measured_error_relative"] = generator.measuredError();

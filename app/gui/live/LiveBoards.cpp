@@ -254,4 +254,10 @@ QString LiveBoards::recording() const {
   return files.join(", ");
 }
 
+int LiveBoards::unsavedFrames() const {
+  int frames = 0;
+  for (const Cell& cell : cells_) frames += cell.page->unsavedFrames();
+  return frames;
+}
+
 } // namespace palp

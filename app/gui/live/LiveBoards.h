@@ -32,6 +32,8 @@ public:
   [[nodiscard]] std::vector<LiveLampState> lamps() const;
   /// Boards that are being recorded, in words; empty: none.
   [[nodiscard]] QString recording() const;
+  /// Labelled frames of all boards that are in no file.
+  [[nodiscard]] int unsavedFrames() const;
 
 signals:
   void message(const QString& sentence);

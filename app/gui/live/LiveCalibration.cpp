@@ -139,7 +139,7 @@ QWidget* LiveCalibration::buildFrames() {
   table_->setHorizontalHeaderLabels({tr("area"), tr("load\nFx, Fy, Fz"), tr("said\nFx, Fy, Fz")});
   table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   table_->horizontalHeader()->setMinimumSectionSize(24);
-  table_->verticalHeader()->hide();
+  table_->verticalHeader()->setDefaultAlignment(Qt::AlignCenter); // numbers, by which the report names a frame
   table_->setWordWrap(false);
   table_->setToolTip(tr("The known loads, and beside them what the network in use said of the frames, their mean [N]"));
   table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
@@ -160,7 +160,11 @@ QWidget* LiveCalibration::buildFrames() {
   connect(saveFrames_, &QPushButton::clicked, this, [this] {
     const QString file =
         askFileToSave(this, tr("Labelled frames"), "frames.csv", tr("Samples (*.csv *.h5 *.hdf5 *.npz)"));
-    if (!file.isEmpty()) guarded([&] { frames_.save(file.toStdString()); });
+    if (file.isEmpty()) return;
+    guarded([&] {
+      frames_.save(file.toStdString());
+      unsaved_ = false;
+    });
   });
   connect(remove_, &QPushButton::clicked, this, [this] {
     frames_.remove(table_->currentRow());
@@ -265,7 +269,13 @@ void LiveCalibration::take() {
   for (const auto& frame : host_.fresh()) {
     if (host_.status().taring || !frames_.collecting()) break;
     guarded([&] {
-      if (frames_.add(frame->forces)) newest_s_ = hostClock_s();
+      if (!frames_.add(frame->forces)) return;
+      newest_s_ = hostClock_s();
+      unsaved_ = true;
+      if (!frames_.doubt().empty())
+        complain(tr("Frame %1: %2. If the label is wrong, remove the frame.")
+                     .arg(frames_.samples().size())
+                     .arg(QString::fromStdString(frames_.doubt())));
     });
   }
   progress_->setValue(frames_.collected());

@@ -27,6 +27,8 @@ public:
   [[nodiscard]] const LabelledFrames& frames() const { return frames_; }
   [[nodiscard]] const std::optional<Calibration>& calibration() const { return calibration_; }
   [[nodiscard]] JobRunner& runner() { return runner_; }
+  /// Frames that were collected here and are in no file.
+  [[nodiscard]] int unsavedFrames() const { return unsaved_ ? static_cast<int>(frames_.samples().size()) : 0; }
   /// What is in use, what can be had back, and what the network reads now.
   void displayState();
 
@@ -48,6 +50,7 @@ private:
 
   LiveHost& host_;
   LabelledFrames frames_;
+  bool unsaved_ = false;
   double newest_s_ = 0; ///< host clock of the newest frame; 0: none collected here
   /// When the file that was read last was written.
   std::optional<std::filesystem::file_time_type> written_;

@@ -84,7 +84,6 @@ public:
   void stopRecording();
   /// It is recorded, or would be if the board were not out.
   [[nodiscard]] bool recording() const { return status_.recording || status_.recordingWaits; }
-  /// Host clock when the last recording was begun.
   /// No receiver that was switched off is still ending.
   [[nodiscard]] bool sendingSettled() const { return sending_.settled(); }
   /// Of each receiver of the settings.

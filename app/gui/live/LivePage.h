@@ -44,6 +44,8 @@ public:
   [[nodiscard]] std::vector<JobRunner*> runners() override;
   [[nodiscard]] QString commands(const Project& project, const QString& designFile) const override;
   [[nodiscard]] LiveHost& host() { return host_; }
+  /// Labelled frames that are in no file.
+  [[nodiscard]] int unsavedFrames() const;
   [[nodiscard]] LiveTwin& twin() { return *twin_; }
   /// How often the views were brought up to date.
   [[nodiscard]] int looks() const { return looks_; }

@@ -1,5 +1,6 @@
 // What the Live page does at a press of a button: tare, record, export, solve the twin.
 
+#include "app/gui/live/LiveCalibration.h"
 #include "app/gui/live/LiveDrawings.h"
 #include "app/gui/live/LivePage.h"
 #include "app/gui/live/LiveTwin.h"
@@ -120,6 +121,10 @@ void LivePage::solveTwin() {
   const SensorDesign& sensor = host_.sensor();
   const bool own = sensor == workbench_.project().design;
   twin_->solve(sensor, load, own ? workbench_.project().mesh : MeshOptions{}, last->change);
+}
+
+int LivePage::unsavedFrames() const {
+  return calibration_->unsavedFrames();
 }
 
 } // namespace palp

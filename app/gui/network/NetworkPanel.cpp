@@ -5,6 +5,7 @@
 #include "app/gui/network/NetworkCharts.h"
 #include "app/gui/network/NetworkTables.h"
 #include "app/gui/widgets/SpinBoxes.h"
+#include "app/gui/widgets/WrappedLabel.h"
 #include "model/base/Error.h"
 
 #include <QCheckBox>
@@ -203,10 +204,9 @@ void NetworkPanel::buildNetwork(QFormLayout& form) {
       tr("Relative noise that the test samples get, apart from that of the training: in percent, or as a share with "
          "an exponent (1e-4 is 0.01 %)"));
   form.addRow(tr("Noise of the test"), testNoise_);
-  noiseWords_ = new QLabel;
+  noiseWords_ = new WrappedLabel;
   noiseWords_->setObjectName("noiseWords");
   noiseWords_->setProperty("role", "hint");
-  noiseWords_->setWordWrap(true);
   form.addRow(QString(), noiseWords_);
   connect(mode_, &QComboBox::currentIndexChanged, this, [this] { read(tr("Change the network's mode")); });
   connect(decoder_, &QComboBox::currentIndexChanged, this, [this] { read(tr("Change the decoder")); });
@@ -323,7 +323,7 @@ void NetworkPanel::takeLiveSettings() {
 
 /// What was taken, also as others write it.
 void NetworkPanel::showNoise() {
-  noiseWords_->setText(tr("taken: %1; test: %2").arg(percentWords(network_.noise), percentWords(network_.testNoise)));
+  noiseWords_->say(tr("taken: %1; test: %2").arg(percentWords(network_.noise), percentWords(network_.testNoise)));
 }
 
 void NetworkPanel::showSpread() {

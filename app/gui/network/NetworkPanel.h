@@ -18,6 +18,7 @@ class QVBoxLayout;
 namespace palp {
 
 class AdvancedOptions;
+class WrappedLabel;
 
 /// Samples, training options, spread and sweep.
 class NetworkPanel : public QWidget {
@@ -83,7 +84,7 @@ private:
   QDoubleSpinBox* spread_ = nullptr;
   QSlider* spreadSlider_ = nullptr;
   QPushButton* paper_ = nullptr;
-  QLabel* noiseWords_ = nullptr;
+  WrappedLabel* noiseWords_ = nullptr;
   QSpinBox* centers_ = nullptr;
   QDoubleSpinBox* noise_ = nullptr;
   QDoubleSpinBox* testNoise_ = nullptr;

@@ -258,6 +258,8 @@ QStringList MainWindow::endedByQuitting() const {
   const QString files = live_->recording();
   if (!files.isEmpty())
     ends << tr("%1 is being recorded: quitting ends the recording; what has come is in the file.").arg(files);
+  if (const int frames = live_->unsavedFrames(); frames > 0)
+    ends << tr("Labelled frames of the calibration that are in no file: %1. Quitting loses them.").arg(frames);
   return ends;
 }
 

@@ -21,6 +21,7 @@ constexpr double kBadError = 0.1;    // of the force range
 constexpr double kBadMismatch = 0.5; // of the change of R
 constexpr double kLoaded = 0.05;     // of the force range: less is rest
 constexpr std::size_t kFewestToJudge = 4;
+constexpr double kSure = 0.9;        // of the area
 constexpr double kMovedNoise = 2.5;  // times the noise from frame to frame
 constexpr double kMovedRange = 0.01; // of the force range: labels are good to 1 %
 // Prior variance of gain and offset over that of a label: gains within 30 % are expected, labels are good to 1 %.
@@ -230,6 +231,16 @@ void FrameAverage::add(const DecodedForces& forces) {
   sum_ += forces.resistances_ohm;
   ++count_;
   if (forces.forces_N.cols() == 1) said_N_.push_back(forces.forces_N.col(0));
+  const bool sure = forces.area && forces.areaConfidence > kSure && !forces.shown.empty() && forces.shown.front();
+  if (sure) ++seenOn_[*forces.area];
+}
+
+std::string FrameAverage::onAnotherArea() const {
+  for (const auto& [area, frames] : seenOn_)
+    if (area != set_.area(0) && 2 * frames > count_)
+      return "the network sees this load on area " + std::to_string(area) + ", the label says area " +
+             std::to_string(set_.area(0));
+  return {};
 }
 
 Eigen::Vector3d FrameAverage::said_N() const {

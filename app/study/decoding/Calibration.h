@@ -4,6 +4,7 @@
 #include "model/LoadCase.h"
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -54,6 +55,8 @@ public:
   [[nodiscard]] Eigen::Vector3d said_N() const;
   /// The load was not the same in all of them: in words, which force went from where to where; empty where it was.
   [[nodiscard]] std::string moved() const;
+  /// The network saw the load on another area than the label says: in words; empty where it did not, or is no judge.
+  [[nodiscard]] std::string onAnotherArea() const;
   /// The mean so far.
   [[nodiscard]] SampleSet sample() const;
 
@@ -62,6 +65,7 @@ private:
   Eigen::MatrixXd sum_;
   Eigen::Vector3d range_N_; ///< of the network
   std::vector<Eigen::Vector3d> said_N_;
+  std::map<int, int> seenOn_; ///< frames that the network is sure of, by area
   int count_ = 0;
 };
 

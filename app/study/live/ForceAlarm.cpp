@@ -31,17 +31,19 @@ std::optional<std::string> AlarmWatch::add(const Eigen::Ref<const Eigen::Matrix3
   const double value_N = valueOf(alarm_->quantity, forces_N.col(area));
   const double beyond_N = alarm_->side == AlarmSide::Above ? value_N - alarm_->limit_N : alarm_->limit_N - value_N;
   const double back_N = std::max(kBack * std::abs(alarm_->limit_N), kLeastBack_N);
-  std::array<char, 96> text{};
-  if (words_.empty() && beyond_N > 0) {
-    std::snprintf(text.data(), text.size(), "alarm: %s %.3f N is %s %.4g N",
-                  std::string(kForceQuantities.name(alarm_->quantity)).c_str(), value_N,
-                  std::string(kAlarmSides.name(alarm_->side)).c_str(), alarm_->limit_N);
-    words_ = text.data();
-    return words_;
+  const bool lasts = !words_.empty();
+  if (lasts && beyond_N <= -back_N) {
+    words_.clear();
+    return "alarm over";
   }
-  if (words_.empty() || beyond_N > -back_N) return {};
-  words_.clear();
-  return "alarm over";
+  if (!lasts && !(beyond_N > 0)) return {};
+  std::array<char, 96> text{};
+  std::snprintf(text.data(), text.size(), "alarm: %s %.3f N is %s %.4g N",
+                std::string(kForceQuantities.name(alarm_->quantity)).c_str(), value_N,
+                std::string(kAlarmSides.name(alarm_->side)).c_str(), alarm_->limit_N);
+  // Within the hysteresis the force is not beyond the limit: the words stay those of the last one that was.
+  if (beyond_N > 0) words_ = text.data();
+  return lasts ? std::nullopt : std::optional(words_);
 }
 
 } // namespace palp

@@ -33,7 +33,7 @@ public:
   void set(std::optional<ForceAlarm> alarm);
   /// Takes the forces of a frame, 3 x areas: the largest one counts. Says what begins or is over; nothing else.
   std::optional<std::string> add(const Eigen::Ref<const Eigen::Matrix3Xd>& forces_N);
-  /// In words, while it lasts; empty else.
+  /// In words with the present force, while it lasts; empty else.
   [[nodiscard]] const std::string& words() const { return words_; }
 
 private:

@@ -34,6 +34,7 @@ bool LabelledFrames::add(const DecodedForces& forces) {
     throw Error("the load moved while it was averaged (" + moved + "): hold it still and collect again");
   append(done.sample(), "the board");
   said_N_.rightCols<1>() = done.said_N();
+  doubt_ = done.onAnotherArea();
   return true;
 }
 

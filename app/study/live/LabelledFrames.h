@@ -17,6 +17,8 @@ public:
   /// Takes a frame while one is collected; true where it was the last one. Throws Error where the load moved meanwhile:
   /// then nothing is added.
   bool add(const DecodedForces& forces);
+  /// Why the frame that was collected last may have a wrong label, in words; empty where it does not look so.
+  [[nodiscard]] const std::string& doubt() const { return doubt_; }
   [[nodiscard]] bool collecting() const { return average_.has_value(); }
   [[nodiscard]] int collected() const { return average_ ? average_->count() : 0; }
   [[nodiscard]] int wanted() const { return wanted_; }
@@ -38,6 +40,7 @@ private:
   int wanted_ = 0;
   SampleSet samples_;
   Eigen::Matrix3Xd said_N_;
+  std::string doubt_;
 };
 
 } // namespace palp

@@ -28,6 +28,10 @@ Csv::Csv(const std::vector<std::string>& heads) : columns_(heads.size()) {
 }
 
 void Csv::add(std::initializer_list<CsvCell> cells) {
+  add(std::vector<CsvCell>(cells));
+}
+
+void Csv::add(const std::vector<CsvCell>& cells) {
   assert(cells.size() == columns_ && "as many cells as heads");
   bool first = true;
   for (const CsvCell& cell : cells) {

@@ -26,6 +26,7 @@ public:
   explicit Csv(const std::vector<std::string>& heads);
   /// One line; as many cells as heads.
   void add(std::initializer_list<CsvCell> cells);
+  void add(const std::vector<CsvCell>& cells);
   [[nodiscard]] const std::string& text() const { return text_; }
 
 private:

@@ -105,7 +105,7 @@ INSTANTIATE_TEST_SUITE_P(AtSeveralMoments, InterruptedReport,
                                          std::tuple("report networks", 0.35), std::tuple("report networks", 0.45),
                                          std::tuple("report noise", 0.05), std::tuple("report noise", 0.3),
                                          std::tuple("report layout", 0.3), std::tuple("report map", 0.35),
-                                         std::tuple("report map", 0.8), std::tuple("report stability", 0.1),
+                                         std::tuple("report map", 0.55), std::tuple("report stability", 0.1),
                                          std::tuple("report stability", 0.7), std::tuple("report error-time", 0.05),
                                          std::tuple("report error-time", 0.6)));
 

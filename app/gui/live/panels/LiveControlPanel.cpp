@@ -166,6 +166,7 @@ QWidget* LiveControlPanel::buildRecording() {
   });
   connect(record_, &QPushButton::clicked, this, &LiveControlPanel::record);
   connect(pause_, &QPushButton::clicked, this, [this] { emit pauseAsked(pause_->isChecked()); });
+  connect(mark_, &QLineEdit::returnPressed, mark, &QPushButton::click);
   connect(mark, &QPushButton::clicked, this, [this] {
     emit markAsked(markText());
     mark_->clear();
@@ -209,7 +210,12 @@ QWidget* LiveControlPanel::buildAlarm() {
   connect(alarmOn_, &QCheckBox::toggled, this,
           [this](bool on) { edit(tr("alarm"), [&](LiveSettings& settings) { settings.alarmOn = on; }); });
   connect(alarmForce_, &QComboBox::currentIndexChanged, this, [this](int index) {
-    edit(tr("alarm"), [&](LiveSettings& s) { s.alarm.quantity = static_cast<ForceQuantity>(index); });
+    edit(tr("alarm"), [&](LiveSettings& s) {
+      s.alarm.quantity = static_cast<ForceQuantity>(index);
+      if (s.alarm.quantity != ForceQuantity::Size || s.alarm.limit_N > 0) return;
+      s.alarm.side = AlarmSide::Above; // a size is never below 0
+      s.alarm.limit_N = std::max(0.1, -s.alarm.limit_N);
+    });
   });
   connect(alarmSide_, &QComboBox::currentIndexChanged, this, [this](int index) {
     edit(tr("alarm"), [&](LiveSettings& settings) { settings.alarm.side = static_cast<AlarmSide>(index); });

@@ -6,6 +6,10 @@ namespace palp {
 
 std::filesystem::path freeRecording(std::filesystem::path wanted, const QDateTime& now) {
   if (!wanted.has_extension()) wanted += ".palprec";
+  return freeFile(wanted, now);
+}
+
+std::filesystem::path freeFile(const std::filesystem::path& wanted, const QDateTime& now) {
   if (!std::filesystem::exists(wanted)) return wanted;
   static const QRegularExpression dated("-\\d{4}-\\d{2}-\\d{2}-\\d{6}(-\\d+)?$");
   QString stem = QString::fromStdString(wanted.stem().string()).remove(dated);

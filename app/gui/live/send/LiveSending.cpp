@@ -1,5 +1,6 @@
 #include "app/gui/live/send/LiveSending.h"
 
+#include "app/gui/live/recordings/RecordingName.h"
 #include "app/study/Failure.h"
 
 #include <algorithm>
@@ -10,6 +11,14 @@ namespace {
 
 template <class Value> bool isReady(const std::future<Value>& future) {
   return future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
+/// Lines never replace a file: they go into one beside it with the date in its name, as recordings do.
+std::string besideWhatIsThere(const std::string& to) {
+  const std::string lines = "csv:";
+  std::error_code unknown; // what cannot be looked at is refused when it is opened
+  if (!to.starts_with(lines) || !std::filesystem::is_regular_file(to.substr(lines.size()), unknown)) return to;
+  return lines + freeFile(to.substr(lines.size()), QDateTime::currentDateTime()).string();
 }
 
 } // namespace
@@ -36,8 +45,9 @@ void LiveSending::follow(const std::vector<LiveReceiver>& wanted) {
     if (!receiver.on || open_.contains(receiver.to)) continue;
     Open& open = open_[receiver.to];
     open.number = ++numbers_;
+    open.to = besideWhatIsThere(receiver.to);
     open.opening =
-        std::async(std::launch::async, [receivers = receivers_, number = numbers_, to = receiver.to]() -> std::string {
+        std::async(std::launch::async, [receivers = receivers_, number = numbers_, to = open.to]() -> std::string {
           try {
             receivers->open(number, to);
             return {};
@@ -60,6 +70,7 @@ std::vector<SendingState> LiveSending::states(const std::vector<LiveReceiver>& w
       Open& open = found->second;
       if (open.opening.valid() && isReady(open.opening)) open.problem = open.opening.get();
       state.problem = open.problem;
+      state.to = open.to;
       state.kind = open.opening.valid()   ? SendingState::Kind::Opening
                    : open.problem.empty() ? SendingState::Kind::Sending
                                           : SendingState::Kind::Refused;

@@ -13,6 +13,7 @@ struct SendingState {
   Kind kind = Kind::Off;
   std::uint64_t sent = 0, dropped = 0; ///< since it was opened
   std::string problem;                 ///< why it was refused
+  std::string to;                      ///< where it goes: not to a file that was there before, but beside it
 };
 
 /// Keeps the receivers open that the settings ask for. Opening and ending take their time in threads of their own:
@@ -34,7 +35,7 @@ private:
   struct Open {
     std::uint64_t number = 0;
     std::future<std::string> opening; ///< gives the refusal; empty: it sends
-    std::string problem;
+    std::string problem, to;
   };
   std::shared_ptr<ForceReceivers> receivers_ = std::make_shared<ForceReceivers>();
   std::map<std::string, Open> open_; ///< by address

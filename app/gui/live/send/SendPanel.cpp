@@ -12,6 +12,7 @@
 #include <QVBoxLayout>
 
 #include <algorithm>
+#include <utility>
 
 namespace palp {
 
@@ -119,10 +120,17 @@ void SendPanel::edit(const QString& what, const std::vector<LiveReceiver>& recei
 }
 
 void SendPanel::display(const LiveSettings& settings) {
-  const bool other = settings.receivers != settings_.receivers || list_->topLevelItemCount() == 0;
-  settings_ = settings;
-  if (!other) return;
+  const std::vector<LiveReceiver> before = std::exchange(settings_, settings).receivers;
   const QSignalBlocker quiet(list_);
+  // A click on a tick comes here while the list still works on that line: it stays where the addresses are the same.
+  if (std::equal(before.begin(), before.end(), settings.receivers.begin(), settings.receivers.end(),
+                 [](const LiveReceiver& a, const LiveReceiver& b) { return a.to == b.to; }) &&
+      list_->topLevelItemCount() == static_cast<int>(settings.receivers.size())) {
+    for (std::size_t k = 0; k < settings.receivers.size(); ++k)
+      list_->topLevelItem(static_cast<int>(k))
+          ->setCheckState(kTo, settings.receivers[k].on ? Qt::Checked : Qt::Unchecked);
+    return;
+  }
   const int current = list_->indexOfTopLevelItem(list_->currentItem());
   list_->clear();
   for (const LiveReceiver& receiver : settings.receivers) {
@@ -146,6 +154,9 @@ void SendPanel::displayState(const std::vector<SendingState>& states) {
     const auto put = [&item](int column, const QString& text) {
       if (item.text(column) != text) item.setText(column, text);
     };
+    const QString to = QString::fromStdString(state.to.empty() ? settings_.receivers[k].to : state.to);
+    put(kTo, to);
+    item.setToolTip(kTo, to);
     switch (state.kind) {
     case SendingState::Kind::Off:
       put(kSent, tr("off"));

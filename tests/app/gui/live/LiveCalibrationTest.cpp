@@ -72,6 +72,37 @@ TEST_F(LiveCalibrating, SaysThatTheLabelsDoNotBelongToTheFrames) {
   EXPECT_TRUE(find<QLabel>("calibrationReport").text().contains("the model under these labels"));
 }
 
+TEST_F(LiveCalibrating, SaysThatTheNetworkSeesTheLoadOnAnotherArea) {
+  ASSERT_TRUE(waitForFrames());
+  use([](LiveSettings& live) {
+    live.simulation.held = true;
+    live.simulation.heldArea = 5;
+    live.simulation.heldForce_N = {0, 0, -3};
+  });
+  ASSERT_TRUE(wait([&] {
+    const LiveFrame* last = page.host().history().last();
+    return last != nullptr && last->forces.area == 5 && last->forces.areaConfidence > 0.99;
+  }));
+  page.findChild<QTabWidget*>("curveTabs")->setCurrentIndex(1);
+  type<QSpinBox>("labelFrames", "5");
+  type<QSpinBox>("labelArea", "0");
+  type<QDoubleSpinBox>("label_Fz", "-3");
+  click("collect");
+  ASSERT_TRUE(wait([&] { return calibration().frames().samples().size() == 1; }));
+  EXPECT_TRUE(isRed("calibrationProblem"));
+  const QString said = find<QLabel>("calibrationProblem").text();
+  EXPECT_TRUE(said.contains("area 5") && said.contains("area 0")) << said.toStdString();
+  EXPECT_EQ(page.unsavedFrames(), 1) << "they are asked about at quitting";
+  type<QSpinBox>("labelArea", "5");
+  click("collect");
+  ASSERT_TRUE(wait([&] { return calibration().frames().samples().size() == 2; }));
+  EXPECT_TRUE(find<QLabel>("calibrationProblem").text().isEmpty())
+      << find<QLabel>("calibrationProblem").text().toStdString();
+  answerFileDialog(folder.filePath("frames.csv"));
+  click("saveFrames");
+  EXPECT_EQ(page.unsavedFrames(), 0);
+}
+
 TEST_F(LiveCalibrating, RefusesALoadThatMovesInsideAMean) {
   ASSERT_TRUE(waitForArrow());
   page.findChild<QTabWidget*>("curveTabs")->setCurrentIndex(1);

@@ -267,6 +267,16 @@ TEST_F(LiveOperator, TakesDecimalsAsTheyAreTyped) {
   EXPECT_EQ(workbench.project().live.simulation.warming_degC, 0.35);
 }
 
+TEST_F(LiveOperator, AnAlarmOfTheSizeIsOneAboveAndAMarkIsSetByReturn) {
+  ASSERT_TRUE(waitForFrames());
+  find<QComboBox>("alarmForce").setCurrentIndex(static_cast<int>(ForceQuantity::Size)); // of -5 N below, which never is
+  EXPECT_EQ(workbench.project().live.alarm, (ForceAlarm{ForceQuantity::Size, AlarmSide::Above, 5}));
+  QTest::keyClicks(&find<QLineEdit>("markText"), "poke");
+  QTest::keyClick(&find<QLineEdit>("markText"), Qt::Key_Return);
+  EXPECT_TRUE(find<QLineEdit>("markText").text().isEmpty()) << "it is set";
+  EXPECT_TRUE(said.join(' ').contains("Marked")) << said.join(' ').toStdString();
+}
+
 TEST_F(LiveOperator, SetsATouchByKeysAlone) {
   ASSERT_TRUE(waitForArrow());
   const auto hand = [&]() -> const SimulationSettings& { return workbench.project().live.simulation; };

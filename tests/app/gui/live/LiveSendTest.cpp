@@ -61,6 +61,12 @@ TEST_F(LiveSend, AReceiverGetsTheFramesUntilItIsSwitchedOffAndIsKeptInTheProject
   EXPECT_EQ(content(file).count('\n'), lines) << "it goes on though it is off";
   EXPECT_FALSE(page.commands(workbench.project(), {}).contains("--send"));
 
+  tick(0); // what was sent before stays: the frames go into a file beside it
+  ASSERT_TRUE(wait([&] { return sent().toInt() > 5; })) << sent().toStdString();
+  EXPECT_TRUE(list().topLevelItem(0)->text(0).contains("forces-20")) << list().topLevelItem(0)->text(0).toStdString();
+  EXPECT_EQ(content(file).count('\n'), lines);
+  EXPECT_EQ(workbench.project().live.receivers[0].to, "csv:" + file.toStdString());
+
   list().setCurrentItem(list().topLevelItem(0));
   click("removeReceiver");
   EXPECT_TRUE(workbench.project().live.receivers.empty());

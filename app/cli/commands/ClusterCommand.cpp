@@ -1,0 +1,155 @@
+#include "app/cli/Cli.h"
+#include "app/cli/Options.h"
+#include "app/study/cluster/ClusterJob.h"
+#include "model/base/Text.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iostream>
+#include <memory>
+
+namespace palp {
+
+namespace {
+
+struct ClusterArguments {
+  std::string what;
+  std::vector<std::string> rest; ///< the command's own
+  std::string shards, cpus = "2";
+  std::filesystem::path folder;
+  bool submit = false, dryRun = false, resubmit = false;
+};
+
+constexpr std::array kStateNames{"missing", "waiting", "running", "failed", "done"};
+
+/// Takes the output out of the command's arguments.
+std::filesystem::path outputOf(std::vector<std::string>& arguments, const std::string& kind) {
+  for (const char* name : {"-o", "--output"}) {
+    const auto found = std::find(arguments.begin(), arguments.end(), name);
+    if (found == arguments.end() || found + 1 == arguments.end()) continue;
+    const std::filesystem::path output = *(found + 1);
+    arguments.erase(found, found + 2);
+    return output;
+  }
+  throw UsageError("-o is missing: where " + std::string(kind == "sample" ? "the samples are" : "the study is") +
+                   " to be at last");
+}
+
+ClusterJob jobOf(const ClusterArguments& arguments) {
+  ClusterJob job;
+  job.kind = arguments.what;
+  if (arguments.shards.empty()) throw UsageError("--shards is missing: into how many parts");
+  job.shards = wholeNumber("--shards", arguments.shards, 1, 100'000);
+  job.cpus = wholeNumber("--cpus", arguments.cpus, 1, 4096);
+  job.arguments = arguments.rest;
+  for (const char* name : {"--shard", "--threads"})
+    if (std::find(job.arguments.begin(), job.arguments.end(), name) != job.arguments.end())
+      throw UsageError(std::string(name) + ": is set for each shard; allowed are the other options of palp " +
+                       job.kind);
+  job.output = std::filesystem::absolute(outputOf(job.arguments, job.kind));
+  if (job.arguments.empty())
+    throw UsageError("palp cluster " + job.kind + ": the " + (job.kind == "sample" ? "design" : "study file") +
+                     " is missing");
+  const std::filesystem::path folder =
+      arguments.folder.empty() ? std::filesystem::path("palp-cluster-" + job.kind) : arguments.folder;
+  job.folder = std::filesystem::absolute(folder).lexically_normal();
+  job.workFolder = std::filesystem::current_path();
+  job.program = std::filesystem::read_symlink("/proc/self/exe");
+  return job;
+}
+
+Exit make(const ClusterArguments& arguments, Session& session) {
+  ClusterJob job = jobOf(arguments);
+  if (!arguments.dryRun && std::filesystem::exists(job.folder)) writeJob(job); // says why not, before it measures
+  if (!session.json) std::cerr << "measuring the first " << (job.kind == "sample" ? "samples" : "design") << "\n";
+  measure(job, session.stop);
+  session.result["shards"] = job.shards;
+  session.result["seconds_a_shard"] = job.secondsAShard;
+  session.result["memory_MB"] = job.memory_MB;
+  session.result["folder"] = job.folder.string();
+  if (arguments.dryRun) {
+    for (const auto& [name, content] : clusterScripts(job)) {
+      session.result["scripts"][name] = content;
+      if (!session.json) std::cout << "== " << (job.folder / name).string() << "\n" << content;
+    }
+    return Exit::Done;
+  }
+  writeJob(job);
+  std::string next = "sbatch by --submit, or here: " + (job.folder / "here.sh").string();
+  if (arguments.submit) {
+    std::vector<int> all;
+    for (int n = 1; n <= job.shards; ++n) all.push_back(n);
+    const std::string id = submit(job, all, session.stop);
+    session.result["job"] = id;
+    next = "handed to Slurm as job " + id;
+  }
+  if (!session.json)
+    std::cout << job.shards << " shards of about " << text(std::round(job.secondsAShard)) << " s and "
+              << text(std::round(job.memory_MB)) << " MB in " << job.folder.string() << "; " << next << '\n';
+  return Exit::Done;
+}
+
+Exit status(const ClusterArguments& arguments, Session& session) {
+  if (arguments.rest.size() != 1) throw UsageError("status: which folder; allowed is one: palp cluster status FOLDER");
+  const ClusterJob job = readJob(arguments.rest[0]);
+  const ClusterStatus found = statusOf(job, session.stop);
+  std::array<int, kStateNames.size()> counts{};
+  std::vector<int> again;
+  for (std::size_t n = 0; n < found.shards.size(); ++n) {
+    ++counts[static_cast<std::size_t>(found.shards[n])];
+    if (found.shards[n] == ShardState::Failed || found.shards[n] == ShardState::Missing)
+      again.push_back(static_cast<int>(n) + 1);
+  }
+  std::string words = std::to_string(job.shards) + " shards:";
+  for (std::size_t s = kStateNames.size(); s-- > 0;) {
+    session.result[kStateNames[s]] = counts[s];
+    words += " " + std::to_string(counts[s]) + " " + kStateNames[s] + (s > 0 ? "," : "");
+  }
+  session.result["merged"] = found.merged;
+  session.result["failures"] = found.failures;
+  if (!session.json) {
+    std::cout << words << "; " << (found.merged ? "merged into " + job.output.string() : "not merged") << '\n';
+    for (const std::string& failure : found.failures) std::cout << failure << '\n';
+  }
+  if (!arguments.resubmit) return Exit::Done;
+  if (again.empty() && found.merged) {
+    if (!session.json) std::cout << "nothing to submit again\n";
+    return Exit::Done;
+  }
+  const std::string id = submit(job, again, session.stop);
+  session.result["job"] = id;
+  session.result["submitted"] = again;
+  if (!session.json) std::cout << again.size() << " shards and the merge submitted again\n";
+  return Exit::Done;
+}
+
+Exit run(const ClusterArguments& arguments, Session& session) {
+  if (arguments.what == "status") return status(arguments, session);
+  if (arguments.resubmit) throw UsageError("--resubmit is for palp cluster status FOLDER");
+  return make(arguments, session);
+}
+
+} // namespace
+
+void addCluster(Cli& cli) {
+  auto arguments = std::make_shared<ClusterArguments>();
+  Command command = cli.command("cluster", "samples and studies in shards, by Slurm's job arrays or GNU parallel",
+                                "palp cluster sample sensor.json --per-area 1000 -o samples.h5 --shards 20 --submit",
+                                [arguments](Session& session) { return run(*arguments, session); });
+  command
+      .option("what", arguments->what,
+              "sample or study, with that command's own arguments; or status FOLDER of a job that was made")
+      .required()
+      .oneOf({"sample", "study", "status"});
+  command.option("--shards", arguments->shards, "into how many parts");
+  command.option("--cpus", arguments->cpus, "processors of a shard (default 2)");
+  command.option("--folder", arguments->folder,
+                 "of scripts, shards and messages (default palp-cluster-sample or -study)");
+  command.flag("--submit", arguments->submit, "hand it to Slurm");
+  command.flag("--dry-run", arguments->dryRun, "measure and show the scripts, write nothing");
+  command.flag("--resubmit", arguments->resubmit, "with status: submit again what failed or is missing");
+  command.rest(arguments->rest);
+}
+
+} // namespace palp

@@ -1,0 +1,77 @@
+#include "app/cli/Cli.h"
+#include "app/cli/Options.h"
+#include "app/cli/Pictures.h"
+#include "app/cli/ProgressBar.h"
+#include "app/cli/ShardOption.h"
+#include "app/study/studies/StudyReport.h"
+#include "io/DesignFile.h"
+
+#include <chrono>
+#include <iostream>
+#include <memory>
+
+namespace palp {
+
+namespace {
+
+struct StudyArguments {
+  std::filesystem::path study, folder;
+  std::string shard;
+};
+
+constexpr std::size_t kStepsADesign = 100; // of the progress bar
+
+Exit run(const StudyArguments& arguments, Session& session) {
+  const auto start = std::chrono::steady_clock::now();
+  StudyFolder study(arguments.folder, loadStudy(arguments.study));
+  const std::size_t all = study.plan().designs();
+  const SampleRange range = shardOption(arguments.shard, all);
+  ProgressBar bar("study", kStepsADesign * std::max<std::size_t>(1, range.last - range.first));
+  const bool whole = study.compute(
+      range.first, range.last, session.threads,
+      [&](double done, const std::string& now) { bar.show(static_cast<std::size_t>(kStepsADesign * done), now); },
+      session.stop);
+  const std::size_t done = study.rowsDone();
+  session.result["designs"] = all;
+  session.result["done"] = done;
+  if (!whole) {
+    if (!session.json) std::cout << done << " of " << all << " designs done; the same command goes on from there\n";
+    return Exit::NoResult;
+  }
+  if (done < all || !arguments.shard.empty()) {
+    if (!session.json) std::cout << done << " of " << all << " designs done in " << arguments.folder.string() << '\n';
+    return Exit::Done;
+  }
+  study.writeTable();
+  const ReportContent content = studyReport(study);
+  ReportRequest request;
+  request.folder = arguments.folder / "report";
+  request.design = parseDesign(study.plan().design, "study.json");
+  request.seed = study.plan().seed;
+  request.command = "palp study " + arguments.study.string() + " -o " + arguments.folder.string();
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const ReportOutcome outcome = writeReport(content, request, seconds, reportDrawer(session), session.stop);
+  session.result["table"] = study.table().string();
+  session.result["report"] = outcome.page.string();
+  session.result["summary"] = outcome.summary;
+  for (const auto& [name, value] : outcome.figures) session.result["figures"][name] = value;
+  if (!session.json)
+    std::cout << outcome.summary << "\n" << study.table().string() << " and " << outcome.page.string() << " written\n";
+  return Exit::Done;
+}
+
+} // namespace
+
+void addStudy(Cli& cli) {
+  auto arguments = std::make_shared<StudyArguments>();
+  Command command = cli.command("study", "many designs by lists and ranges of their numbers, one row each in one table",
+                                "palp study study.json -o depths",
+                                [arguments](Session& session) { return run(*arguments, session); });
+  command.option("study", arguments->study, "study file: which design, what varies, what is computed").required();
+  command
+      .option("-o,--output", arguments->folder, "folder of the rows, the table and the report; goes on where it ended")
+      .required();
+  command.option("--shard", arguments->shard, "I/N: this part of the designs; without it the rest and the table");
+}
+
+} // namespace palp

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+namespace palp {
+
+/// `palp sample` or `palp study` in shards, for Slurm's job arrays (https://slurm.schedmd.com/job_array.html) or GNU
+/// parallel: a folder of scripts, which need nothing but a shell and palp.
+struct ClusterJob {
+  std::string kind;                   ///< "sample" or "study"
+  std::vector<std::string> arguments; ///< of the command, but for its output and shard
+  std::filesystem::path output;       ///< sample file, or the study's folder
+  int shards = 1;
+  int cpus = 1;                     ///< of a shard
+  std::filesystem::path folder;     ///< of the scripts, shards and messages
+  std::filesystem::path workFolder; ///< where relative paths begin
+  std::filesystem::path program;    ///< palp
+  double secondsAShard = 0;         ///< expected, from what was measured
+  double memory_MB = 0;             ///< most that was measured
+};
+
+/// What one shard costs, by running the first samples (or the first design) in a process of its own: sets
+/// secondsAShard and memory_MB. Throws Error where the command is refused, with its own words, and Cancelled.
+void measure(ClusterJob& job, const std::stop_token& stop);
+
+/// The scripts by name: shard.sh (does one shard, nothing where it is done), merge.sh, array.sbatch, merge.sbatch (once
+/// all shards are done), here.sh (all of it on this machine by GNU parallel).
+std::map<std::string, std::string> clusterScripts(const ClusterJob& job);
+
+/// Writes scripts and job.json. Throws Error where the folder is there already.
+void writeJob(const ClusterJob& job);
+/// The job of a folder. Throws Error.
+ClusterJob readJob(const std::filesystem::path& folder);
+
+/// Where a shard stands. Running and Waiting come from Slurm's squeue where it is there.
+enum class ShardState { Missing, Waiting, Running, Failed, Done };
+struct ClusterStatus {
+  std::vector<ShardState> shards;
+  std::vector<std::string> failures; ///< sentences: which shard, with what status
+  bool merged = false;
+  bool slurm = false; ///< squeue was asked
+};
+ClusterStatus statusOf(const ClusterJob& job, const std::stop_token& stop);
+
+/// Hands the shards (counted from 1) and the merge after them to Slurm; gives the array's number. Throws Error with
+/// sbatch's own words.
+std::string submit(const ClusterJob& job, const std::vector<int>& shards, const std::stop_token& stop);
+
+} // namespace palp

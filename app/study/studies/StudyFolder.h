@@ -1,0 +1,40 @@
+#pragma once
+
+#include "io/StudyFile.h"
+
+#include <filesystem>
+#include <functional>
+#include <stop_token>
+
+namespace palp {
+
+/// The folder of a study: study.json (the whole plan), rows/ with a file a design that is done, and, once all are,
+/// table.csv. A run that was killed goes on where it ended; several may work on shards of one folder.
+class StudyFolder {
+public:
+  /// Makes the folder. Throws Error where it holds another study, or files of another kind.
+  StudyFolder(std::filesystem::path folder, StudyPlan plan);
+
+  [[nodiscard]] const StudyPlan& plan() const { return plan_; }
+  [[nodiscard]] bool done(std::size_t design) const;
+  /// Rows that are there of all designs.
+  [[nodiscard]] std::size_t rowsDone() const;
+
+  /// Works out what is missing among the designs first..last-1; `progress` gets how many of these are done and how far
+  /// the next is. False: stopped; what is done stays.
+  bool compute(std::size_t first, std::size_t last, int threads,
+               const std::function<void(double done, const std::string& now)>& progress, const std::stop_token& stop);
+
+  /// Joins all rows, in the order of the designs, into table.csv. Throws Error where one is missing or broken.
+  void writeTable() const;
+  [[nodiscard]] std::filesystem::path table() const { return folder_ / "table.csv"; }
+  [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
+
+private:
+  [[nodiscard]] std::filesystem::path row(std::size_t design) const;
+
+  std::filesystem::path folder_;
+  StudyPlan plan_;
+};
+
+} // namespace palp

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "app/study/reports/Report.h"
+#include "io/StudyFile.h"
+
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+namespace palp {
+
+/// The columns of a study's table: number of the design, the keys that vary, why it cannot be ("problem"), and what is
+/// computed, with units.
+std::vector<std::string> studyColumns(const StudyPlan& plan);
+
+/// What a study says of one design. The same bytes at any number of threads.
+struct StudyRow {
+  std::string problem;                         ///< a sentence; then there are no values
+  std::vector<std::optional<double>> values{}; ///< one for each computed column; none: it does not apply
+};
+
+/// Empty: stopped.
+std::optional<StudyRow> studyRow(const StudyPlan& plan, std::size_t design, int threads, const ReportProgress& progress,
+                                 const std::stop_token& stop);
+
+/// The row as a line of CSV.
+std::string studyLine(const StudyPlan& plan, std::size_t design, const StudyRow& row);
+
+} // namespace palp
