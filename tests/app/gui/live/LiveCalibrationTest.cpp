@@ -90,8 +90,8 @@ TEST_F(LiveCalibrating, SaysThatTheNetworkSeesTheLoadOnAnotherArea) {
   click("collect");
   ASSERT_TRUE(wait([&] { return calibration().frames().samples().size() == 1; }));
   EXPECT_TRUE(isRed("calibrationProblem"));
-  const QString said = find<QLabel>("calibrationProblem").text();
-  EXPECT_TRUE(said.contains("area 5") && said.contains("area 0")) << said.toStdString();
+  const QString words = find<QLabel>("calibrationProblem").text();
+  EXPECT_TRUE(words.contains("area 5") && words.contains("area 0")) << words.toStdString();
   EXPECT_EQ(page.unsavedFrames(), 1) << "they are asked about at quitting";
   type<QSpinBox>("labelArea", "5");
   click("collect");
