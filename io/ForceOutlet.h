@@ -40,10 +40,11 @@ public:
   virtual bool send(const OutgoingFrame& frame, std::chrono::milliseconds patience) = 0;
 };
 
-/// "udp:HOST:PORT", "osc:HOST:PORT", "zmq:HOST:PORT" (a publisher that connects to a subscriber which is bound there)
-/// or "csv:FILE" ("csv:-": standard output; a FIFO is waited for). Only sends; nothing is listened on. Throws Error
-/// with what is allowed; broadcast and multicast addresses only where they are asked for by `toMany`, and a file that
-/// exists with `force`.
+/// "udp:HOST:PORT", "osc:HOST:PORT", "zmq:HOST:PORT" (a publisher that connects to a subscriber which is bound there),
+/// "csv:FILE" ("csv:-": standard output; a FIFO is waited for) or "lsl:NAME" (a stream of the Lab Streaming Layer,
+/// whose library is loaded). Only sends, nothing is listened on, but by that library, which tells who asks for its
+/// streams. Throws Error with what is allowed; broadcast and multicast addresses only where they are asked for by
+/// `toMany`, and a file that exists with `force`.
 std::unique_ptr<ForceOutlet> openOutlet(const std::string& where, bool toMany, bool force);
 
 } // namespace palp

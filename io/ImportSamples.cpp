@@ -55,12 +55,12 @@ public:
     block.area(column) = map_.area ? areaFrom(*next++) : 0;
     if (!map_.place_mm.empty()) {
       block.area(column) = areaAt(next[0], next[1]);
-      next += 2;
+      for (double& place : block.places_mm.col(column)) place = *next++;
     }
     if (map_.time_s) {
       if (*next < time_s_)
         table_.refuse("time goes back from " + text(time_s_) + " to " + text(*next) + " s; allowed are rows in order");
-      time_s_ = *next;
+      time_s_ = block.times_s(0, column) = *next;
     }
     return true;
   }
@@ -138,6 +138,8 @@ SampleSet headOf(const ImportMap& map, const SensorDesign* design, const fs::pat
   head.electrodesPerRowWire = design != nullptr ? design->electrodesPerRowWire() : 1;
   head.columnWires = map.columnWires;
   head.areaCount = map.areaCount;
+  head.times_s.resize(map.time_s ? 1 : 0, 0);
+  head.places_mm.resize(map.place_mm.empty() ? 0 : 2, 0);
   head.forces_N.resize(3, 0);
   head.resistances_ohm.resize(static_cast<Eigen::Index>(map.resistances_ohm.size()), 0);
   return head;

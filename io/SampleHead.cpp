@@ -131,7 +131,10 @@ void readColumns(const SampleLines& lines, const std::string& line, SampleSet& s
   const auto rowWires = static_cast<Eigen::Index>(set.rowWires);
   const bool displacements = line.find(",u_r") != std::string::npos;
   const bool resistances = line.find(",R_r") != std::string::npos;
-  set.touches.resize(set.origin.touches.empty() ? 0 : kTouchRows, 0);
+  const bool touches = !set.origin.touches.empty(); // with places of their own
+  set.times_s.resize(line.starts_with("area,time_s,") ? 1 : 0, 0);
+  set.touches.resize(touches ? kTouchRows : 0, 0);
+  set.places_mm.resize(!touches && line.find(",x_mm,y_mm,") != std::string::npos ? 2 : 0, 0);
   set.forces_N.resize(loadedTogether(set) ? 3 * set.areaCount : 3, 0);
   set.displacements_mm.resize(displacements ? 3 * rowWires * set.electrodesPerRowWire : 0, 0);
   set.resistances_ohm.resize(resistances ? rowWires * set.columnWires : 0, 0);
@@ -198,7 +201,9 @@ std::string sampleFileHead(const SampleSet& set) {
 
 std::string sampleColumns(const SampleSet& set) {
   std::string names = "area";
+  if (set.times_s.rows() > 0) names += ",time_s";
   if (set.touches.rows() > 0) names += ",shape,size_mm,friction,x_mm,y_mm";
+  if (set.places_mm.rows() > 0) names += ",x_mm,y_mm";
   if (set.forces_N.rows() == 3) {
     names += ",fx_N,fy_N,fz_N";
   } else {
@@ -249,8 +254,9 @@ SampleSet readSampleHead(SampleLines& lines) {
 }
 
 std::size_t sampleFields(const SampleSet& head) {
-  return static_cast<std::size_t>(1 + head.touches.rows() + head.forces_N.rows() + head.displacements_mm.rows() +
-                                  head.resistances_ohm.rows());
+  std::size_t fields = 1;
+  for (const auto part : kSampleParts) fields += static_cast<std::size_t>((head.*part).rows());
+  return fields;
 }
 
 void readSampleLine(const SampleLines& lines, std::string_view line, SampleSet& set, Eigen::Index column) {
@@ -270,31 +276,32 @@ void readSampleLine(const SampleLines& lines, std::string_view line, SampleSet& 
   };
   read(set.area(column));
   requireArea(lines, set, set.area(column));
-  for (Eigen::MatrixXd* part : {&set.touches, &set.forces_N, &set.displacements_mm, &set.resistances_ohm})
-    for (Eigen::Index row = 0; row < part->rows(); ++row) {
-      if (part == &set.touches && row == kTouchShape) {
+  for (const auto part : kSampleParts)
+    for (Eigen::Index row = 0; row < (set.*part).rows(); ++row) {
+      if (part == &SampleSet::touches && row == kTouchShape) {
         const char* const stop = std::find(next, end, ',');
         set.touches(row, column) = readShape(lines, std::string(next, stop));
         next = stop == end ? end : stop + 1;
         ++field;
         continue;
       }
-      read((*part)(row, column));
-      if (!std::isfinite((*part)(row, column)))
-        lines.refuse("field " + std::to_string(field) + " is " + text((*part)(row, column)) +
-                     "; allowed is a finite number");
+      double& value = (set.*part)(row, column);
+      read(value);
+      if (!std::isfinite(value))
+        lines.refuse("field " + std::to_string(field) + " is " + text(value) + "; allowed is a finite number");
     }
 }
 
 void appendSampleLines(std::string& text, const SampleSet& set, Eigen::Index first, Eigen::Index count) {
   for (Eigen::Index i = first; i < first + count; ++i) {
     text += std::to_string(set.area(i));
-    if (set.touches.rows() > 0) {
-      text += "," + shapeName(static_cast<IndenterShape>(set.touches(kTouchShape, i)));
-      for (Eigen::Index row = kTouchSize_mm; row < set.touches.rows(); ++row) append(text, set.touches(row, i));
-    }
-    for (const Eigen::MatrixXd* part : {&set.forces_N, &set.displacements_mm, &set.resistances_ohm})
-      for (Eigen::Index row = 0; row < part->rows(); ++row) append(text, (*part)(row, i));
+    for (const auto part : kSampleParts)
+      for (Eigen::Index row = 0; row < (set.*part).rows(); ++row) {
+        if (part == &SampleSet::touches && row == kTouchShape)
+          text += "," + shapeName(static_cast<IndenterShape>(set.touches(row, i)));
+        else
+          append(text, (set.*part)(row, i));
+      }
     text.push_back('\n');
   }
 }

@@ -2,7 +2,7 @@
 
 #include "model/base/Text.h"
 
-#include <vector>
+#include <cassert>
 
 namespace palp {
 
@@ -23,17 +23,29 @@ std::string difference(const SampleOrigin& a, const SampleOrigin& b) {
   return {};
 }
 
+Eigen::Matrix2Xd SampleSet::touchedPlaces_mm() const {
+  if (hasTouches()) return touches.middleRows<2>(kTouchX_mm);
+  return places_mm;
+}
+
+SampleSet samplesAt(const SampleSet& set, const std::vector<Eigen::Index>& chosen) {
+  SampleSet part = set;
+  part.area = set.area(chosen);
+  for (const auto values : kSampleParts) {
+    const Eigen::MatrixXd& all = set.*values;
+    if (all.rows() > 0)
+      part.*values = all(Eigen::all, chosen);
+    else
+      (part.*values).resize(0, static_cast<Eigen::Index>(chosen.size()));
+  }
+  return part;
+}
+
 SampleSet areaPart(const SampleSet& set, int area) {
   std::vector<Eigen::Index> chosen;
   for (Eigen::Index i = 0; i < set.size(); ++i)
     if (set.area(i) == area) chosen.push_back(i);
-  SampleSet part = set;
-  part.area = set.area(chosen);
-  if (set.hasTouches()) part.touches = set.touches(Eigen::all, chosen);
-  part.forces_N = set.forces_N(Eigen::all, chosen);
-  part.displacements_mm = set.displacements_mm(Eigen::all, chosen);
-  part.resistances_ohm = set.resistances_ohm(Eigen::all, chosen);
-  return part;
+  return samplesAt(set, chosen);
 }
 
 void append(SampleSet& set, const SampleSet& block) {
@@ -45,14 +57,12 @@ void append(SampleSet& set, const SampleSet& block) {
   const Eigen::Index added = block.size();
   set.area.conservativeResize(before + added);
   set.area.tail(added) = block.area;
-  const auto addColumns = [&](Eigen::MatrixXd& to, const Eigen::MatrixXd& from) {
-    to.conservativeResize(Eigen::NoChange, before + added);
-    to.rightCols(added) = from;
-  };
-  if (set.hasTouches()) addColumns(set.touches, block.touches);
-  addColumns(set.forces_N, block.forces_N);
-  addColumns(set.displacements_mm, block.displacements_mm);
-  addColumns(set.resistances_ohm, block.resistances_ohm);
+  for (const auto values : kSampleParts) {
+    Eigen::MatrixXd& all = set.*values;
+    assert(all.rows() == (block.*values).rows() && "samples of one set have the same columns");
+    all.conservativeResize(Eigen::NoChange, before + added);
+    if (all.rows() > 0) all.rightCols(added) = block.*values;
+  }
 }
 
 } // namespace palp

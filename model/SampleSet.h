@@ -4,10 +4,12 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace palp {
 
@@ -29,28 +31,41 @@ struct SampleOrigin {
 /// Rows of SampleSet::touches.
 enum TouchRow { kTouchShape, kTouchSize_mm, kTouchFriction, kTouchX_mm, kTouchY_mm, kTouchRows };
 
-/// Labelled samples; one column per sample. Displacements or resistances have no rows if they are not known (frames of
-/// a real board).
+/// Labelled samples; one column per sample. What is not known of them has no rows: the displacements of a real board,
+/// the times and places of computed samples.
 struct SampleSet {
   SampleOrigin origin;
   int rowWires = 0;
   int electrodesPerRowWire = 0;
   int columnWires = 0;
   int areaCount = 0;
-  Eigen::VectorXi area;     ///< loaded area of each sample, or that under the touch; -1 if all are loaded together
-  Eigen::MatrixXd touches;  ///< kTouchRows x samples where indenters press, by TouchRow; else no rows
-  Eigen::MatrixXd forces_N; ///< 3 x samples; `together`: (3 areas) x samples
+  Eigen::VectorXi area;      ///< loaded area of each sample, or that under the touch; -1 if all are loaded together
+  Eigen::MatrixXd times_s;   ///< 1 x samples where another rig measured them, from its zero
+  Eigen::MatrixXd touches;   ///< kTouchRows x samples where indenters press, by TouchRow; else no rows
+  Eigen::MatrixXd places_mm; ///< 2 x samples where another rig measured them: x, y of the touch from the block's corner
+  Eigen::MatrixXd forces_N;  ///< 3 x samples; `together`: (3 areas) x samples
   Eigen::MatrixXd displacements_mm; ///< (3 electrodes row-wires) x samples; row 3 (r E + e) + d
   Eigen::MatrixXd resistances_ohm;  ///< (row-wires column-wires) x samples; row r C + c
 
   [[nodiscard]] Eigen::Index size() const { return forces_N.cols(); }
   [[nodiscard]] bool hasTouches() const { return touches.rows() > 0; }
+  [[nodiscard]] bool hasPlaces() const { return hasTouches() || places_mm.rows() > 0; }
+  /// x, y of each touch [mm], drawn or measured: 2 x samples where hasPlaces().
+  [[nodiscard]] Eigen::Matrix2Xd touchedPlaces_mm() const;
   [[nodiscard]] bool together() const { return forces_N.rows() != 3 || (size() > 0 && area(0) < 0); }
 };
+
+/// The matrices of a set with a column a sample, in the order of the columns of its file.
+inline constexpr std::array kSampleParts{&SampleSet::times_s,          &SampleSet::touches,
+                                         &SampleSet::places_mm,        &SampleSet::forces_N,
+                                         &SampleSet::displacements_mm, &SampleSet::resistances_ohm};
 
 /// Why two sets cannot share one file (different design, seed, mesh or kind); empty if they can. The first sample of a
 /// shard does not count as a difference.
 std::string difference(const SampleOrigin& a, const SampleOrigin& b);
+
+/// Only these samples, in this order.
+SampleSet samplesAt(const SampleSet& set, const std::vector<Eigen::Index>& chosen);
 
 /// Only the samples on one area.
 SampleSet areaPart(const SampleSet& set, int area);

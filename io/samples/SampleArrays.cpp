@@ -59,12 +59,14 @@ std::vector<SampleArray> sampleArrays(const SampleSet& head) {
   std::vector<SampleArray> arrays;
   const auto areas =
       head.forces_N.rows() == 3 ? std::vector<std::uint64_t>{3} : std::vector<std::uint64_t>{asSize(head.areaCount), 3};
+  if (head.times_s.rows() > 0) arrays.push_back({"time_s", "s", {}, &SampleSet::times_s});
   if (head.touches.rows() > 0)
     arrays.push_back(
         {"touches",
          "shape (0 sphere, 1 pin, 2 flat, 3 cylinder-x, 4 cylinder-y, 5 plane), size mm, friction 1, x mm, y mm",
          {kTouchRows},
          &SampleSet::touches});
+  if (head.places_mm.rows() > 0) arrays.push_back({"places_mm", "mm", {2}, &SampleSet::places_mm});
   arrays.push_back({"forces_N", "N", areas, &SampleSet::forces_N});
   if (head.displacements_mm.rows() > 0)
     arrays.push_back({"displacements_mm",
@@ -88,9 +90,8 @@ void resizeSamples(SampleSet& set, Eigen::Index samples) {
     values.resize(values.rows(), samples); // without a copy
     hintHugePages(values);
   }
-  if (set.touches.rows() == 0) set.touches.resize(0, samples);
-  if (set.displacements_mm.rows() == 0) set.displacements_mm.resize(0, samples);
-  if (set.resistances_ohm.rows() == 0) set.resistances_ohm.resize(0, samples);
+  for (const auto part : kSampleParts)
+    if ((set.*part).rows() == 0) (set.*part).resize(0, samples);
 }
 
 SampleSet samplesBetween(const SampleSet& set, Eigen::Index first, Eigen::Index count) {
@@ -101,8 +102,7 @@ SampleSet samplesBetween(const SampleSet& set, Eigen::Index first, Eigen::Index 
   part.columnWires = set.columnWires;
   part.areaCount = set.areaCount;
   part.area = set.area.segment(first, count);
-  for (const auto values :
-       {&SampleSet::touches, &SampleSet::forces_N, &SampleSet::displacements_mm, &SampleSet::resistances_ohm}) {
+  for (const auto values : kSampleParts) {
     const Eigen::Index rows = (set.*values).rows(); // of a head too: they say what there is
     if (rows == 0 || (set.*values).cols() == 0)
       (part.*values).resize(rows, rows == 0 ? count : 0);

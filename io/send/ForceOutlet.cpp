@@ -12,7 +12,8 @@ namespace palp {
 namespace {
 
 constexpr const char* kAllowedOutlets =
-    "; allowed is udp:HOST:PORT, osc:HOST:PORT, zmq:HOST:PORT (port 1 to 65535) or csv:FILE (csv:- is standard output)";
+    "; allowed is udp:HOST:PORT, osc:HOST:PORT, zmq:HOST:PORT (port 1 to 65535), lsl:NAME or csv:FILE (csv:- is "
+    "standard output)";
 
 /// As in sample files: fx_N, or a0_fx_N where each area has a force.
 std::string forceName(Eigen::Index force, Eigen::Index forces, int axis) {
@@ -79,6 +80,7 @@ std::unique_ptr<ForceOutlet> openOutlet(const std::string& where, bool toMany, b
   const std::string kind = where.substr(0, colon);
   const std::string rest = colon == std::string::npos ? "" : where.substr(colon + 1);
   if (kind == "csv" && !rest.empty()) return openLines(where, rest, force);
+  if (kind == "lsl" && !rest.empty()) return openLsl(where, rest);
   if (kind != "udp" && kind != "osc" && kind != "zmq") throw Error("--send " + where + kAllowedOutlets);
   const Receiver receiver = receiverOf(where, rest);
   if (!toMany) requireSingleHost(receiver);

@@ -13,8 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     palp::SampleSet set = palp::readSampleHead(lines);
     if (palp::sampleFields(set) > 10'000) return 0;
     set.area.resize(1);
-    for (Eigen::MatrixXd* part : {&set.forces_N, &set.displacements_mm, &set.resistances_ohm})
-      part->resize(part->rows(), 1);
+    for (const auto part : palp::kSampleParts) (set.*part).resize((set.*part).rows(), 1);
     for (std::string line; lines.next(line);) {
       palp::readSampleLine(lines, line, set, 0);
       if (!set.forces_N.allFinite() || !set.resistances_ohm.allFinite()) std::abort();

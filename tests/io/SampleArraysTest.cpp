@@ -72,6 +72,23 @@ TEST_P(SampleArrays, KeepTheHead) {
   EXPECT_EQ(sampleFileHead(back), sampleFileHead(set));
 }
 
+TEST_P(SampleArrays, KeepMeasuredTimesAndPlaces) {
+  const SampleSet set = randomMeasured(9, 2);
+  saveSamples(file("a"), set, false);
+  expectSame(loadSamples(file("a")), set);
+  saveSamples(folder / "a.csv", set, false);
+  expectSame(loadSamples(folder / "a.csv"), set);
+  EXPECT_EQ(mergeSampleFiles({file("a")}, folder / "b.csv", false), 9U);
+  EXPECT_TRUE(readFile(folder / "b.csv") == readFile(folder / "a.csv"));
+  EXPECT_NE(readFile(folder / "a.csv").find("\narea,time_s,x_mm,y_mm,fx_N,"), std::string::npos);
+
+  SampleSet timeless = set; // of one request, but with another number of columns
+  timeless.times_s.resize(0, 9);
+  timeless.origin.firstSample = 9;
+  saveSamples(file("c"), timeless, false);
+  expectIn(refusal([&] { mergeSampleFiles({file("a"), file("c")}, file("x"), false); }), {"columns differ"});
+}
+
 TEST_P(SampleArrays, LeaveOutWhatNobodyKnows) {
   SampleSet set = randomSet(5, 1);
   set.displacements_mm.resize(0, 5);

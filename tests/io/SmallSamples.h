@@ -50,13 +50,25 @@ inline SampleSet randomTouches(Eigen::Index size, unsigned seed) {
   return set;
 }
 
+/// The same as another rig measures them: with time and place, and without displacements.
+inline SampleSet randomMeasured(Eigen::Index size, unsigned seed) {
+  SampleSet set = randomSet(size, seed);
+  set.origin.mesh = "measured, from table.csv";
+  set.origin.perArea = 0; // of no request
+  std::mt19937_64 engine(seed);
+  set.times_s.resize(1, size);
+  set.places_mm.resize(2, size);
+  for (Eigen::MatrixXd* part : {&set.times_s, &set.places_mm})
+    for (double& value : part->reshaped()) value = std::ldexp(double(engine() >> 11U), -50);
+  set.displacements_mm.resize(0, size);
+  return set;
+}
+
 inline SampleSet slice(const SampleSet& set, Eigen::Index first, Eigen::Index count) {
   SampleSet part = set;
   part.area = set.area.segment(first, count);
-  if (set.hasTouches()) part.touches = set.touches.middleCols(first, count);
-  part.forces_N = set.forces_N.middleCols(first, count);
-  part.displacements_mm = set.displacements_mm.middleCols(first, count);
-  part.resistances_ohm = set.resistances_ohm.middleCols(first, count);
+  for (const auto values : kSampleParts)
+    if ((set.*values).rows() > 0) part.*values = (set.*values).middleCols(first, count);
   return part;
 }
 
@@ -64,13 +76,12 @@ inline void expectSame(const SampleSet& a, const SampleSet& b) {
   EXPECT_EQ(difference(a.origin, b.origin), "");
   EXPECT_EQ(a.origin.firstSample, b.origin.firstSample);
   EXPECT_EQ(a.area, b.area);
-  EXPECT_EQ(a.hasTouches(), b.hasTouches());
-  if (a.hasTouches()) {
-    EXPECT_EQ(a.touches, b.touches);
+  for (const auto values : kSampleParts) {
+    ASSERT_EQ((a.*values).rows(), (b.*values).rows());
+    if ((a.*values).rows() > 0) {
+      EXPECT_EQ(a.*values, b.*values);
+    }
   }
-  EXPECT_EQ(a.forces_N, b.forces_N);
-  EXPECT_EQ(a.displacements_mm, b.displacements_mm);
-  EXPECT_EQ(a.resistances_ohm, b.resistances_ohm);
 }
 
 } // namespace palp

@@ -91,6 +91,8 @@ def check_numbers():
     assert (samples["area"] == pad).all() and str(samples["design"]) == result["design"]
     np.testing.assert_allclose(samples["forces_N"], force_N, rtol=1e-14)
     np.testing.assert_allclose(samples["resistances_ohm"], ohm, rtol=1e-14)
+    np.testing.assert_allclose(samples["time_s"], 0.01 * np.arange(SAMPLES), rtol=1e-14)
+    assert samples["time_s"].shape == (SAMPLES,) and "places_mm" not in samples
 
     made("import", "table.csv", "--map", mapped(), "-o", "samples.h5")
     made("import", "table.csv", "--map", mapped(), "-o", "samples.csv")
@@ -105,7 +107,8 @@ def check_numbers():
                               "unit": "code", "ohm_per_code": 0.25, "zero_ohm": 100}}
     made("import", "table.npz", "--map", mapped("arrays.json", **arrays), "-o", "arrays.npz")
     again = np.load("arrays.npz")
-    assert (again["area"] == pad).all()
+    assert (again["area"] == pad).all() and "time_s" not in again
+    np.testing.assert_allclose(again["places_mm"], np.column_stack([10 + 10 * pad, 5 + 0 * pad]), rtol=1e-14)
     np.testing.assert_allclose(again["resistances_ohm"], ohm, rtol=1e-13)
     frame_of(pad, force_N, ohm).to_csv("german.csv", index=False, sep=";", lineterminator="\r\n")
     made("import", "german.csv", "--map", mapped("german.json", separator=";"), "-o", "german.npz")
@@ -125,6 +128,43 @@ def check_use():
     assert len(rows) == 2
     result = palp("train", "samples.h5", "--input", "displacement", "-o", "never.json")
     assert result.returncode == 2 and result.stderr.count("\n") == 1, result
+
+
+def check_places():
+    """Networks of force and place learn from measured touches alone."""
+    random = np.random.default_rng(4)
+    force_N = random.uniform([-1, -1, -6], [1, 1, -1], (SAMPLES, 3))
+    place_mm = random.uniform(2, 18, (SAMPLES, 2))
+    x, y = np.meshgrid(np.linspace(2, 18, COLUMNS), np.linspace(2, 18, ROWS))
+    near = np.exp(-((place_mm[:, 0, None, None] - x) ** 2 + (place_mm[:, 1, None, None] - y) ** 2) / 100)
+    answer = np.random.default_rng(1).normal(size=(2, ROWS, COLUMNS))
+    ohm = 500 + near * (10 * force_N[:, 2, None, None] + np.einsum("nd,drc->nrc", force_N[:, :2], answer))
+    half = SAMPLES // 2
+    for name, part in (("touched", slice(0, half)), ("tried", slice(half, None))):
+        np.savez(name + "-table.npz", F=force_N[part], R=ohm[part], xy=place_mm[part], t=np.arange(half))
+        mapped("touched.json", area=None, forces={"columns": ["F[0]", "F[1]", "F[2]"], "unit": "N"},
+               time={"column": "t", "unit": "s"},
+               place={"columns": ["xy[0]", "xy[1]"], "unit": "mm", "block_mm": [20, 20], "areas": [1, 1]},
+               resistances={"columns": "R[{row},{column}]", "row_wires": ROWS, "column_wires": COLUMNS, "unit": "ohm"})
+        for ending in ("csv", "h5", "npz"):
+            made("import", name + "-table.npz", "--map", "touched.json", "-o", f"{name}.{ending}")
+    head = next(line for line in open("touched.csv") if not line.startswith("#"))
+    assert head.startswith("area,time_s,x_mm,y_mm,fx_N,"), head
+    options = ["--input", "resistance", "--rows", "all", "--target", "force+place", "--noise", "1e-5"]
+    for decoder, most_mm in (("rbf", 2), ("touch", 1)):
+        networks = []
+        for ending in ("csv", "h5", "npz"):
+            made("train", f"touched.{ending}", *options, "--decoder", decoder, "-o", f"{decoder}-{ending}.json")
+            networks.append(json.load(open(f"{decoder}-{ending}.json")))
+            networks[-1]["fit"].pop("seconds")
+        assert networks[0] == networks[1] == networks[2]
+        result = made("predict", f"{decoder}-h5.json", "tried.h5")
+        assert not result["warnings"], result["warnings"]
+        assert max(result["place_error"]["rms_mm"]) < most_mm, (decoder, result["place_error"])
+        off = np.array(result["place_mm"]) - place_mm[half:]
+        np.testing.assert_allclose(np.sqrt((off**2).mean(axis=0)), result["place_error"]["rms_mm"], rtol=1e-6)
+    result = palp("train", "samples.h5", *options, "-o", "never.json")
+    assert result.returncode == 2 and "palp import" in result.stderr and result.stderr.count("\n") == 1, result
 
 
 def twin(name, change):
@@ -203,6 +243,6 @@ def check_broken_maps():
 
 with tempfile.TemporaryDirectory() as folder:
     os.chdir(folder)
-    for step in (check_numbers, check_use, check_broken_tables, check_broken_maps):
+    for step in (check_numbers, check_use, check_places, check_broken_tables, check_broken_maps):
         step()
     os.chdir("/")

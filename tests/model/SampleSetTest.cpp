@@ -37,6 +37,22 @@ SampleSet setOf(int area, double value) {
   return set;
 }
 
+TEST(SampleSet, PlacesAreThoseOfTouchesOrMeasured) {
+  SampleSet set = setOf(0, 1);
+  EXPECT_FALSE(set.hasPlaces());
+  set.places_mm = Eigen::MatrixXd::Identity(2, 2);
+  set.times_s = Eigen::RowVector2d(3, 4);
+  EXPECT_TRUE(set.hasPlaces() && !set.hasTouches());
+  EXPECT_EQ(set.touchedPlaces_mm(), Eigen::Matrix2d::Identity());
+  const SampleSet turned = samplesAt(set, {1, 0, 1});
+  EXPECT_EQ(turned.times_s, Eigen::RowVector3d(4, 3, 4));
+  EXPECT_EQ(turned.places_mm.row(0), Eigen::RowVector3d(0, 1, 0));
+  append(set, set);
+  EXPECT_EQ(set.times_s, Eigen::RowVector4d(3, 4, 3, 4));
+  set.touches = Eigen::MatrixXd::Constant(kTouchRows, 4, 9);
+  EXPECT_EQ(set.touchedPlaces_mm(), Eigen::MatrixXd::Constant(2, 4, 9));
+}
+
 TEST(SampleSet, AppendsAtTheEnd) {
   SampleSet set;
   append(set, setOf(0, 1));

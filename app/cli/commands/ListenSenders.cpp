@@ -15,8 +15,9 @@ constexpr std::chrono::milliseconds kLastFrames{2000}, kAfterCancel{100};
 void SendOptions::declare(Command command) {
   command
       .option("--send", to,
-              "udp:HOST:PORT (JSON, for PlotJuggler), osc:HOST:PORT, zmq:HOST:PORT or csv:FILE (csv:- is standard "
-              "output): each frame's forces to this receiver; may be given several times")
+              "udp:HOST:PORT (JSON, for PlotJuggler), osc:HOST:PORT, zmq:HOST:PORT, lsl:NAME (Lab Streaming Layer, "
+              "where its library is installed) or csv:FILE (csv:- is standard output): each frame's forces to this "
+              "receiver; may be given several times")
       .oneValueEach();
   command.flag("--send-to-many", toMany, "--send may name broadcast and multicast addresses");
 }

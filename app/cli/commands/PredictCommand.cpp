@@ -119,7 +119,7 @@ Exit run(const Arguments& arguments, Session& session) {
   stopIfAsked(session.stop);
   const DecoderError error = decoderError(decoder, prediction, samples);
   fill(decoder, prediction, error, session);
-  if (options.noise > 0 && !samples.hasTouches()) { // the bound is of forces on known areas
+  if (options.noise > 0 && !samples.hasTouches() && !decoder.place) { // the bound is of forces on known areas
     const NoiseBound bound = noiseBound(samples, decoder.input.kind, decoder.input.rows, options.noise);
     session.result["noise_bound"] = {{"without_prior_percent_of_range", listJson(bound.withoutPriorPercent)},
                                      {"with_prior_percent_of_range", listJson(bound.withPriorPercent)}};

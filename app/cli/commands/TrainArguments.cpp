@@ -26,8 +26,10 @@ void TrainArguments::declare(Command command, bool withSpread) {
   command.option("--mode", mode, kDecoderModes.allowed() + ": what is not set below follows from it");
   command.option("--decoder", decoder, kDecoderKinds.allowed() + " (default rbf)");
   if (withSpread) {
-    command.option("--target", target,
-                   kDecoderTargets.allowed() + ": of touches (palp sample --touch) the place as well (default force)");
+    command.option(
+        "--target", target,
+        kDecoderTargets.allowed() +
+            ": of touches (palp sample --touch) and measured places (palp import) the place as well (default force)");
     command.option("--spread", spread, "auto (by leave-one-out, default) or a number above 0, of scaled inputs");
   }
   command.option("--centers", centers, "all, or how many");

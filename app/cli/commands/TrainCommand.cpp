@@ -73,7 +73,7 @@ Exit run(const Arguments& arguments, Session& session) {
   writeNetwork(decoder, arguments.output.path, arguments.output.force);
   describe(decoder, session);
   session.result["file"] = arguments.output.path.string();
-  if (options.noise > 0 && !samples.hasTouches()) { // the bound is of forces on known areas
+  if (options.noise > 0 && !samples.hasTouches() && !decoder.place) { // the bound is of forces on known areas
     const NoiseBound bound = noiseBound(samples, options.input, decoder.input.rows, options.noise);
     session.result["noise_bound"] = boundJson(bound);
     if (!session.json)

@@ -51,8 +51,8 @@ namespace {
 bool equal(const SampleSet& one, const SampleSet& other) {
   const auto same = [](const auto& a, const auto& b) { return a.rows() == b.rows() && a.cols() == b.cols() && a == b; };
   return one.origin.designFingerprint == other.origin.designFingerprint && same(one.area, other.area) &&
-         same(one.forces_N, other.forces_N) && same(one.displacements_mm, other.displacements_mm) &&
-         same(one.resistances_ohm, other.resistances_ohm);
+         std::all_of(kSampleParts.begin(), kSampleParts.end(),
+                     [&](const auto part) { return same(one.*part, other.*part); });
 }
 
 bool equal(const NetworkSamples& one, const NetworkSamples& other) {

@@ -40,16 +40,6 @@ SampleSet joined(Shards shards) {
   return all;
 }
 
-SampleSet columns(const SampleSet& set, const std::vector<Eigen::Index>& chosen) {
-  SampleSet part = set;
-  part.area = set.area(chosen);
-  if (set.hasTouches()) part.touches = set.touches(Eigen::all, chosen);
-  part.forces_N = set.forces_N(Eigen::all, chosen);
-  part.displacements_mm = set.displacements_mm(Eigen::all, chosen);
-  part.resistances_ohm = set.resistances_ohm(Eigen::all, chosen);
-  return part;
-}
-
 /// Every fifth sample of each area goes to the second set.
 std::array<SampleSet, 2> heldOut(const SampleSet& all) {
   std::array<std::vector<Eigen::Index>, 2> chosen;
@@ -58,7 +48,7 @@ std::array<SampleSet, 2> heldOut(const SampleSet& all) {
     const int before = met[static_cast<std::size_t>(all.area(s))]++;
     chosen[before % kHeldOut == kHeldOut - 1 ? 1 : 0].push_back(s);
   }
-  return {columns(all, chosen[0]), columns(all, chosen[1])};
+  return {samplesAt(all, chosen[0]), samplesAt(all, chosen[1])};
 }
 
 void requireOf(const SensorDesign& design, const SampleSet& set, const fs::path& file) {
@@ -103,7 +93,7 @@ std::vector<Shards> requestsOf(const std::vector<fs::path>& files, const fs::pat
     SampleSet set = loadSamples(file, stop);
     requireOf(design, set, file);
     const auto same = std::find_if(requests.begin(), requests.end(), [&](const Shards& request) {
-      return difference(request.parts[0].origin, set.origin).empty();
+      return differenceOfHeads(request.parts[0], set).empty();
     });
     if (file == test)
       testing = Shards{file, {std::move(set)}};
@@ -148,7 +138,7 @@ NetworkSamples openTheseSampleFiles(const std::vector<fs::path>& files, const Se
   std::vector<Shards> requests = requestsOf(files, test, design, stop);
   if (requests.size() > 2)
     throw Error(requests[2].file.string() + ": its samples belong to neither of the two sets before it (" +
-                difference(requests[0].parts[0].origin, requests[2].parts[0].origin) +
+                differenceOfHeads(requests[0].parts[0], requests[2].parts[0]) +
                 "); allowed is one set for training and one for testing");
   const auto seed = [&](std::size_t k) { return requests[k].parts[0].origin.seed; };
   if (test.empty() && requests.size() == 2 && seed(0) == testSeed(seed(1))) std::swap(requests[0], requests[1]);

@@ -115,13 +115,14 @@ void DecoderTraining::describe() {
 }
 
 void DecoderTraining::addPlace() {
-  if (!samples_.hasTouches())
-    throw Error("target: force+place needs samples of touches (palp sample --touch); these load whole areas");
+  if (!samples_.hasPlaces())
+    throw Error("target: force+place needs samples of touches (palp sample --touch) or measured places (palp import); "
+                "these load whole areas");
   if (!takesPlace(options_.decoder))
     throw Error("target: " + name(options_.decoder) +
                 " gives forces alone; force+place takes rbf, linear, poly2, "
                 "poly3, gp, bp or touch");
-  const Eigen::MatrixXd places_mm = samples_.touches.middleRows<2>(kTouchX_mm);
+  const Eigen::Matrix2Xd places_mm = samples_.touchedPlaces_mm();
   decoder_.place = DecoderPlace{places_mm.rowwise().minCoeff(), places_mm.rowwise().maxCoeff(), {}};
   targets_.conservativeResize(targets_.rows() + 2, Eigen::NoChange);
   targets_.bottomRows<2>() = places_mm;
@@ -232,8 +233,10 @@ void DecoderTraining::fitLikelihood() {
 void DecoderTraining::fitTouches() {
   if (!decoder_.place) throw Error("decoder: touch gives force and place; ask for it with --target force+place");
   // Size and friction are found beside them: where they vary, what is known of force and place depends on them.
-  Eigen::MatrixXd causes(targets_.rows() + 2, targets_.cols());
-  causes << targets_, samples_.touches.row(kTouchSize_mm), samples_.touches.row(kTouchFriction);
+  Eigen::MatrixXd causes = Eigen::MatrixXd::Zero(targets_.rows() + 2, targets_.cols());
+  causes.topRows(targets_.rows()) = targets_;
+  if (samples_.hasTouches()) // nobody tells them of the indenter of a rig, which stays the same
+    causes.bottomRows<2>() << samples_.touches.row(kTouchSize_mm), samples_.touches.row(kTouchFriction);
   Eigen::VectorXi groups(causes.rows());
   groups << 1, 1, 1, 0, 0, 2, 2;
   const KernelForwardOptions options{options_.noise, options_.threads};
@@ -256,7 +259,7 @@ ForwardModel DecoderTraining::forwardModel() {
 }
 
 void DecoderTraining::fitAreas() {
-  if (samples_.hasTouches()) return; // they lie on no area
+  if (samples_.hasTouches() || decoder_.place) return; // they lie on no area
   if (samples_.together() || samples_.areaCount < 2 || options_.decoder == DecoderKind::MaximumLikelihood) return;
   const Eigen::VectorXi& area = samples_.area;
   if (area.minCoeff() == area.maxCoeff()) return; // one area only: nothing to distinguish

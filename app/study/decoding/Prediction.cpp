@@ -267,10 +267,10 @@ std::vector<std::string> otherSamples(const Decoder& decoder, const SampleSet& s
   if (samples.origin.designFingerprint != decoder.designFingerprint)
     differences.push_back("the samples are of another design (" + samples.origin.designFingerprint +
                           ") than the decoder (" + decoder.designFingerprint + "): its forces mean little there");
-  if (samples.hasTouches() && decoder.touches.empty())
+  if (samples.hasTouches() && decoder.touches.empty() && !decoder.place)
     differences.emplace_back("the decoder was trained on forces that are spread over whole areas, the samples are "
                              "touches by an indenter: its forces may be wrong by their own size; train on touches");
-  if (!samples.hasTouches() && !decoder.touches.empty())
+  if (!samples.hasPlaces() && !decoder.touches.empty())
     differences.push_back("the decoder was trained on touches (" + decoder.touches +
                           "), the samples load whole areas: its forces may be wrong by their own size");
   return differences;
@@ -285,7 +285,7 @@ void requireReadout(const Decoder& decoder, const std::optional<Readout>& readou
 namespace {
 
 PlaceError placeError(const Prediction& prediction, const SampleSet& samples) {
-  const Eigen::Matrix2Xd off = prediction.places_mm - samples.touches.middleRows<2>(kTouchX_mm);
+  const Eigen::Matrix2Xd off = prediction.places_mm - samples.touchedPlaces_mm();
   PlaceError error;
   error.rms_mm = off.array().square().rowwise().mean().sqrt();
   std::vector<double> distances;
@@ -309,7 +309,7 @@ DecoderError decoderError(const Decoder& decoder, const Prediction& prediction, 
   if (prediction.area.size() == samples.area.size() && samples.area.size() > 0)
     result.rightAreas = static_cast<double>((prediction.area.array() == samples.area.array()).count()) /
                         static_cast<double>(samples.area.size());
-  if (prediction.places_mm.cols() > 0 && samples.hasTouches()) result.place = placeError(prediction, samples);
+  if (prediction.places_mm.cols() > 0 && samples.hasPlaces()) result.place = placeError(prediction, samples);
   return result;
 }
 

@@ -40,7 +40,7 @@ bool LabelledFrames::add(const DecodedForces& forces) {
 
 void LabelledFrames::append(const SampleSet& frames, const std::string& from) {
   if (samples_.size() > 0)
-    if (const std::string differs = difference(samples_.origin, frames.origin); !differs.empty())
+    if (const std::string differs = differenceOfHeads(samples_, frames); !differs.empty())
       throw Error(from + ": other frames than those that are here: " + differs);
   palp::append(samples_, frames);
   const Eigen::Index before = said_N_.cols();
@@ -60,8 +60,8 @@ void LabelledFrames::remove(Eigen::Index sample) {
   area.head(sample) = samples_.area.head(sample);
   area.tail(area.size() - sample) = samples_.area.tail(area.size() - sample);
   samples_.area = area;
-  for (Eigen::MatrixXd* part : {&samples_.forces_N, &samples_.displacements_mm, &samples_.resistances_ohm})
-    *part = withoutColumn(*part, sample);
+  for (const auto part : kSampleParts)
+    if ((samples_.*part).rows() > 0) samples_.*part = withoutColumn(samples_.*part, sample);
   said_N_ = withoutColumn(said_N_, sample);
 }
 

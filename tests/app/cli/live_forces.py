@@ -1,7 +1,8 @@
 """palp listen --send with real receivers: the examples of resources/docs/live-forces.md (UDP, ZeroMQ, FIFO), liblo's
-oscdump, a pipe, and receivers that do not read. Waits for what was received, never for a time.
+oscdump, a pipe, and receivers that do not read; LSL with a stand-in of its library, which Debian does not have. Waits
+for what was received, never for a time.
 
-Used by CTest: python3 live_forces.py PALP PAGE
+Used by CTest: python3 live_forces.py PALP PAGE FOLDER_OF_THE_STAND_IN
 """
 
 import csv
@@ -17,8 +18,9 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
 
-PALP, PAGE = map(os.path.abspath, sys.argv[1:])
+PALP, PAGE, LSL = map(os.path.abspath, sys.argv[1:])
 WAIT_s = 100  # for what surely comes
 
 
@@ -123,6 +125,57 @@ def check_bad_wire():
         assert (frame["valid"] == "1") == good and (frame["fx_N"] != "") == good, frame
 
 
+def lsl_lines():
+    lines = [line.split() for line in open("lsl-receiver.txt")]
+    os.remove("lsl-receiver.txt")
+    return lines
+
+
+def check_lsl():
+    """Without a receiver nothing is sent; with one, the stream has the names, units and numbers of the CSV lines."""
+    environment = {**os.environ, "LD_LIBRARY_PATH": LSL}
+    process = listen("--send", "lsl:palp", "--json", "--frames", 5, env=environment)
+    output, errors = process.communicate(timeout=WAIT_s)
+    assert process.returncode == 0, errors
+    counts = json.loads(output.splitlines()[-1])["sent_to"][0]
+    assert counts["sent"] == 0 and counts["dropped"] >= 5, counts
+
+    open("lsl-receiver.txt", "w").close()
+    process = listen("--send", "lsl:palp", "--json", "--frames", 20, env=environment)
+    output, errors = process.communicate(timeout=WAIT_s)
+    apart_s = time.time() - time.clock_gettime(time.CLOCK_MONOTONIC)
+    assert process.returncode == 0, errors
+    *frames, last = map(json.loads, output.splitlines())
+    lines = lsl_lines()
+    names = "device_s,host_unix_s,frame,valid,area,fx_N,fy_N,fz_N,sd_fx_N,sd_fy_N,sd_fz_N".split(",")
+    assert lines[0][:6] == ["stream", "palp", "Force", str(len(names)), "0", "2"], lines[0]
+    assert lines[0][6].startswith("palp:") and lines[0][6].endswith(":palp"), lines[0]
+    assert [line[1] for line in lines if line[0] == "label"] == names
+    assert [line[1] for line in lines if line[0] == "unit"] == ["s", "s"] + 6 * ["N"] and lines[-1] == ["end"]
+    samples = [list(map(float, line[1:])) for line in lines if line[0] == "sample"]
+    assert len(samples) == last["sent_to"][0]["sent"] and len(samples) > 2
+    by_number = {frame["frame"]: frame for frame in frames}
+    both = [(sample, by_number[sample[3]]) for sample in samples if sample[3] in by_number]
+    assert both
+    for (time_s, *values), printed in both:
+        frame = dict(zip(names, values))
+        assert abs(time_s - (frame["host_unix_s"] - apart_s)) < 1, (frame, time_s)
+        check_frame(frame)
+        assert [frame[f"f{axis}_N"] for axis in "xyz"] == printed["forces_N"], frame
+        assert frame["area"] == printed["area"], frame
+
+    open("lsl-receiver.txt", "w").close() # frames without a force: NaN where CSV has empty fields
+    process = listen("--drop-every", 150, "--send", "lsl:palp", "--send", "csv:lsl.csv", "--frames", 30, env=environment)
+    output, errors = process.communicate(timeout=WAIT_s)
+    assert process.returncode == 0, errors
+    rows = {float(row["frame"]): list(row.values()) for row in csv.DictReader(open("lsl.csv"))}
+    samples = [list(map(float, line[2:])) for line in lsl_lines() if line[0] == "sample"]
+    both = [(sample, rows[sample[2]]) for sample in samples if sample[2] in rows]
+    assert {sample[3] for sample, row in both} == {0, 1}, both
+    for sample, row in both:
+        assert ["" if math.isnan(value) else value for value in sample] == [word and float(word) for word in row], row
+
+
 def check_receivers_that_do_not_read():
     """A FIFO that is open and never read, one that nobody opens, and a dead port: the board loses nothing."""
     os.mkfifo("stuck.fifo")
@@ -152,6 +205,13 @@ def check_refusals():
                                 text=True, timeout=WAIT_s)
         assert result.returncode == 2 and result.stderr.count("\n") == 1 and part in result.stderr, (where, result)
     assert open("there.csv").read() == "precious"
+    for name in ("liblsl.so.2", "liblsl.so"):
+        open(name, "w").close()
+    for where, folder, part in (("lsl:palp", ".", "liblsl.so.2: file too short"), ("lsl:two words", LSL, "without spaces"),
+                                ("lsl:" + 101 * "a", LSL, "1 to 100"), ("lsl:", LSL, "lsl:NAME")):
+        result = subprocess.run([PALP, "listen", "--simulate", "--frames", "1", "--send", where], capture_output=True,
+                                text=True, timeout=WAIT_s, env={**os.environ, "LD_LIBRARY_PATH": folder})
+        assert result.returncode == 2 and result.stderr.count("\n") == 1 and part in result.stderr, (where, result)
     result = subprocess.run([PALP, "listen", "--simulate", "--json", "--send", "csv:-"], capture_output=True, text=True,
                             timeout=WAIT_s)
     assert result.returncode == 2 and "csv:-" in result.stderr, result
@@ -159,7 +219,7 @@ def check_refusals():
 
 with tempfile.TemporaryDirectory() as folder:
     os.chdir(folder)
-    for step in (check_refusals, check_pipe_and_file, check_bad_wire, check_osc, check_examples,
+    for step in (check_refusals, check_pipe_and_file, check_bad_wire, check_lsl, check_osc, check_examples,
                  check_receivers_that_do_not_read):
         step()
     os.chdir("/")

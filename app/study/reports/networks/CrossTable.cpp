@@ -33,16 +33,6 @@ struct CrossLaw {
   Eigen::VectorXd rest_ohm{}; ///< row by row, as SampleSet has them
 };
 
-SampleSet samplesAt(const SampleSet& set, const std::vector<Eigen::Index>& at) {
-  SampleSet part = set;
-  part.area = set.area(at);
-  if (set.hasTouches()) part.touches = set.touches(Eigen::all, at);
-  part.forces_N = set.forces_N(Eigen::all, at);
-  part.displacements_mm = set.displacements_mm(Eigen::all, at);
-  part.resistances_ohm = set.resistances_ohm(Eigen::all, at);
-  return part;
-}
-
 Eigen::VectorXd restingReadings(const SensorDesign& design) {
   const FieldLaw* const law = design.field();
   const Eigen::MatrixXd rest = law ? NetworkReading(networkAtRest(design, *law), law->readout).resistances_ohm()
