@@ -19,6 +19,7 @@ struct OutgoingFrame {
   Eigen::Matrix3Xd forces_N;            ///< 3 x 1, or 3 x areas
   Eigen::Matrix3Xd standardDeviation_N; ///< of each; may be empty
   std::optional<int> area;              ///< most likely touched
+  std::optional<Eigen::Vector2d> place_mm{}, placeDeviation_mm{}; ///< of the touch, from the block's corner
 };
 
 /// One JSON object without an end of line: what goes by UDP and ZeroMQ. Forces only where they are valid.

@@ -50,6 +50,13 @@ std::string frameAsJson(const OutgoingFrame& frame) {
     add("", frame.forces_N);
     add("sd_", frame.standardDeviation_N);
     if (frame.area) json += R"(,"area":)" + std::to_string(*frame.area);
+    const auto addPlace = [&](const std::string& before, const std::optional<Eigen::Vector2d>& place_mm) {
+      for (int axis = 0; place_mm && axis < 2; ++axis)
+        if (std::isfinite((*place_mm)(axis)))
+          json += ",\"" + before + (axis == 0 ? "x_mm\":" : "y_mm\":") + text((*place_mm)(axis));
+    };
+    addPlace("", frame.place_mm);
+    addPlace("sd_", frame.placeDeviation_mm);
   }
   return json + "}";
 }

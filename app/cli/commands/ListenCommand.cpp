@@ -101,6 +101,8 @@ Json frameJson(const LiveFrame& live) {
       json["area"] = *forces.area;
       json["area_confidence"] = forces.areaConfidence;
     }
+    if (forces.place_mm) json["place_mm"] = list(*forces.place_mm);
+    if (forces.placeDeviation_mm) json["place_deviation_mm"] = list(*forces.placeDeviation_mm);
   } else if (!forces.reason.empty()) {
     json["reason"] = forces.reason;
   }
@@ -120,6 +122,7 @@ void printLine(const LiveStatus& status, const LiveFrame& live) {
   for (Eigen::Index i = 0; live.forces.valid && i < live.forces.forces_N.cols(); ++i)
     std::printf("  (%+.3f %+.3f %+.3f) N", live.forces.forces_N(0, i), live.forces.forces_N(1, i),
                 live.forces.forces_N(2, i));
+  if (const auto& place_mm = live.forces.place_mm) std::printf("  at (%.2f, %.2f) mm", place_mm->x(), place_mm->y());
   if (!live.forces.valid) std::printf("  no force: %s", live.forces.reason.c_str());
   std::printf("\n");
   std::fflush(stdout);

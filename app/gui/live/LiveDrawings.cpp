@@ -191,7 +191,8 @@ std::vector<LiveArrow> arrowsOf(const DecodedForces& forces) {
   for (Eigen::Index column = 0; column < forces.forces_N.cols(); ++column) {
     if (!forces.shown[static_cast<std::size_t>(column)]) continue;
     const int area = forces.forces_N.cols() > 1 ? static_cast<int>(column) : forces.area.value_or(0);
-    arrows.push_back({area, forces.forces_N.col(column)});
+    arrows.push_back({area, forces.forces_N.col(column), forces.place_mm,
+                      forces.placeDeviation_mm.value_or(Eigen::Vector2d::Zero())});
   }
   return arrows;
 }
@@ -212,6 +213,10 @@ std::vector<std::string> forceLines(const LiveFrame& frame, const LiveSettings& 
     if (!forces.shown[static_cast<std::size_t>(column)]) continue;
     const Eigen::Vector3d sd = forces.standardDeviation_N.col(column);
     lines.push_back(printed("standard deviation (%.1g, %.1g, %.1g) N", sd.x(), sd.y(), sd.z()));
+    if (forces.place_mm) {
+      const Eigen::Vector2d at = *forces.place_mm, off = forces.placeDeviation_mm.value_or(Eigen::Vector2d::Zero());
+      lines.push_back(printed("touch at (%.2f, %.2f) mm, deviation (%.1g, %.1g) mm", at.x(), at.y(), off.x(), off.y()));
+    }
     if (forces.area && forces.forces_N.cols() == 1)
       lines.push_back(
           printed("area %d; that it is no other one: %.0f %%", *forces.area, kPercent * forces.areaConfidence));

@@ -41,7 +41,7 @@ bool looksDifferent(const Eigen::MatrixXd& now, const Eigen::MatrixXd& drawn, do
 /// Several boards share the window's width.
 void LivePage::arrangeViews() {
   const int rest_px = width() - panels_->sizeHint().width();
-  views_->setVisible(!beside_ || panels_->folded() || rest_px >= 2 * counters_->tileWidth());
+  views_->setVisible(!beside_ || panels_->folded() || 2 * rest_px >= 3 * counters_->tileWidth());
   QWidget& views = *upper_->parentWidget();
   const bool narrow = views.width() < kNarrowViews_px;
   views.setMinimumHeight(narrow ? kLowTower_px : 0);

@@ -23,11 +23,6 @@ namespace {
 
 constexpr double kForceStep_N = 0.1;
 
-bool same(const std::vector<LiveArrow>& a, const std::vector<LiveArrow>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const LiveArrow& x, const LiveArrow& y) { return x.area == y.area && x.force_N == y.force_N; });
-}
-
 } // namespace
 
 LiveView::LiveView(QWidget* parent) : LiveView(std::make_unique<Parts>(), parent) {}
@@ -65,7 +60,7 @@ void LiveView::showSensor(const SensorDesign& design, double mm_per_N, bool elec
 }
 
 void LiveView::showForces(const std::vector<LiveArrow>& arrows, bool stale, const std::vector<std::string>& lines) {
-  const bool unchanged = same(arrows, parts_->arrows) && stale == parts_->stale && lines == parts_->lines;
+  const bool unchanged = arrows == parts_->arrows && stale == parts_->stale && lines == parts_->lines;
   if (unchanged && parts_->options.scale == devicePixelRatioF()) return;
   parts_->arrows = arrows;
   parts_->stale = stale;

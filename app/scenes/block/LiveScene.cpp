@@ -21,12 +21,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace palp {
 
 namespace {
 
 constexpr Color kStale{0.55, 0.55, 0.55};
+constexpr double kLeastEllipse_mm = 0.35;
+constexpr int kEllipsePoints = 32;
 constexpr double kLift_mm = 0.03; // above the top face, so that the two do not flicker
 
 Eigen::Vector3d onTop(const SensorDesign& design, double x_mm, double y_mm) {
@@ -38,6 +41,20 @@ Eigen::Matrix3Xd corners(const SensorDesign& design, int area) {
   Eigen::Matrix3Xd points(3, 4);
   points << onTop(design, box.low_mm.x(), box.low_mm.y()), onTop(design, box.high_mm.x(), box.low_mm.y()),
       onTop(design, box.high_mm.x(), box.high_mm.y()), onTop(design, box.low_mm.x(), box.high_mm.y());
+  return points;
+}
+
+/// Where the place lies to three deviations, drawn no smaller than what can be seen; on the face.
+Eigen::Matrix3Xd ellipse(const SensorDesign& design, const LiveArrow& arrow) {
+  const Eigen::Array2d half_mm = (3 * arrow.deviation_mm.array()).max(kLeastEllipse_mm);
+  Eigen::Matrix3Xd points(3, kEllipsePoints);
+  for (Eigen::Index k = 0; k < kEllipsePoints; ++k) {
+    const double angle = 2 * std::numbers::pi * static_cast<double>(k) / kEllipsePoints;
+    const Eigen::Array2d at = (arrow.place_mm->array() + half_mm * Eigen::Array2d(std::cos(angle), std::sin(angle)))
+                                  .max(0)
+                                  .min(design.block_mm.head<2>().array());
+    points.col(k) = onTop(design, at.x(), at.y());
+  }
   return points;
 }
 
@@ -54,7 +71,7 @@ struct LiveScene::Parts {
   vtkNew<vtkCubeSource> box;
   vtkNew<vtkActor> block;
   vtkNew<vtkPolyData> touchedData;
-  vtkNew<vtkActor> touched; ///< the pressed areas, tinted
+  vtkNew<vtkActor> touched; ///< the pressed areas and places, tinted
   Polylines edges{*renderer};
   Polylines borders{*renderer};
   ElectrodeActors electrodes{*renderer};
@@ -73,9 +90,9 @@ void LiveScene::Parts::tintAreas(const Color& color) {
   vtkNew<vtkPoints> points;
   vtkNew<vtkCellArray> faces;
   for (const LiveArrow& arrow : arrows) {
-    const Eigen::Matrix3Xd four = corners(design, arrow.area);
-    faces->InsertNextCell(4);
-    for (Eigen::Index k = 0; k < 4; ++k) faces->InsertCellPoint(points->InsertNextPoint(four.col(k).data()));
+    const Eigen::Matrix3Xd rim = arrow.place_mm ? ellipse(design, arrow) : corners(design, arrow.area);
+    faces->InsertNextCell(rim.cols());
+    for (const auto corner : rim.colwise()) faces->InsertCellPoint(points->InsertNextPoint(corner.data()));
   }
   touchedData->SetPoints(points);
   touchedData->SetPolys(faces);
@@ -149,7 +166,10 @@ void LiveScene::showForces(const std::vector<LiveArrow>& arrows, bool stale, con
   const Palette& ink = palette(parts.options.theme);
   const Color& color = stale ? kStale : ink.force;
   std::vector<PlacedForce> forces;
-  for (const LiveArrow& arrow : parts.arrows) forces.push_back({middle(parts.design, arrow.area), arrow.force_N});
+  for (const LiveArrow& arrow : parts.arrows)
+    forces.push_back({arrow.place_mm ? onTop(parts.design, arrow.place_mm->x(), arrow.place_mm->y())
+                                     : middle(parts.design, arrow.area),
+                      arrow.force_N});
   parts.forces.showToScale(forces, parts.options.mm_per_N, color, true);
   parts.tintAreas(color);
   parts.overlay->words.clear();

@@ -12,10 +12,13 @@ class vtkRenderer;
 
 namespace palp {
 
-/// A decoded force on its load area.
+/// A decoded force on its load area, or where on the top face it was decoded to act.
 struct LiveArrow {
   int area = 0;
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
+  std::optional<Eigen::Vector2d> place_mm{};
+  Eigen::Vector2d deviation_mm = Eigen::Vector2d::Zero(); ///< of the place
+  bool operator==(const LiveArrow&) const = default;
 };
 
 struct LiveSceneOptions {

@@ -85,13 +85,11 @@ void Heatmap::paintCells(Canvas& canvas, vtkLookupTable& table) const {
   // All edges on whole pixels, so that all gaps are equally wide.
   const double gap = std::min(cellWidth_, cellHeight_) > 6 * scale ? std::round(scale) : 0;
   for (Eigen::Index row = 0; row < spec.values.rows(); ++row)
-    for (Eigen::Index column = 0; column < spec.values.cols(); ++column) {
-      if (std::isnan(spec.values(row, column))) continue; // a hole
+    for (Eigen::Index column = 0; column < spec.values.cols(); ++column)
       canvas.fill(std::round(columnEdge(column)), std::round(rowEdge(row)),
                   std::round(columnEdge(column + 1)) - (column + 1 < spec.values.cols() ? gap : 0),
                   std::round(rowEdge(row + 1)) - (row + 1 < spec.values.rows() ? gap : 0),
                   mapped(table, spec.values(row, column)));
-    }
   if (!spec.selected) return;
   const double thickness = std::round(2.5 * scale), outside = std::round(0.5 * thickness);
   const auto [row, column] = *spec.selected;

@@ -196,6 +196,10 @@ DecodedForces ForceDecoder::decode(const BoardFrame& frame) {
   if (!decoded.valid) decoded.reason = "the network's answer is not a number for these readings";
   addRestError(decoded);
   threshold(decoded);
+  if (prediction.places_mm.cols() == 1 && decoded.shown.front()) {
+    decoded.place_mm = prediction.places_mm.col(0);
+    if (prediction.placeDeviation_mm.cols() == 1) decoded.placeDeviation_mm = prediction.placeDeviation_mm.col(0);
+  }
   if (decoded.valid) judge(frame, prediction, readings_ohm, decoded);
   return decoded;
 }
@@ -244,8 +248,8 @@ void ForceDecoder::judge(const BoardFrame& frame, const Prediction& prediction, 
 /// range's edge. How far is known there: it counts in full for a force that may be rest, and fades as the force leaves
 /// it.
 void ForceDecoder::addRestError(DecodedForces& decoded) const {
-  const Eigen::Array3Xd away =
-      (decoded.forces_N - restError_N_).array() / (kRestReach * decoded.standardDeviation_N.array());
+  const Eigen::Array3Xd off = (decoded.forces_N - restError_N_).array();
+  const Eigen::Array3Xd away = (off != 0).select(off / (kRestReach * decoded.standardDeviation_N.array()), 0);
   const Eigen::RowVectorXd share = (1 + away.square().colwise().sum()).inverse();
   decoded.standardDeviation_N =
       (decoded.standardDeviation_N.array().square() + (restError_N_ * share.asDiagonal()).array().square()).sqrt();
@@ -256,8 +260,9 @@ void ForceDecoder::threshold(DecodedForces& decoded) {
   const bool known = tared_ || meter_.ready(); // else nothing is said of what stands out of the noise
   for (std::size_t i = 0; i < shown_.size(); ++i) {
     const auto column = static_cast<Eigen::Index>(i);
-    const double size =
-        (decoded.forces_N.col(column).array().abs() / decoded.standardDeviation_N.col(column).array()).maxCoeff();
+    // A component that never varied in the training is 0 with a deviation of 0, and says nothing.
+    const Eigen::Array3d force = decoded.forces_N.col(column).array().abs();
+    const double size = (force > 0).select(force / decoded.standardDeviation_N.col(column).array(), 0).maxCoeff();
     shown_[i] = decoded.valid && known && size > (shown_[i] ? kHideBelow : kShowAbove);
   }
   decoded.shown = shown_;

@@ -23,6 +23,8 @@ struct DecodedForces {
   std::vector<bool> shown;              ///< one a column: stands out of the noise
   std::optional<int> area;              ///< most likely touched, where the decoder determines it
   double areaConfidence = 0;
+  /// Of the touch on the top face and its deviations, where the decoder gives it and the force stands out of the noise.
+  std::optional<Eigen::Vector2d> place_mm, placeDeviation_mm;
   bool outsideTrainingRange = false; ///< of the forces; of the readings where there is no forward model
   std::optional<double> misfit;      ///< Plausibility::Verdict::misfit
   bool doubted = false;              ///< the forces of this frame can hardly be true

@@ -13,7 +13,9 @@ OutgoingFrame outgoing(const LiveFrame& live, double unix_s) {
   OutgoingFrame frame{live.frame.time_s,    unix_s,
                       live.frame.number,    live.forces.valid,
                       live.forces.forces_N, live.forces.standardDeviation_N,
-                      live.forces.area};
+                      live.forces.area,
+                      live.forces.place_mm,
+                      live.forces.placeDeviation_mm};
   return frame;
 }
 

@@ -1,8 +1,11 @@
 // Decoders of force and place, on samples of touches.
 
+#include "app/study/Median.h"
 #include "app/study/decoding/DecoderTraining.h"
 #include "app/study/decoding/Prediction.h"
+#include "app/study/live/ForceDecoder.h"
 #include "io/DecoderFile.h"
+#include "io/DesignFile.h"
 #include "model/RowColumnResistance.h"
 #include "model/TouchRange.h"
 #include "model/base/Error.h"
@@ -10,6 +13,8 @@
 #include <gtest/gtest.h>
 
 #include <ostream>
+#include <random>
+#include <vector>
 
 namespace palp {
 
@@ -96,6 +101,43 @@ TEST_P(TouchDecoder, LearnsForceAndPlaceAndComesBackFromItsFile) {
   EXPECT_LT(error.place->median_mm, 4.5);
   EXPECT_LT(error.error.rmsePercentOfRange(2), 10);
   EXPECT_EQ(error.error.rmsePercentOfRange(0), 0) << "frictionless: nothing goes sideways";
+}
+
+/// As a board's frames come, noise and all: the place stands beside the force where that stands out of the noise.
+TEST(TouchesOfABoard, FramesTellWhereTheTouchIs) {
+  const SampleSet train = standInTouches(250, 1), fresh = standInTouches(20, 2);
+  Decoder decoder = trainDecoder(train, nullptr, forceAndPlace(DecoderKind::TouchInversion));
+  decoder.designFingerprint = designFingerprint(paperDesign()); // whose rest the touches begin from
+  ForceDecoder live(std::move(decoder), BoardInfo{});
+  std::mt19937 engine(3);
+  std::normal_distribution<double> noise(0, 1e-5);
+  const auto decoded = [&](const Eigen::MatrixXd& resistances_ohm) {
+    BoardFrame frame;
+    frame.rowExpected.assign(10, true);
+    frame.resistances_ohm = resistances_ohm.unaryExpr([&](double ohm) { return ohm * (1 + noise(engine)); });
+    frame.state.setConstant(10, 30, ReadingState::Good);
+    frame.complete = true;
+    return live.decode(frame);
+  };
+  const auto touch = [&](Eigen::Index i) -> Eigen::MatrixXd {
+    return fresh.resistances_ohm.col(i).reshaped(30, 10).transpose();
+  };
+  const Eigen::MatrixXd still = rowColumnResistances(paperDesign(), ElectrodeDisplacements::atRest(paperDesign()));
+  live.startTare(50); // which also measures the noise
+  for (int k = 0; k < 50; ++k) EXPECT_FALSE(decoded(still).place_mm) << "nothing is known before the tare is done";
+  std::vector<double> off_mm;
+  for (Eigen::Index i = 0; i < fresh.size(); ++i) {
+    const DecodedForces forces = decoded(touch(i));
+    ASSERT_TRUE(forces.valid) << forces.reason;
+    if (!forces.shown.front()) continue;
+    ASSERT_TRUE(forces.place_mm && forces.placeDeviation_mm);
+    EXPECT_GT(forces.placeDeviation_mm->minCoeff(), 0);
+    off_mm.push_back((*forces.place_mm - fresh.touches.col(i).middleRows<2>(kTouchX_mm)).norm());
+  }
+  ASSERT_GT(off_mm.size(), 10U);
+  EXPECT_LT(median(off_mm), 2);
+  for (int k = 0; k < 5; ++k) decoded(still);
+  EXPECT_FALSE(decoded(still).place_mm) << "nothing touches it";
 }
 
 TEST(TouchInversion, IsBetterThanANetworkAndKnowsItsError) {
