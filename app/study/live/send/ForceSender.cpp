@@ -10,9 +10,12 @@ constexpr std::size_t kMostWaiting = 1024;         ///< a second at the usual ra
 constexpr std::chrono::milliseconds kPatience{50}; ///< with one frame, before it is dropped
 
 OutgoingFrame outgoing(const LiveFrame& live, double unix_s) {
-  OutgoingFrame frame{live.frame.time_s,    unix_s,
-                      live.frame.number,    live.forces.valid,
-                      live.forces.forces_N, live.forces.standardDeviation_N,
+  OutgoingFrame frame{live.frame.time_s,
+                      unix_s,
+                      live.frame.number,
+                      live.forces.valid,
+                      live.forces.forces_N,
+                      live.forces.standardDeviation_N,
                       live.forces.area,
                       live.forces.place_mm,
                       live.forces.placeDeviation_mm};
