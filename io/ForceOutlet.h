@@ -29,7 +29,7 @@ std::string frameAsJson(const OutgoingFrame& frame);
 std::string frameCsvHead(Eigen::Index forces);
 std::string frameAsCsv(const OutgoingFrame& frame, Eigen::Index forces);
 
-/// Where frames go: one receiver. Used by one thread, which it may not hold up for longer than `patience`.
+/// Where frames go: one receiver. Used by one thread at a time, which it may not hold up for longer than `patience`.
 class ForceOutlet {
 public:
   ForceOutlet() = default;
@@ -39,6 +39,8 @@ public:
 
   /// Whether the frame was handed to the system; false: nobody takes it now, and it is lost.
   virtual bool send(const OutgoingFrame& frame, std::chrono::milliseconds patience) = 0;
+  /// Whether send() may wait for the receiver, so that it needs a thread of its own.
+  [[nodiscard]] virtual bool mayWait() const { return true; }
 };
 
 /// "udp:HOST:PORT", "osc:HOST:PORT", "zmq:HOST:PORT" (a publisher that connects to a subscriber which is bound there),

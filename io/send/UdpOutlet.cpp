@@ -64,6 +64,9 @@ public:
     return ::send(socket_, json.data(), json.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(json.size());
   }
 
+  /// The socket is not blocking: a datagram goes at once or is lost.
+  [[nodiscard]] bool mayWait() const override { return false; }
+
 private:
   int socket_ = -1;
 };

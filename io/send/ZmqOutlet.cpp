@@ -29,6 +29,9 @@ public:
     return zmq_send(socket_.get(), json.data(), json.size(), ZMQ_DONTWAIT) >= 0;
   }
 
+  /// The library's own thread sends; what it cannot keep is lost.
+  [[nodiscard]] bool mayWait() const override { return false; }
+
 private:
   std::unique_ptr<void, decltype(&zmq_ctx_term)> context_;
   std::unique_ptr<void, decltype(&zmq_close)> socket_;

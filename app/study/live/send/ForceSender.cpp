@@ -24,8 +24,9 @@ OutgoingFrame outgoing(const LiveFrame& live, double unix_s) {
 
 } // namespace
 
-ForceSender::ForceSender(std::unique_ptr<ForceOutlet> outlet)
-    : outlet_(std::move(outlet)), thread_([this](const std::stop_token& stop) { run(stop); }) {}
+ForceSender::ForceSender(std::unique_ptr<ForceOutlet> outlet) : outlet_(std::move(outlet)) {
+  if (outlet_->mayWait()) thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+}
 
 ForceSender::~ForceSender() {
   thread_.request_stop();
@@ -33,13 +34,18 @@ ForceSender::~ForceSender() {
 }
 
 void ForceSender::give(std::shared_ptr<const LiveFrame> frame, double host_unix_s) {
+  Waiting given{std::move(frame), host_unix_s, std::chrono::steady_clock::now()};
+  if (!outlet_->mayWait()) {
+    const std::lock_guard lock(direct_);
+    return send(given);
+  }
   {
     const std::lock_guard lock(mutex_);
     if (waiting_.size() >= kMostWaiting) {
       ++counts_.dropped;
       return;
     }
-    waiting_.push_back({std::move(frame), host_unix_s, std::chrono::steady_clock::now()});
+    waiting_.push_back(std::move(given));
   }
   changed_.notify_all();
 }
@@ -65,22 +71,27 @@ void ForceSender::run(const std::stop_token& stop) {
     waiting_.pop_front();
     sending_ = true;
     lock.unlock();
-    bool sent = false;
-    try {
-      sent = outlet_->send(outgoing(*next.frame, next.host_unix_s), kPatience);
-    } catch (...) { // the root of this thread: a frame that cannot be sent is dropped
-    }
-    const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - next.given).count();
+    send(next);
     lock.lock();
     sending_ = false;
-    if (sent) {
-      ++counts_.sent;
-      latency_.addMeasured(took_s);
-    } else {
-      ++counts_.dropped;
-    }
     if (waiting_.empty()) changed_.notify_all();
     if (stop.stop_requested()) break;
+  }
+}
+
+void ForceSender::send(const Waiting& next) {
+  bool sent = false;
+  try {
+    sent = outlet_->send(outgoing(*next.frame, next.host_unix_s), kPatience);
+  } catch (...) { // nobody can be told: a frame that cannot be sent is dropped
+  }
+  const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - next.given).count();
+  const std::lock_guard lock(mutex_);
+  if (sent) {
+    ++counts_.sent;
+    latency_.addMeasured(took_s);
+  } else {
+    ++counts_.dropped;
   }
 }
 

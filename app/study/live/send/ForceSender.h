@@ -17,8 +17,9 @@ struct SenderCounts {
   LatencySummary latency;    ///< from the decoded frame to its being sent
 };
 
-/// Sends frames to one outlet in a thread of its own. Who gives them never waits: a receiver that stops reading loses
-/// frames, and nothing else changes.
+/// Sends frames to one outlet. Who gives them never waits: a receiver that stops reading loses frames, and nothing else
+/// changes. An outlet that may wait has a thread of its own; any other is served by who gives, as a thread that must
+/// wake first is milliseconds late on a busy computer.
 class ForceSender {
 public:
   explicit ForceSender(std::unique_ptr<ForceOutlet> outlet);
@@ -40,15 +41,18 @@ private:
     std::chrono::steady_clock::time_point given;
   };
   void run(const std::stop_token& stop);
+  /// One frame, whose fate is counted.
+  void send(const Waiting& next);
 
   std::unique_ptr<ForceOutlet> outlet_;
-  mutable std::mutex mutex_;
+  std::mutex direct_;        ///< one frame after another, where no thread of ours sends them
+  mutable std::mutex mutex_; ///< of all below
   std::condition_variable_any changed_;
   std::deque<Waiting> waiting_;
   bool sending_ = false;
   SenderCounts counts_;
   LatencyMeter latency_;
-  std::jthread thread_; ///< last: it uses all of the above
+  std::jthread thread_; ///< none where the outlet never waits; last: it uses all of the above
 };
 
 } // namespace palp

@@ -22,6 +22,21 @@ private:
   std::shared_future<void> released_;
 };
 
+/// Never waits, and tells in which thread it was called.
+class PromptOutlet : public ForceOutlet {
+public:
+  explicit PromptOutlet(std::thread::id& caller) : caller_(caller) {}
+  bool send(const OutgoingFrame& frame, std::chrono::milliseconds /*patience*/) override {
+    caller_ = std::this_thread::get_id();
+    if (frame.frame == 7) throw std::runtime_error("not this one");
+    return frame.valid;
+  }
+  [[nodiscard]] bool mayWait() const override { return false; }
+
+private:
+  std::thread::id& caller_;
+};
+
 std::shared_ptr<const LiveFrame> liveFrame(bool valid) {
   auto frame = std::make_shared<LiveFrame>();
   frame->forces.valid = valid;
@@ -50,6 +65,28 @@ TEST(ForceSender, CountsWhatTheReceiverDidNotTake) {
   sender.finish(kSurely);
   EXPECT_EQ(sender.counts().sent, 1U);
   EXPECT_EQ(sender.counts().dropped, 1U);
+}
+
+TEST(ForceSender, SendsAtOnceInTheThreadThatGivesWhereNothingWaits) {
+  std::thread::id caller;
+  ForceSender sender(std::make_unique<PromptOutlet>(caller));
+  sender.give(liveFrame(true), 0);
+  EXPECT_EQ(caller, std::this_thread::get_id());
+  EXPECT_EQ(sender.counts().sent, 1U) << "when give() returns";
+  sender.give(liveFrame(false), 0);
+  auto refused = std::make_shared<LiveFrame>(*liveFrame(true));
+  refused->frame.number = 7;
+  sender.give(refused, 0);
+  EXPECT_EQ(sender.counts().dropped, 2U);
+  std::vector<std::jthread> several; // boards that share a receiver
+  for (int t = 0; t < 4; ++t)
+    several.emplace_back([&] {
+      for (int i = 0; i < 100; ++i) sender.give(liveFrame(true), 0);
+    });
+  several.clear();
+  sender.finish(kSurely);
+  EXPECT_EQ(sender.counts().sent, 401U);
+  EXPECT_GT(sender.counts().latency.longest_s, 0);
 }
 
 TEST(OutgoingFrame, HasItsUnitsInItsNamesAndNoForcesWhereThereAreNone) {
