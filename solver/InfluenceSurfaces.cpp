@@ -24,13 +24,13 @@ constexpr std::array kNodes{0.046910077030668, 0.230765344947158, 0.5, 0.7692346
 constexpr std::array kWeights{0.118463442528095, 0.239314335249683, 0.284444444444444, 0.239314335249683,
                               0.118463442528095};
 constexpr int kAngles = 24;
-constexpr int kPoints = kAngles * static_cast<int>(kNodes.size());
+constexpr int kDiscPoints = kAngles * static_cast<int>(kNodes.size());
 
 /// Points of a disc of radius 1 and their shares of a force on it. With t = sqrt(1 - r^2) the pressure under a flat end
 /// goes as 1 / t, Hertz's as t, and r dr = -t dt.
 struct Disc {
-  Eigen::Matrix2Xd points{2, kPoints};
-  Eigen::VectorXd flat{kPoints}, hertz{kPoints};
+  Eigen::Matrix2Xd points{2, kDiscPoints};
+  Eigen::VectorXd flat{kDiscPoints}, hertz{kDiscPoints};
 
   Disc() {
     for (std::size_t ring = 0; ring < kNodes.size(); ++ring)
@@ -148,7 +148,7 @@ std::vector<TouchInfluence> InfluenceSurfaces::of(std::span<const Indenter> touc
   forChunks(static_cast<int>(touches.size()), kTouchesAtOnce, threads, [&](int begin, int end) {
     if (stop.stop_requested()) throw Cancelled();
     constexpr Eigen::Index sumsEach = 6; // pressed at the five places, and sideways in the middle
-    const Eigen::Index pointsEach = 5 * kPoints;
+    const Eigen::Index pointsEach = 5 * kDiscPoints;
     Eigen::Matrix2Xd points(2, pointsEach * (end - begin));
     Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(points.cols(), sumsEach * (end - begin));
     for (int i = begin; i < end; ++i) {
@@ -157,12 +157,12 @@ std::vector<TouchInfluence> InfluenceSurfaces::of(std::span<const Indenter> touc
       result[static_cast<std::size_t>(i)].radius_mm = radius_mm;
       const Eigen::VectorXd& pressure = touch.shape == IndenterShape::Flat ? disc.flat : disc.hertz;
       for (Eigen::Index s = 0; s < 5; ++s) {
-        const Eigen::Index first = pointsEach * (i - begin) + s * kPoints;
-        points.middleCols(first, kPoints) =
+        const Eigen::Index first = pointsEach * (i - begin) + s * kDiscPoints;
+        points.middleCols(first, kDiscPoints) =
             (radius_mm * disc.points).colwise() + (touch.place_mm + shifts[static_cast<std::size_t>(s)]);
-        sums.col(sumsEach * (i - begin) + s).segment(first, kPoints) = pressure;
+        sums.col(sumsEach * (i - begin) + s).segment(first, kDiscPoints) = pressure;
       }
-      sums.col(sumsEach * (i - begin) + 5).segment(pointsEach * (i - begin), kPoints) = disc.flat;
+      sums.col(sumsEach * (i - begin) + 5).segment(pointsEach * (i - begin), kDiscPoints) = disc.flat;
     }
     const Eigen::MatrixXd all = influence(points, sums);
     for (int i = begin; i < end; ++i) {

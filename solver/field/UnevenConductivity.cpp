@@ -16,7 +16,7 @@ namespace palp {
 
 namespace {
 
-constexpr int kPoints = TetRule::points;
+constexpr int kRulePoints = TetRule::points;
 using Rows = ConductionSolve::Rows;
 
 } // namespace
@@ -24,13 +24,13 @@ using Rows = ConductionSolve::Rows;
 UnevenConductivity::UnevenConductivity(const FieldMesh& mesh, const Eigen::Matrix3Xd& nodes_mm,
                                        const Eigen::VectorXd& logConductivity, double reach_mm)
     : mesh_(&mesh), reach_mm_(reach_mm), elements_(std::size_t(mesh.elements())),
-      at_(Eigen::Index(mesh.elements()) * kPoints, 6), volumes_(at_.rows()) {
+      at_(Eigen::Index(mesh.elements()) * kRulePoints, 6), volumes_(at_.rows()) {
   const Eigen::MatrixXi& nodes = mesh.tets().elements;
   for (int e = 0; e < mesh.elements(); ++e) elements_[std::size_t(e)] = e;
   const auto even = std::stable_partition(elements_.begin(), elements_.end(),
                                           [&](int e) { return !logConductivity(nodes.col(e)).isZero(0); });
   uneven_ = static_cast<int>(even - elements_.begin());
-  squareSlopes_.resize(Eigen::Index(uneven_) * kPoints);
+  squareSlopes_.resize(Eigen::Index(uneven_) * kRulePoints);
   shapes_.resize(10, squareSlopes_.size());
   gradients_.resize(10, squareSlopes_.size());
   const TetRule& rule = tetRule();
@@ -38,8 +38,8 @@ UnevenConductivity::UnevenConductivity(const FieldMesh& mesh, const Eigen::Matri
     const auto own = nodes.col(elements_[i]);
     const Eigen::Matrix<double, 3, 10> places = nodes_mm(Eigen::all, own);
     const Eigen::Matrix<double, 10, 1> l = 0.5 * logConductivity(own);
-    for (int q = 0; q < kPoints; ++q) {
-      const Eigen::Index point = Eigen::Index(i) * kPoints + q;
+    for (int q = 0; q < kRulePoints; ++q) {
+      const Eigen::Index point = Eigen::Index(i) * kRulePoints + q;
       const Eigen::Matrix<double, 10, 3>& local = rule.gradients[std::size_t(q)];
       const Eigen::Matrix3d map = places * local;
       const double volume = rule.weights[std::size_t(q)] * map.determinant() / 6;
@@ -62,8 +62,8 @@ UnevenConductivity::UnevenConductivity(const FieldMesh& mesh, const Eigen::Matri
 void UnevenConductivity::addElements(int first, int count, const std::vector<Eigen::Matrix3Xd>& sources_mm,
                                      Rows& onElements, Eigen::MatrixXd& products) const {
   const auto sources = static_cast<int>(sources_mm.size());
-  const Eigen::Index from = Eigen::Index(first) * kPoints;
-  const int points = count * kPoints;
+  const Eigen::Index from = Eigen::Index(first) * kRulePoints;
+  const int points = count * kRulePoints;
   Eigen::MatrixXd potentials = Eigen::MatrixXd::Zero(points, sources), slopes = potentials;
   const auto part = [&](Eigen::Index k) { return at_.col(k).data() + from; };
   const SurfacePoints places{part(0), part(1), part(2), part(3), part(4), part(5), points};
@@ -75,10 +75,10 @@ void UnevenConductivity::addElements(int first, int count, const std::vector<Eig
   potentials /= kFourPi;
   slopes /= kFourPi;
   for (int e = 0; e < count; ++e) {
-    const Eigen::Index own = Eigen::Index(e) * kPoints;
+    const Eigen::Index own = Eigen::Index(e) * kRulePoints;
     auto out = onElements.middleRows(10 * Eigen::Index(e), 10);
-    out.noalias() = shapes_.middleCols(from + own, kPoints) * slopes.middleRows(own, kPoints);
-    out.noalias() += gradients_.middleCols(from + own, kPoints) * potentials.middleRows(own, kPoints);
+    out.noalias() = shapes_.middleCols(from + own, kRulePoints) * slopes.middleRows(own, kRulePoints);
+    out.noalias() += gradients_.middleCols(from + own, kRulePoints) * potentials.middleRows(own, kRulePoints);
   }
   for (int q = 0; q < sources; ++q)
     slopes.col(q).array() -= squareSlopes_.segment(from, points).array() * potentials.col(q).array();

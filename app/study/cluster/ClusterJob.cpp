@@ -58,11 +58,11 @@ ChildRun shell(const ClusterJob& job, const std::string& line, const std::stop_t
   return run;
 }
 
-struct Measured {
+struct MeasuredShard {
   double samples = 0, all = 0, seconds = 0, memory_MB = 0;
 };
 
-Measured measuredSamples(const ClusterJob& job, int parts, const std::stop_token& stop) {
+MeasuredShard measuredSamples(const ClusterJob& job, int parts, const std::stop_token& stop) {
   const ScratchFolder scratch;
   const std::string out = (scratch.path() / ("first" + extensionOf(job))).string();
   const ChildRun run = shell(job,
@@ -112,8 +112,8 @@ void measure(ClusterJob& job, const std::stop_token& stop) {
     job.memory_MB = run.peak_MB;
     return;
   }
-  const Measured none = measuredSamples(job, 1'000'000, stop); // what every shard begins with
-  const Measured some = measuredSamples(
+  const MeasuredShard none = measuredSamples(job, 1'000'000, stop); // what every shard begins with
+  const MeasuredShard some = measuredSamples(
       job, std::max(1, static_cast<int>(none.all / std::min<double>(none.all, kMeasuredSamples))), stop);
   const double each_s =
       some.samples > none.samples ? std::max(0., some.seconds - none.seconds) / (some.samples - none.samples) : 0;
@@ -177,7 +177,7 @@ std::map<std::string, std::string> clusterScripts(const ClusterJob& job) {
              "#SBATCH --array=1-" + all + "\n#SBATCH --cpus-per-task=" + std::to_string(job.cpus) +
                  "\n#SBATCH --mem=" + std::to_string(memory) + "M\n#SBATCH --time=" + asTime(job.secondsAShard) + "\n",
              "%a.txt") +
-      "# Measured: " + text(std::round(10 * job.secondsAShard) / 10) + " s a shard, " +
+      "# MeasuredShard: " + text(std::round(10 * job.secondsAShard) / 10) + " s a shard, " +
       text(std::round(job.memory_MB)) + " MB; the limits leave room for slower nodes.\n" + folder +
       "/shard.sh \"$SLURM_ARRAY_TASK_ID\"\n"
       "status=$?\n"

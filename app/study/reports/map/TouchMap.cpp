@@ -14,7 +14,7 @@ namespace palp {
 
 namespace {
 
-constexpr double kSeen = 3; // deviations of the noise
+constexpr double kSeenDeviations = 3; // deviations of the noise
 
 LinearReadings byPairs(const SensorDesign& design) {
   const Eigen::Index rows = design.rowWires(), columns = design.columnWires();
@@ -89,7 +89,7 @@ public:
     for (int y = 0; y < rows; ++y)
       for (int x = 0; x < columns; ++x) {
         const TouchInfluence& of = at(x, y);
-        map.smallestForce_N(x, y) = kSeen * request_.relativeNoise / of.perNewton.col(2).norm();
+        map.smallestForce_N(x, y) = kSeenDeviations * request_.relativeNoise / of.perNewton.col(2).norm();
         const Eigen::MatrixXd slippery = unknownsOf(of);
         const Eigen::VectorXd withoutFriction = deviations(slippery);
         map.slipperyForce_N(x, y) = withoutFriction(0);
@@ -131,10 +131,10 @@ private:
         const Eigen::VectorXd pair = force_N_ / (2 * request_.relativeNoise) *
                                      (at(x - dx, y - dy).perNewton + at(x + dx, y + dy).perNewton).col(2);
         const double distance = 2 * m * step_mm_(axis), rest = (pair - span * (span.transpose() * pair)).norm();
-        if (rest >= kSeen) {
+        if (rest >= kSeenDeviations) {
           const double power =
               m == 1 ? 2 : std::max(1., std::log(rest / restBefore) / std::log(distance / distanceBefore));
-          found = distance * std::pow(kSeen / rest, 1 / power);
+          found = distance * std::pow(kSeenDeviations / rest, 1 / power);
           break;
         }
         distanceBefore = distance;

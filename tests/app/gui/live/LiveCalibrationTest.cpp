@@ -73,7 +73,7 @@ TEST_F(LiveCalibrating, SaysThatTheLabelsDoNotBelongToTheFrames) {
 }
 
 TEST_F(LiveCalibrating, SaysThatTheNetworkSeesTheLoadOnAnotherArea) {
-  ASSERT_TRUE(waitForFrames());
+  ASSERT_TRUE(waitForArrow());
   use([](LiveSettings& live) {
     live.simulation.held = true;
     live.simulation.heldArea = 5;
@@ -81,7 +81,8 @@ TEST_F(LiveCalibrating, SaysThatTheNetworkSeesTheLoadOnAnotherArea) {
   });
   ASSERT_TRUE(wait([&] {
     const LiveFrame* last = page.host().history().last();
-    return last != nullptr && last->forces.area == 5 && last->forces.areaConfidence > 0.99;
+    return last != nullptr && last->forces.area == 5 && last->forces.areaConfidence > 0.99 &&
+           last->forces.shown == std::vector<bool>{true};
   }));
   page.findChild<QTabWidget*>("curveTabs")->setCurrentIndex(1);
   type<QSpinBox>("labelFrames", "5");
