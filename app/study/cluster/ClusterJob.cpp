@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kMeasuredSamples = 32; // one batch of the solver
-constexpr double kTimeMargin = 2;    // of the limit over what is expected: nodes differ
+constexpr double kFewSamples = 32, kSomeSamples = 96; // one batch of the solver, and three
+constexpr double kTimeMargin = 2;                     // of the limit over what is expected: nodes differ
 constexpr double kSpareTime_s = 300;
 constexpr double kMemoryMargin = 1.3, kSpareMemory_MB = 200;
 constexpr double kMostMeasured_s = 24 * 3600;
@@ -112,12 +112,16 @@ void measure(ClusterJob& job, const std::stop_token& stop) {
     job.memory_MB = run.peak_MB;
     return;
   }
-  const MeasuredShard none = measuredSamples(job, 1'000'000, stop); // what every shard begins with
-  const MeasuredShard some = measuredSamples(
-      job, std::max(1, static_cast<int>(none.all / std::min<double>(none.all, kMeasuredSamples))), stop);
+  // A shard begins with mesh, factorisation and predictors, which two sizes tell apart from its samples.
+  const double all = measuredSamples(job, 1'000'000, stop).all; // of no sample
+  const auto first = [&](double samples) {
+    return measuredSamples(job, std::max(1, static_cast<int>(all / std::min(all, samples))), stop);
+  };
+  const MeasuredShard few = first(kFewSamples), some = first(kSomeSamples);
   const double each_s =
-      some.samples > none.samples ? std::max(0., some.seconds - none.seconds) / (some.samples - none.samples) : 0;
-  job.secondsAShard = none.seconds + each_s * std::ceil(none.all / job.shards);
+      some.samples > few.samples ? std::max(0., some.seconds - few.seconds) / (some.samples - few.samples) : 0;
+  const double before_s = std::max(0., few.seconds - each_s * few.samples);
+  job.secondsAShard = before_s + each_s * std::ceil(all / job.shards);
   job.memory_MB = some.memory_MB;
 }
 
