@@ -133,7 +133,7 @@ SampleSet headOf(const ImportMap& map, const SensorDesign* design, const fs::pat
   std::string name = table.filename().string();
   for (char& letter : name)
     if (letter < ' ' || letter > '~') letter = '_';
-  head.origin.mesh = "measured, from " + name;
+  head.origin.mesh = kImportedFrom + name;
   head.rowWires = map.rowWires;
   head.electrodesPerRowWire = design != nullptr ? design->electrodesPerRowWire() : 1;
   head.columnWires = map.columnWires;

@@ -6,6 +6,10 @@
 
 namespace palp {
 
+bool SampleOrigin::imported() const {
+  return mesh.starts_with(kImportedFrom);
+}
+
 std::string difference(const SampleOrigin& a, const SampleOrigin& b) {
   const auto differs = [](const char* what, const std::string& left, const std::string& right) {
     return std::string(what) + " differs: " + left + " and " + right;

@@ -26,7 +26,13 @@ struct SampleOrigin {
   std::size_t firstSample = 0;         ///< index of the first sample within the whole request; above 0 only in shards
   std::optional<Readout> readout = {}; ///< that the resistances are of; none: by Eq. (1), where wires do not meet
   std::string touches{};               ///< what indenters were drawn from, in words; empty where areas are loaded
+
+  /// Measured by another rig: `mesh` is kImportedFrom and the name of its table, and the fingerprint need not be of a
+  /// design.
+  [[nodiscard]] bool imported() const;
 };
+
+inline constexpr const char* kImportedFrom = "measured, from ";
 
 /// Rows of SampleSet::touches.
 enum TouchRow { kTouchShape, kTouchSize_mm, kTouchFriction, kTouchX_mm, kTouchY_mm, kTouchRows };

@@ -74,6 +74,7 @@ TEST_P(SampleArrays, KeepTheHead) {
 
 TEST_P(SampleArrays, KeepMeasuredTimesAndPlaces) {
   const SampleSet set = randomMeasured(9, 2);
+  EXPECT_TRUE(set.origin.imported() && !randomSet(9, 2).origin.imported());
   saveSamples(file("a"), set, false);
   expectSame(loadSamples(file("a")), set);
   saveSamples(folder / "a.csv", set, false);

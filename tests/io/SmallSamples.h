@@ -53,7 +53,7 @@ inline SampleSet randomTouches(Eigen::Index size, unsigned seed) {
 /// The same as another rig measures them: with time and place, and without displacements.
 inline SampleSet randomMeasured(Eigen::Index size, unsigned seed) {
   SampleSet set = randomSet(size, seed);
-  set.origin.mesh = "measured, from table.csv";
+  set.origin.mesh = std::string(kImportedFrom) + "table.csv";
   set.origin.perArea = 0; // of no request
   std::mt19937_64 engine(seed);
   set.times_s.resize(1, size);

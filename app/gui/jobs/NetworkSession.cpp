@@ -24,7 +24,7 @@ NetworkFit fitOn(const NetworkSamples& samples, const SensorDesign& design, cons
                  const TrainOptions& options, const std::stop_token& stop, JobProgress& progress) {
   NetworkFit fit;
   fit.settings = settings;
-  fit.decoder = trainDecoder(samples.training, &design, options, stop,
+  fit.decoder = trainDecoder(samples.training, samples.ofNoDesign ? nullptr : &design, options, stop,
                              [&](double share, const std::string& what) { progress.set(share, what); });
   tryOn(fit, samples, stop);
   fit.made = QDateTime::currentDateTime();
@@ -49,7 +49,9 @@ bool same(const NetworkFit& one, const NetworkFit& other) {
 namespace {
 
 bool equal(const SampleSet& one, const SampleSet& other) {
-  const auto same = [](const auto& a, const auto& b) { return a.rows() == b.rows() && a.cols() == b.cols() && a == b; };
+  const auto same = [](const auto& a, const auto& b) {
+    return a.rows() == b.rows() && (a.rows() == 0 || (a.cols() == b.cols() && a == b)); // what has no rows is not there
+  };
   return one.origin.designFingerprint == other.origin.designFingerprint && same(one.area, other.area) &&
          std::all_of(kSampleParts.begin(), kSampleParts.end(),
                      [&](const auto part) { return same(one.*part, other.*part); });

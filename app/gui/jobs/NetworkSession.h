@@ -26,10 +26,11 @@ struct OpenedResults;
 struct NetworkSamples {
   SampleSet training;
   SampleSet test;
-  double batchError = 0; ///< relative, against full Newton; 0: not measured here
-  double seconds = 0;    ///< that making them took; 0: not known
-  QString file;          ///< that they were opened from; empty: made here
-  bool split = false;    ///< the test samples were taken from the file of the training samples
+  double batchError = 0;   ///< relative, against full Newton; 0: not measured here
+  double seconds = 0;      ///< that making them took; 0: not known
+  QString file;            ///< that they were opened from; empty: made here
+  bool split = false;      ///< the test samples were taken from the file of the training samples
+  bool ofNoDesign = false; ///< imported, of another rig than the design that is open
   SampleSettings settings;
 };
 

@@ -6,7 +6,6 @@
 #include "app/study/paper/PaperProtocol.h"
 #include "io/AtomicFile.h"
 #include "io/DecoderFile.h"
-#include "io/DesignFile.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
 #include "nn/NoisyCopies.h"
@@ -135,11 +134,10 @@ void openNetwork(const fs::path& file, OpenedResults& opened) {
   }
 }
 
-void openOneKept(const fs::path& folder, const std::string& stem, const SensorDesign& design, OpenedResults& opened,
-                 const std::stop_token& stop) {
+void openOneKept(const fs::path& folder, const std::string& stem, OpenedResults& opened, const std::stop_token& stop) {
   NetworkResults& results = opened.results;
   Decoder decoder = readNetwork(folder / (stem + kDecoder));
-  if (decoder.designFingerprint != designFingerprint(design)) {
+  if (decoder.designFingerprint != results.samples->training.origin.designFingerprint) {
     ++opened.ofOtherDesigns;
     return;
   }
@@ -160,7 +158,7 @@ void openOneKept(const fs::path& folder, const std::string& stem, const SensorDe
   if (shown) results.fit = fit;
 }
 
-void openKept(const fs::path& folder, const SensorDesign& design, OpenedResults& opened, const std::stop_token& stop,
+void openKept(const fs::path& folder, OpenedResults& opened, const std::stop_token& stop,
               const OpeningProgress& progress) {
   std::vector<std::string> stems;
   std::error_code none;
@@ -179,7 +177,7 @@ void openKept(const fs::path& folder, const SensorDesign& design, OpenedResults&
     // Those that left the list because it was full stay away.
     if (nameIn(folder / (stem + kName)).isEmpty() && unnamed == NetworkSession::kKeptNetworks) continue;
     try {
-      openOneKept(folder, stem, design, opened, stop);
+      openOneKept(folder, stem, opened, stop);
       if (!opened.results.kept.empty() && opened.results.kept.back()->made == madeOf(stem) &&
           opened.results.kept.back()->name.isEmpty())
         ++unnamed;
@@ -248,7 +246,7 @@ OpenedResults openResults(const fs::path& folder, const SensorDesign& design, co
   openSamples(folder, design, opened, stop);
   if (!opened.results.samples) return opened;
   openNetwork(folder / kNetwork, opened);
-  openKept(folder / kKept, design, opened, stop, progress);
+  openKept(folder / kKept, opened, stop, progress);
   return opened;
 }
 

@@ -53,7 +53,7 @@ std::array<SampleSet, 2> heldOut(const SampleSet& all) {
 
 void requireOf(const SensorDesign& design, const SampleSet& set, const fs::path& file) {
   const std::string ours = designFingerprint(design);
-  if (set.origin.designFingerprint != ours)
+  if (set.origin.designFingerprint != ours && !set.origin.imported())
     throw Error(file.string() + ": its samples are of the design " + set.origin.designFingerprint +
                 "; the design that is open is " + ours + ": open the one they were made of first");
   if (set.hasTouches())
@@ -106,11 +106,12 @@ std::vector<Shards> requestsOf(const std::vector<fs::path>& files, const fs::pat
   return requests;
 }
 
-/// Whether a file that nobody named holds samples of the design.
-bool isOf(const SensorDesign& design, const fs::path& file) {
+/// Whether a file that nobody named holds samples that go with those of another one.
+bool goesWith(const fs::path& file, const fs::path& other, const SensorDesign& design, const std::stop_token& stop) {
   try {
-    requireOf(design, loadSamples(file), file);
-    return true;
+    const SampleSet samples = loadSamples(file, stop);
+    requireOf(design, samples, file);
+    return samples.origin.designFingerprint == loadSamples(other, stop).origin.designFingerprint;
   } catch (const Error&) {
     return false;
   }
@@ -140,6 +141,11 @@ NetworkSamples openTheseSampleFiles(const std::vector<fs::path>& files, const Se
     throw Error(requests[2].file.string() + ": its samples belong to neither of the two sets before it (" +
                 differenceOfHeads(requests[0].parts[0], requests[2].parts[0]) +
                 "); allowed is one set for training and one for testing");
+  for (const Shards& request : requests)
+    if (const std::string& rig = request.parts[0].origin.designFingerprint;
+        rig != requests[0].parts[0].origin.designFingerprint)
+      throw Error(request.file.string() + ": its samples are of another design or rig (" + rig + ") than those of " +
+                  requests[0].file.string() + " (" + requests[0].parts[0].origin.designFingerprint + ")");
   const auto seed = [&](std::size_t k) { return requests[k].parts[0].origin.seed; };
   if (test.empty() && requests.size() == 2 && seed(0) == testSeed(seed(1))) std::swap(requests[0], requests[1]);
   NetworkSamples samples;
@@ -156,6 +162,7 @@ NetworkSamples openTheseSampleFiles(const std::vector<fs::path>& files, const Se
     throw Error(files[0].string() + ": too few samples to train with and to test with");
   samples.file = QString::fromStdString(files[0].string());
   samples.settings = {samples.training.origin.perArea, samples.training.origin.seed};
+  samples.ofNoDesign = samples.training.origin.designFingerprint != designFingerprint(design);
   return samples;
 }
 
@@ -166,7 +173,7 @@ NetworkSamples openSampleFiles(const std::vector<fs::path>& files, const SensorD
     const fs::path ours = testFileOf(files[0]), guessed = testForTrain(files[0]);
     if (fs::exists(ours))
       all.push_back(ours);
-    else if (guessed != files[0] && fs::exists(guessed) && isOf(design, guessed))
+    else if (guessed != files[0] && fs::exists(guessed) && goesWith(guessed, files[0], design, stop))
       all.push_back(guessed);
   }
   return openTheseSampleFiles(all, design, stop);

@@ -25,8 +25,8 @@ void addSamples(FilesTogether& writing, const std::filesystem::path& file, const
 /// Samples from files in any order: shards of one request are joined; where they are of two requests, the second one's
 /// are for testing (the one with the seed of a test, where there is one), and so is NAME-test.csv beside a single
 /// NAME.csv, or else test.csv beside a single train.csv. Without any, every fifth sample of each area is kept for
-/// testing. Throws Error where they are no samples, of another design than this, leave a gap or were made with all
-/// areas loaded together.
+/// testing. Throws Error where they are no samples, of another design than this (but imported ones, which may be of
+/// none), of two rigs, leave a gap or were made with all areas loaded together.
 NetworkSamples openSampleFiles(const std::vector<std::filesystem::path>& files, const SensorDesign& design,
                                const std::stop_token& stop);
 /// The same, whatever lies beside a single one.

@@ -82,10 +82,11 @@ QString madeWords(const NetworkSamples& samples) {
 }
 
 QString openedWords(const NetworkSamples& samples) {
-  QString words = tr(" from %1 (%2 an area, seed %3)")
-                      .arg(QFileInfo(samples.file).fileName())
-                      .arg(samples.settings.perArea)
-                      .arg(samples.settings.seed);
+  QString words = tr(" from %1 ").arg(QFileInfo(samples.file).fileName());
+  if (samples.training.origin.imported())
+    words += samples.ofNoDesign ? tr("(measured, of no design that is open)") : tr("(measured)");
+  else
+    words += tr("(%1 an area, seed %2)").arg(samples.settings.perArea).arg(samples.settings.seed);
   if (!samples.split) return words;
   const std::filesystem::path beside = testFileOf(samples.file.toStdString());
   const QString test = QString::fromStdString(beside.filename().string());

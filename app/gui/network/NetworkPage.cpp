@@ -221,11 +221,12 @@ std::vector<JobRunner*> NetworkPage::runners() {
 }
 
 void NetworkPage::displayProject() {
-  panel_->display(workbench_.project());
   session_.setDesign(workbench_.project().design);
+  choices_ = rowWiresAndAreas();
+  panel_->display(workbench_.project(), choices_[0]);
   const QSignalBlocker quiet(area_);
-  area_->setRange(0, std::max(0, workbench_.project().design.areas.count() - 1));
   const int before = area_->value();
+  area_->setRange(0, std::max(0, choices_[1] - 1));
   area_->setValue(workbench_.project().view.testArea);
   displaySweep();
   displayTrials();
@@ -233,7 +234,14 @@ void NetworkPage::displayProject() {
   settingsShown_ = workbench_.project().network;
 }
 
+std::array<int, 2> NetworkPage::rowWiresAndAreas() const {
+  const SensorDesign& design = workbench_.project().design;
+  if (!session_.upToDate()) return {design.rowWires(), design.areas.count()};
+  return {session_.samples()->training.rowWires, session_.samples()->training.areaCount};
+}
+
 void NetworkPage::displaySamples() {
+  if (rowWiresAndAreas() != choices_) displayProject();
   const auto [made, all] = session_.stoppedAt();
   QString words = samplesWords(session_);
   if (all > 0) words += tr(" Stopped at sample %1 of %2; it goes on from there.").arg(made).arg(all);

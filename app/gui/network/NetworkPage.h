@@ -44,6 +44,8 @@ private:
   QWidget* buildFit();
   void displayProject();
   void displaySamples();
+  /// To choose from: imported samples may have others than the design.
+  [[nodiscard]] std::array<int, 2> rowWiresAndAreas() const;
   void displaySweep();
   void displayWords();
   void displayFit();
@@ -64,6 +66,7 @@ private:
   NetworkSession& session_;
   NetworkBound* bound_;
   NetworkSettings settingsShown_; ///< with which the words of the fit were made
+  std::array<int, 2> choices_{};  ///< rowWiresAndAreas() that are shown
   NetworkPanel* panel_ = nullptr;
   QLabel* fitWords_ = nullptr;
   QLabel* problem_ = nullptr;

@@ -91,7 +91,7 @@ void NetworkPanel::buildSamples(QVBoxLayout& column) {
   auto* files = new QHBoxLayout;
   auto* open = new QPushButton(tr("Open..."));
   open->setObjectName("openSamples");
-  open->setToolTip(tr("Samples of this design from files; several parts of one set are joined"));
+  open->setToolTip(tr("Samples of this design, or imported ones, from files; several parts of one set are joined"));
   saveSamples_ = new QPushButton(tr("Save..."));
   saveSamples_->setObjectName("saveSamples");
   saveSamples_->setToolTip(
@@ -278,7 +278,7 @@ void NetworkPanel::buildSweep(QVBoxLayout& column) {
   connect(compare_, &QPushButton::clicked, this, &NetworkPanel::compareAsked);
 }
 
-void NetworkPanel::display(const Project& project) {
+void NetworkPanel::display(const Project& project, int rowWires) {
   displaying_ = true;
   samples_ = project.samples;
   network_ = project.network;
@@ -288,7 +288,7 @@ void NetworkPanel::display(const Project& project) {
   mode_->setCurrentIndex(network_.mode == DecoderMode::Default ? 0 : 1);
   decoder_->setCurrentText(QString::fromStdString(name(network_.decoder)));
   rows_->setText(QString::fromStdString(network_.rows));
-  rowWires_ = project.design.rowWires();
+  rowWires_ = rowWires;
   rowsProblem_->hide();
   surrogate_->setChecked(samples_.surrogate);
   showExactly(*testNoise_, 100 * network_.testNoise);

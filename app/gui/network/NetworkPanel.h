@@ -28,7 +28,8 @@ public:
   explicit NetworkPanel(QWidget* parent = nullptr);
 
   /// Emits nothing.
-  void display(const Project& project);
+  /// `rowWires`: of the samples, or else of the design.
+  void display(const Project& project, int rowWires);
   /// What there is to work with, and the state of the samples in words.
   void displaySamples(bool there, const QString& words, bool goOn);
 
@@ -78,7 +79,7 @@ private:
   QComboBox* decoder_ = nullptr;
   QLineEdit* rows_ = nullptr;
   QLabel* rowsProblem_ = nullptr;
-  int rowWires_ = 0; ///< of the design
+  int rowWires_ = 0; ///< that can be chosen from
   double boardNoise_ = 0;
   QCheckBox* automatic_ = nullptr;
   QDoubleSpinBox* spread_ = nullptr;
