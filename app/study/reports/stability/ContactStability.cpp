@@ -89,7 +89,11 @@ private:
       scale += force.norm();
       fewest = std::min(fewest, state.touchingNodes);
       const Press* press = load.indenters[k].press();
-      if (press && solution.converged) worst = std::max(worst, (force - press->force_N).norm() / press->force_N.norm());
+      if (press && solution.converged) {
+        Eigen::Vector3d missed = force - press->force_N;
+        if (load.indenters[k].friction == 0) missed.head<2>().setZero(); // it is held aside, with what that takes
+        worst = std::max(worst, missed.norm() / press->force_N.norm());
+      }
     }
     worst = std::max(worst, scale > 0 ? sum.norm() / scale : 0);
     for (Eigen::Index node = 0; node < solution.state().contactTraction_MPa.cols(); ++node)
