@@ -28,6 +28,13 @@ std::optional<std::string> patchProblem(const PatchLoad& patch, const Eigen::Vec
   return forceProblem("patch", patch.force_N);
 }
 
+/// Whether two indenters are one body that is told something else, of the same kind.
+bool sameBody(const Indenter& a, const Indenter& b) {
+  Indenter other = b;
+  other.control = a.control;
+  return a == other && a.control.index() == b.control.index();
+}
+
 } // namespace
 
 Eigen::Vector3d LoadCase::totalForce_N() const {
@@ -48,6 +55,25 @@ std::optional<std::string> whyInvalid(const LoadCase& load, const SensorDesign& 
     if (auto wrong = patchProblem(patch, design.block_mm)) return wrong;
   for (const Indenter& indenter : load.indenters)
     if (auto wrong = whyInvalid(indenter, design)) return wrong;
+  return {};
+}
+
+std::optional<std::string> whyInvalid(const std::vector<LoadCase>& path, const SensorDesign& design) {
+  if (path.empty()) return "a path without a step; allowed is one or more";
+  for (std::size_t step = 0; step < path.size(); ++step) {
+    const std::string where = path.size() > 1 ? "step " + std::to_string(step) + " of the path: " : "";
+    const std::vector<Indenter>&first = path.front().indenters, &now = path[step].indenters;
+    if (now.empty()) return where + "no indenter; allowed is one or more, the same in each step";
+    if (auto wrong = whyInvalid(path[step], design)) return where + *wrong;
+    if (now.size() != first.size())
+      return where + std::to_string(now.size()) + " indenters; allowed are the " + std::to_string(first.size()) +
+             " of step 0";
+    for (std::size_t k = 0; k < now.size(); ++k)
+      if (!sameBody(now[k], first[k]))
+        return where + "indenter " + std::to_string(k) + " (" + shapeName(now[k].shape) +
+               ") is not that of step 0; allowed is the same shape, size, place and friction, and by force or by "
+               "motion as there";
+  }
   return {};
 }
 

@@ -41,4 +41,9 @@ struct LoadCase {
 /// force that is not finite, an indenter that cannot press); empty if it can.
 std::optional<std::string> whyInvalid(const LoadCase& load, const SensorDesign& design);
 
+/// Why the loads cannot act one after another (none, one without indenters, one that cannot act, indenters that are not
+/// the first's in number, shape, size, place, friction and in what they are told, a force or a motion); empty if they
+/// can.
+std::optional<std::string> whyInvalid(const std::vector<LoadCase>& path, const SensorDesign& design);
+
 } // namespace palp

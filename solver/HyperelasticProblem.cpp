@@ -1,5 +1,6 @@
 #include "solver/HyperelasticProblem.h"
 
+#include "model/DesignError.h"
 #include "solver/assembly/NodalFields.h"
 #include "solver/assembly/SurfaceTraction.h"
 #include "solver/contact/ContactSolver.h"
@@ -136,11 +137,8 @@ LoadIncrement increment(const Discretisation& mesh, const EquilibriumState& equi
           elementUnknowns(mesh, equilibrium.state.unknowns)};
 }
 
-Solution contactSolution(const HyperelasticProblem::Parts& parts, const LoadCase& load, const Loading& loading,
-                         const NewtonOptions& options, const NewtonObserver& observer) {
+Solution contactSolution(const HyperelasticProblem::Parts& parts, const LoadCase& load, ContactResult& result) {
   const Discretisation& mesh = *parts.discretisation;
-  ContactResult result =
-      ContactSolver(parts.assembler, parts.mesh, parts.design, load, options, observer).solve(loading);
   Solution solution = withoutIncrements(mesh, result.newton);
   for (const auto& [equilibrium, contact] : result.increments) {
     LoadIncrement next = increment(mesh, equilibrium);
@@ -158,12 +156,22 @@ Solution contactSolution(const HyperelasticProblem::Parts& parts, const LoadCase
 
 } // namespace
 
+std::vector<Solution> HyperelasticProblem::solvePath(const std::vector<LoadCase>& path, const NewtonOptions& options,
+                                                     const NewtonObserver& observer) const {
+  if (const auto wrong = whyInvalid(path, *design_)) throw DesignError(*wrong);
+  std::vector<ContactResult> results =
+      ContactSolver(parts_->assembler, parts_->mesh, parts_->design, path, options, observer).solve();
+  std::vector<Solution> solutions;
+  for (std::size_t k = 0; k < results.size(); ++k) solutions.push_back(contactSolution(*parts_, path[k], results[k]));
+  return solutions;
+}
+
 Solution HyperelasticProblem::solve(const LoadCase& load, const NewtonOptions& options,
                                     const NewtonObserver& observer) const {
+  if (!load.indenters.empty()) return std::move(solvePath({load}, options, observer).back());
   const Discretisation& mesh = *parts_->discretisation;
   Loading loading{nodalForces(parts_->mesh, parts_->design, load),
                   Eigen::VectorXd::Zero(3 * Eigen::Index(mesh.nodes()))};
-  if (!load.indenters.empty()) return contactSolution(*parts_, load, loading, options, observer);
   // The problem's hold on it ends with the loan where Newton is to work with one tangent at a time.
   const auto borrow = [&] {
     auto rest = parts_->initialTangent(options.threads, observer.stop);

@@ -11,6 +11,7 @@
 #include <memory>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 namespace palp {
 
@@ -53,6 +54,11 @@ public:
   /// Equilibrium under the load from rest. Throws DesignError where the load cannot act (model/LoadCase.h).
   [[nodiscard]] Solution solve(const LoadCase& load, const NewtonOptions& options = {},
                                const NewtonObserver& observer = {}) const;
+  /// Equilibria under the loads of a path, each from where the one before has ended: friction remembers the way. One
+  /// solution a load, up to the first that is not reached. Throws DesignError where the path cannot be
+  /// (model/LoadCase.h).
+  [[nodiscard]] std::vector<Solution> solvePath(const std::vector<LoadCase>& path, const NewtonOptions& options = {},
+                                                const NewtonObserver& observer = {}) const;
 
   /// The first solve begins with these two and keeps what they find; here for those who measure them alone.
   /// The order of elimination.

@@ -2,6 +2,7 @@
 
 #include "app/cli/IndenterOption.h"
 #include "io/DesignFile.h"
+#include "io/LoadFile.h"
 #include "model/DesignError.h"
 #include "model/base/Text.h"
 
@@ -86,12 +87,19 @@ void LoadOptions::declareIndenters(Command command) {
       .oneValueEach();
 }
 
+void LoadOptions::declarePath(Command command) {
+  command.option(
+      "--loads", pathFile,
+      "JSON file with a path of indenters, a list of steps { \"indenters\": [...] }: each goes on from where "
+      "the one before has ended; a result for each, --load and --patch act in all");
+}
+
 AreaLoad areaLoadOption(const std::string& option, const std::string& value, const SensorDesign& design) {
   const auto [area, force] = forceAt(option, value, "AREA:FX,FY,FZ, for example 0:1,0,-6");
   return {wholeNumber(option + " (area)", area, 0, design.areas.count() - 1), force};
 }
 
-LoadCase LoadOptions::loadCase(const SensorDesign& design) const {
+LoadCase LoadOptions::forces(const SensorDesign& design) const {
   LoadCase load;
   for (const std::string& value : loads) load.areas.push_back(areaLoadOption("--load", value, design));
   for (const std::string& value : patches) {
@@ -99,11 +107,28 @@ LoadCase LoadOptions::loadCase(const SensorDesign& design) const {
     const std::vector<double> xyr = numbers("--patch", disc, 3);
     load.patches.push_back({{xyr[0], xyr[1]}, xyr[2], force});
   }
+  return load;
+}
+
+LoadCase LoadOptions::loadCase(const SensorDesign& design) const {
+  LoadCase load = forces(design);
   for (const std::string& value : indenters) load.indenters.push_back(indenterOption(value));
   if (load.areas.empty() && load.patches.empty() && load.indenters.empty())
     throw UsageError("--load or --patch is missing; give at least one, for example --load 0:1,0,-6");
   if (const auto wrong = whyInvalid(load, design)) throw UsageError(*wrong);
   return load;
+}
+
+std::vector<LoadCase> LoadOptions::loadPath(const SensorDesign& design) const {
+  if (!indenters.empty()) throw UsageError("--indenter: not beside --loads, whose file holds the indenters");
+  std::vector<LoadCase> path = palp::loadPath(pathFile);
+  const LoadCase held = forces(design);
+  for (LoadCase& step : path) {
+    step.areas = held.areas;
+    step.patches = held.patches;
+  }
+  if (const auto wrong = whyInvalid(path, design)) throw UsageError(pathFile.string() + ": " + *wrong);
+  return path;
 }
 
 void MeshChoice::declare(Command command, bool withAccuracy) {

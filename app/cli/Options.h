@@ -29,10 +29,18 @@ struct LoadOptions {
   std::vector<std::string> loads;
   std::vector<std::string> patches;
   std::vector<std::string> indenters;
+  std::filesystem::path pathFile; ///< --loads: a path of indenters (io/LoadFile.h)
   void declare(Command command);
   void declareIndenters(Command command);
+  void declarePath(Command command);
   /// All loads together; UsageError names what is wrong with which.
   [[nodiscard]] LoadCase loadCase(const SensorDesign& design) const;
+  /// The steps of --loads, in each the forces of --load and --patch; UsageError or Error names what is wrong.
+  [[nodiscard]] std::vector<LoadCase> loadPath(const SensorDesign& design) const;
+
+private:
+  /// Of --load and --patch.
+  [[nodiscard]] LoadCase forces(const SensorDesign& design) const;
 };
 
 /// AREA:FX,FY,FZ as a force on an area that the design has. Throws UsageError.

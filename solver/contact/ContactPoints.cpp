@@ -35,25 +35,38 @@ Eigen::Vector3d tipAtRest_mm(const Indenter& indenter, const Mesh& mesh) {
   return {indenter.place_mm.x(), indenter.place_mm.y(), mesh.nodes_mm.row(2).maxCoeff()};
 }
 
-std::vector<ContactPoint> touchablePoints(const Mesh& mesh, const SensorDesign& design, const LoadCase& load,
-                                          double margin) {
+std::vector<ContactPoint> touchablePoints(const Mesh& mesh, const SensorDesign& design,
+                                          const std::vector<LoadCase>& path, double margin) {
+  struct Tip {
+    const Indenter* indenter;
+    int number;
+    Eigen::Vector3d place_mm;
+  };
+  std::vector<Tip> tips;
+  const std::vector<Indenter>& indenters = path.front().indenters;
+  for (std::size_t i = 0; i < indenters.size(); ++i) {
+    Eigen::Vector2d from = Eigen::Vector2d::Zero();
+    for (const LoadCase& load : path) {
+      const Indenter& indenter = load.indenters[i];
+      const Eigen::Vector2d to = indenter.motion() ? indenter.motion()->shift_mm : Eigen::Vector2d::Zero();
+      const double depth = margin * contactEstimate(indenter, design).depth_mm;
+      const int places = to == from ? 0 : placesOnTheWay;
+      for (int k = 0; k <= places; ++k) {
+        const Eigen::Vector2d sideways = from + (to - from) * (places > 0 ? double(k) / places : 0);
+        tips.push_back({&indenter, static_cast<int>(i),
+                        tipAtRest_mm(indenter, mesh) + Eigen::Vector3d(sideways.x(), sideways.y(), -depth)});
+      }
+      from = to;
+    }
+  }
   std::vector<ContactPoint> touchable;
   for (ContactPoint point : contactPoints(mesh)) {
     double deepest = 0;
-    for (std::size_t i = 0; i < load.indenters.size(); ++i) {
-      const Indenter& indenter = load.indenters[i];
-      const Motion* motion = indenter.motion();
-      const Eigen::Vector2d shift = motion ? motion->shift_mm : Eigen::Vector2d::Zero();
-      const double depth = margin * contactEstimate(indenter, design).depth_mm;
-      const int places = shift.isZero(0) ? 0 : placesOnTheWay;
-      for (int k = 0; k <= places; ++k) {
-        const Eigen::Vector2d sideways = shift * (places > 0 ? double(k) / places : 0);
-        const Eigen::Vector3d tip = tipAtRest_mm(indenter, mesh) + Eigen::Vector3d(sideways.x(), sideways.y(), -depth);
-        const double gap = distance(indenter, mesh.nodes_mm.col(point.node) - tip).gap_mm;
-        if (gap >= deepest) continue;
-        deepest = gap;
-        point.indenter = static_cast<int>(i);
-      }
+    for (const Tip& tip : tips) {
+      const double gap = distance(*tip.indenter, mesh.nodes_mm.col(point.node) - tip.place_mm).gap_mm;
+      if (gap >= deepest) continue;
+      deepest = gap;
+      point.indenter = tip.number;
     }
     if (deepest < 0) touchable.push_back(point);
   }

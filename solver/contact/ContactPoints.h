@@ -22,8 +22,8 @@ std::vector<ContactPoint> contactPoints(const Mesh& mesh);
 Eigen::Vector3d tipAtRest_mm(const Indenter& indenter, const Mesh& mesh);
 
 /// The points that the indenters may touch: those that lie inside of one while it goes its way through the undeformed
-/// body, `margin` times as deep as is expected.
-std::vector<ContactPoint> touchablePoints(const Mesh& mesh, const SensorDesign& design, const LoadCase& load,
-                                          double margin);
+/// body from load to load, `margin` times as deep as is expected.
+std::vector<ContactPoint> touchablePoints(const Mesh& mesh, const SensorDesign& design,
+                                          const std::vector<LoadCase>& path, double margin);
 
 } // namespace palp

@@ -2,6 +2,7 @@
 
 #include "model/DesignError.h"
 #include "model/base/Text.h"
+#include "solver/assembly/SurfaceTraction.h"
 #include "solver/contact/ContactEstimate.h"
 
 #include <algorithm>
@@ -33,64 +34,90 @@ constexpr double frictionSteps = 4;       // of each part of the way
 } // namespace
 
 ContactSolver::ContactSolver(const Assembler& assembler, const Mesh& mesh, const SensorDesign& design,
-                             const LoadCase& load, NewtonOptions options, NewtonObserver observer)
-    : assembler_(assembler), mesh_(mesh), design_(design), load_(load), options_(options),
-      observer_(std::move(observer)) {
-  tips_mm_.resize(3, static_cast<Eigen::Index>(load.indenters.size()));
-  for (std::size_t k = 0; k < load.indenters.size(); ++k)
-    tips_mm_.col(static_cast<Eigen::Index>(k)) = tipAtRest_mm(load.indenters[k], mesh);
+                             const std::vector<LoadCase>& path, NewtonOptions options, NewtonObserver observer)
+    : assembler_(assembler), mesh_(mesh), design_(design), path_(path), indenters_(path.front().indenters),
+      options_(options), observer_(std::move(observer)) {
+  tips_mm_.resize(3, static_cast<Eigen::Index>(indenters_.size()));
+  for (std::size_t k = 0; k < indenters_.size(); ++k)
+    tips_mm_.col(static_cast<Eigen::Index>(k)) = tipAtRest_mm(indenters_[k], mesh);
 }
 
 void ContactSolver::choosePoints(double margin) {
-  points_ = touchablePoints(mesh_, design_, load_, margin);
-  std::vector<bool> met(load_.indenters.size());
+  points_ = touchablePoints(mesh_, design_, path_, margin);
+  std::vector<bool> met(indenters_.size());
   for (const ContactPoint& point : points_) met[static_cast<std::size_t>(point.indenter)] = true;
   for (std::size_t k = 0; k < met.size(); ++k)
     if (!met[k])
-      throw DesignError("indenter " + std::to_string(k) + " (" + shapeName(load_.indenters[k].shape) +
+      throw DesignError("indenter " + std::to_string(k) + " (" + shapeName(indenters_[k].shape) +
                         ") meets no node of the mesh; allowed is a finer mesh or a deeper touch");
   auto pattern = std::make_shared<SparsePattern>(*assembler_.pattern());
   for (const ContactPoint& point : points_) pattern->lastGroups.push_back(assembler_.group(point.node));
   cholesky_.emplace(std::make_shared<const CholeskyPlan>(std::move(pattern)));
-  contact_.emplace(load_.indenters, points_, tips_mm_);
+  contact_.emplace(indenters_, points_, tips_mm_);
 }
 
-ContactResult ContactSolver::solve(const Loading& loading) {
+ContactIncrement ContactSolver::atRest() const {
+  return {{0, assembler_.discretisation().atRest()},
+          {Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(points_.size())),
+           Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(indenters_.size())),
+           std::vector<Grip>(points_.size(), Grip::Free)}};
+}
+
+/// Forces of areas and discs go from those of the load before to this one's.
+void ContactSolver::beginLoad(std::size_t load) {
+  now_ = load;
+  if (load == 0)
+    before_ = Eigen::VectorXd::Zero(3 * Eigen::Index(mesh_.nodeCount()));
+  else
+    before_.swap(forces_N_);
+  forces_N_ = nodalForces(mesh_, design_, path_[load]);
+}
+
+std::vector<ContactResult> ContactSolver::solve() {
   double margin = firstMargin;
   for (int attempt = 1;; ++attempt, margin *= widerMargin) {
     choosePoints(margin);
-    ContactResult result = follow(loading);
-    const ContactIncrement& last = result.increments.back();
-    if (!result.newton.converged || attempt == mostMargins || !reachesBeyond({last.equilibrium.state, last.contact}))
-      return result;
+    std::vector<ContactResult> results;
+    ContactIncrement start = atRest();
+    bool beyond = false;
+    for (std::size_t load = 0; load < path_.size() && !beyond; ++load) {
+      beginLoad(load);
+      results.push_back(follow(start));
+      if (!results.back().newton.converged) break;
+      start = results.back().increments.back();
+      beyond = attempt < mostMargins && reachesBeyond({start.equilibrium.state, start.contact});
+    }
+    if (!beyond) return results;
   }
 }
 
 double ContactSolver::firstStep() const {
   double size = 1;
-  for (const Indenter& indenter : load_.indenters)
-    if (indenter.friction > 0) size = std::min(size, (indenter.hasTwoParts() ? 0.5 : 1) / frictionSteps);
+  for (const Indenter& indenter : path_[now_].indenters)
+    if (indenter.friction > 0) size = std::min(size, (now_ == 0 && indenter.hasTwoParts() ? 0.5 : 1) / frictionSteps);
   return size;
 }
 
-ContactResult ContactSolver::follow(const Loading& loading) {
-  const Discretisation& mesh = assembler_.discretisation();
-  const auto indenters = static_cast<Eigen::Index>(load_.indenters.size());
-  const auto count = static_cast<Eigen::Index>(points_.size());
+ContactResult ContactSolver::follow(const ContactIncrement& start) {
   ContactResult result;
   result.points = points_;
-  result.increments.push_back({{0, mesh.atRest()},
-                               {Eigen::Matrix3Xd::Zero(3, count), Eigen::Matrix3Xd::Zero(3, indenters),
-                                std::vector<Grip>(points_.size(), Grip::Free)}});
+  result.increments.push_back(start);
+  result.increments.back().equilibrium.loadFraction = 0;
   NewtonResult& newton = result.newton;
-  newton.internalForces = Eigen::VectorXd::Zero(loading.forces.size());
+  if (now_ == 0) {
+    newton.internalForces = Eigen::VectorXd::Zero(forces_N_.size());
+  } else {
+    newton.internalForces = internal_;
+    newton.smallestJ = forces_.smallestJ;
+    newton.largestJ = forces_.largestJ;
+  }
   const double largest = firstStep();
   double fraction = 0, size = largest;
   while (fraction < 1) {
     const double target = fraction + size > 1 - 1e-9 ? 1 : fraction + size;
     const ContactIncrement& last = result.increments.back();
     State state{last.equilibrium.state, last.contact};
-    const Outcome outcome = step(loading, fraction, target, state);
+    const Outcome outcome = step(fraction, target, state);
     if (outcome == Outcome::Converged) {
       fraction = target;
       result.increments.push_back({{fraction, std::move(state.rubber)}, std::move(state.contact)});
@@ -116,10 +143,29 @@ ContactResult ContactSolver::follow(const Loading& loading) {
   return result;
 }
 
+/// What an indenter is to do at a fraction of the load in work: of a later one of a path, between the one before and
+/// it.
+Indenter ContactSolver::partOf(std::size_t indenter, double fraction) const {
+  const Indenter& goal = path_[now_].indenters[indenter];
+  if (now_ == 0) return goal.at(fraction);
+  const Indenter& from = path_[now_ - 1].indenters[indenter];
+  const auto between = [&]<class Value>(const Value& a, const Value& b) -> Value {
+    return (1 - fraction) * a + fraction * b;
+  };
+  Indenter part = goal;
+  if (const Press* press = goal.press())
+    part.control = Press{between(from.press()->force_N, press->force_N)};
+  else
+    part.control = Motion{between(from.motion()->depth_mm, goal.motion()->depth_mm),
+                          between(from.motion()->shift_mm, goal.motion()->shift_mm)};
+  return part;
+}
+
 std::vector<ContactTarget> ContactSolver::targets(double fraction) const {
   std::vector<ContactTarget> all;
-  for (const Indenter& indenter : load_.indenters) {
-    const Indenter part = indenter.at(fraction);
+  for (std::size_t k = 0; k < indenters_.size(); ++k) {
+    const Indenter& indenter = path_[now_].indenters[k];
+    const Indenter part = partOf(k, fraction);
     ContactTarget target{{false, false, false},
                          Eigen::Vector3d::Zero(),
                          Eigen::Vector3d::Zero(),
@@ -152,9 +198,10 @@ Eigen::VectorXd ContactSolver::onFreeComponents(const Eigen::Matrix3Xd& forces) 
   return all;
 }
 
-void ContactSolver::setResidual(const Loading& loading, double fraction, const State& state) {
+void ContactSolver::setResidual(double fraction, const State& state) {
   const Discretisation& mesh = assembler_.discretisation();
-  const Eigen::VectorXd external = fraction * mesh.freePart(loading.forces) + onFreeComponents(state.contact.forces_N);
+  const Eigen::VectorXd loads = before_ + fraction * (forces_N_ - before_);
+  const Eigen::VectorXd external = mesh.freePart(loads) + onFreeComponents(state.contact.forces_N);
   internal_ = assembler_.sum(forces_.raw, options_.threads);
   residual_ = external - mesh.freePart(assembler_.sum(forces_.forces, options_.threads));
   const double scale = external.norm();
@@ -162,10 +209,10 @@ void ContactSolver::setResidual(const Loading& loading, double fraction, const S
       scale > 0 ? std::hypot((external - mesh.freePart(internal_)).norm(), assembler_.localNorm(forces_)) / scale : 1;
 }
 
-ContactSolver::Outcome ContactSolver::newTangent(const Loading& loading, double fraction, const State& state) {
+ContactSolver::Outcome ContactSolver::newTangent(double fraction, const State& state) {
   assembler_.tangent(state.rubber, tangents_, forces_, options_.threads, observer_.stop);
   if (stopped()) return Outcome::Cancelled;
-  setResidual(loading, fraction, state);
+  setResidual(fraction, state);
   LaneVector matrix = assembler_.matrix(tangents_, options_.threads);
   tangents_.stiffness = {};
   const auto outcome = cholesky_->factorise(std::move(matrix), options_.threads, observer_.stop);
@@ -178,16 +225,16 @@ ContactSolver::Outcome ContactSolver::newTangent(const Loading& loading, double 
 /// Equilibrium and contact at the load fraction `to`. In an iteration, with K the tangent and R the residual without
 /// a change of the contact forces f:
 ///   w = K^-1 R;  f' = contact of the points at X + u + w with the compliance C = K^-1;  du = w + K^-1 (f' - f).
-ContactSolver::Outcome ContactSolver::step(const Loading& loading, double from, double to, State& state) {
+ContactSolver::Outcome ContactSolver::step(double from, double to, State& state) {
   const Discretisation& mesh = assembler_.discretisation();
   const std::vector<ContactTarget> goal = targets(to);
   contact_->startStep(positions(state.rubber.displacements), state.contact);
-  if (from == 0)
+  if (now_ == 0 && from == 0)
     for (std::size_t k = 0; k < goal.size(); ++k) {
-      const Indenter part = load_.indenters[k].at(to);
+      const Indenter part = partOf(k, to);
       state.contact.translations_mm.col(static_cast<Eigen::Index>(k)).z() = -contactEstimate(part, design_).depth_mm;
     }
-  if (const Outcome outcome = newTangent(loading, to, state); outcome != Outcome::Converged) return outcome;
+  if (const Outcome outcome = newTangent(to, state); outcome != Outcome::Converged) return outcome;
   record(to, 0);
   double previous = 1;
   int stalled = 0, shortened = 0;
@@ -214,7 +261,7 @@ ContactSolver::Outcome ContactSolver::step(const Loading& loading, double from, 
       state.contact = found;
       state.contact.forces_N = start.contact.forces_N + length * (found.forces_N - start.contact.forces_N);
       assembler_.residual(state.rubber, tangents_, forces_, options_.threads);
-      setResidual(loading, to, state);
+      setResidual(to, state);
       if (forces_.smallestJ > 0) break;
       if (trial == halvings) return Outcome::Inverted;
       if (stopped()) return Outcome::Cancelled;
@@ -230,7 +277,7 @@ ContactSolver::Outcome ContactSolver::step(const Loading& loading, double from, 
     const bool keep = length == 1 && (relative_ < keepTangentBelow || relative_ < goodContraction * previous);
     previous = relative_;
     if (keep || iteration == options_.iterationsAStep) continue;
-    if (const Outcome outcome = newTangent(loading, to, state); outcome != Outcome::Converged) return outcome;
+    if (const Outcome outcome = newTangent(to, state); outcome != Outcome::Converged) return outcome;
   }
   return Outcome::TooManyIterations;
 }
@@ -240,12 +287,12 @@ bool ContactSolver::reachesBeyond(const State& state) const {
   for (const ContactPoint& point : points_) known[static_cast<std::size_t>(point.node)] = true;
   for (const ContactPoint& point : contactPoints(mesh_)) {
     if (known[static_cast<std::size_t>(point.node)]) continue;
-    for (std::size_t k = 0; k < load_.indenters.size(); ++k) {
+    for (std::size_t k = 0; k < indenters_.size(); ++k) {
       const auto column = static_cast<Eigen::Index>(k);
       const Eigen::Vector3d place = mesh_.nodes_mm.col(point.node) +
                                     state.rubber.displacements.segment<3>(3 * Eigen::Index(point.node)) -
                                     tips_mm_.col(column) - state.contact.translations_mm.col(column);
-      if (distance(load_.indenters[k], place).gap_mm < -touchesBeyond_mm) return true;
+      if (distance(indenters_[k], place).gap_mm < -touchesBeyond_mm) return true;
     }
   }
   return false;

@@ -24,10 +24,12 @@ struct ContactResult {
 /// factorisation, and it converges like Newton's method without contact.
 class ContactSolver {
 public:
-  ContactSolver(const Assembler& assembler, const Mesh& mesh, const SensorDesign& design, const LoadCase& load,
-                NewtonOptions options, NewtonObserver observer);
-  /// `loading` are the forces of areas and discs. Throws DesignError where an indenter meets no point of the mesh.
-  [[nodiscard]] ContactResult solve(const Loading& loading);
+  /// Loads of the same indenters, one after another (whyInvalid of a path in model/LoadCase.h).
+  ContactSolver(const Assembler& assembler, const Mesh& mesh, const SensorDesign& design,
+                const std::vector<LoadCase>& path, NewtonOptions options, NewtonObserver observer);
+  /// A result a load, up to the first that is not reached; the increments of a later one begin with the end of the one
+  /// before. Throws DesignError where an indenter meets no point of the mesh.
+  [[nodiscard]] std::vector<ContactResult> solve();
 
 private:
   using Outcome = StepOutcome;
@@ -37,10 +39,13 @@ private:
   };
 
   void choosePoints(double margin);
-  [[nodiscard]] ContactResult follow(const Loading& loading);
-  [[nodiscard]] Outcome step(const Loading& loading, double from, double to, State& state);
-  [[nodiscard]] Outcome newTangent(const Loading& loading, double fraction, const State& state);
-  void setResidual(const Loading& loading, double fraction, const State& state);
+  [[nodiscard]] ContactIncrement atRest() const;
+  void beginLoad(std::size_t load);
+  [[nodiscard]] ContactResult follow(const ContactIncrement& start);
+  [[nodiscard]] Outcome step(double from, double to, State& state);
+  [[nodiscard]] Outcome newTangent(double fraction, const State& state);
+  void setResidual(double fraction, const State& state);
+  [[nodiscard]] Indenter partOf(std::size_t indenter, double fraction) const;
   [[nodiscard]] std::vector<ContactTarget> targets(double fraction) const;
   [[nodiscard]] Eigen::Matrix3Xd positions(const Eigen::VectorXd& displacements) const;
   [[nodiscard]] Eigen::VectorXd onFreeComponents(const Eigen::Matrix3Xd& forces) const;
@@ -52,7 +57,8 @@ private:
   const Assembler& assembler_;
   const Mesh& mesh_;
   const SensorDesign& design_;
-  const LoadCase& load_;
+  const std::vector<LoadCase>& path_;
+  const std::vector<Indenter>& indenters_; ///< the first load's; the others' are the same but for what they do
   NewtonOptions options_;
   NewtonObserver observer_;
   std::vector<ContactPoint> points_;
@@ -66,6 +72,8 @@ private:
   Eigen::VectorXd residual_; ///< free components, condensed
   double relative_ = 1;
   std::vector<NewtonStep> steps_;
+  std::size_t now_ = 0;               ///< the load of the path
+  Eigen::VectorXd before_, forces_N_; ///< of areas and discs on all components: at the start of this load, and of it
 };
 
 } // namespace palp

@@ -1,6 +1,8 @@
 #include "app/cli/Cli.h"
 #include "app/cli/Options.h"
 #include "app/cli/Pictures.h"
+#include "app/cli/commands/SolveJson.h"
+#include "app/cli/commands/SolvePath.h"
 #include "app/study/touch/Touch.h"
 #include "model/base/Cancelled.h"
 #include "solver/DiscretisationError.h"
@@ -25,76 +27,25 @@ struct SolveArguments {
   OutputFile output;
 };
 
-Json toJson(const std::vector<NewtonStep>& steps) {
-  Json json = Json::array();
-  for (const NewtonStep& step : steps)
-    json.push_back({{"load_fraction", step.loadFraction},
-                    {"iteration", step.iteration},
-                    {"relative_residual", step.relativeResidual}});
-  return json;
-}
-
-/// [row][electrode][3].
-Json displacementsJson(const SensorDesign& design, const ElectrodeDisplacements& displacements) {
-  Json rows = Json::array();
-  for (int r = 0; r < design.rowWires(); ++r) {
-    Json row = Json::array();
-    for (int e = 0; e < design.electrodesPerRowWire(); ++e) {
-      const Eigen::Vector3d u = displacements.upper_mm.col(r * design.electrodesPerRowWire() + e);
-      row.push_back({u.x(), u.y(), u.z()});
-    }
-    rows.push_back(std::move(row));
-  }
-  return rows;
-}
-
-Json toJson(const Eigen::MatrixXd& matrix) {
-  Json rows = Json::array();
-  for (Eigen::Index r = 0; r < matrix.rows(); ++r) {
-    Json row = Json::array();
-    for (Eigen::Index c = 0; c < matrix.cols(); ++c) row.push_back(matrix(r, c));
-    rows.push_back(std::move(row));
-  }
-  return rows;
-}
-
-Json toJson(const Eigen::Vector3d& vector) {
-  return {vector.x(), vector.y(), vector.z()};
-}
-
-Json indentersJson(const Touch& touch) {
-  Json json = Json::array();
-  const std::vector<IndenterState>& states = touch.solution()->state().indenters;
-  for (std::size_t k = 0; k < states.size(); ++k)
-    json.push_back({{"shape", shapeName(touch.load().indenters[k].shape)},
-                    {"force_N", toJson(states[k].force_N)},
-                    {"translation_mm", toJson(states[k].translation_mm)},
-                    {"contact_area_mm2", states[k].contactArea_mm2},
-                    {"contact_radius_mm", states[k].contactRadius_mm},
-                    {"centre_pressure_MPa", states[k].centrePressure_MPa},
-                    {"slip_share", states[k].slipShare}});
-  return json;
-}
-
 void report(const Touch& touch, const DiscretisationError* error, Session& session) {
   const Solution& solution = *touch.solution();
   Json& result = session.result;
   result["converged"] = solution.converged;
   result["reached_load_fraction"] = solution.reachedLoadFraction;
   if (!solution.stopReason.empty()) result["stop_reason"] = solution.stopReason;
-  result["newton"] = toJson(solution.newton);
+  result["newton"] = newtonJson(solution.newton);
   result["dof"] = touch.problem()->dof();
   result["elements"] = touch.mesh()->elementCount();
   result["element_type"] = touch.problem()->elementType();
   result["displacements_mm"] = displacementsJson(touch.design(), *touch.displacements());
-  result["resistances_ohm"] = toJson(*touch.resistances_ohm());
-  result["resistances_at_rest_ohm"] = toJson(resistancesAtRest_ohm(touch.design()));
+  result["resistances_ohm"] = matrixJson(*touch.resistances_ohm());
+  result["resistances_at_rest_ohm"] = matrixJson(resistancesAtRest_ohm(touch.design()));
   if (const FieldLaw* law = touch.design().field()) {
     result["resistance_law"] = "field";
     result["readout"] = kReadouts.name(law->readout);
   }
   result["max_volume_error"] = solution.maxVolumeError;
-  if (!touch.load().indenters.empty()) result["indenters"] = indentersJson(touch);
+  if (!touch.load().indenters.empty()) result["indenters"] = indentersJson(touch.load(), solution.state().indenters);
   if (!error) return;
   result["error_estimate_relative"] = error->relative ? Json(*error->relative) : Json();
   result["error_estimate_method"] = error->method;
@@ -116,14 +67,7 @@ void print(const Touch& touch, const DiscretisationError* error) {
   std::printf("largest electrode displacement %.6g mm, largest |J - 1| %.3g\n",
               std::sqrt(u.colwise().squaredNorm().maxCoeff()), solution.maxVolumeError);
   const std::vector<IndenterState>& indenters = solution.state().indenters;
-  for (std::size_t k = 0; k < indenters.size(); ++k) {
-    const Eigen::Vector3d &f = indenters[k].force_N, &d = indenters[k].translation_mm;
-    std::printf("%s: force (%.6g, %.6g, %.6g) N, moved (%.6g, %.6g, %.6g) mm; contact %.4g mm2, radius %.4g mm, "
-                "pressure at its centre %.4g MPa, slides on %.0f %%\n",
-                shapeName(touch.load().indenters[k].shape).c_str(), f.x(), f.y(), f.z(), d.x(), d.y(), d.z(),
-                indenters[k].contactArea_mm2, indenters[k].contactRadius_mm, indenters[k].centrePressure_MPa,
-                100 * indenters[k].slipShare);
-  }
+  for (std::size_t k = 0; k < indenters.size(); ++k) printIndenter(touch.load().indenters[k], indenters[k]);
   const Eigen::MatrixXd rest = resistancesAtRest_ohm(touch.design());
   std::printf("largest |dR/R| %.4g %%\n",
               100 * ((*touch.resistances_ohm() - rest).cwiseQuotient(rest)).cwiseAbs().maxCoeff());
@@ -164,20 +108,20 @@ NewtonObserver observer(const Session& session) {
   return observer;
 }
 
-void warnWhereFewNodesTouch(const Touch& touch, Session& session) {
-  const std::vector<IndenterState>& indenters = touch.solution()->state().indenters;
-  for (std::size_t k = 0; k < indenters.size(); ++k) {
-    if (indenters[k].touchingNodes >= kFewTouchingNodes) continue;
-    session.warnings.push_back(shapeName(touch.load().indenters[k].shape) + ": only " +
-                               std::to_string(indenters[k].touchingNodes) +
-                               " nodes of the mesh touch it; below about " + std::to_string(kFewTouchingNodes) +
-                               " its depth and contact are wrong: take a finer mesh");
-    if (!session.json) std::cout << "warning: " << session.warnings.back() << '\n';
-  }
+Exit runPath(const SolveArguments& arguments, const SensorDesign& design, Session& session) {
+  if (!arguments.current.empty()) throw UsageError("--current: not beside --loads; allowed is one touch");
+  if (arguments.mesh.relativeAccuracy())
+    throw UsageError("--accuracy: not beside --loads; allowed are --mesh-size and --mapped");
+  const std::vector<LoadCase> path = arguments.loads.loadPath(design);
+  arguments.output.requireWritable();
+  NewtonOptions options;
+  options.threads = session.threads;
+  return solvePath(design, path, arguments.mesh.options(), options, observer(session), arguments.output, session);
 }
 
 Exit run(const SolveArguments& arguments, Session& session) {
   const SensorDesign design = designOption(arguments.design);
+  if (!arguments.loads.pathFile.empty()) return runPath(arguments, design, session);
   const LoadCase load = arguments.loads.loadCase(design);
   const auto pair = currentOption(arguments, design);
   arguments.output.requireWritable();
@@ -202,7 +146,7 @@ Exit run(const SolveArguments& arguments, Session& session) {
   }
   report(touch, error ? &*error : nullptr, session);
   if (!session.json) print(touch, error ? &*error : nullptr);
-  if (touch.solution()->converged) warnWhereFewNodesTouch(touch, session);
+  if (touch.solution()->converged) warnWhereFewNodesTouch(load, touch.solution()->state().indenters, session);
   if (!arguments.output.path.empty() && !session.stop.stop_requested()) { // half a solve is no result
     const NodalFields fields = touch.problem()->fields(touch.solution()->state());
     std::optional<CurrentField> current;
@@ -225,6 +169,7 @@ void addSolve(Cli& cli) {
   command.option("design", arguments->design, "design file, or paper").required();
   arguments->loads.declare(command);
   arguments->loads.declareIndenters(command);
+  arguments->loads.declarePath(command);
   arguments->mesh.declare(command, true);
   command.option(
       "--current", arguments->current,

@@ -1,6 +1,7 @@
 #include "app/gui/project/DesignStudiesFile.h"
 
 #include "io/DesignFile.h"
+#include "io/LoadFile.h"
 #include "io/StrictJson.h"
 
 #include <QJsonArray>
@@ -178,25 +179,6 @@ QJsonObject indenterJson(const Indenter& indenter) {
   return object;
 }
 
-/// What cannot press is refused with the load as a whole.
-Indenter indenterOf(const JsonPlace& place) {
-  place.onlyKeys({"shape", "radius_mm", "rim_mm", "place_mm", "friction"}, {"force_N", "depth_mm", "shift_mm"});
-  Indenter indenter;
-  indenter.shape = place.at("shape").named(kIndenterShapes);
-  indenter.radius_mm = place.at("radius_mm").number(0, 1e6);
-  indenter.rim_mm = place.at("rim_mm").number(0, 1e6);
-  const std::vector<double> at = place.at("place_mm").numbers(2);
-  indenter.place_mm = {at[0], at[1]};
-  indenter.friction = place.at("friction").number(0, 1e3);
-  if (place.has("force_N")) {
-    indenter.control = Press{vectorOf(place.at("force_N"))};
-  } else {
-    const std::vector<double> shift = place.at("shift_mm").numbers(2);
-    indenter.control = Motion{place.at("depth_mm").number(0, 1e4), {shift[0], shift[1]}};
-  }
-  return indenter;
-}
-
 } // namespace
 
 QJsonObject loadJson(const LoadCase& load) {
@@ -228,7 +210,7 @@ LoadCase loadOf(const JsonPlace& place) {
         {{centre[0], centre[1]}, patch.at("radius_mm").number(0, 1e4), vectorOf(patch.at("force_N"))});
   }
   if (place.has("indenters"))
-    for (const JsonPlace& indenter : place.at("indenters").list()) load.indenters.push_back(indenterOf(indenter));
+    for (const JsonPlace& indenter : place.at("indenters").list()) load.indenters.push_back(readIndenter(indenter));
   return load;
 }
 

@@ -11,7 +11,7 @@ namespace palp {
 
 namespace {
 
-constexpr int kExpectedCases = 113; // for the progress alone
+constexpr int kExpectedCases = 131; // for the progress alone
 
 ReportTable::Mark mark(StabilityOutcome outcome) {
   switch (outcome) {
@@ -95,6 +95,7 @@ std::optional<ReportContent> stabilityReport(const ReportRequest& request, const
       },
       stop);
   addSolverCases(cases, request, content.stages);
+  addContactCases(cases, request, content.stages);
   addResistanceCases(cases, request);
   addNetworkCases(cases, request, content.stages);
   if (stop.stop_requested()) return {};

@@ -60,6 +60,7 @@ private:
 };
 
 void addSolverCases(StabilityCases& cases, const ReportRequest& request, StageLog& stages);
+void addContactCases(StabilityCases& cases, const ReportRequest& request, StageLog& stages);
 void addNetworkCases(StabilityCases& cases, const ReportRequest& request, StageLog& stages);
 void addResistanceCases(StabilityCases& cases, const ReportRequest& request);
 

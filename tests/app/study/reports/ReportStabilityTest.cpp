@@ -116,6 +116,23 @@ TEST(StabilityReport, EveryCaseIsRightOrSaysThatItIsNot) {
   expectNetworksHonest(rows);
 }
 
+/// A sphere of 0.05 mm lies between the nodes of any coarse mesh: refused, or with a warning, but never silently.
+TEST(StabilityReport, EveryContactIsRightOrSaysThatItIsNot) {
+  std::vector<StabilityRow> rows;
+  palp::StabilityCases cases(rows, {}, {});
+  palp::ReportRequest request;
+  request.mesh.mapped = std::array<int, 3>{16, 16, 2};
+  palp::StageLog stages;
+  addContactCases(cases, request, stages);
+  EXPECT_GT(rows.size(), 15U);
+  for (const StabilityRow& row : rows) {
+    EXPECT_NE(row.outcome, StabilityOutcome::Wrong) << nameOf(row) << ": " << row.words;
+    EXPECT_TRUE(row.outcome == StabilityOutcome::Right || !row.words.empty()) << nameOf(row);
+  }
+  EXPECT_NE(rowOf(rows, "contact: size of a sphere: 0.05 mm").outcome, StabilityOutcome::Right);
+  EXPECT_EQ(name(rowOf(rows, "contact: size of a sphere: 1e+05 mm").outcome), "right");
+}
+
 TEST(StabilityReport, StopsWithoutAResult) {
   std::stop_source source;
   source.request_stop();

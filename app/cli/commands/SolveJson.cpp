@@ -1,0 +1,70 @@
+#include "app/cli/commands/SolveJson.h"
+
+#include <cstdio>
+
+namespace palp {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json vectorJson(const Eigen::Vector3d& vector) {
+  return {vector.x(), vector.y(), vector.z()};
+}
+
+} // namespace
+
+Json newtonJson(const std::vector<NewtonStep>& steps) {
+  Json json = Json::array();
+  for (const NewtonStep& step : steps)
+    json.push_back({{"load_fraction", step.loadFraction},
+                    {"iteration", step.iteration},
+                    {"relative_residual", step.relativeResidual}});
+  return json;
+}
+
+Json displacementsJson(const SensorDesign& design, const ElectrodeDisplacements& displacements) {
+  Json rows = Json::array();
+  for (int r = 0; r < design.rowWires(); ++r) {
+    Json row = Json::array();
+    for (int e = 0; e < design.electrodesPerRowWire(); ++e) {
+      const Eigen::Vector3d u = displacements.upper_mm.col(r * design.electrodesPerRowWire() + e);
+      row.push_back({u.x(), u.y(), u.z()});
+    }
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+Json matrixJson(const Eigen::MatrixXd& matrix) {
+  Json rows = Json::array();
+  for (Eigen::Index r = 0; r < matrix.rows(); ++r) {
+    Json row = Json::array();
+    for (Eigen::Index c = 0; c < matrix.cols(); ++c) row.push_back(matrix(r, c));
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+Json indentersJson(const LoadCase& load, const std::vector<IndenterState>& states) {
+  Json json = Json::array();
+  for (std::size_t k = 0; k < states.size(); ++k)
+    json.push_back({{"shape", shapeName(load.indenters[k].shape)},
+                    {"force_N", vectorJson(states[k].force_N)},
+                    {"translation_mm", vectorJson(states[k].translation_mm)},
+                    {"contact_area_mm2", states[k].contactArea_mm2},
+                    {"contact_radius_mm", states[k].contactRadius_mm},
+                    {"centre_pressure_MPa", states[k].centrePressure_MPa},
+                    {"slip_share", states[k].slipShare}});
+  return json;
+}
+
+void printIndenter(const Indenter& indenter, const IndenterState& state) {
+  const Eigen::Vector3d &f = state.force_N, &d = state.translation_mm;
+  std::printf("%s: force (%.6g, %.6g, %.6g) N, moved (%.6g, %.6g, %.6g) mm; contact %.4g mm2, radius %.4g mm, "
+              "pressure at its centre %.4g MPa, slides on %.0f %%\n",
+              shapeName(indenter.shape).c_str(), f.x(), f.y(), f.z(), d.x(), d.y(), d.z(), state.contactArea_mm2,
+              state.contactRadius_mm, state.centrePressure_MPa, 100 * state.slipShare);
+}
+
+} // namespace palp

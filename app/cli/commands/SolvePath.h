@@ -1,0 +1,19 @@
+#pragma once
+
+#include "app/cli/Cli.h"
+#include "app/cli/Options.h"
+#include "solver/HyperelasticProblem.h"
+
+#include <vector>
+
+namespace palp {
+
+/// `palp solve --loads`: a row of the result for each step of the path, the last one's fields into the file.
+Exit solvePath(const SensorDesign& design, const std::vector<LoadCase>& path, const MeshOptions& mesh,
+               const NewtonOptions& options, const NewtonObserver& observer, const OutputFile& output,
+               Session& session);
+
+/// Says which indenters touch so few nodes that their depth is not to be trusted.
+void warnWhereFewNodesTouch(const LoadCase& load, const std::vector<IndenterState>& indenters, Session& session);
+
+} // namespace palp

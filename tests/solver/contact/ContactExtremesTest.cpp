@@ -1,0 +1,54 @@
+#include "solver/HyperelasticProblem.h"
+#include "solver/SensorMesh.h"
+
+#include <gtest/gtest.h>
+
+namespace palp {
+namespace {
+
+struct ExtremeTouch {
+  std::string name;
+  Indenter indenter;
+};
+void PrintTo(const ExtremeTouch& extreme, std::ostream* out) {
+  *out << extreme.name;
+}
+
+class ExtremeContact : public testing::TestWithParam<ExtremeTouch> {};
+
+/// Where a touch is not reached, the last state that was is an equilibrium, and a sentence says why.
+TEST_P(ExtremeContact, ConvergesOrEndsWithTheLastEquilibriumAndAReason) {
+  MeshOptions options;
+  options.mapped = {{20, 20, 4}};
+  const SensorDesign design = paperDesign();
+  LoadCase load;
+  load.indenters = {GetParam().indenter};
+  const Solution solution = HyperelasticProblem(design, sensorMesh(design, options)).solve(load);
+  const IndenterState& state = solution.state().indenters[0];
+  if (!solution.converged) {
+    EXPECT_FALSE(solution.stopReason.empty());
+    EXPECT_LT(solution.reachedLoadFraction, 1);
+    EXPECT_EQ(solution.reachedLoadFraction, solution.state().loadFraction);
+  } else if (const Motion* motion = GetParam().indenter.motion()) {
+    EXPECT_NEAR(state.translation_mm.z(), -motion->depth_mm, 1e-12);
+    EXPECT_LT((state.translation_mm.head<2>() - motion->shift_mm).norm(), 1e-12);
+  }
+  ASSERT_GT(solution.reachedLoadFraction, 0) << solution.stopReason;
+  EXPECT_LT((solution.reaction_N + state.force_N).norm(), 1e-7 * state.force_N.norm());
+  EXPECT_LT(state.force_N.z(), 0);
+}
+
+const Motion kAMillimetreDeep{1, {0, 0}}, kSlidByAMillimetre{0.6, {1, 0}};
+
+INSTANTIATE_TEST_SUITE_P(
+    Touches, ExtremeContact,
+    testing::Values(
+        ExtremeTouch{"a third of the radius deep", {IndenterShape::Sphere, 3, 0, {15, 15}, 0, kAMillimetreDeep}},
+        ExtremeTouch{"punch over the edge", {IndenterShape::Flat, 3, 0.3, {29, 15}, 0, Press{{0, 0, -3}}}},
+        ExtremeTouch{"across the block", {IndenterShape::CylinderX, 3, 0, {15, 15}, 0, Motion{0.5, {0, 0}}}},
+        ExtremeTouch{"pulled aside", {IndenterShape::Sphere, 5, 0, {15, 15}, 0.6, Press{{2, 0, -4}}}},
+        ExtremeTouch{"slid", {IndenterShape::Sphere, 5, 0, {15, 15}, 0.6, kSlidByAMillimetre}}),
+    [](const auto& row) { return "Row" + std::to_string(row.index); });
+
+} // namespace
+} // namespace palp
