@@ -57,6 +57,7 @@ void append(SampleSet& set, const SampleSet& block) {
     set = block;
     return;
   }
+  if (&set == &block) return append(set, SampleSet(block)); // its arrays grow before they are read
   const Eigen::Index before = set.size();
   const Eigen::Index added = block.size();
   set.area.conservativeResize(before + added);

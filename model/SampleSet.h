@@ -76,7 +76,7 @@ SampleSet samplesAt(const SampleSet& set, const std::vector<Eigen::Index>& chose
 /// Only the samples on one area.
 SampleSet areaPart(const SampleSet& set, int area);
 
-/// Appends the samples of `block` to `set`; an empty `set` becomes the block.
+/// Appends the samples of `block`, which may be `set` itself, to `set`; an empty `set` becomes the block.
 void append(SampleSet& set, const SampleSet& block);
 
 } // namespace palp

@@ -51,6 +51,7 @@ Exit run(const StudyArguments& arguments, Session& session) {
   request.command = "palp study " + arguments.study.string() + " -o " + arguments.folder.string();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const ReportOutcome outcome = writeReport(content, request, seconds, reportDrawer(session), session.stop);
+  session.warnings.insert(session.warnings.end(), outcome.warnings.begin(), outcome.warnings.end());
   session.result["table"] = study.table().string();
   session.result["report"] = outcome.page.string();
   session.result["summary"] = outcome.summary;

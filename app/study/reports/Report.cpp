@@ -52,12 +52,16 @@ public:
     for (const ReportTable::Mark mark : table.marks) classes.push_back(rowClass(mark));
     page_.table(table.heads, table.rows, table.caption, classes);
   }
-  void operator()(const ReportChart& chart) const { picture(chart, draw_.chart); }
-  void operator()(const ReportMap& map) const { picture(map, draw_.map); }
+  void operator()(const ReportChart& chart) { picture(chart, draw_.chart); }
+  void operator()(const ReportMap& map) { picture(map, draw_.map); }
+
+  /// Charts and maps that had no drawer.
+  int notDrawn() const { return notDrawn_; }
 
 private:
-  template <class Drawing, class Draw> void picture(const Drawing& drawing, const Draw& draw) const {
+  template <class Drawing, class Draw> void picture(const Drawing& drawing, const Draw& draw) {
     if (!draw) {
+      ++notDrawn_;
       page_.paragraph(drawing.title + ": not drawn, this palp was built without VTK; its points are in the CSV.");
       return;
     }
@@ -71,6 +75,7 @@ private:
   WrittenFiles& files_;
   const ReportDrawer& draw_;
   const std::stop_token& stop_;
+  int notDrawn_ = 0;
 };
 
 void writeOrigin(ReportPage& page, const ReportContent& content, const ReportRequest& request, double seconds) {
@@ -100,7 +105,7 @@ ReportOutcome writeReport(const ReportContent& content, const ReportRequest& req
   WrittenFiles files(request.folder);
   ReportPage page(content.title);
   page.paragraph(content.summary);
-  const PageWriter writer(page, files, draw, stop);
+  PageWriter writer(page, files, draw, stop);
   for (const ReportPart& part : content.parts) std::visit(writer, part);
   for (const std::string& warning : content.warnings) page.paragraph("Note: " + warning);
   writeOrigin(page, content, request, seconds);
@@ -117,6 +122,9 @@ ReportOutcome writeReport(const ReportContent& content, const ReportRequest& req
   outcome.figures = content.figures;
   outcome.stages = content.stages;
   outcome.warnings = content.warnings;
+  if (writer.notDrawn() > 0)
+    outcome.warnings.push_back(std::to_string(writer.notDrawn()) +
+                               " charts or maps are not drawn: this palp was built without VTK");
   outcome.seconds = seconds;
   return outcome;
 }

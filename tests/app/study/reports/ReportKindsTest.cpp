@@ -119,6 +119,17 @@ TEST(WrittenReport, IsGoneWhereAPictureCannotBeDrawn) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
+TEST(Report, WithoutADrawerPageAndWarningSayThatChartsAreMissing) {
+  palp::ReportContent content;
+  content.parts.emplace_back(palp::ReportChart{.file = "a", .title = "Errors"});
+  const palp::TemporaryFolder folder;
+  const palp::ReportOutcome outcome = writeReport(content, quickRequest(folder), 0, {}, {});
+  ASSERT_EQ(outcome.warnings.size(), 1U);
+  EXPECT_NE(outcome.warnings.front().find("1 charts or maps are not drawn"), std::string::npos)
+      << outcome.warnings.front();
+  EXPECT_NE(palp::readFile(outcome.page).find("Errors: not drawn"), std::string::npos);
+}
+
 TEST(Csv, QuotesWhatHoldsACommaAndWritesNumbersExactly) {
   palp::Csv csv({"a", "b"});
   csv.add({"x, \"y\"", 0.1});
