@@ -9,7 +9,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numeric>
+#include <regex>
 
 namespace palp {
 
@@ -68,10 +70,19 @@ StudyAxis axisFrom(const JsonPlace& place, Json& design, bool factorial) {
   return axis;
 }
 
-Json designOf(const JsonPlace& place, const std::filesystem::path& study) {
+Json designOf(const JsonPlace& place, const std::filesystem::path& folder) {
   if (!place.isString()) return Json::parse(toJson(readDesign(place)));
   const std::string named = place.string();
-  return Json::parse(toJson(named == "paper" ? paperDesign() : loadDesign(study.parent_path() / named)));
+  return Json::parse(toJson(named == "paper" ? paperDesign() : loadDesign(folder / named)));
+}
+
+/// Dotted keys of all numbers below an entry.
+void listNumbers(const Json& entry, const std::string& key, std::vector<std::string>& keys) {
+  if (entry.is_number()) keys.push_back(key);
+  if (!entry.is_structured()) return;
+  std::size_t i = 0;
+  for (const auto& [name, value] : entry.items())
+    listNumbers(value, (key.empty() ? "" : key + ".") + (entry.is_array() ? std::to_string(i++) : name), keys);
 }
 
 double rangeValue(const StudyAxis& axis, double share) {
@@ -137,13 +148,17 @@ SensorDesign StudyPlan::at(std::size_t i) const {
 }
 
 StudyPlan loadStudy(const std::filesystem::path& path) {
-  const Json json = parseJson(readFile(path), path.string());
-  const JsonPlace root(json, path.string());
+  return parseStudy(readFile(path), path.string(), path.parent_path());
+}
+
+StudyPlan parseStudy(const std::string& content, const std::string& name, const std::filesystem::path& folder) {
+  const Json json = parseJson(content, name);
+  const JsonPlace root(json, name);
   formatVersion(root, "palp_study", kNewestStudy);
   root.onlyKeys({"palp_study", "design", "vary", "compute"},
                 {"latin_hypercube", "seed", "noise", "decoders", "per_area", "mesh_size_mm", "mapped"});
   StudyPlan plan;
-  Json design = designOf(root.at("design"), path);
+  Json design = designOf(root.at("design"), folder);
   plan.design = design.dump();
   if (root.has("latin_hypercube") && !root.at("latin_hypercube").isNull())
     plan.hypercube = root.at("latin_hypercube").integer(2, static_cast<int>(kMostDesigns));
@@ -184,6 +199,53 @@ StudyPlan loadStudy(const std::filesystem::path& path) {
     }
   }
   return plan;
+}
+
+std::vector<std::string> studyKeys(const SensorDesign& design) {
+  std::vector<std::string> keys;
+  listNumbers(Json::parse(toJson(design)), {}, keys);
+  return keys;
+}
+
+double studyNumber(const SensorDesign& design, const std::string& key) {
+  Json json = Json::parse(toJson(design));
+  const Json* entry = entryAt(json, key);
+  if (entry == nullptr || !entry->is_number())
+    throw Error(key + ": allowed is the key of a number of the design, with dots between: \"block_mm.2\"");
+  return entry->get<double>();
+}
+
+StudyAxis studyAxis(const std::string& key, const std::string& words) {
+  const auto refuse = [&]() -> void {
+    throw Error(key + ": '" + words + "'; allowed is a range like 3..6 x 4, 3..6 x 4 log, or a list like 3, 4.5, 6");
+  };
+  StudyAxis axis;
+  axis.key = key;
+  if (words.find("..") == std::string::npos) {
+    const Json list = parseJson("[" + words + "]", key);
+    for (const JsonPlace& value : JsonPlace(list, key).list()) axis.values.push_back(value.asJson());
+    if (axis.values.empty()) refuse();
+    return axis;
+  }
+  static const std::regex range(
+      R"(\s*([-+]?[0-9]+\.?[0-9]*(?:[eE][-+]?[0-9]+)?)\s*\.\.\s*([-+]?[0-9]+\.?[0-9]*(?:[eE][-+]?[0-9]+)?))"
+      R"((?:\s*x\s*([0-9]{1,7}))?(\s+log)?\s*)");
+  std::smatch parts;
+  if (!std::regex_match(words, parts, range)) refuse();
+  axis.from = std::strtod(parts.str(1).c_str(), nullptr);
+  axis.to = std::strtod(parts.str(2).c_str(), nullptr);
+  axis.count = parts[3].matched ? std::stoi(parts.str(3)) : 0;
+  axis.logarithmic = parts[4].matched;
+  return axis;
+}
+
+std::string studyWords(const StudyAxis& axis) {
+  if (axis.values.empty())
+    return text(axis.from) + ".." + text(axis.to) + (axis.count > 0 ? " x " + std::to_string(axis.count) : "") +
+           (axis.logarithmic ? " log" : "");
+  std::string words;
+  for (const std::string& value : axis.values) words += (words.empty() ? "" : ", ") + value;
+  return words;
 }
 
 std::string toJson(const StudyPlan& plan) {

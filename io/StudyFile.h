@@ -58,6 +58,19 @@ struct StudyPlan {
 
 /// Reads a study's file strictly. Throws Error with file, key, value and what is allowed.
 StudyPlan loadStudy(const std::filesystem::path& path);
+/// The same of its text; errors name it by `name`, and files of designs are looked for in `folder`.
+StudyPlan parseStudy(const std::string& json, const std::string& name, const std::filesystem::path& folder = {});
+
+/// The keys of numbers in a design's file, as StudyAxis::key names them, in the file's order of names.
+std::vector<std::string> studyKeys(const SensorDesign& design);
+/// The number of the design under such a key. Throws Error where there is none.
+double studyNumber(const SensorDesign& design, const std::string& key);
+
+/// An axis from the words of its values: a range "3..6 x 4", with " log" behind it for equal factors ("x 4" is not
+/// needed in a Latin hypercube), or a list of JSON values "3, 4.5, 6". Throws Error with the key and what is allowed.
+StudyAxis studyAxis(const std::string& key, const std::string& words);
+/// The other way.
+std::string studyWords(const StudyAxis& axis);
 
 /// The whole plan as the text of such a file, its design within.
 std::string toJson(const StudyPlan& plan);

@@ -131,5 +131,25 @@ TEST(StudyFile, AnIllegalValueIsARowsProblemNotTheFiles) {
   EXPECT_THROW(plan.at(1), Error);
 }
 
+TEST(StudyFile, AxesAreWrittenInWordsAndReadAgain) {
+  for (const std::string words :
+       {"3..6 x 4", "0.1..10 x 5 log", "-1..1.5", "1e-3..1e3 log", "3, 4.5, 6", "true, false"})
+    EXPECT_EQ(studyWords(studyAxis("k", words)), words == "1e-3..1e3 log" ? "0.001..1000 log"
+                                                 : words == "true, false" ? "true, false"
+                                                                          : words);
+  EXPECT_EQ(studyAxis("k", " 3 .. 6x4 log ").count, 4);
+  EXPECT_EQ(studyAxis("k", "[1, 2], [1, 3]").values.size(), 2U);
+  for (const char* broken : {"3..", "..6", "3..6 x", "3..6 x -2", "3..6 y 4", "", "1,,2", "abc", "3..6 x 99999999"})
+    EXPECT_THROW(studyAxis("k", broken), Error) << broken;
+}
+
+TEST(StudyFile, OffersTheNumbersOfADesign) {
+  const std::vector<std::string> keys = studyKeys(paperDesign());
+  for (const char* wanted : {"block_mm.2", "material.c10_MPa", "upper_layer.z_mm", "lower_layer.column_wire_x_mm.29"})
+    EXPECT_NE(std::find(keys.begin(), keys.end(), wanted), keys.end()) << wanted;
+  EXPECT_EQ(studyNumber(paperDesign(), "block_mm.2"), 5);
+  EXPECT_THROW(studyNumber(paperDesign(), "lower_layer.follows_rubber"), Error);
+}
+
 } // namespace
 } // namespace palp

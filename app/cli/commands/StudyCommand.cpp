@@ -19,17 +19,17 @@ struct StudyArguments {
   std::string shard;
 };
 
-constexpr std::size_t kStepsADesign = 100; // of the progress bar
+constexpr std::size_t kProgressSteps = 10'000;
 
 Exit run(const StudyArguments& arguments, Session& session) {
   const auto start = std::chrono::steady_clock::now();
   StudyFolder study(arguments.folder, loadStudy(arguments.study));
   const std::size_t all = study.plan().designs();
   const SampleRange range = shardOption(arguments.shard, all);
-  ProgressBar bar("study", kStepsADesign * std::max<std::size_t>(1, range.last - range.first));
+  ProgressBar bar("study", kProgressSteps);
   const bool whole = study.compute(
       range.first, range.last, session.threads,
-      [&](double done, const std::string& now) { bar.show(static_cast<std::size_t>(kStepsADesign * done), now); },
+      [&](double share, const std::string& now) { bar.show(static_cast<std::size_t>(kProgressSteps * share), now); },
       session.stop);
   const std::size_t done = study.rowsDone();
   session.result["designs"] = all;

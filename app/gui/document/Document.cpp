@@ -170,6 +170,8 @@ void Document::open(const QString& file) {
     } else if (kind == FileKind::Network && network_.upToDate() && window_.currentScene().objectName() != "live") {
       window_.showScene("network");
       network_.open(file.toStdString());
+    } else if (kind == FileKind::Study) {
+      window_.showStudy(file);
     } else { // there are no samples to try a network on, or it is meant for the board
       Project next = workbench_.project();
       if (kind == FileKind::Network) {

@@ -26,10 +26,10 @@ FileKind fileKind(const QString& file) {
   if (head.startsWith("PALPREC")) return FileKind::Recording;
   if (head.startsWith("# palp_samples") || head.startsWith("\x89HDF\r\n")) return FileKind::Samples;
   if (head.startsWith("PK") && head.contains(".npy")) return FileKind::Samples;
-  // A project holds a design: the outer key counts.
-  constexpr std::array keys{std::pair{"\"palp_project\"", FileKind::Project},
-                            std::pair{"\"palp_network\"", FileKind::Network},
-                            std::pair{"\"palp_design\"", FileKind::Design}};
+  // A project holds a design, as a study may: the outer key counts.
+  constexpr std::array keys{
+      std::pair{"\"palp_project\"", FileKind::Project}, std::pair{"\"palp_network\"", FileKind::Network},
+      std::pair{"\"palp_study\"", FileKind::Study}, std::pair{"\"palp_design\"", FileKind::Design}};
   for (const auto& [key, kind] : keys)
     if (head.contains(key)) return kind;
   // It may be one of ours that is broken: the reader says where.
@@ -37,9 +37,9 @@ FileKind fileKind(const QString& file) {
 }
 
 void requireKind(const QString& file, FileKind wanted) {
-  constexpr std::array kWords{QT_TRANSLATE_NOOP("FileKind", "a design"), QT_TRANSLATE_NOOP("FileKind", "a project"),
-                              QT_TRANSLATE_NOOP("FileKind", "samples"), QT_TRANSLATE_NOOP("FileKind", "a network"),
-                              QT_TRANSLATE_NOOP("FileKind", "a recording")};
+  constexpr std::array kWords{QT_TRANSLATE_NOOP("FileKind", "a design"),    QT_TRANSLATE_NOOP("FileKind", "a project"),
+                              QT_TRANSLATE_NOOP("FileKind", "samples"),     QT_TRANSLATE_NOOP("FileKind", "a network"),
+                              QT_TRANSLATE_NOOP("FileKind", "a recording"), QT_TRANSLATE_NOOP("FileKind", "a study")};
   const FileKind kind = fileKind(file);
   if (kind == wanted || kind == FileKind::Project) return; // which may be broken JSON
   const QString is = kind == FileKind::Foreign ? QObject::tr("no file of Palp's")
@@ -53,9 +53,8 @@ QString foreignWords(const QString& file) {
   const QString type = QFileInfo(file).size() == 0
                            ? QObject::tr("empty")
                            : QMimeDatabase().mimeTypeForFile(file, QMimeDatabase::MatchContent).comment();
-  return QObject::tr("%1: is no file of Palp's (%2). Allowed is a design, a project or a network (.json), samples "
-                     "(.csv, .h5, .npz) "
-                     "or a recording (.palprec).")
+  return QObject::tr("%1: is no file of Palp's (%2). Allowed is a design, a project, a network or a study "
+                     "(.json), samples (.csv, .h5, .npz) or a recording (.palprec).")
       .arg(file, type);
 }
 

@@ -5,7 +5,7 @@
 namespace palp {
 
 /// What a file is, by what it says of itself.
-enum class FileKind { Design, Project, Samples, Network, Recording, Foreign };
+enum class FileKind { Design, Project, Samples, Network, Recording, Study, Foreign };
 
 /// Looks at the first lines alone; whether the rest is whole is for who reads it. Throws Error where it cannot be read.
 FileKind fileKind(const QString& file);

@@ -45,25 +45,66 @@ std::vector<WrittenReport> reportsBelow(const QString& base) {
   folders << QFileInfo(QDir(base).absolutePath());
   std::vector<WrittenReport> all;
   for (const QFileInfo& folder : folders) {
-    const QFileInfo page(QDir(folder.filePath()).filePath("report.html"));
+    const QFileInfo page(QDir(pageFolder(folder.filePath())).filePath("report.html"));
+    const QFileInfo study(QDir(folder.filePath()).filePath(kStudyFile));
     if (page.isFile())
-      all.push_back({folder.absoluteFilePath(), titleOf(folder.fileName(), page.lastModified()), page.lastModified()});
+      all.push_back({page.absolutePath(), titleOf(folder.fileName(), page.lastModified()), page.lastModified()});
+    else if (study.isFile())
+      all.push_back({folder.absoluteFilePath(),
+                     QObject::tr("%1: stopped").arg(titleOf(folder.fileName(), study.lastModified())),
+                     study.lastModified()});
   }
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.written > b.written; });
   return all;
 }
 
+QString pageFolder(const QString& folder) {
+  const QString inside = QDir(folder).filePath("report");
+  return QFileInfo::exists(QDir(inside).filePath("report.html")) ? inside : folder;
+}
+
+QString studyState(const QString& folder, std::size_t designs) {
+  const qsizetype done = QDir(QDir(folder).filePath("rows")).entryList({"*.csv"}, QDir::Files).size();
+  return QObject::tr("%1 of %2 designs are done; Run goes on with the others.").arg(done).arg(designs);
+}
+
 QStringList writtenInto(const QString& folder) {
   QStringList written = QDir(folder).entryList(QDir::Files);
   written.removeAll(kReportDesign);
-  return written;
+  written.removeAll(kStudyFile);
+  return written << QDir(QDir(folder).filePath("rows")).entryList({"*.csv"}, QDir::Files);
+}
+
+QString endWords(ReportRun::Ending how, double seconds, int status, const QString& folder) {
+  const QString time = QString::number(seconds, 'f', 1);
+  const qsizetype written = writtenInto(folder).size();
+  switch (how) {
+  case ReportRun::Ending::Done:
+    return QObject::tr("Done in %1 s: %2").arg(time, QDir(pageFolder(folder)).filePath("report.html"));
+  case ReportRun::Ending::Cancelled:
+    if (written == 0) return QObject::tr("Cancelled after %1 s; nothing was written.").arg(time);
+    if (QFileInfo::exists(QDir(folder).filePath(kStudyFile)))
+      return QObject::tr("Cancelled after %1 s; %2 designs are done, Run goes on with the others.")
+          .arg(time)
+          .arg(written);
+    return QObject::tr("Cancelled after %1 s; %2 of the report's files were already written to %3.")
+        .arg(time, QString::number(written), folder);
+  case ReportRun::Ending::NoResult:
+    return QObject::tr("Ended without a result after %1 s; see the messages.").arg(time);
+  case ReportRun::Ending::Failed:
+    return QObject::tr("Failed with status %1; see the messages.").arg(status);
+  case ReportRun::Ending::NotStarted:
+    return QObject::tr("Could not be started.");
+  }
+  return {};
 }
 
 void tidyReport(const QString& folder, const QString& messages) {
   if (folder.isEmpty()) return;
   QDir place(folder);
   if (writtenInto(folder).isEmpty()) {
-    place.remove(kReportDesign);
+    for (const char* ours : {kReportDesign, kStudyFile}) place.remove(ours);
+    place.rmdir("rows");
     QDir().rmdir(folder);
     return;
   }

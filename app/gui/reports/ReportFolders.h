@@ -1,5 +1,7 @@
 #pragma once
 
+#include "app/gui/reports/ReportRun.h"
+
 #include <QDateTime>
 #include <QString>
 #include <QStringList>
@@ -19,15 +21,28 @@ struct WrittenReport {
 /// one that was there before. Throws Error where it cannot be made.
 QString newReportFolder(const QString& base, const QString& kind, const QDateTime& now);
 
-/// The reports in the folders right below `base` and in `base` itself, the newest first.
+/// The plan of a study in its folder.
+inline constexpr const char* kStudyFile = "study.json";
+
+/// Where the page of a run lies: of a study one folder deeper.
+QString pageFolder(const QString& folder);
+
+/// "3 of 9 designs are done; Run goes on with the others."
+QString studyState(const QString& folder, std::size_t designs);
+
+/// The reports in the folders right below `base` and in `base` itself, studies that were stopped among them; the newest
+/// first.
 std::vector<WrittenReport> reportsBelow(const QString& base);
 
 /// What a run puts into the folder beside the report: what it said, and the design that it is of.
 inline constexpr const char* kReportMessages = "messages.txt";
 inline constexpr const char* kReportDesign = "sensor.json";
 
-/// The report's own files in the folder.
+/// The report's own files in the folder; of a study the designs that are done.
 QStringList writtenInto(const QString& folder);
+
+/// How a run that could be started ended.
+QString endWords(ReportRun::Ending how, double seconds, int status, const QString& folder);
 
 /// Keeps the messages beside what was written; a folder that holds nothing of the report goes. Nothing where the folder
 /// is not there or has no name.

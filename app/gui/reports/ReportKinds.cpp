@@ -1,8 +1,11 @@
 #include "app/gui/reports/ReportKinds.h"
 
+#include "app/gui/project/Command.h"
 #include "app/study/paper/PaperProtocol.h"
 
 #include <QObject>
+
+#include <algorithm>
 
 namespace palp {
 
@@ -21,7 +24,12 @@ std::vector<ReportKind> allKinds() {
       {QObject::tr("reproduce Fig. 12"),
        {"reproduce", "fig12"},
        QObject::tr("Errors from resistances over the spread, both modes and the linear baseline."),
-       protocolParts(3)}};
+       protocolParts(3)},
+      {QObject::tr("study of many designs"),
+       {kStudyKind},
+       QObject::tr("Numbers of the design vary; one row a design in one table, the best designs and a chart of each "
+                   "result over each number. A study that was stopped goes on where it ended."),
+       {{"all designs", 1, 60}}}};
   for (const ReportComputation& report : reportComputations()) {
     QString what = QString::fromStdString(report.what);
     if (!what.isEmpty()) what[0] = what[0].toUpper();
@@ -36,6 +44,23 @@ std::vector<ReportKind> allKinds() {
 const std::vector<ReportKind>& reportKinds() {
   static const std::vector<ReportKind> all = allKinds();
   return all;
+}
+
+int studyIndex() {
+  const auto found = std::find_if(reportKinds().begin(), reportKinds().end(),
+                                  [](const ReportKind& kind) { return kind.arguments.front() == kStudyKind; });
+  return static_cast<int>(found - reportKinds().begin());
+}
+
+bool ofAnotherDesign(const QStringList& arguments, const Project& project) {
+  return arguments.front() == "report" && project.design != paperDesign();
+}
+
+QString settingsName(const QStringList& arguments, const Project& project) {
+  QStringList words = arguments;
+  words << QString::number(project.samples.perArea) << meshOption(project.mesh).split(' ', Qt::SkipEmptyParts);
+  if (ofAnotherDesign(arguments, project)) words << "design";
+  return words.join('-');
 }
 
 } // namespace palp

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/gui/project/Project.h"
 #include "app/study/reports/ReportComputations.h"
 
 #include <QString>
@@ -17,7 +18,19 @@ struct ReportKind {
   std::vector<RunPart> parts;
 };
 
-/// The paper's experiments, then all kinds of `palp report`.
+/// The argument of the kind that is a study; its time is not known before.
+inline constexpr const char* kStudyKind = "study";
+
+/// The paper's experiments, a study, then all kinds of `palp report`.
 const std::vector<ReportKind>& reportKinds();
+
+/// Where the study stands in the list.
+int studyIndex();
+
+/// A report with these arguments needs the project's design: it is of it, and that is not the paper's.
+bool ofAnotherDesign(const QStringList& arguments, const Project& project);
+
+/// Under which the times of a run are kept: another number of samples, mesh or design takes another time.
+QString settingsName(const QStringList& arguments, const Project& project);
 
 } // namespace palp

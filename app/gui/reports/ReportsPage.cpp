@@ -5,6 +5,8 @@
 #include "app/gui/reports/ReportCases.h"
 #include "app/gui/reports/ReportKinds.h"
 #include "app/gui/reports/ReportPicture.h"
+#include "app/gui/reports/StudyForm.h"
+#include "app/gui/reports/WrittenReports.h"
 #include "io/DesignFile.h"
 #include "model/base/Error.h"
 
@@ -37,11 +39,6 @@ namespace {
 
 constexpr const char* kFolderKey = "reportsFolder";
 constexpr const char* kPage = "report.html";
-constexpr int kFolderRole = Qt::UserRole;
-
-QString commandLineProgram() {
-  return QDir(QCoreApplication::applicationDirPath()).filePath("palp");
-}
 
 QPushButton* button(const QString& text, const QString& name, const QString& tip) {
   auto* push = new QPushButton(text);
@@ -50,22 +47,10 @@ QPushButton* button(const QString& text, const QString& name, const QString& tip
   return push;
 }
 
-bool ofAnotherDesign(const QStringList& arguments, const Project& project) {
-  return arguments.front() == "report" && project.design != paperDesign();
-}
-
-/// Under which the times of a run are kept: another number of samples, mesh or design takes another time.
-QString settingsName(const QStringList& arguments, const Project& project) {
-  QStringList words = arguments;
-  words << QString::number(project.samples.perArea) << meshOption(project.mesh).split(' ', Qt::SkipEmptyParts);
-  if (ofAnotherDesign(arguments, project)) words << "design";
-  return words.join('-');
-}
-
 } // namespace
 
 ReportsPage::ReportsPage(Workbench& workbench, QWidget* parent)
-    : Scene(parent), workbench_(workbench), program_(commandLineProgram()) {
+    : Scene(parent), workbench_(workbench), program_(QDir(QCoreApplication::applicationDirPath()).filePath("palp")) {
   build();
   connect(start_, &QPushButton::clicked, this, &ReportsPage::start);
   connect(cancel_, &QPushButton::clicked, &run_, &ReportRun::cancel);
@@ -77,10 +62,7 @@ ReportsPage::ReportsPage(Workbench& workbench, QWidget* parent)
   connect(&run_, &ReportRun::ended, this, &ReportsPage::end);
   connect(pictures_, &QListWidget::currentTextChanged, picture_,
           [this](const QString& file) { picture_->show(QPixmap(QDir(shown_).filePath(file))); });
-  connect(written_, &QListWidget::itemActivated, this,
-          [this](const QListWidgetItem* item) { showWritten(item->data(kFolderRole).toString()); });
-  connect(written_, &QListWidget::itemClicked, this,
-          [this](const QListWidgetItem* item) { showWritten(item->data(kFolderRole).toString()); });
+  connect(written_, &WrittenReports::chosen, this, &ReportsPage::showWritten);
   timer_.setInterval(500);
   connect(&timer_, &QTimer::timeout, this, &ReportsPage::showTime);
   chooseKind();
@@ -103,6 +85,11 @@ void ReportsPage::build() {
   what_->setWordWrap(true);
   connect(kind_, &QComboBox::currentIndexChanged, this, &ReportsPage::chooseKind);
   column->addWidget(what_);
+  study_ = new StudyForm(workbench_);
+  connect(study_, &StudyForm::changed, this, [this] {
+    if (isStudy()) chooseKind();
+  });
+  column->addWidget(study_);
   column->addLayout(buildFolder());
   column->addLayout(buildState());
   column->addWidget(buildViews(), 1);
@@ -176,10 +163,7 @@ QWidget* ReportsPage::buildViews() {
   log_->setLineWrapMode(QPlainTextEdit::NoWrap); // tables
   log_->setPlaceholderText(tr("What the report says while it runs."));
   log_->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
-  written_ = new QListWidget;
-  written_->setObjectName("writtenReports");
-  written_->setAccessibleName(tr("Earlier reports"));
-  written_->setToolTip(tr("The reports in the folder; a click shows one again"));
+  written_ = new WrittenReports;
   pictures_ = new QListWidget;
   pictures_->setObjectName("reportPictures");
   pictures_->setAccessibleName(tr("Pictures of the report"));
@@ -202,6 +186,14 @@ QWidget* ReportsPage::buildViews() {
   return views;
 }
 
+const ReportKind& ReportsPage::kind() const {
+  return reportKinds()[static_cast<std::size_t>(kind_->currentIndex())];
+}
+
+bool ReportsPage::isStudy() const {
+  return kind().arguments.front() == kStudyKind;
+}
+
 QString ReportsPage::base() const {
   return QDir(target_->text().trimmed()).absolutePath();
 }
@@ -212,7 +204,8 @@ void ReportsPage::showEvent(QShowEvent* event) {
 }
 
 QStringList ReportsPage::arguments(const Project& project, const QString& folder) const {
-  QStringList all = reportKinds()[static_cast<std::size_t>(kind_->currentIndex())].arguments;
+  QStringList all = kind().arguments;
+  if (isStudy()) return all << QDir(folder).filePath(kStudyFile) << "-o" << folder; // its file says the rest
   if (all.front() == "report") all << "--per-area" << QString::number(project.samples.perArea);
   return all + meshOption(project.mesh).split(' ', Qt::SkipEmptyParts) + QStringList{"-o", folder};
 }
@@ -226,25 +219,43 @@ QString ReportsPage::commands(const Project& project, const QString& designFile)
 /// What it runs, and for how long.
 void ReportsPage::chooseKind() {
   if (run_.running()) return; // what runs stays in sight
-  const ReportKind& kind = reportKinds()[static_cast<std::size_t>(kind_->currentIndex())];
-  what_->setText(kind.what);
-  plan_ = std::make_unique<ReportPlan>(settingsName(kind.arguments, workbench_.project()), kind.parts);
-  cases_->show(*plan_);
+  what_->setText(kind().what);
+  study_->setVisible(isStudy());
   tabs_->setCurrentWidget(cases_);
+  if (isStudy()) return planStudy();
+  plan_ = std::make_unique<ReportPlan>(settingsName(kind().arguments, workbench_.project()), kind().parts);
+  cases_->show(*plan_);
   state_->setText(tr("Takes about %1%2.")
                       .arg(roughly(plan_->seconds()),
                            plan_->measuredHere() ? tr(", as the last time on this machine")
                                                  : tr(" on two cores with 100 samples an area; not yet run here")));
 }
 
+/// How much a study is; its time is not known before.
+void ReportsPage::planStudy() {
+  std::size_t designs = 0;
+  try {
+    designs = study_->plan().designs();
+    state_->setText(tr("%1 designs. How long they take shows after the first.").arg(designs));
+  } catch (const Error&) {
+    state_->setText(tr("No study yet: what is in red above.")); // the form says it
+  }
+  start_->setEnabled(designs > 0);
+  plan_ = std::make_unique<ReportPlan>(
+      "study", std::vector<RunPart>{{"all designs", 1, static_cast<double>(std::max<std::size_t>(1, designs))}});
+  cases_->show(*plan_);
+}
+
 void ReportsPage::start() {
   QStringList all;
   runFolder_.clear();
   try {
-    const ReportKind& kind = reportKinds()[static_cast<std::size_t>(kind_->currentIndex())];
-    runFolder_ = newReportFolder(base(), kind.arguments.back() == "all" ? "paper" : kind.arguments.back(),
-                                 QDateTime::currentDateTime());
-    all = arguments(workbench_.project(), runFolder_) << "--force"; // into the folder that was made just now
+    runFolder_ = isStudy()
+                     ? study_->runFolder(base())
+                     : newReportFolder(base(), kind().arguments.back() == "all" ? "paper" : kind().arguments.back(),
+                                       QDateTime::currentDateTime());
+    all = arguments(workbench_.project(), runFolder_);
+    if (!isStudy()) all << "--force"; // into the folder that was made just now
     if (ofAnotherDesign(all, workbench_.project())) {
       const QString design = QDir(runFolder_).filePath(kReportDesign);
       saveDesign(design.toStdString(), workbench_.project().design, true);
@@ -286,52 +297,23 @@ void ReportsPage::end(ReportRun::Ending how) {
   kind_->setEnabled(true);
   cancel_->setEnabled(false);
   log_->verticalScrollBar()->setValue(log_->verticalScrollBar()->maximum());
-  const QString seconds = QString::number(run_.seconds(), 'f', 1);
   const bool done = how == ReportRun::Ending::Done;
-  if (done)
-    plan_->remember(cases_->finish(run_.seconds()), moments_);
-  else
-    cases_->stop();
-  switch (how) {
-  case ReportRun::Ending::Done:
-    state_->setText(tr("Done in %1 s: %2").arg(seconds, QDir(runFolder_).filePath(kPage)));
-    break;
-  case ReportRun::Ending::Cancelled:
-    state_->setText(cancelledWords());
-    break;
-  case ReportRun::Ending::NoResult:
-    state_->setText(tr("Ended without a result after %1 s; see the messages.").arg(seconds));
-    break;
-  case ReportRun::Ending::Failed:
-    state_->setText(tr("Failed with status %1; see the messages.").arg(run_.status()));
-    break;
-  case ReportRun::Ending::NotStarted:
-    state_->setText(
-        tr("%1 cannot be started; it is built together with this program and lies beside it.").arg(program_));
-    break;
-  }
+  const std::vector<double> took = done ? cases_->finish(run_.seconds()) : std::vector<double>{};
+  if (done && !isStudy()) plan_->remember(took, moments_);
+  if (!done) cases_->stop();
+  state_->setText(
+      how == ReportRun::Ending::NotStarted
+          ? tr("%1 cannot be started; it is built together with this program and lies beside it.").arg(program_)
+          : endWords(how, run_.seconds(), run_.status(), runFolder_));
   if (how == ReportRun::Ending::NoResult || how == ReportRun::Ending::Failed) tabs_->setCurrentWidget(log_);
   tidyReport(runFolder_, log_->toPlainText());
-  if (QFileInfo::exists(runFolder_)) showFolder(runFolder_, done);
+  if (QFileInfo::exists(runFolder_)) showFolder(pageFolder(runFolder_), done);
+  if (isStudy() && how == ReportRun::Ending::Cancelled && QFileInfo::exists(runFolder_)) study_->goOnIn(runFolder_);
   listReports();
 }
 
-QString ReportsPage::cancelledWords() {
-  const qsizetype written = writtenInto(runFolder_).size();
-  const QString seconds = QString::number(run_.seconds(), 'f', 1);
-  return written == 0 ? tr("Cancelled after %1 s; nothing was written.").arg(seconds)
-                      : tr("Cancelled after %1 s; %2 of the report's files were already written to %3.")
-                            .arg(seconds, QString::number(written), runFolder_);
-}
-
 void ReportsPage::listReports() {
-  written_->clear();
-  for (const WrittenReport& report : reportsBelow(base())) {
-    auto* item = new QListWidgetItem(report.title, written_);
-    item->setData(kFolderRole, report.folder);
-    item->setToolTip(report.folder);
-    if (report.folder == shown_) written_->setCurrentItem(item);
-  }
+  written_->list(base(), shown_);
   tabs_->setTabText(tabs_->indexOf(written_), tr("Earlier reports (%1)").arg(written_->count()));
 }
 
@@ -340,6 +322,7 @@ void ReportsPage::showWritten(const QString& folder) {
     state_->setText(tr("A report runs; earlier ones are shown when it is done."));
     return;
   }
+  if (QFileInfo::exists(QDir(folder).filePath(kStudyFile))) return showUnfinished(folder);
   if (!QFileInfo::exists(QDir(folder).filePath(kPage))) {
     state_->setText(tr("%1 is not there any more.").arg(folder));
     listReports();
@@ -350,6 +333,31 @@ void ReportsPage::showWritten(const QString& folder) {
                                                         : tr("%1 holds no messages of its run.").arg(folder));
   showFolder(folder, true);
   state_->setText(tr("Shown again: %1").arg(QDir(folder).filePath(kPage)));
+}
+
+void ReportsPage::openStudy(const QString& file) {
+  const StudyPlan plan = loadStudy(file.toStdString());
+  if (running()) throw Error("a report runs; a study can be opened when it is done");
+  kind_->setCurrentIndex(studyIndex());
+  study_->show(plan);
+}
+
+QString ReportsPage::endsWords() const {
+  return isStudy()
+             ? tr("A study is running: quitting stops it; the designs that are done are kept, and it goes on from "
+                  "Earlier reports.")
+             : tr("A report is running: quitting stops it, and nothing of it is kept.");
+}
+
+/// Its form again, so that Run goes on with it.
+void ReportsPage::showUnfinished(const QString& folder) {
+  try {
+    openStudy(QDir(folder).filePath(kStudyFile));
+    study_->goOnIn(folder);
+    state_->setText(studyState(folder, study_->plan().designs()));
+  } catch (const Error& error) {
+    state_->setText(QString::fromStdString(error.what()));
+  }
 }
 
 void ReportsPage::showFolder(const QString& folder, bool page) {

@@ -22,6 +22,9 @@ namespace palp {
 
 class ReportCases;
 class ReportPicture;
+class StudyForm;
+class WrittenReports;
+struct ReportKind;
 
 /// The reports, run by the command line program beside this one, so that a report can neither block nor break the
 /// window; its page and pictures are shown when it is done. Each run has a folder of its own, so that none takes the
@@ -41,6 +44,11 @@ public:
   /// Another program in place of the palp that lies beside this one.
   void setProgram(const QString& program) { program_ = program; }
 
+  /// Shows the file of a study in the form. Throws Error.
+  void openStudy(const QString& file);
+
+  /// What becomes of the report that runs if the window is closed.
+  [[nodiscard]] QString endsWords() const;
   [[nodiscard]] bool running() const { return run_.running(); }
   /// Stops a report that runs.
   void cancel() { run_.cancel(); }
@@ -60,12 +68,15 @@ private:
   QWidget* buildViews();
   /// Of palp, for the chosen report into a folder.
   [[nodiscard]] QStringList arguments(const Project& project, const QString& folder) const;
+  [[nodiscard]] const ReportKind& kind() const;
+  [[nodiscard]] bool isStudy() const;
+  void planStudy();
+  void showUnfinished(const QString& folder);
   [[nodiscard]] QString base() const;
   void chooseKind();
   void start();
   void setProgress(double share, const QString& what);
   void end(ReportRun::Ending how);
-  QString cancelledWords();
   /// What is left of the run [s].
   [[nodiscard]] double left_s() const;
   void showTime();
@@ -85,6 +96,7 @@ private:
   double share_ = 0;
   QString runFolder_; ///< of the run
   QString shown_;     ///< folder of the report that is shown
+  StudyForm* study_ = nullptr;
   QComboBox* kind_ = nullptr;
   QLabel* what_ = nullptr;
   QLineEdit* target_ = nullptr;
@@ -97,7 +109,7 @@ private:
   QTabWidget* tabs_ = nullptr;
   ReportCases* cases_ = nullptr;
   QPlainTextEdit* log_ = nullptr;
-  QListWidget* written_ = nullptr;
+  WrittenReports* written_ = nullptr;
   QListWidget* pictures_ = nullptr;
   ReportPicture* picture_ = nullptr;
 };

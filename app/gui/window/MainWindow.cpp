@@ -188,6 +188,11 @@ void MainWindow::showEvent(QShowEvent* event) {
   workbench_.touch().need(currentScene().stage());
 }
 
+void MainWindow::showStudy(const QString& file) {
+  reports_->openStudy(file);
+  showScene("reports");
+}
+
 bool MainWindow::showScene(const QString& name) {
   const auto index = names_.indexOf(name);
   if (index < 0) return false;
@@ -254,7 +259,7 @@ void MainWindow::restoreLayout() {
 
 QStringList MainWindow::endedByQuitting() const {
   QStringList ends;
-  if (reports_->running()) ends << tr("A report is running: quitting stops it, and nothing of it is kept.");
+  if (reports_->running()) ends << reports_->endsWords();
   const QString files = live_->recording();
   if (!files.isEmpty())
     ends << tr("%1 is being recorded: quitting ends the recording; what has come is in the file.").arg(files);

@@ -31,6 +31,8 @@ public:
 
   /// By its name on the command line. False where there is no such scene.
   bool showScene(const QString& name);
+  /// The form of a study in the Reports scene. Throws Error where the file is none.
+  void showStudy(const QString& file);
   [[nodiscard]] QStringList sceneNames() const;
   [[nodiscard]] Scene& currentScene() const;
   /// As the rail names it.

@@ -18,16 +18,21 @@ StudyFolder::StudyFolder(fs::path folder, StudyPlan plan) : folder_(std::move(fo
     if (readFile(file) != content)
       throw Error(folder_.string() + ": holds another study (study.json differs); allowed is a new folder, or the same "
                                      "study to go on with it");
+    makeRows();
     return;
   }
   if (fs::exists(folder_) && !fs::is_directory(folder_))
     throw Error(folder_.string() + ": is a file; allowed is a folder");
   if (fs::exists(folder_) && !fs::is_empty(folder_))
     throw Error(folder_.string() + ": is not empty and holds no study; allowed is a new folder");
+  makeRows();
+  writeFile(file, content, true); // another shard may have written the same just now
+}
+
+void StudyFolder::makeRows() const {
   std::error_code failed;
   fs::create_directories(folder_ / "rows", failed);
   if (failed) throw Error(folder_.string() + ": the folder cannot be made: " + failed.message());
-  writeFile(file, content, true); // another shard may have written the same just now
 }
 
 fs::path StudyFolder::row(std::size_t design) const {
@@ -45,23 +50,24 @@ std::size_t StudyFolder::rowsDone() const {
   return count;
 }
 
-bool StudyFolder::compute(std::size_t first, std::size_t last, int threads,
-                          const std::function<void(double, const std::string&)>& progress,
+bool StudyFolder::compute(std::size_t first, std::size_t last, int threads, const ReportProgress& progress,
                           const std::stop_token& stop) {
-  for (std::size_t i = first; i < last; ++i) {
+  std::vector<std::size_t> missing;
+  for (std::size_t i = first; i < last; ++i)
+    if (!done(i)) missing.push_back(i);
+  const auto tell = [&](double of, const std::string& what) {
+    if (progress) progress(of / static_cast<double>(missing.size()), what);
+  };
+  for (std::size_t k = 0; k < missing.size(); ++k) {
     if (stop.stop_requested()) return false;
-    const auto before = static_cast<double>(i - first);
-    if (!done(i)) {
-      const auto found = studyRow(
-          plan_, i, threads,
-          [&](double share, const std::string& what) {
-            if (progress) progress(before + share, "design " + std::to_string(i) + ": " + what);
-          },
-          stop);
-      if (!found) return false;
-      writeFile(row(i), studyLine(plan_, i, *found), true); // whole or not at all
-    }
-    if (progress) progress(before + 1, "design " + std::to_string(i));
+    const std::string design = "design " + std::to_string(missing[k]);
+    const auto before = static_cast<double>(k);
+    const auto found = studyRow(
+        plan_, missing[k], threads,
+        [&](double share, const std::string& what) { tell(before + share, design + ": " + what); }, stop);
+    if (!found) return false;
+    writeFile(row(missing[k]), studyLine(plan_, missing[k], *found), true); // whole or not at all
+    tell(before + 1, design);
   }
   return true;
 }

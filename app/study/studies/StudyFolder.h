@@ -1,9 +1,9 @@
 #pragma once
 
+#include "app/study/reports/Report.h"
 #include "io/StudyFile.h"
 
 #include <filesystem>
-#include <functional>
 #include <stop_token>
 
 namespace palp {
@@ -20,10 +20,10 @@ public:
   /// Rows that are there of all designs.
   [[nodiscard]] std::size_t rowsDone() const;
 
-  /// Works out what is missing among the designs first..last-1; `progress` gets how many of these are done and how far
-  /// the next is. False: stopped; what is done stays.
-  bool compute(std::size_t first, std::size_t last, int threads,
-               const std::function<void(double done, const std::string& now)>& progress, const std::stop_token& stop);
+  /// Works out what is missing among the designs first..last-1; `progress` gets the share of it that is done. False:
+  /// stopped; what is done stays.
+  bool compute(std::size_t first, std::size_t last, int threads, const ReportProgress& progress,
+               const std::stop_token& stop);
 
   /// Joins all rows, in the order of the designs, into table.csv. Throws Error where one is missing or broken.
   void writeTable() const;
@@ -31,6 +31,7 @@ public:
   [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
 
 private:
+  void makeRows() const;
   [[nodiscard]] std::filesystem::path row(std::size_t design) const;
 
   std::filesystem::path folder_;

@@ -17,12 +17,18 @@ namespace palp {
 
 namespace {
 
-/// Most areas that any of the designs has.
+/// Most areas that any of the designs has that can be; the rows of the others say why not.
 int mostAreas(const StudyPlan& plan) {
   int most = 1;
   const bool vary = std::any_of(plan.axes.begin(), plan.axes.end(),
                                 [](const StudyAxis& axis) { return axis.key.starts_with("areas."); });
-  for (std::size_t i = 0; i < (vary ? plan.designs() : 1); ++i) most = std::max(most, plan.at(i).areas.count());
+  for (std::size_t i = 0; i < (vary ? plan.designs() : 1); ++i) {
+    try {
+      most = std::max(most, plan.at(i).areas.count());
+    } catch (const Error&) {
+      continue;
+    }
+  }
   return most;
 }
 

@@ -1,0 +1,32 @@
+#include "app/gui/reports/WrittenReports.h"
+
+#include "app/gui/reports/ReportFolders.h"
+
+namespace palp {
+
+namespace {
+
+constexpr int kFolderRole = Qt::UserRole;
+
+} // namespace
+
+WrittenReports::WrittenReports(QWidget* parent) : QListWidget(parent) {
+  setObjectName("writtenReports");
+  setAccessibleName(tr("Earlier reports"));
+  setToolTip(tr("The reports in the folder; a click shows one again, or goes on with a study that was stopped"));
+  const auto choose = [this](const QListWidgetItem* item) { emit chosen(item->data(kFolderRole).toString()); };
+  connect(this, &QListWidget::itemActivated, this, choose);
+  connect(this, &QListWidget::itemClicked, this, choose);
+}
+
+void WrittenReports::list(const QString& base, const QString& shown) {
+  clear();
+  for (const WrittenReport& report : reportsBelow(base)) {
+    auto* item = new QListWidgetItem(report.title, this);
+    item->setData(kFolderRole, report.folder);
+    item->setToolTip(report.folder);
+    if (report.folder == shown) setCurrentItem(item);
+  }
+}
+
+} // namespace palp
