@@ -2,6 +2,7 @@
 
 #include "app/gui/project/Command.h"
 #include "app/study/paper/PaperProtocol.h"
+#include "io/DesignFile.h"
 
 #include <QObject>
 
@@ -44,6 +45,17 @@ std::vector<ReportKind> allKinds() {
 const std::vector<ReportKind>& reportKinds() {
   static const std::vector<ReportKind> all = allKinds();
   return all;
+}
+
+double studySeconds(const StudyPlan& plan) {
+  // As measured on the paper's design: under Eq. (1) a bound is 42 nonlinear solves, samples of decoders many more.
+  const double mesh = plan.meshSize_mm || plan.mapped ? 0.03 : 1; // of other meshes, which are coarse
+  const bool field = parseDesign(plan.design, "study").field() != nullptr;
+  double seconds = 0.2;
+  if (plan.computes(StudyQuantity::Bound)) seconds += field ? 2 : 20 * mesh;
+  if (plan.computes(StudyQuantity::Decoders)) seconds += 2 + 0.15 * plan.perArea * mesh;
+  if (plan.computes(StudyQuantity::Displacement) || plan.computes(StudyQuantity::Error)) seconds += 1.2 * mesh;
+  return seconds * static_cast<double>(plan.designs());
 }
 
 int studyIndex() {

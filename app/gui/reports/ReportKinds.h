@@ -2,6 +2,7 @@
 
 #include "app/gui/project/Project.h"
 #include "app/study/reports/ReportComputations.h"
+#include "io/StudyFile.h"
 
 #include <QString>
 #include <QStringList>
@@ -23,6 +24,9 @@ inline constexpr const char* kStudyKind = "study";
 
 /// The paper's experiments, a study, then all kinds of `palp report`.
 const std::vector<ReportKind>& reportKinds();
+
+/// Roughly how long a study takes on two cores [s].
+double studySeconds(const StudyPlan& plan);
 
 /// Where the study stands in the list.
 int studyIndex();

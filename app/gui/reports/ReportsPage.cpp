@@ -231,18 +231,21 @@ void ReportsPage::chooseKind() {
                                                  : tr(" on two cores with 100 samples an area; not yet run here")));
 }
 
-/// How much a study is; its time is not known before.
+/// How much a study is; its time is known only roughly before.
 void ReportsPage::planStudy() {
-  std::size_t designs = 0;
+  std::vector<RunPart> parts{kind().parts};
   try {
-    designs = study_->plan().designs();
-    state_->setText(tr("%1 designs. How long they take shows after the first.").arg(designs));
+    const StudyPlan study = study_->plan();
+    parts.front().seconds = studySeconds(study);
+    state_->setText(tr("%1 designs, about %2; better known after the first.")
+                        .arg(study.designs())
+                        .arg(roughly(parts.front().seconds)));
+    start_->setEnabled(true);
   } catch (const Error&) {
     state_->setText(tr("No study yet: what is in red above.")); // the form says it
+    start_->setEnabled(false);
   }
-  start_->setEnabled(designs > 0);
-  plan_ = std::make_unique<ReportPlan>(
-      "study", std::vector<RunPart>{{"all designs", 1, static_cast<double>(std::max<std::size_t>(1, designs))}});
+  plan_ = std::make_unique<ReportPlan>(kStudyKind, parts);
   cases_->show(*plan_);
 }
 

@@ -32,9 +32,9 @@ namespace palp {
 
 namespace {
 
-constexpr int kAxesHeight_px = 108; // three of them; more scroll
-constexpr int kHypercube = 1;       // in the list of plans
-constexpr int kOfTheFile = 1;       // in the list of designs
+constexpr int kMostAxes = 4; // that are seen at once
+constexpr int kHypercube = 1;           // in the list of plans
+constexpr int kOfTheFile = 1;           // in the list of designs
 
 /// A row of widgets without margins.
 QWidget* rowOf(const std::vector<QWidget*>& widgets, bool stretched = true) {
@@ -148,12 +148,11 @@ QWidget* StudyForm::buildAxes() {
   });
   axesColumn_->addWidget(rowOf({more}));
   axesColumn_->addStretch(1);
-  auto* area = new QScrollArea;
-  area->setWidget(inside);
-  area->setWidgetResizable(true);
-  area->setFrameShape(QFrame::NoFrame);
-  area->setFixedHeight(kAxesHeight_px);
-  return area;
+  axesArea_ = new QScrollArea;
+  axesArea_->setWidget(inside);
+  axesArea_->setWidgetResizable(true);
+  axesArea_->setFrameShape(QFrame::NoFrame);
+  return axesArea_;
 }
 
 QWidget* StudyForm::buildQuantities() {
@@ -275,6 +274,8 @@ void StudyForm::numberAxes() {
     axes_[i].key->setObjectName(QString("studyKey%1").arg(i));
     axes_[i].values->setObjectName(QString("studyValues%1").arg(i));
   }
+  const int row_px = axes_.empty() ? 0 : axes_.front().row->sizeHint().height() + axesColumn_->spacing();
+  axesArea_->setFixedHeight((std::min(static_cast<int>(axes_.size()), kMostAxes) + 1) * row_px);
 }
 
 StudyPlan StudyForm::plan() const {

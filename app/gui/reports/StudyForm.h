@@ -12,6 +12,7 @@ class QCheckBox;
 class QComboBox;
 class QLineEdit;
 class QPushButton;
+class QScrollArea;
 class QSpinBox;
 class QVBoxLayout;
 
@@ -73,6 +74,7 @@ private:
   bool showing_ = false;
   std::vector<Axis> axes_;
   QVBoxLayout* axesColumn_ = nullptr;
+  QScrollArea* axesArea_ = nullptr;
   QComboBox* base_ = nullptr;
   QComboBox* plan_ = nullptr;
   QSpinBox* points_ = nullptr;
