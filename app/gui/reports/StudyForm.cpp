@@ -32,9 +32,9 @@ namespace palp {
 
 namespace {
 
-constexpr int kMostAxes = 4; // that are seen at once
-constexpr int kHypercube = 1;           // in the list of plans
-constexpr int kOfTheFile = 1;           // in the list of designs
+constexpr int kMostAxes = 4;  // that are seen at once
+constexpr int kHypercube = 1; // in the list of plans
+constexpr int kOfTheFile = 1; // in the list of designs
 
 /// A row of widgets without margins.
 QWidget* rowOf(const std::vector<QWidget*>& widgets, bool stretched = true) {
