@@ -1,6 +1,8 @@
+#include "app/cli/Options.h"
 #include "app/cli/commands/TrainArguments.h"
 #include "app/study/decoding/NoiseBound.h"
 #include "app/study/decoding/Prediction.h"
+#include "app/study/reports/map/TouchBound.h"
 #include "io/AtomicFile.h"
 #include "io/DecoderFile.h"
 #include "io/SampleFile.h"
@@ -19,6 +21,7 @@ struct Arguments {
   std::string samples;
   std::string noise;
   std::string seed = "1";
+  std::string design;
   bool bare = false;
   OutputFile output;
 };
@@ -97,6 +100,23 @@ void print(const Prediction& prediction, const DecoderError& error) {
   if (error.rightAreas) std::cout << "right areas: " << 100 * *error.rightAreas << " %\n";
 }
 
+/// Errors of force and place as multiples of what no estimate without a bias can beat.
+void besideBounds(const SensorDesign& design, const SampleSet& samples, const Prediction& prediction, double noise,
+                  Session& session) {
+  const auto bounds = session.stages.measure(
+      "bounds", [&] { return touchBounds(samples, design, noise, {}, session.threads, session.stop); });
+  if (!bounds) throw Cancelled();
+  const ErrorsOverBounds over = errorsOverBounds(*bounds, prediction.forces_N - samples.forces_N,
+                                                 prediction.places_mm - samples.touchedPlaces_mm());
+  session.result["touch_bound"] = {{"force_N", over.force_N},
+                                   {"place_mm", over.place_mm},
+                                   {"force_error_over_bound", over.forceRatio},
+                                   {"place_error_over_bound", over.placeRatio}};
+  if (!session.json)
+    std::cout << "bounds (medians): Fz " << over.force_N << " N, place " << over.place_mm
+              << " mm; errors over them: Fz " << over.forceRatio << ", place " << over.placeRatio << '\n';
+}
+
 Exit run(const Arguments& arguments, Session& session) {
   if (!arguments.output.path.empty()) arguments.output.requireWritable();
   PredictOptions options;
@@ -107,7 +127,11 @@ Exit run(const Arguments& arguments, Session& session) {
       throw UsageError("--noise: '" + arguments.noise + "'; allowed is 0 to 0.5 (relative standard deviation)");
   }
   const int seed = wholeNumber("--seed", arguments.seed, 0, 2'147'483'647);
+  std::optional<SensorDesign> design;
+  if (!arguments.design.empty()) design = designOption(arguments.design);
   const Decoder decoder = readNetwork(arguments.network);
+  if (design && !(decoder.place && options.noise > 0))
+    throw UsageError("--design: is for the bounds of touches, with a network of force and place and --noise above 0");
   const SampleSet samples = loadSamples(arguments.samples, session.stop);
   requireReadout(decoder, samples.origin.readout, "the samples are");
   const Eigen::MatrixXd clean = inputsOf(samples, decoder.input);
@@ -124,6 +148,7 @@ Exit run(const Arguments& arguments, Session& session) {
     session.result["noise_bound"] = {{"without_prior_percent_of_range", listJson(bound.withoutPriorPercent)},
                                      {"with_prior_percent_of_range", listJson(bound.withPriorPercent)}};
   }
+  if (design) besideBounds(*design, samples, prediction, options.noise, session);
   stopIfAsked(session.stop);
   if (!arguments.output.path.empty()) {
     writeFile(arguments.output.path, csv(decoder, prediction), arguments.output.force);
@@ -145,6 +170,8 @@ void addPredict(Cli& cli) {
   command.option("--noise", arguments->noise,
                  "relative noise that is added to the samples and counted in the standard deviations");
   command.option("--seed", arguments->seed, "of the noise (default 1)");
+  command.option("--design", arguments->design,
+                 "design of samples of touches, or paper: the errors of force and place beside their bounds");
   command.flag("--bare", arguments->bare, "forces alone: no standard deviations, no areas");
   arguments->output.declare(command, "CSV with the forces");
 }

@@ -28,12 +28,11 @@ constexpr double kMapsFrom = 0.6, kMapsTo = 0.75; // of the progress
 
 const char* const kPairsTouched =
     "Eq. (1) adds independent pairs of electrodes in a block that conducts everywhere: no sneak paths, no field "
-    "between "
-    "them. The rubber has no hysteresis, creep or temperature. A board will do worse than these numbers.";
+    "between them. The rubber has no hysteresis, creep or temperature. A board will do worse than these numbers.";
 const char* const kFieldTouched =
     "Electrodes are spheres of one radius with the dipoles that the field induces in them; the rubber's conductivity "
-    "is "
-    "constant and the same in all directions, also where it is deformed. No hysteresis, creep or temperature. A board "
+    "is constant and the same in all directions, also where it is deformed. No hysteresis, creep or temperature. A "
+    "board "
     "will do worse than these numbers.";
 
 /// Finite values, or none where there is none.
@@ -61,6 +60,25 @@ struct MapOfSize {
   TouchMap map;
 };
 
+const Eigen::MatrixXd& smallestForce(const TouchMap& map) {
+  return map.smallestForce_N;
+}
+const Eigen::MatrixXd& slipperyForce(const TouchMap& map) {
+  return map.slipperyForce_N;
+}
+const Eigen::MatrixXd& slipperyPlace(const TouchMap& map) {
+  return map.slipperyPlace_mm;
+}
+template <std::size_t axis> const Eigen::MatrixXd& heldForce(const TouchMap& map) {
+  return map.heldForce_N[axis];
+}
+const Eigen::MatrixXd& heldPlace(const TouchMap& map) {
+  return map.heldPlace_mm;
+}
+const Eigen::MatrixXd& twoPoint(const TouchMap& map) {
+  return map.twoPoint_mm;
+}
+
 /// A quantity of the maps: its name for tables and files, and what it is.
 struct MapQuantity {
   std::string name, unit, file;
@@ -68,38 +86,14 @@ struct MapQuantity {
   bool drawn = false;
 };
 
-const std::array kQuantities{
-    MapQuantity{"smallest force seen", "N", "force", [](const TouchMap& m) -> auto& {return m.smallestForce_N;
-} // namespace
-, true
-} // namespace palp
-, MapQuantity{"Fz, no friction", "N", "fz", [](const TouchMap& m) -> auto& {return m.slipperyForce_N;
-}
-}
-, MapQuantity{"place, no friction", "mm", "place-free", [](const TouchMap& m) -> auto& {return m.slipperyPlace_mm;
-}
-}
-, MapQuantity{"Fx, held", "N", "fx-held", [](const TouchMap& m) -> auto& {return m.heldForce_N[0];
-}
-}
-, MapQuantity{"Fy, held", "N", "fy-held", [](const TouchMap& m) -> auto& {return m.heldForce_N[1];
-}
-}
-, MapQuantity{"Fz, held", "N", "fz-held", [](const TouchMap& m) -> auto& {return m.heldForce_N[2];
-}
-}
-, MapQuantity{"place, held", "mm", "place", [](const TouchMap& m) -> auto& {return m.heldPlace_mm;
-}
-, true
-}
-, MapQuantity {
-  "two-point distance", "mm", "two-point", [](const TouchMap& m) -> auto& {
-    return m.twoPoint_mm;
-  }
-  , true
-}
-}
-;
+const std::array kQuantities{MapQuantity{"smallest force seen", "N", "force", smallestForce, true},
+                             MapQuantity{"Fz, no friction", "N", "fz", slipperyForce},
+                             MapQuantity{"place, no friction", "mm", "place-free", slipperyPlace},
+                             MapQuantity{"Fx, held", "N", "fx-held", heldForce<0>},
+                             MapQuantity{"Fy, held", "N", "fy-held", heldForce<1>},
+                             MapQuantity{"Fz, held", "N", "fz-held", heldForce<2>},
+                             MapQuantity{"place, held", "mm", "place", heldPlace, true},
+                             MapQuantity{"two-point distance", "mm", "two-point", twoPoint, true}};
 
 class MapWriter {
 public:

@@ -70,6 +70,13 @@ Eigen::VectorXd deviations(Eigen::MatrixXd j) {
   return variances.cwiseSqrt().cwiseQuotient(scale);
 }
 
+/// d ln R by Fz, x and y over the noise.
+Eigen::MatrixXd unknowns(const TouchInfluence& of, double Fz_N, double relativeNoise) {
+  Eigen::MatrixXd j(of.perNewton.rows(), 3);
+  j << of.perNewton.col(2), Fz_N * of.byPlace_per_Nmm;
+  return j / relativeNoise;
+}
+
 /// Works out the maps from the influences of the touches at all places.
 class MapWork {
 public:
@@ -90,17 +97,14 @@ public:
       for (int x = 0; x < columns; ++x) {
         const TouchInfluence& of = at(x, y);
         map.smallestForce_N(x, y) = kSeenDeviations * request_.relativeNoise / of.perNewton.col(2).norm();
-        const Eigen::MatrixXd slippery = unknownsOf(of);
-        const Eigen::VectorXd withoutFriction = deviations(slippery);
-        map.slipperyForce_N(x, y) = withoutFriction(0);
-        map.slipperyPlace_mm(x, y) = withoutFriction.tail<2>().norm();
-        Eigen::MatrixXd held(slippery.rows(), 5);
-        held << of.perNewton.leftCols<2>() / request_.relativeNoise, slippery;
-        const Eigen::VectorXd withFriction = deviations(held);
+        const TouchDeviations slippery = touchDeviations(of, force_N_, false, request_.relativeNoise);
+        map.slipperyForce_N(x, y) = slippery.force_N.z();
+        map.slipperyPlace_mm(x, y) = slippery.place_mm.norm();
+        const TouchDeviations held = touchDeviations(of, force_N_, true, request_.relativeNoise);
         for (std::size_t axis = 0; axis < 3; ++axis)
-          map.heldForce_N[axis](x, y) = withFriction(static_cast<Eigen::Index>(axis));
-        map.heldPlace_mm(x, y) = withFriction.tail<2>().norm();
-        map.twoPoint_mm(x, y) = twoPoint_mm(x, y, slippery);
+          map.heldForce_N[axis](x, y) = held.force_N(static_cast<Eigen::Index>(axis));
+        map.heldPlace_mm(x, y) = held.place_mm.norm();
+        map.twoPoint_mm(x, y) = twoPoint_mm(x, y, unknowns(of, force_N_, request_.relativeNoise));
       }
     return map;
   }
@@ -108,13 +112,6 @@ public:
 private:
   [[nodiscard]] const TouchInfluence& at(int x, int y) const {
     return influences_[static_cast<std::size_t>(x + request_.places[0] * y)];
-  }
-
-  /// d ln R by Fz, x and y over the noise.
-  [[nodiscard]] Eigen::MatrixXd unknownsOf(const TouchInfluence& of) const {
-    Eigen::MatrixXd j(of.perNewton.rows(), 3);
-    j << of.perNewton.col(2), force_N_ * of.byPlace_per_Nmm;
-    return j / request_.relativeNoise;
   }
 
   /// One touch of unknown force and place explains what lies in the span of `one`; the rest of what the pair says grows
@@ -158,6 +155,18 @@ LinearReadings readingsAtRest(const SensorDesign& design, int threads, const std
     throw DesignError("resistance.pressure_law: a map is taken at rest, where the law has a kink; allowed is null");
   if (const FieldLaw* law = design.field()) return byField(design, *law, threads, stop);
   return byPairs(design);
+}
+
+TouchDeviations touchDeviations(const TouchInfluence& of, double Fz_N, bool held, double relativeNoise) {
+  const Eigen::MatrixXd slippery = unknowns(of, Fz_N, relativeNoise);
+  if (!held) {
+    const Eigen::Vector3d found = deviations(slippery);
+    return {{0, 0, found(0)}, found.tail<2>()};
+  }
+  Eigen::MatrixXd j(slippery.rows(), 5);
+  j << of.perNewton.leftCols<2>() / relativeNoise, slippery;
+  const Eigen::VectorXd found = deviations(j);
+  return {found.head<3>(), found.tail<2>()};
 }
 
 Eigen::Matrix2Xd placesOf(const TouchMapRequest& request) {

@@ -44,6 +44,14 @@ struct TouchMap {
 TouchMap touchMap(const InfluenceSurfaces& surfaces, const TouchMapRequest& request, int threads,
                   const std::stop_token& stop = {});
 
+/// Deviations of any estimate without a bias of one touch: Cramer-Rao bounds for this relative noise of each
+/// resistance.
+struct TouchDeviations {
+  Eigen::Vector3d force_N; ///< of a touch without friction those of Fx and Fy are 0: they are known
+  Eigen::Vector2d place_mm;
+};
+TouchDeviations touchDeviations(const TouchInfluence& of, double Fz_N, bool held, double relativeNoise);
+
 /// Places of a map, x first: 2 x places.
 Eigen::Matrix2Xd placesOf(const TouchMapRequest& request);
 

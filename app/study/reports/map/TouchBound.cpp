@@ -1,0 +1,70 @@
+#include "app/study/reports/map/TouchBound.h"
+
+#include "app/study/Median.h"
+#include "io/DesignFile.h"
+#include "model/DesignError.h"
+#include "model/TouchRange.h"
+
+#include <cmath>
+
+namespace palp {
+
+namespace {
+
+constexpr double kMedianOfNormal = 0.67449;    // of |z|, z normal with deviation 1
+constexpr double kMedianOfRayleigh = 1.177410; // of a distance in the plane whose coordinates have deviation 1
+
+Indenter touchOf(const SampleSet& samples, Eigen::Index i) {
+  Indenter touch;
+  touch.shape = static_cast<IndenterShape>(std::lround(samples.touches(kTouchShape, i)));
+  touch.radius_mm = samples.touches(kTouchSize_mm, i);
+  touch.place_mm = samples.touches.block<2, 1>(kTouchX_mm, i);
+  touch.control = Press{{0, 0, samples.forces_N(2, i)}};
+  return touch;
+}
+
+} // namespace
+
+std::optional<std::vector<TouchDeviations>> touchBounds(const SampleSet& samples, const SensorDesign& design,
+                                                        double relativeNoise, const MeshOptions& mesh, int threads,
+                                                        const std::stop_token& stop) {
+  if (!samples.hasTouches()) throw Error("the samples are of no touches; their bound needs no design");
+  if (samples.origin.designFingerprint != designFingerprint(design))
+    throw Error("the samples are of the design " + samples.origin.designFingerprint + ", not of this one, " +
+                designFingerprint(design));
+  std::vector<Indenter> touches;
+  for (Eigen::Index i = 0; i < samples.size(); ++i) touches.push_back(touchOf(samples, i));
+  for (const Indenter& touch : touches)
+    if (touch.shape != IndenterShape::Sphere && touch.shape != IndenterShape::Pin && touch.shape != IndenterShape::Flat)
+      throw DesignError("the samples are of a " + shapeName(touch.shape) +
+                        "; allowed for their bound is one that has a place along x and y: sphere, pin or flat");
+  const LinearReadings readings = readingsAtRest(design, threads, stop);
+  const HyperelasticProblem problem(design, sensorMesh(design, meshForTouches(design, touchesOf(design), mesh), stop));
+  if (problem.findFactor(threads, stop) == 0) return {};
+  const auto surfaces = InfluenceSurfaces::find(problem, readings, threads, stop);
+  if (!surfaces) return {};
+  std::vector<TouchDeviations> bounds;
+  const std::vector<TouchInfluence> influences = surfaces->of(touches, threads, stop);
+  for (std::size_t i = 0; i < touches.size(); ++i) {
+    const auto column = static_cast<Eigen::Index>(i);
+    bounds.push_back(touchDeviations(influences[i], samples.forces_N(2, column),
+                                     samples.touches(kTouchFriction, column) > 0, relativeNoise));
+  }
+  return bounds;
+}
+
+ErrorsOverBounds errorsOverBounds(const std::vector<TouchDeviations>& bounds,
+                                  const Eigen::Ref<const Eigen::MatrixXd>& forceErrors_N,
+                                  const Eigen::Ref<const Eigen::MatrixXd>& placeErrors_mm) {
+  std::vector<double> force, place, forceRatio, placeRatio;
+  for (std::size_t i = 0; i < bounds.size(); ++i) {
+    const auto column = static_cast<Eigen::Index>(i);
+    force.push_back(bounds[i].force_N.z());
+    place.push_back(bounds[i].place_mm.norm());
+    forceRatio.push_back(std::abs(forceErrors_N(2, column)) / (kMedianOfNormal * force.back()));
+    placeRatio.push_back(placeErrors_mm.col(column).norm() / (kMedianOfRayleigh / std::sqrt(2) * place.back()));
+  }
+  return {median(force), median(place), median(forceRatio), median(placeRatio)};
+}
+
+} // namespace palp

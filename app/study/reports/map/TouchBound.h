@@ -1,0 +1,31 @@
+#pragma once
+
+#include "app/study/reports/Report.h"
+#include "app/study/reports/map/TouchMap.h"
+#include "model/SampleSet.h"
+#include "solver/SensorMesh.h"
+
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+namespace palp {
+
+/// The bounds of each sample's touch, its indenter known, without prior: by the influence surfaces of the design at
+/// rest (TouchMap says what that leaves out), the contact as large as its force makes it. Empty: stopped. Throws Error
+/// where the samples are of no touches or of another design, and DesignError where no map can be made.
+std::optional<std::vector<TouchDeviations>> touchBounds(const SampleSet& samples, const SensorDesign& design,
+                                                        double relativeNoise, const MeshOptions& mesh, int threads,
+                                                        const std::stop_token& stop = {});
+
+/// How errors stand beside bounds, in the median over the samples: of an estimate that is normal and reaches its bound
+/// both ratios are 1.
+struct ErrorsOverBounds {
+  double force_N = 0, place_mm = 0;      ///< medians of the bounds: of Fz, and of the root of both coordinates' squares
+  double forceRatio = 0, placeRatio = 0; ///< of |error of Fz| / (0.6745 bound), distance / its median at the bound
+};
+ErrorsOverBounds errorsOverBounds(const std::vector<TouchDeviations>& bounds,
+                                  const Eigen::Ref<const Eigen::MatrixXd>& forceErrors_N,
+                                  const Eigen::Ref<const Eigen::MatrixXd>& placeErrors_mm);
+
+} // namespace palp
