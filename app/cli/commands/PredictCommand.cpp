@@ -101,8 +101,8 @@ void print(const Prediction& prediction, const DecoderError& error) {
 }
 
 /// Errors of force and place as multiples of what no estimate without a bias can beat.
-void besideBounds(const SensorDesign& design, const SampleSet& samples, const Prediction& prediction, double noise,
-                  Session& session) {
+ErrorsOverBounds besideBounds(const SensorDesign& design, const SampleSet& samples, const Prediction& prediction,
+                              double noise, Session& session) {
   const auto bounds = session.stages.measure(
       "bounds", [&] { return touchBounds(samples, design, noise, {}, session.threads, session.stop); });
   if (!bounds) throw Cancelled();
@@ -112,9 +112,7 @@ void besideBounds(const SensorDesign& design, const SampleSet& samples, const Pr
                                    {"place_mm", over.place_mm},
                                    {"force_error_over_bound", over.forceRatio},
                                    {"place_error_over_bound", over.placeRatio}};
-  if (!session.json)
-    std::cout << "bounds (medians): Fz " << over.force_N << " N, place " << over.place_mm
-              << " mm; errors over them: Fz " << over.forceRatio << ", place " << over.placeRatio << '\n';
+  return over;
 }
 
 Exit run(const Arguments& arguments, Session& session) {
@@ -148,13 +146,18 @@ Exit run(const Arguments& arguments, Session& session) {
     session.result["noise_bound"] = {{"without_prior_percent_of_range", listJson(bound.withoutPriorPercent)},
                                      {"with_prior_percent_of_range", listJson(bound.withPriorPercent)}};
   }
-  if (design) besideBounds(*design, samples, prediction, options.noise, session);
+  std::optional<ErrorsOverBounds> over;
+  if (design) over = besideBounds(*design, samples, prediction, options.noise, session);
   stopIfAsked(session.stop);
   if (!arguments.output.path.empty()) {
     writeFile(arguments.output.path, csv(decoder, prediction), arguments.output.force);
     session.result["file"] = arguments.output.path.string();
   }
-  if (!session.json) print(prediction, error);
+  if (session.json) return Exit::Done;
+  print(prediction, error);
+  if (over)
+    std::cout << "bounds (medians): Fz " << over->force_N << " N, place " << over->place_mm
+              << " mm; errors over them: Fz " << over->forceRatio << ", place " << over->placeRatio << '\n';
   return Exit::Done;
 }
 

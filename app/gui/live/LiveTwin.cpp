@@ -1,8 +1,9 @@
 #include "app/gui/live/LiveTwin.h"
 
-#include "app/gui/jobs/TouchResistances.h"
+#include "app/gui/jobs/FieldTouch.h"
 #include "app/gui/views/BlockView.h"
 #include "model/base/Error.h"
+#include "solver/ConductionField.h"
 
 #include <QHBoxLayout>
 #include <QLabel>
@@ -16,7 +17,9 @@ namespace palp {
 struct LiveTwin::Result {
   Touch touch;
   std::shared_ptr<const NodalFields> fields;
-  Eigen::MatrixXd measured; ///< R / R at rest - 1
+  std::optional<TouchResistances> resistances;  ///< by the design's law
+  std::shared_ptr<const ConductionField> field; ///< for the next load on the same block; null by Eq. (1)
+  Eigen::MatrixXd measured;                     ///< R / R at rest - 1
 };
 
 namespace {
@@ -33,8 +36,7 @@ QString loadWords(const LoadCase& load) {
 }
 
 /// How far the model's dR/R is from the board's, as share of the board's; none where the two do not compare.
-std::optional<double> mismatch(const Touch& touch, const Eigen::MatrixXd& measured) {
-  const auto resistances = resistancesOf(touch.design(), *touch.displacements());
+std::optional<double> mismatch(const std::optional<TouchResistances>& resistances, const Eigen::MatrixXd& measured) {
   if (!resistances) return {};
   const auto& [rest, now] = *resistances;
   if (measured.rows() != rest.rows() || measured.cols() != rest.cols()) return {};
@@ -91,19 +93,30 @@ const Touch* LiveTwin::touch() const {
 void LiveTwin::solve(const SensorDesign& design, const LoadCase& load, const MeshOptions& mesh,
                      const Eigen::MatrixXd& measured) {
   Touch start(design, load, mesh);
+  std::shared_ptr<const ConductionField> field;
   if (result_ && result_->touch.design() == design && result_->touch.meshOptions() == mesh) { // keeps the mesh
     start = result_->touch;
     start.setLoad(load);
+    field = result_->field;
   }
-  const auto work = [this, touch = std::move(start), measured](const std::stop_token& stop,
-                                                               JobProgress& progress) mutable -> JobRunner::Taking {
+  const auto work = [this, touch = std::move(start), field,
+                     measured](const std::stop_token& stop, JobProgress& progress) mutable -> JobRunner::Taking {
     progress.set(-1, "Solving the twin");
     if (!touch.advance(Stage::Solution, {}, {{}, stop}) && !stop.stop_requested())
       throw Error("the twin did not converge under this force; the last one stays");
     if (stop.stop_requested()) return {};
     touch.advance(Stage::Displacements);
+    auto resistances = resistancesOf(touch.design(), *touch.displacements());
+    if (touch.design().field() != nullptr) {
+      progress.set(-1, "The conduction field of the twin");
+      if (!field) field = std::make_shared<const ConductionField>(*touch.problem());
+      const auto found = fieldFound(touch, touch.solution()->reachedLoadFraction, *field, stop);
+      if (!found) return {};
+      resistances = found->read[static_cast<std::size_t>(touch.design().field()->readout)];
+    }
     auto fields = std::make_shared<const NodalFields>(touch.problem()->fields(touch.solution()->state()));
-    auto result = std::make_shared<const Result>(Result{std::move(touch), std::move(fields), measured});
+    auto result = std::make_shared<const Result>(
+        Result{std::move(touch), std::move(fields), std::move(resistances), field, measured});
     return [this, result] { take(result); };
   };
   runner_.start(tr("Solving the twin"), work);
@@ -126,10 +139,8 @@ void LiveTwin::displayWords() {
   const Touch& touch = result_->touch;
   QString words = loadWords(touch.load()) +
                   tr("; at most %1 mm").arg(result_->fields->displacement_mm.colwise().norm().maxCoeff(), 0, 'g', 3);
-  if (const auto share = mismatch(touch, result_->measured))
+  if (const auto share = mismatch(result_->resistances, result_->measured))
     words += tr("; its dR/R differs from the board's by %1 % (rms)").arg(100 * *share, 0, 'g', 2);
-  else if (const QString why = whyNoResistances(touch.design()); !why.isEmpty())
-    words += ". " + why;
   words_->setText(words);
 }
 
