@@ -1,6 +1,7 @@
 #include "model/RestFit.h"
 
 #include "model/FieldAtRest.h"
+#include "model/base/Cancelled.h"
 #include "model/base/Error.h"
 #include "model/base/Text.h"
 
@@ -43,8 +44,9 @@ Numbers numbersOf(const FieldLaw& law) {
 /// One design, its readings, and what of P stays the same.
 class RestModel {
 public:
-  RestModel(const SensorDesign& design, const Eigen::MatrixXd& resistances_ohm)
-      : design_(design), counts_(wireCounts(design)), green_(boxGreen(design.block_mm, electrodes_mm(design))) {
+  RestModel(const SensorDesign& design, const Eigen::MatrixXd& resistances_ohm, const std::stop_token& stop)
+      : design_(design), stop_(stop), counts_(wireCounts(design)),
+        green_(boxGreen(design.block_mm, electrodes_mm(design))) {
     dipoles_ = Eigen::MatrixXd::Zero(green_.value.rows(), green_.value.cols());
     for (const Eigen::MatrixXd& slope : green_.slope) dipoles_ += slope.transpose() * slope;
     measured_ = resistances_ohm.array().log();
@@ -57,6 +59,7 @@ public:
   /// ln R of the sensor less ln R of the model; entries that are not finite where there is no such sensor. With the
   /// derivatives of ln R by the numbers where they are asked for.
   Eigen::VectorXd left(const FieldLaw& law, const Numbers& x, Eigen::MatrixXd* slopes = nullptr) const {
+    stopIfAsked(stop_); // a tenth of a second at most from look to look
     const FieldLaw now = lawOf(x, law);
     const double a = now.electrodeRadius_mm, rho = now.resistivity_ohm_mm;
     const Eigen::MatrixXd p = potentials_ohm(green_, now);
@@ -86,6 +89,7 @@ public:
 
 private:
   const SensorDesign& design_;
+  const std::stop_token& stop_;
   WireCounts counts_;
   BoxGreen green_;
   Eigen::MatrixXd dipoles_;  ///< S
@@ -227,15 +231,17 @@ std::string worstWire(const Eigen::MatrixXd& left) {
 
 } // namespace
 
-RestFit fitAtRest(const SensorDesign& design, const Eigen::Ref<const Eigen::MatrixXd>& resistances_ohm, double noise) {
+RestFit fitAtRest(const SensorDesign& design, const Eigen::Ref<const Eigen::MatrixXd>& resistances_ohm, double noise,
+                  const std::stop_token& stop) {
   const FieldLaw& law = requireReadings(design, resistances_ohm);
-  return fitted(RestModel(design, resistances_ohm), law, noise);
+  return fitted(RestModel(design, resistances_ohm, stop), law, noise);
 }
 
 std::string whyNoFit(const RestFit& fit, const SensorDesign& design,
-                     const Eigen::Ref<const Eigen::MatrixXd>& resistances_ohm, double noise) {
+                     const Eigen::Ref<const Eigen::MatrixXd>& resistances_ohm, double noise,
+                     const std::stop_token& stop) {
   if (fit.misfit <= kRestFits) return {};
-  const RestModel model(design, resistances_ohm);
+  const RestModel model(design, resistances_ohm, stop);
   const Readout given = requireReadings(design, resistances_ohm).readout;
   std::optional<Readout> best;
   double least = fit.misfit / 2; // else nothing is gained

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -32,12 +33,14 @@ inline constexpr double kRestFits = 0.02;
 /// `resistances_ohm` row-wires x column-wires, NaN where one is not known; `noise` of a reading, relative. The contact
 /// and the radius act alike but for the dipoles: where the readings cannot tell them apart, the contact is kept. Throws
 /// Error where the design has not the law of the field, a reading is no resistance, or fewer readings are there than
-/// are needed.
-RestFit fitAtRest(const SensorDesign& design, const Eigen::Ref<const Eigen::MatrixXd>& resistances_ohm, double noise);
+/// are needed, and Cancelled.
+RestFit fitAtRest(const SensorDesign& design, const Eigen::Ref<const Eigen::MatrixXd>& resistances_ohm, double noise,
+                  const std::stop_token& stop = {});
 
 /// Why a fit cannot be trusted, in a sentence that names the wire or the read-out that is likely to blame; empty where
-/// it can. Tries the other read-outs.
+/// it can. Tries the other read-outs. Throws Cancelled.
 std::string whyNoFit(const RestFit& fit, const SensorDesign& design,
-                     const Eigen::Ref<const Eigen::MatrixXd>& resistances_ohm, double noise);
+                     const Eigen::Ref<const Eigen::MatrixXd>& resistances_ohm, double noise,
+                     const std::stop_token& stop = {});
 
 } // namespace palp

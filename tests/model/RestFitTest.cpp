@@ -3,6 +3,8 @@
 #include "model/FieldAtRest.h"
 #include "model/base/Error.h"
 
+#include "model/base/Cancelled.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -133,6 +135,13 @@ TEST(RestFit, RefusesWhatCannotBeFitted) {
   EXPECT_THROW(fitAtRest(design, readings, 0), Error);
   readings.setConstant(std::numeric_limits<double>::quiet_NaN());
   EXPECT_THROW(fitAtRest(design, readings, 0), Error);
+}
+
+TEST(RestFit, IsStopped) {
+  const SensorDesign design = fieldDesign(Readout::VirtualGround);
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_THROW(fitAtRest(design, readingsOf(design, 1e-4, 1), 1e-4, stop.get_token()), Cancelled);
 }
 
 } // namespace

@@ -120,8 +120,8 @@ Exit runRest(const CalibrateArguments& arguments, Session& session) {
   const RestRecording rest = readRest(arguments.rest);
   requireBoard(arguments, design, rest);
   const auto [fit, whyNot] = session.stages.measure("train", [&] {
-    const RestFit found = fitAtRest(design, rest.resistances_ohm, rest.noise);
-    return std::pair{found, whyNoFit(found, design, rest.resistances_ohm, rest.noise)};
+    const RestFit found = fitAtRest(design, rest.resistances_ohm, rest.noise, session.stop);
+    return std::pair{found, whyNoFit(found, design, rest.resistances_ohm, rest.noise, session.stop)};
   });
   design.resistance = fit.law;
   fill(session.result, rest, fit, whyNot);
