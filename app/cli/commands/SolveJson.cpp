@@ -60,7 +60,10 @@ Json indentersJson(const LoadCase& load, const std::vector<IndenterState>& state
 }
 
 void printIndenter(const Indenter& indenter, const IndenterState& state) {
-  const Eigen::Vector3d &f = state.force_N, &d = state.translation_mm;
+  const auto withoutRounding = [](const Eigen::Vector3d& v) -> Eigen::Vector3d { // 1e-17 N sideways is no force
+    return (v.array().abs() > 1e-12 * v.norm()).select(v, Eigen::Vector3d::Zero());
+  };
+  const Eigen::Vector3d f = withoutRounding(state.force_N), d = withoutRounding(state.translation_mm);
   std::printf("%s: force (%.6g, %.6g, %.6g) N, moved (%.6g, %.6g, %.6g) mm; contact %.4g mm2, radius %.4g mm, "
               "pressure at its centre %.4g MPa, slides on %.0f %%\n",
               shapeName(indenter.shape).c_str(), f.x(), f.y(), f.z(), d.x(), d.y(), d.z(), state.contactArea_mm2,
