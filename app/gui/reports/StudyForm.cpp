@@ -4,6 +4,7 @@
 #include "app/gui/reports/ReportFolders.h"
 #include "app/gui/reports/ReportKinds.h"
 #include "app/gui/widgets/FileDialogs.h"
+#include "app/gui/widgets/KeepRoom.h"
 #include "app/gui/widgets/WrappedLabel.h"
 #include "io/AtomicFile.h"
 #include "io/DesignFile.h"
@@ -32,9 +33,9 @@ namespace palp {
 
 namespace {
 
-constexpr int kMostAxes = 4; // that are seen at once
-constexpr int kHypercube = 1;           // in the list of plans
-constexpr int kOfTheFile = 1;           // in the list of designs
+constexpr int kMostAxes = 4;  // that are seen at once
+constexpr int kHypercube = 1; // in the list of plans
+constexpr int kOfTheFile = 1; // in the list of designs
 
 /// A row of widgets without margins.
 QWidget* rowOf(const std::vector<QWidget*>& widgets, bool stretched = true) {
@@ -100,6 +101,7 @@ void StudyForm::build() {
   column->addWidget(buildQuantities());
   problem_ = problemLabel();
   problem_->setObjectName("studyProblem");
+  keepRoom(*problem_);
   column->addWidget(problem_);
   column->addWidget(buildResult());
 }
