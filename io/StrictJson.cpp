@@ -49,6 +49,16 @@ std::string plain(const std::string& message) {
   return end == std::string::npos ? message : message.substr(end + 2);
 }
 
+/// That the file ends before its JSON does, with the line; empty where what is wrong stands within it.
+std::string cutOff(std::string_view content, const Json::exception& broken) {
+  const auto* at = dynamic_cast<const Json::parse_error*>(&broken);
+  if (at == nullptr || at->byte <= content.size()) return {};
+  const std::size_t last = content.find_last_not_of(" \t\r\n");
+  if (last == std::string_view::npos) return "the file is empty";
+  const auto line = 1 + std::count(content.begin(), content.begin() + static_cast<std::ptrdiff_t>(last), '\n');
+  return "the file ends in the middle, at line " + std::to_string(line) + ": it was cut off, or not written to its end";
+}
+
 } // namespace
 
 Json parseJson(std::string_view content, const std::string& file) {
@@ -57,7 +67,8 @@ Json parseJson(std::string_view content, const std::string& file) {
     return Json::parse(content,
                        [&](int depth, Json::parse_event_t event, Json& parsed) { return guard(depth, event, parsed); });
   } catch (const Json::exception& broken) {
-    throw Error(file + ": no valid JSON: " + plain(broken.what()));
+    const std::string cut = cutOff(content, broken);
+    throw Error(file + ": no valid JSON: " + (cut.empty() ? plain(broken.what()) : cut));
   }
 }
 

@@ -64,8 +64,13 @@ public:
   [[nodiscard]] const BoardConfiguration& configuration() const override { return configuration_; }
   Outcome read(RawReport& report, std::chrono::milliseconds timeout) override;
   [[nodiscard]] std::string reason() const override;
-  /// Text of the last mark that was passed; empty before the first.
+  /// Text of the last mark that was passed or set; empty before the first.
   [[nodiscard]] const std::string& mark() const { return mark_; }
+  /// A mark of the one who looks on, at the report that was read last; it holds until the recording's next or a jump.
+  void setMark(const std::string& text, double hostTime_s) {
+    mark_ = text;
+    markTime_s_ = hostTime_s;
+  }
   /// That mark stands where the recording was taken up last, or behind that place: not before it.
   [[nodiscard]] bool markFollowsJump() const { return markTime_s_ >= takenUp_s_; }
   /// The tare that held at this place when it was recorded; null: none.

@@ -54,9 +54,11 @@ LinearSolution byQr(Eigen::MatrixXd a, const Eigen::MatrixXd& b, double rcond, s
 
 /// Column-pivoted QR of a semidefinite matrix given by its lower triangle. The pivots of Cholesky's factorisation
 /// reveal its rank as well as the norms of its columns do (what they leave bounds what those leave), and cost a third.
-LinearSolution bySemidefiniteQr(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double rcond) {
+LinearSolution bySemidefiniteQr(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double rcond,
+                                const std::stop_token& stop) {
   Eigen::MatrixXd columns = a;
   std::vector<int> order = lapack::semidefinitePivots(columns);
+  stopIfAsked(stop);
   const std::size_t fixed = order.size();
   std::vector<bool> taken(static_cast<std::size_t>(a.cols()), false);
   for (const int i : order) taken[static_cast<std::size_t>(i)] = true;
@@ -122,7 +124,8 @@ double smallestRidge(double size) {
 }
 
 LinearSolution solveSymmetric(Eigen::MatrixXd a, const Eigen::MatrixXd& b, LeastSquaresMethod method, double ridge,
-                              double rcond) {
+                              double rcond, const std::stop_token& stop) {
+  stopIfAsked(stop);
   if (method == LeastSquaresMethod::Cholesky) {
     const double used = std::max(ridge, kCholeskyRidge);
     LinearSolution solution = byCholesky(a, b, used);
@@ -133,7 +136,7 @@ LinearSolution solveSymmetric(Eigen::MatrixXd a, const Eigen::MatrixXd& b, Least
   }
   a.diagonal().array() += ridge;
   if (method == LeastSquaresMethod::PivotedQr) {
-    LinearSolution solution = bySemidefiniteQr(a, b, rcond);
+    LinearSolution solution = bySemidefiniteQr(a, b, rcond, stop);
     solution.ridge = ridge;
     return solution;
   }

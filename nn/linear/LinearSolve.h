@@ -21,9 +21,10 @@ struct LinearSolution {
   std::vector<std::string> warnings;
 };
 
-/// (a + ridge I) x = b for a symmetric, positive semi-definite a, of which the lower triangle is read.
+/// (a + ridge I) x = b for a symmetric, positive semi-definite a, of which the lower triangle is read. Throws Cancelled
+/// between its steps.
 LinearSolution solveSymmetric(Eigen::MatrixXd a, const Eigen::MatrixXd& b, LeastSquaresMethod method, double ridge,
-                              double rcond);
+                              double rcond, const std::stop_token& stop = {});
 
 /// min |a x - b|^2 + ridge |x|^2. Throws Cancelled between blocks of rows.
 LinearSolution solveLeastSquares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, LeastSquaresMethod method,

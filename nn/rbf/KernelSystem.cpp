@@ -48,9 +48,11 @@ BasisForm KernelSystem::form() const {
 RbfSolution KernelSystem::solve(double spread, double ridge, const std::stop_token& stop) const {
   stopIfAsked(stop);
   const Eigen::MatrixXd phi = kernel(spread);
+  stopIfAsked(stop);
   // (Q2^T Phi Q2 + ridge I) z = Q2^T y
   const LinearSolution solved =
-      solveSymmetric(space_.projectBothSides(phi), right_, options_.method, ridge, options_.rcond);
+      solveSymmetric(space_.projectBothSides(phi), right_, options_.method, ridge, options_.rcond, stop);
+  stopIfAsked(stop);
   const Eigen::MatrixXd weights = space_.embed(solved.x); // w = Q2 z, samples x outputs
   RbfSolution solution;
   solution.ridge = solved.ridge;
@@ -87,7 +89,9 @@ LeaveOneOutResult KernelSystem::byInverse(double spread, double ridge, const std
   for (;;) {
     stopIfAsked(stop);
     Eigen::MatrixXd phi = kernel(spread);
+    stopIfAsked(stop);
     space_.projectInPlace(phi);
+    stopIfAsked(stop);
     auto factor = phi.bottomRightCorner(unknowns, unknowns);
     ridge = std::max(ridge, smallestRidge(unknowns == 0 ? 0 : factor.diagonal().sum()));
     factor.diagonal().array() += ridge;
@@ -100,6 +104,7 @@ LeaveOneOutResult KernelSystem::byInverse(double spread, double ridge, const std
       continue;
     }
     // A = L L^T. With H = L^-1 Q2^T: w = H^T (L^-1 Q2^T y), and diag(Q2 A^-1 Q2^T) are the squares of H's columns.
+    stopIfAsked(stop);
     const Eigen::MatrixXd right = lapack::solveLower(factor, right_, false);
     space_.solveProjectionInPlace(phi);
     const auto half = phi.bottomRows(unknowns);

@@ -31,6 +31,19 @@ TEST(StrictJson, SaysFileKeyValueAndLimits) {
   EXPECT_EQ(refusalOf(R"({"a": 0.75})", real), "x.json: a is 0.75; allowed is a number from 0 to 0.5");
 }
 
+TEST(StrictJson, SaysOfAFileThatIsCutOffWhereItEnds) {
+  const std::string whole = "{\n  \"a\": [1,\n    \"two\"]\n}\n";
+  const auto said = [](const std::string& text) { return refusal([&] { parseJson(text, "x.json"); }); };
+  ASSERT_EQ(said(whole), "");
+  for (std::size_t length = 1; length + 2 < whole.size(); ++length)
+    EXPECT_EQ(said(whole.substr(0, length)).find("x.json: no valid JSON: the file ends in the middle, at line "), 0U)
+        << length << ": " << said(whole.substr(0, length));
+  EXPECT_NE(said(whole.substr(0, whole.size() - 3)).find("at line 3:"), std::string::npos);
+  EXPECT_EQ(said(" \n"), "x.json: no valid JSON: the file is empty");
+  EXPECT_NE(said("{\"a\": x}").find("parse error at line 1"), std::string::npos) << "wrong, but not cut off";
+  EXPECT_NE(said("{} }").find("parse error at line 1"), std::string::npos) << "more than one value";
+}
+
 TEST(StrictJson, RefusesAKeyThatStandsTwice) {
   const std::string sentence = refusal([] { parseJson(R"({"a": 1, "b": {"a": 2, "a": 3}})", "x.json"); });
   EXPECT_EQ(sentence, "x.json: key \"a\" stands twice; allowed is once");

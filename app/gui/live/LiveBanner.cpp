@@ -1,5 +1,7 @@
 #include "app/gui/live/LiveBanner.h"
 
+#include "app/gui/widgets/KeepRoom.h"
+
 #include <QApplication>
 #include <QClipboard>
 #include <QHBoxLayout>
@@ -60,10 +62,7 @@ LiveBanner::LiveBanner(QWidget* parent) : QWidget(parent) {
     const QString remedy = QString::fromStdString(permissionRemedy());
     QApplication::clipboard()->setText(remedy.section(": ", 1).section(" (", 0, 0));
   });
-  // It moves nothing when it comes and goes.
-  QSizePolicy keeps = sizePolicy();
-  keeps.setRetainSizeWhenHidden(true);
-  setSizePolicy(keeps);
+  keepRoom(*this);
   hide();
 }
 

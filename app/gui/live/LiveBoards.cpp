@@ -88,6 +88,15 @@ void LiveBoards::build() {
   LivePage* page = cell.page;
   for (auto* panel : cell.page->findChildren<SidePanel*>()) {
     connect(panelShown, &QPushButton::clicked, panel, [panel](bool shown) { panel->setFolded(!shown); });
+    // One whose panel is opened gets the room for it: its views stay in sight.
+    connect(panel, &SidePanel::foldedNow, this, [this, page](bool folded) {
+      const auto boards = static_cast<int>(cells_.size());
+      const int wide = std::max(width() / std::max(boards, 1), std::min(kBoardWithPanel_px, 2 * width() / 3));
+      QList<int> sizes;
+      for (const Cell& other : cells_)
+        sizes << (folded || boards < 2 ? width() : other.page == page ? wide : (width() - wide) / (boards - 1));
+      row_->setSizes(sizes);
+    });
     connect(panel, &SidePanel::foldedNow, panelShown, [panelShown](bool folded) { panelShown->setChecked(!folded); });
   }
   connect(away, &QPushButton::clicked, this, [this, page] { remove(page); });

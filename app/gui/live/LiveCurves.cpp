@@ -32,18 +32,24 @@ const Decoder* LiveCurves::decoder() const {
   return host_.decoder() ? &*host_.decoder() : nullptr;
 }
 
+/// A recording's time counts from its first report.
+StripSpec LiveCurves::timed(StripSpec spec) const {
+  if (host_.replay() != nullptr) spec.zero_s = host_.replay()->begin_s.load();
+  return spec;
+}
+
 void LiveCurves::draw() {
   chooseCells();
-  forces_->setChart(forceCurves(host_.history(), host_.settings(), decoder()));
-  changes_->setChart(changeCurves(host_.history(), host_.settings(), cells_));
+  forces_->setChart(timed(forceCurves(host_.history(), host_.settings(), decoder())));
+  changes_->setChart(timed(changeCurves(host_.history(), host_.settings(), cells_)));
 }
 
 /// Curves that one looks at hold all that is there.
 void LiveCurves::hold() {
   LiveSettings all = host_.settings();
   all.window_s = LiveHistory::kLongest_s;
-  if (sender() == forces_) forces_->holdChart(forceCurves(host_.history(), all, decoder()));
-  if (sender() == changes_) changes_->holdChart(changeCurves(host_.history(), all, cells_));
+  if (sender() == forces_) forces_->holdChart(timed(forceCurves(host_.history(), all, decoder())));
+  if (sender() == changes_) changes_->holdChart(timed(changeCurves(host_.history(), all, cells_)));
 }
 
 void LiveCurves::setTheme(Theme theme) {

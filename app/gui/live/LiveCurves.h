@@ -11,6 +11,7 @@
 namespace palp {
 
 class StripChart;
+struct StripSpec;
 
 /// The curves of a live source: the force, and dR/R of some cells.
 class LiveCurves : public QSplitter {
@@ -33,6 +34,7 @@ signals:
 private:
   void hold();
   void chooseCells();
+  [[nodiscard]] StripSpec timed(StripSpec spec) const;
   [[nodiscard]] const Decoder* decoder() const;
 
   LiveHost& host_;

@@ -65,8 +65,13 @@ LiveLampState LiveWatch::state(const LiveHost& host, bool seen) const {
   const QString source = QString::fromStdString(status.source);
   const QString state = QString::fromLatin1(name(status.state));
   if (status.state != LiveState::Streaming) {
+    const bool stands = host.replaying() && (status.state == LiveState::Paused || status.state == LiveState::Ended);
+    const QString replay = status.state == LiveState::Ended ? QObject::tr("Played to its end: %1").arg(source)
+                                                            : QObject::tr("Replay paused: %1").arg(source);
     if (!seen && host.worksHidden())
-      return {LiveLampState::Kind::Alarm, QObject::tr("Nothing is watched: the board is %1").arg(state)};
+      return {LiveLampState::Kind::Alarm,
+              QObject::tr("Nothing is watched: %1").arg(stands ? replay : QObject::tr("the board is %1").arg(state))};
+    if (seen && stands) return {LiveLampState::Kind::Streams, replay};
     const bool gone = status.connections > 0 && status.state != LiveState::Paused && status.state != LiveState::Ended;
     if (seen && gone) return {LiveLampState::Kind::Alarm, QObject::tr("Live: %1 is out, %2").arg(source, state)};
     return seen ? LiveLampState{LiveLampState::Kind::Streams, QObject::tr("Live: %1").arg(state)} : LiveLampState{};

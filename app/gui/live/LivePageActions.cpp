@@ -81,7 +81,9 @@ void LivePage::record(const QString& file, bool replace) {
   try {
     host_.startRecording(path, replace);
     control_->displayRecording(QString::fromStdString(path.string()), {});
-    emit message(tr("Recording to %1.").arg(QString::fromStdString(path.string())));
+    const QString name = QString::fromStdString(path.string());
+    emit message(host_.replaying() ? tr("Copies what is played of the recording to %1.").arg(name)
+                                   : tr("Recording to %1.").arg(name));
   } catch (const std::exception& refusal) {
     control_->displayRecording({}, QString::fromStdString(refusal.what()));
     emit message(QString::fromStdString(refusal.what()));

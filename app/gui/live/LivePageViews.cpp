@@ -92,7 +92,8 @@ void LivePage::drawState() {
                              host_.simulator().running()});
   const SimulationSettings& hand = host_.settings().simulation;
   block_->setPressable(simulated && hand.held, hand.heldArea);
-  control_->displayState({status, host_.paused(), host_.recorded_s(), networkWords(host_), host_.networkBefore()});
+  control_->displayState(
+      {status, host_.paused(), host_.replaying(), host_.recorded_s(), networkWords(host_), host_.networkBefore()});
   send_->displayState(host_.sending());
   calibration_->displayState();
   banner_->display(host_, watch_.alarm(host_));
@@ -112,7 +113,10 @@ void LivePage::drawForces() {
                  return arrow.force_N.norm() > 3; // a picture of the scene shows a good press
                });
   std::vector<std::string> lines = forceLines(*last, host_.settings());
-  if (gone) lines = {lines.front(), std::string("last known; the source is ") + name(state)};
+  if (gone && host_.replaying() && state == LiveState::Ended)
+    lines = {lines.front(), "the last of the recording"};
+  else if (gone)
+    lines = {lines.front(), std::string("last known; the source is ") + name(state)};
   block_->showForces(arrows, stale, lines);
 }
 

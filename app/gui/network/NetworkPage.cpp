@@ -12,6 +12,7 @@
 #include "app/gui/project/Command.h"
 #include "app/gui/views/ChartView.h"
 #include "app/gui/widgets/FileDialogs.h"
+#include "app/gui/widgets/KeepRoom.h"
 #include "app/gui/window/SidePanel.h"
 #include "model/base/Error.h"
 
@@ -174,6 +175,7 @@ QWidget* NetworkPage::buildCharts() {
   problem_->setObjectName("trainingProblem");
   problem_->setProperty("role", "problem");
   problem_->setWordWrap(true);
+  keepRoom(*problem_);
   problem_->hide();
   column->addWidget(problem_);
   column->addLayout(buildBar());

@@ -4,6 +4,7 @@
 #include "app/gui/network/FitWords.h"
 #include "app/gui/network/NetworkCharts.h"
 #include "app/gui/network/NetworkTables.h"
+#include "app/gui/widgets/KeepRoom.h"
 #include "app/gui/widgets/SpinBoxes.h"
 #include "app/gui/widgets/WrappedLabel.h"
 #include "model/base/Error.h"
@@ -158,6 +159,7 @@ void NetworkPanel::buildInput(QFormLayout& form) {
   rowsProblem_->setObjectName("rowsProblem");
   rowsProblem_->setProperty("role", "problem");
   rowsProblem_->setWordWrap(true);
+  keepRoom(*rowsProblem_);
   rowsProblem_->hide();
   form.addRow(rowsProblem_);
   connect(input_, &QComboBox::currentIndexChanged, this, [this] { read(tr("Change the network's input")); });

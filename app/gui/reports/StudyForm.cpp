@@ -4,6 +4,7 @@
 #include "app/gui/reports/ReportFolders.h"
 #include "app/gui/reports/ReportKinds.h"
 #include "app/gui/widgets/FileDialogs.h"
+#include "app/gui/widgets/KeepRoom.h"
 #include "app/gui/widgets/WrappedLabel.h"
 #include "io/AtomicFile.h"
 #include "io/DesignFile.h"
@@ -100,6 +101,7 @@ void StudyForm::build() {
   column->addWidget(buildQuantities());
   problem_ = problemLabel();
   problem_->setObjectName("studyProblem");
+  keepRoom(*problem_);
   column->addWidget(problem_);
   column->addWidget(buildResult());
 }

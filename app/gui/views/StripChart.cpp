@@ -44,7 +44,7 @@ StripChart::StripChart(QWidget* parent) : QWidget(parent) {
 void StripChart::setChart(StripSpec spec) {
   if (held_) return;
   spec_ = std::move(spec);
-  now_s_ = spec_.end_s;
+  zero_s_ = spec_.zero_s.value_or(spec_.end_s);
   update();
 }
 
@@ -118,11 +118,11 @@ void StripChart::paintAxes(QPainter& painter, const QRectF& plot) const {
     painter.drawText(QRectF(0, y - line / 2, plot.left() - 5, line), Qt::AlignRight | Qt::AlignVCenter,
                      QString::fromStdString(yTexts[k]));
   }
-  const double end_s = spec_.end_s - now_s_; // 0 while it runs
+  const double end_s = spec_.end_s - zero_s_; // 0 while a board runs
   const std::vector<double> xTicks = roundTicks(end_s - spec_.window_s, end_s, 6);
   const std::vector<std::string> xTexts = tickTexts(xTicks);
   for (std::size_t k = 0; k < xTicks.size(); ++k) {
-    const double x = std::round(xOf(plot, now_s_ + xTicks[k])) + 0.5;
+    const double x = std::round(xOf(plot, zero_s_ + xTicks[k])) + 0.5;
     painter.setPen(QPen(grid, 1));
     painter.drawLine(QPointF(x, plot.top()), QPointF(x, plot.bottom()));
     painter.setPen(text);
@@ -131,8 +131,8 @@ void StripChart::paintAxes(QPainter& painter, const QRectF& plot) const {
   }
   painter.setPen(text);
   painter.drawText(QRectF(plot.left(), plot.bottom() + line + 3, plot.width(), line + 2), Qt::AlignCenter,
-                   held_ ? tr("time before the last frame [s], held: double click lets it run")
-                         : tr("time before the last frame [s]"));
+                   (spec_.zero_s ? tr("time in the recording [s]") : tr("time before the last frame [s]")) +
+                       (held_ ? tr(", held: double click lets it run") : QString()));
   painter.save();
   const double label = std::max(plot.height(), QFontMetricsF(font()).horizontalAdvance(spec_.yLabel) + 2);
   const double middle = std::max(label / 2, std::min(plot.center().y(), height() - label / 2)); // whole, if it can be
@@ -286,7 +286,7 @@ std::vector<StripChart::ReadingLine> StripChart::readingLines() const {
   const QRectF plot = plotRectangle();
   if (pointer_px_ < plot.left() || pointer_px_ > plot.right()) return {};
   const double t_s = spec_.end_s - (plot.right() - pointer_px_) / plot.width() * spec_.window_s;
-  std::vector<ReadingLine> lines{{tr("time"), tr("%1 s").arg(t_s - now_s_, 0, 'f', held_ ? 3 : 2), {}}};
+  std::vector<ReadingLine> lines{{tr("time"), tr("%1 s").arg(t_s - zero_s_, 0, 'f', held_ ? 3 : 2), {}}};
   for (const StripSeries& series : spec_.series) {
     const auto next = std::lower_bound(series.t_s.begin(), series.t_s.end(), t_s);
     if (next == series.t_s.end()) continue;

@@ -23,7 +23,8 @@ struct StripSeries {
 struct StripSpec {
   QString title, yLabel;
   std::array<double, 2> yRange{0, 1};
-  double end_s = 0; ///< time at the right edge
+  double end_s = 0;               ///< time at the right edge
+  std::optional<double> zero_s{}; ///< that the axis counts from, the begin of a recording; none: the last frame
   double window_s = 10;
   std::vector<StripSeries> series;
   std::vector<std::pair<double, QString>> marks; ///< events at their times
@@ -113,7 +114,7 @@ private:
   Theme theme_ = Theme::Light;
   double pointer_px_ = -1; ///< where the mouse is; -1: not here
   bool held_ = false;
-  double now_s_ = 0;            ///< time of the last frame, which the axis counts from
+  double zero_s_ = 0;           ///< that the axis counts from
   std::optional<QPointF> drag_; ///< last place of the mouse while it moves the curves
   int paintCount_ = 0;
 };

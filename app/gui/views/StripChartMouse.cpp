@@ -203,7 +203,7 @@ QString StripChart::asCsv() const {
           deviations += QString::number(series.deviation[next[k]], 'g', 4);
       }
     }
-    text += QString::number(t_s - now_s_, 'f', 6) + values + deviations + "\n";
+    text += QString::number(t_s - zero_s_, 'f', 6) + values + deviations + "\n";
   }
   return text;
 }

@@ -1,5 +1,6 @@
 #include "app/gui/window/HelpDialog.h"
 
+#include "app/gui/window/HelpTopics.h"
 #include "app/study/Resources.h"
 #include "model/base/Error.h"
 
@@ -7,8 +8,11 @@
 #include <QDialog>
 #include <QDir>
 #include <QFileInfo>
+#include <QLabel>
+#include <QLineEdit>
 #include <QListWidget>
 #include <QMessageBox>
+#include <QShortcut>
 #include <QSplitter>
 #include <QTextBlock>
 #include <QTextBrowser>
@@ -20,7 +24,9 @@ namespace palp {
 namespace {
 
 constexpr int kFileRole = Qt::UserRole;
-constexpr int kListWidth_px = 190;
+constexpr int kHeadingRole = Qt::UserRole + 1;
+constexpr int kListWidth_px = 230;
+constexpr int kShownText = 300; // letters of a topic that was found, in its tool tip
 
 /// The first heading of a Markdown page.
 QString titleOf(const QString& file) {
@@ -54,14 +60,22 @@ public:
       auto* item = new QListWidgetItem(title, list_);
       item->setData(kFileRole, file);
       item->setToolTip(title);
+      topics_ += topicsOf(title, file);
     }
+    buildSearch();
     text_->setOpenLinks(false);
     text_->setSearchPaths({QFileInfo(list_->item(0)->data(kFileRole).toString()).path()});
     auto* both = new QSplitter;
-    both->addWidget(list_);
+    auto* left = new QWidget;
+    auto* leftColumn = new QVBoxLayout(left);
+    leftColumn->setContentsMargins(0, 0, 0, 0);
+    for (QWidget* widget : {static_cast<QWidget*>(search_), static_cast<QWidget*>(none_)})
+      leftColumn->addWidget(widget);
+    for (QListWidget* list : {list_, found_}) leftColumn->addWidget(list, 1);
+    both->addWidget(left);
     both->addWidget(text_);
     both->setStretchFactor(1, 1);
-    both->setSizes({kListWidth_px, 920});
+    both->setSizes({kListWidth_px, 880});
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
     column->addWidget(both);
@@ -73,11 +87,75 @@ public:
   }
 
   void showScene(const QString& scene) {
+    search_->clear();
     list_->setCurrentRow(0);
     text_->scrollToAnchor(scene);
   }
 
 private:
+  void buildSearch() {
+    search_->setObjectName("helpSearch");
+    search_->setPlaceholderText(tr("Search the help"));
+    search_->setAccessibleName(search_->placeholderText());
+    search_->setToolTip(tr("Topics that hold all these words, or words that begin with them (Ctrl+F)"));
+    search_->setClearButtonEnabled(true);
+    found_->setObjectName("helpFound");
+    found_->setAccessibleName(tr("Topics that were found"));
+    found_->hide();
+    none_->setObjectName("helpNone");
+    none_->setProperty("role", "hint");
+    none_->setWordWrap(true);
+    none_->hide();
+    connect(search_, &QLineEdit::textChanged, this, &HelpDialog::search);
+    connect(found_, &QListWidget::currentItemChanged, this, [this](const QListWidgetItem* item) { showFound(item); });
+    connect(new QShortcut(QKeySequence::Find, this), &QShortcut::activated, search_, [this] {
+      search_->setFocus();
+      search_->selectAll();
+    });
+  }
+
+  /// The topics with these words stand in place of the pages until the words are gone.
+  void search(const QString& words) {
+    const QList<HelpTopic> topics = topicsWith(topics_, words);
+    const bool any = !words.trimmed().isEmpty();
+    found_->clear();
+    for (const HelpTopic& topic : topics) {
+      auto* item =
+          new QListWidgetItem(topic.heading == topic.page ? topic.page : topic.heading + "\n    " + topic.page, found_);
+      item->setData(kFileRole, topic.file);
+      item->setData(kHeadingRole, topic.heading);
+      item->setToolTip("<p>" + topic.text.left(kShownText).toHtmlEscaped() + "...</p>");
+    }
+    list_->setVisible(!any);
+    found_->setVisible(any);
+    none_->setText(tr("No topic holds \"%1\".").arg(words.trimmed()));
+    none_->setVisible(any && topics.isEmpty());
+    if (!topics.isEmpty()) return found_->setCurrentRow(0);
+    text_->setExtraSelections({});
+  }
+
+  /// The topic's page at its heading, with the words tinted.
+  void showFound(const QListWidgetItem* item) {
+    if (item == nullptr) return;
+    showPage(item->data(kFileRole).toString());
+    goTo(anchorOf(item->data(kHeadingRole).toString()));
+    QList<QTextEdit::ExtraSelection> tinted;
+    for (const QString& word : search_->text().simplified().split(' ', Qt::SkipEmptyParts))
+      for (QTextCursor at = text_->document()->find(word); !at.isNull(); at = text_->document()->find(word, at)) {
+        QTextCharFormat format;
+        format.setBackground(palette().highlight());
+        format.setForeground(palette().highlightedText());
+        tinted.append({at, format});
+      }
+    text_->setExtraSelections(tinted);
+  }
+
+  /// The page is chosen in the list of pages too.
+  void showPage(const QString& file) {
+    for (int row = 0; row < list_->count(); ++row)
+      if (list_->item(row)->data(kFileRole).toString() == file) list_->setCurrentRow(row);
+  }
+
   /// A link to another page or a place of this one; all others are the desktop's.
   void follow(const QUrl& link) {
     const QUrl whole = text_->source().resolved(link);
@@ -107,7 +185,11 @@ private:
     text_->scrollToAnchor(anchor);
   }
 
+  QLineEdit* search_ = new QLineEdit;
+  QLabel* none_ = new QLabel;
   QListWidget* list_ = new QListWidget;
+  QListWidget* found_ = new QListWidget;
+  QList<HelpTopic> topics_;
   QTextBrowser* text_ = new QTextBrowser;
 };
 

@@ -18,6 +18,7 @@
 #include "app/gui/views/VtkView.h"
 #include "app/gui/widgets/AccessibleNames.h"
 #include "app/gui/widgets/EscapeKey.h"
+#include "app/gui/widgets/ToolTipWrap.h"
 #include "app/gui/widgets/WheelGuard.h"
 #include "app/gui/window/Layout.h"
 #include "app/gui/window/Menus.h"
@@ -62,6 +63,7 @@ public:
 
 MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbench_(workbench), network_(network) {
   setWindowIcon(QIcon(":/icons/palp.svg"));
+  new ToolTipWrap(this);
   new WheelGuard(this);
   auto* centre = new QWidget;
   auto* row = new QHBoxLayout(centre);

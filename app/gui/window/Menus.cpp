@@ -287,9 +287,10 @@ void Menus::buildHelp() {
            "the force.<br><br>The paper that it reproduces, and whose sensor it starts with: F. Wang et al., "
            "<i>Decoupling "
            "research of a three-dimensional force flexible tactile sensor based on radial basis function neural "
-           "network</i>, Sensors &amp; Transducers 159 (11), 2013, 289-298.<br><br>Its model adds independent pairs of "
-           "electrodes (Eq. 1): no sneak paths, no hysteresis, "
-           "creep or temperature, and the load areas are stuck to their traction. A real board is less kind.<br><br>"
+           "network</i>, Sensors &amp; Transducers 159 (11), 2013, 289-298.<br><br>A touch is forces on areas and "
+           "discs or indenters with friction, the resistances come by the paper's Eq. (1) or by the current in the "
+           "rubber, a network decodes the force and, if it is asked to, the place; studies compare many designs. Not "
+           "in it: hysteresis, creep and temperature of the rubber. A real board is less kind.<br><br>"
            "GNU Affero General Public License, version 3 or later.<br><br><small>%2</small>")
             .arg(QApplication::applicationVersion(),
                  QString::fromStdString(versionInWords()).toHtmlEscaped().replace('\n', "<br>")));

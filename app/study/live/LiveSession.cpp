@@ -144,8 +144,8 @@ void LiveSession::setAlarm(std::optional<ForceAlarm> alarm) {
 void LiveSession::startRecording(const std::filesystem::path& path, const std::string& network, bool force) {
   const LiveStatus now = status();
   if (!now.info || !now.configuration || now.state != LiveState::Streaming)
-    throw Error(path.string() + ": nothing to record: the board is " + name(now.state) +
-                (now.reason.empty() ? "" : " (" + now.reason + ")"));
+    throw Error(path.string() + ": nothing to record: " + (now.source.empty() ? "the board" : now.source) + " is " +
+                name(now.state) + (now.reason.empty() ? "" : " (" + now.reason + ")"));
   const auto started = std::chrono::system_clock::now().time_since_epoch();
   const RecordingHead head{*now.info, *now.configuration, now.source, network,
                            std::chrono::duration_cast<std::chrono::seconds>(started).count()};

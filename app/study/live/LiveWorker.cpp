@@ -43,10 +43,7 @@ void LiveWorker::step() {
   if (idle_ && !writer_) return rest();
   const bool sought = options_.replay && options_.replay->sought();
   if (status_.state == LiveState::Ended && source_ && sought) status_.state = LiveState::Streaming;
-  if (status_.state == LiveState::Ended) {
-    std::this_thread::sleep_for(kReadTimeout / 10);
-    return;
-  }
+  if (status_.state == LiveState::Ended) return std::this_thread::sleep_for(kReadTimeout / 10);
   guarded([this] { source_ ? read() : search(); });
 }
 
@@ -134,7 +131,7 @@ void LiveWorker::disconnect(LiveState state, const std::string& reason) {
 
 void LiveWorker::read() {
   const ReportSource::Outcome outcome = source_->read(report_, kReadTimeout);
-  if (auto* replay = dynamic_cast<ReplaySource*>(source_.get()); replay != nullptr && replay->jumped()) jumped();
+  if (replay() != nullptr && replay()->jumped()) jumped();
   const double now_s = hostClock_s();
   switch (outcome) {
   case ReportSource::Outcome::Read:
@@ -387,7 +384,9 @@ void LiveWorker::configure(const BoardConfiguration& configuration) {
 
 void LiveWorker::mark(const std::string& text) {
   mark_ = text;
-  if (writer_) writer_->append(RecordingEntry::Kind::Mark, hostClock_s(), bytesOf(text));
+  const double time_s = options_.replay ? report_.hostTime_s : hostClock_s(); // a recording's times are its own
+  if (replay() != nullptr) replay()->setMark(text, time_s);
+  if (writer_) writer_->append(RecordingEntry::Kind::Mark, time_s, bytesOf(text));
 }
 
 void LiveWorker::setWriter(std::shared_ptr<RecordingWriter> writer) {

@@ -43,7 +43,7 @@ private:
   void disconnect(LiveState state, const std::string& reason);
   void read();
   void jumped();
-  [[nodiscard]] const ReplaySource* replay() const { return dynamic_cast<const ReplaySource*>(source_.get()); }
+  [[nodiscard]] ReplaySource* replay() const { return dynamic_cast<ReplaySource*>(source_.get()); }
   [[nodiscard]] bool inPast() const { return replay() != nullptr && replay()->inPast(); }
   void take(const RawReport& report);
   void takeFrame(const BoardFrame& frame);

@@ -93,7 +93,6 @@ QWidget* LiveControlPanel::buildNetwork() {
   network_ = words("networkName", "hint");
   networkProblem_ = words("networkProblem", "problem");
   column->addWidget(network_);
-  column->addWidget(networkProblem_);
   auto* open = button(tr("Open..."), "chooseNetwork",
                       tr("A network that reads resistances; one that cannot be used leaves this one"));
   shipped_ = button(tr("Palp's own"), "shippedNetwork",
@@ -113,6 +112,7 @@ QWidget* LiveControlPanel::buildNetwork() {
   tareState_ = words("tareState", "hint");
   tareState_->setText(tr("Not tared."));
   column->addWidget(tareState_);
+  column->addWidget(networkProblem_); // below: no button moves when it comes
   connect(open, &QPushButton::clicked, this, &LiveControlPanel::chooseNetwork);
   connect(shipped_, &QPushButton::clicked, this, [this] {
     if (settings_.network.empty()) return emit shippedAsked();
@@ -372,7 +372,9 @@ void LiveControlPanel::displayState(const LiveControlState& state) {
   const bool ends = records_ && !records;
   if (std::exchange(records_, records) != records) lookForFile();
   record_->setChecked(records);
-  record_->setText(records ? tr("Stop recording") : tr("Record"));
+  record_->setText(records           ? state.replaying ? tr("Stop the copy") : tr("Stop recording")
+                             : state.replaying ? tr("Record a copy")
+                                     : tr("Record"));
   const QString problem =
       recordingProblem_.isEmpty() ? QString::fromStdString(status.recordingFailure) : recordingProblem_;
   if (records || ends) // of the end too: the last look was before it
@@ -381,7 +383,8 @@ void LiveControlPanel::displayState(const LiveControlState& state) {
                         .arg(static_cast<double>(status.recordedReports) * kRecordedReport / kMegabyte, 0, 'f', 1)
                         .arg(status.recordingDropped);
   QString recorded = fileThere_.isEmpty()
-                         ? tr("Nothing is recorded.")
+                         ? state.replaying ? tr("Nothing is recorded. A copy holds what is played from then on.")
+                                           : tr("Nothing is recorded.")
                          : tr("%1 is there: the next one gets date and time in its name.").arg(fileThere_);
   if (!problem.isEmpty())
     recorded = problem;

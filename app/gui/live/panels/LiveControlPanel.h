@@ -22,9 +22,10 @@ namespace palp {
 struct LiveControlState {
   LiveStatus status;
   bool paused = false;
-  double recorded_s = 0; ///< since the recording was begun
-  QString network;       ///< in words: name, decoder, wires, noise
-  QString networkBefore; ///< the one that can be had back; empty: none
+  bool replaying = false; ///< what is recorded is a copy of what is played
+  double recorded_s = 0;  ///< since the recording was begun
+  QString network;        ///< in words: name, decoder, wires, noise
+  QString networkBefore;  ///< the one that can be had back; empty: none
 };
 
 /// The network in use: name, decoder, wires, noise.

@@ -7,6 +7,7 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QMouseEvent>
+#include <QPainter>
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QSlider>
@@ -21,18 +22,38 @@ namespace {
 
 constexpr int kSteps = 10000; // of the slider
 constexpr double kMostSpeed = 1000;
+constexpr int kMarkWidth_px = 2;
+constexpr int kMarkShare = 3; // of the time line's height, that a mark takes
 
-/// A click goes to its place.
+/// A click goes to its place; the recording's marks stand on it.
 class TimeLine : public QSlider {
 public:
   TimeLine() : QSlider(Qt::Horizontal) {}
 
+  /// At these shares of its length.
+  void setMarks(std::vector<double> shares) {
+    marks_ = std::move(shares);
+    update();
+  }
+
 protected:
+  void paintEvent(QPaintEvent* event) override {
+    QSlider::paintEvent(event);
+    QPainter painter(this);
+    painter.setPen(QPen(palette().color(QPalette::Text), kMarkWidth_px));
+    for (const double share : marks_) {
+      const int x = QStyle::sliderPositionFromValue(0, kSteps, qRound(kSteps * share), width());
+      painter.drawLine(x, 0, x, height() / kMarkShare);
+    }
+  }
   void mousePressEvent(QMouseEvent* event) override {
     if (event->button() == Qt::LeftButton)
       setValue(QStyle::sliderValueFromPosition(minimum(), maximum(), qRound(event->position().x()), width()));
     QSlider::mousePressEvent(event);
   }
+
+private:
+  std::vector<double> marks_;
 };
 
 QDoubleSpinBox* timeBox(const QString& name, const QString& tip) {
@@ -169,6 +190,9 @@ void ReplayBar::listMarks() {
   for (const ReplayMark& mark : marks)
     marks_->addItem(tr("%1 s: %2").arg(mark.at_s, 0, 'f', 2).arg(QString::fromStdString(mark.text)), mark.at_s);
   marks_->setEnabled(!marks.empty());
+  std::vector<double> shares;
+  for (const ReplayMark& mark : marks) shares.push_back(length_s_ > 0 ? mark.at_s / length_s_ : 0);
+  static_cast<TimeLine*>(line_)->setMarks(std::move(shares));
 }
 
 void ReplayBar::display(const LiveSettings& settings) {

@@ -247,6 +247,18 @@ TEST_F(Boards, WhereTheyHaveNoRoomForPanelsAButtonBringsEachBack) {
   EXPECT_TRUE(find<QPushButton>(1, "boardPanel").isChecked()) << "as the strip at its edge does";
 }
 
+TEST_F(Boards, APanelThatIsOpenedLeavesTheViewsOfItsBoardInSight) {
+  ASSERT_TRUE(streams(0));
+  click(0, "anotherBoard");
+  ASSERT_TRUE(streams(1));
+  click(1, "boardPanel");
+  EXPECT_TRUE(wait([&] { return scene.page(1).width() > scene.page(0).width(); })) << "the room for it";
+  EXPECT_TRUE(wait([&] { return find<LiveView>(1, "liveBlock").isVisible(); }));
+  EXPECT_TRUE(find<LiveView>(0, "liveBlock").isVisible());
+  click(1, "boardPanel");
+  EXPECT_TRUE(wait([&] { return std::abs(scene.page(1).width() - scene.page(0).width()) < 10; }));
+}
+
 TEST_F(Boards, TheProjectKeepsThemAndAnotherProjectHasItsOwn) {
   ASSERT_TRUE(streams(0));
   for (std::size_t k = 1; k < Project::kMostBoards; ++k) click(k - 1, "anotherBoard");

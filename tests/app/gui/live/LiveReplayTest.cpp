@@ -170,6 +170,63 @@ TEST_F(LiveReplay, DrawsTheLineOfTheMarkThatOneWentTo) {
   EXPECT_TRUE(wait([&] { return lines().size() == 1; })) << "it stands in the past that is shown";
 }
 
+TEST_F(LiveReplay, CountsItsTimeFromItsFirstReport) {
+  ASSERT_TRUE(played());
+  ASSERT_TRUE(held());
+  auto& chart = find<StripChart>("forceCurves");
+  ASSERT_TRUE(wait([&] { return chart.chart().zero_s == page.host().replay()->begin_s.load(); }));
+  const double length_s = page.host().replay()->length_s;
+  type<QDoubleSpinBox>("replayPlace", QString::number(0.5 * length_s, 'f', 2));
+  ASSERT_TRUE(wait([&] { return last() != nullptr && last()->jumps == 1 && !chart.chart().series.empty(); }));
+  EXPECT_TRUE(wait([&] { return std::abs(chart.chart().end_s - *chart.chart().zero_s - 0.5 * length_s) < 0.1; }));
+  click("backToBoard");
+  EXPECT_TRUE(wait([&] { return !chart.chart().zero_s; })) << "a board's time counts back from now";
+}
+
+TEST_F(LiveReplay, SaysThatTheReplayStandsAndNotTheBoard) {
+  ASSERT_TRUE(played());
+  ASSERT_TRUE(held());
+  EXPECT_TRUE(wait([&] { return page.lamp().words.startsWith("Replay paused: recording touch.palprec"); }))
+      << page.lamp().words.toStdString();
+  click("replayPause");
+  ASSERT_TRUE(waitForState(LiveState::Ended));
+  EXPECT_TRUE(page.lamp().words.startsWith("Played to its end: recording touch.palprec"))
+      << page.lamp().words.toStdString();
+}
+
+TEST_F(LiveReplay, DrawsAMarkThatIsSetAndSaysThatARecordingIsACopy) {
+  ASSERT_TRUE(played());
+  find<QCheckBox>("replayLoop").click(); // it plays on and on
+  ASSERT_TRUE(waitForState(LiveState::Streaming));
+  EXPECT_TRUE(wait([&] { return find<QPushButton>("record").text() == "Record a copy"; }));
+  const QString copy = folder.filePath("copy.palprec");
+  recordTo(copy);
+  ASSERT_TRUE(startsToRecord()) << said.join("; ").toStdString();
+  EXPECT_TRUE(said.join(' ').contains("Copies what is played")) << said.join("; ").toStdString();
+  ASSERT_TRUE(held());
+  const auto jumps = last() == nullptr ? 0 : last()->jumps;
+  type<QDoubleSpinBox>("replayPlace", "0.1");
+  ASSERT_TRUE(wait([&] { return last() != nullptr && last()->jumps > jumps; }));
+  QTest::keyClicks(&find<QLineEdit>("markText"), "here");
+  click("mark");
+  const auto lines = [&] { return find<StripChart>("forceCurves").chart().marks; };
+  EXPECT_TRUE(wait([&] {
+    page.host().step(1);
+    return lines().size() == 1 && lines()[0].second == "here";
+  })) << "from the next frame on";
+  const double begin_s = page.host().replay()->begin_s, length_s = page.host().replay()->length_s;
+  ASSERT_TRUE(stopsToRecord());
+  RecordingReader reader(copy.toStdString());
+  bool marked = false;
+  while (const auto entry = reader.next()) {
+    if (entry->kind != RecordingEntry::Kind::Mark) continue;
+    marked = true;
+    EXPECT_GE(entry->hostTime_s, begin_s);
+    EXPECT_LE(entry->hostTime_s, begin_s + length_s);
+  }
+  EXPECT_TRUE(marked);
+}
+
 TEST_F(LiveReplay, LeadsToItsMarks) {
   ASSERT_TRUE(waitForFrames());
   const QString file = folder.filePath("touch.palprec");

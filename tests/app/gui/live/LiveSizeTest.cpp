@@ -101,14 +101,18 @@ TEST_F(LiveSizeOfTwo, TwoBoardsFitBesideEachOtherAt1280By800) {
   auto& tabs = *live.page().findChild<QTabWidget*>("blockTabs");
   EXPECT_EQ(tabs.indexOf(live.page().findChild<QWidget*>("liveHeatmap")), 2) << "low and narrow: a tab";
 
-  // The panel of one takes the place of its views, and leaves those of the other as they were.
+  // The panel of one gets the room beside its views, and leaves those of the other in sight.
   const auto* block = live.page(0).findChild<QWidget*>("liveBlock");
   QTest::mouseClick(live.page(0).parentWidget()->findChild<QPushButton*>("boardPanel"), Qt::LeftButton);
-  EXPECT_TRUE(QTest::qWaitFor([&] { return !block->isVisible(); }, kPatience_ms));
+  EXPECT_TRUE(QTest::qWaitFor([&] { return live.page(0).width() > live.page(1).width(); }, kPatience_ms));
+  settle();
+  EXPECT_TRUE(block->isVisible());
+  EXPECT_FALSE(bar->isVisible()) << live.minimumSizeHint().width();
   EXPECT_TRUE(live.page(0).findChild<QPushButton*>("record")->isVisible());
   EXPECT_TRUE(live.page(1).findChild<QWidget*>("liveBlock")->isVisible());
   QTest::mouseClick(live.page(0).parentWidget()->findChild<QPushButton*>("boardPanel"), Qt::LeftButton);
-  EXPECT_TRUE(QTest::qWaitFor([&] { return block->isVisible(); }, kPatience_ms));
+  EXPECT_TRUE(
+      QTest::qWaitFor([&] { return std::abs(live.page(0).width() - live.page(1).width()) < 10; }, kPatience_ms));
 
   // With room for it the heatmap stands beside the forces again.
   QTest::mouseClick(live.page(1).parentWidget()->findChild<QPushButton*>("takeBoardAway"), Qt::LeftButton);

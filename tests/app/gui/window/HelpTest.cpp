@@ -1,10 +1,13 @@
 #include "app/gui/window/HelpDialog.h"
+#include "app/gui/window/HelpTopics.h"
 
 #include "app/study/Resources.h"
 
 #include <QDialog>
 #include <QDir>
 #include <QFile>
+#include <QLabel>
+#include <QLineEdit>
 #include <QListWidget>
 #include <QRegularExpression>
 #include <QTest>
@@ -90,6 +93,54 @@ TEST_F(Help, FollowsALinkToAPlaceOfAnotherPage) {
   emit text->anchorClicked(QUrl("../docs/" + QFileInfo(first).fileName() + "#" + anchors.back()));
   EXPECT_EQ(list->currentRow(), 1);
   EXPECT_EQ(anchorOf(text->textCursor().block().text()), anchors.back());
+}
+
+TEST_F(Help, FindsTopicsByAWordAndLeadsToThem) {
+  auto& search = *window.findChild<QLineEdit*>("helpSearch");
+  auto& found = *window.findChild<QListWidget*>("helpFound");
+  QTest::keyClicks(&search, "slurm");
+  EXPECT_TRUE(list->isHidden());
+  ASSERT_GT(found.count(), 1);
+  EXPECT_TRUE(text->toPlainText().contains("Slurm"));
+  EXPECT_FALSE(text->extraSelections().isEmpty()) << "the word is tinted";
+  const auto* last = found.item(found.count() - 1);
+  found.scrollToItem(last);
+  QTest::mouseClick(found.viewport(), Qt::LeftButton, {}, found.visualItemRect(last).center());
+  EXPECT_EQ(text->source().toLocalFile(), last->data(Qt::UserRole).toString());
+  EXPECT_EQ(list->currentItem()->data(Qt::UserRole), last->data(Qt::UserRole));
+  QTest::keyClicks(&search, " xyzzyx");
+  EXPECT_EQ(found.count(), 0);
+  EXPECT_TRUE(window.findChild<QLabel*>("helpNone")->text().contains("slurm xyzzyx"));
+  search.clear();
+  EXPECT_FALSE(list->isHidden());
+  EXPECT_TRUE(found.isHidden());
+}
+
+TEST(HelpTopics, HoldAllWordsWhereWordsBeginAndHeadingsComeFirst) {
+  const QList<HelpTopic> topics{{"A", "a.md", "Of mesh", "the noise of a board"},
+                                {"A", "a.md", "Noise", "a board"},
+                                {"B", "b.md", "Boards", "no word of it; turbonoise"}};
+  const auto headings = [&](const char* words) {
+    QStringList all;
+    for (const HelpTopic& topic : topicsWith(topics, words)) all << topic.heading;
+    return all;
+  };
+  EXPECT_EQ(headings("noise"), (QStringList{"Noise", "Of mesh"}));
+  EXPECT_EQ(headings("BOARD noi"), (QStringList{"Of mesh", "Noise"}));
+  EXPECT_EQ(headings("board"), (QStringList{"Boards", "Of mesh", "Noise"}));
+  EXPECT_EQ(headings("(a"), QStringList{}) << "no pattern";
+  EXPECT_EQ(headings("  "), QStringList{});
+}
+
+TEST(HelpTopics, OfAPageStandUnderTheirHeadings) {
+  const QString page = docs().filePath("formats.md");
+  const QList<HelpTopic> topics = topicsOf("Formats", page);
+  EXPECT_GT(topics.size(), 5);
+  for (const HelpTopic& topic : topics) {
+    EXPECT_FALSE(topic.text.isEmpty());
+    EXPECT_FALSE(topic.heading.startsWith('#')) << topic.heading.toStdString();
+  }
+  EXPECT_TRUE(topicsOf("none", "/no such page.md").isEmpty());
 }
 
 TEST(HelpPages, EveryLinkBetweenThemLeadsSomewhere) {
