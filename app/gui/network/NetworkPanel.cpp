@@ -33,10 +33,8 @@ namespace {
 
 // The slider runs over the logarithm of the spread.
 constexpr double kLeastNoise = 1e-6; ///< of a board's readings, relative
-constexpr double kLowSpread = 0.05;
-constexpr double kHighSpread = 50;
+constexpr double kLowSpread = 0.05, kHighSpread = 50;
 constexpr int kSpreadSteps = 300;
-
 double spreadAt(int step) {
   return kLowSpread * std::pow(kHighSpread / kLowSpread, double(step) / kSpreadSteps);
 }
