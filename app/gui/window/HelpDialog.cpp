@@ -181,6 +181,7 @@ private:
   void goTo(const QString& anchor) {
     for (QTextBlock block = text_->document()->begin(); block.isValid(); block = block.next()) {
       if (block.blockFormat().headingLevel() == 0 || anchorOf(block.text()) != anchor) continue;
+      text_->moveCursor(QTextCursor::End); // so that the heading comes to the top
       text_->setTextCursor(QTextCursor(block));
       text_->ensureCursorVisible();
       return;
