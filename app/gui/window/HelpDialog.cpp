@@ -26,6 +26,8 @@ namespace {
 constexpr int kFileRole = Qt::UserRole;
 constexpr int kHeadingRole = Qt::UserRole + 1;
 constexpr int kListWidth_px = 230;
+constexpr qsizetype kFewLetters = 3; // fewer are a word that is being typed: no page is opened for each
+constexpr qsizetype kMostTinted = 200;
 constexpr int kShownText = 300; // letters of a topic that was found, in its tool tip
 
 /// The first heading of a Markdown page.
@@ -130,7 +132,7 @@ private:
     found_->setVisible(any);
     none_->setText(tr("No topic holds \"%1\".").arg(words.trimmed()));
     none_->setVisible(any && topics.isEmpty());
-    if (!topics.isEmpty()) return found_->setCurrentRow(0);
+    if (!topics.isEmpty() && words.trimmed().size() >= kFewLetters) return found_->setCurrentRow(0);
     text_->setExtraSelections({});
   }
 
@@ -141,7 +143,8 @@ private:
     goTo(anchorOf(item->data(kHeadingRole).toString()));
     QList<QTextEdit::ExtraSelection> tinted;
     for (const QString& word : search_->text().simplified().split(' ', Qt::SkipEmptyParts))
-      for (QTextCursor at = text_->document()->find(word); !at.isNull(); at = text_->document()->find(word, at)) {
+      for (QTextCursor at = text_->document()->find(word); !at.isNull() && tinted.size() < kMostTinted;
+           at = text_->document()->find(word, at)) {
         QTextCharFormat format;
         format.setBackground(palette().highlight());
         format.setForeground(palette().highlightedText());
@@ -178,6 +181,7 @@ private:
   void goTo(const QString& anchor) {
     for (QTextBlock block = text_->document()->begin(); block.isValid(); block = block.next()) {
       if (block.blockFormat().headingLevel() == 0 || anchorOf(block.text()) != anchor) continue;
+      text_->moveCursor(QTextCursor::End); // so that the heading comes to the top
       text_->setTextCursor(QTextCursor(block));
       text_->ensureCursorVisible();
       return;
