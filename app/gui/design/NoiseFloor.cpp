@@ -194,7 +194,10 @@ void NoiseFloor::boundField(double noise) {
                       if (!asked_ || !floor->isOf(asked_->design, asked_->mesh) || askedNoise_ != noise) return;
                       if (isVisible()) floor_ = floor;
                       bounds_ = bounds;
-                      words_->setText(restBoundWords(bounds, workbench_.project().design));
+                      // The design may have changed since where the page has not been brought up to date: another
+                      // scene's undo, or an edit that is still to be shown.
+                      const Project& now = workbench_.project();
+                      if (floor->isOf(now.design, now.mesh)) words_->setText(restBoundWords(bounds, now.design));
                     };
                   });
 }

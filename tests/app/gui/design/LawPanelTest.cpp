@@ -202,6 +202,21 @@ TEST_F(LawPanelTest, NoBoundIsComputedWhereNobodyLooks) {
   EXPECT_TRUE(bounded()) << floorWords().toStdString();
 }
 
+TEST_F(LawPanelTest, ABoundOfTheFieldThatEndsAfterTheLawWentBackToEq1IsNotShown) {
+  chooseField();
+  ASSERT_TRUE(window.busy());
+  window.showScene("network"); // the Design scene is not brought up to date where nobody looks
+  Project next = workbench.project();
+  next.design.resistance = PairsLaw{};
+  workbench.edit("Eq. (1)", next);
+  ASSERT_TRUE(idle());
+  window.showScene("design");
+  settle();
+  EXPECT_TRUE(floorWords().contains("Known once there are samples")) << floorWords().toStdString();
+  chooseField();
+  EXPECT_TRUE(bounded()) << floorWords().toStdString();
+}
+
 TEST_F(LawPanelTest, EverySceneFollowsTheFieldAndComesBackWithEq1) {
   chooseField();
   find<QTabWidget>("designTabs").setCurrentIndex(1);
