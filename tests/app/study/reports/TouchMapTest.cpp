@@ -72,8 +72,10 @@ TEST(TouchMap, OfAMirroredSensorIsMirrored) {
     EXPECT_LT((*values - mirrored).norm(), 1e-3 * values->norm());
     EXPECT_GT(values->minCoeff(), 0);
   }
-  EXPECT_TRUE((map.heldPlace_mm.array() >= map.slipperyPlace_mm.array()).all()) << "more unknowns cannot help";
-  EXPECT_TRUE((map.heldForce_N[2].array() >= map.slipperyForce_N.array()).all());
+  // More unknowns cannot help, but for rounding: where forces sideways tell nothing of the others both are the same.
+  constexpr double kRounding = 1e-9;
+  EXPECT_GE((map.heldPlace_mm.array() / map.slipperyPlace_mm.array()).minCoeff(), 1 - kRounding);
+  EXPECT_GE((map.heldForce_N[2].array() / map.slipperyForce_N.array()).minCoeff(), 1 - kRounding);
 }
 
 TEST(TouchMap, GoesWithTheNoiseAndPlacesWithOneOverTheForce) {
