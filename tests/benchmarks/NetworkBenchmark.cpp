@@ -7,6 +7,7 @@
 #include "nn/SpreadSweep.h"
 #include "tests/nn/Touches.h"
 
+#include <SourceDir.h>
 #include <benchmark/benchmark.h>
 
 #include <cstdio>

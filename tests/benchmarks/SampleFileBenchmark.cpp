@@ -3,6 +3,7 @@
 
 #include "io/SampleFile.h"
 
+#include <SourceDir.h>
 #include <benchmark/benchmark.h>
 
 #include <array>

@@ -8,6 +8,7 @@
 #include "tests/benchmarks/CalculixBricks.h"
 #include "tests/solver/TestBlocks.h"
 
+#include <SourceDir.h>
 #include <benchmark/benchmark.h>
 #include <nlohmann/json.hpp>
 

@@ -4,6 +4,7 @@
 #include "nn/RbfTrainer.h"
 #include "tests/io/SmallDecoders.h"
 
+#include <SourceDir.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -11,6 +11,7 @@
 #include "nn/rivals/PolynomialRidge.h"
 #include "tests/nn/Touches.h"
 
+#include <SourceDir.h>
 #include <gtest/gtest.h>
 
 #include <fstream>

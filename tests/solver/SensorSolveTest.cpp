@@ -7,6 +7,7 @@
 #include "solver/statics/ProblemParts.h"
 #include "tests/solver/CoarseSensor.h"
 
+#include <SourceDir.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 

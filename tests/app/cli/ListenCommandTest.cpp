@@ -1,6 +1,7 @@
 #include "tests/app/cli/Process.h"
 #include "tests/io/TemporaryFolder.h"
 
+#include <SourceDir.h>
 #include <gtest/gtest.h>
 
 #include <sstream>

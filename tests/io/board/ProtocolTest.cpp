@@ -2,6 +2,7 @@
 
 #include "io/AtomicFile.h"
 
+#include <SourceDir.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -4,6 +4,7 @@
 #include "tests/app/gui/FullDisk.h"
 #include "tests/app/gui/WindowFixture.h"
 
+#include <SourceDir.h>
 #include <QAction>
 #include <QDir>
 #include <QDoubleSpinBox>

@@ -4,6 +4,7 @@
 #include "io/DesignFile.h"
 #include "model/base/Error.h"
 
+#include <SourceDir.h>
 #include <QFile>
 #include <QJsonDocument>
 #include <QJsonObject>

@@ -4,6 +4,7 @@
 #include "tests/app/study/live/LiveFixture.h"
 #include "tests/io/Refusal.h"
 
+#include <SourceDir.h>
 #include <gtest/gtest.h>
 
 #include <array>

@@ -7,6 +7,7 @@
 #include "io/SampleFile.h"
 #include "io/board/FrameAssembler.h"
 
+#include <SourceDir.h>
 #include <filesystem>
 #include <random>
 

@@ -4,6 +4,7 @@
 #include "io/DecoderFile.h"
 #include "tests/app/study/live/LiveFixture.h"
 
+#include <SourceDir.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
