@@ -25,10 +25,12 @@ installMissing() {
   "${asRoot[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "${missing[@]}" >&2
 }
 
-# configureAndBuild FOLDER [CMAKE OPTION ...]: Release with Ninja; all, or the target named in $buildTarget.
+# configureAndBuild FOLDER [CMAKE OPTION ...]: Release with Ninja; all, or the target named in $buildTarget. A folder that is
+# made here compiles several files as one; one that was configured by hand stays as it is.
 configureAndBuild() {
   local folder=$1
   shift
+  [ -f "$folder/CMakeCache.txt" ] || set -- -DPALP_FEWER_FILES=ON "$@"
   cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release "$@" >&2
   cmake --build "$folder" --target "${buildTarget:-all}" >&2
 }

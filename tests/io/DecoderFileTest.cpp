@@ -14,7 +14,7 @@
 namespace palp {
 namespace {
 
-std::string refusal(const std::string& text) {
+std::string networkRefusal(const std::string& text) {
   try {
     static_cast<void>(parseNetwork(text, "net.json"));
   } catch (const Error& error) {
@@ -55,34 +55,36 @@ TEST(NetworkFile, KeepsTheRotationOfWhitenedInputs) {
   ASSERT_LT(std::get<RbfNetwork>(decoder.model).scaler.dimensions(), 3);
   const Decoder again = parseNetwork(networkText(decoder), "net.json");
   EXPECT_EQ(std::get<RbfNetwork>(again.model).predict(samples), std::get<RbfNetwork>(decoder.model).predict(samples));
-  EXPECT_NE(
-      refusal(replaced(networkText(decoder), "\"rotation\":{\"rows\":", "\"rotation\":{\"rows\":1")).find("rotation"),
-      std::string::npos);
+  EXPECT_NE(networkRefusal(replaced(networkText(decoder), "\"rotation\":{\"rows\":", "\"rotation\":{\"rows\":1"))
+                .find("rotation"),
+            std::string::npos);
 }
 
 TEST(NetworkFile, RefusesWhatItDoesNotKnow) {
   const std::string text = networkText(smallDecoder(DecoderKind::Rbf));
-  EXPECT_NE(refusal(replaced(text, "\"mode\"", "\"moed\"")).find("moed"), std::string::npos);
-  EXPECT_NE(refusal("{\"hello\": 1}").find("no network of Palp"), std::string::npos);
-  EXPECT_NE(refusal(replaced(text, "\"palp_network\":1", "\"palp_network\":2")).find("newer"), std::string::npos);
-  EXPECT_NE(refusal(replaced(text, "\"rbf\"", "\"svm\"")).find("svm"), std::string::npos);
+  EXPECT_NE(networkRefusal(replaced(text, "\"mode\"", "\"moed\"")).find("moed"), std::string::npos);
+  EXPECT_NE(networkRefusal("{\"hello\": 1}").find("no network of Palp"), std::string::npos);
+  EXPECT_NE(networkRefusal(replaced(text, "\"palp_network\":1", "\"palp_network\":2")).find("newer"),
+            std::string::npos);
+  EXPECT_NE(networkRefusal(replaced(text, "\"rbf\"", "\"svm\"")).find("svm"), std::string::npos);
 }
 
 TEST(NetworkFile, RefusesWrongTypesAndSizesWithTheKey) {
   const std::string text = networkText(smallDecoder(DecoderKind::Rbf));
-  EXPECT_NE(refusal(replaced(text, "\"area_count\":2", "\"area_count\":\"two\"")).find("area_count"),
+  EXPECT_NE(networkRefusal(replaced(text, "\"area_count\":2", "\"area_count\":\"two\"")).find("area_count"),
             std::string::npos);
-  EXPECT_NE(refusal(replaced(text, "\"values_per_row\":3", "\"values_per_row\":4")).find("input.low"),
+  EXPECT_NE(networkRefusal(replaced(text, "\"values_per_row\":3", "\"values_per_row\":4")).find("input.low"),
             std::string::npos);
-  EXPECT_NE(refusal(replaced(text, "\"spread_convention\":\"radbas\"", "\"spread_convention\":\"fwhm\"")).find("fwhm"),
-            std::string::npos);
+  EXPECT_NE(
+      networkRefusal(replaced(text, "\"spread_convention\":\"radbas\"", "\"spread_convention\":\"fwhm\"")).find("fwhm"),
+      std::string::npos);
 }
 
 /// Why the file of a decoder is refused after a change; empty where it is not.
 std::string refusalWith(Decoder decoder, const std::function<void(Decoder&)>& change) {
-  EXPECT_EQ(refusal(networkText(decoder)), "");
+  EXPECT_EQ(networkRefusal(networkText(decoder)), "");
   change(decoder);
-  return refusal(networkText(decoder));
+  return networkRefusal(networkText(decoder));
 }
 
 TEST(NetworkFile, RefusesAreasThatTheDesignDoesNotHave) {
@@ -180,7 +182,8 @@ TEST(NetworkFile, RefusesAFirstStepThatCannotInvertTheField) {
 TEST(NetworkFile, RefusesWholeNumbersThatAreNoInt) {
   const std::string text = networkText(smallDecoder(DecoderKind::Rbf));
   for (const char* number : {"1e300", "-1e300", "9223372036854775808", "2147483648", "2.5"})
-    EXPECT_NE(refusal(replaced(text, "\"area_count\":2", "\"area_count\":" + std::string(number))).find("whole number"),
+    EXPECT_NE(networkRefusal(replaced(text, "\"area_count\":2", "\"area_count\":" + std::string(number)))
+                  .find("whole number"),
               std::string::npos)
         << number;
 }
@@ -195,7 +198,7 @@ TEST(NetworkFile, TheFuzzersSeedsAreNetworksOfAllKinds) {
 TEST(NetworkFile, RefusesEveryTruncation) {
   const std::string text = networkText(smallDecoder(DecoderKind::Rbf));
   for (std::size_t length = 0; length + 2 < text.size(); length += 97) {
-    const std::string sentence = refusal(text.substr(0, length));
+    const std::string sentence = networkRefusal(text.substr(0, length));
     EXPECT_EQ(sentence.rfind("net.json", 0), 0U) << length;
     EXPECT_EQ(sentence.find('\n'), std::string::npos);
   }

@@ -61,17 +61,17 @@ TEST(SampleFile, AcceptsLineEndsOfWindows) {
   expectSame(loadSamples(folder / "b.csv"), set);
 }
 
-struct Slip {
+struct FileSlip {
   const char* name;
   std::function<void(std::string&)> damage;
   std::vector<const char*> sentence;
 };
 
-void PrintTo(const Slip& slip, std::ostream* out) {
+void PrintTo(const FileSlip& slip, std::ostream* out) {
   *out << slip.name;
 }
 
-class SampleFileSlip : public testing::TestWithParam<Slip> {};
+class SampleFileSlip : public testing::TestWithParam<FileSlip> {};
 
 std::function<void(std::string&)> replaced(const std::string& piece, const std::string& by) {
   return [=](std::string& text) {
@@ -95,35 +95,35 @@ TEST_P(SampleFileSlip, IsRefusedWithItsLine) {
 
 INSTANTIATE_TEST_SUITE_P(
     Each, SampleFileSlip,
-    testing::Values(Slip{"NotANumber", replaced("0,0.25", "0,x"), {"line 16", "field 2", "\"x\""}},
-                    Slip{"Nan", replaced("0,0.25", "0,nan"), {"line 16", "nan", "finite"}},
-                    Slip{"Infinite", replaced("0,0.25", "0,inf"), {"line 16", "inf", "finite"}},
-                    Slip{"TooLarge", replaced("0,0.25", "0,1e999"), {"line 16", "1e999"}},
-                    Slip{"Empty", replaced("0,0.25", "0,"), {"line 16", "field 2"}},
-                    Slip{"FieldMissing", replaced("0,0.25,", "0,"), {"line 16", "21 fields", "22"}},
-                    Slip{"AreaUnknown", replaced("\n0,0.25", "\n2,0.25"), {"line 16", "area 2", "0 to 1"}},
-                    Slip{"AreaOfAllInAFileOfSingleAreas",
-                         replaced("\n0,0.25", "\n-1,0.25"),
-                         {"line 16", "area -1", "allowed is 0 to 1"}},
-                    Slip{"AreaBroken", replaced("\n0,0.25", "\n0.5,0.25"), {"line 16", "field 1", "0.5"}},
-                    Slip{"CutOff", [](std::string& text) { text.resize(text.size() - 5); }, {"line 18", "cut off"}},
-                    Slip{"HeadLineMissing", replaced("# seed: 7\n", ""), {"seed"}},
-                    Slip{"HeadLineTwice", replaced("# seed: 7\n", "# seed: 7\n# seed: 8\n"), {"seed stands twice"}},
-                    Slip{"HeadKeyUnknown", replaced("# seed: 7\n", "# seed: 7\n# salt: 8\n"), {"unknown key", "salt"}},
-                    Slip{"HeadNumberBroken", replaced("# seed: 7", "# seed: -7"), {"seed", "-7"}},
-                    Slip{"CountOfZero", replaced("area_count: 2", "area_count: 0"), {"area_count: 0", "1 or more"}},
-                    Slip{"CountsBeyondAllReason", // their product is no int, and their names would fill the memory
-                         [](std::string& text) {
-                           replaced("row_wires: 2", "row_wires: 100000")(text);
-                           replaced("electrodes_per_row_wire: 2", "electrodes_per_row_wire: 100000")(text);
-                         },
-                         {"line 15", "22 columns", "30000300004"}},
-                    Slip{"KindUnknown", replaced("full solves", "guess"), {"guess", "full solves or surrogate"}},
-                    Slip{"Newer", replaced("palp_samples: 1", "palp_samples: 2"), {"version 2"}},
-                    Slip{"ColumnRenamed", replaced("fy_N", "fy_kN"), {"column 3", "fy_kN", "fy_N"}},
-                    Slip{"ColumnMissing", replaced(",R_r1_c2_ohm", ""), {"columns", "22"}},
-                    Slip{
-                        "NoHeadAtAll", [](std::string& text) { text.erase(0, text.find("area,")); }, {"palp_samples"}}),
+    testing::Values(
+        FileSlip{"NotANumber", replaced("0,0.25", "0,x"), {"line 16", "field 2", "\"x\""}},
+        FileSlip{"Nan", replaced("0,0.25", "0,nan"), {"line 16", "nan", "finite"}},
+        FileSlip{"Infinite", replaced("0,0.25", "0,inf"), {"line 16", "inf", "finite"}},
+        FileSlip{"TooLarge", replaced("0,0.25", "0,1e999"), {"line 16", "1e999"}},
+        FileSlip{"Empty", replaced("0,0.25", "0,"), {"line 16", "field 2"}},
+        FileSlip{"FieldMissing", replaced("0,0.25,", "0,"), {"line 16", "21 fields", "22"}},
+        FileSlip{"AreaUnknown", replaced("\n0,0.25", "\n2,0.25"), {"line 16", "area 2", "0 to 1"}},
+        FileSlip{"AreaOfAllInAFileOfSingleAreas",
+                 replaced("\n0,0.25", "\n-1,0.25"),
+                 {"line 16", "area -1", "allowed is 0 to 1"}},
+        FileSlip{"AreaBroken", replaced("\n0,0.25", "\n0.5,0.25"), {"line 16", "field 1", "0.5"}},
+        FileSlip{"CutOff", [](std::string& text) { text.resize(text.size() - 5); }, {"line 18", "cut off"}},
+        FileSlip{"HeadLineMissing", replaced("# seed: 7\n", ""), {"seed"}},
+        FileSlip{"HeadLineTwice", replaced("# seed: 7\n", "# seed: 7\n# seed: 8\n"), {"seed stands twice"}},
+        FileSlip{"HeadKeyUnknown", replaced("# seed: 7\n", "# seed: 7\n# salt: 8\n"), {"unknown key", "salt"}},
+        FileSlip{"HeadNumberBroken", replaced("# seed: 7", "# seed: -7"), {"seed", "-7"}},
+        FileSlip{"CountOfZero", replaced("area_count: 2", "area_count: 0"), {"area_count: 0", "1 or more"}},
+        FileSlip{"CountsBeyondAllReason", // their product is no int, and their names would fill the memory
+                 [](std::string& text) {
+                   replaced("row_wires: 2", "row_wires: 100000")(text);
+                   replaced("electrodes_per_row_wire: 2", "electrodes_per_row_wire: 100000")(text);
+                 },
+                 {"line 15", "22 columns", "30000300004"}},
+        FileSlip{"KindUnknown", replaced("full solves", "guess"), {"guess", "full solves or surrogate"}},
+        FileSlip{"Newer", replaced("palp_samples: 1", "palp_samples: 2"), {"version 2"}},
+        FileSlip{"ColumnRenamed", replaced("fy_N", "fy_kN"), {"column 3", "fy_kN", "fy_N"}},
+        FileSlip{"ColumnMissing", replaced(",R_r1_c2_ohm", ""), {"columns", "22"}},
+        FileSlip{"NoHeadAtAll", [](std::string& text) { text.erase(0, text.find("area,")); }, {"palp_samples"}}),
     [](const auto& each) { return each.param.name; });
 
 TEST(SampleFile, OfAreasLoadedTogetherNamesNoSingleOne) {

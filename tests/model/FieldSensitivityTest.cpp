@@ -12,7 +12,7 @@ namespace {
 constexpr double kFine = 2;    ///< panels of the quadrature, where formulas are judged
 constexpr double kLeft = 5e-6; ///< what these panels leave of a change, relative
 
-FieldLaw lawWith(double radius_mm) {
+FieldLaw lawOfRadius(double radius_mm) {
   FieldLaw law;
   law.resistivity_ohm_mm = 3;
   law.electrodeRadius_mm = radius_mm;
@@ -36,7 +36,7 @@ class EachSphereModel : public testing::TestWithParam<SphereModel> {};
 TEST_P(EachSphereModel, FollowsElectrodesAsItsDifferencesDo) {
   for (unsigned seed = 1; seed <= 5; ++seed) {
     const SensorDesign design = randomLayout(seed, 0.5);
-    const FieldLaw law = lawWith(0.2);
+    const FieldLaw law = lawOfRadius(0.2);
     const FieldSensitivity field(design, law, GetParam());
     SensorMotion motion = still(field, design);
     std::mt19937 engine(seed);
@@ -55,7 +55,7 @@ TEST_P(EachSphereModel, FollowsElectrodesAsItsDifferencesDo) {
 TEST_P(EachSphereModel, FollowsEachFaceAsItsDifferencesDo) {
   for (unsigned seed = 1; seed <= 4; ++seed) {
     const SensorDesign design = randomLayout(seed, 0.5);
-    const FieldLaw law = lawWith(0.2);
+    const FieldLaw law = lawOfRadius(0.2);
     const FieldSensitivity field(design, law, GetParam(), kFine);
     for (int axis = 0; axis < 3; ++axis)
       for (const bool high : {true, false}) {
@@ -83,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(Both, EachSphereModel, testing::Values(SphereModel::Mon
 TEST(FieldSensitivity, AMotionOfTheWholeBlockChangesNothing) {
   for (unsigned seed = 1; seed <= 4; ++seed) {
     const SensorDesign design = randomLayout(seed, 0.5);
-    const FieldSensitivity field(design, lawWith(0.2), SphereModel::Dipoles, kFine);
+    const FieldSensitivity field(design, lawOfRadius(0.2), SphereModel::Dipoles, kFine);
     for (int axis = 0; axis < 2; ++axis) {
       SensorMotion motion = still(field, design);
       motion.electrodes_mm.row(axis).setOnes();
@@ -98,7 +98,7 @@ TEST(FieldSensitivity, AMotionOfTheWholeBlockChangesNothing) {
 /// The same reading the other way round, under every read-out.
 TEST(FieldSensitivity, AReadingsGradientGivesWhatAMotionChanges) {
   const SensorDesign design = randomLayout(3, 0.5);
-  const FieldSensitivity field(design, lawWith(0.2));
+  const FieldSensitivity field(design, lawOfRadius(0.2));
   SensorMotion motion = still(field, design);
   std::mt19937 engine(5);
   std::uniform_real_distribution<double> uniform(-1, 1);
@@ -121,7 +121,7 @@ TEST(FieldSensitivity, ItsPanelsLeaveATenthOfAThousandth) {
     const SensorDesign design = randomLayout(seed, 0.5);
     std::vector<Eigen::MatrixXd> changes;
     for (const double fineness : {1.0, 3.0}) {
-      const FieldSensitivity field(design, lawWith(0.2), SphereModel::Dipoles, fineness);
+      const FieldSensitivity field(design, lawOfRadius(0.2), SphereModel::Dipoles, fineness);
       SensorMotion motion = still(field, design);
       const Eigen::Matrix3Xd& at = field.facePoints_mm();
       motion.faces_mm = at.row(2).array() * (-0.3 * ((at.row(0).array() - 3).square() + at.row(1).array())).exp();
@@ -135,7 +135,7 @@ TEST(FieldSensitivity, ItsPanelsLeaveATenthOfAThousandth) {
 /// The paper's block grows: against the derivative by its height, in which the closed form has no quadrature.
 TEST(FieldSensitivity, ThePapersTopFaceIsTheDerivativeByTheHeight) {
   const SensorDesign design = paperDesign();
-  const FieldLaw law = lawWith(0.2);
+  const FieldLaw law = lawOfRadius(0.2);
   const FieldSensitivity field(design, law);
   SensorMotion motion = still(field, design);
   motion.faces_mm = field.faceNormals().row(2);

@@ -7,7 +7,7 @@
 namespace palp {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
 std::string problemOf(const LoadCase& load) {
   return whyInvalid(load, paperDesign()).value_or("");
@@ -32,7 +32,7 @@ TEST(LoadCase, NamesTheAreaThatIsNotThere) {
 }
 
 TEST(LoadCase, NamesTheForceThatIsNoForce) {
-  for (const double force : {kNan, std::numeric_limits<double>::infinity(), -2e6}) {
+  for (const double force : {kNotANumber, std::numeric_limits<double>::infinity(), -2e6}) {
     EXPECT_NE(problemOf({{{2, {0, force, 0}}}, {}}).find("area 2"), std::string::npos);
     EXPECT_NE(problemOf({{}, {{{15, 15}, 2, {0, 0, force}}}}).find("patch"), std::string::npos);
   }
@@ -41,8 +41,8 @@ TEST(LoadCase, NamesTheForceThatIsNoForce) {
 TEST(LoadCase, NamesTheDiscThatLeavesTheFaceOrIsAPoint) {
   for (const PatchLoad& patch :
        {PatchLoad{{1, 15}, 2, {}}, PatchLoad{{29, 15}, 2, {}}, PatchLoad{{15, 1}, 2, {}}, PatchLoad{{15, 29}, 2, {}},
-        PatchLoad{{15, 15}, 0, {}}, PatchLoad{{15, 15}, -1, {}}, PatchLoad{{15, 15}, kNan, {}},
-        PatchLoad{{15, 15}, 1e-200, {}}, PatchLoad{{15, 15}, 0.0099, {}}, PatchLoad{{kNan, 15}, 2, {}}}) {
+        PatchLoad{{15, 15}, 0, {}}, PatchLoad{{15, 15}, -1, {}}, PatchLoad{{15, 15}, kNotANumber, {}},
+        PatchLoad{{15, 15}, 1e-200, {}}, PatchLoad{{15, 15}, 0.0099, {}}, PatchLoad{{kNotANumber, 15}, 2, {}}}) {
     const std::string sentence = problemOf({{}, {patch}});
     EXPECT_NE(sentence.find("30 x 30 mm"), std::string::npos) << sentence;
     EXPECT_NE(sentence.find("0.01 mm or more"), std::string::npos) << sentence;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kApart_mm = 0.5;
 
-FieldLaw lawWith(double wire_ohm) {
+FieldLaw lawOfWires(double wire_ohm) {
   FieldLaw law;
   law.resistivity_ohm_mm = 1;
   law.electrodeRadius_mm = 0.15;
@@ -45,7 +45,7 @@ class EachReadout : public testing::TestWithParam<Readout> {};
 
 TEST_P(EachReadout, IsTheCircuitThatItNames) {
   for (unsigned seed = 1; seed <= 8; ++seed) {
-    const TerminalNetwork network = networkAtRest(randomLayout(seed, kApart_mm), lawWith(0.3));
+    const TerminalNetwork network = networkAtRest(randomLayout(seed, kApart_mm), lawOfWires(0.3));
     const Eigen::MatrixXd r = NetworkReading(network, GetParam()).resistances_ohm();
     EXPECT_LT((r.cwiseQuotient(solvedCircuit(network, GetParam())).array() - 1).abs().maxCoeff(), 1e-11) << seed;
   }
@@ -55,7 +55,7 @@ TEST_P(EachReadout, FollowsTheNetworkAsItsDifferencesDo) {
   for (unsigned seed = 1; seed <= 6; ++seed)
     for (const double wire_ohm : {0.0, 0.4}) {
       const SensorDesign design = randomLayout(seed, kApart_mm);
-      const FieldLaw law = lawWith(wire_ohm);
+      const FieldLaw law = lawOfWires(wire_ohm);
       const Eigen::MatrixXd p = potentialsAtRest_ohm(design.block_mm, electrodes_mm(design), law);
       std::srand(seed);
       Eigen::MatrixXd dp = Eigen::MatrixXd::Random(p.rows(), p.cols());
@@ -78,7 +78,7 @@ TEST_P(EachReadout, FollowsTheNetworkAsItsDifferencesDo) {
 /// A conductivity that is the same everywhere is a common factor, but not where the wires resist as well.
 TEST_P(EachReadout, IsProportionalToTheResistivity) {
   const SensorDesign design = randomLayout(3, kApart_mm);
-  FieldLaw law = lawWith(0);
+  FieldLaw law = lawOfWires(0);
   law.contact_ohm_mm2 = 0.2;
   const Eigen::MatrixXd one = NetworkReading(networkAtRest(design, law), GetParam()).resistances_ohm();
   law.resistivity_ohm_mm *= 2000;
@@ -92,7 +92,7 @@ TEST_P(EachReadout, FallsWithTheSizeOfTheSensor) {
   for (unsigned seed = 1; seed <= 5; ++seed) {
     const SensorDesign design = randomLayout(seed, kApart_mm);
     const auto at = [&](double s) {
-      FieldLaw law = lawWith(0);
+      FieldLaw law = lawOfWires(0);
       law.electrodeRadius_mm *= s;
       const TerminalNetwork network(potentialsAtRest_ohm(s * design.block_mm, s * electrodes_mm(design), law),
                                     wireCounts(design), 0);
@@ -115,7 +115,7 @@ INSTANTIATE_TEST_SUITE_P(All, EachReadout,
 TEST(TerminalNetwork, IsANetworkOfPositiveConductances) {
   for (unsigned seed = 1; seed <= 40; ++seed)
     for (const double wire_ohm : {0.0, 0.5}) {
-      const Eigen::MatrixXd y = networkAtRest(randomLayout(seed, kApart_mm), lawWith(wire_ohm)).conductances();
+      const Eigen::MatrixXd y = networkAtRest(randomLayout(seed, kApart_mm), lawOfWires(wire_ohm)).conductances();
       EXPECT_EQ(y, y.transpose());
       EXPECT_LT(y.rowwise().sum().cwiseAbs().maxCoeff(), 1e-12 * y.maxCoeff()) << seed;
       for (Eigen::Index r = 0; r < y.rows(); ++r)
@@ -127,7 +127,7 @@ TEST(TerminalNetwork, IsANetworkOfPositiveConductances) {
 TEST(TerminalNetwork, FloatingResistancesFallWithEveryConductivity) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     const SensorDesign design = randomLayout(seed, kApart_mm);
-    const Eigen::MatrixXd p = potentialsAtRest_ohm(design.block_mm, electrodes_mm(design), lawWith(0));
+    const Eigen::MatrixXd p = potentialsAtRest_ohm(design.block_mm, electrodes_mm(design), lawOfWires(0));
     const Eigen::MatrixXd before = NetworkReading({p, wireCounts(design), 0}, Readout::Floating).resistances_ohm();
     Eigen::MatrixXd worse = p; // a contact that resists more at one electrode
     worse(seed % p.rows(), seed % p.rows()) += 0.05;
@@ -144,7 +144,7 @@ TEST(TerminalNetwork, FloatingResistancesFallWithEveryConductivity) {
 /// A constant in the potentials says nothing: only differences drive currents.
 TEST(TerminalNetwork, DoesNotFeelAConstantPotential) {
   const SensorDesign design = randomLayout(5, kApart_mm);
-  const Eigen::MatrixXd p = potentialsAtRest_ohm(design.block_mm, electrodes_mm(design), lawWith(0));
+  const Eigen::MatrixXd p = potentialsAtRest_ohm(design.block_mm, electrodes_mm(design), lawOfWires(0));
   const Eigen::MatrixXd shifted = (p.array() + 3.7).matrix();
   EXPECT_LT((TerminalNetwork(p, wireCounts(design), 0).conductances() -
              TerminalNetwork(shifted, wireCounts(design), 0).conductances())

@@ -9,10 +9,10 @@
 namespace palp {
 namespace {
 
-const Eigen::MatrixXd samples = (Eigen::MatrixXd(3, 4) << 1, 2, 3, 6, -10, 0, 10, 20, 7, 7, 7, 7).finished();
+const Eigen::MatrixXd threeRows = (Eigen::MatrixXd(3, 4) << 1, 2, 3, 6, -10, 0, 10, 20, 7, 7, 7, 7).finished();
 
 TEST(FeatureScaler, MinMaxBringsEachVaryingInputToPlusMinusOne) {
-  const Eigen::MatrixXd scaled = FeatureScaler::fit(Scaling::MinMax, samples).apply(samples);
+  const Eigen::MatrixXd scaled = FeatureScaler::fit(Scaling::MinMax, threeRows).apply(threeRows);
   for (const int row : {0, 1}) {
     EXPECT_DOUBLE_EQ(scaled.row(row).minCoeff(), -1);
     EXPECT_DOUBLE_EQ(scaled.row(row).maxCoeff(), 1);
@@ -20,21 +20,21 @@ TEST(FeatureScaler, MinMaxBringsEachVaryingInputToPlusMinusOne) {
 }
 
 TEST(FeatureScaler, GlobalPutsTheFarthestSampleAtDistanceOneAndKeepsTheInputsProportions) {
-  const Eigen::MatrixXd scaled = FeatureScaler::fit(Scaling::Global, samples).apply(samples);
+  const Eigen::MatrixXd scaled = FeatureScaler::fit(Scaling::Global, threeRows).apply(threeRows);
   EXPECT_NEAR(scaled.colwise().norm().maxCoeff(), 1, 1e-15);
   const Eigen::VectorXd range = scaled.rowwise().maxCoeff() - scaled.rowwise().minCoeff();
   EXPECT_NEAR(range(0) / range(1), 5.0 / 30, 1e-15);
 }
 
 TEST(FeatureScaler, ZScoreGivesMeanZeroAndDeviationOne) {
-  const Eigen::MatrixXd scaled = FeatureScaler::fit(Scaling::ZScore, samples).apply(samples);
+  const Eigen::MatrixXd scaled = FeatureScaler::fit(Scaling::ZScore, threeRows).apply(threeRows);
   EXPECT_NEAR(scaled.row(1).mean(), 0, 1e-15);
   EXPECT_NEAR(scaled.row(1).squaredNorm() / 4, 1, 1e-15);
 }
 
 TEST(FeatureScaler, AConstantInputIsScaledToZero) {
   for (const Scaling scaling : {Scaling::MinMax, Scaling::ZScore, Scaling::Global})
-    EXPECT_EQ(FeatureScaler::fit(scaling, samples).apply(samples).row(2).cwiseAbs().maxCoeff(), 0) << name(scaling);
+    EXPECT_EQ(FeatureScaler::fit(scaling, threeRows).apply(threeRows).row(2).cwiseAbs().maxCoeff(), 0) << name(scaling);
 }
 
 /// Inputs around 100: the first two directions stand above the noise of 1e-3, the third is a twentieth of it.
@@ -75,9 +75,9 @@ TEST(FeatureScaler, WhiteningCopesWithConstantInputs) {
 
 TEST(FeatureScaler, InvertingTheScaledGivesTheSamplesBack) {
   for (const Scaling scaling : {Scaling::Raw, Scaling::MinMax, Scaling::ZScore, Scaling::Global}) {
-    const FeatureScaler scaler = FeatureScaler::fit(scaling, samples);
+    const FeatureScaler scaler = FeatureScaler::fit(scaling, threeRows);
     // Two roundings of numbers up to 20.
-    EXPECT_LT((scaler.invert(scaler.apply(samples)) - samples).cwiseAbs().maxCoeff(), 1e-13) << name(scaling);
+    EXPECT_LT((scaler.invert(scaler.apply(threeRows)) - threeRows).cwiseAbs().maxCoeff(), 1e-13) << name(scaling);
   }
 }
 

@@ -11,7 +11,7 @@ using namespace palp::test;
 
 namespace {
 
-palp::SensorDesign fieldDesign(palp::Readout readout) {
+palp::SensorDesign restingDesign(palp::Readout readout) {
   palp::SensorDesign design = palp::paperDesign();
   palp::FieldLaw law;
   law.readout = readout;
@@ -23,7 +23,7 @@ class CalibrateAtRest : public testing::Test {
 protected:
   CalibrateAtRest() {
     settings_.disturbance.noise = 1e-4;
-    palp::saveDesign(design_, fieldDesign(palp::Readout::VirtualGround), false);
+    palp::saveDesign(design_, restingDesign(palp::Readout::VirtualGround), false);
   }
   void record(const palp::SensorDesign& design) {
     palp::recordBoard(recording_, settings_, palp::fieldAtRest_ohm(design), 20);
@@ -41,7 +41,7 @@ protected:
 };
 
 TEST_F(CalibrateAtRest, WritesTheDesignWithTheNumbersOfTheBoard) {
-  palp::SensorDesign twin = fieldDesign(palp::Readout::VirtualGround);
+  palp::SensorDesign twin = restingDesign(palp::Readout::VirtualGround);
   std::get<palp::FieldLaw>(twin.resistance).electrodeRadius_mm = 0.25;
   std::get<palp::FieldLaw>(twin.resistance).contact_ohm_mm2 = 100;
   record(twin);
@@ -58,13 +58,13 @@ TEST_F(CalibrateAtRest, WritesTheDesignWithTheNumbersOfTheBoard) {
 }
 
 TEST_F(CalibrateAtRest, SaysThatABoardReadsOtherwiseThanTheDesign) {
-  record(fieldDesign(palp::Readout::Floating));
+  record(restingDesign(palp::Readout::Floating));
   Outcome outcome = calibrate();
   EXPECT_EQ(outcome.exit, 1) << outcome.errors;
   EXPECT_NE(outcome.errors.find("read-out floating leaves"), std::string::npos) << outcome.errors;
   EXPECT_FALSE(std::filesystem::exists(fitted_));
   settings_.info.readout = palp::Readout::Floating; // now it says so itself
-  record(fieldDesign(palp::Readout::Floating));
+  record(restingDesign(palp::Readout::Floating));
   outcome = calibrate();
   EXPECT_EQ(outcome.exit, 2) << outcome.errors;
   EXPECT_NE(outcome.errors.find("the board is of read-out floating, the design of read-out virtual_ground"),
@@ -74,7 +74,7 @@ TEST_F(CalibrateAtRest, SaysThatABoardReadsOtherwiseThanTheDesign) {
 
 TEST_F(CalibrateAtRest, NamesABrokenWireAndRefusesWhatCannotBe) {
   settings_.faults.openColumns = {12};
-  record(fieldDesign(palp::Readout::VirtualGround));
+  record(restingDesign(palp::Readout::VirtualGround));
   Outcome outcome = calibrate();
   EXPECT_EQ(outcome.exit, 2);
   EXPECT_NE(outcome.errors.find("column-wire 12"), std::string::npos) << outcome.errors;
@@ -82,7 +82,7 @@ TEST_F(CalibrateAtRest, NamesABrokenWireAndRefusesWhatCannotBe) {
   EXPECT_EQ(outcome.exit, 2);
   EXPECT_NE(outcome.errors.find("give --design"), std::string::npos) << outcome.errors;
   settings_.faults.openColumns.clear();
-  record(fieldDesign(palp::Readout::VirtualGround));
+  record(restingDesign(palp::Readout::VirtualGround));
   palp::saveDesign(design_, palp::paperDesign(), true);
   outcome = calibrate();
   EXPECT_EQ(outcome.exit, 2);

@@ -25,7 +25,7 @@ QImage imageOf(const Picture& picture) {
   return QImage(picture.rgb.data(), picture.width, picture.height, 3 * picture.width, QImage::Format_RGB888).copy();
 }
 
-Picture pictureOf(const QImage& image) {
+Picture baselinePicture(const QImage& image) {
   const QImage rgb = image.convertToFormat(QImage::Format_RGB888);
   Picture picture{rgb.width(), rgb.height(), {}};
   for (int y = 0; y < rgb.height(); ++y)
@@ -73,7 +73,7 @@ testing::AssertionResult matchesBaseline(const Picture& picture, const std::stri
                                        : testing::AssertionFailure() << file.toStdString() << " cannot be written";
   const QImage image(file);
   if (image.isNull()) return testing::AssertionFailure() << file.toStdString() << " is not there";
-  const Picture wanted = pictureOf(image);
+  const Picture wanted = baselinePicture(image);
   const QString kept = QDir::temp().filePath(QString("palp-%1").arg(QString::fromStdString(name)));
   if (wanted.width != picture.width || wanted.height != picture.height)
     return testing::AssertionFailure() << name << ": " << picture.width << " x " << picture.height

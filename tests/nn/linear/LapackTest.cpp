@@ -16,20 +16,20 @@ namespace palp {
 namespace {
 
 /// Sums of some 200 products of numbers of order 1.
-constexpr double kRounding = 1e-12;
+constexpr double kLapackRounding = 1e-12;
 
-Eigen::MatrixXd randomMatrix(Eigen::Index rows, Eigen::Index columns, std::uint64_t seed = 1) {
+Eigen::MatrixXd lapackMatrix(Eigen::Index rows, Eigen::Index columns, std::uint64_t seed = 1) {
   RandomNumbers random(seed);
   return Eigen::MatrixXd::NullaryExpr(rows, columns, [&](auto, auto) { return random.normal(); });
 }
 
 /// Symmetric and positive definite, condition below 100.
 Eigen::MatrixXd definite(Eigen::Index size) {
-  const Eigen::MatrixXd half = randomMatrix(size, 2 * size);
+  const Eigen::MatrixXd half = lapackMatrix(size, 2 * size);
   return half * half.transpose() / static_cast<double>(size);
 }
 
-Eigen::MatrixXd lowerOf(const Eigen::MatrixXd& a) {
+Eigen::MatrixXd lapackLower(const Eigen::MatrixXd& a) {
   return a.triangularView<Eigen::Lower>();
 }
 
@@ -39,18 +39,18 @@ double distance(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
 }
 
 TEST(Lapack, ProductsAreThoseOfEigenWithAndWithoutTransposing) {
-  const Eigen::MatrixXd a = randomMatrix(7, 11), b = randomMatrix(11, 5, 2);
-  EXPECT_LT(distance(lapack::product(a, false, b, false), a * b), kRounding);
-  EXPECT_LT(distance(lapack::product(a.transpose(), true, b, false), a * b), kRounding);
-  EXPECT_LT(distance(lapack::product(a, false, b.transpose(), true), a * b), kRounding);
-  EXPECT_LT(distance(lapack::product(a.transpose(), true, b.transpose(), true), a * b), kRounding);
+  const Eigen::MatrixXd a = lapackMatrix(7, 11), b = lapackMatrix(11, 5, 2);
+  EXPECT_LT(distance(lapack::product(a, false, b, false), a * b), kLapackRounding);
+  EXPECT_LT(distance(lapack::product(a.transpose(), true, b, false), a * b), kLapackRounding);
+  EXPECT_LT(distance(lapack::product(a, false, b.transpose(), true), a * b), kLapackRounding);
+  EXPECT_LT(distance(lapack::product(a.transpose(), true, b.transpose(), true), a * b), kLapackRounding);
 }
 
 TEST(Lapack, ProductsReadBlocksOfLargerMatrices) {
-  const Eigen::MatrixXd a = randomMatrix(20, 20), b = randomMatrix(20, 20, 2);
+  const Eigen::MatrixXd a = lapackMatrix(20, 20), b = lapackMatrix(20, 20, 2);
   EXPECT_LT(distance(lapack::product(a.block(3, 4, 7, 11), false, b.block(5, 2, 11, 6), false),
                      a.block(3, 4, 7, 11) * b.block(5, 2, 11, 6)),
-            kRounding);
+            kLapackRounding);
 }
 
 TEST(Lapack, AProductOfNothingIsZero) {
@@ -60,56 +60,56 @@ TEST(Lapack, AProductOfNothingIsZero) {
 
 /// dgemm itself would read beyond the smaller one.
 TEST(Lapack, SizesThatDoNotFitTogetherAreRefused) {
-  const Eigen::MatrixXd a = randomMatrix(4, 3), square = definite(4);
-  Eigen::MatrixXd c = randomMatrix(4, 4);
+  const Eigen::MatrixXd a = lapackMatrix(4, 3), square = definite(4);
+  Eigen::MatrixXd c = lapackMatrix(4, 4);
   EXPECT_THROW(lapack::product(a, false, a, false), NetworkError);
-  EXPECT_THROW(lapack::product(a, true, randomMatrix(3, 2), false), NetworkError);
-  EXPECT_THROW(lapack::product(a, false, randomMatrix(2, 4), true), NetworkError);
-  EXPECT_THROW(lapack::subtractProduct(a, randomMatrix(4, 2), c), NetworkError);
-  EXPECT_THROW(lapack::subtractProduct(a, randomMatrix(5, 3), c), NetworkError);
-  EXPECT_THROW(lapack::symmetricProduct(square, randomMatrix(3, 2)), NetworkError);
-  EXPECT_THROW(lapack::symmetricProduct(a, randomMatrix(4, 2)), NetworkError);
-  EXPECT_THROW(lapack::subtractRankTwo(a, randomMatrix(4, 2), c), NetworkError);
-  EXPECT_THROW(lapack::subtractRankTwo(randomMatrix(5, 3), a, c), NetworkError);
-  EXPECT_THROW(lapack::solveLower(square, randomMatrix(3, 1), false), NetworkError);
-  EXPECT_THROW(lapack::PivotedQr(a).solve(randomMatrix(3, 1), 3), NetworkError);
+  EXPECT_THROW(lapack::product(a, true, lapackMatrix(3, 2), false), NetworkError);
+  EXPECT_THROW(lapack::product(a, false, lapackMatrix(2, 4), true), NetworkError);
+  EXPECT_THROW(lapack::subtractProduct(a, lapackMatrix(4, 2), c), NetworkError);
+  EXPECT_THROW(lapack::subtractProduct(a, lapackMatrix(5, 3), c), NetworkError);
+  EXPECT_THROW(lapack::symmetricProduct(square, lapackMatrix(3, 2)), NetworkError);
+  EXPECT_THROW(lapack::symmetricProduct(a, lapackMatrix(4, 2)), NetworkError);
+  EXPECT_THROW(lapack::subtractRankTwo(a, lapackMatrix(4, 2), c), NetworkError);
+  EXPECT_THROW(lapack::subtractRankTwo(lapackMatrix(5, 3), a, c), NetworkError);
+  EXPECT_THROW(lapack::solveLower(square, lapackMatrix(3, 1), false), NetworkError);
+  EXPECT_THROW(lapack::PivotedQr(a).solve(lapackMatrix(3, 1), 3), NetworkError);
 }
 
 TEST(Lapack, SubtractProductIsAnUpdateInPlace) {
-  const Eigen::MatrixXd a = randomMatrix(6, 4), b = randomMatrix(5, 4, 2), c = randomMatrix(9, 9, 3);
+  const Eigen::MatrixXd a = lapackMatrix(6, 4), b = lapackMatrix(5, 4, 2), c = lapackMatrix(9, 9, 3);
   Eigen::MatrixXd updated = c;
   lapack::subtractProduct(a, b, updated.block(2, 3, 6, 5));
   Eigen::MatrixXd expected = c;
   expected.block(2, 3, 6, 5) -= a * b.transpose();
-  EXPECT_LT(distance(updated, expected), kRounding);
+  EXPECT_LT(distance(updated, expected), kLapackRounding);
 }
 
 TEST(Lapack, GramHasBothTrianglesInBlocksOfRowsToo) {
   for (const Eigen::Index rows : {Eigen::Index{5}, lapack::kRowsAtOnce, 2 * lapack::kRowsAtOnce + 17}) {
-    const Eigen::MatrixXd a = randomMatrix(rows, 6);
+    const Eigen::MatrixXd a = lapackMatrix(rows, 6);
     EXPECT_LT(distance(lapack::gram(a), a.transpose() * a), 1e-15 * static_cast<double>(rows) * 100) << rows;
   }
 }
 
 TEST(Lapack, SymmetricProductReadsTheLowerTriangleAlone) {
-  const Eigen::MatrixXd a = definite(8), b = randomMatrix(8, 3, 2);
-  EXPECT_LT(distance(lapack::symmetricProduct(lowerOf(a), b), a * b), kRounding);
+  const Eigen::MatrixXd a = definite(8), b = lapackMatrix(8, 3, 2);
+  EXPECT_LT(distance(lapack::symmetricProduct(lapackLower(a), b), a * b), kLapackRounding);
 }
 
 TEST(Lapack, SubtractRankTwoUpdatesTheLowerTriangleAlone) {
-  const Eigen::MatrixXd u = randomMatrix(7, 3), v = randomMatrix(7, 3, 2), c = definite(7);
+  const Eigen::MatrixXd u = lapackMatrix(7, 3), v = lapackMatrix(7, 3, 2), c = definite(7);
   Eigen::MatrixXd updated = c;
   lapack::subtractRankTwo(u, v, updated);
   const Eigen::MatrixXd expected = c - u * v.transpose() - v * u.transpose();
-  EXPECT_LT(distance(lowerOf(updated), lowerOf(expected)), kRounding);
+  EXPECT_LT(distance(lapackLower(updated), lapackLower(expected)), kLapackRounding);
   EXPECT_EQ(Eigen::MatrixXd(updated.triangularView<Eigen::StrictlyUpper>()),
             Eigen::MatrixXd(c.triangularView<Eigen::StrictlyUpper>()));
 }
 
 TEST(Lapack, SemidefinitePivotsSpanTheRangeAndNoMore) {
-  const Eigen::MatrixXd half = randomMatrix(20, 6);
+  const Eigen::MatrixXd half = lapackMatrix(20, 6);
   const Eigen::MatrixXd a = half * half.transpose();
-  Eigen::MatrixXd work = lowerOf(a);
+  Eigen::MatrixXd work = lapackLower(a);
   std::vector<int> pivots = lapack::semidefinitePivots(work);
   ASSERT_EQ(pivots.size(), 6U);
   const Eigen::MatrixXd columns = a(Eigen::all, pivots);
@@ -122,52 +122,52 @@ TEST(Lapack, SemidefinitePivotsSpanTheRangeAndNoMore) {
 }
 
 TEST(Lapack, PivotedQrSolvesAsEigensDoes) {
-  const Eigen::MatrixXd a = randomMatrix(20, 8), b = randomMatrix(20, 3, 2);
+  const Eigen::MatrixXd a = lapackMatrix(20, 8), b = lapackMatrix(20, 3, 2);
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> reference(a);
   const lapack::PivotedQr qr(a);
   EXPECT_EQ(qr.rank(1e-15), 8);
-  EXPECT_LT(distance(qr.solve(b, 8), reference.solve(b)), kRounding);
+  EXPECT_LT(distance(qr.solve(b, 8), reference.solve(b)), kLapackRounding);
   const Eigen::VectorXd diagonal = reference.matrixR().diagonal().cwiseAbs();
   EXPECT_NEAR(qr.condition(), diagonal.maxCoeff() / diagonal.minCoeff(), 1e-10 * qr.condition());
-  EXPECT_LT(distance(qr.r().diagonal().cwiseAbs(), diagonal), kRounding);
+  EXPECT_LT(distance(qr.r().diagonal().cwiseAbs(), diagonal), kLapackRounding);
 }
 
 TEST(Lapack, PivotedQrGivesABasicSolutionWhereColumnsDepend) {
-  Eigen::MatrixXd a = randomMatrix(20, 8);
+  Eigen::MatrixXd a = lapackMatrix(20, 8);
   a.col(5) = a.col(1) + a.col(2);
-  const Eigen::MatrixXd b = a * randomMatrix(8, 2, 3);
+  const Eigen::MatrixXd b = a * lapackMatrix(8, 2, 3);
   const lapack::PivotedQr qr(a);
   ASSERT_EQ(qr.rank(1e-13), 7);
   const Eigen::MatrixXd x = qr.solve(b, 7);
-  EXPECT_LT(distance(a * x, b), kRounding);
+  EXPECT_LT(distance(a * x, b), kLapackRounding);
   EXPECT_EQ((x.array() == 0).rowwise().all().count(), 1); // the column that was left out
 }
 
 TEST(Lapack, PivotedQrLeavesFixedColumnsInFront) {
-  Eigen::MatrixXd a = randomMatrix(20, 8);
+  Eigen::MatrixXd a = lapackMatrix(20, 8);
   a.col(7) *= 1000; // would come first
   const lapack::PivotedQr qr(a, 3);
   const Eigen::MatrixXd r = Eigen::HouseholderQR<Eigen::MatrixXd>(a.leftCols(3)).matrixQR().topRows(3);
-  EXPECT_LT(distance(qr.r().diagonal().head(3).cwiseAbs(), r.diagonal().cwiseAbs()), kRounding);
+  EXPECT_LT(distance(qr.r().diagonal().head(3).cwiseAbs(), r.diagonal().cwiseAbs()), kLapackRounding);
   EXPECT_GT(std::abs(qr.r()(3, 3)), 100); // the large one is the first that is free
 }
 
 TEST(Lapack, TheBlockReflectorIsTheQOfTheFactorisation) {
-  const Eigen::MatrixXd a = randomMatrix(12, 5);
+  const Eigen::MatrixXd a = lapackMatrix(12, 5);
   const lapack::PivotedQr qr(a);
   const lapack::PivotedQr::BlockReflector reflector = qr.blockReflector();
   const Eigen::MatrixXd q = Eigen::MatrixXd::Identity(12, 12) - reflector.v * reflector.t * reflector.v.transpose();
-  EXPECT_LT(distance(q.transpose() * q, Eigen::MatrixXd::Identity(12, 12)), kRounding);
-  EXPECT_LT(distance(qr.applyQTransposed(Eigen::MatrixXd::Identity(12, 12)), q.transpose()), kRounding);
+  EXPECT_LT(distance(q.transpose() * q, Eigen::MatrixXd::Identity(12, 12)), kLapackRounding);
+  EXPECT_LT(distance(qr.applyQTransposed(Eigen::MatrixXd::Identity(12, 12)), q.transpose()), kLapackRounding);
   const Eigen::MatrixXd inBasis = q.transpose() * a; // A P = Q R: below R nothing is left
-  EXPECT_LT(inBasis.bottomRows(7).cwiseAbs().maxCoeff(), kRounding);
+  EXPECT_LT(inBasis.bottomRows(7).cwiseAbs().maxCoeff(), kLapackRounding);
 }
 
 TEST(Lapack, CholeskyIsEigensAndRefusesAnIndefiniteMatrix) {
   const Eigen::MatrixXd a = definite(9);
   Eigen::MatrixXd factor = a;
   ASSERT_TRUE(lapack::choleskyInPlace(factor));
-  EXPECT_LT(distance(factor, Eigen::LLT<Eigen::MatrixXd>(a).matrixL()), kRounding);
+  EXPECT_LT(distance(factor, Eigen::LLT<Eigen::MatrixXd>(a).matrixL()), kLapackRounding);
   factor = a;
   factor(4, 4) = -1;
   EXPECT_FALSE(lapack::choleskyInPlace(factor));
@@ -177,9 +177,10 @@ TEST(Lapack, CholeskyIsEigensAndRefusesAnIndefiniteMatrix) {
 }
 
 TEST(Lapack, SolveLowerSolvesWithTheFactorAndWithItsTranspose) {
-  const Eigen::MatrixXd l = Eigen::LLT<Eigen::MatrixXd>(definite(9)).matrixL(), b = randomMatrix(9, 4, 2);
-  EXPECT_LT(distance(lapack::solveLower(l, b, false), l.triangularView<Eigen::Lower>().solve(b)), kRounding);
-  EXPECT_LT(distance(lapack::solveLower(l, b, true), l.transpose().triangularView<Eigen::Upper>().solve(b)), kRounding);
+  const Eigen::MatrixXd l = Eigen::LLT<Eigen::MatrixXd>(definite(9)).matrixL(), b = lapackMatrix(9, 4, 2);
+  EXPECT_LT(distance(lapack::solveLower(l, b, false), l.triangularView<Eigen::Lower>().solve(b)), kLapackRounding);
+  EXPECT_LT(distance(lapack::solveLower(l, b, true), l.transpose().triangularView<Eigen::Upper>().solve(b)),
+            kLapackRounding);
 }
 
 TEST(Lapack, InvertLowerWorksInHalvesAndLeavesTheUpperTriangle) {
@@ -188,7 +189,7 @@ TEST(Lapack, InvertLowerWorksInHalvesAndLeavesTheUpperTriangle) {
     Eigen::MatrixXd inverse = l;
     inverse.triangularView<Eigen::StrictlyUpper>().setConstant(7);
     lapack::invertLowerInPlace(inverse);
-    EXPECT_LT(distance(l * lowerOf(inverse), Eigen::MatrixXd::Identity(size, size)), kRounding) << size;
+    EXPECT_LT(distance(l * lapackLower(inverse), Eigen::MatrixXd::Identity(size, size)), kLapackRounding) << size;
     if (size > 1) {
       EXPECT_EQ(inverse(0, size - 1), 7);
     }
@@ -197,24 +198,24 @@ TEST(Lapack, InvertLowerWorksInHalvesAndLeavesTheUpperTriangle) {
 
 TEST(Lapack, SymmetricEigenIsEigensAndReadsTheLowerTriangleAlone) {
   const Eigen::MatrixXd a = definite(10) - 2 * Eigen::MatrixXd::Identity(10, 10); // of both signs
-  const lapack::SymmetricEigen ours = lapack::symmetricEigen(lowerOf(a));
-  EXPECT_LT(distance(ours.values, Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(a).eigenvalues()), kRounding);
-  EXPECT_LT(distance(ours.vectors * ours.values.asDiagonal() * ours.vectors.transpose(), a), kRounding);
+  const lapack::SymmetricEigen ours = lapack::symmetricEigen(lapackLower(a));
+  EXPECT_LT(distance(ours.values, Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(a).eigenvalues()), kLapackRounding);
+  EXPECT_LT(distance(ours.vectors * ours.values.asDiagonal() * ours.vectors.transpose(), a), kLapackRounding);
 }
 
 TEST(Lapack, ThinSvdIsEigensForTallAndForWideMatrices) {
   for (const auto& [rows, columns] : {std::pair{12, 5}, {5, 12}, {6, 6}, {1, 4}}) {
-    const Eigen::MatrixXd a = randomMatrix(rows, columns);
+    const Eigen::MatrixXd a = lapackMatrix(rows, columns);
     const lapack::ThinSvd ours = lapack::thinSvd(a);
     const Eigen::JacobiSVD<Eigen::MatrixXd> reference(a);
-    EXPECT_LT(distance(ours.values, reference.singularValues()), kRounding);
-    EXPECT_LT(distance(ours.u * ours.values.asDiagonal() * ours.vTransposed, a), kRounding);
+    EXPECT_LT(distance(ours.values, reference.singularValues()), kLapackRounding);
+    EXPECT_LT(distance(ours.u * ours.values.asDiagonal() * ours.vTransposed, a), kLapackRounding);
   }
   EXPECT_EQ(lapack::thinSvd(Eigen::MatrixXd(4, 0)).values.size(), 0);
 }
 
 TEST(Lapack, SvdOfGramIsTheSvdOfATallMatrixWithoutItsSmallestValues) {
-  Eigen::MatrixXd a = randomMatrix(lapack::kRowsAtOnce + 100, 6);
+  Eigen::MatrixXd a = lapackMatrix(lapack::kRowsAtOnce + 100, 6);
   a.col(5) = a.col(0) + 1e-9 * a.col(5); // below 1e-7 of the largest
   const lapack::ThinSvd ours = lapack::svdOfGram(a);
   const Eigen::JacobiSVD<Eigen::MatrixXd> reference(a);

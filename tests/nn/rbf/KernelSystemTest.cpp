@@ -17,17 +17,17 @@ static void PrintTo(Tail tail, std::ostream* out) {
 
 namespace {
 
-constexpr double kSpread = 1, kRidge = 1e-3;
+constexpr double kKernelSpread = 1, kKernelRidge = 1e-3;
 /// 16 digits less those that a condition of some 1e6 takes.
-constexpr double kTolerance = 1e-9;
+constexpr double kKernelTolerance = 1e-9;
 
-const test::Touches kSet = test::touches(6, 5, 1);
+const test::Touches kKernelSet = test::touches(6, 5, 1);
 
 Eigen::MatrixXd samples() {
-  return kSet.samples.array() - 100;
+  return kKernelSet.samples.array() - 100;
 }
 
-Eigen::MatrixXd without(const Eigen::MatrixXd& columns, Eigen::Index left) {
+Eigen::MatrixXd withoutColumn(const Eigen::MatrixXd& columns, Eigen::Index left) {
   Eigen::MatrixXd rest(columns.rows(), columns.cols() - 1);
   rest << columns.leftCols(left), columns.rightCols(columns.cols() - 1 - left);
   return rest;
@@ -42,14 +42,14 @@ RbfOptions options(Tail tail) {
 }
 
 Eigen::MatrixXd gaussians(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  const double rate = gaussianRate(kSpread, SpreadConvention::Radbas);
+  const double rate = gaussianRate(kKernelSpread, SpreadConvention::Radbas);
   return Eigen::MatrixXd::NullaryExpr(a.cols(), b.cols(), [&](Eigen::Index i, Eigen::Index j) {
     return std::exp(-rate * (a.col(i) - b.col(j)).squaredNorm());
   });
 }
 
 /// [inputs, 1] or 1 alone or nothing, one row a sample.
-Eigen::MatrixXd regressors(const Eigen::MatrixXd& x, Tail tail) {
+Eigen::MatrixXd kernelRegressors(const Eigen::MatrixXd& x, Tail tail) {
   const Eigen::Index inputs = tail == Tail::Linear ? x.rows() : 0;
   Eigen::MatrixXd p(x.cols(), tail == Tail::Linear || tail == Tail::Bias ? inputs + 1 : 0);
   if (p.cols() == 0) return p;
@@ -61,7 +61,7 @@ Eigen::MatrixXd regressors(const Eigen::MatrixXd& x, Tail tail) {
 /// tail as a kernel of its own, Phi + v (X^T X + 1).
 Eigen::MatrixXd dense(const Eigen::MatrixXd& x, const Eigen::MatrixXd& y, Tail tail, double ridge,
                       const Eigen::MatrixXd& at) {
-  const Eigen::MatrixXd p = regressors(x, tail);
+  const Eigen::MatrixXd p = kernelRegressors(x, tail);
   const Eigen::Index n = x.cols(), extra = p.cols();
   const auto kernel = [&](const Eigen::MatrixXd& a) -> Eigen::MatrixXd {
     if (tail != Tail::LinearPenalised) return gaussians(a, x);
@@ -75,39 +75,41 @@ Eigen::MatrixXd dense(const Eigen::MatrixXd& x, const Eigen::MatrixXd& y, Tail t
   right.topRows(n) = y.transpose();
   const Eigen::MatrixXd solution = system.fullPivLu().solve(right);
   const Eigen::MatrixXd predicted =
-      kernel(at) * solution.topRows(n) + regressors(at, tail) * solution.bottomRows(extra);
+      kernel(at) * solution.topRows(n) + kernelRegressors(at, tail) * solution.bottomRows(extra);
   return predicted.transpose();
 }
 
 class KernelSystemWith : public testing::TestWithParam<Tail> {};
 
 TEST_P(KernelSystemWith, ItsNetworkIsThatOfADenseDirectSolve) {
-  const KernelSystem system(samples(), kSet.targets, options(GetParam()));
-  const RbfSolution solution = system.solve(kSpread, kRidge, {});
-  const RbfNetwork network{system.scaler(), system.centers(), kSpread,       SpreadConvention::Radbas,
+  const KernelSystem system(samples(), kKernelSet.targets, options(GetParam()));
+  const RbfSolution solution = system.solve(kKernelSpread, kKernelRidge, {});
+  const RbfNetwork network{system.scaler(), system.centers(), kKernelSpread, SpreadConvention::Radbas,
                            solution.form,   solution.weights, solution.tail, solution.bias};
   const Eigen::MatrixXd fresh = test::touches(5, 5, 2).samples.array() - 100;
   // A penalised tail is fitted to what the mean leaves of the targets.
-  const Eigen::VectorXd mean = GetParam() == Tail::LinearPenalised ? Eigen::VectorXd(kSet.targets.rowwise().mean())
-                                                                   : Eigen::VectorXd(Eigen::VectorXd::Zero(3));
+  const Eigen::VectorXd mean = GetParam() == Tail::LinearPenalised
+                                   ? Eigen::VectorXd(kKernelSet.targets.rowwise().mean())
+                                   : Eigen::VectorXd(Eigen::VectorXd::Zero(3));
   const Eigen::MatrixXd expected =
-      dense(samples(), kSet.targets.colwise() - mean, GetParam(), kRidge, fresh).colwise() + mean;
-  EXPECT_LT((network.predict(fresh) - expected).cwiseAbs().maxCoeff(), kTolerance);
-  EXPECT_EQ(solution.ridge, kRidge);
+      dense(samples(), kKernelSet.targets.colwise() - mean, GetParam(), kKernelRidge, fresh).colwise() + mean;
+  EXPECT_LT((network.predict(fresh) - expected).cwiseAbs().maxCoeff(), kKernelTolerance);
+  EXPECT_EQ(solution.ridge, kKernelRidge);
 }
 
 TEST_P(KernelSystemWith, ItsLeaveOneOutErrorsAreThoseOfLeavingEachSampleOut) {
-  const KernelSystem system(samples(), kSet.targets, options(GetParam()));
-  const LeaveOneOutResult byInverse = system.leaveOneOut(kSpread, {kRidge}, {}).front();
-  const LeaveOneOutResult byEigenvalues = system.leaveOneOut(kSpread, {1e-4, kRidge}, {}).back();
-  const Eigen::VectorXd mean = GetParam() == Tail::LinearPenalised ? Eigen::VectorXd(kSet.targets.rowwise().mean())
-                                                                   : Eigen::VectorXd(Eigen::VectorXd::Zero(3));
-  const Eigen::MatrixXd targets = kSet.targets.colwise() - mean;
+  const KernelSystem system(samples(), kKernelSet.targets, options(GetParam()));
+  const LeaveOneOutResult byInverse = system.leaveOneOut(kKernelSpread, {kKernelRidge}, {}).front();
+  const LeaveOneOutResult byEigenvalues = system.leaveOneOut(kKernelSpread, {1e-4, kKernelRidge}, {}).back();
+  const Eigen::VectorXd mean = GetParam() == Tail::LinearPenalised
+                                   ? Eigen::VectorXd(kKernelSet.targets.rowwise().mean())
+                                   : Eigen::VectorXd(Eigen::VectorXd::Zero(3));
+  const Eigen::MatrixXd targets = kKernelSet.targets.colwise() - mean;
   for (Eigen::Index i = 0; i < targets.cols(); ++i) {
-    const Eigen::VectorXd error =
-        targets.col(i) - dense(without(samples(), i), without(targets, i), GetParam(), kRidge, samples().col(i));
-    EXPECT_LT((byInverse.residuals.col(i) - error).cwiseAbs().maxCoeff(), kTolerance) << i;
-    EXPECT_LT((byEigenvalues.residuals.col(i) - error).cwiseAbs().maxCoeff(), kTolerance) << i;
+    const Eigen::VectorXd error = targets.col(i) - dense(withoutColumn(samples(), i), withoutColumn(targets, i),
+                                                         GetParam(), kKernelRidge, samples().col(i));
+    EXPECT_LT((byInverse.residuals.col(i) - error).cwiseAbs().maxCoeff(), kKernelTolerance) << i;
+    EXPECT_LT((byEigenvalues.residuals.col(i) - error).cwiseAbs().maxCoeff(), kKernelTolerance) << i;
   }
 }
 

@@ -16,22 +16,22 @@ constexpr double kTolerance = 1e-8;
 
 const test::Touches kSet = test::touches(8, 4, 1);
 
-Eigen::MatrixXd samples() {
+Eigen::MatrixXd leastSquaresSamples() {
   return kSet.samples.array() - 100;
 }
 
-struct Case {
+struct SystemCase {
   const char* what;
   Tail tail;
   double noise;
   LeastSquaresMethod method = LeastSquaresMethod::PivotedQr;
 };
 
-void PrintTo(const Case& one, std::ostream* out) {
+void PrintTo(const SystemCase& one, std::ostream* out) {
   *out << one.what;
 }
 
-RbfOptions optionsOf(const Case& one) {
+RbfOptions optionsOf(const SystemCase& one) {
   RbfOptions options;
   options.scaling = Scaling::Raw;
   options.centers = CenterChoice::Random;
@@ -51,9 +51,9 @@ struct Dense {
   Eigen::MatrixXd targets;    ///< rows x outputs, less the mean
   Eigen::VectorXd penalty;    ///< of each unknown
 
-  Dense(const Case& one, const Eigen::MatrixXd& centers) : copies(one.noise > 0 ? 3 : 1) {
+  Dense(const SystemCase& one, const Eigen::MatrixXd& centers) : copies(one.noise > 0 ? 3 : 1) {
     const RbfOptions options = optionsOf(one);
-    const Eigen::MatrixXd rows = noisyCopies(samples(), one.noise, static_cast<int>(copies), options.seed);
+    const Eigen::MatrixXd rows = noisyCopies(leastSquaresSamples(), one.noise, static_cast<int>(copies), options.seed);
     const Eigen::MatrixXd basis = gaussians(rows, centers), tail = tailOf(one.tail, rows);
     regressors.resize(rows.cols(), basis.cols() + tail.cols());
     regressors << basis, tail;
@@ -95,10 +95,10 @@ struct Dense {
   }
 };
 
-class LeastSquaresSystemOf : public testing::TestWithParam<Case> {};
+class LeastSquaresSystemOf : public testing::TestWithParam<SystemCase> {};
 
 TEST_P(LeastSquaresSystemOf, ItsNetworkIsThatOfTheDenseNormalEquations) {
-  const LeastSquaresSystem system(samples(), kSet.targets, optionsOf(GetParam()), 3, {});
+  const LeastSquaresSystem system(leastSquaresSamples(), kSet.targets, optionsOf(GetParam()), 3, {});
   ASSERT_EQ(system.centers().cols(), 10);
   const RbfSolution solution = system.solve(kSpread, kRidge, {});
   const RbfNetwork network{system.scaler(), system.centers(), kSpread,       SpreadConvention::Radbas,
@@ -116,7 +116,7 @@ TEST_P(LeastSquaresSystemOf, ItsNetworkIsThatOfTheDenseNormalEquations) {
 
 /// A sample is left out with all of its noisy copies.
 TEST_P(LeastSquaresSystemOf, ItsLeaveOneOutErrorsAreThoseOfLeavingEachSampleOut) {
-  const LeastSquaresSystem system(samples(), kSet.targets, optionsOf(GetParam()), 3, {});
+  const LeastSquaresSystem system(leastSquaresSamples(), kSet.targets, optionsOf(GetParam()), 3, {});
   const Eigen::MatrixXd residuals = system.leaveOneOut(kSpread, {1e-2, kRidge}, {}).back().residuals;
   const Dense dense(GetParam(), system.centers());
   ASSERT_EQ(residuals.cols(), kSet.samples.cols() * dense.copies);
@@ -129,20 +129,21 @@ TEST_P(LeastSquaresSystemOf, ItsLeaveOneOutErrorsAreThoseOfLeavingEachSampleOut)
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, LeastSquaresSystemOf,
-                         testing::Values(Case{"NoTail", Tail::None, 0}, Case{"Bias", Tail::Bias, 0},
-                                         Case{"Linear", Tail::Linear, 0}, Case{"Penalised", Tail::LinearPenalised, 0},
-                                         Case{"NoisyBias", Tail::Bias, 1e-3}, Case{"NoisyLinear", Tail::Linear, 1e-3},
-                                         Case{"NoisyPenalised", Tail::LinearPenalised, 1e-3},
-                                         Case{"ByCholesky", Tail::LinearPenalised, 1e-3, LeastSquaresMethod::Cholesky},
-                                         Case{"BySvd", Tail::Bias, 1e-3, LeastSquaresMethod::TruncatedSvd}),
-                         [](const auto& one) { return std::string(one.param.what); });
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, LeastSquaresSystemOf,
+    testing::Values(SystemCase{"NoTail", Tail::None, 0}, SystemCase{"Bias", Tail::Bias, 0},
+                    SystemCase{"Linear", Tail::Linear, 0}, SystemCase{"Penalised", Tail::LinearPenalised, 0},
+                    SystemCase{"NoisyBias", Tail::Bias, 1e-3}, SystemCase{"NoisyLinear", Tail::Linear, 1e-3},
+                    SystemCase{"NoisyPenalised", Tail::LinearPenalised, 1e-3},
+                    SystemCase{"ByCholesky", Tail::LinearPenalised, 1e-3, LeastSquaresMethod::Cholesky},
+                    SystemCase{"BySvd", Tail::Bias, 1e-3, LeastSquaresMethod::TruncatedSvd}),
+    [](const auto& one) { return std::string(one.param.what); });
 
 TEST(LeastSquaresSystem, TakesNoMoreCentresThanThereAreSamples) {
   RbfOptions options = optionsOf({"", Tail::Bias, 0});
   options.centerCount = 1000;
-  const LeastSquaresSystem system(samples(), kSet.targets, options, 1, {});
-  EXPECT_EQ(system.centers(), samples());
+  const LeastSquaresSystem system(leastSquaresSamples(), kSet.targets, options, 1, {});
+  EXPECT_EQ(system.centers(), leastSquaresSamples());
 }
 
 } // namespace

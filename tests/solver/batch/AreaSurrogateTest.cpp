@@ -9,7 +9,7 @@
 namespace palp {
 namespace {
 
-constexpr int area = 2;
+constexpr int kArea = 2;
 
 struct Fit {
   SensorDesign design;
@@ -20,7 +20,7 @@ struct Fit {
   explicit Fit(double tolerance, const SensorDesign& d = paperDesign())
       : design(d), problem(d, sensorMesh(d, {.meshSize_mm = 12, .mapped = {}})),
         engine(problem, problem.parts().initialTangent(2, {}), tolerance, 2),
-        surrogate(AreaSurrogate::fit(engine, design, area, tolerance, {})) {}
+        surrogate(AreaSurrogate::fit(engine, design, kArea, tolerance, {})) {}
 };
 
 double relative(const Eigen::MatrixXd& a, const Eigen::MatrixXd& truth) {
@@ -38,7 +38,7 @@ TEST(AreaSurrogate, KeepsItsStatedErrorAtForcesOfItsRange) {
     const Eigen::Vector3d low = fit.design.forceRange.low_N, high = fit.design.forceRange.high_N;
     const Eigen::Vector3d force_N =
         low + Eigen::Vector3d(share(random), share(random), share(random)).cwiseProduct(high - low);
-    const Solution full = fit.problem.solve({{{area, force_N}}, {}}, {.relativeTolerance = 1e-11});
+    const Solution full = fit.problem.solve({{{kArea, force_N}}, {}}, {.relativeTolerance = 1e-11});
     ASSERT_TRUE(full.converged);
     const ElectrodeDisplacements truth = fit.problem.electrodes(full.state());
     const ElectrodeDisplacements answer = fit.surrogate->evaluate({&force_N, 1})[0];
@@ -81,7 +81,7 @@ TEST(AreaSurrogate, IsNoneWhereTheFitIsStopped) {
   Fit fit(1e-2);
   std::stop_source stop;
   stop.request_stop();
-  EXPECT_FALSE(AreaSurrogate::fit(fit.engine, fit.design, area, 1e-2, stop.get_token()));
+  EXPECT_FALSE(AreaSurrogate::fit(fit.engine, fit.design, kArea, 1e-2, stop.get_token()));
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "solver/batch/BatchEngine.h"
 
 #include "solver/SensorMesh.h"
+#include "tests/solver/CoarseSensor.h"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +10,6 @@
 namespace palp {
 namespace {
 
-LoadCase onArea(int area, double fx, double fy, double fz) {
-  return {{{area, {fx, fy, fz}}}, {}};
-}
-
 /// The paper's block on a mesh coarse enough for a test.
 const HyperelasticProblem& problem() {
   static const HyperelasticProblem coarse(paperDesign(), sensorMesh(paperDesign(), {.meshSize_mm = 12, .mapped = {}}));
@@ -20,23 +17,23 @@ const HyperelasticProblem& problem() {
 }
 
 /// The same of a few hexahedra, for what takes many iterations of full Newton.
-const HyperelasticProblem& hexahedra() {
+const HyperelasticProblem& fewHexahedra() {
   static const HyperelasticProblem few(paperDesign(),
                                        sensorMesh(paperDesign(), {.meshSize_mm = {}, .mapped = {{8, 8, 4}}}));
   return few;
 }
 
 /// Gentle loads, and the second of them many times what the sensor is for: the tangent at rest says nothing about it.
-const std::vector<LoadCase> loads{onArea(1, 0.5, 0, -3), onArea(1, 0, 0, -150), onArea(1, 0, -1, -1)};
+const std::vector<LoadCase> gentleAndHuge{onArea(1, 0.5, 0, -3), onArea(1, 0, 0, -150), onArea(1, 0, -1, -1)};
 
 TEST(BatchEngine, LeavesALoadUnansweredThatTheTangentAtRestDoesNotSolve) {
   BatchEngine engine(problem(), problem().parts().initialTangent(2, {}), 1e-6, 2);
-  const auto answers = engine.solve(loads, 1e-6, {}, {});
-  ASSERT_EQ(answers.size(), loads.size());
+  const auto answers = engine.solve(gentleAndHuge, 1e-6, {}, {});
+  ASSERT_EQ(answers.size(), gentleAndHuge.size());
   EXPECT_FALSE(answers[1]);
   for (const std::size_t gentle : {0, 2}) {
     ASSERT_TRUE(answers[gentle]);
-    const auto alone = engine.solve(std::span(loads).subspan(gentle, 1), 1e-6, {}, {});
+    const auto alone = engine.solve(std::span(gentleAndHuge).subspan(gentle, 1), 1e-6, {}, {});
     ASSERT_TRUE(alone[0]);
     EXPECT_EQ(alone[0]->upper_mm, answers[gentle]->upper_mm); // a lane that fails leaves its neighbours alone
   }
@@ -55,30 +52,30 @@ TEST(BatchEngine, AnswersALoadThatBeginsAtRestWithTheSameBytesBesideAnyOther) {
 
 TEST(BatchEngine, CountsEveryLoadOnceInItsProgress) {
   BatchEngine engine(problem(), problem().parts().initialTangent(2, {}), 1e-6, 2);
-  const std::vector<LoadCase> many(100, loads[0]); // in four groups
+  const std::vector<LoadCase> many(100, gentleAndHuge[0]); // in four groups
   std::vector<std::size_t> counts;
   ASSERT_EQ(engine.solve(many, 1e-6, [&](std::size_t count) { counts.push_back(count); }, {}).size(), many.size());
   EXPECT_EQ(std::accumulate(counts.begin(), counts.end(), std::size_t{0}), many.size());
 }
 
 TEST(BatchSolver, TakesFullNewtonWhereTheBatchFails) {
-  BatchSolver batch(hexahedra(), {.relativeTolerance = 1e-6, .surrogate = false, .threads = 2});
-  const auto answers = batch.solve(loads);
-  ASSERT_EQ(answers.size(), loads.size());
-  const Solution full = hexahedra().solve(loads[1], {.relativeTolerance = 1e-11, .threads = 2});
+  BatchSolver batch(fewHexahedra(), {.relativeTolerance = 1e-6, .surrogate = false, .threads = 2});
+  const auto answers = batch.solve(gentleAndHuge);
+  ASSERT_EQ(answers.size(), gentleAndHuge.size());
+  const Solution full = fewHexahedra().solve(gentleAndHuge[1], {.relativeTolerance = 1e-11, .threads = 2});
   ASSERT_TRUE(full.converged) << full.stopReason;
-  const ElectrodeDisplacements truth = hexahedra().electrodes(full.state());
+  const ElectrodeDisplacements truth = fewHexahedra().electrodes(full.state());
   EXPECT_EQ(answers[1].upper_mm, truth.upper_mm); // the very same solve
   EXPECT_EQ(answers[1].lower_mm, truth.lower_mm);
   EXPECT_EQ(answers[1].upperPressure_MPa, truth.upperPressure_MPa);
   // 32 for the area's predictor, one a load, and full Newton once for the load that failed: the check of one load in
   // 700 falls on that load and has nothing to compare.
-  EXPECT_EQ(batch.solves(), 32U + loads.size() + 1U);
+  EXPECT_EQ(batch.solves(), 32U + gentleAndHuge.size() + 1U);
 }
 
 TEST(BatchSolver, NamesTheLoadThatHasNoSolution) {
-  BatchSolver batch(hexahedra(), {.relativeTolerance = 1e-6, .surrogate = false, .threads = 2});
-  const std::vector<LoadCase> hopeless{loads[0], onArea(1, 60, -60, -720)};
+  BatchSolver batch(fewHexahedra(), {.relativeTolerance = 1e-6, .surrogate = false, .threads = 2});
+  const std::vector<LoadCase> hopeless{gentleAndHuge[0], onArea(1, 60, -60, -720)};
   try {
     (void)batch.solve(hopeless);
     FAIL() << "720 N have a solution";

@@ -6,7 +6,7 @@
 namespace palp {
 namespace {
 
-HyperelasticProblem hexahedra() {
+HyperelasticProblem touchedHexahedra() {
   const SensorDesign design = paperDesign();
   MeshOptions options;
   options.mapped = {{15, 15, 4}};
@@ -49,7 +49,7 @@ TEST(BatchContact, FindsWhatFullNewtonFinds) {
 }
 
 TEST(BatchContact, AnAnswerDependsOnItsOwnTouchAlone) {
-  const HyperelasticProblem problem = hexahedra();
+  const HyperelasticProblem problem = touchedHexahedra();
   LoadCase uniform;
   uniform.areas = {{1, {0.2, 0, -3}}};
   const std::vector<LoadCase> loads{touch(4, 9, 9, 2), uniform, touch(6, 20, 12, 4)};
@@ -63,7 +63,7 @@ TEST(BatchContact, AnAnswerDependsOnItsOwnTouchAlone) {
 }
 
 TEST(BatchContact, AnIndenterBesideALoadedAreaIsNotLeftOutByTheSurrogate) {
-  const HyperelasticProblem problem = hexahedra();
+  const HyperelasticProblem problem = touchedHexahedra();
   LoadCase load = touch(8, 20, 20, 2);
   load.areas = {{0, {0.2, 0, -1}}};
   BatchOptions surrogate;
@@ -75,7 +75,7 @@ TEST(BatchContact, AnIndenterBesideALoadedAreaIsNotLeftOutByTheSurrogate) {
 }
 
 TEST(BatchContact, TwoTouchesAtOnceAndAMotionAreSolvedAlong) {
-  const HyperelasticProblem problem = hexahedra();
+  const HyperelasticProblem problem = touchedHexahedra();
   LoadCase two = touch(5, 8, 15, 2);
   two.indenters.push_back(touch(4, 22, 15, 1).indenters[0]);
   LoadCase moved = touch(5, 15, 15, 1);

@@ -12,11 +12,12 @@
 namespace palp {
 namespace {
 
-constexpr std::array kAll{Readout::Floating, Readout::VirtualGround, Readout::RowsGrounded, Readout::OthersAtHalf};
+constexpr std::array kEachReadout{Readout::Floating, Readout::VirtualGround, Readout::RowsGrounded,
+                                  Readout::OthersAtHalf};
 
 /// A small random block at rest whose conductivity is ours to choose.
-struct Block {
-  explicit Block(unsigned seed, double meshSize = 1) : design(randomLayout(seed, 0.8)) {
+struct UnevenBlock {
+  explicit UnevenBlock(unsigned seed, double meshSize = 1) : design(randomLayout(seed, 0.8)) {
     mesh = sensorMesh(design, {.meshSize_mm = meshSize * standardMeshSize_mm(design), .mapped = {}});
     electrodes = electrodes_mm(design);
     green.emplace(mesh, design.block_mm, electrodes);
@@ -54,12 +55,12 @@ Eigen::MatrixXd seen(const Eigen::MatrixXd& p) {
 class UnevenConductivityOf : public testing::TestWithParam<unsigned> {};
 
 TEST_P(UnevenConductivityOf, AnEvenOneScalesExactly) {
-  const Block block(GetParam());
-  const FieldState plain{block.green->mesh().tets().nodes_mm, block.electrodes, {}};
-  const FieldState better = block.with([](const Eigen::Vector3d&) { return std::log(1.7); });
-  for (const Readout readout : kAll)
-    EXPECT_LT((block.resistances(better, readout) * 1.7 - block.resistances(plain, readout)).norm(),
-              1e-9 * block.resistances(plain, readout).norm())
+  const UnevenBlock unevenBlock(GetParam());
+  const FieldState plain{unevenBlock.green->mesh().tets().nodes_mm, unevenBlock.electrodes, {}};
+  const FieldState better = unevenBlock.with([](const Eigen::Vector3d&) { return std::log(1.7); });
+  for (const Readout readout : kEachReadout)
+    EXPECT_LT((unevenBlock.resistances(better, readout) * 1.7 - unevenBlock.resistances(plain, readout)).norm(),
+              1e-9 * unevenBlock.resistances(plain, readout).norm())
         << kReadouts.name(readout);
 }
 
@@ -91,15 +92,16 @@ Eigen::MatrixXd changeBySlope(const Eigen::Vector3d& block_mm, const Eigen::Matr
 }
 
 TEST_P(UnevenConductivityOf, AWeakSlopeIsFirstOrderTheory) {
-  const Block block(GetParam());
+  const UnevenBlock unevenBlock(GetParam());
   constexpr double small = 1e-3;
   const auto along = [&](double e) {
-    const FieldState state = block.with([&](const Eigen::Vector3d& x) { return std::log1p(e * x.z()); });
-    return potentials_ohm(*block.green->at(state, 2, {}), block.law, SphereModel::Monopoles,
-                          block.green->conductivities(state));
+    const FieldState state = unevenBlock.with([&](const Eigen::Vector3d& x) { return std::log1p(e * x.z()); });
+    return potentials_ohm(*unevenBlock.green->at(state, 2, {}), unevenBlock.law, SphereModel::Monopoles,
+                          unevenBlock.green->conductivities(state));
   };
   const Eigen::MatrixXd found = seen((along(small) - along(-small)) / (2 * small));
-  const Eigen::MatrixXd exact = seen(changeBySlope(block.design.block_mm, block.electrodes, block.law));
+  const Eigen::MatrixXd exact =
+      seen(changeBySlope(unevenBlock.design.block_mm, unevenBlock.electrodes, unevenBlock.law));
   const Eigen::MatrixXd error = found - exact;
   EXPECT_LT(error.norm(), 1e-3 * exact.norm());
   Eigen::MatrixXd between = exact, errorBetween = error; // what is not at the electrodes themselves
@@ -109,12 +111,12 @@ TEST_P(UnevenConductivityOf, AWeakSlopeIsFirstOrderTheory) {
 }
 
 TEST_P(UnevenConductivityOf, AStrongOneIsThatOfAFinerMesh) {
-  const Block coarse(GetParam()), fine(GetParam(), 0.6);
+  const UnevenBlock coarse(GetParam()), fine(GetParam(), 0.6);
   const auto bump = [](const Eigen::Vector3d& x) { // up to 3 times, as wide as the block is high
     return std::log(3.) * std::exp(-(x - Eigen::Vector3d(2, 2, 2)).squaredNorm() / 4);
   };
   const FieldState plain{coarse.green->mesh().tets().nodes_mm, coarse.electrodes, {}};
-  for (const Readout readout : kAll) {
+  for (const Readout readout : kEachReadout) {
     const Eigen::ArrayXXd rest = coarse.resistances(plain, readout).array().log();
     const Eigen::ArrayXXd a = coarse.resistances(coarse.with(bump), readout).array().log() - rest;
     const Eigen::ArrayXXd b = fine.resistances(fine.with(bump), readout).array().log() - rest;
@@ -124,16 +126,19 @@ TEST_P(UnevenConductivityOf, AStrongOneIsThatOfAFinerMesh) {
 }
 
 TEST_P(UnevenConductivityOf, BetterRubberAnywhereNeverRaisesTheFloatingResistance) {
-  const Block block(GetParam());
-  const FieldState plain{block.green->mesh().tets().nodes_mm, block.electrodes, {}};
-  const FieldState better = block.with([](const Eigen::Vector3d& x) { return std::max(0., std::sin(x.x() + x.y())); });
-  EXPECT_LT((block.resistances(better, Readout::Floating) - block.resistances(plain, Readout::Floating)).maxCoeff(), 0);
+  const UnevenBlock unevenBlock(GetParam());
+  const FieldState plain{unevenBlock.green->mesh().tets().nodes_mm, unevenBlock.electrodes, {}};
+  const FieldState better =
+      unevenBlock.with([](const Eigen::Vector3d& x) { return std::max(0., std::sin(x.x() + x.y())); });
+  EXPECT_LT((unevenBlock.resistances(better, Readout::Floating) - unevenBlock.resistances(plain, Readout::Floating))
+                .maxCoeff(),
+            0);
 }
 
 TEST_P(UnevenConductivityOf, IsTheSameOnAnyNumberOfThreads) {
-  const Block block(GetParam());
-  const FieldState state = block.with([](const Eigen::Vector3d& x) { return std::max(0., x.z() - 1); });
-  EXPECT_EQ(block.potentials(state, 1), block.potentials(state, 3));
+  const UnevenBlock unevenBlock(GetParam());
+  const FieldState state = unevenBlock.with([](const Eigen::Vector3d& x) { return std::max(0., x.z() - 1); });
+  EXPECT_EQ(unevenBlock.potentials(state, 1), unevenBlock.potentials(state, 3));
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, UnevenConductivityOf, testing::Values(1U, 7U, 23U));

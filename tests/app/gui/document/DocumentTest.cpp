@@ -4,7 +4,6 @@
 #include "tests/app/gui/FullDisk.h"
 #include "tests/app/gui/WindowFixture.h"
 
-#include <SourceDir.h>
 #include <QAction>
 #include <QDir>
 #include <QDoubleSpinBox>
@@ -15,6 +14,7 @@
 #include <QMessageBox>
 #include <QPushButton>
 #include <QTemporaryDir>
+#include <SourceDir.h>
 
 namespace palp {
 namespace {

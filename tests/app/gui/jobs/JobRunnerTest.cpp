@@ -13,7 +13,7 @@ namespace palp {
 namespace {
 
 /// Generous: the machine may be busy with other tests.
-constexpr int kPatience_ms = 20000;
+constexpr int kJobPatience_ms = 20000;
 
 JobRunner::Work untilStopped(std::atomic<bool>& stopped) {
   return [&stopped](const std::stop_token& stop, JobProgress&) -> JobRunner::Taking {
@@ -32,7 +32,7 @@ TEST(JobRunner, TakesTheResultInTheWindowsThread) {
     worked = std::this_thread::get_id();
     return [&] { taken = std::this_thread::get_id(); };
   });
-  ASSERT_TRUE(QTest::qWaitFor([&] { return !runner.running(); }, kPatience_ms));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !runner.running(); }, kJobPatience_ms));
   EXPECT_EQ(taken, window);
   EXPECT_NE(worked, window);
 }
@@ -44,7 +44,7 @@ TEST(JobRunner, StopsWhatRunsForWhatComesAfterIt) {
   runner.start("first", untilStopped(stopped));
   for (int k = 1; k <= 5; ++k)
     runner.start("next", [&taken, k](const std::stop_token&, JobProgress&) { return [&taken, k] { taken = k; }; });
-  ASSERT_TRUE(QTest::qWaitFor([&] { return !runner.running(); }, kPatience_ms));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !runner.running(); }, kJobPatience_ms));
   EXPECT_TRUE(stopped);
   EXPECT_EQ(taken, 5) << "only the last of the waiting ones runs";
 }
@@ -60,7 +60,7 @@ TEST(JobRunner, TakesNothingAfterACancel) {
     return [&] { taken = true; };
   });
   runner.cancel();
-  ASSERT_TRUE(QTest::qWaitFor([&] { return finished.count() == 1; }, kPatience_ms));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return finished.count() == 1; }, kJobPatience_ms));
   EXPECT_TRUE(stopped);
   EXPECT_FALSE(taken);
   EXPECT_TRUE(finished[0][0].toBool()) << "says that it was cancelled";
@@ -72,7 +72,7 @@ TEST(JobRunner, SaysWhyWorkFailed) {
   runner.start("work", [](const std::stop_token&, JobProgress&) -> JobRunner::Taking {
     throw Error("area 7: allowed is 0 to 5");
   });
-  ASSERT_TRUE(QTest::qWaitFor([&] { return failed.count() == 1; }, kPatience_ms));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return failed.count() == 1; }, kJobPatience_ms));
   EXPECT_EQ(failed[0][0].toString(), "area 7: allowed is 0 to 5");
 }
 
@@ -83,19 +83,19 @@ TEST(JobRunner, SaysWhyAResultCannotBeTakenAndRunsOn) {
   runner.start("work", [](const std::stop_token&, JobProgress&) -> JobRunner::Taking {
     return [] { throw Error("frames.csv: the file has gone"); };
   });
-  ASSERT_TRUE(QTest::qWaitFor([&] { return finished.count() == 1; }, kPatience_ms));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return finished.count() == 1; }, kJobPatience_ms));
   ASSERT_EQ(failed.count(), 1);
   EXPECT_EQ(failed[0][0].toString(), "frames.csv: the file has gone");
   bool taken = false;
   runner.start("work", [&](const std::stop_token&, JobProgress&) { return [&] { taken = true; }; });
-  EXPECT_TRUE(QTest::qWaitFor([&] { return taken; }, kPatience_ms));
+  EXPECT_TRUE(QTest::qWaitFor([&] { return taken; }, kJobPatience_ms));
 }
 
 TEST(JobRunner, WhateverWorkThrowsIsSaid) {
   JobRunner runner;
   QSignalSpy failed(&runner, &JobRunner::failed);
   runner.start("work", [](const std::stop_token&, JobProgress&) -> JobRunner::Taking { throw 7; });
-  EXPECT_TRUE(QTest::qWaitFor([&] { return failed.count() == 1; }, kPatience_ms));
+  EXPECT_TRUE(QTest::qWaitFor([&] { return failed.count() == 1; }, kJobPatience_ms));
 }
 
 TEST(JobRunner, EndsItsWorkWhenItIsDestroyed) {

@@ -4,11 +4,11 @@
 #include "io/DesignFile.h"
 #include "model/base/Error.h"
 
-#include <SourceDir.h>
 #include <QFile>
 #include <QJsonDocument>
 #include <QJsonObject>
 #include <QTemporaryDir>
+#include <SourceDir.h>
 
 #include <gtest/gtest.h>
 

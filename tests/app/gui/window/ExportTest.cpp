@@ -31,13 +31,13 @@
 namespace palp {
 namespace {
 
-QByteArray contentOf(const QString& file) {
+QByteArray bytesOf(const QString& file) {
   QFile in(file);
   return in.open(QIODevice::ReadOnly) ? in.readAll() : QByteArray();
 }
 
 /// The lines below those that say what the table was made with.
-QList<QByteArray> tableOf(const QByteArray& text) {
+QList<QByteArray> linesOf(const QByteArray& text) {
   QList<QByteArray> lines = text.trimmed().split('\n');
   while (!lines.isEmpty() && lines.front().startsWith('#')) lines.removeFirst();
   return lines;
@@ -61,7 +61,7 @@ TEST(ExportJobs, AStopLeavesTheFileThatWasThereAndNothingBeside) {
   ASSERT_TRUE(QTest::qWaitFor([&] { return begun.load(); }, kPatience_ms));
   job.runner().cancel();
   ASSERT_TRUE(QTest::qWaitFor([&] { return !job.runner().running(); }, kPatience_ms));
-  EXPECT_EQ(contentOf(file), "before");
+  EXPECT_EQ(bytesOf(file), "before");
   EXPECT_EQ(QDir(folder.path()).entryList(QDir::Files).size(), 1);
   EXPECT_EQ(done.count(), 0);
 }
@@ -85,8 +85,8 @@ TEST_F(Exporting, AVtuGetsItsEndingAndTheKeptDesignsFieldsWhereTheyAreShown) {
   answerFileDialog(folder.filePath("shown"));
   trigger("Export VTU");
   ASSERT_TRUE(written(folder.filePath("shown.vtu")));
-  EXPECT_TRUE(contentOf(folder.filePath("shown.vtu")).contains("displacement_mm"));
-  EXPECT_FALSE(contentOf(folder.filePath("shown.vtu")).contains("kept_displacement_mm"));
+  EXPECT_TRUE(bytesOf(folder.filePath("shown.vtu")).contains("displacement_mm"));
+  EXPECT_FALSE(bytesOf(folder.filePath("shown.vtu")).contains("kept_displacement_mm"));
   Project next = workbench.project();
   next.kept = next.design;
   next.kept->material.c10_MPa *= 0.5;
@@ -96,7 +96,7 @@ TEST_F(Exporting, AVtuGetsItsEndingAndTheKeptDesignsFieldsWhereTheyAreShown) {
   answerFileDialog(folder.filePath("both"));
   trigger("Export VTU");
   ASSERT_TRUE(written(folder.filePath("both.vtu")));
-  EXPECT_TRUE(contentOf(folder.filePath("both.vtu")).contains("kept_displacement_mm"));
+  EXPECT_TRUE(bytesOf(folder.filePath("both.vtu")).contains("kept_displacement_mm"));
 }
 
 TEST_F(Exporting, ACalculixDeckIsWrittenWholeBesideTheWindow) {
@@ -104,7 +104,7 @@ TEST_F(Exporting, ACalculixDeckIsWrittenWholeBesideTheWindow) {
   answerFileDialog(folder.filePath("touch"));
   trigger("Export CalculiX deck");
   ASSERT_TRUE(written(folder.filePath("touch.inp")));
-  const QByteArray deck = contentOf(folder.filePath("touch.inp"));
+  const QByteArray deck = bytesOf(folder.filePath("touch.inp"));
   EXPECT_TRUE(deck.startsWith("*HEADING"));
   EXPECT_TRUE(deck.trimmed().endsWith("*END STEP"));
 }
@@ -125,13 +125,13 @@ TEST_F(Exporting, TheFieldInTheCutIsATableOfTheValuesThatColourIt) {
   answerFileDialog(folder.filePath("cut"));
   trigger("Export field in the cut");
   ASSERT_TRUE(written(folder.filePath("cut.csv")));
-  const QByteArray text = contentOf(folder.filePath("cut.csv"));
+  const QByteArray text = bytesOf(folder.filePath("cut.csv"));
   EXPECT_TRUE(text.contains("# load on area 1: (")) << text.left(400).toStdString();
   EXPECT_TRUE(text.contains("# mesh --mapped 9x8x2\n"));
   EXPECT_TRUE(text.contains("# up to date when it was saved\n"));
   const double at_mm = workbench.project().view.cut->at_mm;
   EXPECT_TRUE(text.contains("# cut across y at " + QByteArray::number(at_mm) + " mm"));
-  const QList<QByteArray> table = tableOf(text);
+  const QList<QByteArray> table = linesOf(text);
   EXPECT_EQ(table.front(), "x_mm,y_mm,z_mm,u_x_mm,u_y_mm,u_z_mm,\"" +
                                QByteArray::fromStdString(quantityName(Quantity::Displacement)) + " [mm]\"");
   ASSERT_GT(table.size(), 20);
@@ -158,7 +158,7 @@ TEST_F(Exporting, ATableSaysWhatHasChangedSinceItWasComputed) {
   workbench.edit("softer", next);
   answerFileDialog(folder.filePath("old"));
   trigger("Export electrodes");
-  const QByteArray text = contentOf(folder.filePath("old.csv"));
+  const QByteArray text = bytesOf(folder.filePath("old.csv"));
   EXPECT_TRUE(text.contains("# stale when it was saved: block size along x 30 -> 31 mm, "))
       << text.left(300).toStdString();
   EXPECT_TRUE(text.contains("\"block_mm\":[30,")) << "the design that it was computed from";
@@ -269,16 +269,16 @@ TEST_F(Exporting, EveryChartAndTableOfTheSceneGoesIntoANewFolderAtOnce) {
     EXPECT_TRUE(files.contains(file)) << file << " among " << files.join(' ').toStdString();
   EXPECT_FALSE(files.contains("trialsError.png")) << "nothing was compared";
   for (const char* file : {"sweep.csv", "sweepError.csv"}) {
-    const QByteArray table = contentOf(charts.filePath(file));
+    const QByteArray table = bytesOf(charts.filePath(file));
     EXPECT_TRUE(table.contains("# palp sweep train.csv")) << "what it was made with";
     EXPECT_TRUE(table.contains("# design {")) << file;
     EXPECT_TRUE(table.contains("# up to date when it was saved\n")) << file;
   }
-  EXPECT_EQ(tableOf(contentOf(charts.filePath("sweep.csv"))).size(), 4);
-  EXPECT_TRUE(contentOf(charts.filePath("sweepError.csv")).contains(",5.18") ||
-              contentOf(charts.filePath("sweepError.csv")).contains(",0.16"))
+  EXPECT_EQ(linesOf(bytesOf(charts.filePath("sweep.csv"))).size(), 4);
+  EXPECT_TRUE(bytesOf(charts.filePath("sweepError.csv")).contains(",5.18") ||
+              bytesOf(charts.filePath("sweepError.csv")).contains(",0.16"))
       << "numbers as they are printed";
-  const QByteArray drawing = contentOf(charts.filePath("decoupledFx.svg"));
+  const QByteArray drawing = bytesOf(charts.filePath("decoupledFx.svg"));
   EXPECT_TRUE(drawing.contains("<svg") && drawing.trimmed().endsWith("</svg>"));
   EXPECT_FALSE(drawing.contains("<image")) << "lines and letters, no pixels";
   EXPECT_GT(QImage(charts.filePath("decoupledFx.png")).width(), 600) << "of a tab that was never seen";
@@ -292,11 +292,11 @@ TEST_F(Exporting, TheFramesOfTheLiveSceneSayWhatTheyWereMadeWith) {
   answerFileDialog(file);
   QTest::mouseClick(page.findChild<QPushButton*>("exportLive"), Qt::LeftButton);
   ASSERT_TRUE(QTest::qWaitFor([&] { return QFile::exists(file); }, kPatience_ms));
-  const QByteArray text = contentOf(file);
+  const QByteArray text = bytesOf(file);
   EXPECT_TRUE(text.startsWith("# palp listen --simulate")) << text.left(200).toStdString();
   EXPECT_TRUE(text.contains("\n# design {"));
-  EXPECT_TRUE(tableOf(text).front().startsWith("t_s,board_s,"));
-  EXPECT_GT(tableOf(text).size(), 10);
+  EXPECT_TRUE(linesOf(text).front().startsWith("t_s,board_s,"));
+  EXPECT_GT(linesOf(text).size(), 10);
 }
 
 } // namespace

@@ -11,6 +11,7 @@
 #include "model/DesignError.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
+#include "tests/app/study/decoding/PrintDecoderKind.h"
 
 #include <gtest/gtest.h>
 

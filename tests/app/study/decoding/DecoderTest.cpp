@@ -6,6 +6,7 @@
 #include "io/DecoderFile.h"
 #include "model/RowColumnResistance.h"
 #include "model/base/Error.h"
+#include "tests/app/study/decoding/PrintDecoderKind.h"
 
 #include <gtest/gtest.h>
 
@@ -14,11 +15,6 @@
 #include <random>
 
 namespace palp {
-
-/// In the names of the tests.
-static void PrintTo(DecoderKind kind, std::ostream* out) {
-  *out << name(kind);
-}
 
 namespace {
 

@@ -12,7 +12,7 @@
 namespace palp {
 namespace {
 
-SensorDesign fieldDesign() {
+SensorDesign restDesign() {
   SensorDesign design = paperDesign();
   FieldLaw law;
   law.readout = Readout::VirtualGround;
@@ -29,7 +29,7 @@ BoardSettings boardWith(double noise) {
 
 TEST(RestRecording, IsTheMeanOfItsFramesWithTheirNoise) {
   const TemporaryFolder folder;
-  const Eigen::MatrixXd truth_ohm = fieldAtRest_ohm(fieldDesign());
+  const Eigen::MatrixXd truth_ohm = fieldAtRest_ohm(restDesign());
   recordBoard(folder / "rest.palprec", boardWith(1e-4), truth_ohm, 25);
   const RestRecording rest = readRest(folder / "rest.palprec");
   EXPECT_GE(rest.frames, 24);
@@ -41,7 +41,7 @@ TEST(RestRecording, IsTheMeanOfItsFramesWithTheirNoise) {
 
 TEST(RestRecording, OfATwinGivesItsNumbersBack) {
   const TemporaryFolder folder;
-  SensorDesign twin = fieldDesign();
+  SensorDesign twin = restDesign();
   FieldLaw truth = *twin.field();
   truth.electrodeRadius_mm = 0.24;
   truth.resistivity_ohm_mm = 1700;
@@ -49,7 +49,7 @@ TEST(RestRecording, OfATwinGivesItsNumbersBack) {
   twin.resistance = truth;
   recordBoard(folder / "rest.palprec", boardWith(1e-4), fieldAtRest_ohm(twin), 20);
   const RestRecording rest = readRest(folder / "rest.palprec");
-  const RestFit fit = fitAtRest(fieldDesign(), rest.resistances_ohm, rest.noise);
+  const RestFit fit = fitAtRest(restDesign(), rest.resistances_ohm, rest.noise);
   EXPECT_NEAR(fit.law.electrodeRadius_mm, 0.24, 4 * fit.radiusDeviation_mm);
   EXPECT_NEAR(fit.law.resistivity_ohm_mm, 1700, 4 * fit.resistivityDeviation_ohm_mm);
   EXPECT_NEAR(fit.law.contact_ohm_mm2, 90, 4 * fit.contactDeviation_ohm_mm2);
@@ -59,7 +59,7 @@ TEST(RestRecording, NamesBrokenWires) {
   const TemporaryFolder folder;
   BoardSettings settings = boardWith(1e-4);
   settings.faults.openRows = {4};
-  recordBoard(folder / "rest.palprec", settings, fieldAtRest_ohm(fieldDesign()), 15);
+  recordBoard(folder / "rest.palprec", settings, fieldAtRest_ohm(restDesign()), 15);
   const RestRecording rest = readRest(folder / "rest.palprec");
   ASSERT_EQ(rest.faults.size(), 1U);
   EXPECT_NE(rest.faults[0].find("row-wire 4"), std::string::npos);
@@ -69,7 +69,7 @@ TEST(RestRecording, NamesBrokenWires) {
 
 TEST(RestRecording, RefusesWhatIsNotAtRestOrTooShort) {
   const TemporaryFolder folder;
-  const Eigen::MatrixXd rest_ohm = fieldAtRest_ohm(fieldDesign());
+  const Eigen::MatrixXd rest_ohm = fieldAtRest_ohm(restDesign());
   recordBoard(folder / "short.palprec", boardWith(1e-4), rest_ohm, 5);
   EXPECT_NE(refusal([&] { readRest(folder / "short.palprec"); }).find("at least 10"), std::string::npos);
   recordBoard(folder / "moving.palprec", boardWith(1e-5), rest_ohm, 40,

@@ -9,6 +9,7 @@
 #include "model/RowColumnResistance.h"
 #include "model/TouchRange.h"
 #include "model/base/Error.h"
+#include "tests/app/study/decoding/PrintDecoderKind.h"
 
 #include <gtest/gtest.h>
 
@@ -17,11 +18,6 @@
 #include <vector>
 
 namespace palp {
-
-/// In the names of the tests.
-static void PrintTo(DecoderKind kind, std::ostream* out) {
-  *out << name(kind);
-}
 
 namespace {
 

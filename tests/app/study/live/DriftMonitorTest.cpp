@@ -9,12 +9,12 @@
 namespace palp {
 namespace {
 
-constexpr double kNoise = 5e-6;
+constexpr double kDriftNoise = 5e-6;
 
 /// The drift after some frames of the demo's touch on a board that warms up by this much at once.
 std::optional<double> driftOf(double warming_degC, std::uint64_t frames) {
   BoardDisturbance disturbance;
-  disturbance.noise = kNoise;
+  disturbance.noise = kDriftNoise;
   disturbance.warming_degC = warming_degC;
   disturbance.warmingTime_s = 1e-3;
   VirtualBoard board = simulatedBoard(shippedSamples(), disturbance, 1000, 3);
@@ -25,7 +25,7 @@ std::optional<double> driftOf(double warming_degC, std::uint64_t frames) {
   DriftMonitor monitor;
   stream.run(frames, [&](const BoardFrame& frame) {
     rest.add(frame);
-    monitor.add(rest.change(frame), kNoise, frame.time_s);
+    monitor.add(rest.change(frame), kDriftNoise, frame.time_s);
   });
   return monitor.drift();
 }
@@ -33,16 +33,16 @@ std::optional<double> driftOf(double warming_degC, std::uint64_t frames) {
 TEST(DriftMonitor, MeasuresWhatWarmingDoesAndNoTouch) {
   // 0.1 % a degree; the median of 300 readings is known to 1.25 / sqrt(300) of their noise. The last 50 frames are a
   // press.
-  EXPECT_NEAR(driftOf(0, 600).value(), 0, kNoise);
-  EXPECT_NEAR(driftOf(0.05, 600).value(), 5e-5, kNoise);
-  EXPECT_NEAR(driftOf(-1, 600).value(), -1e-3, 2 * kNoise);
+  EXPECT_NEAR(driftOf(0, 600).value(), 0, kDriftNoise);
+  EXPECT_NEAR(driftOf(0.05, 600).value(), 5e-5, kDriftNoise);
+  EXPECT_NEAR(driftOf(-1, 600).value(), -1e-3, 2 * kDriftNoise);
 }
 
 TEST(DriftMonitor, SaysNothingBeforeTheSensorWasSeenAtRest) {
   DriftMonitor monitor;
-  monitor.add(Eigen::MatrixXd::Random(10, 30), kNoise, 1);
+  monitor.add(Eigen::MatrixXd::Random(10, 30), kDriftNoise, 1);
   EXPECT_FALSE(monitor.drift());
-  monitor.add(Eigen::MatrixXd::Constant(10, 30, 1e-4), kNoise, 2);
+  monitor.add(Eigen::MatrixXd::Constant(10, 30, 1e-4), kDriftNoise, 2);
   EXPECT_NEAR(monitor.drift().value(), 1e-4, 1e-12);
 }
 

@@ -13,9 +13,9 @@
 namespace palp {
 namespace {
 
-constexpr double kGood = 5e-6;
+constexpr double kGoodNoise = 5e-6;
 
-const Decoder& shippedDecoder() {
+const Decoder& paperDecoder() {
   static const Decoder decoder =
       readNetwork(std::filesystem::path(PALP_SOURCE_DIR) / "resources" / "board" / "paper-network.json");
   return decoder;
@@ -65,9 +65,9 @@ SampleSet heldOut(int perArea) {
 class PlausibilityOf : public testing::TestWithParam<DecoderKind> {};
 
 TEST_P(PlausibilityOf, DoubtsOneInAHundredOfGoodSamplesThatItHasNotSeen) {
-  const Decoder decoder = liveDecoder(kGood, GetParam());
+  const Decoder decoder = liveDecoder(kGoodNoise, GetParam());
   const SampleSet samples = heldOut(100);
-  const double share = doubtedShare(decoder, samples, kGood, 10);
+  const double share = doubtedShare(decoder, samples, kGoodNoise, 10);
   EXPECT_NEAR(share, Plausibility::kFalseAlarms, binomial(10.0 * static_cast<double>(samples.size())));
 }
 
@@ -83,7 +83,7 @@ struct Said {
 
 Said listen(VirtualBoard board, const std::function<SimulatedTouch::Truth(double)>& truth, int frames = 1200) {
   const BoardConfiguration configuration = board.configuration();
-  ForceDecoder decoder(shippedDecoder(), board.info(), paperDesign());
+  ForceDecoder decoder(paperDecoder(), board.info(), paperDesign());
   VirtualStream stream(std::move(board), configuration);
   Said said;
   bool spoke = false;
@@ -104,7 +104,7 @@ Said listen(VirtualBoard board, const std::function<SimulatedTouch::Truth(double
   return said;
 }
 
-BoardDisturbance withNoise(double noise = kGood) {
+BoardDisturbance withNoise(double noise = kGoodNoise) {
   BoardDisturbance disturbance;
   disturbance.noise = noise;
   return disturbance;
@@ -163,7 +163,7 @@ TEST(Plausibility, SaysThatTheForceLiesOutsideOfTheTraining) {
   const Eigen::MatrixXd hard = touch.resistances_ohm({2, {0, 0, -9}});
   BoardSettings settings;
   settings.disturbance = withNoise();
-  ForceDecoder decoder(shippedDecoder(), settings.info, paperDesign());
+  ForceDecoder decoder(paperDecoder(), settings.info, paperDesign());
   VirtualStream stream(VirtualBoard(settings, [&](double) -> const Eigen::MatrixXd& { return hard; }),
                        settings.configuration);
   std::string last;
@@ -192,12 +192,12 @@ TEST(Plausibility, DoubtsOneInAHundredOfSolvedSamplesThatItHasNotSeen) {
   TrainOptions options;
   options.input = InputKind::Resistance;
   options.rows = "all";
-  options.noise = kGood;
+  options.noise = kGoodNoise;
   options.decoder = DecoderKind::MaximumLikelihood;
   const Decoder decoder = trainDecoder(solved(0, 20), nullptr, options);
   constexpr int kDraws = 400; // of the noise
   const SampleSet unseen = solved(20, 24);
-  EXPECT_NEAR(doubtedShare(decoder, unseen, kGood, kDraws), Plausibility::kFalseAlarms,
+  EXPECT_NEAR(doubtedShare(decoder, unseen, kGoodNoise, kDraws), Plausibility::kFalseAlarms,
               binomial(kDraws * static_cast<double>(unseen.size())));
 }
 

@@ -24,7 +24,7 @@ palp::FieldLaw fieldLaw() {
 }
 
 /// The paper's block on the default mesh at rest: one factorisation, 18 right sides.
-const palp::AreaResponse& response() {
+const palp::AreaResponse& fieldResponse() {
   static palp::StageLog stages;
   static const auto solved = palp::AreaResponse::atRest(palp::paperDesign(), {}, 0, stages, {}, {});
   return *solved;
@@ -38,7 +38,7 @@ palp::SensorDesign followingDesign() {
 }
 
 const palp::FieldResponse& paperField() {
-  static const palp::FieldResponse field(followingDesign(), fieldLaw(), response(), 0);
+  static const palp::FieldResponse field(followingDesign(), fieldLaw(), fieldResponse(), 0);
   return field;
 }
 
@@ -98,8 +98,8 @@ TEST(FieldResponse, OfASmallForceIsThatOfTheSolvedField) {
 }
 
 TEST(FieldResponse, HasTheSameBytesAtAnyNumberOfThreads) {
-  const palp::FieldResponse one(followingDesign(), fieldLaw(), response(), 1),
-      three(followingDesign(), fieldLaw(), response(), 3);
+  const palp::FieldResponse one(followingDesign(), fieldLaw(), fieldResponse(), 1),
+      three(followingDesign(), fieldLaw(), fieldResponse(), 3);
   const auto first = one.logSensitivity(Readout::Floating), second = three.logSensitivity(Readout::Floating);
   for (std::size_t area = 0; area < first.size(); ++area)
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -109,7 +109,7 @@ TEST(FieldResponse, HasTheSameBytesAtAnyNumberOfThreads) {
 TEST(FieldResponse, RefusesAPressureLaw) {
   palp::SensorDesign design = palp::paperDesign();
   design.pressureLaw = palp::PressureLaw{};
-  EXPECT_THROW(palp::FieldResponse(design, fieldLaw(), response(), 1), palp::DesignError);
+  EXPECT_THROW(palp::FieldResponse(design, fieldLaw(), fieldResponse(), 1), palp::DesignError);
 }
 
 /// Steps of 0.25 mm: a search of a few seconds.
@@ -122,10 +122,10 @@ palp::MakerLimits coarseSteps() {
 TEST(FieldLayoutSearch, FindsAClearlyBetterLayoutWhoseElectrodesKeepApart) {
   const palp::SensorDesign design = smallDesign();
   const auto better =
-      betterLayout(design, response(), -1, kNoise, palp::LayoutFreedom::SameOnEveryWire, coarseSteps(), 1, {});
+      betterLayout(design, fieldResponse(), -1, kNoise, palp::LayoutFreedom::SameOnEveryWire, coarseSteps(), 1, {});
   ASSERT_TRUE(better);
   EXPECT_LT(better->after_percent, better->before_percent / 1.5);
-  EXPECT_EQ(layoutBound(better->layout, response(), -1, kNoise).mean(), better->after_percent);
+  EXPECT_EQ(layoutBound(better->layout, fieldResponse(), -1, kNoise).mean(), better->after_percent);
   EXPECT_EQ(makerProblem(better->layout, {}), std::nullopt);
   EXPECT_TRUE(check(better->layout).empty());
   EXPECT_TRUE(designWarnings(better->layout).empty());
@@ -143,7 +143,8 @@ TEST(FieldLayoutSearch, BeatsThePapersLayoutWithStraightWires) {
     found.lower.z_mm = {{lower_mm}};
     found.lower.along_mm = {along_mm};
     EXPECT_EQ(makerProblem(found, {}), std::nullopt);
-    return layoutBound(design, response(), -1, kNoise).mean() / layoutBound(found, response(), -1, kNoise).mean();
+    return layoutBound(design, fieldResponse(), -1, kNoise).mean() /
+           layoutBound(found, fieldResponse(), -1, kNoise).mean();
   };
   EXPECT_GT(gain(false, 2.6, 2, {4.35, 16.2, 19.5}), 2.4); // 2.53
   EXPECT_GT(gain(true, 4.4, 0.5, {0.75, 3.7, 5.3}), 1.55); // 1.62
@@ -155,7 +156,7 @@ TEST(FieldLayoutSearch, KeepsLargeElectrodesApart) {
   law.electrodeRadius_mm = 0.45; // spheres at the 0.5 mm that a maker can keep between the layers would overlap
   design.resistance = law;
   const auto better =
-      betterLayout(design, response(), -1, kNoise, palp::LayoutFreedom::SameOnEveryWire, coarseSteps(), 1, {});
+      betterLayout(design, fieldResponse(), -1, kNoise, palp::LayoutFreedom::SameOnEveryWire, coarseSteps(), 1, {});
   ASSERT_TRUE(better);
   EXPECT_LT(better->after_percent, better->before_percent);
   EXPECT_TRUE(check(better->layout).empty());
@@ -168,7 +169,7 @@ TEST(FieldLayoutSearch, StopsBetweenTwoLayouts) {
   const auto stopAtThird = [&](double, const std::string&) {
     if (++told == 3) source.request_stop();
   };
-  EXPECT_EQ(betterLayout(smallDesign(), response(), -1, kNoise, palp::LayoutFreedom::SameOnEveryWire, {}, 1,
+  EXPECT_EQ(betterLayout(smallDesign(), fieldResponse(), -1, kNoise, palp::LayoutFreedom::SameOnEveryWire, {}, 1,
                          source.get_token(), stopAtThird),
             std::nullopt);
   EXPECT_EQ(told, 3);

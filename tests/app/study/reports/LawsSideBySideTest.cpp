@@ -10,7 +10,7 @@ using palp::LawReading;
 
 namespace {
 
-constexpr double kNoise = 1e-4;
+constexpr double kLawsNoise = 1e-4;
 
 /// The paper's design as it is (lower electrodes held), and with lower electrodes that follow the rubber.
 const palp::LawsSideBySide& laws(bool follows) {
@@ -54,8 +54,8 @@ TEST_P(PrototypesTable, HoldsInEveryEntry) {
   const LawReading& pairs = laws(false).readings().front();
   const LawReading& own = std::string(known.name) == "Eq. (1)" ? pairs : named(laws(true), known.name);
   expectPrinted(palp::comparedWith(pairs.slopes, own.slopes).factor, known.signal, known.percent, "signal");
-  expectPrinted(own.bound(4, kNoise).withPrior(), known.row, known.percent, "row 4");
-  expectPrinted(own.bound(-1, kNoise).withPrior(), known.all, known.percent, "all rows");
+  expectPrinted(own.bound(4, kLawsNoise).withPrior(), known.row, known.percent, "row 4");
+  expectPrinted(own.bound(-1, kLawsNoise).withPrior(), known.all, known.percent, "all rows");
 }
 
 INSTANTIATE_TEST_SUITE_P(Paper, PrototypesTable,
@@ -73,13 +73,13 @@ INSTANTIATE_TEST_SUITE_P(Paper, PrototypesTable,
 
 TEST(LawsSideBySide, TheTableIsTheReadingsAndSoAreTheFigures) {
   std::vector<std::pair<std::string, double>> figures;
-  const palp::ReportTable table = laws(true).bounds(kNoise, &figures);
+  const palp::ReportTable table = laws(true).bounds(kLawsNoise, &figures);
   ASSERT_EQ(table.rows.size(), 10U); // five laws, the row-wire in the middle and all
   EXPECT_EQ(table.rows[5][0], "virtual_ground");
   EXPECT_EQ(table.rows[5][1], "all");
   ASSERT_EQ(figures.size(), 30U);
   EXPECT_EQ(figures[17].first, "virtual_ground_rows_all_Fz_bound_with_prior_percent");
-  EXPECT_EQ(figures[17].second, named(laws(true), "virtual_ground").bound(-1, kNoise).withPrior()(2));
+  EXPECT_EQ(figures[17].second, named(laws(true), "virtual_ground").bound(-1, kLawsNoise).withPrior()(2));
 }
 
 TEST(NoiseReport, OfADesignByEquationOneNamesTheOtherLawsToo) {

@@ -13,7 +13,7 @@ using palp::Readout;
 
 namespace {
 
-palp::SensorDesign followingDesign() {
+palp::SensorDesign readoutDesign() {
   palp::SensorDesign design = palp::paperDesign();
   design.lowerFollowsRubber = true;
   return design;
@@ -27,7 +27,7 @@ const palp::AreaResponse& response() {
 }
 
 palp::LayoutBound boundWith(const palp::FieldLaw& law) {
-  return palp::FieldResponse(followingDesign(), law, response(), 0, 0.5).bound(Readout::VirtualGround, -1, 1e-4);
+  return palp::FieldResponse(readoutDesign(), law, response(), 0, 0.5).bound(Readout::VirtualGround, -1, 1e-4);
 }
 
 void expectNear(const Eigen::Vector3d& found, const Eigen::Vector3d& known, double digit) {

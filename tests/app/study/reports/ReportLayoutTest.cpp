@@ -13,18 +13,18 @@ using palp::SensorDesign;
 
 namespace {
 
-constexpr int kCentreRow = 4;
-constexpr double kNoise = 1e-4;
+constexpr int kLayoutRow = 4;
+constexpr double kLayoutNoise = 1e-4;
 
-palp::MeshOptions coarse() {
+palp::MeshOptions coarseLayouts() {
   palp::MeshOptions mesh;
   mesh.mapped = std::array<int, 3>{6, 6, 3};
   return mesh;
 }
 
-const palp::AreaResponse& response() {
+const palp::AreaResponse& layoutResponse() {
   static palp::StageLog stages;
-  static const auto solved = palp::AreaResponse::solve(palp::paperDesign(), coarse(), 1, stages, {}, {});
+  static const auto solved = palp::AreaResponse::solve(palp::paperDesign(), coarseLayouts(), 1, stages, {}, {});
   return *solved;
 }
 
@@ -32,13 +32,13 @@ const palp::AreaResponse& response() {
 
 TEST(LayoutBound, InTheMiddleOfTheRangeIsThatOfNonlinearSamplesOverTheRange) {
   palp::SampleRequest request;
-  request.mesh = coarse();
+  request.mesh = coarseLayouts();
   request.perArea = 40;
   palp::SampleGenerator generator(palp::paperDesign(), request);
   palp::SampleSet samples;
   generator.generate({0, generator.total()}, [&](const palp::SampleSet& block) { append(samples, block); });
-  const palp::NoiseBound sampled = noiseBound(samples, palp::InputKind::Resistance, {kCentreRow}, kNoise);
-  const palp::LayoutBound bound = layoutBound(palp::paperDesign(), response(), kCentreRow, kNoise);
+  const palp::NoiseBound sampled = noiseBound(samples, palp::InputKind::Resistance, {kLayoutRow}, kLayoutNoise);
+  const palp::LayoutBound bound = layoutBound(palp::paperDesign(), layoutResponse(), kLayoutRow, kLayoutNoise);
   // The block's nonlinearity (1 to 2.5 %) acts on an inversion of condition 1e3, and 40 random forces do not span the
   // whole range that percents are taken of.
   for (int axis = 0; axis < 3; ++axis)
@@ -46,29 +46,30 @@ TEST(LayoutBound, InTheMiddleOfTheRangeIsThatOfNonlinearSamplesOverTheRange) {
 }
 
 TEST(LayoutBound, NeverExceedsKnowingNothingWhereThePriorIsKnown) {
-  const palp::LayoutBound bound = layoutBound(palp::paperDesign(), response(), kCentreRow, 0.5);
+  const palp::LayoutBound bound = layoutBound(palp::paperDesign(), layoutResponse(), kLayoutRow, 0.5);
   EXPECT_LE(bound.withPrior_percent.maxCoeff(), 100 / std::sqrt(12.0) * (1 + 1e-12)); // rounding
 }
 
 TEST(LayoutBound, ConditionOfThePapersLayoutIsTheKnownOne) {
   // An independent prototype found 2.1e6, with two digits.
-  EXPECT_NEAR(palp::condition(resistanceSingularValues(palp::paperDesign(), kCentreRow)), 2.1e6, 0.05e6);
+  EXPECT_NEAR(palp::condition(resistanceSingularValues(palp::paperDesign(), kLayoutRow)), 2.1e6, 0.05e6);
 }
 
 TEST(LayoutSearch, FindsATenTimesBetterLayoutThatAMakerCanKeep) {
   const palp::MakerLimits limits;
-  const auto better =
-      betterLayout(palp::paperDesign(), response(), kCentreRow, kNoise, LayoutFreedom::SameOnEveryWire, limits, 1, {});
+  const auto better = betterLayout(palp::paperDesign(), layoutResponse(), kLayoutRow, kLayoutNoise,
+                                   LayoutFreedom::SameOnEveryWire, limits, 1, {});
   ASSERT_TRUE(better);
   EXPECT_EQ(makerProblem(better->layout, limits), std::nullopt);
   EXPECT_TRUE(check(better->layout).empty());
   EXPECT_LT(better->after_percent, better->before_percent / 10);
-  EXPECT_EQ(layoutBound(better->layout, response(), kCentreRow, kNoise).mean(), better->after_percent);
+  EXPECT_EQ(layoutBound(better->layout, layoutResponse(), kLayoutRow, kLayoutNoise).mean(), better->after_percent);
 }
 
 TEST(LayoutSearch, EqualSeedsGiveEqualLayouts) {
   const auto search = [] {
-    return betterLayout(palp::paperDesign(), response(), kCentreRow, kNoise, LayoutFreedom::SameOnEveryWire, {}, 3, {});
+    return betterLayout(palp::paperDesign(), layoutResponse(), kLayoutRow, kLayoutNoise, LayoutFreedom::SameOnEveryWire,
+                        {}, 3, {});
   };
   EXPECT_EQ(search()->layout, search()->layout);
 }
@@ -87,7 +88,7 @@ TEST(LayoutSearch, SaysWhatAMakerCannotKeep) {
 
 TEST(LayoutReport, StopsWithoutAResult) {
   palp::ReportRequest request;
-  request.mesh = coarse();
+  request.mesh = coarseLayouts();
   std::stop_source source;
   source.request_stop();
   EXPECT_EQ(layoutReport(request, {}, source.get_token()), std::nullopt);
@@ -95,7 +96,7 @@ TEST(LayoutReport, StopsWithoutAResult) {
 
 TEST(LayoutReport, GivesTheBetterDesignsAndEveryPoint) {
   palp::ReportRequest request;
-  request.mesh = coarse();
+  request.mesh = coarseLayouts();
   request.perArea = 10;
   const auto report = layoutReport(request, {}, {});
   ASSERT_TRUE(report);

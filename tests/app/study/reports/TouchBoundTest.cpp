@@ -11,9 +11,9 @@
 namespace palp {
 namespace {
 
-constexpr double kNoise = 1e-4;
+constexpr double kTouchNoise = 1e-4;
 
-MeshOptions coarse() {
+MeshOptions coarseTouches() {
   MeshOptions options;
   options.mapped = std::array<int, 3>{12, 12, 4};
   return options;
@@ -35,16 +35,16 @@ SampleSet fourTouches(const SensorDesign& design) {
 
 TEST(TouchBound, IsThatOfTheMapAtTheSamePlaces) {
   const SensorDesign design = paperDesign();
-  const HyperelasticProblem problem(design, sensorMesh(design, coarse()));
+  const HyperelasticProblem problem(design, sensorMesh(design, coarseTouches()));
   const auto surfaces = InfluenceSurfaces::find(problem, readingsAtRest(design, 0), 0);
   ASSERT_TRUE(surfaces);
   TouchMapRequest request;
   request.touch = {IndenterShape::Sphere, 5, 0, {0, 0}, 0, Press{{0, 0, -3}}};
   request.low_mm = {8, 10};
   request.high_mm = {20, 18};
-  request.relativeNoise = kNoise;
+  request.relativeNoise = kTouchNoise;
   const TouchMap map = touchMap(*surfaces, request, 0);
-  const auto bounds = touchBounds(fourTouches(design), design, kNoise, coarse(), 0);
+  const auto bounds = touchBounds(fourTouches(design), design, kTouchNoise, coarseTouches(), 0);
   ASSERT_TRUE(bounds && bounds->size() == 4);
   for (int x = 0; x < 2; ++x) {
     const TouchDeviations& slides = (*bounds)[static_cast<std::size_t>(x)];
@@ -60,13 +60,13 @@ TEST(TouchBound, IsThatOfTheMapAtTheSamePlaces) {
 TEST(TouchBound, OfAnotherDesignOrOfNoTouchesIsRefused) {
   SensorDesign other = paperDesign();
   other.block_mm.z() = 6;
-  EXPECT_THROW(touchBounds(fourTouches(paperDesign()), other, kNoise, coarse(), 0), Error);
+  EXPECT_THROW(touchBounds(fourTouches(paperDesign()), other, kTouchNoise, coarseTouches(), 0), Error);
   SampleSet areas = fourTouches(other);
   areas.touches.resize(0, 0);
-  EXPECT_THROW(touchBounds(areas, other, kNoise, coarse(), 0), Error);
+  EXPECT_THROW(touchBounds(areas, other, kTouchNoise, coarseTouches(), 0), Error);
   SampleSet planes = fourTouches(other);
   planes.touches.row(kTouchShape).setConstant(static_cast<double>(IndenterShape::Plane));
-  EXPECT_THROW(touchBounds(planes, other, kNoise, coarse(), 0), DesignError);
+  EXPECT_THROW(touchBounds(planes, other, kTouchNoise, coarseTouches(), 0), DesignError);
 }
 
 TEST(TouchBound, ErrorsOfAnEstimateThatReachesItAreOnceIt) {
