@@ -4,6 +4,7 @@
 #include "model/base/Text.h"
 #include "solver/assembly/SurfaceTraction.h"
 #include "solver/contact/ContactEstimate.h"
+#include "solver/statics/StepMixing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,8 +27,9 @@ constexpr double roundingBelow = 1e-6;
 constexpr int tangentsToFindForces = 3;
 constexpr double forcesAreFoundBelow = 0.5;
 constexpr int stallsOfRounding = 3;
-constexpr double keepTangentBelow = 1e-5; // relative residual
-constexpr double goodContraction = 0.03;  // with which a tangent serves once more
+// A new tangent takes the time of some twenty iterations with the one in use.
+constexpr double keptIterations = 20;
+constexpr int iterationsOfNewTangent = 5; // of a load step; what more are taken is laid to the old one's charge
 constexpr double longestMove = 0.5;       // of an indenter's expected depth, in one iteration
 constexpr double frictionSteps = 4;       // of each part of the way
 
@@ -52,6 +54,7 @@ void ContactSolver::choosePoints(double margin) {
                         ") meets no node of the mesh; allowed is a finer mesh or a deeper touch");
   auto pattern = std::make_shared<SparsePattern>(*assembler_.pattern());
   for (const ContactPoint& point : points_) pattern->lastGroups.push_back(assembler_.group(point.node));
+  tangentServes_ = false;
   cholesky_.emplace(std::make_shared<const CholeskyPlan>(std::move(pattern)));
   contact_.emplace(indenters_, points_, tips_mm_);
 }
@@ -116,8 +119,16 @@ ContactResult ContactSolver::follow(const ContactIncrement& start) {
   while (fraction < 1) {
     const double target = fraction + size > 1 - 1e-9 ? 1 : fraction + size;
     const ContactIncrement& last = result.increments.back();
-    State state{last.equilibrium.state, last.contact};
-    const Outcome outcome = step(fraction, target, state);
+    State state;
+    const auto attempt = [&] {
+      state = {last.equilibrium.state, last.contact};
+      const Outcome outcome = step(fraction, target, state);
+      tangentServes_ = outcome == Outcome::Converged && charged_ < keptIterations;
+      return outcome;
+    };
+    const bool withOldTangent = tangentServes_;
+    Outcome outcome = attempt();
+    if (withOldTangent && outcome != Outcome::Converged && outcome != Outcome::Cancelled) outcome = attempt();
     if (outcome == Outcome::Converged) {
       fraction = target;
       result.increments.push_back({{fraction, std::move(state.rubber)}, std::move(state.contact)});
@@ -219,6 +230,7 @@ ContactSolver::Outcome ContactSolver::newTangent(double fraction, const State& s
   if (outcome == SparseCholesky::Outcome::Stopped) return Outcome::Cancelled;
   if (outcome == SparseCholesky::Outcome::NotPositiveDefinite) return Outcome::Indefinite;
   compliance_ = cholesky_->inverseOfLast();
+  charged_ = 0;
   return stopped() ? Outcome::Cancelled : Outcome::Converged;
 }
 
@@ -234,26 +246,35 @@ ContactSolver::Outcome ContactSolver::step(double from, double to, State& state)
       const Indenter part = partOf(k, to);
       state.contact.translations_mm.col(static_cast<Eigen::Index>(k)).z() = -contactEstimate(part, design_).depth_mm;
     }
-  if (const Outcome outcome = newTangent(to, state); outcome != Outcome::Converged) return outcome;
+  if (tangentServes_) // the forces are those of the equilibrium that it begins with
+    setResidual(to, state);
+  else if (const Outcome outcome = newTangent(to, state); outcome != Outcome::Converged)
+    return outcome;
   record(to, 0);
+  StepMixing mixing; // of the iterations with one tangent; contact forces are found anew in each
   double previous = 1;
   int stalled = 0, shortened = 0;
   for (int iteration = 1; iteration <= options_.iterationsAStep; ++iteration) {
     if (stopped()) return Outcome::Cancelled;
     const State start = state;
-    Eigen::VectorXd w = residual_;
-    if (!w.isZero(0)) cholesky_->solve(w, observer_.stop);
-    if (stopped()) return Outcome::Cancelled;
-    const Eigen::VectorXd expected = start.rubber.displacements + mesh.withZeros(w);
     ContactState found = start.contact;
-    if (!contact_->solve(compliance_, positions(expected), goal, found, observer_.stop))
-      return stopped() ? Outcome::Cancelled : Outcome::NoContact;
-    Eigen::VectorXd pushed = onFreeComponents(found.forces_N - start.contact.forces_N);
-    cholesky_->solve(pushed, observer_.stop);
+    bool answered = false;
+    Eigen::VectorXd moved = residual_;
+    cholesky_->solve(
+        moved,
+        [&](const Eigen::VectorXd& byResidual) -> Eigen::VectorXd {
+          Eigen::Matrix3Xd expected = positions(start.rubber.displacements);
+          expected.reshaped() += byResidual;
+          answered = contact_->solve(compliance_, expected, goal, found, observer_.stop);
+          return (found.forces_N - start.contact.forces_N).reshaped();
+        },
+        observer_.stop);
     if (stopped()) return Outcome::Cancelled;
-    const Eigen::VectorXd du = mesh.withZeros(w + pushed);
+    if (!answered) return Outcome::NoContact;
+    Eigen::VectorXd du = mesh.withZeros(moved);
     // The elements' own residuals were condensed without the contact's change, which acts on nodes alone.
-    const LaneVector dx = assembler_.recover(tangents_, forces_, du, options_.threads);
+    LaneVector dx = assembler_.recover(tangents_, forces_, du, options_.threads);
+    mixing.mix(du, dx);
     double length = 1;
     for (int trial = 0;; ++trial) {
       state.rubber.displacements = start.rubber.displacements + length * du;
@@ -272,14 +293,23 @@ ContactSolver::Outcome ContactSolver::step(double from, double to, State& state)
     if (lost || !(relative_ < hopeless)) return Outcome::Diverged;
     if (length < 1 && ++shortened > mostShortened) return Outcome::Inverted;
     stalled = relative_ < roundingBelow && relative_ > previous / 2 ? stalled + 1 : 0;
-    if (length == 1 && (relative_ < options_.relativeTolerance || stalled == stallsOfRounding))
+    if (length == 1 && (relative_ < options_.relativeTolerance || stalled == stallsOfRounding)) {
+      charged_ += std::max(0, iteration - iterationsOfNewTangent);
       return Outcome::Converged;
-    const bool keep = length == 1 && (relative_ < keepTangentBelow || relative_ < goodContraction * previous);
+    }
+    const bool keep = length == 1 && tangentWillDo(previous);
     previous = relative_;
     if (keep || iteration == options_.iterationsAStep) continue;
+    mixing.restart();
     if (const Outcome outcome = newTangent(to, state); outcome != Outcome::Converged) return outcome;
   }
   return Outcome::TooManyIterations;
+}
+
+/// Whether the tangent in use ends the step soon, if it goes on to contract as in the iteration before.
+bool ContactSolver::tangentWillDo(double previous) const {
+  if (!(relative_ < previous)) return relative_ < roundingBelow;
+  return std::log(options_.relativeTolerance / relative_) >= keptIterations * std::log(relative_ / previous);
 }
 
 bool ContactSolver::reachesBeyond(const State& state) const {

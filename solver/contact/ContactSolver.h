@@ -50,6 +50,7 @@ private:
   [[nodiscard]] Eigen::Matrix3Xd positions(const Eigen::VectorXd& displacements) const;
   [[nodiscard]] Eigen::VectorXd onFreeComponents(const Eigen::Matrix3Xd& forces) const;
   [[nodiscard]] bool reachesBeyond(const State& state) const;
+  [[nodiscard]] bool tangentWillDo(double previous) const;
   [[nodiscard]] double firstStep() const;
   void record(double fraction, int iteration);
   [[nodiscard]] bool stopped() const { return observer_.stop.stop_requested(); }
@@ -66,6 +67,8 @@ private:
   std::optional<ReducedContact> contact_;
   std::optional<SparseCholesky> cholesky_;
   Eigen::MatrixXd compliance_; ///< between the points
+  bool tangentServes_ = false; ///< that of the step before also the next
+  int charged_ = 0;            ///< iterations of load steps that a newer tangent would have spared
   ElementTangents tangents_;
   ElementForces forces_;
   Eigen::VectorXd internal_; ///< raw forces of all components

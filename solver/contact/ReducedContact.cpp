@@ -1,5 +1,7 @@
 #include "solver/contact/ReducedContact.h"
 
+#include "solver/linear/DenseSystems.h"
+
 #include <Eigen/Dense>
 
 #include <algorithm>
@@ -170,8 +172,8 @@ bool ReducedContact::solve(const Eigen::MatrixXd& compliance, const Eigen::Matri
       right(row) = c == 2 ? -targets[static_cast<std::size_t>(k)].longestMove_mm / 4 : 0;
     }
     if (size == 0) return true;
-    Eigen::VectorXd change = matrix.partialPivLu().solve(right);
-    if (!change.allFinite()) return false;
+    Eigen::VectorXd change = right;
+    if (!solveDense(matrix, change)) return false;
     double share = 1, greatest = smallestTranslation;
     for (std::size_t m = 0; m < moves.size(); ++m) {
       const double move = std::abs(change(unknowns + static_cast<Eigen::Index>(m)));

@@ -1,9 +1,9 @@
 // What a factorisation keeps of the pattern's last groups.
 
+#include "solver/linear/DenseSystems.h"
 #include "solver/linear/SparseCholesky.h"
 
-#include <Eigen/Dense>
-
+#include <algorithm>
 #include <stdexcept>
 
 namespace palp {
@@ -19,19 +19,48 @@ void CholeskyPlan::findLast() {
     if (!isLast[tree_.order[i]]) throw std::logic_error("the last groups are not the last of the factor");
 }
 
-Eigen::MatrixXd SparseCholesky::inverseOfLast() const {
+std::vector<int> SparseCholesky::rowsOfLast() const {
   const SparsePattern& pattern = plan_->pattern();
-  const Eigen::Index size = lastRows_.rows();
-  const Eigen::MatrixXd inverse = lastRows_.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(size, size));
-  Eigen::MatrixXd inOrder = Eigen::MatrixXd::Zero(size, size);
-  inOrder.selfadjointView<Eigen::Lower>().rankUpdate(inverse.transpose());
-  std::vector<int> rowOf(plan_->tree().size());
-  for (Eigen::Index i = 0; i < size; ++i) rowOf[plan_->tree().order[rowOf.size() - size + i]] = static_cast<int>(i);
-  std::vector<int> rows;
+  const SupernodeTree& tree = plan_->tree();
+  const int start = tree.size() - plan_->lastUnknowns();
+  std::vector<int> rowOf(static_cast<std::size_t>(tree.size())), rows;
+  for (int i = start; i < tree.size(); ++i) rowOf[tree.order[i]] = i - start;
   for (int g : pattern.lastGroups)
     for (int i = pattern.groupStart[g]; i < pattern.groupStart[g + 1]; ++i) rows.push_back(rowOf[i]);
-  const Eigen::MatrixXd full = inOrder.selfadjointView<Eigen::Lower>();
-  return full(rows, rows);
+  return rows;
+}
+
+Eigen::MatrixXd SparseCholesky::inverseOfLast() const {
+  Eigen::MatrixXd inOrder = lastRows_;
+  invertFromCholesky(inOrder);
+  const std::vector<int> rows = rowsOfLast();
+  const auto size = static_cast<Eigen::Index>(rows.size());
+  Eigen::MatrixXd inverse(size, size);
+  for (Eigen::Index j = 0; j < size; ++j)
+    for (Eigen::Index i = 0; i <= j; ++i)
+      inverse(i, j) = inverse(j, i) = inOrder(std::max(rows[i], rows[j]), std::min(rows[i], rows[j]));
+  return inverse;
+}
+
+// With L the factor's last rows and y the right side's part there after the way forward, the unknowns move by
+// L^-T y; forces f on them are L^-1 f in y.
+void SparseCholesky::solve(Eigen::VectorXd& rightSide, const Answer& answer, const std::stop_token& stop) const {
+  const std::vector<int> rows = rowsOfLast();
+  const auto lower = lastRows_.triangularView<Eigen::Lower>();
+  const int start = plan_->tree().size() - plan_->lastUnknowns();
+  Eigen::VectorXd x = rightSide;
+  substitute(x, stop, [&](Eigen::Ref<Eigen::VectorXd> y) {
+    const Eigen::VectorXd moved = lower.transpose().solve(y), forces = answer(moved(rows));
+    Eigen::VectorXd added(y.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      added(rows[i]) = forces(static_cast<Eigen::Index>(i));
+      rightSide(plan_->tree().order[start + rows[i]]) += forces(static_cast<Eigen::Index>(i));
+    }
+    y += lower.solve(added);
+  });
+  rightSide -= times(x);
+  substitute(rightSide, stop);
+  rightSide += x;
 }
 
 } // namespace palp

@@ -355,7 +355,9 @@ void SparseCholesky::solve(Eigen::VectorXd& rightSide, const std::stop_token& st
   rightSide += x;
 }
 
-void SparseCholesky::substitute(Eigen::VectorXd& x, const std::stop_token& stop) const {
+/// `onLast` may change the last groups' rows between the way forward and the way back.
+void SparseCholesky::substitute(Eigen::VectorXd& x, const std::stop_token& stop,
+                                const std::function<void(Eigen::Ref<Eigen::VectorXd>)>& onLast) const {
   const SupernodeTree& tree = plan_->tree();
   const BlockedFactor factor = blocks();
   Eigen::VectorXd inOrder(tree.size() + 1);
@@ -363,6 +365,8 @@ void SparseCholesky::substitute(Eigen::VectorXd& x, const std::stop_token& stop)
   inOrder(tree.size()) = 0;
   for (int first = 0; first < factor.count && !stop.stop_requested(); first += supernodesACall)
     laneKernels().forwardOne(factor, first, std::min(factor.count, first + supernodesACall), inOrder.data());
+  if (onLast && !stop.stop_requested())
+    onLast(inOrder.segment(tree.size() - plan_->lastUnknowns(), plan_->lastUnknowns()));
   for (int last = factor.count; last > 0 && !stop.stop_requested(); last -= supernodesACall)
     laneKernels().backwardOne(factor, std::max(0, last - supernodesACall), last, inOrder.data());
   for (int i = 0; i < tree.size(); ++i) x(tree.order[i]) = inOrder(i);

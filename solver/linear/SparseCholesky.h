@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <stop_token>
@@ -73,6 +74,12 @@ public:
   /// Solves in place, refined once: the factor alone leaves 1e-3 of the right side, at nu = 0.5 a tenth, but next to
   /// nothing of what it has left. Stopped, it leaves no solution.
   void solve(Eigen::VectorXd& rightSide, const std::stop_token& stop = {}) const;
+  /// Forces on the unknowns of the pattern's last groups, in the groups' order, by how these move under the right side
+  /// alone.
+  using Answer = std::function<Eigen::VectorXd(const Eigen::VectorXd& motion)>;
+  /// Adds such forces to the right side on the way and solves in place: all other unknowns are eliminated first, so
+  /// that the answer costs nothing but itself.
+  void solve(Eigen::VectorXd& rightSide, const Answer& answer, const std::stop_token& stop = {}) const;
 
   /// The inverse matrix between the unknowns of the pattern's last groups, in the groups' order, in double precision:
   /// of the factor's last rows L, all other unknowns being eliminated, (L L^T)^-1.
@@ -83,7 +90,10 @@ public:
   [[nodiscard]] BlockedFactor blocks() const { return plan_->blocks(factor_.data()); }
 
 private:
-  void substitute(Eigen::VectorXd& x, const std::stop_token& stop) const;
+  void substitute(Eigen::VectorXd& x, const std::stop_token& stop,
+                  const std::function<void(Eigen::Ref<Eigen::VectorXd>)>& onLast = {}) const;
+  /// Which of the factor's last rows each unknown of the last groups has, in the groups' order.
+  [[nodiscard]] std::vector<int> rowsOfLast() const;
   [[nodiscard]] Eigen::VectorXd times(const Eigen::VectorXd& x) const;
 
   std::shared_ptr<const CholeskyPlan> plan_;

@@ -83,6 +83,33 @@ TEST(Cholesky, GivesTheInverseBetweenItsLastGroups) {
   }
 }
 
+TEST(Cholesky, AddsForcesThatAnswerTheMotionOfItsLastGroups) {
+  const Tangent tangent(0.499);
+  auto pattern = std::make_shared<SparsePattern>(tangent.plan->pattern());
+  pattern->lastGroups = {700, 12, 13, 801, 400};
+  SparseCholesky cholesky(std::make_shared<const CholeskyPlan>(pattern));
+  ASSERT_EQ(cholesky.factorise(tangent.values, 2, {}), SparseCholesky::Outcome::Done);
+  const auto unknown = [&](int i) { return pattern->groupStart[pattern->lastGroups[i / 3]] + i % 3; };
+  Eigen::VectorXd alone = tangent.rightSide(), answered = alone, seen;
+  Eigen::VectorXd expected = alone;
+  cholesky.solve(alone);
+  const auto springs = [](const Eigen::VectorXd& motion) -> Eigen::VectorXd {
+    return -0.2 * motion + Eigen::VectorXd::LinSpaced(motion.size(), -0.1, 0.3);
+  };
+  cholesky.solve(answered, [&](const Eigen::VectorXd& motion) {
+    seen = motion;
+    return springs(motion);
+  });
+  ASSERT_EQ(seen.size(), 15);
+  const Eigen::VectorXd forces = springs(seen);
+  for (int i = 0; i < 15; ++i) {
+    EXPECT_NEAR(seen(i), alone(unknown(i)), 1e-4 * alone.cwiseAbs().maxCoeff()) << "by a factor in single precision";
+    expected(unknown(i)) += forces(i);
+  }
+  cholesky.solve(expected);
+  EXPECT_LT((answered - expected).norm(), 1e-6 * expected.norm());
+}
+
 TEST(Cholesky, RefusesWhatIsNotPositiveDefinite) {
   Tangent tangent(0.3);
   tangent.values[tangent.plan->pattern().columns[100]] *= -1; // on the diagonal
