@@ -18,7 +18,10 @@ namespace {
 
 std::string quantityHead(const DeformationOptions& options) {
   const std::string unit = quantityUnit(options.quantity);
-  return "\"" + quantityName(options.quantity) + (options.lessKept ? ", less the kept design's" : "") +
+  return "\"" + quantityName(options.quantity) +
+         (!options.lessKept     ? ""
+          : options.lessUniform ? ", less the force uniform"
+                                : ", less the kept design's") +
          (unit.empty() ? "" : " [" + unit + "]") + "\"";
 }
 

@@ -330,7 +330,10 @@ bool ContactSolver::reachesBeyond(const State& state) const {
 
 void ContactSolver::record(double fraction, int iteration) {
   steps_.push_back({fraction, iteration, relative_});
-  if (observer_.step) observer_.step(steps_.back());
+  if (!observer_.step) return;
+  NewtonStep step = steps_.back();
+  step.loadFraction += static_cast<double>(now_); // each load of a path after the one before
+  observer_.step(step);
 }
 
 } // namespace palp

@@ -188,6 +188,7 @@ void DesignComparison::goBack() {
   std::erase_if(next.load.areas, [&](const AreaLoad& load) { return load.area >= next.design.areas.count(); });
   std::erase_if(next.load.patches, [&](const PatchLoad& disc) { return whyInvalid({{}, {disc}}, next.design); });
   std::erase_if(next.load.indenters, [&](const Indenter& its) { return whyInvalid(its, next.design); });
+  next.path = pathKept(next.path, workbench_.project().load, next.load);
   asked_.reset();
   workbench_.closeEntry();
   workbench_.edit(tr("Go back to an earlier design"), next);

@@ -5,12 +5,14 @@
 #include "app/gui/design/DesignSweep.h"
 #include "app/gui/design/LayoutFinder.h"
 #include "app/gui/design/NoiseFloor.h"
+#include "app/gui/design/map/DesignMap.h"
 #include "app/gui/project/Command.h"
 #include "app/gui/views/BlockView.h"
 #include "app/gui/views/ChartView.h"
 #include "app/gui/views/ViewBar.h"
 #include "app/gui/widgets/SpinBoxes.h"
 #include "app/gui/window/SidePanel.h"
+#include "app/scenes/block/map/FaceMap.h"
 
 #include <QCheckBox>
 #include <QDoubleSpinBox>
@@ -90,6 +92,7 @@ DesignPage::DesignPage(Workbench& workbench, NetworkSession& network, QWidget* p
     std::erase_if(next.load.areas, [&](const AreaLoad& load) { return load.area >= design.areas.count(); });
     std::erase_if(next.load.patches, [&](const PatchLoad& disc) { return whyInvalid({{}, {disc}}, design); });
     std::erase_if(next.load.indenters, [&](const Indenter& its) { return whyInvalid(its, design); });
+    next.path = pathKept(next.path, workbench_.project().load, next.load);
     workbench_.edit(what, next);
   });
   connect(panel_, &DesignPanel::scalingChosen, this, [this](bool on) {
@@ -115,6 +118,7 @@ DesignPage::DesignPage(Workbench& workbench, NetworkSession& network, QWidget* p
     displayMesh();
   });
   connect(comparison_, &DesignComparison::fieldsAsked, this, [this] { emit sceneAsked("deformation"); });
+  connect(map_, &DesignMap::overBlockChanged, this, &DesignPage::draw);
   // What was cancelled is asked for again when the page is next brought up to date.
   connect(&measuring_, &JobRunner::finished, this, [this](bool cancelled) { measureAsked_ &= !cancelled; });
   displayProject();
@@ -158,17 +162,20 @@ QWidget* DesignPage::buildStudies() {
   finder_ = new LayoutFinder(workbench_);
   sweep_ = new DesignSweep(workbench_);
   comparison_ = new DesignComparison(workbench_);
+  map_ = new DesignMap(workbench_);
   auto* tabs = new QTabWidget;
   tabs->setObjectName("designTabs");
   tabs->addTab(first, tr("Mesh and noise floor"));
   tabs->addTab(scrolled(finder_), tr("Better layout"));
   tabs->addTab(scrolled(sweep_), tr("Sweep"));
   tabs->addTab(scrolled(comparison_), tr("Compare"));
+  tabs->addTab(scrolled(map_), tr("Resolution map"));
   return tabs;
 }
 
 std::vector<JobRunner*> DesignPage::runners() {
-  return {&measuring_, &floor_->runner(), &finder_->runner(), &sweep_->runner(), &comparison_->runner()};
+  return {&measuring_,       &floor_->runner(),      &finder_->runner(),
+          &sweep_->runner(), &comparison_->runner(), &map_->runner()};
 }
 
 QGroupBox* DesignPage::buildMesh() {
@@ -217,6 +224,7 @@ void DesignPage::setTheme(Theme theme) {
   quality_->setTheme(theme);
   sweep_->setTheme(theme);
   comparison_->setTheme(theme);
+  map_->setTheme(theme);
   block_->setTheme(theme);
   draw();
 }
@@ -233,6 +241,7 @@ void DesignPage::displayProject() {
   panel_->displayScaling(project.studies.scaleWires);
   finder_->displayProject();
   comparison_->displayProject();
+  map_->displayProject();
   const QSignalBlocker quietCheck(automaticSize_);
   const bool automatic = !project.mesh.meshSize_mm && !project.mesh.mapped;
   automaticSize_->setChecked(automatic);
@@ -258,6 +267,8 @@ void DesignPage::draw() {
   DeformationState state;
   state.design = &design;
   state.mesh = meshed ? touch.touch().mesh() : &alone;
+  const auto map = map_->overBlock();
+  state.map = map.get();
   block_->show(state, options_, true);
 }
 

@@ -16,6 +16,7 @@ namespace palp {
 class BlockView;
 class ChartView;
 class DesignComparison;
+class DesignMap;
 class DesignPanel;
 class DesignSweep;
 class LayoutFinder;
@@ -60,6 +61,7 @@ private:
   LayoutFinder* finder_ = nullptr;
   DesignSweep* sweep_ = nullptr;
   DesignComparison* comparison_ = nullptr;
+  DesignMap* map_ = nullptr;
   BlockView* block_ = nullptr;
   QCheckBox* showMesh_ = nullptr;
   QCheckBox* automaticSize_ = nullptr;

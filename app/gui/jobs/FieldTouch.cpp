@@ -72,7 +72,7 @@ FieldTouch::FieldTouch(QObject* parent) : QObject(parent) {
 FieldTouch::~FieldTouch() = default;
 
 FieldTouch::Inputs FieldTouch::inputsOf(const Touch& touch, double loadFraction) {
-  return {readSomehow(touch.design()), touch.load(), touch.meshOptions(), loadFraction};
+  return {readSomehow(touch.design()), touch.load(), touch.path(), touch.meshOptions(), loadFraction};
 }
 
 std::shared_ptr<const FieldFound> FieldTouch::find(const Inputs& inputs) const {

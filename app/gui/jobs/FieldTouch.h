@@ -66,6 +66,7 @@ private:
   struct Inputs {
     SensorDesign design;
     LoadCase load;
+    std::vector<LoadCase> path;
     MeshOptions mesh;
     double loadFraction = 1;
     bool operator==(const Inputs&) const = default;

@@ -1,6 +1,7 @@
 #include "app/gui/jobs/KeptTouch.h"
 
 #include "app/gui/jobs/MatchedLoad.h"
+#include "model/TouchRange.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
 #include "solver/PointProbe.h"
@@ -54,22 +55,75 @@ NodalFields readAt(const std::vector<FoundPoint>& points, const NodalFields& fie
           fields.contactTraction_MPa.cols() > 0 ? readAt(points, fields.contactTraction_MPa) : Eigen::Matrix3Xd()};
 }
 
+/// Load fractions of a touch, and the shares of its indenters' force that they have.
+std::vector<std::array<double, 2>> forceShares(const Touch& shown) {
+  const auto force_N = [](const LoadIncrement& state) {
+    double down = 0;
+    for (const IndenterState& its : state.indenters) down -= its.force_N.z();
+    return down;
+  };
+  const double whole = force_N(shown.solution()->state());
+  std::vector<std::array<double, 2>> shares;
+  if (!(whole > 0)) return shares;
+  for (const LoadIncrement& state : shown.solution()->increments)
+    shares.push_back({state.loadFraction, force_N(state) / whole});
+  return shares;
+}
+
+LoadCase loadOn(const SensorDesign& kept, const Touch& shown, bool uniform) {
+  if (uniform) return uniformLoad(shown);
+  try {
+    return matchedLoad(shown.load(), shown.design(), kept);
+  } catch (const Error& error) {
+    throw Error(std::string("the kept design: ") + error.what());
+  }
+}
+
 } // namespace
 
-KeptPath keptPath(const SensorDesign& kept, const Touch& shown, const std::stop_token& stop) {
-  const LoadCase load = [&] {
-    try {
-      return matchedLoad(shown.load(), shown.design(), kept);
-    } catch (const Error& error) {
-      throw Error(std::string("the kept design: ") + error.what());
-    }
-  }();
+double KeptPath::fractionAt(double shown) const {
+  if (asLarge.empty()) return shown;
+  for (std::size_t k = 1; k < asLarge.size(); ++k) {
+    const auto& [from, fromShare] = asLarge[k - 1];
+    const auto& [to, toShare] = asLarge[k];
+    if (shown <= to) return fromShare + (toShare - fromShare) * (shown - from) / (to - from);
+  }
+  return asLarge.back()[1];
+}
+
+LoadCase uniformLoad(const Touch& touch) {
+  if (!touch.path().empty()) throw Error("the same force, uniform, follows no path: take the path away to compare");
+  LoadCase load = touch.load();
+  load.indenters.clear();
+  const std::vector<IndenterState>& now = touch.solution()->state().indenters;
+  for (std::size_t k = 0; k < now.size(); ++k) {
+    const Eigen::Vector2d place = touch.load().indenters[k].place_mm + now[k].translation_mm.head<2>();
+    const int area = areaUnder(touch.design(), place.cwiseMax(0).cwiseMin(touch.design().block_mm.head<2>()));
+    const auto its = std::find_if(load.areas.begin(), load.areas.end(), [&](const auto& a) { return a.area == area; });
+    if (its != load.areas.end())
+      its->force_N += now[k].force_N;
+    else
+      load.areas.push_back({area, now[k].force_N});
+  }
+  return load;
+}
+
+KeptPath keptPath(const SensorDesign& kept, const Touch& shown, const std::stop_token& stop, bool uniform) {
+  const LoadCase load = loadOn(kept, shown, uniform);
   Touch touch(kept, load, shown.meshOptions());
+  if (!uniform) {
+    std::vector<LoadCase> steps;
+    for (const LoadCase& step : shown.path()) steps.push_back(matchedLoad(step, shown.design(), kept));
+    touch.setLoad(load, steps);
+  }
+  const std::string whose = uniform ? "the block" : "the kept design";
   const bool good = touch.advance(Stage::Displacements, {.oneTangent = true}, {.step = {}, .stop = stop});
   stopIfAsked(stop);
-  if (!good) throw Error("the kept design cannot bear the load: " + touch.solution()->stopReason);
+  if (!good)
+    throw Error(whose + " cannot bear the load" + (uniform ? " uniform: " : ": ") + touch.solution()->stopReason);
   touch.problem()->releaseFactor();
   KeptPath path{kept, load, loadPathStates(touch, stop), {}};
+  if (uniform) path.asLarge = forceShares(shown);
   if (kept.field() != nullptr) path.touch = touch;
   stopIfAsked(stop);
   const Eigen::Vector3d shares = kept.block_mm.cwiseQuotient(shown.design().block_mm);
@@ -95,19 +149,20 @@ KeptTouch::KeptTouch(QObject* parent) : QObject(parent) {
   });
 }
 
-bool KeptTouch::wanted(const SensorDesign& kept, const Touch& shown) const {
-  return wanted_ && wanted_->kept == kept && sameButForLaw(wanted_->shown.design(), shown.design()) &&
-         wanted_->shown.load() == shown.load() && wanted_->shown.meshOptions() == shown.meshOptions();
+bool KeptTouch::wanted(const SensorDesign& kept, const Touch& shown, bool uniform) const {
+  return wanted_ && wanted_->uniform == uniform && wanted_->kept == kept && wanted_->shown.path() == shown.path() &&
+         sameButForLaw(wanted_->shown.design(), shown.design()) && wanted_->shown.load() == shown.load() &&
+         wanted_->shown.meshOptions() == shown.meshOptions();
 }
 
-void KeptTouch::want(const SensorDesign& kept, const Touch& shown) {
-  if (shown.solution() == nullptr || wanted(kept, shown)) return;
-  wanted_ = Inputs{kept, shown};
+void KeptTouch::want(const SensorDesign& kept, const Touch& shown, bool uniform) {
+  if (shown.solution() == nullptr || wanted(kept, shown, uniform)) return;
+  wanted_ = Inputs{kept, shown, uniform};
   run();
 }
 
-std::shared_ptr<const KeptPath> KeptTouch::pathFor(const SensorDesign& kept, const Touch& shown) const {
-  return wanted(kept, shown) ? path_ : nullptr;
+std::shared_ptr<const KeptPath> KeptTouch::pathFor(const SensorDesign& kept, const Touch& shown, bool uniform) const {
+  return wanted(kept, shown, uniform) ? path_ : nullptr;
 }
 
 void KeptTouch::resume() {
@@ -120,18 +175,22 @@ void KeptTouch::resume() {
 void KeptTouch::run() {
   path_.reset();
   problem_.clear();
-  runner_.start(tr("Computing the kept design"),
-                [this, kept = wanted_->kept, shown = wanted_->shown](const std::stop_token& stop,
-                                                                     JobProgress& progress) -> JobRunner::Taking {
-                  progress.set(-1, "Computing the kept design");
-                  auto path = std::make_shared<const KeptPath>(keptPath(kept, shown, stop));
+  const bool uniform = wanted_->uniform;
+  const QString what = uniform ? tr("Computing the uniform load") : tr("Computing the kept design");
+  runner_.start(what,
+                [this, what, uniform, kept = wanted_->kept,
+                 shown = wanted_->shown](const std::stop_token& stop, JobProgress& progress) -> JobRunner::Taking {
+                  progress.set(-1, what.toStdString());
+                  auto path = std::make_shared<const KeptPath>(keptPath(kept, shown, stop, uniform));
                   return [this, path] {
                     path_ = path;
                     emit changed();
                   };
                 });
   // What it is known by; the results are the job's and the session's.
-  wanted_->shown = Touch(wanted_->shown.design(), wanted_->shown.load(), wanted_->shown.meshOptions());
+  Touch known(wanted_->shown.design(), wanted_->shown.load(), wanted_->shown.meshOptions());
+  known.setLoad(wanted_->shown.load(), wanted_->shown.path());
+  wanted_->shown = known;
 }
 
 void KeptTouch::forget() {

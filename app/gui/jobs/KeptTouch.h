@@ -4,14 +4,16 @@
 #include "app/gui/jobs/LoadPath.h"
 #include "app/study/touch/Touch.h"
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
 
 namespace palp {
 
-/// The design that was kept, under the load of the touch that is shown. The points of the two blocks that are compared
-/// are those at the same shares of the blocks' sides: the same places where the blocks are of one size.
+/// Another answer to compare the touch with that is shown: of the design that was kept to its load, or of its own
+/// design to the same forces, uniform. The points of the two blocks that are compared are those at the same shares of
+/// the blocks' sides: the same places where the blocks are of one size.
 struct KeptPath {
   SensorDesign design;
   LoadCase load; ///< as it acts on it: matchedLoad()
@@ -19,12 +21,21 @@ struct KeptPath {
   std::vector<LoadPathState> states;
   std::optional<Touch> touch; ///< under the law of the field, for the resistances
 
-  [[nodiscard]] LoadPathState at(double fraction) const { return stateAt(states, fraction); }
+  /// Uniform forces grow in proportion, those of an indenter that is moved do not: load fractions of the touch that is
+  /// shown, and those at which the uniform load is as large; empty: the same.
+  std::vector<std::array<double, 2>> asLarge{};
+
+  [[nodiscard]] double fractionAt(double shown) const;
+  [[nodiscard]] LoadPathState at(double shown) const { return stateAt(states, fractionAt(shown)); }
 };
+
+/// The forces of the touch's indenters at the end of its load, uniform on the load areas beneath them; areas and discs
+/// as they are. Throws Error where it follows a path: areas do not move.
+LoadCase uniformLoad(const Touch& touch);
 
 /// Solves the kept design under the touch's load, at the same shares of the block, and reads its fields at the nodes of
 /// the touch's mesh. Throws Cancelled where it is stopped, Error where the kept design cannot bear the load.
-KeptPath keptPath(const SensorDesign& kept, const Touch& shown, const std::stop_token& stop);
+KeptPath keptPath(const SensorDesign& kept, const Touch& shown, const std::stop_token& stop, bool uniform = false);
 
 /// The same in the background, and only while a scene shows it.
 class KeptTouch : public QObject {
@@ -33,10 +44,11 @@ class KeptTouch : public QObject {
 public:
   explicit KeptTouch(QObject* parent = nullptr);
 
-  /// A scene shows this kept design beside this touch: computed unless that was done, or runs.
-  void want(const SensorDesign& kept, const Touch& shown);
+  /// A scene shows this design beside this touch: computed unless that was done, or runs.
+  void want(const SensorDesign& kept, const Touch& shown, bool uniform);
   /// Null before it is there, and where another one was wanted last.
-  [[nodiscard]] std::shared_ptr<const KeptPath> pathFor(const SensorDesign& kept, const Touch& shown) const;
+  [[nodiscard]] std::shared_ptr<const KeptPath> pathFor(const SensorDesign& kept, const Touch& shown,
+                                                        bool uniform) const;
   /// Why there is none, in words; empty while it is computed.
   [[nodiscard]] const QString& problem() const { return problem_; }
   /// Computes it again after a cancel.
@@ -53,9 +65,10 @@ private:
   struct Inputs {
     SensorDesign kept;
     Touch shown;
+    bool uniform = false;
   };
 
-  [[nodiscard]] bool wanted(const SensorDesign& kept, const Touch& shown) const;
+  [[nodiscard]] bool wanted(const SensorDesign& kept, const Touch& shown, bool uniform) const;
   void run();
 
   JobRunner runner_;

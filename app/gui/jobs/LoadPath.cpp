@@ -1,6 +1,9 @@
 #include "app/gui/jobs/LoadPath.h"
 
+#include <QObject>
+
 #include <algorithm>
+#include <cmath>
 
 namespace palp {
 
@@ -49,6 +52,12 @@ std::vector<LoadPathState> loadPathStates(const Touch& touch, const std::stop_to
         {state.loadFraction, touch.problem()->fields(state), touch.problem()->electrodes(state), state.indenters});
   }
   return path;
+}
+
+QString loadPlaceWords(double fraction) {
+  if (!(fraction > 1)) return QObject::tr("%1 % of the load").arg(100 * fraction, 0, 'g', 3);
+  const double step = std::ceil(fraction - 1e-9) - 1;
+  return QObject::tr("step %1 of the path, %2 %").arg(step).arg(100 * (fraction - step), 0, 'g', 3);
 }
 
 LoadPathState stateAt(const std::vector<LoadPathState>& path, double fraction) {

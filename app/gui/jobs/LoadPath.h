@@ -2,6 +2,8 @@
 
 #include "app/study/touch/Touch.h"
 
+#include <QString>
+
 #include <stop_token>
 #include <vector>
 
@@ -17,6 +19,9 @@ struct LoadPathState {
 
 /// The equilibria that were computed on the way, rest first; fewer where it was stopped.
 std::vector<LoadPathState> loadPathStates(const Touch& touch, const std::stop_token& stop);
+
+/// "40 % of the load"; above 1 "step 2 of the path, 40 %".
+QString loadPlaceWords(double fraction);
 
 /// The state at a load fraction, linear between the equilibria; the ends where it lies outside of them.
 LoadPathState stateAt(const std::vector<LoadPathState>& path, double fraction);

@@ -34,10 +34,12 @@ TouchSession::TouchSession(QObject* parent) : QObject(parent) {
   connect(&runner_, &JobRunner::finished, this, [this] { scrubbing_.reset(); });
 }
 
-void TouchSession::setInputs(const SensorDesign& design, const LoadCase& load, const MeshOptions& mesh) {
-  if (design == wanted_.design() && load == wanted_.load() && mesh == wanted_.meshOptions()) return;
+void TouchSession::setInputs(const SensorDesign& design, const LoadCase& load, const MeshOptions& mesh,
+                             const std::vector<LoadCase>& path) {
+  if (design == wanted_.design() && load == wanted_.load() && mesh == wanted_.meshOptions() && path == wanted_.path())
+    return;
   wanted_.setDesign(design);
-  wanted_.setLoad(load);
+  wanted_.setLoad(load, path);
   wanted_.setMeshOptions(mesh);
   ++revision_;
   if (takeLaw()) return;
@@ -89,7 +91,8 @@ std::vector<NewtonStep> TouchSession::newton() const {
 }
 
 bool TouchSession::computable() const {
-  return check(wanted_.design()).empty() && !whyInvalid(wanted_.load(), wanted_.design());
+  return check(wanted_.design()).empty() &&
+         !whyInvalid(wanted_.load(), wanted_.design()); // a path that cannot be followed is none
 }
 
 void TouchSession::run() {
@@ -112,10 +115,10 @@ void TouchSession::run() {
     if (target > Stage::Mesh) {
       progress.set(-1, "Solving");
       touch.advance(Stage::Solution, {.oneTangent = true},
-                    {[&](const NewtonStep& step) {
+                    {[&, loads = 1 + static_cast<double>(touch.path().size())](const NewtonStep& step) {
                        trace->add(step);
-                       progress.set(step.loadFraction, "Newton at load fraction " +
-                                                           QString::number(step.loadFraction, 'g', 3).toStdString());
+                       progress.set(step.loadFraction / loads,
+                                    "Newton at " + loadPlaceWords(step.loadFraction).toStdString());
                      },
                      stop});
       if (stop.stop_requested()) return {};
@@ -183,6 +186,10 @@ void TouchSession::showState(int percent) {
 
 void TouchSession::estimateError() {
   if (shown_.solution() == nullptr || !upToDate()) return;
+  if (!shown_.path().empty()) {
+    emit errorEstimated(std::nan(""), tr("not for a path; clear it for the load's own"));
+    return;
+  }
   computed_ = 0;
   const auto work = [this, touch = shown_, revision = revision_](const std::stop_token& stop,
                                                                  JobProgress& progress) -> JobRunner::Taking {

@@ -33,7 +33,9 @@ public:
   explicit TouchSession(QObject* parent = nullptr);
 
   /// New inputs; what still holds is kept.
-  void setInputs(const SensorDesign& design, const LoadCase& load, const MeshOptions& mesh);
+  /// `path`: what the load's indenters follow after it, as in Touch.
+  void setInputs(const SensorDesign& design, const LoadCase& load, const MeshOptions& mesh,
+                 const std::vector<LoadCase>& path = {});
   /// The furthest stage of the visible scene.
   void need(Stage stage);
   /// Computes what is needed again after a cancel.
@@ -55,7 +57,8 @@ public:
   [[nodiscard]] const std::vector<IndenterState>& indenters() const { return indenters_; }
   /// At the end of the load path, for scales that hold on all of it.
   [[nodiscard]] const NodalFields* endFields() const { return endFields_.get(); }
-  /// The place that is shown on the way from rest to the load, in percent of it, and the last one that was reached.
+  /// The place that is shown on the way from rest to the load, in percent of it, and the last one that was reached;
+  /// above 100 on the steps of its path, a hundred each.
   [[nodiscard]] int place() const { return place_; }
   [[nodiscard]] int lastPlace() const;
   [[nodiscard]] double loadFraction() const;

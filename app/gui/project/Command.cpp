@@ -31,6 +31,8 @@ QString meshCommands(const Project& project, const QString& designFile) {
 }
 
 QString solveCommands(const Project& project, const QString& designFile) {
+  if (!loadsAfter(project.load, project.path, project.design).empty()) // path.json: "Save as a load file" of its panel
+    return "palp solve " + designFile + " --loads path.json" + meshOption(project.mesh) + " -o deformed.vtu";
   QString command;
   for (const AreaLoad& load : project.load.areas)
     command += QString(" --load %1:%2").arg(load.area).arg(triple(load.force_N));

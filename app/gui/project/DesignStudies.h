@@ -3,6 +3,7 @@
 #include "model/LoadCase.h"
 #include "model/SensorDesign.h"
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -70,6 +71,32 @@ struct DesignsCompared {
   bool operator==(const DesignsCompared&) const = default;
 };
 
+constexpr int kMostMapPlaces = 101;
+
+/// What is mapped over the top face.
+struct MapSettings {
+  IndenterShape shape = IndenterShape::Sphere; ///< of those that have a place along x and y
+  double radius_mm = 0;                        ///< 0: the middle of the design's usual touches
+  double force_N = 0;                          ///< downwards; 0: the same
+  int places = 31;                             ///< along the shorter side of the face, were it all covered
+  std::string law;                             ///< empty: the design's; "pairs", or the name of a read-out of the field
+
+  bool operator==(const MapSettings&) const = default;
+};
+
+/// What the design resolves of a touch at each place of its top face (app/study/reports/map/TouchMap.h).
+struct MappedResolution {
+  SensorDesign design; ///< with the law that was mapped
+  Indenter touch;      ///< its place does not matter
+  double noise = 0;    ///< relative, of the resistances
+  Eigen::Vector2d low_mm{0, 0}, high_mm{0, 0};
+  std::array<int, 2> places{2, 2};
+  double contactRadius_mm = 0;
+  std::vector<std::vector<double>> values; ///< a list a quantity, x first; to six digits; -1: nowhere
+
+  bool operator==(const MappedResolution&) const = default;
+};
+
 /// What the studies of the Design scene are set to and what they have found; a project keeps it.
 struct DesignStudies {
   bool scaleWires = false; ///< another size of the block takes the wires with it
@@ -77,6 +104,8 @@ struct DesignStudies {
   std::optional<FoundLayout> found;
   std::optional<DesignSweepCurve> curve;
   std::optional<DesignsCompared> compared;
+  MapSettings map;
+  std::optional<MappedResolution> mapped;
 
   bool operator==(const DesignStudies&) const = default;
 };

@@ -15,6 +15,7 @@ namespace palp {
 namespace {
 
 constexpr int kMostAreas = 10000; ///< of an area: more than any design has
+constexpr std::size_t kMapQuantities = 8;
 constexpr double kLargest = 1e12;
 constexpr double kUnbounded = -1; ///< stands for infinity, which JSON cannot say
 
@@ -164,22 +165,56 @@ Eigen::Vector3d vectorOf(const JsonPlace& place) {
   return {numbers[0], numbers[1], numbers[2]};
 }
 
+/// The keys that say what an indenter does.
+void tell(const std::variant<Press, Motion>& control, QJsonObject& object) {
+  if (const Press* press = std::get_if<Press>(&control)) {
+    object["force_N"] = jsonOf(press->force_N);
+  } else {
+    object["depth_mm"] = std::get<Motion>(control).depth_mm;
+    object["shift_mm"] = jsonOf(std::get<Motion>(control).shift_mm);
+  }
+}
+
 QJsonObject indenterJson(const Indenter& indenter) {
   QJsonObject object{{"shape", QString::fromStdString(shapeName(indenter.shape))},
                      {"radius_mm", indenter.radius_mm},
                      {"rim_mm", indenter.rim_mm},
                      {"place_mm", jsonOf(indenter.place_mm)},
                      {"friction", indenter.friction}};
-  if (const Press* press = indenter.press()) {
-    object["force_N"] = jsonOf(press->force_N);
-  } else {
-    object["depth_mm"] = indenter.motion()->depth_mm;
-    object["shift_mm"] = jsonOf(indenter.motion()->shift_mm);
-  }
+  tell(indenter.control, object);
   return object;
 }
 
 } // namespace
+
+QJsonObject pathJson(const IndenterPath& path) {
+  QJsonArray steps;
+  for (const auto& step : path.steps) {
+    QJsonObject object;
+    tell(step, object);
+    steps.append(object);
+  }
+  return {{"indenter", path.indenter}, {"steps", steps}};
+}
+
+IndenterPath pathOf(const JsonPlace& place) {
+  place.onlyKeys({"indenter", "steps"});
+  IndenterPath path;
+  path.indenter = place.at("indenter").integer(0, kMostAreas);
+  for (const JsonPlace& step : place.at("steps").list()) {
+    if (path.steps.size() == kMostPathSteps)
+      place.at("steps").refuse("a list of at most " + std::to_string(kMostPathSteps) + " steps");
+    if (step.has("force_N")) {
+      step.onlyKeys({"force_N"});
+      path.steps.emplace_back(Press{vectorOf(step.at("force_N"))});
+    } else {
+      step.onlyKeys({"depth_mm", "shift_mm"});
+      const std::vector<double> shift = step.at("shift_mm").numbers(2);
+      path.steps.emplace_back(Motion{step.at("depth_mm").number(0, 1e4), {shift[0], shift[1]}});
+    }
+  }
+  return path;
+}
 
 QJsonObject loadJson(const LoadCase& load) {
   QJsonArray areas;
@@ -214,6 +249,66 @@ LoadCase loadOf(const JsonPlace& place) {
   return load;
 }
 
+namespace {
+
+QJsonObject mapJson(const MapSettings& map) {
+  return {{"shape", QString::fromStdString(shapeName(map.shape))},
+          {"radius_mm", map.radius_mm},
+          {"force_N", map.force_N},
+          {"places", map.places},
+          {"law", QString::fromStdString(map.law)}};
+}
+
+MapSettings mapOf(const JsonPlace& place) {
+  place.onlyKeys({"shape", "radius_mm", "force_N", "places", "law"});
+  MapSettings map;
+  map.shape = place.at("shape").named(kIndenterShapes);
+  map.radius_mm = place.at("radius_mm").number(0, 1e4);
+  map.force_N = place.at("force_N").number(0, 1e4);
+  map.places = place.at("places").integer(2, kMostMapPlaces);
+  map.law = place.at("law").string();
+  if (!map.law.empty() && map.law != "pairs" && !kReadouts.find(map.law))
+    place.at("law").refuse("empty, pairs, or " + kReadouts.allowed());
+  return map;
+}
+
+QJsonObject mappedJson(const MappedResolution& mapped) {
+  QJsonArray values;
+  for (const std::vector<double>& quantity : mapped.values)
+    values.append(
+        jsonOf(Eigen::Map<const Eigen::VectorXd>(quantity.data(), static_cast<Eigen::Index>(quantity.size()))));
+  return {{"design", designJson(mapped.design)},
+          {"touch", indenterJson(mapped.touch)},
+          {"noise", mapped.noise},
+          {"low_mm", jsonOf(mapped.low_mm)},
+          {"high_mm", jsonOf(mapped.high_mm)},
+          {"places", QJsonArray{mapped.places[0], mapped.places[1]}},
+          {"contact_radius_mm", mapped.contactRadius_mm},
+          {"values", values}};
+}
+
+MappedResolution mappedOf(const JsonPlace& place) {
+  place.onlyKeys({"design", "touch", "noise", "low_mm", "high_mm", "places", "contact_radius_mm", "values"});
+  MappedResolution mapped;
+  mapped.design = designOf(place.at("design"));
+  mapped.touch = readIndenter(place.at("touch"));
+  mapped.noise = place.at("noise").number(0, 1);
+  mapped.low_mm = Eigen::Vector2d(place.at("low_mm").numbers(2).data());
+  mapped.high_mm = Eigen::Vector2d(place.at("high_mm").numbers(2).data());
+  if (!(mapped.high_mm.array() > mapped.low_mm.array()).all()) place.at("high_mm").refuse("a place beyond low_mm");
+  const std::vector<JsonPlace> counts = place.at("places").list();
+  if (counts.size() != 2) place.at("places").refuse("two whole numbers");
+  mapped.places = {counts[0].integer(2, kMostMapPlaces * 100), counts[1].integer(2, kMostMapPlaces * 100)};
+  mapped.contactRadius_mm = place.at("contact_radius_mm").number(0, 1e6);
+  const std::size_t count = static_cast<std::size_t>(mapped.places[0]) * static_cast<std::size_t>(mapped.places[1]);
+  for (const JsonPlace& quantity : place.at("values").list()) mapped.values.push_back(quantity.numbers(count));
+  if (mapped.values.size() != kMapQuantities)
+    place.at("values").refuse(std::to_string(kMapQuantities) + " lists of numbers");
+  return mapped;
+}
+
+} // namespace
+
 QJsonObject studiesJson(const DesignStudies& studies) {
   QJsonObject object;
   if (studies.scaleWires) object["scale_wires"] = true;
@@ -221,17 +316,21 @@ QJsonObject studiesJson(const DesignStudies& studies) {
   if (studies.found) object["found_layout"] = foundJson(*studies.found);
   if (studies.curve) object["sweep_curve"] = curveJson(*studies.curve);
   if (studies.compared) object["comparison"] = comparedJson(*studies.compared);
+  if (studies.map != MapSettings{}) object["map"] = mapJson(studies.map);
+  if (studies.mapped) object["mapped_resolution"] = mappedJson(*studies.mapped);
   return object;
 }
 
 DesignStudies studiesOf(const JsonPlace& place) {
-  place.onlyKeys({}, {"scale_wires", "sweep", "found_layout", "sweep_curve", "comparison"});
+  place.onlyKeys({}, {"scale_wires", "sweep", "found_layout", "sweep_curve", "comparison", "map", "mapped_resolution"});
   DesignStudies studies;
   if (place.has("scale_wires")) studies.scaleWires = place.at("scale_wires").boolean();
   if (place.has("sweep")) studies.sweep = sweepOf(place.at("sweep"));
   if (place.has("found_layout")) studies.found = foundOf(place.at("found_layout"));
   if (place.has("sweep_curve")) studies.curve = curveOf(place.at("sweep_curve"));
   if (place.has("comparison")) studies.compared = comparedOf(place.at("comparison"));
+  if (place.has("map")) studies.map = mapOf(place.at("map"));
+  if (place.has("mapped_resolution")) studies.mapped = mappedOf(place.at("mapped_resolution"));
   return studies;
 }
 

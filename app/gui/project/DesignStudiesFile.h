@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/gui/project/DesignStudies.h"
+#include "app/gui/project/IndenterPath.h"
 
 #include <QJsonObject>
 
@@ -12,6 +13,11 @@ class JsonPlace;
 QJsonObject studiesJson(const DesignStudies& studies);
 /// Throws Error.
 DesignStudies studiesOf(const JsonPlace& place);
+
+/// As in the project file.
+QJsonObject pathJson(const IndenterPath& path);
+/// Throws Error.
+IndenterPath pathOf(const JsonPlace& place);
 
 /// As in the project file.
 QJsonObject loadJson(const LoadCase& load);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/gui/project/DesignStudies.h"
+#include "app/gui/project/IndenterPath.h"
 #include "app/gui/project/LiveSettings.h"
 #include "app/gui/project/ViewSettings.h"
 #include "app/study/decoding/TrainOptions.h"
@@ -58,6 +59,7 @@ struct NetworkSettings {
 struct Project {
   SensorDesign design = paperDesign();
   LoadCase load;
+  std::optional<IndenterPath> path; ///< of an indenter of the load, after it
   MeshOptions mesh;
   SampleSettings samples;
   NetworkSettings network;

@@ -177,6 +177,7 @@ QString sinceWords(const Project& then, const Project& now) {
   constexpr qsizetype kNamed = 2;
   QStringList changes = designChanges(then.design, now.design);
   if (changes.isEmpty()) changes << loadChanges(then.load, now.load);
+  if (then.path != now.path) changes << QObject::tr("path of the indenter");
   if (then.mesh != now.mesh) changes << stepWords(QObject::tr("mesh size"), meshWords(then.mesh), meshWords(now.mesh));
   changes.removeAll(QString());
   if (changes.isEmpty()) return {};
@@ -191,7 +192,7 @@ QString changeWords(const QString& what, const Project& before, const Project& a
   if (changes.isEmpty()) changes << loadChanges(before.load, after.load);
   if (before.mesh != after.mesh)
     changes << stepWords(QObject::tr("mesh size"), meshWords(before.mesh), meshWords(after.mesh));
-  const bool more = before.samples != after.samples || before.network != after.network;
+  const bool more = before.path != after.path || before.samples != after.samples || before.network != after.network;
   return changes.size() == 1 && !more && !changes.front().isEmpty() ? changes.front() : what;
 }
 

@@ -136,6 +136,9 @@ QJsonObject viewJson(const ViewSettings& view) {
     object["difference_range"] = QJsonArray{(*view.differenceRange)[0], (*view.differenceRange)[1]};
   if (view.extremes) object["extremes"] = true;
   if (view.lessKept) object["less_kept"] = true;
+  if (view.uniform) object["uniform"] = true;
+  if (view.mapQuantity != ViewSettings().mapQuantity) object["map_quantity"] = QString::fromStdString(view.mapQuantity);
+  if (!view.mapOnBlock) object["map_on_block"] = false;
   if (view.currentWay) object["current_way"] = true;
   if (view.litCell) object["lit_cell"] = cell(*view.litCell);
   if (view.resistanceRange)
@@ -169,7 +172,8 @@ ViewSettings viewOf(const JsonPlace& place) {
   place.onlyKeys({"scene", "quantity", "ghost", "electrodes", "arrows", "outlines", "edges", "row_wire", "line_from_mm",
                   "line_to_mm", "mesh", "resistance_noise", "resistance", "cell", "test_area"},
                  {"warp_factor", "clip_y_mm", "cut", "color_map", "color_range", "difference_range", "extremes",
-                  "lit_cell", "resistance_range", "less_kept", "current_way"});
+                  "lit_cell", "resistance_range", "less_kept", "current_way", "uniform", "map_quantity",
+                  "map_on_block"});
   ViewSettings view;
   view.scene = place.at("scene").string();
   view.quantity = place.at("quantity").named(kQuantities);
@@ -181,6 +185,9 @@ ViewSettings viewOf(const JsonPlace& place) {
   if (place.has("difference_range")) view.differenceRange = rangeOf(place.at("difference_range"));
   if (place.has("extremes")) view.extremes = place.at("extremes").boolean();
   if (place.has("less_kept")) view.lessKept = place.at("less_kept").boolean();
+  if (place.has("uniform")) view.uniform = place.at("uniform").boolean();
+  if (place.has("map_quantity")) view.mapQuantity = place.at("map_quantity").string();
+  if (place.has("map_on_block")) view.mapOnBlock = place.at("map_on_block").boolean();
   if (place.has("current_way")) view.currentWay = place.at("current_way").boolean();
   view.ghost = place.at("ghost").boolean();
   view.electrodes = place.at("electrodes").boolean();
@@ -208,12 +215,17 @@ void requireBuildable(const SensorDesign& design, const std::string& where) {
 Project projectOf(const JsonPlace& root, const std::string& file) {
   const int version = formatVersion(root, kVersionKey, kVersion); // first: a newer file may well have other keys
   root.onlyKeys({kVersionKey, "design", "load", "mesh", "samples", "network"},
-                {"view", "live", "more_boards", "kept_design", "design_studies"});
+                {"view", "live", "more_boards", "kept_design", "design_studies", "path"});
   Project project;
   project.design = readDesign(root.at("design"));
   requireBuildable(project.design, file + ": design.");
   project.load = loadOf(root.at("load"));
   if (const auto wrong = whyInvalid(project.load, project.design)) throw Error(file + ": load: " + *wrong);
+  if (root.has("path")) {
+    project.path = pathOf(root.at("path"));
+    if (const auto wrong = whyInvalid(project.load, *project.path, project.design))
+      throw Error(file + ": path: " + *wrong);
+  }
   project.mesh = meshOf(root.at("mesh"));
   const JsonPlace samples = root.at("samples");
   samples.onlyKeys({"per_area", "seed"}, {"surrogate"});
@@ -255,6 +267,7 @@ QByteArray projectText(const Project& project) {
                    {"network", networkJson(project.network)},
                    {"view", viewJson(project.view)},
                    {"live", liveJson(project.live)}};
+  if (project.path) root["path"] = pathJson(*project.path);
   if (!project.moreBoards.empty()) root["more_boards"] = boardsJson(project.moreBoards);
   if (project.kept) root["kept_design"] = designJson(*project.kept);
   if (const QJsonObject studies = studiesJson(project.studies); !studies.isEmpty()) root["design_studies"] = studies;

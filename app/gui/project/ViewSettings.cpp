@@ -24,6 +24,7 @@ DeformationOptions ViewSettings::blockOptions() const {
   options.meshEdges = edges;
   options.litCell = litCell;
   options.lessKept = lessKept;
+  options.lessUniform = uniform;
   return options;
 }
 

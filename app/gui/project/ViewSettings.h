@@ -43,7 +43,10 @@ struct ViewSettings {
   std::array<int, 2> cell{4, 15};                       ///< of the Resistance scene
   bool currentWay = false;                              ///< in its block, under the law of the field
   int testArea = 0;
-  bool lessKept = false; ///< the Deformation scene shows the design less the kept one
+  bool lessKept = false;             ///< the Deformation scene shows the touch less another answer
+  bool uniform = false;              ///< that is: of its own design to the same forces, uniform; else the kept one's
+  std::string mapQuantity = "place"; ///< of the Design scene's map, by its name for files
+  bool mapOnBlock = true;            ///< is drawn over the block too
 
   bool operator==(const ViewSettings&) const = default;
   /// Of the colours that are shown: each of the two has a range of its own.

@@ -145,12 +145,20 @@ void Workbench::hold(const Held& held) {
   apply(held.project);
 }
 
+bool Workbench::comparable() const {
+  return project().view.uniform ? !project().load.indenters.empty() : project().kept.has_value();
+}
+
 std::shared_ptr<const KeptPath> Workbench::keptPath() const {
-  return project().kept ? kept_.pathFor(*project().kept, touch_.touch()) : nullptr;
+  if (!comparable()) return nullptr;
+  const bool uniform = project().view.uniform;
+  return kept_.pathFor(uniform ? touch_.touch().design() : *project().kept, touch_.touch(), uniform);
 }
 
 void Workbench::needKept() {
-  if (project().kept && touch_.upToDate()) kept_.want(*project().kept, touch_.touch());
+  if (!comparable() || !touch_.upToDate()) return;
+  const bool uniform = project().view.uniform;
+  kept_.want(uniform ? touch_.touch().design() : *project().kept, touch_.touch(), uniform);
 }
 
 std::optional<TouchResistances> Workbench::resistances() const {
@@ -170,7 +178,7 @@ std::optional<TouchResistances> Workbench::keptResistances() const {
   const auto kept = keptPath();
   if (!kept) return {};
   if (!kept->touch) return resistancesOf(kept->design, kept->at(touch_.loadFraction()).electrodes);
-  return keptField_.of(*kept->touch, touch_.loadFraction());
+  return keptField_.of(*kept->touch, kept->fractionAt(touch_.loadFraction()));
 }
 
 void Workbench::needResistances() {
@@ -179,15 +187,17 @@ void Workbench::needResistances() {
 
 void Workbench::needKeptResistances() {
   needKept();
-  if (const auto kept = keptPath(); kept && kept->touch) keptField_.want(*kept->touch, touch_.loadFraction());
+  if (const auto kept = keptPath(); kept && kept->touch)
+    keptField_.want(*kept->touch, kept->fractionAt(touch_.loadFraction()));
 }
 
 void Workbench::apply(const Project& project) {
   held_.project = project;
-  if (!project.kept) kept_.forget();
-  if (!project.kept || project.kept->field() == nullptr) keptField_.leave();
+  if (!comparable()) kept_.forget();
+  const SensorDesign* other = project.view.uniform ? &project.design : project.kept ? &*project.kept : nullptr;
+  if (!comparable() || other->field() == nullptr) keptField_.leave();
   if (project.design.field() == nullptr) field_.leave();
-  touch_.setInputs(project.design, project.load, project.mesh);
+  touch_.setInputs(project.design, project.load, project.mesh, loadsAfter(project.load, project.path, project.design));
   emit projectChanged();
   emit fileChanged();
 }

@@ -57,9 +57,11 @@ public:
 
   [[nodiscard]] TouchSession& touch() { return touch_; }
   [[nodiscard]] KeptTouch& kept() { return kept_; }
-  /// The kept design beside the touch that is shown; null before it is computed and where nothing is kept.
+  /// There is another answer to compare the touch with: the kept design's, or its own to the same forces, uniform.
+  [[nodiscard]] bool comparable() const;
+  /// That answer beside the touch that is shown; null before it is computed and where there is none.
   [[nodiscard]] std::shared_ptr<const KeptPath> keptPath() const;
-  /// A scene shows the kept design: it is computed.
+  /// A scene shows it: it is computed.
   void needKept();
   /// Under the law of the field: of the touch that is shown, and of the kept design beside it.
   [[nodiscard]] FieldTouch& field() { return field_; }

@@ -7,6 +7,7 @@
 #include "app/gui/touch/TouchTabs.h"
 #include "app/gui/touch/ViewPanel.h"
 #include "app/gui/touch/loads/LoadPanel.h"
+#include "app/gui/touch/loads/PathPanel.h"
 #include "app/gui/views/BlockView.h"
 #include "app/gui/views/ViewBar.h"
 #include "app/gui/widgets/FoldingRow.h"
@@ -54,6 +55,7 @@ DeformationPage::DeformationPage(Workbench& workbench, QWidget* parent) : Scene(
   connect(load_, &LoadPanel::edited, this, [this](const QString& what, const LoadCase& load) {
     Project next = workbench_.project();
     next.load = load;
+    next.path = pathKept(next.path, workbench_.project().load, load);
     workbench_.edit(what, next);
   });
   connect(view_, &ViewPanel::edited, this,
@@ -71,6 +73,13 @@ DeformationPage::DeformationPage(Workbench& workbench, QWidget* parent) : Scene(
   connect(block_, &BlockView::discDragged, this,
           [this](int disc, const PatchLoad& to) { load_->changeDisc(disc, to.centre_mm, to.radius_mm); });
   connect(block_, &BlockView::indenterDragged, load_, &LoadPanel::changeIndenter);
+  connect(block_, &BlockView::wayDrawn, steps_, &PathPanel::draw);
+  connect(steps_, &PathPanel::message, this, &DeformationPage::message);
+  connect(result_, &ResultPanel::uniformAsked, this, [this](bool on) {
+    ViewSettings view = workbench_.project().view;
+    view.lessKept = view.uniform = on;
+    editView(tr("Compare with the force uniform"), view);
+  });
   connect(block_, &BlockView::cutDragged, this, [this](double at_mm) {
     ViewSettings view = workbench_.project().view;
     if (!view.cut) return;
@@ -124,6 +133,8 @@ QWidget* DeformationPage::buildViews() {
   path_ = new LoadPathBar(workbench_.touch());
   column->addWidget(path_);
   tabs_ = new TouchTabs(workbench_);
+  steps_ = new PathPanel(workbench_);
+  tabs_->addTab(steps_, tr("Path"));
   auto* views = new QSplitter(Qt::Vertical);
   views->setObjectName("deformationSplitter");
   views->addWidget(upper);
@@ -151,7 +162,7 @@ QWidget* DeformationPage::buildClicks() {
            "away")},
        {Click::Indenter, "clickIndenter", Qt::Key_I, tr("Indenter"),
         tr("A click on the top face presses with a rigid body there; drag it to move it, its rim to size it, its arrow "
-           "to press harder; Shift-click takes it away")},
+           "to press harder; Ctrl-drag draws a path that it slides along; Shift-click takes it away")},
        {Click::Line, "clickLine", Qt::Key_L, tr("Line"), tr("Two clicks are the ends of a line to plot along")}}};
   auto* bar = new QWidget;
   auto* row = new QHBoxLayout(bar);
@@ -204,12 +215,12 @@ void DeformationPage::displayProject() {
   if (isVisible()) displayResult();
   if (lessKept() || drawn_.lessKept)
     displayTouch(false);
-  else if (!(drawn_ == project.view))
+  else if (!(drawn_ == project.view) || drawnPath_ != project.path)
     drawBlock(false);
 }
 
 bool DeformationPage::lessKept() const {
-  return workbench_.project().view.lessKept && workbench_.project().kept;
+  return workbench_.project().view.lessKept && workbench_.comparable();
 }
 
 std::shared_ptr<const KeptPath> DeformationPage::shownLess() const {
@@ -253,6 +264,7 @@ DeformationOptions DeformationPage::blockOptions() const {
     if (!options.warpFactor) options.warpFactor = automaticWarpFactor(touch.design(), end->displacement_mm);
   }
   options.scale = devicePixelRatioF();
+  options.way_mm = wayOf(workbench_.project().load, workbench_.project().path);
   for (const AreaLoad& load : touch.load().areas) options.selectedAreas.push_back(load.area);
   if (options.litCell &&
       ((*options.litCell)[0] >= touch.design().rowWires() || (*options.litCell)[1] >= touch.design().columnWires()))
@@ -269,6 +281,7 @@ void DeformationPage::drawBlock(bool meshChanged) {
   if (touch.touch().mesh() == nullptr || !isVisible()) return;
   const SensorDesign& design = touch.touch().design();
   drawn_ = workbench_.project().view;
+  drawnPath_ = workbench_.project().path;
   DeformationState state{
       &design, touch.touch().mesh(), touch.fields(), touch.electrodes(), &touch.touch().load(), touch.loadFraction()};
   state.indenters = touch.indenters();
@@ -314,20 +327,7 @@ void DeformationPage::press(const Eigen::Vector3d& rest_mm) {
     }
     return;
   }
-  if (click_ == Click::Indenter) {
-    const std::vector<Indenter>& indenters = workbench_.project().load.indenters;
-    for (std::size_t k = indenters.size(); k-- > 0;)
-      if ((place - indenters[k].place_mm).norm() <= indenters[k].radius_mm)
-        return load_->takeAway({LoadKind::Indenter, static_cast<int>(k)}); // Shift was held, as below
-    return load_->addIndenter(place);
-  }
-  const std::vector<PatchLoad>& discs = workbench_.project().load.patches;
-  for (std::size_t k = discs.size(); k-- > 0;)
-    if ((place - discs[k].centre_mm).norm() <= discs[k].radius_mm) {
-      load_->takeAway({LoadKind::Disc, static_cast<int>(k)}); // Shift was held: else the disc would have been dragged
-      return;
-    }
-  load_->addDisc(place);
+  click_ == Click::Indenter ? load_->pressIndenter(place) : load_->pressDisc(place);
 }
 
 void DeformationPage::addLineEnd(int node) {
@@ -364,6 +364,7 @@ void DeformationPage::setForce(int load, const Eigen::Vector3d& drawn_N) {
     const auto k = static_cast<std::size_t>(load - areas - discs);
     if (k >= next.load.indenters.size() || next.load.indenters[k].press() == nullptr) return;
     next.load.indenters[k].control = Press{force_N};
+    next.path = pathKept(next.path, workbench_.project().load, next.load);
     load_->choose({LoadKind::Indenter, static_cast<int>(k)});
   }
   workbench_.edit(tr("Drag a force"), next);

@@ -9,6 +9,7 @@ namespace palp {
 class BlockView;
 class LoadPanel;
 class LoadPathBar;
+class PathPanel;
 class ResultPanel;
 class TouchTabs;
 class ViewPanel;
@@ -26,7 +27,7 @@ public:
   [[nodiscard]] BlockView& block() { return *block_; }
   /// How the block is drawn now.
   [[nodiscard]] DeformationOptions blockOptions() const;
-  /// The kept design where the block is drawn less it; null where not, and before it is computed.
+  /// What the block is drawn less, where it is; null where not, and before it is computed.
   [[nodiscard]] std::shared_ptr<const KeptPath> shownLess() const;
   [[nodiscard]] QString commands(const Project& project, const QString& designFile) const override;
 
@@ -61,6 +62,7 @@ private:
   Theme theme_ = Theme::Light;
   bool meshDrawn_ = false;
   ViewSettings drawn_; ///< as the block was drawn last
+  std::optional<IndenterPath> drawnPath_;
   int probedNode_ = -1;
   Click click_ = Click::Probe;
   int lineStart_ = -1; ///< node of the first end, while the second is awaited
@@ -70,6 +72,7 @@ private:
   BlockView* block_ = nullptr;
   TouchTabs* tabs_ = nullptr;
   LoadPathBar* path_ = nullptr;
+  PathPanel* steps_ = nullptr;
 };
 
 } // namespace palp

@@ -17,6 +17,7 @@ namespace {
 
 constexpr int kStep_ms = 66; // 15 pictures a second
 constexpr int kStep_percent = 3;
+constexpr int kMostPictures = 90; // of a path: 6 s
 
 } // namespace
 
@@ -55,14 +56,15 @@ void LoadPathBar::display() {
   slider_->setEnabled(last > 0);
   play_->setEnabled(last > 0);
   slider_->setValue(std::max(session_.place(), 0));
-  words_->setText(tr("%1 % of the load").arg(std::max(session_.place(), 0), 3));
+  const int shown = std::max(session_.place(), 0);
+  words_->setText(shown > 100 ? loadPlaceWords(0.01 * shown) : tr("%1 % of the load").arg(shown, 3));
   QStringList computed;
   if (const Solution* solution = session_.touch().solution())
     for (const LoadIncrement& state : solution->increments)
       computed << QString::number(100 * state.loadFraction, 'g', 3);
   slider_->setToolTip(
-      tr("The way from rest to the full load. Computed are the equilibria at %1 %; between them it is linear.")
-          .arg(computed.join(", ")));
+      tr("The way from rest to the full load%1. Computed are the equilibria at %2 %; between them it is linear.")
+          .arg(last > 100 ? tr(", and a hundred a step of the path after it") : QString(), computed.join(", ")));
 }
 
 void LoadPathBar::hideEvent(QHideEvent* event) {
@@ -87,7 +89,7 @@ void LoadPathBar::step() {
   if (session_.scrubbingTo() != session_.place()) return; // its fields are on their way
   const int place = session_.place(), last = session_.lastPlace();
   if (place < last) {
-    session_.showPlace(std::min(place + kStep_percent, last));
+    session_.showPlace(std::min(place + std::max(kStep_percent, last / kMostPictures), last));
     return;
   }
   if (loop_->isChecked())

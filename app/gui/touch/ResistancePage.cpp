@@ -144,6 +144,8 @@ void ResistancePage::displayProject() {
   const QSignalBlocker quietFixed(fixed_);
   auto* less = static_cast<QStandardItemModel*>(kind_->model())->item(static_cast<int>(ResistanceKind::LessKept));
   less->setEnabled(comparable());
+  less->setText(workbench_.project().view.uniform ? tr("dR/R less the force uniform [%]")
+                                                  : tr("dR/R less the kept design's [%]"));
   less->setToolTip(comparable() ? tr("Under the same load, in percent of the resistance at rest")
                                 : tr("Nothing with as many wires is kept: Design, Compare, \"Keep this design\""));
   kind_->setCurrentIndex(static_cast<int>(kind()));
@@ -162,6 +164,7 @@ void ResistancePage::displayProject() {
 
 bool ResistancePage::comparable() const {
   const Project& project = workbench_.project();
+  if (project.view.uniform) return workbench_.comparable();
   return project.kept && project.kept->rowWires() == project.design.rowWires() &&
          project.kept->columnWires() == project.design.columnWires();
 }
@@ -297,12 +300,14 @@ HeatmapSpec ResistancePage::heatmap() const {
     return shown;
   }
   HeatmapSpec none;
-  none.title = (keptProblem().isEmpty() ? tr("The kept design is being computed...") : keptProblem()).toStdString();
+  none.title =
+      (keptProblem().isEmpty() ? tr("What is compared with is being computed...") : keptProblem()).toStdString();
   const auto kept = workbench_.keptResistances();
   if (!kept) return none;
   const HeatmapSpec less = resistanceHeatmap(*kept, kind());
   const bool alike = less.values.rows() == shown.values.rows() && less.values.cols() == shown.values.cols();
-  return alike ? heatmapLess(shown.values - less.values, "the kept design's")
+  return alike ? heatmapLess(shown.values - less.values,
+                             workbench_.project().view.uniform ? "the force uniform" : "the kept design's")
                : none; // else the touch is still of the design before
 }
 

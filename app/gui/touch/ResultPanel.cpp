@@ -59,6 +59,12 @@ ResultPanel::ResultPanel(QWidget* parent) : QWidget(parent) {
   estimate_ = new QPushButton(tr("Estimate the discretisation error"));
   estimate_->setObjectName("estimate");
   estimate_->setToolTip(tr("Solves again on a coarser mesh and compares the electrodes' displacements"));
+  uniform_ = new QPushButton(tr("Compare with the force uniform"));
+  uniform_->setObjectName("compareUniform");
+  uniform_->setCheckable(true);
+  uniform_->setToolTip(tr("Colours by what the touch does more than the same force spread evenly over the load area "
+                          "beneath it, as the paper presses; the Resistance scene compares with it too"));
+  uniform_->hide();
   probe_ = new QLabel;
   probe_->setObjectName("probe");
   difference_ = new QLabel;
@@ -71,7 +77,9 @@ ResultPanel::ResultPanel(QWidget* parent) : QWidget(parent) {
   lines->addWidget(difference_);
   lines->addWidget(result_);
   lines->addWidget(estimate_);
+  lines->addWidget(uniform_);
   lines->addWidget(probe_);
+  connect(uniform_, &QPushButton::clicked, this, &ResultPanel::uniformAsked);
   connect(estimate_, &QPushButton::clicked, this, &ResultPanel::estimateAsked);
 }
 
@@ -93,18 +101,18 @@ void ResultPanel::display(const TouchSession& session) {
     else
       lines << tr("Nothing moves.");
   }
-  Eigen::Vector3d load_N = solution->reachedLoadFraction * touch.load().totalForce_N();
+  Eigen::Vector3d load_N = std::min(solution->reachedLoadFraction, 1.) * touch.load().totalForce_N();
   for (const IndenterState& its : solution->state().indenters) load_N += its.force_N;
   lines << tr("Load %1 N, reaction at the bottom %2 N.").arg(triple(load_N), triple(solution->reaction_N));
   const bool between = session.place() != session.lastPlace();
-  if (between) lines.last() += tr(" (of the full load; shown is %1 %)").arg(number(100 * session.loadFraction(), 3));
+  if (between) lines.last() += tr(" (at the end; shown is %1)").arg(loadPlaceWords(session.loadFraction()));
   for (std::size_t k = 0; k < session.indenters().size(); ++k)
     lines << contactWords(touch.load().indenters[k], static_cast<int>(k), session.indenters()[k]);
   const QString how = QString::fromStdString(solution->stopReason);
   if (solution->converged)
     lines << tr("Converged in %1 iterations%2.").arg(solution->iterations()).arg(how.isEmpty() ? "" : "; " + how);
   else
-    lines.prepend(tr("Stopped at load fraction %1: %2").arg(number(solution->reachedLoadFraction, 3), how));
+    lines.prepend(tr("Stopped at %1: %2").arg(loadPlaceWords(solution->reachedLoadFraction), how));
   lines << tr("%1 elements (%2), %3 unknowns.")
                .arg(touch.mesh()->elementCount())
                .arg(QString::fromStdString(touch.problem()->elementType()))
@@ -118,12 +126,17 @@ void ResultPanel::display(const TouchSession& session) {
 
 void ResultPanel::displayDifference(const Project& project, const TouchSession& session, const KeptPath* kept,
                                     const QString& problem) {
-  const bool shown = project.view.lessKept && project.kept && session.fields() != nullptr;
+  const bool uniform = project.view.uniform, pressed = !project.load.indenters.empty();
+  const bool shown =
+      project.view.lessKept && (uniform ? pressed : project.kept.has_value()) && session.fields() != nullptr;
+  uniform_->setVisible(pressed);
+  uniform_->setChecked(uniform && project.view.lessKept);
   difference_->setVisible(shown);
   if (!shown) return;
+  const QString title = uniform ? tr("Less the force uniform") : tr("Less the kept design");
   if (kept == nullptr) {
-    difference_->setText(problem.isEmpty() ? tr("<b>Less the kept design:</b> being computed...")
-                                           : tr("<b>Less the kept design:</b> %1.").arg(problem));
+    difference_->setText(problem.isEmpty() ? tr("<b>%1:</b> being computed...").arg(title)
+                                           : tr("<b>%1:</b> %2.").arg(title, problem));
   } else {
     const Quantity quantity = project.view.quantity;
     const NodalFields less = kept->at(session.loadFraction()).fields;
@@ -133,10 +146,11 @@ void ResultPanel::displayDifference(const Project& project, const TouchSession& 
     const Eigen::Index node = most - values.begin();
     const double now = quantityValues(quantity, *session.fields())[static_cast<std::size_t>(node)];
     const QString unit = QString::fromStdString(quantityUnit(quantity));
-    QString match = matchWords(session.touch().load(), session.touch().design(), kept->design);
+    QString match = uniform ? tr("uniform: %1").arg(pressedWords(kept->load))
+                            : matchWords(session.touch().load(), session.touch().design(), kept->design);
     if (!match.isEmpty()) match[0] = match[0].toUpper();
-    difference_->setText(tr("<b>Less the kept design:</b> %1 differs most at %2 mm: by %3 %6 (%4, kept %5).")
-                             .arg(QString::fromStdString(quantityName(quantity)),
+    difference_->setText(tr("<b>%1:</b> %2 differs most at %3 mm: by %4 %7 (%5, there %6).")
+                             .arg(title, QString::fromStdString(quantityName(quantity)),
                                   triple(session.touch().mesh()->nodes_mm.col(node)), number(*most), number(now),
                                   number(now - *most), unit) +
                          (match.isEmpty() ? QString() : "<br>" + match + "."));
@@ -162,7 +176,7 @@ void ResultPanel::displayProbe(const TouchSession& session, int node, const Kept
   QString beside;
   if (kept != nullptr) {
     const NodalFields less = kept->at(session.loadFraction()).fields;
-    beside = tr("<br><b>Kept design</b><br>u = %1 mm<br>pressure %2 MPa, von Mises %3 MPa<br>stress xx, yy, zz = %4 "
+    beside = tr("<br><b>Compared with</b><br>u = %1 mm<br>pressure %2 MPa, von Mises %3 MPa<br>stress xx, yy, zz = %4 "
                 "MPa")
                  .arg(triple(less.displacement_mm.col(node)), number(less.pressure_MPa[node]),
                       number(less.vonMises_MPa[node]), triple(less.cauchy_MPa.col(node).head<3>()));

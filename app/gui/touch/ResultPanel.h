@@ -30,10 +30,13 @@ public:
 
 signals:
   void estimateAsked();
+  /// The touch is to be compared with the same force uniform, or not any more.
+  void uniformAsked(bool on);
 
 private:
   QLabel* result_ = nullptr;
   QPushButton* estimate_ = nullptr;
+  QPushButton* uniform_ = nullptr;
   QLabel* probe_ = nullptr;
   QLabel* difference_ = nullptr;
   QString errorWords_;

@@ -35,6 +35,7 @@ void StaleNote::display() {
   then.design = touch.touch().design();
   then.load = touch.touch().load();
   then.mesh = touch.touch().meshOptions();
+  if (touch.touch().path() != loadsAfter(then.load, then.path, then.design)) then.path.reset();
   const QString since = sinceWords(then, workbench_.project());
   const QString result =
       since.isEmpty() ? tr("This is the result before") : tr("This is the result before (%1)").arg(since);

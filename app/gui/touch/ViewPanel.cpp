@@ -150,6 +150,7 @@ void ViewPanel::chooseKept() {
   if (displaying_) return;
   ViewSettings next = view_; // the range of a quantity means little for a difference: each has its own
   next.lessKept = lessKept_->isChecked();
+  if (next.lessKept) next.uniform = false;
   emit edited(next);
 }
 
@@ -186,7 +187,7 @@ void ViewPanel::read() {
 void ViewPanel::display(const ViewSettings& view, const Eigen::Vector3d& block_mm, bool somethingKept, bool pressed) {
   displaying_ = true;
   view_ = view;
-  view_.lessKept = view.lessKept && somethingKept;
+  view_.lessKept = view.lessKept && (view.uniform ? pressed : somethingKept);
   block_mm_ = block_mm;
   const auto& all = allQuantities();
   quantity_->setCurrentIndex(static_cast<int>(std::find(all.begin(), all.end(), view.quantity) - all.begin()));
@@ -200,7 +201,7 @@ void ViewPanel::display(const ViewSettings& view, const Eigen::Vector3d& block_m
     if (view.colorMap == kColorMaps.all()[k].first) map = static_cast<int>(k) + 1;
   colorMap_->setCurrentIndex(map);
   lessKept_->setEnabled(somethingKept);
-  lessKept_->setChecked(view.lessKept && somethingKept);
+  lessKept_->setChecked(view.lessKept && somethingKept && !view.uniform);
   lessKept_->setToolTip(somethingKept
                             ? tr("Colours by the difference to the kept design under the same load, point by point")
                             : tr("Nothing is kept to compare with: Design, Compare, \"Keep this design\""));

@@ -16,6 +16,7 @@ namespace {
 constexpr double kGrip_px = 9; ///< around an arrow
 constexpr double kCutGrip_px = 12;
 constexpr double kPlaneHandle_mm = 2; ///< a plane has no rim: it is taken near its place
+constexpr double kWayStep_mm = 0.2;   ///< between the points of a way that is drawn
 constexpr double kStep_N = 0.01;
 constexpr double kLeast_N = 0.01;
 
@@ -246,6 +247,7 @@ void BlockView::dragCut(const QPointF& place) {
 
 bool BlockView::grab(const QPointF& place, Qt::KeyboardModifiers modifiers) {
   cutHeld_ = cutAt(place);
+  wayOf_ = -1;
   if (cutHeld_) {
     dragged_ = -1;
     disc_.release();
@@ -255,6 +257,11 @@ bool BlockView::grab(const QPointF& place, Qt::KeyboardModifiers modifiers) {
   dragged_ = movable_ ? arrowAt(place) : -1;
   disc_.release();
   const auto top = topPlace_mm(place), beside = topPlace_mm(place + QPointF(kGrip_px, 0));
+  if (modifiers.testFlag(Qt::ControlModifier) && top && beginWay(*top)) {
+    dragged_ = -1;
+    setCursor(Qt::CrossCursor);
+    return true;
+  }
   if (dragged_ < 0 && !modifiers.testFlag(Qt::ShiftModifier) && top && beside)
     disc_.take(handles(), *top, (*beside - *top).norm());
   const bool grabbed = dragged_ >= 0 || disc_.disc() >= 0;
@@ -265,6 +272,10 @@ bool BlockView::grab(const QPointF& place, Qt::KeyboardModifiers modifiers) {
 void BlockView::dragTo(const QPointF& place, Qt::KeyboardModifiers modifiers) {
   if (cutHeld_) {
     dragCut(place);
+    return;
+  }
+  if (wayOf_ >= 0) {
+    if (const auto top = topPlace_mm(place)) drawWay(*top);
     return;
   }
   if (disc_.disc() >= 0) {
@@ -292,6 +303,30 @@ void BlockView::dragTo(const QPointF& place, Qt::KeyboardModifiers modifiers) {
   invalidate();
 }
 
+bool BlockView::beginWay(const Eigen::Vector2d& at_mm) {
+  if (handles_ != Movable::Indenters) return false;
+  const std::vector<PatchLoad> all = handles();
+  for (std::size_t k = all.size(); k-- > 0;)
+    if ((at_mm - all[k].centre_mm).norm() <= all[k].radius_mm) {
+      wayOf_ = static_cast<int>(k);
+      const Motion* motion = parts_->scene.indenters()[k].motion();
+      way_mm_ = all[k].centre_mm;
+      if (motion != nullptr) way_mm_ += motion->shift_mm;
+      return true;
+    }
+  return false;
+}
+
+void BlockView::drawWay(const Eigen::Vector2d& at_mm) {
+  const Eigen::Vector2d next = at_mm.cwiseMax(0).cwiseMin(parts_->design->block_mm.head<2>());
+  const Eigen::Index count = way_mm_.cols();
+  if ((next - way_mm_.col(count - 1)).norm() < kWayStep_mm) return;
+  way_mm_.conservativeResize(2, count + 1);
+  way_mm_.col(count) = next;
+  parts_->scene.showWay(way_mm_);
+  invalidate();
+}
+
 void BlockView::moveHandle(const PatchLoad& to) {
   const auto k = static_cast<std::size_t>(disc_.disc());
   if (handles_ == Movable::Discs) return parts_->scene.moveDisc(k, to);
@@ -305,6 +340,10 @@ void BlockView::moveHandle(const PatchLoad& to) {
 void BlockView::drop() {
   setCursor(Qt::OpenHandCursor);
   if (std::exchange(cutHeld_, false)) return;
+  if (const int indenter = std::exchange(wayOf_, -1); indenter >= 0) {
+    if (way_mm_.cols() > 1) emit wayDrawn(indenter, way_mm_);
+    return;
+  }
   if (disc_.disc() >= 0) {
     const auto disc = static_cast<std::size_t>(disc_.disc());
     disc_.release();

@@ -56,6 +56,8 @@ signals:
   void cutDragged(double at_mm);
   /// A disc was taken by the mouse and let go, there or elsewhere.
   void discDragged(int disc, const palp::PatchLoad& to);
+  /// A way was drawn over the top face from where this indenter stands: by Ctrl and the left button.
+  void wayDrawn(int indenter, const Eigen::Matrix2Xd& way_mm);
   /// The same of an indenter: its place and its radius.
   void indenterDragged(int indenter, const Eigen::Vector2d& place_mm, double radius_mm);
 
@@ -93,6 +95,9 @@ private:
   [[nodiscard]] bool cutAt(const QPointF& place) const;
   void dragCut(const QPointF& place);
   void moveHandle(const PatchLoad& to);
+  /// Begins a way where an indenter stands; false beside them.
+  bool beginWay(const Eigen::Vector2d& at_mm);
+  void drawWay(const Eigen::Vector2d& at_mm);
   /// The arrow whose free half lies under the place; -1 where none does.
   [[nodiscard]] int arrowAt(const QPointF& place) const;
 
@@ -102,7 +107,9 @@ private:
   DiscHandle disc_;
   std::optional<CutPlane> cut_; ///< as drawn, with its grip
   bool cutHeld_ = false;
-  int dragged_ = -1; ///< arrow
+  Eigen::Matrix2Xd way_mm_; ///< being drawn
+  int wayOf_ = -1;          ///< indenter; -1: none is drawn
+  int dragged_ = -1;        ///< arrow
   std::optional<QPointF> cross_;
   bool crossHolds_ = false;
   std::size_t nextGrip_ = 0;

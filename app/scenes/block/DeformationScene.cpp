@@ -7,6 +7,7 @@
 #include "app/scenes/block/Overlay.h"
 #include "app/scenes/block/SceneWords.h"
 #include "app/scenes/block/loads/IndenterActors.h"
+#include "app/scenes/block/map/FaceMap.h"
 #include "app/scenes/gl/Blending.h"
 
 #include <vtkContextActor.h>
@@ -18,10 +19,13 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 
 namespace palp {
 
 namespace {
+
+constexpr double kWayAbove_mm = 0.15; ///< of an indenter's way over the face that it would lie in
 
 /// Diverging where both signs mean something.
 ColorMap colorMap(const DeformationOptions& options) {
@@ -69,7 +73,10 @@ struct DeformationScene::Parts {
   vtkNew<vtkContextActor> overlayActor;
   vtkNew<Overlay> overlay;
   IndenterActors indenters{*renderer};
+  FaceMapActor map{*renderer};
   Polylines line{*renderer};
+  Polylines way{*renderer};
+  Spheres wayPoints{*renderer, 0.25};
   Polylines cutRim{*renderer};
   Spheres cutGrip{*renderer, 0.45};
   Spheres extremes{*renderer, 0.3};
@@ -84,6 +91,7 @@ struct DeformationScene::Parts {
   bool areaNumbers = true;
   double warpFactor = 1;
   std::array<double, 2> colorRange{};
+  double top_mm = 0; ///< of the block
   int markedNode = -1;
   Color markColor{};
 
@@ -103,6 +111,20 @@ struct DeformationScene::Parts {
     ends << (*options.line_mm)[0], (*options.line_mm)[1];
     line.set(ends, {{0, 1}});
     line.setLook(color, 3 * options.scale);
+  }
+  void showWay(const Eigen::Matrix2Xd& way_mm) {
+    const bool visible = way_mm.cols() > 1;
+    way.setVisible(visible);
+    wayPoints.setVisible(visible);
+    if (!visible) return;
+    Eigen::Matrix3Xd places(3, way_mm.cols());
+    places.topRows<2>() = way_mm;
+    places.row(2).setConstant(top_mm + kWayAbove_mm);
+    std::vector<int> all(static_cast<std::size_t>(way_mm.cols()));
+    std::iota(all.begin(), all.end(), 0);
+    way.set(places, {all});
+    way.setLook(palette(drawnAs.theme).selection, 2.5 * drawnAs.scale);
+    wayPoints.set(places, palette(drawnAs.theme).selection);
   }
   void showCut(const Eigen::Vector3d& block_mm, const DeformationOptions& drawn, const Color& color) {
     const bool visible = drawn.cut && drawn.cutGrip;
@@ -148,8 +170,8 @@ std::vector<PlacedForce> placedForces(const DeformationState& state, const Block
   if (state.load == nullptr) return forces;
   const auto place = [&](const Eigen::Vector2d& xy_mm, const Eigen::Vector3d& force_N) {
     const Eigen::Vector3d surface = block.drawnPlace_mm(xy_mm);
-    forces.push_back(
-        {surface, force_N * state.loadFraction, static_cast<int>(forces.size()), cut && !cut->keeps(surface)});
+    forces.push_back({surface, force_N * std::min(state.loadFraction, 1.), static_cast<int>(forces.size()),
+                      cut && !cut->keeps(surface)});
   };
   const auto onFace = [](const Eigen::Vector2d& xy_mm, const Eigen::Vector3d& block_mm) -> Eigen::Vector2d {
     return xy_mm.cwiseMax(0).cwiseMin(block_mm.head<2>());
@@ -162,14 +184,14 @@ std::vector<PlacedForce> placedForces(const DeformationState& state, const Block
   for (std::size_t k = 0; k < state.load->indenters.size(); ++k) {
     const Indenter& indenter = state.load->indenters[k];
     // Of one that is moved the solve finds the force, of one that is pressed the load gives it.
-    const Indenter sofar = indenter.at(state.loadFraction);
+    const Indenter sofar = indenter.at(std::min(state.loadFraction, 1.));
     const IndenterState now = k < state.indenters.size() ? state.indenters[k] : IndenterState{};
     const Eigen::Vector3d surface =
         block.drawnPlace_mm(onFace(indenter.place_mm + now.translation_mm.head<2>(), state.design->block_mm));
-    PlacedForce& force =
-        forces.emplace_back(PlacedForce{surface, sofar.press() != nullptr ? sofar.press()->force_N : now.force_N,
-                                        static_cast<int>(forces.size()), cut && !cut->keeps(surface)});
-    force.movable = indenter.press() != nullptr;
+    PlacedForce& force = forces.emplace_back(
+        PlacedForce{surface, sofar.press() != nullptr && state.loadFraction <= 1 ? sofar.press()->force_N : now.force_N,
+                    static_cast<int>(forces.size()), cut && !cut->keeps(surface)});
+    force.movable = indenter.press() != nullptr && state.loadFraction <= 1; // the path's steps have forces of their own
   }
   return forces;
 }
@@ -182,7 +204,9 @@ std::vector<double> shownValues(const DeformationState& state, const Deformation
 
 ColorScale colorScale(const std::vector<double>& values, const DeformationOptions& options) {
   ColorScale colors = fittingScale(options.colorMap.value_or(colorMap(options)), values,
-                                   quantityName(options.quantity) + (options.lessKept ? " - kept" : ""),
+                                   quantityName(options.quantity) + (!options.lessKept     ? ""
+                                                                     : options.lessUniform ? " - uniform"
+                                                                                           : " - kept"),
                                    quantityUnit(options.quantity));
   if (options.fixedRange) {
     colors.low = (*options.fixedRange)[0];
@@ -229,6 +253,7 @@ void DeformationScene::show(const DeformationState& state, const DeformationOpti
   const std::vector<double> values = state.current != nullptr ? std::vector<double>() : shownValues(state, options);
   const ColorScale colors = state.current != nullptr ? currentColors(*state.current) : colorScale(values, options);
   const bool coloured = !values.empty() || (state.current != nullptr && !state.current->lines.empty());
+  parts.map.show(state.map, state.design->block_mm);
   parts.colorRange = coloured ? std::array{colors.low, colors.high} : std::array<double, 2>{};
   parts.current.show(state.current, parts.warpFactor, colors, 2 * options.scale);
   parts.block.show(*state.mesh, drawnDisplacement, values, colors, options);
@@ -258,8 +283,11 @@ void DeformationScene::show(const DeformationState& state, const DeformationOpti
   parts.textColor = ink.text;
   parts.showForces();
   parts.showLine(options, ink.selection);
+  parts.top_mm = state.design->block_mm.z();
+  parts.showWay(options.way_mm);
   parts.overlay->lines = sceneWords(state, options, parts.warpFactor);
   parts.overlay->legend = coloured ? std::optional(colors) : std::nullopt;
+  if (state.map != nullptr) parts.overlay->legend = state.map->colors;
   parts.overlay->triad = true;
   parts.overlay->theme = options.theme;
   parts.overlay->scale = options.scale;
@@ -333,6 +361,10 @@ void DeformationScene::moveIndenter(std::size_t indenter, const Indenter& to) {
   if (indenter >= indenters().size()) return;
   parts_->indenters.move(indenter, to);
   moveArrow(parts_->areas + parts_->discs.size() + indenter, to.place_mm);
+}
+
+void DeformationScene::showWay(const Eigen::Matrix2Xd& way_mm) {
+  parts_->showWay(way_mm);
 }
 
 void DeformationScene::moveArrow(std::size_t arrow, const Eigen::Vector2d& top_mm) {

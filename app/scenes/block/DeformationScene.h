@@ -19,6 +19,8 @@ class vtkRenderer;
 
 namespace palp {
 
+struct FaceMap;
+
 /// A plane across the block at rest: what lies before it, as the block is seen first, is cut away.
 struct CutPlane {
   int axis = 1; ///< 0, 1, 2: across x, y, z
@@ -46,11 +48,13 @@ struct DeformationOptions {
   double opacity = 0.82; ///< of the coloured surface, while the electrodes show through it
   std::optional<CutPlane> cut;
   bool cutGrip = false;                                  ///< draws where the cut is taken by the mouse
-  bool lessKept = false;                                 ///< colours by the difference to the kept design
+  bool lessKept = false;                                 ///< colours by the difference to another answer
+  bool lessUniform = false;                              ///< that is the touch's own design, its forces uniform
   bool extremes = false;                                 ///< marks the largest and the smallest value
   std::optional<ColorMap> colorMap;                      ///< none: as the quantity asks for
   std::optional<std::array<double, 2>> fixedRange;       ///< of the colours; else the values' own
   std::optional<std::array<Eigen::Vector3d, 2>> line_mm; ///< ends at rest of a line that is drawn with the block
+  Eigen::Matrix2Xd way_mm;                               ///< that an indenter takes over the top face; empty: none
   std::vector<int> selectedAreas;                        ///< outlined more strongly
   std::optional<std::array<int, 2>> litCell;             ///< row-wire, column-wire whose electrodes light up
   Theme theme = Theme::Light;
@@ -73,6 +77,8 @@ struct DeformationState {
   const NodalFields* kept = nullptr; ///< its fields at the nodes of `mesh`
   /// The current's way in this state: drawn in a block without colours.
   const CurrentLines* current = nullptr;
+  /// Of the block at rest: drawn over its top face.
+  const FaceMap* map = nullptr;
 };
 
 /// The range of the colours over these values, as the options choose quantity and map.
@@ -122,6 +128,8 @@ public:
   /// The indenters as drawn, and the same for them.
   [[nodiscard]] const std::vector<Indenter>& indenters() const;
   void moveIndenter(std::size_t indenter, const Indenter& to);
+  /// Another way over the top face, while it is drawn by the mouse.
+  void showWay(const Eigen::Matrix2Xd& way_mm);
   /// Where the material lies at rest that is drawn at a point of a triangle of the surface.
   [[nodiscard]] Eigen::Vector3d restPlace_mm(long long triangle, const Eigen::Vector3d& drawn_mm) const;
 

@@ -37,6 +37,7 @@ std::string quantityUnit(Quantity quantity) {
   case Quantity::LargestStretch:
   case Quantity::MiddleStretch:
   case Quantity::SmallestStretch:
+  case Quantity::FrictionUsed:
     return "";
   }
   return "";

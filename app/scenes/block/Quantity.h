@@ -26,7 +26,8 @@ enum class Quantity {
   MiddleStretch,
   SmallestStretch,
   ContactPressure, ///< of indenters: force an area at rest, along -z
-  ContactShear     ///< the same across z
+  ContactShear,    ///< the same across z
+  FrictionUsed     ///< shear over pressure: what slips is at the coefficient of friction, what sticks below it
 };
 inline constexpr NamedEnum kQuantities(
     "quantity",
@@ -39,11 +40,13 @@ inline constexpr NamedEnum kQuantities(
         std::pair{Quantity::StressXY, "stress xy"}, std::pair{Quantity::StressYZ, "stress yz"},
         std::pair{Quantity::StressXZ, "stress xz"}, std::pair{Quantity::LargestStretch, "largest stretch"},
         std::pair{Quantity::MiddleStretch, "middle stretch"}, std::pair{Quantity::SmallestStretch, "smallest stretch"},
-        std::pair{Quantity::ContactPressure, "contact pressure"}, std::pair{Quantity::ContactShear, "contact shear"}});
+        std::pair{Quantity::ContactPressure, "contact pressure"}, std::pair{Quantity::ContactShear, "contact shear"},
+        std::pair{Quantity::FrictionUsed, "contact shear / pressure"}});
 
 /// Of indenters alone: 0 without them.
 inline bool isOfContact(Quantity quantity) {
-  return quantity == Quantity::ContactPressure || quantity == Quantity::ContactShear;
+  return quantity == Quantity::ContactPressure || quantity == Quantity::ContactShear ||
+         quantity == Quantity::FrictionUsed;
 }
 /// All of them, in the order of a list to choose from.
 const std::vector<Quantity>& allQuantities();

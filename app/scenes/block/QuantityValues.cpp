@@ -8,6 +8,17 @@ std::vector<double> listOf(const Eigen::VectorXd& values) {
   return {values.begin(), values.end()};
 }
 
+/// Where the pressure is a thousandth of the largest or less, nothing touches that a quotient says anything of.
+std::vector<double> frictionUsed(const NodalFields& fields) {
+  std::vector<double> shares(static_cast<std::size_t>(fields.displacement_mm.cols()), 0.0);
+  const Eigen::Matrix3Xd& traction = fields.contactTraction_MPa;
+  const double least = traction.cols() > 0 ? 1e-3 * -traction.row(2).minCoeff() : 0;
+  for (Eigen::Index k = 0; k < traction.cols(); ++k)
+    if (const double pressure = -traction(2, k); pressure > least)
+      shares[static_cast<std::size_t>(k)] = traction.col(k).head<2>().norm() / pressure;
+  return shares;
+}
+
 } // namespace
 
 std::vector<double> quantityValues(Quantity quantity, const NodalFields& fields) {
@@ -44,6 +55,8 @@ std::vector<double> quantityValues(Quantity quantity, const NodalFields& fields)
       return std::vector<double>(static_cast<std::size_t>(fields.displacement_mm.cols()), 0.0);
     if (quantity == Quantity::ContactPressure) return listOf(-fields.contactTraction_MPa.row(2).transpose());
     return listOf(fields.contactTraction_MPa.topRows<2>().colwise().norm().transpose());
+  case Quantity::FrictionUsed:
+    return frictionUsed(fields);
   }
   return {};
 }

@@ -1,6 +1,9 @@
 #include "app/scenes/block/SceneWords.h"
 
+#include "app/scenes/block/map/FaceMap.h"
+
 #include <array>
+#include <cmath>
 #include <cstdio>
 
 namespace palp {
@@ -15,6 +18,11 @@ std::string warpText(double factor) {
 
 std::string fractionText(double fraction) {
   std::array<char, 64> buffer{};
+  if (fraction > 1) { // steps of a path follow the load
+    const double step = std::ceil(fraction - 1e-9) - 1;
+    std::snprintf(buffer.data(), buffer.size(), "step %g of the path, %.4g %%", step, 100 * (fraction - step));
+    return buffer.data();
+  }
   std::snprintf(buffer.data(), buffer.size(), "%.4g %% of the load", 100 * fraction);
   return buffer.data();
 }
@@ -41,7 +49,12 @@ std::string placeText(const Eigen::Vector2d& place_mm) {
 }
 
 std::vector<std::string> differenceLines(const DeformationState& state, const DeformationOptions& options) {
-  if (state.kept == nullptr) return {"Difference to the kept design: not computed"};
+  if (state.kept == nullptr)
+    return {options.lessUniform ? "Difference to the same force, uniform: not computed"
+                                : "Difference to the kept design: not computed"};
+  if (options.lessUniform)
+    return {"Difference to the same force, uniform on the load area beneath",
+            quantityName(options.quantity) + " of the touch less that of the uniform load"};
   std::vector<std::string> lines{"Difference to the kept design: " + quantityName(options.quantity) +
                                  " of this design less that of the kept one"};
   const Eigen::Vector3d &now = state.design->block_mm, &kept = state.keptDesign->block_mm;
@@ -83,6 +96,7 @@ std::vector<std::string> sceneWords(const DeformationState& state, const Deforma
     if (state.loadFraction != 1 || options.fullLoad) lines.push_back(fractionText(state.loadFraction));
     return lines;
   }
+  if (state.map != nullptr) return {state.map->title, blockText(state)};
   if (unloaded(state.fields) && !(state.fields != nullptr && options.fixedRange))
     return {"Block at rest", blockText(state)};
   std::vector<std::string> lines{"Deformation, coloured by " + quantityName(options.quantity),

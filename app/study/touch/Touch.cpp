@@ -1,5 +1,7 @@
 #include "app/study/touch/Touch.h"
 
+#include "app/study/touch/TouchPath.h"
+#include "model/DesignError.h"
 #include "model/FieldAtRest.h"
 #include "model/base/Cancelled.h"
 
@@ -53,11 +55,23 @@ void Touch::setLaw(const SensorDesign& design) {
   field_.reset();
 }
 
-void Touch::setLoad(const LoadCase& load) {
-  if (load == load_) return;
+void Touch::setLoad(const LoadCase& load, const std::vector<LoadCase>& path) {
+  if (load == load_ && path == path_) return;
   const MeshOptions before = meshing();
   load_ = load;
+  path_ = path;
   dropFrom(meshing() == before ? Stage::Solution : Stage::Mesh);
+}
+
+std::vector<LoadCase> Touch::loads() const {
+  std::vector<LoadCase> all{load_};
+  all.insert(all.end(), path_.begin(), path_.end());
+  return all;
+}
+
+Solution Touch::solve(const NewtonOptions& options, const NewtonObserver& observer) const {
+  return path_.empty() ? problem_->solve(load_, options, observer)
+                       : joined(problem_->solvePath(loads(), options, observer));
 }
 
 void Touch::setMeshOptions(const MeshOptions& options) {
@@ -67,7 +81,8 @@ void Touch::setMeshOptions(const MeshOptions& options) {
 }
 
 MeshOptions Touch::meshing() const {
-  return meshFor(design_, load_, meshOptions_);
+  if (path_.empty()) return meshFor(design_, load_, meshOptions_);
+  return meshFor(design_, whyInvalid(loads(), design_) ? load_ : pathEnvelope(loads()), meshOptions_);
 }
 
 void Touch::setMesh(Mesh mesh) {
@@ -77,6 +92,7 @@ void Touch::setMesh(Mesh mesh) {
 
 bool Touch::advance(Stage target, const NewtonOptions& options, const NewtonObserver& observer) {
   requireValid(design_);
+  if (const auto wrong = path_.empty() ? std::nullopt : whyInvalid(loads(), design_)) throw DesignError(*wrong);
   if (target >= Stage::Mesh && !mesh_)
     mesh_ = stages_.measure(
         "mesh", [&] { return std::make_shared<const Mesh>(sensorMesh(design_, meshing(), observer.stop)); });
@@ -84,8 +100,7 @@ bool Touch::advance(Stage target, const NewtonOptions& options, const NewtonObse
     if (!problem_)
       problem_ =
           stages_.measure("factorise", [&] { return std::make_shared<const HyperelasticProblem>(design_, *mesh_); });
-    solution_ = stages_.measure(
-        "solve", [&] { return std::make_shared<const Solution>(problem_->solve(load_, options, observer)); });
+    solution_ = stages_.measure("solve", [&] { return std::make_shared<const Solution>(solve(options, observer)); });
   }
   if (target >= Stage::Displacements && !displacements_)
     displacements_ = std::make_shared<const ElectrodeDisplacements>(problem_->electrodes(solution_->state()));

@@ -10,6 +10,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace palp {
 
@@ -28,7 +29,9 @@ public:
   explicit Touch(SensorDesign design = paperDesign(), LoadCase load = {}, MeshOptions meshOptions = {});
 
   void setDesign(const SensorDesign& design);
-  void setLoad(const LoadCase& load);
+  /// `path`: loads that its indenters follow after this one, one after another (model/LoadCase.h). Load fractions of
+  /// what is found go on above 1: one more a step.
+  void setLoad(const LoadCase& load, const std::vector<LoadCase>& path = {});
   void setMeshOptions(const MeshOptions& options);
   /// A mesh made elsewhere (meshForAccuracy) in place of the one the options make.
   void setMesh(Mesh mesh);
@@ -41,6 +44,7 @@ public:
   [[nodiscard]] Stage reached() const;
   [[nodiscard]] const SensorDesign& design() const { return design_; }
   [[nodiscard]] const LoadCase& load() const { return load_; }
+  [[nodiscard]] const std::vector<LoadCase>& path() const { return path_; }
   [[nodiscard]] const MeshOptions& meshOptions() const { return meshOptions_; }
   [[nodiscard]] const StageLog& stages() const { return stages_; }
 
@@ -58,11 +62,15 @@ private:
   void dropFrom(Stage stage);
   void setLaw(const SensorDesign& design);
   void findNetwork(const NewtonOptions& options, const NewtonObserver& observer);
+  [[nodiscard]] Solution solve(const NewtonOptions& options, const NewtonObserver& observer) const;
+  /// The load and what follows it.
+  [[nodiscard]] std::vector<LoadCase> loads() const;
   /// The options with the load's discs in place of theirs.
   [[nodiscard]] MeshOptions meshing() const;
 
   SensorDesign design_;
   LoadCase load_;
+  std::vector<LoadCase> path_; ///< after the load
   MeshOptions meshOptions_;
   std::shared_ptr<const Mesh> mesh_;
   std::shared_ptr<const HyperelasticProblem> problem_;

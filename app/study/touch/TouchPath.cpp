@@ -9,11 +9,7 @@
 
 namespace palp {
 
-namespace {
-
-/// One load that wants the mesh of the whole path: of each indenter the largest force or depth, and both corners of
-/// the rectangle that it is shifted in.
-LoadCase envelopeOf(const std::vector<LoadCase>& path) {
+LoadCase pathEnvelope(const std::vector<LoadCase>& path) {
   LoadCase envelope = path.front();
   for (std::size_t k = 0; k < path.front().indenters.size(); ++k) {
     Indenter& widest = envelope.indenters[k];
@@ -39,14 +35,35 @@ LoadCase envelopeOf(const std::vector<LoadCase>& path) {
   return envelope;
 }
 
-} // namespace
+Solution joined(std::vector<Solution> steps) {
+  Solution all = std::move(steps.front());
+  for (std::size_t k = 1; k < steps.size(); ++k) {
+    Solution& step = steps[k];
+    const auto before = static_cast<double>(k);
+    for (NewtonStep newton : step.newton) {
+      newton.loadFraction += before;
+      all.newton.push_back(newton);
+    }
+    for (std::size_t i = 1; i < step.increments.size(); ++i) { // the first is the end of the load before
+      all.increments.push_back(std::move(step.increments[i]));
+      all.increments.back().loadFraction += before;
+    }
+    all.converged = step.converged;
+    all.cancelled = step.cancelled;
+    all.reachedLoadFraction = before + step.reachedLoadFraction;
+    all.stopReason = step.stopReason;
+    all.maxVolumeError = std::max(all.maxVolumeError, step.maxVolumeError);
+    all.reaction_N = step.reaction_N;
+  }
+  return all;
+}
 
 TouchPath followPath(const SensorDesign& design, const std::vector<LoadCase>& path, const MeshOptions& mesh,
                      const NewtonOptions& options, const NewtonObserver& observer, StageLog& stages) {
   requireValid(design);
   if (const auto wrong = whyInvalid(path, design)) throw DesignError(*wrong);
   Mesh made = stages.measure(
-      "mesh", [&] { return sensorMesh(design, meshFor(design, envelopeOf(path), mesh), observer.stop); });
+      "mesh", [&] { return sensorMesh(design, meshFor(design, pathEnvelope(path), mesh), observer.stop); });
   TouchPath result{stages.measure("factorise", [&] { return HyperelasticProblem(design, std::move(made)); }), {}};
   std::vector<Solution> solutions =
       stages.measure("solve", [&] { return result.problem.solvePath(path, options, observer); });

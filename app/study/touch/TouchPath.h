@@ -22,6 +22,13 @@ struct TouchPath {
   std::vector<PathStep> steps; ///< up to the first that is not reached
 };
 
+/// One load that wants the mesh of the whole path: of each indenter the largest force or depth, and both corners of
+/// the rectangle that it is shifted in.
+LoadCase pathEnvelope(const std::vector<LoadCase>& path);
+
+/// The solutions of a path's loads as one: load k + 1 follows load k, so that load fractions go on above 1.
+Solution joined(std::vector<Solution> steps);
+
 /// Follows a path of loads on one mesh, which is made for the deepest of each indenter's steps and for all of its way.
 /// Throws DesignError where design, mesh or path cannot be, and Cancelled where it is stopped while it meshes or finds
 /// resistances under the law of the field.

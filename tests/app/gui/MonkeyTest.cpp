@@ -100,6 +100,9 @@ public:
     case 19:
       chooseLaw();
       break;
+    case 20:
+      drawPath();
+      break;
     }
   }
 
@@ -117,7 +120,7 @@ private:
     return usable.isEmpty() ? nullptr : usable[upTo(static_cast<int>(usable.size()))];
   }
   static bool asks(const QWidget& widget) {
-    const QStringList longer{"meshSize", "automaticSize", "perArea", "sweepCount", "sweepSteps"};
+    const QStringList longer{"meshSize", "automaticSize", "perArea", "sweepCount", "sweepSteps", "mapPlaces"};
     if (longer.contains(widget.objectName()) || longer.contains(widget.parentWidget()->objectName())) return true;
     const auto* button = qobject_cast<const QAbstractButton*>(&widget);
     return button != nullptr && (button->text().contains("...") || button->objectName() == "runReport");
@@ -172,6 +175,16 @@ private:
       EXPECT_FALSE(window_.close());
     else
       QTest::keyClick(&window_, Qt::Key_N, Qt::ControlModifier);
+  }
+  /// An indenter that is pressed and slid over the face.
+  void drawPath() {
+    auto* block = window_.currentScene().findChild<BlockView*>("block");
+    auto* tool = window_.currentScene().findChild<QAbstractButton*>("clickIndenter");
+    if (block == nullptr || tool == nullptr || !block->isVisible()) return;
+    clickOn(tool);
+    const QPoint place = block->placeOf({15, 15, 5}).toPoint();
+    if (upTo(2) == 0) QTest::mouseClick(block, Qt::LeftButton, {}, place);
+    drag(*block, place, place + QPoint(upTo(80) - 40, upTo(80) - 40), Qt::ControlModifier);
   }
   void dragArrow() {
     auto* block = window_.currentScene().findChild<BlockView*>("block");
@@ -233,14 +246,16 @@ protected:
     if (touch.missing()) return;   // cancelled, failed or refused: the window says so
     if (!touch.upToDate()) return; // changed while no scene needs it
     EXPECT_EQ(touch.touch().design(), workbench.project().design) << where;
-    EXPECT_EQ(touch.touch().load(), workbench.project().load) << where;
+    const Project& now = workbench.project();
+    EXPECT_EQ(touch.touch().load(), now.load) << where;
+    EXPECT_EQ(touch.touch().path(), loadsAfter(now.load, now.path, now.design)) << where;
     QApplication::processEvents();
     for (const char* name : {"heatmap", "resistanceHeatmap"}) {
       const auto& view = find<HeatmapView>(name);
       if (!view.isVisible() || touch.electrodes() == nullptr) continue;
       const ResistanceKind kind =
           std::string(name) == "heatmap" ? ResistanceKind::RelativeChange : workbench.project().view.resistance;
-      if (kind == ResistanceKind::LessKept && workbench.project().kept) continue; // of two touches
+      if (kind == ResistanceKind::LessKept && workbench.comparable()) continue; // of two touches
       const auto resistances = workbench.resistances();
       if (!resistances) continue; // under the field they may have been stopped
       EXPECT_EQ(view.heatmap().values, resistanceHeatmap(*resistances, kind).values) << name << " " << where;

@@ -286,6 +286,20 @@ void LoadPanel::takeAway(const LoadPlace& place) {
   emit edited(what, load_);
 }
 
+void LoadPanel::pressDisc(const Eigen::Vector2d& place_mm) {
+  for (std::size_t k = load_.patches.size(); k-- > 0;)
+    if ((place_mm - load_.patches[k].centre_mm).norm() <= load_.patches[k].radius_mm)
+      return takeAway({LoadKind::Disc, static_cast<int>(k)});
+  addDisc(place_mm);
+}
+
+void LoadPanel::pressIndenter(const Eigen::Vector2d& place_mm) {
+  for (std::size_t k = load_.indenters.size(); k-- > 0;)
+    if ((place_mm - load_.indenters[k].place_mm).norm() <= load_.indenters[k].radius_mm)
+      return takeAway({LoadKind::Indenter, static_cast<int>(k)});
+  addIndenter(place_mm);
+}
+
 void LoadPanel::setForce(int direction, double value_N) {
   Eigen::Vector3d* force_N = forceOf(chosen_);
   if (force_N == nullptr || (*force_N)[direction] == value_N) return;

@@ -36,6 +36,10 @@ public:
   /// Another place and size of an indenter.
   void changeIndenter(int indenter, const Eigen::Vector2d& place_mm, double radius_mm);
   void takeAway(const LoadPlace& place);
+  /// A click on the top face: a new disc or indenter, or the one that lies there is taken away (Shift was held: else it
+  /// would have been dragged).
+  void pressDisc(const Eigen::Vector2d& place_mm);
+  void pressIndenter(const Eigen::Vector2d& place_mm);
 
 signals:
   /// By the user's hand only.

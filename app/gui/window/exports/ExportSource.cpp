@@ -20,6 +20,7 @@ Project ofTouch(Workbench& workbench) {
   made.design = touch.design();
   made.load = touch.load();
   made.mesh = touch.meshOptions();
+  if (touch.path() != loadsAfter(made.load, made.path, made.design)) made.path.reset();
   return made;
 }
 
@@ -43,6 +44,11 @@ QString studiesStale(const Project& project) {
   };
   const DesignStudies& studies = project.studies;
   if (studies.curve) add(QObject::tr("sweep of the design"), studies.curve->design);
+  if (studies.mapped) {
+    SensorDesign of = studies.mapped->design;
+    of.resistance = project.design.resistance; // the law was chosen for the map
+    add(QObject::tr("map of the resolution"), of);
+  }
   if (studies.compared) add(QObject::tr("comparison"), studies.compared->now);
   return reasons.join("; ");
 }

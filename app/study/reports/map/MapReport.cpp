@@ -3,7 +3,7 @@
 #include "app/study/Median.h"
 #include "app/study/reports/Csv.h"
 #include "app/study/reports/ReportPage.h"
-#include "app/study/reports/map/TouchMap.h"
+#include "app/study/reports/map/MapQuantities.h"
 #include "app/study/reports/networks/NoiseAxis.h"
 #include "model/DesignError.h"
 #include "model/FieldAtRest.h"
@@ -59,41 +59,6 @@ struct MapOfSize {
   double size_mm = 0;
   TouchMap map;
 };
-
-const Eigen::MatrixXd& smallestForce(const TouchMap& map) {
-  return map.smallestForce_N;
-}
-const Eigen::MatrixXd& slipperyForce(const TouchMap& map) {
-  return map.slipperyForce_N;
-}
-const Eigen::MatrixXd& slipperyPlace(const TouchMap& map) {
-  return map.slipperyPlace_mm;
-}
-template <std::size_t axis> const Eigen::MatrixXd& heldForce(const TouchMap& map) {
-  return map.heldForce_N[axis];
-}
-const Eigen::MatrixXd& heldPlace(const TouchMap& map) {
-  return map.heldPlace_mm;
-}
-const Eigen::MatrixXd& twoPoint(const TouchMap& map) {
-  return map.twoPoint_mm;
-}
-
-/// A quantity of the maps: its name for tables and files, and what it is.
-struct MapQuantity {
-  std::string name, unit, file;
-  const Eigen::MatrixXd& (*of)(const TouchMap&);
-  bool drawn = false;
-};
-
-const std::array kQuantities{MapQuantity{"smallest force seen", "N", "force", smallestForce, true},
-                             MapQuantity{"Fz, no friction", "N", "fz", slipperyForce},
-                             MapQuantity{"place, no friction", "mm", "place-free", slipperyPlace},
-                             MapQuantity{"Fx, held", "N", "fx-held", heldForce<0>},
-                             MapQuantity{"Fy, held", "N", "fy-held", heldForce<1>},
-                             MapQuantity{"Fz, held", "N", "fz-held", heldForce<2>},
-                             MapQuantity{"place, held", "mm", "place", heldPlace, true},
-                             MapQuantity{"two-point distance", "mm", "two-point", twoPoint, true}};
 
 class MapWriter {
 public:
@@ -199,13 +164,14 @@ private:
                       {"radius [mm]", "contact radius [mm]"},
                       {},
                       {}};
-    for (const MapQuantity& quantity : kQuantities) table.heads.push_back(quantity.name + " [" + quantity.unit + "]");
+    for (const MapQuantity& quantity : mapQuantities())
+      table.heads.push_back(quantity.name + " [" + quantity.unit + "]");
     for (const MapOfSize& of : maps_) {
       std::vector<std::string> row{text(of.size_mm), shortNumber(of.map.contactRadius_mm)};
-      for (const MapQuantity& quantity : kQuantities) row.push_back(medianAndWorst(quantity.of(of.map)));
+      for (const MapQuantity& quantity : mapQuantities()) row.push_back(medianAndWorst(quantity.of(of.map)));
       table.rows.push_back(std::move(row));
       const Eigen::Matrix2Xd places = placesOf(base_);
-      for (const MapQuantity& quantity : kQuantities) {
+      for (const MapQuantity& quantity : mapQuantities()) {
         const Eigen::MatrixXd& values = quantity.of(of.map);
         for (Eigen::Index i = 0; i < places.cols(); ++i)
           if (const double value = values.reshaped()(i); std::isfinite(value))
@@ -217,7 +183,7 @@ private:
   }
 
   void pictures() {
-    for (const MapQuantity& quantity : kQuantities) {
+    for (const MapQuantity& quantity : mapQuantities()) {
       if (!quantity.drawn) continue;
       for (const MapOfSize& of : maps_) {
         ReportMap picture;

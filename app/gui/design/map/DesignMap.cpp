@@ -1,0 +1,317 @@
+#include "app/gui/design/map/DesignMap.h"
+
+#include "app/gui/design/DesignFields.h"
+#include "app/gui/design/ProgressWords.h"
+#include "app/gui/design/map/MapWork.h"
+#include "app/gui/views/HeatmapView.h"
+#include "app/gui/widgets/SpinBoxes.h"
+#include "app/study/Median.h"
+#include "app/study/reports/map/MapQuantities.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QFormLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QSignalBlocker>
+#include <QSpinBox>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace palp {
+
+namespace {
+
+constexpr int kMapSideWidth_px = 330;
+
+/// Those that have a place along x and y.
+constexpr std::array kMappedShapes{IndenterShape::Sphere, IndenterShape::Pin, IndenterShape::Flat};
+
+QString mapNumber(double value) {
+  return QString::number(value, 'g', 3);
+}
+
+/// Median, and the worst with its place.
+QString mapWords(const MappedResolution& map, std::size_t quantity) {
+  const Eigen::MatrixXd values = valuesOf(map, quantity);
+  std::vector<double> all;
+  double worst = 0;
+  Eigen::Vector2d at = map.low_mm;
+  const Eigen::Vector2d step =
+      (map.high_mm - map.low_mm).cwiseQuotient(Eigen::Vector2d(map.places[0] - 1, map.places[1] - 1));
+  for (Eigen::Index x = 0; x < values.rows(); ++x)
+    for (Eigen::Index y = 0; y < values.cols(); ++y)
+      if (std::isfinite(values(x, y))) {
+        all.push_back(values(x, y));
+        if (values(x, y) < worst) continue;
+        worst = values(x, y);
+        at = map.low_mm + Eigen::Vector2d(static_cast<double>(x), static_cast<double>(y)).cwiseProduct(step);
+      }
+  const MapQuantity& its = mapQuantities()[quantity];
+  const QString name = QString::fromStdString(its.name), unit = QString::fromStdString(its.unit);
+  if (all.empty()) return QObject::tr("<b>%1</b>: nowhere on these places.").arg(name);
+  return QObject::tr("<b>%1</b>: median <b>%2 %3</b>, worst <b>%4 %3</b> at (%5, %6) mm. Contact radius %7 mm.")
+      .arg(name, mapNumber(median(all)), unit, mapNumber(worst), mapNumber(at.x()), mapNumber(at.y()),
+           mapNumber(map.contactRadius_mm));
+}
+
+QString mapIntention() {
+  return QObject::tr(
+      "Cramer-Rao bounds at rest, all row-wires read: no estimate without a bias has smaller deviations. "
+      "Smallest force seen: three deviations, straight down at a known place. Without friction force and "
+      "place are unknown, held by it all three forces and the place.");
+}
+
+} // namespace
+
+DesignMap::DesignMap(Workbench& workbench, QWidget* parent) : QWidget(parent), workbench_(workbench) {
+  build();
+  connect(start_, &QPushButton::clicked, this, &DesignMap::run);
+  for (QComboBox* box : {shape_, law_}) connect(box, &QComboBox::activated, this, &DesignMap::readSettings);
+  for (QDoubleSpinBox* box : {radius_, force_})
+    connect(box, &QDoubleSpinBox::valueChanged, this, &DesignMap::readSettings);
+  connect(places_, &QSpinBox::valueChanged, this, &DesignMap::readSettings);
+  connect(noise_, &QDoubleSpinBox::valueChanged, this, [this](double percent) {
+    Project next = workbench_.project();
+    next.view.resistanceNoise = percent / 100;
+    workbench_.edit(tr("Change the noise of the resistances"), next);
+  });
+  connect(quantity_, &QComboBox::activated, this, &DesignMap::chooseQuantity);
+  connect(onBlock_, &QCheckBox::toggled, this, [this](bool on) {
+    Project next = workbench_.project();
+    next.view.mapOnBlock = on;
+    workbench_.edit(tr("Draw the map over the block"), next);
+  });
+  sayProgress(runner_, *words_);
+  connect(&runner_, &JobRunner::failed, words_, &QLabel::setText);
+  connect(&runner_, &JobRunner::started, this, &DesignMap::displayProject);
+  connect(&runner_, &JobRunner::finished, this, [this](bool cancelled) {
+    if (cancelled) shown_.reset(); // what was mapped before is shown again
+    displayProject();
+    if (cancelled) words_->setText(tr("Stopped; nothing was changed. ") + (shown_ ? words_->text() : QString()));
+  });
+  connect(&workbench_, &Workbench::projectReplaced, this, [this] {
+    if (runner_.running()) runner_.cancel(); // of the other project
+    basis_.reset();
+  });
+  displayProject();
+}
+
+void DesignMap::build() {
+  auto* row = new QHBoxLayout(this);
+  auto* side = new QWidget;
+  side->setFixedWidth(kMapSideWidth_px);
+  auto* form = new QFormLayout(side);
+  form->setContentsMargins(0, 0, 0, 0);
+  quantity_ = new QComboBox;
+  quantity_->setObjectName("mapQuantity");
+  for (const MapQuantity& each : mapQuantities())
+    quantity_->addItem(QString::fromStdString(each.name + " [" + each.unit + "]"));
+  quantity_->setToolTip(tr("Deviations of a touch's force or place, the smallest force that is seen, or how far two "
+                           "touches must be apart; all are computed at once"));
+  form->addRow(tr("Show"), quantity_);
+  onBlock_ = new QCheckBox(tr("over the block too"));
+  onBlock_->setObjectName("mapOnBlock");
+  form->addRow(QString(), onBlock_);
+  buildTouch(*form);
+  start_ = new QPushButton(tr("Map the resolution"));
+  start_->setObjectName("mapResolution");
+  start_->setToolTip(tr("Solves one load a resistance; another size, force or noise is then read out of the same. Esc "
+                        "stops it"));
+  form->addRow(start_);
+  stale_ = new QLabel;
+  stale_->setObjectName("mapState");
+  stale_->setProperty("role", "hint");
+  words_ = new QLabel;
+  words_->setObjectName("mapWords");
+  for (QLabel* label : {stale_, words_}) {
+    label->setWordWrap(true);
+    label->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    form->addRow(label);
+  }
+  row->addWidget(side);
+  map_ = new HeatmapView;
+  map_->setObjectName("resolutionMap");
+  map_->setMinimumHeight(160);
+  row->addWidget(map_, 1);
+}
+
+void DesignMap::buildTouch(QFormLayout& form) {
+  shape_ = new QComboBox;
+  shape_->setObjectName("mapShape");
+  for (const IndenterShape shape : kMappedShapes) shape_->addItem(QString::fromStdString(shapeName(shape)));
+  shape_->setToolTip(tr("Of what touches: one that has a place along x and y"));
+  const auto number = [](const char* name, const QString& unit, double low, double high, const QString& tip) {
+    auto* box = new QDoubleSpinBox;
+    box->setObjectName(name);
+    box->setRange(low, high);
+    box->setDecimals(3);
+    box->setSingleStep(0.5);
+    box->setSuffix(unit);
+    box->setKeyboardTracking(false);
+    box->setToolTip(tip);
+    return box;
+  };
+  radius_ = number("mapRadius", tr(" mm"), 0.05, 1e4, tr("Of the sphere, the pin or the punch"));
+  force_ =
+      number("mapForce", tr(" N"), 0.001, 1e4, tr("That it presses with; the place's deviation goes with one over it"));
+  auto* touch = new QHBoxLayout;
+  touch->addWidget(shape_);
+  touch->addWidget(radius_);
+  form.addRow(tr("Touch"), touch);
+  form.addRow(tr("Force"), force_);
+  law_ = new QComboBox;
+  law_->setObjectName("mapLaw");
+  law_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  law_->setToolTip(tr("How the resistances are found and read, for this map alone"));
+  form.addRow(tr("Law, read-out"), law_);
+  noise_ = new PercentBox;
+  noise_->setObjectName("mapNoise");
+  noise_->setRange(0.00001, 10);
+  noise_->setDecimals(5);
+  noise_->setKeyboardTracking(false);
+  noise_->setToolTip(tr("Relative noise of each reading, as in \"Mesh and noise floor\""));
+  form.addRow(tr("Noise of R"), noise_);
+  places_ = new QSpinBox;
+  places_->setObjectName("mapPlaces");
+  places_->setRange(3, kMostMapPlaces);
+  places_->setKeyboardTracking(false);
+  places_->setToolTip(tr("Places along the shorter side of the face; a tenth of it all round is left out"));
+  form.addRow(tr("Places"), places_);
+}
+
+void DesignMap::setTheme(Theme theme) {
+  map_->setTheme(theme);
+}
+
+void DesignMap::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  displayProject();
+  emit overBlockChanged();
+}
+
+/// Some 20 MB, found again in seconds.
+void DesignMap::hideEvent(QHideEvent* event) {
+  QWidget::hideEvent(event);
+  if (!runner_.running()) basis_.reset();
+  emit overBlockChanged();
+}
+
+void DesignMap::listLaws(const SensorDesign& design) {
+  const QSignalBlocker quiet(law_);
+  law_->clear();
+  const std::vector<DesignChoice>& readouts = designField("resistance.readout").choices;
+  const FieldLaw* field = design.field();
+  const QString own = field != nullptr ? readouts[static_cast<std::size_t>(field->readout)].words : QString("Eq. (1)");
+  law_->addItem(tr("the design's (%1)").arg(own), QString());
+  law_->addItem(tr("Eq. (1)"), "pairs");
+  for (std::size_t k = 0; k < readouts.size(); ++k)
+    law_->addItem(tr("field, %1").arg(readouts[k].words), QString::fromStdString(kReadouts.all()[k].second));
+}
+
+std::size_t DesignMap::quantity() const {
+  const auto& all = mapQuantities();
+  const auto its = std::find_if(all.begin(), all.end(), [this](const MapQuantity& each) {
+    return each.file == workbench_.project().view.mapQuantity;
+  });
+  return its == all.end() ? 0 : static_cast<std::size_t>(its - all.begin());
+}
+
+void DesignMap::chooseQuantity(int quantity) {
+  Project next = workbench_.project();
+  next.view.mapQuantity = mapQuantities()[static_cast<std::size_t>(quantity)].file;
+  workbench_.edit(tr("Choose what is mapped"), next);
+}
+
+void DesignMap::readSettings() {
+  Project next = workbench_.project();
+  const Indenter usual = mappedTouch(next.design, {});
+  MapSettings& map = next.studies.map;
+  map.shape = kMappedShapes[static_cast<std::size_t>(shape_->currentIndex())];
+  map.radius_mm = radius_->value() == usual.radius_mm ? 0 : radius_->value(); // the usual one follows the design
+  map.force_N = force_->value() == -usual.press()->force_N.z() ? 0 : force_->value();
+  map.places = places_->value();
+  map.law = law_->currentData().toString().toStdString();
+  workbench_.edit(tr("Change what is mapped"), next);
+}
+
+void DesignMap::displayProject() {
+  const Project& project = workbench_.project();
+  const MapSettings& settings = project.studies.map;
+  const Indenter touch = mappedTouch(project.design, settings);
+  const QSignalBlocker quietPlaces(places_), quietBlock(onBlock_);
+  const auto shape = std::find(kMappedShapes.begin(), kMappedShapes.end(), settings.shape);
+  shape_->setCurrentIndex(shape == kMappedShapes.end() ? 0 : static_cast<int>(shape - kMappedShapes.begin()));
+  showExactly(*radius_, touch.radius_mm);
+  showExactly(*force_, -touch.press()->force_N.z());
+  showExactly(*noise_, 100 * project.view.resistanceNoise);
+  places_->setValue(settings.places);
+  listLaws(project.design);
+  law_->setCurrentIndex(std::max(0, law_->findData(QString::fromStdString(settings.law))));
+  quantity_->setCurrentIndex(static_cast<int>(quantity()));
+  onBlock_->setChecked(project.view.mapOnBlock);
+  start_->setEnabled(!runner_.running());
+  if (!runner_.running()) showMap();
+  const QString state = runner_.running() ? QString() : staleWords();
+  stale_->setText(state);
+  stale_->setVisible(!state.isEmpty());
+}
+
+QString DesignMap::staleWords() const {
+  if (!shown_) return {};
+  const Project& project = workbench_.project();
+  const MapSettings& settings = project.studies.map;
+  Indenter touch = mappedTouch(project.design, settings);
+  touch.place_mm = shown_->touch.place_mm;
+  if (shown_->design != mappedDesign(project.design, settings))
+    return tr("The map is of another design, law or read-out: \"Map the resolution\" does it again.");
+  if (shown_->touch != touch || shown_->noise != project.view.resistanceNoise)
+    return tr("The map is for another touch or another noise: \"Map the resolution\" does it again.");
+  return {};
+}
+
+void DesignMap::showMap() {
+  const Project& project = workbench_.project();
+  if (project.studies.mapped == shown_ && project.view.mapQuantity == shownQuantity_ && !words_->text().isEmpty())
+    return;
+  shown_ = project.studies.mapped;
+  shownQuantity_ = project.view.mapQuantity;
+  map_->setHeatmap(shown_ ? mapHeatmap(*shown_, quantity()) : HeatmapSpec{});
+  map_->setVisible(shown_.has_value());
+  words_->setText(shown_ ? mapWords(*shown_, quantity()) : mapIntention());
+  words_->setToolTip(shown_ ? mapIntention() : QString());
+}
+
+std::shared_ptr<const FaceMap> DesignMap::overBlock() const {
+  const Project& project = workbench_.project();
+  const auto& mapped = project.studies.mapped;
+  const bool ofThisBlock = mapped && mapped->design.block_mm == project.design.block_mm;
+  if (!isVisible() || !ofThisBlock || !project.view.mapOnBlock) return {};
+  return std::make_shared<const FaceMap>(faceMap(*mapped, quantity()));
+}
+
+void DesignMap::run() {
+  const Project& project = workbench_.project();
+  words_->setText(tr("Being computed..."));
+  runner_.start(tr("Mapping the resolution"),
+                [this, design = project.design, mesh = project.mesh, settings = project.studies.map,
+                 noise = project.view.resistanceNoise,
+                 before = basis_](const std::stop_token& stop, JobProgress& progress) -> JobRunner::Taking {
+                  const auto report = [&](double share, const std::string& what) { progress.set(share, what); };
+                  const MapFound found = mapResolution(design, mesh, settings, noise, before, report, stop);
+                  if (!found.basis || stop.stop_requested()) return {};
+                  return [this, found] {
+                    if (isVisible()) basis_ = found.basis;
+                    shown_.reset(); // also where it is what was found before
+                    Project next = workbench_.project();
+                    next.studies.mapped = found.map;
+                    workbench_.edit(tr("Map the resolution"), next);
+                  };
+                });
+}
+
+} // namespace palp

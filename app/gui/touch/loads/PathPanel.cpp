@@ -1,0 +1,260 @@
+#include "app/gui/touch/loads/PathPanel.h"
+
+#include "app/gui/widgets/FileDialogs.h"
+#include "io/AtomicFile.h"
+#include "model/base/Error.h"
+
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QPushButton>
+#include <QTableWidget>
+#include <QVBoxLayout>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace palp {
+
+namespace {
+
+constexpr int kDrawnSteps = 8;
+constexpr int kToldColumns = 3, kFoundColumns = 5;
+constexpr double kUnknownDepth_mm = 0.2; ///< of a force that was not solved yet
+
+std::array<double, 3> toldBy(const std::variant<Press, Motion>& control) {
+  if (const Press* press = std::get_if<Press>(&control))
+    return {press->force_N.x(), press->force_N.y(), press->force_N.z()};
+  const Motion& motion = std::get<Motion>(control);
+  return {motion.depth_mm, motion.shift_mm.x(), motion.shift_mm.y()};
+}
+
+std::variant<Press, Motion> controlOf(const std::array<double, 3>& told, bool pressed) {
+  if (pressed) return Press{{told[0], told[1], told[2]}};
+  return Motion{told[0], {told[1], told[2]}};
+}
+
+/// What the indenters do at the end of a load of the path; null where that was not reached.
+const IndenterState* stateAtEnd(const Solution* solution, int load, int indenter) {
+  if (solution == nullptr) return nullptr;
+  for (const LoadIncrement& state : solution->increments)
+    if (std::abs(state.loadFraction - (load + 1)) < 1e-9 && static_cast<std::size_t>(indenter) < state.indenters.size())
+      return &state.indenters[static_cast<std::size_t>(indenter)];
+  return nullptr;
+}
+
+} // namespace
+
+PathPanel::PathPanel(Workbench& workbench, QWidget* parent) : QWidget(parent), workbench_(workbench) {
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(4, 4, 4, 4);
+  words_ = new QLabel;
+  words_->setObjectName("pathHint");
+  words_->setWordWrap(true);
+  column->addWidget(words_);
+  table_ = new QTableWidget;
+  table_->setObjectName("pathSteps");
+  table_->setAccessibleName(tr("Steps of the path"));
+  table_->setToolTip(tr("A double click changes a number; on the right is what was found at the end of each step"));
+  table_->setSelectionBehavior(QAbstractItemView::SelectRows);
+  table_->verticalHeader()->hide();
+  column->addWidget(table_, 1);
+  auto* row = new QHBoxLayout;
+  const auto button = [&](const QString& text, const char* name, const QString& tip, void (PathPanel::*slot)()) {
+    auto* made = new QPushButton(text);
+    made->setObjectName(name);
+    made->setToolTip(tip);
+    connect(made, &QPushButton::clicked, this, slot);
+    row->addWidget(made);
+    return made;
+  };
+  add_ =
+      button(tr("Add a step"), "addStep", tr("After the last one, a millimetre further along x"), &PathPanel::addStep);
+  take_ =
+      button(tr("Take away"), "takeStep", tr("Takes the marked steps away, else the last one"), &PathPanel::takeAway);
+  clear_ = button(tr("Clear the path"), "clearPath", tr("The load alone, as before"), &PathPanel::clear);
+  save_ =
+      button(tr("Save as a load file..."), "savePath", tr("Load and steps for palp solve --loads"), &PathPanel::save);
+  row->addStretch(1);
+  column->addLayout(row);
+  connect(table_, &QTableWidget::cellChanged, this, &PathPanel::readCell);
+  connect(&workbench_, &Workbench::projectChanged, this, &PathPanel::display);
+  connect(&workbench_.touch(), &TouchSession::changed, this, &PathPanel::displayFound);
+  display();
+}
+
+void PathPanel::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  display();
+}
+
+int PathPanel::indenterNumber() const {
+  const Project& project = workbench_.project();
+  return project.path ? project.path->indenter : static_cast<int>(project.load.indenters.size()) - 1;
+}
+
+const Indenter* PathPanel::indenter() const {
+  const int k = indenterNumber();
+  const auto& all = workbench_.project().load.indenters;
+  return k >= 0 && static_cast<std::size_t>(k) < all.size() ? &all[static_cast<std::size_t>(k)] : nullptr;
+}
+
+void PathPanel::edit(const QString& what, const std::optional<IndenterPath>& path) {
+  Project next = workbench_.project();
+  next.path = path && !path->steps.empty() ? path : std::nullopt;
+  workbench_.closeEntry();
+  workbench_.edit(what, next);
+}
+
+void PathPanel::draw(int indenter, const Eigen::Matrix2Xd& way_mm) {
+  Project next = workbench_.project();
+  if (indenter < 0 || static_cast<std::size_t>(indenter) >= next.load.indenters.size()) return;
+  Indenter& its = next.load.indenters[static_cast<std::size_t>(indenter)];
+  QString words;
+  if (its.press() != nullptr) {
+    const IndenterState* pressed = stateAtEnd(workbench_.touch().touch().solution(), 0, indenter);
+    const double depth = pressed != nullptr ? -pressed->translation_mm.z() : kUnknownDepth_mm;
+    its.control = Motion{std::max(0.001, std::round(1000 * depth) / 1000)};
+    words =
+        tr(" It is moved from now on, at the depth to which its force pressed it: %1 mm.").arg(its.motion()->depth_mm);
+  }
+  IndenterPath path{indenter, stepsAlong(way_mm, *its.motion(), kDrawnSteps)};
+  if (path.steps.empty()) {
+    emit message(tr("Too short for a path: a quarter of a millimetre at least."));
+    return;
+  }
+  emit message(tr("Indenter %1 slides along a path of %2 steps.").arg(indenter).arg(path.steps.size()) + words);
+  next.path = std::move(path);
+  workbench_.closeEntry();
+  workbench_.edit(tr("Draw a path of indenter %1").arg(indenter), next);
+}
+
+void PathPanel::addStep() {
+  const Indenter* its = indenter();
+  if (its == nullptr) return;
+  IndenterPath path = workbench_.project().path.value_or(IndenterPath{indenterNumber(), {}});
+  if (path.steps.size() >= kMostPathSteps) return;
+  std::variant<Press, Motion> next = path.steps.empty() ? its->control : path.steps.back();
+  if (Motion* motion = std::get_if<Motion>(&next)) motion->shift_mm.x() += 1;
+  path.steps.push_back(next);
+  edit(tr("Add a step to the path"), path);
+}
+
+void PathPanel::takeAway() {
+  IndenterPath path = workbench_.project().path.value_or(IndenterPath{});
+  std::vector<int> rows;
+  for (const QModelIndex& index : table_->selectionModel()->selectedRows())
+    if (index.row() > 0) rows.push_back(index.row());
+  if (rows.empty()) rows.push_back(static_cast<int>(path.steps.size()));
+  std::sort(rows.rbegin(), rows.rend());
+  for (const int row : rows)
+    if (row > 0 && row <= static_cast<int>(path.steps.size())) path.steps.erase(path.steps.begin() + row - 1);
+  edit(tr("Take steps of the path away"), path);
+}
+
+void PathPanel::clear() {
+  edit(tr("Clear the path"), {});
+}
+
+void PathPanel::save() {
+  const Project& project = workbench_.project();
+  const QString file = askFileToSave(this, tr("Save as a load file"), "path.json", tr("Load files (*.json)"));
+  if (file.isEmpty() || !project.path) return;
+  try {
+    writeFile(file.toStdString(), loadFile(project.load, *project.path, project.design), true);
+    emit message(tr("Wrote %1; palp solve sensor.json --loads %1 follows it.").arg(file));
+  } catch (const Error& error) {
+    emit message(QString::fromStdString(error.what()));
+  }
+}
+
+void PathPanel::readCell(int row, int column) {
+  std::optional<IndenterPath> path = workbench_.project().path;
+  if (displaying_ || !path || row < 1 || column < 1 || column > kToldColumns) return;
+  auto& step = path->steps[static_cast<std::size_t>(row - 1)];
+  std::array<double, 3> told = toldBy(step);
+  bool good = false;
+  const double typed = table_->item(row, column)->text().trimmed().toDouble(&good);
+  const std::variant<Press, Motion> before = step;
+  if (good) {
+    told[static_cast<std::size_t>(column - 1)] = typed;
+    step = controlOf(told, std::holds_alternative<Press>(step));
+  }
+  const Project& project = workbench_.project();
+  const auto wrong = good ? whyInvalid(project.load, *path, project.design) : std::nullopt;
+  if (!good || wrong) {
+    const QString typedText = table_->item(row, column)->text();
+    display(); // what holds
+    words_->setText(good ? tr("Not applied: %1").arg(QString::fromStdString(*wrong))
+                         : tr("Not applied: \"%1\" is no number; write it with a point, as 0.5").arg(typedText));
+    return;
+  }
+  edit(tr("Change step %1 of the path").arg(row), path);
+}
+
+void PathPanel::display() {
+  if (!isVisible()) return;
+  displaying_ = true;
+  const Project& project = workbench_.project();
+  const Indenter* its = indenter();
+  const bool pressed = its != nullptr && its->press() != nullptr;
+  const int steps = project.path ? static_cast<int>(project.path->steps.size()) : 0;
+  words_->setText(
+      its == nullptr ? tr("An indenter can slide along a path: press with one first (tool Indenter, key I).")
+      : steps == 0   ? tr("No path yet: with the tool Indenter, hold Ctrl and drag from the indenter over the "
+                            "face, or add steps here.")
+                     : tr("Indenter %1 after its load (step 0). Play it above; colour by contact pressure, "
+                            "shear, or shear / pressure: what slips is at the coefficient of friction, %2.")
+                         .arg(indenterNumber())
+                         .arg(its->friction));
+  QStringList heads{tr("step")};
+  heads << (pressed ? QStringList{tr("Fx [N]"), tr("Fy [N]"), tr("Fz [N]")}
+                    : QStringList{tr("depth [mm]"), tr("shift x [mm]"), tr("shift y [mm]")});
+  heads << tr("found Fx [N]") << tr("Fy [N]") << tr("Fz [N]") << tr("contact radius [mm]") << tr("slips [%]");
+  table_->setColumnCount(static_cast<int>(heads.size()));
+  table_->setHorizontalHeaderLabels(heads);
+  table_->setRowCount(its == nullptr ? 0 : 1 + steps);
+  for (int row = 0; row < table_->rowCount(); ++row) {
+    const std::array<double, 3> told =
+        toldBy(row == 0 ? its->control : project.path->steps[static_cast<std::size_t>(row - 1)]);
+    for (int column = 0; column < table_->columnCount(); ++column) {
+      auto* cell = new QTableWidgetItem;
+      const bool editable = row > 0 && column > 0 && column <= kToldColumns;
+      if (!editable) cell->setFlags(cell->flags() & ~Qt::ItemIsEditable);
+      cell->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
+      if (column == 0) cell->setText(QString::number(row));
+      if (column > 0 && column <= kToldColumns)
+        cell->setText(QString::number(told[static_cast<std::size_t>(column - 1)], 'g', 6));
+      table_->setItem(row, column, cell);
+    }
+  }
+  add_->setEnabled(its != nullptr && steps < static_cast<int>(kMostPathSteps));
+  for (QPushButton* each : {take_, clear_, save_}) each->setEnabled(steps > 0);
+  displaying_ = false;
+  displayFound();
+}
+
+void PathPanel::displayFound() {
+  if (!isVisible() || table_->columnCount() <= kToldColumns) return;
+  displaying_ = true;
+  const TouchSession& touch = workbench_.touch();
+  const Solution* solution = touch.upToDate() ? touch.touch().solution() : nullptr;
+  for (int row = 0; row < table_->rowCount(); ++row) {
+    const IndenterState* found = stateAtEnd(solution, row, indenterNumber());
+    for (int k = 0; k < kFoundColumns; ++k) {
+      QString text;
+      if (found != nullptr) {
+        const std::array<double, kFoundColumns> values{found->force_N.x(), found->force_N.y(), found->force_N.z(),
+                                                       found->contactRadius_mm, 100 * found->slipShare};
+        const double value = values[static_cast<std::size_t>(k)];
+        text = QString::number(k < 3 && std::abs(value) < 1e-6 * found->force_N.norm() ? 0 : value, 'g', 4);
+      }
+      table_->item(row, 1 + kToldColumns + k)->setText(text);
+    }
+  }
+  table_->resizeColumnsToContents();
+  displaying_ = false;
+}
+
+} // namespace palp
