@@ -66,6 +66,9 @@ StudyAxis axisFrom(const JsonPlace& place, Json& design, bool factorial) {
   axis.from = place.at("from").number();
   axis.to = place.at("to").number();
   if (axis.logarithmic && !(axis.from > 0 && axis.to > 0)) place.refuse("from and to above 0 on a logarithmic scale");
+  const double apart = axis.logarithmic ? axis.to / axis.from : axis.to - axis.from;
+  if (!std::isfinite(apart) || (axis.logarithmic && apart == 0))
+    place.refuse("from and to that are less than 1e308 (or times 1e308) apart");
   if (place.has("count")) axis.count = place.at("count").integer(2, static_cast<int>(kMostDesigns));
   return axis;
 }
@@ -174,14 +177,20 @@ StudyPlan parseStudy(const std::string& content, const std::string& name, const 
   if (plan.hypercube == 0 && designs > kMostDesigns)
     root.at("vary").refuse("at most 1e6 designs, here " + text(designs) + " (or latin_hypercube)");
   if (root.has("seed")) plan.seed = static_cast<std::uint64_t>(root.at("seed").integer(0, 2'147'483'647));
-  for (const JsonPlace& place : root.at("compute").list()) plan.quantities.push_back(place.named(kStudyQuantities));
+  for (const JsonPlace& place : root.at("compute").list()) {
+    const StudyQuantity quantity = place.named(kStudyQuantities);
+    if (plan.computes(quantity)) place.refuse("each once");
+    plan.quantities.push_back(quantity);
+  }
   if (plan.quantities.empty()) root.at("compute").refuse("a list of " + kStudyQuantities.allowed());
   if (root.has("noise")) plan.noise = root.at("noise").number(1e-9, 0.5);
   if (root.has("per_area")) plan.perArea = root.at("per_area").integer(5, 100000);
   if (root.has("decoders"))
     for (const JsonPlace& place : root.at("decoders").list()) {
-      plan.decoders.push_back(place.named(kDecoderKinds));
-      if (plan.decoders.back() == DecoderKind::TouchInversion) place.refuse("a decoder of forces on areas");
+      const DecoderKind kind = place.named(kDecoderKinds);
+      if (kind == DecoderKind::TouchInversion) place.refuse("a decoder of forces on areas");
+      if (std::find(plan.decoders.begin(), plan.decoders.end(), kind) != plan.decoders.end()) place.refuse("each once");
+      plan.decoders.push_back(kind);
     }
   for (std::size_t a = 0; a < plan.axes.size() && plan.hypercube > 0; ++a)
     plan.strata.push_back(shuffled(plan.designs(), plan.seed, a));

@@ -293,19 +293,18 @@ Hdf5Layout Hdf5File::layout(const std::string& name, Hdf5Number number) const {
   return found;
 }
 
-std::vector<unsigned char> Hdf5File::readChunk(const std::string& name, std::uint64_t row) const {
+std::span<const unsigned char> Hdf5File::readChunk(const std::string& name, std::uint64_t row,
+                                                   std::vector<unsigned char>& room) const {
   const auto lock = inLibrary();
   const hid_t id = dataset(name);
   std::vector<hsize_t> place(shapeOf(id).size(), 0);
   place[0] = row;
   hsize_t size = 0;
   std::uint32_t filters = 0;
-  std::vector<unsigned char> packed;
-  if (H5Dget_chunk_storage_size(id, place.data(), &size) >= 0 && size <= std::filesystem::file_size(path_)) {
-    packed.resize(size);
-    if (H5Dread_chunk(id, H5P_DEFAULT, place.data(), &filters, packed.data()) < 0 || filters != 0) packed.clear();
-  }
-  return packed;
+  if (H5Dget_chunk_storage_size(id, place.data(), &size) < 0 || size > std::filesystem::file_size(path_)) return {};
+  if (room.size() < size) room.resize(size);
+  if (H5Dread_chunk(id, H5P_DEFAULT, place.data(), &filters, room.data()) < 0 || filters != 0) return {};
+  return {room.data(), size};
 }
 
 void Hdf5File::readRows(const std::string& name, std::uint64_t row, std::uint64_t count, double* values) const {

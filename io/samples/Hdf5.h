@@ -60,7 +60,9 @@ public:
   [[nodiscard]] bool has(const std::string& name) const;
   /// Refuses a dataset of no numbers, and one of which not every chunk is there.
   [[nodiscard]] Hdf5Layout layout(const std::string& name, Hdf5Number number) const;
-  [[nodiscard]] std::vector<unsigned char> readChunk(const std::string& name, std::uint64_t row) const;
+  /// A chunk as it is stored, in `room`, which grows where it is too small; nothing where it cannot be read.
+  std::span<const unsigned char> readChunk(const std::string& name, std::uint64_t row,
+                                           std::vector<unsigned char>& room) const;
   /// By the library's own way: any layout, filter and type of number.
   void readRows(const std::string& name, std::uint64_t row, std::uint64_t count, double* values) const;
   void readRows(const std::string& name, std::uint64_t row, std::uint64_t count, std::int32_t* values) const;

@@ -54,6 +54,11 @@ std::string shapeText(const std::vector<std::uint64_t>& shape) {
   return text;
 }
 
+/// What is not finite is no number when it is multiplied by 0. Eigen's allFinite takes three times as long.
+bool isFinite(const Eigen::Ref<const Eigen::MatrixXd>& values) {
+  return (values.array() * 0).sum() == 0;
+}
+
 class Hdf5Samples : public SampleReader {
 public:
   explicit Hdf5Samples(const fs::path& path) : path_(path), file_(path, Hdf5File::Open::ForReading) {
@@ -92,12 +97,17 @@ public:
       }
     }
     std::atomic<bool> finite{true};
-    inParallel(pieces.size(), 0, [&](std::size_t p) {
-      stopIfAsked(stop);
-      const auto [f, row, rows] = pieces[p];
-      readPiece(f, row, rows, set, first + row - next_);
-      const auto values = fields_[f].values;
-      if (values != nullptr && !(set.*values).middleCols(first + row - next_, rows).allFinite()) finite = false;
+    std::atomic<std::size_t> taken{0};
+    const auto threads = static_cast<std::size_t>(threadCount(0));
+    inParallel(std::min(threads, pieces.size()), 0, [&](std::size_t) {
+      Scratch scratch;
+      for (std::size_t p = taken++; p < pieces.size(); p = taken++) {
+        stopIfAsked(stop);
+        const auto [f, row, rows] = pieces[p];
+        readPiece(f, row, rows, set, first + row - next_, scratch);
+        const auto values = fields_[f].values;
+        if (values != nullptr && !isFinite((set.*values).middleCols(first + row - next_, rows))) finite = false;
+      }
     });
     requireSamples(path_, set, first, count, next_ - first, finite);
     next_ += count;
@@ -105,8 +115,15 @@ public:
   }
 
 private:
+  /// Of one thread: a chunk as it is stored, and one of which not all rows are wanted.
+  struct Scratch {
+    std::vector<unsigned char> packed, numbers;
+    ShuffledInflate inflate;
+  };
+
   /// Rows within one chunk.
-  void readPiece(std::size_t f, Eigen::Index row, Eigen::Index rows, SampleSet& set, Eigen::Index column) const {
+  void readPiece(std::size_t f, Eigen::Index row, Eigen::Index rows, SampleSet& set, Eigen::Index column,
+                 Scratch& scratch) const {
     const Field& field = fields_[f];
     if (!layouts_[f].shuffledDeflate) {
       const auto start = static_cast<std::uint64_t>(row), number = static_cast<std::uint64_t>(rows);
@@ -118,15 +135,16 @@ private:
     }
     const auto chunkRows = static_cast<Eigen::Index>(layouts_[f].chunkRows);
     const Eigen::Index chunk = row / chunkRows * chunkRows;
-    const std::vector<unsigned char> packed = file_.readChunk(field.name, static_cast<std::uint64_t>(chunk));
+    const auto packed = file_.readChunk(field.name, static_cast<std::uint64_t>(chunk), scratch.packed);
     const std::size_t chunkBytes = field.rowBytes() * layouts_[f].chunkRows;
     const bool whole = rows == chunkRows;
-    std::vector<unsigned char> numbers(whole ? 0 : chunkBytes);
+    if (!whole) scratch.numbers.resize(chunkBytes);
     unsigned char* const to = field.at(set, column);
-    if (!inflateShuffled(packed, width(field.number), whole ? std::span(to, chunkBytes) : std::span(numbers)))
+    if (!scratch.inflate.inflate(packed, width(field.number),
+                                 whole ? std::span(to, chunkBytes) : std::span(scratch.numbers)))
       file_.refuse("dataset " + field.name + ", samples from " + std::to_string(chunk) + " on: the file is damaged");
     if (!whole)
-      std::memcpy(to, numbers.data() + static_cast<std::size_t>(row - chunk) * field.rowBytes(),
+      std::memcpy(to, scratch.numbers.data() + static_cast<std::size_t>(row - chunk) * field.rowBytes(),
                   static_cast<std::size_t>(rows) * field.rowBytes());
   }
 

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <memory>
 #include <stdexcept>
 
 namespace palp {
@@ -41,13 +40,60 @@ std::vector<unsigned char> shuffled(std::span<const unsigned char> numbers, std:
   return planes;
 }
 
-template <class Word> void unshuffle(const unsigned char* planes, std::size_t count, unsigned char* numbers) {
-  for (std::size_t i = 0; i < count; ++i) {
+template <class Word>
+void unshuffle(const unsigned char* planes, std::size_t count, std::size_t first, unsigned char* numbers) {
+  for (std::size_t i = first; i < count; ++i) {
     Word word = 0;
     for (std::size_t plane = 0; plane < sizeof(Word); ++plane)
       word |= static_cast<Word>(static_cast<Word>(planes[plane * count + i]) << (8 * plane));
     std::memcpy(numbers + i * sizeof(Word), &word, sizeof(Word));
   }
+}
+
+// 16 bytes of any processor's vector unit (an extension of GCC's and Clang's).
+using Bytes = unsigned char __attribute__((vector_size(16)));
+using Pairs = std::uint16_t __attribute__((vector_size(16)));
+using Fours = std::uint32_t __attribute__((vector_size(16)));
+
+/// Those of a and b in turn, of the lower halves and of the upper ones.
+Pairs lower(Bytes a, Bytes b) {
+  return (Pairs)__builtin_shufflevector(a, b, 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
+}
+Pairs upper(Bytes a, Bytes b) {
+  return (Pairs)__builtin_shufflevector(a, b, 8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15, 31);
+}
+Fours lower(Pairs a, Pairs b) {
+  return (Fours)__builtin_shufflevector(a, b, 0, 8, 1, 9, 2, 10, 3, 11);
+}
+Fours upper(Pairs a, Pairs b) {
+  return (Fours)__builtin_shufflevector(a, b, 4, 12, 5, 13, 6, 14, 7, 15);
+}
+
+/// 16 numbers of 8 bytes at once: bytes to pairs, pairs to fours, fours to numbers. A fifth of the time of one by one.
+void unshuffleDoubles(const unsigned char* planes, std::size_t count, unsigned char* numbers) {
+  constexpr std::size_t kAtOnce = sizeof(Bytes), kWidth = sizeof(double);
+  std::size_t i = 0;
+  for (; i + kAtOnce <= count; i += kAtOnce) {
+    Bytes plane[kWidth];
+    for (std::size_t p = 0; p < kWidth; ++p) std::memcpy(&plane[p], planes + p * count + i, kAtOnce);
+    Pairs pairs[2][kWidth / 2]; // [half of the numbers][two of the planes]
+    for (std::size_t p = 0; p < kWidth / 2; ++p) {
+      pairs[0][p] = lower(plane[2 * p], plane[2 * p + 1]);
+      pairs[1][p] = upper(plane[2 * p], plane[2 * p + 1]);
+    }
+    unsigned char* to = numbers + i * kWidth;
+    for (const auto& half : pairs) {
+      const Fours fours[2][2] = {{lower(half[0], half[1]), lower(half[2], half[3])},
+                                 {upper(half[0], half[1]), upper(half[2], half[3])}};
+      for (const auto& [low, high] : fours) {
+        const Fours two[2] = {__builtin_shufflevector(low, high, 0, 4, 1, 5),
+                              __builtin_shufflevector(low, high, 2, 6, 3, 7)};
+        std::memcpy(to, two, sizeof two);
+        to += sizeof two;
+      }
+    }
+  }
+  unshuffle<std::uint64_t>(planes, count, i, numbers);
 }
 
 } // namespace
@@ -75,19 +121,25 @@ std::vector<unsigned char> shuffledDeflate(std::span<const unsigned char> number
   return packed;
 }
 
-bool inflateShuffled(std::span<const unsigned char> packed, std::size_t width, std::span<unsigned char> numbers) {
-  const auto planes = std::make_unique_for_overwrite<unsigned char[]>(numbers.size());
-  const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)> inflater(
-      libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
-  if (!inflater) throw std::bad_alloc();
-  if (libdeflate_zlib_decompress(inflater.get(), packed.data(), packed.size(), planes.get(), numbers.size(), nullptr) !=
+ShuffledInflate::ShuffledInflate() : inflater_(libdeflate_alloc_decompressor()) {
+  if (inflater_ == nullptr) throw std::bad_alloc();
+}
+
+ShuffledInflate::~ShuffledInflate() {
+  libdeflate_free_decompressor(inflater_);
+}
+
+bool ShuffledInflate::inflate(std::span<const unsigned char> packed, std::size_t width,
+                              std::span<unsigned char> numbers) {
+  if (planes_.size() < numbers.size()) planes_.resize(numbers.size());
+  if (libdeflate_zlib_decompress(inflater_, packed.data(), packed.size(), planes_.data(), numbers.size(), nullptr) !=
       LIBDEFLATE_SUCCESS)
     return false; // with the check sum, too
   const std::size_t count = numbers.size() / width;
-  if (width == sizeof(std::uint64_t))
-    unshuffle<std::uint64_t>(planes.get(), count, numbers.data());
+  if (width == sizeof(double))
+    unshuffleDoubles(planes_.data(), count, numbers.data());
   else
-    unshuffle<std::uint32_t>(planes.get(), count, numbers.data());
+    unshuffle<std::uint32_t>(planes_.data(), count, 0, numbers.data());
   return true;
 }
 

@@ -25,11 +25,12 @@ constexpr std::array kStateNames{"missing", "waiting", "running", "failed", "don
 
 /// Takes the output out of the command's arguments.
 std::filesystem::path outputOf(std::vector<std::string>& arguments, const std::string& kind) {
-  for (const char* name : {"-o", "--output"}) {
-    const auto found = std::find(arguments.begin(), arguments.end(), name);
-    if (found == arguments.end() || found + 1 == arguments.end()) continue;
-    const std::filesystem::path output = *(found + 1);
-    arguments.erase(found, found + 2);
+  constexpr std::string_view kGlued = "--output=";
+  for (auto word = arguments.begin(); word != arguments.end(); ++word) {
+    const bool glued = word->starts_with(kGlued);
+    if (!glued && ((*word != "-o" && *word != "--output") || word + 1 == arguments.end())) continue;
+    const std::filesystem::path output = glued ? word->substr(kGlued.size()) : *(word + 1);
+    arguments.erase(word, word + (glued ? 1 : 2));
     return output;
   }
   throw UsageError("-o is missing: where " + std::string(kind == "sample" ? "the samples are" : "the study is") +
@@ -61,7 +62,7 @@ ClusterJob jobOf(const ClusterArguments& arguments) {
 
 Exit make(const ClusterArguments& arguments, Session& session) {
   ClusterJob job = jobOf(arguments);
-  if (!arguments.dryRun && std::filesystem::exists(job.folder)) writeJob(job); // says why not, before it measures
+  if (!arguments.dryRun) requireRoom(job); // says why not, before it measures
   if (!session.json) std::cerr << "measuring the first " << (job.kind == "sample" ? "samples" : "design") << "\n";
   measure(job, session.stop);
   session.result["shards"] = job.shards;
@@ -80,7 +81,7 @@ Exit make(const ClusterArguments& arguments, Session& session) {
   if (arguments.submit) {
     std::vector<int> all;
     for (int n = 1; n <= job.shards; ++n) all.push_back(n);
-    const std::string id = submit(job, all, session.stop);
+    const std::string id = submit(job, all, {}, session.stop);
     session.result["job"] = id;
     next = "handed to Slurm as job " + id;
   }
@@ -113,14 +114,15 @@ Exit status(const ClusterArguments& arguments, Session& session) {
     for (const std::string& failure : found.failures) std::cout << failure << '\n';
   }
   if (!arguments.resubmit) return Exit::Done;
-  if (again.empty() && found.merged) {
+  if (again.empty() && (found.merged || found.merging)) {
     if (!session.json) std::cout << "nothing to submit again\n";
     return Exit::Done;
   }
-  const std::string id = submit(job, again, session.stop);
+  const std::string id = submit(job, again, found, session.stop);
   session.result["job"] = id;
   session.result["submitted"] = again;
-  if (!session.json) std::cout << again.size() << " shards and the merge submitted again\n";
+  const std::string shards = again.size() == 1 ? "1 shard" : std::to_string(again.size()) + " shards";
+  if (!session.json) std::cout << (again.empty() ? "" : shards + " and ") << "the merge submitted again\n";
   return Exit::Done;
 }
 

@@ -1,6 +1,8 @@
 #include "app/study/cluster/ClusterJob.h"
 
 #include "app/study/ChildProcess.h"
+#include "app/study/cluster/ShellWords.h"
+#include "app/study/studies/StudyFolder.h"
 #include "io/AtomicFile.h"
 #include "io/StrictJson.h"
 #include "io/StudyFile.h"
@@ -8,8 +10,12 @@
 #include "model/base/Error.h"
 #include "model/base/Text.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <set>
 #include <sstream>
 
 namespace palp {
@@ -19,38 +25,16 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kFewSamples = 32, kSomeSamples = 96; // one batch of the solver, and three
-constexpr double kTimeMargin = 2;                     // of the limit over what is expected: nodes differ
-constexpr double kSpareTime_s = 300;
-constexpr double kMemoryMargin = 1.3, kSpareMemory_MB = 200;
 constexpr double kMostMeasured_s = 24 * 3600;
-
-/// A word for the shell.
-std::string quoted(const std::string& word) {
-  const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) {
-    return std::isalnum(c) != 0 || std::string_view("-_./,:=@+*").find(static_cast<char>(c)) != std::string_view::npos;
-  });
-  if (plain && word.find('*') == std::string::npos) return word;
-  std::string result = "'";
-  for (const char c : word) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return result + "'";
-}
-
-std::string commandOf(const ClusterJob& job) {
-  std::string words = quoted(job.program.string()) + " " + job.kind;
-  for (const std::string& argument : job.arguments) words += " " + quoted(argument);
-  return words;
-}
-
-std::string extensionOf(const ClusterJob& job) {
-  return job.kind == "study" ? "" : job.output.extension().string();
-}
+constexpr const char* kSlurmNumbers = "slurm.txt"; // of arrays, and with this mark of merges
+constexpr const char* kMergeMark = "merge ";
 
 /// Runs a line of the shell where the job's paths begin; gives what it printed.
 ChildRun shell(const ClusterJob& job, const std::string& line, const std::stop_token& stop) {
   const ScratchFolder scratch;
   ChildOrder order;
   order.program = "/bin/sh";
-  order.arguments = {"-c", "cd " + quoted(job.workFolder.string()) + " && exec " + line};
+  order.arguments = {"-c", "cd " + shellWord(job.workFolder.string()) + " && exec " + line};
   order.folder = scratch.path();
   order.limit_s = kMostMeasured_s;
   ChildRun run = runChild(order, stop);
@@ -67,18 +51,11 @@ MeasuredShard measuredSamples(const ClusterJob& job, int parts, const std::stop_
   const std::string out = (scratch.path() / ("first" + extensionOf(job))).string();
   const ChildRun run = shell(job,
                              commandOf(job) + " --threads " + std::to_string(job.cpus) + " --shard 1/" +
-                                 std::to_string(parts) + " --json -o " + quoted(out),
+                                 std::to_string(parts) + " --json -o " + shellWord(out),
                              stop);
   if (!run.failed.empty()) throw Error(run.failed);
   const Json json = parseJson(run.output, "palp sample --json");
   return {json.at("samples").get<double>(), json.at("samples_of_all_shards").get<double>(), run.seconds, run.peak_MB};
-}
-
-std::string asTime(double seconds) {
-  const auto minutes = static_cast<long>(std::ceil((kTimeMargin * seconds + kSpareTime_s) / 60));
-  std::string rest = std::to_string(minutes % 60);
-  if (rest.size() < 2) rest.insert(0, "0");
-  return std::to_string(minutes / 60) + ":" + rest + ":00";
 }
 
 std::vector<std::string> linesOf(const std::string& text) {
@@ -105,7 +82,7 @@ void measure(ClusterJob& job, const std::stop_token& stop) {
     const ChildRun run =
         shell(job,
               commandOf(job) + " --threads " + std::to_string(job.cpus) + " --shard 1/" + std::to_string(designs) +
-                  " --json -o " + quoted((scratch.path() / "first").string()),
+                  " --json -o " + shellWord((scratch.path() / "first").string()),
               stop);
     if (!run.failed.empty()) throw Error(run.failed);
     job.secondsAShard = run.seconds * std::ceil(static_cast<double>(designs) / job.shards);
@@ -125,87 +102,23 @@ void measure(ClusterJob& job, const std::stop_token& stop) {
   job.memory_MB = some.memory_MB;
 }
 
-std::map<std::string, std::string> clusterScripts(const ClusterJob& job) {
-  const std::string folder = quoted(job.folder.string()), all = std::to_string(job.shards);
-  const bool study = job.kind == "study";
-  const std::string part =
-      study ? quoted(job.output.string()) : quoted((job.folder / "shards").string()) + "/$n" + extensionOf(job);
-  std::map<std::string, std::string> scripts;
-  scripts["shard.sh"] = "#!/bin/sh\n"
-                        "# One shard of " +
-                        all +
-                        ", number $1: nothing where it is done; one that was ended goes on.\n"
-                        "n=$1\n"
-                        "cd " +
-                        quoted(job.workFolder.string()) +
-                        " || exit 1\n"
-                        "[ -e " +
-                        folder + "/done/$n ] && exit 0\n" + commandOf(job) + " --threads ${SLURM_CPUS_PER_TASK:-" +
-                        std::to_string(job.cpus) + "} --shard $n/" + all + " -o " + part + (study ? "" : " --force") +
-                        "\n"
-                        "status=$?\n"
-                        "if [ $status -eq 0 ]; then\n"
-                        "  rm -f " +
-                        folder + "/failed/$n && touch " + folder +
-                        "/done/$n\n"
-                        "else\n"
-                        "  echo $status > " +
-                        folder +
-                        "/failed/$n\n"
-                        "fi\n"
-                        "exit $status\n";
-  std::string merge;
-  if (study)
-    merge = commandOf(job) + " -o " + part + "\n";
-  else {
-    merge = quoted(job.program.string()) + " merge";
-    for (int n = 1; n <= job.shards; ++n)
-      merge += " \\\n  " + quoted((job.folder / "shards" / (std::to_string(n) + extensionOf(job))).string());
-    merge += " \\\n  -o " + quoted(job.output.string()) + " --force\n";
-  }
-  scripts["merge.sh"] = "#!/bin/sh\n"
-                        "# All shards into " +
-                        job.output.string() +
-                        ".\n"
-                        "cd " +
-                        quoted(job.workFolder.string()) + " || exit 1\n" + merge +
-                        "status=$?\n[ $status -eq 0 ] && touch " + folder + "/done/merge\nexit $status\n";
-  const auto sbatch = [&](const std::string& name, const std::string& more, const std::string& log) {
-    return "#!/bin/sh\n#SBATCH --job-name=palp-" + name + "\n" + more +
-           "#SBATCH --requeue\n#SBATCH --open-mode=append\n#SBATCH --output=" + (job.folder / "logs" / log).string() +
-           "\n";
-  };
-  const long memory = static_cast<long>(std::ceil(kMemoryMargin * job.memory_MB + kSpareMemory_MB));
-  scripts["array.sbatch"] =
-      sbatch(job.kind,
-             "#SBATCH --array=1-" + all + "\n#SBATCH --cpus-per-task=" + std::to_string(job.cpus) +
-                 "\n#SBATCH --mem=" + std::to_string(memory) + "M\n#SBATCH --time=" + asTime(job.secondsAShard) + "\n",
-             "%a.txt") +
-      "# MeasuredShard: " + text(std::round(10 * job.secondsAShard) / 10) + " s a shard, " +
-      text(std::round(job.memory_MB)) + " MB; the limits leave room for slower nodes.\n" + folder +
-      "/shard.sh \"$SLURM_ARRAY_TASK_ID\"\n"
-      "status=$?\n"
-      "# Killed (memory, a node in trouble): again, three times at most, and on from what was made.\n"
-      "[ $status -gt 128 ] && [ \"${SLURM_RESTART_COUNT:-0}\" -lt 3 ] && scontrol requeue \"$SLURM_JOB_ID\"\n"
-      "exit $status\n";
-  scripts["merge.sbatch"] = sbatch("merge",
-                                   "#SBATCH --cpus-per-task=" + std::to_string(job.cpus) +
-                                       "\n#SBATCH --mem=" + std::to_string(std::max(1000L, memory)) +
-                                       "M\n#SBATCH --time=" + asTime(3600) + "\n",
-                                   "merge.txt") +
-                            "exec " + folder + "/merge.sh\n";
-  scripts["here.sh"] =
-      "#!/bin/sh\n"
-      "# All shards on this machine by GNU parallel, as many at a time as $1 says (1), then the merge.\n"
-      "parallel --jobs \"${1:-1}\" " +
-      folder + "/shard.sh {} ::: $(seq " + all + ") && exec " + folder + "/merge.sh\n";
-  return scripts;
-}
-
-void writeJob(const ClusterJob& job) {
+void requireRoom(const ClusterJob& job) {
   if (fs::exists(job.folder))
     throw Error(job.folder.string() + ": is there already; palp cluster status " + job.folder.string() +
                 " says how it stands; allowed is a new folder");
+  if (job.kind == "study") {
+    StudyFolder::requireFits(job.output, loadStudy(job.workFolder / job.arguments.at(0)));
+    return;
+  }
+  const fs::path folder = job.output.parent_path();
+  if (!fs::is_directory(folder) || access(folder.c_str(), W_OK) != 0)
+    throw Error("-o: folder '" + folder.string() + "' " +
+                (fs::is_directory(folder) ? "cannot be written to" : "does not exist"));
+  requireFree(job.output, std::find(job.arguments.begin(), job.arguments.end(), "--force") != job.arguments.end());
+}
+
+void writeJob(const ClusterJob& job) {
+  requireRoom(job);
   std::error_code failed;
   for (const char* part : {"shards", "done", "failed", "logs"}) {
     fs::create_directories(job.folder / part, failed);
@@ -253,24 +166,48 @@ ClusterJob readJob(const fs::path& folder) {
   return job;
 }
 
+namespace {
+
+/// What Slurm's queue has of the job: the tasks of its arrays, and its merges.
+void askQueue(const ClusterJob& job, ClusterStatus& status, const std::stop_token& stop) {
+  const fs::path known = job.folder / kSlurmNumbers;
+  if (!fs::exists(known) || !programInPath("squeue")) return;
+  std::string ids;
+  std::set<std::string> merges;
+  for (const std::string& line : linesOf(readFile(known))) {
+    const bool merge = line.starts_with(kMergeMark);
+    const std::string id = merge ? line.substr(std::string(kMergeMark).size()) : line;
+    if (id.empty() || !std::all_of(id.begin(), id.end(), [](char c) { return c >= '0' && c <= '9'; }))
+      throw Error(known.string() + ": '" + line + "'; allowed is the number of a job of Slurm");
+    if (merge) merges.insert(id);
+    ids += (ids.empty() ? "" : ",") + id;
+  }
+  // It refuses numbers that it has long forgotten, and then there is nothing of them.
+  const ChildRun run = shell(job, "squeue --noheader --array --jobs=" + ids + " --format='%F %K %t'", stop);
+  for (const std::string& line : linesOf(run.output)) {
+    std::istringstream words(line);
+    std::string id, number, state;
+    if (!(words >> id >> number >> state)) continue;
+    const bool waits = state == "PD" || state == "RQ" || state == "RH";
+    if (merges.contains(id)) {
+      if (waits) status.waitingMerges.push_back(id);
+      status.merging = status.merging || !waits;
+      continue;
+    }
+    const int shard = std::atoi(number.c_str());
+    if (shard < 1 || shard > job.shards) continue;
+    status.shards[static_cast<std::size_t>(shard - 1)] = waits ? ShardState::Waiting : ShardState::Running;
+    if (std::find(status.arrays.begin(), status.arrays.end(), id) == status.arrays.end()) status.arrays.push_back(id);
+  }
+}
+
+} // namespace
+
 ClusterStatus statusOf(const ClusterJob& job, const std::stop_token& stop) {
   ClusterStatus status;
   status.shards.assign(static_cast<std::size_t>(job.shards), ShardState::Missing);
   status.merged = fs::exists(job.folder / "done" / "merge");
-  if (programInPath("squeue") && fs::exists(job.folder / "slurm.txt")) {
-    std::string ids;
-    for (const std::string& id : linesOf(readFile(job.folder / "slurm.txt"))) ids += (ids.empty() ? "" : ",") + id;
-    const ChildRun run = shell(job, "squeue --noheader --array --jobs=" + ids + " --format='%K %t'", stop);
-    status.slurm = run.failed.empty(); // it refuses numbers that it has long forgotten
-    for (const std::string& line : linesOf(run.output)) {
-      std::istringstream words(line);
-      int shard = 0;
-      std::string state;
-      if (!(words >> shard >> state) || shard < 1 || shard > job.shards) continue; // the merge has no number
-      status.shards[static_cast<std::size_t>(shard - 1)] =
-          state == "PD" || state == "RQ" || state == "RH" ? ShardState::Waiting : ShardState::Running;
-    }
-  }
+  askQueue(job, status, stop);
   for (int n = 1; n <= job.shards; ++n) {
     ShardState& state = status.shards[static_cast<std::size_t>(n - 1)];
     if (fs::exists(doneMark(job, n)))
@@ -287,23 +224,31 @@ ClusterStatus statusOf(const ClusterJob& job, const std::stop_token& stop) {
   return status;
 }
 
-std::string submit(const ClusterJob& job, const std::vector<int>& shards, const std::stop_token& stop) {
+std::string submit(const ClusterJob& job, const std::vector<int>& shards, const ClusterStatus& queue,
+                   const std::stop_token& stop) {
   if (!programInPath("sbatch"))
     throw Error("sbatch: not in the PATH; allowed is a machine with Slurm, or " + (job.folder / "here.sh").string() +
                 " with GNU parallel");
-  std::string numbers;
-  for (const int n : shards) numbers += (numbers.empty() ? "" : ",") + std::to_string(n);
-  const auto hand = [&](const std::string& what) {
+  const fs::path known = job.folder / kSlurmNumbers;
+  const auto hand = [&](const std::string& what, const char* mark) {
     const ChildRun run = shell(job, "sbatch --parsable " + what, stop);
     if (!run.failed.empty()) throw Error("sbatch: " + run.failed);
-    return run.output.substr(0, run.output.find_first_of(";\n"));
+    const std::string id = run.output.substr(0, run.output.find_first_of(";\n"));
+    writeFile(known, (fs::exists(known) ? readFile(known) : "") + mark + id + "\n", true);
+    return id;
   };
-  std::string after;
-  if (!shards.empty()) after = hand("--array=" + numbers + " " + quoted((job.folder / "array.sbatch").string()));
-  hand((after.empty() ? "" : "--dependency=afterok:" + after + " ") + quoted((job.folder / "merge.sbatch").string()));
-  const fs::path known = job.folder / "slurm.txt"; // numbers of all arrays
-  if (!after.empty()) writeFile(known, (fs::exists(known) ? readFile(known) : "") + after + "\n", true);
-  return after;
+  std::string array, after;
+  if (!shards.empty()) {
+    array = hand("--array=" + asRanges(shards) + " " + shellWord((job.folder / "array.sbatch").string()), "");
+    after = "afterok:" + array;
+  }
+  for (const std::string& id : queue.arrays) after += (after.empty() ? "" : ",") + ("afterany:" + id);
+  // The merge that waits for what failed would wait for ever.
+  for (const std::string& id : queue.waitingMerges) shell(job, "scancel " + id, stop);
+  hand((after.empty() ? "" : "--kill-on-invalid-dep=yes --dependency=" + after + " ") +
+           shellWord((job.folder / "merge.sbatch").string()),
+       kMergeMark);
+  return array;
 }
 
 } // namespace palp

@@ -31,7 +31,9 @@ void measure(ClusterJob& job, const std::stop_token& stop);
 /// all shards are done), here.sh (all of it on this machine by GNU parallel).
 std::map<std::string, std::string> clusterScripts(const ClusterJob& job);
 
-/// Writes scripts and job.json. Throws Error where the folder is there already.
+/// Throws Error where the job's folder is there already, or its output could not be written at last.
+void requireRoom(const ClusterJob& job);
+/// Writes scripts and job.json. Throws Error.
 void writeJob(const ClusterJob& job);
 /// The job of a folder. Throws Error.
 ClusterJob readJob(const std::filesystem::path& folder);
@@ -42,12 +44,15 @@ struct ClusterStatus {
   std::vector<ShardState> shards;
   std::vector<std::string> failures; ///< sentences: which shard, with what status
   bool merged = false;
-  bool slurm = false; ///< squeue was asked
+  std::vector<std::string> arrays;        ///< numbers of the job arrays that Slurm's queue has
+  std::vector<std::string> waitingMerges; ///< of the joining jobs that wait in it
+  bool merging = false;                   ///< one of them runs
 };
 ClusterStatus statusOf(const ClusterJob& job, const std::stop_token& stop);
 
-/// Hands the shards (counted from 1) and the merge after them to Slurm; gives the array's number. Throws Error with
-/// sbatch's own words.
-std::string submit(const ClusterJob& job, const std::vector<int>& shards, const std::stop_token& stop);
+/// Hands the shards (counted from 1) to Slurm, and a merge after them and after what its queue still has, in place of
+/// merges that wait; gives the array's number. Throws Error with sbatch's own words.
+std::string submit(const ClusterJob& job, const std::vector<int>& shards, const ClusterStatus& queue,
+                   const std::stop_token& stop);
 
 } // namespace palp

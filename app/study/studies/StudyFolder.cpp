@@ -11,33 +11,50 @@ namespace palp {
 
 namespace fs = std::filesystem;
 
-StudyFolder::StudyFolder(fs::path folder, StudyPlan plan) : folder_(std::move(folder)), plan_(std::move(plan)) {
-  const fs::path file = folder_ / "study.json";
-  const std::string content = toJson(plan_);
-  if (fs::exists(file)) {
-    if (readFile(file) != content)
-      throw Error(folder_.string() + ": holds another study (study.json differs); allowed is a new folder, or the same "
-                                     "study to go on with it");
-    makeRows();
-    return;
-  }
-  if (fs::exists(folder_) && !fs::is_directory(folder_))
-    throw Error(folder_.string() + ": is a file; allowed is a folder");
-  if (fs::exists(folder_) && !fs::is_empty(folder_))
-    throw Error(folder_.string() + ": is not empty and holds no study; allowed is a new folder");
-  makeRows();
-  writeFile(file, content, true); // another shard may have written the same just now
+namespace {
+
+constexpr const char *kStudyFile = "study.json", *kRows = "rows";
+
+/// What a shard that has just begun in the same folder may have made before the file of the study.
+bool isOfShard(const std::string& name) {
+  return name == kRows || name.starts_with(".study.new"); // as AtomicFile calls it
 }
 
-void StudyFolder::makeRows() const {
+} // namespace
+
+void StudyFolder::requireFits(const fs::path& folder, const StudyPlan& plan) {
+  const auto refuse = [&](const std::string& sentence) { throw Error(folder.string() + ": " + sentence); };
   std::error_code failed;
-  fs::create_directories(folder_ / "rows", failed);
+  const fs::file_status status = fs::status(folder, failed);
+  if (!fs::exists(status)) return; // where it cannot be made, its maker says why
+  if (!fs::is_directory(status)) refuse("is a file; allowed is a folder");
+  const fs::path file = folder / kStudyFile;
+  if (fs::exists(file, failed)) {
+    if (readFile(file) != toJson(plan))
+      refuse("holds another study (study.json differs); allowed is a new folder, or the same study to go on with it");
+    return;
+  }
+  fs::directory_iterator entries(folder, failed);
+  if (failed) refuse("the folder cannot be read: " + failed.message());
+  for (const fs::directory_entry& entry : entries)
+    if (!isOfShard(entry.path().filename().string()))
+      refuse("is not empty and holds no study; allowed is a new folder");
+}
+
+StudyFolder::StudyFolder(fs::path folder, StudyPlan plan)
+    : folder_(std::move(folder)), plan_(std::move(plan)), areas_(studyAreas(plan_)),
+      columns_(studyColumns(plan_, areas_)) {
+  requireFits(folder_, plan_);
+  std::error_code failed;
+  fs::create_directories(folder_ / kRows, failed);
   if (failed) throw Error(folder_.string() + ": the folder cannot be made: " + failed.message());
+  if (!fs::exists(folder_ / kStudyFile)) // another shard may have written the same just now
+    writeFile(folder_ / kStudyFile, toJson(plan_), true);
 }
 
 fs::path StudyFolder::row(std::size_t design) const {
   const std::string number = std::to_string(design);
-  return folder_ / "rows" / (std::string(7 - std::min<std::size_t>(7, number.size()), '0') + number + ".csv");
+  return folder_ / kRows / (std::string(7 - std::min<std::size_t>(7, number.size()), '0') + number + ".csv");
 }
 
 bool StudyFolder::done(std::size_t design) const {
@@ -63,20 +80,21 @@ bool StudyFolder::compute(std::size_t first, std::size_t last, int threads, cons
     const std::string design = "design " + std::to_string(missing[k]);
     const auto before = static_cast<double>(k);
     const auto found = studyRow(
-        plan_, missing[k], threads,
+        plan_, missing[k], areas_, threads,
         [&](double share, const std::string& what) { tell(before + share, design + ": " + what); }, stop);
     if (!found) return false;
-    writeFile(row(missing[k]), studyLine(plan_, missing[k], *found), true); // whole or not at all
+    writeFile(row(missing[k]), studyLine(plan_, columns_, missing[k], *found), true); // whole or not at all
     tell(before + 1, design);
   }
   return true;
 }
 
 void StudyFolder::writeTable() const {
-  std::string all = Csv(studyColumns(plan_)).text();
+  std::string all = Csv(columns_).text();
   for (std::size_t i = 0; i < plan_.designs(); ++i) {
     const std::string line = readFile(row(i));
-    if (!line.starts_with(std::to_string(i) + ",") || line.back() != '\n')
+    const std::vector<std::string> cells = studyCells(line);
+    if (cells.size() != columns_.size() || cells[0] != std::to_string(i) || line.find('\n') + 1 != line.size())
       throw Error(row(i).string() + ": no row of design " + std::to_string(i) + "; take it away to have it made again");
     all += line;
   }

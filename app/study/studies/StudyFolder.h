@@ -12,8 +12,10 @@ namespace palp {
 /// table.csv. A run that was killed goes on where it ended; several may work on shards of one folder.
 class StudyFolder {
 public:
-  /// Makes the folder. Throws Error where it holds another study, or files of another kind.
+  /// Makes the folder. Throws Error where it cannot be that of the study.
   StudyFolder(std::filesystem::path folder, StudyPlan plan);
+  /// Throws Error where the folder holds another study, or files of another kind.
+  static void requireFits(const std::filesystem::path& folder, const StudyPlan& plan);
 
   [[nodiscard]] const StudyPlan& plan() const { return plan_; }
   [[nodiscard]] bool done(std::size_t design) const;
@@ -31,11 +33,12 @@ public:
   [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
 
 private:
-  void makeRows() const;
   [[nodiscard]] std::filesystem::path row(std::size_t design) const;
 
   std::filesystem::path folder_;
   StudyPlan plan_;
+  int areas_;
+  std::vector<std::string> columns_;
 };
 
 } // namespace palp

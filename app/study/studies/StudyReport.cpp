@@ -17,24 +17,6 @@ namespace {
 constexpr std::size_t kBest = 10;
 constexpr std::size_t kMostCharts = 24;
 
-/// Cells of a line of our own CSV (fields with commas are quoted).
-std::vector<std::string> cellsOf(const std::string& line) {
-  std::vector<std::string> cells(1);
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const char c = line[i];
-    if (c == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"')
-      cells.back() += line[++i];
-    else if (c == '"')
-      quoted = !quoted;
-    else if (c == ',' && !quoted)
-      cells.emplace_back();
-    else
-      cells.back() += c;
-  }
-  return cells;
-}
-
 std::optional<double> numberIn(const std::string& cell) {
   double value = 0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
@@ -52,12 +34,12 @@ bool isChief(const std::string& column) {
 
 ReportContent studyReport(const StudyFolder& study) {
   const StudyPlan& plan = study.plan();
-  const std::vector<std::string> columns = studyColumns(plan);
   std::vector<std::vector<std::string>> rows;
   std::istringstream table(readFile(study.table()));
   std::string line;
-  std::getline(table, line); // the names
-  while (std::getline(table, line)) rows.push_back(cellsOf(line));
+  std::getline(table, line);
+  const std::vector<std::string> columns = studyCells(line);
+  while (std::getline(table, line)) rows.push_back(studyCells(line));
   const std::size_t problem = 1 + plan.axes.size();
   const auto failed = std::count_if(rows.begin(), rows.end(), [&](const auto& row) { return !row[problem].empty(); });
 

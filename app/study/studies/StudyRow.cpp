@@ -12,25 +12,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace palp {
 
 namespace {
-
-/// Most areas that any of the designs has that can be; the rows of the others say why not.
-int mostAreas(const StudyPlan& plan) {
-  int most = 1;
-  const bool vary = std::any_of(plan.axes.begin(), plan.axes.end(),
-                                [](const StudyAxis& axis) { return axis.key.starts_with("areas."); });
-  for (std::size_t i = 0; i < (vary ? plan.designs() : 1); ++i) {
-    try {
-      most = std::max(most, plan.at(i).areas.count());
-    } catch (const Error&) {
-      continue;
-    }
-  }
-  return most;
-}
 
 /// Works out the quantities of one design, one after the other.
 class RowWork {
@@ -123,7 +109,28 @@ private:
 
 } // namespace
 
-std::vector<std::string> studyColumns(const StudyPlan& plan) {
+int studyAreas(const StudyPlan& plan) {
+  std::vector<std::size_t> ofAreas;
+  for (std::size_t a = 0; a < plan.axes.size(); ++a)
+    if (plan.axes[a].key.starts_with("areas.")) ofAreas.push_back(a);
+  int most = 1;
+  std::set<std::vector<std::string>> known; // most designs have the areas of one before
+  for (std::size_t i = 0; i < (ofAreas.empty() ? 1 : plan.designs()); ++i) {
+    const std::vector<std::string> all = plan.values(i);
+    std::vector<std::string> chosen;
+    for (const std::size_t a : ofAreas) chosen.push_back(all[a]);
+    if (known.contains(chosen)) continue;
+    try {
+      most = std::max(most, plan.at(i).areas.count());
+      known.insert(std::move(chosen));
+    } catch (const Error&) {
+      continue;
+    }
+  }
+  return most;
+}
+
+std::vector<std::string> studyColumns(const StudyPlan& plan, int areas) {
   std::vector<std::string> columns{"design"};
   for (const StudyAxis& axis : plan.axes) columns.push_back(axis.key);
   columns.emplace_back("problem");
@@ -132,8 +139,7 @@ std::vector<std::string> studyColumns(const StudyPlan& plan) {
   };
   if (plan.computes(StudyQuantity::Bound)) {
     forces("bound_", "mean");
-    for (int area = 0; area < mostAreas(plan); ++area)
-      columns.push_back("bound_area" + std::to_string(area) + "_percent");
+    for (int area = 0; area < areas; ++area) columns.push_back("bound_area" + std::to_string(area) + "_percent");
   }
   if (plan.computes(StudyQuantity::Decoders))
     for (const DecoderKind kind : plan.decoders) forces(kDecoderKinds.name(kind) + "_", "rms");
@@ -142,12 +148,12 @@ std::vector<std::string> studyColumns(const StudyPlan& plan) {
   return columns;
 }
 
-std::optional<StudyRow> studyRow(const StudyPlan& plan, std::size_t design, int threads, const ReportProgress& progress,
-                                 const std::stop_token& stop) {
+std::optional<StudyRow> studyRow(const StudyPlan& plan, std::size_t design, int areas, int threads,
+                                 const ReportProgress& progress, const std::stop_token& stop) {
   try {
     SensorDesign chosen = plan.at(design);
     requireValid(chosen);
-    return RowWork(plan, std::move(chosen), mostAreas(plan), threads, progress, stop).run();
+    return RowWork(plan, std::move(chosen), areas, threads, progress, stop).run();
   } catch (const Cancelled&) {
     return {};
   } catch (const Error& problem) { // a design that cannot be is a row of its own, said in the table
@@ -155,8 +161,8 @@ std::optional<StudyRow> studyRow(const StudyPlan& plan, std::size_t design, int 
   }
 }
 
-std::string studyLine(const StudyPlan& plan, std::size_t design, const StudyRow& row) {
-  const std::vector<std::string> columns = studyColumns(plan);
+std::string studyLine(const StudyPlan& plan, const std::vector<std::string>& columns, std::size_t design,
+                      const StudyRow& row) {
   std::vector<CsvCell> cells{static_cast<int>(design)};
   for (const std::string& value : plan.values(design)) cells.emplace_back(value);
   cells.emplace_back(row.problem);
@@ -165,6 +171,23 @@ std::string studyLine(const StudyPlan& plan, std::size_t design, const StudyRow&
   Csv csv(columns);
   csv.add(cells);
   return csv.text().substr(Csv(columns).text().size());
+}
+
+std::vector<std::string> studyCells(const std::string& line) {
+  std::vector<std::string> cells(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (c == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"')
+      cells.back() += line[++i];
+    else if (c == '"')
+      quoted = !quoted;
+    else if (c == ',' && !quoted)
+      cells.emplace_back();
+    else if (c != '\n')
+      cells.back() += c;
+  }
+  return cells;
 }
 
 } // namespace palp

@@ -10,9 +10,12 @@
 
 namespace palp {
 
-/// The columns of a study's table: number of the design, the keys that vary, why it cannot be ("problem"), and what is
-/// computed, with units.
-std::vector<std::string> studyColumns(const StudyPlan& plan);
+/// Most areas that any of the designs has that can be; the rows of the others say why not.
+int studyAreas(const StudyPlan& plan);
+
+/// The columns of the table of a study of so many areas: number of the design, the keys that vary, why it cannot be
+/// ("problem"), and what is computed, with units.
+std::vector<std::string> studyColumns(const StudyPlan& plan, int areas);
 
 /// What a study says of one design. The same bytes at any number of threads.
 struct StudyRow {
@@ -21,10 +24,12 @@ struct StudyRow {
 };
 
 /// Empty: stopped.
-std::optional<StudyRow> studyRow(const StudyPlan& plan, std::size_t design, int threads, const ReportProgress& progress,
-                                 const std::stop_token& stop);
+std::optional<StudyRow> studyRow(const StudyPlan& plan, std::size_t design, int areas, int threads,
+                                 const ReportProgress& progress, const std::stop_token& stop);
 
-/// The row as a line of CSV.
-std::string studyLine(const StudyPlan& plan, std::size_t design, const StudyRow& row);
+/// The row as a line of CSV; and the cells of such a line.
+std::string studyLine(const StudyPlan& plan, const std::vector<std::string>& columns, std::size_t design,
+                      const StudyRow& row);
+std::vector<std::string> studyCells(const std::string& line);
 
 } // namespace palp

@@ -25,7 +25,35 @@ Outcome runShell(const fs::path& folder, const std::string& line) {
   return {status, readAll(log), {}};
 }
 
+/// A program of that name that is found before others: of this process alone.
+void standIn(const palp::TemporaryFolder& folder, const std::string& name, const std::string& script) {
+  fs::create_directory(folder / "bin");
+  writeAll(folder / "bin" / name, "#!/bin/sh\n" + script);
+  fs::permissions(folder / "bin" / name, fs::perms::owner_all);
+  const std::string path = (folder / "bin").string() + ":" + std::getenv("PATH"); // NOLINT(concurrency-mt-unsafe)
+  ::setenv("PATH", path.c_str(), 1);                                              // NOLINT(concurrency-mt-unsafe)
+}
+
 } // namespace
+
+TEST(StudyCommand, GoesOnInAFolderThatAnotherShardHasJustBegunAndRefusesABrokenRow) {
+  const palp::TemporaryFolder folder;
+  const std::string all = R"(["bound", "decoders", "displacement", "error"])";
+  std::string study = kStudy;
+  study.replace(study.find(all), all.size(), R"(["displacement"])");
+  writeAll(folder / "study.json", study);
+  fs::create_directories(folder / "out" / "rows");
+  writeAll(folder / "out" / ".study.new77.json", "half");
+  const std::vector<std::string> words{"study", folder / "study.json", "-o", folder / "out"};
+  const Outcome outcome = palp::test::palp(words);
+  ASSERT_EQ(outcome.exit, 0) << outcome.errors;
+  for (const char* broken : {"2,4,4.6,\n", "2\n", "", "3,3.5,5.3,,1\n", "2,4,4.6,,1"}) {
+    writeAll(folder / "out" / "rows" / "0000002.csv", broken);
+    const Outcome refused = palp::test::palp(words);
+    EXPECT_EQ(refused.exit, 2) << broken;
+    EXPECT_NE(refused.errors.find("0000002.csv: no row of design 2"), std::string::npos) << refused.errors;
+  }
+}
 
 TEST(StudyCommand, MakesOneRowADesignAndSaysWhichCannotBe) {
   const palp::TemporaryFolder folder;
@@ -131,20 +159,19 @@ TEST(ClusterCommand, MakesAStudyInShards) {
 /// Stand-ins for Slurm's commands: what is handed in is kept, what runs is told.
 TEST(ClusterCommand, HandsInAndSubmitsAgainOnlyWhatIsMissing) {
   const palp::TemporaryFolder folder;
-  fs::create_directory(folder / "bin");
-  writeAll(folder / "bin" / "sbatch", "#!/bin/sh\necho \"$@\" >> '" + (folder / "asked.txt").string() + "'\necho 41\n");
-  writeAll(folder / "bin" / "squeue", "#!/bin/sh\necho '3 R'\necho '4 PD'\n");
-  for (const char* name : {"sbatch", "squeue"}) fs::permissions(folder / "bin" / name, fs::perms::owner_all);
-  const std::string path = (folder / "bin").string() + ":" + std::getenv("PATH"); // NOLINT(concurrency-mt-unsafe)
-  ::setenv("PATH", path.c_str(), 1); // NOLINT(concurrency-mt-unsafe): of this process alone
+  const std::string asked_txt = "'" + (folder / "asked.txt").string() + "'";
+  standIn(folder, "sbatch", "echo \"$@\" >> " + asked_txt + "\necho $((40 + $(grep -c sbatch " + asked_txt + ")))\n");
+  standIn(folder, "squeue", "echo '41 3 R'\necho '41 4 PD'\necho '42 N/A PD'\n");
+  standIn(folder, "scancel", "echo scancel \"$@\" >> " + asked_txt + "\n");
   const std::string job = (folder / "job").string();
   const Outcome made = palp::test::palp({"cluster", "sample", "paper", "--per-area", "5", "--mapped", "4x4x2", "-o",
                                          folder / "s.csv", "--shards", "5", "--folder", job, "--submit", "--json"});
   ASSERT_EQ(made.exit, 0) << made.errors;
   EXPECT_EQ(made.json().at("job"), "41");
   const std::string asked = readAll(folder / "asked.txt");
-  EXPECT_NE(asked.find("--array=1,2,3,4,5 " + job + "/array.sbatch"), std::string::npos) << asked;
-  EXPECT_NE(asked.find("--dependency=afterok:41 " + job + "/merge.sbatch"), std::string::npos) << asked;
+  EXPECT_NE(asked.find("--array=1-5 " + job + "/array.sbatch"), std::string::npos) << asked;
+  EXPECT_NE(asked.find("--kill-on-invalid-dep=yes --dependency=afterok:41 " + job + "/merge.sbatch"), std::string::npos)
+      << asked;
 
   ASSERT_EQ(runShell(folder.path(), "'" + job + "/shard.sh' 1").exit, 0);
   writeAll(folder / "job" / "failed" / "5", "137\n");
@@ -154,7 +181,39 @@ TEST(ClusterCommand, HandsInAndSubmitsAgainOnlyWhatIsMissing) {
        {std::pair{"done", 1}, {"running", 1}, {"waiting", 1}, {"failed", 1}, {"missing", 1}})
     EXPECT_EQ(status.json().at(state), count) << state;
   EXPECT_EQ(status.json().at("submitted"), (json{2, 5}));
-  EXPECT_NE(readAll(folder / "asked.txt").find("--array=2,5 "), std::string::npos);
+  std::string now = readAll(folder / "asked.txt").substr(asked.size());
+  EXPECT_NE(now.find("--array=2,5 "), std::string::npos);
+  EXPECT_NE(now.find("scancel 42\n"), std::string::npos) << "the merge of before waits for what has failed: " << now;
+  EXPECT_NE(now.find("--dependency=afterok:43,afterany:41 "), std::string::npos) << now;
+
+  // All that is left is at work: the merge waits for it, and no shard is handed in twice.
+  for (const char* shard : {"2", "5"}) writeAll(folder / "job" / "done" / shard, "");
+  const std::string before = readAll(folder / "asked.txt");
+  ASSERT_EQ(palp::test::palp({"cluster", "status", job, "--resubmit"}).exit, 0);
+  now = readAll(folder / "asked.txt").substr(before.size());
+  EXPECT_EQ(now.find("--array"), std::string::npos) << now;
+  EXPECT_NE(now.find("--dependency=afterany:41 "), std::string::npos) << now;
+  writeAll(folder / "job" / "slurm.txt", "41\nnone; rm -rf\n");
+  const Outcome broken = palp::test::palp({"cluster", "status", job});
+  EXPECT_EQ(broken.exit, 2);
+  EXPECT_NE(broken.errors.find("none; rm -rf"), std::string::npos) << broken.errors;
+}
+
+/// Of GNU parallel: each line of its input is appended to the command, which a shell runs.
+TEST(ClusterCommand, RunsOnOneMachineInFoldersOfAnyName) {
+  const palp::TemporaryFolder folder;
+  standIn(folder, "parallel", "[ \"$1\" = --jobs ] || exit 9\nwhile read n; do sh -c \"$3 $n\" || exit 1; done\n");
+  const fs::path job = folder / "50 % of it's \"job\"";
+  ASSERT_EQ(palp::test::palp({"cluster", "sample", "paper", "--per-area", "2", "--mapped", "4x4x2",
+                              "--output=" + (folder / "all of it").string(), "--shards", "2", "--folder", job})
+                .exit,
+            0);
+  EXPECT_NE(readAll(job / "array.sbatch").find("/50 %% of it's \\\"job\\\"/logs/%a.txt\""), std::string::npos)
+      << readAll(job / "array.sbatch");
+  const Outcome outcome = runShell(folder.path(), "cd '" + folder.path().string() + "'/50* && ./here.sh 2");
+  ASSERT_EQ(outcome.exit, 0) << outcome.output;
+  EXPECT_EQ(palp::test::palp({"cluster", "status", job, "--json"}).json().at("merged"), true);
+  EXPECT_TRUE(fs::exists(folder / "all of it"));
 }
 
 TEST(ClusterCommand, ADryRunShowsTheScriptsAndWritesNothing) {
@@ -184,7 +243,11 @@ TEST(ClusterCommand, RefusesInOneLine) {
   refused({"sample", "paper", "--per-area", "5", "--shard", "1/2", "-o", out, "--shards", "2"}, "--shard");
   refused({"sample", "nowhere.json", "--per-area", "5", "-o", out, "--shards", "2", "--folder", job}, "nowhere.json");
   refused({"sample", "paper", "--perarea", "5", "-o", out, "--shards", "2", "--folder", job}, "perarea");
+  refused({"sample", "paper", "--per-area", "5", "-o", folder / "no" / "s.csv", "--shards", "2"}, "does not exist");
+  refused({"sample", "paper", "--per-area", "5", "-o", folder.path(), "--shards", "2"}, "is a folder");
   refused({"status", folder.path()}, "job.json");
   refused({"status"}, "which folder");
   EXPECT_TRUE(fs::is_empty(folder.path()));
+  writeAll(out, "precious");
+  refused({"sample", "paper", "--per-area", "5", "-o", out, "--shards", "2", "--folder", job}, "--force");
 }
