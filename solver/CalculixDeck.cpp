@@ -4,6 +4,7 @@
 #include "model/base/Cancelled.h"
 #include "solver/assembly/Discretisation.h"
 #include "solver/assembly/SurfaceTraction.h"
+#include "solver/contact/ContactDeck.h"
 
 #include <cstdio>
 
@@ -41,8 +42,6 @@ std::string calculixDeck(const SensorDesign& design, const Mesh& mesh, const Loa
   const Material& m = design.material;
   if (m.compressibility_per_MPa() <= 0)
     throw DesignError("material.poisson_ratio 0.5: a displacement element's deck needs a value below 0.5");
-  if (!load.indenters.empty())
-    throw DesignError("the load has an indenter: a deck holds forces on areas and discs, no contact");
   const Eigen::VectorXd forces = nodalForces(mesh, design, load);
   std::string deck = "*HEADING\nBlock of a tactile sensor [mm, N, MPa]\n*NODE, NSET=ALL\n";
   for (int n = 0; n < mesh.nodeCount(); ++n) {
@@ -60,14 +59,22 @@ std::string calculixDeck(const SensorDesign& design, const Mesh& mesh, const Loa
   // d = 2 / kappa: W = ... + (1/d) (J - 1)^2.
   deck += "*MATERIAL, NAME=RUBBER\n*HYPERELASTIC, MOONEY-RIVLIN\n" + number(m.c10_MPa) + ", " + number(m.c01_MPa) +
           ", " + number(2 * m.compressibility_per_MPa()) + "\n*DENSITY\n" + number(m.density_t_per_mm3) +
-          "\n*SOLID SECTION, ELSET=BLOCK, MATERIAL=RUBBER\n*BOUNDARY\nBOTTOM, 1, 3\n"
-          "*STEP, NLGEOM, INC=1000\n*STATIC\n1., 1.\n*CLOAD\n";
+          "\n*SOLID SECTION, ELSET=BLOCK, MATERIAL=RUBBER\n";
+  const std::string clamps = "BOTTOM, 1, 3\n";
+  std::string loads;
   for (int n = 0; n < mesh.nodeCount(); ++n)
     for (int d = 0; d < 3; ++d)
       if (const double f = forces(3 * n + d); f != 0)
-        deck += std::to_string(n + 1) + ", " + std::to_string(d + 1) + ", " + number(f) + "\n";
+        loads += std::to_string(n + 1) + ", " + std::to_string(d + 1) + ", " + number(f) + "\n";
   const std::string set = mesh.upperElectrodeNodes.empty() ? "ALL" : "UPPER_ELECTRODES";
-  return deck + "*NODE FILE\nU\n*EL FILE\nS\n*NODE PRINT, NSET=" + set + "\nU\n*END STEP\n";
+  const std::string output = "*NODE FILE\nU\n*EL FILE\nS\n*NODE PRINT, NSET=" + set + "\nU\n";
+  if (load.indenters.empty())
+    return deck + "*BOUNDARY\n" + clamps + "*STEP, NLGEOM, INC=1000\n*STATIC\n1., 1.\n*CLOAD\n" + loads + output +
+           "*END STEP\n";
+  // The clamped face carries what the indenters press with.
+  const ContactDeck contact =
+      contactDeck(design, mesh, load, clamps, loads, output + "*NODE PRINT, NSET=BOTTOM, TOTALS=ONLY\nRF\n");
+  return deck + contact.model + "*BOUNDARY\n" + clamps + contact.steps;
 }
 
 } // namespace palp

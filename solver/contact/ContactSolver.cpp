@@ -120,15 +120,23 @@ ContactResult ContactSolver::follow(const ContactIncrement& start) {
     const double target = fraction + size > 1 - 1e-9 ? 1 : fraction + size;
     const ContactIncrement& last = result.increments.back();
     State state;
-    const auto attempt = [&] {
+    const auto attempt = [&](Sideways sideways) {
       state = {last.equilibrium.state, last.contact};
-      const Outcome outcome = step(fraction, target, state);
+      Outcome outcome = step(fraction, target, state, sideways);
+      if (outcome == Outcome::Converged && sideways == Sideways::Held) { // now let go
+        tangentServes_ = true;
+        outcome = step(target, target, state, Sideways::AsLoaded);
+      }
+      if (outcome == Outcome::Converged && slidAway(last.contact, state.contact)) outcome = Outcome::NoContact;
       tangentServes_ = outcome == Outcome::Converged && charged_ < keptIterations;
       return outcome;
     };
     const bool withOldTangent = tangentServes_;
-    Outcome outcome = attempt();
-    if (withOldTangent && outcome != Outcome::Converged && outcome != Outcome::Cancelled) outcome = attempt();
+    Outcome outcome = attempt(Sideways::AsLoaded);
+    if (withOldTangent && outcome != Outcome::Converged && outcome != Outcome::Cancelled)
+      outcome = attempt(Sideways::AsLoaded);
+    // A node or two do not hold what is free to go aside while it comes down on them.
+    if (outcome == Outcome::NoContact && frictionHoldsSome()) outcome = attempt(Sideways::Held);
     if (outcome == Outcome::Converged) {
       fraction = target;
       result.increments.push_back({{fraction, std::move(state.rubber)}, std::move(state.contact)});
@@ -152,6 +160,23 @@ ContactResult ContactSolver::follow(const ContactIncrement& start) {
   newton.steps = std::move(steps_);
   steps_.clear();
   return result;
+}
+
+bool ContactSolver::frictionHoldsSome() const {
+  return std::any_of(path_[now_].indenters.begin(), path_[now_].indenters.end(),
+                     [](const Indenter& indenter) { return indenter.press() && indenter.friction > 0; });
+}
+
+/// Whether an indenter that friction is to hold has left the place that it presses on.
+bool ContactSolver::slidAway(const ContactState& from, const ContactState& to) const {
+  for (std::size_t k = 0; k < indenters_.size(); ++k) {
+    const Indenter& indenter = path_[now_].indenters[k];
+    if (!indenter.press() || indenter.friction == 0) continue;
+    const auto column = static_cast<Eigen::Index>(k);
+    const double way = (to.translations_mm.col(column) - from.translations_mm.col(column)).head<2>().norm();
+    if (way > contactEstimate(indenter, design_).half_mm.minCoeff()) return true;
+  }
+  return false;
 }
 
 /// What an indenter is to do at a fraction of the load in work: of a later one of a path, between the one before and
@@ -237,9 +262,16 @@ ContactSolver::Outcome ContactSolver::newTangent(double fraction, const State& s
 /// Equilibrium and contact at the load fraction `to`. In an iteration, with K the tangent and R the residual without
 /// a change of the contact forces f:
 ///   w = K^-1 R;  f' = contact of the points at X + u + w with the compliance C = K^-1;  du = w + K^-1 (f' - f).
-ContactSolver::Outcome ContactSolver::step(double from, double to, State& state) {
+ContactSolver::Outcome ContactSolver::step(double from, double to, State& state, Sideways sideways) {
   const Discretisation& mesh = assembler_.discretisation();
-  const std::vector<ContactTarget> goal = targets(to);
+  std::vector<ContactTarget> goal = targets(to);
+  if (sideways == Sideways::Held)
+    for (std::size_t k = 0; k < goal.size(); ++k)
+      for (const int c : {0, 1})
+        if (goal[k].free(c)) {
+          goal[k].free(c) = false;
+          goal[k].translation_mm(c) = state.contact.translations_mm(c, static_cast<Eigen::Index>(k));
+        }
   contact_->startStep(positions(state.rubber.displacements), state.contact);
   if (now_ == 0 && from == 0)
     for (std::size_t k = 0; k < goal.size(); ++k) {

@@ -42,7 +42,11 @@ private:
   [[nodiscard]] ContactIncrement atRest() const;
   void beginLoad(std::size_t load);
   [[nodiscard]] ContactResult follow(const ContactIncrement& start);
-  [[nodiscard]] Outcome step(double from, double to, State& state);
+  /// Indenters that are free to go sideways are so, or stay for the moment where they are.
+  enum class Sideways { AsLoaded, Held };
+  [[nodiscard]] Outcome step(double from, double to, State& state, Sideways sideways);
+  [[nodiscard]] bool frictionHoldsSome() const;
+  [[nodiscard]] bool slidAway(const ContactState& from, const ContactState& to) const;
   [[nodiscard]] Outcome newTangent(double fraction, const State& state);
   void setResidual(double fraction, const State& state);
   [[nodiscard]] Indenter partOf(std::size_t indenter, double fraction) const;

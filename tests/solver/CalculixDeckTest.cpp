@@ -99,10 +99,47 @@ TEST_P(Deck, IsRefusedForIncompressibleRubber) {
   EXPECT_THROW(static_cast<void>(calculixDeck(design_, mesh_, {})), DesignError);
 }
 
-TEST_P(Deck, IsRefusedForAnIndenterThatItCannotHold) {
+TEST_P(Deck, HoldsIndentersThatTouchTheTopAndMoveAsOne) {
   LoadCase load;
-  load.indenters.emplace_back().place_mm = {15, 15};
-  EXPECT_THROW(static_cast<void>(calculixDeck(design_, mesh_, load)), DesignError);
+  load.indenters = {{IndenterShape::Sphere, 5, 0, {10, 12}, 0.5, Press{{0.4, 0, -2}}},
+                    {IndenterShape::Flat, 3, 0.3, {22, 15}, 0, Motion{0.2, {0, 0}}}};
+  auto deck = parsed(calculixDeck(design_, mesh_, load));
+  const auto& sphere = deck["*NODE, NSET=INDENTER1"];
+  double lowest = 100, outside = 0;
+  for (std::size_t n = 0; n < sphere.size() / 2; ++n) { // the lower ones: on the sphere about (10, 12, 10)
+    const Eigen::Vector3d at(sphere[n][1], sphere[n][2], sphere[n][3]);
+    lowest = std::min(lowest, at.z());
+    outside = std::max(outside, std::abs((at - Eigen::Vector3d(10, 12, 10)).norm() - 5));
+  }
+  EXPECT_NEAR(lowest, 5, 1e-12) << "it begins on the top face";
+  EXPECT_LT(outside, 1e-11);
+  // Wedges stand upright: their lower triangle runs counterclockwise seen from above.
+  std::map<int, Eigen::Vector3d> place;
+  for (const char* set : {"*NODE, NSET=INDENTER1", "*NODE, NSET=INDENTER2"})
+    for (const auto& line : deck[set]) place[int(line[0])] = {line[1], line[2], line[3]};
+  for (const char* set : {"*ELEMENT, TYPE=C3D6, ELSET=INDENTER1", "*ELEMENT, TYPE=C3D6, ELSET=INDENTER2"}) {
+    ASSERT_GT(deck[set].size(), 100U);
+    for (const auto& e : deck[set]) {
+      ASSERT_EQ(e.size(), 7U);
+      const Eigen::Vector3d a = place[int(e[1])], b = place[int(e[2])], c = place[int(e[3])], up = place[int(e[4])];
+      EXPECT_GT((b - a).cross(c - a).dot(up - a), 0);
+    }
+  }
+  // Every node of an indenter goes along with its reference in three directions.
+  const std::size_t tied = sphere.size() + deck["*NODE, NSET=INDENTER2"].size();
+  EXPECT_EQ(deck["*EQUATION"].size(), 2 * 3 * tied) << "a line with the count, one with the terms";
+  // Each top face is the slave of one of them, and lies in the top face.
+  const auto &one = deck["*SURFACE, NAME=SLAVE1, TYPE=ELEMENT"], &two = deck["*SURFACE, NAME=SLAVE2, TYPE=ELEMENT"];
+  EXPECT_EQ(one.size() + two.size(), std::size_t(mesh_.topFaces.cols()));
+  EXPECT_FALSE(one.empty() || two.empty());
+  EXPECT_EQ(deck["*FRICTION"].size(), 1U) << "the punch has none";
+  EXPECT_NEAR(deck["*FRICTION"][0][0], 0.5, 0);
+  EXPECT_EQ(deck["*CONTACT PAIR, INTERACTION=CONTACT1, TYPE=SURFACE TO SURFACE"].size(), 1U);
+  std::vector<double> pressed, aside;
+  for (const auto& line : deck["*CLOAD, AMPLITUDE=AT_ONCE"]) pressed.push_back(line.back());
+  for (const auto& line : deck["*CLOAD"]) aside.push_back(line.back());
+  EXPECT_EQ(pressed, (std::vector<double>{-2}));
+  EXPECT_EQ(aside, (std::vector<double>{0.4, 0}));
 }
 
 } // namespace

@@ -61,7 +61,8 @@ void addMesh(Cli& cli) {
   command.option("design", arguments->design, "design file, or paper").required();
   arguments->mesh.declare(command, false);
   arguments->loads.declare(command);
-  command.option("--format", arguments->format, "vtu, or inp: a CalculiX/Abaqus deck with the loads")
+  arguments->loads.declareIndenters(command);
+  command.option("--format", arguments->format, "vtu, or inp: a CalculiX/Abaqus deck with the loads and indenters")
       .oneOf({"vtu", "inp"})
       .byDefault("vtu");
   arguments->output.declare(command, "mesh file to write");

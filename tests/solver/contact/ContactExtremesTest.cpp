@@ -38,6 +38,25 @@ TEST_P(ExtremeContact, ConvergesOrEndsWithTheLastEquilibriumAndAReason) {
   EXPECT_LT(state.force_N.z(), 0);
 }
 
+/// Corners 2 mm apart: two of them touch at first, and their slope pushes the sphere aside.
+TEST(ContactOfFewNodes, FrictionHoldsASphereOnTwoNodes) {
+  MeshOptions options;
+  options.mapped = {{15, 15, 4}};
+  const SensorDesign design = paperDesign();
+  LoadCase load;
+  load.indenters = {{IndenterShape::Sphere, 8, 0, {15, 7.5}, 0.5, Press{{0.2, 0, -3}}}};
+  const Solution solution = HyperelasticProblem(design, sensorMesh(design, options)).solve(load);
+  ASSERT_TRUE(solution.converged) << solution.stopReason;
+  const IndenterState& state = solution.state().indenters[0];
+  EXPECT_LT((state.force_N - Eigen::Vector3d(0.2, 0, -3)).norm(), 1e-7);
+  EXPECT_LT(state.translation_mm.head<2>().norm(), 0.5) << "it does not slide off";
+  for (const LoadIncrement& increment : solution.increments) {
+    if (increment.loadFraction > 0) {
+      EXPECT_LT(increment.indenters[0].translation_mm.head<2>().norm(), 0.5);
+    }
+  }
+}
+
 const Motion kAMillimetreDeep{1, {0, 0}}, kSlidByAMillimetre{0.6, {1, 0}};
 
 INSTANTIATE_TEST_SUITE_P(

@@ -52,7 +52,8 @@ Eigen::Matrix3Xd frdDisplacements(const std::string& frd, int nodes) {
     }
     if (!inside || line.rfind(" -1", 0) != 0 || line.size() < kNodeAt + kNodeWidth + 3 * kValueWidth) continue;
     const int node = std::stoi(line.substr(kNodeAt, kNodeWidth)) - 1;
-    if (node < 0 || node >= nodes) return {};
+    if (node < 0) return {};
+    if (node >= nodes) continue; // an indenter's
     for (std::size_t axis = 0; axis < 3; ++axis)
       result(static_cast<Eigen::Index>(axis), node) =
           std::stod(line.substr(kNodeAt + kNodeWidth + axis * kValueWidth, kValueWidth));
