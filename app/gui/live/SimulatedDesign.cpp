@@ -2,6 +2,7 @@
 
 #include "app/study/decoding/DecoderTraining.h"
 #include "app/study/touch/SampleGenerator.h"
+#include "app/study/touch/Touch.h"
 #include "model/base/Cancelled.h"
 
 #include <algorithm>
@@ -10,8 +11,10 @@ namespace palp {
 
 namespace {
 
-constexpr int kPerArea = 24;     // as many as ship for the paper's design: a polynomial of degree 2 an area
-constexpr int kTouches = 240;    // of the indenter, over the face and its forces
+constexpr int kPerArea = 24; // as many as ship for the paper's design: a polynomial of degree 2 an area
+// Touches of the indenter over the face and its forces: what is read at one place has little to say two millimetres
+// beside it. A mesh of hexahedra cannot tell apart more than it has nodes.
+constexpr int kTouches = 1500, kFewestTouches = 240;
 constexpr double kNoise = 5e-6;  // of a good board
 constexpr std::size_t kKept = 4; // designs
 
@@ -22,10 +25,25 @@ TouchRange movingTouches(const SensorDesign& design) {
   return touches;
 }
 
+int touchesOn(const MeshOptions& mesh) {
+  if (!mesh.mapped) return kTouches;
+  return std::clamp((*mesh.mapped)[0] * (*mesh.mapped)[1] / 2, kFewestTouches, kTouches);
+}
+
+/// The board reads the design exactly where nothing touches it.
+SampleSet withRest(const SampleSet& touches, const SensorDesign& design) {
+  SampleSet all = touches, rest = samplesAt(touches, {0});
+  rest.forces_N.setZero();
+  rest.displacements_mm.setZero();
+  rest.resistances_ohm.col(0) = resistancesAtRest_ohm(design).reshaped<Eigen::RowMajor>();
+  append(all, rest);
+  return all;
+}
+
 SampleSet solvedSamples(const SensorDesign& design, const MeshOptions& mesh, bool moving, const std::stop_token& stop,
                         JobProgress& progress) {
   SampleRequest request;
-  request.perArea = moving ? kTouches : kPerArea;
+  request.perArea = moving ? touchesOn(mesh) : kPerArea;
   if (moving) request.touches = movingTouches(design);
   request.mesh = mesh;
   SampleGenerator generator(design, request);
@@ -68,6 +86,7 @@ void SimulatedDesign::solve(const SensorDesign& design, const MeshOptions& mesh,
         if (moving) options.target = DecoderTarget::ForceAndPlace;
         options.noise = kNoise;
         Decoder decoder = trainDecoder(*samples, &design, options, stop);
+        if (moving) samples = std::make_shared<const SampleSet>(withRest(*samples, design));
         const auto solved = std::make_shared<const Solved>(Solved{design, moving, samples, std::move(decoder)});
         return [this, solved] {
           kept_.push_front(solved);

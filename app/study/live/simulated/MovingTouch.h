@@ -12,7 +12,8 @@ namespace palp {
 /// board is simulated.
 class MovingTouch {
 public:
-  /// Samples of touches of one size that press straight down. Throws Error where they are others.
+  /// Samples of touches of one size that press straight down, or one of them not at all: without that, rest is found
+  /// from the others. Throws Error where they are others.
   explicit MovingTouch(const SampleSet& touches);
 
   /// The touch at a time: it wanders over the rectangle of the samples, comes down and goes up once in `kPress_s`, and
