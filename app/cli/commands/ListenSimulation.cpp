@@ -15,8 +15,8 @@ namespace palp {
 namespace {
 
 /// A hand that holds the touch of --hold on the sensor of the samples, which the polynomials of the board hold for.
-std::shared_ptr<const TouchHand> holdingHand(const std::string& held, const std::string& designName,
-                                             const SampleSet& samples) {
+std::shared_ptr<TouchHand> holdingHand(const std::string& held, const std::string& designName,
+                                       const SampleSet& samples) {
   const SensorDesign design = designName.empty() ? paperDesign() : designOption(designName);
   if (designFingerprint(design) != samples.origin.designFingerprint)
     throw UsageError("--hold needs the design of the simulated board: the samples are of " +

@@ -197,6 +197,12 @@ std::vector<LiveArrow> arrowsOf(const DecodedForces& forces) {
   return arrows;
 }
 
+std::string truthLine(const SimulatedTouch::Truth& truth, const DecodedForces& forces) {
+  const Eigen::Vector2d at = truth.place_mm.value_or(Eigen::Vector2d::Zero());
+  const std::string line = printed("true touch (cross) at (%.2f, %.2f) mm, %.2f N", at.x(), at.y(), truth.force_N.z());
+  return forces.place_mm ? line + printed("; decoded %.2f mm off", (*forces.place_mm - at).norm()) : line;
+}
+
 std::vector<std::string> forceLines(const LiveFrame& frame, const LiveSettings& settings) {
   std::vector<std::string> lines{printed("Force vectors, %g mm a newton", settings.arrow_mm_per_N)};
   const DecodedForces& forces = frame.forces;

@@ -5,6 +5,7 @@
 #include "app/scenes/block/LiveScene.h"
 #include "app/scenes/charts/Heatmap.h"
 #include "app/study/live/LiveHistory.h"
+#include "app/study/live/SimulatedTouch.h"
 
 #include <optional>
 
@@ -27,6 +28,8 @@ std::vector<std::array<int, 2>> areaCells(const SensorDesign& design, Eigen::Ind
 
 /// The arrows of a frame: forces that stand out of the noise.
 std::vector<LiveArrow> arrowsOf(const DecodedForces& forces);
+/// What truly touches the simulated board, and how far off the decoded place is.
+std::string truthLine(const SimulatedTouch::Truth& truth, const DecodedForces& forces);
 /// The forces in words, with their deviations; the first is the scale.
 std::vector<std::string> forceLines(const LiveFrame& frame, const LiveSettings& settings);
 

@@ -64,7 +64,7 @@ void LiveHost::setSettings(const LiveSettings& settings, const SensorDesign& des
   }
   if (!session_) return; // opened when the scene is first seen
   if (!networkAsked_) loadNetwork();
-  if (otherDesign) followDesign();
+  if (otherDesign || before.simulation.moving != settings.simulation.moving) followDesign();
   if (before.simulation.seed != settings.simulation.seed) tares_.clear(); // another sensor
   if (!sameSource(before, settings)) return restart();
   if (before.rate_Hz != settings.rate_Hz || before.row != settings.row) configured_ = 0;
@@ -90,7 +90,9 @@ void LiveHost::hold() {
   const SimulationSettings& simulation = settings_.simulation;
   const auto& force_N = simulation.heldForce_N;
   if (!simulation.held) return hand_->hold({});
-  hand_->hold(SimulatedTouch::Truth{simulation.heldArea, {force_N[0], force_N[1], force_N[2]}});
+  SimulatedTouch::Truth touch{simulation.heldArea, {force_N[0], force_N[1], force_N[2]}};
+  if (simulation.moving) touch.place_mm = Eigen::Vector2d(simulation.heldPlace_mm.data());
+  hand_->hold(touch);
 }
 
 std::optional<ForceAlarm> LiveHost::alarm() const {
@@ -99,13 +101,25 @@ std::optional<ForceAlarm> LiveHost::alarm() const {
 
 const SensorDesign& LiveHost::simulatedSensor() const {
   static const SensorDesign paper = paperDesign();
-  return simulatedDesign_.of(design_) != nullptr ? design_ : paper;
+  return own() != nullptr ? design_ : paper;
+}
+
+const SimulatedDesign::Solved* LiveHost::own() const {
+  return simulatedDesign_.of(design_, settings_.simulation.moving);
+}
+
+bool LiveHost::simulatesOwnDesign() const {
+  return own() != nullptr || (!settings_.simulation.moving && simulatedSensor() == design_);
+}
+
+std::optional<SimulatedTouch::Truth> LiveHost::trueTouch(const BoardFrame& at) const {
+  return simulated() && running_ && running_->hasTouches() ? hand_->told(at.time_s) : std::nullopt;
 }
 
 /// The simulated board and the network that was trained on it go with the project's design.
 void LiveHost::followDesign() {
-  const bool other = simulation_ && simulated() && !(simulatedSensor() == running_);
-  const bool ofSimulation = network_.ofSimulation || simulatedDesign_.of(design_) != nullptr;
+  const bool other = simulation_ && simulated() && running_ != (own() != nullptr ? own()->samples : nullptr);
+  const bool ofSimulation = network_.ofSimulation || own() != nullptr;
   if (settings_.network.empty() && ofSimulation && networkAsked_ && session_)
     loadNetwork();
   else
@@ -135,10 +149,8 @@ LiveOptions LiveHost::options() {
   const auto board = [open = access_.open, device = settings_.device] {
     return orRefuse([&] { return open(device); });
   };
-  const SimulatedDesign::Solved* own = simulatedDesign_.of(design_);
-  running_ = simulatedSensor();
-  const auto simulated = [control = simulation_, hand = hand_, solved = own != nullptr ? own->samples : nullptr,
-                          rate_Hz = settings_.rate_Hz,
+  running_ = own() != nullptr ? own()->samples : nullptr;
+  const auto simulated = [control = simulation_, hand = hand_, solved = running_, rate_Hz = settings_.rate_Hz,
                           seed = settings_.simulation.seed]() -> std::unique_ptr<ReportSource> {
     if (!control->pluggedIn) return nullptr;
     SimulatedBoardOptions wanted;
@@ -249,12 +261,11 @@ void LiveHost::applyPause() {
 
 void LiveHost::loadNetwork() {
   networkAsked_ = true;
-  const SimulatedDesign::Solved* own = simulatedDesign_.of(design_);
-  if (settings_.network.empty() && own != nullptr) {
+  if (settings_.network.empty() && own() != nullptr) {
     loader_.cancel();
     networkAsked_ = true;
     before_ = {};
-    return setNetwork({own->decoder, {}, {}, tr("Made for the simulated design"), true});
+    return setNetwork({own()->decoder, {}, {}, tr("Made for the simulated design"), true});
   }
   // One that cannot read the board that is there does not take the place of one that can.
   const std::optional<BoardInfo> info = network_.decoder ? status_.info : std::nullopt;

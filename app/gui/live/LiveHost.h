@@ -62,11 +62,14 @@ public:
   [[nodiscard]] const SensorDesign& sensor() const { return sensor_; }
   [[nodiscard]] JobRunner& loader() { return loader_; }
   /// Solves the project's design for the simulated board.
-  void simulateDesign(const MeshOptions& mesh) { simulatedDesign_.solve(design_, mesh); }
+  void simulateDesign(const MeshOptions& mesh) { simulatedDesign_.solve(design_, mesh, settings_.simulation.moving); }
   [[nodiscard]] JobRunner& simulator() { return simulatedDesign_.runner(); }
   /// What the simulated board simulates.
   [[nodiscard]] const SensorDesign& simulatedSensor() const;
-  [[nodiscard]] bool simulatesOwnDesign() const { return simulatedSensor() == design_; }
+  /// It simulates the project's design, and an indenter that moves where that is wanted.
+  [[nodiscard]] bool simulatesOwnDesign() const;
+  /// What truly touches the simulated board at the time of a frame; none where nothing moves over it.
+  [[nodiscard]] std::optional<SimulatedTouch::Truth> trueTouch(const BoardFrame& at) const;
   /// The network is being read.
   [[nodiscard]] bool loading() const { return loader_.running(); }
 
@@ -133,14 +136,15 @@ private:
   [[nodiscard]] BoardFaults faults() const;
   [[nodiscard]] std::optional<SensorDesign> tareDesign() const;
   [[nodiscard]] std::optional<ForceAlarm> alarm() const;
+  [[nodiscard]] const SimulatedDesign::Solved* own() const;
   void followDesign();
   void hold();
 
   BoardAccess access_;
   LiveSettings settings_;
   SensorDesign design_, sensor_;
-  SensorDesign running_;     ///< that the simulated board was opened with
-  Network network_, before_; ///< in use, and the one that can be had back
+  std::shared_ptr<const SampleSet> running_; ///< that the simulated board was opened with; null: those of Palp
+  Network network_, before_;                 ///< in use, and the one that can be had back
   bool networkAsked_ = false;
   bool visible_ = false, paused_ = false;
   bool recorded_ = false; ///< at the last look

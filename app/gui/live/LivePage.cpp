@@ -207,8 +207,9 @@ void LivePage::connectPanels() {
 void LivePage::connectSimulation() {
   connect(simulation_, &SimulationPanel::edited, this, &LivePage::edit);
   connect(simulation_, &SimulationPanel::plugAsked, &host_, &LiveHost::setPluggedIn);
-  connect(simulation_, &SimulationPanel::designAsked, this,
-          [this] { host_.simulateDesign(workbench_.project().mesh); });
+  connect(simulation_, &SimulationPanel::designAsked, this, [this] {
+    if (!host_.simulatesOwnDesign()) host_.simulateDesign(workbench_.project().mesh);
+  });
   connect(&host_.simulator(), &JobRunner::failed, this, &LivePage::message);
   connect(block_, &LiveView::areaPressed, this, [this](int area) {
     change(tr("simulated touch"), [&](LiveSettings& settings) {
@@ -229,6 +230,16 @@ void LivePage::connectSimulation() {
   });
   connect(block_, &LiveView::forceStepped, this, [this, press](const Eigen::Vector3d& by_N) {
     press(Eigen::Map<const Eigen::Vector3d>(settings().simulation.heldForce_N.data()) + by_N);
+  });
+  const auto place = [this](const Eigen::Vector2d& at_mm) {
+    const Eigen::Vector2d on = at_mm.cwiseMax(0).cwiseMin(host_.sensor().block_mm.head<2>());
+    change(tr("simulated touch"), [&](LiveSettings& settings) {
+      settings.simulation.heldPlace_mm = {std::round(100 * on.x()) / 100, std::round(100 * on.y()) / 100};
+    });
+  };
+  connect(block_, &LiveView::placePressed, this, place);
+  connect(block_, &LiveView::placeStepped, this, [this, place](const Eigen::Vector2d& by_mm) {
+    place(Eigen::Vector2d(settings().simulation.heldPlace_mm.data()) + by_mm);
   });
   connect(block_, &LiveView::handAsked, this, [this] {
     if (!host_.simulated()) return;
@@ -268,6 +279,7 @@ void LivePage::displayProject() {
   simulation_->display(settings);
   send_->display(settings);
   block_->setPressable(host_.simulated() && settings.simulation.held, settings.simulation.heldArea);
+  block_->setPlaced(settings.simulation.moving);
   replay_->display(settings);
   control_->display(settings);
   if (isVisible()) draw();

@@ -117,7 +117,12 @@ void LivePage::drawForces() {
     lines = {lines.front(), "the last of the recording"};
   else if (gone)
     lines = {lines.front(), std::string("last known; the source is ") + name(state)};
-  block_->showForces(arrows, stale, lines);
+  std::optional<Eigen::Vector2d> truth_mm;
+  if (const auto truth = gone ? std::nullopt : host_.trueTouch(last->frame); truth && truth->force_N.z() < 0) {
+    truth_mm = truth->place_mm;
+    lines.push_back(truthLine(*truth, last->forces));
+  }
+  block_->showForces(arrows, stale, lines, truth_mm);
 }
 
 void LivePage::drawHeatmap() {

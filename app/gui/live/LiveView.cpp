@@ -16,12 +16,13 @@ struct LiveView::Parts {
   LiveSceneOptions options;
   std::vector<LiveArrow> arrows;
   std::vector<std::string> lines;
+  std::optional<Eigen::Vector2d> truth_mm;
   bool stale = false;
 };
 
 namespace {
 
-constexpr double kForceStep_N = 0.1;
+constexpr double kForceStep_N = 0.1, kPlaceStep_mm = 0.5;
 
 } // namespace
 
@@ -46,7 +47,7 @@ LiveView::~LiveView() = default;
 void LiveView::draw() {
   parts_->options.scale = devicePixelRatioF();
   parts_->scene.showSensor(parts_->design, parts_->options);
-  parts_->scene.showForces(parts_->arrows, parts_->stale, parts_->lines);
+  parts_->scene.showForces(parts_->arrows, parts_->stale, parts_->lines, parts_->truth_mm);
   invalidate();
 }
 
@@ -59,14 +60,17 @@ void LiveView::showSensor(const SensorDesign& design, double mm_per_N, bool elec
   if (otherBlock) parts_->scene.resetCamera(aspect());
 }
 
-void LiveView::showForces(const std::vector<LiveArrow>& arrows, bool stale, const std::vector<std::string>& lines) {
-  const bool unchanged = arrows == parts_->arrows && stale == parts_->stale && lines == parts_->lines;
+void LiveView::showForces(const std::vector<LiveArrow>& arrows, bool stale, const std::vector<std::string>& lines,
+                          const std::optional<Eigen::Vector2d>& truth_mm) {
+  const bool unchanged =
+      arrows == parts_->arrows && stale == parts_->stale && lines == parts_->lines && truth_mm == parts_->truth_mm;
   if (unchanged && parts_->options.scale == devicePixelRatioF()) return;
   parts_->arrows = arrows;
   parts_->stale = stale;
   parts_->lines = lines;
+  parts_->truth_mm = truth_mm;
   if (parts_->options.scale != devicePixelRatioF()) return draw();
-  parts_->scene.showForces(arrows, stale, lines);
+  parts_->scene.showForces(arrows, stale, lines, truth_mm);
   invalidate();
 }
 
@@ -89,6 +93,12 @@ bool LiveView::grab(const QPointF& place, Qt::KeyboardModifiers) {
   if (!pressable_) return false;
   const std::optional<Eigen::Vector2d> at_mm = topPlace(place);
   if (!at_mm) return false;
+  if (placed_) {
+    const bool onFace =
+        (at_mm->array() >= 0).all() && (at_mm->array() <= parts_->design.block_mm.head<2>().array()).all();
+    if (onFace) emit placePressed(*at_mm);
+    return onFace;
+  }
   for (int area = 0; area < parts_->design.areas.count(); ++area) {
     const Rectangle box = parts_->design.areaRectangle(area);
     if ((at_mm->array() < box.low_mm.array()).any() || (at_mm->array() > box.high_mm.array()).any()) continue;
@@ -100,7 +110,11 @@ bool LiveView::grab(const QPointF& place, Qt::KeyboardModifiers) {
 }
 
 void LiveView::dragTo(const QPointF& place, Qt::KeyboardModifiers) {
-  if (const auto at_mm = topPlace(place)) emit sheared((*at_mm - pressed_mm_) / parts_->options.mm_per_N);
+  const auto at_mm = topPlace(place);
+  if (at_mm && placed_)
+    emit placePressed(at_mm->cwiseMax(0).cwiseMin(parts_->design.block_mm.head<2>()));
+  else if (at_mm)
+    emit sheared((*at_mm - pressed_mm_) / parts_->options.mm_per_N);
 }
 
 int LiveView::areaBeside(int dx, int dy) const {
@@ -128,6 +142,8 @@ void LiveView::keyPressEvent(QKeyEvent* event) {
   const bool harder = event->key() == Qt::Key_Plus, softer = event->key() == Qt::Key_Minus;
   if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter)
     emit handAsked();
+  else if (pressable_ && placed_ && way)
+    emit placeStepped(kPlaceStep_mm * Eigen::Vector2d((*way)[0], (*way)[1]));
   else if (pressable_ && way && event->modifiers().testFlag(Qt::ShiftModifier))
     emit forceStepped(kForceStep_N * Eigen::Vector3d((*way)[0], (*way)[1], 0));
   else if (pressable_ && way)
@@ -158,6 +174,10 @@ void LiveView::focusOutEvent(QFocusEvent* event) {
 
 const std::vector<LiveArrow>& LiveView::arrows() const {
   return parts_->arrows;
+}
+
+const std::optional<Eigen::Vector2d>& LiveView::truth_mm() const {
+  return parts_->truth_mm;
 }
 
 bool LiveView::stale() const {

@@ -17,19 +17,27 @@ public:
 
   void showSensor(const SensorDesign& design, double mm_per_N, bool electrodes);
   /// Draws only where something changed.
-  void showForces(const std::vector<LiveArrow>& arrows, bool stale, const std::vector<std::string>& lines);
+  /// `truth_mm`: where a simulated indenter truly is.
+  void showForces(const std::vector<LiveArrow>& arrows, bool stale, const std::vector<std::string>& lines,
+                  const std::optional<Eigen::Vector2d>& truth_mm = {});
   void setTheme(Theme theme);
   /// A press on an area, and a drag from there, are a touch instead of a turn of the camera.
   void setPressable(bool pressable, int area) {
     pressable_ = pressable;
     area_ = area;
   }
+  /// The touch is an indenter's: it is pressed at a place, and goes where it is dragged.
+  void setPlaced(bool placed) { placed_ = placed; }
   void lookAlong(const Eigen::Vector3d& direction);
   [[nodiscard]] const std::vector<LiveArrow>& arrows() const;
+  [[nodiscard]] const std::optional<Eigen::Vector2d>& truth_mm() const;
   [[nodiscard]] bool stale() const;
 
 signals:
   void areaPressed(int area);
+  void placePressed(const Eigen::Vector2d& at_mm);
+  /// The place of the touch is to change by this.
+  void placeStepped(const Eigen::Vector2d& by_mm);
   /// How far the press was dragged over the top face, as a force by the scale of the arrows [N].
   void sheared(const Eigen::Vector2d& force_N);
   /// The force of the touch is to change by this [N].
@@ -56,7 +64,7 @@ private:
   /// The area beside the touch that an arrow key leads to.
   [[nodiscard]] int areaBeside(int dx, int dy) const;
 
-  bool pressable_ = false;
+  bool pressable_ = false, placed_ = false;
   int area_ = 0; ///< of the touch
   Eigen::Vector2d pressed_mm_ = Eigen::Vector2d::Zero();
 };

@@ -2,6 +2,7 @@
 
 #include "app/study/decoding/DecoderTraining.h"
 #include "app/study/touch/SampleGenerator.h"
+#include "app/study/touch/Touch.h"
 #include "model/base/Cancelled.h"
 
 #include <algorithm>
@@ -10,14 +11,40 @@ namespace palp {
 
 namespace {
 
-constexpr int kPerArea = 24;     // as many as ship for the paper's design: a polynomial of degree 2 an area
+constexpr int kPerArea = 24; // as many as ship for the paper's design: a polynomial of degree 2 an area
+// Touches of the indenter over the face and its forces: what is read at one place has little to say two millimetres
+// beside it. A mesh of hexahedra cannot tell apart more than it has nodes.
+constexpr int kTouches = 1500, kFewestTouches = 240;
 constexpr double kNoise = 5e-6;  // of a good board
 constexpr std::size_t kKept = 4; // designs
 
-SampleSet solvedSamples(const SensorDesign& design, const MeshOptions& mesh, const std::stop_token& stop,
+/// One sphere of a usual size that presses straight down.
+TouchRange movingTouches(const SensorDesign& design) {
+  TouchRange touches = touchesOf(design);
+  touches.smallest_mm = touches.largest_mm = (touches.smallest_mm + touches.largest_mm) / 2;
+  return touches;
+}
+
+int touchesOn(const MeshOptions& mesh) {
+  if (!mesh.mapped) return kTouches;
+  return std::clamp((*mesh.mapped)[0] * (*mesh.mapped)[1] / 2, kFewestTouches, kTouches);
+}
+
+/// The board reads the design exactly where nothing touches it.
+SampleSet withRest(const SampleSet& touches, const SensorDesign& design) {
+  SampleSet all = touches, rest = samplesAt(touches, {0});
+  rest.forces_N.setZero();
+  rest.displacements_mm.setZero();
+  rest.resistances_ohm.col(0) = resistancesAtRest_ohm(design).reshaped<Eigen::RowMajor>();
+  append(all, rest);
+  return all;
+}
+
+SampleSet solvedSamples(const SensorDesign& design, const MeshOptions& mesh, bool moving, const std::stop_token& stop,
                         JobProgress& progress) {
   SampleRequest request;
-  request.perArea = kPerArea;
+  request.perArea = moving ? touchesOn(mesh) : kPerArea;
+  if (moving) request.touches = movingTouches(design);
   request.mesh = mesh;
   SampleGenerator generator(design, request);
   progress.set(-1, "Meshing the simulated design");
@@ -28,7 +55,8 @@ SampleSet solvedSamples(const SensorDesign& design, const MeshOptions& mesh, con
       {0, generator.total()}, [&](const SampleSet& block) { append(samples, block); },
       [&](std::size_t done) {
         progress.set(static_cast<double>(done) / total, "Solving the simulated design: " + std::to_string(done) +
-                                                            " of " + std::to_string(generator.total()) + " loads");
+                                                            " of " + std::to_string(generator.total()) +
+                                                            (moving ? " touches" : " loads"));
       },
       stop);
   if (stop.stop_requested()) throw Cancelled();
@@ -39,29 +67,33 @@ SampleSet solvedSamples(const SensorDesign& design, const MeshOptions& mesh, con
 
 SimulatedDesign::SimulatedDesign(QObject* parent) : QObject(parent) {}
 
-const SimulatedDesign::Solved* SimulatedDesign::of(const SensorDesign& design) const {
-  const auto found =
-      std::find_if(kept_.begin(), kept_.end(), [&](const auto& solved) { return solved->design == design; });
+const SimulatedDesign::Solved* SimulatedDesign::of(const SensorDesign& design, bool moving) const {
+  const auto found = std::find_if(kept_.begin(), kept_.end(), [&](const auto& solved) {
+    return solved->moving == moving && solved->design == design;
+  });
   return found == kept_.end() ? nullptr : found->get();
 }
 
-void SimulatedDesign::solve(const SensorDesign& design, const MeshOptions& mesh) {
-  runner_.start(tr("Solving the simulated design"),
-                [this, design, mesh](const std::stop_token& stop, JobProgress& progress) -> JobRunner::Taking {
-                  auto samples = std::make_shared<const SampleSet>(solvedSamples(design, mesh, stop, progress));
-                  TrainOptions options;
-                  options.input = InputKind::Resistance;
-                  options.rows = "all";
-                  options.decoder = DecoderKind::MaximumLikelihood;
-                  options.noise = kNoise;
-                  Decoder decoder = trainDecoder(*samples, &design, options, stop);
-                  const auto solved = std::make_shared<const Solved>(Solved{design, samples, std::move(decoder)});
-                  return [this, solved] {
-                    kept_.push_front(solved);
-                    if (kept_.size() > kKept) kept_.pop_back();
-                    emit this->solved();
-                  };
-                });
+void SimulatedDesign::solve(const SensorDesign& design, const MeshOptions& mesh, bool moving) {
+  runner_.start(
+      tr("Solving the simulated design"),
+      [this, design, mesh, moving](const std::stop_token& stop, JobProgress& progress) -> JobRunner::Taking {
+        auto samples = std::make_shared<const SampleSet>(solvedSamples(design, mesh, moving, stop, progress));
+        TrainOptions options;
+        options.input = InputKind::Resistance;
+        options.rows = "all";
+        options.decoder = moving ? DecoderKind::TouchInversion : DecoderKind::MaximumLikelihood;
+        if (moving) options.target = DecoderTarget::ForceAndPlace;
+        options.noise = kNoise;
+        Decoder decoder = trainDecoder(*samples, &design, options, stop);
+        if (moving) samples = std::make_shared<const SampleSet>(withRest(*samples, design));
+        const auto solved = std::make_shared<const Solved>(Solved{design, moving, samples, std::move(decoder)});
+        return [this, solved] {
+          kept_.push_front(solved);
+          if (kept_.size() > kKept) kept_.pop_back();
+          emit this->solved();
+        };
+      });
 }
 
 } // namespace palp

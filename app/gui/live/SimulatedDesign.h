@@ -20,15 +20,16 @@ class SimulatedDesign : public QObject {
 public:
   struct Solved {
     SensorDesign design;
+    bool moving = false; ///< touches of an indenter anywhere, in place of loads on areas
     std::shared_ptr<const SampleSet> samples;
     Decoder decoder;
   };
 
   explicit SimulatedDesign(QObject* parent = nullptr);
 
-  void solve(const SensorDesign& design, const MeshOptions& mesh);
+  void solve(const SensorDesign& design, const MeshOptions& mesh, bool moving);
   /// Null before it was solved.
-  [[nodiscard]] const Solved* of(const SensorDesign& design) const;
+  [[nodiscard]] const Solved* of(const SensorDesign& design, bool moving) const;
   [[nodiscard]] JobRunner& runner() { return runner_; }
 
 signals:

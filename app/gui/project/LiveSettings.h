@@ -33,6 +33,8 @@ struct SimulationSettings {
   bool held = false;                 ///< the touch is the next two, instead of one that goes over the areas by itself
   int heldArea = 0;
   std::array<double, 3> heldForce_N{0, 0, -2};
+  bool moving = false;                        ///< an indenter that presses anywhere, in place of the areas
+  std::array<double, 2> heldPlace_mm{15, 15}; ///< its place, where it is held
 
   bool operator==(const SimulationSettings&) const = default;
 };

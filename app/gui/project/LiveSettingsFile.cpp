@@ -43,6 +43,12 @@ QJsonObject liveJson(const LiveSettings& live) {
                                  {"held_area", simulation.heldArea},
                                  {"held_force_N", QJsonArray{simulation.heldForce_N[0], simulation.heldForce_N[1],
                                                              simulation.heldForce_N[2]}}}}};
+  if (simulation.moving) {
+    QJsonObject moving = json["simulation"].toObject();
+    moving["moving"] = true;
+    moving["held_place_mm"] = QJsonArray{simulation.heldPlace_mm[0], simulation.heldPlace_mm[1]};
+    json["simulation"] = moving;
+  }
   QJsonArray receivers;
   for (const LiveReceiver& receiver : live.receivers)
     receivers.append(QJsonObject{{"to", QString::fromStdString(receiver.to)}, {"on", receiver.on}});
@@ -97,7 +103,7 @@ LiveSettings liveOf(const JsonPlace& place) {
   if (place.has("send")) live.receivers = receiversOf(place.at("send"));
   const JsonPlace simulation = place.at("simulation");
   simulation.onlyKeys({"noise", "warming_degC", "hysteresis_share", "seed", "open_row", "open_column", "drop_every"},
-                      {"held", "held_area", "held_force_N"});
+                      {"held", "held_area", "held_force_N", "moving", "held_place_mm"});
   live.simulation.noise = simulation.at("noise").number(0, 1);
   live.simulation.warming_degC = simulation.at("warming_degC").number(0, 100);
   live.simulation.hysteresisShare = simulation.at("hysteresis_share").number(0, 1);
@@ -113,6 +119,11 @@ LiveSettings liveOf(const JsonPlace& place) {
       if (!(std::abs(force_N[axis]) <= 1000)) simulation.at("held_force_N").refuse("three forces, -1000 to 1000 N");
       live.simulation.heldForce_N[axis] = force_N[axis];
     }
+  }
+  if (simulation.has("moving")) live.simulation.moving = simulation.at("moving").boolean();
+  if (simulation.has("held_place_mm")) {
+    const std::vector<double> place_mm = simulation.at("held_place_mm").numbers(2);
+    live.simulation.heldPlace_mm = {place_mm[0], place_mm[1]};
   }
   return live;
 }

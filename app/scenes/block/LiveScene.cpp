@@ -30,6 +30,7 @@ namespace {
 constexpr Color kStale{0.55, 0.55, 0.55};
 constexpr double kLeastEllipse_mm = 0.35;
 constexpr int kEllipsePoints = 32;
+constexpr double kTruth_mm = 0.8; // radius of the circle around a true place
 constexpr double kLift_mm = 0.03; // above the top face, so that the two do not flicker
 
 Eigen::Vector3d onTop(const SensorDesign& design, double x_mm, double y_mm) {
@@ -74,6 +75,7 @@ struct LiveScene::Parts {
   vtkNew<vtkActor> touched; ///< the pressed areas and places, tinted
   Polylines edges{*renderer};
   Polylines borders{*renderer};
+  Polylines truth{*renderer};
   ElectrodeActors electrodes{*renderer};
   ForceArrows forces{*renderer};
   vtkNew<vtkContextActor> overlayActor;
@@ -81,8 +83,10 @@ struct LiveScene::Parts {
   SensorDesign design;
   LiveSceneOptions options;
   std::vector<LiveArrow> arrows;
+  std::optional<Eigen::Vector2d> truth_mm;
   bool stale = false;
 
+  void showTruth(const Color& color);
   void tintAreas(const Color& color);
 };
 
@@ -99,6 +103,27 @@ void LiveScene::Parts::tintAreas(const Color& color) {
   touchedData->Modified();
   touched->SetVisibility(arrows.empty() ? 0 : 1);
   touched->GetProperty()->SetColor(color[0], color[1], color[2]);
+}
+
+void LiveScene::Parts::showTruth(const Color& color) {
+  truth.setVisible(truth_mm.has_value());
+  if (!truth_mm) return;
+  Eigen::Matrix3Xd points(3, kEllipsePoints + 4);
+  std::vector<int> rim;
+  for (int k = 0; k < kEllipsePoints; ++k) {
+    const double angle = 2 * std::numbers::pi * k / kEllipsePoints;
+    points.col(k) =
+        onTop(design, truth_mm->x() + kTruth_mm * std::cos(angle), truth_mm->y() + kTruth_mm * std::sin(angle));
+    rim.push_back(k);
+  }
+  rim.push_back(0);
+  for (int k = 0; k < 4; ++k) {
+    const double angle = 0.5 * std::numbers::pi * k;
+    points.col(kEllipsePoints + k) = onTop(design, truth_mm->x() + 1.5 * kTruth_mm * std::cos(angle),
+                                           truth_mm->y() + 1.5 * kTruth_mm * std::sin(angle));
+  }
+  truth.set(points, {rim, {kEllipsePoints, kEllipsePoints + 2}, {kEllipsePoints + 1, kEllipsePoints + 3}});
+  truth.setLook(color, 2 * options.scale);
 }
 
 LiveScene::LiveScene() : parts_(std::make_unique<Parts>()) {
@@ -156,10 +181,11 @@ void LiveScene::showSensor(const SensorDesign& design, const LiveSceneOptions& o
   const ElectrodeDisplacements rest = ElectrodeDisplacements::atRest(design);
   parts.electrodes.show(design, rest.upper_mm, rest.lower_mm, look);
   std::erase_if(parts.arrows, [&](const LiveArrow& arrow) { return arrow.area >= design.areas.count(); });
-  showForces(parts.arrows, parts.stale, parts.overlay->lines);
+  showForces(parts.arrows, parts.stale, parts.overlay->lines, parts.truth_mm);
 }
 
-void LiveScene::showForces(const std::vector<LiveArrow>& arrows, bool stale, const std::vector<std::string>& lines) {
+void LiveScene::showForces(const std::vector<LiveArrow>& arrows, bool stale, const std::vector<std::string>& lines,
+                           const std::optional<Eigen::Vector2d>& truth_mm) {
   Parts& parts = *parts_;
   parts.arrows = arrows;
   parts.stale = stale;
@@ -172,6 +198,8 @@ void LiveScene::showForces(const std::vector<LiveArrow>& arrows, bool stale, con
                       arrow.force_N});
   parts.forces.showToScale(forces, parts.options.mm_per_N, color, true);
   parts.tintAreas(color);
+  parts.truth_mm = truth_mm;
+  parts.showTruth(ink.selection);
   parts.overlay->words.clear();
   for (int area = 0; area < parts.design.areas.count(); ++area)
     parts.overlay->words.push_back({middle(parts.design, area), std::to_string(area), ink.text});

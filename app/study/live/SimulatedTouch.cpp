@@ -1,9 +1,11 @@
 #include "app/study/live/SimulatedTouch.h"
 
+#include "app/study/live/simulated/MovingTouch.h"
 #include "model/base/Error.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <numbers>
 
@@ -14,6 +16,7 @@ namespace {
 constexpr int kDegree = 3;     // 2e-7 of the displacements in the paper's range
 constexpr double kShear = 0.8; // share of the ranges that the touch goes through
 constexpr double kPress = 0.9;
+constexpr std::size_t kTold = 500; // half a second of a quick board
 
 /// Column of the sample with the smallest force.
 Eigen::Index nearestRest(const SampleSet& samples) {
@@ -85,24 +88,54 @@ std::optional<SimulatedTouch::Truth> TouchHand::held() const {
   return touch_;
 }
 
-VirtualBoard simulatedBoard(const SampleSet& samples, const BoardDisturbance& disturbance, int rate_Hz,
-                            std::uint64_t seed, std::shared_ptr<const TouchHand> hand) {
+void TouchHand::tell(double time_s, const SimulatedTouch::Truth& now) {
+  const std::lock_guard lock(mutex_);
+  if (!told_.empty() && time_s < told_.back().first) told_.clear(); // the board was started anew
+  told_.emplace_back(time_s, now);
+  if (told_.size() > kTold) told_.pop_front();
+}
+
+std::optional<SimulatedTouch::Truth> TouchHand::told(double time_s) const {
+  const std::lock_guard lock(mutex_);
+  if (told_.empty()) return {};
+  const auto after = std::lower_bound(told_.begin(), told_.end(), time_s,
+                                      [](const auto& one, double wanted_s) { return one.first < wanted_s; });
+  return after == told_.end() ? told_.back().second : after->second;
+}
+
+namespace {
+
+/// The resistances of the simulated touch over time.
+std::function<const Eigen::MatrixXd&(double)> touchOver(const SampleSet& samples, std::shared_ptr<TouchHand> hand) {
+  if (samples.hasTouches()) {
+    const auto moving = std::make_shared<MovingTouch>(samples);
+    moving->follow(std::move(hand));
+    return [moving](double time_s) -> const Eigen::MatrixXd& { return moving->at(time_s); };
+  }
   const auto touch = std::make_shared<SimulatedTouch>(samples);
   touch->follow(std::move(hand));
+  return [touch](double time_s) -> const Eigen::MatrixXd& { return touch->at(time_s); };
+}
+
+} // namespace
+
+VirtualBoard simulatedBoard(const SampleSet& samples, const BoardDisturbance& disturbance, int rate_Hz,
+                            std::uint64_t seed, std::shared_ptr<TouchHand> hand) {
+  auto touch = touchOver(samples, std::move(hand));
   BoardSettings settings;
-  settings.info.rowWires = touch->rowWires();
-  settings.info.columnWires = touch->columnWires();
+  settings.info.rowWires = samples.rowWires;
+  settings.info.columnWires = samples.columnWires;
   settings.info.electrodesPerRowWire = samples.electrodesPerRowWire;
   settings.info.readout = samples.origin.readout;
   settings.info.serial = "SIMULATED";
   settings.info.model = "VIRTUAL";
   // The lowest bits, one a row-wire; a board with more row-wires than bits is refused by VirtualBoard.
-  const int unused = std::clamp(kMostRowWires - touch->rowWires(), 0, kMostRowWires - 1);
+  const int unused = std::clamp(kMostRowWires - samples.rowWires, 0, kMostRowWires - 1);
   settings.configuration.rowMask = ~std::uint32_t{0} >> unused;
   settings.configuration.rate_Hz = rate_Hz;
   settings.disturbance = disturbance;
   settings.seed = seed;
-  return {settings, [touch](double time_s) -> const Eigen::MatrixXd& { return touch->at(time_s); }};
+  return {settings, std::move(touch)};
 }
 
 } // namespace palp

@@ -4,9 +4,11 @@
 #include "model/SampleSet.h"
 #include "nn/rivals/ForwardModel.h"
 
+#include <deque>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <utility>
 
 namespace palp {
 
@@ -19,6 +21,7 @@ public:
   struct Truth {
     int area = 0;
     Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
+    std::optional<Eigen::Vector2d> place_mm{}; ///< of an indenter, in place of the area: MovingTouch
   };
 
   /// Samples with one area loaded at a time, on every area. Throws Error where they are others.
@@ -57,14 +60,20 @@ public:
   /// None: the touch goes over the areas by itself.
   void hold(const std::optional<SimulatedTouch::Truth>& touch);
   [[nodiscard]] std::optional<SimulatedTouch::Truth> held() const;
+  /// What touches at a time of the board, by itself or held; said by the simulated board of an indenter alone.
+  void tell(double time_s, const SimulatedTouch::Truth& now);
+  /// What it was told of the time next to this one, of the last few hundred; none before the first.
+  [[nodiscard]] std::optional<SimulatedTouch::Truth> told(double time_s) const;
 
 private:
   mutable std::mutex mutex_;
   std::optional<SimulatedTouch::Truth> touch_;
+  std::deque<std::pair<double, SimulatedTouch::Truth>> told_;
 };
 
-/// A virtual board of the sensor that the samples are of, under the simulated touch. Keeps what it needs.
+/// A virtual board of the sensor that the samples are of, under the simulated touch: of samples of touches under an
+/// indenter that wanders. Keeps what it needs.
 VirtualBoard simulatedBoard(const SampleSet& samples, const BoardDisturbance& disturbance, int rate_Hz,
-                            std::uint64_t seed, std::shared_ptr<const TouchHand> hand = {});
+                            std::uint64_t seed, std::shared_ptr<TouchHand> hand = {});
 
 } // namespace palp

@@ -41,7 +41,7 @@ public:
   Monkey(MainWindow& window, unsigned seed) : window_(window), random_(seed) {}
 
   void act() {
-    switch (upTo(20)) {
+    switch (upTo(21)) {
     case 0:
       window_.showScene(window_.sceneNames()[upTo(static_cast<int>(window_.sceneNames().size()))]);
       break;

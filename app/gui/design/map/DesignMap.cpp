@@ -17,6 +17,7 @@
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QSpinBox>
+#include <QVBoxLayout>
 
 #include <algorithm>
 #include <array>
@@ -26,7 +27,8 @@ namespace palp {
 
 namespace {
 
-constexpr int kMapSideWidth_px = 330;
+constexpr int kMapSideWidth_px = 360;
+constexpr int kLeastMap_px = 140;
 
 /// Those that have a place along x and y.
 constexpr std::array kMappedShapes{IndenterShape::Sphere, IndenterShape::Pin, IndenterShape::Flat};
@@ -103,10 +105,17 @@ DesignMap::DesignMap(Workbench& workbench, QWidget* parent) : QWidget(parent), w
 
 void DesignMap::build() {
   auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(4, 4, 4, 4);
   auto* side = new QWidget;
   side->setFixedWidth(kMapSideWidth_px);
   auto* form = new QFormLayout(side);
   form->setContentsMargins(0, 0, 0, 0);
+  form->setVerticalSpacing(3); // all of it is seen where the window is low
+  start_ = new QPushButton(tr("Map the resolution"));
+  start_->setObjectName("mapResolution");
+  start_->setToolTip(tr("Solves one load a resistance; another size, force or noise is then read out of the same. Esc "
+                        "stops it"));
+  form->addRow(start_);
   quantity_ = new QComboBox;
   quantity_->setObjectName("mapQuantity");
   for (const MapQuantity& each : mapQuantities())
@@ -114,30 +123,26 @@ void DesignMap::build() {
   quantity_->setToolTip(tr("Deviations of a touch's force or place, the smallest force that is seen, or how far two "
                            "touches must be apart; all are computed at once"));
   form->addRow(tr("Show"), quantity_);
-  onBlock_ = new QCheckBox(tr("over the block too"));
-  onBlock_->setObjectName("mapOnBlock");
-  form->addRow(QString(), onBlock_);
   buildTouch(*form);
-  start_ = new QPushButton(tr("Map the resolution"));
-  start_->setObjectName("mapResolution");
-  start_->setToolTip(tr("Solves one load a resistance; another size, force or noise is then read out of the same. Esc "
-                        "stops it"));
-  form->addRow(start_);
+  row->addWidget(side, 0, Qt::AlignTop);
+  auto* column = new QVBoxLayout;
   stale_ = new QLabel;
   stale_->setObjectName("mapState");
   stale_->setProperty("role", "hint");
   words_ = new QLabel;
   words_->setObjectName("mapWords");
+  words_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
   for (QLabel* label : {stale_, words_}) {
     label->setWordWrap(true);
     label->setTextInteractionFlags(Qt::TextSelectableByMouse);
-    form->addRow(label);
+    column->addWidget(label);
   }
-  row->addWidget(side);
   map_ = new HeatmapView;
   map_->setObjectName("resolutionMap");
-  map_->setMinimumHeight(160);
-  row->addWidget(map_, 1);
+  map_->setMinimumHeight(kLeastMap_px);
+  column->addWidget(map_, 1);
+  column->addStretch(); // under the words alone
+  row->addLayout(column, 1);
 }
 
 void DesignMap::buildTouch(QFormLayout& form) {
@@ -156,32 +161,38 @@ void DesignMap::buildTouch(QFormLayout& form) {
     box->setToolTip(tip);
     return box;
   };
+  const auto pair = [&form](const QString& label, QWidget* first, QWidget* second) {
+    auto* both = new QHBoxLayout;
+    both->addWidget(first, 1);
+    both->addWidget(second, 1);
+    form.addRow(label, both);
+  };
   radius_ = number("mapRadius", tr(" mm"), 0.05, 1e4, tr("Of the sphere, the pin or the punch"));
   force_ =
       number("mapForce", tr(" N"), 0.001, 1e4, tr("That it presses with; the place's deviation goes with one over it"));
-  auto* touch = new QHBoxLayout;
-  touch->addWidget(shape_);
-  touch->addWidget(radius_);
-  form.addRow(tr("Touch"), touch);
-  form.addRow(tr("Force"), force_);
-  law_ = new QComboBox;
-  law_->setObjectName("mapLaw");
-  law_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-  law_->setToolTip(tr("How the resistances are found and read, for this map alone"));
-  form.addRow(tr("Law, read-out"), law_);
   noise_ = new PercentBox;
   noise_->setObjectName("mapNoise");
+  noise_->setAccessibleName(tr("Noise of the resistances"));
   noise_->setRange(0.00001, 10);
   noise_->setDecimals(5);
+  noise_->setPrefix(tr("noise "));
   noise_->setKeyboardTracking(false);
   noise_->setToolTip(tr("Relative noise of each reading, as in \"Mesh and noise floor\""));
-  form.addRow(tr("Noise of R"), noise_);
   places_ = new QSpinBox;
   places_->setObjectName("mapPlaces");
   places_->setRange(3, kMostMapPlaces);
   places_->setKeyboardTracking(false);
   places_->setToolTip(tr("Places along the shorter side of the face; a tenth of it all round is left out"));
-  form.addRow(tr("Places"), places_);
+  onBlock_ = new QCheckBox(tr("over the block too"));
+  onBlock_->setObjectName("mapOnBlock");
+  pair(tr("Touch"), shape_, radius_);
+  pair(tr("Force"), force_, noise_);
+  law_ = new QComboBox;
+  law_->setObjectName("mapLaw");
+  law_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  law_->setToolTip(tr("How the resistances are found and read, for this map alone"));
+  form.addRow(tr("Law, read-out"), law_);
+  pair(tr("Places"), places_, onBlock_);
 }
 
 void DesignMap::setTheme(Theme theme) {

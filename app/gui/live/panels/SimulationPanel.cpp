@@ -73,7 +73,7 @@ SimulationPanel::SimulationPanel(QWidget* parent) : QWidget(parent) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   auto* box = new QGroupBox(tr("Simulated board"));
-  auto* form = new QFormLayout(box);
+  auto* form = form_ = new QFormLayout(box);
   plug_ = new QPushButton(tr("Pull out"));
   plug_->setObjectName("plug");
   plug_->setToolTip(tr("Pulls the simulated board out, or puts it in again"));
@@ -102,6 +102,15 @@ void SimulationPanel::buildDesign(QFormLayout& form) {
 
 /// A touch of one's own, in place of the one that goes over the areas by itself.
 void SimulationPanel::buildTouch(QFormLayout& form) {
+  moving_ = new QCheckBox(tr("Moving indenter"));
+  moving_->setObjectName("movingIndenter");
+  moving_->setToolTip(tr("<qt>A sphere wanders over the face and presses, in place of a finger on the load areas; its "
+                         "true place is drawn beside the decoded one. Solved once a design, which takes a while</qt>"));
+  form.addRow(moving_);
+  connect(moving_, &QCheckBox::toggled, this, [this](bool on) {
+    edit(tr("moving indenter"), [&](LiveSettings& s) { s.simulation.moving = on; });
+    if (on) emit designAsked();
+  });
   held_ = new QCheckBox(tr("Touch by hand"));
   held_->setObjectName("touchHeld");
   held_->setToolTip(
@@ -113,6 +122,22 @@ void SimulationPanel::buildTouch(QFormLayout& form) {
   area_->setObjectName("touchArea");
   area_->setToolTip(tr("Load area that is pressed; areas count from 0"));
   form.addRow(tr("Area"), area_);
+  auto* at = places_ = new QHBoxLayout;
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    QDoubleSpinBox* box = place_[axis] = new QDoubleSpinBox;
+    box->setObjectName(axis == 0 ? "touch_x" : "touch_y");
+    box->setAccessibleName(axis == 0 ? tr("x of the simulated touch") : tr("y of the simulated touch"));
+    box->setRange(0, 1e4);
+    box->setDecimals(2);
+    box->setSingleStep(0.5);
+    box->setButtonSymbols(QAbstractSpinBox::NoButtons);
+    box->setToolTip(tr("Place of the indenter; in the picture: drag it, or the arrow keys"));
+    at->addWidget(box);
+    connect(box, &QDoubleSpinBox::valueChanged, this, [this, axis](double value) {
+      edit(tr("simulated touch"), [&](LiveSettings& s) { s.simulation.heldPlace_mm[axis] = value; });
+    });
+  }
+  form.addRow(tr("Place [mm]"), at);
   auto* row = new QHBoxLayout;
   constexpr std::array<const char*, 3> kNames{"Fx", "Fy", "Fz"};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -215,10 +240,17 @@ void SimulationPanel::display(const LiveSettings& settings) {
   put(area_, simulation.heldArea);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     put(force_[axis], simulation.heldForce_N[axis]);
-    force_[axis]->setEnabled(simulation.held);
+    force_[axis]->setEnabled(simulation.held && (axis == 2 || !simulation.moving)); // nothing holds it sideways
   }
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    put(place_[axis], simulation.heldPlace_mm[axis]);
+    place_[axis]->setEnabled(simulation.held);
+  }
+  form_->setRowVisible(area_, !simulation.moving);
+  form_->setRowVisible(places_, simulation.moving);
   area_->setEnabled(simulation.held);
-  const QSignalBlocker quietHeld(held_), quietNoise(noise_);
+  const QSignalBlocker quietHeld(held_), quietNoise(noise_), quietMoving(moving_);
+  moving_->setChecked(simulation.moving);
   held_->setChecked(simulation.held);
   if (noise_->currentText().isEmpty() || noise_->currentText().toDouble() != simulation.noise)
     noise_->setEditText(QString::number(simulation.noise, 'g', 6));
@@ -228,9 +260,12 @@ void SimulationPanel::displayState(const SimulationState& state) {
   plug_->setText(state.pluggedIn ? tr("Pull out") : tr("Plug in"));
   const QSignalBlocker quiet(area_);
   area_->setMaximum(std::max(0, state.areas - 1));
-  const QString words = state.solving     ? tr("Solving the project's design...")
-                        : state.ownDesign ? tr("It simulates the project's design.")
-                                          : tr("It simulates the paper's design, not the project's.");
+  const bool moving = settings_.simulation.moving;
+  const QString words = state.solving               ? tr("Solving the project's design...")
+                        : state.ownDesign && moving ? tr("A sphere moves over the project's design.")
+                        : state.ownDesign           ? tr("It simulates the project's design.")
+                        : moving                    ? tr("The moving indenter is not solved yet.")
+                                                    : tr("It simulates the paper's design, not the project's.");
   if (design_->text() != words) design_->setText(words);
   simulate_->setEnabled(!state.ownDesign && !state.solving);
 }

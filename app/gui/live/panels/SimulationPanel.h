@@ -11,6 +11,7 @@ class QCheckBox;
 class QComboBox;
 class QDoubleSpinBox;
 class QFormLayout;
+class QHBoxLayout;
 class QLabel;
 class QPushButton;
 class QSpinBox;
@@ -20,7 +21,7 @@ namespace palp {
 /// What the panel shows of the simulated board.
 struct SimulationState {
   bool pluggedIn = true;
-  bool ownDesign = true; ///< it simulates the project's design
+  bool ownDesign = true; ///< it simulates the project's design, and an indenter that moves where that is wanted
   int areas = 0;         ///< of the design that it simulates
   bool solving = false;  ///< its samples are being solved
 };
@@ -38,7 +39,7 @@ public:
 signals:
   void edited(const QString& what, const LiveSettings& settings);
   void plugAsked(bool in);
-  /// The project's design is to be simulated.
+  /// The project's design, or an indenter that moves over it, is to be simulated.
   void designAsked();
 
 private:
@@ -54,7 +55,11 @@ private:
   QLabel* design_ = nullptr;
   QPushButton* simulate_ = nullptr;
   QPushButton* plug_ = nullptr;
+  QCheckBox* moving_ = nullptr;
   QCheckBox* held_ = nullptr;
+  std::array<QDoubleSpinBox*, 2> place_{};
+  QFormLayout* form_ = nullptr;
+  QHBoxLayout* places_ = nullptr; ///< of the indenter, in the form
   QSpinBox* area_ = nullptr;
   std::array<QDoubleSpinBox*, 3> force_{};
   QComboBox* noise_ = nullptr;

@@ -20,6 +20,7 @@ namespace palp {
 namespace {
 
 constexpr int kDrawnSteps = 8;
+constexpr int kAroundLine_px = 8; ///< in a row of the table
 constexpr int kToldColumns = 3, kFoundColumns = 5;
 constexpr double kUnknownDepth_mm = 0.2; ///< of a force that was not solved yet
 
@@ -59,6 +60,7 @@ PathPanel::PathPanel(Workbench& workbench, QWidget* parent) : QWidget(parent), w
   table_->setToolTip(tr("A double click changes a number; on the right is what was found at the end of each step"));
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
   table_->verticalHeader()->hide();
+  table_->verticalHeader()->setDefaultSectionSize(table_->fontMetrics().height() + kAroundLine_px);
   column->addWidget(table_, 1);
   auto* row = new QHBoxLayout;
   const auto button = [&](const QString& text, const char* name, const QString& tip, void (PathPanel::*slot)()) {

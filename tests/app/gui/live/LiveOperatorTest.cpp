@@ -10,6 +10,7 @@
 #include <QSignalSpy>
 #include <QSpinBox>
 
+#include <array>
 #include <cmath>
 
 namespace palp {
@@ -79,6 +80,52 @@ TEST_F(LiveOperator, TheSimulatedBoardSimulatesTheProjectsDesign) {
   ASSERT_TRUE(wait([&] { return page.host().status().info && page.host().status().info->columnWires == 30; }));
   EXPECT_TRUE(wait([&] { return find<QLabel>("networkName").text().startsWith("Palp's own"); }));
   EXPECT_TRUE(waitForArrow());
+}
+
+TEST_F(LiveOperator, AMovingIndenterDrivesTheBoardAndItsTruePlaceStandsBesideTheDecodedOne) {
+  Project coarse = workbench.project();
+  coarse.mesh.mapped = {20, 20, 1}; // nodes near enough that the lightest touch meets some
+  workbench.edit("a coarse mesh", coarse);
+  ASSERT_TRUE(waitForFrames());
+  find<QCheckBox>("movingIndenter").click();
+  ASSERT_TRUE(wait([&] { return page.host().simulatesOwnDesign(); })) << said.join("; ").toStdString();
+  const auto decoded = [&]() -> std::optional<Eigen::Vector2d> {
+    const auto& arrows = block().arrows();
+    return arrows.empty() || block().stale() ? std::nullopt : arrows[0].place_mm;
+  };
+  ASSERT_TRUE(wait([&] { return decoded() && block().truth_mm(); })) << page.host().status().decoderProblem;
+  const Eigen::Vector2d wandered = *block().truth_mm();
+  // By hand: pressed in the picture, dragged, and by keys.
+  find<QCheckBox>("touchHeld").click();
+  block().setFocus();
+  const auto hand = [&]() -> const SimulationSettings& { return workbench.project().live.simulation; };
+  const QPoint middle = block().rect().center();
+  QTest::mousePress(&block(), Qt::LeftButton, {}, middle);
+  QTest::mouseRelease(&block(), Qt::LeftButton, {}, middle);
+  const Eigen::Vector2d pressed(hand().heldPlace_mm.data());
+  EXPECT_NE(pressed, wandered);
+  drag(block(), middle, middle + QPoint(30, 0));
+  EXPECT_GT(hand().heldPlace_mm[0], pressed.x() + 1);
+  const double before = hand().heldPlace_mm[1];
+  QTest::keyClick(&block(), Qt::Key_Up);
+  EXPECT_NEAR(hand().heldPlace_mm[1], before + 0.5, 1e-9);
+  const Eigen::Vector2d held(hand().heldPlace_mm.data());
+  EXPECT_TRUE(wait([&] { return block().truth_mm() && (*block().truth_mm() - held).norm() < 0.01; }));
+  // Of a mesh as coarse as this the answer jumps from node to node: nearer to the right one of two places is what it
+  // can say.
+  const std::array<Eigen::Vector2d, 2> places{{{8, 8}, {22, 22}}};
+  for (const std::size_t k : {0U, 1U}) {
+    use([&](LiveSettings& live) {
+      live.simulation.heldPlace_mm = {places[k].x(), places[k].y()};
+      live.simulation.heldForce_N[2] = -4;
+    });
+    EXPECT_TRUE(wait([&] {
+      return decoded() && block().truth_mm() == places[k] &&
+             (*decoded() - places[k]).norm() < 0.5 * (*decoded() - places[1 - k]).norm();
+    })) << k;
+  }
+  find<QCheckBox>("movingIndenter").click();
+  EXPECT_TRUE(wait([&] { return !block().truth_mm(); }));
 }
 
 TEST_F(LiveOperator, PullingOutAndPluggingInMovesNoButton) {
