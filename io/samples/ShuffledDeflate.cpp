@@ -51,43 +51,43 @@ void unshuffle(const unsigned char* planes, std::size_t count, std::size_t first
 }
 
 // 16 bytes of any processor's vector unit (an extension of GCC's and Clang's).
-using Bytes = unsigned char __attribute__((vector_size(16)));
-using Pairs = std::uint16_t __attribute__((vector_size(16)));
-using Fours = std::uint32_t __attribute__((vector_size(16)));
+using SixteenBytes = unsigned char __attribute__((vector_size(16)));
+using EightPairs = std::uint16_t __attribute__((vector_size(16)));
+using FourFours = std::uint32_t __attribute__((vector_size(16)));
 
 /// Those of a and b in turn, of the lower halves and of the upper ones.
-Pairs lower(Bytes a, Bytes b) {
-  return (Pairs)__builtin_shufflevector(a, b, 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
+EightPairs lower(SixteenBytes a, SixteenBytes b) {
+  return (EightPairs)__builtin_shufflevector(a, b, 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
 }
-Pairs upper(Bytes a, Bytes b) {
-  return (Pairs)__builtin_shufflevector(a, b, 8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15, 31);
+EightPairs upper(SixteenBytes a, SixteenBytes b) {
+  return (EightPairs)__builtin_shufflevector(a, b, 8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15, 31);
 }
-Fours lower(Pairs a, Pairs b) {
-  return (Fours)__builtin_shufflevector(a, b, 0, 8, 1, 9, 2, 10, 3, 11);
+FourFours lower(EightPairs a, EightPairs b) {
+  return (FourFours)__builtin_shufflevector(a, b, 0, 8, 1, 9, 2, 10, 3, 11);
 }
-Fours upper(Pairs a, Pairs b) {
-  return (Fours)__builtin_shufflevector(a, b, 4, 12, 5, 13, 6, 14, 7, 15);
+FourFours upper(EightPairs a, EightPairs b) {
+  return (FourFours)__builtin_shufflevector(a, b, 4, 12, 5, 13, 6, 14, 7, 15);
 }
 
 /// 16 numbers of 8 bytes at once: bytes to pairs, pairs to fours, fours to numbers. A fifth of the time of one by one.
 void unshuffleDoubles(const unsigned char* planes, std::size_t count, unsigned char* numbers) {
-  constexpr std::size_t kAtOnce = sizeof(Bytes), kWidth = sizeof(double);
+  constexpr std::size_t kAtOnce = sizeof(SixteenBytes), kWidth = sizeof(double);
   std::size_t i = 0;
   for (; i + kAtOnce <= count; i += kAtOnce) {
-    Bytes plane[kWidth];
+    SixteenBytes plane[kWidth];
     for (std::size_t p = 0; p < kWidth; ++p) std::memcpy(&plane[p], planes + p * count + i, kAtOnce);
-    Pairs pairs[2][kWidth / 2]; // [half of the numbers][two of the planes]
+    EightPairs pairs[2][kWidth / 2]; // [half of the numbers][two of the planes]
     for (std::size_t p = 0; p < kWidth / 2; ++p) {
       pairs[0][p] = lower(plane[2 * p], plane[2 * p + 1]);
       pairs[1][p] = upper(plane[2 * p], plane[2 * p + 1]);
     }
     unsigned char* to = numbers + i * kWidth;
     for (const auto& half : pairs) {
-      const Fours fours[2][2] = {{lower(half[0], half[1]), lower(half[2], half[3])},
-                                 {upper(half[0], half[1]), upper(half[2], half[3])}};
+      const FourFours fours[2][2] = {{lower(half[0], half[1]), lower(half[2], half[3])},
+                                     {upper(half[0], half[1]), upper(half[2], half[3])}};
       for (const auto& [low, high] : fours) {
-        const Fours two[2] = {__builtin_shufflevector(low, high, 0, 4, 1, 5),
-                              __builtin_shufflevector(low, high, 2, 6, 3, 7)};
+        const FourFours two[2] = {__builtin_shufflevector(low, high, 0, 4, 1, 5),
+                                  __builtin_shufflevector(low, high, 2, 6, 3, 7)};
         std::memcpy(to, two, sizeof two);
         to += sizeof two;
       }
