@@ -1,6 +1,7 @@
 #include "app/gui/live/SimulatedDesign.h"
 
 #include "app/study/decoding/DecoderTraining.h"
+#include "app/study/live/simulated/MovingTouch.h"
 #include "app/study/touch/SampleGenerator.h"
 #include "app/study/touch/Touch.h"
 #include "model/base/Cancelled.h"
@@ -37,6 +38,26 @@ SampleSet withRest(const SampleSet& touches, const SensorDesign& design) {
   rest.displacements_mm.setZero();
   rest.resistances_ohm.col(0) = resistancesAtRest_ohm(design).reshaped<Eigen::RowMajor>();
   append(all, rest);
+  return all;
+}
+
+/// As many other touches of the same kind, as the board answers them: its network knows what it has to do with.
+SampleSet answered(const SampleSet& board, const SensorDesign& design) {
+  const MovingTouch response(board);
+  const TouchRange touches = movingTouches(design);
+  SampleSet all = board;
+  all.displacements_mm.resize(0, all.size());
+  for (Eigen::Index k = 0; k < all.size(); ++k) {
+    const Indenter touch = touchAt(touches, board.origin.seed + 1, static_cast<std::size_t>(k));
+    SimulatedTouch::Truth truth;
+    truth.place_mm = touch.place_mm;
+    truth.force_N = touch.press()->force_N;
+    all.area(k) = areaUnder(design, touch.place_mm);
+    all.touches(kTouchX_mm, k) = touch.place_mm.x();
+    all.touches(kTouchY_mm, k) = touch.place_mm.y();
+    all.forces_N.col(k) = truth.force_N;
+    all.resistances_ohm.col(k) = response.resistances_ohm(truth).reshaped<Eigen::RowMajor>();
+  }
   return all;
 }
 
@@ -85,8 +106,9 @@ void SimulatedDesign::solve(const SensorDesign& design, const MeshOptions& mesh,
         options.decoder = moving ? DecoderKind::TouchInversion : DecoderKind::MaximumLikelihood;
         if (moving) options.target = DecoderTarget::ForceAndPlace;
         options.noise = kNoise;
-        Decoder decoder = trainDecoder(*samples, &design, options, stop);
         if (moving) samples = std::make_shared<const SampleSet>(withRest(*samples, design));
+        progress.set(-1, "Training its network");
+        Decoder decoder = trainDecoder(moving ? answered(*samples, design) : *samples, &design, options, stop);
         const auto solved = std::make_shared<const Solved>(Solved{design, moving, samples, std::move(decoder)});
         return [this, solved] {
           kept_.push_front(solved);
