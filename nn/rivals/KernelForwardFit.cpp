@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -34,7 +33,8 @@ constexpr std::array kSmoothings{1e-8, 1e-6, 1e-4, 1e-2}; // variance left to a 
 constexpr int kNodes = 50; // between the table's nodes along the longer range of the places, and what lies beyond
 constexpr double kBeyondRange = 0.1; // of its range that a place may lie outside
 constexpr double kRestVariance = 1;  // of what does not depend on the causes, in the components' own
-constexpr double kDecimals = 1e4;    // the table is rounded to this part of a deviation of the noise
+constexpr const char* kNoFunction = "no smooth function goes through the samples: are some the same?";
+constexpr double kDecimals = 1e4; // the table is rounded to this part of a deviation of the noise
 
 /// Principal components of the measurements in units of their noise, the strongest first.
 Eigen::MatrixXd projectionOf(const Eigen::MatrixXd& centred, const Eigen::VectorXd& noise) {
@@ -65,7 +65,6 @@ public:
   ForwardFit(const Eigen::MatrixXd& measurements, const Eigen::MatrixXd& causes, const Eigen::VectorXi& groups,
              const KernelForwardOptions& options, const std::stop_token& stop);
   void chooseSmoothness();
-  // Of the Gaussians that were chosen, as the places.
   [[nodiscard]] double width() const { return smoothness_.width * range_; }
   [[nodiscard]] KernelForwardModel modelOf(const std::vector<Eigen::Index>& samples) const;
 
@@ -276,7 +275,6 @@ std::optional<ForwardFit::Fitted> ForwardFit::fitted(const std::vector<Eigen::In
   return result;
 }
 
-/// Along one number after the other, twice.
 void ForwardFit::chooseSmoothness() {
   std::vector<Eigen::Index> tried(static_cast<std::size_t>(std::min(kMostTried, components_.cols())));
   std::iota(tried.begin(), tried.end(), Eigen::Index(0));
@@ -303,7 +301,7 @@ void ForwardFit::chooseSmoothness() {
     along(&Smoothness::smoothing, kSmoothings);
     if (!(best < 0.98 * before)) break;
   }
-  if (!std::isfinite(best)) throw NetworkError("no smooth function goes through the samples: are some the same?");
+  if (!std::isfinite(best)) throw NetworkError(kNoFunction);
 }
 
 SplineTable ForwardFit::tableOf(const std::vector<Eigen::Index>& samples, const Eigen::MatrixXd& weights) const {
@@ -341,7 +339,7 @@ SplineTable ForwardFit::tableOf(const std::vector<Eigen::Index>& samples, const 
 KernelForwardModel ForwardFit::modelOf(const std::vector<Eigen::Index>& samples) const {
   KernelForwardModel model = common_;
   const std::optional<Fitted> found = fitted(samples, smoothness_);
-  if (!found) throw NetworkError("no smooth function goes through the samples: are some the same?");
+  if (!found) throw NetworkError(kNoFunction);
   model.table = tableOf(samples, found->weights);
   const Eigen::Index starts = std::min<Eigen::Index>(kMostStarts, static_cast<Eigen::Index>(samples.size()));
   model.starts = scaled_(Eigen::all, samples).leftCols(starts);
@@ -387,8 +385,7 @@ KernelForwardFit fitKernelForwardModel(const Eigen::Ref<const Eigen::MatrixXd>& 
     Eigen::VectorXd reading = measurements.col(result.heldOut[i]);
     for (double& value : reading) value *= 1 + options.relativeNoise * random.normal(); // as they will come
     const KernelEstimate estimate = inversion.estimate(reading);
-    const Eigen::VectorXd off = truth - estimate.causes;
-    result.heldOutResiduals.col(static_cast<Eigen::Index>(i)) = off;
+    const Eigen::VectorXd off = result.heldOutResiduals.col(static_cast<Eigen::Index>(i)) = truth - estimate.causes;
     for (Eigen::Index k = 0; k < off.size(); ++k)
       if (estimate.standardDeviation(k) > 0)
         sizes[static_cast<std::size_t>(k)].push_back(std::abs(off(k)) / estimate.standardDeviation(k));

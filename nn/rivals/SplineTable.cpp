@@ -28,13 +28,18 @@ SplinesAt splinesAt(double place, double low, double step, int nodes) {
   return at;
 }
 
-/// Along one line of nodes: coefficients c with (c_(i-1) + 4 c_i + c_(i+1)) / 6 = value_i for the inner nodes i, and
-/// the outermost by cubic extrapolation: third differences at both ends are 0, so that c_0 = 3 c_1 - 3 c_2 + c_3.
+/// Along one line of nodes: coefficients c with (c_(i-1) + 4 c_i + c_(i+1)) / 6 = value_i for the inner nodes i; at the
+/// ends fourth differences are 0 ("not a knot": cubics are exact), on few nodes second ones.
 Eigen::MatrixXd collocation(int nodes) {
   Eigen::MatrixXd system = Eigen::MatrixXd::Zero(nodes, nodes);
   for (int i = 1; i < nodes - 1; ++i) system.row(i).segment<3>(i - 1) << 1. / 6, 4. / 6, 1. / 6;
-  system.row(0).head<4>() << 1, -3, 3, -1;
-  system.row(nodes - 1).tail<4>() << -1, 3, -3, 1;
+  if (nodes < 6) {
+    system.row(0).head<3>() << 1, -2, 1;
+    system.row(nodes - 1).tail<3>() << 1, -2, 1;
+  } else {
+    system.row(0).head<5>() << 1, -4, 6, -4, 1;
+    system.row(nodes - 1).tail<5>() << 1, -4, 6, -4, 1;
+  }
   return system;
 }
 

@@ -26,8 +26,8 @@ struct SplineTable {
   void evaluate(const Eigen::Ref<const Eigen::VectorXd>& input, Eigen::VectorXd& value, Eigen::MatrixXd& slope) const;
 
   /// Coefficients of the splines that go through values at the nodes but the first and the last along each place
-  /// (outputs x (terms x nodes x nodes) as `coefficients`, the outermost not read), with no third derivative across the
-  /// outermost but one.
+  /// (outputs x (terms x nodes x nodes) as `coefficients`, the outermost not read); exact for cubics where there are
+  /// six nodes or more.
   void interpolate(Eigen::MatrixXd values);
 };
 
