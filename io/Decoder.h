@@ -100,6 +100,13 @@ struct DecoderPlace {
   Eigen::VectorXd low_mm, high_mm, residual_mm;
 };
 
+/// What labelled frames of a board made of a decoder's answer: gains * answer + offset, the forces [N] and below them
+/// the place [mm].
+struct OutputCorrection {
+  Eigen::MatrixXd gains;
+  Eigen::VectorXd offset;
+};
+
 /// What a decoder reads: kind and row-wires, and their range in training.
 struct DecoderInput {
   InputKind kind = InputKind::Displacement;
@@ -126,6 +133,8 @@ struct Decoder {
   bool together = false;             ///< one force per area at once: 3 x areas outputs
   std::string touches;               ///< the indenters it was trained on, in words; empty: forces on whole areas
   std::optional<DecoderPlace> place; ///< of a decoder of force and place, whose model gives x and y after the force
+  /// Of a decoder by inversion, whose model says how readings follow a touch and stays as it is; none: not calibrated.
+  std::optional<OutputCorrection> correction;
   Eigen::VectorXd low_N, high_N;     ///< training range of each force
   Eigen::MatrixXd residual_N;        ///< forces x areas (1 where unknown): rms error found in training, per area
   std::optional<ForwardModel> areas; ///< finds the touched area; none for `together` or where there is one area

@@ -75,6 +75,15 @@ DecoderPlace readPlace(const JsonPlace& json) {
   return place;
 }
 
+OutputCorrection readCorrection(const JsonPlace& json, Eigen::Index outputs) {
+  json.onlyKeys({"gains", "offset"}, {});
+  OutputCorrection correction{readMatrix(json.at("gains")), readVector(json.at("offset"))};
+  requireSize(json.at("gains"), correction.gains.rows(), outputs, "rows, one an output");
+  requireSize(json.at("gains"), correction.gains.cols(), outputs, "columns, one an output");
+  requireSize(json.at("offset"), correction.offset.size(), outputs, "numbers, one an output");
+  return correction;
+}
+
 void readModel(const JsonPlace& place, Decoder& decoder) {
   switch (decoder.kind) {
   case DecoderKind::Rbf:
@@ -199,6 +208,8 @@ std::string networkText(const Decoder& decoder) {
     json["place"] = {{"low_mm", toJson(decoder.place->low_mm)},
                      {"high_mm", toJson(decoder.place->high_mm)},
                      {"residual_mm", toJson(decoder.place->residual_mm)}};
+  if (decoder.correction)
+    json["correction"] = {{"gains", toJson(decoder.correction->gains)}, {"offset", toJson(decoder.correction->offset)}};
   if (decoder.readout) json["readout"] = kReadouts.name(*decoder.readout);
   json["model"] = std::visit([](const auto& model) { return toJson(model); }, decoder.model);
   json["area_of_class"] = decoder.areaOfClass;
@@ -214,7 +225,7 @@ Decoder parseNetwork(const std::string& text, const std::string& file) {
   root.onlyKeys({"palp_network", "decoder", "mode", "trained_with", "design_fingerprint", "seed", "noise_relative",
                  "input", "area_count", "together", "low_N", "high_N", "residual_N", "fit", "model", "area_of_class",
                  "areas"},
-                {"readout", "touches", "place"});
+                {"readout", "touches", "place", "correction"});
   Decoder decoder;
   decoder.kind = root.at("decoder").named(kDecoderKinds);
   decoder.mode = root.at("mode").named(kDecoderModes);
@@ -240,6 +251,11 @@ Decoder parseNetwork(const std::string& text, const std::string& file) {
   decoder.areaOfClass = readIntegers(root.at("area_of_class"));
   if (!root.at("areas").isNull()) decoder.areas = readForwardModel(root.at("areas"));
   requireFitting(root, decoder);
+  if (root.has("correction")) {
+    if (decoder.kind != DecoderKind::TouchInversion)
+      root.at("correction").refuse("left out: this decoder is refined in its model");
+    decoder.correction = readCorrection(root.at("correction"), decoder.outputs() + 2);
+  }
   return decoder;
 }
 

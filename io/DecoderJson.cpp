@@ -278,45 +278,4 @@ ForwardModel readForwardModel(const JsonPlace& place) {
   return model;
 }
 
-OrderedJson toJson(const KernelForwardModel& model) {
-  return {{"cause_offset", toJson(model.causeOffset)},
-          {"cause_factor", toJson(model.causeFactor)},
-          {"cause_deviation", toJson(model.causeDeviation)},
-          {"measurement_offset", toJson(model.measurementOffset)},
-          {"projection", toJson(model.projection)},
-          {"deviation", toJson(model.deviation)},
-          {"inflation", toJson(model.inflation)},
-          {"network", toJson(model.network)}};
-}
-
-KernelForwardModel readKernelForwardModel(const JsonPlace& place) {
-  place.onlyKeys({"cause_offset", "cause_factor", "cause_deviation", "measurement_offset", "projection", "deviation",
-                  "inflation", "network"});
-  KernelForwardModel model;
-  model.causeOffset = readVector(place.at("cause_offset"));
-  model.causeFactor = readVector(place.at("cause_factor"));
-  model.causeDeviation = readVector(place.at("cause_deviation"));
-  model.measurementOffset = readVector(place.at("measurement_offset"));
-  model.projection = readMatrix(place.at("projection"));
-  model.deviation = readVector(place.at("deviation"));
-  model.inflation = readVector(place.at("inflation"));
-  model.network = readRbf(place.at("network"));
-  requireSize(place.at("inflation"), model.inflation.size(), model.causes(), "entries, one a cause");
-  requireSize(place.at("cause_factor"), model.causeFactor.size(), model.causes(), "entries, one a cause");
-  requireSize(place.at("cause_deviation"), model.causeDeviation.size(), model.causes(), "entries, one a cause");
-  for (Eigen::Index k = 0; k < model.causes(); ++k)
-    if (model.causeFactor(k) != 0 && !(model.causeFactor(k) > 0 && model.causeDeviation(k) > 0))
-      place.at("cause_factor").refuse("numbers above 0, with a deviation above 0, or 0 for a cause that never varied");
-  const Eigen::Index varied = (model.causeFactor.array() != 0).count();
-  requireSize(place.at("projection"), model.projection.cols(), model.measurements(), "columns, one a measurement");
-  requireSize(place.at("projection"), model.projection.rows(), model.components(), "rows, one a component");
-  if (model.components() < 1 || !(model.deviation.array() > 0).all())
-    place.at("deviation").refuse("numbers above 0, one or more");
-  requireSize(place.at("network"), model.network.inputs(), varied, "inputs, one a cause that varies");
-  requireSize(place.at("network"), model.network.outputs(), model.components(), "outputs, one a component");
-  if (model.network.scaler.scaling != Scaling::Raw || model.network.centers.cols() < 1)
-    place.at("network").refuse("a network of unscaled inputs with one centre or more");
-  return model;
-}
-
 } // namespace palp

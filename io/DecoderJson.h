@@ -19,6 +19,7 @@ OrderedJson toJson(const BackPropagationNetwork& network);
 OrderedJson toJson(const TwoStep& decoder);
 OrderedJson toJson(const ForwardModel& model);
 OrderedJson toJson(const KernelForwardModel& model);
+OrderedJson toJson(const SplineTable& table);
 
 /// Readers throw Error with file, key, value and what is allowed; sizes that do not fit together too.
 Eigen::VectorXd readVector(const JsonPlace& place);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 
 namespace palp {
@@ -72,6 +73,29 @@ std::string inWords(const TouchRange& range) {
   if (range.mostFriction > 0)
     words += " friction " + span(range.leastFriction, range.mostFriction) + " cone " + text(range.cone);
   return words;
+}
+
+std::optional<Indenter> indenterInWords(const std::string& words) {
+  const std::string body = words.substr(0, words.find('@'));
+  const std::size_t colon = body.find(':');
+  const auto shape = indenterShape(body.substr(0, colon));
+  if (!shape) return {};
+  Indenter indenter;
+  indenter.shape = *shape;
+  indenter.radius_mm = 0;
+  if (*shape == IndenterShape::Plane) return indenter;
+  if (colon == std::string::npos) return {};
+  std::string sizes = body.substr(colon + 1);
+  const auto number = [](const std::string& text) { return std::strtod(text.c_str(), nullptr); };
+  if (const std::size_t comma = sizes.find(','); comma != std::string::npos) {
+    indenter.rim_mm = number(sizes.substr(comma + 1));
+    sizes.resize(comma);
+  }
+  const std::size_t dots = sizes.find("..");
+  const double from = number(sizes.substr(0, dots));
+  indenter.radius_mm = dots == std::string::npos ? from : (from + number(sizes.substr(dots + 2))) / 2;
+  if (!(indenter.radius_mm > 0)) return {};
+  return indenter;
 }
 
 std::optional<std::string> whyInvalid(const TouchRange& range, const SensorDesign& design) {

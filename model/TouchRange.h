@@ -34,6 +34,9 @@ Indenter touchAt(const TouchRange& range, std::uint64_t seed, std::size_t i);
 /// As the options of the command line that make it: "sphere:3..6@3,3,27,27 press 0.5..6 friction 0.3..0.8 cone 0.7".
 std::string inWords(const TouchRange& range);
 
+/// The indenter of such words, of the middle of its sizes; none where they are others.
+std::optional<Indenter> indenterInWords(const std::string& words);
+
 /// Why no touches can be drawn (a range that is empty or not finite, a rectangle off the face, ...): the first of its
 /// corners that cannot press; empty if they can.
 std::optional<std::string> whyInvalid(const TouchRange& range, const SensorDesign& design);

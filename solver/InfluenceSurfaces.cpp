@@ -45,6 +45,11 @@ struct Disc {
   }
 };
 
+const Disc& unitDisc() {
+  static const Disc disc;
+  return disc;
+}
+
 /// The gradient of a reading as a load on the free displacements. The elements' own unknowns follow their nodes by
 /// x = -W u.
 Eigen::VectorXd loadOf(const LinearReadings& readings, Eigen::Index reading, const PointProbe& probe,
@@ -136,9 +141,39 @@ std::vector<Eigen::MatrixX3d> InfluenceSurfaces::at(const Eigen::Ref<const Eigen
   return result;
 }
 
+Eigen::MatrixXd InfluenceSurfaces::under(std::span<const Indenter> touches, int threads,
+                                         const std::stop_token& stop) const {
+  const Disc& disc = unitDisc();
+  const Eigen::Index count = surfaces_.rows() / 3;
+  Eigen::MatrixXd result(count, static_cast<Eigen::Index>(touches.size()));
+  forChunks(static_cast<int>(touches.size()), kTouchesAtOnce, threads, [&](int begin, int end) {
+    if (stop.stop_requested()) throw Cancelled();
+    Eigen::Matrix2Xd points(2, kDiscPoints * (end - begin));
+    // Pressed by Hertz's pressure or that under a flat end, and sideways.
+    Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(points.cols(), 2 * (end - begin));
+    for (int i = begin; i < end; ++i) {
+      const Indenter& touch = touches[static_cast<std::size_t>(i)];
+      const double radius_mm = contactEstimate(touch, problem_.design()).half_mm.x();
+      const Eigen::Index first = kDiscPoints * (i - begin);
+      points.middleCols(first, kDiscPoints) = (radius_mm * disc.points).colwise() + touch.place_mm;
+      sums.col(2 * (i - begin)).segment(first, kDiscPoints) =
+          touch.shape == IndenterShape::Flat ? disc.flat : disc.hertz;
+      sums.col(2 * (i - begin) + 1).segment(first, kDiscPoints) = disc.flat;
+    }
+    const Eigen::MatrixXd all = influence(points, sums);
+    for (int i = begin; i < end; ++i) {
+      const Eigen::Vector3d force_N = touches[static_cast<std::size_t>(i)].press()->force_N;
+      const auto pressed = all.col(2 * (i - begin)), aside = all.col(2 * (i - begin) + 1);
+      result.col(i) = force_N.z() * pressed.tail(count) + force_N.x() * aside.head(count) +
+                      force_N.y() * aside.segment(count, count);
+    }
+  });
+  return result;
+}
+
 std::vector<TouchInfluence> InfluenceSurfaces::of(std::span<const Indenter> touches, int threads,
                                                   const std::stop_token& stop) const {
-  static const Disc disc;
+  const Disc& disc = unitDisc();
   const double shift_mm = kShiftShare * problem_.design().block_mm.z();
   const std::array<Eigen::Vector2d, 5> shifts{Eigen::Vector2d::Zero(), Eigen::Vector2d(shift_mm, 0),
                                               Eigen::Vector2d(-shift_mm, 0), Eigen::Vector2d(0, shift_mm),

@@ -44,6 +44,10 @@ public:
   [[nodiscard]] std::vector<TouchInfluence> of(std::span<const Indenter> touches, int threads,
                                                const std::stop_token& stop = {}) const;
 
+  /// What such touches that press with their forces make of the readings: readings x touches.
+  [[nodiscard]] Eigen::MatrixXd under(std::span<const Indenter> touches, int threads,
+                                      const std::stop_token& stop = {}) const;
+
 private:
   explicit InfluenceSurfaces(HyperelasticProblem problem) : problem_(std::move(problem)) {}
   /// Weights of points of the top face among its nodes: points x nodes.

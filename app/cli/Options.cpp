@@ -99,6 +99,12 @@ AreaLoad areaLoadOption(const std::string& option, const std::string& value, con
   return {wholeNumber(option + " (area)", area, 0, design.areas.count() - 1), force};
 }
 
+std::pair<Eigen::Vector2d, Eigen::Vector3d> placedForceOption(const std::string& option, const std::string& value) {
+  const auto [place, force] = forceAt(option, value, "@X,Y:FX,FY,FZ, for example @15,7.5:0,0,-3");
+  const std::vector<double> xy = numbers(option + " (place)", place, 2);
+  return {{xy[0], xy[1]}, force};
+}
+
 LoadCase LoadOptions::forces(const SensorDesign& design) const {
   LoadCase load;
   for (const std::string& value : loads) load.areas.push_back(areaLoadOption("--load", value, design));

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace palp {
@@ -45,6 +46,8 @@ private:
 
 /// AREA:FX,FY,FZ as a force on an area that the design has. Throws UsageError.
 AreaLoad areaLoadOption(const std::string& option, const std::string& value, const SensorDesign& design);
+/// X,Y:FX,FY,FZ [mm, N].
+std::pair<Eigen::Vector2d, Eigen::Vector3d> placedForceOption(const std::string& option, const std::string& value);
 
 /// --mesh-size MM, --mapped NxNxN (and --accuracy REL where the command has loads to judge it by).
 struct MeshChoice {

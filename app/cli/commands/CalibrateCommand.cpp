@@ -44,6 +44,9 @@ void print(const CalibrationReport& report, double age_days) {
     std::printf("F%c  %8.3f to %8.3f  %7.1f %%  %14.4f N  %8.4f N = %.2f %% of range\n", "xyz"[axis],
                 report.lowest_N(axis), report.highest_N(axis), report.coverage_percent(axis), report.rmseBefore_N(axis),
                 report.rmseAfter_N(axis), report.rmseAfter_percentOfRange(axis));
+  if (const auto& place = report.place)
+    std::printf("place along x, y: rms error before %.3f, %.3f mm, after (unseen) %.3f, %.3f mm\n",
+                place->rmseBefore_mm.x(), place->rmseBefore_mm.y(), place->rmseAfter_mm.x(), place->rmseAfter_mm.y());
   std::printf("worst frame: %lld, %.4f N\n", static_cast<long long>(report.worstSample), report.worstError_N);
 }
 
@@ -59,6 +62,10 @@ void fill(Json& result, const CalibrationReport& report, double age_days) {
   result["worst_sample"] = report.worstSample;
   result["worst_error_N"] = report.worstError_N;
   result["improved"] = report.improved;
+  if (const auto& place = report.place)
+    result["place"] = {{"rmse_before_mm", {place->rmseBefore_mm.x(), place->rmseBefore_mm.y()}},
+                       {"rmse_after_mm", {place->rmseAfter_mm.x(), place->rmseAfter_mm.y()}},
+                       {"improved", place->improved}};
   result["age_days"] = age_days;
 }
 
@@ -149,6 +156,11 @@ Exit run(const CalibrateArguments& arguments, Session& session) {
   const double age_days = ageInDays(arguments.frames);
   if (!report.improved)
     session.warnings.emplace_back("on frames that it has not seen, the refined network is no better than the old one");
+  if (report.place && !report.place->improved)
+    session.warnings.emplace_back("its places are no better on frames that it has not seen");
+  if (decoder.place && !report.place)
+    session.warnings.emplace_back("the frames have no places: those of the network stay as they are (palp listen "
+                                  "--label @X,Y:FX,FY,FZ, or palp import)");
   if (report.coverage_percent.minCoeff() < 50)
     session.warnings.emplace_back("the labels cover less than half of the network's force range in some direction");
   writeNetwork(calibration.decoder, arguments.output.path, arguments.output.force);
@@ -169,7 +181,7 @@ void addCalibrate(Cli& cli) {
       cli.command("calibrate", "refine a network with labelled frames of a real board, or fit a design to it at rest",
                   "palp calibrate network.json frames.csv -o better.json",
                   [arguments](Session& session) { return run(*arguments, session); });
-  command.option("network", arguments->network, "network file (rbf or ml, one force)");
+  command.option("network", arguments->network, "network file (rbf, ml or touch, one force)");
   command.option("frames", arguments->frames, "labelled frames, from palp listen --label ... --append");
   command.option("--rest", arguments->rest,
                  "recording of the board at rest: fits electrode radius, resistivity and contact of the field");

@@ -182,11 +182,15 @@ Exit listBoards(const ListenArguments& arguments, Session& session) {
 /// The labelled frame that is asked for; none without --label.
 std::optional<FrameAverage> labelledFrame(const ListenArguments& arguments, const LiveOptions& options) {
   if (arguments.label.empty() != arguments.append.empty())
-    throw UsageError("--label and --append go together: --label AREA:FX,FY,FZ --append frames.csv");
+    throw UsageError("--label and --append go together: --label AREA:FX,FY,FZ (or @X,Y:FX,FY,FZ) --append frames.csv");
   if (arguments.label.empty()) return {};
   if (!options.decoder) throw UsageError("--label needs --network: it says of which design the frames are");
   const SensorDesign design = options.design.value_or(paperDesign());
-  return FrameAverage(*options.decoder, design, areaLoadOption("--label", arguments.label, design));
+  if (arguments.label.starts_with('@')) {
+    const auto [place_mm, force_N] = placedForceOption("--label", arguments.label.substr(1));
+    return FrameAverage(*options.decoder, design, knownTouch(design, place_mm, force_N));
+  }
+  return FrameAverage(*options.decoder, design, {areaLoadOption("--label", arguments.label, design)});
 }
 
 /// When to stop.
@@ -337,7 +341,9 @@ void addListen(Cli& cli) {
   a.send.declare(command);
   command.option("--frames", a.frames, "stop after so many frames (default 0: go on)");
   command.option("--seconds", a.seconds, "stop after so many seconds (default 0: go on)");
-  command.option("--label", a.label, "AREA:FX,FY,FZ: the known load now on the sensor, for palp calibrate");
+  command.option(
+      "--label", a.label,
+      "AREA:FX,FY,FZ: the known load now on the sensor, for palp calibrate; @X,Y:FX,FY,FZ [mm, N] a touch at a place");
   command.option("--append", a.append, "file of labelled frames to which the mean is added");
   command.option("--average", a.average, "frames of that mean (default 50)");
 }

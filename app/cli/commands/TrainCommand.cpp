@@ -94,7 +94,10 @@ void addTrain(Cli& cli) {
                                 [arguments](Session& session) { return run(*arguments, session); });
   command.option("samples", arguments->samples, "sample file").required();
   arguments->train.declare(command, true);
-  command.option("--design", arguments->design, "design file, or paper; two-step-gn inverts its resistance law");
+  command.option("--design", arguments->design,
+                 "design file, or paper; two-step-gn inverts its resistance law, touch learns from simulated touches "
+                 "only what its "
+                 "influence surfaces leave");
   arguments->output.declare(command, "network file to write").required();
 }
 

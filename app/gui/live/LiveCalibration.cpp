@@ -70,6 +70,12 @@ QString reportText(const Calibration& calibration, double age_days) {
                 .arg(report.rmseAfter_N(axis), 0, 'g', 3)
                 .arg(report.rmseAfter_percentOfRange(axis), 0, 'f', 2);
   text += QObject::tr("</table>Worst frame: %1, %2 N.").arg(report.worstSample).arg(report.worstError_N, 0, 'g', 3);
+  if (const auto& place = report.place)
+    text += QObject::tr(" Places along x, y: before %1, %2 mm, after (unseen) %3, %4 mm.")
+                .arg(place->rmseBefore_mm.x(), 0, 'g', 3)
+                .arg(place->rmseBefore_mm.y(), 0, 'g', 3)
+                .arg(place->rmseAfter_mm.x(), 0, 'g', 3)
+                .arg(place->rmseAfter_mm.y(), 0, 'g', 3);
   for (const std::string& warning : warningsOf(report))
     text = QObject::tr("<p style='color:#d4303c'><b>A bad fit: %1.</b></p>")
                .arg(QString::fromStdString(warning).toHtmlEscaped()) +
@@ -89,7 +95,7 @@ LiveCalibration::LiveCalibration(LiveHost& host, QWidget* parent) : QWidget(pare
   row->addWidget(buildFit(), 3);
   connect(&runner_, &JobRunner::failed, this, [this](const QString& sentence) { complain(sentence); });
   connect(&host_, &LiveHost::decoderChanged, this, [this] {
-    known_->setSensor(host_.sensor().areas.count(), host_.decoder() ? &*host_.decoder() : nullptr);
+    known_->setSensor(host_.sensor(), host_.decoder() ? &*host_.decoder() : nullptr);
     displayFrames();
     displayState();
   });
@@ -102,7 +108,7 @@ QWidget* LiveCalibration::buildLabel() {
   auto* box = new QGroupBox(tr("Known load now"));
   auto* column = new QVBoxLayout(box);
   known_ = new KnownLoad;
-  known_->setSensor(host_.sensor().areas.count(), host_.decoder() ? &*host_.decoder() : nullptr);
+  known_->setSensor(host_.sensor(), host_.decoder() ? &*host_.decoder() : nullptr);
   column->addWidget(known_);
   count_ = new QSpinBox;
   count_->setObjectName("labelFrames");
@@ -234,7 +240,7 @@ void LiveCalibration::displayState() {
   back_->setText(before.isEmpty() ? tr("Back") : tr("Back to %1").arg(before.section(',', 0, 0)));
   const LiveFrame* last = host_.history().last();
   const bool reads = last != nullptr && last->forces.valid && last->forces.forces_N.cols() > 0;
-  known_->displayReading(reads ? std::optional<Eigen::Vector3d>(forceOn(last->forces, known_->load().area))
+  known_->displayReading(reads ? std::optional<Eigen::Vector3d>(forceOn(last->forces, known_->load().load.area))
                                : std::nullopt);
 }
 
@@ -292,8 +298,13 @@ void LiveCalibration::displayFrames() {
   displayFit();
   if (table_->rowCount() == samples.size()) return;
   table_->setRowCount(static_cast<int>(samples.size()));
+  const bool placed = samples.places_mm.rows() > 0;
+  table_->horizontalHeaderItem(0)->setText(placed ? tr("place\nx, y [mm]") : tr("area"));
   for (int row = 0; row < table_->rowCount(); ++row) {
-    table_->setItem(row, 0, new QTableWidgetItem(QString::number(samples.area(row))));
+    const QString where =
+        placed ? QString("%1, %2").arg(samples.places_mm(0, row), 0, 'f', 2).arg(samples.places_mm(1, row), 0, 'f', 2)
+               : QString::number(samples.area(row));
+    table_->setItem(row, 0, new QTableWidgetItem(where));
     QStringList load, said;
     for (int d = 0; d < 3; ++d) {
       load << QString::number(samples.forces_N(d, row), 'g', 4);

@@ -7,6 +7,7 @@
 #include "app/gui/live/panels/LiveControlPanel.h"
 #include "app/gui/live/recordings/RecordingName.h"
 #include "app/gui/views/CsvExport.h"
+#include "app/study/touch/TouchLoad.h"
 
 #include <QMessageBox>
 #include <QTabWidget>
@@ -113,14 +114,13 @@ void LivePage::solveTwin() {
     emit message(tr("No force has been decoded yet."));
     return;
   }
-  LoadCase load;
-  for (const LiveArrow& arrow : arrowsOf(last->forces)) load.areas.push_back({arrow.area, arrow.force_N});
-  if (load.areas.empty()) {
+  const SensorDesign& sensor = host_.sensor();
+  const LoadCase load = host_.decoder() ? loadOf(last->forces, *host_.decoder(), sensor) : LoadCase{};
+  if (load == LoadCase{}) {
     emit message(tr("The sensor is at rest: press it, then ask for the twin."));
     return;
   }
   blockTabs_->setCurrentWidget(twin_);
-  const SensorDesign& sensor = host_.sensor();
   const bool own = sensor == workbench_.project().design;
   twin_->solve(sensor, load, own ? workbench_.project().mesh : MeshOptions{}, last->change);
 }

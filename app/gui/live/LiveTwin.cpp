@@ -32,6 +32,23 @@ QString loadWords(const LoadCase& load) {
                  .arg(area.force_N.x(), 0, 'f', 3)
                  .arg(area.force_N.y(), 0, 'f', 3)
                  .arg(area.force_N.z(), 0, 'f', 3);
+  for (const PatchLoad& disc : load.patches)
+    words << QObject::tr("a disc of %1 mm at (%2, %3) mm: (%4, %5, %6) N")
+                 .arg(disc.radius_mm, 0, 'g', 3)
+                 .arg(disc.centre_mm.x(), 0, 'f', 2)
+                 .arg(disc.centre_mm.y(), 0, 'f', 2)
+                 .arg(disc.force_N.x(), 0, 'f', 3)
+                 .arg(disc.force_N.y(), 0, 'f', 3)
+                 .arg(disc.force_N.z(), 0, 'f', 3);
+  for (const Indenter& indenter : load.indenters)
+    words << QObject::tr("%1 of %2 mm at (%3, %4) mm: (%5, %6, %7) N")
+                 .arg(QString::fromStdString(shapeName(indenter.shape)))
+                 .arg(indenter.radius_mm, 0, 'g', 3)
+                 .arg(indenter.place_mm.x(), 0, 'f', 2)
+                 .arg(indenter.place_mm.y(), 0, 'f', 2)
+                 .arg(indenter.press()->force_N.x(), 0, 'f', 3)
+                 .arg(indenter.press()->force_N.y(), 0, 'f', 3)
+                 .arg(indenter.press()->force_N.z(), 0, 'f', 3);
   return words.join(", ");
 }
 
@@ -97,7 +114,7 @@ void LiveTwin::solve(const SensorDesign& design, const LoadCase& load, const Mes
   if (result_ && result_->touch.design() == design && result_->touch.meshOptions() == mesh) { // keeps the mesh
     start = result_->touch;
     start.setLoad(load);
-    field = result_->field;
+    if (start.mesh()) field = result_->field; // an indenter elsewhere has a mesh of its own
   }
   const auto work = [this, touch = std::move(start), field,
                      measured](const std::stop_token& stop, JobProgress& progress) mutable -> JobRunner::Taking {

@@ -2,8 +2,10 @@
 
 #include "app/study/Median.h"
 #include "io/SampleFile.h"
+#include "model/TouchRange.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
+#include "model/base/Text.h"
 #include "nn/rivals/RecursiveLeastSquares.h"
 
 #include <Eigen/LU>
@@ -27,41 +29,54 @@ constexpr double kMovedRange = 0.01; // of the force range: labels are good to 1
 // Prior variance of gain and offset over that of a label: gains within 30 % are expected, labels are good to 1 %.
 constexpr double kPriorVariance = 1e3;
 
-using Correction = Eigen::Matrix<double, 4, 3>; ///< rows: gains of the three forces, offset [range]
+using Correction = Eigen::MatrixXd; ///< rows: gains of the forces (or of x and y of a place), offset [range]
 
-/// Forces over their range, so that one prior fits all.
+/// Forces over their range, or places, so that one prior fits all; one column a sample.
 struct Scaled {
-  Eigen::Matrix3Xd said, truth;
+  Eigen::MatrixXd said, truth;
 };
 
-Correction start() {
-  Correction correction = Correction::Zero();
-  correction.topRows<3>().setIdentity();
+Correction start(Eigen::Index outputs) {
+  Correction correction = Correction::Zero(outputs + 1, outputs);
+  correction.topRows(outputs).setIdentity();
   return correction;
 }
 
-Eigen::Vector4d regressors(const Eigen::Vector3d& said) {
-  return {said.x(), said.y(), said.z(), 1};
+Eigen::VectorXd regressors(const Eigen::VectorXd& said) {
+  Eigen::VectorXd all(said.size() + 1);
+  all << said, 1;
+  return all;
 }
 
 /// The correction from all samples but `left`.
 Correction fit(const Scaled& samples, Eigen::Index left) {
-  RecursiveLeastSquares estimate(start(), kPriorVariance);
+  RecursiveLeastSquares estimate(start(samples.said.rows()), kPriorVariance);
   for (Eigen::Index i = 0; i < samples.said.cols(); ++i)
     if (i != left) estimate.update(regressors(samples.said.col(i)), samples.truth.col(i));
   return estimate.weights();
 }
 
-Eigen::Vector3d rms(const Eigen::Matrix3Xd& errors) {
+/// Each sample's error [range] after a fit without it; the work grows with the square of the frames.
+Eigen::MatrixXd unseenErrors(const Scaled& samples, const std::stop_token& stop) {
+  Eigen::MatrixXd errors(samples.said.rows(), samples.said.cols());
+  for (Eigen::Index i = 0; i < errors.cols(); ++i) {
+    stopIfAsked(stop);
+    errors.col(i) = fit(samples, i).transpose() * regressors(samples.said.col(i)) - samples.truth.col(i);
+  }
+  return errors;
+}
+
+Eigen::VectorXd rms(const Eigen::MatrixXd& errors) {
   return (errors.rowwise().squaredNorm() / static_cast<double>(errors.cols())).cwiseSqrt();
 }
 
 void requireUsable(const Decoder& decoder, const SampleSet& frames) {
-  const bool refinable =
-      std::holds_alternative<RbfNetwork>(decoder.model) || std::holds_alternative<ForwardModel>(decoder.model);
+  const bool refinable = std::holds_alternative<RbfNetwork>(decoder.model) ||
+                         std::holds_alternative<ForwardModel>(decoder.model) ||
+                         std::holds_alternative<KernelForwardModel>(decoder.model);
   if (!refinable || decoder.outputs() != 3)
-    throw Error("calibrate refines an rbf or ml network of one force; this network is " + name(decoder.kind) +
-                " with " + std::to_string(decoder.outputs()) + " outputs");
+    throw Error("calibrate refines an rbf or ml network of one force, or one of touches (touch); this network is " +
+                name(decoder.kind) + " with " + std::to_string(decoder.outputs()) + " outputs");
   if (frames.together()) throw Error("calibrate takes frames with one area loaded at a time");
   if (frames.size() < kFewestCalibrationFrames)
     throw Error(std::to_string(frames.size()) + " labelled frames; at least " +
@@ -72,26 +87,45 @@ void requireUsable(const Decoder& decoder, const SampleSet& frames) {
                 decoder.designFingerprint);
 }
 
-/// F = A N + b in newton.
-struct Affine {
-  Eigen::Matrix3d gains;
-  Eigen::Vector3d offset_N;
-};
+/// F = A N + b in newton; of places in mm.
+OutputCorrection inUnits(const Correction& correction, const Eigen::VectorXd& range) {
+  const Eigen::Index outputs = range.size();
+  return {range.asDiagonal() * correction.topRows(outputs).transpose() * range.cwiseInverse().asDiagonal(),
+          range.cwiseProduct(correction.row(outputs).transpose())};
+}
 
-Affine inNewton(const Correction& correction, const Eigen::Vector3d& range_N) {
-  return {range_N.asDiagonal() * correction.topRows<3>().transpose() * range_N.cwiseInverse().asDiagonal(),
-          range_N.cwiseProduct(correction.row(3).transpose())};
+/// Forces, and below them places, which stay as they are where nothing is known of them.
+OutputCorrection ofAll(const OutputCorrection& forces, const std::optional<OutputCorrection>& places,
+                       Eigen::Index outputs) {
+  if (outputs == forces.offset.size()) return forces;
+  OutputCorrection all{Eigen::MatrixXd::Identity(outputs, outputs), Eigen::VectorXd::Zero(outputs)};
+  all.gains.topLeftCorner(forces.gains.rows(), forces.gains.cols()) = forces.gains;
+  all.offset.head(forces.offset.size()) = forces.offset;
+  if (!places) return all;
+  all.gains.bottomRightCorner<2, 2>() = places->gains;
+  all.offset.tail<2>() = places->offset;
+  return all;
 }
 
 /// Into the network's weights.
-void apply(RbfNetwork& network, const Affine& affine) {
+void apply(RbfNetwork& network, const OutputCorrection& affine) {
   network.weights = (affine.gains * network.weights).eval();
   if (network.tail.size() > 0) network.tail = (affine.gains * network.tail).eval();
-  network.bias = affine.gains * network.bias + affine.offset_N;
+  network.bias = affine.gains * network.bias + affine.offset;
+}
+
+/// After the correction that is there.
+void apply(std::optional<OutputCorrection>& there, const OutputCorrection& affine) {
+  if (!there) {
+    there = affine;
+    return;
+  }
+  there->gains = (affine.gains * there->gains).eval();
+  there->offset = affine.gains * there->offset + affine.offset;
 }
 
 /// Into the polynomials x(N): x(A^-1 (F - b)) is one of the same degree, found again through enough of its points.
-void apply(ForwardModel& model, const Affine& affine) {
+void apply(ForwardModel& model, const OutputCorrection& affine) {
   const Eigen::Vector3d half = model.causeFactor.cwiseInverse();
   const int side = 2 * (model.degree + 1); // a grid, so that twice the monomials are there at any degree
   const Eigen::Index points = static_cast<Eigen::Index>(side) * side * side;
@@ -99,7 +133,7 @@ void apply(ForwardModel& model, const Affine& affine) {
   Eigen::MatrixXd measurements(model.measurements(), points * classes);
   Eigen::MatrixXd causes(3, points * classes);
   Eigen::VectorXi classOf(points * classes);
-  const Eigen::PartialPivLU<Eigen::Matrix3d> gains(affine.gains);
+  const Eigen::PartialPivLU<Eigen::MatrixXd> gains(affine.gains);
   for (Eigen::Index i = 0; i < causes.cols(); ++i) {
     const Eigen::Index place = i % points;
     const Eigen::Array3d step(static_cast<double>(place % side), static_cast<double>(place / side % side),
@@ -107,7 +141,7 @@ void apply(ForwardModel& model, const Affine& affine) {
     classOf(i) = static_cast<int>(i / points);
     causes.col(i) = model.causeOffset + half.cwiseProduct((2 * step / (side - 1) - 1).matrix());
     measurements.col(i) =
-        model.measurementsOf(static_cast<std::size_t>(classOf(i)), gains.solve(causes.col(i) - affine.offset_N));
+        model.measurementsOf(static_cast<std::size_t>(classOf(i)), gains.solve(causes.col(i) - affine.offset));
   }
   ForwardModelOptions options;
   options.degree = model.degree;
@@ -161,20 +195,45 @@ std::vector<std::string> warningsOf(const CalibrationReport& report) {
   if (!report.improved) warnings.push_back("on frames that it has not seen it is no better than the network before");
   if (error > kBadError)
     warnings.push_back("on frames that it has not seen it is off by " + percent(error) + " of the force range");
+  if (report.place && !report.place->improved)
+    warnings.emplace_back("its places are no better on frames that it has not seen");
   if (report.modelMismatch && *report.modelMismatch > kBadMismatch)
     warnings.push_back("the model under these labels gives other readings than the frames hold (" +
                        percent(*report.modelMismatch) + " of their change apart): areas, signs or loads are mixed up");
   return warnings;
 }
 
+namespace {
+
+/// The correction of the places; none where the network or the frames have none.
+std::optional<OutputCorrection> refinePlaces(const Decoder& decoder, const SampleSet& frames,
+                                             const Eigen::MatrixXd& said_mm, CalibrationReport& report,
+                                             const std::stop_token& stop) {
+  if (!decoder.place || !frames.hasPlaces()) return {};
+  const Eigen::VectorXd range_mm = decoder.place->high_mm - decoder.place->low_mm;
+  if (!(range_mm.minCoeff() > 0)) return {}; // trained along a line
+  const Eigen::MatrixXd truth_mm = frames.touchedPlaces_mm();
+  const Scaled scaled{range_mm.cwiseInverse().asDiagonal() * said_mm, range_mm.cwiseInverse().asDiagonal() * truth_mm};
+  PlaceCalibration place;
+  place.rmseBefore_mm = rms(said_mm - truth_mm);
+  place.rmseAfter_mm = rms(range_mm.asDiagonal() * unseenErrors(scaled, stop));
+  place.improved = place.rmseAfter_mm.norm() < place.rmseBefore_mm.norm();
+  report.place = place;
+  return inUnits(fit(scaled, -1), range_mm);
+}
+
+} // namespace
+
 Calibration calibrate(const Decoder& decoder, const SampleSet& frames, const std::stop_token& stop) {
   requireUsable(decoder, frames);
   PredictOptions forcesAlone;
   forcesAlone.standardDeviation = forcesAlone.area = false;
-  const Eigen::Matrix3Xd said_N = predict(decoder, inputsOf(frames, decoder.input), forcesAlone).forces_N;
+  const Prediction said = predict(decoder, inputsOf(frames, decoder.input), forcesAlone);
   const Eigen::Vector3d range_N = decoder.high_N - decoder.low_N;
-  const Scaled scaled{range_N.cwiseInverse().asDiagonal() * said_N,
-                      range_N.cwiseInverse().asDiagonal() * frames.forces_N};
+  // A force that never varied in training is no part of the fit's scale.
+  const Eigen::Vector3d scale_N = (range_N.array() > 0).select(range_N, range_N.maxCoeff());
+  const Scaled scaled{scale_N.cwiseInverse().asDiagonal() * said.forces_N,
+                      scale_N.cwiseInverse().asDiagonal() * frames.forces_N};
 
   Calibration result{decoder, {}};
   CalibrationReport& report = result.report;
@@ -183,31 +242,38 @@ Calibration calibrate(const Decoder& decoder, const SampleSet& frames, const std
   for (const int area : frames.area) ++report.samplesPerArea[static_cast<std::size_t>(area)];
   report.lowest_N = frames.forces_N.rowwise().minCoeff();
   report.highest_N = frames.forces_N.rowwise().maxCoeff();
-  report.coverage_percent = 100 * (report.highest_N - report.lowest_N).cwiseQuotient(range_N);
+  report.coverage_percent =
+      (range_N.array() > 0).select(100 * (report.highest_N - report.lowest_N).cwiseQuotient(scale_N), 100.);
 
-  Eigen::Matrix3Xd unseen_N(3, frames.size());
-  for (Eigen::Index i = 0; i < frames.size(); ++i) {
-    stopIfAsked(stop); // the work grows with the square of the frames
-    const Eigen::Vector3d corrected = fit(scaled, i).transpose() * regressors(scaled.said.col(i));
-    unseen_N.col(i) = range_N.cwiseProduct(corrected - scaled.truth.col(i));
-  }
-  report.rmseBefore_N = rms(said_N - frames.forces_N);
+  const Eigen::MatrixXd unseen_N = scale_N.asDiagonal() * unseenErrors(scaled, stop);
+  report.rmseBefore_N = rms(said.forces_N - frames.forces_N);
   report.rmseAfter_N = rms(unseen_N);
-  report.rmseAfter_percentOfRange = 100 * report.rmseAfter_N.cwiseQuotient(range_N);
+  report.rmseAfter_percentOfRange = 100 * report.rmseAfter_N.cwiseQuotient(scale_N);
   report.worstError_N = unseen_N.colwise().norm().maxCoeff(&report.worstSample);
   report.improved =
-      report.rmseAfter_N.cwiseQuotient(range_N).norm() < report.rmseBefore_N.cwiseQuotient(range_N).norm();
+      report.rmseAfter_N.cwiseQuotient(scale_N).norm() < report.rmseBefore_N.cwiseQuotient(scale_N).norm();
+  const std::optional<OutputCorrection> places = refinePlaces(decoder, frames, said.places_mm, report, stop);
 
   report.modelMismatch = modelMismatch(decoder, frames);
 
-  const Affine affine = inNewton(fit(scaled, -1), range_N);
+  const OutputCorrection affine =
+      ofAll(inUnits(fit(scaled, -1), scale_N), places, decoder.outputs() + (decoder.place ? 2 : 0));
   if (auto* network = std::get_if<RbfNetwork>(&result.decoder.model)) apply(*network, affine);
   if (auto* model = std::get_if<ForwardModel>(&result.decoder.model)) apply(*model, affine);
+  if (std::holds_alternative<KernelForwardModel>(decoder.model)) apply(result.decoder.correction, affine);
   result.decoder.residual_N = report.rmseAfter_N.replicate(1, std::max<Eigen::Index>(1, decoder.residual_N.cols()));
+  if (report.place) result.decoder.place->residual_mm = report.place->rmseAfter_mm;
   return result;
 }
 
-FrameAverage::FrameAverage(const Decoder& decoder, const SensorDesign& design, const AreaLoad& label) {
+KnownTouch knownTouch(const SensorDesign& design, const Eigen::Vector2d& place_mm, const Eigen::Vector3d& force_N) {
+  if (!((place_mm.array() >= 0) && (place_mm.array() <= design.block_mm.head<2>().array())).all())
+    throw Error("label: place (" + text(place_mm.x()) + ", " + text(place_mm.y()) + ") mm; allowed is (0, 0) to (" +
+                text(design.block_mm.x()) + ", " + text(design.block_mm.y()) + ") mm, on the face");
+  return {{areaUnder(design, place_mm), force_N}, place_mm};
+}
+
+FrameAverage::FrameAverage(const Decoder& decoder, const SensorDesign& design, const KnownTouch& label) {
   set_.origin.designFingerprint = decoder.designFingerprint;
   set_.origin.readout = decoder.readout;
   set_.origin.seed = 0;
@@ -219,8 +285,9 @@ FrameAverage::FrameAverage(const Decoder& decoder, const SensorDesign& design, c
   set_.electrodesPerRowWire = design.electrodesPerRowWire();
   set_.columnWires = decoder.input.valuesPerRow;
   set_.areaCount = design.areas.count();
-  set_.area = Eigen::VectorXi::Constant(1, label.area);
-  set_.forces_N = label.force_N;
+  set_.area = Eigen::VectorXi::Constant(1, label.load.area);
+  set_.forces_N = label.load.force_N;
+  if (label.place_mm) set_.places_mm = *label.place_mm;
   set_.displacements_mm.resize(0, 1);
   sum_ = Eigen::MatrixXd::Zero(set_.rowWires, set_.columnWires);
   range_N_ = (decoder.high_N - decoder.low_N).head<3>();
@@ -283,7 +350,7 @@ void appendFrames(const std::filesystem::path& path, const SampleSet& frames) {
   SampleSet all;
   if (std::filesystem::exists(path)) {
     all = loadSamples(path);
-    if (const std::string differs = difference(all.origin, frames.origin); !differs.empty())
+    if (const std::string differs = differenceOfHeads(all, frames); !differs.empty())
       throw Error(path.string() + ": holds other frames: " + differs);
   }
   append(all, frames);

@@ -15,6 +15,12 @@ namespace palp {
 /// Labelled frames that a calibration takes at least: 4 unknowns for each force, and as many again to judge them by.
 inline constexpr Eigen::Index kFewestCalibrationFrames = 8;
 
+/// Places of the labels against those of a network that gives them, along x and y.
+struct PlaceCalibration {
+  Eigen::Vector2d rmseBefore_mm, rmseAfter_mm; ///< after: each sample judged by a fit without it
+  bool improved = false;                       ///< the refined network is better on samples that it has not seen
+};
+
 /// What is known of labelled frames as a training set for a network.
 struct CalibrationReport {
   Eigen::Index samples = 0;
@@ -28,7 +34,8 @@ struct CalibrationReport {
   /// How far the change of R that the network's design gives under each label is from the frame's, as share of the
   /// frame's: median over the frames under load. None without a forward model.
   std::optional<double> modelMismatch;
-  bool improved = false; ///< the refined network is better on samples that it has not seen
+  bool improved = false;                 ///< the refined network is better on samples that it has not seen
+  std::optional<PlaceCalibration> place; ///< where both network and frames have places
 };
 
 /// Why the labels can hardly belong to the frames, or the fit is of no use; empty where all is well.
@@ -40,14 +47,23 @@ struct Calibration {
 };
 
 /// Refines a network with labelled frames of a real board: recursive least squares for F = A N(R) + b from A = 1, b =
-/// 0, which an RBF network takes into its weights and the polynomials of maximum likelihood into their arguments.
-/// Throws Error where the network is another one, the frames are of other wires or too few, and Cancelled.
+/// 0, which an RBF network takes into its weights and the polynomials of maximum likelihood into their arguments; that
+/// of touches keeps it as a correction of its answers. Places, where both have them, are refined alike. Throws Error
+/// where the network is another one, the frames are of other wires or too few, and Cancelled.
 Calibration calibrate(const Decoder& decoder, const SampleSet& frames, const std::stop_token& stop = {});
+
+/// A known load on the board: on an area, or by a touch at a place, whose area is the one under it.
+struct KnownTouch {
+  AreaLoad load;
+  std::optional<Eigen::Vector2d> place_mm = {};
+};
+/// A touch at this place. Throws Error where it lies off the face.
+KnownTouch knownTouch(const SensorDesign& design, const Eigen::Vector2d& place_mm, const Eigen::Vector3d& force_N);
 
 /// Mean of frames under one known load: one labelled frame for `calibrate`.
 class FrameAverage {
 public:
-  FrameAverage(const Decoder& decoder, const SensorDesign& design, const AreaLoad& label);
+  FrameAverage(const Decoder& decoder, const SensorDesign& design, const KnownTouch& label);
   /// Takes the frame where it is valid.
   void add(const DecodedForces& forces);
   [[nodiscard]] int count() const { return count_; }

@@ -1,5 +1,6 @@
 #include "app/study/decoding/DecoderTraining.h"
 
+#include "app/study/decoding/KnownTouches.h"
 #include "app/study/decoding/Prediction.h"
 #include "app/study/decoding/TwoStep.h"
 #include "model/base/Cancelled.h"
@@ -239,13 +240,17 @@ void DecoderTraining::fitTouches() {
     causes.bottomRows<2>() << samples_.touches.row(kTouchSize_mm), samples_.touches.row(kTouchFriction);
   Eigen::VectorXi groups(causes.rows());
   groups << 1, 1, 1, 0, 0, 2, 2;
-  const KernelForwardOptions options{options_.noise, options_.threads};
+  KernelForwardOptions options{options_.noise, options_.threads};
+  if (design_ && samples_.hasTouches()) {
+    say(0, "what the design says of touches");
+    options.known = knownReadings(*design_, samples_, decoder_.input, options_.threads, stop_);
+    say(0.3, "learning the rest");
+  }
   KernelForwardFit fit = fitKernelForwardModel(inputs_, causes, groups, options, stop_);
-  decoder_.report.centers = static_cast<int>(fit.model.network.centers.cols());
+  decoder_.report.centers = static_cast<int>(samples_.size());
   decoder_.report.rank = static_cast<int>(fit.model.components());
-  decoder_.report.spread = fit.model.network.spread;
-  decoder_.report.largestWeight = fit.model.network.weights.cwiseAbs().maxCoeff();
-  decoder_.report.warnings = std::move(fit.warnings);
+  decoder_.report.spread = fit.width;
+  decoder_.report.largestWeight = fit.model.table.coefficients.cwiseAbs().maxCoeff();
   decoder_.model = std::move(fit.model);
   recordResiduals(fit.heldOutResiduals.topRows(targets_.rows()), samples_.area(fit.heldOut));
 }

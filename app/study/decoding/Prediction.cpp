@@ -149,6 +149,8 @@ void addDeviations(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixX
 void decodeTouches(const Decoder& decoder, const KernelInversion& inversion,
                    const Eigen::Ref<const Eigen::MatrixXd>& inputs, Prediction& result) {
   const Eigen::Index outputs = decoder.outputs() + 2;
+  const bool sized = inversion.finds(outputs); // after force and place: size, friction
+  if (sized) result.indenterSize_mm.resize(inputs.cols());
   result.forces_N.resize(outputs, inputs.cols());
   result.standardDeviation_N.resize(outputs, inputs.cols());
   result.chiSquare.resize(inputs.cols());
@@ -157,7 +159,16 @@ void decodeTouches(const Decoder& decoder, const KernelInversion& inversion,
     result.forces_N.col(i) = estimate.causes.head(outputs);
     result.standardDeviation_N.col(i) = estimate.standardDeviation.head(outputs);
     result.chiSquare(i) = estimate.chiSquare;
+    if (sized) result.indenterSize_mm(i) = estimate.causes(outputs);
   }
+}
+
+/// What a calibration made of the answers and, as far as they are independent, of their deviations.
+void correct(const OutputCorrection& correction, Prediction& result) {
+  result.forces_N = ((correction.gains * result.forces_N).colwise() + correction.offset).eval();
+  if (result.standardDeviation_N.size() > 0)
+    result.standardDeviation_N =
+        (correction.gains.cwiseAbs2() * result.standardDeviation_N.cwiseAbs2()).cwiseSqrt().eval();
 }
 
 /// The last two rows of what a model gives of a touch are its place.
@@ -244,6 +255,7 @@ Prediction Predictor::operator()(const Eigen::Ref<const Eigen::MatrixXd>& inputs
     result.standardDeviation_N.resize(0, 0);
   else if (!touchInversion_)
     addDeviations(decoder, inputs, options, result);
+  if (decoder.correction) correct(*decoder.correction, result);
   if (decoder.place) {
     splitPlace(result.forces_N, result.places_mm);
     splitPlace(result.standardDeviation_N, result.placeDeviation_mm);

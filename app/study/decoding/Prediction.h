@@ -23,6 +23,7 @@ struct Prediction {
   Eigen::MatrixXd standardDeviation_N;    ///< of each force: training error and input noise; empty: not asked
   Eigen::MatrixXd places_mm;              ///< 2 x samples: of the touch; empty: the decoder gives none
   Eigen::MatrixXd placeDeviation_mm;      ///< of each place; empty: not asked
+  Eigen::VectorXd indenterSize_mm;        ///< of the touch, found beside it; empty: the decoder does not
   std::vector<bool> outsideTrainingRange; ///< some input lies outside what was trained
   Eigen::VectorXi area;                   ///< most likely touched area; empty: not determined
   Eigen::VectorXd areaConfidence;         ///< its probability

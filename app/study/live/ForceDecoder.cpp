@@ -199,6 +199,7 @@ DecodedForces ForceDecoder::decode(const BoardFrame& frame) {
   if (prediction.places_mm.cols() == 1 && decoded.shown.front()) {
     decoded.place_mm = prediction.places_mm.col(0);
     if (prediction.placeDeviation_mm.cols() == 1) decoded.placeDeviation_mm = prediction.placeDeviation_mm.col(0);
+    if (prediction.indenterSize_mm.size() == 1) decoded.indenterSize_mm = prediction.indenterSize_mm(0);
   }
   if (decoded.valid) judge(frame, prediction, readings_ohm, decoded);
   return decoded;

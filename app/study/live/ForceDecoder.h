@@ -25,11 +25,12 @@ struct DecodedForces {
   double areaConfidence = 0;
   /// Of the touch on the top face and its deviations, where the decoder gives it and the force stands out of the noise.
   std::optional<Eigen::Vector2d> place_mm, placeDeviation_mm;
-  bool outsideTrainingRange = false; ///< of the forces; of the readings where there is no forward model
-  std::optional<double> misfit;      ///< Plausibility::Verdict::misfit
-  bool doubted = false;              ///< the forces of this frame can hardly be true
-  std::string doubt;                 ///< why forces are doubted for a while now; empty where they are not
-  Eigen::MatrixXd resistances_ohm;   ///< tared, row-wires x column-wires; meaningful in the rows that the decoder reads
+  std::optional<double> indenterSize_mm; ///< of that touch, where the decoder finds it
+  bool outsideTrainingRange = false;     ///< of the forces; of the readings where there is no forward model
+  std::optional<double> misfit;          ///< Plausibility::Verdict::misfit
+  bool doubted = false;                  ///< the forces of this frame can hardly be true
+  std::string doubt;                     ///< why forces are doubted for a while now; empty where they are not
+  Eigen::MatrixXd resistances_ohm; ///< tared, row-wires x column-wires; meaningful in the rows that the decoder reads
 };
 
 /// Resistances of a board's frames to forces. What wire or frame is bad never reaches the decoder. Tare is the host's:

@@ -19,8 +19,8 @@ template <class Matrix> Matrix withoutColumn(const Matrix& all, Eigen::Index col
 
 } // namespace
 
-void LabelledFrames::begin(const Decoder& decoder, const SensorDesign& design, const AreaLoad& label, int frames) {
-  if (const auto wrong = whyInvalid(LoadCase{{label}, {}}, design)) throw Error("label: " + *wrong);
+void LabelledFrames::begin(const Decoder& decoder, const SensorDesign& design, const KnownTouch& label, int frames) {
+  if (const auto wrong = whyInvalid(LoadCase{{label.load}, {}}, design)) throw Error("label: " + *wrong);
   average_.emplace(decoder, design, label);
   wanted_ = frames;
 }

@@ -12,7 +12,7 @@ class LabelledFrames {
 public:
   /// Begins to average under a load; what was being averaged is dropped. Throws Error where the load is none of the
   /// design's.
-  void begin(const Decoder& decoder, const SensorDesign& design, const AreaLoad& label, int frames);
+  void begin(const Decoder& decoder, const SensorDesign& design, const KnownTouch& label, int frames);
   void stop() { average_.reset(); }
   /// Takes a frame while one is collected; true where it was the last one. Throws Error where the load moved meanwhile:
   /// then nothing is added.

@@ -46,15 +46,34 @@ std::array<double, 3> suggestedMasses_g(double most_N) {
 }
 
 KnownLoad::KnownLoad(QWidget* parent) : QWidget(parent) {
-  auto* form = new QFormLayout(this);
+  auto* form = form_ = new QFormLayout(this);
   form->setContentsMargins(0, 0, 0, 0);
   area_ = new QSpinBox;
   area_->setObjectName("labelArea");
   area_->setToolTip(tr("Load area that is pressed; areas count from 0"));
   form->addRow(tr("Area"), area_);
+  placeRow_ = buildPlace();
+  form->addRow(tr("Place"), placeRow_);
+  form->setRowVisible(placeRow_, false);
   form->addRow(tr("Mass"), buildMass());
   form->addRow(tr("Try"), buildSuggestions());
   form->addRow(buildForces());
+}
+
+QHBoxLayout* KnownLoad::buildPlace() {
+  auto* row = new QHBoxLayout;
+  for (std::size_t axis = 0; axis < place_mm_.size(); ++axis) {
+    const QString name = axis == 0 ? "x" : "y";
+    place_mm_[axis] = new QDoubleSpinBox;
+    place_mm_[axis]->setObjectName("label_" + name);
+    place_mm_[axis]->setAccessibleName(tr("%1 of the known touch").arg(name));
+    place_mm_[axis]->setDecimals(2);
+    place_mm_[axis]->setSuffix(tr(" mm"));
+    place_mm_[axis]->setMinimumWidth(kNumber_px);
+    place_mm_[axis]->setToolTip(tr("%1 of the touch from the block's corner, as the rig says [mm]").arg(name));
+    row->addWidget(place_mm_[axis], 1);
+  }
+  return row;
 }
 
 QHBoxLayout* KnownLoad::buildMass() {
@@ -140,8 +159,18 @@ void KnownLoad::takeMass() {
   }
 }
 
-void KnownLoad::setSensor(int areas, const Decoder* decoder) {
-  area_->setRange(0, std::max(0, areas - 1));
+void KnownLoad::setSensor(const SensorDesign& sensor, const Decoder* decoder) {
+  sensor_ = sensor;
+  area_->setRange(0, std::max(0, sensor.areas.count() - 1));
+  placed_ = decoder != nullptr && decoder->place.has_value();
+  form_->setRowVisible(area_, !placed_);
+  form_->setRowVisible(placeRow_, placed_);
+  for (std::size_t axis = 0; axis < place_mm_.size(); ++axis) // the middle stays the middle of another block
+    if (const double side_mm = sensor.block_mm(static_cast<Eigen::Index>(axis));
+        place_mm_[axis]->maximum() != side_mm) {
+      place_mm_[axis]->setRange(0, side_mm);
+      place_mm_[axis]->setValue(side_mm / 2);
+    }
   const std::array<double, 3> masses_g = suggestedMasses_g(decoder != nullptr ? -decoder->low_N(2) : 0);
   for (std::size_t k = 0; k < suggested_.size(); ++k) {
     const double mass_g = masses_g[k];
@@ -156,8 +185,10 @@ void KnownLoad::setSensor(int areas, const Decoder* decoder) {
   }
 }
 
-AreaLoad KnownLoad::load() const {
-  return {area_->value(), {force_N_[0]->value(), force_N_[1]->value(), force_N_[2]->value()}};
+KnownTouch KnownLoad::load() const {
+  const Eigen::Vector3d force_N(force_N_[0]->value(), force_N_[1]->value(), force_N_[2]->value());
+  if (placed_) return knownTouch(sensor_, {place_mm_[0]->value(), place_mm_[1]->value()}, force_N);
+  return {{area_->value(), force_N}};
 }
 
 void KnownLoad::displayReading(const std::optional<Eigen::Vector3d>& force_N) {

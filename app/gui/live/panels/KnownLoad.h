@@ -1,7 +1,6 @@
 #pragma once
 
-#include "io/Decoder.h"
-#include "model/LoadCase.h"
+#include "app/study/decoding/Calibration.h"
 
 #include <QWidget>
 
@@ -10,6 +9,7 @@
 
 class QComboBox;
 class QDoubleSpinBox;
+class QFormLayout;
 class QHBoxLayout;
 class QLabel;
 class QPushButton;
@@ -21,27 +21,34 @@ namespace palp {
 /// one whose weight is within `most_N`, and the two below it. Zeros where even 1 g is too heavy.
 std::array<double, 3> suggestedMasses_g(double most_N);
 
-/// The load that is known to act on the sensor now: its area, and its force in newtons, or as a mass that rests on the
-/// area or pulls it along x or y by a thread. Beside the force stands what the network reads.
+/// The load that is known to act on the sensor now: its area, or its place where the network gives one, and its force
+/// in newtons, or as a mass that rests on the area or pulls it along x or y by a thread. Beside the force stands what
+/// the network reads.
 class KnownLoad : public QWidget {
   Q_OBJECT
 
 public:
   explicit KnownLoad(QWidget* parent = nullptr);
 
-  /// The areas that may be pressed, and masses that suit the force range of the network; null: none.
-  void setSensor(int areas, const Decoder* decoder);
-  [[nodiscard]] AreaLoad load() const;
+  /// The areas, or places, that may be pressed, and masses that suit the force range of the network; null: none.
+  void setSensor(const SensorDesign& sensor, const Decoder* decoder);
+  [[nodiscard]] KnownTouch load() const;
   /// The decoded force now [N]; none: nothing is decoded.
   void displayReading(const std::optional<Eigen::Vector3d>& force_N);
 
 private:
+  QHBoxLayout* buildPlace();
   QHBoxLayout* buildMass();
   QHBoxLayout* buildSuggestions();
   QLayout* buildForces();
   void takeMass();
 
+  QFormLayout* form_ = nullptr;
+  SensorDesign sensor_;
   QSpinBox* area_ = nullptr;
+  QHBoxLayout* placeRow_ = nullptr;
+  std::array<QDoubleSpinBox*, 2> place_mm_{};
+  bool placed_ = false;              ///< the network gives places
   QDoubleSpinBox* mass_g_ = nullptr; ///< 0: the force was typed in newtons
   QComboBox* direction_ = nullptr;
   std::array<QPushButton*, 3> suggested_{};

@@ -99,7 +99,7 @@ TEST(Calibration, AveragedFramesGoIntoOneFile) {
   DecodedForces forces;
   forces.valid = true;
   for (int area = 0; area < 3; ++area) {
-    FrameAverage average(quickNetwork(), paperDesign(), {area, {0, 0, -1.0 * area}});
+    FrameAverage average(quickNetwork(), paperDesign(), {{area, {0, 0, -1.0 * area}}});
     for (const double value : {300.0, 302.0}) {
       forces.resistances_ohm = Eigen::MatrixXd::Constant(10, 30, value);
       average.add(forces);
@@ -112,7 +112,7 @@ TEST(Calibration, AveragedFramesGoIntoOneFile) {
   EXPECT_EQ(all.forces_N(2, 2), -2);
   EXPECT_TRUE((all.resistances_ohm.array() == 301).all());
   DecodedForces bad;
-  FrameAverage none(quickNetwork(), paperDesign(), {0, {0, 0, -1}});
+  FrameAverage none(quickNetwork(), paperDesign(), {{0, {0, 0, -1}}});
   none.add(bad); // frames that are not valid do not count
   EXPECT_EQ(none.count(), 0);
 }

@@ -1,0 +1,81 @@
+#include "app/study/decoding/KnownTouches.h"
+
+#include "app/study/reports/map/TouchMap.h"
+#include "io/DesignFile.h"
+#include "model/DesignError.h"
+#include "model/FieldAtRest.h"
+#include "model/RowColumnResistance.h"
+#include "model/TouchRange.h"
+#include "model/base/Cancelled.h"
+#include "model/base/Error.h"
+#include "solver/SensorMesh.h"
+
+#include <memory>
+
+namespace palp {
+
+namespace {
+
+constexpr double kLeastPress_N = 1e-6; // an indenter presses; less is rest
+
+Eigen::MatrixXd restOf(const SensorDesign& design) {
+  if (const FieldLaw* law = design.field())
+    return NetworkReading(networkAtRest(design, *law), law->readout).resistances_ohm();
+  return rowColumnResistances(design, ElectrodeDisplacements::atRest(design));
+}
+
+/// Where the decoder's inputs stand among the readings, row-wires first.
+std::vector<Eigen::Index> readingsOf(const DecoderInput& input) {
+  std::vector<Eigen::Index> places;
+  for (const int row : input.rows)
+    for (int column = 0; column < input.valuesPerRow; ++column)
+      places.push_back(row + Eigen::Index(input.rowWires) * column);
+  return places;
+}
+
+Indenter indenterOf(const SampleSet& samples) {
+  const std::optional<Indenter> inWords = indenterInWords(samples.origin.touches);
+  if (!samples.hasTouches() || !inWords)
+    throw Error("the samples are of no indenter; what a design says of touches is for those of palp sample --touch");
+  if (inWords->shape != IndenterShape::Sphere && inWords->shape != IndenterShape::Pin &&
+      inWords->shape != IndenterShape::Flat)
+    throw DesignError("the samples are of a " + shapeName(inWords->shape) +
+                      "; a design says beforehand what one does that has a place along x and y: sphere, pin or flat");
+  return *inWords;
+}
+
+} // namespace
+
+KnownReadings knownReadings(const SensorDesign& design, const SampleSet& samples, const DecoderInput& input,
+                            int threads, const std::stop_token& stop) {
+  if (samples.origin.designFingerprint != designFingerprint(design))
+    throw Error("the samples are of the design " + samples.origin.designFingerprint + ", not of this one, " +
+                designFingerprint(design));
+  if (input.kind != InputKind::Resistance)
+    throw Error("input: " + name(input.kind) + "s; what a design says beforehand of touches is their resistances");
+  const Indenter indenter = indenterOf(samples);
+  const LinearReadings readings = readingsAtRest(design, threads, stop);
+  const HyperelasticProblem problem(design, sensorMesh(design, meshForTouches(design, touchesOf(design), {}), stop));
+  if (problem.findFactor(threads, stop) == 0) throw Cancelled();
+  const auto found = InfluenceSurfaces::find(problem, readings, threads, stop);
+  if (!found) throw Cancelled();
+  const std::vector<Eigen::Index> used = readingsOf(input);
+  const Eigen::MatrixXd all_ohm = restOf(design);
+  const Eigen::VectorXd rest_ohm = all_ohm.reshaped()(used);
+  const Eigen::Vector2d face_mm = design.block_mm.head<2>();
+  return [surfaces = std::make_shared<const InfluenceSurfaces>(*found), indenter, used, rest_ohm, face_mm, threads,
+          stop](const Eigen::MatrixXd& causes) -> Eigen::MatrixXd {
+    std::vector<Indenter> touches(static_cast<std::size_t>(causes.cols()), indenter);
+    for (std::size_t i = 0; i < touches.size(); ++i) {
+      const auto column = causes.col(static_cast<Eigen::Index>(i));
+      touches[i].radius_mm = column(5);
+      // The place of a table's outermost nodes may lie off the face.
+      touches[i].place_mm = column.segment<2>(3).cwiseMax(0).cwiseMin(face_mm);
+      touches[i].control = Press{{column(0), column(1), std::min(column(2), -kLeastPress_N)}};
+    }
+    const Eigen::MatrixXd changes = surfaces->under(touches, threads, stop);
+    return rest_ohm.asDiagonal() * (1 + changes(used, Eigen::all).array()).matrix();
+  };
+}
+
+} // namespace palp

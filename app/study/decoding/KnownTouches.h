@@ -1,0 +1,20 @@
+#pragma once
+
+#include "io/Decoder.h"
+#include "model/SampleSet.h"
+#include "model/SensorDesign.h"
+
+#include <functional>
+#include <stop_token>
+
+namespace palp {
+
+/// Readings [ohm] of touches as the design's influence surfaces at rest have them (TouchMap says what that leaves out):
+/// what is known of a decoder's inputs before any sample. Columns are touches: Fx, Fy, Fz [N], x, y, size [mm],
+/// friction. Shape and rim are those of the samples. Throws DesignError where the shape has no place along x and y or
+/// the design a pressure law, Error where the samples are of another design, and Cancelled.
+using KnownReadings = std::function<Eigen::MatrixXd(const Eigen::MatrixXd& causes)>;
+KnownReadings knownReadings(const SensorDesign& design, const SampleSet& samples, const DecoderInput& input,
+                            int threads, const std::stop_token& stop);
+
+} // namespace palp

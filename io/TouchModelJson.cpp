@@ -1,0 +1,144 @@
+#include "io/DecoderJson.h"
+
+#include <string>
+#include <vector>
+
+namespace palp {
+
+OrderedJson toJson(const KernelForwardModel& model) {
+  OrderedJson json = {{"cause_offset", toJson(model.causeOffset)},
+                      {"cause_factor", toJson(model.causeFactor)},
+                      {"cause_deviation", toJson(model.causeDeviation)},
+                      {"measurement_offset", toJson(model.measurementOffset)},
+                      {"projection", toJson(model.projection)},
+                      {"deviation", toJson(model.deviation)},
+                      {"inflation", toJson(model.inflation)}};
+  if (model.table.inputs() == 0) {
+    json["network"] = toJson(model.network);
+    return json;
+  }
+  json["starts"] = toJson(model.starts);
+  json["strengths"] = model.strengths;
+  json["table"] = toJson(model.table);
+  return json;
+}
+
+OrderedJson toJson(const SplineTable& table) {
+  OrderedJson exponents = OrderedJson::array();
+  for (Eigen::Index j = 0; j < table.terms(); ++j)
+    exponents.push_back(std::vector<int>(table.exponents.col(j).begin(), table.exponents.col(j).end()));
+  return {{"place", table.place},
+          {"low", {table.low(0), table.low(1)}},
+          {"step", {table.step(0), table.step(1)}},
+          {"nodes", table.nodes},
+          {"shift", toJson(table.shift)},
+          {"exponents", exponents},
+          {"rest", toJson(table.rest)},
+          {"coefficients", toJson(table.coefficients)}};
+}
+
+namespace {
+
+constexpr int kMostTableNodes = 1000, kMostExponent = 12;
+
+/// Which of the inputs are places: two different ones of them, or -1.
+std::array<int, 2> readPlaces(const JsonPlace& place, Eigen::Index inputs) {
+  const std::vector<int> given = readIntegers(place);
+  requireSize(place, static_cast<Eigen::Index>(given.size()), 2, "numbers, one an axis");
+  for (const int input : given)
+    if (input < -1 || input >= inputs) place.refuse("-1 to " + std::to_string(inputs - 1));
+  if (given[0] < 0 || given[0] == given[1]) place.refuse("an input, and another one or -1");
+  return {given[0], given[1]};
+}
+
+SplineTable readTable(const JsonPlace& place) {
+  place.onlyKeys({"place", "low", "step", "nodes", "shift", "exponents", "rest", "coefficients"});
+  SplineTable table;
+  table.shift = readVector(place.at("shift"));
+  table.rest = readVector(place.at("rest"));
+  table.place = readPlaces(place.at("place"), table.inputs());
+  const std::vector<double> low = place.at("low").numbers(2), step = place.at("step").numbers(2);
+  const std::vector<int> nodes = readIntegers(place.at("nodes"));
+  requireSize(place.at("nodes"), static_cast<Eigen::Index>(nodes.size()), 2, "numbers, one an axis");
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    table.low(static_cast<Eigen::Index>(axis)) = low[axis];
+    table.step(static_cast<Eigen::Index>(axis)) = step[axis];
+    table.nodes[axis] = nodes[axis];
+    if (!(step[axis] > 0)) place.at("step").refuse("numbers above 0");
+    if (nodes[axis] < 4 || nodes[axis] > kMostTableNodes)
+      place.at("nodes").refuse("4 to " + std::to_string(kMostTableNodes));
+  }
+  const std::vector<JsonPlace> terms = place.at("exponents").list();
+  table.exponents.resize(table.inputs(), static_cast<Eigen::Index>(terms.size()));
+  for (std::size_t j = 0; j < terms.size(); ++j) {
+    const std::vector<int> powers = readIntegers(terms[j]);
+    requireSize(terms[j], static_cast<Eigen::Index>(powers.size()), table.inputs(), "numbers, one an input");
+    for (std::size_t k = 0; k < powers.size(); ++k) {
+      const bool isPlace = static_cast<int>(k) == table.place[0] || static_cast<int>(k) == table.place[1];
+      if (powers[k] < 0 || powers[k] > (isPlace ? 0 : kMostExponent))
+        terms[j].refuse("0 to " + std::to_string(kMostExponent) + ", 0 for a place");
+      table.exponents(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(j)) = powers[k];
+    }
+  }
+  if (table.terms() < 1) place.at("exponents").refuse("one term or more");
+  table.coefficients = readMatrix(place.at("coefficients"));
+  requireSize(place.at("coefficients"), table.coefficients.rows(), table.outputs(), "rows, one an output");
+  requireSize(place.at("coefficients"), table.coefficients.cols(),
+              table.terms() * Eigen::Index(table.nodes[0]) * Eigen::Index(table.nodes[1]),
+              "columns, one a term and node");
+  return table;
+}
+
+/// What a table needs beside it to be inverted.
+void readInversion(const JsonPlace& place, KernelForwardModel& model) {
+  model.table = readTable(place.at("table"));
+  model.starts = readMatrix(place.at("starts"));
+  model.strengths = readIntegers(place.at("strengths"));
+  requireSize(place.at("starts"), model.starts.rows(), model.table.inputs(), "rows, one an input of the table");
+  if (model.starts.cols() < 1) place.at("starts").refuse("one column or more");
+  for (const int input : model.strengths)
+    if (input < 0 || input >= model.table.inputs() || input == model.table.place[0] || input == model.table.place[1])
+      place.at("strengths").refuse("inputs of the table that are no places");
+}
+
+} // namespace
+
+KernelForwardModel readKernelForwardModel(const JsonPlace& place) {
+  place.onlyKeys(
+      {"cause_offset", "cause_factor", "cause_deviation", "measurement_offset", "projection", "deviation", "inflation"},
+      {"network", "table", "starts", "strengths"});
+  KernelForwardModel model;
+  model.causeOffset = readVector(place.at("cause_offset"));
+  model.causeFactor = readVector(place.at("cause_factor"));
+  model.causeDeviation = readVector(place.at("cause_deviation"));
+  model.measurementOffset = readVector(place.at("measurement_offset"));
+  model.projection = readMatrix(place.at("projection"));
+  model.deviation = readVector(place.at("deviation"));
+  model.inflation = readVector(place.at("inflation"));
+  requireSize(place.at("inflation"), model.inflation.size(), model.causes(), "entries, one a cause");
+  requireSize(place.at("cause_factor"), model.causeFactor.size(), model.causes(), "entries, one a cause");
+  requireSize(place.at("cause_deviation"), model.causeDeviation.size(), model.causes(), "entries, one a cause");
+  for (Eigen::Index k = 0; k < model.causes(); ++k)
+    if (model.causeFactor(k) != 0 && !(model.causeFactor(k) > 0 && model.causeDeviation(k) > 0))
+      place.at("cause_factor").refuse("numbers above 0, with a deviation above 0, or 0 for a cause that never varied");
+  const Eigen::Index varied = (model.causeFactor.array() != 0).count();
+  requireSize(place.at("projection"), model.projection.cols(), model.measurements(), "columns, one a measurement");
+  requireSize(place.at("projection"), model.projection.rows(), model.components(), "rows, one a component");
+  if (model.components() < 1 || !(model.deviation.array() > 0).all())
+    place.at("deviation").refuse("numbers above 0, one or more");
+  const std::string form = place.has("table") ? "table" : "network";
+  if (place.has("table"))
+    readInversion(place, model);
+  else
+    model.network = readRbf(place.at("network"));
+  const bool table = model.table.inputs() > 0;
+  requireSize(place.at(form), table ? model.table.inputs() : model.network.inputs(), varied,
+              "inputs, one a cause that varies");
+  requireSize(place.at(form), table ? model.table.outputs() : model.network.outputs(), model.components(),
+              "outputs, one a component");
+  if (!table && (model.network.scaler.scaling != Scaling::Raw || model.network.centers.cols() < 1))
+    place.at("network").refuse("a network of unscaled inputs with one centre or more");
+  return model;
+}
+
+} // namespace palp
