@@ -60,6 +60,10 @@ MeshOptions meshForTouches(const SensorDesign& design, const TouchRange& range, 
   return options;
 }
 
+bool finerForField(const SensorDesign& design) {
+  return design.field() != nullptr && (design.lowerFollowsRubber || design.pressureLaw);
+}
+
 double standardMeshSize_mm(const SensorDesign& design) {
   return standardSize(design);
 }

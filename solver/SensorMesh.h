@@ -59,6 +59,11 @@ void requireMeshable(const SensorDesign& design, const MeshOptions& options);
 /// does, and Cancelled.
 Mesh sensorMesh(const SensorDesign& design, const MeshOptions& options = {}, const std::stop_token& stop = {});
 
+/// Whether the mesh is finer at the free side faces and at the clamped one: under the law of the field, where it feels
+/// how lower electrodes follow the rubber or the pressure everywhere. Designs that differ in their law alone have one
+/// mesh where this is the same.
+bool finerForField(const SensorDesign& design);
+
 /// Size in the bulk of the default mesh.
 double standardMeshSize_mm(const SensorDesign& design);
 

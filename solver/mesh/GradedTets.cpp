@@ -28,6 +28,9 @@ constexpr double weightOfOddIndices = 0.05;
 constexpr double furthestMove = 0.35;   // of a cell, from a grid point to the electrode it is moved to
 constexpr double smallestVolume = 0.15; // of a moved simplex, against where it was
 constexpr double thinnestCell = 0.005;  // of the wanted size
+/// Of the sizes at the free edges and at the bottom, where the field feels more of the block: 0.6 to 3.2 % of error in
+/// the lower electrodes' displacements become 0.4 to 0.8 %.
+constexpr double finerByFactor = 0.6;
 constexpr double mostCellsForNodes = 4; // times the cells before: where electrodes take more they stay inside elements
 
 /// Lines along x, y, z; points are numbered along x, then y, then z.
@@ -251,6 +254,10 @@ Grading defaultGrading(const SensorDesign& design, double size_mm) {
   g.top_mm = factor * 0.1 * reach;
   g.bottom_mm = factor * 0.15 * reach;
   g.vertical_mm = factor * 0.4 * std::min(height, 2 * reach + height / 10);
+  if (finerForField(design)) {
+    g.edge_mm *= finerByFactor;
+    g.bottom_mm *= finerByFactor;
+  }
   return g;
 }
 

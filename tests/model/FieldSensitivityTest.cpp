@@ -145,7 +145,7 @@ TEST(FieldSensitivity, ThePapersTopFaceIsTheDerivativeByTheHeight) {
                           SphereModel::Dipoles);
   };
   const Eigen::MatrixXd difference = (at(1e-4) - at(-1e-4)) / 2e-4;
-  EXPECT_LT((difference - slope).norm(), 2e-4 * slope.norm()); // of the panels, see above
+  EXPECT_LT((difference - slope).norm(), 3e-5 * slope.norm()); // of the panels; another program's as well
 }
 
 } // namespace

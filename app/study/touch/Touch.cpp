@@ -9,9 +9,10 @@ namespace palp {
 
 namespace {
 
-/// The mesh knows the block, the areas and the upper electrodes; all else leaves it as it is.
+/// The mesh knows the block, the areas, the upper electrodes and what the field asks of it; all else leaves it as it
+/// is.
 bool sameMesh(const SensorDesign& a, const SensorDesign& b) {
-  return a.block_mm == b.block_mm && a.areas == b.areas && a.upper == b.upper;
+  return a.block_mm == b.block_mm && a.areas == b.areas && a.upper == b.upper && finerForField(a) == finerForField(b);
 }
 
 /// One field, of which any read-out can be read.
@@ -35,7 +36,7 @@ Touch::Touch(SensorDesign design, LoadCase load, MeshOptions meshOptions)
 
 void Touch::setDesign(const SensorDesign& design) {
   if (design == design_) return;
-  if (sameButForLaw(design, design_)) {
+  if (sameButForLaw(design, design_) && (!mesh_ || meshOptions_.mapped || sameMesh(design, design_))) {
     setLaw(design);
     return;
   }

@@ -98,6 +98,26 @@ TEST(GradedTets, FillTheBlockAndItsLoadAreasWithTheElectrodesAsNodes) {
   }
 }
 
+TEST(GradedTets, AreFinerForTheFieldOnlyWhereLowerElectrodesFollowOrPressureActs) {
+  SensorDesign design = paperDesign();
+  const Mesh plain = meshOf(design);
+  const auto same = [&](const Mesh& mesh) {
+    return mesh.nodes_mm == plain.nodes_mm && mesh.elements == plain.elements;
+  };
+  design.lowerFollowsRubber = true;
+  EXPECT_TRUE(same(meshOf(design))) << "Eq. (1)";
+  design.resistance = FieldLaw{};
+  const Mesh finer = meshOf(design);
+  EXPECT_GT(finer.nodeCount(), plain.nodeCount());
+  EXPECT_LT(finer.nodeCount(), 2 * plain.nodeCount());
+  EXPECT_FALSE(finer.upperElectrodeNodes.empty());
+  expectSoundMesh(design, finer);
+  design.lowerFollowsRubber = false;
+  EXPECT_TRUE(same(meshOf(design))) << "held";
+  design.pressureLaw = PressureLaw{};
+  EXPECT_EQ(meshOf(design).nodes_mm, finer.nodes_mm);
+}
+
 /// Random layouts: electrodes a row-wire, height, a list a wire, a depth an electrode.
 struct Layout {
   int electrodes;

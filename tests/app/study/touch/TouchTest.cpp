@@ -105,6 +105,20 @@ TEST(Touch, ACopyAdvancesAlone) {
   EXPECT_EQ(copy.reached(), Stage::Resistances);
 }
 
+TEST(Touch, TheFieldOfLowerElectrodesThatFollowHasAMeshOfItsOwn) {
+  Touch touch = coarseTouch();
+  palp::SensorDesign design = palp::paperDesign();
+  design.lowerFollowsRubber = true;
+  touch.setDesign(design);
+  ASSERT_TRUE(touch.advance(Stage::Displacements));
+  const int nodes = touch.mesh()->nodeCount();
+  design.resistance = palp::FieldLaw{};
+  touch.setDesign(design);
+  EXPECT_EQ(touch.reached(), Stage::Design);
+  ASSERT_TRUE(touch.advance(Stage::Mesh));
+  EXPECT_GT(touch.mesh()->nodeCount(), nodes);
+}
+
 TEST(Touch, AnotherLawKeepsTheDeformationAndAnotherReadoutTheField) {
   Touch touch = coarseTouch();
   ASSERT_TRUE(touch.advance(Stage::Resistances));
