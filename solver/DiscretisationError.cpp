@@ -26,7 +26,7 @@ constexpr double errorOfDifference = 0.7;
 /// radii of 0.1 to 0.3 mm and lower electrodes held and following, against a mesh half as coarse.
 constexpr double errorOfResistanceDifference = 1.25;
 /// That on meshes that the field asks to be finer (finerForField), whose twins are finer too: 0.8 to 2.4 times the
-/// error in eight estimates (resources/docs/numerics.md).
+/// error in eleven estimates (resources/docs/numerics.md).
 constexpr double errorOfResistanceDifferenceOnFiner = 0.5;
 constexpr double smallestRefinement = 1.15;
 constexpr double clearlyFewer = 0.65;  // 1.3^-3 is 0.46; grids have whole numbers of cells
