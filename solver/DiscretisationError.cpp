@@ -25,9 +25,9 @@ constexpr double errorOfDifference = 0.7;
 /// some loads. So the estimate is 0.34 to 2.9 times the error, in the mean 1.0, over ten loads, the four read-outs,
 /// radii of 0.1 to 0.3 mm and lower electrodes held and following, against a mesh half as coarse.
 constexpr double errorOfResistanceDifference = 1.25;
-/// That on meshes that the field asks to be finer (finerForField), whose twins are finer too: 0.8 to 2.4 times the
-/// error in eleven estimates (resources/docs/numerics.md).
-constexpr double errorOfResistanceDifferenceOnFiner = 0.5;
+/// That on meshes that the field asks to be finer (finerForField), whose twins are finer too: 0.6 to 2.8 times the
+/// error in 21 estimates (resources/docs/numerics.md).
+constexpr double errorOfResistanceDifferenceOnFiner = 0.45;
 constexpr double smallestRefinement = 1.15;
 constexpr double clearlyFewer = 0.65;  // 1.3^-3 is 0.46; grids have whole numbers of cells
 constexpr double twinTolerance = 1e-4; // far below any difference between meshes
