@@ -155,6 +155,7 @@ bool ReducedContact::solve(const Eigen::MatrixXd& compliance, const Eigen::Matri
     for (int i = 0; i < count; ++i)
       if (!std::binary_search(touching.begin(), touching.end(), i))
         state.grips[static_cast<std::size_t>(i)] = Grip::Free;
+    bool searching = false; // an indenter has not met the body yet
     for (std::size_t m = 0; m < moves.size(); ++m) {
       const auto& [k, c] = moves[m];
       double sum = 0;
@@ -168,6 +169,7 @@ bool ReducedContact::solve(const Eigen::MatrixXd& compliance, const Eigen::Matri
       right(row) = targets[static_cast<std::size_t>(k)].force_N(c) - sum;
       if (any) continue;
       // Nothing to push against: towards the body.
+      searching = true;
       matrix(row, row) = 1;
       right(row) = c == 2 ? -targets[static_cast<std::size_t>(k)].longestMove_mm / 4 : 0;
     }
@@ -188,7 +190,7 @@ bool ReducedContact::solve(const Eigen::MatrixXd& compliance, const Eigen::Matri
       greatest = std::max(greatest, d.col(static_cast<Eigen::Index>(k)).norm());
     const double residual = unknowns > 0 ? right.head(unknowns).cwiseAbs().maxCoeff() : 0;
     const double step = change.head(unknowns).norm() / stiffness;
-    if (touching == before && gripsHold && share == 1 && residual < 1e-8 * greatest &&
+    if (!searching && touching == before && gripsHold && share == 1 && residual < 1e-8 * greatest &&
         step < std::sqrt(exactly) * 1e-3 * greatest * std::sqrt(1. + double(touching.size())))
       return true;
   }

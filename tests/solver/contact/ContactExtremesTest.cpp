@@ -38,6 +38,19 @@ TEST_P(ExtremeContact, ConvergesOrEndsWithTheLastEquilibriumAndAReason) {
   EXPECT_LT(state.force_N.z(), 0);
 }
 
+/// Its place is in the middle of four corners, 0.1 mm above each of them when its tip is on the face.
+TEST(ContactOfFewNodes, ASphereBetweenNodesGoesDownUntilItMeetsThem) {
+  MeshOptions options;
+  options.mapped = {{15, 15, 4}};
+  const SensorDesign design = paperDesign();
+  LoadCase load;
+  load.indenters = {{IndenterShape::Sphere, 8, 0, {5, 7}, 1, Press{{0, 0, -0.5}}}};
+  const Solution solution = HyperelasticProblem(design, sensorMesh(design, options)).solve(load);
+  ASSERT_TRUE(solution.converged) << solution.stopReason;
+  EXPECT_LT((solution.state().indenters[0].force_N - Eigen::Vector3d(0, 0, -0.5)).norm(), 1e-8);
+  EXPECT_GE(solution.state().indenters[0].touchingNodes, 1);
+}
+
 /// Corners 2 mm apart: two of them touch at first, and their slope pushes the sphere aside.
 TEST(ContactOfFewNodes, FrictionHoldsASphereOnTwoNodes) {
   MeshOptions options;
