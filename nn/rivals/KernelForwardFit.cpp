@@ -127,7 +127,7 @@ ForwardFit::ForwardFit(const Eigen::MatrixXd& measurements, const Eigen::MatrixX
   if (places == 0) throw NetworkError("the causes of group 0 do not vary");
   form_.shift = Eigen::Map<Eigen::VectorXd>(shift.data(), static_cast<Eigen::Index>(shift.size()));
   int degree = kMostDegree;
-  do form_.exponents = monomialsOfCauses(form_.inputs(), others, common_.strengths, degree);
+  do form_.exponents = placeMonomials(form_.inputs(), others, common_.strengths, degree);
   while (form_.terms() > kMostTerms && --degree > 1);
   scaled_ = (common_.causeFactor.asDiagonal() * (causes.colwise() - common_.causeOffset))(varied_, Eigen::all);
   common_.measurementOffset = measurements.rowwise().mean();

@@ -5,8 +5,8 @@
 
 namespace palp {
 
-Eigen::MatrixXi monomials(Eigen::Index inputs, const std::vector<Eigen::Index>& others,
-                          const std::vector<int>& strengths, int degree) {
+Eigen::MatrixXi placeMonomials(Eigen::Index inputs, const std::vector<Eigen::Index>& others,
+                               const std::vector<int>& strengths, int degree) {
   std::vector<Eigen::VectorXi> all;
   const int least = strengths.empty() ? 0 : 1;
   for (int total = least; total <= degree; ++total) {
