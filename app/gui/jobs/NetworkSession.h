@@ -14,6 +14,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -32,6 +33,7 @@ struct NetworkSamples {
   bool split = false;      ///< the test samples were taken from the file of the training samples
   bool ofNoDesign = false; ///< imported, of another rig than the design that is open
   SampleSettings settings;
+  std::optional<MeshOptions> mesh = {}; ///< that they were solved on; none: they were opened
 };
 
 /// A trained decoder and what it says about the test samples.

@@ -98,6 +98,7 @@ std::shared_ptr<const NetworkSamples> SampleGeneration::samples() {
   all->test = std::move(sets_[1]);
   all->batchError = batchError_;
   all->settings = settings_;
+  all->mesh = mesh_;
   all->seconds = took_s_;
   return all;
 }

@@ -39,11 +39,39 @@ QString systemWords(const NetworkFit& fit) {
   return words.isEmpty() ? QString() : tr("; the mode says %1").arg(words.join(", "));
 }
 
+void addChange(QStringList& all, const QString& what, const QString& before, const QString& after) {
+  if (before != after) all << tr("%1 %2, now %3").arg(what, before, after);
+}
+
+QString centersWords(const NetworkSettings& settings) {
+  return settings.centers > 0 ? QString::number(settings.centers) : tr("as the mode says");
+}
+
+/// What stands below "More options".
+void addOptions(QStringList& all, const NetworkSettings& then, const NetworkSettings& now) {
+  const auto add = [&all](const QString& what, const auto& before, const auto& after, const auto& named) {
+    const auto words = [&named](const auto& value) { return value ? QString(named(*value)) : tr("as the mode says"); };
+    addChange(all, what, words(before), words(after));
+  };
+  const auto number = [](double value) { return QString::number(value, 'g', 6); };
+  add(tr("solver"), then.solver, now.solver, [](auto value) { return trained(name(value)); });
+  add(tr("ridge"), then.ridge, now.ridge, number);
+  add(tr("scaler"), then.scaling, now.scaling, [](auto value) { return trained(name(value)); });
+  add(tr("tail"), then.tail, now.tail, [](auto value) { return trained(kTails.name(value)); });
+  add(tr("convention"), then.convention, now.convention, [](auto value) { return trained(name(value)); });
+  add(tr("centres by"), then.centerChoice, now.centerChoice,
+      [](auto value) { return trained(kCenterChoices.name(value)); });
+  const auto every = [](const NetworkSettings& settings) { return settings.allCenters ? tr("yes") : tr("no"); };
+  addChange(all, tr("a centre on every sample:"), every(then), every(now));
+  addChange(all, tr("forgetting"), number(then.forgetting), number(now.forgetting));
+  addChange(all, tr("seed of training"), QString::number(then.seed), QString::number(now.seed));
+}
+
 /// What the network was trained with, and what is set now instead.
 QStringList differences(const NetworkSettings& then, const NetworkSettings& now) {
   QStringList all;
   const auto add = [&all](const QString& what, const QString& before, const QString& after) {
-    if (before != after) all << tr("%1 %2, now %3").arg(what, before, after);
+    addChange(all, what, before, after);
   };
   const auto spread = [](const NetworkSettings& settings) {
     return settings.automaticSpread ? tr("by leave-one-out") : QString::number(settings.spread, 'g', 4);
@@ -53,23 +81,10 @@ QStringList differences(const NetworkSettings& then, const NetworkSettings& now)
   add(tr("mode"), trained(name(then.mode)), trained(name(now.mode)));
   add(tr("decoder"), trained(name(then.decoder)), trained(name(now.decoder)));
   add(tr("spread"), spread(then), spread(now));
-  add(tr("centres"), QString::number(then.centers), QString::number(now.centers));
+  add(tr("centres"), centersWords(then), centersWords(now));
   add(tr("noise"), percent(then.noise), percent(now.noise));
   add(tr("noise of the test"), percent(then.testNoise), percent(now.testNoise));
-  NetworkSettings rest = now; // what the sentences do not say
-  rest.input = then.input;
-  rest.rows = then.rows;
-  rest.mode = then.mode;
-  rest.decoder = then.decoder;
-  rest.spread = then.spread;
-  rest.automaticSpread = then.automaticSpread;
-  rest.centers = then.centers;
-  rest.noise = then.noise;
-  rest.testNoise = then.testNoise;
-  rest.sweepFrom = then.sweepFrom;
-  rest.sweepTo = then.sweepTo;
-  rest.sweepCount = then.sweepCount;
-  if (rest != then) all << tr("other options");
+  addOptions(all, then, now);
   return all;
 }
 
@@ -194,6 +209,11 @@ QString staleSweepReason(const NetworkSession& session, const NetworkSettings& n
   then.automaticSpread = now.automaticSpread;
   const QStringList changes = differences(then, now);
   return changes.isEmpty() ? QString() : tr("The sweep is of other settings (%1).").arg(changes.join("; "));
+}
+
+QString staleListReason(const NetworkSession& session) {
+  if (session.kept().empty() || session.upToDate()) return {};
+  return tr("The networks are of %1.").arg(earlierDesign(session));
 }
 
 QString trialsWords(const NetworkSession& session, const NetworkSettings& now) {

@@ -30,6 +30,8 @@ QString staleReason(const NetworkSession& session, const NetworkSettings& now);
 QString staleSweepReason(const NetworkSession& session, const NetworkSettings& now);
 /// The same for the comparison of decoders.
 QString staleTrialsReason(const NetworkSession& session, const NetworkSettings& now);
+/// The same for the list of networks, of which each says what it was trained with.
+QString staleListReason(const NetworkSession& session);
 
 /// What the comparison was made with, and who is missing in it.
 QString trialsWords(const NetworkSession& session, const NetworkSettings& now);

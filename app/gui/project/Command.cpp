@@ -47,24 +47,38 @@ QString solveCommands(const Project& project, const QString& designFile) {
          " --quantity \"" + quantity + "\" -o deformed.png";
 }
 
-QString networkCommands(const Project& project, const QString& designFile) {
+QString sampleCommands(const Project& project, const QString& designFile) {
   const auto sample = [&](std::uint64_t seed, const QString& file) {
     return QString("palp sample %1 --per-area %2 --seed %3").arg(designFile).arg(project.samples.perArea).arg(seed) +
            meshOption(project.mesh) + (project.samples.surrogate ? " --surrogate" : "") + " -o " + file;
   };
-  const NetworkSettings& network = project.network;
-  const auto noiseOf = [&](const char* option, const QString& more) {
-    return network.testNoise > 0 ? QString(" %1 %2").arg(option, QString::fromStdString(text(network.testNoise))) + more
-                                 : QString();
-  };
+  return sample(project.samples.seed, "train.csv") + "\n" + sample(testSeed(project.samples.seed), "test.csv");
+}
+
+QString predictCommand(const NetworkSettings& network, const QString& file) {
+  const QString command = "palp predict " + file + " test.csv --bare";
+  if (network.testNoise <= 0) return command;
+  return command + QString::fromStdString(" --noise " + text(network.testNoise)) +
+         QString(" --seed %1").arg(testSeed(network.seed));
+}
+
+QString trainCommands(const NetworkSettings& network, const QString& designFile, const QString& file) {
   const QString spread = network.automaticSpread ? "auto" : QString::fromStdString(text(network.spread));
-  return sample(project.samples.seed, "train.csv") + "\n" + sample(testSeed(project.samples.seed), "test.csv") +
-         "\npalp train train.csv" + trainOptions(network) + " --spread " + spread + " -o network.json" +
-         "\npalp predict network.json test.csv --bare" +
-         noiseOf("--noise", QString(" --seed %1").arg(testSeed(network.seed))) +
-         "\npalp sweep train.csv --test test.csv" + trainOptions(network) + noiseOf("--test-noise", {}) +
-         QString::fromStdString(" --spreads " + text(network.sweepFrom) + ":" + text(network.sweepTo) + ":") +
+  const QString design = network.decoder == DecoderKind::TwoStepGaussNewton ? " --design " + designFile : QString();
+  return "palp train train.csv" + trainOptions(network) + " --spread " + spread + design + " -o " + file + "\n" +
+         predictCommand(network, file);
+}
+
+QString sweepCommand(const NetworkSettings& network) {
+  return "palp sweep train.csv --test test.csv" + trainOptions(network) +
+         QString::fromStdString((network.testNoise > 0 ? " --test-noise " + text(network.testNoise) : std::string()) +
+                                " --spreads " + text(network.sweepFrom) + ":" + text(network.sweepTo) + ":") +
          QString::number(network.sweepCount);
+}
+
+QString networkCommands(const Project& project, const QString& designFile) {
+  return sampleCommands(project, designFile) + "\n" + trainCommands(project.network, designFile, "network.json") +
+         "\n" + sweepCommand(project.network);
 }
 
 QString liveCommand(const LiveSettings& live) {

@@ -31,7 +31,7 @@ QString chartCsv(const ChartSpec& spec) {
 QString sourceOf(const QWidget& widget) {
   for (const QWidget* place = &widget; place != nullptr; place = place->parentWidget())
     if (const auto* scene = dynamic_cast<const Scene*>(place)) {
-      const QString lines = scene->exportSource();
+      const QString lines = scene->exportSource(widget);
       if (!lines.isEmpty()) return lines; // a board's page lies in the scene of all boards
     }
   return {};

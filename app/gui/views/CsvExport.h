@@ -13,7 +13,7 @@ namespace palp {
 QString csvCell(const QString& text);
 /// Every point of every curve: `series,x,y`, the heads being the labels of the axes.
 QString chartCsv(const ChartSpec& spec);
-/// Lines after "#" that say what the tables of the widget's scene were made with; empty outside of a scene.
+/// Lines after "#" that say what this chart or table of a scene was made with; empty outside of a scene.
 QString sourceOf(const QWidget& widget);
 /// Asks for a file and writes the table there, below what it was made with; says why where it cannot be written.
 /// Returns the file that was written.

@@ -136,7 +136,8 @@ void MainWindow::addScene(const QString& name, const QString& title, const QStri
   auto* item = new QListWidgetItem(title, rail_);
   item->setToolTip(tip + QString(" (Ctrl+%1)").arg(names_.size()));
   scenes_->addWidget(scene);
-  scene->setExportSource([this, scene] { return exportSource(*scene, workbench_, network_); });
+  scene->setExportSource(
+      [this, scene](const QWidget& saved) { return exportSource(*scene, saved, workbench_, network_); });
 }
 
 void MainWindow::buildStatusLine() {

@@ -30,12 +30,12 @@ public:
   /// The palp commands that do what the page shows, one a line; empty where there are none.
   [[nodiscard]] virtual QString commands(const Project&, const QString& /*designFile*/) const { return {}; }
 
-  /// Whom its tables ask, when they are saved, for lines that say what they were made with.
-  void setExportSource(std::function<QString()> source) { source_ = std::move(source); }
-  [[nodiscard]] QString exportSource() const { return source_ ? source_() : QString(); }
+  /// Whom its tables and charts ask, when they are saved, for lines that say what they were made with.
+  void setExportSource(std::function<QString(const QWidget&)> source) { source_ = std::move(source); }
+  [[nodiscard]] QString exportSource(const QWidget& saved) const { return source_ ? source_(saved) : QString(); }
 
 private:
-  std::function<QString()> source_;
+  std::function<QString(const QWidget&)> source_;
 };
 
 } // namespace palp

@@ -1,7 +1,6 @@
 #include "app/gui/window/exports/ExportSource.h"
 
-#include "app/gui/jobs/NetworkSession.h"
-#include "app/gui/network/FitWords.h"
+#include "app/gui/network/NetworkSource.h"
 #include "app/gui/project/ExportLines.h"
 #include "app/gui/project/ProjectChange.h"
 #include "app/gui/project/Workbench.h"
@@ -21,16 +20,6 @@ Project ofTouch(Workbench& workbench) {
   made.load = touch.load();
   made.mesh = touch.meshOptions();
   if (touch.path() != loadsAfter(made.load, made.path, made.design)) made.path.reset();
-  return made;
-}
-
-/// The project with what the network that is shown, and its samples, were made with.
-Project ofNetwork(Workbench& workbench, const NetworkSession& network) {
-  Project made = workbench.project();
-  if (network.samples() == nullptr) return made;
-  made.design = network.results().design;
-  made.samples = network.samples()->settings;
-  if (network.fit() != nullptr) made.network = network.fit()->settings;
   return made;
 }
 
@@ -61,20 +50,15 @@ QString touchStale(Workbench& workbench) {
   return since.isEmpty() ? QObject::tr("something that it depends on has changed since") : since;
 }
 
-QString exportSource(const Scene& scene, Workbench& workbench, const NetworkSession& network) {
+QString exportSource(const Scene& scene, const QWidget& saved, Workbench& workbench, const NetworkSession& network) {
   const QString name = scene.objectName();
   const Project& now = workbench.project();
+  if (name == "network") return networkSource(saved.objectName(), now, network);
   Project made = now;
   QString stale;
   if (name == "deformation" || name == "resistance") {
     made = ofTouch(workbench);
     stale = touchStale(workbench);
-  } else if (name == "network") {
-    made = ofNetwork(workbench, network);
-    QStringList reasons{staleReason(network, now.network), staleSweepReason(network, now.network),
-                        staleTrialsReason(network, now.network)};
-    reasons.removeAll(QString());
-    stale = reasons.join(' ');
   } else if (name == "design") {
     stale = studiesStale(now);
   }

@@ -2,14 +2,16 @@
 
 #include <QString>
 
+class QWidget;
+
 namespace palp {
 
 class NetworkSession;
 class Scene;
 class Workbench;
 
-/// What the tables of a scene were made with, and whether that is still what is set; see exportLines.
-QString exportSource(const Scene& scene, Workbench& workbench, const NetworkSession& network);
+/// What a table or chart of a scene was made with, and whether that is still what is set; see exportLines.
+QString exportSource(const Scene& scene, const QWidget& saved, Workbench& workbench, const NetworkSession& network);
 
 /// What has changed since the touch that is shown was computed, in words; empty where nothing did.
 QString touchStale(Workbench& workbench);
