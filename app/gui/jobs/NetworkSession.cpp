@@ -281,6 +281,7 @@ void NetworkSession::compare(const NetworkSettings& settings) {
       try {
         const NetworkFit fit = fitOn(*samples, design, settings, options, stop, unseen);
         trial.error = fit.error.error;
+        trial.spread = fit.decoder.report.spread;
         trial.seconds = fit.decoder.report.seconds;
         trial.microsecondsPerSample = fit.prediction.microsecondsPerSample;
       } catch (const std::exception& refusal) {

@@ -60,6 +60,7 @@ struct SweepPoint {
 struct DecoderTrial {
   DecoderKind kind = DecoderKind::Rbf;
   PredictionError error;
+  double spread = 0;  ///< that it was trained at; 0: it has none
   double seconds = 0; ///< of the training
   double microsecondsPerSample = 0;
   QString refusal; ///< why it cannot be trained; empty where it was

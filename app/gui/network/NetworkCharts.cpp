@@ -221,18 +221,21 @@ ChartSpec trialsErrorChart(const std::vector<DecoderTrial>& trials, const std::v
     curve.x.push_back(point.spread);
     curve.y.push_back(point.error.eq13Percent.mean());
   }
-  const double from = sweep.empty() ? 0.3 : sweep.front().spread;
-  const double to = sweep.empty() ? 10 : sweep.back().spread;
-  const auto trained = static_cast<double>(
-      std::count_if(trials.begin(), trials.end(), [](const DecoderTrial& trial) { return trial.refusal.isEmpty(); }));
+  double from = sweep.empty() ? 0.3 : sweep.front().spread;
+  double to = sweep.empty() ? 10 : sweep.back().spread;
+  for (const DecoderTrial& trial : trials) { // a point beside the others is no reason to cut it off
+    if (!trial.refusal.isEmpty() || trial.spread <= 0) continue;
+    from = std::min(from, trial.spread);
+    to = std::max(to, trial.spread);
+  }
   std::size_t place = 0;
   for (const DecoderTrial& trial : trials) {
     if (!trial.refusal.isEmpty()) continue;
-    // Flat lines: each has its marker at a place of its own, so that equal ones are seen as two.
-    const double at = from * std::pow(to / from, static_cast<double>(place + 1) / (trained + 1));
-    ChartSeries level = trialSeries(trial, place++, Style::LineAndPoints);
-    level.x = {from, at, to};
-    level.y.assign(3, trial.error.eq13Percent.mean());
+    const bool point = trial.spread > 0;
+    ChartSeries level = trialSeries(trial, place++, point ? Style::Points : Style::Line);
+    level.x = point ? std::vector<double>{trial.spread} : std::vector<double>{from, to};
+    level.y.assign(level.x.size(), trial.error.eq13Percent.mean());
+    level.level = !point;
     spec.series.push_back(std::move(level));
   }
   if (!curve.x.empty()) spec.series.push_back(std::move(curve));

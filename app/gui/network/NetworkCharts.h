@@ -27,8 +27,8 @@ ChartSpec decoupledChart(const NetworkSamples& samples, const NetworkFit& fit, i
 /// Relative error by sample of one area (Figs. 11, 16).
 ChartSpec relativeErrorChart(const NetworkSamples& samples, const NetworkFit& fit, int area);
 
-/// Mean error of each decoder (Eq. 13, over Fx, Fy, Fz) on the axes of the sweep: a sweep as a curve, the others, which
-/// have no spread, across its width.
+/// Mean error of each decoder (Eq. 13, over Fx, Fy, Fz) on the axes of the sweep: a sweep as a curve, one that was
+/// trained at a spread as a point there, and those that have none as a line across the width.
 ChartSpec trialsErrorChart(const std::vector<DecoderTrial>& trials, const std::vector<SweepPoint>& sweep,
                            InputKind input);
 /// The same errors against the time of training.

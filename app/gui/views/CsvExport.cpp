@@ -21,10 +21,15 @@ QString csvCell(const QString& text) {
 QString chartCsv(const ChartSpec& spec) {
   const auto cell = [](const std::string& text) { return csvCell(QString::fromStdString(text)); };
   QString csv = "series," + cell(spec.xLabel) + "," + cell(spec.yLabel) + "\n";
-  for (const ChartSeries& series : spec.series)
+  for (const ChartSeries& series : spec.series) {
+    if (series.level && !series.y.empty()) {
+      csv += cell(series.name) + ",," + QString::fromStdString(text(series.y.front())) + "\n";
+      continue;
+    }
     for (std::size_t k = 0; k < std::min(series.x.size(), series.y.size()); ++k)
       csv += cell(series.name) + "," + QString::fromStdString(text(series.x[k])) + "," +
              QString::fromStdString(text(series.y[k])) + "\n";
+  }
   return csv;
 }
 

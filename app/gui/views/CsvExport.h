@@ -11,7 +11,7 @@ namespace palp {
 
 /// A cell of a CSV file: in quotation marks where it has to be.
 QString csvCell(const QString& text);
-/// Every point of every curve: `series,x,y`, the heads being the labels of the axes.
+/// Every point of every curve: `series,x,y`, the heads being the labels of the axes; a level has no x.
 QString chartCsv(const ChartSpec& spec);
 /// Lines after "#" that say what this chart or table of a scene was made with; empty outside of a scene.
 QString sourceOf(const QWidget& widget);

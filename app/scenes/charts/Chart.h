@@ -23,6 +23,7 @@ struct ChartSeries {
   Style style = Style::Line;
   bool dashed = false;                 ///< its points are diamonds
   int color = -1;                      ///< place in the palette's series colours; -1: the series' own place
+  bool level = false;                  ///< one y that no x belongs to, drawn from x to x
   std::optional<std::string> legend{}; ///< its words in the legend; none: the name, empty: it is not in it
 
   [[nodiscard]] const std::string& legendWords() const { return legend ? *legend : name; }

@@ -18,7 +18,6 @@
 #include <QTemporaryDir>
 
 #include <limits>
-#include <set>
 
 namespace palp {
 namespace {
@@ -183,22 +182,24 @@ TEST_F(NetworkScene, TheSweepsTableHasEveryPointAndItsBestSpreadIsTakenOver) {
   ASSERT_TRUE(QTest::qWaitFor([&] { return network.fit()->decoder.report.spread == best; }, kPatience_ms));
 }
 
-TEST_F(NetworkScene, EveryDecoderIsSeenInTheirChartWhereItsLineLiesOnAnother) {
-  DecoderTrial one;
-  one.error.eq13Percent = Eigen::Vector3d::Constant(0.5);
-  std::vector<DecoderTrial> trials(3, one);
-  trials[1].kind = DecoderKind::Linear;
-  trials[2].kind = DecoderKind::GaussianProcess;
-  const ChartSpec chart = trialsErrorChart(trials, {}, InputKind::Resistance);
-  ASSERT_EQ(chart.series.size(), 3U);
-  std::set<double> marks;
-  for (const ChartSeries& level : chart.series) {
-    EXPECT_EQ(level.style, ChartSeries::Style::LineAndPoints);
-    EXPECT_FALSE(level.legendWords().empty());
-    ASSERT_EQ(level.x.size(), 3U);
-    marks.insert(level.x[1]);
-  }
-  EXPECT_EQ(marks.size(), 3U) << "no marker hides another";
+TEST_F(NetworkScene, ADecoderOfOneSpreadIsAPointThereAndOneOfNoneALineWithoutMarkers) {
+  DecoderTrial rbf;
+  rbf.spread = 12.5;
+  rbf.error.eq13Percent = Eigen::Vector3d::Constant(0.5);
+  DecoderTrial linear = rbf;
+  linear.kind = DecoderKind::Linear;
+  linear.spread = 0;
+  linear.error.eq13Percent = Eigen::Vector3d::Constant(0.25);
+  const ChartSpec chart = trialsErrorChart({rbf, linear}, {}, InputKind::Resistance);
+  ASSERT_EQ(chart.series.size(), 2U);
+  EXPECT_EQ(chart.series[0].style, ChartSeries::Style::Points);
+  EXPECT_EQ(chart.series[0].x, std::vector<double>{12.5});
+  EXPECT_EQ(chart.series[1].style, ChartSeries::Style::Line);
+  EXPECT_EQ(chart.series[1].x.back(), 12.5) << "the width goes as far as the point";
+  const QStringList rows = chartCsv(chart).trimmed().split('\n');
+  ASSERT_EQ(rows.size(), 3) << "one a decoder below the heads";
+  EXPECT_EQ(rows[1], "rbf,12.5,0.5");
+  EXPECT_EQ(rows[2], "linear,,0.25");
 }
 
 TEST_F(NetworkScene, AComparisonOfOtherSettingsIsFaintWithTheReason) {
