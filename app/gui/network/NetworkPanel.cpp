@@ -126,10 +126,10 @@ void NetworkPanel::buildTraining(QVBoxLayout& column) {
   train_->setObjectName("train");
   form->addRow(train_);
   auto* follows =
-      new QLabel(tr("Once there is a network, each change above trains at once; each one is kept in the tab "
-                    "Trained networks."));
+      new WrappedLabel(tr("Once there is a network, each change above trains at once; each one is kept in the tab "
+                          "Trained networks."));
+  follows->setObjectName("trainsAtOnce");
   follows->setProperty("role", "hint");
-  follows->setWordWrap(true);
   form->addRow(follows);
   connect(train_, &QPushButton::clicked, this, &NetworkPanel::trainAsked);
   column.addWidget(box);

@@ -33,6 +33,16 @@ TEST_F(NetworkPanel, SaysErrorsWhereOneLooksUntilTheNextWorkBegins) {
   ASSERT_TRUE(idle());
 }
 
+TEST_F(NetworkPanel, TheHintBelowTrainIsWholeAfterAVisitToAnotherScene) {
+  const auto& hint = find<QLabel>("trainsAtOnce");
+  for (const char* scene : {"design", "network"}) {
+    window.showScene(scene);
+    settle();
+  }
+  EXPECT_GE(hint.height(), hint.heightForWidth(hint.width()));
+  EXPECT_GT(hint.height(), 1.5 * hint.fontMetrics().height()) << "it has more than one line";
+}
+
 TEST_F(NetworkPanel, RowsThatTheDesignDoesNotHaveAreRefusedAtTheField) {
   auto& rows = find<QLineEdit>("rows");
   rows.setFocus();
