@@ -17,13 +17,41 @@ namespace {
 constexpr const char* kTime = "yyyy-MM-dd-HHmmss";
 constexpr int kMostOfOneSecond = 1000;
 
-QString titleOf(const QString& name, const QDateTime& written) {
+/// Kind and time in the name of a run's folder.
+struct RunName {
+  QString kind;
+  QDateTime run; ///< not valid: a folder of another name
+};
+
+RunName runOf(const QString& name) {
   static const QRegularExpression own(R"(^(.+)-(\d{4}-\d\d-\d\d-\d{6})(-\d+)?$)");
   const QRegularExpressionMatch match = own.match(name);
-  const QDateTime run = match.hasMatch() ? QDateTime::fromString(match.captured(2), kTime) : QDateTime();
+  if (!match.hasMatch()) return {};
+  return {match.captured(1), QDateTime::fromString(match.captured(2), kTime)};
+}
+
+/// The folder of the run whose page lies here: of a study one above.
+QFileInfo runFolderOf(const QString& folder) {
+  const QFileInfo here(folder), above(here.absolutePath());
+  return here.fileName() == "report" && runOf(above.fileName()).run.isValid() ? above : here;
+}
+
+/// What a run's command says before its folders, and whether it is of another design than the paper's.
+QString settingsOf(const QString& command) {
+  return command.section(" -o ", 0, 0) + (command.section(" -o ", 1).contains(" --design ") ? " --design" : "");
+}
+
+/// The first line of its messages.
+QString commandOf(const QString& folder) {
+  QFile messages(QDir(folder).filePath(kReportMessages));
+  return messages.open(QIODevice::ReadOnly) ? QString::fromUtf8(messages.readLine()).trimmed() : QString();
+}
+
+QString titleOf(const QString& name, const QDateTime& written) {
+  const auto [kind, run] = runOf(name);
   const auto words = [](const QDateTime& time) { return QLocale().toString(time, "d MMM yyyy HH:mm"); };
   if (!run.isValid()) return QObject::tr("%1 (written %2)").arg(name, words(written));
-  return QObject::tr("%1, %2").arg(match.captured(1), words(run));
+  return QObject::tr("%1, %2").arg(kind, words(run));
 }
 
 } // namespace
@@ -56,6 +84,26 @@ std::vector<WrittenReport> reportsBelow(const QString& base) {
   }
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.written > b.written; });
   return all;
+}
+
+QString kindOfReport(const QString& folder) {
+  return runOf(runFolderOf(folder).fileName()).kind;
+}
+
+QString titleOfReport(const QString& folder) {
+  const QFileInfo page(QDir(folder).filePath("report.html"));
+  return titleOf(runFolderOf(folder).fileName(), page.lastModified());
+}
+
+std::optional<double> lastRun_s(const QString& base, const QString& command) {
+  for (const WrittenReport& report : reportsBelow(base)) {
+    const QFileInfo folder = runFolderOf(report.folder);
+    const QDateTime run = runOf(folder.fileName()).run;
+    if (!run.isValid() || settingsOf(commandOf(folder.filePath())) != settingsOf(command)) continue;
+    const auto seconds = static_cast<double>(run.secsTo(report.written));
+    if (seconds >= 0) return std::max(seconds, 0.5); // the name has whole seconds
+  }
+  return std::nullopt;
 }
 
 QString pageFolder(const QString& folder) {

@@ -6,6 +6,7 @@
 #include <QString>
 #include <QStringList>
 
+#include <optional>
 #include <vector>
 
 namespace palp {
@@ -20,6 +21,14 @@ struct WrittenReport {
 /// Makes a folder of a new report below `base`, named after its kind and the time: "networks-2026-11-22-140503". Never
 /// one that was there before. Throws Error where it cannot be made.
 QString newReportFolder(const QString& base, const QString& kind, const QDateTime& now);
+
+/// The kind in the folder's name, and the title of what lies there.
+QString kindOfReport(const QString& folder);
+QString titleOfReport(const QString& folder);
+
+/// How long the newest run below `base` of this palp command took [s], but for its folders: from the time in its
+/// folder's name to that of its page. None where there is no such run.
+std::optional<double> lastRun_s(const QString& base, const QString& command);
 
 /// The plan of a study in its folder.
 inline constexpr const char* kStudyFile = "study.json";

@@ -47,6 +47,10 @@ const std::vector<ReportKind>& reportKinds() {
   return all;
 }
 
+QString runName(const ReportKind& kind) {
+  return kind.arguments.back() == "all" ? "paper" : kind.arguments.back();
+}
+
 double studySeconds(const StudyPlan& plan) {
   // As measured on the paper's design: under Eq. (1) a bound is 42 nonlinear solves, samples of decoders many more.
   const double mesh = plan.meshSize_mm || plan.mapped ? 0.03 : 1; // of other meshes, which are coarse

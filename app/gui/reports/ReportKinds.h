@@ -25,6 +25,9 @@ inline constexpr const char* kStudyKind = "study";
 /// The paper's experiments, a study, then all kinds of `palp report`.
 const std::vector<ReportKind>& reportKinds();
 
+/// What the folders of its runs begin with.
+QString runName(const ReportKind& kind);
+
 /// Roughly how long a study takes on two cores [s].
 double studySeconds(const StudyPlan& plan);
 

@@ -77,6 +77,14 @@ double ReportPlan::seconds() const {
   return moments_.empty() ? sum_s(parts_) : moments_.back().seconds;
 }
 
+void ReportPlan::setSeconds(double seconds) {
+  const double sum = sum_s(parts_);
+  for (RunPart& part : parts_)
+    if (sum > 0) part.seconds *= seconds / sum;
+  moments_.clear();
+  here_ = true;
+}
+
 double ReportPlan::planned_s(double share) const {
   if (!moments_.empty()) {
     const auto next = std::find_if(moments_.begin() + 1, moments_.end() - 1,

@@ -26,6 +26,8 @@ public:
   /// The times are of a run on this machine.
   [[nodiscard]] bool measuredHere() const { return here_; }
   [[nodiscard]] double seconds() const;
+  /// Of a run on this machine that took so long, part by part as it comes with Palp.
+  void setSeconds(double seconds);
   /// What is left [s] after so many seconds, where `last` is the moment at which the run's progress was told last: the
   /// plan's rest, as much slower or faster as the run was until then, less what passed since. At least what the plan
   /// asks for after the step that runs now, however long that step takes.

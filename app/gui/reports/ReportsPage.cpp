@@ -181,17 +181,16 @@ QWidget* ReportsPage::buildViews() {
   auto* views = new QSplitter(Qt::Horizontal);
   views->setObjectName("reportsSplitter");
   views->addWidget(left);
-  views->addWidget(picture_);
+  whose_ = new QLabel; // another kind may be chosen above
+  whose_->setObjectName("reportShown");
+  auto* shown = new QWidget;
+  auto* below = new QVBoxLayout(shown);
+  below->setContentsMargins(0, 0, 0, 0);
+  below->addWidget(whose_);
+  below->addWidget(picture_, 1);
+  views->addWidget(shown);
   views->setSizes({480, 900});
   return views;
-}
-
-const ReportKind& ReportsPage::kind() const {
-  return reportKinds()[static_cast<std::size_t>(kind_->currentIndex())];
-}
-
-bool ReportsPage::isStudy() const {
-  return kind().arguments.front() == kStudyKind;
 }
 
 QString ReportsPage::base() const {
@@ -203,67 +202,15 @@ void ReportsPage::showEvent(QShowEvent* event) {
   listReports();
 }
 
-QStringList ReportsPage::arguments(const Project& project, const QString& folder) const {
-  QStringList all = kind().arguments;
-  if (isStudy()) return all << QDir(folder).filePath(kStudyFile) << "-o" << folder; // its file says the rest
-  if (all.front() == "report") all << "--per-area" << QString::number(project.samples.perArea);
-  return all + meshOption(project.mesh).split(' ', Qt::SkipEmptyParts) + QStringList{"-o", folder};
-}
-
-QString ReportsPage::commands(const Project& project, const QString& designFile) const {
-  QStringList all = arguments(project, "palp-report");
-  if (ofAnotherDesign(all, project)) all << "--design" << designFile;
-  return "palp " + all.join(' ');
-}
-
-/// What it runs, and for how long.
-void ReportsPage::chooseKind() {
-  if (run_.running()) return; // what runs stays in sight
-  what_->setText(kind().what);
-  study_->setVisible(isStudy());
-  tabs_->setCurrentWidget(cases_);
-  if (isStudy()) return planStudy();
-  plan_ = std::make_unique<ReportPlan>(settingsName(kind().arguments, workbench_.project()), kind().parts);
-  cases_->show(*plan_);
-  state_->setText(tr("Takes about %1%2.")
-                      .arg(roughly(plan_->seconds()),
-                           plan_->measuredHere() ? tr(", as the last time on this machine")
-                                                 : tr(" on two cores with 100 samples an area; not yet run here")));
-}
-
-/// How much a study is; its time is known only roughly before.
-void ReportsPage::planStudy() {
-  std::vector<RunPart> parts{kind().parts};
-  try {
-    const StudyPlan study = study_->plan();
-    parts.front().seconds = studySeconds(study);
-    state_->setText(tr("%1 designs, about %2; better known after the first.")
-                        .arg(study.designs())
-                        .arg(roughly(parts.front().seconds)));
-    start_->setEnabled(true);
-  } catch (const Error&) {
-    state_->setText(tr("No study yet: what is in red above.")); // the form says it
-    start_->setEnabled(false);
-  }
-  plan_ = std::make_unique<ReportPlan>(kStudyKind, parts);
-  cases_->show(*plan_);
-}
-
 void ReportsPage::start() {
   QStringList all;
   runFolder_.clear();
   try {
-    runFolder_ = isStudy()
-                     ? study_->runFolder(base())
-                     : newReportFolder(base(), kind().arguments.back() == "all" ? "paper" : kind().arguments.back(),
-                                       QDateTime::currentDateTime());
-    all = arguments(workbench_.project(), runFolder_);
-    if (!isStudy()) all << "--force"; // into the folder that was made just now
-    if (ofAnotherDesign(all, workbench_.project())) {
-      const QString design = QDir(runFolder_).filePath(kReportDesign);
-      saveDesign(design.toStdString(), workbench_.project().design, true);
-      all << "--design" << design;
-    }
+    runFolder_ =
+        isStudy() ? study_->runFolder(base()) : newReportFolder(base(), runName(kind()), QDateTime::currentDateTime());
+    all = runArguments(runFolder_);
+    if (ofAnotherDesign(all, workbench_.project()))
+      saveDesign(QDir(runFolder_).filePath(kReportDesign).toStdString(), workbench_.project().design, true);
   } catch (const Error& error) {
     tidyReport(runFolder_, {});
     state_->setText(QString::fromStdString(error.what()));
@@ -273,6 +220,8 @@ void ReportsPage::start() {
   chooseKind();
   log_->setPlainText("palp " + all.join(' '));
   showFolder({}, false);
+  // The focus of a button that turns grey goes to the next field, which marks all that it holds.
+  if (start_->hasFocus() || kind_->hasFocus()) setFocus(Qt::OtherFocusReason);
   start_->setEnabled(false);
   kind_->setEnabled(false);
   cancel_->setEnabled(true);
@@ -298,6 +247,7 @@ void ReportsPage::end(ReportRun::Ending how) {
   bar_->hide();
   start_->setEnabled(true);
   kind_->setEnabled(true);
+  if (cancel_->hasFocus()) start_->setFocus(Qt::OtherFocusReason);
   cancel_->setEnabled(false);
   log_->verticalScrollBar()->setValue(log_->verticalScrollBar()->maximum());
   const bool done = how == ReportRun::Ending::Done;
@@ -334,6 +284,7 @@ void ReportsPage::showWritten(const QString& folder) {
   QFile messages(QDir(folder).filePath(kReportMessages));
   log_->setPlainText(messages.open(QIODevice::ReadOnly) ? QString::fromUtf8(messages.readAll())
                                                         : tr("%1 holds no messages of its run.").arg(folder));
+  chooseKindOf(folder);
   showFolder(folder, true);
   state_->setText(tr("Shown again: %1").arg(QDir(folder).filePath(kPage)));
 }
@@ -369,6 +320,7 @@ void ReportsPage::showFolder(const QString& folder, bool page) {
   openFolder_->setEnabled(!folder.isEmpty());
   pictures_->clear();
   picture_->clear();
+  whose_->setText(page ? titleOfReport(folder) : QString());
   if (page) pictures_->addItems(QDir(folder).entryList({"*.png"}, QDir::Files, QDir::Name));
   pictures_->setVisible(pictures_->count() > 0);
   if (pictures_->count() > 0)

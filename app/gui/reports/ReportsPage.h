@@ -68,12 +68,15 @@ private:
   QWidget* buildViews();
   /// Of palp, for the chosen report into a folder.
   [[nodiscard]] QStringList arguments(const Project& project, const QString& folder) const;
+  /// The same of a run: also what is not said of the command that the scene shows.
+  [[nodiscard]] QStringList runArguments(const QString& folder) const;
   [[nodiscard]] const ReportKind& kind() const;
   [[nodiscard]] bool isStudy() const;
   void planStudy();
   void showUnfinished(const QString& folder);
   [[nodiscard]] QString base() const;
   void chooseKind();
+  void chooseKindOf(const QString& folder);
   void start();
   void setProgress(double share, const QString& what);
   void end(ReportRun::Ending how);
@@ -111,6 +114,7 @@ private:
   QPlainTextEdit* log_ = nullptr;
   WrittenReports* written_ = nullptr;
   QListWidget* pictures_ = nullptr;
+  QLabel* whose_ = nullptr; ///< report that is shown
   ReportPicture* picture_ = nullptr;
 };
 

@@ -84,6 +84,49 @@ TEST_F(ReportsPageTest, RunsAReportOfTheProjectsMeshAndShowsItsPicturesAlone) {
   EXPECT_FALSE(find<QLabel>("reportPicture").pixmap().isNull());
 }
 
+TEST_F(ReportsPageTest, RunGivesTheKeysToNoField) {
+  setProgram("exec sleep 600\n");
+  find<QPushButton>("runReport").setFocus();
+  run("stability");
+  settle();
+  auto& kept = find<QLineEdit>("reportFolder");
+  EXPECT_FALSE(kept.hasFocus());
+  ASSERT_NE(QApplication::focusWidget(), nullptr);
+  QTest::keyClick(QApplication::focusWidget(), Qt::Key_X);
+  EXPECT_EQ(kept.text(), folder.path());
+  auto& cancel = find<QPushButton>("cancelReport");
+  cancel.setFocus();
+  QTest::mouseClick(&cancel, Qt::LeftButton);
+  ASSERT_TRUE(ended());
+  EXPECT_TRUE(find<QPushButton>("runReport").hasFocus());
+}
+
+TEST_F(ReportsPageTest, AnEarlierReportStandsBelowItsOwnKindAndItsTimeIsTheEstimateAfterARestart) {
+  setProgram("echo page > \"$folder/report.html\"\n");
+  run("stability");
+  ASSERT_TRUE(ended());
+  choose("networks");
+  ASSERT_EQ(written().count(), 1);
+  auto& tabs = find<QTabWidget>("reportTabs");
+  tabs.setCurrentWidget(&written());
+  settle();
+  const QPoint place = written().visualItemRect(written().item(0)).center();
+  QTest::mouseClick(written().viewport(), Qt::LeftButton, {}, place);
+  EXPECT_EQ(find<QComboBox>("reportKind").currentText(), "stability");
+  EXPECT_EQ(tabs.currentWidget(), &written()) << "the list stays in sight";
+  EXPECT_TRUE(state().startsWith("Shown again")) << state().toStdString();
+  choose("networks");
+  EXPECT_TRUE(find<QLabel>("reportShown").text().startsWith("stability, ")) << "whose page it is, whatever is chosen";
+  QSettings().remove("reportTimes"); // as if it had been run by another installation
+  const ReportsPage again(workbench);
+  auto* kinds = again.findChild<QComboBox*>("reportKind");
+  const QString estimate = "as the last time on this machine";
+  auto* words = again.findChild<QLabel*>("reportState");
+  EXPECT_FALSE(words->text().contains(estimate)) << "of the kind that was not run";
+  kinds->setCurrentText("stability");
+  EXPECT_TRUE(words->text().contains(estimate)) << words->text().toStdString();
+}
+
 TEST_F(ReportsPageTest, QuittingAsksBeforeItEndsAReport) {
   setProgram("echo begun > \"$folder/begun\"\nexec sleep 600\n");
   run("stability");

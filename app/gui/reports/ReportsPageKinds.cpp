@@ -1,0 +1,92 @@
+#include "app/gui/reports/ReportsPage.h"
+
+#include "app/gui/jobs/TimeLeft.h"
+#include "app/gui/project/Command.h"
+#include "app/gui/reports/ReportCases.h"
+#include "app/gui/reports/ReportKinds.h"
+#include "app/gui/reports/StudyForm.h"
+#include "model/base/Error.h"
+
+#include <QComboBox>
+#include <QDir>
+#include <QLabel>
+#include <QPushButton>
+#include <QTabWidget>
+
+namespace palp {
+
+const ReportKind& ReportsPage::kind() const {
+  return reportKinds()[static_cast<std::size_t>(kind_->currentIndex())];
+}
+
+bool ReportsPage::isStudy() const {
+  return kind().arguments.front() == kStudyKind;
+}
+
+QStringList ReportsPage::arguments(const Project& project, const QString& folder) const {
+  QStringList all = kind().arguments;
+  if (isStudy()) return all << QDir(folder).filePath(kStudyFile) << "-o" << folder; // its file says the rest
+  if (all.front() == "report") all << "--per-area" << QString::number(project.samples.perArea);
+  return all + meshOption(project.mesh).split(' ', Qt::SkipEmptyParts) + QStringList{"-o", folder};
+}
+
+QStringList ReportsPage::runArguments(const QString& folder) const {
+  QStringList all = arguments(workbench_.project(), folder);
+  if (!isStudy()) all << "--force"; // into the folder that was made just now
+  if (ofAnotherDesign(all, workbench_.project())) all << "--design" << QDir(folder).filePath(kReportDesign);
+  return all;
+}
+
+QString ReportsPage::commands(const Project& project, const QString& designFile) const {
+  QStringList all = arguments(project, "palp-report");
+  if (ofAnotherDesign(all, project)) all << "--design" << designFile;
+  return "palp " + all.join(' ');
+}
+
+/// What it runs, and for how long.
+void ReportsPage::chooseKind() {
+  if (run_.running()) return; // what runs stays in sight
+  what_->setText(kind().what);
+  study_->setVisible(isStudy());
+  tabs_->setCurrentWidget(cases_);
+  if (isStudy()) return planStudy();
+  plan_ = std::make_unique<ReportPlan>(settingsName(kind().arguments, workbench_.project()), kind().parts);
+  const auto last_s =
+      plan_->measuredHere() ? std::nullopt : lastRun_s(base(), "palp " + runArguments(base()).join(' '));
+  if (last_s) plan_->setSeconds(*last_s); // its report lies in the list
+  cases_->show(*plan_);
+  state_->setText(tr("Takes about %1%2.")
+                      .arg(roughly(plan_->seconds()),
+                           plan_->measuredHere()
+                               ? tr(", as the last time on this machine")
+                               : tr(" on two cores with 100 samples an area; not yet run here with these settings")));
+}
+
+/// How much a study is; its time is known only roughly before.
+void ReportsPage::planStudy() {
+  std::vector<RunPart> parts{kind().parts};
+  try {
+    const StudyPlan study = study_->plan();
+    parts.front().seconds = studySeconds(study);
+    state_->setText(tr("%1 designs, about %2; better known after the first.")
+                        .arg(study.designs())
+                        .arg(roughly(parts.front().seconds)));
+    start_->setEnabled(true);
+  } catch (const Error&) {
+    state_->setText(tr("No study yet: what is in red above.")); // the form says it
+    start_->setEnabled(false);
+  }
+  plan_ = std::make_unique<ReportPlan>(kStudyKind, parts);
+  cases_->show(*plan_);
+}
+
+/// What stands above it is of its kind, where that is known.
+void ReportsPage::chooseKindOf(const QString& folder) {
+  const QString wanted = kindOfReport(folder);
+  QWidget* tab = tabs_->currentWidget();
+  for (std::size_t k = 0; k < reportKinds().size(); ++k)
+    if (runName(reportKinds()[k]) == wanted) kind_->setCurrentIndex(static_cast<int>(k));
+  tabs_->setCurrentWidget(tab);
+}
+
+} // namespace palp
