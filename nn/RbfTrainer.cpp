@@ -38,6 +38,12 @@ void warn(FitReport& report, const RbfOptions& options, const RbfSystem& system,
                               " samples: errors found in training say little about new samples");
 }
 
+/// What a reader may still do who trained with this.
+std::string remedy(bool noise, bool ridge) {
+  if (noise && ridge) return "another spread, more samples or ";
+  return noise ? "a ridge, or with " : ridge ? "noise, or with " : "noise or a ridge, or with ";
+}
+
 } // namespace
 
 RbfFit trainRbf(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen::Ref<const Eigen::MatrixXd>& targets,
@@ -82,10 +88,12 @@ RbfFit trainRbf(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen::R
       report.warnings.push_back("the leave-one-out error is " +
                                 std::to_string(std::lround(100 * std::min(left->score, 1e6))) +
                                 " % of the targets' deviation: at this spread and ridge the network says little about "
-                                "new samples; train with noise or a ridge, or with more inputs");
+                                "new samples; train with " +
+                                remedy(options.relativeInputNoise > 0, solution.ridge > 0) + "more inputs");
     if (left->indefinite && report.warnings.empty())
       report.warnings.push_back("the leave-one-out errors are those of a larger ridge: with this one the system is not "
-                                "definite to rounding, and the network may do worse on new samples; train with a "
+                                "definite to rounding, and the network may do worse on new samples; train with a " +
+                                std::string(solution.ridge > 0 ? "larger " : "") +
                                 "ridge, a smaller spread or a linear tail");
     report.leaveOneOutResiduals = std::move(left->residuals);
   }

@@ -331,7 +331,7 @@ QString fitWords(const NetworkSession& session, const NetworkSettings& now, cons
   const NetworkFit* fit = session.fit();
   if (fit == nullptr && session.openingResults()) return tr("The networks of the project are being opened.");
   if (fit == nullptr)
-    return session.samples() == nullptr ? tr("No network yet: generate samples, then train.")
+    return session.samples() == nullptr ? tr("No network yet: generate samples, or open a file of them, then train.")
                                         : tr("No network yet: train one on the samples.");
   QString name = fit->file.isEmpty() ? tr("Trained here") : tr("Opened: %1").arg(QFileInfo(fit->file).fileName());
   if (!fit->name.isEmpty()) name = "\"" + fit->name + "\": " + name;

@@ -321,9 +321,9 @@ void NetworkPanel::takeLiveSettings() {
   read(tr("Set the network for a board"));
 }
 
-/// What was taken, also as others write it.
 void NetworkPanel::showNoise() {
-  noiseWords_->say(tr("taken: %1; test: %2").arg(percentWords(network_.noise), percentWords(network_.testNoise)));
+  const auto noiseIn = [](double share) { return share > 0 ? percentWords(share) : tr("no noise"); };
+  noiseWords_->say(tr("trained with: %1; tested with: %2").arg(noiseIn(network_.noise), noiseIn(network_.testNoise)));
 }
 
 void NetworkPanel::showSpread() {
@@ -352,7 +352,7 @@ void NetworkPanel::displaySamples(bool there, const QString& words, bool goOn) {
        {compare_, tr("Trains every kind of decoder on the same samples: error and time on the same axes")}}};
   for (const auto& [button, tip] : buttons) {
     button->setEnabled(there);
-    button->setToolTip(there ? tip : tr("Generate samples first"));
+    button->setToolTip(there ? tip : tr("Generate or open samples first"));
   }
 }
 
