@@ -131,15 +131,15 @@ void AdvancedOptions::showMode(const NetworkSettings& network) {
   const RbfOptions mode = rbfOptions(unset.trainOptions(), 0);
   const bool rbf = network.decoder == DecoderKind::Rbf;
   const auto say = [rbf](QComboBox& box, const std::string& value) {
-    box.setItemText(0, rbf ? tr("as the mode says: %1").arg(QString::fromStdString(value)) : tr("as the mode says"));
+    box.setItemText(0, rbf ? tr("mode: %1").arg(QString::fromStdString(value)) : tr("as the mode says"));
   };
   say(*solver_, name(mode.method));
   say(*scaler_, name(mode.scaling));
   say(*tail_, kTails.name(mode.tail));
   say(*convention_, name(mode.convention));
   ridge_->setPlaceholderText(!rbf                ? tr("as the mode says")
-                             : network.noise > 0 ? tr("as the mode says: by leave-one-out")
-                                                 : tr("as the mode says: 0"));
+                             : network.noise > 0 ? tr("mode: leave-one-out")
+                                                 : tr("mode: 0"));
 }
 
 /// DecoderTraining.cpp and TwoStep.cpp: which options each decoder takes.

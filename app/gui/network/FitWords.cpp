@@ -252,7 +252,7 @@ namespace {
 
 /// A cell of the table of errors, which stands at the right.
 QString cell(const QString& text) {
-  return "<td align=\"right\">&nbsp;&nbsp;" + text + "</td>";
+  return "<td align=\"right\" style=\"padding-left: 14px\">" + text + "</td>";
 }
 
 /// A column of three numbers below its head.

@@ -40,7 +40,7 @@ ChartSpec errorAgainstTime() {
   ChartSpec spec;
   spec.title = "Error against training time";
   spec.xLabel = "training time [s]";
-  spec.yLabel = "mean of Fx, Fy, Fz, Eq. (13) [%]";
+  spec.yLabel = "mean, Eq. (13) [%]"; // of Fx, Fy and Fz; the chart is low
   spec.logX = spec.logY = true;
   return spec;
 }

@@ -81,13 +81,13 @@ TEST_F(NetworkPanel, OldNumbersAreGreyWithTheReasonAndNeverBold) {
 TEST_F(NetworkPanel, TheOptionsSayWhatTheModeSaysAndWhatDoesNotActIsGrey) {
   QTest::mouseClick(&find<QToolButton>("moreOptions"), Qt::LeftButton);
   const auto first = [&](const char* box) { return find<QComboBox>(box).itemText(0); };
-  EXPECT_EQ(first("scaler"), "as the mode says: global");
-  EXPECT_EQ(first("tail"), "as the mode says: linear");
+  EXPECT_EQ(first("scaler"), "mode: global");
+  EXPECT_EQ(first("tail"), "mode: linear");
   find<QDoubleSpinBox>("noise").setValue(0.01);
-  EXPECT_EQ(first("scaler"), "as the mode says: whiten");
+  EXPECT_EQ(first("scaler"), "mode: whiten");
   EXPECT_TRUE(find<QLineEdit>("ridge").placeholderText().contains("leave-one-out"));
   find<QComboBox>("mode").setCurrentIndex(1);
-  EXPECT_EQ(first("scaler"), "as the mode says: minmax");
+  EXPECT_EQ(first("scaler"), "mode: minmax");
   find<QComboBox>("decoder").setCurrentText("linear");
   EXPECT_FALSE(find<QComboBox>("scaler").isEnabled());
   EXPECT_FALSE(find<QDoubleSpinBox>("spread").isEnabled());
