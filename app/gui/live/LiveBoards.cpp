@@ -101,6 +101,7 @@ void LiveBoards::build() {
   }
   connect(away, &QPushButton::clicked, this, [this, page] { remove(page); });
   connect(page, &LivePage::anotherAsked, this, &LiveBoards::add);
+  connect(page, &LivePage::sceneAsked, this, &LiveBoards::sceneAsked);
   connect(page, &LivePage::looked, this, [this] {
     if (cells_.size() > 1 && isVisible()) displayTitles();
     emit looked();

@@ -194,6 +194,7 @@ void LivePage::connectPanels() {
   });
   connect(curves_, &LiveCurves::message, this, &LivePage::message);
   connect(calibration_, &LiveCalibration::message, this, &LivePage::message);
+  connect(banner_, &LiveBanner::networkOfRowsAsked, this, &LivePage::prepareNetwork);
   connect(twin_, &LiveTwin::solveAsked, this, &LivePage::solveTwin);
   connect(twin_, &LiveTwin::loadAsked, this, [this](const LoadCase& load) {
     Project next = workbench_.project();

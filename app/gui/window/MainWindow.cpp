@@ -100,6 +100,7 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
            new NetworkPage(workbench, network));
   live_ = new LiveBoards(workbench);
   connect(live_, &LiveBoards::message, this, &MainWindow::showMessage);
+  connect(live_, &LiveBoards::sceneAsked, this, &MainWindow::showScene);
   addScene("live", tr("Live"), tr("Boards, the simulated board or a recording, live"), live_);
   reports_ = new ReportsPage(workbench);
   addScene("reports", tr("Reports"), tr("The paper reproduced, and the reports"), reports_);

@@ -32,30 +32,6 @@ TEST_F(LiveOperator, DrawsNoCurveThroughTheTimeThatTheBoardWasOut) {
   }
 }
 
-TEST_F(LiveOperator, AWireThatIsBrokenStaysSoWhenTheSceneOrTheBoardComesBack) {
-  ASSERT_TRUE(waitForFrames());
-  type<QSpinBox>("openRow", "3");
-  type<QDoubleSpinBox>("warming", "40");
-  double since_s = 0;
-  const auto broken = [&] {
-    const LiveFrame* last = page.host().history().last();
-    return last != nullptr && last->frame.hostTime_s > since_s && last->faults.size() == 1 &&
-           last->faults[0] == "row-wire 3: open";
-  };
-  ASSERT_TRUE(wait(broken));
-  click("plug");
-  ASSERT_TRUE(waitForState(LiveState::Searching));
-  since_s = hostClock_s();
-  click("plug");
-  EXPECT_TRUE(wait(broken)) << "plugged in again";
-  page.hide();
-  ASSERT_TRUE(waitForState(LiveState::Paused));
-  since_s = hostClock_s();
-  page.show();
-  EXPECT_TRUE(wait(broken)) << "seen again";
-  ASSERT_TRUE(wait([&] { return page.host().status().temperature_degC.value_or(0) > 23.05; })) << "it warms up";
-}
-
 TEST_F(LiveOperator, SaysNothingAgainstTheUntouchedDemoAndDoubtsADriftingBoard) {
   ASSERT_TRUE(waitForArrow());
   ASSERT_TRUE(waitForFrames(150));
