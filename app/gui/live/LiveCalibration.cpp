@@ -12,6 +12,7 @@
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
+#include <QMessageBox>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QSpinBox>
@@ -267,7 +268,35 @@ void LiveCalibration::collect() {
     complain(tr("There is no network: it says of which design the frames are."));
     return;
   }
+  if (!mayCollect()) return;
   guarded([&] { frames_.begin(*host_.decoder(), host_.sensor(), known_->load(), count_->value()); });
+}
+
+/// Asks where what the network reads now can hardly be the label.
+bool LiveCalibration::mayCollect() {
+  const LiveFrame* last = host_.history().last();
+  const KnownTouch label = known_->load();
+  const std::string doubt =
+      last == nullptr ? std::string()
+                      : labelAgainstReading(label.load.force_N, last->forces, label.load.area, *host_.decoder());
+  if (doubt.empty()) return true;
+  QMessageBox question(
+      QMessageBox::Question, tr("Collect this load?"),
+      tr("Known load: %1 Collect a frame with this label all the same?").arg(QString::fromStdString(doubt)),
+      QMessageBox::Yes | QMessageBox::No, this);
+  question.setDefaultButton(QMessageBox::No);
+  QAbstractButton* put = nullptr;
+  if (host_.simulated()) {
+    question.setInformativeText(tr("The load of the simulated board is set on the left, at Touch by hand."));
+    put = question.addButton(tr("Put it on the simulated board"), QMessageBox::ActionRole);
+    put->setObjectName("putSimulatedLoad");
+  }
+  const int answer = question.exec();
+  if (put != nullptr && question.clickedButton() == put) {
+    emit simulatedLoadAsked(label);
+    emit message(tr("The simulated board bears the load of the label now: collect it."));
+  }
+  return answer == QMessageBox::Yes;
 }
 
 void LiveCalibration::take() {
@@ -340,6 +369,7 @@ void LiveCalibration::displayFit() {
            "three weights that are suggested, on each area (a push is negative in z); "
            "at least %1 of them, over the whole force range: a load may be put on again. Then fit. ")
             .arg(kFewestCalibrationFrames) +
+        (host_.simulated() ? tr("The simulated board bears what is set on the left, at Touch by hand. ") : QString()) +
         (count < kFewestCalibrationFrames ? tr("%1 of %2 so far.").arg(count).arg(kFewestCalibrationFrames)
                                           : tr("%1 so far: enough to fit.").arg(count)));
     return;
