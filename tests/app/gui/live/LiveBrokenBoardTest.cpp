@@ -2,6 +2,7 @@
 
 #include "tests/app/gui/live/LiveOperatorFixture.h"
 
+#include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QSignalSpy>
 #include <QSpinBox>
@@ -52,6 +53,17 @@ TEST_F(LiveBrokenBoard, ABrokenWireLeadsToANetworkThatDoesWithoutIt) {
   type<QSpinBox>("openColumn", "7"); // no network does without a column-wire
   EXPECT_TRUE(wait([&] { return banner().contains("mend the wire"); })) << banner().toStdString();
   EXPECT_TRUE(find<QPushButton>("otherRows").isHidden());
+}
+
+TEST_F(LiveBrokenBoard, TheRowWiresThatMayBeScannedAloneAreThoseOfTheBoard) {
+  ASSERT_TRUE(waitForFrames());
+  auto& rows = find<QComboBox>("rows");
+  ASSERT_TRUE(wait([&] { return rows.count() == 11; })) << rows.count();
+  EXPECT_EQ(rows.itemText(10), "row-wire 9 alone");
+  rows.setFocus();
+  QTest::keyClick(&rows, Qt::Key_End);
+  EXPECT_EQ(workbench.project().live.row, 9);
+  EXPECT_EQ(rows.currentText(), "row-wire 9 alone");
 }
 
 } // namespace
