@@ -151,8 +151,7 @@ QWidget* LiveCalibration::buildFrames() {
   table_->setToolTip(tr("The known loads, and beside them what the network in use said of the frames, their mean [N]"));
   table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
-  column->addWidget(table_, 1);
-  auto* row = new QGridLayout; // two in a line, for narrow windows
+  auto* row = new QGridLayout; // two in a line, for narrow windows; above, where a low window does not cut them
   auto* load = button(tr("Load..."), "loadFrames", tr("Adds the labelled frames of a file (CSV)"));
   saveFrames_ = button(tr("Save..."), "saveFrames", tr("Keeps the labelled frames in a file (CSV)"));
   remove_ = button(tr("Remove"), "removeFrame", tr("Takes the selected frame away"));
@@ -160,6 +159,7 @@ QWidget* LiveCalibration::buildFrames() {
   row->addWidget(saveFrames_, 0, 1);
   row->addWidget(remove_, 1, 0, 1, 2);
   column->addLayout(row);
+  column->addWidget(table_, 1);
   connect(load, &QPushButton::clicked, this, [this] {
     const QString file = askFileToOpen(this, tr("Labelled frames"), tr("Samples (*.csv *.h5 *.hdf5 *.npz)"));
     if (!file.isEmpty()) this->load(file.toStdString());
@@ -188,8 +188,7 @@ QWidget* LiveCalibration::buildFit() {
   report_->setWordWrap(true);
   report_->setAlignment(Qt::AlignTop);
   report_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  column->addWidget(report_, 1);
-  auto* row = new QGridLayout; // two in a line, for narrow windows
+  auto* row = new QGridLayout; // two in a line, for narrow windows; above, where a low window does not cut them
   fit_ = button(tr("Fit"), "fitCalibration",
                 tr("Gains and offset of the network's forces by recursive least squares, judged on frames left out"));
   use_ = button(tr("Use"), "useCalibration", tr("Decodes with the refined network from now on"));
@@ -198,6 +197,7 @@ QWidget* LiveCalibration::buildFit() {
   for (const auto& [push, place] : {std::pair{fit_, 0}, {use_, 1}, {saveNetwork_, 2}, {back_, 3}})
     row->addWidget(push, place / 2, place % 2);
   column->addLayout(row);
+  column->addWidget(report_, 1);
   connect(fit_, &QPushButton::clicked, this, &LiveCalibration::fit);
   connect(use_, &QPushButton::clicked, this, &LiveCalibration::use);
   connect(back_, &QPushButton::clicked, this, [this] {
@@ -238,6 +238,9 @@ void LiveCalibration::use() {
 void LiveCalibration::displayState() {
   const QString& before = host_.networkBefore();
   back_->setEnabled(!before.isEmpty());
+  back_->setToolTip(before.isEmpty()
+                        ? tr("Decodes with the network before again; there is none: Use was not pressed yet")
+                        : tr("Decodes with %1 again").arg(before));
   back_->setText(before.isEmpty() ? tr("Back") : tr("Back to %1").arg(before.section(',', 0, 0)));
   const LiveFrame* last = host_.history().last();
   const bool reads = last != nullptr && last->forces.valid && last->forces.forces_N.cols() > 0;

@@ -272,8 +272,9 @@ void LivePage::change(const QString& what, const std::function<void(LiveSettings
 /// What was chosen cannot be used: the network in use stays, and the settings name it again.
 void LivePage::refuseNetwork(const QString& sentence) {
   if (host_.decoder()) change(tr("network"), [&](LiveSettings& settings) { settings.network = host_.networkFile(); });
-  control_->displayNetworkProblem(sentence);
-  emit message(sentence);
+  const QString words = host_.decoder() ? tr("%1. %2 stays in use.").arg(sentence, host_.networkName()) : sentence;
+  control_->displayNetworkProblem(words);
+  emit message(words);
 }
 
 void LivePage::edit(const QString& what, const LiveSettings& settings) {

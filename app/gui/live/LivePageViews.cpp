@@ -83,7 +83,7 @@ void LivePage::setTheme(Theme theme) {
 void LivePage::drawState() {
   const LiveStatus& status = host_.status();
   const bool simulated = host_.simulated();
-  counters_->display(status, host_.history().last(), simulated, host_.replaying());
+  counters_->display(status, host_.history().last(), simulated, host_.replaying(), host_.loading());
   std::vector<LiveSourceState::Board> boards;
   for (const HidBoard& board : host_.boards()) boards.push_back({board, host_.free(board)});
   const int rowWires = status.info ? status.info->rowWires : host_.sensor().rowWires();

@@ -150,6 +150,19 @@ TEST_F(LiveCalibrating, AsksWhereTheLabelIsClearlyNotWhatPresses) {
   EXPECT_EQ(calibration().frames().samples().size(), 1);
 }
 
+TEST_F(LiveCalibrating, NoButtonIsCutAtTheUsualSizeAndBackSaysWhyItIsGrey) {
+  page.resize(1360, 850); // in a window of 1500 x 940
+  page.findChild<QTabWidget*>("curveTabs")->setCurrentIndex(1);
+  ASSERT_TRUE(waitForFrames());
+  for (const char* name : {"loadFrames", "saveFrames", "removeFrame", "fitCalibration", "useCalibration",
+                           "saveCalibration", "backFromCalibration"}) {
+    auto& button = find<QPushButton>(name);
+    EXPECT_TRUE(wait([&] { return button.visibleRegion().boundingRect() == button.rect(); })) << name;
+  }
+  EXPECT_FALSE(find<QPushButton>("backFromCalibration").isEnabled());
+  EXPECT_TRUE(find<QPushButton>("backFromCalibration").toolTip().contains("there is none"));
+}
+
 TEST_F(LiveCalibrating, RefusesALoadThatMovesInsideAMean) {
   ASSERT_TRUE(waitForArrow());
   page.findChild<QTabWidget*>("curveTabs")->setCurrentIndex(1);
@@ -197,7 +210,8 @@ TEST_F(LiveCalibrating, ARecordingIsNamedWhereANetworkIsWanted) {
   ASSERT_TRUE(records(file, 5));
   use([&](LiveSettings& live) { live.network = file.toStdString(); });
   ASSERT_TRUE(isRed("networkProblem"));
-  EXPECT_TRUE(find<QLabel>("networkProblem").text().endsWith("touch.palprec: is a recording, not a network"))
+  EXPECT_TRUE(
+      find<QLabel>("networkProblem").text().contains("touch.palprec: is a recording, not a network. Palp's own stays"))
       << find<QLabel>("networkProblem").text().toStdString();
 }
 
