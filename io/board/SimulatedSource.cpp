@@ -20,15 +20,15 @@ void SimulationControl::set(const BoardFaults& faults, const BoardDisturbance& d
   const std::lock_guard lock(mutex_);
   faults_ = faults;
   disturbance_ = disturbance;
-  changed_ = true;
+  ++state_;
 }
 
-void SimulationControl::applyTo(VirtualBoard& board) {
-  if (!changed_) return;
+std::uint64_t SimulationControl::applyTo(VirtualBoard& board, std::uint64_t applied) {
+  if (state_ == applied) return applied;
   const std::lock_guard lock(mutex_);
   board.faults() = faults_;
   board.disturbance() = disturbance_;
-  changed_ = false;
+  return state_;
 }
 
 SimulatedSource::SimulatedSource(VirtualBoard board, std::shared_ptr<SimulationControl> control)
@@ -41,7 +41,7 @@ std::string SimulatedSource::name() const {
 ReportSource::Outcome SimulatedSource::read(RawReport& report, std::chrono::milliseconds timeout) {
   const Clock::time_point end = Clock::now() + timeout;
   if (control_ && !control_->pluggedIn) return Outcome::Gone;
-  if (control_) control_->applyTo(board_);
+  if (control_) applied_ = control_->applyTo(board_, applied_);
   while (queue_.empty()) {
     const Clock::time_point now = Clock::now();
     board_.advance(microseconds(now), [&](std::span<const std::uint8_t> bytes) {

@@ -15,12 +15,13 @@ public:
   std::atomic<bool> pluggedIn{true};
 
   void set(const BoardFaults& faults, const BoardDisturbance& disturbance);
-  /// Takes what was set since the last call; in the source's thread.
-  void applyTo(VirtualBoard& board);
+  /// Gives a board what was set, where that is another state than the one it has; 0: it has none yet, as one that has
+  /// just been opened. Returns the state that it has now. In the source's thread.
+  std::uint64_t applyTo(VirtualBoard& board, std::uint64_t applied);
 
 private:
   std::mutex mutex_;
-  std::atomic<bool> changed_{false};
+  std::atomic<std::uint64_t> state_{0}; ///< how often something was set
   BoardFaults faults_;
   BoardDisturbance disturbance_;
 };
@@ -43,6 +44,7 @@ public:
 private:
   VirtualBoard board_;
   std::shared_ptr<SimulationControl> control_; ///< null: nobody interferes
+  std::uint64_t applied_ = 0;                  ///< state of the control that this board has
   std::deque<RawReport> queue_;
 };
 

@@ -119,6 +119,7 @@ bool Document::mayLeave(const QStringList& ends) {
   };
   QMessageBox question(QMessageBox::Question, tr("Save the project?"), (QStringList(what()) + ends).join("\n\n"),
                        QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, &window_);
+  question.setInformativeText(tr("Save writes the changes to the project's file, Discard throws them away."));
   question.setObjectName("unsaved");
   question.setDefaultButton(QMessageBox::Save);
   const int answer = question.exec();

@@ -15,6 +15,29 @@ namespace {
 
 constexpr qsizetype kMostFaults = 4;
 
+/// What an operator can do about broken wires that leave the network in use without readings.
+struct WayOnward {
+  QString words;
+  QString rows; ///< that a network could read instead; empty: none
+};
+
+WayOnward wayOnward(const LiveHost& host, const LiveFrame& frame) {
+  if (frame.faults.empty() || frame.forces.valid || !host.decoder() || !frame.frame.complete) return {};
+  const auto rows = static_cast<int>(frame.frame.rowExpected.size());
+  QStringList whole, broken;
+  for (int row = 0; row < rows; ++row) {
+    if (!frame.frame.rowExpected[static_cast<std::size_t>(row)]) return {}; // one row-wire alone is scanned
+    (frame.frame.rowGood(row) ? whole : broken) << QString::number(row);
+  }
+  if (whole.isEmpty()) return {QObject::tr("No row-wire is whole: mend the wire; forces come back by themselves."), {}};
+  if (host.replaying())
+    return {QObject::tr("A network that does without row-wire %1 gives forces here.").arg(broken.join(", ")), {}};
+  return {QObject::tr("Forces come back when it is mended, or with a network that does without row-wire %1: "
+                      "Network, Row-wires %2.")
+              .arg(broken.join(", "), whole.join(',')),
+          whole.join(',')};
+}
+
 QString wordsOf(const LiveHost& host, const QString& alarm) {
   const LiveStatus& status = host.status();
   const QString reason = QString::fromStdString(status.reason);
@@ -40,7 +63,8 @@ QString wordsOf(const LiveHost& host, const QString& alarm) {
   for (const std::string& fault : last->faults) faults << QString::fromStdString(fault);
   if (faults.size() > kMostFaults)
     faults = faults.mid(0, kMostFaults) << QObject::tr("%1 more").arg(faults.size() - kMostFaults);
-  return faults.join("; ");
+  const QString way = wayOnward(host, *last).words;
+  return way.isEmpty() ? faults.join("; ") : faults.join("; ") + ". " + way;
 }
 
 } // namespace
@@ -56,12 +80,19 @@ LiveBanner::LiveBanner(QWidget* parent) : QWidget(parent) {
   copyRemedy_ = new QPushButton(tr("Copy the command"));
   copyRemedy_->setObjectName("copyRemedy");
   copyRemedy_->setToolTip(tr("Copies the command that installs the udev rule"));
+  otherRows_ = new QPushButton(tr("Train without it..."));
+  otherRows_->setObjectName("otherRows");
+  otherRows_->setToolTip(tr("Leads to the Network scene, with input and row-wires set for a network that reads the "
+                            "whole row-wires alone; generate samples there, train, save it, and open it in Live"));
   row->addWidget(words_, 1);
+  row->addWidget(otherRows_);
   row->addWidget(copyRemedy_);
   connect(copyRemedy_, &QPushButton::clicked, this, [] {
     const QString remedy = QString::fromStdString(permissionRemedy());
     QApplication::clipboard()->setText(remedy.section(": ", 1).section(" (", 0, 0));
   });
+  connect(otherRows_, &QPushButton::clicked, this,
+          [this] { emit networkOfRowsAsked(otherRows_->property("rows").toString()); });
   keepRoom(*this);
   hide();
 }
@@ -77,6 +108,10 @@ void LiveBanner::display(const LiveHost& host, const QString& alarm) {
     words_->style()->polish(words_);
   }
   copyRemedy_->setVisible(host.status().state == LiveState::Refused && words.contains("permission"));
+  const LiveFrame* last = host.history().last();
+  const QString rows = last != nullptr && words.contains("Row-wires") ? wayOnward(host, *last).rows : QString();
+  otherRows_->setProperty("rows", rows);
+  otherRows_->setVisible(!rows.isEmpty());
   setVisible(!words.isEmpty());
 }
 

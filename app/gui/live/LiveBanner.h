@@ -18,9 +18,14 @@ public:
 
   void display(const LiveHost& host, const QString& alarm);
 
+signals:
+  /// A network of these row-wires, the whole ones, is wanted: "0,1,2,4".
+  void networkOfRowsAsked(const QString& rows);
+
 private:
   QLabel* words_ = nullptr;
   QPushButton* copyRemedy_ = nullptr;
+  QPushButton* otherRows_ = nullptr;
 };
 
 } // namespace palp

@@ -87,7 +87,7 @@ void LiveBoards::build() {
   column->addWidget(cell.page, 1);
   LivePage* page = cell.page;
   for (auto* panel : cell.page->findChildren<SidePanel*>()) {
-    connect(panelShown, &QPushButton::clicked, panel, [panel](bool shown) { panel->setFolded(!shown); });
+    connect(panelShown, &QPushButton::clicked, panel, [panel](bool shown) { panel->setFoldedForNow(!shown); });
     // One whose panel is opened gets the room for it: its views stay in sight.
     connect(panel, &SidePanel::foldedNow, this, [this, page](bool folded) {
       const auto boards = static_cast<int>(cells_.size());
@@ -101,6 +101,7 @@ void LiveBoards::build() {
   }
   connect(away, &QPushButton::clicked, this, [this, page] { remove(page); });
   connect(page, &LivePage::anotherAsked, this, &LiveBoards::add);
+  connect(page, &LivePage::sceneAsked, this, &LiveBoards::sceneAsked);
   connect(page, &LivePage::looked, this, [this] {
     if (cells_.size() > 1 && isVisible()) displayTitles();
     emit looked();
@@ -172,7 +173,7 @@ void LiveBoards::add() {
   // Where it is narrow the views of all count more than a panel, which a button over each board brings back.
   const bool narrow = width() < kBoardWithPanel_px * static_cast<int>(cells_.size());
   for (const Cell& cell : cells_)
-    for (auto* panel : cell.box->findChildren<SidePanel*>()) panel->setFolded(narrow);
+    for (auto* panel : cell.box->findChildren<SidePanel*>()) panel->setFoldedForNow(narrow);
   cells_.back().page->setFocus();
 }
 
@@ -194,7 +195,7 @@ void LiveBoards::remove(LivePage* page) {
   for (std::size_t k = 0; k < cells_.size(); ++k) cells_[k].page->setBoard(k);
   workbench_.edit(tr("board taken away"), next);
   if (cells_.size() == 1)
-    for (auto* panel : cells_[0].box->findChildren<SidePanel*>()) panel->setFolded(false);
+    for (auto* panel : cells_[0].box->findChildren<SidePanel*>()) panel->setFoldedForNow(panel->foldedByHand());
   arrange();
 }
 

@@ -37,6 +37,7 @@ public:
 
 signals:
   void message(const QString& sentence);
+  void sceneAsked(const QString& name);
   /// lamps() may say something else.
   void looked();
   /// A board came or went: runners() says something else.

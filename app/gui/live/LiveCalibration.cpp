@@ -12,6 +12,7 @@
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
+#include <QMessageBox>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QSpinBox>
@@ -150,8 +151,7 @@ QWidget* LiveCalibration::buildFrames() {
   table_->setToolTip(tr("The known loads, and beside them what the network in use said of the frames, their mean [N]"));
   table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
-  column->addWidget(table_, 1);
-  auto* row = new QGridLayout; // two in a line, for narrow windows
+  auto* row = new QGridLayout; // two in a line, for narrow windows; above, where a low window does not cut them
   auto* load = button(tr("Load..."), "loadFrames", tr("Adds the labelled frames of a file (CSV)"));
   saveFrames_ = button(tr("Save..."), "saveFrames", tr("Keeps the labelled frames in a file (CSV)"));
   remove_ = button(tr("Remove"), "removeFrame", tr("Takes the selected frame away"));
@@ -159,6 +159,7 @@ QWidget* LiveCalibration::buildFrames() {
   row->addWidget(saveFrames_, 0, 1);
   row->addWidget(remove_, 1, 0, 1, 2);
   column->addLayout(row);
+  column->addWidget(table_, 1);
   connect(load, &QPushButton::clicked, this, [this] {
     const QString file = askFileToOpen(this, tr("Labelled frames"), tr("Samples (*.csv *.h5 *.hdf5 *.npz)"));
     if (!file.isEmpty()) this->load(file.toStdString());
@@ -187,8 +188,7 @@ QWidget* LiveCalibration::buildFit() {
   report_->setWordWrap(true);
   report_->setAlignment(Qt::AlignTop);
   report_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  column->addWidget(report_, 1);
-  auto* row = new QGridLayout; // two in a line, for narrow windows
+  auto* row = new QGridLayout; // two in a line, for narrow windows; above, where a low window does not cut them
   fit_ = button(tr("Fit"), "fitCalibration",
                 tr("Gains and offset of the network's forces by recursive least squares, judged on frames left out"));
   use_ = button(tr("Use"), "useCalibration", tr("Decodes with the refined network from now on"));
@@ -197,6 +197,7 @@ QWidget* LiveCalibration::buildFit() {
   for (const auto& [push, place] : {std::pair{fit_, 0}, {use_, 1}, {saveNetwork_, 2}, {back_, 3}})
     row->addWidget(push, place / 2, place % 2);
   column->addLayout(row);
+  column->addWidget(report_, 1);
   connect(fit_, &QPushButton::clicked, this, &LiveCalibration::fit);
   connect(use_, &QPushButton::clicked, this, &LiveCalibration::use);
   connect(back_, &QPushButton::clicked, this, [this] {
@@ -237,6 +238,9 @@ void LiveCalibration::use() {
 void LiveCalibration::displayState() {
   const QString& before = host_.networkBefore();
   back_->setEnabled(!before.isEmpty());
+  back_->setToolTip(before.isEmpty()
+                        ? tr("Decodes with the network before again; there is none: Use was not pressed yet")
+                        : tr("Decodes with %1 again").arg(before));
   back_->setText(before.isEmpty() ? tr("Back") : tr("Back to %1").arg(before.section(',', 0, 0)));
   const LiveFrame* last = host_.history().last();
   const bool reads = last != nullptr && last->forces.valid && last->forces.forces_N.cols() > 0;
@@ -267,7 +271,35 @@ void LiveCalibration::collect() {
     complain(tr("There is no network: it says of which design the frames are."));
     return;
   }
+  if (!mayCollect()) return;
   guarded([&] { frames_.begin(*host_.decoder(), host_.sensor(), known_->load(), count_->value()); });
+}
+
+/// Asks where what the network reads now can hardly be the label.
+bool LiveCalibration::mayCollect() {
+  const LiveFrame* last = host_.history().last();
+  const KnownTouch label = known_->load();
+  const std::string doubt =
+      last == nullptr ? std::string()
+                      : labelAgainstReading(label.load.force_N, last->forces, label.load.area, *host_.decoder());
+  if (doubt.empty()) return true;
+  QMessageBox question(
+      QMessageBox::Question, tr("Collect this load?"),
+      tr("Known load: %1 Collect a frame with this label all the same?").arg(QString::fromStdString(doubt)),
+      QMessageBox::Yes | QMessageBox::No, this);
+  question.setDefaultButton(QMessageBox::No);
+  QAbstractButton* put = nullptr;
+  if (host_.simulated()) {
+    question.setInformativeText(tr("The load of the simulated board is set on the left, at Touch by hand."));
+    put = question.addButton(tr("Put it on the simulated board"), QMessageBox::ActionRole);
+    put->setObjectName("putSimulatedLoad");
+  }
+  const int answer = question.exec();
+  if (put != nullptr && question.clickedButton() == put) {
+    emit simulatedLoadAsked(label);
+    emit message(tr("The simulated board bears the load of the label now: collect it."));
+  }
+  return answer == QMessageBox::Yes;
 }
 
 void LiveCalibration::take() {
@@ -340,6 +372,7 @@ void LiveCalibration::displayFit() {
            "three weights that are suggested, on each area (a push is negative in z); "
            "at least %1 of them, over the whole force range: a load may be put on again. Then fit. ")
             .arg(kFewestCalibrationFrames) +
+        (host_.simulated() ? tr("The simulated board bears what is set on the left, at Touch by hand. ") : QString()) +
         (count < kFewestCalibrationFrames ? tr("%1 of %2 so far.").arg(count).arg(kFewestCalibrationFrames)
                                           : tr("%1 so far: enough to fit.").arg(count)));
     return;

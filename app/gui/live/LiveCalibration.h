@@ -34,6 +34,8 @@ public:
 
 signals:
   void message(const QString& sentence);
+  /// The simulated board is to bear this load.
+  void simulatedLoadAsked(const palp::KnownTouch& load);
 
 private:
   QWidget* buildLabel();
@@ -41,6 +43,7 @@ private:
   QWidget* buildFit();
   void load(const std::filesystem::path& file);
   void collect();
+  [[nodiscard]] bool mayCollect();
   void displayFrames();
   void fit();
   void displayFit();

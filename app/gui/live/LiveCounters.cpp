@@ -115,17 +115,21 @@ void LiveCounters::set(const Tile& tile, const QString& value, const QString& un
   tile.value->style()->polish(tile.value);
 }
 
-void LiveCounters::displayTrust(const LiveStatus& status, const LiveFrame* last) {
+void LiveCounters::displayTrust(const LiveStatus& status, const LiveFrame* last, bool loading) {
   if (status.state != LiveState::Streaming && status.state != LiveState::Paused && status.state != LiveState::Ended)
     return set(trust_, tr("none"), tr("no readings now"));
-  if (last == nullptr || !last->forces.valid) return set(trust_, tr("none"), tr("no forces"));
+  if (last == nullptr) return set(trust_, tr("waits"), tr("for the first frame"));
+  if (!last->forces.valid && last->forces.reason.empty() && (loading || status.decoderProblem.empty()))
+    return set(trust_, tr("waits"), tr("the network is being read"));
+  if (!last->forces.valid) return set(trust_, tr("none"), tr("no forces"));
   const DecodedForces& forces = last->forces;
   const bool doubted = !forces.doubt.empty();
   const QString misfit = forces.misfit ? tr("misfit %1").arg(*forces.misfit, 0, 'g', 3) : tr("range of the readings");
   set(trust_, doubted ? tr("doubted") : tr("fits"), doubted ? QString::fromStdString(forces.doubt) : misfit, doubted);
 }
 
-void LiveCounters::display(const LiveStatus& status, const LiveFrame* last, bool simulated, bool replaying) {
+void LiveCounters::display(const LiveStatus& status, const LiveFrame* last, bool simulated, bool replaying,
+                           bool loading) {
   const bool alarm = status.state == LiveState::Refused || status.state == LiveState::Stalled ||
                      (status.state == LiveState::Searching && status.connections > 0);
   set(state_, stateTitle(status, simulated, replaying),
@@ -141,7 +145,7 @@ void LiveCounters::display(const LiveStatus& status, const LiveFrame* last, bool
       status.counts.frames == 0
           ? QString()
           : tr("here %1 / %2 of it").arg(milliseconds(status.decoding.p50_s), milliseconds(status.decoding.p99_s)));
-  displayTrust(status, last);
+  displayTrust(status, last, loading);
   const QString drift = status.drift ? tr("drift %1 ppm").arg(qRound64(1e6 * *status.drift)) : QString();
   const QString reads =
       status.tareSuggested ? tr(", reads as %1 N: tare").arg(status.driftForce_N, 0, 'g', 2) : QString();

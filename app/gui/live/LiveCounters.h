@@ -20,7 +20,7 @@ public:
   explicit LiveCounters(QWidget* parent = nullptr);
 
   /// `last` may be null.
-  void display(const LiveStatus& status, const LiveFrame* last, bool simulated, bool replaying);
+  void display(const LiveStatus& status, const LiveFrame* last, bool simulated, bool replaying, bool loading);
 
   /// That a tile needs for its usual words [px].
   [[nodiscard]] int tileWidth() const;
@@ -36,7 +36,7 @@ private:
   };
   Tile add(const QString& name, const QString& title, const QString& tip);
   void arrange(int columns);
-  void displayTrust(const LiveStatus& status, const LiveFrame* last);
+  void displayTrust(const LiveStatus& status, const LiveFrame* last, bool loading);
   static void set(const Tile& tile, const QString& value, const QString& unit, bool alarm = false);
 
   QGridLayout* grid_;

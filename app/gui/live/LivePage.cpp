@@ -42,6 +42,14 @@ constexpr double kMostHandForce_N = 100;  // that it takes
 constexpr int kStateEvery = 6;            // looks between two drawings of the counters, where the state is the same
 constexpr double kSnapshotPatience_s = 3; // for a source that gives nothing
 
+void holdLabel(SimulationSettings& simulation, const KnownTouch& load) {
+  simulation.held = true;
+  simulation.heldArea = load.load.area;
+  if (load.place_mm) simulation.heldPlace_mm = {load.place_mm->x(), load.place_mm->y()};
+  const Eigen::Vector3d& force_N = load.load.force_N;
+  simulation.heldForce_N = {force_N.x(), force_N.y(), force_N.z()};
+}
+
 } // namespace
 
 LivePage::LivePage(Workbench& workbench, BoardAccess access, std::size_t board)
@@ -194,6 +202,10 @@ void LivePage::connectPanels() {
   });
   connect(curves_, &LiveCurves::message, this, &LivePage::message);
   connect(calibration_, &LiveCalibration::message, this, &LivePage::message);
+  connect(calibration_, &LiveCalibration::simulatedLoadAsked, this, [this](const KnownTouch& load) {
+    change(tr("simulated touch"), [&](LiveSettings& settings) { holdLabel(settings.simulation, load); });
+  });
+  connect(banner_, &LiveBanner::networkOfRowsAsked, this, &LivePage::prepareNetwork);
   connect(twin_, &LiveTwin::solveAsked, this, &LivePage::solveTwin);
   connect(twin_, &LiveTwin::loadAsked, this, [this](const LoadCase& load) {
     Project next = workbench_.project();
@@ -260,8 +272,9 @@ void LivePage::change(const QString& what, const std::function<void(LiveSettings
 /// What was chosen cannot be used: the network in use stays, and the settings name it again.
 void LivePage::refuseNetwork(const QString& sentence) {
   if (host_.decoder()) change(tr("network"), [&](LiveSettings& settings) { settings.network = host_.networkFile(); });
-  control_->displayNetworkProblem(sentence);
-  emit message(sentence);
+  const QString words = host_.decoder() ? tr("%1. %2 stays in use.").arg(sentence, host_.networkName()) : sentence;
+  control_->displayNetworkProblem(words);
+  emit message(words);
 }
 
 void LivePage::edit(const QString& what, const LiveSettings& settings) {

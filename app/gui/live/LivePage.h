@@ -61,6 +61,7 @@ public:
 signals:
   void message(const QString& sentence);
   void anotherAsked();
+  void sceneAsked(const QString& name);
   /// After each look, seen or hidden.
   void looked();
 
@@ -97,6 +98,7 @@ private:
   bool mayEndRecording();
   void stopRecording();
   void solveTwin();
+  void prepareNetwork(const QString& rows);
   [[nodiscard]] const LiveSettings& settings() const { return workbench_.project().board(board_); }
 
   Workbench& workbench_;

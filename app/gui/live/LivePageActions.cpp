@@ -22,6 +22,7 @@ namespace {
 constexpr double kHeld_s = 0.5;  // a force that stays for so long is held
 constexpr double kSteady = 0.05; // of it, that it may move meanwhile
 constexpr std::size_t kLeastFrames = 3;
+constexpr double kLeastTrainedNoise = 5e-6; // of a good board
 
 /// The force that has rested on the sensor for half a second; null where there is none that could be true.
 const LiveFrame* heldTouch(const LiveHistory& history) {
@@ -123,6 +124,20 @@ void LivePage::solveTwin() {
   blockTabs_->setCurrentWidget(twin_);
   const bool own = sensor == workbench_.project().design;
   twin_->solve(sensor, load, own ? workbench_.project().mesh : MeshOptions{}, last->change);
+}
+
+/// The Network scene is left to generate, train and save; what it needs for such a board is set.
+void LivePage::prepareNetwork(const QString& rows) {
+  Project next = workbench_.project();
+  NetworkSettings& network = next.network;
+  network.input = InputKind::Resistance;
+  network.rows = rows.toStdString();
+  const double noise = std::max(settings().simulation.noise, kLeastTrainedNoise);
+  network.noise = std::max(network.noise, noise);
+  network.testNoise = std::max(network.testNoise, noise);
+  workbench_.edit(tr("row-wires that are whole"), next);
+  emit message(tr("The network is set to row-wires %1: train and save it here, then open it in Live.").arg(rows));
+  emit sceneAsked("network");
 }
 
 int LivePage::unsavedFrames() const {

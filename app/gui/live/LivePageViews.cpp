@@ -83,10 +83,15 @@ void LivePage::setTheme(Theme theme) {
 void LivePage::drawState() {
   const LiveStatus& status = host_.status();
   const bool simulated = host_.simulated();
-  counters_->display(status, host_.history().last(), simulated, host_.replaying());
+  counters_->display(status, host_.history().last(), simulated, host_.replaying(), host_.loading());
   std::vector<LiveSourceState::Board> boards;
   for (const HidBoard& board : host_.boards()) boards.push_back({board, host_.free(board)});
-  source_->displayState({status, std::move(boards), host_.replaying()});
+  const int rowWires = status.info ? status.info->rowWires : host_.sensor().rowWires();
+  const auto recordings = host_.recordingFile().empty()
+                              ? std::filesystem::path(host_.settings().recording).parent_path()
+                              : host_.recordingFile().parent_path();
+  source_->displayState(
+      {status, std::move(boards), host_.replaying(), rowWires, QString::fromStdString(recordings.string())});
   simulation_->setVisible(simulated);
   simulation_->displayState({host_.pluggedIn(), host_.simulatesOwnDesign(), host_.simulatedSensor().areas.count(),
                              host_.simulator().running()});

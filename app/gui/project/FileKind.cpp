@@ -42,10 +42,11 @@ void requireKind(const QString& file, FileKind wanted) {
                               QT_TRANSLATE_NOOP("FileKind", "a recording"), QT_TRANSLATE_NOOP("FileKind", "a study")};
   const FileKind kind = fileKind(file);
   if (kind == wanted || kind == FileKind::Project) return; // which may be broken JSON
-  const QString is = kind == FileKind::Foreign ? QObject::tr("no file of Palp's")
-                                               : QObject::tr(kWords.at(static_cast<std::size_t>(kind)));
+  const QString asked = QObject::tr(kWords.at(static_cast<std::size_t>(wanted)));
+  if (kind == FileKind::Foreign)
+    throw Error(QObject::tr("%1: is not %2, nor any other file of Palp").arg(file, asked).toStdString());
   throw Error(QObject::tr("%1: is %2, not %3")
-                  .arg(file, is, QObject::tr(kWords.at(static_cast<std::size_t>(wanted))))
+                  .arg(file, QObject::tr(kWords.at(static_cast<std::size_t>(kind))), asked)
                   .toStdString());
 }
 

@@ -36,7 +36,7 @@ void saveLayout(const QWidget& root) {
     if (!splitter->objectName().isEmpty()) settings.setValue(key(*splitter), splitter->saveState());
   for (const auto* tabs : root.findChildren<QTabWidget*>())
     if (!tabs->objectName().isEmpty()) settings.setValue(key(*tabs), tabs->currentIndex());
-  for (const auto* panel : root.findChildren<SidePanel*>()) settings.setValue(key(*panel), panel->folded());
+  for (const auto* panel : root.findChildren<SidePanel*>()) settings.setValue(key(*panel), panel->foldedByHand());
 }
 
 void restoreLayout(QWidget& root) {

@@ -100,6 +100,7 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
            new NetworkPage(workbench, network));
   live_ = new LiveBoards(workbench);
   connect(live_, &LiveBoards::message, this, &MainWindow::showMessage);
+  connect(live_, &LiveBoards::sceneAsked, this, &MainWindow::showScene);
   addScene("live", tr("Live"), tr("Boards, the simulated board or a recording, live"), live_);
   reports_ = new ReportsPage(workbench);
   addScene("reports", tr("Reports"), tr("The paper reproduced, and the reports"), reports_);
@@ -265,9 +266,13 @@ QStringList MainWindow::endedByQuitting() const {
   if (reports_->running()) ends << reports_->endsWords();
   const QString files = live_->recording();
   if (!files.isEmpty())
-    ends << tr("%1 is being recorded: quitting ends the recording; what has come is in the file.").arg(files);
+    ends << tr("%1 is being recorded: quitting ends the recording; what has come is in its file, and stays there "
+               "whatever is chosen here.")
+                .arg(files);
   if (const int frames = live_->unsavedFrames(); frames > 0)
-    ends << tr("Labelled frames of the calibration that are in no file: %1. Quitting loses them.").arg(frames);
+    ends << tr("Labelled frames of the calibration that are in no file: %1. Quitting loses them, a project does not "
+               "hold them: to keep them stay, and use Save... at Live, Calibration.")
+                .arg(frames);
   return ends;
 }
 

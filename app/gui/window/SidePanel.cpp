@@ -39,6 +39,11 @@ SidePanel::SidePanel(QWidget* content, int width_px)
 }
 
 void SidePanel::setFolded(bool folded) {
+  foldedByHand_ = folded;
+  setFoldedForNow(folded);
+}
+
+void SidePanel::setFoldedForNow(bool folded) {
   scroll_->setVisible(!folded);
   strip_->setArrowType(folded ? Qt::RightArrow : Qt::LeftArrow);
   strip_->setToolTip(folded ? tr("Shows the panel (F9)") : tr("Folds the panel away (F9)"));

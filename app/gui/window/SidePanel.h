@@ -15,8 +15,13 @@ class SidePanel : public QWidget {
 public:
   SidePanel(QWidget* content, int width_px);
 
+  /// By the user's hand: kept for the next start.
   void setFolded(bool folded);
+  /// Because of what else needs the room now.
+  void setFoldedForNow(bool folded);
   [[nodiscard]] bool folded() const;
+  /// As the user left it, whatever needed its room since.
+  [[nodiscard]] bool foldedByHand() const { return foldedByHand_; }
 
 signals:
   void foldedNow(bool folded);
@@ -30,6 +35,7 @@ private:
   QScrollArea* scroll_;
   QToolButton* strip_;
   int width_px_;
+  bool foldedByHand_ = false;
 };
 
 QWidget* sidePanel(QWidget* content, int width_px);

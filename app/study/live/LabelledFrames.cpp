@@ -3,12 +3,26 @@
 #include "io/SampleFile.h"
 #include "model/base/Error.h"
 
+#include <algorithm>
+#include <array>
+#include <cstdio>
 #include <limits>
 #include <utility>
 
 namespace palp {
 
 namespace {
+
+constexpr double kSeenDeviations = 5;      // a load within so many of them may hide in the noise
+constexpr double kLeastShare = 0.1;        // of the label, or of what is read: less than any gain would make of it
+constexpr double kMostOffset_range = 0.05; // that may stand at rest for calibration to take away
+
+std::string inNewton(const Eigen::Vector3d& force_N) {
+  std::array<char, 80> text{};
+  const Eigen::Array3d shown = force_N.array() + 0.0; // no -0
+  std::snprintf(text.data(), text.size(), "(%.2f, %.2f, %.2f) N", shown.x(), shown.y(), shown.z());
+  return text.data();
+}
 
 template <class Matrix> Matrix withoutColumn(const Matrix& all, Eigen::Index column) {
   Matrix rest(all.rows(), all.cols() - 1);
@@ -18,6 +32,23 @@ template <class Matrix> Matrix withoutColumn(const Matrix& all, Eigen::Index col
 }
 
 } // namespace
+
+std::string labelAgainstReading(const Eigen::Vector3d& label_N, const DecodedForces& reads, int area,
+                                const Decoder& decoder) {
+  if (!reads.valid || reads.forces_N.cols() == 0) return {};
+  const Eigen::Index column = std::min<Eigen::Index>(area, reads.forces_N.cols() - 1);
+  const Eigen::Vector3d read_N = reads.forces_N.col(column);
+  const double deviation_N = reads.standardDeviation_N.col(column).maxCoeff();
+  const double hidden_N = kSeenDeviations * deviation_N;
+  const double offset_N = kMostOffset_range * (decoder.high_N - decoder.low_N).maxCoeff();
+  if (label_N.norm() > hidden_N && read_N.norm() < std::max(hidden_N, kLeastShare * label_N.norm()))
+    return "the label says " + inNewton(label_N) + ", but the network reads " + inNewton(read_N) +
+           ", as at rest: is the load on the sensor?";
+  if (label_N.norm() < kLeastShare * read_N.norm() && read_N.norm() > std::max(hidden_N, offset_N))
+    return "the label says " + inNewton(label_N) + ", but the network reads " + inNewton(read_N) +
+           ": is the sensor at rest?";
+  return {};
+}
 
 void LabelledFrames::begin(const Decoder& decoder, const SensorDesign& design, const KnownTouch& label, int frames) {
   if (const auto wrong = whyInvalid(LoadCase{{label.load}, {}}, design)) throw Error("label: " + *wrong);

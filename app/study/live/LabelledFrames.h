@@ -7,6 +7,11 @@
 
 namespace palp {
 
+/// Why the label can hardly be the load on the sensor now, in words: it presses and the network reads rest, or the
+/// other way round; empty where both may be true. Gains and offsets that calibration is for are no reason.
+std::string labelAgainstReading(const Eigen::Vector3d& label_N, const DecodedForces& reads, int area,
+                                const Decoder& decoder);
+
 /// Labelled frames of a board as they are collected: each the mean of some frames under one known load.
 class LabelledFrames {
 public:

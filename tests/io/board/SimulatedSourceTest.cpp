@@ -38,5 +38,29 @@ TEST(SimulatedSource, CanBeConfigured) {
   EXPECT_EQ(source.configuration().generation, 1);
 }
 
+TEST(SimulatedSource, WhatIsBrokenIsSoOnEachBoardThatIsOpenedWithTheControl) {
+  const auto control = std::make_shared<SimulationControl>();
+  BoardFaults faults;
+  faults.openRows = {1};
+  faults.openColumns = {2};
+  faults.dropEvery = 7;
+  BoardDisturbance disturbance;
+  disturbance.noise = 1e-4;
+  disturbance.warming_degC = 3;
+  disturbance.hysteresisShare = 0.25;
+  control->set(faults, disturbance);
+  for (int opened = 0; opened < 3; ++opened) {
+    SimulatedSource source(boardWith(smallBoard()), control);
+    RawReport report;
+    ASSERT_EQ(source.read(report, kPatience), ReportSource::Outcome::Read);
+    EXPECT_EQ(source.board().faults().openRows, std::vector<int>{1}) << opened;
+    EXPECT_EQ(source.board().faults().openColumns, std::vector<int>{2}) << opened;
+    EXPECT_EQ(source.board().faults().dropEvery, 7) << opened;
+    EXPECT_EQ(source.board().disturbance().noise, 1e-4) << opened;
+    EXPECT_EQ(source.board().disturbance().warming_degC, 3) << opened;
+    EXPECT_EQ(source.board().disturbance().hysteresisShare, 0.25) << opened;
+  }
+}
+
 } // namespace
 } // namespace palp

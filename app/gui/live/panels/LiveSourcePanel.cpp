@@ -86,7 +86,6 @@ QWidget* LiveSourcePanel::buildScan() {
   rows_ = new QComboBox;
   rows_->setObjectName("rows");
   rows_->addItem(tr("all row-wires"));
-  for (int row = 0; row < 32; ++row) rows_->addItem(tr("row-wire %1 alone").arg(row));
   rows_->setToolTip(tr("One row-wire alone, as in the paper, is scanned ten times as often"));
   form->addRow(tr("Rate"), rate_);
   form->addRow(tr("Rows"), rows_);
@@ -115,7 +114,8 @@ void LiveSourcePanel::chooseDevice(int row) {
 }
 
 void LiveSourcePanel::chooseRecording() {
-  const QString file = askFileToOpen(this, tr("Open a recording"), tr("Recordings (*.palprec);;All files (*)"));
+  const QString file =
+      askFileToOpen(this, tr("Open a recording"), tr("Recordings (*.palprec);;All files (*)"), recordings_);
   if (file.isEmpty()) return;
   edit(tr("source"), [&](LiveSettings& settings) {
     settings.source = LiveSourceKind::Recording;
@@ -128,8 +128,16 @@ void LiveSourcePanel::display(const LiveSettings& settings) {
   listed_.clear(); // so that the line in use is the chosen one again
   const QSignalBlocker quietRate(rate_);
   rate_->setValue(settings.rate_Hz);
+  listRows(rows_->count() - 1);
+}
+
+/// Those that there are, and one that was chosen on another board.
+void LiveSourcePanel::listRows(int rowWires) {
   const QSignalBlocker quiet(rows_);
-  rows_->setCurrentIndex(settings.row + 1);
+  const int wanted = 1 + std::max(rowWires, settings_.row + 1);
+  while (rows_->count() > wanted) rows_->removeItem(rows_->count() - 1);
+  while (rows_->count() < wanted) rows_->addItem(tr("row-wire %1 alone").arg(rows_->count() - 1));
+  rows_->setCurrentIndex(settings_.row + 1);
 }
 
 /// Automatic, every board, the virtual one, the recording; the one in use with its state.
@@ -193,6 +201,8 @@ void LiveSourcePanel::setMoreAllowed(bool allowed) {
 
 void LiveSourcePanel::displayState(const LiveSourceState& state) {
   listDevices(state);
+  listRows(state.rowWires);
+  recordings_ = state.recordings;
   const LiveState now = state.status.state;
   again_->setEnabled(now == LiveState::Ended || now == LiveState::Refused);
   rate_->setEnabled(!state.replaying);

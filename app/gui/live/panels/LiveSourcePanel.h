@@ -23,6 +23,8 @@ struct LiveSourceState {
   };
   std::vector<Board> boards;
   bool replaying = false;
+  int rowWires = 0;   ///< of the board, or else of the design
+  QString recordings; ///< folder of the last recording; empty: none was made
 };
 
 /// Where the reports come from: boards with their state, the simulated one, a recording; and how a board scans.
@@ -49,10 +51,12 @@ private:
   void chooseDevice(int row);
   void listDevices(const LiveSourceState& state);
   void chooseRecording();
+  void listRows(int rowWires);
 
   LiveSettings settings_;
   QListWidget* devices_ = nullptr;
   QStringList listed_; ///< what stands in the list, so that it is filled only where that changed
+  QString recordings_; ///< folder where recordings are
   QPushButton* again_ = nullptr;
   QPushButton* another_ = nullptr;
   QSpinBox* rate_ = nullptr;

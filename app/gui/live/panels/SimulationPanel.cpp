@@ -199,8 +199,12 @@ void SimulationPanel::buildDisturbances(QFormLayout& form) {
 }
 
 void SimulationPanel::buildFaults(QFormLayout& form) {
-  openRow_ = wireBox("openRow", 31, tr("This row-wire is broken"));
-  openColumn_ = wireBox("openColumn", 254, tr("This column-wire is broken"));
+  openRow_ =
+      wireBox("openRow", 31,
+              tr("This row-wire is broken: a network that reads it gives no forces, one of the other row-wires does"));
+  openColumn_ =
+      wireBox("openColumn", 254,
+              tr("This column-wire is broken: every network reads it, so that there are no forces until it is mended"));
   dropEvery_ = new LossBox;
   dropEvery_->setObjectName("dropEvery");
   dropEvery_->setRange(0, 100000);

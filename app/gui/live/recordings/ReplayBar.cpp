@@ -101,7 +101,7 @@ void ReplayBar::buildTimeLine() {
   pause_ = new QPushButton(tr("Pause"));
   pause_->setObjectName("replayPause");
   pause_->setToolTip(tr("Pauses the recording, or goes on; from its start where it has ended (Space)"));
-  step_ = new QPushButton(tr("Frame on"));
+  step_ = new QPushButton(tr("Next frame"));
   step_->setObjectName("replayStep");
   step_->setToolTip(tr("Goes on by one frame and pauses (Period)"));
   back_ = new QPushButton(tr("Frame back"));

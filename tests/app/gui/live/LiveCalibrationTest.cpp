@@ -12,6 +12,7 @@
 #include <QTableWidget>
 
 #include <cmath>
+#include <functional>
 
 namespace palp {
 namespace {
@@ -21,6 +22,7 @@ protected:
   LiveCalibration& calibration() { return find<LiveCalibration>("calibration"); }
   /// Labelled frames of whatever is pressed now, with these forces in z.
   bool collect(int frames, double force_N) {
+    const Agreeing agreeing;
     page.findChild<QTabWidget*>("curveTabs")->setCurrentIndex(1);
     type<QSpinBox>("labelFrames", "1");
     for (int k = 0; k < frames; ++k) {
@@ -104,10 +106,68 @@ TEST_F(LiveCalibrating, SaysThatTheNetworkSeesTheLoadOnAnotherArea) {
   EXPECT_EQ(page.unsavedFrames(), 0);
 }
 
+TEST_F(LiveCalibrating, AsksWhereTheLabelIsClearlyNotWhatPresses) {
+  use([](LiveSettings& live) {
+    live.simulation.held = true;
+    live.simulation.heldForce_N = {0, 0, 0};
+  });
+  ASSERT_TRUE(waitForFrames(40));
+  page.findChild<QTabWidget*>("curveTabs")->setCurrentIndex(1);
+  EXPECT_TRUE(wait([&] { return find<QLabel>("calibrationReport").text().contains("Touch by hand"); }));
+  type<QSpinBox>("labelFrames", "3");
+  type<QSpinBox>("labelArea", "2");
+  type<QDoubleSpinBox>("labelMass", "500");
+  QString asked;
+  const auto answer = [&](const std::function<QAbstractButton*(QMessageBox&)>& chosen) {
+    auto* timer = new QTimer(&page);
+    QObject::connect(timer, &QTimer::timeout, timer, [&asked, timer, chosen] {
+      auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
+      if (box == nullptr) return;
+      timer->stop();
+      asked = box->text();
+      QTest::mouseClick(chosen(*box), Qt::LeftButton);
+    });
+    timer->start(20);
+  };
+  answer([](QMessageBox& box) { return box.button(QMessageBox::No); });
+  click("collect");
+  EXPECT_TRUE(asked.contains("(0.00, 0.00, -4.90) N") && asked.contains("as at rest")) << asked.toStdString();
+  EXPECT_FALSE(calibration().frames().collecting());
+  answer([](QMessageBox& box) { return box.findChild<QAbstractButton*>("putSimulatedLoad"); });
+  click("collect");
+  EXPECT_FALSE(calibration().frames().collecting());
+  EXPECT_EQ(workbench.project().live.simulation.heldArea, 2);
+  EXPECT_NEAR(workbench.project().live.simulation.heldForce_N[2], -4.903, 1e-3);
+  ASSERT_TRUE(wait([&] { return find<QLabel>("reads_Fz").text().toDouble() < -4; }));
+  ASSERT_TRUE(waitForFrames(3));
+  asked.clear();
+  click("collect"); // without a question
+  ASSERT_TRUE(wait([&] { return calibration().frames().samples().size() == 1; })) << asked.toStdString();
+  type<QDoubleSpinBox>("label_Fz", "0"); // the weight lies there still
+  answer([](QMessageBox& box) { return box.button(QMessageBox::No); });
+  click("collect");
+  EXPECT_TRUE(asked.contains("is the sensor at rest?")) << asked.toStdString();
+  EXPECT_EQ(calibration().frames().samples().size(), 1);
+}
+
+TEST_F(LiveCalibrating, NoButtonIsCutAtTheUsualSizeAndBackSaysWhyItIsGrey) {
+  page.resize(1360, 850); // in a window of 1500 x 940
+  page.findChild<QTabWidget*>("curveTabs")->setCurrentIndex(1);
+  ASSERT_TRUE(waitForFrames());
+  for (const char* name : {"loadFrames", "saveFrames", "removeFrame", "fitCalibration", "useCalibration",
+                           "saveCalibration", "backFromCalibration"}) {
+    auto& button = find<QPushButton>(name);
+    EXPECT_TRUE(wait([&] { return button.visibleRegion().boundingRect() == button.rect(); })) << name;
+  }
+  EXPECT_FALSE(find<QPushButton>("backFromCalibration").isEnabled());
+  EXPECT_TRUE(find<QPushButton>("backFromCalibration").toolTip().contains("there is none"));
+}
+
 TEST_F(LiveCalibrating, RefusesALoadThatMovesInsideAMean) {
   ASSERT_TRUE(waitForArrow());
   page.findChild<QTabWidget*>("curveTabs")->setCurrentIndex(1);
   type<QSpinBox>("labelFrames", "120"); // longer than a touch of the demo
+  const Agreeing agreeing;
   click("collect");
   ASSERT_TRUE(isRed("calibrationProblem"));
   EXPECT_TRUE(find<QLabel>("calibrationProblem").text().contains("moved")) << "nothing was said";
@@ -150,7 +210,8 @@ TEST_F(LiveCalibrating, ARecordingIsNamedWhereANetworkIsWanted) {
   ASSERT_TRUE(records(file, 5));
   use([&](LiveSettings& live) { live.network = file.toStdString(); });
   ASSERT_TRUE(isRed("networkProblem"));
-  EXPECT_TRUE(find<QLabel>("networkProblem").text().endsWith("touch.palprec: is a recording, not a network"))
+  EXPECT_TRUE(
+      find<QLabel>("networkProblem").text().contains("touch.palprec: is a recording, not a network. Palp's own stays"))
       << find<QLabel>("networkProblem").text().toStdString();
 }
 
@@ -192,6 +253,7 @@ TEST_F(LiveCalibrating, SuggestsThreeWeightsAndShowsWhatTheNetworkReadsBesideThe
     return ok && reads_N < 0;
   })) << "the demo presses";
   type<QSpinBox>("labelFrames", "1");
+  const Agreeing agreeing;
   click("collect");
   ASSERT_TRUE(wait([&] { return calibration().frames().samples().size() == 1; }));
   auto& table = find<QTableWidget>("labelledFrames");

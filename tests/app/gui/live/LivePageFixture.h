@@ -6,6 +6,7 @@
 
 #include <QLabel>
 #include <QLineEdit>
+#include <QMessageBox>
 #include <QPushButton>
 
 namespace palp {
@@ -14,6 +15,21 @@ namespace palp {
 inline BoardAccess noBoards() {
   return {[] { return std::vector<HidBoard>{}; }, [](const std::string&) { return nullptr; }};
 }
+
+/// Agrees to whatever is asked while it lives.
+class Agreeing {
+public:
+  Agreeing() {
+    QObject::connect(&timer_, &QTimer::timeout, &timer_, [] {
+      if (auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget()))
+        QTest::mouseClick(box->button(QMessageBox::Yes), Qt::LeftButton);
+    });
+    timer_.start(20);
+  }
+
+private:
+  QTimer timer_;
+};
 
 class Live : public testing::Test {
 protected:

@@ -205,6 +205,7 @@ TEST_F(Live, CollectsLabelledFramesAndRefinesTheNetwork) {
   ASSERT_TRUE(waitForArrow());
   page.findChild<QTabWidget*>("curveTabs")->setCurrentIndex(1);
   auto& calibration = *page.findChild<LiveCalibration*>("calibration");
+  const Agreeing agreeing; // the demo bears another load
   type<QSpinBox>("labelFrames", "1");
   for (int k = 0; k < 9; ++k) {
     type<QSpinBox>("labelArea", QString::number(k % 6));

@@ -162,6 +162,24 @@ TEST_F(LiveRecording, GoesOnInTheCurvesWhileAnotherSceneIsSeen) {
   for (std::size_t k = 1; k < entries.size(); ++k) EXPECT_FALSE(entries[k].gap) << k;
 }
 
+TEST_F(LiveRecording, IsLookedForWhereTheLastOneWasSaved) {
+  ASSERT_TRUE(waitForFrames());
+  ASSERT_TRUE(records(folder.filePath("touch.palprec"), 5));
+  QString begins;
+  QTimer look;
+  QObject::connect(&look, &QTimer::timeout, &look, [&] {
+    auto* dialog = qobject_cast<QFileDialog*>(QApplication::activeModalWidget());
+    if (dialog == nullptr) return;
+    begins = dialog->directory().canonicalPath();
+    dialog->reject();
+  });
+  look.start(20);
+  ASSERT_TRUE(waitForFrames(20)); // the panel has looked again
+  QApplication::setAttribute(Qt::AA_DontUseNativeDialogs);
+  click("openRecording");
+  EXPECT_EQ(begins, QDir(folder.path()).canonicalPath());
+}
+
 TEST_F(LiveRecording, SaysBeforehandThatTheNextOneGetsAnotherName) {
   ASSERT_TRUE(waitForFrames());
   const QString file = folder.filePath("touch.palprec");

@@ -124,6 +124,21 @@ TEST_F(WindowSize, PanelsFoldAwayByTheirStripAndByKeyAndStayFolded) {
   EXPECT_TRUE(QTest::qWaitFor([&] { return panel.width() > 300 && chart.width() < 900; }, kPatience_ms));
 }
 
+TEST_F(WindowSize, PanelsThatHadNoRoomBesideAnotherBoardAreThereAtTheNextStart) {
+  window.showScene("live");
+  ASSERT_TRUE(QTest::qWaitFor([&] { return find<QAbstractButton>("anotherBoard").isEnabled(); }, kPatience_ms));
+  QTest::mouseClick(&find<QAbstractButton>("anotherBoard"), Qt::LeftButton);
+  const auto panels = window.currentScene().findChildren<SidePanel*>();
+  ASSERT_EQ(panels.size(), 2);
+  EXPECT_TRUE(panels[0]->folded()) << "two boards in 1300";
+  saveLayout(window);
+  Workbench fresh{quickProject()};
+  NetworkSession none;
+  MainWindow second(fresh, none);
+  second.showScene("live");
+  EXPECT_FALSE(second.currentScene().findChild<SidePanel*>()->folded());
+}
+
 TEST_F(WindowSize, TextGrowsAndShrinksByKeysAndStaysSo) {
   auto& rail = find<QListWidget>("rail");
   const int width = rail.width();

@@ -256,6 +256,33 @@ TEST(ForceDecoder, BadWiresGiveAReasonAndNoForces) {
   });
 }
 
+TEST(ForceDecoder, ANetworkOfOtherRowWiresReadsABoardWithABrokenOne) {
+  TrainOptions options;
+  options.input = InputKind::Resistance;
+  options.rows = "0,1,2,4,5,6,7,8,9";
+  options.noise = kGood;
+  options.decoder = DecoderKind::MaximumLikelihood;
+  VirtualStream whole = streamWith(noisy(kGood)), broken = streamWith(noisy(kGood));
+  broken.board().faults().openRows = {3};
+  const Decoder without3 = trainDecoder(manySamples(30), nullptr, options);
+  ForceDecoder onWhole(without3, whole.board().info(), paperDesign());
+  ForceDecoder onBroken(without3, broken.board().info(), paperDesign());
+  ForceDecoder ofAll(decoderFor(kGood), broken.board().info(), paperDesign());
+  std::vector<Eigen::Vector3d> truth_N;
+  whole.run(60, [&](const BoardFrame& frame) { truth_N.push_back(onWhole.decode(frame).forces_N.col(0)); });
+  std::size_t k = 0;
+  double most_N = 0;
+  broken.run(60, [&](const BoardFrame& frame) {
+    EXPECT_EQ(ofAll.decode(frame).reason, "row-wire 3: open");
+    const DecodedForces forces = onBroken.decode(frame);
+    ASSERT_TRUE(forces.valid) << forces.reason;
+    most_N = std::max(most_N, forces.forces_N.norm());
+    // The same touch with other noise: within a few of its deviations.
+    EXPECT_LT((forces.forces_N.col(0) - truth_N.at(k++)).norm(), 0.05 + 6 * forces.standardDeviation_N.maxCoeff());
+  });
+  EXPECT_GT(most_N, 0.5) << "nothing pressed";
+}
+
 TEST(ForceDecoder, IncompleteFramesGiveAReasonAndNoForces) {
   VirtualStream stream = streamWith(noisy(kGood));
   stream.board().faults().dropEvery = 7;

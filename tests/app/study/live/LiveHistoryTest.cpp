@@ -236,6 +236,30 @@ TEST(LabelledFrames, RefuseALoadThatMovesAndKeepWhatTheNetworkSaid) {
   EXPECT_FALSE(frames.collecting());
 }
 
+TEST(LabelledFrames, SayWhenALabelCanHardlyBeTheLoad) {
+  Decoder decoder;
+  decoder.low_N = {-1, -1, -6};
+  decoder.high_N = {1, 1, 0};
+  DecodedForces reads;
+  reads.valid = true;
+  reads.standardDeviation_N = Eigen::Vector3d::Constant(0.01);
+  const auto said = [&](double label_N, double read_N) {
+    reads.forces_N = Eigen::Vector3d(0, 0, read_N);
+    return labelAgainstReading({0, 0, label_N}, reads, 0, decoder);
+  };
+  EXPECT_NE(said(-4.9, 0).find("as at rest"), std::string::npos);
+  EXPECT_NE(said(-4.9, -0.3).find("as at rest"), std::string::npos) << "a small share";
+  EXPECT_NE(said(0, -2).find("is the sensor at rest?"), std::string::npos);
+  EXPECT_EQ(said(-4.9, -2), "") << "a wrong gain is what calibration is for";
+  EXPECT_EQ(said(0, -0.2), "") << "so is an offset";
+  EXPECT_EQ(said(-0.04, 0), "") << "it hides in the noise";
+  EXPECT_EQ(said(0, 0), "");
+  reads.standardDeviation_N.setConstant(1);
+  EXPECT_EQ(said(-4.9, 0), "") << "noise hides every load";
+  reads.valid = false;
+  EXPECT_EQ(said(-4.9, 0), "");
+}
+
 TEST(LabelledFrames, CollectsUnderALoadAndTakesFramesAway) {
   const TemporaryFolder folder;
   const Decoder decoder = liveDecoder(5e-6);

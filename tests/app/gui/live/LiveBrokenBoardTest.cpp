@@ -1,0 +1,70 @@
+// What an operator is told about a board with broken wires, and that it stays broken.
+
+#include "tests/app/gui/live/LiveOperatorFixture.h"
+
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QSignalSpy>
+#include <QSpinBox>
+
+namespace palp {
+namespace {
+
+using LiveBrokenBoard = LiveOperator;
+
+TEST_F(LiveBrokenBoard, AWireThatIsBrokenStaysSoWhenTheSceneOrTheBoardComesBack) {
+  ASSERT_TRUE(waitForFrames());
+  type<QSpinBox>("openRow", "3");
+  type<QDoubleSpinBox>("warming", "40");
+  double since_s = 0;
+  const auto broken = [&] {
+    const LiveFrame* last = page.host().history().last();
+    return last != nullptr && last->frame.hostTime_s > since_s && last->faults.size() == 1 &&
+           last->faults[0] == "row-wire 3: open";
+  };
+  ASSERT_TRUE(wait(broken));
+  click("plug");
+  ASSERT_TRUE(waitForState(LiveState::Searching));
+  since_s = hostClock_s();
+  click("plug");
+  EXPECT_TRUE(wait(broken)) << "plugged in again";
+  page.hide();
+  ASSERT_TRUE(waitForState(LiveState::Paused));
+  since_s = hostClock_s();
+  page.show();
+  EXPECT_TRUE(wait(broken)) << "seen again";
+  ASSERT_TRUE(wait([&] { return page.host().status().temperature_degC.value_or(0) > 23.05; })) << "it warms up";
+}
+
+TEST_F(LiveBrokenBoard, ABrokenWireLeadsToANetworkThatDoesWithoutIt) {
+  ASSERT_TRUE(waitForFrames());
+  EXPECT_TRUE(find<QPushButton>("otherRows").isHidden());
+  type<QSpinBox>("openRow", "3");
+  ASSERT_TRUE(wait([&] { return find<QPushButton>("otherRows").isVisible(); })) << banner().toStdString();
+  EXPECT_TRUE(banner().startsWith("row-wire 3: open. ")) << banner().toStdString();
+  EXPECT_TRUE(banner().contains("Network, Row-wires 0,1,2,4,5,6,7,8,9")) << banner().toStdString();
+  QSignalSpy scenes(&page, &LivePage::sceneAsked);
+  click("otherRows");
+  ASSERT_EQ(scenes.size(), 1);
+  EXPECT_EQ(scenes[0][0].toString(), "network");
+  EXPECT_EQ(workbench.project().network.rows, "0,1,2,4,5,6,7,8,9");
+  EXPECT_EQ(workbench.project().network.input, InputKind::Resistance);
+  EXPECT_GE(workbench.project().network.noise, 5e-6);
+  type<QSpinBox>("openColumn", "7"); // no network does without a column-wire
+  EXPECT_TRUE(wait([&] { return banner().contains("mend the wire"); })) << banner().toStdString();
+  EXPECT_TRUE(find<QPushButton>("otherRows").isHidden());
+}
+
+TEST_F(LiveBrokenBoard, TheRowWiresThatMayBeScannedAloneAreThoseOfTheBoard) {
+  ASSERT_TRUE(waitForFrames());
+  auto& rows = find<QComboBox>("rows");
+  ASSERT_TRUE(wait([&] { return rows.count() == 11; })) << rows.count();
+  EXPECT_EQ(rows.itemText(10), "row-wire 9 alone");
+  rows.setFocus();
+  QTest::keyClick(&rows, Qt::Key_End);
+  EXPECT_EQ(workbench.project().live.row, 9);
+  EXPECT_EQ(rows.currentText(), "row-wire 9 alone");
+}
+
+} // namespace
+} // namespace palp
