@@ -1,0 +1,13 @@
+#pragma once
+
+#include "app/scenes/block/DeformationScene.h"
+#include "app/scenes/block/Overlay.h"
+
+namespace palp {
+
+/// The largest and the smallest of the values at their places, of what stays where the block is cut as it is drawn;
+/// none where the options ask for none.
+std::vector<PlacedText> extremeMarks(const std::vector<double>& values, const Eigen::Matrix3Xd& drawn_mm,
+                                     const DeformationOptions& options);
+
+} // namespace palp
