@@ -25,7 +25,8 @@ std::vector<PlacedText> extremeMarks(const std::vector<double>& values, const Ei
     if (low < 0 || value < values[static_cast<std::size_t>(low)]) low = k;
     if (high < 0 || value > values[static_cast<std::size_t>(high)]) high = k;
   }
-  if (low < 0) return {}; // all is cut away
+  if (low < 0) return {};                                                                         // all is cut away
+  if (values[static_cast<std::size_t>(low)] == values[static_cast<std::size_t>(high)]) return {}; // as at rest: nowhere
   std::vector<PlacedText> marks;
   const std::string unit = quantityUnit(options.quantity);
   const std::string of = options.cut ? "of what the cut leaves " : "";

@@ -6,7 +6,7 @@
 namespace palp {
 
 /// The largest and the smallest of the values at their places, of what stays where the block is cut as it is drawn;
-/// none where the options ask for none.
+/// none where the options ask for none, or where all are alike, as at rest.
 std::vector<PlacedText> extremeMarks(const std::vector<double>& values, const Eigen::Matrix3Xd& drawn_mm,
                                      const DeformationOptions& options);
 

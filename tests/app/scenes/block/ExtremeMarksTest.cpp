@@ -40,5 +40,13 @@ TEST(ExtremeMarks, AreThoseOfWhatTheCutLeaves) {
   EXPECT_TRUE(cut.marks().empty()) << "nothing stays";
 }
 
+TEST(ExtremeMarks, StandNowhereWhereAllValuesAreAlikeAsAtRest) {
+  Case rest;
+  rest.values.assign(4, 0);
+  EXPECT_TRUE(rest.marks().empty());
+  rest.values[2] = 1e-9;
+  EXPECT_EQ(rest.marks().size(), 2u);
+}
+
 } // namespace
 } // namespace palp
