@@ -257,7 +257,7 @@ void DeformationScene::show(const DeformationState& state, const DeformationOpti
     extremes.col(static_cast<Eigen::Index>(k)) = parts.marks[k].place_mm;
     parts.marks[k].place_mm.z() += 0.06 * state.design->block_mm.maxCoeff(); // the words beside their point
   }
-  parts.extremes.set(extremes, ink.selection);
+  parts.extremes.set(extremes, ink.text);
   parts.extremes.setVisible(!parts.marks.empty());
   parts.showCut(state.design->block_mm, options, ink.selection);
   parts.forceColor = ink.force;
@@ -314,6 +314,14 @@ std::array<double, 2> DeformationScene::colorRange() const {
 
 int DeformationScene::nearestNode(const Eigen::Vector3d& drawn_mm) const {
   return parts_->block.nearestNode(drawn_mm);
+}
+
+std::vector<PlacedText> DeformationScene::tips() const {
+  const Parts& parts = *parts_;
+  std::vector<PlacedText> all = parts.electrodes.lit();
+  if (parts.markedNode >= 0)
+    all.push_back({parts.block.drawnPlace_mm(parts.markedNode), "the point that was probed", parts.markColor});
+  return all;
 }
 
 const std::vector<PlacedForce>& DeformationScene::forces() const {

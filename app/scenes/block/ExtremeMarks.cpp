@@ -33,7 +33,7 @@ std::vector<PlacedText> extremeMarks(const std::vector<double>& values, const Ei
   for (const auto& [node, name] : {std::pair{high, "largest "}, std::pair{low, "smallest "}})
     marks.push_back({drawn_mm.col(node),
                      name + of + valueText(values[static_cast<std::size_t>(node)]) + (unit.empty() ? "" : " " + unit),
-                     palette(options.theme).selection});
+                     palette(options.theme).text});
   return marks;
 }
 

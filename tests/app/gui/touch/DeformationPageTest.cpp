@@ -242,7 +242,23 @@ TEST_F(DeformationPageTest, LightsTheElectrodesOfAClickedCell) {
   QTest::mouseClick(&heatmap, Qt::LeftButton, {}, place);
   EXPECT_EQ(heatmap.heatmap().selected, cell);
   settle();
-  EXPECT_NE(find<BlockView>("block").image(), before);
+  auto& block = find<BlockView>("block");
+  EXPECT_NE(block.image(), before);
+  const SensorDesign& design = workbench.project().design;
+  const int electrode = (*cell)[1] * design.electrodesPerColumnWire() + 1;
+  const QPointF ball = block.placeOf(design.lowerElectrodes_mm().col(electrode) +
+                                     block.warpFactor() * workbench.touch().electrodes()->lower_mm.col(electrode));
+  const auto words = QString("column-wire %1, electrode 1: of the chosen resistance").arg((*cell)[1]);
+  EXPECT_EQ(block.tipAt(ball), words) << "among balls that mark other things";
+  EXPECT_EQ(block.tipAt(QPointF(2, 2)), QString());
+  ViewSettings view = workbench.project().view;
+  view.cut = CutPlane{1, 29.9};
+  Project next = workbench.project();
+  next.view = view;
+  workbench.edit("cut", next);
+  settle();
+  static_cast<void>(block.image());
+  EXPECT_NE(block.tipAt(ball), words) << "it is cut away";
 }
 
 TEST_F(DeformationPageTest, ScrubsThroughTheLoadIncrementsDownToRest) {
