@@ -42,8 +42,21 @@ void TouchSession::setInputs(const SensorDesign& design, const LoadCase& load, c
   wanted_.setLoad(load, path);
   wanted_.setMeshOptions(mesh);
   ++revision_;
-  if (takeLaw()) return;
+  if (takeShown() || takeLaw()) return;
   if (need_ > Stage::Design) run();
+}
+
+bool TouchSession::takeShown() {
+  const bool same = wanted_.design() == shown_.design() && wanted_.load() == shown_.load() &&
+                    wanted_.meshOptions() == shown_.meshOptions() && wanted_.path() == shown_.path();
+  if (!same || shown_.mesh() == nullptr) return false;
+  runner_.cancel(); // it follows inputs that came between
+  scrubbing_.reset();
+  wanted_ = shown_;
+  shownRevision_ = revision_;
+  emit changed(false);
+  if (missing()) run();
+  return true;
 }
 
 bool TouchSession::takeLaw() {

@@ -85,6 +85,8 @@ signals:
 
 private:
   void run();
+  /// The inputs are again those of what is shown, as after an undo: it holds.
+  [[nodiscard]] bool takeShown();
   /// Another law of the resistances alone: what is shown stays, read by it.
   [[nodiscard]] bool takeLaw();
   /// What is needed, as far as the law of the design lets a touch be followed.

@@ -34,17 +34,38 @@ QString sourceLines(const ResultSource& source) {
   return text + exportLines({}, source.design, source.stale);
 }
 
-QString electrodesCsv(const ResultSource& source, const ElectrodeDisplacements& displacements) {
-  QString text = sourceLines(source) + "row_wire,electrode,x_mm,y_mm,z_mm,u_x_mm,u_y_mm,u_z_mm\n";
-  const Eigen::Matrix3Xd places = source.design.upperElectrodes_mm();
-  const int perRow = source.design.electrodesPerRowWire();
-  for (Eigen::Index k = 0; k < places.cols(); ++k) {
-    text += QString("%1,%2").arg(k / perRow).arg(k % perRow);
-    for (const double value : places.col(k)) text += "," + exactNumber(value);
-    for (const double value : displacements.upper_mm.col(k)) text += "," + exactNumber(value);
+namespace {
+
+/// Lines of one layer, wire by wire.
+QString electrodeLines(const QString& layer, int perWire, const Eigen::Matrix3Xd& places_mm,
+                       const Eigen::Matrix3Xd& displacements_mm) {
+  QString text;
+  for (Eigen::Index k = 0; k < places_mm.cols(); ++k) {
+    text += QString("%1,%2,%3").arg(layer).arg(k / perWire).arg(k % perWire);
+    for (const double value : places_mm.col(k)) text += "," + exactNumber(value);
+    for (const double value : displacements_mm.col(k)) text += "," + exactNumber(value);
     text += "\n";
   }
   return text;
+}
+
+} // namespace
+
+QString electrodesCsv(const ResultSource& source, const ElectrodeDisplacements& displacements) {
+  const SensorDesign& design = source.design;
+  const Eigen::Matrix3Xd upper = design.upperElectrodes_mm(), lower = design.lowerElectrodes_mm();
+  const Eigen::Matrix3Xd still = Eigen::Matrix3Xd::Zero(3, lower.cols());
+  const QString lowerWords = design.lowerFollowsRubber
+                                 ? "they follow the rubber"
+                                 : "the design holds them still (follows_rubber false), their displacements are 0";
+  return sourceLines(source) +
+         QString("# upper: %1 electrodes of the row-wires; lower: %2 of the column-wires, ")
+             .arg(upper.cols())
+             .arg(lower.cols()) +
+         lowerWords + "\nlayer,wire,electrode,x_mm,y_mm,z_mm,u_x_mm,u_y_mm,u_z_mm\n" +
+         electrodeLines("upper", design.electrodesPerRowWire(), upper, displacements.upper_mm) +
+         electrodeLines("lower", design.electrodesPerColumnWire(), lower,
+                        design.lowerFollowsRubber ? displacements.lower_mm : still);
 }
 
 QString resistancesCsv(const ResultSource& source, const TouchResistances& resistances) {

@@ -21,7 +21,8 @@ struct ResultSource {
 /// Load, mesh, design and whether they still hold, each line after a "#".
 QString sourceLines(const ResultSource& source);
 
-/// The upper electrodes' displacements [mm]: one table with commas, under lines with "#" that say load and design.
+/// The displacements [mm] of both layers' electrodes: one table with commas, under lines with "#" that say load and
+/// design. Lower ones that are held still have none.
 QString electrodesCsv(const ResultSource& source, const ElectrodeDisplacements& displacements);
 
 /// The resistances [ohm] at rest and under the load, in the same way.

@@ -65,6 +65,7 @@ DeformationPage::DeformationPage(Workbench& workbench, QWidget* parent) : Scene(
     ViewSettings view = workbench_.project().view;
     const std::array cell{rowWire, columnWire};
     view.litCell = view.litCell == cell ? std::nullopt : std::optional(cell);
+    view.cell = cell; // the Resistance scene opens with it
     editView(tr("Light the electrodes of a cell"), view);
   });
   connect(tabs_, &TouchTabs::lineShownChanged, this, [this] { drawBlock(false); });

@@ -61,6 +61,14 @@ QString cellWords(const TouchResistances& resistances, const std::array<int, 2>&
            signedText(100 * (now - rest) / rest));
 }
 
+QString cellNumbers(const TouchResistances& resistances, const std::array<int, 2>& cell) {
+  const auto [row, column] = cell;
+  if (row >= resistances.rest_ohm.rows() || column >= resistances.rest_ohm.cols()) return {}; // of the design before
+  return QObject::tr("R = %1 ohm at rest, %2 ohm under the load")
+      .arg(QString::number(resistances.rest_ohm(row, column), 'g', 6),
+           QString::number(resistances.now_ohm(row, column), 'g', 6));
+}
+
 QString pathWords(const TerminalNetwork& network, Readout readout, const std::array<int, 2>& cell) {
   const CurrentPaths paths = currentPaths(network, NetworkReading(network, readout), cell[0], cell[1]);
   return QObject::tr(

@@ -19,6 +19,9 @@ QString lawsWords(const TouchResistances& field, const TouchResistances& pairs);
 /// A cell's resistance at rest and under the load; row-wire, column-wire.
 QString cellWords(const TouchResistances& resistances, const std::array<int, 2>& cell);
 
+/// Its two numbers alone; empty where there is no such cell.
+QString cellNumbers(const TouchResistances& resistances, const std::array<int, 2>& cell);
+
 /// Where the current goes while a cell is read.
 QString pathWords(const TerminalNetwork& network, Readout readout, const std::array<int, 2>& cell);
 

@@ -1,6 +1,7 @@
 #include "app/gui/touch/TouchTabs.h"
 
 #include "app/gui/project/Workbench.h"
+#include "app/gui/touch/ResistanceWords.h"
 #include "app/gui/views/ChartView.h"
 #include "app/gui/views/HeatmapSpecs.h"
 #include "app/gui/views/HeatmapView.h"
@@ -86,6 +87,10 @@ QWidget* TouchTabs::buildTouch() {
   touch->addWidget(heatmap_);
   touch->addWidget(newton_);
   touch->setSizes({600, 400});
+  heatmap_->setCellWords([this](const std::array<int, 2>& cell) {
+    const auto resistances = workbench_.resistances();
+    return resistances ? cellNumbers(*resistances, cell) : QString();
+  });
   connect(heatmap_, &HeatmapView::cellClicked, this, &TouchTabs::cellClicked);
   return touch;
 }

@@ -37,7 +37,8 @@ ViewPanel::ViewPanel(QWidget* parent) : QWidget(parent) {
   lessKept_ = box(*form, tr("less the kept design"), "lessKept", false, {});
   buildWarp(*form);
   buildCut(*form);
-  extremes_ = box(*form, tr("largest and smallest value"), "extremes", false, tr("Marks both at their places"));
+  extremes_ = box(*form, tr("largest and smallest value"), "extremes", false,
+                  tr("Marks both at their places; in a block that is cut open, those of what stays"));
   ghost_ = box(*form, tr("block at rest"), "ghost", true, tr("Edges of the block before the load"));
   electrodes_ = box(*form, tr("electrodes and wires"), "electrodes", true, tr("Looks through the rubber"));
   arrows_ = box(*form, tr("force arrows"), "arrows", true, tr("Forces of the loads, with their components in N"));

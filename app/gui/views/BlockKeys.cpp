@@ -1,10 +1,12 @@
-// What keys do with the block, and the size of its words.
+// What keys do with the block, the size of its words and its tool tips.
 
 #include "app/gui/views/BlockView.h"
 #include "app/gui/views/TextScale.h"
 
+#include <QHelpEvent>
 #include <QKeyEvent>
 #include <QPainter>
+#include <QToolTip>
 
 #include <algorithm>
 #include <utility>
@@ -20,6 +22,17 @@ constexpr double kArm_px = 9;   ///< of the cross
 
 void BlockView::scaleText() {
   setTextScale(scale_ * textScale(*this));
+}
+
+bool BlockView::event(QEvent* event) {
+  if (event->type() == QEvent::ToolTip) {
+    const auto& help = *static_cast<QHelpEvent*>(event);
+    if (const QString words = tipAt(help.pos()); !words.isEmpty()) {
+      QToolTip::showText(help.globalPos(), words, this);
+      return true;
+    }
+  }
+  return VtkView::event(event);
 }
 
 void BlockView::changeEvent(QEvent* event) {

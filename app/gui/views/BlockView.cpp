@@ -1,5 +1,7 @@
 #include "app/gui/views/BlockView.h"
 
+#include "app/scenes/block/Overlay.h"
+
 #include <vtkCamera.h>
 #include <vtkCellPicker.h>
 #include <vtkNew.h>
@@ -205,6 +207,19 @@ std::optional<Eigen::Vector2d> BlockView::topPlace_mm(const QPointF& place) cons
   const double t = (parts_->design->block_mm.z() - ends[0].z()) / way.z();
   if (!(t >= 0 && t <= 1)) return {};
   return (ends[0] + t * way).head<2>();
+}
+
+QString BlockView::tipAt(const QPointF& place) const {
+  if (renderCount() == 0) return {};
+  QString words;
+  double least = kGrip_px;
+  for (const PlacedText& tip : parts_->scene.tips()) {
+    const QPointF away = placeOf(tip.place_mm) - place;
+    if (std::hypot(away.x(), away.y()) >= least) continue;
+    least = std::hypot(away.x(), away.y());
+    words = QString::fromStdString(tip.text);
+  }
+  return words;
 }
 
 void BlockView::showCursor(const QPointF& place) {

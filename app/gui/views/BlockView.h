@@ -44,6 +44,8 @@ public:
   void setMovable(Movable what) { handles_ = what; }
   /// The cross of the keys; none before one of them was pressed.
   [[nodiscard]] std::optional<QPointF> cross() const { return cross_; }
+  /// What the ball under a place of the widget stands for; empty where it says so itself, or there is none.
+  [[nodiscard]] QString tipAt(const QPointF& place) const;
 
 signals:
   /// The mesh node drawn where the surface was clicked.
@@ -63,6 +65,7 @@ signals:
 
 protected:
   [[nodiscard]] Picture renderPicture(int width, int height) override;
+  bool event(QEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
   void paintEvent(QPaintEvent* event) override;
   void focusOutEvent(QFocusEvent* event) override;

@@ -25,10 +25,12 @@ void HeatmapView::point(const std::optional<std::array<int, 2>>& cell) {
   if (cell) {
     const HeatmapSpec& spec = heatmap();
     const QString value = QString::number(spec.values((*cell)[0], (*cell)[1]), 'g', 6);
+    const QString more = cellWords_ ? cellWords_(*cell) : QString();
     setToolTip(QString("row-wire %1, column-wire %2: %3 = %4 %5")
                    .arg((*cell)[0])
                    .arg((*cell)[1])
-                   .arg(QString::fromStdString(spec.colors.quantity), value, QString::fromStdString(spec.colors.unit)));
+                   .arg(QString::fromStdString(spec.colors.quantity), value, QString::fromStdString(spec.colors.unit)) +
+               (more.isEmpty() ? QString() : "\n" + more));
   } else {
     setToolTip({});
   }

@@ -3,6 +3,8 @@
 #include "app/gui/views/PictureView.h"
 #include "app/scenes/charts/Heatmap.h"
 
+#include <functional>
+
 namespace palp {
 
 /// The row-column matrix as a view of its own: hovering reads a cell, clicking chooses one; so do arrows and space.
@@ -14,6 +16,8 @@ public:
 
   void setHeatmap(HeatmapSpec spec);
   void setTheme(Theme theme);
+  /// What the tool tip says of a cell more than the value that is drawn; empty: nothing.
+  void setCellWords(std::function<QString(const std::array<int, 2>& cell)> words) { cellWords_ = std::move(words); }
   [[nodiscard]] QString table() const override;
   [[nodiscard]] bool hasSvg() const override { return heatmap_.spec.values.size() > 0; }
   [[nodiscard]] std::string svg() const override;
@@ -37,6 +41,7 @@ private:
   void point(const std::optional<std::array<int, 2>>& cell);
   void walk(int rows, int columns);
 
+  std::function<QString(const std::array<int, 2>&)> cellWords_;
   std::optional<std::array<int, 2>> walked_; ///< cell under the keys
   Heatmap heatmap_;
 };

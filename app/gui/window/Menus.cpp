@@ -140,7 +140,7 @@ void Menus::buildExport(QMenu& menu) {
     if (!file.isEmpty()) window_.exports().write(file, vtuMaking());
   });
   add(menu, tr("Export &electrodes (CSV)..."),
-      tr("Displacements of the upper electrodes as shown, with load and design"), {}, [this] {
+      tr("Displacements of the electrodes of both layers as shown, with load and design"), {}, [this] {
         const TouchSession& touch = workbench_.touch();
         if (touch.electrodes() == nullptr) {
           window_.showMessage(tr("There are no displacements to export yet; wait until they are computed."));

@@ -39,6 +39,8 @@ public:
   /// Mesh node whose drawn place is nearest; -1 without a mesh.
   [[nodiscard]] int nearestNode(const Eigen::Vector3d& drawn_mm) const;
   [[nodiscard]] Eigen::Vector3d drawnPlace_mm(int node) const;
+  /// Of all the mesh's nodes.
+  [[nodiscard]] const Eigen::Matrix3Xd& drawn_mm() const { return drawn_mm_; }
 
   struct AreaLabel {
     int area = 0;

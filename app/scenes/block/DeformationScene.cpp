@@ -4,6 +4,7 @@
 #include "app/scenes/block/CameraFit.h"
 #include "app/scenes/block/CurrentActor.h"
 #include "app/scenes/block/ElectrodeActors.h"
+#include "app/scenes/block/ExtremeMarks.h"
 #include "app/scenes/block/Overlay.h"
 #include "app/scenes/block/SceneWords.h"
 #include "app/scenes/block/loads/IndenterActors.h"
@@ -217,25 +218,6 @@ ColorScale colorScale(const std::vector<double>& values, const DeformationOption
   return colors;
 }
 
-std::string valueText(double value) {
-  std::array<char, 32> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), "%.4g", value);
-  return buffer.data();
-}
-
-/// The largest and the smallest value at their places.
-std::vector<PlacedText> extremeMarks(const std::vector<double>& values, const BlockActors& block,
-                                     const DeformationOptions& options) {
-  if (values.empty() || !options.extremes) return {};
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  std::vector<PlacedText> marks;
-  const std::string unit = quantityUnit(options.quantity);
-  for (const auto& [value, name] : {std::pair{high, "largest "}, std::pair{low, "smallest "}})
-    marks.push_back({block.drawnPlace_mm(static_cast<int>(value - values.begin())),
-                     name + valueText(*value) + (unit.empty() ? "" : " " + unit), palette(options.theme).selection});
-  return marks;
-}
-
 } // namespace
 
 void DeformationScene::show(const DeformationState& state, const DeformationOptions& options, bool meshChanged) {
@@ -269,13 +251,13 @@ void DeformationScene::show(const DeformationState& state, const DeformationOpti
   parts.block.showDiscs(parts.discs, options);
   parts.indenters.show(state, parts.warpFactor);
   parts.mmPerN = palp::arrowScale_mmPerN(parts.placed, 0.3 * state.design->block_mm.maxCoeff());
-  parts.marks = extremeMarks(values, parts.block, options);
+  parts.marks = extremeMarks(values, parts.block.drawn_mm(), options);
   Eigen::Matrix3Xd extremes(3, static_cast<Eigen::Index>(parts.marks.size()));
   for (std::size_t k = 0; k < parts.marks.size(); ++k) {
     extremes.col(static_cast<Eigen::Index>(k)) = parts.marks[k].place_mm;
     parts.marks[k].place_mm.z() += 0.06 * state.design->block_mm.maxCoeff(); // the words beside their point
   }
-  parts.extremes.set(extremes, ink.selection);
+  parts.extremes.set(extremes, ink.text);
   parts.extremes.setVisible(!parts.marks.empty());
   parts.showCut(state.design->block_mm, options, ink.selection);
   parts.forceColor = ink.force;
@@ -332,6 +314,14 @@ std::array<double, 2> DeformationScene::colorRange() const {
 
 int DeformationScene::nearestNode(const Eigen::Vector3d& drawn_mm) const {
   return parts_->block.nearestNode(drawn_mm);
+}
+
+std::vector<PlacedText> DeformationScene::tips() const {
+  const Parts& parts = *parts_;
+  std::vector<PlacedText> all = parts.electrodes.lit();
+  if (parts.markedNode >= 0)
+    all.push_back({parts.block.drawnPlace_mm(parts.markedNode), "the point that was probed", parts.markColor});
+  return all;
 }
 
 const std::vector<PlacedForce>& DeformationScene::forces() const {

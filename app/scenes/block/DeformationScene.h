@@ -20,6 +20,7 @@ class vtkRenderer;
 namespace palp {
 
 struct FaceMap;
+struct PlacedText;
 
 /// A plane across the block at rest: what lies before it, as the block is seen first, is cut away.
 struct CutPlane {
@@ -117,6 +118,9 @@ public:
   [[nodiscard]] int nearestNode(const Eigen::Vector3d& drawn_mm) const;
   /// Marks a mesh node; -1 marks none.
   void markNode(int node);
+
+  /// What the balls stand for that have no words of their own in the picture, at their places.
+  [[nodiscard]] std::vector<PlacedText> tips() const;
 
   /// The arrows as drawn, and their scale.
   [[nodiscard]] const std::vector<PlacedForce>& forces() const;

@@ -97,12 +97,21 @@ void ElectrodeActors::show(const SensorDesign& design, const Eigen::Matrix3Xd& u
   lower_.set(kept(lower, options.cut), ink.lower);
 
   Eigen::Matrix3Xd lit(3, 0);
+  litWords_.clear();
   if (options.litCell) {
     const int perRow = design.electrodesPerRowWire();
     const int perColumn = design.electrodesPerColumnWire();
     lit.resize(3, perRow + perColumn);
     lit << upper.middleCols((*options.litCell)[0] * perRow, perRow),
         lower.middleCols((*options.litCell)[1] * perColumn, perColumn);
+    for (int k = 0; k < lit.cols(); ++k) {
+      if (kept(lit.col(k), options.cut).cols() == 0) continue;
+      const bool row = k < perRow;
+      litWords_.push_back({lit.col(k),
+                           (row ? "row-wire " : "column-wire ") + std::to_string((*options.litCell)[row ? 0 : 1]) +
+                               ", electrode " + std::to_string(row ? k : k - perRow) + ": of the chosen resistance",
+                           ink.selection});
+    }
   }
   lit_.set(kept(lit, options.cut), ink.selection);
   for (Polylines* lines : {&rowWires_, &columnWires_}) lines->setVisible(options.electrodes);

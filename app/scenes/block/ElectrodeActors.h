@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/scenes/block/DeformationScene.h"
+#include "app/scenes/block/Overlay.h"
 #include "app/scenes/block/Polylines.h"
 
 #include <vtkActor.h>
@@ -29,6 +30,8 @@ public:
   /// Drawn displacements 3 x electrodes, already multiplied by the warp factor.
   void show(const SensorDesign& design, const Eigen::Matrix3Xd& upper_mm, const Eigen::Matrix3Xd& lower_mm,
             const DeformationOptions& options);
+  /// The electrodes of the chosen cell as drawn, each with what it is.
+  [[nodiscard]] const std::vector<PlacedText>& lit() const { return litWords_; }
 
 private:
   Polylines rowWires_;
@@ -36,6 +39,7 @@ private:
   Spheres upper_;
   Spheres lower_;
   Spheres lit_;
+  std::vector<PlacedText> litWords_;
 };
 
 } // namespace palp

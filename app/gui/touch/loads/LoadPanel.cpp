@@ -56,6 +56,10 @@ LoadPanel::LoadPanel(QWidget* parent) : QWidget(parent) {
 
 void LoadPanel::buildChoice() {
   auto* column = static_cast<QVBoxLayout*>(layout());
+  together_ = new QLabel;
+  together_->setObjectName("loadsTogether");
+  together_->setWordWrap(true);
+  column->addWidget(together_);
   list_ = new QComboBox;
   list_->setObjectName("loads");
   list_->setAccessibleName(tr("Loads"));
@@ -316,6 +320,13 @@ void LoadPanel::readDisc() {
 
 void LoadPanel::showLoad() {
   plan_->display(design_, load_, chosen_);
+  const std::vector<LoadPlace> all = places();
+  constexpr std::size_t kNamed = 6;
+  QStringList names;
+  for (std::size_t k = 0; k < std::min(all.size(), kNamed); ++k) names << name(all[k]);
+  if (all.size() > kNamed) names << tr("%1 more").arg(all.size() - kNamed);
+  together_->setText(tr("%1 loads act together: %2").arg(all.size()).arg(names.join(", ")));
+  together_->setVisible(all.size() > 1); // the list shows one
   list_->clear();
   int now = -1;
   for (const LoadPlace& place : places()) {

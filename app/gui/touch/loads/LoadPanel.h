@@ -66,6 +66,7 @@ private:
   LoadCase load_;
   LoadPlace chosen_;
   AreaPlan* plan_ = nullptr;
+  QLabel* together_ = nullptr; ///< all loads in words
   QComboBox* list_ = nullptr;
   QLabel* title_ = nullptr;
   QPushButton* clear_ = nullptr;

@@ -1,5 +1,6 @@
 #include "tests/app/gui/WindowFixture.h"
 
+#include <QLabel>
 #include <QLineEdit>
 
 namespace palp {
@@ -52,6 +53,27 @@ TEST_F(TouchSessionTest, KeepsTheLastGoodResultAfterACancel) {
   ASSERT_TRUE(idle());
   EXPECT_EQ(workbench.touch().touch().solution(), good);
   EXPECT_FALSE(workbench.touch().upToDate());
+}
+
+TEST_F(TouchSessionTest, WhatIsShownHoldsAgainAtOnceWhereAChangeIsUndone) {
+  ASSERT_TRUE(solved());
+  ASSERT_TRUE(idle());
+  const TouchSession& touch = workbench.touch();
+  for (const char* scene : {"design", "deformation"}) { // nothing is solved on the first, the second is at it
+    window.showScene(scene);
+    Project other = workbench.project();
+    other.design.upper.z_mm[0][0] -= 0.5;
+    workbench.edit("another layout", other);
+    EXPECT_FALSE(touch.upToDate());
+    workbench.history().undo();
+    EXPECT_TRUE(touch.upToDate()) << scene;
+    EXPECT_FALSE(touch.missing());
+  }
+  ASSERT_TRUE(idle());
+  settle();
+  EXPECT_TRUE(find<QWidget>("staleNote").isHidden());
+  EXPECT_FALSE(find<QLabel>("result").text().contains("have changed"));
+  EXPECT_EQ(touch.stages().runs("solve"), 1) << "nothing was solved again";
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "io/DesignFile.h"
 #include "model/SensorDesign.h"
 
+#include <QRegularExpression>
 #include <QStringList>
 
 #include <gtest/gtest.h>
@@ -23,11 +24,32 @@ TEST(ResultCsv, HoldsOneTableAFile) {
   const SensorDesign design = paperDesign();
   const ElectrodeDisplacements rest = ElectrodeDisplacements::atRest(design);
   const QStringList electrodes = tableOf(electrodesCsv({design, kLoad}, rest));
-  ASSERT_EQ(electrodes.size(), 1 + 100);
+  ASSERT_EQ(electrodes.size(), 1 + 100 + 90);
   const QStringList resistances = tableOf(resistancesCsv({design, kLoad}, *resistancesOf(design, rest)));
   ASSERT_EQ(resistances.size(), 1 + 300);
   for (const QStringList& table : {electrodes, resistances})
     for (const QString& line : table) EXPECT_EQ(line.count(','), table.front().count(',')) << line.toStdString();
+}
+
+TEST(ResultCsv, HoldsTheElectrodesOfBothLayersAndSaysWhetherTheLowerOnesMove) {
+  SensorDesign design = paperDesign();
+  ElectrodeDisplacements moved = ElectrodeDisplacements::atRest(design);
+  moved.upper_mm.row(2).setConstant(-0.25);
+  moved.lower_mm.row(0).setConstant(0.125);
+  for (const bool follows : {false, true}) {
+    design.lowerFollowsRubber = follows;
+    const QString text = electrodesCsv({design, kLoad}, moved);
+    EXPECT_EQ(text.contains("holds them still"), !follows);
+    const QStringList table = tableOf(text);
+    EXPECT_EQ(table.filter(QRegularExpression("^upper,.*,0,0,-0.25$")).size(), design.upper.electrodes());
+    EXPECT_EQ(table.filter(QRegularExpression(follows ? "^lower,.*,0.125,0,0$" : "^lower,.*,0,0,0$")).size(),
+              design.lower.electrodes());
+    const Eigen::Vector3d last = design.lowerElectrodes_mm().rightCols<1>();
+    const QStringList cells = table.back().split(',');
+    EXPECT_EQ(cells[1].toInt(), design.columnWires() - 1);
+    EXPECT_EQ(cells[2].toInt(), design.electrodesPerColumnWire() - 1);
+    for (int d = 0; d < 3; ++d) EXPECT_EQ(cells[3 + d].toDouble(), last[d]);
+  }
 }
 
 TEST(ResultCsv, SaysTheLoadAndTheDesignItWasComputedFrom) {

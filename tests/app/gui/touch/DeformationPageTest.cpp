@@ -242,7 +242,46 @@ TEST_F(DeformationPageTest, LightsTheElectrodesOfAClickedCell) {
   QTest::mouseClick(&heatmap, Qt::LeftButton, {}, place);
   EXPECT_EQ(heatmap.heatmap().selected, cell);
   settle();
-  EXPECT_NE(find<BlockView>("block").image(), before);
+  auto& block = find<BlockView>("block");
+  EXPECT_NE(block.image(), before);
+  const SensorDesign& design = workbench.project().design;
+  const int electrode = (*cell)[1] * design.electrodesPerColumnWire() + 1;
+  const QPointF ball = block.placeOf(design.lowerElectrodes_mm().col(electrode) +
+                                     block.warpFactor() * workbench.touch().electrodes()->lower_mm.col(electrode));
+  const auto words = QString("column-wire %1, electrode 1: of the chosen resistance").arg((*cell)[1]);
+  EXPECT_EQ(block.tipAt(ball), words) << "among balls that mark other things";
+  EXPECT_EQ(block.tipAt(QPointF(2, 2)), QString());
+  ViewSettings view = workbench.project().view;
+  view.cut = CutPlane{1, 29.9};
+  Project next = workbench.project();
+  next.view = view;
+  workbench.edit("cut", next);
+  settle();
+  static_cast<void>(block.image());
+  EXPECT_NE(block.tipAt(ball), words) << "it is cut away";
+}
+
+TEST_F(DeformationPageTest, AClickedCellSaysItsResistancesAndIsTheChosenOneOfTheResistanceScene) {
+  ASSERT_TRUE(solved());
+  settle();
+  auto& heatmap = find<HeatmapView>("heatmap");
+  const QPoint place(heatmap.width() / 4, heatmap.height() / 2);
+  const auto cell = heatmap.cellAt(place);
+  ASSERT_TRUE(cell.has_value());
+  ASSERT_NE(*cell, workbench.project().view.cell);
+  QTest::mouseMove(&heatmap, place);
+  QTest::mouseClick(&heatmap, Qt::LeftButton, {}, place);
+  const auto resistances = workbench.resistances();
+  ASSERT_TRUE(resistances.has_value());
+  QTest::keyClick(&heatmap, Qt::Key_Space); // reads the cell, and takes its light away: it stays the chosen one
+  const QString tip = heatmap.toolTip();
+  const double rest = resistances->rest_ohm((*cell)[0], (*cell)[1]), now = resistances->now_ohm((*cell)[0], (*cell)[1]);
+  EXPECT_TRUE(
+      tip.contains(QString("R = %1 ohm at rest, %2 ohm under the load").arg(rest, 0, 'g', 6).arg(now, 0, 'g', 6)))
+      << tip.toStdString();
+  window.showScene("resistance");
+  settle();
+  EXPECT_EQ(find<HeatmapView>("resistanceHeatmap").heatmap().selected, cell);
 }
 
 TEST_F(DeformationPageTest, ScrubsThroughTheLoadIncrementsDownToRest) {

@@ -132,6 +132,19 @@ TEST_F(LoadPanelTest, ChoosesAndLoadsAreasOnThePlanByTheMouseAndByKeys) {
   EXPECT_EQ(load().areas.size(), 1u);
 }
 
+TEST_F(LoadPanelTest, SaysAllLoadsThatActWhereADiscIsAddedToAnArea) {
+  ASSERT_EQ(load().areas.size(), 1u);
+  auto& together = find<QLabel>("loadsTogether");
+  EXPECT_TRUE(together.isHidden()) << "one load stands in the list";
+  find<QPushButton>("addDisc").click();
+  EXPECT_FALSE(together.isHidden());
+  EXPECT_EQ(together.text(), QString("2 loads act together: area %1, disc 0").arg(load().areas[0].area));
+  for (int k = 0; k < 6; ++k) find<QPushButton>("addDisc").click();
+  EXPECT_TRUE(together.text().endsWith("disc 4, 2 more")) << together.text().toStdString();
+  for (int k = 0; k < 7; ++k) find<QPushButton>("clearLoad").click();
+  EXPECT_TRUE(together.isHidden());
+}
+
 TEST_F(LoadPanelTest, FiftyColumnsOfAreasStayInThePanel) {
   Project many = workbench.project();
   many.design.areas = {50, 12};

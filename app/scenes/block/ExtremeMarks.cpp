@@ -1,0 +1,40 @@
+#include "app/scenes/block/ExtremeMarks.h"
+
+#include <array>
+#include <cstdio>
+
+namespace palp {
+
+namespace {
+
+std::string valueText(double value) {
+  std::array<char, 32> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%.4g", value);
+  return buffer.data();
+}
+
+} // namespace
+
+std::vector<PlacedText> extremeMarks(const std::vector<double>& values, const Eigen::Matrix3Xd& drawn_mm,
+                                     const DeformationOptions& options) {
+  if (values.empty() || !options.extremes) return {};
+  std::ptrdiff_t low = -1, high = -1;
+  for (std::ptrdiff_t k = 0; k < static_cast<std::ptrdiff_t>(values.size()); ++k) {
+    if (options.cut && !options.cut->keeps(drawn_mm.col(k))) continue;
+    const double value = values[static_cast<std::size_t>(k)];
+    if (low < 0 || value < values[static_cast<std::size_t>(low)]) low = k;
+    if (high < 0 || value > values[static_cast<std::size_t>(high)]) high = k;
+  }
+  if (low < 0) return {};                                                                         // all is cut away
+  if (values[static_cast<std::size_t>(low)] == values[static_cast<std::size_t>(high)]) return {}; // as at rest: nowhere
+  std::vector<PlacedText> marks;
+  const std::string unit = quantityUnit(options.quantity);
+  const std::string of = options.cut ? "of what the cut leaves " : "";
+  for (const auto& [node, name] : {std::pair{high, "largest "}, std::pair{low, "smallest "}})
+    marks.push_back({drawn_mm.col(node),
+                     name + of + valueText(values[static_cast<std::size_t>(node)]) + (unit.empty() ? "" : " " + unit),
+                     palette(options.theme).text});
+  return marks;
+}
+
+} // namespace palp
