@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/gui/jobs/FieldTouch.h"
-#include "app/scenes/block/CurrentLines.h"
+#include "app/scenes/block/current/CurrentLines.h"
 
 #include <array>
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "app/scenes/ColorScale.h"
-#include "app/scenes/block/CurrentLines.h"
 #include "app/scenes/block/QuantityValues.h"
+#include "app/scenes/block/current/CurrentLines.h"
 #include "app/scenes/block/loads/ForceArrows.h"
 #include "model/LoadCase.h"
 #include "model/Mesh.h"

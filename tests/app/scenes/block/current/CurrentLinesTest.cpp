@@ -1,6 +1,6 @@
-#include "app/scenes/block/CurrentLines.h"
+#include "app/scenes/block/current/CurrentLines.h"
 
-#include "app/scenes/block/CurrentActor.h"
+#include "app/scenes/block/current/CurrentActor.h"
 #include "model/base/Cancelled.h"
 #include "solver/SensorMesh.h"
 

@@ -1,4 +1,4 @@
-#include "app/scenes/block/CurrentLines.h"
+#include "app/scenes/block/current/CurrentLines.h"
 
 #include "model/base/Cancelled.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/scenes/ColorScale.h"
-#include "app/scenes/block/CurrentLines.h"
+#include "app/scenes/block/current/CurrentLines.h"
 
 #include <vtkActor.h>
 #include <vtkSmartPointer.h>

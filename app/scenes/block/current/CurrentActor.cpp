@@ -1,4 +1,4 @@
-#include "app/scenes/block/CurrentActor.h"
+#include "app/scenes/block/current/CurrentActor.h"
 
 #include <vtkCellArray.h>
 #include <vtkFloatArray.h>
