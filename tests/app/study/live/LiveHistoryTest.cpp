@@ -238,8 +238,8 @@ TEST(LabelledFrames, RefuseALoadThatMovesAndKeepWhatTheNetworkSaid) {
 
 TEST(LabelledFrames, SayWhenALabelCanHardlyBeTheLoad) {
   Decoder decoder;
-  decoder.low_N = {-1, -1, -6};
-  decoder.high_N = {1, 1, 0};
+  decoder.low_N = Eigen::Vector3d(-1, -1, -6);
+  decoder.high_N = Eigen::Vector3d(1, 1, 0);
   DecodedForces reads;
   reads.valid = true;
   reads.standardDeviation_N = Eigen::Vector3d::Constant(0.01);
