@@ -129,6 +129,10 @@ void LivePage::solveTwin() {
 /// The Network scene is left to generate, train and save; what it needs for such a board is set.
 void LivePage::prepareNetwork(const QString& rows) {
   Project next = workbench_.project();
+  const int own = next.design.rowWires(), board = host_.status().info ? host_.status().info->rowWires : own;
+  if (own != board)
+    return emit message(
+        tr("The project's design has %1 row-wires, the board %2: open the board's design first.").arg(own).arg(board));
   NetworkSettings& network = next.network;
   network.input = InputKind::Resistance;
   network.rows = rows.toStdString();

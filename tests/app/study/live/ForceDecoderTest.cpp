@@ -269,10 +269,10 @@ TEST(ForceDecoder, ANetworkOfOtherRowWiresReadsABoardWithABrokenOne) {
   ForceDecoder onBroken(without3, broken.board().info(), paperDesign());
   ForceDecoder ofAll(decoderFor(kGood), broken.board().info(), paperDesign());
   std::vector<Eigen::Vector3d> truth_N;
-  whole.run(60, [&](const BoardFrame& frame) { truth_N.push_back(onWhole.decode(frame).forces_N.col(0)); });
+  whole.run(120, [&](const BoardFrame& frame) { truth_N.push_back(onWhole.decode(frame).forces_N.col(0)); });
   std::size_t k = 0;
   double most_N = 0;
-  broken.run(60, [&](const BoardFrame& frame) {
+  broken.run(120, [&](const BoardFrame& frame) {
     EXPECT_EQ(ofAll.decode(frame).reason, "row-wire 3: open");
     const DecodedForces forces = onBroken.decode(frame);
     ASSERT_TRUE(forces.valid) << forces.reason;
