@@ -267,9 +267,12 @@ bool Document::write(const QString& file) {
   }
   workbench_.saved(QFileInfo(file).absoluteFilePath());
   remember(file);
-  window_.showMessage(tr("Saved %1.").arg(file));
-  if (!network_.upToDate()) return true;
   const std::filesystem::path folder = resultsFolder(workbench_.file());
+  const bool withResults = network_.upToDate();
+  window_.showMessage(withResults ? tr("Saved %1; its samples and networks are in the folder %2 beside it.")
+                                        .arg(file, QString::fromStdString(folder.filename().string()))
+                                  : tr("Saved %1.").arg(file));
+  if (!withResults) return true;
   network_.saveResults(folder, ours_, [this, folder](const NetworkResults& results, const QStringList& said) {
     ours_.merge(resultFiles(folder));
     for (const QString& sentence : said) window_.showMessage(sentence);

@@ -14,6 +14,7 @@
 #include <QMessageBox>
 #include <QPlainTextEdit>
 #include <QPushButton>
+#include <QStatusBar>
 #include <QTemporaryDir>
 
 namespace palp {
@@ -194,6 +195,8 @@ TEST_F(OpenFiles, AProjectComesBackWithItsSamplesAndItsNetwork) {
   EXPECT_TRUE(window.isWindowModified()) << "samples that no file holds are unsaved work";
   answerFileDialog(inFolder("p.json"));
   ASSERT_TRUE(window.document().save());
+  EXPECT_EQ(window.statusBar()->currentMessage(),
+            "Saved " + inFolder("p.json") + "; its samples and networks are in the folder p.palp beside it.");
   ASSERT_TRUE(QTest::qWaitFor([&] { return !window.isWindowModified(); }, kPatience_ms));
   const Eigen::MatrixXd predicted = network.fit()->prediction.forces_N;
 
