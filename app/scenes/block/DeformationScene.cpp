@@ -3,12 +3,12 @@
 #include "app/scenes/block/BlockActors.h"
 #include "app/scenes/block/CameraFit.h"
 #include "app/scenes/block/ElectrodeActors.h"
-#include "app/scenes/block/ExtremeMarks.h"
 #include "app/scenes/block/Overlay.h"
 #include "app/scenes/block/SceneWords.h"
 #include "app/scenes/block/current/CurrentActor.h"
 #include "app/scenes/block/loads/IndenterActors.h"
 #include "app/scenes/block/map/FaceMap.h"
+#include "app/scenes/block/marks/ExtremeMarks.h"
 #include "app/scenes/gl/Blending.h"
 
 #include <vtkContextActor.h>

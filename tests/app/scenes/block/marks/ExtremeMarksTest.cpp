@@ -1,4 +1,4 @@
-#include "app/scenes/block/ExtremeMarks.h"
+#include "app/scenes/block/marks/ExtremeMarks.h"
 
 #include <gtest/gtest.h>
 
