@@ -226,7 +226,7 @@ TEST_F(NetworkPanel, SaysTheErrorInNewtonAndWhetherItWasTestedWithNoise) {
   const QString words = find<QLabel>("fitWords").text();
   EXPECT_TRUE(words.contains("mean [N]")) << words.toStdString();
   for (const double mean : network.fit()->error.error.meanAbsolute)
-    EXPECT_TRUE(words.contains("&nbsp;" + QString::number(mean, 'g', 3) + "<")) << words.toStdString();
+    EXPECT_TRUE(words.contains("\">" + QString::number(mean, 'g', 3) + "<")) << words.toStdString();
   EXPECT_TRUE(words.contains("tested without noise")) << words.toStdString();
 }
 
