@@ -22,6 +22,7 @@
 #include <QTabBar>
 #include <QTemporaryDir>
 #include <QTimer>
+#include <QToolButton>
 
 #include <cstdlib>
 #include <iostream>
@@ -225,9 +226,12 @@ protected:
   }
 
   bool quiet() { return !workbench.touch().runner().running() && !network.runner().running(); }
+  /// What the status line says of the jobs that run.
   std::string running() {
-    return (workbench.touch().runner().running() ? workbench.touch().runner().title() : network.runner().title())
-        .toStdString();
+    QStringList words;
+    for (const auto* job : window.findChildren<QToolButton*>("jobWords"))
+      if (job->isVisible()) words << job->text();
+    return words.join("; ").toStdString();
   }
 
   /// What the scene shows is there, or being computed, or the window said why it is not.
@@ -299,7 +303,13 @@ TEST_F(MonkeyWindow, SurvivesAThousandActionsAndShowsWhatAFreshWindowShows) {
     expectNothingForgotten(action);
     if (HasFailure()) return; // the first one says most
     if (action % 50 != 49) continue;
-    if (!QTest::qWaitFor([&] { return quiet(); }, kPatience_ms / 12)) QTest::keyClick(&window, Qt::Key_Escape);
+    // Each Escape stops what the scene computes and, where that is nothing, what the others do.
+    for (int escapes = 0; escapes < 3 && !QTest::qWaitFor([&] { return !window.busy(); }, kPatience_ms / 12);
+         ++escapes) {
+      window.activateWindow(); // a menu that was closed takes the focus along on a platform without a window manager
+      EXPECT_TRUE(QTest::qWaitForWindowActive(&window));
+      QTest::keyClick(&window, Qt::Key_Escape);
+    }
     ASSERT_TRUE(idle()) << "a job does not end after action " << action << ": " << running();
     expectNothingForgotten(action);
     expectRightPicture(action);
