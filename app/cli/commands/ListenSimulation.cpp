@@ -4,7 +4,6 @@
 #include "app/study/live/LiveSource.h"
 #include "app/study/live/SimulatedTouch.h"
 #include "io/DesignFile.h"
-#include "io/Fingerprint.h"
 #include "io/SampleFile.h"
 #include "model/base/Text.h"
 
@@ -14,13 +13,20 @@ namespace palp {
 
 namespace {
 
-/// A hand that holds the touch of --hold on the sensor of the samples, which the polynomials of the board hold for.
+/// A hand that holds the touch of --hold on the sensor of the samples, which the polynomials of the board hold for. Its
+/// rubber may be another than the design's, as that of a real sensor is; its wires and areas are the design's.
 std::shared_ptr<TouchHand> holdingHand(const std::string& held, const std::string& designName,
                                        const SampleSet& samples) {
   const SensorDesign design = designName.empty() ? paperDesign() : designOption(designName);
-  if (designFingerprint(design) != samples.origin.designFingerprint)
-    throw UsageError("--hold needs the design of the simulated board: the samples are of " +
-                     samples.origin.designFingerprint + ", --design is of " + designFingerprint(design));
+  const auto shape = [](int areas, int rows, int columns) {
+    return std::to_string(areas) + " areas, " + std::to_string(rows) + " row-wires and " + std::to_string(columns) +
+           " column-wires";
+  };
+  const std::string board = shape(samples.areaCount, samples.rowWires, samples.columnWires);
+  const std::string given = shape(design.areas.count(), design.rowWires(), design.columnWires());
+  if (board != given)
+    throw UsageError("--hold needs the design of the simulated board: the samples have " + board + ", --design has " +
+                     given);
   const AreaLoad load = areaLoadOption("--hold", held, design);
   const Eigen::Array3d low_N = samples.forces_N.rowwise().minCoeff(), high_N = samples.forces_N.rowwise().maxCoeff();
   for (Eigen::Index k = 0; k < 3; ++k)
