@@ -68,6 +68,8 @@ Json parseJson(std::string_view content, const std::string& file) {
                        [&](int depth, Json::parse_event_t event, Json& parsed) { return guard(depth, event, parsed); });
   } catch (const Json::exception& broken) {
     const std::string cut = cutOff(content, broken);
+    if (content.starts_with("# palp_samples"))
+      throw Error(file + ": no valid JSON: it holds samples (CSV); are two file names exchanged?");
     throw Error(file + ": no valid JSON: " + (cut.empty() ? plain(broken.what()) : cut));
   }
 }

@@ -1,6 +1,7 @@
 #include "app/cli/Cli.h"
 
 #include "app/cli/Interrupt.h"
+#include "app/cli/Unexpected.h"
 #include "app/study/Blas.h"
 #include "app/study/Resources.h"
 #include "app/study/Version.h"
@@ -83,7 +84,11 @@ int Cli::main(int argc, char** argv) {
     return app_->exit(asked);
   } catch (const CLI::ParseError& wrong) {
     const auto chosen = app_->get_subcommands();
-    std::cerr << "palp" << (chosen.empty() ? "" : " " + chosen[0]->get_name()) << ": " << oneLine(wrong.what())
+    const std::string unexpected = dynamic_cast<const CLI::ExtrasError*>(&wrong) != nullptr
+                                       ? unexpectedInWords(chosen.empty() ? *app_ : *chosen[0])
+                                       : std::string();
+    std::cerr << "palp" << (chosen.empty() ? "" : " " + chosen[0]->get_name()) << ": "
+              << (unexpected.empty() ? oneLine(wrong.what()) : unexpected)
               << " (see palp" << (chosen.empty() ? "" : " " + chosen[0]->get_name()) << " --help)\n";
     return static_cast<int>(Exit::BadInput);
   }

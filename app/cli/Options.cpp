@@ -127,6 +127,8 @@ LoadCase LoadOptions::loadCase(const SensorDesign& design) const {
 
 std::vector<LoadCase> LoadOptions::loadPath(const SensorDesign& design) const {
   if (!indenters.empty()) throw UsageError("--indenter: not beside --loads, whose file holds the indenters");
+  if (pathFile.string().find(':') != std::string::npos && !std::filesystem::exists(pathFile))
+    throw UsageError("--loads " + pathFile.string() + ": no file has that name; a force on an area is --load");
   std::vector<LoadCase> path = palp::loadPath(pathFile);
   const LoadCase held = forces(design);
   for (LoadCase& step : path) {

@@ -37,7 +37,8 @@ double ageInDays(const std::filesystem::path& path) {
 }
 
 void print(const CalibrationReport& report, double age_days) {
-  std::printf("%lld labelled frames, %.1f days old; by area:", static_cast<long long>(report.samples), age_days);
+  std::printf("%lld labelled frame%s, %.1f days old; by area:", static_cast<long long>(report.samples),
+              report.samples == 1 ? "" : "s", age_days);
   for (const int count : report.samplesPerArea) std::printf(" %d", count);
   std::printf("\n        labels [N]        coverage  rms error before  after (unseen)\n");
   for (int axis = 0; axis < 3; ++axis)

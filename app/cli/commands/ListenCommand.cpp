@@ -25,6 +25,8 @@ using Json = nlohmann::ordered_json;
 constexpr auto kDrainInterval = std::chrono::milliseconds(5);
 constexpr double kLineInterval_s = 0.5; // of the lines for people
 constexpr double kCheck_s = 5;
+constexpr double kPatience_s = 1; // with a board that is looked for
+constexpr const char* kNoBoardYet = "; --list shows what is plugged in, --simulate plays a virtual board";
 
 struct ListenArguments {
   bool list = false, check = false;
@@ -207,12 +209,16 @@ bool listen(LiveSession& live, const ListenArguments& arguments, Session& sessio
   double line_s = 0;
   std::uint64_t frames = 0;
   LiveState reported = LiveState::Streaming;
+  double lost_s = start_s; // when it streamed last
   bool recording = arguments.record.empty();
   while (!session.stop.stop_requested()) {
     const LiveStatus status = live.status(); // before the frames: what ended has nothing to add
-    if (status.state != reported && status.state != LiveState::Ended) {
+    if (status.state == LiveState::Streaming) lost_s = hostClock_s();
+    // A board that is there answers at once: what lasts a moment is no news.
+    const bool lasts = status.state != LiveState::Searching || hostClock_s() - lost_s > kPatience_s;
+    if (status.state != reported && status.state != LiveState::Ended && lasts) {
       std::cerr << "palp listen: " << name(status.state) << (status.reason.empty() ? "" : ": ") << status.reason
-                << '\n';
+                << (status.connections == 0 && status.state == LiveState::Searching ? kNoBoardYet : "") << '\n';
       reported = status.state;
     }
     if (!recording && status.state == LiveState::Streaming) {
