@@ -9,9 +9,13 @@
 #include <QSignalBlocker>
 #include <QStyle>
 
+#include <algorithm>
+
 namespace palp {
 
 namespace {
+
+constexpr qsizetype kLongChoice = 16;
 
 QComboBox* choiceOf(const DesignField& field) {
   auto* box = new QComboBox;
@@ -69,7 +73,13 @@ void DesignRows::add(const DesignField& field, QFormLayout& form, const std::fun
   widget->setAccessibleName(field.group + ", " + field.label);
   row.label = new QLabel(field.unit.isEmpty() ? field.label : field.label + " [" + field.unit + "]");
   row.label->setBuddy(widget);
-  form.addRow(row.label, widget);
+  const auto isLong = [](const DesignChoice& choice) { return choice.words.size() > kLongChoice; };
+  if (std::any_of(field.choices.begin(), field.choices.end(), isLong)) { // beside its label it would be cut
+    form.addRow(row.label);
+    form.addRow(widget);
+  } else {
+    form.addRow(row.label, widget);
+  }
   row.problem->setObjectName(field.key + " problem");
   form.addRow(row.problem);
   rows_.push_back(row);

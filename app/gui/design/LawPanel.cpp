@@ -21,7 +21,6 @@ QString circuitWords(const SensorDesign& design) {
 
 LawPanel::LawPanel(QWidget* parent) : QGroupBox(resistanceGroup(), parent) {
   auto* form = new QFormLayout(this);
-  form->setRowWrapPolicy(QFormLayout::WrapLongRows); // a choice is never cut
   readoutWords_ = new WrappedLabel;
   readoutWords_->setObjectName("readoutWords");
   readoutWords_->setProperty("role", "hint");

@@ -38,6 +38,11 @@ WayOnward wayOnward(const LiveHost& host, const LiveFrame& frame) {
           whole.join(',')};
 }
 
+/// Wires are broken, and the network in use reads none of them.
+bool doesWithout(const LiveFrame& frame) {
+  return !frame.faults.empty() && frame.forces.valid;
+}
+
 QString wordsOf(const LiveHost& host, const QString& alarm) {
   const LiveStatus& status = host.status();
   const QString reason = QString::fromStdString(status.reason);
@@ -63,7 +68,8 @@ QString wordsOf(const LiveHost& host, const QString& alarm) {
   for (const std::string& fault : last->faults) faults << QString::fromStdString(fault);
   if (faults.size() > kMostFaults)
     faults = faults.mid(0, kMostFaults) << QObject::tr("%1 more").arg(faults.size() - kMostFaults);
-  const QString way = wayOnward(host, *last).words;
+  const QString way = doesWithout(*last) ? QObject::tr("The network in use does without it; forces go on.")
+                                         : wayOnward(host, *last).words;
   return way.isEmpty() ? faults.join("; ") : faults.join("; ") + ". " + way;
 }
 
@@ -100,15 +106,18 @@ LiveBanner::LiveBanner(QWidget* parent) : QWidget(parent) {
 void LiveBanner::display(const LiveHost& host, const QString& alarm) {
   const QString words = wordsOf(host, alarm).trimmed();
   if (words_->text() != words) words_->setText(words);
-  const bool ended = host.status().state == LiveState::Ended && host.replaying();
-  const QString role = ended ? "note" : "banner";
+  const LiveState state = host.status().state;
+  const LiveFrame* last = host.history().last();
+  const bool ended = state == LiveState::Ended && host.replaying();
+  const bool reads = state == LiveState::Streaming || state == LiveState::Paused;
+  const bool calm = ended || (reads && alarm.isEmpty() && last != nullptr && doesWithout(*last));
+  const QString role = calm ? "note" : "banner";
   if (words_->property("role").toString() != role) {
     words_->setProperty("role", role);
     words_->style()->unpolish(words_);
     words_->style()->polish(words_);
   }
   copyRemedy_->setVisible(host.status().state == LiveState::Refused && words.contains("permission"));
-  const LiveFrame* last = host.history().last();
   const QString rows = last != nullptr && words.contains("Row-wires") ? wayOnward(host, *last).rows : QString();
   otherRows_->setProperty("rows", rows);
   otherRows_->setVisible(!rows.isEmpty());

@@ -9,7 +9,8 @@ class QPushButton;
 
 namespace palp {
 
-/// What is to be known now, in one line over the views: red where something is wrong, plain where it only ended.
+/// What is to be known now, in one line over the views: red where something is wrong, plain where a recording only
+/// ended or a broken wire is none of those that the network reads.
 class LiveBanner : public QWidget {
   Q_OBJECT
 

@@ -31,7 +31,7 @@ constexpr std::array<const char*, 3> kForceNames{"Fx", "Fy", "Fz"};
 constexpr double kDay_s = 86400;
 constexpr double kMinutesOfADay = 1440;
 
-QPushButton* button(const QString& text, const QString& name, const QString& tip) {
+QPushButton* calibrationButton(const QString& text, const QString& name, const QString& tip) {
   auto* push = new QPushButton(text);
   push->setObjectName(name);
   push->setToolTip(tip);
@@ -118,7 +118,7 @@ QWidget* LiveCalibration::buildLabel() {
   count_->setPrefix(tr("mean of "));
   count_->setSuffix(tr(" frames"));
   count_->setToolTip(tr("Frames that are averaged to one labelled frame"));
-  collect_ = button(tr("Collect"), "collect", tr("Averages the next frames under this load"));
+  collect_ = calibrationButton(tr("Collect"), "collect", tr("Averages the next frames under this load"));
   auto* row = new QHBoxLayout;
   row->addWidget(count_, 1);
   row->addWidget(collect_);
@@ -152,9 +152,9 @@ QWidget* LiveCalibration::buildFrames() {
   table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
   auto* row = new QGridLayout; // two in a line, for narrow windows; above, where a low window does not cut them
-  auto* load = button(tr("Load..."), "loadFrames", tr("Adds the labelled frames of a file (CSV)"));
-  saveFrames_ = button(tr("Save..."), "saveFrames", tr("Keeps the labelled frames in a file (CSV)"));
-  remove_ = button(tr("Remove"), "removeFrame", tr("Takes the selected frame away"));
+  auto* load = calibrationButton(tr("Load..."), "loadFrames", tr("Adds the labelled frames of a file (CSV)"));
+  saveFrames_ = calibrationButton(tr("Save..."), "saveFrames", tr("Keeps the labelled frames in a file (CSV)"));
+  remove_ = calibrationButton(tr("Remove"), "removeFrame", tr("Takes the selected frame away"));
   row->addWidget(load, 0, 0);
   row->addWidget(saveFrames_, 0, 1);
   row->addWidget(remove_, 1, 0, 1, 2);
@@ -189,11 +189,12 @@ QWidget* LiveCalibration::buildFit() {
   report_->setAlignment(Qt::AlignTop);
   report_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   auto* row = new QGridLayout; // two in a line, for narrow windows; above, where a low window does not cut them
-  fit_ = button(tr("Fit"), "fitCalibration",
-                tr("Gains and offset of the network's forces by recursive least squares, judged on frames left out"));
-  use_ = button(tr("Use"), "useCalibration", tr("Decodes with the refined network from now on"));
-  saveNetwork_ = button(tr("Save network..."), "saveCalibration", tr("Keeps the refined network in a file"));
-  back_ = button(tr("Back"), "backFromCalibration", tr("Decodes with the network before again"));
+  fit_ = calibrationButton(
+      tr("Fit"), "fitCalibration",
+      tr("Gains and offset of the network's forces by recursive least squares, judged on frames left out"));
+  use_ = calibrationButton(tr("Use"), "useCalibration", tr("Decodes with the refined network from now on"));
+  saveNetwork_ = calibrationButton(tr("Save network..."), "saveCalibration", tr("Keeps the refined network in a file"));
+  back_ = calibrationButton(tr("Back"), "backFromCalibration", tr("Decodes with the network before again"));
   for (const auto& [push, place] : {std::pair{fit_, 0}, {use_, 1}, {saveNetwork_, 2}, {back_, 3}})
     row->addWidget(push, place / 2, place % 2);
   column->addLayout(row);

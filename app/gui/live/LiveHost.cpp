@@ -319,6 +319,7 @@ void LiveHost::backToNetwork() {
 bool LiveHost::look() {
   if (!session_) return false;
   status_ = session_->status();
+  timeRecording();
   if (status_.info && !replay_) tares_.keep(*status_.info, status_.tare);
   drain();
   for (const auto& frame : fresh_) history_.add(frame);

@@ -91,7 +91,7 @@ public:
   [[nodiscard]] bool sendingSettled() const { return sending_.settled(); }
   /// Of each receiver of the settings.
   [[nodiscard]] std::vector<SendingState> sending() { return sending_.states(settings_.receivers); }
-  /// How long the recording has gone on, or the last one went on.
+  /// How long the recording has gone on, or the last one went on: without the time in which the board was out.
   [[nodiscard]] double recorded_s() const;
   /// The file of the last recording that was begun.
   [[nodiscard]] const std::filesystem::path& recordingFile() const { return recordingFile_; }
@@ -131,6 +131,7 @@ private:
   [[nodiscard]] bool watches() const { return (settings_.alarmOn || sending_.on()) && !replay_; }
   void configureOnce();
   void drain();
+  void timeRecording();
   [[nodiscard]] LiveOptions options();
   [[nodiscard]] BoardDisturbance disturbance() const;
   [[nodiscard]] BoardFaults faults() const;
@@ -149,8 +150,9 @@ private:
   bool visible_ = false, paused_ = false;
   bool recorded_ = false; ///< at the last look
   std::filesystem::path recordingFile_;
-  double recordingSince_s_ = 0;
-  std::optional<double> recordingEnd_s_; ///< of the last one; none: it goes on
+  double recordedBefore_s_ = 0;          ///< that the recording holds, up to the last time that the board went out
+  std::optional<double> recordsSince_s_; ///< by hostClock_s; none: nothing comes, or none is running
+  bool recordingEnds_ = false;           ///< was asked for
   SimulatedDesign simulatedDesign_;
   std::shared_ptr<TouchHand> hand_ = std::make_shared<TouchHand>(); ///< on the simulated board
   std::shared_ptr<SimulationControl> simulation_;

@@ -38,16 +38,30 @@ void LiveHost::startRecording(const std::filesystem::path& path, bool replace) {
     throw Error(path.string() + ": is being played; record to another file");
   session_->startRecording(path, network_.fingerprint, replace);
   recordingFile_ = path;
-  recordingSince_s_ = hostClock_s();
-  recordingEnd_s_.reset();
+  recordedBefore_s_ = 0;
+  recordsSince_s_.reset();
+  recordingEnds_ = false;
+}
+
+/// The clock of a recording stands while nothing comes that could be recorded.
+void LiveHost::timeRecording() {
+  const bool goesOn = status_.recording && !recordingEnds_;
+  if (goesOn == recordsSince_s_.has_value()) return;
+  if (goesOn) {
+    recordsSince_s_ = hostClock_s();
+  } else {
+    recordedBefore_s_ = recorded_s();
+    recordsSince_s_.reset();
+  }
 }
 
 double LiveHost::recorded_s() const {
-  return recordingEnd_s_.value_or(hostClock_s()) - recordingSince_s_;
+  return recordedBefore_s_ + (recordsSince_s_ ? hostClock_s() - *recordsSince_s_ : 0);
 }
 
 void LiveHost::stopRecording() {
-  if (recording() && !recordingEnd_s_) recordingEnd_s_ = hostClock_s();
+  recordingEnds_ = true;
+  timeRecording();
   if (session_) session_->stopRecording();
 }
 

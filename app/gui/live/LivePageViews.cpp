@@ -93,8 +93,9 @@ void LivePage::drawState() {
   source_->displayState(
       {status, std::move(boards), host_.replaying(), rowWires, QString::fromStdString(recordings.string())});
   simulation_->setVisible(simulated);
-  simulation_->displayState({host_.pluggedIn(), host_.simulatesOwnDesign(), host_.simulatedSensor().areas.count(),
-                             host_.simulator().running()});
+  const SensorDesign& simulates = host_.simulatedSensor();
+  simulation_->displayState({host_.pluggedIn(), host_.simulatesOwnDesign(), simulates.areas.count(),
+                             simulates.rowWires(), simulates.columnWires(), host_.simulator().running()});
   const SimulationSettings& hand = host_.settings().simulation;
   block_->setPressable(simulated && hand.held, hand.heldArea);
   control_->displayState(

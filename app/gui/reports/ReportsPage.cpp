@@ -40,7 +40,7 @@ namespace {
 constexpr const char* kFolderKey = "reportsFolder";
 constexpr const char* kPage = "report.html";
 
-QPushButton* button(const QString& text, const QString& name, const QString& tip) {
+QPushButton* reportButton(const QString& text, const QString& name, const QString& tip) {
   auto* push = new QPushButton(text);
   push->setObjectName(name);
   push->setToolTip(tip);
@@ -101,10 +101,11 @@ QLayout* ReportsPage::buildBar() {
   kind_->setAccessibleName(tr("Report"));
   kind_->setToolTip(tr("Which report"));
   for (const ReportKind& kind : reportKinds()) kind_->addItem(kind.title);
-  start_ = button(tr("Run"), "runReport", tr("Runs the report beside the window, which stays free"));
-  cancel_ = button(tr("Cancel"), "cancelReport", tr("Stops the report"));
-  openPage_ = button(tr("Open the page"), "openReport", tr("Opens report.html in the browser: one file, no network"));
-  openFolder_ = button(tr("Open the folder"), "openReportFolder", tr("Page, CSV and pictures, to be passed on"));
+  start_ = reportButton(tr("Run"), "runReport", tr("Runs the report beside the window, which stays free"));
+  cancel_ = reportButton(tr("Cancel"), "cancelReport", tr("Stops the report"));
+  openPage_ =
+      reportButton(tr("Open the page"), "openReport", tr("Opens report.html in the browser: one file, no network"));
+  openFolder_ = reportButton(tr("Open the folder"), "openReportFolder", tr("Page, CSV and pictures, to be passed on"));
   auto* bar = new QHBoxLayout;
   bar->addWidget(kind_);
   for (QPushButton* push : {start_, cancel_}) bar->addWidget(push);
@@ -122,7 +123,8 @@ QLayout* ReportsPage::buildFolder() {
   target_->setToolTip(tr("Where the reports are kept: each run makes a folder of its own in it, named after the report "
                          "and the time, and leaves all others as they are"));
   connect(target_, &QLineEdit::editingFinished, this, &ReportsPage::listReports);
-  auto* choose = button(tr("Folder..."), "chooseReportFolder", tr("Chooses the folder that the reports are kept in"));
+  auto* choose =
+      reportButton(tr("Folder..."), "chooseReportFolder", tr("Chooses the folder that the reports are kept in"));
   connect(choose, &QPushButton::clicked, this, [this] {
     const QString folder = QFileDialog::getExistingDirectory(this, tr("Folder of the reports"), target_->text());
     if (folder.isEmpty()) return;

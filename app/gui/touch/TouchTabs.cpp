@@ -1,19 +1,18 @@
 #include "app/gui/touch/TouchTabs.h"
 
 #include "app/gui/project/Workbench.h"
+#include "app/gui/touch/ElectrodeTable.h"
 #include "app/gui/touch/ResistanceWords.h"
 #include "app/gui/views/ChartView.h"
 #include "app/gui/views/HeatmapSpecs.h"
 #include "app/gui/views/HeatmapView.h"
 
 #include <QHBoxLayout>
-#include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
 #include <QSignalBlocker>
 #include <QSpinBox>
 #include <QSplitter>
-#include <QTableWidget>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -23,10 +22,6 @@
 namespace palp {
 
 namespace {
-
-QString tabNumber(double value, int digits = 4) {
-  return QString::number(value, 'g', digits);
-}
 
 bool sameSteps(const std::vector<NewtonStep>& a, const std::vector<NewtonStep>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const NewtonStep& one, const NewtonStep& other) {
@@ -41,7 +36,9 @@ ChartView* chart(const char* name) {
 }
 
 QString lineEndText(const std::array<double, 3>& place) {
-  return tabNumber(place[0], 6) + ", " + tabNumber(place[1], 6) + ", " + tabNumber(place[2], 6);
+  QStringList numbers;
+  for (const double value : place) numbers << QString::number(value, 'g', 6);
+  return numbers.join(", ");
 }
 
 /// Three numbers with commas between them.
@@ -64,10 +61,7 @@ TouchTabs::TouchTabs(Workbench& workbench, QWidget* parent)
   setObjectName("deformationTabs");
   addTab(buildTouch(), tr("Resistances"));
   addTab(buildRowWire(), tr("Row-wire"));
-  table_ = new QTableWidget;
-  table_->setObjectName("electrodeTable");
-  table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
-  table_->verticalHeader()->hide();
+  table_ = new ElectrodeTable;
   addTab(table_, tr("Electrodes"));
   linePage_ = buildLine();
   addTab(linePage_, tr("Along a line"));
@@ -246,27 +240,7 @@ void TouchTabs::drawLine() {
 
 void TouchTabs::fillTable() {
   if (session_.electrodes() == nullptr || !table_->isVisible()) return;
-  const SensorDesign& design = session_.touch().design();
-  const Eigen::Matrix3Xd places = design.upperElectrodes_mm();
-  table_->setColumnCount(8);
-  table_->setRowCount(static_cast<int>(places.cols()));
-  table_->setHorizontalHeaderLabels({tr("row-wire"), tr("electrode"), tr("x [mm]"), tr("y [mm]"), tr("z [mm]"),
-                                     tr("ux [mm]"), tr("uy [mm]"), tr("uz [mm]")});
-  for (int k = 0; k < places.cols(); ++k) {
-    QStringList cells{QString::number(k / design.electrodesPerRowWire()),
-                      QString::number(k % design.electrodesPerRowWire())};
-    for (const double value : places.col(k)) cells << tabNumber(value);
-    for (const double value : session_.electrodes()->upper_mm.col(k)) cells << tabNumber(value, 6);
-    for (int column = 0; column < cells.size(); ++column) {
-      QTableWidgetItem* cell = table_->item(k, column);
-      if (cell == nullptr) {
-        cell = new QTableWidgetItem;
-        cell->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
-        table_->setItem(k, column, cell);
-      }
-      cell->setText(cells[column]);
-    }
-  }
+  table_->show(session_.touch().design(), *session_.electrodes());
 }
 
 } // namespace palp

@@ -7,11 +7,11 @@
 
 class QLineEdit;
 class QSpinBox;
-class QTableWidget;
 
 namespace palp {
 
 class ChartView;
+class ElectrodeTable;
 class HeatmapView;
 class TouchSession;
 class Workbench;
@@ -67,7 +67,7 @@ private:
   QWidget* linePage_ = nullptr;
   std::array<QLineEdit*, 2> ends_{};
   ChartView* line_ = nullptr;
-  QTableWidget* table_ = nullptr;
+  ElectrodeTable* table_ = nullptr;
 };
 
 } // namespace palp

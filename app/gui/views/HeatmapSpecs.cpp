@@ -60,7 +60,7 @@ HeatmapSpec heatmapLess(const Eigen::MatrixXd& difference_percent, const std::st
   HeatmapSpec spec;
   spec.title = "dR/R less " + whose + ", same load";
   spec.values = difference_percent;
-  spec.colors = scaleOf(spec.values, ColorMap::Diverging, "difference of dR/R", "%");
+  spec.colors = scaleOf(spec.values, ColorMap::Diverging, "difference", "%");
   return spec;
 }
 

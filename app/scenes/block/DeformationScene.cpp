@@ -242,8 +242,8 @@ void DeformationScene::show(const DeformationState& state, const DeformationOpti
 
   const ElectrodeDisplacements rest = ElectrodeDisplacements::atRest(*state.design);
   const ElectrodeDisplacements& electrodes = state.electrodes != nullptr ? *state.electrodes : rest;
-  parts.electrodes.show(*state.design, parts.warpFactor * electrodes.upper_mm, parts.warpFactor * electrodes.lower_mm,
-                        options);
+  const Eigen::Matrix3Xd& lower_mm = state.design->lowerFollowsRubber ? electrodes.lower_mm : rest.lower_mm;
+  parts.electrodes.show(*state.design, parts.warpFactor * electrodes.upper_mm, parts.warpFactor * lower_mm, options);
   parts.placed = options.forceArrows ? placedForces(state, parts.block, options.cut) : std::vector<PlacedForce>{};
   parts.discs = state.load != nullptr ? state.load->patches : std::vector<PatchLoad>{};
   parts.drawnAs = options;

@@ -182,15 +182,29 @@ double Overlay::linesEnd() {
   return GetScene()->GetSceneHeight() - (kMargin_px + kLine_px * static_cast<double>(broken_.size())) * scale;
 }
 
+double Overlay::legendBar_px() {
+  return std::min(0.55 * GetScene()->GetSceneHeight(), 320 * scale);
+}
+
+/// Of the next line: a low view has its legend beside the lines.
+double Overlay::lineRoom_px(vtkContext2D& painter) {
+  const double margin = kMargin_px * scale, whole = GetScene()->GetSceneWidth() - 2 * margin;
+  if (!legend) return whole;
+  const double titleEnd =
+      0.5 * (GetScene()->GetSceneHeight() + legendBar_px()) + (kLegendTitle_px + 0.5 * kLine_px) * scale;
+  const bool above = linesEnd() - kLine_px * scale >= titleEnd;
+  return above ? whole : whole - margin - legendWidth_px(painter, *legend, theme, scale);
+}
+
 void Overlay::breakLines(vtkContext2D& painter) {
   broken_.clear();
   widest_ = 0;
-  const double room = GetScene()->GetSceneWidth() - 2 * kMargin_px * scale;
   for (const std::string& line : lines) {
-    const bool first = broken_.empty();
-    useText(painter, palette(theme).text, (first ? 14 : 12) * scale, first);
     std::string rest = line;
     while (!rest.empty()) {
+      const bool first = broken_.empty();
+      const double room = lineRoom_px(painter);
+      useText(painter, palette(theme).text, (first ? 14 : 12) * scale, first);
       std::string part = rest;
       double width = textWidth_px(painter, part);
       for (std::size_t cut = 0; !first && width > room && (cut = part.rfind(' ')) != std::string::npos && cut > 0;
@@ -247,13 +261,17 @@ void Overlay::paintTriad(vtkContext2D& painter) {
   }
 }
 
-void Overlay::paintWords(vtkContext2D& painter) {
+void Overlay::paintGround(vtkContext2D& painter, double x, double y, double width) const {
   const Color& ground = palette(theme).ground;
+  painter.GetPen()->SetLineType(vtkPen::NO_PEN);
+  painter.GetBrush()->SetColorF(ground[0], ground[1], ground[2], 0.7);
+  painter.DrawRect(static_cast<float>(x - 4 * scale), static_cast<float>(y - 0.5 * kWordHeight_px * scale),
+                   static_cast<float>(width + 8 * scale), static_cast<float>(kWordHeight_px * scale));
+}
+
+void Overlay::paintWords(vtkContext2D& painter) {
   for (const WordBox& box : wordBoxes(painter)) {
-    painter.GetPen()->SetLineType(vtkPen::NO_PEN);
-    painter.GetBrush()->SetColorF(ground[0], ground[1], ground[2], 0.7);
-    painter.DrawRect(static_cast<float>(box.x - 4 * scale), static_cast<float>(box.y - 0.5 * kWordHeight_px * scale),
-                     static_cast<float>(box.width + 8 * scale), static_cast<float>(kWordHeight_px * scale));
+    paintGround(painter, box.x, box.y, box.width);
     useText(painter, box.word->color, 13 * scale, true);
     drawText(painter, box.x, box.y, box.word->text);
   }
@@ -269,12 +287,13 @@ bool Overlay::Paint(vtkContext2D* painter) {
   double y = height - margin - 8 * scale;
   for (std::size_t k = 0; k < broken_.size(); ++k) {
     useText(*painter, palette(theme).text, (k == 0 ? 14 : 12) * scale, k == 0);
+    paintGround(*painter, margin, y, textWidth_px(*painter, broken_[k])); // in a low view the block lies under it
     drawText(*painter, margin, y, broken_[k]);
     y -= kLine_px * scale;
   }
   if (legend) {
     const double need = legendWidth_px(*painter, *legend, theme, scale);
-    const double bar = std::min(0.55 * height, 320 * scale);
+    const double bar = legendBar_px();
     paintLegend(*painter, *legend, {width - margin - need, (height - bar) / 2, kLegendBar_px * scale, bar}, theme,
                 scale, width - margin);
   }

@@ -42,13 +42,17 @@ private:
   };
   /// None over a shorter one.
   std::vector<WordBox> wordBoxes(vtkContext2D& painter);
-  /// Breaks lines that are longer than the view.
+  /// Breaks lines that are longer than the view, or would go into the legend.
   void breakLines(vtkContext2D& painter);
+  [[nodiscard]] double lineRoom_px(vtkContext2D& painter);
+  [[nodiscard]] double legendBar_px();
   /// Keeps long words off the lines at the top left and the legend.
   void keepClear(vtkContext2D& painter, WordBox& box);
   /// The lines at the top left end here [px from the lower left].
   [[nodiscard]] double linesEnd();
   void paintWords(vtkContext2D& painter);
+  /// Of words that begin at x and have their middle at y.
+  void paintGround(vtkContext2D& painter, double x, double y, double width) const;
   void paintTriad(vtkContext2D& painter);
 
   std::vector<std::string> broken_; ///< `lines`, none longer than the view

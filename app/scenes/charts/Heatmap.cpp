@@ -15,6 +15,8 @@ namespace palp {
 
 namespace {
 
+constexpr double kTitle_px = 14, kLeastTitle_px = 9; // of a long title in a narrow view
+
 /// Every how many indices a label is written, so that none touches the next.
 int labelStride(double cell_px, double label_px) {
   for (const int stride : {1, 2, 5, 10, 20, 50})
@@ -113,9 +115,15 @@ void Heatmap::paintAxes(Canvas& canvas) const {
   useText(canvas, ink, 12 * scale, false, VTK_TEXT_CENTERED, VTK_TEXT_CENTERED);
   canvas.textStyle().SetOrientation(90);
   canvas.words(18 * scale, centreY, spec.rowLabel);
-  useText(canvas, ink, 14 * scale, true, VTK_TEXT_LEFT, VTK_TEXT_CENTERED);
-  const double room = canvas.width() - 12 * scale - canvas.wordsWidth_px(spec.title); // a long one begins further left
-  canvas.words(std::clamp(room, 12 * scale, left_), top + 18 * scale, spec.title);
+  const double whole = canvas.width() - 24 * scale;
+  double size = kTitle_px;
+  const auto width = [&] {
+    useText(canvas, ink, size * scale, true, VTK_TEXT_LEFT, VTK_TEXT_CENTERED);
+    return canvas.wordsWidth_px(spec.title);
+  };
+  while (width() > whole && size > kLeastTitle_px) --size;
+  const double room = canvas.width() - 12 * scale - width(); // a long one begins further left
+  canvas.words(std::clamp(room, 12 * scale, std::max(left_, 12 * scale)), top + 18 * scale, spec.title);
 }
 
 void Heatmap::paintLegend(Canvas& canvas, vtkLookupTable& table, double x, double width) const {

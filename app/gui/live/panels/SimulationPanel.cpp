@@ -59,10 +59,10 @@ public:
   }
 };
 
-QSpinBox* wireBox(const QString& name, int most, const QString& tip) {
+QSpinBox* wireBox(const QString& name, const QString& tip) {
   auto* box = new NoneBox;
   box->setObjectName(name);
-  box->setRange(-1, most);
+  box->setRange(-1, -1); // until it is known which wires there are
   box->setToolTip(tip);
   return box;
 }
@@ -200,10 +200,10 @@ void SimulationPanel::buildDisturbances(QFormLayout& form) {
 
 void SimulationPanel::buildFaults(QFormLayout& form) {
   openRow_ =
-      wireBox("openRow", 31,
+      wireBox("openRow",
               tr("This row-wire is broken: a network that reads it gives no forces, one of the other row-wires does"));
   openColumn_ =
-      wireBox("openColumn", 254,
+      wireBox("openColumn",
               tr("This column-wire is broken: every network reads it, so that there are no forces until it is mended"));
   dropEvery_ = new LossBox;
   dropEvery_->setObjectName("dropEvery");
@@ -238,8 +238,7 @@ void SimulationPanel::display(const LiveSettings& settings) {
   };
   put(warming_, simulation.warming_degC);
   put(hysteresis_, 100 * simulation.hysteresisShare);
-  put(openRow_, simulation.openRow);
-  put(openColumn_, simulation.openColumn);
+  showBrokenWires();
   put(dropEvery_, simulation.dropEvery);
   put(area_, simulation.heldArea);
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -260,10 +259,24 @@ void SimulationPanel::display(const LiveSettings& settings) {
     noise_->setEditText(QString::number(simulation.noise, 'g', 6));
 }
 
+/// A wire that the simulated design does not have breaks nothing: none is shown.
+void SimulationPanel::showBrokenWires() {
+  const SimulationSettings& simulation = settings_.simulation;
+  for (const auto& [box, wire] : {std::pair{openRow_, simulation.openRow}, {openColumn_, simulation.openColumn}}) {
+    const int shown = wire <= box->maximum() ? wire : -1;
+    if (box->value() == shown) continue;
+    const QSignalBlocker quiet(box);
+    box->setValue(shown);
+  }
+}
+
 void SimulationPanel::displayState(const SimulationState& state) {
   plug_->setText(state.pluggedIn ? tr("Pull out") : tr("Plug in"));
-  const QSignalBlocker quiet(area_);
+  const QSignalBlocker quiet(area_), quietRow(openRow_), quietColumn(openColumn_);
   area_->setMaximum(std::max(0, state.areas - 1));
+  openRow_->setMaximum(state.rowWires - 1);
+  openColumn_->setMaximum(state.columnWires - 1);
+  showBrokenWires();
   const bool moving = settings_.simulation.moving;
   const QString words = state.solving               ? tr("Solving the project's design...")
                         : state.ownDesign && moving ? tr("A sphere moves over the project's design.")

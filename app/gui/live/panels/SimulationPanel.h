@@ -23,7 +23,8 @@ struct SimulationState {
   bool pluggedIn = true;
   bool ownDesign = true; ///< it simulates the project's design, and an indenter that moves where that is wanted
   int areas = 0;         ///< of the design that it simulates
-  bool solving = false;  ///< its samples are being solved
+  int rowWires = 0, columnWires = 0;
+  bool solving = false; ///< its samples are being solved
 };
 
 /// The simulated board: what it adds to its readings, what is broken, whose design it is, and the touch on it.
@@ -50,6 +51,7 @@ private:
   template <class Box, class Signal, class Change>
   void follow(Box* box, Signal signal, const QString& what, Change change);
   void edit(const QString& what, const std::function<void(LiveSettings&)>& change);
+  void showBrokenWires();
 
   LiveSettings settings_;
   QLabel* design_ = nullptr;

@@ -41,6 +41,16 @@ protected:
     auto& label = find<QLabel>((std::string(field) + " problem").c_str());
     return label.isVisible() ? label.text() : QString();
   }
+  /// No part of the panel lies over another one.
+  void expectApart() {
+    const QList<QWidget*> parts =
+        find<QComboBox>("resistance.law").parentWidget()->findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly);
+    for (const QWidget* a : parts)
+      for (const QWidget* b : parts)
+        if (a != b && a->isVisible() && b->isVisible())
+          EXPECT_FALSE(a->geometry().intersects(b->geometry()))
+              << a->objectName().toStdString() << " and " << b->objectName().toStdString();
+  }
   const FieldLaw* field() { return workbench.project().design.field(); }
   QString floorWords() { return find<QLabel>("noiseFloor").text(); }
   bool bounded() {
@@ -54,6 +64,7 @@ TEST_F(LawPanelTest, ALawIsChosenByKeysWithItsOwnNumbersAndUndoneByItsName) {
   chooseField();
   ASSERT_NE(field(), nullptr);
   EXPECT_EQ(*field(), FieldLaw{});
+  expectApart();
   EXPECT_TRUE(find<QLineEdit>("resistance.rate_ohm_per_mm").isHidden());
   EXPECT_TRUE(find<QLineEdit>("resistance.electrode_radius_mm").isVisible());
   EXPECT_EQ(workbench.history().undoText(), "resistance law Eq. (1), independent pairs -> conduction field");

@@ -1,6 +1,7 @@
 // What an operator is told about a board with broken wires, and that it stays broken.
 
 #include "tests/app/gui/live/LiveOperatorFixture.h"
+#include "tests/io/SmallDecoders.h"
 
 #include <QComboBox>
 #include <QSignalSpy>
@@ -10,6 +11,23 @@ namespace palp {
 namespace {
 
 using LiveBrokenBoard = LiveOperator;
+
+/// Reads all row-wires of the simulated board but this one; what forces it gives does not matter here.
+Decoder networkWithoutRow(int row) {
+  SmallSamples samples;
+  samples.inputs = 1000 + 10 * Eigen::MatrixXd::Random(9 * 30, 12).array();
+  Decoder decoder = emptyDecoder(DecoderKind::Rbf, samples);
+  decoder.input.rows.clear();
+  for (int other = 0; other < 10; ++other)
+    if (other != row) decoder.input.rows.push_back(other);
+  decoder.input.rowWires = 10;
+  decoder.input.valuesPerRow = 30;
+  RbfOptions options;
+  options.tail = Tail::Bias;
+  options.spread = 1;
+  decoder.model = trainRbf(samples.inputs, samples.forces, options).network;
+  return decoder;
+}
 
 TEST_F(LiveBrokenBoard, AWireThatIsBrokenStaysSoWhenTheSceneOrTheBoardComesBack) {
   ASSERT_TRUE(waitForFrames());
@@ -54,6 +72,39 @@ TEST_F(LiveBrokenBoard, ABrokenWireLeadsToANetworkThatDoesWithoutIt) {
   type<QSpinBox>("openColumn", "7"); // no network does without a column-wire
   EXPECT_TRUE(wait([&] { return banner().contains("mend the wire"); })) << banner().toStdString();
   EXPECT_TRUE(find<QPushButton>("otherRows").isHidden());
+}
+
+TEST_F(LiveBrokenBoard, AWireThatTheNetworkDoesNotReadIsNoAlarm) {
+  ASSERT_TRUE(waitForFrames());
+  type<QSpinBox>("openRow", "3");
+  auto& words = find<QLabel>("liveBanner");
+  ASSERT_TRUE(wait([&] { return banner().startsWith("row-wire 3: open"); }));
+  EXPECT_EQ(words.property("role"), "banner");
+  page.host().useDecoder(networkWithoutRow(3), "without row-wire 3");
+  ASSERT_TRUE(wait([&] { return banner().contains("does without it"); })) << banner().toStdString();
+  EXPECT_TRUE(banner().startsWith("row-wire 3: open")) << banner().toStdString();
+  EXPECT_EQ(words.property("role"), "note");
+  EXPECT_TRUE(find<QPushButton>("otherRows").isHidden());
+  type<QSpinBox>("openRow", "4");
+  ASSERT_TRUE(wait([&] { return banner().startsWith("row-wire 4: open"); }));
+  EXPECT_TRUE(wait([&] { return words.property("role") == "banner"; })) << "this one it reads";
+}
+
+TEST_F(LiveBrokenBoard, OnlyWiresOfTheSimulatedDesignCanBreak) {
+  ASSERT_TRUE(waitForFrames());
+  auto& row = find<QSpinBox>("openRow");
+  auto& column = find<QSpinBox>("openColumn");
+  ASSERT_TRUE(wait([&] { return column.maximum() == 29; })) << column.maximum();
+  EXPECT_EQ(row.maximum(), 9);
+  type<QSpinBox>("openColumn", "none");
+  QTest::keyClick(&column, Qt::Key_Down);
+  EXPECT_EQ(workbench.project().live.simulation.openColumn, -1);
+  use([](LiveSettings& live) { live.simulation.openRow = 20; }); // as a project file may say
+  EXPECT_TRUE(wait([&] { return row.text() == "none"; })) << row.text().toStdString();
+  ASSERT_TRUE(waitForFrames());
+  EXPECT_EQ(banner(), "");
+  QTest::keyClick(&row, Qt::Key_Up);
+  EXPECT_EQ(workbench.project().live.simulation.openRow, 0);
 }
 
 TEST_F(LiveBrokenBoard, TheRowWiresThatMayBeScannedAloneAreThoseOfTheBoard) {

@@ -220,8 +220,13 @@ TEST_F(LiveRecording, WaitsForABoardThatIsOutAndSaysSoAndCanBeEnded) {
   EXPECT_TRUE(wait([&] { return find<QLabel>("recorded").text().startsWith("Waits for the board"); }));
   EXPECT_EQ(find<QPushButton>("record").text(), "Stop recording");
   EXPECT_TRUE(wait([&] { return find<QLabel>("liveTrust").text() == "none"; })) << "there is nothing to trust";
+  const double before_s = page.host().recorded_s();
+  EXPECT_GT(before_s, 0);
+  QTest::qWait(200);
+  EXPECT_EQ(page.host().recorded_s(), before_s) << "a board that is out is not recorded";
   click("plug");
   ASSERT_TRUE(wait([&] { return page.host().status().recording; }));
+  EXPECT_TRUE(wait([&] { return page.host().recorded_s() > before_s; }));
   EXPECT_TRUE(wait([&] { return find<QLabel>("recorded").text().startsWith("Records: "); }));
   click("plug");
   ASSERT_TRUE(wait([&] { return page.host().status().recordingWaits; }));

@@ -256,5 +256,32 @@ TEST(BlockColours, AreThoseOfTheLegendThoughElectrodesShowThrough) {
     }
 }
 
+TEST(BlockWords, KeepClearOfTheLegendInALowView) {
+  const SensorDesign design = paperDesign();
+  MeshOptions coarse;
+  coarse.mapped = {4, 4, 2};
+  const Mesh mesh = sensorMesh(design, coarse);
+  NodalFields fields;
+  fields.displacement_mm.setZero(3, mesh.nodeCount());
+  fields.displacement_mm.row(2) = -0.01 * mesh.nodes_mm.row(2);
+  DeformationOptions options;
+  options.quantity = Quantity::DisplacementX;
+  options.fixedRange = {0, 0.12};
+  options.meshEdges = options.areaOutlines = false;
+  DeformationState state;
+  state.design = &design;
+  state.mesh = &mesh;
+  state.fields = &fields;
+  constexpr int kWidth = 400, kHeight = 290; // as the block of the Resistance scene on a small screen
+  const Picture picture = drawDeformation(state, options, kWidth, kHeight);
+  const auto left = static_cast<int>(kWidth - 14 - textWidth_px("ux [mm]", 13, true));
+  const auto middle = static_cast<int>((1 - 0.55) / 2 * kHeight - 18); // of the legend's title, from the top
+  const auto pixel = [&](int x, int y) { return &picture.rgb[3 * static_cast<std::size_t>(y * kWidth + x)]; };
+  for (int y = middle - 9; y < middle + 9; ++y)
+    for (int x = left - 10; x < left - 2; ++x)
+      for (std::size_t c = 0; c < 3; ++c)
+        ASSERT_EQ(pixel(x, y)[c], pixel(kWidth / 2, kHeight - 2)[c]) << x << ", " << y;
+}
+
 } // namespace
 } // namespace palp

@@ -11,7 +11,7 @@
 #include <QPushButton>
 #include <QSlider>
 #include <QTabWidget>
-#include <QTableWidget>
+#include <QTableView>
 #include <QTemporaryDir>
 
 namespace palp {
@@ -246,8 +246,8 @@ TEST_F(DeformationPageTest, LightsTheElectrodesOfAClickedCell) {
   EXPECT_NE(block.image(), before);
   const SensorDesign& design = workbench.project().design;
   const int electrode = (*cell)[1] * design.electrodesPerColumnWire() + 1;
-  const QPointF ball = block.placeOf(design.lowerElectrodes_mm().col(electrode) +
-                                     block.warpFactor() * workbench.touch().electrodes()->lower_mm.col(electrode));
+  const QPointF ball = block.placeOf(design.lowerElectrodes_mm().col(electrode)); // it is held
+  EXPECT_GT(workbench.touch().electrodes()->lower_mm.col(electrode).norm(), 0) << "the rubber around it moves";
   const auto words = QString("column-wire %1, electrode 1: of the chosen resistance").arg((*cell)[1]);
   EXPECT_EQ(block.tipAt(ball), words) << "among balls that mark other things";
   EXPECT_EQ(block.tipAt(QPointF(2, 2)), QString());
@@ -307,7 +307,23 @@ TEST_F(DeformationPageTest, ShowsARowWireAndTheTableOfElectrodes) {
   EXPECT_EQ(find<ChartView>("rowWireShape").chart().series.size(), 2u) << "before and under the load";
   tabs.setCurrentIndex(2);
   settle();
-  EXPECT_EQ(find<QTableWidget>("electrodeTable").rowCount(), 100);
+  const QAbstractItemModel& table = *find<QTableView>("electrodeTable").model();
+  const auto cell = [&](int row, int column) { return table.index(row, column).data().toString(); };
+  ASSERT_EQ(table.rowCount(), 100 + 90) << "both layers";
+  EXPECT_EQ(cell(13, 0), "upper");
+  EXPECT_EQ(cell(13, 1) + "," + cell(13, 2), "1,3");
+  EXPECT_EQ(cell(100 + 25, 0), "lower, held");
+  EXPECT_EQ(cell(100 + 25, 1) + "," + cell(100 + 25, 2), "8,1");
+  const Eigen::Vector3d moved = workbench.touch().electrodes()->upper_mm.col(13);
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_EQ(cell(13, 6 + axis), QString::number(moved(axis), 'g', 6));
+    EXPECT_EQ(cell(100 + 25, 6 + axis), "0") << "what is held does not move";
+  }
+  Project next = workbench.project();
+  next.design.lowerFollowsRubber = true;
+  workbench.edit("lower electrodes", next);
+  const auto follows = [&] { return cell(100 + 25, 0) == "lower" && cell(100 + 25, 8).toDouble() != 0; };
+  EXPECT_TRUE(QTest::qWaitFor(follows, kPatience_ms)) << cell(100 + 25, 8).toStdString();
 }
 
 TEST_F(DeformationPageTest, HowThingsAreShownIsNoEntryOfTheHistory) {
