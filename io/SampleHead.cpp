@@ -238,7 +238,8 @@ SampleSet readSampleHead(SampleLines& lines) {
   std::map<std::string, std::string> values;
   std::string line;
   while (lines.next(line) && !line.empty() && line[0] == '#') readComment(lines, line, values);
-  if (values.empty() && line.starts_with('{')) lines.refuse("the file holds JSON, no samples; are two file names exchanged?");
+  if (values.empty() && line.starts_with('{'))
+    lines.refuse("the file holds JSON, no samples; are two file names exchanged?");
   HeadLines head(lines, std::move(values));
   const int version = head.number("palp_samples", kLargestCount);
   if (version != kNewestSamples)

@@ -88,8 +88,8 @@ int Cli::main(int argc, char** argv) {
                                        ? unexpectedInWords(chosen.empty() ? *app_ : *chosen[0])
                                        : std::string();
     std::cerr << "palp" << (chosen.empty() ? "" : " " + chosen[0]->get_name()) << ": "
-              << (unexpected.empty() ? oneLine(wrong.what()) : unexpected)
-              << " (see palp" << (chosen.empty() ? "" : " " + chosen[0]->get_name()) << " --help)\n";
+              << (unexpected.empty() ? oneLine(wrong.what()) : unexpected) << " (see palp"
+              << (chosen.empty() ? "" : " " + chosen[0]->get_name()) << " --help)\n";
     return static_cast<int>(Exit::BadInput);
   }
   if (app_->get_subcommands().empty()) {

@@ -49,7 +49,8 @@ std::string unexpectedInWords(const CLI::App& command) {
   const auto nearest = std::min_element(known.begin(), known.end(), [&](const std::string& a, const std::string& b) {
     return editsBetween(word, a) < editsBetween(word, b);
   });
-  if (nearest != known.end() && 3 * editsBetween(word, *nearest) <= word.size()) words += "; did you mean " + *nearest + "?";
+  if (nearest != known.end() && 3 * editsBetween(word, *nearest) <= word.size())
+    words += "; did you mean " + *nearest + "?";
   return words;
 }
 

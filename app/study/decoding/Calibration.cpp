@@ -79,8 +79,8 @@ void requireUsable(const Decoder& decoder, const SampleSet& frames) {
                 name(decoder.kind) + " with " + std::to_string(decoder.outputs()) + " outputs");
   if (frames.together()) throw Error("calibrate takes frames with one area loaded at a time");
   if (frames.size() < kFewestCalibrationFrames)
-    throw Error(std::to_string(frames.size()) + (frames.size() == 1 ? " labelled frame" : " labelled frames") + "; at least " +
-                std::to_string(kFewestCalibrationFrames) + " are needed");
+    throw Error(std::to_string(frames.size()) + (frames.size() == 1 ? " labelled frame" : " labelled frames") +
+                "; at least " + std::to_string(kFewestCalibrationFrames) + " are needed");
   requireReadout(decoder, frames.origin.readout, "the frames are");
   if (frames.origin.designFingerprint != decoder.designFingerprint)
     throw Error("the frames are of design " + frames.origin.designFingerprint + ", the network of " +
@@ -353,7 +353,8 @@ void appendFrames(const std::filesystem::path& path, const SampleSet& frames) {
     if (const std::string differs = differenceOfHeads(all, frames); !differs.empty())
       throw Error(path.string() + ": holds other frames: " + differs);
     for (Eigen::Index k = 0; k < all.size(); ++k)
-      if (all.resistances_ohm.col(k) == frames.resistances_ohm.col(0))
+      if (all.resistances_ohm.col(k) == frames.resistances_ohm.col(0) &&
+          all.forces_N.col(k) == frames.forces_N.col(0) && all.area(k) == frames.area(0))
         throw Error(path.string() + ": holds this very frame already (sample " + std::to_string(k + 1) + " of " +
                     std::to_string(all.size()) + "); it would count twice");
   }

@@ -66,9 +66,10 @@ std::vector<BoardCheckResult> checkBoard(const LiveStatus& status, double second
                        std::equal(descriptor.begin(), descriptor.end(), published.begin(), published.end()),
                        std::to_string(descriptor.size()) + " bytes"});
   }
-  results.push_back({"a board that answers", status.info.has_value(), status.info              ? status.source
-                                                                     : status.reason.empty() ? "none was found in this time"
-                                                                                             : status.reason});
+  results.push_back({"a board that answers", status.info.has_value(),
+                     status.info             ? status.source
+                     : status.reason.empty() ? "none was found in this time"
+                                             : status.reason});
   if (!status.info) return results;
   checkInfo(results, *status.info);
   checkStream(results, status, seconds);

@@ -1,6 +1,7 @@
 #include "tests/app/cli/Process.h"
 #include "tests/io/TemporaryFolder.h"
 
+#include <SourceDir.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -165,8 +166,10 @@ TEST_P(BadOptionTest, IsRefusedInOneLine) {
 INSTANTIATE_TEST_SUITE_P(
     Options, BadOptionTest,
     testing::Values(
-        BadOption{"UnknownCommand", {"fly"}, {"fly"}},
-        BadOption{"UnknownOption", {"solve", "paper", "--lod", "0:0,0,-1"}, {"--lod"}},
+        BadOption{"UnknownCommand", {"fly"}, {"'fly' is not expected here (see palp --help)"}},
+        BadOption{"MistypedCommand", {"desing", "-o", "x"}, {"'desing'", "did you mean design?"}},
+        BadOption{"UnknownOption", {"solve", "paper", "--lod", "0:0,0,-1"}, {"'--lod'", "did you mean --load?"}},
+        BadOption{"LoadsOfNoFile", {"solve", "paper", "--loads", "4:0,0,-1"}, {"--loads 4:0,0,-1", "--load"}},
         BadOption{"NoLoad", {"solve", "paper"}, {"--load"}},
         BadOption{"NoSuchArea", {"solve", "paper", "--load", "6:0,0,-1"}, {"--load", "6", "0 to 5"}},
         BadOption{"ForceNotANumber", {"solve", "paper", "--load", "0:0,nan,-1"}, {"--load", "nan"}},
@@ -235,6 +238,12 @@ INSTANTIATE_TEST_SUITE_P(
         BadOption{"SeedsZero", {"reproduce", "table1", "--seeds", "0"}, {"--seeds", "0"}},
         BadOption{"TrainMissing", {"train", "nowhere.csv", "--input", "displacement", "-o", "n.json"}, {"nowhere.csv"}},
         BadOption{"PredictDesignMissing", {"predict", "n.json", "s.csv", "--design", "nowhere.json"}, {"nowhere.json"}},
+        BadOption{"PredictExchanged",
+                  {"predict", PALP_SOURCE_DIR "/resources/board/paper-samples.csv", "n.json"},
+                  {"paper-samples.csv", "holds samples", "exchanged"}},
+        BadOption{"TrainOnADesign",
+                  {"train", PALP_SOURCE_DIR "/resources/paper.json", "-o", "n.json"},
+                  {"paper.json", "holds JSON, no samples"}},
         BadOption{"PredictMissing", {"predict", "nowhere.json", "nowhere.csv"}, {"nowhere.json"}},
         BadOption{"SweepMissing",
                   {"sweep", "nowhere.csv", "--test", "t.csv", "--input", "displacement", "--spreads", "1"},

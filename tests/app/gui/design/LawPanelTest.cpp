@@ -46,10 +46,11 @@ protected:
     const QList<QWidget*> parts =
         find<QComboBox>("resistance.law").parentWidget()->findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly);
     for (const QWidget* a : parts)
-      for (const QWidget* b : parts)
-        if (a != b && a->isVisible() && b->isVisible())
-          EXPECT_FALSE(a->geometry().intersects(b->geometry()))
-              << a->objectName().toStdString() << " and " << b->objectName().toStdString();
+      for (const QWidget* b : parts) {
+        if (a == b || !a->isVisible() || !b->isVisible()) continue;
+        EXPECT_FALSE(a->geometry().intersects(b->geometry()))
+            << a->objectName().toStdString() << " and " << b->objectName().toStdString();
+      }
   }
   const FieldLaw* field() { return workbench.project().design.field(); }
   QString floorWords() { return find<QLabel>("noiseFloor").text(); }
