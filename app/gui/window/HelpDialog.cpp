@@ -1,5 +1,6 @@
 #include "app/gui/window/HelpDialog.h"
 
+#include "app/gui/window/HelpLook.h"
 #include "app/gui/window/HelpTopics.h"
 #include "app/study/Resources.h"
 #include "model/base/Error.h"
@@ -26,6 +27,7 @@ namespace {
 constexpr int kFileRole = Qt::UserRole;
 constexpr int kHeadingRole = Qt::UserRole + 1;
 constexpr int kListWidth_px = 230;
+constexpr int kPicture_px = 800;     // beside the list
 constexpr qsizetype kFewLetters = 3; // fewer are a word that is being typed: no page is opened for each
 constexpr qsizetype kMostTinted = 200;
 constexpr int kShownText = 300; // letters of a topic that was found, in its tool tip
@@ -84,6 +86,8 @@ public:
     connect(list_, &QListWidget::currentItemChanged, this, [this](const QListWidgetItem* item) {
       if (item != nullptr) text_->setSource(QUrl::fromLocalFile(item->data(kFileRole).toString()));
     });
+    connect(text_, &QTextBrowser::sourceChanged, this,
+            [this] { layOutHelp(*text_->document(), kPicture_px, palette()); });
     connect(text_, &QTextBrowser::anchorClicked, this, &HelpDialog::follow);
     list_->setCurrentRow(0);
   }

@@ -95,6 +95,29 @@ TEST_F(Help, FollowsALinkToAPlaceOfAnotherPage) {
   EXPECT_EQ(anchorOf(text->textCursor().block().text()), anchors.back());
 }
 
+TEST_F(Help, SetsCodeApartFromWhatItPrintsAndPicturesIntoThePage) {
+  choose(static_cast<int>(listed().indexOf("guide.md")));
+  int code = 0, apart = 0, pictures = 0;
+  for (QTextBlock block = text->document()->begin(); block.isValid(); block = block.next()) {
+    const QTextBlockFormat format = block.blockFormat();
+    if (format.hasProperty(QTextFormat::BlockCodeFence)) {
+      ++code;
+      EXPECT_NE(format.background().style(), Qt::NoBrush) << block.text().toStdString();
+      if (format.topMargin() > 0) ++apart;
+    }
+    for (auto at = block.begin(); !at.atEnd(); ++at) {
+      const QTextCharFormat piece = at.fragment().charFormat();
+      if (!piece.isImageFormat()) continue;
+      ++pictures;
+      EXPECT_GT(piece.toImageFormat().width(), 0);
+      EXPECT_LE(piece.toImageFormat().width(), 800);
+    }
+  }
+  EXPECT_GT(apart, 10) << "commands and what they print";
+  EXPECT_GT(code, apart);
+  EXPECT_GT(pictures, 0);
+}
+
 TEST_F(Help, FindsTopicsByAWordAndLeadsToThem) {
   auto& search = *window.findChild<QLineEdit*>("helpSearch");
   auto& found = *window.findChild<QListWidget*>("helpFound");
