@@ -23,21 +23,26 @@ enum class Way { Surrogate, Iteration, FullNewton };
 
 struct BatchSolver::State {
   HyperelasticProblem problem;
-  std::size_t firstNumber = 0; ///< of this call's loads, where one is refused
+  std::size_t firstNumber = 0;      ///< of this call's loads, where one is refused
+  std::vector<std::size_t> numbers; ///< or that of each
   BatchOptions options;
   std::unique_ptr<BatchEngine> engine;
   std::vector<std::optional<AreaSurrogate>> surrogates;
   std::size_t fullSolves = 0;
   double measuredError = 0;
-  std::size_t loadsSeen = 0, checks = 0; ///< in all calls
+  std::size_t loadsSeen = 0, checks; ///< in all calls
   int surrogatesChecked = 0;
 
-  State(const HyperelasticProblem& p, BatchOptions o) : problem(p), options(o), surrogates(p.design().areas.count()) {}
+  State(const HyperelasticProblem& p, BatchOptions o)
+      : problem(p), options(o), surrogates(p.design().areas.count()), checks(o.checkFirst ? 0 : 1) {}
+
+  [[nodiscard]] std::string number(std::size_t i) const {
+    return std::to_string(numbers.empty() ? firstNumber + i : numbers[i]);
+  }
 
   void requireLoads(std::span<const LoadCase> loads) const {
     for (std::size_t i = 0; i < loads.size(); ++i)
-      if (const auto why = whyInvalid(loads[i], problem.design()))
-        throw DesignError("load " + std::to_string(firstNumber + i) + ": " + *why);
+      if (const auto why = whyInvalid(loads[i], problem.design())) throw DesignError("load " + number(i) + ": " + *why);
   }
 
   /// False: stopped.
@@ -45,7 +50,8 @@ struct BatchSolver::State {
     if (engine) return true;
     auto rest = problem.parts().initialTangent(options.threads, stop);
     if (!rest || stop.stop_requested()) return false;
-    engine = std::make_unique<BatchEngine>(problem, std::move(rest), options.relativeTolerance, options.threads);
+    engine = std::make_unique<BatchEngine>(problem, std::move(rest), options.relativeTolerance, options.threads,
+                                           options.touched);
     return true;
   }
 
@@ -60,8 +66,7 @@ struct BatchSolver::State {
     const Solution solution = problem.solve(load, newton, {.step = {}, .stop = stop});
     ++fullSolves;
     if (solution.cancelled) return {};
-    if (!solution.converged)
-      throw ConvergenceError("load " + std::to_string(firstNumber + index) + ": " + solution.stopReason);
+    if (!solution.converged) throw ConvergenceError("load " + number(index) + ": " + solution.stopReason);
     ElectrodeDisplacements moved = problem.electrodes(solution.state());
     if (take) take(index, moved, solution.state());
     return moved;
@@ -71,7 +76,7 @@ struct BatchSolver::State {
   bool check(std::span<const LoadCase> loads, const std::vector<BatchEngine::Answer>& answers,
              const std::vector<Way>& ways, const std::stop_token& stop) {
     loadsSeen += loads.size();
-    const std::size_t count = (loadsSeen + loadsACheck - 1) / loadsACheck - checks;
+    const std::size_t due = (loadsSeen + loadsACheck - 1) / loadsACheck, count = due - std::min(due, checks);
     checks += count;
     for (std::size_t c = 0; c < count; ++c) {
       const std::size_t i = (2 * c + 1) * loads.size() / (2 * count);
@@ -191,6 +196,14 @@ double BatchSolver::surrogateError() const {
   for (const auto& surrogate : state_->surrogates)
     if (surrogate) error = std::max(error, surrogate->error());
   return error;
+}
+
+void BatchSolver::rest() {
+  if (state_->engine) state_->engine->rest();
+}
+
+void BatchSolver::nameLoads(std::vector<std::size_t> numbers) {
+  state_->numbers = std::move(numbers);
 }
 
 std::size_t BatchSolver::solves() const {

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stop_token>
 #include <vector>
@@ -14,6 +15,10 @@ struct BatchOptions {
   double relativeTolerance = 1e-6; ///< of the electrode displacements against full Newton's method
   bool surrogate = false;          ///< answer by a polynomial in the force, one for each area, whose error is measured
   int threads = 0;                 ///< 0: all cores; changes the time, never the result
+  /// Where indenters will touch the top face, if not anywhere: the compliance is found there only, and touches that
+  /// reach further are left to full Newton.
+  std::optional<Rectangle> touched{};
+  bool checkFirst = true; ///< against full Newton; false: another solver of the same loads has done it
 };
 
 /// Solves many loads on one mesh: modified Newton's method with one factorisation, that of the tangent at rest, for
@@ -41,10 +46,16 @@ public:
                                                                 const std::function<void(std::size_t)>& progress = {},
                                                                 std::stop_token stop = {}, std::size_t firstNumber = 0);
 
+  /// Numbers that the next call's loads are named by, instead of counted from its first.
+  void nameLoads(std::vector<std::size_t> numbers);
+
   /// Fits the surrogates of these areas now rather than at their first load; false if stopped.
   bool fitSurrogates(std::span<const int> areas, const std::stop_token& stop = {});
   /// Largest error of the surrogates fitted so far, on loads that were kept out of their fits.
   [[nodiscard]] double surrogateError() const;
+
+  /// Gives back the memory that waits for the next call.
+  void rest();
 
   /// Number of nonlinear solves so far (for predictors, corrections and fallbacks).
   [[nodiscard]] std::size_t solves() const;

@@ -14,8 +14,40 @@ namespace palp {
 
 namespace {
 
-/// Cells for touches anywhere, in those of a mesh that is made for one touch: for the paper's block about 1 mm.
-constexpr double kCellsBesideOneTouch = 2.7;
+/// Cells for touches anywhere, in those of a mesh that is made for one touch: for the paper's block about 1 mm; in a
+/// part of the face 0.8 mm.
+constexpr double kCellsAnywhere = 2.7, kCellsInPart = 2.1;
+constexpr double cellsAPart = 10;     // along each axis: about as many as lie beside them
+constexpr int mostPartsAlongAxis = 3; // what is found once for each part has to pay
+constexpr double widerContact = 1.1;  // than expected: at the block's edges
+
+/// Touch in the middle of the range.
+Indenter middleOf(const TouchRange& range, double radius_mm, double press_N) {
+  return {range.shape, radius_mm, range.rim_mm, (range.low_mm + range.high_mm) / 2, 0, Press{{0, 0, -press_N}}};
+}
+
+FineZone zoneOf(const SensorDesign& design, const TouchRange& range, double cells) {
+  const Indenter middle =
+      middleOf(range, (range.smallest_mm + range.largest_mm) / 2, (range.leastPress_N + range.mostPress_N) / 2);
+  // Not the zones of a punch's rim: it may be anywhere. A plane has none.
+  const std::vector<FineZone> zones = fineZones(design, {.areas = {}, .patches = {}, .indenters = {middle}});
+  FineZone zone = zones.empty() ? FineZone{middle.place_mm, {0, 0}, design.block_mm.head<2>()} : zones.front();
+  zone.size_mm *= cells;
+  zone.half_mm += (range.high_mm - range.low_mm) / 2;
+  return zone;
+}
+
+MeshOptions withZone(const SensorDesign& design, const TouchRange& range, MeshOptions options, double cells) {
+  if (options.mapped) return options;
+  options.zones.clear();
+  if (range.shape != IndenterShape::Plane) options.zones.push_back(zoneOf(design, range, cells));
+  options.fineBorders = false;
+  return options;
+}
+
+double sizeFactor(const SensorDesign& design, const MeshOptions& options) {
+  return options.meshSize_mm ? *options.meshSize_mm / standardSize(design) : 1;
+}
 
 void requireMapped(const std::array<int, 3>& counts) {
   const double elements = double(counts[0]) * counts[1] * counts[2];
@@ -42,22 +74,43 @@ MeshOptions meshFor(const SensorDesign& design, const LoadCase& load, MeshOption
 }
 
 MeshOptions meshForTouches(const SensorDesign& design, const TouchRange& range, MeshOptions options) {
-  if (options.mapped) return options;
-  Indenter middle{range.shape,
-                  (range.smallest_mm + range.largest_mm) / 2,
-                  range.rim_mm,
-                  (range.low_mm + range.high_mm) / 2,
-                  0,
-                  Press{{0, 0, -(range.leastPress_N + range.mostPress_N) / 2}}};
-  options.zones = fineZones(design, {.areas = {}, .patches = {}, .indenters = {middle}});
-  options.zones.resize(
-      std::min<std::size_t>(options.zones.size(), 1)); // not those of a punch's rim: it may be anywhere
-  for (FineZone& zone : options.zones) {
-    zone.size_mm *= kCellsBesideOneTouch;
-    zone.half_mm += (range.high_mm - range.low_mm) / 2;
+  return withZone(design, range, std::move(options), kCellsAnywhere);
+}
+
+MeshOptions meshForPart(const SensorDesign& design, const TouchRange& part, MeshOptions options) {
+  return withZone(design, part, std::move(options), kCellsInPart);
+}
+
+std::vector<TouchRange> partsOfTouches(const SensorDesign& design, const TouchRange& range, const MeshOptions& options,
+                                       std::array<int, 2>* cuts) {
+  std::array<int, 2> parts{1, 1};
+  const Eigen::Vector2d extent_mm = range.high_mm - range.low_mm;
+  if (!options.mapped && range.shape != IndenterShape::Plane) {
+    const Eigen::Vector2d cell_mm = sizeFactor(design, options) * zoneOf(design, range, kCellsInPart).size_mm;
+    for (int d = 0; d < 2; ++d)
+      parts[d] =
+          std::clamp(static_cast<int>(std::round(extent_mm(d) / (cellsAPart * cell_mm(d)))), 1, mostPartsAlongAxis);
   }
-  options.fineBorders = false;
-  return options;
+  if (cuts) *cuts = parts;
+  std::vector<TouchRange> all;
+  for (int j = 0; j < parts[1]; ++j)
+    for (int i = 0; i < parts[0]; ++i) {
+      TouchRange part = range;
+      part.low_mm += extent_mm.cwiseProduct(Eigen::Vector2d(double(i) / parts[0], double(j) / parts[1]));
+      part.high_mm =
+          range.low_mm + extent_mm.cwiseProduct(Eigen::Vector2d(double(i + 1) / parts[0], double(j + 1) / parts[1]));
+      all.push_back(part);
+    }
+  return all;
+}
+
+Rectangle touchedByTouches(const SensorDesign& design, const TouchRange& range, const MeshOptions& options) {
+  Eigen::Vector2d half_mm = Eigen::Vector2d::Zero();
+  for (const double radius_mm : {range.smallest_mm, range.largest_mm})
+    half_mm = half_mm.cwiseMax(contactEstimate(middleOf(range, radius_mm, range.mostPress_N), design).half_mm);
+  const Eigen::Vector2d reach_mm =
+      widerContact * half_mm + sizeFactor(design, options) * zoneOf(design, range, kCellsInPart).size_mm;
+  return {range.low_mm - reach_mm, range.high_mm + reach_mm};
 }
 
 bool finerForField(const SensorDesign& design) {

@@ -47,6 +47,18 @@ MeshOptions meshFor(const SensorDesign& design, const LoadCase& load, MeshOption
 /// rectangle, from the contact of a touch in the middle of the range.
 MeshOptions meshForTouches(const SensorDesign& design, const TouchRange& range, MeshOptions options);
 
+/// The same for one of the parts below, with smaller cells.
+MeshOptions meshForPart(const SensorDesign& design, const TouchRange& part, MeshOptions options);
+
+/// The range cut into parts by the place of the touch, along x first, each to have a mesh of its own: grid lines go
+/// through the whole block, so that one mesh as fine everywhere would have several times the unknowns. One part where
+/// that saves nothing. `cuts` gives their number along x and y.
+std::vector<TouchRange> partsOfTouches(const SensorDesign& design, const TouchRange& range, const MeshOptions& options,
+                                       std::array<int, 2>* cuts = nullptr);
+
+/// Where touches of the range may touch the top face, with an element's width to spare.
+Rectangle touchedByTouches(const SensorDesign& design, const TouchRange& range, const MeshOptions& options);
+
 /// Elements of the largest mesh that is made.
 inline constexpr double mostElements = 1e6;
 

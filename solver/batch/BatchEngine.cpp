@@ -24,11 +24,11 @@ bool hasFriction(const LoadCase& load) {
 } // namespace
 
 BatchEngine::BatchEngine(const HyperelasticProblem& problem, std::shared_ptr<const InitialTangent> rest,
-                         double tolerance, int threads)
+                         double tolerance, int threads, std::optional<Rectangle> touched)
     : problem_(problem), rest_(std::move(rest)), model_(problem_.parts(), *rest_),
       polynomial_(problem.design().forceRange, predictorDegree),
       terms_((polynomial_.terms() + lanes - 1) / lanes * lanes), predictorTolerance_(predictorFitShare * tolerance),
-      threads_(threads) {
+      threads_(threads), touched_(std::move(touched)) {
   const int areas = problem.design().areas.count();
   for (int a = 0; a < areas; ++a)
     areaShares_.push_back(tractionShares(problem.mesh(), regionOf(problem.design().areaRectangle(a))));
@@ -77,7 +77,7 @@ void BatchEngine::rest() {
 bool BatchEngine::findCompliance(const std::vector<Job>& jobs, const std::stop_token& stop) {
   const bool wanted =
       std::any_of(jobs.begin(), jobs.end(), [](const Job& job) { return !job.load->indenters.empty(); });
-  if (wanted && !top_) top_ = TopCompliance::find(model_, problem_.mesh(), threads_, stop);
+  if (wanted && !top_) top_ = TopCompliance::find(model_, problem_.mesh(), touched_, threads_, stop);
   return !wanted || top_;
 }
 

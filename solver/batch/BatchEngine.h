@@ -23,9 +23,9 @@ struct AreaPredictor {
 /// Iterates loads in batches; the machinery of BatchSolver without its policy.
 class BatchEngine {
 public:
-  /// `tolerance` is what the predictors are made for; a solve may ask for another.
+  /// `tolerance` is what the predictors are made for; a solve may ask for another. `touched` as in BatchOptions.
   BatchEngine(const HyperelasticProblem& problem, std::shared_ptr<const InitialTangent> rest, double tolerance,
-              int threads);
+              int threads, std::optional<Rectangle> touched = {});
 
   /// Answer of one load; without one: full Newton must find it.
   using Answer = std::optional<ElectrodeDisplacements>;
@@ -73,6 +73,7 @@ private:
   int terms_; ///< of the polynomial, filled up to whole lanes
   double predictorTolerance_;
   int threads_;
+  std::optional<Rectangle> touched_;
   std::vector<TractionShares> areaShares_;
   std::vector<std::optional<AreaPredictor>> predictors_;
   std::vector<char> tried_;                  ///< areas whose predictor was sought

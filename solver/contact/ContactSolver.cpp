@@ -254,7 +254,7 @@ ContactSolver::Outcome ContactSolver::newTangent(double fraction, const State& s
   const auto outcome = cholesky_->factorise(std::move(matrix), options_.threads, observer_.stop);
   if (outcome == SparseCholesky::Outcome::Stopped) return Outcome::Cancelled;
   if (outcome == SparseCholesky::Outcome::NotPositiveDefinite) return Outcome::Indefinite;
-  compliance_ = cholesky_->inverseOfLast();
+  compliance_ = cholesky_->inverseOfLast(observer_.stop);
   charged_ = 0;
   return stopped() ? Outcome::Cancelled : Outcome::Converged;
 }

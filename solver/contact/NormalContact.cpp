@@ -133,7 +133,8 @@ bool NormalContact::solve(const Eigen::Matrix3Xd& motion_mm) {
   bool settled = false;
   for (int s = 0; s < mostContactSteps && !settled; ++s)
     if (!step(near, settled)) return false;
-  return settled;
+  return settled && std::none_of(forces_.begin(), forces_.end(),
+                                 [&](const NodeForce& force) { return top_->atBorder(force.node); });
 }
 
 std::vector<NodeForce> NormalContact::forces() const {

@@ -26,7 +26,7 @@ public:
   NormalContact(std::vector<Indenter> indenters, std::shared_ptr<const TopCompliance> top);
 
   /// Forces on the nodes that move so [3 x nodes] under the forces found before, which are where it starts; none at
-  /// first. False: no answer.
+  /// first. False: no answer, or one that reaches the border of the compliance.
   [[nodiscard]] bool solve(const Eigen::Matrix3Xd& motion_mm);
 
   /// The indenters' force on each node of the mesh that carries one.

@@ -175,7 +175,7 @@ bool ReducedContact::solve(const Eigen::MatrixXd& compliance, const Eigen::Matri
     }
     if (size == 0) return true;
     Eigen::VectorXd change = right;
-    if (!solveDense(matrix, change)) return false;
+    if (!solveDense(matrix, change, stop)) return false;
     double share = 1, greatest = smallestTranslation;
     for (std::size_t m = 0; m < moves.size(); ++m) {
       const double move = std::abs(change(unknowns + static_cast<Eigen::Index>(m)));

@@ -8,11 +8,32 @@
 
 namespace palp {
 
+void TopCompliance::chooseNodes(const Mesh& mesh, const std::optional<Rectangle>& part) {
+  std::vector<bool> leftOut(static_cast<std::size_t>(mesh.nodeCount()));
+  for (const ContactPoint& point : contactPoints(mesh)) {
+    const Eigen::Vector2d place_mm = mesh.nodes_mm.col(point.node).head<2>();
+    const bool inside =
+        !part || ((place_mm - part->low_mm).minCoeff() >= 0 && (part->high_mm - place_mm).minCoeff() >= 0);
+    if (inside)
+      nodes_.push_back(point.node);
+    else
+      leftOut[std::size_t(point.node)] = true;
+  }
+  places_mm_ = mesh.nodes_mm(Eigen::all, nodes_);
+  std::vector<bool> beside(leftOut.size());
+  for (Eigen::Index f = 0; f < mesh.topFaces.cols(); ++f) {
+    const auto face = mesh.topFaces.col(f);
+    if (std::any_of(face.begin(), face.end(), [&](int node) { return leftOut[std::size_t(node)]; }))
+      for (const int node : face) beside[std::size_t(node)] = true;
+  }
+  for (const int node : nodes_) atBorder_.push_back(beside[std::size_t(node)]);
+}
+
 std::shared_ptr<const TopCompliance> TopCompliance::find(const ElementwiseTangent& tangent, const Mesh& mesh,
-                                                         int threads, const std::stop_token& stop) {
+                                                         const std::optional<Rectangle>& part, int threads,
+                                                         const std::stop_token& stop) {
   auto found = std::make_shared<TopCompliance>();
-  for (const ContactPoint& point : contactPoints(mesh)) found->nodes_.push_back(point.node);
-  found->places_mm_ = mesh.nodes_mm(Eigen::all, found->nodes_);
+  found->chooseNodes(mesh, part);
   const int count = found->count();
   found->blocks_.resize(3 * Eigen::Index(count), 3 * Eigen::Index(count));
   const BlockedFactor factor = tangent.factor();

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <vector>
 
@@ -14,13 +15,16 @@ namespace palp {
 /// blocks [mm/N] of its inverse, in single precision, as the factor is: an iteration is led by it, its answer is not.
 class TopCompliance {
 public:
-  /// Of the contact points of the top face (ContactPoints.h). Empty: stopped.
-  static std::shared_ptr<const TopCompliance> find(const ElementwiseTangent& tangent, const Mesh& mesh, int threads,
+  /// Of the contact points of the top face (ContactPoints.h), or of those in a part of it. Empty: stopped.
+  static std::shared_ptr<const TopCompliance> find(const ElementwiseTangent& tangent, const Mesh& mesh,
+                                                   const std::optional<Rectangle>& part, int threads,
                                                    const std::stop_token& stop = {});
 
   [[nodiscard]] int count() const { return static_cast<int>(nodes_.size()); }
   [[nodiscard]] const std::vector<int>& nodes() const { return nodes_; }         ///< of the mesh
   [[nodiscard]] const Eigen::Matrix3Xd& places_mm() const { return places_mm_; } ///< at rest
+  /// Whether node i lies beside contact points that are left out.
+  [[nodiscard]] bool atBorder(int i) const { return atBorder_[std::size_t(i)]; }
   /// Motion of node i, counted in nodes(), by a force on node j.
   [[nodiscard]] Eigen::Matrix3d block(int i, int j) const {
     return blocks_.block<3, 3>(3 * Eigen::Index(i), 3 * Eigen::Index(j)).cast<double>();
@@ -30,7 +34,10 @@ public:
   }
 
 private:
+  void chooseNodes(const Mesh& mesh, const std::optional<Rectangle>& part);
+
   std::vector<int> nodes_;
+  std::vector<bool> atBorder_;
   Eigen::Matrix3Xd places_mm_;
   Eigen::MatrixXf blocks_;
 };

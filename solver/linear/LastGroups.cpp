@@ -30,9 +30,9 @@ std::vector<int> SparseCholesky::rowsOfLast() const {
   return rows;
 }
 
-Eigen::MatrixXd SparseCholesky::inverseOfLast() const {
+Eigen::MatrixXd SparseCholesky::inverseOfLast(const std::stop_token& stop) const {
   Eigen::MatrixXd inOrder = lastRows_;
-  invertFromCholesky(inOrder);
+  if (!invertFromCholesky(inOrder, stop)) return {};
   const std::vector<int> rows = rowsOfLast();
   const auto size = static_cast<Eigen::Index>(rows.size());
   Eigen::MatrixXd inverse(size, size);

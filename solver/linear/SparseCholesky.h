@@ -82,8 +82,8 @@ public:
   void solve(Eigen::VectorXd& rightSide, const Answer& answer, const std::stop_token& stop = {}) const;
 
   /// The inverse matrix between the unknowns of the pattern's last groups, in the groups' order, in double precision:
-  /// of the factor's last rows L, all other unknowns being eliminated, (L L^T)^-1.
-  [[nodiscard]] Eigen::MatrixXd inverseOfLast() const;
+  /// of the factor's last rows L, all other unknowns being eliminated, (L L^T)^-1. Empty: stopped.
+  [[nodiscard]] Eigen::MatrixXd inverseOfLast(const std::stop_token& stop = {}) const;
 
   [[nodiscard]] const CholeskyPlan& plan() const { return *plan_; }
   [[nodiscard]] std::size_t bytes() const { return factor_.size() * sizeof(float); } ///< of the factor's numbers

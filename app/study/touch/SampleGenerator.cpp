@@ -9,13 +9,15 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 
 namespace palp {
 
 namespace {
 
-constexpr std::size_t kBlock = 192;     // samples solved before they are handed out: about a second of work
-constexpr std::size_t kFieldBlock = 64; // the same where each has a conduction field of its own
+constexpr std::size_t kBlock = 192;       // samples solved before they are handed out: about a second of work
+constexpr std::size_t kFieldBlock = 64;   // the same where each has a conduction field of its own
+constexpr std::size_t kBlocksOfParts = 4; // as many where each mesh solves its part of them
 constexpr std::size_t kSurrogateBlock = 8192;
 constexpr int kMostPerArea = 10'000'000;
 
@@ -90,42 +92,67 @@ LoadCase SampleGenerator::load(std::size_t i) const {
   return load;
 }
 
-bool SampleGenerator::prepare(const std::stop_token& stop) {
-  if (!solver_) {
-    Mesh mesh;
-    try {
-      const MeshOptions options =
-          request_.touches ? meshForTouches(design_, *request_.touches, request_.mesh) : request_.mesh;
-      mesh = stages_.measure("mesh", [&] { return sensorMesh(design_, options, stop); });
-    } catch (const Cancelled&) {
-      return false;
-    }
-    stages_.measure("factorise", [&] {
-      problem_ = std::make_unique<HyperelasticProblem>(design_, std::move(mesh));
-      solver_ = std::make_unique<BatchSolver>(
-          *problem_, BatchOptions{request_.relativeTolerance, request_.surrogate, request_.threads});
-      if (design_.field())
-        field_ = std::make_unique<ConductionBatch>(
-            *problem_, *solver_, BatchOptions{request_.relativeTolerance, request_.surrogate, request_.threads});
-    });
-    origin_.mesh = problem_->elementType() + ", " + std::to_string(problem_->mesh().elementCount()) + " elements, " +
-                   std::to_string(problem_->mesh().nodeCount()) + " nodes";
+bool SampleGenerator::prepare(Part& part, const std::stop_token& stop) {
+  if (part.solver) return true;
+  MeshOptions options = request_.mesh;
+  BatchOptions batch{request_.relativeTolerance, request_.surrogate, request_.threads};
+  if (part.touches) {
+    options = meshForPart(design_, *part.touches, options);
+    if (parts_.size() > 1) batch.touched = touchedByTouches(design_, *part.touches, options);
+    batch.checkFirst = std::none_of(parts_.begin(), parts_.end(), [](const Part& p) { return p.solver != nullptr; });
   }
+  Mesh mesh;
+  try {
+    mesh = stages_.measure("mesh", [&] { return sensorMesh(design_, options, stop); });
+  } catch (const Cancelled&) {
+    return false;
+  }
+  stages_.measure("factorise", [&] {
+    part.problem = std::make_unique<HyperelasticProblem>(design_, std::move(mesh));
+    part.solver = std::make_unique<BatchSolver>(*part.problem, batch);
+    if (design_.field()) part.field = std::make_unique<ConductionBatch>(*part.problem, *part.solver, batch);
+  });
+  return true;
+}
+
+/// All that the head of the file says; touches' meshes are made when they are needed.
+bool SampleGenerator::prepare(const std::stop_token& stop) {
+  if (parts_.empty()) {
+    if (request_.touches)
+      for (const TouchRange& part : partsOfTouches(design_, *request_.touches, request_.mesh, &cuts_))
+        parts_.push_back({part, {}, {}, {}});
+    else
+      parts_.resize(1);
+  }
+  if (parts_.size() > 1) {
+    const MeshOptions mesh = meshForPart(design_, *parts_.front().touches, request_.mesh);
+    requireMeshable(design_, mesh);
+    const double factor = mesh.meshSize_mm.value_or(standardMeshSize_mm(design_)) / standardMeshSize_mm(design_);
+    origin_.mesh = "P2+bubble/P1d, " + std::to_string(parts_.size()) + " meshes of cells of " +
+                   text(std::round(1000 * factor * mesh.zones.front().size_mm.minCoeff()) / 1000) +
+                   " mm where their share of the touches is";
+    return !stop.stop_requested();
+  }
+  Part& part = parts_.front();
+  if (!prepare(part, stop)) return false;
+  origin_.mesh = part.problem->elementType() + ", " + std::to_string(part.problem->mesh().elementCount()) +
+                 " elements, " + std::to_string(part.problem->mesh().nodeCount()) + " nodes";
   // All loads together are more than the surrogates of single areas can answer.
   if (!fitted_ && request_.surrogate && request_.areas != "together") {
     fitted_ = stages_.measure("surrogate", [&] { return fitSurrogates(stop); });
     if (!fitted_) return false;
-    origin_.surrogateError = std::max(solver_->surrogateError(), field_ ? field_->surrogateError() : 0);
+    origin_.surrogateError = std::max(part.solver->surrogateError(), part.field ? part.field->surrogateError() : 0);
   }
   return true;
 }
 
 bool SampleGenerator::fitSurrogates(const std::stop_token& stop) {
+  Part& part = parts_.front();
   const int first = onlyArea_.value_or(0), count = onlyArea_ ? 1 : design_.areas.count();
   for (int k = 0; k < count; ++k) {
     const std::array area{first + k};
     if (fitting_) fitting_(static_cast<std::size_t>(k), static_cast<std::size_t>(count));
-    if (!solver_->fitSurrogates(area, stop) || (field_ && !field_->fitSurrogates(area, stop))) return false;
+    if (!part.solver->fitSurrogates(area, stop) || (part.field && !part.field->fitSurrogates(area, stop))) return false;
   }
   return true;
 }
@@ -135,7 +162,32 @@ void SampleGenerator::setSeed(std::uint64_t seed) {
 }
 
 double SampleGenerator::measuredError() const {
-  return std::max(solver_ ? solver_->measuredError() : 0, field_ ? field_->surrogateError() : 0);
+  double error = 0;
+  for (const Part& part : parts_)
+    error = std::max(
+        {error, part.solver ? part.solver->measuredError() : 0, part.field ? part.field->surrogateError() : 0});
+  return error;
+}
+
+std::size_t SampleGenerator::solves() const {
+  std::size_t all = 0;
+  for (const Part& part : parts_) all += part.solver ? part.solver->solves() : 0;
+  return all;
+}
+
+std::size_t SampleGenerator::partOf(const LoadCase& load) const {
+  if (parts_.size() == 1) return 0;
+  const Eigen::Vector2d from_mm = load.indenters.front().place_mm - request_.touches->low_mm;
+  const Eigen::Vector2d extent_mm = request_.touches->high_mm - request_.touches->low_mm;
+  std::array<int, 2> at{};
+  for (int d = 0; d < 2; ++d)
+    if (cuts_[d] > 1) at[d] = std::clamp(static_cast<int>(from_mm(d) / extent_mm(d) * cuts_[d]), 0, cuts_[d] - 1);
+  return static_cast<std::size_t>(at[1] * cuts_[0] + at[0]);
+}
+
+std::size_t SampleGenerator::samplesABlock() const {
+  if (request_.surrogate) return kSurrogateBlock;
+  return (design_.field() ? kFieldBlock : kBlock) * (parts_.size() > 1 ? kBlocksOfParts : 1);
 }
 
 const SampleOrigin& SampleGenerator::origin() {
@@ -151,7 +203,7 @@ SampleSet SampleGenerator::emptySet(const std::stop_token& stop) {
 std::size_t SampleGenerator::generate(SampleRange range, const std::function<void(const SampleSet&)>& take,
                                       const std::function<void(std::size_t)>& progress, const std::stop_token& stop) {
   if (stop.stop_requested() || !prepare(stop)) return 0;
-  const std::size_t most = request_.surrogate ? kSurrogateBlock : field_ ? kFieldBlock : kBlock;
+  const std::size_t most = samplesABlock();
   std::size_t done = range.first;
   while (done < range.last && !stop.stop_requested()) {
     const SampleRange part{done, std::min(range.last, done + most)};
@@ -175,8 +227,41 @@ ConductionBatch::Answers SampleGenerator::answers(const SampleRange& part,
                                                   const std::stop_token& stop) {
   std::vector<LoadCase> loads;
   for (std::size_t i = part.first; i < part.last; ++i) loads.push_back(load(i));
-  if (field_) return field_->solve(loads, progress, stop, part.first);
-  ConductionBatch::Answers result{solver_->solve(loads, progress, stop, part.first), {}};
+  if (parts_.size() == 1) return answers(parts_.front(), loads, progress, stop, part.first);
+  std::vector<std::vector<std::size_t>> ofParts(parts_.size());
+  for (std::size_t i = 0; i < loads.size(); ++i) ofParts[partOf(loads[i])].push_back(i);
+  ConductionBatch::Answers all{std::vector<ElectrodeDisplacements>(loads.size()),
+                               std::vector<Eigen::MatrixXd>(loads.size())};
+  std::size_t done = 0;
+  for (std::size_t p = 0; p < parts_.size(); ++p) {
+    const std::vector<std::size_t>& own = ofParts[p];
+    if (own.empty()) continue;
+    if (!prepare(parts_[p], stop)) return {};
+    std::vector<LoadCase> some;
+    std::vector<std::size_t> numbers;
+    for (const std::size_t i : own) {
+      some.push_back(loads[i]);
+      numbers.push_back(part.first + i);
+    }
+    parts_[p].solver->nameLoads(std::move(numbers));
+    ConductionBatch::Answers found = answers(
+        parts_[p], some, [&](std::size_t solved) { progress(done + solved); }, stop, 0);
+    parts_[p].solver->rest();
+    if (found.displacements.size() < own.size()) return {};
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      all.displacements[own[k]] = std::move(found.displacements[k]);
+      all.resistances_ohm[own[k]] = std::move(found.resistances_ohm[k]);
+    }
+    done += own.size();
+  }
+  return all;
+}
+
+ConductionBatch::Answers SampleGenerator::answers(Part& part, std::span<const LoadCase> loads,
+                                                  const std::function<void(std::size_t)>& progress,
+                                                  const std::stop_token& stop, std::size_t firstNumber) const {
+  if (part.field) return part.field->solve(loads, progress, stop, firstNumber);
+  ConductionBatch::Answers result{part.solver->solve(loads, progress, stop, firstNumber), {}};
   for (const ElectrodeDisplacements& moved : result.displacements)
     result.resistances_ohm.push_back(rowColumnResistances(design_, moved));
   return result;

@@ -9,9 +9,13 @@
 #include "solver/ConductionBatch.h"
 #include "solver/SensorMesh.h"
 
+#include <array>
 #include <functional>
+#include <memory>
 #include <optional>
+#include <span>
 #include <stop_token>
+#include <vector>
 
 namespace palp {
 
@@ -64,15 +68,28 @@ public:
   SampleSet emptySet(const std::stop_token& stop = {});
 
   [[nodiscard]] const StageLog& stages() const { return stages_; }
-  [[nodiscard]] std::size_t solves() const { return solver_ ? solver_->solves() : 0; }
+  [[nodiscard]] std::size_t solves() const;
   /// Largest relative error of the electrode displacements on the share that was solved again by full Newton; that of
   /// the surrogates' d ln R under the law of the field where it is larger.
   [[nodiscard]] double measuredError() const;
 
 private:
+  /// Solver of the samples on one mesh: of all, or of touches in a part of their rectangle.
+  struct Part {
+    std::optional<TouchRange> touches;
+    std::unique_ptr<HyperelasticProblem> problem;
+    std::unique_ptr<BatchSolver> solver;
+    std::unique_ptr<ConductionBatch> field; ///< under the law of the field
+  };
   /// False: stopped.
   bool prepare(const std::stop_token& stop = {});
+  bool prepare(Part& part, const std::stop_token& stop);
   bool fitSurrogates(const std::stop_token& stop);
+  [[nodiscard]] std::size_t partOf(const LoadCase& load) const;
+  [[nodiscard]] std::size_t samplesABlock() const;
+  ConductionBatch::Answers answers(Part& part, std::span<const LoadCase> loads,
+                                   const std::function<void(std::size_t)>& progress, const std::stop_token& stop,
+                                   std::size_t firstNumber) const;
   /// Empty displacements: stopped.
   ConductionBatch::Answers answers(const SampleRange& part, const std::function<void(std::size_t)>& progress,
                                    const std::stop_token& stop);
@@ -82,10 +99,9 @@ private:
   SampleRequest request_;
   std::optional<int> onlyArea_;
   SampleOrigin origin_;
-  std::unique_ptr<HyperelasticProblem> problem_;
-  std::unique_ptr<BatchSolver> solver_;
-  std::unique_ptr<ConductionBatch> field_; ///< under the law of the field
-  bool fitted_ = false;                    ///< surrogates, where wanted
+  std::vector<Part> parts_;       ///< made at the first sample in each
+  std::array<int, 2> cuts_{1, 1}; ///< of the touches' rectangle into parts along x and y
+  bool fitted_ = false;           ///< surrogates, where wanted
   std::function<void(std::size_t, std::size_t)> fitting_;
   StageLog stages_;
 };

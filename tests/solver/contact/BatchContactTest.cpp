@@ -48,6 +48,20 @@ TEST(BatchContact, FindsWhatFullNewtonFinds) {
   }
 }
 
+TEST(BatchContact, ATouchThatReachesBeyondThePartThatIsSaidIsSolvedAllTheSame) {
+  const HyperelasticProblem problem = touchedHexahedra();
+  const std::vector<LoadCase> loads{touch(5, 8, 15, 2), touch(5, 13.5, 15, 2)}; // the second across the border
+  BatchOptions part;
+  part.touched = Rectangle{{3, 10}, {14, 20}};
+  part.checkFirst = false;
+  BatchSolver some(problem, part), whole(problem);
+  const auto answers = some.solve(loads), expected = whole.solve(loads);
+  ASSERT_EQ(answers.size(), 2U);
+  EXPECT_LT(difference(answers[0], expected[0]), 1e-7);
+  EXPECT_LT(difference(answers[1], expected[1]), 1e-5) << "by full Newton";
+  EXPECT_EQ(some.solves(), 3U) << "the second twice, nothing checked";
+}
+
 TEST(BatchContact, AnAnswerDependsOnItsOwnTouchAlone) {
   const HyperelasticProblem problem = touchedHexahedra();
   LoadCase uniform;

@@ -114,6 +114,34 @@ TEST(SampleGenerator, TouchesAreFullSolvesOfTheirIndenters) {
   }
 }
 
+TEST(SampleGenerator, PartsOfTheFaceHaveMeshesOfTheirOwn) {
+  SensorDesign design = paperDesign();
+  design.block_mm.x() = 60;
+  SampleRequest request = coarse(5);
+  request.mesh.mapped.reset();
+  request.mesh.meshSize_mm = 3 * standardMeshSize_mm(design);
+  request.relativeTolerance = 1e-5;
+  request.touches = touchesOf(design);
+  request.touches->low_mm.y() = 14;
+  request.touches->high_mm.y() = 16;
+  request.touches->leastPress_N = request.touches->mostPress_N = 3;
+  ASSERT_EQ(partsOfTouches(design, *request.touches, request.mesh).size(), 2U);
+  SampleGenerator generator(design, request), another(design, request);
+  SampleSet all, part;
+  generator.generate({0, 5}, [&](const SampleSet& block) { append(all, block); });
+  another.generate({3, 5}, [&](const SampleSet& block) { append(part, block); });
+  EXPECT_EQ(part.displacements_mm, all.displacements_mm.rightCols(2));
+  EXPECT_EQ(part.origin.mesh, all.origin.mesh);
+  EXPECT_EQ(generator.stages().runs("mesh"), 2);
+  EXPECT_GT(generator.measuredError(), 0);
+  EXPECT_LT(generator.measuredError(), 1e-4);
+  const LoadCase load = generator.load(4);
+  MeshOptions own = request.mesh;
+  const HyperelasticProblem fitted(design, sensorMesh(design, meshFor(design, load, own)));
+  const Eigen::VectorXd expected = fitted.electrodes(fitted.solve(load).state()).upper_mm.reshaped();
+  EXPECT_LT((all.displacements_mm.col(4) - expected).norm(), 0.1 * expected.norm()) << "coarse meshes";
+}
+
 TEST(SampleGenerator, RefusesTouchesThatCannotBe) {
   SampleRequest request = coarse(2);
   request.touches = touchesOf(paperDesign());
