@@ -55,6 +55,7 @@ private:
   void substitute(const Eigen::Ref<const Rows>& b, std::vector<float, CacheLineAllocator<float>>& work,
                   Eigen::Ref<Rows> x, const std::stop_token& stop) const;
   void subtractProduct(const Eigen::Ref<const Rows>& x, Eigen::Ref<Rows> from) const;
+  template <int Sides> void subtractProductOf(const Eigen::Ref<const Rows>& x, Eigen::Ref<Rows> from) const;
 
   std::shared_ptr<const CholeskyPlan> plan_;
   LaneVector matrix_;

@@ -82,14 +82,16 @@ INSTANTIATE_TEST_SUITE_P(Paper, PrototypesBounds,
                          [](const auto& each) { return each.param.name; });
 
 TEST(FieldResponse, OfASmallForceIsThatOfTheSolvedField) {
-  // (0, 0, -0.3) N on area 0, rms over all readings, by another program's finite elements, which say that they are good
-  // to 4 % (floating) and 1 %. Virtual ground is 5 % apart: its figure does not hold. Our own finite elements on the
-  // deformed mesh, whose field shares nothing with this, give 1.229e-5, 1.202e-4 and 8.295e-5 (numerics.md).
+  // (0, 0, -0.3) N on area 0, rms over all readings. First what our own finite elements converge to on the deformed
+  // mesh (98,515 nodes, numerics.md), whose field shares nothing with this: to 5 % (floating) and 2 %, what is asked
+  // for of the default mesh, whose displacements these are. Then another program's, to what it says of itself; its
+  // figure by virtual ground, 1.145e-4, is 5 % apart from all of ours and does not hold.
   struct Known {
     Readout readout;
     double rms, relative;
   };
-  for (const Known& known : {Known{Readout::Floating, 1.240e-5, 0.04}, Known{Readout::VirtualGround, 1.145e-4, 0.06},
+  for (const Known& known : {Known{Readout::Floating, 1.263e-5, 0.05}, Known{Readout::VirtualGround, 1.214e-4, 0.02},
+                             Known{Readout::RowsGrounded, 8.366e-5, 0.02}, Known{Readout::Floating, 1.240e-5, 0.04},
                              Known{Readout::RowsGrounded, 8.296e-5, 0.01}}) {
     const Eigen::MatrixXd change = -0.3 * paperField().logSensitivity(known.readout)[0][2];
     EXPECT_NEAR(std::sqrt(change.cwiseAbs2().mean()), known.rms, known.relative * known.rms)
