@@ -18,24 +18,24 @@ namespace palp {
 
 namespace {
 
-constexpr int wholeBelow = 768; // so many rows take less than 0.1 s
-constexpr int panel = 192;
+constexpr int kWholeBelow = 768; // so many rows take less than 0.1 s
+constexpr int kColumnsAtOnce = 192;
 
 /// As dgetrf, from the left to the right. False: singular, or stopped.
 bool factoriseByPanels(double* a, int n, std::vector<int>& pivots, const std::stop_token& stop) {
   const auto at = [&](int row, int column) { return a + std::size_t(column) * std::size_t(n) + row; };
   const int one = 1;
-  for (int k = 0; k < n; k += panel) {
-    const int width = std::min(panel, n - k), below = n - k, rest = n - k - width;
+  for (int k = 0; k < n; k += kColumnsAtOnce) {
+    const int width = std::min(kColumnsAtOnce, n - k), below = n - k, rest = n - k - width;
     int info = 0;
     dgetrf_(&below, &width, at(k, k), &n, pivots.data() + k, &info);
     if (info != 0) return false;
     const int first = k + 1, last = k + width;
     for (int i = k; i < last; ++i) pivots[static_cast<std::size_t>(i)] += k;
     dlaswp_(&k, a, &n, &first, &last, pivots.data(), &one);
-    for (int c = last; c < n; c += panel) {
+    for (int c = last; c < n; c += kColumnsAtOnce) {
       if (stop.stop_requested()) return false;
-      const int columns = std::min(panel, n - c);
+      const int columns = std::min(kColumnsAtOnce, n - c);
       dlaswp_(&columns, at(0, c), &n, &first, &last, pivots.data(), &one);
       cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasUnit, width, columns, 1, at(k, k), n,
                   at(k, c), n);
@@ -54,11 +54,11 @@ bool invertByPanels(Eigen::MatrixXd& lower, const std::stop_token& stop) {
   const auto in = [n](Eigen::MatrixXd& A, int row, int column) {
     return A.data() + std::size_t(column) * std::size_t(n) + row;
   };
-  for (int c = 0; c < n; c += panel) {
-    const int columns = std::min(panel, n - c);
-    for (int r = c; r < n; r += panel) {
+  for (int c = 0; c < n; c += kColumnsAtOnce) {
+    const int columns = std::min(kColumnsAtOnce, n - c);
+    for (int r = c; r < n; r += kColumnsAtOnce) {
       if (stop.stop_requested()) return false;
-      const int rows = std::min(panel, n - r), below = n - r - rows;
+      const int rows = std::min(kColumnsAtOnce, n - r), below = n - r - rows;
       cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, rows, columns, 1, in(lower, r, r),
                   n, in(M, r, c), n);
       if (below > 0)
@@ -66,10 +66,10 @@ bool invertByPanels(Eigen::MatrixXd& lower, const std::stop_token& stop) {
                     in(M, r, c), n, 1, in(M, r + rows, c), n);
     }
   }
-  for (int c = 0; c < n; c += panel)
-    for (int r = c; r < n; r += panel) {
+  for (int c = 0; c < n; c += kColumnsAtOnce)
+    for (int r = c; r < n; r += kColumnsAtOnce) {
       if (stop.stop_requested()) return false;
-      const int columns = std::min(panel, n - c), rows = std::min(panel, n - r);
+      const int columns = std::min(kColumnsAtOnce, n - c), rows = std::min(kColumnsAtOnce, n - r);
       cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, rows, columns, n - r, 1, in(M, r, r), n, in(M, r, c), n, 0,
                   in(lower, r, c), n);
     }
@@ -81,7 +81,7 @@ bool invertByPanels(Eigen::MatrixXd& lower, const std::stop_token& stop) {
 bool invertFromCholesky(Eigen::MatrixXd& lower, const std::stop_token& stop) {
   useOneBlasThread();
   const auto n = static_cast<int>(lower.rows());
-  if (n >= wholeBelow) return invertByPanels(lower, stop);
+  if (n >= kWholeBelow) return invertByPanels(lower, stop);
   int info = 0;
   if (n > 0) dpotri_("L", &n, lower.data(), &n, &info);
   return true;
@@ -94,7 +94,7 @@ bool solveDense(Eigen::MatrixXd& matrix, Eigen::VectorXd& rightSide, const std::
   const int one = 1;
   int info = 0;
   std::vector<int> pivots(static_cast<std::size_t>(n));
-  if (n >= wholeBelow) {
+  if (n >= kWholeBelow) {
     if (!factoriseByPanels(matrix.data(), n, pivots, stop)) return false;
   } else {
     dgetrf_(&n, &n, matrix.data(), &n, pivots.data(), &info);
