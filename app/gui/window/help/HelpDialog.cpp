@@ -1,7 +1,7 @@
-#include "app/gui/window/HelpDialog.h"
+#include "app/gui/window/help/HelpDialog.h"
 
-#include "app/gui/window/HelpLook.h"
-#include "app/gui/window/HelpTopics.h"
+#include "app/gui/window/help/HelpLook.h"
+#include "app/gui/window/help/HelpTopics.h"
 #include "app/study/Resources.h"
 #include "model/base/Error.h"
 

@@ -1,4 +1,4 @@
-#include "app/gui/window/HelpLook.h"
+#include "app/gui/window/help/HelpLook.h"
 
 #include <QImage>
 #include <QPalette>

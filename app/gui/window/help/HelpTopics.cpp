@@ -1,4 +1,4 @@
-#include "app/gui/window/HelpTopics.h"
+#include "app/gui/window/help/HelpTopics.h"
 
 #include <QFile>
 #include <QRegularExpression>

@@ -1,5 +1,5 @@
-#include "app/gui/window/HelpDialog.h"
-#include "app/gui/window/HelpTopics.h"
+#include "app/gui/window/help/HelpDialog.h"
+#include "app/gui/window/help/HelpTopics.h"
 
 #include "app/study/Resources.h"
 
