@@ -1,9 +1,68 @@
 #include "io/DecoderJson.h"
 
+#include "io/samples/ShuffledDeflate.h"
+#include "model/base/Base64.h"
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
 #include <string>
 #include <vector>
 
 namespace palp {
+
+namespace {
+
+constexpr int kMostTableNodes = 1000, kMostExponent = 12;
+constexpr std::size_t kMostDeflated = 1100; // deflate makes at most so many bytes of one
+
+/// What the coefficients are packed along: from one node to the next along the first place, and along the second. They
+/// are smooth, so what is left of the mixed difference is small.
+std::array<std::size_t, 2> stridesOf(const SplineTable& table) {
+  const auto one = static_cast<std::size_t>(table.outputs() * table.terms());
+  return {one, one * static_cast<std::size_t>(table.nodes[0])};
+}
+
+/// The coefficients in whole parts, as mixed differences, deflated; null where they are no whole parts (older files).
+OrderedJson packedCoefficients(const SplineTable& table) {
+  std::vector<std::uint32_t> parts;
+  parts.reserve(static_cast<std::size_t>(table.coefficients.size()));
+  for (const double value : table.coefficients.reshaped()) {
+    const double part = std::round(SplineTable::kParts * value);
+    if (!(std::abs(part) < std::numeric_limits<std::int32_t>::max()) || part / SplineTable::kParts != value) return {};
+    parts.push_back(static_cast<std::uint32_t>(static_cast<std::int32_t>(part)));
+  }
+  for (const std::size_t stride : stridesOf(table))
+    for (std::size_t i = parts.size(); i-- > stride;) parts[i] -= parts[i - stride];
+  for (std::uint32_t& part : parts) part = part << 1U ^ (part >> 31U ? ~0U : 0U); // small ones of both signs alike
+  std::vector<unsigned char> bytes(parts.size() * sizeof(std::uint32_t));
+  if (!bytes.empty()) std::memcpy(bytes.data(), parts.data(), bytes.size());
+  return base64(shuffledDeflate(bytes, sizeof(std::uint32_t)));
+}
+
+/// As `packedCoefficients` wrote them.
+Eigen::MatrixXd readPacked(const JsonPlace& place, const SplineTable& table) {
+  const Eigen::Index columns = table.terms() * Eigen::Index(table.nodes[0]) * Eigen::Index(table.nodes[1]);
+  const std::size_t count = static_cast<std::size_t>(table.outputs()) * static_cast<std::size_t>(columns);
+  const auto packed = fromBase64(place.string());
+  if (!packed || packed->size() * kMostDeflated < count * sizeof(std::uint32_t))
+    place.refuse("base64 of as many numbers as the table has");
+  std::vector<unsigned char> bytes(count * sizeof(std::uint32_t));
+  if (!ShuffledInflate().inflate(*packed, sizeof(std::uint32_t), bytes))
+    place.refuse("a stream of zlib of as many numbers as the table has; this one is damaged");
+  std::vector<std::uint32_t> parts(count);
+  std::memcpy(parts.data(), bytes.data(), bytes.size());
+  for (std::uint32_t& part : parts) part = part >> 1U ^ (part & 1U ? ~0U : 0U);
+  for (const std::size_t stride : stridesOf(table))
+    for (std::size_t i = stride; i < count; ++i) parts[i] += parts[i - stride];
+  Eigen::MatrixXd coefficients(table.outputs(), columns);
+  for (std::size_t i = 0; i < count; ++i)
+    coefficients.data()[i] = static_cast<std::int32_t>(parts[i]) / SplineTable::kParts;
+  return coefficients;
+}
+
+} // namespace
 
 OrderedJson toJson(const KernelForwardModel& model) {
   OrderedJson json = {{"cause_offset", toJson(model.causeOffset)},
@@ -27,19 +86,16 @@ OrderedJson toJson(const SplineTable& table) {
   OrderedJson exponents = OrderedJson::array();
   for (Eigen::Index j = 0; j < table.terms(); ++j)
     exponents.push_back(std::vector<int>(table.exponents.col(j).begin(), table.exponents.col(j).end()));
-  return {{"place", table.place},
-          {"low", {table.low(0), table.low(1)}},
-          {"step", {table.step(0), table.step(1)}},
-          {"nodes", table.nodes},
-          {"shift", toJson(table.shift)},
-          {"exponents", exponents},
-          {"rest", toJson(table.rest)},
-          {"coefficients", toJson(table.coefficients)}};
+  OrderedJson json = {
+      {"place", table.place},      {"low", {table.low(0), table.low(1)}}, {"step", {table.step(0), table.step(1)}},
+      {"nodes", table.nodes},      {"shift", toJson(table.shift)},        {"exponents", exponents},
+      {"rest", toJson(table.rest)}};
+  const OrderedJson packed = packedCoefficients(table);
+  json[packed.is_null() ? "coefficients" : "packed"] = packed.is_null() ? toJson(table.coefficients) : packed;
+  return json;
 }
 
 namespace {
-
-constexpr int kMostTableNodes = 1000, kMostExponent = 12;
 
 /// Which of the inputs are places: two different ones of them, or -1.
 std::array<int, 2> readPlaces(const JsonPlace& place, Eigen::Index inputs) {
@@ -52,7 +108,7 @@ std::array<int, 2> readPlaces(const JsonPlace& place, Eigen::Index inputs) {
 }
 
 SplineTable readTable(const JsonPlace& place) {
-  place.onlyKeys({"place", "low", "step", "nodes", "shift", "exponents", "rest", "coefficients"});
+  place.onlyKeys({"place", "low", "step", "nodes", "shift", "exponents", "rest"}, {"coefficients", "packed"});
   SplineTable table;
   table.shift = readVector(place.at("shift"));
   table.rest = readVector(place.at("rest"));
@@ -81,6 +137,10 @@ SplineTable readTable(const JsonPlace& place) {
     }
   }
   if (table.terms() < 1) place.at("exponents").refuse("one term or more");
+  if (place.has("packed")) {
+    table.coefficients = readPacked(place.at("packed"), table);
+    return table;
+  }
   table.coefficients = readMatrix(place.at("coefficients"));
   requireSize(place.at("coefficients"), table.coefficients.rows(), table.outputs(), "rows, one an output");
   requireSize(place.at("coefficients"), table.coefficients.cols(),

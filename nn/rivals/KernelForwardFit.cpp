@@ -34,7 +34,6 @@ constexpr int kNodes = 50; // between the table's nodes along the longer range o
 constexpr double kBeyondRange = 0.1; // of its range that a place may lie outside
 constexpr double kRestVariance = 1;  // of what does not depend on the causes, in the components' own
 constexpr const char* kNoFunction = "no smooth function goes through the samples: are some the same?";
-constexpr double kDecimals = 1e4; // the table is rounded to this part of a deviation of the noise
 
 /// Principal components of the measurements in units of their noise, the strongest first.
 Eigen::MatrixXd projectionOf(const Eigen::MatrixXd& centred, const Eigen::VectorXd& noise) {
@@ -332,7 +331,7 @@ SplineTable ForwardFit::tableOf(const std::vector<Eigen::Index>& samples, const 
     table.coefficients += known_.coefficients;
     table.rest += known_.rest;
   }
-  table.coefficients = (kDecimals * table.coefficients).array().round() / kDecimals; // short in its file
+  table.round(); // short in its file
   return table;
 }
 

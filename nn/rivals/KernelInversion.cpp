@@ -11,6 +11,7 @@ namespace palp {
 namespace {
 
 constexpr int kStarts = 6;
+constexpr double kExplained = 2; // deviations of chi-square above its mean: a touch that leaves less is taken
 constexpr int kMostSteps = 20;
 constexpr double kSmallStep = 0.01;                         // of a deviation that is left to the causes
 constexpr double kBeyond = 0.1;                             // of its range that a cause may lie outside
@@ -123,7 +124,8 @@ KernelEstimate KernelInversion::estimate(const Eigen::Ref<const Eigen::VectorXd>
   for (Eigen::VectorXd& start : startsFor(wanted)) {
     Trial trial = descend(start, wanted);
     if (trial.cost < best.cost) best = std::move(trial);
-    if (best.left.squaredNorm() < 2 * static_cast<double>(best.left.size())) break; // explained: no other is needed
+    const auto count = static_cast<double>(best.left.size());
+    if (best.left.squaredNorm() < count + kExplained * std::sqrt(2 * count)) break; // explained: no other is needed
   }
   KernelEstimate estimate;
   estimate.causes = model_.causeOffset;

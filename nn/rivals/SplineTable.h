@@ -10,6 +10,8 @@ namespace palp {
 /// the places uniform cubic B-splines (C. de Boor, A Practical Guide to Splines, 2001, chapter IX), in the other inputs
 /// monomials whose coefficients the splines are.
 struct SplineTable {
+  static constexpr double kParts = 20; ///< of a deviation of the noise, in which the outputs are: coefficients as kept
+
   std::array<int, 2> place{-1, -1}; ///< which inputs are places; -1: there is none
   Eigen::Array2d low{0, 0}, step{1, 1};
   std::array<int, 2> nodes{4, 4}; ///< splines along each place, 4 or more; where there is no place all are the same
@@ -29,6 +31,9 @@ struct SplineTable {
   /// (outputs x (terms x nodes x nodes) as `coefficients`, the outermost not read); exact for cubics where there are
   /// six nodes or more.
   void interpolate(Eigen::MatrixXd values);
+
+  /// Coefficients to whole parts.
+  void round() { coefficients = (kParts * coefficients).array().round() / kParts; }
 };
 
 } // namespace palp

@@ -49,6 +49,67 @@ TEST(NetworkFile, ReadsBackToTheSameBits) {
   EXPECT_EQ(a.form, b.form);
 }
 
+TEST(NetworkFile, KeepsATouchTableInEitherForm) {
+  Decoder decoder = smallDecoder(DecoderKind::TouchInversion);
+  auto& model = std::get<KernelForwardModel>(decoder.model);
+  const auto readBack = [&](const std::string& text) {
+    return std::get<KernelForwardModel>(parseNetwork(text, "net.json").model).table.coefficients;
+  };
+  model.table.coefficients(0, 0) = -2e4; // large ones and negative ones, too
+  const std::string packed = networkText(decoder);
+  EXPECT_NE(packed.find("\"packed\":\""), std::string::npos);
+  EXPECT_EQ(packed.find("\"coefficients\""), std::string::npos);
+  ASSERT_GT(model.table.coefficients.maxCoeff(), 0.01);
+  EXPECT_EQ(readBack(packed), model.table.coefficients);
+  model.table.coefficients /= 3; // no whole parts: as files before 1.0.0 have them
+  const std::string plain = networkText(decoder);
+  EXPECT_EQ(plain.find("\"packed\""), std::string::npos);
+  EXPECT_EQ(readBack(plain), model.table.coefficients);
+  EXPECT_GT(plain.size(), packed.size());
+}
+
+TEST(NetworkFile, RefusesAPackedTableThatIsDamaged) {
+  const std::string text = networkText(smallDecoder(DecoderKind::TouchInversion));
+  const std::string before = "\"packed\":\"";
+  const std::size_t begin = text.find(before) + before.size(), end = text.find('"', begin);
+  ASSERT_LT(begin + 400, end);
+  const auto with = [&](const std::string& packed) {
+    return networkRefusal(text.substr(0, begin) + packed + text.substr(end));
+  };
+  const std::string whole = text.substr(begin, end - begin);
+  EXPECT_EQ(with(whole), "");
+  EXPECT_NE(with("%" + whole.substr(1)).find("model.table.packed"), std::string::npos);
+  EXPECT_NE(with(whole.substr(0, whole.size() / 8 * 4)).find("damaged"), std::string::npos);
+  EXPECT_NE(with("").find("as many numbers as the table has"), std::string::npos);
+  std::string flipped = whole;
+  flipped[whole.size() / 2] = whole[whole.size() / 2] == 'A' ? 'B' : 'A';
+  EXPECT_NE(with(flipped).find("damaged"), std::string::npos);
+  // Numbers enough to fill the memory are not even tried.
+  const std::string nodes = "\"nodes\":";
+  const std::size_t first = text.find(nodes), last = text.find(']', first);
+  EXPECT_NE(networkRefusal(text.substr(0, first) + nodes + "[1000,1000" + text.substr(last))
+                .find("as many numbers as the table has"),
+            std::string::npos);
+}
+
+TEST(NetworkFile, KeepsTheCorrectionOfATouchDecoder) {
+  Decoder decoder = smallDecoder(DecoderKind::TouchInversion);
+  decoder.correction = OutputCorrection{Eigen::MatrixXd::Random(5, 5), Eigen::VectorXd::Random(5)};
+  const std::string text = networkText(decoder);
+  const Decoder again = parseNetwork(text, "net.json");
+  ASSERT_TRUE(again.correction);
+  EXPECT_EQ(again.correction->gains, decoder.correction->gains);
+  EXPECT_EQ(again.correction->offset, decoder.correction->offset);
+  decoder.correction->offset.conservativeResize(4);
+  EXPECT_NE(networkRefusal(networkText(decoder)).find("offset"), std::string::npos);
+  decoder.correction->offset.conservativeResize(5);
+  decoder.correction->gains.conservativeResize(4, 5);
+  EXPECT_NE(networkRefusal(networkText(decoder)).find("gains"), std::string::npos);
+  Decoder other = smallDecoder(DecoderKind::Linear);
+  other.correction = again.correction;
+  EXPECT_NE(networkRefusal(networkText(other)).find("correction"), std::string::npos);
+}
+
 TEST(NetworkFile, KeepsTheRotationOfWhitenedInputs) {
   const Decoder decoder = whitenedDecoder();
   const Eigen::MatrixXd samples = SmallSamples().inputs;

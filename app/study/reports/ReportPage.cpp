@@ -1,5 +1,7 @@
 #include "app/study/reports/ReportPage.h"
 
+#include "model/base/Base64.h"
+
 #include "model/base/Error.h"
 
 #include <array>
@@ -48,21 +50,6 @@ std::string escaped(const std::string& text) {
 std::string unbroken(const std::string& text) {
   static const std::regex triple("[0-9.e+-]+ / [0-9.e+-]+ / [0-9.e+-]+|[0-9.]+e-[0-9]+");
   return std::regex_replace(text, triple, "<span class=\"number\">$&</span>");
-}
-
-/// Base64 (RFC 4648).
-std::string base64(const std::vector<std::uint8_t>& bytes) {
-  constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string result;
-  result.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t left = bytes.size() - i;
-    const std::uint32_t group = static_cast<std::uint32_t>(bytes[i]) << 16U |
-                                (left > 1 ? static_cast<std::uint32_t>(bytes[i + 1]) << 8U : 0U) |
-                                (left > 2 ? static_cast<std::uint32_t>(bytes[i + 2]) : 0U);
-    for (std::size_t k = 0; k < 4; ++k) result += k <= left ? kDigits[group >> (18 - 6 * k) & 63U] : '=';
-  }
-  return result;
 }
 
 } // namespace
