@@ -1,7 +1,6 @@
 #include "app/study/reports/ReportPage.h"
 
 #include "model/base/Base64.h"
-
 #include "model/base/Error.h"
 
 #include <array>

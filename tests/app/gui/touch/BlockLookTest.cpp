@@ -228,27 +228,44 @@ int pixelsOf(const Picture& picture, const Color& color) {
   return count;
 }
 
-TEST(BlockColours, AreThoseOfTheLegendThoughElectrodesShowThrough) {
-  const SensorDesign design = paperDesign();
-  MeshOptions coarse;
-  coarse.mapped = {6, 6, 2};
-  const Mesh mesh = sensorMesh(design, coarse);
+/// A block whose fields are given by their shape, to be drawn without a solve.
+struct ShapedBlock {
+  SensorDesign design = paperDesign();
+  Mesh mesh;
   NodalFields fields;
-  fields.displacement_mm.setZero(3, mesh.nodeCount());
-  fields.displacement_mm.row(0).setConstant(0.1); // one value everywhere
+  explicit ShapedBlock(std::array<int, 3> cells) {
+    MeshOptions coarse;
+    coarse.mapped = cells;
+    mesh = sensorMesh(design, coarse);
+    fields.displacement_mm.setZero(3, mesh.nodeCount());
+  }
+  DeformationState state() const {
+    DeformationState state;
+    state.design = &design;
+    state.mesh = &mesh;
+    state.fields = &fields;
+    return state;
+  }
+};
+
+/// Displacement along x from 0 to 0.12 mm, without edges and outlines.
+DeformationOptions plainColours() {
+  DeformationOptions options;
+  options.quantity = Quantity::DisplacementX;
+  options.fixedRange = {0, 0.12};
+  options.meshEdges = options.areaOutlines = false;
+  return options;
+}
+
+TEST(BlockColours, AreThoseOfTheLegendThoughElectrodesShowThrough) {
+  ShapedBlock block({6, 6, 2});
+  block.fields.displacement_mm.row(0).setConstant(0.1); // one value everywhere
   for (const Theme theme : {Theme::Light, Theme::Dark})
     for (const bool electrodes : {true, false}) {
-      DeformationOptions options;
-      options.quantity = Quantity::DisplacementX;
-      options.fixedRange = {0, 0.12};
+      DeformationOptions options = plainColours();
       options.electrodes = electrodes;
-      options.meshEdges = options.areaOutlines = false;
       options.theme = theme;
-      DeformationState state;
-      state.design = &design;
-      state.mesh = &mesh;
-      state.fields = &fields;
-      const Picture picture = drawDeformation(state, options, 480, 320);
+      const Picture picture = drawDeformation(block.state(), options, 480, 320);
       ColorScale legend{ColorMap::Diverging, 0, 0.12, "ux", "mm"};
       legend.opacity = electrodes ? options.opacity : 1;
       legend.ground = palette(theme).ground;
@@ -257,23 +274,10 @@ TEST(BlockColours, AreThoseOfTheLegendThoughElectrodesShowThrough) {
 }
 
 TEST(BlockWords, KeepClearOfTheLegendInALowView) {
-  const SensorDesign design = paperDesign();
-  MeshOptions coarse;
-  coarse.mapped = {4, 4, 2};
-  const Mesh mesh = sensorMesh(design, coarse);
-  NodalFields fields;
-  fields.displacement_mm.setZero(3, mesh.nodeCount());
-  fields.displacement_mm.row(2) = -0.01 * mesh.nodes_mm.row(2);
-  DeformationOptions options;
-  options.quantity = Quantity::DisplacementX;
-  options.fixedRange = {0, 0.12};
-  options.meshEdges = options.areaOutlines = false;
-  DeformationState state;
-  state.design = &design;
-  state.mesh = &mesh;
-  state.fields = &fields;
+  ShapedBlock block({4, 4, 2});
+  block.fields.displacement_mm.row(2) = -0.01 * block.mesh.nodes_mm.row(2);
   constexpr int kWidth = 400, kHeight = 290; // as the block of the Resistance scene on a small screen
-  const Picture picture = drawDeformation(state, options, kWidth, kHeight);
+  const Picture picture = drawDeformation(block.state(), plainColours(), kWidth, kHeight);
   const auto left = static_cast<int>(kWidth - 14 - textWidth_px("ux [mm]", 13, true));
   const auto middle = static_cast<int>((1 - 0.55) / 2 * kHeight - 18); // of the legend's title, from the top
   const auto pixel = [&](int x, int y) { return &picture.rgb[3 * static_cast<std::size_t>(y * kWidth + x)]; };
