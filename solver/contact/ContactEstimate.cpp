@@ -9,9 +9,9 @@ namespace palp {
 
 namespace {
 
-constexpr double elementsARadius = 4; // of the contact
-constexpr double rimElements = 1;     // across a punch's rim
-constexpr double finestShare = 0.004; // of the block's height
+constexpr double elementsARadius = 4;     // of the contact
+constexpr double rimElementsARadius = 24; // of a punch, where its rim leaves the flat
+constexpr double finestShare = 0.004;     // of the block's height
 
 /// Frictionless indentation of a layer of thickness h and Poisson's ratio 0.5, bonded to a rigid base, by a contact of
 /// half width a: solutions of the integral equation.
@@ -140,9 +140,12 @@ std::vector<FineZone> fineZones(const SensorDesign& design, const LoadCase& load
     }
     zones.push_back(zone);
     if (indenter.shape != IndenterShape::Flat) continue;
-    const double rim = std::max({indenter.rim_mm / rimElements, indenter.radius_mm / 12, finest});
+    // Pressure peaks where the rim leaves the flat, and a circle on a grid is a staircase.
+    const double flat = indenter.radius_mm - indenter.rim_mm;
+    const double fine = std::max(indenter.radius_mm / rimElementsARadius, finest);
     for (const double side : {-1., 1.})
-      zones.push_back({zone.centre_mm + side * zone.half_mm, Eigen::Vector2d::Zero(), Eigen::Vector2d::Constant(rim)});
+      zones.push_back({zone.centre_mm + Eigen::Vector2d::Constant(side * flat), shift.cwiseAbs() / 2,
+                       Eigen::Vector2d::Constant(fine)});
   }
   return zones;
 }

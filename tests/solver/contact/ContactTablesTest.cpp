@@ -53,5 +53,20 @@ INSTANTIATE_TEST_SUITE_P(Rows, PlaneStrain,
                                          StripCase{5, 0.44076, 2.98402, 72}),
                          [](const auto& row) { return "Row" + std::to_string(row.index); });
 
+/// A bonded layer, nu = 0.499, pressed by a punch with its rim: the integral equation of the layer (Hayes, Keer,
+/// Herrmann and Mockros 1972) for the profile 0 to r = 1.8 mm, then an arc of 0.2 mm, solved anew; the contact ends on
+/// the rim at r = 1.81805 mm. A sharp edge of 2 mm would take 16 % more, one of 1.8 mm 1 % less.
+TEST(FlatPunch, PressesABondedLayerAsTheClosedFormOfItsRimSays) {
+  const SensorDesign design = paperDesign();
+  LoadCase load;
+  load.indenters = {{IndenterShape::Flat, 2, 0.2, {15, 15}, 0, Motion{0.01, Eigen::Vector2d::Zero()}}};
+  MeshOptions options = meshFor(design, load, {});
+  options.meshSize_mm = 2 * standardMeshSize_mm(design); // 0.03 % of error all the same
+  const Solution solution = HyperelasticProblem(design, sensorMesh(design, options)).solve(load);
+  ASSERT_TRUE(solution.converged) << solution.stopReason;
+  constexpr double kForce_N = 0.189554;
+  EXPECT_NEAR(-solution.state().indenters[0].force_N.z(), kForce_N, 0.01 * kForce_N);
+}
+
 } // namespace
 } // namespace palp
