@@ -72,6 +72,7 @@ OrderedJson toJson(const KernelForwardModel& model) {
                       {"projection", toJson(model.projection)},
                       {"deviation", toJson(model.deviation)},
                       {"inflation", toJson(model.inflation)}};
+  if (model.leftByOne > 0) json["left_by_one"] = model.leftByOne;
   if (model.table.inputs() == 0) {
     json["network"] = toJson(model.network);
     return json;
@@ -166,7 +167,7 @@ void readInversion(const JsonPlace& place, KernelForwardModel& model) {
 KernelForwardModel readKernelForwardModel(const JsonPlace& place) {
   place.onlyKeys(
       {"cause_offset", "cause_factor", "cause_deviation", "measurement_offset", "projection", "deviation", "inflation"},
-      {"network", "table", "starts", "strengths"});
+      {"left_by_one", "network", "table", "starts", "strengths"});
   KernelForwardModel model;
   model.causeOffset = readVector(place.at("cause_offset"));
   model.causeFactor = readVector(place.at("cause_factor"));
@@ -186,6 +187,10 @@ KernelForwardModel readKernelForwardModel(const JsonPlace& place) {
   requireSize(place.at("projection"), model.projection.rows(), model.components(), "rows, one a component");
   if (model.components() < 1 || !(model.deviation.array() > 0).all())
     place.at("deviation").refuse("numbers above 0, one or more");
+  if (place.has("left_by_one")) {
+    model.leftByOne = place.at("left_by_one").number();
+    if (!(model.leftByOne > 0)) place.at("left_by_one").refuse("a number above 0");
+  }
   const std::string form = place.has("table") ? "table" : "network";
   if (place.has("table"))
     readInversion(place, model);

@@ -21,7 +21,6 @@ namespace {
 
 constexpr int kMostComponents = 160;
 constexpr double kLeastSignal = 0.1;      // rms of a component that is kept, in standard deviations of the noise
-constexpr double kLeastNoise = 1e-6;      // relative: what the solver's own tolerance leaves
 constexpr Eigen::Index kHeldOut = 5;      // one of so many samples
 constexpr Eigen::Index kMostStarts = 400; // samples kept for the inversion to begin at
 constexpr Eigen::Index kMostTried = 2000; // samples on which widths are chosen
@@ -133,7 +132,7 @@ ForwardFit::ForwardFit(const Eigen::MatrixXd& measurements, const Eigen::MatrixX
   const Eigen::MatrixXd centred = measurements.colwise() - common_.measurementOffset;
   const Eigen::VectorXd size = measurements.array().square().rowwise().mean().sqrt();
   if (!(size.minCoeff() > 0)) throw NetworkError("a measurement is 0 in every sample");
-  common_.projection = projectionOf(centred, std::max(options.relativeNoise, kLeastNoise) * size);
+  common_.projection = projectionOf(centred, std::max(options.relativeNoise, leastTouchNoise) * size);
   if (common_.projection.rows() == 0) throw NetworkError("no measurement stands out of the noise");
   components_ = common_.projection * centred;
   placeNodes();
@@ -348,12 +347,12 @@ KernelForwardModel ForwardFit::modelOf(const std::vector<Eigen::Index>& samples)
   return model;
 }
 
-/// What 68.3 % of the sizes lie below: one standard deviation of normal ones.
-double oneDeviation(std::vector<double> sizes) {
+/// What this share of the sizes lies below: 0.683 is one standard deviation of normal ones.
+double quantile(double share, std::vector<double> sizes) {
   if (sizes.empty()) return 1;
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(0.683 * static_cast<double>(sizes.size()));
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return *middle;
+  const auto there = sizes.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(sizes.size()));
+  std::nth_element(sizes.begin(), there, sizes.end());
+  return *there;
 }
 
 } // namespace
@@ -377,6 +376,7 @@ KernelForwardFit fitKernelForwardModel(const Eigen::Ref<const Eigen::MatrixXd>& 
   const KernelInversion inversion(some);
   RandomNumbers random(1);
   result.heldOutResiduals.resize(causes.rows(), static_cast<Eigen::Index>(result.heldOut.size()));
+  std::vector<double> left;
   std::vector<std::vector<double>> sizes(static_cast<std::size_t>(causes.rows()));
   for (std::size_t i = 0; i < result.heldOut.size(); ++i) {
     if (stop.stop_requested()) throw Cancelled();
@@ -384,14 +384,16 @@ KernelForwardFit fitKernelForwardModel(const Eigen::Ref<const Eigen::MatrixXd>& 
     Eigen::VectorXd reading = measurements.col(result.heldOut[i]);
     for (double& value : reading) value *= 1 + options.relativeNoise * random.normal(); // as they will come
     const KernelEstimate estimate = inversion.estimate(reading);
+    left.push_back(estimate.chiSquare);
     const Eigen::VectorXd off = result.heldOutResiduals.col(static_cast<Eigen::Index>(i)) = truth - estimate.causes;
     for (Eigen::Index k = 0; k < off.size(); ++k)
       if (estimate.standardDeviation(k) > 0)
         sizes[static_cast<std::size_t>(k)].push_back(std::abs(off(k)) / estimate.standardDeviation(k));
   }
   result.model = work.modelOf(all);
+  result.model.leftByOne = quantile(0.99, std::move(left));
   for (std::size_t k = 0; k < sizes.size(); ++k)
-    result.model.inflation(static_cast<Eigen::Index>(k)) = oneDeviation(std::move(sizes[k]));
+    result.model.inflation(static_cast<Eigen::Index>(k)) = quantile(0.683, std::move(sizes[k]));
   return result;
 }
 

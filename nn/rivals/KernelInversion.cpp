@@ -139,6 +139,8 @@ KernelEstimate KernelInversion::estimate(const Eigen::Ref<const Eigen::VectorXd>
     estimate.standardDeviation(varied_[k]) = model_.inflation(varied_[k]) * std::sqrt(covariance(i, i)) / factor;
   }
   estimate.chiSquare = best.left.squaredNorm() / static_cast<double>(best.left.size());
+  if (model_.table.inputs() > 0)
+    estimate.change = (wanted - rest_).cwiseQuotient(weight_).squaredNorm() / static_cast<double>(wanted.size());
   return estimate;
 }
 

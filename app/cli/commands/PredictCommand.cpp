@@ -45,7 +45,8 @@ std::string csv(const Decoder& decoder, const Prediction& prediction) {
     for (Eigen::Index o = 0; o < decoder.outputs(); ++o) text += ",sd_" + outputName(decoder, o);
   const bool place = prediction.places_mm.size() > 0;
   if (place) text += deviation ? ",x_mm,y_mm,sd_x_mm,sd_y_mm" : ",x_mm,y_mm";
-  text += ",outside_training_range" + std::string(area ? ",area,area_confidence\n" : "\n");
+  text += ",outside_training_range" + std::string(area ? ",area,area_confidence" : "") +
+          (prediction.pressing.empty() ? "\n" : ",pressing\n");
   for (Eigen::Index i = 0; i < prediction.forces_N.cols(); ++i) {
     text += std::to_string(i);
     for (const double force : prediction.forces_N.col(i)) text += "," + palp::text(force);
@@ -57,6 +58,7 @@ std::string csv(const Decoder& decoder, const Prediction& prediction) {
       for (const double sd : prediction.placeDeviation_mm.col(i)) text += "," + palp::text(sd);
     text += prediction.outsideTrainingRange[static_cast<std::size_t>(i)] ? ",1" : ",0";
     if (area) text += "," + std::to_string(prediction.area(i)) + "," + palp::text(prediction.areaConfidence(i));
+    if (!prediction.pressing.empty()) text += std::string(",") + name(prediction.pressing[static_cast<std::size_t>(i)]);
     text += '\n';
   }
   return text;
@@ -76,6 +78,10 @@ void fill(const Decoder& decoder, const Prediction& prediction, const DecoderErr
   if (prediction.places_mm.size() > 0) {
     result["place_mm"] = columnsJson(prediction.places_mm);
     result["place_standard_deviation_mm"] = columnsJson(prediction.placeDeviation_mm);
+  }
+  if (!prediction.pressing.empty()) {
+    nlohmann::ordered_json& pressing = result["pressing"] = nlohmann::ordered_json::array();
+    for (const Pressing each : prediction.pressing) pressing.push_back(name(each));
   }
   if (error.place) {
     result["place_error"] = {{"rms_mm", listJson(error.place->rms_mm)}, {"median_mm", error.place->median_mm}};
@@ -97,6 +103,12 @@ void print(const Prediction& prediction, const DecoderError& error) {
   if (error.place)
     std::cout << "place: rms " << error.place->rms_mm.transpose() << " mm along x, y; median distance "
               << error.place->median_mm << " mm\n";
+  const auto pressing = [&](Pressing which) {
+    return std::count(prediction.pressing.begin(), prediction.pressing.end(), which);
+  };
+  if (!prediction.pressing.empty())
+    std::cout << "pressing: nothing seen in " << pressing(Pressing::None) << ", one known touch in "
+              << pressing(Pressing::One) << ", something else in " << pressing(Pressing::Other) << '\n';
   if (error.rightAreas) std::cout << "right areas: " << 100 * *error.rightAreas << " %\n";
 }
 

@@ -68,7 +68,7 @@ double furtherNoise(const Decoder& decoder, const PredictOptions& options) {
 
 /// Variance of noise beyond the training's, in that of the noise that the components of touches are counted in.
 double noiseBeyond(const Decoder& decoder, const PredictOptions& options) {
-  const double counted = std::max(decoder.noise, 1e-6);
+  const double counted = std::max(decoder.noise, leastTouchNoise);
   return furtherNoise(decoder, options) / (counted * counted);
 }
 
@@ -145,9 +145,17 @@ void addDeviations(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixX
   }
 }
 
+/// Mean of the squares of so many normal numbers that 99 of 100 such means stay below (Wilson and Hilferty 1931).
+double commonMeanSquare(Eigen::Index count) {
+  constexpr double quantile = 2.326;
+  const double spread = 2 / (9 * static_cast<double>(count));
+  return std::pow(1 - spread + quantile * std::sqrt(spread), 3);
+}
+
 /// Forces and places with their deviations, and how well the model explains the inputs.
-void decodeTouches(const Decoder& decoder, const KernelInversion& inversion,
-                   const Eigen::Ref<const Eigen::MatrixXd>& inputs, Prediction& result) {
+void decodeTouches(const Decoder& decoder, const KernelForwardModel& model, const KernelInversion& inversion,
+                   const Eigen::Ref<const Eigen::MatrixXd>& inputs, const PredictOptions& options, Prediction& result) {
+  const double seen = (1 + noiseBeyond(decoder, options)) * commonMeanSquare(model.components());
   const Eigen::Index outputs = decoder.outputs() + 2;
   const bool sized = inversion.finds(outputs); // after force and place: size, friction
   if (sized) result.indenterSize_mm.resize(inputs.cols());
@@ -160,6 +168,10 @@ void decodeTouches(const Decoder& decoder, const KernelInversion& inversion,
     result.standardDeviation_N.col(i) = estimate.standardDeviation.head(outputs);
     result.chiSquare(i) = estimate.chiSquare;
     if (sized) result.indenterSize_mm(i) = estimate.causes(outputs);
+    if (model.leftByOne == 0) continue;
+    result.pressing.push_back(estimate.change < seen                  ? Pressing::None
+                              : estimate.chiSquare <= model.leftByOne ? Pressing::One
+                                                                      : Pressing::Other);
   }
 }
 
@@ -199,6 +211,10 @@ void requireNumbers(const Decoder& decoder, const Eigen::Ref<const Eigen::Matrix
 }
 
 } // namespace
+
+const char* name(Pressing pressing) {
+  return pressing == Pressing::None ? "none" : pressing == Pressing::One ? "one" : "other";
+}
 
 Eigen::MatrixXd inputsOf(const SampleSet& samples, const DecoderInput& input) {
   const bool displacement = input.kind == InputKind::Displacement;
@@ -244,7 +260,7 @@ Prediction Predictor::operator()(const Eigen::Ref<const Eigen::MatrixXd>& inputs
   if (likelihood)
     decodeByLikelihood(decoder, *likelihood, *inversion_, inputs, options, result);
   else if (touchInversion_)
-    decodeTouches(decoder, *touchInversion_, inputs, result);
+    decodeTouches(decoder, *touches_, *touchInversion_, inputs, options, result);
   else
     result.forces_N = forcesOf(decoder, inputs);
   const std::chrono::duration<double, std::micro> time = std::chrono::steady_clock::now() - start;

@@ -17,6 +17,11 @@ namespace palp {
 /// other sizes than the input wants.
 Eigen::MatrixXd inputsOf(const SampleSet& samples, const DecoderInput& input);
 
+/// What presses, as far as the readings tell it: nothing that is seen above the noise, one touch as they were learned,
+/// or neither of these: two at once, another body.
+enum class Pressing { None, One, Other };
+const char* name(Pressing pressing); ///< none, one, other
+
 /// What a decoder says; one column a sample.
 struct Prediction {
   Eigen::MatrixXd forces_N;
@@ -30,6 +35,7 @@ struct Prediction {
   /// Mean square of what the most likely touch leaves of the inputs, in their standard deviations (noise and model);
   /// empty without a forward model.
   Eigen::VectorXd chiSquare;
+  std::vector<Pressing> pressing;   ///< empty: the decoder does not tell
   Eigen::MatrixXd likely_N;         ///< forces of that touch, where they are not the decoder's own
   double microsecondsPerSample = 0; ///< of the forces alone
   std::vector<std::string> warnings;

@@ -22,12 +22,20 @@ constexpr double kLongestStep_s = 1;
 
 Plausibility::Plausibility(const Decoder& decoder)
     : low_N_(decoder.low_N), range_N_(decoder.high_N - decoder.low_N), trainedNoise_(decoder.noise) {
+  if (const auto* touches = std::get_if<KernelForwardModel>(&decoder.model)) {
+    if (touches->leftByOne == 0) return;
+    leftByOne_ = touches->leftByOne;
+    modelVariance_ = (touches->deviation.array().square() - (trainedNoise_ > 0 ? 1 : 0)).cwiseMax(0.0);
+    const double unit = std::max(trainedNoise_, leastTouchNoise);
+    noiseSquare_ = Eigen::VectorXd::Constant(modelVariance_.size(), 1 / (unit * unit));
+    return;
+  }
   const ForwardModel* model = decoder.areas ? &*decoder.areas : std::get_if<ForwardModel>(&decoder.model);
   if (model == nullptr) return;
-  size2_ohm2_ = (decoder.input.low.cwiseAbs2() + decoder.input.high.cwiseAbs2()) / 2;
+  noiseSquare_ = (decoder.input.low.cwiseAbs2() + decoder.input.high.cwiseAbs2()) / 2;
   // What training added for the noise is taken out again: this board's is put in its place.
   modelVariance_ =
-      (model->deviation.array().square() - trainedNoise_ * trainedNoise_ * size2_ohm2_.array()).cwiseMax(0.0);
+      (model->deviation.array().square() - trainedNoise_ * trainedNoise_ * noiseSquare_.array()).cwiseMax(0.0);
 }
 
 void Plausibility::restart() {
@@ -43,14 +51,24 @@ double Plausibility::limit(Eigen::Index readings, double noiseUncertainty) {
 }
 
 std::optional<double> Plausibility::misfit(const PlausibilityInput& input) const {
-  if (!input.chiSquare || modelVariance_.size() != input.readings_ohm.size() || input.noise <= 0) return {};
+  if (!input.chiSquare || modelVariance_.size() == 0 || input.noise <= 0) return {};
   const double counted2 = std::max(input.predictedNoise * input.predictedNoise, trainedNoise_ * trainedNoise_);
+  const Eigen::ArrayXd counted = modelVariance_.array() + counted2 * noiseSquare_.array();
+  if (leftByOne_ > 0) {
+    const Eigen::ArrayXd expected = modelVariance_.array() + input.noise * input.noise * noiseSquare_.array();
+    return std::sqrt(*input.chiSquare / (expected / counted).mean());
+  }
+  if (modelVariance_.size() != input.readings_ohm.size()) return {};
   const Eigen::ArrayXd expected =
       modelVariance_.array() + input.noise * input.noise * input.readings_ohm.array().square();
-  const Eigen::ArrayXd counted = modelVariance_.array() + counted2 * size2_ohm2_.array();
   const auto readings = static_cast<double>(input.readings_ohm.size());
   const double fitted = std::max(1.0, readings - kCauses) / readings;
   return std::sqrt(*input.chiSquare / (fitted * (expected / counted).mean()));
+}
+
+double Plausibility::limitFor(const PlausibilityInput& input) const {
+  if (leftByOne_ == 0) return limit(input.readings_ohm.size(), input.noiseUncertainty);
+  return std::sqrt(leftByOne_) * (1 + kQuantile99 * input.noiseUncertainty);
 }
 
 Plausibility::Verdict Plausibility::judge(const PlausibilityInput& input) {
@@ -70,8 +88,7 @@ Plausibility::Verdict Plausibility::judge(const PlausibilityInput& input) {
     const Eigen::ArrayXd apart = (input.forces_N - *input.likely_N).array().abs();
     if ((apart > (kMarginDeviations * sd).max(kDisagreement * range_N_.array())).any()) doubt = Doubt::Disagrees;
   }
-  if (verdict.misfit && *verdict.misfit > limit(input.readings_ohm.size(), input.noiseUncertainty))
-    doubt = Doubt::Foreign;
+  if (verdict.misfit && *verdict.misfit > limitFor(input)) doubt = Doubt::Foreign;
   verdict.doubted = doubt != Doubt::None;
   follow(doubt, input.time_s);
   if (!held_) return verdict;
@@ -80,8 +97,8 @@ Plausibility::Verdict Plausibility::judge(const PlausibilityInput& input) {
   if (heldDoubt_ == Doubt::Foreign) {
     if (verdict.misfit) heldMisfit_ = *verdict.misfit;
     std::array<char, 160> text{};
-    std::snprintf(text.data(), text.size(), "no known touch: misfit %.2g, at most %.2g", heldMisfit_,
-                  limit(input.readings_ohm.size(), input.noiseUncertainty));
+    std::snprintf(text.data(), text.size(), "no %sknown touch: misfit %.2g, at most %.2g",
+                  leftByOne_ > 0 ? "single " : "", heldMisfit_, limitFor(input));
     verdict.reason = text.data();
   }
   return verdict;

@@ -51,8 +51,12 @@ private:
   [[nodiscard]] std::optional<double> misfit(const PlausibilityInput& input) const;
   void follow(Doubt doubt, double time_s);
 
-  Eigen::VectorXd size2_ohm2_;      ///< mean square of each reading, as training counts its noise
-  Eigen::VectorXd modelVariance_;   ///< of each reading, by the forward model alone [ohm^2]; empty: no such model
+  [[nodiscard]] double limitFor(const PlausibilityInput& input) const;
+
+  /// Of each reading [ohm^2], or where touches were learned of each component of them [variances of the noise].
+  Eigen::VectorXd noiseSquare_;     ///< variance as training counts it, over the square of the relative noise
+  Eigen::VectorXd modelVariance_;   ///< by the forward model alone; empty: no such model
+  double leftByOne_ = 0;            ///< KernelForwardModel::leftByOne; 0: the readings follow chi-square
   Eigen::VectorXd low_N_, range_N_; ///< of the training
   double trainedNoise_ = 0;
   double share_ = 0; ///< of the frames lately that were doubted

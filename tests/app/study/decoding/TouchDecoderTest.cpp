@@ -13,6 +13,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <ostream>
 #include <random>
 #include <vector>
@@ -22,9 +23,20 @@ namespace palp {
 namespace {
 
 /// Touches of the paper's design under a smooth stand-in for the block: the electrodes around the place go down.
+ElectrodeDisplacements standInFor(const SensorDesign& design, const std::vector<Indenter>& touches) {
+  const Eigen::Matrix3Xd electrodes = design.upperElectrodes_mm();
+  ElectrodeDisplacements state = ElectrodeDisplacements::atRest(design);
+  for (const Indenter& touch : touches)
+    for (Eigen::Index e = 0; e < electrodes.cols(); ++e) {
+      const Eigen::Vector2d away = (electrodes.col(e).head<2>() - touch.place_mm) / (4 + touch.radius_mm / 3);
+      const double near = 0.02 * touch.press()->force_N.z() * std::exp(-away.squaredNorm());
+      state.upper_mm.col(e) += Eigen::Vector3d(-0.4 * near * away.x(), -0.4 * near * away.y(), near);
+    }
+  return state;
+}
+
 SampleSet standInTouches(int count, std::uint64_t seed) {
   const SensorDesign design = paperDesign();
-  const Eigen::Matrix3Xd electrodes = design.upperElectrodes_mm();
   const TouchRange range = touchesOf(design);
   SampleSet set;
   set.origin.designFingerprint = "stand-in";
@@ -37,19 +49,14 @@ SampleSet standInTouches(int count, std::uint64_t seed) {
   set.area.resize(count);
   set.touches.resize(kTouchRows, count);
   set.forces_N.resize(3, count);
-  set.displacements_mm.resize(electrodes.size(), count);
+  set.displacements_mm.resize(3 * design.upper.electrodes(), count);
   set.resistances_ohm.resize(static_cast<Eigen::Index>(set.rowWires) * set.columnWires, count);
   for (int i = 0; i < count; ++i) {
     const Indenter touch = touchAt(range, seed, static_cast<std::size_t>(i));
     set.area(i) = areaUnder(design, touch.place_mm);
     set.touches.col(i) << static_cast<double>(touch.shape), touch.radius_mm, touch.friction, touch.place_mm;
     set.forces_N.col(i) = touch.press()->force_N;
-    ElectrodeDisplacements state = ElectrodeDisplacements::atRest(design);
-    for (Eigen::Index e = 0; e < electrodes.cols(); ++e) {
-      const Eigen::Vector2d away = (electrodes.col(e).head<2>() - touch.place_mm) / (4 + touch.radius_mm / 3);
-      const double near = 0.02 * touch.press()->force_N.z() * std::exp(-away.squaredNorm());
-      state.upper_mm.col(e) << -0.4 * near * away, near;
-    }
+    const ElectrodeDisplacements state = standInFor(design, {touch});
     set.displacements_mm.col(i) = state.upper_mm.reshaped();
     set.resistances_ohm.col(i) = rowColumnResistances(design, state).transpose().reshaped();
   }
@@ -132,6 +139,14 @@ TEST(TouchesOfABoard, FramesTellWhereTheTouchIs) {
   }
   ASSERT_GT(off_mm.size(), 10U);
   EXPECT_LT(median(off_mm), 2);
+  // Two at once are doubted.
+  const Indenter left{IndenterShape::Sphere, 5, 0, {8, 8}, 0, Press{{0, 0, -4}}};
+  const Indenter right{IndenterShape::Sphere, 4, 0, {22, 20}, 0, Press{{0, 0, -4}}};
+  const Eigen::MatrixXd both = rowColumnResistances(paperDesign(), standInFor(paperDesign(), {left, right}));
+  const DecodedForces two = decoded(both);
+  EXPECT_TRUE(two.doubted);
+  ASSERT_TRUE(two.misfit);
+  EXPECT_GT(*two.misfit, 5);
   for (int k = 0; k < 5; ++k) decoded(still);
   EXPECT_FALSE(decoded(still).place_mm) << "nothing touches it";
 }
@@ -154,6 +169,39 @@ TEST(TouchInversion, IsBetterThanANetworkAndKnowsItsError) {
   // 160 coordinates: 0.68 with a standard error of 0.04.
   EXPECT_GT(*touch.withinOneDeviation, 0.5);
   EXPECT_LT(*touch.withinOneDeviation, 0.85);
+}
+
+/// How many of these readings, each with noise, are judged so.
+std::ptrdiff_t judged(const Decoder& decoder, Eigen::MatrixXd readings_ohm, Pressing as) {
+  std::mt19937 engine(4);
+  std::normal_distribution<double> normal;
+  for (double& reading : readings_ohm.reshaped()) reading *= 1 + 1e-5 * normal(engine);
+  PredictOptions options;
+  options.noise = 1e-5;
+  const std::vector<Pressing> pressing = predict(decoder, readings_ohm, options).pressing;
+  return std::count(pressing.begin(), pressing.end(), as);
+}
+
+TEST(TouchInversion, TellsNoTouchFromOneAndFromTwo) {
+  const SensorDesign design = paperDesign();
+  const SampleSet train = standInTouches(400, 1), fresh = standInTouches(200, 2);
+  const Decoder decoder =
+      parseNetwork(networkText(trainDecoder(train, nullptr, forceAndPlace(DecoderKind::TouchInversion))), "net.json");
+  // One in a hundred at most is to be judged wrongly; 3 deviations of a binomial number of 200 are 4 more.
+  EXPECT_GE(judged(decoder, fresh.resistances_ohm, Pressing::One), 194);
+  const Eigen::VectorXd rest_ohm =
+      rowColumnResistances(design, ElectrodeDisplacements::atRest(design)).transpose().reshaped();
+  EXPECT_GE(judged(decoder, rest_ohm.replicate(1, 200), Pressing::None), 194);
+  const TouchRange range = touchesOf(design);
+  Eigen::MatrixXd twos_ohm(rest_ohm.size(), 0);
+  for (std::size_t i = 0; i < 100; ++i) {
+    const Indenter one = touchAt(range, 7, i), other = touchAt(range, 8, i);
+    if ((one.place_mm - other.place_mm).norm() < 8) continue; // mm: nearer ones may pass for a larger one
+    twos_ohm.conservativeResize(Eigen::NoChange, twos_ohm.cols() + 1);
+    twos_ohm.rightCols<1>() = rowColumnResistances(design, standInFor(design, {one, other})).transpose().reshaped();
+  }
+  ASSERT_GT(twos_ohm.cols(), 50);
+  EXPECT_EQ(judged(decoder, twos_ohm, Pressing::Other), twos_ohm.cols());
 }
 
 TEST(TouchInversion, GivesTheSameBytesWithAnyNumberOfThreads) {
