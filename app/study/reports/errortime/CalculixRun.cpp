@@ -3,6 +3,7 @@
 #include "app/study/ChildProcess.h"
 #include "io/AtomicFile.h"
 #include "solver/CalculixDeck.h"
+#include "solver/PointProbe.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -33,8 +34,27 @@ CalculixRun runCalculix(const std::string& program, const SensorDesign& design, 
   if (!run.failed.empty()) return run;
   const std::filesystem::path results = folder.path() / "job.frd";
   if (std::filesystem::exists(results)) run.displacements_mm = frdDisplacements(readFile(results), mesh.nodeCount());
+  const std::filesystem::path printed = folder.path() / "job.dat";
+  if (std::filesystem::exists(printed)) run.reaction_N = datReaction_N(readFile(printed));
   if (run.displacements_mm.size() == 0) run.failed = "CalculiX ended without displacements";
   return run;
+}
+
+Eigen::Matrix3Xd upperElectrodes_mm(const CalculixRun& run, const SensorDesign& design, const Mesh& mesh) {
+  constexpr Eigen::Index unknowns = 16; // zeros: neither bubble nor pressure is read at the nodes
+  const LoadIncrement state{1, run.displacements_mm, Eigen::MatrixXd::Zero(unknowns, mesh.elementCount())};
+  return PointProbe(mesh, design.upperElectrodes_mm()).displacements_mm(state);
+}
+
+std::optional<Eigen::Vector3d> datReaction_N(const std::string& dat) {
+  const std::size_t title = dat.rfind("total force (fx,fy,fz) for set BOTTOM");
+  if (title == std::string::npos) return {};
+  std::istringstream lines(dat.substr(title));
+  std::string line;
+  std::getline(lines, line);
+  Eigen::Vector3d force;
+  if (!(lines >> force(0) >> force(1) >> force(2))) return {};
+  return force;
 }
 
 Eigen::Matrix3Xd frdDisplacements(const std::string& frd, int nodes) {

@@ -4,6 +4,7 @@
 #include "app/study/reports/ReportPage.h"
 #include "app/study/reports/errortime/ChainTimes.h"
 #include "app/study/reports/errortime/SolverTimes.h"
+#include "app/study/reports/errortime/TouchTimes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -45,7 +46,8 @@ public:
   std::optional<ReportContent> run() {
     content_.title = "Error against run time";
     if (!solver()) return {};
-    const auto sets = twoSets(request_.design, request_, content_.stages, partOf(progress_, 0.45, 0.1), stop_);
+    if (!addTouchTimes(request_, quick_, partOf(progress_, 0.35, 0.15), stop_, content_, csv_)) return {};
+    const auto sets = twoSets(request_.design, request_, content_.stages, partOf(progress_, 0.5, 0.05), stop_);
     if (!sets) return {};
     networks(*sets);
     samples();
@@ -58,10 +60,9 @@ public:
 
 private:
   bool solver() {
-    const bool quick = request_.mesh.mapped.has_value();
-    if (quick) repeats_ = 1;
+    if (quick_) repeats_ = 1;
     const auto found =
-        solverTimes(request_.design, quick, repeats_, request_.threads, partOf(progress_, 0, 0.45), stop_);
+        solverTimes(request_.design, quick_, repeats_, request_.threads, partOf(progress_, 0, 0.35), stop_);
     if (!found) return false;
     solver_ = *found;
     content_.parts.push_back(ReportHeading{"Solver: displacement error against wall time"});
@@ -339,6 +340,7 @@ private:
   ReportProgress progress_;
   std::stop_token stop_;
   ReportContent content_;
+  bool quick_ = request_.mesh.mapped.has_value();
   int repeats_ = 3;
   Csv csv_{{"what", "way", "case", "error_of", "error_percent", "seconds", "seconds_each", "dof", "factor_MB",
             "process_MB"}};

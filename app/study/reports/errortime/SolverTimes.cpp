@@ -3,10 +3,10 @@
 #include "app/study/reports/ProcessMemory.h"
 #include "app/study/reports/ReportPage.h"
 #include "app/study/reports/errortime/CalculixRun.h"
+#include "app/study/reports/errortime/Extrapolation.h"
 #include "io/DesignFile.h"
 #include "solver/CalculixDeck.h"
 #include "solver/HyperelasticProblem.h"
-#include "solver/PointProbe.h"
 
 #include <cmath>
 #include <limits>
@@ -149,15 +149,6 @@ private:
   NewtonOptions newton_;
 };
 
-/// Richardson's extrapolation from meshes whose sizes fall by kRefinement, with the order that they show.
-void extrapolate(JudgedLoad& load, const Eigen::Matrix3Xd& coarse, const Eigen::Matrix3Xd& middle,
-                 const Eigen::Matrix3Xd& fine) {
-  const double ratio = (coarse - middle).norm() / (middle - fine).norm();
-  load.order = std::clamp(std::log(ratio) / std::log(kRefinement), 0.5, 4.0);
-  load.reference_mm = fine + (fine - middle) / (std::pow(kRefinement, load.order) - 1);
-  load.uncertainty = (load.reference_mm - fine).norm() / load.reference_mm.norm();
-}
-
 /// CalculiX on a mesh under every load, its whole process timed (the first load `repeats` times, the others once);
 /// meshed by us.
 MeshTimes calculixTimes(const std::string& program, const SensorDesign& design, const MeshOptions& options,
@@ -183,9 +174,7 @@ MeshTimes calculixTimes(const std::string& program, const SensorDesign& design, 
         break;
       }
       if (i > 0) continue;
-      constexpr Eigen::Index unknowns = 16; // zeros: neither bubble nor pressure is read at the nodes
-      const LoadIncrement state{1, run.displacements_mm, Eigen::MatrixXd::Zero(unknowns, mesh.elementCount())};
-      const Eigen::Matrix3Xd upper = PointProbe(mesh, design.upperElectrodes_mm()).displacements_mm(state);
+      const Eigen::Matrix3Xd upper = upperElectrodes_mm(run, design, mesh);
       times.errors.push_back((upper - loads[l].reference_mm).norm() / loads[l].reference_mm.norm());
     }
     times.loadSeconds.push_back(timing.median());
@@ -240,7 +229,11 @@ std::optional<SolverTimes> solverTimes(const SensorDesign& design, bool quick, i
   const std::size_t fine = tets.back(), middle = tets[tets.size() - 2], coarse = tets[tets.size() - 3];
   for (std::size_t l = 0; l < result.loads.size(); ++l) {
     JudgedLoad& load = result.loads[l];
-    extrapolate(load, displacements[coarse][l], displacements[middle][l], displacements[fine][l]);
+    const Extrapolation truth = extrapolated(displacements[coarse][l].reshaped(), displacements[middle][l].reshaped(),
+                                             displacements[fine][l].reshaped(), kRefinement);
+    load.reference_mm = truth.value.reshaped(3, truth.value.size() / 3);
+    load.order = truth.order;
+    load.uncertainty = truth.uncertainty;
     for (std::size_t i = 0; i < result.meshes.size(); ++i)
       result.meshes[i].errors.push_back((displacements[i][l] - load.reference_mm).norm() / load.reference_mm.norm());
   }

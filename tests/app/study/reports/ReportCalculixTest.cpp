@@ -23,6 +23,18 @@ TEST(CalculixResult, ReadsTheLastStepsDisplacementsByNode) {
   EXPECT_EQ(displacements.col(1), Eigen::Vector3d(4, 5, -6));
 }
 
+TEST(CalculixResult, ReadsTheLastForceOfTheClampedFace) {
+  const std::string dat = "\n total force (fx,fy,fz) for set BOTTOM and time  0.5000000E+00\n\n"
+                          "        1.000000E+00  0.000000E+00  2.000000E+00\n"
+                          "\n total force (fx,fy,fz) for set BOTTOM and time  0.1000000E+01\n\n"
+                          "        6.731472E-16 -6.005396E-16  3.657995E+00\n";
+  const auto force_N = palp::datReaction_N(dat);
+  ASSERT_TRUE(force_N);
+  EXPECT_EQ(force_N->z(), 3.657995);
+  EXPECT_FALSE(palp::datReaction_N("displacements\n"));
+  EXPECT_FALSE(palp::datReaction_N(" total force (fx,fy,fz) for set BOTTOM and time  0.1000000E+01\n\n"));
+}
+
 TEST(CalculixResult, IsEmptyWithoutDisplacements) {
   EXPECT_EQ(palp::frdDisplacements("    1C\n", 2).size(), 0);
 }

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+
+namespace palp {
+
+/// What three meshes say of the answer of an endlessly fine one.
+struct Extrapolation {
+  Eigen::VectorXd value;
+  double order = 0;       ///< of the error in the mesh size, as the meshes show it; taken as 0.5 at least and 4 at most
+  double uncertainty = 0; ///< relative: the value against that of the finest mesh
+};
+
+/// Richardson's extrapolation from the answers of meshes whose sizes fall by `refinement`.
+inline Extrapolation extrapolated(const Eigen::VectorXd& coarse, const Eigen::VectorXd& middle,
+                                  const Eigen::VectorXd& fine, double refinement) {
+  Extrapolation result;
+  const double ratio = (coarse - middle).norm() / (middle - fine).norm();
+  result.order = std::clamp(std::log(ratio) / std::log(refinement), 0.5, 4.0);
+  result.value = fine + (fine - middle) / (std::pow(refinement, result.order) - 1);
+  result.uncertainty = (result.value - fine).norm() / result.value.norm();
+  return result;
+}
+
+} // namespace palp

@@ -1,0 +1,211 @@
+#include "app/study/reports/errortime/TouchTimes.h"
+
+#include "app/study/reports/ReportPage.h"
+#include "app/study/reports/Timing.h"
+#include "app/study/reports/errortime/CalculixRun.h"
+#include "app/study/reports/errortime/Extrapolation.h"
+#include "solver/HyperelasticProblem.h"
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace palp {
+
+namespace {
+
+constexpr double kTouchRefinement = std::numbers::sqrt2;
+constexpr double kTouchLimit_s = 400; // of CalculiX, a run
+
+struct Touch {
+  std::string name;
+  LoadCase load;
+};
+
+/// One mesh and what it answers.
+struct TouchRun {
+  std::string way, mesh;
+  int dof = 0, elements = 0;
+  double seconds = 0; ///< from nothing to the answer
+  Eigen::VectorXd force_N, electrodes_mm;
+  double forceError = 0, electrodeError = 0; ///< relative
+  std::string failed;
+};
+
+/// A sphere as large as the block is high, in its middle.
+std::vector<Touch> judgedTouches(const SensorDesign& design, bool quick) {
+  const double h = design.block_mm.z();
+  const Eigen::Vector2d middle = design.block_mm.head<2>() / 2;
+  const Eigen::Vector2d aside = {0.04 * h, 0};
+  const std::string sphere = "sphere of " + shortNumber(h) + " mm, " + shortNumber(0.08 * h) + " mm down";
+  Touch plain{sphere + ", no friction", {}};
+  plain.load.indenters = {{IndenterShape::Sphere, h, 0, middle, 0, Motion{0.08 * h, {0, 0}}}};
+  if (quick) return {plain};
+  Touch rough{sphere + ", " + shortNumber(aside.x()) + " mm aside, friction 0.5", {}};
+  rough.load.indenters = {{IndenterShape::Sphere, h, 0, middle, 0.5, Motion{0.08 * h, aside}}};
+  return {plain, rough};
+}
+
+MeshOptions sized(const SensorDesign& design, const LoadCase& load, double factor) {
+  MeshOptions options = meshFor(design, load, {});
+  options.meshSize_mm = factor * standardMeshSize_mm(design);
+  return options;
+}
+
+TouchRun ourTouch(const SensorDesign& design, const Touch& touch, double factor, int threads,
+                  const std::stop_token& stop) {
+  TouchRun run;
+  const MeshOptions options = sized(design, touch.load, factor);
+  run.way = "Palp";
+  run.mesh = "--mesh-size " + shortNumber(*options.meshSize_mm) + (factor == 1 ? " (default)" : "");
+  NewtonOptions newton;
+  newton.threads = threads;
+  run.seconds = secondsOf([&] {
+    const HyperelasticProblem problem(design, sensorMesh(design, options));
+    const Solution solution = problem.solve(touch.load, newton, {.step = {}, .stop = stop});
+    run.dof = problem.dof();
+    run.elements = problem.mesh().elementCount();
+    if (!solution.converged) {
+      run.failed = solution.stopReason;
+      return;
+    }
+    run.force_N = solution.state().indenters[0].force_N;
+    run.electrodes_mm = problem.electrodes(solution.state()).upper_mm.reshaped();
+  });
+  return run;
+}
+
+TouchRun calculixTouch(const std::string& program, const SensorDesign& design, const Touch& touch, MeshOptions options,
+                       int threads, const std::stop_token& stop) {
+  TouchRun run;
+  run.way = options.mapped ? "CalculiX, C3D8 mapped" : "CalculiX, C3D10 graded";
+  Mesh mesh;
+  run.seconds = secondsOf([&] { mesh = sensorMesh(design, options); });
+  run.mesh = options.mapped ? "--mapped 20x20x10" : "--mesh-size " + shortNumber(*options.meshSize_mm);
+  run.dof = freeUnknowns(mesh);
+  run.elements = mesh.elementCount();
+  const CalculixRun found = runCalculix(program, design, mesh, touch.load, threads, kTouchLimit_s, stop);
+  run.seconds += found.seconds;
+  run.failed = found.failed;
+  if (run.failed.empty() && !found.reaction_N) run.failed = "CalculiX ended without the clamped face's force";
+  if (!run.failed.empty()) return run;
+  run.force_N = -*found.reaction_N; // the indenter's on the block
+  run.electrodes_mm = upperElectrodes_mm(found, design, mesh).reshaped();
+  return run;
+}
+
+ReportChart chartOf(const std::vector<TouchRun>& runs, const std::string& file, const std::string& what,
+                    const std::string& touch, double TouchRun::*error) {
+  ReportChart chart{.file = file,
+                    .caption = touch,
+                    .title = "Touch: " + what,
+                    .xLabel = "wall time from nothing [s]",
+                    .yLabel = "error of " + what + " [%]",
+                    .logX = true,
+                    .logY = true};
+  for (const TouchRun& run : runs) {
+    if (!run.failed.empty()) continue;
+    if (chart.curves.empty() || chart.curves.back().name != run.way) chart.curves.push_back({.name = run.way});
+    chart.curves.back().x.push_back(run.seconds);
+    chart.curves.back().y.push_back(100 * (run.*error));
+  }
+  return chart;
+}
+
+/// What the runs are judged by.
+struct Truth {
+  Extrapolation force, electrodes;
+};
+
+/// From the last three of our runs; none where one of them failed.
+std::optional<Truth> truthOf(const std::vector<TouchRun>& runs) {
+  const std::size_t fine = runs.size() - 1;
+  for (const std::size_t k : {fine - 2, fine - 1, fine})
+    if (!runs[k].failed.empty()) return {};
+  return Truth{extrapolated(runs[fine - 2].force_N, runs[fine - 1].force_N, runs[fine].force_N, kTouchRefinement),
+               extrapolated(runs[fine - 2].electrodes_mm, runs[fine - 1].electrodes_mm, runs[fine].electrodes_mm,
+                            kTouchRefinement)};
+}
+
+ReportTable tableOf(const Touch& touch, const Truth& truth, const std::vector<TouchRun>& runs) {
+  const Eigen::VectorXd& force_N = truth.force.value;
+  ReportTable table{touch.name + ": force (" + shortNumber(force_N(0)) + ", " + shortNumber(force_N(1)) + ", " +
+                        shortNumber(force_N(2)) + ") N, uncertain by " + shortNumber(100 * truth.force.uncertainty) +
+                        " %; the electrodes' reference is uncertain by " +
+                        shortNumber(100 * truth.electrodes.uncertainty) + " %; errors below these say nothing",
+                    {"way", "mesh", "elements", "unknowns", "seconds", "error of force [%]", "error of electrodes [%]"},
+                    {},
+                    {}};
+  for (const TouchRun& run : runs) {
+    const bool answered = run.failed.empty();
+    table.rows.push_back({run.way, run.mesh, std::to_string(run.elements), std::to_string(run.dof),
+                          shortNumber(run.seconds),
+                          answered ? shortNumber(100 * run.forceError) : "failed: " + run.failed,
+                          answered ? shortNumber(100 * run.electrodeError) : "-"});
+    table.marks.push_back(answered ? ReportTable::Mark::Plain : ReportTable::Mark::Bad);
+  }
+  return table;
+}
+
+/// The meshes that CalculiX runs on: it takes minutes where ours take a second.
+std::vector<MeshOptions> calculixMeshes(const SensorDesign& design, const LoadCase& load, bool quick) {
+  if (quick) return {sized(design, load, 4)};
+  return {sized(design, load, 3), sized(design, load, 2), {.meshSize_mm = {}, .mapped = {{20, 20, 10}}}};
+}
+
+} // namespace
+
+bool addTouchTimes(const ReportRequest& request, bool quick, const ReportProgress& progress,
+                   const std::stop_token& stop, ReportContent& content, Csv& csv) {
+  const SensorDesign& design = request.design;
+  const std::vector<double> factors = quick ? std::vector{4.0, 4.0 / kTouchRefinement, 2.0}
+                                            : std::vector{2.0, kTouchRefinement, 1.0, 1 / kTouchRefinement};
+  const auto program = design.material.poissonRatio < 0.5 ? calculixProgram() : std::nullopt;
+  content.parts.push_back(ReportHeading{"Touches: error of force and electrodes against wall time"});
+  content.parts.push_back(ReportWords{
+      "An indenter pressed by its way; its force is the answer. Errors against Palp's own answers, extrapolated "
+      "(Richardson) from its three finest meshes, sizes 1.41 apart. Wall time: meshing and all, one run each. " +
+      std::string(program ? "CalculiX (ccx) ran in the same session on the same meshes and decks as palp mesh --format "
+                            "inp writes, its whole process, with as many threads; its contact is a stiff linear "
+                            "pressure over the overlap, and its displacement elements lock where ours do not."
+                          : "CalculiX (ccx) is not installed or cannot take this rubber, so it is not beside them.")});
+  const std::vector<Touch> touches = judgedTouches(design, quick);
+  for (std::size_t t = 0; t < touches.size(); ++t) {
+    const Touch& touch = touches[t];
+    const ReportProgress own = partOf(progress, static_cast<double>(t) / static_cast<double>(touches.size()),
+                                      1 / static_cast<double>(touches.size()));
+    std::vector<TouchRun> runs;
+    for (const double factor : factors) {
+      if (own) own(0.1 * static_cast<double>(runs.size()), touch.name);
+      runs.push_back(ourTouch(design, touch, factor, request.threads, stop));
+      if (stop.stop_requested()) return false;
+    }
+    const std::optional<Truth> truth = truthOf(runs);
+    if (!truth) {
+      content.parts.push_back(ReportWords{touch.name + ": no answer to judge by; " + runs.back().failed});
+      continue;
+    }
+    if (program)
+      for (const MeshOptions& options : calculixMeshes(design, touch.load, quick)) {
+        if (own) own(0.1 * static_cast<double>(runs.size()), "CalculiX, " + touch.name);
+        runs.push_back(calculixTouch(*program, design, touch, options, request.threads, stop));
+        if (stop.stop_requested()) return false;
+      }
+    for (TouchRun& run : runs) {
+      if (!run.failed.empty()) continue;
+      run.forceError = (run.force_N - truth->force.value).norm() / truth->force.value.norm();
+      run.electrodeError = (run.electrodes_mm - truth->electrodes.value).norm() / truth->electrodes.value.norm();
+      for (const auto& [what, error] :
+           {std::pair{"force of the touch", run.forceError}, std::pair{"electrode displacements", run.electrodeError}})
+        csv.add({"touch", run.way + ", " + run.mesh, touch.name, what, 100 * error, run.seconds, "", run.dof, "", ""});
+    }
+    content.parts.emplace_back(tableOf(touch, *truth, runs));
+    const std::string number = std::to_string(t);
+    content.parts.emplace_back(chartOf(runs, "touch_force_" + number, "force", touch.name, &TouchRun::forceError));
+    content.parts.emplace_back(
+        chartOf(runs, "touch_electrodes_" + number, "electrodes", touch.name, &TouchRun::electrodeError));
+  }
+  return true;
+}
+
+} // namespace palp
