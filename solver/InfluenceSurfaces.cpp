@@ -3,74 +3,37 @@
 #include "model/base/Cancelled.h"
 #include "model/base/Parallel.h"
 #include "solver/PointProbe.h"
+#include "solver/contact/ContactDisc.h"
 #include "solver/contact/ContactEstimate.h"
+#include "solver/statics/PointMotion.h"
 #include "solver/statics/ProblemParts.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <numbers>
 
 namespace palp {
 
 namespace {
 
-constexpr double kShiftShare = 0.05; // of the block's height: half the width of the central difference over the place
-constexpr double kNothing = 1e-12;   // weight of a bubble on a face of its element, but for rounding
 constexpr int kTouchesAtOnce = 8;
 
-/// Gauss's rule of five points on (0, 1).
-constexpr std::array kNodes{0.046910077030668, 0.230765344947158, 0.5, 0.769234655052842, 0.953089922969332};
-constexpr std::array kWeights{0.118463442528095, 0.239314335249683, 0.284444444444444, 0.239314335249683,
-                              0.118463442528095};
-constexpr int kAngles = 24;
-constexpr int kDiscPoints = kAngles * static_cast<int>(kNodes.size());
-
-/// Points of a disc of radius 1 and their shares of a force on it. With t = sqrt(1 - r^2) the pressure under a flat end
-/// goes as 1 / t, Hertz's as t, and r dr = -t dt.
-struct Disc {
-  Eigen::Matrix2Xd points{2, kDiscPoints};
-  Eigen::VectorXd flat{kDiscPoints}, hertz{kDiscPoints};
-
-  Disc() {
-    for (std::size_t ring = 0; ring < kNodes.size(); ++ring)
-      for (int k = 0; k < kAngles; ++k) {
-        const double t = kNodes[ring], r = std::sqrt(1 - t * t);
-        const double angle = 2 * std::numbers::pi * (k + 0.5 * static_cast<double>(ring % 2)) / kAngles;
-        const Eigen::Index i = static_cast<Eigen::Index>(ring) * kAngles + k;
-        points.col(i) << r * std::cos(angle), r * std::sin(angle);
-        flat(i) = kWeights[ring] / kAngles;
-        hertz(i) = 3 * t * t * kWeights[ring] / kAngles;
-      }
-  }
+/// A point by its element.
+struct HeldPoint {
+  int element = 0;
+  Eigen::Matrix3Xd motion; ///< pointMotion
 };
 
-const Disc& unitDisc() {
-  static const Disc disc;
-  return disc;
-}
-
-/// The gradient of a reading as a load on the free displacements. The elements' own unknowns follow their nodes by
-/// x = -W u.
-Eigen::VectorXd loadOf(const LinearReadings& readings, Eigen::Index reading, const PointProbe& probe,
-                       const HyperelasticProblem::Parts& parts, const InitialTangent& rest) {
-  const Discretisation& mesh = *parts.discretisation;
+/// The gradient of a reading as a load on the free displacements.
+Eigen::VectorXd loadOf(const LinearReadings& readings, Eigen::Index reading, const std::vector<HeldPoint>& points,
+                       const Discretisation& mesh) {
   Eigen::VectorXd load = Eigen::VectorXd::Zero(3 * Eigen::Index(mesh.nodes()));
-  for (Eigen::Index p = 0; p < readings.points_mm.cols(); ++p) {
-    const Eigen::Vector3d gradient = readings.gradient_per_mm.row(reading).segment<3>(3 * p);
-    const PointProbe::Holder& holder = probe.holders()[static_cast<std::size_t>(p)].front();
-    const int e = holder.element;
-    for (int n = 0; n < holder.shapes.size(); ++n)
-      load.segment<3>(3 * Eigen::Index(mesh.node(e, n))) += holder.shapes(n) * gradient;
-    if (!(std::abs(holder.bubble) > kNothing)) continue;
-    const std::size_t dofs = static_cast<std::size_t>(mesh.elementDofs());
-    const double* const elimination = rest.tangents.elimination.data() +
-                                      std::size_t(e / lanes) * std::size_t(mesh.unknowns()) * dofs * lanes + e % lanes;
-    for (int n = 0; n < holder.shapes.size(); ++n)
-      for (int d = 0; d < 3; ++d)
-        for (std::size_t i = 0; i < 3; ++i) // the bubble's displacement comes first
-          load(3 * Eigen::Index(mesh.node(e, n)) + d) -=
-              holder.bubble * gradient(Eigen::Index(i)) * elimination[(i * dofs + 3 * std::size_t(n) + d) * lanes];
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    const HeldPoint& point = points[p];
+    const Eigen::Vector3d gradient = readings.gradient_per_mm.row(reading).segment<3>(3 * static_cast<Eigen::Index>(p));
+    if (gradient.isZero(0)) continue;
+    const Eigen::VectorXd share = point.motion.transpose() * gradient;
+    for (int n = 0; n < share.size() / 3; ++n)
+      load.segment<3>(3 * Eigen::Index(mesh.node(point.element, n))) += share.segment<3>(3 * n);
   }
   return mesh.freePart(load);
 }
@@ -84,6 +47,9 @@ std::optional<InfluenceSurfaces> InfluenceSurfaces::find(const HyperelasticProbl
   const PointProbe probe(parts.mesh, readings.points_mm);
   const auto rest = parts.initialTangent(threads, stop);
   if (!rest) return {};
+  std::vector<HeldPoint> points;
+  for (const auto& holders : probe.holders())
+    points.push_back({holders.front().element, pointMotion(holders.front(), *parts.discretisation, *rest)});
   InfluenceSurfaces found(problem);
   const double top_mm = parts.design.block_mm.z();
   std::vector<int> nodes;
@@ -98,7 +64,7 @@ std::optional<InfluenceSurfaces> InfluenceSurfaces::find(const HyperelasticProbl
   inParallel(static_cast<std::size_t>(count), threads, [&](std::size_t k) {
     if (stop.stop_requested()) return;
     const auto reading = static_cast<Eigen::Index>(k);
-    Eigen::VectorXd x = loadOf(readings, reading, probe, parts, *rest);
+    Eigen::VectorXd x = loadOf(readings, reading, points, *parts.discretisation);
     rest->factor.solve(x, stop);
     if (stop.stop_requested()) return;
     const Eigen::VectorXd all = parts.discretisation->withZeros(x);
@@ -143,22 +109,22 @@ std::vector<Eigen::MatrixX3d> InfluenceSurfaces::at(const Eigen::Ref<const Eigen
 
 Eigen::MatrixXd InfluenceSurfaces::under(std::span<const Indenter> touches, int threads,
                                          const std::stop_token& stop) const {
-  const Disc& disc = unitDisc();
+  const ContactDisc& disc = contactDisc();
   const Eigen::Index count = surfaces_.rows() / 3;
   Eigen::MatrixXd result(count, static_cast<Eigen::Index>(touches.size()));
   forChunks(static_cast<int>(touches.size()), kTouchesAtOnce, threads, [&](int begin, int end) {
     if (stop.stop_requested()) throw Cancelled();
-    Eigen::Matrix2Xd points(2, kDiscPoints * (end - begin));
+    Eigen::Matrix2Xd points(2, contactDiscPoints * (end - begin));
     // Pressed by Hertz's pressure or that under a flat end, and sideways.
     Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(points.cols(), 2 * (end - begin));
     for (int i = begin; i < end; ++i) {
       const Indenter& touch = touches[static_cast<std::size_t>(i)];
       const double radius_mm = contactEstimate(touch, problem_.design()).half_mm.x();
-      const Eigen::Index first = kDiscPoints * (i - begin);
-      points.middleCols(first, kDiscPoints) = (radius_mm * disc.points).colwise() + touch.place_mm;
-      sums.col(2 * (i - begin)).segment(first, kDiscPoints) =
+      const Eigen::Index first = contactDiscPoints * (i - begin);
+      points.middleCols(first, contactDiscPoints) = (radius_mm * disc.points).colwise() + touch.place_mm;
+      sums.col(2 * (i - begin)).segment(first, contactDiscPoints) =
           touch.shape == IndenterShape::Flat ? disc.flat : disc.hertz;
-      sums.col(2 * (i - begin) + 1).segment(first, kDiscPoints) = disc.flat;
+      sums.col(2 * (i - begin) + 1).segment(first, contactDiscPoints) = disc.flat;
     }
     const Eigen::MatrixXd all = influence(points, sums);
     for (int i = begin; i < end; ++i) {
@@ -173,8 +139,8 @@ Eigen::MatrixXd InfluenceSurfaces::under(std::span<const Indenter> touches, int 
 
 std::vector<TouchInfluence> InfluenceSurfaces::of(std::span<const Indenter> touches, int threads,
                                                   const std::stop_token& stop) const {
-  const Disc& disc = unitDisc();
-  const double shift_mm = kShiftShare * problem_.design().block_mm.z();
+  const ContactDisc& disc = contactDisc();
+  const double shift_mm = placeShiftShare * problem_.design().block_mm.z();
   const std::array<Eigen::Vector2d, 5> shifts{Eigen::Vector2d::Zero(), Eigen::Vector2d(shift_mm, 0),
                                               Eigen::Vector2d(-shift_mm, 0), Eigen::Vector2d(0, shift_mm),
                                               Eigen::Vector2d(0, -shift_mm)};
@@ -183,7 +149,7 @@ std::vector<TouchInfluence> InfluenceSurfaces::of(std::span<const Indenter> touc
   forChunks(static_cast<int>(touches.size()), kTouchesAtOnce, threads, [&](int begin, int end) {
     if (stop.stop_requested()) throw Cancelled();
     constexpr Eigen::Index sumsEach = 6; // pressed at the five places, and sideways in the middle
-    const Eigen::Index pointsEach = 5 * kDiscPoints;
+    const Eigen::Index pointsEach = 5 * contactDiscPoints;
     Eigen::Matrix2Xd points(2, pointsEach * (end - begin));
     Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(points.cols(), sumsEach * (end - begin));
     for (int i = begin; i < end; ++i) {
@@ -192,12 +158,12 @@ std::vector<TouchInfluence> InfluenceSurfaces::of(std::span<const Indenter> touc
       result[static_cast<std::size_t>(i)].radius_mm = radius_mm;
       const Eigen::VectorXd& pressure = touch.shape == IndenterShape::Flat ? disc.flat : disc.hertz;
       for (Eigen::Index s = 0; s < 5; ++s) {
-        const Eigen::Index first = pointsEach * (i - begin) + s * kDiscPoints;
-        points.middleCols(first, kDiscPoints) =
+        const Eigen::Index first = pointsEach * (i - begin) + s * contactDiscPoints;
+        points.middleCols(first, contactDiscPoints) =
             (radius_mm * disc.points).colwise() + (touch.place_mm + shifts[static_cast<std::size_t>(s)]);
-        sums.col(sumsEach * (i - begin) + s).segment(first, kDiscPoints) = pressure;
+        sums.col(sumsEach * (i - begin) + s).segment(first, contactDiscPoints) = pressure;
       }
-      sums.col(sumsEach * (i - begin) + 5).segment(pointsEach * (i - begin), kDiscPoints) = disc.flat;
+      sums.col(sumsEach * (i - begin) + 5).segment(pointsEach * (i - begin), contactDiscPoints) = disc.flat;
     }
     const Eigen::MatrixXd all = influence(points, sums);
     for (int i = begin; i < end; ++i) {

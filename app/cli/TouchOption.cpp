@@ -65,7 +65,7 @@ void TouchArguments::declare(Command command, Option perArea) {
 void TouchArguments::declareForMap(Command command) {
   Option on = command.option("--touch", touch,
                              "of a map: SHAPE:FROM..TO[@*] [mm], sphere, pin or flat (default sphere:3..6); "
-                             "@X0,Y0,X1,Y1 where");
+                             "@X0,Y0,X1,Y1 where; of a layout: to resolve such touches best at its worst place");
   command
       .option("--force-range", forceRange,
               "with --touch: FZ..FZ [N]; the map is for its middle (default: a twelfth of the design's largest to all "

@@ -3,6 +3,7 @@
 #include "solver/HyperelasticProblem.h"
 #include "solver/PointProbe.h"
 #include "solver/SensorMesh.h"
+#include "solver/TouchFields.h"
 
 #include <gtest/gtest.h>
 
@@ -96,6 +97,24 @@ TEST(InfluenceSurfaces, FollowThePlaceAsTheirDifferencesDo) {
       EXPECT_LT((of[0].byPlace_per_Nmm.col(axis) - difference).norm(), 0.05 * difference.norm())
           << shapeName(shape) << ' ' << axis;
     }
+  }
+}
+
+/// By reciprocity: the block moves under touches as the touches' places move under the readings.
+TEST(TouchFields, SayOfReadingsWhatInfluenceSurfacesSayOfTouches) {
+  const HyperelasticProblem problem = block(3);
+  const std::vector<Indenter> touches{{IndenterShape::Sphere, 4, 0, {11, 14}, 0, Press{{0, 0, -2}}},
+                                      {IndenterShape::Flat, 2, 0.3, {1, 27}, 0, Press{{0, 0, -1}}}};
+  const auto surfaces = InfluenceSurfaces::find(problem, displacements(), 0);
+  const auto fields = TouchFields::find(problem, touches, 2), again = TouchFields::find(problem, touches, 1);
+  ASSERT_TRUE(surfaces && fields && again);
+  const std::vector<TouchInfluence> by = surfaces->of(touches, 0), found = fields->of(displacements(), 2),
+                                    same = again->of(displacements(), 1);
+  for (std::size_t t = 0; t < touches.size(); ++t) {
+    EXPECT_EQ(found[t].radius_mm, by[t].radius_mm);
+    EXPECT_LT((found[t].perNewton - by[t].perNewton).norm(), 1e-9 * by[t].perNewton.norm()) << t;
+    EXPECT_LT((found[t].byPlace_per_Nmm - by[t].byPlace_per_Nmm).norm(), 1e-7 * by[t].byPlace_per_Nmm.norm()) << t;
+    EXPECT_EQ(found[t].perNewton, same[t].perNewton);
   }
 }
 

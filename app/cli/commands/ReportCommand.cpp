@@ -61,8 +61,8 @@ Exit run(ReportArguments& arguments, Session& session) {
   request.perArea = wholeNumber("--per-area", arguments.perArea, 5, 100000);
   request.seed = static_cast<std::uint64_t>(wholeNumber("--seed", arguments.seed, 0, 1'000'000));
   if (arguments.touches.given()) {
-    if (arguments.kind != "map")
-      throw UsageError("--touch is for the map; report " + arguments.kind + " has no touches");
+    if (arguments.kind != "map" && arguments.kind != "layout")
+      throw UsageError("--touch is for the map and the layout; report " + arguments.kind + " has no touches");
     request.touches = arguments.touches.range(request.design);
   }
   request.threads = session.threads;

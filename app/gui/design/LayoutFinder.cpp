@@ -115,7 +115,7 @@ void LayoutFinder::search() {
         left = {}; // the search has a pace of its own
         left.begin(kResponseShare, 1e-3 * static_cast<double>(clock.elapsed()));
         const int row = design.field() != nullptr ? -1 : centreRowWire(design.rowWires()); // the field joins all wires
-        const auto result = betterLayout(design, *response, row, noise,
+        const auto result = betterLayout(design, areaGoal(*response, row, noise),
                                          same ? LayoutFreedom::SameOnEveryWire : LayoutFreedom::WireByWire, {}, 1, stop,
                                          [&](double share, const std::string& what) {
                                            report(kResponseShare + (1 - kResponseShare) * share, what);
@@ -123,7 +123,7 @@ void LayoutFinder::search() {
         if (!result) return {};
         const FoundLayout found{design, result->layout, summaryOf(designBounds(design, *response, noise)),
                                 summaryOf(designBounds(result->layout, *response, noise)), result->evaluations};
-        const bool better = result->after_percent < result->before_percent && found.layout != found.from;
+        const bool better = result->after < result->before && found.layout != found.from;
         return [this, found, better] {
           shown_.reset();
           Project next = workbench_.project();

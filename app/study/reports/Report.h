@@ -103,9 +103,10 @@ struct ReportRequest {
   MeshOptions mesh;             ///< none: the kind's own
   int perArea = 100;            ///< samples on each area, where the kind needs any
   std::uint64_t seed = 1;
-  std::optional<TouchRange> touches{}; ///< of the kind that maps them; none: the design's usual ones
-  int threads = 0;                     ///< 0: all cores
-  std::string command;                 ///< that makes the report again; printed in it
+  std::optional<TouchRange>
+      touches{};       ///< of the map (none: the design's usual ones), and what a layout is to resolve (none: areas)
+  int threads = 0;     ///< 0: all cores
+  std::string command; ///< that makes the report again; printed in it
   /// Folder of palp and palp-studio, for the report that measures them; empty: they are not run.
   std::filesystem::path programs{};
 };

@@ -69,7 +69,7 @@ const std::vector<ReportComputation>& reportComputations() {
         {"other laws and read-outs", 1, 7}},
        true},
       {"layout",
-       "what the layout of the electrodes resolves, and a better one",
+       "what the layout of the electrodes resolves, and a better one; with --touch a better one for touches anywhere",
        layoutReport,
        {{"the block's response", 0.43, 47},
         {"search for a better layout", 0.456, 3},

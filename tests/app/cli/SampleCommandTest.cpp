@@ -159,7 +159,7 @@ TEST(SampleCommand, MakesTouchesWhoseForceAndPlaceADecoderLearns) {
   EXPECT_EQ(used.json().at("place_mm").size(), 40U);
   EXPECT_EQ(
       readAll(folder / "said.csv")
-          .find("sample,fx_N,fy_N,fz_N,sd_fx_N,sd_fy_N,sd_fz_N,x_mm,y_mm,sd_x_mm,sd_y_mm,outside_training_range\n"),
+          .find("sample,fx_N,fy_N,fz_N,sd_fx_N,sd_fy_N,sd_fz_N,x_mm,y_mm,sd_x_mm,sd_y_mm,outside_training_range,pressing\n"),
       0U);
 }
 

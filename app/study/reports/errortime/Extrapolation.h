@@ -25,4 +25,14 @@ inline Extrapolation extrapolated(const Eigen::VectorXd& coarse, const Eigen::Ve
   return result;
 }
 
+/// The same from two meshes where their sizes differ too little for an order to be seen, with one that is known.
+inline Extrapolation extrapolated(const Eigen::VectorXd& coarse, const Eigen::VectorXd& fine, double refinement,
+                                  double order) {
+  Extrapolation result;
+  result.order = order;
+  result.value = fine + (fine - coarse) / (std::pow(refinement, order) - 1);
+  result.uncertainty = (result.value - fine).norm() / result.value.norm();
+  return result;
+}
+
 } // namespace palp

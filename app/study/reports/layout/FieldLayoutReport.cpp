@@ -55,12 +55,12 @@ private:
 
   bool findLayouts(const AreaResponse& response) {
     layouts_.push_back({"before", request_.design});
-    const auto same = betterLayout(request_.design, response, -1, kShownNoise, LayoutFreedom::SameOnEveryWire, limits_,
-                                   request_.seed, stop_, partOf(progress_, 0.05, 0.4));
+    const auto same = betterLayout(request_.design, areaGoal(response, -1, kShownNoise), LayoutFreedom::SameOnEveryWire,
+                                   limits_, request_.seed, stop_, partOf(progress_, 0.05, 0.4));
     if (!same) return false;
     layouts_.push_back({"same on every wire", same->layout});
-    const auto each = betterLayout(same->layout, response, -1, kShownNoise, LayoutFreedom::WireByWire, limits_,
-                                   request_.seed, stop_, partOf(progress_, 0.45, 0.25));
+    const auto each = betterLayout(same->layout, areaGoal(response, -1, kShownNoise), LayoutFreedom::WireByWire,
+                                   limits_, request_.seed, stop_, partOf(progress_, 0.45, 0.25));
     if (!each) return false;
     layouts_.push_back({"wire by wire", each->layout});
     evaluations_ = same->evaluations + each->evaluations;

@@ -4,6 +4,7 @@
 #include "app/study/reports/ReportPage.h"
 #include "app/study/reports/layout/FieldLayoutReport.h"
 #include "app/study/reports/layout/LayoutTables.h"
+#include "app/study/reports/layout/TouchLayoutReport.h"
 #include "app/study/reports/networks/NetworkCheck.h"
 #include "io/DesignFile.h"
 #include "model/base/Text.h"
@@ -55,17 +56,17 @@ private:
   bool findLayouts(const AreaResponse& response) {
     layouts_.push_back({"before", request_.design});
     say(kResponse, "search: the same places on every wire");
-    const auto same = betterLayout(request_.design, response, row_, kNoise, LayoutFreedom::SameOnEveryWire, limits_,
-                                   request_.seed, stop_);
+    const auto same = betterLayout(request_.design, areaGoal(response, row_, kNoise), LayoutFreedom::SameOnEveryWire,
+                                   limits_, request_.seed, stop_);
     if (!same) return false;
     layouts_.push_back({"same on every wire", same->layout});
     say(0.44, "search: wire by wire");
-    const auto each =
-        betterLayout(same->layout, response, row_, kNoise, LayoutFreedom::WireByWire, limits_, request_.seed, stop_);
+    const auto each = betterLayout(same->layout, areaGoal(response, row_, kNoise), LayoutFreedom::WireByWire, limits_,
+                                   request_.seed, stop_);
     if (!each) return false;
     layouts_.push_back({"wire by wire", each->layout});
-    before_ = same->before_percent;
-    after_ = {same->after_percent, each->after_percent};
+    before_ = same->before;
+    after_ = {same->after, each->after};
     evaluations_ = same->evaluations + each->evaluations;
     content_.files.push_back({"better-same.json", toJson(same->layout)});
     content_.files.push_back({"better-wires.json", toJson(each->layout)});
@@ -325,6 +326,7 @@ private:
 std::optional<ReportContent> layoutReport(const ReportRequest& request, const ReportProgress& progress,
                                           std::stop_token stop) {
   requireValid(request.design);
+  if (request.touches) return touchLayoutReport(request, progress, std::move(stop));
   if (request.design.field()) return fieldLayoutReport(request, progress, std::move(stop));
   return LayoutWriter(request, progress, std::move(stop)).run();
 }

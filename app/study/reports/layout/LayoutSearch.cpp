@@ -1,5 +1,6 @@
 #include "app/study/reports/layout/LayoutSearch.h"
 
+#include "app/study/reports/map/TouchMap.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Text.h"
 
@@ -65,17 +66,16 @@ double onGrid(double value, double grid_mm) {
 /// Objective over places with what cannot be made at infinity.
 class Search {
 public:
-  Search(const Parameters& parameters, const AreaResponse& response, int rowWire, double noise,
-         const MakerLimits& limits, std::stop_token stop, std::function<void(int)> judged)
-      : parameters_(parameters), response_(response), rowWire_(rowWire), noise_(noise), limits_(limits),
-        stop_(std::move(stop)), judged_(std::move(judged)) {}
+  Search(const Parameters& parameters, const LayoutGoal& goal, const MakerLimits& limits, std::stop_token stop,
+         std::function<void(int)> judged)
+      : parameters_(parameters), goal_(goal), limits_(limits), stop_(std::move(stop)), judged_(std::move(judged)) {}
 
   double value(const Places& places) {
     const SensorDesign layout = parameters_.layout(places);
     if (makerProblem(layout, limits_) || !spheresFit(layout)) return std::numeric_limits<double>::infinity();
     if (layout.field() && left_-- <= 0) return std::numeric_limits<double>::infinity();
     judged_(++evaluations_);
-    return layoutBound(layout, response_, rowWire_, noise_, 0, kSearchFineness, stop_).mean();
+    return goal_(layout, kSearchFineness, stop_);
   }
 
   /// Moves one place after the other while that helps, then halves the step.
@@ -119,9 +119,7 @@ private:
   }
 
   const Parameters& parameters_;
-  const AreaResponse& response_;
-  int rowWire_;
-  double noise_;
+  const LayoutGoal& goal_;
   const MakerLimits& limits_;
   std::stop_token stop_;
   std::function<void(int)> judged_; ///< told how many so far
@@ -194,10 +192,26 @@ std::optional<std::string> makerProblem(const SensorDesign& layout, const MakerL
   return {};
 }
 
-std::optional<LayoutSearchResult> betterLayout(const SensorDesign& design, const AreaResponse& response, int rowWire,
-                                               double relativeNoise, LayoutFreedom freedom, const MakerLimits& limits,
-                                               std::uint64_t seed, const std::stop_token& stop,
-                                               const ReportProgress& progress) {
+LayoutGoal areaGoal(const AreaResponse& response, int rowWire, double relativeNoise) {
+  return [&response, rowWire, relativeNoise](const SensorDesign& layout, double fineness, const std::stop_token& stop) {
+    return layoutBound(layout, response, rowWire, relativeNoise, 0, fineness, stop).mean();
+  };
+}
+
+LayoutGoal touchGoal(const TouchFields& touches, const Indenter& touch, double relativeNoise, int threads) {
+  const double Fz_N = touch.press()->force_N.z();
+  return [&touches, Fz_N, relativeNoise, threads](const SensorDesign& layout, double fineness,
+                                                  const std::stop_token& stop) {
+    double worst_mm = 0;
+    for (const TouchInfluence& of : touches.of(readingsAtRest(layout, threads, stop, fineness), threads, stop))
+      worst_mm = std::max(worst_mm, touchDeviations(of, Fz_N, true, relativeNoise).place_mm.norm());
+    return worst_mm;
+  };
+}
+
+std::optional<LayoutSearchResult> betterLayout(const SensorDesign& design, const LayoutGoal& goal,
+                                               LayoutFreedom freedom, const MakerLimits& limits, std::uint64_t seed,
+                                               const std::stop_token& stop, const ReportProgress& progress) {
   const Parameters parameters(design, freedom);
   // From many places at once one start is enough and random ones are poor; few places deserve more starts.
   const int starts = freedom == LayoutFreedom::WireByWire ? 0
@@ -208,28 +222,25 @@ std::optional<LayoutSearchResult> betterLayout(const SensorDesign& design, const
     if (progress) progress((start + share) / (starts + 1), std::to_string(tried) + " layouts tried");
   };
   // Under the field a start ends after so many layouts; by Eq. (1) when its step is small.
-  Search search(parameters, response, rowWire, relativeNoise, limits, stop, [&](int tried) {
+  Search search(parameters, goal, limits, stop, [&](int tried) {
     if (design.field()) tell(static_cast<double>(tried - before) / kMostUnderField, tried);
   });
   const auto ofSteps = [&](double share) {
     if (!design.field()) tell(share, search.evaluations());
   };
   std::mt19937_64 random(seed);
-  const auto fullBound = [&](const SensorDesign& layout) {
-    return layoutBound(layout, response, rowWire, relativeNoise, 0, 1, stop).mean();
-  };
   try {
-    LayoutSearchResult result{design, fullBound(design), 0, 0};
-    result.after_percent = result.before_percent;
+    LayoutSearchResult result{design, goal(design, 1, stop), 0, 0};
+    result.after = result.before;
     for (; start <= starts; ++start, before = search.evaluations()) {
       Places places = start == 0 ? parameters.places() : randomPlaces(parameters, design, limits, random);
       const double judged = search.descend(places, ofSteps);
       if (stop.stop_requested()) return {};
       // of a start that cannot be made, and of those that are no better by the coarse judgement
-      if (!(judged < (design.field() ? 1.05 : 1) * result.after_percent)) continue;
-      const double reached = design.field() ? fullBound(parameters.layout(places)) : judged;
-      if (!(reached < result.after_percent)) continue;
-      result.after_percent = reached;
+      if (!(judged < (design.field() ? 1.05 : 1) * result.after)) continue;
+      const double reached = design.field() ? goal(parameters.layout(places), 1, stop) : judged;
+      if (!(reached < result.after)) continue;
+      result.after = reached;
       result.layout = parameters.layout(places);
     }
     result.evaluations = search.evaluations();

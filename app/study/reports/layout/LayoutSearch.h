@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/study/reports/layout/LayoutBound.h"
+#include "solver/TouchFields.h"
 
 #include <cstdint>
 #include <functional>
@@ -25,21 +26,31 @@ enum class LayoutFreedom {
   WireByWire,      ///< besides, each column-wire has its own depth and places
 };
 
+/// What a search lowers: a number above 0 of a layout that can be made, infinite where it resolves nothing. `fineness`
+/// is that of the field's quadrature, as FieldSensitivity's. Throws Cancelled.
+using LayoutGoal = std::function<double(const SensorDesign& layout, double fineness, const std::stop_token& stop)>;
+
+/// LayoutBound::mean() of a row-wire, or of all with row-wire -1. The response must outlive it.
+LayoutGoal areaGoal(const AreaResponse& response, int rowWire, double relativeNoise);
+
+/// The map's worst place: the largest deviation of the place [mm] of such touches that friction holds, all row-wires
+/// read. The fields must outlive it.
+LayoutGoal touchGoal(const TouchFields& touches, const Indenter& touch, double relativeNoise, int threads);
+
 struct LayoutSearchResult {
   SensorDesign layout;
-  double before_percent = 0; ///< LayoutBound::mean()
-  double after_percent = 0;
+  double before = 0; ///< of the goal
+  double after = 0;
   int evaluations = 0;
 };
 
-/// Lowers the bound without prior of a row-wire, or of all with row-wire -1, by pattern search (Hooke and Jeeves, 1961)
-/// from the design and from random places; equal seeds give equal layouts. Under the field layouts are judged on a
+/// Lowers the goal by pattern search (Hooke and Jeeves, 1961) from the design and from random places; equal seeds give
+/// equal layouts. Under the field layouts are judged on a
 /// coarse quadrature, fewer of them, and electrodes keep as far apart as small spheres need. `progress` is told,
 /// roughly, which share of the search is done. Empty where it was stopped.
-std::optional<LayoutSearchResult> betterLayout(const SensorDesign& design, const AreaResponse& response, int rowWire,
-                                               double relativeNoise, LayoutFreedom freedom, const MakerLimits& limits,
-                                               std::uint64_t seed, const std::stop_token& stop,
-                                               const ReportProgress& progress = {});
+std::optional<LayoutSearchResult> betterLayout(const SensorDesign& design, const LayoutGoal& goal,
+                                               LayoutFreedom freedom, const MakerLimits& limits, std::uint64_t seed,
+                                               const std::stop_token& stop, const ReportProgress& progress = {});
 
 /// Why a maker could not keep the layout; empty where he can.
 std::optional<std::string> makerProblem(const SensorDesign& layout, const MakerLimits& limits);

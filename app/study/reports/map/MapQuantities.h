@@ -17,4 +17,8 @@ struct MapQuantity {
 /// All of them, in the order of the report's table.
 const std::array<MapQuantity, 8>& mapQuantities();
 
+/// What is assumed of touches, by Eq. (1) and under the field.
+extern const char* const kPairsTouched;
+extern const char* const kFieldTouched;
+
 } // namespace palp

@@ -26,15 +26,6 @@ constexpr double kMostPlaces = 1e5;
 constexpr std::size_t kCheckedTouches = 8;        // one batch of lanes
 constexpr double kMapsFrom = 0.6, kMapsTo = 0.75; // of the progress
 
-const char* const kPairsTouched =
-    "Eq. (1) adds independent pairs of electrodes in a block that conducts everywhere: no sneak paths, no field "
-    "between them. The rubber has no hysteresis, creep or temperature. A board will do worse than these numbers.";
-const char* const kFieldTouched =
-    "Electrodes are spheres of one radius with the dipoles that the field induces in them; the rubber's conductivity "
-    "is constant and the same in all directions, also where it is deformed. No hysteresis, creep or temperature. A "
-    "board "
-    "will do worse than these numbers.";
-
 /// Finite values, or none where there is none.
 std::vector<double> finite(const Eigen::MatrixXd& values) {
   std::vector<double> result;

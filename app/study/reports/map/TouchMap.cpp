@@ -38,8 +38,9 @@ LinearReadings byPairs(const SensorDesign& design) {
   return readings;
 }
 
-LinearReadings byField(const SensorDesign& design, const FieldLaw& law, int threads, const std::stop_token& stop) {
-  const FieldSensitivity field(design, law, SphereModel::Dipoles, 1, threads);
+LinearReadings byField(const SensorDesign& design, const FieldLaw& law, int threads, const std::stop_token& stop,
+                       double fineness) {
+  const FieldSensitivity field(design, law, SphereModel::Dipoles, fineness, threads);
   const ReadingGradient gradient = field.readingGradient(law.readout, threads, stop);
   const Eigen::Matrix3Xd electrodes = electrodes_mm(design);
   const Eigen::Index count = electrodes.cols(), faces = field.facePoints_mm().cols();
@@ -150,10 +151,10 @@ private:
 
 } // namespace
 
-LinearReadings readingsAtRest(const SensorDesign& design, int threads, const std::stop_token& stop) {
+LinearReadings readingsAtRest(const SensorDesign& design, int threads, const std::stop_token& stop, double fineness) {
   if (design.pressureLaw)
     throw DesignError("resistance.pressure_law: a map is taken at rest, where the law has a kink; allowed is null");
-  if (const FieldLaw* law = design.field()) return byField(design, *law, threads, stop);
+  if (const FieldLaw* law = design.field()) return byField(design, *law, threads, stop, fineness);
   return byPairs(design);
 }
 

@@ -11,8 +11,10 @@
 namespace palp {
 
 /// d ln R of all readings (row-wire + row-wires * column-wire) of the design at rest by small motions, by its law and
-/// read-out. Throws DesignError where the design has a pressure law, which has a kink at rest, and Cancelled.
-LinearReadings readingsAtRest(const SensorDesign& design, int threads, const std::stop_token& stop = {});
+/// read-out. `fineness` as FieldSensitivity's. Throws DesignError where the design has a pressure law, which has a kink
+/// at rest, and Cancelled.
+LinearReadings readingsAtRest(const SensorDesign& design, int threads, const std::stop_token& stop = {},
+                              double fineness = 1);
 
 /// Touches of one indenter over a rectangle of the top face.
 struct TouchMapRequest {

@@ -123,11 +123,11 @@ palp::MakerLimits coarseSteps() {
 
 TEST(FieldLayoutSearch, FindsAClearlyBetterLayoutWhoseElectrodesKeepApart) {
   const palp::SensorDesign design = smallDesign();
-  const auto better =
-      betterLayout(design, fieldResponse(), -1, kNoise, palp::LayoutFreedom::SameOnEveryWire, coarseSteps(), 1, {});
+  const auto better = betterLayout(design, areaGoal(fieldResponse(), -1, kNoise), palp::LayoutFreedom::SameOnEveryWire,
+                                   coarseSteps(), 1, {});
   ASSERT_TRUE(better);
-  EXPECT_LT(better->after_percent, better->before_percent / 1.5);
-  EXPECT_EQ(layoutBound(better->layout, fieldResponse(), -1, kNoise).mean(), better->after_percent);
+  EXPECT_LT(better->after, better->before / 1.5);
+  EXPECT_EQ(layoutBound(better->layout, fieldResponse(), -1, kNoise).mean(), better->after);
   EXPECT_EQ(makerProblem(better->layout, {}), std::nullopt);
   EXPECT_TRUE(check(better->layout).empty());
   EXPECT_TRUE(designWarnings(better->layout).empty());
@@ -157,10 +157,10 @@ TEST(FieldLayoutSearch, KeepsLargeElectrodesApart) {
   palp::FieldLaw law = fieldLaw();
   law.electrodeRadius_mm = 0.45; // spheres at the 0.5 mm that a maker can keep between the layers would overlap
   design.resistance = law;
-  const auto better =
-      betterLayout(design, fieldResponse(), -1, kNoise, palp::LayoutFreedom::SameOnEveryWire, coarseSteps(), 1, {});
+  const auto better = betterLayout(design, areaGoal(fieldResponse(), -1, kNoise), palp::LayoutFreedom::SameOnEveryWire,
+                                   coarseSteps(), 1, {});
   ASSERT_TRUE(better);
-  EXPECT_LT(better->after_percent, better->before_percent);
+  EXPECT_LT(better->after, better->before);
   EXPECT_TRUE(check(better->layout).empty());
   EXPECT_TRUE(designWarnings(better->layout).empty());
 }
@@ -171,8 +171,8 @@ TEST(FieldLayoutSearch, StopsBetweenTwoLayouts) {
   const auto stopAtThird = [&](double, const std::string&) {
     if (++told == 3) source.request_stop();
   };
-  EXPECT_EQ(betterLayout(smallDesign(), fieldResponse(), -1, kNoise, palp::LayoutFreedom::SameOnEveryWire, {}, 1,
-                         source.get_token(), stopAtThird),
+  EXPECT_EQ(betterLayout(smallDesign(), areaGoal(fieldResponse(), -1, kNoise), palp::LayoutFreedom::SameOnEveryWire, {},
+                         1, source.get_token(), stopAtThird),
             std::nullopt);
   EXPECT_EQ(told, 3);
 }

@@ -1,6 +1,7 @@
 #include "app/study/decoding/NoiseBound.h"
 #include "app/study/reports/layout/LayoutReport.h"
 #include "app/study/reports/layout/LayoutSearch.h"
+#include "app/study/reports/map/TouchMap.h"
 #include "app/study/touch/SampleGenerator.h"
 #include "io/DesignFile.h"
 
@@ -57,19 +58,48 @@ TEST(LayoutBound, ConditionOfThePapersLayoutIsTheKnownOne) {
 
 TEST(LayoutSearch, FindsATenTimesBetterLayoutThatAMakerCanKeep) {
   const palp::MakerLimits limits;
-  const auto better = betterLayout(palp::paperDesign(), layoutResponse(), kLayoutRow, kLayoutNoise,
+  const auto better = betterLayout(palp::paperDesign(), areaGoal(layoutResponse(), kLayoutRow, kLayoutNoise),
                                    LayoutFreedom::SameOnEveryWire, limits, 1, {});
   ASSERT_TRUE(better);
   EXPECT_EQ(makerProblem(better->layout, limits), std::nullopt);
   EXPECT_TRUE(check(better->layout).empty());
-  EXPECT_LT(better->after_percent, better->before_percent / 10);
-  EXPECT_EQ(layoutBound(better->layout, layoutResponse(), kLayoutRow, kLayoutNoise).mean(), better->after_percent);
+  EXPECT_LT(better->after, better->before / 10);
+  EXPECT_EQ(layoutBound(better->layout, layoutResponse(), kLayoutRow, kLayoutNoise).mean(), better->after);
+}
+
+/// The goal is what the map says of its worst place, by influence surfaces of the readings in place of the touches'.
+TEST(LayoutSearch, ForTouchesLowersTheMapsWorstPlace) {
+  const SensorDesign design = palp::paperDesign();
+  const palp::HyperelasticProblem problem(design, sensorMesh(design, coarseLayouts()));
+  palp::TouchMapRequest request;
+  request.touch = {palp::IndenterShape::Sphere, 4, 0, {15, 15}, 0, palp::Press{{0, 0, -2}}};
+  request.low_mm = {4, 5};
+  request.high_mm = {26, 25};
+  request.places = {3, 2};
+  std::vector<palp::Indenter> touches;
+  const Eigen::Matrix2Xd places_mm = placesOf(request);
+  for (Eigen::Index i = 0; i < places_mm.cols(); ++i) {
+    touches.push_back(request.touch);
+    touches.back().place_mm = places_mm.col(i);
+  }
+  const auto fields = palp::TouchFields::find(problem, touches, 0);
+  ASSERT_TRUE(fields);
+  const auto mapped_mm = [&](const SensorDesign& layout) {
+    const auto surfaces = palp::InfluenceSurfaces::find(problem, palp::readingsAtRest(layout, 0), 0);
+    return touchMap(*surfaces, request, 0).heldPlace_mm.maxCoeff();
+  };
+  const auto better = betterLayout(design, touchGoal(*fields, request.touch, request.relativeNoise, 0),
+                                   LayoutFreedom::SameOnEveryWire, {.grid_mm = 0.5}, 1, {});
+  ASSERT_TRUE(better);
+  EXPECT_LT(better->after, 0.9 * better->before);
+  EXPECT_NEAR(better->before, mapped_mm(design), 1e-6 * better->before);
+  EXPECT_NEAR(better->after, mapped_mm(better->layout), 1e-6 * better->after);
 }
 
 TEST(LayoutSearch, EqualSeedsGiveEqualLayouts) {
   const auto search = [] {
-    return betterLayout(palp::paperDesign(), layoutResponse(), kLayoutRow, kLayoutNoise, LayoutFreedom::SameOnEveryWire,
-                        {}, 3, {});
+    return betterLayout(palp::paperDesign(), areaGoal(layoutResponse(), kLayoutRow, kLayoutNoise),
+                        LayoutFreedom::SameOnEveryWire, {}, 3, {});
   };
   EXPECT_EQ(search()->layout, search()->layout);
 }
