@@ -157,10 +157,10 @@ TEST(SampleCommand, MakesTouchesWhoseForceAndPlaceADecoderLearns) {
   ASSERT_EQ(used.exit, 0) << used.errors;
   EXPECT_LT(used.json().at("place_error").at("median_mm"), 1); // on what it was fitted to
   EXPECT_EQ(used.json().at("place_mm").size(), 40U);
-  EXPECT_EQ(
-      readAll(folder / "said.csv")
-          .find("sample,fx_N,fy_N,fz_N,sd_fx_N,sd_fy_N,sd_fz_N,x_mm,y_mm,sd_x_mm,sd_y_mm,outside_training_range,pressing\n"),
-      0U);
+  EXPECT_EQ(readAll(folder / "said.csv")
+                .find("sample,fx_N,fy_N,fz_N,sd_fx_N,sd_fy_N,sd_fz_N,x_mm,y_mm,sd_x_mm,sd_y_mm,outside_training_range,"
+                      "pressing\n"),
+            0U);
 }
 
 TEST(SampleCommand, RefusesTouchesThatCannotBe) {
