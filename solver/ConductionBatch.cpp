@@ -99,7 +99,7 @@ bool ConductionBatch::State::fit(const std::vector<int>& areas, const std::stop_
   for (int degree = ResistancePolynomial::lowestDegree; degree <= ResistancePolynomial::highestDegree && !open.empty();
        ++degree) {
     const std::size_t before = forces.size();
-    while (static_cast<int>(forces.size()) < ResistancePolynomial::statesFor(design.forceRange, degree))
+    while (static_cast<int>(forces.size()) < ResistancePolynomial::statesFor(degree))
       forces.push_back(coveringForce(design.forceRange, static_cast<int>(forces.size())));
     std::vector<LoadCase> loads;
     for (const Fit& each : open)
