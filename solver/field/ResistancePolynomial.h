@@ -14,7 +14,7 @@ namespace palp {
 class ResistancePolynomial {
 public:
   /// How many states a degree takes, those that are kept among them.
-  static int statesFor(const ForceRange& range, int degree);
+  static int statesFor(int degree);
   static constexpr int lowestDegree = 2, highestDegree = 4;
 
   /// `changes`: d ln R (readings) x forces.
