@@ -17,15 +17,23 @@ constexpr double kSameTime_s = 1e-6; // a time in the recording and back loses l
 ReplaySource::ReplaySource(const std::filesystem::path& path, std::shared_ptr<ReplayControl> control)
     : path_(path), reader_(path), control_(std::move(control)), configuration_(reader_.head().configuration) {
   measure();
-  next_ = reader_.next();
+  advance();
 }
 
-/// Its length and its marks, by reading it once: 10 million reports a second.
+/// The next entry, at the time that it was measured at.
+void ReplaySource::advance() {
+  next_ = reader_.next();
+  if (next_) next_->hostTime_s = clock_.timeOf(*next_, info());
+}
+
+/// Its length and its marks, by reading it once: millions of reports a second.
 void ReplaySource::measure() {
   RecordingReader all(path_);
+  ReplayClock clock;
   bool any = false;
   std::vector<ReplayMark> marks;
-  while (const std::optional<RecordingEntry> entry = all.next()) {
+  while (std::optional<RecordingEntry> entry = all.next()) {
+    entry->hostTime_s = clock.timeOf(*entry, info());
     if (entry->kind == RecordingEntry::Kind::Mark)
       marks.push_back({entry->hostTime_s, {entry->bytes.begin(), entry->bytes.end()}});
     if (entry->kind != RecordingEntry::Kind::Raw) continue;
@@ -42,7 +50,7 @@ void ReplaySource::measure() {
 void ReplaySource::skipToReport() {
   while (next_ && next_->kind != RecordingEntry::Kind::Raw) {
     take(*next_);
-    next_ = reader_.next();
+    advance();
   }
 }
 
@@ -54,7 +62,7 @@ std::size_t ReplaySource::reportAt(double hostTime_s) {
 }
 
 void ReplaySource::skip(std::size_t reports) {
-  for (skipToReport(); next_ && reports > 0; skipToReport(), --reports, ++report_) next_ = reader_.next();
+  for (skipToReport(); next_ && reports > 0; skipToReport(), --reports, ++report_) advance();
 }
 
 /// On from the first report at or after this time.
@@ -97,12 +105,13 @@ void ReplaySource::goToFrameBefore(double end_s) {
 
 void ReplaySource::rewind() {
   reader_ = RecordingReader(path_);
+  clock_ = {};
   configuration_ = reader_.head().configuration;
   mark_.clear();
   tare_.reset();
   report_ = target_ = 0;
   target_s_ = first_s_;
-  next_ = reader_.next();
+  advance();
 }
 
 void ReplaySource::goOnFrom(double hostTime_s) {
@@ -175,7 +184,7 @@ ReportSource::Outcome ReplaySource::read(RawReport& report, std::chrono::millise
   if (!past) control_->position_s = next_->hostTime_s - first_s_;
   ++report_;
   std::swap(report.bytes, next_->bytes);
-  next_ = reader_.next();
+  advance();
   return Outcome::Read;
 }
 

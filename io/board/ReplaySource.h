@@ -1,6 +1,7 @@
 #pragma once
 
 #include "io/board/Recording.h"
+#include "io/board/ReplayClock.h"
 #include "io/board/Tare.h"
 
 #include <atomic>
@@ -54,7 +55,8 @@ private:
   std::atomic<double> frameEnd_s_{-1}; ///< below 0: none
 };
 
-/// A recording as if it came from the board again: the same decoder takes it.
+/// A recording as if it came from the board again: the same decoder takes it. Times are those of ReplayClock, so that
+/// the place in the recording and the curves, which go by the board's clock, say the same.
 class ReplaySource : public ReportSource {
 public:
   ReplaySource(const std::filesystem::path& path, std::shared_ptr<ReplayControl> control);
@@ -86,6 +88,7 @@ private:
   void take(const RecordingEntry& entry);
   void measure();
   void follow();
+  void advance();
   void goTo(double to_s, double past_s);
   void goTo(std::size_t report, double hostTime_s, double past_s);
   [[nodiscard]] std::size_t reportAt(double hostTime_s);
@@ -97,6 +100,7 @@ private:
 
   std::filesystem::path path_;
   RecordingReader reader_;
+  ReplayClock clock_;
   std::shared_ptr<ReplayControl> control_;
   BoardConfiguration configuration_;
   std::optional<RecordingEntry> next_;

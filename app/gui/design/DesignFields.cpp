@@ -43,7 +43,8 @@ QString goOn(std::vector<double>& values, double last) {
   if (!(steps >= 1 - 1e-6 && steps <= kMost) || std::abs(steps - std::round(steps)) > 1e-6)
     return QObject::tr("%1 is not reached from %2 in 1 to 1000 equal steps of %3")
         .arg(shortText(last), shortText(start), shortText(step));
-  for (int k = 1; k < std::lround(steps); ++k) values.push_back(start + k * step);
+  for (int k = 1; k < std::lround(steps); ++k) // 1e-9 mm: 7.333333332 and not ...20000005
+    values.push_back(std::round((start + k * step) * 1e9) / 1e9);
   values.push_back(last);
   return {};
 }

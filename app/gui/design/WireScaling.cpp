@@ -23,7 +23,7 @@ void scale(std::vector<double>& places, double factor) {
   if (!even) return;
   // Rounded each, they would be uneven by a digit: counted from the second, as a list with "..." is read.
   const double start = places[1], step = places[1] - places[0];
-  for (std::size_t k = 2; k + 1 < places.size(); ++k) places[k] = start + static_cast<double>(k - 1) * step;
+  for (std::size_t k = 2; k + 1 < places.size(); ++k) places[k] = rounded(start + static_cast<double>(k - 1) * step);
 }
 
 void scale(std::vector<std::vector<double>>& lists, double factor) {

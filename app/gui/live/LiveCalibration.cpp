@@ -2,6 +2,7 @@
 
 #include "app/gui/live/panels/KnownLoad.h"
 #include "app/gui/widgets/FileDialogs.h"
+#include "app/gui/widgets/PushButton.h"
 #include "io/DecoderFile.h"
 #include "io/SampleFile.h"
 #include "model/base/Error.h"
@@ -30,13 +31,6 @@ namespace {
 constexpr std::array<const char*, 3> kForceNames{"Fx", "Fy", "Fz"};
 constexpr double kDay_s = 86400;
 constexpr double kMinutesOfADay = 1440;
-
-QPushButton* calibrationButton(const QString& text, const QString& name, const QString& tip) {
-  auto* push = new QPushButton(text);
-  push->setObjectName(name);
-  push->setToolTip(tip);
-  return push;
-}
 
 /// Of a network that gives one force whatever area is touched, that force.
 Eigen::Vector3d forceOn(const DecodedForces& forces, int area) {
@@ -118,7 +112,7 @@ QWidget* LiveCalibration::buildLabel() {
   count_->setPrefix(tr("mean of "));
   count_->setSuffix(tr(" frames"));
   count_->setToolTip(tr("Frames that are averaged to one labelled frame"));
-  collect_ = calibrationButton(tr("Collect"), "collect", tr("Averages the next frames under this load"));
+  collect_ = pushButton(tr("Collect"), "collect", tr("Averages the next frames under this load"));
   auto* row = new QHBoxLayout;
   row->addWidget(count_, 1);
   row->addWidget(collect_);
@@ -152,9 +146,9 @@ QWidget* LiveCalibration::buildFrames() {
   table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
   auto* row = new QGridLayout; // two in a line, for narrow windows; above, where a low window does not cut them
-  auto* load = calibrationButton(tr("Load..."), "loadFrames", tr("Adds the labelled frames of a file (CSV)"));
-  saveFrames_ = calibrationButton(tr("Save..."), "saveFrames", tr("Keeps the labelled frames in a file (CSV)"));
-  remove_ = calibrationButton(tr("Remove"), "removeFrame", tr("Takes the selected frame away"));
+  auto* load = pushButton(tr("Load..."), "loadFrames", tr("Adds the labelled frames of a file (CSV)"));
+  saveFrames_ = pushButton(tr("Save..."), "saveFrames", tr("Keeps the labelled frames in a file (CSV)"));
+  remove_ = pushButton(tr("Remove"), "removeFrame", tr("Takes the selected frame away"));
   row->addWidget(load, 0, 0);
   row->addWidget(saveFrames_, 0, 1);
   row->addWidget(remove_, 1, 0, 1, 2);
@@ -189,12 +183,12 @@ QWidget* LiveCalibration::buildFit() {
   report_->setAlignment(Qt::AlignTop);
   report_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   auto* row = new QGridLayout; // two in a line, for narrow windows; above, where a low window does not cut them
-  fit_ = calibrationButton(
-      tr("Fit"), "fitCalibration",
-      tr("Gains and offset of the network's forces by recursive least squares, judged on frames left out"));
-  use_ = calibrationButton(tr("Use"), "useCalibration", tr("Decodes with the refined network from now on"));
-  saveNetwork_ = calibrationButton(tr("Save network..."), "saveCalibration", tr("Keeps the refined network in a file"));
-  back_ = calibrationButton(tr("Back"), "backFromCalibration", tr("Decodes with the network before again"));
+  fit_ =
+      pushButton(tr("Fit"), "fitCalibration",
+                 tr("Gains and offset of the network's forces by recursive least squares, judged on frames left out"));
+  use_ = pushButton(tr("Use"), "useCalibration", tr("Decodes with the refined network from now on"));
+  saveNetwork_ = pushButton(tr("Save network..."), "saveCalibration", tr("Keeps the refined network in a file"));
+  back_ = pushButton(tr("Back"), "backFromCalibration", tr("Decodes with the network before again"));
   for (const auto& [push, place] : {std::pair{fit_, 0}, {use_, 1}, {saveNetwork_, 2}, {back_, 3}})
     row->addWidget(push, place / 2, place % 2);
   column->addLayout(row);

@@ -135,8 +135,10 @@ void NetworkPage::goBackTo(std::size_t network) {
   next.network.sweepFrom = now.sweepFrom;
   next.network.sweepTo = now.sweepTo;
   next.network.sweepCount = now.sweepCount;
+  const bool otherDesign = !session_.upToDate() && session_.samples() != nullptr;
+  if (otherDesign) next.design = session_.results().design; // samples, sweep and comparison hold again, too
   workbench_.closeEntry();
-  workbench_.edit(tr("Go back to a network"), next);
+  workbench_.edit(otherDesign ? tr("Go back to a network and its design") : tr("Go back to a network"), next);
   session_.goBackTo(network);
 }
 

@@ -30,7 +30,9 @@ TrainedNetworks::TrainedNetworks(QWidget* parent) : QWidget(parent) {
          "it; a right click saves the list as CSV"));
   back_ = new QPushButton(tr("Go back to this one"));
   back_->setObjectName("goBack");
-  back_->setToolTip(tr("Shows the network again and sets the panel as it was; can be undone"));
+  back_->setToolTip(
+      tr("Shows the network again and sets the panel as it was, and the design where the network is of an "
+         "earlier one; can be undone"));
   away_ = new QPushButton(tr("Take away"));
   away_->setObjectName("takeAway");
   away_->setToolTip(tr("Takes the network off the list; the one that is shown stays shown"));
@@ -119,7 +121,7 @@ void TrainedNetworks::display(const NetworkSession& session) {
     name_->setModified(true);
   }
   words_->setText(old && !session.kept().empty()
-                      ? tr("These are of an earlier design: undo the change to have them back.")
+                      ? tr("These are of an earlier design: going back to one brings its design back, too.")
                       : tr("Every network that was trained; equal ones stand once. The last %1 stay, and all that have "
                            "a name. Fx, Fy, Fz: RMSE of the test in % of range. Bold: the one that is shown.")
                             .arg(NetworkSession::kKeptNetworks));

@@ -7,6 +7,7 @@
 #include "app/gui/reports/ReportPicture.h"
 #include "app/gui/reports/StudyForm.h"
 #include "app/gui/reports/WrittenReports.h"
+#include "app/gui/widgets/PushButton.h"
 #include "io/DesignFile.h"
 #include "model/base/Error.h"
 
@@ -21,7 +22,6 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
-#include <QPixmap>
 #include <QPlainTextEdit>
 #include <QProgressBar>
 #include <QPushButton>
@@ -40,11 +40,10 @@ namespace {
 constexpr const char* kFolderKey = "reportsFolder";
 constexpr const char* kPage = "report.html";
 
-QPushButton* reportButton(const QString& text, const QString& name, const QString& tip) {
-  auto* push = new QPushButton(text);
-  push->setObjectName(name);
-  push->setToolTip(tip);
-  return push;
+/// What its run said; empty where that was not kept.
+QString messagesIn(const QString& folder) {
+  QFile messages(QDir(folder).filePath(kReportMessages));
+  return messages.open(QIODevice::ReadOnly) ? QString::fromUtf8(messages.readAll()) : QString();
 }
 
 } // namespace
@@ -61,7 +60,9 @@ ReportsPage::ReportsPage(Workbench& workbench, QWidget* parent)
   connect(&run_, &ReportRun::progressed, this, &ReportsPage::setProgress);
   connect(&run_, &ReportRun::ended, this, &ReportsPage::end);
   connect(pictures_, &QListWidget::currentTextChanged, picture_,
-          [this](const QString& file) { picture_->show(QPixmap(QDir(shown_).filePath(file))); });
+          [this](const QString& file) { picture_->show(QDir(shown_).filePath(file)); });
+  connect(picture_, &ReportPicture::message, this, &ReportsPage::say);
+  connect(showNew_, &QPushButton::clicked, this, [this] { showWritten(pageFolder(runFolder_)); });
   connect(written_, &WrittenReports::chosen, this, &ReportsPage::showWritten);
   timer_.setInterval(500);
   connect(&timer_, &QTimer::timeout, this, &ReportsPage::showTime);
@@ -101,11 +102,11 @@ QLayout* ReportsPage::buildBar() {
   kind_->setAccessibleName(tr("Report"));
   kind_->setToolTip(tr("Which report"));
   for (const ReportKind& kind : reportKinds()) kind_->addItem(kind.title);
-  start_ = reportButton(tr("Run"), "runReport", tr("Runs the report beside the window, which stays free"));
-  cancel_ = reportButton(tr("Cancel"), "cancelReport", tr("Stops the report"));
+  start_ = pushButton(tr("Run"), "runReport", tr("Runs the report beside the window, which stays free"));
+  cancel_ = pushButton(tr("Cancel"), "cancelReport", tr("Stops the report"));
   openPage_ =
-      reportButton(tr("Open the page"), "openReport", tr("Opens report.html in the browser: one file, no network"));
-  openFolder_ = reportButton(tr("Open the folder"), "openReportFolder", tr("Page, CSV and pictures, to be passed on"));
+      pushButton(tr("Open the page"), "openReport", tr("Opens report.html in the browser: one file, no network"));
+  openFolder_ = pushButton(tr("Open the folder"), "openReportFolder", tr("Page, CSV and pictures, to be passed on"));
   auto* bar = new QHBoxLayout;
   bar->addWidget(kind_);
   for (QPushButton* push : {start_, cancel_}) bar->addWidget(push);
@@ -124,7 +125,7 @@ QLayout* ReportsPage::buildFolder() {
                          "and the time, and leaves all others as they are"));
   connect(target_, &QLineEdit::editingFinished, this, &ReportsPage::listReports);
   auto* choose =
-      reportButton(tr("Folder..."), "chooseReportFolder", tr("Chooses the folder that the reports are kept in"));
+      pushButton(tr("Folder..."), "chooseReportFolder", tr("Chooses the folder that the reports are kept in"));
   connect(choose, &QPushButton::clicked, this, [this] {
     const QString folder = QFileDialog::getExistingDirectory(this, tr("Folder of the reports"), target_->text());
     if (folder.isEmpty()) return;
@@ -150,9 +151,13 @@ QLayout* ReportsPage::buildState() {
   state_->setWordWrap(true);
   state_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard); // paths are copied
   state_->setMinimumHeight(bar_->sizeHint().height()); // what is below stays where it is
+  showNew_ = pushButton(tr("Show the new report"), "showNewReport",
+                        tr("The report that is done just now, in place of the one that is shown"));
+  showNew_->hide();
   auto* state = new QHBoxLayout;
   state->addWidget(bar_);
   state->addWidget(state_, 1);
+  state->addWidget(showNew_);
   return state;
 }
 
@@ -221,7 +226,9 @@ void ReportsPage::start() {
   QSettings().setValue(kFolderKey, base());
   chooseKind();
   log_->setPlainText("palp " + all.join(' '));
-  showFolder({}, false);
+  if (!openPage_->isEnabled()) showFolder({}, false); // else what is looked at stays
+  showNew_->hide();
+  note_.clear();
   // The focus of a button that turns grey goes to the next field, which marks all that it holds.
   if (start_->hasFocus() || kind_->hasFocus()) setFocus(Qt::OtherFocusReason);
   start_->setEnabled(false);
@@ -262,30 +269,47 @@ void ReportsPage::end(ReportRun::Ending how) {
           : endWords(how, run_.seconds(), run_.status(), runFolder_));
   if (how == ReportRun::Ending::NoResult || how == ReportRun::Ending::Failed) tabs_->setCurrentWidget(log_);
   tidyReport(runFolder_, log_->toPlainText());
-  if (QFileInfo::exists(runFolder_)) showFolder(pageFolder(runFolder_), done);
+  offerRun(done);
   if (isStudy() && how == ReportRun::Ending::Cancelled && QFileInfo::exists(runFolder_)) study_->goOnIn(runFolder_);
   listReports();
 }
 
+void ReportsPage::offerRun(bool done) {
+  if (!QFileInfo::exists(runFolder_)) return;
+  if (openPage_->isEnabled())
+    showNew_->setVisible(done);
+  else
+    showFolder(pageFolder(runFolder_), done);
+}
+
+QStringList ReportsPage::exportFiles() const {
+  QStringList files;
+  if (!openPage_->isEnabled()) return files;
+  const QDir folder(shown_);
+  for (const QString& name : folder.entryList({"*.png", "*.csv"}, QDir::Files, QDir::Name))
+    files << folder.filePath(name);
+  return files;
+}
+
 void ReportsPage::listReports() {
-  written_->list(base(), shown_);
+  written_->list(base(), shown_, run_.running() ? runFolder_ : QString());
   tabs_->setTabText(tabs_->indexOf(written_), tr("Earlier reports (%1)").arg(written_->count()));
 }
 
 void ReportsPage::showWritten(const QString& folder) {
-  if (run_.running()) {
-    state_->setText(tr("A report runs; earlier ones are shown when it is done."));
-    return;
-  }
-  if (QFileInfo::exists(QDir(folder).filePath(kStudyFile))) return showUnfinished(folder);
+  const bool running = run_.running(); // its kind, its time and what it says stay in sight
+  if (QFileInfo::exists(QDir(folder).filePath(kStudyFile)))
+    return running ? say(tr("A study that was stopped can go on when this report is done.")) : showUnfinished(folder);
   if (!QFileInfo::exists(QDir(folder).filePath(kPage))) {
-    state_->setText(tr("%1 is not there any more.").arg(folder));
+    say(tr("%1 is not there any more.").arg(folder));
     listReports();
     return;
   }
-  QFile messages(QDir(folder).filePath(kReportMessages));
-  log_->setPlainText(messages.open(QIODevice::ReadOnly) ? QString::fromUtf8(messages.readAll())
-                                                        : tr("%1 holds no messages of its run.").arg(folder));
+  showNew_->hide();
+  note_.clear();
+  if (running) return showFolder(folder, true);
+  const QString messages = messagesIn(folder);
+  log_->setPlainText(messages.isEmpty() ? tr("%1 holds no messages of its run.").arg(folder) : messages);
   chooseKindOf(folder);
   showFolder(folder, true);
   state_->setText(tr("Shown again: %1").arg(QDir(folder).filePath(kPage)));
@@ -328,14 +352,21 @@ void ReportsPage::showFolder(const QString& folder, bool page) {
   if (pictures_->count() > 0)
     pictures_->setCurrentRow(0);
   else if (page)
-    picture_->say(tr("This report draws no pictures. It said:\n\n%1").arg(log_->toPlainText()));
+    picture_->say(tr("This report draws no pictures. It said:\n\n%1").arg(messagesIn(folder)));
+}
+
+void ReportsPage::say(const QString& sentence) {
+  note_ = sentence;
+  if (run_.running())
+    showTime();
+  else
+    state_->setText(sentence);
 }
 
 /// The desktop does not say whether a program came up, so the path is always said.
 void ReportsPage::openOnDesktop(const QString& path, const QString& what) {
   const bool asked = QDesktopServices::openUrl(QUrl::fromLocalFile(path));
-  state_->setText(
-      asked ? tr("%1 was given to the desktop to show; where nothing comes up, open it yourself: %2").arg(what, path)
+  say(asked ? tr("%1 was given to the desktop to show; where nothing comes up, open it yourself: %2").arg(what, path)
             : tr("Nothing on this machine shows it; open it with a program of yours. %1 is %2").arg(what, path));
 }
 
@@ -346,7 +377,8 @@ double ReportsPage::left_s() const {
 void ReportsPage::showTime() {
   const QString left = share_ < 1 ? roughly(left_s()) : QString();
   state_->setText(tr("Running for %1 s; the window stays free.").arg(static_cast<int>(run_.seconds())) +
-                  (left.isEmpty() ? QString() : tr(" About %1 left.").arg(left)));
+                  (left.isEmpty() ? QString() : tr(" About %1 left.").arg(left)) +
+                  (note_.isEmpty() ? QString() : " " + note_));
   emit runs(tr("Report %1: %2 %").arg(QDir(runFolder_).dirName()).arg(qRound(100 * share_)) +
             (left.isEmpty() ? QString() : tr(", about %1 left").arg(left)));
 }

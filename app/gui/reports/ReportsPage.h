@@ -5,6 +5,7 @@
 #include "app/gui/reports/ReportPlan.h"
 #include "app/gui/reports/ReportRun.h"
 #include "app/gui/window/Scene.h"
+#include "app/gui/window/exports/ExportFiles.h"
 
 #include <QTimer>
 
@@ -29,7 +30,7 @@ struct ReportKind;
 /// The reports, run by the command line program beside this one, so that a report can neither block nor break the
 /// window; its page and pictures are shown when it is done. Each run has a folder of its own, so that none takes the
 /// place of another, and those of before are listed and shown again.
-class ReportsPage : public Scene {
+class ReportsPage : public Scene, public ExportFiles {
   Q_OBJECT
 
 public:
@@ -40,6 +41,8 @@ public:
   void setTheme(Theme) override {}
   [[nodiscard]] bool complete() const override { return true; }
   [[nodiscard]] QString commands(const Project& project, const QString& designFile) const override;
+  /// The pictures and points of the report that is shown.
+  [[nodiscard]] QStringList exportFiles() const override;
 
   /// Another program in place of the palp that lies beside this one.
   void setProgram(const QString& program) { program_ = program; }
@@ -80,9 +83,13 @@ private:
   void start();
   void setProgress(double share, const QString& what);
   void end(ReportRun::Ending how);
+  /// What came of the run: shown where nothing else is, else offered.
+  void offerRun(bool done);
   /// What is left of the run [s].
   [[nodiscard]] double left_s() const;
   void showTime();
+  /// Says it; while a report runs beside its time.
+  void say(const QString& sentence);
   void listReports();
   /// One that was written before.
   void showWritten(const QString& folder);
@@ -99,12 +106,14 @@ private:
   double share_ = 0;
   QString runFolder_; ///< of the run
   QString shown_;     ///< folder of the report that is shown
+  QString note_;      ///< what is said beside the time of the run
   StudyForm* study_ = nullptr;
   QComboBox* kind_ = nullptr;
   QLabel* what_ = nullptr;
   QLineEdit* target_ = nullptr;
   QPushButton* start_ = nullptr;
   QPushButton* cancel_ = nullptr;
+  QPushButton* showNew_ = nullptr; ///< the run that is done, while another report is shown
   QPushButton* openPage_ = nullptr;
   QPushButton* openFolder_ = nullptr;
   QProgressBar* bar_ = nullptr;

@@ -19,9 +19,10 @@ WrittenReports::WrittenReports(QWidget* parent) : QListWidget(parent) {
   connect(this, &QListWidget::itemClicked, this, choose);
 }
 
-void WrittenReports::list(const QString& base, const QString& shown) {
+void WrittenReports::list(const QString& base, const QString& shown, const QString& running) {
   clear();
   for (const WrittenReport& report : reportsBelow(base)) {
+    if (report.folder == running) continue;
     auto* item = new QListWidgetItem(report.title, this);
     item->setData(kFolderRole, report.folder);
     item->setToolTip(report.folder);

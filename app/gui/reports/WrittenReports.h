@@ -11,8 +11,9 @@ class WrittenReports : public QListWidget {
 public:
   explicit WrittenReports(QWidget* parent = nullptr);
 
-  /// Lists them anew; the one in the folder `shown` is marked.
-  void list(const QString& base, const QString& shown);
+  /// Lists them anew; the one in the folder `shown` is marked, the one in `running` is not
+  /// written yet.
+  void list(const QString& base, const QString& shown, const QString& running);
 
 signals:
   void chosen(const QString& folder);

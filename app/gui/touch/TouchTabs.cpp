@@ -2,6 +2,7 @@
 
 #include "app/gui/project/Workbench.h"
 #include "app/gui/touch/ElectrodeTable.h"
+#include "app/gui/touch/LoadCurves.h"
 #include "app/gui/touch/ResistanceWords.h"
 #include "app/gui/views/ChartView.h"
 #include "app/gui/views/HeatmapSpecs.h"
@@ -65,6 +66,9 @@ TouchTabs::TouchTabs(Workbench& workbench, QWidget* parent)
   addTab(table_, tr("Electrodes"));
   linePage_ = buildLine();
   addTab(linePage_, tr("Along a line"));
+  addTab(buildLoad(), tr("Along the load"));
+  setTabToolTip(count() - 1, tr("Reaction of the bottom and force against displacement, at every equilibrium that was "
+                                "computed on the way to the load and on its path"));
   connect(this, &QTabWidget::currentChanged, this, [this] {
     draw();
     emit lineShownChanged();
@@ -137,6 +141,16 @@ QWidget* TouchTabs::buildLine() {
   return page;
 }
 
+QWidget* TouchTabs::buildLoad() {
+  reaction_ = chart("reactionCurve");
+  forceWay_ = chart("forceDisplacement");
+  auto* charts = new QSplitter(Qt::Horizontal);
+  charts->setObjectName("loadSplitter");
+  charts->addWidget(reaction_);
+  charts->addWidget(forceWay_);
+  return charts;
+}
+
 void TouchTabs::readLine() {
   ViewSettings next = view_;
   const auto from = placeOf(ends_[0]->text());
@@ -163,7 +177,7 @@ bool TouchTabs::lineShown() const {
 
 void TouchTabs::setTheme(Theme theme) {
   heatmap_->setTheme(theme);
-  for (ChartView* view : {newton_, rowWire_, rowShape_, line_}) view->setTheme(theme);
+  for (ChartView* view : {newton_, rowWire_, rowShape_, line_, reaction_, forceWay_}) view->setTheme(theme);
 }
 
 void TouchTabs::displayProject(const Project& project) {
@@ -209,6 +223,7 @@ void TouchTabs::draw() {
   drawNewton();
   drawRowWire();
   drawLine();
+  drawLoad();
   fillTable();
 }
 
@@ -236,6 +251,12 @@ void TouchTabs::drawLine() {
   view.lineFrom_mm = line[0];
   view.lineTo_mm = line[1];
   line_->setChart(plot_.chart(*session_.touch().mesh(), *session_.fields(), view, less ? &less->fields : nullptr));
+}
+
+void TouchTabs::drawLoad() {
+  if (session_.fields() == nullptr || !reaction_->isVisible()) return;
+  reaction_->setChart(reactionChart(session_.touch()));
+  forceWay_->setChart(forceDisplacementChart(session_.touch()));
 }
 
 void TouchTabs::fillTable() {

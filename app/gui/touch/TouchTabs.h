@@ -18,7 +18,7 @@ class Workbench;
 struct KeptPath;
 
 /// Under the block: heatmap and Newton's residuals, a row-wire before and under the load, a plot along a line, the
-/// electrodes as a table. Only the visible tab is drawn.
+/// electrodes as a table, reaction and displacement along the load. Only the visible tab is drawn.
 class TouchTabs : public QTabWidget {
   Q_OBJECT
 
@@ -46,10 +46,12 @@ private:
   QWidget* buildTouch();
   QWidget* buildRowWire();
   QWidget* buildLine();
+  QWidget* buildLoad();
   void draw();
   void drawHeatmap();
   void drawRowWire();
   void drawLine();
+  void drawLoad();
   void fillTable();
   void readLine();
 
@@ -67,6 +69,8 @@ private:
   QWidget* linePage_ = nullptr;
   std::array<QLineEdit*, 2> ends_{};
   ChartView* line_ = nullptr;
+  ChartView* reaction_ = nullptr;
+  ChartView* forceWay_ = nullptr;
   ElectrodeTable* table_ = nullptr;
 };
 

@@ -5,10 +5,13 @@
 #include "app/gui/views/PictureView.h"
 #include "app/gui/views/VtkView.h"
 #include "app/gui/widgets/FileDialogs.h"
+#include "app/gui/window/exports/ExportFiles.h"
 #include "io/AtomicFile.h"
 #include "model/base/Cancelled.h"
+#include "model/base/Error.h"
 
 #include <QDir>
+#include <QFileInfo>
 #include <QMessageBox>
 #include <QTimer>
 
@@ -20,6 +23,12 @@ namespace palp {
 namespace {
 
 constexpr QSize kLeast(600, 400);
+
+/// Files of what it shows that are written already.
+QStringList filesOf(const QWidget& scene) {
+  const auto* page = dynamic_cast<const ExportFiles*>(&scene);
+  return page == nullptr ? QStringList() : page->exportFiles();
+}
 
 /// Every view and table of the scene that shows something; those of other tabs too.
 std::vector<QPointer<QWidget>> worthSaving(const QWidget& scene) {
@@ -37,7 +46,7 @@ SceneExport::SceneExport(QObject* parent) : QObject(parent) {}
 
 void SceneExport::ask(QWidget& scene) {
   if (running()) return;
-  if (worthSaving(scene).empty()) {
+  if (worthSaving(scene).empty() && filesOf(scene).isEmpty()) {
     emit done(tr("This scene shows no chart or table yet."));
     return;
   }
@@ -59,6 +68,13 @@ void SceneExport::write(QWidget& scene, const QString& folder) {
   files_.clear();
   left_.clear();
   for (const QPointer<QWidget>& widget : worthSaving(scene)) left_.push_back({widget, {}});
+  for (const QString& file : filesOf(scene)) {
+    try {
+      files_.push_back({QDir(folder).filePath(QFileInfo(file).fileName()), readFile(file.toStdString()), {}});
+    } catch (const Error& error) { // taken away since it was shown
+      emit done(QString::fromStdString(error.what()));
+    }
+  }
   QTimer::singleShot(0, this, &SceneExport::next);
 }
 

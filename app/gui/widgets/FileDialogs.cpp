@@ -16,6 +16,14 @@ QString lastFolder() {
   return QFileInfo(folder).isDir() ? folder : QString();
 }
 
+/// Behind the name of the project whose window asks: files of several projects meet in one folder.
+QString afterProject(const QWidget* parent, const QString& proposal) {
+  const QString project =
+      parent == nullptr ? QString() : QFileInfo(parent->window()->windowFilePath()).completeBaseName();
+  if (project.isEmpty() || proposal.contains('/') || proposal.startsWith(project)) return proposal;
+  return project + '-' + proposal;
+}
+
 QStringList chosen(QFileDialog& dialog) {
   if (dialog.exec() != QDialog::Accepted || dialog.selectedFiles().isEmpty()) return {};
   QSettings().setValue(kLastFolder, QFileInfo(dialog.selectedFiles().front()).absolutePath());
@@ -36,7 +44,7 @@ QString askFileToSave(QWidget* parent, const QString& title, const QString& prop
   dialog.setAcceptMode(QFileDialog::AcceptSave);
   dialog.setFileMode(QFileDialog::AnyFile);
   dialog.setDefaultSuffix(QFileInfo(proposal).suffix());
-  dialog.selectFile(proposal);
+  dialog.selectFile(afterProject(parent, proposal));
   // A proposal that is there is chosen in the list too, and Qt would take it before a path that is typed.
   for (auto* list : dialog.findChildren<QAbstractItemView*>())
     if (list->selectionModel() != nullptr) list->selectionModel()->clear();

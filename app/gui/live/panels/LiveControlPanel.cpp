@@ -1,6 +1,7 @@
 #include "app/gui/live/panels/LiveControlPanel.h"
 
 #include "app/gui/widgets/FileDialogs.h"
+#include "app/gui/widgets/PushButton.h"
 #include "app/gui/widgets/SpinBoxes.h"
 
 #include <QCheckBox>
@@ -26,13 +27,6 @@ namespace {
 
 constexpr double kMegabyte = 1e6;
 constexpr double kRecordedReport = 64 + 12; // bytes with kind, length and time
-
-QPushButton* toPush(const QString& text, const QString& name, const QString& tip) {
-  auto* push = new QPushButton(text);
-  push->setObjectName(name);
-  push->setToolTip(tip);
-  return push;
-}
 
 QLabel* words(const QString& name, const char* role) {
   auto* label = new QLabel;
@@ -93,11 +87,11 @@ QWidget* LiveControlPanel::buildNetwork() {
   network_ = words("networkName", "hint");
   networkProblem_ = words("networkProblem", "problem");
   column->addWidget(network_);
-  auto* open = toPush(tr("Open..."), "chooseNetwork",
-                      tr("A network that reads resistances; one that cannot be used leaves this one"));
-  shipped_ = toPush(tr("Palp's own"), "shippedNetwork",
-                    tr("The network that ships with Palp: all rows of the paper's design, noise 5e-6 of R"));
-  back_ = toPush(tr("Back"), "networkBack", tr("Back to the network that was in use before"));
+  auto* open = pushButton(tr("Open..."), "chooseNetwork",
+                          tr("A network that reads resistances; one that cannot be used leaves this one"));
+  shipped_ = pushButton(tr("Palp's own"), "shippedNetwork",
+                        tr("The network that ships with Palp: all rows of the paper's design, noise 5e-6 of R"));
+  back_ = pushButton(tr("Back"), "networkBack", tr("Back to the network that was in use before"));
   column->addLayout(beside({open, shipped_}));
   column->addWidget(back_);
   tareFrames_ = new QSpinBox;
@@ -105,9 +99,9 @@ QWidget* LiveControlPanel::buildNetwork() {
   tareFrames_->setRange(1, 100000);
   tareFrames_->setSuffix(tr(" frames"));
   tareFrames_->setToolTip(tr("Frames that are averaged as rest; more of them leave less noise in the zero"));
-  tare_ = toPush(tr("Tare"), "tare",
-                 tr("Takes the next frames as rest: leave the sensor alone; it waits while the sensor moves (T)"));
-  clearTare_ = toPush(tr("Clear"), "clearTare", tr("Back to the resistances of the design at rest"));
+  tare_ = pushButton(tr("Tare"), "tare",
+                     tr("Takes the next frames as rest: leave the sensor alone; it waits while the sensor moves (T)"));
+  clearTare_ = pushButton(tr("Clear"), "clearTare", tr("Back to the resistances of the design at rest"));
   column->addLayout(beside({tare_, tareFrames_, clearTare_}));
   tareState_ = words("tareState", "hint");
   tareState_->setText(tr("Not tared."));
@@ -130,17 +124,17 @@ QWidget* LiveControlPanel::buildNetwork() {
 QWidget* LiveControlPanel::buildRecording() {
   auto* box = new QGroupBox(tr("Recording"));
   auto* column = new QVBoxLayout(box);
-  record_ = toPush(tr("Record"), "record",
-                   tr("Writes the raw reports from now on; flushed each second (R; Shift+R ends it)"));
+  record_ = pushButton(tr("Record"), "record",
+                       tr("Writes the raw reports from now on; flushed each second (R; Shift+R ends it)"));
   record_->setCheckable(true);
-  pause_ = toPush(tr("Hold views"), "pause", tr("Holds the pictures and curves; a recording goes on (Space)"));
+  pause_ = pushButton(tr("Hold views"), "pause", tr("Holds the pictures and curves; a recording goes on (Space)"));
   pause_->setCheckable(true);
   column->addWidget(record_);
   file_ = new QLineEdit(QDir::home().filePath("touch.palprec"));
   file_->setObjectName("recordFile");
   file_->setToolTip(
       tr("File for the raw reports; where it exists the next recording gets the date and time in its name"));
-  auto* choose = toPush(tr("..."), "chooseRecordFile", tr("Chooses the file"));
+  auto* choose = pushButton(tr("..."), "chooseRecordFile", tr("Chooses the file"));
   choose->setMaximumWidth(32);
   column->addLayout(beside({file_, choose}));
   recorded_ = words("recorded", "hint");
@@ -151,10 +145,11 @@ QWidget* LiveControlPanel::buildRecording() {
   mark_->setObjectName("markText");
   mark_->setPlaceholderText(tr("mark 1"));
   mark_->setToolTip(tr("What the event mark says, in the curves and in the recording"));
-  auto* mark = toPush(tr("Mark"), "mark", tr("Marks this moment (M)"));
+  auto* mark = pushButton(tr("Mark"), "mark", tr("Marks this moment (M)"));
   column->addLayout(beside({mark_, mark}));
-  auto* csv = toPush(tr("Export CSV..."), "exportLive",
-                     tr("The frames that the curves hold, the last 60 s at most: time, forces [N], dR/R of all cells"));
+  auto* csv =
+      pushButton(tr("Export CSV..."), "exportLive",
+                 tr("The frames that the curves hold, the last 60 s at most: time, forces [N], dR/R of all cells"));
   column->addLayout(beside({pause_, csv}));
   connect(file_, &QLineEdit::textChanged, this, &LiveControlPanel::lookForFile);
   connect(choose, &QPushButton::clicked, this, [this] {

@@ -8,6 +8,7 @@
 #include <QDesktopServices>
 #include <QDialog>
 #include <QDir>
+#include <QEvent>
 #include <QFileInfo>
 #include <QLabel>
 #include <QLineEdit>
@@ -86,8 +87,7 @@ public:
     connect(list_, &QListWidget::currentItemChanged, this, [this](const QListWidgetItem* item) {
       if (item != nullptr) text_->setSource(QUrl::fromLocalFile(item->data(kFileRole).toString()));
     });
-    connect(text_, &QTextBrowser::sourceChanged, this,
-            [this] { layOutHelp(*text_->document(), kPicture_px, palette()); });
+    connect(text_, &QTextBrowser::sourceChanged, this, [this] { layOut(); });
     connect(text_, &QTextBrowser::anchorClicked, this, &HelpDialog::follow);
     list_->setCurrentRow(0);
   }
@@ -98,7 +98,15 @@ public:
     text_->scrollToAnchor(scene);
   }
 
+protected:
+  /// The grounds of code are colours of the page itself.
+  void changeEvent(QEvent* event) override {
+    QDialog::changeEvent(event);
+    if (event->type() == QEvent::PaletteChange) layOut();
+  }
+
 private:
+  void layOut() { layOutHelp(*text_->document(), kPicture_px, palette()); }
   void buildSearch() {
     search_->setObjectName("helpSearch");
     search_->setPlaceholderText(tr("Search the help"));

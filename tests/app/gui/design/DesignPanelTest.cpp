@@ -6,6 +6,7 @@
 #include <QCheckBox>
 #include <QLabel>
 #include <QLineEdit>
+#include <QLocale>
 #include <QScrollArea>
 
 #include <gtest/gtest.h>
@@ -92,6 +93,18 @@ TEST_F(DesignPanelTest, ScalesTheWiresWithTheBlockWhileItsSizeIsTypedAndUndoesIt
   EXPECT_EQ(overlaps(), QString());
   while (workbench.history().canUndo()) workbench.history().undo();
   EXPECT_EQ(workbench.project().design, paperDesign());
+}
+
+TEST(WireScaling, GivesNoDigitsOfRounding) {
+  const SensorDesign paper = paperDesign();
+  for (const double x_mm : {22., 37.3, 31.}) {
+    const SensorDesign scaled = scaledTo(paper, {x_mm, 22, 11});
+    for (const ElectrodeLayer* layer : {&scaled.upper, &scaled.lower})
+      for (const double place : layer->wire_mm) {
+        const QString words = QString::number(place, 'g', QLocale::FloatingPointShortest);
+        EXPECT_LE(words.size() - words.indexOf('.') - 1, 9) << words.toStdString();
+      }
+  }
 }
 
 TEST(WireScaling, KeepsEveryPlaceInItsShareOfTheBlock) {

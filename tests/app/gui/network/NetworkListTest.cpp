@@ -72,6 +72,24 @@ TEST_F(NetworkList, GoesBackToAnEarlierNetworkWithItsSettings) {
   EXPECT_EQ(list.rowCount(), 1);
 }
 
+TEST_F(NetworkList, GoingBackToANetworkOfAnEarlierDesignBringsTheDesignToo) {
+  generate();
+  trained();
+  const SensorDesign design = workbench.project().design;
+  Project next = workbench.project();
+  next.design.block_mm.z() = 6;
+  workbench.edit("another block", next);
+  ASSERT_FALSE(network.upToDate());
+  find<QTabWidget>("networkTabs").setCurrentIndex(3);
+  find<DataTable>("trainedNetworks").setCurrentCell(0, 0);
+  QTest::mouseClick(&find<QPushButton>("goBack"), Qt::LeftButton);
+  EXPECT_EQ(workbench.project().design, design);
+  EXPECT_TRUE(network.upToDate()) << "samples and network hold again";
+  EXPECT_TRUE(workbench.history().undoText().contains("6 -> 5 mm")) << workbench.history().undoText().toStdString();
+  workbench.history().undo();
+  EXPECT_EQ(workbench.project().design.block_mm.z(), 6);
+}
+
 TEST_F(NetworkList, ComparesWithTheNetworkThatWasShownBefore) {
   generate();
   trained();

@@ -2,14 +2,19 @@
 
 #include "tests/app/gui/WindowFixture.h"
 
+#include <QClipboard>
 #include <QComboBox>
+#include <QContextMenuEvent>
 #include <QDesktopServices>
 #include <QDir>
 #include <QFile>
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
+#include <QMenu>
+#include <QMenuBar>
 #include <QMessageBox>
+#include <QPixmap>
 #include <QPlainTextEdit>
 #include <QPushButton>
 #include <QTabWidget>
@@ -230,6 +235,76 @@ TEST_F(ReportsPageTest, ListsEarlierReportsAndShowsOneAgain) {
   EXPECT_TRUE(state().contains("stability-"));
   EXPECT_TRUE(find<QPlainTextEdit>("reportLog").toPlainText().contains("the first one said this"));
   EXPECT_TRUE(find<QPushButton>("openReport").isEnabled());
+}
+
+TEST_F(ReportsPageTest, AnEarlierReportIsOpenedWhileOneRunsAndStaysUntilTheNewOneIsAskedFor) {
+  setProgram("echo first run\necho page > \"$folder/report.html\"\n");
+  run("stability");
+  ASSERT_TRUE(ended());
+  run("noise");
+  ASSERT_TRUE(ended());
+  auto& shown = find<QLabel>("reportShown");
+  auto& offer = find<QPushButton>("showNewReport");
+  EXPECT_TRUE(shown.text().startsWith("stability, ")) << "a run does not take away what is looked at";
+  ASSERT_TRUE(offer.isVisible());
+  QTest::mouseClick(&offer, Qt::LeftButton);
+  EXPECT_TRUE(shown.text().startsWith("noise, ")) << shown.text().toStdString();
+  EXPECT_FALSE(offer.isVisible());
+
+  setProgram("echo progress 400 1000 case\nwhile [ ! -e \"$folder/go\" ]; do sleep 0.02; done\n"
+             "echo page > \"$folder/report.html\"\n");
+  run("stability");
+  EXPECT_TRUE(shown.text().startsWith("noise, ")) << "nor does its start";
+  QListWidgetItem* first = written().findItems("stability, ", Qt::MatchStartsWith).value(0);
+  ASSERT_NE(first, nullptr);
+  find<QTabWidget>("reportTabs").setCurrentWidget(&written());
+  QTest::mouseClick(written().viewport(), Qt::LeftButton, {}, written().visualItemRect(first).center());
+  EXPECT_TRUE(shown.text().startsWith("stability, ")) << shown.text().toStdString();
+  EXPECT_TRUE(find<QPushButton>("openReport").isEnabled());
+  EXPECT_TRUE(state().startsWith("Running for")) << "progress stays in sight";
+  EXPECT_FALSE(find<QPlainTextEdit>("reportLog").toPlainText().contains("first run")) << "the messages are the run's";
+  QFile(inReport("go")).open(QIODevice::WriteOnly);
+  ASSERT_TRUE(ended());
+  EXPECT_TRUE(state().startsWith("Done in")) << state().toStdString();
+  EXPECT_TRUE(offer.isVisible());
+  EXPECT_EQ(written().count(), 3);
+}
+
+TEST_F(ReportsPageTest, AReportsPictureHasTheMenuOfOtherChartsAndIsExportedWithItsPoints) {
+  ASSERT_TRUE(QPixmap(64, 48).toImage().convertToFormat(QImage::Format_RGB32).save(programs.filePath("spread.png")));
+  setProgram("cp " + programs.filePath("spread.png").toUtf8() +
+             " \"$folder\"\necho x,y > \"$folder/points.csv\"\necho page > \"$folder/report.html\"\n");
+  run("stability");
+  ASSERT_TRUE(ended());
+  auto& label = find<QLabel>("reportPicture");
+  const auto choose = [&](const QString& begin) {
+    QTimer::singleShot(50, [begin] {
+      auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+      ASSERT_NE(menu, nullptr);
+      for (QAction* action : menu->actions())
+        if (action->text().startsWith(begin))
+          return QTest::mouseClick(menu, Qt::LeftButton, {}, menu->actionGeometry(action).center());
+      menu->close();
+      FAIL() << begin.toStdString();
+    });
+    QContextMenuEvent event(QContextMenuEvent::Mouse, label.rect().center(), label.mapToGlobal(label.rect().center()));
+    QApplication::sendEvent(&label, &event);
+  };
+  choose("Copy points");
+  EXPECT_EQ(QApplication::clipboard()->text(), "x,y\n");
+  answerFileDialog(programs.filePath("kept.png"));
+  choose("Save picture, 64 x 48");
+  EXPECT_TRUE(QFile::exists(programs.filePath("kept.png")));
+  answerFileDialog(programs.filePath("kept.csv"));
+  choose("Save points");
+  EXPECT_TRUE(QFile::exists(programs.filePath("kept.csv")));
+  answerFileDialog(programs.filePath("all"));
+  for (QAction* menu : window.menuBar()->actions())
+    for (QAction* action : menu->menu()->actions())
+      if (action->shortcut() == QKeySequence("Ctrl+Shift+E")) action->trigger();
+  const QDir all(programs.filePath("all"));
+  EXPECT_TRUE(QTest::qWaitFor([&] { return all.entryList(QDir::Files, QDir::Name).size() == 2; }, kPatience_ms));
+  EXPECT_EQ(all.entryList(QDir::Files, QDir::Name), QStringList({"points.csv", "spread.png"}));
 }
 
 TEST_F(ReportsPageTest, SaysBeforehandWhatRunsAndForHowLongAndThenWhatIsDone) {

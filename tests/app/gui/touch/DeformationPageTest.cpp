@@ -10,6 +10,7 @@
 #include <QLineEdit>
 #include <QPushButton>
 #include <QSlider>
+#include <QTabBar>
 #include <QTabWidget>
 #include <QTableView>
 #include <QTemporaryDir>
@@ -324,6 +325,48 @@ TEST_F(DeformationPageTest, ShowsARowWireAndTheTableOfElectrodes) {
   workbench.edit("lower electrodes", next);
   const auto follows = [&] { return cell(100 + 25, 0) == "lower" && cell(100 + 25, 8).toDouble() != 0; };
   EXPECT_TRUE(QTest::qWaitFor(follows, kPatience_ms)) << cell(100 + 25, 8).toStdString();
+}
+
+TEST_F(DeformationPageTest, ReactionAndDisplacementStandAgainstTheLoad) {
+  ASSERT_TRUE(solved());
+  auto& tabs = find<QTabWidget>("deformationTabs");
+  for (int k = 0; k < tabs.count(); ++k)
+    if (tabs.tabText(k) == "Along the load")
+      QTest::mouseClick(tabs.tabBar(), Qt::LeftButton, {}, tabs.tabBar()->tabRect(k).center());
+  settle();
+  const Touch& touch = workbench.touch().touch();
+  const Solution& solution = *touch.solution();
+  const ChartSpec reaction = find<ChartView>("reactionCurve").chart();
+  ASSERT_EQ(reaction.series.size(), 3);
+  for (std::size_t d = 0; d < 3; ++d) {
+    ASSERT_EQ(reaction.series[d].x.size(), solution.increments.size());
+    EXPECT_EQ(reaction.series[d].y.front(), 0) << "at rest";
+    // The solve sums internal forces, the curve the loads: they differ by the residual, 1e-8 of the load at most.
+    EXPECT_NEAR(reaction.series[d].y.back(), solution.reaction_N(static_cast<Eigen::Index>(d)),
+                1e-7 * touch.load().totalForce_N().norm());
+  }
+  const ChartSpec way = find<ChartView>("forceDisplacement").chart();
+  ASSERT_EQ(way.series.size(), 1);
+  EXPECT_NEAR(way.series[0].x.back(), workbench.touch().endFields()->displacement_mm.colwise().norm().maxCoeff(), 1e-9);
+  EXPECT_NEAR(way.series[0].y.back(), touch.load().totalForce_N().norm(), 1e-12);
+  EXPECT_TRUE(find<ChartView>("forceDisplacement").table().startsWith("series,displacement [mm],force [N]"));
+  Project next = workbench.project();
+  Indenter ball;
+  ball.place_mm = {15, 15};
+  ball.control = Press{{0, 0, -1}};
+  next.load = {{}, {}, {ball}};
+  next.mesh.mapped = {15, 15, 3};
+  workbench.edit("an indenter", next);
+  ASSERT_TRUE(solved());
+  ASSERT_TRUE(QTest::qWaitFor(
+      [&] {
+        const auto& series = find<ChartView>("forceDisplacement").chart().series;
+        return series.size() == 1 && series[0].name.starts_with("indenter");
+      },
+      kPatience_ms));
+  const ChartSeries depth = find<ChartView>("forceDisplacement").chart().series[0];
+  EXPECT_NEAR(depth.y.back(), 1, 1e-3);
+  EXPECT_GT(depth.x.back(), 0);
 }
 
 TEST_F(DeformationPageTest, HowThingsAreShownIsNoEntryOfTheHistory) {

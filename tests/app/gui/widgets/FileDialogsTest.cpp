@@ -36,6 +36,29 @@ TEST(FileDialogs, BeginInTheFolderThatWasChosenLast) {
   EXPECT_EQ(began, QDir(folder.filePath("work")).absolutePath());
 }
 
+TEST(FileDialogs, OfferANameThatBeginsWithTheProjects) {
+  QWidget window;
+  QWidget page(&window);
+  const auto offered = [&](const QString& proposal) {
+    QString name;
+    QTimer look;
+    QObject::connect(&look, &QTimer::timeout, [&] {
+      auto* dialog = qobject_cast<QFileDialog*>(QApplication::activeModalWidget());
+      if (dialog == nullptr) return;
+      look.stop();
+      name = dialog->findChild<QLineEdit*>("fileNameEdit")->text();
+      dialog->reject();
+    });
+    look.start(20);
+    EXPECT_TRUE(askFileToSave(&page, "Save", proposal, "Tables (*.csv)").isEmpty());
+    return name;
+  };
+  EXPECT_EQ(offered("samples.csv"), "samples.csv") << "a project without a name";
+  window.setWindowFilePath("/somewhere/finger v2.json");
+  EXPECT_EQ(offered("samples.csv"), "finger v2-samples.csv");
+  EXPECT_EQ(offered("finger v2.json"), "finger v2.json") << "the project itself";
+}
+
 TEST(FileDialogs, TakeThePathThatIsTypedAndNotAProposalThatIsThere) {
   const QTemporaryDir folder;
   for (const char* name : {"old.csv", "new.csv"}) {

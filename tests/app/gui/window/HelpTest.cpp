@@ -9,6 +9,7 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
+#include <QPalette>
 #include <QRegularExpression>
 #include <QTest>
 #include <QTextBlock>
@@ -116,6 +117,21 @@ TEST_F(Help, SetsCodeApartFromWhatItPrintsAndPicturesIntoThePage) {
   EXPECT_GT(apart, 10) << "commands and what they print";
   EXPECT_GT(code, apart);
   EXPECT_GT(pictures, 0);
+}
+
+TEST_F(Help, TheGroundOfCodeFollowsTheThemeWhileItIsOpen) {
+  choose(static_cast<int>(listed().indexOf("guide.md")));
+  const auto grounds = [&] {
+    QList<QColor> all;
+    for (QTextBlock block = text->document()->begin(); block.isValid(); block = block.next())
+      if (block.blockFormat().hasProperty(QTextFormat::BlockCodeFence)) all << block.blockFormat().background().color();
+    return all;
+  };
+  ASSERT_FALSE(grounds().isEmpty());
+  QPalette other = window.palette();
+  other.setColor(QPalette::AlternateBase, QColor(17, 34, 51));
+  window.findChild<QDialog*>("help")->setPalette(other);
+  for (const QColor& ground : grounds()) EXPECT_EQ(ground, QColor(17, 34, 51));
 }
 
 TEST_F(Help, FindsTopicsByAWordAndLeadsToThem) {
