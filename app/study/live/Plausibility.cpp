@@ -17,6 +17,7 @@ constexpr double kDisagreement = 0.05; // of the range, at least
 constexpr double kMemory_s = 0.25;     // of what is said
 constexpr double kSayAbove = 0.5, kUnsayBelow = 0.1;
 constexpr double kLongestStep_s = 1;
+constexpr double kOtherBoard = 100; // times the limit: no touch, hysteresis or warming of this sensor does that
 
 } // namespace
 
@@ -96,9 +97,13 @@ Plausibility::Verdict Plausibility::judge(const PlausibilityInput& input) {
   if (heldDoubt_ == Doubt::Disagrees) verdict.reason = "the network's force is not the one that the readings tell";
   if (heldDoubt_ == Doubt::Foreign) {
     if (verdict.misfit) heldMisfit_ = *verdict.misfit;
-    std::array<char, 160> text{};
-    std::snprintf(text.data(), text.size(), "no %sknown touch: misfit %.2g, at most %.2g",
-                  leftByOne_ > 0 ? "single " : "", heldMisfit_, limitFor(input));
+    const double most = limitFor(input);
+    std::array<char, 240> text{};
+    std::snprintf(text.data(), text.size(), "no %sknown touch: misfit %.2g, at most %.2g%s",
+                  leftByOne_ > 0 ? "single " : "", heldMisfit_, most,
+                  heldMisfit_ > kOtherBoard * most ? "; the network is of another design than the board, or it was not "
+                                                     "tared"
+                                                   : "");
     verdict.reason = text.data();
   }
   return verdict;

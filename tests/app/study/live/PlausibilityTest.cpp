@@ -110,6 +110,26 @@ BoardDisturbance withNoise(double noise = kGoodNoise) {
   return disturbance;
 }
 
+TEST(Plausibility, SaysThatReadingsFarFromAllTouchesAreOfAnotherDesign) {
+  const Decoder& decoder = paperDecoder();
+  const auto saidAt = [&](double misfit) {
+    Plausibility plausibility(decoder);
+    PlausibilityInput input;
+    input.readings_ohm = (decoder.input.low + decoder.input.high) / 2;
+    input.forces_N = (decoder.low_N + decoder.high_N) / 2;
+    input.standardDeviation_N = Eigen::VectorXd::Constant(input.forces_N.size(), 0.01);
+    input.predictedNoise = input.noise = kGoodNoise;
+    input.chiSquare = misfit * misfit;
+    std::string said;
+    for (input.time_s = 0; input.time_s < 1; input.time_s += 0.05) said = plausibility.judge(input).reason;
+    return said;
+  };
+  EXPECT_EQ(saidAt(0.5), "");
+  EXPECT_TRUE(saidAt(10).starts_with("no known touch: misfit ")) << saidAt(10);
+  EXPECT_EQ(saidAt(10).find("another design"), std::string::npos) << "a foreign touch";
+  EXPECT_NE(saidAt(3e4).find("the network is of another design"), std::string::npos) << saidAt(3e4);
+}
+
 TEST(Plausibility, SaysNothingOfTheUntouchedDemo) {
   const SimulatedTouch touch(shippedSamples());
   const Said said = listen(simulatedBoard(shippedSamples(), withNoise(), 1000, 3),
