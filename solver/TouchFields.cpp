@@ -8,6 +8,8 @@
 #include "solver/statics/PointMotion.h"
 #include "solver/statics/ProblemParts.h"
 
+#include <Eigen/SparseCore>
+
 #include <array>
 
 namespace palp {
@@ -16,6 +18,7 @@ namespace {
 
 constexpr Eigen::Index sidesATouch = 7;
 constexpr int pointsAtOnce = 64;
+constexpr double sparseBelow = 0.3; // share of entries below which a sparse product is faster
 
 /// Nodal forces of 1 N along an axis, spread by these shares over the points of a contact. What would reach over the
 /// face presses at its edge.
@@ -90,7 +93,11 @@ std::vector<TouchInfluence> TouchFields::of(const LinearReadings& readings, int 
       points.middleRows<3>(3 * Eigen::Index(p)) = motion * nodes;
     }
   });
-  const Eigen::MatrixXd all = readings.gradient_per_mm * points;
+  // By Eq. (1) a reading feels few points.
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> few = readings.gradient_per_mm.sparseView();
+  const bool sparse = double(few.nonZeros()) < sparseBelow * double(readings.gradient_per_mm.size());
+  const Eigen::MatrixXd all =
+      sparse ? Eigen::MatrixXd(few * points) : Eigen::MatrixXd(readings.gradient_per_mm * points);
   std::vector<TouchInfluence> result(radii_mm_.size());
   for (std::size_t t = 0; t < result.size(); ++t) {
     const auto side = [&](Eigen::Index k) { return all.col(sidesATouch * static_cast<Eigen::Index>(t) + k); };

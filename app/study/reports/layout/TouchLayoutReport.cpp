@@ -18,7 +18,7 @@ namespace palp {
 
 namespace {
 
-constexpr int kSearchPlaces = 7;                  // along each axis: a place to a wire or two of the paper's layout
+constexpr int kSearchPlaces = 13;                 // along each axis; with 7 a layout is found that is poor between them
 constexpr int kMapPlaces = 25;                    // of the maps afterwards
 constexpr double kSearchMesh = 1.5;               // times the default size: the search compares, the maps judge
 constexpr double kFields = 0.05, kSearched = 0.8; // of the progress: touches solved, search done
