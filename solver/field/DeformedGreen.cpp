@@ -220,30 +220,30 @@ std::optional<BoxGreen> DeformedGreen::at(const FieldState& state, int threads, 
   if (!system) return {};
   const auto count = static_cast<int>(state.electrodes_mm.cols());
   const int batches = (count + batchLanes - 1) / batchLanes;
-  auto [right, products] = integrals(state, *system, threads, stop);
+  SourceIntegrals integral = integrals(state, *system, threads, stop);
+  Rows& right = integral.right;
   if (stop.stop_requested()) return {};
 
-  Rows field(mesh_.nodes(), count), twice(mesh_.nodes(), count); // w; 2 b - K w
+  Rows field(mesh_.nodes(), count); // w
   forChunks(batches, 1, threads, [&](int b, int) {
     if (stop.stop_requested()) return;
     const int first = b * batchLanes, some = std::min(batchLanes, count - first);
-    const Rows side = right.middleCols(first, some);
     Rows x(mesh_.nodes(), some), left(mesh_.nodes(), some);
-    system->solve.solve(side, x, left, stop);
+    system->solve.solve(right.middleCols(first, some), x, left, stop);
     field.middleCols(first, some) = x;
-    twice.middleCols(first, some) = side + left;
+    right.middleCols(first, some) += left; // 2 b - K w
   });
   if (stop.stop_requested()) return {};
 
   // Rows p <= q, by whole batches. w' (2 b - K w) is the energy up to the square of what substitution leaves.
   BoxGreen green;
-  green.value = std::move(products);
+  green.value = std::move(integral.products);
   forChunks(batches, 1, threads, [&](int task, int) {
     if (stop.stop_requested()) return;
     const int first = (batches - 1 - task) * batchLanes, some = std::min(batchLanes, count - first);
     double* out = green.value.data() + std::size_t(first) * count;
     cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, first + some, some, mesh_.nodes(), 1, field.data(), count,
-                twice.data() + first, count, 1, out, count);
+                right.data() + first, count, 1, out, count);
   });
   if (stop.stop_requested()) return {};
 
