@@ -34,7 +34,7 @@ constexpr double kLetter_px = 7.5;
 constexpr double kGap_px = 8;
 constexpr double kAxisLine_px = 16;
 constexpr double kBesidePlot_px = 70;  ///< on one side, by which the plot is off the middle
-constexpr double kMostLegend = 0.4;    ///< of the height that a legend may take from the curves
+constexpr double kMostLegend = 0.4;    ///< of the height or width that a legend may take from the curves
 constexpr double kAroundPlot_px = 100; ///< of the picture along an axis
 
 struct Range {
@@ -219,11 +219,12 @@ void fillChart(vtkChartXY& chart, const ChartSpec& spec, Theme theme, double sca
   if (!names.empty()) {
     const LegendShare share = legendShare(names, scale, size_px);
     LegendCorner corner = freestCorner(shares(all, xShown, yShown, spec), share);
-    if (corner.covered > 0 && !spec.yRange) {
-      yShown = withRoomAbove(yShown, std::min(share.height, kMostLegend), spec.logY);
-      corner = {};
-    }
+    const bool covers = corner.covered > 0 && !spec.yRange;
+    const bool beside = covers && share.height > kMostLegend && share.width <= kMostLegend;
+    if (covers && !beside) yShown = withRoomAbove(yShown, std::min(share.height, kMostLegend), spec.logY);
+    if (covers) corner = {};
     setLegend(chart, corner, colors, scale);
+    chart.GetLegend()->SetInline(!beside); // the plot makes room for it
   }
   setAxis(*chart.GetAxis(vtkAxis::BOTTOM), spec.xLabel, xShown, spec.logX, colors, scale, size_px[0]);
   setAxis(*chart.GetAxis(vtkAxis::LEFT), spec.yLabel, yShown, spec.logY, colors, scale, size_px[1]);

@@ -99,6 +99,32 @@ TEST(ChartLegend, StandsWhereItCoversNothing) {
   EXPECT_GT(freestCorner(rising, share).covered, 0) << "a cross reaches every corner";
 }
 
+/// Pixels of exactly this colour.
+std::ptrdiff_t pixelsOf(const Picture& picture, const Color& color) {
+  std::ptrdiff_t count = 0;
+  for (std::size_t i = 0; i + 2 < picture.rgb.size(); i += 3) {
+    bool same = true;
+    for (std::size_t c = 0; c < 3; ++c) same = same && picture.rgb[i + c] == std::lround(255 * color[c]);
+    count += same ? 1 : 0;
+  }
+  return count;
+}
+
+TEST(ChartLegend, OfManyNamesLeavesEveryPointInSight) {
+  ChartSpec spec;
+  for (int k = 0; k < 10; ++k) {
+    ChartSeries series{"decoder " + std::to_string(k), {0, 0.5 + 0.03 * k, 1}, {0.1 * k, 0.1 * k, 1 - 0.1 * k}};
+    series.style = ChartSeries::Style::Points;
+    spec.series.push_back(series);
+  }
+  ChartSpec bare = spec;
+  for (ChartSeries& series : bare.series) series.legend = "";
+  const Picture with = drawChart(spec, 520, 300, Theme::Light), without = drawChart(bare, 520, 300, Theme::Light);
+  for (int k = 0; k < 10; ++k)
+    EXPECT_GE(pixelsOf(with, seriesColor(k, Theme::Light)), 0.95 * pixelsOf(without, seriesColor(k, Theme::Light)))
+        << k << ": a legend only adds its symbol";
+}
+
 TEST(Picture, IsWrittenAsAPngThatOthersRead) {
   const QTemporaryDir folder;
   const std::string file = folder.filePath("a.png").toStdString();
