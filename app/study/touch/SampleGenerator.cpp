@@ -17,7 +17,8 @@ namespace {
 
 constexpr std::size_t kBlock = 192;       // samples solved before they are handed out: about a second of work
 constexpr std::size_t kFieldBlock = 64;   // the same where each has a conduction field of its own
-constexpr std::size_t kBlocksOfParts = 2; // as many where each mesh solves its part of them, frictionless
+constexpr std::size_t kFrictionBlock = 8; // the same with friction, where each takes seconds
+constexpr std::size_t kBlocksOfParts = 2; // as many where each mesh solves its part of them
 constexpr std::size_t kSurrogateBlock = 8192;
 constexpr int kMostPerArea = 10'000'000;
 
@@ -187,7 +188,8 @@ std::size_t SampleGenerator::partOf(const LoadCase& load) const {
 
 std::size_t SampleGenerator::samplesABlock() const {
   if (request_.surrogate) return kSurrogateBlock;
-  return (design_.field() ? kFieldBlock : kBlock) * (parts_.size() > 1 && request_.touches->mostFriction == 0 ? kBlocksOfParts : 1);
+  if (request_.touches && request_.touches->mostFriction > 0) return kFrictionBlock;
+  return (design_.field() ? kFieldBlock : kBlock) * (parts_.size() > 1 ? kBlocksOfParts : 1);
 }
 
 const SampleOrigin& SampleGenerator::origin() {
