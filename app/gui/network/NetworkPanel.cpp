@@ -90,7 +90,7 @@ void NetworkPanel::buildSamples(QVBoxLayout& column) {
   auto* files = new QHBoxLayout;
   auto* open = new QPushButton(tr("Open..."));
   open->setObjectName("openSamples");
-  open->setToolTip(tr("Samples of this design, or imported ones, from files; several parts of one set are joined"));
+  open->setToolTip(tr("Samples of this design or imported ones, from files; several parts of one set are joined"));
   saveSamples_ = new QPushButton(tr("Save..."));
   saveSamples_->setObjectName("saveSamples");
   saveSamples_->setToolTip(
@@ -98,13 +98,14 @@ void NetworkPanel::buildSamples(QVBoxLayout& column) {
   files->addWidget(open);
   files->addWidget(saveSamples_);
   form->addRow(files);
+  form->addRow(new WrappedLabel(tr("Touches of an indenter: palp sample --touch (command line), opened here.")));
   connect(open, &QPushButton::clicked, this, &NetworkPanel::openSamplesAsked);
   connect(saveSamples_, &QPushButton::clicked, this, &NetworkPanel::saveSamplesAsked);
   samplesWords_ = new QLabel;
   samplesWords_->setObjectName("samplesWords");
   samplesWords_->setWordWrap(true);
   samplesWords_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
-  samplesWords_->setMinimumHeight(2 * samplesWords_->fontMetrics().lineSpacing()); // what is below does not jump
+  samplesWords_->setMinimumHeight(2 * fontMetrics().lineSpacing()); // what is below does not jump
   form->addRow(samplesWords_);
   column.addWidget(box);
   connect(perArea_, &QSpinBox::valueChanged, this, [this] { read(tr("Change the number of samples")); });
@@ -125,9 +126,8 @@ void NetworkPanel::buildTraining(QVBoxLayout& column) {
   train_ = new QPushButton(tr("Train"));
   train_->setObjectName("train");
   form->addRow(train_);
-  auto* follows =
-      new WrappedLabel(tr("Once there is a network, each change above trains at once; each one is kept in the tab "
-                          "Trained networks."));
+  auto* follows = new WrappedLabel(
+      tr("Once there is a network, each change above trains at once and is kept in the tab Trained networks."));
   follows->setObjectName("trainsAtOnce");
   follows->setProperty("role", "hint");
   form->addRow(follows);

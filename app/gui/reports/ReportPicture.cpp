@@ -75,11 +75,18 @@ void ReportPicture::resizeEvent(QResizeEvent* event) {
 
 void ReportPicture::contextMenuEvent(QContextMenuEvent* event) {
   if (file_.isEmpty()) return;
-  const QString points = QFileInfo(file_).dir().filePath(kPoints);
+  const QDir folder = QFileInfo(file_).dir();
+  const QString points = folder.filePath(kPoints);
+  const QString own = folder.filePath(QFileInfo(file_).completeBaseName() + ".csv"); // a map has none
   QMenu menu(this);
   menu.addAction(tr("Copy picture"), this, [this] { QApplication::clipboard()->setPixmap(picture_); });
   menu.addAction(tr("Save picture, %1 x %2 pixels...").arg(picture_.width()).arg(picture_.height()), this,
                  [this] { saveAs(file_, tr("Save picture"), tr("Pictures (*.png)")); });
+  if (QFileInfo::exists(own)) {
+    menu.addAction(tr("Copy points of this chart"), this, [own] { QApplication::clipboard()->setText(textOf(own)); });
+    menu.addAction(tr("Save points of this chart as CSV..."), this,
+                   [this, own] { saveAs(own, tr("Save as CSV"), tr("Tables (*.csv)")); });
+  }
   if (QFileInfo::exists(points)) {
     menu.addAction(tr("Copy points of the report"), this,
                    [points] { QApplication::clipboard()->setText(textOf(points)); });

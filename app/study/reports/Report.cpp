@@ -1,6 +1,7 @@
 #include "app/study/reports/Report.h"
 
 #include "app/study/paper/PaperReport.h"
+#include "app/study/reports/Csv.h"
 #include "app/study/reports/ReportPage.h"
 #include "app/study/reports/WrittenFiles.h"
 #include "io/AtomicFile.h"
@@ -52,7 +53,14 @@ public:
     for (const ReportTable::Mark mark : table.marks) classes.push_back(rowClass(mark));
     page_.table(table.heads, table.rows, table.caption, classes);
   }
-  void operator()(const ReportChart& chart) { picture(chart, draw_.chart); }
+  void operator()(const ReportChart& chart) {
+    picture(chart, draw_.chart);
+    if (!draw_.chart) return;
+    Csv points({"curve", chart.xLabel, chart.yLabel});
+    for (const ReportCurve& curve : chart.curves)
+      for (std::size_t i = 0; i < curve.x.size(); ++i) points.add({curve.name, curve.x[i], curve.y[i]});
+    writeFile(files_.add(chart.file + ".csv"), points.text(), true);
+  }
   void operator()(const ReportMap& map) { picture(map, draw_.map); }
 
   /// Charts and maps that had no drawer.

@@ -6,6 +6,7 @@
 #include <QHeaderView>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QRegularExpression>
 #include <QSignalBlocker>
 #include <QToolButton>
 #include <QTreeWidget>
@@ -20,6 +21,18 @@ namespace {
 
 enum SendColumn { kTo, kSent, kDropped };
 constexpr int kLines = 4; // of the list
+
+/// What is typed; HOST:PORT alone goes by UDP.
+std::string addressOf(const QString& typed) {
+  static const QRegularExpression hostAndPort(R"(^[^:\s]+:\d+$)");
+  return ((hostAndPort.match(typed).hasMatch() ? "udp:" : "") + typed).toStdString();
+}
+
+/// The sentence of a refusal, which names the option of the command line.
+QString inTheWindow(QString sentence) {
+  if (sentence.startsWith("--send ")) sentence.remove(0, 7);
+  return sentence.remove(" (csv:- is standard output)");
+}
 
 } // namespace
 
@@ -93,7 +106,7 @@ void SendPanel::fold(bool open) {
 
 void SendPanel::add() {
   const QString typed = address_->text().trimmed();
-  const std::string to = (typed.isEmpty() ? address_->placeholderText() : typed).toStdString();
+  const std::string to = addressOf(typed.isEmpty() ? address_->placeholderText() : typed);
   std::vector<LiveReceiver> next = settings_.receivers;
   const auto same = std::find_if(next.begin(), next.end(), [&](const LiveReceiver& other) { return other.to == to; });
   if (same != next.end())
@@ -169,7 +182,7 @@ void SendPanel::displayState(const std::vector<SendingState>& states) {
     case SendingState::Kind::Refused:
       put(kSent, tr("refused"));
       put(kDropped, {});
-      problems << QString::fromStdString(state.problem);
+      problems << inTheWindow(QString::fromStdString(state.problem));
       break;
     case SendingState::Kind::Sending:
       put(kSent, QString::number(state.sent));

@@ -82,10 +82,13 @@ TEST_F(LiveSend, WhatCannotBeOpenedIsSaidInRedAndTheOthersGoOn) {
   EXPECT_TRUE(isRed("sendProblem"));
   EXPECT_TRUE(find<QLabel>("sendProblem").text().contains("tcp:localhost:1"))
       << find<QLabel>("sendProblem").text().toStdString();
+  EXPECT_FALSE(find<QLabel>("sendProblem").text().contains("--send")) << "a window has no options";
   const int before = sent().toInt();
   EXPECT_TRUE(wait([&] { return sent().toInt() > before; }));
   add("udp:localhost:9870"); // again
   EXPECT_EQ(workbench.project().live.receivers.size(), 2U) << "an address stands once";
+  add("127.0.0.1:9871");
+  EXPECT_EQ(workbench.project().live.receivers.back().to, "udp:127.0.0.1:9871") << "host and port alone go by UDP";
 }
 
 TEST_F(LiveSend, GoesOnOutOfSight) {

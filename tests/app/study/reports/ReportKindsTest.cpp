@@ -106,6 +106,19 @@ TEST(WrittenReport, IsGoneWhereItIsStoppedBetweenTwoPictures) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
+TEST(WrittenReport, HasThePointsOfEachChartBesideItsPicture) {
+  const palp::TemporaryFolder folder;
+  palp::ReportContent content;
+  palp::ReportChart chart{.file = "a", .xLabel = "x [mm]", .yLabel = "y [N]"};
+  chart.curves.push_back({.name = "one, two", .x = {1, 2.5}, .y = {3, 0.1}});
+  content.parts.emplace_back(chart);
+  const auto draw = [](const palp::ReportChart&, const std::filesystem::path& png) {
+    palp::writeFile(png, "picture", false);
+  };
+  writeReport(content, quickRequest(folder), 0, {.chart = draw}, {});
+  EXPECT_EQ(palp::readFile(folder / "a.csv"), "curve,x [mm],y [N]\n\"one, two\",1,3\n\"one, two\",2.5,0.1\n");
+}
+
 TEST(WrittenReport, IsGoneWhereAPictureCannotBeDrawn) {
   const palp::TemporaryFolder folder;
   palp::ReportContent content;
