@@ -7,6 +7,8 @@
 #include <QStyle>
 #include <QVBoxLayout>
 
+#include <cmath>
+
 namespace palp {
 
 namespace {
@@ -125,7 +127,11 @@ void LiveCounters::displayTrust(const LiveStatus& status, const LiveFrame* last,
   const DecodedForces& forces = last->forces;
   const bool doubted = !forces.doubt.empty();
   const QString misfit = forces.misfit ? tr("misfit %1").arg(*forces.misfit, 0, 'g', 3) : tr("range of the readings");
-  set(trust_, doubted ? tr("doubted") : tr("fits"), doubted ? QString::fromStdString(forces.doubt) : misfit, doubted);
+  // All readings have gone together, by more than they scatter: that alone is no touch that is known.
+  const bool drifted = doubted && status.drift && std::abs(*status.drift) > status.noise;
+  const QString why = QString::fromStdString(forces.doubt) +
+                      (drifted ? tr("; drifted by %1 ppm: tare").arg(qRound64(1e6 * *status.drift)) : QString());
+  set(trust_, doubted ? tr("doubted") : tr("fits"), doubted ? why : misfit, doubted);
 }
 
 void LiveCounters::display(const LiveStatus& status, const LiveFrame* last, bool simulated, bool replaying,

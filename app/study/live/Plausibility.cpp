@@ -101,8 +101,8 @@ Plausibility::Verdict Plausibility::judge(const PlausibilityInput& input) {
     std::array<char, 240> text{};
     std::snprintf(text.data(), text.size(), "no %sknown touch: misfit %.2g, at most %.2g%s",
                   leftByOne_ > 0 ? "single " : "", heldMisfit_, most,
-                  heldMisfit_ > kOtherBoard * most ? "; the network is of another design than the board, or it was not "
-                                                     "tared"
+                  heldMisfit_ > kOtherBoard * most ? "; the network is of another design than the board, or the board "
+                                                     "is to be tared"
                                                    : "");
     verdict.reason = text.data();
   }
