@@ -12,8 +12,7 @@ namespace palp {
 namespace {
 
 constexpr const char* kAllowedOutlets =
-    "; allowed is udp:HOST:PORT, osc:HOST:PORT, zmq:HOST:PORT (port 1 to 65535), lsl:NAME or csv:FILE (csv:- is "
-    "standard output)";
+    "; allowed is udp:HOST:PORT, osc:HOST:PORT, zmq:HOST:PORT (port 1 to 65535), lsl:NAME or csv:FILE";
 
 /// As in sample files: fx_N, or a0_fx_N where each area has a force.
 std::string forceName(Eigen::Index force, Eigen::Index forces, int axis) {
@@ -22,7 +21,7 @@ std::string forceName(Eigen::Index force, Eigen::Index forces, int axis) {
 
 Receiver receiverOf(const std::string& where, const std::string& rest) {
   const std::size_t colon = rest.rfind(':');
-  if (colon == std::string::npos) throw Error("--send " + where + kAllowedOutlets);
+  if (colon == std::string::npos) throw Error(where + kAllowedOutlets);
   Receiver receiver{where, rest.substr(0, colon), rest.substr(colon + 1)};
   if (receiver.host.size() > 2 && receiver.host.front() == '[' && receiver.host.back() == ']')
     receiver.host = receiver.host.substr(1, receiver.host.size() - 2);
@@ -30,7 +29,7 @@ Receiver receiverOf(const std::string& where, const std::string& rest) {
   const char* const end = receiver.port.data() + receiver.port.size();
   const auto [stop, error] = std::from_chars(receiver.port.data(), end, port);
   if (receiver.host.empty() || error != std::errc() || stop != end || port < 1 || port > 65535)
-    throw Error("--send " + where + kAllowedOutlets);
+    throw Error(where + kAllowedOutlets);
   return receiver;
 }
 
@@ -88,7 +87,7 @@ std::unique_ptr<ForceOutlet> openOutlet(const std::string& where, bool toMany, b
   const std::string rest = colon == std::string::npos ? "" : where.substr(colon + 1);
   if (kind == "csv" && !rest.empty()) return openLines(where, rest, force);
   if (kind == "lsl" && !rest.empty()) return openLsl(where, rest);
-  if (kind != "udp" && kind != "osc" && kind != "zmq") throw Error("--send " + where + kAllowedOutlets);
+  if (kind != "udp" && kind != "osc" && kind != "zmq") throw Error(where + kAllowedOutlets);
   const Receiver receiver = receiverOf(where, rest);
   if (!toMany) requireSingleHost(receiver);
   if (kind == "udp") return openUdp(receiver, toMany);

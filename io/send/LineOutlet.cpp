@@ -32,7 +32,7 @@ public:
     requireFree(file_, force);
     descriptor_ = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NONBLOCK, 0666);
     if (descriptor_ < 0)
-      throw Error("--send " + where + ": cannot be written: " + std::strerror(errno)); // NOLINT(concurrency-mt-unsafe)
+      throw Error(where + ": cannot be written: " + std::strerror(errno)); // NOLINT(concurrency-mt-unsafe)
   }
   ~LineOutlet() override {
     if (descriptor_ > STDERR_FILENO) ::close(descriptor_);

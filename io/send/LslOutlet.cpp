@@ -47,13 +47,13 @@ LslLibrary loadLsl(const std::string& where) {
     if (handle == nullptr && reason.empty()) reason = dlerror(); // NOLINT(concurrency-mt-unsafe)
   }
   if (handle == nullptr)
-    throw Error("--send " + where + ": needs the library of the Lab Streaming Layer, which cannot be loaded: " +
-                reason + "; liblsl.so.2 comes from github.com/sccn/liblsl/releases");
+    throw Error(where + ": needs the library of the Lab Streaming Layer, which cannot be loaded: " + reason +
+                "; liblsl.so.2 comes from github.com/sccn/liblsl/releases");
   LslLibrary library{};
   const auto find = [&](auto& function, const char* name) {
     function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(dlsym(handle, name));
     if (function == nullptr)
-      throw Error("--send " + where + ": the library of the Lab Streaming Layer has no function " + name +
+      throw Error(where + ": the library of the Lab Streaming Layer has no function " + name +
                   "; allowed is version 1.13 or newer");
   };
   find(library.createStreamInfo, "lsl_create_streaminfo");
@@ -146,7 +146,7 @@ private:
 std::unique_ptr<ForceOutlet> openLsl(const std::string& where, const std::string& stream) {
   if (stream.size() > kLongestName ||
       std::any_of(stream.begin(), stream.end(), [](char c) { return c <= ' ' || c > '~'; }))
-    throw Error("--send " + where + ": name of the stream; allowed are 1 to " + std::to_string(kLongestName) +
+    throw Error(where + ": name of the stream; allowed are 1 to " + std::to_string(kLongestName) +
                 " letters, digits and signs without spaces");
   return std::make_unique<LslOutlet>(where, stream);
 }

@@ -15,7 +15,7 @@ class OscOutlet : public ForceOutlet {
 public:
   explicit OscOutlet(const Receiver& receiver)
       : address_(lo_address_new_with_proto(LO_UDP, receiver.host.c_str(), receiver.port.c_str()), lo_address_free) {
-    if (!address_) throw Error("--send " + receiver.where + ": cannot be sent to");
+    if (!address_) throw Error(receiver.where + ": cannot be sent to");
   }
 
   bool send(const OutgoingFrame& frame, std::chrono::milliseconds /*patience*/) override {

@@ -53,7 +53,7 @@ public:
     if (socket_ >= 0 && ::connect(socket_, addresses->ai_addr, addresses->ai_addrlen) == 0) return;
     const std::string reason = networkReason();
     if (socket_ >= 0) ::close(socket_);
-    throw Error("--send " + receiver.where + ": cannot be sent to: " + reason);
+    throw Error(receiver.where + ": cannot be sent to: " + reason);
   }
   ~UdpOutlet() override { ::close(socket_); }
   UdpOutlet(const UdpOutlet&) = delete;
@@ -79,7 +79,7 @@ Addresses addressesOf(const Receiver& receiver) {
   addrinfo* found = nullptr;
   const int result = getaddrinfo(receiver.host.c_str(), receiver.port.c_str(), &wanted, &found);
   if (result != 0 || found == nullptr)
-    throw Error("--send " + receiver.where + ": host " + receiver.host + " is not known: " + gai_strerror(result));
+    throw Error(receiver.where + ": host " + receiver.host + " is not known: " + gai_strerror(result));
   return {found, freeaddrinfo};
 }
 
@@ -87,7 +87,7 @@ void requireSingleHost(const Receiver& receiver) {
   const Addresses addresses = addressesOf(receiver);
   for (const addrinfo* one = addresses.get(); one != nullptr; one = one->ai_next)
     if (isMulticast(one->ai_addr) || isBroadcast(one->ai_addr))
-      throw Error("--send " + receiver.where + ": is an address of many receivers; allowed is one, or --send-to-many");
+      throw Error(receiver.where + ": is an address of many receivers; allowed is one, or --send-to-many");
 }
 
 std::unique_ptr<ForceOutlet> openUdp(const Receiver& receiver, bool toMany) {

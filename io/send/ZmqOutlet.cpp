@@ -21,7 +21,7 @@ public:
         zmq_setsockopt(socket_.get(), ZMQ_IPV6, &yes, sizeof yes) != 0 ||
         zmq_setsockopt(socket_.get(), ZMQ_SNDHWM, &kKeptMessages, sizeof kKeptMessages) != 0 ||
         zmq_connect(socket_.get(), ("tcp://" + host + ":" + receiver.port).c_str()) != 0)
-      throw Error("--send " + receiver.where + ": cannot be sent to: " + zmq_strerror(zmq_errno()));
+      throw Error(receiver.where + ": cannot be sent to: " + zmq_strerror(zmq_errno()));
   }
 
   bool send(const OutgoingFrame& frame, std::chrono::milliseconds /*patience*/) override {

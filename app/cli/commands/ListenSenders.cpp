@@ -1,5 +1,7 @@
 #include "app/cli/commands/ListenSenders.h"
 
+#include "model/base/Error.h"
+
 #include <algorithm>
 #include <chrono>
 #include <iostream>
@@ -28,8 +30,13 @@ bool SendOptions::takeStandardOutput() const {
 
 ListenSenders::ListenSenders(const SendOptions& options, bool force) : all_(std::make_shared<Receivers>()) {
   all_->where = options.to;
-  for (const std::string& where : options.to)
-    all_->senders.push_back(std::make_unique<ForceSender>(openOutlet(where, options.toMany, force)));
+  for (const std::string& where : options.to) {
+    try {
+      all_->senders.push_back(std::make_unique<ForceSender>(openOutlet(where, options.toMany, force)));
+    } catch (const Error& error) {
+      throw Error(std::string("--send ") + error.what());
+    }
+  }
 }
 
 std::function<void(const std::shared_ptr<const LiveFrame>&)> ListenSenders::taker() const {

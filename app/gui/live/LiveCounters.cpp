@@ -128,7 +128,7 @@ void LiveCounters::displayTrust(const LiveStatus& status, const LiveFrame* last,
   const bool doubted = !forces.doubt.empty();
   const QString misfit = forces.misfit ? tr("misfit %1").arg(*forces.misfit, 0, 'g', 3) : tr("range of the readings");
   // All readings have gone together, by more than they scatter: that alone is no touch that is known.
-  const bool drifted = doubted && status.drift && std::abs(*status.drift) > status.noise;
+  const bool drifted = doubted && status.drift && status.noise > 0 && std::abs(*status.drift) > status.noise;
   const QString why = QString::fromStdString(forces.doubt) +
                       (drifted ? tr("; drifted by %1 ppm: tare").arg(qRound64(1e6 * *status.drift)) : QString());
   set(trust_, doubted ? tr("doubted") : tr("fits"), doubted ? why : misfit, doubted);

@@ -28,12 +28,6 @@ std::string addressOf(const QString& typed) {
   return ((hostAndPort.match(typed).hasMatch() ? "udp:" : "") + typed).toStdString();
 }
 
-/// The sentence of a refusal, which names the option of the command line.
-QString inTheWindow(QString sentence) {
-  if (sentence.startsWith("--send ")) sentence.remove(0, 7);
-  return sentence.remove(" (csv:- is standard output)");
-}
-
 } // namespace
 
 SendPanel::SendPanel(QWidget* parent) : QWidget(parent) {
@@ -182,7 +176,7 @@ void SendPanel::displayState(const std::vector<SendingState>& states) {
     case SendingState::Kind::Refused:
       put(kSent, tr("refused"));
       put(kDropped, {});
-      problems << inTheWindow(QString::fromStdString(state.problem));
+      problems << QString::fromStdString(state.problem);
       break;
     case SendingState::Kind::Sending:
       put(kSent, QString::number(state.sent));

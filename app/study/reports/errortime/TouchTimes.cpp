@@ -175,9 +175,14 @@ bool addTouchTimes(const ReportRequest& request, bool quick, const ReportProgres
     const Touch& touch = touches[t];
     const ReportProgress own = partOf(progress, static_cast<double>(t) / static_cast<double>(touches.size()),
                                       1 / static_cast<double>(touches.size()));
+    const std::vector<MeshOptions> theirs =
+        program ? calculixMeshes(design, touch.load, quick) : std::vector<MeshOptions>{};
     std::vector<TouchRun> runs;
+    const auto tell = [&](const std::string& what) {
+      own(static_cast<double>(runs.size()) / static_cast<double>(factors.size() + theirs.size()), what);
+    };
     for (const double factor : factors) {
-      if (own) own(0.1 * static_cast<double>(runs.size()), touch.name);
+      tell(touch.name);
       runs.push_back(ourTouch(design, touch, factor, request.threads, stop));
       if (stop.stop_requested()) return false;
     }
@@ -186,12 +191,11 @@ bool addTouchTimes(const ReportRequest& request, bool quick, const ReportProgres
       content.parts.push_back(ReportWords{touch.name + ": no answer to judge by; " + runs.back().failed});
       continue;
     }
-    if (program)
-      for (const MeshOptions& options : calculixMeshes(design, touch.load, quick)) {
-        if (own) own(0.1 * static_cast<double>(runs.size()), "CalculiX, " + touch.name);
-        runs.push_back(calculixTouch(*program, design, touch, options, request.threads, stop));
-        if (stop.stop_requested()) return false;
-      }
+    for (const MeshOptions& options : theirs) {
+      tell("CalculiX, " + touch.name);
+      runs.push_back(calculixTouch(*program, design, touch, options, request.threads, stop));
+      if (stop.stop_requested()) return false;
+    }
     for (TouchRun& run : runs) {
       if (!run.failed.empty()) continue;
       run.forceError = (run.force_N - truth->force.value).norm() / truth->force.value.norm();

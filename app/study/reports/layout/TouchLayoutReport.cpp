@@ -31,7 +31,7 @@ public:
         range_(request.touches.value_or(touchesOf(request.design))) {}
 
   std::optional<ReportContent> run() {
-    requireRound();
+    map_ = mapRequest(range_, design_, kShownNoise, {kMapPlaces, kMapPlaces}, "report layout");
     content_.title = "Layout for touches: the place that is resolved worst";
     content_.warnings = designWarnings(design_);
     const std::optional<TouchFields> fields = touchFields();
@@ -47,25 +47,6 @@ public:
   }
 
 private:
-  void requireRound() {
-    if (range_.shape != IndenterShape::Sphere && range_.shape != IndenterShape::Pin &&
-        range_.shape != IndenterShape::Flat)
-      throw DesignError("report layout: the touches are by a " + shapeName(range_.shape) +
-                        "; allowed is one that has a place along x and y: sphere, pin or flat");
-    if (const auto wrong = whyInvalid(range_, design_)) throw DesignError("report layout: " + *wrong);
-    map_.touch = {range_.shape,
-                  (range_.smallest_mm + range_.largest_mm) / 2,
-                  range_.rim_mm,
-                  range_.low_mm,
-                  0,
-                  Press{{0, 0, -(range_.leastPress_N + range_.mostPress_N) / 2}}};
-    map_.low_mm = range_.low_mm;
-    map_.high_mm = range_.high_mm;
-    map_.relativeNoise = kShownNoise;
-    map_.places = {kMapPlaces, kMapPlaces};
-    if (range_.grid[0] > 0) map_.places = {range_.grid[0], range_.grid[1]};
-  }
-
   MeshOptions meshOf(double factor) const {
     MeshOptions mesh = request_.mesh;
     if (!mesh.mapped) mesh.meshSize_mm = factor * mesh.meshSize_mm.value_or(standardMeshSize_mm(design_));

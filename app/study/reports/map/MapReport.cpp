@@ -21,8 +21,7 @@ namespace palp {
 
 namespace {
 
-constexpr double kStepsAcross = 30; // of the face's shorter side: 1 mm on the paper's block
-constexpr double kMostPlaces = 1e5;
+constexpr double kStepsAcross = 30;               // of the face's shorter side: 1 mm on the paper's block
 constexpr std::size_t kCheckedTouches = 8;        // one batch of lanes
 constexpr double kMapsFrom = 0.6, kMapsTo = 0.75; // of the progress
 
@@ -58,7 +57,7 @@ public:
         range_(request.touches.value_or(touchesOf(request.design))) {}
 
   std::optional<ReportContent> run() {
-    requireMappable();
+    ask();
     content_.title = "Resolution over the surface";
     content_.warnings = designWarnings(design_);
     progress(0, "the readings at rest");
@@ -91,30 +90,14 @@ private:
     if (progress_) progress_(share, what);
   }
 
-  void requireMappable() {
-    if (range_.shape != IndenterShape::Sphere && range_.shape != IndenterShape::Pin &&
-        range_.shape != IndenterShape::Flat)
-      throw DesignError("report map: the touches are by a " + shapeName(range_.shape) +
-                        "; allowed is one that has a place along x and y: sphere, pin or flat");
-    if (const auto wrong = whyInvalid(range_, design_)) throw DesignError("report map: " + *wrong);
-    base_.touch.shape = range_.shape;
-    base_.touch.rim_mm = range_.rim_mm;
-    base_.touch.control = Press{{0, 0, -(range_.leastPress_N + range_.mostPress_N) / 2}};
-    base_.low_mm = range_.low_mm;
-    base_.high_mm = range_.high_mm;
-    base_.relativeNoise = kShownNoise;
+  /// What is asked, but for the size.
+  void ask() {
     const double step_mm = design_.block_mm.head<2>().minCoeff() / kStepsAcross;
-    for (Eigen::Index axis = 0; axis < 2; ++axis) {
-      int& places = base_.places[static_cast<std::size_t>(axis)];
-      places = range_.grid[0] > 0 ? range_.grid[static_cast<std::size_t>(axis)]
-                                  : static_cast<int>(std::round((range_.high_mm - range_.low_mm)(axis) / step_mm)) + 1;
-      if (places < 2)
-        throw DesignError("report map: " + std::to_string(places) + " places along " + "xy"[axis] +
-                          "; allowed is at least 2, on a rectangle that is so wide");
-    }
-    if (double(base_.places[0]) * base_.places[1] > kMostPlaces)
-      throw DesignError("report map: a grid of " + std::to_string(base_.places[0]) + " x " +
-                        std::to_string(base_.places[1]) + " places; allowed are at most 1e5");
+    std::array<int, 2> places{};
+    for (Eigen::Index axis = 0; axis < 2; ++axis)
+      places[static_cast<std::size_t>(axis)] =
+          static_cast<int>(std::round((range_.high_mm - range_.low_mm)(axis) / step_mm)) + 1;
+    base_ = mapRequest(range_, design_, kShownNoise, places, "report map");
   }
 
   void makeMaps(const InfluenceSurfaces& surfaces) {

@@ -15,6 +15,12 @@ namespace palp {
 namespace {
 
 constexpr double kSeenDeviations = 3; // deviations of the noise
+constexpr double kMostPlaces = 1e5;
+
+void requireNoPressureLaw(const SensorDesign& design) {
+  if (design.pressureLaw)
+    throw DesignError("resistance.pressure_law: a map is taken at rest, where the law has a kink; allowed is null");
+}
 
 LinearReadings byPairs(const SensorDesign& design) {
   const Eigen::Index rows = design.rowWires(), columns = design.columnWires();
@@ -151,9 +157,35 @@ private:
 
 } // namespace
 
+TouchMapRequest mapRequest(const TouchRange& range, const SensorDesign& design, double relativeNoise,
+                           std::array<int, 2> places, const std::string& what) {
+  if (range.shape != IndenterShape::Sphere && range.shape != IndenterShape::Pin && range.shape != IndenterShape::Flat)
+    throw DesignError(what + ": the touches are by a " + shapeName(range.shape) +
+                      "; allowed is one that has a place along x and y: sphere, pin or flat");
+  if (const auto wrong = whyInvalid(range, design)) throw DesignError(what + ": " + *wrong);
+  requireNoPressureLaw(design);
+  TouchMapRequest request;
+  request.touch.shape = range.shape;
+  request.touch.radius_mm = (range.smallest_mm + range.largest_mm) / 2;
+  request.touch.rim_mm = range.rim_mm;
+  request.touch.place_mm = range.low_mm;
+  request.touch.control = Press{{0, 0, -(range.leastPress_N + range.mostPress_N) / 2}};
+  request.low_mm = range.low_mm;
+  request.high_mm = range.high_mm;
+  request.relativeNoise = relativeNoise;
+  request.places = range.grid[0] > 0 ? std::array{range.grid[0], range.grid[1]} : places;
+  for (std::size_t axis = 0; axis < 2; ++axis)
+    if (request.places[axis] < 2)
+      throw DesignError(what + ": " + std::to_string(request.places[axis]) + " places along " + "xy"[axis] +
+                        "; allowed is at least 2, on a rectangle that is so wide");
+  if (double(request.places[0]) * request.places[1] > kMostPlaces)
+    throw DesignError(what + ": a grid of " + std::to_string(request.places[0]) + " x " +
+                      std::to_string(request.places[1]) + " places; allowed are at most 1e5");
+  return request;
+}
+
 LinearReadings readingsAtRest(const SensorDesign& design, int threads, const std::stop_token& stop, double fineness) {
-  if (design.pressureLaw)
-    throw DesignError("resistance.pressure_law: a map is taken at rest, where the law has a kink; allowed is null");
+  requireNoPressureLaw(design);
   if (const FieldLaw* law = design.field()) return byField(design, *law, threads, stop, fineness);
   return byPairs(design);
 }

@@ -1,12 +1,14 @@
 #pragma once
 
 #include "model/SensorDesign.h"
+#include "model/TouchRange.h"
 #include "solver/InfluenceSurfaces.h"
 
 #include <Eigen/Core>
 
 #include <array>
 #include <stop_token>
+#include <string>
 
 namespace palp {
 
@@ -40,6 +42,12 @@ struct TouchMap {
   /// friction, along x or y, whichever is worse; not a number where no such pair lies in the rectangle.
   Eigen::MatrixXd twoPoint_mm;
 };
+/// Of the middle of the range's sizes and forces, over its rectangle, on its grid or, where it has none, on `places`
+/// along x and y. Throws DesignError, its words beginning with `what`, where no map can be made: a shape that has no
+/// place along x and y, a range that cannot be, a grid of fewer than 2 or more than 1e5 places, a pressure law.
+TouchMapRequest mapRequest(const TouchRange& range, const SensorDesign& design, double relativeNoise,
+                           std::array<int, 2> places, const std::string& what);
+
 /// Deviations of a place are the root of the sum of squares of those along x and y.
 
 /// Throws Cancelled where it was stopped.
