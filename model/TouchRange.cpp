@@ -62,16 +62,38 @@ Indenter touchAt(const TouchRange& range, std::uint64_t seed, std::size_t i) {
   return indenter;
 }
 
-std::string inWords(const TouchRange& range) {
+namespace {
+
+/// "sphere:3..6@3,3,27,27".
+std::string bodyAndPlaces(const TouchRange& range) {
   std::string words = shapeName(range.shape);
   if (range.shape != IndenterShape::Plane) words += ":" + span(range.smallest_mm, range.largest_mm);
   if (range.shape == IndenterShape::Flat) words += "," + text(range.rim_mm);
-  words += "@" + text(range.low_mm.x()) + "," + text(range.low_mm.y()) + "," + text(range.high_mm.x()) + "," +
-           text(range.high_mm.y());
-  if (range.grid[0] > 0) words += " grid " + std::to_string(range.grid[0]) + "x" + std::to_string(range.grid[1]);
+  return words + "@" + text(range.low_mm.x()) + "," + text(range.low_mm.y()) + "," + text(range.high_mm.x()) + "," +
+         text(range.high_mm.y());
+}
+
+std::string gridInWords(const TouchRange& range) {
+  return std::to_string(range.grid[0]) + "x" + std::to_string(range.grid[1]);
+}
+
+} // namespace
+
+std::string inWords(const TouchRange& range) {
+  std::string words = bodyAndPlaces(range);
+  if (range.grid[0] > 0) words += " grid " + gridInWords(range);
   words += " press " + span(range.leastPress_N, range.mostPress_N);
   if (range.mostFriction > 0)
     words += " friction " + span(range.leastFriction, range.mostFriction) + " cone " + text(range.cone);
+  return words;
+}
+
+std::string asCommand(const TouchRange& range) {
+  std::string words = " --touch " + bodyAndPlaces(range);
+  if (range.grid[0] > 0) words += " --grid " + gridInWords(range);
+  words += " --force-range " + span(range.leastPress_N, range.mostPress_N);
+  if (range.mostFriction > 0)
+    words += "," + text(range.cone) + " --friction " + span(range.leastFriction, range.mostFriction);
   return words;
 }
 

@@ -34,6 +34,9 @@ Indenter touchAt(const TouchRange& range, std::uint64_t seed, std::size_t i);
 /// As the options of the command line that make it: "sphere:3..6@3,3,27,27 press 0.5..6 friction 0.3..0.8 cone 0.7".
 std::string inWords(const TouchRange& range);
 
+/// As the options of palp sample: " --touch sphere:3..6@3,3,27,27 --force-range 0.5..6".
+std::string asCommand(const TouchRange& range);
+
 /// The indenter of such words, of the middle of its sizes; none where they are others.
 std::optional<Indenter> indenterInWords(const std::string& words);
 

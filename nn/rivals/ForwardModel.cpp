@@ -117,8 +117,9 @@ ForwardModel fitForwardModel(const Eigen::Ref<const Eigen::MatrixXd>& measuremen
   ForwardModel model;
   model.degree = affordableDegree(options.degree, causes.rows(), static_cast<Eigen::Index>(fewest));
   if (model.degree < options.degree && warnings)
-    warnings->push_back("the forward model has degree " + std::to_string(model.degree) + " instead of " +
-                        std::to_string(options.degree) + ": a class has only " + std::to_string(fewest) + " samples");
+    warnings->push_back("the polynomial that tells the touched area has degree " + std::to_string(model.degree) +
+                        " in the force instead of " + std::to_string(options.degree) + ": an area has only " +
+                        std::to_string(fewest) + " samples");
   const Eigen::VectorXd low = causes.rowwise().minCoeff(), high = causes.rowwise().maxCoeff();
   model.causeOffset = (low + high) / 2;
   model.causeFactor = (high - low).unaryExpr([](double range) { return range > 0 ? 2 / range : 0; });

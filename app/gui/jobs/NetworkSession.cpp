@@ -270,7 +270,11 @@ void NetworkSession::compare(const NetworkSettings& settings) {
   emit trialsChanged();
   const auto work = [this, settings, design = design_, samples = shown_.samples,
                      rows = rows_](const std::stop_token& stop, JobProgress& progress) -> JobRunner::Taking {
-    const std::vector<DecoderKind> kinds = allDecoderKinds();
+    std::vector<DecoderKind> kinds = allDecoderKinds();
+    if (settings.target == DecoderTarget::ForceAndPlace) {
+      kinds.push_back(DecoderKind::TouchInversion);
+      std::erase_if(kinds, [](DecoderKind kind) { return !takesPlace(kind); });
+    }
     for (std::size_t k = 0; k < kinds.size() && !stop.stop_requested(); ++k) {
       progress.set(static_cast<double>(k) / static_cast<double>(kinds.size()), "Training " + name(kinds[k]));
       TrainOptions options = settings.trainOptions();
@@ -281,6 +285,7 @@ void NetworkSession::compare(const NetworkSettings& settings) {
       try {
         const NetworkFit fit = fitOn(*samples, design, settings, options, stop, unseen);
         trial.error = fit.error.error;
+        trial.place = fit.error.place;
         trial.spread = fit.decoder.report.spread;
         trial.seconds = fit.decoder.report.seconds;
         trial.microsecondsPerSample = fit.prediction.microsecondsPerSample;

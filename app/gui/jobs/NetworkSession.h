@@ -23,7 +23,7 @@ namespace palp {
 class SampleGeneration;
 struct OpenedResults;
 
-/// Training and test samples of the design, 100 forces an area each unless set otherwise.
+/// Training and test samples of the design, forces on its areas or touches.
 struct NetworkSamples {
   SampleSet training;
   SampleSet test;
@@ -60,8 +60,9 @@ struct SweepPoint {
 struct DecoderTrial {
   DecoderKind kind = DecoderKind::Rbf;
   PredictionError error;
-  double spread = 0;  ///< that it was trained at; 0: it has none
-  double seconds = 0; ///< of the training
+  std::optional<PlaceError> place{}; ///< where places were learned
+  double spread = 0;                 ///< that it was trained at; 0: it has none
+  double seconds = 0;                ///< of the training
   double microsecondsPerSample = 0;
   QString refusal; ///< why it cannot be trained; empty where it was
 };
@@ -103,7 +104,7 @@ public:
   /// of a slider that it follows, of which the list keeps the last network alone; empty: of none.
   void train(const NetworkSettings& settings, const QString& slide = {});
   void sweep(const NetworkSettings& settings);
-  /// Trains every kind of decoder with the same input, rows and noise.
+  /// Trains every kind of decoder with the same input, rows, target and noise.
   void compare(const NetworkSettings& settings);
   void cancel() { runner_.cancel(); }
   /// Tries a network from a file on the test samples; the job fails where it cannot be read or does not fit them.

@@ -46,6 +46,7 @@ NetworkFit ofDecoder(Decoder decoder, const NetworkSamples& samples) {
   fit.settings.decoder = fit.decoder.kind;
   fit.settings.spread = fit.decoder.report.spread;
   fit.settings.rows = rowsInWords(fit.decoder.input);
+  if (fit.decoder.place) fit.settings.target = DecoderTarget::ForceAndPlace;
   fit.settings.noise = fit.decoder.noise;
   fit.settings.seed = fit.decoder.seed;
   fit.madeFrom = samples.settings;

@@ -56,9 +56,6 @@ void requireOf(const SensorDesign& design, const SampleSet& set, const fs::path&
   if (set.origin.designFingerprint != ours && !set.origin.imported())
     throw Error(file.string() + ": its samples are of the design " + set.origin.designFingerprint +
                 "; the design that is open is " + ours + ": open the one they were made of first");
-  if (set.hasTouches())
-    throw Error(file.string() + ": its samples are touches by an indenter; allowed here are forces on load areas (palp "
-                                "train and palp predict take touches)");
   if (set.together())
     throw Error(file.string() + ": its samples load all areas together; allowed here are samples of one area each");
 }
@@ -162,6 +159,7 @@ NetworkSamples openTheseSampleFiles(const std::vector<fs::path>& files, const Se
     throw Error(files[0].string() + ": too few samples to train with and to test with");
   samples.file = QString::fromStdString(files[0].string());
   samples.settings = {samples.training.origin.perArea, samples.training.origin.seed};
+  if (samples.training.hasTouches()) samples.settings.touches.emplace().count = samples.training.origin.perArea;
   samples.ofNoDesign = samples.training.origin.designFingerprint != designFingerprint(design);
   return samples;
 }

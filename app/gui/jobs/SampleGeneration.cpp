@@ -16,18 +16,15 @@ constexpr double kFitsShare = 0.9; ///< of the time for samples by surrogates
 SampleSet allocated(SampleSet set, std::size_t total) {
   const auto columns = static_cast<Eigen::Index>(total);
   set.area.resize(columns);
-  set.forces_N.resize(3, columns);
-  set.displacements_mm.resize(3 * set.rowWires * set.electrodesPerRowWire, columns);
-  set.resistances_ohm.resize(set.rowWires * set.columnWires, columns);
+  for (const auto part : kSampleParts) (set.*part).resize((set.*part).rows(), columns);
   return set;
 }
 
 void put(SampleSet& set, const SampleSet& block, std::size_t at) {
   const auto first = static_cast<Eigen::Index>(at);
   set.area.segment(first, block.size()) = block.area;
-  set.forces_N.middleCols(first, block.size()) = block.forces_N;
-  set.displacements_mm.middleCols(first, block.size()) = block.displacements_mm;
-  set.resistances_ohm.middleCols(first, block.size()) = block.resistances_ohm;
+  for (const auto part : kSampleParts)
+    if ((set.*part).rows() > 0) (set.*part).middleCols(first, block.size()) = block.*part;
 }
 
 } // namespace
@@ -37,8 +34,13 @@ bool SampleGeneration::make(StageLog& stages, const std::stop_token& stop, JobPr
   clock_.start();
   left_ = {};
   SampleRequest request;
-  request.perArea = settings_.perArea;
-  request.surrogate = settings_.surrogate;
+  if (settings_.touches) {
+    request.touches = rangeOf(*settings_.touches, design_);
+    request.perArea = settings_.touches->count;
+  } else {
+    request.perArea = settings_.perArea;
+    request.surrogate = settings_.surrogate;
+  }
   request.mesh = mesh_;
   SampleGenerator generator(design_, request); // both sets need one preparation
   bool fits = false;
@@ -78,7 +80,7 @@ bool SampleGeneration::makeSet(std::size_t set, SampleGenerator& generator, cons
 void SampleGeneration::report(std::size_t set, std::size_t done, JobProgress& progress) const {
   const std::size_t all = 2 * total_[set], there = done + (set == 1 ? total_[0] : 0);
   const auto made = static_cast<double>(there), wanted = static_cast<double>(all);
-  const double fits = settings_.surrogate ? kFitsShare : 0;
+  const double fits = settings_.surrogate && !settings_.touches ? kFitsShare : 0;
   progress.set(fits + (1 - fits) * made / wanted, "Sample " + std::to_string(there) + " of " + std::to_string(all) +
                                                       leftInWords(left_.left_s(made, wanted, now_s())));
 }

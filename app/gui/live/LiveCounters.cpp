@@ -129,8 +129,8 @@ void LiveCounters::displayTrust(const LiveStatus& status, const LiveFrame* last,
   const QString misfit = forces.misfit ? tr("misfit %1").arg(*forces.misfit, 0, 'g', 3) : tr("range of the readings");
   // All readings have gone together, by more than they scatter: that alone is no touch that is known.
   const bool drifted = doubted && status.drift && status.noise > 0 && std::abs(*status.drift) > status.noise;
-  const QString why = QString::fromStdString(forces.doubt) +
-                      (drifted ? tr("; drifted by %1 ppm: tare").arg(qRound64(1e6 * *status.drift)) : QString());
+  const QString remedy = drifted ? tr("tare: drifted by %1 ppm; ").arg(qRound64(1e6 * *status.drift)) : QString();
+  const QString why = remedy + QString::fromStdString(forces.doubt);
   set(trust_, doubted ? tr("doubted") : tr("fits"), doubted ? why : misfit, doubted);
 }
 

@@ -2,6 +2,7 @@
 
 #include "app/gui/jobs/SampleFiles.h"
 #include "app/gui/jobs/TimeLeft.h"
+#include "app/gui/network/NetworkTables.h"
 #include "app/gui/project/ProjectChange.h"
 
 #include <QFileInfo>
@@ -80,6 +81,10 @@ QStringList differences(const NetworkSettings& then, const NetworkSettings& now)
   add(tr("row-wires"), trained(then.rows), trained(now.rows));
   add(tr("mode"), trained(name(then.mode)), trained(name(now.mode)));
   add(tr("decoder"), trained(name(then.decoder)), trained(name(now.decoder)));
+  const auto target = [](const NetworkSettings& settings) {
+    return settings.target == DecoderTarget::Force ? tr("the force") : tr("force and place");
+  };
+  add(tr("learns"), target(then), target(now));
   add(tr("spread"), spread(then), spread(now));
   add(tr("centres"), centersWords(then), centersWords(now));
   add(tr("noise"), percent(then.noise), percent(now.noise));
@@ -101,7 +106,7 @@ QString openedWords(const NetworkSamples& samples) {
   if (samples.training.origin.imported())
     words += samples.ofNoDesign ? tr("(measured, of no design that is open)") : tr("(measured)");
   else
-    words += tr("(%1 an area, seed %2)").arg(samples.settings.perArea).arg(samples.settings.seed);
+    words += tr("(%1, seed %2)").arg(countWords(samples.settings)).arg(samples.settings.seed);
   if (!samples.split) return words;
   const std::filesystem::path beside = testFileOf(samples.file.toStdString());
   const QString test = QString::fromStdString(beside.filename().string());
@@ -157,6 +162,7 @@ QString originWords(const NetworkFit& fit) {
     return share > 0 ? tr("for noise %1").arg(percent(share)) : tr("without noise");
   };
   words += tr(", trained %1").arg(noise(fit.settings.noise));
+  if (fit.settings.target == DecoderTarget::ForceAndPlace) words += tr(", for force and place");
   words += fit.settings.testNoise > 0 ? tr(", tested with noise %1").arg(percent(fit.settings.testNoise))
                                       : tr(", tested without noise");
   return words;
@@ -221,6 +227,11 @@ QString trialsWords(const NetworkSession& session, const NetworkSettings& now) {
   if (session.trials().empty()) return tr("Compare all decoders trains each kind on the same samples.");
   QString words = tr("All from %1s, row-wires %2, noise %3, noise of the test %4.")
                       .arg(trained(name(then.input)), trained(then.rows), percent(then.noise), percent(then.testNoise));
+  if (const auto best = bestTrial(session.trials())) {
+    const DecoderTrial& trial = session.trials()[*best];
+    words += tr(" Smallest error: %1, %2 of range (RMSE).")
+                 .arg(trained(name(trial.kind)), triple(trial.error.rmsePercentOfRange, "%"));
+  }
   for (const DecoderTrial& trial : session.trials())
     if (!trial.refusal.isEmpty()) words += tr(" Not trained: %1 (%2).").arg(trained(name(trial.kind)), trial.refusal);
   const QString reason = staleTrialsReason(session, now);
@@ -286,7 +297,7 @@ std::vector<Column> columns(const NetworkSession& session, const NetworkFit& fit
                           {tr("floored at 0.05 N [%]"), error.eq13FlooredPercent},
                           {tr("mean [N]"), error.meanAbsolute},
                           {tr("RMSE [% of range]"), error.rmsePercentOfRange}};
-  if (fit.settings.testNoise > 0 && session.fitIsCurrent())
+  if (fit.settings.testNoise > 0 && session.fitIsCurrent() && !session.samples()->training.hasPlaces())
     all.push_back(
         {tr("Cramer-Rao bound [% of range]"), bound != nullptr ? bound->withPriorPercent : Eigen::VectorXd()});
   const auto& kept = session.kept();
@@ -295,11 +306,19 @@ std::vector<Column> columns(const NetworkSession& session, const NetworkFit& fit
   return all;
 }
 
+QString placeWords(const NetworkFit& fit) {
+  if (!fit.error.place) return {};
+  return tr(" Its places are %1 mm off in the median, %2 and %3 mm (RMS) along x and y.")
+      .arg(fit.error.place->median_mm, 0, 'g', 3)
+      .arg(fit.error.place->rms_mm.x(), 0, 'g', 3)
+      .arg(fit.error.place->rms_mm.y(), 0, 'g', 3);
+}
+
 /// What a result calls for.
 QString adviceWords(const NetworkSession& session, const NetworkFit& fit) {
   constexpr double kKnowingNothing_percent = 28.9; // of the range: a uniform density's deviation, 1 / sqrt(12)
   if (!session.fitIsCurrent()) return {};
-  if (fit.settings.testNoise == 0)
+  if (fit.settings.testNoise == 0 && !session.samples()->training.hasPlaces())
     return (fit.settings.mode == DecoderMode::Paper
                 ? tr(" The paper does not say how it scaled its inputs, so that its spreads are not ours: its smallest "
                      "errors compare, places on the axis do not.")
@@ -335,14 +354,15 @@ QString fitWords(const NetworkSession& session, const NetworkSettings& now, cons
                                         : tr("No network yet: train one on the samples.");
   QString name = fit->file.isEmpty() ? tr("Trained here") : tr("Opened: %1").arg(QFileInfo(fit->file).fileName());
   if (!fit->name.isEmpty()) name = "\"" + fit->name + "\": " + name;
-  const QString rest = tr("%1 %2%3; condition %4, trained in %5 s.%6")
+  const QString rest = tr("%1 %2%3; condition %4, trained in %5 s.%6%7")
                            .arg(name.toHtmlEscaped(), originWords(*fit).toHtmlEscaped(), systemWords(*fit))
                            .arg(fit->decoder.report.condition, 0, 'g', 2)
                            .arg(fit->decoder.report.seconds, 0, 'g', 2)
-                           .arg(adviceWords(session, *fit));
+                           .arg(placeWords(*fit), adviceWords(session, *fit));
   const QString reason = staleReason(session, now);
   const bool current = reason.isEmpty();
-  const QString title = tr("Test error, all areas");
+  const bool touches = session.samples() != nullptr && session.samples()->test.hasTouches();
+  const QString title = touches ? tr("Test error, all touches") : tr("Test error, all areas");
   const QString errors = table(columns(session, *fit, bound), current ? "<b>" + title + "</b>" : title);
   const QString both = "<table width=\"100%\" cellspacing=\"0\" cellpadding=\"0\"><tr><td>" + errors +
                        "</td><td width=\"16\"></td><td>" +

@@ -27,7 +27,7 @@ NetworkBound::NetworkBound(NetworkSession& session, QObject* parent) : QObject(p
 
 const NoiseBound* NetworkBound::of(const NetworkSettings& settings) {
   constexpr std::size_t kMost = 20;
-  if (!session_.upToDate() || !(settings.testNoise > 0)) return nullptr;
+  if (!session_.upToDate() || !(settings.testNoise > 0) || session_.samples()->training.hasPlaces()) return nullptr;
   if (samples_.lock() != session_.sharedSamples()) {
     samples_ = session_.sharedSamples();
     questions_.clear();

@@ -66,6 +66,18 @@ ChartSeries paperLine(InputKind input) {
   return line;
 }
 
+/// Of Fx, Fy and Fz, but for those that are not in the samples: the relative error of no force is 0, or is none.
+double meanError(const PredictionError& error) {
+  double sum = 0;
+  int forces = 0;
+  for (const double percent : error.eq13Percent) {
+    if (!std::isfinite(percent) || percent == 0) continue;
+    sum += percent;
+    ++forces;
+  }
+  return forces > 0 ? sum / forces : 0;
+}
+
 /// One curve a force of a quantity of the sweep.
 template <class Value>
 void addCurves(ChartSpec& spec, const std::vector<SweepPoint>& points, const std::string& words, Value value) {
@@ -156,7 +168,7 @@ ChartSpec errorTimeChart(const std::vector<SweepPoint>& points) {
   ChartSeries cloud = series("", Style::Points, 0);
   for (const SweepPoint& point : points) {
     cloud.x.push_back(point.report.seconds);
-    cloud.y.push_back(point.error.eq13Percent.mean());
+    cloud.y.push_back(meanError(point.error));
   }
   spec.series.push_back(std::move(cloud));
   return spec;
@@ -200,6 +212,21 @@ ChartSpec relativeErrorChart(const NetworkSamples& samples, const NetworkFit& fi
   return spec;
 }
 
+ChartSpec placeErrorChart(const NetworkSamples& samples, const NetworkFit& fit) {
+  ChartSpec spec;
+  spec.title = "Error of the place, all test samples";
+  spec.xLabel = "along x [mm]";
+  spec.yLabel = "along y [mm]";
+  ChartSeries cloud = series("test samples", Style::Points, 0);
+  const Eigen::Matrix2Xd off_mm = fit.prediction.places_mm - samples.test.touchedPlaces_mm();
+  for (const auto& off : off_mm.colwise()) {
+    cloud.x.push_back(off.x());
+    cloud.y.push_back(off.y());
+  }
+  spec.series = {cloud};
+  return spec;
+}
+
 namespace {
 
 /// Decoders keep their colour and dash on both charts.
@@ -219,7 +246,7 @@ ChartSpec trialsErrorChart(const std::vector<DecoderTrial>& trials, const std::v
   ChartSeries curve = series("rbf, swept", Style::LineAndPoints, 0); // in the colour of rbf, the first of them
   for (const SweepPoint& point : sweep) {
     curve.x.push_back(point.spread);
-    curve.y.push_back(point.error.eq13Percent.mean());
+    curve.y.push_back(meanError(point.error));
   }
   double from = sweep.empty() ? 0.3 : sweep.front().spread;
   double to = sweep.empty() ? 10 : sweep.back().spread;
@@ -234,7 +261,7 @@ ChartSpec trialsErrorChart(const std::vector<DecoderTrial>& trials, const std::v
     const bool point = trial.spread > 0;
     ChartSeries level = trialSeries(trial, place++, point ? Style::Points : Style::Line);
     level.x = point ? std::vector<double>{trial.spread} : std::vector<double>{from, to};
-    level.y.assign(level.x.size(), trial.error.eq13Percent.mean());
+    level.y.assign(level.x.size(), meanError(trial.error));
     level.level = !point;
     spec.series.push_back(std::move(level));
   }
@@ -249,7 +276,7 @@ ChartSpec trialsTimeChart(const std::vector<DecoderTrial>& trials) {
     if (!trial.refusal.isEmpty()) continue;
     ChartSeries point = trialSeries(trial, place++, Style::Points);
     point.x = {trial.seconds};
-    point.y = {trial.error.eq13Percent.mean()};
+    point.y = {meanError(trial.error)};
     spec.series.push_back(std::move(point));
   }
   return spec;

@@ -27,6 +27,9 @@ ChartSpec decoupledChart(const NetworkSamples& samples, const NetworkFit& fit, i
 /// Relative error by sample of one area (Figs. 11, 16).
 ChartSpec relativeErrorChart(const NetworkSamples& samples, const NetworkFit& fit, int area);
 
+/// How far off the decoupled places are, where there are such.
+ChartSpec placeErrorChart(const NetworkSamples& samples, const NetworkFit& fit);
+
 /// Mean error of each decoder (Eq. 13, over Fx, Fy, Fz) on the axes of the sweep: a sweep as a curve, one that was
 /// trained at a spread as a point there, and those that have none as a line across the width.
 ChartSpec trialsErrorChart(const std::vector<DecoderTrial>& trials, const std::vector<SweepPoint>& sweep,

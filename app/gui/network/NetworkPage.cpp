@@ -28,6 +28,9 @@
 #include <QTabWidget>
 #include <QVBoxLayout>
 
+#include <algorithm>
+#include <utility>
+
 namespace palp {
 
 namespace {
@@ -69,6 +72,7 @@ NetworkPage::NetworkPage(Workbench& workbench, NetworkSession& session, QWidget*
   connect(panel_, &NetworkPanel::saveSamplesAsked, this, &NetworkPage::saveSamples);
   connect(save_, &QPushButton::clicked, this, &NetworkPage::saveNetwork);
   connect(open_, &QPushButton::clicked, this, &NetworkPage::openNetwork);
+  connect(live_, &QPushButton::clicked, this, &NetworkPage::useInLive);
   connect(sweep_, &SweepTab::bestAsked, this, &NetworkPage::takeBestSpread);
   connect(trained_, &TrainedNetworks::goBackAsked, this, &NetworkPage::goBackTo);
   connect(trained_, &TrainedNetworks::takeAwayAsked, &session_, &NetworkSession::takeAway);
@@ -90,6 +94,7 @@ void NetworkPage::connectSession() {
   connect(&session_.runner(), &JobRunner::started, this, [this] { showProblem({}); });
   connect(&session_.runner(), &JobRunner::failed, this, &NetworkPage::showProblem);
   connect(&session_, &NetworkSession::problem, this, &NetworkPage::showProblem);
+  connect(&session_, &NetworkSession::saved, this, &NetworkPage::takeIntoLive);
   connect(&session_, &NetworkSession::note, this, [this](const QString& sentence) { showSentence(sentence, "hint"); });
 }
 
@@ -158,6 +163,9 @@ QLayout* NetworkPage::buildBar() {
   open_ = new QPushButton(tr("Open network..."));
   open_->setObjectName("openNetwork");
   open_->setToolTip(tr("Tries a network of a file on the test samples"));
+  live_ = new QPushButton(tr("Use in Live..."));
+  live_->setObjectName("useInLive");
+  bar->addWidget(live_);
   bar->addWidget(save_);
   bar->addWidget(open_);
   return bar;
@@ -198,8 +206,11 @@ QWidget* NetworkPage::buildFit() {
   constexpr std::array kNames{"decoupledFx", "decoupledFy", "decoupledFz"};
   for (std::size_t d = 0; d < 3; ++d) decoupled_[d] = networkChart(kNames[d]);
   relative_ = networkChart("relativeError");
-  QSplitter* fit =
-      beside({beside({decoupled_[0], decoupled_[1], decoupled_[2]}, Qt::Horizontal), relative_}, Qt::Vertical);
+  place_ = networkChart("placeError");
+  place_->hide();
+  QSplitter* fit = beside({beside({decoupled_[0], decoupled_[1], decoupled_[2]}, Qt::Horizontal),
+                           beside({relative_, place_}, Qt::Horizontal)},
+                          Qt::Vertical);
   fit->setSizes({360, 360});
   fit->setObjectName("networkFit");
   return fit;
@@ -275,10 +286,16 @@ void NetworkPage::displayWords() {
 void NetworkPage::displayFit() {
   const NetworkFit* fit = session_.fit();
   save_->setEnabled(fit != nullptr);
+  const bool reads = fit != nullptr && fit->decoder.input.kind == InputKind::Resistance;
+  live_->setEnabled(reads);
+  live_->setToolTip(reads || fit == nullptr
+                        ? tr("Saves the network that is shown, and lets Live decode with it")
+                        : tr("A board reads resistances: train a network of those (Set for a board) first"));
   displayWords();
   const bool stale = !staleReason(session_, workbench_.project().network).isEmpty();
   for (ChartView* view : decoupled_) view->setFaint(stale);
   relative_->setFaint(stale);
+  place_->setFaint(stale);
   trained_->display(session_);
   drawCharts();
 }
@@ -288,6 +305,9 @@ void NetworkPage::drawCharts() {
   const NetworkFit* fit = session_.fit();
   const NetworkSamples* samples = session_.samples();
   displaySweep();
+  const bool places = fit != nullptr && samples != nullptr && fit->error.place;
+  place_->setVisible(places);
+  place_->setChart(places ? placeErrorChart(*samples, *fit) : ChartSpec());
   if (fit == nullptr || samples == nullptr) {
     for (ChartView* view : decoupled_) view->setChart({});
     relative_->setChart({});
@@ -320,6 +340,21 @@ void NetworkPage::saveSamples() {
 void NetworkPage::saveNetwork() {
   const QString file = askFileToSave(this, tr("Save network"), "network.json", tr("Networks (*.json)"));
   if (!file.isEmpty() && session_.fit() != nullptr) session_.saveNetwork(file.toStdString());
+}
+
+void NetworkPage::useInLive() {
+  const QString file = askFileToSave(this, tr("Save the network for Live"), "network.json", tr("Networks (*.json)"));
+  if (file.isEmpty() || session_.fit() == nullptr) return;
+  forLive_ = file.toStdString();
+  session_.saveNetwork(forLive_);
+}
+
+void NetworkPage::takeIntoLive(const std::vector<std::filesystem::path>& saved) {
+  if (forLive_.empty() || std::find(saved.begin(), saved.end(), forLive_) == saved.end()) return;
+  Project next = workbench_.project();
+  next.live.network = std::exchange(forLive_, {}).string();
+  workbench_.edit(tr("network"), next);
+  emit sceneAsked("live");
 }
 
 void NetworkPage::openNetwork() {

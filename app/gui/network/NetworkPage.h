@@ -5,6 +5,8 @@
 #include "app/gui/window/Scene.h"
 
 #include <array>
+#include <filesystem>
+#include <vector>
 
 class QLabel;
 class QLayout;
@@ -35,6 +37,9 @@ public:
   [[nodiscard]] std::vector<JobRunner*> runners() override;
   [[nodiscard]] QString commands(const Project& project, const QString& designFile) const override;
 
+signals:
+  void sceneAsked(const QString& scene);
+
 protected:
   void showEvent(QShowEvent* event) override;
 
@@ -60,6 +65,8 @@ private:
   void takeBestSpread();
   void goBackTo(std::size_t network);
   void saveNetwork();
+  void useInLive();
+  void takeIntoLive(const std::vector<std::filesystem::path>& saved);
   void openNetwork();
 
   Workbench& workbench_;
@@ -73,9 +80,12 @@ private:
   QSpinBox* area_ = nullptr;
   QPushButton* save_ = nullptr;
   QPushButton* open_ = nullptr;
+  QPushButton* live_ = nullptr;
+  std::filesystem::path forLive_; ///< of the network that Live takes as soon as it is saved; empty: none
   QTabWidget* tabs_ = nullptr;
   SweepTab* sweep_ = nullptr;
   std::array<ChartView*, 3> decoupled_{};
+  ChartView* place_ = nullptr; ///< seen where places are learned
   ChartView* relative_ = nullptr;
   DecodersTab* decoders_ = nullptr;
   TrainedNetworks* trained_ = nullptr;

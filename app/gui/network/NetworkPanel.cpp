@@ -4,6 +4,7 @@
 #include "app/gui/network/FitWords.h"
 #include "app/gui/network/NetworkCharts.h"
 #include "app/gui/network/NetworkTables.h"
+#include "app/gui/network/SamplesBox.h"
 #include "app/gui/widgets/KeepRoom.h"
 #include "app/gui/widgets/SpinBoxes.h"
 #include "app/gui/widgets/WrappedLabel.h"
@@ -64,54 +65,12 @@ NetworkPanel::NetworkPanel(QWidget* parent) : QWidget(parent) {
 }
 
 void NetworkPanel::buildSamples(QVBoxLayout& column) {
-  auto* box = new QGroupBox(tr("Samples"));
-  auto* form = new QFormLayout(box);
-  perArea_ = new QSpinBox;
-  perArea_->setObjectName("perArea");
-  perArea_->setRange(5, 100000);
-  perArea_->setToolTip(
-      tr("Random forces on each area, for training and as many others for testing; the paper has 100"));
-  form->addRow(tr("On each area"), perArea_);
-  perArea_->setKeyboardTracking(false);
-  seed_ = new QSpinBox;
-  seed_->setObjectName("seed");
-  seed_->setKeyboardTracking(false);
-  seed_->setRange(0, 1000000000);
-  seed_->setToolTip(tr("The same seed gives the same samples"));
-  form->addRow(tr("Seed of samples"), seed_);
-  surrogate_ = new QCheckBox(tr("by a surrogate"));
-  surrogate_->setObjectName("surrogate");
-  surrogate_->setToolTip(tr("A polynomial of full solves on each area: many samples in seconds, with an error that is "
-                            "measured and said"));
-  form->addRow(QString(), surrogate_);
-  generate_ = new QPushButton(tr("Generate samples"));
-  generate_->setObjectName("generate");
-  form->addRow(generate_);
-  auto* files = new QHBoxLayout;
-  auto* open = new QPushButton(tr("Open..."));
-  open->setObjectName("openSamples");
-  open->setToolTip(tr("Samples of this design or imported ones, from files; several parts of one set are joined"));
-  saveSamples_ = new QPushButton(tr("Save..."));
-  saveSamples_->setObjectName("saveSamples");
-  saveSamples_->setToolTip(
-      tr("NAME.csv for training and NAME-test.csv beside it, as palp sample writes them; .h5 and .npz as well"));
-  files->addWidget(open);
-  files->addWidget(saveSamples_);
-  form->addRow(files);
-  form->addRow(new WrappedLabel(tr("Touches of an indenter: palp sample --touch (command line), opened here.")));
-  connect(open, &QPushButton::clicked, this, &NetworkPanel::openSamplesAsked);
-  connect(saveSamples_, &QPushButton::clicked, this, &NetworkPanel::saveSamplesAsked);
-  samplesWords_ = new QLabel;
-  samplesWords_->setObjectName("samplesWords");
-  samplesWords_->setWordWrap(true);
-  samplesWords_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
-  samplesWords_->setMinimumHeight(2 * fontMetrics().lineSpacing()); // what is below does not jump
-  form->addRow(samplesWords_);
-  column.addWidget(box);
-  connect(perArea_, &QSpinBox::valueChanged, this, [this] { read(tr("Change the number of samples")); });
-  connect(seed_, &QSpinBox::valueChanged, this, [this] { read(tr("Change the seed")); });
-  connect(surrogate_, &QCheckBox::toggled, this, [this] { read(tr("Change how samples are made")); });
-  connect(generate_, &QPushButton::clicked, this, &NetworkPanel::generateAsked);
+  samplesBox_ = new SamplesBox;
+  column.addWidget(samplesBox_);
+  connect(samplesBox_, &SamplesBox::edited, this, &NetworkPanel::read);
+  connect(samplesBox_, &SamplesBox::generateAsked, this, &NetworkPanel::generateAsked);
+  connect(samplesBox_, &SamplesBox::openAsked, this, &NetworkPanel::openSamplesAsked);
+  connect(samplesBox_, &SamplesBox::saveAsked, this, &NetworkPanel::saveSamplesAsked);
 }
 
 void NetworkPanel::buildTraining(QVBoxLayout& column) {
@@ -173,12 +132,17 @@ void NetworkPanel::buildNetwork(QFormLayout& form) {
   form.addRow(tr("Mode"), mode_);
   decoder_ = new QComboBox;
   decoder_->setObjectName("decoder");
-  for (const DecoderKind kind : allDecoderKinds()) {
-    decoder_->addItem(QString::fromStdString(name(kind)));
+  for (const auto& [kind, text] : kDecoderKinds.all()) {
+    decoder_->addItem(QString::fromStdString(text));
     decoder_->setItemData(decoder_->count() - 1, inWords(kind), Qt::ToolTipRole);
   }
   decoder_->setToolTip(tr("The way from what is read to the force: rbf is the paper's radial basis network"));
   form.addRow(tr("Decoder"), decoder_);
+  target_ = new QComboBox;
+  target_->setObjectName("target");
+  target_->addItems({tr("the force"), tr("force and place")});
+  target_->setToolTip(tr("What it learns: the place is known of touches, and of measured samples that say it"));
+  form.addRow(tr("Learns"), target_);
   centers_ = new QSpinBox;
   centers_->setObjectName("centers");
   centers_->setRange(0, 100000);
@@ -210,6 +174,7 @@ void NetworkPanel::buildNetwork(QFormLayout& form) {
   form.addRow(QString(), noiseWords_);
   connect(mode_, &QComboBox::currentIndexChanged, this, [this] { read(tr("Change the network's mode")); });
   connect(decoder_, &QComboBox::currentIndexChanged, this, [this] { read(tr("Change the decoder")); });
+  connect(target_, &QComboBox::currentIndexChanged, this, [this] { read(tr("Change what is learned")); });
   connect(centers_, &QSpinBox::valueChanged, this, [this] { read(tr("Change the centres")); });
   connect(noise_, &QDoubleSpinBox::valueChanged, this, [this] { read(tr("Change the noise")); });
   connect(testNoise_, &QDoubleSpinBox::valueChanged, this, [this] { read(tr("Change the noise of the test")); });
@@ -280,17 +245,15 @@ void NetworkPanel::buildSweep(QVBoxLayout& column) {
 
 void NetworkPanel::display(const Project& project, int rowWires) {
   displaying_ = true;
-  samples_ = project.samples;
+  samplesBox_->display(project.samples, project.design);
   network_ = project.network;
-  perArea_->setValue(samples_.perArea);
-  seed_->setValue(static_cast<int>(samples_.seed));
   input_->setCurrentIndex(network_.input == InputKind::Displacement ? 0 : 1);
   mode_->setCurrentIndex(network_.mode == DecoderMode::Default ? 0 : 1);
   decoder_->setCurrentText(QString::fromStdString(name(network_.decoder)));
+  target_->setCurrentIndex(network_.target == DecoderTarget::Force ? 0 : 1);
   rows_->setText(QString::fromStdString(network_.rows));
   rowWires_ = rowWires;
   rowsProblem_->hide();
-  surrogate_->setChecked(samples_.surrogate);
   showExactly(*testNoise_, 100 * network_.testNoise);
   advanced_->display(network_);
   centers_->setValue(network_.centers);
@@ -343,9 +306,7 @@ void NetworkPanel::showSpread() {
 }
 
 void NetworkPanel::displaySamples(bool there, const QString& words, bool goOn) {
-  samplesWords_->setText(words);
-  saveSamples_->setEnabled(there);
-  generate_->setText(goOn ? tr("Go on generating samples") : tr("Generate samples"));
+  samplesBox_->displayState(there, words, goOn);
   const std::array<std::pair<QPushButton*, QString>, 3> buttons{
       {{train_, tr("Fits the network to the training samples and tries it on the others")},
        {sweep_, tr("Trains once for each spread")},
@@ -378,12 +339,10 @@ void NetworkPanel::readRows() {
 void NetworkPanel::read(const QString& what) {
   if (displaying_) return;
   if (!sliding_) ++slides_;
-  samples_.perArea = perArea_->value();
-  samples_.seed = static_cast<std::uint64_t>(seed_->value());
   network_.input = input_->currentIndex() == 0 ? InputKind::Displacement : InputKind::Resistance;
   network_.mode = mode_->currentIndex() == 0 ? DecoderMode::Default : DecoderMode::Paper;
   network_.decoder = kDecoderKinds.value(decoder_->currentText().toStdString());
-  samples_.surrogate = surrogate_->isChecked();
+  network_.target = target_->currentIndex() == 0 ? DecoderTarget::Force : DecoderTarget::ForceAndPlace;
   network_.testNoise = testNoise_->value() / 100;
   advanced_->read(network_);
   if (rowsProblem_->isHidden()) network_.rows = rows_->text().trimmed().toStdString();
@@ -394,7 +353,7 @@ void NetworkPanel::read(const QString& what) {
   network_.sweepFrom = std::min(from_->value(), to_->value());
   network_.sweepTo = std::max(from_->value(), to_->value());
   network_.sweepCount = count_->value();
-  emit edited(what, samples_, network_);
+  emit edited(what, samplesBox_->settings(), network_);
 }
 
 } // namespace palp

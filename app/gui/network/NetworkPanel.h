@@ -18,6 +18,7 @@ class QVBoxLayout;
 namespace palp {
 
 class AdvancedOptions;
+class SamplesBox;
 class WrappedLabel;
 
 /// Samples, training options, spread and sweep.
@@ -62,21 +63,16 @@ private:
   void takeLiveSettings();
   [[nodiscard]] bool readableLive() const;
 
-  SampleSettings samples_;
   NetworkSettings network_;
   bool displaying_ = false;
   bool sliding_ = false;
   int slides_ = 0; ///< another one after each press of the slider and each other edit
-  QSpinBox* perArea_ = nullptr;
-  QSpinBox* seed_ = nullptr;
-  QCheckBox* surrogate_ = nullptr;
-  QPushButton* generate_ = nullptr;
-  QPushButton* saveSamples_ = nullptr;
-  QLabel* samplesWords_ = nullptr;
+  SamplesBox* samplesBox_ = nullptr;
   QComboBox* input_ = nullptr;
   QPushButton* forLive_ = nullptr;
   QComboBox* mode_ = nullptr;
   QComboBox* decoder_ = nullptr;
+  QComboBox* target_ = nullptr;
   QLineEdit* rows_ = nullptr;
   QLabel* rowsProblem_ = nullptr;
   int rowWires_ = 0; ///< that can be chosen from

@@ -58,9 +58,9 @@ private:
   void addNetwork(const NetworkFit& fit, const QString& file) {
     const NetworkSamples* samples = session_.samples();
     if (samples != nullptr && fit.madeFrom != samples->settings)
-      commands_ << QObject::tr("%1: on other samples, %2 an area, seed %3%4")
+      commands_ << QObject::tr("%1: on other samples, %2, seed %3%4")
                        .arg(file)
-                       .arg(fit.madeFrom.perArea)
+                       .arg(countWords(fit.madeFrom))
                        .arg(fit.madeFrom.seed)
                        .arg(fit.madeFrom.surrogate ? QObject::tr(", by a surrogate") : QString());
     commands_ << (fit.file.isEmpty() ? trainCommands(fit.settings, kDesignFile, file)

@@ -78,12 +78,15 @@ TableText trialsTable(const std::vector<DecoderTrial>& trials, const NoiseBound*
   table.heads << QObject::tr("decoder") << QObject::tr("in words");
   addHeads(table.heads, QObject::tr("Eq. (13) [%]"));
   addHeads(table.heads, QObject::tr("RMSE [% of range]"));
+  const bool places = std::any_of(trials.begin(), trials.end(), [](const auto& trial) { return trial.place; });
+  if (places) table.heads << QObject::tr("place, median [mm]");
   table.heads << QObject::tr("training [s]") << QObject::tr("a sample [us]") << QObject::tr("not trained because");
   for (const DecoderTrial& trial : trials) {
     QStringList row{QString::fromStdString(name(trial.kind)), inWords(trial.kind)};
     const bool there = trial.refusal.isEmpty();
     add(row, trial.error.eq13Percent);
     add(row, trial.error.rmsePercentOfRange);
+    if (places) row << (trial.place ? number(trial.place->median_mm) : QString());
     row << (there ? number(trial.seconds) : QString()) << (there ? number(trial.microsecondsPerSample) : QString())
         << trial.refusal;
     table.rows.push_back(std::move(row));
@@ -105,6 +108,9 @@ TableText networksTable(const std::vector<std::shared_ptr<const NetworkFit>>& ne
   TableText table;
   table.heads << QObject::tr("name");
   addHeads(table.heads, QObject::tr("[%]"));
+  const bool places =
+      std::any_of(networks.begin(), networks.end(), [](const auto& fit) { return fit->error.place.has_value(); });
+  if (places) table.heads << QObject::tr("place [mm]");
   table.heads << QObject::tr("input") << QObject::tr("row-wires") << QObject::tr("decoder") << QObject::tr("noise [%]")
               << QObject::tr("test noise [%]") << QObject::tr("spread") << QObject::tr("centres")
               << QObject::tr("ridge") << QObject::tr("scaler") << QObject::tr("seed") << QObject::tr("mode")
@@ -115,16 +121,26 @@ TableText networksTable(const std::vector<std::shared_ptr<const NetworkFit>>& ne
     const NetworkSettings& settings = fit->settings;
     QStringList row{fit->name};
     for (const double error : fit->error.error.rmsePercentOfRange) row << QString::number(error, 'g', 4);
+    if (places) row << (fit->error.place ? QString::number(fit->error.place->median_mm, 'g', 4) : QString("-"));
     row << text(name(settings.input)) << text(settings.rows) << text(name(settings.decoder))
         << QString::number(100 * settings.noise, 'g', 4) << QString::number(100 * settings.testNoise, 'g', 4)
         << used(fit->decoder.report.spread) << used(fit->decoder.report.centers)
         << (hasRidge(settings.decoder) ? ridgeWords(*fit) : QString("-")) << scalerWords(*fit)
         << QString::number(settings.seed) << text(name(settings.mode)) << optionsWords(settings)
-        << QObject::tr("%1 an area, seed %2").arg(fit->madeFrom.perArea).arg(fit->madeFrom.seed)
+        << QObject::tr("%1, seed %2").arg(countWords(fit->madeFrom)).arg(fit->madeFrom.seed)
         << fit->made.toString("yyyy-MM-dd HH:mm:ss") << QFileInfo(fit->file).fileName();
     table.rows.push_back(std::move(row));
   }
   return table;
+}
+
+std::optional<std::size_t> bestTrial(const std::vector<DecoderTrial>& trials) {
+  std::optional<std::size_t> best;
+  for (std::size_t k = 0; k < trials.size(); ++k)
+    if (trials[k].refusal.isEmpty() &&
+        (!best || trials[k].error.rmsePercentOfRange.norm() < trials[*best].error.rmsePercentOfRange.norm()))
+      best = k;
+  return best;
 }
 
 std::optional<std::size_t> bestPoint(const std::vector<SweepPoint>& points) {

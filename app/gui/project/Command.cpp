@@ -48,11 +48,16 @@ QString solveCommands(const Project& project, const QString& designFile) {
 }
 
 QString sampleCommands(const Project& project, const QString& designFile) {
+  const SampleSettings& samples = project.samples;
+  const QString what = samples.touches
+                           ? QString::fromStdString(asCommand(rangeOf(*samples.touches, project.design))) +
+                                 QString(" --count %1").arg(samples.touches->count)
+                           : QString(" --per-area %1").arg(samples.perArea) + (samples.surrogate ? " --surrogate" : "");
   const auto sample = [&](std::uint64_t seed, const QString& file) {
-    return QString("palp sample %1 --per-area %2 --seed %3").arg(designFile).arg(project.samples.perArea).arg(seed) +
-           meshOption(project.mesh) + (project.samples.surrogate ? " --surrogate" : "") + " -o " + file;
+    return "palp sample " + designFile + what + QString(" --seed %1").arg(seed) + meshOption(project.mesh) + " -o " +
+           file;
   };
-  return sample(project.samples.seed, "train.csv") + "\n" + sample(testSeed(project.samples.seed), "test.csv");
+  return sample(samples.seed, "train.csv") + "\n" + sample(testSeed(samples.seed), "test.csv");
 }
 
 QString predictCommand(const NetworkSettings& network, const QString& file) {
@@ -64,7 +69,9 @@ QString predictCommand(const NetworkSettings& network, const QString& file) {
 
 QString trainCommands(const NetworkSettings& network, const QString& designFile, const QString& file) {
   const QString spread = network.automaticSpread ? "auto" : QString::fromStdString(text(network.spread));
-  const QString design = network.decoder == DecoderKind::TwoStepGaussNewton ? " --design " + designFile : QString();
+  const bool designed =
+      network.decoder == DecoderKind::TwoStepGaussNewton || network.decoder == DecoderKind::TouchInversion;
+  const QString design = designed ? " --design " + designFile : QString();
   return "palp train train.csv" + trainOptions(network) + " --spread " + spread + design + " -o " + file + "\n" +
          predictCommand(network, file);
 }

@@ -7,6 +7,7 @@ TrainOptions NetworkSettings::trainOptions() const {
   options.input = input;
   options.mode = mode;
   options.decoder = decoder;
+  options.target = target;
   options.rows = rows;
   options.noise = noise;
   if (centers > 0) options.centers = centers;

@@ -3,6 +3,7 @@
 #include "app/gui/project/DesignStudies.h"
 #include "app/gui/project/IndenterPath.h"
 #include "app/gui/project/LiveSettings.h"
+#include "app/gui/project/SampleSettings.h"
 #include "app/gui/project/ViewSettings.h"
 #include "app/study/decoding/TrainOptions.h"
 #include "model/LoadCase.h"
@@ -16,20 +17,12 @@
 
 namespace palp {
 
-/// Which samples the Network scene makes.
-struct SampleSettings {
-  int perArea = 100;
-  std::uint64_t seed = 1;
-  bool surrogate = false; ///< per-area polynomial instead of full solves
-
-  bool operator==(const SampleSettings&) const = default;
-};
-
 /// How the Network scene trains and sweeps.
 struct NetworkSettings {
   InputKind input = InputKind::Displacement;
   DecoderMode mode = DecoderMode::Default;
   DecoderKind decoder = DecoderKind::Rbf;
+  DecoderTarget target = DecoderTarget::Force; ///< the place as well: of touches alone
   std::string rows = "4";
   bool automaticSpread = false;
   double spread = 1;

@@ -2,6 +2,7 @@
 
 #include "app/gui/project/DesignStudiesFile.h"
 #include "app/gui/project/LiveSettingsFile.h"
+#include "app/gui/project/SampleSettingsFile.h"
 
 #include "io/DesignFile.h"
 #include "io/StrictJson.h"
@@ -43,12 +44,6 @@ MeshOptions meshOf(const JsonPlace& place) {
   return mesh;
 }
 
-QJsonObject samplesJson(const SampleSettings& samples) {
-  QJsonObject object{{"per_area", samples.perArea}, {"seed", static_cast<double>(samples.seed)}};
-  if (samples.surrogate) object["surrogate"] = true;
-  return object;
-}
-
 QJsonObject networkJson(const NetworkSettings& network) {
   QJsonObject object{{"input", QString::fromStdString(name(network.input))},
                      {"mode", QString::fromStdString(name(network.mode))},
@@ -74,6 +69,8 @@ QJsonObject networkJson(const NetworkSettings& network) {
   add("tail", network.tail, kTails);
   add("convention", network.convention, kSpreadConventions);
   if (network.ridge) object["ridge"] = *network.ridge;
+  if (network.target != DecoderTarget::Force)
+    object["target"] = QString::fromStdString(kDecoderTargets.name(network.target));
   return object;
 }
 
@@ -81,12 +78,12 @@ NetworkSettings networkOf(const JsonPlace& place) {
   place.onlyKeys({"input", "mode", "decoder", "rows", "automatic_spread", "spread", "noise", "sweep_from", "sweep_to",
                   "sweep_count"},
                  {"centers", "test_noise", "all_centers", "forgetting", "train_seed", "centers_by", "solver", "scaler",
-                  "tail", "convention", "ridge"});
+                  "tail", "convention", "ridge", "target"});
   NetworkSettings network;
   network.input = place.at("input").named(kInputKinds);
   network.mode = place.at("mode").named(kDecoderModes);
   network.decoder = place.at("decoder").named(kDecoderKinds);
-  if (network.decoder == DecoderKind::TouchInversion) place.at("decoder").refuse("a decoder of forces on load areas");
+  if (place.has("target")) network.target = place.at("target").named(kDecoderTargets);
   network.rows = place.at("rows").string();
   network.automaticSpread = place.at("automatic_spread").boolean();
   network.spread = place.at("spread").number(1e-6, 1e6);
@@ -227,11 +224,7 @@ Project projectOf(const JsonPlace& root, const std::string& file) {
       throw Error(file + ": path: " + *wrong);
   }
   project.mesh = meshOf(root.at("mesh"));
-  const JsonPlace samples = root.at("samples");
-  samples.onlyKeys({"per_area", "seed"}, {"surrogate"});
-  project.samples.perArea = samples.at("per_area").integer(5, 100000);
-  project.samples.seed = static_cast<std::uint64_t>(samples.at("seed").integer(0, 1000000000));
-  if (samples.has("surrogate")) project.samples.surrogate = samples.at("surrogate").boolean();
+  project.samples = samplesOf(root.at("samples"));
   project.network = networkOf(root.at("network"));
   if (version >= 2) project.view = viewOf(root.at("view"));
   if (root.has("live")) project.live = liveOf(root.at("live")); // not in the files of the first version

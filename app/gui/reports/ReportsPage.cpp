@@ -267,6 +267,7 @@ void ReportsPage::end(ReportRun::Ending how) {
       how == ReportRun::Ending::NotStarted
           ? tr("%1 cannot be started; it is built together with this program and lies beside it.").arg(program_)
           : endWords(how, run_.seconds(), run_.status(), runFolder_));
+  emit message(tr("Report %1: %2").arg(QDir(runFolder_).dirName(), state_->text()));
   if (how == ReportRun::Ending::NoResult || how == ReportRun::Ending::Failed) tabs_->setCurrentWidget(log_);
   tidyReport(runFolder_, log_->toPlainText());
   offerRun(done);
@@ -357,6 +358,7 @@ void ReportsPage::showFolder(const QString& folder, bool page) {
 
 void ReportsPage::say(const QString& sentence) {
   note_ = sentence;
+  emit message(sentence);
   if (run_.running())
     showTime();
   else

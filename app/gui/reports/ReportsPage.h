@@ -59,6 +59,8 @@ public:
 signals:
   /// What is told of the report in every scene while it runs; empty: none runs.
   void runs(const QString& words);
+  /// How a report ended, and where it lies.
+  void message(const QString& sentence);
 
 protected:
   void showEvent(QShowEvent* event) override;

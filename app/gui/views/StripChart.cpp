@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace palp {
 
@@ -291,7 +292,10 @@ std::vector<StripChart::ReadingLine> StripChart::readingLines() const {
     const auto next = std::lower_bound(series.t_s.begin(), series.t_s.end(), t_s);
     if (next == series.t_s.end()) continue;
     const auto place = static_cast<std::size_t>(next - series.t_s.begin());
-    const double value = series.y[place];
+    // Before the first value, and where the curve is broken, there is none until the next one is under the pointer.
+    const bool joined = place > 0 && std::isfinite(series.y[place - 1]);
+    const bool there = joined || xOf(plot, *next) - pointer_px_ <= kMarkGap_px;
+    const double value = there ? series.y[place] : std::numeric_limits<double>::quiet_NaN();
     QString text = std::isfinite(value) ? QString::number(value, 'g', 4) : tr("none");
     const bool known = std::isfinite(value) && place < series.deviation.size();
     if (known && std::isfinite(series.deviation[place]))

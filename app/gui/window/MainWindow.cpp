@@ -96,13 +96,15 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   connect(animation_, &LoadPathAnimation::done, this, &MainWindow::showMessage);
   addScene("deformation", tr("Deformation"), tr("The block under load"), deformation_);
   addScene("resistance", tr("Resistance"), tr("Row-column resistances under the load"), new ResistancePage(workbench));
-  addScene("network", tr("Network"), tr("Samples, training and the sweep of the spread"),
-           new NetworkPage(workbench, network));
+  auto* networkPage = new NetworkPage(workbench, network);
+  connect(networkPage, &NetworkPage::sceneAsked, this, &MainWindow::showScene);
+  addScene("network", tr("Network"), tr("Samples, training and the sweep of the spread"), networkPage);
   live_ = new LiveBoards(workbench);
   connect(live_, &LiveBoards::message, this, &MainWindow::showMessage);
   connect(live_, &LiveBoards::sceneAsked, this, &MainWindow::showScene);
   addScene("live", tr("Live"), tr("Boards, the simulated board or a recording, live"), live_);
   reports_ = new ReportsPage(workbench);
+  connect(reports_, &ReportsPage::message, this, &MainWindow::showMessage);
   addScene("reports", tr("Reports"), tr("The paper reproduced, and the reports"), reports_);
   for (const PictureView* view : findChildren<PictureView*>())
     connect(view, &PictureView::message, this, &MainWindow::showMessage);

@@ -48,16 +48,29 @@ std::string placeText(const Eigen::Vector2d& place_mm) {
   return buffer.data();
 }
 
+/// Rubber and load areas are the same: so is the deformation, but for the mesh.
+bool onlyWiresDiffer(const SensorDesign& now, const SensorDesign& kept) {
+  SensorDesign rewired = kept;
+  rewired.upper = now.upper;
+  rewired.lower = now.lower;
+  rewired.lowerFollowsRubber = now.lowerFollowsRubber;
+  rewired.resistance = now.resistance;
+  rewired.forceRange = now.forceRange;
+  return rewired == now;
+}
+
 std::vector<std::string> differenceLines(const DeformationState& state, const DeformationOptions& options) {
   if (state.kept == nullptr)
-    return {options.lessUniform ? "Difference to the same force, uniform: not computed"
-                                : "Difference to the kept design: not computed"};
+    return {options.lessUniform ? "Difference to the same force, uniform: not there yet"
+                                : "Difference to the kept design: not there yet"};
   if (options.lessUniform)
     return {"Difference to the same force, uniform on the load area beneath",
             quantityName(options.quantity) + " of the touch less that of the uniform load"};
   std::vector<std::string> lines{"Difference to the kept design: " + quantityName(options.quantity) +
                                  " of this design less that of the kept one"};
   const Eigen::Vector3d &now = state.design->block_mm, &kept = state.keptDesign->block_mm;
+  if (onlyWiresDiffer(*state.design, *state.keptDesign))
+    lines.emplace_back("the two differ in wires and resistances alone: what is left here is their meshes' difference");
   if (now == kept) return lines;
   lines.push_back("blocks of two sizes, " + sizeText(now) + " and kept " + sizeText(kept) +
                   " mm: compared and pressed at the same shares of their sides");

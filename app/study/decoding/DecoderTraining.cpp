@@ -117,8 +117,7 @@ void DecoderTraining::describe() {
 
 void DecoderTraining::addPlace() {
   if (!samples_.hasPlaces())
-    throw Error("target: force+place needs samples of touches (palp sample --touch) or measured places (palp import); "
-                "these load whole areas");
+    throw Error("target: force+place needs samples of touches or with measured places; these load whole areas");
   if (!takesPlace(options_.decoder))
     throw Error("target: " + name(options_.decoder) +
                 " gives forces alone; force+place takes rbf, linear, poly2, "
@@ -232,7 +231,7 @@ void DecoderTraining::fitLikelihood() {
 }
 
 void DecoderTraining::fitTouches() {
-  if (!decoder_.place) throw Error("decoder: touch gives force and place; ask for it with --target force+place");
+  if (!decoder_.place) throw Error("decoder: touch gives force and place; allowed is the target force+place");
   // Size and friction are found beside them: where they vary, what is known of force and place depends on them.
   Eigen::MatrixXd causes = Eigen::MatrixXd::Zero(targets_.rows() + 2, targets_.cols());
   causes.topRows(targets_.rows()) = targets_;

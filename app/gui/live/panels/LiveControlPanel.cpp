@@ -197,6 +197,7 @@ QWidget* LiveControlPanel::buildAlarm() {
   alarmLimit_->setDecimals(2);
   alarmLimit_->setSingleStep(0.5);
   alarmLimit_->setSuffix(tr(" N"));
+  alarmLimit_->setKeyboardTracking(false); // no alarm at a limit that is half typed
   alarmLimit_->setToolTip(tr("The limit [N]; the alarm is over where the force has come back by 5 % of it"));
   for (QWidget* widget : {static_cast<QWidget*>(alarmOn_), static_cast<QWidget*>(alarmForce_),
                           static_cast<QWidget*>(alarmSide_), static_cast<QWidget*>(alarmLimit_)})

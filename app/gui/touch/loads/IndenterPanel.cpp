@@ -1,5 +1,6 @@
 #include "app/gui/touch/loads/IndenterPanel.h"
 
+#include "app/gui/widgets/ShapeWords.h"
 #include "app/gui/widgets/SpinBoxes.h"
 
 #include <QComboBox>
@@ -16,24 +17,6 @@ namespace {
 
 constexpr int kPictureWidth_px = 28, kPictureHeight_px = 20;
 constexpr double kFirstDepth_mm = 0.2;
-
-QString shapeWords(IndenterShape shape) {
-  switch (shape) {
-  case IndenterShape::Sphere:
-    return QObject::tr("sphere");
-  case IndenterShape::Pin:
-    return QObject::tr("pin, round end");
-  case IndenterShape::Flat:
-    return QObject::tr("flat punch");
-  case IndenterShape::CylinderX:
-    return QObject::tr("cylinder along x");
-  case IndenterShape::CylinderY:
-    return QObject::tr("cylinder along y");
-  case IndenterShape::Plane:
-    return QObject::tr("plane");
-  }
-  return {};
-}
 
 /// A section through the indenter on the rubber.
 QIcon picture(IndenterShape shape, const QPalette& colors, double ratio) {
@@ -83,7 +66,7 @@ IndenterPanel::IndenterPanel(QWidget* parent) : QWidget(parent) {
   shape_->setAccessibleName(tr("Shape of the indenter"));
   shape_->setToolTip(tr("Rigid; pin and punch stand upright, cylinders lie across the whole block"));
   shape_->setIconSize({kPictureWidth_px, kPictureHeight_px});
-  for (const auto& [shape, name] : kIndenterShapes.all()) shape_->addItem(shapeWords(shape));
+  for (const auto& [shape, name] : kIndenterShapes.all()) shape_->addItem(inWords(shape));
   drawShapes();
   form->addRow(tr("Shape"), shape_);
   radius_ = addNumber(*form, "indenterRadius", tr("Radius"), tr(" mm"), tr("In the picture: drag its rim"));

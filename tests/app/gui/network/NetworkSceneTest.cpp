@@ -76,6 +76,24 @@ TEST_F(NetworkScene, PutsEveryDecoderOnTheSameAxes) {
   EXPECT_EQ(find<ChartView>("trialsError").chart().series.size(), trained);
 }
 
+TEST_F(NetworkScene, ANetworkOfResistancesGoesToLiveByOneButton) {
+  generate();
+  trained();
+  auto& button = find<QPushButton>("useInLive");
+  EXPECT_FALSE(button.isEnabled()) << "no board reads displacements";
+  QTest::mouseClick(&find<QPushButton>("forLive"), Qt::LeftButton);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return button.isEnabled(); }, kPatience_ms));
+  ASSERT_TRUE(idle());
+  QTemporaryDir folder;
+  const QString file = folder.filePath("hand.json");
+  answerFileDialog(file);
+  QTest::mouseClick(&button, Qt::LeftButton);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return workbench.project().live.network == file.toStdString(); }, kPatience_ms));
+  EXPECT_TRUE(find<QWidget>("live").isVisible());
+  EXPECT_TRUE(QTest::qWaitFor([&] { return find<QLabel>("networkName").text().contains("hand.json"); }, kPatience_ms))
+      << find<QLabel>("networkName").text().toStdString();
+}
+
 TEST_F(NetworkScene, AKeystrokeInTheDesignLosesNothingThatWasTrained) {
   generate();
   QTest::mouseClick(&find<QPushButton>("train"), Qt::LeftButton);

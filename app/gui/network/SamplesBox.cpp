@@ -1,0 +1,234 @@
+#include "app/gui/network/SamplesBox.h"
+
+#include "app/gui/widgets/ShapeWords.h"
+#include "app/gui/widgets/SpinBoxes.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QFormLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QSpinBox>
+
+#include <algorithm>
+#include <tuple>
+
+namespace palp {
+
+namespace {
+
+constexpr double kMost_mm = 1000, kMost_N = 1000;
+constexpr double kMostFriction = 2;
+
+} // namespace
+
+SamplesBox::SamplesBox(QWidget* parent) : QGroupBox(tr("Samples"), parent) {
+  form_ = new QFormLayout(this);
+  kind_ = new QComboBox;
+  kind_->setObjectName("sampleKind");
+  kind_->addItems({tr("forces on areas"), tr("touches anywhere")});
+  kind_->setToolTip(tr("Even forces on the load areas, as the paper has them, or an indenter that presses somewhere on "
+                       "the top face: a network of those can tell the place as well"));
+  form_->addRow(tr("Samples of"), kind_);
+  perArea_ = new QSpinBox;
+  perArea_->setObjectName("perArea");
+  perArea_->setRange(5, 100000);
+  perArea_->setKeyboardTracking(false);
+  perArea_->setToolTip(
+      tr("Random forces on each area, for training and as many others for testing; the paper has 100"));
+  form_->addRow(tr("On each area"), perArea_);
+  buildTouches();
+  seed_ = new QSpinBox;
+  seed_->setObjectName("seed");
+  seed_->setKeyboardTracking(false);
+  seed_->setRange(0, 1000000000);
+  seed_->setToolTip(tr("The same seed gives the same samples"));
+  form_->addRow(tr("Seed of samples"), seed_);
+  surrogate_ = new QCheckBox(tr("by a surrogate"));
+  surrogate_->setObjectName("surrogate");
+  surrogate_->setToolTip(tr("A polynomial of full solves on each area: many samples in seconds, with an error that is "
+                            "measured and said"));
+  form_->addRow(QString(), surrogate_);
+  buildFiles();
+  connect(kind_, &QComboBox::activated, this, &SamplesBox::readKind);
+  connect(perArea_, &QSpinBox::valueChanged, this, [this] { read(tr("Change the number of samples")); });
+  connect(count_, &QSpinBox::valueChanged, this, [this] { read(tr("Change the number of samples")); });
+  connect(seed_, &QSpinBox::valueChanged, this, [this] { read(tr("Change the seed")); });
+  connect(surrogate_, &QCheckBox::toggled, this, [this] { read(tr("Change how samples are made")); });
+  connect(generate_, &QPushButton::clicked, this, &SamplesBox::generateAsked);
+}
+
+/// The indenter and how it presses.
+void SamplesBox::buildTouches() {
+  count_ = new QSpinBox;
+  count_->setObjectName("touchCount");
+  count_->setRange(kFewestTouches, kMostTouches);
+  count_->setKeyboardTracking(false);
+  count_->setToolTip(tr("Random touches for training, and as many others for testing"));
+  form_->addRow(tr("Touches"), count_);
+  shape_ = new QComboBox;
+  shape_->setObjectName("touchShape");
+  for (const auto& [shape, name] : kIndenterShapes.all()) shape_->addItem(inWords(shape));
+  shape_->setToolTip(tr("The rigid body that presses, the same for all; its size is random"));
+  form_->addRow(tr("Indenter"), shape_);
+  connect(shape_, &QComboBox::activated, this, [this] { read(tr("Change the indenter of the samples")); });
+  radius_ = range("touchRadius", tr("Radius"), kMost_mm, tr(" mm"), tr("Drawn evenly from this range"));
+  rim_ = number("touchRim", tr("Rim"), 0, kMost_mm, tr(" mm"));
+  rim_->setToolTip(tr("Radius of the punch's rounded rim"));
+  form_->addRow(tr("Rim"), rim_);
+  press_ = range("touchPress", tr("Press"), kMost_N, tr(" N"), tr("Downwards, drawn evenly from this range"));
+  friction_ = range("touchFriction", tr("Friction"), kMostFriction, {},
+                    tr("Coulomb's coefficient. Without any, touches press straight down; with friction they also push "
+                       "sideways, up to 0.7 of its limit, and each takes seconds to compute"));
+  margin_ = number("touchMargin", tr("Margin"), 0, kMost_mm, tr(" mm"));
+  margin_->setToolTip(tr("No touch is nearer to the sides of the block than this"));
+  form_->addRow(tr("From the sides"), margin_);
+  problem_ = new QLabel;
+  problem_->setObjectName("touchProblem");
+  problem_->setProperty("role", "problem");
+  problem_->setWordWrap(true);
+  form_->addRow(problem_);
+}
+
+QDoubleSpinBox* SamplesBox::number(const char* name, const QString& label, double low, double high,
+                                   const QString& unit) {
+  auto* box = new QDoubleSpinBox;
+  box->setObjectName(name);
+  box->setAccessibleName(tr("Touches, %1").arg(label));
+  box->setRange(low, high);
+  box->setDecimals(2);
+  box->setSingleStep(0.1);
+  box->setSuffix(unit);
+  box->setKeyboardTracking(false);
+  connect(box, &QDoubleSpinBox::valueChanged, this, [this] { read(tr("Change the touches of the samples")); });
+  return box;
+}
+
+SamplesBox::Pair SamplesBox::range(const char* name, const QString& label, double high, const QString& unit,
+                                   const QString& tip) {
+  const QByteArray least = QByteArray(name) + "Least", most = QByteArray(name) + "Most";
+  const Pair pair{number(least.constData(), tr("%1, least").arg(label), 0, high, {}),
+                  number(most.constData(), tr("%1, most").arg(label), 0, high, unit)};
+  auto* both = new QWidget;
+  auto* row = new QHBoxLayout(both);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->addWidget(pair[0], 1);
+  row->addWidget(new QLabel(tr("to")));
+  row->addWidget(pair[1], 1);
+  for (QDoubleSpinBox* box : pair) {
+    box->setToolTip(tip);
+    box->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed); // the panel keeps its width
+  }
+  form_->addRow(label, both);
+  return pair;
+}
+
+void SamplesBox::buildFiles() {
+  generate_ = new QPushButton(tr("Generate samples"));
+  generate_->setObjectName("generate");
+  form_->addRow(generate_);
+  auto* files = new QHBoxLayout;
+  auto* open = new QPushButton(tr("Open..."));
+  open->setObjectName("openSamples");
+  open->setToolTip(tr("Samples of this design or imported ones, from files; several parts of one set are joined"));
+  save_ = new QPushButton(tr("Save..."));
+  save_->setObjectName("saveSamples");
+  save_->setToolTip(
+      tr("NAME.csv for training and NAME-test.csv beside it, as palp sample writes them; .h5 and .npz as well"));
+  files->addWidget(open);
+  files->addWidget(save_);
+  form_->addRow(files);
+  connect(open, &QPushButton::clicked, this, &SamplesBox::openAsked);
+  connect(save_, &QPushButton::clicked, this, &SamplesBox::saveAsked);
+  words_ = new QLabel;
+  words_->setObjectName("samplesWords");
+  words_->setWordWrap(true);
+  words_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
+  words_->setMinimumHeight(2 * fontMetrics().lineSpacing()); // what is below does not jump
+  form_->addRow(words_);
+}
+
+void SamplesBox::display(const SampleSettings& samples, const SensorDesign& design) {
+  displaying_ = true;
+  samples_ = samples;
+  design_ = design;
+  if (samples.touches) touches_ = *samples.touches;
+  kind_->setCurrentIndex(samples.touches ? 1 : 0);
+  perArea_->setValue(samples.perArea);
+  seed_->setValue(static_cast<int>(samples.seed));
+  surrogate_->setChecked(samples.surrogate);
+  showTouches();
+  check();
+  displaying_ = false;
+}
+
+void SamplesBox::showTouches() {
+  count_->setValue(touches_.count);
+  const auto& shapes = kIndenterShapes.all();
+  const auto its =
+      std::find_if(shapes.begin(), shapes.end(), [&](const auto& shape) { return shape.first == touches_.shape; });
+  shape_->setCurrentIndex(static_cast<int>(its - shapes.begin()));
+  const auto show = [](const Pair& pair, double least, double most) {
+    showExactly(*pair[0], least);
+    showExactly(*pair[1], most);
+  };
+  show(radius_, touches_.smallest_mm, touches_.largest_mm);
+  show(press_, touches_.leastPress_N, touches_.mostPress_N);
+  show(friction_, touches_.leastFriction, touches_.mostFriction);
+  showExactly(*rim_, touches_.rim_mm);
+  showExactly(*margin_, touches_.margin_mm);
+  const bool touches = samples_.touches.has_value();
+  for (QWidget* row : std::initializer_list<QWidget*>{count_, shape_, press_[0]->parentWidget(),
+                                                      friction_[0]->parentWidget(), margin_})
+    form_->setRowVisible(row, touches);
+  form_->setRowVisible(radius_[0]->parentWidget(), touches && touches_.shape != IndenterShape::Plane);
+  form_->setRowVisible(rim_, touches && touches_.shape == IndenterShape::Flat);
+  form_->setRowVisible(perArea_, !touches);
+  form_->setRowVisible(surrogate_, !touches);
+}
+
+/// What cannot be sampled is said before anybody waits for it.
+void SamplesBox::check() {
+  std::optional<std::string> wrong;
+  if (samples_.touches) wrong = whyInvalid(rangeOf(*samples_.touches, design_), design_);
+  problem_->setText(wrong ? QString::fromStdString(*wrong) : QString());
+  form_->setRowVisible(problem_, wrong.has_value());
+  generate_->setEnabled(!wrong);
+}
+
+void SamplesBox::displayState(bool there, const QString& words, bool goOn) {
+  words_->setText(words);
+  save_->setEnabled(there);
+  generate_->setText(goOn ? tr("Go on generating samples") : tr("Generate samples"));
+}
+
+/// The first touches are the usual ones of the design, later ones those of before.
+void SamplesBox::readKind() {
+  const bool touches = kind_->currentIndex() == 1;
+  if (displaying_ || touches == samples_.touches.has_value()) return;
+  samples_.touches.reset();
+  if (touches) samples_.touches = touches_ == TouchSampling() ? usualTouches(design_) : touches_;
+  emit edited(tr("Change what is sampled"));
+}
+
+void SamplesBox::read(const QString& what) {
+  if (displaying_) return;
+  samples_.perArea = perArea_->value();
+  samples_.seed = static_cast<std::uint64_t>(seed_->value());
+  samples_.surrogate = surrogate_->isChecked();
+  if (samples_.touches) {
+    TouchSampling& touches = *samples_.touches;
+    touches.count = count_->value();
+    touches.shape = kIndenterShapes.all()[static_cast<std::size_t>(shape_->currentIndex())].first;
+    const auto ordered = [](const Pair& pair) { return std::minmax({pair[0]->value(), pair[1]->value()}); };
+    std::tie(touches.smallest_mm, touches.largest_mm) = ordered(radius_);
+    std::tie(touches.leastPress_N, touches.mostPress_N) = ordered(press_);
+    std::tie(touches.leastFriction, touches.mostFriction) = ordered(friction_);
+    touches.rim_mm = rim_->value();
+    touches.margin_mm = margin_->value();
+  }
+  emit edited(what);
+}
+
+} // namespace palp

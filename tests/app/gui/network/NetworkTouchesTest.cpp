@@ -1,0 +1,109 @@
+#include "app/gui/jobs/SampleFiles.h"
+#include "app/gui/project/Command.h"
+#include "app/gui/project/ProjectFile.h"
+#include "app/gui/views/ChartView.h"
+#include "app/gui/views/DataTable.h"
+#include "tests/app/gui/network/NetworkSceneFixture.h"
+
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QLabel>
+#include <QTemporaryDir>
+
+namespace palp {
+namespace {
+
+/// Twenty touches of a large sphere on a mesh so coarse that it touches some nodes.
+class SampledTouches : public NetworkScene {
+protected:
+  SampledTouches() {
+    Project next = workbench.project();
+    next.mesh.mapped = {12, 12, 3};
+    next.network.rows = "all";
+    next.network.input = InputKind::Resistance;
+    workbench.edit("a coarse mesh", next);
+    choose("sampleKind", 1);
+    setNumber("touchRadiusMost", 9);
+    setNumber("touchRadiusLeast", 7);
+    setNumber("touchPressMost", 3);
+    setNumber("touchPressLeast", 1);
+    auto& count = find<QSpinBox>("touchCount");
+    count.setFocus();
+    count.selectAll();
+    QTest::keyClicks(&count, "20");
+    QTest::keyClick(&count, Qt::Key_Return);
+  }
+  void setNumber(const char* name, double value) {
+    auto& box = find<QDoubleSpinBox>(name);
+    box.setFocus();
+    box.selectAll();
+    QTest::keyClicks(&box, QString::number(value));
+    QTest::keyClick(&box, Qt::Key_Return);
+  }
+  void choose(const char* name, int k) {
+    auto& box = find<QComboBox>(name);
+    box.setFocus();
+    while (box.currentIndex() != k) QTest::keyClick(&box, box.currentIndex() < k ? Qt::Key_Down : Qt::Key_Up);
+  }
+  [[nodiscard]] const TouchSampling& touches() const { return *workbench.project().samples.touches; }
+};
+
+TEST_F(SampledTouches, AreThoseOfTheCommandLine) {
+  EXPECT_FALSE(find<QSpinBox>("perArea").isVisible());
+  EXPECT_EQ(touches().count, 20);
+  EXPECT_EQ(touches().smallest_mm, 7);
+  EXPECT_EQ(touches().largest_mm, 9);
+  EXPECT_EQ(touches().margin_mm, 3) << "as palp sample has it";
+  const QString commands = sampleCommands(workbench.project(), "sensor.json");
+  EXPECT_TRUE(commands.startsWith(
+      "palp sample sensor.json --touch sphere:7..9@3,3,27,27 --force-range 1..3 --count 20 --seed 1 --mapped 12x12x3"))
+      << commands.toStdString();
+  const Project back = parseProject(projectText(workbench.project()), "p.json", exampleProject());
+  EXPECT_EQ(back.samples, workbench.project().samples);
+
+  setNumber("touchMargin", 16);
+  EXPECT_FALSE(find<QPushButton>("generate").isEnabled());
+  EXPECT_TRUE(find<QLabel>("touchProblem").text().contains("region 16,16,14,14"))
+      << find<QLabel>("touchProblem").text().toStdString();
+  QTest::keyClick(&window, Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(touches().margin_mm, 3);
+  EXPECT_TRUE(find<QPushButton>("generate").isEnabled());
+
+  choose("sampleKind", 0);
+  EXPECT_FALSE(workbench.project().samples.touches);
+  EXPECT_TRUE(find<QSpinBox>("perArea").isVisible());
+  choose("sampleKind", 1);
+  EXPECT_EQ(touches().count, 20) << "they are as they were";
+}
+
+TEST_F(SampledTouches, TeachANetworkForceAndPlace) {
+  generate();
+  ASSERT_EQ(network.samples()->training.size(), 20);
+  ASSERT_EQ(network.samples()->test.size(), 20);
+  for (Eigen::Index i = 0; i < 20; ++i) {
+    const Indenter drawn = touchAt(rangeOf(touches(), workbench.project().design), 1, static_cast<std::size_t>(i));
+    EXPECT_EQ(network.samples()->training.touches(kTouchX_mm, i), drawn.place_mm.x());
+    EXPECT_EQ(network.samples()->training.forces_N(2, i), drawn.press()->force_N.z());
+  }
+  trained();
+  EXPECT_FALSE(find<ChartView>("placeError").isVisibleTo(&window)) << "forces alone were learned";
+  choose("target", 1); // trains at once
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.fit()->error.place.has_value(); }, kPatience_ms));
+  ASSERT_TRUE(idle());
+  settle();
+  EXPECT_LT(network.fit()->error.place->median_mm, 6) << "a guess is some 11 mm off";
+  EXPECT_TRUE(find<QLabel>("fitWords").text().contains("Its places are"))
+      << find<QLabel>("fitWords").text().toStdString();
+  EXPECT_EQ(find<ChartView>("placeError").chart().series[0].x.size(), 20u);
+
+  QTemporaryDir folder;
+  const std::filesystem::path file = folder.filePath("touches.csv").toStdString();
+  network.saveSamples(file);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return std::filesystem::exists(file) && !network.writer().running(); }, 10000));
+  const NetworkSamples opened = openSampleFiles({file}, workbench.project().design, {});
+  EXPECT_EQ(opened.test.touches, network.samples()->test.touches);
+  EXPECT_EQ(countWords(opened.settings), "20 touches");
+}
+
+} // namespace
+} // namespace palp
