@@ -34,8 +34,13 @@ public:
                           const QWidget* widget) const override {
     QProxyStyle::drawComplexControl(control, option, painter, widget);
     if (control == CC_SpinBox || control == CC_ComboBox) outline(*painter, option->rect, option->palette);
-    if (control == CC_Slider)
-      outline(*painter, subControlRect(control, option, SC_SliderHandle, widget), option->palette);
+    if (control != CC_Slider) return;
+    const QRect handle = subControlRect(control, option, SC_SliderHandle, widget);
+    painter->save();
+    painter->setClipRegion(QRegion(option->rect) - handle);
+    outline(*painter, subControlRect(control, option, SC_SliderGroove, widget), option->palette);
+    painter->restore();
+    outline(*painter, handle, option->palette);
   }
 
   void drawControl(ControlElement element, const QStyleOption* option, QPainter* painter,
