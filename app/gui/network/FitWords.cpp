@@ -4,6 +4,7 @@
 #include "app/gui/jobs/TimeLeft.h"
 #include "app/gui/network/NetworkTables.h"
 #include "app/gui/project/ProjectChange.h"
+#include "app/study/reports/map/TouchBound.h"
 
 #include <QFileInfo>
 #include <QObject>
@@ -314,6 +315,21 @@ QString placeWords(const NetworkFit& fit) {
       .arg(fit.error.place->rms_mm.y(), 0, 'g', 3);
 }
 
+/// The errors of a network of force and place beside what none can beat.
+QString boundWords(const NetworkSession& session, const NetworkFit& fit, const std::vector<TouchDeviations>* touches) {
+  if (touches == nullptr || touches->empty() || !fit.error.place || !session.fitIsCurrent()) return {};
+  const SampleSet& test = session.samples()->test;
+  const ErrorsOverBounds over = errorsOverBounds(*touches, fit.prediction.forces_N - test.forces_N,
+                                                 fit.prediction.places_mm - test.touchedPlaces_mm());
+  return tr(" Bounds (Cramer-Rao, the indenter known, medians): Fz %1 N, place %2 mm; its errors are %3 and %4 times "
+            "as "
+            "large.")
+      .arg(over.force_N, 0, 'g', 3)
+      .arg(over.place_mm, 0, 'g', 3)
+      .arg(over.forceRatio, 0, 'g', 3)
+      .arg(over.placeRatio, 0, 'g', 3);
+}
+
 /// What a result calls for.
 QString adviceWords(const NetworkSession& session, const NetworkFit& fit) {
   constexpr double kKnowingNothing_percent = 28.9; // of the range: a uniform density's deviation, 1 / sqrt(12)
@@ -346,7 +362,8 @@ QString warningWords(const NetworkFit& fit) {
 
 } // namespace
 
-QString fitWords(const NetworkSession& session, const NetworkSettings& now, const NoiseBound* bound) {
+QString fitWords(const NetworkSession& session, const NetworkSettings& now, const NoiseBound* bound,
+                 const std::vector<TouchDeviations>* touches) {
   const NetworkFit* fit = session.fit();
   if (fit == nullptr && session.openingResults()) return tr("The networks of the project are being opened.");
   if (fit == nullptr)
@@ -358,11 +375,11 @@ QString fitWords(const NetworkSession& session, const NetworkSettings& now, cons
                            .arg(name.toHtmlEscaped(), originWords(*fit).toHtmlEscaped(), systemWords(*fit))
                            .arg(fit->decoder.report.condition, 0, 'g', 2)
                            .arg(fit->decoder.report.seconds, 0, 'g', 2)
-                           .arg(placeWords(*fit), adviceWords(session, *fit));
+                           .arg(placeWords(*fit) + boundWords(session, *fit, touches), adviceWords(session, *fit));
   const QString reason = staleReason(session, now);
   const bool current = reason.isEmpty();
-  const bool touches = session.samples() != nullptr && session.samples()->test.hasTouches();
-  const QString title = touches ? tr("Test error, all touches") : tr("Test error, all areas");
+  const bool ofTouches = session.samples() != nullptr && session.samples()->test.hasTouches();
+  const QString title = ofTouches ? tr("Test error, all touches") : tr("Test error, all areas");
   const QString errors = table(columns(session, *fit, bound), current ? "<b>" + title + "</b>" : title);
   const QString both = "<table width=\"100%\" cellspacing=\"0\" cellpadding=\"0\"><tr><td>" + errors +
                        "</td><td width=\"16\"></td><td>" +

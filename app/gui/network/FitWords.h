@@ -3,8 +3,11 @@
 #include "app/gui/jobs/NetworkSession.h"
 
 #include "app/study/decoding/NoiseBound.h"
+#include "app/study/reports/map/TouchMap.h"
 
 #include <QString>
+
+#include <vector>
 
 namespace palp {
 
@@ -43,7 +46,9 @@ QString samplesWords(const NetworkSession& session);
 bool sweepAndTrialsAgree(const NetworkSession& session);
 
 /// The network that is shown and its errors as rich text, beside the bound of the same noise (null: not known yet) and
-/// the network before it; grey with the reason where it is stale.
-QString fitWords(const NetworkSession& session, const NetworkSettings& now, const NoiseBound* bound);
+/// the network before it; grey with the reason where it is stale. `touches`: the bounds at each touch of the test;
+/// null: not known, or not yet.
+QString fitWords(const NetworkSession& session, const NetworkSettings& now, const NoiseBound* bound,
+                 const std::vector<TouchDeviations>* touches = nullptr);
 
 } // namespace palp

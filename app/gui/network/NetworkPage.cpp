@@ -8,6 +8,7 @@
 #include "app/gui/network/NetworkPanel.h"
 #include "app/gui/network/NetworkTables.h"
 #include "app/gui/network/SweepTab.h"
+#include "app/gui/network/TouchBounds.h"
 #include "app/gui/network/TrainedNetworks.h"
 #include "app/gui/project/Command.h"
 #include "app/gui/views/ChartView.h"
@@ -46,7 +47,8 @@ QSplitter* beside(std::initializer_list<QWidget*> widgets, Qt::Orientation orien
 } // namespace
 
 NetworkPage::NetworkPage(Workbench& workbench, NetworkSession& session, QWidget* parent)
-    : Scene(parent), workbench_(workbench), session_(session), bound_(new NetworkBound(session, this)) {
+    : Scene(parent), workbench_(workbench), session_(session), bound_(new NetworkBound(session, this)),
+      touchBounds_(new TouchBounds(session, this)) {
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(8, 8, 8, 8);
   panel_ = new NetworkPanel;
@@ -91,6 +93,7 @@ void NetworkPage::connectSession() {
     displayWords();
     displayTrials();
   });
+  connect(touchBounds_, &TouchBounds::changed, this, &NetworkPage::displayWords);
   connect(&session_.runner(), &JobRunner::started, this, [this] { showProblem({}); });
   connect(&session_.runner(), &JobRunner::failed, this, &NetworkPage::showProblem);
   connect(&session_, &NetworkSession::problem, this, &NetworkPage::showProblem);
@@ -232,7 +235,7 @@ QString NetworkPage::commands(const Project& project, const QString& designFile)
 }
 
 std::vector<JobRunner*> NetworkPage::runners() {
-  return {&bound_->runner()};
+  return {&bound_->runner(), &touchBounds_->runner()};
 }
 
 void NetworkPage::displayProject() {
@@ -280,7 +283,8 @@ void NetworkPage::displayWords() {
   const bool asked = isVisible() && fit != nullptr && session_.fitIsCurrent();
   panel_->displayChosenSpread(
       fit != nullptr && session_.fitIsCurrent() && fit->settings.automaticSpread ? fit->decoder.report.spread : 0);
-  fitWords_->setText(fitWords(session_, workbench_.project().network, asked ? bound_->of(fit->settings) : nullptr));
+  fitWords_->setText(fitWords(session_, workbench_.project().network, asked ? bound_->of(fit->settings) : nullptr,
+                              asked && fit->error.place ? touchBounds_->of(fit->settings) : nullptr));
 }
 
 void NetworkPage::displayFit() {

@@ -21,6 +21,7 @@ class DecodersTab;
 class NetworkBound;
 class NetworkPanel;
 class SweepTab;
+class TouchBounds;
 class TrainedNetworks;
 
 /// Samples, training and the sweep of the spread, with the paper's numbers beside.
@@ -72,6 +73,7 @@ private:
   Workbench& workbench_;
   NetworkSession& session_;
   NetworkBound* bound_;
+  TouchBounds* touchBounds_;
   NetworkSettings settingsShown_; ///< with which the words of the fit were made
   std::array<int, 2> choices_{};  ///< rowWiresAndAreas() that are shown
   NetworkPanel* panel_ = nullptr;

@@ -96,6 +96,14 @@ TEST_F(SampledTouches, TeachANetworkForceAndPlace) {
       << find<QLabel>("fitWords").text().toStdString();
   EXPECT_EQ(find<ChartView>("placeError").chart().series[0].x.size(), 20u);
 
+  EXPECT_FALSE(find<QLabel>("fitWords").text().contains("Bounds (Cramer-Rao")) << "without noise there are none";
+  setNumber("noise", 0.01);
+  setNumber("testNoise", 0.01);
+  EXPECT_TRUE(
+      QTest::qWaitFor([&] { return find<QLabel>("fitWords").text().contains("Bounds (Cramer-Rao"); }, kPatience_ms))
+      << find<QLabel>("fitWords").text().toStdString();
+  ASSERT_TRUE(idle());
+
   QTemporaryDir folder;
   const std::filesystem::path file = folder.filePath("touches.csv").toStdString();
   network.saveSamples(file);

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "app/gui/jobs/JobRunner.h"
+#include "app/gui/jobs/NetworkSession.h"
+#include "app/study/reports/map/TouchBound.h"
+
+#include <memory>
+#include <vector>
+
+namespace palp {
+
+/// What no method can beat with the noise that a network of touches is tested with, at each touch of the test: computed
+/// once for the samples that are there and a noise (touchBounds).
+class TouchBounds : public QObject {
+  Q_OBJECT
+
+public:
+  explicit TouchBounds(NetworkSession& session, QObject* parent = nullptr);
+
+  /// Null where there is no noise of the test, where not all resistances are read, where the samples are no touches of
+  /// the design, or while it is computed: then changed() follows. Empty where there is none.
+  const std::vector<TouchDeviations>* of(const NetworkSettings& settings);
+  [[nodiscard]] JobRunner& runner() { return runner_; }
+
+signals:
+  void changed();
+
+private:
+  void compute();
+
+  NetworkSession& session_;
+  JobRunner runner_;
+  std::weak_ptr<const NetworkSamples> samples_; ///< of which the bounds are
+  double noise_ = 0;
+  std::shared_ptr<const std::vector<TouchDeviations>> bounds_; ///< null: on the way
+};
+
+} // namespace palp
