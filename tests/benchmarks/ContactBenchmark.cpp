@@ -1,7 +1,7 @@
 // Contact beside closed forms. Prints a Markdown table.
-//   contact_benchmark sphere     force of a sphere on a bonded layer, a/h 0.05 to 2, against the layer's integral
-//   equation contact_benchmark punch      the same of flat punches with their rims contact_benchmark friction   a
-//   sphere pressed, then moved to and fro: u(Q) and the loop against Cattaneo and Mindlin
+//   contact_benchmark sphere: force of a sphere on a bonded layer, a/h 0.05 to 2, beside the layer's integral equation.
+//   contact_benchmark punch: the same of flat punches with their rims.
+//   contact_benchmark friction: a sphere pressed, then moved to and fro; u(Q) and the loop beside Cattaneo and Mindlin.
 // Layers are blocks so wide that their sides are felt by far less than the differences.
 #include "solver/HyperelasticProblem.h"
 #include "solver/SensorMesh.h"
