@@ -28,7 +28,7 @@ struct BatchSolver::State {
   BatchOptions options;
   std::unique_ptr<BatchEngine> engine;
   std::vector<std::optional<AreaSurrogate>> surrogates;
-  std::size_t fullSolves = 0;
+  std::size_t fullSolves = 0, leftToNewton = 0;
   double measuredError = 0;
   std::size_t loadsSeen = 0, checks; ///< in all calls
   int surrogatesChecked = 0;
@@ -179,6 +179,7 @@ std::vector<ElectrodeDisplacements> BatchSolver::answer(std::span<const LoadCase
       ways[i] = Way::FullNewton;
       answers[i] = s.fullNewton(loads[i], i, stop, take);
       if (!answers[i]) return {};
+      ++s.leftToNewton;
     }
   if (!s.check(loads, answers, ways, stop)) return {};
   std::vector<ElectrodeDisplacements> all;
@@ -209,6 +210,10 @@ void BatchSolver::nameLoads(std::vector<std::size_t> numbers) {
 std::size_t BatchSolver::solves() const {
   return (state_->engine ? state_->engine->solves() : 0) + state_->fullSolves;
 }
+std::size_t BatchSolver::leftToNewton() const {
+  return state_->leftToNewton;
+}
+
 double BatchSolver::measuredError() const {
   return state_->measuredError;
 }

@@ -2,6 +2,8 @@
 
 #include "model/base/Parallel.h"
 #include "solver/batch/ProgressRelay.h"
+#include "solver/contact/FrictionContact.h"
+#include "solver/contact/NormalContact.h"
 
 #include <algorithm>
 #include <map>
@@ -12,13 +14,19 @@ namespace palp {
 namespace {
 
 constexpr int predictorDegree = 3;
-constexpr int contactSpan = 4; // iterations over which the contraction of a load with indenters is measured
+constexpr int contactSpan = 4;    // iterations over which the contraction of a load with indenters is measured
+constexpr double partsShare = 10; // of the tolerance, for the parts of a load with friction before its last
 constexpr double predictorFitShare =
     10; // of the tolerance, for the predictors' solves: a correction follows, 20 times better
 
 bool hasFriction(const LoadCase& load) {
   return std::any_of(load.indenters.begin(), load.indenters.end(),
                      [](const Indenter& indenter) { return indenter.friction > 0; });
+}
+
+/// A part of a load with indenters, about which nothing is known.
+void beginContact(LaneWatch& watch, int lane, const LaneContact& contact, double tolerance) {
+  watch.begin(lane, 1, contactSpan, (contact.inLastPart() ? 1 : partsShare) * tolerance);
 }
 
 } // namespace
@@ -204,7 +212,11 @@ void BatchEngine::start(LoadBatch& batch, LaneContacts& contacts, int block, con
     const int lane = block * lanes + static_cast<int>(i);
     contacts[lane].reset();
     if (!jobs[i].load->indenters.empty()) {
-      contacts[lane].emplace(jobs[i].load->indenters, top_);
+      if (hasFriction(*jobs[i].load))
+        contacts[lane] =
+            std::make_unique<FrictionContact>(jobs[i].load->indenters, top_, problem_.mesh(), problem_.design());
+      else
+        contacts[lane] = std::make_unique<NormalContact>(jobs[i].load->indenters, top_);
       batch.mix(lane);
     }
     for (const AreaLoad& area : jobs[i].areas) batch.addForce(lane, {&areaShares_[area.area], area.force_N});
@@ -242,6 +254,19 @@ void BatchEngine::iterate(LoadBatch& batch, LaneContacts& contacts, LaneWatch& w
       stop);
 }
 
+/// Lanes whose loads are taken in parts: on to the next where they have found the one in work.
+void BatchEngine::goOn(LoadBatch& batch, const LaneContacts& contacts, LaneWatch& watch,
+                       const std::array<bool, batchLanes>& wasActive, double tolerance) const {
+  for (int lane = 0; lane < batchLanes; ++lane) {
+    if (!wasActive[lane] || watch.active[lane] || watch.failed[lane] || !contacts[lane]) continue;
+    const LaneContact::Way way = contacts[lane]->settled(batch.displacementsOf(lane, top_->nodes()));
+    if (way == LaneContact::Way::Lost) watch.failed[lane] = true;
+    if (way != LaneContact::Way::GoesOn) continue;
+    batch.goOn(lane);
+    beginContact(watch, lane, *contacts[lane], tolerance);
+  }
+}
+
 /// That of its area's predictor where it says all about the load; 1: nothing is known.
 double BatchEngine::assumedContraction(const Job& job) const {
   const bool predicted =
@@ -261,14 +286,20 @@ void BatchEngine::solveBlocks(double tolerance, const Take& take, const Give& gi
     for (int b = 0; b < LoadBatch::blocks; ++b) {
       if (inWork[b] || !(inWork[b] = take())) continue;
       start(*batch, contacts, b, *inWork[b]);
-      for (std::size_t i = 0; i < inWork[b]->size(); ++i)
-        watch.begin(b * lanes + static_cast<int>(i), assumedContraction((*inWork[b])[i]),
-                    (*inWork[b])[i].load->indenters.empty() ? 1 : contactSpan);
+      for (std::size_t i = 0; i < inWork[b]->size(); ++i) {
+        const int lane = b * lanes + static_cast<int>(i);
+        if (contacts[lane])
+          beginContact(watch, lane, *contacts[lane], tolerance);
+        else
+          watch.begin(lane, assumedContraction((*inWork[b])[i]));
+      }
     }
     if (!watch.anyActive()) break;
     iterate(*batch, contacts, watch, stop);
     if (stop.stop_requested()) break; // the iteration may be unfinished
+    const std::array<bool, batchLanes> wasActive = watch.active;
     watch.judge();
+    goOn(*batch, contacts, watch, wasActive, tolerance);
     for (int b = 0; b < LoadBatch::blocks; ++b) {
       if (!inWork[b] || watch.anyActive(b)) continue;
       std::vector<ElectrodeDisplacements> found = batch->electrodes(b);
@@ -288,7 +319,8 @@ std::vector<BatchEngine::Answer> BatchEngine::solve(std::span<const LoadCase> lo
                                                     const std::stop_token& stop, const BatchSolver::TakeState& state) {
   std::vector<Job> jobs;
   for (std::size_t i = 0; i < loads.size(); ++i)
-    if (!hasFriction(loads[i])) jobs.push_back(job(loads[i], i)); // the others depend on their way
+    if (!hasFriction(loads[i]) || (loads[i].areas.empty() && loads[i].patches.empty())) // the others grow with it
+      jobs.push_back(job(loads[i], i));
   const std::size_t leftOut = loads.size() - jobs.size();
   if (!findCompliance(jobs, stop) || !makePredictors(jobs, stop)) return {};
   const std::vector<Block> blocks = blocksOf(std::move(jobs));

@@ -4,7 +4,8 @@
 #include "solver/batch/ForcePolynomial.h"
 #include "solver/batch/LaneWatch.h"
 #include "solver/batch/LoadBatch.h"
-#include "solver/contact/NormalContact.h"
+#include "solver/contact/LaneContact.h"
+#include "solver/contact/TopCompliance.h"
 
 #include <atomic>
 #include <mutex>
@@ -59,9 +60,11 @@ private:
   [[nodiscard]] std::vector<Block> blocksOf(std::vector<Job> jobs) const;
   template <class Take, class Give>
   void solveBlocks(double tolerance, const Take& take, const Give& give, const std::stop_token& stop);
-  using LaneContacts = std::array<std::optional<NormalContact>, batchLanes>;
+  using LaneContacts = std::array<std::unique_ptr<LaneContact>, batchLanes>;
   void start(LoadBatch& batch, LaneContacts& contacts, int block, const Block& jobs) const;
   void iterate(LoadBatch& batch, LaneContacts& contacts, LaneWatch& watch, const std::stop_token& stop) const;
+  void goOn(LoadBatch& batch, const LaneContacts& contacts, LaneWatch& watch,
+            const std::array<bool, batchLanes>& wasActive, double tolerance) const;
   [[nodiscard]] double assumedContraction(const Job& job) const;
   [[nodiscard]] std::unique_ptr<LoadBatch> borrowBatch();
   void giveBack(std::unique_ptr<LoadBatch> batch);

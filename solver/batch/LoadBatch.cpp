@@ -212,6 +212,15 @@ Eigen::Matrix3Xd LoadBatch::displacementsOf(int lane) const {
       .reshaped(3, model_.mesh().nodes());
 }
 
+Eigen::Matrix3Xd LoadBatch::displacementsOf(int lane, std::span<const int> nodes) const {
+  Eigen::Matrix3Xd u(3, static_cast<Eigen::Index>(nodes.size()));
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    for (int d = 0; d < 3; ++d)
+      u(d, static_cast<Eigen::Index>(n)) =
+          u_[(3 * std::size_t(nodes[n]) + std::size_t(d)) * batchLanes + std::size_t(lane)];
+  return u;
+}
+
 Eigen::MatrixXd LoadBatch::unknownsOf(int lane) const {
   Eigen::MatrixXd x(model_.mesh().unknowns(), model_.mesh().elements());
   for (int e = 0; e < model_.mesh().elements(); ++e)

@@ -50,6 +50,8 @@ public:
   void addForce(int lane, const LaneForce& force) { forces_[lane].push_back(force); }
   /// A lane whose forces answer to the motion: its steps are mixed (LaneMixing.h).
   void mix(int lane);
+  /// Such a lane goes on from where it is, to another load.
+  void goOn(int lane) { mixing_->restart(lane); }
   /// Forces that answer to the motion, on nodes; in place of those given before.
   void setNodeForces(int lane, std::vector<NodeForce> forces) { nodeForces_[lane] = std::move(forces); }
   /// Adds polynomials' values to the displacements [3 nodes][terms] and the elements' unknowns
@@ -71,7 +73,8 @@ public:
 
   /// What the electrodes of a block's lanes feel.
   [[nodiscard]] std::vector<ElectrodeDisplacements> electrodes(int block) const;
-  [[nodiscard]] Eigen::Matrix3Xd displacementsOf(int lane) const;      ///< 3 x nodes
+  [[nodiscard]] Eigen::Matrix3Xd displacementsOf(int lane) const; ///< 3 x nodes
+  [[nodiscard]] Eigen::Matrix3Xd displacementsOf(int lane, std::span<const int> nodes) const;
   [[nodiscard]] Eigen::MatrixXd unknownsOf(int lane) const;            ///< of a block that has caught up, x elements
   [[nodiscard]] const LaneVector& displacements() const { return u_; } ///< [3 nodes][32]
   /// The elements' unknowns of a block follow its last iteration: most have no reader before the next, and none at all

@@ -17,8 +17,7 @@ namespace {
 
 constexpr std::size_t kBlock = 192;       // samples solved before they are handed out: about a second of work
 constexpr std::size_t kFieldBlock = 64;   // the same where each has a conduction field of its own
-constexpr std::size_t kFrictionBlock = 8; // the same with friction, where each takes seconds
-constexpr std::size_t kBlocksOfParts = 2; // as many where each mesh solves its part of them
+constexpr std::size_t kBlocksOfParts = 2; // as many where each mesh solves its part of them, frictionless
 constexpr std::size_t kSurrogateBlock = 8192;
 constexpr int kMostPerArea = 10'000'000;
 
@@ -176,6 +175,12 @@ std::size_t SampleGenerator::solves() const {
   return all;
 }
 
+std::size_t SampleGenerator::leftToNewton() const {
+  std::size_t all = 0;
+  for (const Part& part : parts_) all += part.solver ? part.solver->leftToNewton() : 0;
+  return all;
+}
+
 std::size_t SampleGenerator::partOf(const LoadCase& load) const {
   if (parts_.size() == 1) return 0;
   const Eigen::Vector2d from_mm = load.indenters.front().place_mm - request_.touches->low_mm;
@@ -188,8 +193,8 @@ std::size_t SampleGenerator::partOf(const LoadCase& load) const {
 
 std::size_t SampleGenerator::samplesABlock() const {
   if (request_.surrogate) return kSurrogateBlock;
-  if (request_.touches && request_.touches->mostFriction > 0) return kFrictionBlock;
-  return (design_.field() ? kFieldBlock : kBlock) * (parts_.size() > 1 ? kBlocksOfParts : 1);
+  return (design_.field() ? kFieldBlock : kBlock) *
+         (parts_.size() > 1 && request_.touches->mostFriction == 0 ? kBlocksOfParts : 1);
 }
 
 const SampleOrigin& SampleGenerator::origin() {

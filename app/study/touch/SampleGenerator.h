@@ -69,6 +69,8 @@ public:
 
   [[nodiscard]] const StageLog& stages() const { return stages_; }
   [[nodiscard]] std::size_t solves() const;
+  /// Samples so far that full Newton's method had to find.
+  [[nodiscard]] std::size_t leftToNewton() const;
   /// Largest relative error of the electrode displacements on the share that was solved again by full Newton; that of
   /// the surrogates' d ln R under the law of the field where it is larger.
   [[nodiscard]] double measuredError() const;

@@ -1,0 +1,98 @@
+#include "solver/contact/FrictionContact.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palp {
+
+FrictionContact::FrictionContact(std::vector<Indenter> indenters, std::shared_ptr<const TopCompliance> top,
+                                 const Mesh& mesh, const SensorDesign& design)
+    : indenters_(std::move(indenters)), top_(std::move(top)), expected_(contactEstimates(indenters_, design)),
+      steps_(static_cast<int>(std::lround(1 / largestContactStep(indenters_, true)))) {
+  tips_mm_.resize(3, static_cast<Eigen::Index>(indenters_.size()));
+  for (std::size_t k = 0; k < indenters_.size(); ++k)
+    tips_mm_.col(static_cast<Eigen::Index>(k)) = tipAtRest_mm(indenters_[k], mesh);
+  choosePoints(mesh, design);
+  contact_.emplace(indenters_, points_, tips_mm_);
+  state_ = untouched(points_.size(), indenters_.size());
+  contact_->startStep(positions(Eigen::Matrix3Xd::Zero(3, top_->count())), state_);
+  beginStep();
+  const std::vector<ContactEstimate> first = contactEstimates(partsAt(1. / steps_), design);
+  for (std::size_t k = 0; k < first.size(); ++k)
+    state_.translations_mm.col(static_cast<Eigen::Index>(k)).z() = -first[k].depth_mm;
+}
+
+void FrictionContact::choosePoints(const Mesh& mesh, const SensorDesign& design) {
+  LoadCase load;
+  load.indenters = indenters_;
+  for (const ContactPoint& point : touchablePoints(mesh, design, {load}, touchableMargin)) {
+    const auto at = std::lower_bound(top_->nodes().begin(), top_->nodes().end(), point.node);
+    if (at == top_->nodes().end() || *at != point.node) continue; // beyond the border of the compliance
+    points_.push_back(point);
+    numbers_.push_back(static_cast<int>(at - top_->nodes().begin()));
+  }
+  const auto count = static_cast<Eigen::Index>(points_.size());
+  compliance_.resize(3 * count, 3 * count);
+  for (Eigen::Index j = 0; j < count; ++j)
+    for (Eigen::Index i = 0; i < count; ++i)
+      compliance_.block<3, 3>(3 * i, 3 * j) = top_->block(numbers_[std::size_t(i)], numbers_[std::size_t(j)]);
+}
+
+std::vector<Indenter> FrictionContact::partsAt(double fraction) const {
+  std::vector<Indenter> parts;
+  for (const Indenter& indenter : indenters_) parts.push_back(indenter.at(fraction));
+  return parts;
+}
+
+void FrictionContact::beginStep() {
+  start_ = state_;
+  targets_ = contactTargets(partsAt(double(step_) / steps_), expected_);
+}
+
+Eigen::Matrix3Xd FrictionContact::positions(const Eigen::Matrix3Xd& motion_mm) const {
+  Eigen::Matrix3Xd x(3, static_cast<Eigen::Index>(numbers_.size()));
+  for (std::size_t i = 0; i < numbers_.size(); ++i)
+    x.col(static_cast<Eigen::Index>(i)) = top_->places_mm().col(numbers_[i]) + motion_mm.col(numbers_[i]);
+  return x;
+}
+
+/// Points that the compliance does not know are found by the border that they lie beyond.
+bool FrictionContact::solve(const Eigen::Matrix3Xd& motion_mm) {
+  if (points_.empty() || !contact_->solve(compliance_, positions(motion_mm), targets_, state_, {})) return false;
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    if (state_.grips[i] != Grip::Free && top_->atBorder(numbers_[i])) return false;
+  return true;
+}
+
+std::vector<NodeForce> FrictionContact::forces() const {
+  std::vector<NodeForce> all;
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    if (const Eigen::Vector3d force_N = state_.forces_N.col(static_cast<Eigen::Index>(i)); !force_N.isZero(0))
+      all.push_back({points_[i].node, force_N});
+  return all;
+}
+
+bool FrictionContact::reachesBeyond(const Eigen::Matrix3Xd& motion_mm) const {
+  for (int i = 0; i < top_->count(); ++i) {
+    if (std::binary_search(numbers_.begin(), numbers_.end(), i)) continue;
+    const Eigen::Vector3d place_mm = top_->places_mm().col(i) + motion_mm.col(i);
+    for (std::size_t k = 0; k < indenters_.size(); ++k) {
+      const auto column = static_cast<Eigen::Index>(k);
+      if (distance(indenters_[k], place_mm - tips_mm_.col(column) - state_.translations_mm.col(column)).gap_mm <
+          -beyondReach_mm)
+        return true;
+    }
+  }
+  return false;
+}
+
+LaneContact::Way FrictionContact::settled(const Eigen::Matrix3Xd& motion_mm) {
+  if (slidAway(indenters_, expected_, start_, state_)) return Way::Lost;
+  if (step_ == steps_) return reachesBeyond(motion_mm) ? Way::Lost : Way::Arrived;
+  contact_->startStep(positions(motion_mm), state_);
+  ++step_;
+  beginStep();
+  return Way::GoesOn;
+}
+
+} // namespace palp
