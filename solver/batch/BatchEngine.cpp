@@ -14,19 +14,13 @@ namespace palp {
 namespace {
 
 constexpr int predictorDegree = 3;
-constexpr int contactSpan = 4;    // iterations over which the contraction of a load with indenters is measured
-constexpr double partsShare = 10; // of the tolerance, for the parts of a load with friction before its last
+constexpr int contactSpan = 4; // iterations over which the contraction of a load with indenters is measured
 constexpr double predictorFitShare =
     10; // of the tolerance, for the predictors' solves: a correction follows, 20 times better
 
 bool hasFriction(const LoadCase& load) {
   return std::any_of(load.indenters.begin(), load.indenters.end(),
                      [](const Indenter& indenter) { return indenter.friction > 0; });
-}
-
-/// A part of a load with indenters, about which nothing is known.
-void beginContact(LaneWatch& watch, int lane, const LaneContact& contact, double tolerance) {
-  watch.begin(lane, 1, contactSpan, (contact.inLastPart() ? 1 : partsShare) * tolerance);
 }
 
 } // namespace
@@ -256,14 +250,14 @@ void BatchEngine::iterate(LoadBatch& batch, LaneContacts& contacts, LaneWatch& w
 
 /// Lanes whose loads are taken in parts: on to the next where they have found the one in work.
 void BatchEngine::goOn(LoadBatch& batch, const LaneContacts& contacts, LaneWatch& watch,
-                       const std::array<bool, batchLanes>& wasActive, double tolerance) const {
+                       const std::array<bool, batchLanes>& wasActive) const {
   for (int lane = 0; lane < batchLanes; ++lane) {
     if (!wasActive[lane] || watch.active[lane] || watch.failed[lane] || !contacts[lane]) continue;
     const LaneContact::Way way = contacts[lane]->settled(batch.displacementsOf(lane, top_->nodes()));
     if (way == LaneContact::Way::Lost) watch.failed[lane] = true;
     if (way != LaneContact::Way::GoesOn) continue;
     batch.goOn(lane);
-    beginContact(watch, lane, *contacts[lane], tolerance);
+    watch.begin(lane, 1, contactSpan); // nothing is known of it
   }
 }
 
@@ -289,7 +283,7 @@ void BatchEngine::solveBlocks(double tolerance, const Take& take, const Give& gi
       for (std::size_t i = 0; i < inWork[b]->size(); ++i) {
         const int lane = b * lanes + static_cast<int>(i);
         if (contacts[lane])
-          beginContact(watch, lane, *contacts[lane], tolerance);
+          watch.begin(lane, 1, contactSpan); // nothing is known of it
         else
           watch.begin(lane, assumedContraction((*inWork[b])[i]));
       }
@@ -299,7 +293,7 @@ void BatchEngine::solveBlocks(double tolerance, const Take& take, const Give& gi
     if (stop.stop_requested()) break; // the iteration may be unfinished
     const std::array<bool, batchLanes> wasActive = watch.active;
     watch.judge();
-    goOn(*batch, contacts, watch, wasActive, tolerance);
+    goOn(*batch, contacts, watch, wasActive);
     for (int b = 0; b < LoadBatch::blocks; ++b) {
       if (!inWork[b] || watch.anyActive(b)) continue;
       std::vector<ElectrodeDisplacements> found = batch->electrodes(b);

@@ -64,7 +64,7 @@ private:
   void start(LoadBatch& batch, LaneContacts& contacts, int block, const Block& jobs) const;
   void iterate(LoadBatch& batch, LaneContacts& contacts, LaneWatch& watch, const std::stop_token& stop) const;
   void goOn(LoadBatch& batch, const LaneContacts& contacts, LaneWatch& watch,
-            const std::array<bool, batchLanes>& wasActive, double tolerance) const;
+            const std::array<bool, batchLanes>& wasActive) const;
   [[nodiscard]] double assumedContraction(const Job& job) const;
   [[nodiscard]] std::unique_ptr<LoadBatch> borrowBatch();
   void giveBack(std::unique_ptr<LoadBatch> batch);

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <vector>
 
 namespace palp {
@@ -26,9 +25,7 @@ public:
 
   /// A lane begins with the contraction that is assumed until it can be measured. Where nodes come into contact and
   /// leave it the changes fall unevenly: `span` is the number of iterations over which the contraction is measured.
-  /// `tolerance`: another than that of all.
-  void begin(int lane, double assumedContraction, int span = 1, std::optional<double> tolerance = {}) {
-    tolerances_[lane] = tolerance.value_or(tolerance_);
+  void begin(int lane, double assumedContraction, int span = 1) {
     active[lane] = true;
     failed[lane] = false;
     contraction_[lane] = assumedContraction;
@@ -59,7 +56,7 @@ public:
         failed[lane] = true;
         active[lane] = false;
       } else if (c == 0 ||
-                 (contraction_[lane] < 1 && c * contraction_[lane] / (1 - contraction_[lane]) <= tolerances_[lane])) {
+                 (contraction_[lane] < 1 && c * contraction_[lane] / (1 - contraction_[lane]) <= tolerance_)) {
         active[lane] = false;
       }
     }
@@ -67,7 +64,6 @@ public:
 
 private:
   double tolerance_;
-  std::array<double, batchLanes> tolerances_{};
   std::array<int, batchLanes> span_{};
   std::array<double, batchLanes> contraction_{};
   std::array<std::vector<double>, batchLanes> changes_; ///< of each iteration

@@ -20,7 +20,6 @@ public:
 
   [[nodiscard]] bool solve(const Eigen::Matrix3Xd& motion_mm) override;
   [[nodiscard]] std::vector<NodeForce> forces() const override;
-  [[nodiscard]] bool inLastPart() const override { return step_ == steps_; }
   [[nodiscard]] Way settled(const Eigen::Matrix3Xd& motion_mm) override;
 
 private:

@@ -25,7 +25,6 @@ public:
 
   /// A load may be taken in parts, one after another. `settled` says whether it is there, now that the iteration of a
   /// part has ended with this motion of the nodes, goes on to the next part, or is to be found in another way.
-  [[nodiscard]] virtual bool inLastPart() const = 0;
   enum class Way { Arrived, GoesOn, Lost };
   [[nodiscard]] virtual Way settled(const Eigen::Matrix3Xd& motion_mm) = 0;
 };

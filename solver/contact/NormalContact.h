@@ -27,7 +27,6 @@ public:
 
   [[nodiscard]] bool solve(const Eigen::Matrix3Xd& motion_mm) override;
   [[nodiscard]] std::vector<NodeForce> forces() const override;
-  [[nodiscard]] bool inLastPart() const override { return true; }
   [[nodiscard]] Way settled(const Eigen::Matrix3Xd&) override { return Way::Arrived; }
 
 private:
