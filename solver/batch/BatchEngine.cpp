@@ -255,9 +255,9 @@ void BatchEngine::goOn(LoadBatch& batch, const LaneContacts& contacts, LaneWatch
     if (!wasActive[lane] || watch.active[lane] || watch.failed[lane] || !contacts[lane]) continue;
     const LaneContact::Way way = contacts[lane]->settled(batch.displacementsOf(lane, top_->nodes()));
     if (way == LaneContact::Way::Lost) watch.failed[lane] = true;
-    if (way != LaneContact::Way::GoesOn) continue;
-    batch.goOn(lane);
-    watch.begin(lane, 1, contactSpan); // nothing is known of it
+    if (way == LaneContact::Way::GoesOn) batch.goOn(lane, contacts[lane]->straightOn());
+    if (way == LaneContact::Way::GoesOn || way == LaneContact::Way::StaysHere)
+      watch.begin(lane, 1, contactSpan); // nothing is known of it
   }
 }
 

@@ -43,6 +43,7 @@ void LoadBatch::reset(int block) {
   for (int lane = block * lanes; lane < (block + 1) * lanes; ++lane) {
     forces_[lane].clear();
     nodeForces_[lane].clear();
+    starts_[lane] = Start::Under;
     if (mixing_) mixing_->begin(lane, false);
   }
   atRest_[block] = true;
@@ -54,8 +55,42 @@ void LoadBatch::mix(int lane) {
     mixing_ = std::make_unique<LaneMixing>(3 * std::size_t(model_.mesh().nodes()),
                                            std::size_t(model_.mesh().elements()) * model_.mesh().unknowns());
     steps_.resize(u_.size());
+    uBefore_.resize(u_.size());
+    xBefore_.resize(x_.size());
   }
   mixing_->begin(lane, true);
+  starts_[lane] = Start::Here; // at rest
+}
+
+void LoadBatch::goOn(int lane, bool straight) {
+  mixing_->restart(lane);
+  starts_[lane] = straight ? Start::Ahead : Start::Here;
+}
+
+/// Lanes that begin another load: their displacements, and the unknowns that are up to date.
+void LoadBatch::startAnew() {
+  for (int lane = 0; lane < batchLanes; ++lane)
+    for (std::size_t i = lane; starts_[lane] != Start::Under && i < u_.size(); i += batchLanes) {
+      const double moved = starts_[lane] == Start::Ahead ? u_[i] - uBefore_[i] : 0;
+      uBefore_[i] = static_cast<float>(u_[i]);
+      u_[i] += moved;
+    }
+  for (int e = 0; e < model_.mesh().elements(); ++e)
+    if (probed_[e])
+      for (int b = 0; b < blocks; ++b) startAnew(e, b);
+}
+
+void LoadBatch::startAnew(int element, int block) {
+  const std::size_t own = ownStart(element, block);
+  for (int lane = 0; lane < lanes; ++lane) {
+    const Start start = starts_[block * lanes + lane];
+    if (start == Start::Under) continue;
+    for (std::size_t i = own + lane; i < own + model_.mesh().unknowns() * lanes; i += lanes) {
+      const double moved = start == Start::Ahead ? x_[i] - xBefore_[i] : 0;
+      xBefore_[i] = static_cast<float>(x_[i]);
+      x_[i] += moved;
+    }
+  }
 }
 
 void LoadBatch::addPolynomials(int block, const std::vector<double>& displacements, const std::vector<double>& unknowns,
@@ -81,6 +116,8 @@ void LoadBatch::evaluateResiduals(const std::array<bool, blocks>& live, const st
         for (int d = 0; d < 3; ++d) r_[(3 * std::size_t(node) + d) * batchLanes + lane] += share * force_N(d);
   for (int lane = 0; lane < batchLanes; ++lane) addNodeForces(lane, 1);
   smallestJ_.fill(1);
+  std::array<bool, blocks> anew{};
+  for (int lane = 0; lane < batchLanes; ++lane) anew[lane / lanes] = anew[lane / lanes] || starts_[lane] != Start::Under;
   alignas(64) ElementLanes u, f;
   alignas(64) std::array<std::array<double, 2 * lanes>, blocks> range;
   for (auto& r : range) r.fill(1);
@@ -96,6 +133,7 @@ void LoadBatch::evaluateResiduals(const std::array<bool, blocks>& live, const st
         continue;
       }
       if (behind_[b] && !probed_[e]) updateUnknowns(e, b);
+      if (anew[b] && !probed_[e]) startAnew(e, b);
       laneKernels().gather(u_.data() + b * lanes, nodes, kernels.nodes, u.data());
       kernels.residualOfLoads(model_.rubber(), {model_.geometry(e), u.data(), x_.data() + own},
                               {f.data(), local_.data() + own, range[b].data()});
@@ -105,6 +143,7 @@ void LoadBatch::evaluateResiduals(const std::array<bool, blocks>& live, const st
   }
   for (int lane = 0; lane < batchLanes; ++lane) smallestJ_[lane] = range[lane / lanes][lane % lanes];
   for (int b = 0; b < blocks; ++b) {
+    if (anew[b]) std::fill_n(starts_.begin() + b * lanes, lanes, Start::Under);
     atRest_[b] = atRest_[b] && !live[b];
     behind_[b] = behind_[b] && !live[b];
   }
@@ -280,6 +319,7 @@ void LoadBatch::iterate(const std::array<bool, batchLanes>& active, std::array<d
   for (int lane = 0; lane < batchLanes; ++lane) live[lane / lanes] = live[lane / lanes] || active[lane];
   for (int b = 0; b < blocks; ++b)
     if (!live[b]) catchUp(b); // before other directions take the place of its own
+  startAnew();
   const LaneVector before = displacementsAt(upper_);
   evaluateResiduals(live, stop);
   substitute(active, stop);

@@ -50,8 +50,9 @@ public:
   void addForce(int lane, const LaneForce& force) { forces_[lane].push_back(force); }
   /// A lane whose forces answer to the motion: its steps are mixed (LaneMixing.h).
   void mix(int lane);
-  /// Such a lane goes on from where it is, to another load.
-  void goOn(int lane) { mixing_->restart(lane); }
+  /// Such a lane goes on from where it is to another load. `straight`: which is as much further again in the same
+  /// direction, so that it starts as far from here as here is from where the load before began.
+  void goOn(int lane, bool straight);
   /// Forces that answer to the motion, on nodes; in place of those given before.
   void setNodeForces(int lane, std::vector<NodeForce> forces) { nodeForces_[lane] = std::move(forces); }
   /// Adds polynomials' values to the displacements [3 nodes][terms] and the elements' unknowns
@@ -90,6 +91,8 @@ private:
   void substitute(const std::array<bool, batchLanes>& active, const std::stop_token& stop);
   void answerMotion(const std::array<bool, batchLanes>& active, std::span<const int> nodes, const Answer& answer);
   void addNodeForces(int lane, double sign);
+  void startAnew();
+  void startAnew(int element, int block);
   void moveAlongDirections(const std::array<bool, batchLanes>& active);
   void updateUnknowns(int element, int block);
   [[nodiscard]] LaneVector displacementsAt(const PointProbe& probe) const; ///< [3 points][32]
@@ -110,6 +113,9 @@ private:
   LaneVector x_, local_;               ///< [elements][blocks][unknowns][8]
   std::unique_ptr<LaneMixing> mixing_; ///< of the lanes that ask for it
   LaneVector steps_;                   ///< [3 nodes][32], where lanes are mixed
+  std::vector<float> uBefore_, xBefore_; ///< of such lanes, where their load in work began; as u_ and x_
+  enum class Start { Under, Here, Ahead }; ///< of a load: has begun, begins where the lane is, or further on
+  std::array<Start, batchLanes> starts_{};
   std::vector<float> solution_;        ///< [rows of the factor + 1][32]; directions over scale_ after the substitutions
   std::vector<char> probed_;           ///< elements that an electrode looks at: their unknowns are always up to date
   std::array<bool, blocks> atRest_{}, behind_{};

@@ -13,8 +13,6 @@ namespace palp {
 
 namespace {
 
-constexpr double widerMargin = 1.6; // times the one before, where others were met
-constexpr int mostMargins = 5;
 constexpr double stepGrowth = 2;
 constexpr double hopeless = 1e8;
 constexpr int halvings = 2;      // of one iteration's way, where elements turn inside out

@@ -11,6 +11,8 @@ namespace palp {
 /// How a load with indenters is taken: in parts where there is friction, which depends on the way. ContactSolver and
 /// the batch go the same way, so that they find the same.
 inline constexpr double touchableMargin = 1.3; ///< of the expected depth, for the points that may be touched
+inline constexpr double widerMargin = 1.6;     ///< times the one before, where others were met
+inline constexpr int mostMargins = 5;
 inline constexpr double beyondReach_mm = 1e-6; ///< deeper than this a point that was not foreseen is touched
 
 /// Largest part of the load in one step. `fromRest`: the first of a path, which may go down first and then aside.

@@ -7,25 +7,26 @@ namespace palp {
 
 FrictionContact::FrictionContact(std::vector<Indenter> indenters, std::shared_ptr<const TopCompliance> top,
                                  const Mesh& mesh, const SensorDesign& design)
-    : indenters_(std::move(indenters)), top_(std::move(top)), expected_(contactEstimates(indenters_, design)),
+    : indenters_(std::move(indenters)), top_(std::move(top)), mesh_(mesh), design_(design),
+      expected_(contactEstimates(indenters_, design)),
       steps_(static_cast<int>(std::lround(1 / largestContactStep(indenters_, true)))) {
   tips_mm_.resize(3, static_cast<Eigen::Index>(indenters_.size()));
   for (std::size_t k = 0; k < indenters_.size(); ++k)
     tips_mm_.col(static_cast<Eigen::Index>(k)) = tipAtRest_mm(indenters_[k], mesh);
-  choosePoints(mesh, design);
-  contact_.emplace(indenters_, points_, tips_mm_);
+  choosePoints(margin_);
   state_ = untouched(points_.size(), indenters_.size());
-  contact_->startStep(positions(Eigen::Matrix3Xd::Zero(3, top_->count())), state_);
-  beginStep();
+  beginStep(Eigen::Matrix3Xd::Zero(3, top_->count()));
   const std::vector<ContactEstimate> first = contactEstimates(partsAt(1. / steps_), design);
   for (std::size_t k = 0; k < first.size(); ++k)
     state_.translations_mm.col(static_cast<Eigen::Index>(k)).z() = -first[k].depth_mm;
 }
 
-void FrictionContact::choosePoints(const Mesh& mesh, const SensorDesign& design) {
+void FrictionContact::choosePoints(double margin) {
   LoadCase load;
   load.indenters = indenters_;
-  for (const ContactPoint& point : touchablePoints(mesh, design, {load}, touchableMargin)) {
+  points_.clear();
+  numbers_.clear();
+  for (const ContactPoint& point : touchablePoints(mesh_, design_, {load}, margin)) {
     const auto at = std::lower_bound(top_->nodes().begin(), top_->nodes().end(), point.node);
     if (at == top_->nodes().end() || *at != point.node) continue; // beyond the border of the compliance
     points_.push_back(point);
@@ -36,6 +37,7 @@ void FrictionContact::choosePoints(const Mesh& mesh, const SensorDesign& design)
   for (Eigen::Index j = 0; j < count; ++j)
     for (Eigen::Index i = 0; i < count; ++i)
       compliance_.block<3, 3>(3 * i, 3 * j) = top_->block(numbers_[std::size_t(i)], numbers_[std::size_t(j)]);
+  contact_.emplace(indenters_, points_, tips_mm_);
 }
 
 std::vector<Indenter> FrictionContact::partsAt(double fraction) const {
@@ -44,9 +46,32 @@ std::vector<Indenter> FrictionContact::partsAt(double fraction) const {
   return parts;
 }
 
-void FrictionContact::beginStep() {
+void FrictionContact::beginStep(const Eigen::Matrix3Xd& motion_mm) {
+  startMotion_mm_ = motion_mm;
   start_ = state_;
+  contact_->startStep(positions(motion_mm), start_);
   targets_ = contactTargets(partsAt(double(step_) / steps_), expected_);
+}
+
+/// More points, for the step in work as well: those that are known already keep what they bear.
+void FrictionContact::widen() {
+  const std::vector<ContactPoint> known = points_;
+  const ContactState before = start_, now = state_;
+  choosePoints(margin_ *= widerMargin);
+  const auto grown = [&](const ContactState& small) {
+    ContactState large = untouched(points_.size(), indenters_.size());
+    large.translations_mm = small.translations_mm;
+    for (std::size_t i = 0, k = 0; i < points_.size(); ++i) { // both in the order of the nodes
+      while (k < known.size() && known[k].node < points_[i].node) ++k;
+      if (k == known.size() || known[k].node != points_[i].node) continue;
+      large.forces_N.col(static_cast<Eigen::Index>(i)) = small.forces_N.col(static_cast<Eigen::Index>(k));
+      large.grips[i] = small.grips[k];
+    }
+    return large;
+  };
+  start_ = grown(before);
+  state_ = grown(now);
+  contact_->startStep(positions(startMotion_mm_), start_);
 }
 
 Eigen::Matrix3Xd FrictionContact::positions(const Eigen::Matrix3Xd& motion_mm) const {
@@ -88,11 +113,21 @@ bool FrictionContact::reachesBeyond(const Eigen::Matrix3Xd& motion_mm) const {
 
 LaneContact::Way FrictionContact::settled(const Eigen::Matrix3Xd& motion_mm) {
   if (slidAway(indenters_, expected_, start_, state_)) return Way::Lost;
-  if (step_ == steps_) return reachesBeyond(motion_mm) ? Way::Lost : Way::Arrived;
-  contact_->startStep(positions(motion_mm), state_);
+  if (reachesBeyond(motion_mm)) {
+    if (++widened_ == mostMargins) return Way::Lost;
+    widen();
+    return Way::StaysHere;
+  }
+  if (inLastPart()) return Way::Arrived;
   ++step_;
-  beginStep();
+  beginStep(motion_mm);
   return Way::GoesOn;
+}
+
+/// Not where some go aside from now on.
+bool FrictionContact::straightOn() const {
+  return 2 * (step_ - 1) != steps_ || std::none_of(indenters_.begin(), indenters_.end(),
+                                                   [](const Indenter& indenter) { return indenter.hasTwoParts(); });
 }
 
 } // namespace palp

@@ -21,16 +21,21 @@ public:
   [[nodiscard]] bool solve(const Eigen::Matrix3Xd& motion_mm) override;
   [[nodiscard]] std::vector<NodeForce> forces() const override;
   [[nodiscard]] Way settled(const Eigen::Matrix3Xd& motion_mm) override;
+  [[nodiscard]] bool inLastPart() const override { return step_ == steps_; }
+  [[nodiscard]] bool straightOn() const override;
 
 private:
-  void choosePoints(const Mesh& mesh, const SensorDesign& design);
-  void beginStep();
+  void choosePoints(double margin);
+  void beginStep(const Eigen::Matrix3Xd& motion_mm);
+  void widen();
   [[nodiscard]] std::vector<Indenter> partsAt(double fraction) const;
   [[nodiscard]] Eigen::Matrix3Xd positions(const Eigen::Matrix3Xd& motion_mm) const;
   [[nodiscard]] bool reachesBeyond(const Eigen::Matrix3Xd& motion_mm) const;
 
   std::vector<Indenter> indenters_;
   std::shared_ptr<const TopCompliance> top_;
+  const Mesh& mesh_;
+  const SensorDesign& design_;
   std::vector<ContactPoint> points_; ///< that may be touched
   std::vector<int> numbers_;         ///< of the points' nodes in the compliance
   Eigen::Matrix3Xd tips_mm_;
@@ -39,7 +44,10 @@ private:
   std::optional<ReducedContact> contact_;
   std::vector<ContactTarget> targets_; ///< of the step in work
   int step_ = 1, steps_ = 1;
-  ContactState start_, state_; ///< at the start of the step, and now
+  int widened_ = 0; ///< times that there were more points than had been foreseen
+  double margin_ = touchableMargin;
+  Eigen::Matrix3Xd startMotion_mm_; ///< of all nodes of the compliance, at the start of the step
+  ContactState start_, state_;      ///< at the start of the step, and now
 };
 
 } // namespace palp

@@ -24,9 +24,13 @@ public:
   [[nodiscard]] virtual std::vector<NodeForce> forces() const = 0;
 
   /// A load may be taken in parts, one after another. `settled` says whether it is there, now that the iteration of a
-  /// part has ended with this motion of the nodes, goes on to the next part, or is to be found in another way.
-  enum class Way { Arrived, GoesOn, Lost };
+  /// part has ended with this motion of the nodes, goes on to the next part, stays at this one as more nodes touch than
+  /// were known, or is to be found in another way.
+  enum class Way { Arrived, GoesOn, StaysHere, Lost };
   [[nodiscard]] virtual Way settled(const Eigen::Matrix3Xd& motion_mm) = 0;
+  /// Of the part in work: none follows it; it leads as far again, and in the same direction, as the one before.
+  [[nodiscard]] virtual bool inLastPart() const { return true; }
+  [[nodiscard]] virtual bool straightOn() const { return false; }
 };
 
 } // namespace palp
