@@ -1,7 +1,7 @@
 #include "solver/batch/BatchEngine.h"
 
 #include "model/base/Parallel.h"
-#include "solver/batch/ProgressRelay.h"
+#include "model/base/ProgressRelay.h"
 #include "solver/contact/FrictionContact.h"
 #include "solver/contact/NormalContact.h"
 

@@ -4,12 +4,16 @@
 #include "model/DesignError.h"
 #include "model/base/Cancelled.h"
 #include "model/base/CounterRandom.h"
+#include "model/base/Parallel.h"
+#include "model/base/ProgressRelay.h"
 #include "model/base/Text.h"
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 namespace palp {
 
@@ -17,7 +21,7 @@ namespace {
 
 constexpr std::size_t kBlock = 192;       // samples solved before they are handed out: about a second of work
 constexpr std::size_t kFieldBlock = 64;   // the same where each has a conduction field of its own
-constexpr std::size_t kBlocksOfParts = 2; // as many where each mesh solves its part of them, frictionless
+constexpr std::size_t kBlocksOfParts = 2; // as many where each mesh solves its part of them
 constexpr std::size_t kSurrogateBlock = 8192;
 constexpr int kMostPerArea = 10'000'000;
 
@@ -92,22 +96,27 @@ LoadCase SampleGenerator::load(std::size_t i) const {
   return load;
 }
 
-bool SampleGenerator::prepare(Part& part, const std::stop_token& stop) {
+/// Parts are solved side by side and share the threads.
+int SampleGenerator::partsAtOnce() const {
+  return std::min(threadCount(request_.threads), static_cast<int>(parts_.size()));
+}
+
+bool SampleGenerator::prepare(Part& part, bool checked, const std::stop_token& stop) {
   if (part.solver) return true;
   MeshOptions options = request_.mesh;
-  BatchOptions batch{request_.relativeTolerance, request_.surrogate, request_.threads};
+  BatchOptions batch{request_.relativeTolerance, request_.surrogate, threadCount(request_.threads) / partsAtOnce()};
+  batch.checkFirst = checked;
   if (part.touches) {
     options = meshForPart(design_, *part.touches, options);
     if (parts_.size() > 1) batch.touched = touchedByTouches(design_, *part.touches, options);
-    batch.checkFirst = std::none_of(parts_.begin(), parts_.end(), [](const Part& p) { return p.solver != nullptr; });
   }
   Mesh mesh;
   try {
-    mesh = stages_.measure("mesh", [&] { return sensorMesh(design_, options, stop); });
+    mesh = part.stages.measure("mesh", [&] { return sensorMesh(design_, options, stop); });
   } catch (const Cancelled&) {
     return false;
   }
-  stages_.measure("factorise", [&] {
+  part.stages.measure("factorise", [&] {
     part.problem = std::make_unique<HyperelasticProblem>(design_, std::move(mesh));
     part.solver = std::make_unique<BatchSolver>(*part.problem, batch);
     if (design_.field()) part.field = std::make_unique<ConductionBatch>(*part.problem, *part.solver, batch);
@@ -134,7 +143,8 @@ bool SampleGenerator::prepare(const std::stop_token& stop) {
     return !stop.stop_requested();
   }
   Part& part = parts_.front();
-  if (!prepare(part, stop)) return false;
+  if (!prepare(part, true, stop)) return false;
+  stages_.add(std::exchange(part.stages, {}));
   origin_.mesh = part.problem->elementType() + ", " + std::to_string(part.problem->mesh().elementCount()) +
                  " elements, " + std::to_string(part.problem->mesh().nodeCount()) + " nodes";
   // All loads together are more than the surrogates of single areas can answer.
@@ -193,8 +203,7 @@ std::size_t SampleGenerator::partOf(const LoadCase& load) const {
 
 std::size_t SampleGenerator::samplesABlock() const {
   if (request_.surrogate) return kSurrogateBlock;
-  return (design_.field() ? kFieldBlock : kBlock) *
-         (parts_.size() > 1 && request_.touches->mostFriction == 0 ? kBlocksOfParts : 1);
+  return (design_.field() ? kFieldBlock : kBlock) * (parts_.size() > 1 ? kBlocksOfParts : 1);
 }
 
 const SampleOrigin& SampleGenerator::origin() {
@@ -239,29 +248,43 @@ ConductionBatch::Answers SampleGenerator::answers(const SampleRange& part,
   for (std::size_t i = 0; i < loads.size(); ++i) ofParts[partOf(loads[i])].push_back(i);
   ConductionBatch::Answers all{std::vector<ElectrodeDisplacements>(loads.size()),
                                std::vector<Eigen::MatrixXd>(loads.size())};
+  std::vector<std::size_t> inWork;
+  for (std::size_t p = 0; p < parts_.size(); ++p)
+    if (!ofParts[p].empty()) inWork.push_back(p);
+  const bool first = std::none_of(parts_.begin(), parts_.end(), [](const Part& p) { return p.solver != nullptr; });
   std::size_t done = 0;
-  for (std::size_t p = 0; p < parts_.size(); ++p) {
-    const std::vector<std::size_t>& own = ofParts[p];
-    if (own.empty()) continue;
-    if (!prepare(parts_[p], stop)) return {};
-    std::vector<LoadCase> some;
-    std::vector<std::size_t> numbers;
-    for (const std::size_t i : own) {
-      some.push_back(loads[i]);
-      numbers.push_back(part.first + i);
-    }
-    parts_[p].solver->nameLoads(std::move(numbers));
-    ConductionBatch::Answers found = answers(
-        parts_[p], some, [&](std::size_t solved) { progress(done + solved); }, stop, 0);
-    parts_[p].solver->rest();
-    if (found.displacements.size() < own.size()) return {};
-    for (std::size_t k = 0; k < own.size(); ++k) {
-      all.displacements[own[k]] = std::move(found.displacements[k]);
-      all.resistances_ohm[own[k]] = std::move(found.resistances_ohm[k]);
-    }
-    done += own.size();
+  ProgressRelay relay([&](std::size_t more) { progress(done += more); });
+  std::atomic<bool> whole = true;
+  inParallel(inWork.size(), partsAtOnce(), [&](std::size_t k) {
+    const std::size_t p = inWork[k];
+    if (!answerPart(p, first && k == 0, loads, part.first, ofParts[p], relay, stop, all)) whole = false;
+  });
+  for (Part& p : parts_) stages_.add(std::exchange(p.stages, {}));
+  return whole ? std::move(all) : ConductionBatch::Answers{};
+}
+
+bool SampleGenerator::answerPart(std::size_t index, bool checked, std::span<const LoadCase> loads,
+                                 std::size_t firstNumber, std::span<const std::size_t> own, ProgressRelay& progress,
+                                 const std::stop_token& stop, ConductionBatch::Answers& all) {
+  Part& part = parts_[index];
+  if (!prepare(part, checked, stop)) return false;
+  std::vector<LoadCase> some;
+  std::vector<std::size_t> numbers;
+  for (const std::size_t i : own) {
+    some.push_back(loads[i]);
+    numbers.push_back(firstNumber + i);
   }
-  return all;
+  part.solver->nameLoads(std::move(numbers));
+  std::size_t done = 0;
+  ConductionBatch::Answers found = answers(
+      part, some, [&](std::size_t solved) { progress.add(solved - std::exchange(done, solved)); }, stop, 0);
+  part.solver->rest();
+  if (found.displacements.size() < own.size()) return false;
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    all.displacements[own[k]] = std::move(found.displacements[k]);
+    all.resistances_ohm[own[k]] = std::move(found.resistances_ohm[k]);
+  }
+  return true;
 }
 
 ConductionBatch::Answers SampleGenerator::answers(Part& part, std::span<const LoadCase> loads,

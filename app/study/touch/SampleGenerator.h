@@ -19,6 +19,8 @@
 
 namespace palp {
 
+class ProgressRelay;
+
 /// Which samples: random forces on areas, uniform over the design's force range, or random touches.
 struct SampleRequest {
   int perArea = 100; ///< on each area; `together`: in all
@@ -82,10 +84,11 @@ private:
     std::unique_ptr<HyperelasticProblem> problem;
     std::unique_ptr<BatchSolver> solver;
     std::unique_ptr<ConductionBatch> field; ///< under the law of the field
+    StageLog stages{};                      ///< not yet counted by the generator's
   };
   /// False: stopped.
   bool prepare(const std::stop_token& stop = {});
-  bool prepare(Part& part, const std::stop_token& stop);
+  bool prepare(Part& part, bool checked, const std::stop_token& stop);
   bool fitSurrogates(const std::stop_token& stop);
   [[nodiscard]] std::size_t partOf(const LoadCase& load) const;
   [[nodiscard]] std::size_t samplesABlock() const;
@@ -95,6 +98,11 @@ private:
   /// Empty displacements: stopped.
   ConductionBatch::Answers answers(const SampleRange& part, const std::function<void(std::size_t)>& progress,
                                    const std::stop_token& stop);
+  /// Those of these loads that lie in the part, side by side with other parts. False: stopped.
+  bool answerPart(std::size_t index, bool checked, std::span<const LoadCase> loads, std::size_t firstNumber,
+                  std::span<const std::size_t> own, ProgressRelay& progress, const std::stop_token& stop,
+                  ConductionBatch::Answers& all);
+  [[nodiscard]] int partsAtOnce() const;
   SampleSet block(SampleRange range, const ConductionBatch::Answers& answers) const;
 
   SensorDesign design_;
