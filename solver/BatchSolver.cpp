@@ -48,6 +48,13 @@ struct BatchSolver::State {
   /// False: stopped.
   bool prepare(const std::stop_token& stop) {
     if (engine) return true;
+    if (options.touched && canBeLast(problem.mesh(), *options.touched)) {
+      auto tangent = touchedTangent(problem.parts(), *options.touched, options.threads, stop);
+      if (!tangent) return false;
+      engine = std::make_unique<BatchEngine>(problem, std::move(*tangent), options.relativeTolerance, options.threads,
+                                             *options.touched);
+      return true;
+    }
     auto rest = problem.parts().initialTangent(options.threads, stop);
     if (!rest || stop.stop_requested()) return false;
     engine = std::make_unique<BatchEngine>(problem, std::move(rest), options.relativeTolerance, options.threads,

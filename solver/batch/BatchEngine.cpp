@@ -38,6 +38,14 @@ BatchEngine::BatchEngine(const HyperelasticProblem& problem, std::shared_ptr<con
   tried_.resize(areas);
 }
 
+BatchEngine::BatchEngine(const HyperelasticProblem& problem, TouchedTangent tangent, double tolerance, int threads,
+                         const Rectangle& touched)
+    : BatchEngine(problem, tangent.rest, tolerance, threads, touched) {
+  tangent.rest->tangents = {}; // the model has them in its own order
+  tangent.rest->forces = {};
+  top_ = std::make_shared<const TopCompliance>(model_, problem_.mesh(), touched, std::move(tangent.compliance));
+}
+
 BatchEngine::Job BatchEngine::job(const LoadCase& load, std::size_t index) const {
   Job job;
   job.index = index;
@@ -238,7 +246,7 @@ void BatchEngine::iterate(LoadBatch& batch, LaneContacts& contacts, LaneWatch& w
   for (int lane = 0; lane < batchLanes; ++lane) any = any || touched(lane);
   if (!any) return batch.iterate(watch.active, watch.change, stop);
   batch.iterate(
-      watch.active, watch.change, top_->nodes(),
+      watch.active, watch.change, top_->nodes(), top_->path(),
       [&](int lane, const Eigen::Matrix3Xd& motion_mm) {
         if (!contacts[lane]) return true;
         if (!contacts[lane]->solve(motion_mm)) return false;

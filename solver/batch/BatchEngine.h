@@ -6,6 +6,7 @@
 #include "solver/batch/LoadBatch.h"
 #include "solver/contact/LaneContact.h"
 #include "solver/contact/TopCompliance.h"
+#include "solver/contact/TouchedTangent.h"
 
 #include <atomic>
 #include <mutex>
@@ -27,6 +28,9 @@ public:
   /// `tolerance` is what the predictors are made for; a solve may ask for another. `touched` as in BatchOptions.
   BatchEngine(const HyperelasticProblem& problem, std::shared_ptr<const InitialTangent> rest, double tolerance,
               int threads, std::optional<Rectangle> touched = {});
+  /// The same with the tangent that goes with `touched`.
+  BatchEngine(const HyperelasticProblem& problem, TouchedTangent tangent, double tolerance, int threads,
+              const Rectangle& touched);
 
   /// Answer of one load; without one: full Newton must find it.
   using Answer = std::optional<ElectrodeDisplacements>;

@@ -3,6 +3,7 @@
 #include "model/RowColumnResistance.h"
 #include "solver/assembly/SurfaceTraction.h"
 #include "solver/batch/ElementwiseTangent.h"
+#include "solver/batch/FactorPath.h"
 #include "solver/batch/LaneMixing.h"
 
 #include <array>
@@ -67,10 +68,11 @@ public:
                const std::stop_token& stop);
   /// The same for loads that answer to the motion. `answer` is given each active lane and the motion [3 x nodes] of
   /// these nodes to which the iteration would lead under the present forces, and gives the forces to go on with (false:
-  /// there are none, and the lane's change becomes negative). Costs a second substitution.
+  /// there are none, and the lane's change becomes negative). It is asked between the two ways of the substitution;
+  /// `path` is of the nodes' rows, and what is substituted along it comes on top.
   using Answer = std::function<bool(int lane, const Eigen::Matrix3Xd& motion_mm)>;
   void iterate(const std::array<bool, batchLanes>& active, std::array<double, batchLanes>& change,
-               std::span<const int> nodes, const Answer& answer, const std::stop_token& stop);
+               std::span<const int> nodes, const FactorPath& path, const Answer& answer, const std::stop_token& stop);
 
   /// What the electrodes of a block's lanes feel.
   [[nodiscard]] std::vector<ElectrodeDisplacements> electrodes(int block) const;
@@ -88,9 +90,14 @@ public:
 
 private:
   void evaluateResiduals(const std::array<bool, blocks>& live, const std::stop_token& stop);
-  void substitute(const std::array<bool, batchLanes>& active, const std::stop_token& stop);
-  void answerMotion(const std::array<bool, batchLanes>& active, std::span<const int> nodes, const Answer& answer);
-  void addNodeForces(int lane, double sign);
+  void scaleResiduals(const std::array<bool, batchLanes>& active);
+  enum class Direction { Forward, Backward };
+  void substitute(Direction direction, FactorPath::Range supernodes, const std::stop_token& stop);
+  void substituteAlong(const FactorPath& path, const std::array<bool, batchLanes>& active, std::span<const int> nodes,
+                       const Answer& answer, const std::stop_token& stop);
+  void answerMotion(const std::array<bool, batchLanes>& active, std::span<const int> nodes, const Answer& answer,
+                    std::array<std::vector<NodeForce>, batchLanes>& added);
+  void addToRight(int lane, const std::vector<NodeForce>& forces);
   void startAnew();
   void startAnew(int element, int block);
   void moveAlongDirections(const std::array<bool, batchLanes>& active);
@@ -117,6 +124,7 @@ private:
   enum class Start { Under, Here, Ahead }; ///< of a load: has begun, begins where the lane is, or further on
   std::array<Start, batchLanes> starts_{};
   std::vector<float> solution_;        ///< [rows of the factor + 1][32]; directions over scale_ after the substitutions
+  std::vector<float> held_;            ///< of the solution along a path, in between
   std::vector<char> probed_;           ///< elements that an electrode looks at: their unknowns are always up to date
   std::array<bool, blocks> atRest_{}, behind_{};
   std::array<double, batchLanes> scale_{};

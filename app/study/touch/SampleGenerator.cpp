@@ -108,7 +108,8 @@ bool SampleGenerator::prepare(Part& part, bool checked, const std::stop_token& s
   batch.checkFirst = checked;
   if (part.touches) {
     options = meshForPart(design_, *part.touches, options);
-    if (parts_.size() > 1) batch.touched = touchedByTouches(design_, *part.touches, options);
+    if (parts_.size() > 1 || part.touches->shape != IndenterShape::Plane)
+      batch.touched = touchedByTouches(design_, *part.touches, options);
   }
   Mesh mesh;
   try {
