@@ -184,17 +184,21 @@ AreaPredictor BatchEngine::fitted(const LoadBatch& batch, const std::vector<Eige
   return predictor;
 }
 
-/// Blocks of loads with the same predictors, the smallest forces first: a predictor's error relative to the answer
-/// falls with the force, so that the loads of a block end their iterations together.
+/// Blocks of loads with the same predictors and about as much work each, so that the loads of a block end their
+/// iterations together, and the blocks with most of it first: a predictor's error relative to the answer falls with the
+/// force, and touches take the more iterations the larger the strain, which goes with the force over the square of the
+/// size.
 std::vector<BatchEngine::Block> BatchEngine::blocksOf(std::vector<Job> jobs) const {
-  const auto force_N = [](const Job& job) {
+  const auto work = [](const Job& job) {
     double sum = 0;
     for (const AreaLoad& area : job.areas) sum += area.force_N.norm();
-    for (const Indenter& indenter : job.load->indenters)
-      sum += indenter.press() ? indenter.press()->force_N.norm() : indenter.motion()->depth_mm;
+    for (const Indenter& indenter : job.load->indenters) {
+      const double size = indenter.shape == IndenterShape::Plane ? 1 : indenter.radius_mm;
+      sum += indenter.press() ? indenter.press()->force_N.norm() / (size * size) : indenter.motion()->depth_mm / size;
+    }
     return sum;
   };
-  std::stable_sort(jobs.begin(), jobs.end(), [&](const Job& a, const Job& b) { return force_N(a) < force_N(b); });
+  std::stable_sort(jobs.begin(), jobs.end(), [&](const Job& a, const Job& b) { return work(a) > work(b); });
   std::map<std::vector<int>, std::vector<Block>> byPredictors;
   for (Job& job : jobs) {
     std::erase_if(job.predicted, [&](int area) { return !predictors_[area]; });

@@ -16,7 +16,7 @@ public:
   /// `rows` of the factor; those past its last, which fill it up, count for nothing.
   FactorPath(const SupernodeTree& tree, std::span<const int> rows);
 
-  using Range = std::pair<int, int>; ///< from, to before
+  using Range = std::pair<int, int>;                                                 ///< from, to before
   [[nodiscard]] const std::vector<Range>& supernodes() const { return supernodes_; } ///< ascending
   [[nodiscard]] const std::vector<Range>& rows() const { return rows_; }             ///< of the factor, ascending
   [[nodiscard]] std::size_t rowCount() const { return rowCount_; }

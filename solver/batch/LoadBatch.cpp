@@ -118,7 +118,8 @@ void LoadBatch::evaluateResiduals(const std::array<bool, blocks>& live, const st
       for (int d = 0; d < 3; ++d) r_[(3 * std::size_t(node) + d) * batchLanes + lane] += force_N(d);
   smallestJ_.fill(1);
   std::array<bool, blocks> anew{};
-  for (int lane = 0; lane < batchLanes; ++lane) anew[lane / lanes] = anew[lane / lanes] || starts_[lane] != Start::Under;
+  for (int lane = 0; lane < batchLanes; ++lane)
+    anew[lane / lanes] = anew[lane / lanes] || starts_[lane] != Start::Under;
   alignas(64) ElementLanes u, f;
   alignas(64) std::array<std::array<double, 2 * lanes>, blocks> range;
   for (auto& r : range) r.fill(1);
@@ -129,12 +130,12 @@ void LoadBatch::evaluateResiduals(const std::array<bool, blocks>& live, const st
       prefetch(mesh, e + 1, b, u_.data());
       prefetch(mesh, e + 1, b, r_.data());
       const std::size_t own = ownStart(e, b);
+      if (behind_[b] && !probed_[e]) updateUnknowns(e, b);
+      if (anew[b] && !probed_[e]) startAnew(e, b);
       if (atRest_[b]) { // no forces, no volume change, and no rounding errors of either
         std::fill_n(local_.data() + own, mesh.unknowns() * lanes, 0.);
         continue;
       }
-      if (behind_[b] && !probed_[e]) updateUnknowns(e, b);
-      if (anew[b] && !probed_[e]) startAnew(e, b);
       laneKernels().gather(u_.data() + b * lanes, nodes, kernels.nodes, u.data());
       kernels.residualOfLoads(model_.rubber(), {model_.geometry(e), u.data(), x_.data() + own},
                               {f.data(), local_.data() + own, range[b].data()});

@@ -116,16 +116,16 @@ private:
   const PointProbe &upper_, &lower_;
   std::array<std::vector<LaneForce>, batchLanes> forces_;
   std::array<std::vector<NodeForce>, batchLanes> nodeForces_;
-  LaneVector u_, r_;                   ///< [3 nodes][32]
-  LaneVector x_, local_;               ///< [elements][blocks][unknowns][8]
-  std::unique_ptr<LaneMixing> mixing_; ///< of the lanes that ask for it
-  LaneVector steps_;                   ///< [3 nodes][32], where lanes are mixed
-  std::vector<float> uBefore_, xBefore_; ///< of such lanes, where their load in work began; as u_ and x_
+  LaneVector u_, r_;                       ///< [3 nodes][32]
+  LaneVector x_, local_;                   ///< [elements][blocks][unknowns][8]
+  std::unique_ptr<LaneMixing> mixing_;     ///< of the lanes that ask for it
+  LaneVector steps_;                       ///< [3 nodes][32], where lanes are mixed
+  std::vector<float> uBefore_, xBefore_;   ///< of such lanes, where their load in work began; as u_ and x_
   enum class Start { Under, Here, Ahead }; ///< of a load: has begun, begins where the lane is, or further on
   std::array<Start, batchLanes> starts_{};
-  std::vector<float> solution_;        ///< [rows of the factor + 1][32]; directions over scale_ after the substitutions
-  std::vector<float> held_;            ///< of the solution along a path, in between
-  std::vector<char> probed_;           ///< elements that an electrode looks at: their unknowns are always up to date
+  std::vector<float> solution_; ///< [rows of the factor + 1][32]; directions over scale_ after the substitutions
+  std::vector<float> held_;     ///< of the solution along a path, in between
+  std::vector<char> probed_;    ///< elements that an electrode looks at: their unknowns are always up to date
   std::array<bool, blocks> atRest_{}, behind_{};
   std::array<double, batchLanes> scale_{};
   std::array<double, batchLanes> smallestJ_{};

@@ -48,15 +48,40 @@ std::vector<Indenter> FrictionContact::partsAt(double fraction) const {
 
 void FrictionContact::beginStep(const Eigen::Matrix3Xd& motion_mm) {
   startMotion_mm_ = motion_mm;
-  start_ = state_;
+  start_ = slipStart_ = state_;
+  sideways_ = Sideways::AsLoaded;
   contact_->startStep(positions(motion_mm), start_);
+  targets_ = contactTargets(partsAt(double(step_) / steps_), expected_);
+}
+
+/// The step is taken again from its start, down alone. The forces stay, as they are those that the nodes move under.
+/// False: it has been, or there is nothing to hold.
+bool FrictionContact::hold() {
+  if (sideways_ != Sideways::AsLoaded) return false;
+  bool any = false;
+  for (std::size_t k = 0; k < targets_.size(); ++k)
+    for (const int c : {0, 1})
+      if (targets_[k].free(c)) {
+        targets_[k].free(c) = false;
+        targets_[k].translation_mm(c) = start_.translations_mm(c, static_cast<Eigen::Index>(k));
+        any = true;
+      }
+  sideways_ = Sideways::Held;
+  return any;
+}
+
+void FrictionContact::letGo(const Eigen::Matrix3Xd& motion_mm) {
+  startMotion_mm_ = motion_mm;
+  slipStart_ = state_;
+  sideways_ = Sideways::LetGo;
+  contact_->startStep(positions(motion_mm), slipStart_);
   targets_ = contactTargets(partsAt(double(step_) / steps_), expected_);
 }
 
 /// More points, for the step in work as well: those that are known already keep what they bear.
 void FrictionContact::widen() {
   const std::vector<ContactPoint> known = points_;
-  const ContactState before = start_, now = state_;
+  const ContactState before = start_, from = slipStart_, now = state_;
   choosePoints(margin_ *= widerMargin);
   const auto grown = [&](const ContactState& small) {
     ContactState large = untouched(points_.size(), indenters_.size());
@@ -70,8 +95,9 @@ void FrictionContact::widen() {
     return large;
   };
   start_ = grown(before);
+  slipStart_ = grown(from);
   state_ = grown(now);
-  contact_->startStep(positions(startMotion_mm_), start_);
+  contact_->startStep(positions(startMotion_mm_), slipStart_);
 }
 
 Eigen::Matrix3Xd FrictionContact::positions(const Eigen::Matrix3Xd& motion_mm) const {
@@ -83,10 +109,17 @@ Eigen::Matrix3Xd FrictionContact::positions(const Eigen::Matrix3Xd& motion_mm) c
 
 /// Points that the compliance does not know are found by the border that they lie beyond.
 bool FrictionContact::solve(const Eigen::Matrix3Xd& motion_mm) {
-  if (points_.empty() || !contact_->solve(compliance_, positions(motion_mm), targets_, state_, {})) return false;
-  for (std::size_t i = 0; i < points_.size(); ++i)
-    if (state_.grips[i] != Grip::Free && top_->atBorder(numbers_[i])) return false;
-  return true;
+  const ContactState before = state_;
+  const auto solved = [&] {
+    if (!contact_->solve(compliance_, positions(motion_mm), targets_, state_, {})) return false;
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      if (state_.grips[i] != Grip::Free && top_->atBorder(numbers_[i])) return false;
+    return true;
+  };
+  if (points_.empty()) return false;
+  if (solved()) return true;
+  state_ = before;
+  return hold() && solved();
 }
 
 std::vector<NodeForce> FrictionContact::forces() const {
@@ -112,10 +145,14 @@ bool FrictionContact::reachesBeyond(const Eigen::Matrix3Xd& motion_mm) const {
 }
 
 LaneContact::Way FrictionContact::settled(const Eigen::Matrix3Xd& motion_mm) {
-  if (slidAway(indenters_, expected_, start_, state_)) return Way::Lost;
+  if (slid()) return hold() ? Way::StaysHere : Way::Lost;
   if (reachesBeyond(motion_mm)) {
     if (++widened_ == mostMargins) return Way::Lost;
     widen();
+    return Way::StaysHere;
+  }
+  if (sideways_ == Sideways::Held) {
+    letGo(motion_mm);
     return Way::StaysHere;
   }
   if (inLastPart()) return Way::Arrived;

@@ -28,6 +28,9 @@ private:
   void choosePoints(double margin);
   void beginStep(const Eigen::Matrix3Xd& motion_mm);
   void widen();
+  [[nodiscard]] bool slid() const { return slidAway(indenters_, expected_, start_, state_); }
+  [[nodiscard]] bool hold();
+  void letGo(const Eigen::Matrix3Xd& motion_mm);
   [[nodiscard]] std::vector<Indenter> partsAt(double fraction) const;
   [[nodiscard]] Eigen::Matrix3Xd positions(const Eigen::Matrix3Xd& motion_mm) const;
   [[nodiscard]] bool reachesBeyond(const Eigen::Matrix3Xd& motion_mm) const;
@@ -44,10 +47,13 @@ private:
   std::optional<ReducedContact> contact_;
   std::vector<ContactTarget> targets_; ///< of the step in work
   int step_ = 1, steps_ = 1;
+  /// As ContactSolver, where indenters that are free to go aside slide away or find no place.
+  enum class Sideways { AsLoaded, Held, LetGo };
+  Sideways sideways_ = Sideways::AsLoaded;
   int widened_ = 0; ///< times that there were more points than had been foreseen
   double margin_ = touchableMargin;
-  Eigen::Matrix3Xd startMotion_mm_; ///< of all nodes of the compliance, at the start of the step
-  ContactState start_, state_;      ///< at the start of the step, and now
+  Eigen::Matrix3Xd startMotion_mm_;        ///< of all nodes of the compliance, where slip is counted from
+  ContactState start_, slipStart_, state_; ///< at the start of the step, where slip is counted from, and now
 };
 
 } // namespace palp

@@ -42,7 +42,6 @@ public:
   }
 
 private:
-
   std::vector<int> nodes_;
   std::vector<bool> atBorder_;
   Eigen::Matrix3Xd places_mm_;

@@ -116,6 +116,34 @@ TEST(BatchContact, AnAnswerDependsOnItsOwnTouchAlone) {
     EXPECT_TRUE(BatchSolver(problem, one).solve({&loads[i], 1})[0].upper_mm == together[i].upper_mm) << i;
 }
 
+/// More touches than there are lanes, so that some begin where others have been, beside others that go on. Three nodes
+/// under a sphere push it aside: it has to be held in its first step.
+TEST(BatchContact, ATouchWithFrictionDependsOnItselfAloneAlsoWhereItFollowsAnother) {
+  const HyperelasticProblem problem = touchedHexahedra();
+  std::vector<LoadCase> loads;
+  for (int i = 0; i < 44; ++i) {
+    loads.push_back(touch(6 + 0.05 * i, 10.2 + 2 * (i % 4), 7.8 + 2 * (i % 6), 1));
+    Indenter& pressing = loads.back().indenters[0];
+    const double press_N = 1.5 + 0.04 * i;
+    pressing.friction = 0.3 + 0.01 * i;
+    pressing.control = Press{{0.1 * press_N, -0.05 * press_N, -press_N}};
+  }
+  BatchOptions options;
+  options.touched = Rectangle{{3, 3}, {27, 27}};
+  options.checkFirst = false;
+  BatchOptions one = options;
+  one.threads = 1;
+  BatchSolver batch(problem, options), single(problem, one);
+  const auto together = batch.solve(loads);
+  ASSERT_EQ(together.size(), loads.size());
+  EXPECT_EQ(batch.leftToNewton(), 0U);
+  for (const std::size_t i : {0, 7, 21, 43})
+    EXPECT_TRUE(single.solve({&loads[i], 1})[0].upper_mm == together[i].upper_mm) << i;
+  const Solution full = problem.solve(loads[7]);
+  ASSERT_TRUE(full.converged) << full.stopReason;
+  EXPECT_LT(difference(together[7], problem.electrodes(full.state())), 1e-5);
+}
+
 TEST(BatchContact, AnIndenterBesideALoadedAreaIsNotLeftOutByTheSurrogate) {
   const HyperelasticProblem problem = touchedHexahedra();
   LoadCase load = touch(8, 20, 20, 2);
