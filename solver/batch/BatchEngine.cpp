@@ -254,6 +254,7 @@ void BatchEngine::iterate(LoadBatch& batch, LaneContacts& contacts, LaneWatch& w
       [&](int lane, const Eigen::Matrix3Xd& motion_mm) {
         if (!contacts[lane]) return true;
         if (!contacts[lane]->solve(motion_mm)) return false;
+        if (contacts[lane]->turned()) batch.turn(lane);
         batch.setNodeForces(lane, contacts[lane]->forces());
         return true;
       },
@@ -267,6 +268,7 @@ void BatchEngine::goOn(LoadBatch& batch, const LaneContacts& contacts, LaneWatch
     if (!wasActive[lane] || watch.active[lane] || watch.failed[lane] || !contacts[lane]) continue;
     const LaneContact::Way way = contacts[lane]->settled(batch.displacementsOf(lane, top_->nodes()));
     if (way == LaneContact::Way::Lost) watch.failed[lane] = true;
+    if (contacts[lane]->turned()) batch.turn(lane);
     if (way == LaneContact::Way::GoesOn) batch.goOn(lane, contacts[lane]->straightOn());
     if (way == LaneContact::Way::GoesOn || way == LaneContact::Way::StaysHere)
       watch.begin(lane, 1, contactSpan); // nothing is known of it

@@ -54,6 +54,8 @@ public:
   /// Such a lane goes on from where it is to another load. `straight`: which is as much further again in the same
   /// direction, so that it starts as far from here as here is from where the load before began.
   void goOn(int lane, bool straight);
+  /// Its forces answer in another way from now on: its steps so far do not foretell the next.
+  void turn(int lane) { mixing_->restart(lane); }
   /// Forces that answer to the motion, on nodes; in place of those given before.
   void setNodeForces(int lane, std::vector<NodeForce> forces) { nodeForces_[lane] = std::move(forces); }
   /// Adds polynomials' values to the displacements [3 nodes][terms] and the elements' unknowns

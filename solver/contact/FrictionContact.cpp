@@ -67,6 +67,7 @@ bool FrictionContact::hold() {
         any = true;
       }
   sideways_ = Sideways::Held;
+  turned_ = true;
   return any;
 }
 
@@ -74,12 +75,14 @@ void FrictionContact::letGo(const Eigen::Matrix3Xd& motion_mm) {
   startMotion_mm_ = motion_mm;
   slipStart_ = state_;
   sideways_ = Sideways::LetGo;
+  turned_ = true;
   contact_->startStep(positions(motion_mm), slipStart_);
   targets_ = contactTargets(partsAt(double(step_) / steps_), expected_);
 }
 
 /// More points, for the step in work as well: those that are known already keep what they bear.
 void FrictionContact::widen() {
+  turned_ = true;
   const std::vector<ContactPoint> known = points_;
   const ContactState before = start_, from = slipStart_, now = state_;
   choosePoints(margin_ *= widerMargin);

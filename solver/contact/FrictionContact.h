@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace palp {
@@ -21,6 +22,7 @@ public:
   [[nodiscard]] bool solve(const Eigen::Matrix3Xd& motion_mm) override;
   [[nodiscard]] std::vector<NodeForce> forces() const override;
   [[nodiscard]] Way settled(const Eigen::Matrix3Xd& motion_mm) override;
+  [[nodiscard]] bool turned() override { return std::exchange(turned_, false); }
   [[nodiscard]] bool inLastPart() const override { return step_ == steps_; }
   [[nodiscard]] bool straightOn() const override;
 
@@ -50,6 +52,7 @@ private:
   /// As ContactSolver, where indenters that are free to go aside slide away or find no place.
   enum class Sideways { AsLoaded, Held, LetGo };
   Sideways sideways_ = Sideways::AsLoaded;
+  bool turned_ = false;
   int widened_ = 0; ///< times that there were more points than had been foreseen
   double margin_ = touchableMargin;
   Eigen::Matrix3Xd startMotion_mm_;        ///< of all nodes of the compliance, where slip is counted from

@@ -28,6 +28,9 @@ public:
   /// were known, or is to be found in another way.
   enum class Way { Arrived, GoesOn, StaysHere, Lost };
   [[nodiscard]] virtual Way settled(const Eigen::Matrix3Xd& motion_mm) = 0;
+  /// Whether, since this was last asked, it began to answer in another way: the motion so far does not foretell the
+  /// next.
+  [[nodiscard]] virtual bool turned() { return false; }
   /// Of the part in work: none follows it; it leads as far again, and in the same direction, as the one before.
   [[nodiscard]] virtual bool inLastPart() const { return true; }
   [[nodiscard]] virtual bool straightOn() const { return false; }

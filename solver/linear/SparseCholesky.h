@@ -85,7 +85,7 @@ public:
   /// of the factor's last rows L, all other unknowns being eliminated, (L L^T)^-1. Empty: stopped.
   [[nodiscard]] Eigen::MatrixXd inverseOfLast(const std::stop_token& stop = {}) const;
 
-  /// Gives back the matrix and the last rows in double precision: what is left substitutes (blocks), and solves nothing.
+  /// Gives back the matrix and the last rows in double precision: what is left substitutes (blocks) and does not solve.
   void keepFactorAlone() {
     matrix_ = {};
     lastRows_ = {};
