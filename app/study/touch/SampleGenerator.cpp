@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kBlock = 192;       // samples solved before they are handed out: about a second of work
 constexpr std::size_t kFieldBlock = 64;   // the same where each has a conduction field of its own
-constexpr std::size_t kBlocksOfParts = 2; // as many where each mesh solves its part of them
+constexpr std::size_t kBlocksOfParts = 4; // as many where each mesh solves its part of them
 constexpr std::size_t kSurrogateBlock = 8192;
 constexpr int kMostPerArea = 10'000'000;
 
@@ -130,7 +130,7 @@ bool SampleGenerator::prepare(const std::stop_token& stop) {
   if (parts_.empty()) {
     if (request_.touches)
       for (const TouchRange& part : partsOfTouches(design_, *request_.touches, request_.mesh, &cuts_))
-        parts_.push_back({part, {}, {}, {}});
+        parts_.emplace_back().touches = part;
     else
       parts_.resize(1);
   }
@@ -172,23 +172,34 @@ void SampleGenerator::setSeed(std::uint64_t seed) {
   request_.seed = origin_.seed = seed;
 }
 
+void SampleGenerator::Part::giveBack() {
+  if (solver) {
+    solves += solver->solves();
+    leftToNewton += solver->leftToNewton();
+    measuredError = std::max({measuredError, solver->measuredError(), field ? field->surrogateError() : 0});
+  }
+  field.reset();
+  solver.reset();
+  problem.reset();
+}
+
 double SampleGenerator::measuredError() const {
   double error = 0;
   for (const Part& part : parts_)
-    error = std::max(
-        {error, part.solver ? part.solver->measuredError() : 0, part.field ? part.field->surrogateError() : 0});
+    error = std::max({error, part.measuredError, part.solver ? part.solver->measuredError() : 0,
+                      part.field ? part.field->surrogateError() : 0});
   return error;
 }
 
 std::size_t SampleGenerator::solves() const {
   std::size_t all = 0;
-  for (const Part& part : parts_) all += part.solver ? part.solver->solves() : 0;
+  for (const Part& part : parts_) all += part.solves + (part.solver ? part.solver->solves() : 0);
   return all;
 }
 
 std::size_t SampleGenerator::leftToNewton() const {
   std::size_t all = 0;
-  for (const Part& part : parts_) all += part.solver ? part.solver->leftToNewton() : 0;
+  for (const Part& part : parts_) all += part.leftToNewton + (part.solver ? part.solver->leftToNewton() : 0);
   return all;
 }
 
@@ -226,7 +237,7 @@ std::size_t SampleGenerator::generate(SampleRange range, const std::function<voi
     const SampleRange part{done, std::min(range.last, done + most)};
     const auto found = stages_.measure("sample", [&] {
       return answers(
-          part,
+          part, part.last == range.last,
           [&](std::size_t solved) {
             if (progress) progress(done - range.first + solved);
           },
@@ -239,7 +250,8 @@ std::size_t SampleGenerator::generate(SampleRange range, const std::function<voi
   return done - range.first;
 }
 
-ConductionBatch::Answers SampleGenerator::answers(const SampleRange& part,
+/// The last block's parts give their memory back as they are done.
+ConductionBatch::Answers SampleGenerator::answers(const SampleRange& part, bool last,
                                                   const std::function<void(std::size_t)>& progress,
                                                   const std::stop_token& stop) {
   std::vector<LoadCase> loads;
@@ -252,13 +264,14 @@ ConductionBatch::Answers SampleGenerator::answers(const SampleRange& part,
   std::vector<std::size_t> inWork;
   for (std::size_t p = 0; p < parts_.size(); ++p)
     if (!ofParts[p].empty()) inWork.push_back(p);
-  const bool first = std::none_of(parts_.begin(), parts_.end(), [](const Part& p) { return p.solver != nullptr; });
+  const bool first = std::none_of(parts_.begin(), parts_.end(), [](const Part& p) { return p.solver || p.solves > 0; });
   std::size_t done = 0;
   ProgressRelay relay([&](std::size_t more) { progress(done += more); });
   std::atomic<bool> whole = true;
   inParallel(inWork.size(), partsAtOnce(), [&](std::size_t k) {
     const std::size_t p = inWork[k];
     if (!answerPart(p, first && k == 0, loads, part.first, ofParts[p], relay, stop, all)) whole = false;
+    if (last) parts_[p].giveBack();
   });
   for (Part& p : parts_) stages_.add(std::exchange(p.stages, {}));
   return whole ? std::move(all) : ConductionBatch::Answers{};

@@ -83,8 +83,12 @@ private:
     std::optional<TouchRange> touches;
     std::unique_ptr<HyperelasticProblem> problem;
     std::unique_ptr<BatchSolver> solver;
-    std::unique_ptr<ConductionBatch> field; ///< under the law of the field
-    StageLog stages{};                      ///< not yet counted by the generator's
+    std::unique_ptr<ConductionBatch> field;   ///< under the law of the field
+    StageLog stages{};                        ///< not yet counted by the generator's
+    std::size_t solves = 0, leftToNewton = 0; ///< of solvers that were given back
+    double measuredError = 0;
+
+    void giveBack(); ///< its memory; made again where it is needed again
   };
   /// False: stopped.
   bool prepare(const std::stop_token& stop = {});
@@ -96,7 +100,7 @@ private:
                                    const std::function<void(std::size_t)>& progress, const std::stop_token& stop,
                                    std::size_t firstNumber) const;
   /// Empty displacements: stopped.
-  ConductionBatch::Answers answers(const SampleRange& part, const std::function<void(std::size_t)>& progress,
+  ConductionBatch::Answers answers(const SampleRange& part, bool last, const std::function<void(std::size_t)>& progress,
                                    const std::stop_token& stop);
   /// Those of these loads that lie in the part, side by side with other parts. False: stopped.
   bool answerPart(std::size_t index, bool checked, std::span<const LoadCase> loads, std::size_t firstNumber,
