@@ -28,7 +28,7 @@ struct BatchSolver::State {
   BatchOptions options;
   std::unique_ptr<BatchEngine> engine;
   std::vector<std::optional<AreaSurrogate>> surrogates;
-  std::size_t fullSolves = 0;
+  std::size_t fullSolves = 0, leftToNewton = 0;
   double measuredError = 0;
   std::size_t loadsSeen = 0, checks; ///< in all calls
   int surrogatesChecked = 0;
@@ -48,6 +48,13 @@ struct BatchSolver::State {
   /// False: stopped.
   bool prepare(const std::stop_token& stop) {
     if (engine) return true;
+    if (options.touched && canBeLast(problem.mesh(), *options.touched)) {
+      auto tangent = touchedTangent(problem.parts(), *options.touched, options.threads, stop);
+      if (!tangent) return false;
+      engine = std::make_unique<BatchEngine>(problem, std::move(*tangent), options.relativeTolerance, options.threads,
+                                             *options.touched);
+      return true;
+    }
     auto rest = problem.parts().initialTangent(options.threads, stop);
     if (!rest || stop.stop_requested()) return false;
     engine = std::make_unique<BatchEngine>(problem, std::move(rest), options.relativeTolerance, options.threads,
@@ -179,6 +186,7 @@ std::vector<ElectrodeDisplacements> BatchSolver::answer(std::span<const LoadCase
       ways[i] = Way::FullNewton;
       answers[i] = s.fullNewton(loads[i], i, stop, take);
       if (!answers[i]) return {};
+      ++s.leftToNewton;
     }
   if (!s.check(loads, answers, ways, stop)) return {};
   std::vector<ElectrodeDisplacements> all;
@@ -209,6 +217,10 @@ void BatchSolver::nameLoads(std::vector<std::size_t> numbers) {
 std::size_t BatchSolver::solves() const {
   return (state_->engine ? state_->engine->solves() : 0) + state_->fullSolves;
 }
+std::size_t BatchSolver::leftToNewton() const {
+  return state_->leftToNewton;
+}
+
 double BatchSolver::measuredError() const {
   return state_->measuredError;
 }

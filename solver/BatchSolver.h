@@ -23,9 +23,9 @@ struct BatchOptions {
 
 /// Solves many loads on one mesh: modified Newton's method with one factorisation, that of the tangent at rest, for
 /// many right sides at once, from predictors fitted to a fixed set of loads; full Newton's method where that does not
-/// converge. Indenters without friction are iterated along, their contact solved on the compliance of the top face;
-/// those with friction are left to full Newton. The answer to a load is the same to the last byte whatever loads stand
-/// beside it, in any order and on any number of threads.
+/// converge. Indenters are iterated along, their contact solved on the compliance of the top face, those with friction
+/// in the steps that full Newton would take; beside loaded areas these are left to full Newton. The answer to a load is
+/// the same to the last byte whatever loads stand beside it, in any order and on any number of threads.
 class BatchSolver {
 public:
   explicit BatchSolver(const HyperelasticProblem& problem, BatchOptions options = {});
@@ -59,6 +59,8 @@ public:
 
   /// Number of nonlinear solves so far (for predictors, corrections and fallbacks).
   [[nodiscard]] std::size_t solves() const;
+  /// Number of loads that were left to full Newton's method so far.
+  [[nodiscard]] std::size_t leftToNewton() const;
   /// Largest relative error of the electrode displacements against full Newton's method, over the loads checked so far.
   [[nodiscard]] double measuredError() const;
 

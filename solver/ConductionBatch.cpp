@@ -2,7 +2,7 @@
 
 #include "model/FieldAtRest.h"
 #include "model/base/Parallel.h"
-#include "solver/batch/ProgressRelay.h"
+#include "model/base/ProgressRelay.h"
 #include "solver/field/ResistancePolynomial.h"
 
 #include <algorithm>

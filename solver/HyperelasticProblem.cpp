@@ -40,7 +40,7 @@ std::shared_ptr<const InitialTangent> HyperelasticProblem::Parts::initialTangent
     making_ = true;
   }
   const Making making{*this};
-  auto tangent = makeTangent(threads, stop);
+  const std::shared_ptr<const InitialTangent> tangent = makeTangent(plan(), threads, stop);
   keepInitialTangent(tangent);
   return tangent;
 }
@@ -58,10 +58,11 @@ HyperelasticProblem::Parts::Making::~Making() {
   parts.made_.notify_all();
 }
 
-std::shared_ptr<const InitialTangent> HyperelasticProblem::Parts::makeTangent(int threads,
-                                                                              const std::stop_token& stop) const {
+std::shared_ptr<InitialTangent> HyperelasticProblem::Parts::makeTangent(std::shared_ptr<const CholeskyPlan> plan,
+                                                                        int threads,
+                                                                        const std::stop_token& stop) const {
   if (stop.stop_requested()) return {};
-  auto rest = std::make_shared<InitialTangent>(InitialTangent{{}, {}, SparseCholesky(plan())});
+  auto rest = std::make_shared<InitialTangent>(InitialTangent{{}, {}, SparseCholesky(std::move(plan))});
   assembler.tangent(discretisation->atRest(), rest->tangents, rest->forces, threads, stop);
   if (stop.stop_requested()) return {};
   LaneVector matrix = assembler.matrix(rest->tangents, threads);

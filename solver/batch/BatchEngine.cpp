@@ -1,7 +1,9 @@
 #include "solver/batch/BatchEngine.h"
 
 #include "model/base/Parallel.h"
-#include "solver/batch/ProgressRelay.h"
+#include "model/base/ProgressRelay.h"
+#include "solver/contact/FrictionContact.h"
+#include "solver/contact/NormalContact.h"
 
 #include <algorithm>
 #include <map>
@@ -34,6 +36,14 @@ BatchEngine::BatchEngine(const HyperelasticProblem& problem, std::shared_ptr<con
     areaShares_.push_back(tractionShares(problem.mesh(), regionOf(problem.design().areaRectangle(a))));
   predictors_.resize(areas);
   tried_.resize(areas);
+}
+
+BatchEngine::BatchEngine(const HyperelasticProblem& problem, TouchedTangent tangent, double tolerance, int threads,
+                         const Rectangle& touched)
+    : BatchEngine(problem, tangent.rest, tolerance, threads, touched) {
+  tangent.rest->tangents = {}; // the model has them in its own order
+  tangent.rest->forces = {};
+  top_ = std::make_shared<const TopCompliance>(model_, problem_.mesh(), touched, std::move(tangent.compliance));
 }
 
 BatchEngine::Job BatchEngine::job(const LoadCase& load, std::size_t index) const {
@@ -174,17 +184,21 @@ AreaPredictor BatchEngine::fitted(const LoadBatch& batch, const std::vector<Eige
   return predictor;
 }
 
-/// Blocks of loads with the same predictors, the smallest forces first: a predictor's error relative to the answer
-/// falls with the force, so that the loads of a block end their iterations together.
+/// Blocks of loads with the same predictors and about as much work each, so that the loads of a block end their
+/// iterations together, and the blocks with most of it first: a predictor's error relative to the answer falls with the
+/// force, and touches take the more iterations the larger the strain, which goes with the force over the square of the
+/// size.
 std::vector<BatchEngine::Block> BatchEngine::blocksOf(std::vector<Job> jobs) const {
-  const auto force_N = [](const Job& job) {
+  const auto work = [](const Job& job) {
     double sum = 0;
     for (const AreaLoad& area : job.areas) sum += area.force_N.norm();
-    for (const Indenter& indenter : job.load->indenters)
-      sum += indenter.press() ? indenter.press()->force_N.norm() : indenter.motion()->depth_mm;
+    for (const Indenter& indenter : job.load->indenters) {
+      const double size = indenter.shape == IndenterShape::Plane ? 1 : indenter.radius_mm;
+      sum += indenter.press() ? indenter.press()->force_N.norm() / (size * size) : indenter.motion()->depth_mm / size;
+    }
     return sum;
   };
-  std::stable_sort(jobs.begin(), jobs.end(), [&](const Job& a, const Job& b) { return force_N(a) < force_N(b); });
+  std::stable_sort(jobs.begin(), jobs.end(), [&](const Job& a, const Job& b) { return work(a) > work(b); });
   std::map<std::vector<int>, std::vector<Block>> byPredictors;
   for (Job& job : jobs) {
     std::erase_if(job.predicted, [&](int area) { return !predictors_[area]; });
@@ -204,7 +218,11 @@ void BatchEngine::start(LoadBatch& batch, LaneContacts& contacts, int block, con
     const int lane = block * lanes + static_cast<int>(i);
     contacts[lane].reset();
     if (!jobs[i].load->indenters.empty()) {
-      contacts[lane].emplace(jobs[i].load->indenters, top_);
+      if (hasFriction(*jobs[i].load))
+        contacts[lane] =
+            std::make_unique<FrictionContact>(jobs[i].load->indenters, top_, problem_.mesh(), problem_.design());
+      else
+        contacts[lane] = std::make_unique<NormalContact>(jobs[i].load->indenters, top_);
       batch.mix(lane);
     }
     for (const AreaLoad& area : jobs[i].areas) batch.addForce(lane, {&areaShares_[area.area], area.force_N});
@@ -232,14 +250,29 @@ void BatchEngine::iterate(LoadBatch& batch, LaneContacts& contacts, LaneWatch& w
   for (int lane = 0; lane < batchLanes; ++lane) any = any || touched(lane);
   if (!any) return batch.iterate(watch.active, watch.change, stop);
   batch.iterate(
-      watch.active, watch.change, top_->nodes(),
+      watch.active, watch.change, top_->nodes(), top_->path(),
       [&](int lane, const Eigen::Matrix3Xd& motion_mm) {
         if (!contacts[lane]) return true;
         if (!contacts[lane]->solve(motion_mm)) return false;
+        if (contacts[lane]->turned()) batch.turn(lane);
         batch.setNodeForces(lane, contacts[lane]->forces());
         return true;
       },
       stop);
+}
+
+/// Lanes whose loads are taken in parts: on to the next where they have found the one in work.
+void BatchEngine::goOn(LoadBatch& batch, const LaneContacts& contacts, LaneWatch& watch,
+                       const std::array<bool, batchLanes>& wasActive) const {
+  for (int lane = 0; lane < batchLanes; ++lane) {
+    if (!wasActive[lane] || watch.active[lane] || watch.failed[lane] || !contacts[lane]) continue;
+    const LaneContact::Way way = contacts[lane]->settled(batch.displacementsOf(lane, top_->nodes()));
+    if (way == LaneContact::Way::Lost) watch.failed[lane] = true;
+    if (contacts[lane]->turned()) batch.turn(lane);
+    if (way == LaneContact::Way::GoesOn) batch.goOn(lane, contacts[lane]->straightOn());
+    if (way == LaneContact::Way::GoesOn || way == LaneContact::Way::StaysHere)
+      watch.begin(lane, 1, contactSpan); // nothing is known of it
+  }
 }
 
 /// That of its area's predictor where it says all about the load; 1: nothing is known.
@@ -261,14 +294,20 @@ void BatchEngine::solveBlocks(double tolerance, const Take& take, const Give& gi
     for (int b = 0; b < LoadBatch::blocks; ++b) {
       if (inWork[b] || !(inWork[b] = take())) continue;
       start(*batch, contacts, b, *inWork[b]);
-      for (std::size_t i = 0; i < inWork[b]->size(); ++i)
-        watch.begin(b * lanes + static_cast<int>(i), assumedContraction((*inWork[b])[i]),
-                    (*inWork[b])[i].load->indenters.empty() ? 1 : contactSpan);
+      for (std::size_t i = 0; i < inWork[b]->size(); ++i) {
+        const int lane = b * lanes + static_cast<int>(i);
+        if (contacts[lane])
+          watch.begin(lane, 1, contactSpan); // nothing is known of it
+        else
+          watch.begin(lane, assumedContraction((*inWork[b])[i]));
+      }
     }
     if (!watch.anyActive()) break;
     iterate(*batch, contacts, watch, stop);
     if (stop.stop_requested()) break; // the iteration may be unfinished
+    const std::array<bool, batchLanes> wasActive = watch.active;
     watch.judge();
+    goOn(*batch, contacts, watch, wasActive);
     for (int b = 0; b < LoadBatch::blocks; ++b) {
       if (!inWork[b] || watch.anyActive(b)) continue;
       std::vector<ElectrodeDisplacements> found = batch->electrodes(b);
@@ -288,7 +327,8 @@ std::vector<BatchEngine::Answer> BatchEngine::solve(std::span<const LoadCase> lo
                                                     const std::stop_token& stop, const BatchSolver::TakeState& state) {
   std::vector<Job> jobs;
   for (std::size_t i = 0; i < loads.size(); ++i)
-    if (!hasFriction(loads[i])) jobs.push_back(job(loads[i], i)); // the others depend on their way
+    if (!hasFriction(loads[i]) || (loads[i].areas.empty() && loads[i].patches.empty())) // the others grow with it
+      jobs.push_back(job(loads[i], i));
   const std::size_t leftOut = loads.size() - jobs.size();
   if (!findCompliance(jobs, stop) || !makePredictors(jobs, stop)) return {};
   const std::vector<Block> blocks = blocksOf(std::move(jobs));

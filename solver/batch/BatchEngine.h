@@ -4,7 +4,9 @@
 #include "solver/batch/ForcePolynomial.h"
 #include "solver/batch/LaneWatch.h"
 #include "solver/batch/LoadBatch.h"
-#include "solver/contact/NormalContact.h"
+#include "solver/contact/LaneContact.h"
+#include "solver/contact/TopCompliance.h"
+#include "solver/contact/TouchedTangent.h"
 
 #include <atomic>
 #include <mutex>
@@ -26,6 +28,9 @@ public:
   /// `tolerance` is what the predictors are made for; a solve may ask for another. `touched` as in BatchOptions.
   BatchEngine(const HyperelasticProblem& problem, std::shared_ptr<const InitialTangent> rest, double tolerance,
               int threads, std::optional<Rectangle> touched = {});
+  /// The same with the tangent that goes with `touched`.
+  BatchEngine(const HyperelasticProblem& problem, TouchedTangent tangent, double tolerance, int threads,
+              const Rectangle& touched);
 
   /// Answer of one load; without one: full Newton must find it.
   using Answer = std::optional<ElectrodeDisplacements>;
@@ -59,9 +64,11 @@ private:
   [[nodiscard]] std::vector<Block> blocksOf(std::vector<Job> jobs) const;
   template <class Take, class Give>
   void solveBlocks(double tolerance, const Take& take, const Give& give, const std::stop_token& stop);
-  using LaneContacts = std::array<std::optional<NormalContact>, batchLanes>;
+  using LaneContacts = std::array<std::unique_ptr<LaneContact>, batchLanes>;
   void start(LoadBatch& batch, LaneContacts& contacts, int block, const Block& jobs) const;
   void iterate(LoadBatch& batch, LaneContacts& contacts, LaneWatch& watch, const std::stop_token& stop) const;
+  void goOn(LoadBatch& batch, const LaneContacts& contacts, LaneWatch& watch,
+            const std::array<bool, batchLanes>& wasActive) const;
   [[nodiscard]] double assumedContraction(const Job& job) const;
   [[nodiscard]] std::unique_ptr<LoadBatch> borrowBatch();
   void giveBack(std::unique_ptr<LoadBatch> batch);

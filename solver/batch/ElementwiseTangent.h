@@ -21,6 +21,7 @@ public:
   /// Rows that a right side needs: one a free component, and the last that fills up the factor's blocks, of zeros.
   [[nodiscard]] int rightSideRows() const { return mesh_.dof() + 1; }
   [[nodiscard]] int fillingRow() const { return mesh_.dof(); }
+  [[nodiscard]] const SupernodeTree& tree() const { return factor_.plan().tree(); }
   [[nodiscard]] BlockedFactor factor() const { return factor_.blocks(); }
 
 private:

@@ -9,6 +9,7 @@ LaneMixing::LaneMixing(std::size_t leading, std::size_t following)
 
 void LaneMixing::begin(int lane, bool mixed) {
   mixed_[lane] = mixed;
+  restarts_[lane] = false;
   iterations_[lane] = 0;
 }
 
@@ -21,6 +22,8 @@ void LaneMixing::mixLeading(const std::array<bool, batchLanes>& moved, double* d
   std::vector<Lane> some;
   for (int l = 0; l < batchLanes; ++l)
     if (mixed_[l] && moved[l]) {
+      if (restarts_[l]) iterations_[l] = 0; // only now: what followed the last directions has been mixed
+      restarts_[l] = false;
       const int before = iterations_[l]++;
       some.push_back({l, std::min(before, depth), before % depth});
     }

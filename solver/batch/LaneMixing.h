@@ -25,6 +25,8 @@ public:
 
   /// A lane has no history and is mixed from now on, or is left as it is.
   void begin(int lane, bool mixed);
+  /// What a lane has gone so far says nothing about the next directions, as another load begins.
+  void restart(int lane) { restarts_[lane] = true; }
   [[nodiscard]] bool mixes(int lane) const { return mixed_[lane]; }
 
   /// Turns the leading directions [leading][32] of the lanes that are moved into steps.
@@ -38,7 +40,7 @@ private:
     float direction = 0, step = 0;
     std::array<float, depth> motion{}; ///< s_j + r_j+1 - r_j
   };
-  std::array<bool, batchLanes> mixed_{};
+  std::array<bool, batchLanes> mixed_{}, restarts_{};
   std::array<int, batchLanes> iterations_{}; ///< of each lane before this one
   std::array<std::array<double, depth>, batchLanes> gamma_{};
   std::vector<Past> leading_, following_;

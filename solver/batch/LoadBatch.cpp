@@ -8,7 +8,6 @@ namespace palp {
 namespace {
 
 constexpr int largestElementDofs = 30;
-constexpr int supernodesACall = 16; // between looks at a stop request
 using ElementLanes = std::array<double, largestElementDofs * lanes>;
 
 std::size_t at(std::size_t row, int block) {
@@ -43,6 +42,7 @@ void LoadBatch::reset(int block) {
   for (int lane = block * lanes; lane < (block + 1) * lanes; ++lane) {
     forces_[lane].clear();
     nodeForces_[lane].clear();
+    starts_[lane] = Start::Under;
     if (mixing_) mixing_->begin(lane, false);
   }
   atRest_[block] = true;
@@ -54,8 +54,42 @@ void LoadBatch::mix(int lane) {
     mixing_ = std::make_unique<LaneMixing>(3 * std::size_t(model_.mesh().nodes()),
                                            std::size_t(model_.mesh().elements()) * model_.mesh().unknowns());
     steps_.resize(u_.size());
+    uBefore_.resize(u_.size());
+    xBefore_.resize(x_.size());
   }
   mixing_->begin(lane, true);
+  starts_[lane] = Start::Here; // at rest
+}
+
+void LoadBatch::goOn(int lane, bool straight) {
+  mixing_->restart(lane);
+  starts_[lane] = straight ? Start::Ahead : Start::Here;
+}
+
+/// Lanes that begin another load: their displacements, and the unknowns that are up to date.
+void LoadBatch::startAnew() {
+  for (int lane = 0; lane < batchLanes; ++lane)
+    for (std::size_t i = lane; starts_[lane] != Start::Under && i < u_.size(); i += batchLanes) {
+      const double moved = starts_[lane] == Start::Ahead ? u_[i] - uBefore_[i] : 0;
+      uBefore_[i] = static_cast<float>(u_[i]);
+      u_[i] += moved;
+    }
+  for (int e = 0; e < model_.mesh().elements(); ++e)
+    if (probed_[e])
+      for (int b = 0; b < blocks; ++b) startAnew(e, b);
+}
+
+void LoadBatch::startAnew(int element, int block) {
+  const std::size_t own = ownStart(element, block);
+  for (int lane = 0; lane < lanes; ++lane) {
+    const Start start = starts_[block * lanes + lane];
+    if (start == Start::Under) continue;
+    for (std::size_t i = own + lane; i < own + model_.mesh().unknowns() * lanes; i += lanes) {
+      const double moved = start == Start::Ahead ? x_[i] - xBefore_[i] : 0;
+      xBefore_[i] = static_cast<float>(x_[i]);
+      x_[i] += moved;
+    }
+  }
 }
 
 void LoadBatch::addPolynomials(int block, const std::vector<double>& displacements, const std::vector<double>& unknowns,
@@ -79,8 +113,13 @@ void LoadBatch::evaluateResiduals(const std::array<bool, blocks>& live, const st
     for (const auto& [shares, force_N] : forces_[lane])
       for (const auto& [node, share] : *shares)
         for (int d = 0; d < 3; ++d) r_[(3 * std::size_t(node) + d) * batchLanes + lane] += share * force_N(d);
-  for (int lane = 0; lane < batchLanes; ++lane) addNodeForces(lane, 1);
+  for (int lane = 0; lane < batchLanes; ++lane)
+    for (const auto& [node, force_N] : nodeForces_[lane])
+      for (int d = 0; d < 3; ++d) r_[(3 * std::size_t(node) + d) * batchLanes + lane] += force_N(d);
   smallestJ_.fill(1);
+  std::array<bool, blocks> anew{};
+  for (int lane = 0; lane < batchLanes; ++lane)
+    anew[lane / lanes] = anew[lane / lanes] || starts_[lane] != Start::Under;
   alignas(64) ElementLanes u, f;
   alignas(64) std::array<std::array<double, 2 * lanes>, blocks> range;
   for (auto& r : range) r.fill(1);
@@ -91,11 +130,12 @@ void LoadBatch::evaluateResiduals(const std::array<bool, blocks>& live, const st
       prefetch(mesh, e + 1, b, u_.data());
       prefetch(mesh, e + 1, b, r_.data());
       const std::size_t own = ownStart(e, b);
+      if (behind_[b] && !probed_[e]) updateUnknowns(e, b);
+      if (anew[b] && !probed_[e]) startAnew(e, b);
       if (atRest_[b]) { // no forces, no volume change, and no rounding errors of either
         std::fill_n(local_.data() + own, mesh.unknowns() * lanes, 0.);
         continue;
       }
-      if (behind_[b] && !probed_[e]) updateUnknowns(e, b);
       laneKernels().gather(u_.data() + b * lanes, nodes, kernels.nodes, u.data());
       kernels.residualOfLoads(model_.rubber(), {model_.geometry(e), u.data(), x_.data() + own},
                               {f.data(), local_.data() + own, range[b].data()});
@@ -105,62 +145,9 @@ void LoadBatch::evaluateResiduals(const std::array<bool, blocks>& live, const st
   }
   for (int lane = 0; lane < batchLanes; ++lane) smallestJ_[lane] = range[lane / lanes][lane % lanes];
   for (int b = 0; b < blocks; ++b) {
+    if (anew[b]) std::fill_n(starts_.begin() + b * lanes, lanes, Start::Under);
     atRest_[b] = atRest_[b] && !live[b];
     behind_[b] = behind_[b] && !live[b];
-  }
-}
-
-void LoadBatch::addNodeForces(int lane, double sign) {
-  for (const auto& [node, force_N] : nodeForces_[lane])
-    for (int d = 0; d < 3; ++d) r_[(3 * std::size_t(node) + d) * batchLanes + lane] += sign * force_N(d);
-}
-
-/// K0 du = r. Residuals go to single precision relative to their norm, and the directions back; inactive lanes
-/// get none.
-void LoadBatch::substitute(const std::array<bool, batchLanes>& active, const std::stop_token& stop) {
-  const std::vector<int>& rows = model_.factorRows();
-  const int filling = model_.fillingRow();
-  std::array<double, batchLanes> squares{};
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    if (rows[i] != filling)
-      for (int lane = 0; lane < batchLanes; ++lane)
-        squares[lane] += r_[i * batchLanes + lane] * r_[i * batchLanes + lane];
-  std::array<double, batchLanes> inverse{};
-  unsigned live = 0;
-  for (int lane = 0; lane < batchLanes; ++lane) {
-    scale_[lane] = active[lane] && std::isfinite(squares[lane]) ? std::sqrt(squares[lane]) : 0;
-    inverse[lane] = scale_[lane] > 0 ? 1 / scale_[lane] : 0;
-    if (scale_[lane] > 0) live |= 1U << unsigned(lane / lanes);
-  }
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    if (rows[i] != filling)
-      for (int lane = 0; lane < batchLanes; ++lane) {
-        const double r = inverse[lane] > 0 ? r_[i * batchLanes + lane] * inverse[lane] : 0;
-        solution_[std::size_t(rows[i]) * batchLanes + lane] = static_cast<float>(r);
-      }
-  std::fill_n(solution_.data() + std::size_t(filling) * batchLanes, batchLanes, 0.F);
-  const BlockedFactor factor = model_.factor();
-  for (int first = 0; first < factor.count && !stop.stop_requested(); first += supernodesACall)
-    laneKernels().forward(factor, first, std::min(factor.count, first + supernodesACall), live, solution_.data());
-  for (int last = factor.count; last > 0 && !stop.stop_requested(); last -= supernodesACall)
-    laneKernels().backward(factor, std::max(0, last - supernodesACall), last, live, solution_.data());
-}
-
-/// The active lanes' forces where the directions would lead, instead of those that the directions were found for.
-void LoadBatch::answerMotion(const std::array<bool, batchLanes>& active, std::span<const int> nodes,
-                             const Answer& answer) {
-  Eigen::Matrix3Xd motion_mm(3, static_cast<Eigen::Index>(nodes.size()));
-  for (int lane = 0; lane < batchLanes; ++lane) {
-    if (!active[lane]) continue;
-    for (std::size_t n = 0; n < nodes.size(); ++n)
-      for (int d = 0; d < 3; ++d) {
-        const std::size_t i = 3 * std::size_t(nodes[n]) + d;
-        const float du = solution_[std::size_t(model_.factorRows()[i]) * batchLanes + lane];
-        motion_mm(d, static_cast<Eigen::Index>(n)) = u_[i * batchLanes + lane] + scale_[lane] * double(du);
-      }
-    addNodeForces(lane, -1);
-    if (!answer(lane, motion_mm)) smallestJ_[lane] = -1;
-    addNodeForces(lane, 1);
   }
 }
 
@@ -210,6 +197,15 @@ Eigen::Matrix3Xd LoadBatch::displacementsOf(int lane) const {
   return Eigen::Map<const Eigen::VectorXd, 0, Eigen::InnerStride<batchLanes>>(u_.data() + lane,
                                                                               3 * model_.mesh().nodes())
       .reshaped(3, model_.mesh().nodes());
+}
+
+Eigen::Matrix3Xd LoadBatch::displacementsOf(int lane, std::span<const int> nodes) const {
+  Eigen::Matrix3Xd u(3, static_cast<Eigen::Index>(nodes.size()));
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    for (int d = 0; d < 3; ++d)
+      u(d, static_cast<Eigen::Index>(n)) =
+          u_[(3 * std::size_t(nodes[n]) + std::size_t(d)) * batchLanes + std::size_t(lane)];
+  return u;
 }
 
 Eigen::MatrixXd LoadBatch::unknownsOf(int lane) const {
@@ -262,22 +258,24 @@ LaneVector LoadBatch::pressuresAt(const PointProbe& probe) const {
 
 void LoadBatch::iterate(const std::array<bool, batchLanes>& active, std::array<double, batchLanes>& change,
                         const std::stop_token& stop) {
-  iterate(active, change, {}, {}, stop);
+  iterate(active, change, {}, FactorPath({}, {}), {}, stop);
 }
 
 void LoadBatch::iterate(const std::array<bool, batchLanes>& active, std::array<double, batchLanes>& change,
-                        std::span<const int> nodes, const Answer& answer, const std::stop_token& stop) {
+                        std::span<const int> nodes, const FactorPath& path, const Answer& answer,
+                        const std::stop_token& stop) {
   std::array<bool, blocks> live{};
   for (int lane = 0; lane < batchLanes; ++lane) live[lane / lanes] = live[lane / lanes] || active[lane];
   for (int b = 0; b < blocks; ++b)
     if (!live[b]) catchUp(b); // before other directions take the place of its own
+  startAnew();
   const LaneVector before = displacementsAt(upper_);
   evaluateResiduals(live, stop);
-  substitute(active, stop);
-  if (answer) {
-    answerMotion(active, nodes, answer);
-    substitute(active, stop);
-  }
+  scaleResiduals(active);
+  const FactorPath::Range all{0, model_.factor().count};
+  substitute(Direction::Forward, all, stop);
+  if (answer) substituteAlong(path, active, nodes, answer, stop);
+  substitute(Direction::Backward, all, stop);
   moveAlongDirections(active);
   for (int e = 0; e < model_.mesh().elements(); ++e)
     for (int b = 0; b < blocks; ++b)

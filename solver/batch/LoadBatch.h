@@ -3,6 +3,7 @@
 #include "model/RowColumnResistance.h"
 #include "solver/assembly/SurfaceTraction.h"
 #include "solver/batch/ElementwiseTangent.h"
+#include "solver/batch/FactorPath.h"
 #include "solver/batch/LaneMixing.h"
 
 #include <array>
@@ -50,6 +51,11 @@ public:
   void addForce(int lane, const LaneForce& force) { forces_[lane].push_back(force); }
   /// A lane whose forces answer to the motion: its steps are mixed (LaneMixing.h).
   void mix(int lane);
+  /// Such a lane goes on from where it is to another load. `straight`: which is as much further again in the same
+  /// direction, so that it starts as far from here as here is from where the load before began.
+  void goOn(int lane, bool straight);
+  /// Its forces answer in another way from now on: its steps so far do not foretell the next.
+  void turn(int lane) { mixing_->restart(lane); }
   /// Forces that answer to the motion, on nodes; in place of those given before.
   void setNodeForces(int lane, std::vector<NodeForce> forces) { nodeForces_[lane] = std::move(forces); }
   /// Adds polynomials' values to the displacements [3 nodes][terms] and the elements' unknowns
@@ -64,14 +70,16 @@ public:
                const std::stop_token& stop);
   /// The same for loads that answer to the motion. `answer` is given each active lane and the motion [3 x nodes] of
   /// these nodes to which the iteration would lead under the present forces, and gives the forces to go on with (false:
-  /// there are none, and the lane's change becomes negative). Costs a second substitution.
+  /// there are none, and the lane's change becomes negative). It is asked between the two ways of the substitution;
+  /// `path` is of the nodes' rows, and what is substituted along it comes on top.
   using Answer = std::function<bool(int lane, const Eigen::Matrix3Xd& motion_mm)>;
   void iterate(const std::array<bool, batchLanes>& active, std::array<double, batchLanes>& change,
-               std::span<const int> nodes, const Answer& answer, const std::stop_token& stop);
+               std::span<const int> nodes, const FactorPath& path, const Answer& answer, const std::stop_token& stop);
 
   /// What the electrodes of a block's lanes feel.
   [[nodiscard]] std::vector<ElectrodeDisplacements> electrodes(int block) const;
-  [[nodiscard]] Eigen::Matrix3Xd displacementsOf(int lane) const;      ///< 3 x nodes
+  [[nodiscard]] Eigen::Matrix3Xd displacementsOf(int lane) const; ///< 3 x nodes
+  [[nodiscard]] Eigen::Matrix3Xd displacementsOf(int lane, std::span<const int> nodes) const;
   [[nodiscard]] Eigen::MatrixXd unknownsOf(int lane) const;            ///< of a block that has caught up, x elements
   [[nodiscard]] const LaneVector& displacements() const { return u_; } ///< [3 nodes][32]
   /// The elements' unknowns of a block follow its last iteration: most have no reader before the next, and none at all
@@ -84,9 +92,16 @@ public:
 
 private:
   void evaluateResiduals(const std::array<bool, blocks>& live, const std::stop_token& stop);
-  void substitute(const std::array<bool, batchLanes>& active, const std::stop_token& stop);
-  void answerMotion(const std::array<bool, batchLanes>& active, std::span<const int> nodes, const Answer& answer);
-  void addNodeForces(int lane, double sign);
+  void scaleResiduals(const std::array<bool, batchLanes>& active);
+  enum class Direction { Forward, Backward };
+  void substitute(Direction direction, FactorPath::Range supernodes, const std::stop_token& stop);
+  void substituteAlong(const FactorPath& path, const std::array<bool, batchLanes>& active, std::span<const int> nodes,
+                       const Answer& answer, const std::stop_token& stop);
+  void answerMotion(const std::array<bool, batchLanes>& active, std::span<const int> nodes, const Answer& answer,
+                    std::array<std::vector<NodeForce>, batchLanes>& added);
+  void addToRight(int lane, const std::vector<NodeForce>& forces);
+  void startAnew();
+  void startAnew(int element, int block);
   void moveAlongDirections(const std::array<bool, batchLanes>& active);
   void updateUnknowns(int element, int block);
   [[nodiscard]] LaneVector displacementsAt(const PointProbe& probe) const; ///< [3 points][32]
@@ -103,12 +118,16 @@ private:
   const PointProbe &upper_, &lower_;
   std::array<std::vector<LaneForce>, batchLanes> forces_;
   std::array<std::vector<NodeForce>, batchLanes> nodeForces_;
-  LaneVector u_, r_;                   ///< [3 nodes][32]
-  LaneVector x_, local_;               ///< [elements][blocks][unknowns][8]
-  std::unique_ptr<LaneMixing> mixing_; ///< of the lanes that ask for it
-  LaneVector steps_;                   ///< [3 nodes][32], where lanes are mixed
-  std::vector<float> solution_;        ///< [rows of the factor + 1][32]; directions over scale_ after the substitutions
-  std::vector<char> probed_;           ///< elements that an electrode looks at: their unknowns are always up to date
+  LaneVector u_, r_;                       ///< [3 nodes][32]
+  LaneVector x_, local_;                   ///< [elements][blocks][unknowns][8]
+  std::unique_ptr<LaneMixing> mixing_;     ///< of the lanes that ask for it
+  LaneVector steps_;                       ///< [3 nodes][32], where lanes are mixed
+  std::vector<float> uBefore_, xBefore_;   ///< of such lanes, where their load in work began; as u_ and x_
+  enum class Start { Under, Here, Ahead }; ///< of a load: has begun, begins where the lane is, or further on
+  std::array<Start, batchLanes> starts_{};
+  std::vector<float> solution_; ///< [rows of the factor + 1][32]; directions over scale_ after the substitutions
+  std::vector<float> held_;     ///< of the solution along a path, in between
+  std::vector<char> probed_;    ///< elements that an electrode looks at: their unknowns are always up to date
   std::array<bool, blocks> atRest_{}, behind_{};
   std::array<double, batchLanes> scale_{};
   std::array<double, batchLanes> smallestJ_{};

@@ -3,7 +3,7 @@
 #include "model/DesignError.h"
 #include "model/base/Text.h"
 #include "solver/assembly/SurfaceTraction.h"
-#include "solver/contact/ContactEstimate.h"
+#include "solver/contact/ContactSteps.h"
 #include "solver/statics/StepMixing.h"
 
 #include <algorithm>
@@ -13,10 +13,6 @@ namespace palp {
 
 namespace {
 
-constexpr double firstMargin = 1.3; // of the expected depth, for the points that may be touched
-constexpr double widerMargin = 1.6; // times the one before, where others were met
-constexpr int mostMargins = 5;
-constexpr double touchesBeyond_mm = 1e-6;
 constexpr double stepGrowth = 2;
 constexpr double hopeless = 1e8;
 constexpr int halvings = 2;      // of one iteration's way, where elements turn inside out
@@ -30,8 +26,6 @@ constexpr int stallsOfRounding = 3;
 // A new tangent takes the time of some twenty iterations with the one in use.
 constexpr double keptIterations = 20;
 constexpr int iterationsOfNewTangent = 5; // of a load step; what more are taken is laid to the old one's charge
-constexpr double longestMove = 0.5;       // of an indenter's expected depth, in one iteration
-constexpr double frictionSteps = 4;       // of each part of the way
 
 } // namespace
 
@@ -60,15 +54,13 @@ void ContactSolver::choosePoints(double margin) {
 }
 
 ContactIncrement ContactSolver::atRest() const {
-  return {{0, assembler_.discretisation().atRest()},
-          {Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(points_.size())),
-           Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(indenters_.size())),
-           std::vector<Grip>(points_.size(), Grip::Free)}};
+  return {{0, assembler_.discretisation().atRest()}, untouched(points_.size(), indenters_.size())};
 }
 
 /// Forces of areas and discs go from those of the load before to this one's.
 void ContactSolver::beginLoad(std::size_t load) {
   now_ = load;
+  expected_ = contactEstimates(path_[load].indenters, design_);
   if (load == 0)
     before_ = Eigen::VectorXd::Zero(3 * Eigen::Index(mesh_.nodeCount()));
   else
@@ -77,7 +69,7 @@ void ContactSolver::beginLoad(std::size_t load) {
 }
 
 std::vector<ContactResult> ContactSolver::solve() {
-  double margin = firstMargin;
+  double margin = touchableMargin;
   for (int attempt = 1;; ++attempt, margin *= widerMargin) {
     choosePoints(margin);
     std::vector<ContactResult> results;
@@ -94,13 +86,6 @@ std::vector<ContactResult> ContactSolver::solve() {
   }
 }
 
-double ContactSolver::firstStep() const {
-  double size = 1;
-  for (const Indenter& indenter : path_[now_].indenters)
-    if (indenter.friction > 0) size = std::min(size, (now_ == 0 && indenter.hasTwoParts() ? 0.5 : 1) / frictionSteps);
-  return size;
-}
-
 ContactResult ContactSolver::follow(const ContactIncrement& start) {
   ContactResult result;
   result.points = points_;
@@ -114,7 +99,7 @@ ContactResult ContactSolver::follow(const ContactIncrement& start) {
     newton.smallestJ = forces_.smallestJ;
     newton.largestJ = forces_.largestJ;
   }
-  const double largest = firstStep();
+  const double largest = largestContactStep(path_[now_].indenters, now_ == 0);
   double fraction = 0, size = largest;
   while (fraction < 1) {
     const double target = fraction + size > 1 - 1e-9 ? 1 : fraction + size;
@@ -127,7 +112,8 @@ ContactResult ContactSolver::follow(const ContactIncrement& start) {
         tangentServes_ = true;
         outcome = step(target, target, state, Sideways::AsLoaded);
       }
-      if (outcome == Outcome::Converged && slidAway(last.contact, state.contact)) outcome = Outcome::NoContact;
+      if (outcome == Outcome::Converged && slidAway(path_[now_].indenters, expected_, last.contact, state.contact))
+        outcome = Outcome::NoContact;
       tangentServes_ = outcome == Outcome::Converged && charged_ < keptIterations;
       return outcome;
     };
@@ -167,18 +153,6 @@ bool ContactSolver::frictionHoldsSome() const {
                      [](const Indenter& indenter) { return indenter.press() && indenter.friction > 0; });
 }
 
-/// Whether an indenter that friction is to hold has left the place that it presses on.
-bool ContactSolver::slidAway(const ContactState& from, const ContactState& to) const {
-  for (std::size_t k = 0; k < indenters_.size(); ++k) {
-    const Indenter& indenter = path_[now_].indenters[k];
-    if (!indenter.press() || indenter.friction == 0) continue;
-    const auto column = static_cast<Eigen::Index>(k);
-    const double way = (to.translations_mm.col(column) - from.translations_mm.col(column)).head<2>().norm();
-    if (way > contactEstimate(indenter, design_).half_mm.minCoeff()) return true;
-  }
-  return false;
-}
-
 /// What an indenter is to do at a fraction of the load in work: of a later one of a path, between the one before and
 /// it.
 Indenter ContactSolver::partOf(std::size_t indenter, double fraction) const {
@@ -198,23 +172,9 @@ Indenter ContactSolver::partOf(std::size_t indenter, double fraction) const {
 }
 
 std::vector<ContactTarget> ContactSolver::targets(double fraction) const {
-  std::vector<ContactTarget> all;
-  for (std::size_t k = 0; k < indenters_.size(); ++k) {
-    const Indenter& indenter = path_[now_].indenters[k];
-    const Indenter part = partOf(k, fraction);
-    ContactTarget target{{false, false, false},
-                         Eigen::Vector3d::Zero(),
-                         Eigen::Vector3d::Zero(),
-                         longestMove * contactEstimate(indenter, design_).depth_mm};
-    if (const Press* press = part.press()) {
-      target.force_N = press->force_N;
-      target.free = {indenter.friction > 0, indenter.friction > 0, true};
-    } else {
-      target.translation_mm << part.motion()->shift_mm, -part.motion()->depth_mm;
-    }
-    all.push_back(target);
-  }
-  return all;
+  std::vector<Indenter> parts;
+  for (std::size_t k = 0; k < indenters_.size(); ++k) parts.push_back(partOf(k, fraction));
+  return contactTargets(parts, expected_);
 }
 
 Eigen::Matrix3Xd ContactSolver::positions(const Eigen::VectorXd& displacements) const {
@@ -354,7 +314,7 @@ bool ContactSolver::reachesBeyond(const State& state) const {
       const Eigen::Vector3d place = mesh_.nodes_mm.col(point.node) +
                                     state.rubber.displacements.segment<3>(3 * Eigen::Index(point.node)) -
                                     tips_mm_.col(column) - state.contact.translations_mm.col(column);
-      if (distance(indenters_[k], place).gap_mm < -touchesBeyond_mm) return true;
+      if (distance(indenters_[k], place).gap_mm < -beyondReach_mm) return true;
     }
   }
   return false;

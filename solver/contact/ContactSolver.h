@@ -1,6 +1,7 @@
 #pragma once
 
 #include "solver/HyperelasticProblem.h"
+#include "solver/contact/ContactEstimate.h"
 #include "solver/contact/ReducedContact.h"
 #include "solver/statics/NewtonSolver.h"
 
@@ -46,7 +47,6 @@ private:
   enum class Sideways { AsLoaded, Held };
   [[nodiscard]] Outcome step(double from, double to, State& state, Sideways sideways);
   [[nodiscard]] bool frictionHoldsSome() const;
-  [[nodiscard]] bool slidAway(const ContactState& from, const ContactState& to) const;
   [[nodiscard]] Outcome newTangent(double fraction, const State& state);
   void setResidual(double fraction, const State& state);
   [[nodiscard]] Indenter partOf(std::size_t indenter, double fraction) const;
@@ -55,7 +55,6 @@ private:
   [[nodiscard]] Eigen::VectorXd onFreeComponents(const Eigen::Matrix3Xd& forces) const;
   [[nodiscard]] bool reachesBeyond(const State& state) const;
   [[nodiscard]] bool tangentWillDo(double previous) const;
-  [[nodiscard]] double firstStep() const;
   void record(double fraction, int iteration);
   [[nodiscard]] bool stopped() const { return observer_.stop.stop_requested(); }
 
@@ -79,7 +78,8 @@ private:
   Eigen::VectorXd residual_; ///< free components, condensed
   double relative_ = 1;
   std::vector<NewtonStep> steps_;
-  std::size_t now_ = 0;               ///< the load of the path
+  std::size_t now_ = 0;                   ///< the load of the path
+  std::vector<ContactEstimate> expected_; ///< of it
   Eigen::VectorXd before_, forces_N_; ///< of areas and discs on all components: at the start of this load, and of it
 };
 

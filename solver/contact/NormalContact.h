@@ -1,7 +1,7 @@
 #pragma once
 
 #include "model/Indenter.h"
-#include "solver/batch/LoadBatch.h"
+#include "solver/contact/LaneContact.h"
 #include "solver/contact/TopCompliance.h"
 
 #include <Eigen/Core>
@@ -21,16 +21,13 @@ namespace palp {
 /// primal-dual active set (Hintermueller, Ito, Kunisch 2003) whose normals are taken again in every step. A node
 /// belongs to the indenter that it is nearest to. One unknown a node where ReducedContact, which knows friction, has
 /// three: for the many touches of a batch.
-class NormalContact {
+class NormalContact final : public LaneContact {
 public:
   NormalContact(std::vector<Indenter> indenters, std::shared_ptr<const TopCompliance> top);
 
-  /// Forces on the nodes that move so [3 x nodes] under the forces found before, which are where it starts; none at
-  /// first. False: no answer, or one that reaches the border of the compliance.
-  [[nodiscard]] bool solve(const Eigen::Matrix3Xd& motion_mm);
-
-  /// The indenters' force on each node of the mesh that carries one.
-  [[nodiscard]] std::vector<NodeForce> forces() const;
+  [[nodiscard]] bool solve(const Eigen::Matrix3Xd& motion_mm) override;
+  [[nodiscard]] std::vector<NodeForce> forces() const override;
+  [[nodiscard]] Way settled(const Eigen::Matrix3Xd&) override { return Way::Arrived; }
 
 private:
   /// A node near the indenter, and where it would be without contact forces.

@@ -8,18 +8,34 @@
 
 namespace palp {
 
-void TopCompliance::chooseNodes(const Mesh& mesh, const std::optional<Rectangle>& part) {
-  std::vector<bool> leftOut(static_cast<std::size_t>(mesh.nodeCount()));
+namespace {
+
+std::vector<int> rowsOf(const std::vector<int>& nodes, const ElementwiseTangent& tangent) {
+  std::vector<int> rows;
+  for (const int node : nodes)
+    for (std::size_t d = 0; d < 3; ++d) rows.push_back(tangent.factorRows()[3 * std::size_t(node) + d]);
+  return rows;
+}
+
+} // namespace
+
+std::vector<int> TopCompliance::nodesIn(const Mesh& mesh, const std::optional<Rectangle>& part) {
+  std::vector<int> nodes;
   for (const ContactPoint& point : contactPoints(mesh)) {
     const Eigen::Vector2d place_mm = mesh.nodes_mm.col(point.node).head<2>();
-    const bool inside =
-        !part || ((place_mm - part->low_mm).minCoeff() >= 0 && (part->high_mm - place_mm).minCoeff() >= 0);
-    if (inside)
-      nodes_.push_back(point.node);
-    else
-      leftOut[std::size_t(point.node)] = true;
+    if (!part || ((place_mm - part->low_mm).minCoeff() >= 0 && (part->high_mm - place_mm).minCoeff() >= 0))
+      nodes.push_back(point.node);
   }
-  places_mm_ = mesh.nodes_mm(Eigen::all, nodes_);
+  return nodes;
+}
+
+TopCompliance::TopCompliance(const ElementwiseTangent& tangent, const Mesh& mesh, const std::optional<Rectangle>& part,
+                             Eigen::MatrixXf blocks)
+    : nodes_(nodesIn(mesh, part)), places_mm_(mesh.nodes_mm(Eigen::all, nodes_)),
+      path_(tangent.tree(), rowsOf(nodes_, tangent)), blocks_(std::move(blocks)) {
+  std::vector<bool> leftOut(static_cast<std::size_t>(mesh.nodeCount()));
+  for (const ContactPoint& point : contactPoints(mesh))
+    leftOut[std::size_t(point.node)] = !std::binary_search(nodes_.begin(), nodes_.end(), point.node);
   std::vector<bool> beside(leftOut.size());
   for (Eigen::Index f = 0; f < mesh.topFaces.cols(); ++f) {
     const auto face = mesh.topFaces.col(f);
@@ -32,8 +48,7 @@ void TopCompliance::chooseNodes(const Mesh& mesh, const std::optional<Rectangle>
 std::shared_ptr<const TopCompliance> TopCompliance::find(const ElementwiseTangent& tangent, const Mesh& mesh,
                                                          const std::optional<Rectangle>& part, int threads,
                                                          const std::stop_token& stop) {
-  auto found = std::make_shared<TopCompliance>();
-  found->chooseNodes(mesh, part);
+  auto found = std::make_shared<TopCompliance>(tangent, mesh, part, Eigen::MatrixXf());
   const int count = found->count();
   found->blocks_.resize(3 * Eigen::Index(count), 3 * Eigen::Index(count));
   const BlockedFactor factor = tangent.factor();

@@ -85,6 +85,12 @@ public:
   /// of the factor's last rows L, all other unknowns being eliminated, (L L^T)^-1. Empty: stopped.
   [[nodiscard]] Eigen::MatrixXd inverseOfLast(const std::stop_token& stop = {}) const;
 
+  /// Gives back the matrix and the last rows in double precision: what is left substitutes (blocks) and does not solve.
+  void keepFactorAlone() {
+    matrix_ = {};
+    lastRows_ = {};
+  }
+
   [[nodiscard]] const CholeskyPlan& plan() const { return *plan_; }
   [[nodiscard]] std::size_t bytes() const { return factor_.size() * sizeof(float); } ///< of the factor's numbers
   [[nodiscard]] BlockedFactor blocks() const { return plan_->blocks(factor_.data()); }

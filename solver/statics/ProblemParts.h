@@ -30,6 +30,9 @@ struct HyperelasticProblem::Parts {
   [[nodiscard]] std::shared_ptr<const CholeskyPlan> plan() const;
   /// Empty: stopped.
   [[nodiscard]] std::shared_ptr<const InitialTangent> initialTangent(int threads, const std::stop_token& stop) const;
+  /// The same by another plan, and not kept.
+  [[nodiscard]] std::shared_ptr<InitialTangent> makeTangent(std::shared_ptr<const CholeskyPlan> plan, int threads,
+                                                            const std::stop_token& stop) const;
   void keepInitialTangent(std::shared_ptr<const InitialTangent> tangent) const;
   /// Does not wait for a thread that makes it.
   void releaseInitialTangent() const;
@@ -41,7 +44,6 @@ private:
     const Parts& parts;
     ~Making();
   };
-  [[nodiscard]] std::shared_ptr<const InitialTangent> makeTangent(int threads, const std::stop_token& stop) const;
 
   // A lock for each thing that is made at first use: a window that asks for a probe must not wait for a factorisation.
   mutable std::once_flag planOnce_, upperOnce_, lowerOnce_;

@@ -89,6 +89,7 @@ Exit run(const SampleArguments& arguments, Session& session) {
   session.result["samples"] = kept + made;
   session.result["samples_of_all_shards"] = generator.total();
   session.result["solves"] = generator.solves();
+  session.result["left_to_newton"] = generator.leftToNewton();
   session.result["solves_per_s"] = seconds > 0 ? static_cast<double>(made) / seconds : 0;
   session.result["measured_error_relative"] = generator.measuredError();
   session.result["mesh"] = generator.origin().mesh;
@@ -97,7 +98,10 @@ Exit run(const SampleArguments& arguments, Session& session) {
     std::cout << kept + made << " samples in " << session.result["file"].get<std::string>() << "; "
               << (arguments.surrogate ? "surrogate, measured error "
                                       : "full solves, measured error against full Newton ")
-              << generator.measuredError() << '\n';
+              << generator.measuredError();
+  if (!session.json && generator.leftToNewton() > 0)
+    std::cout << "; " << generator.leftToNewton() << " left to Newton's method one by one";
+  if (!session.json) std::cout << '\n';
   if (!whole && !session.json) std::cout << "stopped; the same command goes on from there\n";
   return whole ? Exit::Done : Exit::NoResult;
 }

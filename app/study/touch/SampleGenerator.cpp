@@ -4,12 +4,16 @@
 #include "model/DesignError.h"
 #include "model/base/Cancelled.h"
 #include "model/base/CounterRandom.h"
+#include "model/base/Parallel.h"
+#include "model/base/ProgressRelay.h"
 #include "model/base/Text.h"
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 namespace palp {
 
@@ -17,8 +21,7 @@ namespace {
 
 constexpr std::size_t kBlock = 192;       // samples solved before they are handed out: about a second of work
 constexpr std::size_t kFieldBlock = 64;   // the same where each has a conduction field of its own
-constexpr std::size_t kFrictionBlock = 8; // the same with friction, where each takes seconds
-constexpr std::size_t kBlocksOfParts = 2; // as many where each mesh solves its part of them
+constexpr std::size_t kBlocksOfParts = 4; // as many where each mesh solves its part of them
 constexpr std::size_t kSurrogateBlock = 8192;
 constexpr int kMostPerArea = 10'000'000;
 
@@ -93,22 +96,28 @@ LoadCase SampleGenerator::load(std::size_t i) const {
   return load;
 }
 
-bool SampleGenerator::prepare(Part& part, const std::stop_token& stop) {
+/// Parts are solved side by side and share the threads.
+int SampleGenerator::partsAtOnce() const {
+  return std::min(threadCount(request_.threads), static_cast<int>(parts_.size()));
+}
+
+bool SampleGenerator::prepare(Part& part, bool checked, const std::stop_token& stop) {
   if (part.solver) return true;
   MeshOptions options = request_.mesh;
-  BatchOptions batch{request_.relativeTolerance, request_.surrogate, request_.threads};
+  BatchOptions batch{request_.relativeTolerance, request_.surrogate, threadCount(request_.threads) / partsAtOnce()};
+  batch.checkFirst = checked;
   if (part.touches) {
     options = meshForPart(design_, *part.touches, options);
-    if (parts_.size() > 1) batch.touched = touchedByTouches(design_, *part.touches, options);
-    batch.checkFirst = std::none_of(parts_.begin(), parts_.end(), [](const Part& p) { return p.solver != nullptr; });
+    if (parts_.size() > 1 || part.touches->shape != IndenterShape::Plane)
+      batch.touched = touchedByTouches(design_, *part.touches, options);
   }
   Mesh mesh;
   try {
-    mesh = stages_.measure("mesh", [&] { return sensorMesh(design_, options, stop); });
+    mesh = part.stages.measure("mesh", [&] { return sensorMesh(design_, options, stop); });
   } catch (const Cancelled&) {
     return false;
   }
-  stages_.measure("factorise", [&] {
+  part.stages.measure("factorise", [&] {
     part.problem = std::make_unique<HyperelasticProblem>(design_, std::move(mesh));
     part.solver = std::make_unique<BatchSolver>(*part.problem, batch);
     if (design_.field()) part.field = std::make_unique<ConductionBatch>(*part.problem, *part.solver, batch);
@@ -121,7 +130,7 @@ bool SampleGenerator::prepare(const std::stop_token& stop) {
   if (parts_.empty()) {
     if (request_.touches)
       for (const TouchRange& part : partsOfTouches(design_, *request_.touches, request_.mesh, &cuts_))
-        parts_.push_back({part, {}, {}, {}});
+        parts_.emplace_back().touches = part;
     else
       parts_.resize(1);
   }
@@ -135,7 +144,8 @@ bool SampleGenerator::prepare(const std::stop_token& stop) {
     return !stop.stop_requested();
   }
   Part& part = parts_.front();
-  if (!prepare(part, stop)) return false;
+  if (!prepare(part, true, stop)) return false;
+  stages_.add(std::exchange(part.stages, {}));
   origin_.mesh = part.problem->elementType() + ", " + std::to_string(part.problem->mesh().elementCount()) +
                  " elements, " + std::to_string(part.problem->mesh().nodeCount()) + " nodes";
   // All loads together are more than the surrogates of single areas can answer.
@@ -162,17 +172,34 @@ void SampleGenerator::setSeed(std::uint64_t seed) {
   request_.seed = origin_.seed = seed;
 }
 
+void SampleGenerator::Part::giveBack() {
+  if (solver) {
+    solves += solver->solves();
+    leftToNewton += solver->leftToNewton();
+    measuredError = std::max({measuredError, solver->measuredError(), field ? field->surrogateError() : 0});
+  }
+  field.reset();
+  solver.reset();
+  problem.reset();
+}
+
 double SampleGenerator::measuredError() const {
   double error = 0;
   for (const Part& part : parts_)
-    error = std::max(
-        {error, part.solver ? part.solver->measuredError() : 0, part.field ? part.field->surrogateError() : 0});
+    error = std::max({error, part.measuredError, part.solver ? part.solver->measuredError() : 0,
+                      part.field ? part.field->surrogateError() : 0});
   return error;
 }
 
 std::size_t SampleGenerator::solves() const {
   std::size_t all = 0;
-  for (const Part& part : parts_) all += part.solver ? part.solver->solves() : 0;
+  for (const Part& part : parts_) all += part.solves + (part.solver ? part.solver->solves() : 0);
+  return all;
+}
+
+std::size_t SampleGenerator::leftToNewton() const {
+  std::size_t all = 0;
+  for (const Part& part : parts_) all += part.leftToNewton + (part.solver ? part.solver->leftToNewton() : 0);
   return all;
 }
 
@@ -188,7 +215,6 @@ std::size_t SampleGenerator::partOf(const LoadCase& load) const {
 
 std::size_t SampleGenerator::samplesABlock() const {
   if (request_.surrogate) return kSurrogateBlock;
-  if (request_.touches && request_.touches->mostFriction > 0) return kFrictionBlock;
   return (design_.field() ? kFieldBlock : kBlock) * (parts_.size() > 1 ? kBlocksOfParts : 1);
 }
 
@@ -211,7 +237,7 @@ std::size_t SampleGenerator::generate(SampleRange range, const std::function<voi
     const SampleRange part{done, std::min(range.last, done + most)};
     const auto found = stages_.measure("sample", [&] {
       return answers(
-          part,
+          part, part.last == range.last,
           [&](std::size_t solved) {
             if (progress) progress(done - range.first + solved);
           },
@@ -224,7 +250,8 @@ std::size_t SampleGenerator::generate(SampleRange range, const std::function<voi
   return done - range.first;
 }
 
-ConductionBatch::Answers SampleGenerator::answers(const SampleRange& part,
+/// The last block's parts give their memory back as they are done.
+ConductionBatch::Answers SampleGenerator::answers(const SampleRange& part, bool last,
                                                   const std::function<void(std::size_t)>& progress,
                                                   const std::stop_token& stop) {
   std::vector<LoadCase> loads;
@@ -234,29 +261,44 @@ ConductionBatch::Answers SampleGenerator::answers(const SampleRange& part,
   for (std::size_t i = 0; i < loads.size(); ++i) ofParts[partOf(loads[i])].push_back(i);
   ConductionBatch::Answers all{std::vector<ElectrodeDisplacements>(loads.size()),
                                std::vector<Eigen::MatrixXd>(loads.size())};
+  std::vector<std::size_t> inWork;
+  for (std::size_t p = 0; p < parts_.size(); ++p)
+    if (!ofParts[p].empty()) inWork.push_back(p);
+  const bool first = std::none_of(parts_.begin(), parts_.end(), [](const Part& p) { return p.solver || p.solves > 0; });
   std::size_t done = 0;
-  for (std::size_t p = 0; p < parts_.size(); ++p) {
-    const std::vector<std::size_t>& own = ofParts[p];
-    if (own.empty()) continue;
-    if (!prepare(parts_[p], stop)) return {};
-    std::vector<LoadCase> some;
-    std::vector<std::size_t> numbers;
-    for (const std::size_t i : own) {
-      some.push_back(loads[i]);
-      numbers.push_back(part.first + i);
-    }
-    parts_[p].solver->nameLoads(std::move(numbers));
-    ConductionBatch::Answers found = answers(
-        parts_[p], some, [&](std::size_t solved) { progress(done + solved); }, stop, 0);
-    parts_[p].solver->rest();
-    if (found.displacements.size() < own.size()) return {};
-    for (std::size_t k = 0; k < own.size(); ++k) {
-      all.displacements[own[k]] = std::move(found.displacements[k]);
-      all.resistances_ohm[own[k]] = std::move(found.resistances_ohm[k]);
-    }
-    done += own.size();
+  ProgressRelay relay([&](std::size_t more) { progress(done += more); });
+  std::atomic<bool> whole = true;
+  inParallel(inWork.size(), partsAtOnce(), [&](std::size_t k) {
+    const std::size_t p = inWork[k];
+    if (!answerPart(p, first && k == 0, loads, part.first, ofParts[p], relay, stop, all)) whole = false;
+    if (last) parts_[p].giveBack();
+  });
+  for (Part& p : parts_) stages_.add(std::exchange(p.stages, {}));
+  return whole ? std::move(all) : ConductionBatch::Answers{};
+}
+
+bool SampleGenerator::answerPart(std::size_t index, bool checked, std::span<const LoadCase> loads,
+                                 std::size_t firstNumber, std::span<const std::size_t> own, ProgressRelay& progress,
+                                 const std::stop_token& stop, ConductionBatch::Answers& all) {
+  Part& part = parts_[index];
+  if (!prepare(part, checked, stop)) return false;
+  std::vector<LoadCase> some;
+  std::vector<std::size_t> numbers;
+  for (const std::size_t i : own) {
+    some.push_back(loads[i]);
+    numbers.push_back(firstNumber + i);
   }
-  return all;
+  part.solver->nameLoads(std::move(numbers));
+  std::size_t done = 0;
+  ConductionBatch::Answers found = answers(
+      part, some, [&](std::size_t solved) { progress.add(solved - std::exchange(done, solved)); }, stop, 0);
+  part.solver->rest();
+  if (found.displacements.size() < own.size()) return false;
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    all.displacements[own[k]] = std::move(found.displacements[k]);
+    all.resistances_ohm[own[k]] = std::move(found.resistances_ohm[k]);
+  }
+  return true;
 }
 
 ConductionBatch::Answers SampleGenerator::answers(Part& part, std::span<const LoadCase> loads,

@@ -19,6 +19,8 @@
 
 namespace palp {
 
+class ProgressRelay;
+
 /// Which samples: random forces on areas, uniform over the design's force range, or random touches.
 struct SampleRequest {
   int perArea = 100; ///< on each area; `together`: in all
@@ -69,6 +71,8 @@ public:
 
   [[nodiscard]] const StageLog& stages() const { return stages_; }
   [[nodiscard]] std::size_t solves() const;
+  /// Samples so far that full Newton's method had to find.
+  [[nodiscard]] std::size_t leftToNewton() const;
   /// Largest relative error of the electrode displacements on the share that was solved again by full Newton; that of
   /// the surrogates' d ln R under the law of the field where it is larger.
   [[nodiscard]] double measuredError() const;
@@ -79,11 +83,16 @@ private:
     std::optional<TouchRange> touches;
     std::unique_ptr<HyperelasticProblem> problem;
     std::unique_ptr<BatchSolver> solver;
-    std::unique_ptr<ConductionBatch> field; ///< under the law of the field
+    std::unique_ptr<ConductionBatch> field;   ///< under the law of the field
+    StageLog stages{};                        ///< not yet counted by the generator's
+    std::size_t solves = 0, leftToNewton = 0; ///< of solvers that were given back
+    double measuredError = 0;
+
+    void giveBack(); ///< its memory; made again where it is needed again
   };
   /// False: stopped.
   bool prepare(const std::stop_token& stop = {});
-  bool prepare(Part& part, const std::stop_token& stop);
+  bool prepare(Part& part, bool checked, const std::stop_token& stop);
   bool fitSurrogates(const std::stop_token& stop);
   [[nodiscard]] std::size_t partOf(const LoadCase& load) const;
   [[nodiscard]] std::size_t samplesABlock() const;
@@ -91,8 +100,13 @@ private:
                                    const std::function<void(std::size_t)>& progress, const std::stop_token& stop,
                                    std::size_t firstNumber) const;
   /// Empty displacements: stopped.
-  ConductionBatch::Answers answers(const SampleRange& part, const std::function<void(std::size_t)>& progress,
+  ConductionBatch::Answers answers(const SampleRange& part, bool last, const std::function<void(std::size_t)>& progress,
                                    const std::stop_token& stop);
+  /// Those of these loads that lie in the part, side by side with other parts. False: stopped.
+  bool answerPart(std::size_t index, bool checked, std::span<const LoadCase> loads, std::size_t firstNumber,
+                  std::span<const std::size_t> own, ProgressRelay& progress, const std::stop_token& stop,
+                  ConductionBatch::Answers& all);
+  [[nodiscard]] int partsAtOnce() const;
   SampleSet block(SampleRange range, const ConductionBatch::Answers& answers) const;
 
   SensorDesign design_;

@@ -48,6 +48,44 @@ TEST(BatchContact, FindsWhatFullNewtonFinds) {
   }
 }
 
+/// Pressed first and then sideways, near the limit of friction and far from it, off the middle and at the edge.
+TEST(BatchContact, FrictionGoesTheWayOfFullNewton) {
+  const HyperelasticProblem problem = touchedHexahedra();
+  std::vector<LoadCase> loads{touch(5, 15, 12, 3), touch(6, 6, 22, 2), touch(5, 15, 12, 1)};
+  loads[0].indenters[0].friction = 0.3;
+  loads[0].indenters[0].control = Press{{0.8, 0.2, -3}};
+  loads[1].indenters[0].friction = 0.8;
+  loads[1].indenters[0].control = Press{{-0.3, 0.1, -2}};
+  loads[2].indenters[0].friction = 0.5;
+  BatchOptions options;
+  options.checkFirst = false;
+  BatchSolver batch(problem, options);
+  const auto answers = batch.solve(loads);
+  ASSERT_EQ(answers.size(), loads.size());
+  EXPECT_EQ(batch.leftToNewton(), 0U);
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    const Solution full = problem.solve(loads[i]);
+    ASSERT_TRUE(full.converged) << full.stopReason;
+    EXPECT_LT(difference(answers[i], problem.electrodes(full.state())), 1e-5) << i;
+    LoadCase smooth = loads[i];
+    smooth.indenters[0].friction = 0;
+    smooth.indenters[0].control = Press{{0, 0, loads[i].indenters[0].press()->force_N.z()}};
+    EXPECT_GT(difference(answers[i], batch.solve({&smooth, 1})[0]), 1e-3) << "friction matters, load " << i;
+  }
+}
+
+TEST(BatchContact, FrictionBesideALoadedAreaIsLeftToNewton) {
+  const HyperelasticProblem problem = touchedHexahedra();
+  LoadCase load = touch(6, 20, 20, 1);
+  load.indenters[0].friction = 0.5;
+  load.areas = {{0, {0, 0, -0.5}}};
+  BatchOptions options;
+  options.checkFirst = false;
+  BatchSolver batch(problem, options);
+  ASSERT_EQ(batch.solve({&load, 1}).size(), 1U);
+  EXPECT_EQ(batch.leftToNewton(), 1U);
+}
+
 TEST(BatchContact, ATouchThatReachesBeyondThePartThatIsSaidIsSolvedAllTheSame) {
   const HyperelasticProblem problem = touchedHexahedra();
   const std::vector<LoadCase> loads{touch(5, 8, 15, 2), touch(5, 13.5, 15, 2)}; // the second across the border
@@ -66,7 +104,9 @@ TEST(BatchContact, AnAnswerDependsOnItsOwnTouchAlone) {
   const HyperelasticProblem problem = touchedHexahedra();
   LoadCase uniform;
   uniform.areas = {{1, {0.2, 0, -3}}};
-  const std::vector<LoadCase> loads{touch(4, 9, 9, 2), uniform, touch(6, 20, 12, 4)};
+  std::vector<LoadCase> loads{touch(4, 9, 9, 2), uniform, touch(6, 20, 12, 4), touch(5, 12, 18, 2)};
+  loads.back().indenters[0].friction = 0.5;
+  loads.back().indenters[0].control = Press{{0.4, 0, -2}};
   BatchOptions one, three;
   one.threads = 1;
   three.threads = 3;
@@ -74,6 +114,34 @@ TEST(BatchContact, AnAnswerDependsOnItsOwnTouchAlone) {
   const auto together = batch.solve(loads);
   for (std::size_t i = 0; i < loads.size(); ++i)
     EXPECT_TRUE(BatchSolver(problem, one).solve({&loads[i], 1})[0].upper_mm == together[i].upper_mm) << i;
+}
+
+/// More touches than there are lanes, so that some begin where others have been, beside others that go on. Three nodes
+/// under a sphere push it aside: it has to be held in its first step.
+TEST(BatchContact, ATouchWithFrictionDependsOnItselfAloneAlsoWhereItFollowsAnother) {
+  const HyperelasticProblem problem = touchedHexahedra();
+  std::vector<LoadCase> loads;
+  for (int i = 0; i < 44; ++i) {
+    loads.push_back(touch(6 + 0.05 * i, 10.2 + 2 * (i % 4), 7.8 + 2 * (i % 6), 1));
+    Indenter& pressing = loads.back().indenters[0];
+    const double press_N = 1.5 + 0.04 * i;
+    pressing.friction = 0.3 + 0.01 * i;
+    pressing.control = Press{{0.1 * press_N, -0.05 * press_N, -press_N}};
+  }
+  BatchOptions options;
+  options.touched = Rectangle{{3, 3}, {27, 27}};
+  options.checkFirst = false;
+  BatchOptions one = options;
+  one.threads = 1;
+  BatchSolver batch(problem, options), single(problem, one);
+  const auto together = batch.solve(loads);
+  ASSERT_EQ(together.size(), loads.size());
+  EXPECT_EQ(batch.leftToNewton(), 0U);
+  for (const std::size_t i : {0, 7, 21, 43})
+    EXPECT_TRUE(single.solve({&loads[i], 1})[0].upper_mm == together[i].upper_mm) << i;
+  const Solution full = problem.solve(loads[7]);
+  ASSERT_TRUE(full.converged) << full.stopReason;
+  EXPECT_LT(difference(together[7], problem.electrodes(full.state())), 1e-5);
 }
 
 TEST(BatchContact, AnIndenterBesideALoadedAreaIsNotLeftOutByTheSurrogate) {

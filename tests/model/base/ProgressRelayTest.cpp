@@ -1,4 +1,4 @@
-#include "solver/batch/ProgressRelay.h"
+#include "model/base/ProgressRelay.h"
 
 #include <gtest/gtest.h>
 

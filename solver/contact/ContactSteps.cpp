@@ -1,0 +1,61 @@
+#include "solver/contact/ContactSteps.h"
+
+#include <algorithm>
+
+namespace palp {
+
+namespace {
+
+constexpr double longestMove = 0.5; // of an indenter's expected depth, in one iteration
+constexpr double frictionSteps = 4; // of each part of the way
+
+} // namespace
+
+double largestContactStep(const std::vector<Indenter>& indenters, bool fromRest) {
+  double size = 1;
+  for (const Indenter& indenter : indenters)
+    if (indenter.friction > 0) size = std::min(size, (fromRest && indenter.hasTwoParts() ? 0.5 : 1) / frictionSteps);
+  return size;
+}
+
+std::vector<ContactEstimate> contactEstimates(const std::vector<Indenter>& indenters, const SensorDesign& design) {
+  std::vector<ContactEstimate> all;
+  for (const Indenter& indenter : indenters) all.push_back(contactEstimate(indenter, design));
+  return all;
+}
+
+std::vector<ContactTarget> contactTargets(const std::vector<Indenter>& parts,
+                                          std::span<const ContactEstimate> expected) {
+  std::vector<ContactTarget> all;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const Indenter& part = parts[k];
+    ContactTarget target{
+        {false, false, false}, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), longestMove * expected[k].depth_mm};
+    if (const Press* press = part.press()) {
+      target.force_N = press->force_N;
+      target.free = {part.friction > 0, part.friction > 0, true};
+    } else {
+      target.translation_mm << part.motion()->shift_mm, -part.motion()->depth_mm;
+    }
+    all.push_back(target);
+  }
+  return all;
+}
+
+bool slidAway(const std::vector<Indenter>& indenters, std::span<const ContactEstimate> expected,
+              const ContactState& from, const ContactState& to) {
+  for (std::size_t k = 0; k < indenters.size(); ++k) {
+    if (!indenters[k].press() || indenters[k].friction == 0) continue;
+    const auto column = static_cast<Eigen::Index>(k);
+    const double way = (to.translations_mm.col(column) - from.translations_mm.col(column)).head<2>().norm();
+    if (way > expected[k].half_mm.minCoeff()) return true;
+  }
+  return false;
+}
+
+ContactState untouched(std::size_t points, std::size_t indenters) {
+  return {Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(points)),
+          Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(indenters)), std::vector<Grip>(points, Grip::Free)};
+}
+
+} // namespace palp

@@ -1,0 +1,173 @@
+#include "solver/contact/FrictionContact.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palp {
+
+FrictionContact::FrictionContact(std::vector<Indenter> indenters, std::shared_ptr<const TopCompliance> top,
+                                 const Mesh& mesh, const SensorDesign& design)
+    : indenters_(std::move(indenters)), top_(std::move(top)), mesh_(mesh), design_(design),
+      expected_(contactEstimates(indenters_, design)),
+      steps_(static_cast<int>(std::lround(1 / largestContactStep(indenters_, true)))) {
+  tips_mm_.resize(3, static_cast<Eigen::Index>(indenters_.size()));
+  for (std::size_t k = 0; k < indenters_.size(); ++k)
+    tips_mm_.col(static_cast<Eigen::Index>(k)) = tipAtRest_mm(indenters_[k], mesh);
+  choosePoints(margin_);
+  state_ = untouched(points_.size(), indenters_.size());
+  beginStep(Eigen::Matrix3Xd::Zero(3, top_->count()));
+  const std::vector<ContactEstimate> first = contactEstimates(partsAt(1. / steps_), design);
+  for (std::size_t k = 0; k < first.size(); ++k)
+    state_.translations_mm.col(static_cast<Eigen::Index>(k)).z() = -first[k].depth_mm;
+}
+
+void FrictionContact::choosePoints(double margin) {
+  LoadCase load;
+  load.indenters = indenters_;
+  points_.clear();
+  numbers_.clear();
+  for (const ContactPoint& point : touchablePoints(mesh_, design_, {load}, margin)) {
+    const auto at = std::lower_bound(top_->nodes().begin(), top_->nodes().end(), point.node);
+    if (at == top_->nodes().end() || *at != point.node) continue; // beyond the border of the compliance
+    points_.push_back(point);
+    numbers_.push_back(static_cast<int>(at - top_->nodes().begin()));
+  }
+  const auto count = static_cast<Eigen::Index>(points_.size());
+  compliance_.resize(3 * count, 3 * count);
+  for (Eigen::Index j = 0; j < count; ++j)
+    for (Eigen::Index i = 0; i < count; ++i)
+      compliance_.block<3, 3>(3 * i, 3 * j) = top_->block(numbers_[std::size_t(i)], numbers_[std::size_t(j)]);
+  contact_.emplace(indenters_, points_, tips_mm_);
+}
+
+std::vector<Indenter> FrictionContact::partsAt(double fraction) const {
+  std::vector<Indenter> parts;
+  for (const Indenter& indenter : indenters_) parts.push_back(indenter.at(fraction));
+  return parts;
+}
+
+void FrictionContact::beginStep(const Eigen::Matrix3Xd& motion_mm) {
+  startMotion_mm_ = motion_mm;
+  start_ = slipStart_ = state_;
+  sideways_ = Sideways::AsLoaded;
+  contact_->startStep(positions(motion_mm), start_);
+  targets_ = contactTargets(partsAt(double(step_) / steps_), expected_);
+}
+
+/// The step is taken again from its start, down alone. The forces stay, as they are those that the nodes move under.
+/// False: it has been, or there is nothing to hold.
+bool FrictionContact::hold() {
+  if (sideways_ != Sideways::AsLoaded) return false;
+  bool any = false;
+  for (std::size_t k = 0; k < targets_.size(); ++k)
+    for (const int c : {0, 1})
+      if (targets_[k].free(c)) {
+        targets_[k].free(c) = false;
+        targets_[k].translation_mm(c) = start_.translations_mm(c, static_cast<Eigen::Index>(k));
+        any = true;
+      }
+  sideways_ = Sideways::Held;
+  turned_ = true;
+  return any;
+}
+
+void FrictionContact::letGo(const Eigen::Matrix3Xd& motion_mm) {
+  startMotion_mm_ = motion_mm;
+  slipStart_ = state_;
+  sideways_ = Sideways::LetGo;
+  turned_ = true;
+  contact_->startStep(positions(motion_mm), slipStart_);
+  targets_ = contactTargets(partsAt(double(step_) / steps_), expected_);
+}
+
+/// More points, for the step in work as well: those that are known already keep what they bear.
+void FrictionContact::widen() {
+  turned_ = true;
+  const std::vector<ContactPoint> known = points_;
+  const ContactState before = start_, from = slipStart_, now = state_;
+  choosePoints(margin_ *= widerMargin);
+  const auto grown = [&](const ContactState& small) {
+    ContactState large = untouched(points_.size(), indenters_.size());
+    large.translations_mm = small.translations_mm;
+    for (std::size_t i = 0, k = 0; i < points_.size(); ++i) { // both in the order of the nodes
+      while (k < known.size() && known[k].node < points_[i].node) ++k;
+      if (k == known.size() || known[k].node != points_[i].node) continue;
+      large.forces_N.col(static_cast<Eigen::Index>(i)) = small.forces_N.col(static_cast<Eigen::Index>(k));
+      large.grips[i] = small.grips[k];
+    }
+    return large;
+  };
+  start_ = grown(before);
+  slipStart_ = grown(from);
+  state_ = grown(now);
+  contact_->startStep(positions(startMotion_mm_), slipStart_);
+}
+
+Eigen::Matrix3Xd FrictionContact::positions(const Eigen::Matrix3Xd& motion_mm) const {
+  Eigen::Matrix3Xd x(3, static_cast<Eigen::Index>(numbers_.size()));
+  for (std::size_t i = 0; i < numbers_.size(); ++i)
+    x.col(static_cast<Eigen::Index>(i)) = top_->places_mm().col(numbers_[i]) + motion_mm.col(numbers_[i]);
+  return x;
+}
+
+/// Points that the compliance does not know are found by the border that they lie beyond.
+bool FrictionContact::solve(const Eigen::Matrix3Xd& motion_mm) {
+  const ContactState before = state_;
+  const auto solved = [&] {
+    if (!contact_->solve(compliance_, positions(motion_mm), targets_, state_, {})) return false;
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      if (state_.grips[i] != Grip::Free && top_->atBorder(numbers_[i])) return false;
+    return true;
+  };
+  if (points_.empty()) return false;
+  if (solved()) return true;
+  state_ = before;
+  return hold() && solved();
+}
+
+std::vector<NodeForce> FrictionContact::forces() const {
+  std::vector<NodeForce> all;
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    if (const Eigen::Vector3d force_N = state_.forces_N.col(static_cast<Eigen::Index>(i)); !force_N.isZero(0))
+      all.push_back({points_[i].node, force_N});
+  return all;
+}
+
+bool FrictionContact::reachesBeyond(const Eigen::Matrix3Xd& motion_mm) const {
+  for (int i = 0; i < top_->count(); ++i) {
+    if (std::binary_search(numbers_.begin(), numbers_.end(), i)) continue;
+    const Eigen::Vector3d place_mm = top_->places_mm().col(i) + motion_mm.col(i);
+    for (std::size_t k = 0; k < indenters_.size(); ++k) {
+      const auto column = static_cast<Eigen::Index>(k);
+      if (distance(indenters_[k], place_mm - tips_mm_.col(column) - state_.translations_mm.col(column)).gap_mm <
+          -beyondReach_mm)
+        return true;
+    }
+  }
+  return false;
+}
+
+LaneContact::Way FrictionContact::settled(const Eigen::Matrix3Xd& motion_mm) {
+  if (slid()) return hold() ? Way::StaysHere : Way::Lost;
+  if (reachesBeyond(motion_mm)) {
+    if (++widened_ == mostMargins) return Way::Lost;
+    widen();
+    return Way::StaysHere;
+  }
+  if (sideways_ == Sideways::Held) {
+    letGo(motion_mm);
+    return Way::StaysHere;
+  }
+  if (inLastPart()) return Way::Arrived;
+  ++step_;
+  beginStep(motion_mm);
+  return Way::GoesOn;
+}
+
+/// Not where some go aside from now on.
+bool FrictionContact::straightOn() const {
+  return 2 * (step_ - 1) != steps_ || std::none_of(indenters_.begin(), indenters_.end(),
+                                                   [](const Indenter& indenter) { return indenter.hasTwoParts(); });
+}
+
+} // namespace palp
