@@ -36,8 +36,8 @@ struct ConductionField::State {
     if (problem.design().lowerFollowsRubber) at.electrodes_mm.rightCols(moved.lower_mm.cols()) += moved.lower_mm;
     if (const auto& byPressure = problem.design().pressureLaw) {
       const Eigen::VectorXd pressures = nodalPressures_MPa(problem.mesh(), state);
-      const Eigen::VectorXd logarithms = pressures.unaryExpr([&](double p) { return logConductivity(*byPressure, p); });
-      if (!logarithms.isZero(0)) at.logConductivity = green.mesh().atNodes(logarithms.transpose()).transpose();
+      if ((pressures.array() > 0).any())
+        at.conductivity = {green.mesh().atNodes(pressures.transpose()).transpose(), *byPressure};
     }
     return at;
   }
@@ -49,7 +49,7 @@ struct ConductionField::State {
     if (!correction) return {};
     const auto found = green.at(state, threads, stop);
     if (!found) return {};
-    if (state.logConductivity.size() == 0) return potentials_ohm(*found, law) + *correction;
+    if (!state.conductivity.uneven()) return potentials_ohm(*found, law) + *correction;
     const Eigen::VectorXd conductivities = green.conductivities(state);
     const Eigen::VectorXd inverse = conductivities.cwiseSqrt().cwiseInverse();
     // Without terms of p alone and of q alone, which would become visible.
@@ -109,11 +109,12 @@ std::optional<CurrentField> ConductionField::current(const LoadIncrement& state,
   const double shift = (electrodes - rho * found->electrodes - contact * currents).mean();
   const Eigen::Index nodes = state_->problem.mesh().nodeCount();
   CurrentField field{(rho * found->value.head(nodes)).array() + shift, -found->gradient.leftCols(nodes), {}, currents};
-  if (places.logConductivity.size() > 0)
-    field.currentDensity_A_per_mm2 *= places.logConductivity.head(nodes).array().exp().matrix().asDiagonal();
+  Eigen::ArrayXd logarithms = Eigen::ArrayXd::Zero(nodes); // ln k
+  if (const Conductivity& k = places.conductivity; k.uneven())
+    logarithms = k.pressures_MPa.head(nodes).unaryExpr([&](double p) { return 2 * k.half(p); });
+  field.currentDensity_A_per_mm2 *= logarithms.exp().matrix().asDiagonal();
   field.powerDensity_W_per_mm3 = rho * field.currentDensity_A_per_mm2.colwise().squaredNorm().transpose();
-  if (places.logConductivity.size() > 0)
-    field.powerDensity_W_per_mm3.array() *= (-places.logConductivity.head(nodes)).array().exp();
+  field.powerDensity_W_per_mm3.array() *= (-logarithms).exp();
   return field;
 }
 

@@ -24,8 +24,8 @@ struct CurrentField {
 /// solver's mesh, the fields of the electrodes themselves and of their mirror images taken off in closed form. Lower
 /// electrodes go with the rubber or are held, as the design says. What the mesh gives at rest is replaced by the closed
 /// form (model/FieldAtRest.h), so that its errors cancel: P = P_box + P_mesh(state) - P_mesh(rest).
-/// Under a pressure law ln k is found at the nodes (nodalPressures_MPa) and is quadratic between; P_box - P_mesh(rest),
-/// with what no current sees taken off, is divided by m_p m_q. Threads may share it.
+/// Under a pressure law the pressure is found at the nodes (nodalPressures_MPa) and is quadratic between; P_box -
+/// P_mesh(rest), with what no current sees taken off, is divided by m_p m_q. Threads may share it.
 class ConductionField {
 public:
   /// Throws DesignError where the design has another law.

@@ -26,8 +26,9 @@ constexpr double errorOfDifference = 0.7;
 /// radii of 0.1 to 0.3 mm and lower electrodes held and following, against a mesh half as coarse.
 constexpr double errorOfResistanceDifference = 1.25;
 /// That on meshes that the field asks to be finer (finerForField), whose twins are finer too: 0.6 to 2.8 times the
-/// error in 21 estimates (resources/docs/numerics.md).
+/// error in 15 estimates (resources/docs/numerics.md).
 constexpr double errorOfResistanceDifferenceOnFiner = 0.45;
+constexpr double errorOfResistanceDifferenceByPressure = 0.9; ///< that under a pressure law, whose mesh is finer still
 constexpr double smallestRefinement = 1.15;
 constexpr double clearlyFewer = 0.65;  // 1.3^-3 is 0.46; grids have whole numbers of cells
 constexpr double twinTolerance = 1e-4; // far below any difference between meshes
@@ -105,8 +106,9 @@ DiscretisationError discretisationError(const HyperelasticProblem& problem, cons
     return {{}, {}, "no estimate: the solve on the other mesh did not converge: " + reference.stopReason};
   const double scale = graded ? scaleOfDifference(problem, other) : 1;
   const double displacements = scale * difference(problem, solution, other, reference);
-  const double ofResistances =
-      finerForField(problem.design()) ? errorOfResistanceDifferenceOnFiner : errorOfResistanceDifference;
+  const double ofResistances = finerForPressure(problem.design()) ? errorOfResistanceDifferenceByPressure
+                               : finerForField(problem.design())  ? errorOfResistanceDifferenceOnFiner
+                                                                  : errorOfResistanceDifference;
   std::optional<double> resistances;
   if (resistances_ohm && problem.design().field())
     resistances =

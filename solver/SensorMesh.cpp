@@ -117,6 +117,10 @@ bool finerForField(const SensorDesign& design) {
   return design.field() != nullptr && (design.lowerFollowsRubber || design.pressureLaw);
 }
 
+bool finerForPressure(const SensorDesign& design) {
+  return design.field() != nullptr && design.pressureLaw;
+}
+
 double standardMeshSize_mm(const SensorDesign& design) {
   return standardSize(design);
 }

@@ -72,9 +72,11 @@ void requireMeshable(const SensorDesign& design, const MeshOptions& options);
 Mesh sensorMesh(const SensorDesign& design, const MeshOptions& options = {}, const std::stop_token& stop = {});
 
 /// Whether the mesh is finer at the free side faces and at the clamped one: under the law of the field, where it feels
-/// how lower electrodes follow the rubber or the pressure everywhere. Designs that differ in their law alone have one
-/// mesh where this is the same.
+/// how lower electrodes follow the rubber or the pressure everywhere.
 bool finerForField(const SensorDesign& design);
+/// Whether it is finer in the bulk too, and finer still at the clamped face: under a pressure law of the field. Designs
+/// that differ in their law alone have one mesh where both are the same.
+bool finerForPressure(const SensorDesign& design);
 
 /// Size in the bulk of the default mesh.
 double standardMeshSize_mm(const SensorDesign& design);

@@ -9,6 +9,7 @@
 #include "app/gui/window/MainWindow.h"
 #include "app/gui/window/SceneCosts.h"
 #include "app/gui/window/Snapshot.h"
+#include "app/gui/window/Style.h"
 #include "app/study/Version.h"
 #include "model/base/Error.h"
 
@@ -91,6 +92,7 @@ int run(palp::Application& application) {
     readable = false;
   }
   if (wish.mesh.meshSize_mm || wish.mesh.mapped) project.mesh = wish.mesh;
+  palp::applyTheme(application, palp::Theme::Light); // before any widget: later ones take its font
   palp::Workbench workbench(project);
   palp::NetworkSession network;
   palp::MainWindow window(workbench, network);

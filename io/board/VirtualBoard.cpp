@@ -150,6 +150,7 @@ Readings VirtualBoard::nextReadings(std::uint64_t clock_us) {
   const BoardInfo& info = settings_.info;
   const BoardConfiguration& configuration = settings_.configuration;
   time_s_ = static_cast<double>(clock_us - *start_us_) * kSecondsPerMicrosecond;
+  followWarming();
   Readings readings;
   const bool first = row_ == nextRow(-1) && firstColumn_ == 0;
   if (first || !now_ohm_) now_ohm_ = &resistances_(time_s_);
@@ -204,9 +205,22 @@ double VirtualBoard::disturbed(int row, int column, double resistance_ohm) {
          (1 + d.noise * normal_(engine_));
 }
 
+void VirtualBoard::followWarming() {
+  const BoardDisturbance& d = settings_.disturbance;
+  if (!warming_) {
+    warming_ = Warming{d.warming_degC, 0, 0};
+  } else if (d.warming_degC != warming_->to_degC) {
+    const double now_degC = temperature_degC() - d.startTemperature_degC;
+    warming_ = Warming{d.warming_degC, now_degC, time_s_};
+  }
+}
+
 double VirtualBoard::temperature_degC() const {
   const BoardDisturbance& d = settings_.disturbance;
-  return d.startTemperature_degC + d.warming_degC * (1 - std::exp(-time_s_ / d.warmingTime_s));
+  const Warming warming = warming_.value_or(Warming{d.warming_degC, 0, 0});
+  const double rise_degC = warming.to_degC - warming.from_degC;
+  return d.startTemperature_degC + warming.from_degC +
+         rise_degC * (1 - std::exp(-(time_s_ - warming.begin_s) / d.warmingTime_s));
 }
 
 /// The configured range, or the one whose reference is nearest the row's resistances (the divider is finest there).

@@ -73,6 +73,8 @@ private:
   using Send = std::function<void(std::span<const std::uint8_t>)>;
   Readings nextReadings(std::uint64_t clock_us);
   std::uint32_t code(int row, int column, double reference_ohm);
+  /// Another warming than before begins now, from the temperature that is there.
+  void followWarming();
   double disturbed(int row, int column, double resistance_ohm);
   [[nodiscard]] double temperature_degC() const;
   [[nodiscard]] int rangeOf(int row) const;
@@ -92,6 +94,12 @@ private:
   std::uint64_t sent_ = 0;                ///< reports since the start of streaming
   std::uint64_t streamStart_us_ = 0;
   double time_s_ = 0;
+  /// Warming that is under way: where to, and from where and when.
+  struct Warming {
+    double to_degC = 0, from_degC = 0; ///< above the start
+    double begin_s = 0;
+  };
+  std::optional<Warming> warming_;
   std::uint16_t sequence_ = 0;
   std::uint16_t frame_ = 0;
   int row_ = 0;

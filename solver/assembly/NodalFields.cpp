@@ -97,48 +97,78 @@ Eigen::VectorXd meanPressures(const Mesh& mesh, const LoadIncrement& state) {
   return pressures.cwiseQuotient(count);
 }
 
-/// The linear function that is nearest to the pressure in the tetrahedra around a corner (least squares over their
-/// volume; one alone determines it), and in the middle of an edge the mean of its two ends' functions.
+/// A quadratic function of the place around a corner, by weighted least squares.
+class QuadraticFit {
+public:
+  /// In units of how far the points lie from the corner along each axis, as elements are flat.
+  void widen(const Eigen::Vector3d& from, double weight) {
+    squares_ += weight * from.cwiseAbs2();
+    weights_ += weight;
+  }
+  void add(const Eigen::Vector3d& from, double weight, double value) {
+    const Basis b = basis(from);
+    normal_ += weight / weights_ * b * b.transpose();
+    fit_ += weight / weights_ * value * b;
+  }
+  /// A little stiff in its quadratic part, so that few elements, as at the block's edges, determine it.
+  void solve() {
+    constexpr double stiffness = 0.01;
+    normal_.diagonal().tail<6>().array() += stiffness;
+    fit_ = normal_.ldlt().solve(fit_).eval();
+  }
+  [[nodiscard]] double at(const Eigen::Vector3d& from) const { return fit_.dot(basis(from)); }
+
+private:
+  using Basis = Eigen::Matrix<double, 10, 1>;
+  [[nodiscard]] Basis basis(const Eigen::Vector3d& from) const {
+    const Eigen::Vector3d d = from.cwiseQuotient((squares_ / weights_).cwiseSqrt());
+    return {1, d(0), d(1), d(2), d(0) * d(0), d(1) * d(1), d(2) * d(2), d(0) * d(1), d(1) * d(2), d(2) * d(0)};
+  }
+
+  Eigen::Vector3d squares_ = Eigen::Vector3d::Zero();
+  double weights_ = 0;
+  Eigen::Matrix<double, 10, 10> normal_ = Eigen::Matrix<double, 10, 10>::Zero();
+  Basis fit_ = Basis::Zero();
+};
+
+/// The quadratic function that is nearest to the pressure in the tetrahedra around a corner (least squares over their
+/// volume), and in the middle of an edge the mean of its two ends' functions.
 Eigen::VectorXd fittedPressures(const Mesh& mesh, const LoadIncrement& state) {
-  const auto nodes = static_cast<std::size_t>(mesh.nodeCount());
-  std::vector<Eigen::Matrix4d> squares(nodes, Eigen::Matrix4d::Zero());
-  std::vector<Eigen::Vector4d> fits(nodes, Eigen::Vector4d::Zero());
-  const auto basis = [](const Eigen::Vector3d& d) { return Eigen::Vector4d(1, d.x(), d.y(), d.z()); };
-  constexpr double far = 0.58541019662497, near = 0.13819660112501; // four points, exact to degree 2
-  for (int e = 0; e < mesh.elementCount(); ++e) {
-    const auto corners = mesh.elements.col(e).head<4>();
-    const Eigen::Matrix<double, 3, 4> places = mesh.nodes_mm(Eigen::all, corners);
-    const double volume = tetGeometry(mesh, e).volume / 4;
-    for (int q = 0; q < 4; ++q) {
-      Eigen::Vector4d l = Eigen::Vector4d::Constant(near);
-      l(q) = far;
-      const Eigen::Vector3d point = places * l;
-      const double pressure = -state.elementUnknowns.col(e).tail<4>().dot(l);
-      for (int k = 0; k < 4; ++k) {
-        const Eigen::Vector4d b = basis(point - places.col(k));
-        squares[static_cast<std::size_t>(corners(k))] += volume * b * b.transpose();
-        fits[static_cast<std::size_t>(corners(k))] += volume * pressure * b;
+  std::vector<QuadraticFit> fits(static_cast<std::size_t>(mesh.nodeCount())); // of corners
+  const auto fit = [&](int node) -> QuadraticFit& { return fits[static_cast<std::size_t>(node)]; };
+  // `use(corner, place from it, volume, pressure)` for four points an element, exact to degree 2.
+  const auto forPoints = [&](const auto& use) {
+    constexpr double far = 0.58541019662497, near = 0.13819660112501;
+    for (int e = 0; e < mesh.elementCount(); ++e) {
+      const auto corners = mesh.elements.col(e).head<4>();
+      const Eigen::Matrix<double, 3, 4> places = mesh.nodes_mm(Eigen::all, corners);
+      const double volume = tetGeometry(mesh, e).volume / 4;
+      for (int q = 0; q < 4; ++q) {
+        Eigen::Vector4d l = Eigen::Vector4d::Constant(near);
+        l(q) = far;
+        const double pressure = -state.elementUnknowns.col(e).tail<4>().dot(l);
+        for (int k = 0; k < 4; ++k) use(fit(corners(k)), places * l - places.col(k), volume, pressure);
       }
     }
-  }
+  };
+  forPoints([](QuadraticFit& at, const Eigen::Vector3d& from, double volume, double) { at.widen(from, volume); });
+  forPoints([](QuadraticFit& at, const Eigen::Vector3d& from, double volume, double p) { at.add(from, volume, p); });
+  std::vector<bool> solved(fits.size(), false);
+  Eigen::VectorXd pressures(mesh.nodeCount());
   for (int e = 0; e < mesh.elementCount(); ++e)
     for (int k = 0; k < 4; ++k) {
-      const auto node = static_cast<std::size_t>(mesh.elements(k, e));
-      if (squares[node].isZero(0)) continue; // found already
-      fits[node] = squares[node].ldlt().solve(fits[node]).eval();
-      squares[node].setZero();
+      const int node = mesh.elements(k, e);
+      if (solved[static_cast<std::size_t>(node)]) continue;
+      solved[static_cast<std::size_t>(node)] = true;
+      fit(node).solve();
+      pressures(node) = fit(node).at(Eigen::Vector3d::Zero());
     }
-  Eigen::VectorXd pressures(mesh.nodeCount());
-  for (int e = 0; e < mesh.elementCount(); ++e) {
-    for (int k = 0; k < 4; ++k) pressures(mesh.elements(k, e)) = fits[static_cast<std::size_t>(mesh.elements(k, e))](0);
+  for (int e = 0; e < mesh.elementCount(); ++e)
     for (int edge = 0; edge < 6; ++edge) {
       const int a = mesh.elements(tetEdges[edge][0], e), b = mesh.elements(tetEdges[edge][1], e);
       const Eigen::Vector3d half = (mesh.nodes_mm.col(b) - mesh.nodes_mm.col(a)) / 2;
-      pressures(mesh.elements(4 + edge, e)) =
-          (fits[static_cast<std::size_t>(a)].dot(basis(half)) + fits[static_cast<std::size_t>(b)].dot(basis(-half))) /
-          2;
+      pressures(mesh.elements(4 + edge, e)) = (fit(a).at(half) + fit(b).at(-half)) / 2;
     }
-  }
   return pressures;
 }
 

@@ -8,9 +8,8 @@ namespace palp {
 
 /// Fields of a state at the nodes, averaged over the elements around each node.
 NodalFields nodalFields(const Mesh& mesh, const Material& material, const LoadIncrement& state);
-/// Pressure at the nodes [MPa], compression positive, from that of the elements, which jumps: in tetrahedra a linear
-/// fit around each corner, whose error at the electrodes' depths is 4 to 9 %, a mean's 5 to 16 %; in hexahedra the
-/// mean.
+/// Pressure at the nodes [MPa], compression positive, from that of the elements, which jumps: in tetrahedra a
+/// quadratic fit around each corner; in hexahedra the mean.
 Eigen::VectorXd nodalPressures_MPa(const Mesh& mesh, const LoadIncrement& state);
 
 } // namespace palp

@@ -56,19 +56,19 @@ ConductionMatrix::ConductionMatrix(const FieldMesh& mesh) : mesh_(&mesh) {
   plan_ = std::make_shared<const CholeskyPlan>(std::move(pattern));
 }
 
-ConductionMatrix::Values ConductionMatrix::at(const Eigen::Matrix3Xd& nodes_mm, const Eigen::VectorXd& logConductivity,
+ConductionMatrix::Values ConductionMatrix::at(const Eigen::Matrix3Xd& nodes_mm, const Conductivity& conductivity,
                                               int threads) const {
   const TetRule& rule = tetRule();
   const Eigen::MatrixXi& elements = mesh_->tets().elements;
-  const bool uneven = logConductivity.size() > 0;
+  const bool uneven = conductivity.uneven();
   UnsetArray<double> own(entries_.size()), load(10 * static_cast<std::size_t>(elements.cols()));
   forChunks(mesh_->elements(), kElementsAChunk, threads, [&](int begin, int end) {
     Eigen::Matrix<double, 3, 10> places;
-    Eigen::Matrix<double, 10, 1> atNodes = Eigen::Matrix<double, 10, 1>::Ones(); // ln k, or k = 1
+    Eigen::Matrix<double, 10, 1> atNodes = Eigen::Matrix<double, 10, 1>::Ones(); // pressures, or k = 1
     for (int e = begin; e < end; ++e) {
       for (int n = 0; n < 10; ++n) places.col(n) = nodes_mm.col(elements(n, e));
       if (uneven)
-        for (int n = 0; n < 10; ++n) atNodes(n) = logConductivity(elements(n, e));
+        for (int n = 0; n < 10; ++n) atNodes(n) = conductivity.pressures_MPa(elements(n, e));
       Eigen::Matrix<double, 10, 10> stiffness = Eigen::Matrix<double, 10, 10>::Zero();
       Eigen::Matrix<double, 10, 1> volumes = Eigen::Matrix<double, 10, 1>::Zero();
       for (std::size_t q = 0; q < TetRule::points; ++q) {
@@ -76,8 +76,8 @@ ConductionMatrix::Values ConductionMatrix::at(const Eigen::Matrix3Xd& nodes_mm, 
         const Eigen::Matrix<double, 10, 3> gradients = rule.gradients[q] * map.inverse();
         const auto shapes = rule.shapes.col(static_cast<Eigen::Index>(q));
         const double weight = rule.weights[q] * map.determinant() / 6;
-        const double between = shapes.dot(atNodes), conductivity = uneven ? std::exp(between) : between;
-        stiffness.noalias() += (weight * conductivity) * (gradients * gradients.transpose());
+        const double between = shapes.dot(atNodes), k = uneven ? std::exp(2 * conductivity.half(between)) : between;
+        stiffness.noalias() += (weight * k) * (gradients * gradients.transpose());
         volumes += weight * shapes;
       }
       double* out = own.data() + static_cast<std::size_t>(e) * kPairs;

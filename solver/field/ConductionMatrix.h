@@ -1,5 +1,6 @@
 #pragma once
 
+#include "solver/field/Conductivity.h"
 #include "solver/field/FieldMesh.h"
 #include "solver/linear/SparseCholesky.h"
 
@@ -24,8 +25,7 @@ public:
     LaneVector matrix;
     Eigen::VectorXd volumes; ///< integral N_a; their sum is the block's volume
   };
-  /// `logConductivity`: ln k at the nodes, or empty for k = 1.
-  [[nodiscard]] Values at(const Eigen::Matrix3Xd& nodes_mm, const Eigen::VectorXd& logConductivity, int threads) const;
+  [[nodiscard]] Values at(const Eigen::Matrix3Xd& nodes_mm, const Conductivity& conductivity, int threads) const;
 
   [[nodiscard]] const std::shared_ptr<const CholeskyPlan>& plan() const { return plan_; }
 

@@ -57,6 +57,7 @@ Eigen::Vector4d barycentricIn(const Eigen::Matrix<double, 3, 10>& nodes, const E
 } // namespace
 
 struct DeformedGreen::System {
+  Eigen::Matrix3Xd pressureSlopes;
   std::vector<AtElectrode> electrodes;
   std::vector<Eigen::Matrix3Xd> sources;
   ConductionMatrix::Values values;
@@ -111,17 +112,37 @@ std::vector<std::vector<DeformedGreen::Place>> DeformedGreen::places(const Field
   return all;
 }
 
-std::vector<AtElectrode> DeformedGreen::atElectrodes(const FieldState& state) const {
+Eigen::Matrix3Xd DeformedGreen::pressureSlopes(const FieldState& state) const {
+  Eigen::Matrix3Xd slopes = Eigen::Matrix3Xd::Zero(3, mesh_.nodes());
+  if (!state.conductivity.uneven()) return slopes;
+  Eigen::VectorXd around = Eigen::VectorXd::Zero(mesh_.nodes());
+  for (int e = 0; e < mesh_.elements(); ++e) {
+    const auto nodes = mesh_.tets().elements.col(e);
+    const Eigen::Matrix<double, 3, 10> at = state.nodes_mm(Eigen::all, nodes);
+    const Eigen::Matrix<double, 10, 1> pressures = state.conductivity.pressures_MPa(nodes);
+    const double volume = (at.middleCols<3>(1).colwise() - at.col(0)).determinant();
+    for (int n = 0; n < 10; ++n) {
+      slopes.col(nodes(n)) += volume * (gradientsIn(at, tetNode(n)) * pressures);
+      around(nodes(n)) += volume;
+    }
+  }
+  slopes.array().rowwise() /= around.transpose().array();
+  return slopes;
+}
+
+std::vector<AtElectrode> DeformedGreen::atElectrodes(const FieldState& state, const Eigen::Matrix3Xd& slopes) const {
   std::vector<AtElectrode> all(atRest_.size());
-  if (state.logConductivity.size() == 0) return all;
+  const Conductivity& k = state.conductivity;
+  if (!k.uneven()) return all;
   const std::vector<std::vector<Place>> where = places(state);
   for (std::size_t p = 0; p < all.size(); ++p) {
     const std::vector<Place>& holders = where[p];
     for (const Place& place : holders) {
       const auto nodes = mesh_.tets().elements.col(place.element);
-      const Eigen::Matrix<double, 10, 1> l = state.logConductivity(nodes) / (2 * double(holders.size()));
-      all[p].value += tetShapes(place.barycentric).dot(l);
-      all[p].slope += gradientsIn(state.nodes_mm(Eigen::all, nodes), place.barycentric) * l;
+      const Eigen::Matrix<double, 10, 1> pressures = k.pressures_MPa(nodes);
+      const double there = tetShapes(place.barycentric).dot(pressures), share = 1 / double(holders.size());
+      all[p].value += share * k.half(there);
+      all[p].slope += share * k.halfByPressure(there) * (slopes(Eigen::all, nodes) * tetShapes(place.barycentric));
     }
     all[p].element = holders.front().element;
     all[p].shapes = tetShapes(holders.front().barycentric);
@@ -130,7 +151,7 @@ std::vector<AtElectrode> DeformedGreen::atElectrodes(const FieldState& state) co
 }
 
 Eigen::VectorXd DeformedGreen::conductivities(const FieldState& state) const {
-  const std::vector<AtElectrode> at = atElectrodes(state);
+  const std::vector<AtElectrode> at = atElectrodes(state, Eigen::Matrix3Xd::Zero(3, mesh_.nodes()));
   Eigen::VectorXd k(static_cast<Eigen::Index>(at.size()));
   for (std::size_t p = 0; p < at.size(); ++p) k(static_cast<Eigen::Index>(p)) = std::exp(2 * at[p].value);
   return k;
@@ -139,15 +160,16 @@ Eigen::VectorXd DeformedGreen::conductivities(const FieldState& state) const {
 std::unique_ptr<DeformedGreen::System> DeformedGreen::systemAt(const FieldState& state, int threads,
                                                                const std::stop_token& stop) const {
   useOneBlasThread();
-  ConductionMatrix::Values values = matrix_.at(state.nodes_mm, state.logConductivity, threads);
+  ConductionMatrix::Values values = matrix_.at(state.nodes_mm, state.conductivity, threads);
   if (stop.stop_requested()) return {};
   ConductionSolve solve(matrix_.plan(), std::move(values.matrix), threads, stop);
   if (solve.outcome() == SparseCholesky::Outcome::NotPositiveDefinite)
     throw DesignError("the conduction field: the load turns an element inside out");
   if (stop.stop_requested()) return {};
-  return std::make_unique<System>(System{atElectrodes(state), sources_.at(state.nodes_mm, state.electrodes_mm),
-                                         std::move(values), std::move(solve),
-                                         BoundaryQuadrature(mesh_, state.nodes_mm)});
+  const Eigen::Matrix3Xd slopes = pressureSlopes(state);
+  return std::make_unique<System>(System{slopes, atElectrodes(state, slopes),
+                                         sources_.at(state.nodes_mm, state.electrodes_mm), std::move(values),
+                                         std::move(solve), BoundaryQuadrature(mesh_, state.nodes_mm)});
 }
 
 struct DeformedGreen::SourceIntegrals {
@@ -160,7 +182,7 @@ DeformedGreen::SourceIntegrals DeformedGreen::integrals(const FieldState& state,
                                                         const std::stop_token& stop) const {
   constexpr int parts = 8, facesAPiece = 32;
   using FacePoints = Eigen::Matrix<double, BoundaryQuadrature::pointsAFace, 1>;
-  const bool uneven = state.logConductivity.size() > 0;
+  const bool uneven = state.conductivity.uneven();
   const auto faces = static_cast<int>(mesh_.faces().cols()), count = static_cast<int>(system.sources.size());
   Rows onFaces(6 * Eigen::Index(faces), count);
   std::vector<Eigen::MatrixXd> products(parts, Eigen::MatrixXd::Zero(count, count));
@@ -172,8 +194,9 @@ DeformedGreen::SourceIntegrals DeformedGreen::integrals(const FieldState& state,
     for (int first = part * faces / parts; first < last && !stop.stop_requested(); first += facesAPiece) {
       const int some = std::min(facesAPiece, last - first), rows = some * BoundaryQuadrature::pointsAFace;
       for (int f = 0; f < some && uneven; ++f) {
-        const Eigen::Matrix<double, 6, 1> l = state.logConductivity(mesh_.faces().col(first + f)) / 2;
-        roots.col(f) = BoundaryQuadrature::atPoints(l).array().exp();
+        const Eigen::Matrix<double, 6, 1> pressures = state.conductivity.pressures_MPa(mesh_.faces().col(first + f));
+        roots.col(f) = BoundaryQuadrature::atPoints(pressures).unaryExpr(
+            [&](double p) { return std::exp(state.conductivity.half(p)); });
       }
       for (int q = 0; q < count; ++q) {
         double* own = flux.data() + std::size_t(q) * points;
@@ -202,7 +225,7 @@ DeformedGreen::SourceIntegrals DeformedGreen::integrals(const FieldState& state,
   for (int f = 0; f < faces; ++f)
     for (int n = 0; n < 6; ++n) result.right.row(mesh_.faces()(n, f)) -= onFaces.row(6 * Eigen::Index(f) + n);
   if (uneven) {
-    UnevenConductivity(mesh_, state.nodes_mm, state.logConductivity, reach_mm_)
+    UnevenConductivity(mesh_, state.nodes_mm, state.conductivity, system.pressureSlopes, reach_mm_)
         .addIntegrals(system.sources, system.electrodes, threads, stop, result.right, result.products);
     Eigen::VectorXd inverse(count);
     for (int p = 0; p < count; ++p) inverse(p) = std::exp(-system.electrodes[std::size_t(p)].value);
@@ -249,7 +272,7 @@ std::optional<BoxGreen> DeformedGreen::at(const FieldState& state, int threads, 
 
   for (Eigen::MatrixXd& slope : green.slope) slope.setZero(count, count);
   const std::vector<AtElectrode>& half = system->electrodes;
-  const bool uneven = state.logConductivity.size() > 0;
+  const bool uneven = state.conductivity.uneven();
   const std::vector<std::vector<Place>> where = places(state);
   forChunks(count, 8, threads, [&](int begin, int end) {
     for (int p = begin; p < end; ++p) {
@@ -295,20 +318,17 @@ std::optional<NodalPotential> DeformedGreen::potential(const FieldState& state, 
 
   NodalPotential result{field, Eigen::Matrix3Xd::Zero(3, mesh_.nodes()), Eigen::VectorXd::Zero(currents.size())};
   Eigen::VectorXd elementsAround = Eigen::VectorXd::Zero(mesh_.nodes());
-  Eigen::Matrix3Xd halfSlopes = Eigen::Matrix3Xd::Zero(3, mesh_.nodes());
+  const Conductivity& k = state.conductivity;
   for (int e = 0; e < mesh_.elements(); ++e) {
     const auto nodes = mesh_.tets().elements.col(e);
     const Eigen::Matrix<double, 3, 10> at = state.nodes_mm(Eigen::all, nodes);
     const Eigen::Matrix<double, 10, 1> values = field(nodes, 0);
     for (int n = 0; n < 10; ++n) {
-      const Eigen::Matrix<double, 3, 10> gradients = gradientsIn(at, tetNode(n));
-      result.gradient.col(nodes(n)) += gradients * values;
-      if (state.logConductivity.size() > 0) halfSlopes.col(nodes(n)) += gradients * state.logConductivity(nodes) / 2;
+      result.gradient.col(nodes(n)) += gradientsIn(at, tetNode(n)) * values;
       elementsAround(nodes(n)) += 1;
     }
   }
   result.gradient.array().rowwise() /= elementsAround.transpose().array();
-  halfSlopes.array().rowwise() /= elementsAround.transpose().array();
 
   // The sources' part s_q / (m m_q); within a sphere its own is that on its surface. `l` and its `slope` at the point.
   const std::vector<AtElectrode>& half = system->electrodes;
@@ -332,8 +352,9 @@ std::optional<NodalPotential> DeformedGreen::potential(const FieldState& state, 
     if (stop.stop_requested()) return;
     for (int n = begin; n < end; ++n) {
       Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
-      const double l = state.logConductivity.size() > 0 ? state.logConductivity(n) / 2 : 0;
-      addSources(state.nodes_mm.col(n), l, halfSlopes.col(n), result.value(n), &gradient);
+      const double pressure = k.uneven() ? k.pressures_MPa(n) : 0;
+      addSources(state.nodes_mm.col(n), k.half(pressure), k.halfByPressure(pressure) * system->pressureSlopes.col(n),
+                 result.value(n), &gradient);
       result.gradient.col(n) += gradient;
     }
   });

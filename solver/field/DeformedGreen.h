@@ -2,6 +2,7 @@
 
 #include "model/BoxGreen.h"
 #include "solver/field/ConductionMatrix.h"
+#include "solver/field/Conductivity.h"
 #include "solver/field/FieldSources.h"
 #include "solver/field/UnevenConductivity.h"
 
@@ -16,7 +17,7 @@ namespace palp {
 struct FieldState {
   Eigen::Matrix3Xd nodes_mm;
   Eigen::Matrix3Xd electrodes_mm;
-  Eigen::VectorXd logConductivity{}; ///< ln k at the nodes; empty: k = 1
+  Conductivity conductivity{};
 };
 
 /// Potential and its gradient at all nodes [1/mm, 1/mm2] for conductivity k, and the potential on each electrode.
@@ -61,7 +62,10 @@ private:
   };
   /// Where each electrode lies in the deformed mesh: in all elements around it.
   [[nodiscard]] std::vector<std::vector<Place>> places(const FieldState& state) const;
-  [[nodiscard]] std::vector<AtElectrode> atElectrodes(const FieldState& state) const;
+  [[nodiscard]] std::vector<AtElectrode> atElectrodes(const FieldState& state, const Eigen::Matrix3Xd& slopes) const;
+  /// Of the pressure in space, at the nodes: means of the elements around, which jump where the pressure is smooth. At
+  /// an electrode such a jump would add logarithms of the mesh's size to grad l . grad(s^2).
+  [[nodiscard]] Eigen::Matrix3Xd pressureSlopes(const FieldState& state) const;
   struct System; ///< a state's factorised matrix
   struct SourceIntegrals;
   [[nodiscard]] SourceIntegrals integrals(const FieldState& state, const System& system, int threads,

@@ -22,13 +22,17 @@ using Rows = ConductionSolve::Rows;
 } // namespace
 
 UnevenConductivity::UnevenConductivity(const FieldMesh& mesh, const Eigen::Matrix3Xd& nodes_mm,
-                                       const Eigen::VectorXd& logConductivity, double reach_mm)
+                                       const Conductivity& conductivity, const Eigen::Matrix3Xd& pressureSlopes,
+                                       double reach_mm)
     : mesh_(&mesh), reach_mm_(reach_mm), elements_(std::size_t(mesh.elements())),
       at_(Eigen::Index(mesh.elements()) * kRulePoints, 6), volumes_(at_.rows()) {
   const Eigen::MatrixXi& nodes = mesh.tets().elements;
+  const auto pressuresOf = [&](int e) -> Eigen::Matrix<double, 10, 1> {
+    return conductivity.pressures_MPa(nodes.col(e));
+  };
   for (int e = 0; e < mesh.elements(); ++e) elements_[std::size_t(e)] = e;
   const auto even = std::stable_partition(elements_.begin(), elements_.end(),
-                                          [&](int e) { return !logConductivity(nodes.col(e)).isZero(0); });
+                                          [&](int e) { return (pressuresOf(e).array() > 0).any(); });
   uneven_ = static_cast<int>(even - elements_.begin());
   squareSlopes_.resize(Eigen::Index(uneven_) * kRulePoints);
   shapes_.resize(10, squareSlopes_.size());
@@ -37,7 +41,7 @@ UnevenConductivity::UnevenConductivity(const FieldMesh& mesh, const Eigen::Matri
   for (std::size_t i = 0; i < elements_.size(); ++i) {
     const auto own = nodes.col(elements_[i]);
     const Eigen::Matrix<double, 3, 10> places = nodes_mm(Eigen::all, own);
-    const Eigen::Matrix<double, 10, 1> l = 0.5 * logConductivity(own);
+    const Eigen::Matrix<double, 10, 1> pressures = pressuresOf(elements_[i]);
     for (int q = 0; q < kRulePoints; ++q) {
       const Eigen::Index point = Eigen::Index(i) * kRulePoints + q;
       const Eigen::Matrix<double, 10, 3>& local = rule.gradients[std::size_t(q)];
@@ -48,8 +52,9 @@ UnevenConductivity::UnevenConductivity(const FieldMesh& mesh, const Eigen::Matri
       at_.row(point).tail<3>().setZero();
       if (static_cast<int>(i) >= uneven_) continue;
       const Eigen::Matrix<double, 10, 3> gradients = local * map.inverse();
-      const Eigen::Vector3d slope = gradients.transpose() * l;
-      const double m = std::exp(rule.shapes.col(q).dot(l));
+      const double p = rule.shapes.col(q).dot(pressures), m = std::exp(conductivity.half(p));
+      const Eigen::Vector3d slope =
+          conductivity.halfByPressure(p) * (pressureSlopes(Eigen::all, own) * rule.shapes.col(q));
       at_.row(point).tail<3>() = volume * slope.transpose();
       squareSlopes_(point) = volume * slope.squaredNorm() / 2;
       shapes_.col(point) = m * rule.shapes.col(q);

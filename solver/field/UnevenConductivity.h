@@ -18,16 +18,15 @@ struct AtElectrode {
   Eigen::Matrix<double, 10, 1> shapes = Eigen::Matrix<double, 10, 1>::Zero();
 };
 
-/// A conductivity k that varies over the deformed block: ln k at the nodes, quadratic in each element. With l = ln(k)/2
-/// and m = e^l a source is s_q / (m m_q), which solves div(k grad .) but for the Laplacian of m (J. Liouville's
-/// substitution). Weakly:
+/// A conductivity k that varies over the deformed block. With l = ln(k)/2 and m = e^l a source is s_q / (m m_q), which
+/// solves div(k grad .) but for the Laplacian of m (J. Liouville's substitution). Weakly:
 ///   integral k grad(s_q / (m m_q)) . grad v = v(x_q) + (oint m s_q,n v - integral grad m . grad(s_q v)) / m_q
 /// Here are the integrals over the volume.
 class UnevenConductivity {
 public:
-  /// Faces nearer to an electrode than `reach_mm` have an image.
-  UnevenConductivity(const FieldMesh& mesh, const Eigen::Matrix3Xd& nodes_mm, const Eigen::VectorXd& logConductivity,
-                     double reach_mm);
+  /// Faces nearer to an electrode than `reach_mm` have an image; `pressureSlopes` are those at the nodes.
+  UnevenConductivity(const FieldMesh& mesh, const Eigen::Matrix3Xd& nodes_mm, const Conductivity& conductivity,
+                     const Eigen::Matrix3Xd& pressureSlopes, double reach_mm);
 
   /// `right` (nodes x sources) += integral grad m . grad(s_q N_a);
   /// `products` += integral grad l . grad(s_p s_q) - |grad l|^2 s_p s_q, for p <= q by whole batches.

@@ -31,6 +31,9 @@ constexpr double thinnestCell = 0.005;  // of the wanted size
 /// Of the sizes at the free edges and at the bottom, where the field feels more of the block: 0.6 to 3.2 % of error in
 /// the lower electrodes' displacements become 0.4 to 0.8 %.
 constexpr double finerByFactor = 0.6;
+/// Of the sizes in the bulk and, once more, at the bottom, where a pressure law sees the pressure at electrodes 3 to 6
+/// mm beside the free edges, whose clamped ends' stresses are steep there.
+constexpr double bulkForPressure = 0.5, bottomForPressure = 0.75;
 constexpr double mostCellsForNodes = 4; // times the cells before: where electrodes take more they stay inside elements
 
 /// Lines along x, y, z; points are numbered along x, then y, then z.
@@ -257,6 +260,10 @@ Grading defaultGrading(const SensorDesign& design, double size_mm) {
   if (finerForField(design)) {
     g.edge_mm *= finerByFactor;
     g.bottom_mm *= finerByFactor;
+  }
+  if (finerForPressure(design)) {
+    g.bulk_mm *= bulkForPressure;
+    g.bottom_mm *= bottomForPressure;
   }
   return g;
 }

@@ -141,6 +141,12 @@ void NoiseFloor::displayPairs() {
     words_->setText(tr("Known once there are samples of this design."));
     return;
   }
+  if (network_.samples()->training.hasTouches()) {
+    words_->setText(
+        tr("The samples that are there are touches of an indenter; this floor is of forces on the load areas. "
+           "Generate samples of those in the Network scene; the resolution map is of touches."));
+    return;
+  }
   const double noise = workbench_.project().view.resistanceNoise;
   if (boundedFor_ == noise) return;
   boundedFor_ = noise;

@@ -18,6 +18,10 @@ namespace palp {
 
 namespace {
 
+QString generatingTitle() {
+  return QObject::tr("Generating samples");
+}
+
 constexpr std::size_t kPastDesigns = 4; ///< whose results are kept: an edit and some undoing
 
 NetworkFit fitOn(const NetworkSamples& samples, const SensorDesign& design, const NetworkSettings& settings,
@@ -134,7 +138,17 @@ void NetworkSession::generate(const SampleSettings& settings, const MeshOptions&
       show(std::move(results));
     };
   };
-  runner_.start(tr("Generating samples"), work);
+  runner_.start(generatingTitle(), work);
+}
+
+bool NetworkSession::generating() const {
+  return runner_.running() && runner_.title() == generatingTitle();
+}
+
+bool NetworkSession::waitsForSamples() {
+  if (!generating()) return false;
+  emit note(tr("Samples are being made; wait for them, or cancel them first."));
+  return true;
 }
 
 bool NetworkSession::fitIsCurrent() const {
@@ -172,7 +186,7 @@ void NetworkSession::forgetOldest() {
 }
 
 void NetworkSession::goBackTo(std::size_t kept) {
-  if (!upToDate() || kept >= shown_.kept.size()) return;
+  if (!upToDate() || kept >= shown_.kept.size() || waitsForSamples()) return;
   const auto work = [this, old = shown_.kept[kept], samples = shown_.samples](const std::stop_token& stop,
                                                                               JobProgress&) -> JobRunner::Taking {
     auto fit = std::make_shared<NetworkFit>(*old);
@@ -183,7 +197,8 @@ void NetworkSession::goBackTo(std::size_t kept) {
     return [this, fit, old, samples] {
       if (samples != shown_.samples) return;
       const auto place = std::find(shown_.kept.begin(), shown_.kept.end(), old);
-      if (place != shown_.kept.end()) *place = fit;
+      if (place != shown_.kept.end() && old->madeFrom == samples->settings)
+        *place = fit; // else its errors are of others
       shown_.fit = fit;
       lastSlide_.clear(); // what is trained next is added, whatever begins it
       emit fitChanged();
@@ -216,7 +231,7 @@ void NetworkSession::rename(std::size_t kept, const QString& name) {
 }
 
 void NetworkSession::train(const NetworkSettings& settings, const QString& slide) {
-  if (!upToDate()) return;
+  if (!upToDate() || waitsForSamples()) return;
   const auto work = [this, settings, slide, design = design_, samples = shown_.samples](
                         const std::stop_token& stop, JobProgress& progress) -> JobRunner::Taking {
     StageLog stages;
@@ -234,7 +249,7 @@ void NetworkSession::train(const NetworkSettings& settings, const QString& slide
 }
 
 void NetworkSession::sweep(const NetworkSettings& settings) {
-  if (!upToDate()) return;
+  if (!upToDate() || waitsForSamples()) return;
   shown_.sweep.clear();
   shown_.sweepSettings = settings;
   rows_ = std::make_shared<Rows>();
@@ -263,7 +278,7 @@ void NetworkSession::sweep(const NetworkSettings& settings) {
 }
 
 void NetworkSession::compare(const NetworkSettings& settings) {
-  if (!upToDate()) return;
+  if (!upToDate() || waitsForSamples()) return;
   shown_.trials.clear();
   shown_.trialsSettings = settings;
   rows_ = std::make_shared<Rows>();
@@ -322,6 +337,7 @@ void NetworkSession::drain() {
 
 void NetworkSession::open(const std::filesystem::path& file) {
   if (!upToDate()) throw Error("the network cannot be tried: there are no samples yet; generate samples first");
+  if (waitsForSamples()) return;
   const auto work = [this, file, samples = shown_.samples](const std::stop_token&, JobProgress&) -> JobRunner::Taking {
     const auto fit = std::make_shared<NetworkFit>(*triedOn(readNetwork(file), *samples));
     fit->file = QString::fromStdString(file.string());

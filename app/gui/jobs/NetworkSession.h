@@ -126,6 +126,9 @@ public:
   /// Of files that hold results: what the Network scene shows until the next work begins.
   void sayProblem(const QString& sentence) { emit problem(sentence); }
 
+  /// Samples are being made: what needs samples waits for them.
+  [[nodiscard]] bool generating() const;
+
   /// What lies beside the project is being opened.
   [[nodiscard]] bool openingResults() const { return openingResults_; }
 
@@ -176,6 +179,8 @@ signals:
   void memoryNeeded();
 
 private:
+  /// Says that samples are being made, where they are: nothing else takes their place.
+  bool waitsForSamples();
   /// What the job has finished, drained by the window.
   struct Rows {
     std::mutex mutex;

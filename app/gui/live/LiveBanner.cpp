@@ -89,7 +89,7 @@ LiveBanner::LiveBanner(QWidget* parent) : QWidget(parent) {
   otherRows_ = new QPushButton(tr("Train without it..."));
   otherRows_->setObjectName("otherRows");
   otherRows_->setToolTip(tr("Leads to the Network scene, with input and row-wires set for a network that reads the "
-                            "whole row-wires alone; generate samples there, train, save it, and open it in Live"));
+                            "whole row-wires alone; generate samples there, train, and press Use in Live"));
   row->addWidget(words_, 1);
   row->addWidget(otherRows_);
   row->addWidget(copyRemedy_);

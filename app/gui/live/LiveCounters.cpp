@@ -129,7 +129,10 @@ void LiveCounters::displayTrust(const LiveStatus& status, const LiveFrame* last,
   const QString misfit = forces.misfit ? tr("misfit %1").arg(*forces.misfit, 0, 'g', 3) : tr("range of the readings");
   // All readings have gone together, by more than they scatter: that alone is no touch that is known.
   const bool drifted = doubted && status.drift && status.noise > 0 && std::abs(*status.drift) > status.noise;
-  const QString remedy = drifted ? tr("tare: drifted by %1 ppm; ").arg(qRound64(1e6 * *status.drift)) : QString();
+  const QString remedy = drifted
+                             ? (status.driftsOn ? tr("drifts on: wait, then tare; ")
+                                                : tr("tare: drifted by %1 ppm; ").arg(qRound64(1e6 * *status.drift)))
+                             : QString();
   const QString why = remedy + QString::fromStdString(forces.doubt);
   set(trust_, doubted ? tr("doubted") : tr("fits"), doubted ? why : misfit, doubted);
 }
@@ -153,8 +156,9 @@ void LiveCounters::display(const LiveStatus& status, const LiveFrame* last, bool
           : tr("here %1 / %2 of it").arg(milliseconds(status.decoding.p50_s), milliseconds(status.decoding.p99_s)));
   displayTrust(status, last, loading);
   const QString drift = status.drift ? tr("drift %1 ppm").arg(qRound64(1e6 * *status.drift)) : QString();
-  const QString reads =
-      status.tareSuggested ? tr(", reads as %1 N: tare").arg(status.driftForce_N, 0, 'g', 2) : QString();
+  const QString reads = status.driftsOn        ? tr(" since the tare: wait till it is warm")
+                        : status.tareSuggested ? tr(", reads as %1 N: tare").arg(status.driftForce_N, 0, 'g', 2)
+                                               : QString();
   const QString noise = status.noise > 0 ? tr("noise %1").arg(status.noise, 0, 'g', 2) : tr("noise not known");
   set(climate_,
       status.temperature_degC ? QString::fromUtf8("%1 \u00b0C").arg(*status.temperature_degC, 0, 'f', 1) : tr("none"),

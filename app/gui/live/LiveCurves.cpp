@@ -4,6 +4,7 @@
 #include "app/gui/views/StripChart.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace palp {
 
@@ -39,6 +40,8 @@ StripSpec LiveCurves::timed(StripSpec spec) const {
 }
 
 void LiveCurves::draw() {
+  if (std::exchange(opened_, host_.openings()) != host_.openings()) // of another source: what was held is no more
+    for (StripChart* chart : {forces_, changes_}) chart->release();
   chooseCells();
   forces_->setChart(timed(forceCurves(host_.history(), host_.settings(), decoder())));
   changes_->setChart(timed(changeCurves(host_.history(), host_.settings(), cells_)));

@@ -40,6 +40,7 @@ private:
   LiveHost& host_;
   StripChart* forces_ = nullptr;
   StripChart* changes_ = nullptr;
+  int opened_ = 0;                        ///< LiveHost::openings() of what is drawn
   std::vector<std::array<int, 2>> cells_; ///< row, column of each curve of dR/R
   bool cellsChosen_ = false;              ///< by the user
 };

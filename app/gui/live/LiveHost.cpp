@@ -196,6 +196,7 @@ LiveOptions LiveHost::options() {
 }
 
 void LiveHost::open() {
+  ++openings_;
   history_.clear();
   fresh_.clear();
   waiting_.clear();

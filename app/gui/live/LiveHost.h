@@ -109,6 +109,9 @@ public:
   /// Goes on from this time of the recording [s].
   void seek(double to_s);
 
+  /// Sources that were opened so far: another number is another source.
+  [[nodiscard]] int openings() const { return openings_; }
+
 signals:
   void decoderChanged();
   /// The file that was chosen is no network for this board; the one in use stays.
@@ -165,6 +168,7 @@ private:
   LiveStatus status_;
   KeptTares tares_;
   LiveHistory history_;
+  int openings_ = 0;
   std::vector<std::shared_ptr<const LiveFrame>> fresh_;
   std::vector<std::shared_ptr<const LiveFrame>> waiting_; ///< frames of the past, for the place that was gone to
   std::uint64_t configured_ = 0;                          ///< the connection that has got its rate and rows

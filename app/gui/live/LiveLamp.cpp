@@ -78,6 +78,8 @@ LiveLampState LiveWatch::state(const LiveHost& host, bool seen) const {
   }
   if (seen && host.replaying()) return {LiveLampState::Kind::Streams, QObject::tr("Playing the %1").arg(source)};
   if (seen) return {LiveLampState::Kind::Streams, QObject::tr("Live: %1").arg(source)};
+  if (host.worksHidden() && host.settings().alarmOn && status.blind)
+    return {LiveLampState::Kind::Alarm, QObject::tr("The alarm sees no forces: %1").arg(source)};
   return host.worksHidden() ? LiveLampState{LiveLampState::Kind::Streams,
                                             (host.settings().alarmOn ? QObject::tr("Alarm watches: %1")
                                                                      : QObject::tr("Forces are sent: %1"))

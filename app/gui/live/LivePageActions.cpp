@@ -140,7 +140,8 @@ void LivePage::prepareNetwork(const QString& rows) {
   network.noise = std::max(network.noise, noise);
   network.testNoise = std::max(network.testNoise, noise);
   workbench_.edit(tr("row-wires that are whole"), next);
-  emit message(tr("The network is set to row-wires %1: train and save it here, then open it in Live.").arg(rows));
+  emit message(
+      tr("The network is set to row-wires %1: generate samples and train it here, then press Use in Live.").arg(rows));
   emit sceneAsked("network");
 }
 

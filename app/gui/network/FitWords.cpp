@@ -230,8 +230,14 @@ QString trialsWords(const NetworkSession& session, const NetworkSettings& now) {
                       .arg(trained(name(then.input)), trained(then.rows), percent(then.noise), percent(then.testNoise));
   if (const auto best = bestTrial(session.trials())) {
     const DecoderTrial& trial = session.trials()[*best];
-    words += tr(" Smallest error: %1, %2 of range (RMSE).")
+    words += tr(" Smallest error: %1, %2 of range (RMSE)")
                  .arg(trained(name(trial.kind)), triple(trial.error.rmsePercentOfRange, "%"));
+    std::vector<DecoderTrial> others = session.trials();
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(*best));
+    if (const auto next = bestTrial(others))
+      words += tr("; next %1, %2")
+                   .arg(trained(name(others[*next].kind)), triple(others[*next].error.rmsePercentOfRange, "%"));
+    words += ".";
   }
   for (const DecoderTrial& trial : session.trials())
     if (!trial.refusal.isEmpty()) words += tr(" Not trained: %1 (%2).").arg(trained(name(trial.kind)), trial.refusal);

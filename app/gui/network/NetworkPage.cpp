@@ -94,7 +94,11 @@ void NetworkPage::connectSession() {
     displayTrials();
   });
   connect(touchBounds_, &TouchBounds::changed, this, &NetworkPage::displayWords);
-  connect(&session_.runner(), &JobRunner::started, this, [this] { showProblem({}); });
+  connect(&session_.runner(), &JobRunner::started, this, [this] {
+    showProblem({});
+    displayReadiness();
+  });
+  connect(&session_.runner(), &JobRunner::finished, this, &NetworkPage::displayReadiness);
   connect(&session_.runner(), &JobRunner::failed, this, &NetworkPage::showProblem);
   connect(&session_, &NetworkSession::problem, this, &NetworkPage::showProblem);
   connect(&session_, &NetworkSession::saved, this, &NetworkPage::takeIntoLive);
@@ -103,7 +107,8 @@ void NetworkPage::connectSession() {
 
 void NetworkPage::edit(const QString& what, const SampleSettings& samples, const NetworkSettings& network) {
   Project next = workbench_.project();
-  const bool retrain = next.network != network && session_.fit() != nullptr && session_.upToDate();
+  const bool retrain =
+      next.network != network && session_.fit() != nullptr && session_.upToDate() && !session_.generating();
   next.samples = samples;
   next.network = network;
   workbench_.edit(what, next);
@@ -182,7 +187,7 @@ QWidget* NetworkPage::buildCharts() {
   fitWords_->setObjectName("fitWords");
   fitWords_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   fitWords_->setWordWrap(true);
-  fitWords_->setMinimumHeight(5 * fitWords_->fontMetrics().lineSpacing()); // the tabs stay where they are
+  fitWords_->setMinimumHeight(6 * fitWords_->fontMetrics().lineSpacing()); // the tabs stay where they are
   column->addWidget(fitWords_);
   problem_ = new QLabel;
   problem_->setObjectName("trainingProblem");
@@ -231,7 +236,11 @@ void NetworkPage::showEvent(QShowEvent* event) {
 }
 
 QString NetworkPage::commands(const Project& project, const QString& designFile) const {
-  return networkCommands(project, designFile);
+  const NetworkSamples* samples = session_.samples();
+  if (!session_.upToDate() || samples->file.isEmpty()) return networkCommands(project, designFile);
+  const QString name = QFileInfo(samples->file).fileName();
+  return tr("# train.csv, test.csv: the samples of %1\n").arg(name) +
+         trainCommands(project.network, designFile, "network.json");
 }
 
 std::vector<JobRunner*> NetworkPage::runners() {
@@ -264,7 +273,12 @@ void NetworkPage::displaySamples() {
   QString words = samplesWords(session_);
   if (all > 0) words += tr(" Stopped at sample %1 of %2; it goes on from there.").arg(made).arg(all);
   panel_->displaySamples(session_.upToDate(), words, all > 0);
+  displayReadiness();
   displayFit(); // it says whose it is and what comes next
+}
+
+void NetworkPage::displayReadiness() {
+  panel_->displayReadiness(session_.upToDate(), session_.generating());
 }
 
 void NetworkPage::displaySweep() {
@@ -341,13 +355,20 @@ void NetworkPage::saveSamples() {
   session_.saveSamples(file.toStdString());
 }
 
+/// After the name that it was given.
+QString NetworkPage::proposedName() const {
+  QString name = session_.fit() != nullptr ? session_.fit()->name.trimmed() : QString();
+  name.replace('/', '-');
+  return (name.isEmpty() ? "network" : name) + ".json";
+}
+
 void NetworkPage::saveNetwork() {
-  const QString file = askFileToSave(this, tr("Save network"), "network.json", tr("Networks (*.json)"));
+  const QString file = askFileToSave(this, tr("Save network"), proposedName(), tr("Networks (*.json)"));
   if (!file.isEmpty() && session_.fit() != nullptr) session_.saveNetwork(file.toStdString());
 }
 
 void NetworkPage::useInLive() {
-  const QString file = askFileToSave(this, tr("Save the network for Live"), "network.json", tr("Networks (*.json)"));
+  const QString file = askFileToSave(this, tr("Save the network for Live"), proposedName(), tr("Networks (*.json)"));
   if (file.isEmpty() || session_.fit() == nullptr) return;
   forLive_ = file.toStdString();
   session_.saveNetwork(forLive_);

@@ -52,6 +52,7 @@ private:
   void displaySamples();
   /// To choose from: imported samples may have others than the design.
   [[nodiscard]] std::array<int, 2> rowWiresAndAreas() const;
+  void displayReadiness();
   void displaySweep();
   void displayWords();
   void displayFit();
@@ -65,6 +66,7 @@ private:
   void showSentence(const QString& sentence, const char* role);
   void takeBestSpread();
   void goBackTo(std::size_t network);
+  [[nodiscard]] QString proposedName() const;
   void saveNetwork();
   void useInLive();
   void takeIntoLive(const std::vector<std::filesystem::path>& saved);

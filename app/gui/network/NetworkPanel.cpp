@@ -307,13 +307,16 @@ void NetworkPanel::showSpread() {
 
 void NetworkPanel::displaySamples(bool there, const QString& words, bool goOn) {
   samplesBox_->displayState(there, words, goOn);
+}
+
+void NetworkPanel::displayReadiness(bool there, bool beingMade) {
   const std::array<std::pair<QPushButton*, QString>, 3> buttons{
       {{train_, tr("Fits the network to the training samples and tries it on the others")},
        {sweep_, tr("Trains once for each spread")},
        {compare_, tr("Trains every kind of decoder on the same samples: error and time on the same axes")}}};
   for (const auto& [button, tip] : buttons) {
-    button->setEnabled(there);
-    button->setToolTip(there ? tip : tr("Generate or open samples first"));
+    button->setEnabled(there && !beingMade);
+    button->setToolTip(beingMade ? tr("Samples are being made") : there ? tip : tr("Generate or open samples first"));
   }
 }
 

@@ -33,6 +33,8 @@ public:
   void display(const Project& project, int rowWires);
   /// What there is to work with, and the state of the samples in words.
   void displaySamples(bool there, const QString& words, bool goOn);
+  /// Whether networks can be trained: there are samples, and none are being made.
+  void displayReadiness(bool there, bool beingMade);
 
   /// The spread that leave-one-out chose for the network that is shown; 0: none.
   void displayChosenSpread(double spread);

@@ -75,32 +75,33 @@ QString inWords(DecoderKind kind) {
 
 TableText trialsTable(const std::vector<DecoderTrial>& trials, const NoiseBound* bound, Eigen::Index testSamples) {
   TableText table;
-  table.heads << QObject::tr("decoder") << QObject::tr("in words");
-  addHeads(table.heads, QObject::tr("Eq. (13) [%]"));
+  table.heads << QObject::tr("decoder");
   addHeads(table.heads, QObject::tr("RMSE [% of range]"));
+  addHeads(table.heads, QObject::tr("Eq. (13) [%]"));
   const bool places = std::any_of(trials.begin(), trials.end(), [](const auto& trial) { return trial.place; });
   if (places) table.heads << QObject::tr("place, median [mm]");
-  table.heads << QObject::tr("training [s]") << QObject::tr("a sample [us]") << QObject::tr("not trained because");
+  table.heads << QObject::tr("training [s]") << QObject::tr("a sample [us]") << QObject::tr("not trained because")
+              << QObject::tr("in words");
   for (const DecoderTrial& trial : trials) {
-    QStringList row{QString::fromStdString(name(trial.kind)), inWords(trial.kind)};
+    QStringList row{QString::fromStdString(name(trial.kind))};
     const bool there = trial.refusal.isEmpty();
-    add(row, trial.error.eq13Percent);
     add(row, trial.error.rmsePercentOfRange);
+    add(row, trial.error.eq13Percent);
     if (places) row << (trial.place ? number(trial.place->median_mm) : QString());
     row << (there ? number(trial.seconds) : QString()) << (there ? number(trial.microsecondsPerSample) : QString())
-        << trial.refusal;
+        << trial.refusal << inWords(trial.kind);
     table.rows.push_back(std::move(row));
   }
   if (bound == nullptr || trials.empty() || testSamples == 0) return table;
   // The root mean square of n errors scatters by 1 / sqrt(2 n) of itself.
-  QStringList row{
-      QObject::tr("bound"),
-      QObject::tr("Cramer-Rao, area known, with prior: no method is better but by chance, %1 % on %2 samples")
-          .arg(100 / std::sqrt(2.0 * static_cast<double>(testSamples)), 0, 'g', 2)
-          .arg(testSamples)};
-  add(row, {});
+  QStringList row{QObject::tr("bound")};
   add(row, bound->withPriorPercent);
-  table.rows.push_back(row << QString() << QString() << QString());
+  add(row, {});
+  row << QString() << QString() << QString()
+      << QObject::tr("Cramer-Rao, area known, with prior: no method is better but by chance, %1 % on %2 samples")
+             .arg(100 / std::sqrt(2.0 * static_cast<double>(testSamples)), 0, 'g', 2)
+             .arg(testSamples);
+  table.rows.push_back(row);
   return table;
 }
 

@@ -37,7 +37,18 @@ SamplesBox::SamplesBox(QWidget* parent) : QGroupBox(tr("Samples"), parent) {
   perArea_->setKeyboardTracking(false);
   perArea_->setToolTip(
       tr("Random forces on each area, for training and as many others for testing; the paper has 100"));
-  form_->addRow(tr("On each area"), perArea_);
+  count_ = new QSpinBox;
+  count_->setObjectName("touchCount");
+  count_->setRange(kFewestTouches, kMostTouches);
+  count_->setKeyboardTracking(false);
+  count_->setToolTip(tr("Random touches for training, and as many others for testing"));
+  auto* either = new QWidget; // a row that is hidden and shown again stays away (Qt 6.4): here one box or the other
+  auto* boxes = new QHBoxLayout(either);
+  boxes->setContentsMargins(0, 0, 0, 0);
+  boxes->addWidget(perArea_);
+  boxes->addWidget(count_);
+  countLabel_ = new QLabel;
+  form_->addRow(countLabel_, either);
   buildTouches();
   seed_ = new QSpinBox;
   seed_->setObjectName("seed");
@@ -61,12 +72,6 @@ SamplesBox::SamplesBox(QWidget* parent) : QGroupBox(tr("Samples"), parent) {
 
 /// The indenter and how it presses.
 void SamplesBox::buildTouches() {
-  count_ = new QSpinBox;
-  count_->setObjectName("touchCount");
-  count_->setRange(kFewestTouches, kMostTouches);
-  count_->setKeyboardTracking(false);
-  count_->setToolTip(tr("Random touches for training, and as many others for testing"));
-  form_->addRow(tr("Touches"), count_);
   shape_ = new QComboBox;
   shape_->setObjectName("touchShape");
   for (const auto& [shape, name] : kIndenterShapes.all()) shape_->addItem(inWords(shape));
@@ -179,12 +184,15 @@ void SamplesBox::showTouches() {
   showExactly(*rim_, touches_.rim_mm);
   showExactly(*margin_, touches_.margin_mm);
   const bool touches = samples_.touches.has_value();
-  for (QWidget* row : std::initializer_list<QWidget*>{count_, shape_, press_[0]->parentWidget(),
-                                                      friction_[0]->parentWidget(), margin_})
+  for (QWidget* row :
+       std::initializer_list<QWidget*>{shape_, press_[0]->parentWidget(), friction_[0]->parentWidget(), margin_})
     form_->setRowVisible(row, touches);
   form_->setRowVisible(radius_[0]->parentWidget(), touches && touches_.shape != IndenterShape::Plane);
   form_->setRowVisible(rim_, touches && touches_.shape == IndenterShape::Flat);
-  form_->setRowVisible(perArea_, !touches);
+  countLabel_->setText(touches ? tr("Touches") : tr("On each area"));
+  countLabel_->setBuddy(touches ? count_ : perArea_);
+  perArea_->setVisible(!touches);
+  count_->setVisible(touches);
   form_->setRowVisible(surrogate_, !touches);
 }
 

@@ -53,6 +53,7 @@ private:
   bool displaying_ = false;
   QFormLayout* form_ = nullptr;
   QComboBox* kind_ = nullptr;
+  QLabel* countLabel_ = nullptr;
   QSpinBox* perArea_ = nullptr;
   QSpinBox* count_ = nullptr;
   QComboBox* shape_ = nullptr;

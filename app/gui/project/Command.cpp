@@ -1,5 +1,6 @@
 #include "app/gui/project/Command.h"
 
+#include "app/study/live/LiveSource.h"
 #include "app/study/paper/PaperProtocol.h"
 #include "model/base/Text.h"
 
@@ -84,8 +85,9 @@ QString sweepCommand(const NetworkSettings& network) {
 }
 
 QString networkCommands(const Project& project, const QString& designFile) {
+  const bool rbf = project.network.decoder == DecoderKind::Rbf; // the others have no spread to sweep
   return sampleCommands(project, designFile) + "\n" + trainCommands(project.network, designFile, "network.json") +
-         "\n" + sweepCommand(project.network);
+         (rbf ? "\n" + sweepCommand(project.network) : QString());
 }
 
 QString liveCommand(const LiveSettings& live) {
@@ -114,9 +116,12 @@ QString liveCommand(const LiveSettings& live) {
     break;
   }
   if (live.row >= 0) command += " --row " + QString::number(live.row);
-  if (!live.network.empty()) command += option("network", live.network);
+  const bool simulated = live.source == LiveSourceKind::Automatic || live.source == LiveSourceKind::Simulated;
+  const std::string network = live.network.empty() && !simulated ? shippedNetwork().string() : live.network;
+  if (!network.empty()) command += option("network", network);
   for (const LiveReceiver& receiver : live.receivers)
     if (receiver.on) command += option("send", receiver.to);
+  if (live.source == LiveSourceKind::Recording) return command; // its tare is in it
   return command + " --tare " + QString::number(live.tareFrames);
 }
 

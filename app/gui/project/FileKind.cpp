@@ -22,11 +22,12 @@ FileKind fileKind(const QString& file) {
   if (QFileInfo(file).isDir()) throw Error(file.toStdString() + ": is a folder; a file is needed");
   if (!source.open(QIODevice::ReadOnly))
     throw Error(file.toStdString() + ": cannot be read: " + source.errorString().toStdString());
-  const QByteArray head = source.read(kLooked_bytes);
+  QByteArray head = source.read(kLooked_bytes);
   if (head.startsWith("PALPREC")) return FileKind::Recording;
   if (head.startsWith("# palp_samples") || head.startsWith("\x89HDF\r\n")) return FileKind::Samples;
   if (head.startsWith("PK") && head.contains(".npy")) return FileKind::Samples;
-  // A project holds a design, as a study may: the outer key counts.
+  // A project holds a design, as a study may: the outer key counts, which may stand behind whatever else there is.
+  if (head.trimmed().startsWith('{')) head += source.readAll();
   constexpr std::array keys{
       std::pair{"\"palp_project\"", FileKind::Project}, std::pair{"\"palp_network\"", FileKind::Network},
       std::pair{"\"palp_study\"", FileKind::Study}, std::pair{"\"palp_design\"", FileKind::Design}};

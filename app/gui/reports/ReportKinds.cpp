@@ -51,6 +51,11 @@ QString runName(const ReportKind& kind) {
   return kind.arguments.back() == "all" ? "paper" : kind.arguments.back();
 }
 
+bool drawsSamples(const ReportKind& kind) {
+  static const QStringList drawing{"noise", "networks", "error-time", "scenes", "layout"};
+  return kind.arguments.front() == "report" && drawing.contains(kind.arguments.back());
+}
+
 double studySeconds(const StudyPlan& plan) {
   // As measured on the paper's design: under Eq. (1) a bound is 42 nonlinear solves, samples of decoders many more.
   const double mesh = plan.meshSize_mm || plan.mapped ? 0.03 : 1; // of other meshes, which are coarse

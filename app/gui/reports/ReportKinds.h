@@ -30,6 +30,8 @@ QString runName(const ReportKind& kind);
 
 /// Roughly how long a study takes on two cores [s].
 double studySeconds(const StudyPlan& plan);
+/// It makes samples of its own, as many on each area as the project says.
+bool drawsSamples(const ReportKind& kind);
 
 /// Where the study stands in the list.
 int studyIndex();

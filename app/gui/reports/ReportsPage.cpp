@@ -27,6 +27,7 @@
 #include <QPushButton>
 #include <QScrollBar>
 #include <QSettings>
+#include <QSpinBox>
 #include <QSplitter>
 #include <QStandardPaths>
 #include <QTabWidget>
@@ -109,6 +110,8 @@ QLayout* ReportsPage::buildBar() {
   openFolder_ = pushButton(tr("Open the folder"), "openReportFolder", tr("Page, CSV and pictures, to be passed on"));
   auto* bar = new QHBoxLayout;
   bar->addWidget(kind_);
+  buildSamplesBox();
+  bar->addWidget(perArea_);
   for (QPushButton* push : {start_, cancel_}) bar->addWidget(push);
   bar->addStretch(1);
   for (QPushButton* push : {openPage_, openFolder_}) bar->addWidget(push);

@@ -16,6 +16,7 @@ class QLineEdit;
 class QListWidget;
 class QPlainTextEdit;
 class QProgressBar;
+class QSpinBox;
 class QPushButton;
 class QTabWidget;
 
@@ -68,6 +69,7 @@ protected:
 private:
   void build();
   QLayout* buildBar();
+  void buildSamplesBox();
   QLayout* buildFolder();
   QLayout* buildState();
   QWidget* buildViews();
@@ -111,6 +113,7 @@ private:
   QString note_;      ///< what is said beside the time of the run
   StudyForm* study_ = nullptr;
   QComboBox* kind_ = nullptr;
+  QSpinBox* perArea_ = nullptr; ///< seen where a report draws samples
   QLabel* what_ = nullptr;
   QLineEdit* target_ = nullptr;
   QPushButton* start_ = nullptr;

@@ -11,6 +11,8 @@
 #include <QDir>
 #include <QLabel>
 #include <QPushButton>
+#include <QSignalBlocker>
+#include <QSpinBox>
 #include <QTabWidget>
 
 namespace palp {
@@ -43,11 +45,30 @@ QString ReportsPage::commands(const Project& project, const QString& designFile)
   return "palp " + all.join(' ');
 }
 
+/// How many, where a report draws samples.
+void ReportsPage::buildSamplesBox() {
+  perArea_ = new QSpinBox;
+  perArea_->setObjectName("reportPerArea");
+  perArea_->setRange(5, 100000);
+  perArea_->setKeyboardTracking(false);
+  perArea_->setPrefix(tr("samples on each area: "));
+  perArea_->setToolTip(tr("Random forces on each area; the Network scene has the same number"));
+  connect(perArea_, &QSpinBox::valueChanged, this, [this](int perArea) {
+    Project next = workbench_.project();
+    next.samples.perArea = perArea;
+    workbench_.edit(tr("Change the number of samples"), next);
+    chooseKind(); // its time
+  });
+}
+
 /// What it runs, and for how long.
 void ReportsPage::chooseKind() {
   if (run_.running()) return; // what runs stays in sight
   what_->setText(kind().what);
   study_->setVisible(isStudy());
+  const QSignalBlocker quiet(perArea_);
+  perArea_->setValue(workbench_.project().samples.perArea);
+  perArea_->setVisible(drawsSamples(kind()));
   tabs_->setCurrentWidget(cases_);
   if (isStudy()) return planStudy();
   plan_ = std::make_unique<ReportPlan>(settingsName(kind().arguments, workbench_.project()), kind().parts);
@@ -55,11 +76,14 @@ void ReportsPage::chooseKind() {
       plan_->measuredHere() ? std::nullopt : lastRun_s(base(), "palp " + runArguments(base()).join(' '));
   if (last_s) plan_->setSeconds(*last_s); // its report lies in the list
   cases_->show(*plan_);
-  state_->setText(tr("Takes about %1%2.")
-                      .arg(roughly(plan_->seconds()),
-                           plan_->measuredHere()
-                               ? tr(", as the last time on this machine")
-                               : tr(" on two cores with 100 samples an area; not yet run here with these settings")));
+  state_->setText(
+      tr("Takes about %1%2.")
+          .arg(roughly(plan_->seconds()),
+               plan_->measuredHere()
+                   ? tr(", as the last time on this machine")
+                   : (drawsSamples(kind())
+                          ? tr(" on two cores with 100 samples on each area; not yet run here with these settings")
+                          : tr(" on two cores; not yet run here with these settings"))));
 }
 
 /// How much a study is; its time is known only roughly before.

@@ -62,7 +62,7 @@ QString DataTable::marked() const {
   QStringList lines, heads;
   for (int column = range.leftColumn(); column <= range.rightColumn(); ++column)
     heads << horizontalHeaderItem(column)->text();
-  if (all) lines << heads.join('\t');
+  if (all || (range.rowCount() == rowCount() && range.columnCount() == columnCount())) lines << heads.join('\t');
   for (int row = range.topRow(); row <= range.bottomRow(); ++row) {
     QStringList cells;
     for (int column = range.leftColumn(); column <= range.rightColumn(); ++column) cells << item(row, column)->text();

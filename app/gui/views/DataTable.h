@@ -20,7 +20,8 @@ public:
   /// The name that is proposed for the CSV.
   [[nodiscard]] const QString& file() const { return file_; }
   [[nodiscard]] QString csv() const;
-  /// What is marked, with tabs between the cells; all of it with its heads where nothing is marked.
+  /// What is marked, with tabs between the cells; all of it, with its heads, where nothing
+  /// is.
   [[nodiscard]] QString marked() const;
 
 signals:

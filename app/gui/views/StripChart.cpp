@@ -206,7 +206,9 @@ std::vector<StripChart::WordsOfMark> StripChart::wordsOfMarks(const QRectF& plot
   for (const auto& [t_s, text] : spec_.marks) {
     const double x = xOf(plot, t_s);
     if (x < plot.left() || x > plot.right() || text.isEmpty()) continue;
-    const QString words = metrics.elidedText(text, Qt::ElideRight, plot.width() - 2 * kMarkGap_px);
+    const bool alarm = text.startsWith("alarm: "); // the cursor says more of it
+    const QString words =
+        metrics.elidedText(alarm ? tr("alarm") : text, Qt::ElideRight, plot.width() - 2 * kMarkGap_px);
     const double width = metrics.horizontalAdvance(words);
     QRectF place(std::min(x + kMarkGap_px, plot.right() - kMarkGap_px - width), plot.bottom() - height - 2, width,
                  height);

@@ -164,6 +164,12 @@ vtkRenderer* DeformationScene::renderer() const {
 
 namespace {
 
+/// A force on the plane itself, or rubbed off it by its touch, is of what stays.
+bool cutAway(const std::optional<CutPlane>& cut, const Eigen::Vector3d& surface_mm) {
+  constexpr double kBeside_mm = 0.2;
+  return cut && !cut->keeps(surface_mm + kBeside_mm * cut->normal());
+}
+
 /// The loads at their drawn places on the top face.
 std::vector<PlacedForce> placedForces(const DeformationState& state, const BlockActors& block,
                                       const std::optional<CutPlane>& cut) {
@@ -171,8 +177,8 @@ std::vector<PlacedForce> placedForces(const DeformationState& state, const Block
   if (state.load == nullptr) return forces;
   const auto place = [&](const Eigen::Vector2d& xy_mm, const Eigen::Vector3d& force_N) {
     const Eigen::Vector3d surface = block.drawnPlace_mm(xy_mm);
-    forces.push_back({surface, force_N * std::min(state.loadFraction, 1.), static_cast<int>(forces.size()),
-                      cut && !cut->keeps(surface)});
+    forces.push_back(
+        {surface, force_N * std::min(state.loadFraction, 1.), static_cast<int>(forces.size()), cutAway(cut, surface)});
   };
   const auto onFace = [](const Eigen::Vector2d& xy_mm, const Eigen::Vector3d& block_mm) -> Eigen::Vector2d {
     return xy_mm.cwiseMax(0).cwiseMin(block_mm.head<2>());
@@ -191,7 +197,7 @@ std::vector<PlacedForce> placedForces(const DeformationState& state, const Block
         block.drawnPlace_mm(onFace(indenter.place_mm + now.translation_mm.head<2>(), state.design->block_mm));
     PlacedForce& force = forces.emplace_back(
         PlacedForce{surface, sofar.press() != nullptr && state.loadFraction <= 1 ? sofar.press()->force_N : now.force_N,
-                    static_cast<int>(forces.size()), cut && !cut->keeps(surface)});
+                    static_cast<int>(forces.size()), cutAway(cut, surface)});
     force.movable = indenter.press() != nullptr && state.loadFraction <= 1; // the path's steps have forces of their own
   }
   return forces;

@@ -231,7 +231,8 @@ void DecoderTraining::fitLikelihood() {
 }
 
 void DecoderTraining::fitTouches() {
-  if (!decoder_.place) throw Error("decoder: touch gives force and place; allowed is the target force+place");
+  if (!decoder_.place)
+    throw Error("decoder: touch learns force and place together (target force+place), not the force alone");
   // Size and friction are found beside them: where they vary, what is known of force and place depends on them.
   Eigen::MatrixXd causes = Eigen::MatrixXd::Zero(targets_.rows() + 2, targets_.cols());
   causes.topRows(targets_.rows()) = targets_;

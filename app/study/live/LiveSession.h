@@ -74,6 +74,8 @@ struct LiveStatus {
   std::optional<double> drift;      ///< relative, of all readings since rest; none: not seen at rest yet
   double driftForce_N = 0;          ///< what the drift reads as
   bool tareSuggested = false;       ///< it is more than 1 % of the force range
+  bool driftsOn = false;            ///< that, and so soon after a tare that waiting comes first
+  bool blind = false;               ///< the last frame gave no forces: no alarm can go off
   std::string restName;             ///< what LiveFrame::change counts from
   double noise = 0;                 ///< relative, of the readings
   std::string alarm;                ///< the alarm that is on, in words

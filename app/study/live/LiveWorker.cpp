@@ -14,6 +14,7 @@ constexpr auto kReadTimeout = std::chrono::milliseconds(100);
 constexpr auto kSearchInterval = std::chrono::milliseconds(100);
 constexpr double kStall_s = 0.25;
 constexpr double kLate_s = 0.02;
+constexpr double kSettling_s = 60;       // a drift that comes back within a minute of a tare is not over yet
 constexpr double kDriftInterval_s = 0.5; // between two looks at what the drift reads as
 constexpr double kDriftShare = 0.01;     // of the force range, from which a tare is suggested
 constexpr int kStaleBeforeAsking = 20;
@@ -226,6 +227,7 @@ void LiveWorker::takeFrame(const BoardFrame& frame) {
     live->forces = decoder_->decode(frame);
     if (decoder_->tares() != before) {
       holdTare(std::make_shared<const Tare>(decoder_->tare()));
+      tared_s_ = hostClock_s();
       recordTare();
     }
     if (!live->past) watch(live->forces);
@@ -249,6 +251,7 @@ void LiveWorker::takeFrame(const BoardFrame& frame) {
 
 /// An alarm stands among the marks, so that curves and recordings hold it.
 void LiveWorker::watch(const DecodedForces& forces) {
+  status_.blind = !forces.valid;
   if (!forces.valid) return;
   Eigen::Matrix3Xd forces_N = forces.forces_N;
   for (Eigen::Index column = 0; column < forces_N.cols(); ++column)
@@ -271,6 +274,7 @@ void LiveWorker::judgeDrift(const LiveFrame& live) {
   status_.driftForce_N = status_.drift ? decoder_->drifted_N(*status_.drift).norm() : 0;
   const double range_N = (decoder_->decoder().high_N - decoder_->decoder().low_N).maxCoeff();
   status_.tareSuggested = status_.driftForce_N > kDriftShare * range_N;
+  status_.driftsOn = status_.tareSuggested && now_s < tared_s_ + kSettling_s;
 }
 
 void LiveWorker::measureRates(double now_s) {

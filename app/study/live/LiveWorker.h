@@ -74,6 +74,7 @@ private:
   bool ownTare_ = false;             ///< the user tared what is played: the recording's tare counts no more
   AlarmWatch alarm_;
   DriftMonitor drift_;
+  double tared_s_ = -1e9;    ///< host clock, when the last tare was done
   double driftJudged_s_ = 0; ///< host clock
   std::shared_ptr<RecordingWriter> writer_;
   LatencyMeter latency_, decoding_;

@@ -12,7 +12,8 @@ namespace {
 /// The mesh knows the block, the areas, the upper electrodes and what the field asks of it; all else leaves it as it
 /// is.
 bool sameMesh(const SensorDesign& a, const SensorDesign& b) {
-  return a.block_mm == b.block_mm && a.areas == b.areas && a.upper == b.upper && finerForField(a) == finerForField(b);
+  return a.block_mm == b.block_mm && a.areas == b.areas && a.upper == b.upper && finerForField(a) == finerForField(b) &&
+         finerForPressure(a) == finerForPressure(b);
 }
 
 /// One field, of which any read-out can be read.

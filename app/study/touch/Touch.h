@@ -22,7 +22,7 @@ Eigen::MatrixXd resistancesAtRest_ohm(const SensorDesign& design);
 
 /// One touch, followed from the design to the resistances, no farther than asked: a change drops what comes after it.
 /// Another law of the resistances leaves the deformation as it is where it asks for the same mesh
-/// (finerForField), another read-out the field too.
+/// (finerForField, finerForPressure), another read-out the field too.
 /// The mesh is finer at the rims of the load's discs. Copies are cheap (results are shared and never changed), so that
 /// a background job takes a copy, advances it and hands it back.
 class Touch {

@@ -121,7 +121,8 @@ private:
     return usable.isEmpty() ? nullptr : usable[upTo(static_cast<int>(usable.size()))];
   }
   static bool asks(const QWidget& widget) {
-    const QStringList longer{"meshSize", "automaticSize", "perArea", "touchCount", "sweepCount", "sweepSteps", "mapPlaces"};
+    const QStringList longer{"meshSize",   "automaticSize", "perArea",  "touchCount",
+                             "sweepCount", "sweepSteps",    "mapPlaces"};
     if (longer.contains(widget.objectName()) || longer.contains(widget.parentWidget()->objectName())) return true;
     const auto* button = qobject_cast<const QAbstractButton*>(&widget);
     return button != nullptr && (button->text().contains("...") || button->objectName() == "runReport");

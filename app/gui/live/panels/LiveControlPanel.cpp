@@ -359,7 +359,10 @@ void LiveControlPanel::displayState(const LiveControlState& state) {
   const QString back = state.networkBefore.isEmpty() ? tr("Back to the network before a calibration; none was used yet")
                                                      : tr("Back to: %1").arg(state.networkBefore);
   if (back_->toolTip() != back) back_->setToolTip(back);
-  tare_->setText(status.taring ? tr("Waits for rest") : status.tareSuggested ? tr("Tare: it drifted") : tr("Tare"));
+  tare_->setText(status.taring          ? tr("Waits for rest")
+                 : status.driftsOn      ? tr("Tare: drifts on")
+                 : status.tareSuggested ? tr("Tare: it drifted")
+                                        : tr("Tare"));
   tare_->setDefault(status.tareSuggested);
   clearTare_->setEnabled(status.tared);
   displayTare(status);

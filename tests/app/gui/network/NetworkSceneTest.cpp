@@ -154,7 +154,7 @@ TEST_F(NetworkScene, TheNoiseBoundStandsBesideTheErrorsAndBelowTheDecoders) {
   const int last = table.rowCount() - 1;
   EXPECT_EQ(last, static_cast<int>(allDecoderKinds().size()));
   EXPECT_EQ(table.item(last, 0)->text(), "bound");
-  EXPECT_EQ(table.item(last, 5)->text(), QString::number(bound.withPriorPercent[0], 'g', 6));
+  EXPECT_EQ(table.item(last, 1)->text(), QString::number(bound.withPriorPercent[0], 'g', 6));
 }
 
 TEST_F(NetworkScene, OpeningTheSamplesThatAreThereKeepsWhatWasMadeOfThem) {

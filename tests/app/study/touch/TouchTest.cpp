@@ -115,7 +115,12 @@ TEST(Touch, TheFieldOfLowerElectrodesThatFollowHasAMeshOfItsOwn) {
   touch.setDesign(design);
   EXPECT_EQ(touch.reached(), Stage::Design);
   ASSERT_TRUE(touch.advance(Stage::Mesh));
-  EXPECT_GT(touch.mesh()->nodeCount(), nodes);
+  const int following = touch.mesh()->nodeCount();
+  EXPECT_GT(following, nodes);
+  design.pressureLaw = palp::PressureLaw{};
+  touch.setDesign(design);
+  ASSERT_TRUE(touch.advance(Stage::Mesh));
+  EXPECT_GT(touch.mesh()->nodeCount(), following) << "under a pressure law";
 }
 
 TEST(Touch, AnotherLawKeepsTheDeformationAndAnotherReadoutTheField) {
