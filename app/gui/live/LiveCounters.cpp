@@ -156,15 +156,15 @@ void LiveCounters::display(const LiveStatus& status, const LiveFrame* last, bool
           : tr("here %1 / %2 of it").arg(milliseconds(status.decoding.p50_s), milliseconds(status.decoding.p99_s)));
   displayTrust(status, last, loading);
   const QString drift = status.drift ? tr("drift %1 ppm").arg(qRound64(1e6 * *status.drift)) : QString();
-  const QString reads = status.driftsOn        ? tr(" since the tare: wait till it is warm")
-                        : status.tareSuggested ? tr(", reads as %1 N: tare").arg(status.driftForce_N, 0, 'g', 2)
-                                               : QString();
+  const QString reads =
+      status.tareSuggested ? tr(", reads as %1 N: tare").arg(status.driftForce_N, 0, 'g', 2) : QString();
   const QString noise = status.noise > 0 ? tr("noise %1").arg(status.noise, 0, 'g', 2) : tr("noise not known");
   set(climate_,
       status.temperature_degC ? QString::fromUtf8("%1 \u00b0C").arg(*status.temperature_degC, 0, 'f', 1) : tr("none"),
-      status.tareSuggested ? drift + reads
-      : drift.isEmpty()    ? noise
-                           : noise + ", " + drift,
+      status.driftsOn        ? tr("drifts by %1 N a minute: wait").arg(status.driftRate_N_min, 0, 'g', 2)
+      : status.tareSuggested ? drift + reads
+      : drift.isEmpty()      ? noise
+                             : noise + ", " + drift,
       status.tareSuggested);
 }
 

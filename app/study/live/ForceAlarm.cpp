@@ -24,6 +24,12 @@ void AlarmWatch::set(std::optional<ForceAlarm> alarm) {
   words_.clear();
 }
 
+std::optional<std::string> AlarmWatch::lose() {
+  if (words_.empty()) return {};
+  words_.clear();
+  return "alarm over";
+}
+
 std::optional<std::string> AlarmWatch::add(const Eigen::Ref<const Eigen::Matrix3Xd>& forces_N) {
   if (!alarm_ || forces_N.cols() == 0) return {};
   Eigen::Index area = 0;
@@ -33,8 +39,7 @@ std::optional<std::string> AlarmWatch::add(const Eigen::Ref<const Eigen::Matrix3
   const double back_N = std::max(kBack * std::abs(alarm_->limit_N), kLeastBack_N);
   const bool lasts = !words_.empty();
   if (lasts && beyond_N <= -back_N) {
-    words_.clear();
-    return "alarm over";
+    return lose();
   }
   if (!lasts && !(beyond_N > 0)) return {};
   std::array<char, 96> text{};

@@ -33,6 +33,8 @@ public:
   void set(std::optional<ForceAlarm> alarm);
   /// Takes the forces of a frame, 3 x areas: the largest one counts. Says what begins or is over; nothing else.
   std::optional<std::string> add(const Eigen::Ref<const Eigen::Matrix3Xd>& forces_N);
+  /// There are no forces: an alarm that lasts is over. Says so; nothing else.
+  std::optional<std::string> lose();
   /// In words with the present force, while it lasts; empty else.
   [[nodiscard]] const std::string& words() const { return words_; }
 

@@ -74,8 +74,9 @@ struct LiveStatus {
   std::optional<double> drift;      ///< relative, of all readings since rest; none: not seen at rest yet
   double driftForce_N = 0;          ///< what the drift reads as
   bool tareSuggested = false;       ///< it is more than 1 % of the force range
-  bool driftsOn = false;            ///< that, and so soon after a tare that waiting comes first
-  bool blind = false;               ///< the last frame gave no forces: no alarm can go off
+  double driftRate_N_min = 0;       ///< how fast that changes
+  bool driftsOn = false;            ///< both: a tare of now would be wanted again within a minute
+  bool blind = false;               ///< the last half second gave no forces: no alarm can go off
   std::string restName;             ///< what LiveFrame::change counts from
   double noise = 0;                 ///< relative, of the readings
   std::string alarm;                ///< the alarm that is on, in words

@@ -14,7 +14,8 @@ constexpr auto kReadTimeout = std::chrono::milliseconds(100);
 constexpr auto kSearchInterval = std::chrono::milliseconds(100);
 constexpr double kStall_s = 0.25;
 constexpr double kLate_s = 0.02;
-constexpr double kSettling_s = 60;       // a drift that comes back within a minute of a tare is not over yet
+constexpr int kBlindFrames = 25;         // in a row without forces: fewer are lost reports
+constexpr double kDriftRateOver_s = 10;  // that its pace is taken from
 constexpr double kDriftInterval_s = 0.5; // between two looks at what the drift reads as
 constexpr double kDriftShare = 0.01;     // of the force range, from which a tare is suggested
 constexpr int kStaleBeforeAsking = 20;
@@ -227,7 +228,7 @@ void LiveWorker::takeFrame(const BoardFrame& frame) {
     live->forces = decoder_->decode(frame);
     if (decoder_->tares() != before) {
       holdTare(std::make_shared<const Tare>(decoder_->tare()));
-      tared_s_ = hostClock_s();
+      driftsSeen_.clear();
       recordTare();
     }
     if (!live->past) watch(live->forces);
@@ -251,7 +252,10 @@ void LiveWorker::takeFrame(const BoardFrame& frame) {
 
 /// An alarm stands among the marks, so that curves and recordings hold it.
 void LiveWorker::watch(const DecodedForces& forces) {
-  status_.blind = !forces.valid;
+  blindFrames_ = forces.valid ? 0 : blindFrames_ + 1;
+  status_.blind = blindFrames_ >= kBlindFrames;
+  if (status_.blind)
+    if (const auto said = alarm_.lose()) mark(*said);
   if (!forces.valid) return;
   Eigen::Matrix3Xd forces_N = forces.forces_N;
   for (Eigen::Index column = 0; column < forces_N.cols(); ++column)
@@ -274,7 +278,21 @@ void LiveWorker::judgeDrift(const LiveFrame& live) {
   status_.driftForce_N = status_.drift ? decoder_->drifted_N(*status_.drift).norm() : 0;
   const double range_N = (decoder_->decoder().high_N - decoder_->decoder().low_N).maxCoeff();
   status_.tareSuggested = status_.driftForce_N > kDriftShare * range_N;
-  status_.driftsOn = status_.tareSuggested && now_s < tared_s_ + kSettling_s;
+  judgeDriftRate(now_s, range_N);
+}
+
+/// What goes on so fast that a tare of now would be wanted again within a minute is waited for.
+void LiveWorker::judgeDriftRate(double now_s, double range_N) {
+  status_.driftRate_N_min = 0;
+  status_.driftsOn = false;
+  if (!status_.drift) return driftsSeen_.clear();
+  driftsSeen_.push_back({now_s, *status_.drift});
+  while (driftsSeen_.front().first < now_s - kDriftRateOver_s) driftsSeen_.pop_front();
+  const auto [then_s, then] = driftsSeen_.front();
+  const double minutes = (now_s - then_s) / 60;
+  if (minutes < kDriftRateOver_s / 120) return; // too short a time to tell
+  status_.driftRate_N_min = decoder_->drifted_N(*status_.drift - then).norm() / minutes;
+  status_.driftsOn = status_.tareSuggested && status_.driftRate_N_min > kDriftShare * range_N;
 }
 
 void LiveWorker::measureRates(double now_s) {

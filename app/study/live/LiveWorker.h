@@ -6,6 +6,9 @@
 #include "app/study/live/LiveSession.h"
 #include "io/board/Hotplug.h"
 
+#include <deque>
+#include <utility>
+
 namespace palp {
 
 /// The work of the session's thread; nobody else touches it while the thread runs.
@@ -55,6 +58,7 @@ private:
   void recordConfiguration();
   void watch(const DecodedForces& forces);
   void judgeDrift(const LiveFrame& live);
+  void judgeDriftRate(double now_s, double range_N);
   void measureRates(double now_s);
   void restartRates(double now_s);
 
@@ -73,9 +77,10 @@ private:
   std::shared_ptr<const Tare> tare_; ///< that holds; null: none
   bool ownTare_ = false;             ///< the user tared what is played: the recording's tare counts no more
   AlarmWatch alarm_;
+  int blindFrames_ = 0;
   DriftMonitor drift_;
-  double tared_s_ = -1e9;    ///< host clock, when the last tare was done
-  double driftJudged_s_ = 0; ///< host clock
+  std::deque<std::pair<double, double>> driftsSeen_; ///< host clock, drift
+  double driftJudged_s_ = 0;                         ///< host clock
   std::shared_ptr<RecordingWriter> writer_;
   LatencyMeter latency_, decoding_;
   RawReport report_;

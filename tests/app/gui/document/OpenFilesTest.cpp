@@ -1,8 +1,10 @@
 #include "app/gui/document/Document.h"
+#include "app/gui/project/FileKind.h"
 #include "app/gui/project/ProjectFile.h"
 #include "app/gui/views/HeatmapView.h"
 #include "app/study/Resources.h"
 #include "app/study/live/LiveSource.h"
+#include "io/AtomicFile.h"
 #include "io/DesignFile.h"
 #include "io/SampleFile.h"
 #include "tests/app/gui/WindowFixture.h"
@@ -167,6 +169,15 @@ TEST_F(OpenFiles, ADesignUnderTheFieldOpensSavesAndComesBackAsAny) {
   EXPECT_EQ(said, "");
   EXPECT_EQ(workbench.project().design, design);
   EXPECT_TRUE(idle());
+}
+
+TEST_F(OpenFiles, ALargeProjectIsOneThoughItsKeyStandsBehindADesignsAndAllElse) {
+  const QString file = inFolder("large.json");
+  writeFile(file.toStdString(),
+            R"({"design": {"palp_design": 1}, "design_studies": ")" + std::string(100000, 'x') +
+                R"(", "palp_project": 2})",
+            true);
+  EXPECT_EQ(fileKind(file), FileKind::Project);
 }
 
 TEST_F(OpenFiles, NamesAWrongFileByWhatItIs) {

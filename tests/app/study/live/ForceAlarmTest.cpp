@@ -17,6 +17,16 @@ TEST(ForceAlarm, GoesOffOnceAtItsSideAndIsOverWhereTheForceHasComeBack) {
   EXPECT_TRUE(watch.words().empty());
 }
 
+TEST(ForceAlarm, IsOverWhereThereAreNoForcesAnyMore) {
+  AlarmWatch watch;
+  EXPECT_FALSE(watch.lose()) << "nothing lasts";
+  watch.set(ForceAlarm{ForceQuantity::Fz, AlarmSide::Below, -5});
+  EXPECT_TRUE(watch.add(Eigen::Vector3d(0, 0, -6)));
+  EXPECT_EQ(watch.lose(), "alarm over");
+  EXPECT_TRUE(watch.words().empty());
+  EXPECT_TRUE(watch.add(Eigen::Vector3d(0, 0, -6))) << "it goes off again with the next force";
+}
+
 TEST(ForceAlarm, CountsTheLargestForceAndItsSize) {
   AlarmWatch watch;
   watch.set(ForceAlarm{ForceQuantity::Size, AlarmSide::Above, 4});
