@@ -84,7 +84,7 @@ xdotool mousemove --window "$window" 500 250 click 1
 settled cell
 differs resistance cell "a click on the heatmap chose no cell"
 scene 4 network
-xdotool mousemove --window "$window" 300 123 click 1 # generate samples
+xdotool mousemove --window "$window" 300 178 click 1 # generate samples
 sleep 2
 xdotool key Escape
 settled stopped
