@@ -36,18 +36,6 @@ NetworkFit fitOn(const NetworkSamples& samples, const SensorDesign& design, cons
   return fit;
 }
 
-/// Where it is not known whose test samples the errors are of, those of a repeated training are equal to the last
-/// digit.
-bool same(const NetworkFit& one, const NetworkFit& other) {
-  NetworkSettings settings = other.settings; // but for the sweep, which acts on none of them
-  settings.sweepFrom = one.settings.sweepFrom;
-  settings.sweepTo = one.settings.sweepTo;
-  settings.sweepCount = one.settings.sweepCount;
-  const Eigen::VectorXd &error = one.error.error.rmsePercentOfRange, &others = other.error.error.rmsePercentOfRange;
-  return one.settings == settings && one.file == other.file && one.madeFrom == other.madeFrom &&
-         error.size() == others.size() && error == others;
-}
-
 } // namespace
 
 namespace {
@@ -153,81 +141,6 @@ bool NetworkSession::waitsForSamples() {
 
 bool NetworkSession::fitIsCurrent() const {
   return upToDate() && shown_.fit && shown_.fit->triedOn.lock() == shown_.samples;
-}
-
-void NetworkSession::take(const std::shared_ptr<NetworkFit>& fit, const QString& slide) {
-  auto& kept = shown_.kept;
-  const bool slides = !slide.isEmpty() && slide == lastSlide_ && !kept.empty() && kept.front()->name.isEmpty();
-  if (slides) dropKept(0);
-  lastSlide_ = slide;
-  const auto known = std::find_if(kept.begin(), kept.end(), [&](const auto& other) { return same(*fit, *other); });
-  if (known != kept.end()) {
-    fit->name = (*known)->name;
-    dropKept(static_cast<std::size_t>(known - kept.begin()));
-  }
-  // The file that it is saved in is named by that time.
-  const auto taken = [&](const auto& other) { return other->made == fit->made; };
-  while (shown_.takenAway.contains(fit->made) || std::any_of(kept.begin(), kept.end(), taken))
-    fit->made = fit->made.addMSecs(1);
-  if (!slides) shown_.before = shown_.fit;
-  shown_.fit = fit;
-  kept.insert(kept.begin(), fit);
-  forgetOldest();
-  emit fitChanged();
-}
-
-/// Where they were saved their files stay.
-void NetworkSession::forgetOldest() {
-  auto& kept = shown_.kept;
-  const auto unnamed = [](const auto& fit) { return fit->name.isEmpty(); };
-  for (auto count = static_cast<std::size_t>(std::count_if(kept.begin(), kept.end(), unnamed)); count > kKeptNetworks;
-       --count)
-    kept.erase(std::next(std::find_if(kept.rbegin(), kept.rend(), unnamed)).base());
-}
-
-void NetworkSession::goBackTo(std::size_t kept) {
-  if (!upToDate() || kept >= shown_.kept.size() || waitsForSamples()) return;
-  const auto work = [this, old = shown_.kept[kept], samples = shown_.samples](const std::stop_token& stop,
-                                                                              JobProgress&) -> JobRunner::Taking {
-    auto fit = std::make_shared<NetworkFit>(*old);
-    if (fit->triedOn.lock() != samples) {
-      tryOn(*fit, *samples, stop);
-      fit->triedOn = samples;
-    }
-    return [this, fit, old, samples] {
-      if (samples != shown_.samples) return;
-      const auto place = std::find(shown_.kept.begin(), shown_.kept.end(), old);
-      if (place != shown_.kept.end() && old->madeFrom == samples->settings)
-        *place = fit; // else its errors are of others
-      shown_.fit = fit;
-      lastSlide_.clear(); // what is trained next is added, whatever begins it
-      emit fitChanged();
-    };
-  };
-  runner_.start(tr("Trying the network"), work);
-}
-
-void NetworkSession::dropKept(std::size_t kept) {
-  const auto place = shown_.kept.begin() + static_cast<std::ptrdiff_t>(kept);
-  shown_.takenAway.insert((*place)->made);
-  shown_.kept.erase(place);
-}
-
-void NetworkSession::takeAway(std::size_t kept) {
-  if (kept >= shown_.kept.size()) return;
-  dropKept(kept);
-  lastSlide_.clear();
-  emit fitChanged();
-}
-
-void NetworkSession::rename(std::size_t kept, const QString& name) {
-  if (kept >= shown_.kept.size() || shown_.kept[kept]->name == name) return;
-  const auto old = shown_.kept[kept];
-  const auto fit = std::make_shared<NetworkFit>(*old);
-  fit->name = name;
-  if (shown_.fit == old) shown_.fit = fit;
-  shown_.kept[kept] = fit;
-  emit fitChanged();
 }
 
 void NetworkSession::train(const NetworkSettings& settings, const QString& slide) {

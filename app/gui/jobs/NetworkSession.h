@@ -149,6 +149,8 @@ public:
   [[nodiscard]] const NetworkFit* before() const { return shown_.before.get(); }
   /// Shows one of them again, tried on the samples that are there now.
   void goBackTo(std::size_t kept);
+  /// Shows the newest of them that was trained with these settings on the samples that are there, where there is one.
+  void goBackTo(const NetworkSettings& settings);
   void takeAway(std::size_t kept);
   /// Calls one of them by a name; empty: takes its name away.
   void rename(std::size_t kept, const QString& name);

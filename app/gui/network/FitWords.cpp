@@ -196,7 +196,9 @@ QString staleReason(const NetworkSession& session, const NetworkSettings& now) {
   if (!session.fitIsCurrent()) return tr("Of other samples than those that are there now: train again.");
   if (!fit->file.isEmpty()) return {};
   const QStringList changes = differences(fit->settings, now);
-  return changes.isEmpty() ? QString() : tr("Trained with other settings (%1): train again.").arg(changes.join("; "));
+  return changes.isEmpty() ? QString()
+                           : tr("Trained with other settings (%1): train again, or go back in Trained networks.")
+                                 .arg(changes.join("; "));
 }
 
 QString staleTrialsReason(const NetworkSession& session, const NetworkSettings& now) {

@@ -111,7 +111,9 @@ void NetworkPage::edit(const QString& what, const SampleSettings& samples, const
       next.network != network && session_.fit() != nullptr && session_.upToDate() && !session_.generating();
   next.samples = samples;
   next.network = network;
+  editing_ = true;
   workbench_.edit(what, next);
+  editing_ = false;
   if (retrain) session_.train(network, panel_->slide()); // the error follows the spread
 }
 
@@ -258,6 +260,8 @@ void NetworkPage::displayProject() {
   displaySweep();
   displayTrials();
   if (area_->value() != before || settingsShown_ != workbench_.project().network) displayFit();
+  // An undone change of the settings brings back the network that was trained with those of before.
+  if (!editing_ && settingsShown_ != workbench_.project().network) session_.goBackTo(workbench_.project().network);
   settingsShown_ = workbench_.project().network;
 }
 

@@ -76,6 +76,7 @@ private:
   NetworkSession& session_;
   NetworkBound* bound_;
   TouchBounds* touchBounds_;
+  bool editing_ = false;          ///< by the panel: what follows is trained
   NetworkSettings settingsShown_; ///< with which the words of the fit were made
   std::array<int, 2> choices_{};  ///< rowWiresAndAreas() that are shown
   NetworkPanel* panel_ = nullptr;

@@ -76,6 +76,22 @@ TEST_F(NetworkScene, PutsEveryDecoderOnTheSameAxes) {
   EXPECT_EQ(find<ChartView>("trialsError").chart().series.size(), trained);
 }
 
+TEST_F(NetworkScene, AnUndoneSettingBringsItsNetworkBack) {
+  generate();
+  trained();
+  const double before = network.fit()->error.error.rmsePercentOfRange[0];
+  find<QComboBox>("decoder").setCurrentText("linear"); // trains at once
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.fit()->settings.decoder == DecoderKind::Linear; }, kPatience_ms));
+  ASSERT_TRUE(idle());
+  QTest::keyClick(&window, Qt::Key_Z, Qt::ControlModifier);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.fit()->settings.decoder == DecoderKind::Rbf; }, kPatience_ms));
+  EXPECT_EQ(network.fit()->error.error.rmsePercentOfRange[0], before);
+  EXPECT_EQ(network.kept().size(), 2u);
+  QTest::keyClick(&window, Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return network.fit()->settings.decoder == DecoderKind::Linear; }, kPatience_ms))
+      << "and done again";
+}
+
 TEST_F(NetworkScene, ANetworkOfResistancesGoesToLiveByOneButton) {
   generate();
   trained();
