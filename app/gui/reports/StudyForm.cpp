@@ -203,6 +203,8 @@ const SensorDesign& StudyForm::design() const {
 }
 
 QString StudyForm::proposal(const QString& key) const {
+  const std::vector<std::string> keys = studyKeys(design());
+  if (std::find(keys.begin(), keys.end(), key.toStdString()) == keys.end()) return {}; // typed: check() says what it is
   const double value = studyNumber(design(), key.toStdString());
   if (key.startsWith("areas.")) return QString("%1, %2").arg(value).arg(value + 1); // whole numbers
   const auto rounded = [](double number) { return QString::number(number, 'g', 3); };
