@@ -6,9 +6,13 @@
 #include "app/gui/views/ChartView.h"
 #include "app/gui/views/DataTable.h"
 
+#include <QHBoxLayout>
 #include <QLabel>
+#include <QPushButton>
 #include <QSplitter>
 #include <QVBoxLayout>
+
+#include <algorithm>
 
 namespace palp {
 
@@ -21,6 +25,14 @@ DecodersTab::DecodersTab(QWidget* parent) : QWidget(parent) {
   table_ = new DataTable("decoders.csv");
   table_->setObjectName("trialsTable");
   table_->setAccessibleName(tr("Table of the decoders"));
+  train_ = new QPushButton(tr("Train the marked one"));
+  train_->setObjectName("trainMarked");
+  train_->setToolTip(
+      tr("Trains the decoder of the marked row as the comparison did: it is shown, and stands in the list "
+         "of trained networks"));
+  connect(table_, &QTableWidget::itemSelectionChanged, this, &DecodersTab::displayMarked);
+  connect(train_, &QPushButton::clicked, this,
+          [this] { emit networkAsked(*networks_[static_cast<std::size_t>(table_->currentRow())]); });
   auto* charts = new QSplitter(Qt::Horizontal);
   charts->addWidget(error_);
   charts->addWidget(time_);
@@ -30,7 +42,10 @@ DecodersTab::DecodersTab(QWidget* parent) : QWidget(parent) {
   all->addWidget(table_);
   all->setSizes({340, 280});
   auto* column = new QVBoxLayout(this);
-  column->addWidget(words_);
+  auto* bar = new QHBoxLayout;
+  bar->addWidget(words_, 1);
+  bar->addWidget(train_);
+  column->addLayout(bar);
   column->addWidget(all, 1);
 }
 
@@ -46,6 +61,18 @@ void DecodersTab::display(const NetworkSession& session, const NetworkSettings& 
   table_->show(table.heads, table.rows);
   if (const auto best = bestTrial(trials)) table_->mark(static_cast<int>(*best));
   words_->setText(trialsWords(session, now));
+  networks_.clear();
+  for (const DecoderTrial& trial : trials) {
+    NetworkSettings network = session.trialsSettings();
+    network.decoder = trial.kind;
+    networks_.push_back(session.upToDate() && trial.refusal.isEmpty() ? std::optional(network) : std::nullopt);
+  }
+  displayMarked();
+}
+
+void DecodersTab::displayMarked() {
+  const auto row = static_cast<std::size_t>(std::max(0, table_->currentRow()));
+  train_->setEnabled(!table_->selectedItems().isEmpty() && row < networks_.size() && networks_[row]);
 }
 
 } // namespace palp

@@ -5,7 +5,11 @@
 
 #include <QWidget>
 
+#include <optional>
+#include <vector>
+
 class QLabel;
+class QPushButton;
 
 namespace palp {
 
@@ -22,11 +26,19 @@ public:
   /// Emits nothing. `bound`: of the comparison's rows and noise; null: not known.
   void display(const NetworkSession& session, const NetworkSettings& now, const NoiseBound* bound);
 
+signals:
+  /// To train what the marked row was trained with.
+  void networkAsked(const NetworkSettings& network);
+
 private:
+  void displayMarked();
+
   ChartView* error_ = nullptr;
   ChartView* time_ = nullptr;
   QLabel* words_ = nullptr;
+  QPushButton* train_ = nullptr;
   DataTable* table_ = nullptr;
+  std::vector<std::optional<NetworkSettings>> networks_; ///< of each row; none: it cannot be trained (again)
 };
 
 } // namespace palp

@@ -329,9 +329,7 @@ QString boundWords(const NetworkSession& session, const NetworkFit& fit, const s
   const SampleSet& test = session.samples()->test;
   const ErrorsOverBounds over = errorsOverBounds(*touches, fit.prediction.forces_N - test.forces_N,
                                                  fit.prediction.places_mm - test.touchedPlaces_mm());
-  return tr(" Bounds (Cramer-Rao, the indenter known, medians): Fz %1 N, place %2 mm; its errors are %3 and %4 times "
-            "as "
-            "large.")
+  return tr(" Bounds (Cramer-Rao, indenter known, medians): Fz %1 N, place %2 mm; its errors are %3 and %4 times that.")
       .arg(over.force_N, 0, 'g', 3)
       .arg(over.place_mm, 0, 'g', 3)
       .arg(over.forceRatio, 0, 'g', 3)

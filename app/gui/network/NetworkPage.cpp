@@ -1,26 +1,22 @@
 #include "app/gui/network/NetworkPage.h"
 
-#include "app/gui/jobs/SampleFiles.h"
 #include "app/gui/network/DecodersTab.h"
 #include "app/gui/network/FitWords.h"
 #include "app/gui/network/NetworkBound.h"
 #include "app/gui/network/NetworkCharts.h"
+#include "app/gui/network/NetworkFiles.h"
 #include "app/gui/network/NetworkPanel.h"
-#include "app/gui/network/NetworkTables.h"
 #include "app/gui/network/SweepTab.h"
 #include "app/gui/network/TouchBounds.h"
 #include "app/gui/network/TrainedNetworks.h"
 #include "app/gui/project/Command.h"
 #include "app/gui/views/ChartView.h"
-#include "app/gui/widgets/FileDialogs.h"
 #include "app/gui/widgets/KeepRoom.h"
 #include "app/gui/window/SidePanel.h"
-#include "model/base/Error.h"
 
 #include <QFileInfo>
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QMessageBox>
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QSpinBox>
@@ -30,7 +26,6 @@
 #include <QVBoxLayout>
 
 #include <algorithm>
-#include <utility>
 
 namespace palp {
 
@@ -44,11 +39,19 @@ QSplitter* beside(std::initializer_list<QWidget*> widgets, Qt::Orientation orien
   return splitter;
 }
 
+/// A sweep is no part of what a network was trained with.
+NetworkSettings withSweepOf(const NetworkSettings& now, NetworkSettings network) {
+  network.sweepFrom = now.sweepFrom;
+  network.sweepTo = now.sweepTo;
+  network.sweepCount = now.sweepCount;
+  return network;
+}
+
 } // namespace
 
 NetworkPage::NetworkPage(Workbench& workbench, NetworkSession& session, QWidget* parent)
     : Scene(parent), workbench_(workbench), session_(session), bound_(new NetworkBound(session, this)),
-      touchBounds_(new TouchBounds(session, this)) {
+      touchBounds_(new TouchBounds(session, this)), files_(new NetworkFiles(workbench, session, this)) {
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(8, 8, 8, 8);
   panel_ = new NetworkPanel;
@@ -70,12 +73,22 @@ NetworkPage::NetworkPage(Workbench& workbench, NetworkSession& session, QWidget*
     next.view.testArea = area;
     workbench_.edit(tr("Choose a test area"), next);
   });
-  connect(panel_, &NetworkPanel::openSamplesAsked, this, &NetworkPage::openSamples);
-  connect(panel_, &NetworkPanel::saveSamplesAsked, this, &NetworkPage::saveSamples);
-  connect(save_, &QPushButton::clicked, this, &NetworkPage::saveNetwork);
-  connect(open_, &QPushButton::clicked, this, &NetworkPage::openNetwork);
-  connect(live_, &QPushButton::clicked, this, &NetworkPage::useInLive);
-  connect(sweep_, &SweepTab::bestAsked, this, &NetworkPage::takeBestSpread);
+  connect(panel_, &NetworkPanel::openSamplesAsked, files_, &NetworkFiles::openSamples);
+  connect(panel_, &NetworkPanel::saveSamplesAsked, files_, &NetworkFiles::saveSamples);
+  connect(save_, &QPushButton::clicked, files_, &NetworkFiles::saveNetwork);
+  connect(open_, &QPushButton::clicked, files_, &NetworkFiles::openNetwork);
+  connect(live_, &QPushButton::clicked, files_, &NetworkFiles::useInLive);
+  connect(files_, &NetworkFiles::problem, this, &NetworkPage::showProblem);
+  connect(files_, &NetworkFiles::sceneAsked, this, &NetworkPage::sceneAsked);
+  connect(files_, &NetworkFiles::liveNetworkReplaced, this, &NetworkPage::liveNetworkReplaced);
+  connect(sweep_, &SweepTab::spreadAsked, this, [this](double spread) {
+    NetworkSettings next = workbench_.project().network;
+    next.spread = spread;
+    next.automaticSpread = false;
+    takeOver(tr("Take the best spread of the sweep"), next);
+  });
+  connect(decoders_, &DecodersTab::networkAsked, this,
+          [this](const NetworkSettings& network) { takeOver(tr("Take a decoder of the comparison"), network); });
   connect(trained_, &TrainedNetworks::goBackAsked, this, &NetworkPage::goBackTo);
   connect(trained_, &TrainedNetworks::takeAwayAsked, &session_, &NetworkSession::takeAway);
   connect(trained_, &TrainedNetworks::nameAsked, &session_, &NetworkSession::rename);
@@ -101,7 +114,6 @@ void NetworkPage::connectSession() {
   connect(&session_.runner(), &JobRunner::finished, this, &NetworkPage::displayReadiness);
   connect(&session_.runner(), &JobRunner::failed, this, &NetworkPage::showProblem);
   connect(&session_, &NetworkSession::problem, this, &NetworkPage::showProblem);
-  connect(&session_, &NetworkSession::saved, this, &NetworkPage::takeIntoLive);
   connect(&session_, &NetworkSession::note, this, [this](const QString& sentence) { showSentence(sentence, "hint"); });
 }
 
@@ -130,26 +142,19 @@ void NetworkPage::showSentence(const QString& sentence, const char* role) {
   problem_->setVisible(!sentence.isEmpty());
 }
 
-void NetworkPage::takeBestSpread() {
-  const auto best = bestPoint(session_.sweepPoints());
-  if (!best) return;
+/// Asked for by itself: what is trained stays in the list.
+void NetworkPage::takeOver(const QString& what, const NetworkSettings& network) {
   Project next = workbench_.project();
-  next.network.spread = session_.sweepPoints()[*best].spread;
-  next.network.automaticSpread = false;
+  next.network = withSweepOf(next.network, network);
   workbench_.closeEntry();
-  workbench_.edit(tr("Take the best spread of the sweep"), next);
-  session_.train(next.network); // asked for by itself: it stays in the list
+  workbench_.edit(what, next);
+  session_.train(next.network);
 }
 
 /// The panel shows what the network was trained with; it is not trained again.
 void NetworkPage::goBackTo(std::size_t network) {
   Project next = workbench_.project();
-  const NetworkSettings then = session_.kept()[network]->settings;
-  const NetworkSettings now = next.network;
-  next.network = then;
-  next.network.sweepFrom = now.sweepFrom;
-  next.network.sweepTo = now.sweepTo;
-  next.network.sweepCount = now.sweepCount;
+  next.network = withSweepOf(next.network, session_.kept()[network]->settings);
   const bool otherDesign = !session_.upToDate() && session_.samples() != nullptr;
   if (otherDesign) next.design = session_.results().design; // samples, sweep and comparison hold again, too
   workbench_.closeEntry();
@@ -240,8 +245,7 @@ void NetworkPage::showEvent(QShowEvent* event) {
 QString NetworkPage::commands(const Project& project, const QString& designFile) const {
   const NetworkSamples* samples = session_.samples();
   if (!session_.upToDate() || samples->file.isEmpty()) return networkCommands(project, designFile);
-  const QString name = QFileInfo(samples->file).fileName();
-  return tr("# train.csv, test.csv: the samples of %1\n").arg(name) +
+  return tr("# train.csv, test.csv: the samples of %1\n").arg(QFileInfo(samples->file).fileName()) +
          trainCommands(project.network, designFile, "network.json");
 }
 
@@ -338,62 +342,6 @@ void NetworkPage::drawCharts() {
   for (int d = 0; d < 3; ++d)
     decoupled_[static_cast<std::size_t>(d)]->setChart(decoupledChart(*samples, *fit, d, area_->value()));
   relative_->setChart(relativeErrorChart(*samples, *fit, area_->value()));
-}
-
-void NetworkPage::openSamples() {
-  const QStringList chosen = askFilesToOpen(this, tr("Open samples"), tr("Samples (*.csv *.h5 *.hdf5 *.npz)"));
-  std::vector<std::filesystem::path> files;
-  for (const QString& file : chosen) files.emplace_back(file.toStdString());
-  if (!files.empty()) session_.openSamples(files);
-}
-
-void NetworkPage::saveSamples() {
-  const QString file = askFileToSave(this, tr("Save samples"), "samples.csv", tr("Samples (*.csv *.h5 *.hdf5 *.npz)"));
-  if (file.isEmpty() || session_.samples() == nullptr) return;
-  const QString test = QString::fromStdString(testFileOf(file.toStdString()).string()); // of which nobody asked
-  if (QFileInfo::exists(test) &&
-      QMessageBox::question(this, tr("Save samples"),
-                            tr("The samples for testing go into %1, which is there already. Replace it?").arg(test)) !=
-          QMessageBox::Yes)
-    return;
-  session_.saveSamples(file.toStdString());
-}
-
-/// After the name that it was given.
-QString NetworkPage::proposedName() const {
-  QString name = session_.fit() != nullptr ? session_.fit()->name.trimmed() : QString();
-  name.replace('/', '-');
-  return (name.isEmpty() ? "network" : name) + ".json";
-}
-
-void NetworkPage::saveNetwork() {
-  const QString file = askFileToSave(this, tr("Save network"), proposedName(), tr("Networks (*.json)"));
-  if (!file.isEmpty() && session_.fit() != nullptr) session_.saveNetwork(file.toStdString());
-}
-
-void NetworkPage::useInLive() {
-  const QString file = askFileToSave(this, tr("Save the network for Live"), proposedName(), tr("Networks (*.json)"));
-  if (file.isEmpty() || session_.fit() == nullptr) return;
-  forLive_ = file.toStdString();
-  session_.saveNetwork(forLive_);
-}
-
-void NetworkPage::takeIntoLive(const std::vector<std::filesystem::path>& saved) {
-  if (forLive_.empty() || std::find(saved.begin(), saved.end(), forLive_) == saved.end()) return;
-  Project next = workbench_.project();
-  next.live.network = std::exchange(forLive_, {}).string();
-  workbench_.edit(tr("network"), next);
-  emit sceneAsked("live");
-}
-
-void NetworkPage::openNetwork() {
-  const QString file = askFileToOpen(this, tr("Open network"), tr("Networks (*.json)"));
-  if (file.isEmpty()) return;
-  try {
-    session_.open(file.toStdString());
-  } catch (const Error& error) {
-    showProblem(QString::fromStdString(error.what()));
-  }
 }
 
 } // namespace palp

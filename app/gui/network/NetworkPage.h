@@ -5,7 +5,6 @@
 #include "app/gui/window/Scene.h"
 
 #include <array>
-#include <filesystem>
 #include <vector>
 
 class QLabel;
@@ -19,6 +18,7 @@ namespace palp {
 class ChartView;
 class DecodersTab;
 class NetworkBound;
+class NetworkFiles;
 class NetworkPanel;
 class SweepTab;
 class TouchBounds;
@@ -40,6 +40,8 @@ public:
 
 signals:
   void sceneAsked(const QString& scene);
+  /// The file of the network that Live decodes with holds another one.
+  void liveNetworkReplaced();
 
 protected:
   void showEvent(QShowEvent* event) override;
@@ -58,24 +60,18 @@ private:
   void displayFit();
   void displayTrials();
   void drawCharts();
-  void openSamples();
-  void saveSamples();
   void edit(const QString& what, const SampleSettings& samples, const NetworkSettings& network);
   void connectSession();
   void showProblem(const QString& sentence);
   void showSentence(const QString& sentence, const char* role);
-  void takeBestSpread();
+  void takeOver(const QString& what, const NetworkSettings& network);
   void goBackTo(std::size_t network);
-  [[nodiscard]] QString proposedName() const;
-  void saveNetwork();
-  void useInLive();
-  void takeIntoLive(const std::vector<std::filesystem::path>& saved);
-  void openNetwork();
 
   Workbench& workbench_;
   NetworkSession& session_;
   NetworkBound* bound_;
   TouchBounds* touchBounds_;
+  NetworkFiles* files_;
   bool editing_ = false;          ///< by the panel: what follows is trained
   NetworkSettings settingsShown_; ///< with which the words of the fit were made
   std::array<int, 2> choices_{};  ///< rowWiresAndAreas() that are shown
@@ -86,7 +82,6 @@ private:
   QPushButton* save_ = nullptr;
   QPushButton* open_ = nullptr;
   QPushButton* live_ = nullptr;
-  std::filesystem::path forLive_; ///< of the network that Live takes as soon as it is saved; empty: none
   QTabWidget* tabs_ = nullptr;
   SweepTab* sweep_ = nullptr;
   std::array<ChartView*, 3> decoupled_{};

@@ -42,7 +42,7 @@ SamplesBox::SamplesBox(QWidget* parent) : QGroupBox(tr("Samples"), parent) {
   count_->setRange(kFewestTouches, kMostTouches);
   count_->setKeyboardTracking(false);
   count_->setToolTip(tr("Random touches for training, and as many others for testing"));
-  auto* either = new QWidget; // a row that is hidden and shown again stays away (Qt 6.4): here one box or the other
+  auto* either = new QWidget; // in one row: of two the first did not come back where the second had been (Qt 6.4)
   auto* boxes = new QHBoxLayout(either);
   boxes->setContentsMargins(0, 0, 0, 0);
   boxes->addWidget(perArea_);
@@ -85,7 +85,7 @@ void SamplesBox::buildTouches() {
   press_ = range("touchPress", tr("Press"), kMost_N, tr(" N"), tr("Downwards, drawn evenly from this range"));
   friction_ = range("touchFriction", tr("Friction"), kMostFriction, {},
                     tr("Coulomb's coefficient. Without any, touches press straight down; with friction they also push "
-                       "sideways, up to 0.7 of its limit, and each takes seconds to compute"));
+                       "sideways, up to 0.7 of its limit, and take some five times as long"));
   margin_ = number("touchMargin", tr("Margin"), 0, kMost_mm, tr(" mm"));
   margin_->setToolTip(tr("No touch is nearer to the sides of the block than this"));
   form_->addRow(tr("From the sides"), margin_);
@@ -200,7 +200,13 @@ void SamplesBox::showTouches() {
 void SamplesBox::check() {
   std::optional<std::string> wrong;
   if (samples_.touches) wrong = whyInvalid(rangeOf(*samples_.touches, design_), design_);
-  problem_->setText(wrong ? QString::fromStdString(*wrong) : QString());
+  const double half_mm = design_.block_mm.head<2>().minCoeff() / 2;
+  if (wrong && samples_.touches->margin_mm > half_mm) // in the words of the field
+    problem_->setText(tr("From the sides: %1 mm; allowed is at most %2 mm, half of the block's shorter side")
+                          .arg(samples_.touches->margin_mm)
+                          .arg(half_mm));
+  else
+    problem_->setText(wrong ? QString::fromStdString(*wrong) : QString());
   form_->setRowVisible(problem_, wrong.has_value());
   generate_->setEnabled(!wrong);
 }

@@ -46,7 +46,7 @@ SweepTab::SweepTab(QWidget* parent) : QWidget(parent) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->addWidget(all);
-  connect(best_, &QPushButton::clicked, this, &SweepTab::bestAsked);
+  connect(best_, &QPushButton::clicked, this, [this] { emit spreadAsked(bestSpread_); });
 }
 
 void SweepTab::display(const NetworkSession& session, const NetworkSettings& now) {
@@ -60,6 +60,7 @@ void SweepTab::display(const NetworkSession& session, const NetworkSettings& now
   for (ChartView* view : {error_, leaveOneOut_, condition_, time_}) view->setFaint(!reason.isEmpty());
   const auto best = bestPoint(points);
   best_->setEnabled(best.has_value() && session.upToDate());
+  if (best) bestSpread_ = points[*best].spread;
   words_->setText(best ? tr("Smallest test error at spread %1 (RMSE over Fx, Fy and Fz, in % of range). %2")
                              .arg(points[*best].spread, 0, 'g', 4)
                              .arg(reason)

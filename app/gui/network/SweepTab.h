@@ -23,8 +23,8 @@ public:
   void display(const NetworkSession& session, const NetworkSettings& now);
 
 signals:
-  /// To train with the spread of the smallest error.
-  void bestAsked();
+  /// To train with that of the smallest error.
+  void spreadAsked(double spread);
 
 private:
   ChartView* error_ = nullptr;
@@ -34,6 +34,7 @@ private:
   QLabel* words_ = nullptr;
   QPushButton* best_ = nullptr;
   DataTable* table_ = nullptr;
+  double bestSpread_ = 0; ///< of the points that are shown
 };
 
 } // namespace palp

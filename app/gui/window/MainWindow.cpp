@@ -102,6 +102,7 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   live_ = new LiveBoards(workbench);
   connect(live_, &LiveBoards::message, this, &MainWindow::showMessage);
   connect(live_, &LiveBoards::sceneAsked, this, &MainWindow::showScene);
+  connect(networkPage, &NetworkPage::liveNetworkReplaced, this, [this] { live_->page().host().useChosenNetwork(); });
   addScene("live", tr("Live"), tr("Boards, the simulated board or a recording, live"), live_);
   reports_ = new ReportsPage(workbench);
   connect(reports_, &ReportsPage::message, this, &MainWindow::showMessage);

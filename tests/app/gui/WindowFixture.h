@@ -4,6 +4,8 @@
 #include "app/gui/project/Workbench.h"
 #include "app/gui/window/MainWindow.h"
 
+#include <QComboBox>
+#include <QDoubleSpinBox>
 #include <QDropEvent>
 #include <QFileDialog>
 #include <QLineEdit>
@@ -49,6 +51,20 @@ protected:
     auto* widget = window.findChild<Widget*>(name);
     EXPECT_NE(widget, nullptr) << name;
     return *widget;
+  }
+  /// By the keyboard, as a user would.
+  void setNumber(const char* name, double value) {
+    auto& box = find<QDoubleSpinBox>(name);
+    box.setFocus();
+    box.selectAll();
+    QTest::keyClicks(&box, QString::number(value));
+    QTest::keyClick(&box, Qt::Key_Return);
+  }
+  void choose(const char* name, int k) {
+    auto& box = find<QComboBox>(name);
+    box.setFocus();
+    for (int step = 0; box.currentIndex() != k && step < 20; ++step)
+      QTest::keyClick(&box, box.currentIndex() < k ? Qt::Key_Down : Qt::Key_Up);
   }
   static void settle() { QTest::qWait(80); }
 

@@ -1,4 +1,6 @@
 #include "app/gui/jobs/ResultFiles.h"
+#include "app/gui/live/LiveBoards.h"
+#include "app/gui/live/LivePage.h"
 #include "app/gui/network/FitWords.h"
 #include "app/gui/network/NetworkCharts.h"
 #include "app/gui/views/ChartView.h"
@@ -14,6 +16,7 @@
 #include <QFileInfo>
 #include <QLabel>
 #include <QLineEdit>
+#include <QMessageBox>
 #include <QPushButton>
 #include <QTemporaryDir>
 
@@ -108,6 +111,44 @@ TEST_F(NetworkScene, ANetworkOfResistancesGoesToLiveByOneButton) {
   EXPECT_TRUE(find<QWidget>("live").isVisible());
   EXPECT_TRUE(QTest::qWaitFor([&] { return find<QLabel>("networkName").text().contains("hand.json"); }, kPatience_ms))
       << find<QLabel>("networkName").text().toStdString();
+
+  // Another one into the same file: Live reads it again.
+  auto& host = find<LiveBoards>("live").page().host();
+  ASSERT_TRUE(idle());
+  ASSERT_EQ(host.decoder()->kind, DecoderKind::Rbf);
+  window.showScene("network");
+  find<QComboBox>("decoder").setCurrentText("linear");
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.fit()->settings.decoder == DecoderKind::Linear; }, kPatience_ms));
+  ASSERT_TRUE(idle());
+  answerFileDialog(file);
+  QTimer yes; // to the question whether the file may be replaced
+  QObject::connect(&yes, &QTimer::timeout, &yes, [] {
+    if (auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget()))
+      QTest::mouseClick(box->button(QMessageBox::Yes), Qt::LeftButton);
+  });
+  yes.start(20);
+  QTest::mouseClick(&button, Qt::LeftButton);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return host.decoder()->kind == DecoderKind::Linear; }, kPatience_ms));
+}
+
+TEST_F(NetworkScene, AnEditOfTheNetworkDoesNotEndTheMakingOfSamples) {
+  generate();
+  trained();
+  Project more = workbench.project();
+  more.samples.perArea = 400; // so many that the edit comes first
+  workbench.edit("more", more);
+  QTest::mouseClick(&find<QPushButton>("generate"), Qt::LeftButton);
+  ASSERT_TRUE(network.generating());
+  EXPECT_FALSE(find<QPushButton>("train").isEnabled());
+  find<QComboBox>("decoder").setCurrentText("linear");
+  EXPECT_EQ(workbench.project().network.decoder, DecoderKind::Linear) << "the setting is taken";
+  EXPECT_TRUE(network.generating()) << "and nothing is trained on the old samples";
+  network.train(workbench.project().network);
+  EXPECT_TRUE(network.generating()) << "whoever asks";
+  EXPECT_TRUE(find<QLabel>("trainingProblem").text().contains("Samples are being made"));
+  network.cancel();
+  ASSERT_TRUE(idle());
+  EXPECT_TRUE(find<QPushButton>("train").isEnabled());
 }
 
 TEST_F(NetworkScene, AKeystrokeInTheDesignLosesNothingThatWasTrained) {
@@ -171,6 +212,30 @@ TEST_F(NetworkScene, TheNoiseBoundStandsBesideTheErrorsAndBelowTheDecoders) {
   EXPECT_EQ(last, static_cast<int>(allDecoderKinds().size()));
   EXPECT_EQ(table.item(last, 0)->text(), "bound");
   EXPECT_EQ(table.item(last, 1)->text(), QString::number(bound.withPriorPercent[0], 'g', 6));
+}
+
+TEST_F(NetworkScene, ADecoderOfTheComparisonIsTrainedAndListedByOneButton) {
+  generate();
+  trained();
+  QTest::mouseClick(&find<QPushButton>("compare"), Qt::LeftButton);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.trials().size() == allDecoderKinds().size(); }, kPatience_ms));
+  ASSERT_TRUE(idle());
+  auto& table = find<DataTable>("trialsTable");
+  auto& train = find<QPushButton>("trainMarked");
+  EXPECT_FALSE(train.isEnabled()) << "no row is marked";
+  const std::size_t listed = network.kept().size();
+  int row = 0;
+  while (row < table.rowCount() && table.item(row, 0)->text() != "linear") ++row;
+  ASSERT_LT(row, table.rowCount());
+  QTest::mouseClick(table.viewport(), Qt::LeftButton, {}, table.visualItemRect(table.item(row, 0)).center());
+  QTest::mouseClick(&train, Qt::LeftButton);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.fit()->settings.decoder == DecoderKind::Linear; }, kPatience_ms));
+  ASSERT_TRUE(idle());
+  EXPECT_EQ(network.kept().size(), listed + 1);
+  EXPECT_EQ(network.fit()->error.error.rmsePercentOfRange,
+            network.trials()[static_cast<std::size_t>(row)].error.rmsePercentOfRange)
+      << "the numbers of the table";
+  EXPECT_EQ(workbench.project().network.decoder, DecoderKind::Linear);
 }
 
 TEST_F(NetworkScene, OpeningTheSamplesThatAreThereKeepsWhatWasMadeOfThem) {

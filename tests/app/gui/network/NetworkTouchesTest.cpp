@@ -33,18 +33,6 @@ protected:
     QTest::keyClicks(&count, "20");
     QTest::keyClick(&count, Qt::Key_Return);
   }
-  void setNumber(const char* name, double value) {
-    auto& box = find<QDoubleSpinBox>(name);
-    box.setFocus();
-    box.selectAll();
-    QTest::keyClicks(&box, QString::number(value));
-    QTest::keyClick(&box, Qt::Key_Return);
-  }
-  void choose(const char* name, int k) {
-    auto& box = find<QComboBox>(name);
-    box.setFocus();
-    while (box.currentIndex() != k) QTest::keyClick(&box, box.currentIndex() < k ? Qt::Key_Down : Qt::Key_Up);
-  }
   [[nodiscard]] const TouchSampling& touches() const { return *workbench.project().samples.touches; }
 };
 
@@ -63,7 +51,7 @@ TEST_F(SampledTouches, AreThoseOfTheCommandLine) {
 
   setNumber("touchMargin", 16);
   EXPECT_FALSE(find<QPushButton>("generate").isEnabled());
-  EXPECT_TRUE(find<QLabel>("touchProblem").text().contains("region 16,16,14,14"))
+  EXPECT_TRUE(find<QLabel>("touchProblem").text().contains("From the sides: 16 mm; allowed is at most 15 mm"))
       << find<QLabel>("touchProblem").text().toStdString();
   QTest::keyClick(&window, Qt::Key_Z, Qt::ControlModifier);
   EXPECT_EQ(touches().margin_mm, 3);

@@ -39,12 +39,6 @@ protected:
     QTest::mouseClick(&find<QPushButton>("mapResolution"), Qt::LeftButton);
     return QTest::qWaitFor([&] { return !window.busy(); }, kPatience_ms);
   }
-  void choose(const char* name, int k) {
-    auto& box = find<QComboBox>(name);
-    box.setFocus();
-    for (int step = 0; box.currentIndex() != k && step < 20; ++step)
-      QTest::keyClick(&box, box.currentIndex() < k ? Qt::Key_Down : Qt::Key_Up);
-  }
   QString words(const char* name) { return find<QLabel>(name).text(); }
   const HeatmapSpec& heatmap() { return find<HeatmapView>("resolutionMap").heatmap(); }
   QImage block() {

@@ -37,18 +37,6 @@ protected:
     return there;
   }
   QPoint top(double x_mm, double y_mm) { return block().placeOf({x_mm, y_mm, 5}).toPoint(); }
-  void setNumber(const char* name, double value) {
-    auto& box = find<QDoubleSpinBox>(name);
-    box.setFocus();
-    box.selectAll();
-    QTest::keyClicks(&box, QString::number(value));
-    QTest::keyClick(&box, Qt::Key_Return);
-  }
-  void choose(const char* name, int k) {
-    auto& box = find<QComboBox>(name);
-    box.setFocus();
-    while (box.currentIndex() != k) QTest::keyClick(&box, box.currentIndex() < k ? Qt::Key_Down : Qt::Key_Up);
-  }
   QString words(const char* name) { return find<QLabel>(name).text(); }
 };
 

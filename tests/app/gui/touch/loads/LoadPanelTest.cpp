@@ -36,13 +36,6 @@ protected:
     EXPECT_TRUE(QTest::qWaitFor([&] { return find<QAbstractButton>(button).isChecked(); }, kPatience_ms));
     settle();
   }
-  void setNumber(const char* name, double value) {
-    auto& box = find<QDoubleSpinBox>(name);
-    box.setFocus();
-    box.selectAll();
-    QTest::keyClicks(&box, QString::number(value));
-    QTest::keyClick(&box, Qt::Key_Return);
-  }
 };
 
 TEST_F(LoadPanelTest, MakesMovesSizesAndTakesAwayADiscByTheMouse) {

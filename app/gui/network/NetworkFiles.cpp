@@ -1,0 +1,80 @@
+#include "app/gui/network/NetworkFiles.h"
+
+#include "app/gui/jobs/NetworkSession.h"
+#include "app/gui/jobs/SampleFiles.h"
+#include "app/gui/project/Workbench.h"
+#include "app/gui/widgets/FileDialogs.h"
+#include "model/base/Error.h"
+
+#include <QFileInfo>
+#include <QMessageBox>
+
+#include <algorithm>
+#include <utility>
+
+namespace palp {
+
+NetworkFiles::NetworkFiles(Workbench& workbench, NetworkSession& session, QWidget* page)
+    : QObject(page), workbench_(workbench), session_(session), page_(page) {
+  connect(&session_, &NetworkSession::saved, this, &NetworkFiles::takeIntoLive);
+  connect(&session_.writer(), &JobRunner::failed, this, [this] { forLive_.clear(); });
+}
+
+void NetworkFiles::openSamples() {
+  const QStringList chosen = askFilesToOpen(page_, tr("Open samples"), tr("Samples (*.csv *.h5 *.hdf5 *.npz)"));
+  std::vector<std::filesystem::path> files;
+  for (const QString& file : chosen) files.emplace_back(file.toStdString());
+  if (!files.empty()) session_.openSamples(files);
+}
+
+void NetworkFiles::saveSamples() {
+  const QString file = askFileToSave(page_, tr("Save samples"), "samples.csv", tr("Samples (*.csv *.h5 *.hdf5 *.npz)"));
+  if (file.isEmpty() || session_.samples() == nullptr) return;
+  const QString test = QString::fromStdString(testFileOf(file.toStdString()).string()); // of which nobody asked
+  if (QFileInfo::exists(test) &&
+      QMessageBox::question(page_, tr("Save samples"),
+                            tr("The samples for testing go into %1, which is there already. Replace it?").arg(test)) !=
+          QMessageBox::Yes)
+    return;
+  session_.saveSamples(file.toStdString());
+}
+
+/// After the name that it was given.
+QString NetworkFiles::proposedName() const {
+  QString name = session_.fit() != nullptr ? session_.fit()->name.trimmed() : QString();
+  name.replace('/', '-');
+  return (name.isEmpty() ? "network" : name) + ".json";
+}
+
+void NetworkFiles::saveNetwork() {
+  const QString file = askFileToSave(page_, tr("Save network"), proposedName(), tr("Networks (*.json)"));
+  if (!file.isEmpty() && session_.fit() != nullptr) session_.saveNetwork(file.toStdString());
+}
+
+void NetworkFiles::useInLive() {
+  const QString file = askFileToSave(page_, tr("Save the network for Live"), proposedName(), tr("Networks (*.json)"));
+  if (file.isEmpty() || session_.fit() == nullptr) return;
+  forLive_ = file.toStdString();
+  session_.saveNetwork(forLive_);
+}
+
+void NetworkFiles::takeIntoLive(const std::vector<std::filesystem::path>& saved) {
+  if (forLive_.empty() || std::find(saved.begin(), saved.end(), forLive_) == saved.end()) return;
+  Project next = workbench_.project();
+  if (next.live.network == forLive_.string()) emit liveNetworkReplaced();
+  next.live.network = std::exchange(forLive_, {}).string();
+  workbench_.edit(tr("network"), next);
+  emit sceneAsked("live");
+}
+
+void NetworkFiles::openNetwork() {
+  const QString file = askFileToOpen(page_, tr("Open network"), tr("Networks (*.json)"));
+  if (file.isEmpty()) return;
+  try {
+    session_.open(file.toStdString());
+  } catch (const Error& error) {
+    emit problem(QString::fromStdString(error.what()));
+  }
+}
+
+} // namespace palp

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <QObject>
+
+#include <filesystem>
+#include <vector>
+
+class QWidget;
+
+namespace palp {
+
+class NetworkSession;
+class Workbench;
+
+/// Asks which files: samples and networks opened and saved, and a network that is saved for Live.
+class NetworkFiles : public QObject {
+  Q_OBJECT
+
+public:
+  /// Questions are asked above `page`, which owns it.
+  NetworkFiles(Workbench& workbench, NetworkSession& session, QWidget* page);
+
+  void openSamples();
+  void saveSamples();
+  void openNetwork();
+  void saveNetwork();
+  /// Live decodes with the network that is shown as soon as it is saved.
+  void useInLive();
+
+signals:
+  void problem(const QString& sentence);
+  void sceneAsked(const QString& scene);
+  /// The file of the network that Live decodes with holds another one.
+  void liveNetworkReplaced();
+
+private:
+  void takeIntoLive(const std::vector<std::filesystem::path>& saved);
+  [[nodiscard]] QString proposedName() const;
+
+  Workbench& workbench_;
+  NetworkSession& session_;
+  QWidget* page_;
+  std::filesystem::path forLive_; ///< of the network that Live takes as soon as it is saved; empty: none
+};
+
+} // namespace palp
