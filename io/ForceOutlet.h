@@ -20,6 +20,7 @@ struct OutgoingFrame {
   Eigen::Matrix3Xd standardDeviation_N; ///< of each; may be empty
   std::optional<int> area;              ///< most likely touched
   std::optional<Eigen::Vector2d> place_mm{}, placeDeviation_mm{}; ///< of the touch, from the block's corner
+  bool doubted = false;                                           ///< for a while now forces can hardly be true
 };
 
 /// One JSON object without an end of line: what goes by UDP and ZeroMQ. Forces only where they are valid.

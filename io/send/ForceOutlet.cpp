@@ -56,6 +56,7 @@ std::string frameAsJson(const OutgoingFrame& frame) {
     };
     addPlace("", frame.place_mm);
     addPlace("sd_", frame.placeDeviation_mm);
+    if (frame.doubted) json += R"(,"doubted":1)";
   }
   return json + "}";
 }

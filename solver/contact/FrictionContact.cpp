@@ -158,7 +158,7 @@ LaneContact::Way FrictionContact::settled(const Eigen::Matrix3Xd& motion_mm) {
     letGo(motion_mm);
     return Way::StaysHere;
   }
-  if (inLastPart()) return Way::Arrived;
+  if (step_ == steps_) return Way::Arrived;
   ++step_;
   beginStep(motion_mm);
   return Way::GoesOn;

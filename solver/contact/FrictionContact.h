@@ -23,7 +23,6 @@ public:
   [[nodiscard]] std::vector<NodeForce> forces() const override;
   [[nodiscard]] Way settled(const Eigen::Matrix3Xd& motion_mm) override;
   [[nodiscard]] bool turned() override { return std::exchange(turned_, false); }
-  [[nodiscard]] bool inLastPart() const override { return step_ == steps_; }
   [[nodiscard]] bool straightOn() const override;
 
 private:

@@ -31,8 +31,7 @@ public:
   /// Whether, since this was last asked, it began to answer in another way: the motion so far does not foretell the
   /// next.
   [[nodiscard]] virtual bool turned() { return false; }
-  /// Of the part in work: none follows it; it leads as far again, and in the same direction, as the one before.
-  [[nodiscard]] virtual bool inLastPart() const { return true; }
+  /// Whether the part in work leads as far again, and in the same direction, as the one before.
   [[nodiscard]] virtual bool straightOn() const { return false; }
 };
 

@@ -164,7 +164,7 @@ def check_places():
         off = np.array(result["place_mm"]) - place_mm[half:]
         np.testing.assert_allclose(np.sqrt((off**2).mean(axis=0)), result["place_error"]["rms_mm"], rtol=1e-6)
     result = palp("train", "samples.h5", *options, "-o", "never.json")
-    assert result.returncode == 2 and "measured places" in result.stderr and result.stderr.count("\n") == 1, result
+    assert result.returncode == 2 and "palp import" in result.stderr and result.stderr.count("\n") == 1, result
 
 
 def twin(name, change):

@@ -61,8 +61,8 @@ QString wordsOf(const LiveHost& host, const QString& alarm) {
   case LiveState::Paused:
     break;
   }
+  if (!alarm.isEmpty() && !status.blind) return alarm;
   const LiveFrame* last = host.history().last();
-  if (!alarm.isEmpty() && (last == nullptr || last->forces.valid)) return alarm; // without forces there is none
   if (last == nullptr) return {};
   QStringList faults;
   for (const std::string& fault : last->faults) faults << QString::fromStdString(fault);

@@ -16,6 +16,7 @@
 #include <QMessageBox>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QScrollBar>
 #include <QSpinBox>
 #include <QTableWidget>
 #include <QVBoxLayout>
@@ -336,11 +337,13 @@ void LiveCalibration::displayFrames() {
     for (int d = 0; d < 3; ++d) {
       load << QString::number(samples.forces_N(d, row), 'g', 4);
       const double said_N = frames_.said_N()(d, row);
-      if (!std::isnan(said_N)) said << QString::number(std::round(1e2 * said_N) / 1e2 + 0.0, 'f', 2);
+      if (!std::isnan(said_N)) said << QString::number(std::round(1e3 * said_N) / 1e3 + 0.0, 'f', 3);
     }
     table_->setItem(row, 1, new QTableWidgetItem(load.join(", ")));
     table_->setItem(row, 2, new QTableWidgetItem(said.join(", ")));
   }
+  const int cells = table_->horizontalHeader()->length() + table_->verticalHeader()->sizeHint().width();
+  table_->setMinimumWidth(cells + table_->verticalScrollBar()->sizeHint().width() + 2 * table_->frameWidth());
   table_->scrollToBottom();
 }
 

@@ -33,7 +33,10 @@ public:
   void drawComplexControl(ComplexControl control, const QStyleOptionComplex* option, QPainter* painter,
                           const QWidget* widget) const override {
     QProxyStyle::drawComplexControl(control, option, painter, widget);
-    if (control == CC_SpinBox || control == CC_ComboBox) outline(*painter, option->rect, option->palette);
+    if (control == CC_SpinBox || control == CC_ComboBox || control == CC_ScrollBar)
+      outline(*painter, option->rect, option->palette);
+    if (control == CC_ScrollBar)
+      outline(*painter, subControlRect(control, option, SC_ScrollBarSlider, widget), option->palette);
     if (control != CC_Slider) return;
     const QRect handle = subControlRect(control, option, SC_SliderHandle, widget);
     painter->save();
@@ -46,7 +49,7 @@ public:
   void drawControl(ControlElement element, const QStyleOption* option, QPainter* painter,
                    const QWidget* widget) const override {
     QProxyStyle::drawControl(element, option, painter, widget);
-    if (element != CE_TabBarTabShape && element != CE_HeaderSection) return;
+    if (element != CE_TabBarTabShape && element != CE_HeaderSection && element != CE_ProgressBarGroove) return;
     outline(*painter, option->rect, option->palette);
     if (element == CE_TabBarTabShape && option->state.testFlag(State_Selected)) // its ground is that of the others
       painter->fillRect(option->rect.adjusted(2, 2, -2, 5 - option->rect.height()),

@@ -55,6 +55,7 @@ bool onlyWiresDiffer(const SensorDesign& now, const SensorDesign& kept) {
   rewired.lower = now.lower;
   rewired.lowerFollowsRubber = now.lowerFollowsRubber;
   rewired.resistance = now.resistance;
+  rewired.pressureLaw = now.pressureLaw;
   rewired.forceRange = now.forceRange;
   return rewired == now;
 }

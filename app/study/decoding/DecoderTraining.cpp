@@ -117,7 +117,8 @@ void DecoderTraining::describe() {
 
 void DecoderTraining::addPlace() {
   if (!samples_.hasPlaces())
-    throw Error("target: force+place needs samples of touches or with measured places; these load whole areas");
+    throw Error("target: force+place needs samples of touches (Network scene, palp sample --touch) or with measured "
+                "places (palp import); these load whole areas");
   if (!takesPlace(options_.decoder))
     throw Error("target: " + name(options_.decoder) +
                 " gives forces alone; force+place takes rbf, linear, poly2, "

@@ -38,9 +38,7 @@ std::optional<std::string> AlarmWatch::add(const Eigen::Ref<const Eigen::Matrix3
   const double beyond_N = alarm_->side == AlarmSide::Above ? value_N - alarm_->limit_N : alarm_->limit_N - value_N;
   const double back_N = std::max(kBack * std::abs(alarm_->limit_N), kLeastBack_N);
   const bool lasts = !words_.empty();
-  if (lasts && beyond_N <= -back_N) {
-    return lose();
-  }
+  if (lasts && beyond_N <= -back_N) return lose();
   if (!lasts && !(beyond_N > 0)) return {};
   std::array<char, 96> text{};
   std::snprintf(text.data(), text.size(), "alarm: %s %.3f N is %s %.4g N",

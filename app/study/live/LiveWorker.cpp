@@ -231,8 +231,8 @@ void LiveWorker::takeFrame(const BoardFrame& frame) {
       driftsSeen_.clear();
       recordTare();
     }
-    if (!live->past) watch(live->forces);
   }
+  if (!live->past) watch(live->forces);
   live->change = rest_.change(frame);
   judgeDrift(*live);
   if (frame.restarted) latency_.restart();
@@ -278,18 +278,19 @@ void LiveWorker::judgeDrift(const LiveFrame& live) {
   status_.driftForce_N = status_.drift ? decoder_->drifted_N(*status_.drift).norm() : 0;
   const double range_N = (decoder_->decoder().high_N - decoder_->decoder().low_N).maxCoeff();
   status_.tareSuggested = status_.driftForce_N > kDriftShare * range_N;
-  judgeDriftRate(now_s, range_N);
+  judgeDriftRate(live.frame.time_s, range_N);
 }
 
 /// What goes on so fast that a tare of now would be wanted again within a minute is waited for.
-void LiveWorker::judgeDriftRate(double now_s, double range_N) {
+void LiveWorker::judgeDriftRate(double time_s, double range_N) {
   status_.driftRate_N_min = 0;
   status_.driftsOn = false;
   if (!status_.drift) return driftsSeen_.clear();
-  driftsSeen_.push_back({now_s, *status_.drift});
-  while (driftsSeen_.front().first < now_s - kDriftRateOver_s) driftsSeen_.pop_front();
+  if (!driftsSeen_.empty() && time_s < driftsSeen_.back().first) driftsSeen_.clear(); // a recording went back
+  driftsSeen_.push_back({time_s, *status_.drift});
+  while (driftsSeen_.front().first < time_s - kDriftRateOver_s) driftsSeen_.pop_front();
   const auto [then_s, then] = driftsSeen_.front();
-  const double minutes = (now_s - then_s) / 60;
+  const double minutes = (time_s - then_s) / 60;
   if (minutes < kDriftRateOver_s / 120) return; // too short a time to tell
   status_.driftRate_N_min = decoder_->drifted_N(*status_.drift - then).norm() / minutes;
   status_.driftsOn = status_.tareSuggested && status_.driftRate_N_min > kDriftShare * range_N;
@@ -332,7 +333,8 @@ void LiveWorker::makeDecoder() {
   rest_.reset({});
   drift_.restart();
   status_.drift.reset();
-  status_.tareSuggested = false;
+  status_.tareSuggested = status_.driftsOn = false;
+  driftsSeen_.clear();
   status_.decoderProblem = options_.decoder ? "" : "no network: raw readings only";
   if (!options_.decoder || !status_.info) return;
   try {

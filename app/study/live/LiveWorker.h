@@ -58,7 +58,7 @@ private:
   void recordConfiguration();
   void watch(const DecodedForces& forces);
   void judgeDrift(const LiveFrame& live);
-  void judgeDriftRate(double now_s, double range_N);
+  void judgeDriftRate(double time_s, double range_N);
   void measureRates(double now_s);
   void restartRates(double now_s);
 
@@ -79,7 +79,7 @@ private:
   AlarmWatch alarm_;
   int blindFrames_ = 0;
   DriftMonitor drift_;
-  std::deque<std::pair<double, double>> driftsSeen_; ///< host clock, drift
+  std::deque<std::pair<double, double>> driftsSeen_; ///< board's time, drift
   double driftJudged_s_ = 0;                         ///< host clock
   std::shared_ptr<RecordingWriter> writer_;
   LatencyMeter latency_, decoding_;

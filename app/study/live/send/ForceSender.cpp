@@ -18,7 +18,8 @@ OutgoingFrame outgoing(const LiveFrame& live, double unix_s) {
                       live.forces.standardDeviation_N,
                       live.forces.area,
                       live.forces.place_mm,
-                      live.forces.placeDeviation_mm};
+                      live.forces.placeDeviation_mm,
+                      !live.forces.doubt.empty()};
   return frame;
 }
 

@@ -103,6 +103,8 @@ TEST(OutgoingFrame, HasItsUnitsInItsNamesAndNoForcesWhereThereAreNone) {
                                 R"("fz_N":-6,"area":4})");
   EXPECT_EQ(frameCsvHead(1), "device_s,host_unix_s,frame,valid,area,fx_N,fy_N,fz_N,sd_fx_N,sd_fy_N,sd_fz_N\n");
   EXPECT_EQ(frameAsCsv(frame, 1), "0.25,1.5,7,1,4,1,-0.5,-6,,,\n");
+  frame.doubted = true;
+  EXPECT_NE(frameAsJson(frame).find(R"("area":4,"doubted":1})"), std::string::npos) << frameAsJson(frame);
   frame.forces_N = Eigen::Matrix3Xd::Ones(3, 2); // one for each area
   EXPECT_NE(frameAsJson(frame).find(R"("a1_fz_N":1)"), std::string::npos);
 }
