@@ -77,7 +77,7 @@ private:
 void readComment(const SampleLines& lines, const std::string& line, std::map<std::string, std::string>& values) {
   const std::size_t colon = line.find(": ");
   if (line.substr(0, 2) != "# " || colon == std::string::npos)
-    lines.refuse(shown(line) + "; allowed in the head is \"# key: value\"");
+    lines.refuse(shown(line) + " is no line of the head of samples; allowed is \"# key: value\"");
   const std::string key = line.substr(2, colon - 2);
   if (!values.emplace(key, line.substr(colon + 2)).second) lines.refuse("key " + key + " stands twice");
 }

@@ -91,10 +91,11 @@ RbfFit trainRbf(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen::R
                                 "new samples; train with " +
                                 remedy(options.relativeInputNoise > 0, solution.ridge > 0) + "more inputs");
     if (left->indefinite && report.warnings.empty())
-      report.warnings.push_back("the leave-one-out errors are those of a larger ridge: with this one the system is not "
-                                "definite to rounding, and the network may do worse on new samples; train with a " +
-                                std::string(solution.ridge > 0 ? "larger " : "") +
-                                "ridge, a smaller spread or a linear tail");
+      report.warnings.push_back(
+          "the leave-one-out errors are those of a larger ridge: with this one the system is not "
+          "definite to rounding, and the network may do worse on new samples; train with a " +
+          std::string(solution.ridge > 0 ? "larger " : "") +
+          (options.tail == Tail::Linear ? "ridge or a smaller spread" : "ridge, a smaller spread or a linear tail"));
     report.leaveOneOutResiduals = std::move(left->residuals);
   }
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -29,7 +29,11 @@ WayOnward wayOnward(const LiveHost& host, const LiveFrame& frame) {
     if (!frame.frame.rowExpected[static_cast<std::size_t>(row)]) return {}; // one row-wire alone is scanned
     (frame.frame.rowGood(row) ? whole : broken) << QString::number(row);
   }
-  if (whole.isEmpty()) return {QObject::tr("No row-wire is whole: mend the wire; forces come back by themselves."), {}};
+  if (whole.isEmpty())
+    return {
+        QObject::tr("Every row-wire has readings that are bad (a column-wire crosses them all), so no network can do "
+                    "without them: mend the wire; forces come back by themselves."),
+        {}};
   if (host.replaying())
     return {QObject::tr("A network that does without row-wire %1 gives forces here.").arg(broken.join(", ")), {}};
   return {QObject::tr("Forces come back when it is mended, or with a network that does without row-wire %1: "

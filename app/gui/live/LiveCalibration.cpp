@@ -65,7 +65,9 @@ QString reportText(const Calibration& calibration, double age_days) {
                 .arg(report.rmseBefore_N(axis), 0, 'g', 3)
                 .arg(report.rmseAfter_N(axis), 0, 'g', 3)
                 .arg(report.rmseAfter_percentOfRange(axis), 0, 'f', 2);
-  text += QObject::tr("</table>Worst frame: %1, %2 N.").arg(report.worstSample).arg(report.worstError_N, 0, 'g', 3);
+  text += QObject::tr("</table>Worst frame: row %1 of the table, off by %2 N.")
+              .arg(report.worstSample + 1) // rows are counted from 1
+              .arg(report.worstError_N, 0, 'g', 3);
   if (const auto& place = report.place)
     text += QObject::tr(" Places along x, y: before %1, %2 mm, after (unseen) %3, %4 mm.")
                 .arg(place->rmseBefore_mm.x(), 0, 'g', 3)
@@ -353,8 +355,9 @@ void LiveCalibration::fit() {
   runner_.start(tr("Refining the network"),
                 [this, decoder = *host_.decoder(), frames = frames_.samples()](const std::stop_token&, JobProgress&) {
                   auto result = std::make_shared<Calibration>(calibrate(decoder, frames));
-                  return [this, result] {
+                  return [this, result, fitted = frames.forces_N] {
                     calibration_ = std::move(*result);
+                    fitted_N_ = fitted;
                     displayFit();
                   };
                 });
@@ -380,7 +383,15 @@ void LiveCalibration::displayFit() {
     const auto age = std::filesystem::file_time_type::clock::now() - *written_;
     age_days = std::chrono::duration<double>(age).count() / kDay_s;
   }
-  report_->setText(reportText(*calibration_, std::max(0.0, age_days)));
+  const auto count = frames_.samples().size();
+  const bool changed = count != fitted_N_.cols() || frames_.samples().forces_N != fitted_N_;
+  report_->setText(
+      (changed ? tr("<p><b>The frames have changed since: %1 now%2.</b></p>")
+                     .arg(count)
+                     .arg(count < kFewestCalibrationFrames ? tr(", %1 are needed").arg(kFewestCalibrationFrames)
+                                                           : tr(", fit again"))
+               : QString()) +
+      reportText(*calibration_, std::max(0.0, age_days)));
 }
 
 } // namespace palp

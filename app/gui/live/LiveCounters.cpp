@@ -91,13 +91,13 @@ void LiveCounters::resizeEvent(QResizeEvent* event) {
 LiveCounters::Tile LiveCounters::add(const QString& name, const QString& title, const QString& tip) {
   auto* box = new QWidget;
   box->setProperty("role", "tile");
-  box->setToolTip("<qt>" + tip.toHtmlEscaped() + "</qt>"); // broken into lines
+  box->setToolTip("<qt>" + tip.toHtmlEscaped() + "</qt>"); // broken into lines; later with the words, which may be cut
   auto* column = new QVBoxLayout(box);
   column->setContentsMargins(6, 4, 6, 4);
   column->setSpacing(0);
   auto* head = new QLabel(title);
   head->setProperty("role", "hint");
-  Tile tile{box, new ElidedLabel, new ElidedLabel};
+  Tile tile{box, new ElidedLabel, new ElidedLabel, tip};
   tile.value->setObjectName(name);
   tile.value->setProperty("role", "value");
   tile.unit->setObjectName(name + "Unit");
@@ -108,8 +108,12 @@ LiveCounters::Tile LiveCounters::add(const QString& name, const QString& title, 
 }
 
 void LiveCounters::set(const Tile& tile, const QString& value, const QString& unit, bool alarm) {
-  if (tile.value->text() != value) tile.value->setText(value);
-  if (tile.unit->text() != unit) tile.unit->setText(unit);
+  if (tile.value->text() != value || tile.unit->text() != unit) {
+    tile.value->setText(value);
+    tile.unit->setText(unit);
+    tile.box->setToolTip(QString("<qt><p><b>%1</b>: %2</p>%3</qt>")
+                             .arg(value.toHtmlEscaped(), unit.toHtmlEscaped(), tile.tip.toHtmlEscaped()));
+  }
   const QString role = alarm ? "problem" : "value";
   if (tile.value->property("role").toString() == role) return;
   tile.value->setProperty("role", role);
@@ -129,10 +133,9 @@ void LiveCounters::displayTrust(const LiveStatus& status, const LiveFrame* last,
   const QString misfit = forces.misfit ? tr("misfit %1").arg(*forces.misfit, 0, 'g', 3) : tr("range of the readings");
   // All readings have gone together, by more than they scatter: that alone is no touch that is known.
   const bool drifted = doubted && status.drift && status.noise > 0 && std::abs(*status.drift) > status.noise;
-  const QString remedy = drifted
-                             ? (status.driftsOn ? tr("drifts on: wait, then tare; ")
-                                                : tr("tare: drifted by %1 ppm; ").arg(qRound64(1e6 * *status.drift)))
-                             : QString();
+  const QString remedy = !drifted          ? QString()
+                         : status.driftsOn ? tr("drifts on: wait, then tare; ")
+                                           : tr("tare: rest reads as %1 N; ").arg(status.driftForce_N, 0, 'g', 2);
   const QString why = remedy + QString::fromStdString(forces.doubt);
   set(trust_, doubted ? tr("doubted") : tr("fits"), doubted ? why : misfit, doubted);
 }
@@ -156,13 +159,12 @@ void LiveCounters::display(const LiveStatus& status, const LiveFrame* last, bool
           : tr("here %1 / %2 of it").arg(milliseconds(status.decoding.p50_s), milliseconds(status.decoding.p99_s)));
   displayTrust(status, last, loading);
   const QString drift = status.drift ? tr("drift %1 ppm").arg(qRound64(1e6 * *status.drift)) : QString();
-  const QString reads =
-      status.tareSuggested ? tr(", reads as %1 N: tare").arg(status.driftForce_N, 0, 'g', 2) : QString();
+  const QString reads = tr("reads as %1 N: tare; ").arg(status.driftForce_N, 0, 'g', 2);
   const QString noise = status.noise > 0 ? tr("noise %1").arg(status.noise, 0, 'g', 2) : tr("noise not known");
   set(climate_,
       status.temperature_degC ? QString::fromUtf8("%1 \u00b0C").arg(*status.temperature_degC, 0, 'f', 1) : tr("none"),
       status.driftsOn        ? tr("drifts by %1 N a minute: wait").arg(status.driftRate_N_min, 0, 'g', 2)
-      : status.tareSuggested ? drift + reads
+      : status.tareSuggested ? reads + drift
       : drift.isEmpty()      ? noise
                              : noise + ", " + drift,
       status.tareSuggested);

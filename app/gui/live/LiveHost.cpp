@@ -278,7 +278,9 @@ void LiveHost::loadNetwork() {
     if (!file.empty() && info)
       static_cast<void>(ForceDecoder(*loaded->decoder, *info)); // throws where it cannot read it
     return [this, loaded] {
-      before_ = {};
+      Network inUse = network_;
+      inUse.name = networkName();
+      before_ = inUse.decoder && inUse.file != loaded->file ? std::move(inUse) : Network{};
       setNetwork(std::move(*loaded));
     };
   });
@@ -315,6 +317,7 @@ void LiveHost::backToNetwork() {
   Network back = std::exchange(before_, {});
   mark(tr("network: %1").arg(back.name).toStdString());
   setNetwork(std::move(back));
+  if (network_.file != settings_.network) emit wentBackToFile();
 }
 
 bool LiveHost::look() {

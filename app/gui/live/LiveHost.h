@@ -114,6 +114,8 @@ public:
 
 signals:
   void decoderChanged();
+  /// backToNetwork() took one of another file than the settings name: networkFile().
+  void wentBackToFile();
   /// The file that was chosen is no network for this board; the one in use stays.
   void networkRefused(const QString& sentence);
 

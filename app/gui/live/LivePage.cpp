@@ -195,6 +195,8 @@ void LivePage::connectPanels() {
   connect(control_, &LiveControlPanel::exportAsked, this, &LivePage::exportFrames);
   connect(heatmap_, &HeatmapView::cellClicked, this, &LivePage::toggleCell);
   connect(&host_, &LiveHost::networkRefused, this, &LivePage::refuseNetwork);
+  connect(&host_, &LiveHost::wentBackToFile, this,
+          [this] { change(tr("network"), [&](LiveSettings& settings) { settings.network = host_.networkFile(); }); });
   connect(&host_, &LiveHost::decoderChanged, this, [this] {
     control_->displayNetworkProblem({});
     stateLook_ = 0;

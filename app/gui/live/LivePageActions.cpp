@@ -47,13 +47,14 @@ void LivePage::tare() {
   const LiveFrame* held = host_.status().tareSuggested ? nullptr : heldTouch(host_.history());
   if (held != nullptr) {
     const LiveArrow touch = arrowsOf(held->forces).front();
+    const auto hundredths = [](double force_N) { return std::round(100 * force_N) / 100 + 0.0; }; // no -0
     const auto answer = QMessageBox::question(this, tr("Tare under a load?"),
                                               tr("The network reads (%1, %2, %3) N on area %4. A tare takes what is "
                                                  "read now as rest: this force reads as none "
                                                  "from then on. Tare all the same?")
-                                                  .arg(touch.force_N.x(), 0, 'f', 2)
-                                                  .arg(touch.force_N.y(), 0, 'f', 2)
-                                                  .arg(touch.force_N.z(), 0, 'f', 2)
+                                                  .arg(hundredths(touch.force_N.x()), 0, 'f', 2)
+                                                  .arg(hundredths(touch.force_N.y()), 0, 'f', 2)
+                                                  .arg(hundredths(touch.force_N.z()), 0, 'f', 2)
                                                   .arg(touch.area),
                                               QMessageBox::Yes | QMessageBox::No, QMessageBox::No);
     if (answer != QMessageBox::Yes) return;

@@ -123,6 +123,8 @@ void LivePage::drawForces() {
     lines = {lines.front(), "the last of the recording"};
   else if (gone)
     lines = {lines.front(), std::string("last known; the source is ") + name(state)};
+  else if (stale && !arrows.empty())
+    lines.insert(lines.begin() + 1, "in grey: the last known");
   std::optional<Eigen::Vector2d> truth_mm;
   if (const auto truth = gone ? std::nullopt : host_.trueTouch(last->frame); truth && truth->force_N.z() < 0) {
     truth_mm = truth->place_mm;

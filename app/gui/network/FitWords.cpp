@@ -376,6 +376,8 @@ QString fitWords(const NetworkSession& session, const NetworkSettings& now, cons
     return session.samples() == nullptr ? tr("No network yet: generate samples, or open a file of them, then train.")
                                         : tr("No network yet: train one on the samples.");
   QString name = fit->file.isEmpty() ? tr("Trained here") : tr("Opened: %1").arg(QFileInfo(fit->file).fileName());
+  if (fit->file.isEmpty() && session.samples() != nullptr && fit->madeFrom != session.samples()->settings)
+    name += tr(" on other samples (%1, seed %2)").arg(countWords(fit->madeFrom)).arg(fit->madeFrom.seed);
   if (!fit->name.isEmpty()) name = "\"" + fit->name + "\": " + name;
   const QString rest = tr("%1 %2%3; condition %4, trained in %5 s.%6%7")
                            .arg(name.toHtmlEscaped(), originWords(*fit).toHtmlEscaped(), systemWords(*fit))

@@ -6,18 +6,18 @@
 #include "app/gui/network/NetworkCharts.h"
 #include "app/gui/network/NetworkFiles.h"
 #include "app/gui/network/NetworkPanel.h"
+#include "app/gui/network/NetworkSource.h"
 #include "app/gui/network/SweepTab.h"
 #include "app/gui/network/TouchBounds.h"
 #include "app/gui/network/TrainedNetworks.h"
-#include "app/gui/project/Command.h"
 #include "app/gui/views/ChartView.h"
 #include "app/gui/widgets/KeepRoom.h"
 #include "app/gui/window/SidePanel.h"
 
-#include <QFileInfo>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
+#include <QScrollArea>
 #include <QSignalBlocker>
 #include <QSpinBox>
 #include <QSplitter>
@@ -32,6 +32,7 @@ namespace palp {
 namespace {
 
 constexpr int kPanelWidth_px = 330;
+constexpr int kHeadLines = 7; // of the words above the charts; more are scrolled to
 
 QSplitter* beside(std::initializer_list<QWidget*> widgets, Qt::Orientation orientation) {
   auto* splitter = new QSplitter(orientation);
@@ -194,8 +195,13 @@ QWidget* NetworkPage::buildCharts() {
   fitWords_->setObjectName("fitWords");
   fitWords_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   fitWords_->setWordWrap(true);
-  fitWords_->setMinimumHeight(6 * fitWords_->fontMetrics().lineSpacing()); // the tabs stay where they are
-  column->addWidget(fitWords_);
+  fitWords_->setAlignment(Qt::AlignTop);
+  auto* head = new QScrollArea; // of one height, so that the tabs stay where they are
+  head->setFrameShape(QFrame::NoFrame);
+  head->setWidgetResizable(true);
+  head->setWidget(fitWords_);
+  head->setFixedHeight(kHeadLines * fitWords_->fontMetrics().lineSpacing());
+  column->addWidget(head);
   problem_ = new QLabel;
   problem_->setObjectName("trainingProblem");
   problem_->setProperty("role", "problem");
@@ -243,10 +249,7 @@ void NetworkPage::showEvent(QShowEvent* event) {
 }
 
 QString NetworkPage::commands(const Project& project, const QString& designFile) const {
-  const NetworkSamples* samples = session_.samples();
-  if (!session_.upToDate() || samples->file.isEmpty()) return networkCommands(project, designFile);
-  return tr("# train.csv, test.csv: the samples of %1\n").arg(QFileInfo(samples->file).fileName()) +
-         trainCommands(project.network, designFile, "network.json");
+  return commandsOfShown(project, session_, designFile);
 }
 
 std::vector<JobRunner*> NetworkPage::runners() {

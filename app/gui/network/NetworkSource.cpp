@@ -48,6 +48,17 @@ public:
     reasons_ << staleListReason(session_);
   }
 
+  /// To be run: what is no command is a remark.
+  [[nodiscard]] QString commands() const {
+    QStringList reasons = reasons_;
+    reasons.removeAll(QString());
+    QStringList all;
+    for (const QString& command : samples() + commands_ + reasons) all << command.split('\n');
+    for (QString& line : all)
+      if (!line.startsWith("palp ")) line.prepend("# ");
+    return all.join('\n');
+  }
+
   [[nodiscard]] QString lines() const {
     QStringList reasons = reasons_;
     reasons.removeAll(QString());
@@ -94,6 +105,14 @@ private:
 };
 
 } // namespace
+
+QString commandsOfShown(const Project& now, const NetworkSession& session, const QString& designFile) {
+  if (session.samples() == nullptr || session.fit() == nullptr) return networkCommands(now, designFile);
+  NetworkSource source(now, session);
+  source.addShown();
+  source.addSweep();
+  return source.commands();
+}
 
 QString networkSource(const QString& saved, const Project& now, const NetworkSession& session) {
   NetworkSource source(now, session);

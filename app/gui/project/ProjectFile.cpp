@@ -122,7 +122,8 @@ QJsonObject viewJson(const ViewSettings& view) {
                      {"resistance_noise", view.resistanceNoise},
                      {"resistance", QString::fromStdString(kResistanceKinds.name(view.resistance))},
                      {"cell", cell(view.cell)},
-                     {"test_area", view.testArea}};
+                     {"test_area", view.testArea},
+                     {"report_per_area", view.reportPerArea}};
   if (view.warpFactor) object["warp_factor"] = *view.warpFactor;
   if (view.cut)
     object["cut"] =
@@ -169,8 +170,8 @@ ViewSettings viewOf(const JsonPlace& place) {
   place.onlyKeys({"scene", "quantity", "ghost", "electrodes", "arrows", "outlines", "edges", "row_wire", "line_from_mm",
                   "line_to_mm", "mesh", "resistance_noise", "resistance", "cell", "test_area"},
                  {"warp_factor", "clip_y_mm", "cut", "color_map", "color_range", "difference_range", "extremes",
-                  "lit_cell", "resistance_range", "less_kept", "current_way", "uniform", "map_quantity",
-                  "map_on_block"});
+                  "lit_cell", "resistance_range", "less_kept", "current_way", "uniform", "map_quantity", "map_on_block",
+                  "report_per_area"});
   ViewSettings view;
   view.scene = place.at("scene").string();
   view.quantity = place.at("quantity").named(kQuantities);
@@ -201,6 +202,7 @@ ViewSettings viewOf(const JsonPlace& place) {
   if (place.has("resistance_range")) view.resistanceRange = rangeOf(place.at("resistance_range"));
   view.cell = cellOf(place.at("cell"));
   view.testArea = place.at("test_area").integer(0, kLargestIndex);
+  if (place.has("report_per_area")) view.reportPerArea = place.at("report_per_area").integer(5, 100000);
   return view;
 }
 

@@ -47,6 +47,7 @@ struct ViewSettings {
   bool uniform = false;              ///< that is: of its own design to the same forces, uniform; else the kept one's
   std::string mapQuantity = "place"; ///< of the Design scene's map, by its name for files
   bool mapOnBlock = true;            ///< is drawn over the block too
+  int reportPerArea = 100;           ///< samples on each area that a report draws
 
   bool operator==(const ViewSettings&) const = default;
   /// Of the colours that are shown: each of the two has a range of its own.

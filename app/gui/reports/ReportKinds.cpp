@@ -79,7 +79,7 @@ bool ofAnotherDesign(const QStringList& arguments, const Project& project) {
 
 QString settingsName(const QStringList& arguments, const Project& project) {
   QStringList words = arguments;
-  words << QString::number(project.samples.perArea) << meshOption(project.mesh).split(' ', Qt::SkipEmptyParts);
+  words << QString::number(project.view.reportPerArea) << meshOption(project.mesh).split(' ', Qt::SkipEmptyParts);
   if (ofAnotherDesign(arguments, project)) words << "design";
   return words.join('-');
 }

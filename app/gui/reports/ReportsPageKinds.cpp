@@ -28,7 +28,7 @@ bool ReportsPage::isStudy() const {
 QStringList ReportsPage::arguments(const Project& project, const QString& folder) const {
   QStringList all = kind().arguments;
   if (isStudy()) return all << QDir(folder).filePath(kStudyFile) << "-o" << folder; // its file says the rest
-  if (all.front() == "report") all << "--per-area" << QString::number(project.samples.perArea);
+  if (all.front() == "report") all << "--per-area" << QString::number(project.view.reportPerArea);
   return all + meshOption(project.mesh).split(' ', Qt::SkipEmptyParts) + QStringList{"-o", folder};
 }
 
@@ -52,11 +52,11 @@ void ReportsPage::buildSamplesBox() {
   perArea_->setRange(5, 100000);
   perArea_->setKeyboardTracking(false);
   perArea_->setPrefix(tr("samples on each area: "));
-  perArea_->setToolTip(tr("Random forces on each area; the Network scene has the same number"));
+  perArea_->setToolTip(tr("Random forces on each area, which the report draws for itself"));
   connect(perArea_, &QSpinBox::valueChanged, this, [this](int perArea) {
     Project next = workbench_.project();
-    next.samples.perArea = perArea;
-    workbench_.edit(tr("Change the number of samples"), next);
+    next.view.reportPerArea = perArea;
+    workbench_.edit(tr("samples of a report"), next);
     chooseKind(); // its time
   });
 }
@@ -67,7 +67,7 @@ void ReportsPage::chooseKind() {
   what_->setText(kind().what);
   study_->setVisible(isStudy());
   const QSignalBlocker quiet(perArea_);
-  perArea_->setValue(workbench_.project().samples.perArea);
+  perArea_->setValue(workbench_.project().view.reportPerArea);
   perArea_->setVisible(drawsSamples(kind()));
   tabs_->setCurrentWidget(cases_);
   if (isStudy()) return planStudy();

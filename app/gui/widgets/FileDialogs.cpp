@@ -1,6 +1,7 @@
 #include "app/gui/widgets/FileDialogs.h"
 
 #include <QAbstractItemView>
+#include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QSettings>
@@ -24,6 +25,16 @@ QString afterProject(const QWidget* parent, const QString& proposal) {
   return project + '-' + proposal;
 }
 
+/// The next number behind a name without folder that is there already, so that Return alone replaces nothing.
+QString freeIn(const QDir& folder, const QString& proposal) {
+  if (proposal.contains('/')) return proposal;
+  const QString ending = QFileInfo(proposal).suffix().isEmpty() ? QString() : '.' + QFileInfo(proposal).suffix();
+  const QString stem = proposal.chopped(ending.size());
+  QString free = proposal;
+  for (int number = 2; folder.exists(free); ++number) free = stem + '-' + QString::number(number) + ending;
+  return free;
+}
+
 QStringList chosen(QFileDialog& dialog) {
   if (dialog.exec() != QDialog::Accepted || dialog.selectedFiles().isEmpty()) return {};
   QSettings().setValue(kLastFolder, QFileInfo(dialog.selectedFiles().front()).absolutePath());
@@ -44,7 +55,7 @@ QString askFileToSave(QWidget* parent, const QString& title, const QString& prop
   dialog.setAcceptMode(QFileDialog::AcceptSave);
   dialog.setFileMode(QFileDialog::AnyFile);
   dialog.setDefaultSuffix(QFileInfo(proposal).suffix());
-  dialog.selectFile(afterProject(parent, proposal));
+  dialog.selectFile(freeIn(dialog.directory(), afterProject(parent, proposal)));
   // A proposal that is there is chosen in the list too, and Qt would take it before a path that is typed.
   for (auto* list : dialog.findChildren<QAbstractItemView*>())
     if (list->selectionModel() != nullptr) list->selectionModel()->clear();

@@ -10,7 +10,7 @@ namespace palp {
 
 /// Asks for a file to write. A name that was typed without an ending gets that of the proposal, before the question
 /// whether a file of that name is to be replaced. A proposal without a folder begins with the project's name, where
-/// that has one. Empty where the user does not want it.
+/// that has one, and has a number behind it where it is there already. Empty where the user does not want it.
 QString askFileToSave(QWidget* parent, const QString& title, const QString& proposal, const QString& filter);
 
 /// Asks for a file to read; begins in `folder` where one is given. Empty where the user does not want it.

@@ -28,6 +28,7 @@
 #include <QDockWidget>
 #include <QMenuBar>
 #include <QMessageBox>
+#include <QRegularExpression>
 #include <QUndoView>
 
 #include <array>
@@ -200,11 +201,11 @@ void Menus::buildExport(QMenu& menu) {
           return;
         }
         QApplication::clipboard()->setText(commands);
-        const qsizetype more = commands.trimmed().count('\n');
-        window_.showMessage(more == 0 ? tr("Copied: %1   (sensor.json: File, Save design)").arg(commands.trimmed())
-                                      : tr("Copied %1 commands, the first: %2   (sensor.json: File, Save design)")
-                                            .arg(more + 1)
-                                            .arg(commands.section('\n', 0, 0)));
+        const QStringList run = commands.split('\n').filter(QRegularExpression("^palp")); // less the remarks
+        window_.showMessage(run.size() == 1 ? tr("Copied: %1   (sensor.json: File, Save design)").arg(run.value(0))
+                                            : tr("Copied %1 commands, the first: %2   (sensor.json: File, Save design)")
+                                                  .arg(run.size())
+                                                  .arg(run.value(0)));
       });
 }
 

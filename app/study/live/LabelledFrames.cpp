@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kSeenDeviations = 5;      // a load within so many of them may hide in the noise
 constexpr double kLeastShare = 0.1;        // of the label, or of what is read: less than any gain would make of it
+constexpr double kFarShare = 2;            // of one to the other: rarely is a sensor so far from its model
 constexpr double kMostOffset_range = 0.05; // that may stand at rest for calibration to take away
 
 std::string inNewton(const Eigen::Vector3d& force_N) {
@@ -47,6 +48,10 @@ std::string labelAgainstReading(const Eigen::Vector3d& label_N, const DecodedFor
   if (label_N.norm() < kLeastShare * read_N.norm() && read_N.norm() > std::max(hidden_N, offset_N))
     return "the label says " + inNewton(label_N) + ", but the network reads " + inNewton(read_N) +
            ": is the sensor at rest?";
+  const double less_N = std::min(label_N.norm(), read_N.norm()), more_N = std::max(label_N.norm(), read_N.norm());
+  if (more_N > kFarShare * less_N && more_N - less_N > std::max(hidden_N, offset_N))
+    return "the label says " + inNewton(label_N) + ", but the network reads " + inNewton(read_N) +
+           ": is this the load that is on the sensor?";
   return {};
 }
 

@@ -26,7 +26,7 @@ constexpr int kPatience_ms = 60000;
 inline Project quickProject() {
   Project project = exampleProject();
   project.mesh.mapped = {9, 8, 2};
-  project.samples.perArea = 6;
+  project.samples.perArea = project.view.reportPerArea = 6;
   project.network.sweepCount = 3;
   return project;
 }

@@ -356,7 +356,7 @@ void LiveControlPanel::displayState(const LiveControlState& state) {
           networkRefused_.isEmpty() ? QString::fromStdString(status.decoderProblem) : networkRefused_);
   back_->setEnabled(!state.networkBefore.isEmpty());
   shipped_->setEnabled(!settings_.network.empty() || !state.networkBefore.isEmpty());
-  const QString back = state.networkBefore.isEmpty() ? tr("Back to the network before a calibration; none was used yet")
+  const QString back = state.networkBefore.isEmpty() ? tr("Back to the network that was in use before; there is none")
                                                      : tr("Back to: %1").arg(state.networkBefore);
   if (back_->toolTip() != back) back_->setToolTip(back);
   tare_->setText(status.taring          ? tr("Waits for rest")

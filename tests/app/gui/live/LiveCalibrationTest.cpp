@@ -72,6 +72,9 @@ TEST_F(LiveCalibrating, SaysThatTheLabelsDoNotBelongToTheFrames) {
   ASSERT_TRUE(fit());
   EXPECT_TRUE(find<QLabel>("calibrationReport").text().contains("A bad fit"));
   EXPECT_TRUE(find<QLabel>("calibrationReport").text().contains("the model under these labels"));
+  const auto worst = static_cast<int>(calibration().calibration()->report.worstSample);
+  EXPECT_TRUE(find<QLabel>("calibrationReport").text().contains(QString("row %1 of the table").arg(worst + 1)))
+      << "the table counts from 1";
 }
 
 TEST_F(LiveCalibrating, SaysThatTheNetworkSeesTheLoadOnAnotherArea) {
@@ -277,6 +280,12 @@ TEST_F(LiveCalibrating, FitsOnlyWhereThereAreFramesEnoughAndSaysHowManyThereAre)
       << find<QLabel>("calibrationReport").text().toStdString();
   ASSERT_TRUE(collect(1, -0.5));
   EXPECT_TRUE(find<QPushButton>("fitCalibration").isEnabled());
+  ASSERT_TRUE(fit());
+  const auto report = [&] { return find<QLabel>("calibrationReport").text(); };
+  EXPECT_FALSE(report().contains("The frames have changed"));
+  find<QTableWidget>("labelledFrames").selectRow(3);
+  click("removeFrame");
+  EXPECT_TRUE(report().contains("The frames have changed since: 7 now, 8 are needed")) << report().toStdString();
 }
 
 } // namespace

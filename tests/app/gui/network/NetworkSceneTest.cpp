@@ -129,6 +129,16 @@ TEST_F(NetworkScene, ANetworkOfResistancesGoesToLiveByOneButton) {
   yes.start(20);
   QTest::mouseClick(&button, Qt::LeftButton);
   EXPECT_TRUE(QTest::qWaitFor([&] { return host.decoder()->kind == DecoderKind::Linear; }, kPatience_ms));
+
+  // The network that Live began with comes back by its button, and the project says so.
+  Project own = workbench.project();
+  own.live.network.clear();
+  workbench.edit("Palp's own", own);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return host.networkFile().empty(); }, kPatience_ms));
+  ASSERT_EQ(host.networkBefore(), "hand.json");
+  QTest::mouseClick(&find<QPushButton>("networkBack"), Qt::LeftButton);
+  EXPECT_EQ(host.decoder()->kind, DecoderKind::Linear);
+  EXPECT_EQ(workbench.project().live.network, file.toStdString());
 }
 
 TEST_F(NetworkScene, AnEditOfTheNetworkDoesNotEndTheMakingOfSamples) {

@@ -109,7 +109,11 @@ TEST_F(ProjectFile, ReadsBackEverythingThatWasSet) {
                   {7, 29},
                   true,
                   4,
-                  true};
+                  true,
+                  true,
+                  "force",
+                  false,
+                  40};
   project.kept = paperDesign();
   project.kept->block_mm.z() = 6;
   saveProject(path("project.json"), project);

@@ -345,7 +345,7 @@ TEST_F(ReportsPageTest, AFolderThatCannotBeMadeIsNamed) {
 
 TEST_F(ReportsPageTest, ACancelledReportSaysSoAndLeavesNothing) {
   Project many = workbench.project();
-  many.samples.perArea = 4000; // work for longer than any machine waits before the cancel
+  many.view.reportPerArea = 4000; // work for longer than any machine waits before the cancel
   workbench.edit("many", many);
   run("networks");
   ASSERT_TRUE(QTest::qWaitFor([&] { return find<QPushButton>("cancelReport").isEnabled(); }, kPatience_ms));

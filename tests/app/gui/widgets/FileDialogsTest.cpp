@@ -57,6 +57,16 @@ TEST(FileDialogs, OfferANameThatBeginsWithTheProjects) {
   window.setWindowFilePath("/somewhere/finger v2.json");
   EXPECT_EQ(offered("samples.csv"), "finger v2-samples.csv");
   EXPECT_EQ(offered("finger v2.json"), "finger v2.json") << "the project itself";
+
+  const QTemporaryDir folder; // a name that is there already gets a number
+  for (const char* name : {"finger v2-samples.csv", "finger v2-samples-2.csv"}) {
+    QFile made(folder.filePath(name));
+    ASSERT_TRUE(made.open(QIODevice::WriteOnly));
+  }
+  QDir(folder.path()).mkdir("finger v2-film");
+  QSettings().setValue("lastFolder", folder.path());
+  EXPECT_EQ(offered("samples.csv"), "finger v2-samples-3.csv");
+  EXPECT_EQ(offered("film"), "finger v2-film-2");
 }
 
 TEST(FileDialogs, TakeThePathThatIsTypedAndNotAProposalThatIsThere) {
