@@ -7,8 +7,8 @@ namespace palp {
 namespace {
 
 /// Numbers in lanes [blocks][size][8], element by element.
-std::vector<double> byElement(const double* values, int elements, std::size_t size) {
-  std::vector<double> out(elements * size);
+LaneVector byElement(const double* values, int elements, std::size_t size) {
+  LaneVector out(elements * size);
   for (int e = 0; e < elements; ++e)
     for (std::size_t i = 0; i < size; ++i) out[e * size + i] = values[laneIndex(e, size, i)];
   return out;

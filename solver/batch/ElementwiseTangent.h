@@ -25,7 +25,7 @@ public:
   [[nodiscard]] BlockedFactor factor() const { return factor_.blocks(); }
 
 private:
-  static const double* item(const std::vector<double>& values, int element, std::size_t size) {
+  static const double* item(const LaneVector& values, int element, std::size_t size) {
     return values.data() + element * size;
   }
 
@@ -33,7 +33,7 @@ private:
   RubberConstants rubber_;
   const SparseCholesky& factor_;
   std::size_t geometrySize_, eliminationSize_, inverseSize_;
-  std::vector<double> geometry_, elimination_, localInverse_;
+  LaneVector geometry_, elimination_, localInverse_; // read from end to end: on huge pages
   std::vector<int> factorRows_;
 };
 

@@ -4,80 +4,96 @@
 
 namespace palp {
 
+namespace {
+
+constexpr int rowsAtOnce = 128;                   // what a pass leaves in the cache for the next block of lanes
+constexpr double independent = 1e-8;              // changes whose directions differ by less are one
+using Sums = std::array<double, mixSums * lanes>; // [mixSums][8]
+
+} // namespace
+
 LaneMixing::LaneMixing(std::size_t leading, std::size_t following)
-    : leading_(leading * batchLanes), following_(following * batchLanes), changes_(leading * batchLanes) {}
+    : leading_(leading * batchLanes * leadingPast), following_(following * batchLanes * followingPast) {}
 
 void LaneMixing::begin(int lane, bool mixed) {
   mixed_[lane] = mixed;
-  restarts_[lane] = false;
-  iterations_[lane] = 0;
+  restarts_[lane] = hasLast_[lane] = false;
+  known_[lane] = 0;
 }
 
-/// The normal equations of the least squares for gamma are at most 2 x 2.
-void LaneMixing::mixLeading(const std::array<bool, batchLanes>& moved, double* directions) {
-  struct Lane {
-    int index = 0, known = 0, slot = 0; ///< this iteration's change goes to the slot
-    double aa = 0, ab = 0, bb = 0, ra = 0, rb = 0;
-  };
-  std::vector<Lane> some;
-  for (int l = 0; l < batchLanes; ++l)
-    if (mixed_[l] && moved[l]) {
-      if (restarts_[l]) iterations_[l] = 0; // only now: what followed the last directions has been mixed
-      restarts_[l] = false;
-      const int before = iterations_[l]++;
-      some.push_back({l, std::min(before, depth), before % depth});
+/// Only now: what followed the last directions has been mixed.
+void LaneMixing::begin(const std::array<double, batchLanes>& scale) {
+  for (int lane = 0; lane < batchLanes; ++lane) {
+    const bool moves = scale[lane] > 0;
+    LaneMix& mix = mixes_[lane / lanes];
+    const int l = lane % lanes;
+    mix.moves[l] = moves ? -1 : 0;
+    mix.scale[l] = scale[lane];
+    if (restarts_[lane] || (mixed_[lane] && !moves)) known_[lane] = 0;
+    const bool pair = mixed_[lane] && moves && hasLast_[lane] && !restarts_[lane];
+    if (pair) known_[lane] = std::min(known_[lane] + 1, mixingDepth);
+    mix.pair[l] = pair ? -1 : 0;
+    for (int j = 0; j < mixingDepth; ++j) {
+      mix.known[j][l] = mixed_[lane] && moves && j < known_[lane] ? -1 : 0;
+      mix.gamma[j][l] = 0;
     }
-  const std::size_t rows = leading_.size() / batchLanes;
-  for (std::size_t row = 0; row < rows; ++row)
-    for (Lane& lane : some) {
-      const std::size_t i = row * batchLanes + lane.index;
-      const double r = directions[i];
-      Past& past = leading_[i];
-      if (lane.known > 0) {
-        const double a = r - past.direction, b = lane.known > 1 ? changes_[i][1 - lane.slot] : 0.F;
-        changes_[i][lane.slot] = static_cast<float>(a);
-        past.motion[lane.slot] = static_cast<float>(past.step + a);
-        lane.aa += a * a;
-        lane.ab += a * b;
-        lane.bb += b * b;
-        lane.ra += r * a;
-        lane.rb += r * b;
-      }
-      past.direction = static_cast<float>(r);
-    }
-  for (const Lane& lane : some) {
-    double a = 0, b = 0;
-    const double determinant = lane.aa * lane.bb - lane.ab * lane.ab;
-    constexpr double independent = 1e-8; // changes whose directions differ by less are one
-    if (lane.known > 1 && determinant > independent * lane.aa * lane.bb) {
-      a = (lane.ra * lane.bb - lane.rb * lane.ab) / determinant;
-      b = (lane.rb * lane.aa - lane.ra * lane.ab) / determinant;
-    } else if (lane.aa > 0) {
-      a = lane.ra / lane.aa;
-    }
-    gamma_[lane.index][lane.slot] = a;
-    gamma_[lane.index][1 - lane.slot] = b;
+    hasLast_[lane] = mixed_[lane] && moves;
+    restarts_[lane] = false;
   }
-  for (std::size_t row = 0; row < rows; ++row)
-    for (const Lane& lane : some) {
-      const std::size_t i = row * batchLanes + lane.index;
-      Past& past = leading_[i];
-      if (lane.known > 0) directions[i] -= gamma_[lane.index][lane.slot] * past.motion[lane.slot];
-      if (lane.known > 1) directions[i] -= gamma_[lane.index][1 - lane.slot] * past.motion[1 - lane.slot];
-      past.step = static_cast<float>(directions[i]);
-    }
 }
 
-double LaneMixing::mixFollowing(int lane, std::size_t index, double direction) {
-  Past& past = following_[index * batchLanes + lane];
-  const int before = iterations_[lane] - 1; // mixLeading has counted this one
-  const int known = std::min(before, depth), slot = before % depth;
-  if (known > 0) past.motion[slot] = static_cast<float>(past.step + direction - past.direction);
-  past.direction = static_cast<float>(direction);
-  if (known > 0) direction -= gamma_[lane][slot] * past.motion[slot];
-  if (known > 1) direction -= gamma_[lane][1 - slot] * past.motion[1 - slot];
-  past.step = static_cast<float>(direction);
-  return direction;
+/// Normal equations of the least squares, by L D L^T with the newest change first, as far as the changes are
+/// independent.
+void LaneMixing::findGamma(int lane, const double* sums) {
+  LaneMix& mix = mixes_[lane / lanes];
+  const int l = lane % lanes;
+  std::array<std::array<double, mixingDepth>, mixingDepth> L{};
+  std::array<double, mixingDepth> D{}, x{};
+  int count = 0;
+  for (const double* row = sums + l; count < known_[lane]; row += (count + 2) * lanes, ++count) {
+    const int j = count;
+    for (int k = 0; k < j; ++k) {
+      L[j][k] = row[k * lanes];
+      for (int m = 0; m < k; ++m) L[j][k] -= L[j][m] * D[m] * L[k][m];
+      L[j][k] /= D[k];
+    }
+    D[j] = row[j * lanes];
+    x[j] = row[(j + 1) * lanes];
+    for (int k = 0; k < j; ++k) {
+      D[j] -= L[j][k] * L[j][k] * D[k];
+      x[j] -= L[j][k] * x[k];
+    }
+    if (!(D[j] > independent * row[j * lanes])) break;
+  }
+  for (int j = count - 1; j >= 0; --j) {
+    x[j] /= D[j];
+    for (int k = j + 1; k < count; ++k) x[j] -= L[k][j] * x[k];
+    mix.gamma[j][l] = x[j];
+  }
+}
+
+void LaneMixing::moveLeading(std::span<const int> rows, const float* directions,
+                             const std::array<double, batchLanes>& scale, double* u) {
+  begin(scale);
+  std::array<Sums, blocks> sums{};
+  const auto overRows = [&](const auto& take) {
+    for (std::size_t first = 0; first < rows.size(); first += rowsAtOnce) {
+      const int count = static_cast<int>(std::min<std::size_t>(rowsAtOnce, rows.size() - first));
+      for (int b = 0; b < blocks; ++b) {
+        const int* moves = mixes_[b].moves;
+        if (std::none_of(moves, moves + lanes, [](int m) { return m != 0; })) continue;
+        float* past = leading_.data() + (first * blocks + std::size_t(b)) * leadingPast * lanes;
+        take(b, MixedRows{directions + b * lanes, rows.data() + first, count, past, blocks * leadingPast * lanes},
+             first);
+      }
+    }
+  };
+  overRows([&](int b, const MixedRows& some, std::size_t) { laneKernels().sumMixed(some, mixes_[b], sums[b].data()); });
+  for (int lane = 0; lane < batchLanes; ++lane)
+    if (known_[lane] > 0 && mixes_[lane / lanes].moves[lane % lanes]) findGamma(lane, sums[lane / lanes].data());
+  overRows([&](int b, const MixedRows& some, std::size_t first) {
+    laneKernels().stepMixed(some, mixes_[b], u + first * batchLanes + b * lanes);
+  });
 }
 
 } // namespace palp

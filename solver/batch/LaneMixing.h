@@ -1,9 +1,12 @@
 #pragma once
 
+#include "solver/element/ElementKernels.h"
 #include "solver/element/LaneKernels.h"
+#include "solver/element/LaneVector.h"
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace palp {
@@ -15,36 +18,42 @@ namespace palp {
 ///   k-1
 ///
 /// over some of the unknowns, the leading ones; the others follow with the same gamma. History is kept in single
-/// precision: it changes the way, not the fixed point.
+/// precision: it changes the way, not the fixed point. It stands block by block of 8 lanes, so that it is worked
+/// through as fast as it is read.
 class LaneMixing {
 public:
-  static constexpr int depth = 2;
-
-  /// Numbers [leading][32 lanes] and [following][32 lanes], the latter in any order of the caller's.
+  /// Leading numbers [leading][32 lanes], following ones [following][4 blocks][8 lanes] in any order of the caller's.
   LaneMixing(std::size_t leading, std::size_t following);
 
   /// A lane has no history and is mixed from now on, or is left as it is.
   void begin(int lane, bool mixed);
   /// What a lane has gone so far says nothing about the next directions, as another load begins.
   void restart(int lane) { restarts_[lane] = true; }
-  [[nodiscard]] bool mixes(int lane) const { return mixed_[lane]; }
 
-  /// Turns the leading directions [leading][32] of the lanes that are moved into steps.
-  void mixLeading(const std::array<bool, batchLanes>& moved, double* directions);
-  /// Turns one number of a following direction of the lane, once an iteration, into its step. `index` is its own.
-  [[nodiscard]] double mixFollowing(int lane, std::size_t index, double direction);
+  /// u [leading][32] goes along the directions, scale[lane] directions[rows[i]][lane], or what is mixed of them; lanes
+  /// without scale stay.
+  void moveLeading(std::span<const int> rows, const float* directions, const std::array<double, batchLanes>& scale,
+                   double* u);
+  /// The same for some of the following numbers of a block, once an iteration and after moveLeading: directions and
+  /// values [count][8].
+  void moveFollowing(int block, std::size_t first, int count, const double* directions, double* values) {
+    laneKernels().followMixed(directions, count, mixes_[block],
+                              following_.data() + (first * blocks + std::size_t(block) * count) * followingPast * lanes,
+                              values);
+  }
 
 private:
-  /// Of one number in one lane.
-  struct Past {
-    float direction = 0, step = 0;
-    std::array<float, depth> motion{}; ///< s_j + r_j+1 - r_j
-  };
+  static constexpr int blocks = batchLanes / lanes;
+
+  void begin(const std::array<double, batchLanes>& scale);
+  void findGamma(int lane, const double* sums);
+
   std::array<bool, batchLanes> mixed_{}, restarts_{};
-  std::array<int, batchLanes> iterations_{}; ///< of each lane before this one
-  std::array<std::array<double, depth>, batchLanes> gamma_{};
-  std::vector<Past> leading_, following_;
-  std::vector<std::array<float, depth>> changes_; ///< r_j+1 - r_j of the leading numbers
+  std::array<bool, batchLanes> hasLast_{}; ///< a direction and a step that the next direction makes a pair with
+  std::array<int, batchLanes> known_{};    ///< motions of each lane
+  std::array<LaneMix, blocks> mixes_{};    ///< of this iteration
+  FloatLanes leading_;                     ///< [leading][blocks][leadingPast][8]
+  FloatLanes following_;                   ///< [following / count][blocks][count][followingPast][8]
 };
 
 } // namespace palp

@@ -22,6 +22,15 @@ inline void prefetch(const Discretisation& mesh, int element, int block, const d
     for (int d = 0; d < 3; ++d) __builtin_prefetch(values + at(3 * std::size_t(mesh.node(element, n)) + d, block));
 }
 
+/// The same of the directions [rows of the factor + 1][32].
+inline void prefetch(const Discretisation& mesh, int element, int block, const float* directions,
+                     const std::vector<int>& rows) {
+  if (element >= mesh.elements()) return;
+  for (int n = 0; n < mesh.kernels().nodes; ++n)
+    for (int d = 0; d < 3; ++d)
+      __builtin_prefetch(directions + at(std::size_t(rows[3 * std::size_t(mesh.node(element, n)) + d]), block));
+}
+
 } // namespace
 
 LoadBatch::LoadBatch(const ElementwiseTangent& model, const PointProbe& upper, const PointProbe& lower)
@@ -42,7 +51,7 @@ void LoadBatch::reset(int block) {
   for (int lane = block * lanes; lane < (block + 1) * lanes; ++lane) {
     forces_[lane].clear();
     nodeForces_[lane].clear();
-    starts_[lane] = Start::Under;
+    begins_[lane] = ahead_[lane] = 0;
     if (mixing_) mixing_->begin(lane, false);
   }
   atRest_[block] = true;
@@ -53,43 +62,39 @@ void LoadBatch::mix(int lane) {
   if (!mixing_) {
     mixing_ = std::make_unique<LaneMixing>(3 * std::size_t(model_.mesh().nodes()),
                                            std::size_t(model_.mesh().elements()) * model_.mesh().unknowns());
-    steps_.resize(u_.size());
     uBefore_.resize(u_.size());
     xBefore_.resize(x_.size());
   }
   mixing_->begin(lane, true);
-  starts_[lane] = Start::Here; // at rest
+  begins_[lane] = -1; // at rest
 }
 
 void LoadBatch::goOn(int lane, bool straight) {
   mixing_->restart(lane);
-  starts_[lane] = straight ? Start::Ahead : Start::Here;
+  begins_[lane] = -1;
+  ahead_[lane] = straight ? -1 : 0;
+}
+
+bool LoadBatch::begins(int block) const {
+  const auto first = begins_.begin() + block * lanes;
+  return std::find(first, first + lanes, -1) != first + lanes;
 }
 
 /// Lanes that begin another load: their displacements, and the unknowns that are up to date.
 void LoadBatch::startAnew() {
-  for (int lane = 0; lane < batchLanes; ++lane)
-    for (std::size_t i = lane; starts_[lane] != Start::Under && i < u_.size(); i += batchLanes) {
-      const double moved = starts_[lane] == Start::Ahead ? u_[i] - uBefore_[i] : 0;
-      uBefore_[i] = static_cast<float>(u_[i]);
-      u_[i] += moved;
-    }
-  for (int e = 0; e < model_.mesh().elements(); ++e)
-    if (probed_[e])
-      for (int b = 0; b < blocks; ++b) startAnew(e, b);
+  for (int b = 0; b < blocks; ++b) {
+    if (!begins(b)) continue;
+    laneKernels().goAhead(u_.data() + b * lanes, uBefore_.data() + b * lanes, 3 * model_.mesh().nodes(), batchLanes,
+                          begins_.data() + b * lanes, ahead_.data() + b * lanes);
+    for (int e = 0; e < model_.mesh().elements(); ++e)
+      if (probed_[e]) startAnew(e, b);
+  }
 }
 
 void LoadBatch::startAnew(int element, int block) {
   const std::size_t own = ownStart(element, block);
-  for (int lane = 0; lane < lanes; ++lane) {
-    const Start start = starts_[block * lanes + lane];
-    if (start == Start::Under) continue;
-    for (std::size_t i = own + lane; i < own + model_.mesh().unknowns() * lanes; i += lanes) {
-      const double moved = start == Start::Ahead ? x_[i] - xBefore_[i] : 0;
-      xBefore_[i] = static_cast<float>(x_[i]);
-      x_[i] += moved;
-    }
-  }
+  laneKernels().goAhead(x_.data() + own, xBefore_.data() + own, model_.mesh().unknowns(), lanes,
+                        begins_.data() + block * lanes, ahead_.data() + block * lanes);
 }
 
 void LoadBatch::addPolynomials(int block, const std::vector<double>& displacements, const std::vector<double>& unknowns,
@@ -118,8 +123,7 @@ void LoadBatch::evaluateResiduals(const std::array<bool, blocks>& live, const st
       for (int d = 0; d < 3; ++d) r_[(3 * std::size_t(node) + d) * batchLanes + lane] += force_N(d);
   smallestJ_.fill(1);
   std::array<bool, blocks> anew{};
-  for (int lane = 0; lane < batchLanes; ++lane)
-    anew[lane / lanes] = anew[lane / lanes] || starts_[lane] != Start::Under;
+  for (int b = 0; b < blocks; ++b) anew[b] = begins(b);
   alignas(64) ElementLanes u, f;
   alignas(64) std::array<std::array<double, 2 * lanes>, blocks> range;
   for (auto& r : range) r.fill(1);
@@ -130,6 +134,7 @@ void LoadBatch::evaluateResiduals(const std::array<bool, blocks>& live, const st
       prefetch(mesh, e + 1, b, u_.data());
       prefetch(mesh, e + 1, b, r_.data());
       const std::size_t own = ownStart(e, b);
+      if (behind_[b]) prefetch(mesh, e + 1, b, solution_.data(), model_.factorRows());
       if (behind_[b] && !probed_[e]) updateUnknowns(e, b);
       if (anew[b] && !probed_[e]) startAnew(e, b);
       if (atRest_[b]) { // no forces, no volume change, and no rounding errors of either
@@ -145,32 +150,20 @@ void LoadBatch::evaluateResiduals(const std::array<bool, blocks>& live, const st
   }
   for (int lane = 0; lane < batchLanes; ++lane) smallestJ_[lane] = range[lane / lanes][lane % lanes];
   for (int b = 0; b < blocks; ++b) {
-    if (anew[b]) std::fill_n(starts_.begin() + b * lanes, lanes, Start::Under);
+    std::fill_n(begins_.begin() + b * lanes, lanes, 0);
+    std::fill_n(ahead_.begin() + b * lanes, lanes, 0);
     atRest_[b] = atRest_[b] && !live[b];
     behind_[b] = behind_[b] && !live[b];
   }
 }
 
 /// u += du, or what is mixed of it.
-void LoadBatch::moveAlongDirections(const std::array<bool, batchLanes>& active) {
+void LoadBatch::moveAlongDirections() {
   const std::vector<int>& rows = model_.factorRows();
-  const auto direction = [&](std::size_t i, int lane) {
-    return scale_[lane] * double(solution_[std::size_t(rows[i]) * batchLanes + lane]);
-  };
-  std::array<bool, batchLanes> mixed{};
-  for (int lane = 0; lane < batchLanes; ++lane)
-    mixed[lane] = mixing_ && mixing_->mixes(lane) && active[lane] && scale_[lane] > 0;
-  const bool any = std::find(mixed.begin(), mixed.end(), true) != mixed.end();
-  if (any) {
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      for (int lane = 0; lane < batchLanes; ++lane)
-        steps_[i * batchLanes + lane] = rows[i] != model_.fillingRow() ? direction(i, lane) : 0;
-    mixing_->mixLeading(mixed, steps_.data());
-  }
+  if (mixing_) return mixing_->moveLeading(rows, solution_.data(), scale_, u_.data());
   for (std::size_t i = 0; i < rows.size(); ++i)
-    if (rows[i] != model_.fillingRow())
-      for (int lane = 0; lane < batchLanes; ++lane)
-        u_[i * batchLanes + lane] += mixed[lane] ? steps_[i * batchLanes + lane] : direction(i, lane);
+    for (int lane = 0; lane < batchLanes; ++lane)
+      u_[i * batchLanes + lane] += scale_[lane] * double(solution_[std::size_t(rows[i]) * batchLanes + lane]);
 }
 
 /// dx = -Kxx^-1 local - W du with the directions du found last.
@@ -184,13 +177,10 @@ void LoadBatch::updateUnknowns(int element, int block) {
                              mesh.elementNodes(element), kernels.nodes, du.data());
   kernels.recoverLoads(model_.elimination(element), model_.localInverse(element), local_.data() + own, du.data(),
                        dx.data());
-  for (int i = 0; i < mesh.unknowns() * lanes; ++i) {
-    const int lane = block * lanes + i % lanes;
-    if (!(scale[i % lanes] > 0)) continue;
-    const bool mixed = mixing_ && mixing_->mixes(lane);
-    x_[own + i] +=
-        mixed ? mixing_->mixFollowing(lane, std::size_t(element) * mesh.unknowns() + i / lanes, dx[i]) : dx[i];
-  }
+  const int count = mesh.unknowns();
+  if (mixing_) return mixing_->moveFollowing(block, std::size_t(element) * count, count, dx.data(), x_.data() + own);
+  for (int i = 0; i < count * lanes; ++i)
+    if (scale[i % lanes] > 0) x_[own + i] += dx[i];
 }
 
 Eigen::Matrix3Xd LoadBatch::displacementsOf(int lane) const {
@@ -276,7 +266,7 @@ void LoadBatch::iterate(const std::array<bool, batchLanes>& active, std::array<d
   substitute(Direction::Forward, all, stop);
   if (answer) substituteAlong(path, active, nodes, answer, stop);
   substitute(Direction::Backward, all, stop);
-  moveAlongDirections(active);
+  moveAlongDirections();
   for (int e = 0; e < model_.mesh().elements(); ++e)
     for (int b = 0; b < blocks; ++b)
       if (probed_[e] && live[b]) updateUnknowns(e, b);

@@ -100,9 +100,10 @@ private:
   void answerMotion(const std::array<bool, batchLanes>& active, std::span<const int> nodes, const Answer& answer,
                     std::array<std::vector<NodeForce>, batchLanes>& added);
   void addToRight(int lane, const std::vector<NodeForce>& forces);
+  [[nodiscard]] bool begins(int block) const;
   void startAnew();
   void startAnew(int element, int block);
-  void moveAlongDirections(const std::array<bool, batchLanes>& active);
+  void moveAlongDirections();
   void updateUnknowns(int element, int block);
   [[nodiscard]] LaneVector displacementsAt(const PointProbe& probe) const; ///< [3 points][32]
   [[nodiscard]] LaneVector pressuresAt(const PointProbe& probe) const;     ///< [points][32], compression positive
@@ -118,16 +119,14 @@ private:
   const PointProbe &upper_, &lower_;
   std::array<std::vector<LaneForce>, batchLanes> forces_;
   std::array<std::vector<NodeForce>, batchLanes> nodeForces_;
-  LaneVector u_, r_;                       ///< [3 nodes][32]
-  LaneVector x_, local_;                   ///< [elements][blocks][unknowns][8]
-  std::unique_ptr<LaneMixing> mixing_;     ///< of the lanes that ask for it
-  LaneVector steps_;                       ///< [3 nodes][32], where lanes are mixed
-  std::vector<float> uBefore_, xBefore_;   ///< of such lanes, where their load in work began; as u_ and x_
-  enum class Start { Under, Here, Ahead }; ///< of a load: has begun, begins where the lane is, or further on
-  std::array<Start, batchLanes> starts_{};
-  std::vector<float> solution_; ///< [rows of the factor + 1][32]; directions over scale_ after the substitutions
-  std::vector<float> held_;     ///< of the solution along a path, in between
-  std::vector<char> probed_;    ///< elements that an electrode looks at: their unknowns are always up to date
+  LaneVector u_, r_;                               ///< [3 nodes][32]
+  LaneVector x_, local_;                           ///< [elements][blocks][unknowns][8]
+  std::unique_ptr<LaneMixing> mixing_;             ///< of the lanes that ask for it
+  FloatLanes uBefore_, xBefore_;                   ///< of such lanes, where their load in work began; as u_ and x_
+  std::array<int, batchLanes> begins_{}, ahead_{}; ///< -1: a load begins, and further on than where the lane is
+  FloatLanes solution_;      ///< [rows of the factor + 1][32]; directions over scale_ after the substitutions
+  FloatLanes held_;          ///< of the solution along a path, in between
+  std::vector<char> probed_; ///< elements that an electrode looks at: their unknowns are always up to date
   std::array<bool, blocks> atRest_{}, behind_{};
   std::array<double, batchLanes> scale_{};
   std::array<double, batchLanes> smallestJ_{};

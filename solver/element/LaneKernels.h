@@ -26,6 +26,32 @@ struct SurfacePoints {
   std::ptrdiff_t count;
 };
 
+/// Of the steps before that go into a mixed one (batch/LaneMixing.h).
+inline constexpr int mixingDepth = 2;
+/// What is kept of a number, [these][8]: direction, step, motions, and of a leading one the changes of its direction.
+inline constexpr int followingPast = 2 + mixingDepth, leadingPast = followingPast + mixingDepth;
+/// Sums over the leading numbers: for each change its products with those up to itself, then with the direction.
+inline constexpr int mixSums = mixingDepth * (mixingDepth + 1) / 2 + mixingDepth;
+
+/// How the steps of 8 lanes are mixed. Masks are 0 or -1.
+struct LaneMix {
+  int moves[8] = {};              ///< the lane goes on at all
+  int pair[8] = {};               ///< its last step and this direction make another motion and change
+  int known[mixingDepth][8] = {}; ///< it has so many motions, the newest first
+  double gamma[mixingDepth][8] = {};
+  double scale[8] = {}; ///< of its directions
+};
+
+/// Some rows of 8 lanes: directions [rows of the factor + 1][batchLanes], where in it each of the rows stands, and
+/// their past, [leadingPast][8] each, so many numbers apart.
+struct MixedRows {
+  const float* directions;
+  const int* rows;
+  int count;
+  float* past;
+  std::ptrdiff_t pastStride;
+};
+
 struct LaneKernels {
   /// Substitution through supernodes first .. last - 1 for x [rows + 1][batchLanes]: x becomes L^-1 x from the first
   /// supernode to the last (forward), or L^-T x from the last to the first (backward). Lanes whose block of 8 is not
@@ -44,6 +70,16 @@ struct LaneKernels {
   void (*subtract)(const double* forces, const int* nodes, int count, double* values);
   /// scale[lane] x[rows[component]][lane], at the same components, for 8 lanes of x [rows + 1][batchLanes].
   void (*gatherScaled)(const float* x, const int* rows, const double* scale, const int* nodes, int count, double* out);
+  /// The past takes the rows' directions in, and `sums` [mixSums][8] grow by these rows.
+  void (*sumMixed)(const MixedRows&, const LaneMix&, double* sums);
+  /// Then the mixed steps, added to u [rows][batchLanes].
+  void (*stepMixed)(const MixedRows&, const LaneMix&, double* u);
+  /// Both for numbers that follow with the same gamma: directions and values [count][8], past
+  /// [count][followingPast][8].
+  void (*followMixed)(const double* directions, int count, const LaneMix&, float* past, double* values);
+  /// Lanes that begin another load, values and before [rows][stride]: `before` becomes where they are; those that go
+  /// ahead move by as much as they did since `before`. Masks are 0 or -1.
+  void (*goAhead)(double* values, float* before, int rows, std::ptrdiff_t stride, const int* begins, const int* ahead);
   /// potential += 1/r and flux -= area . r / r^3 at each point, r from the source at three coordinates.
   void (*addPointSource)(const SurfacePoints&, const double* source, double* potential, double* flux);
 };

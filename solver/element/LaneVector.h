@@ -26,6 +26,7 @@ template <class T> struct CacheLineAllocator {
 
 /// Numbers in blocks of 8 lanes (ElementKernels.h).
 using LaneVector = std::vector<double, CacheLineAllocator<double>>;
+using FloatLanes = std::vector<float, CacheLineAllocator<float>>;
 
 /// Numbers that are unset until they are written.
 template <class T> class UnsetArray {

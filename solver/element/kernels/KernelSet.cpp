@@ -1,6 +1,7 @@
 // Compiled once for each instruction set, with PALP_KERNEL (a name) and PALP_PACK (doubles at once) given.
 #include "solver/element/kernels/Condensation.h"
 #include "solver/element/kernels/HexKernel.h"
+#include "solver/element/kernels/LaneMix.h"
 #include "solver/element/kernels/LaneSolve.h"
 #include "solver/element/kernels/TetKernel.h"
 
@@ -103,6 +104,22 @@ void gatherScaled(const float* x, const int* rows, const double* scale, const in
   gatherScaledRows(x, rows, scale, nodes, count, out);
 }
 
+void sumsOfMixed(const MixedRows& rows, const LaneMix& mix, double* sums) {
+  sumMixed(rows, mix, sums);
+}
+
+void stepsOfMixed(const MixedRows& rows, const LaneMix& mix, double* u) {
+  stepMixed(rows, mix, u);
+}
+
+void stepsOfFollowing(const double* directions, int count, const LaneMix& mix, float* past, double* values) {
+  followMixed(directions, count, mix, past, values);
+}
+
+void beginAhead(double* values, float* before, int rows, std::ptrdiff_t stride, const int* begins, const int* ahead) {
+  goAhead(values, before, rows, stride, begins, ahead);
+}
+
 /// A plain loop: the compiler makes packs of it.
 void addSource(const SurfacePoints& p, const double* source, double* __restrict__ potential,
                double* __restrict__ flux) {
@@ -120,9 +137,9 @@ void addSource(const SurfacePoints& p, const double* source, double* __restrict_
 extern const ElementKernels tetKernels;
 extern const ElementKernels hexKernels;
 extern const LaneKernels laneKernelSet;
-const LaneKernels laneKernelSet = {forwardFactor, backwardFactor, forwardFactorOfOne, backwardFactorOfOne,
-                                   polynomials,   gather,         subtract,           gatherScaled,
-                                   addSource};
+const LaneKernels laneKernelSet = {
+    forwardFactor, backwardFactor, forwardFactorOfOne, backwardFactorOfOne, polynomials, gather,   subtract,
+    gatherScaled,  sumsOfMixed,    stepsOfMixed,       stepsOfFollowing,    beginAhead,  addSource};
 constexpr ElementKernels tetSet = kernelsOf<Tet>(tetResidual8, tetResidualOfLoads, tetTangent);
 constexpr ElementKernels hexSet = kernelsOf<Hex>(hexResidual8, hexResidualOfLoads, hexTangent);
 const ElementKernels tetKernels = tetSet;
