@@ -6,6 +6,7 @@
 #include "solver/batch/BatchEngine.h"
 
 #include <algorithm>
+#include <array>
 
 namespace palp {
 
@@ -96,20 +97,22 @@ struct BatchSolver::State {
     return true;
   }
 
-  bool fitSurrogate(int area, const std::stop_token& stop);
+  bool fitSurrogates(std::span<const int> areas, const std::stop_token& stop);
   bool fromSurrogates(std::span<const LoadCase> loads, std::vector<BatchEngine::Answer>& answers,
                       const std::stop_token& stop);
 };
 
 /// Without a surrogate afterwards: the area has none, as one of the fit's loads has no solution. False: stopped.
-bool BatchSolver::State::fitSurrogate(int area, const std::stop_token& stop) {
-  if (surrogates[area]) return true;
-  surrogates[area] = AreaSurrogate::fit(*engine, problem.design(), area, options.relativeTolerance, stop);
-  if (stop.stop_requested()) {
-    surrogates[area].reset();
-    return false;
+bool BatchSolver::State::fitSurrogates(std::span<const int> areas, const std::stop_token& stop) {
+  std::vector<int> open;
+  for (const int area : areas)
+    if (!surrogates[area]) open.push_back(area);
+  auto fits = AreaSurrogate::fit(*engine, problem.design(), open, options.relativeTolerance, stop);
+  if (stop.stop_requested()) return false;
+  for (std::size_t k = 0; k < open.size(); ++k) {
+    if (fits[k]) measuredError = std::max(measuredError, fits[k]->error());
+    surrogates[open[k]] = std::move(fits[k]);
   }
-  if (surrogates[area]) measuredError = std::max(measuredError, surrogates[area]->error());
   return true;
 }
 
@@ -123,7 +126,7 @@ bool BatchSolver::State::fromSurrogates(std::span<const LoadCase> loads, std::ve
   for (std::size_t area = 0; area < byArea.size(); ++area) {
     const std::vector<std::size_t>& indices = byArea[area];
     if (indices.empty()) continue;
-    if (!fitSurrogate(static_cast<int>(area), stop)) return false;
+    if (!fitSurrogates(std::array{static_cast<int>(area)}, stop)) return false;
     if (!surrogates[area]) continue;
     forChunks(static_cast<int>(indices.size()), lanes, options.threads, [&](int begin, int end) {
       if (stop.stop_requested()) return;
@@ -196,7 +199,7 @@ std::vector<ElectrodeDisplacements> BatchSolver::answer(std::span<const LoadCase
 
 bool BatchSolver::fitSurrogates(std::span<const int> areas, const std::stop_token& stop) {
   if (!state_->prepare(stop)) return false;
-  return std::all_of(areas.begin(), areas.end(), [&](int area) { return state_->fitSurrogate(area, stop); });
+  return state_->fitSurrogates(areas, stop);
 }
 
 double BatchSolver::surrogateError() const {

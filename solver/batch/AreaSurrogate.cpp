@@ -18,21 +18,29 @@ Eigen::VectorXd numbers(const ElectrodeDisplacements& e) {
   return all;
 }
 
-/// Covering forces of indices first .. last - 1 and their answers; false: some have none.
-bool addAnswers(BatchEngine& engine, const SensorDesign& design, int area, int last, double tolerance,
-                const std::stop_token& stop, std::vector<Eigen::Vector3d>& forces,
-                std::vector<ElectrodeDisplacements>& answers) {
+/// The fit of an area: its answers to the covering forces, in their order.
+struct AreaFit {
+  std::size_t index; ///< among the areas asked for
+  int area;
+  std::vector<ElectrodeDisplacements> answers{};
+  bool without = false; ///< some have no answer
+};
+
+/// Answers of all these to forces first .. ; false: stopped.
+bool addAnswers(BatchEngine& engine, std::vector<AreaFit>& fits, const std::vector<Eigen::Vector3d>& forces,
+                std::size_t first, double tolerance, const std::stop_token& stop) {
   std::vector<LoadCase> loads;
-  for (int i = static_cast<int>(forces.size()); i < last; ++i) {
-    forces.push_back(coveringForce(design.forceRange, i));
-    loads.push_back({{{area, forces.back()}}, {}});
-  }
+  for (const AreaFit& fit : fits)
+    for (std::size_t i = first; i < forces.size(); ++i) loads.push_back({{{fit.area, forces[i]}}, {}});
   const auto found = engine.solve(loads, surrogateFitShare * tolerance, {}, stop);
   if (found.size() != loads.size()) return false;
-  for (const auto& answer : found) {
-    if (!answer) return false;
-    answers.push_back(*answer);
-  }
+  auto answer = found.begin();
+  for (AreaFit& fit : fits)
+    for (std::size_t i = first; i < forces.size(); ++i, ++answer)
+      if (*answer)
+        fit.answers.push_back(**answer);
+      else
+        fit.without = true;
   return true;
 }
 
@@ -60,18 +68,31 @@ AreaSurrogate::AreaSurrogate(const ForceRange& range, int degree, const std::vec
   }
 }
 
-std::optional<AreaSurrogate> AreaSurrogate::fit(BatchEngine& engine, const SensorDesign& design, int area,
-                                                double tolerance, const std::stop_token& stop) {
+std::vector<std::optional<AreaSurrogate>> AreaSurrogate::fit(BatchEngine& engine, const SensorDesign& design,
+                                                             std::span<const int> areas, double tolerance,
+                                                             const std::stop_token& stop) {
+  std::vector<std::optional<AreaSurrogate>> best(areas.size());
+  std::vector<AreaFit> open;
+  for (std::size_t k = 0; k < areas.size(); ++k) open.push_back({k, areas[k]});
   std::vector<Eigen::Vector3d> forces;
-  std::vector<ElectrodeDisplacements> answers;
-  std::optional<AreaSurrogate> best;
-  for (int degree = lowestDegree; degree <= highestDegree; ++degree) {
+  for (int degree = lowestDegree; degree <= highestDegree && !open.empty(); ++degree) {
     const int terms = ForcePolynomial(design.forceRange, degree).terms();
     const int needed = std::max(8, static_cast<int>(pointsATerm * terms)) + keptForces;
-    if (!addAnswers(engine, design, area, needed, tolerance, stop, forces, answers)) return {};
-    AreaSurrogate trial(design.forceRange, degree, forces, answers);
-    if (!best || trial.error() < best->error()) best = std::move(trial);
-    if (best->error() <= tolerance) break;
+    const std::size_t before = forces.size();
+    while (static_cast<int>(forces.size()) < needed)
+      forces.push_back(coveringForce(design.forceRange, static_cast<int>(forces.size())));
+    if (!addAnswers(engine, open, forces, before, tolerance, stop))
+      return std::vector<std::optional<AreaSurrogate>>(areas.size());
+    std::erase_if(open, [&](const AreaFit& fit) {
+      std::optional<AreaSurrogate>& own = best[fit.index];
+      if (fit.without) {
+        own.reset();
+        return true;
+      }
+      AreaSurrogate trial(design.forceRange, degree, forces, fit.answers);
+      if (!own || trial.error() < own->error()) own = std::move(trial);
+      return own->error() <= tolerance;
+    });
   }
   return best;
 }

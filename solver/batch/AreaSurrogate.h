@@ -8,9 +8,11 @@ namespace palp {
 /// whose error on forces it has not seen is below the tolerance, or the best up to 6.
 class AreaSurrogate {
 public:
-  /// None: stopped, or one of the fit's loads has no solution.
-  static std::optional<AreaSurrogate> fit(BatchEngine& engine, const SensorDesign& design, int area, double tolerance,
-                                          const std::stop_token& stop);
+  /// Of each of these areas, solved together so that there is work for all threads. None: stopped, or one of the fit's
+  /// loads has no solution.
+  static std::vector<std::optional<AreaSurrogate>> fit(BatchEngine& engine, const SensorDesign& design,
+                                                       std::span<const int> areas, double tolerance,
+                                                       const std::stop_token& stop);
 
   /// Answers to up to 8 forces.
   [[nodiscard]] std::vector<ElectrodeDisplacements> evaluate(std::span<const Eigen::Vector3d> forces_N) const;

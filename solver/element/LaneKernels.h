@@ -52,6 +52,13 @@ struct MixedRows {
   std::ptrdiff_t pastStride;
 };
 
+/// A symmetric matrix by the columns of its lower triangle, each from its diagonal on.
+struct LowerTriangle {
+  int size;
+  const int *columns, *rows; ///< first entry of each column, rows ascending
+  const double* values;
+};
+
 struct LaneKernels {
   /// Substitution through supernodes first .. last - 1 for x [rows + 1][batchLanes]: x becomes L^-1 x from the first
   /// supernode to the last (forward), or L^-T x from the last to the first (backward). Lanes whose block of 8 is not
@@ -82,6 +89,15 @@ struct LaneKernels {
   void (*goAhead)(double* values, float* before, int rows, std::ptrdiff_t stride, const int* begins, const int* ahead);
   /// potential += 1/r and flux -= area . r / r^3 at each point, r from the source at three coordinates.
   void (*addPointSource)(const SurfacePoints&, const double* source, double* potential, double* flux);
+  /// sums[8] = sum over k of matrix[k][8] values[k].
+  void (*eightSums)(const double* matrix, const double* values, int count, double* sums);
+  /// Of numbers [rows][batchLanes]: sums[lane] += their squares; to single precision, times scale[lane], row i becoming
+  /// row order[i]; and back.
+  void (*addSquares)(const double* x, int rows, double* sums);
+  void (*narrow)(const double* x, const double* scale, const int* order, int rows, float* out);
+  void (*widen)(const float* x, const double* scale, const int* order, int rows, double* out);
+  /// from -= K x, both [rows][batchLanes].
+  void (*subtractProduct)(const LowerTriangle& K, const double* x, double* from);
 };
 const LaneKernels& laneKernels();
 

@@ -34,6 +34,7 @@ constexpr int kPoints = BoundaryQuadrature::pointsAFace;
 struct TriangleRule {
   Eigen::Matrix<double, kPoints, 1> weights;
   Eigen::Matrix<double, 6, kPoints> shapes, byFirst, bySecond;
+  Eigen::Matrix<double, 8, kPoints> padded; ///< shapes and zeros
 
   TriangleRule() {
     Eigen::Index i = 0;
@@ -55,6 +56,7 @@ struct TriangleRule {
       add(weight, a, c);
       add(weight, c, b);
     }
+    padded << shapes, Eigen::Matrix<double, 2, kPoints>::Zero();
   }
 };
 
@@ -65,12 +67,12 @@ const TriangleRule& triangleRule() {
 
 } // namespace
 
-BoundaryQuadrature::BoundaryQuadrature(const FieldMesh& mesh, const Eigen::Matrix3Xd& nodes_mm)
-    : at_(mesh.faces().cols() * kPoints, 6) {
+BoundaryQuadrature::BoundaryQuadrature(const Eigen::MatrixXi& faces, const Eigen::Matrix3Xd& nodes_mm)
+    : at_(faces.cols() * kPoints, 6) {
   const TriangleRule& rule = triangleRule();
-  for (Eigen::Index f = 0; f < mesh.faces().cols(); ++f) {
+  for (Eigen::Index f = 0; f < faces.cols(); ++f) {
     Eigen::Matrix<double, 3, 6> nodes;
-    for (int n = 0; n < 6; ++n) nodes.col(n) = nodes_mm.col(mesh.faces()(n, f));
+    for (int n = 0; n < 6; ++n) nodes.col(n) = nodes_mm.col(faces(n, f));
     for (Eigen::Index i = 0; i < kPoints; ++i) {
       // Corners run counter-clockwise seen from outside, and so do the tangents by the first two coordinates.
       const Eigen::Vector3d first = nodes * rule.byFirst.col(i), second = nodes * rule.bySecond.col(i);
@@ -95,7 +97,9 @@ void BoundaryQuadrature::sources(const Eigen::Matrix3Xd& sources_mm, int first, 
 }
 
 Eigen::Matrix<double, 6, 1> BoundaryQuadrature::onShapes(const double* points) {
-  return triangleRule().shapes * Eigen::Map<const Eigen::Matrix<double, kPoints, 1>>(points);
+  Eigen::Matrix<double, 8, 1> sums;
+  laneKernels().eightSums(triangleRule().padded.data(), points, kPoints, sums.data());
+  return sums.head<6>();
 }
 
 Eigen::Matrix<double, kPoints, 1> BoundaryQuadrature::atPoints(const Eigen::Matrix<double, 6, 1>& nodes) {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "solver/field/FieldMesh.h"
-
 #include <Eigen/Core>
 
 namespace palp {
@@ -10,7 +8,8 @@ namespace palp {
 /// the area that each stands for.
 class BoundaryQuadrature {
 public:
-  BoundaryQuadrature(const FieldMesh& mesh, const Eigen::Matrix3Xd& nodes_mm);
+  /// Nodes of the faces as FieldMesh has them.
+  BoundaryQuadrature(const Eigen::MatrixXi& faces, const Eigen::Matrix3Xd& nodes_mm);
 
   static constexpr int pointsAFace = 25;
   /// Potential 1/(4 pi r) of sources (3 x sources) together at the points of faces first .. first + count - 1, and its

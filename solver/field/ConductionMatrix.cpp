@@ -104,71 +104,41 @@ ConductionSolve::ConductionSolve(std::shared_ptr<const CholeskyPlan> plan, LaneV
     rowOfUnknown_[static_cast<std::size_t>(order[row])] = static_cast<int>(row);
 }
 
-void ConductionSolve::substitute(const Eigen::Ref<const Rows>& b, std::vector<float, CacheLineAllocator<float>>& work,
-                                 Eigen::Ref<Rows> x, const std::stop_token& stop) const {
-  const Eigen::RowVectorXd norm = b.colwise().norm();
-  const auto sides = b.cols();
-  std::fill(work.begin(), work.end(), 0.F);
-  for (std::size_t i = 0; i < rowOfUnknown_.size(); ++i)
-    for (Eigen::Index k = 0; k < sides; ++k)
-      if (norm(k) > 0)
-        work[static_cast<std::size_t>(rowOfUnknown_[i]) * batchLanes + static_cast<std::size_t>(k)] =
-            static_cast<float>(b(static_cast<Eigen::Index>(i) + 1, k) / norm(k));
+ConductionSolve::Sides::Sides(int nodes)
+    : right(std::size_t(nodes) * batchLanes), first(right.size()), x(right.size()) {}
+
+void ConductionSolve::substitute(const UnsetArray<double>& b, UnsetArray<float>& work, UnsetArray<double>& out,
+                                 const std::stop_token& stop) const {
+  const LaneKernels& kernels = laneKernels();
+  const auto unknowns = static_cast<int>(rowOfUnknown_.size());
+  std::array<double, batchLanes> norm{}, inverse{};
+  kernels.addSquares(b.data() + batchLanes, unknowns, norm.data());
   unsigned live = 0;
-  for (Eigen::Index k = 0; k < sides; ++k) live |= 1U << static_cast<unsigned>(k / lanes);
+  for (std::size_t k = 0; k < batchLanes; ++k) {
+    norm[k] = std::sqrt(norm[k]);
+    if (norm[k] > 0) inverse[k] = 1 / norm[k];
+    if (norm[k] > 0) live |= 1U << static_cast<unsigned>(k / lanes);
+  }
+  kernels.narrow(b.data() + batchLanes, inverse.data(), rowOfUnknown_.data(), unknowns, work.data());
+  std::fill_n(work.data() + std::size_t(unknowns) * batchLanes, batchLanes, 0.F);
   const BlockedFactor factor = factor_.blocks();
   for (int first = 0; first < factor.count && !stop.stop_requested(); first += kSupernodesACall)
-    laneKernels().forward(factor, first, std::min(factor.count, first + kSupernodesACall), live, work.data());
+    kernels.forward(factor, first, std::min(factor.count, first + kSupernodesACall), live, work.data());
   for (int last = factor.count; last > 0 && !stop.stop_requested(); last -= kSupernodesACall)
-    laneKernels().backward(factor, std::max(0, last - kSupernodesACall), last, live, work.data());
-  for (std::size_t i = 0; i < rowOfUnknown_.size(); ++i)
-    for (Eigen::Index k = 0; k < sides; ++k)
-      x(static_cast<Eigen::Index>(i) + 1, k) +=
-          norm(k) * static_cast<double>(
-                        work[static_cast<std::size_t>(rowOfUnknown_[i]) * batchLanes + static_cast<std::size_t>(k)]);
+    kernels.backward(factor, std::max(0, last - kSupernodesACall), last, live, work.data());
+  std::fill_n(out.data(), batchLanes, 0.);
+  kernels.widen(work.data(), norm.data(), rowOfUnknown_.data(), unknowns, out.data() + batchLanes);
 }
 
-/// Of so many sides: where their number is known when this is compiled, it takes half the time.
-template <int Sides>
-void ConductionSolve::subtractProductOf(const Eigen::Ref<const Rows>& x, Eigen::Ref<Rows> from) const {
-  using Side = Eigen::Array<double, Sides, 1>;
+void ConductionSolve::solve(Sides& sides, const std::stop_token& stop) const {
+  UnsetArray<float> work((rowOfUnknown_.size() + 1) * batchLanes);
+  std::fill_n(sides.right.data(), batchLanes, 0.); // node 0's equation follows from the others
+  substitute(sides.right, work, sides.first, stop);
   const SparsePattern& pattern = plan_->pattern();
-  const auto of = [&](int i) { return Eigen::Map<const Side>(x.data() + (i + 1) * x.outerStride(), x.cols()); };
-  const auto out = [&](int i) { return Eigen::Map<Side>(from.data() + (i + 1) * from.outerStride(), x.cols()); };
-  for (int j = 0; j < pattern.size(); ++j) {
-    const Side own = of(j);
-    const int diagonal = pattern.columns[static_cast<std::size_t>(j)];
-    Side sum = out(j);
-    sum -= matrix_[static_cast<std::size_t>(diagonal)] * own;
-    for (int k = diagonal + 1; k < pattern.columns[static_cast<std::size_t>(j) + 1]; ++k) {
-      const double value = matrix_[static_cast<std::size_t>(k)];
-      const int i = pattern.rows[static_cast<std::size_t>(k)];
-      sum -= value * of(i);
-      out(i) -= value * own;
-    }
-    out(j) = sum;
-  }
-}
-
-void ConductionSolve::subtractProduct(const Eigen::Ref<const Rows>& x, Eigen::Ref<Rows> from) const {
-  if (x.cols() == batchLanes)
-    subtractProductOf<batchLanes>(x, from);
-  else
-    subtractProductOf<Eigen::Dynamic>(x, from);
-}
-
-void ConductionSolve::solve(const Eigen::Ref<const Rows>& b, Eigen::Ref<Rows> x, Eigen::Ref<Rows> left,
-                            const std::stop_token& stop) const {
-  std::vector<float, CacheLineAllocator<float>> work((rowOfUnknown_.size() + 1) * batchLanes);
-  x.setZero();
-  left = b;
-  left.row(0).setZero(); // node 0's equation follows from the others
-  for (int pass = 0; pass < 2; ++pass) {
-    substitute(left, work, x, stop);
-    left = b;
-    left.row(0).setZero();
-    subtractProduct(x, left);
-  }
+  laneKernels().subtractProduct({pattern.size(), pattern.columns.data(), pattern.rows.data(), matrix_.data()},
+                                sides.first.data() + batchLanes, sides.right.data() + batchLanes);
+  substitute(sides.right, work, sides.x, stop);
+  for (std::size_t i = 0; i < sides.x.size(); ++i) sides.x.data()[i] += sides.first.data()[i];
 }
 
 } // namespace palp

@@ -35,7 +35,7 @@ private:
   std::shared_ptr<const CholeskyPlan> plan_;
 };
 
-/// Potentials of many right sides (nodes x sides, by rows), each of which sums to 0, for a factorised matrix.
+/// Potentials of many right sides, each of which sums to 0, for a factorised matrix.
 class ConductionSolve {
 public:
   /// Outcome other than Done: stopped, or a mesh that is inside out.
@@ -45,17 +45,20 @@ public:
   [[nodiscard]] SparseCholesky::Outcome outcome() const { return outcome_; }
 
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  /// x = K^-1 b of up to 32 sides, `left` = b - K x. By substitution in single precision, which leaves up to 3e-4 of x,
-  /// and once more for what that has left: resistances that differ by 1e-5 under a load must not scatter by its
-  /// square.
-  void solve(const Eigen::Ref<const Rows>& b, Eigen::Ref<Rows> x, Eigen::Ref<Rows> left,
-             const std::stop_token& stop) const;
+  /// Of 32 sides, [nodes][batchLanes] each.
+  struct Sides {
+    explicit Sides(int nodes);
+    UnsetArray<double> right, first, x;
+  };
+  /// Of `right` b: first = K^-1 b by substitution in single precision, which leaves up to 3e-4 of it; `right` becomes
+  /// b - K first; and x is `first` with what a second substitution makes of that, 1e-7 off. Resistances that differ by
+  /// 1e-5 under a load must not scatter by the first's.
+  void solve(Sides& sides, const std::stop_token& stop) const;
 
 private:
-  void substitute(const Eigen::Ref<const Rows>& b, std::vector<float, CacheLineAllocator<float>>& work,
-                  Eigen::Ref<Rows> x, const std::stop_token& stop) const;
-  void subtractProduct(const Eigen::Ref<const Rows>& x, Eigen::Ref<Rows> from) const;
-  template <int Sides> void subtractProductOf(const Eigen::Ref<const Rows>& x, Eigen::Ref<Rows> from) const;
+  /// out = K^-1 b but for node 0, where it is 0.
+  void substitute(const UnsetArray<double>& b, UnsetArray<float>& work, UnsetArray<double>& out,
+                  const std::stop_token& stop) const;
 
   std::shared_ptr<const CholeskyPlan> plan_;
   LaneVector matrix_;

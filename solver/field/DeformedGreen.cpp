@@ -3,7 +3,6 @@
 #include "model/DesignError.h"
 #include "model/base/Parallel.h"
 #include "solver/element/ElementGeometry.h"
-#include "solver/field/BoundaryQuadrature.h"
 #include "solver/linear/Front.h"
 
 #include <Eigen/Dense>
@@ -62,13 +61,12 @@ struct DeformedGreen::System {
   std::vector<Eigen::Matrix3Xd> sources;
   ConductionMatrix::Values values;
   ConductionSolve solve;
-  BoundaryQuadrature boundary;
 };
 
 DeformedGreen::DeformedGreen(const Mesh& solverMesh, const Eigen::Vector3d& block_mm,
                              const Eigen::Matrix3Xd& electrodes_mm)
     : mesh_(solverMesh), reach_mm_(reach_mm(mesh_, block_mm)), sources_(mesh_, block_mm, electrodes_mm, reach_mm_),
-      matrix_(mesh_) {
+      boundary_(mesh_, electrodes_mm), matrix_(mesh_) {
   const Eigen::MatrixXi& elements = mesh_.tets().elements;
   std::vector<std::vector<int>> around(static_cast<std::size_t>(mesh_.nodes()));
   for (int e = 0; e < mesh_.elements(); ++e)
@@ -169,73 +167,58 @@ std::unique_ptr<DeformedGreen::System> DeformedGreen::systemAt(const FieldState&
   const Eigen::Matrix3Xd slopes = pressureSlopes(state);
   return std::make_unique<System>(System{slopes, atElectrodes(state, slopes),
                                          sources_.at(state.nodes_mm, state.electrodes_mm), std::move(values),
-                                         std::move(solve), BoundaryQuadrature(mesh_, state.nodes_mm)});
+                                         std::move(solve)});
 }
 
+/// Right sides b of w are - oint s_q,n N_a - mean(N_a), or as k has it: rows of `boundary` less `evenly` times volumes.
 struct DeformedGreen::SourceIntegrals {
-  Rows right;               ///< of w: - oint s_q,n N_a - mean(N_a), or as k has it; nodes x electrodes
-  Eigen::MatrixXd products; ///< - oint s_p s_q,n, or as k has it, for p <= q by whole batches
+  BoundaryIntegrals::Result boundary;
+  const std::vector<int>* nodes; ///< of its rows
+  Eigen::RowVectorXd evenly;     ///< the sources' whole current, but for quadrature, taken up over the volume
 };
 
-/// By pieces of the boundary that fit into a cache, in parts whose number does not depend on that of the threads.
 DeformedGreen::SourceIntegrals DeformedGreen::integrals(const FieldState& state, const System& system, int threads,
                                                         const std::stop_token& stop) const {
-  constexpr int parts = 8, facesAPiece = 32;
-  using FacePoints = Eigen::Matrix<double, BoundaryQuadrature::pointsAFace, 1>;
-  const bool uneven = state.conductivity.uneven();
-  const auto faces = static_cast<int>(mesh_.faces().cols()), count = static_cast<int>(system.sources.size());
-  Rows onFaces(6 * Eigen::Index(faces), count);
-  std::vector<Eigen::MatrixXd> products(parts, Eigen::MatrixXd::Zero(count, count));
-  forChunks(parts, 1, threads, [&](int part, int) {
-    constexpr int points = facesAPiece * BoundaryQuadrature::pointsAFace;
-    UnsetArray<double> potential(std::size_t(points) * count), flux(potential.size()); // points x electrodes
-    Eigen::Matrix<double, BoundaryQuadrature::pointsAFace, facesAPiece> roots;         // m
-    const int last = (part + 1) * faces / parts;
-    for (int first = part * faces / parts; first < last && !stop.stop_requested(); first += facesAPiece) {
-      const int some = std::min(facesAPiece, last - first), rows = some * BoundaryQuadrature::pointsAFace;
-      for (int f = 0; f < some && uneven; ++f) {
-        const Eigen::Matrix<double, 6, 1> pressures = state.conductivity.pressures_MPa(mesh_.faces().col(first + f));
-        roots.col(f) = BoundaryQuadrature::atPoints(pressures).unaryExpr(
-            [&](double p) { return std::exp(state.conductivity.half(p)); });
-      }
-      for (int q = 0; q < count; ++q) {
-        double* own = flux.data() + std::size_t(q) * points;
-        system.boundary.sources(system.sources[std::size_t(q)], first, some, potential.data() + std::size_t(q) * points,
-                                own);
-        for (int f = 0; f < some; ++f) {
-          const double* atPoints = own + f * BoundaryQuadrature::pointsAFace;
-          FacePoints weighted;
-          if (uneven) {
-            weighted = Eigen::Map<const FacePoints>(atPoints).cwiseProduct(roots.col(f));
-            atPoints = weighted.data();
-          }
-          onFaces.col(q).segment<6>(6 * Eigen::Index(first + f)) = BoundaryQuadrature::onShapes(atPoints);
-        }
-      }
-      for (int q = 0; q < count; q += batchLanes) {
-        const int columns = std::min(batchLanes, count - q);
-        cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, q + columns, columns, rows, -1, potential.data(), points,
-                    flux.data() + std::size_t(q) * points, points, 1,
-                    products[std::size_t(part)].data() + std::size_t(q) * count, count);
-      }
-    }
-  });
-  SourceIntegrals result{Rows::Zero(mesh_.nodes(), count), std::move(products.front())};
-  for (std::size_t part = 1; part < parts; ++part) result.products += products[part];
-  for (int f = 0; f < faces; ++f)
-    for (int n = 0; n < 6; ++n) result.right.row(mesh_.faces()(n, f)) -= onFaces.row(6 * Eigen::Index(f) + n);
-  if (uneven) {
+  SourceIntegrals result{boundary_.at(state.nodes_mm, system.sources, state.conductivity, threads, stop),
+                         &boundary_.nodes(state.conductivity),
+                         {}};
+  Rows& right = result.boundary.right;
+  if (state.conductivity.uneven()) {
+    Eigen::MatrixXd& products = result.boundary.products;
     UnevenConductivity(mesh_, state.nodes_mm, state.conductivity, system.pressureSlopes, reach_mm_)
-        .addIntegrals(system.sources, system.electrodes, threads, stop, result.right, result.products);
+        .addIntegrals(system.sources, system.electrodes, threads, stop, right, products);
+    const Eigen::Index count = right.cols();
     Eigen::VectorXd inverse(count);
     for (int p = 0; p < count; ++p) inverse(p) = std::exp(-system.electrodes[std::size_t(p)].value);
-    result.right *= inverse.asDiagonal();
-    result.products = (inverse.asDiagonal() * result.products * inverse.asDiagonal()).eval();
+    right *= inverse.asDiagonal();
+    products = (inverse.asDiagonal() * products * inverse.asDiagonal()).eval();
   }
-  // The sources' whole current, but for quadrature, taken up evenly over the volume.
-  const Eigen::RowVectorXd currents = result.right.colwise().sum();
-  result.right.noalias() -= system.values.volumes * (currents / system.values.volumes.sum());
+  result.evenly = right.colwise().sum() / system.values.volumes.sum();
   return result;
+}
+
+/// What gives a field's gradient at each electrode from its values at nodes: the mean of the elements that hold it.
+std::vector<std::vector<DeformedGreen::Slope>> DeformedGreen::slopes(const FieldState& state) const {
+  const std::vector<std::vector<Place>> where = places(state);
+  std::vector<std::vector<Slope>> all(where.size());
+  for (std::size_t p = 0; p < where.size(); ++p) {
+    std::vector<Slope>& own = all[p];
+    for (const Place& place : where[p]) {
+      const auto nodes = mesh_.tets().elements.col(place.element);
+      const Eigen::Matrix<double, 3, 10> gradients =
+          gradientsIn(state.nodes_mm(Eigen::all, nodes), place.barycentric) / double(where[p].size());
+      for (int k = 0; k < 10; ++k) own.push_back({nodes(k), gradients.col(k)});
+    }
+    std::stable_sort(own.begin(), own.end(), [](const Slope& a, const Slope& b) { return a.node < b.node; });
+    std::size_t last = 0;
+    for (std::size_t k = 1; k < own.size(); ++k)
+      if (own[k].node == own[last].node)
+        own[last].weight += own[k].weight;
+      else
+        own[++last] = own[k];
+    own.resize(last + 1);
+  }
+  return all;
 }
 
 std::optional<BoxGreen> DeformedGreen::at(const FieldState& state, int threads, const std::stop_token& stop) const {
@@ -244,36 +227,67 @@ std::optional<BoxGreen> DeformedGreen::at(const FieldState& state, int threads, 
   const auto count = static_cast<int>(state.electrodes_mm.cols());
   const int batches = (count + batchLanes - 1) / batchLanes;
   SourceIntegrals integral = integrals(state, *system, threads, stop);
-  Rows& right = integral.right;
+  const Rows& right = integral.boundary.right;
+  const std::vector<int>& rows = *integral.nodes;
   if (stop.stop_requested()) return {};
 
-  Rows field(mesh_.nodes(), count); // w
+  BoxGreen green;
+  for (Eigen::MatrixXd& slope : green.slope) slope.setZero(count, count);
+  const std::vector<std::vector<Slope>> slopes = this->slopes(state);
+  // w = w1 + K^-1 r with r = b - K w1, so that w_p . b_q = w1_p . b_q + r_p . (w1_q + K^-1 r_q): what w1 lacks is of
+  // the order of 1e-4, and the products with r may be of single precision.
+  Rows first = std::move(integral.boundary.potentials); // w1 + s: - oint I s_p s_q,n is of the same kind
+  if (first.size() == 0) first = Rows::Zero(right.rows(), count);
+  const std::size_t numbers = std::size_t(mesh_.nodes()) * std::size_t(count);
+  UnsetArray<float> left(numbers), field(numbers); // r, w
+  Eigen::VectorXd overVolume(count);               // of w1
   forChunks(batches, 1, threads, [&](int b, int) {
     if (stop.stop_requested()) return;
-    const int first = b * batchLanes, some = std::min(batchLanes, count - first);
-    Rows x(mesh_.nodes(), some), left(mesh_.nodes(), some);
-    system->solve.solve(right.middleCols(first, some), x, left, stop);
-    field.middleCols(first, some) = x;
-    right.middleCols(first, some) += left; // 2 b - K w
+    const int from = b * batchLanes, some = std::min(batchLanes, count - from);
+    using Lanes = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, batchLanes, Eigen::RowMajor>>;
+    ConductionSolve::Sides sides(mesh_.nodes());
+    const auto lanesOf = [&](UnsetArray<double>& of) { return Lanes(of.data(), mesh_.nodes(), batchLanes); };
+    Lanes b32 = lanesOf(sides.right), w1 = lanesOf(sides.first), w = lanesOf(sides.x);
+    Eigen::Matrix<double, 1, batchLanes> evenly = Eigen::Matrix<double, 1, batchLanes>::Zero();
+    evenly.head(some) = integral.evenly.segment(from, some);
+    b32.noalias() = -system->values.volumes * evenly;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      b32.row(rows[i]).head(some) += right.row(Eigen::Index(i)).segment(from, some);
+    system->solve.solve(sides, stop);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      first.row(Eigen::Index(i)).segment(from, some) += w1.row(rows[i]).head(some);
+    overVolume.segment(from, some) = (w1.transpose() * system->values.volumes).head(some);
+    for (int n = 0; n < mesh_.nodes(); ++n)
+      for (int k = 0; k < some; ++k) {
+        left.data()[std::size_t(n) * count + from + k] = static_cast<float>(b32(n, k));
+        field.data()[std::size_t(n) * count + from + k] = static_cast<float>(w(n, k));
+      }
+    for (std::size_t p = 0; p < slopes.size(); ++p)
+      for (const Slope& each : slopes[p])
+        for (std::size_t i = 0; i < 3; ++i)
+          green.slope[i].row(Eigen::Index(p)).segment(from, some) +=
+              each.weight(Eigen::Index(i)) * w.row(each.node).head(some);
   });
   if (stop.stop_requested()) return {};
 
-  // Rows p <= q, by whole batches. w' (2 b - K w) is the energy up to the square of what substitution leaves.
-  BoxGreen green;
-  green.value = std::move(integral.products);
+  // Rows p <= q, by whole batches.
+  green.value = std::move(integral.boundary.products);
+  Eigen::MatrixXf little(count, count); // r . w
   forChunks(batches, 1, threads, [&](int task, int) {
     if (stop.stop_requested()) return;
-    const int first = (batches - 1 - task) * batchLanes, some = std::min(batchLanes, count - first);
-    double* out = green.value.data() + std::size_t(first) * count;
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, first + some, some, mesh_.nodes(), 1, field.data(), count,
-                right.data() + first, count, 1, out, count);
+    const int from = (batches - 1 - task) * batchLanes, some = std::min(batchLanes, count - from);
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, from + some, some, static_cast<int>(right.rows()), 1,
+                first.data(), count, right.data() + from, count, 1, green.value.col(from).data(), count);
+    cblas_sgemm(CblasColMajor, CblasNoTrans, CblasTrans, from + some, some, mesh_.nodes(), 1, left.data(), count,
+                field.data() + from, count, 0, little.col(from).data(), count);
+    for (int q = from; q < from + some; ++q)
+      green.value.col(q).head(from + some) +=
+          little.col(q).head(from + some).cast<double>() - integral.evenly(q) * overVolume.head(from + some);
   });
   if (stop.stop_requested()) return {};
 
-  for (Eigen::MatrixXd& slope : green.slope) slope.setZero(count, count);
   const std::vector<AtElectrode>& half = system->electrodes;
   const bool uneven = state.conductivity.uneven();
-  const std::vector<std::vector<Place>> where = places(state);
   forChunks(count, 8, threads, [&](int begin, int end) {
     for (int p = begin; p < end; ++p) {
       for (int q = 0; q < count; ++q) {
@@ -291,15 +305,6 @@ std::optional<BoxGreen> DeformedGreen::at(const FieldState& state, int threads, 
           }
         }
       }
-      const std::vector<Place>& holders = where[std::size_t(p)];
-      for (const Place& place : holders) {
-        const auto nodes = mesh_.tets().elements.col(place.element);
-        const Eigen::Matrix<double, 3, 10> gradients =
-            gradientsIn(state.nodes_mm(Eigen::all, nodes), place.barycentric) / double(holders.size());
-        for (int k = 0; k < 10; ++k)
-          for (std::size_t i = 0; i < 3; ++i)
-            green.slope[i].row(p) += gradients(static_cast<Eigen::Index>(i), k) * field.row(nodes(k));
-      }
     }
   });
   green.value.triangularView<Eigen::StrictlyLower>() = green.value.transpose();
@@ -311,10 +316,17 @@ std::optional<NodalPotential> DeformedGreen::potential(const FieldState& state, 
                                                        const std::stop_token& stop) const {
   const std::unique_ptr<System> system = systemAt(state, threads, stop);
   if (!system) return {};
-  const Rows right = integrals(state, *system, threads, stop).right * currents;
-  Rows field(right.rows(), 1), left(right.rows(), 1);
-  system->solve.solve(right, field, left, stop);
+  const SourceIntegrals integral = integrals(state, *system, threads, stop);
   if (stop.stop_requested()) return {};
+  ConductionSolve::Sides sides(mesh_.nodes());
+  using Lanes = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, batchLanes, Eigen::RowMajor>>;
+  Lanes right(sides.right.data(), mesh_.nodes(), batchLanes);
+  right.setZero();
+  right.col(0) = -integral.evenly.dot(currents) * system->values.volumes;
+  right(*integral.nodes, 0) += integral.boundary.right * currents;
+  system->solve.solve(sides, stop);
+  if (stop.stop_requested()) return {};
+  const Eigen::VectorXd field = Lanes(sides.x.data(), mesh_.nodes(), batchLanes).col(0);
 
   NodalPotential result{field, Eigen::Matrix3Xd::Zero(3, mesh_.nodes()), Eigen::VectorXd::Zero(currents.size())};
   Eigen::VectorXd elementsAround = Eigen::VectorXd::Zero(mesh_.nodes());
@@ -322,7 +334,7 @@ std::optional<NodalPotential> DeformedGreen::potential(const FieldState& state, 
   for (int e = 0; e < mesh_.elements(); ++e) {
     const auto nodes = mesh_.tets().elements.col(e);
     const Eigen::Matrix<double, 3, 10> at = state.nodes_mm(Eigen::all, nodes);
-    const Eigen::Matrix<double, 10, 1> values = field(nodes, 0);
+    const Eigen::Matrix<double, 10, 1> values = field(nodes);
     for (int n = 0; n < 10; ++n) {
       result.gradient.col(nodes(n)) += gradientsIn(at, tetNode(n)) * values;
       elementsAround(nodes(n)) += 1;
@@ -362,7 +374,7 @@ std::optional<NodalPotential> DeformedGreen::potential(const FieldState& state, 
   const std::vector<std::vector<Place>> where = places(state);
   for (Eigen::Index p = 0; p < currents.size(); ++p) {
     const Place& place = where[std::size_t(p)].front();
-    result.electrodes(p) = tetShapes(place.barycentric).dot(field(mesh_.tets().elements.col(place.element), 0));
+    result.electrodes(p) = tetShapes(place.barycentric).dot(field(mesh_.tets().elements.col(place.element)));
     addSources(state.electrodes_mm.col(p), half[std::size_t(p)].value, half[std::size_t(p)].slope, result.electrodes(p),
                nullptr);
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "model/BoxGreen.h"
+#include "solver/field/BoundaryIntegrals.h"
 #include "solver/field/ConductionMatrix.h"
 #include "solver/field/Conductivity.h"
 #include "solver/field/FieldSources.h"
@@ -66,6 +67,12 @@ private:
   /// Of the pressure in space, at the nodes: means of the elements around, which jump where the pressure is smooth. At
   /// an electrode such a jump would add logarithms of the mesh's size to grad l . grad(s^2).
   [[nodiscard]] Eigen::Matrix3Xd pressureSlopes(const FieldState& state) const;
+  /// What a node's value adds to a gradient.
+  struct Slope {
+    int node = 0;
+    Eigen::Vector3d weight;
+  };
+  [[nodiscard]] std::vector<std::vector<Slope>> slopes(const FieldState& state) const;
   struct System; ///< a state's factorised matrix
   struct SourceIntegrals;
   [[nodiscard]] SourceIntegrals integrals(const FieldState& state, const System& system, int threads,
@@ -76,6 +83,7 @@ private:
   FieldMesh mesh_;
   double reach_mm_; ///< faces nearer to an electrode mirror
   FieldSources sources_;
+  BoundaryIntegrals boundary_;
   ConductionMatrix matrix_;
   std::vector<std::vector<Place>> atRest_;
   std::vector<std::vector<int>> neighbours_; ///< elements around those

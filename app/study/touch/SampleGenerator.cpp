@@ -13,6 +13,7 @@
 #include <atomic>
 #include <charconv>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace palp {
@@ -23,6 +24,7 @@ constexpr std::size_t kBlock = 192;       // samples solved before they are hand
 constexpr std::size_t kFieldBlock = 64;   // the same where each has a conduction field of its own
 constexpr std::size_t kBlocksOfParts = 4; // as many where each mesh solves its part of them
 constexpr std::size_t kSurrogateBlock = 8192;
+constexpr int kMostAreasTogether = 4; // in fits of surrogates
 constexpr int kMostPerArea = 10'000'000;
 
 Eigen::Vector3d force_N(const ForceRange& range, std::uint64_t seed, int area, std::size_t sample) {
@@ -157,13 +159,17 @@ bool SampleGenerator::prepare(const std::stop_token& stop) {
   return true;
 }
 
+/// As many areas together as there are threads, as the predictor of an area is one thread's work and much memory.
 bool SampleGenerator::fitSurrogates(const std::stop_token& stop) {
   Part& part = parts_.front();
   const int first = onlyArea_.value_or(0), count = onlyArea_ ? 1 : design_.areas.count();
-  for (int k = 0; k < count; ++k) {
-    const std::array area{first + k};
+  const int together = std::min(threadCount(request_.threads), kMostAreasTogether);
+  for (int k = 0; k < count; k += together) {
+    std::vector<int> areas(static_cast<std::size_t>(std::min(together, count - k)));
+    std::iota(areas.begin(), areas.end(), first + k);
     if (fitting_) fitting_(static_cast<std::size_t>(k), static_cast<std::size_t>(count));
-    if (!part.solver->fitSurrogates(area, stop) || (part.field && !part.field->fitSurrogates(area, stop))) return false;
+    if (!part.solver->fitSurrogates(areas, stop) || (part.field && !part.field->fitSurrogates(areas, stop)))
+      return false;
   }
   return true;
 }

@@ -3,6 +3,7 @@
 #include "solver/element/kernels/HexKernel.h"
 #include "solver/element/kernels/LaneMix.h"
 #include "solver/element/kernels/LaneSolve.h"
+#include "solver/element/kernels/ScalarField.h"
 #include "solver/element/kernels/TetKernel.h"
 
 namespace palp::PALP_KERNEL {
@@ -120,16 +121,28 @@ void beginAhead(double* values, float* before, int rows, std::ptrdiff_t stride, 
   goAhead(values, before, rows, stride, begins, ahead);
 }
 
-/// A plain loop: the compiler makes packs of it.
-void addSource(const SurfacePoints& p, const double* source, double* __restrict__ potential,
-               double* __restrict__ flux) {
-  const double cx = source[0], cy = source[1], cz = source[2];
-  for (std::ptrdiff_t k = 0; k < p.count; ++k) {
-    const double x = p.x[k] - cx, y = p.y[k] - cy, z = p.z[k] - cz;
-    const double inverse = 1 / __builtin_sqrt(x * x + y * y + z * z);
-    potential[k] += inverse;
-    flux[k] -= (x * p.ax[k] + y * p.ay[k] + z * p.az[k]) * (inverse * inverse * inverse);
-  }
+void source(const SurfacePoints& points, const double* at, double* potential, double* flux) {
+  addSource(points, at, potential, flux);
+}
+
+void sums8(const double* matrix, const double* values, int count, double* sums) {
+  sumsOfEight(matrix, values, count, sums);
+}
+
+void squares(const double* x, int rows, double* sums) {
+  squaresOfLanes(x, rows, sums);
+}
+
+void toFloats(const double* x, const double* scale, const int* order, int rows, float* out) {
+  scaledFloats(x, scale, order, rows, out);
+}
+
+void toDoubles(const float* x, const double* scale, const int* order, int rows, double* out) {
+  scaledDoubles(x, scale, order, rows, out);
+}
+
+void product(const LowerTriangle& K, const double* x, double* from) {
+  subtractOfLanes(K, x, from);
 }
 
 } // namespace
@@ -138,8 +151,9 @@ extern const ElementKernels tetKernels;
 extern const ElementKernels hexKernels;
 extern const LaneKernels laneKernelSet;
 const LaneKernels laneKernelSet = {
-    forwardFactor, backwardFactor, forwardFactorOfOne, backwardFactorOfOne, polynomials, gather,   subtract,
-    gatherScaled,  sumsOfMixed,    stepsOfMixed,       stepsOfFollowing,    beginAhead,  addSource};
+    forwardFactor, backwardFactor, forwardFactorOfOne, backwardFactorOfOne, polynomials, gather, subtract, gatherScaled,
+    sumsOfMixed,   stepsOfMixed,   stepsOfFollowing,   beginAhead,          source,      sums8,  squares,  toFloats,
+    toDoubles,     product};
 constexpr ElementKernels tetSet = kernelsOf<Tet>(tetResidual8, tetResidualOfLoads, tetTangent);
 constexpr ElementKernels hexSet = kernelsOf<Hex>(hexResidual8, hexResidualOfLoads, hexTangent);
 const ElementKernels tetKernels = tetSet;

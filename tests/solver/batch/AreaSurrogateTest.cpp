@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
 
 namespace palp {
@@ -20,7 +21,7 @@ struct Fit {
   explicit Fit(double tolerance, const SensorDesign& d = paperDesign())
       : design(d), problem(d, sensorMesh(d, {.meshSize_mm = 12, .mapped = {}})),
         engine(problem, problem.parts().initialTangent(2, {}), tolerance, 2),
-        surrogate(AreaSurrogate::fit(engine, design, kArea, tolerance, {})) {}
+        surrogate(AreaSurrogate::fit(engine, design, std::array{kArea}, tolerance, {}).front()) {}
 };
 
 double relative(const Eigen::MatrixXd& a, const Eigen::MatrixXd& truth) {
@@ -81,7 +82,7 @@ TEST(AreaSurrogate, IsNoneWhereTheFitIsStopped) {
   Fit fit(1e-2);
   std::stop_source stop;
   stop.request_stop();
-  EXPECT_FALSE(AreaSurrogate::fit(fit.engine, fit.design, kArea, 1e-2, stop.get_token()));
+  EXPECT_FALSE(AreaSurrogate::fit(fit.engine, fit.design, std::array{kArea}, 1e-2, stop.get_token()).front());
 }
 
 } // namespace
