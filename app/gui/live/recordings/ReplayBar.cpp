@@ -180,6 +180,7 @@ void ReplayBar::goTo(double to_s) {
     loop_->setChecked(false);
     emit message(tr("The loop is off: %1 s lies outside of it.").arg(to_s, 0, 'f', 2));
   }
+  if (host_.status().state == LiveState::Ended) host_.setPaused(true); // it stands there, instead of ending again
   host_.seek(to_s);
 }
 
@@ -222,7 +223,6 @@ void ReplayBar::displayState() {
   }
   pause_->setText(ended ? tr("Play again") : host_.paused() ? tr("Go on") : tr("Pause"));
   step_->setEnabled(!ended);
-  back_->setEnabled(!ended);
   const double position_s = ended ? length_s : replay->position_s.load();
   if (!place_->hasFocus()) { // else a number is chosen or typed there
     const QSignalBlocker quietPlace(place_);

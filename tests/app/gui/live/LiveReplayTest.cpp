@@ -164,7 +164,7 @@ TEST_F(LiveReplay, DrawsTheLineOfTheMarkThatOneWentTo) {
   EXPECT_TRUE(
       wait([&] { return page.host().history().last() != nullptr && page.host().history().last()->jumps == 1; }));
   EXPECT_TRUE(wait([&] { return lines().size() == 1 && lines()[0].second == "poke"; }));
-  ASSERT_TRUE(waitForState(LiveState::Ended));
+  ASSERT_TRUE(waitForState(LiveState::Paused)) << "it stands there";
   type<QDoubleSpinBox>("replayPlace", QString::number(marks.itemData(1).toDouble() + 0.1, 'f', 2));
   EXPECT_TRUE(wait([&] { return page.host().history().last()->jumps == 2; }));
   EXPECT_TRUE(wait([&] { return lines().size() == 1; })) << "it stands in the past that is shown";
@@ -196,6 +196,8 @@ TEST_F(LiveReplay, SaysThatTheReplayStandsAndNotTheBoard) {
   ASSERT_TRUE(waitForState(LiveState::Ended));
   EXPECT_TRUE(page.lamp().words.startsWith("Played to its end: recording touch.palprec"))
       << page.lamp().words.toStdString();
+  click("replayBack");
+  EXPECT_TRUE(waitForState(LiveState::Paused)) << "the end can be stepped back from";
 }
 
 TEST_F(LiveReplay, DrawsAMarkThatIsSetAndSaysThatARecordingIsACopy) {
