@@ -191,12 +191,16 @@ TEST(SampleGenerator, AnotherSeedNeedsNoOtherPreparation) {
 TEST(SampleGenerator, SaysWhichAreaItFitsASurrogateTo) {
   SampleRequest request = coarse(1);
   request.surrogate = true;
-  SampleGenerator generator(paperDesign(), request);
-  std::vector<std::size_t> said;
-  generator.whileFitting([&](std::size_t done, std::size_t all) {
-    said.push_back(done);
-    EXPECT_EQ(all, 6u);
-  });
-  generator.emptySet();
-  EXPECT_EQ(said, (std::vector<std::size_t>{0, 1, 2, 3, 4, 5}));
+  const std::vector<std::vector<std::size_t>> expected{{0, 1, 2, 3, 4, 5}, {0, 2, 4}}; // as many at once as threads
+  for (const int threads : {1, 2}) {
+    request.threads = threads;
+    SampleGenerator generator(paperDesign(), request);
+    std::vector<std::size_t> said;
+    generator.whileFitting([&](std::size_t done, std::size_t all) {
+      said.push_back(done);
+      EXPECT_EQ(all, 6u);
+    });
+    generator.emptySet();
+    EXPECT_EQ(said, expected[static_cast<std::size_t>(threads - 1)]);
+  }
 }
