@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kSeenDeviations = 5;      // a load within so many of them may hide in the noise
 constexpr double kLeastShare = 0.1;        // of the label, or of what is read: less than any gain would make of it
-constexpr double kFarShare = 2;            // of one to the other: rarely is a sensor so far from its model
+constexpr double kFarShare = 3;            // of one to the other: rarely is a sensor so far from its model
 constexpr double kMostOffset_range = 0.05; // that may stand at rest for calibration to take away
 
 std::string inNewton(const Eigen::Vector3d& force_N) {
