@@ -369,6 +369,7 @@ TEST_F(LiveOperator, SaysWhyAPressInThePictureDoesNothing) {
 
 TEST_F(LiveOperator, ReadsZoomsAndMovesACurveByKeysAlone) {
   ASSERT_TRUE(waitForArrow());
+  ASSERT_TRUE(waitForFrames(60)); // forces where the cursor will stand, 0.3 s back
   auto& chart = find<StripChart>("forceCurves");
   chart.setFocus();
   EXPECT_TRUE(chart.reading().isEmpty());
