@@ -106,9 +106,11 @@ TEST_F(LiveRecording, PlaysARecordingFromAnyPlaceInALoopAndGoesBackToTheBoard) {
   use([](LiveSettings& live) { live.replaySpeed = 0.1; });
   const double length_s = page.host().replay()->length_s;
   QTest::mouseClick(&line, Qt::LeftButton, {}, {line.width() / 2, line.height() / 2});
-  ASSERT_TRUE(wait([&] { return page.host().status().state == LiveState::Streaming; }));
+  ASSERT_TRUE(waitForState(LiveState::Paused)) << "after its end it stands where one went";
   ASSERT_TRUE(wait([&] { return page.host().replay()->position_s > 0.4 * length_s; }));
   EXPECT_LT(page.host().replay()->position_s, 0.95 * length_s);
+  click("replayPause");
+  ASSERT_TRUE(waitForState(LiveState::Streaming));
 
   type<QDoubleSpinBox>("loopTo", QString::number(0.3 * length_s, 'f', 2));
   find<QCheckBox>("replayLoop").click();
