@@ -236,9 +236,8 @@ void LiveCalibration::use() {
 void LiveCalibration::displayState() {
   const QString& before = host_.networkBefore();
   back_->setEnabled(!before.isEmpty());
-  back_->setToolTip(before.isEmpty()
-                        ? tr("Decodes with the network before again; there is none: Use was not pressed yet")
-                        : tr("Decodes with %1 again").arg(before));
+  back_->setToolTip(before.isEmpty() ? tr("Decodes with the network before again; there is none")
+                                     : tr("Decodes with %1 again").arg(before));
   back_->setText(before.isEmpty() ? tr("Back") : tr("Back to %1").arg(before.section(',', 0, 0)));
   const LiveFrame* last = host_.history().last();
   const bool reads = last != nullptr && last->forces.valid && last->forces.forces_N.cols() > 0;
@@ -355,9 +354,9 @@ void LiveCalibration::fit() {
   runner_.start(tr("Refining the network"),
                 [this, decoder = *host_.decoder(), frames = frames_.samples()](const std::stop_token&, JobProgress&) {
                   auto result = std::make_shared<Calibration>(calibrate(decoder, frames));
-                  return [this, result, fitted = frames.forces_N] {
+                  return [this, result, fitted = frames.resistances_ohm] {
                     calibration_ = std::move(*result);
-                    fitted_N_ = fitted;
+                    fitted_ohm_ = fitted;
                     displayFit();
                   };
                 });
@@ -384,7 +383,7 @@ void LiveCalibration::displayFit() {
     age_days = std::chrono::duration<double>(age).count() / kDay_s;
   }
   const auto count = frames_.samples().size();
-  const bool changed = count != fitted_N_.cols() || frames_.samples().forces_N != fitted_N_;
+  const bool changed = count != fitted_ohm_.cols() || frames_.samples().resistances_ohm != fitted_ohm_;
   report_->setText(
       (changed ? tr("<p><b>The frames have changed since: %1 now%2.</b></p>")
                      .arg(count)

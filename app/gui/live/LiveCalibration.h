@@ -58,7 +58,7 @@ private:
   /// When the file that was read last was written.
   std::optional<std::filesystem::file_time_type> written_;
   std::optional<Calibration> calibration_;
-  Eigen::Matrix3Xd fitted_N_; ///< labels that it was made from
+  Eigen::MatrixXd fitted_ohm_; ///< of the frames that it was made from, one a column
   KnownLoad* known_ = nullptr;
   QSpinBox* count_ = nullptr;
   QPushButton* collect_ = nullptr;

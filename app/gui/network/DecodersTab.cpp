@@ -12,8 +12,6 @@
 #include <QSplitter>
 #include <QVBoxLayout>
 
-#include <algorithm>
-
 namespace palp {
 
 DecodersTab::DecodersTab(QWidget* parent) : QWidget(parent) {
@@ -31,8 +29,9 @@ DecodersTab::DecodersTab(QWidget* parent) : QWidget(parent) {
       tr("Trains the decoder of the marked row as the comparison did: it is shown, and stands in the list "
          "of trained networks"));
   connect(table_, &QTableWidget::itemSelectionChanged, this, &DecodersTab::displayMarked);
-  connect(train_, &QPushButton::clicked, this,
-          [this] { emit networkAsked(*networks_[static_cast<std::size_t>(table_->currentRow())]); });
+  connect(train_, &QPushButton::clicked, this, [this] {
+    if (const auto network = marked()) emit networkAsked(*network);
+  });
   auto* charts = new QSplitter(Qt::Horizontal);
   charts->addWidget(error_);
   charts->addWidget(time_);
@@ -70,9 +69,16 @@ void DecodersTab::display(const NetworkSession& session, const NetworkSettings& 
   displayMarked();
 }
 
+/// By what is marked, not by the cursor, which Ctrl with an arrow moves alone.
+std::optional<NetworkSettings> DecodersTab::marked() const {
+  const QList<QTableWidgetItem*> items = table_->selectedItems();
+  if (items.isEmpty()) return {};
+  const auto row = static_cast<std::size_t>(items.front()->row());
+  return row < networks_.size() ? networks_[row] : std::nullopt; // the bound is no network
+}
+
 void DecodersTab::displayMarked() {
-  const auto row = static_cast<std::size_t>(std::max(0, table_->currentRow()));
-  train_->setEnabled(!table_->selectedItems().isEmpty() && row < networks_.size() && networks_[row]);
+  train_->setEnabled(marked().has_value());
 }
 
 } // namespace palp

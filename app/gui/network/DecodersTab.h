@@ -31,6 +31,7 @@ signals:
   void networkAsked(const NetworkSettings& network);
 
 private:
+  [[nodiscard]] std::optional<NetworkSettings> marked() const;
   void displayMarked();
 
   ChartView* error_ = nullptr;

@@ -42,16 +42,14 @@ std::string labelAgainstReading(const Eigen::Vector3d& label_N, const DecodedFor
   const double deviation_N = reads.standardDeviation_N.col(column).maxCoeff();
   const double hidden_N = kSeenDeviations * deviation_N;
   const double offset_N = kMostOffset_range * (decoder.high_N - decoder.low_N).maxCoeff();
+  const std::string both = "the label says " + inNewton(label_N) + ", but the network reads " + inNewton(read_N);
   if (label_N.norm() > hidden_N && read_N.norm() < std::max(hidden_N, kLeastShare * label_N.norm()))
-    return "the label says " + inNewton(label_N) + ", but the network reads " + inNewton(read_N) +
-           ", as at rest: is the load on the sensor?";
+    return both + ", as at rest: is the load on the sensor?";
   if (label_N.norm() < kLeastShare * read_N.norm() && read_N.norm() > std::max(hidden_N, offset_N))
-    return "the label says " + inNewton(label_N) + ", but the network reads " + inNewton(read_N) +
-           ": is the sensor at rest?";
+    return both + ": is the sensor at rest?";
   const double less_N = std::min(label_N.norm(), read_N.norm()), more_N = std::max(label_N.norm(), read_N.norm());
   if (more_N > kFarShare * less_N && more_N - less_N > std::max(hidden_N, offset_N))
-    return "the label says " + inNewton(label_N) + ", but the network reads " + inNewton(read_N) +
-           ": is this the load that is on the sensor?";
+    return both + ": is this the load that is on the sensor?";
   return {};
 }
 

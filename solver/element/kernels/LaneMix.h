@@ -11,11 +11,6 @@ namespace palp::PALP_KERNEL {
 typedef int NarrowMask __attribute__((vector_size(4 * PALP_PACK)));
 typedef long long WideMask __attribute__((vector_size(8 * PALP_PACK)));
 
-PALP_INLINE NarrowPack loadNarrow(const float* p) {
-  NarrowPack v;
-  __builtin_memcpy(&v, p, sizeof v);
-  return v;
-}
 PALP_INLINE void storeNarrow(float* p, NarrowPack v) {
   __builtin_memcpy(p, &v, sizeof v);
 }
@@ -24,16 +19,8 @@ PALP_INLINE NarrowMask loadMask(const int* p) {
   __builtin_memcpy(&v, p, sizeof v);
   return v;
 }
-PALP_INLINE Pack wide(NarrowPack v) {
-  return __builtin_convertvector(v, Pack);
-}
 PALP_INLINE NarrowPack narrow(Pack v) {
   return __builtin_convertvector(v, NarrowPack);
-}
-
-/// Lane `lane` and those beside it of scale x[row].
-PALP_INLINE Pack scaled(const float* x, int row, const double* scale, int lane) {
-  return load(scale + lane) * wide(loadNarrow(x + std::size_t(row) * batchLanes + lane));
 }
 
 /// `newest` before the others of what is kept [mixingDepth][8], where the mask says so.

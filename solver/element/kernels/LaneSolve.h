@@ -142,15 +142,21 @@ PALP_INLINE void backwardLanes(const BlockedFactor& L, int first, int last, unsi
 }
 
 typedef float NarrowPack __attribute__((vector_size(4 * PALP_PACK)));
+
+PALP_INLINE NarrowPack loadNarrow(const float* p) {
+  NarrowPack v;
+  __builtin_memcpy(&v, p, sizeof v);
+  return v;
+}
+PALP_INLINE Pack wide(NarrowPack v) {
+  return __builtin_convertvector(v, Pack);
+}
+
 constexpr int packsABlock = rowsABlock / packSize;
 
 /// The rows of a block in one column, in double precision.
 PALP_INLINE void widen(const float* column, Pack rows[packsABlock]) {
-  for (int i = 0; i < packsABlock; ++i) {
-    NarrowPack v;
-    __builtin_memcpy(&v, column + i * packSize, sizeof v);
-    rows[i] = __builtin_convertvector(v, Pack);
-  }
+  for (int i = 0; i < packsABlock; ++i) rows[i] = wide(loadNarrow(column + i * packSize));
 }
 
 /// sums[r] = sum over k of block[k][r] x[k].
@@ -282,17 +288,16 @@ PALP_INLINE void subtractRows(const double* forces, const int* nodes, int count,
   }
 }
 
+/// Lane `lane` and those beside it of scale x[row].
+PALP_INLINE Pack scaled(const float* x, int row, const double* scale, int lane) {
+  return load(scale + lane) * wide(loadNarrow(x + std::size_t(row) * batchLanes + lane));
+}
+
 PALP_INLINE void gatherScaledRows(const float* x, const int* rows, const double* scale, const int* nodes, int count,
                                   double* out) {
   for (int n = 0; n < count; ++n)
-    for (int d = 0; d < 3; ++d, out += 8) {
-      const float* row = x + std::size_t(rows[3 * nodes[n] + d]) * batchLanes;
-      for (int lane = 0; lane < 8; lane += packSize) {
-        NarrowPack v;
-        __builtin_memcpy(&v, row + lane, sizeof v);
-        store(out + lane, load(scale + lane) * __builtin_convertvector(v, Pack));
-      }
-    }
+    for (int d = 0; d < 3; ++d, out += 8)
+      for (int lane = 0; lane < 8; lane += packSize) store(out + lane, scaled(x, rows[3 * nodes[n] + d], scale, lane));
 }
 
 } // namespace palp::PALP_KERNEL

@@ -233,6 +233,9 @@ TEST_F(NetworkScene, ADecoderOfTheComparisonIsTrainedAndListedByOneButton) {
   auto& table = find<DataTable>("trialsTable");
   auto& train = find<QPushButton>("trainMarked");
   EXPECT_FALSE(train.isEnabled()) << "no row is marked";
+  QTest::mouseClick(table.viewport(), Qt::LeftButton, {}, table.visualItemRect(table.item(0, 0)).center());
+  table.selectionModel()->setCurrentIndex(table.model()->index(table.rowCount() - 1, 0), QItemSelectionModel::NoUpdate);
+  ASSERT_TRUE(train.isEnabled()) << "the cursor alone marks nothing";
   const std::size_t listed = network.kept().size();
   int row = 0;
   while (row < table.rowCount() && table.item(row, 0)->text() != "linear") ++row;
