@@ -14,7 +14,7 @@ namespace palp {
 namespace {
 
 /// Of d ln R: far below the mesh's own error, and what a cubic reaches for the paper's forces.
-constexpr double tolerance = 1e-4;
+constexpr double largestFitError = 1e-4;
 
 /// States of a batch, of a megabyte or two each.
 constexpr std::size_t mostWaiting = 32;
@@ -114,7 +114,7 @@ bool ConductionBatch::State::fit(const std::vector<int>& areas, const std::stop_
             (answer->array().log() - logAtRest.array()).matrix().reshaped();
       ResistancePolynomial trial(design.forceRange, degree, forces, each.changes);
       if (!each.best || trial.error() < each.best->error()) each.best = std::move(trial);
-      if (degree == ResistancePolynomial::highestDegree || each.best->error() <= tolerance)
+      if (degree == ResistancePolynomial::highestDegree || each.best->error() <= largestFitError)
         polynomials[std::size_t(each.area)] = std::move(each.best);
     }
     std::erase_if(open, [&](const Fit& each) { return polynomials[std::size_t(each.area)].has_value(); });

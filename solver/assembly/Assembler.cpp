@@ -13,7 +13,6 @@ namespace {
 
 constexpr int blocksAChunk = 8;
 constexpr int nodesAChunk = 256;
-constexpr int largestElementDofs = 30;
 
 } // namespace
 

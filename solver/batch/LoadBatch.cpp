@@ -7,7 +7,6 @@ namespace palp {
 
 namespace {
 
-constexpr int largestElementDofs = 30;
 using ElementLanes = std::array<double, largestElementDofs * lanes>;
 
 std::size_t at(std::size_t row, int block) {

@@ -8,6 +8,7 @@ enum class ElementShape; // model/Mesh.h, kept out of the kernels' sources
 
 /// Numbers stand in blocks of 8 lanes, [item][8]: 8 elements of one load, or 8 loads on one element.
 inline constexpr int lanes = 8;
+inline constexpr int largestElementDofs = 30; ///< of displacements, of all kinds
 
 /// Where number `item` of the `size` that each element has stands, [blocks][size][8]. Of loads on elements,
 /// [elements][blocks of loads][size][8], the index before it is element * loads + load.

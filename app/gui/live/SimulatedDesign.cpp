@@ -15,7 +15,7 @@ namespace {
 constexpr int kPerArea = 24; // as many as ship for the paper's design: a polynomial of degree 2 an area
 // Touches of the indenter over the face and its forces: what is read at one place has little to say two millimetres
 // beside it. A mesh of hexahedra cannot tell apart more than it has nodes.
-constexpr int kTouches = 1500, kFewestTouches = 240;
+constexpr int kMostToLearn = 1500, kFewestToLearn = 240;
 constexpr double kNoise = 5e-6;  // of a good board
 constexpr std::size_t kKept = 4; // designs
 
@@ -27,8 +27,8 @@ TouchRange movingTouches(const SensorDesign& design) {
 }
 
 int touchesOn(const MeshOptions& mesh) {
-  if (!mesh.mapped) return kTouches;
-  return std::clamp((*mesh.mapped)[0] * (*mesh.mapped)[1] / 2, kFewestTouches, kTouches);
+  if (!mesh.mapped) return kMostToLearn;
+  return std::clamp((*mesh.mapped)[0] * (*mesh.mapped)[1] / 2, kFewestToLearn, kMostToLearn);
 }
 
 /// The board reads the design exactly where nothing touches it.

@@ -31,10 +31,10 @@ constexpr Color kStale{0.55, 0.55, 0.55};
 constexpr double kLeastEllipse_mm = 0.35;
 constexpr int kEllipsePoints = 32;
 constexpr double kTruth_mm = 0.8; // radius of the circle around a true place
-constexpr double kLift_mm = 0.03; // above the top face, so that the two do not flicker
+constexpr double kCircleLift_mm = 0.03; // above the top face, so that the two do not flicker
 
 Eigen::Vector3d onTop(const SensorDesign& design, double x_mm, double y_mm) {
-  return {x_mm, y_mm, design.block_mm.z() + kLift_mm};
+  return {x_mm, y_mm, design.block_mm.z() + kCircleLift_mm};
 }
 
 Eigen::Matrix3Xd corners(const SensorDesign& design, int area) {

@@ -21,7 +21,7 @@ void writeNumbers(std::ostream& out, const Eigen::MatrixXd& values, Eigen::Index
   }
 }
 
-std::string quoted(const std::string& text) {
+std::string inQuotes(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
   return result + '"';
@@ -97,12 +97,12 @@ void writeLiveCsv(const std::filesystem::path& path, const LiveHistory& history,
     if (live.frame.temperature_degC) out << *live.frame.temperature_degC;
     out << ',';
     if (live.forces.misfit) out << *live.forces.misfit;
-    out << ',' << quoted(live.mark == mark ? std::string() : live.mark);
+    out << ',' << inQuotes(live.mark == mark ? std::string() : live.mark);
     mark = live.mark;
     writeNumbers(out, live.forces.forces_N, forces);
     writeNumbers(out, live.forces.standardDeviation_N, forces);
     writeNumbers(out, live.change, readings);
-    out << ',' << quoted(live.forces.valid ? live.forces.doubt : live.forces.reason) << '\n';
+    out << ',' << inQuotes(live.forces.valid ? live.forces.doubt : live.forces.reason) << '\n';
   }
   writeFile(path, out.str(), true);
 }

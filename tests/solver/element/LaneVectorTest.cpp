@@ -33,7 +33,7 @@ TEST(LaneVector, GivesLargeMemoryBackToTheSystem) {
   EXPECT_GT(resident(), before + 0.9 * bytes);
   array = {};
   EXPECT_EQ(array.size(), 0);
-  EXPECT_LT(resident(), before + 0.1 * bytes);
+  EXPECT_LT(resident(), before + 0.2 * bytes); // the address sanitizer keeps an eighth: its shadow of the array
 }
 
 TEST(UnsetArray, GivesBackItsFirstNumbersAloneWhenItForgetsThem) {
