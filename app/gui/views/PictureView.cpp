@@ -7,20 +7,28 @@
 
 #include <QApplication>
 #include <QClipboard>
+#include <QElapsedTimer>
 #include <QInputDialog>
 #include <QMenu>
 #include <QMessageBox>
 #include <QMouseEvent>
 #include <QPainter>
+#include <QTimer>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace palp {
 
 namespace {
 
 constexpr double kClick_px = 4; ///< farther than this, pressing and releasing is a drag
+
+/// What pictures are drawn in one pass of the event loop takes about this time; the others keep theirs until the next,
+/// as a change may concern eight of them, of 8 ms each on a software renderer.
+constexpr qint64 kPass_ms = 20;
+qint64 drawnInPass_ms = 0; ///< of the window's thread alone
 
 } // namespace
 
@@ -66,20 +74,32 @@ double PictureView::magnification(int width, int height) const {
 void PictureView::draw() {
   changed_ = false;
   if (image_.size() != deviceSize()) image_ = QImage(deviceSize(), QImage::Format_RGB32);
+  QElapsedTimer clock;
+  clock.start();
   render(image_);
+  if (std::exchange(drawnInPass_ms, drawnInPass_ms + clock.elapsed() + 1) == 0)
+    QTimer::singleShot(0, qApp, [] { drawnInPass_ms = 0; });
   ++renderCount_;
   image_.setDevicePixelRatio(devicePixelRatioF());
 }
 
 void PictureView::paintEvent(QPaintEvent*) {
-  if (changed_) draw();
+  const bool canWait = drawnInPass_ms > kPass_ms && !image_.isNull();
+  if (changed_ && canWait) QTimer::singleShot(0, this, qOverload<>(&QWidget::update));
+  if (changed_ && !canWait) draw();
   QPainter painter(this);
   painter.setCompositionMode(QPainter::CompositionMode_Source);
-  painter.drawImage(0, 0, image_);
+  painter.drawImage(rect(), image_); // one that waits may have another size
   if (!hasFocus()) return;
   painter.setCompositionMode(QPainter::CompositionMode_SourceOver);
   painter.setPen(QPen(palette().color(QPalette::Highlight), 2));
   painter.drawRect(rect().adjusted(1, 1, -1, -1));
+}
+
+QPixmap windowPicture(QWidget& window) {
+  for (PictureView* view : window.findChildren<PictureView*>())
+    if (view->isVisible()) static_cast<void>(view->image());
+  return window.grab();
 }
 
 void PictureView::focusInEvent(QFocusEvent*) {

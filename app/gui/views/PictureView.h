@@ -3,6 +3,7 @@
 #include "app/scenes/Picture.h"
 
 #include <QImage>
+#include <QPixmap>
 #include <QPointF>
 #include <QWidget>
 
@@ -85,5 +86,8 @@ private:
   int renderCount_ = 0;
   QPointF pressed_;
 };
+
+/// The window as it is seen, with every view of it drawn to the end.
+QPixmap windowPicture(QWidget& window);
 
 } // namespace palp

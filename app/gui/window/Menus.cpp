@@ -190,7 +190,7 @@ void Menus::buildExport(QMenu& menu) {
   add(menu, tr("&Picture of the window..."), tr("The window as PNG; a right click on a view saves that view alone"),
       QKeySequence("Ctrl+P"), [this] {
         exportTo(tr("Picture of the window"), "palp.png", tr("Pictures (*.png)"), [this](const QString& file) {
-          if (!window_.grab().save(file, "PNG")) throw Error(file.toStdString() + ": cannot be written");
+          if (!windowPicture(window_).save(file, "PNG")) throw Error(file.toStdString() + ": cannot be written");
         });
       });
   add(menu, tr("Copy as co&mmand"), tr("The palp commands that do what the scene shows, to the clipboard"),

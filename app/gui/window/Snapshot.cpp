@@ -1,6 +1,7 @@
 #include "app/gui/window/Snapshot.h"
 
 #include "app/gui/project/Workbench.h"
+#include "app/gui/views/PictureView.h"
 #include "app/gui/window/MainWindow.h"
 
 #include <QApplication>
@@ -27,7 +28,7 @@ void snapshotWhenComplete(MainWindow& window, Workbench& workbench, const QStrin
     quiet = window.busy() || !window.currentScene().complete() ? 0 : quiet + 1;
     if (quiet < kQuietLooks) return;
     timer->stop();
-    if (window.grab().save(file, "PNG")) {
+    if (windowPicture(window).save(file, "PNG")) {
       QApplication::exit(0);
     } else {
       std::cerr << "palp-studio: " << file.toStdString()

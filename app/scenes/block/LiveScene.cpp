@@ -30,7 +30,7 @@ namespace {
 constexpr Color kStale{0.55, 0.55, 0.55};
 constexpr double kLeastEllipse_mm = 0.35;
 constexpr int kEllipsePoints = 32;
-constexpr double kTruth_mm = 0.8; // radius of the circle around a true place
+constexpr double kTruth_mm = 0.8;       // radius of the circle around a true place
 constexpr double kCircleLift_mm = 0.03; // above the top face, so that the two do not flicker
 
 Eigen::Vector3d onTop(const SensorDesign& design, double x_mm, double y_mm) {
