@@ -31,7 +31,10 @@ struct ConductionField::State {
         green(problem.mesh(), problem.design().block_mm, electrodes_mm) {}
 
   [[nodiscard]] FieldState places(const LoadIncrement& state, const ElectrodeDisplacements& moved) const {
-    FieldState at{green.mesh().tets().nodes_mm + green.mesh().atNodes(state.displacements_mm), electrodes_mm};
+    FieldState at{green.mesh().tets().nodes_mm + green.mesh().atNodes(state.displacements_mm),
+                  electrodes_mm,
+                  {},
+                  law.electrodeRadius_mm};
     at.electrodes_mm.leftCols(moved.upper_mm.cols()) += moved.upper_mm;
     if (problem.design().lowerFollowsRubber) at.electrodes_mm.rightCols(moved.lower_mm.cols()) += moved.lower_mm;
     if (const auto& byPressure = problem.design().pressureLaw) {
@@ -101,7 +104,7 @@ std::optional<CurrentField> ConductionField::current(const LoadIncrement& state,
   const Eigen::VectorXd wires = network.inBlock() * terminals;
   const Eigen::VectorXd currents = network.currents() * wires;
   const FieldState places = state_->places(state, state_->problem.electrodes(state));
-  const auto found = state_->green.potential(places, currents, law.electrodeRadius_mm, threads, stop);
+  const auto found = state_->green.potential(places, currents, threads, stop);
   if (!found) return {};
   // The constant that the field leaves open: that which the electrodes' potentials have in the mean.
   const double rho = law.resistivity_ohm_mm, contact = contactResistance_ohm(law);

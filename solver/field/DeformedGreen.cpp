@@ -56,9 +56,9 @@ Eigen::Vector4d barycentricIn(const Eigen::Matrix<double, 3, 10>& nodes, const E
 } // namespace
 
 struct DeformedGreen::System {
-  Eigen::Matrix3Xd pressureSlopes;
-  std::vector<AtElectrode> electrodes;
   std::vector<Eigen::Matrix3Xd> sources;
+  std::vector<double> reaches_mm;
+  std::vector<AtElectrode> electrodes;
   ConductionMatrix::Values values;
   ConductionSolve solve;
 };
@@ -66,7 +66,7 @@ struct DeformedGreen::System {
 DeformedGreen::DeformedGreen(const Mesh& solverMesh, const Eigen::Vector3d& block_mm,
                              const Eigen::Matrix3Xd& electrodes_mm)
     : mesh_(solverMesh), reach_mm_(reach_mm(mesh_, block_mm)), sources_(mesh_, block_mm, electrodes_mm, reach_mm_),
-      boundary_(mesh_, electrodes_mm), matrix_(mesh_) {
+      boundary_(mesh_, electrodes_mm), matrix_(mesh_), means_(mesh_) {
   const Eigen::MatrixXi& elements = mesh_.tets().elements;
   std::vector<std::vector<int>> around(static_cast<std::size_t>(mesh_.nodes()));
   for (int e = 0; e < mesh_.elements(); ++e)
@@ -128,28 +128,33 @@ Eigen::Matrix3Xd DeformedGreen::pressureSlopes(const FieldState& state) const {
   return slopes;
 }
 
-std::vector<AtElectrode> DeformedGreen::atElectrodes(const FieldState& state, const Eigen::Matrix3Xd& slopes) const {
-  std::vector<AtElectrode> all(atRest_.size());
-  const Conductivity& k = state.conductivity;
-  if (!k.uneven()) return all;
-  const std::vector<std::vector<Place>> where = places(state);
-  for (std::size_t p = 0; p < all.size(); ++p) {
-    const std::vector<Place>& holders = where[p];
-    for (const Place& place : holders) {
-      const auto nodes = mesh_.tets().elements.col(place.element);
-      const Eigen::Matrix<double, 10, 1> pressures = k.pressures_MPa(nodes);
-      const double there = tetShapes(place.barycentric).dot(pressures), share = 1 / double(holders.size());
-      all[p].value += share * k.half(there);
-      all[p].slope += share * k.halfByPressure(there) * (slopes(Eigen::all, nodes) * tetShapes(place.barycentric));
-    }
-    all[p].element = holders.front().element;
-    all[p].shapes = tetShapes(holders.front().barycentric);
+std::vector<double> DeformedGreen::reaches_mm(const std::vector<Eigen::Matrix3Xd>& sources_mm) const {
+  std::vector<double> all;
+  for (const Eigen::Matrix3Xd& of : sources_mm) {
+    double reach = reach_mm_; // a face nearer than that has an image
+    for (Eigen::Index m = 1; m < of.cols(); ++m) reach = std::min(reach, (of.col(m) - of.col(0)).norm() / 2);
+    all.push_back(reach);
   }
   return all;
 }
 
+std::vector<AtElectrode> DeformedGreen::atElectrodes(const FieldState& state, const std::vector<double>& reaches_mm,
+                                                     int threads) const {
+  std::vector<AtElectrode> all(atRest_.size());
+  if (!state.conductivity.uneven()) return all;
+  const std::vector<std::vector<Place>> where = places(state);
+  inParallel(all.size(), threads, [&](std::size_t p) {
+    const Place& place = where[p].front();
+    all[p] = means_.around(state.nodes_mm, state.conductivity,
+                           {place.element, place.barycentric, state.electrodes_mm.col(static_cast<Eigen::Index>(p)),
+                            state.radius_mm, reaches_mm[p]});
+  });
+  return all;
+}
+
 Eigen::VectorXd DeformedGreen::conductivities(const FieldState& state) const {
-  const std::vector<AtElectrode> at = atElectrodes(state, Eigen::Matrix3Xd::Zero(3, mesh_.nodes()));
+  const std::vector<AtElectrode> at =
+      atElectrodes(state, std::vector<double>(atRest_.size(), state.radius_mm), 1); // no further than their spheres
   Eigen::VectorXd k(static_cast<Eigen::Index>(at.size()));
   for (std::size_t p = 0; p < at.size(); ++p) k(static_cast<Eigen::Index>(p)) = std::exp(2 * at[p].value);
   return k;
@@ -164,10 +169,10 @@ std::unique_ptr<DeformedGreen::System> DeformedGreen::systemAt(const FieldState&
   if (solve.outcome() == SparseCholesky::Outcome::NotPositiveDefinite)
     throw DesignError("the conduction field: the load turns an element inside out");
   if (stop.stop_requested()) return {};
-  const Eigen::Matrix3Xd slopes = pressureSlopes(state);
-  return std::make_unique<System>(System{slopes, atElectrodes(state, slopes),
-                                         sources_.at(state.nodes_mm, state.electrodes_mm), std::move(values),
-                                         std::move(solve)});
+  std::vector<Eigen::Matrix3Xd> sources = sources_.at(state.nodes_mm, state.electrodes_mm);
+  const std::vector<double> reaches = reaches_mm(sources);
+  return std::make_unique<System>(
+      System{std::move(sources), reaches, atElectrodes(state, reaches, threads), std::move(values), std::move(solve)});
 }
 
 /// Right sides b of w are - oint s_q,n N_a - mean(N_a), or as k has it: rows of `boundary` less `evenly` times volumes.
@@ -185,8 +190,8 @@ DeformedGreen::SourceIntegrals DeformedGreen::integrals(const FieldState& state,
   Rows& right = result.boundary.right;
   if (state.conductivity.uneven()) {
     Eigen::MatrixXd& products = result.boundary.products;
-    UnevenConductivity(mesh_, state.nodes_mm, state.conductivity, system.pressureSlopes, reach_mm_)
-        .addIntegrals(system.sources, system.electrodes, threads, stop, right, products);
+    UnevenConductivity(mesh_, state.nodes_mm, state.conductivity)
+        .addIntegrals(system.sources, system.electrodes, system.reaches_mm, threads, stop, right, products);
     const Eigen::Index count = right.cols();
     Eigen::VectorXd inverse(count);
     for (int p = 0; p < count; ++p) inverse(p) = std::exp(-system.electrodes[std::size_t(p)].value);
@@ -312,8 +317,7 @@ std::optional<BoxGreen> DeformedGreen::at(const FieldState& state, int threads, 
 }
 
 std::optional<NodalPotential> DeformedGreen::potential(const FieldState& state, const Eigen::VectorXd& currents,
-                                                       double radius_mm, int threads,
-                                                       const std::stop_token& stop) const {
+                                                       int threads, const std::stop_token& stop) const {
   const std::unique_ptr<System> system = systemAt(state, threads, stop);
   if (!system) return {};
   const SourceIntegrals integral = integrals(state, *system, threads, stop);
@@ -352,20 +356,21 @@ std::optional<NodalPotential> DeformedGreen::potential(const FieldState& state, 
       for (Eigen::Index m = 0; m < of.cols(); ++m) {
         const Eigen::Vector3d d = point - of.col(m);
         const double r = d.norm();
-        const bool inside = r < radius_mm;
+        const bool inside = r < state.radius_mm;
         const double atSource = std::exp(-half[std::size_t(q)].value);
         const double own = (inside ? atSource : root) * atSource * currents(q) / kFourPi;
-        value += own / (inside ? radius_mm : r);
+        value += own / (inside ? state.radius_mm : r);
         if (gradient && !inside) *gradient -= own / r * (d / (r * r) + slope);
       }
     }
   };
+  const Eigen::Matrix3Xd pressureSlopes = this->pressureSlopes(state);
   forChunks(mesh_.nodes(), 256, threads, [&](int begin, int end) {
     if (stop.stop_requested()) return;
     for (int n = begin; n < end; ++n) {
       Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
       const double pressure = k.uneven() ? k.pressures_MPa(n) : 0;
-      addSources(state.nodes_mm.col(n), k.half(pressure), k.halfByPressure(pressure) * system->pressureSlopes.col(n),
+      addSources(state.nodes_mm.col(n), k.half(pressure), k.halfByPressure(pressure) * pressureSlopes.col(n),
                  result.value(n), &gradient);
       result.gradient.col(n) += gradient;
     }

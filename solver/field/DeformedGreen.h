@@ -5,6 +5,7 @@
 #include "solver/field/ConductionMatrix.h"
 #include "solver/field/Conductivity.h"
 #include "solver/field/FieldSources.h"
+#include "solver/field/SphericalMeans.h"
 #include "solver/field/UnevenConductivity.h"
 
 #include <memory>
@@ -19,6 +20,7 @@ struct FieldState {
   Eigen::Matrix3Xd nodes_mm;
   Eigen::Matrix3Xd electrodes_mm;
   Conductivity conductivity{};
+  double radius_mm = 0; ///< of the electrodes, on whose spheres an uneven conductivity is felt
 };
 
 /// Potential and its gradient at all nodes [1/mm, 1/mm2] for conductivity k, and the potential on each electrode.
@@ -49,11 +51,10 @@ public:
   /// k at the electrodes.
   [[nodiscard]] Eigen::VectorXd conductivities(const FieldState& state) const;
 
-  /// Potential of these currents (one an electrode, sum 0) from spheres of this radius, inside of which it is constant;
-  /// but for a constant. None: stopped.
+  /// Potential of these currents (one an electrode, sum 0) from the electrodes' spheres, inside of which it is
+  /// constant; but for a constant. None: stopped.
   [[nodiscard]] std::optional<NodalPotential> potential(const FieldState& state, const Eigen::VectorXd& currents,
-                                                        double radius_mm, int threads,
-                                                        const std::stop_token& stop) const;
+                                                        int threads, const std::stop_token& stop) const;
 
 private:
   /// An element and a point in it.
@@ -63,9 +64,11 @@ private:
   };
   /// Where each electrode lies in the deformed mesh: in all elements around it.
   [[nodiscard]] std::vector<std::vector<Place>> places(const FieldState& state) const;
-  [[nodiscard]] std::vector<AtElectrode> atElectrodes(const FieldState& state, const Eigen::Matrix3Xd& slopes) const;
-  /// Of the pressure in space, at the nodes: means of the elements around, which jump where the pressure is smooth. At
-  /// an electrode such a jump would add logarithms of the mesh's size to grad l . grad(s^2).
+  [[nodiscard]] std::vector<AtElectrode> atElectrodes(const FieldState& state, const std::vector<double>& reaches_mm,
+                                                      int threads) const;
+  /// Of balls around the electrodes that end at the nearest face.
+  [[nodiscard]] std::vector<double> reaches_mm(const std::vector<Eigen::Matrix3Xd>& sources_mm) const;
+  /// Of the pressure in space, at the nodes: means of the elements around.
   [[nodiscard]] Eigen::Matrix3Xd pressureSlopes(const FieldState& state) const;
   /// What a node's value adds to a gradient.
   struct Slope {
@@ -85,6 +88,7 @@ private:
   FieldSources sources_;
   BoundaryIntegrals boundary_;
   ConductionMatrix matrix_;
+  SphericalMeans means_;
   std::vector<std::vector<Place>> atRest_;
   std::vector<std::vector<int>> neighbours_; ///< elements around those
 };

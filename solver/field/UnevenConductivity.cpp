@@ -22,19 +22,16 @@ using Rows = ConductionSolve::Rows;
 } // namespace
 
 UnevenConductivity::UnevenConductivity(const FieldMesh& mesh, const Eigen::Matrix3Xd& nodes_mm,
-                                       const Conductivity& conductivity, const Eigen::Matrix3Xd& pressureSlopes,
-                                       double reach_mm)
-    : mesh_(&mesh), reach_mm_(reach_mm), elements_(std::size_t(mesh.elements())),
-      at_(Eigen::Index(mesh.elements()) * kRulePoints, 6), volumes_(at_.rows()) {
+                                       const Conductivity& conductivity)
+    : mesh_(&mesh) {
   const Eigen::MatrixXi& nodes = mesh.tets().elements;
   const auto pressuresOf = [&](int e) -> Eigen::Matrix<double, 10, 1> {
     return conductivity.pressures_MPa(nodes.col(e));
   };
-  for (int e = 0; e < mesh.elements(); ++e) elements_[std::size_t(e)] = e;
-  const auto even = std::stable_partition(elements_.begin(), elements_.end(),
-                                          [&](int e) { return (pressuresOf(e).array() > 0).any(); });
-  uneven_ = static_cast<int>(even - elements_.begin());
-  squareSlopes_.resize(Eigen::Index(uneven_) * kRulePoints);
+  for (int e = 0; e < mesh.elements(); ++e)
+    if ((pressuresOf(e).array() > 0).any()) elements_.push_back(e);
+  at_.resize(static_cast<Eigen::Index>(elements_.size()) * kRulePoints, 6);
+  squareSlopes_.resize(at_.rows());
   shapes_.resize(10, squareSlopes_.size());
   gradients_.resize(10, squareSlopes_.size());
   const TetRule& rule = tetRule();
@@ -47,14 +44,10 @@ UnevenConductivity::UnevenConductivity(const FieldMesh& mesh, const Eigen::Matri
       const Eigen::Matrix<double, 10, 3>& local = rule.gradients[std::size_t(q)];
       const Eigen::Matrix3d map = places * local;
       const double volume = rule.weights[std::size_t(q)] * map.determinant() / 6;
-      volumes_(point) = volume;
       at_.row(point).head<3>() = (places * rule.shapes.col(q)).transpose();
-      at_.row(point).tail<3>().setZero();
-      if (static_cast<int>(i) >= uneven_) continue;
       const Eigen::Matrix<double, 10, 3> gradients = local * map.inverse();
       const double p = rule.shapes.col(q).dot(pressures), m = std::exp(conductivity.half(p));
-      const Eigen::Vector3d slope =
-          conductivity.halfByPressure(p) * (pressureSlopes(Eigen::all, own) * rule.shapes.col(q));
+      const Eigen::Vector3d slope = conductivity.halfByPressure(p) * (gradients.transpose() * pressures);
       at_.row(point).tail<3>() = volume * slope.transpose();
       squareSlopes_(point) = volume * slope.squaredNorm() / 2;
       shapes_.col(point) = m * rule.shapes.col(q);
@@ -98,21 +91,17 @@ void UnevenConductivity::addElements(int first, int count, const std::vector<Eig
   }
 }
 
-/// What the quadrature makes of integral slope . grad(s) chi and of integral slope . grad(s^2) chi, with s = 1/(4 pi r)
-/// and chi = (1 - (r / reach)^2)^2 up to the nearest face: poles of second and third order, too steep for it, that are
-/// odd, so that the integrals themselves are zero.
-UnevenConductivity::Poles UnevenConductivity::poles(const Eigen::Matrix3Xd& sources_mm,
-                                                    const Eigen::Vector3d& slope) const {
-  const Eigen::Vector3d centre = sources_mm.col(0);
-  double reach = reach_mm_; // a face nearer than that has an image, so that the ball lies in the block
-  for (Eigen::Index m = 1; m < sources_mm.cols(); ++m) reach = std::min(reach, (sources_mm.col(m) - centre).norm() / 2);
+/// What the quadrature makes of the integrals of grad l . grad(s) chi and grad l . grad(s^2) chi as AtElectrode has
+/// them: poles of second and third order, too steep for it.
+UnevenConductivity::Poles UnevenConductivity::poles(const Eigen::Vector3d& centre_mm, double reach_mm) const {
   Poles sums;
   for (Eigen::Index i = 0; i < at_.rows(); ++i) {
-    const Eigen::Vector3d d = at_.row(i).head<3>().transpose() - centre;
+    const Eigen::Vector3d d = at_.row(i).head<3>().transpose() - centre_mm;
     const double square = d.squaredNorm();
-    if (square >= reach * reach) continue;
-    const double cut = 1 - square / (reach * reach), s = 1 / (kFourPi * std::sqrt(square));
-    const double simple = -volumes_(i) * cut * cut * s * slope.dot(d) / square;
+    if (square >= reach_mm * reach_mm) continue;
+    const double s = 1 / (kFourPi * std::sqrt(square));
+    const double simple =
+        -AtElectrode::cutOff(square / (reach_mm * reach_mm)) * s * at_.row(i).tail<3>().dot(d) / square;
     sums.simple += simple;
     sums.square += 2 * s * simple;
   }
@@ -120,13 +109,14 @@ UnevenConductivity::Poles UnevenConductivity::poles(const Eigen::Matrix3Xd& sour
 }
 
 void UnevenConductivity::addIntegrals(const std::vector<Eigen::Matrix3Xd>& sources_mm,
-                                      const std::vector<AtElectrode>& electrodes, int threads,
-                                      const std::stop_token& stop, Rows& right, Eigen::MatrixXd& products) const {
+                                      const std::vector<AtElectrode>& electrodes, const std::vector<double>& reaches_mm,
+                                      int threads, const std::stop_token& stop, Rows& right,
+                                      Eigen::MatrixXd& products) const {
   constexpr int parts = 8, elementsAPiece = 16, elementsAWave = parts * 16 * elementsAPiece;
-  const auto count = static_cast<int>(sources_mm.size());
+  const auto count = static_cast<int>(sources_mm.size()), uneven = static_cast<int>(elements_.size());
   std::vector<Eigen::MatrixXd> of(parts, Eigen::MatrixXd::Zero(count, count));
-  for (int wave = 0; wave < uneven_ && !stop.stop_requested(); wave += elementsAWave) {
-    const int some = std::min(elementsAWave, uneven_ - wave);
+  for (int wave = 0; wave < uneven && !stop.stop_requested(); wave += elementsAWave) {
+    const int some = std::min(elementsAWave, uneven - wave);
     Rows onElements(10 * Eigen::Index(some), count);
     forChunks(parts, 1, threads, [&](int part, int) {
       const int last = (part + 1) * some / parts;
@@ -146,11 +136,14 @@ void UnevenConductivity::addIntegrals(const std::vector<Eigen::Matrix3Xd>& sourc
     });
   }
   for (const Eigen::MatrixXd& part : of) products += part;
-  // Without what the quadrature makes of the electrodes' poles, times what stands beside them there.
+  // The electrodes' poles, times what stands beside them there, by spheres instead of the quadrature.
   std::vector<Poles> poles(sources_mm.size());
   Eigen::MatrixXd beside(count, count);
   inParallel(poles.size(), threads, [&](std::size_t p) {
-    if (!stop.stop_requested()) poles[p] = this->poles(sources_mm[p], electrodes[p].slope);
+    if (stop.stop_requested()) return;
+    poles[p] = this->poles(sources_mm[p].col(0), reaches_mm[p]);
+    poles[p].simple -= electrodes[p].simple;
+    poles[p].square -= electrodes[p].square;
   });
   forChunks(count, 8, threads, [&](int begin, int end) {
     for (int p = begin; p < end; ++p) {
@@ -167,11 +160,11 @@ void UnevenConductivity::addIntegrals(const std::vector<Eigen::Matrix3Xd>& sourc
   });
   products -= beside + beside.transpose();
   for (int p = 0; p < count; ++p) {
-    const auto& [value, slope, element, shapes] = electrodes[static_cast<std::size_t>(p)];
+    const AtElectrode& at = electrodes[static_cast<std::size_t>(p)];
     const Poles& pole = poles[static_cast<std::size_t>(p)];
     products(p, p) -= pole.square;
     for (int n = 0; n < 10; ++n)
-      right(mesh_->tets().elements(n, element), p) -= std::exp(value) * shapes(n) * pole.simple;
+      right(mesh_->tets().elements(n, at.element), p) -= std::exp(at.value) * at.shapes(n) * pole.simple;
   }
 }
 

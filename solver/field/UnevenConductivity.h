@@ -2,6 +2,7 @@
 
 #include "solver/field/ConductionMatrix.h"
 #include "solver/field/FieldMesh.h"
+#include "solver/field/SphericalMeans.h"
 
 #include <Eigen/Core>
 
@@ -10,30 +11,21 @@
 
 namespace palp {
 
-/// l = ln(k) / 2 and its gradient at an electrode, and the element that it is in.
-struct AtElectrode {
-  double value = 0;
-  Eigen::Vector3d slope = Eigen::Vector3d::Zero();
-  int element = 0;
-  Eigen::Matrix<double, 10, 1> shapes = Eigen::Matrix<double, 10, 1>::Zero();
-};
-
 /// A conductivity k that varies over the deformed block. With l = ln(k)/2 and m = e^l a source is s_q / (m m_q), which
 /// solves div(k grad .) but for the Laplacian of m (J. Liouville's substitution). Weakly:
 ///   integral k grad(s_q / (m m_q)) . grad v = v(x_q) + (oint m s_q,n v - integral grad m . grad(s_q v)) / m_q
 /// Here are the integrals over the volume.
 class UnevenConductivity {
 public:
-  /// Faces nearer to an electrode than `reach_mm` have an image; `pressureSlopes` are those at the nodes.
-  UnevenConductivity(const FieldMesh& mesh, const Eigen::Matrix3Xd& nodes_mm, const Conductivity& conductivity,
-                     const Eigen::Matrix3Xd& pressureSlopes, double reach_mm);
+  UnevenConductivity(const FieldMesh& mesh, const Eigen::Matrix3Xd& nodes_mm, const Conductivity& conductivity);
 
   /// `right` (nodes x sources) += integral grad m . grad(s_q N_a);
   /// `products` += integral grad l . grad(s_p s_q) - |grad l|^2 s_p s_q, for p <= q by whole batches.
-  /// Each electrode is the first of its sources. The same bytes at any number of threads.
+  /// Each electrode is the first of its sources; within `reaches_mm` its own poles are as SphericalMeans has them. The
+  /// same bytes at any number of threads.
   void addIntegrals(const std::vector<Eigen::Matrix3Xd>& sources_mm, const std::vector<AtElectrode>& electrodes,
-                    int threads, const std::stop_token& stop, ConductionSolve::Rows& right,
-                    Eigen::MatrixXd& products) const;
+                    const std::vector<double>& reaches_mm, int threads, const std::stop_token& stop,
+                    ConductionSolve::Rows& right, Eigen::MatrixXd& products) const;
 
 private:
   void addElements(int first, int count, const std::vector<Eigen::Matrix3Xd>& sources_mm,
@@ -42,16 +34,13 @@ private:
   struct Poles {
     double simple = 0, square = 0;
   };
-  [[nodiscard]] Poles poles(const Eigen::Matrix3Xd& sources_mm, const Eigen::Vector3d& slope) const;
+  [[nodiscard]] Poles poles(const Eigen::Vector3d& centre_mm, double reach_mm) const;
 
   const FieldMesh* mesh_;
-  double reach_mm_;
-  std::vector<int> elements_;                   ///< all; first those in which k is not 1
-  int uneven_ = 0;                              ///< how many those are
-  Eigen::Matrix<double, Eigen::Dynamic, 6> at_; ///< points of all elements x (place, volume times grad l)
-  Eigen::VectorXd volumes_;                     ///< that each point stands for
-  Eigen::VectorXd squareSlopes_;                ///< |grad l|^2 / 2 times it; of the first elements' points
-  Eigen::MatrixXd shapes_, gradients_;          ///< of those, 10 x points: m N_a, m grad l . grad N_a times volume
+  std::vector<int> elements_;                   ///< those in which k is not 1
+  Eigen::Matrix<double, Eigen::Dynamic, 6> at_; ///< their points x (place, volume times grad l)
+  Eigen::VectorXd squareSlopes_;                ///< |grad l|^2 / 2 times volume
+  Eigen::MatrixXd shapes_, gradients_;          ///< 10 x points: m N_a, m grad l . grad N_a times volume
 };
 
 } // namespace palp

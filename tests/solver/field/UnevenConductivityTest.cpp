@@ -25,7 +25,10 @@ struct UnevenBlock {
   /// With k = 1 at least, and above that what it is at each node.
   [[nodiscard]] FieldState with(const std::function<double(const Eigen::Vector3d&)>& conductivity) const {
     const Eigen::Matrix3Xd& nodes = green->mesh().tets().nodes_mm;
-    FieldState state{nodes, electrodes, {Eigen::VectorXd(nodes.cols()), {.p0_MPa = 1, .exponent = 1}}}; // k = 1 + p
+    FieldState state{nodes,
+                     electrodes,
+                     {Eigen::VectorXd(nodes.cols()), {.p0_MPa = 1, .exponent = 1}},
+                     law.electrodeRadius_mm}; // k = 1 + p
     for (Eigen::Index n = 0; n < nodes.cols(); ++n)
       state.conductivity.pressures_MPa(n) = conductivity(nodes.col(n)) - 1;
     return state;
