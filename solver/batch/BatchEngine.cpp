@@ -15,8 +15,15 @@ namespace {
 
 constexpr int predictorDegree = 3;
 constexpr int contactSpan = 4; // iterations over which the contraction of a load with indenters is measured
+// Touches' residuals are found in single precision for this tolerance, and where kappa is no more than so many times
+// the shear modulus: in a stiffer volume rounding weighs as much as the load.
+constexpr double singleTolerance = 5e-7, singleStiffness = 1e3;
 constexpr double predictorFitShare =
     10; // of the tolerance, for the predictors' solves: a correction follows, 20 times better
+
+bool isSoft(const RubberConstants& rubber) {
+  return 2 * (rubber.c10_MPa + rubber.c01_MPa) * rubber.tangentCompressibility_per_MPa * singleStiffness >= 1;
+}
 
 bool hasFriction(const LoadCase& load) {
   return std::any_of(load.indenters.begin(), load.indenters.end(),
@@ -27,10 +34,12 @@ bool hasFriction(const LoadCase& load) {
 
 BatchEngine::BatchEngine(const HyperelasticProblem& problem, std::shared_ptr<const InitialTangent> rest,
                          double tolerance, int threads, std::optional<Rectangle> touched)
-    : problem_(problem), rest_(std::move(rest)), model_(problem_.parts(), *rest_),
+    : problem_(problem), rest_(std::move(rest)),
+      model_(problem_.parts(), *rest_,
+             touched ? ElementwiseTangent::Order::OfFactor : ElementwiseTangent::Order::OfMesh),
       polynomial_(problem.design().forceRange, predictorDegree),
       terms_((polynomial_.terms() + lanes - 1) / lanes * lanes), predictorTolerance_(predictorFitShare * tolerance),
-      threads_(threads), touched_(std::move(touched)) {
+      threads_(threads), volumeIsSoft_(isSoft(model_.rubber())), touched_(std::move(touched)) {
   const int areas = problem.design().areas.count();
   for (int a = 0; a < areas; ++a)
     areaShares_.push_back(tractionShares(problem.mesh(), regionOf(problem.design().areaRectangle(a))));
@@ -85,8 +94,7 @@ void BatchEngine::rest() {
 
 /// False: stopped.
 bool BatchEngine::findCompliance(const std::vector<Job>& jobs, const std::stop_token& stop) {
-  const bool wanted =
-      std::any_of(jobs.begin(), jobs.end(), [](const Job& job) { return !job.load->indenters.empty(); });
+  const bool wanted = std::any_of(jobs.begin(), jobs.end(), [](const Job& job) { return isTouch(job); });
   if (wanted && !top_) top_ = TopCompliance::find(model_, problem_.mesh(), touched_, threads_, stop);
   return !wanted || top_;
 }
@@ -184,10 +192,10 @@ AreaPredictor BatchEngine::fitted(const LoadBatch& batch, const std::vector<Eige
   return predictor;
 }
 
-/// Blocks of loads with the same predictors and about as much work each, so that the loads of a block end their
-/// iterations together, and the blocks with most of it first: a predictor's error relative to the answer falls with the
-/// force, and touches take the more iterations the larger the strain, which goes with the force over the square of the
-/// size.
+/// Blocks of loads with the same predictors, touches or not, and about as much work each, so that the loads of a block
+/// end their iterations together, and the blocks with most of it first: a predictor's error relative to the answer
+/// falls with the force, and touches take the more iterations the larger the strain, which goes with the force over the
+/// square of the size.
 std::vector<BatchEngine::Block> BatchEngine::blocksOf(std::vector<Job> jobs) const {
   const auto work = [](const Job& job) {
     double sum = 0;
@@ -199,25 +207,26 @@ std::vector<BatchEngine::Block> BatchEngine::blocksOf(std::vector<Job> jobs) con
     return sum;
   };
   std::stable_sort(jobs.begin(), jobs.end(), [&](const Job& a, const Job& b) { return work(a) > work(b); });
-  std::map<std::vector<int>, std::vector<Block>> byPredictors;
+  std::map<std::pair<bool, std::vector<int>>, std::vector<Block>> alike;
   for (Job& job : jobs) {
     std::erase_if(job.predicted, [&](int area) { return !predictors_[area]; });
-    std::vector<Block>& blocks = byPredictors[job.predicted];
+    std::vector<Block>& blocks = alike[{isTouch(job), job.predicted}];
     if (blocks.empty() || blocks.back().size() == lanes) blocks.emplace_back();
     blocks.back().push_back(std::move(job));
   }
   std::vector<Block> all;
-  for (auto& [key, blocks] : byPredictors) std::move(blocks.begin(), blocks.end(), std::back_inserter(all));
+  for (auto& [key, blocks] : alike) std::move(blocks.begin(), blocks.end(), std::back_inserter(all));
   return all;
 }
 
 /// Loads of a block and where its iteration starts: the predictors of its areas, superposed.
-void BatchEngine::start(LoadBatch& batch, LaneContacts& contacts, int block, const Block& jobs) const {
-  batch.reset(block);
+void BatchEngine::start(LoadBatch& batch, LaneContacts& contacts, int block, const Block& jobs,
+                        double tolerance) const {
+  batch.reset(block, isTouch(jobs.front()) && tolerance >= singleTolerance && volumeIsSoft_);
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     const int lane = block * lanes + static_cast<int>(i);
     contacts[lane].reset();
-    if (!jobs[i].load->indenters.empty()) {
+    if (isTouch(jobs[i])) {
       if (hasFriction(*jobs[i].load))
         contacts[lane] =
             std::make_unique<FrictionContact>(jobs[i].load->indenters, top_, problem_.mesh(), problem_.design());
@@ -293,7 +302,7 @@ void BatchEngine::solveBlocks(double tolerance, const Take& take, const Give& gi
   while (!stop.stop_requested()) {
     for (int b = 0; b < LoadBatch::blocks; ++b) {
       if (inWork[b] || !(inWork[b] = take())) continue;
-      start(*batch, contacts, b, *inWork[b]);
+      start(*batch, contacts, b, *inWork[b], tolerance);
       for (std::size_t i = 0; i < inWork[b]->size(); ++i) {
         const int lane = b * lanes + static_cast<int>(i);
         if (contacts[lane])

@@ -53,7 +53,8 @@ private:
     std::vector<TractionShares> patchShares;
     const LoadCase* load = nullptr;
   };
-  using Block = std::vector<Job>; ///< up to 8 with the same predictors
+  static bool isTouch(const Job& job) { return !job.load->indenters.empty(); }
+  using Block = std::vector<Job>; ///< up to 8 with the same predictors, touches or not
 
   [[nodiscard]] Job job(const LoadCase& load, std::size_t index) const;
   [[nodiscard]] bool findCompliance(const std::vector<Job>& jobs, const std::stop_token& stop);
@@ -65,7 +66,7 @@ private:
   template <class Take, class Give>
   void solveBlocks(double tolerance, const Take& take, const Give& give, const std::stop_token& stop);
   using LaneContacts = std::array<std::unique_ptr<LaneContact>, batchLanes>;
-  void start(LoadBatch& batch, LaneContacts& contacts, int block, const Block& jobs) const;
+  void start(LoadBatch& batch, LaneContacts& contacts, int block, const Block& jobs, double tolerance) const;
   void iterate(LoadBatch& batch, LaneContacts& contacts, LaneWatch& watch, const std::stop_token& stop) const;
   void goOn(LoadBatch& batch, const LaneContacts& contacts, LaneWatch& watch,
             const std::array<bool, batchLanes>& wasActive) const;
@@ -80,6 +81,7 @@ private:
   int terms_; ///< of the polynomial, filled up to whole lanes
   double predictorTolerance_;
   int threads_;
+  bool volumeIsSoft_;
   std::optional<Rectangle> touched_;
   std::vector<TractionShares> areaShares_;
   std::vector<std::optional<AreaPredictor>> predictors_;

@@ -15,19 +15,19 @@ std::size_t at(std::size_t row, int block) {
 
 /// Asks for the numbers of a block at an element's nodes, in [3 nodes][32], before they are needed: they lie anywhere
 /// in an array that no cache holds. Past the last element nothing is asked for.
-inline void prefetch(const Discretisation& mesh, int element, int block, const double* values) {
-  if (element >= mesh.elements()) return;
-  for (int n = 0; n < mesh.kernels().nodes; ++n)
-    for (int d = 0; d < 3; ++d) __builtin_prefetch(values + at(3 * std::size_t(mesh.node(element, n)) + d, block));
+inline void prefetch(const ElementwiseTangent& model, int place, int block, const double* values) {
+  if (place >= model.mesh().elements()) return;
+  for (int n = 0; n < model.mesh().kernels().nodes; ++n)
+    for (int d = 0; d < 3; ++d) __builtin_prefetch(values + at(3 * std::size_t(model.nodes(place)[n]) + d, block));
 }
 
 /// The same of the directions [rows of the factor + 1][32].
-inline void prefetch(const Discretisation& mesh, int element, int block, const float* directions,
-                     const std::vector<int>& rows) {
-  if (element >= mesh.elements()) return;
-  for (int n = 0; n < mesh.kernels().nodes; ++n)
+inline void prefetch(const ElementwiseTangent& model, int place, int block, const float* directions) {
+  if (place >= model.mesh().elements()) return;
+  for (int n = 0; n < model.mesh().kernels().nodes; ++n)
     for (int d = 0; d < 3; ++d)
-      __builtin_prefetch(directions + at(std::size_t(rows[3 * std::size_t(mesh.node(element, n)) + d]), block));
+      __builtin_prefetch(directions +
+                         at(std::size_t(model.factorRows()[3 * std::size_t(model.nodes(place)[n]) + d]), block));
 }
 
 } // namespace
@@ -38,10 +38,10 @@ LoadBatch::LoadBatch(const ElementwiseTangent& model, const PointProbe& upper, c
       solution_(std::size_t(model.rightSideRows()) * batchLanes), probed_(model.mesh().elements()) {
   for (const PointProbe* probe : {&upper_, &lower_})
     for (const auto& holders : probe->holders())
-      for (const PointProbe::Holder& holder : holders) probed_[holder.element] = 1;
+      for (const PointProbe::Holder& holder : holders) probed_[model.placeOf(holder.element)] = 1;
 }
 
-void LoadBatch::reset(int block) {
+void LoadBatch::reset(int block, bool inSingle) {
   const std::size_t own = std::size_t(model_.mesh().unknowns()) * lanes;
   for (std::size_t row = 0; row < 3 * std::size_t(model_.mesh().nodes()); ++row)
     std::fill_n(u_.data() + at(row, block), lanes, 0.);
@@ -55,6 +55,7 @@ void LoadBatch::reset(int block) {
   }
   atRest_[block] = true;
   behind_[block] = false;
+  inSingle_[block] = inSingle;
 }
 
 void LoadBatch::mix(int lane) {
@@ -90,8 +91,8 @@ void LoadBatch::startAnew() {
   }
 }
 
-void LoadBatch::startAnew(int element, int block) {
-  const std::size_t own = ownStart(element, block);
+void LoadBatch::startAnew(int place, int block) {
+  const std::size_t own = ownStart(place, block);
   laneKernels().goAhead(x_.data() + own, xBefore_.data() + own, model_.mesh().unknowns(), lanes,
                         begins_.data() + block * lanes, ahead_.data() + block * lanes);
 }
@@ -105,7 +106,7 @@ void LoadBatch::addPolynomials(int block, const std::vector<double>& displacemen
   const int own = model_.mesh().unknowns();
   for (int e = 0; e < model_.mesh().elements(); ++e)
     kernels.addPolynomials(unknowns.data() + std::size_t(e) * own * terms, terms, monomials, own,
-                           x_.data() + (std::size_t(e) * blocks + block) * own * lanes, lanes);
+                           x_.data() + ownStart(model_.placeOf(e), block), lanes);
 }
 
 /// Residuals of the live blocks, whose unknowns catch up on the way: they stand in the cache here.
@@ -127,13 +128,13 @@ void LoadBatch::evaluateResiduals(const std::array<bool, blocks>& live, const st
   alignas(64) std::array<std::array<double, 2 * lanes>, blocks> range;
   for (auto& r : range) r.fill(1);
   for (int e = 0; e < mesh.elements() && !stop.stop_requested(); ++e) {
-    const int* nodes = mesh.elementNodes(e);
+    const int* nodes = model_.nodes(e);
     for (int b = 0; b < blocks; ++b) {
       if (!live[b]) continue;
-      prefetch(mesh, e + 1, b, u_.data());
-      prefetch(mesh, e + 1, b, r_.data());
+      prefetch(model_, e + 1, b, u_.data());
+      prefetch(model_, e + 1, b, r_.data());
       const std::size_t own = ownStart(e, b);
-      if (behind_[b]) prefetch(mesh, e + 1, b, solution_.data(), model_.factorRows());
+      if (behind_[b]) prefetch(model_, e + 1, b, solution_.data());
       if (behind_[b] && !probed_[e]) updateUnknowns(e, b);
       if (anew[b] && !probed_[e]) startAnew(e, b);
       if (atRest_[b]) { // no forces, no volume change, and no rounding errors of either
@@ -141,8 +142,9 @@ void LoadBatch::evaluateResiduals(const std::array<bool, blocks>& live, const st
         continue;
       }
       laneKernels().gather(u_.data() + b * lanes, nodes, kernels.nodes, u.data());
-      kernels.residualOfLoads(model_.rubber(), {model_.geometry(e), u.data(), x_.data() + own},
-                              {f.data(), local_.data() + own, range[b].data()});
+      const auto residual = inSingle_[b] ? kernels.residualOfLoadsInSingle : kernels.residualOfLoads;
+      residual(model_.rubber(), {model_.geometry(e), u.data(), x_.data() + own},
+               {f.data(), local_.data() + own, range[b].data()});
       kernels.condenseLoads(model_.elimination(e), local_.data() + own, f.data());
       laneKernels().subtract(f.data(), nodes, kernels.nodes, r_.data() + b * lanes);
     }
@@ -166,18 +168,18 @@ void LoadBatch::moveAlongDirections() {
 }
 
 /// dx = -Kxx^-1 local - W du with the directions du found last.
-void LoadBatch::updateUnknowns(int element, int block) {
+void LoadBatch::updateUnknowns(int place, int block) {
   const Discretisation& mesh = model_.mesh();
   const ElementKernels& kernels = mesh.kernels();
-  const std::size_t own = ownStart(element, block);
+  const std::size_t own = ownStart(place, block);
   alignas(64) ElementLanes du, dx;
   const double* scale = scale_.data() + block * lanes;
-  laneKernels().gatherScaled(solution_.data() + block * lanes, model_.factorRows().data(), scale,
-                             mesh.elementNodes(element), kernels.nodes, du.data());
-  kernels.recoverLoads(model_.elimination(element), model_.localInverse(element), local_.data() + own, du.data(),
+  laneKernels().gatherScaled(solution_.data() + block * lanes, model_.factorRows().data(), scale, model_.nodes(place),
+                             kernels.nodes, du.data());
+  kernels.recoverLoads(model_.elimination(place), model_.localInverse(place), local_.data() + own, du.data(),
                        dx.data());
   const int count = mesh.unknowns();
-  if (mixing_) return mixing_->moveFollowing(block, std::size_t(element) * count, count, dx.data(), x_.data() + own);
+  if (mixing_) return mixing_->moveFollowing(block, std::size_t(place) * count, count, dx.data(), x_.data() + own);
   for (int i = 0; i < count * lanes; ++i)
     if (scale[i % lanes] > 0) x_[own + i] += dx[i];
 }

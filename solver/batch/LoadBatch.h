@@ -37,7 +37,7 @@ struct NodeForce {
 ///   lane          0 .. 7    8 .. 15   16 .. 23  24 .. 31
 ///   block         0         1         2         3           a block begins and ends for itself
 ///   u, r          [3 nodes][32 lanes]                       for the substitutions
-///   x, local      [elements][4 blocks][unknowns][8 lanes]   for the elements
+///   x, local      [elements][4 blocks][unknowns][8 lanes]   for the elements, in the order of ElementwiseTangent
 ///
 /// Lanes do not mix: what comes out of one depends on its own load alone, to the last byte.
 class LoadBatch {
@@ -46,8 +46,9 @@ public:
 
   LoadBatch(const ElementwiseTangent& model, const PointProbe& upper, const PointProbe& lower);
 
-  /// A block's lanes at rest, without loads.
-  void reset(int block);
+  /// A block's lanes at rest, without loads. `inSingle`: the elements' residuals are found in single precision, which
+  /// leaves an error of a few times 1e-7 of the answer.
+  void reset(int block, bool inSingle = false);
   void addForce(int lane, const LaneForce& force) { forces_[lane].push_back(force); }
   /// A lane whose forces answer to the motion: its steps are mixed (LaneMixing.h).
   void mix(int lane);
@@ -88,7 +89,9 @@ public:
   /// Nothing more will be asked of a block before it is reset.
   void retire(int block) { behind_[block] = false; }
   /// The element's own unknown k; of a block that has caught up.
-  [[nodiscard]] double unknown(int element, int k, int lane) const { return x_[unknownIndex(element, k, lane)]; }
+  [[nodiscard]] double unknown(int element, int k, int lane) const {
+    return x_[unknownIndex(model_.placeOf(element), k, lane)];
+  }
 
 private:
   void evaluateResiduals(const std::array<bool, blocks>& live, const std::stop_token& stop);
@@ -102,17 +105,17 @@ private:
   void addToRight(int lane, const std::vector<NodeForce>& forces);
   [[nodiscard]] bool begins(int block) const;
   void startAnew();
-  void startAnew(int element, int block);
+  void startAnew(int place, int block);
   void moveAlongDirections();
-  void updateUnknowns(int element, int block);
+  void updateUnknowns(int place, int block);
   [[nodiscard]] LaneVector displacementsAt(const PointProbe& probe) const; ///< [3 points][32]
   [[nodiscard]] LaneVector pressuresAt(const PointProbe& probe) const;     ///< [points][32], compression positive
-  [[nodiscard]] std::size_t unknownIndex(int element, int k, int lane) const {
-    return laneIndex(std::size_t(element) * batchLanes + lane, model_.mesh().unknowns(), k);
+  [[nodiscard]] std::size_t unknownIndex(int place, int k, int lane) const {
+    return laneIndex(std::size_t(place) * batchLanes + lane, model_.mesh().unknowns(), k);
   }
-  /// Of an element's own unknowns in x_ and local_, for the lanes of a block.
-  [[nodiscard]] std::size_t ownStart(int element, int block) const {
-    return (std::size_t(element) * blocks + block) * model_.mesh().unknowns() * lanes;
+  /// Of the own unknowns of the element at a place in x_ and local_, for the lanes of a block.
+  [[nodiscard]] std::size_t ownStart(int place, int block) const {
+    return (std::size_t(place) * blocks + block) * model_.mesh().unknowns() * lanes;
   }
 
   const ElementwiseTangent& model_;
@@ -126,8 +129,8 @@ private:
   std::array<int, batchLanes> begins_{}, ahead_{}; ///< -1: a load begins, and further on than where the lane is
   FloatLanes solution_;      ///< [rows of the factor + 1][32]; directions over scale_ after the substitutions
   FloatLanes held_;          ///< of the solution along a path, in between
-  std::vector<char> probed_; ///< elements that an electrode looks at: their unknowns are always up to date
-  std::array<bool, blocks> atRest_{}, behind_{};
+  std::vector<char> probed_; ///< places of elements that an electrode looks at: their unknowns are always up to date
+  std::array<bool, blocks> atRest_{}, behind_{}, inSingle_{};
   std::array<double, batchLanes> scale_{};
   std::array<double, batchLanes> smallestJ_{};
 };

@@ -75,6 +75,8 @@ struct ElementKernels {
   void (*residual)(const RubberConstants&, const ElementInput&, const ElementResidual&);
   /// One element, 8 loads: `geometry` holds one number an item.
   void (*residualOfLoads)(const RubberConstants&, const ElementInput&, const ElementResidual&);
+  /// The same exact to a few times 1e-7 of itself: in single precision where that is faster.
+  void (*residualOfLoadsInSingle)(const RubberConstants&, const ElementInput&, const ElementResidual&);
   void (*tangent)(const RubberConstants&, const ElementInput&, const ElementResidual&, const ElementTangent&);
   /// forces -= W^T local: 8 elements, or one element (W [unknowns * d]) and 8 loads.
   void (*condense)(const double* elimination, const double* local, double* forces);

@@ -13,6 +13,8 @@
 #include <atomic>
 #include <charconv>
 #include <cmath>
+#include <functional>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -98,15 +100,18 @@ LoadCase SampleGenerator::load(std::size_t i) const {
   return load;
 }
 
-/// Parts are solved side by side and share the threads.
-int SampleGenerator::partsAtOnce() const {
-  return std::min(threadCount(request_.threads), static_cast<int>(parts_.size()));
+/// Parts are solved side by side and share the threads, as many at a time as there are threads; the last of them, where
+/// they are fewer, have all threads among them.
+int SampleGenerator::partsBeside(std::size_t index) const {
+  const auto threads = static_cast<std::size_t>(threadCount(request_.threads)), last = parts_.size() % threads;
+  return static_cast<int>(index < parts_.size() - last ? threads : last);
 }
 
 bool SampleGenerator::prepare(Part& part, bool checked, const std::stop_token& stop) {
   if (part.solver) return true;
   MeshOptions options = request_.mesh;
-  BatchOptions batch{request_.relativeTolerance, request_.surrogate, threadCount(request_.threads) / partsAtOnce()};
+  const int beside = partsBeside(static_cast<std::size_t>(&part - parts_.data()));
+  BatchOptions batch{request_.relativeTolerance, request_.surrogate, threadCount(request_.threads) / beside};
   batch.checkFirst = checked;
   if (part.touches) {
     options = meshForPart(design_, *part.touches, options);
@@ -267,18 +272,20 @@ ConductionBatch::Answers SampleGenerator::answers(const SampleRange& part, bool 
   for (std::size_t i = 0; i < loads.size(); ++i) ofParts[partOf(loads[i])].push_back(i);
   ConductionBatch::Answers all{std::vector<ElectrodeDisplacements>(loads.size()),
                                std::vector<Eigen::MatrixXd>(loads.size())};
-  std::vector<std::size_t> inWork;
+  std::map<int, std::vector<std::size_t>, std::greater<>> inWork; // by how many are solved side by side
   for (std::size_t p = 0; p < parts_.size(); ++p)
-    if (!ofParts[p].empty()) inWork.push_back(p);
+    if (!ofParts[p].empty()) inWork[partsBeside(p)].push_back(p);
   const bool first = std::none_of(parts_.begin(), parts_.end(), [](const Part& p) { return p.solver || p.solves > 0; });
   std::size_t done = 0;
   ProgressRelay relay([&](std::size_t more) { progress(done += more); });
   std::atomic<bool> whole = true;
-  inParallel(inWork.size(), partsAtOnce(), [&](std::size_t k) {
-    const std::size_t p = inWork[k];
-    if (!answerPart(p, first && k == 0, loads, part.first, ofParts[p], relay, stop, all)) whole = false;
-    if (last) parts_[p].giveBack();
-  });
+  const std::size_t checked = inWork.begin()->second.front();
+  for (const auto& [beside, some] : inWork)
+    inParallel(some.size(), beside, [&, &parts = some](std::size_t k) {
+      const std::size_t p = parts[k];
+      if (!answerPart(p, first && p == checked, loads, part.first, ofParts[p], relay, stop, all)) whole = false;
+      if (last) parts_[p].giveBack();
+    });
   for (Part& p : parts_) stages_.add(std::exchange(p.stages, {}));
   return whole ? std::move(all) : ConductionBatch::Answers{};
 }

@@ -106,7 +106,7 @@ private:
   bool answerPart(std::size_t index, bool checked, std::span<const LoadCase> loads, std::size_t firstNumber,
                   std::span<const std::size_t> own, ProgressRelay& progress, const std::stop_token& stop,
                   ConductionBatch::Answers& all);
-  [[nodiscard]] int partsAtOnce() const;
+  [[nodiscard]] int partsBeside(std::size_t index) const;
   SampleSet block(SampleRange range, const ConductionBatch::Answers& answers) const;
 
   SensorDesign design_;

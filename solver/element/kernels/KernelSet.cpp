@@ -4,6 +4,7 @@
 #include "solver/element/kernels/LaneMix.h"
 #include "solver/element/kernels/LaneSolve.h"
 #include "solver/element/kernels/ScalarField.h"
+#include "solver/element/kernels/SingleTet.h"
 #include "solver/element/kernels/TetKernel.h"
 
 namespace palp::PALP_KERNEL {
@@ -16,6 +17,13 @@ void tetResidual8(const RubberConstants& rubber, const ElementInput& in, const E
 void tetResidualOfLoads(const RubberConstants& rubber, const ElementInput& in, const ElementResidual& out) {
   const SharedGeometry geometry = tetSharedGeometry(in.geometry);
   for (int lane = 0; lane < 8; lane += packSize) tetResidual(rubber, geometry, in, out, lane);
+}
+
+void tetResidualOfLoadsInSingle(const RubberConstants& rubber, const ElementInput& in, const ElementResidual& out) {
+  SingleGeometry geometry;
+  for (int i = 0; i < Tet::volume; ++i) geometry.g[i / 3][i % 3] = float(in.geometry[i]);
+  geometry.volume = float(in.geometry[Tet::volume]);
+  for (int lane = 0; lane < 8; lane += singlePackSize) tetResidualInSingle(rubber, geometry, in, out, lane);
 }
 
 void tetTangent(const RubberConstants& rubber, const ElementInput& in, const ElementResidual& out,
@@ -56,9 +64,9 @@ void recover(const double* elimination, const double* localInverse, const double
 }
 
 template <class Element>
-constexpr ElementKernels kernelsOf(decltype(ElementKernels::residual) residual,
-                                   decltype(ElementKernels::residualOfLoads) residualOfLoads,
-                                   decltype(ElementKernels::tangent) tangent) {
+constexpr ElementKernels
+kernelsOf(decltype(ElementKernels::residual) residual, decltype(ElementKernels::residualOfLoads) residualOfLoads,
+          decltype(ElementKernels::residualOfLoads) inSingle, decltype(ElementKernels::tangent) tangent) {
   constexpr int D = Element::dofs, X = Element::unknowns;
   return {.nodes = Element::nodes,
           .unknowns = X,
@@ -66,6 +74,7 @@ constexpr ElementKernels kernelsOf(decltype(ElementKernels::residual) residual,
           .geometrySize = Element::geometrySize,
           .residual = residual,
           .residualOfLoads = residualOfLoads,
+          .residualOfLoadsInSingle = inSingle,
           .tangent = tangent,
           .condense = condense<D, X, 8>,
           .condenseLoads = condense<D, X, 1>,
@@ -154,8 +163,9 @@ const LaneKernels laneKernelSet = {
     forwardFactor, backwardFactor, forwardFactorOfOne, backwardFactorOfOne, polynomials, gather, subtract, gatherScaled,
     sumsOfMixed,   stepsOfMixed,   stepsOfFollowing,   beginAhead,          source,      sums8,  squares,  toFloats,
     toDoubles,     product};
-constexpr ElementKernels tetSet = kernelsOf<Tet>(tetResidual8, tetResidualOfLoads, tetTangent);
-constexpr ElementKernels hexSet = kernelsOf<Hex>(hexResidual8, hexResidualOfLoads, hexTangent);
+constexpr ElementKernels tetSet =
+    kernelsOf<Tet>(tetResidual8, tetResidualOfLoads, tetResidualOfLoadsInSingle, tetTangent);
+constexpr ElementKernels hexSet = kernelsOf<Hex>(hexResidual8, hexResidualOfLoads, hexResidualOfLoads, hexTangent);
 const ElementKernels tetKernels = tetSet;
 const ElementKernels hexKernels = hexSet;
 

@@ -18,21 +18,25 @@ PALP_INLINE void storeFloats(float* p, FloatPack v) {
   __builtin_memcpy(p, &v, sizeof v);
 }
 
-/// Packs that go through a block of the factor together, as many as there are registers for their 8 rows: the block is
-/// read once for them.
-constexpr int mostPacks = PALP_PACK == 8 ? 2 : 1;
+/// Packs that go through the factor together, and rows of a block at a time, for which there are registers.
+constexpr int mostPacks = PALP_PACK > 2 ? 2 : 1;
+template <int Packs> constexpr int rowsTogether = PALP_PACK == 8 || Packs == 1 ? rowsABlock : rowsABlock / 2;
 
 template <int Packs> struct Rows { FloatPack row[rowsABlock][Packs]; };
 
 /// sums[r] = sum over k of block[k][r] x[k] for one block of rows.
 template <int Packs> PALP_INLINE void rowSums(const float* block, int columns, const float* x, Rows<Packs>& sums) {
-  for (int r = 0; r < rowsABlock; ++r)
-    for (int p = 0; p < Packs; ++p) sums.row[r][p] = FloatPack{};
-  for (int k = 0; k < columns; ++k) {
-    FloatPack v[Packs];
-    for (int p = 0; p < Packs; ++p) v[p] = loadFloats(x + k * batchLanes + p * floatPackSize);
-    for (int r = 0; r < rowsABlock; ++r)
-      for (int p = 0; p < Packs; ++p) sums.row[r][p] += block[k * rowsABlock + r] * v[p];
+  constexpr int count = rowsTogether<Packs>;
+  for (int r0 = 0; r0 < rowsABlock; r0 += count) {
+    FloatPack sum[count][Packs] = {};
+    for (int k = 0; k < columns; ++k) {
+      FloatPack v[Packs];
+      for (int p = 0; p < Packs; ++p) v[p] = loadFloats(x + k * batchLanes + p * floatPackSize);
+      for (int r = 0; r < count; ++r)
+        for (int p = 0; p < Packs; ++p) sum[r][p] += block[k * rowsABlock + r0 + r] * v[p];
+    }
+    for (int r = 0; r < count; ++r)
+      for (int p = 0; p < Packs; ++p) sums.row[r0 + r][p] = sum[r][p];
   }
 }
 
@@ -48,97 +52,137 @@ PALP_INLINE void subtractTransposed(const float* block, int columns, const Rows<
   }
 }
 
+/// Lanes that have right sides, in pieces that go through the factor together. A block of the factor's rows serves all
+/// of them before the next is read: the panels of wide supernodes fit no cache.
+struct LivePieces {
+  int count = 0;
+  int lane[batchLanes / floatPackSize], packs[batchLanes / floatPackSize];
+};
+PALP_INLINE LivePieces livePieces(unsigned live) {
+  LivePieces pieces;
+  for (int lane = 0; lane < batchLanes; lane += floatPackSize) {
+    unsigned any = 0;
+    for (int block = lane / 8; block <= (lane + floatPackSize - 1) / 8; ++block) any |= live >> block & 1U;
+    if (any == 0) continue;
+    const int last = pieces.count - 1;
+    if (mostPacks > 1 && last >= 0 && pieces.packs[last] == 1 && pieces.lane[last] + floatPackSize == lane) {
+      pieces.packs[last] = mostPacks;
+      continue;
+    }
+    pieces.lane[pieces.count] = lane;
+    pieces.packs[pieces.count++] = 1;
+  }
+  return pieces;
+}
+
+template <int Packs> PALP_INLINE void forwardOwnRows(const float* block, int r0, int rows, float* own) {
+  const float* triangle = block + r0 * rowsABlock;
+  Rows<Packs> sums;
+  rowSums(block, r0, own, sums);
+  for (int r = 0; r < rows; ++r)
+    for (int p = 0; p < Packs; ++p) {
+      float* column = own + p * floatPackSize;
+      FloatPack v = loadFloats(column + (r0 + r) * batchLanes) - sums.row[r][p];
+      for (int k = 0; k < r; ++k) v -= triangle[k * rowsABlock + r] * loadFloats(column + (r0 + k) * batchLanes);
+      storeFloats(column + (r0 + r) * batchLanes, v * triangle[r * rowsABlock + r]);
+    }
+}
+
+template <int Packs>
+PALP_INLINE void forwardRowsBelow(const float* block, int width, const float* own, const int* rows, float* x) {
+  Rows<Packs> sums;
+  rowSums(block, width, own, sums);
+  for (int r = 0; r < rowsABlock; ++r)
+    for (int p = 0; p < Packs; ++p) {
+      float* y = x + std::size_t(rows[r]) * batchLanes + p * floatPackSize;
+      storeFloats(y, loadFloats(y) - sums.row[r][p]);
+    }
+}
+
 /// Forward substitution through one supernode: its own rows, then those below.
-template <int Packs> PALP_INLINE void forwardSupernode(const BlockedFactor& L, int s, float* x, int lane) {
+PALP_INLINE void forwardSupernode(const BlockedFactor& L, int s, float* x, const LivePieces& live) {
   const int width = L.first[s + 1] - L.first[s];
   const float* block = L.values + L.start[s];
-  float* own = x + std::size_t(L.first[s]) * batchLanes + lane;
+  float* own = x + std::size_t(L.first[s]) * batchLanes;
   for (int r0 = 0; r0 < width; r0 += rowsABlock) {
-    Rows<Packs> sums;
-    rowSums(block, r0, own, sums);
-    const float* triangle = block + r0 * rowsABlock;
     const int rows = width - r0 < rowsABlock ? width - r0 : rowsABlock;
-    for (int r = 0; r < rows; ++r)
-      for (int p = 0; p < Packs; ++p) {
-        float* column = own + p * floatPackSize;
-        FloatPack v = loadFloats(column + (r0 + r) * batchLanes) - sums.row[r][p];
-        for (int k = 0; k < r; ++k) v -= triangle[k * rowsABlock + r] * loadFloats(column + (r0 + k) * batchLanes);
-        storeFloats(column + (r0 + r) * batchLanes, v * triangle[r * rowsABlock + r]);
-      }
-    block = triangle + rowsABlock * rowsABlock;
+    for (int i = 0; i < live.count; ++i)
+      if (live.packs[i] == 1)
+        forwardOwnRows<1>(block, r0, rows, own + live.lane[i]);
+      else
+        forwardOwnRows<mostPacks>(block, r0, rows, own + live.lane[i]);
+    block += (r0 + rowsABlock) * rowsABlock;
   }
   for (int b = L.blockStart[s]; b < L.blockStart[s + 1]; ++b, block += width * rowsABlock) {
-    Rows<Packs> sums;
-    rowSums(block, width, own, sums);
     const int* rows = L.rows + std::size_t(b) * rowsABlock;
-    for (int r = 0; r < rowsABlock; ++r)
-      for (int p = 0; p < Packs; ++p) {
-        float* y = x + std::size_t(rows[r]) * batchLanes + lane + p * floatPackSize;
-        storeFloats(y, loadFloats(y) - sums.row[r][p]);
-      }
+    for (int i = 0; i < live.count; ++i)
+      if (live.packs[i] == 1)
+        forwardRowsBelow<1>(block, width, own + live.lane[i], rows, x + live.lane[i]);
+      else
+        forwardRowsBelow<mostPacks>(block, width, own + live.lane[i], rows, x + live.lane[i]);
   }
+}
+
+template <int Packs>
+PALP_INLINE void backwardRowsBelow(const float* block, int width, const int* rows, const float* x, float* own) {
+  Rows<Packs> t;
+  for (int r = 0; r < rowsABlock; ++r)
+    for (int p = 0; p < Packs; ++p) t.row[r][p] = loadFloats(x + std::size_t(rows[r]) * batchLanes + p * floatPackSize);
+  subtractTransposed(block, width, t, own);
+}
+
+template <int Packs> PALP_INLINE void backwardOwnRows(const float* block, int r0, int rows, float* own) {
+  const float* triangle = block + r0 * rowsABlock;
+  Rows<Packs> t;
+  for (int r = 0; r < rowsABlock; ++r)
+    for (int p = 0; p < Packs; ++p) t.row[r][p] = FloatPack{};
+  for (int r = rows - 1; r >= 0; --r)
+    for (int p = 0; p < Packs; ++p) {
+      float* value = own + (r0 + r) * batchLanes + p * floatPackSize;
+      FloatPack v = loadFloats(value);
+      for (int k = r + 1; k < rows; ++k) v -= triangle[r * rowsABlock + k] * t.row[k][p];
+      t.row[r][p] = v * triangle[r * rowsABlock + r];
+      storeFloats(value, t.row[r][p]);
+    }
+  subtractTransposed(block, r0, t, own);
 }
 
 /// Backward substitution, in the opposite order over the same blocks.
-template <int Packs> PALP_INLINE void backwardSupernode(const BlockedFactor& L, int s, float* x, int lane) {
+PALP_INLINE void backwardSupernode(const BlockedFactor& L, int s, float* x, const LivePieces& live) {
   const int width = L.first[s + 1] - L.first[s];
   const float* block = L.values + L.start[s + 1];
-  float* own = x + std::size_t(L.first[s]) * batchLanes + lane;
+  float* own = x + std::size_t(L.first[s]) * batchLanes;
+  constexpr bool together = rowsTogether<mostPacks> == rowsABlock; // all rows of a block have registers
   for (int b = L.blockStart[s + 1] - 1; b >= L.blockStart[s]; --b) {
     block -= width * rowsABlock;
     const int* rows = L.rows + std::size_t(b) * rowsABlock;
-    Rows<Packs> t;
-    for (int r = 0; r < rowsABlock; ++r)
-      for (int p = 0; p < Packs; ++p)
-        t.row[r][p] = loadFloats(x + std::size_t(rows[r]) * batchLanes + lane + p * floatPackSize);
-    subtractTransposed(block, width, t, own);
+    for (int i = 0; i < live.count; ++i)
+      if (together && live.packs[i] == mostPacks)
+        backwardRowsBelow<mostPacks>(block, width, rows, x + live.lane[i], own + live.lane[i]);
+      else
+        for (int lane = live.lane[i], p = 0; p < live.packs[i]; ++p, lane += floatPackSize)
+          backwardRowsBelow<1>(block, width, rows, x + lane, own + lane);
   }
   for (int r0 = (width - 1) / rowsABlock * rowsABlock; r0 >= 0; r0 -= rowsABlock) {
     block -= (r0 + rowsABlock) * rowsABlock;
-    const float* triangle = block + r0 * rowsABlock;
     const int rows = width - r0 < rowsABlock ? width - r0 : rowsABlock;
-    Rows<Packs> t;
-    for (int r = 0; r < rowsABlock; ++r)
-      for (int p = 0; p < Packs; ++p) t.row[r][p] = FloatPack{};
-    for (int r = rows - 1; r >= 0; --r)
-      for (int p = 0; p < Packs; ++p) {
-        FloatPack v = loadFloats(own + (r0 + r) * batchLanes + p * floatPackSize);
-        for (int k = r + 1; k < rows; ++k) v -= triangle[r * rowsABlock + k] * t.row[k][p];
-        t.row[r][p] = v * triangle[r * rowsABlock + r];
-        storeFloats(own + (r0 + r) * batchLanes + p * floatPackSize, t.row[r][p]);
-      }
-    subtractTransposed(block, r0, t, own);
+    for (int i = 0; i < live.count; ++i)
+      if (together && live.packs[i] == mostPacks)
+        backwardOwnRows<mostPacks>(block, r0, rows, own + live.lane[i]);
+      else
+        for (int lane = live.lane[i], p = 0; p < live.packs[i]; ++p, lane += floatPackSize)
+          backwardOwnRows<1>(block, r0, rows, own + lane);
   }
 }
 
-/// Whether one of the lanes lane .. lane + count - 1 is in a live block.
-PALP_INLINE bool anyLive(unsigned live, int lane, int count) {
-  const int first = lane / 8, last = (lane + count - 1) / 8;
-  return (live >> first & ((2U << (last - first)) - 1)) != 0;
-}
-
 PALP_INLINE void forwardLanes(const BlockedFactor& L, int first, int last, unsigned live, float* x) {
-  for (int s = first; s < last; ++s)
-    for (int lane = 0; lane < batchLanes; lane += mostPacks * floatPackSize) {
-      const bool low = anyLive(live, lane, floatPackSize);
-      const bool high = mostPacks > 1 && anyLive(live, lane + floatPackSize, floatPackSize);
-      if (mostPacks > 1 && low && high)
-        forwardSupernode<mostPacks>(L, s, x, lane);
-      else if (low || high)
-        forwardSupernode<1>(L, s, x, low ? lane : lane + floatPackSize);
-    }
+  const LivePieces pieces = livePieces(live);
+  for (int s = first; s < last; ++s) forwardSupernode(L, s, x, pieces);
 }
 
 PALP_INLINE void backwardLanes(const BlockedFactor& L, int first, int last, unsigned live, float* x) {
-  for (int s = last - 1; s >= first; --s)
-    for (int lane = 0; lane < batchLanes; lane += mostPacks * floatPackSize) {
-      const bool low = anyLive(live, lane, floatPackSize);
-      const bool high = mostPacks > 1 && anyLive(live, lane + floatPackSize, floatPackSize);
-      if (mostPacks > 1 && low && high)
-        backwardSupernode<mostPacks>(L, s, x, lane);
-      else if (low || high)
-        backwardSupernode<1>(L, s, x, low ? lane : lane + floatPackSize);
-    }
+  const LivePieces pieces = livePieces(live);
+  for (int s = last - 1; s >= first; --s) backwardSupernode(L, s, x, pieces);
 }
 
 typedef float NarrowPack __attribute__((vector_size(4 * PALP_PACK)));

@@ -100,6 +100,18 @@ TEST(BatchContact, ATouchThatReachesBeyondThePartThatIsSaidIsSolvedAllTheSame) {
   EXPECT_EQ(some.solves(), 3U) << "the second twice, nothing checked";
 }
 
+/// The elements stand in another order there, and the predictor of an area is of the mesh's.
+TEST(BatchContact, ALoadedAreaHasTheSameAnswerWhereTouchesAreForeseen) {
+  const HyperelasticProblem problem = touchedHexahedra();
+  LoadCase load;
+  load.areas = {{1, {0.2, 0, -3}}};
+  BatchOptions part;
+  part.touched = Rectangle{{3, 10}, {14, 20}};
+  const auto some = BatchSolver(problem, part).solve({&load, 1}), whole = BatchSolver(problem).solve({&load, 1});
+  ASSERT_EQ(some.size(), 1U);
+  EXPECT_LT(difference(some[0], whole[0]), 1e-7);
+}
+
 TEST(BatchContact, AnAnswerDependsOnItsOwnTouchAlone) {
   const HyperelasticProblem problem = touchedHexahedra();
   LoadCase uniform;

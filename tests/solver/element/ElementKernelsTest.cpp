@@ -237,6 +237,38 @@ TEST_P(Kernels, OfOneElementAndEightLoadsAgreeWithThoseOfEightElements) {
   for (std::size_t i = 0; i < one.range.size(); ++i) EXPECT_NEAR(one.range[i], eight.range[i], 1e-13) << i;
 }
 
+/// The smallest load leaves as many digits as a large one, as nothing cancels.
+TEST_P(Kernels, InSinglePrecisionAreExactToItUnderAnyLoad) {
+  const Discretisation& mesh = *deformed_.problem.discretisation;
+  const ElementKernels& kernels = mesh.kernels();
+  const RubberConstants rubber = rubberConstants(rubberOf(0.49));
+  for (const double load : {1e-8, 1e-3, 1.})
+    for (int e = 0; e < mesh.elements(); ++e) {
+      Written exact = emptyBlock(mesh), single = exact;
+      std::vector<double> u(exact.forces.size()), x(exact.local.size()), geometry(kernels.geometrySize);
+      mesh.gather(e / lanes, deformed_.state.displacements, u.data());
+      for (std::size_t i = 0; i < x.size(); ++i)
+        x[i] = load * deformed_.state.unknowns[std::size_t(e / lanes) * x.size() + i];
+      for (double& v : u) v *= load;
+      for (std::size_t i = 0; i < geometry.size(); ++i) geometry[i] = mesh.geometry(e / lanes)[i * lanes + e % lanes];
+      const ElementInput in{geometry.data(), u.data(), x.data()};
+      kernels.residualOfLoads(rubber, in, {exact.forces.data(), exact.local.data(), exact.range.data()});
+      kernels.residualOfLoadsInSingle(rubber, in, {single.forces.data(), single.local.data(), single.range.data()});
+      const auto differ = [](const std::vector<double>& a, const std::vector<double>& b) {
+        double largest = 0, difference = 0;
+        for (std::size_t i = 0; i < b.size(); ++i) {
+          largest = std::max(largest, std::abs(b[i]));
+          difference = std::max(difference, std::abs(a[i] - b[i]));
+        }
+        return difference / largest;
+      };
+      // A few roundings of 6e-8 in the largest of an element's terms.
+      EXPECT_LE(differ(single.forces, exact.forces), 1e-6) << load << " element " << e;
+      EXPECT_LE(differ(single.local, exact.local), 1e-6) << load << " element " << e;
+      EXPECT_LE(differ(single.range, exact.range), 1e-6) << load << " element " << e;
+    }
+}
+
 TEST(NestedDissection, OrdersEveryGroupOnceWithLittleFill) {
   const BoundaryValueProblem p(cubeTets(8, 0.1), rubberOf(0.49),
                                [](const Eigen::Vector3d&, int) { return std::optional<double>(); });
