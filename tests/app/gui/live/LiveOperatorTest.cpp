@@ -88,7 +88,9 @@ TEST_F(LiveOperator, AMovingIndenterDrivesTheBoardAndItsTruePlaceStandsBesideThe
   workbench.edit("a coarse mesh", coarse);
   ASSERT_TRUE(waitForFrames());
   find<QCheckBox>("movingIndenter").click();
-  ASSERT_TRUE(wait([&] { return page.host().simulatesOwnDesign(); })) << said.join("; ").toStdString();
+  // Touches are solved and learned first: a minute and a half of CPU.
+  const auto moves = [&] { return page.host().simulatesOwnDesign(); };
+  ASSERT_TRUE(wait(moves) || wait(moves) || wait(moves)) << said.join("; ").toStdString();
   const auto decoded = [&]() -> std::optional<Eigen::Vector2d> {
     const auto& arrows = block().arrows();
     return arrows.empty() || block().stale() ? std::nullopt : arrows[0].place_mm;
