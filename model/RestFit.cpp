@@ -45,8 +45,7 @@ Numbers numbersOf(const FieldLaw& law) {
 class RestModel {
 public:
   RestModel(const SensorDesign& design, const Eigen::MatrixXd& resistances_ohm, const std::stop_token& stop)
-      : design_(design), stop_(stop), counts_(wireCounts(design)),
-        green_(boxGreen(design.block_mm, electrodes_mm(design))) {
+      : stop_(stop), counts_(wireCounts(design)), green_(boxGreen(design.block_mm, electrodes_mm(design))) {
     dipoles_ = Eigen::MatrixXd::Zero(green_.value.rows(), green_.value.cols());
     for (const Eigen::MatrixXd& slope : green_.slope) dipoles_ += slope.transpose() * slope;
     measured_ = resistances_ohm.array().log();
@@ -88,7 +87,6 @@ public:
   }
 
 private:
-  const SensorDesign& design_;
   const std::stop_token& stop_;
   WireCounts counts_;
   BoxGreen green_;

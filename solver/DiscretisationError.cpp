@@ -15,8 +15,8 @@ namespace palp {
 
 namespace {
 
-constexpr double coarserBy = 1.3; // the difference to such a mesh lies near the finer one's error
-constexpr double order = 1.3;     // of the error's fall with the size, between the singular edges' and the element's
+constexpr double coarserBy = 1.3;  // the difference to such a mesh lies near the finer one's error
+constexpr double errorOrder = 1.3; // of the error's fall with the size, between the singular edges' and the element's
 /// Error over that difference, where the electrodes are no nodes of the coarser mesh: 0.3 to 1.05, mean 0.65, over
 /// eight loads on meshes of 1, 1.25 and 1.5 times the default size against meshes twice as fine. On finer meshes it is
 /// less, and the estimate too high: 2.2 to 2.9 times at 0.6 of the default size.
@@ -67,7 +67,8 @@ HyperelasticProblem coarserTwin(const HyperelasticProblem& problem, const LoadCa
 /// What makes an estimate of the difference to the twin, which may be coarser than by 1.3.
 double scaleOfDifference(const HyperelasticProblem& problem, const HyperelasticProblem& twin) {
   const double ratio = std::cbrt(double(problem.dof()) / twin.dof());
-  return errorOfDifference * (std::pow(coarserBy, order) - 1) / (std::pow(std::max(ratio, coarserBy), order) - 1);
+  return errorOfDifference * (std::pow(coarserBy, errorOrder) - 1) /
+         (std::pow(std::max(ratio, coarserBy), errorOrder) - 1);
 }
 
 /// Relative difference of d ln R, rms over all readings; 0 where nothing changes.
@@ -140,7 +141,7 @@ Mesh meshForAccuracy(const SensorDesign& design, const LoadCase& load, double ac
     const auto error = discretisationError(problem, load, solution, stop, threads).relative;
     if (error && *error <= accuracy) return problem.mesh();
     // Without an estimate, as the coarser mesh bore the load no more, a finer mesh has a better twin.
-    const double finerBy = error ? std::pow(1.1 * *error / accuracy, 1 / order) : coarserBy;
+    const double finerBy = error ? std::pow(1.1 * *error / accuracy, 1 / errorOrder) : coarserBy;
     *options.meshSize_mm /= std::clamp(finerBy, smallestRefinement, 2.);
   }
 }

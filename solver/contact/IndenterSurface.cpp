@@ -11,7 +11,7 @@ namespace palp {
 
 namespace {
 
-constexpr double reach = 1.6;       // in half widths of the contact
+constexpr double gridReach = 1.6;   // in half widths of the contact
 constexpr int cellsAHalfWidth = 16; // of the contact
 constexpr double steepest_deg = 80; // of a round surface: beyond it only the side is left
 constexpr int cellsOfTheRim = 8;    // of a punch, along its quarter of a circle
@@ -24,8 +24,8 @@ using Profile = std::vector<Eigen::Vector2d>;
 /// Of a ball, as wide as the contact's half width wants.
 Profile roundProfile(double radius, double half) {
   const double steepest = steepest_deg * std::numbers::pi / 180;
-  const double angle = std::min(steepest, std::asin(std::min(1., reach * half / radius)));
-  const int cells = static_cast<int>(std::lround(reach * cellsAHalfWidth));
+  const double angle = std::min(steepest, std::asin(std::min(1., gridReach * half / radius)));
+  const int cells = static_cast<int>(std::lround(gridReach * cellsAHalfWidth));
   Profile profile;
   for (int k = 0; k <= cells; ++k) {
     const double t = angle * k / cells;

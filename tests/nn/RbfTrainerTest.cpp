@@ -222,8 +222,8 @@ TEST(RbfTrainer, EachLongStepOfANoisyFitStopsWhenAskedTo) {
   for (const LeastSquaresMethod method : {LeastSquaresMethod::PivotedQr, LeastSquaresMethod::Cholesky}) {
     options.method = method;
     const auto problem = rbfSystem(set.samples, set.targets, options, 10);
-    EXPECT_THROW(problem->leaveOneOut(1, {1e-6, 1e-3}, stop), Cancelled);
-    EXPECT_THROW(problem->solve(1, 1e-6, stop), Cancelled);
+    EXPECT_THROW(static_cast<void>(problem->leaveOneOut(1, {1e-6, 1e-3}, stop)), Cancelled);
+    EXPECT_THROW(static_cast<void>(problem->solve(1, 1e-6, stop)), Cancelled);
     EXPECT_THROW(solveLeastSquares(set.samples.transpose(), set.targets.transpose(), method, 1e-6, 1e-15, 1, stop),
                  Cancelled);
     EXPECT_TRUE(problem->solve(1, 1e-6, {}).weights.allFinite()); // the same work, not asked to stop

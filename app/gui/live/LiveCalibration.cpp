@@ -75,9 +75,7 @@ QString reportText(const Calibration& calibration, double age_days) {
                 .arg(place->rmseAfter_mm.x(), 0, 'g', 3)
                 .arg(place->rmseAfter_mm.y(), 0, 'g', 3);
   for (const std::string& warning : warningsOf(report))
-    text = QObject::tr("<p style='color:#d4303c'><b>A bad fit: %1.</b></p>")
-               .arg(QString::fromStdString(warning).toHtmlEscaped()) +
-           text;
+    text = QObject::tr("<p><b>A bad fit: %1.</b></p>").arg(QString::fromStdString(warning).toHtmlEscaped()) + text;
   if (report.coverage_percent.minCoeff() < 50)
     text += QObject::tr(" The labels cover less than half of the force range in some direction.");
   return text;

@@ -361,8 +361,7 @@ namespace {
 QString warningWords(const NetworkFit& fit) {
   QString words;
   for (const std::string& warning : fit.decoder.report.warnings)
-    words += "<div style=\"color: #d4303c\">" +
-             tr("Warning: %1.").arg(QString::fromStdString(warning).toHtmlEscaped()) + "</div>";
+    words += "<div><b>" + tr("Warning: %1.").arg(QString::fromStdString(warning).toHtmlEscaped()) + "</b></div>";
   return words;
 }
 

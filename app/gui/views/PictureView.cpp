@@ -5,6 +5,7 @@
 #include "io/AtomicFile.h"
 #include "model/base/Error.h"
 
+#include <QAbstractEventDispatcher>
 #include <QApplication>
 #include <QClipboard>
 #include <QElapsedTimer>
@@ -25,10 +26,21 @@ namespace {
 
 constexpr double kClick_px = 4; ///< farther than this, pressing and releasing is a drag
 
-/// What pictures are drawn in one pass of the event loop takes about this time; the others keep theirs until the next,
-/// as a change may concern eight of them, of 8 ms each on a software renderer.
+/// One pass of the event loop takes about this time; pictures that would make it longer wait for the next, as a change
+/// may concern eight of them, of 8 to 30 ms each on a software renderer, and has panels to fill before.
 constexpr qint64 kPass_ms = 20;
 qint64 drawnInPass_ms = 0; ///< of the window's thread alone
+
+/// Since when the event loop is awake.
+const QElapsedTimer& awakeClock() {
+  static QElapsedTimer clock;
+  if (!clock.isValid()) {
+    clock.start();
+    QObject::connect(QAbstractEventDispatcher::instance(), &QAbstractEventDispatcher::awake, qApp,
+                     [] { clock.start(); });
+  }
+  return clock;
+}
 
 } // namespace
 
@@ -77,16 +89,26 @@ void PictureView::draw() {
   QElapsedTimer clock;
   clock.start();
   render(image_);
-  if (std::exchange(drawnInPass_ms, drawnInPass_ms + clock.elapsed() + 1) == 0)
+  lastDraw_ms_ = clock.elapsed() + 1;
+  waited_ = false;
+  if (std::exchange(drawnInPass_ms, drawnInPass_ms + lastDraw_ms_) == 0)
     QTimer::singleShot(0, qApp, [] { drawnInPass_ms = 0; });
   ++renderCount_;
   image_.setDevicePixelRatio(devicePixelRatioF());
 }
 
+bool PictureView::waits() {
+  if (image_.isNull()) return false;
+  if (drawnInPass_ms > 0) return drawnInPass_ms + lastDraw_ms_ > kPass_ms;
+  // Panels were filled in this pass; a loop that somebody turns by hand does not say when it wakes: once is enough.
+  return awakeClock().elapsed() + lastDraw_ms_ > kPass_ms && !std::exchange(waited_, true);
+}
+
 void PictureView::paintEvent(QPaintEvent*) {
-  const bool canWait = drawnInPass_ms > kPass_ms && !image_.isNull();
-  if (changed_ && canWait) QTimer::singleShot(0, this, qOverload<>(&QWidget::update));
-  if (changed_ && !canWait) draw();
+  if (changed_ && waits())
+    QTimer::singleShot(0, this, qOverload<>(&QWidget::update));
+  else if (changed_)
+    draw();
   QPainter painter(this);
   painter.setCompositionMode(QPainter::CompositionMode_Source);
   painter.drawImage(rect(), image_); // one that waits may have another size

@@ -74,6 +74,8 @@ protected:
 
 private:
   void draw();
+  /// Shows what it has for another pass of the event loop, which has taken long enough already.
+  [[nodiscard]] bool waits();
   /// Asks for a size and a file and saves the view as PNG; or copies it, or its table.
   void offerPicture(const QPoint& globalPlace);
   /// Empty where none was given.
@@ -83,6 +85,8 @@ private:
 
   QImage image_;
   bool changed_ = true;
+  bool waited_ = false;
+  qint64 lastDraw_ms_ = 0;
   int renderCount_ = 0;
   QPointF pressed_;
 };

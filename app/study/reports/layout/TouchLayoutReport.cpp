@@ -72,18 +72,22 @@ private:
     const LayoutGoal goal = touchGoal(fields, map_.touch, kShownNoise, request_.threads);
     layouts_.push_back({"before", design_});
     const double half = (kSearched - kFields) / 2;
-    for (const auto& [freedom, name, file] :
-         {std::tuple{LayoutFreedom::SameOnEveryWire, "same on every wire", "better-same.json"},
-          std::tuple{LayoutFreedom::WireByWire, "wire by wire", "better-wires.json"}}) {
-      const double from = kFields + (freedom == LayoutFreedom::WireByWire ? half : 0);
+    struct Kind {
+      LayoutFreedom freedom;
+      const char* name;
+      const char* file;
+    };
+    for (const Kind& kind : {Kind{LayoutFreedom::SameOnEveryWire, "same on every wire", "better-same.json"},
+                             Kind{LayoutFreedom::WireByWire, "wire by wire", "better-wires.json"}}) {
+      const double from = kFields + (kind.freedom == LayoutFreedom::WireByWire ? half : 0);
       const auto found = content_.stages.measure("search", [&] {
-        return betterLayout(layouts_.back().design, goal, freedom, limits_, request_.seed, stop_,
+        return betterLayout(layouts_.back().design, goal, kind.freedom, limits_, request_.seed, stop_,
                             partOf(progress_, from, half));
       });
       if (!found) return false;
       evaluations_ += found->evaluations;
-      layouts_.push_back({name, found->layout});
-      content_.files.push_back({file, toJson(found->layout)});
+      layouts_.push_back({kind.name, found->layout});
+      content_.files.push_back({kind.file, toJson(found->layout)});
     }
     return true;
   }
