@@ -26,7 +26,7 @@ struct CalibrateArguments {
   OutputFile output;
 };
 
-Json list(const Eigen::Vector3d& values) {
+Json byAxis(const Eigen::Vector3d& values) {
   return {values.x(), values.y(), values.z()};
 }
 
@@ -54,12 +54,12 @@ void print(const CalibrationReport& report, double age_days) {
 void fill(Json& result, const CalibrationReport& report, double age_days) {
   result["samples"] = report.samples;
   result["samples_per_area"] = report.samplesPerArea;
-  result["lowest_N"] = list(report.lowest_N);
-  result["highest_N"] = list(report.highest_N);
-  result["coverage_percent"] = list(report.coverage_percent);
-  result["rmse_before_N"] = list(report.rmseBefore_N);
-  result["rmse_after_N"] = list(report.rmseAfter_N);
-  result["rmse_after_percent_of_range"] = list(report.rmseAfter_percentOfRange);
+  result["lowest_N"] = byAxis(report.lowest_N);
+  result["highest_N"] = byAxis(report.highest_N);
+  result["coverage_percent"] = byAxis(report.coverage_percent);
+  result["rmse_before_N"] = byAxis(report.rmseBefore_N);
+  result["rmse_after_N"] = byAxis(report.rmseAfter_N);
+  result["rmse_after_percent_of_range"] = byAxis(report.rmseAfter_percentOfRange);
   result["worst_sample"] = report.worstSample;
   result["worst_error_N"] = report.worstError_N;
   result["improved"] = report.improved;

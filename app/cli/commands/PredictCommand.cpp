@@ -16,7 +16,7 @@
 namespace palp {
 namespace {
 
-struct Arguments {
+struct PredictArguments {
   std::string network;
   std::string samples;
   std::string noise;
@@ -127,7 +127,7 @@ ErrorsOverBounds besideBounds(const SensorDesign& design, const SampleSet& sampl
   return over;
 }
 
-Exit run(const Arguments& arguments, Session& session) {
+Exit run(const PredictArguments& arguments, Session& session) {
   if (!arguments.output.path.empty()) arguments.output.requireWritable();
   PredictOptions options;
   options.standardDeviation = options.area = !arguments.bare;
@@ -176,7 +176,7 @@ Exit run(const Arguments& arguments, Session& session) {
 } // namespace
 
 void addPredict(Cli& cli) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<PredictArguments>();
   Command command = cli.command("predict", "forces of samples by a trained network, and its error",
                                 "palp predict network.json test.csv --noise 1e-4 -o forces.csv",
                                 [arguments](Session& session) { return run(*arguments, session); });

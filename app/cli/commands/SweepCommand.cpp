@@ -16,7 +16,7 @@
 namespace palp {
 namespace {
 
-struct Arguments {
+struct SweepArguments {
   std::string samples;
   std::string test;
   std::string spreads = "0.3:30:21";
@@ -66,7 +66,7 @@ void print(const std::vector<SweepRow>& rows) {
               << row.report.seconds << '\n';
 }
 
-Exit run(const Arguments& arguments, Session& session) {
+Exit run(const SweepArguments& arguments, Session& session) {
   TrainOptions options = arguments.train.options();
   options.threads = session.threads;
   if (options.decoder != DecoderKind::Rbf)
@@ -113,7 +113,7 @@ Exit run(const Arguments& arguments, Session& session) {
 } // namespace
 
 void addSweep(Cli& cli) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<SweepArguments>();
   Command command =
       cli.command("sweep", "error, leave-one-out, condition and time over the spread",
                   "palp sweep samples.csv --test test.csv --input resistance --mode paper --spreads 0.3:10:20",

@@ -13,7 +13,7 @@
 namespace palp {
 namespace {
 
-struct Arguments {
+struct TrainCommandArguments {
   std::string samples;
   std::string design;
   TrainArguments train;
@@ -58,7 +58,7 @@ void print(const Decoder& decoder, const Session& session) {
   for (const std::string& warning : report.warnings) std::cerr << "palp train: " << warning << '\n';
 }
 
-Exit run(const Arguments& arguments, Session& session) {
+Exit run(const TrainCommandArguments& arguments, Session& session) {
   TrainOptions options = arguments.train.options();
   options.threads = session.threads;
   arguments.output.requireWritable();
@@ -88,7 +88,7 @@ Exit run(const Arguments& arguments, Session& session) {
 } // namespace
 
 void addTrain(Cli& cli) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<TrainCommandArguments>();
   Command command = cli.command("train", "fit a network, or one of its rivals, to samples",
                                 "palp train samples.csv --input resistance --rows all --noise 1e-4 -o network.json",
                                 [arguments](Session& session) { return run(*arguments, session); });

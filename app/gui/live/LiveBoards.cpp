@@ -147,6 +147,8 @@ LiveSettings LiveBoards::settingsOfAnother() const {
   LiveSettings settings = workbench_.project().live;
   settings.source = LiveSourceKind::Simulated;
   settings.device.clear();
+  settings.simulation.openRow = settings.simulation.openColumn = -1; // what is broken of one is whole of another
+  settings.simulation.dropEvery = 0;
   for (std::size_t k = 0; k < cells_.size(); ++k)
     settings.simulation.seed = std::max(settings.simulation.seed, workbench_.project().board(k).simulation.seed + 1);
   const std::vector<HidBoard> there = cells_[0].page->host().boards();

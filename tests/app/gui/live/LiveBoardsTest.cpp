@@ -233,6 +233,23 @@ TEST_F(Boards, WithoutHardwareTheOtherOneIsSimulatedAndDoesNotDoTheSame) {
   EXPECT_TRUE(streams(0)) << "one plug is not the other's";
 }
 
+TEST_F(Boards, WhatIsBrokenOfOneIsWholeOfTheNext) {
+  Project project = workbench.project();
+  project.live.simulation.openRow = 2;
+  project.live.simulation.openColumn = 3;
+  project.live.simulation.dropEvery = 50;
+  workbench.edit("broken wires", project);
+  ASSERT_TRUE(streams(0));
+  click(0, "anotherBoard");
+  ASSERT_TRUE(streams(1));
+  const SimulationSettings& broken = workbench.project().board(0).simulation;
+  const SimulationSettings& whole = workbench.project().board(1).simulation;
+  EXPECT_EQ(broken.openRow, 2);
+  EXPECT_EQ(whole.openRow, -1);
+  EXPECT_EQ(whole.openColumn, -1);
+  EXPECT_EQ(whole.dropEvery, 0);
+}
+
 TEST_F(Boards, WhereTheyHaveNoRoomForPanelsAButtonBringsEachBack) {
   ASSERT_TRUE(streams(0));
   click(0, "anotherBoard");

@@ -220,7 +220,7 @@ TEST(LabelledFrames, RefuseALoadThatMovesAndKeepWhatTheNetworkSaid) {
   forces.valid = true;
   forces.resistances_ohm = Eigen::MatrixXd::Constant(10, 30, 300);
   const auto collect = [&](double slope_N) {
-    frames.begin(decoder, paperDesign(), {0, {{0, 0, -2}}}, 20);
+    frames.begin(decoder, paperDesign(), {{0, {0, 0, -2}}}, 20);
     for (int k = 0; k < 20; ++k) {
       forces.forces_N = Eigen::Vector3d(0, 0, -2 + slope_N * k + (k % 2 == 0 ? 0.005 : -0.005));
       frames.add(forces);
@@ -270,7 +270,7 @@ TEST(LabelledFrames, CollectsUnderALoadAndTakesFramesAway) {
   forces.valid = true;
   for (int k = 0; k < 3; ++k) {
     forces.resistances_ohm = Eigen::MatrixXd::Constant(10, 30, 300 + k);
-    frames.begin(decoder, paperDesign(), {k, {{0, 0, -1.0 * k}}}, 2);
+    frames.begin(decoder, paperDesign(), {{k, {0, 0, -1.0 * k}}}, 2);
     EXPECT_FALSE(frames.add(forces));
     EXPECT_FALSE(frames.add({})); // not valid: does not count
     EXPECT_TRUE(frames.add(forces));
@@ -284,7 +284,7 @@ TEST(LabelledFrames, CollectsUnderALoadAndTakesFramesAway) {
   again.load(folder / "frames.csv");
   EXPECT_EQ(again.samples().forces_N, frames.samples().forces_N);
   EXPECT_NE(refusal([&] {
-              frames.begin(decoder, paperDesign(), {6, {{0, 0, -1}}}, 2);
+              frames.begin(decoder, paperDesign(), {{6, {0, 0, -1}}}, 2);
             }).find("area"),
             std::string::npos);
 }
