@@ -57,5 +57,27 @@ TEST(PictureView, DrawnTogetherTheyLeaveTheWindowFreeInBetween) {
   ASSERT_TRUE(drawn(3));
 }
 
+TEST(PictureView, IsDrawnAPassLaterThanWhatElseTookLongInOne) {
+  int beats = 0;
+  QTimer beat;
+  QObject::connect(&beat, &QTimer::timeout, &beat, [&beats] { ++beats; });
+  QWidget window;
+  auto* row = new QHBoxLayout(&window);
+  auto* view = new SlowView(beats);
+  row->addWidget(view);
+  window.show();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return view->drawnAt.size() == 1; }));
+  QTest::qWait(20);
+  beat.start(0);
+  int filledAt = -1;
+  QTimer::singleShot(0, view, [&] { // as panels are filled where a project changes
+    QThread::msleep(30);
+    view->invalidate();
+    filledAt = beats;
+  });
+  ASSERT_TRUE(QTest::qWaitFor([&] { return view->drawnAt.size() == 2; }));
+  EXPECT_GT(view->drawnAt[1], filledAt);
+}
+
 } // namespace
 } // namespace palp
