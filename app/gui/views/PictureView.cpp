@@ -98,10 +98,11 @@ void PictureView::draw() {
 }
 
 bool PictureView::waits() {
-  if (image_.isNull()) return false;
-  if (drawnInPass_ms > 0) return drawnInPass_ms + lastDraw_ms_ > kPass_ms;
+  // The first picture takes longest, and one of nothing yet says little of the next.
+  const qint64 own_ms = image_.isNull() ? kPass_ms : std::max(lastDraw_ms_, kPass_ms / 2);
+  if (drawnInPass_ms > 0) return drawnInPass_ms + own_ms > kPass_ms;
   // Panels were filled in this pass; a loop that somebody turns by hand does not say when it wakes: once is enough.
-  return awakeClock().elapsed() + lastDraw_ms_ > kPass_ms && !std::exchange(waited_, true);
+  return awakeClock().elapsed() + own_ms > kPass_ms && !std::exchange(waited_, true);
 }
 
 void PictureView::paintEvent(QPaintEvent*) {
@@ -111,7 +112,10 @@ void PictureView::paintEvent(QPaintEvent*) {
     draw();
   QPainter painter(this);
   painter.setCompositionMode(QPainter::CompositionMode_Source);
-  painter.drawImage(rect(), image_); // one that waits may have another size
+  if (image_.isNull())
+    painter.fillRect(rect(), palette().window());
+  else
+    painter.drawImage(rect(), image_); // one that waits may have another size
   if (!hasFocus()) return;
   painter.setCompositionMode(QPainter::CompositionMode_SourceOver);
   painter.setPen(QPen(palette().color(QPalette::Highlight), 2));

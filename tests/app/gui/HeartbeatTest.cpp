@@ -113,7 +113,8 @@ TEST_F(Heartbeat, BeatsWhileSamplingTrainingAndSweeping) {
   ASSERT_TRUE(idle());
 #endif
   expectFree(
-      "sweeping", [&] { click("sweep"); }, [&] { return network.sweepPoints().size() == 5; });
+      "sweeping", [&] { click("sweep"); },
+      [&, looks = 0]() mutable { return network.sweepPoints().size() == 5 && ++looks > 20; }); // its charts are drawn
   ASSERT_TRUE(idle());
   project.network.sweepCount = 100;
   workbench.edit("more spreads", project);
