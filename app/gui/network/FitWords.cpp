@@ -361,7 +361,7 @@ namespace {
 QString warningWords(const NetworkFit& fit) {
   QString words;
   for (const std::string& warning : fit.decoder.report.warnings)
-    words += "<div><b>" + tr("Warning: %1.").arg(QString::fromStdString(warning).toHtmlEscaped()) + "</b></div>";
+    words += "<div>" + tr("Warning: %1.").arg(QString::fromStdString(warning).toHtmlEscaped()) + "</div>";
   return words;
 }
 

@@ -98,8 +98,8 @@ void PictureView::draw() {
 }
 
 bool PictureView::waits() {
-  // The first picture takes longest, and one of nothing yet says little of the next.
-  const qint64 own_ms = image_.isNull() ? kPass_ms : std::max(lastDraw_ms_, kPass_ms / 2);
+  if (image_.isNull()) return false;
+  const qint64 own_ms = std::max(lastDraw_ms_, kPass_ms / 2); // one of nothing yet says little of the next
   if (drawnInPass_ms > 0) return drawnInPass_ms + own_ms > kPass_ms;
   // Panels were filled in this pass; a loop that somebody turns by hand does not say when it wakes: once is enough.
   return awakeClock().elapsed() + own_ms > kPass_ms && !std::exchange(waited_, true);
@@ -112,10 +112,7 @@ void PictureView::paintEvent(QPaintEvent*) {
     draw();
   QPainter painter(this);
   painter.setCompositionMode(QPainter::CompositionMode_Source);
-  if (image_.isNull())
-    painter.fillRect(rect(), palette().window());
-  else
-    painter.drawImage(rect(), image_); // one that waits may have another size
+  painter.drawImage(rect(), image_); // one that waits may have another size
   if (!hasFocus()) return;
   painter.setCompositionMode(QPainter::CompositionMode_SourceOver);
   painter.setPen(QPen(palette().color(QPalette::Highlight), 2));
