@@ -5,13 +5,13 @@
 
 #include <utility>
 
-#ifdef __SANITIZE_THREAD__
+#ifdef PALP_THREAD_SANITIZER
 #include <sanitizer/tsan_interface.h>
 #endif
 
 namespace palp {
 
-#ifdef __SANITIZE_THREAD__
+#ifdef PALP_THREAD_SANITIZER
 /// Where a work of this type is handed over: Qt's queue is not compiled with the thread sanitizer, which would see a
 /// race between the thread that queues and the one that calls.
 template <class Work> inline char handover = 0;
@@ -20,13 +20,13 @@ template <class Work> inline char handover = 0;
 /// Calls work() in the receiver's thread, after what waits there already; not at all where the receiver has gone by
 /// then. From any thread.
 template <class Work> void callLater(QObject& receiver, Work work) {
-#ifdef __SANITIZE_THREAD__
+#ifdef PALP_THREAD_SANITIZER
   __tsan_release(&handover<Work>);
 #endif
   QMetaObject::invokeMethod(
       &receiver,
       [work = std::move(work)] {
-#ifdef __SANITIZE_THREAD__
+#ifdef PALP_THREAD_SANITIZER
         __tsan_acquire(&handover<Work>);
 #endif
         work();

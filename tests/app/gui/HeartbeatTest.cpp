@@ -107,7 +107,7 @@ TEST_F(Heartbeat, BeatsWhileSamplingTrainingAndSweeping) {
   ASSERT_TRUE(idle());
   expectFree(
       "training", [&] { click("train"); }, [&] { return network.fit() != nullptr && !network.runner().running(); });
-#ifdef __SANITIZE_THREAD__ // shaders of the charts: compiled once in a process, and for most of a second there
+#ifdef PALP_THREAD_SANITIZER // shaders of the charts: compiled once in a process, and for most of a second there
   click("sweep");
   ASSERT_TRUE(QTest::qWaitFor([&] { return network.sweepPoints().size() == 5; }, kPatience_ms));
   ASSERT_TRUE(idle());

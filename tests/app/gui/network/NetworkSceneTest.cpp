@@ -136,7 +136,9 @@ TEST_F(NetworkScene, ANetworkOfResistancesGoesToLiveByOneButton) {
   workbench.edit("Palp's own", own);
   ASSERT_TRUE(QTest::qWaitFor([&] { return host.networkFile().empty(); }, kPatience_ms));
   ASSERT_EQ(host.networkBefore(), "hand.json");
-  QTest::mouseClick(&find<QPushButton>("networkBack"), Qt::LeftButton);
+  auto& back = find<QPushButton>("networkBack");
+  ASSERT_TRUE(QTest::qWaitFor([&] { return back.isEnabled(); }, kPatience_ms));
+  QTest::mouseClick(&back, Qt::LeftButton);
   EXPECT_EQ(host.decoder()->kind, DecoderKind::Linear);
   EXPECT_EQ(workbench.project().live.network, file.toStdString());
 }
