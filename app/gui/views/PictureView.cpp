@@ -91,27 +91,40 @@ void PictureView::draw() {
   render(image_);
   lastDraw_ms_ = clock.elapsed() + 1;
   waited_ = false;
-  if (std::exchange(drawnInPass_ms, drawnInPass_ms + lastDraw_ms_) == 0)
-    QTimer::singleShot(0, qApp, [] { drawnInPass_ms = 0; });
+  count(lastDraw_ms_);
   ++renderCount_;
   image_.setDevicePixelRatio(devicePixelRatioF());
 }
 
+void PictureView::count(qint64 time_ms) {
+  if (std::exchange(drawnInPass_ms, drawnInPass_ms + time_ms) == 0)
+    QTimer::singleShot(0, qApp, [] { drawnInPass_ms = 0; });
+}
+
 bool PictureView::waits() {
-  if (image_.isNull()) return false;
   const qint64 own_ms = std::max(lastDraw_ms_, kPass_ms / 2); // one of nothing yet says little of the next
   if (drawnInPass_ms > 0) return drawnInPass_ms + own_ms > kPass_ms;
   // Panels were filled in this pass; a loop that somebody turns by hand does not say when it wakes: once is enough.
   return awakeClock().elapsed() + own_ms > kPass_ms && !std::exchange(waited_, true);
 }
 
+bool PictureView::drawsNow() {
+  if (waits()) return false;
+  QElapsedTimer clock;
+  clock.start();
+  if (prepared()) return true;
+  count(clock.elapsed() + 1);
+  return false;
+}
+
 void PictureView::paintEvent(QPaintEvent*) {
-  if (changed_ && waits())
-    QTimer::singleShot(0, this, qOverload<>(&QWidget::update));
-  else if (changed_)
+  if (changed_ && drawsNow())
     draw();
+  else if (changed_)
+    QTimer::singleShot(0, this, qOverload<>(&QWidget::update));
   QPainter painter(this);
   painter.setCompositionMode(QPainter::CompositionMode_Source);
+  if (image_.isNull()) painter.fillRect(rect(), palette().window());
   painter.drawImage(rect(), image_); // one that waits may have another size
   if (!hasFocus()) return;
   painter.setCompositionMode(QPainter::CompositionMode_SourceOver);

@@ -54,6 +54,8 @@ signals:
 protected:
   /// Draws into an image of the view's size, RGB32.
   virtual void render(QImage& image) = 0;
+  /// Prepares what drawing needs; false: that took its time, and drawing is for the next pass of the event loop.
+  [[nodiscard]] virtual bool prepared() { return true; }
   [[nodiscard]] virtual Picture renderPicture(int width, int height) = 0;
   [[nodiscard]] QSize deviceSize() const;
   /// How much larger than the view a picture of this size is: its words and lines grow with it.
@@ -74,8 +76,12 @@ protected:
 
 private:
   void draw();
+  /// This pass of the event loop has drawn for so long more.
+  void count(qint64 time_ms);
   /// Shows what it has for another pass of the event loop, which has taken long enough already.
   [[nodiscard]] bool waits();
+  /// Not yet: there are passes of the event loop to be waited for.
+  [[nodiscard]] bool drawsNow();
   /// Asks for a size and a file and saves the view as PNG; or copies it, or its table.
   void offerPicture(const QPoint& globalPlace);
   /// Empty where none was given.

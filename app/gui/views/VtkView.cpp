@@ -49,6 +49,7 @@ struct VtkView::Vtk {
   vtkNew<vtkCallbackCommand> changed;
   std::unique_ptr<OffscreenWindow> window; ///< null before the first drawing, and after giveBack()
   vtkNew<vtkGenericRenderWindowInteractor> interactor;
+  bool rendered = false; ///< into this window
 
   void open(const QSize& size) {
     if (window) return;
@@ -70,6 +71,7 @@ struct VtkView::Vtk {
     window->vtk()->MakeCurrent(); // what it drew with is of its context
     window->vtk()->RemoveRenderer(renderer);
     window.reset();
+    rendered = false;
   }
   /// Hands an event on; before the first drawing there is nothing that it could change.
   void invoke(unsigned long event) {
@@ -108,10 +110,17 @@ bool VtkView::drawn() const {
   return vtk_->window != nullptr;
 }
 
+bool VtkView::prepared() {
+  if (vtk_->window) return true;
+  vtk_->open(deviceSize());
+  return false;
+}
+
 void VtkView::render(QImage& image) {
   vtk_->open(image.size());
   vtk_->window->setSize(image.width(), image.height());
   vtk_->window->render();
+  vtk_->rendered = true;
   vtk_->window->copyBgra(image.bits(), static_cast<std::size_t>(image.bytesPerLine()));
 }
 
@@ -137,8 +146,8 @@ void VtkView::passPlace(const QPointF& place, Qt::KeyboardModifiers modifiers) {
 }
 
 /// The mouse acts on what is drawn, which a picture alone is not.
-void VtkView::open() {
-  if (drawn()) return;
+void VtkView::drawFirst() {
+  if (vtk_->rendered) return;
   invalidate();
   (void)image();
 }
@@ -153,9 +162,9 @@ void VtkView::drop() {}
 
 void VtkView::mousePressEvent(QMouseEvent* event) {
   PictureView::mousePressEvent(event);
+  drawFirst();
   grabbed_ = event->button() == Qt::LeftButton && grab(event->position(), event->modifiers());
   if (grabbed_) return;
-  open();
   passPlace(event->position(), event->modifiers());
   vtk_->invoke(pressEvent(event->button()));
 }
@@ -182,7 +191,7 @@ void VtkView::mouseMoveEvent(QMouseEvent* event) {
 }
 
 void VtkView::wheelEvent(QWheelEvent* event) {
-  open();
+  drawFirst();
   passPlace(event->position(), event->modifiers());
   wheel_ += event->angleDelta().y();
   for (; wheel_ >= kWheelNotch; wheel_ -= kWheelNotch) vtk_->invoke(vtkCommand::MouseWheelForwardEvent);

@@ -35,6 +35,7 @@ protected:
   [[nodiscard]] virtual bool standsStill() const { return false; }
 
   void render(QImage& image) override;
+  [[nodiscard]] bool prepared() override;
   [[nodiscard]] Picture renderPicture(int width, int height) override;
   void resizeEvent(QResizeEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
@@ -45,7 +46,7 @@ protected:
   void keyPressEvent(QKeyEvent* event) override;
 
 private:
-  void open();
+  void drawFirst();
   void passPlace(const QPointF& place, Qt::KeyboardModifiers modifiers);
 
   /// As a drag from the middle would do it, with the left button or, moving, with Shift.
