@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <stop_token>
+#include <utility>
 #include <vector>
 
 namespace palp {
@@ -17,8 +18,8 @@ inline constexpr double leastTouchNoise = 1e-6;
 
 /// Many measurements as a smooth function of a few causes: what the polynomials of ForwardModel are where the causes
 /// include a place, over which measurements rise and fall. The measurements are taken together into those components
-/// that stand out of the noise. Fitted by Gaussians over the places and monomials in the other causes, kept as a table;
-/// files before 1.0.0 hold a network of Gaussians in its place.
+/// that stand out of the noise. Fitted by Gaussians over the places and monomials in the other causes, kept as a
+/// table; files before 1.0.0 hold a network of Gaussians in its place.
 struct KernelForwardModel {
   Eigen::VectorXd causeOffset,
       causeFactor;                ///< causes to the inputs of the table, (y - offset) * factor; 0: never varied
@@ -42,11 +43,20 @@ struct KernelForwardModel {
   void evaluate(const Eigen::Ref<const Eigen::VectorXd>& scaled, Eigen::VectorXd& value, Eigen::MatrixXd& slope) const;
 };
 
+/// A reflection under which the measured body is its own image: where the causes are reflected, the measurements are
+/// the same in another order.
+struct KernelMirror {
+  std::vector<Eigen::Index> measurement;              ///< of each: whose value it takes; undoes itself
+  std::vector<std::pair<Eigen::Index, double>> about; ///< causes that are reflected, and the value of each that stays
+};
+
 struct KernelForwardOptions {
   double relativeNoise = 0; ///< of each measurement
   int threads = 0;          ///< 0: all cores; the result is the same
   /// What is known beforehand of the measurements at causes (one column each): only the rest is learned. Null: nothing.
   std::function<Eigen::MatrixXd(const Eigen::MatrixXd& causes)> known = {};
+  /// Of the body; they commute. Each doubles what is learned from a sample.
+  std::vector<KernelMirror> mirrors = {};
 };
 
 struct KernelForwardFit {
@@ -57,8 +67,8 @@ struct KernelForwardFit {
 };
 
 /// One column a sample. Causes of group 0 are places, at most two of which vary; those of group 1 strengths: where all
-/// of them are 0, the measurements are the same whatever the others. Width of the Gaussians, reach of the monomials and
-/// what the samples' own noise is are chosen by leave-one-out. Throws NetworkError where nothing can be fitted, and
+/// of them are 0, the measurements are the same whatever the others. Width of the Gaussians, reach of the monomials
+/// and what the samples' own noise is are chosen by leave-one-out. Throws NetworkError where nothing can be fitted, and
 /// Cancelled.
 KernelForwardFit fitKernelForwardModel(const Eigen::Ref<const Eigen::MatrixXd>& measurements,
                                        const Eigen::Ref<const Eigen::MatrixXd>& causes, const Eigen::VectorXi& groups,

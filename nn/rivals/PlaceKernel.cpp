@@ -30,6 +30,24 @@ Eigen::MatrixXi placeMonomials(Eigen::Index inputs, const std::vector<Eigen::Ind
   return exponents;
 }
 
+Eigen::MatrixXd monomialsOf(const SplineTable& form, const Eigen::MatrixXd& inputs, double reach, int least) {
+  Eigen::MatrixXd all(form.terms(), inputs.cols());
+  for (Eigen::Index j = 0; j < form.terms(); ++j) {
+    Eigen::ArrayXd value =
+        Eigen::ArrayXd::Constant(inputs.cols(), std::pow(reach, form.exponents.col(j).sum() - least));
+    for (Eigen::Index k = 0; k < form.inputs(); ++k)
+      for (int power = 0; power < form.exponents(k, j); ++power)
+        value *= inputs.row(k).transpose().array() + form.shift(k);
+    all.row(j) = value.transpose();
+  }
+  return all;
+}
+
+Eigen::Vector2d nodeOf(const SplineTable& form, int x, int y) {
+  return {form.place[0] < 0 ? 0 : form.low(0) + x * form.step(0),
+          form.place[1] < 0 ? 0 : form.low(1) + y * form.step(1)};
+}
+
 Eigen::MatrixXd gaussians(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double width) {
   Eigen::MatrixXd result(a.cols(), b.cols());
   for (Eigen::Index j = 0; j < b.cols(); ++j)

@@ -112,19 +112,35 @@ void print(const Prediction& prediction, const DecoderError& error) {
   if (error.rightAreas) std::cout << "right areas: " << 100 * *error.rightAreas << " %\n";
 }
 
+nlohmann::ordered_json boundJson(const ErrorsOverBounds& over) {
+  return {{"force_N", over.force_N},
+          {"place_mm", over.place_mm},
+          {"force_error_over_bound", over.forceRatio},
+          {"place_error_over_bound", over.placeRatio}};
+}
+
+void printBound(const std::string& who, const ErrorsOverBounds& over) {
+  std::cout << "bounds (medians), " << who << ": Fz " << over.force_N << " N, place " << over.place_mm
+            << " mm; errors over them: Fz " << over.forceRatio << ", place " << over.placeRatio << '\n';
+}
+
 /// Errors of force and place as multiples of what no estimate without a bias can beat.
-ErrorsOverBounds besideBounds(const SensorDesign& design, const SampleSet& samples, const Prediction& prediction,
-                              double noise, Session& session) {
+void besideBounds(const SensorDesign& design, const SampleSet& samples, const Prediction& prediction, double noise,
+                  Session& session) {
   const auto bounds = session.stages.measure(
       "bounds", [&] { return touchBounds(samples, design, noise, {}, session.threads, session.stop); });
   if (!bounds) throw Cancelled();
-  const ErrorsOverBounds over = errorsOverBounds(*bounds, prediction.forces_N - samples.forces_N,
-                                                 prediction.places_mm - samples.touchedPlaces_mm());
-  session.result["touch_bound"] = {{"force_N", over.force_N},
-                                   {"place_mm", over.place_mm},
-                                   {"force_error_over_bound", over.forceRatio},
-                                   {"place_error_over_bound", over.placeRatio}};
-  return over;
+  const auto beside = [&](const std::vector<TouchDeviations>& those) {
+    return errorsOverBounds(those, prediction.forces_N - samples.forces_N,
+                            prediction.places_mm - samples.touchedPlaces_mm());
+  };
+  const ErrorsOverBounds known = beside(bounds->known);
+  session.result["touch_bound"] = boundJson(known);
+  if (!session.json) printBound("indenter known", known);
+  if (bounds->sizeUnknown.empty()) return;
+  const ErrorsOverBounds unknown = beside(bounds->sizeUnknown);
+  session.result["touch_bound_size_unknown"] = boundJson(unknown);
+  if (!session.json) printBound("its size unknown", unknown);
 }
 
 Exit run(const PredictArguments& arguments, Session& session) {
@@ -158,18 +174,13 @@ Exit run(const PredictArguments& arguments, Session& session) {
     session.result["noise_bound"] = {{"without_prior_percent_of_range", listJson(bound.withoutPriorPercent)},
                                      {"with_prior_percent_of_range", listJson(bound.withPriorPercent)}};
   }
-  std::optional<ErrorsOverBounds> over;
-  if (design) over = besideBounds(*design, samples, prediction, options.noise, session);
+  if (!session.json) print(prediction, error);
+  if (design) besideBounds(*design, samples, prediction, options.noise, session);
   stopIfAsked(session.stop);
   if (!arguments.output.path.empty()) {
     writeFile(arguments.output.path, csv(decoder, prediction), arguments.output.force);
     session.result["file"] = arguments.output.path.string();
   }
-  if (session.json) return Exit::Done;
-  print(prediction, error);
-  if (over)
-    std::cout << "bounds (medians): Fz " << over->force_N << " N, place " << over->place_mm
-              << " mm; errors over them: Fz " << over->forceRatio << ", place " << over->placeRatio << '\n';
   return Exit::Done;
 }
 

@@ -324,16 +324,21 @@ QString placeWords(const NetworkFit& fit) {
 }
 
 /// The errors of a network of force and place beside what none can beat.
-QString boundWords(const NetworkSession& session, const NetworkFit& fit, const std::vector<TouchDeviations>* touches) {
-  if (touches == nullptr || touches->empty() || !fit.error.place || !session.fitIsCurrent()) return {};
+QString boundWords(const NetworkSession& session, const NetworkFit& fit, const SampleBounds* touches) {
+  if (touches == nullptr || touches->known.empty() || !fit.error.place || !session.fitIsCurrent()) return {};
   const SampleSet& test = session.samples()->test;
-  const ErrorsOverBounds over = errorsOverBounds(*touches, fit.prediction.forces_N - test.forces_N,
-                                                 fit.prediction.places_mm - test.touchedPlaces_mm());
-  return tr(" Bounds (Cramer-Rao, indenter known, medians): Fz %1 N, place %2 mm; its errors are %3 and %4 times that.")
-      .arg(over.force_N, 0, 'g', 3)
-      .arg(over.place_mm, 0, 'g', 3)
-      .arg(over.forceRatio, 0, 'g', 3)
-      .arg(over.placeRatio, 0, 'g', 3);
+  const auto words = [&](const QString& who, const std::vector<TouchDeviations>& bounds) {
+    const ErrorsOverBounds over = errorsOverBounds(bounds, fit.prediction.forces_N - test.forces_N,
+                                                   fit.prediction.places_mm - test.touchedPlaces_mm());
+    return tr(" Bounds (Cramer-Rao, %1, medians): Fz %2 N, place %3 mm; its errors are %4 and %5 times that.")
+        .arg(who)
+        .arg(over.force_N, 0, 'g', 3)
+        .arg(over.place_mm, 0, 'g', 3)
+        .arg(over.forceRatio, 0, 'g', 3)
+        .arg(over.placeRatio, 0, 'g', 3);
+  };
+  if (touches->sizeUnknown.empty()) return words(tr("indenter known"), touches->known);
+  return words(tr("indenter known"), touches->known) + words(tr("its size unknown"), touches->sizeUnknown);
 }
 
 /// What a result calls for.
@@ -368,7 +373,7 @@ QString warningWords(const NetworkFit& fit) {
 } // namespace
 
 QString fitWords(const NetworkSession& session, const NetworkSettings& now, const NoiseBound* bound,
-                 const std::vector<TouchDeviations>* touches) {
+                 const SampleBounds* touches) {
   const NetworkFit* fit = session.fit();
   if (fit == nullptr && session.openingResults()) return tr("The networks of the project are being opened.");
   if (fit == nullptr)

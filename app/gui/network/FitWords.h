@@ -3,7 +3,7 @@
 #include "app/gui/jobs/NetworkSession.h"
 
 #include "app/study/decoding/NoiseBound.h"
-#include "app/study/reports/map/TouchMap.h"
+#include "app/study/reports/map/TouchBound.h"
 
 #include <QString>
 
@@ -49,6 +49,6 @@ bool sweepAndTrialsAgree(const NetworkSession& session);
 /// the network before it; grey with the reason where it is stale. `touches`: the bounds at each touch of the test;
 /// null: not known, or not yet.
 QString fitWords(const NetworkSession& session, const NetworkSettings& now, const NoiseBound* bound,
-                 const std::vector<TouchDeviations>* touches = nullptr);
+                 const SampleBounds* touches = nullptr);
 
 } // namespace palp

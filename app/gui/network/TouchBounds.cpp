@@ -8,12 +8,12 @@ namespace palp {
 TouchBounds::TouchBounds(NetworkSession& session, QObject* parent) : QObject(parent), session_(session) {
   connect(&runner_, &JobRunner::finished, this, [this](bool cancelled) {
     if (!cancelled || bounds_) return;
-    bounds_ = std::make_shared<const std::vector<TouchDeviations>>(); // who cancels wants none
+    bounds_ = std::make_shared<const SampleBounds>(); // who cancels wants none
     emit changed();
   });
 }
 
-const std::vector<TouchDeviations>* TouchBounds::of(const NetworkSettings& settings) {
+const SampleBounds* TouchBounds::of(const NetworkSettings& settings) {
   const bool all = settings.input == InputKind::Resistance && settings.rows == "all";
   if (!session_.upToDate() || !(settings.testNoise > 0) || !all || !session_.samples()->test.hasTouches())
     return nullptr;
@@ -30,7 +30,7 @@ void TouchBounds::compute() {
   runner_.start(tr("Bounding the errors"),
                 [this, samples = session_.sharedSamples(), noise = noise_,
                  design = session_.design()](const std::stop_token& stop, JobProgress&) -> JobRunner::Taking {
-                  std::optional<std::vector<TouchDeviations>> found;
+                  std::optional<SampleBounds> found;
                   try {
                     found = touchBounds(samples->test, design, noise, samples->mesh.value_or(MeshOptions()), 0, stop);
                   } catch (const Cancelled&) {
@@ -39,7 +39,7 @@ void TouchBounds::compute() {
                     found.emplace();
                   }
                   if (!found) return {};
-                  auto bounds = std::make_shared<const std::vector<TouchDeviations>>(std::move(*found));
+                  auto bounds = std::make_shared<const SampleBounds>(std::move(*found));
                   return [this, bounds, samples, noise] {
                     if (samples != samples_.lock() || noise != noise_) return;
                     bounds_ = bounds;

@@ -19,7 +19,7 @@ public:
 
   /// Null where there is no noise of the test, where not all resistances are read, where the samples are no touches of
   /// the design, or while it is computed: then changed() follows. Empty where there is none.
-  const std::vector<TouchDeviations>* of(const NetworkSettings& settings);
+  const SampleBounds* of(const NetworkSettings& settings);
   [[nodiscard]] JobRunner& runner() { return runner_; }
 
 signals:
@@ -32,7 +32,7 @@ private:
   JobRunner runner_;
   std::weak_ptr<const NetworkSamples> samples_; ///< of which the bounds are
   double noise_ = 0;
-  std::shared_ptr<const std::vector<TouchDeviations>> bounds_; ///< null: on the way
+  std::shared_ptr<const SampleBounds> bounds_; ///< null: on the way
 };
 
 } // namespace palp

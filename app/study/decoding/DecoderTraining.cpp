@@ -245,6 +245,7 @@ void DecoderTraining::fitTouches() {
   if (design_ && samples_.hasTouches()) {
     say(0, "what the design says of touches");
     options.known = knownReadings(*design_, samples_, decoder_.input, options_.threads, stop_);
+    options.mirrors = mirrorsOfTouches(*design_, causes, decoder_.input);
     say(0.3, "learning the rest");
   }
   KernelForwardFit fit = fitKernelForwardModel(inputs_, causes, groups, options, stop_);

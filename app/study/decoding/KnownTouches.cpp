@@ -1,5 +1,6 @@
 #include "app/study/decoding/KnownTouches.h"
 
+#include "app/study/decoding/DesignMirror.h"
 #include "app/study/reports/map/TouchMap.h"
 #include "io/DesignFile.h"
 #include "model/DesignError.h"
@@ -10,7 +11,10 @@
 #include "model/base/Error.h"
 #include "solver/SensorMesh.h"
 
+#include <algorithm>
 #include <memory>
+#include <optional>
+#include <utility>
 
 namespace palp {
 
@@ -76,6 +80,31 @@ KnownReadings knownReadings(const SensorDesign& design, const SampleSet& samples
     const Eigen::MatrixXd changes = surfaces->under(touches, threads, stop);
     return rest_ohm.asDiagonal() * (1 + changes(used, Eigen::all).array()).matrix();
   };
+}
+
+std::vector<KernelMirror> mirrorsOfTouches(const SensorDesign& design, const Eigen::MatrixXd& causes,
+                                           const DecoderInput& input) {
+  std::vector<KernelMirror> mirrors;
+  for (int axis = 0; axis < 2; ++axis) {
+    const std::optional<DesignMirror> mirror = mirrorOf(design, axis);
+    if (!mirror) continue;
+    KernelMirror found;
+    found.about = {{axis, 0.}, {3 + axis, design.block_mm(axis) / 2}}; // force and place
+    const bool reflected = std::all_of(found.about.begin(), found.about.end(), [&](const auto& cause) {
+      const auto values = causes.row(cause.first);
+      return values.minCoeff() < values.maxCoeff() || values(0) == cause.second;
+    });
+    for (std::size_t k = 0; reflected && k < input.rows.size(); ++k) {
+      const auto image =
+          std::find(input.rows.begin(), input.rows.end(), mirror->row[static_cast<std::size_t>(input.rows[k])]);
+      if (image == input.rows.end()) break;
+      for (const int column : mirror->column)
+        found.measurement.push_back((image - input.rows.begin()) * Eigen::Index(input.valuesPerRow) + column);
+    }
+    if (static_cast<int>(found.measurement.size()) == static_cast<int>(input.rows.size()) * input.valuesPerRow)
+      mirrors.push_back(std::move(found));
+  }
+  return mirrors;
 }
 
 } // namespace palp

@@ -3,9 +3,11 @@
 #include "io/Decoder.h"
 #include "model/SampleSet.h"
 #include "model/SensorDesign.h"
+#include "nn/rivals/KernelInversion.h"
 
 #include <functional>
 #include <stop_token>
+#include <vector>
 
 namespace palp {
 
@@ -16,5 +18,10 @@ namespace palp {
 using KnownReadings = std::function<Eigen::MatrixXd(const Eigen::MatrixXd& causes)>;
 KnownReadings knownReadings(const SensorDesign& design, const SampleSet& samples, const DecoderInput& input,
                             int threads, const std::stop_token& stop);
+
+/// Mirrors that the design has and these touches (causes as above, a column each) can be reflected by: not where the
+/// decoder reads a row-wire without its image, or a force or place that never varies would become another.
+std::vector<KernelMirror> mirrorsOfTouches(const SensorDesign& design, const Eigen::MatrixXd& causes,
+                                           const DecoderInput& input);
 
 } // namespace palp

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace palp {
 namespace {
@@ -87,6 +88,72 @@ TEST(KernelInversion, WhatIsKnownBeforehandNeedNotBeLearned) {
     return all;
   };
   EXPECT_LT(worst(fitKernelForwardModel(few.measurements, few.causes, kGroups, options)), 0.5 * alone);
+}
+
+/// Bumps with a smaller one at one side and its opposite at the other, as lateral forces make them: reflected, the
+/// measurements come in the other order and that cause is the opposite.
+struct LeaningBumps {
+  Eigen::MatrixXd causes, measurements;
+  LeaningBumps(int count, std::uint64_t seed, double noise = 0) : causes(4, count), measurements(24, count) {
+    RandomNumbers random(seed);
+    for (int i = 0; i < count; ++i) {
+      causes.col(i) << 1 + 4 * random.uniform(), 2 * random.uniform() - 1, 4 + 15 * random.uniform(),
+          3 + random.uniform();
+      for (int m = 0; m < 24; ++m) {
+        const double along = (m - causes(2, i)) / causes(3, i);
+        const double aside = std::exp(-std::pow(along - 1.5, 2)) - std::exp(-std::pow(along + 1.5, 2));
+        measurements(m, i) = 100 + causes(0, i) * std::exp(-along * along) + causes(1, i) * aside;
+      }
+      for (int m = 0; m < 24 && noise > 0; ++m) measurements(m, i) *= 1 + noise * random.normal();
+    }
+  }
+  static KernelMirror mirror() {
+    KernelMirror mirror;
+    for (Eigen::Index m = 0; m < 24; ++m) mirror.measurement.push_back(23 - m);
+    mirror.about = {{1, 0.}, {2, 11.5}};
+    return mirror;
+  }
+};
+
+TEST(KernelInversion, AMirrorTeachesTheImageOfEachSampleAsWell) {
+  const LeaningBumps few(80, 1), fresh(100, 2, 1e-5);
+  KernelForwardOptions options{1e-5, 1};
+  const auto off = [&](const KernelInversion& inversion, Eigen::Index cause) {
+    std::vector<double> sizes;
+    for (Eigen::Index i = 0; i < 100; ++i)
+      sizes.push_back(std::abs(inversion.estimate(fresh.measurements.col(i)).causes(cause) - fresh.causes(cause, i)));
+    std::nth_element(sizes.begin(), sizes.begin() + 50, sizes.end());
+    return sizes[50];
+  };
+  const KernelForwardFit plain = fitKernelForwardModel(few.measurements, few.causes, kGroups, options);
+  options.mirrors = {LeaningBumps::mirror()};
+  const KernelForwardFit fit = fitKernelForwardModel(few.measurements, few.causes, kGroups, options);
+  const KernelInversion alone(plain.model), mirrored(fit.model);
+  for (const Eigen::Index cause : {1, 2}) EXPECT_LT(off(mirrored, cause), 0.7 * off(alone, cause)) << cause;
+  // And what is found of an image is the image of what is found.
+  for (Eigen::Index i = 0; i < 20; ++i) {
+    const KernelEstimate one = mirrored.estimate(fresh.measurements.col(i)),
+                         image = mirrored.estimate(fresh.measurements.col(i).reverse());
+    EXPECT_NEAR(image.causes(2), 23 - one.causes(2), 0.2 * one.standardDeviation(2)) << i;
+    EXPECT_NEAR(image.causes(1), -one.causes(1), 0.2 * one.standardDeviation(1)) << i;
+  }
+}
+
+TEST(KernelInversion, RefusesMirrorsThatTheSamplesCannotHave) {
+  const LeaningBumps some(50, 1);
+  KernelForwardOptions options{1e-4, 1};
+  options.mirrors = {LeaningBumps::mirror()};
+  std::swap(options.mirrors[0].measurement[3], options.mirrors[0].measurement[4]); // twice is not where it began
+  EXPECT_THROW(fitKernelForwardModel(some.measurements, some.causes, kGroups, options), NetworkError);
+  options.mirrors[0].measurement.pop_back();
+  EXPECT_THROW(fitKernelForwardModel(some.measurements, some.causes, kGroups, options), NetworkError);
+  options.mirrors = {LeaningBumps::mirror()};
+  options.mirrors[0].about.emplace_back(4, 0.);
+  EXPECT_THROW(fitKernelForwardModel(some.measurements, some.causes, kGroups, options), NetworkError);
+  options.mirrors = {LeaningBumps::mirror()};
+  Eigen::MatrixXd leaning = some.causes; // all by as much, to one side
+  leaning.row(1).setConstant(0.5);
+  EXPECT_THROW(fitKernelForwardModel(some.measurements, leaning, kGroups, options), NetworkError);
 }
 
 TEST(KernelInversion, RefusesWhatNothingCanBeFittedTo) {

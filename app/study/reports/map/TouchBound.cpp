@@ -12,6 +12,7 @@ namespace palp {
 namespace {
 
 constexpr double kMedianOfNormal = 0.67449;    // of |z|, z normal with deviation 1
+constexpr double kSizeStep = 0.02;             // relative, of the difference that the slope is taken from
 constexpr double kMedianOfRayleigh = 1.177410; // of a distance in the plane whose coordinates have deviation 1
 
 Indenter touchOf(const SampleSet& samples, Eigen::Index i) {
@@ -23,11 +24,15 @@ Indenter touchOf(const SampleSet& samples, Eigen::Index i) {
   return touch;
 }
 
+std::vector<Indenter> resized(std::vector<Indenter> touches, double factor) {
+  for (Indenter& touch : touches) touch.radius_mm *= factor;
+  return touches;
+}
+
 } // namespace
 
-std::optional<std::vector<TouchDeviations>> touchBounds(const SampleSet& samples, const SensorDesign& design,
-                                                        double relativeNoise, const MeshOptions& mesh, int threads,
-                                                        const std::stop_token& stop) {
+std::optional<SampleBounds> touchBounds(const SampleSet& samples, const SensorDesign& design, double relativeNoise,
+                                        const MeshOptions& mesh, int threads, const std::stop_token& stop) {
   if (!samples.hasTouches()) throw Error("the samples are of no touches; their bound needs no design");
   if (samples.origin.designFingerprint != designFingerprint(design))
     throw Error("the samples are of the design " + samples.origin.designFingerprint + ", not of this one, " +
@@ -43,12 +48,24 @@ std::optional<std::vector<TouchDeviations>> touchBounds(const SampleSet& samples
   if (problem.findFactor(threads, stop) == 0) return {};
   const auto surfaces = InfluenceSurfaces::find(problem, readings, threads, stop);
   if (!surfaces) return {};
-  std::vector<TouchDeviations> bounds;
+  SampleBounds bounds;
   const std::vector<TouchInfluence> influences = surfaces->of(touches, threads, stop);
+  const auto sizes_mm = samples.touches.row(kTouchSize_mm);
+  const bool vary = sizes_mm.minCoeff() < sizes_mm.maxCoeff();
+  std::vector<TouchInfluence> larger, smaller;
+  if (vary) {
+    larger = surfaces->of(resized(touches, 1 + kSizeStep), threads, stop);
+    smaller = surfaces->of(resized(touches, 1 - kSizeStep), threads, stop);
+  }
   for (std::size_t i = 0; i < touches.size(); ++i) {
     const auto column = static_cast<Eigen::Index>(i);
-    bounds.push_back(touchDeviations(influences[i], samples.forces_N(2, column),
-                                     samples.touches(kTouchFriction, column) > 0, relativeNoise));
+    const double Fz_N = samples.forces_N(2, column);
+    const bool held = samples.touches(kTouchFriction, column) > 0;
+    bounds.known.push_back(touchDeviations(influences[i], Fz_N, held, relativeNoise));
+    if (!vary) continue;
+    const Eigen::VectorXd bySize =
+        Fz_N / (2 * kSizeStep) * (larger[i].perNewton.col(2) - smaller[i].perNewton.col(2)); // of its logarithm
+    bounds.sizeUnknown.push_back(touchDeviations(influences[i], Fz_N, held, relativeNoise, bySize));
   }
   return bounds;
 }

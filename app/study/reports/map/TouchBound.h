@@ -11,12 +11,17 @@
 
 namespace palp {
 
-/// The bounds of each sample's touch, its indenter known, without prior: by the influence surfaces of the design at
-/// rest (TouchMap says what that leaves out), the contact as large as its force makes it. Empty: stopped. Throws Error
-/// where the samples are of no touches or of another design, and DesignError where no map can be made.
-std::optional<std::vector<TouchDeviations>> touchBounds(const SampleSet& samples, const SensorDesign& design,
-                                                        double relativeNoise, const MeshOptions& mesh, int threads,
-                                                        const std::stop_token& stop = {});
+/// What no estimate without a bias and without prior can beat, at each sample's touch.
+struct SampleBounds {
+  std::vector<TouchDeviations> known;       ///< by one who is told the indenter
+  std::vector<TouchDeviations> sizeUnknown; ///< by one who has to find its size as well; empty: all are of one size
+};
+
+/// By the influence surfaces of the design at rest (TouchMap says what that leaves out), the contact as large as its
+/// force makes it. Empty: stopped. Throws Error where the samples are of no touches or of another design, and
+/// DesignError where no map can be made.
+std::optional<SampleBounds> touchBounds(const SampleSet& samples, const SensorDesign& design, double relativeNoise,
+                                        const MeshOptions& mesh, int threads, const std::stop_token& stop = {});
 
 /// How errors stand beside bounds, in the median over the samples: of an estimate that is normal and reaches its bound
 /// both ratios are 1.

@@ -190,16 +190,16 @@ LinearReadings readingsAtRest(const SensorDesign& design, int threads, const std
   return byPairs(design);
 }
 
-TouchDeviations touchDeviations(const TouchInfluence& of, double Fz_N, bool held, double relativeNoise) {
+TouchDeviations touchDeviations(const TouchInfluence& of, double Fz_N, bool held, double relativeNoise,
+                                const Eigen::VectorXd& bySize) {
   const Eigen::MatrixXd slippery = unknowns(of, Fz_N, relativeNoise);
-  if (!held) {
-    const Eigen::Vector3d found = deviations(slippery);
-    return {{0, 0, found(0)}, found.tail<2>()};
-  }
-  Eigen::MatrixXd j(slippery.rows(), 5);
-  j << of.perNewton.leftCols<2>() / relativeNoise, slippery;
-  const Eigen::VectorXd found = deviations(j);
-  return {found.head<3>(), found.tail<2>()};
+  const Eigen::Index sideways = held ? 2 : 0, sizes = bySize.size() > 0 ? 1 : 0;
+  Eigen::MatrixXd j(slippery.rows(), sideways + 3 + sizes);
+  j << of.perNewton.leftCols(sideways) / relativeNoise, slippery, bySize.replicate(1, sizes) / relativeNoise;
+  const Eigen::VectorXd found = deviations(std::move(j));
+  TouchDeviations result{{0, 0, found(sideways)}, found.segment<2>(sideways + 1)};
+  if (held) result.force_N.head<2>() = found.head<2>();
+  return result;
 }
 
 Eigen::Matrix2Xd placesOf(const TouchMapRequest& request) {

@@ -60,7 +60,9 @@ struct TouchDeviations {
   Eigen::Vector3d force_N; ///< of a touch without friction those of Fx and Fy are 0: they are known
   Eigen::Vector2d place_mm;
 };
-TouchDeviations touchDeviations(const TouchInfluence& of, double Fz_N, bool held, double relativeNoise);
+/// `bySize`: how the readings change with another unknown, here the indenter's size; empty: that is known.
+TouchDeviations touchDeviations(const TouchInfluence& of, double Fz_N, bool held, double relativeNoise,
+                                const Eigen::VectorXd& bySize = {});
 
 /// Places of a map, x first: 2 x places.
 Eigen::Matrix2Xd placesOf(const TouchMapRequest& request);

@@ -45,15 +45,28 @@ TEST(TouchBound, IsThatOfTheMapAtTheSamePlaces) {
   request.relativeNoise = kTouchNoise;
   const TouchMap map = touchMap(*surfaces, request, 0);
   const auto bounds = touchBounds(fourTouches(design), design, kTouchNoise, coarseTouches(), 0);
-  ASSERT_TRUE(bounds && bounds->size() == 4);
+  ASSERT_TRUE(bounds && bounds->known.size() == 4);
   for (int x = 0; x < 2; ++x) {
-    const TouchDeviations& slides = (*bounds)[static_cast<std::size_t>(x)];
+    const TouchDeviations& slides = bounds->known[static_cast<std::size_t>(x)];
     EXPECT_NEAR(slides.place_mm.norm(), map.slipperyPlace_mm(x, 0), 1e-9 * map.slipperyPlace_mm(x, 0));
     EXPECT_NEAR(slides.force_N.z(), map.slipperyForce_N(x, 0), 1e-9 * map.slipperyForce_N(x, 0));
     EXPECT_EQ(slides.force_N.head<2>().norm(), 0);
-    const TouchDeviations& held = (*bounds)[static_cast<std::size_t>(2 + x)];
+    const TouchDeviations& held = bounds->known[static_cast<std::size_t>(2 + x)];
     EXPECT_NEAR(held.place_mm.norm(), map.heldPlace_mm(x, 1), 1e-9 * map.heldPlace_mm(x, 1));
     EXPECT_NEAR(held.force_N.x(), map.heldForce_N[0](x, 1), 1e-9 * map.heldForce_N[0](x, 1));
+  }
+  EXPECT_TRUE(bounds->sizeUnknown.empty()) << "all are of one size";
+}
+
+TEST(TouchBound, IsHigherForWhoHasToFindTheSizeAsWell) {
+  const SensorDesign design = paperDesign();
+  SampleSet samples = fourTouches(design);
+  samples.touches.row(kTouchSize_mm) << 4, 5, 4, 5;
+  const auto bounds = touchBounds(samples, design, kTouchNoise, coarseTouches(), 0);
+  ASSERT_TRUE(bounds && bounds->sizeUnknown.size() == 4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_GT(bounds->sizeUnknown[i].force_N.z(), 1.001 * bounds->known[i].force_N.z()) << i;
+    EXPECT_GE(bounds->sizeUnknown[i].place_mm.norm(), bounds->known[i].place_mm.norm()) << i;
   }
 }
 
