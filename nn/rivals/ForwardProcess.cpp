@@ -161,8 +161,8 @@ std::vector<Eigen::MatrixXd> ForwardProcess::covariances(const std::vector<Eigen
                                                          const Smoothness& by) const {
   std::vector<Eigen::MatrixXd> result;
   Eigen::MatrixXd places, terms;
-  for (const Eigen::MatrixXd& image : images_) {
-    const Eigen::MatrixXd scaled = image(Eigen::all, samples);
+  for (std::size_t element = 0; element < imagesFor(by); ++element) {
+    const Eigen::MatrixXd scaled = images_[element](Eigen::all, samples);
     const Eigen::MatrixXd placesThere = placesOf(scaled),
                           termsThere = monomialsOf(form_, scaled, by.reach, common_.strengths.empty() ? 0 : 1);
     if (result.empty()) {
@@ -176,17 +176,22 @@ std::vector<Eigen::MatrixXd> ForwardProcess::covariances(const std::vector<Eigen
   return result;
 }
 
+std::vector<ForwardProcess::Part> ForwardProcess::partsFor(const Smoothness& by) const {
+  if (by.mirrored) return parts_;
+  return {{0, 0, components_.rows()}};
+}
+
 /// None where a system is singular to rounding. Residuals by S. Sundararajan and S. S. Keerthi, 2001.
 std::optional<ForwardProcess::Fitted> ForwardProcess::fitted(const std::vector<Eigen::Index>& samples,
                                                              const Smoothness& by) const {
   const std::vector<Eigen::MatrixXd> ofImages = covariances(samples, by);
   const Eigen::MatrixXd targets = components_(Eigen::all, samples).transpose();
   Fitted result{Eigen::MatrixXd(targets.rows(), targets.cols()), Eigen::MatrixXd(targets.rows(), targets.cols())};
-  for (const Part& part : parts_) {
+  for (const Part& part : partsFor(by)) {
     Eigen::MatrixXd system = ofImages[0];
-    for (int element = 1; element < mirrors_.size(); ++element)
-      system += MirrorGroup::sign(part.parity, element) * ofImages[static_cast<std::size_t>(element)];
-    if (part.parity == 0) system.array() += mirrors_.size() * kRestVariance;
+    for (std::size_t element = 1; element < ofImages.size(); ++element)
+      system += MirrorGroup::sign(part.parity, static_cast<int>(element)) * ofImages[element];
+    if (part.parity == 0) system.array() += static_cast<double>(ofImages.size()) * kRestVariance;
     system.diagonal().array() += by.smoothing;
     stopIfAsked(stop_);
     if (!lapack::choleskyInPlace(system)) return {};
@@ -227,6 +232,12 @@ void ForwardProcess::chooseSmoothness() {
     along(&Smoothness::width, kWidths);
     along(&Smoothness::reach, kReaches);
     along(&Smoothness::smoothing, kSmoothings);
+    for (const double width : kWidths)
+      if (Smoothness by = smoothness_; mirrors_.size() > 1 && by.mirrored) {
+        by.width = width;
+        by.mirrored = false;
+        tryOne(by);
+      }
     if (!(best < 0.98 * before)) break;
   }
   if (!std::isfinite(best)) throw NetworkError(kNoFunction);
@@ -238,12 +249,14 @@ SplineTable ForwardProcess::tableOf(const std::vector<Eigen::Index>& samples, co
   // monomial.
   std::vector<Eigen::MatrixXd> places, terms;
   const int least = common_.strengths.empty() ? 0 : 1;
-  for (const Eigen::MatrixXd& image : images_) {
+  for (std::size_t element = 0; element < imagesFor(smoothness_); ++element) {
+    const Eigen::MatrixXd& image = images_[element];
     places.push_back(placesOf(image(Eigen::all, samples)));
     terms.push_back(monomialsOf(form_, image(Eigen::all, samples), smoothness_.reach, least));
     for (Eigen::Index j = 0; j < table.terms(); ++j)
       terms.back().row(j) *= std::pow(smoothness_.reach, table.exponents.col(j).sum() - least);
   }
+  const std::vector<Part> parts = partsFor(smoothness_);
   Eigen::MatrixXd values = Eigen::MatrixXd::Zero(weights.cols(), table.terms() * table.nodes[0] * table.nodes[1]);
   inParallel(static_cast<std::size_t>(table.nodes[1]), options_.threads, [&](std::size_t line) {
     if (stop_.stop_requested()) return;
@@ -254,7 +267,7 @@ SplineTable ForwardProcess::tableOf(const std::vector<Eigen::Index>& samples, co
       const Eigen::MatrixXd shares = gaussians(places[element], nodes, width()); // samples x nodes
       for (Eigen::Index j = 0; j < table.terms(); ++j) {
         const Eigen::MatrixXd ofTerm = weights.transpose() * (terms[element].row(j).transpose().asDiagonal() * shares);
-        for (const Part& part : parts_) {
+        for (const Part& part : parts) {
           const double sign = MirrorGroup::sign(part.parity, static_cast<int>(element));
           for (int x = 0; x < table.nodes[0]; ++x)
             values.col(j + table.terms() * (x + Eigen::Index(table.nodes[0]) * y)).segment(part.from, part.count) +=
@@ -266,9 +279,9 @@ SplineTable ForwardProcess::tableOf(const std::vector<Eigen::Index>& samples, co
   stopIfAsked(stop_);
   table.interpolate(std::move(values));
   table.rest = Eigen::VectorXd::Zero(weights.cols());
-  if (parts_[0].parity == 0)
-    table.rest.head(parts_[0].count) =
-        mirrors_.size() * kRestVariance * weights.leftCols(parts_[0].count).colwise().sum().transpose();
+  if (parts[0].parity == 0)
+    table.rest.head(parts[0].count) = static_cast<double>(places.size()) * kRestVariance *
+                                      weights.leftCols(parts[0].count).colwise().sum().transpose();
   if (known_.coefficients.size() > 0) {
     table.coefficients += known_.coefficients;
     table.rest += known_.rest;

@@ -19,6 +19,7 @@ struct Smoothness {
   double width = 0.14;     ///< of the Gaussians over the places, of the places' range
   double reach = 0.3;      ///< of each further degree's coefficients
   double smoothing = 1e-6; ///< variance left to a sample, of the components' own
+  bool mirrored = true;    ///< the samples have the mirrors that the body is said to have
 };
 
 /// What all samples decide, then models of some of them. The components z of the causes c, with x their places and m_j
@@ -46,6 +47,9 @@ private:
     Eigen::MatrixXd weights;     ///< samples x components
     Eigen::MatrixXd leaveOneOut; ///< residuals, samples x components
   };
+  /// All components are one part where the samples have no mirrors.
+  [[nodiscard]] std::vector<Part> partsFor(const Smoothness& by) const;
+  [[nodiscard]] std::size_t imagesFor(const Smoothness& by) const { return by.mirrored ? images_.size() : 1; }
   void project(const Eigen::MatrixXd& centred, const Eigen::VectorXd& noise);
   [[nodiscard]] Eigen::MatrixXd placesOf(const Eigen::MatrixXd& scaled) const;
   [[nodiscard]] std::vector<Eigen::MatrixXd> covariances(const std::vector<Eigen::Index>& samples,

@@ -106,7 +106,9 @@ TEST_F(Heartbeat, BeatsWhileSamplingTrainingAndSweeping) {
       "sampling", [&] { click("generate"); }, [&] { return network.samples() != nullptr; });
   ASSERT_TRUE(idle());
   expectFree(
-      "training", [&] { click("train"); }, [&] { return network.fit() != nullptr && !network.runner().running(); });
+      "training", [&] { click("train"); }, [&, looks = 0]() mutable { // until its charts are drawn
+        return network.fit() != nullptr && !network.runner().running() && ++looks > 20;
+      });
 #ifdef PALP_THREAD_SANITIZER // shaders of the charts: compiled once in a process, and for most of a second there
   click("sweep");
   ASSERT_TRUE(QTest::qWaitFor([&] { return network.sweepPoints().size() == 5; }, kPatience_ms));

@@ -139,6 +139,26 @@ TEST(KernelInversion, AMirrorTeachesTheImageOfEachSampleAsWell) {
   }
 }
 
+TEST(KernelInversion, AMirrorThatTheSamplesDoNotHaveIsNotUsed) {
+  LeaningBumps train(150, 1), fresh(100, 2, 1e-5);
+  for (LeaningBumps* bumps : {&train, &fresh}) // on one side they are higher
+    for (Eigen::Index m = 0; m < 24; ++m)
+      bumps->measurements.row(m) =
+          (100 + (1 + 0.02 * static_cast<double>(m)) * (bumps->measurements.row(m).array() - 100)).matrix();
+  KernelForwardOptions options{1e-5, 1};
+  const auto off = [&](const KernelForwardFit& fit) {
+    const KernelInversion inversion(fit.model);
+    std::vector<double> sizes;
+    for (Eigen::Index i = 0; i < 100; ++i)
+      sizes.push_back(std::abs(inversion.estimate(fresh.measurements.col(i)).causes(2) - fresh.causes(2, i)));
+    std::nth_element(sizes.begin(), sizes.begin() + 50, sizes.end());
+    return sizes[50];
+  };
+  const double alone = off(fitKernelForwardModel(train.measurements, train.causes, kGroups, options));
+  options.mirrors = {LeaningBumps::mirror()};
+  EXPECT_LT(off(fitKernelForwardModel(train.measurements, train.causes, kGroups, options)), 1.2 * alone);
+}
+
 TEST(KernelInversion, RefusesMirrorsThatTheSamplesCannotHave) {
   const LeaningBumps some(50, 1);
   KernelForwardOptions options{1e-4, 1};
