@@ -140,7 +140,7 @@ void besideBounds(const SensorDesign& design, const SampleSet& samples, const Pr
   if (bounds->sizeUnknown.empty()) return;
   const ErrorsOverBounds unknown = beside(bounds->sizeUnknown);
   session.result["touch_bound_size_unknown"] = boundJson(unknown);
-  if (!session.json) printBound("its size unknown", unknown);
+  if (!session.json) printBound("indenter's size unknown", unknown);
 }
 
 Exit run(const PredictArguments& arguments, Session& session) {

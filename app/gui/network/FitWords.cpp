@@ -338,7 +338,7 @@ QString boundWords(const NetworkSession& session, const NetworkFit& fit, const S
         .arg(over.placeRatio, 0, 'g', 3);
   };
   if (touches->sizeUnknown.empty()) return words(tr("indenter known"), touches->known);
-  return words(tr("indenter known"), touches->known) + words(tr("its size unknown"), touches->sizeUnknown);
+  return words(tr("indenter known"), touches->known) + words(tr("indenter's size unknown"), touches->sizeUnknown);
 }
 
 /// What a result calls for.
