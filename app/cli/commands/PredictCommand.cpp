@@ -12,6 +12,9 @@
 
 #include <iostream>
 #include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace palp {
 namespace {
@@ -124,9 +127,10 @@ void printBound(const std::string& who, const ErrorsOverBounds& over) {
             << " mm; errors over them: Fz " << over.forceRatio << ", place " << over.placeRatio << '\n';
 }
 
-/// Errors of force and place as multiples of what no estimate without a bias can beat.
-void besideBounds(const SensorDesign& design, const SampleSet& samples, const Prediction& prediction, double noise,
-                  Session& session) {
+/// Errors of force and place as multiples of what no estimate without a bias can beat, of one who knows so much each.
+std::vector<std::pair<std::string, ErrorsOverBounds>> besideBounds(const SensorDesign& design, const SampleSet& samples,
+                                                                   const Prediction& prediction, double noise,
+                                                                   Session& session) {
   const auto bounds = session.stages.measure(
       "bounds", [&] { return touchBounds(samples, design, noise, {}, session.threads, session.stop); });
   if (!bounds) throw Cancelled();
@@ -134,13 +138,12 @@ void besideBounds(const SensorDesign& design, const SampleSet& samples, const Pr
     return errorsOverBounds(those, prediction.forces_N - samples.forces_N,
                             prediction.places_mm - samples.touchedPlaces_mm());
   };
-  const ErrorsOverBounds known = beside(bounds->known);
-  session.result["touch_bound"] = boundJson(known);
-  if (!session.json) printBound("indenter known", known);
-  if (bounds->sizeUnknown.empty()) return;
-  const ErrorsOverBounds unknown = beside(bounds->sizeUnknown);
-  session.result["touch_bound_size_unknown"] = boundJson(unknown);
-  if (!session.json) printBound("indenter's size unknown", unknown);
+  std::vector<std::pair<std::string, ErrorsOverBounds>> over{{"indenter known", beside(bounds->known)}};
+  session.result["touch_bound"] = boundJson(over.back().second);
+  if (bounds->sizeUnknown.empty()) return over;
+  over.emplace_back("indenter's size unknown", beside(bounds->sizeUnknown));
+  session.result["touch_bound_size_unknown"] = boundJson(over.back().second);
+  return over;
 }
 
 Exit run(const PredictArguments& arguments, Session& session) {
@@ -174,13 +177,16 @@ Exit run(const PredictArguments& arguments, Session& session) {
     session.result["noise_bound"] = {{"without_prior_percent_of_range", listJson(bound.withoutPriorPercent)},
                                      {"with_prior_percent_of_range", listJson(bound.withPriorPercent)}};
   }
-  if (!session.json) print(prediction, error);
-  if (design) besideBounds(*design, samples, prediction, options.noise, session);
+  std::vector<std::pair<std::string, ErrorsOverBounds>> bounds;
+  if (design) bounds = besideBounds(*design, samples, prediction, options.noise, session);
   stopIfAsked(session.stop);
   if (!arguments.output.path.empty()) {
     writeFile(arguments.output.path, csv(decoder, prediction), arguments.output.force);
     session.result["file"] = arguments.output.path.string();
   }
+  if (session.json) return Exit::Done;
+  print(prediction, error);
+  for (const auto& [who, over] : bounds) printBound(who, over);
   return Exit::Done;
 }
 
