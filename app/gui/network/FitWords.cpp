@@ -296,7 +296,8 @@ QString table(const std::vector<Column>& columns, const QString& title) {
       rows += cell(d < column.values.size() ? inWords(column.values[d]) : QString("..."));
     rows += "</tr>";
   }
-  return "<table cellspacing=\"0\" cellpadding=\"0\">" + rows + "</table>";
+  // The words flow around it: beside it in a table of two columns, both were laid out a dozen times, for 60 ms.
+  return "<table style=\"float: left; margin-right: 16px\" cellspacing=\"0\" cellpadding=\"0\">" + rows + "</table>";
 }
 
 /// The errors of the network that is shown, beside the bound and the network that was shown before it.
@@ -393,9 +394,8 @@ QString fitWords(const NetworkSession& session, const NetworkSettings& now, cons
   const bool ofTouches = session.samples() != nullptr && session.samples()->test.hasTouches();
   const QString title = ofTouches ? tr("Test error, all touches") : tr("Test error, all areas");
   const QString errors = table(columns(session, *fit, bound), current ? "<b>" + title + "</b>" : title);
-  const QString both = "<table width=\"100%\" cellspacing=\"0\" cellpadding=\"0\"><tr><td>" + errors +
-                       "</td><td width=\"16\"></td><td>" +
-                       (current ? rest : "<i>" + reason.toHtmlEscaped() + "</i> " + rest) + "</td></tr></table>";
+  const QString both =
+      errors + "<div>" + (current ? rest : "<i>" + reason.toHtmlEscaped() + "</i> " + rest) + "</div>";
   return (current ? both : "<div style=\"color: #808890\">" + both + "</div>") + warningWords(*fit);
 }
 

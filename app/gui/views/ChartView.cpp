@@ -75,6 +75,17 @@ void ChartView::render(QImage& image) {
     VtkView::render(image);
 }
 
+bool ChartView::drawPart(int part) {
+  if (part > 1) return false;
+  parts_->chart->ClearPlots();
+  parts_->chart->SetShowLegend(false);
+  parts_->chart->SetAutoAxes(false); // which hides those that no curve belongs to
+  parts_->chart->SetRenderEmpty(part == 1);
+  renderUnseen(deviceSize());
+  fill();
+  return true;
+}
+
 void ChartView::paintEvent(QPaintEvent* event) {
   VtkView::paintEvent(event);
   QPainter painter(this);

@@ -50,6 +50,7 @@ struct VtkView::Vtk {
   std::unique_ptr<OffscreenWindow> window; ///< null before the first drawing, and after giveBack()
   vtkNew<vtkGenericRenderWindowInteractor> interactor;
   bool rendered = false; ///< into this window
+  int parts = 0;         ///< of a first drawing, that were drawn into it
 
   void open(const QSize& size) {
     if (window) return;
@@ -72,6 +73,7 @@ struct VtkView::Vtk {
     window->vtk()->RemoveRenderer(renderer);
     window.reset();
     rendered = false;
+    parts = 0;
   }
   /// Hands an event on; before the first drawing there is nothing that it could change.
   void invoke(unsigned long event) {
@@ -111,15 +113,20 @@ bool VtkView::drawn() const {
 }
 
 bool VtkView::prepared() {
-  if (vtk_->window) return true;
+  if (vtk_->rendered) return true;
+  if (vtk_->window) return !drawPart(vtk_->parts++);
   vtk_->open(deviceSize());
   return false;
 }
 
-void VtkView::render(QImage& image) {
-  vtk_->open(image.size());
-  vtk_->window->setSize(image.width(), image.height());
+void VtkView::renderUnseen(const QSize& size) {
+  vtk_->open(size);
+  vtk_->window->setSize(size.width(), size.height());
   vtk_->window->render();
+}
+
+void VtkView::render(QImage& image) {
+  renderUnseen(image.size());
   vtk_->rendered = true;
   vtk_->window->copyBgra(image.bits(), static_cast<std::size_t>(image.bytesPerLine()));
 }

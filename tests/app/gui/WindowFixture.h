@@ -2,6 +2,7 @@
 
 #include "app/gui/jobs/NetworkSession.h"
 #include "app/gui/project/Workbench.h"
+#include "app/gui/views/PictureView.h"
 #include "app/gui/window/MainWindow.h"
 
 #include <QComboBox>
@@ -16,6 +17,8 @@
 #include <QWheelEvent>
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 namespace palp {
 
@@ -66,7 +69,18 @@ protected:
     for (int step = 0; box.currentIndex() != k && step < 20; ++step)
       QTest::keyClick(&box, box.currentIndex() < k ? Qt::Key_Down : Qt::Key_Up);
   }
-  static void settle() { QTest::qWait(80); }
+  /// What was asked for has been drawn, as whoever clicks at it sees; a view's first drawing waits for a free pass of the
+  /// event loop, which a busy machine may not have for long.
+  void settle() {
+    QTest::qWait(80);
+    const auto drawn = [&] {
+      const auto views = window.findChildren<PictureView*>();
+      return std::none_of(views.begin(), views.end(), [](const PictureView* view) {
+        return !view->visibleRegion().isEmpty() && view->renderCount() == 0;
+      });
+    };
+    EXPECT_TRUE(QTest::qWaitFor(drawn, kPatience_ms));
+  }
 
   Workbench workbench{quickProject()};
   NetworkSession network;

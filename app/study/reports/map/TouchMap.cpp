@@ -195,7 +195,9 @@ TouchDeviations touchDeviations(const TouchInfluence& of, double Fz_N, bool held
   const Eigen::MatrixXd slippery = unknowns(of, Fz_N, relativeNoise);
   const Eigen::Index sideways = held ? 2 : 0, sizes = bySize.size() > 0 ? 1 : 0;
   Eigen::MatrixXd j(slippery.rows(), sideways + 3 + sizes);
-  j << of.perNewton.leftCols(sideways) / relativeNoise, slippery, bySize.replicate(1, sizes) / relativeNoise;
+  j.leftCols(sideways) = of.perNewton.leftCols(sideways) / relativeNoise;
+  j.middleCols<3>(sideways) = slippery;
+  if (sizes > 0) j.rightCols<1>() = bySize / relativeNoise;
   const Eigen::VectorXd found = deviations(std::move(j));
   TouchDeviations result{{0, 0, found(sideways)}, found.segment<2>(sideways + 1)};
   if (held) result.force_N.head<2>() = found.head<2>();
