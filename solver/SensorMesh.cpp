@@ -15,8 +15,8 @@ namespace palp {
 namespace {
 
 /// Cells for touches anywhere, in those of a mesh that is made for one touch: for the paper's block about 1 mm; in a
-/// part of the face 0.8 mm.
-constexpr double kCellsAnywhere = 2.7, kCellsInPart = 2.1;
+/// part of the face 0.8 mm, for surfaces that a decoder learns from 0.7 mm.
+constexpr double kCellsAnywhere = 2.7, kCellsInPart = 2.1, kCellsToLearnFrom = 1.9;
 constexpr double cellsAPart = 10;     // along each axis: about as many as lie beside them
 constexpr int mostPartsAlongAxis = 3; // what is found once for each part has to pay
 constexpr double widerContact = 1.1;  // than expected: at the block's edges
@@ -75,6 +75,10 @@ MeshOptions meshFor(const SensorDesign& design, const LoadCase& load, MeshOption
 
 MeshOptions meshForTouches(const SensorDesign& design, const TouchRange& range, MeshOptions options) {
   return withZone(design, range, std::move(options), kCellsAnywhere);
+}
+
+MeshOptions meshToLearnFrom(const SensorDesign& design, const TouchRange& range, MeshOptions options) {
+  return withZone(design, range, std::move(options), kCellsToLearnFrom);
 }
 
 MeshOptions meshForPart(const SensorDesign& design, const TouchRange& part, MeshOptions options) {

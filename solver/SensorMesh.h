@@ -47,6 +47,10 @@ MeshOptions meshFor(const SensorDesign& design, const LoadCase& load, MeshOption
 /// rectangle, from the contact of a touch in the middle of the range.
 MeshOptions meshForTouches(const SensorDesign& design, const TouchRange& range, MeshOptions options);
 
+/// The same for influence surfaces that a decoder takes off its samples, with smaller cells: what the mesh makes of one
+/// place and not of the next is noise to it (resources/docs/numerics.md, "Touches inverted").
+MeshOptions meshToLearnFrom(const SensorDesign& design, const TouchRange& range, MeshOptions options);
+
 /// The same for one of the parts below, with smaller cells.
 MeshOptions meshForPart(const SensorDesign& design, const TouchRange& part, MeshOptions options);
 

@@ -59,7 +59,7 @@ KnownReadings knownReadings(const SensorDesign& design, const SampleSet& samples
     throw Error("input: " + name(input.kind) + "s; what a design says beforehand of touches is their resistances");
   const Indenter indenter = indenterOf(samples);
   const LinearReadings readings = readingsAtRest(design, threads, stop);
-  const HyperelasticProblem problem(design, sensorMesh(design, meshForTouches(design, touchesOf(design), {}), stop));
+  const HyperelasticProblem problem(design, sensorMesh(design, meshToLearnFrom(design, touchesOf(design), {}), stop));
   if (problem.findFactor(threads, stop) == 0) throw Cancelled();
   const auto found = InfluenceSurfaces::find(problem, readings, threads, stop);
   if (!found) throw Cancelled();
