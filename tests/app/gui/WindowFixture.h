@@ -69,8 +69,8 @@ protected:
     for (int step = 0; box.currentIndex() != k && step < 20; ++step)
       QTest::keyClick(&box, box.currentIndex() < k ? Qt::Key_Down : Qt::Key_Up);
   }
-  /// What was asked for has been drawn, as whoever clicks at it sees; a view's first drawing waits for a free pass of the
-  /// event loop, which a busy machine may not have for long.
+  /// What was asked for has been drawn, as whoever clicks at it sees: a view's first drawing waits for a free pass of
+  /// the event loop, which a busy machine may not have for long.
   void settle() {
     QTest::qWait(80);
     const auto drawn = [&] {
