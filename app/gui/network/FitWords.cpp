@@ -394,8 +394,7 @@ QString fitWords(const NetworkSession& session, const NetworkSettings& now, cons
   const bool ofTouches = session.samples() != nullptr && session.samples()->test.hasTouches();
   const QString title = ofTouches ? tr("Test error, all touches") : tr("Test error, all areas");
   const QString errors = table(columns(session, *fit, bound), current ? "<b>" + title + "</b>" : title);
-  const QString both =
-      errors + "<div>" + (current ? rest : "<i>" + reason.toHtmlEscaped() + "</i> " + rest) + "</div>";
+  const QString both = errors + "<div>" + (current ? rest : "<i>" + reason.toHtmlEscaped() + "</i> " + rest) + "</div>";
   return (current ? both : "<div style=\"color: #808890\">" + both + "</div>") + warningWords(*fit);
 }
 

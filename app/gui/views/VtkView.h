@@ -34,8 +34,8 @@ protected:
   /// What is seen changes only where something new is shown: a picture of it does as long.
   [[nodiscard]] virtual bool standsStill() const { return false; }
 
-  /// Draws a part into the window, by renderUnseen(), as a first drawing of all takes too long for one pass of the event
-  /// loop: each of the parts 0, 1... has a pass of its own; false: there is none of this number.
+  /// Draws a part into the window, by renderUnseen(), as a first drawing of all takes too long for one pass of the
+  /// event loop: each of the parts 0, 1... has a pass of its own; false: there is none of this number.
   [[nodiscard]] virtual bool drawPart(int /*part*/) { return false; }
   void renderUnseen(const QSize& size);
 
