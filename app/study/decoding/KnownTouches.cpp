@@ -21,6 +21,14 @@ namespace palp {
 namespace {
 
 constexpr double kLeastPress_N = 1e-6; // an indenter presses; less is rest
+/// Learning from so many takes longer than a finer mesh, which needs twice the CPU of the other.
+constexpr Eigen::Index kManySamples = 2000;
+
+/// Few samples leave more than a coarser mesh of the surfaces does, and whoever learns from few waits for it.
+MeshOptions meshOf(const SensorDesign& design, Eigen::Index samples) {
+  const TouchRange touches = touchesOf(design);
+  return samples < kManySamples ? meshForTouches(design, touches, {}) : meshToLearnFrom(design, touches, {});
+}
 
 Eigen::MatrixXd restOf(const SensorDesign& design) {
   if (const FieldLaw* law = design.field())
@@ -59,7 +67,7 @@ KnownReadings knownReadings(const SensorDesign& design, const SampleSet& samples
     throw Error("input: " + name(input.kind) + "s; what a design says beforehand of touches is their resistances");
   const Indenter indenter = indenterOf(samples);
   const LinearReadings readings = readingsAtRest(design, threads, stop);
-  const HyperelasticProblem problem(design, sensorMesh(design, meshToLearnFrom(design, touchesOf(design), {}), stop));
+  const HyperelasticProblem problem(design, sensorMesh(design, meshOf(design, samples.size()), stop));
   if (problem.findFactor(threads, stop) == 0) throw Cancelled();
   const auto found = InfluenceSurfaces::find(problem, readings, threads, stop);
   if (!found) throw Cancelled();
