@@ -76,12 +76,21 @@ void ChartView::render(QImage& image) {
 }
 
 bool ChartView::drawPart(int part) {
-  if (part > 1) return false;
+  if (part > 2) return false;
+  const auto setWords = [this](bool shown) {
+    for (const int position : {vtkAxis::LEFT, vtkAxis::BOTTOM, vtkAxis::RIGHT, vtkAxis::TOP}) {
+      axis(position).SetLabelsVisible(shown);
+      axis(position).SetTitleVisible(shown);
+    }
+  };
   parts_->chart->ClearPlots();
   parts_->chart->SetShowLegend(false);
   parts_->chart->SetAutoAxes(false); // which hides those that no curve belongs to
-  parts_->chart->SetRenderEmpty(part == 1);
+  parts_->chart->SetRenderEmpty(part > 0);
+  setWords(part == 2);
+  if (part < 2) parts_->chart->SetTitle("");
   renderUnseen(deviceSize());
+  setWords(true);
   fill();
   return true;
 }

@@ -39,7 +39,7 @@ public:
 
 protected:
   [[nodiscard]] bool standsStill() const override { return true; }
-  /// The ground, then the axes and words: with the curves they are 60 ms of shaders and letters, once in a process.
+  /// The ground, the axes, then the words: with the curves they are 60 ms of shaders and letters, once in a process.
   [[nodiscard]] bool drawPart(int part) override;
   [[nodiscard]] bool prepared() override { return empty() || VtkView::prepared(); }
   void render(QImage& image) override;
