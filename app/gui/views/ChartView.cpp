@@ -10,6 +10,7 @@
 #include <vtkContextInteractorStyle.h>
 #include <vtkContextScene.h>
 #include <vtkNew.h>
+#include <vtkPlot.h>
 #include <vtkRenderer.h>
 
 #include <QEvent>
@@ -77,21 +78,24 @@ void ChartView::render(QImage& image) {
 
 bool ChartView::drawPart(int part) {
   if (part > 2) return false;
-  const auto setWords = [this](bool shown) {
+  vtkChartXY& chart = *parts_->chart;
+  const bool legend = chart.GetShowLegend(), automatic = chart.GetAutoAxes();
+  const vtkStdString title = chart.GetTitle();
+  // Hidden and shown again, not filled anew: the axes stay where the user has moved them.
+  const auto show = [&](bool curves, bool words) {
+    for (vtkIdType k = 0; k < chart.GetNumberOfPlots(); ++k) chart.GetPlot(k)->SetVisible(curves);
+    chart.SetShowLegend(curves && legend);
+    chart.SetAutoAxes(curves && automatic); // which hides axes that no curve belongs to
+    chart.SetTitle(words ? title : vtkStdString());
     for (const int position : {vtkAxis::LEFT, vtkAxis::BOTTOM, vtkAxis::RIGHT, vtkAxis::TOP}) {
-      axis(position).SetLabelsVisible(shown);
-      axis(position).SetTitleVisible(shown);
+      axis(position).SetLabelsVisible(words);
+      axis(position).SetTitleVisible(words);
     }
   };
-  parts_->chart->ClearPlots();
-  parts_->chart->SetShowLegend(false);
-  parts_->chart->SetAutoAxes(false); // which hides those that no curve belongs to
-  parts_->chart->SetRenderEmpty(part > 0);
-  setWords(part == 2);
-  if (part < 2) parts_->chart->SetTitle("");
+  chart.SetRenderEmpty(part > 0);
+  show(false, part == 2);
   renderUnseen(deviceSize());
-  setWords(true);
-  fill();
+  show(true, true);
   return true;
 }
 

@@ -132,9 +132,7 @@ void VtkView::render(QImage& image) {
 }
 
 Picture VtkView::renderPicture(int width, int height) {
-  vtk_->open({width, height});
-  vtk_->window->setSize(width, height);
-  vtk_->window->render();
+  renderUnseen({width, height});
   Picture picture = vtk_->window->picture();
   invalidate(); // the window has another size now
   return picture;

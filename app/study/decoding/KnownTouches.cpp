@@ -21,10 +21,10 @@ namespace palp {
 namespace {
 
 constexpr double kLeastPress_N = 1e-6; // an indenter presses; less is rest
-/// Learning from so many takes longer than a finer mesh, which needs twice the CPU of the other.
 constexpr Eigen::Index kManySamples = 2000;
 
-/// Few samples leave more than a coarser mesh of the surfaces does, and whoever learns from few waits for it.
+/// A finer mesh leaves less at any number of samples, for about a minute more of CPU: whoever learns from few, as a
+/// simulated board does, waits for that and not for the samples.
 MeshOptions meshOf(const SensorDesign& design, Eigen::Index samples) {
   const TouchRange touches = touchesOf(design);
   return samples < kManySamples ? meshForTouches(design, touches, {}) : meshToLearnFrom(design, touches, {});

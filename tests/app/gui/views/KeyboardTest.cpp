@@ -202,7 +202,14 @@ TEST_F(Keyboard, GoesFromPointToPointOfAChart) {
   const auto place = *chart.placeOf({0, 1});
   press(chart, Qt::Key_Plus);
   static_cast<void>(chart.image());
-  EXPECT_NE(chart.placeOf({0, 1}), place) << "zoomed";
+  const auto zoomed = chart.placeOf({0, 1});
+  EXPECT_NE(zoomed, place) << "zoomed";
+  // What it draws with goes, as another project or scene lets it: the next first drawing, in parts, keeps the axes.
+  chart.giveBack();
+  const int drawn = chart.renderCount();
+  chart.invalidate();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return chart.renderCount() > drawn; }, kPatience_ms));
+  EXPECT_EQ(chart.placeOf({0, 1}), zoomed);
   press(chart, Qt::Key_Home);
   static_cast<void>(chart.image());
   EXPECT_EQ(*chart.placeOf({0, 1}), place);
