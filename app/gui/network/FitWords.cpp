@@ -289,9 +289,8 @@ QString table(const std::vector<Column>& columns, const QString& title) {
   QString rows = "<tr><td>" + title + "</td>";
   for (const Column& column : columns) rows += cell(column.head);
   rows += "</tr>";
-  const QStringList forces{"Fx", "Fy", "Fz"};
-  for (int d = 0; d < forces.size(); ++d) {
-    rows += "<tr><td>" + forces[d] + "</td>";
+  for (int d = 0; d < 3; ++d) {
+    rows += QString("<tr><td>F%1</td>").arg(QLatin1Char("xyz"[d]));
     for (const Column& column : columns)
       rows += cell(d < column.values.size() ? inWords(column.values[d]) : QString("..."));
     rows += "</tr>";
