@@ -1,6 +1,7 @@
 #include "io/board/SimulatedSource.h"
 
 #include <algorithm>
+#include <cmath>
 #include <thread>
 
 namespace palp {
@@ -31,8 +32,27 @@ std::uint64_t SimulationControl::applyTo(VirtualBoard& board, std::uint64_t appl
   return state_;
 }
 
+void SimulationControl::keepWarmth(const VirtualBoard& board) {
+  const std::lock_guard lock(mutex_);
+  warmth_degC_ = board.warmth_degC();
+  warmthAt_s_ = hostClock_s();
+}
+
+void SimulationControl::giveWarmth(VirtualBoard& board) {
+  const std::lock_guard lock(mutex_);
+  const double away_s = hostClock_s() - warmthAt_s_, goal_degC = disturbance_.warming_degC;
+  if (warmth_degC_ != 0)
+    board.beginWarm(goal_degC + (warmth_degC_ - goal_degC) * std::exp(-away_s / disturbance_.warmingTime_s));
+}
+
 SimulatedSource::SimulatedSource(VirtualBoard board, std::shared_ptr<SimulationControl> control)
-    : board_(std::move(board)), control_(std::move(control)) {}
+    : board_(std::move(board)), control_(std::move(control)) {
+  if (control_) control_->giveWarmth(board_);
+}
+
+SimulatedSource::~SimulatedSource() {
+  if (control_) control_->keepWarmth(board_);
+}
 
 std::string SimulatedSource::name() const {
   return "simulated board";

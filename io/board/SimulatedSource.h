@@ -18,18 +18,23 @@ public:
   /// Gives a board what was set, where that is another state than the one it has; 0: it has none yet, as one that has
   /// just been opened. Returns the state that it has now. In the source's thread.
   std::uint64_t applyTo(VirtualBoard& board, std::uint64_t applied);
+  /// A board that is let go keeps its temperature, which goes on as it would have while it is away.
+  void keepWarmth(const VirtualBoard& board);
+  void giveWarmth(VirtualBoard& board);
 
 private:
   std::mutex mutex_;
   std::atomic<std::uint64_t> state_{0}; ///< how often something was set
   BoardFaults faults_;
   BoardDisturbance disturbance_;
+  double warmth_degC_ = 0, warmthAt_s_ = 0; ///< host clock
 };
 
 /// The virtual board on the host's clock.
 class SimulatedSource : public ReportSource {
 public:
   explicit SimulatedSource(VirtualBoard board, std::shared_ptr<SimulationControl> control = {});
+  ~SimulatedSource() override;
 
   [[nodiscard]] std::string name() const override;
   [[nodiscard]] const BoardInfo& info() const override { return board_.info(); }

@@ -208,7 +208,7 @@ double VirtualBoard::disturbed(int row, int column, double resistance_ohm) {
 void VirtualBoard::followWarming() {
   const BoardDisturbance& d = settings_.disturbance;
   if (!warming_) {
-    warming_ = Warming{d.warming_degC, 0, 0};
+    warming_ = Warming{d.warming_degC, firstWarmth_degC_, 0};
   } else if (d.warming_degC != warming_->to_degC) {
     const double now_degC = temperature_degC() - d.startTemperature_degC;
     warming_ = Warming{d.warming_degC, now_degC, time_s_};
@@ -217,7 +217,7 @@ void VirtualBoard::followWarming() {
 
 double VirtualBoard::temperature_degC() const {
   const BoardDisturbance& d = settings_.disturbance;
-  const Warming warming = warming_.value_or(Warming{d.warming_degC, 0, 0});
+  const Warming warming = warming_.value_or(Warming{d.warming_degC, firstWarmth_degC_, 0});
   const double rise_degC = warming.to_degC - warming.from_degC;
   return d.startTemperature_degC + warming.from_degC +
          rise_degC * (1 - std::exp(-(time_s_ - warming.begin_s) / d.warmingTime_s));

@@ -66,6 +66,10 @@ public:
   /// Changed from then on.
   BoardFaults& faults() { return settings_.faults; }
   BoardDisturbance& disturbance() { return settings_.disturbance; }
+  /// How much warmer it is than `startTemperature_degC`.
+  [[nodiscard]] double warmth_degC() const { return temperature_degC() - settings_.disturbance.startTemperature_degC; }
+  /// Before the first report: it does not begin cold.
+  void beginWarm(double warmth_degC) { firstWarmth_degC_ = warmth_degC; }
   [[nodiscard]] const BoardInfo& info() const { return settings_.info; }
   [[nodiscard]] const BoardConfiguration& configuration() const { return settings_.configuration; }
 
@@ -100,6 +104,7 @@ private:
     double begin_s = 0;
   };
   std::optional<Warming> warming_;
+  double firstWarmth_degC_ = 0;
   std::uint16_t sequence_ = 0;
   std::uint16_t frame_ = 0;
   int row_ = 0;

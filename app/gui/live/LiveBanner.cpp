@@ -1,5 +1,6 @@
 #include "app/gui/live/LiveBanner.h"
 
+#include "app/gui/live/LiveNews.h"
 #include "app/gui/widgets/KeepRoom.h"
 
 #include <QApplication>
@@ -68,6 +69,7 @@ QString wordsOf(const LiveHost& host, const QString& alarm) {
   if (!alarm.isEmpty() && !status.blind) return alarm;
   const LiveFrame* last = host.history().last();
   if (last == nullptr) return {};
+  if (last->faults.empty()) return host.replaying() ? QString() : driftWords(status);
   QStringList faults;
   for (const std::string& fault : last->faults) faults << QString::fromStdString(fault);
   if (faults.size() > kMostFaults)
@@ -95,7 +97,11 @@ LiveBanner::LiveBanner(QWidget* parent) : QWidget(parent) {
   otherRows_->setToolTip(tr("Leads to the Network scene, with input and row-wires set for a network that reads the "
                             "whole row-wires alone; generate samples there, train, and press Use in Live"));
   row->addWidget(words_, 1);
+  tare_ = new QPushButton(tr("Tare"));
+  tare_->setObjectName("tareDue");
+  tare_->setToolTip(tr("Takes what is read now as rest"));
   row->addWidget(otherRows_);
+  row->addWidget(tare_);
   row->addWidget(copyRemedy_);
   connect(copyRemedy_, &QPushButton::clicked, this, [] {
     const QString remedy = QString::fromStdString(permissionRemedy());
@@ -103,6 +109,7 @@ LiveBanner::LiveBanner(QWidget* parent) : QWidget(parent) {
   });
   connect(otherRows_, &QPushButton::clicked, this,
           [this] { emit networkOfRowsAsked(otherRows_->property("rows").toString()); });
+  connect(tare_, &QPushButton::clicked, this, &LiveBanner::tareAsked);
   keepRoom(*this);
   hide();
 }
@@ -114,7 +121,9 @@ void LiveBanner::display(const LiveHost& host, const QString& alarm) {
   const LiveFrame* last = host.history().last();
   const bool ended = state == LiveState::Ended && host.replaying();
   const bool reads = state == LiveState::Streaming || state == LiveState::Paused;
-  const bool calm = ended || (reads && alarm.isEmpty() && last != nullptr && doesWithout(*last));
+  const bool drifts = reads && alarm.isEmpty() && last != nullptr && last->faults.empty() && !words.isEmpty();
+  const bool holds = drifts && last->forces.valid && last->forces.doubt.empty();
+  const bool calm = ended || holds || (reads && alarm.isEmpty() && last != nullptr && doesWithout(*last));
   const QString role = calm ? "note" : "banner";
   if (words_->property("role").toString() != role) {
     words_->setProperty("role", role);
@@ -125,6 +134,7 @@ void LiveBanner::display(const LiveHost& host, const QString& alarm) {
   const QString rows = last != nullptr && words.contains("Row-wires") ? wayOnward(host, *last).rows : QString();
   otherRows_->setProperty("rows", rows);
   otherRows_->setVisible(!rows.isEmpty());
+  tare_->setVisible(drifts);
   setVisible(!words.isEmpty());
 }
 

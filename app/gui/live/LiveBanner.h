@@ -10,7 +10,7 @@ class QPushButton;
 namespace palp {
 
 /// What is to be known now, in one line over the views: red where something is wrong, plain where a recording only
-/// ended or a broken wire is none of those that the network reads.
+/// ended, a broken wire is none of those that the network reads, or a tare is due and the forces still hold.
 class LiveBanner : public QWidget {
   Q_OBJECT
 
@@ -20,6 +20,7 @@ public:
   void display(const LiveHost& host, const QString& alarm);
 
 signals:
+  void tareAsked();
   /// A network of these row-wires, the whole ones, is wanted: "0,1,2,4".
   void networkOfRowsAsked(const QString& rows);
 
@@ -27,6 +28,7 @@ private:
   QLabel* words_ = nullptr;
   QPushButton* copyRemedy_ = nullptr;
   QPushButton* otherRows_ = nullptr;
+  QPushButton* tare_ = nullptr;
 };
 
 } // namespace palp

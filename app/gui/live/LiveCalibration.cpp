@@ -170,6 +170,7 @@ QWidget* LiveCalibration::buildFrames() {
   });
   connect(remove_, &QPushButton::clicked, this, [this] {
     frames_.remove(table_->currentRow());
+    complain({}); // it may have been of that frame
     displayFrames();
   });
   return box;

@@ -77,6 +77,9 @@ LiveLampState LiveWatch::state(const LiveHost& host, bool seen) const {
     return seen ? LiveLampState{LiveLampState::Kind::Streams, QObject::tr("Live: %1").arg(state)} : LiveLampState{};
   }
   if (seen && host.replaying()) return {LiveLampState::Kind::Streams, QObject::tr("Playing the %1").arg(source)};
+  const LiveFrame* last = host.history().last();
+  if (seen && status.blind && last != nullptr && !last->faults.empty())
+    return {LiveLampState::Kind::Alarm, QObject::tr("No forces: %1").arg(QString::fromStdString(last->faults[0]))};
   if (seen) return {LiveLampState::Kind::Streams, QObject::tr("Live: %1").arg(source)};
   if (host.worksHidden() && host.settings().alarmOn && status.blind)
     return {LiveLampState::Kind::Alarm, QObject::tr("The alarm sees no forces: %1").arg(source)};

@@ -182,6 +182,8 @@ void LivePage::connectPanels() {
   });
   connect(control_, &LiveControlPanel::backAsked, &host_, &LiveHost::backToNetwork);
   connect(control_, &LiveControlPanel::shippedAsked, &host_, &LiveHost::useChosenNetwork);
+  connect(control_, &LiveControlPanel::shippedAsked, this,
+          [this] { emit message(tr("The network as it was chosen.")); });
   connect(source_, &LiveSourcePanel::openAgainAsked, &host_, &LiveHost::restart);
   connect(source_, &LiveSourcePanel::anotherAsked, this, &LivePage::anotherAsked);
   connect(control_, &LiveControlPanel::tareAsked, this, &LivePage::tare);
@@ -207,6 +209,7 @@ void LivePage::connectPanels() {
   connect(calibration_, &LiveCalibration::simulatedLoadAsked, this, [this](const KnownTouch& load) {
     change(tr("simulated touch"), [&](LiveSettings& settings) { holdLabel(settings.simulation, load); });
   });
+  connect(banner_, &LiveBanner::tareAsked, this, &LivePage::tare);
   connect(banner_, &LiveBanner::networkOfRowsAsked, this, &LivePage::prepareNetwork);
   connect(twin_, &LiveTwin::solveAsked, this, &LivePage::solveTwin);
   connect(twin_, &LiveTwin::loadAsked, this, [this](const LoadCase& load) {
@@ -355,12 +358,13 @@ void LivePage::setBeside(bool beside) {
 /// A recording or an alarm goes on out of sight; where there is neither, nothing runs.
 void LivePage::lookHidden() {
   host_.look();
-  announceAlarm();
+  announce();
   emit looked();
   if (!host_.worksHidden() && ++hiddenLooks_ > kHiddenLooks) hiddenTimer_.stop();
 }
 
-void LivePage::announceAlarm() {
+void LivePage::announce() {
+  for (const QString& sentence : news_.take(host_)) emit message(sentence);
   const QString alarm = watch_.take(host_, isVisible());
   if (alarm.isEmpty()) return;
   stateLook_ = 0; // it is seen at once
@@ -372,7 +376,7 @@ void LivePage::look() {
   const LiveState before = host_.status().state;
   const bool recorded = host_.status().recording;
   const bool fresh = host_.look();
-  announceAlarm();
+  announce();
   emit looked();
   const bool changed = host_.status().state != before || host_.status().recording != recorded;
   if (changed || stateLook_++ % kStateEvery == 0) drawState(); // also of a recording shorter than kStateEvery looks

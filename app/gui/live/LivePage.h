@@ -2,6 +2,7 @@
 
 #include "app/gui/live/LiveHost.h"
 #include "app/gui/live/LiveLamp.h"
+#include "app/gui/live/LiveNews.h"
 #include "app/gui/project/Workbench.h"
 #include "app/gui/window/Scene.h"
 
@@ -84,7 +85,7 @@ private:
   void refuseNetwork(const QString& sentence);
   void look();
   void lookHidden();
-  void announceAlarm();
+  void announce();
   void arrangeViews();
   void placeHeatmap(bool inTab);
   void drawState();
@@ -107,6 +108,7 @@ private:
   QTimer timer_;
   QTimer hiddenTimer_; ///< runs only while something is done out of sight
   LiveWatch watch_;
+  LiveNews news_;
   LiveSourcePanel* source_ = nullptr;
   SimulationPanel* simulation_ = nullptr;
   SendPanel* send_ = nullptr;

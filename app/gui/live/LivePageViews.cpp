@@ -130,7 +130,8 @@ void LivePage::drawForces() {
     truth_mm = truth->place_mm;
     lines.push_back(truthLine(*truth, last->forces));
   }
-  block_->showForces(arrows, stale, lines, truth_mm);
+  const bool doubted = !gone && last->forces.valid && !last->forces.doubt.empty();
+  block_->showForces(arrows, stale || doubted, lines, truth_mm);
 }
 
 void LivePage::drawHeatmap() {

@@ -1,8 +1,11 @@
 #include "app/gui/live/LiveView.h"
 
+#include "app/gui/views/TextScale.h"
+
 #include <QKeyEvent>
 #include <QPainter>
 
+#include <vtkCamera.h>
 #include <vtkRenderer.h>
 
 #include <algorithm>
@@ -33,12 +36,10 @@ LiveView::LiveView(std::unique_ptr<Parts> parts, QWidget* parent)
   parts_->design = paperDesign();
   setFocusPolicy(Qt::StrongFocus);
   draw();
-  connect(this, &VtkView::doubleClicked, this, [this] {
-    parts_->scene.resetCamera(aspect());
-    invalidate();
-  });
+  fit(liveDirection);
+  connect(this, &VtkView::doubleClicked, this, [this] { lookAlong(liveDirection); });
   connect(this, &VtkView::sizeChanged, this, [this] {
-    if (renderCount() == 0) parts_->scene.resetCamera(aspect());
+    if (renderCount() == 0 || eye() == fittedEye_) fit(direction_);
   });
 }
 
@@ -46,6 +47,7 @@ LiveView::~LiveView() = default;
 
 void LiveView::draw() {
   parts_->options.scale = devicePixelRatioF();
+  parts_->options.textScale = devicePixelRatioF() * textScale(*this);
   parts_->scene.showSensor(parts_->design, parts_->options);
   parts_->scene.showForces(parts_->arrows, parts_->stale, parts_->lines, parts_->truth_mm);
   invalidate();
@@ -57,7 +59,7 @@ void LiveView::showSensor(const SensorDesign& design, double mm_per_N, bool elec
   parts_->options.mm_per_N = mm_per_N;
   parts_->options.electrodes = electrodes;
   draw();
-  if (otherBlock) parts_->scene.resetCamera(aspect());
+  if (otherBlock) fit(liveDirection);
 }
 
 void LiveView::showForces(const std::vector<LiveArrow>& arrows, bool stale, const std::vector<std::string>& lines,
@@ -80,8 +82,23 @@ void LiveView::setTheme(Theme theme) {
 }
 
 void LiveView::lookAlong(const Eigen::Vector3d& direction) {
-  parts_->scene.resetCamera(aspect(), direction);
+  fit(direction);
   invalidate();
+}
+
+void LiveView::fit(const Eigen::Vector3d& direction) {
+  parts_->scene.resetCamera(aspect(), direction);
+  direction_ = direction;
+  fittedEye_ = eye();
+}
+
+Eigen::Vector3d LiveView::eye() const {
+  return Eigen::Vector3d(parts_->scene.renderer()->GetActiveCamera()->GetPosition());
+}
+
+void LiveView::changeEvent(QEvent* event) {
+  VtkView::changeEvent(event);
+  if (event->type() == QEvent::FontChange) draw();
 }
 
 std::optional<Eigen::Vector2d> LiveView::topPlace(const QPointF& place) const {

@@ -46,6 +46,7 @@ signals:
   void handAsked();
 
 protected:
+  void changeEvent(QEvent* event) override;
   bool grab(const QPointF& place, Qt::KeyboardModifiers modifiers) override;
   void dragTo(const QPointF& place, Qt::KeyboardModifiers modifiers) override;
   void keyPressEvent(QKeyEvent* event) override;
@@ -57,6 +58,9 @@ private:
   struct Parts;
   LiveView(std::unique_ptr<Parts> parts, QWidget* parent);
   void draw();
+  /// From where all is seen; a smaller view shows all again, until the user turns it.
+  void fit(const Eigen::Vector3d& direction);
+  [[nodiscard]] Eigen::Vector3d eye() const;
 
   [[nodiscard]] std::optional<Eigen::Vector2d> topPlace(const QPointF& place) const;
 
@@ -67,6 +71,7 @@ private:
   bool pressable_ = false, placed_ = false;
   int area_ = 0; ///< of the touch
   Eigen::Vector2d pressed_mm_ = Eigen::Vector2d::Zero();
+  Eigen::Vector3d direction_, fittedEye_; ///< of the camera, as it was fitted last
 };
 
 } // namespace palp

@@ -64,6 +64,7 @@ signals:
   void message(const QString& sentence);
 
 protected:
+  bool event(QEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
   void mouseReleaseEvent(QMouseEvent* event) override;

@@ -163,6 +163,13 @@ void StripChart::moveCursor(int steps) {
   update();
 }
 
+/// Escape is the window's, which stops work, but where the curves are held: they come first.
+bool StripChart::event(QEvent* event) {
+  if (event->type() == QEvent::ShortcutOverride && held_ && static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape)
+    event->accept();
+  return QWidget::event(event);
+}
+
 void StripChart::focusInEvent(QFocusEvent* event) {
   QWidget::focusInEvent(event);
   update();

@@ -39,6 +39,7 @@
 #include <QSettings>
 #include <QStackedWidget>
 #include <QStatusBar>
+#include <QToolButton>
 
 #include <algorithm>
 
@@ -86,6 +87,7 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   log_ = new MessageLog(this);
   addDockWidget(Qt::BottomDockWidgetArea, log_);
   log_->hide();
+  log_->toggleViewAction()->setStatusTip(tr("All that was said: alarms, boards, wires, tares, files"));
   auto* designPage = new DesignPage(workbench, network);
   connect(designPage, &DesignPage::stageChanged, this, [this] { workbench_.touch().need(currentScene().stage()); });
   connect(designPage, &DesignPage::sceneAsked, this, &MainWindow::showScene);
@@ -149,6 +151,11 @@ void MainWindow::buildStatusLine() {
   connect(status, &StatusLamps::message, this, &MainWindow::showMessage);
   connect(status, &StatusLamps::sceneAsked, this, &MainWindow::showScene);
   lamps_ = status;
+  auto* messages = new QToolButton; // after the lamps: where one looks for what was said
+  messages->setObjectName("messagesShown");
+  messages->setAutoRaise(true);
+  messages->setDefaultAction(log_->toggleViewAction());
+  statusBar()->addPermanentWidget(messages);
   connect(reports_, &ReportsPage::runs, lamps_, &StatusLamps::showReport);
   const auto gather = [this] {
     std::vector<SceneJob> jobs{

@@ -251,7 +251,6 @@ void Menus::buildEdit() {
   window_.addDockWidget(Qt::RightDockWidgetArea, dock);
   dock->hide();
   menu.addAction(dock->toggleViewAction());
-  menu.addAction(window_.findChild<QDockWidget*>("messages")->toggleViewAction());
 }
 
 void Menus::buildView() {

@@ -6,6 +6,7 @@
 
 #include <QAction>
 #include <QApplication>
+#include <QDockWidget>
 #include <QMenu>
 #include <QSettings>
 
@@ -37,6 +38,7 @@ ViewActions::ViewActions(MainWindow& window, QMenu& menu) : QObject(&window), wi
               0);
   addFullScreen(menu);
   addPanel(menu);
+  menu.addAction(window_.findChild<QDockWidget*>("messages")->toggleViewAction());
 }
 
 void ViewActions::addTheme(QMenu& menu, const QString& text, const QString& tip, const QString& keys, const char* name,

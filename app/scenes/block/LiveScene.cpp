@@ -207,7 +207,7 @@ void LiveScene::showForces(const std::vector<LiveArrow>& arrows, bool stale, con
   parts.overlay->words.insert(parts.overlay->words.end(), words.begin(), words.end());
   parts.overlay->lines = lines;
   parts.overlay->theme = parts.options.theme;
-  parts.overlay->scale = parts.options.scale;
+  parts.overlay->scale = parts.options.textScale;
   parts.overlay->Modified();
 }
 
@@ -223,10 +223,6 @@ std::optional<Eigen::Vector2d> LiveScene::topPlace(double x_px, double y_px) con
   const double share = (parts_->design.block_mm.z() - near.z()) / along.z();
   if (!std::isfinite(share) || share < 0) return {};
   return Eigen::Vector2d((near + share * along).head<2>());
-}
-
-void LiveScene::resetCamera(double aspect) {
-  resetCamera(aspect, {0.45, 1.0, -0.75});
 }
 
 void LiveScene::resetCamera(double aspect, const Eigen::Vector3d& direction) {

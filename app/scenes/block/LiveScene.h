@@ -25,8 +25,12 @@ struct LiveSceneOptions {
   double mm_per_N = 2; ///< of the arrows, the same for all frames
   bool electrodes = true;
   Theme theme = Theme::Light;
-  double scale = 1; ///< of text and lines
+  double scale = 1;     ///< of lines
+  double textScale = 1; ///< of words
 };
+
+/// Along which the sensor is looked at, as long as nobody turns it.
+inline const Eigen::Vector3d liveDirection{0.45, 1.0, -0.75};
 
 /// The sensor at rest with the forces decoded just now. Nothing is meshed: the block is its box.
 class LiveScene {
@@ -43,8 +47,7 @@ public:
                   const std::optional<Eigen::Vector2d>& truth_mm = {});
   /// Where a pixel of the view (from the lower left) meets the plane of the top face [mm]; none beside it.
   [[nodiscard]] std::optional<Eigen::Vector2d> topPlace(double x_px, double y_px) const;
-  void resetCamera(double aspect);
-  void resetCamera(double aspect, const Eigen::Vector3d& direction);
+  void resetCamera(double aspect, const Eigen::Vector3d& direction = liveDirection);
 
 private:
   struct Parts;

@@ -38,6 +38,30 @@ TEST(SimulatedSource, CanBeConfigured) {
   EXPECT_EQ(source.configuration().generation, 1);
 }
 
+TEST(SimulatedSource, ABoardThatIsOpenedAgainIsAsWarmAsItHasBecome) {
+  const auto control = std::make_shared<SimulationControl>();
+  BoardDisturbance disturbance;
+  disturbance.warming_degC = 8;
+  disturbance.warmingTime_s = 0.05;
+  control->set({}, disturbance);
+  RawReport report;
+  double warm_degC = 0;
+  {
+    SimulatedSource source(boardWith(smallBoard()), control);
+    while (warm_degC < 2) {
+      ASSERT_EQ(source.read(report, kPatience), ReportSource::Outcome::Read);
+      warm_degC = source.board().warmth_degC();
+    }
+  }
+  SimulatedSource again(boardWith(smallBoard()), control);
+  ASSERT_EQ(again.read(report, kPatience), ReportSource::Outcome::Read);
+  EXPECT_GE(again.board().warmth_degC(), warm_degC);
+  EXPECT_LE(again.board().warmth_degC(), 8);
+  SimulatedSource another(boardWith(smallBoard()), std::make_shared<SimulationControl>());
+  ASSERT_EQ(another.read(report, kPatience), ReportSource::Outcome::Read);
+  EXPECT_EQ(another.board().warmth_degC(), 0) << "another board is not";
+}
+
 TEST(SimulatedSource, WhatIsBrokenIsSoOnEachBoardThatIsOpenedWithTheControl) {
   const auto control = std::make_shared<SimulationControl>();
   BoardFaults faults;

@@ -1,5 +1,6 @@
 #include "app/gui/live/panels/LiveControlPanel.h"
 
+#include "app/gui/live/LiveNews.h"
 #include "app/gui/widgets/FileDialogs.h"
 #include "app/gui/widgets/PushButton.h"
 #include "app/gui/widgets/SpinBoxes.h"
@@ -25,6 +26,7 @@ namespace palp {
 
 namespace {
 
+constexpr const char* kTareTip = QT_TR_NOOP("Takes the next frames as rest: leave the sensor alone till then (T)");
 constexpr double kMegabyte = 1e6;
 constexpr double kRecordedReport = 64 + 12; // bytes with kind, length and time
 
@@ -99,8 +101,7 @@ QWidget* LiveControlPanel::buildNetwork() {
   tareFrames_->setRange(1, 100000);
   tareFrames_->setSuffix(tr(" frames"));
   tareFrames_->setToolTip(tr("Frames that are averaged as rest; more of them leave less noise in the zero"));
-  tare_ = pushButton(tr("Tare"), "tare",
-                     tr("Takes the next frames as rest: leave the sensor alone; it waits while the sensor moves (T)"));
+  tare_ = pushButton(tr("Tare"), "tare", tr(kTareTip));
   clearTare_ = pushButton(tr("Clear"), "clearTare", tr("Back to the resistances of the design at rest"));
   column->addLayout(beside({tare_, tareFrames_, clearTare_}));
   tareState_ = words("tareState", "hint");
@@ -311,9 +312,8 @@ void LiveControlPanel::display(const LiveSettings& settings) {
     place = change_->count() - 1;
   }
   change_->setCurrentIndex(place);
-  const double force = settings.forceScale == ForceScale::Fixed       ? settings.force_N
-                       : settings.forceScale == ForceScale::Automatic ? -1
-                                                                      : 0;
+  double force = settings.forceScale == ForceScale::Automatic ? -1 : 0;
+  if (settings.forceScale == ForceScale::Fixed) force = settings.force_N;
   if (force_->findData(force) < 0) force_->addItem(QString::fromUtf8("\u00b1%1 N").arg(force), force);
   force_->setCurrentIndex(force_->findData(force));
 }
@@ -334,8 +334,8 @@ void LiveControlPanel::displayRecording(const QString& file, const QString& prob
 }
 
 void LiveControlPanel::displayTare(const LiveStatus& status) {
-  QString state = tr("Not tared: counts from %1.").arg(QString::fromStdString(status.restName));
-  if (status.restName.empty()) state = tr("Not tared.");
+  const QString rest = QString::fromStdString(status.restName);
+  QString state = rest.isEmpty() ? tr("Not tared.") : tr("Not tared: counts from %1.").arg(rest);
   if (status.tareOfRecording) state = tr("Tared as it was recorded.");
   if (status.tared && !status.tareOfRecording)
     state = tr("Tared: %1 frames are rest.").arg(status.tare ? status.tare->frames : 0);
@@ -363,6 +363,7 @@ void LiveControlPanel::displayState(const LiveControlState& state) {
                  : status.driftsOn      ? tr("Tare: drifts on")
                  : status.tareSuggested ? tr("Tare: it drifted")
                                         : tr("Tare"));
+  tare_->setToolTip(status.tareSuggested ? driftWords(status) : tr(kTareTip));
   tare_->setDefault(status.tareSuggested);
   clearTare_->setEnabled(status.tared);
   displayTare(status);
