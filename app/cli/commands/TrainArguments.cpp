@@ -22,7 +22,7 @@ double numberIn(const std::string& option, const std::string& value, double low,
 
 void TrainArguments::declare(Command command, bool withSpread) {
   command.option("--input", input, kInputKinds.allowed() + " (default displacement)");
-  command.option("--rows", rows, "row-wires that are read: 4, or 1,4,7, or all (default 4, the centre)");
+  command.option("--rows", rows, "row-wires that are read: 4, or 1,4,7, or 2-5, or all (default 4, the centre)");
   command.option("--mode", mode, kDecoderModes.allowed() + ": what is not set below follows from it");
   command.option("--decoder", decoder, kDecoderKinds.allowed() + " (default rbf)");
   if (withSpread) {

@@ -75,6 +75,8 @@ struct NetworkResults {
   std::shared_ptr<const NetworkFit> before;            ///< that was shown when the newest was trained; to compare with
   std::vector<std::shared_ptr<const NetworkFit>> kept; ///< that can be gone back to, the newest first
   std::set<QDateTime> takenAway;                       ///< when the networks were made that were taken off that list
+  /// Those that were taken off it, of the last time last, each with the place where it stood; not written to files.
+  std::vector<std::vector<std::pair<std::size_t, std::shared_ptr<const NetworkFit>>>> away;
   std::vector<SweepPoint> sweep;
   NetworkSettings sweepSettings;
   std::vector<DecoderTrial> trials;
@@ -151,7 +153,10 @@ public:
   void goBackTo(std::size_t kept);
   /// Shows the newest of them that was trained with these settings on the samples that are there, where there is one.
   void goBackTo(const NetworkSettings& settings);
-  void takeAway(std::size_t kept);
+  void takeAway(const std::set<std::size_t>& kept);
+  /// Those that were taken away last, where they were.
+  void bringBack();
+  [[nodiscard]] bool canBringBack() const { return !shown_.away.empty(); }
   /// Calls one of them by a name; empty: takes its name away.
   void rename(std::size_t kept, const QString& name);
   /// So many stay in the list, and all that have a name.

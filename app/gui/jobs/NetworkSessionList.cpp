@@ -96,9 +96,23 @@ void NetworkSession::dropKept(std::size_t kept) {
   shown_.kept.erase(place);
 }
 
-void NetworkSession::takeAway(std::size_t kept) {
-  if (kept >= shown_.kept.size()) return;
-  dropKept(kept);
+void NetworkSession::takeAway(const std::set<std::size_t>& kept) {
+  if (kept.empty() || *kept.rbegin() >= shown_.kept.size()) return;
+  auto& away = shown_.away.emplace_back();
+  for (const std::size_t place : kept) away.emplace_back(place, shown_.kept[place]);
+  for (auto place = kept.rbegin(); place != kept.rend(); ++place) dropKept(*place);
+  lastSlide_.clear();
+  emit fitChanged();
+}
+
+void NetworkSession::bringBack() {
+  if (shown_.away.empty()) return;
+  auto& kept = shown_.kept;
+  for (const auto& [place, fit] : shown_.away.back()) { // the first place first: then the others are right
+    kept.insert(kept.begin() + static_cast<std::ptrdiff_t>(std::min(place, kept.size())), fit);
+    shown_.takenAway.erase(fit->made);
+  }
+  shown_.away.pop_back();
   lastSlide_.clear();
   emit fitChanged();
 }

@@ -1,7 +1,5 @@
 #include "app/gui/network/FitWords.h"
 
-#include "app/gui/jobs/SampleFiles.h"
-#include "app/gui/jobs/TimeLeft.h"
 #include "app/gui/network/NetworkTables.h"
 #include "app/gui/project/ProjectChange.h"
 #include "app/study/reports/map/TouchBound.h"
@@ -11,7 +9,6 @@
 #include <QStringList>
 
 #include <cmath>
-#include <filesystem>
 
 namespace palp {
 
@@ -92,28 +89,6 @@ QStringList differences(const NetworkSettings& then, const NetworkSettings& now)
   add(tr("noise of the test"), percent(then.testNoise), percent(now.testNoise));
   addOptions(all, then, now);
   return all;
-}
-
-QString madeWords(const NetworkSamples& samples) {
-  QString words;
-  if (samples.seconds > 0) words += tr(", made in %1").arg(roughly(samples.seconds));
-  if (samples.batchError > 0)
-    words += tr("; relative batch error against full Newton %1").arg(samples.batchError, 0, 'g', 2);
-  return words;
-}
-
-QString openedWords(const NetworkSamples& samples) {
-  QString words = tr(" from %1 ").arg(QFileInfo(samples.file).fileName());
-  if (samples.training.origin.imported())
-    words += samples.ofNoDesign ? tr("(measured, of no design that is open)") : tr("(measured)");
-  else
-    words += tr("(%1, seed %2)").arg(countWords(samples.settings)).arg(samples.settings.seed);
-  if (!samples.split) return words;
-  const std::filesystem::path beside = testFileOf(samples.file.toStdString());
-  const QString test = QString::fromStdString(beside.filename().string());
-  words += std::filesystem::exists(beside) ? tr("; every fifth one tests, %1 was not taken").arg(test)
-                                           : tr("; every fifth one tests, as no %1 lies beside it").arg(test);
-  return words;
 }
 
 } // namespace
@@ -247,15 +222,6 @@ QString trialsWords(const NetworkSession& session, const NetworkSettings& now) {
   return reason.isEmpty() ? words : reason + " " + words;
 }
 
-QString samplesWords(const NetworkSession& session) {
-  const NetworkSamples* samples = session.samples();
-  if (samples == nullptr) return session.openingResults() ? tr("Being opened.") : tr("None yet for this design.");
-  const QString counts = tr("%1 for training, %2 for testing").arg(samples->training.size()).arg(samples->test.size());
-  if (!session.upToDate())
-    return counts + tr(", of %1: undo the change, or generate new ones.").arg(earlierDesign(session));
-  return counts + (samples->file.isEmpty() ? madeWords(*samples) : openedWords(*samples)) + ".";
-}
-
 bool sweepAndTrialsAgree(const NetworkSession& session) {
   NetworkSettings sweep = session.sweepSettings();
   const NetworkSettings& trials = session.trialsSettings();
@@ -295,8 +261,17 @@ QString table(const std::vector<Column>& columns, const QString& title) {
       rows += cell(d < column.values.size() ? inWords(column.values[d]) : QString("..."));
     rows += "</tr>";
   }
-  // The words flow around it: beside it in a table of two columns, both were laid out a dozen times, for 60 ms.
-  return "<table style=\"float: left; margin-right: 16px\" cellspacing=\"0\" cellpadding=\"0\">" + rows + "</table>";
+  return "<table cellspacing=\"0\" cellpadding=\"0\">" + rows + "</table>";
+}
+
+/// Less the errors of forces that are 0 in all samples: nobody learned them.
+Eigen::VectorXd ofForces(Eigen::VectorXd errors, const NetworkSession& session) {
+  if (session.samples() == nullptr) return errors;
+  const Eigen::MatrixXd &trained = session.samples()->training.forces_N, &tested = session.samples()->test.forces_N;
+  for (Eigen::Index k = 0; k < std::min(errors.size(), trained.rows()); ++k)
+    if (trained.rows() == errors.size() && (trained.row(k).array() == 0).all() && (tested.row(k).array() == 0).all())
+      errors(k) = NAN;
+  return errors;
 }
 
 /// The errors of the network that is shown, beside the bound and the network that was shown before it.
@@ -312,6 +287,8 @@ std::vector<Column> columns(const NetworkSession& session, const NetworkFit& fit
   const auto& kept = session.kept();
   if (session.before() != nullptr && !kept.empty() && kept.front()->made == fit.made)
     all.push_back({tr("RMSE before [% of range]"), session.before()->error.error.rmsePercentOfRange});
+  if (session.fitIsCurrent())
+    for (Column& column : all) column.values = ofForces(std::move(column.values), session);
   return all;
 }
 
@@ -378,7 +355,7 @@ QString fitWords(const NetworkSession& session, const NetworkSettings& now, cons
   if (fit == nullptr && session.openingResults()) return tr("The networks of the project are being opened.");
   if (fit == nullptr)
     return session.samples() == nullptr ? tr("No network yet: generate samples, or open a file of them, then train.")
-                                        : tr("No network yet: train one on the samples.");
+                                        : tr("No network of these samples yet: train one.");
   QString name = fit->file.isEmpty() ? tr("Trained here") : tr("Opened: %1").arg(QFileInfo(fit->file).fileName());
   if (fit->file.isEmpty() && session.samples() != nullptr && fit->madeFrom != session.samples()->settings)
     name += tr(" on other samples (%1, seed %2)").arg(countWords(fit->madeFrom)).arg(fit->madeFrom.seed);
@@ -393,8 +370,9 @@ QString fitWords(const NetworkSession& session, const NetworkSettings& now, cons
   const bool ofTouches = session.samples() != nullptr && session.samples()->test.hasTouches();
   const QString title = ofTouches ? tr("Test error, all touches") : tr("Test error, all areas");
   const QString errors = table(columns(session, *fit, bound), current ? "<b>" + title + "</b>" : title);
-  const QString both = errors + "<div>" + (current ? rest : "<i>" + reason.toHtmlEscaped() + "</i> " + rest) + "</div>";
-  return (current ? both : "<div style=\"color: #808890\">" + both + "</div>") + warningWords(*fit);
+  const QString words = "<div>" + (current ? rest : "<i>" + reason.toHtmlEscaped() + "</i> " + rest) + "</div>";
+  if (current) return errors + warningWords(*fit) + words; // what is wrong is seen first
+  return "<div style=\"color: #808890\">" + errors + words + "</div>" + warningWords(*fit);
 }
 
 } // namespace palp

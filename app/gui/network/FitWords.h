@@ -39,8 +39,8 @@ QString staleListReason(const NetworkSession& session);
 /// What the comparison was made with, and who is missing in it.
 QString trialsWords(const NetworkSession& session, const NetworkSettings& now);
 
-/// What samples there are, and where from.
-QString samplesWords(const NetworkSession& session);
+/// "an earlier design", and what has changed of it since.
+QString earlierDesign(const NetworkSession& session);
 
 /// The sweep was made as the comparison was, but for the decoder and the spread.
 bool sweepAndTrialsAgree(const NetworkSession& session);

@@ -7,6 +7,7 @@
 #include "app/gui/network/NetworkFiles.h"
 #include "app/gui/network/NetworkPanel.h"
 #include "app/gui/network/NetworkSource.h"
+#include "app/gui/network/SamplesWords.h"
 #include "app/gui/network/SweepTab.h"
 #include "app/gui/network/TouchBounds.h"
 #include "app/gui/network/TrainedNetworks.h"
@@ -92,6 +93,7 @@ NetworkPage::NetworkPage(Workbench& workbench, NetworkSession& session, QWidget*
           [this](const NetworkSettings& network) { takeOver(tr("Take a decoder of the comparison"), network); });
   connect(trained_, &TrainedNetworks::goBackAsked, this, &NetworkPage::goBackTo);
   connect(trained_, &TrainedNetworks::takeAwayAsked, &session_, &NetworkSession::takeAway);
+  connect(trained_, &TrainedNetworks::bringBackAsked, &session_, &NetworkSession::bringBack);
   connect(trained_, &TrainedNetworks::nameAsked, &session_, &NetworkSession::rename);
   connectSession();
   displayProject();

@@ -5,7 +5,6 @@
 #include "app/gui/network/NetworkCharts.h"
 #include "app/gui/network/NetworkTables.h"
 #include "app/gui/network/SamplesBox.h"
-#include "app/gui/widgets/KeepRoom.h"
 #include "app/gui/widgets/SpinBoxes.h"
 #include "app/gui/widgets/WrappedLabel.h"
 #include "model/base/Error.h"
@@ -110,15 +109,19 @@ void NetworkPanel::buildInput(QFormLayout& form) {
   rows_ = new QLineEdit;
   rows_->setObjectName("rows");
   rows_->setToolTip(tr("Row-wires whose resistances are read, or whose electrodes' displacements, "
-                       "counted from 0: 4, or 1,4,7, or all"));
+                       "counted from 0: 4, or 1,4,7, or 2-5, or all"));
   form.addRow(tr("Row-wires"), rows_);
-  rowsProblem_ = new QLabel;
+  rowsProblem_ = new WrappedLabel;
   rowsProblem_->setObjectName("rowsProblem");
   rowsProblem_->setProperty("role", "problem");
-  rowsProblem_->setWordWrap(true);
-  keepRoom(*rowsProblem_);
   rowsProblem_->hide();
-  form.addRow(rowsProblem_);
+  auto* room = new QWidget; // always there: no field moves when a problem comes or goes
+  room->setMinimumHeight(2 * fontMetrics().lineSpacing());
+  auto* column = new QVBoxLayout(room);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->addWidget(rowsProblem_);
+  column->addStretch(1);
+  form.addRow(room);
   connect(input_, &QComboBox::currentIndexChanged, this, [this] { read(tr("Change the network's input")); });
   connect(rows_, &QLineEdit::editingFinished, this, [this] { readRows(); });
 }
@@ -141,7 +144,9 @@ void NetworkPanel::buildNetwork(QFormLayout& form) {
   target_ = new QComboBox;
   target_->setObjectName("target");
   target_->addItems({tr("the force"), tr("force and place")});
-  target_->setToolTip(tr("What it learns: the place is known of touches, and of measured samples that say it"));
+  target_->setToolTip(tr("What it learns: the place is known of touches, and of measured samples that say it. With the "
+                         "place the paper's network of one row-wire gives way to the decoder that is made for touches, "
+                         "and to all row-wires: one alone cannot tell on which side of it a touch is"));
   form.addRow(tr("Learns"), target_);
   centers_ = new QSpinBox;
   centers_->setObjectName("centers");
@@ -174,7 +179,7 @@ void NetworkPanel::buildNetwork(QFormLayout& form) {
   form.addRow(QString(), noiseWords_);
   connect(mode_, &QComboBox::currentIndexChanged, this, [this] { read(tr("Change the network's mode")); });
   connect(decoder_, &QComboBox::currentIndexChanged, this, [this] { read(tr("Change the decoder")); });
-  connect(target_, &QComboBox::currentIndexChanged, this, [this] { read(tr("Change what is learned")); });
+  connect(target_, &QComboBox::currentIndexChanged, this, &NetworkPanel::readTarget);
   connect(centers_, &QSpinBox::valueChanged, this, [this] { read(tr("Change the centres")); });
   connect(noise_, &QDoubleSpinBox::valueChanged, this, [this] { read(tr("Change the noise")); });
   connect(testNoise_, &QDoubleSpinBox::valueChanged, this, [this] { read(tr("Change the noise of the test")); });
@@ -330,13 +335,30 @@ void NetworkPanel::readRows() {
   try {
     rowsNamed(rows_->text().trimmed().toStdString(), rowWires_);
   } catch (const Error& error) {
-    rowsProblem_->setText(
+    rowsProblem_->say(
         tr("%1. %2 is used.").arg(QString::fromStdString(error.what()), QString::fromStdString(network_.rows)));
-    rowsProblem_->show();
     return;
   }
   rowsProblem_->hide();
   read(tr("Change the row-wires"));
+}
+
+/// The paper's choices cannot tell a place.
+void NetworkPanel::readTarget() {
+  if (displaying_) return;
+  const bool places = target_->currentIndex() == 1;
+  displaying_ = true; // one edit
+  if (places && network_.decoder == DecoderKind::Rbf)
+    decoder_->setCurrentText(QString::fromStdString(name(DecoderKind::TouchInversion)));
+  if (!places && network_.decoder == DecoderKind::TouchInversion)
+    decoder_->setCurrentText(QString::fromStdString(name(DecoderKind::Rbf)));
+  const bool one = network_.rows != "all" && network_.rows.find_first_of(",-") == std::string::npos;
+  if (places && one) {
+    rows_->setText("all");
+    rowsProblem_->hide();
+  }
+  displaying_ = false;
+  read(tr("Change what is learned"));
 }
 
 void NetworkPanel::read(const QString& what) {

@@ -60,6 +60,7 @@ private:
   void buildSweep(QVBoxLayout& column);
   void read(const QString& what);
   void readRows();
+  void readTarget();
   void showSpread();
   void showNoise();
   void takeLiveSettings();
@@ -76,7 +77,7 @@ private:
   QComboBox* decoder_ = nullptr;
   QComboBox* target_ = nullptr;
   QLineEdit* rows_ = nullptr;
-  QLabel* rowsProblem_ = nullptr;
+  WrappedLabel* rowsProblem_ = nullptr;
   int rowWires_ = 0; ///< that can be chosen from
   double boardNoise_ = 0;
   QCheckBox* automatic_ = nullptr;

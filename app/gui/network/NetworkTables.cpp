@@ -111,7 +111,7 @@ TableText networksTable(const std::vector<std::shared_ptr<const NetworkFit>>& ne
   addHeads(table.heads, QObject::tr("[%]"));
   const bool places =
       std::any_of(networks.begin(), networks.end(), [](const auto& fit) { return fit->error.place.has_value(); });
-  if (places) table.heads << QObject::tr("place [mm]");
+  if (places) table.heads << QObject::tr("place, median [mm]");
   table.heads << QObject::tr("input") << QObject::tr("row-wires") << QObject::tr("decoder") << QObject::tr("noise [%]")
               << QObject::tr("test noise [%]") << QObject::tr("spread") << QObject::tr("centres")
               << QObject::tr("ridge") << QObject::tr("scaler") << QObject::tr("seed") << QObject::tr("mode")

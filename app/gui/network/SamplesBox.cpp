@@ -1,7 +1,9 @@
 #include "app/gui/network/SamplesBox.h"
 
+#include "app/gui/network/SamplesWords.h"
 #include "app/gui/widgets/ShapeWords.h"
 #include "app/gui/widgets/SpinBoxes.h"
+#include "app/gui/widgets/WrappedLabel.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -35,12 +37,14 @@ SamplesBox::SamplesBox(QWidget* parent) : QGroupBox(tr("Samples"), parent) {
   perArea_->setObjectName("perArea");
   perArea_->setRange(5, 100000);
   perArea_->setKeyboardTracking(false);
+  perArea_->setCorrectionMode(QAbstractSpinBox::CorrectToNearestValue);
   perArea_->setToolTip(
       tr("Random forces on each area, for training and as many others for testing; the paper has 100"));
   count_ = new QSpinBox;
   count_->setObjectName("touchCount");
   count_->setRange(kFewestTouches, kMostTouches);
   count_->setKeyboardTracking(false);
+  count_->setCorrectionMode(QAbstractSpinBox::CorrectToNearestValue);
   count_->setToolTip(tr("Random touches for training, and as many others for testing"));
   auto* either = new QWidget; // in one row: of two the first did not come back where the second had been (Qt 6.4)
   auto* boxes = new QHBoxLayout(either);
@@ -130,6 +134,10 @@ SamplesBox::Pair SamplesBox::range(const char* name, const QString& label, doubl
 }
 
 void SamplesBox::buildFiles() {
+  planned_ = new WrappedLabel;
+  planned_->setObjectName("plannedSamples");
+  planned_->setProperty("role", "hint");
+  form_->addRow(planned_);
   generate_ = new QPushButton(tr("Generate samples"));
   generate_->setObjectName("generate");
   form_->addRow(generate_);
@@ -209,6 +217,7 @@ void SamplesBox::check() {
     problem_->setText(wrong ? QString::fromStdString(*wrong) : QString());
   form_->setRowVisible(problem_, wrong.has_value());
   generate_->setEnabled(!wrong);
+  planned_->say(wrong ? QString() : plannedWords(samples_, design_));
 }
 
 void SamplesBox::displayState(bool there, const QString& words, bool goOn) {

@@ -16,6 +16,8 @@ class QSpinBox;
 
 namespace palp {
 
+class WrappedLabel;
+
 /// Which samples are made, of forces on areas or of touches by an indenter; opens and saves them.
 class SamplesBox : public QGroupBox {
   Q_OBJECT
@@ -63,6 +65,7 @@ private:
   QLabel* problem_ = nullptr;
   QSpinBox* seed_ = nullptr;
   QCheckBox* surrogate_ = nullptr;
+  WrappedLabel* planned_ = nullptr;
   QPushButton* generate_ = nullptr;
   QPushButton* save_ = nullptr;
   QLabel* words_ = nullptr;

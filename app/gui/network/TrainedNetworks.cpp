@@ -35,7 +35,10 @@ TrainedNetworks::TrainedNetworks(QWidget* parent) : QWidget(parent) {
          "earlier one; can be undone"));
   away_ = new QPushButton(tr("Take away"));
   away_->setObjectName("takeAway");
-  away_->setToolTip(tr("Takes the network off the list; the one that is shown stays shown"));
+  away_->setToolTip(tr("Takes the marked networks off the list; the one that is shown stays shown"));
+  return_ = new QPushButton(tr("Bring back"));
+  return_->setObjectName("bringBack");
+  return_->setToolTip(tr("Those that were taken away last come back to where they were"));
   name_ = new QLineEdit;
   name_->setObjectName("networkName");
   name_->setMaxLength(80);
@@ -47,6 +50,7 @@ TrainedNetworks::TrainedNetworks(QWidget* parent) : QWidget(parent) {
   auto* buttons = new QHBoxLayout;
   buttons->addWidget(back_);
   buttons->addWidget(away_);
+  buttons->addWidget(return_);
   buttons->addWidget(nameWords);
   buttons->addWidget(name_, 1);
   auto* column = new QVBoxLayout(this);
@@ -58,19 +62,34 @@ TrainedNetworks::TrainedNetworks(QWidget* parent) : QWidget(parent) {
     if (row != before) displayChosen();
   });
   connect(back_, &QPushButton::clicked, this, &TrainedNetworks::ask);
-  connect(away_, &QPushButton::clicked, this, [this] {
-    if (chosen() >= 0) emit takeAwayAsked(static_cast<std::size_t>(chosen()));
-  });
+  connect(list_, &DataTable::itemSelectionChanged, this, &TrainedNetworks::displayAway);
+  connect(away_, &QPushButton::clicked, this, [this] { emit takeAwayAsked(marked()); });
+  connect(return_, &QPushButton::clicked, this, &TrainedNetworks::bringBackAsked);
   connect(name_, &QLineEdit::editingFinished, this, &TrainedNetworks::askName);
   connect(name_, &QLineEdit::returnPressed, list_, [this] { list_->setFocus(); });
   auto* keys = new QShortcut(Qt::Key_F2, list_);
   keys->setContext(Qt::WidgetShortcut);
   connect(keys, &QShortcut::activated, name_, [this] { name_->setFocus(Qt::ShortcutFocusReason); });
   displayChosen();
+  displayAway();
 }
 
 int TrainedNetworks::chosen() const {
   return list_->currentRow();
+}
+
+std::set<std::size_t> TrainedNetworks::marked() const {
+  std::set<std::size_t> rows;
+  for (const QModelIndex& row : list_->selectionModel()->selectedRows())
+    rows.insert(static_cast<std::size_t>(row.row()));
+  return rows;
+}
+
+/// How many go is said before they do.
+void TrainedNetworks::displayAway() {
+  const std::size_t count = marked().size();
+  away_->setText(count > 1 ? tr("Take %1 away").arg(count) : tr("Take away"));
+  away_->setEnabled(count > 0);
 }
 
 void TrainedNetworks::ask() {
@@ -84,7 +103,7 @@ void TrainedNetworks::askName() {
 }
 
 void TrainedNetworks::displayChosen() {
-  for (QWidget* one : std::initializer_list<QWidget*>{back_, away_, name_}) one->setEnabled(chosen() >= 0);
+  for (QWidget* one : std::initializer_list<QWidget*>{back_, name_}) one->setEnabled(chosen() >= 0);
   const auto row = static_cast<std::size_t>(chosen());
   name_->setText(chosen() >= 0 && row < shown_.size() ? shown_[row].second : QString());
 }
@@ -99,6 +118,7 @@ void TrainedNetworks::display(const NetworkSession& session) {
     if (fit->made == before) now = static_cast<int>(shown_.size()); // the network, wherever it stands now
     shown_.emplace_back(fit->made, fit->name);
   }
+  return_->setEnabled(session.canBringBack());
   const TableText table = networksTable(session.kept());
   list_->show(table.heads, table.rows);
   const bool old = !session.upToDate();
@@ -116,6 +136,7 @@ void TrainedNetworks::display(const NetworkSession& session) {
   else
     list_->setCurrentCell(-1, -1);
   displayChosen();
+  displayAway();
   if (now >= 0 && !typed.isEmpty()) { // what is being typed stays
     name_->setText(typed);
     name_->setModified(true);

@@ -4,6 +4,8 @@
 
 #include <QWidget>
 
+#include <set>
+
 #include <vector>
 
 class QLabel;
@@ -26,19 +28,23 @@ public:
 
 signals:
   void goBackAsked(std::size_t network);
-  void takeAwayAsked(std::size_t network);
+  void takeAwayAsked(const std::set<std::size_t>& networks);
+  void bringBackAsked();
   void nameAsked(std::size_t network, const QString& name);
 
 private:
   void ask();
   void askName();
   [[nodiscard]] int chosen() const;
+  [[nodiscard]] std::set<std::size_t> marked() const;
   void displayChosen();
+  void displayAway();
 
   DataTable* list_ = nullptr;
   QLabel* words_ = nullptr;
   QPushButton* back_ = nullptr;
   QPushButton* away_ = nullptr;
+  QPushButton* return_ = nullptr;
   QLineEdit* name_ = nullptr;
   std::vector<std::pair<QDateTime, QString>> shown_; ///< of each row: when its network was made, and its name
 };

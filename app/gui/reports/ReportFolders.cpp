@@ -47,11 +47,23 @@ QString commandOf(const QString& folder) {
   return messages.open(QIODevice::ReadOnly) ? QString::fromUtf8(messages.readLine()).trimmed() : QString();
 }
 
-QString titleOf(const QString& name, const QDateTime& written) {
-  const auto [kind, run] = runOf(name);
+/// What tells runs of a kind apart: how many samples, and another design than the paper's.
+QString settingsWords(const QString& folder) {
+  static const QRegularExpression drawn(
+      R"(^palp report (?:noise|networks|error-time|scenes|layout) .*--per-area (\d+))");
+  const QString command = commandOf(folder);
+  QString words;
+  if (const auto match = drawn.match(command); match.hasMatch())
+    words += QObject::tr(", %1 samples an area").arg(match.captured(1));
+  if (command.contains(" --design ")) words += QObject::tr(", another design");
+  return words;
+}
+
+QString titleOf(const QFileInfo& folder, const QDateTime& written) {
+  const auto [kind, run] = runOf(folder.fileName());
   const auto words = [](const QDateTime& time) { return QLocale().toString(time, "d MMM yyyy HH:mm"); };
-  if (!run.isValid()) return QObject::tr("%1 (written %2)").arg(name, words(written));
-  return QObject::tr("%1, %2").arg(kind, words(run));
+  if (!run.isValid()) return QObject::tr("%1 (written %2)").arg(folder.fileName(), words(written));
+  return QObject::tr("%1, %2").arg(kind, words(run)) + settingsWords(folder.filePath());
 }
 
 } // namespace
@@ -76,10 +88,9 @@ std::vector<WrittenReport> reportsBelow(const QString& base) {
     const QFileInfo page(QDir(pageFolder(folder.filePath())).filePath("report.html"));
     const QFileInfo study(QDir(folder.filePath()).filePath(kStudyFile));
     if (page.isFile())
-      all.push_back({page.absolutePath(), titleOf(folder.fileName(), page.lastModified()), page.lastModified()});
+      all.push_back({page.absolutePath(), titleOf(folder, page.lastModified()), page.lastModified()});
     else if (study.isFile())
-      all.push_back({folder.absoluteFilePath(),
-                     QObject::tr("%1: stopped").arg(titleOf(folder.fileName(), study.lastModified())),
+      all.push_back({folder.absoluteFilePath(), QObject::tr("%1: stopped").arg(titleOf(folder, study.lastModified())),
                      study.lastModified()});
   }
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.written > b.written; });
@@ -92,7 +103,7 @@ QString kindOfReport(const QString& folder) {
 
 QString titleOfReport(const QString& folder) {
   const QFileInfo page(QDir(folder).filePath("report.html"));
-  return titleOf(runFolderOf(folder).fileName(), page.lastModified());
+  return titleOf(runFolderOf(folder), page.lastModified());
 }
 
 std::optional<double> lastRun_s(const QString& base, const QString& command) {

@@ -12,6 +12,9 @@ namespace palp {
 
 namespace {
 
+constexpr qsizetype kNameOfDesign = 8; // characters of its fingerprint
+constexpr double kSamples = 100;       // on each area, for which the times of RunPart stand
+
 std::vector<ReportKind> allKinds() {
   std::vector<ReportKind> all{
       {QObject::tr("reproduce the paper"),
@@ -34,8 +37,11 @@ std::vector<ReportKind> allKinds() {
   for (const ReportComputation& report : reportComputations()) {
     QString what = QString::fromStdString(report.what);
     if (!what.isEmpty()) what[0] = what[0].toUpper();
-    all.push_back(
-        {QString::fromStdString(report.name), {"report", QString::fromStdString(report.name)}, what, report.parts});
+    all.push_back({QString::fromStdString(report.name),
+                   {"report", QString::fromStdString(report.name)},
+                   what,
+                   report.parts,
+                   report.fieldParts});
   }
   return all;
 }
@@ -54,6 +60,13 @@ QString runName(const ReportKind& kind) {
 bool drawsSamples(const ReportKind& kind) {
   static const QStringList drawing{"noise", "networks", "error-time", "scenes", "layout"};
   return kind.arguments.front() == "report" && drawing.contains(kind.arguments.back());
+}
+
+std::vector<RunPart> partsOf(const ReportKind& kind, const Project& project) {
+  const bool field = kind.arguments.front() == "report" && project.design.field() != nullptr;
+  std::vector<RunPart> parts = field && !kind.fieldParts.empty() ? kind.fieldParts : kind.parts;
+  for (RunPart& part : parts) part.seconds *= 1 - part.drawn + part.drawn * project.view.reportPerArea / kSamples;
+  return parts;
 }
 
 double studySeconds(const StudyPlan& plan) {
@@ -80,7 +93,8 @@ bool ofAnotherDesign(const QStringList& arguments, const Project& project) {
 QString settingsName(const QStringList& arguments, const Project& project) {
   QStringList words = arguments;
   words << QString::number(project.view.reportPerArea) << meshOption(project.mesh).split(' ', Qt::SkipEmptyParts);
-  if (ofAnotherDesign(arguments, project)) words << "design";
+  if (ofAnotherDesign(arguments, project))
+    words << QString::fromStdString(designFingerprint(project.design)).left(kNameOfDesign);
   return words.join('-');
 }
 

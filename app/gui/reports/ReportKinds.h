@@ -17,6 +17,7 @@ struct ReportKind {
   QStringList arguments; ///< of palp
   QString what;
   std::vector<RunPart> parts;
+  std::vector<RunPart> fieldParts{}; ///< under the law of the field, where they are others
 };
 
 /// The argument of the kind that is a study; its time is not known before.
@@ -32,6 +33,10 @@ QString runName(const ReportKind& kind);
 double studySeconds(const StudyPlan& plan);
 /// It makes samples of its own, as many on each area as the project says.
 bool drawsSamples(const ReportKind& kind);
+
+/// What a report of the project runs, and for how long where it has not run here: as its law and number of samples
+/// have it.
+std::vector<RunPart> partsOf(const ReportKind& kind, const Project& project);
 
 /// Where the study stands in the list.
 int studyIndex();

@@ -65,6 +65,7 @@ ReportsPage::ReportsPage(Workbench& workbench, QWidget* parent)
   connect(picture_, &ReportPicture::message, this, &ReportsPage::say);
   connect(showNew_, &QPushButton::clicked, this, [this] { showWritten(pageFolder(runFolder_)); });
   connect(written_, &WrittenReports::chosen, this, &ReportsPage::showWritten);
+  connect(&workbench_, &Workbench::projectChanged, this, &ReportsPage::planAgain);
   timer_.setInterval(500);
   connect(&timer_, &QTimer::timeout, this, &ReportsPage::showTime);
   chooseKind();
@@ -210,6 +211,7 @@ QString ReportsPage::base() const {
 void ReportsPage::showEvent(QShowEvent* event) {
   Scene::showEvent(event);
   listReports();
+  planAgain();
 }
 
 void ReportsPage::start() {

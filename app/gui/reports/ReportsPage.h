@@ -83,6 +83,7 @@ private:
   void showUnfinished(const QString& folder);
   [[nodiscard]] QString base() const;
   void chooseKind();
+  void planAgain();
   void chooseKindOf(const QString& folder);
   void start();
   void setProgress(double share, const QString& what);
@@ -106,6 +107,7 @@ private:
   ReportRun run_;
   QTimer timer_;
   std::unique_ptr<ReportPlan> plan_;
+  QString planned_;                ///< the settings that it is of
   std::vector<RunMoment> moments_; ///< of the run
   double share_ = 0;
   QString runFolder_; ///< of the run

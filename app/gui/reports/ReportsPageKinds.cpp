@@ -51,8 +51,9 @@ void ReportsPage::buildSamplesBox() {
   perArea_->setObjectName("reportPerArea");
   perArea_->setRange(5, 100000);
   perArea_->setKeyboardTracking(false);
+  perArea_->setCorrectionMode(QAbstractSpinBox::CorrectToNearestValue); // 1 is 5, not what it was
   perArea_->setPrefix(tr("samples on each area: "));
-  perArea_->setToolTip(tr("Random forces on each area, which the report draws for itself"));
+  perArea_->setToolTip(tr("Random forces on each area, which the report draws for itself; 5 or more"));
   connect(perArea_, &QSpinBox::valueChanged, this, [this](int perArea) {
     Project next = workbench_.project();
     next.view.reportPerArea = perArea;
@@ -71,19 +72,23 @@ void ReportsPage::chooseKind() {
   perArea_->setVisible(drawsSamples(kind()));
   tabs_->setCurrentWidget(cases_);
   if (isStudy()) return planStudy();
-  plan_ = std::make_unique<ReportPlan>(settingsName(kind().arguments, workbench_.project()), kind().parts);
+  planned_ = settingsName(kind().arguments, workbench_.project());
+  plan_ = std::make_unique<ReportPlan>(planned_, partsOf(kind(), workbench_.project()));
   const auto last_s =
       plan_->measuredHere() ? std::nullopt : lastRun_s(base(), "palp " + runArguments(base()).join(' '));
   if (last_s) plan_->setSeconds(*last_s); // its report lies in the list
   cases_->show(*plan_);
-  state_->setText(
-      tr("Takes about %1%2.")
-          .arg(roughly(plan_->seconds()),
-               plan_->measuredHere()
-                   ? tr(", as the last time on this machine")
-                   : (drawsSamples(kind())
-                          ? tr(" on two cores with 100 samples on each area; not yet run here with these settings")
-                          : tr(" on two cores; not yet run here with these settings"))));
+  state_->setText(tr("Takes about %1%2.")
+                      .arg(roughly(plan_->seconds()),
+                           plan_->measuredHere()
+                               ? tr(", as the last time on this machine")
+                               : tr(", by what such reports take; not yet run here with these settings")));
+}
+
+/// Another design or law since: what a report runs, and for how long, is other too.
+void ReportsPage::planAgain() {
+  if (!isVisible() || run_.running() || isStudy()) return;
+  if (settingsName(kind().arguments, workbench_.project()) != planned_) chooseKind();
 }
 
 /// How much a study is; its time is known only roughly before.

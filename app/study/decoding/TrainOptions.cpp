@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <charconv>
 #include <numeric>
+#include <optional>
 #include <set>
+#include <string_view>
 
 namespace palp {
 namespace {
@@ -19,14 +21,22 @@ void chooseCenters(RbfOptions& result, const TrainOptions& options, Eigen::Index
   result.centerCount = wanted;
 }
 
-int rowNamed(const std::string& text, const std::string& rows, int rowWires) {
+std::optional<int> rowNamed(std::string_view text, int rowWires) {
   int row = -1;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), row);
-  if (error != std::errc{} || end != text.data() + text.size() || row < 0 || row >= rowWires)
-    throw Error("row-wires: '" + text + "'" + (text == rows ? "" : " in '" + rows + "'") +
-                "; allowed is all, or whole numbers from 0 to " + std::to_string(rowWires - 1) +
-                " with commas between them");
+  if (error != std::errc{} || end != text.data() + text.size() || row < 0 || row >= rowWires) return {};
   return row;
+}
+
+/// "4", or "2-5".
+void addRows(std::string_view text, const std::string& rows, int rowWires, std::set<int>& chosen) {
+  const std::size_t dash = text.find('-');
+  const std::optional<int> first = rowNamed(text.substr(0, dash), rowWires);
+  const std::optional<int> last = dash == std::string_view::npos ? first : rowNamed(text.substr(dash + 1), rowWires);
+  if (!first || !last || *first > *last)
+    throw Error("row-wires: '" + std::string(text) + "'" + (text == rows ? "" : " in '" + rows + "'") +
+                "; allowed is all, or numbers and ranges from 0 to " + std::to_string(rowWires - 1) + ", as 0,2,4-6");
+  for (int row = *first; row <= *last; ++row) chosen.insert(row);
 }
 
 } // namespace
@@ -81,7 +91,7 @@ std::vector<int> rowsNamed(const std::string& rows, int rowWires) {
   std::set<int> chosen;
   for (std::size_t begin = 0;;) {
     const std::size_t comma = std::min(rows.find(',', begin), rows.size());
-    chosen.insert(rowNamed(rows.substr(begin, comma - begin), rows, rowWires));
+    addRows(std::string_view(rows).substr(begin, comma - begin), rows, rowWires, chosen);
     if (comma == rows.size()) break;
     begin = comma + 1;
   }

@@ -117,6 +117,7 @@ struct RunPart {
   std::string name{};
   double until = 1;
   double seconds = 0;
+  double drawn = 0; ///< share of them that grows with the number of samples
 };
 
 /// Gets a share 0..1 and what is being done; may be called from another thread, one call at a time.

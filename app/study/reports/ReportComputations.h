@@ -12,8 +12,9 @@ struct ReportComputation {
   std::string what; ///< in a sentence
   /// Empty where it was stopped. Throws Error where the design cannot be.
   std::function<std::optional<ReportContent>(const ReportRequest&, const ReportProgress&, std::stop_token)> compute;
-  std::vector<RunPart> parts; ///< in the order in which they run
-  bool underField = false;    ///< whether it knows the law of the field; the others refuse such a design
+  std::vector<RunPart> parts;        ///< in the order in which they run
+  bool underField = false;           ///< whether it knows the law of the field; the others refuse such a design
+  std::vector<RunPart> fieldParts{}; ///< of a design of that law, where they are others
 };
 
 /// All of them, in the order of the command's help.

@@ -72,6 +72,32 @@ TEST_F(NetworkList, GoesBackToAnEarlierNetworkWithItsSettings) {
   EXPECT_EQ(list.rowCount(), 1);
 }
 
+TEST_F(NetworkList, TakesAwayAllThatAreMarkedAndBringsThemBackToWhereTheyWere) {
+  generate();
+  trained();
+  for (const double spread : {2., 3.}) {
+    find<QDoubleSpinBox>("spread").setValue(spread);
+    ASSERT_TRUE(QTest::qWaitFor([&] { return network.fit()->decoder.report.spread == spread; }, kPatience_ms));
+    ASSERT_TRUE(idle());
+  }
+  auto& list = find<DataTable>("trainedNetworks");
+  ASSERT_EQ(list.rowCount(), 3);
+  find<QTabWidget>("networkTabs").setCurrentIndex(3);
+  const auto kept = network.kept();
+  EXPECT_FALSE(find<QPushButton>("bringBack").isEnabled());
+  list.setCurrentCell(2, 0);
+  EXPECT_EQ(find<QPushButton>("takeAway").text(), "Take away");
+  list.selectionModel()->select(list.model()->index(0, 0), QItemSelectionModel::Select | QItemSelectionModel::Rows);
+  EXPECT_EQ(find<QPushButton>("takeAway").text(), "Take 2 away") << "what goes is said before";
+  QTest::mouseClick(&find<QPushButton>("takeAway"), Qt::LeftButton);
+  ASSERT_EQ(list.rowCount(), 1);
+  EXPECT_EQ(network.kept()[0], kept[1]);
+  QTest::mouseClick(&find<QPushButton>("bringBack"), Qt::LeftButton);
+  EXPECT_EQ(network.kept(), kept);
+  EXPECT_TRUE(network.results().takenAway.empty());
+  EXPECT_FALSE(find<QPushButton>("bringBack").isEnabled());
+}
+
 TEST_F(NetworkList, GoingBackToANetworkOfAnEarlierDesignBringsTheDesignToo) {
   generate();
   trained();

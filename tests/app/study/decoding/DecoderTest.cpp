@@ -95,7 +95,10 @@ TEST(Decoder, AnInputFarFromTheTrainingRangeIsFlagged) {
 TEST(Decoder, RowsAreNamedAndRefusedWithWhatIsAllowed) {
   EXPECT_EQ(rowsNamed("7,1,4,1", 10), (std::vector<int>{1, 4, 7}));
   EXPECT_EQ(rowsNamed("all", 3), (std::vector<int>{0, 1, 2}));
-  for (const char* wrong : {"", "10", "-1", "1,", "four", "1;2"}) EXPECT_THROW(rowsNamed(wrong, 10), Error) << wrong;
+  EXPECT_EQ(rowsNamed("0-2,4,8-9", 10), (std::vector<int>{0, 1, 2, 4, 8, 9}));
+  EXPECT_EQ(rowsNamed("3-3", 10), std::vector<int>{3});
+  for (const char* wrong : {"", "10", "-1", "1,", "four", "1;2", "5-3", "3-10", "2-", "-", "1-2-3"})
+    EXPECT_THROW(rowsNamed(wrong, 10), Error) << wrong;
 }
 
 TEST(TwoStep, GaussNewtonInvertsEquationOne) {
