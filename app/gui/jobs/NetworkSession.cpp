@@ -274,6 +274,7 @@ void NetworkSession::openSamples(const std::vector<std::filesystem::path>& files
                       .arg(results.samples->file));
       else
         show(results);
+      emit samplesOpened();
     };
   };
   runner_.start(tr("Opening samples"), work);

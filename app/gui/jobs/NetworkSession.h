@@ -180,6 +180,8 @@ signals:
   void problem(const QString& sentence);
   /// What is worth knowing and no problem.
   void note(const QString& sentence);
+  /// Samples of a file are those that are shown now.
+  void samplesOpened();
   /// Samples or a network stand in these files now.
   void saved(const std::vector<std::filesystem::path>& files);
   /// Work begins that needs hundreds of megabytes.

@@ -102,6 +102,7 @@ NetworkPage::NetworkPage(Workbench& workbench, NetworkSession& session, QWidget*
 
 void NetworkPage::connectSession() {
   connect(&session_, &NetworkSession::samplesChanged, this, &NetworkPage::displaySamples);
+  connect(&session_, &NetworkSession::samplesOpened, this, &NetworkPage::takeSampleSettings);
   connect(&session_, &NetworkSession::fitChanged, this, &NetworkPage::displayFit);
   connect(&session_, &NetworkSession::sweepChanged, this, &NetworkPage::displaySweep);
   connect(&session_, &NetworkSession::trialsChanged, this, &NetworkPage::displayTrials);
@@ -143,6 +144,23 @@ void NetworkPage::showSentence(const QString& sentence, const char* role) {
   problem_->style()->polish(problem_);
   problem_->setText(sentence);
   problem_->setVisible(!sentence.isEmpty());
+}
+
+/// The panel says how the samples that were opened were made, as far as their file does.
+void NetworkPage::takeSampleSettings() {
+  const NetworkSamples* samples = session_.samples();
+  if (samples == nullptr || samples->training.origin.imported()) return;
+  Project next = workbench_.project();
+  const SampleSettings& made = samples->settings;
+  next.samples.seed = made.seed;
+  if (made.touches) {
+    if (!next.samples.touches) next.samples.touches = usualTouches(next.design);
+    next.samples.touches->count = made.touches->count;
+  } else {
+    next.samples.touches.reset();
+    next.samples.perArea = made.perArea;
+  }
+  workbench_.edit(tr("Open samples"), next);
 }
 
 /// Asked for by itself: what is trained stays in the list.

@@ -51,6 +51,7 @@ private:
   QLayout* buildBar();
   QWidget* buildFit();
   void displayProject();
+  void takeSampleSettings();
   void displaySamples();
   /// To choose from: imported samples may have others than the design.
   [[nodiscard]] std::array<int, 2> rowWiresAndAreas() const;

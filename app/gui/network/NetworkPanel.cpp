@@ -115,10 +115,13 @@ void NetworkPanel::buildInput(QFormLayout& form) {
   rowsProblem_->setObjectName("rowsProblem");
   rowsProblem_->setProperty("role", "problem");
   rowsProblem_->hide();
+  rowsHint_ = new WrappedLabel(tr("counted from 0: 4, or 1,4,7, or 2-5, or all"));
+  rowsHint_->setProperty("role", "hint");
   auto* room = new QWidget; // always there: no field moves when a problem comes or goes
   room->setMinimumHeight(2 * fontMetrics().lineSpacing());
   auto* column = new QVBoxLayout(room);
   column->setContentsMargins(0, 0, 0, 0);
+  column->addWidget(rowsHint_);
   column->addWidget(rowsProblem_);
   column->addStretch(1);
   form.addRow(room);
@@ -258,7 +261,7 @@ void NetworkPanel::display(const Project& project, int rowWires) {
   target_->setCurrentIndex(network_.target == DecoderTarget::Force ? 0 : 1);
   rows_->setText(QString::fromStdString(network_.rows));
   rowWires_ = rowWires;
-  rowsProblem_->hide();
+  showRowsProblem({});
   showExactly(*testNoise_, 100 * network_.testNoise);
   advanced_->display(network_);
   centers_->setValue(network_.centers);
@@ -282,7 +285,7 @@ void NetworkPanel::takeLiveSettings() {
   displaying_ = true; // one edit
   input_->setCurrentIndex(1);
   rows_->setText("all");
-  rowsProblem_->hide();
+  showRowsProblem({});
   noise_->setValue(100 * boardNoise_);
   testNoise_->setValue(100 * boardNoise_);
   displaying_ = false;
@@ -329,17 +332,23 @@ void NetworkPanel::displayChosenSpread(double spread) {
   automatic_->setText(spread > 0 ? tr("by leave-one-out: %1").arg(spread, 0, 'g', 4) : tr("by leave-one-out"));
 }
 
+/// In the place of the hint: no field moves.
+void NetworkPanel::showRowsProblem(const QString& sentence) {
+  rowsProblem_->say(sentence);
+  rowsHint_->setVisible(sentence.isEmpty());
+}
+
 /// Rows that the design does not have stay in the field and are not used.
 void NetworkPanel::readRows() {
   if (displaying_) return;
   try {
     rowsNamed(rows_->text().trimmed().toStdString(), rowWires_);
   } catch (const Error& error) {
-    rowsProblem_->say(
+    showRowsProblem(
         tr("%1. %2 is used.").arg(QString::fromStdString(error.what()), QString::fromStdString(network_.rows)));
     return;
   }
-  rowsProblem_->hide();
+  showRowsProblem({});
   read(tr("Change the row-wires"));
 }
 
@@ -355,7 +364,7 @@ void NetworkPanel::readTarget() {
   const bool one = network_.rows != "all" && network_.rows.find_first_of(",-") == std::string::npos;
   if (places && one) {
     rows_->setText("all");
-    rowsProblem_->hide();
+    showRowsProblem({});
   }
   displaying_ = false;
   read(tr("Change what is learned"));

@@ -61,6 +61,7 @@ private:
   void read(const QString& what);
   void readRows();
   void readTarget();
+  void showRowsProblem(const QString& sentence);
   void showSpread();
   void showNoise();
   void takeLiveSettings();
@@ -78,6 +79,7 @@ private:
   QComboBox* target_ = nullptr;
   QLineEdit* rows_ = nullptr;
   WrappedLabel* rowsProblem_ = nullptr;
+  WrappedLabel* rowsHint_ = nullptr;
   int rowWires_ = 0; ///< that can be chosen from
   double boardNoise_ = 0;
   QCheckBox* automatic_ = nullptr;

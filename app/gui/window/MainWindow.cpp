@@ -47,6 +47,7 @@ namespace palp {
 
 namespace {
 
+constexpr int kLog_px = 110;        ///< height of the messages when they are opened: the scene keeps its room
 constexpr int kRailWidth_px = 128;  ///< at least
 constexpr int kRailMargins_px = 34; ///< of its style
 constexpr int kMessage_ms = 15000;
@@ -87,6 +88,9 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   log_ = new MessageLog(this);
   addDockWidget(Qt::BottomDockWidgetArea, log_);
   log_->hide();
+  connect(log_->toggleViewAction(), &QAction::triggered, this, [this](bool shown) {
+    if (shown) resizeDocks({log_}, {kLog_px}, Qt::Vertical);
+  });
   log_->toggleViewAction()->setStatusTip(tr("All that was said: alarms, boards, wires, tares, files"));
   auto* designPage = new DesignPage(workbench, network);
   connect(designPage, &DesignPage::stageChanged, this, [this] { workbench_.touch().need(currentScene().stage()); });

@@ -262,6 +262,8 @@ TEST_F(NetworkScene, OpeningTheSamplesThatAreThereKeepsWhatWasMadeOfThem) {
   QTest::mouseClick(&find<QPushButton>("saveSamples"), Qt::LeftButton);
   ASSERT_TRUE(QTest::qWaitFor([&] { return QFileInfo::exists(file) && !window.busy(); }, kPatience_ms));
   const NetworkFit* fit = network.fit();
+  const std::uint64_t seed = workbench.project().samples.seed;
+  find<QSpinBox>("seed").setValue(static_cast<int>(seed) + 5);
   answerFileDialog(file);
   QTest::mouseClick(&find<QPushButton>("openSamples"), Qt::LeftButton);
   auto& said = find<QLabel>("trainingProblem");
@@ -269,6 +271,7 @@ TEST_F(NetworkScene, OpeningTheSamplesThatAreThereKeepsWhatWasMadeOfThem) {
       << said.text().toStdString();
   EXPECT_EQ(network.fit(), fit);
   EXPECT_EQ(said.property("role").toString(), "hint") << "nothing is wrong: it is not red";
+  EXPECT_EQ(workbench.project().samples.seed, seed) << "the panel says how they were made";
 }
 
 TEST_F(NetworkScene, TheSweepsTableHasEveryPointAndItsBestSpreadIsTakenOver) {
