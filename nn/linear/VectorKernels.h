@@ -19,6 +19,11 @@ void gaussianRemainder(double* values, std::size_t count, double rate);
 void squaredDistancesToPoint(const double* rows, std::size_t stride, std::size_t count, std::size_t dimensions,
                              const double* point, double* result);
 
+/// results[o * rows + i] += sum_c columns[c * rows + i] shares[o * count + c]: a product with a matrix of few columns.
+/// Each column is read once for up to five results.
+void addColumns(const double* columns, std::size_t rows, std::size_t count, const double* shares, std::size_t outputs,
+                double* results);
+
 /// Packed Gaussian network.
 struct PackedNetwork {
   std::size_t inputs, outputs, blocks;

@@ -1,5 +1,7 @@
 #include "nn/rivals/SplineTable.h"
 
+#include "nn/linear/VectorKernels.h"
+
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -10,6 +12,10 @@ namespace palp {
 namespace {
 
 constexpr int kSplines = 4; // that are not 0 at a place
+
+std::size_t size(Eigen::Index count) {
+  return static_cast<std::size_t>(count);
+}
 
 struct SplinesAt {
   int first = 0;
@@ -51,45 +57,45 @@ void SplineTable::evaluate(const Eigen::Ref<const Eigen::VectorXd>& input, Eigen
   for (std::size_t axis = 0; axis < 2; ++axis)
     at[axis] = splinesAt(place[axis] < 0 ? low(static_cast<Eigen::Index>(axis)) : input(place[axis]),
                          low(static_cast<Eigen::Index>(axis)), step(static_cast<Eigen::Index>(axis)), nodes[axis]);
-  // Monomials, and their derivatives by each input.
-  const Eigen::Index count = terms();
-  Eigen::MatrixXd factors = Eigen::MatrixXd::Zero(count, 1 + inputs());
-  for (Eigen::Index j = 0; j < count; ++j) {
-    factors(j, 0) = 1;
-    for (Eigen::Index k = 0; k < inputs(); ++k) {
-      const int power = exponents(k, j);
-      if (power > 0) factors(j, 0) *= std::pow(input(k) + shift(k), power);
+  const Eigen::MatrixXd factors = monomials(input);
+  // Each block of coefficients is read once: four splines along the first place stand side by side.
+  const Eigen::Index count = terms(), columns = 1 + inputs();
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(outputs(), columns), shares(kSplines * count, columns);
+  for (std::size_t iy = 0; iy < kSplines; ++iy) {
+    const double v = at[1].value[iy], dv = at[1].slope[iy];
+    for (std::size_t ix = 0; ix < kSplines; ++ix) {
+      auto share = shares.middleRows(static_cast<Eigen::Index>(ix) * count, count);
+      share = v * at[0].value[ix] * factors;
+      if (place[0] >= 0) share.col(1 + place[0]) = v * at[0].slope[ix] * factors.col(0);
+      if (place[1] >= 0) share.col(1 + place[1]) = dv * at[0].value[ix] * factors.col(0);
     }
-    for (Eigen::Index by = 0; by < inputs(); ++by) {
-      if (exponents(by, j) == 0) continue;
-      double derivative = exponents(by, j);
-      for (Eigen::Index k = 0; k < inputs(); ++k)
-        derivative *= std::pow(input(k) + shift(k), exponents(k, j) - (k == by ? 1 : 0));
-      factors(j, 1 + by) = derivative;
-    }
+    const Eigen::Index node = at[0].first + Eigen::Index(nodes[0]) * (at[1].first + static_cast<Eigen::Index>(iy));
+    kernels::addColumns(coefficients.data() + outputs() * count * node, size(outputs()), size(shares.rows()),
+                        shares.data(), size(columns), all.data());
   }
-  // Over the splines first: value and both slopes of each term's coefficient.
-  value = rest;
-  slope.setZero(outputs(), inputs());
-  Eigen::MatrixXd inRow(outputs(), count), acrossRow(outputs(), count);
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(outputs(), count);
-  for (int iy = 0; iy < kSplines; ++iy) {
-    const double v = at[1].value[static_cast<std::size_t>(iy)], dv = at[1].slope[static_cast<std::size_t>(iy)];
-    inRow.setZero();
-    acrossRow.setZero();
-    for (int ix = 0; ix < kSplines; ++ix) {
-      const Eigen::Index node = at[0].first + ix + Eigen::Index(nodes[0]) * (at[1].first + iy);
-      const auto here = coefficients.middleCols(count * node, count);
-      inRow += at[0].value[static_cast<std::size_t>(ix)] * here;
-      if (place[0] >= 0) acrossRow += at[0].slope[static_cast<std::size_t>(ix)] * here;
-    }
-    all += v * inRow;
-    if (place[0] >= 0) slope.col(place[0]).noalias() += v * (acrossRow * factors.col(0));
-    if (place[1] >= 0) slope.col(place[1]).noalias() += dv * (inRow * factors.col(0));
+  value = rest + all.col(0);
+  slope = all.rightCols(inputs());
+}
+
+/// Terms x (1 + inputs): each monomial, and its derivatives by each input.
+Eigen::MatrixXd SplineTable::monomials(const Eigen::Ref<const Eigen::VectorXd>& input) const {
+  const int most = exponents.size() > 0 ? exponents.maxCoeff() : 0;
+  Eigen::MatrixXd powers(most + 1, inputs());
+  powers.row(0).setOnes();
+  for (int power = 1; power <= most; ++power)
+    powers.row(power) = powers.row(power - 1).cwiseProduct((input + shift).transpose());
+  Eigen::MatrixXd factors(terms(), 1 + inputs());
+  for (Eigen::Index j = 0; j < terms(); ++j) {
+    const auto product = [&](Eigen::Index by) {
+      double result = 1;
+      for (Eigen::Index k = 0; k < inputs(); ++k) result *= powers(exponents(k, j) - (k == by ? 1 : 0), k);
+      return result;
+    };
+    factors(j, 0) = product(-1);
+    for (Eigen::Index by = 0; by < inputs(); ++by)
+      factors(j, 1 + by) = exponents(by, j) > 0 ? exponents(by, j) * product(by) : 0;
   }
-  value.noalias() += all * factors.col(0);
-  for (Eigen::Index k = 0; k < inputs(); ++k)
-    if (k != place[0] && k != place[1]) slope.col(k).noalias() = all * factors.col(1 + k);
+  return factors;
 }
 
 void SplineTable::interpolate(Eigen::MatrixXd values) {

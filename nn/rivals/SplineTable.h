@@ -34,6 +34,9 @@ struct SplineTable {
 
   /// Coefficients to whole parts.
   void round() { coefficients = (kParts * coefficients).array().round() / kParts; }
+
+private:
+  [[nodiscard]] Eigen::MatrixXd monomials(const Eigen::Ref<const Eigen::VectorXd>& input) const;
 };
 
 } // namespace palp
