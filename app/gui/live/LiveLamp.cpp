@@ -16,6 +16,7 @@ QString roleOf(LiveLampState::Kind kind) {
   case LiveLampState::Kind::Alarm:
     return "alarm";
   case LiveLampState::Kind::Dark:
+  case LiveLampState::Kind::Waits:
   case LiveLampState::Kind::Streams:
     break;
   }
@@ -64,6 +65,8 @@ LiveLampState LiveWatch::state(const LiveHost& host, bool seen) const {
   if (!recording.isEmpty()) return {LiveLampState::Kind::Records, recording};
   const QString source = QString::fromStdString(status.source);
   const QString state = QString::fromLatin1(name(status.state));
+  if (!seen && !host.worksHidden() && status.connections > 0 && !host.replaying())
+    return {LiveLampState::Kind::Waits, QObject::tr("Live waits: %1").arg(source)};
   if (status.state != LiveState::Streaming) {
     const bool stands = host.replaying() && (status.state == LiveState::Paused || status.state == LiveState::Ended);
     const QString replay = status.state == LiveState::Ended ? QObject::tr("Played to its end: %1").arg(source)
@@ -101,9 +104,14 @@ void LiveLamp::display(const LiveLampState& state) {
   if (state == state_) return;
   state_ = state;
   setVisible(state.kind != LiveLampState::Kind::Dark);
-  setText(QString::fromUtf8("\u25CF ") + state.words);
+  const bool waits = state.kind == LiveLampState::Kind::Waits;
+  setText(QString::fromUtf8(waits ? "\u25CB " : "\u25CF ") + state.words);
   setAccessibleName(state.words);
-  setToolTip(tr("%1. A click leads to the Live scene; only its Record button ends a recording.").arg(state.words));
+  setToolTip(
+      waits ? tr("%1. Nothing is read while nobody looks: no recording, no alarm and no receiver is on. A click "
+                 "leads to the Live scene.")
+                  .arg(state.words)
+            : tr("%1. A click leads to the Live scene; only its Record button ends a recording.").arg(state.words));
   const QString role = roleOf(state.kind);
   if (property("role").toString() == role) return;
   setProperty("role", role);

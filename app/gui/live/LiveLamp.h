@@ -8,7 +8,7 @@ namespace palp {
 
 /// What a board does, for those who look at another scene.
 struct LiveLampState {
-  enum class Kind { Dark, Streams, Records, Alarm };
+  enum class Kind { Dark, Waits, Streams, Records, Alarm };
   Kind kind = Kind::Dark;
   QString words;
 

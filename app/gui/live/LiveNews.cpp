@@ -1,22 +1,18 @@
 #include "app/gui/live/LiveNews.h"
 
+#include "io/board/HostClock.h"
+
 #include <algorithm>
-#include <cmath>
 
 namespace palp {
 
 namespace {
 
-constexpr double kMinute_s = 60, kFewSeconds = 90;
-constexpr double kLongest_s = 3600; // a drift that is said to last longer is not known so well
+constexpr double kLasting_s = 0.7;    // that a wire is broken before it is said: a fault that comes and goes is none
+constexpr double kDriftAgain_s = 300; // between two sentences on one drift
 
 bool contains(const std::vector<std::string>& all, const std::string& one) {
   return std::find(all.begin(), all.end(), one) != all.end();
-}
-
-QString about(double seconds) {
-  if (seconds < kFewSeconds) return QObject::tr("about %1 s").arg(10 * std::ceil(seconds / 10));
-  return QObject::tr("about %1 min").arg(std::ceil(seconds / kMinute_s));
 }
 
 } // namespace
@@ -26,21 +22,40 @@ QString driftWords(const LiveStatus& status) {
   const QString rest = QObject::tr("The sensor drifts: all readings go together, and rest reads as %1 N")
                            .arg(status.driftForce_N, 0, 'g', 2);
   if (!status.driftsOn) return QObject::tr("%1. Take your hand off it and tare.").arg(rest);
-  const QString wait = status.driftsFor_s && *status.driftsFor_s < kLongest_s
-                           ? QObject::tr("Wait %1, then tare").arg(about(*status.driftsFor_s))
-                           : QObject::tr("Wait until it is steady, then tare");
-  return QObject::tr("%1, by %2 N a minute still. %3: a tare of now would be wanted again within a minute.")
+  return QObject::tr("%1, by %2 N a minute still. Tare it when that is below %3 N a minute: before, a tare would be "
+                     "wanted again at once.")
       .arg(rest)
       .arg(status.driftRate_N_min, 0, 'g', 2)
-      .arg(wait);
+      .arg(status.steadyRate_N_min, 0, 'g', 2);
 }
 
 QStringList LiveNews::take(const LiveHost& host) {
   QStringList news;
-  if (host.openings() != openings_) *this = {};
-  openings_ = host.openings();
+  if (host.openings() == 0) return news;
+  if (host.openings() != openings_) { // another source; the network in use is still the same
+    const bool first = openings_ == 0;
+    const QString network = network_;
+    *this = {};
+    openings_ = host.openings();
+    network_ = network;
+    known_ = false;
+    if (!first)
+      news << QObject::tr("Another source: %1.")
+                  .arg(host.replaying()   ? QString::fromStdString(host.settings().recording)
+                       : host.simulated() ? QObject::tr("the simulated board")
+                                          : QObject::tr("a board"));
+  }
+  if (host.decoder()) {
+    const QString network = host.networkName();
+    if (!network_.isEmpty() && network != network_) news << QObject::tr("The network in use is %1.").arg(network);
+    network_ = network;
+  }
+  if (!host.replaying()) takeSource(host, news);
+  return news;
+}
+
+void LiveNews::takeSource(const LiveHost& host, QStringList& news) {
   const LiveStatus& status = host.status();
-  if (host.replaying() || openings_ == 0) return news;
   const bool streams = status.state == LiveState::Streaming || status.state == LiveState::Paused;
   if (status.connections > 0 && !streams && !gone_)
     news << QObject::tr("The board is out: %1.")
@@ -48,34 +63,41 @@ QStringList LiveNews::take(const LiveHost& host) {
                                            : QString::fromStdString(status.reason));
   if (streams && gone_) news << QObject::tr("The board is back: %1.").arg(QString::fromStdString(status.source));
   gone_ = status.connections > 0 && !streams;
-  if (streams) takeWires(host, news);
-  if (streams) takeRest(status, news);
-  known_ = known_ || streams;
-  return news;
+  if (!streams) return;
+  takeWires(host, news);
+  takeRest(status, news);
+  known_ = true;
 }
 
 void LiveNews::takeWires(const LiveHost& host, QStringList& news) {
   const LiveFrame* last = host.history().last();
   if (last == nullptr || !last->frame.complete) return;
-  for (const std::string& fault : last->faults)
+  const double now_s = hostClock_s();
+  if (last->faults != fresh_) freshSince_s_ = now_s;
+  fresh_ = last->faults;
+  if (now_s - freshSince_s_ < kLasting_s) return;
+  for (const std::string& fault : fresh_)
     if (!contains(faults_, fault)) news << QObject::tr("Broken: %1.").arg(QString::fromStdString(fault));
   for (const std::string& fault : faults_)
-    if (!contains(last->faults, fault))
+    if (!contains(fresh_, fault))
       news << QObject::tr("No longer: %1. The network in use is %2.")
                   .arg(QString::fromStdString(fault), host.networkName());
-  faults_ = last->faults;
+  faults_ = fresh_;
 }
 
 void LiveNews::takeRest(const LiveStatus& status, QStringList& news) {
-  if (status.tareSuggested && !drifted_) news << driftWords(status);
-  if (!status.tareSuggested && drifted_) news << QObject::tr("The drift is over.");
-  drifted_ = status.tareSuggested;
   if (status.taring) return;
-  if (known_ && status.tare != tare_)
+  if (known_ && status.tare != tare_) {
+    drifted_s_ = 0;
     news << (status.tare ? QObject::tr("Tared: %1 frames are rest.").arg(status.tare->frames)
                          : QObject::tr("The tare is cleared: changes count from %1.")
                                .arg(QString::fromStdString(status.restName)));
+  }
   tare_ = status.tare;
+  const double now_s = hostClock_s();
+  if (!status.tareSuggested || (drifted_s_ > 0 && now_s < drifted_s_ + kDriftAgain_s)) return;
+  news << driftWords(status);
+  drifted_s_ = now_s;
 }
 
 } // namespace palp

@@ -6,23 +6,27 @@
 
 namespace palp {
 
-/// What happens to a board, each event said once, for the log of messages: it goes and comes back, a wire breaks or is
-/// mended, the sensor drifts, a tare begins to hold or is cleared. Of a recording nothing: it is no news.
+/// What happens to a board, each event said once, for the log of messages: another source, a board that goes and comes
+/// back, a wire that breaks or is mended, a drift, a tare that holds or is cleared, another network. Of what is played
+/// nothing but that it is: it is no news.
 class LiveNews {
 public:
   /// After each look of the host: what happened since the last one.
   QStringList take(const LiveHost& host);
 
 private:
+  void takeSource(const LiveHost& host, QStringList& news);
   void takeWires(const LiveHost& host, QStringList& news);
   void takeRest(const LiveStatus& status, QStringList& news);
 
   int openings_ = 0;
   bool known_ = false; ///< of this source: what it was at first is no news
   bool gone_ = false;
-  bool drifted_ = false;
-  std::vector<std::string> faults_;
+  double drifted_s_ = 0;                    ///< host clock when a drift was said last; 0: not since the tare
+  std::vector<std::string> faults_, fresh_; ///< that were said; those of the last look
+  double freshSince_s_ = 0;                 ///< host clock
   std::shared_ptr<const Tare> tare_;
+  QString network_;
 };
 
 /// What the drift of a sensor asks for, in a sentence; empty where it asks for nothing.

@@ -182,8 +182,6 @@ void LivePage::connectPanels() {
   });
   connect(control_, &LiveControlPanel::backAsked, &host_, &LiveHost::backToNetwork);
   connect(control_, &LiveControlPanel::shippedAsked, &host_, &LiveHost::useChosenNetwork);
-  connect(control_, &LiveControlPanel::shippedAsked, this,
-          [this] { emit message(tr("The network as it was chosen.")); });
   connect(source_, &LiveSourcePanel::openAgainAsked, &host_, &LiveHost::restart);
   connect(source_, &LiveSourcePanel::anotherAsked, this, &LivePage::anotherAsked);
   connect(control_, &LiveControlPanel::tareAsked, this, &LivePage::tare);
@@ -191,7 +189,8 @@ void LivePage::connectPanels() {
   connect(control_, &LiveControlPanel::pauseAsked, &host_, &LiveHost::setPaused);
   connect(control_, &LiveControlPanel::markAsked, this, [this](const QString& text) {
     host_.mark(text.toStdString());
-    if (!host_.recording()) emit message(tr("Marked; nothing is being recorded."));
+    emit message(host_.recording() ? tr("Marked: %1.").arg(text)
+                                   : tr("Marked: %1; nothing is being recorded.").arg(text));
   });
   connect(control_, &LiveControlPanel::recordAsked, this, &LivePage::record);
   connect(control_, &LiveControlPanel::exportAsked, this, &LivePage::exportFrames);
@@ -229,10 +228,7 @@ void LivePage::connectSimulation() {
   });
   connect(&host_.simulator(), &JobRunner::failed, this, &LivePage::message);
   connect(block_, &LiveView::areaPressed, this, [this](int area) {
-    change(tr("simulated touch"), [&](LiveSettings& settings) {
-      settings.simulation.heldArea = area;
-      settings.simulation.heldForce_N[0] = settings.simulation.heldForce_N[1] = 0;
-    });
+    change(tr("simulated touch"), [&](LiveSettings& settings) { settings.simulation.heldArea = area; });
   });
   const auto press = [this](const Eigen::Vector3d& force_N) {
     change(tr("simulated touch"), [&](LiveSettings& settings) {

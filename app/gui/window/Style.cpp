@@ -141,7 +141,10 @@ void applyTheme(QApplication& application, Theme theme) {
     font.setPixelSize(qRound(font.pixelSize() * scale));
   QApplication::setFont(font);
   QFile sheet(":/style/palp.qss");
-  if (sheet.open(QIODevice::ReadOnly)) application.setStyleSheet(scaled(QString::fromUtf8(sheet.readAll()), scale));
+  if (!sheet.open(QIODevice::ReadOnly)) return;
+  QString text = scaled(QString::fromUtf8(sheet.readAll()), scale);
+  text.replace("@problem", theme == Theme::Light ? "#d4303c" : "#ff707a"); // readable on its ground
+  application.setStyleSheet(text);
 }
 
 int textPercent() {

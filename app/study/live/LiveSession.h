@@ -69,19 +69,19 @@ struct LiveStatus {
   std::optional<double> temperature_degC;
   std::string decoderProblem; ///< why there are no forces; empty where there are
   bool taring = false, tared = false;
-  std::shared_ptr<const Tare> tare;  ///< that holds; null: none
-  bool tareOfRecording = false;      ///< it was made before or while that was recorded
-  std::optional<double> drift;       ///< relative, of all readings since rest; none: not seen at rest yet
-  double driftForce_N = 0;           ///< what the drift reads as
-  bool tareSuggested = false;        ///< it is more than 1 % of the force range
-  double driftRate_N_min = 0;        ///< how fast that changes
-  bool driftsOn = false;             ///< both: a tare of now would be wanted again within a minute
-  std::optional<double> driftsFor_s; ///< how long it will, where it slows down
-  bool blind = false;                ///< the last half second gave no forces: no alarm can go off
-  std::string restName;              ///< what LiveFrame::change counts from
-  double noise = 0;                  ///< relative, of the readings
-  std::string alarm;                 ///< the alarm that is on, in words
-  std::string lastAlarm;             ///< the last one that went off; `alarms` counts them
+  std::shared_ptr<const Tare> tare; ///< that holds; null: none
+  bool tareOfRecording = false;     ///< it was made before or while that was recorded
+  std::optional<double> drift;      ///< relative, of all readings since rest; none: not seen at rest yet
+  double driftForce_N = 0;          ///< what the drift reads as
+  bool tareSuggested = false;       ///< it is more than 1 % of the force range
+  double driftRate_N_min = 0;       ///< how fast that changes
+  bool driftsOn = false;            ///< both: a tare of now would be wanted again within a minute
+  double steadyRate_N_min = 0;      ///< below which a tare holds
+  bool blind = false;               ///< the last half second gave no forces: no alarm can go off
+  std::string restName;             ///< what LiveFrame::change counts from
+  double noise = 0;                 ///< relative, of the readings
+  std::string alarm;                ///< the alarm that is on, in words
+  std::string lastAlarm;            ///< the last one that went off; `alarms` counts them
   std::uint64_t alarms = 0;
   bool recording = false;
   bool recordingWaits = false; ///< for the board, which is out; it goes on in the same file when it is back

@@ -16,9 +16,9 @@ constexpr double kStall_s = 0.25;
 constexpr double kLate_s = 0.02;
 constexpr int kBlindFrames = 25;         // in a row without forces: fewer are lost reports
 constexpr double kDriftRateOver_s = 10;  // that its pace is taken from
+constexpr double kDriftGap_s = 3;        // without frames, after which a drift is looked for anew
 constexpr double kDriftInterval_s = 0.5; // between two looks at what the drift reads as
 constexpr double kDriftShare = 0.01;     // of the force range, from which a tare is suggested
-constexpr double kLeastSlower = 0.01;    // logarithm of two paces in a row, from which a drift is said to slow down
 constexpr int kStaleBeforeAsking = 20;
 constexpr double kAskAgain_s = 0.5;
 
@@ -271,8 +271,12 @@ void LiveWorker::watch(const DecodedForces& forces) {
 
 void LiveWorker::judgeDrift(const LiveFrame& live) {
   if (!decoder_ || !live.forces.valid || decoder_->taring()) return drift_.restart();
-  drift_.add(live.change, decoder_->noise(), live.frame.time_s);
   const double now_s = hostClock_s();
+  if (now_s > driftJudged_s_ + kDriftGap_s) { // nobody looked meanwhile: what was known is of another time
+    drift_.restart();
+    driftsSeen_.clear();
+  }
+  drift_.add(live.change, decoder_->noise(), live.frame.time_s);
   if (now_s < driftJudged_s_ + kDriftInterval_s) return;
   driftJudged_s_ = now_s;
   status_.drift = drift_.drift();
@@ -286,26 +290,16 @@ void LiveWorker::judgeDrift(const LiveFrame& live) {
 void LiveWorker::judgeDriftRate(double time_s, double range_N) {
   status_.driftRate_N_min = 0;
   status_.driftsOn = false;
-  status_.driftsFor_s.reset();
   if (!status_.drift) return driftsSeen_.clear();
   if (!driftsSeen_.empty() && time_s < driftsSeen_.back().first) driftsSeen_.clear(); // a recording went back
   driftsSeen_.push_back({time_s, *status_.drift});
-  while (driftsSeen_.front().first < time_s - 2 * kDriftRateOver_s) driftsSeen_.pop_front();
-  const auto recent = std::find_if(driftsSeen_.begin(), driftsSeen_.end(),
-                                   [&](const auto& seen) { return seen.first >= time_s - kDriftRateOver_s; });
-  const auto [then_s, then] = *recent;
+  while (driftsSeen_.front().first < time_s - kDriftRateOver_s) driftsSeen_.pop_front();
+  const auto [then_s, then] = driftsSeen_.front();
   const double minutes = (time_s - then_s) / 60;
   if (minutes < kDriftRateOver_s / 120) return; // too short a time to tell
   status_.driftRate_N_min = decoder_->drifted_N(*status_.drift - then).norm() / minutes;
-  status_.driftsOn = status_.tareSuggested && status_.driftRate_N_min > kDriftShare * range_N;
-  const auto [first_s, first] = driftsSeen_.front();
-  const double before_min = (then_s - first_s) / 60;
-  if (!status_.driftsOn || before_min < kDriftRateOver_s / 120) return;
-  // As what warms: its pace falls by the same share in the same time.
-  const double before_N_min = decoder_->drifted_N(then - first).norm() / before_min;
-  const double slower = std::log(before_N_min / status_.driftRate_N_min);
-  if (slower > kLeastSlower)
-    status_.driftsFor_s = (time_s - first_s) / 2 * std::log(status_.driftRate_N_min / (kDriftShare * range_N)) / slower;
+  status_.steadyRate_N_min = kDriftShare * range_N;
+  status_.driftsOn = status_.tareSuggested && status_.driftRate_N_min > status_.steadyRate_N_min;
 }
 
 void LiveWorker::measureRates(double now_s) {

@@ -249,7 +249,7 @@ QWidget* LiveControlPanel::buildScales() {
   force_->setObjectName("forceScale");
   force_->addItem(tr("range of the network"), 0.0);
   force_->addItem(tr("automatic"), -1.0);
-  for (const double newton : {0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0})
+  for (const double newton : {0.1, 0.2, 0.5, 1.0, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0})
     force_->addItem(QString::fromUtf8("\u00b1%1 N").arg(newton), newton);
   force_->setToolTip(
       tr("Scale of the force curves: the range the network was trained for, what the curves need, or fixed"));
