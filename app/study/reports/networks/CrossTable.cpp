@@ -20,6 +20,7 @@ namespace palp {
 
 namespace {
 
+constexpr double kSampling = 0.8;    // of the progress
 constexpr double kOtherRadius = 1.5; // times the design's
 constexpr double kUseful = 0.5;      // of the error of saying the mean: below, a decoder is called of use
 constexpr std::array kCrossDecoders{DecoderKind::Linear, DecoderKind::Rbf};
@@ -52,13 +53,13 @@ public:
     content_.warnings = designWarnings(request_.design);
     chooseLaws();
     for (std::size_t i = 0; i < laws_.size(); ++i)
-      if (!sample(laws_[i], 0.8 * static_cast<double>(i) / static_cast<double>(laws_.size()))) return {};
+      if (!sample(laws_[i], kSampling * static_cast<double>(i) / static_cast<double>(laws_.size()))) return {};
     sayingTheMean();
     for (std::size_t d = 0; d < kCrossDecoders.size(); ++d)
       for (std::size_t i = 0; i < laws_.size(); ++i) {
         if (stop_.stop_requested()) return {};
-        say(0.8 + 0.2 * static_cast<double>(d * laws_.size() + i) /
-                      static_cast<double>(kCrossDecoders.size() * laws_.size()),
+        say(kSampling + (1 - kSampling) * static_cast<double>(d * laws_.size() + i) /
+                            static_cast<double>(kCrossDecoders.size() * laws_.size()),
             name(kCrossDecoders[d]) + " trained on " + laws_[i].name);
         useEverywhere(d, i);
       }
@@ -114,6 +115,11 @@ private:
     wanted.mesh = request_.mesh;
     wanted.threads = request_.threads;
     SampleGenerator generator(law.design, wanted);
+    generator.whileFitting([&](std::size_t done, std::size_t areas) {
+      say(share +
+              kSampling / static_cast<double>(laws_.size()) * static_cast<double>(done) / static_cast<double>(areas),
+          "samples by " + law.name + ", area " + std::to_string(done));
+    });
     SampleSet all;
     const std::size_t made = generator.generate(
         {0, generator.total()}, [&](const SampleSet& block) { append(all, block); }, {}, stop_);

@@ -84,5 +84,30 @@ TEST(ReportPlan, EveryKindHasPartsThatGoUpToTheWhole) {
   }
 }
 
+TEST(ReportPlan, IsOfTheProjectsLawAndNumberOfSamples) {
+  const auto& kinds = reportKinds();
+  const auto networks =
+      std::find_if(kinds.begin(), kinds.end(), [](const ReportKind& kind) { return runName(kind) == "networks"; });
+  ASSERT_NE(networks, kinds.end());
+  const auto seconds = [&](const Project& project) { return ReportPlan("", partsOf(*networks, project)).seconds(); };
+  QSettings().remove("reportSpeed");
+  Project pairs, field;
+  FieldLaw law;
+  field.design.resistance = law;
+  EXPECT_EQ(partsOf(*networks, pairs).size(), networks->parts.size());
+  ASSERT_FALSE(networks->fieldParts.empty());
+  EXPECT_EQ(partsOf(*networks, field).front().name, networks->fieldParts.front().name);
+  EXPECT_GT(seconds(field), seconds(pairs)) << "each read-out is sampled";
+  Project many = field;
+  many.view.reportPerArea = 10 * field.view.reportPerArea;
+  EXPECT_GT(seconds(many), 1.2 * seconds(field));
+  EXPECT_NE(settingsName(networks->arguments, field), settingsName(networks->arguments, pairs));
+  Project other = field;
+  law.electrodeRadius_mm *= 1.1;
+  other.design.resistance = law;
+  EXPECT_NE(settingsName(networks->arguments, other), settingsName(networks->arguments, field))
+      << "the times of another design are others";
+}
+
 } // namespace
 } // namespace palp
