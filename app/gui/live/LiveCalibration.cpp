@@ -306,6 +306,10 @@ void LiveCalibration::take() {
       if (!frames_.add(frame->forces)) return;
       newest_s_ = hostClock_s();
       unsaved_ = true;
+      if (!frame->forces.doubt.empty())
+        complain(tr("Frame %1 is doubted: %2. If the sensor drifts, take your hand off, tare, and collect anew.")
+                     .arg(frames_.samples().size())
+                     .arg(QString::fromStdString(frame->forces.doubt)));
       if (!frames_.doubt().empty())
         complain(tr("Frame %1: %2. If the label is wrong, remove the frame.")
                      .arg(frames_.samples().size())

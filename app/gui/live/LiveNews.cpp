@@ -21,9 +21,12 @@ QString driftWords(const LiveStatus& status) {
   if (!status.tareSuggested) return {};
   const QString rest = QObject::tr("The sensor drifts: all readings go together, and rest reads as %1 N")
                            .arg(status.driftForce_N, 0, 'g', 2);
+  if (status.driftRate_N_min == 0)
+    return QObject::tr("%1. Leave it alone; whether it goes on is known in a few seconds.").arg(rest);
   if (!status.driftsOn) return QObject::tr("%1. Take your hand off it and tare.").arg(rest);
-  return QObject::tr("%1, by %2 N a minute still. Tare it when that is below %3 N a minute: before, a tare would be "
-                     "wanted again at once.")
+  return QObject::tr(
+             "%1; it goes on by %2 N a minute. Tare it when that is below %3 N a minute: before, a tare would be "
+             "wanted again at once.")
       .arg(rest)
       .arg(status.driftRate_N_min, 0, 'g', 2)
       .arg(status.steadyRate_N_min, 0, 'g', 2);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace palp {
 
@@ -19,6 +20,7 @@ constexpr double kDriftRateOver_s = 10;  // that its pace is taken from
 constexpr double kDriftGap_s = 3;        // without frames, after which a drift is looked for anew
 constexpr double kDriftInterval_s = 0.5; // between two looks at what the drift reads as
 constexpr double kDriftShare = 0.01;     // of the force range, from which a tare is suggested
+constexpr double kSteadier = 0.7;        // of the pace that is steady: what went on is called steady from there
 constexpr int kStaleBeforeAsking = 20;
 constexpr double kAskAgain_s = 0.5;
 
@@ -289,7 +291,7 @@ void LiveWorker::judgeDrift(const LiveFrame& live) {
 /// What goes on so fast that a tare of now would be wanted again within a minute is waited for.
 void LiveWorker::judgeDriftRate(double time_s, double range_N) {
   status_.driftRate_N_min = 0;
-  status_.driftsOn = false;
+  const bool wentOn = std::exchange(status_.driftsOn, false);
   if (!status_.drift) return driftsSeen_.clear();
   if (!driftsSeen_.empty() && time_s < driftsSeen_.back().first) driftsSeen_.clear(); // a recording went back
   driftsSeen_.push_back({time_s, *status_.drift});
@@ -299,7 +301,8 @@ void LiveWorker::judgeDriftRate(double time_s, double range_N) {
   if (minutes < kDriftRateOver_s / 120) return; // too short a time to tell
   status_.driftRate_N_min = decoder_->drifted_N(*status_.drift - then).norm() / minutes;
   status_.steadyRate_N_min = kDriftShare * range_N;
-  status_.driftsOn = status_.tareSuggested && status_.driftRate_N_min > status_.steadyRate_N_min;
+  const double steady = wentOn ? kSteadier * status_.steadyRate_N_min : status_.steadyRate_N_min;
+  status_.driftsOn = status_.tareSuggested && status_.driftRate_N_min > steady;
 }
 
 void LiveWorker::measureRates(double now_s) {

@@ -133,11 +133,13 @@ TEST(LiveNews, ADriftThatGoesOnSaysWhatToWaitFor) {
   EXPECT_EQ(driftWords(status), "");
   status.tareSuggested = true;
   status.driftForce_N = 0.2;
-  EXPECT_TRUE(driftWords(status).contains("rest reads as 0.2 N"));
+  EXPECT_TRUE(driftWords(status).contains("rest reads as 0.2 N. Leave it alone"));
+  status.driftRate_N_min = 0.05;
+  EXPECT_TRUE(driftWords(status).contains("Take your hand off it and tare"));
   status.driftsOn = true;
   status.driftRate_N_min = 1.5;
   status.steadyRate_N_min = 0.12;
-  EXPECT_TRUE(driftWords(status).contains("by 1.5 N a minute still. Tare it when that is below 0.12 N a minute"))
+  EXPECT_TRUE(driftWords(status).contains("it goes on by 1.5 N a minute. Tare it when that is below 0.12 N a minute"))
       << driftWords(status).toStdString();
 }
 
