@@ -2,6 +2,7 @@
 
 #include "app/gui/jobs/NetworkSession.h"
 #include "app/gui/jobs/SampleFiles.h"
+#include "app/gui/jobs/TimeLeft.h"
 #include "app/gui/project/Workbench.h"
 #include "app/gui/widgets/FileDialogs.h"
 #include "model/base/Error.h"
@@ -14,17 +15,38 @@
 
 namespace palp {
 
+namespace {
+
+constexpr double kLong_s = 30; // that samples were made in, from which they are not given up without a word
+
+} // namespace
+
 NetworkFiles::NetworkFiles(Workbench& workbench, NetworkSession& session, QWidget* page)
     : QObject(page), workbench_(workbench), session_(session), page_(page) {
   connect(&session_, &NetworkSession::saved, this, &NetworkFiles::takeIntoLive);
-  connect(&session_.writer(), &JobRunner::failed, this, [this] { forLive_.clear(); });
+  connect(&session_.writer(), &JobRunner::failed, this, [this] {
+    forLive_.clear();
+    saved_.reset();
+  });
 }
 
 void NetworkFiles::openSamples() {
   const QStringList chosen = askFilesToOpen(page_, tr("Open samples"), tr("Samples (*.csv *.h5 *.hdf5 *.npz)"));
   std::vector<std::filesystem::path> files;
   for (const QString& file : chosen) files.emplace_back(file.toStdString());
-  if (!files.empty()) session_.openSamples(files);
+  if (!files.empty() && mayReplaceSamples()) session_.openSamples(files);
+}
+
+bool NetworkFiles::mayReplaceSamples() const {
+  const auto samples = session_.sharedSamples();
+  if (!samples || samples->seconds < kLong_s || !samples->file.isEmpty() || saved_.lock() == samples) return true;
+  return QMessageBox::question(
+             page_, tr("Open samples"),
+             tr("The %1 samples that are there were made in %2 and stand in no file of their own. Open "
+                "others in their place?")
+                 .arg(samples->training.size() + samples->test.size())
+                 .arg(roughly(samples->seconds)),
+             QMessageBox::Yes | QMessageBox::No, QMessageBox::No) == QMessageBox::Yes;
 }
 
 void NetworkFiles::saveSamples() {
@@ -36,6 +58,7 @@ void NetworkFiles::saveSamples() {
                             tr("The samples for testing go into %1, which is there already. Replace it?").arg(test)) !=
           QMessageBox::Yes)
     return;
+  saved_ = session_.sharedSamples();
   session_.saveSamples(file.toStdString());
 }
 

@@ -3,6 +3,7 @@
 #include <QObject>
 
 #include <filesystem>
+#include <memory>
 #include <vector>
 
 class QWidget;
@@ -10,6 +11,7 @@ class QWidget;
 namespace palp {
 
 class NetworkSession;
+struct NetworkSamples;
 class Workbench;
 
 /// Asks which files: samples and networks opened and saved, and a network that is saved for Live.
@@ -36,11 +38,14 @@ signals:
 private:
   void takeIntoLive(const std::vector<std::filesystem::path>& saved);
   [[nodiscard]] QString proposedName() const;
+  /// Samples that took long and stand in no file are not replaced without a word.
+  [[nodiscard]] bool mayReplaceSamples() const;
 
   Workbench& workbench_;
   NetworkSession& session_;
   QWidget* page_;
-  std::filesystem::path forLive_; ///< of the network that Live takes as soon as it is saved; empty: none
+  std::weak_ptr<const NetworkSamples> saved_; ///< in files of their own
+  std::filesystem::path forLive_;             ///< of the network that Live takes as soon as it is saved; empty: none
 };
 
 } // namespace palp

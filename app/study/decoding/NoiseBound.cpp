@@ -48,6 +48,8 @@ NoiseBound noiseBound(const SampleSet& samples, InputKind kind, const std::vecto
     if (members.empty()) continue;
     const ForwardModel model = fitForwardModel(x(Eigen::all, members), samples.forces_N(Eigen::all, members),
                                                Eigen::VectorXi::Zero(static_cast<Eigen::Index>(members.size())), {});
+    if (model.degree == 0) // no slopes: too few samples to say anything, neither that the bound is the prior alone
+      return {Eigen::VectorXd::Constant(outputs, NAN), Eigen::VectorXd::Constant(outputs, NAN)};
     for (const Eigen::Index i : members) {
       Eigen::MatrixXd slope;
       const Eigen::VectorXd value = model.measurementsOf(0, samples.forces_N.col(i), &slope);

@@ -17,7 +17,8 @@ struct NoiseBound {
   Eigen::VectorXd withPriorPercent;
 };
 
-/// From samples: J = d x / d F at each sample by a polynomial fit of the inputs in the forces of its area.
+/// From samples: J = d x / d F at each sample by a polynomial fit of the inputs in the forces of its area. NaN where an
+/// area has fewer samples than a linear fit wants: 8 of three forces.
 NoiseBound noiseBound(const SampleSet& samples, InputKind kind, const std::vector<int>& rows, double relativeNoise);
 
 } // namespace palp

@@ -15,6 +15,7 @@ namespace palp {
 
 namespace {
 
+constexpr int kFewestForBounds = 8; // samples on an area, for a linear fit in three forces
 constexpr std::array kTrainingNoises{0.0, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2};
 
 /// Relative noise that rounding to so many bits makes where R is at full scale.
@@ -63,6 +64,10 @@ public:
         request_.design, request_, content_.stages,
         [&](double share, const std::string& what) { say(0.25 * share, what); }, stop_);
     if (!sets_) return {};
+    if (request_.perArea < kFewestForBounds)
+      content_.warnings.push_back("there are no bounds: " + std::to_string(request_.perArea) +
+                                  " samples on each area do not tell the slopes; " + std::to_string(kFewestForBounds) +
+                                  " or more do");
     chooseRows();
     introduce();
     for (std::size_t i = 0; i < choices_.size(); ++i)

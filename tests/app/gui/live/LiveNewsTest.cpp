@@ -81,7 +81,8 @@ TEST_F(LiveNewsOfABoard, ADriftIsSaidInTheBannerWithAWayOutAndATareIsLogged) {
   EXPECT_TRUE(banner().contains("tare")) << banner().toStdString();
   EXPECT_TRUE(find<QPushButton>("tareDue").isVisible());
   EXPECT_TRUE(hears("The sensor drifts"));
-  EXPECT_EQ(find<QPushButton>("tare").toolTip(), driftWords(page.host().status())) << "the button says why";
+  EXPECT_TRUE(wait([&] { return find<QPushButton>("tare").toolTip() == driftWords(page.host().status()); }))
+      << "the button says why";
   type<QDoubleSpinBox>("warming", "0");
   click("tareDue");
   ASSERT_TRUE(hears("Tared: "));

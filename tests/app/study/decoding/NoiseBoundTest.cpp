@@ -84,5 +84,16 @@ TEST(NoiseBound, RefusesNoiseThatIsNone) {
     EXPECT_THROW(noiseBound(linearSensor(), InputKind::Resistance, {0}, noise), Error);
 }
 
+TEST(NoiseBound, SaysNothingWhereSamplesAreTooFewToKnowSlopes) {
+  SampleSet few = linearSensor();
+  ASSERT_GE(few.size(), 8);
+  std::vector<Eigen::Index> five{0, 1, 2, 3, 4};
+  few = samplesAt(few, five);
+  few.area.setZero();
+  const NoiseBound bound = noiseBound(few, InputKind::Resistance, {0}, 1e-4);
+  EXPECT_TRUE(bound.withPriorPercent.array().isNaN().all()) << "the prior alone is no bound of the sensor";
+  EXPECT_TRUE(bound.withoutPriorPercent.array().isNaN().all());
+}
+
 } // namespace
 } // namespace palp
