@@ -147,9 +147,9 @@ void NetworkPanel::buildNetwork(QFormLayout& form) {
   target_ = new QComboBox;
   target_->setObjectName("target");
   target_->addItems({tr("the force"), tr("force and place")});
-  target_->setToolTip(tr("What it learns: the place is known of touches, and of measured samples that say it. With the "
-                         "place the paper's network of one row-wire gives way to the decoder that is made for touches, "
-                         "and to all row-wires: one alone cannot tell on which side of it a touch is"));
+  target_->setToolTip(tr("What it learns: the place is known of touches, and of measured samples that say it. Read all "
+                         "row-wires for it, one alone cannot tell on which side of it a touch is; the decoder touch is "
+                         "made for both, and takes a minute to train"));
   form.addRow(tr("Learns"), target_);
   centers_ = new QSpinBox;
   centers_->setObjectName("centers");
@@ -182,7 +182,7 @@ void NetworkPanel::buildNetwork(QFormLayout& form) {
   form.addRow(QString(), noiseWords_);
   connect(mode_, &QComboBox::currentIndexChanged, this, [this] { read(tr("Change the network's mode")); });
   connect(decoder_, &QComboBox::currentIndexChanged, this, [this] { read(tr("Change the decoder")); });
-  connect(target_, &QComboBox::currentIndexChanged, this, &NetworkPanel::readTarget);
+  connect(target_, &QComboBox::currentIndexChanged, this, [this] { read(tr("Change what is learned")); });
   connect(centers_, &QSpinBox::valueChanged, this, [this] { read(tr("Change the centres")); });
   connect(noise_, &QDoubleSpinBox::valueChanged, this, [this] { read(tr("Change the noise")); });
   connect(testNoise_, &QDoubleSpinBox::valueChanged, this, [this] { read(tr("Change the noise of the test")); });
@@ -350,24 +350,6 @@ void NetworkPanel::readRows() {
   }
   showRowsProblem({});
   read(tr("Change the row-wires"));
-}
-
-/// The paper's choices cannot tell a place.
-void NetworkPanel::readTarget() {
-  if (displaying_) return;
-  const bool places = target_->currentIndex() == 1;
-  displaying_ = true; // one edit
-  if (places && network_.decoder == DecoderKind::Rbf)
-    decoder_->setCurrentText(QString::fromStdString(name(DecoderKind::TouchInversion)));
-  if (!places && network_.decoder == DecoderKind::TouchInversion)
-    decoder_->setCurrentText(QString::fromStdString(name(DecoderKind::Rbf)));
-  const bool one = network_.rows != "all" && network_.rows.find_first_of(",-") == std::string::npos;
-  if (places && one) {
-    rows_->setText("all");
-    showRowsProblem({});
-  }
-  displaying_ = false;
-  read(tr("Change what is learned"));
 }
 
 void NetworkPanel::read(const QString& what) {

@@ -60,7 +60,6 @@ private:
   void buildSweep(QVBoxLayout& column);
   void read(const QString& what);
   void readRows();
-  void readTarget();
   void showRowsProblem(const QString& sentence);
   void showSpread();
   void showNoise();

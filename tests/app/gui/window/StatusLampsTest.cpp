@@ -46,7 +46,7 @@ TEST_F(StatusLampsTest, ARecordingIsToldInEverySceneLeadsThereAndOutlivesEsc) {
   EXPECT_EQ(window.currentScene().objectName(), "live");
 }
 
-TEST_F(StatusLampsTest, NothingIsToldWhereNothingGoesOn) {
+TEST_F(StatusLampsTest, ToldIsWhatABoardDoesAndThatLiveWaitsWhereNobodyLooks) {
   window.showScene("live");
   auto& live = find<LiveBoards>("live");
   ASSERT_TRUE(wait([&] { return live.page().host().status().state == LiveState::Streaming; }));
@@ -59,7 +59,9 @@ TEST_F(StatusLampsTest, NothingIsToldWhereNothingGoesOn) {
   QTest::mouseClick(live.page().findChild<QPushButton*>("plug"), Qt::LeftButton);
   EXPECT_TRUE(wait([&] { return lamp.property("role") == "streams"; }));
   window.showScene("reports");
-  EXPECT_TRUE(wait([&] { return !lamp.isVisible(); }));
+  EXPECT_TRUE(wait([&] { return lamp.text().contains("Live waits"); })) << lamp.text().toStdString();
+  EXPECT_TRUE(lamp.isVisible() && lamp.toolTip().contains("Nothing is read while nobody looks"));
+  EXPECT_EQ(lamp.property("role"), "streams") << "nothing is wrong";
 }
 
 TEST_F(StatusLampsTest, QuittingAsksOnceBeforeItEndsARecording) {
