@@ -58,6 +58,7 @@ const std::vector<ReportComputation>& reportComputations() {
         {"spreads, noise and rivals, set 5 of 5", 0.887, 10},
         {"all areas at once", 1, 12}},
        true,
+       // As a whole measured with 5 samples an area (177 s of two cores); how it is shared out is estimated.
        {{"samples by Eq. (1)", 0.16, 10, 0.05},
         {"samples by each read-out of the field", 0.8, 165, 0.05},
         {"decoders, each used on every law", 1, 30, 0.9}}},

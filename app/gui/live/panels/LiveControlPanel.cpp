@@ -26,7 +26,7 @@ namespace palp {
 
 namespace {
 
-constexpr const char* kTareTip = QT_TR_NOOP("Takes the next frames as rest: leave the sensor alone till then (T)");
+constexpr const char* kTareTip = QT_TR_NOOP("Takes the next frames as rest; waits while the sensor moves (T)");
 constexpr double kMegabyte = 1e6;
 constexpr double kRecordedReport = 64 + 12; // bytes with kind, length and time
 
