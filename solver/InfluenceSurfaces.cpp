@@ -2,6 +2,7 @@
 
 #include "model/base/Cancelled.h"
 #include "model/base/Parallel.h"
+#include "model/base/ProgressRelay.h"
 #include "solver/PointProbe.h"
 #include "solver/contact/ContactDisc.h"
 #include "solver/contact/ContactEstimate.h"
@@ -38,11 +39,23 @@ Eigen::VectorXd loadOf(const LinearReadings& readings, Eigen::Index reading, con
   return mesh.freePart(load);
 }
 
+/// The mesh less the elements without any of these nodes (-1: none), in the same order.
+Mesh elementsWith(const Mesh& mesh, const std::vector<int>& chosen) {
+  std::vector<int> kept;
+  for (int e = 0; e < mesh.elementCount(); ++e)
+    if ((mesh.elements.col(e).array().unaryExpr([&](int n) { return chosen[static_cast<std::size_t>(n)]; }) >= 0).any())
+      kept.push_back(e);
+  Mesh part = mesh;
+  part.elements = mesh.elements(Eigen::all, kept);
+  return part;
+}
+
 } // namespace
 
 std::optional<InfluenceSurfaces> InfluenceSurfaces::find(const HyperelasticProblem& problem,
                                                          const LinearReadings& readings, int threads,
-                                                         const std::stop_token& stop) {
+                                                         const std::stop_token& stop,
+                                                         const std::function<void(std::size_t more)>& progress) {
   const HyperelasticProblem::Parts& parts = problem.parts();
   const PointProbe probe(parts.mesh, readings.points_mm);
   const auto rest = parts.initialTangent(threads, stop);
@@ -59,7 +72,9 @@ std::optional<InfluenceSurfaces> InfluenceSurfaces::find(const HyperelasticProbl
       found.topNode_[static_cast<std::size_t>(n)] = static_cast<int>(nodes.size());
       nodes.push_back(static_cast<int>(n));
     }
+  found.top_ = elementsWith(parts.mesh, found.topNode_);
   const Eigen::Index count = readings.gradient_per_mm.rows();
+  ProgressRelay relay(progress);
   found.surfaces_.resize(3 * count, static_cast<Eigen::Index>(nodes.size()));
   inParallel(static_cast<std::size_t>(count), threads, [&](std::size_t k) {
     if (stop.stop_requested()) return;
@@ -71,6 +86,7 @@ std::optional<InfluenceSurfaces> InfluenceSurfaces::find(const HyperelasticProbl
     for (std::size_t i = 0; i < nodes.size(); ++i)
       for (Eigen::Index axis = 0; axis < 3; ++axis)
         found.surfaces_(axis * count + reading, Eigen::Index(i)) = all(3 * Eigen::Index(nodes[i]) + axis);
+    relay.add(1);
   });
   if (stop.stop_requested()) return {};
   return found;
@@ -78,18 +94,17 @@ std::optional<InfluenceSurfaces> InfluenceSurfaces::find(const HyperelasticProbl
 
 Eigen::MatrixXd InfluenceSurfaces::influence(const Eigen::Ref<const Eigen::Matrix2Xd>& points_mm,
                                              const Eigen::Ref<const Eigen::MatrixXd>& sums) const {
-  const Mesh& mesh = problem_.mesh();
   const Eigen::Vector3d block_mm = problem_.design().block_mm;
   Eigen::Matrix3Xd places(3, points_mm.cols());
   places.topRows<2>() = points_mm.cwiseMax(0).cwiseMin(block_mm.head<2>().replicate(1, points_mm.cols()));
   places.row(2).setConstant(block_mm.z());
-  const PointProbe probe(mesh, places);
+  const PointProbe probe(top_, places);
   Eigen::MatrixXd shares = Eigen::MatrixXd::Zero(surfaces_.cols(), sums.cols());
   std::vector<int> used; // few nodes share in a sum: the others cost nothing
   for (Eigen::Index p = 0; p < points_mm.cols(); ++p) {
     const PointProbe::Holder& holder = probe.holders()[static_cast<std::size_t>(p)].front();
     for (Eigen::Index n = 0; n < holder.shapes.size(); ++n) {
-      const int top = topNode_[static_cast<std::size_t>(mesh.elements(n, holder.element))];
+      const int top = topNode_[static_cast<std::size_t>(top_.elements(n, holder.element))];
       if (top < 0) continue; // its shape function is 0 on the face
       if (shares.row(top).isZero(0)) used.push_back(top);
       shares.row(top) += holder.shapes(n) * sums.row(p);

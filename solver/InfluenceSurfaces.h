@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <stop_token>
@@ -30,10 +31,11 @@ struct TouchInfluence {
 /// under the reading's gradient as a load: one right side a reading, however many places are asked for.
 class InfluenceSurfaces {
 public:
-  /// Empty: stopped. `threads` 0: all cores, the same bytes at any number. Throws DesignError where a point lies
-  /// outside the block.
+  /// Empty: stopped. `threads` 0: all cores, the same bytes at any number. `progress` is told how many more readings
+  /// are done. Throws DesignError where a point lies outside the block.
   static std::optional<InfluenceSurfaces> find(const HyperelasticProblem& problem, const LinearReadings& readings,
-                                               int threads, const std::stop_token& stop = {});
+                                               int threads, const std::stop_token& stop = {},
+                                               const std::function<void(std::size_t more)>& progress = {});
 
   /// Of forces [N] at points (x, y) of the top face: readings x 3, one a point.
   [[nodiscard]] std::vector<Eigen::MatrixX3d> at(const Eigen::Ref<const Eigen::Matrix2Xd>& points_mm) const;
@@ -55,6 +57,7 @@ private:
                                           const Eigen::Ref<const Eigen::MatrixXd>& sums) const;
 
   HyperelasticProblem problem_;
+  Mesh top_;                 ///< the elements at the top face alone: points of it lie in no other
   std::vector<int> topNode_; ///< of each node of the mesh among those of the top face, or -1
   Eigen::MatrixXd surfaces_; ///< 3 readings (x of all, then y, z) x nodes of the top face [1/N]
 };

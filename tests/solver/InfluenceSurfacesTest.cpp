@@ -77,6 +77,25 @@ TEST(InfluenceSurfaces, OfATouchAreWhatFullNewtonSaysOfASmallOne) {
   EXPECT_NEAR(influence.radius_mm, radius_mm, 0.05 * radius_mm);
 }
 
+TEST(InfluenceSurfaces, OfFewerReadingsAreTheSameAndEachOneIsCounted) {
+  const HyperelasticProblem problem = block(2.5);
+  LinearReadings some = displacements();
+  some.gradient_per_mm = Eigen::MatrixXd(some.gradient_per_mm(std::array{7, 2}, Eigen::all));
+  std::size_t counted = 0;
+  const auto all = InfluenceSurfaces::find(problem, displacements(), 2);
+  const auto found = InfluenceSurfaces::find(problem, some, 2, {}, [&](std::size_t more) { counted += more; });
+  ASSERT_TRUE(all && found);
+  EXPECT_EQ(counted, 2u);
+  const Eigen::Vector3d block_mm = problem.design().block_mm;
+  Eigen::Matrix2Xd points(2, 3);
+  points << 11, 0, block_mm.x(), 14, 0, block_mm.y() / 3; // corners and edges of the face, too
+  const auto of = all->at(points), less = found->at(points);
+  for (std::size_t p = 0; p < of.size(); ++p) {
+    const Eigen::MatrixX3d same = of[p](std::array{7, 2}, Eigen::all);
+    EXPECT_LT((less[p] - same).norm(), 1e-12 * same.norm() + 1e-300) << p;
+  }
+}
+
 TEST(InfluenceSurfaces, FollowThePlaceAsTheirDifferencesDo) {
   const HyperelasticProblem problem = block(2);
   LinearReadings inside = displacements();

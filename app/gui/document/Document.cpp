@@ -1,7 +1,7 @@
 #include "app/gui/document/Document.h"
 
 #include "app/gui/jobs/NetworkSession.h"
-#include "app/gui/jobs/ResultFiles.h"
+#include "app/gui/jobs/samples/ResultFiles.h"
 #include "app/gui/project/FileKind.h"
 #include "app/gui/project/ProjectFile.h"
 #include "app/gui/project/Workbench.h"

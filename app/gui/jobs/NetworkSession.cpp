@@ -1,9 +1,10 @@
 #include "app/gui/jobs/NetworkSession.h"
 
-#include "app/gui/jobs/ResultFiles.h"
-#include "app/gui/jobs/SampleFiles.h"
-#include "app/gui/jobs/SampleGeneration.h"
 #include "app/gui/jobs/TimeLeft.h"
+#include "app/gui/jobs/samples/ResultFiles.h"
+#include "app/gui/jobs/samples/SampleFiles.h"
+#include "app/gui/jobs/samples/SampleGeneration.h"
+#include "app/gui/jobs/samples/SampleTimes.h"
 #include "app/study/decoding/DecoderTraining.h"
 #include "io/DecoderFile.h"
 #include "model/base/Error.h"
@@ -29,7 +30,9 @@ NetworkFit fitOn(const NetworkSamples& samples, const SensorDesign& design, cons
   NetworkFit fit;
   fit.settings = settings;
   fit.decoder = trainDecoder(samples.training, samples.ofNoDesign ? nullptr : &design, options, stop,
-                             [&](double share, const std::string& what) { progress.set(share, what); });
+                             [&, left = LeftOfShares()](double share, const std::string& what) mutable {
+                               progress.set(share, what + leftInWords(left.at(share)));
+                             });
   tryOn(fit, samples, stop);
   fit.made = QDateTime::currentDateTime();
   fit.madeFrom = samples.settings;
@@ -58,6 +61,9 @@ bool equal(const NetworkSamples& one, const NetworkSamples& other) {
 QStringList NetworkResults::listed() const {
   QStringList all;
   for (const auto& network : kept) all << network->made.toString(Qt::ISODateWithMs) + " " + network->name;
+  for (const SweepPoint& point : sweep) all << QString("spread %1, %2 s").arg(point.spread).arg(point.report.seconds);
+  for (const DecoderTrial& trial : trials)
+    all << QString("decoder %1, %2 s").arg(QString::fromStdString(palp::name(trial.kind))).arg(trial.seconds);
   return all;
 }
 
@@ -121,6 +127,8 @@ void NetworkSession::generate(const SampleSettings& settings, const MeshOptions&
       NetworkResults results;
       results.design = generation->design();
       results.samples = generation->samples();
+      if (generation->inOneRun())
+        rememberSampleTime(generation->settings(), generation->design(), generation->mesh(), results.samples->seconds);
       if (generation_ == generation) generation_.reset();
       stages_.add(stages);
       show(std::move(results));

@@ -82,7 +82,8 @@ struct NetworkResults {
   std::vector<DecoderTrial> trials;
   NetworkSettings trialsSettings;
 
-  /// When each network of the list was made, and its name: another list is another state of the work.
+  /// When each network of the list was made, and its name, and what was swept and compared: another list is another
+  /// state of the work.
   [[nodiscard]] QStringList listed() const;
 };
 
@@ -130,6 +131,7 @@ public:
 
   /// Samples are being made: what needs samples waits for them.
   [[nodiscard]] bool generating() const;
+  [[nodiscard]] bool working() const { return runner_.running(); }
 
   /// What lies beside the project is being opened.
   [[nodiscard]] bool openingResults() const { return openingResults_; }

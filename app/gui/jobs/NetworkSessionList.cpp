@@ -1,5 +1,5 @@
 #include "app/gui/jobs/NetworkSession.h"
-#include "app/gui/jobs/ResultFiles.h"
+#include "app/gui/jobs/samples/ResultFiles.h"
 
 #include <algorithm>
 #include <iterator>

@@ -31,6 +31,13 @@ std::optional<double> TimeLeft::left_s(double done, double all, double now_s) co
   return (all - done) * (took_s_ + now_s - since_s_) / seen;
 }
 
+std::optional<double> LeftOfShares::at(double share) const {
+  constexpr double kFirst_s = 2, kLeast = 0.1;
+  const double took_s = 1e-3 * static_cast<double>(clock_.elapsed());
+  if (took_s < kFirst_s || share < kLeast || share >= 1) return std::nullopt;
+  return took_s * (1 - share) / share;
+}
+
 std::string leftInWords(std::optional<double> left_s) {
   return left_s ? QObject::tr(", about %1 left").arg(roughly(*left_s)).toStdString() : std::string();
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QElapsedTimer>
 #include <QString>
 
 #include <optional>
@@ -23,6 +24,17 @@ public:
 private:
   double seen_ = 0, took_s_ = 0; ///< steps and their time before the last begin()
   double from_ = 0, since_s_ = 0;
+};
+
+/// What is left of work that says its share of the time, as it went until now.
+class LeftOfShares {
+public:
+  LeftOfShares() { clock_.start(); }
+  /// None in the first seconds, and while there is too little to go by.
+  [[nodiscard]] std::optional<double> at(double share) const;
+
+private:
+  QElapsedTimer clock_;
 };
 
 /// ", about 40 s left", or nothing.

@@ -1,6 +1,6 @@
 #include "app/gui/network/AdvancedOptions.h"
 
-#include "app/gui/network/FitWords.h"
+#include "app/gui/network/words/FitWords.h"
 #include "app/gui/widgets/SpinBoxes.h"
 #include "model/base/Text.h"
 

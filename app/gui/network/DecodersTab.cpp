@@ -1,8 +1,8 @@
 #include "app/gui/network/DecodersTab.h"
 
-#include "app/gui/network/FitWords.h"
 #include "app/gui/network/NetworkCharts.h"
 #include "app/gui/network/NetworkTables.h"
+#include "app/gui/network/words/FitWords.h"
 #include "app/gui/views/ChartView.h"
 #include "app/gui/views/DataTable.h"
 
@@ -52,7 +52,7 @@ void DecodersTab::display(const NetworkSession& session, const NetworkSettings& 
   const std::vector<DecoderTrial>& trials = session.trials();
   const bool curve = !trials.empty() && sweepAndTrialsAgree(session);
   error_->setChart(trialsErrorChart(trials, curve ? session.sweepPoints() : std::vector<SweepPoint>{},
-                                    session.trialsSettings().input));
+                                    trials.empty() ? now.input : session.trialsSettings().input));
   time_->setChart(trialsTimeChart(trials));
   const bool stale = !staleTrialsReason(session, now).isEmpty();
   for (ChartView* view : {error_, time_}) view->setFaint(stale);
@@ -73,7 +73,7 @@ void DecodersTab::display(const NetworkSession& session, const NetworkSettings& 
 std::optional<NetworkSettings> DecodersTab::marked() const {
   const QList<QTableWidgetItem*> items = table_->selectedItems();
   if (items.isEmpty()) return {};
-  const auto row = static_cast<std::size_t>(items.front()->row());
+  const auto row = static_cast<std::size_t>(table_->dataRow(items.front()->row()));
   return row < networks_.size() ? networks_[row] : std::nullopt; // the bound is no network
 }
 

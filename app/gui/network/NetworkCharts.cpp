@@ -132,12 +132,15 @@ ChartSpec sweepErrorChart(const std::vector<SweepPoint>& points, const NetworkFi
   }
   if (fit != nullptr && fit->settings.input == input) {
     const Eigen::VectorXd& errors = fit->error.error.eq13Percent;
+    bool said = false; // by the first that the logarithmic axis shows
     for (int d = 0; d < std::min<int>(3, static_cast<int>(errors.size())); ++d) {
+      if (!(errors[d] > 0 && std::isfinite(errors[d]))) continue;
       ChartSeries now =
           series(std::string(kForces[static_cast<std::size_t>(d)]) + ", trained now", Style::Points, d, true);
       now.x = {fit->decoder.report.spread};
       now.y = {errors[d]};
-      now.legend = d == 0 ? "diamonds: trained now" : "";
+      now.legend = said ? "" : "diamonds: trained now";
+      said = true;
       spec.series.push_back(std::move(now));
     }
   }

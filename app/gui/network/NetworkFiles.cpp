@@ -1,8 +1,8 @@
 #include "app/gui/network/NetworkFiles.h"
 
 #include "app/gui/jobs/NetworkSession.h"
-#include "app/gui/jobs/SampleFiles.h"
 #include "app/gui/jobs/TimeLeft.h"
+#include "app/gui/jobs/samples/SampleFiles.h"
 #include "app/gui/project/Workbench.h"
 #include "app/gui/widgets/FileDialogs.h"
 #include "model/base/Error.h"

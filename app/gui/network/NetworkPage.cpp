@@ -1,16 +1,16 @@
 #include "app/gui/network/NetworkPage.h"
 
 #include "app/gui/network/DecodersTab.h"
-#include "app/gui/network/FitWords.h"
 #include "app/gui/network/NetworkBound.h"
 #include "app/gui/network/NetworkCharts.h"
 #include "app/gui/network/NetworkFiles.h"
 #include "app/gui/network/NetworkPanel.h"
 #include "app/gui/network/NetworkSource.h"
-#include "app/gui/network/SamplesWords.h"
 #include "app/gui/network/SweepTab.h"
 #include "app/gui/network/TouchBounds.h"
 #include "app/gui/network/TrainedNetworks.h"
+#include "app/gui/network/words/FitWords.h"
+#include "app/gui/network/words/SamplesWords.h"
 #include "app/gui/views/ChartView.h"
 #include "app/gui/widgets/KeepRoom.h"
 #include "app/gui/window/SidePanel.h"
@@ -19,6 +19,7 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QScrollArea>
+#include <QScrollBar>
 #include <QSignalBlocker>
 #include <QSpinBox>
 #include <QSplitter>
@@ -27,13 +28,14 @@
 #include <QVBoxLayout>
 
 #include <algorithm>
+#include <utility>
 
 namespace palp {
 
 namespace {
 
 constexpr int kPanelWidth_px = 330;
-constexpr int kHeadLines = 7; // of the words above the charts; more are scrolled to
+constexpr int kHeadLines = 8; // of the words above the charts; more are scrolled to, or the splitter is drawn
 
 QSplitter* beside(std::initializer_list<QWidget*> widgets, Qt::Orientation orientation) {
   auto* splitter = new QSplitter(orientation);
@@ -208,20 +210,20 @@ QLayout* NetworkPage::buildBar() {
 }
 
 QWidget* NetworkPage::buildCharts() {
-  auto* page = new QWidget;
-  auto* column = new QVBoxLayout(page);
-  column->setContentsMargins(0, 0, 0, 0);
   fitWords_ = new QLabel;
   fitWords_->setObjectName("fitWords");
   fitWords_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   fitWords_->setWordWrap(true);
   fitWords_->setAlignment(Qt::AlignTop);
-  auto* head = new QScrollArea; // of one height, so that the tabs stay where they are
-  head->setFrameShape(QFrame::NoFrame);
-  head->setWidgetResizable(true);
-  head->setWidget(fitWords_);
-  head->setFixedHeight(kHeadLines * fitWords_->fontMetrics().lineSpacing());
-  column->addWidget(head);
+  head_ = new QScrollArea; // of the splitter's height, so that the tabs stay where they are
+  head_->setFrameShape(QFrame::NoFrame);
+  head_->setWidgetResizable(true);
+  head_->setWidget(fitWords_);
+  const int line = fitWords_->fontMetrics().lineSpacing();
+  head_->setMinimumHeight(4 * line);
+  auto* rest = new QWidget;
+  auto* column = new QVBoxLayout(rest);
+  column->setContentsMargins(0, 0, 0, 0);
   problem_ = new QLabel;
   problem_->setObjectName("trainingProblem");
   problem_->setProperty("role", "problem");
@@ -240,6 +242,11 @@ QWidget* NetworkPage::buildCharts() {
   tabs_->addTab(decoders_, tr("Decoders"));
   tabs_->addTab(trained_, tr("Trained networks"));
   column->addWidget(tabs_, 1);
+  auto* page = beside({head_, rest}, Qt::Vertical);
+  page->setObjectName("networkHead");
+  page->setChildrenCollapsible(false);
+  page->setStretchFactor(1, 1);
+  page->setSizes({kHeadLines * line, 100 * line});
   return page;
 }
 
@@ -328,8 +335,10 @@ void NetworkPage::displayWords() {
   const bool asked = isVisible() && fit != nullptr && session_.fitIsCurrent();
   panel_->displayChosenSpread(
       fit != nullptr && session_.fitIsCurrent() && fit->settings.automaticSpread ? fit->decoder.report.spread : 0);
-  fitWords_->setText(fitWords(session_, workbench_.project().network, asked ? bound_->of(fit->settings) : nullptr,
-                              asked && fit->error.place ? touchBounds_->of(fit->settings) : nullptr));
+  const QString words = fitWords(session_, workbench_.project().network, asked ? bound_->of(fit->settings) : nullptr,
+                                 asked && fit->error.place ? touchBounds_->of(fit->settings) : nullptr);
+  fitWords_->setText(words);
+  if (std::exchange(wordsOf_, fit) != fit) head_->verticalScrollBar()->setValue(0); // what is new begins at its top
 }
 
 void NetworkPage::displayFit() {

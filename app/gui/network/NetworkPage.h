@@ -10,6 +10,7 @@
 class QLabel;
 class QLayout;
 class QPushButton;
+class QScrollArea;
 class QSpinBox;
 class QTabWidget;
 
@@ -78,6 +79,8 @@ private:
   std::array<int, 2> choices_{};  ///< rowWiresAndAreas() that are shown
   NetworkPanel* panel_ = nullptr;
   QLabel* fitWords_ = nullptr;
+  QScrollArea* head_ = nullptr;         ///< around them
+  const NetworkFit* wordsOf_ = nullptr; ///< only compared
   QLabel* problem_ = nullptr;
   QSpinBox* area_ = nullptr;
   QPushButton* save_ = nullptr;

@@ -1,10 +1,10 @@
 #include "app/gui/network/NetworkPanel.h"
 
 #include "app/gui/network/AdvancedOptions.h"
-#include "app/gui/network/FitWords.h"
 #include "app/gui/network/NetworkCharts.h"
 #include "app/gui/network/NetworkTables.h"
 #include "app/gui/network/SamplesBox.h"
+#include "app/gui/network/words/FitWords.h"
 #include "app/gui/widgets/SpinBoxes.h"
 #include "app/gui/widgets/WrappedLabel.h"
 #include "model/base/Error.h"
@@ -253,7 +253,7 @@ void NetworkPanel::buildSweep(QVBoxLayout& column) {
 
 void NetworkPanel::display(const Project& project, int rowWires) {
   displaying_ = true;
-  samplesBox_->display(project.samples, project.design);
+  samplesBox_->display(project.samples, project.design, project.mesh);
   network_ = project.network;
   input_->setCurrentIndex(network_.input == InputKind::Displacement ? 0 : 1);
   mode_->setCurrentIndex(network_.mode == DecoderMode::Default ? 0 : 1);

@@ -1,6 +1,6 @@
 #include "app/gui/network/NetworkSource.h"
 
-#include "app/gui/network/FitWords.h"
+#include "app/gui/network/words/FitWords.h"
 #include "app/gui/project/Command.h"
 #include "app/gui/project/ExportLines.h"
 

@@ -1,6 +1,7 @@
 #include "app/gui/network/NetworkTables.h"
 
-#include "app/gui/network/FitWords.h"
+#include "app/gui/network/words/ErrorWords.h"
+#include "app/gui/network/words/FitWords.h"
 
 #include <QFileInfo>
 #include <QObject>
@@ -105,7 +106,7 @@ TableText trialsTable(const std::vector<DecoderTrial>& trials, const NoiseBound*
   return table;
 }
 
-TableText networksTable(const std::vector<std::shared_ptr<const NetworkFit>>& networks) {
+TableText networksTable(const std::vector<std::shared_ptr<const NetworkFit>>& networks, const NetworkSamples* samples) {
   TableText table;
   table.heads << QObject::tr("name");
   addHeads(table.heads, QObject::tr("[%]"));
@@ -121,7 +122,8 @@ TableText networksTable(const std::vector<std::shared_ptr<const NetworkFit>>& ne
   for (const auto& fit : networks) {
     const NetworkSettings& settings = fit->settings;
     QStringList row{fit->name};
-    for (const double error : fit->error.error.rmsePercentOfRange) row << QString::number(error, 'g', 4);
+    for (const double error : ofForces(fit->error.error.rmsePercentOfRange, samples))
+      row << (std::isfinite(error) ? QString::number(error, 'g', 4) : QString("-"));
     if (places) row << (fit->error.place ? QString::number(fit->error.place->median_mm, 'g', 4) : QString("-"));
     row << text(name(settings.input)) << text(settings.rows) << text(name(settings.decoder))
         << QString::number(100 * settings.noise, 'g', 4) << QString::number(100 * settings.testNoise, 'g', 4)

@@ -1,6 +1,6 @@
 #include "app/gui/network/SamplesBox.h"
 
-#include "app/gui/network/SamplesWords.h"
+#include "app/gui/network/words/SamplesWords.h"
 #include "app/gui/widgets/ShapeWords.h"
 #include "app/gui/widgets/SpinBoxes.h"
 #include "app/gui/widgets/WrappedLabel.h"
@@ -162,10 +162,11 @@ void SamplesBox::buildFiles() {
   form_->addRow(words_);
 }
 
-void SamplesBox::display(const SampleSettings& samples, const SensorDesign& design) {
+void SamplesBox::display(const SampleSettings& samples, const SensorDesign& design, const MeshOptions& mesh) {
   displaying_ = true;
   samples_ = samples;
   design_ = design;
+  mesh_ = mesh;
   if (samples.touches) touches_ = *samples.touches;
   kind_->setCurrentIndex(samples.touches ? 1 : 0);
   perArea_->setValue(samples.perArea);
@@ -217,12 +218,13 @@ void SamplesBox::check() {
     problem_->setText(wrong ? QString::fromStdString(*wrong) : QString());
   form_->setRowVisible(problem_, wrong.has_value());
   generate_->setEnabled(!wrong);
-  planned_->say(wrong ? QString() : plannedWords(samples_, design_));
+  planned_->say(wrong ? QString() : plannedWords(samples_, design_, mesh_));
 }
 
 void SamplesBox::displayState(bool there, const QString& words, bool goOn) {
   words_->setText(words);
   save_->setEnabled(there);
+  check(); // the time that samples take may be known better
   generate_->setText(goOn ? tr("Go on generating samples") : tr("Generate samples"));
 }
 

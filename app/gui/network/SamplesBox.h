@@ -26,7 +26,7 @@ public:
   explicit SamplesBox(QWidget* parent = nullptr);
 
   /// Emits nothing.
-  void display(const SampleSettings& samples, const SensorDesign& design);
+  void display(const SampleSettings& samples, const SensorDesign& design, const MeshOptions& mesh);
   /// Whether there are some, their state in words, and whether a generation goes on where it was stopped.
   void displayState(bool there, const QString& words, bool goOn);
   [[nodiscard]] const SampleSettings& settings() const { return samples_; }
@@ -52,6 +52,7 @@ private:
   SampleSettings samples_;
   TouchSampling touches_; ///< while forces on areas are chosen: those of before
   SensorDesign design_;
+  MeshOptions mesh_;
   bool displaying_ = false;
   QFormLayout* form_ = nullptr;
   QComboBox* kind_ = nullptr;

@@ -1,8 +1,8 @@
 #include "app/gui/network/SweepTab.h"
 
-#include "app/gui/network/FitWords.h"
 #include "app/gui/network/NetworkCharts.h"
 #include "app/gui/network/NetworkTables.h"
+#include "app/gui/network/words/FitWords.h"
 #include "app/gui/views/ChartView.h"
 #include "app/gui/views/DataTable.h"
 
@@ -61,16 +61,20 @@ void SweepTab::display(const NetworkSession& session, const NetworkSettings& now
   const auto best = bestPoint(points);
   best_->setEnabled(best.has_value() && session.upToDate());
   if (best) bestSpread_ = points[*best].spread;
-  words_->setText(best ? tr("Smallest test error at spread %1 (RMSE over Fx, Fy and Fz, in % of range). %2")
+  const bool atEnd = best && points.size() > 2 && (*best == 0 || *best + 1 == points.size());
+  words_->setText(best ? tr("Smallest test error at spread %1 (RMSE over Fx, Fy and Fz, in % of range). %2%3")
                              .arg(points[*best].spread, 0, 'g', 4)
-                             .arg(reason)
+                             .arg(atEnd && !session.working()
+                                      ? tr("It is at the end of the range: a wider one may hold a better. ")
+                                      : QString(),
+                                  reason)
                        : tr("A sweep trains once for each spread; its table stands here."));
   const TableText table = sweepTable(points);
   const bool grew = table_->rowCount() != static_cast<int>(table.rows.size());
   table_->show(table.heads, table.rows);
   if (!best) return;
   table_->mark(static_cast<int>(*best));
-  if (grew) table_->scrollToItem(table_->item(static_cast<int>(*best), 0));
+  if (grew) table_->scrollToItem(table_->item(table_->shownRow(static_cast<int>(*best)), 0));
 }
 
 } // namespace palp

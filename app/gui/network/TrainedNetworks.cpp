@@ -1,7 +1,7 @@
 #include "app/gui/network/TrainedNetworks.h"
 
-#include "app/gui/network/FitWords.h"
 #include "app/gui/network/NetworkTables.h"
+#include "app/gui/network/words/FitWords.h"
 #include "app/gui/views/DataTable.h"
 
 #include <QHBoxLayout>
@@ -27,7 +27,7 @@ TrainedNetworks::TrainedNetworks(QWidget* parent) : QWidget(parent) {
   list_->setAlternatingRowColors(true);
   list_->setToolTip(
       tr("Enter or a double click goes back to a network, with the settings it was trained with; F2 names "
-         "it; a right click saves the list as CSV"));
+         "it; a click on a head sorts; a right click saves the list as CSV"));
   back_ = new QPushButton(tr("Go back to this one"));
   back_->setObjectName("goBack");
   back_->setToolTip(
@@ -75,13 +75,13 @@ TrainedNetworks::TrainedNetworks(QWidget* parent) : QWidget(parent) {
 }
 
 int TrainedNetworks::chosen() const {
-  return list_->currentRow();
+  return list_->dataRow(list_->currentRow());
 }
 
 std::set<std::size_t> TrainedNetworks::marked() const {
   std::set<std::size_t> rows;
   for (const QModelIndex& row : list_->selectionModel()->selectedRows())
-    rows.insert(static_cast<std::size_t>(row.row()));
+    rows.insert(static_cast<std::size_t>(list_->dataRow(row.row())));
   return rows;
 }
 
@@ -119,20 +119,20 @@ void TrainedNetworks::display(const NetworkSession& session) {
     shown_.emplace_back(fit->made, fit->name);
   }
   return_->setEnabled(session.canBringBack());
-  const TableText table = networksTable(session.kept());
+  const TableText table = networksTable(session.kept(), session.upToDate() ? session.samples() : nullptr);
   list_->show(table.heads, table.rows);
   const bool old = !session.upToDate();
   for (int row = 0; row < list_->rowCount(); ++row) {
-    const NetworkFit& fit = *session.kept()[static_cast<std::size_t>(row)];
+    const NetworkFit& fit = *session.kept()[static_cast<std::size_t>(list_->dataRow(row))];
     const QString origin = originWords(fit);
     for (int column = 0; column < list_->columnCount(); ++column) {
       list_->item(row, column)->setToolTip(origin);
       if (old) list_->item(row, column)->setForeground(palette().color(QPalette::PlaceholderText));
     }
-    if (!old && session.fit() != nullptr && fit.made == session.fit()->made) list_->mark(row);
+    if (!old && session.fit() != nullptr && fit.made == session.fit()->made) list_->mark(list_->dataRow(row));
   }
   if (now >= 0)
-    list_->setCurrentCell(now, std::max(0, list_->currentColumn()));
+    list_->setCurrentCell(list_->shownRow(now), std::max(0, list_->currentColumn()));
   else
     list_->setCurrentCell(-1, -1);
   displayChosen();
@@ -141,11 +141,13 @@ void TrainedNetworks::display(const NetworkSession& session) {
     name_->setText(typed);
     name_->setModified(true);
   }
-  words_->setText(old && !session.kept().empty()
-                      ? tr("These are of an earlier design: going back to one brings its design back, too.")
-                      : tr("Every network that was trained; equal ones stand once. The last %1 stay, and all that have "
-                           "a name. Fx, Fy, Fz: RMSE of the test in % of range. Bold: the one that is shown.")
-                            .arg(NetworkSession::kKeptNetworks));
+  words_->setText(
+      old && !session.kept().empty()
+          ? tr("These are of an earlier design: going back to one brings its design back, too.")
+          : tr("Every network that was trained, but for those of a sweep and of a comparison, which keep their "
+               "own tables; equal ones stand once. The last %1 stay, and all that have "
+               "a name. Fx, Fy, Fz: RMSE of the test in % of range. Bold: the one that is shown.")
+                .arg(NetworkSession::kKeptNetworks));
 }
 
 } // namespace palp

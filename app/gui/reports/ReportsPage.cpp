@@ -2,6 +2,7 @@
 
 #include "app/gui/jobs/TimeLeft.h"
 #include "app/gui/project/Command.h"
+#include "app/gui/reports/PageWords.h"
 #include "app/gui/reports/ReportCases.h"
 #include "app/gui/reports/ReportKinds.h"
 #include "app/gui/reports/ReportPicture.h"
@@ -184,6 +185,8 @@ QWidget* ReportsPage::buildViews() {
   tabs_->setObjectName("reportTabs");
   tabs_->addTab(cases_, tr("What runs"));
   tabs_->addTab(log_, tr("Messages"));
+  pageWords_ = new PageWords;
+  tabs_->addTab(pageWords_, tr("Words and tables"));
   tabs_->addTab(written_, tr("Earlier reports"));
   auto* left = new QSplitter(Qt::Vertical);
   left->setObjectName("reportsLeft");
@@ -286,6 +289,7 @@ void ReportsPage::offerRun(bool done) {
     showNew_->setVisible(done);
   else
     showFolder(pageFolder(runFolder_), done);
+  if (done && tabs_->currentWidget() == cases_ && !showNew_->isVisible()) tabs_->setCurrentWidget(pageWords_);
 }
 
 QStringList ReportsPage::exportFiles() const {
@@ -348,11 +352,13 @@ void ReportsPage::showUnfinished(const QString& folder) {
 
 void ReportsPage::showFolder(const QString& folder, bool page) {
   shown_ = folder;
+  written_->mark(folder);
   openPage_->setEnabled(page);
   openFolder_->setEnabled(!folder.isEmpty());
   pictures_->clear();
   picture_->clear();
   whose_->setText(page ? titleOfReport(folder) : QString());
+  pageWords_->show(page ? QDir(folder).filePath(kPage) : QString());
   if (page) pictures_->addItems(QDir(folder).entryList({"*.png"}, QDir::Files, QDir::Name));
   pictures_->setVisible(pictures_->count() > 0);
   if (pictures_->count() > 0)

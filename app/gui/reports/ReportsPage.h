@@ -25,6 +25,7 @@ namespace palp {
 class ReportCases;
 class ReportPicture;
 class StudyForm;
+class PageWords;
 class WrittenReports;
 struct ReportKind;
 
@@ -128,6 +129,7 @@ private:
   QTabWidget* tabs_ = nullptr;
   ReportCases* cases_ = nullptr;
   QPlainTextEdit* log_ = nullptr;
+  PageWords* pageWords_ = nullptr;
   WrittenReports* written_ = nullptr;
   QListWidget* pictures_ = nullptr;
   QLabel* whose_ = nullptr; ///< report that is shown

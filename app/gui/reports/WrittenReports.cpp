@@ -26,8 +26,14 @@ void WrittenReports::list(const QString& base, const QString& shown, const QStri
     auto* item = new QListWidgetItem(report.title, this);
     item->setData(kFolderRole, report.folder);
     item->setToolTip(report.folder);
-    if (report.folder == shown) setCurrentItem(item);
   }
+  mark(shown);
+}
+
+void WrittenReports::mark(const QString& shown) {
+  setCurrentItem(nullptr);
+  for (int row = 0; row < count(); ++row)
+    if (item(row)->data(kFolderRole).toString() == shown) setCurrentRow(row);
 }
 
 } // namespace palp

@@ -14,6 +14,8 @@ public:
   /// Lists them anew; the one in the folder `shown` is marked, the one in `running` is not
   /// written yet.
   void list(const QString& base, const QString& shown, const QString& running);
+  /// Marks the report that is shown; none where it is not in the list.
+  void mark(const QString& shown);
 
 signals:
   void chosen(const QString& folder);

@@ -11,12 +11,34 @@
 
 namespace palp {
 
+namespace {
+
+constexpr int kRowRole = Qt::UserRole; ///< the row of show()
+
+/// Numbers by their value and before words; all alike by their rows where the table is in the order of show().
+class Cell : public QTableWidgetItem {
+public:
+  explicit Cell(const QString& text) : QTableWidgetItem(text) {}
+  bool operator<(const QTableWidgetItem& other) const override {
+    if (!tableWidget()->horizontalHeader()->isSortIndicatorShown())
+      return data(kRowRole).toInt() < other.data(kRowRole).toInt();
+    bool number = false, otherNumber = false;
+    const double value = text().toDouble(&number), otherValue = other.text().toDouble(&otherNumber);
+    if (number && otherNumber) return value < otherValue;
+    return number != otherNumber ? number : text().localeAwareCompare(other.text()) < 0;
+  }
+};
+
+} // namespace
+
 DataTable::DataTable(const QString& file, QWidget* parent) : QTableWidget(parent), file_(file) {
   setEditTriggers(QAbstractItemView::NoEditTriggers);
   setSelectionMode(QAbstractItemView::ContiguousSelection);
-  setToolTip(tr("Mark cells and copy them with Ctrl+C; a right click saves all of it as CSV"));
+  setToolTip(tr("Mark cells and copy them with Ctrl+C; a click on a head sorts; a right click saves all of it as CSV"));
   verticalHeader()->hide();
   horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  horizontalHeader()->setSectionsClickable(true);
+  connect(horizontalHeader(), &QHeaderView::sectionClicked, this, &DataTable::sortBy);
 }
 
 void DataTable::show(const QStringList& heads, const std::vector<QStringList>& rows) {
@@ -26,15 +48,39 @@ void DataTable::show(const QStringList& heads, const std::vector<QStringList>& r
   for (int row = 0; row < rowCount(); ++row)
     for (int column = 0; column < columnCount(); ++column) {
       const QString text = rows[static_cast<std::size_t>(row)].value(column);
-      auto* cell = new QTableWidgetItem(text);
+      auto* cell = new Cell(text);
+      cell->setData(kRowRole, row);
       bool number = false;
       text.toDouble(&number);
       if (number) cell->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
       setItem(row, column, cell);
     }
+  if (sortColumn_ >= columnCount()) sortBy(-1); // it is another table now
+  if (sortColumn_ >= 0) sortItems(sortColumn_, sortOrder_);
 }
 
-void DataTable::mark(int row) {
+void DataTable::sortBy(int column) {
+  const bool again = column == sortColumn_, back = column < 0 || (again && sortOrder_ == Qt::DescendingOrder);
+  sortColumn_ = back ? -1 : column;
+  sortOrder_ = again && !back ? Qt::DescendingOrder : Qt::AscendingOrder;
+  horizontalHeader()->setSortIndicatorShown(!back);
+  if (!back) horizontalHeader()->setSortIndicator(column, sortOrder_);
+  if (columnCount() > 0) sortItems(back ? 0 : column, sortOrder_);
+}
+
+int DataTable::dataRow(int shownRow) const {
+  const QTableWidgetItem* cell = item(shownRow, 0);
+  return cell != nullptr ? cell->data(kRowRole).toInt() : -1;
+}
+
+int DataTable::shownRow(int dataRow) const {
+  for (int row = 0; row < rowCount(); ++row)
+    if (dataRow >= 0 && this->dataRow(row) == dataRow) return row;
+  return -1;
+}
+
+void DataTable::mark(int dataRow) {
+  const int row = shownRow(dataRow);
   for (int column = 0; column < columnCount(); ++column) {
     QFont font = item(row, column)->font();
     font.setBold(true);

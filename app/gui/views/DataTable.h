@@ -6,7 +6,8 @@
 
 namespace palp {
 
-/// Rows that are read, not written: any range can be marked and copied into a spreadsheet, all of it saved as CSV.
+/// Rows that are read, not written: any range can be marked and copied into a spreadsheet, all of it saved as CSV. A
+/// click on a head sorts by it, a second one the other way round, a third one takes the order of before.
 class DataTable : public QTableWidget {
   Q_OBJECT
 
@@ -15,8 +16,11 @@ public:
   explicit DataTable(const QString& file, QWidget* parent = nullptr);
 
   void show(const QStringList& heads, const std::vector<QStringList>& rows);
-  /// Bold.
-  void mark(int row);
+  /// Bold; the row is one of show().
+  void mark(int dataRow);
+  /// Which row of show() stands in a row of the table, and the other way round; -1 for -1.
+  [[nodiscard]] int dataRow(int shownRow) const;
+  [[nodiscard]] int shownRow(int dataRow) const;
   /// The name that is proposed for the CSV.
   [[nodiscard]] const QString& file() const { return file_; }
   [[nodiscard]] QString csv() const;
@@ -34,8 +38,11 @@ protected:
 
 private:
   void copy() const;
+  void sortBy(int column);
 
   QString file_;
+  int sortColumn_ = -1; ///< -1: the rows stand as show() gave them
+  Qt::SortOrder sortOrder_ = Qt::AscendingOrder;
 };
 
 } // namespace palp

@@ -7,6 +7,8 @@
 #include <QPushButton>
 #include <QToolButton>
 
+#include <utility>
+
 namespace palp {
 
 namespace {
@@ -42,6 +44,7 @@ JobStrip::JobStrip(JobRunner& runner, QWidget* parent) : QWidget(parent) {
     words_->setText(title);
     bar_->setRange(0, 0);
     if (!isVisible() && !wait_.isActive()) wait_.start();
+    if (std::exchange(failed_, false)) emit message({}); // what failed before is tried again
   });
   connect(&runner, &JobRunner::progressed, this, [this](double share, const QString& what) {
     words_->setText(what);
@@ -53,7 +56,10 @@ JobStrip::JobStrip(JobRunner& runner, QWidget* parent) : QWidget(parent) {
     hide();
     if (cancelled) emit message(tr("%1: cancelled; the last good result stays.").arg(runner.title()));
   });
-  connect(&runner, &JobRunner::failed, this, &JobStrip::message);
+  connect(&runner, &JobRunner::failed, this, [this](const QString& sentence) {
+    failed_ = true;
+    emit message(sentence);
+  });
 }
 
 } // namespace palp

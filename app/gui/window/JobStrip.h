@@ -29,7 +29,8 @@ private:
   QToolButton* words_ = nullptr;
   QProgressBar* bar_ = nullptr;
   QPushButton* cancel_ = nullptr;
-  QTimer wait_; ///< before it is shown
+  QTimer wait_;         ///< before it is shown
+  bool failed_ = false; ///< the last job, and nothing was begun since
 };
 
 } // namespace palp

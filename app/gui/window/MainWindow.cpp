@@ -263,7 +263,7 @@ void MainWindow::animate(const QString& path, const FilmSettings& film) {
 
 void MainWindow::showMessage(const QString& sentence) {
   statusBar()->showMessage(sentence, kMessage_ms);
-  log_->add(sentence);
+  if (!sentence.isEmpty()) log_->add(sentence); // else what stands there is over
 }
 
 void MainWindow::restoreLayout() {

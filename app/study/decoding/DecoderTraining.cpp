@@ -14,6 +14,8 @@
 namespace palp {
 namespace {
 
+constexpr double kKnown = 0.6; ///< of the time that a decoder of touches needs: what the design says of them
+
 /// The touched area of each sample as classes without gaps.
 struct Classes {
   Eigen::VectorXi ofSample;
@@ -243,10 +245,12 @@ void DecoderTraining::fitTouches() {
   groups << 1, 1, 1, 0, 0, 2, 2;
   KernelForwardOptions options{options_.noise, options_.threads};
   if (design_ && samples_.hasTouches()) {
-    say(0, "what the design says of touches");
-    options.known = knownReadings(*design_, samples_, decoder_.input, options_.threads, stop_);
+    options.known = knownReadings(*design_, samples_, decoder_.input, options_.threads, stop_,
+                                  [this](double share, const std::string& what) {
+                                    say(kKnown * share, "What the design says of touches: " + what);
+                                  });
     options.mirrors = mirrorsOfTouches(*design_, causes, decoder_.input);
-    say(0.3, "learning the rest");
+    say(kKnown, "What samples add to it");
   }
   KernelForwardFit fit = fitKernelForwardModel(inputs_, causes, groups, options, stop_);
   decoder_.report.centers = static_cast<int>(samples_.size());

@@ -59,23 +59,38 @@ Indenter indenterOf(const SampleSet& samples) {
 } // namespace
 
 KnownReadings knownReadings(const SensorDesign& design, const SampleSet& samples, const DecoderInput& input,
-                            int threads, const std::stop_token& stop) {
+                            int threads, const std::stop_token& stop,
+                            const std::function<void(double share, const std::string& what)>& progress) {
+  const auto say = [&progress](double share, const std::string& what) {
+    if (progress) progress(share, what);
+  };
   if (samples.origin.designFingerprint != designFingerprint(design))
     throw Error("the samples are of the design " + samples.origin.designFingerprint + ", not of this one, " +
                 designFingerprint(design));
   if (input.kind != InputKind::Resistance)
     throw Error("input: " + name(input.kind) + "s; what a design says beforehand of touches is their resistances");
   const Indenter indenter = indenterOf(samples);
-  const LinearReadings readings = readingsAtRest(design, threads, stop);
-  const HyperelasticProblem problem(design, sensorMesh(design, meshOf(design, samples.size()), stop));
-  if (problem.findFactor(threads, stop) == 0) throw Cancelled();
-  const auto found = InfluenceSurfaces::find(problem, readings, threads, stop);
-  if (!found) throw Cancelled();
+  // Shares of the time on the paper's design with all row-wires.
+  say(0, "the readings at rest");
+  LinearReadings readings = readingsAtRest(design, threads, stop);
   const std::vector<Eigen::Index> used = readingsOf(input);
+  readings.gradient_per_mm = Eigen::MatrixXd(readings.gradient_per_mm(used, Eigen::all));
+  say(0.02, "a mesh of the block");
+  const HyperelasticProblem problem(design, sensorMesh(design, meshOf(design, samples.size()), stop));
+  say(0.04, "its factorisation");
+  if (problem.findFactor(threads, stop) == 0) throw Cancelled();
+  std::size_t done = 0;
+  const auto surface = [&](std::size_t more) {
+    const double share = static_cast<double>(done += more) / static_cast<double>(used.size());
+    say(0.3 + 0.7 * share, "influence surface " + std::to_string(done) + " of " + std::to_string(used.size()));
+  };
+  surface(0);
+  const auto found = InfluenceSurfaces::find(problem, readings, threads, stop, surface);
+  if (!found) throw Cancelled();
   const Eigen::MatrixXd all_ohm = restOf(design);
   const Eigen::VectorXd rest_ohm = all_ohm.reshaped()(used);
   const Eigen::Vector2d face_mm = design.block_mm.head<2>();
-  return [surfaces = std::make_shared<const InfluenceSurfaces>(*found), indenter, used, rest_ohm, face_mm, threads,
+  return [surfaces = std::make_shared<const InfluenceSurfaces>(*found), indenter, rest_ohm, face_mm, threads,
           stop](const Eigen::MatrixXd& causes) -> Eigen::MatrixXd {
     std::vector<Indenter> touches(static_cast<std::size_t>(causes.cols()), indenter);
     for (std::size_t i = 0; i < touches.size(); ++i) {
@@ -86,7 +101,7 @@ KnownReadings knownReadings(const SensorDesign& design, const SampleSet& samples
       touches[i].control = Press{{column(0), column(1), std::min(column(2), -kLeastPress_N)}};
     }
     const Eigen::MatrixXd changes = surfaces->under(touches, threads, stop);
-    return rest_ohm.asDiagonal() * (1 + changes(used, Eigen::all).array()).matrix();
+    return rest_ohm.asDiagonal() * (1 + changes.array()).matrix();
   };
 }
 

@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <stop_token>
+#include <string>
 #include <vector>
 
 namespace palp {
@@ -15,9 +16,11 @@ namespace palp {
 /// what is known of a decoder's inputs before any sample. Columns are touches: Fx, Fy, Fz [N], x, y, size [mm],
 /// friction. Shape and rim are those of the samples. Throws DesignError where the shape has no place along x and y or
 /// the design a pressure law, Error where the samples are of another design, and Cancelled.
+/// `progress` is told each step of it before it runs: the share of the time that is done, and what comes.
 using KnownReadings = std::function<Eigen::MatrixXd(const Eigen::MatrixXd& causes)>;
 KnownReadings knownReadings(const SensorDesign& design, const SampleSet& samples, const DecoderInput& input,
-                            int threads, const std::stop_token& stop);
+                            int threads, const std::stop_token& stop,
+                            const std::function<void(double share, const std::string& what)>& progress = {});
 
 /// Mirrors that the design has and these touches (causes as above, a column each) can be reflected by: not where the
 /// decoder reads a row-wire without its image, or a force or place that never varies would become another.

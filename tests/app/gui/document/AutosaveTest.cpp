@@ -2,7 +2,7 @@
 
 #include "app/gui/document/Document.h"
 #include "app/gui/document/Recovery.h"
-#include "app/gui/jobs/ResultFiles.h"
+#include "app/gui/jobs/samples/ResultFiles.h"
 #include "app/gui/project/ProjectFile.h"
 #include "io/AtomicFile.h"
 #include "tests/app/gui/FullDisk.h"

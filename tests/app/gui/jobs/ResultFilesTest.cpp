@@ -1,6 +1,6 @@
-#include "app/gui/jobs/ResultFiles.h"
+#include "app/gui/jobs/samples/ResultFiles.h"
 
-#include "app/gui/jobs/SampleFiles.h"
+#include "app/gui/jobs/samples/SampleFiles.h"
 #include "io/AtomicFile.h"
 #include "io/DecoderFile.h"
 #include "model/base/Error.h"
@@ -9,6 +9,7 @@
 
 #include <QTemporaryDir>
 
+#include <limits>
 #include <map>
 
 namespace palp {
@@ -55,7 +56,24 @@ protected:
       ASSERT_TRUE(QTest::qWaitFor([&] { return session.fit() != nullptr && session.fit()->settings.spread == spread; },
                                   kPatience_ms));
     }
+    NetworkSettings swept = project.network;
+    swept.sweepCount = 3;
+    session.sweep(swept);
+    ASSERT_TRUE(QTest::qWaitFor([&] { return session.sweepPoints().size() == 3 && !session.working(); }, kPatience_ms));
     made_ = session.results();
+    DecoderTrial trained, refused;
+    trained.kind = DecoderKind::Polynomial2;
+    trained.error = session.fit()->error.error;
+    trained.error.eq13Percent(1) = std::numeric_limits<double>::infinity(); // of a force that is 0 somewhere
+    trained.place = PlaceError{{1.5, 2.5}, 0.25, {}};
+    trained.spread = 1.25;
+    trained.seconds = 0.5;
+    trained.microsecondsPerSample = 3;
+    refused.kind = DecoderKind::TouchInversion;
+    refused.refusal = "it needs touches";
+    made_.trials = {trained, refused};
+    made_.trialsSettings = project.network;
+    made_.trialsSettings.noise = 0.001;
   }
   static void TearDownTestSuite() { made_ = {}; }
 
@@ -131,7 +149,7 @@ TEST_F(ResultFilesTest, ANetworkWhoseSettingsCannotBeReadIsListedAsFarAsItSaysTh
 }
 
 TEST_F(ResultFilesTest, NoFileThatCannotBeOpenedIsOverwritten) {
-  for (const char* name : {"samples.csv", "samples-test.csv", "network.json"})
+  for (const char* name : {"samples.csv", "samples-test.csv", "network.json", "sweeps.json"})
     for (const auto& [how, breakFile] : kTwins) {
       SCOPED_TRACE(std::string(name) + " " + how);
       fs::remove_all(folder());
@@ -157,10 +175,70 @@ TEST_F(ResultFilesTest, NoFileThatCannotBeOpenedIsOverwritten) {
     }
 }
 
+TEST_F(ResultFilesTest, SweepAndComparisonComeBackAsTheyWere) {
+  const NetworkResults& found = opened().results;
+  EXPECT_EQ(found.sweepSettings, made_.sweepSettings);
+  EXPECT_EQ(found.trialsSettings, made_.trialsSettings);
+  ASSERT_EQ(found.sweep.size(), made_.sweep.size());
+  for (std::size_t k = 0; k < found.sweep.size(); ++k) {
+    const SweepPoint &is = found.sweep[k], &was = made_.sweep[k];
+    EXPECT_EQ(is.spread, was.spread);
+    EXPECT_EQ(is.error.eq13Percent, was.error.eq13Percent);
+    EXPECT_EQ(is.error.rmsePercentOfRange, was.error.rmsePercentOfRange);
+    EXPECT_EQ(is.report.leaveOneOut, was.report.leaveOneOut);
+    EXPECT_EQ(is.report.condition, was.report.condition);
+    EXPECT_EQ(is.report.seconds, was.report.seconds);
+  }
+  ASSERT_EQ(found.trials.size(), 2U);
+  EXPECT_EQ(found.trials[0].kind, DecoderKind::Polynomial2);
+  EXPECT_EQ(found.trials[0].error.eq13Percent, made_.trials[0].error.eq13Percent) << "infinity, too";
+  EXPECT_EQ(found.trials[0].place->rms_mm, made_.trials[0].place->rms_mm);
+  EXPECT_EQ(found.trials[0].place->median_mm, 0.25);
+  EXPECT_EQ(found.trials[0].spread, 1.25);
+  EXPECT_EQ(found.trials[1].refusal, "it needs touches");
+  EXPECT_EQ(found.listed(), made_.listed()) << "nothing is left to be saved";
+}
+
+TEST_F(ResultFilesTest, ASweepOfOtherSamplesIsNotShownWithThese) {
+  const std::string swept = readFile(folder() / "sweeps.json");
+  saveResults(folder(), others(), resultFiles(folder()));
+  writeFile(folder() / "sweeps.json", swept, true);
+  const OpenedResults found = opened();
+  ASSERT_EQ(found.problems.size(), 1U);
+  EXPECT_NE(found.problems[0].find("are of other samples"), std::string::npos) << found.problems[0];
+  EXPECT_TRUE(found.results.sweep.empty());
+  EXPECT_TRUE(found.results.trials.empty());
+  NetworkResults without = made_;
+  without.sweep.clear();
+  without.trials.clear();
+  saveResults(folder(), without, resultFiles(folder()));
+  EXPECT_FALSE(fs::exists(folder() / "sweeps.json")) << "none is there any more";
+}
+
+TEST_F(ResultFilesTest, ATableOfSomebodyElseIsNamedByWhatItBeginsWith) {
+  const fs::path table = folder() / "sweep.csv", empty = folder() / "empty.csv";
+  writeFile(table, "spread,Fx RMSE [% of range]\n1,2\n", true);
+  writeFile(empty, "", true);
+  const auto refusal = [&](const fs::path& file) -> std::string {
+    try {
+      openSampleFiles({file}, made_.design, {});
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_NE(refusal(table).find("sweep.csv: holds no samples of Palp: it begins with \"spread,Fx RMSE"),
+            std::string::npos)
+      << refusal(table);
+  EXPECT_NE(refusal(empty).find("is no file of Palp's (empty)"), std::string::npos) << refusal(empty);
+  EXPECT_NE(refusal(folder() / "network.json").find("is a network, not samples"), std::string::npos)
+      << refusal(folder() / "network.json");
+}
+
 TEST_F(ResultFilesTest, FilesOfAnotherWindowAreKeptUnlessTheyHoldTheSame) {
   EXPECT_TRUE(saveResults(folder(), made_, {}).empty()) << "the same bytes";
   const auto before = content();
-  EXPECT_EQ(saveResults(folder(), others(), {}).size(), 3U);
+  EXPECT_EQ(saveResults(folder(), others(), {}).size(), 4U);
   const auto after = content();
   for (const auto& [file, bytes] : before) EXPECT_TRUE(holds(after, bytes)) << file;
 }

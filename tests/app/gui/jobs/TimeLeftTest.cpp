@@ -22,6 +22,11 @@ TEST(TimeLeft, DoesNotTakeThePreparationForWork) {
   EXPECT_DOUBLE_EQ(*left.left_s(10, 100, 9), 9);
 }
 
+TEST(LeftOfShares, SaysNothingBeforeItCanKnow) {
+  const LeftOfShares left;
+  for (const double share : {0.0, 0.5, 1.0}) EXPECT_FALSE(left.at(share).has_value()) << "in the first seconds";
+}
+
 TEST(TimeLeft, DoesNotTakeAPauseBetweenForWork) {
   TimeLeft left;
   left.begin(0, 0);

@@ -1,5 +1,5 @@
-#include "app/gui/jobs/ResultFiles.h"
-#include "app/gui/jobs/SampleFiles.h"
+#include "app/gui/jobs/samples/ResultFiles.h"
+#include "app/gui/jobs/samples/SampleFiles.h"
 #include "app/study/decoding/DecoderTraining.h"
 #include "app/study/touch/SampleGenerator.h"
 #include "io/DesignFile.h"

@@ -1,4 +1,4 @@
-#include "app/gui/jobs/ResultFiles.h"
+#include "app/gui/jobs/samples/ResultFiles.h"
 #include "io/AtomicFile.h"
 #include "io/ImportSamples.h"
 #include "tests/app/gui/network/NetworkSceneFixture.h"

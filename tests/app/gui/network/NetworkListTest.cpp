@@ -1,6 +1,6 @@
-#include "app/gui/jobs/ResultFiles.h"
-#include "app/gui/network/FitWords.h"
+#include "app/gui/jobs/samples/ResultFiles.h"
 #include "app/gui/network/NetworkCharts.h"
+#include "app/gui/network/words/FitWords.h"
 #include "app/gui/views/ChartView.h"
 #include "app/gui/views/CsvExport.h"
 #include "app/gui/views/DataTable.h"

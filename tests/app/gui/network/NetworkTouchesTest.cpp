@@ -1,4 +1,5 @@
-#include "app/gui/jobs/SampleFiles.h"
+#include "app/gui/jobs/samples/SampleFiles.h"
+#include "app/gui/network/words/ErrorWords.h"
 #include "app/gui/project/Command.h"
 #include "app/gui/project/ProjectFile.h"
 #include "app/gui/views/ChartView.h"
@@ -32,6 +33,17 @@ protected:
     count.selectAll();
     QTest::keyClicks(&count, "20");
     QTest::keyClick(&count, Qt::Key_Return);
+  }
+  /// Of places that are all wrong by more than the block is wide.
+  void expectWarningOfAGuess() {
+    NetworkFit wrong = *network.fit();
+    wrong.prediction.places_mm.array() += 40;
+    const auto [its, guess] = againstAGuess(*network.samples(), wrong);
+    EXPECT_LT(guess.places_mm.maxCoeff(), 12) << "24 mm wide";
+    EXPECT_GT(its.places_mm.minCoeff(), 20);
+    const QString words = guessWords(network, wrong);
+    EXPECT_TRUE(words.contains("worse than knowing nothing")) << words.toStdString();
+    EXPECT_TRUE(words.contains("place x") && words.contains("place y") && !words.contains("Fz")) << words.toStdString();
   }
   [[nodiscard]] const TouchSampling& touches() const { return *workbench.project().samples.touches; }
 };
@@ -75,11 +87,15 @@ TEST_F(SampledTouches, TeachANetworkForceAndPlace) {
   }
   trained();
   EXPECT_FALSE(find<ChartView>("placeError").isVisibleTo(&window)) << "forces alone were learned";
+  EXPECT_FALSE(find<QLabel>("fitWords").text().contains("place x"));
   choose("target", 1); // trains at once
   ASSERT_TRUE(QTest::qWaitFor([&] { return network.fit()->error.place.has_value(); }, kPatience_ms));
   ASSERT_TRUE(idle());
   settle();
   EXPECT_LT(network.fit()->error.place->median_mm, 6) << "a guess is some 11 mm off";
+  EXPECT_TRUE(find<QLabel>("fitWords").text().contains("place x")) << "in the table of errors";
+  EXPECT_FALSE(find<QLabel>("fitWords").text().contains("worse than knowing nothing"));
+  expectWarningOfAGuess();
   EXPECT_TRUE(find<QLabel>("fitWords").text().contains("Its places are"))
       << find<QLabel>("fitWords").text().toStdString();
   EXPECT_EQ(find<ChartView>("placeError").chart().series[0].x.size(), 20u);

@@ -19,6 +19,7 @@
 #include <QPushButton>
 #include <QTabWidget>
 #include <QTemporaryDir>
+#include <QTextBrowser>
 #include <QTimer>
 #include <QTreeWidget>
 
@@ -87,6 +88,24 @@ TEST_F(ReportsPageTest, RunsAReportOfTheProjectsMeshAndShowsItsPicturesAlone) {
   ASSERT_EQ(pictures().count(), 1);
   EXPECT_EQ(pictures().item(0)->text(), "spread.png");
   EXPECT_FALSE(find<QLabel>("reportPicture").pixmap().isNull());
+}
+
+TEST_F(ReportsPageTest, ShowsTheWordsAndTablesOfThePageAndMarksItInTheList) {
+  setProgram("echo '<html><style>p { color: red; }</style><body><p>It resolves 0.1 N.</p><img src=\"data:x\">"
+             "<table><tr class=\"bad\"><td>1.25</td></tr></table></body></html>' > \"$folder/report.html\"\n");
+  run("stability");
+  ASSERT_TRUE(ended());
+  auto& words = find<QTextBrowser>("reportWords");
+  EXPECT_TRUE(words.toPlainText().contains("It resolves 0.1 N.")) << words.toPlainText().toStdString();
+  EXPECT_TRUE(words.toPlainText().contains("1.25"));
+  EXPECT_FALSE(words.toPlainText().contains("color"));
+  EXPECT_TRUE(words.isVisible()) << "its tab is shown";
+  run("noise");
+  ASSERT_TRUE(ended());
+  QTest::mouseClick(&find<QPushButton>("showNewReport"), Qt::LeftButton);
+  ASSERT_EQ(written().count(), 2);
+  ASSERT_NE(written().currentItem(), nullptr);
+  EXPECT_TRUE(written().currentItem()->text().startsWith("noise")) << written().currentItem()->text().toStdString();
 }
 
 TEST_F(ReportsPageTest, RunGivesTheKeysToNoField) {

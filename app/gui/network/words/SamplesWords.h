@@ -10,6 +10,6 @@ namespace palp {
 QString samplesWords(const NetworkSession& session);
 
 /// What a press of the button will make; empty where only the generation knows.
-QString plannedWords(const SampleSettings& samples, const SensorDesign& design);
+QString plannedWords(const SampleSettings& samples, const SensorDesign& design, const MeshOptions& mesh);
 
 } // namespace palp

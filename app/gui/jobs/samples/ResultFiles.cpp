@@ -1,7 +1,8 @@
-#include "app/gui/jobs/ResultFiles.h"
+#include "app/gui/jobs/samples/ResultFiles.h"
 
 #include "app/gui/jobs/FilesTogether.h"
-#include "app/gui/jobs/SampleFiles.h"
+#include "app/gui/jobs/samples/SampleFiles.h"
+#include "app/gui/jobs/samples/SweepsFile.h"
 #include "app/gui/project/ProjectFile.h"
 #include "app/study/paper/PaperProtocol.h"
 #include "io/AtomicFile.h"
@@ -23,6 +24,7 @@ namespace {
 constexpr const char* kSamples = "samples.csv";
 constexpr const char* kTestSamples = "samples-test.csv"; // testFileOf()
 constexpr const char* kNetwork = "network.json";
+constexpr const char* kSweeps = "sweeps.json";
 constexpr const char* kKept = "networks";
 constexpr const char* kDecoder = ".network.json";
 constexpr const char* kSettings = ".settings.json";
@@ -188,6 +190,18 @@ void openKept(const fs::path& folder, OpenedResults& opened, const std::stop_tok
   }
 }
 
+/// Less the sweep and the comparison where they cannot be opened.
+void openSweeps(const fs::path& file, OpenedResults& opened) {
+  QFile source(QString::fromStdString(file.string()));
+  if (!source.open(QIODevice::ReadOnly)) return; // there are none
+  try {
+    parseSweeps(source.readAll(), source.fileName(), opened.results);
+    opened.opened.insert(file);
+  } catch (const Error& error) {
+    opened.problems.emplace_back(error.what());
+  }
+}
+
 /// Samples alone where those for testing cannot be opened.
 void openSamples(const fs::path& folder, const SensorDesign& design, OpenedResults& opened,
                  const std::stop_token& stop) {
@@ -210,7 +224,7 @@ void openSamples(const fs::path& folder, const SensorDesign& design, OpenedResul
 } // namespace
 
 std::set<fs::path> resultFiles(const fs::path& folder) {
-  return {folder / kSamples, folder / kTestSamples, folder / kNetwork};
+  return {folder / kSamples, folder / kTestSamples, folder / kNetwork, folder / kSweeps};
 }
 
 std::vector<std::string> saveResults(const fs::path& folder, const NetworkResults& results,
@@ -222,19 +236,24 @@ std::vector<std::string> saveResults(const fs::path& folder, const NetworkResult
   if (results.samples) addSamples(writing, folder / kSamples, *results.samples);
   if (results.fit)
     writing.add(folder / kNetwork, [&](const fs::path& beside) { writeNetwork(results.fit->decoder, beside); });
+  const bool sweeps = results.samples && !(results.sweep.empty() && results.trials.empty());
+  if (sweeps)
+    writing.add(folder / kSweeps,
+                [&](const fs::path& beside) { writeFile(beside, sweepsText(results).toStdString(), true); });
   saveKept(folder / kKept, results);
   std::vector<std::string> said;
   const std::string now = stemOf(QDateTime::currentDateTime());
   for (const auto& [name, kept] :
        {std::pair{kSamples, "samples-" + now + ".csv"}, std::pair{kTestSamples, "samples-" + now + "-test.csv"},
-        std::pair{kNetwork, "network-" + now + ".json"}}) {
+        std::pair{kNetwork, "network-" + now + ".json"}, std::pair{kSweeps, "sweeps-" + now + ".json"}}) {
     const fs::path file = folder / name;
-    const bool written = name == kNetwork || results.samples;
+    const bool written = name == kNetwork || name == kSweeps || results.samples;
     if (written && !ours.contains(file) && writing.keepAs(file, folder / kept))
       said.push_back(file.string() + " held something that is not open here; it is kept as " + kept);
   }
   writing.commit();
   if (!results.fit) fs::remove(folder / kNetwork, failed);
+  if (!sweeps) fs::remove(folder / kSweeps, failed);
   removeTakenAway(folder / kKept, results);
   return said;
 }
@@ -247,6 +266,7 @@ OpenedResults openResults(const fs::path& folder, const SensorDesign& design, co
   openSamples(folder, design, opened, stop);
   if (!opened.results.samples) return opened;
   openNetwork(folder / kNetwork, opened);
+  openSweeps(folder / kSweeps, opened);
   openKept(folder / kKept, opened, stop, progress);
   return opened;
 }

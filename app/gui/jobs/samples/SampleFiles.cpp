@@ -1,12 +1,17 @@
-#include "app/gui/jobs/SampleFiles.h"
+#include "app/gui/jobs/samples/SampleFiles.h"
 
 #include "app/gui/jobs/FilesTogether.h"
 #include "app/gui/jobs/NetworkSession.h"
+#include "app/gui/project/FileKind.h"
 #include "app/study/paper/PaperProtocol.h"
 #include "io/DesignFile.h"
 #include "io/SampleFile.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
+
+#include <QFile>
+#include <QMimeDatabase>
+#include <QObject>
 
 #include <algorithm>
 #include <array>
@@ -79,6 +84,20 @@ void saveSampleFiles(const fs::path& file, const NetworkSamples& samples) {
 
 namespace {
 
+/// A table of somebody else is named by what it begins with.
+void requireSamples(const fs::path& file) {
+  const QString name = QString::fromStdString(file.string());
+  if (fileKind(name) != FileKind::Foreign) return requireKind(name, FileKind::Samples);
+  constexpr qint64 kShown = 60;
+  QFile source(name);
+  const bool text = QMimeDatabase().mimeTypeForFile(name).inherits("text/plain") && source.open(QIODevice::ReadOnly);
+  if (!text) throw Error(foreignWords(name).toStdString());
+  throw Error(QObject::tr("%1: holds no samples of Palp: it begins with \"%2\", samples with \"# palp_samples\". Of a "
+                          "table of readings and forces of your own palp import makes samples.")
+                  .arg(name, QString::fromUtf8(source.readLine(kShown)).trimmed())
+                  .toStdString());
+}
+
 /// Samples of one request, shard by shard, and of another one where there is one. `test`: this file's are for testing,
 /// whatever request it says.
 std::vector<Shards> requestsOf(const std::vector<fs::path>& files, const fs::path& test, const SensorDesign& design,
@@ -87,6 +106,7 @@ std::vector<Shards> requestsOf(const std::vector<fs::path>& files, const fs::pat
   std::optional<Shards> testing;
   for (const fs::path& file : files) {
     if (stop.stop_requested()) throw Cancelled();
+    requireSamples(file);
     SampleSet set = loadSamples(file, stop);
     requireOf(design, set, file);
     const auto same = std::find_if(requests.begin(), requests.end(), [&](const Shards& request) {

@@ -1,4 +1,4 @@
-#include "app/gui/jobs/SampleGeneration.h"
+#include "app/gui/jobs/samples/SampleGeneration.h"
 
 #include "app/study/paper/PaperProtocol.h"
 #include "app/study/touch/SampleGenerator.h"
@@ -32,6 +32,7 @@ void put(SampleSet& set, const SampleSet& block, std::size_t at) {
 bool SampleGeneration::make(StageLog& stages, const std::stop_token& stop, JobProgress& progress) {
   progress.set(-1, "Meshing and preparing the solver");
   clock_.start();
+  ++runs_;
   left_ = {};
   SampleRequest request;
   if (settings_.touches) {

@@ -1,8 +1,9 @@
-#include "app/gui/network/SamplesWords.h"
+#include "app/gui/network/words/SamplesWords.h"
 
-#include "app/gui/jobs/SampleFiles.h"
 #include "app/gui/jobs/TimeLeft.h"
-#include "app/gui/network/FitWords.h"
+#include "app/gui/jobs/samples/SampleFiles.h"
+#include "app/gui/jobs/samples/SampleTimes.h"
+#include "app/gui/network/words/FitWords.h"
 
 #include <QFileInfo>
 #include <QObject>
@@ -81,9 +82,14 @@ QString samplesWords(const NetworkSession& session) {
   return counts + (samples->file.isEmpty() ? madeWords(*samples) : openedWords(*samples)) + ". " + spanWords(*samples);
 }
 
-QString plannedWords(const SampleSettings& samples, const SensorDesign& design) {
+QString plannedWords(const SampleSettings& samples, const SensorDesign& design, const MeshOptions& mesh) {
   const int count = samples.touches ? samples.touches->count : samples.perArea * design.areas.count();
-  return QObject::tr("Makes %1 samples for training and as many for testing.").arg(count);
+  const QString words = QObject::tr("Makes %1 samples for training and as many for testing").arg(count);
+  const auto time = sampleTime(samples, design, mesh);
+  if (!time) return words + QObject::tr("; its time on this mesh is not known yet.");
+  return words + (time->measuredHere ? QObject::tr(", in about %1, by the last ones here.")
+                                     : QObject::tr(", in about %1; not yet done here."))
+                     .arg(roughly(time->seconds));
 }
 
 } // namespace palp

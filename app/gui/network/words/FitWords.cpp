@@ -1,8 +1,8 @@
-#include "app/gui/network/FitWords.h"
+#include "app/gui/network/words/FitWords.h"
 
 #include "app/gui/network/NetworkTables.h"
+#include "app/gui/network/words/ErrorWords.h"
 #include "app/gui/project/ProjectChange.h"
-#include "app/study/reports/map/TouchBound.h"
 
 #include <QFileInfo>
 #include <QObject>
@@ -234,121 +234,6 @@ bool sweepAndTrialsAgree(const NetworkSession& session) {
   return sweep == trials;
 }
 
-namespace {
-
-/// A cell of the table of errors, which stands at the right.
-QString cell(const QString& text) {
-  return "<td align=\"right\" style=\"padding-left: 14px\">" + text + "</td>";
-}
-
-/// A column of three numbers below its head.
-struct Column {
-  QString head;
-  Eigen::VectorXd values;
-};
-
-QString inWords(double value) {
-  return std::isfinite(value) ? QString::number(value, 'g', 3) : QString("-");
-}
-
-QString table(const std::vector<Column>& columns, const QString& title) {
-  QString rows = "<tr><td>" + title + "</td>";
-  for (const Column& column : columns) rows += cell(column.head);
-  rows += "</tr>";
-  for (int d = 0; d < 3; ++d) {
-    rows += QString("<tr><td>F%1</td>").arg(QLatin1Char("xyz"[d]));
-    for (const Column& column : columns)
-      rows += cell(d < column.values.size() ? inWords(column.values[d]) : QString("..."));
-    rows += "</tr>";
-  }
-  return "<table cellspacing=\"0\" cellpadding=\"0\">" + rows + "</table>";
-}
-
-/// Less the errors of forces that are 0 in all samples: nobody learned them.
-Eigen::VectorXd ofForces(Eigen::VectorXd errors, const NetworkSession& session) {
-  if (session.samples() == nullptr) return errors;
-  const Eigen::MatrixXd &trained = session.samples()->training.forces_N, &tested = session.samples()->test.forces_N;
-  for (Eigen::Index k = 0; k < std::min(errors.size(), trained.rows()); ++k)
-    if (trained.rows() == errors.size() && (trained.row(k).array() == 0).all() && (tested.row(k).array() == 0).all())
-      errors(k) = NAN;
-  return errors;
-}
-
-/// The errors of the network that is shown, beside the bound and the network that was shown before it.
-std::vector<Column> columns(const NetworkSession& session, const NetworkFit& fit, const NoiseBound* bound) {
-  const PredictionError& error = fit.error.error;
-  std::vector<Column> all{{tr("Eq. (13) [%]"), error.eq13Percent},
-                          {tr("floored at 0.05 N [%]"), error.eq13FlooredPercent},
-                          {tr("mean [N]"), error.meanAbsolute},
-                          {tr("RMSE [% of range]"), error.rmsePercentOfRange}};
-  if (fit.settings.testNoise > 0 && session.fitIsCurrent() && !session.samples()->training.hasPlaces())
-    all.push_back(
-        {tr("Cramer-Rao bound [% of range]"), bound != nullptr ? bound->withPriorPercent : Eigen::VectorXd()});
-  const auto& kept = session.kept();
-  if (session.before() != nullptr && !kept.empty() && kept.front()->made == fit.made)
-    all.push_back({tr("RMSE before [% of range]"), session.before()->error.error.rmsePercentOfRange});
-  if (session.fitIsCurrent())
-    for (Column& column : all) column.values = ofForces(std::move(column.values), session);
-  return all;
-}
-
-QString placeWords(const NetworkFit& fit) {
-  if (!fit.error.place) return {};
-  return tr(" Its places are %1 mm off in the median, %2 and %3 mm (RMS) along x and y.")
-      .arg(fit.error.place->median_mm, 0, 'g', 3)
-      .arg(fit.error.place->rms_mm.x(), 0, 'g', 3)
-      .arg(fit.error.place->rms_mm.y(), 0, 'g', 3);
-}
-
-/// The errors of a network of force and place beside what none can beat.
-QString boundWords(const NetworkSession& session, const NetworkFit& fit, const SampleBounds* touches) {
-  if (touches == nullptr || touches->known.empty() || !fit.error.place || !session.fitIsCurrent()) return {};
-  const SampleSet& test = session.samples()->test;
-  const auto words = [&](const QString& who, const std::vector<TouchDeviations>& bounds) {
-    const ErrorsOverBounds over = errorsOverBounds(bounds, fit.prediction.forces_N - test.forces_N,
-                                                   fit.prediction.places_mm - test.touchedPlaces_mm());
-    return tr(" Bounds (Cramer-Rao, %1, medians): Fz %2 N, place %3 mm; its errors are %4 and %5 times that.")
-        .arg(who)
-        .arg(over.force_N, 0, 'g', 3)
-        .arg(over.place_mm, 0, 'g', 3)
-        .arg(over.forceRatio, 0, 'g', 3)
-        .arg(over.placeRatio, 0, 'g', 3);
-  };
-  if (touches->sizeUnknown.empty()) return words(tr("indenter known"), touches->known);
-  return words(tr("indenter known"), touches->known) + words(tr("indenter's size unknown"), touches->sizeUnknown);
-}
-
-/// What a result calls for.
-QString adviceWords(const NetworkSession& session, const NetworkFit& fit) {
-  constexpr double kKnowingNothing_percent = 28.9; // of the range: a uniform density's deviation, 1 / sqrt(12)
-  if (!session.fitIsCurrent()) return {};
-  if (fit.settings.testNoise == 0 && !session.samples()->training.hasPlaces())
-    return (fit.settings.mode == DecoderMode::Paper
-                ? tr(" The paper does not say how it scaled its inputs, so that its spreads are not ours: its smallest "
-                     "errors compare, places on the axis do not.")
-                : QString()) +
-           tr(" A noise of the test puts the noise bound (Cramer-Rao) beside the errors.");
-  if (fit.settings.noise < fit.settings.testNoise &&
-      fit.error.error.rmsePercentOfRange.maxCoeff() > kKnowingNothing_percent)
-    return tr(
-        " Worse than knowing nothing (28.9 % of range): the noise drowns it. Train it with the noise of the test.");
-  return {};
-}
-
-} // namespace
-
-namespace {
-
-/// What palp train warns of on the command line.
-QString warningWords(const NetworkFit& fit) {
-  QString words;
-  for (const std::string& warning : fit.decoder.report.warnings)
-    words += "<div>" + tr("Warning: %1.").arg(QString::fromStdString(warning).toHtmlEscaped()) + "</div>";
-  return words;
-}
-
-} // namespace
-
 QString fitWords(const NetworkSession& session, const NetworkSettings& now, const NoiseBound* bound,
                  const SampleBounds* touches) {
   const NetworkFit* fit = session.fit();
@@ -369,10 +254,11 @@ QString fitWords(const NetworkSession& session, const NetworkSettings& now, cons
   const bool current = reason.isEmpty();
   const bool ofTouches = session.samples() != nullptr && session.samples()->test.hasTouches();
   const QString title = ofTouches ? tr("Test error, all touches") : tr("Test error, all areas");
-  const QString errors = table(columns(session, *fit, bound), current ? "<b>" + title + "</b>" : title);
+  const QString errors = errorTable(session, *fit, bound, current ? "<b>" + title + "</b>" : title);
   const QString words = "<div>" + (current ? rest : "<i>" + reason.toHtmlEscaped() + "</i> " + rest) + "</div>";
-  if (current) return errors + warningWords(*fit) + words; // what is wrong is seen first
-  return "<div style=\"color: #808890\">" + errors + words + "</div>" + warningWords(*fit);
+  const QString warnings = guessWords(session, *fit) + warningWords(*fit);
+  if (current) return errors + warnings + words; // what is wrong is seen first
+  return "<div style=\"color: #808890\">" + errors + words + "</div>" + warnings;
 }
 
 } // namespace palp

@@ -20,6 +20,9 @@ public:
     return settings_ == settings && mesh_ == mesh;
   }
   [[nodiscard]] const SensorDesign& design() const { return design_; }
+  [[nodiscard]] const SampleSettings& settings() const { return settings_; }
+  [[nodiscard]] const MeshOptions& mesh() const { return mesh_; }
+  [[nodiscard]] bool inOneRun() const { return runs_ == 1; }
   /// Makes what is missing; false where it was stopped.
   bool make(StageLog& stages, const std::stop_token& stop, JobProgress& progress);
   /// Hands all of them over.
@@ -44,6 +47,7 @@ private:
   TimeLeft left_;
   double fitsBegun_s_ = 0; ///< of the surrogates
   double took_s_ = 0;      ///< all runs together
+  int runs_ = 0;
 };
 
 } // namespace palp

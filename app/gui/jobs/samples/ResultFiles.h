@@ -18,14 +18,15 @@ void tryOn(NetworkFit& fit, const NetworkSamples& samples, const std::stop_token
 /// The decoder tried on the test samples, without noise. Throws Error where it does not fit them.
 std::shared_ptr<const NetworkFit> triedOn(Decoder decoder, const NetworkSamples& samples);
 
-/// The files of a folder that hold what is there now: samples.csv, samples-test.csv and network.json.
+/// The files of a folder that hold what is there now: samples.csv, samples-test.csv, network.json and
+/// sweeps.json.
 std::set<std::filesystem::path> resultFiles(const std::filesystem::path& folder);
 
-/// Samples and networks of a design in a folder of their own, which is made: resultFiles() and, in networks, those that
-/// can be gone back to, each with the settings it was trained with. All of it or, where it cannot be written, nothing
-/// of what was there is touched. Networks leave the folder only where they were taken away, and of resultFiles() only
-/// `ours` are replaced, whose content is held or was written before: others that hold something else are kept under
-/// the name of this moment. Returns a sentence for each of them. Throws Error.
+/// Samples, networks, sweep and comparison of a design in a folder of their own, which is made: resultFiles() and, in
+/// networks, those that can be gone back to, each with the settings it was trained with. All of it or, where it cannot
+/// be written, nothing of what was there is touched. Networks leave the folder only where they were taken away, and of
+/// resultFiles() only `ours` are replaced, whose content is held or was written before: others that hold something else
+/// are kept under the name of this moment. Returns a sentence for each of them. Throws Error.
 std::vector<std::string> saveResults(const std::filesystem::path& folder, const NetworkResults& results,
                                      const std::set<std::filesystem::path>& ours);
 

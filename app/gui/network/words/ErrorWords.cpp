@@ -1,0 +1,185 @@
+#include "app/gui/network/words/ErrorWords.h"
+
+#include <QObject>
+#include <QStringList>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace palp {
+
+namespace {
+
+constexpr double kClearly = 1.01; ///< what the words' digits tell apart
+
+/// A cell of the table of errors, which stands at the right.
+QString cell(const QString& text) {
+  return "<td align=\"right\" style=\"padding-left: 14px\">" + text + "</td>";
+}
+
+/// A column of numbers below its head: of Fx, Fy, Fz, and of x and y where places were learned.
+struct Column {
+  QString head;
+  Eigen::VectorXd forces;
+  Eigen::VectorXd places; ///< empty: it says nothing of them
+  QString placeUnit;      ///< where it is another one than the head's
+};
+
+QString inWords(double value) {
+  return std::isfinite(value) ? QString::number(value, 'g', 3) : QString("-");
+}
+
+QString table(const std::vector<Column>& columns, const QString& title, bool places) {
+  QString rows = "<tr><td>" + title + "</td>";
+  for (const Column& column : columns) rows += cell(column.head);
+  rows += "</tr>";
+  for (int d = 0; d < 3; ++d) {
+    rows += QString("<tr><td>F%1</td>").arg(QLatin1Char("xyz"[d]));
+    for (const Column& column : columns)
+      rows += cell(d < column.forces.size() ? inWords(column.forces[d]) : QString("..."));
+    rows += "</tr>";
+  }
+  for (int d = 0; places && d < 2; ++d) {
+    rows += QObject::tr("<tr><td>place %1</td>").arg(QLatin1Char("xy"[d]));
+    for (const Column& column : columns)
+      rows += cell(d < column.places.size() ? inWords(column.places[d]) + column.placeUnit : QString("-"));
+    rows += "</tr>";
+  }
+  return "<table cellspacing=\"0\" cellpadding=\"0\">" + rows + "</table>";
+}
+
+Eigen::VectorXd rootMeanSquare(const Eigen::MatrixXd& off) {
+  return off.array().square().rowwise().mean().sqrt();
+}
+
+Eigen::VectorXd extent(const Eigen::MatrixXd& values) {
+  return values.rowwise().maxCoeff() - values.rowwise().minCoeff();
+}
+
+/// Places that were learned, on samples that are there.
+bool ofPlaces(const NetworkSession& session, const NetworkFit& fit) {
+  return fit.error.place && session.fitIsCurrent() && fit.prediction.places_mm.cols() == session.samples()->test.size();
+}
+
+} // namespace
+
+Eigen::VectorXd ofForces(Eigen::VectorXd errors, const NetworkSamples* samples) {
+  if (samples == nullptr) return errors;
+  const Eigen::MatrixXd &trained = samples->training.forces_N, &tested = samples->test.forces_N;
+  for (Eigen::Index k = 0; k < std::min(errors.size(), trained.rows()); ++k)
+    if (trained.rows() == errors.size() && (trained.row(k).array() == 0).all() && (tested.row(k).array() == 0).all())
+      errors(k) = NAN;
+  return errors;
+}
+
+QString errorTable(const NetworkSession& session, const NetworkFit& fit, const NoiseBound* bound,
+                   const QString& title) {
+  const PredictionError& error = fit.error.error;
+  std::vector<Column> all{{QObject::tr("Eq. (13) [%]"), error.eq13Percent, {}, {}},
+                          {QObject::tr("floored at 0.05 N [%]"), error.eq13FlooredPercent, {}, {}},
+                          {QObject::tr("mean [N]"), error.meanAbsolute, {}, {}},
+                          {QObject::tr("RMSE [% of range]"), error.rmsePercentOfRange, {}, {}}};
+  const bool places = ofPlaces(session, fit);
+  if (places) {
+    const SampleSet& test = session.samples()->test;
+    const Eigen::MatrixXd off_mm = fit.prediction.places_mm - test.touchedPlaces_mm();
+    all[2].places = off_mm.cwiseAbs().rowwise().mean();
+    all[2].placeUnit = QObject::tr(" mm");
+    const Eigen::ArrayXd range_mm = extent(session.samples()->training.touchedPlaces_mm());
+    all[3].places = 100 * rootMeanSquare(off_mm).array() / range_mm;
+  }
+  if (fit.settings.testNoise > 0 && session.fitIsCurrent() && !session.samples()->training.hasPlaces())
+    all.push_back({QObject::tr("Cramer-Rao bound [% of range]"),
+                   bound != nullptr ? bound->withPriorPercent : Eigen::VectorXd(),
+                   {},
+                   {}});
+  const auto& kept = session.kept();
+  if (session.before() != nullptr && !kept.empty() && kept.front()->made == fit.made)
+    all.push_back({QObject::tr("RMSE before [% of range]"), session.before()->error.error.rmsePercentOfRange, {}, {}});
+  if (session.fitIsCurrent())
+    for (Column& column : all) column.forces = ofForces(std::move(column.forces), session.samples());
+  return table(all, title, places);
+}
+
+std::array<RootMeanSquares, 2> againstAGuess(const NetworkSamples& samples, const NetworkFit& fit) {
+  std::array<RootMeanSquares, 2> both;
+  const auto add = [&](Eigen::VectorXd RootMeanSquares::*part, const Eigen::MatrixXd& trained,
+                       const Eigen::MatrixXd& tested, const Eigen::MatrixXd& predicted) {
+    if (predicted.rows() != tested.rows() || predicted.cols() != tested.cols()) return;
+    both[0].*part = rootMeanSquare(predicted - tested);
+    both[1].*part = rootMeanSquare(tested.colwise() - trained.rowwise().mean());
+  };
+  add(&RootMeanSquares::forces_N, samples.training.forces_N, samples.test.forces_N, fit.prediction.forces_N);
+  if (fit.error.place && samples.test.hasPlaces())
+    add(&RootMeanSquares::places_mm, samples.training.touchedPlaces_mm(), samples.test.touchedPlaces_mm(),
+        fit.prediction.places_mm);
+  return both;
+}
+
+QString guessWords(const NetworkSession& session, const NetworkFit& fit) {
+  if (!session.fitIsCurrent()) return {};
+  const auto [its, guess] = againstAGuess(*session.samples(), fit);
+  QStringList worse;
+  const auto compare = [&worse](const QString& what, double ours, double guessed, const QString& unit) {
+    if (guessed > 0 && ours > kClearly * guessed)
+      worse << QObject::tr("%1 %3 %4 in place of %2 %4").arg(what, inWords(guessed), inWords(ours), unit);
+  };
+  for (Eigen::Index k = 0; k < std::min<Eigen::Index>(3, its.forces_N.size()); ++k)
+    compare(QString("F%1").arg(QLatin1Char("xyz"[k])), its.forces_N(k), guess.forces_N(k), "N");
+  for (Eigen::Index k = 0; k < its.places_mm.size(); ++k)
+    compare(QObject::tr("place %1").arg(QLatin1Char("xy"[k])), its.places_mm(k), guess.places_mm(k), "mm");
+  if (worse.isEmpty()) return {};
+  const bool noise = fit.settings.noise < fit.settings.testNoise;
+  return "<div>" +
+         QObject::tr("Warning: worse than knowing nothing, which is to say the mean of the training samples always "
+                     "(RMSE): %1.")
+             .arg(worse.join(", ")) +
+         (noise ? QObject::tr(" The noise drowns it: train it with the noise of the test.")
+                : QObject::tr(" More samples, all row-wires or another decoder may help.")) +
+         "</div>";
+}
+
+QString placeWords(const NetworkFit& fit) {
+  if (!fit.error.place) return {};
+  return QObject::tr(" Its places are %1 mm off in the median, %2 and %3 mm (RMS) along x and y.")
+      .arg(fit.error.place->median_mm, 0, 'g', 3)
+      .arg(fit.error.place->rms_mm.x(), 0, 'g', 3)
+      .arg(fit.error.place->rms_mm.y(), 0, 'g', 3);
+}
+
+QString boundWords(const NetworkSession& session, const NetworkFit& fit, const SampleBounds* touches) {
+  if (touches == nullptr || touches->known.empty() || !fit.error.place || !session.fitIsCurrent()) return {};
+  const SampleSet& test = session.samples()->test;
+  const auto words = [&](const QString& who, const std::vector<TouchDeviations>& bounds) {
+    const ErrorsOverBounds over = errorsOverBounds(bounds, fit.prediction.forces_N - test.forces_N,
+                                                   fit.prediction.places_mm - test.touchedPlaces_mm());
+    return QObject::tr(" Bounds (Cramer-Rao, %1, medians): Fz %2 N, place %3 mm; its errors are %4 and %5 times that.")
+        .arg(who)
+        .arg(over.force_N, 0, 'g', 3)
+        .arg(over.place_mm, 0, 'g', 3)
+        .arg(over.forceRatio, 0, 'g', 3)
+        .arg(over.placeRatio, 0, 'g', 3);
+  };
+  const QString known = words(QObject::tr("indenter known"), touches->known);
+  if (touches->sizeUnknown.empty()) return known;
+  return known + words(QObject::tr("indenter's size unknown"), touches->sizeUnknown);
+}
+
+QString adviceWords(const NetworkSession& session, const NetworkFit& fit) {
+  if (!session.fitIsCurrent() || fit.settings.testNoise > 0 || session.samples()->training.hasPlaces()) return {};
+  const QString paper = QObject::tr(
+      " The paper does not say how it scaled its inputs, so that its spreads are not ours: its smallest errors "
+      "compare, places on the axis do not.");
+  return (fit.settings.mode == DecoderMode::Paper ? paper : QString()) +
+         QObject::tr(" A noise of the test puts the noise bound (Cramer-Rao) beside the errors.");
+}
+
+QString warningWords(const NetworkFit& fit) {
+  QString words;
+  for (const std::string& warning : fit.decoder.report.warnings)
+    words += "<div>" + QObject::tr("Warning: %1.").arg(QString::fromStdString(warning).toHtmlEscaped()) + "</div>";
+  return words;
+}
+
+} // namespace palp

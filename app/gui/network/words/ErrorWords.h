@@ -1,0 +1,42 @@
+#pragma once
+
+#include "app/gui/jobs/NetworkSession.h"
+
+#include "app/study/decoding/NoiseBound.h"
+#include "app/study/reports/map/TouchBound.h"
+
+#include <QString>
+
+#include <array>
+
+namespace palp {
+
+/// The errors of each force and, where places were learned, along x and y, as a table of rich text: beside the bound of
+/// the same noise (null: not known yet) and the network that was shown before. "-" where there is nothing to learn.
+QString errorTable(const NetworkSession& session, const NetworkFit& fit, const NoiseBound* bound, const QString& title);
+
+/// Less the errors of forces that are 0 in all samples: nobody learned them.
+Eigen::VectorXd ofForces(Eigen::VectorXd errors, const NetworkSamples* samples);
+
+/// Root mean square errors of forces [N] and places [mm] on the test samples; empty where there are none.
+struct RootMeanSquares {
+  Eigen::VectorXd forces_N, places_mm;
+};
+/// {of the network, of a guess that says the mean of the training samples always}.
+std::array<RootMeanSquares, 2> againstAGuess(const NetworkSamples& samples, const NetworkFit& fit);
+
+/// What the network knows less of than such a guess, as a line of rich text; empty where that is nothing.
+QString guessWords(const NetworkSession& session, const NetworkFit& fit);
+
+QString placeWords(const NetworkFit& fit);
+
+/// The errors of a network of force and place beside what none can beat.
+QString boundWords(const NetworkSession& session, const NetworkFit& fit, const SampleBounds* touches);
+
+/// What a result calls for.
+QString adviceWords(const NetworkSession& session, const NetworkFit& fit);
+
+/// What palp train warns of on the command line, a line each.
+QString warningWords(const NetworkFit& fit);
+
+} // namespace palp
