@@ -204,13 +204,20 @@ using FourUnaligned __attribute__((vector_size(32), aligned(8), may_alias)) = do
 PALP_INLINE Four loadFour(const double* from) {
   return *reinterpret_cast<const FourUnaligned*>(from);
 }
+/// Single precision, made double.
+PALP_INLINE Four loadFour(const float* from) {
+  using FourFloats = float __attribute__((vector_size(16)));
+  using FourFloatsUnaligned __attribute__((vector_size(16), aligned(4), may_alias)) = float;
+  const FourFloats four = *reinterpret_cast<const FourFloatsUnaligned*>(from);
+  return __builtin_convertvector(four, Four);
+}
 PALP_INLINE void addFour(double* to, Four value) {
   *reinterpret_cast<FourUnaligned*>(to) = loadFour(to) + value;
 }
 
 /// Eight rows at once: sums that do not wait for each other.
-template <std::size_t Outputs>
-PALP_INLINE void addColumnsTo(const double* columns, std::size_t rows, std::size_t count, const double* shares,
+template <std::size_t Outputs, class Number>
+PALP_INLINE void addColumnsTo(const Number* columns, std::size_t rows, std::size_t count, const double* shares,
                               double* results) {
   std::size_t i = 0;
   for (; i + 8 <= rows; i += 8) {
@@ -232,7 +239,7 @@ PALP_INLINE void addColumnsTo(const double* columns, std::size_t rows, std::size
   for (; i < rows; ++i)
     for (std::size_t o = 0; o < Outputs; ++o) {
       double total = 0;
-      for (std::size_t c = 0; c < count; ++c) total += columns[c * rows + i] * shares[o * count + c];
+      for (std::size_t c = 0; c < count; ++c) total += static_cast<double>(columns[c * rows + i]) * shares[o * count + c];
       results[o * rows + i] += total;
     }
 }
@@ -240,6 +247,14 @@ PALP_INLINE void addColumnsTo(const double* columns, std::size_t rows, std::size
 } // namespace
 
 PALP_MANY_MACHINES void addColumns(const double* columns, std::size_t rows, std::size_t count, const double* shares,
+                                   std::size_t outputs, double* results) {
+  std::size_t o = 0;
+  for (; o + 5 <= outputs; o += 5) addColumnsTo<5>(columns, rows, count, shares + o * count, results + o * rows);
+  for (; o + 3 <= outputs; o += 3) addColumnsTo<3>(columns, rows, count, shares + o * count, results + o * rows);
+  for (; o < outputs; ++o) addColumnsTo<1>(columns, rows, count, shares + o * count, results + o * rows);
+}
+
+PALP_MANY_MACHINES void addColumns(const float* columns, std::size_t rows, std::size_t count, const double* shares,
                                    std::size_t outputs, double* results) {
   std::size_t o = 0;
   for (; o + 5 <= outputs; o += 5) addColumnsTo<5>(columns, rows, count, shares + o * count, results + o * rows);

@@ -19,11 +19,11 @@ constexpr double kLeastStrength = 0.02, kMostStrength = 50; // times that of the
 
 } // namespace
 
-void KernelForwardModel::evaluate(const Eigen::Ref<const Eigen::VectorXd>& scaled, Eigen::VectorXd& value,
-                                  Eigen::MatrixXd& slope) const {
-  if (table.inputs() > 0) return table.evaluate(scaled, value, slope);
-  value = network.predict(scaled);
-  slope = network.jacobian(scaled);
+void KernelInversion::evaluate(const Eigen::Ref<const Eigen::VectorXd>& scaled, Eigen::VectorXd& value,
+                               Eigen::MatrixXd& slope) const {
+  if (model_.table.inputs() > 0) return table_.evaluate(scaled, value, slope);
+  value = model_.network.predict(scaled);
+  slope = model_.network.jacobian(scaled);
 }
 
 struct KernelInversion::Trial {
@@ -35,7 +35,7 @@ struct KernelInversion::Trial {
 };
 
 KernelInversion::KernelInversion(const KernelForwardModel& model)
-    : model_(model), weight_(model.deviation.cwiseInverse()), weighted_(weight_.asDiagonal() * model.projection) {
+    : model_(model), table_(model.table), weight_(model.deviation.cwiseInverse()), weighted_(weight_.asDiagonal() * model.projection) {
   for (Eigen::Index k = 0; k < model.causes(); ++k)
     if (model.causeFactor(k) != 0) varied_.push_back(k);
   precision_ = (model.causeFactor.array() * model.causeDeviation.array())(varied_).square().inverse();
@@ -48,7 +48,7 @@ KernelInversion::KernelInversion(const KernelForwardModel& model)
     Eigen::VectorXd value;
     Eigen::MatrixXd slope;
     for (Eigen::Index i = 0; i < starts_.cols(); ++i) {
-      model.evaluate(starts_.col(i), value, slope);
+      evaluate(starts_.col(i), value, slope);
       expected_.col(i) = weight_.cwiseProduct(value) - rest_;
     }
   } else {
@@ -60,7 +60,7 @@ KernelInversion::KernelInversion(const KernelForwardModel& model)
 KernelInversion::Trial KernelInversion::trialAt(Eigen::VectorXd scaled, const Eigen::VectorXd& wanted) const {
   Trial trial;
   trial.scaled = std::move(scaled);
-  model_.evaluate(trial.scaled, trial.left, trial.slope);
+  evaluate(trial.scaled, trial.left, trial.slope);
   trial.left = wanted - weight_.cwiseProduct(trial.left);
   trial.slope = weight_.asDiagonal() * trial.slope;
   trial.cost = trial.left.squaredNorm() + precision_.dot(trial.scaled.cwiseAbs2());

@@ -39,8 +39,6 @@ struct KernelForwardModel {
   [[nodiscard]] Eigen::Index measurements() const { return measurementOffset.size(); }
   [[nodiscard]] Eigen::Index causes() const { return causeOffset.size(); }
   [[nodiscard]] Eigen::Index components() const { return deviation.size(); }
-  /// Components and their derivatives by the scaled causes.
-  void evaluate(const Eigen::Ref<const Eigen::VectorXd>& scaled, Eigen::VectorXd& value, Eigen::MatrixXd& slope) const;
 };
 
 /// A reflection under which the measured body is its own image: where the causes are reflected, the measurements are
@@ -96,11 +94,14 @@ public:
 
 private:
   struct Trial;
+  /// Components and their derivatives by the scaled causes.
+  void evaluate(const Eigen::Ref<const Eigen::VectorXd>& scaled, Eigen::VectorXd& value, Eigen::MatrixXd& slope) const;
   [[nodiscard]] Trial descend(const Eigen::VectorXd& start, const Eigen::VectorXd& wanted) const;
   [[nodiscard]] Trial trialAt(Eigen::VectorXd scaled, const Eigen::VectorXd& wanted) const;
   [[nodiscard]] std::vector<Eigen::VectorXd> startsFor(const Eigen::VectorXd& wanted) const;
 
   const KernelForwardModel& model_;
+  SplineReader table_;
   std::vector<Eigen::Index> varied_;
   Eigen::VectorXd weight_;         ///< 1 / deviation
   Eigen::MatrixXd weighted_;       ///< projection in these units

@@ -51,13 +51,14 @@ Eigen::MatrixXd collocation(int nodes) {
 
 } // namespace
 
-void SplineTable::evaluate(const Eigen::Ref<const Eigen::VectorXd>& input, Eigen::VectorXd& value,
-                           Eigen::MatrixXd& slope) const {
+template <class Number>
+void SplineTable::evaluate(const Number* numbers, double unit, const Eigen::Ref<const Eigen::VectorXd>& input,
+                           Eigen::VectorXd& value, Eigen::MatrixXd& slope) const {
   std::array<SplinesAt, 2> at;
   for (std::size_t axis = 0; axis < 2; ++axis)
     at[axis] = splinesAt(place[axis] < 0 ? low(static_cast<Eigen::Index>(axis)) : input(place[axis]),
                          low(static_cast<Eigen::Index>(axis)), step(static_cast<Eigen::Index>(axis)), nodes[axis]);
-  const Eigen::MatrixXd factors = monomials(input);
+  const Eigen::MatrixXd factors = unit * monomials(input);
   // Each block of coefficients is read once: four splines along the first place stand side by side.
   const Eigen::Index count = terms(), columns = 1 + inputs();
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(outputs(), columns), shares(kSplines * count, columns);
@@ -70,11 +71,24 @@ void SplineTable::evaluate(const Eigen::Ref<const Eigen::VectorXd>& input, Eigen
       if (place[1] >= 0) share.col(1 + place[1]) = dv * at[0].value[ix] * factors.col(0);
     }
     const Eigen::Index node = at[0].first + Eigen::Index(nodes[0]) * (at[1].first + static_cast<Eigen::Index>(iy));
-    kernels::addColumns(coefficients.data() + outputs() * count * node, size(outputs()), size(shares.rows()),
+    kernels::addColumns(numbers + outputs() * count * node, size(outputs()), size(shares.rows()),
                         shares.data(), size(columns), all.data());
   }
   value = rest + all.col(0);
   slope = all.rightCols(inputs());
+}
+
+void SplineTable::evaluate(const Eigen::Ref<const Eigen::VectorXd>& input, Eigen::VectorXd& value,
+                           Eigen::MatrixXd& slope) const {
+  evaluate(coefficients.data(), 1, input, value, slope);
+}
+
+SplineReader::SplineReader(const SplineTable& table)
+    : table_(table), parts_((SplineTable::kParts * table.coefficients).cast<float>()) {}
+
+void SplineReader::evaluate(const Eigen::Ref<const Eigen::VectorXd>& input, Eigen::VectorXd& value,
+                            Eigen::MatrixXd& slope) const {
+  table_.evaluate(parts_.data(), 1 / SplineTable::kParts, input, value, slope);
 }
 
 /// Terms x (1 + inputs): each monomial, and its derivatives by each input.

@@ -36,7 +36,24 @@ struct SplineTable {
   void round() { coefficients = (kParts * coefficients).array().round() / kParts; }
 
 private:
+  friend class SplineReader;
+  template <class Number>
+  void evaluate(const Number* numbers, double unit, const Eigen::Ref<const Eigen::VectorXd>& input,
+                Eigen::VectorXd& value, Eigen::MatrixXd& slope) const;
   [[nodiscard]] Eigen::MatrixXd monomials(const Eigen::Ref<const Eigen::VectorXd>& input) const;
+};
+
+/// The same table to be asked many times: its coefficients as numbers of parts in single precision, which whole parts
+/// below 2^24 are exactly, so that half as much is read. The table must outlive it.
+class SplineReader {
+public:
+  explicit SplineReader(const SplineTable& table);
+  /// As SplineTable::evaluate.
+  void evaluate(const Eigen::Ref<const Eigen::VectorXd>& input, Eigen::VectorXd& value, Eigen::MatrixXd& slope) const;
+
+private:
+  const SplineTable& table_;
+  Eigen::MatrixXf parts_; ///< as SplineTable::coefficients
 };
 
 } // namespace palp

@@ -59,6 +59,8 @@ Document::Document(MainWindow& window, Workbench& workbench, NetworkSession& net
     for (const std::filesystem::path& file : files) names << QString::fromStdString(file.string());
     window_.showMessage(tr("Saved %1.").arg(names.join(tr(" and "))));
   });
+  connect(&network, &NetworkSession::samplesOpened, this,
+          [this] { window_.showMessage(tr("Opened %1.").arg(network_.samples()->file)); });
   connect(&network.writer(), &JobRunner::failed, this, [this](const QString& sentence) {
     auto* box =
         new QMessageBox(QMessageBox::Warning, tr("Cannot save"),

@@ -23,7 +23,7 @@ QString generatingTitle() {
   return QObject::tr("Generating samples");
 }
 
-constexpr std::size_t kPastDesigns = 4; ///< whose results are kept: an edit and some undoing
+constexpr std::size_t kPastResults = 4; ///< that are kept: an edit and some undoing, other samples
 
 NetworkFit fitOn(const NetworkSamples& samples, const SensorDesign& design, const NetworkSettings& settings,
                  const TrainOptions& options, const std::stop_token& stop, JobProgress& progress) {
@@ -86,8 +86,8 @@ void NetworkSession::show(NetworkResults results) {
   results.takenAway.insert(shown_.takenAway.begin(), shown_.takenAway.end());
   if (results.kept.empty() && results.fit) results.kept = {results.fit};
   if (shown_.samples) past_.push_front(std::move(shown_));
-  std::erase_if(past_, [&](const NetworkResults& past) { return past.design == results.design; });
-  while (past_.size() > kPastDesigns) past_.pop_back();
+  std::erase_if(past_, [&](const NetworkResults& past) { return past.samples == results.samples; }); // shown again
+  while (past_.size() > kPastResults) past_.pop_back();
   shown_ = std::move(results);
   emit samplesChanged();
   emit fitChanged();
@@ -281,11 +281,31 @@ void NetworkSession::openSamples(const std::vector<std::filesystem::path>& files
         emit note(tr("%1 holds the samples that are there already: all that was made of them stays.")
                       .arg(results.samples->file));
       else
-        show(results);
+        showOpened(results);
       emit samplesOpened();
     };
   };
   runner_.start(tr("Opening samples"), work);
+}
+
+/// With the network and the sweep that were made of the same samples before, where there are some.
+void NetworkSession::showOpened(NetworkResults results) {
+  const auto before = std::find_if(past_.begin(), past_.end(), [&](const NetworkResults& past) {
+    return past.design == results.design && equal(*past.samples, *results.samples);
+  });
+  const QString file = results.samples->file;
+  const bool known = before != past_.end();
+  if (known) results = NetworkResults(*before);
+  results.kept = shown_.kept; // which has grown since
+  const SampleSettings settings = results.samples->settings;
+  show(std::move(results));
+  if (known) return emit note(tr("%1 holds samples that were here before: what was made of them is back.").arg(file));
+  const auto back = [this, settings] { // the newest that was made from them
+    const auto of = std::find_if(shown_.kept.begin(), shown_.kept.end(),
+                                 [&](const auto& network) { return network->madeFrom == settings; });
+    if (of != shown_.kept.end() && shown_.fit == nullptr) goBackTo(static_cast<std::size_t>(of - shown_.kept.begin()));
+  };
+  QMetaObject::invokeMethod(this, back, Qt::QueuedConnection); // when this job is done
 }
 
 void NetworkSession::openResults(const std::filesystem::path& folder,

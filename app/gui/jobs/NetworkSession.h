@@ -207,11 +207,12 @@ private:
   void dropKept(std::size_t kept);
   /// Shows other results, and keeps those that were shown while there is room.
   void show(NetworkResults results);
+  void showOpened(NetworkResults results);
 
   JobRunner runner_, writer_;
   SensorDesign design_;
   NetworkResults shown_;
-  std::deque<NetworkResults> past_;              ///< of other designs, the newest first
+  std::deque<NetworkResults> past_;              ///< of other designs and samples, the newest first
   std::shared_ptr<SampleGeneration> generation_; ///< written by the job alone while it runs
   std::shared_ptr<Rows> rows_;
   StageLog stages_;

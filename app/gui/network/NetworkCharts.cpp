@@ -127,7 +127,7 @@ ChartSpec sweepErrorChart(const std::vector<SweepPoint>& points, const NetworkFi
       paper.x.push_back(point.spread);
       paper.y.push_back(point.error_percent[d]);
     }
-    paper.legend = d == 0 ? "squares: printed by the paper" : "";
+    if (!points.empty()) paper.legend = d == 0 ? "squares: printed by the paper" : ""; // the curves tell the colours
     spec.series.push_back(std::move(paper));
   }
   if (fit != nullptr && fit->settings.input == input) {

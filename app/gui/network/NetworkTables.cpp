@@ -113,10 +113,10 @@ TableText networksTable(const std::vector<std::shared_ptr<const NetworkFit>>& ne
   const bool places =
       std::any_of(networks.begin(), networks.end(), [](const auto& fit) { return fit->error.place.has_value(); });
   if (places) table.heads << QObject::tr("place, median [mm]");
-  table.heads << QObject::tr("input") << QObject::tr("row-wires") << QObject::tr("decoder") << QObject::tr("noise [%]")
-              << QObject::tr("test noise [%]") << QObject::tr("spread") << QObject::tr("centres")
-              << QObject::tr("ridge") << QObject::tr("scaler") << QObject::tr("seed") << QObject::tr("mode")
-              << QObject::tr("other options") << QObject::tr("samples") << QObject::tr("when") << QObject::tr("file");
+  table.heads << QObject::tr("samples") << QObject::tr("when") << QObject::tr("input") << QObject::tr("row-wires")
+              << QObject::tr("decoder") << QObject::tr("noise [%]") << QObject::tr("test noise [%]")
+              << QObject::tr("spread") << QObject::tr("centres") << QObject::tr("ridge") << QObject::tr("scaler")
+              << QObject::tr("seed") << QObject::tr("mode") << QObject::tr("other options") << QObject::tr("file");
   const auto text = [](const std::string& words) { return QString::fromStdString(words); };
   const auto used = [](double value) { return value > 0 ? QString::number(value, 'g', 4) : QString("-"); };
   for (const auto& fit : networks) {
@@ -125,13 +125,13 @@ TableText networksTable(const std::vector<std::shared_ptr<const NetworkFit>>& ne
     for (const double error : ofForces(fit->error.error.rmsePercentOfRange, samples))
       row << (std::isfinite(error) ? QString::number(error, 'g', 4) : QString("-"));
     if (places) row << (fit->error.place ? QString::number(fit->error.place->median_mm, 'g', 4) : QString("-"));
-    row << text(name(settings.input)) << text(settings.rows) << text(name(settings.decoder))
-        << QString::number(100 * settings.noise, 'g', 4) << QString::number(100 * settings.testNoise, 'g', 4)
-        << used(fit->decoder.report.spread) << used(fit->decoder.report.centers)
-        << (hasRidge(settings.decoder) ? ridgeWords(*fit) : QString("-")) << scalerWords(*fit)
-        << QString::number(settings.seed) << text(name(settings.mode)) << optionsWords(settings)
-        << QObject::tr("%1, seed %2").arg(countWords(fit->madeFrom)).arg(fit->madeFrom.seed)
-        << fit->made.toString("yyyy-MM-dd HH:mm:ss") << QFileInfo(fit->file).fileName();
+    row << QObject::tr("%1, seed %2").arg(countWords(fit->madeFrom)).arg(fit->madeFrom.seed)
+        << fit->made.toString("yyyy-MM-dd HH:mm:ss") << text(name(settings.input)) << text(settings.rows)
+        << text(name(settings.decoder)) << QString::number(100 * settings.noise, 'g', 4)
+        << QString::number(100 * settings.testNoise, 'g', 4) << used(fit->decoder.report.spread)
+        << used(fit->decoder.report.centers) << (hasRidge(settings.decoder) ? ridgeWords(*fit) : QString("-"))
+        << scalerWords(*fit) << QString::number(settings.seed) << text(name(settings.mode)) << optionsWords(settings)
+        << QFileInfo(fit->file).fileName();
     table.rows.push_back(std::move(row));
   }
   return table;

@@ -45,6 +45,21 @@ TEST(SplineTable, IsExactForCubics) {
   }
 }
 
+TEST(SplineReader, SaysWhatTheRoundedTableSays) {
+  SplineTable table = cubic();
+  table.coefficients *= 1000; // parts beyond 65536, too
+  table.round();
+  const SplineReader reader(table);
+  Eigen::VectorXd value, same;
+  Eigen::MatrixXd slope, sameSlope;
+  for (const auto& [a, x, b, y] : {std::array{0.3, 0.12, -0.7, 1.1}, {-1.0, -0.5, 0.5, 0.4}, {0.0, 2.4, 1.5, 1.95}}) {
+    table.evaluate(Eigen::Vector4d(a, x, b, y), value, slope);
+    reader.evaluate(Eigen::Vector4d(a, x, b, y), same, sameSlope);
+    EXPECT_LT((value - same).norm(), 1e-13 * value.norm());
+    EXPECT_LT((slope - sameSlope).norm(), 1e-12 * slope.norm());
+  }
+}
+
 TEST(SplineTable, StaysAsAtItsEdgeBeyondIt) {
   const SplineTable table = cubic();
   Eigen::VectorXd edge, beyond;

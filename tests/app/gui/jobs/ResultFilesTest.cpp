@@ -310,5 +310,43 @@ TEST_F(ResultFilesTest, SamplesSplitForATestOpenAgain) {
   EXPECT_EQ(found.results.samples->test.forces_N, results.samples->test.forces_N);
 }
 
+TEST_F(ResultFilesTest, SamplesThatWereHereBeforeBringBackWhatWasMadeOfThem) {
+  const Project project = quickProject();
+  NetworkSession session;
+  session.setDesign(project.design);
+  const fs::path file = folder() / "samples.csv";
+  const auto opens = [&] {
+    const NetworkSamples* before = session.samples();
+    session.openSamples({file});
+    ASSERT_TRUE(QTest::qWaitFor([&] { return session.samples() != before && !session.working(); }, kPatience_ms));
+  };
+  opens();
+  EXPECT_EQ(session.fit(), nullptr) << "nothing was made of them here";
+  session.train(project.network);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return session.fit() != nullptr && !session.working(); }, kPatience_ms));
+  NetworkSettings swept = project.network;
+  swept.sweepCount = 3;
+  session.sweep(swept);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return session.sweepPoints().size() == 3 && !session.working(); }, kPatience_ms));
+  const NetworkFit* trained = session.fit();
+
+  SampleSettings others = project.samples;
+  others.seed = 77;
+  const NetworkSamples* first = session.samples();
+  session.generate(others, project.mesh);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return session.samples() != first && !session.working(); }, kPatience_ms));
+  EXPECT_EQ(session.fit(), nullptr);
+  session.train(project.network);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return session.fit() != nullptr && !session.working(); }, kPatience_ms));
+  QString said;
+  QObject::connect(&session, &NetworkSession::note, [&](const QString& sentence) { said = sentence; });
+  opens();
+  EXPECT_EQ(session.fit(), trained);
+  EXPECT_TRUE(session.fitIsCurrent());
+  EXPECT_EQ(session.sweepPoints().size(), 3u);
+  EXPECT_EQ(session.kept().size(), 2u) << "the list has both";
+  EXPECT_TRUE(said.contains("were here before")) << said.toStdString();
+}
+
 } // namespace
 } // namespace palp

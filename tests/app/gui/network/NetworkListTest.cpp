@@ -191,7 +191,7 @@ TEST_F(NetworkList, ANetworkIsNamedInTheList) {
   QTest::keyClick(&field, Qt::Key_Return);
   EXPECT_EQ(list.item(0, 0)->text(), "the first, clean");
   EXPECT_TRUE(find<QLabel>("fitWords").text().contains("the first, clean"));
-  EXPECT_EQ(list.item(0, 6)->text(), "rbf") << list.csv().toStdString();
+  EXPECT_EQ(list.item(0, 8)->text(), "rbf") << list.csv().toStdString();
   EXPECT_TRUE(list.item(0, 1)->font().bold());
   EXPECT_TRUE(window.isWindowModified()) << "the name is part of the work";
 }
