@@ -36,6 +36,22 @@ template <class Value, class Names> void choose(QComboBox& box, const std::optio
     box.setCurrentIndex(0);
 }
 
+/// A number from 0, or an empty field, which a QDoubleValidator takes for one that is not finished yet. What is left
+/// unfinished goes back to what was shown.
+class NumberOrNothing : public QDoubleValidator {
+public:
+  NumberOrNothing(const QString& shown, QObject* parent) : QDoubleValidator(0, 1e100, 12, parent), shown_(shown) {
+    setLocale(QLocale::c());
+  }
+  State validate(QString& input, int& position) const override {
+    return input.isEmpty() ? Acceptable : QDoubleValidator::validate(input, position);
+  }
+  void fixup(QString& input) const override { input = shown_; }
+
+private:
+  const QString& shown_;
+};
+
 } // namespace
 
 AdvancedOptions::AdvancedOptions(QWidget* parent) : QWidget(parent) {
@@ -59,9 +75,7 @@ AdvancedOptions::AdvancedOptions(QWidget* parent) : QWidget(parent) {
   ridge_->setObjectName("ridge");
   ridge_->setPlaceholderText(tr("as the mode says"));
   ridge_->setToolTip(tr("Ridge of the system, 0 or above; empty: 0, or by leave-one-out where there is noise"));
-  auto* allowed = new QDoubleValidator(0, 1e100, 12, ridge_);
-  allowed->setLocale(QLocale::c());
-  ridge_->setValidator(allowed);
+  ridge_->setValidator(new NumberOrNothing(ridgeShown_, ridge_));
   form->addRow(tr("Ridge"), ridge_);
   scaler_ = choice(*form, tr("Scaler"), "scaler", tr("How the inputs are scaled before the spread acts on them"),
                    namesOf(kScalings));
@@ -162,7 +176,8 @@ void AdvancedOptions::display(const NetworkSettings& network) {
   choose(*convention_, network.convention, kSpreadConventions);
   choose(*centersBy_, network.centerChoice, kCenterChoices);
   allCenters_->setChecked(network.allCenters);
-  ridge_->setText(network.ridge ? QString::fromStdString(text(*network.ridge)) : QString());
+  ridgeShown_ = network.ridge ? QString::fromStdString(text(*network.ridge)) : QString();
+  ridge_->setText(ridgeShown_);
   seed_->setValue(static_cast<int>(network.seed));
   showExactly(*forgetting_, network.forgetting);
   displaying_ = false;

@@ -46,6 +46,7 @@ private:
   QComboBox* convention_ = nullptr;
   QComboBox* centersBy_ = nullptr;
   QCheckBox* allCenters_ = nullptr;
+  QString ridgeShown_;
   QLineEdit* ridge_ = nullptr;
   QSpinBox* seed_ = nullptr;
   QDoubleSpinBox* forgetting_ = nullptr;

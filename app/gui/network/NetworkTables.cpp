@@ -106,7 +106,7 @@ TableText trialsTable(const std::vector<DecoderTrial>& trials, const NoiseBound*
   return table;
 }
 
-TableText networksTable(const std::vector<std::shared_ptr<const NetworkFit>>& networks, const NetworkSamples* samples) {
+TableText networksTable(const std::vector<std::shared_ptr<const NetworkFit>>& networks) {
   TableText table;
   table.heads << QObject::tr("name");
   addHeads(table.heads, QObject::tr("[%]"));
@@ -122,7 +122,7 @@ TableText networksTable(const std::vector<std::shared_ptr<const NetworkFit>>& ne
   for (const auto& fit : networks) {
     const NetworkSettings& settings = fit->settings;
     QStringList row{fit->name};
-    for (const double error : ofForces(fit->error.error.rmsePercentOfRange, samples))
+    for (const double error : ofForces(fit->error.error.rmsePercentOfRange, fit->decoder))
       row << (std::isfinite(error) ? QString::number(error, 'g', 4) : QString("-"));
     if (places) row << (fit->error.place ? QString::number(fit->error.place->median_mm, 'g', 4) : QString("-"));
     row << QObject::tr("%1, seed %2").arg(countWords(fit->madeFrom)).arg(fit->madeFrom.seed)

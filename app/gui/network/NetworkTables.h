@@ -20,7 +20,7 @@ TableText sweepTable(const std::vector<SweepPoint>& points);
 /// The comparison, one decoder a row, and below them what none can beat; null: not known.
 TableText trialsTable(const std::vector<DecoderTrial>& trials, const NoiseBound* bound, Eigen::Index testSamples);
 /// Trained networks with their errors and settings, one a row.
-TableText networksTable(const std::vector<std::shared_ptr<const NetworkFit>>& networks, const NetworkSamples* samples);
+TableText networksTable(const std::vector<std::shared_ptr<const NetworkFit>>& networks);
 /// The decoder of the smallest error (root mean square); none where none was trained.
 std::optional<std::size_t> bestTrial(const std::vector<DecoderTrial>& trials);
 /// A decoder's short name in whole words.

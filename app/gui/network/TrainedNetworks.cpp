@@ -119,7 +119,7 @@ void TrainedNetworks::display(const NetworkSession& session) {
     shown_.emplace_back(fit->made, fit->name);
   }
   return_->setEnabled(session.canBringBack());
-  const TableText table = networksTable(session.kept(), session.upToDate() ? session.samples() : nullptr);
+  const TableText table = networksTable(session.kept());
   list_->show(table.heads, table.rows);
   const bool old = !session.upToDate();
   for (int row = 0; row < list_->rowCount(); ++row) {

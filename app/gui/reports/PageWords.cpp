@@ -24,6 +24,7 @@ void PageWords::show(const QString& page) {
   for (const auto& [kind, colour] :
        {std::pair{"good", "#301a7f37"}, std::pair{"doubtful", "#40d4a72c"}, std::pair{"bad", "#30cf222e"}})
     html.replace(QString("<tr class=\"%1\">").arg(kind), QString("<tr bgcolor=\"%1\">").arg(colour)); // as on the page
+  html.replace("<figcaption>", "<p>").replace("</figcaption>", "</p>");
   html.replace("<table>", "<table border=\"1\" cellspacing=\"0\" cellpadding=\"4\">");
   setHtml(html);
 }

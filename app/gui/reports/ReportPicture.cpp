@@ -57,6 +57,7 @@ void ReportPicture::say(const QString& text) {
   label_->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
   label_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
   label_->setTextFormat(Qt::PlainText);
+  label_->setWordWrap(true);
   label_->setText(text);
 }
 
@@ -64,6 +65,7 @@ void ReportPicture::clear() {
   picture_ = {};
   file_.clear();
   label_->setFont(font());
+  label_->setWordWrap(false);
   label_->setAlignment(Qt::AlignCenter);
   label_->setText(words_);
 }

@@ -104,7 +104,10 @@ QLayout* ReportsPage::buildBar() {
   kind_->setObjectName("reportKind");
   kind_->setAccessibleName(tr("Report"));
   kind_->setToolTip(tr("Which report"));
-  for (const ReportKind& kind : reportKinds()) kind_->addItem(kind.title);
+  for (const ReportKind& kind : reportKinds()) {
+    kind_->addItem(kind.title);
+    kind_->setItemData(kind_->count() - 1, kind.what, Qt::ToolTipRole);
+  }
   start_ = pushButton(tr("Run"), "runReport", tr("Runs the report beside the window, which stays free"));
   cancel_ = pushButton(tr("Cancel"), "cancelReport", tr("Stops the report"));
   openPage_ =

@@ -192,6 +192,7 @@ void openKept(const fs::path& folder, OpenedResults& opened, const std::stop_tok
 
 /// Less the sweep and the comparison where they cannot be opened.
 void openSweeps(const fs::path& file, OpenedResults& opened) {
+  if (opened.results.samples->split && !opened.problems.empty()) return; // of test samples that could not be opened
   QFile source(QString::fromStdString(file.string()));
   if (!source.open(QIODevice::ReadOnly)) return; // there are none
   try {

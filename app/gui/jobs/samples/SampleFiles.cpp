@@ -87,14 +87,22 @@ namespace {
 /// A table of somebody else is named by what it begins with.
 void requireSamples(const fs::path& file) {
   const QString name = QString::fromStdString(file.string());
-  if (fileKind(name) != FileKind::Foreign) return requireKind(name, FileKind::Samples);
-  constexpr qint64 kShown = 60;
+  const FileKind kind = fileKind(name);
+  if (kind != FileKind::Foreign && kind != FileKind::Project) return requireKind(name, FileKind::Samples);
+  constexpr qsizetype kShown = 60;
   QFile source(name);
-  const bool text = QMimeDatabase().mimeTypeForFile(name).inherits("text/plain") && source.open(QIODevice::ReadOnly);
+  const bool text = QMimeDatabase().mimeTypeForFile(name).inherits("text/plain") && source.size() > 0 &&
+                    source.open(QIODevice::ReadOnly);
   if (!text) throw Error(foreignWords(name).toStdString());
-  throw Error(QObject::tr("%1: holds no samples of Palp: it begins with \"%2\", samples with \"# palp_samples\". Of a "
-                          "table of readings and forces of your own palp import makes samples.")
-                  .arg(name, QString::fromUtf8(source.readLine(kShown)).trimmed())
+  QByteArray line = source.readLine();
+  if (kind == FileKind::Project) { // or JSON that is none of ours
+    if (!(line + source.readAll()).contains("\"palp_project\"")) return;
+    throw Error(QObject::tr("%1: is a project, not samples; File > Open opens it").arg(name).toStdString());
+  }
+  while (line.startsWith('#') && !source.atEnd()) line = source.readLine(); // what a table of ours says of itself
+  throw Error(QObject::tr("%1: holds no samples but a table that begins with \"%2\". Files of samples begin with "
+                          "\"# palp_samples\"; of readings and forces of your own palp import makes them.")
+                  .arg(name, QString::fromUtf8(line).trimmed().left(kShown))
                   .toStdString());
 }
 

@@ -51,7 +51,8 @@ void rememberSampleTime(const SampleSettings& samples, const SensorDesign& desig
   const double factor = seconds / shipped_s(samples, design);
   QSettings settings;
   settings.setValue(key(samples, design, mesh), factor);
-  if (meshOption(mesh).isEmpty()) settings.setValue(kLast, factor);
+  constexpr double kTelling_s = 20; // of a short one other things take most
+  if (meshOption(mesh).isEmpty() && seconds > kTelling_s) settings.setValue(kLast, factor);
 }
 
 } // namespace palp

@@ -11,7 +11,8 @@ namespace palp {
 
 namespace {
 
-constexpr double kClearly = 1.01; ///< what the words' digits tell apart
+constexpr std::size_t kOwnColumns = 4; ///< of the network's errors
+constexpr double kClearly = 1.01;      ///< what the words' digits tell apart
 
 /// A cell of the table of errors, which stands at the right.
 QString cell(const QString& text) {
@@ -64,12 +65,9 @@ bool ofPlaces(const NetworkSession& session, const NetworkFit& fit) {
 
 } // namespace
 
-Eigen::VectorXd ofForces(Eigen::VectorXd errors, const NetworkSamples* samples) {
-  if (samples == nullptr) return errors;
-  const Eigen::MatrixXd &trained = samples->training.forces_N, &tested = samples->test.forces_N;
-  for (Eigen::Index k = 0; k < std::min(errors.size(), trained.rows()); ++k)
-    if (trained.rows() == errors.size() && (trained.row(k).array() == 0).all() && (tested.row(k).array() == 0).all())
-      errors(k) = NAN;
+Eigen::VectorXd ofForces(Eigen::VectorXd errors, const Decoder& decoder) {
+  for (Eigen::Index k = 0; k < std::min(errors.size(), decoder.low_N.size()); ++k)
+    if (decoder.low_N(k) == 0 && decoder.high_N(k) == 0) errors(k) = NAN;
   return errors;
 }
 
@@ -81,24 +79,31 @@ QString errorTable(const NetworkSession& session, const NetworkFit& fit, const N
                           {QObject::tr("mean [N]"), error.meanAbsolute, {}, {}},
                           {QObject::tr("RMSE [% of range]"), error.rmsePercentOfRange, {}, {}}};
   const bool places = ofPlaces(session, fit);
+  Eigen::Array2d range_mm = Eigen::Array2d::Ones();
   if (places) {
     const SampleSet& test = session.samples()->test;
     const Eigen::MatrixXd off_mm = fit.prediction.places_mm - test.touchedPlaces_mm();
     all[2].places = off_mm.cwiseAbs().rowwise().mean();
     all[2].placeUnit = QObject::tr(" mm");
-    const Eigen::ArrayXd range_mm = extent(session.samples()->training.touchedPlaces_mm());
+    range_mm = extent(session.samples()->training.touchedPlaces_mm());
     all[3].places = 100 * rootMeanSquare(off_mm).array() / range_mm;
   }
   if (fit.settings.testNoise > 0 && session.fitIsCurrent() && !session.samples()->training.hasPlaces())
-    all.push_back({QObject::tr("Cramer-Rao bound [% of range]"),
+    all.push_back({QObject::tr("Cramer-Rao bound, with prior [% of range]"),
                    bound != nullptr ? bound->withPriorPercent : Eigen::VectorXd(),
                    {},
                    {}});
   const auto& kept = session.kept();
-  if (session.before() != nullptr && !kept.empty() && kept.front()->made == fit.made)
-    all.push_back({QObject::tr("RMSE before [% of range]"), session.before()->error.error.rmsePercentOfRange, {}, {}});
-  if (session.fitIsCurrent())
-    for (Column& column : all) column.forces = ofForces(std::move(column.forces), session.samples());
+  if (session.before() != nullptr && !kept.empty() && kept.front()->made == fit.made) {
+    Eigen::VectorXd placesBefore;
+    if (places && session.before()->error.place)
+      placesBefore = 100 * session.before()->error.place->rms_mm.array() / range_mm;
+    all.push_back({QObject::tr("RMSE before [% of range]"),
+                   ofForces(session.before()->error.error.rmsePercentOfRange, session.before()->decoder),
+                   placesBefore,
+                   {}});
+  }
+  for (std::size_t k = 0; k < kOwnColumns; ++k) all[k].forces = ofForces(std::move(all[k].forces), fit.decoder);
   return table(all, title, places);
 }
 
@@ -164,6 +169,13 @@ QString boundWords(const NetworkSession& session, const NetworkFit& fit, const S
   const QString known = words(QObject::tr("indenter known"), touches->known);
   if (touches->sizeUnknown.empty()) return known;
   return known + words(QObject::tr("indenter's size unknown"), touches->sizeUnknown);
+}
+
+QString scatterWords(const NetworkSession& session, const NetworkFit& fit) {
+  if (!session.fitIsCurrent() || fit.prediction.forces_N.cols() == 0) return {};
+  // Of n normal errors it scatters by 1 / sqrt(2 n) of itself.
+  const auto count = static_cast<double>(fit.prediction.forces_N.cols());
+  return QObject::tr(" RMSE of %1 test samples scatter by %2 %.").arg(count).arg(100 / std::sqrt(2 * count), 0, 'g', 2);
 }
 
 QString adviceWords(const NetworkSession& session, const NetworkFit& fit) {

@@ -15,8 +15,8 @@ namespace palp {
 /// the same noise (null: not known yet) and the network that was shown before. "-" where there is nothing to learn.
 QString errorTable(const NetworkSession& session, const NetworkFit& fit, const NoiseBound* bound, const QString& title);
 
-/// Less the errors of forces that are 0 in all samples: nobody learned them.
-Eigen::VectorXd ofForces(Eigen::VectorXd errors, const NetworkSamples* samples);
+/// Less the errors of forces that were 0 in all samples that it was trained with: it did not learn them.
+Eigen::VectorXd ofForces(Eigen::VectorXd errors, const Decoder& decoder);
 
 /// Root mean square errors of forces [N] and places [mm] on the test samples; empty where there are none.
 struct RootMeanSquares {
@@ -32,6 +32,9 @@ QString placeWords(const NetworkFit& fit);
 
 /// The errors of a network of force and place beside what none can beat.
 QString boundWords(const NetworkSession& session, const NetworkFit& fit, const SampleBounds* touches);
+
+/// How far a root mean square of so many test samples is from that of many.
+QString scatterWords(const NetworkSession& session, const NetworkFit& fit);
 
 /// What a result calls for.
 QString adviceWords(const NetworkSession& session, const NetworkFit& fit);

@@ -240,16 +240,19 @@ QString fitWords(const NetworkSession& session, const NetworkSettings& now, cons
   if (fit == nullptr && session.openingResults()) return tr("The networks of the project are being opened.");
   if (fit == nullptr)
     return session.samples() == nullptr ? tr("No network yet: generate samples, or open a file of them, then train.")
-                                        : tr("No network of these samples yet: train one.");
+           : session.kept().empty()
+               ? tr("No network of these samples yet: train one.")
+               : tr("No network of these samples yet: train one, or go back to one in Trained networks.");
   QString name = fit->file.isEmpty() ? tr("Trained here") : tr("Opened: %1").arg(QFileInfo(fit->file).fileName());
   if (fit->file.isEmpty() && session.samples() != nullptr && fit->madeFrom != session.samples()->settings)
     name += tr(" on other samples (%1, seed %2)").arg(countWords(fit->madeFrom)).arg(fit->madeFrom.seed);
   if (!fit->name.isEmpty()) name = "\"" + fit->name + "\": " + name;
-  const QString rest = tr("%1 %2%3; condition %4, trained in %5 s.%6%7")
+  const QString rest = tr("%1 %2%3; condition %4, trained in %5 s.%6%7%8")
                            .arg(name.toHtmlEscaped(), originWords(*fit).toHtmlEscaped(), systemWords(*fit))
                            .arg(fit->decoder.report.condition, 0, 'g', 2)
                            .arg(fit->decoder.report.seconds, 0, 'g', 2)
-                           .arg(placeWords(*fit) + boundWords(session, *fit, touches), adviceWords(session, *fit));
+                           .arg(placeWords(*fit) + boundWords(session, *fit, touches), scatterWords(session, *fit),
+                                adviceWords(session, *fit));
   const QString reason = staleReason(session, now);
   const bool current = reason.isEmpty();
   const bool ofTouches = session.samples() != nullptr && session.samples()->test.hasTouches();

@@ -111,6 +111,31 @@ TEST_F(NetworkPanel, OneClickTakesThePapersSpreadWhichTheChartMarks) {
   EXPECT_EQ(now, (std::vector<std::string>{"Fx, trained now", "Fy, trained now", "Fz, trained now"}));
 }
 
+TEST_F(NetworkPanel, AnEmptyRidgeIsTheModesAgainAndAnUnfinishedOneIsTheOneBefore) {
+  QTest::mouseClick(&find<QToolButton>("moreOptions"), Qt::LeftButton);
+  auto& ridge = find<QLineEdit>("ridge");
+  const auto type = [&](const QString& text, Qt::Key end) {
+    ridge.setFocus();
+    ridge.selectAll();
+    QTest::keyClick(&ridge, Qt::Key_Delete);
+    QTest::keyClicks(&ridge, text);
+    QTest::keyClick(&ridge, end);
+    settle();
+  };
+  type("1e-8", Qt::Key_Return);
+  ASSERT_TRUE(workbench.project().network.ridge.has_value());
+  EXPECT_EQ(*workbench.project().network.ridge, 1e-8);
+  type("1e-", Qt::Key_Tab);
+  EXPECT_EQ(ridge.text(), "1e-08");
+  EXPECT_EQ(*workbench.project().network.ridge, 1e-8);
+  for (const Qt::Key end : {Qt::Key_Return, Qt::Key_Tab}) {
+    type("1e-8", Qt::Key_Return);
+    type("", end);
+    EXPECT_FALSE(workbench.project().network.ridge.has_value()) << "the placeholder says the mode's";
+    EXPECT_EQ(ridge.text(), "");
+  }
+}
+
 TEST_F(NetworkPanel, TheFoldedOptionsTrainAsTheCommandThatIsShownSays) {
   generate();
   auto& more = find<QToolButton>("moreOptions");

@@ -207,13 +207,14 @@ TEST_F(NetworkScene, TheNoiseBoundStandsBesideTheErrorsAndBelowTheDecoders) {
   find<QDoubleSpinBox>("noise").setValue(0.01);
   trained();
   const auto words = [&] { return find<QLabel>("fitWords").text(); };
-  EXPECT_FALSE(words().contains("Cramer-Rao bound [% of range]")) << "without noise there is none";
+  EXPECT_FALSE(words().contains("Cramer-Rao bound, with prior [% of range]")) << "without noise there is none";
   EXPECT_TRUE(words().contains("A noise of the test puts")) << words().toStdString();
   find<QDoubleSpinBox>("testNoise").setValue(0.01);
   const NoiseBound bound = noiseBound(network.samples()->training, InputKind::Resistance, {4}, 1e-4);
   const QString fx = QString::number(bound.withPriorPercent[0], 'g', 3);
-  ASSERT_TRUE(QTest::qWaitFor([&] { return words().contains("Cramer-Rao bound [% of range]") && words().contains(fx); },
-                              kPatience_ms))
+  ASSERT_TRUE(QTest::qWaitFor(
+      [&] { return words().contains("Cramer-Rao bound, with prior [% of range]") && words().contains(fx); },
+      kPatience_ms))
       << fx.toStdString() << " in " << words().toStdString();
   EXPECT_GT(network.fit()->error.error.rmsePercentOfRange[0], bound.withPriorPercent[0]);
   QTest::mouseClick(&find<QPushButton>("compare"), Qt::LeftButton);

@@ -11,6 +11,8 @@
 #include <QLabel>
 #include <QTemporaryDir>
 
+#include <cmath>
+
 namespace palp {
 namespace {
 
@@ -115,6 +117,16 @@ TEST_F(SampledTouches, TeachANetworkForceAndPlace) {
   const NetworkSamples opened = openSampleFiles({file}, workbench.project().design, {});
   EXPECT_EQ(opened.test.touches, network.samples()->test.touches);
   EXPECT_EQ(countWords(opened.settings), "20 touches");
+}
+
+TEST(ErrorWords, AForceThatWasNeverTrainedHasNoError) {
+  Decoder decoder;
+  decoder.low_N = Eigen::Vector3d(0, -1, -6);
+  decoder.high_N = Eigen::Vector3d(0, 1, 0);
+  const Eigen::VectorXd errors = ofForces(Eigen::Vector3d(0, 0, 2), decoder);
+  EXPECT_TRUE(std::isnan(errors(0)));
+  EXPECT_EQ(errors(1), 0) << "it was trained and is right";
+  EXPECT_EQ(errors(2), 2) << "of one sign alone";
 }
 
 } // namespace
