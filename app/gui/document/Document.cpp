@@ -60,7 +60,7 @@ Document::Document(MainWindow& window, Workbench& workbench, NetworkSession& net
     window_.showMessage(tr("Saved %1.").arg(names.join(tr(" and "))));
   });
   connect(&network, &NetworkSession::samplesOpened, this,
-          [this] { window_.showMessage(tr("Opened %1.").arg(network_.samples()->file)); });
+          [this](const QString& file) { window_.showMessage(tr("Opened %1.").arg(file)); });
   connect(&network.writer(), &JobRunner::failed, this, [this](const QString& sentence) {
     auto* box =
         new QMessageBox(QMessageBox::Warning, tr("Cannot save"),

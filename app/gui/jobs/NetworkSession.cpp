@@ -101,7 +101,7 @@ void NetworkSession::setDesign(const SensorDesign& design) {
   generation_.reset();
   runner_.cancel();
   const auto past = std::find_if(past_.begin(), past_.end(), [&](const auto& one) { return one.design == design; });
-  if (past != past_.end())
+  if (past != past_.end() && shown_.design != design)
     show(NetworkResults(*past));
   else
     emit samplesChanged(); // they are of another design now, or of this one again
@@ -276,13 +276,14 @@ void NetworkSession::openSamples(const std::vector<std::filesystem::path>& files
     results.design = design;
     results.samples = std::make_shared<const NetworkSamples>(openSampleFiles(files, design, stop));
     return [this, results] {
+      const QString file = results.samples->file;
       if (results.design != design_) return;
       if (upToDate() && equal(*results.samples, *shown_.samples))
         emit note(tr("%1 holds the samples that are there already: all that was made of them stays.")
                       .arg(results.samples->file));
       else
         showOpened(results);
-      emit samplesOpened();
+      emit samplesOpened(file);
     };
   };
   runner_.start(tr("Opening samples"), work);

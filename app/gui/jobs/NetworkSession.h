@@ -72,7 +72,7 @@ struct NetworkResults {
   SensorDesign design;
   std::shared_ptr<const NetworkSamples> samples;
   std::shared_ptr<const NetworkFit> fit;
-  std::shared_ptr<const NetworkFit> before;            ///< that was shown when the newest was trained; to compare with
+  std::shared_ptr<const NetworkFit> before;            ///< that was shown before it; to compare with
   std::vector<std::shared_ptr<const NetworkFit>> kept; ///< that can be gone back to, the newest first
   std::set<QDateTime> takenAway;                       ///< when the networks were made that were taken off that list
   /// Those that were taken off it, of the last time last, each with the place where it stood; not written to files.
@@ -149,7 +149,7 @@ public:
   [[nodiscard]] bool fitIsCurrent() const;
   /// Networks of this design that can be gone back to, the newest first.
   [[nodiscard]] const std::vector<std::shared_ptr<const NetworkFit>>& kept() const { return shown_.kept; }
-  /// The network that was shown when the newest one was trained; null where none was.
+  /// The network that was shown before the one that is now, of the same samples; null where none was.
   [[nodiscard]] const NetworkFit* before() const { return shown_.before.get(); }
   /// Shows one of them again, tried on the samples that are there now.
   void goBackTo(std::size_t kept);
@@ -182,8 +182,8 @@ signals:
   void problem(const QString& sentence);
   /// What is worth knowing and no problem.
   void note(const QString& sentence);
-  /// Samples of a file are those that are shown now.
-  void samplesOpened();
+  /// Samples of a file are those that are shown now, new ones or some that were here before.
+  void samplesOpened(const QString& file);
   /// Samples or a network stand in these files now.
   void saved(const std::vector<std::filesystem::path>& files);
   /// Work begins that needs hundreds of megabytes.

@@ -73,6 +73,7 @@ void NetworkSession::goBackTo(std::size_t kept) {
       const auto place = std::find(shown_.kept.begin(), shown_.kept.end(), old);
       if (place != shown_.kept.end() && old->madeFrom == samples->settings)
         *place = fit; // else its errors are of others
+      if (shown_.fit && shown_.fit->made != fit->made) shown_.before = shown_.fit;
       shown_.fit = fit;
       lastSlide_.clear(); // what is trained next is added, whatever begins it
       emit fitChanged();

@@ -66,7 +66,8 @@ NetworkPanel::NetworkPanel(QWidget* parent) : QWidget(parent) {
 void NetworkPanel::buildSamples(QVBoxLayout& column) {
   samplesBox_ = new SamplesBox;
   column.addWidget(samplesBox_);
-  connect(samplesBox_, &SamplesBox::edited, this, &NetworkPanel::read);
+  connect(samplesBox_, &SamplesBox::edited, this,
+          [this](const QString& what) { emit edited(what, samplesBox_->settings(), network_); });
   connect(samplesBox_, &SamplesBox::generateAsked, this, &NetworkPanel::generateAsked);
   connect(samplesBox_, &SamplesBox::openAsked, this, &NetworkPanel::openSamplesAsked);
   connect(samplesBox_, &SamplesBox::saveAsked, this, &NetworkPanel::saveSamplesAsked);
@@ -359,15 +360,16 @@ void NetworkPanel::read(const QString& what) {
   network_.mode = mode_->currentIndex() == 0 ? DecoderMode::Default : DecoderMode::Paper;
   network_.decoder = kDecoderKinds.value(decoder_->currentText().toStdString());
   network_.target = target_->currentIndex() == 0 ? DecoderTarget::Force : DecoderTarget::ForceAndPlace;
-  network_.testNoise = testNoise_->value() / 100;
+  network_.testNoise = readExactly(*testNoise_, network_.testNoise, true);
   advanced_->read(network_);
   if (rowsProblem_->isHidden()) network_.rows = rows_->text().trimmed().toStdString();
   network_.centers = centers_->value();
-  network_.noise = noise_->value() / 100;
+  network_.noise = readExactly(*noise_, network_.noise, true);
   network_.automaticSpread = automatic_->isChecked();
-  network_.spread = spread_->value();
-  network_.sweepFrom = std::min(from_->value(), to_->value());
-  network_.sweepTo = std::max(from_->value(), to_->value());
+  network_.spread = readExactly(*spread_, network_.spread);
+  const double from = readExactly(*from_, network_.sweepFrom), to = readExactly(*to_, network_.sweepTo);
+  network_.sweepFrom = std::min(from, to);
+  network_.sweepTo = std::max(from, to);
   network_.sweepCount = count_->value();
   emit edited(what, samplesBox_->settings(), network_);
 }

@@ -71,4 +71,9 @@ void showExactly(QDoubleSpinBox& box, double value) {
   box.setValue(value);
 }
 
+double readExactly(const QDoubleSpinBox& box, double value, bool percent) {
+  const double unit = percent ? 100 : 1, shown = box.value();
+  return std::abs(shown - unit * value) <= 0.5001 * std::pow(10, -box.decimals()) ? value : shown / unit;
+}
+
 } // namespace palp

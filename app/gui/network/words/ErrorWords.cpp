@@ -93,8 +93,7 @@ QString errorTable(const NetworkSession& session, const NetworkFit& fit, const N
                    bound != nullptr ? bound->withPriorPercent : Eigen::VectorXd(),
                    {},
                    {}});
-  const auto& kept = session.kept();
-  if (session.before() != nullptr && !kept.empty() && kept.front()->made == fit.made) {
+  if (session.before() != nullptr && session.before()->made != fit.made) {
     Eigen::VectorXd placesBefore;
     if (places && session.before()->error.place)
       placesBefore = 100 * session.before()->error.place->rms_mm.array() / range_mm;

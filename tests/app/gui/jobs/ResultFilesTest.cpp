@@ -346,6 +346,16 @@ TEST_F(ResultFilesTest, SamplesThatWereHereBeforeBringBackWhatWasMadeOfThem) {
   EXPECT_EQ(session.sweepPoints().size(), 3u);
   EXPECT_EQ(session.kept().size(), 2u) << "the list has both";
   EXPECT_TRUE(said.contains("were here before")) << said.toStdString();
+
+  const NetworkSamples* shown = session.samples();
+  SensorDesign thicker = project.design;
+  thicker.block_mm.z() += 1;
+  session.setDesign(thicker);
+  EXPECT_FALSE(session.upToDate());
+  session.setDesign(project.design);
+  EXPECT_EQ(session.samples(), shown) << "those that were shown, not others of the design";
+  EXPECT_TRUE(session.upToDate());
+  EXPECT_EQ(session.kept().size(), 2u);
 }
 
 } // namespace

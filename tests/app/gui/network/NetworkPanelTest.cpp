@@ -111,6 +111,21 @@ TEST_F(NetworkPanel, OneClickTakesThePapersSpreadWhichTheChartMarks) {
   EXPECT_EQ(now, (std::vector<std::string>{"Fx, trained now", "Fy, trained now", "Fz, trained now"}));
 }
 
+TEST_F(NetworkPanel, AnEditOfTheSamplesLeavesTheNetworkToItsLastDigit) {
+  Project next = workbench.project();
+  next.network.spread = 6.4511948120390123;
+  next.network.noise = next.network.testNoise = 1.0 / 3e4;
+  next.network.automaticSpread = false;
+  workbench.edit("as a sweep found it", next);
+  auto& seed = find<QSpinBox>("seed");
+  seed.setValue(seed.value() + 1);
+  EXPECT_EQ(workbench.project().network, next.network);
+  EXPECT_NE(workbench.project().samples.seed, next.samples.seed);
+  find<QSpinBox>("centers").setValue(7); // reads all of the panel
+  next.network.centers = 7;
+  EXPECT_EQ(workbench.project().network, next.network);
+}
+
 TEST_F(NetworkPanel, AnEmptyRidgeIsTheModesAgainAndAnUnfinishedOneIsTheOneBefore) {
   QTest::mouseClick(&find<QToolButton>("moreOptions"), Qt::LeftButton);
   auto& ridge = find<QLineEdit>("ridge");
