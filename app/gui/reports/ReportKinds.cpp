@@ -37,6 +37,8 @@ std::vector<ReportKind> allKinds() {
   for (const ReportComputation& report : reportComputations()) {
     QString what = QString::fromStdString(report.what);
     if (!what.isEmpty()) what[0] = what[0].toUpper();
+    if (report.name == "networks")
+      what += QObject::tr(": for that, set the design's law to the conduction field (Design scene) first.");
     all.push_back({QString::fromStdString(report.name),
                    {"report", QString::fromStdString(report.name)},
                    what,

@@ -193,10 +193,9 @@ void openKept(const fs::path& folder, OpenedResults& opened, const std::stop_tok
 /// Less the sweep and the comparison where they cannot be opened.
 void openSweeps(const fs::path& file, OpenedResults& opened) {
   if (opened.results.samples->split && !opened.problems.empty()) return; // of test samples that could not be opened
-  QFile source(QString::fromStdString(file.string()));
-  if (!source.open(QIODevice::ReadOnly)) return; // there are none
+  if (!fs::exists(file)) return;
   try {
-    parseSweeps(source.readAll(), source.fileName(), opened.results);
+    parseSweeps(QByteArray::fromStdString(readFile(file)), QString::fromStdString(file.string()), opened.results);
     opened.opened.insert(file);
   } catch (const Error& error) {
     opened.problems.emplace_back(error.what());

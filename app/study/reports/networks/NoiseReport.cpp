@@ -64,17 +64,20 @@ public:
         request_.design, request_, content_.stages,
         [&](double share, const std::string& what) { say(0.25 * share, what); }, stop_);
     if (!sets_) return {};
-    if (request_.perArea < kFewestForBounds)
-      content_.warnings.push_back("there are no bounds: " + std::to_string(request_.perArea) +
-                                  " samples on each area do not tell the slopes; " + std::to_string(kFewestForBounds) +
-                                  " or more do");
+    if (!bounded()) {
+      const std::string why = "there are no bounds: " + std::to_string(request_.perArea) +
+                              " samples on each area do not tell the slopes; " + std::to_string(kFewestForBounds) +
+                              " or more do";
+      content_.warnings.push_back(why);
+      content_.summary = "What this design resolves is not known: " + why + ".";
+    }
     chooseRows();
     introduce();
     for (std::size_t i = 0; i < choices_.size(); ++i)
       if (!errorsOf(choices_[i], static_cast<double>(i) / static_cast<double>(choices_.size()))) return {};
     content_.parts.emplace_back(std::move(table_));
     if (!trainingNoise()) return {};
-    bits();
+    if (bounded()) bits();
     if (!otherLaws()) return {};
     content_.parts.push_back(ReportHeading{"What the model leaves out"});
     content_.parts.push_back(ReportWords{kLeftOut});
@@ -229,6 +232,8 @@ private:
     content_.parts.emplace_back(std::move(chart));
     return true;
   }
+
+  [[nodiscard]] bool bounded() const { return request_.perArea >= kFewestForBounds; }
 
   /// The same in bits and newtons, by the bound with prior of all row-wires.
   void bits() {
