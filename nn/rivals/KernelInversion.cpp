@@ -35,7 +35,8 @@ struct KernelInversion::Trial {
 };
 
 KernelInversion::KernelInversion(const KernelForwardModel& model)
-    : model_(model), table_(model.table), weight_(model.deviation.cwiseInverse()), weighted_(weight_.asDiagonal() * model.projection) {
+    : model_(model), table_(model.table), weight_(model.deviation.cwiseInverse()),
+      weighted_(weight_.asDiagonal() * model.projection) {
   for (Eigen::Index k = 0; k < model.causes(); ++k)
     if (model.causeFactor(k) != 0) varied_.push_back(k);
   precision_ = (model.causeFactor.array() * model.causeDeviation.array())(varied_).square().inverse();
