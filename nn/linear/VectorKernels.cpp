@@ -239,7 +239,8 @@ PALP_INLINE void addColumnsTo(const Number* columns, std::size_t rows, std::size
   for (; i < rows; ++i)
     for (std::size_t o = 0; o < Outputs; ++o) {
       double total = 0;
-      for (std::size_t c = 0; c < count; ++c) total += static_cast<double>(columns[c * rows + i]) * shares[o * count + c];
+      for (std::size_t c = 0; c < count; ++c)
+        total += static_cast<double>(columns[c * rows + i]) * shares[o * count + c];
       results[o * rows + i] += total;
     }
 }

@@ -71,8 +71,8 @@ void SplineTable::evaluate(const Number* numbers, double unit, const Eigen::Ref<
       if (place[1] >= 0) share.col(1 + place[1]) = dv * at[0].value[ix] * factors.col(0);
     }
     const Eigen::Index node = at[0].first + Eigen::Index(nodes[0]) * (at[1].first + static_cast<Eigen::Index>(iy));
-    kernels::addColumns(numbers + outputs() * count * node, size(outputs()), size(shares.rows()),
-                        shares.data(), size(columns), all.data());
+    kernels::addColumns(numbers + outputs() * count * node, size(outputs()), size(shares.rows()), shares.data(),
+                        size(columns), all.data());
   }
   value = rest + all.col(0);
   slope = all.rightCols(inputs());
