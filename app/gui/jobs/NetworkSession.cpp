@@ -82,17 +82,33 @@ std::array<std::size_t, 2> NetworkSession::stoppedAt() const {
 }
 
 void NetworkSession::show(NetworkResults results) {
-  if (results.kept.empty() && results.design == shown_.design) results.kept = shown_.kept;
+  if (results.kept.empty() && results.design == shown_.design) {
+    results.kept = shown_.kept;
+    results.away = shown_.away;
+  }
   results.takenAway.insert(shown_.takenAway.begin(), shown_.takenAway.end());
   if (results.kept.empty() && results.fit) results.kept = {results.fit};
   if (shown_.samples) past_.push_front(std::move(shown_));
   std::erase_if(past_, [&](const NetworkResults& past) { return past.samples == results.samples; }); // shown again
-  while (past_.size() > kPastResults) past_.pop_back();
   shown_ = std::move(results);
+  forgetOldestPast();
   emit samplesChanged();
   emit fitChanged();
   emit sweepChanged();
   emit trialsChanged();
+}
+
+/// Other samples of a design go before the last results of one: undoing brings its design's back.
+void NetworkSession::forgetOldestPast() {
+  while (past_.size() > kPastResults) {
+    std::set<const NetworkResults*> last;
+    for (auto one = past_.begin(); one != past_.end(); ++one) {
+      const auto same = [&](const NetworkResults& other) { return other.design == one->design; };
+      if (one->design != shown_.design && std::none_of(past_.begin(), one, same)) last.insert(&*one);
+    }
+    const auto goes = std::find_if(past_.rbegin(), past_.rend(), [&](const auto& one) { return !last.contains(&one); });
+    past_.erase(goes == past_.rend() ? std::prev(past_.end()) : std::prev(goes.base()));
+  }
 }
 
 void NetworkSession::setDesign(const SensorDesign& design) {
@@ -297,7 +313,7 @@ void NetworkSession::showOpened(NetworkResults results) {
   const QString file = results.samples->file;
   const bool known = before != past_.end();
   if (known) results = NetworkResults(*before);
-  results.kept = shown_.kept; // which has grown since
+  results.kept.clear(); // the list that is shown has grown since
   const SampleSettings settings = results.samples->settings;
   show(std::move(results));
   if (known) return emit note(tr("%1 holds samples that were here before: what was made of them is back.").arg(file));

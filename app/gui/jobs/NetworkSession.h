@@ -208,6 +208,7 @@ private:
   /// Shows other results, and keeps those that were shown while there is room.
   void show(NetworkResults results);
   void showOpened(NetworkResults results);
+  void forgetOldestPast();
 
   JobRunner runner_, writer_;
   SensorDesign design_;

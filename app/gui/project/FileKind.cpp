@@ -26,16 +26,16 @@ FileKind fileKind(const QString& file) {
   if (head.startsWith("PALPREC")) return FileKind::Recording;
   if (head.startsWith("# palp_samples") || head.startsWith("\x89HDF\r\n")) return FileKind::Samples;
   if (head.startsWith("PK") && head.contains(".npy")) return FileKind::Samples;
-  if (!head.trimmed().startsWith('{')) return FileKind::Foreign; // the tables that Palp writes name their design, too
+  if (head.startsWith('#')) return FileKind::Foreign; // a table that Palp wrote names its design, too
   // A project holds a design, as a study may: the outer key counts, which may stand behind whatever else there is.
-  head += source.readAll();
+  if (head.trimmed().startsWith('{')) head += source.readAll();
   constexpr std::array keys{
       std::pair{"\"palp_project\"", FileKind::Project}, std::pair{"\"palp_network\"", FileKind::Network},
       std::pair{"\"palp_study\"", FileKind::Study}, std::pair{"\"palp_design\"", FileKind::Design}};
   for (const auto& [key, kind] : keys)
     if (head.contains(key)) return kind;
   // It may be one of ours that is broken: the reader says where.
-  return FileKind::Project;
+  return head.trimmed().startsWith('{') ? FileKind::Project : FileKind::Foreign;
 }
 
 void requireKind(const QString& file, FileKind wanted) {

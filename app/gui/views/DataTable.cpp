@@ -94,7 +94,8 @@ QString DataTable::csv() const {
     lines[0] += (column == 0 ? "" : ",") + csvCell(horizontalHeaderItem(column)->text());
   for (int row = 0; row < rowCount(); ++row) {
     QStringList cells;
-    for (int column = 0; column < columnCount(); ++column) cells << csvCell(item(row, column)->text());
+    const int shown = shownRow(row);
+    for (int column = 0; column < columnCount(); ++column) cells << csvCell(item(shown, column)->text());
     lines << cells.join(',');
   }
   return lines.join('\n') + "\n";

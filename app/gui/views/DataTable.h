@@ -7,7 +7,8 @@
 namespace palp {
 
 /// Rows that are read, not written: any range can be marked and copied into a spreadsheet, all of it saved as CSV. A
-/// click on a head sorts by it, a second one the other way round, a third one takes the order of before.
+/// click on a head sorts by it, a second one the other way round, a third one takes the order of before, which the CSV
+/// always has: what is written above it may name its rows one by one.
 class DataTable : public QTableWidget {
   Q_OBJECT
 

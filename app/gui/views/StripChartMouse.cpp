@@ -25,9 +25,9 @@ namespace palp {
 namespace {
 
 constexpr double kWheelStep = 1.25;
-constexpr double kNotch = 120;        // of a wheel
-constexpr double kZoomKeyShare = 0.1; // of the window that an arrow key moves
-constexpr double kShortest_s = 0.01;  // that a zoom shows
+constexpr double kNotch = 120;       // of a wheel
+constexpr double kArrowShare = 0.1;  // of the window that an arrow key moves
+constexpr double kShortest_s = 0.01; // that a zoom shows
 constexpr double kLongest_s = 120;
 constexpr double kCursorShare = 0.01; // of the plot that a key moves the cursor
 constexpr double kDragFrom_px = 3;
@@ -134,13 +134,13 @@ void StripChart::keyPressEvent(QKeyEvent* event) {
   case Qt::Key_PageDown:
     return zoomValue(kWheelStep, middle.y());
   case Qt::Key_Left:
-    return move(-kZoomKeyShare * spec_.window_s, 0);
+    return move(-kArrowShare * spec_.window_s, 0);
   case Qt::Key_Right:
-    return move(kZoomKeyShare * spec_.window_s, 0);
+    return move(kArrowShare * spec_.window_s, 0);
   case Qt::Key_Up:
-    return move(0, kZoomKeyShare * height);
+    return move(0, kArrowShare * height);
   case Qt::Key_Down:
-    return move(0, -kZoomKeyShare * height);
+    return move(0, -kArrowShare * height);
   case Qt::Key_Plus:
     return zoomTime(1 / kWheelStep, middle.x());
   case Qt::Key_Minus:

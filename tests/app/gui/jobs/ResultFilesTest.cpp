@@ -310,6 +310,27 @@ TEST_F(ResultFilesTest, SamplesSplitForATestOpenAgain) {
   EXPECT_EQ(found.results.samples->test.forces_N, results.samples->test.forces_N);
 }
 
+TEST_F(ResultFilesTest, ManySamplesOfOneDesignDoNotPushOutThoseOfAnother) {
+  const Project project = quickProject();
+  NetworkSession session;
+  session.setDesign(project.design);
+  session.openSamples({folder() / "samples.csv"});
+  ASSERT_TRUE(QTest::qWaitFor([&] { return session.samples() != nullptr && !session.working(); }, kPatience_ms));
+  const NetworkSamples* first = session.samples();
+  SensorDesign thicker = project.design;
+  thicker.block_mm.z() += 1;
+  session.setDesign(thicker);
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    SampleSettings samples = project.samples;
+    samples.seed = 10 + seed;
+    const NetworkSamples* before = session.samples();
+    session.generate(samples, project.mesh);
+    ASSERT_TRUE(QTest::qWaitFor([&] { return session.samples() != before && !session.working(); }, kPatience_ms));
+  }
+  session.setDesign(project.design);
+  EXPECT_EQ(session.samples(), first) << "undoing the design brings them back";
+}
+
 TEST_F(ResultFilesTest, SamplesThatWereHereBeforeBringBackWhatWasMadeOfThem) {
   const Project project = quickProject();
   NetworkSession session;
