@@ -154,8 +154,7 @@ void Document::open(const QStringList& files) {
                     ": is no file of samples; several files are opened together where all of them are");
       samples.emplace_back(file.toStdString());
     }
-    window_.showScene("network");
-    network_.openSamples(samples);
+    window_.openSamples(samples);
   } catch (const std::exception& error) {
     QMessageBox::warning(&window_, tr("Cannot open"), QString::fromStdString(error.what()));
   }
@@ -168,8 +167,7 @@ void Document::open(const QString& file) {
     if (kind == FileKind::Design || kind == FileKind::Project) {
       openProject(file);
     } else if (kind == FileKind::Samples) {
-      window_.showScene("network");
-      network_.openSamples({file.toStdString()});
+      window_.openSamples({file.toStdString()});
     } else if (kind == FileKind::Network && network_.upToDate() && window_.currentScene().objectName() != "live") {
       window_.showScene("network");
       network_.open(file.toStdString());

@@ -56,7 +56,7 @@ void DecodersTab::display(const NetworkSession& session, const NetworkSettings& 
   time_->setChart(trialsTimeChart(trials));
   const bool stale = !staleTrialsReason(session, now).isEmpty();
   for (ChartView* view : {error_, time_}) view->setFaint(stale);
-  const TableText table = trialsTable(trials, bound, session.samples() != nullptr ? session.samples()->test.size() : 0);
+  const TableText table = trialsTable(trials, bound, session.samples());
   table_->show(table.heads, table.rows);
   if (const auto best = bestTrial(trials)) table_->mark(static_cast<int>(*best));
   words_->setText(trialsWords(session, now));

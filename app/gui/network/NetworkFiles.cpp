@@ -34,7 +34,17 @@ void NetworkFiles::openSamples() {
   const QStringList chosen = askFilesToOpen(page_, tr("Open samples"), tr("Samples (*.csv *.h5 *.hdf5 *.npz)"));
   std::vector<std::filesystem::path> files;
   for (const QString& file : chosen) files.emplace_back(file.toStdString());
-  if (!files.empty() && mayReplaceSamples()) session_.openSamples(files);
+  if (!files.empty()) openSamples(files);
+}
+
+/// What is no file of samples is said before anything is asked.
+void NetworkFiles::openSamples(const std::vector<std::filesystem::path>& files) {
+  try {
+    for (const std::filesystem::path& file : files) requireSamples(file);
+    if (mayReplaceSamples()) session_.openSamples(files);
+  } catch (const Error& error) {
+    emit problem(QString::fromStdString(error.what()));
+  }
 }
 
 bool NetworkFiles::mayReplaceSamples() const {

@@ -23,6 +23,7 @@ public:
   NetworkFiles(Workbench& workbench, NetworkSession& session, QWidget* page);
 
   void openSamples();
+  void openSamples(const std::vector<std::filesystem::path>& files);
   void saveSamples();
   void openNetwork();
   void saveNetwork();

@@ -66,7 +66,10 @@ NetworkPage::NetworkPage(Workbench& workbench, NetworkSession& session, QWidget*
   connect(panel_, &NetworkPanel::generateAsked, this,
           [this] { session_.generate(workbench_.project().samples, workbench_.project().mesh); });
   connect(panel_, &NetworkPanel::trainAsked, this, [this] { session_.train(workbench_.project().network); });
-  connect(panel_, &NetworkPanel::sweepAsked, this, [this] { session_.sweep(workbench_.project().network); });
+  connect(panel_, &NetworkPanel::sweepAsked, this, [this] {
+    tabs_->setCurrentWidget(sweep_);
+    session_.sweep(workbench_.project().network);
+  });
   connect(panel_, &NetworkPanel::compareAsked, this, [this] {
     tabs_->setCurrentWidget(decoders_);
     session_.compare(workbench_.project().network);
@@ -77,7 +80,7 @@ NetworkPage::NetworkPage(Workbench& workbench, NetworkSession& session, QWidget*
     next.view.testArea = area;
     workbench_.edit(tr("Choose a test area"), next);
   });
-  connect(panel_, &NetworkPanel::openSamplesAsked, files_, &NetworkFiles::openSamples);
+  connect(panel_, &NetworkPanel::openSamplesAsked, files_, [this] { files_->openSamples(); });
   connect(panel_, &NetworkPanel::saveSamplesAsked, files_, &NetworkFiles::saveSamples);
   connect(save_, &QPushButton::clicked, files_, &NetworkFiles::saveNetwork);
   connect(open_, &QPushButton::clicked, files_, &NetworkFiles::openNetwork);
@@ -100,6 +103,10 @@ NetworkPage::NetworkPage(Workbench& workbench, NetworkSession& session, QWidget*
   connectSession();
   displayProject();
   displaySamples();
+}
+
+void NetworkPage::openSamples(const std::vector<std::filesystem::path>& files) {
+  files_->openSamples(files);
 }
 
 void NetworkPage::connectSession() {

@@ -5,6 +5,7 @@
 #include "app/gui/window/Scene.h"
 
 #include <array>
+#include <filesystem>
 #include <vector>
 
 class QLabel;
@@ -34,6 +35,8 @@ public:
 
   /// Samples come from commands of their own, never from the chain.
   [[nodiscard]] Stage stage() const override { return Stage::Design; }
+  /// Asks where samples that took long would be replaced.
+  void openSamples(const std::vector<std::filesystem::path>& files);
   void setTheme(Theme theme) override;
   [[nodiscard]] bool complete() const override { return true; }
   [[nodiscard]] std::vector<JobRunner*> runners() override;

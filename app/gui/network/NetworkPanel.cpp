@@ -268,8 +268,8 @@ void NetworkPanel::display(const Project& project, int rowWires) {
   centers_->setValue(network_.centers);
   showExactly(*noise_, 100 * network_.noise);
   automatic_->setChecked(network_.automaticSpread);
-  showExactly(*from_, network_.sweepFrom);
-  showExactly(*to_, network_.sweepTo);
+  showSixDigits(*from_, network_.sweepFrom);
+  showSixDigits(*to_, network_.sweepTo);
   count_->setValue(network_.sweepCount);
   boardNoise_ = std::max(project.live.simulation.noise, kLeastNoise);
   forLive_->setEnabled(!readableLive());
@@ -308,7 +308,7 @@ void NetworkPanel::showSpread() {
   paper_->setEnabled(rbf);
   automatic_->setEnabled(rbf);
   centers_->setEnabled(rbf);
-  showExactly(*spread_, network_.spread);
+  showSixDigits(*spread_, network_.spread);
   spreadSlider_->setValue(stepOf(network_.spread));
   spread_->setEnabled(rbf && !network_.automaticSpread);
   spreadSlider_->setEnabled(rbf && !network_.automaticSpread);

@@ -15,8 +15,9 @@ namespace {
 
 const QStringList kForceNames{"Fx", "Fy", "Fz"};
 
+/// "-": no number says it, as of a force that is 0 in all samples.
 QString number(double value) {
-  return QString::number(value, 'g', 6);
+  return std::isnan(value) ? QString("-") : QString::number(value, 'g', 6);
 }
 
 /// Three cells; empty where there are fewer numbers.
@@ -74,8 +75,14 @@ QString inWords(DecoderKind kind) {
   return {};
 }
 
-TableText trialsTable(const std::vector<DecoderTrial>& trials, const NoiseBound* bound, Eigen::Index testSamples) {
+TableText trialsTable(const std::vector<DecoderTrial>& trials, const NoiseBound* bound, const NetworkSamples* samples) {
   TableText table;
+  const Eigen::Index testSamples = samples != nullptr ? samples->test.size() : 0;
+  const auto ofLearned = [samples](Eigen::VectorXd errors) {
+    for (Eigen::Index k = 0; samples != nullptr && k < errors.size(); ++k)
+      if (samples->training.forces_N.row(k).isZero(0)) errors(k) = NAN;
+    return errors;
+  };
   table.heads << QObject::tr("decoder");
   addHeads(table.heads, QObject::tr("RMSE [% of range]"));
   addHeads(table.heads, QObject::tr("Eq. (13) [%]"));
@@ -86,8 +93,8 @@ TableText trialsTable(const std::vector<DecoderTrial>& trials, const NoiseBound*
   for (const DecoderTrial& trial : trials) {
     QStringList row{QString::fromStdString(name(trial.kind))};
     const bool there = trial.refusal.isEmpty();
-    add(row, trial.error.rmsePercentOfRange);
-    add(row, trial.error.eq13Percent);
+    add(row, ofLearned(trial.error.rmsePercentOfRange));
+    add(row, ofLearned(trial.error.eq13Percent));
     if (places) row << (trial.place ? number(trial.place->median_mm) : QString());
     row << (there ? number(trial.seconds) : QString()) << (there ? number(trial.microsecondsPerSample) : QString())
         << trial.refusal << inWords(trial.kind);
@@ -143,6 +150,13 @@ std::optional<std::size_t> bestTrial(const std::vector<DecoderTrial>& trials) {
     if (trials[k].refusal.isEmpty() &&
         (!best || trials[k].error.rmsePercentOfRange.norm() < trials[*best].error.rmsePercentOfRange.norm()))
       best = k;
+  return best;
+}
+
+std::optional<std::size_t> bestPlace(const std::vector<DecoderTrial>& trials) {
+  std::optional<std::size_t> best;
+  for (std::size_t k = 0; k < trials.size(); ++k)
+    if (trials[k].place && (!best || trials[k].place->median_mm < trials[*best].place->median_mm)) best = k;
   return best;
 }
 

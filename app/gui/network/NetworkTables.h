@@ -18,11 +18,13 @@ struct TableText {
 /// A sweep, one spread a row.
 TableText sweepTable(const std::vector<SweepPoint>& points);
 /// The comparison, one decoder a row, and below them what none can beat; null: not known.
-TableText trialsTable(const std::vector<DecoderTrial>& trials, const NoiseBound* bound, Eigen::Index testSamples);
+TableText trialsTable(const std::vector<DecoderTrial>& trials, const NoiseBound* bound, const NetworkSamples* samples);
 /// Trained networks with their errors and settings, one a row.
 TableText networksTable(const std::vector<std::shared_ptr<const NetworkFit>>& networks);
-/// The decoder of the smallest error (root mean square); none where none was trained.
+/// The decoder of the smallest error of the force (root mean square); none where none was trained.
 std::optional<std::size_t> bestTrial(const std::vector<DecoderTrial>& trials);
+/// That of the smallest error of the place (median); none where none learned places.
+std::optional<std::size_t> bestPlace(const std::vector<DecoderTrial>& trials);
 /// A decoder's short name in whole words.
 QString inWords(DecoderKind kind);
 /// The point of the smallest error (root mean square, as `palp sweep` chooses); none without points.

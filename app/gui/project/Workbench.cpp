@@ -1,6 +1,6 @@
 #include "app/gui/project/Workbench.h"
 
-#include "app/gui/project/ProjectChange.h"
+#include "app/gui/project/changes/ProjectChange.h"
 
 #include <QUndoCommand>
 

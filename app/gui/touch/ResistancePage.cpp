@@ -286,7 +286,7 @@ void ResistancePage::drawBeside() {
   const TouchResistances pairs = *resistancesOf(design, *workbench_.touch().electrodes());
   laws_->setText(lawsWords(*resistances_, pairs));
   HeatmapSpec spec = resistanceHeatmap(pairs, kind());
-  spec.title = tr("The same by Eq. (1), rate 1000 ohm/mm").toStdString();
+  spec.title = tr("The same by Eq. (1), rate 1000 ohm/mm; a colour scale of its own").toStdString();
   spec.selected = cell();
   pairs_->setHeatmap(std::move(spec));
 }

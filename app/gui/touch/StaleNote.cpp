@@ -1,7 +1,7 @@
 #include "app/gui/touch/StaleNote.h"
 
-#include "app/gui/project/ProjectChange.h"
 #include "app/gui/project/Workbench.h"
+#include "app/gui/project/changes/ProjectChange.h"
 
 #include <QEvent>
 

@@ -71,6 +71,10 @@ void showExactly(QDoubleSpinBox& box, double value) {
   box.setValue(value);
 }
 
+void showSixDigits(QDoubleSpinBox& box, double value) {
+  showExactly(box, QString::number(value, 'g', 6).toDouble());
+}
+
 double readExactly(const QDoubleSpinBox& box, double value, bool percent) {
   const double unit = percent ? 100 : 1, shown = box.value();
   return std::abs(shown - unit * value) <= 0.5001 * std::pow(10, -box.decimals()) ? value : shown / unit;

@@ -29,6 +29,9 @@ QString percentWords(double share);
 /// must not say another number than the one that is computed with. Emits nothing.
 void showExactly(QDoubleSpinBox& box, double value);
 
+/// The same to six digits: of a number that was computed, and that readExactly reads back to its last digit.
+void showSixDigits(QDoubleSpinBox& box, double value);
+
 /// What the box says, a hundredth of it where it is percent; `value` itself, to its last digit, where it shows that.
 double readExactly(const QDoubleSpinBox& box, double value, bool percent = false);
 

@@ -102,13 +102,13 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   connect(animation_, &LoadPathAnimation::done, this, &MainWindow::showMessage);
   addScene("deformation", tr("Deformation"), tr("The block under load"), deformation_);
   addScene("resistance", tr("Resistance"), tr("Row-column resistances under the load"), new ResistancePage(workbench));
-  auto* networkPage = new NetworkPage(workbench, network);
-  connect(networkPage, &NetworkPage::sceneAsked, this, &MainWindow::showScene);
-  addScene("network", tr("Network"), tr("Samples, training and the sweep of the spread"), networkPage);
+  networkPage_ = new NetworkPage(workbench, network);
+  connect(networkPage_, &NetworkPage::sceneAsked, this, &MainWindow::showScene);
+  addScene("network", tr("Network"), tr("Samples, training and the sweep of the spread"), networkPage_);
   live_ = new LiveBoards(workbench);
   connect(live_, &LiveBoards::message, this, &MainWindow::showMessage);
   connect(live_, &LiveBoards::sceneAsked, this, &MainWindow::showScene);
-  connect(networkPage, &NetworkPage::liveNetworkReplaced, this, [this] { live_->page().host().useChosenNetwork(); });
+  connect(networkPage_, &NetworkPage::liveNetworkReplaced, this, [this] { live_->page().host().useChosenNetwork(); });
   addScene("live", tr("Live"), tr("Boards, the simulated board or a recording, live"), live_);
   reports_ = new ReportsPage(workbench);
   connect(reports_, &ReportsPage::message, this, &MainWindow::showMessage);
@@ -204,6 +204,11 @@ void MainWindow::sceneChosen(int index) {
 void MainWindow::showEvent(QShowEvent* event) {
   QMainWindow::showEvent(event);
   workbench_.touch().need(currentScene().stage());
+}
+
+void MainWindow::openSamples(const std::vector<std::filesystem::path>& files) {
+  showScene("network");
+  networkPage_->openSamples(files);
 }
 
 void MainWindow::showStudy(const QString& file) {

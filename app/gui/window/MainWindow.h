@@ -5,6 +5,9 @@
 
 #include <QMainWindow>
 
+#include <filesystem>
+#include <vector>
+
 class QListWidget;
 class QStackedWidget;
 
@@ -16,6 +19,7 @@ class ExportJob;
 class LiveBoards;
 class LoadPathAnimation;
 class MessageLog;
+class NetworkPage;
 class NetworkSession;
 class ReportsPage;
 class SceneExport;
@@ -33,6 +37,8 @@ public:
   bool showScene(const QString& name);
   /// The form of a study in the Reports scene. Throws Error where the file is none.
   void showStudy(const QString& file);
+  /// In the Network scene.
+  void openSamples(const std::vector<std::filesystem::path>& files);
   [[nodiscard]] QStringList sceneNames() const;
   [[nodiscard]] Scene& currentScene() const;
   /// As the rail names it.
@@ -75,6 +81,7 @@ private:
   DeformationPage* deformation_ = nullptr;
   LoadPathAnimation* animation_ = nullptr;
   LiveBoards* live_ = nullptr;
+  NetworkPage* networkPage_ = nullptr;
   ReportsPage* reports_ = nullptr;
   StatusLamps* lamps_ = nullptr;
   Document* document_ = nullptr;

@@ -82,8 +82,6 @@ void saveSampleFiles(const fs::path& file, const NetworkSamples& samples) {
   writing.commit();
 }
 
-namespace {
-
 /// A table of somebody else is named by what it begins with.
 void requireSamples(const fs::path& file) {
   const QString name = QString::fromStdString(file.string());
@@ -105,6 +103,8 @@ void requireSamples(const fs::path& file) {
                   .arg(name, QString::fromUtf8(line).trimmed().left(kShown))
                   .toStdString());
 }
+
+namespace {
 
 /// Samples of one request, shard by shard, and of another one where there is one. `test`: this file's are for testing,
 /// whatever request it says.

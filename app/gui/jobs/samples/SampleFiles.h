@@ -22,6 +22,9 @@ void saveSampleFiles(const std::filesystem::path& file, const NetworkSamples& sa
 /// The same beside other files. Throws Error.
 void addSamples(FilesTogether& writing, const std::filesystem::path& file, const NetworkSamples& samples);
 
+/// By what its first lines say. Throws Error where it begins as no file of samples does, and names it by what it is.
+void requireSamples(const std::filesystem::path& file);
+
 /// Samples from files in any order: shards of one request are joined; where they are of two requests, the second one's
 /// are for testing (the one with the seed of a test, where there is one), and so is NAME-test.csv beside a single
 /// NAME.csv, or else test.csv beside a single train.csv. Without any, every fifth sample of each area is kept for

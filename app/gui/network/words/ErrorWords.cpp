@@ -74,11 +74,11 @@ Eigen::VectorXd ofForces(Eigen::VectorXd errors, const Decoder& decoder) {
 QString errorTable(const NetworkSession& session, const NetworkFit& fit, const NoiseBound* bound,
                    const QString& title) {
   const PredictionError& error = fit.error.error;
+  const bool places = ofPlaces(session, fit);
   std::vector<Column> all{{QObject::tr("Eq. (13) [%]"), error.eq13Percent, {}, {}},
                           {QObject::tr("floored at 0.05 N [%]"), error.eq13FlooredPercent, {}, {}},
-                          {QObject::tr("mean [N]"), error.meanAbsolute, {}, {}},
+                          {places ? QObject::tr("mean [N, mm]") : QObject::tr("mean [N]"), error.meanAbsolute, {}, {}},
                           {QObject::tr("RMSE [% of range]"), error.rmsePercentOfRange, {}, {}}};
-  const bool places = ofPlaces(session, fit);
   Eigen::Array2d range_mm = Eigen::Array2d::Ones();
   if (places) {
     const SampleSet& test = session.samples()->test;

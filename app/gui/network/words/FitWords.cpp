@@ -2,7 +2,7 @@
 
 #include "app/gui/network/NetworkTables.h"
 #include "app/gui/network/words/ErrorWords.h"
-#include "app/gui/project/ProjectChange.h"
+#include "app/gui/project/changes/ProjectChange.h"
 
 #include <QFileInfo>
 #include <QObject>
@@ -207,7 +207,9 @@ QString trialsWords(const NetworkSession& session, const NetworkSettings& now) {
                       .arg(trained(name(then.input)), trained(then.rows), percent(then.noise), percent(then.testNoise));
   if (const auto best = bestTrial(session.trials())) {
     const DecoderTrial& trial = session.trials()[*best];
-    words += tr(" Smallest error: %1, %2 of range (RMSE)")
+    const auto place = bestPlace(session.trials());
+    words += (place ? tr(" Smallest error of the force: %1, %2 of range (RMSE)")
+                    : tr(" Smallest error: %1, %2 of range (RMSE)"))
                  .arg(trained(name(trial.kind)), triple(trial.error.rmsePercentOfRange, "%"));
     std::vector<DecoderTrial> others = session.trials();
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(*best));
@@ -215,6 +217,10 @@ QString trialsWords(const NetworkSession& session, const NetworkSettings& now) {
       words += tr("; next %1, %2")
                    .arg(trained(name(others[*next].kind)), triple(others[*next].error.rmsePercentOfRange, "%"));
     words += ".";
+    if (place)
+      words += tr(" Smallest error of the place: %1, %2 mm in the median.")
+                   .arg(trained(name(session.trials()[*place].kind)))
+                   .arg(session.trials()[*place].place->median_mm, 0, 'g', 3);
   }
   for (const DecoderTrial& trial : session.trials())
     if (!trial.refusal.isEmpty()) words += tr(" Not trained: %1 (%2).").arg(trained(name(trial.kind)), trial.refusal);

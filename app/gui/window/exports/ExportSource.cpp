@@ -2,8 +2,8 @@
 
 #include "app/gui/network/NetworkSource.h"
 #include "app/gui/project/ExportLines.h"
-#include "app/gui/project/ProjectChange.h"
 #include "app/gui/project/Workbench.h"
+#include "app/gui/project/changes/ProjectChange.h"
 #include "app/gui/window/Scene.h"
 
 #include <QStringList>

@@ -289,6 +289,33 @@ TEST_F(OpenFiles, AsksBeforeTestSamplesOfAnotherFileAreReplaced) {
   EXPECT_FALSE(QFile::exists(inFolder("mine.csv")));
 }
 
+TEST_F(OpenFiles, SamplesThatTookLongAreAskedAboutHoweverOthersComeAndNotForWhatIsNoFileOfSamples) {
+  generate();
+  const QString other = inFolder("other.csv"), foreign = inFolder("foreign.csv");
+  network.saveSamples(other.toStdString());
+  ASSERT_TRUE(idle());
+  const_cast<NetworkSamples*>(network.samples())->seconds = 100; // NOLINT: no test waits for samples that take so long
+  const auto before = network.sharedSamples();
+  writeFile(foreign.toStdString(), "a,b\n1,2\n", true);
+  window.showScene("network");
+  const auto asked = [&](const QString& file, bool dropped) {
+    said.clear();
+    if (dropped) {
+      dropOn(window, file);
+    } else {
+      answerFileDialog(file);
+      find<QPushButton>("openSamples").click();
+    }
+    return said;
+  };
+  for (const bool dropped : {false, true})
+    EXPECT_TRUE(asked(other, dropped).contains("stand in no file of their own")) << dropped << said.toStdString();
+  EXPECT_EQ(asked(foreign, false), QString()) << "nothing would come in their place";
+  EXPECT_TRUE(find<QLabel>("trainingProblem").text().contains("holds no samples"))
+      << find<QLabel>("trainingProblem").text().toStdString();
+  EXPECT_EQ(network.sharedSamples(), before) << "the question was closed, which means no";
+}
+
 TEST_F(OpenFiles, OpensADroppedProjectInItsScene) {
   ASSERT_TRUE(solved());
   Project project = quickProject();

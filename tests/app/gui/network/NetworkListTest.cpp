@@ -124,6 +124,7 @@ TEST_F(NetworkList, ComparesWithTheNetworkThatWasShownBefore) {
     return QTest::qWaitFor([&] { return network.fit()->decoder.report.spread == spread; }, kPatience_ms) && idle();
   };
   find<QDoubleSpinBox>("spread").setValue(3);
+  EXPECT_EQ(workbench.history().undoText(), QString("Change the spread (spread %1 -> 3)").arg(first));
   ASSERT_TRUE(trainedWith(3));
   ASSERT_NE(network.before(), nullptr);
   EXPECT_EQ(network.before()->decoder.report.spread, first);

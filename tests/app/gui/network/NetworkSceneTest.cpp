@@ -2,6 +2,7 @@
 #include "app/gui/live/LiveBoards.h"
 #include "app/gui/live/LivePage.h"
 #include "app/gui/network/NetworkCharts.h"
+#include "app/gui/network/NetworkTables.h"
 #include "app/gui/network/words/FitWords.h"
 #include "app/gui/views/ChartView.h"
 #include "app/gui/views/CsvExport.h"
@@ -318,6 +319,24 @@ TEST_F(NetworkScene, ADecoderOfOneSpreadIsAPointThereAndOneOfNoneALineWithoutMar
   ASSERT_EQ(rows.size(), 3) << "one a decoder below the heads";
   EXPECT_EQ(rows[1], "rbf,12.5,0.5");
   EXPECT_EQ(rows[2], "linear,,0.25");
+}
+
+TEST_F(NetworkScene, TheTableOfDecodersSaysNothingOfAForceThatWasNeverTrainedAndWhichPlacesAreBest) {
+  DecoderTrial first;
+  first.error.rmsePercentOfRange = first.error.eq13Percent = Eigen::Vector3d(0, 2, 3);
+  first.place = PlaceError{Eigen::Vector2d(0.6, 0.7), 0.5, {}};
+  DecoderTrial second = first;
+  second.kind = DecoderKind::TouchInversion;
+  second.error.rmsePercentOfRange.y() = 4;
+  second.place->median_mm = 0.25;
+  NetworkSamples samples;
+  samples.training.forces_N = Eigen::Matrix3Xd::Ones(3, 2);
+  samples.training.forces_N.row(0).setZero();
+  const TableText table = trialsTable({first, second}, nullptr, &samples);
+  EXPECT_EQ(table.rows[0].mid(1, 6), QStringList({"-", "2", "3", "-", "2", "3"}));
+  EXPECT_EQ(bestTrial({first, second}), 0U) << "by the force";
+  EXPECT_EQ(bestPlace({first, second}), 1U);
+  EXPECT_EQ(bestPlace({DecoderTrial()}), std::nullopt) << "it learned none";
 }
 
 TEST_F(NetworkScene, AComparisonOfOtherSettingsIsFaintWithTheReason) {

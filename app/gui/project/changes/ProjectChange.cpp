@@ -1,6 +1,7 @@
-#include "app/gui/project/ProjectChange.h"
+#include "app/gui/project/changes/ProjectChange.h"
 
 #include "app/gui/design/DesignFields.h"
+#include "app/gui/project/changes/NetworkChange.h"
 
 #include <QObject>
 #include <QStringList>
@@ -12,17 +13,6 @@
 namespace palp {
 
 namespace {
-
-constexpr int kLongest = 28; ///< characters of a value
-
-QString shortened(const QString& value) {
-  return value.size() <= kLongest ? value : value.left(kLongest - 3) + "...";
-}
-
-QString stepWords(const QString& name, const QString& from, const QString& to, const QString& unit = {}) {
-  const QString words = QString("%1 %2 -> %3").arg(name, shortened(from), shortened(to));
-  return unit.isEmpty() ? words : words + " " + unit;
-}
 
 /// Sizes of the block with the wires in the same shares of it as before: one change, however many numbers it moves.
 QString scaledWords(const SensorDesign& before, const SensorDesign& after) {
@@ -192,8 +182,12 @@ QString changeWords(const QString& what, const Project& before, const Project& a
   if (changes.isEmpty()) changes << loadChanges(before.load, after.load);
   if (before.mesh != after.mesh)
     changes << stepWords(QObject::tr("mesh size"), meshWords(before.mesh), meshWords(after.mesh));
-  const bool more = before.path != after.path || before.samples != after.samples || before.network != after.network;
-  return changes.size() == 1 && !more && !changes.front().isEmpty() ? changes.front() : what;
+  const QStringList learned =
+      networkChanges(before.network, after.network) + sampleChanges(before.samples, after.samples);
+  if (before.path != after.path || changes.size() + learned.size() != 1 || (changes + learned).front().isEmpty())
+    return what;
+  // Networks are changed by actions that have names of their own: the best spread of a sweep, a network gone back to.
+  return changes.isEmpty() ? QString("%1 (%2)").arg(what, learned.front()) : changes.front();
 }
 
 } // namespace palp

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "app/gui/project/Project.h"
+
+#include <QString>
+#include <QStringList>
+
+namespace palp {
+
+/// "spread 1 -> 0.5", "block size along x 30 -> 45.5 mm": values that are long are cut.
+QString stepWords(const QString& name, const QString& from, const QString& to, const QString& unit = {});
+
+/// What changed in the network, its sweep and its training, a sentence each.
+QStringList networkChanges(const NetworkSettings& before, const NetworkSettings& after);
+
+/// What changed in the samples that are to be made, a sentence each; one empty one where that is more than can be said.
+QStringList sampleChanges(const SampleSettings& before, const SampleSettings& after);
+
+} // namespace palp
