@@ -18,7 +18,7 @@ namespace {
 /// part of the face 0.8 mm, for surfaces that a decoder learns from 0.7 mm.
 constexpr double kCellsAnywhere = 2.7, kCellsInPart = 2.1, kCellsToLearnFrom = 1.9;
 constexpr double cellsAPart = 10;     // along each axis: about as many as lie beside them
-constexpr int mostPartsAlongAxis = 3; // what is found once for each part has to pay
+constexpr int mostPartsAlongAxis = 4; // what is found once for each part has to pay
 constexpr double widerContact = 1.1;  // than expected: at the block's edges
 
 /// Touch in the middle of the range.

@@ -313,6 +313,7 @@ void NetworkSession::showOpened(NetworkResults results) {
   const QString file = results.samples->file;
   const bool known = before != past_.end();
   if (known) results = NetworkResults(*before);
+  results.openedFrom = file;
   results.kept.clear(); // the list that is shown has grown since
   const SampleSettings settings = results.samples->settings;
   show(std::move(results));

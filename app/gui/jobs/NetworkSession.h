@@ -71,6 +71,7 @@ struct DecoderTrial {
 struct NetworkResults {
   SensorDesign design;
   std::shared_ptr<const NetworkSamples> samples;
+  QString openedFrom; ///< the file that they were opened from last; empty: the samples say it
   std::shared_ptr<const NetworkFit> fit;
   std::shared_ptr<const NetworkFit> before;            ///< that was shown before it; to compare with
   std::vector<std::shared_ptr<const NetworkFit>> kept; ///< that can be gone back to, the newest first

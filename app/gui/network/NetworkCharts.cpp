@@ -177,10 +177,19 @@ ChartSpec errorTimeChart(const std::vector<SweepPoint>& points) {
   return spec;
 }
 
+namespace {
+
+/// Which test samples a chart draws; touches lie in an area.
+std::string ofArea(const NetworkSamples& samples, int area) {
+  return (samples.test.hasTouches() ? ", touches in area " : ", area ") + std::to_string(area);
+}
+
+} // namespace
+
 ChartSpec decoupledChart(const NetworkSamples& samples, const NetworkFit& fit, int direction, int area) {
   const std::string force = kForces[static_cast<std::size_t>(direction)];
   ChartSpec spec;
-  spec.title = "Decoupled against true " + force + ", area " + std::to_string(area);
+  spec.title = "Decoupled against true " + force + ofArea(samples, area);
   spec.xLabel = "true " + force + " [N]";
   spec.yLabel = "decoupled " + force + " [N]";
   ChartSeries exact = series("exact", Style::Line, 6, true);
@@ -198,7 +207,7 @@ ChartSpec decoupledChart(const NetworkSamples& samples, const NetworkFit& fit, i
 
 ChartSpec relativeErrorChart(const NetworkSamples& samples, const NetworkFit& fit, int area) {
   ChartSpec spec;
-  spec.title = "Relative error by sample, area " + std::to_string(area);
+  spec.title = "Relative error by sample" + ofArea(samples, area);
   spec.xLabel = "test sample";
   spec.yLabel = "|F' - F| / |F| [%]";
   spec.logY = true;

@@ -134,12 +134,13 @@ QString guessWords(const NetworkSession& session, const NetworkFit& fit) {
   for (Eigen::Index k = 0; k < its.places_mm.size(); ++k)
     compare(QObject::tr("place %1").arg(QLatin1Char("xy"[k])), its.places_mm(k), guess.places_mm(k), "mm");
   if (worse.isEmpty()) return {};
-  const bool noise = fit.settings.noise < fit.settings.testNoise;
+  const bool noise = fit.settings.noise < fit.settings.testNoise, all = fit.settings.rows == "all";
   return "<div>" +
          QObject::tr("Warning: worse than knowing nothing, which is to say the mean of the training samples always "
                      "(RMSE): %1.")
              .arg(worse.join(", ")) +
          (noise ? QObject::tr(" The noise drowns it: train it with the noise of the test.")
+          : all ? QObject::tr(" More samples or another decoder may help.")
                 : QObject::tr(" More samples, all row-wires or another decoder may help.")) +
          "</div>";
 }

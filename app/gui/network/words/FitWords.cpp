@@ -253,9 +253,10 @@ QString fitWords(const NetworkSession& session, const NetworkSettings& now, cons
   if (fit->file.isEmpty() && session.samples() != nullptr && fit->madeFrom != session.samples()->settings)
     name += tr(" on other samples (%1, seed %2)").arg(countWords(fit->madeFrom)).arg(fit->madeFrom.seed);
   if (!fit->name.isEmpty()) name = "\"" + fit->name + "\": " + name;
-  const QString rest = tr("%1 %2%3; condition %4, trained in %5 s.%6%7%8")
+  const double condition = fit->decoder.report.condition; // 0: it solved no such system
+  const QString rest = tr("%1 %2%3; %4trained in %5 s.%6%7%8")
                            .arg(name.toHtmlEscaped(), originWords(*fit).toHtmlEscaped(), systemWords(*fit))
-                           .arg(fit->decoder.report.condition, 0, 'g', 2)
+                           .arg(condition > 0 ? tr("condition %1, ").arg(condition, 0, 'g', 2) : QString())
                            .arg(fit->decoder.report.seconds, 0, 'g', 2)
                            .arg(placeWords(*fit) + boundWords(session, *fit, touches), scatterWords(session, *fit),
                                 adviceWords(session, *fit));

@@ -55,8 +55,9 @@ QString madeWords(const NetworkSamples& samples) {
   return words;
 }
 
-QString openedWords(const NetworkSamples& samples) {
-  QString words = QObject::tr(" from %1 ").arg(QFileInfo(samples.file).fileName());
+/// `file`: that they were opened from last.
+QString openedWords(const NetworkSamples& samples, const QString& file) {
+  QString words = QObject::tr(" from %1 ").arg(QFileInfo(file).fileName());
   if (samples.training.origin.imported())
     words += samples.ofNoDesign ? QObject::tr("(measured, of no design that is open)") : QObject::tr("(measured)");
   else
@@ -79,7 +80,9 @@ QString samplesWords(const NetworkSession& session) {
       QObject::tr("%1 for training, %2 for testing").arg(samples->training.size()).arg(samples->test.size());
   if (!session.upToDate())
     return counts + QObject::tr(", of %1: undo the change, or generate new ones.").arg(earlierDesign(session));
-  return counts + (samples->file.isEmpty() ? madeWords(*samples) : openedWords(*samples)) + ". " + spanWords(*samples);
+  const QString& opened = session.results().openedFrom;
+  const QString& file = opened.isEmpty() ? samples->file : opened;
+  return counts + (file.isEmpty() ? madeWords(*samples) : openedWords(*samples, file)) + ". " + spanWords(*samples);
 }
 
 QString plannedWords(const SampleSettings& samples, const SensorDesign& design, const MeshOptions& mesh) {

@@ -1,6 +1,7 @@
 #include "app/gui/jobs/samples/ResultFiles.h"
 
 #include "app/gui/jobs/samples/SampleFiles.h"
+#include "app/gui/network/words/SamplesWords.h"
 #include "io/AtomicFile.h"
 #include "io/DecoderFile.h"
 #include "model/base/Error.h"
@@ -336,12 +337,12 @@ TEST_F(ResultFilesTest, SamplesThatWereHereBeforeBringBackWhatWasMadeOfThem) {
   NetworkSession session;
   session.setDesign(project.design);
   const fs::path file = folder() / "samples.csv";
-  const auto opens = [&] {
+  const auto opens = [&](const fs::path& name) {
     const NetworkSamples* before = session.samples();
-    session.openSamples({file});
+    session.openSamples({name});
     ASSERT_TRUE(QTest::qWaitFor([&] { return session.samples() != before && !session.working(); }, kPatience_ms));
   };
-  opens();
+  opens(file);
   EXPECT_EQ(session.fit(), nullptr) << "nothing was made of them here";
   session.train(project.network);
   ASSERT_TRUE(QTest::qWaitFor([&] { return session.fit() != nullptr && !session.working(); }, kPatience_ms));
@@ -361,12 +362,16 @@ TEST_F(ResultFilesTest, SamplesThatWereHereBeforeBringBackWhatWasMadeOfThem) {
   ASSERT_TRUE(QTest::qWaitFor([&] { return session.fit() != nullptr && !session.working(); }, kPatience_ms));
   QString said;
   QObject::connect(&session, &NetworkSession::note, [&](const QString& sentence) { said = sentence; });
-  opens();
+  const fs::path copy = folder() / "copy.csv";
+  fs::copy_file(file, copy);
+  fs::copy_file(testFileOf(file), testFileOf(copy));
+  opens(copy);
   EXPECT_EQ(session.fit(), trained);
   EXPECT_TRUE(session.fitIsCurrent());
   EXPECT_EQ(session.sweepPoints().size(), 3u);
   EXPECT_EQ(session.kept().size(), 2u) << "the list has both";
   EXPECT_TRUE(said.contains("were here before")) << said.toStdString();
+  EXPECT_TRUE(samplesWords(session).contains("from copy.csv")) << samplesWords(session).toStdString();
 
   const NetworkSamples* shown = session.samples();
   SensorDesign thicker = project.design;
