@@ -38,7 +38,7 @@ std::vector<ReportKind> allKinds() {
     QString what = QString::fromStdString(report.what);
     if (!what.isEmpty()) what[0] = what[0].toUpper();
     if (report.name == "networks")
-      what += QObject::tr(": for that, set the design's law to the conduction field (Design scene) first.");
+      what += QObject::tr(": for that, the design's law has to be the conduction field (Design scene).");
     all.push_back({QString::fromStdString(report.name),
                    {"report", QString::fromStdString(report.name)},
                    what,

@@ -193,20 +193,18 @@ QWidget* ReportsPage::buildViews() {
   tabs_->addTab(written_, tr("Earlier reports"));
   auto* left = new QSplitter(Qt::Vertical);
   left->setObjectName("reportsLeft");
-  left->addWidget(tabs_);
-  left->addWidget(pictures_);
+  for (QWidget* part : {static_cast<QWidget*>(tabs_), static_cast<QWidget*>(pictures_)}) left->addWidget(part);
   auto* views = new QSplitter(Qt::Horizontal);
   views->setObjectName("reportsSplitter");
   views->addWidget(left);
   whose_ = new QLabel; // another kind may be chosen above
   whose_->setObjectName("reportShown");
-  auto* shown = new QWidget;
-  auto* below = new QVBoxLayout(shown);
+  auto* below = new QVBoxLayout(new QWidget);
   below->setContentsMargins(0, 0, 0, 0);
   below->addWidget(whose_);
   below->addWidget(picture_, 1);
-  views->addWidget(shown);
-  views->setSizes({480, 900});
+  views->addWidget(below->parentWidget());
+  views->setSizes({620, 800}); // the names of all tabs
   return views;
 }
 
