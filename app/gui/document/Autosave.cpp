@@ -121,7 +121,7 @@ void Autosave::say(const QString& reason) {
 
 void Autosave::keepResults() {
   const NetworkResults& now = network_.results();
-  if (!network_.upToDate() || (now.samples == keptSamples_ && now.fit == keptFit_ && now.listed() == keptList_)) return;
+  if (!network_.upToDate() || keptResults_.is(now)) return;
   if (runner_.running()) { // what it writes now is written to its end
     timer_.start(kWait_ms);
     return;
@@ -129,11 +129,7 @@ void Autosave::keepResults() {
   const std::string folder = QDir(folder_).filePath(kResults).toStdString();
   runner_.start(tr("Keeping samples and network"), [this, folder, results = now](const auto&, JobProgress&) {
     saveResults(folder, results, resultFiles(folder));
-    return [this, results] {
-      keptSamples_ = results.samples;
-      keptFit_ = results.fit;
-      keptList_ = results.listed();
-    };
+    return [this, results] { keptResults_.set(results); };
   });
 }
 

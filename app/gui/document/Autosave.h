@@ -1,12 +1,12 @@
 #pragma once
 
+#include "app/gui/document/ResultsMark.h"
 #include "app/gui/jobs/JobRunner.h"
 
 #include <QDateTime>
 #include <QLockFile>
 #include <QObject>
 #include <QString>
-#include <QStringList>
 #include <QTimer>
 
 #include <memory>
@@ -15,10 +15,7 @@
 namespace palp {
 
 class Document;
-class NetworkSession;
 class Workbench;
-struct NetworkFit;
-struct NetworkSamples;
 
 /// What a window that did not end well has left in a folder.
 struct LeftWork {
@@ -68,9 +65,7 @@ private:
   QTimer timer_;
   JobRunner runner_;
   QByteArray kept_; ///< text of the project as it lies in the folder
-  std::shared_ptr<const NetworkSamples> keptSamples_;
-  std::shared_ptr<const NetworkFit> keptFit_;
-  QStringList keptList_;
+  ResultsMark keptResults_;
 };
 
 } // namespace palp

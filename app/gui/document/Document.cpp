@@ -88,7 +88,7 @@ bool Document::unsaved() const {
 
 bool Document::resultsUnsaved() const {
   const NetworkResults& made = network_.results();
-  return network_.upToDate() && (made.samples != savedSamples_ || made.fit != savedFit_ || made.listed() != savedList_);
+  return network_.upToDate() && !saved_.is(made);
 }
 
 void Document::showTitle() {
@@ -283,9 +283,7 @@ bool Document::write(const QString& file) {
 }
 
 void Document::resultsSaved(const NetworkResults& results) {
-  savedSamples_ = results.samples;
-  savedFit_ = results.fit;
-  savedList_ = results.listed();
+  saved_.set(results);
   showTitle();
 }
 

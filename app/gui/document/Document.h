@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/gui/document/ResultsMark.h"
 #include "app/gui/project/Project.h"
 
 #include <QObject>
@@ -14,12 +15,7 @@
 namespace palp {
 
 class MainWindow;
-class NetworkSession;
 class Workbench;
-struct NetworkFit;
-struct NetworkResults;
-struct NetworkSamples;
-struct OpenedResults;
 
 /// The project as a file of the user's, its samples and network in a folder beside it (NAME.palp): opens and saves
 /// them, asks before unsaved work would be lost, and keeps the window's title.
@@ -77,9 +73,7 @@ private:
   MainWindow& window_;
   Workbench& workbench_;
   NetworkSession& network_;
-  std::shared_ptr<const NetworkSamples> savedSamples_;
-  std::shared_ptr<const NetworkFit> savedFit_;
-  QStringList savedList_;
+  ResultsMark saved_;
   std::set<std::filesystem::path> ours_; ///< of the files beside the project: whose content was opened or written here
 };
 

@@ -209,6 +209,20 @@ TEST_F(AutosaveTest, KeepsADesignUnderTheField) {
   EXPECT_EQ(fresh.project().design, next.design);
 }
 
+TEST_F(AutosaveTest, HoldsNothingOfAProjectThatWasLeft) {
+  network.generate({2, 1}, workbench.project().mesh);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.samples() != nullptr && !network.working(); }, kPatience_ms));
+  network.train(workbench.project().network);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.fit() != nullptr && !network.working(); }, kPatience_ms));
+  const std::weak_ptr<const NetworkSamples> samples = network.sharedSamples();
+  const std::weak_ptr<const NetworkFit> fit = network.results().fit;
+  press(-2.5);
+  ASSERT_TRUE(kept("results"));
+  EXPECT_FALSE(samples.expired());
+  workbench.replace("New", quickProject(), {});
+  EXPECT_TRUE(QTest::qWaitFor([&] { return samples.expired() && fit.expired(); }, kPatience_ms));
+}
+
 TEST_F(AutosaveTest, BringsProjectSamplesAndNetworkBackAndUndoLeadsToWhatTheFileHeld) {
   const QString file = folder.filePath("mine.json");
   workbench.saved(file);
