@@ -1,6 +1,7 @@
 #include "app/gui/document/Document.h"
 
 #include "app/gui/jobs/NetworkSession.h"
+#include "app/gui/jobs/ReturnMemory.h"
 #include "app/gui/jobs/samples/ResultFiles.h"
 #include "app/gui/project/FileKind.h"
 #include "app/gui/project/ProjectFile.h"
@@ -13,6 +14,7 @@
 #include <QFileInfo>
 #include <QMessageBox>
 #include <QSettings>
+#include <QTimer>
 
 #include <algorithm>
 
@@ -53,6 +55,7 @@ Document::Document(MainWindow& window, Workbench& workbench, NetworkSession& net
     network_.clear(); // what the other project held
     ours_.clear();
     openResults();
+    QTimer::singleShot(0, this, returnMemory); // when the views have let go of it
   });
   connect(&network, &NetworkSession::saved, this, [this](const std::vector<std::filesystem::path>& files) {
     QStringList names;

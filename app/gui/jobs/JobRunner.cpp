@@ -1,22 +1,14 @@
 #include "app/gui/jobs/JobRunner.h"
 
 #include "app/gui/jobs/CallLater.h"
+#include "app/gui/jobs/ReturnMemory.h"
 #include "model/base/Cancelled.h"
-
-#include <malloc.h>
 
 namespace palp {
 
 namespace {
 
 constexpr int kReportEvery_ms = 60;
-
-/// A solve needs hundreds of megabytes for a second; the C library would keep most of them.
-void returnMemory() {
-#ifdef __GLIBC__
-  malloc_trim(0);
-#endif
-}
 
 /// Runs `act`; what it threw, in words, else nothing. Whatever is thrown ends here: there is nobody above.
 template <class Act> QString failureOf(const Act& act) {

@@ -1,5 +1,6 @@
 #include "app/gui/views/VtkView.h"
 
+#include "app/gui/jobs/ReturnMemory.h"
 #include "app/gui/views/UprightCamera.h"
 #include "app/scenes/gl/OffscreenWindow.h"
 
@@ -16,7 +17,6 @@
 #include <vtkSmartPointer.h>
 
 #include <cmath>
-#include <malloc.h>
 
 namespace palp {
 
@@ -103,9 +103,7 @@ void VtkView::giveBack() {
 
 void giveBackViews(const QWidget& window) {
   for (VtkView* view : window.findChildren<VtkView*>()) view->giveBack();
-#ifdef __GLIBC__
-  malloc_trim(0);
-#endif
+  returnMemory();
 }
 
 bool VtkView::drawn() const {
