@@ -49,7 +49,8 @@ void NetworkFiles::openSamples(const std::vector<std::filesystem::path>& files) 
 
 bool NetworkFiles::mayReplaceSamples() const {
   const auto samples = session_.sharedSamples();
-  if (!samples || samples->seconds < kLong_s || !samples->file.isEmpty() || saved_.lock() == samples) return true;
+  const bool inFile = samples && (!samples->file.isEmpty() || !session_.results().openedFrom.isEmpty());
+  if (!samples || samples->seconds < kLong_s || inFile || saved_.lock() == samples) return true;
   return QMessageBox::question(
              page_, tr("Open samples"),
              tr("The %1 samples that are there were made in %2 and stand in no file of their own. Open "

@@ -314,6 +314,13 @@ TEST_F(OpenFiles, SamplesThatTookLongAreAskedAboutHoweverOthersComeAndNotForWhat
   EXPECT_TRUE(find<QLabel>("trainingProblem").text().contains("holds no samples"))
       << find<QLabel>("trainingProblem").text().toStdString();
   EXPECT_EQ(network.sharedSamples(), before) << "the question was closed, which means no";
+
+  // Opened from a file, after others were there: they stand in one.
+  network.generate({2, 77}, workbench.project().mesh);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.sharedSamples() != before && !network.working(); }, kPatience_ms));
+  network.openSamples({other.toStdString()});
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.sharedSamples() == before && !network.working(); }, kPatience_ms));
+  EXPECT_EQ(asked(other, true), QString());
 }
 
 TEST_F(OpenFiles, OpensADroppedProjectInItsScene) {
