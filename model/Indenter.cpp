@@ -104,8 +104,8 @@ bool Indenter::hasTwoParts() const {
 }
 
 Indenter Indenter::at(double loadFraction) const {
-  const double down = hasTwoParts() ? std::min(1., 2 * loadFraction) : loadFraction;
-  const double sideways = hasTwoParts() ? std::max(0., 2 * loadFraction - 1) : loadFraction;
+  const double down = hasTwoParts() ? std::min(1., loadFraction / pressShare) : loadFraction;
+  const double sideways = hasTwoParts() ? std::max(0., (loadFraction - pressShare) / (1 - pressShare)) : loadFraction;
   Indenter part = *this;
   if (const Press* whole = press())
     part.control = Press{{sideways * whole->force_N.x(), sideways * whole->force_N.y(), down * whole->force_N.z()}};

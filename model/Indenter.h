@@ -40,6 +40,9 @@ struct Motion {
   bool operator==(const Motion&) const = default;
 };
 
+/// Of a load that presses first and goes sideways then: what of it has been taken when the press is complete.
+inline constexpr double pressShare = 2. / 3;
+
 /// A rigid body that presses on the top face, with Coulomb friction.
 struct Indenter {
   IndenterShape shape = IndenterShape::Sphere;
@@ -51,7 +54,7 @@ struct Indenter {
   bool operator==(const Indenter&) const = default;
 
   /// The same at a fraction of its load. Straight down it grows in proportion; where it also goes sideways with
-  /// friction, it presses during the first half and goes sideways during the second.
+  /// friction, it presses during the first two thirds and goes sideways during the last.
   [[nodiscard]] Indenter at(double loadFraction) const;
   [[nodiscard]] bool hasTwoParts() const; ///< presses first, then goes sideways
   [[nodiscard]] const Press* press() const { return std::get_if<Press>(&control); }

@@ -7,14 +7,17 @@ namespace palp {
 namespace {
 
 constexpr double longestMove = 0.5; // of an indenter's expected depth, in one iteration
-constexpr double frictionSteps = 4; // of each part of the way
+// Of a load with friction. While it presses, rubber that comes to touch in a step sticks where it was before that step:
+// the error falls as the steps. Going sideways it slides one way, and steps hardly matter ("Contact" in numerics.md).
+constexpr double frictionSteps = 4, stepsOfTwoParts = frictionSteps / pressShare;
 
 } // namespace
 
 double largestContactStep(const std::vector<Indenter>& indenters, bool fromRest) {
   double size = 1;
   for (const Indenter& indenter : indenters)
-    if (indenter.friction > 0) size = std::min(size, (fromRest && indenter.hasTwoParts() ? 0.5 : 1) / frictionSteps);
+    if (indenter.friction > 0)
+      size = std::min(size, 1 / (fromRest && indenter.hasTwoParts() ? stepsOfTwoParts : frictionSteps));
   return size;
 }
 

@@ -166,8 +166,9 @@ LaneContact::Way FrictionContact::settled(const Eigen::Matrix3Xd& motion_mm) {
 
 /// Not where some go aside from now on.
 bool FrictionContact::straightOn() const {
-  return 2 * (step_ - 1) != steps_ || std::none_of(indenters_.begin(), indenters_.end(),
-                                                   [](const Indenter& indenter) { return indenter.hasTwoParts(); });
+  return step_ - 1 != std::lround(pressShare * steps_) ||
+         std::none_of(indenters_.begin(), indenters_.end(),
+                      [](const Indenter& indenter) { return indenter.hasTwoParts(); });
 }
 
 } // namespace palp

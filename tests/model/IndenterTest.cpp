@@ -66,6 +66,19 @@ TEST(Indenter, HasANameForEachShape) {
   EXPECT_FALSE(indenterShape("cone"));
 }
 
+TEST(Indenter, PressesFirstAndGoesAsideThenWithFrictionAlone) {
+  Indenter indenter = indenterOf(IndenterShape::Sphere);
+  indenter.friction = 0.5;
+  indenter.control = Press{{0.4, -0.2, -3}};
+  const auto force_N = [&](double fraction) { return indenter.at(fraction).press()->force_N; };
+  EXPECT_EQ(force_N(pressShare / 4), Eigen::Vector3d(0, 0, -0.75));
+  EXPECT_EQ(force_N(4 / 6.), Eigen::Vector3d(0, 0, -3)) << "to the last digit, at the fourth of six steps";
+  EXPECT_LT((force_N((1 + pressShare) / 2) - Eigen::Vector3d(0.2, -0.1, -3)).norm(), 1e-15);
+  EXPECT_LT((force_N(1) - Eigen::Vector3d(0.4, -0.2, -3)).norm(), 1e-15);
+  indenter.control = Motion{1, {0, 0}};
+  EXPECT_EQ(indenter.at(0.25).motion()->depth_mm, 0.25) << "straight down it grows in proportion";
+}
+
 TEST(Indenter, RefusesWhatCannotPressInASentence) {
   const auto pressed = [](const Eigen::Vector3d& force, double friction) {
     Indenter indenter = indenterOf(IndenterShape::Sphere);

@@ -261,7 +261,8 @@ std::size_t SampleGenerator::generate(SampleRange range, const std::function<voi
   return done - range.first;
 }
 
-/// The last block's parts give their memory back as they are done.
+/// Parts with the most touches come first, so that the threads end together; the last block's give their memory back as
+/// they are done.
 ConductionBatch::Answers SampleGenerator::answers(const SampleRange& part, bool last,
                                                   const std::function<void(std::size_t)>& progress,
                                                   const std::stop_token& stop) {
@@ -275,6 +276,9 @@ ConductionBatch::Answers SampleGenerator::answers(const SampleRange& part, bool 
   std::map<int, std::vector<std::size_t>, std::greater<>> inWork; // by how many are solved side by side
   for (std::size_t p = 0; p < parts_.size(); ++p)
     if (!ofParts[p].empty()) inWork[partsBeside(p)].push_back(p);
+  for (auto& [beside, some] : inWork)
+    std::stable_sort(some.begin(), some.end(),
+                     [&](std::size_t a, std::size_t b) { return ofParts[a].size() > ofParts[b].size(); });
   const bool first = std::none_of(parts_.begin(), parts_.end(), [](const Part& p) { return p.solver || p.solves > 0; });
   std::size_t done = 0;
   ProgressRelay relay([&](std::size_t more) { progress(done += more); });
