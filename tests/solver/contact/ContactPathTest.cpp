@@ -63,9 +63,9 @@ TEST(ContactPath, ALoadFromRestNeedsFewStepsAside) {
   const double most_N = kFriction * kPress_N;
   for (const double share : {0.4, 0.8}) {
     const Solution alone = block().solve(pressedAside(share * most_N));
-    const auto path = block().solvePath({pressedAside(0), pressedAside(0.25 * share * most_N),
-                                         pressedAside(0.5 * share * most_N), pressedAside(0.75 * share * most_N),
-                                         pressedAside(share * most_N)}); // each in four steps
+    const auto path =
+        block().solvePath({pressedAside(0), pressedAside(0.25 * share * most_N), pressedAside(0.5 * share * most_N),
+                           pressedAside(0.75 * share * most_N), pressedAside(share * most_N)}); // each in four steps
     ASSERT_EQ(path.size(), 5U);
     ASSERT_TRUE(alone.converged && path.back().converged) << alone.stopReason << path.back().stopReason;
     const auto aside = [](const Eigen::Matrix3Xd& all, const Eigen::Matrix3Xd& down) { return (all - down).eval(); };
