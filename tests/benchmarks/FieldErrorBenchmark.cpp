@@ -75,8 +75,8 @@ std::vector<Validation> drawn(unsigned seed) {
   soft.material.poissonRatio = 0.47;
   soft.areas = {2, 2};
   std::vector<Validation> all{{"paper", paperDesign(), {}},
-                              {"z 3.5, y 12 13 16", straight(4, 3.2, {12, 13, 16}), {}},
-                              {"z 2.6 and 1.9", straight(2.7, 1.8, {4.35, 16.2, 19.5}), {}},
+                              {"z 4 and 3.2, y 12 13 16", straight(4, 3.2, {12, 13, 16}), {}},
+                              {"z 2.7 and 1.8", straight(2.7, 1.8, {4.35, 16.2, 19.5}), {}},
                               {"24 x 36 x 4 mm", ofBlock({24, 36, 4}), {}},
                               {"30 x 30 x 8 mm", ofBlock({30, 30, 8}), {}},
                               {"2 x 2 areas, nu 0.47", soft, {}}};
