@@ -1,7 +1,7 @@
 #include "model/field/FaceGrid.h"
 
 #include "model/FieldAtRest.h"
-#include "model/field/GaussLegendre.h"
+#include "model/base/GaussLegendre.h"
 
 #include <algorithm>
 #include <cmath>

@@ -25,7 +25,9 @@ constexpr int kMostDegree = 4;
 constexpr std::array kWidths{0.05, 0.07, 0.1, 0.14, 0.2, 0.3, 0.45}; // of the places' range
 constexpr std::array kReaches{0.1, 0.3, 1.};                         // of each further degree's coefficients
 constexpr std::array kSmoothings{1e-8, 1e-6, 1e-4, 1e-2}; // variance left to a sample, of the components' own
-constexpr int kNodes = 50; // between the table's nodes along the longer range of the places, and what lies beyond
+/// Intervals of the table along the longer range of the places; of many samples, which know of shorter ways.
+constexpr int kNodes = 50, kNodesOfMany = 80;
+constexpr Eigen::Index kManySamples = 2000;
 constexpr double kBeyondRange = 0.1; // of its range that a place may lie outside
 constexpr double kRestVariance = 1;  // of what does not depend on the causes, in the components' own
 constexpr const char* kNoFunction = "no smooth function goes through the samples: are some the same?";
@@ -117,12 +119,13 @@ void ForwardProcess::project(const Eigen::MatrixXd& centred, const Eigen::Vector
 
 /// Over the range of the places and what may lie beyond.
 void ForwardProcess::placeNodes() {
+  const int most = images_[0].cols() < kManySamples ? kNodes : kNodesOfMany;
   for (Eigen::Index axis = 0; axis < 2; ++axis) {
     const int input = form_.place[static_cast<std::size_t>(axis)];
     if (input < 0) continue;
     const double low = images_[0].row(input).minCoeff(), high = images_[0].row(input).maxCoeff();
     const double from = low - kBeyondRange * (high - low), to = high + kBeyondRange * (high - low);
-    const int steps = std::clamp(static_cast<int>(std::ceil(kNodes * (high - low) / range_)), 1, kNodes);
+    const int steps = std::clamp(static_cast<int>(std::ceil(most * (high - low) / range_)), 1, most);
     form_.step(axis) = (to - from) / steps;
     form_.low(axis) = from - form_.step(axis);
     form_.nodes[static_cast<std::size_t>(axis)] = steps + 3;

@@ -17,7 +17,28 @@ constexpr double kSmallStep = 0.01;                         // of a deviation th
 constexpr double kBeyond = 0.1;                             // of its range that a cause may lie outside
 constexpr double kLeastStrength = 0.02, kMostStrength = 50; // times that of the sample an inversion begins at
 
+/// The causes that have varied: the inputs of the table, in its order.
+std::vector<Eigen::Index> variedCauses(const KernelForwardModel& model) {
+  std::vector<Eigen::Index> varied;
+  for (Eigen::Index k = 0; k < model.causes(); ++k)
+    if (model.causeFactor(k) != 0) varied.push_back(k);
+  return varied;
+}
+
 } // namespace
+
+Eigen::MatrixXd KernelForwardModel::slopes(const Eigen::Ref<const Eigen::VectorXd>& causes) const {
+  const std::vector<Eigen::Index> varied = variedCauses(*this);
+  const Eigen::VectorXd scaled = (causes - causeOffset).cwiseProduct(causeFactor)(varied);
+  Eigen::VectorXd value;
+  Eigen::MatrixXd slope, all = Eigen::MatrixXd::Zero(components(), this->causes());
+  if (table.inputs() > 0)
+    table.evaluate(scaled, value, slope);
+  else
+    slope = network.jacobian(scaled);
+  all(Eigen::all, varied) = slope * causeFactor(varied).asDiagonal();
+  return all;
+}
 
 void KernelInversion::evaluate(const Eigen::Ref<const Eigen::VectorXd>& scaled, Eigen::VectorXd& value,
                                Eigen::MatrixXd& slope) const {
@@ -35,10 +56,8 @@ struct KernelInversion::Trial {
 };
 
 KernelInversion::KernelInversion(const KernelForwardModel& model)
-    : model_(model), table_(model.table), weight_(model.deviation.cwiseInverse()),
+    : model_(model), table_(model.table), varied_(variedCauses(model)), weight_(model.deviation.cwiseInverse()),
       weighted_(weight_.asDiagonal() * model.projection) {
-  for (Eigen::Index k = 0; k < model.causes(); ++k)
-    if (model.causeFactor(k) != 0) varied_.push_back(k);
   precision_ = (model.causeFactor.array() * model.causeDeviation.array())(varied_).square().inverse();
   const bool table = model.table.inputs() > 0;
   starts_ = table ? model.starts : model.network.centers;

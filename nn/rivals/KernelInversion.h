@@ -39,6 +39,8 @@ struct KernelForwardModel {
   [[nodiscard]] Eigen::Index measurements() const { return measurementOffset.size(); }
   [[nodiscard]] Eigen::Index causes() const { return causeOffset.size(); }
   [[nodiscard]] Eigen::Index components() const { return deviation.size(); }
+  /// Derivatives of the components by all causes (components x causes): of those that never varied 0.
+  [[nodiscard]] Eigen::MatrixXd slopes(const Eigen::Ref<const Eigen::VectorXd>& causes) const;
 };
 
 /// A reflection under which the measured body is its own image: where the causes are reflected, the measurements are

@@ -129,8 +129,8 @@ void printBound(const std::string& who, const ErrorsOverBounds& over) {
 
 /// Errors of force and place as multiples of what no estimate without a bias can beat, of one who knows so much each.
 std::vector<std::pair<std::string, ErrorsOverBounds>> besideBounds(const SensorDesign& design, const SampleSet& samples,
-                                                                   const Prediction& prediction, double noise,
-                                                                   Session& session) {
+                                                                   const Decoder& decoder, const Prediction& prediction,
+                                                                   double noise, Session& session) {
   const auto bounds = session.stages.measure(
       "bounds", [&] { return touchBounds(samples, design, noise, {}, session.threads, session.stop); });
   if (!bounds) throw Cancelled();
@@ -140,9 +140,14 @@ std::vector<std::pair<std::string, ErrorsOverBounds>> besideBounds(const SensorD
   };
   std::vector<std::pair<std::string, ErrorsOverBounds>> over{{"indenter known", beside(bounds->known)}};
   session.result["touch_bound"] = boundJson(over.back().second);
-  if (bounds->sizeUnknown.empty()) return over;
-  over.emplace_back("indenter's size unknown", beside(bounds->sizeUnknown));
-  session.result["touch_bound_size_unknown"] = boundJson(over.back().second);
+  if (!bounds->sizeUnknown.empty()) {
+    over.emplace_back("indenter's size unknown", beside(bounds->sizeUnknown));
+    session.result["touch_bound_size_unknown"] = boundJson(over.back().second);
+  }
+  if (const auto learned = learnedBounds(decoder, samples, noise); !learned.empty()) {
+    over.emplace_back("at each touch, by the slopes that were learned", beside(learned));
+    session.result["touch_bound_learned"] = boundJson(over.back().second);
+  }
   return over;
 }
 
@@ -178,7 +183,7 @@ Exit run(const PredictArguments& arguments, Session& session) {
                                      {"with_prior_percent_of_range", listJson(bound.withPriorPercent)}};
   }
   std::vector<std::pair<std::string, ErrorsOverBounds>> bounds;
-  if (design) bounds = besideBounds(*design, samples, prediction, options.noise, session);
+  if (design) bounds = besideBounds(*design, samples, decoder, prediction, options.noise, session);
   stopIfAsked(session.stop);
   if (!arguments.output.path.empty()) {
     writeFile(arguments.output.path, csv(decoder, prediction), arguments.output.force);

@@ -4,6 +4,7 @@
 #include "nn/NetworkError.h"
 #include "nn/linear/RandomNumbers.h"
 
+#include <Eigen/Dense>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -47,6 +48,27 @@ TEST(KernelInversion, FindsThePlaceTheHeightAndTheWidthOfABump) {
   // 200 numbers of which 0.68 are expected: 0.033 each way is one standard error.
   EXPECT_GT(within, 110);
   EXPECT_LT(within, 170);
+}
+
+TEST(KernelInversion, SlopesSayOfTheCausesWhatTheBumpsDo) {
+  const Bumps train(300, 1), fresh(50, 2);
+  const KernelForwardFit fit = fitKernelForwardModel(train.measurements, train.causes, kGroups, {1e-4, 1});
+  const std::vector<int> varied{0, 2, 3};
+  for (Eigen::Index i = 0; i < 50; ++i) {
+    const double height = fresh.causes(0, i), place = fresh.causes(2, i), width = fresh.causes(3, i);
+    Eigen::MatrixXd truth(24, 3);
+    for (int m = 0; m < 24; ++m) {
+      const double off = (m - place) / width, bump = std::exp(-off * off);
+      truth.row(m) << bump, 2 * height * bump * off / width, 2 * height * bump * off * off / width;
+    }
+    truth.array().colwise() /= 1e-4 * fresh.measurements.col(i).array(); // in deviations of the noise
+    const Eigen::MatrixXd slopes = fit.model.slopes(fresh.causes.col(i));
+    EXPECT_EQ(slopes.col(1).norm(), 0) << "never varied";
+    const Eigen::Matrix3d expected = (truth.transpose() * truth).inverse();
+    const Eigen::Matrix3d found =
+        (slopes(Eigen::all, varied).transpose() * slopes(Eigen::all, varied)).eval().inverse();
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(found(k, k), expected(k, k), 0.1 * expected(k, k)) << i << ' ' << k;
+  }
 }
 
 TEST(KernelInversion, HoldsOutEveryFifthSample) {

@@ -5,6 +5,7 @@
 #include "model/DesignError.h"
 #include "model/TouchRange.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace palp {
@@ -66,6 +67,25 @@ std::optional<SampleBounds> touchBounds(const SampleSet& samples, const SensorDe
     const Eigen::VectorXd bySize =
         Fz_N / (2 * kSizeStep) * (larger[i].perNewton.col(2) - smaller[i].perNewton.col(2)); // of its logarithm
     bounds.sizeUnknown.push_back(touchDeviations(influences[i], Fz_N, held, relativeNoise, bySize));
+  }
+  return bounds;
+}
+
+std::vector<TouchDeviations> learnedBounds(const Decoder& decoder, const SampleSet& samples, double relativeNoise) {
+  const auto* model = std::get_if<KernelForwardModel>(&decoder.model);
+  if (model == nullptr || decoder.correction || !samples.hasTouches()) return {};
+  const double counted = std::max(decoder.noise, leastTouchNoise); // that the components are in
+  std::vector<Eigen::Index> varied;
+  for (Eigen::Index k = 0; k < model->causes(); ++k)
+    if (model->causeFactor(k) != 0) varied.push_back(k);
+  std::vector<TouchDeviations> bounds;
+  for (Eigen::Index i = 0; i < samples.size(); ++i) {
+    Eigen::VectorXd causes(7); // as DecoderTraining::fitTouches
+    causes << samples.forces_N.col(i), samples.touches.col(i).segment<2>(kTouchX_mm), samples.touches(kTouchSize_mm, i),
+        samples.touches(kTouchFriction, i);
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(causes.size());
+    all(varied) = leastDeviations(counted / relativeNoise * model->slopes(causes)(Eigen::all, varied));
+    bounds.push_back({all.head<3>(), all.segment<2>(3)});
   }
   return bounds;
 }

@@ -2,6 +2,7 @@
 
 #include "app/study/reports/Report.h"
 #include "app/study/reports/map/TouchMap.h"
+#include "io/Decoder.h"
 #include "model/SampleSet.h"
 #include "solver/SensorMesh.h"
 
@@ -22,6 +23,12 @@ struct SampleBounds {
 /// DesignError where no map can be made.
 std::optional<SampleBounds> touchBounds(const SampleSet& samples, const SensorDesign& design, double relativeNoise,
                                         const MeshOptions& mesh, int threads, const std::stop_token& stop = {});
+
+/// The same at each touch as it is and not at rest, by the slopes that a decoder of touches has learned of it, which
+/// know of large strains: of one who has to find all that has varied among the samples it learned from. They are those
+/// of full solves to 0.2 % in the median (resources/docs/numerics.md, "Touches inverted"). Empty: a decoder of another
+/// kind, or one that was calibrated.
+std::vector<TouchDeviations> learnedBounds(const Decoder& decoder, const SampleSet& samples, double relativeNoise);
 
 /// How errors stand beside bounds, in the median over the samples: of an estimate that is normal and reaches its bound
 /// both ratios are 1.

@@ -65,18 +65,6 @@ LinearReadings byField(const SensorDesign& design, const FieldLaw& law, int thre
   return readings;
 }
 
-/// Deviations from what the readings say of each unknown, d reading / d unknown in units of the noise: the roots of the
-/// diagonal of (J' J)^-1; infinite where it is singular to rounding.
-Eigen::VectorXd deviations(Eigen::MatrixXd j) {
-  const Eigen::VectorXd scale = j.colwise().norm(); // forces and places are of different units
-  j *= scale.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(j.transpose() * j);
-  if (!(eigen.eigenvalues()(0) > 1e-13))
-    return Eigen::VectorXd::Constant(j.cols(), std::numeric_limits<double>::infinity());
-  const Eigen::VectorXd variances = eigen.eigenvectors().cwiseAbs2() * eigen.eigenvalues().cwiseInverse();
-  return variances.cwiseSqrt().cwiseQuotient(scale);
-}
-
 /// d ln R by Fz, x and y over the noise.
 Eigen::MatrixXd unknowns(const TouchInfluence& of, double Fz_N, double relativeNoise) {
   Eigen::MatrixXd j(of.perNewton.rows(), 3);
@@ -190,6 +178,16 @@ LinearReadings readingsAtRest(const SensorDesign& design, int threads, const std
   return byPairs(design);
 }
 
+Eigen::VectorXd leastDeviations(Eigen::MatrixXd slopes) {
+  const Eigen::VectorXd scale = slopes.colwise().norm(); // forces and places are of different units
+  slopes *= scale.cwiseInverse().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(slopes.transpose() * slopes);
+  if (!(eigen.eigenvalues()(0) > 1e-13))
+    return Eigen::VectorXd::Constant(slopes.cols(), std::numeric_limits<double>::infinity());
+  const Eigen::VectorXd variances = eigen.eigenvectors().cwiseAbs2() * eigen.eigenvalues().cwiseInverse();
+  return variances.cwiseSqrt().cwiseQuotient(scale);
+}
+
 TouchDeviations touchDeviations(const TouchInfluence& of, double Fz_N, bool held, double relativeNoise,
                                 const Eigen::VectorXd& bySize) {
   const Eigen::MatrixXd slippery = unknowns(of, Fz_N, relativeNoise);
@@ -198,7 +196,7 @@ TouchDeviations touchDeviations(const TouchInfluence& of, double Fz_N, bool held
   j.leftCols(sideways) = of.perNewton.leftCols(sideways) / relativeNoise;
   j.middleCols<3>(sideways) = slippery;
   if (sizes > 0) j.rightCols<1>() = bySize / relativeNoise;
-  const Eigen::VectorXd found = deviations(std::move(j));
+  const Eigen::VectorXd found = leastDeviations(std::move(j));
   TouchDeviations result{{0, 0, found(sideways)}, found.segment<2>(sideways + 1)};
   if (held) result.force_N.head<2>() = found.head<2>();
   return result;

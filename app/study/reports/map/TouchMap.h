@@ -64,6 +64,10 @@ struct TouchDeviations {
 TouchDeviations touchDeviations(const TouchInfluence& of, double Fz_N, bool held, double relativeNoise,
                                 const Eigen::VectorXd& bySize = {});
 
+/// Deviations of unknowns from what the readings say of each, d reading / d unknown in units of the noise: the roots of
+/// the diagonal of (J' J)^-1; infinite where it is singular to rounding.
+Eigen::VectorXd leastDeviations(Eigen::MatrixXd slopes);
+
 /// Places of a map, x first: 2 x places.
 Eigen::Matrix2Xd placesOf(const TouchMapRequest& request);
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <random>
 
 namespace palp {
@@ -80,6 +81,54 @@ TEST(TouchBound, OfAnotherDesignOrOfNoTouchesIsRefused) {
   SampleSet planes = fourTouches(other);
   planes.touches.row(kTouchShape).setConstant(static_cast<double>(IndenterShape::Plane));
   EXPECT_THROW(touchBounds(planes, other, kTouchNoise, coarseTouches(), 0), DesignError);
+}
+
+/// Rows of bumps along x and along y under a touch, as high as its force.
+struct BumpsUnderTouches {
+  SampleSet samples;
+  Eigen::MatrixXd causes{Eigen::MatrixXd::Zero(7, 400)}, readings{40, 400};
+  BumpsUnderTouches() {
+    std::mt19937 engine(5);
+    std::uniform_real_distribution<double> uniform;
+    for (Eigen::Index i = 0; i < causes.cols(); ++i) {
+      causes.col(i).segment<3>(2) << -1 - 4 * uniform(engine), 4 + 12 * uniform(engine), 4 + 12 * uniform(engine);
+      for (int m = 0; m < 40; ++m) readings(m, i) = 100 - causes(2, i) * std::exp(-off(m, i) * off(m, i));
+    }
+    samples.touches = Eigen::MatrixXd::Zero(kTouchRows, causes.cols());
+    samples.touches.middleRows<2>(kTouchX_mm) = causes.middleRows<2>(3);
+    samples.forces_N = causes.topRows<3>();
+    samples.area.setZero(causes.cols());
+  }
+  [[nodiscard]] double off(int m, Eigen::Index i) const { return (m % 20 - causes(m < 20 ? 3 : 4, i)) / 3; }
+};
+
+TEST(TouchBound, OfLearnedSlopesIsThatOfTheReadingsAtEachTouch) {
+  const BumpsUnderTouches bumps;
+  Decoder decoder;
+  decoder.noise = kTouchNoise;
+  decoder.model = fitKernelForwardModel(bumps.readings, bumps.causes,
+                                        (Eigen::VectorXi(7) << 1, 1, 1, 0, 0, 2, 2).finished(), {kTouchNoise, 1})
+                      .model;
+  const auto bounds = learnedBounds(decoder, bumps.samples, kTouchNoise);
+  ASSERT_EQ(bounds.size(), 400U);
+  for (Eigen::Index i = 0; i < 400; i += 7) {
+    Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(40, 3);
+    for (int m = 0; m < 40; ++m) {
+      const double bump = std::exp(-bumps.off(m, i) * bumps.off(m, i));
+      slopes(m, 0) = -bump;
+      slopes(m, m < 20 ? 1 : 2) = -bumps.causes(2, i) * bump * 2 * bumps.off(m, i) / 3;
+      slopes.row(m) /= kTouchNoise * bumps.readings(m, i);
+    }
+    const Eigen::VectorXd expected = leastDeviations(slopes);
+    const TouchDeviations& found = bounds[static_cast<std::size_t>(i)];
+    EXPECT_EQ(found.force_N.head<2>().norm(), 0) << "they never varied";
+    EXPECT_NEAR(found.force_N.z(), expected(0), 0.05 * expected(0)) << i;
+    EXPECT_NEAR(found.place_mm.norm(), expected.tail<2>().norm(), 0.05 * expected.tail<2>().norm()) << i;
+  }
+  EXPECT_NEAR(learnedBounds(decoder, bumps.samples, 2 * kTouchNoise)[3].force_N.z(), 2 * bounds[3].force_N.z(), 1e-9);
+  decoder.correction.emplace();
+  EXPECT_TRUE(learnedBounds(decoder, bumps.samples, kTouchNoise).empty()) << "calibrated";
+  EXPECT_TRUE(learnedBounds(Decoder(), bumps.samples, kTouchNoise).empty()) << "of another kind";
 }
 
 TEST(TouchBound, ErrorsOfAnEstimateThatReachesItAreOnceIt) {

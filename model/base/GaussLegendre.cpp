@@ -1,4 +1,4 @@
-#include "model/field/GaussLegendre.h"
+#include "model/base/GaussLegendre.h"
 
 #include <cmath>
 #include <numbers>
