@@ -27,7 +27,6 @@ constexpr std::array kReaches{0.1, 0.3, 1.};                         // of each 
 constexpr std::array kSmoothings{1e-8, 1e-6, 1e-4, 1e-2}; // variance left to a sample, of the components' own
 /// Intervals of the table along the longer range of the places; of many samples, which know of shorter ways.
 constexpr int kNodes = 50, kNodesOfMany = 80;
-constexpr Eigen::Index kManySamples = 2000;
 constexpr double kBeyondRange = 0.1; // of its range that a place may lie outside
 constexpr double kRestVariance = 1;  // of what does not depend on the causes, in the components' own
 constexpr const char* kNoFunction = "no smooth function goes through the samples: are some the same?";
@@ -119,7 +118,7 @@ void ForwardProcess::project(const Eigen::MatrixXd& centred, const Eigen::Vector
 
 /// Over the range of the places and what may lie beyond.
 void ForwardProcess::placeNodes() {
-  const int most = images_[0].cols() < kManySamples ? kNodes : kNodesOfMany;
+  const int most = images_[0].cols() < manyTouchSamples ? kNodes : kNodesOfMany;
   for (Eigen::Index axis = 0; axis < 2; ++axis) {
     const int input = form_.place[static_cast<std::size_t>(axis)];
     if (input < 0) continue;

@@ -17,26 +17,25 @@ constexpr double kSmallStep = 0.01;                         // of a deviation th
 constexpr double kBeyond = 0.1;                             // of its range that a cause may lie outside
 constexpr double kLeastStrength = 0.02, kMostStrength = 50; // times that of the sample an inversion begins at
 
-/// The causes that have varied: the inputs of the table, in its order.
-std::vector<Eigen::Index> variedCauses(const KernelForwardModel& model) {
-  std::vector<Eigen::Index> varied;
-  for (Eigen::Index k = 0; k < model.causes(); ++k)
-    if (model.causeFactor(k) != 0) varied.push_back(k);
-  return varied;
-}
-
 } // namespace
 
+std::vector<Eigen::Index> KernelForwardModel::varied() const {
+  std::vector<Eigen::Index> inputs;
+  for (Eigen::Index k = 0; k < causes(); ++k)
+    if (causeFactor(k) != 0) inputs.push_back(k);
+  return inputs;
+}
+
 Eigen::MatrixXd KernelForwardModel::slopes(const Eigen::Ref<const Eigen::VectorXd>& causes) const {
-  const std::vector<Eigen::Index> varied = variedCauses(*this);
-  const Eigen::VectorXd scaled = (causes - causeOffset).cwiseProduct(causeFactor)(varied);
+  const std::vector<Eigen::Index> inputs = varied();
+  const Eigen::VectorXd scaled = (causes - causeOffset).cwiseProduct(causeFactor)(inputs);
   Eigen::VectorXd value;
   Eigen::MatrixXd slope, all = Eigen::MatrixXd::Zero(components(), this->causes());
   if (table.inputs() > 0)
     table.evaluate(scaled, value, slope);
   else
     slope = network.jacobian(scaled);
-  all(Eigen::all, varied) = slope * causeFactor(varied).asDiagonal();
+  all(Eigen::all, inputs) = slope * causeFactor(inputs).asDiagonal();
   return all;
 }
 
@@ -56,7 +55,7 @@ struct KernelInversion::Trial {
 };
 
 KernelInversion::KernelInversion(const KernelForwardModel& model)
-    : model_(model), table_(model.table), varied_(variedCauses(model)), weight_(model.deviation.cwiseInverse()),
+    : model_(model), table_(model.table), varied_(model.varied()), weight_(model.deviation.cwiseInverse()),
       weighted_(weight_.asDiagonal() * model.projection) {
   precision_ = (model.causeFactor.array() * model.causeDeviation.array())(varied_).square().inverse();
   const bool table = model.table.inputs() > 0;

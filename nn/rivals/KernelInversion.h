@@ -16,6 +16,9 @@ namespace palp {
 /// leaves.
 inline constexpr double leastTouchNoise = 1e-6;
 
+/// So many samples or more know of shorter ways than fewer do: finer means pay for themselves.
+inline constexpr Eigen::Index manyTouchSamples = 2000;
+
 /// Many measurements as a smooth function of a few causes: what the polynomials of ForwardModel are where the causes
 /// include a place, over which measurements rise and fall. The measurements are taken together into those components
 /// that stand out of the noise. Fitted by Gaussians over the places and monomials in the other causes, kept as a
@@ -39,6 +42,8 @@ struct KernelForwardModel {
   [[nodiscard]] Eigen::Index measurements() const { return measurementOffset.size(); }
   [[nodiscard]] Eigen::Index causes() const { return causeOffset.size(); }
   [[nodiscard]] Eigen::Index components() const { return deviation.size(); }
+  /// The causes that have varied: the inputs of the table, in its order.
+  [[nodiscard]] std::vector<Eigen::Index> varied() const;
   /// Derivatives of the components by all causes (components x causes): of those that never varied 0.
   [[nodiscard]] Eigen::MatrixXd slopes(const Eigen::Ref<const Eigen::VectorXd>& causes) const;
 };

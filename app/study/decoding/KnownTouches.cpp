@@ -21,13 +21,12 @@ namespace palp {
 namespace {
 
 constexpr double kLeastPress_N = 1e-6; // an indenter presses; less is rest
-constexpr Eigen::Index kManySamples = 2000;
 
 /// A finer mesh leaves less at any number of samples, for about a minute more of CPU: whoever learns from few, as a
 /// simulated board does, waits for that and not for the samples.
 MeshOptions meshOf(const SensorDesign& design, Eigen::Index samples) {
   const TouchRange touches = touchesOf(design);
-  return samples < kManySamples ? meshForTouches(design, touches, {}) : meshToLearnFrom(design, touches, {});
+  return samples < manyTouchSamples ? meshForTouches(design, touches, {}) : meshToLearnFrom(design, touches, {});
 }
 
 Eigen::MatrixXd restOf(const SensorDesign& design) {

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kMedianOfNormal = 0.67449;    // of |z|, z normal with deviation 1
 constexpr double kSizeStep = 0.02;             // relative, of the difference that the slope is taken from
+constexpr Eigen::Index kTouchCauses = 7;       // of DecoderTraining::fitTouches: force, place, size, friction
 constexpr double kMedianOfRayleigh = 1.177410; // of a distance in the plane whose coordinates have deviation 1
 
 Indenter touchOf(const SampleSet& samples, Eigen::Index i) {
@@ -73,14 +74,12 @@ std::optional<SampleBounds> touchBounds(const SampleSet& samples, const SensorDe
 
 std::vector<TouchDeviations> learnedBounds(const Decoder& decoder, const SampleSet& samples, double relativeNoise) {
   const auto* model = std::get_if<KernelForwardModel>(&decoder.model);
-  if (model == nullptr || decoder.correction || !samples.hasTouches()) return {};
+  if (model == nullptr || model->causes() != kTouchCauses || decoder.correction || !samples.hasTouches()) return {};
   const double counted = std::max(decoder.noise, leastTouchNoise); // that the components are in
-  std::vector<Eigen::Index> varied;
-  for (Eigen::Index k = 0; k < model->causes(); ++k)
-    if (model->causeFactor(k) != 0) varied.push_back(k);
+  const std::vector<Eigen::Index> varied = model->varied();
   std::vector<TouchDeviations> bounds;
   for (Eigen::Index i = 0; i < samples.size(); ++i) {
-    Eigen::VectorXd causes(7); // as DecoderTraining::fitTouches
+    Eigen::VectorXd causes(kTouchCauses);
     causes << samples.forces_N.col(i), samples.touches.col(i).segment<2>(kTouchX_mm), samples.touches(kTouchSize_mm, i),
         samples.touches(kTouchFriction, i);
     Eigen::VectorXd all = Eigen::VectorXd::Zero(causes.size());
