@@ -2,8 +2,6 @@
 
 #include "model/base/Parallel.h"
 #include "model/base/ProgressRelay.h"
-#include "solver/contact/FrictionContact.h"
-#include "solver/contact/NormalContact.h"
 
 #include <algorithm>
 #include <map>
@@ -14,7 +12,6 @@ namespace palp {
 namespace {
 
 constexpr int predictorDegree = 3;
-constexpr int contactSpan = 4; // iterations over which the contraction of a load with indenters is measured
 // Touches' residuals are found in single precision for this tolerance, and where kappa is no more than so many times
 // the shear modulus: in a stiffer volume rounding weighs as much as the load.
 constexpr double singleTolerance = 5e-7, singleStiffness = 1e3;
@@ -23,11 +20,6 @@ constexpr double predictorFitShare =
 
 bool isSoft(const RubberConstants& rubber) {
   return 2 * (rubber.c10_MPa + rubber.c01_MPa) * rubber.tangentCompressibility_per_MPa * singleStiffness >= 1;
-}
-
-bool hasFriction(const LoadCase& load) {
-  return std::any_of(load.indenters.begin(), load.indenters.end(),
-                     [](const Indenter& indenter) { return indenter.friction > 0; });
 }
 
 } // namespace
@@ -94,7 +86,8 @@ void BatchEngine::rest() {
 
 /// False: stopped.
 bool BatchEngine::findCompliance(const std::vector<Job>& jobs, const std::stop_token& stop) {
-  const bool wanted = std::any_of(jobs.begin(), jobs.end(), [](const Job& job) { return isTouch(job); });
+  const bool wanted =
+      std::any_of(jobs.begin(), jobs.end(), [](const Job& job) { return TouchLanes::isTouch(*job.load); });
   if (wanted && !top_) top_ = TopCompliance::find(model_, problem_.mesh(), touched_, threads_, stop);
   return !wanted || top_;
 }
@@ -192,11 +185,11 @@ AreaPredictor BatchEngine::fitted(const LoadBatch& batch, const std::vector<Eige
   return predictor;
 }
 
-/// Blocks of loads with the same predictors, touches or not, and about as much work each, so that the loads of a block
-/// end their iterations together, and the blocks with most of it first: a predictor's error relative to the answer
-/// falls with the force, and touches take the more iterations the larger the strain, which goes with the force over the
+/// Touches, and blocks of the other loads with the same predictors and about as much work each, so that the loads of a
+/// block end their iterations together; those with most work first: a predictor's error relative to the answer falls
+/// with the force, and touches take the more iterations the larger the strain, which goes with the force over the
 /// square of the size.
-std::vector<BatchEngine::Block> BatchEngine::blocksOf(std::vector<Job> jobs) const {
+void BatchEngine::arrange(std::vector<Job> jobs, Queue& queue) const {
   const auto work = [](const Job& job) {
     double sum = 0;
     for (const AreaLoad& area : job.areas) sum += area.force_N.norm();
@@ -207,36 +200,33 @@ std::vector<BatchEngine::Block> BatchEngine::blocksOf(std::vector<Job> jobs) con
     return sum;
   };
   std::stable_sort(jobs.begin(), jobs.end(), [&](const Job& a, const Job& b) { return work(a) > work(b); });
-  std::map<std::pair<bool, std::vector<int>>, std::vector<Block>> alike;
+  std::map<std::vector<int>, std::vector<Block>> alike;
   for (Job& job : jobs) {
+    if (TouchLanes::isTouch(*job.load)) {
+      queue.touches.push_back(std::move(job));
+      continue;
+    }
     std::erase_if(job.predicted, [&](int area) { return !predictors_[area]; });
-    std::vector<Block>& blocks = alike[{isTouch(job), job.predicted}];
+    std::vector<Block>& blocks = alike[job.predicted];
     if (blocks.empty() || blocks.back().size() == lanes) blocks.emplace_back();
     blocks.back().push_back(std::move(job));
   }
-  std::vector<Block> all;
-  for (auto& [key, blocks] : alike) std::move(blocks.begin(), blocks.end(), std::back_inserter(all));
-  return all;
+  for (auto& [key, blocks] : alike) std::move(blocks.begin(), blocks.end(), std::back_inserter(queue.blocks));
+}
+
+void BatchEngine::addForces(LoadBatch& batch, int lane, const Job& job) const {
+  for (const AreaLoad& area : job.areas) batch.addForce(lane, {&areaShares_[area.area], area.force_N});
+  for (std::size_t p = 0; p < job.patchShares.size(); ++p)
+    batch.addForce(lane, {&job.patchShares[p], job.load->patches[p].force_N});
 }
 
 /// Loads of a block and where its iteration starts: the predictors of its areas, superposed.
-void BatchEngine::start(LoadBatch& batch, LaneContacts& contacts, int block, const Block& jobs,
-                        double tolerance) const {
-  batch.reset(block, isTouch(jobs.front()) && tolerance >= singleTolerance && volumeIsSoft_);
+void BatchEngine::start(LoadBatch& batch, LaneWatch& watch, int block, const Block& jobs) const {
+  batch.reset(block);
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     const int lane = block * lanes + static_cast<int>(i);
-    contacts[lane].reset();
-    if (isTouch(jobs[i])) {
-      if (hasFriction(*jobs[i].load))
-        contacts[lane] =
-            std::make_unique<FrictionContact>(jobs[i].load->indenters, top_, problem_.mesh(), problem_.design());
-      else
-        contacts[lane] = std::make_unique<NormalContact>(jobs[i].load->indenters, top_);
-      batch.mix(lane);
-    }
-    for (const AreaLoad& area : jobs[i].areas) batch.addForce(lane, {&areaShares_[area.area], area.force_N});
-    for (std::size_t p = 0; p < jobs[i].patchShares.size(); ++p)
-      batch.addForce(lane, {&jobs[i].patchShares[p], jobs[i].load->patches[p].force_N});
+    addForces(batch, lane, jobs[i]);
+    watch.begin(lane, assumedContraction(jobs[i]));
   }
   for (int area : jobs.front().predicted) {
     LaneVector monomials(std::size_t(terms_) * lanes);
@@ -251,39 +241,6 @@ void BatchEngine::start(LoadBatch& batch, LaneContacts& contacts, int block, con
   }
 }
 
-/// Lanes whose indenters find no place fail.
-void BatchEngine::iterate(LoadBatch& batch, LaneContacts& contacts, LaneWatch& watch,
-                          const std::stop_token& stop) const {
-  const auto touched = [&](int lane) { return watch.active[lane] && contacts[lane]; };
-  bool any = false;
-  for (int lane = 0; lane < batchLanes; ++lane) any = any || touched(lane);
-  if (!any) return batch.iterate(watch.active, watch.change, stop);
-  batch.iterate(
-      watch.active, watch.change, top_->nodes(), top_->path(),
-      [&](int lane, const Eigen::Matrix3Xd& motion_mm) {
-        if (!contacts[lane]) return true;
-        if (!contacts[lane]->solve(motion_mm)) return false;
-        if (contacts[lane]->turned()) batch.turn(lane);
-        batch.setNodeForces(lane, contacts[lane]->forces());
-        return true;
-      },
-      stop);
-}
-
-/// Lanes whose loads are taken in parts: on to the next where they have found the one in work.
-void BatchEngine::goOn(LoadBatch& batch, const LaneContacts& contacts, LaneWatch& watch,
-                       const std::array<bool, batchLanes>& wasActive) const {
-  for (int lane = 0; lane < batchLanes; ++lane) {
-    if (!wasActive[lane] || watch.active[lane] || watch.failed[lane] || !contacts[lane]) continue;
-    const LaneContact::Way way = contacts[lane]->settled(batch.displacementsOf(lane, top_->nodes()));
-    if (way == LaneContact::Way::Lost) watch.failed[lane] = true;
-    if (contacts[lane]->turned()) batch.turn(lane);
-    if (way == LaneContact::Way::GoesOn) batch.goOn(lane, contacts[lane]->straightOn());
-    if (way == LaneContact::Way::GoesOn || way == LaneContact::Way::StaysHere)
-      watch.begin(lane, 1, contactSpan); // nothing is known of it
-  }
-}
-
 /// That of its area's predictor where it says all about the load; 1: nothing is known.
 double BatchEngine::assumedContraction(const Job& job) const {
   const bool predicted =
@@ -291,41 +248,77 @@ double BatchEngine::assumedContraction(const Job& job) const {
   return predicted ? predictors_[job.predicted.front()]->contraction : 1;
 }
 
-/// Takes blocks (take() gives the next, or null) and gives back each with its lanes' answers. A block whose loads have
-/// all been iterated makes room for the next, so that the substitutions' lanes stay full.
-template <class Take, class Give>
-void BatchEngine::solveBlocks(double tolerance, const Take& take, const Give& give, const std::stop_token& stop) {
+/// Lane and free lane by which touches come to need one block less than they take, step by step.
+std::optional<std::pair<int, int>> BatchEngine::gapOf(const Touching& touching) {
+  std::array<int, LoadBatch::blocks> used{};
+  for (int lane = 0; lane < batchLanes; ++lane) used[lane / lanes] += touching[lane] ? 1 : 0;
+  int free = 0, emptiest = -1;
+  for (int b = 0; b < LoadBatch::blocks; ++b) {
+    if (used[b] == 0) continue;
+    free += lanes - used[b];
+    if (emptiest < 0 || used[b] < used[emptiest]) emptiest = b;
+  }
+  if (free < lanes) return {};
+  const auto in = [&](int block, bool taken) {
+    for (int lane = block * lanes; lane < (block + 1) * lanes; ++lane)
+      if (bool(touching[lane]) == taken) return lane;
+    return -1;
+  };
+  for (int b = 0; b < LoadBatch::blocks; ++b)
+    if (b != emptiest && used[b] > 0 && used[b] < lanes) return std::pair{in(emptiest, true), in(b, false)};
+  return {};
+}
+
+/// Works the queue off and gives back each load with its lane and answer. A block or touch that has been iterated makes
+/// room for the next, so that the substitutions' lanes stay full.
+template <class Give>
+void BatchEngine::workOff(Queue& queue, double tolerance, const Give& give, const std::stop_token& stop) {
   std::unique_ptr<LoadBatch> batch = borrowBatch();
   LaneWatch watch(tolerance);
-  LaneContacts contacts;
-  std::array<const Block*, LoadBatch::blocks> inWork{};
+  TouchLanes touches(top_, problem_);
+  const bool inSingle = tolerance >= singleTolerance && volumeIsSoft_;
+  std::array<const Block*, LoadBatch::blocks> blocks{};
+  Touching touching{}; // in the other blocks
   while (!stop.stop_requested()) {
     for (int b = 0; b < LoadBatch::blocks; ++b) {
-      if (inWork[b] || !(inWork[b] = take())) continue;
-      start(*batch, contacts, b, *inWork[b], tolerance);
-      for (std::size_t i = 0; i < inWork[b]->size(); ++i) {
-        const int lane = b * lanes + static_cast<int>(i);
-        if (contacts[lane])
-          watch.begin(lane, 1, contactSpan); // nothing is known of it
-        else
-          watch.begin(lane, assumedContraction((*inWork[b])[i]));
-      }
+      const auto first = touching.begin() + b * lanes;
+      const bool free = !blocks[b] && std::all_of(first, first + lanes, [](const Job* job) { return !job; });
+      if (free && (blocks[b] = queue.nextBlock())) start(*batch, watch, b, *blocks[b]);
+    }
+    for (int lane = 0; lane < batchLanes; ++lane) {
+      if (blocks[lane / lanes] || touching[lane] || !(touching[lane] = queue.nextTouch())) continue;
+      touches.begin(lane, *touching[lane]->load, *batch, watch, inSingle);
+      addForces(*batch, lane, *touching[lane]);
     }
     if (!watch.anyActive()) break;
-    iterate(*batch, contacts, watch, stop);
+    while (const auto gap = gapOf(touching)) { // there were no more to fill it
+      const auto [from, to] = *gap;
+      batch->move(from, to);
+      watch.move(from, to);
+      touches.move(from, to);
+      touching[to] = std::exchange(touching[from], nullptr);
+      if (!watch.anyActive(from / lanes)) batch->retire(from / lanes);
+    }
+    touches.iterate(*batch, watch, stop);
     if (stop.stop_requested()) break; // the iteration may be unfinished
     const std::array<bool, batchLanes> wasActive = watch.active;
     watch.judge();
-    goOn(*batch, contacts, watch, wasActive);
+    touches.goOn(*batch, watch, wasActive);
     for (int b = 0; b < LoadBatch::blocks; ++b) {
-      if (!inWork[b] || watch.anyActive(b)) continue;
+      std::vector<std::pair<int, const Job*>> ended;
+      for (int lane = b * lanes; lane < (b + 1) * lanes; ++lane)
+        if (touching[lane] && !watch.active[lane]) ended.emplace_back(lane, std::exchange(touching[lane], nullptr));
+      if (blocks[b] && !watch.anyActive(b)) {
+        for (std::size_t i = 0; i < blocks[b]->size(); ++i) ended.emplace_back(b * lanes + int(i), &(*blocks[b])[i]);
+        blocks[b] = nullptr;
+      }
+      if (ended.empty()) continue;
       std::vector<ElectrodeDisplacements> found = batch->electrodes(b);
-      std::vector<Answer> answers(inWork[b]->size());
-      for (std::size_t i = 0; i < answers.size(); ++i)
-        if (!watch.failed[b * lanes + i]) answers[i] = std::move(found[i]);
-      give(*inWork[b], std::move(answers), *batch, b);
-      batch->retire(b);
-      inWork[b] = nullptr;
+      for (const auto& [lane, job] : ended) {
+        give(*job, lane, watch.failed[lane] ? Answer() : std::move(found[std::size_t(lane % lanes)]), *batch);
+        touches.end(lane);
+      }
+      if (!watch.anyActive(b)) batch->retire(b);
     }
   }
   giveBack(std::move(batch));
@@ -336,37 +329,31 @@ std::vector<BatchEngine::Answer> BatchEngine::solve(std::span<const LoadCase> lo
                                                     const std::stop_token& stop, const BatchSolver::TakeState& state) {
   std::vector<Job> jobs;
   for (std::size_t i = 0; i < loads.size(); ++i)
-    if (!hasFriction(loads[i]) || (loads[i].areas.empty() && loads[i].patches.empty())) // the others grow with it
-      jobs.push_back(job(loads[i], i));
+    if (!TouchLanes::hasFriction(loads[i]) || (loads[i].areas.empty() && loads[i].patches.empty()))
+      jobs.push_back(job(loads[i], i)); // the others grow with it
   const std::size_t leftOut = loads.size() - jobs.size();
   if (!findCompliance(jobs, stop) || !makePredictors(jobs, stop)) return {};
-  const std::vector<Block> blocks = blocksOf(std::move(jobs));
+  Queue queue;
+  arrange(std::move(jobs), queue);
   std::vector<Answer> answers(loads.size());
   ProgressRelay progress(done);
   if (leftOut > 0) progress.add(leftOut);
-  std::atomic<std::size_t> next{0};
-  const auto take = [&] {
-    const std::size_t i = next++;
-    return i < blocks.size() ? &blocks[i] : nullptr;
-  };
-  const auto give = [&](const Block& block, std::vector<Answer> found, LoadBatch& batch, int b) {
+  const auto give = [&](const Job& job, int lane, Answer found, LoadBatch& batch) {
     const bool withUnknowns = state && problem_.design().pressureLaw;
-    if (withUnknowns) batch.catchUp(b);
-    for (std::size_t i = 0; i < block.size() && state; ++i) {
-      const int lane = b * lanes + static_cast<int>(i);
-      if (found[i])
-        state(block[i].index, *found[i],
-              {1, batch.displacementsOf(lane), withUnknowns ? batch.unknownsOf(lane) : Eigen::MatrixXd()});
-    }
-    for (std::size_t i = 0; i < block.size(); ++i) answers[block[i].index] = std::move(found[i]);
-    progress.add(block.size());
+    if (withUnknowns) batch.catchUp(lane / lanes);
+    if (state && found)
+      state(job.index, *found,
+            {1, batch.displacementsOf(lane), withUnknowns ? batch.unknownsOf(lane) : Eigen::MatrixXd()});
+    answers[job.index] = std::move(found);
+    progress.add(1);
   };
-  const auto batches = static_cast<int>((blocks.size() + LoadBatch::blocks - 1) / LoadBatch::blocks);
+  const std::size_t blocks = queue.blocks.size() + (queue.touches.size() + lanes - 1) / lanes;
+  const auto batches = static_cast<int>((blocks + LoadBatch::blocks - 1) / LoadBatch::blocks);
   forChunks(std::min(batches, threadCount(threads_)), 1, threads_, [&](int, int) {
     try {
-      solveBlocks(tolerance, take, give, stop);
+      workOff(queue, tolerance, give, stop);
     } catch (...) {
-      next = blocks.size(); // the other threads need not go on
+      queue.leave(); // the other threads need not go on
       throw;
     }
   });

@@ -4,7 +4,7 @@
 #include "solver/batch/ForcePolynomial.h"
 #include "solver/batch/LaneWatch.h"
 #include "solver/batch/LoadBatch.h"
-#include "solver/contact/LaneContact.h"
+#include "solver/batch/TouchLanes.h"
 #include "solver/contact/TopCompliance.h"
 #include "solver/contact/TouchedTangent.h"
 
@@ -53,8 +53,26 @@ private:
     std::vector<TractionShares> patchShares;
     const LoadCase* load = nullptr;
   };
-  static bool isTouch(const Job& job) { return !job.load->indenters.empty(); }
-  using Block = std::vector<Job>; ///< up to 8 with the same predictors, touches or not
+  using Block = std::vector<Job>; ///< up to 8 with the same predictors
+  /// What threads take work from; null: there is no more.
+  struct Queue {
+    std::vector<Block> blocks;
+    std::vector<Job> touches;
+    std::atomic<std::size_t> blocksTaken{0}, touchesTaken{0};
+
+    const Block* nextBlock() { return next(blocks, blocksTaken); }
+    const Job* nextTouch() { return next(touches, touchesTaken); }
+    void leave() {
+      blocksTaken = blocks.size();
+      touchesTaken = touches.size();
+    }
+
+  private:
+    template <class Work> static const Work* next(const std::vector<Work>& of, std::atomic<std::size_t>& taken) {
+      const std::size_t i = taken++;
+      return i < of.size() ? &of[i] : nullptr;
+    }
+  };
 
   [[nodiscard]] Job job(const LoadCase& load, std::size_t index) const;
   [[nodiscard]] bool findCompliance(const std::vector<Job>& jobs, const std::stop_token& stop);
@@ -62,14 +80,12 @@ private:
   [[nodiscard]] std::optional<AreaPredictor> fitPredictor(int area, const std::stop_token& stop);
   [[nodiscard]] AreaPredictor fitted(const LoadBatch& batch, const std::vector<Eigen::Vector3d>& forces,
                                      const std::array<int, batchLanes>& inLane) const;
-  [[nodiscard]] std::vector<Block> blocksOf(std::vector<Job> jobs) const;
-  template <class Take, class Give>
-  void solveBlocks(double tolerance, const Take& take, const Give& give, const std::stop_token& stop);
-  using LaneContacts = std::array<std::unique_ptr<LaneContact>, batchLanes>;
-  void start(LoadBatch& batch, LaneContacts& contacts, int block, const Block& jobs, double tolerance) const;
-  void iterate(LoadBatch& batch, LaneContacts& contacts, LaneWatch& watch, const std::stop_token& stop) const;
-  void goOn(LoadBatch& batch, const LaneContacts& contacts, LaneWatch& watch,
-            const std::array<bool, batchLanes>& wasActive) const;
+  using Touching = std::array<const Job*, batchLanes>;
+  static std::optional<std::pair<int, int>> gapOf(const Touching& touching);
+  void arrange(std::vector<Job> jobs, Queue& queue) const;
+  template <class Give> void workOff(Queue& queue, double tolerance, const Give& give, const std::stop_token& stop);
+  void addForces(LoadBatch& batch, int lane, const Job& job) const;
+  void start(LoadBatch& batch, LaneWatch& watch, int block, const Block& jobs) const;
   [[nodiscard]] double assumedContraction(const Job& job) const;
   [[nodiscard]] std::unique_ptr<LoadBatch> borrowBatch();
   void giveBack(std::unique_ptr<LoadBatch> batch);

@@ -12,13 +12,22 @@ using Sums = std::array<double, mixSums * lanes>; // [mixSums][8]
 
 } // namespace
 
-LaneMixing::LaneMixing(std::size_t leading, std::size_t following)
-    : leading_(leading * batchLanes * leadingPast), following_(following * batchLanes * followingPast) {}
+LaneMixing::LaneMixing(std::size_t leading, std::size_t following, int count)
+    : count_(count), leading_(leading * batchLanes * leadingPast), following_(following * batchLanes * followingPast) {}
 
 void LaneMixing::begin(int lane, bool mixed) {
   mixed_[lane] = mixed;
   restarts_[lane] = hasLast_[lane] = false;
   known_[lane] = 0;
+}
+
+void LaneMixing::copy(int from, int to) {
+  mixed_[to] = mixed_[from];
+  restarts_[to] = restarts_[from];
+  hasLast_[to] = hasLast_[from];
+  known_[to] = known_[from];
+  copyLane(leading_.data(), leading_.size(), leadingPast, from, to);
+  copyLane(following_.data(), following_.size(), count_ * followingPast, from, to);
 }
 
 /// Only now: what followed the last directions has been mixed.

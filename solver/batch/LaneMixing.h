@@ -22,24 +22,28 @@ namespace palp {
 /// through as fast as it is read.
 class LaneMixing {
 public:
-  /// Leading numbers [leading][32 lanes], following ones [following][4 blocks][8 lanes] in any order of the caller's.
-  LaneMixing(std::size_t leading, std::size_t following);
+  /// Leading numbers [leading][32 lanes], following ones [following / count][4 blocks][count][8 lanes] in any order of
+  /// the caller's.
+  LaneMixing(std::size_t leading, std::size_t following, int count);
 
   /// A lane has no history and is mixed from now on, or is left as it is.
   void begin(int lane, bool mixed);
   /// What a lane has gone so far says nothing about the next directions, as another load begins.
   void restart(int lane) { restarts_[lane] = true; }
 
+  /// All that is known of a lane becomes known of another; between two iterations, when all that follows has moved.
+  void copy(int from, int to);
+
   /// u [leading][32] goes along the directions, scale[lane] directions[rows[i]][lane], or what is mixed of them; lanes
   /// without scale stay.
   void moveLeading(std::span<const int> rows, const float* directions, const std::array<double, batchLanes>& scale,
                    double* u);
-  /// The same for some of the following numbers of a block, once an iteration and after moveLeading: directions and
+  /// The same for `count` of the following numbers of a block, once an iteration and after moveLeading: directions and
   /// values [count][8].
-  void moveFollowing(int block, std::size_t first, int count, const double* directions, double* values) {
-    laneKernels().followMixed(directions, count, mixes_[block],
-                              following_.data() + (first * blocks + std::size_t(block) * count) * followingPast * lanes,
-                              values);
+  void moveFollowing(int block, std::size_t place, const double* directions, double* values) {
+    laneKernels().followMixed(
+        directions, count_, mixes_[block],
+        following_.data() + (place * blocks + block) * std::size_t(count_) * followingPast * lanes, values);
   }
 
 private:
@@ -48,6 +52,7 @@ private:
   void begin(const std::array<double, batchLanes>& scale);
   void findGamma(int lane, const double* sums);
 
+  int count_;
   std::array<bool, batchLanes> mixed_{}, restarts_{};
   std::array<bool, batchLanes> hasLast_{}; ///< a direction and a step that the next direction makes a pair with
   std::array<int, batchLanes> known_{};    ///< motions of each lane

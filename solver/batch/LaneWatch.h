@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace palp {
@@ -31,6 +32,15 @@ public:
     contraction_[lane] = assumedContraction;
     span_[lane] = span;
     changes_[lane].clear();
+  }
+  /// A lane goes on as another.
+  void move(int from, int to) {
+    active[to] = std::exchange(active[from], false);
+    failed[to] = failed[from];
+    change[to] = change[from];
+    contraction_[to] = contraction_[from];
+    span_[to] = span_[from];
+    changes_[to] = std::move(changes_[from]);
   }
   [[nodiscard]] bool anyActive() const { return std::find(active.begin(), active.end(), true) != active.end(); }
   [[nodiscard]] bool anyActive(int block) const {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace palp {
 
@@ -50,42 +51,80 @@ void LoadBatch::reset(int block, bool inSingle) {
   for (int lane = block * lanes; lane < (block + 1) * lanes; ++lane) {
     forces_[lane].clear();
     nodeForces_[lane].clear();
-    begins_[lane] = ahead_[lane] = 0;
+    atRest_[lane] = true;
     if (mixing_) mixing_->begin(lane, false);
   }
-  atRest_[block] = true;
-  behind_[block] = false;
+  starts_[block] = {};
+  begins_[block] = behind_[block] = false;
   inSingle_[block] = inSingle;
 }
 
-void LoadBatch::mix(int lane) {
+void LoadBatch::mix(int lane, bool inSingle) {
+  const int block = lane / lanes;
   if (!mixing_) {
+    for (int b = 0; b < blocks; ++b) catchUp(b); // without what is not there yet
     mixing_ = std::make_unique<LaneMixing>(3 * std::size_t(model_.mesh().nodes()),
-                                           std::size_t(model_.mesh().elements()) * model_.mesh().unknowns());
+                                           std::size_t(model_.mesh().elements()) * model_.mesh().unknowns(),
+                                           model_.mesh().unknowns());
     uBefore_.resize(u_.size());
     xBefore_.resize(x_.size());
   }
   mixing_->begin(lane, true);
-  begins_[lane] = -1; // at rest
+  forces_[lane].clear();
+  nodeForces_[lane].clear();
+  atRest_[lane] = true;
+  inSingle_[block] = inSingle;
+  LaneStarts& starts = starts_[block];
+  starts.begins[lane % lanes] = starts.atRest[lane % lanes] = -1;
+  starts.ahead[lane % lanes] = 0;
+  begins_[block] = true;
 }
 
 void LoadBatch::goOn(int lane, bool straight) {
   mixing_->restart(lane);
-  begins_[lane] = -1;
-  ahead_[lane] = straight ? -1 : 0;
+  LaneStarts& starts = starts_[lane / lanes];
+  starts.begins[lane % lanes] = -1;
+  starts.ahead[lane % lanes] = straight ? -1 : 0;
+  begins_[lane / lanes] = true;
 }
 
-bool LoadBatch::begins(int block) const {
-  const auto first = begins_.begin() + block * lanes;
-  return std::find(first, first + lanes, -1) != first + lanes;
+/// What waits for the next iteration is done first, so that it need not go along.
+void LoadBatch::move(int from, int to) {
+  const int old = from / lanes, now = to / lanes;
+  catchUp(old);
+  catchUp(now);
+  const int own = model_.mesh().unknowns();
+  copyLane(u_.data(), u_.size(), 1, from, to);
+  copyLane(uBefore_.data(), uBefore_.size(), 1, from, to);
+  copyLane(x_.data(), x_.size(), own, from, to);
+  copyLane(xBefore_.data(), xBefore_.size(), own, from, to);
+  mixing_->copy(from, to);
+  forces_[to] = std::exchange(forces_[from], {});
+  nodeForces_[to] = std::exchange(nodeForces_[from], {});
+  atRest_[to] = atRest_[from];
+  for (const auto masks : {&LaneStarts::begins, &LaneStarts::atRest, &LaneStarts::ahead})
+    (starts_[now].*masks)[to % lanes] = std::exchange((starts_[old].*masks)[from % lanes], 0);
+  begins_[now] = begins_[now] || begins_[old];
+}
+
+bool LoadBatch::isAtRest(int block) const {
+  const auto first = atRest_.begin() + block * lanes;
+  return std::find(first, first + lanes, false) == first + lanes;
+}
+
+/// Of lanes at rest there are no forces, no volume change, and no rounding errors of either.
+void LoadBatch::keepRest(int block, double* values, int count) const {
+  for (int lane = 0; lane < lanes; ++lane)
+    if (atRest_[block * lanes + lane])
+      for (int i = 0; i < count; ++i) values[i * lanes + lane] = 0;
 }
 
 /// Lanes that begin another load: their displacements, and the unknowns that are up to date.
 void LoadBatch::startAnew() {
   for (int b = 0; b < blocks; ++b) {
-    if (!begins(b)) continue;
-    laneKernels().goAhead(u_.data() + b * lanes, uBefore_.data() + b * lanes, 3 * model_.mesh().nodes(), batchLanes,
-                          begins_.data() + b * lanes, ahead_.data() + b * lanes);
+    if (!begins_[b]) continue;
+    laneKernels().beginLoads(u_.data() + b * lanes, uBefore_.data() + b * lanes, 3 * model_.mesh().nodes(), batchLanes,
+                             starts_[b]);
     for (int e = 0; e < model_.mesh().elements(); ++e)
       if (probed_[e]) startAnew(e, b);
   }
@@ -93,13 +132,12 @@ void LoadBatch::startAnew() {
 
 void LoadBatch::startAnew(int place, int block) {
   const std::size_t own = ownStart(place, block);
-  laneKernels().goAhead(x_.data() + own, xBefore_.data() + own, model_.mesh().unknowns(), lanes,
-                        begins_.data() + block * lanes, ahead_.data() + block * lanes);
+  laneKernels().beginLoads(x_.data() + own, xBefore_.data() + own, model_.mesh().unknowns(), lanes, starts_[block]);
 }
 
 void LoadBatch::addPolynomials(int block, const std::vector<double>& displacements, const std::vector<double>& unknowns,
                                int terms, const double* monomials) {
-  atRest_[block] = false;
+  std::fill_n(atRest_.begin() + block * lanes, lanes, false);
   const auto& kernels = laneKernels();
   kernels.addPolynomials(displacements.data(), terms, monomials, 3 * model_.mesh().nodes(), u_.data() + block * lanes,
                          batchLanes);
@@ -122,8 +160,12 @@ void LoadBatch::evaluateResiduals(const std::array<bool, blocks>& live, const st
     for (const auto& [node, force_N] : nodeForces_[lane])
       for (int d = 0; d < 3; ++d) r_[(3 * std::size_t(node) + d) * batchLanes + lane] += force_N(d);
   smallestJ_.fill(1);
-  std::array<bool, blocks> anew{};
-  for (int b = 0; b < blocks; ++b) anew[b] = begins(b);
+  std::array<bool, blocks> rests{}, someRest{};
+  for (int b = 0; b < blocks; ++b) {
+    const auto first = atRest_.begin() + b * lanes;
+    rests[b] = isAtRest(b);
+    someRest[b] = !rests[b] && std::find(first, first + lanes, true) != first + lanes;
+  }
   alignas(64) ElementLanes u, f;
   alignas(64) std::array<std::array<double, 2 * lanes>, blocks> range;
   for (auto& r : range) r.fill(1);
@@ -136,8 +178,8 @@ void LoadBatch::evaluateResiduals(const std::array<bool, blocks>& live, const st
       const std::size_t own = ownStart(e, b);
       if (behind_[b]) prefetch(model_, e + 1, b, solution_.data());
       if (behind_[b] && !probed_[e]) updateUnknowns(e, b);
-      if (anew[b] && !probed_[e]) startAnew(e, b);
-      if (atRest_[b]) { // no forces, no volume change, and no rounding errors of either
+      if (begins_[b] && !probed_[e]) startAnew(e, b);
+      if (rests[b]) {
         std::fill_n(local_.data() + own, mesh.unknowns() * lanes, 0.);
         continue;
       }
@@ -145,16 +187,20 @@ void LoadBatch::evaluateResiduals(const std::array<bool, blocks>& live, const st
       const auto residual = inSingle_[b] ? kernels.residualOfLoadsInSingle : kernels.residualOfLoads;
       residual(model_.rubber(), {model_.geometry(e), u.data(), x_.data() + own},
                {f.data(), local_.data() + own, range[b].data()});
+      if (someRest[b]) {
+        keepRest(b, f.data(), 3 * kernels.nodes);
+        keepRest(b, local_.data() + own, mesh.unknowns());
+      }
       kernels.condenseLoads(model_.elimination(e), local_.data() + own, f.data());
       laneKernels().subtract(f.data(), nodes, kernels.nodes, r_.data() + b * lanes);
     }
   }
   for (int lane = 0; lane < batchLanes; ++lane) smallestJ_[lane] = range[lane / lanes][lane % lanes];
   for (int b = 0; b < blocks; ++b) {
-    std::fill_n(begins_.begin() + b * lanes, lanes, 0);
-    std::fill_n(ahead_.begin() + b * lanes, lanes, 0);
-    atRest_[b] = atRest_[b] && !live[b];
-    behind_[b] = behind_[b] && !live[b];
+    if (!live[b]) continue;
+    starts_[b] = {};
+    begins_[b] = behind_[b] = false;
+    std::fill_n(atRest_.begin() + b * lanes, lanes, false);
   }
 }
 
@@ -179,7 +225,7 @@ void LoadBatch::updateUnknowns(int place, int block) {
   kernels.recoverLoads(model_.elimination(place), model_.localInverse(place), local_.data() + own, du.data(),
                        dx.data());
   const int count = mesh.unknowns();
-  if (mixing_) return mixing_->moveFollowing(block, std::size_t(place) * count, count, dx.data(), x_.data() + own);
+  if (mixing_) return mixing_->moveFollowing(block, std::size_t(place), dx.data(), x_.data() + own);
   for (int i = 0; i < count * lanes; ++i)
     if (scale[i % lanes] > 0) x_[own + i] += dx[i];
 }

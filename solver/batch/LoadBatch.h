@@ -50,11 +50,14 @@ public:
   /// leaves an error of a few times 1e-7 of the answer.
   void reset(int block, bool inSingle = false);
   void addForce(int lane, const LaneForce& force) { forces_[lane].push_back(force); }
-  /// A lane whose forces answer to the motion: its steps are mixed (LaneMixing.h).
-  void mix(int lane);
+  /// A lane whose forces answer to the motion, at rest: its steps are mixed (LaneMixing.h). It begins for itself, in a
+  /// block of such lanes; the first of them begins in a block that was reset or has retired.
+  void mix(int lane, bool inSingle = false);
   /// Such a lane goes on from where it is to another load. `straight`: which is as much further again in the same
   /// direction, so that it starts as far from here as here is from where the load before began.
   void goOn(int lane, bool straight);
+  /// The load of such a lane goes on in another one, of whose own nothing more will be asked.
+  void move(int from, int to);
   /// Its forces answer in another way from now on: its steps so far do not foretell the next.
   void turn(int lane) { mixing_->restart(lane); }
   /// Forces that answer to the motion, on nodes; in place of those given before.
@@ -103,7 +106,8 @@ private:
   void answerMotion(const std::array<bool, batchLanes>& active, std::span<const int> nodes, const Answer& answer,
                     std::array<std::vector<NodeForce>, batchLanes>& added);
   void addToRight(int lane, const std::vector<NodeForce>& forces);
-  [[nodiscard]] bool begins(int block) const;
+  [[nodiscard]] bool isAtRest(int block) const;
+  void keepRest(int block, double* values, int count) const;
   void startAnew();
   void startAnew(int place, int block);
   void moveAlongDirections();
@@ -122,15 +126,17 @@ private:
   const PointProbe &upper_, &lower_;
   std::array<std::vector<LaneForce>, batchLanes> forces_;
   std::array<std::vector<NodeForce>, batchLanes> nodeForces_;
-  LaneVector u_, r_;                               ///< [3 nodes][32]
-  LaneVector x_, local_;                           ///< [elements][blocks][unknowns][8]
-  std::unique_ptr<LaneMixing> mixing_;             ///< of the lanes that ask for it
-  FloatLanes uBefore_, xBefore_;                   ///< of such lanes, where their load in work began; as u_ and x_
-  std::array<int, batchLanes> begins_{}, ahead_{}; ///< -1: a load begins, and further on than where the lane is
+  LaneVector u_, r_;                        ///< [3 nodes][32]
+  LaneVector x_, local_;                    ///< [elements][blocks][unknowns][8]
+  std::unique_ptr<LaneMixing> mixing_;      ///< of the lanes that ask for it
+  FloatLanes uBefore_, xBefore_;            ///< of such lanes, where their load in work began; as u_ and x_
+  std::array<LaneStarts, blocks> starts_{}; ///< of the next iteration
+  std::array<bool, blocks> begins_{};       ///< one of its lanes does
   FloatLanes solution_;      ///< [rows of the factor + 1][32]; directions over scale_ after the substitutions
   FloatLanes held_;          ///< of the solution along a path, in between
   std::vector<char> probed_; ///< places of elements that an electrode looks at: their unknowns are always up to date
-  std::array<bool, blocks> atRest_{}, behind_{}, inSingle_{};
+  std::array<bool, batchLanes> atRest_{};
+  std::array<bool, blocks> behind_{}, inSingle_{};
   std::array<double, batchLanes> scale_{};
   std::array<double, batchLanes> smallestJ_{};
 };

@@ -42,6 +42,12 @@ struct LaneMix {
   double scale[8] = {}; ///< of its directions
 };
 
+/// How 8 lanes begin another load: from rest, or from where they are, or as much further as they have gone since the
+/// load before began. Masks are 0 or -1; the last two are of lanes that begin.
+struct LaneStarts {
+  int begins[8] = {}, atRest[8] = {}, ahead[8] = {};
+};
+
 /// Some rows of 8 lanes: directions [rows of the factor + 1][batchLanes], where in it each of the rows stands, and
 /// their past, [leadingPast][8] each, so many numbers apart.
 struct MixedRows {
@@ -84,9 +90,8 @@ struct LaneKernels {
   /// Both for numbers that follow with the same gamma: directions and values [count][8], past
   /// [count][followingPast][8].
   void (*followMixed)(const double* directions, int count, const LaneMix&, float* past, double* values);
-  /// Lanes that begin another load, values and before [rows][stride]: `before` becomes where they are; those that go
-  /// ahead move by as much as they did since `before`. Masks are 0 or -1.
-  void (*goAhead)(double* values, float* before, int rows, std::ptrdiff_t stride, const int* begins, const int* ahead);
+  /// Lanes that begin another load, values and before [rows][stride]: `before` becomes where they were, or rest.
+  void (*beginLoads)(double* values, float* before, int rows, std::ptrdiff_t stride, const LaneStarts&);
   /// potential += 1/r and flux -= area . r / r^3 at each point, r from the source at three coordinates.
   void (*addPointSource)(const SurfacePoints&, const double* source, double* potential, double* flux);
   /// sums[8] = sum over k of matrix[k][8] values[k].
@@ -100,5 +105,14 @@ struct LaneKernels {
   void (*subtractProduct)(const LowerTriangle& K, const double* x, double* from);
 };
 const LaneKernels& laneKernels();
+
+/// A lane's numbers over another's, in values [...][batchLanes / 8][count][8].
+template <class T> void copyLane(T* values, std::size_t size, int count, int from, int to) {
+  constexpr int width = 8;
+  const auto start = [&](int lane) { return std::size_t(lane / width) * count * width + lane % width; };
+  for (std::size_t outer = 0; outer < size; outer += std::size_t(batchLanes) * count)
+    for (std::size_t i = 0; i < std::size_t(count) * width; i += width)
+      values[outer + start(to) + i] = values[outer + start(from) + i];
+}
 
 } // namespace palp

@@ -126,8 +126,8 @@ void stepsOfFollowing(const double* directions, int count, const LaneMix& mix, f
   followMixed(directions, count, mix, past, values);
 }
 
-void beginAhead(double* values, float* before, int rows, std::ptrdiff_t stride, const int* begins, const int* ahead) {
-  goAhead(values, before, rows, stride, begins, ahead);
+void startsOfLoads(double* values, float* before, int rows, std::ptrdiff_t stride, const LaneStarts& starts) {
+  beginLoads(values, before, rows, stride, starts);
 }
 
 void source(const SurfacePoints& points, const double* at, double* potential, double* flux) {
@@ -161,7 +161,7 @@ extern const ElementKernels hexKernels;
 extern const LaneKernels laneKernelSet;
 const LaneKernels laneKernelSet = {
     forwardFactor, backwardFactor, forwardFactorOfOne, backwardFactorOfOne, polynomials, gather, subtract, gatherScaled,
-    sumsOfMixed,   stepsOfMixed,   stepsOfFollowing,   beginAhead,          source,      sums8,  squares,  toFloats,
+    sumsOfMixed,   stepsOfMixed,   stepsOfFollowing,   startsOfLoads,       source,      sums8,  squares,  toFloats,
     toDoubles,     product};
 constexpr ElementKernels tetSet =
     kernelsOf<Tet>(tetResidual8, tetResidualOfLoads, tetResidualOfLoadsInSingle, tetTangent);

@@ -97,15 +97,15 @@ PALP_INLINE void followMixed(const double* directions, int count, const LaneMix&
 }
 
 /// Where lanes begin another load.
-PALP_INLINE void goAhead(double* values, float* before, int rows, std::ptrdiff_t stride, const int* begins,
-                         const int* ahead) {
+PALP_INLINE void beginLoads(double* values, float* before, int rows, std::ptrdiff_t stride, const LaneStarts& starts) {
   for (int lane = 0; lane < 8; lane += packSize) {
-    const NarrowMask from = loadMask(begins + lane), on = loadMask(ahead + lane);
+    const NarrowMask from = loadMask(starts.begins + lane), on = loadMask(starts.ahead + lane);
+    const WideMask rest = __builtin_convertvector(loadMask(starts.atRest + lane), WideMask);
     for (int i = 0; i < rows; ++i) {
       double* value = values + i * stride + lane;
       float* past = before + i * stride + lane;
       const NarrowPack last = loadNarrow(past);
-      const Pack now = load(value);
+      const Pack now = rest ? Pack{} : load(value);
       storeNarrow(past, from ? narrow(now) : last);
       store(value, __builtin_convertvector(on, WideMask) ? now + (now - wide(last)) : now);
     }

@@ -14,7 +14,7 @@ struct Lanes {
   std::vector<float> directions = std::vector<float>(std::size_t(count + 1) * batchLanes);
   LaneVector u = LaneVector(std::size_t(count) * batchLanes), x = LaneVector(std::size_t(followers) * batchLanes);
   std::array<double, batchLanes> scale{};
-  LaneMixing mixing{count, followers};
+  LaneMixing mixing{count, followers, followers};
 
   Lanes() {
     for (int i = 0; i < count; ++i) rows.push_back(count - 1 - i);
@@ -33,7 +33,7 @@ struct Lanes {
     mixing.moveLeading(rows, directions.data(), scale, u.data());
     for (int b = 0; b < batchLanes / lanes; ++b) {
       const std::size_t first = std::size_t(b) * followers * lanes;
-      mixing.moveFollowing(b, 0, followers, follow.data() + first, x.data() + first);
+      mixing.moveFollowing(b, 0, follow.data() + first, x.data() + first);
     }
   }
   double follower(int k, int lane) const {
@@ -101,7 +101,7 @@ TEST(LaneMixing, ALaneWithoutScaleStaysAndOneThatRestartsForgets) {
     for (int i = 0; i < count; ++i)
       some.directions[std::size_t(some.rows[i]) * batchLanes + lane] = static_cast<float>(some.residual(i, lane) / 2);
   some.mixing.moveLeading(some.rows, some.directions.data(), some.scale, some.u.data());
-  some.mixing.moveFollowing(1, 0, followers, none.data(), some.x.data() + followers * lanes);
+  some.mixing.moveFollowing(1, 0, none.data(), some.x.data() + followers * lanes);
   EXPECT_EQ(some.u[2 * batchLanes + 9], before);
   EXPECT_EQ(some.follower(2, 9), follower);
   EXPECT_EQ(some.u[2 * batchLanes + 10], restarted);

@@ -35,13 +35,17 @@ protected:
   void expectSameBlock(LoadBatch& a, LoadBatch& b, int block) const {
     a.catchUp(block);
     b.catchUp(block);
-    for (int lane = block * lanes; lane < (block + 1) * lanes; ++lane) {
-      for (std::size_t row = 0; row < 3 * std::size_t(model.mesh().nodes()); ++row)
-        ASSERT_EQ(a.displacements()[row * batchLanes + lane], b.displacements()[row * batchLanes + lane]) << lane;
-      for (int e = 0; e < model.mesh().elements(); ++e)
-        for (int k = 0; k < model.mesh().unknowns(); ++k)
-          ASSERT_EQ(a.unknown(e, k, lane), b.unknown(e, k, lane)) << "element " << e << ", lane " << lane;
-    }
+    for (int lane = block * lanes; lane < (block + 1) * lanes; ++lane) expectSameLane(a, lane, b, lane);
+  }
+  void expectSameLane(LoadBatch& a, int laneOfA, LoadBatch& b, int laneOfB) const {
+    a.catchUp(laneOfA / lanes);
+    b.catchUp(laneOfB / lanes);
+    for (std::size_t row = 0; row < 3 * std::size_t(model.mesh().nodes()); ++row)
+      ASSERT_EQ(a.displacements()[row * batchLanes + laneOfA], b.displacements()[row * batchLanes + laneOfB])
+          << laneOfA;
+    for (int e = 0; e < model.mesh().elements(); ++e)
+      for (int k = 0; k < model.mesh().unknowns(); ++k)
+        ASSERT_EQ(a.unknown(e, k, laneOfA), b.unknown(e, k, laneOfB)) << "element " << e << ", lane " << laneOfA;
   }
 
   HyperelasticProblem problem;
@@ -85,6 +89,39 @@ TEST_F(Batches, KnowWhatTheElectrodesFeelBeforeTheirElementsHaveCaughtUp) {
     EXPECT_EQ(before[lane].upperPressure_MPa, after[lane].upperPressure_MPa);
     EXPECT_GT(after[lane].upperPressure_MPa.norm(), 0);
   }
+}
+
+/// Lanes that are mixed, with forces of their own, in place of what they were.
+void mixLane(LoadBatch& batch, int lane, const TractionShares& shares, double pressing_N) {
+  batch.mix(lane);
+  batch.addForce(lane, {&shares, Eigen::Vector3d(0.3, 0.1, -pressing_N)});
+}
+
+// A touch that is found makes room for another, while its block's others go on.
+TEST_F(Batches, BeginALaneForItselfAmongOthersThatAreOnTheirWay) {
+  LoadBatch among = started(), alone = started();
+  for (int lane = 0; lane < lanes; ++lane) mixLane(among, lane, shares, 0.5 + 0.2 * lane);
+  iterate(among, 0, loads, 3);
+  mixLane(among, 2, shares, 1.7);
+  iterate(among, 0, loads, 4);
+  mixLane(alone, 2, shares, 1.7);
+  iterate(alone, 2, 3, 4);
+  expectSameLane(among, 2, alone, 2);
+}
+
+TEST_F(Batches, MoveALaneThatGoesOnAsIfItHadStayed) {
+  LoadBatch moved = started(), stayed = started();
+  for (LoadBatch* batch : {&moved, &stayed})
+    for (const int lane : {1, 9}) mixLane(*batch, lane, shares, 1 + lane);
+  for (LoadBatch* batch : {&moved, &stayed}) {
+    iterate(*batch, 0, loads, 3);
+    batch->goOn(9, true); // takes effect in the next iteration
+  }
+  moved.move(9, 4);
+  iterate(moved, 0, lanes, 4);
+  iterate(stayed, 0, loads, 4);
+  expectSameLane(moved, 4, stayed, 9);
+  expectSameLane(moved, 1, stayed, 1);
 }
 
 } // namespace
