@@ -59,15 +59,15 @@ HyperelasticProblem::Parts::Making::~Making() {
 }
 
 std::shared_ptr<InitialTangent> HyperelasticProblem::Parts::makeTangent(std::shared_ptr<const CholeskyPlan> plan,
-                                                                        int threads,
-                                                                        const std::stop_token& stop) const {
+                                                                        int threads, const std::stop_token& stop,
+                                                                        Products products) const {
   if (stop.stop_requested()) return {};
   auto rest = std::make_shared<InitialTangent>(InitialTangent{{}, {}, SparseCholesky(std::move(plan))});
   assembler.tangent(discretisation->atRest(), rest->tangents, rest->forces, threads, stop);
   if (stop.stop_requested()) return {};
   LaneVector matrix = assembler.matrix(rest->tangents, threads);
   rest->tangents.stiffness = {};
-  const auto outcome = rest->factor.factorise(std::move(matrix), threads, stop);
+  const auto outcome = rest->factor.factorise(std::move(matrix), threads, stop, products);
   if (outcome == SparseCholesky::Outcome::Stopped) return {};
   if (outcome == SparseCholesky::Outcome::NotPositiveDefinite)
     throw std::logic_error("the tangent at rest is not positive definite");

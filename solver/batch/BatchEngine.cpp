@@ -12,15 +12,10 @@ namespace palp {
 namespace {
 
 constexpr int predictorDegree = 3;
-// Touches' residuals are found in single precision for this tolerance, and where kappa is no more than so many times
-// the shear modulus: in a stiffer volume rounding weighs as much as the load.
-constexpr double singleTolerance = 5e-7, singleStiffness = 1e3;
+// Touches' residuals are found in single precision for this tolerance, where the rubber rounds well.
+constexpr double singleTolerance = 5e-7;
 constexpr double predictorFitShare =
     10; // of the tolerance, for the predictors' solves: a correction follows, 20 times better
-
-bool isSoft(const RubberConstants& rubber) {
-  return 2 * (rubber.c10_MPa + rubber.c01_MPa) * rubber.tangentCompressibility_per_MPa * singleStiffness >= 1;
-}
 
 } // namespace
 
@@ -31,7 +26,7 @@ BatchEngine::BatchEngine(const HyperelasticProblem& problem, std::shared_ptr<con
              touched ? ElementwiseTangent::Order::OfFactor : ElementwiseTangent::Order::OfMesh),
       polynomial_(problem.design().forceRange, predictorDegree),
       terms_((polynomial_.terms() + lanes - 1) / lanes * lanes), predictorTolerance_(predictorFitShare * tolerance),
-      threads_(threads), volumeIsSoft_(isSoft(model_.rubber())), touched_(std::move(touched)) {
+      threads_(threads), touched_(std::move(touched)) {
   const int areas = problem.design().areas.count();
   for (int a = 0; a < areas; ++a)
     areaShares_.push_back(tractionShares(problem.mesh(), regionOf(problem.design().areaRectangle(a))));
@@ -276,7 +271,7 @@ void BatchEngine::workOff(Queue& queue, double tolerance, const Give& give, cons
   std::unique_ptr<LoadBatch> batch = borrowBatch();
   LaneWatch watch(tolerance);
   TouchLanes touches(top_, problem_);
-  const bool inSingle = tolerance >= singleTolerance && volumeIsSoft_;
+  const bool inSingle = tolerance >= singleTolerance && model_.rubber().roundsWell();
   std::array<const Block*, LoadBatch::blocks> blocks{};
   Touching touching{}; // in the other blocks
   while (!stop.stop_requested()) {

@@ -97,7 +97,6 @@ private:
   int terms_; ///< of the polynomial, filled up to whole lanes
   double predictorTolerance_;
   int threads_;
-  bool volumeIsSoft_;
   std::optional<Rectangle> touched_;
   std::vector<TractionShares> areaShares_;
   std::vector<std::optional<AreaPredictor>> predictors_;

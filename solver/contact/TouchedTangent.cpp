@@ -20,7 +20,8 @@ std::optional<TouchedTangent> touchedTangent(const HyperelasticProblem::Parts& p
   auto pattern = std::make_shared<SparsePattern>(*parts.assembler.pattern());
   for (const int node : TopCompliance::nodesIn(parts.mesh, touched))
     pattern->lastGroups.push_back(parts.assembler.group(node));
-  auto rest = parts.makeTangent(std::make_shared<const CholeskyPlan>(std::move(pattern)), threads, stop);
+  const auto products = parts.assembler.rubber().roundsWell() ? Products::Single : Products::Double;
+  auto rest = parts.makeTangent(std::make_shared<const CholeskyPlan>(std::move(pattern)), threads, stop, products);
   if (!rest) return {};
   const Eigen::MatrixXd inverse = rest->factor.inverseOfLast(stop);
   if (stop.stop_requested()) return {};

@@ -43,6 +43,10 @@ struct RubberConstants {
   double c01_MPa;
   double compressibility_per_MPa;        ///< 1/kappa; 0: incompressible
   double tangentCompressibility_per_MPa; ///< the same, kept above 0: the tangent's pressures are eliminated by it
+
+  /// Whether single precision will do where iterations correct it: kappa is at most 1000 times the shear modulus. In a
+  /// stiffer volume rounding weighs as much as the load.
+  [[nodiscard]] bool roundsWell() const { return 2 * (c10_MPa + c01_MPa) * tangentCompressibility_per_MPa * 1000 >= 1; }
 };
 
 /// What one call of a kernel reads.

@@ -12,6 +12,7 @@ namespace palp {
 namespace {
 
 constexpr int tile = frontTile;
+constexpr int worthConverting = 96; // columns whose products are faster in single precision, with the conversions
 
 int tiles(int n) {
   return (n + tile - 1) / tile;
@@ -37,11 +38,31 @@ void updateTile(const double* rows, int m, const double* columns, int n, int dep
                 targetStride);
 }
 
+/// The same by products in single precision, a square at a time.
+void updateTileInSingle(const float* rows, int m, const float* columns, int n, int depth, int stride, double* target,
+                        int targetStride, double beta, bool diagonal) {
+  UnsetArray<float> product(std::size_t(tile) * n);
+  for (int first = 0; first < m; first += tile) {
+    const int some = std::min(tile, m - first);
+    cblas_sgemm(CblasColMajor, CblasNoTrans, CblasTrans, some, n, depth, 1, rows + first, stride, columns, stride, 0,
+                product.data(), tile);
+    for (int j = 0; j < n; ++j) {
+      double* to = target + first + std::size_t(j) * targetStride;
+      const float* from = product.data() + std::size_t(j) * tile;
+      const int begin = diagonal && first == 0 ? j : 0;
+      if (beta == 0)
+        for (int i = begin; i < some; ++i) to[i] = -double(from[i]);
+      else
+        for (int i = begin; i < some; ++i) to[i] -= double(from[i]);
+    }
+  }
+}
+
 /// C -= L L^T for the lower trapezium C (height x width) by tiles of columns, each cut into tiles of rows; `columnOf`
 /// is C's column, addressed by rows, and `strideOf` the distance to the next.
 template <class ColumnOf, class StrideOf>
 bool subtractProduct(const double* L, int height, int width, int depth, int stride, const ColumnOf& columnOf,
-                     const StrideOf& strideOf, double beta, const TaskRunner& run) {
+                     const StrideOf& strideOf, double beta, Products products, const TaskRunner& run) {
   struct Task {
     int row, rows, column, columns;
   };
@@ -50,7 +71,19 @@ bool subtractProduct(const double* L, int height, int width, int depth, int stri
     const int columns = std::min(tile, width - c);
     for (int r = c; r < height; r += 4 * tile) tasks.push_back({r, std::min(4 * tile, height - r), c, columns});
   }
-  return run(static_cast<int>(tasks.size()), double(height) * width * depth, [&](int t) {
+  const double flops = double(height) * width * depth;
+  if (products == Products::Single && depth >= worthConverting) {
+    UnsetArray<float> copy(std::size_t(height) * depth);
+    const bool copied = run(depth, double(height) * depth, [&](int c) {
+      std::copy_n(L + std::size_t(c) * stride, height, copy.data() + std::size_t(c) * height);
+    });
+    return copied && run(static_cast<int>(tasks.size()), flops, [&](int t) {
+             const auto [row, rows, column, columns] = tasks[t];
+             updateTileInSingle(copy.data() + row, rows, copy.data() + column, columns, depth, height,
+                                columnOf(column) + row, strideOf(column), beta, row == column);
+           });
+  }
+  return run(static_cast<int>(tasks.size()), flops, [&](int t) {
     const auto [row, rows, column, columns] = tasks[t];
     updateTile(L + row, rows, L + column, columns, depth, stride, columnOf(column) + row, strideOf(column), beta,
                row == column);
@@ -77,7 +110,8 @@ void UpdateMatrix::forgetBefore(int j) {
 
 // Right-looking, a tile of columns at a time: L11 of the tile by dpotrf, the rows below it by dtrsm, and what the tile
 // takes from the panel's remaining columns by dsyrk and dgemm; U after the last tile.
-FrontOutcome factoriseFront(double* panel, int height, int width, UpdateMatrix& update, const TaskRunner& run) {
+FrontOutcome factoriseFront(double* panel, int height, int width, UpdateMatrix& update, Products products,
+                            const TaskRunner& run) {
   for (int k = 0; k < width; k += tile) {
     const int depth = std::min(tile, width - k), below = height - k - depth;
     double* diagonal = panel + k + std::size_t(k) * height;
@@ -91,13 +125,13 @@ FrontOutcome factoriseFront(double* panel, int height, int width, UpdateMatrix& 
     double* rest = L + std::size_t(depth) * height;
     if (!subtractProduct(
             L, below, width - k - depth, depth, height, [&](int c) { return rest + std::size_t(c) * height; },
-            [&](int) { return height; }, 1, run))
+            [&](int) { return height; }, 1, products, run))
       return FrontOutcome::Stopped;
   }
   if (update.size() > 0 &&
       !subtractProduct(
           panel + width, update.size(), update.size(), width, height, [&](int c) { return update.column(c); },
-          [&](int c) { return update.stride(c); }, 0, run))
+          [&](int c) { return update.stride(c); }, 0, products, run))
     return FrontOutcome::Stopped;
   return FrontOutcome::Done;
 }

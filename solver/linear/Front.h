@@ -38,13 +38,17 @@ private:
   UnsetArray<double> values_;
 };
 
+/// In which precision what eliminated unknowns take from the others is found; it is subtracted in double.
+enum class Products { Double, Single };
+
 enum class FrontOutcome { Done, NotPositiveDefinite, Stopped };
 
 /// Eliminates the first `width` unknowns of a front (Duff and Reid 1983),
 ///   [A11     ]   [L11  ] [I   ] [L11^T L21^T]
 ///   [A21   0 ] = [L21 I] [   U] [        I  ] ,   A11 = L11 L11^T,  L21 = A21 L11^-T,  U = -L21 L21^T.
 /// The panel, A11 above A21 (height x width), becomes L11 above L21; the update becomes U.
-FrontOutcome factoriseFront(double* panel, int height, int width, UpdateMatrix& update, const TaskRunner& run);
+FrontOutcome factoriseFront(double* panel, int height, int width, UpdateMatrix& update, Products products,
+                            const TaskRunner& run);
 
 /// BLAS at one thread from here on: how its sums are cut depends on the number of threads.
 void useOneBlasThread();

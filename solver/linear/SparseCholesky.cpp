@@ -242,8 +242,9 @@ namespace {
 /// One factorisation: fronts and what they hand up.
 class Multifrontal {
 public:
-  Multifrontal(const CholeskyPlan& plan, std::span<const double> values, float* factor, Eigen::MatrixXd& lastRows)
-      : plan_(plan), tree_(plan.tree()), values_(values), factor_(factor), lastRows_(lastRows),
+  Multifrontal(const CholeskyPlan& plan, std::span<const double> values, float* factor, Eigen::MatrixXd& lastRows,
+               Products products)
+      : plan_(plan), tree_(plan.tree()), values_(values), factor_(factor), lastRows_(lastRows), products_(products),
         updates_(tree_.count()) {}
 
   /// Room for the panel of any of the supernodes.
@@ -267,7 +268,7 @@ public:
       updates_[child].forgetBefore(within < runs.back().size() ? runs.back()[within].from : updates_[child].size());
     }
     UpdateMatrix update(tree_.below(s));
-    FrontOutcome outcome = factoriseFront(panel, height, width, update, run);
+    FrontOutcome outcome = factoriseFront(panel, height, width, update, products_, run);
     if (outcome == FrontOutcome::Done &&
         !packPanel(panel, height, width, factor_ + plan_.blocks(factor_).start[s], run))
       outcome = FrontOutcome::Stopped;
@@ -301,16 +302,18 @@ private:
   std::span<const double> values_;
   float* factor_;
   Eigen::MatrixXd& lastRows_;
+  Products products_;
   std::vector<UpdateMatrix> updates_;
 };
 
 } // namespace
 
-SparseCholesky::Outcome SparseCholesky::factorise(LaneVector values, int threads, const std::stop_token& stop) {
+SparseCholesky::Outcome SparseCholesky::factorise(LaneVector values, int threads, const std::stop_token& stop,
+                                                  Products products) {
   useOneBlasThread();
   matrix_ = std::move(values);
   lastRows_.setZero(plan_->lastUnknowns(), plan_->lastUnknowns());
-  Multifrontal fronts(*plan_, matrix_, factor_.data(), lastRows_);
+  Multifrontal fronts(*plan_, matrix_, factor_.data(), lastRows_, products);
   std::atomic<FrontOutcome> worst{FrontOutcome::Done};
   const TaskRunner alone = [&](int count, double, const std::function<void(int)>& task) {
     for (int t = 0; t < count; ++t) task(t);

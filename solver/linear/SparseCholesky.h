@@ -2,6 +2,7 @@
 
 #include "solver/element/LaneKernels.h"
 #include "solver/element/LaneVector.h"
+#include "solver/linear/Front.h"
 #include "solver/linear/SupernodeTree.h"
 
 #include <Eigen/Core>
@@ -70,7 +71,8 @@ public:
 
   enum class Outcome { Done, NotPositiveDefinite, Stopped };
   /// `values` are those of the pattern's entries.
-  [[nodiscard]] Outcome factorise(LaneVector values, int threads, const std::stop_token& stop);
+  [[nodiscard]] Outcome factorise(LaneVector values, int threads, const std::stop_token& stop,
+                                  Products products = Products::Double);
   /// Solves in place, refined once: the factor alone leaves 1e-3 of the right side, at nu = 0.5 a tenth, but next to
   /// nothing of what it has left. Stopped, it leaves no solution.
   void solve(Eigen::VectorXd& rightSide, const std::stop_token& stop = {}) const;

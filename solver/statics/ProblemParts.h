@@ -32,7 +32,8 @@ struct HyperelasticProblem::Parts {
   [[nodiscard]] std::shared_ptr<const InitialTangent> initialTangent(int threads, const std::stop_token& stop) const;
   /// The same by another plan, and not kept.
   [[nodiscard]] std::shared_ptr<InitialTangent> makeTangent(std::shared_ptr<const CholeskyPlan> plan, int threads,
-                                                            const std::stop_token& stop) const;
+                                                            const std::stop_token& stop,
+                                                            Products products = Products::Double) const;
   void keepInitialTangent(std::shared_ptr<const InitialTangent> tangent) const;
   /// Does not wait for a thread that makes it.
   void releaseInitialTangent() const;

@@ -67,6 +67,28 @@ TEST_P(CholeskyOf, SolvesWithTheSameBytesOnAnyNumberOfThreads) {
   }
 }
 
+// Where kappa is no more than 1000 times the shear modulus (RubberConstants::roundsWell).
+TEST(Cholesky, SolvesWithProductsInSinglePrecisionAndTheSameBytesOnAnyNumberOfThreads) {
+  const Tangent tangent(0.4995);
+  const Eigen::VectorXd b = tangent.rightSide();
+  Eigen::VectorXd first, inDouble = b;
+  SparseCholesky usual(tangent.plan);
+  ASSERT_EQ(usual.factorise(tangent.values, 1, {}), SparseCholesky::Outcome::Done);
+  usual.solve(inDouble);
+  for (const int threads : {1, 2}) {
+    SparseCholesky cholesky(tangent.plan);
+    ASSERT_EQ(cholesky.factorise(tangent.values, threads, {}, Products::Single), SparseCholesky::Outcome::Done);
+    Eigen::VectorXd x = b;
+    cholesky.solve(x);
+    EXPECT_LT((b - tangent.times(x)).norm(), 1e-7 * b.norm());
+    EXPECT_GT((x - inDouble).norm(), 0) << "there are products in single precision";
+    if (threads == 1)
+      first = x;
+    else
+      EXPECT_EQ(std::memcmp(first.data(), x.data(), sizeof(double) * x.size()), 0);
+  }
+}
+
 TEST(Cholesky, GivesTheInverseBetweenItsLastGroups) {
   const Tangent tangent(0.4999);
   auto pattern = std::make_shared<SparsePattern>(tangent.plan->pattern());
