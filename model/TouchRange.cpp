@@ -13,6 +13,7 @@ namespace palp {
 namespace {
 
 constexpr std::uint64_t kStream = 0x746F756368; // apart from the streams of load areas, which are small numbers
+constexpr std::uint64_t kDrawsATouch = 16;      // more than one takes
 constexpr double kMarginShare = 0.1;            // of the shorter side
 constexpr double kLeastShare = 1. / 12;         // of the largest press
 constexpr double kCone = 0.7;
@@ -38,8 +39,8 @@ TouchRange touchesOf(const SensorDesign& design) {
   return range;
 }
 
-Indenter touchAt(const TouchRange& range, std::uint64_t seed, std::size_t i) {
-  std::uint64_t axis = 0;
+Indenter touchAt(const TouchRange& range, std::uint64_t seed, std::size_t i, int redrawn) {
+  std::uint64_t axis = std::uint64_t(redrawn) * kDrawsATouch;
   const auto draw = [&] { return uniformAt(seed, kStream, i, axis++); };
   Indenter indenter;
   indenter.shape = range.shape;

@@ -28,8 +28,8 @@ struct TouchRange {
 /// up; sideways up to 0.7 of the limit where there is friction.
 TouchRange touchesOf(const SensorDesign& design);
 
-/// Touch number `i`, from seed and number alone.
-Indenter touchAt(const TouchRange& range, std::uint64_t seed, std::size_t i);
+/// Touch number `i`, from seed and number alone. `redrawn`: another one in its place, for the so many-th time.
+Indenter touchAt(const TouchRange& range, std::uint64_t seed, std::size_t i, int redrawn = 0);
 
 /// As the options of the command line that make it: "sphere:3..6@3,3,27,27 press 0.5..6 friction 0.3..0.8 cone 0.7".
 std::string inWords(const TouchRange& range);

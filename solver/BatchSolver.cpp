@@ -30,6 +30,7 @@ struct BatchSolver::State {
   std::unique_ptr<BatchEngine> engine;
   std::vector<std::optional<AreaSurrogate>> surrogates;
   std::size_t fullSolves = 0, leftToNewton = 0;
+  std::vector<std::string> leftOut; ///< of this call
   double measuredError = 0;
   std::size_t loadsSeen = 0, checks; ///< in all calls
   int surrogatesChecked = 0;
@@ -63,7 +64,7 @@ struct BatchSolver::State {
     return true;
   }
 
-  /// Full Newton for one load, with all threads. Empty: stopped.
+  /// Full Newton for one load, with all threads. Empty: stopped. Without electrodes: left out.
   std::optional<ElectrodeDisplacements> fullNewton(const LoadCase& load, std::size_t index, const std::stop_token& stop,
                                                    const TakeState& take = {}) {
     NewtonOptions newton;
@@ -74,7 +75,12 @@ struct BatchSolver::State {
     const Solution solution = problem.solve(load, newton, {.step = {}, .stop = stop});
     ++fullSolves;
     if (solution.cancelled) return {};
-    if (!solution.converged) throw ConvergenceError("load " + number(index) + ": " + solution.stopReason);
+    if (!solution.converged) {
+      const std::string why = number(index) + ": " + solution.stopReason;
+      if (!options.leaveOut) throw ConvergenceError("load " + why);
+      leftOut.push_back(why);
+      return ElectrodeDisplacements{};
+    }
     ElectrodeDisplacements moved = problem.electrodes(solution.state());
     if (take) take(index, moved, solution.state());
     return moved;
@@ -92,6 +98,7 @@ struct BatchSolver::State {
       if (ways[i] == Way::Surrogate && surrogatesChecked++ >= surrogateChecks) continue;
       const auto full = fullNewton(loads[i], i, stop);
       if (!full) return false;
+      if (full->upper_mm.size() == 0) throw ConvergenceError("load " + leftOut.back() + ", though the batch found one");
       measuredError = std::max(measuredError, relativeDifference(*answers[i], *full));
     }
     return true;
@@ -161,6 +168,7 @@ std::vector<ElectrodeDisplacements> BatchSolver::answer(std::span<const LoadCase
                                                         const TakeState& take) {
   State& s = *state_;
   s.firstNumber = firstNumber;
+  s.leftOut.clear();
   s.requireLoads(loads);
   if (loads.empty() || !s.prepare(stop)) return {};
   std::vector<BatchEngine::Answer> answers(loads.size());
@@ -215,6 +223,10 @@ void BatchSolver::rest() {
 
 void BatchSolver::nameLoads(std::vector<std::size_t> numbers) {
   state_->numbers = std::move(numbers);
+}
+
+const std::vector<std::string>& BatchSolver::leftOut() const {
+  return state_->leftOut;
 }
 
 std::size_t BatchSolver::solves() const {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <stop_token>
+#include <string>
 #include <vector>
 
 namespace palp {
@@ -18,6 +19,8 @@ struct BatchOptions {
   /// Where indenters will touch the top face, if not anywhere: the compliance is found there only, and touches that
   /// reach further are left to full Newton.
   std::optional<Rectangle> touched{};
+  /// Loads without a solution have no electrodes, where they would else be an exception.
+  bool leaveOut = false;
   bool checkFirst = true; ///< against full Newton; false: another solver of the same loads has done it
 };
 
@@ -33,7 +36,8 @@ public:
 
   /// Electrode displacements of each load, in the order of the loads; empty if cancelled. `progress` is given the
   /// number of loads done, by any thread, one call at a time. Throws DesignError if a load cannot act, and
-  /// ConvergenceError if one has no solution; both name the load by its number, counted from `firstNumber`.
+  /// ConvergenceError if one has no solution (but for BatchOptions::leaveOut); both name the load by its number,
+  /// counted from `firstNumber`.
   [[nodiscard]] std::vector<ElectrodeDisplacements> solve(std::span<const LoadCase> loads,
                                                           const std::function<void(std::size_t)>& progress = {},
                                                           std::stop_token stop = {}, std::size_t firstNumber = 0);
@@ -56,6 +60,9 @@ public:
 
   /// Gives back the memory that waits for the next call.
   void rest();
+
+  /// Why loads of the last call were left out, in their order.
+  [[nodiscard]] const std::vector<std::string>& leftOut() const;
 
   /// Number of nonlinear solves so far (for predictors, corrections and fallbacks).
   [[nodiscard]] std::size_t solves() const;

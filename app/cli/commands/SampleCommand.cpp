@@ -6,6 +6,7 @@
 #include "app/study/touch/SampleGenerator.h"
 #include "io/SamplePartWriter.h"
 #include "model/base/Cancelled.h"
+#include "model/base/Text.h"
 
 #include <chrono>
 #include <iostream>
@@ -90,6 +91,15 @@ Exit run(const SampleArguments& arguments, Session& session) {
   session.result["samples_of_all_shards"] = generator.total();
   session.result["solves"] = generator.solves();
   session.result["left_to_newton"] = generator.leftToNewton();
+  session.result["redrawn"] = generator.redrawn();
+  if (const int count = generator.redrawn(); count > 0) {
+    session.warnings.push_back(
+        (count == 1
+             ? "a touch had no equilibrium, and another was drawn in its place: touch "
+             : text(count) + " touches had no equilibrium, and others were drawn in their places; the first: touch ") +
+        generator.whyRedrawn());
+    std::cerr << "palp sample: " << session.warnings.back() << '\n';
+  }
   session.result["solves_per_s"] = seconds > 0 ? static_cast<double>(made) / seconds : 0;
   session.result["measured_error_relative"] = generator.measuredError();
   session.result["mesh"] = generator.origin().mesh;

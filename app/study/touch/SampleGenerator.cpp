@@ -28,6 +28,7 @@ constexpr std::size_t kBlocksOfParts = 4; // as many where each mesh solves its 
 constexpr std::size_t kSurrogateBlock = 8192;
 constexpr int kMostAreasTogether = 4; // in fits of surrogates
 constexpr int kMostPerArea = 10'000'000;
+constexpr int kMostRedraws = 20;
 
 Eigen::Vector3d force_N(const ForceRange& range, std::uint64_t seed, int area, std::size_t sample) {
   Eigen::Vector3d force;
@@ -89,7 +90,7 @@ LoadCase SampleGenerator::load(std::size_t i) const {
   LoadCase load;
   const auto perArea = static_cast<std::size_t>(request_.perArea);
   if (request_.touches) {
-    load.indenters.push_back(touchAt(*request_.touches, request_.seed, i));
+    load.indenters.push_back(touchAt(*request_.touches, request_.seed, i, redrawnTimes(i)));
   } else if (request_.areas == "together") {
     for (int area = 0; area < design_.areas.count(); ++area)
       load.areas.push_back({area, force_N(design_.forceRange, request_.seed, area, i)});
@@ -100,19 +101,13 @@ LoadCase SampleGenerator::load(std::size_t i) const {
   return load;
 }
 
-/// Parts are solved side by side and share the threads, as many at a time as there are threads; the last of them, where
-/// they are fewer, have all threads among them.
-int SampleGenerator::partsBeside(std::size_t index) const {
-  const auto threads = static_cast<std::size_t>(threadCount(request_.threads)), last = parts_.size() % threads;
-  return static_cast<int>(index < parts_.size() - last ? threads : last);
-}
-
 bool SampleGenerator::prepare(Part& part, bool checked, const std::stop_token& stop) {
   if (part.solver) return true;
   MeshOptions options = request_.mesh;
   const int beside = partsBeside(static_cast<std::size_t>(&part - parts_.data()));
   BatchOptions batch{request_.relativeTolerance, request_.surrogate, threadCount(request_.threads) / beside};
   batch.checkFirst = checked;
+  batch.leaveOut = request_.touches.has_value();
   if (part.touches) {
     options = meshForPart(design_, *part.touches, options);
     if (parts_.size() > 1 || part.touches->shape != IndenterShape::Plane)
@@ -181,17 +176,7 @@ bool SampleGenerator::fitSurrogates(const std::stop_token& stop) {
 
 void SampleGenerator::setSeed(std::uint64_t seed) {
   request_.seed = origin_.seed = seed;
-}
-
-void SampleGenerator::Part::giveBack() {
-  if (solver) {
-    solves += solver->solves();
-    leftToNewton += solver->leftToNewton();
-    measuredError = std::max({measuredError, solver->measuredError(), field ? field->surrogateError() : 0});
-  }
-  field.reset();
-  solver.reset();
-  problem.reset();
+  redraws_.clear();
 }
 
 double SampleGenerator::measuredError() const {
@@ -212,16 +197,6 @@ std::size_t SampleGenerator::leftToNewton() const {
   std::size_t all = 0;
   for (const Part& part : parts_) all += part.leftToNewton + (part.solver ? part.solver->leftToNewton() : 0);
   return all;
-}
-
-std::size_t SampleGenerator::partOf(const LoadCase& load) const {
-  if (parts_.size() == 1) return 0;
-  const Eigen::Vector2d from_mm = load.indenters.front().place_mm - request_.touches->low_mm;
-  const Eigen::Vector2d extent_mm = request_.touches->high_mm - request_.touches->low_mm;
-  std::array<int, 2> at{};
-  for (int d = 0; d < 2; ++d)
-    if (cuts_[d] > 1) at[d] = std::clamp(static_cast<int>(from_mm(d) / extent_mm(d) * cuts_[d]), 0, cuts_[d] - 1);
-  return static_cast<std::size_t>(at[1] * cuts_[0] + at[0]);
 }
 
 std::size_t SampleGenerator::samplesABlock() const {
@@ -261,70 +236,64 @@ std::size_t SampleGenerator::generate(SampleRange range, const std::function<voi
   return done - range.first;
 }
 
-/// Parts with the most touches come first, so that the threads end together; the last block's give their memory back as
-/// they are done.
 ConductionBatch::Answers SampleGenerator::answers(const SampleRange& part, bool last,
                                                   const std::function<void(std::size_t)>& progress,
                                                   const std::stop_token& stop) {
-  std::vector<LoadCase> loads;
-  for (std::size_t i = part.first; i < part.last; ++i) loads.push_back(load(i));
-  if (parts_.size() == 1) return answers(parts_.front(), loads, progress, stop, part.first);
-  std::vector<std::vector<std::size_t>> ofParts(parts_.size());
-  for (std::size_t i = 0; i < loads.size(); ++i) ofParts[partOf(loads[i])].push_back(i);
-  ConductionBatch::Answers all{std::vector<ElectrodeDisplacements>(loads.size()),
-                               std::vector<Eigen::MatrixXd>(loads.size())};
-  std::map<int, std::vector<std::size_t>, std::greater<>> inWork; // by how many are solved side by side
-  for (std::size_t p = 0; p < parts_.size(); ++p)
-    if (!ofParts[p].empty()) inWork[partsBeside(p)].push_back(p);
-  for (auto& [beside, some] : inWork)
-    std::stable_sort(some.begin(), some.end(),
-                     [&](std::size_t a, std::size_t b) { return ofParts[a].size() > ofParts[b].size(); });
-  const bool first = std::none_of(parts_.begin(), parts_.end(), [](const Part& p) { return p.solver || p.solves > 0; });
-  std::size_t done = 0;
-  ProgressRelay relay([&](std::size_t more) { progress(done += more); });
-  std::atomic<bool> whole = true;
-  const std::size_t checked = inWork.begin()->second.front();
-  for (const auto& [beside, some] : inWork)
-    inParallel(some.size(), beside, [&, &parts = some](std::size_t k) {
-      const std::size_t p = parts[k];
-      if (!answerPart(p, first && p == checked, loads, part.first, ofParts[p], relay, stop, all)) whole = false;
-      if (last) parts_[p].giveBack();
-    });
-  for (Part& p : parts_) stages_.add(std::exchange(p.stages, {}));
-  return whole ? std::move(all) : ConductionBatch::Answers{};
+  std::vector<std::size_t> numbers(part.last - part.first);
+  std::iota(numbers.begin(), numbers.end(), part.first);
+  const auto loadsOf = [&](const std::vector<std::size_t>& some) {
+    std::vector<LoadCase> loads;
+    for (const std::size_t i : some) loads.push_back(load(i));
+    return loads;
+  };
+  ConductionBatch::Answers all = answers(loadsOf(numbers), numbers, last, progress, stop);
+  while (true) {
+    std::vector<std::size_t> open;
+    for (std::size_t k = 0; k < all.displacements.size(); ++k)
+      if (all.displacements[k].upper_mm.size() == 0) open.push_back(part.first + k);
+    if (open.empty()) return all;
+    for (const std::size_t i : open) redraw(i);
+    ConductionBatch::Answers more = answers(loadsOf(open), open, last, {}, stop);
+    if (more.displacements.size() < open.size()) return {};
+    for (std::size_t k = 0; k < open.size(); ++k) {
+      all.displacements[open[k] - part.first] = std::move(more.displacements[k]);
+      all.resistances_ohm[open[k] - part.first] = std::move(more.resistances_ohm[k]);
+    }
+  }
 }
 
-bool SampleGenerator::answerPart(std::size_t index, bool checked, std::span<const LoadCase> loads,
-                                 std::size_t firstNumber, std::span<const std::size_t> own, ProgressRelay& progress,
-                                 const std::stop_token& stop, ConductionBatch::Answers& all) {
-  Part& part = parts_[index];
-  if (!prepare(part, checked, stop)) return false;
-  std::vector<LoadCase> some;
-  std::vector<std::size_t> numbers;
-  for (const std::size_t i : own) {
-    some.push_back(loads[i]);
-    numbers.push_back(firstNumber + i);
-  }
-  part.solver->nameLoads(std::move(numbers));
-  std::size_t done = 0;
-  ConductionBatch::Answers found = answers(
-      part, some, [&](std::size_t solved) { progress.add(solved - std::exchange(done, solved)); }, stop, 0);
-  part.solver->rest();
-  if (found.displacements.size() < own.size()) return false;
-  for (std::size_t k = 0; k < own.size(); ++k) {
-    all.displacements[own[k]] = std::move(found.displacements[k]);
-    all.resistances_ohm[own[k]] = std::move(found.resistances_ohm[k]);
-  }
-  return true;
+int SampleGenerator::redrawnTimes(std::size_t number) const {
+  const auto times = redraws_.find(number);
+  return times == redraws_.end() ? 0 : times->second;
 }
 
-ConductionBatch::Answers SampleGenerator::answers(Part& part, std::span<const LoadCase> loads,
+void SampleGenerator::redraw(std::size_t number) {
+  if (++redraws_[number] > kMostRedraws)
+    throw ConvergenceError("touch " + whyRedrawn_ + "; " + std::to_string(kMostRedraws) +
+                           " others that were drawn in place of one had none either: allowed are ranges of places and "
+                           "forces in which most touches hold");
+  ++redrawn_;
+}
+
+ConductionBatch::Answers SampleGenerator::answers(Part& part, const std::vector<LoadCase>& loads,
+                                                  const std::vector<std::size_t>& numbers,
                                                   const std::function<void(std::size_t)>& progress,
-                                                  const std::stop_token& stop, std::size_t firstNumber) const {
-  if (part.field) return part.field->solve(loads, progress, stop, firstNumber);
-  ConductionBatch::Answers result{part.solver->solve(loads, progress, stop, firstNumber), {}};
-  for (const ElectrodeDisplacements& moved : result.displacements)
-    result.resistances_ohm.push_back(rowColumnResistances(design_, moved));
+                                                  const std::stop_token& stop) {
+  if (request_.touches) part.solver->nameLoads(numbers);
+  ConductionBatch::Answers result;
+  if (part.field)
+    result = part.field->solve(loads, progress, stop, numbers.front());
+  else
+    result.displacements = part.solver->solve(loads, progress, stop, numbers.front());
+  for (std::size_t k = 0; k < result.displacements.size() && !part.field; ++k) {
+    const ElectrodeDisplacements& moved = result.displacements[k];
+    result.resistances_ohm.push_back(moved.upper_mm.size() > 0 ? rowColumnResistances(design_, moved)
+                                                               : Eigen::MatrixXd());
+  }
+  if (const auto& left = part.solver->leftOut(); !left.empty()) {
+    const std::lock_guard lock(guard_);
+    if (whyRedrawn_.empty()) whyRedrawn_ = left.front();
+  }
   return result;
 }
 

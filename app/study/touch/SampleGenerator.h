@@ -11,10 +11,13 @@
 
 #include <array>
 #include <functional>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <stop_token>
+#include <string>
 #include <vector>
 
 namespace palp {
@@ -50,7 +53,7 @@ public:
   SampleGenerator(SensorDesign design, SampleRequest request);
 
   [[nodiscard]] std::size_t total() const;
-  /// The load of sample i; a pure function of the request and i.
+  /// The load of sample i; a pure function of the request and i, but where a touch was drawn anew.
   [[nodiscard]] LoadCase load(std::size_t i) const;
 
   /// Hands blocks of samples, in order, to `take`; `progress` gets the number of samples done in this call. Stops after
@@ -73,6 +76,9 @@ public:
   [[nodiscard]] std::size_t solves() const;
   /// Samples so far that full Newton's method had to find.
   [[nodiscard]] std::size_t leftToNewton() const;
+  /// How many touches had no equilibrium (a ball that is pushed off an edge) and were drawn anew, and why the first.
+  [[nodiscard]] int redrawn() const { return redrawn_; }
+  [[nodiscard]] const std::string& whyRedrawn() const { return whyRedrawn_; }
   /// Largest relative error of the electrode displacements on the share that was solved again by full Newton; that of
   /// the surrogates' d ln R under the law of the field where it is larger.
   [[nodiscard]] double measuredError() const;
@@ -96,16 +102,22 @@ private:
   bool fitSurrogates(const std::stop_token& stop);
   [[nodiscard]] std::size_t partOf(const LoadCase& load) const;
   [[nodiscard]] std::size_t samplesABlock() const;
-  ConductionBatch::Answers answers(Part& part, std::span<const LoadCase> loads,
-                                   const std::function<void(std::size_t)>& progress, const std::stop_token& stop,
-                                   std::size_t firstNumber) const;
+  ConductionBatch::Answers answers(Part& part, const std::vector<LoadCase>& loads,
+                                   const std::vector<std::size_t>& numbers,
+                                   const std::function<void(std::size_t)>& progress, const std::stop_token& stop);
   /// Empty displacements: stopped.
   ConductionBatch::Answers answers(const SampleRange& part, bool last, const std::function<void(std::size_t)>& progress,
                                    const std::stop_token& stop);
+  /// Of loads with these numbers.
+  ConductionBatch::Answers answers(const std::vector<LoadCase>& loads, const std::vector<std::size_t>& numbers,
+                                   bool last, const std::function<void(std::size_t)>& progress,
+                                   const std::stop_token& stop);
+  [[nodiscard]] int redrawnTimes(std::size_t number) const;
+  void redraw(std::size_t number);
   /// Those of these loads that lie in the part, side by side with other parts. False: stopped.
-  bool answerPart(std::size_t index, bool checked, std::span<const LoadCase> loads, std::size_t firstNumber,
-                  std::span<const std::size_t> own, ProgressRelay& progress, const std::stop_token& stop,
-                  ConductionBatch::Answers& all);
+  bool answerPart(std::size_t index, bool checked, const std::vector<LoadCase>& loads,
+                  const std::vector<std::size_t>& numbers, std::span<const std::size_t> own, ProgressRelay& progress,
+                  const std::stop_token& stop, ConductionBatch::Answers& all);
   [[nodiscard]] int partsBeside(std::size_t index) const;
   SampleSet block(SampleRange range, const ConductionBatch::Answers& answers) const;
 
@@ -113,9 +125,13 @@ private:
   SampleRequest request_;
   std::optional<int> onlyArea_;
   SampleOrigin origin_;
-  std::vector<Part> parts_;       ///< made at the first sample in each
-  std::array<int, 2> cuts_{1, 1}; ///< of the touches' rectangle into parts along x and y
-  bool fitted_ = false;           ///< surrogates, where wanted
+  std::vector<Part> parts_;            ///< made at the first sample in each
+  std::array<int, 2> cuts_{1, 1};      ///< of the touches' rectangle into parts along x and y
+  bool fitted_ = false;                ///< surrogates, where wanted
+  std::map<std::size_t, int> redraws_; ///< of touches, by their numbers
+  int redrawn_ = 0;
+  std::mutex guard_; ///< of the next
+  std::string whyRedrawn_;
   std::function<void(std::size_t, std::size_t)> fitting_;
   StageLog stages_;
 };

@@ -142,6 +142,49 @@ TEST(SampleGenerator, PartsOfTheFaceHaveMeshesOfTheirOwn) {
   EXPECT_LT((all.displacements_mm.col(4) - expected).norm(), 0.1 * expected.norm()) << "coarse meshes";
 }
 
+// A ball that friction hardly holds is pushed off the corner in some directions, and not in others.
+TEST(SampleGenerator, DrawsATouchAnewThatHasNoEquilibrium) {
+  SampleRequest request = coarse(5);
+  request.mesh.mapped = std::array<int, 3>{15, 15, 2};
+  request.touches = touchesOf(paperDesign());
+  request.touches->smallest_mm = request.touches->largest_mm = 5;
+  request.touches->low_mm = {0.5, 0.5};
+  request.touches->high_mm = {0.8, 0.8};
+  request.touches->leastFriction = request.touches->mostFriction = 0.6;
+  request.touches->cone = 0.9;
+  request.touches->leastPress_N = request.touches->mostPress_N = 3;
+  SampleGenerator generator(paperDesign(), request), one(paperDesign(), request);
+  SampleSet all, last;
+  ASSERT_EQ(generator.generate({0, 5}, [&](const SampleSet& block) { append(all, block); }), 5U);
+  EXPECT_GT(generator.redrawn(), 0);
+  EXPECT_NE(generator.whyRedrawn().find(": no contact in equilibrium is found"), std::string::npos);
+  int changed = 0;
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_EQ(all.forces_N.col(i), generator.load(static_cast<std::size_t>(i)).indenters[0].press()->force_N);
+    changed += all.forces_N.col(i) != touchAt(*request.touches, request.seed, std::size_t(i)).press()->force_N ? 1 : 0;
+  }
+  EXPECT_GT(changed, 0);
+  EXPECT_LE(changed, generator.redrawn());
+  EXPECT_GT(all.displacements_mm.colwise().norm().minCoeff(), 0);
+  one.generate({3, 5}, [&](const SampleSet& block) { append(last, block); });
+  EXPECT_EQ(last.forces_N, all.forces_N.rightCols(2)) << "whatever was drawn beside it";
+  EXPECT_EQ(last.displacements_mm, all.displacements_mm.rightCols(2));
+}
+
+TEST(SampleGenerator, EndsWhereNoTouchHasAnEquilibrium) {
+  SampleRequest request = coarse(1);
+  request.mesh.mapped = std::array<int, 3>{15, 15, 2};
+  request.touches = touchesOf(paperDesign());
+  request.touches->leastPress_N = request.touches->mostPress_N = 900; // deeper than the block is high
+  try {
+    SampleGenerator(paperDesign(), request).generate({0, 1}, [](const SampleSet&) {});
+    FAIL() << "there is no such touch";
+  } catch (const ConvergenceError& refusal) {
+    EXPECT_EQ(std::string(refusal.what()).find("touch 0: "), 0U) << refusal.what();
+    EXPECT_NE(std::string(refusal.what()).find("20 others"), std::string::npos) << refusal.what();
+  }
+}
+
 TEST(SampleGenerator, RefusesTouchesThatCannotBe) {
   SampleRequest request = coarse(2);
   request.touches = touchesOf(paperDesign());
