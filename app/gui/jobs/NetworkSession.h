@@ -146,6 +146,7 @@ public:
   /// The same, for a job that outlives them.
   [[nodiscard]] std::shared_ptr<const NetworkSamples> sharedSamples() const { return shown_.samples; }
   [[nodiscard]] const NetworkFit* fit() const { return shown_.fit.get(); }
+  [[nodiscard]] std::shared_ptr<const NetworkFit> sharedFit() const { return shown_.fit; }
   /// The fit is of the samples that are there, and they are of the design as it is now.
   [[nodiscard]] bool fitIsCurrent() const;
   /// Networks of this design that can be gone back to, the newest first.

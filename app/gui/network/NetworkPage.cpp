@@ -343,7 +343,7 @@ void NetworkPage::displayWords() {
   panel_->displayChosenSpread(
       fit != nullptr && session_.fitIsCurrent() && fit->settings.automaticSpread ? fit->decoder.report.spread : 0);
   const QString words = fitWords(session_, workbench_.project().network, asked ? bound_->of(fit->settings) : nullptr,
-                                 asked && fit->error.place ? touchBounds_->of(fit->settings) : nullptr);
+                                 asked && fit->error.place ? touchBounds_->ofTheShown() : nullptr);
   fitWords_->setText(words);
   if (std::exchange(wordsOf_, fit) != fit) head_->verticalScrollBar()->setValue(0); // what is new begins at its top
 }

@@ -8,12 +8,15 @@ namespace palp {
 TouchBounds::TouchBounds(NetworkSession& session, QObject* parent) : QObject(parent), session_(session) {
   connect(&runner_, &JobRunner::finished, this, [this](bool cancelled) {
     if (!cancelled || bounds_) return;
-    bounds_ = std::make_shared<const SampleBounds>(); // who cancels wants none
+    bounds_.emplace(); // who cancels wants none
     emit changed();
   });
 }
 
-const SampleBounds* TouchBounds::of(const NetworkSettings& settings) {
+const SampleBounds* TouchBounds::ofTheShown() {
+  const NetworkFit* fit = session_.fit();
+  if (fit == nullptr) return nullptr;
+  const NetworkSettings& settings = fit->settings;
   const bool all = settings.input == InputKind::Resistance && settings.rows == "all";
   if (!session_.upToDate() || !(settings.testNoise > 0) || !all || !session_.samples()->test.hasTouches())
     return nullptr;
@@ -21,9 +24,11 @@ const SampleBounds* TouchBounds::of(const NetworkSettings& settings) {
     samples_ = session_.sharedSamples();
     noise_ = settings.testNoise;
     bounds_.reset();
+    fit_.reset();
     compute();
   }
-  return bounds_.get();
+  if (bounds_ && fit_.lock() != session_.sharedFit()) computeLearned();
+  return bounds_ ? &*bounds_ : nullptr;
 }
 
 void TouchBounds::compute() {
@@ -39,10 +44,25 @@ void TouchBounds::compute() {
                     found.emplace();
                   }
                   if (!found) return {};
-                  auto bounds = std::make_shared<const SampleBounds>(std::move(*found));
-                  return [this, bounds, samples, noise] {
+                  return [this, found = std::move(*found), samples, noise] {
                     if (samples != samples_.lock() || noise != noise_) return;
-                    bounds_ = bounds;
+                    bounds_ = found;
+                    emit changed();
+                  };
+                });
+}
+
+void TouchBounds::computeLearned() {
+  fit_ = session_.sharedFit();
+  bounds_->learned.clear();
+  runner_.start(tr("Bounding the errors"),
+                [this, samples = session_.sharedSamples(), noise = noise_,
+                 fit = session_.sharedFit()](const std::stop_token& stop, JobProgress&) -> JobRunner::Taking {
+                  auto found = learnedBounds(fit->decoder, samples->test, noise, stop);
+                  if (found.empty()) return {};
+                  return [this, found = std::move(found), fit] {
+                    if (!bounds_ || fit != fit_.lock()) return;
+                    bounds_->learned = found;
                     emit changed();
                   };
                 });

@@ -154,9 +154,10 @@ QString placeWords(const NetworkFit& fit) {
 }
 
 QString boundWords(const NetworkSession& session, const NetworkFit& fit, const SampleBounds* touches) {
-  if (touches == nullptr || touches->known.empty() || !fit.error.place || !session.fitIsCurrent()) return {};
+  if (touches == nullptr || !fit.error.place || !session.fitIsCurrent()) return {};
   const SampleSet& test = session.samples()->test;
-  const auto words = [&](const QString& who, const std::vector<TouchDeviations>& bounds) {
+  const auto words = [&](const QString& who, const std::vector<TouchDeviations>& bounds) -> QString {
+    if (bounds.empty()) return {};
     const ErrorsOverBounds over = errorsOverBounds(bounds, fit.prediction.forces_N - test.forces_N,
                                                    fit.prediction.places_mm - test.touchedPlaces_mm());
     return QObject::tr(" Bounds (Cramer-Rao, %1, medians): Fz %2 N, place %3 mm; its errors are %4 and %5 times that.")
@@ -166,9 +167,9 @@ QString boundWords(const NetworkSession& session, const NetworkFit& fit, const S
         .arg(over.forceRatio, 0, 'g', 3)
         .arg(over.placeRatio, 0, 'g', 3);
   };
-  const QString known = words(QObject::tr("indenter known"), touches->known);
-  if (touches->sizeUnknown.empty()) return known;
-  return known + words(QObject::tr("indenter's size unknown"), touches->sizeUnknown);
+  return words(QObject::tr("indenter known"), touches->known) +
+         words(QObject::tr("indenter's size unknown"), touches->sizeUnknown) +
+         words(QObject::tr("at each touch, by what it has learned"), touches->learned);
 }
 
 QString scatterWords(const NetworkSession& session, const NetworkFit& fit) {

@@ -72,13 +72,15 @@ std::optional<SampleBounds> touchBounds(const SampleSet& samples, const SensorDe
   return bounds;
 }
 
-std::vector<TouchDeviations> learnedBounds(const Decoder& decoder, const SampleSet& samples, double relativeNoise) {
+std::vector<TouchDeviations> learnedBounds(const Decoder& decoder, const SampleSet& samples, double relativeNoise,
+                                           const std::stop_token& stop) {
   const auto* model = std::get_if<KernelForwardModel>(&decoder.model);
   if (model == nullptr || model->causes() != kTouchCauses || decoder.correction || !samples.hasTouches()) return {};
   const double counted = std::max(decoder.noise, leastTouchNoise); // that the components are in
   const std::vector<Eigen::Index> varied = model->varied();
   std::vector<TouchDeviations> bounds;
   for (Eigen::Index i = 0; i < samples.size(); ++i) {
+    if (stop.stop_requested()) return {};
     Eigen::VectorXd causes(kTouchCauses);
     causes << samples.forces_N.col(i), samples.touches.col(i).segment<2>(kTouchX_mm), samples.touches(kTouchSize_mm, i),
         samples.touches(kTouchFriction, i);

@@ -16,19 +16,21 @@ namespace palp {
 struct SampleBounds {
   std::vector<TouchDeviations> known;       ///< by one who is told the indenter
   std::vector<TouchDeviations> sizeUnknown; ///< by one who has to find its size as well; empty: all are of one size
+  std::vector<TouchDeviations> learned;     ///< of a decoder (learnedBounds), where it is asked for
 };
 
-/// By the influence surfaces of the design at rest (TouchMap says what that leaves out), the contact as large as its
-/// force makes it. Empty: stopped. Throws Error where the samples are of no touches or of another design, and
-/// DesignError where no map can be made.
+/// The first two, by the influence surfaces of the design at rest (TouchMap says what that leaves out), the contact as
+/// large as its force makes it. Empty: stopped. Throws Error where the samples are of no touches or of another design,
+/// and DesignError where no map can be made.
 std::optional<SampleBounds> touchBounds(const SampleSet& samples, const SensorDesign& design, double relativeNoise,
                                         const MeshOptions& mesh, int threads, const std::stop_token& stop = {});
 
 /// The same at each touch as it is and not at rest, by the slopes that a decoder of touches has learned of it, which
 /// know of large strains: of one who has to find all that has varied among the samples it learned from. They are those
 /// of full solves to 0.2 % in the median (resources/docs/numerics.md, "Touches inverted"). Empty: a decoder of another
-/// kind, or one that was calibrated.
-std::vector<TouchDeviations> learnedBounds(const Decoder& decoder, const SampleSet& samples, double relativeNoise);
+/// kind, or one that was calibrated; or it was stopped.
+std::vector<TouchDeviations> learnedBounds(const Decoder& decoder, const SampleSet& samples, double relativeNoise,
+                                           const std::stop_token& stop = {});
 
 /// How errors stand beside bounds, in the median over the samples: of an estimate that is normal and reaches its bound
 /// both ratios are 1.

@@ -109,6 +109,12 @@ TEST_F(SampledTouches, TeachANetworkForceAndPlace) {
       QTest::qWaitFor([&] { return find<QLabel>("fitWords").text().contains("Bounds (Cramer-Rao"); }, kPatience_ms))
       << find<QLabel>("fitWords").text().toStdString();
   ASSERT_TRUE(idle());
+  EXPECT_FALSE(find<QLabel>("fitWords").text().contains("by what it has learned")) << "radial bases say none";
+  SampleBounds learned; // training a decoder that says them takes most of a minute
+  learned.learned.assign(20, {Eigen::Vector3d(0.1, 0.1, 0.125), Eigen::Vector2d(0.3, 0.4)});
+  EXPECT_TRUE(
+      boundWords(network, *network.fit(), &learned)
+          .contains("at each touch, by what it has learned, medians): Fz 0.125 N, place 0.5 mm; its errors are "));
 
   QTemporaryDir folder;
   const std::filesystem::path file = folder.filePath("touches.csv").toStdString();
