@@ -100,18 +100,23 @@ Eigen::MatrixXd InfluenceSurfaces::influence(const Eigen::Ref<const Eigen::Matri
   places.row(2).setConstant(block_mm.z());
   const PointProbe probe(top_, places);
   Eigen::MatrixXd shares = Eigen::MatrixXd::Zero(surfaces_.cols(), sums.cols());
-  std::vector<int> used; // few nodes share in a sum: the others cost nothing
+  std::vector<char> shared(static_cast<std::size_t>(surfaces_.cols()), 0);
+  std::vector<Eigen::Index> own; // sums of a point
   for (Eigen::Index p = 0; p < points_mm.cols(); ++p) {
+    own.clear();
+    for (Eigen::Index c = 0; c < sums.cols(); ++c)
+      if (sums(p, c) != 0) own.push_back(c);
     const PointProbe::Holder& holder = probe.holders()[static_cast<std::size_t>(p)].front();
     for (Eigen::Index n = 0; n < holder.shapes.size(); ++n) {
       const int top = topNode_[static_cast<std::size_t>(top_.elements(n, holder.element))];
       if (top < 0) continue; // its shape function is 0 on the face
-      if (shares.row(top).isZero(0)) used.push_back(top);
-      shares.row(top) += holder.shapes(n) * sums.row(p);
+      shared[static_cast<std::size_t>(top)] = 1;
+      for (const Eigen::Index c : own) shares(top, c) += holder.shapes(n) * sums(p, c);
     }
   }
-  std::sort(used.begin(), used.end());
-  used.erase(std::unique(used.begin(), used.end()), used.end());
+  std::vector<int> used; // few nodes share in a sum: the others cost nothing
+  for (std::size_t top = 0; top < shared.size(); ++top)
+    if (shared[top]) used.push_back(static_cast<int>(top));
   return surfaces_(Eigen::all, used) * shares(used, Eigen::all);
 }
 

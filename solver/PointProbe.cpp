@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace palp {
@@ -15,8 +16,8 @@ namespace {
 
 constexpr double localTolerance = 1e-9; // of local coordinates: points on faces belong to both sides
 
-std::optional<PointProbe::Holder> tetHolder(const Mesh& mesh, int element, const Eigen::Vector3d& p) {
-  const TetGeometry geometry = tetGeometry(mesh, element);
+std::optional<PointProbe::Holder> tetHolder(const Mesh& mesh, int element, const TetGeometry& geometry,
+                                            const Eigen::Vector3d& p) {
   Eigen::Vector4d l = geometry.gradients.transpose() * (p - mesh.nodes_mm.col(mesh.elements(0, element)));
   l(0) += 1;
   if (l.minCoeff() < -localTolerance) return {};
@@ -42,6 +43,56 @@ std::optional<PointProbe::Holder> hexHolder(const Mesh& mesh, int element, const
   return PointProbe::Holder{element, hexGeometry(mesh, element, reference).shapes, 0, Eigen::VectorXd::Ones(1)};
 }
 
+/// Finite points by cells of a grid over x and y, so that an element is compared only with those near it.
+class PointGrid {
+public:
+  explicit PointGrid(const Eigen::Matrix3Xd& points_mm) {
+    std::vector<Eigen::Index> finite;
+    for (Eigen::Index i = 0; i < points_mm.cols(); ++i)
+      if (points_mm.col(i).allFinite()) finite.push_back(i);
+    if (finite.empty()) return;
+    const auto places = points_mm(Eigen::seqN(0, Eigen::fix<2>), finite);
+    low_ = places.rowwise().minCoeff();
+    const Eigen::Array2d extent = (places.rowwise().maxCoeff().array() - low_).max(1e-9);
+    count_ = std::clamp(static_cast<int>(std::sqrt(double(finite.size()))), 1, mostCells);
+    perMm_ = count_ / extent;
+    std::vector<std::vector<Eigen::Index>> cells(std::size_t(count_) * std::size_t(count_));
+    for (const Eigen::Index i : finite) {
+      const Eigen::Array2i cell = cellOf(points_mm.col(i).head<2>());
+      cells[std::size_t(cell.x() * count_ + cell.y())].push_back(i);
+    }
+    for (const auto& cell : cells) {
+      start_.push_back(points_.size());
+      points_.insert(points_.end(), cell.begin(), cell.end());
+    }
+    start_.push_back(points_.size());
+  }
+
+  /// Those in the cells that a rectangle meets.
+  template <class Take> void near(const Eigen::Array2d& low, const Eigen::Array2d& high, const Take& take) const {
+    if (points_.empty()) return;
+    const Eigen::Array2i from = cellOf(low), to = cellOf(high);
+    for (int x = from.x(); x <= to.x(); ++x) {
+      const std::size_t row = std::size_t(x) * std::size_t(count_);
+      const std::size_t end = start_[row + std::size_t(to.y()) + 1];
+      for (std::size_t k = start_[row + std::size_t(from.y())]; k < end; ++k) take(points_[k]);
+    }
+  }
+
+private:
+  static constexpr int mostCells = 256; // along each axis
+
+  /// The nearest, of what lies outside.
+  [[nodiscard]] Eigen::Array2i cellOf(const Eigen::Array2d& place) const {
+    return ((place - low_) * perMm_).max(0).min(count_ - 1).cast<int>();
+  }
+
+  Eigen::Array2d low_ = Eigen::Array2d::Zero(), perMm_ = Eigen::Array2d::Zero();
+  int count_ = 0;
+  std::vector<std::size_t> start_; ///< of each cell, a column of cells after another
+  std::vector<Eigen::Index> points_;
+};
+
 } // namespace
 
 PointProbe::PointProbe(const Mesh& mesh, const Eigen::Matrix3Xd& points_mm)
@@ -49,25 +100,23 @@ PointProbe::PointProbe(const Mesh& mesh, const Eigen::Matrix3Xd& points_mm)
   const bool tets = mesh.shape == ElementShape::Tetrahedron10;
   const int corners = tets ? 4 : 8;
   const double margin = 1e-9 * mesh.nodes_mm.maxCoeff();
-  // The points by their x: an element is compared only with those within its own range of x.
-  std::vector<Eigen::Index> byX;
-  for (Eigen::Index i = 0; i < points_mm.cols(); ++i)
-    if (points_mm.col(i).allFinite()) byX.push_back(i);
-  std::sort(byX.begin(), byX.end(), [&](Eigen::Index a, Eigen::Index b) { return points_mm(0, a) < points_mm(0, b); });
+  const PointGrid grid(points_mm);
   for (int e = 0; e < mesh.elementCount(); ++e) {
-    Eigen::Vector3d low = mesh.nodes_mm.col(mesh.elements(0, e)), high = low;
+    Eigen::Array3d low = mesh.nodes_mm.col(mesh.elements(0, e)), high = low;
     for (int n = 1; n < corners; ++n) {
-      low = low.cwiseMin(mesh.nodes_mm.col(mesh.elements(n, e)));
-      high = high.cwiseMax(mesh.nodes_mm.col(mesh.elements(n, e)));
+      low = low.min(mesh.nodes_mm.col(mesh.elements(n, e)).array());
+      high = high.max(mesh.nodes_mm.col(mesh.elements(n, e)).array());
     }
-    auto next = std::lower_bound(byX.begin(), byX.end(), low.x() - margin,
-                                 [&](Eigen::Index i, double x) { return points_mm(0, i) < x; });
-    for (; next != byX.end() && points_mm(0, *next) <= high.x() + margin; ++next) {
-      const Eigen::Vector3d p = points_mm.col(*next);
-      if (((p - low).array() < -margin).any() || ((high - p).array() < -margin).any()) continue;
-      if (auto holder = tets ? tetHolder(mesh, e, p) : hexHolder(mesh, e, p))
-        holders_[*next].push_back(std::move(*holder));
-    }
+    low -= margin;
+    high += margin;
+    std::optional<TetGeometry> geometry; // found once, where there is a point
+    grid.near(low.head<2>(), high.head<2>(), [&](Eigen::Index i) {
+      const Eigen::Vector3d p = points_mm.col(i);
+      if ((p.array() < low).any() || (p.array() > high).any()) return;
+      if (tets && !geometry) geometry = tetGeometry(mesh, e);
+      if (auto holder = tets ? tetHolder(mesh, e, *geometry, p) : hexHolder(mesh, e, p))
+        holders_[i].push_back(std::move(*holder));
+    });
   }
   for (Eigen::Index i = 0; i < points_mm.cols(); ++i)
     if (holders_[i].empty())
