@@ -61,7 +61,7 @@ public:
   /// Gives back the memory that waits for the next call.
   void rest();
 
-  /// Why loads of the last call were left out, in their order.
+  /// Why loads of the last call were left out, in their order: "NUMBER: why".
   [[nodiscard]] const std::vector<std::string>& leftOut() const;
 
   /// Number of nonlinear solves so far (for predictors, corrections and fallbacks).

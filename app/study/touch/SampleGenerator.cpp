@@ -292,7 +292,7 @@ ConductionBatch::Answers SampleGenerator::answers(Part& part, const std::vector<
   }
   if (const auto& left = part.solver->leftOut(); !left.empty()) {
     const std::lock_guard lock(guard_);
-    if (whyRedrawn_.empty()) whyRedrawn_ = left.front();
+    if (whyRedrawn_.empty() || std::stoull(left.front()) < std::stoull(whyRedrawn_)) whyRedrawn_ = left.front();
   }
   return result;
 }

@@ -52,6 +52,7 @@ bool SampleGeneration::make(StageLog& stages, const std::stop_token& stop, JobPr
   bool whole = true;
   for (const std::size_t set : {0, 1}) whole = whole && makeSet(set, generator, stop, progress);
   batchError_ = std::max(batchError_, generator.measuredError());
+  redrawn_ += generator.redrawn();
   stages.add(generator.stages());
   took_s_ += now_s();
   return whole;
@@ -100,6 +101,7 @@ std::shared_ptr<const NetworkSamples> SampleGeneration::samples() {
   all->training = std::move(sets_[0]);
   all->test = std::move(sets_[1]);
   all->batchError = batchError_;
+  all->redrawn = redrawn_;
   all->settings = settings_;
   all->mesh = mesh_;
   all->seconds = took_s_;

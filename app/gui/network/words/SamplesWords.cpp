@@ -52,6 +52,9 @@ QString madeWords(const NetworkSamples& samples) {
   if (samples.seconds > 0) words += QObject::tr(", made in %1").arg(roughly(samples.seconds));
   if (samples.batchError > 0)
     words += QObject::tr("; relative batch error against full Newton %1").arg(samples.batchError, 0, 'g', 2);
+  if (samples.redrawn > 0)
+    words +=
+        QObject::tr("; touches without an equilibrium, in whose places others were drawn: %1").arg(samples.redrawn);
   return words;
 }
 
