@@ -63,14 +63,15 @@ private:
 };
 
 /// Multifrontal Cholesky factorisation on OpenBLAS (Duff and Reid 1983): subtrees in parallel, then the large fronts
-/// at the top tile by tile. Fronts are factorised in double precision and kept in single, in half the memory. The
-/// bytes do not depend on the number of threads; a stop request is honoured between tasks.
+/// at the top tile by tile. Fronts are factorised in double precision (but for the products of large ones, where single
+/// is asked for) and kept in single, in half the memory. The bytes do not depend on the number of threads; a stop
+/// request is honoured between tasks.
 class SparseCholesky {
 public:
   explicit SparseCholesky(std::shared_ptr<const CholeskyPlan> plan);
 
   enum class Outcome { Done, NotPositiveDefinite, Stopped };
-  /// `values` are those of the pattern's entries.
+  /// `values` are those of the pattern's entries. Products::Single is for factors that lead an iteration alone.
   [[nodiscard]] Outcome factorise(LaneVector values, int threads, const std::stop_token& stop,
                                   Products products = Products::Double);
   /// Solves in place, refined once: the factor alone leaves 1e-3 of the right side, at nu = 0.5 a tenth, but next to

@@ -144,7 +144,9 @@ std::vector<std::pair<std::string, ErrorsOverBounds>> besideBounds(const SensorD
     over.emplace_back("indenter's size unknown", beside(bounds->sizeUnknown));
     session.result["touch_bound_size_unknown"] = boundJson(over.back().second);
   }
-  if (const auto learned = learnedBounds(decoder, samples, noise, session.stop); !learned.empty()) {
+  const auto learned = learnedBounds(decoder, samples, noise, session.stop);
+  if (session.stop.stop_requested()) throw Cancelled();
+  if (!learned.empty()) {
     over.emplace_back("at each touch, by the slopes that were learned", beside(learned));
     session.result["touch_bound_learned"] = boundJson(over.back().second);
   }

@@ -55,6 +55,7 @@ void TouchBounds::compute() {
 void TouchBounds::computeLearned() {
   fit_ = session_.sharedFit();
   bounds_->learned.clear();
+  if (session_.fit()->settings.decoder != DecoderKind::TouchInversion) return; // it has learned none
   runner_.start(tr("Bounding the errors"),
                 [this, samples = session_.sharedSamples(), noise = noise_,
                  fit = session_.sharedFit()](const std::stop_token& stop, JobProgress&) -> JobRunner::Taking {

@@ -19,9 +19,9 @@ struct SampleBounds {
   std::vector<TouchDeviations> learned;     ///< of a decoder (learnedBounds), where it is asked for
 };
 
-/// The first two, by the influence surfaces of the design at rest (TouchMap says what that leaves out), the contact as
-/// large as its force makes it. Empty: stopped. Throws Error where the samples are of no touches or of another design,
-/// and DesignError where no map can be made.
+/// `known` and `sizeUnknown`, by the influence surfaces of the design at rest (TouchMap says what that leaves out), the
+/// contact as large as its force makes it. Empty: stopped. Throws Error where the samples are of no touches or of
+/// another design, and DesignError where no map can be made.
 std::optional<SampleBounds> touchBounds(const SampleSet& samples, const SensorDesign& design, double relativeNoise,
                                         const MeshOptions& mesh, int threads, const std::stop_token& stop = {});
 
