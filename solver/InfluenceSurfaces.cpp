@@ -24,19 +24,20 @@ struct HeldPoint {
   Eigen::Matrix3Xd motion; ///< pointMotion
 };
 
-/// The gradient of a reading as a load on the free displacements.
-Eigen::VectorXd loadOf(const LinearReadings& readings, Eigen::Index reading, const std::vector<HeldPoint>& points,
-                       const Discretisation& mesh) {
-  Eigen::VectorXd load = Eigen::VectorXd::Zero(3 * Eigen::Index(mesh.nodes()));
+/// The gradients of some readings as loads on the free displacements, one a lane.
+void loadsOf(const LinearReadings& readings, Eigen::Index first, Eigen::Index count,
+             const std::vector<HeldPoint>& points, const Discretisation& mesh, LaneSides::Lanes loads) {
+  loads.setZero();
   for (std::size_t p = 0; p < points.size(); ++p) {
     const HeldPoint& point = points[p];
-    const Eigen::Vector3d gradient = readings.gradient_per_mm.row(reading).segment<3>(3 * static_cast<Eigen::Index>(p));
-    if (gradient.isZero(0)) continue;
-    const Eigen::VectorXd share = point.motion.transpose() * gradient;
-    for (int n = 0; n < share.size() / 3; ++n)
-      load.segment<3>(3 * Eigen::Index(mesh.node(point.element, n))) += share.segment<3>(3 * n);
+    const auto gradients = readings.gradient_per_mm.block(first, 3 * static_cast<Eigen::Index>(p), count, 3);
+    if (gradients.isZero(0)) continue;
+    const Eigen::MatrixXd shares = point.motion.transpose() * gradients.transpose();
+    for (int n = 0; n < shares.rows() / 3; ++n)
+      for (int axis = 0; axis < 3; ++axis)
+        if (const int row = mesh.freeIndex(3 * mesh.node(point.element, n) + axis); row >= 0)
+          loads.row(row).head(count) += shares.row(3 * n + axis);
   }
-  return mesh.freePart(load);
 }
 
 /// The mesh less the elements without any of these nodes (-1: none), in the same order.
@@ -75,18 +76,24 @@ std::optional<InfluenceSurfaces> InfluenceSurfaces::find(const HyperelasticProbl
   found.top_ = elementsWith(parts.mesh, found.topNode_);
   const Eigen::Index count = readings.gradient_per_mm.rows();
   ProgressRelay relay(progress);
-  found.surfaces_.resize(3 * count, static_cast<Eigen::Index>(nodes.size()));
-  inParallel(static_cast<std::size_t>(count), threads, [&](std::size_t k) {
+  found.surfaces_.setZero(3 * count, static_cast<Eigen::Index>(nodes.size()));
+  const Discretisation& mesh = *parts.discretisation;
+  const Eigen::Index batches = (count + batchLanes - 1) / batchLanes;
+  forChunks(static_cast<int>(batches), 1, threads, [&](int batch, int) {
     if (stop.stop_requested()) return;
-    const auto reading = static_cast<Eigen::Index>(k);
-    Eigen::VectorXd x = loadOf(readings, reading, points, *parts.discretisation);
-    rest->factor.solve(x, stop);
+    const Eigen::Index first = Eigen::Index(batch) * batchLanes,
+                       some = std::min<Eigen::Index>(batchLanes, count - first);
+    LaneSides sides(mesh.dof());
+    loadsOf(readings, first, some, points, mesh, sides.lanes(sides.right));
+    rest->factor.solve(sides, stop);
     if (stop.stop_requested()) return;
-    const Eigen::VectorXd all = parts.discretisation->withZeros(x);
+    const LaneSides::Lanes moved = sides.lanes(sides.x);
     for (std::size_t i = 0; i < nodes.size(); ++i)
-      for (Eigen::Index axis = 0; axis < 3; ++axis)
-        found.surfaces_(axis * count + reading, Eigen::Index(i)) = all(3 * Eigen::Index(nodes[i]) + axis);
-    relay.add(1);
+      for (int axis = 0; axis < 3; ++axis)
+        if (const int row = mesh.freeIndex(3 * nodes[i] + axis); row >= 0)
+          found.surfaces_.col(Eigen::Index(i)).segment(axis * count + first, some) =
+              moved.row(row).head(some).transpose();
+    relay.add(static_cast<std::size_t>(some));
   });
   if (stop.stop_requested()) return {};
   return found;

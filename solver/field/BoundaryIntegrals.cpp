@@ -101,10 +101,9 @@ void BoundaryIntegrals::findParts(const Eigen::Matrix3Xd& electrodes_mm) {
   }
 }
 
-BoundaryIntegrals::Rows BoundaryIntegrals::potentials(const Eigen::Matrix3Xd& nodes_mm,
-                                                      const std::vector<Eigen::Matrix3Xd>& sources_mm,
-                                                      int threads) const {
-  Rows all(Eigen::Index(boundary_.size()), Eigen::Index(sources_mm.size()));
+SourceRows BoundaryIntegrals::potentials(const Eigen::Matrix3Xd& nodes_mm,
+                                         const std::vector<Eigen::Matrix3Xd>& sources_mm, int threads) const {
+  SourceRows all(Eigen::Index(boundary_.size()), Eigen::Index(sources_mm.size()));
   forChunks(static_cast<int>(boundary_.size()), kNodesAChunk, threads, [&](int begin, int end) {
     const Eigen::Index count = end - begin;
     Eigen::MatrixXd at = Eigen::MatrixXd::Zero(count, 6); // no areas
@@ -123,7 +122,7 @@ BoundaryIntegrals::Rows BoundaryIntegrals::potentials(const Eigen::Matrix3Xd& no
   return all;
 }
 
-void BoundaryIntegrals::addProducts(const Piece& piece, const Rows& potentials, Room& room,
+void BoundaryIntegrals::addProducts(const Piece& piece, const SourceRows& potentials, Room& room,
                                     Eigen::MatrixXd& products) const {
   const auto count = static_cast<int>(products.cols()), near = static_cast<int>(piece.near.size());
   const int points = piece.count * kFacePoints;
@@ -156,18 +155,18 @@ BoundaryIntegrals::Result BoundaryIntegrals::at(const Eigen::Matrix3Xd& nodes_mm
   const auto count = static_cast<int>(sources_mm.size());
   const BoundaryQuadrature boundary(faces_, nodes_mm);
   const auto nodes = static_cast<Eigen::Index>(boundary_.size());
-  Result result{Rows::Zero(nodes, count), potentials(nodes_mm, sources_mm, threads), {}};
-  Rows weighted = Rows::Zero(uneven ? nodes : 0, count); // by m
+  Result result{SourceRows::Zero(nodes, count), potentials(nodes_mm, sources_mm, threads), {}};
+  SourceRows weighted = SourceRows::Zero(uneven ? nodes : 0, count); // by m
   std::vector<Eigen::MatrixXd> products(kParts);
-  std::vector<Rows> shared(kParts), sharedWeighted(kParts);
+  std::vector<SourceRows> shared(kParts), sharedWeighted(kParts);
   forChunks(kParts, 1, threads, [&](int p, int) {
     const Part& part = parts_[std::size_t(p)];
     products[std::size_t(p)] = Eigen::MatrixXd::Zero(count, count);
-    shared[std::size_t(p)] = Rows::Zero(Eigen::Index(part.shared.size()), count);
+    shared[std::size_t(p)] = SourceRows::Zero(Eigen::Index(part.shared.size()), count);
     if (uneven) sharedWeighted[std::size_t(p)] = shared[std::size_t(p)];
     Room room(count);
     UnsetArray<double> unused(kPiecePoints);
-    Rows onFaces(6 * kFacesAPiece, count), onFacesWeighted = onFaces;
+    SourceRows onFaces(6 * kFacesAPiece, count), onFacesWeighted = onFaces;
     Eigen::Matrix<double, kFacePoints, kFacesAPiece> roots; // m
     for (const Piece& piece : part.pieces) {
       if (stop.stop_requested()) return;
@@ -191,7 +190,7 @@ BoundaryIntegrals::Result BoundaryIntegrals::at(const Eigen::Matrix3Xd& nodes_mm
           onFacesWeighted.col(q).segment<6>(row) = BoundaryQuadrature::onShapes(own.data());
         }
       }
-      const auto subtract = [&](const Rows& from, Rows& rows, Rows& apart) {
+      const auto subtract = [&](const SourceRows& from, SourceRows& rows, SourceRows& apart) {
         for (int f = 0; f < piece.count; ++f)
           for (int n = 0; n < 6; ++n) {
             const int place = places_(n, piece.first + f);
@@ -221,7 +220,7 @@ BoundaryIntegrals::Result BoundaryIntegrals::at(const Eigen::Matrix3Xd& nodes_mm
                 result.products.col(first).data(), count);
   });
   result.potentials.resize(0, 0);
-  result.right = Rows::Zero(mesh_->nodes(), count);
+  result.right = SourceRows::Zero(mesh_->nodes(), count);
   for (Eigen::Index i = 0; i < nodes; ++i) result.right.row(boundary_[std::size_t(i)]) = weighted.row(i);
   return result;
 }

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "solver/field/BoundaryQuadrature.h"
-#include "solver/field/ConductionMatrix.h"
 #include "solver/field/Conductivity.h"
+#include "solver/field/FieldMesh.h"
 
 #include <stop_token>
 #include <vector>
@@ -17,10 +17,9 @@ class BoundaryIntegrals {
 public:
   BoundaryIntegrals(const FieldMesh& mesh, const Eigen::Matrix3Xd& electrodes_mm);
 
-  using Rows = ConductionSolve::Rows;
   struct Result {
-    Rows right;               ///< - oint m s_q,n N_a, m that of UnevenConductivity or 1; nodes() x electrodes
-    Rows potentials;          ///< s_p at nodes() for k = 1, where oint I s_p s_q,n is still to come; else none
+    SourceRows right;         ///< - oint m s_q,n N_a, m that of UnevenConductivity or 1; nodes() x electrodes
+    SourceRows potentials;    ///< s_p at nodes() for k = 1, where oint I s_p s_q,n is still to come; else none
     Eigen::MatrixXd products; ///< - oint (s_p - I s_p) s_q,n, or - oint s_p s_q,n; for p <= q by whole batches
   };
   /// The same bytes at any number of threads.
@@ -44,9 +43,9 @@ private:
   };
   struct Room;
   void findParts(const Eigen::Matrix3Xd& electrodes_mm);
-  [[nodiscard]] Rows potentials(const Eigen::Matrix3Xd& nodes_mm, const std::vector<Eigen::Matrix3Xd>& sources_mm,
-                                int threads) const;
-  void addProducts(const Piece& piece, const Rows& potentials, Room& room, Eigen::MatrixXd& products) const;
+  [[nodiscard]] SourceRows potentials(const Eigen::Matrix3Xd& nodes_mm, const std::vector<Eigen::Matrix3Xd>& sources_mm,
+                                      int threads) const;
+  void addProducts(const Piece& piece, const SourceRows& potentials, Room& room, Eigen::MatrixXd& products) const;
 
   const FieldMesh* mesh_;
   Eigen::MatrixXi faces_; ///< in an order in which neighbours stand together

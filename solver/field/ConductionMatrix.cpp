@@ -1,7 +1,6 @@
 #include "solver/field/ConductionMatrix.h"
 
 #include "model/base/Parallel.h"
-#include "solver/element/ElementKernels.h"
 #include "solver/field/TetRule.h"
 
 #include <Eigen/Dense>
@@ -15,7 +14,6 @@ namespace {
 
 constexpr int kPairs = 55; // of an element's ten nodes
 constexpr int kElementsAChunk = 256;
-constexpr int kSupernodesACall = 16; // between looks at a stop request
 
 } // namespace
 
@@ -92,53 +90,6 @@ ConductionMatrix::Values ConductionMatrix::at(const Eigen::Matrix3Xd& nodes_mm, 
   for (Eigen::Index e = 0; e < elements.cols(); ++e)
     for (int n = 0; n < 10; ++n) values.volumes(elements(n, e)) += load.data()[10 * e + n];
   return values;
-}
-
-ConductionSolve::ConductionSolve(std::shared_ptr<const CholeskyPlan> plan, LaneVector matrix, int threads,
-                                 const std::stop_token& stop)
-    : plan_(std::move(plan)), matrix_(std::move(matrix)), factor_(plan_) {
-  outcome_ = factor_.factorise(matrix_, threads, stop);
-  const std::vector<int>& order = plan_->tree().order;
-  rowOfUnknown_.resize(order.size());
-  for (std::size_t row = 0; row < order.size(); ++row)
-    rowOfUnknown_[static_cast<std::size_t>(order[row])] = static_cast<int>(row);
-}
-
-ConductionSolve::Sides::Sides(int nodes)
-    : right(std::size_t(nodes) * batchLanes), first(right.size()), x(right.size()) {}
-
-void ConductionSolve::substitute(const UnsetArray<double>& b, UnsetArray<float>& work, UnsetArray<double>& out,
-                                 const std::stop_token& stop) const {
-  const LaneKernels& kernels = laneKernels();
-  const auto unknowns = static_cast<int>(rowOfUnknown_.size());
-  std::array<double, batchLanes> norm{}, inverse{};
-  kernels.addSquares(b.data() + batchLanes, unknowns, norm.data());
-  unsigned live = 0;
-  for (std::size_t k = 0; k < batchLanes; ++k) {
-    norm[k] = std::sqrt(norm[k]);
-    if (norm[k] > 0) inverse[k] = 1 / norm[k];
-    if (norm[k] > 0) live |= 1U << static_cast<unsigned>(k / lanes);
-  }
-  kernels.narrow(b.data() + batchLanes, inverse.data(), rowOfUnknown_.data(), unknowns, work.data());
-  std::fill_n(work.data() + std::size_t(unknowns) * batchLanes, batchLanes, 0.F);
-  const BlockedFactor factor = factor_.blocks();
-  for (int first = 0; first < factor.count && !stop.stop_requested(); first += kSupernodesACall)
-    kernels.forward(factor, first, std::min(factor.count, first + kSupernodesACall), live, work.data());
-  for (int last = factor.count; last > 0 && !stop.stop_requested(); last -= kSupernodesACall)
-    kernels.backward(factor, std::max(0, last - kSupernodesACall), last, live, work.data());
-  std::fill_n(out.data(), batchLanes, 0.);
-  kernels.widen(work.data(), norm.data(), rowOfUnknown_.data(), unknowns, out.data() + batchLanes);
-}
-
-void ConductionSolve::solve(Sides& sides, const std::stop_token& stop) const {
-  UnsetArray<float> work((rowOfUnknown_.size() + 1) * batchLanes);
-  std::fill_n(sides.right.data(), batchLanes, 0.); // node 0's equation follows from the others
-  substitute(sides.right, work, sides.first, stop);
-  const SparsePattern& pattern = plan_->pattern();
-  laneKernels().subtractProduct({pattern.size(), pattern.columns.data(), pattern.rows.data(), matrix_.data()},
-                                sides.first.data() + batchLanes, sides.right.data() + batchLanes);
-  substitute(sides.right, work, sides.x, stop);
-  for (std::size_t i = 0; i < sides.x.size(); ++i) sides.x.data()[i] += sides.first.data()[i];
 }
 
 } // namespace palp

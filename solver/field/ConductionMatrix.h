@@ -6,9 +6,7 @@
 
 #include <Eigen/Core>
 
-#include <array>
 #include <memory>
-#include <stop_token>
 #include <vector>
 
 namespace palp {
@@ -33,38 +31,6 @@ private:
   const FieldMesh* mesh_;
   std::vector<int> entries_; ///< [element][55]: where each pair of nodes stands in the values; -1: node 0's
   std::shared_ptr<const CholeskyPlan> plan_;
-};
-
-/// Potentials of many right sides, each of which sums to 0, for a factorised matrix.
-class ConductionSolve {
-public:
-  /// Outcome other than Done: stopped, or a mesh that is inside out.
-  ConductionSolve(std::shared_ptr<const CholeskyPlan> plan, LaneVector matrix, int threads,
-                  const std::stop_token& stop);
-
-  [[nodiscard]] SparseCholesky::Outcome outcome() const { return outcome_; }
-
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  /// Of 32 sides, [nodes][batchLanes] each.
-  struct Sides {
-    explicit Sides(int nodes);
-    UnsetArray<double> right, first, x;
-  };
-  /// Of `right` b: first = K^-1 b by substitution in single precision, which leaves up to 3e-4 of it; `right` becomes
-  /// b - K first; and x is `first` with what a second substitution makes of that, 1e-7 off. Resistances that differ by
-  /// 1e-5 under a load must not scatter by the first's.
-  void solve(Sides& sides, const std::stop_token& stop) const;
-
-private:
-  /// out = K^-1 b but for node 0, where it is 0.
-  void substitute(const UnsetArray<double>& b, UnsetArray<float>& work, UnsetArray<double>& out,
-                  const std::stop_token& stop) const;
-
-  std::shared_ptr<const CholeskyPlan> plan_;
-  LaneVector matrix_;
-  std::vector<int> rowOfUnknown_;
-  SparseCholesky factor_;
-  SparseCholesky::Outcome outcome_;
 };
 
 } // namespace palp

@@ -16,8 +16,6 @@ namespace palp {
 
 namespace {
 
-using Rows = ConductionSolve::Rows;
-
 /// Faces that mirror: those nearer than so many times the edge of the mesh's faces. From there on the flux through a
 /// face is smooth on the scale of its elements.
 constexpr double kReachInEdges = 2.5;
@@ -59,8 +57,8 @@ struct DeformedGreen::System {
   std::vector<Eigen::Matrix3Xd> sources;
   std::vector<double> reaches_mm;
   std::vector<AtElectrode> electrodes;
-  ConductionMatrix::Values values;
-  ConductionSolve solve;
+  Eigen::VectorXd volumes; ///< ConductionMatrix::Values
+  SparseCholesky factor;
 };
 
 DeformedGreen::DeformedGreen(const Mesh& solverMesh, const Eigen::Vector3d& block_mm,
@@ -165,14 +163,14 @@ std::unique_ptr<DeformedGreen::System> DeformedGreen::systemAt(const FieldState&
   useOneBlasThread();
   ConductionMatrix::Values values = matrix_.at(state.nodes_mm, state.conductivity, threads);
   if (stop.stop_requested()) return {};
-  ConductionSolve solve(matrix_.plan(), std::move(values.matrix), threads, stop);
-  if (solve.outcome() == SparseCholesky::Outcome::NotPositiveDefinite)
+  SparseCholesky factor(matrix_.plan());
+  if (factor.factorise(std::move(values.matrix), threads, stop) == SparseCholesky::Outcome::NotPositiveDefinite)
     throw DesignError("the conduction field: the load turns an element inside out");
   if (stop.stop_requested()) return {};
   std::vector<Eigen::Matrix3Xd> sources = sources_.at(state.nodes_mm, state.electrodes_mm);
   const std::vector<double> reaches = reaches_mm(sources);
-  return std::make_unique<System>(
-      System{std::move(sources), reaches, atElectrodes(state, reaches, threads), std::move(values), std::move(solve)});
+  return std::make_unique<System>(System{std::move(sources), reaches, atElectrodes(state, reaches, threads),
+                                         std::move(values.volumes), std::move(factor)});
 }
 
 /// Right sides b of w are - oint s_q,n N_a - mean(N_a), or as k has it: rows of `boundary` less `evenly` times volumes.
@@ -187,7 +185,7 @@ DeformedGreen::SourceIntegrals DeformedGreen::integrals(const FieldState& state,
   SourceIntegrals result{boundary_.at(state.nodes_mm, system.sources, state.conductivity, threads, stop),
                          &boundary_.nodes(state.conductivity),
                          {}};
-  Rows& right = result.boundary.right;
+  SourceRows& right = result.boundary.right;
   if (state.conductivity.uneven()) {
     Eigen::MatrixXd& products = result.boundary.products;
     UnevenConductivity(mesh_, state.nodes_mm, state.conductivity)
@@ -198,7 +196,7 @@ DeformedGreen::SourceIntegrals DeformedGreen::integrals(const FieldState& state,
     right *= inverse.asDiagonal();
     products = (inverse.asDiagonal() * products * inverse.asDiagonal()).eval();
   }
-  result.evenly = right.colwise().sum() / system.values.volumes.sum();
+  result.evenly = right.colwise().sum() / system.volumes.sum();
   return result;
 }
 
@@ -232,7 +230,7 @@ std::optional<BoxGreen> DeformedGreen::at(const FieldState& state, int threads, 
   const auto count = static_cast<int>(state.electrodes_mm.cols());
   const int batches = (count + batchLanes - 1) / batchLanes;
   SourceIntegrals integral = integrals(state, *system, threads, stop);
-  const Rows& right = integral.boundary.right;
+  const SourceRows& right = integral.boundary.right;
   const std::vector<int>& rows = *integral.nodes;
   if (stop.stop_requested()) return {};
 
@@ -241,27 +239,25 @@ std::optional<BoxGreen> DeformedGreen::at(const FieldState& state, int threads, 
   const std::vector<std::vector<Slope>> slopes = this->slopes(state);
   // w = w1 + K^-1 r with r = b - K w1, so that w_p . b_q = w1_p . b_q + r_p . (w1_q + K^-1 r_q): what w1 lacks is of
   // the order of 1e-4, and the products with r may be of single precision.
-  Rows first = std::move(integral.boundary.potentials); // w1 + s: - oint I s_p s_q,n is of the same kind
-  if (first.size() == 0) first = Rows::Zero(right.rows(), count);
+  SourceRows first = std::move(integral.boundary.potentials); // w1 + s: - oint I s_p s_q,n is of the same kind
+  if (first.size() == 0) first = SourceRows::Zero(right.rows(), count);
   const std::size_t numbers = std::size_t(mesh_.nodes()) * std::size_t(count);
   UnsetArray<float> left(numbers), field(numbers); // r, w
   Eigen::VectorXd overVolume(count);               // of w1
   forChunks(batches, 1, threads, [&](int b, int) {
     if (stop.stop_requested()) return;
     const int from = b * batchLanes, some = std::min(batchLanes, count - from);
-    using Lanes = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, batchLanes, Eigen::RowMajor>>;
-    ConductionSolve::Sides sides(mesh_.nodes());
-    const auto lanesOf = [&](UnsetArray<double>& of) { return Lanes(of.data(), mesh_.nodes(), batchLanes); };
-    Lanes b32 = lanesOf(sides.right), w1 = lanesOf(sides.first), w = lanesOf(sides.x);
+    LaneSides sides(mesh_.nodes() - 1, 1); // node 0's equation follows from the others
+    LaneSides::Lanes b32 = sides.lanes(sides.right), w1 = sides.lanes(sides.first), w = sides.lanes(sides.x);
     Eigen::Matrix<double, 1, batchLanes> evenly = Eigen::Matrix<double, 1, batchLanes>::Zero();
     evenly.head(some) = integral.evenly.segment(from, some);
-    b32.noalias() = -system->values.volumes * evenly;
+    b32.noalias() = -system->volumes * evenly;
     for (std::size_t i = 0; i < rows.size(); ++i)
       b32.row(rows[i]).head(some) += right.row(Eigen::Index(i)).segment(from, some);
-    system->solve.solve(sides, stop);
+    system->factor.solve(sides, stop);
     for (std::size_t i = 0; i < rows.size(); ++i)
       first.row(Eigen::Index(i)).segment(from, some) += w1.row(rows[i]).head(some);
-    overVolume.segment(from, some) = (w1.transpose() * system->values.volumes).head(some);
+    overVolume.segment(from, some) = (w1.transpose() * system->volumes).head(some);
     for (int n = 0; n < mesh_.nodes(); ++n)
       for (int k = 0; k < some; ++k) {
         left.data()[std::size_t(n) * count + from + k] = static_cast<float>(b32(n, k));
@@ -322,15 +318,14 @@ std::optional<NodalPotential> DeformedGreen::potential(const FieldState& state, 
   if (!system) return {};
   const SourceIntegrals integral = integrals(state, *system, threads, stop);
   if (stop.stop_requested()) return {};
-  ConductionSolve::Sides sides(mesh_.nodes());
-  using Lanes = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, batchLanes, Eigen::RowMajor>>;
-  Lanes right(sides.right.data(), mesh_.nodes(), batchLanes);
+  LaneSides sides(mesh_.nodes() - 1, 1);
+  LaneSides::Lanes right = sides.lanes(sides.right);
   right.setZero();
-  right.col(0) = -integral.evenly.dot(currents) * system->values.volumes;
+  right.col(0) = -integral.evenly.dot(currents) * system->volumes;
   right(*integral.nodes, 0) += integral.boundary.right * currents;
-  system->solve.solve(sides, stop);
+  system->factor.solve(sides, stop);
   if (stop.stop_requested()) return {};
-  const Eigen::VectorXd field = Lanes(sides.x.data(), mesh_.nodes(), batchLanes).col(0);
+  const Eigen::VectorXd field = sides.lanes(sides.x).col(0);
 
   NodalPotential result{field, Eigen::Matrix3Xd::Zero(3, mesh_.nodes()), Eigen::VectorXd::Zero(currents.size())};
   Eigen::VectorXd elementsAround = Eigen::VectorXd::Zero(mesh_.nodes());

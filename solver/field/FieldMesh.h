@@ -12,6 +12,9 @@ namespace palp {
 /// Of a source's own field 1/(4 pi r).
 inline constexpr double kFourPi = 4 * std::numbers::pi;
 
+/// Numbers of nodes (rows), one a source (columns).
+using SourceRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 /// The block as the conduction field sees it: quadratic tetrahedra on the solver's nodes. Hexahedra are cut into six
 /// each; their trilinear faces are reproduced exactly by curved quadratic ones.
 class FieldMesh {

@@ -17,8 +17,6 @@ namespace palp {
 namespace {
 
 constexpr int kRulePoints = TetRule::points;
-using Rows = ConductionSolve::Rows;
-
 } // namespace
 
 UnevenConductivity::UnevenConductivity(const FieldMesh& mesh, const Eigen::Matrix3Xd& nodes_mm,
@@ -58,7 +56,7 @@ UnevenConductivity::UnevenConductivity(const FieldMesh& mesh, const Eigen::Matri
 
 /// Of elements first .. first + count - 1: what stands in `right` at each of their nodes, by rows of ten.
 void UnevenConductivity::addElements(int first, int count, const std::vector<Eigen::Matrix3Xd>& sources_mm,
-                                     Rows& onElements, Eigen::MatrixXd& products) const {
+                                     SourceRows& onElements, Eigen::MatrixXd& products) const {
   const auto sources = static_cast<int>(sources_mm.size());
   const Eigen::Index from = Eigen::Index(first) * kRulePoints;
   const int points = count * kRulePoints;
@@ -110,19 +108,19 @@ UnevenConductivity::Poles UnevenConductivity::poles(const Eigen::Vector3d& centr
 
 void UnevenConductivity::addIntegrals(const std::vector<Eigen::Matrix3Xd>& sources_mm,
                                       const std::vector<AtElectrode>& electrodes, const std::vector<double>& reaches_mm,
-                                      int threads, const std::stop_token& stop, Rows& right,
+                                      int threads, const std::stop_token& stop, SourceRows& right,
                                       Eigen::MatrixXd& products) const {
   constexpr int parts = 8, elementsAPiece = 16, elementsAWave = parts * 16 * elementsAPiece;
   const auto count = static_cast<int>(sources_mm.size()), uneven = static_cast<int>(elements_.size());
   std::vector<Eigen::MatrixXd> of(parts, Eigen::MatrixXd::Zero(count, count));
   for (int wave = 0; wave < uneven && !stop.stop_requested(); wave += elementsAWave) {
     const int some = std::min(elementsAWave, uneven - wave);
-    Rows onElements(10 * Eigen::Index(some), count);
+    SourceRows onElements(10 * Eigen::Index(some), count);
     forChunks(parts, 1, threads, [&](int part, int) {
       const int last = (part + 1) * some / parts;
       for (int first = part * some / parts; first < last && !stop.stop_requested(); first += elementsAPiece) {
         const int piece = std::min(elementsAPiece, last - first);
-        Rows own(10 * Eigen::Index(piece), count);
+        SourceRows own(10 * Eigen::Index(piece), count);
         addElements(wave + first, piece, sources_mm, own, of[std::size_t(part)]);
         onElements.middleRows(10 * Eigen::Index(first), own.rows()) = own;
       }

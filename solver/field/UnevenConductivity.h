@@ -1,6 +1,5 @@
 #pragma once
 
-#include "solver/field/ConductionMatrix.h"
 #include "solver/field/FieldMesh.h"
 #include "solver/field/SphericalMeans.h"
 
@@ -24,12 +23,12 @@ public:
   /// Each electrode is the first of its sources; within `reaches_mm` its own poles are as SphericalMeans has them. The
   /// same bytes at any number of threads.
   void addIntegrals(const std::vector<Eigen::Matrix3Xd>& sources_mm, const std::vector<AtElectrode>& electrodes,
-                    const std::vector<double>& reaches_mm, int threads, const std::stop_token& stop,
-                    ConductionSolve::Rows& right, Eigen::MatrixXd& products) const;
+                    const std::vector<double>& reaches_mm, int threads, const std::stop_token& stop, SourceRows& right,
+                    Eigen::MatrixXd& products) const;
 
 private:
-  void addElements(int first, int count, const std::vector<Eigen::Matrix3Xd>& sources_mm,
-                   ConductionSolve::Rows& onElements, Eigen::MatrixXd& products) const;
+  void addElements(int first, int count, const std::vector<Eigen::Matrix3Xd>& sources_mm, SourceRows& onElements,
+                   Eigen::MatrixXd& products) const;
   /// Of an electrode's own 1/(4 pi r): s and s^2.
   struct Poles {
     double simple = 0, square = 0;

@@ -23,10 +23,9 @@ std::vector<int> SparseCholesky::rowsOfLast() const {
   const SparsePattern& pattern = plan_->pattern();
   const SupernodeTree& tree = plan_->tree();
   const int start = tree.size() - plan_->lastUnknowns();
-  std::vector<int> rowOf(static_cast<std::size_t>(tree.size())), rows;
-  for (int i = start; i < tree.size(); ++i) rowOf[tree.order[i]] = i - start;
+  std::vector<int> rows;
   for (int g : pattern.lastGroups)
-    for (int i = pattern.groupStart[g]; i < pattern.groupStart[g + 1]; ++i) rows.push_back(rowOf[i]);
+    for (int i = pattern.groupStart[g]; i < pattern.groupStart[g + 1]; ++i) rows.push_back(plan_->rowOf()[i] - start);
   return rows;
 }
 

@@ -111,7 +111,8 @@ bool packPanel(const double* panel, int height, int width, float* out, const Tas
 } // namespace
 
 CholeskyPlan::CholeskyPlan(std::shared_ptr<const SparsePattern> pattern)
-    : pattern_(std::move(pattern)), tree_(supernodeTree(*pattern_)) {
+    : pattern_(std::move(pattern)), tree_(supernodeTree(*pattern_)), rowOf_(tree_.order.size()) {
+  for (int row = 0; row < tree_.size(); ++row) rowOf_[tree_.order[row]] = row;
   placeBlocks();
   findEntries();
   cutTree();
@@ -142,12 +143,11 @@ BlockedFactor CholeskyPlan::blocks(const float* values) const {
 /// in the factor.
 void CholeskyPlan::findEntries() {
   const SparsePattern& pattern = *pattern_;
-  std::vector<int> rowOf(tree_.size()), supernode(tree_.size());
-  for (int i = 0; i < tree_.size(); ++i) rowOf[tree_.order[i]] = i;
+  std::vector<int> supernode(tree_.size());
   for (int s = 0; s < tree_.count(); ++s)
     std::fill(supernode.begin() + tree_.first[s], supernode.begin() + tree_.first[s + 1], s);
   const auto groups = static_cast<int>(pattern.groupStart.size()) - 1;
-  const auto firstRow = [&](int group) { return rowOf[pattern.groupStart[group]]; };
+  const auto firstRow = [&](int group) { return rowOf_[pattern.groupStart[group]]; };
   const auto supernodeOf = [&](int g, int h) { return supernode[std::min(firstRow(g), firstRow(h))]; };
   entryStart_.assign(tree_.count() + 1, 0);
   for (int g = 0; g < groups; ++g)

@@ -33,6 +33,8 @@ public:
   /// Where the factor's numbers go, and how many they are.
   [[nodiscard]] BlockedFactor blocks(const float* values) const;
   [[nodiscard]] std::size_t factorSize() const { return blocksStart_.back(); }
+  /// The factor's row of each unknown.
+  [[nodiscard]] const std::vector<int>& rowOf() const { return rowOf_; }
   /// Unknowns of the pattern's last groups: the last rows of the factor.
   [[nodiscard]] int lastUnknowns() const { return lastUnknowns_; }
 
@@ -51,6 +53,7 @@ private:
 
   std::shared_ptr<const SparsePattern> pattern_;
   SupernodeTree tree_;
+  std::vector<int> rowOf_;
   std::vector<std::size_t> entryStart_; ///< of each supernode in entries_
   std::vector<EntryBlock> entries_;
   std::vector<std::vector<int>> children_;
@@ -60,6 +63,17 @@ private:
   int lastUnknowns_ = 0;
   std::vector<int> blockBelow_; ///< first block of the rows below each supernode
   std::vector<int> blockRows_;  ///< rows of the factor in those blocks
+};
+
+/// Right sides that are solved together, one a lane: [held + unknowns][batchLanes] each, of which the first rows are
+/// held at 0 and have no unknown.
+struct LaneSides {
+  explicit LaneSides(int unknowns, int held = 0);
+  using Lanes = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, batchLanes, Eigen::RowMajor>>;
+  [[nodiscard]] Lanes lanes(UnsetArray<double>& of) const { return {of.data(), held + unknowns, batchLanes}; }
+
+  int unknowns, held;
+  UnsetArray<double> right, first, x;
 };
 
 /// Multifrontal Cholesky factorisation on OpenBLAS (Duff and Reid 1983): subtrees in parallel, then the large fronts
@@ -77,6 +91,10 @@ public:
   /// Solves in place, refined once: the factor alone leaves 1e-3 of the right side, at nu = 0.5 a tenth, but next to
   /// nothing of what it has left. Stopped, it leaves no solution.
   void solve(Eigen::VectorXd& rightSide, const std::stop_token& stop = {}) const;
+  /// Of `right` b: first = K^-1 b by substitution in single precision, which leaves up to 3e-4 of it; `right` becomes
+  /// b - K first; and x is `first` with what a second substitution makes of that: 1e-6 of b is left at nu = 0.5, less
+  /// else. Stopped, it leaves no solution.
+  void solve(LaneSides& sides, const std::stop_token& stop) const;
   /// Forces on the unknowns of the pattern's last groups, in the groups' order, by how these move under the right side
   /// alone.
   using Answer = std::function<Eigen::VectorXd(const Eigen::VectorXd& motion)>;
@@ -99,6 +117,7 @@ public:
   [[nodiscard]] BlockedFactor blocks() const { return plan_->blocks(factor_.data()); }
 
 private:
+  void substitute(const double* b, UnsetArray<float>& work, double* x, const std::stop_token& stop) const;
   void substitute(Eigen::VectorXd& x, const std::stop_token& stop,
                   const std::function<void(Eigen::Ref<Eigen::VectorXd>)>& onLast = {}) const;
   /// Which of the factor's last rows each unknown of the last groups has, in the groups' order.

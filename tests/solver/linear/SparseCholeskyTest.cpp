@@ -67,6 +67,28 @@ TEST_P(CholeskyOf, SolvesWithTheSameBytesOnAnyNumberOfThreads) {
   }
 }
 
+TEST_P(CholeskyOf, SolvesForManyRightSidesAsForEachOfThem) {
+  const Tangent tangent(GetParam());
+  SparseCholesky cholesky(tangent.plan);
+  ASSERT_EQ(cholesky.factorise(tangent.values, 2, {}), SparseCholesky::Outcome::Done);
+  const Eigen::VectorXd b = tangent.rightSide();
+  LaneSides sides(static_cast<int>(b.size()), 1); // one row more, held at 0
+  LaneSides::Lanes right = sides.lanes(sides.right);
+  right.setOnes();
+  for (int lane = 0; lane < batchLanes; ++lane)
+    right.col(lane).tail(b.size()) = std::pow(10., lane - 16) * (b + Eigen::VectorXd::Unit(b.size(), lane));
+  right.col(5).setZero(); // of no load
+  const Eigen::MatrixXd asked = right.bottomRows(b.size());
+  cholesky.solve(sides, {});
+  const Eigen::MatrixXd found = sides.lanes(sides.x);
+  EXPECT_TRUE(found.row(0).isZero(0));
+  EXPECT_TRUE(found.col(5).isZero(0));
+  for (int lane = 0; lane < batchLanes; ++lane) {
+    const Eigen::VectorXd x = found.col(lane).tail(b.size());
+    EXPECT_LE((asked.col(lane) - tangent.times(x)).norm(), 1e-5 * asked.col(lane).norm()) << lane;
+  }
+}
+
 // Where kappa is no more than 1000 times the shear modulus (RubberConstants::roundsWell).
 TEST(Cholesky, SolvesWithProductsInSinglePrecisionAndTheSameBytesOnAnyNumberOfThreads) {
   const Tangent tangent(0.4995);
