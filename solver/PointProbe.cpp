@@ -40,7 +40,8 @@ std::optional<PointProbe::Holder> hexHolder(const Mesh& mesh, int element, const
     if (change.norm() < 1e-13) break;
   }
   if (reference.cwiseAbs().maxCoeff() > 1 + localTolerance) return {};
-  return PointProbe::Holder{element, hexGeometry(mesh, element, reference).shapes, 0, Eigen::VectorXd::Ones(1)};
+  return PointProbe::Holder{element, hexGeometry(mesh, element, reference).shapes, 0,
+                            PointProbe::Holder::Weights::Ones(1)};
 }
 
 /// Finite points by cells of a grid over x and y, so that an element is compared only with those near it.

@@ -24,10 +24,12 @@ public:
   /// An element that contains the point, and the weights of its nodes' and its own unknowns: the displacement is linear
   /// in them.
   struct Holder {
+    using Weights =
+        Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 10, 1>; // at most 10, in the holder itself
     int element = 0;
-    Eigen::VectorXd shapes;   ///< one per node of the element
-    double bubble = 0;        ///< weight of the bubble's displacement
-    Eigen::VectorXd pressure; ///< one per pressure unknown
+    Weights shapes;    ///< one per node of the element
+    double bubble = 0; ///< weight of the bubble's displacement
+    Weights pressure;  ///< one per pressure unknown
   };
   /// The elements that contain each point.
   [[nodiscard]] const std::vector<std::vector<Holder>>& holders() const { return holders_; }
