@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace palp {
 
@@ -74,6 +73,21 @@ KernelInversion::KernelInversion(const KernelForwardModel& model)
     expected_ = weight_.asDiagonal() * model.network.predict(starts_);
   }
   expectedSquare_ = expected_.colwise().squaredNorm();
+  double area = 1;
+  int places = 0;
+  for (const int place : model.table.place)
+    if (table && place >= 0) {
+      area *= starts_.row(place).maxCoeff() - starts_.row(place).minCoeff();
+      ++places;
+    }
+  if (places > 0) beside_ = std::pow(area / static_cast<double>(starts_.cols()), 1. / places);
+}
+
+double KernelInversion::squareApart(Eigen::Index start, Eigen::Index other) const {
+  double square = 0;
+  for (const int place : model_.table.place)
+    if (place >= 0) square += std::pow(starts_(place, start) - starts_(place, other), 2);
+  return square;
 }
 
 KernelInversion::Trial KernelInversion::trialAt(Eigen::VectorXd scaled, const Eigen::VectorXd& wanted) const {
@@ -113,26 +127,26 @@ KernelInversion::Trial KernelInversion::descend(const Eigen::VectorXd& start, co
   return now;
 }
 
-/// The samples whose components are nearest to these, the nearest first; of a table as strong as fits best.
+/// The samples whose components are nearest to these, the nearest first, none beside another; of a table as strong as
+/// fits best.
 std::vector<Eigen::VectorXd> KernelInversion::startsFor(const Eigen::VectorXd& wanted) const {
   const Eigen::VectorXd off = wanted - rest_;
   const Eigen::VectorXd along = expected_.transpose() * off;
   Eigen::VectorXd strength = Eigen::VectorXd::Ones(along.size());
   if (!model_.strengths.empty())
     strength = along.cwiseQuotient(expectedSquare_.cwiseMax(1e-12)).cwiseMax(kLeastStrength).cwiseMin(kMostStrength);
-  const Eigen::VectorXd far = strength.cwiseProduct(strength.cwiseProduct(expectedSquare_) - 2 * along);
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(far.size()));
-  std::iota(order.begin(), order.end(), Eigen::Index(0));
-  const auto starts = std::min<std::ptrdiff_t>(kStarts, far.size());
-  std::partial_sort(order.begin(), order.begin() + starts, order.end(),
-                    [&](Eigen::Index a, Eigen::Index b) { return far(a) < far(b) || (far(a) == far(b) && a < b); });
+  Eigen::VectorXd far = strength.cwiseProduct(strength.cwiseProduct(expectedSquare_) - 2 * along);
   std::vector<Eigen::VectorXd> result;
-  for (std::ptrdiff_t i = 0; i < starts; ++i) {
-    const Eigen::Index k = order[static_cast<std::size_t>(i)];
+  for (int i = 0; i < kStarts; ++i) {
+    Eigen::Index k = 0;
+    if (!(far.minCoeff(&k) < INFINITY)) break;
     Eigen::VectorXd start = starts_.col(k);
     for (const int cause : model_.strengths)
       start(cause) = strength(k) * (start(cause) + model_.table.shift(cause)) - model_.table.shift(cause);
     result.push_back(std::move(start));
+    far(k) = INFINITY;
+    for (Eigen::Index other = 0; other < far.size(); ++other)
+      if (squareApart(k, other) < beside_ * beside_) far(other) = INFINITY;
   }
   return result;
 }

@@ -105,6 +105,8 @@ private:
   void evaluate(const Eigen::Ref<const Eigen::VectorXd>& scaled, Eigen::VectorXd& value, Eigen::MatrixXd& slope) const;
   [[nodiscard]] Trial descend(const Eigen::VectorXd& start, const Eigen::VectorXd& wanted) const;
   [[nodiscard]] Trial trialAt(Eigen::VectorXd scaled, const Eigen::VectorXd& wanted) const;
+  /// Of the places of two starts.
+  [[nodiscard]] double squareApart(Eigen::Index start, Eigen::Index other) const;
   [[nodiscard]] std::vector<Eigen::VectorXd> startsFor(const Eigen::VectorXd& wanted) const;
 
   const KernelForwardModel& model_;
@@ -117,6 +119,7 @@ private:
   Eigen::MatrixXd expected_;       ///< weighted components there; of a table what the strengths make of them
   Eigen::VectorXd rest_;           ///< weighted, of a table
   Eigen::VectorXd expectedSquare_; ///< of each column
+  double beside_ = 0;              ///< starts whose places are nearer than that lead to the same causes; of a table
 };
 
 } // namespace palp
