@@ -211,56 +211,49 @@ PALP_INLINE Four loadFour(const float* from) {
   const FourFloats four = *reinterpret_cast<const FourFloatsUnaligned*>(from);
   return __builtin_convertvector(four, Four);
 }
-PALP_INLINE void addFour(double* to, Four value) {
-  *reinterpret_cast<FourUnaligned*>(to) = loadFour(to) + value;
+PALP_INLINE void storeFour(double* to, Four value) {
+  *reinterpret_cast<FourUnaligned*>(to) = value;
 }
 
 /// Eight rows at once: sums that do not wait for each other.
-template <std::size_t Outputs, class Number>
-PALP_INLINE void addColumnsTo(const Number* columns, std::size_t rows, std::size_t count, const double* shares,
-                              double* results) {
+template <class Number>
+PALP_INLINE void threeSumsOf(const Number* const* columns, std::size_t rows, const double* shares, double* results) {
+  constexpr std::size_t count = kSplineColumns, sums = 3;
   std::size_t i = 0;
   for (; i + 8 <= rows; i += 8) {
-    Four low[Outputs] = {}, high[Outputs] = {};
+    Four low[sums] = {}, high[sums] = {};
     for (std::size_t c = 0; c < count; ++c) {
-      const Four c0 = loadFour(columns + c * rows + i), c1 = loadFour(columns + c * rows + i + 4);
-      for (std::size_t o = 0; o < Outputs; ++o) {
+      const Four c0 = loadFour(columns[c] + i), c1 = loadFour(columns[c] + i + 4);
+      for (std::size_t o = 0; o < sums; ++o) {
         const double x = shares[o * count + c];
         const Four share = {x, x, x, x};
         low[o] += c0 * share;
         high[o] += c1 * share;
       }
     }
-    for (std::size_t o = 0; o < Outputs; ++o) {
-      addFour(results + o * rows + i, low[o]);
-      addFour(results + o * rows + i + 4, high[o]);
+    for (std::size_t o = 0; o < sums; ++o) {
+      storeFour(results + o * rows + i, low[o]);
+      storeFour(results + o * rows + i + 4, high[o]);
     }
   }
   for (; i < rows; ++i)
-    for (std::size_t o = 0; o < Outputs; ++o) {
+    for (std::size_t o = 0; o < sums; ++o) {
       double total = 0;
-      for (std::size_t c = 0; c < count; ++c)
-        total += static_cast<double>(columns[c * rows + i]) * shares[o * count + c];
-      results[o * rows + i] += total;
+      for (std::size_t c = 0; c < count; ++c) total += static_cast<double>(columns[c][i]) * shares[o * count + c];
+      results[o * rows + i] = total;
     }
 }
 
 } // namespace
 
-PALP_MANY_MACHINES void addColumns(const double* columns, std::size_t rows, std::size_t count, const double* shares,
-                                   std::size_t outputs, double* results) {
-  std::size_t o = 0;
-  for (; o + 5 <= outputs; o += 5) addColumnsTo<5>(columns, rows, count, shares + o * count, results + o * rows);
-  for (; o + 3 <= outputs; o += 3) addColumnsTo<3>(columns, rows, count, shares + o * count, results + o * rows);
-  for (; o < outputs; ++o) addColumnsTo<1>(columns, rows, count, shares + o * count, results + o * rows);
+PALP_MANY_MACHINES void threeSums(const double* const* columns, std::size_t rows, const double* shares,
+                                  double* results) {
+  threeSumsOf(columns, rows, shares, results);
 }
 
-PALP_MANY_MACHINES void addColumns(const float* columns, std::size_t rows, std::size_t count, const double* shares,
-                                   std::size_t outputs, double* results) {
-  std::size_t o = 0;
-  for (; o + 5 <= outputs; o += 5) addColumnsTo<5>(columns, rows, count, shares + o * count, results + o * rows);
-  for (; o + 3 <= outputs; o += 3) addColumnsTo<3>(columns, rows, count, shares + o * count, results + o * rows);
-  for (; o < outputs; ++o) addColumnsTo<1>(columns, rows, count, shares + o * count, results + o * rows);
+PALP_MANY_MACHINES void threeSums(const float* const* columns, std::size_t rows, const double* shares,
+                                  double* results) {
+  threeSumsOf(columns, rows, shares, results);
 }
 
 PALP_MANY_MACHINES void gaussian(double* squaredDistances, std::size_t count, double rate) {

@@ -19,13 +19,13 @@ void gaussianRemainder(double* values, std::size_t count, double rate);
 void squaredDistancesToPoint(const double* rows, std::size_t stride, std::size_t count, std::size_t dimensions,
                              const double* point, double* result);
 
-/// results[o * rows + i] += sum_c columns[c * rows + i] shares[o * count + c]: a product with a matrix of few columns.
-/// Each column is read once for up to five results.
-void addColumns(const double* columns, std::size_t rows, std::size_t count, const double* shares, std::size_t outputs,
-                double* results);
+/// Columns that splines over two places weigh: four along each.
+inline constexpr std::size_t kSplineColumns = 16;
+/// results[o * rows + i] = sum_c columns[c][i] shares[o * kSplineColumns + c] for three results o: each number is read
+/// once.
+void threeSums(const double* const* columns, std::size_t rows, const double* shares, double* results);
 /// The same of columns in single precision, summed in double: half of the memory to be read.
-void addColumns(const float* columns, std::size_t rows, std::size_t count, const double* shares, std::size_t outputs,
-                double* results);
+void threeSums(const float* const* columns, std::size_t rows, const double* shares, double* results);
 
 /// Packed Gaussian network.
 struct PackedNetwork {

@@ -107,12 +107,16 @@ KernelInversion::Trial KernelInversion::descend(const Eigen::VectorXd& start, co
   Trial now = trialAt(start.cwiseMin(most).cwiseMax(-most), wanted);
   double damping = 1e-3;
   for (int step = 0; step < kMostSteps; ++step) {
-    const Eigen::VectorXd uphill = now.slope.transpose() * now.left - precision_.cwiseProduct(now.scaled);
+    Eigen::VectorXd uphill = now.slope.transpose() * now.left - precision_.cwiseProduct(now.scaled);
+    // Causes at the end of what they may be that would go beyond stay while the others move.
+    const Eigen::ArrayXd moves =
+        (now.scaled.cwiseAbs().array() < most.array() || uphill.cwiseProduct(now.scaled).array() < 0).cast<double>();
+    uphill.array() *= moves;
     bool better = false;
     double moved = 0;
     for (int tries = 0; tries < 6 && !better; ++tries) {
-      Eigen::MatrixXd damped = now.information;
-      damped.diagonal() *= 1 + damping;
+      Eigen::MatrixXd damped = moves.matrix().asDiagonal() * now.information * moves.matrix().asDiagonal();
+      damped.diagonal() = (1 + damping) * now.information.diagonal();
       Eigen::VectorXd change = damped.llt().solve(uphill);
       change = ((now.scaled + change).cwiseMin(most).cwiseMax(-most) - now.scaled).eval();
       moved = std::sqrt(std::max(0.0, change.dot(now.information * change)));

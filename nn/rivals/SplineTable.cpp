@@ -1,10 +1,12 @@
 #include "nn/rivals/SplineTable.h"
 
+#include "nn/linear/Lapack.h"
 #include "nn/linear/VectorKernels.h"
 
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace palp {
@@ -58,24 +60,27 @@ void SplineTable::evaluate(const Number* numbers, double unit, const Eigen::Ref<
   for (std::size_t axis = 0; axis < 2; ++axis)
     at[axis] = splinesAt(place[axis] < 0 ? low(static_cast<Eigen::Index>(axis)) : input(place[axis]),
                          low(static_cast<Eigen::Index>(axis)), step(static_cast<Eigen::Index>(axis)), nodes[axis]);
-  const Eigen::MatrixXd factors = unit * monomials(input);
-  // Each block of coefficients is read once: four splines along the first place stand side by side.
-  const Eigen::Index count = terms(), columns = 1 + inputs();
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(outputs(), columns), shares(kSplines * count, columns);
-  for (std::size_t iy = 0; iy < kSplines; ++iy) {
-    const double v = at[1].value[iy], dv = at[1].slope[iy];
-    for (std::size_t ix = 0; ix < kSplines; ++ix) {
-      auto share = shares.middleRows(static_cast<Eigen::Index>(ix) * count, count);
-      share = v * at[0].value[ix] * factors;
-      if (place[0] >= 0) share.col(1 + place[0]) = v * at[0].slope[ix] * factors.col(0);
-      if (place[1] >= 0) share.col(1 + place[1]) = dv * at[0].value[ix] * factors.col(0);
+  // What the splines make of the coefficients, outputs x terms: their value and its derivatives by the places.
+  const Eigen::Index block = outputs() * terms();
+  Eigen::MatrixX3d atPlace(block, 3);
+  Eigen::Matrix<double, kSplines * kSplines, 3> shares;
+  std::array<const Number*, kernels::kSplineColumns> columns;
+  for (std::size_t iy = 0, i = 0; iy < kSplines; ++iy)
+    for (std::size_t ix = 0; ix < kSplines; ++ix, ++i) {
+      shares.row(static_cast<Eigen::Index>(i)) << at[0].value[ix] * at[1].value[iy], at[0].slope[ix] * at[1].value[iy],
+          at[0].value[ix] * at[1].slope[iy];
+      const std::size_t node = size(at[0].first) + ix + size(nodes[0]) * (size(at[1].first) + iy);
+      columns[i] = numbers + size(block) * node;
     }
-    const Eigen::Index node = at[0].first + Eigen::Index(nodes[0]) * (at[1].first + static_cast<Eigen::Index>(iy));
-    kernels::addColumns(numbers + outputs() * count * node, size(outputs()), size(shares.rows()), shares.data(),
-                        size(columns), all.data());
-  }
+  kernels::threeSums(columns.data(), size(block), shares.data(), atPlace.data());
+  const auto termsOf = [&](Eigen::Index column) { return atPlace.col(column).reshaped(outputs(), terms()); };
+  const Eigen::MatrixXd factors = unit * monomials(input);
+  const Eigen::MatrixXd all = lapack::product(termsOf(0), false, factors, false);
   value = rest + all.col(0);
   slope = all.rightCols(inputs());
+  for (std::size_t axis = 0; axis < 2; ++axis)
+    if (place[axis] >= 0)
+      slope.col(place[axis]) = lapack::product(termsOf(1 + Eigen::Index(axis)), false, factors.col(0), false);
 }
 
 void SplineTable::evaluate(const Eigen::Ref<const Eigen::VectorXd>& input, Eigen::VectorXd& value,
