@@ -40,16 +40,29 @@ template <int Packs> PALP_INLINE void rowSums(const float* block, int columns, c
   }
 }
 
-/// x[k] -= sum over r of block[k][r] t[r] for one block of rows.
+/// The same of some columns at once, whose sums do not wait for each other.
+template <int Packs, int Columns> PALP_INLINE void subtractColumns(const float* block, const Rows<Packs>& t, float* x) {
+  FloatPack v[Columns][Packs];
+  for (int k = 0; k < Columns; ++k)
+    for (int p = 0; p < Packs; ++p) v[k][p] = loadFloats(x + k * batchLanes + p * floatPackSize);
+  for (int r = 0; r < rowsABlock; ++r)
+    for (int k = 0; k < Columns; ++k)
+      for (int p = 0; p < Packs; ++p) v[k][p] -= block[k * rowsABlock + r] * t.row[r][p];
+  for (int k = 0; k < Columns; ++k)
+    for (int p = 0; p < Packs; ++p) storeFloats(x + k * batchLanes + p * floatPackSize, v[k][p]);
+}
+
+/// x[k] -= sum over r of block[k][r] t[r] for one block of rows. The block to come stands before this one, where the
+/// machine expects nothing to be read: it is fetched meanwhile, without which a third of the time is spent waiting.
 template <int Packs>
 PALP_INLINE void subtractTransposed(const float* block, int columns, const Rows<Packs>& t, float* x) {
-  for (int k = 0; k < columns; ++k) {
-    FloatPack v[Packs];
-    for (int p = 0; p < Packs; ++p) v[p] = loadFloats(x + k * batchLanes + p * floatPackSize);
-    for (int r = 0; r < rowsABlock; ++r)
-      for (int p = 0; p < Packs; ++p) v[p] -= block[k * rowsABlock + r] * t.row[r][p];
-    for (int p = 0; p < Packs; ++p) storeFloats(x + k * batchLanes + p * floatPackSize, v[p]);
+  constexpr int together = 2; // a cache line of the block
+  int k = 0;
+  for (; k + together <= columns; k += together) {
+    __builtin_prefetch(block + (k - columns) * rowsABlock);
+    subtractColumns<Packs, together>(block + k * rowsABlock, t, x + k * batchLanes);
   }
+  for (; k < columns; ++k) subtractColumns<Packs, 1>(block + k * rowsABlock, t, x + k * batchLanes);
 }
 
 /// Lanes that have right sides, in pieces that go through the factor together. A block of the factor's rows serves all
@@ -222,7 +235,8 @@ PALP_INLINE void rowSumsOfOne(const float* block, int columns, const double* x, 
     store(sums + i * packSize, (partial[0][i] + partial[1][i]) + (partial[2][i] + partial[3][i]));
 }
 
-/// x[k] -= sum over b and r of blocks[b][k][r] t[b][r], for some blocks that stand `size` numbers apart.
+/// x[k] -= sum over b and r of blocks[b][k][r] t[b][r], for some blocks that stand `size` numbers apart; as
+/// many before them come next.
 template <int Blocks>
 PALP_INLINE void subtractTransposedOfOne(const float* blocks, std::size_t size, int columns, const double* t,
                                          double* x) {
@@ -233,7 +247,9 @@ PALP_INLINE void subtractTransposedOfOne(const float* blocks, std::size_t size, 
   for (int k = 0; k < columns; ++k) {
     Pack products{};
     for (int b = 0; b < Blocks; ++b) {
-      widen(blocks + b * size + std::size_t(k) * rowsABlock, rows);
+      const float* column = blocks + b * size + std::size_t(k) * rowsABlock;
+      __builtin_prefetch(column - Blocks * size);
+      widen(column, rows);
       for (int i = 0; i < packsABlock; ++i) products += rows[i] * factors[b][i];
     }
     double sum = 0;
@@ -298,7 +314,7 @@ PALP_INLINE void backwardSupernodeOfOne(const BlockedFactor& L, int s, double* x
       for (int k = r + 1; k < rows; ++k) v -= double(triangle[r * rowsABlock + k]) * t[k];
       own[r0 + r] = t[r] = v * double(triangle[r * rowsABlock + r]);
     }
-    subtractTransposedOfOne<1>(block, 0, r0, t, own);
+    subtractTransposedOfOne<1>(block, std::size_t(r0) * rowsABlock, r0, t, own);
   }
 }
 
