@@ -1,5 +1,7 @@
 #include "nn/rivals/KernelInversion.h"
 
+#include "nn/linear/Lapack.h"
+
 #include <Eigen/Cholesky>
 
 #include <algorithm>
@@ -97,7 +99,7 @@ KernelInversion::Trial KernelInversion::trialAt(Eigen::VectorXd scaled, const Ei
   trial.left = wanted - weight_.cwiseProduct(trial.left);
   trial.slope = weight_.asDiagonal() * trial.slope;
   trial.cost = trial.left.squaredNorm() + precision_.dot(trial.scaled.cwiseAbs2());
-  trial.information = trial.slope.transpose() * trial.slope;
+  trial.information = lapack::product(trial.slope, true, trial.slope, false);
   trial.information.diagonal() += precision_;
   return trial;
 }
@@ -135,7 +137,7 @@ KernelInversion::Trial KernelInversion::descend(const Eigen::VectorXd& start, co
 /// fits best.
 std::vector<Eigen::VectorXd> KernelInversion::startsFor(const Eigen::VectorXd& wanted) const {
   const Eigen::VectorXd off = wanted - rest_;
-  const Eigen::VectorXd along = expected_.transpose() * off;
+  const Eigen::VectorXd along = lapack::product(expected_, true, off, false);
   Eigen::VectorXd strength = Eigen::VectorXd::Ones(along.size());
   if (!model_.strengths.empty())
     strength = along.cwiseQuotient(expectedSquare_.cwiseMax(1e-12)).cwiseMax(kLeastStrength).cwiseMin(kMostStrength);
@@ -156,7 +158,7 @@ std::vector<Eigen::VectorXd> KernelInversion::startsFor(const Eigen::VectorXd& w
 }
 
 KernelEstimate KernelInversion::estimate(const Eigen::Ref<const Eigen::VectorXd>& measurement) const {
-  const Eigen::VectorXd wanted = weighted_ * (measurement - model_.measurementOffset);
+  const Eigen::VectorXd wanted = lapack::product(weighted_, false, measurement - model_.measurementOffset, false);
   Trial best;
   for (Eigen::VectorXd& start : startsFor(wanted)) {
     Trial trial = descend(start, wanted);
