@@ -18,11 +18,11 @@ struct Kind {
   double field_s = 0; ///< of a sample more under the law of the field
 };
 
-/// Measured on the paper's design and two cores: palp sample with 5 to 200 samples an area and 20 to 240 touches,
+/// Measured on the paper's design and two cores: palp sample with 5 to 200 samples an area and 20 to 700 touches,
 /// twice, for a training and a test; under the field of a surrogate and of touches it is estimated.
 Kind kindOf(const SampleSettings& samples) {
   if (!samples.touches) return samples.surrogate ? Kind{"surrogate", 9, 0.0005, 0.05} : Kind{"areas", 5, 0.007, 0.32};
-  return samples.touches->mostFriction > 0 ? Kind{"friction", 180, 0.5, 0.5} : Kind{"touches", 82, 0.13, 0.5};
+  return samples.touches->mostFriction > 0 ? Kind{"friction", 132, 0.15, 0.5} : Kind{"touches", 38, 0.05, 0.5};
 }
 
 double shipped_s(const SampleSettings& samples, const SensorDesign& design) {
