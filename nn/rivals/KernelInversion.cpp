@@ -12,6 +12,7 @@ namespace palp {
 namespace {
 
 constexpr int kStarts = 6;
+constexpr int kNearest = 2; // of them: few samples know so little that each leads elsewhere; the others stand apart
 constexpr double kExplained = 2; // deviations of chi-square above its mean: a touch that leaves less is taken
 constexpr int kMostSteps = 20;
 constexpr double kSmallStep = 0.01;                         // of a deviation that is left to the causes
@@ -133,8 +134,8 @@ KernelInversion::Trial KernelInversion::descend(const Eigen::VectorXd& start, co
   return now;
 }
 
-/// The samples whose components are nearest to these, the nearest first, none beside another; of a table as strong as
-/// fits best.
+/// The samples whose components are nearest to these, the nearest first, and from the second on none beside the last;
+/// of a table as strong as fits best.
 std::vector<Eigen::VectorXd> KernelInversion::startsFor(const Eigen::VectorXd& wanted) const {
   const Eigen::VectorXd off = wanted - rest_;
   const Eigen::VectorXd along = lapack::product(expected_, true, off, false);
@@ -151,7 +152,7 @@ std::vector<Eigen::VectorXd> KernelInversion::startsFor(const Eigen::VectorXd& w
       start(cause) = strength(k) * (start(cause) + model_.table.shift(cause)) - model_.table.shift(cause);
     result.push_back(std::move(start));
     far(k) = INFINITY;
-    for (Eigen::Index other = 0; other < far.size(); ++other)
+    for (Eigen::Index other = 0; i + 1 >= kNearest && other < far.size(); ++other)
       if (squareApart(k, other) < beside_ * beside_) far(other) = INFINITY;
   }
   return result;

@@ -119,7 +119,7 @@ private:
   Eigen::MatrixXd expected_;       ///< weighted components there; of a table what the strengths make of them
   Eigen::VectorXd rest_;           ///< weighted, of a table
   Eigen::VectorXd expectedSquare_; ///< of each column
-  double beside_ = 0;              ///< starts whose places are nearer than that lead to the same causes; of a table
+  double beside_ = 0; ///< starts whose places are nearer than that lead to the same causes most often; of a table
 };
 
 } // namespace palp
