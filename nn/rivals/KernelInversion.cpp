@@ -14,6 +14,7 @@ namespace {
 constexpr int kStarts = 6;
 constexpr int kNearest = 2; // of them: few samples know so little that each leads elsewhere; the others stand apart
 constexpr double kExplained = 2; // deviations of chi-square above its mean: a touch that leaves less is taken
+constexpr double kWild = 1e100;  // of what is measured, which more does not make worse: its square is still a number
 constexpr int kMostSteps = 20;
 constexpr double kSmallStep = 0.01;                         // of a deviation that is left to the causes
 constexpr double kBeyond = 0.1;                             // of its range that a cause may lie outside
@@ -134,8 +135,8 @@ KernelInversion::Trial KernelInversion::descend(const Eigen::VectorXd& start, co
   return now;
 }
 
-/// The samples whose components are nearest to these, the nearest first, and from the second on none beside the last;
-/// of a table as strong as fits best.
+/// The samples whose components are nearest to these, the nearest first; from the second on each keeps away those
+/// beside it. Of a table as strong as fits best.
 std::vector<Eigen::VectorXd> KernelInversion::startsFor(const Eigen::VectorXd& wanted) const {
   const Eigen::VectorXd off = wanted - rest_;
   const Eigen::VectorXd along = lapack::product(expected_, true, off, false);
@@ -159,7 +160,8 @@ std::vector<Eigen::VectorXd> KernelInversion::startsFor(const Eigen::VectorXd& w
 }
 
 KernelEstimate KernelInversion::estimate(const Eigen::Ref<const Eigen::VectorXd>& measurement) const {
-  const Eigen::VectorXd wanted = lapack::product(weighted_, false, measurement - model_.measurementOffset, false);
+  const Eigen::VectorXd change = (measurement - model_.measurementOffset).cwiseMax(-kWild).cwiseMin(kWild);
+  const Eigen::VectorXd wanted = lapack::product(weighted_, false, change, false);
   Trial best;
   for (Eigen::VectorXd& start : startsFor(wanted)) {
     Trial trial = descend(start, wanted);

@@ -17,6 +17,7 @@ namespace palp {
 namespace {
 
 constexpr int kRulePoints = TetRule::points;
+
 } // namespace
 
 UnevenConductivity::UnevenConductivity(const FieldMesh& mesh, const Eigen::Matrix3Xd& nodes_mm,

@@ -92,6 +92,19 @@ TEST(KernelInversion, WhatNoBumpExplainsLeavesAResidual) {
   EXPECT_GT(inversion.estimate(two).chiSquare, 100);
 }
 
+TEST(KernelInversion, WhateverIsMeasuredHasAnAnswerThatDoesNotExplainIt) {
+  const Bumps train(300, 1);
+  const KernelForwardFit fit = fitKernelForwardModel(train.measurements, train.causes, kGroups, {1e-4, 1});
+  const KernelInversion inversion(fit.model);
+  for (const double wild : {1e12, -1e150, 1e300, 1.7e308}) {
+    Eigen::VectorXd measured = train.measurements.col(7);
+    measured(11) = wild;
+    const KernelEstimate found = inversion.estimate(measured);
+    EXPECT_TRUE(found.causes.allFinite()) << wild;
+    EXPECT_FALSE(found.chiSquare < 100) << wild;
+  }
+}
+
 TEST(KernelInversion, WhatIsKnownBeforehandNeedNotBeLearned) {
   const Bumps few(60, 1), fresh(100, 2, 1e-4);
   KernelForwardOptions options{1e-4, 1};
