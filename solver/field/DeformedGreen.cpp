@@ -188,7 +188,7 @@ DeformedGreen::SourceIntegrals DeformedGreen::integrals(const FieldState& state,
   SourceRows& right = result.boundary.right;
   if (state.conductivity.uneven()) {
     Eigen::MatrixXd& products = result.boundary.products;
-    UnevenConductivity(mesh_, state.nodes_mm, state.conductivity)
+    UnevenConductivity(mesh_, state.nodes_mm, state.conductivity, threads)
         .addIntegrals(system.sources, system.electrodes, system.reaches_mm, threads, stop, right, products);
     const Eigen::Index count = right.cols();
     Eigen::VectorXd inverse(count);

@@ -21,7 +21,7 @@ constexpr int kRulePoints = TetRule::points;
 } // namespace
 
 UnevenConductivity::UnevenConductivity(const FieldMesh& mesh, const Eigen::Matrix3Xd& nodes_mm,
-                                       const Conductivity& conductivity)
+                                       const Conductivity& conductivity, int threads)
     : mesh_(&mesh) {
   const Eigen::MatrixXi& nodes = mesh.tets().elements;
   const auto pressuresOf = [&](int e) -> Eigen::Matrix<double, 10, 1> {
@@ -30,11 +30,12 @@ UnevenConductivity::UnevenConductivity(const FieldMesh& mesh, const Eigen::Matri
   for (int e = 0; e < mesh.elements(); ++e)
     if ((pressuresOf(e).array() > 0).any()) elements_.push_back(e);
   at_.resize(static_cast<Eigen::Index>(elements_.size()) * kRulePoints, 6);
+  spans_mm_.resize(elements_.size());
   squareSlopes_.resize(at_.rows());
   shapes_.resize(10, squareSlopes_.size());
   gradients_.resize(10, squareSlopes_.size());
   const TetRule& rule = tetRule();
-  for (std::size_t i = 0; i < elements_.size(); ++i) {
+  inParallel(elements_.size(), threads, [&](std::size_t i) {
     const auto own = nodes.col(elements_[i]);
     const Eigen::Matrix<double, 3, 10> places = nodes_mm(Eigen::all, own);
     const Eigen::Matrix<double, 10, 1> pressures = pressuresOf(elements_[i]);
@@ -48,46 +49,52 @@ UnevenConductivity::UnevenConductivity(const FieldMesh& mesh, const Eigen::Matri
       const double p = rule.shapes.col(q).dot(pressures), m = std::exp(conductivity.half(p));
       const Eigen::Vector3d slope = conductivity.halfByPressure(p) * (gradients.transpose() * pressures);
       at_.row(point).tail<3>() = volume * slope.transpose();
-      squareSlopes_(point) = volume * slope.squaredNorm() / 2;
-      shapes_.col(point) = m * rule.shapes.col(q);
-      gradients_.col(point) = m * volume * (gradients * slope);
+      squareSlopes_(point) = static_cast<float>(volume * slope.squaredNorm() / 2);
+      shapes_.col(point) = (m * rule.shapes.col(q)).cast<float>();
+      gradients_.col(point) = (m * volume * (gradients * slope)).cast<float>();
     }
-  }
+    const auto points = at_.leftCols<3>().middleRows<kRulePoints>(Eigen::Index(i) * kRulePoints);
+    spans_mm_[i] = (points.rowwise() - points.row(0)).rowwise().norm().maxCoeff();
+  });
 }
 
-/// Of elements first .. first + count - 1: what stands in `right` at each of their nodes, by rows of ten.
+/// Of elements first .. first + count - 1: what stands in `right` at each of their nodes, by rows of ten, and what
+/// `products` gain. Both are sums of sources as they stand, without poles taken off: single precision leaves 1e-7 of
+/// them.
 void UnevenConductivity::addElements(int first, int count, const std::vector<Eigen::Matrix3Xd>& sources_mm,
-                                     SourceRows& onElements, Eigen::MatrixXd& products) const {
+                                     float* onElements, Eigen::MatrixXd& products) const {
   const auto sources = static_cast<int>(sources_mm.size());
   const Eigen::Index from = Eigen::Index(first) * kRulePoints;
   const int points = count * kRulePoints;
-  Eigen::MatrixXd potentials = Eigen::MatrixXd::Zero(points, sources), slopes = potentials;
+  Eigen::MatrixXf potentials(points, sources), slopes(points, sources);
+  Eigen::VectorXd potential(points), slope(points);
   const auto part = [&](Eigen::Index k) { return at_.col(k).data() + from; };
   const SurfacePoints places{part(0), part(1), part(2), part(3), part(4), part(5), points};
   for (int q = 0; q < sources; ++q) {
+    potential.setZero();
+    slope.setZero();
     const Eigen::Matrix3Xd& of = sources_mm[std::size_t(q)];
     for (Eigen::Index m = 0; m < of.cols(); ++m)
-      laneKernels().addPointSource(places, of.col(m).data(), potentials.col(q).data(), slopes.col(q).data());
+      laneKernels().addPointSource(places, of.col(m).data(), potential.data(), slope.data());
+    potentials.col(q) = (potential / kFourPi).cast<float>();
+    slopes.col(q) = (slope / kFourPi).cast<float>();
   }
-  potentials /= kFourPi;
-  slopes /= kFourPi;
   for (int e = 0; e < count; ++e) {
     const Eigen::Index own = Eigen::Index(e) * kRulePoints;
-    auto out = onElements.middleRows(10 * Eigen::Index(e), 10);
-    out.noalias() = shapes_.middleCols(from + own, kRulePoints) * slopes.middleRows(own, kRulePoints);
-    out.noalias() += gradients_.middleCols(from + own, kRulePoints) * potentials.middleRows(own, kRulePoints);
+    const auto add = [&](const Eigen::MatrixXf& factors, const Eigen::MatrixXf& fields, float old) {
+      cblas_sgemm(CblasColMajor, CblasTrans, CblasTrans, sources, 10, kRulePoints, 1, fields.data() + own, points,
+                  factors.col(from + own).data(), 10, old, onElements + std::size_t(e) * 10 * std::size_t(sources),
+                  sources);
+    };
+    add(shapes_, slopes, 0);
+    add(gradients_, potentials, 1);
   }
   for (int q = 0; q < sources; ++q)
     slopes.col(q).array() -= squareSlopes_.segment(from, points).array() * potentials.col(q).array();
-  for (int q = 0; q < sources; q += batchLanes) {
-    const int columns = std::min(batchLanes, sources - q);
-    const auto add = [&](const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-      cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, q + columns, columns, points, 1, a.data(), points,
-                  b.col(q).data(), points, 1, products.col(q).data(), sources);
-    };
-    add(potentials, slopes);
-    add(slopes, potentials);
-  }
+  Eigen::MatrixXf some(sources, sources);
+  cblas_ssyr2k(CblasColMajor, CblasUpper, CblasTrans, sources, points, 1, potentials.data(), points, slopes.data(),
+               points, 0, some.data(), sources);
+  for (int q = 0; q < sources; ++q) products.col(q).head(q + 1) += some.col(q).head(q + 1).cast<double>();
 }
 
 /// What the quadrature makes of the integrals of grad l . grad(s) chi and grad l . grad(s^2) chi as AtElectrode has
@@ -97,7 +104,11 @@ UnevenConductivity::Poles UnevenConductivity::poles(const Eigen::Vector3d& centr
   for (Eigen::Index i = 0; i < at_.rows(); ++i) {
     const Eigen::Vector3d d = at_.row(i).head<3>().transpose() - centre_mm;
     const double square = d.squaredNorm();
-    if (square >= reach_mm * reach_mm) continue;
+    if (square >= reach_mm * reach_mm) {
+      if (i % kRulePoints == 0 && std::sqrt(square) >= reach_mm + spans_mm_[std::size_t(i / kRulePoints)])
+        i += kRulePoints - 1; // the whole element is out of reach
+      continue;
+    }
     const double s = 1 / (kFourPi * std::sqrt(square));
     const double simple =
         -AtElectrode::cutOff(square / (reach_mm * reach_mm)) * s * at_.row(i).tail<3>().dot(d) / square;
@@ -111,19 +122,18 @@ void UnevenConductivity::addIntegrals(const std::vector<Eigen::Matrix3Xd>& sourc
                                       const std::vector<AtElectrode>& electrodes, const std::vector<double>& reaches_mm,
                                       int threads, const std::stop_token& stop, SourceRows& right,
                                       Eigen::MatrixXd& products) const {
-  constexpr int parts = 8, elementsAPiece = 16, elementsAWave = parts * 16 * elementsAPiece;
+  constexpr int parts = 8, elementsAPiece = 16, elementsAWave = parts * 4 * elementsAPiece;
   const auto count = static_cast<int>(sources_mm.size()), uneven = static_cast<int>(elements_.size());
   std::vector<Eigen::MatrixXd> of(parts, Eigen::MatrixXd::Zero(count, count));
+  UnsetArray<float> onElements(std::size_t(10 * elementsAWave) * std::size_t(count)); // by rows of `count`
+  const auto rowsOf = [&](int element) { return onElements.data() + std::size_t(10 * element) * std::size_t(count); };
   for (int wave = 0; wave < uneven && !stop.stop_requested(); wave += elementsAWave) {
     const int some = std::min(elementsAWave, uneven - wave);
-    SourceRows onElements(10 * Eigen::Index(some), count);
     forChunks(parts, 1, threads, [&](int part, int) {
       const int last = (part + 1) * some / parts;
       for (int first = part * some / parts; first < last && !stop.stop_requested(); first += elementsAPiece) {
         const int piece = std::min(elementsAPiece, last - first);
-        SourceRows own(10 * Eigen::Index(piece), count);
-        addElements(wave + first, piece, sources_mm, own, of[std::size_t(part)]);
-        onElements.middleRows(10 * Eigen::Index(first), own.rows()) = own;
+        addElements(wave + first, piece, sources_mm, rowsOf(first), of[std::size_t(part)]);
       }
     });
     if (stop.stop_requested()) return;
@@ -131,7 +141,7 @@ void UnevenConductivity::addIntegrals(const std::vector<Eigen::Matrix3Xd>& sourc
       for (int i = 0; i < some; ++i)
         for (int n = 0; n < 10; ++n)
           right.row(mesh_->tets().elements(n, elements_[std::size_t(wave + i)])).segment(begin, end - begin) +=
-              onElements.row(10 * Eigen::Index(i) + n).segment(begin, end - begin);
+              Eigen::Map<const Eigen::RowVectorXf>(rowsOf(i) + n * count + begin, end - begin).cast<double>();
     });
   }
   for (const Eigen::MatrixXd& part : of) products += part;

@@ -16,10 +16,11 @@ namespace palp {
 /// Here are the integrals over the volume.
 class UnevenConductivity {
 public:
-  UnevenConductivity(const FieldMesh& mesh, const Eigen::Matrix3Xd& nodes_mm, const Conductivity& conductivity);
+  UnevenConductivity(const FieldMesh& mesh, const Eigen::Matrix3Xd& nodes_mm, const Conductivity& conductivity,
+                     int threads);
 
   /// `right` (nodes x sources) += integral grad m . grad(s_q N_a);
-  /// `products` += integral grad l . grad(s_p s_q) - |grad l|^2 s_p s_q, for p <= q by whole batches.
+  /// `products` += integral grad l . grad(s_p s_q) - |grad l|^2 s_p s_q, for p <= q.
   /// Each electrode is the first of its sources; within `reaches_mm` its own poles are as SphericalMeans has them. The
   /// same bytes at any number of threads.
   void addIntegrals(const std::vector<Eigen::Matrix3Xd>& sources_mm, const std::vector<AtElectrode>& electrodes,
@@ -27,7 +28,7 @@ public:
                     Eigen::MatrixXd& products) const;
 
 private:
-  void addElements(int first, int count, const std::vector<Eigen::Matrix3Xd>& sources_mm, SourceRows& onElements,
+  void addElements(int first, int count, const std::vector<Eigen::Matrix3Xd>& sources_mm, float* onElements,
                    Eigen::MatrixXd& products) const;
   /// Of an electrode's own 1/(4 pi r): s and s^2.
   struct Poles {
@@ -38,8 +39,9 @@ private:
   const FieldMesh* mesh_;
   std::vector<int> elements_;                   ///< those in which k is not 1
   Eigen::Matrix<double, Eigen::Dynamic, 6> at_; ///< their points x (place, volume times grad l)
-  Eigen::VectorXd squareSlopes_;                ///< |grad l|^2 / 2 times volume
-  Eigen::MatrixXd shapes_, gradients_;          ///< 10 x points: m N_a, m grad l . grad N_a times volume
+  std::vector<double> spans_mm_;                ///< how far an element's points are from its first one
+  Eigen::VectorXf squareSlopes_;                ///< |grad l|^2 / 2 times volume
+  Eigen::MatrixXf shapes_, gradients_;          ///< 10 x points: m N_a, m grad l . grad N_a times volume
 };
 
 } // namespace palp

@@ -142,10 +142,11 @@ TEST(ConductionField, UnderAPressureLawAFinerMeshSaysTheSame) {
   const HyperelasticProblem coarse(design, sensorMesh(design));
   const HyperelasticProblem fine(design,
                                  sensorMesh(design, {.meshSize_mm = 0.6 * standardMeshSize_mm(design), .mapped = {}}));
+  const ConductionField inCoarse(coarse), inFine(fine);
   for (const Eigen::Vector3d& force : {Eigen::Vector3d(0.2, 0, -0.8), Eigen::Vector3d(0, -0.3, -0.4)}) {
     const LoadCase load{{{0, force}}, {}};
-    const auto a = ConductionField(coarse).network(coarse.solve(load).state());
-    const auto b = ConductionField(fine).network(fine.solve(load).state());
+    const auto a = inCoarse.network(coarse.solve(load).state());
+    const auto b = inFine.network(fine.solve(load).state());
     for (const Readout readout : {Readout::Floating, Readout::VirtualGround, Readout::RowsGrounded}) {
       const Eigen::ArrayXXd rest = logAtRest(design, readout).array();
       const Eigen::MatrixXd there = NetworkReading(*b, readout).resistances_ohm().array().log() - rest;

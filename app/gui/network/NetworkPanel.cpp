@@ -182,7 +182,12 @@ void NetworkPanel::buildNetwork(QFormLayout& form) {
   noiseWords_->setProperty("role", "hint");
   form.addRow(QString(), noiseWords_);
   connect(mode_, &QComboBox::currentIndexChanged, this, [this] { read(tr("Change the network's mode")); });
-  connect(decoder_, &QComboBox::currentIndexChanged, this, [this] { read(tr("Change the decoder")); });
+  connect(decoder_, &QComboBox::currentIndexChanged, this, [this] {
+    if (displaying_) return;
+    const QSignalBlocker quiet(target_); // one edit
+    if (decoder_->currentText().toStdString() == name(DecoderKind::TouchInversion)) target_->setCurrentIndex(1);
+    read(tr("Change the decoder"));
+  });
   connect(target_, &QComboBox::currentIndexChanged, this, [this] { read(tr("Change what is learned")); });
   connect(centers_, &QSpinBox::valueChanged, this, [this] { read(tr("Change the centres")); });
   connect(noise_, &QDoubleSpinBox::valueChanged, this, [this] { read(tr("Change the noise")); });
@@ -260,6 +265,8 @@ void NetworkPanel::display(const Project& project, int rowWires) {
   mode_->setCurrentIndex(network_.mode == DecoderMode::Default ? 0 : 1);
   decoder_->setCurrentText(QString::fromStdString(name(network_.decoder)));
   target_->setCurrentIndex(network_.target == DecoderTarget::Force ? 0 : 1);
+  // The decoder of touches learns both; an older file may say otherwise.
+  target_->setEnabled(network_.decoder != DecoderKind::TouchInversion || network_.target == DecoderTarget::Force);
   rows_->setText(QString::fromStdString(network_.rows));
   rowWires_ = rowWires;
   showRowsProblem({});

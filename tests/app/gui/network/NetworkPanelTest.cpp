@@ -58,6 +58,22 @@ TEST_F(NetworkPanel, RowsThatTheDesignDoesNotHaveAreRefusedAtTheField) {
   EXPECT_EQ(workbench.project().network.rows, "1,2");
 }
 
+TEST_F(NetworkPanel, TheDecoderOfTouchesLearnsForceAndPlaceByItself) {
+  auto& target = find<QComboBox>("target");
+  find<QComboBox>("decoder").setCurrentText("touch");
+  EXPECT_EQ(target.currentText(), "force and place");
+  EXPECT_FALSE(target.isEnabled()) << "it has no other";
+  EXPECT_EQ(workbench.project().network.target, DecoderTarget::ForceAndPlace);
+  QTest::keyClick(&window, Qt::Key_Z, Qt::ControlModifier); // one edit, taken back as one
+  EXPECT_EQ(find<QComboBox>("decoder").currentText(), "rbf");
+  EXPECT_EQ(target.currentText(), "the force");
+  EXPECT_TRUE(target.isEnabled());
+  Project older = workbench.project();
+  older.network.decoder = DecoderKind::TouchInversion;
+  workbench.edit("an older file", older);
+  EXPECT_TRUE(target.isEnabled()) << "what cannot be trained can be mended";
+}
+
 TEST_F(NetworkPanel, OldNumbersAreGreyWithTheReasonAndNeverBold) {
   generate();
   trained();
