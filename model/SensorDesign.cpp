@@ -26,6 +26,12 @@ void requirePositive(Problems& problems, const std::string& key, double value, d
   problems.push_back({key, text(value) + unit + "; allowed is above 0 up to " + text(largest) + unit});
 }
 
+void requireBetween(Problems& problems, const std::string& key, double value, double least, double largest,
+                    const char* unit) {
+  if (value >= least && value <= largest) return; // false for NaN
+  problems.push_back({key, text(value) + unit + "; allowed is " + text(least) + " to " + text(largest) + unit});
+}
+
 void requireNotNegative(Problems& problems, const std::string& key, double value, double largest, const char* unit) {
   if (value >= 0 && value <= largest) return; // false for NaN
   problems.push_back({key, text(value) + unit + "; allowed is 0 up to " + text(largest) + unit});
@@ -186,11 +192,12 @@ void checkResistance(Problems& problems, const SensorDesign& design, bool placed
   if (const auto* pairs = std::get_if<PairsLaw>(&design.resistance))
     return requirePositive(problems, "resistance.rate_ohm_per_mm", pairs->rate_ohm_per_mm, 1e12, " ohm/mm");
   const FieldLaw& law = *design.field();
-  requirePositive(problems, "resistance.resistivity_ohm_mm", law.resistivity_ohm_mm, 1e12, " ohm mm");
+  // Below any metal's, a sphere's of a nanometre and a pascal numbers overflow, or are lost beside the wires'.
+  requireBetween(problems, "resistance.resistivity_ohm_mm", law.resistivity_ohm_mm, 1e-6, 1e12, " ohm mm");
   requireNotNegative(problems, "resistance.contact_ohm_mm2", law.contact_ohm_mm2, 1e12, " ohm mm2");
   requireNotNegative(problems, "resistance.wire_ohm", law.wire_ohm, 1e9, " ohm");
   const std::size_t before = problems.size();
-  requirePositive(problems, "resistance.electrode_radius_mm", law.electrodeRadius_mm, kLargestLength_mm, " mm");
+  requireBetween(problems, "resistance.electrode_radius_mm", law.electrodeRadius_mm, 1e-6, kLargestLength_mm, " mm");
   if (!placed || problems.size() > before) return;
   if (const auto fault = sphereFault(design)) problems.push_back(*fault);
 }
@@ -267,8 +274,8 @@ std::vector<DesignFault> check(const SensorDesign& design) {
   checkElectrodes(problems, design);
   checkResistance(problems, design, block && problems.size() == before);
   if (design.pressureLaw) {
-    requirePositive(problems, "resistance.pressure_law.p0_MPa", design.pressureLaw->p0_MPa, kLargestModulus_MPa,
-                    " MPa");
+    requireBetween(problems, "resistance.pressure_law.p0_MPa", design.pressureLaw->p0_MPa, 1e-6, kLargestModulus_MPa,
+                   " MPa");
     if (!(design.pressureLaw->exponent >= 0 && design.pressureLaw->exponent <= 10))
       problems.push_back(
           {"resistance.pressure_law.exponent", text(design.pressureLaw->exponent) + "; allowed is 0 to 10"});

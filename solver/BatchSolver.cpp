@@ -2,11 +2,13 @@
 
 #include "model/DesignError.h"
 #include "model/base/Parallel.h"
+#include "model/base/Text.h"
 #include "solver/batch/AreaSurrogate.h"
 #include "solver/batch/BatchEngine.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace palp {
 
@@ -16,6 +18,7 @@ constexpr std::size_t loadsACheck = 700;     // the first and one load in so man
 constexpr int surrogateChecks = 3;           // of surrogates, whose error their fits have measured, in all calls
 constexpr double fullNewtonResidual = 1e-11; // of the solves that answers are checked against
 constexpr double fullContactResidual = 1e-9; // with indenters
+constexpr double largestError = 1e-3;        // against full Newton: more is no rounding, but another equilibrium
 
 /// How an answer was found.
 enum class Way { Surrogate, Iteration, FullNewton };
@@ -31,7 +34,8 @@ struct BatchSolver::State {
   std::vector<std::optional<AreaSurrogate>> surrogates;
   std::size_t fullSolves = 0, leftToNewton = 0;
   std::vector<std::string> leftOut; ///< of this call
-  double measuredError = 0;
+  std::optional<double> measuredError;
+  std::vector<std::string> doubts;
   std::size_t loadsSeen = 0, checks; ///< in all calls
   int surrogatesChecked = 0;
 
@@ -93,16 +97,26 @@ struct BatchSolver::State {
     const std::size_t due = (loadsSeen + loadsACheck - 1) / loadsACheck, count = due - std::min(due, checks);
     checks += count;
     for (std::size_t c = 0; c < count; ++c) {
-      const std::size_t i = (2 * c + 1) * loads.size() / (2 * count);
+      std::size_t i = (2 * c + 1) * loads.size() / (2 * count);
+      for (std::size_t k = 0; k < loads.size() && ways[i] == Way::FullNewton; ++k) i = (i + 1) % loads.size();
       if (ways[i] == Way::FullNewton) continue;
       if (ways[i] == Way::Surrogate && surrogatesChecked++ >= surrogateChecks) continue;
       const auto full = fullNewton(loads[i], i, stop);
       if (!full) return false;
-      if (full->upper_mm.size() == 0) throw ConvergenceError("load " + leftOut.back() + ", though the batch found one");
-      measuredError = std::max(measuredError, relativeDifference(*answers[i], *full));
+      if (full->upper_mm.size() == 0) { // the answer stays: which loads have one must not hang on which are checked
+        doubts.push_back("load " + leftOut.back() + ", though the batch found one");
+        leftOut.pop_back();
+        continue;
+      }
+      const double error = relativeDifference(*answers[i], *full);
+      notice(error);
+      if (error > largestError && ways[i] == Way::Iteration)
+        doubts.push_back("load " + number(i) + ": full Newton's method finds another equilibrium, " +
+                         text(std::round(1000 * error) / 10) + " % away");
     }
     return true;
   }
+  void notice(double error) { measuredError = std::max(measuredError.value_or(0), error); }
 
   bool fitSurrogates(std::span<const int> areas, const std::stop_token& stop);
   bool fromSurrogates(std::span<const LoadCase> loads, std::vector<BatchEngine::Answer>& answers,
@@ -117,7 +131,7 @@ bool BatchSolver::State::fitSurrogates(std::span<const int> areas, const std::st
   auto fits = AreaSurrogate::fit(*engine, problem.design(), open, options.relativeTolerance, stop);
   if (stop.stop_requested()) return false;
   for (std::size_t k = 0; k < open.size(); ++k) {
-    if (fits[k]) measuredError = std::max(measuredError, fits[k]->error());
+    if (fits[k]) notice(fits[k]->error());
     surrogates[open[k]] = std::move(fits[k]);
   }
   return true;
@@ -236,8 +250,12 @@ std::size_t BatchSolver::leftToNewton() const {
   return state_->leftToNewton;
 }
 
-double BatchSolver::measuredError() const {
+std::optional<double> BatchSolver::measuredError() const {
   return state_->measuredError;
+}
+
+const std::vector<std::string>& BatchSolver::doubts() const {
+  return state_->doubts;
 }
 
 } // namespace palp

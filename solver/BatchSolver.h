@@ -69,7 +69,11 @@ public:
   /// Number of loads that were left to full Newton's method so far.
   [[nodiscard]] std::size_t leftToNewton() const;
   /// Largest relative error of the electrode displacements against full Newton's method, over the loads checked so far.
-  [[nodiscard]] double measuredError() const;
+  /// None: none was checked.
+  [[nodiscard]] std::optional<double> measuredError() const;
+  /// Of the loads checked so far, those for which full Newton's method finds another equilibrium or none, and how far
+  /// away: friction on a mesh too coarse for its contact has several.
+  [[nodiscard]] const std::vector<std::string>& doubts() const;
 
 private:
   std::vector<ElectrodeDisplacements> answer(std::span<const LoadCase> loads,

@@ -2,6 +2,7 @@
 
 #include "model/DesignError.h"
 #include "model/base/Parallel.h"
+#include "model/base/Text.h"
 #include "solver/element/ElementGeometry.h"
 #include "solver/linear/Front.h"
 
@@ -164,8 +165,15 @@ std::unique_ptr<DeformedGreen::System> DeformedGreen::systemAt(const FieldState&
   ConductionMatrix::Values values = matrix_.at(state.nodes_mm, state.conductivity, threads);
   if (stop.stop_requested()) return {};
   SparseCholesky factor(matrix_.plan());
-  if (factor.factorise(std::move(values.matrix), threads, stop) == SparseCholesky::Outcome::NotPositiveDefinite)
+  if (factor.factorise(std::move(values.matrix), threads, stop) == SparseCholesky::Outcome::NotPositiveDefinite) {
+    constexpr double mostContrast = 1e9; // that the equations bear
+    const Conductivity& k = state.conductivity;
+    const double contrast = k.uneven() ? std::exp(2 * k.half(k.pressures_MPa.maxCoeff())) : 1;
+    if (!(contrast < mostContrast))
+      throw DesignError("resistance.pressure_law: under the largest pressure the rubber conducts " + text(contrast) +
+                        " times as well; what the field's equations bear is some 1e9 times");
     throw DesignError("the conduction field: the load turns an element inside out");
+  }
   if (stop.stop_requested()) return {};
   std::vector<Eigen::Matrix3Xd> sources = sources_.at(state.nodes_mm, state.electrodes_mm);
   const std::vector<double> reaches = reaches_mm(sources);

@@ -146,6 +146,15 @@ INSTANTIATE_TEST_SUITE_P(
              "resistance.resistivity_ohm_mm", "0 ohm mm"},
         Slip{"RadiusZero", [](SensorDesign& d) { d.resistance = FieldLaw{.electrodeRadius_mm = 0}; },
              "resistance.electrode_radius_mm", "0 mm"},
+        Slip{"ResistivityLost", [](SensorDesign& d) { d.resistance = FieldLaw{.resistivity_ohm_mm = 1e-300}; },
+             "resistance.resistivity_ohm_mm", "1e-300 ohm mm; allowed is 1e-06 to"},
+        Slip{"RadiusLost", [](SensorDesign& d) { d.resistance = FieldLaw{.electrodeRadius_mm = 1e-170}; },
+             "resistance.electrode_radius_mm", "1e-170 mm; allowed is 1e-06 to"},
+        Slip{"PressureLost",
+             [](SensorDesign& d) {
+               d.pressureLaw = PressureLaw{1e-300, 2};
+             },
+             "resistance.pressure_law.p0_MPa", "1e-300 MPa; allowed is 1e-06 to"},
         Slip{"RadiusNan", [](SensorDesign& d) { d.resistance = FieldLaw{.electrodeRadius_mm = kNan}; },
              "resistance.electrode_radius_mm", "nan"},
         Slip{"ContactNegative", [](SensorDesign& d) { d.resistance = FieldLaw{.contact_ohm_mm2 = -1}; },

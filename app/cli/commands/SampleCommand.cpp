@@ -101,14 +101,24 @@ Exit run(const SampleArguments& arguments, Session& session) {
     std::cerr << "palp sample: " << session.warnings.back() << '\n';
   }
   session.result["solves_per_s"] = seconds > 0 ? static_cast<double>(made) / seconds : 0;
-  session.result["measured_error_relative"] = generator.measuredError();
+  if (const auto doubts = generator.doubts(); !doubts.empty()) {
+    session.warnings.push_back((doubts.size() == 1 ? doubts.front()
+                                                   : text(static_cast<double>(doubts.size())) +
+                                                         " of the loads checked; the first: " + doubts.front()) +
+                               "; with friction a mesh too coarse for the contact has several: a finer one has not");
+    std::cerr << "palp sample: " << session.warnings.back() << '\n';
+  }
+  session.result["measured_error_relative"] =
+      generator.errorMeasured() ? nlohmann::ordered_json(generator.measuredError()) : nlohmann::ordered_json();
   session.result["mesh"] = generator.origin().mesh;
   session.result["file"] = whole ? arguments.output.path.string() : writer.partPath().string();
   if (!session.json)
     std::cout << kept + made << " samples in " << session.result["file"].get<std::string>() << "; "
-              << (arguments.surrogate ? "surrogate, measured error "
-                                      : "full solves, measured error against full Newton ")
+              << (arguments.surrogate ? "surrogate" : "full solves");
+  if (!session.json && generator.errorMeasured())
+    std::cout << ", measured error " << (arguments.surrogate ? "" : "against full Newton ")
               << generator.measuredError();
+  if (!session.json && !generator.errorMeasured()) std::cout << ", error not measured";
   if (!session.json && generator.leftToNewton() > 0)
     std::cout << "; " << generator.leftToNewton() << " left to Newton's method one by one";
   if (!session.json) std::cout << '\n';

@@ -185,7 +185,12 @@ void NetworkPanel::buildNetwork(QFormLayout& form) {
   connect(decoder_, &QComboBox::currentIndexChanged, this, [this] {
     if (displaying_) return;
     const QSignalBlocker quiet(target_); // one edit
-    if (decoder_->currentText().toStdString() == name(DecoderKind::TouchInversion)) target_->setCurrentIndex(1);
+    const auto chosen = kDecoderKinds.value(decoder_->currentText().toStdString());
+    if (chosen == DecoderKind::TouchInversion && network_.decoder != chosen)
+      targetBefore_ = std::exchange(network_.target, DecoderTarget::ForceAndPlace);
+    else if (network_.decoder == DecoderKind::TouchInversion && targetBefore_)
+      network_.target = *std::exchange(targetBefore_, {});
+    target_->setCurrentIndex(network_.target == DecoderTarget::Force ? 0 : 1);
     read(tr("Change the decoder"));
   });
   connect(target_, &QComboBox::currentIndexChanged, this, [this] { read(tr("Change what is learned")); });

@@ -4,6 +4,8 @@
 
 #include <QWidget>
 
+#include <optional>
+
 class QCheckBox;
 class QComboBox;
 class QDoubleSpinBox;
@@ -76,6 +78,7 @@ private:
   QComboBox* mode_ = nullptr;
   QComboBox* decoder_ = nullptr;
   QComboBox* target_ = nullptr;
+  std::optional<DecoderTarget> targetBefore_; ///< the decoder of touches was chosen, which learns both
   QLineEdit* rows_ = nullptr;
   WrappedLabel* rowsProblem_ = nullptr;
   WrappedLabel* rowsHint_ = nullptr;

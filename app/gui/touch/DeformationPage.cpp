@@ -73,7 +73,8 @@ DeformationPage::DeformationPage(Workbench& workbench, QWidget* parent) : Scene(
   connect(block_, &BlockView::materialClicked, this, &DeformationPage::press);
   connect(block_, &BlockView::discDragged, this,
           [this](int disc, const PatchLoad& to) { load_->changeDisc(disc, to.centre_mm, to.radius_mm); });
-  connect(block_, &BlockView::indenterDragged, load_, &LoadPanel::changeIndenter);
+  connect(block_, &BlockView::indenterMoved, load_, &LoadPanel::moveIndenter);
+  connect(block_, &BlockView::indenterSized, load_, &LoadPanel::sizeIndenter);
   connect(block_, &BlockView::wayDrawn, steps_, &PathPanel::draw);
   connect(steps_, &PathPanel::message, this, &DeformationPage::message);
   connect(result_, &ResultPanel::uniformAsked, this, [this](bool on) {

@@ -19,7 +19,7 @@ constexpr double kGrip_px = 9; ///< around an arrow
 constexpr double kCutGrip_px = 12;
 constexpr double kPlaneHandle_mm = 2; ///< a plane has no rim: it is taken near its place
 constexpr double kWayStep_mm = 0.2;   ///< between the points of a way that is drawn
-constexpr double kStep_N = 0.01;
+constexpr double kStepsANewton = 100; ///< a force is dragged to hundredths
 constexpr double kLeast_N = 0.01;
 
 double distance(const QPointF& place, const QPointF& from, const QPointF& to) {
@@ -313,7 +313,7 @@ void BlockView::dragTo(const QPointF& place, Qt::KeyboardModifiers modifiers) {
   }
   // A push stays a push: the arrow would jump to the other side of its place.
   next.z() = push ? std::min(next.z(), -kLeast_N) : std::max(next.z(), 0.0);
-  for (double& component : next) component = std::round(component / kStep_N) * kStep_N;
+  for (double& component : next) component = std::round(component * kStepsANewton) / kStepsANewton;
   parts_->scene.moveForce(static_cast<std::size_t>(dragged_), next);
   invalidate();
 }
@@ -366,8 +366,10 @@ void BlockView::drop() {
     if (disc >= all.size()) return; // another load may have come while the button was down
     if (handles_ == Movable::Discs)
       emit discDragged(static_cast<int>(disc), all[disc]);
+    else if (disc_.sizes() && parts_->scene.indenters()[disc].shape != IndenterShape::Plane)
+      emit indenterSized(static_cast<int>(disc), all[disc].radius_mm);
     else
-      emit indenterDragged(static_cast<int>(disc), all[disc].centre_mm, all[disc].radius_mm);
+      emit indenterMoved(static_cast<int>(disc), all[disc].centre_mm);
     return;
   }
   const int arrow = std::exchange(dragged_, -1);

@@ -60,8 +60,9 @@ signals:
   void discDragged(int disc, const palp::PatchLoad& to);
   /// A way was drawn over the top face from where this indenter stands: by Ctrl and the left button.
   void wayDrawn(int indenter, const Eigen::Matrix2Xd& way_mm);
-  /// The same of an indenter: its place and its radius.
-  void indenterDragged(int indenter, const Eigen::Vector2d& place_mm, double radius_mm);
+  /// The same of an indenter: its place, or its radius. What was not dragged may be another by now than is shown.
+  void indenterMoved(int indenter, const Eigen::Vector2d& place_mm);
+  void indenterSized(int indenter, double radius_mm);
 
 protected:
   [[nodiscard]] Picture renderPicture(int width, int height) override;

@@ -11,6 +11,19 @@
 
 namespace palp {
 
+namespace {
+
+/// "row-wire 3", or of a label with a unit and words at the cells "y 16.33 mm".
+QString placeWords(const std::string& label, const std::vector<std::string>& ticks, int cell) {
+  const QString words = QString::fromStdString(label);
+  const auto unit = words.indexOf(" [");
+  const QString at = ticks.empty() ? QString::number(cell) : QString::fromStdString(ticks[std::size_t(cell)]);
+  if (unit < 0) return words + " " + at;
+  return words.left(unit) + " " + at + " " + words.mid(unit + 2).chopped(1);
+}
+
+} // namespace
+
 HeatmapView::HeatmapView(QWidget* parent) : PictureView(parent) {
   connect(this, &PictureView::hovered, this, [this](const QPointF& place) { point(cellAt(place)); });
   connect(this, &PictureView::clicked, this, [this](const QPointF& place) {
@@ -26,9 +39,9 @@ void HeatmapView::point(const std::optional<std::array<int, 2>>& cell) {
     const HeatmapSpec& spec = heatmap();
     const QString value = QString::number(spec.values((*cell)[0], (*cell)[1]), 'g', 6);
     const QString more = cellWords_ ? cellWords_(*cell) : QString();
-    setToolTip(QString("row-wire %1, column-wire %2: %3 = %4 %5")
-                   .arg((*cell)[0])
-                   .arg((*cell)[1])
+    setToolTip(QString("%1, %2: %3 = %4 %5")
+                   .arg(placeWords(spec.rowLabel, spec.rowTicks, (*cell)[0]),
+                        placeWords(spec.columnLabel, spec.columnTicks, (*cell)[1]))
                    .arg(QString::fromStdString(spec.colors.quantity), value, QString::fromStdString(spec.colors.unit)) +
                (more.isEmpty() ? QString() : "\n" + more));
   } else {

@@ -182,9 +182,24 @@ void SampleGenerator::setSeed(std::uint64_t seed) {
 double SampleGenerator::measuredError() const {
   double error = 0;
   for (const Part& part : parts_)
-    error = std::max({error, part.measuredError, part.solver ? part.solver->measuredError() : 0,
+    error = std::max({error, part.measuredError.value_or(0), part.solver ? part.solver->measuredError().value_or(0) : 0,
                       part.field ? part.field->surrogateError() : 0});
   return error;
+}
+
+bool SampleGenerator::errorMeasured() const {
+  return std::any_of(parts_.begin(), parts_.end(), [](const Part& part) {
+    return part.measuredError || (part.solver && part.solver->measuredError());
+  });
+}
+
+std::vector<std::string> SampleGenerator::doubts() const {
+  std::vector<std::string> all;
+  for (const Part& part : parts_) {
+    all.insert(all.end(), part.doubts.begin(), part.doubts.end());
+    if (part.solver) all.insert(all.end(), part.solver->doubts().begin(), part.solver->doubts().end());
+  }
+  return all;
 }
 
 std::size_t SampleGenerator::solves() const {

@@ -80,8 +80,11 @@ public:
   [[nodiscard]] int redrawn() const { return redrawn_; }
   [[nodiscard]] const std::string& whyRedrawn() const { return whyRedrawn_; }
   /// Largest relative error of the electrode displacements on the share that was solved again by full Newton; that of
-  /// the surrogates' d ln R under the law of the field where it is larger.
+  /// the surrogates' d ln R under the law of the field where it is larger. 0 as well where nothing was measured.
   [[nodiscard]] double measuredError() const;
+  [[nodiscard]] bool errorMeasured() const;
+  /// Of that share, the samples for which full Newton finds another equilibrium or none (BatchSolver.h).
+  [[nodiscard]] std::vector<std::string> doubts() const;
 
 private:
   /// Solver of the samples on one mesh: of all, or of touches in a part of their rectangle.
@@ -92,7 +95,8 @@ private:
     std::unique_ptr<ConductionBatch> field;   ///< under the law of the field
     StageLog stages{};                        ///< not yet counted by the generator's
     std::size_t solves = 0, leftToNewton = 0; ///< of solvers that were given back
-    double measuredError = 0;
+    std::optional<double> measuredError;
+    std::vector<std::string> doubts;
 
     void giveBack(); ///< its memory; made again where it is needed again
   };

@@ -34,7 +34,10 @@ void SampleGenerator::Part::giveBack() {
   if (solver) {
     solves += solver->solves();
     leftToNewton += solver->leftToNewton();
-    measuredError = std::max({measuredError, solver->measuredError(), field ? field->surrogateError() : 0});
+    if (solver->measuredError())
+      measuredError =
+          std::max({measuredError.value_or(0), *solver->measuredError(), field ? field->surrogateError() : 0});
+    doubts.insert(doubts.end(), solver->doubts().begin(), solver->doubts().end());
   }
   field.reset();
   solver.reset();

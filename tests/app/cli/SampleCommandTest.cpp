@@ -108,6 +108,17 @@ TEST(SampleCommand, SaysHowFarTheSamplesAreFromFullNewton) {
   EXPECT_GT(result.at("solves").get<int>(), 0);
 }
 
+TEST(SampleCommand, SaysWhereFullNewtonFindsAnotherEquilibrium) {
+  const palp::TemporaryFolder folder; // a few nodes touch, with friction: g++ 12 finds load 5 57 % away
+  const json result = palp::test::palp({"sample", "paper", "--touch", "sphere:3..6", "--friction", "0..0.5", "--mapped",
+                                        "20x20x4", "--seed", "2", "--count", "10", "--json", "-o", folder / "s.csv"})
+                          .json();
+  bool said = false;
+  for (const json& warning : result.at("warnings"))
+    said = said || warning.get<std::string>().find("another equilibrium") != std::string::npos;
+  EXPECT_EQ(said, result.at("measured_error_relative").get<double>() > 1e-3) << result.at("warnings");
+}
+
 TEST(SampleCommand, LoadsAllAreasTogether) {
   const palp::TemporaryFolder folder;
   const Outcome outcome = palp::test::palp(sample(folder / "s.csv", {"--areas", "together"}, "20"));

@@ -69,8 +69,11 @@ TEST(BatchSolver, TakesFullNewtonWhereTheBatchFails) {
   EXPECT_EQ(answers[1].lower_mm, truth.lower_mm);
   EXPECT_EQ(answers[1].upperPressure_MPa, truth.upperPressure_MPa);
   // 32 for the area's predictor, one a load, and full Newton once for the load that failed: the check of one load in
-  // 700 falls on that load and has nothing to compare.
-  EXPECT_EQ(batch.solves(), 32U + gentleAndHuge.size() + 1U);
+  // 700 falls on that load, has nothing to compare there and takes the next.
+  EXPECT_EQ(batch.solves(), 32U + gentleAndHuge.size() + 2U);
+  ASSERT_TRUE(batch.measuredError().has_value());
+  EXPECT_LT(*batch.measuredError(), 1e-5);
+  EXPECT_TRUE(batch.doubts().empty());
 }
 
 TEST(BatchSolver, NamesTheLoadThatHasNoSolution) {

@@ -54,10 +54,12 @@ ColorScale colorsOf(const Eigen::MatrixXd& values, const MapQuantity& quantity) 
 
 std::string titleOf(const MappedResolution& map, const MapQuantity& quantity) {
   const FieldLaw* law = map.design.field();
+  std::string readout = law != nullptr ? kReadouts.name(law->readout) : "";
+  std::replace(readout.begin(), readout.end(), '_', ' ');
   std::string size = map.touch.shape == IndenterShape::Plane ? "" : " of " + text(map.touch.radius_mm) + " mm";
   std::string words = quantity.name + ", " + shapeName(map.touch.shape) + size + ", " +
                       text(-map.touch.press()->force_N.z()) + " N, " +
-                      (law != nullptr ? "field, " + kReadouts.name(law->readout) : "Eq. (1)");
+                      (law != nullptr ? "field, " + readout : "Eq. (1)");
   words.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(words.front())));
   return words;
 }

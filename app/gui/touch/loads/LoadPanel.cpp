@@ -246,12 +246,19 @@ void LoadPanel::addIndenter(const Eigen::Vector2d& place_mm) {
   emit edited(tr("Add indenter %1").arg(chosen_.number), load_);
 }
 
-void LoadPanel::changeIndenter(int indenter, const Eigen::Vector2d& place_mm, double radius_mm) {
+void LoadPanel::moveIndenter(int indenter, const Eigen::Vector2d& place_mm) {
   const auto k = static_cast<std::size_t>(indenter);
   if (indenter < 0 || k >= load_.indenters.size()) return;
   Indenter next = load_.indenters[k];
   next.place_mm = place_mm;
-  if (next.shape != IndenterShape::Plane) next.radius_mm = radius_mm;
+  setIndenter(indenter, next);
+}
+
+void LoadPanel::sizeIndenter(int indenter, double radius_mm) {
+  const auto k = static_cast<std::size_t>(indenter);
+  if (indenter < 0 || k >= load_.indenters.size() || load_.indenters[k].shape == IndenterShape::Plane) return;
+  Indenter next = load_.indenters[k];
+  next.radius_mm = std::max(radius_mm, next.rim_mm);
   setIndenter(indenter, next);
 }
 

@@ -34,7 +34,8 @@ public:
   /// A new indenter at a place of the top face: a sphere, or as the one that was edited last.
   void addIndenter(const Eigen::Vector2d& place_mm);
   /// Another place and size of an indenter.
-  void changeIndenter(int indenter, const Eigen::Vector2d& place_mm, double radius_mm);
+  void moveIndenter(int indenter, const Eigen::Vector2d& place_mm);
+  void sizeIndenter(int indenter, double radius_mm);
   void takeAway(const LoadPlace& place);
   /// A click on the top face: a new disc or indenter, or the one that lies there is taken away (Shift was held: else it
   /// would have been dragged).

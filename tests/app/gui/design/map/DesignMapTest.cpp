@@ -83,7 +83,13 @@ TEST_F(DesignMapTest, ShowsTheBoundsOfTheReportsMapOverTheFaceAndTheBlock) {
   EXPECT_FALSE(window.busy()) << "all quantities are there";
   EXPECT_LT((heatmap().values - wanted.smallestForce_N.transpose()).norm(), 1e-5 * wanted.smallestForce_N.norm());
   EXPECT_EQ(heatmap().colors.unit, "N");
-  const auto lines = find<HeatmapView>("resolutionMap").table().count('\n');
+  auto& map = find<HeatmapView>("resolutionMap");
+  settle();
+  QTest::mouseMove(&map, map.rect().center() - QPoint(20, 0));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !map.toolTip().isEmpty(); }, kPatience_ms));
+  EXPECT_TRUE(map.toolTip().startsWith("y ")) << map.toolTip().toStdString();
+  EXPECT_TRUE(map.toolTip().contains(" mm, x ")) << "places, not wires: " << map.toolTip().toStdString();
+  const auto lines = map.table().count('\n');
   EXPECT_EQ(lines, 1 + wanted.heldPlace_mm.size()) << "a line a place, to be exported as other charts";
 }
 

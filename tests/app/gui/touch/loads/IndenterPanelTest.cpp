@@ -77,6 +77,18 @@ TEST_F(IndenterPanelTest, PressesMovesSizesAndTakesAwayByTheMouse) {
   EXPECT_EQ(indenter(), sized);
 }
 
+TEST_F(IndenterPanelTest, KeepsItsNewSizeWhereItIsMovedBeforeThatIsSolved) {
+  QTest::mouseClick(&find<QPushButton>("addIndenter"), Qt::LeftButton);
+  QTest::keyClick(&window, Qt::Key_I);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return find<QAbstractButton>("clickIndenter").isChecked(); }, kPatience_ms));
+  ASSERT_TRUE(drawn());
+  const Indenter before = indenter();
+  setNumber("indenterRadius", 8); // the picture still shows one of 5 mm
+  drag(block(), top(before.place_mm.x(), before.place_mm.y()), top(before.place_mm.x() + 3, before.place_mm.y()));
+  EXPECT_NEAR(indenter().place_mm.x(), before.place_mm.x() + 3, 0.5);
+  EXPECT_EQ(indenter().radius_mm, 8);
+}
+
 TEST_F(IndenterPanelTest, IsSetByNumbersAndSaysWhatCannotBe) {
   QTest::mouseClick(&find<QPushButton>("addIndenter"), Qt::LeftButton);
   ASSERT_EQ(load().indenters.size(), 1u);
