@@ -24,6 +24,19 @@ constexpr double keptIterations = 3;
 // Where that small a residual does not fall any more, it is down to rounding.
 constexpr double stallsBelow = 1e-6;
 constexpr int stallsAtRounding = 3;
+// So is any that does not fall where strains are so small that Newton's method has nothing to bend: under 1e-8 N the
+// forces' own rounding is 1e-5 of the load.
+constexpr double smallStrain = 1e-4;
+
+double smallestElement_mm(const Discretisation& mesh) {
+  double volume = INFINITY;
+  for (int e = 0; e < mesh.elements(); ++e) volume = std::min(volume, mesh.volume(e));
+  return std::cbrt(volume);
+}
+
+double largest(const Eigen::VectorXd& values) {
+  return values.cwiseAbs().maxCoeff();
+}
 
 } // namespace
 
@@ -42,6 +55,7 @@ NewtonResult NewtonSolver::solve(const Loading& loading) {
   result.increments.push_back({0, mesh.atRest()});
   result.internalForces = Eigen::VectorXd::Zero(loading.forces.size());
   const double load = mesh.freePart(loading.forces).norm();
+  smallMove_mm_ = smallStrain * smallestElement_mm(mesh);
   scale_ = load > 0 ? load : 1;
   double fraction = 0, size = 1;
   while (fraction < 1) {
@@ -161,6 +175,7 @@ void NewtonSolver::move(const Direction& direction, ElementState& state) {
 /// way that grows is none either: in a tall block it does so on the right path, while the residual falls.
 bool NewtonSolver::overshot(const Direction& direction) const {
   if (forces_.smallestJ <= 0 || !std::isfinite(relative_)) return true;
+  if (largest(direction.start.displacements) + largest(direction.du) < smallMove_mm_) return false;
   const Eigen::VectorXd du = assembler_.discretisation().freePart(direction.du);
   if (relative_ > 1 && std::abs(residual_.dot(du)) > acceptedSlope * std::abs(direction.slope)) return true;
   if (relative_ <= std::max(judgedAbove, direction.residual)) return false;
@@ -236,7 +251,8 @@ NewtonSolver::Outcome NewtonSolver::step(const Loading& loading, double from, do
       if (const Outcome outcome = searchLine(loading, to, newton, state); outcome != Outcome::Converged) return outcome;
     record(to, iteration);
     if (relative_ > hopelessResidual) return Outcome::Diverged;
-    stalled = relative_ < stallsBelow && relative_ > previous / 2 ? stalled + 1 : 0;
+    const bool maybeRounding = relative_ < stallsBelow || largest(state.displacements) < smallMove_mm_;
+    stalled = maybeRounding && relative_ > previous / 2 ? stalled + 1 : 0;
     if (relative_ < options_.relativeTolerance || stalled == stallsAtRounding) return Outcome::Converged;
     const bool keep = factorWillDo(previous, ofTheStart);
     previous = relative_;

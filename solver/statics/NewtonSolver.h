@@ -111,6 +111,7 @@ private:
   Eigen::VectorXd residual_; ///< free components, condensed
   double relative_ = 0;      ///< norm of the nodes' and the elements' own residuals over scale_
   double scale_ = 1;
+  double smallMove_mm_ = 0; ///< to which the rubber answers linearly
   std::vector<NewtonStep> steps_;
 };
 

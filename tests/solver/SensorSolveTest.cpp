@@ -160,6 +160,24 @@ TEST(Sensor, SaysWhetherToleranceOrRoundingEndsIt) {
   EXPECT_LT(rounded.newton.back().relativeResidual, 1e-12);
 }
 
+TEST(Sensor, ALoadNearRoundingIsSolvedAsFarAsNumbersGoAndSaysSo) {
+  const auto perNewton = [](double force_N, std::string& reason) {
+    const Solution s = paperProblem().solve({{{3, force_N * Eigen::Vector3d(0.2, 0, -1)}}, {}});
+    EXPECT_TRUE(s.converged) << force_N << " N: " << s.stopReason;
+    EXPECT_LT(s.newton.size(), 8u) << force_N << " N";
+    reason = s.stopReason;
+    return Eigen::Matrix3Xd(paperProblem().electrodes(s.state()).upper_mm / force_N);
+  };
+  std::string reason;
+  const Eigen::Matrix3Xd small = perNewton(1e-2, reason);
+  EXPECT_TRUE(reason.empty()) << reason;
+  for (const double force_N : {1e-7, 1e-8, 1e-9}) {
+    const Eigen::Matrix3Xd tiny = perNewton(force_N, reason);
+    EXPECT_LT((tiny - small).norm(), 1e-3 * small.norm()) << force_N << " N";
+  }
+  EXPECT_NE(reason.find("down to rounding"), std::string::npos) << reason;
+}
+
 TEST(Sensor, EndsHonestlyWhereTheBlockLosesStability) {
   const HyperelasticProblem problem = coarse(paperDesign(), 12);
   const Eigen::Vector3d force(60, -60, -720); // many times what the sensor is for

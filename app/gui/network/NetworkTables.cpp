@@ -31,7 +31,7 @@ void addHeads(QStringList& heads, const QString& what) {
 
 } // namespace
 
-TableText sweepTable(const std::vector<SweepPoint>& points) {
+TableText sweepTable(const std::vector<SweepPoint>& points, const NetworkSamples* samples) {
   TableText table;
   table.heads << QObject::tr("spread");
   addHeads(table.heads, QObject::tr("Eq. (13) [%]"));
@@ -40,9 +40,9 @@ TableText sweepTable(const std::vector<SweepPoint>& points) {
   table.heads << QObject::tr("condition") << QObject::tr("ridge") << QObject::tr("training [s]");
   for (const SweepPoint& point : points) {
     QStringList row{number(point.spread)};
-    add(row, point.error.eq13Percent);
-    add(row, point.error.rmsePercentOfRange);
-    add(row, point.report.leaveOneOut);
+    add(row, ofForces(point.error.eq13Percent, samples));
+    add(row, ofForces(point.error.rmsePercentOfRange, samples));
+    add(row, ofForces(point.report.leaveOneOut, samples));
     row << number(point.report.condition) << number(point.report.ridge) << number(point.report.seconds);
     table.rows.push_back(std::move(row));
   }
@@ -78,11 +78,6 @@ QString inWords(DecoderKind kind) {
 TableText trialsTable(const std::vector<DecoderTrial>& trials, const NoiseBound* bound, const NetworkSamples* samples) {
   TableText table;
   const Eigen::Index testSamples = samples != nullptr ? samples->test.size() : 0;
-  const auto ofLearned = [samples](Eigen::VectorXd errors) {
-    for (Eigen::Index k = 0; samples != nullptr && k < errors.size(); ++k)
-      if (samples->training.forces_N.row(k).isZero(0)) errors(k) = NAN;
-    return errors;
-  };
   table.heads << QObject::tr("decoder");
   addHeads(table.heads, QObject::tr("RMSE [% of range]"));
   addHeads(table.heads, QObject::tr("Eq. (13) [%]"));
@@ -93,8 +88,8 @@ TableText trialsTable(const std::vector<DecoderTrial>& trials, const NoiseBound*
   for (const DecoderTrial& trial : trials) {
     QStringList row{QString::fromStdString(name(trial.kind))};
     const bool there = trial.refusal.isEmpty();
-    add(row, ofLearned(trial.error.rmsePercentOfRange));
-    add(row, ofLearned(trial.error.eq13Percent));
+    add(row, ofForces(trial.error.rmsePercentOfRange, samples));
+    add(row, ofForces(trial.error.eq13Percent, samples));
     if (places) row << (trial.place ? number(trial.place->median_mm) : QString());
     row << (there ? number(trial.seconds) : QString()) << (there ? number(trial.microsecondsPerSample) : QString())
         << trial.refusal << inWords(trial.kind);

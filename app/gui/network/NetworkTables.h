@@ -15,8 +15,8 @@ struct TableText {
   std::vector<QStringList> rows;
 };
 
-/// A sweep, one spread a row.
-TableText sweepTable(const std::vector<SweepPoint>& points);
+/// A sweep, one spread a row; "-" of forces that are 0 in the samples (null: not known).
+TableText sweepTable(const std::vector<SweepPoint>& points, const NetworkSamples* samples);
 /// The comparison, one decoder a row, and below them what none can beat; null: not known.
 TableText trialsTable(const std::vector<DecoderTrial>& trials, const NoiseBound* bound, const NetworkSamples* samples);
 /// Trained networks with their errors and settings, one a row.

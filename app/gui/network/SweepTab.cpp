@@ -62,14 +62,14 @@ void SweepTab::display(const NetworkSession& session, const NetworkSettings& now
   best_->setEnabled(best.has_value() && session.upToDate());
   if (best) bestSpread_ = points[*best].spread;
   const bool atEnd = best && points.size() > 2 && (*best == 0 || *best + 1 == points.size());
-  words_->setText(best ? tr("Smallest test error at spread %1 (RMSE over Fx, Fy and Fz, in % of range). %2%3")
+  words_->setText(best ? tr("Smallest test error at spread %1 (RMSE over all forces, in % of range). %2%3")
                              .arg(points[*best].spread, 0, 'g', 4)
                              .arg(atEnd && !session.working()
                                       ? tr("It is at the end of the range: a wider one may hold a better. ")
                                       : QString(),
                                   reason)
                        : tr("A sweep trains once for each spread; its table stands here."));
-  const TableText table = sweepTable(points);
+  const TableText table = sweepTable(points, session.samples());
   const bool grew = table_->rowCount() != static_cast<int>(table.rows.size());
   table_->show(table.heads, table.rows);
   if (!best) return;

@@ -71,6 +71,12 @@ Eigen::VectorXd ofForces(Eigen::VectorXd errors, const Decoder& decoder) {
   return errors;
 }
 
+Eigen::VectorXd ofForces(Eigen::VectorXd errors, const NetworkSamples* samples) {
+  for (Eigen::Index k = 0; samples != nullptr && k < std::min<Eigen::Index>(errors.size(), 3); ++k)
+    if (samples->training.forces_N.row(k).isZero(0)) errors(k) = NAN;
+  return errors;
+}
+
 QString errorTable(const NetworkSession& session, const NetworkFit& fit, const NoiseBound* bound,
                    const QString& title) {
   const PredictionError& error = fit.error.error;

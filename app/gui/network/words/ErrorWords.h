@@ -17,6 +17,8 @@ QString errorTable(const NetworkSession& session, const NetworkFit& fit, const N
 
 /// Less the errors of forces that were 0 in all samples that it was trained with: it did not learn them.
 Eigen::VectorXd ofForces(Eigen::VectorXd errors, const Decoder& decoder);
+/// The same by these samples; null: all of them.
+Eigen::VectorXd ofForces(Eigen::VectorXd errors, const NetworkSamples* samples);
 
 /// Root mean square errors of forces [N] and places [mm] on the test samples; empty where there are none.
 struct RootMeanSquares {

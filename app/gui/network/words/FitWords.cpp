@@ -95,7 +95,7 @@ QStringList differences(const NetworkSettings& then, const NetworkSettings& now)
 
 QString triple(const Eigen::VectorXd& values, const QString& unit) {
   QStringList texts;
-  for (const double value : values) texts << QString::number(value, 'g', 3);
+  for (const double value : values) texts << (std::isnan(value) ? QString("-") : QString::number(value, 'g', 3));
   return texts.join(" / ") + " " + unit;
 }
 
@@ -208,14 +208,16 @@ QString trialsWords(const NetworkSession& session, const NetworkSettings& now) {
   if (const auto best = bestTrial(session.trials())) {
     const DecoderTrial& trial = session.trials()[*best];
     const auto place = bestPlace(session.trials());
-    words += (place ? tr(" Smallest error of the force: %1, %2 of range (RMSE)")
-                    : tr(" Smallest error: %1, %2 of range (RMSE)"))
-                 .arg(trained(name(trial.kind)), triple(trial.error.rmsePercentOfRange, "%"));
+    words +=
+        (place ? tr(" Smallest error of the force: %1, %2 of range (RMSE)")
+               : tr(" Smallest error: %1, %2 of range (RMSE)"))
+            .arg(trained(name(trial.kind)), triple(ofForces(trial.error.rmsePercentOfRange, session.samples()), "%"));
     std::vector<DecoderTrial> others = session.trials();
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(*best));
     if (const auto next = bestTrial(others))
       words += tr("; next %1, %2")
-                   .arg(trained(name(others[*next].kind)), triple(others[*next].error.rmsePercentOfRange, "%"));
+                   .arg(trained(name(others[*next].kind)),
+                        triple(ofForces(others[*next].error.rmsePercentOfRange, session.samples()), "%"));
     words += ".";
     if (place)
       words += tr(" Smallest error of the place: %1, %2 mm in the median.")

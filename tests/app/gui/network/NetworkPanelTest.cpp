@@ -74,6 +74,16 @@ TEST_F(NetworkPanel, TheDecoderOfTouchesLearnsForceAndPlaceByItself) {
   EXPECT_TRUE(target.isEnabled()) << "what cannot be trained can be mended";
 }
 
+TEST_F(NetworkPanel, ADecoderAfterThatOfTouchesLearnsWhatItDidBefore) {
+  const auto& target = find<QComboBox>("target");
+  for (const char* decoder : {"touch", "ml"}) find<QComboBox>("decoder").setCurrentText(decoder);
+  EXPECT_EQ(target.currentText(), "the force");
+  EXPECT_EQ(workbench.project().network.target, DecoderTarget::Force);
+  find<QComboBox>("target").setCurrentIndex(1);
+  for (const char* decoder : {"touch", "ml"}) find<QComboBox>("decoder").setCurrentText(decoder);
+  EXPECT_EQ(target.currentText(), "force and place");
+}
+
 TEST_F(NetworkPanel, OldNumbersAreGreyWithTheReasonAndNeverBold) {
   generate();
   trained();

@@ -334,6 +334,11 @@ TEST_F(NetworkScene, TheTableOfDecodersSaysNothingOfAForceThatWasNeverTrainedAnd
   samples.training.forces_N.row(0).setZero();
   const TableText table = trialsTable({first, second}, nullptr, &samples);
   EXPECT_EQ(table.rows[0].mid(1, 6), QStringList({"-", "2", "3", "-", "2", "3"}));
+  SweepPoint point;
+  point.error = first.error;
+  point.report.leaveOneOut = Eigen::Vector3d(0, 2, 3);
+  EXPECT_EQ(sweepTable({point}, &samples).rows[0].mid(1, 9),
+            QStringList({"-", "2", "3", "-", "2", "3", "-", "2", "3"}));
   EXPECT_EQ(bestTrial({first, second}), 0U) << "by the force";
   EXPECT_EQ(bestPlace({first, second}), 1U);
   EXPECT_EQ(bestPlace({DecoderTrial()}), std::nullopt) << "it learned none";
