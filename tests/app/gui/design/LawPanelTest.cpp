@@ -84,7 +84,7 @@ TEST_F(LawPanelTest, ALawIsChosenByKeysWithItsOwnNumbersAndUndoneByItsName) {
 TEST_F(LawPanelTest, EveryNumberOfTheFieldIsCheckedAtItself) {
   chooseField();
   const std::vector<std::array<const char*, 4>> slips{
-      {"resistance.resistivity_ohm_mm", "0", "above 0", "2000 ohm mm"},
+      {"resistance.resistivity_ohm_mm", "0", "allowed is 1e-06 to", "2000 ohm mm"},
       {"resistance.electrode_radius_mm", "0.6", "electrodes overlap", "0.2 mm"},
       {"resistance.contact_ohm_mm2", "-1", "allowed is 0 up to", "0 ohm mm2"},
       {"resistance.wire_ohm", "ohm", "no number", "0 ohm"}};
