@@ -99,7 +99,8 @@ TEST_F(LiveSizeOfTwo, TwoBoardsFitBesideEachOtherAt1280By800) {
   const auto* down = find<QScrollArea>("sceneRoom").verticalScrollBar();
   EXPECT_TRUE(QTest::qWaitFor([&] { return !down->isVisible(); }, kPatience_ms / 6)) << "all views are seen at once";
   auto& tabs = *live.page().findChild<QTabWidget*>("blockTabs");
-  EXPECT_EQ(tabs.indexOf(live.page().findChild<QWidget*>("liveHeatmap")), 2) << "low and narrow: a tab";
+  const auto heatmapTab = [&] { return tabs.indexOf(live.page().findChild<QWidget*>("liveHeatmap")); };
+  EXPECT_TRUE(QTest::qWaitFor([&] { return heatmapTab() == 2; }, kPatience_ms / 6)) << "low and narrow: a tab";
 
   // The panel of one gets the room beside its views, and leaves those of the other in sight.
   const auto* block = live.page(0).findChild<QWidget*>("liveBlock");
