@@ -171,6 +171,7 @@ void NewtonSolver::move(const Direction& direction, ElementState& state) {
 ///   |R| > |F| and the residual's work along the step did not fall, |R(u + l du) . du| > 0.9 |R(u) . du|; or
 ///   |R| grew and so did the way that is left, |K^-1 R(u + l du)| > (1 - l / 4) |du|, K being the tangent of the step
 /// (the restricted natural monotonicity test: Deuflhard, Newton Methods for Nonlinear Problems, 2004, section 3.3).
+/// No step does where the rubber answers linearly all along it.
 /// A residual that grows is no reason by itself: a long good step leaves pressures behind, which the next one mends. A
 /// way that grows is none either: in a tall block it does so on the right path, while the residual falls.
 bool NewtonSolver::overshot(const Direction& direction) const {

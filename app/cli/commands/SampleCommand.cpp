@@ -101,11 +101,8 @@ Exit run(const SampleArguments& arguments, Session& session) {
     std::cerr << "palp sample: " << session.warnings.back() << '\n';
   }
   session.result["solves_per_s"] = seconds > 0 ? static_cast<double>(made) / seconds : 0;
-  if (const auto doubts = generator.doubts(); !doubts.empty()) {
-    session.warnings.push_back((doubts.size() == 1 ? doubts.front()
-                                                   : text(static_cast<double>(doubts.size())) +
-                                                         " of the loads checked; the first: " + doubts.front()) +
-                               "; with friction a mesh too coarse for the contact has several: a finer one has not");
+  if (std::string doubts = generator.doubts(); !doubts.empty()) {
+    session.warnings.push_back(std::move(doubts));
     std::cerr << "palp sample: " << session.warnings.back() << '\n';
   }
   session.result["measured_error_relative"] =

@@ -29,6 +29,7 @@ struct NetworkSamples {
   SampleSet test;
   double batchError = 0;   ///< relative, against full Newton; 0: not measured here
   int redrawn = 0;         ///< touches without an equilibrium, in whose places others were drawn
+  QString doubts;          ///< samples for which full Newton finds another equilibrium; empty: none is known
   double seconds = 0;      ///< that making them took; 0: not known
   QString file;            ///< that they were opened from; empty: made here
   bool split = false;      ///< the test samples were taken from the file of the training samples

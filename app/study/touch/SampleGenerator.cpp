@@ -193,13 +193,15 @@ bool SampleGenerator::errorMeasured() const {
   });
 }
 
-std::vector<std::string> SampleGenerator::doubts() const {
+std::string SampleGenerator::doubts() const {
   std::vector<std::string> all;
   for (const Part& part : parts_) {
     all.insert(all.end(), part.doubts.begin(), part.doubts.end());
     if (part.solver) all.insert(all.end(), part.solver->doubts().begin(), part.solver->doubts().end());
   }
-  return all;
+  if (all.empty()) return {};
+  return (all.size() == 1 ? "" : std::to_string(all.size()) + " of the loads checked; the first: ") + all.front() +
+         "; with friction a mesh too coarse for the contact has several: a finer one has not";
 }
 
 std::size_t SampleGenerator::solves() const {

@@ -83,8 +83,9 @@ public:
   /// the surrogates' d ln R under the law of the field where it is larger. 0 as well where nothing was measured.
   [[nodiscard]] double measuredError() const;
   [[nodiscard]] bool errorMeasured() const;
-  /// Of that share, the samples for which full Newton finds another equilibrium or none (BatchSolver.h).
-  [[nodiscard]] std::vector<std::string> doubts() const;
+  /// Of that share, the samples for which full Newton finds another equilibrium or none (BatchSolver.h), in a sentence;
+  /// empty where there is none.
+  [[nodiscard]] std::string doubts() const;
 
 private:
   /// Solver of the samples on one mesh: of all, or of touches in a part of their rectangle.

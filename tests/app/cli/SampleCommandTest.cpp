@@ -115,8 +115,10 @@ TEST(SampleCommand, SaysWhereFullNewtonFindsAnotherEquilibrium) {
                           .json();
   bool said = false;
   for (const json& warning : result.at("warnings"))
-    said = said || warning.get<std::string>().find("another equilibrium") != std::string::npos;
-  EXPECT_EQ(said, result.at("measured_error_relative").get<double>() > 1e-3) << result.at("warnings");
+    said = said || warning.get<std::string>().find("full Newton's method finds another equilibrium") == 8 ||
+           warning.get<std::string>().find("though the batch found one") != std::string::npos;
+  const json& error = result.at("measured_error_relative"); // null: Newton's method found none
+  EXPECT_EQ(said, error.is_null() || error.get<double>() > 1e-3) << result.at("warnings");
 }
 
 TEST(SampleCommand, LoadsAllAreasTogether) {

@@ -222,7 +222,7 @@ TEST(KernelInversion, LooksElsewhereWhereWhatIsNearestDoesNotExplain) {
   int off = 0;
   for (Eigen::Index i = 0; i < 400; ++i)
     off += (inversion.estimate(fresh.measurements.col(i)).causes - fresh.causes.col(i)).tail<2>().norm() > 0.5;
-  EXPECT_LT(off, 120); // 103; from as many starts side by side 147
+  EXPECT_LT(off, 110); // 103; from as many starts side by side 147
 }
 
 TEST(KernelInversion, RefusesMirrorsThatTheSamplesCannotHave) {

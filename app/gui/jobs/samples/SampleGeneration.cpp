@@ -53,6 +53,7 @@ bool SampleGeneration::make(StageLog& stages, const std::stop_token& stop, JobPr
   for (const std::size_t set : {0, 1}) whole = whole && makeSet(set, generator, stop, progress);
   batchError_ = std::max(batchError_, generator.measuredError());
   redrawn_ += generator.redrawn();
+  if (std::string doubts = generator.doubts(); !doubts.empty()) doubts_ = std::move(doubts);
   stages.add(generator.stages());
   took_s_ += now_s();
   return whole;
@@ -102,6 +103,7 @@ std::shared_ptr<const NetworkSamples> SampleGeneration::samples() {
   all->test = std::move(sets_[1]);
   all->batchError = batchError_;
   all->redrawn = redrawn_;
+  all->doubts = QString::fromStdString(doubts_);
   all->settings = settings_;
   all->mesh = mesh_;
   all->seconds = took_s_;

@@ -44,6 +44,7 @@ private:
   std::array<std::size_t, 2> total_{};
   double batchError_ = 0;
   int redrawn_ = 0;
+  std::string doubts_;
   QElapsedTimer clock_; ///< of this run
   TimeLeft left_;
   double fitsBegun_s_ = 0; ///< of the surrogates

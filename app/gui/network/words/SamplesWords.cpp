@@ -55,6 +55,7 @@ QString madeWords(const NetworkSamples& samples) {
   if (samples.redrawn > 0)
     words +=
         QObject::tr("; touches without an equilibrium, in whose places others were drawn: %1").arg(samples.redrawn);
+  if (!samples.doubts.isEmpty()) words += "; " + samples.doubts;
   return words;
 }
 
