@@ -4,6 +4,20 @@
 
 namespace palp {
 
+namespace {
+
+/// An empty value is a variable of a script that was not set; taken as if the option were not there, it would hide
+/// that.
+CLI::Option* notEmpty(CLI::Option* option) {
+  return option->check(
+      [](const std::string& value) {
+        return value.empty() ? std::string("''; allowed is a value that is not empty") : std::string();
+      },
+      "");
+}
+
+} // namespace
+
 Option Option::required() {
   option_->required();
   return *this;
@@ -39,15 +53,15 @@ Option Command::flag(const std::string& names, bool& value, const std::string& w
 }
 
 Option Command::option(const std::string& names, std::string& value, const std::string& what) {
-  return Option(app_->add_option(names, value, what));
+  return Option(notEmpty(app_->add_option(names, value, what)));
 }
 
 Option Command::option(const std::string& names, std::filesystem::path& value, const std::string& what) {
-  return Option(app_->add_option(names, value, what));
+  return Option(notEmpty(app_->add_option(names, value, what)));
 }
 
 Option Command::option(const std::string& names, std::vector<std::string>& values, const std::string& what) {
-  return Option(app_->add_option(names, values, what));
+  return Option(notEmpty(app_->add_option(names, values, what)));
 }
 
 void Command::rest(std::vector<std::string>& words) {

@@ -120,7 +120,7 @@ LoadCase LoadOptions::loadCase(const SensorDesign& design) const {
   LoadCase load = forces(design);
   for (const std::string& value : indenters) load.indenters.push_back(indenterOption(value));
   if (load.areas.empty() && load.patches.empty() && load.indenters.empty())
-    throw UsageError("--load or --patch is missing; give at least one, for example --load 0:1,0,-6");
+    throw UsageError("there is no load; give at least one --load, --patch or --indenter, for example --load 0:1,0,-6");
   if (const auto wrong = whyInvalid(load, design)) throw UsageError(*wrong);
   return load;
 }

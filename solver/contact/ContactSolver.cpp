@@ -44,8 +44,9 @@ void ContactSolver::choosePoints(double margin) {
   for (const ContactPoint& point : points_) met[static_cast<std::size_t>(point.indenter)] = true;
   for (std::size_t k = 0; k < met.size(); ++k)
     if (!met[k])
-      throw DesignError("indenter " + std::to_string(k) + " (" + shapeName(indenters_[k].shape) +
-                        ") meets no node of the mesh; allowed is a finer mesh or a deeper touch");
+      throw DesignError("indenter " + std::to_string(k) + " (" + shapeName(indenters_[k].shape) + " at " +
+                        text(indenters_[k].place_mm.x()) + ", " + text(indenters_[k].place_mm.y()) +
+                        " mm) meets no node of the mesh; allowed is a finer mesh or a deeper touch");
   auto pattern = std::make_shared<SparsePattern>(*assembler_.pattern());
   for (const ContactPoint& point : points_) pattern->lastGroups.push_back(assembler_.group(point.node));
   tangentServes_ = false;
