@@ -212,7 +212,9 @@ ContactSolver::Outcome ContactSolver::newTangent(double fraction, const State& s
   setResidual(fraction, state);
   LaneVector matrix = assembler_.matrix(tangents_, options_.threads);
   tangents_.stiffness = {};
-  const auto outcome = cholesky_->factorise(std::move(matrix), options_.threads, observer_.stop);
+  // The factor leads the iterations; what they end with is told by the residual, in double precision.
+  const Products products = assembler_.rubber().roundsWell() ? Products::Single : Products::Double;
+  const auto outcome = cholesky_->factorise(std::move(matrix), options_.threads, observer_.stop, products);
   if (outcome == SparseCholesky::Outcome::Stopped) return Outcome::Cancelled;
   if (outcome == SparseCholesky::Outcome::NotPositiveDefinite) return Outcome::Indefinite;
   compliance_ = cholesky_->inverseOfLast(observer_.stop);

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace palp {
@@ -15,6 +16,23 @@ constexpr int mostIterations = 60;
 constexpr double exactly = 1e-12;       // of the greatest move
 constexpr double slipBeforeTouch = 0.5; // of a point's way in a step, where it comes to touch in that step
 constexpr double smallestTranslation = 1e-9;
+// Of the stiffness by which slip is weighed: tried one after the other until one leads to a solution, the same for all.
+constexpr std::array slipStiffnesses{1., 3., 1. / 3};
+
+/// Stiffness [N / mm] between that of one of these points alone and that of one when all move with it (geometric mean).
+/// Where slip is weighed by the first, points that a long way aside makes slip, before the rubber follows and they
+/// stick, are sent to and fro without end; where it is weighed by the second, those at the rim of what sticks are.
+double slipStiffness(const Eigen::MatrixXd& compliance, const std::vector<int>& points) {
+  double alone = 0, together = 0; // of x and y
+  for (const int i : points)
+    for (const int j : points)
+      for (const Eigen::Index c : {0, 1}) {
+        const double moved = compliance(3 * Eigen::Index(i) + c, 3 * Eigen::Index(j) + c);
+        together += moved;
+        if (i == j) alone += moved;
+      }
+  return 2 * double(points.size()) / std::sqrt(alone * together);
+}
 
 } // namespace
 
@@ -46,13 +64,14 @@ double ReducedContact::penetration_mm(const Eigen::Matrix3Xd& positions_mm, cons
   return -deepest;
 }
 
-/// With T = I - n n^T, p = f . n, the slip s since the start and a stiffness k:
+/// With T = I - n n^T, p = f . n, the slip s since the start and stiffnesses k and q:
 ///   frictionless  R = g n + T f / k
 ///   sticks        R = g n + T s
-///   slides        R = g n + (T f - mu p e) / k,  e = t / |t|,  t = T (f - k s);  it sticks while |t| <= mu p.
+///   slides        R = g n + (T f - mu p e) / k,  e = t / |t|,  t = T (f - q s);  it sticks while |t| <= mu p.
 ReducedContact::Conditions ReducedContact::conditions(int point, const Eigen::Vector3d& force,
                                                       const Eigen::Vector3d& position,
-                                                      const Eigen::Matrix3Xd& translations, double stiffness) const {
+                                                      const Eigen::Matrix3Xd& translations, double stiffness,
+                                                      double bySlip) const {
   const ContactPoint& at = points_[static_cast<std::size_t>(point)];
   const Indenter& indenter = indenters_[static_cast<std::size_t>(at.indenter)];
   const Eigen::Vector3d place = position - tips_mm_.col(at.indenter) - translations.col(at.indenter);
@@ -76,7 +95,7 @@ ReducedContact::Conditions ReducedContact::conditions(int point, const Eigen::Ve
   }
   const double share = touchedAtStart_[static_cast<std::size_t>(point)] ? 1 : slipBeforeTouch;
   const Eigen::Vector3d slip = share * (place - startPlaces_mm_.col(point));
-  const Eigen::Vector3d trial = T * (force - stiffness * slip);
+  const Eigen::Vector3d trial = T * (force - bySlip * slip);
   const double length = trial.norm();
   if (length <= mu * p) {
     c.grip = Grip::Sticks;
@@ -88,12 +107,25 @@ ReducedContact::Conditions ReducedContact::conditions(int point, const Eigen::Ve
   const Eigen::Matrix3d across = (T - e * e.transpose()) / length;
   c.residual += (T * force - mu * p * e) / stiffness;
   c.byForce = (T - mu * e * n.transpose() - mu * p * across) / stiffness;
-  c.byPlace += turning / stiffness + mu * p * share * across - mu * e * (H * force).transpose() / stiffness;
+  c.byPlace +=
+      turning / stiffness + mu * p * share * bySlip / stiffness * across - mu * e * (H * force).transpose() / stiffness;
   return c;
 }
 
 bool ReducedContact::solve(const Eigen::MatrixXd& compliance, const Eigen::Matrix3Xd& positions_mm,
                            const std::vector<ContactTarget>& targets, ContactState& state,
+                           const std::stop_token& stop) const {
+  const ContactState start = state;
+  if (std::none_of(indenters_.begin(), indenters_.end(), [](const Indenter& one) { return one.friction > 0; }))
+    return solve(compliance, positions_mm, targets, 1, state, stop);
+  return std::any_of(slipStiffnesses.begin(), slipStiffnesses.end(), [&](double share) {
+    state = start;
+    return solve(compliance, positions_mm, targets, share, state, stop);
+  });
+}
+
+bool ReducedContact::solve(const Eigen::MatrixXd& compliance, const Eigen::Matrix3Xd& positions_mm,
+                           const std::vector<ContactTarget>& targets, double slipShare, ContactState& state,
                            const std::stop_token& stop) const {
   const auto count = static_cast<int>(points_.size());
   const double stiffness = compliance.rows() / compliance.trace(); // [N / mm] of one point, about
@@ -108,6 +140,7 @@ bool ReducedContact::solve(const Eigen::MatrixXd& compliance, const Eigen::Matri
       else
         d(c, static_cast<Eigen::Index>(k)) = targets[k].translation_mm(c);
   std::vector<int> touching, before;
+  double bySlip = 0;
   for (int iteration = 0; iteration < mostIterations && !stop.stop_requested(); ++iteration) {
     const auto place = [&] {
       Eigen::Matrix3Xd x = positions_mm;
@@ -129,6 +162,7 @@ bool ReducedContact::solve(const Eigen::MatrixXd& compliance, const Eigen::Matri
       }
     }
     if (released) x = place();
+    if (bySlip == 0 && !touching.empty()) bySlip = slipShare * slipStiffness(compliance, touching);
     const auto unknowns = static_cast<Eigen::Index>(3 * touching.size());
     const auto size = unknowns + static_cast<Eigen::Index>(moves.size());
     Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size);
@@ -137,7 +171,7 @@ bool ReducedContact::solve(const Eigen::MatrixXd& compliance, const Eigen::Matri
     for (std::size_t a = 0; a < touching.size(); ++a) {
       const int i = touching[a];
       const auto row = static_cast<Eigen::Index>(3 * a);
-      const Conditions c = conditions(i, f.col(i), x.col(i), d, stiffness);
+      const Conditions c = conditions(i, f.col(i), x.col(i), d, stiffness, bySlip);
       gripsHold = gripsHold && state.grips[static_cast<std::size_t>(i)] == c.grip;
       state.grips[static_cast<std::size_t>(i)] = c.grip;
       for (std::size_t b = 0; b < touching.size(); ++b)

@@ -58,7 +58,11 @@ private:
   [[nodiscard]] IndenterDistance distanceOf(int point, const Eigen::Vector3d& position_mm,
                                             const Eigen::Matrix3Xd& translations_mm) const;
   [[nodiscard]] Conditions conditions(int point, const Eigen::Vector3d& force, const Eigen::Vector3d& position,
-                                      const Eigen::Matrix3Xd& translations, double stiffness) const;
+                                      const Eigen::Matrix3Xd& translations, double stiffness, double bySlip) const;
+  /// With a share of the stiffness by which slip is weighed; the state is no solution where there was none.
+  [[nodiscard]] bool solve(const Eigen::MatrixXd& compliance, const Eigen::Matrix3Xd& positions_mm,
+                           const std::vector<ContactTarget>& targets, double slipShare, ContactState& state,
+                           const std::stop_token& stop) const;
 
   const std::vector<Indenter>& indenters_;
   const std::vector<ContactPoint>& points_;
