@@ -2,15 +2,26 @@
 
 #include "model/base/Text.h"
 
+#include <cmath>
+
 namespace palp {
 
+namespace {
+
+/// Steps are halved down to some thousandths: what halves and sums of sixths have behind that is no news.
+std::string fractionInWords(double load) {
+  return text(std::round(1e6 * load) / 1e6);
+}
+
+} // namespace
+
 std::string stopReason(StepOutcome outcome, int iterationsAStep, double reached, double tried) {
-  const std::string where = " between load fractions " + text(reached) + " and " + text(tried);
+  const std::string where = " between load fractions " + fractionInWords(reached) + " and " + fractionInWords(tried);
   switch (outcome) {
   case StepOutcome::Converged:
     return {};
   case StepOutcome::Cancelled:
-    return "cancelled at load fraction " + text(reached);
+    return "cancelled at load fraction " + fractionInWords(reached);
   case StepOutcome::Inverted:
     return "elements turn inside out" + where;
   case StepOutcome::Indefinite:
