@@ -35,7 +35,7 @@ void TouchLanes::iterate(LoadBatch& batch, LaneWatch& watch, const std::stop_tok
       watch.active, watch.change, top_->nodes(), top_->path(),
       [&](int lane, const Eigen::Matrix3Xd& motion_mm) {
         if (!contacts_[lane]) return true;
-        if (!contacts_[lane]->solve(motion_mm)) return false;
+        if (!contacts_[lane]->solve(motion_mm, stop)) return false;
         if (contacts_[lane]->turned()) batch.turn(lane);
         batch.setNodeForces(lane, contacts_[lane]->forces());
         return true;

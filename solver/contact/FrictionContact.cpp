@@ -111,10 +111,10 @@ Eigen::Matrix3Xd FrictionContact::positions(const Eigen::Matrix3Xd& motion_mm) c
 }
 
 /// Points that the compliance does not know are found by the border that they lie beyond.
-bool FrictionContact::solve(const Eigen::Matrix3Xd& motion_mm) {
+bool FrictionContact::solve(const Eigen::Matrix3Xd& motion_mm, const std::stop_token& stop) {
   const ContactState before = state_;
   const auto solved = [&] {
-    if (!contact_->solve(compliance_, positions(motion_mm), targets_, state_, {})) return false;
+    if (!contact_->solve(compliance_, positions(motion_mm), targets_, state_, stop)) return false;
     for (std::size_t i = 0; i < points_.size(); ++i)
       if (state_.grips[i] != Grip::Free && top_->atBorder(numbers_[i])) return false;
     return true;

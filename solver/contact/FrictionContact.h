@@ -19,7 +19,7 @@ public:
   FrictionContact(std::vector<Indenter> indenters, std::shared_ptr<const TopCompliance> top, const Mesh& mesh,
                   const SensorDesign& design);
 
-  [[nodiscard]] bool solve(const Eigen::Matrix3Xd& motion_mm) override;
+  [[nodiscard]] bool solve(const Eigen::Matrix3Xd& motion_mm, const std::stop_token& stop) override;
   [[nodiscard]] std::vector<NodeForce> forces() const override;
   [[nodiscard]] Way settled(const Eigen::Matrix3Xd& motion_mm) override;
   [[nodiscard]] bool turned() override { return std::exchange(turned_, false); }

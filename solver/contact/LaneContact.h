@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include <stop_token>
 #include <vector>
 
 namespace palp {
@@ -17,8 +18,8 @@ public:
   virtual ~LaneContact() = default;
 
   /// Forces on the nodes that move so [3 x nodes] under the forces found before, which are where it starts; none at
-  /// first. False: no answer, or one that reaches the border of the compliance.
-  [[nodiscard]] virtual bool solve(const Eigen::Matrix3Xd& motion_mm) = 0;
+  /// first. False: no answer, or one that reaches the border of the compliance, or stopped.
+  [[nodiscard]] virtual bool solve(const Eigen::Matrix3Xd& motion_mm, const std::stop_token& stop) = 0;
 
   /// The indenters' force on each node of the mesh that carries one.
   [[nodiscard]] virtual std::vector<NodeForce> forces() const = 0;

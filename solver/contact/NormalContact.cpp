@@ -128,10 +128,10 @@ bool NormalContact::step(const std::vector<FreeNode>& near, bool& settled) {
   return true;
 }
 
-bool NormalContact::solve(const Eigen::Matrix3Xd& motion_mm) {
+bool NormalContact::solve(const Eigen::Matrix3Xd& motion_mm, const std::stop_token& stop) {
   const std::vector<FreeNode> near = nearNodes(motion_mm);
   bool settled = false;
-  for (int s = 0; s < mostContactSteps && !settled; ++s)
+  for (int s = 0; s < mostContactSteps && !settled && !stop.stop_requested(); ++s)
     if (!step(near, settled)) return false;
   return settled && std::none_of(forces_.begin(), forces_.end(),
                                  [&](const NodeForce& force) { return top_->atBorder(force.node); });

@@ -25,7 +25,7 @@ class NormalContact final : public LaneContact {
 public:
   NormalContact(std::vector<Indenter> indenters, std::shared_ptr<const TopCompliance> top);
 
-  [[nodiscard]] bool solve(const Eigen::Matrix3Xd& motion_mm) override;
+  [[nodiscard]] bool solve(const Eigen::Matrix3Xd& motion_mm, const std::stop_token& stop) override;
   [[nodiscard]] std::vector<NodeForce> forces() const override;
   [[nodiscard]] Way settled(const Eigen::Matrix3Xd&) override { return Way::Arrived; }
 
