@@ -96,9 +96,13 @@ void saveSamples(const fs::path& path, const SampleSet& set, bool force, const s
   writer.finish(stop);
 }
 
-SampleSet loadSamples(const fs::path& path, const std::stop_token& stop) {
+SampleSet loadSamples(const fs::path& path, const std::stop_token& stop, bool alsoTwoAtOnce) {
   const auto reader = openSamples(path);
   SampleSet set = reader->head();
+  if (set.beside.rows() > 0 && !alsoTwoAtOnce)
+    throw Error(path.string() +
+                ": two touches at once in each sample; allowed here is one (palp predict takes two, and " +
+                "counts those that are told from one)");
   if (const auto size = reader->size()) {
     resizeSamples(set, *size);
     reader->read(set, 0, *size, stop);

@@ -22,8 +22,9 @@ std::string sampleFileHead(const SampleSet& set);
 void saveSamples(const std::filesystem::path& path, const SampleSet& set, bool force, const std::stop_token& stop = {});
 
 /// Reads strictly: a wrong count of numbers, anything that is not a finite number, or a truncated line throws Error
-/// with the line number (in files of arrays with the sample's). Throws Cancelled after a request to stop.
-SampleSet loadSamples(const std::filesystem::path& path, const std::stop_token& stop = {});
+/// with the line number (in files of arrays with the sample's). Throws Cancelled after a request to stop. Samples of
+/// two touches at once are for who asks for them.
+SampleSet loadSamples(const std::filesystem::path& path, const std::stop_token& stop = {}, bool alsoTwoAtOnce = false);
 
 /// Joins shards, of any formats and in any order, to the bytes that one run would have written. Throws Error if they do
 /// not belong together, overlap or leave a gap; Cancelled after a request to stop. Returns the number of samples. Holds

@@ -136,6 +136,7 @@ void readColumns(const SampleLines& lines, const std::string& line, SampleSet& s
   set.touches.resize(touches ? kTouchRows : 0, 0);
   set.places_mm.resize(!touches && line.find(",x_mm,y_mm,") != std::string::npos ? 2 : 0, 0);
   set.forces_N.resize(loadedTogether(set) ? 3 * set.areaCount : 3, 0);
+  set.beside.resize(touches && line.find(",shape_2,") != std::string::npos ? kBesideRows : 0, 0);
   set.displacements_mm.resize(displacements ? 3 * rowWires * set.electrodesPerRowWire : 0, 0);
   set.resistances_ohm.resize(resistances ? rowWires * set.columnWires : 0, 0);
   // First the number, so that a head with sizes beyond reason is refused before all their names are made.
@@ -158,7 +159,12 @@ void requireArea(const SampleLines& lines, const SampleSet& head, int area) {
     lines.refuse(found + "0 to " + std::to_string(head.areaCount - 1));
 }
 
-/// The number that stands for a shape in SampleSet::touches.
+/// Whether this row of this part has shapes.
+bool isShape(Eigen::MatrixXd SampleSet::*part, Eigen::Index row) {
+  return (part == &SampleSet::touches || part == &SampleSet::beside) && row == kTouchShape;
+}
+
+/// The number that stands for a shape there.
 double readShape(const SampleLines& lines, const std::string& name) {
   const auto shape = indenterShape(name);
   if (!shape) lines.refuse("shape is " + shown(name) + "; allowed is " + indenterShapes());
@@ -210,6 +216,7 @@ std::string sampleColumns(const SampleSet& set) {
     for (int a = 0; a < set.areaCount; ++a)
       for (const char axis : {'x', 'y', 'z'}) names += ",a" + std::to_string(a) + "_f" + axis + "_N";
   }
+  if (set.beside.rows() > 0) names += ",shape_2,size_2_mm,friction_2,x_2_mm,y_2_mm,fx_2_N,fy_2_N,fz_2_N";
   for (int r = 0; r < set.rowWires && set.displacements_mm.rows() > 0; ++r)
     for (int e = 0; e < set.electrodesPerRowWire; ++e)
       for (const char axis : {'x', 'y', 'z'})
@@ -280,9 +287,9 @@ void readSampleLine(const SampleLines& lines, std::string_view line, SampleSet& 
   requireArea(lines, set, set.area(column));
   for (const auto part : kSampleParts)
     for (Eigen::Index row = 0; row < (set.*part).rows(); ++row) {
-      if (part == &SampleSet::touches && row == kTouchShape) {
+      if (isShape(part, row)) {
         const char* const stop = std::find(next, end, ',');
-        set.touches(row, column) = readShape(lines, std::string(next, stop));
+        (set.*part)(row, column) = readShape(lines, std::string(next, stop));
         next = stop == end ? end : stop + 1;
         ++field;
         continue;
@@ -299,8 +306,8 @@ void appendSampleLines(std::string& text, const SampleSet& set, Eigen::Index fir
     text += std::to_string(set.area(i));
     for (const auto part : kSampleParts)
       for (Eigen::Index row = 0; row < (set.*part).rows(); ++row) {
-        if (part == &SampleSet::touches && row == kTouchShape)
-          text += "," + shapeName(static_cast<IndenterShape>(set.touches(row, i)));
+        if (isShape(part, row))
+          text += "," + shapeName(static_cast<IndenterShape>((set.*part)(row, i)));
         else
           append(text, (set.*part)(row, i));
       }

@@ -34,8 +34,9 @@ struct SampleOrigin {
 
 inline constexpr const char* kImportedFrom = "measured, from ";
 
-/// Rows of SampleSet::touches.
+/// Rows of SampleSet::touches, and with a force below them of SampleSet::beside.
 enum TouchRow { kTouchShape, kTouchSize_mm, kTouchFriction, kTouchX_mm, kTouchY_mm, kTouchRows };
+inline constexpr int kBesideRows = kTouchRows + 3;
 
 /// Labelled samples; one column per sample. What is not known of them has no rows: the displacements of a real board,
 /// the times and places of computed samples.
@@ -50,6 +51,7 @@ struct SampleSet {
   Eigen::MatrixXd touches;   ///< kTouchRows x samples where indenters press, by TouchRow; else no rows
   Eigen::MatrixXd places_mm; ///< 2 x samples where another rig measured them: x, y of the touch from the block's corner
   Eigen::MatrixXd forces_N;  ///< 3 x samples; `together`: (3 areas) x samples
+  Eigen::MatrixXd beside;    ///< kBesideRows x samples where two touches press at once: the other, and its force
   Eigen::MatrixXd displacements_mm; ///< (3 electrodes row-wires) x samples; row 3 (r E + e) + d
   Eigen::MatrixXd resistances_ohm;  ///< (row-wires column-wires) x samples; row r C + c
 
@@ -62,9 +64,9 @@ struct SampleSet {
 };
 
 /// The matrices of a set with a column a sample, in the order of the columns of its file.
-inline constexpr std::array kSampleParts{&SampleSet::times_s,          &SampleSet::touches,
-                                         &SampleSet::places_mm,        &SampleSet::forces_N,
-                                         &SampleSet::displacements_mm, &SampleSet::resistances_ohm};
+inline constexpr std::array kSampleParts{&SampleSet::times_s,        &SampleSet::touches, &SampleSet::places_mm,
+                                         &SampleSet::forces_N,       &SampleSet::beside,  &SampleSet::displacements_mm,
+                                         &SampleSet::resistances_ohm};
 
 /// Why two sets cannot share one file (different design, seed, mesh or kind); empty if they can. The first sample of a
 /// shard does not count as a difference.

@@ -13,6 +13,7 @@ namespace palp {
 namespace {
 
 constexpr std::uint64_t kStream = 0x746F756368; // apart from the streams of load areas, which are small numbers
+constexpr int kDrawsOfTheOther = 1000;          // then the corner furthest from the first
 constexpr std::uint64_t kDrawsATouch = 16;      // more than one takes
 constexpr double kMarginShare = 0.1;            // of the shorter side
 constexpr double kLeastShare = 1. / 12;         // of the largest press
@@ -39,9 +40,12 @@ TouchRange touchesOf(const SensorDesign& design) {
   return range;
 }
 
-Indenter touchAt(const TouchRange& range, std::uint64_t seed, std::size_t i, int redrawn) {
-  std::uint64_t axis = std::uint64_t(redrawn) * kDrawsATouch;
-  const auto draw = [&] { return uniformAt(seed, kStream, i, axis++); };
+namespace {
+
+Indenter touchOf(const TouchRange& range, std::uint64_t seed, std::uint64_t stream, std::size_t i,
+                 std::uint64_t redrawn) {
+  std::uint64_t axis = redrawn * kDrawsATouch;
+  const auto draw = [&] { return uniformAt(seed, stream, i, axis++); };
   Indenter indenter;
   indenter.shape = range.shape;
   indenter.rim_mm = range.rim_mm;
@@ -61,6 +65,36 @@ Indenter touchAt(const TouchRange& range, std::uint64_t seed, std::size_t i, int
   indenter.control = Press{{0, 0, -press_N}};
   if (aside_N > 0) indenter.control = Press{{aside_N * std::cos(angle), aside_N * std::sin(angle), -press_N}};
   return indenter;
+}
+
+/// Of two places, as far as bodies of this shape can meet there.
+double distanceApart_mm(IndenterShape shape, const Eigen::Vector2d& apart_mm) {
+  if (shape == IndenterShape::CylinderX) return std::abs(apart_mm.y());
+  if (shape == IndenterShape::CylinderY) return std::abs(apart_mm.x());
+  return apart_mm.norm();
+}
+
+} // namespace
+
+Indenter touchAt(const TouchRange& range, std::uint64_t seed, std::size_t i, int redrawn) {
+  return touchOf(range, seed, kStream, i, std::uint64_t(redrawn));
+}
+
+std::vector<Indenter> touchesAt(const TouchRange& range, std::uint64_t seed, std::size_t i, int redrawn) {
+  std::vector<Indenter> touches{touchAt(range, seed, i, redrawn)};
+  if (range.atOnce < 2) return touches;
+  const Indenter& first = touches.front();
+  Indenter other;
+  for (int draw = 0; draw < kDrawsOfTheOther; ++draw) {
+    other = touchOf(range, seed, kStream + 1, i, std::uint64_t(redrawn) * kDrawsOfTheOther + std::uint64_t(draw));
+    if (distanceApart_mm(range.shape, other.place_mm - first.place_mm) < first.radius_mm + other.radius_mm) continue;
+    touches.push_back(other);
+    return touches;
+  }
+  const Eigen::Vector2d middle_mm = (range.low_mm + range.high_mm) / 2;
+  other.place_mm = (first.place_mm.array() < middle_mm.array()).select(range.high_mm, range.low_mm);
+  touches.push_back(other);
+  return touches;
 }
 
 namespace {
@@ -83,6 +117,7 @@ std::string gridInWords(const TouchRange& range) {
 std::string inWords(const TouchRange& range) {
   std::string words = bodyAndPlaces(range);
   if (range.grid[0] > 0) words += " grid " + gridInWords(range);
+  if (range.atOnce > 1) words += " at once " + std::to_string(range.atOnce);
   words += " press " + span(range.leastPress_N, range.mostPress_N);
   if (range.mostFriction > 0)
     words += " friction " + span(range.leastFriction, range.mostFriction) + " cone " + text(range.cone);
@@ -92,6 +127,7 @@ std::string inWords(const TouchRange& range) {
 std::string asCommand(const TouchRange& range) {
   std::string words = " --touch " + bodyAndPlaces(range);
   if (range.grid[0] > 0) words += " --grid " + gridInWords(range);
+  if (range.atOnce > 1) words += " --at-once " + std::to_string(range.atOnce);
   words += " --force-range " + span(range.leastPress_N, range.mostPress_N);
   if (range.mostFriction > 0)
     words += "," + text(range.cone) + " --friction " + span(range.leastFriction, range.mostFriction);
@@ -121,6 +157,24 @@ std::optional<Indenter> indenterInWords(const std::string& words) {
   return indenter;
 }
 
+namespace {
+
+std::optional<std::string> whyNotAtOnce(const TouchRange& range) {
+  const std::string count = "at once " + std::to_string(range.atOnce) + "; allowed is ";
+  if (range.atOnce == 1) return {};
+  if (range.atOnce != 2) return count + "1 or 2 touches";
+  if (range.shape == IndenterShape::Plane) return count + "1: a plane leaves no room beside it";
+  if (range.grid[0] > 0) return count + "1 on a grid of places";
+  // From the middle a corner is half of it away.
+  const double across_mm = distanceApart_mm(range.shape, range.high_mm - range.low_mm);
+  if (!(across_mm >= 4 * range.largest_mm))
+    return count + "2 where the region is " + text(4 * range.largest_mm) + " mm wide or more, for two of size " +
+           text(range.largest_mm) + " mm side by side; it is " + text(across_mm) + " mm";
+  return {};
+}
+
+} // namespace
+
 std::optional<std::string> whyInvalid(const TouchRange& range, const SensorDesign& design) {
   const auto wrong = [](const char* what, double low, double high, const char* allowed) {
     return std::string(what) + " " + text(low) + ".." + text(high) + "; allowed is " + allowed;
@@ -139,6 +193,7 @@ std::optional<std::string> whyInvalid(const TouchRange& range, const SensorDesig
            text(range.high_mm.y()) + "; allowed is X0,Y0,X1,Y1 [mm] with the lower corner first";
   if (range.grid[0] < 0 || range.grid[1] < 0 || (range.grid[0] == 0) != (range.grid[1] == 0))
     return "grid " + std::to_string(range.grid[0]) + "x" + std::to_string(range.grid[1]) + "; allowed is 1x1 or more";
+  if (const auto why = whyNotAtOnce(range)) return why;
   for (const Eigen::Vector2d& corner : {range.low_mm, range.high_mm})
     for (const double radius_mm : {range.smallest_mm, range.largest_mm}) {
       Indenter indenter{range.shape, radius_mm,          range.rim_mm,

@@ -7,11 +7,12 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace palp {
 
-/// What random touches are drawn from, each number uniformly: one indenter of this shape that presses somewhere in a
-/// rectangle of the top face.
+/// What random touches are drawn from, each number uniformly: one indenter of this shape, or two, that presses
+/// somewhere in a rectangle of the top face.
 struct TouchRange {
   IndenterShape shape = IndenterShape::Sphere;
   double smallest_mm = 3, largest_mm = 6;                                              ///< radius; both 0 for a plane
@@ -21,6 +22,7 @@ struct TouchRange {
   double leastFriction = 0, mostFriction = 0;
   double leastPress_N = 0.5, mostPress_N = 6; ///< downwards
   double cone = 0; ///< largest force sideways, as a share of friction times press; uniform over the disc
+  int atOnce = 1;  ///< touches of one load: 1, or 2 that lie the sum of their radii or more apart, so that they fit
   bool operator==(const TouchRange&) const = default;
 };
 
@@ -30,6 +32,9 @@ TouchRange touchesOf(const SensorDesign& design);
 
 /// Touch number `i`, from seed and number alone. `redrawn`: another one in its place, for the so many-th time.
 Indenter touchAt(const TouchRange& range, std::uint64_t seed, std::size_t i, int redrawn = 0);
+
+/// All touches of load `i`: that one, and where two press at once the other, drawn likewise until it has room.
+std::vector<Indenter> touchesAt(const TouchRange& range, std::uint64_t seed, std::size_t i, int redrawn = 0);
 
 /// As the options of the command line that make it: "sphere:3..6@3,3,27,27 press 0.5..6 friction 0.3..0.8 cone 0.7".
 std::string inWords(const TouchRange& range);

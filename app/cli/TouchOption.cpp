@@ -60,6 +60,10 @@ void TouchArguments::declare(Command command, Option perArea) {
   command.option("--region", region, "with --touch: X0,Y0,X1,Y1 [mm] (default: the face less a tenth of its width)")
       .needs(on);
   command.option("--grid", grid, "with --touch: NXxNY: places in turn on a grid of the region, not anywhere").needs(on);
+  command
+      .option("--at-once", atOnce,
+              "with --touch: 1 or 2 indenters in each sample (default 1); two lie the sum of their radii or more apart")
+      .needs(on);
 }
 
 void TouchArguments::declareForMap(Command command) {
@@ -83,7 +87,8 @@ std::string TouchArguments::asCommand() const {
   std::string words;
   for (const auto& [option, value] :
        {std::pair{" --touch ", &touch}, std::pair{" --count ", &count}, std::pair{" --friction ", &friction},
-        std::pair{" --force-range ", &forceRange}, std::pair{" --region ", &region}, std::pair{" --grid ", &grid}})
+        std::pair{" --force-range ", &forceRange}, std::pair{" --region ", &region}, std::pair{" --grid ", &grid},
+        std::pair{" --at-once ", &atOnce}})
     if (!value->empty()) words += option + *value;
   return words;
 }
@@ -108,6 +113,7 @@ TouchRange TouchArguments::range(const SensorDesign& design) const {
     range.grid = {wholeNumber("--grid", grid.substr(0, x), 1, 10000),
                   wholeNumber("--grid", grid.substr(x + 1), 1, 10000)};
   }
+  if (!atOnce.empty()) range.atOnce = wholeNumber("--at-once", atOnce, 1, 2);
   if (const auto wrong = whyInvalid(range, design)) throw UsageError("--touch: " + *wrong);
   return range;
 }

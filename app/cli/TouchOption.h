@@ -9,7 +9,7 @@ namespace palp {
 
 /// --touch and what goes with it: random touches of an indenter in place of forces on areas.
 struct TouchArguments {
-  std::string touch, count, friction, forceRange, region, grid;
+  std::string touch, count, friction, forceRange, region, grid, atOnce;
   /// After this either --count or `perArea` is given.
   void declare(Command command, Option perArea);
   /// The same for a map of touches: shape, force, region and grid.

@@ -68,6 +68,9 @@ std::vector<SampleArray> sampleArrays(const SampleSet& head) {
          &SampleSet::touches});
   if (head.places_mm.rows() > 0) arrays.push_back({"places_mm", "mm", {2}, &SampleSet::places_mm});
   arrays.push_back({"forces_N", "N", areas, &SampleSet::forces_N});
+  if (head.beside.rows() > 0)
+    arrays.push_back(
+        {"beside", "as touches, then the force N along x, y, z", {asSize(kBesideRows)}, &SampleSet::beside});
   if (head.displacements_mm.rows() > 0)
     arrays.push_back({"displacements_mm",
                       "mm",
@@ -166,12 +169,13 @@ void requireSamples(const std::filesystem::path& file, const SampleSet& set, Eig
     if (set.area(i) < low || set.area(i) > high)
       refuse(i, "area " + std::to_string(set.area(i)) + "; allowed is " +
                     (together ? "-1: by the head all areas are loaded together" : "0 to " + std::to_string(high)));
-  for (Eigen::Index i = first; set.touches.rows() > 0 && i < first + count; ++i) {
-    const double shape = set.touches(kTouchShape, i);
-    if (!(shape >= 0 && shape < static_cast<double>(kIndenterShapes.all().size()) && shape == std::floor(shape)))
-      refuse(i, "shape " + text(shape) + "; allowed is a whole number from 0 to " +
-                    std::to_string(kIndenterShapes.all().size() - 1));
-  }
+  for (const auto part : {&SampleSet::touches, &SampleSet::beside})
+    for (Eigen::Index i = first; (set.*part).rows() > 0 && i < first + count; ++i) {
+      const double shape = (set.*part)(kTouchShape, i);
+      if (!(shape >= 0 && shape < static_cast<double>(kIndenterShapes.all().size()) && shape == std::floor(shape)))
+        refuse(i, "shape " + text(shape) + "; allowed is a whole number from 0 to " +
+                      std::to_string(kIndenterShapes.all().size() - 1));
+    }
   if (finite) return;
   for (const SampleArray& array : sampleArrays(set)) {
     const auto values = (set.*array.values).middleCols(first, count);

@@ -56,6 +56,17 @@ TEST_P(SampleArrays, KeepTheTouches) {
   expectIn(sentenceOf(file("wrong")), {"sample 1", "shape 6; allowed is a whole number from 0 to 5"});
 }
 
+TEST_P(SampleArrays, KeepTwoTouchesAtOnceForWhoAsks) {
+  const SampleSet set = randomPairs(40, 6);
+  saveSamples(file("two"), set, false);
+  expectSame(loadSamples(file("two"), {}, true), set);
+  expectIn(sentenceOf(file("two")), {"two touches at once", "allowed here is one"});
+  SampleSet wrong = set;
+  wrong.beside(kTouchShape, 2) = 0.5;
+  saveSamples(file("wrong"), wrong, false);
+  expectIn(refusal([&] { loadSamples(file("wrong"), {}, true); }), {"sample 2", "shape 0.5"});
+}
+
 TEST_P(SampleArrays, KeepTheHead) {
   SampleSet set = randomSet(2, 1);
   set.origin.seed = std::numeric_limits<std::uint64_t>::max();

@@ -20,6 +20,16 @@ TEST(SampleFile, ReadsBackTheSameNumbers) {
   }
 }
 
+TEST(SampleFile, OfTwoTouchesAtOnceIsForWhoAsks) {
+  const TemporaryFolder folder;
+  const SampleSet set = randomPairs(40, 6);
+  saveSamples(folder / "a.csv", set, false);
+  expectSame(loadSamples(folder / "a.csv", {}, true), set);
+  EXPECT_NE(sampleFileHead(set).find(",fz_N,shape_2,size_2_mm,friction_2,x_2_mm,y_2_mm,fx_2_N,fy_2_N,fz_2_N,u_r0_e0"),
+            std::string::npos);
+  EXPECT_NE(refusal([&] { loadSamples(folder / "a.csv"); }).find("two touches at once"), std::string::npos);
+}
+
 TEST(SampleFile, LeavesOutWhatNobodyKnows) {
   const TemporaryFolder folder;
   SampleSet set = randomSet(5, 1);

@@ -60,6 +60,49 @@ TEST(TouchRange, AGridIsGoneThroughInTurn) {
   EXPECT_EQ(touchAt(range, 9, 13).place_mm, Eigen::Vector2d(12, 21));
 }
 
+TEST(TouchRange, TwoAtOnceHaveRoomBesideEachOther) {
+  const SensorDesign design = paperDesign();
+  for (const IndenterShape shape : {IndenterShape::Sphere, IndenterShape::CylinderX, IndenterShape::CylinderY})
+    for (const double width_mm : {24., 30.}) { // the first is just as wide as it must be
+      TouchRange range = rubbed();
+      range.shape = shape;
+      range.atOnce = 2;
+      range.low_mm.setConstant((30 - width_mm) / 2);
+      range.high_mm.setConstant((30 + width_mm) / 2);
+      if (shape == IndenterShape::Sphere) range.high_mm.y() = range.low_mm.y(); // along a line
+      ASSERT_EQ(whyInvalid(range, design), std::nullopt);
+      for (std::size_t i = 0; i < 500; ++i) {
+        const std::vector<Indenter> touches = touchesAt(range, 5, i);
+        ASSERT_EQ(touches.size(), 2u);
+        EXPECT_EQ(touches[0], touchAt(range, 5, i));
+        EXPECT_EQ(whyInvalid(touches[1], design), std::nullopt);
+        const Eigen::Vector2d apart_mm = touches[1].place_mm - touches[0].place_mm;
+        const double along_mm = shape == IndenterShape::CylinderX   ? std::abs(apart_mm.y())
+                                : shape == IndenterShape::CylinderY ? std::abs(apart_mm.x())
+                                                                    : apart_mm.norm();
+        EXPECT_GE(along_mm, touches[0].radius_mm + touches[1].radius_mm) << shapeName(shape) << ' ' << i;
+        EXPECT_EQ(touches, touchesAt(range, 5, i));
+      }
+    }
+  EXPECT_EQ(touchesAt(rubbed(), 5, 3), std::vector{touchAt(rubbed(), 5, 3)});
+}
+
+// In the middle of the least region nothing is far enough away but the corners.
+TEST(TouchRange, TheOtherOfTwoFallsBackOnTheFarCorner) {
+  TouchRange range = touchesOf(paperDesign());
+  range.atOnce = 2;
+  range.smallest_mm = range.largest_mm = 6;
+  range.low_mm = {3, 15};
+  range.high_mm = {27, 15};
+  int corners = 0;
+  for (std::size_t i = 0; i < 3000; ++i) {
+    const std::vector<Indenter> touches = touchesAt(range, 1, i);
+    EXPECT_GE((touches[1].place_mm - touches[0].place_mm).norm(), 12);
+    corners += touches[1].place_mm.x() == 3 || touches[1].place_mm.x() == 27 ? 1 : 0;
+  }
+  EXPECT_GT(corners, 0);
+}
+
 TEST(TouchRange, SaysWhyNothingCanBeDrawn) {
   const SensorDesign design = paperDesign();
   const auto why = [&](const auto& change) {
@@ -76,6 +119,17 @@ TEST(TouchRange, SaysWhyNothingCanBeDrawn) {
   EXPECT_NE(why([](TouchRange& r) { r.low_mm.x() = 28; }).find("region 28,3,27,27"), std::string::npos);
   EXPECT_NE(why([](TouchRange& r) { r.high_mm.y() = 31; }).find("outside the body"), std::string::npos);
   EXPECT_NE(why([](TouchRange& r) { r.grid = {3, 0}; }).find("grid 3x0"), std::string::npos);
+  EXPECT_NE(why([](TouchRange& r) { r.atOnce = 3; }).find("at once 3; allowed is 1 or 2"), std::string::npos);
+  EXPECT_NE(why([](TouchRange& r) {
+              r.atOnce = 2;
+              r.high_mm = {10, 10};
+            }).find("24 mm wide"),
+            std::string::npos);
+  EXPECT_NE(why([](TouchRange& r) {
+              r.atOnce = 2;
+              r.grid = {3, 3};
+            }).find("grid"),
+            std::string::npos);
   EXPECT_NE(why([](TouchRange& r) {
               r.shape = IndenterShape::Flat;
               r.rim_mm = 9;

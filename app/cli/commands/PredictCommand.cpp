@@ -67,7 +67,8 @@ std::string csv(const Decoder& decoder, const Prediction& prediction) {
   return text;
 }
 
-void fill(const Decoder& decoder, const Prediction& prediction, const DecoderError& error, Session& session) {
+void fill(const Decoder& decoder, const Prediction& prediction, const std::optional<DecoderError>& error,
+          Session& session) {
   nlohmann::ordered_json& result = session.result;
   result["forces_N"] = columnsJson(prediction.forces_N);
   result["standard_deviation_N"] = columnsJson(prediction.standardDeviation_N);
@@ -76,8 +77,8 @@ void fill(const Decoder& decoder, const Prediction& prediction, const DecoderErr
     result["area"] = std::vector<int>(prediction.area.begin(), prediction.area.end());
     result["area_confidence"] = listJson(prediction.areaConfidence);
   }
-  result["error"] = errorJson(error.error);
-  if (error.rightAreas) result["right_areas"] = *error.rightAreas;
+  if (error) result["error"] = errorJson(error->error);
+  if (error && error->rightAreas) result["right_areas"] = *error->rightAreas;
   if (prediction.places_mm.size() > 0) {
     result["place_mm"] = columnsJson(prediction.places_mm);
     result["place_standard_deviation_mm"] = columnsJson(prediction.placeDeviation_mm);
@@ -86,33 +87,35 @@ void fill(const Decoder& decoder, const Prediction& prediction, const DecoderErr
     nlohmann::ordered_json& pressing = result["pressing"] = nlohmann::ordered_json::array();
     for (const Pressing each : prediction.pressing) pressing.push_back(name(each));
   }
-  if (error.place) {
-    result["place_error"] = {{"rms_mm", listJson(error.place->rms_mm)}, {"median_mm", error.place->median_mm}};
-    if (error.place->withinOneDeviation)
-      result["place_error"]["share_within_one_deviation"] = *error.place->withinOneDeviation;
+  if (error && error->place) {
+    result["place_error"] = {{"rms_mm", listJson(error->place->rms_mm)}, {"median_mm", error->place->median_mm}};
+    if (error->place->withinOneDeviation)
+      result["place_error"]["share_within_one_deviation"] = *error->place->withinOneDeviation;
   }
   result["microseconds_per_sample"] = prediction.microsecondsPerSample;
   result["decoder"] = name(decoder.kind);
 }
 
-void print(const Prediction& prediction, const DecoderError& error) {
+void print(const Prediction& prediction, const std::optional<DecoderError>& error) {
   const auto count = std::count(prediction.outsideTrainingRange.begin(), prediction.outsideTrainingRange.end(), true);
-  std::cout << "Eq. (13) [%]:                    " << error.error.eq13Percent.transpose() << '\n'
-            << "Eq. (13), |F| >= 0.05 N [%]:     " << error.error.eq13FlooredPercent.transpose() << '\n'
-            << "mean absolute error [N]:         " << error.error.meanAbsolute.transpose() << '\n'
-            << "RMSE [% of training range]:      " << error.error.rmsePercentOfRange.transpose() << '\n'
-            << prediction.forces_N.cols() << " samples, " << count << " outside the training range, "
+  if (error)
+    std::cout << "Eq. (13) [%]:                    " << error->error.eq13Percent.transpose() << '\n'
+              << "Eq. (13), |F| >= 0.05 N [%]:     " << error->error.eq13FlooredPercent.transpose() << '\n'
+              << "mean absolute error [N]:         " << error->error.meanAbsolute.transpose() << '\n'
+              << "RMSE [% of training range]:      " << error->error.rmsePercentOfRange.transpose() << '\n';
+  std::cout << prediction.forces_N.cols() << " samples, " << count << " outside the training range, "
             << prediction.microsecondsPerSample << " us a sample\n";
-  if (error.place)
-    std::cout << "place: rms " << error.place->rms_mm.transpose() << " mm along x, y; median distance "
-              << error.place->median_mm << " mm\n";
+  if (error && error->place)
+    std::cout << "place: rms " << error->place->rms_mm.transpose() << " mm along x, y; median distance "
+              << error->place->median_mm << " mm\n";
   const auto pressing = [&](Pressing which) {
     return std::count(prediction.pressing.begin(), prediction.pressing.end(), which);
   };
   if (!prediction.pressing.empty())
     std::cout << "pressing: nothing seen in " << pressing(Pressing::None) << ", one known touch in "
               << pressing(Pressing::One) << ", something else in " << pressing(Pressing::Other) << '\n';
-  if (error.rightAreas) std::cout << "right areas: " << 100 * *error.rightAreas << " %\n";
+  if (error && error->rightAreas) std::cout << "right areas: " << 100 * *error->rightAreas << " %\n";
+  if (!error) std::cout << "two touches at once: a decoder gives one, so there are no errors to say\n";
 }
 
 nlohmann::ordered_json boundJson(const ErrorsOverBounds& over) {
@@ -168,8 +171,10 @@ Exit run(const PredictArguments& arguments, Session& session) {
   const Decoder decoder = readNetwork(arguments.network);
   if (design && !(decoder.place && options.noise > 0))
     throw UsageError("--design: is for the bounds of touches, with a network of force and place and --noise above 0");
-  const SampleSet samples = loadSamples(arguments.samples, session.stop);
+  const SampleSet samples = loadSamples(arguments.samples, session.stop, true);
   requireReadout(decoder, samples.origin.readout, "the samples are");
+  if (design && samples.beside.rows() > 0)
+    throw UsageError("--design: the samples are of two touches at once; allowed are touches one at a time");
   const Eigen::MatrixXd clean = inputsOf(samples, decoder.input);
   const Eigen::MatrixXd inputs = noisyCopies(clean, options.noise, 1, static_cast<std::uint64_t>(seed));
   Prediction prediction = session.stages.measure("predict", [&] { return predict(decoder, inputs, options); });
@@ -177,7 +182,8 @@ Exit run(const PredictArguments& arguments, Session& session) {
   for (const std::string& warning : prediction.warnings) std::cerr << "palp predict: " << warning << '\n';
   session.warnings.insert(session.warnings.end(), prediction.warnings.begin(), prediction.warnings.end());
   stopIfAsked(session.stop);
-  const DecoderError error = decoderError(decoder, prediction, samples);
+  std::optional<DecoderError> error; // a decoder gives one touch: beside two there is no error to say
+  if (samples.beside.rows() == 0) error = decoderError(decoder, prediction, samples);
   fill(decoder, prediction, error, session);
   if (options.noise > 0 && !samples.hasTouches() && !decoder.place) { // the bound is of forces on known areas
     const NoiseBound bound = noiseBound(samples, decoder.input.kind, decoder.input.rows, options.noise);

@@ -1,7 +1,7 @@
 #include "app/study/decoding/KnownTouches.h"
 
-#include "app/study/decoding/DesignMirror.h"
 #include "app/study/reports/map/TouchMap.h"
+#include "app/study/touch/DesignMirror.h"
 #include "io/DesignFile.h"
 #include "model/DesignError.h"
 #include "model/FieldAtRest.h"

@@ -50,6 +50,12 @@ std::optional<int> onlyArea(const std::string& areas, int count) {
   return area;
 }
 
+Eigen::Vector<double, kTouchRows> asRows(const Indenter& touch) {
+  Eigen::Vector<double, kTouchRows> rows;
+  rows << static_cast<double>(touch.shape), touch.radius_mm, touch.friction, touch.place_mm;
+  return rows;
+}
+
 } // namespace
 
 SampleRange shard(std::size_t total, int index, int count) {
@@ -69,8 +75,12 @@ SampleGenerator::SampleGenerator(SensorDesign design, SampleRequest request)
     if (request_.surrogate) throw DesignError("surrogate: touches have none; only forces on whole areas do");
     request_.areas = "touches";
     origin_.touches = inWords(*request_.touches);
+    if (request_.touches->atOnce == 1) lowSide_ = LowSide(design_, *request_.touches);
+    solved_ = lowSide_.of(*request_.touches);
   } else {
     onlyArea_ = onlyArea(request_.areas, design_.areas.count());
+    // Eq. (1) pays little for a surrogate, and its samples are as they were to the last byte.
+    if (request_.surrogate && request_.areas != "together" && design_.field()) lowSide_ = LowSide(design_);
   }
   origin_.designFingerprint = designFingerprint(design_);
   if (const FieldLaw* field = design_.field()) origin_.readout = field->readout;
@@ -90,7 +100,7 @@ LoadCase SampleGenerator::load(std::size_t i) const {
   LoadCase load;
   const auto perArea = static_cast<std::size_t>(request_.perArea);
   if (request_.touches) {
-    load.indenters.push_back(touchAt(*request_.touches, request_.seed, i, redrawnTimes(i)));
+    load.indenters = touchesAt(*request_.touches, request_.seed, i, redrawnTimes(i));
   } else if (request_.areas == "together") {
     for (int area = 0; area < design_.areas.count(); ++area)
       load.areas.push_back({area, force_N(design_.forceRange, request_.seed, area, i)});
@@ -109,7 +119,8 @@ bool SampleGenerator::prepare(Part& part, bool checked, const std::stop_token& s
   batch.checkFirst = checked;
   batch.leaveOut = request_.touches.has_value();
   if (part.touches) {
-    options = meshForPart(design_, *part.touches, options);
+    options = part.touches->atOnce == 1 ? meshForPart(design_, *part.touches, options)
+                                        : meshForTouches(design_, *part.touches, options);
     if (parts_.size() > 1 || part.touches->shape != IndenterShape::Plane)
       batch.touched = touchedByTouches(design_, *part.touches, options);
   }
@@ -130,11 +141,13 @@ bool SampleGenerator::prepare(Part& part, bool checked, const std::stop_token& s
 /// All that the head of the file says; touches' meshes are made when they are needed.
 bool SampleGenerator::prepare(const std::stop_token& stop) {
   if (parts_.empty()) {
-    if (request_.touches)
-      for (const TouchRange& part : partsOfTouches(design_, *request_.touches, request_.mesh, &cuts_))
+    if (request_.touches && request_.touches->atOnce == 1) {
+      for (const TouchRange& part : partsOfTouches(design_, solved_, request_.mesh, &cuts_))
         parts_.emplace_back().touches = part;
-    else
+    } else { // two touches at once lie in no part alone
       parts_.resize(1);
+      parts_.front().touches = request_.touches;
+    }
   }
   if (parts_.size() > 1) {
     const MeshOptions mesh = meshForPart(design_, *parts_.front().touches, request_.mesh);
@@ -142,7 +155,7 @@ bool SampleGenerator::prepare(const std::stop_token& stop) {
     const double factor = mesh.meshSize_mm.value_or(standardMeshSize_mm(design_)) / standardMeshSize_mm(design_);
     origin_.mesh = "P2+bubble/P1d, " + std::to_string(parts_.size()) + " meshes of cells of " +
                    text(std::round(1000 * factor * mesh.zones.front().size_mm.minCoeff()) / 1000) +
-                   " mm where their share of the touches is";
+                   " mm where their share of the touches" + (lowSide_.empty() ? " is" : " and their mirror images is");
     return !stop.stop_requested();
   }
   Part& part = parts_.front();
@@ -162,12 +175,13 @@ bool SampleGenerator::prepare(const std::stop_token& stop) {
 /// As many areas together as there are threads, as the predictor of an area is one thread's work and much memory.
 bool SampleGenerator::fitSurrogates(const std::stop_token& stop) {
   Part& part = parts_.front();
-  const int first = onlyArea_.value_or(0), count = onlyArea_ ? 1 : design_.areas.count();
-  const int together = std::min(threadCount(request_.threads), kMostAreasTogether);
-  for (int k = 0; k < count; k += together) {
-    std::vector<int> areas(static_cast<std::size_t>(std::min(together, count - k)));
-    std::iota(areas.begin(), areas.end(), first + k);
-    if (fitting_) fitting_(static_cast<std::size_t>(k), static_cast<std::size_t>(count));
+  std::vector<int> wanted(static_cast<std::size_t>(onlyArea_ ? 1 : design_.areas.count()));
+  std::iota(wanted.begin(), wanted.end(), onlyArea_.value_or(0));
+  const std::vector<int> all = lowSide_.of(wanted);
+  const auto together = static_cast<std::size_t>(std::min(threadCount(request_.threads), kMostAreasTogether));
+  for (std::size_t k = 0; k < all.size(); k += together) {
+    const std::span<const int> areas = std::span(all).subspan(k, std::min(together, all.size() - k));
+    if (fitting_) fitting_(k, all.size());
     if (!part.solver->fitSurrogates(areas, stop) || (part.field && !part.field->fitSurrogates(areas, stop)))
       return false;
   }
@@ -258,19 +272,21 @@ ConductionBatch::Answers SampleGenerator::answers(const SampleRange& part, bool 
                                                   const std::stop_token& stop) {
   std::vector<std::size_t> numbers(part.last - part.first);
   std::iota(numbers.begin(), numbers.end(), part.first);
-  const auto loadsOf = [&](const std::vector<std::size_t>& some) {
+  const auto answersTo = [&](const std::vector<std::size_t>& some, const std::function<void(std::size_t)>& solved) {
     std::vector<LoadCase> loads;
     for (const std::size_t i : some) loads.push_back(load(i));
-    return loads;
+    ConductionBatch::Answers found = answers(lowSide_.of(loads), some, last, solved, stop);
+    lowSide_.bringBack(loads, found);
+    return found;
   };
-  ConductionBatch::Answers all = answers(loadsOf(numbers), numbers, last, progress, stop);
+  ConductionBatch::Answers all = answersTo(numbers, progress);
   while (true) {
     std::vector<std::size_t> open;
     for (std::size_t k = 0; k < all.displacements.size(); ++k)
       if (all.displacements[k].upper_mm.size() == 0) open.push_back(part.first + k);
     if (open.empty()) return all;
     for (const std::size_t i : open) redraw(i);
-    ConductionBatch::Answers more = answers(loadsOf(open), open, last, {}, stop);
+    ConductionBatch::Answers more = answersTo(open, {});
     if (more.displacements.size() < open.size()) return {};
     for (std::size_t k = 0; k < open.size(); ++k) {
       all.displacements[open[k] - part.first] = std::move(more.displacements[k]);
@@ -326,6 +342,7 @@ SampleSet SampleGenerator::block(SampleRange range, const ConductionBatch::Answe
   set.area.resize(count);
   set.forces_N.resize(together ? 3 * set.areaCount : 3, count);
   set.touches.resize(request_.touches ? kTouchRows : 0, count);
+  set.beside.resize(request_.touches && request_.touches->atOnce > 1 ? kBesideRows : 0, count);
   set.displacements_mm.resize(3 * design_.upper.electrodes(), count);
   set.resistances_ohm.resize(set.rowWires * set.columnWires, count);
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -333,9 +350,9 @@ SampleSet SampleGenerator::block(SampleRange range, const ConductionBatch::Answe
     if (request_.touches) {
       const Indenter& pressing = load.indenters[0];
       set.area(i) = areaUnder(design_, pressing.place_mm);
-      set.touches.col(i) << static_cast<double>(pressing.shape), pressing.radius_mm, pressing.friction,
-          pressing.place_mm;
+      set.touches.col(i) = asRows(pressing);
       set.forces_N.col(i) = pressing.press()->force_N;
+      if (load.indenters.size() > 1) set.beside.col(i) << asRows(load.indenters[1]), load.indenters[1].press()->force_N;
     } else {
       set.area(i) = together ? -1 : load.areas[0].area;
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/study/StageLog.h"
+#include "app/study/touch/LowSide.h"
 #include "model/LoadCase.h"
 #include "model/SampleSet.h"
 #include "model/SensorDesign.h"
@@ -130,8 +131,10 @@ private:
   SampleRequest request_;
   std::optional<int> onlyArea_;
   SampleOrigin origin_;
+  LowSide lowSide_;                    ///< where loads are solved
+  TouchRange solved_;                  ///< touches there
   std::vector<Part> parts_;            ///< made at the first sample in each
-  std::array<int, 2> cuts_{1, 1};      ///< of the touches' rectangle into parts along x and y
+  std::array<int, 2> cuts_{1, 1};      ///< of the rectangle of these into parts along x and y
   bool fitted_ = false;                ///< surrogates, where wanted
   std::map<std::size_t, int> redraws_; ///< of touches, by their numbers
   int redrawn_ = 0;

@@ -22,8 +22,8 @@ int SampleGenerator::partsBeside(std::size_t index) const {
 
 std::size_t SampleGenerator::partOf(const LoadCase& load) const {
   if (parts_.size() == 1) return 0;
-  const Eigen::Vector2d from_mm = load.indenters.front().place_mm - request_.touches->low_mm;
-  const Eigen::Vector2d extent_mm = request_.touches->high_mm - request_.touches->low_mm;
+  const Eigen::Vector2d from_mm = load.indenters.front().place_mm - solved_.low_mm;
+  const Eigen::Vector2d extent_mm = solved_.high_mm - solved_.low_mm;
   std::array<int, 2> at{};
   for (int d = 0; d < 2; ++d)
     if (cuts_[d] > 1) at[d] = std::clamp(static_cast<int>(from_mm(d) / extent_mm(d) * cuts_[d]), 0, cuts_[d] - 1);

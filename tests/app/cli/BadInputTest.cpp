@@ -219,6 +219,12 @@ INSTANTIATE_TEST_SUITE_P(
             "ShardZero", {"sample", "paper", "--per-area", "1", "--shard", "0/2", "-o", "x.csv"}, {"--shard", "0"}},
         BadOption{
             "ShardBeyond", {"sample", "paper", "--per-area", "1", "--shard", "3/2", "-o", "x.csv"}, {"--shard", "3"}},
+        BadOption{"ThreeAtOnce",
+                  {"sample", "paper", "--touch", "sphere:3", "--at-once", "3", "--count", "1", "-o", "x.csv"},
+                  {"--at-once", "3", "1 to 2"}},
+        BadOption{"TwoWithoutRoom",
+                  {"sample", "paper", "--touch", "sphere:3@9,9,15,15", "--at-once", "2", "--count", "1", "-o", "x.csv"},
+                  {"at once 2", "12 mm"}},
         BadOption{"ToleranceZero",
                   {"sample", "paper", "--per-area", "1", "--tolerance", "0", "-o", "x.csv"},
                   {"--tolerance", "0"}},

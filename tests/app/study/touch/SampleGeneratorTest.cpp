@@ -117,6 +117,7 @@ TEST(SampleGenerator, TouchesAreFullSolvesOfTheirIndenters) {
 TEST(SampleGenerator, PartsOfTheFaceHaveMeshesOfTheirOwn) {
   SensorDesign design = paperDesign();
   design.block_mm.x() = 60;
+  design.lower.wire_mm[0] += 0.1; // not its own image along x
   SampleRequest request = coarse(5);
   request.mesh.mapped.reset();
   request.mesh.meshSize_mm = 3 * standardMeshSize_mm(design);
@@ -140,6 +141,78 @@ TEST(SampleGenerator, PartsOfTheFaceHaveMeshesOfTheirOwn) {
   const HyperelasticProblem fitted(design, sensorMesh(design, meshFor(design, load, own)));
   const Eigen::VectorXd expected = fitted.electrodes(fitted.solve(load).state()).upper_mm.reshaped();
   EXPECT_LT((all.displacements_mm.col(4) - expected).norm(), 0.1 * expected.norm()) << "coarse meshes";
+}
+
+TEST(SampleGenerator, ImagesInMirrorsShareAMesh) {
+  SensorDesign design = paperDesign();
+  SampleRequest request = coarse(8);
+  request.mesh.mapped.reset();
+  request.mesh.meshSize_mm = 3 * standardMeshSize_mm(design);
+  request.relativeTolerance = 1e-5;
+  request.touches = touchesOf(design);
+  request.touches->leastPress_N = request.touches->mostPress_N = 3;
+  SampleGenerator generator(design, request);
+  SampleSet all;
+  generator.generate({0, 8}, [&](const SampleSet& block) { append(all, block); });
+  EXPECT_EQ(generator.stages().runs("mesh"), 1);
+  for (const Eigen::Index i : {1, 4}) {
+    const LoadCase load = generator.load(static_cast<std::size_t>(i));
+    EXPECT_EQ(all.touchedPlaces_mm().col(i), load.indenters[0].place_mm);
+    const HyperelasticProblem fitted(design, sensorMesh(design, meshFor(design, load, request.mesh)));
+    const Eigen::VectorXd expected = fitted.electrodes(fitted.solve(load).state()).upper_mm.reshaped();
+    EXPECT_LT((all.displacements_mm.col(i) - expected).norm(), 0.1 * expected.norm()) << "coarse meshes";
+  }
+  EXPECT_GT((all.touchedPlaces_mm().array() > 15).colwise().any().count(), 0) << "some were solved as their images";
+}
+
+TEST(SampleGenerator, SurrogatesOfTheFieldAreFittedToOneOfEachAreaAndItsImages) {
+  SensorDesign design = paperDesign();
+  FieldLaw law;
+  law.readout = Readout::VirtualGround;
+  design.resistance = law;
+  SampleRequest request = coarse(2);
+  request.mesh.mapped = std::array<int, 3>{6, 6, 2}; // its own image
+  request.surrogate = true;
+  SampleGenerator generator(design, request);
+  std::size_t fitted = 0;
+  generator.whileFitting([&](std::size_t, std::size_t of) { fitted = of; });
+  SampleSet all;
+  generator.generate({0, generator.total()}, [&](const SampleSet& block) { append(all, block); });
+  EXPECT_EQ(fitted, 2u);
+  request.surrogate = false;
+  SampleGenerator solving(design, request);
+  SampleSet expected;
+  solving.generate({0, solving.total()}, [&](const SampleSet& block) { append(expected, block); });
+  ASSERT_EQ(all.size(), 12);
+  for (Eigen::Index i = 0; i < all.size(); ++i) {
+    EXPECT_LT((all.displacements_mm.col(i) - expected.displacements_mm.col(i)).norm(),
+              1e-4 * expected.displacements_mm.col(i).norm())
+        << i;
+    EXPECT_TRUE(all.resistances_ohm.col(i).isApprox(expected.resistances_ohm.col(i), 1e-4)) << i;
+  }
+}
+
+TEST(SampleGenerator, TwoTouchesAtOnceAreOneSolve) {
+  SampleRequest request = coarse(4);
+  request.mesh.mapped = std::array<int, 3>{12, 12, 2};
+  request.touches = touchesOf(paperDesign());
+  request.touches->atOnce = 2;
+  request.touches->leastFriction = request.touches->mostFriction = 0.5;
+  SampleGenerator generator(paperDesign(), request);
+  SampleSet all;
+  generator.generate({0, 4}, [&](const SampleSet& block) { append(all, block); });
+  ASSERT_EQ(all.beside.rows(), kBesideRows);
+  const HyperelasticProblem problem(paperDesign(), sensorMesh(paperDesign(), request.mesh));
+  for (const Eigen::Index i : {0, 3}) {
+    const LoadCase load = generator.load(static_cast<std::size_t>(i));
+    ASSERT_EQ(load.indenters.size(), 2U);
+    EXPECT_EQ(all.beside.col(i).segment<2>(kTouchX_mm), load.indenters[1].place_mm);
+    EXPECT_EQ(all.beside.col(i).tail<3>(), load.indenters[1].press()->force_N);
+    const Solution full = problem.solve(load);
+    ASSERT_TRUE(full.converged);
+    const Eigen::VectorXd expected = problem.electrodes(full.state()).upper_mm.reshaped();
+    EXPECT_LT((all.displacements_mm.col(i) - expected).norm(), 1e-4 * expected.norm()) << i;
+  }
 }
 
 // A ball that friction hardly holds is pushed off the corner in some directions, and not in others.
