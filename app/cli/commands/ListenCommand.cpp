@@ -298,12 +298,14 @@ Exit run(const ListenArguments& arguments, Session& session) {
   const double seconds = numberUpTo("--seconds", arguments.seconds, 1e9);
   Limits limits{static_cast<std::uint64_t>(wholeNumber("--frames", arguments.frames, 0, 2'000'000'000)), seconds,
                 wholeNumber("--average", arguments.average, 1, 100'000)};
+  if (arguments.check && !arguments.record.empty()) throw UsageError("--record: not with --check, which keeps nothing");
   if (!arguments.record.empty()) requireFree(arguments.record, arguments.force);
   if (session.json && arguments.send.takeStandardOutput())
     throw UsageError("--send csv:-: standard output holds the JSON of --json; give one of the two");
   LiveOptions options = liveOptions(arguments);
   const ListenSenders senders(arguments.send, arguments.force);
   options.alsoTo = senders.taker();
+  options.waitForRecording = !arguments.record.empty();
   std::optional<FrameAverage> average = labelledFrame(arguments, options);
   const std::optional<Readout> networksReadout = options.decoder ? options.decoder->readout : std::nullopt;
   LiveSession live(std::move(options));

@@ -105,6 +105,7 @@ struct LiveOptions {
   /// Gets each frame in the session's thread, before the ring: must return at once.
   std::function<void(const std::shared_ptr<const LiveFrame>&)> alsoTo;
   std::size_t ringFrames = 2048; ///< kept for a reader that drains late
+  bool waitForRecording = false; ///< the first report is read when a recording is there that begins with it
 };
 
 /// A board, live: one thread owns the source, decodes, records and fills a ring that a window or a program drains.

@@ -135,6 +135,10 @@ void LiveWorker::disconnect(LiveState state, const std::string& reason) {
 }
 
 void LiveWorker::read() {
+  if (options_.waitForRecording) { // until setWriter
+    arrival_s_ = hostClock_s();
+    return std::this_thread::sleep_for(kReadTimeout / 10);
+  }
   const ReportSource::Outcome outcome = source_->read(report_, kReadTimeout);
   if (replay() != nullptr && replay()->jumped()) jumped();
   const double now_s = hostClock_s();
@@ -424,6 +428,7 @@ void LiveWorker::mark(const std::string& text) {
 
 void LiveWorker::setWriter(std::shared_ptr<RecordingWriter> writer) {
   writer_ = std::move(writer);
+  options_.waitForRecording = false;
   status_.recordingFailure.clear();
   if (source_) recordConfiguration(); // it may have changed since the head was written
   if (tare_) recordTare();

@@ -56,6 +56,20 @@ TEST(ListenCommand, RecordsAndReplays) {
   EXPECT_GT(totals.at("reports").get<int>(), 100);
 }
 
+TEST(ListenCommand, ARecordingBeginsWithTheFirstReport) {
+  const palp::TemporaryFolder folder;
+  const std::string file = (folder / "a.palprec").string();
+  const Outcome first = palp::test::palp({"listen", "--simulate", "--frames", "25", "--record", file, "--json"});
+  ASSERT_EQ(first.exit, 0) << first.errors;
+  const Outcome again = palp::test::palp({"listen", "--replay", file, "--speed", "0", "--json"});
+  ASSERT_EQ(again.exit, 0) << again.errors;
+  const std::vector<json> seen = lines(first.output), replayed = lines(again.output);
+  EXPECT_GE(replayed.back().at("frames"), 25);
+  EXPECT_EQ(replayed.back().at("reports"), seen.back().at("reports"));
+  EXPECT_EQ(replayed.front().at("frame"), seen.front().at("frame"));
+  EXPECT_EQ(replayed.front().at("t_s"), seen.front().at("t_s"));
+}
+
 TEST(ListenCommand, ChecksABoard) {
   const Outcome outcome = palp::test::palp({"listen", "--check", "--simulate", "--seconds", "3", "--json"});
   const json result = lines(outcome.output).back();
@@ -73,6 +87,7 @@ TEST(ListenCommand, RefusesWhatCannotBe) {
     EXPECT_NE(outcome.errors.find(word), std::string::npos) << outcome.errors;
   };
   refuses({"--simulate", "--replay", "x"}, "exclude each other");
+  refuses({"--simulate", "--check", "--record", "x"}, "keeps nothing");
   refuses({"--replay", "/nonexistent"}, "/nonexistent");
   refuses({"--replay", samplesFile()}, "no recording");
   refuses({"--simulate", "--rate", "0"}, "--rate");
