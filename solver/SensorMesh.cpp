@@ -17,6 +17,9 @@ namespace {
 /// Cells for touches anywhere, in those of a mesh that is made for one touch: for the paper's block about 1 mm; in a
 /// part of the face 0.8 mm, for surfaces that a decoder learns from 0.7 mm.
 constexpr double kCellsAnywhere = 2.7, kCellsInPart = 2.1, kCellsToLearnFrom = 1.9;
+/// Of cells and of layers at the top face, where a decoder under the field learns from touches: it takes what the mesh
+/// makes of one place and not of the next for noise.
+constexpr double kCellsOfField = 0.8, kLayersOfField = 0.5;
 constexpr double cellsAPart = 10;     // along each axis: about as many as lie beside them
 constexpr int mostPartsAlongAxis = 4; // what is found once for each part has to pay
 constexpr double widerContact = 1.1;  // than expected: at the block's edges
@@ -31,16 +34,21 @@ FineZone zoneOf(const SensorDesign& design, const TouchRange& range, double cell
       middleOf(range, (range.smallest_mm + range.largest_mm) / 2, (range.leastPress_N + range.mostPress_N) / 2);
   // Not the zones of a punch's rim: it may be anywhere. A plane has none.
   const std::vector<FineZone> zones = fineZones(design, {.areas = {}, .patches = {}, .indenters = {middle}});
-  FineZone zone = zones.empty() ? FineZone{middle.place_mm, {0, 0}, design.block_mm.head<2>()} : zones.front();
+  FineZone zone = zones.empty() ? FineZone{middle.place_mm, {0, 0}, design.block_mm.head<2>(), 0} : zones.front();
   zone.size_mm *= cells;
   zone.half_mm += (range.high_mm - range.low_mm) / 2;
   return zone;
 }
 
-MeshOptions withZone(const SensorDesign& design, const TouchRange& range, MeshOptions options, double cells) {
+MeshOptions withZone(const SensorDesign& design, const TouchRange& range, MeshOptions options, double cells,
+                     double layers = 1) {
   if (options.mapped) return options;
   options.zones.clear();
-  if (range.shape != IndenterShape::Plane) options.zones.push_back(zoneOf(design, range, cells));
+  if (range.shape != IndenterShape::Plane) {
+    FineZone zone = zoneOf(design, range, cells);
+    zone.layer_mm = layers * zone.size_mm.minCoeff();
+    options.zones.push_back(zone);
+  }
   options.fineBorders = false;
   return options;
 }
@@ -78,11 +86,12 @@ MeshOptions meshForTouches(const SensorDesign& design, const TouchRange& range, 
 }
 
 MeshOptions meshToLearnFrom(const SensorDesign& design, const TouchRange& range, MeshOptions options) {
-  return withZone(design, range, std::move(options), kCellsToLearnFrom);
+  return withZone(design, range, std::move(options), kCellsToLearnFrom, design.field() ? kLayersOfField : 1);
 }
 
 MeshOptions meshForPart(const SensorDesign& design, const TouchRange& part, MeshOptions options) {
-  return withZone(design, part, std::move(options), kCellsInPart);
+  if (!design.field()) return withZone(design, part, std::move(options), kCellsInPart);
+  return withZone(design, part, std::move(options), kCellsOfField * kCellsInPart, kLayersOfField);
 }
 
 std::vector<TouchRange> partsOfTouches(const SensorDesign& design, const TouchRange& range, const MeshOptions& options,
@@ -146,7 +155,10 @@ Mesh sensorMesh(const SensorDesign& design, const MeshOptions& options, const st
   Grading grading = defaultGrading(design, size);
   if (!options.fineBorders) grading.border_mm = grading.bulk_mm;
   std::vector<FineZone> zones = options.zones;
-  for (FineZone& zone : zones) zone.size_mm *= size / standardSize(design);
+  for (FineZone& zone : zones) {
+    zone.size_mm *= size / standardSize(design);
+    zone.layer_mm *= size / standardSize(design);
+  }
   Mesh mesh = gradedTets(design, grading, options.discs, zones, options.electrodesAsNodes, stop);
   mesh.size_mm = size;
   return mesh;

@@ -21,6 +21,7 @@ struct FineDisc {
 struct FineZone {
   Eigen::Vector2d centre_mm, half_mm;
   Eigen::Vector2d size_mm; ///< along x, y, where the mesh has the default size in the bulk; it scales with that
+  double layer_mm = 0;     ///< along z at the top face; it scales likewise; 0: the lesser of those
   bool operator==(const FineZone&) const = default;
 };
 /// The discs of a load's patches.
@@ -51,7 +52,8 @@ MeshOptions meshForTouches(const SensorDesign& design, const TouchRange& range, 
 /// place and not of the next is noise to it (resources/docs/numerics.md, "Touches inverted").
 MeshOptions meshToLearnFrom(const SensorDesign& design, const TouchRange& range, MeshOptions options);
 
-/// The same for one of the parts below, with smaller cells.
+/// The same for one of the parts below, with smaller cells; under the field with cells and layers at the top that are
+/// smaller still.
 MeshOptions meshForPart(const SensorDesign& design, const TouchRange& part, MeshOptions options);
 
 /// The range cut into parts by the place of the touch, along x first, each to have a mesh of its own: grid lines go

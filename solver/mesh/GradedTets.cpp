@@ -102,7 +102,8 @@ Grid gradedGrid(const SensorDesign& design, const Grading& grading, const std::v
     for (const int d : {0, 1}) grid.sizes[d].places.push_back({zone.centre_mm(d), zone.size_mm(d), zone.half_mm(d)});
   grid.stops[2] = {0, block.z()};
   grid.sizes[2] = {grading.vertical_mm, grading.growth, {{0, grading.bottom_mm}, {block.z(), grading.top_mm}}};
-  for (const FineZone& zone : zones) grid.sizes[2].places.push_back({block.z(), zone.size_mm.minCoeff()});
+  for (const FineZone& zone : zones)
+    grid.sizes[2].places.push_back({block.z(), zone.layer_mm > 0 ? zone.layer_mm : zone.size_mm.minCoeff()});
   // Face diagonals join the grid points whose indices are both even to those where both are odd. An edge where stresses
   // are singular is resolved better where diagonals run into it: its two indices are to be both even or both odd. So
   // the rims of the clamped face get even indices, and the borders of the load areas the parity of the top face.

@@ -1,6 +1,7 @@
 #include "solver/mesh/GradedTets.h"
 
 #include "model/DesignError.h"
+#include "model/TouchRange.h"
 #include "model/base/Cancelled.h"
 
 #include <Eigen/Dense>
@@ -10,6 +11,7 @@
 #include <cmath>
 #include <ostream>
 #include <random>
+#include <set>
 
 using namespace palp;
 
@@ -235,3 +237,26 @@ TEST(GradedTets, RefuseMoreElementsThanAllowedAndStopWhenAsked) {
 }
 
 } // namespace
+
+// The mesh of touches under the field, of which a decoder learns: smaller cells, more layers, and no other's.
+TEST(GradedTets, OfTouchesUnderTheFieldHaveSmallerCellsAndMoreLayers) {
+  const auto layers = [](const Mesh& mesh) {
+    std::set<long> heights; // of corners, in nm
+    for (int e = 0; e < mesh.elementCount(); ++e)
+      for (int i = 0; i < 4; ++i) heights.insert(std::lround(1e6 * mesh.nodes_mm(2, mesh.elements(i, e))));
+    return heights.size() - 1;
+  };
+  SensorDesign design = paperDesign();
+  TouchRange range = touchesOf(design);
+  range.low_mm = {9, 9};
+  range.high_mm = {15, 15};
+  const MeshOptions pairs = meshForPart(design, range, {}), learned = meshToLearnFrom(design, range, {});
+  design.resistance = FieldLaw{};
+  const MeshOptions field = meshForPart(design, range, {});
+  EXPECT_EQ(pairs.zones.at(0).layer_mm, pairs.zones.at(0).size_mm.minCoeff());
+  EXPECT_TRUE(field.zones.at(0).size_mm.isApprox(0.8 * pairs.zones.at(0).size_mm));
+  EXPECT_LT(meshToLearnFrom(design, range, {}).zones.at(0).layer_mm, learned.zones.at(0).layer_mm);
+  const Mesh coarse = sensorMesh(design, pairs), fine = sensorMesh(design, field);
+  EXPECT_GT(fine.nodeCount(), 1.3 * coarse.nodeCount());
+  EXPECT_GT(layers(fine), layers(coarse));
+}
