@@ -4,6 +4,8 @@
 
 #include <cholmod.h>
 
+#include <algorithm>
+#include <numeric>
 #include <stdexcept>
 
 namespace palp {
@@ -44,6 +46,44 @@ cholmod_sparse view(const std::vector<int>& columns, const std::vector<int>& row
   return A;
 }
 
+/// The groups' columns and rows, coupled so that the last groups stay last when CHOLMOD brings the order into
+/// postorder: each part that the others fall into without them is coupled to the first of them, and each of them to the
+/// next. So they are one path of the elimination tree, below which all else hangs. Where they are coupled anyway, as
+/// those of a surface over one connected body are, that changes nothing.
+struct Coupled {
+  std::vector<int> columns, rows;
+};
+Coupled coupled(const SparsePattern& pattern) {
+  const auto groups = static_cast<int>(pattern.groupColumns.size()) - 1;
+  std::vector<bool> isLast(groups);
+  for (const int g : pattern.lastGroups) isLast[g] = true;
+  std::vector<int> part(groups); // another group of the same part, nearer to its representative, or that itself
+  std::iota(part.begin(), part.end(), 0);
+  const auto representative = [&](int g) {
+    while (part[g] != g) g = part[g] = part[part[g]];
+    return g;
+  };
+  std::vector<std::vector<int>> below(groups);
+  for (int g = 0; g < groups; ++g) {
+    below[g].assign(pattern.groupRows.begin() + pattern.groupColumns[g],
+                    pattern.groupRows.begin() + pattern.groupColumns[g + 1]);
+    for (const int other : below[g])
+      if (!isLast[g] && !isLast[other]) part[representative(other)] = representative(g);
+  }
+  const auto couple = [&](int a, int b) { below[std::min(a, b)].push_back(std::max(a, b)); };
+  for (int g = 0; g < groups; ++g)
+    if (!isLast[g] && part[g] == g) couple(g, pattern.lastGroups.front());
+  for (std::size_t i = 1; i < pattern.lastGroups.size(); ++i) couple(pattern.lastGroups[i - 1], pattern.lastGroups[i]);
+  Coupled result{{0}, {}};
+  for (std::vector<int>& rows : below) {
+    std::sort(rows.begin(), rows.end());
+    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+    result.rows.insert(result.rows.end(), rows.begin(), rows.end());
+    result.columns.push_back(static_cast<int>(result.rows.size()));
+  }
+  return result;
+}
+
 /// The tree of the unknowns from that of their groups.
 SupernodeTree expanded(const cholmod_factor& factor, const SparsePattern& pattern) {
   const auto groups = static_cast<int>(factor.n);
@@ -79,7 +119,9 @@ SupernodeTree expanded(const cholmod_factor& factor, const SparsePattern& patter
 SupernodeTree supernodeTree(const SparsePattern& pattern) {
   Common common;
   std::vector<int> order = nestedDissection(pattern);
-  cholmod_sparse groups = view(pattern.groupColumns, pattern.groupRows);
+  const Coupled some = pattern.lastGroups.empty() ? Coupled{} : coupled(pattern);
+  cholmod_sparse groups =
+      pattern.lastGroups.empty() ? view(pattern.groupColumns, pattern.groupRows) : view(some.columns, some.rows);
   cholmod_factor* factor = cholmod_analyze_p(&groups, order.data(), nullptr, 0, &common.c);
   if (!factor) throw std::runtime_error("the sparse matrix could not be analysed (memory?)");
   SupernodeTree tree = expanded(*factor, pattern);

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <set>
+#include <vector>
 
 using namespace palp;
 using namespace palp::test;
@@ -124,6 +126,33 @@ TEST(Cholesky, GivesTheInverseBetweenItsLastGroups) {
     Eigen::VectorXd x = Eigen::VectorXd::Unit(pattern->size(), unknown(j));
     cholesky.solve(x);
     for (int i = 0; i < 15; ++i) EXPECT_NEAR(inverse(i, j), x(unknown(i)), 1e-5 * inverse(j, j));
+  }
+}
+
+// Without the neighbours of some groups the others fall into parts, which know of some of the last groups alone.
+TEST(Cholesky, LastGroupsAreLastWhereTheOthersFallIntoParts) {
+  const Tangent tangent(0.49);
+  auto pattern = std::make_shared<SparsePattern>(tangent.plan->pattern());
+  const std::vector<int> cutOff{40, 700, 300};
+  std::set<int> around;
+  for (int g = 0; g + 1 < static_cast<int>(pattern->groupColumns.size()); ++g)
+    for (int k = pattern->groupColumns[g]; k < pattern->groupColumns[g + 1]; ++k)
+      for (const int cut : cutOff) {
+        if (g == cut) around.insert(pattern->groupRows[k]);
+        if (pattern->groupRows[k] == cut) around.insert(g);
+      }
+  for (const int cut : cutOff) around.erase(cut);
+  pattern->lastGroups.assign(around.rbegin(), around.rend());
+  SparseCholesky cholesky(std::make_shared<const CholeskyPlan>(pattern));
+  ASSERT_EQ(cholesky.factorise(tangent.values, 2, {}), SparseCholesky::Outcome::Done);
+  const Eigen::MatrixXd inverse = cholesky.inverseOfLast();
+  ASSERT_EQ(inverse.rows(), static_cast<Eigen::Index>(3 * around.size()));
+  const auto unknown = [&](Eigen::Index i) { return pattern->groupStart[pattern->lastGroups[i / 3]] + i % 3; };
+  for (Eigen::Index j = 0; j < inverse.cols(); j += 11) {
+    Eigen::VectorXd x = Eigen::VectorXd::Unit(pattern->size(), unknown(j));
+    cholesky.solve(x);
+    for (Eigen::Index i = 0; i < inverse.rows(); ++i)
+      EXPECT_NEAR(inverse(i, j), x(unknown(i)), 1e-9 * inverse.cwiseAbs().maxCoeff());
   }
 }
 
