@@ -21,8 +21,8 @@ struct Kind {
 /// Measured on the paper's design and two cores: palp sample with 5 to 200 samples an area and 20 to 700 touches,
 /// twice, for a training and a test; under the field of a surrogate and of touches it is estimated.
 Kind kindOf(const SampleSettings& samples) {
-  if (!samples.touches) return samples.surrogate ? Kind{"surrogate", 9, 0.0005, 0.05} : Kind{"areas", 5, 0.007, 0.32};
-  return samples.touches->mostFriction > 0 ? Kind{"friction", 132, 0.15, 0.5} : Kind{"touches", 38, 0.05, 0.5};
+  if (!samples.touches) return samples.surrogate ? Kind{"surrogate", 9, 0.0005, 0.005} : Kind{"areas", 5, 0.007, 0.32};
+  return samples.touches->mostFriction > 0 ? Kind{"friction", 36, 0.128, 0.5} : Kind{"touches", 17.5, 0.0235, 0.5};
 }
 
 double shipped_s(const SampleSettings& samples, const SensorDesign& design) {
