@@ -4,6 +4,7 @@
 #include "model/base/Parallel.h"
 #include "model/base/Text.h"
 #include "solver/element/ElementGeometry.h"
+#include "solver/field/TetRule.h"
 #include "solver/linear/Front.h"
 
 #include <Eigen/Dense>
@@ -26,16 +27,9 @@ double reach_mm(const FieldMesh& mesh, const Eigen::Vector3d& b) {
   return kReachInEdges * std::sqrt(4 / std::sqrt(3.) * area / static_cast<double>(mesh.faces().cols()));
 }
 
-/// Gradients of the barycentric coordinates by the last three of them.
-TetGeometry unitTet() {
-  TetGeometry unit;
-  unit.gradients << -1, 1, 0, 0, -1, 0, 1, 0, -1, 0, 0, 1;
-  return unit;
-}
-
 /// Gradients in space of the shape functions in a deformed element.
 Eigen::Matrix<double, 3, 10> gradientsIn(const Eigen::Matrix<double, 3, 10>& nodes, const Eigen::Vector4d& l) {
-  const Eigen::Matrix<double, 3, 10> local = tetShapeGradients(unitTet(), l);
+  const Eigen::Matrix<double, 3, 10> local = tetLocalGradients(l).transpose();
   return (local * nodes.transpose()).inverse() * local;
 }
 
@@ -43,7 +37,7 @@ Eigen::Matrix<double, 3, 10> gradientsIn(const Eigen::Matrix<double, 3, 10>& nod
 Eigen::Vector4d barycentricIn(const Eigen::Matrix<double, 3, 10>& nodes, const Eigen::Vector3d& point,
                               Eigen::Vector4d l) {
   for (int iteration = 0; iteration < 8; ++iteration) {
-    const Eigen::Matrix3d map = nodes * tetShapeGradients(unitTet(), l).transpose();
+    const Eigen::Matrix3d map = nodes * tetLocalGradients(l);
     const Eigen::Vector3d change = map.inverse() * (point - nodes * tetShapes(l));
     l.tail<3>() += change;
     l(0) -= change.sum();

@@ -1,6 +1,7 @@
 #include "solver/field/UnevenConductivity.h"
 
 #include "model/base/Parallel.h"
+#include "solver/element/ElementGeometry.h"
 #include "solver/element/LaneKernels.h"
 #include "solver/field/TetRule.h"
 #include "solver/linear/Front.h"
@@ -14,12 +15,6 @@
 
 namespace palp {
 
-namespace {
-
-constexpr int kRulePoints = TetRule::points;
-
-} // namespace
-
 UnevenConductivity::UnevenConductivity(const FieldMesh& mesh, const Eigen::Matrix3Xd& nodes_mm,
                                        const Conductivity& conductivity, int threads)
     : mesh_(&mesh) {
@@ -29,32 +24,39 @@ UnevenConductivity::UnevenConductivity(const FieldMesh& mesh, const Eigen::Matri
   };
   for (int e = 0; e < mesh.elements(); ++e)
     if ((pressuresOf(e).array() > 0).any()) elements_.push_back(e);
-  at_.resize(static_cast<Eigen::Index>(elements_.size()) * kRulePoints, 6);
+  // The slope of l jumps where the pressure changes its sign. What a rule that steps over the jump leaves is the same
+  // share of all sources' products, those of electrodes that others screen from one another too.
+  std::vector<std::vector<TetPoint>> points(elements_.size());
+  inParallel(elements_.size(), threads,
+             [&](std::size_t i) { points[i] = tetPointsBesideKink(pressuresOf(elements_[i])); });
+  first_.push_back(0);
+  for (const auto& own : points) first_.push_back(first_.back() + static_cast<Eigen::Index>(own.size()));
+  at_.resize(first_.back(), 6);
   spans_mm_.resize(elements_.size());
   squareSlopes_.resize(at_.rows());
   shapes_.resize(10, squareSlopes_.size());
   gradients_.resize(10, squareSlopes_.size());
-  const TetRule& rule = tetRule();
   inParallel(elements_.size(), threads, [&](std::size_t i) {
     const auto own = nodes.col(elements_[i]);
     const Eigen::Matrix<double, 3, 10> places = nodes_mm(Eigen::all, own);
     const Eigen::Matrix<double, 10, 1> pressures = pressuresOf(elements_[i]);
-    for (int q = 0; q < kRulePoints; ++q) {
-      const Eigen::Index point = Eigen::Index(i) * kRulePoints + q;
-      const Eigen::Matrix<double, 10, 3>& local = rule.gradients[std::size_t(q)];
+    for (std::size_t q = 0; q < points[i].size(); ++q) {
+      const Eigen::Index point = first_[i] + static_cast<Eigen::Index>(q);
+      const Eigen::Matrix<double, 10, 1> shapes = tetShapes(points[i][q].barycentric);
+      const Eigen::Matrix<double, 10, 3> local = tetLocalGradients(points[i][q].barycentric);
       const Eigen::Matrix3d map = places * local;
-      const double volume = rule.weights[std::size_t(q)] * map.determinant() / 6;
-      at_.row(point).head<3>() = (places * rule.shapes.col(q)).transpose();
+      const double volume = points[i][q].weight * map.determinant() / 6;
+      at_.row(point).head<3>() = (places * shapes).transpose();
       const Eigen::Matrix<double, 10, 3> gradients = local * map.inverse();
-      const double p = rule.shapes.col(q).dot(pressures), m = std::exp(conductivity.half(p));
+      const double p = shapes.dot(pressures), m = std::exp(conductivity.half(p));
       const Eigen::Vector3d slope = conductivity.halfByPressure(p) * (gradients.transpose() * pressures);
       at_.row(point).tail<3>() = volume * slope.transpose();
       squareSlopes_(point) = static_cast<float>(volume * slope.squaredNorm() / 2);
-      shapes_.col(point) = (m * rule.shapes.col(q)).cast<float>();
+      shapes_.col(point) = (m * shapes).cast<float>();
       gradients_.col(point) = (m * volume * (gradients * slope)).cast<float>();
     }
-    const auto points = at_.leftCols<3>().middleRows<kRulePoints>(Eigen::Index(i) * kRulePoints);
-    spans_mm_[i] = (points.rowwise() - points.row(0)).rowwise().norm().maxCoeff();
+    const auto all = at_.leftCols<3>().middleRows(first_[i], first_[i + 1] - first_[i]);
+    spans_mm_[i] = (all.rowwise() - all.row(0)).rowwise().norm().maxCoeff();
   });
 }
 
@@ -64,8 +66,8 @@ UnevenConductivity::UnevenConductivity(const FieldMesh& mesh, const Eigen::Matri
 void UnevenConductivity::addElements(int first, int count, const std::vector<Eigen::Matrix3Xd>& sources_mm,
                                      float* onElements, Eigen::MatrixXd& products) const {
   const auto sources = static_cast<int>(sources_mm.size());
-  const Eigen::Index from = Eigen::Index(first) * kRulePoints;
-  const int points = count * kRulePoints;
+  const Eigen::Index from = first_[std::size_t(first)];
+  const auto points = static_cast<int>(first_[std::size_t(first + count)] - from);
   Eigen::MatrixXf potentials(points, sources), slopes(points, sources);
   Eigen::VectorXd potential(points), slope(points);
   const auto part = [&](Eigen::Index k) { return at_.col(k).data() + from; };
@@ -80,9 +82,10 @@ void UnevenConductivity::addElements(int first, int count, const std::vector<Eig
     slopes.col(q) = (slope / kFourPi).cast<float>();
   }
   for (int e = 0; e < count; ++e) {
-    const Eigen::Index own = Eigen::Index(e) * kRulePoints;
+    const Eigen::Index own = first_[std::size_t(first + e)] - from;
+    const auto some = static_cast<int>(pointsOf(first + e));
     const auto add = [&](const Eigen::MatrixXf& factors, const Eigen::MatrixXf& fields, float old) {
-      cblas_sgemm(CblasColMajor, CblasTrans, CblasTrans, sources, 10, kRulePoints, 1, fields.data() + own, points,
+      cblas_sgemm(CblasColMajor, CblasTrans, CblasTrans, sources, 10, some, 1, fields.data() + own, points,
                   factors.col(from + own).data(), 10, old, onElements + std::size_t(e) * 10 * std::size_t(sources),
                   sources);
     };
@@ -91,29 +94,28 @@ void UnevenConductivity::addElements(int first, int count, const std::vector<Eig
   }
   for (int q = 0; q < sources; ++q)
     slopes.col(q).array() -= squareSlopes_.segment(from, points).array() * potentials.col(q).array();
-  Eigen::MatrixXf some(sources, sources);
+  Eigen::MatrixXf gained(sources, sources);
   cblas_ssyr2k(CblasColMajor, CblasUpper, CblasTrans, sources, points, 1, potentials.data(), points, slopes.data(),
-               points, 0, some.data(), sources);
-  for (int q = 0; q < sources; ++q) products.col(q).head(q + 1) += some.col(q).head(q + 1).cast<double>();
+               points, 0, gained.data(), sources);
+  for (int q = 0; q < sources; ++q) products.col(q).head(q + 1) += gained.col(q).head(q + 1).cast<double>();
 }
 
 /// What the quadrature makes of the integrals of grad l . grad(s) chi and grad l . grad(s^2) chi as AtElectrode has
 /// them: poles of second and third order, too steep for it.
 UnevenConductivity::Poles UnevenConductivity::poles(const Eigen::Vector3d& centre_mm, double reach_mm) const {
   Poles sums;
-  for (Eigen::Index i = 0; i < at_.rows(); ++i) {
-    const Eigen::Vector3d d = at_.row(i).head<3>().transpose() - centre_mm;
-    const double square = d.squaredNorm();
-    if (square >= reach_mm * reach_mm) {
-      if (i % kRulePoints == 0 && std::sqrt(square) >= reach_mm + spans_mm_[std::size_t(i / kRulePoints)])
-        i += kRulePoints - 1; // the whole element is out of reach
-      continue;
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    if ((at_.row(first_[e]).head<3>().transpose() - centre_mm).norm() >= reach_mm + spans_mm_[e]) continue;
+    for (Eigen::Index i = first_[e]; i < first_[e + 1]; ++i) {
+      const Eigen::Vector3d d = at_.row(i).head<3>().transpose() - centre_mm;
+      const double square = d.squaredNorm();
+      if (square >= reach_mm * reach_mm) continue;
+      const double s = 1 / (kFourPi * std::sqrt(square));
+      const double simple =
+          -AtElectrode::cutOff(square / (reach_mm * reach_mm)) * s * at_.row(i).tail<3>().dot(d) / square;
+      sums.simple += simple;
+      sums.square += 2 * s * simple;
     }
-    const double s = 1 / (kFourPi * std::sqrt(square));
-    const double simple =
-        -AtElectrode::cutOff(square / (reach_mm * reach_mm)) * s * at_.row(i).tail<3>().dot(d) / square;
-    sums.simple += simple;
-    sums.square += 2 * s * simple;
   }
   return sums;
 }
