@@ -54,7 +54,7 @@ void addPiece(const Corners& corners, std::vector<TetPoint>& points) {
   Eigen::Matrix4d all;
   for (int k = 0; k < 4; ++k) all.col(k) = corners[std::size_t(k)];
   const double share = std::abs(all.determinant()); // of coordinates whose sum is 1: volumes' quotient
-  if (share < 1e-12) return; // flat: the function is 0 at a corner
+  if (share < 1e-12) return;                        // flat: the function is 0 at a corner
   for (const Eigen::Vector4d& corner : corners)
     points.push_back({near * all.rowwise().sum() + (far - near) * corner, share / 4});
 }
