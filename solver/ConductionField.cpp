@@ -8,6 +8,7 @@
 #include <Eigen/Dense>
 
 #include <mutex>
+#include <string>
 
 namespace palp {
 
@@ -81,6 +82,15 @@ private:
 ConductionField::ConductionField(HyperelasticProblem problem) : state_(std::make_unique<State>(std::move(problem))) {}
 ConductionField::~ConductionField() = default;
 
+void ConductionField::requirePositive(const TerminalNetwork& network, Readout readout) {
+  const Eigen::MatrixXd resistances_ohm = NetworkReading(network, readout).resistances_ohm();
+  const Eigen::Index wrong = (!(resistances_ohm.array() > 0)).count();
+  if (wrong > 0)
+    throw DesignError("resistance.pressure_law: " + std::to_string(wrong) + " of " +
+                      std::to_string(resistances_ohm.size()) + " resistances (" + kReadouts.name(readout) +
+                      ") come out as 0 or below; allowed is a law that varies the conductivity less under this load");
+}
+
 std::optional<TerminalNetwork> ConductionField::network(const LoadIncrement& state, int threads,
                                                         const std::stop_token& stop) const {
   return network(state, state_->problem.electrodes(state), threads, stop);
@@ -91,7 +101,9 @@ std::optional<TerminalNetwork> ConductionField::network(const LoadIncrement& sta
                                                         const std::stop_token& stop) const {
   const auto potentials = state_->potentials(state_->places(state, electrodes), threads, stop);
   if (!potentials) return {};
-  return TerminalNetwork(*potentials, wireCounts(state_->problem.design()), state_->law.wire_ohm);
+  TerminalNetwork network(*potentials, wireCounts(state_->problem.design()), state_->law.wire_ohm);
+  if (state_->problem.design().pressureLaw) requirePositive(network, state_->law.readout);
+  return network;
 }
 
 std::optional<CurrentField> ConductionField::current(const LoadIncrement& state, const TerminalNetwork& network,

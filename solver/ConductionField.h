@@ -28,12 +28,16 @@ struct CurrentField {
 /// P_mesh(rest), with what no current sees taken off, is divided by m_p m_q. Threads may share it.
 class ConductionField {
 public:
+  /// Throws DesignError unless all resistances are above 0: a pressure law may vary the conductivity more than the mesh
+  /// bears, and currents that other wires screen then have the wrong sign.
+  static void requirePositive(const TerminalNetwork& network, Readout readout);
+
   /// Throws DesignError where the design has another law.
   explicit ConductionField(HyperelasticProblem problem);
   ~ConductionField();
 
-  /// None: stopped. Throws DesignError where the load turns elements inside out. The same bytes at any number of
-  /// threads (0: all cores).
+  /// None: stopped. Throws DesignError where the load turns elements inside out, or as requirePositive for the
+  /// design's read-out under a pressure law. The same bytes at any number of threads (0: all cores).
   [[nodiscard]] std::optional<TerminalNetwork> network(const LoadIncrement& state, int threads = 0,
                                                        const std::stop_token& stop = {}) const;
   /// The same where the electrodes' displacements are known; the elements' unknowns matter under a pressure law alone.

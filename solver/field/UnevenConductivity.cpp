@@ -83,7 +83,7 @@ void UnevenConductivity::addElements(int first, int count, const std::vector<Eig
   }
   for (int e = 0; e < count; ++e) {
     const Eigen::Index own = first_[std::size_t(first + e)] - from;
-    const auto some = static_cast<int>(pointsOf(first + e));
+    const auto some = static_cast<int>(first_[std::size_t(first + e) + 1] - from - own);
     const auto add = [&](const Eigen::MatrixXf& factors, const Eigen::MatrixXf& fields, float old) {
       cblas_sgemm(CblasColMajor, CblasTrans, CblasTrans, sources, 10, some, 1, fields.data() + own, points,
                   factors.col(from + own).data(), 10, old, onElements + std::size_t(e) * 10 * std::size_t(sources),

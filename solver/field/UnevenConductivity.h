@@ -37,11 +37,6 @@ private:
   [[nodiscard]] Poles poles(const Eigen::Vector3d& centre_mm, double reach_mm) const;
 
   const FieldMesh* mesh_;
-  [[nodiscard]] int elements() const { return static_cast<int>(elements_.size()); }
-  [[nodiscard]] Eigen::Index pointsOf(int element) const {
-    return first_[std::size_t(element) + 1] - first_[std::size_t(element)];
-  }
-
   std::vector<int> elements_;                   ///< those in which k is not 1
   std::vector<Eigen::Index> first_;             ///< of each of their points, and one more
   Eigen::Matrix<double, Eigen::Dynamic, 6> at_; ///< their points x (place, volume times grad l)

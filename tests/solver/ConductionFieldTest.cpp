@@ -137,6 +137,20 @@ TEST(ConductionField, AnEvenPressureScalesAllResistances) {
   }
 }
 
+/// Conductances in which current flows against the potential from one row-wire to the column-wire: no rubber has them.
+TEST(ConductionField, ResistancesThatAreNotPositiveAreRefused) {
+  const Eigen::Matrix3d conductances{{2, -3, 1}, {-3, 5, -2}, {1, -2, 1}};
+  const Eigen::Matrix3d potentials = (conductances + Eigen::Matrix3d::Ones()).inverse();
+  const TerminalNetwork network(potentials, {2, 1, 1, 1}, 0);
+  EXPECT_NO_THROW(ConductionField::requirePositive(network, Readout::Floating));
+  try {
+    ConductionField::requirePositive(network, Readout::VirtualGround);
+    FAIL() << "refused";
+  } catch (const DesignError& error) {
+    EXPECT_NE(std::string(error.what()).find("1 of 2 resistances (virtual_ground)"), std::string::npos) << error.what();
+  }
+}
+
 TEST(ConductionField, UnderAPressureLawAFinerMeshSaysTheSame) {
   const SensorDesign design = piezoresistive();
   const HyperelasticProblem coarse(design, sensorMesh(design));

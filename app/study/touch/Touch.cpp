@@ -121,6 +121,8 @@ void Touch::findNetwork(const NewtonOptions& options, const NewtonObserver& obse
     });
     if (!network) throw Cancelled();
     network_ = std::make_shared<const TerminalNetwork>(std::move(*network));
+  } else if (design_.pressureLaw) {
+    ConductionField::requirePositive(*network_, design_.field()->readout); // another read-out of it
   }
   resistances_ =
       std::make_shared<const Eigen::MatrixXd>(NetworkReading(*network_, design_.field()->readout).resistances_ohm());
