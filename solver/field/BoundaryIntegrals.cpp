@@ -55,7 +55,7 @@ struct BoundaryIntegrals::Room {
 };
 
 BoundaryIntegrals::BoundaryIntegrals(const FieldMesh& mesh, const Eigen::Matrix3Xd& electrodes_mm)
-    : mesh_(&mesh), faces_(mesh.faces()(Eigen::all, orderOf(mesh))), all_(std::size_t(mesh.nodes())) {
+    : mesh_(&mesh), faces_(mesh.faces()(Eigen::all, orderOf(mesh))), all_(std::size_t(mesh.nodes() + mesh.corners())) {
   std::iota(all_.begin(), all_.end(), 0);
   boundary_.assign(faces_.data(), faces_.data() + faces_.size());
   std::sort(boundary_.begin(), boundary_.end());
@@ -156,23 +156,27 @@ BoundaryIntegrals::Result BoundaryIntegrals::at(const Eigen::Matrix3Xd& nodes_mm
   const BoundaryQuadrature boundary(faces_, nodes_mm);
   const auto nodes = static_cast<Eigen::Index>(boundary_.size());
   Result result{SourceRows::Zero(nodes, count), potentials(nodes_mm, sources_mm, threads), {}};
-  SourceRows weighted = SourceRows::Zero(uneven ? nodes : 0, count); // by m
+  SourceRows weighted = SourceRows::Zero(uneven ? 2 * nodes : 0, count); // by m; then of the corners' functions
   std::vector<Eigen::MatrixXd> products(kParts);
   std::vector<SourceRows> shared(kParts), sharedWeighted(kParts);
   forChunks(kParts, 1, threads, [&](int p, int) {
     const Part& part = parts_[std::size_t(p)];
     products[std::size_t(p)] = Eigen::MatrixXd::Zero(count, count);
     shared[std::size_t(p)] = SourceRows::Zero(Eigen::Index(part.shared.size()), count);
-    if (uneven) sharedWeighted[std::size_t(p)] = shared[std::size_t(p)];
+    if (uneven) sharedWeighted[std::size_t(p)] = SourceRows::Zero(2 * Eigen::Index(part.shared.size()), count);
     Room room(count);
     UnsetArray<double> unused(kPiecePoints);
-    SourceRows onFaces(6 * kFacesAPiece, count), onFacesWeighted = onFaces;
-    Eigen::Matrix<double, kFacePoints, kFacesAPiece> roots; // m
+    SourceRows onFaces(6 * kFacesAPiece, count), onFacesWeighted = onFaces, onCorners(3 * kFacesAPiece, count);
+    Eigen::Matrix<double, kFacePoints, kFacesAPiece> roots, left; // m, I(1/m) - 1/m
     for (const Piece& piece : part.pieces) {
       if (stop.stop_requested()) return;
-      for (int f = 0; f < piece.count && uneven; ++f)
-        roots.col(f) = BoundaryQuadrature::atPoints(conductivity.pressures_MPa(faces_.col(piece.first + f)))
-                           .unaryExpr([&](double pressure) { return std::exp(conductivity.half(pressure)); });
+      for (int f = 0; f < piece.count && uneven; ++f) {
+        const auto root = [&](double pressure) { return std::exp(conductivity.half(pressure)); };
+        const Eigen::Matrix<double, 6, 1> pressures = conductivity.pressures_MPa(faces_.col(piece.first + f));
+        roots.col(f) = BoundaryQuadrature::atPoints(pressures).unaryExpr(root);
+        left.col(f) =
+            BoundaryQuadrature::atPoints(pressures.unaryExpr(root).cwiseInverse()) - roots.col(f).cwiseInverse();
+      }
       auto next = piece.near.begin();
       for (int q = 0; q < count; ++q) {
         double* flux = room.flux.data() + std::size_t(q) * kPiecePoints;
@@ -184,10 +188,12 @@ BoundaryIntegrals::Result BoundaryIntegrals::at(const Eigen::Matrix3Xd& nodes_mm
           const Eigen::Index row = 6 * Eigen::Index(f);
           onFaces.col(q).segment<6>(row) = BoundaryQuadrature::onShapes(flux + f * kFacePoints);
           if (!uneven) continue;
-          const Eigen::Matrix<double, kFacePoints, 1> own =
+          Eigen::Matrix<double, kFacePoints, 1> own =
               Eigen::Map<const Eigen::Matrix<double, kFacePoints, 1>>(flux + f * kFacePoints)
                   .cwiseProduct(roots.col(f));
           onFacesWeighted.col(q).segment<6>(row) = BoundaryQuadrature::onShapes(own.data());
+          own.array() *= left.col(f).array();
+          onCorners.col(q).segment<3>(3 * Eigen::Index(f)) = BoundaryQuadrature::onCorners(own.data());
         }
       }
       const auto subtract = [&](const SourceRows& from, SourceRows& rows, SourceRows& apart) {
@@ -200,6 +206,13 @@ BoundaryIntegrals::Result BoundaryIntegrals::at(const Eigen::Matrix3Xd& nodes_mm
       };
       subtract(onFaces, result.right, shared[std::size_t(p)]);
       if (uneven) subtract(onFacesWeighted, weighted, sharedWeighted[std::size_t(p)]);
+      for (int f = 0; f < piece.count && uneven; ++f)
+        for (int corner = 0; corner < 3; ++corner) {
+          const int place = places_(corner, piece.first + f);
+          auto row = place < 0 ? sharedWeighted[std::size_t(p)].row(Eigen::Index(part.shared.size()) - 1 - place)
+                               : weighted.row(nodes + place);
+          row -= onCorners.row(3 * Eigen::Index(f) + corner);
+        }
       addProducts(piece, result.potentials, room, products[std::size_t(p)]);
     }
   });
@@ -209,7 +222,9 @@ BoundaryIntegrals::Result BoundaryIntegrals::at(const Eigen::Matrix3Xd& nodes_mm
     result.products += products[p];
     for (std::size_t i = 0; i < parts_[p].shared.size(); ++i) {
       result.right.row(parts_[p].shared[i]) += shared[p].row(Eigen::Index(i));
-      if (uneven) weighted.row(parts_[p].shared[i]) += sharedWeighted[p].row(Eigen::Index(i));
+      if (!uneven) continue;
+      weighted.row(parts_[p].shared[i]) += sharedWeighted[p].row(Eigen::Index(i));
+      weighted.row(nodes + parts_[p].shared[i]) += sharedWeighted[p].row(Eigen::Index(parts_[p].shared.size() + i));
     }
   }
   if (!uneven) return result;
@@ -220,8 +235,12 @@ BoundaryIntegrals::Result BoundaryIntegrals::at(const Eigen::Matrix3Xd& nodes_mm
                 result.products.col(first).data(), count);
   });
   result.potentials.resize(0, 0);
-  result.right = SourceRows::Zero(mesh_->nodes(), count);
-  for (Eigen::Index i = 0; i < nodes; ++i) result.right.row(boundary_[std::size_t(i)]) = weighted.row(i);
+  result.right = SourceRows::Zero(Eigen::Index(all_.size()), count);
+  for (Eigen::Index i = 0; i < nodes; ++i) {
+    const int node = boundary_[std::size_t(i)];
+    result.right.row(node) = weighted.row(i);
+    if (node < mesh_->corners()) result.right.row(mesh_->nodes() + node) = weighted.row(nodes + i);
+  }
   return result;
 }
 

@@ -18,15 +18,17 @@ public:
   BoundaryIntegrals(const FieldMesh& mesh, const Eigen::Matrix3Xd& electrodes_mm);
 
   struct Result {
-    SourceRows right;         ///< - oint m s_q,n N_a, m that of UnevenConductivity or 1; nodes() x electrodes
-    SourceRows potentials;    ///< s_p at nodes() for k = 1, where oint I s_p s_q,n is still to come; else none
+    SourceRows right; ///< - oint m s_q,n N_a, m that of UnevenConductivity or 1; rows() x electrodes
+    SourceRows
+        potentials; ///< s_p at the boundary's nodes for k = 1, where oint I s_p s_q,n is still to come; else none
     Eigen::MatrixXd products; ///< - oint (s_p - I s_p) s_q,n, or - oint s_p s_q,n; for p <= q by whole batches
   };
   /// The same bytes at any number of threads.
   [[nodiscard]] Result at(const Eigen::Matrix3Xd& nodes_mm, const std::vector<Eigen::Matrix3Xd>& sources_mm,
                           const Conductivity& conductivity, int threads, const std::stop_token& stop) const;
-  /// Those that the rows of `right` belong to, ascending: those of the boundary, or all where k varies.
-  [[nodiscard]] const std::vector<int>& nodes(const Conductivity& conductivity) const {
+  /// Of the functions (FieldFunctions) that the rows of `right` belong to, ascending: those of the boundary's nodes, or
+  /// all where k varies.
+  [[nodiscard]] const std::vector<int>& rows(const Conductivity& conductivity) const {
     return conductivity.uneven() ? all_ : boundary_;
   }
 

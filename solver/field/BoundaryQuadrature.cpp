@@ -102,6 +102,12 @@ Eigen::Matrix<double, 6, 1> BoundaryQuadrature::onShapes(const double* points) {
   return sums.head<6>();
 }
 
+Eigen::Matrix<double, 3, 1> BoundaryQuadrature::onCorners(const double* points) {
+  const Eigen::Matrix<double, 6, 1> shapes = onShapes(points);
+  const auto middles = shapes.tail<3>();
+  return shapes.head<3>() + 0.5 * (middles + Eigen::Vector3d(middles(2), middles(0), middles(1)));
+}
+
 Eigen::Matrix<double, kPoints, 1> BoundaryQuadrature::atPoints(const Eigen::Matrix<double, 6, 1>& nodes) {
   return triangleRule().shapes.transpose() * nodes;
 }

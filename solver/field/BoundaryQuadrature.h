@@ -17,6 +17,8 @@ public:
   void sources(const Eigen::Matrix3Xd& sources_mm, int first, int count, double* potential, double* flux) const;
   /// Integrals of a face's six shape functions with what stands at its points, areas included.
   [[nodiscard]] static Eigen::Matrix<double, 6, 1> onShapes(const double* points);
+  /// The same with its three barycentric coordinates.
+  [[nodiscard]] static Eigen::Matrix<double, 3, 1> onCorners(const double* points);
   /// At a face's points, what is quadratic in its six nodes' values.
   [[nodiscard]] static Eigen::Matrix<double, pointsAFace, 1> atPoints(const Eigen::Matrix<double, 6, 1>& nodes);
 

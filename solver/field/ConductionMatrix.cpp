@@ -12,22 +12,44 @@ namespace palp {
 
 namespace {
 
-constexpr int kPairs = 55; // of an element's ten nodes
 constexpr int kElementsAChunk = 256;
+
+constexpr std::size_t pairs(int functions) {
+  return std::size_t(functions) * std::size_t(functions + 1) / 2;
+}
+
+using Stiffness = Eigen::Matrix<double, FieldFunctions::most, FieldFunctions::most>;
+using Volumes = Eigen::Matrix<double, FieldFunctions::most, 1>;
 
 } // namespace
 
-ConductionMatrix::ConductionMatrix(const FieldMesh& mesh) : mesh_(&mesh) {
-  const Eigen::MatrixXi& elements = mesh.tets().elements;
-  const int unknowns = mesh.nodes() - 1;
+ConductionMatrix::ConductionMatrix(const FieldMesh& mesh) : mesh_(&mesh), even_(numbering(10)) {}
+
+const ConductionMatrix::Numbering& ConductionMatrix::numberingOf(const Conductivity& conductivity) const {
+  if (!conductivity.uneven()) return even_;
+  std::call_once(unevenFound_, [&] { uneven_ = numbering(FieldFunctions::most); });
+  return uneven_;
+}
+
+const std::shared_ptr<const CholeskyPlan>& ConductionMatrix::plan(const Conductivity& conductivity) const {
+  return numberingOf(conductivity).plan;
+}
+
+ConductionMatrix::Numbering ConductionMatrix::numbering(int functions) const {
+  const Eigen::MatrixXi& elements = mesh_->tets().elements;
+  Numbering result{functions, mesh_->nodes() + (functions == 10 ? 0 : mesh_->corners())};
+  const int unknowns = result.rows - 1;
+  const auto rowOf = [&](int function, int e) { return FieldFunctions::row(*mesh_, function, e); };
   std::vector<std::vector<int>> below(static_cast<std::size_t>(unknowns));
-  for (Eigen::Index e = 0; e < elements.cols(); ++e)
-    for (int a = 0; a < 10; ++a)
-      for (int b = 0; b < 10; ++b)
-        if (elements(a, e) > 0 && elements(b, e) >= elements(a, e))
-          below[static_cast<std::size_t>(elements(a, e) - 1)].push_back(elements(b, e) - 1);
+  for (int e = 0; e < mesh_->elements(); ++e)
+    for (int a = 0; a < functions; ++a)
+      for (int b = 0; b < functions; ++b)
+        if (const int low = rowOf(a, e), high = rowOf(b, e); low > 0 && high >= low)
+          below[static_cast<std::size_t>(low - 1)].push_back(high - 1);
   auto pattern = std::make_shared<SparsePattern>();
-  pattern->groupPositions_mm = mesh.tets().nodes_mm.rightCols(unknowns);
+  const Eigen::Matrix3Xd& nodes_mm = mesh_->tets().nodes_mm;
+  pattern->groupPositions_mm.resize(3, unknowns);
+  pattern->groupPositions_mm << nodes_mm.rightCols(mesh_->nodes() - 1), nodes_mm.leftCols(result.rows - mesh_->nodes());
   pattern->groupColumns = {0};
   pattern->groupStart.push_back(0);
   for (int i = 0; i < unknowns; ++i) {
@@ -40,55 +62,76 @@ ConductionMatrix::ConductionMatrix(const FieldMesh& mesh) : mesh_(&mesh) {
   }
   pattern->columns = pattern->groupColumns;
   pattern->rows = pattern->groupRows;
-  entries_.assign(static_cast<std::size_t>(elements.cols()) * kPairs, -1);
+  result.entries.assign(static_cast<std::size_t>(elements.cols()) * pairs(functions), -1);
   std::size_t at = 0;
-  for (Eigen::Index e = 0; e < elements.cols(); ++e)
-    for (int a = 0; a < 10; ++a)
+  for (int e = 0; e < mesh_->elements(); ++e)
+    for (int a = 0; a < functions; ++a)
       for (int b = 0; b <= a; ++b, ++at) {
-        const auto [low, high] = std::minmax(elements(a, e), elements(b, e));
+        const auto [low, high] = std::minmax({rowOf(a, e), rowOf(b, e)});
         if (low == 0) continue;
         const auto first = pattern->rows.begin() + pattern->columns[static_cast<std::size_t>(low - 1)];
         const auto last = pattern->rows.begin() + pattern->columns[static_cast<std::size_t>(low)];
-        entries_[at] = static_cast<int>(std::lower_bound(first, last, high - 1) - pattern->rows.begin());
+        result.entries[at] = static_cast<int>(std::lower_bound(first, last, high - 1) - pattern->rows.begin());
       }
-  plan_ = std::make_shared<const CholeskyPlan>(std::move(pattern));
+  result.plan = std::make_shared<const CholeskyPlan>(std::move(pattern));
+  return result;
 }
 
-ConductionMatrix::Values ConductionMatrix::at(const Eigen::Matrix3Xd& nodes_mm, const Conductivity& conductivity,
+ConductionMatrix::Values ConductionMatrix::at(const Eigen::Matrix3Xd& nodes_mm, const FieldFunctions& functions,
                                               int threads) const {
   const TetRule& rule = tetRule();
+  const Conductivity& conductivity = functions.conductivity();
+  const Numbering& numbering = numberingOf(conductivity);
   const Eigen::MatrixXi& elements = mesh_->tets().elements;
-  const bool uneven = conductivity.uneven();
-  UnsetArray<double> own(entries_.size()), load(10 * static_cast<std::size_t>(elements.cols()));
+  const auto most = static_cast<std::size_t>(numbering.functions);
+  UnsetArray<double> own(numbering.entries.size()), load(most * static_cast<std::size_t>(elements.cols()));
   forChunks(mesh_->elements(), kElementsAChunk, threads, [&](int begin, int end) {
     Eigen::Matrix<double, 3, 10> places;
-    Eigen::Matrix<double, 10, 1> atNodes = Eigen::Matrix<double, 10, 1>::Ones(); // pressures, or k = 1
     for (int e = begin; e < end; ++e) {
       for (int n = 0; n < 10; ++n) places.col(n) = nodes_mm.col(elements(n, e));
-      if (uneven)
-        for (int n = 0; n < 10; ++n) atNodes(n) = conductivity.pressures_MPa(elements(n, e));
-      Eigen::Matrix<double, 10, 10> stiffness = Eigen::Matrix<double, 10, 10>::Zero();
-      Eigen::Matrix<double, 10, 1> volumes = Eigen::Matrix<double, 10, 1>::Zero();
-      for (std::size_t q = 0; q < TetRule::points; ++q) {
-        const Eigen::Matrix3d map = places * rule.gradients[q];
-        const Eigen::Matrix<double, 10, 3> gradients = rule.gradients[q] * map.inverse();
-        const auto shapes = rule.shapes.col(static_cast<Eigen::Index>(q));
-        const double weight = rule.weights[q] * map.determinant() / 6;
-        const double between = shapes.dot(atNodes), k = uneven ? std::exp(2 * conductivity.half(between)) : between;
-        stiffness.noalias() += (weight * k) * (gradients * gradients.transpose());
-        volumes += weight * shapes;
+      Stiffness stiffness = Stiffness::Zero();
+      Volumes volumes = Volumes::Zero();
+      if (functions.count(e) == 10) {
+        Eigen::Matrix<double, 10, 1> atNodes = Eigen::Matrix<double, 10, 1>::Ones(); // pressures, or k = 1
+        if (conductivity.uneven()) atNodes = conductivity.pressures_MPa(elements.col(e));
+        for (std::size_t q = 0; q < TetRule::points; ++q) {
+          const Eigen::Matrix3d map = places * rule.gradients[q];
+          const Eigen::Matrix<double, 10, 3> gradients = rule.gradients[q] * map.inverse();
+          const auto shapes = rule.shapes.col(static_cast<Eigen::Index>(q));
+          const double weight = rule.weights[q] * map.determinant() / 6;
+          const double between = shapes.dot(atNodes);
+          const double k = conductivity.uneven() ? std::exp(2 * conductivity.half(between)) : between;
+          stiffness.topLeftCorner<10, 10>().noalias() += (weight * k) * (gradients * gradients.transpose());
+          volumes.head<10>() += weight * shapes;
+        }
+      } else {
+        const Eigen::Matrix<double, 10, 1> pressures = conductivity.pressures_MPa(elements.col(e));
+        for (const TetPoint& point : tetPointsBesideKink(pressures)) {
+          const FieldFunctions::Point at = functions.at(e, point.barycentric);
+          const Eigen::Matrix3d map = places * at.gradients.topRows<10>();
+          const Eigen::Matrix<double, FieldFunctions::most, 3> gradients = at.gradients * map.inverse();
+          const double weight = point.weight * map.determinant() / 6;
+          const double k = std::exp(2 * conductivity.half(at.values.head<10>().dot(pressures)));
+          stiffness.noalias() += (weight * k) * (gradients * gradients.transpose());
+          volumes += weight * at.values;
+        }
       }
-      double* out = own.data() + static_cast<std::size_t>(e) * kPairs;
-      for (int a = 0; a < 10; ++a)
+      double* out = own.data() + static_cast<std::size_t>(e) * pairs(numbering.functions);
+      for (int a = 0; a < numbering.functions; ++a)
         for (int b = 0; b <= a; ++b) *out++ = stiffness(a, b);
-      std::copy_n(volumes.data(), 10, load.data() + 10 * static_cast<std::size_t>(e));
+      std::copy_n(volumes.data(), most, load.data() + most * static_cast<std::size_t>(e));
     }
   });
-  Values values{LaneVector(plan_->pattern().rows.size()), Eigen::VectorXd::Zero(mesh_->nodes())};
-  for (std::size_t i = 0; i < entries_.size(); ++i)
-    if (entries_[i] >= 0) values.matrix[static_cast<std::size_t>(entries_[i])] += own.data()[i];
-  for (Eigen::Index e = 0; e < elements.cols(); ++e)
-    for (int n = 0; n < 10; ++n) values.volumes(elements(n, e)) += load.data()[10 * e + n];
+  Values values{LaneVector(numbering.plan->pattern().rows.size()), Eigen::VectorXd::Zero(numbering.rows)};
+  for (std::size_t i = 0; i < numbering.entries.size(); ++i)
+    if (numbering.entries[i] >= 0) values.matrix[static_cast<std::size_t>(numbering.entries[i])] += own.data()[i];
+  for (int e = 0; e < mesh_->elements(); ++e)
+    for (int n = 0; n < numbering.functions; ++n)
+      values.volumes(functions.row(n, e)) += load.data()[most * static_cast<std::size_t>(e) + std::size_t(n)];
+  for (int row = mesh_->nodes(); row < numbering.rows; ++row) { // functions that are 0
+    double& diagonal = values.matrix[static_cast<std::size_t>(numbering.plan->pattern().columns[std::size_t(row - 1)])];
+    if (diagonal == 0) diagonal = 1;
+  }
   return values;
 }
 

@@ -1,19 +1,20 @@
 #pragma once
 
-#include "solver/field/Conductivity.h"
+#include "solver/field/FieldFunctions.h"
 #include "solver/field/FieldMesh.h"
 #include "solver/linear/SparseCholesky.h"
 
 #include <Eigen/Core>
 
 #include <memory>
+#include <mutex>
 #include <vector>
 
 namespace palp {
 
-/// Matrix of div(k grad) on the deformed mesh with insulated faces: K_ab = integral k grad N_a . grad N_b. The
-/// pattern and the order of elimination are found once. Node 0 is held at potential 0, as the field leaves a constant
-/// open.
+/// Matrix of div(k grad) on the deformed mesh with insulated faces: K_ab = integral k grad N_a . grad N_b for all
+/// functions of FieldFunctions. The pattern and the order of elimination are found once, those with a varying k when
+/// they are first asked for. Node 0 is held at potential 0, as the field leaves a constant open.
 class ConductionMatrix {
 public:
   explicit ConductionMatrix(const FieldMesh& mesh);
@@ -23,14 +24,24 @@ public:
     LaneVector matrix;
     Eigen::VectorXd volumes; ///< integral N_a; their sum is the block's volume
   };
-  [[nodiscard]] Values at(const Eigen::Matrix3Xd& nodes_mm, const Conductivity& conductivity, int threads) const;
-
-  [[nodiscard]] const std::shared_ptr<const CholeskyPlan>& plan() const { return plan_; }
+  [[nodiscard]] Values at(const Eigen::Matrix3Xd& nodes_mm, const FieldFunctions& functions, int threads) const;
+  /// Of Values::matrix.
+  [[nodiscard]] const std::shared_ptr<const CholeskyPlan>& plan(const Conductivity& conductivity) const;
 
 private:
+  struct Numbering {
+    int functions = 0; ///< in each element
+    int rows = 0;
+    std::vector<int> entries{}; ///< [element][pair]: where each pair of functions stands in the values; -1: node 0's
+    std::shared_ptr<const CholeskyPlan> plan{};
+  };
+  [[nodiscard]] Numbering numbering(int functions) const;
+  [[nodiscard]] const Numbering& numberingOf(const Conductivity& conductivity) const;
+
   const FieldMesh* mesh_;
-  std::vector<int> entries_; ///< [element][55]: where each pair of nodes stands in the values; -1: node 0's
-  std::shared_ptr<const CholeskyPlan> plan_;
+  Numbering even_;
+  mutable std::once_flag unevenFound_;
+  mutable Numbering uneven_;
 };
 
 } // namespace palp

@@ -27,12 +27,6 @@ double reach_mm(const FieldMesh& mesh, const Eigen::Vector3d& b) {
   return kReachInEdges * std::sqrt(4 / std::sqrt(3.) * area / static_cast<double>(mesh.faces().cols()));
 }
 
-/// Gradients in space of the shape functions in a deformed element.
-Eigen::Matrix<double, 3, 10> gradientsIn(const Eigen::Matrix<double, 3, 10>& nodes, const Eigen::Vector4d& l) {
-  const Eigen::Matrix<double, 3, 10> local = tetLocalGradients(l).transpose();
-  return (local * nodes.transpose()).inverse() * local;
-}
-
 /// Barycentric coordinates of a point in a deformed element, by Newton's method from a first guess.
 Eigen::Vector4d barycentricIn(const Eigen::Matrix<double, 3, 10>& nodes, const Eigen::Vector3d& point,
                               Eigen::Vector4d l) {
@@ -49,6 +43,7 @@ Eigen::Vector4d barycentricIn(const Eigen::Matrix<double, 3, 10>& nodes, const E
 } // namespace
 
 struct DeformedGreen::System {
+  FieldFunctions functions;
   std::vector<Eigen::Matrix3Xd> sources;
   std::vector<double> reaches_mm;
   std::vector<AtElectrode> electrodes;
@@ -80,6 +75,15 @@ DeformedGreen::DeformedGreen(const Mesh& solverMesh, const Eigen::Vector3d& bloc
   }
 }
 
+/// Gradients in space of the functions at a place; those that the element has not are 0.
+Eigen::Matrix<double, 3, FieldFunctions::most>
+DeformedGreen::gradientsIn(const FieldFunctions& functions, const FieldState& state, const Place& place) const {
+  const FieldFunctions::Point there = functions.at(place.element, place.barycentric);
+  const Eigen::Matrix<double, 3, 10> nodes = state.nodes_mm(Eigen::all, mesh_.tets().elements.col(place.element));
+  const Eigen::Matrix<double, 3, FieldFunctions::most> local = there.gradients.transpose();
+  return (local.leftCols<10>() * nodes.transpose()).inverse() * local;
+}
+
 std::vector<std::vector<DeformedGreen::Place>> DeformedGreen::places(const FieldState& state) const {
   // Of barycentric coordinates: the rubber moves past electrodes that are held, and what is read of the elements that
   // held them at rest follows the load smoothly, where a change of elements would be a jump.
@@ -103,17 +107,17 @@ std::vector<std::vector<DeformedGreen::Place>> DeformedGreen::places(const Field
   return all;
 }
 
-Eigen::Matrix3Xd DeformedGreen::pressureSlopes(const FieldState& state) const {
+Eigen::Matrix3Xd DeformedGreen::pressureSlopes(const FieldState& state, const FieldFunctions& functions) const {
   Eigen::Matrix3Xd slopes = Eigen::Matrix3Xd::Zero(3, mesh_.nodes());
   if (!state.conductivity.uneven()) return slopes;
   Eigen::VectorXd around = Eigen::VectorXd::Zero(mesh_.nodes());
   for (int e = 0; e < mesh_.elements(); ++e) {
     const auto nodes = mesh_.tets().elements.col(e);
-    const Eigen::Matrix<double, 3, 10> at = state.nodes_mm(Eigen::all, nodes);
+    const Eigen::Matrix<double, 3, 4> at = state.nodes_mm(Eigen::all, nodes.head<4>());
     const Eigen::Matrix<double, 10, 1> pressures = state.conductivity.pressures_MPa(nodes);
-    const double volume = (at.middleCols<3>(1).colwise() - at.col(0)).determinant();
+    const double volume = (at.rightCols<3>().colwise() - at.col(0)).determinant();
     for (int n = 0; n < 10; ++n) {
-      slopes.col(nodes(n)) += volume * (gradientsIn(at, tetNode(n)) * pressures);
+      slopes.col(nodes(n)) += volume * (gradientsIn(functions, state, {e, tetNode(n)}).leftCols<10>() * pressures);
       around(nodes(n)) += volume;
     }
   }
@@ -131,14 +135,14 @@ std::vector<double> DeformedGreen::reaches_mm(const std::vector<Eigen::Matrix3Xd
   return all;
 }
 
-std::vector<AtElectrode> DeformedGreen::atElectrodes(const FieldState& state, const std::vector<double>& reaches_mm,
-                                                     int threads) const {
+std::vector<AtElectrode> DeformedGreen::atElectrodes(const FieldState& state, const FieldFunctions& functions,
+                                                     const std::vector<double>& reaches_mm, int threads) const {
   std::vector<AtElectrode> all(atRest_.size());
   if (!state.conductivity.uneven()) return all;
   const std::vector<std::vector<Place>> where = places(state);
   inParallel(all.size(), threads, [&](std::size_t p) {
     const Place& place = where[p].front();
-    all[p] = means_.around(state.nodes_mm, state.conductivity,
+    all[p] = means_.around(state.nodes_mm, functions,
                            {place.element, place.barycentric, state.electrodes_mm.col(static_cast<Eigen::Index>(p)),
                             state.radius_mm, reaches_mm[p]});
   });
@@ -147,7 +151,8 @@ std::vector<AtElectrode> DeformedGreen::atElectrodes(const FieldState& state, co
 
 Eigen::VectorXd DeformedGreen::conductivities(const FieldState& state) const {
   const std::vector<AtElectrode> at =
-      atElectrodes(state, std::vector<double>(atRest_.size(), state.radius_mm), 1); // no further than their spheres
+      atElectrodes(state, FieldFunctions(mesh_, state.conductivity, 1),
+                   std::vector<double>(atRest_.size(), state.radius_mm), 1); // no further than their spheres
   Eigen::VectorXd k(static_cast<Eigen::Index>(at.size()));
   for (std::size_t p = 0; p < at.size(); ++p) k(static_cast<Eigen::Index>(p)) = std::exp(2 * at[p].value);
   return k;
@@ -156,9 +161,10 @@ Eigen::VectorXd DeformedGreen::conductivities(const FieldState& state) const {
 std::unique_ptr<DeformedGreen::System> DeformedGreen::systemAt(const FieldState& state, int threads,
                                                                const std::stop_token& stop) const {
   useOneBlasThread();
-  ConductionMatrix::Values values = matrix_.at(state.nodes_mm, state.conductivity, threads);
+  FieldFunctions functions(mesh_, state.conductivity, threads);
+  ConductionMatrix::Values values = matrix_.at(state.nodes_mm, functions, threads);
   if (stop.stop_requested()) return {};
-  SparseCholesky factor(matrix_.plan());
+  SparseCholesky factor(matrix_.plan(state.conductivity));
   if (factor.factorise(std::move(values.matrix), threads, stop) == SparseCholesky::Outcome::NotPositiveDefinite) {
     constexpr double mostContrast = 1e9; // that the equations bear
     const Conductivity& k = state.conductivity;
@@ -171,26 +177,27 @@ std::unique_ptr<DeformedGreen::System> DeformedGreen::systemAt(const FieldState&
   if (stop.stop_requested()) return {};
   std::vector<Eigen::Matrix3Xd> sources = sources_.at(state.nodes_mm, state.electrodes_mm);
   const std::vector<double> reaches = reaches_mm(sources);
-  return std::make_unique<System>(System{std::move(sources), reaches, atElectrodes(state, reaches, threads),
+  std::vector<AtElectrode> electrodes = atElectrodes(state, functions, reaches, threads);
+  return std::make_unique<System>(System{std::move(functions), std::move(sources), reaches, std::move(electrodes),
                                          std::move(values.volumes), std::move(factor)});
 }
 
 /// Right sides b of w are - oint s_q,n N_a - mean(N_a), or as k has it: rows of `boundary` less `evenly` times volumes.
 struct DeformedGreen::SourceIntegrals {
   BoundaryIntegrals::Result boundary;
-  const std::vector<int>* nodes; ///< of its rows
-  Eigen::RowVectorXd evenly;     ///< the sources' whole current, but for quadrature, taken up over the volume
+  const std::vector<int>* functions; ///< of its rows
+  Eigen::RowVectorXd evenly;         ///< the sources' whole current, but for quadrature, taken up over the volume
 };
 
 DeformedGreen::SourceIntegrals DeformedGreen::integrals(const FieldState& state, const System& system, int threads,
                                                         const std::stop_token& stop) const {
   SourceIntegrals result{boundary_.at(state.nodes_mm, system.sources, state.conductivity, threads, stop),
-                         &boundary_.nodes(state.conductivity),
+                         &boundary_.rows(state.conductivity),
                          {}};
   SourceRows& right = result.boundary.right;
   if (state.conductivity.uneven()) {
     Eigen::MatrixXd& products = result.boundary.products;
-    UnevenConductivity(mesh_, state.nodes_mm, state.conductivity, threads)
+    UnevenConductivity(mesh_, state.nodes_mm, system.functions, threads)
         .addIntegrals(system.sources, system.electrodes, system.reaches_mm, threads, stop, right, products);
     const Eigen::Index count = right.cols();
     Eigen::VectorXd inverse(count);
@@ -198,26 +205,28 @@ DeformedGreen::SourceIntegrals DeformedGreen::integrals(const FieldState& state,
     right *= inverse.asDiagonal();
     products = (inverse.asDiagonal() * products * inverse.asDiagonal()).eval();
   }
-  result.evenly = right.colwise().sum() / system.volumes.sum();
+  const Eigen::Index nodes = std::min<Eigen::Index>(right.rows(), mesh_.nodes()); // whose functions' sum is 1
+  result.evenly = right.topRows(nodes).colwise().sum() / system.volumes.head(mesh_.nodes()).sum();
   return result;
 }
 
 /// What gives a field's gradient at each electrode from its values at nodes: the mean of the elements that hold it.
-std::vector<std::vector<DeformedGreen::Slope>> DeformedGreen::slopes(const FieldState& state) const {
+std::vector<std::vector<DeformedGreen::Slope>> DeformedGreen::slopes(const FieldState& state,
+                                                                     const FieldFunctions& functions) const {
   const std::vector<std::vector<Place>> where = places(state);
   std::vector<std::vector<Slope>> all(where.size());
   for (std::size_t p = 0; p < where.size(); ++p) {
     std::vector<Slope>& own = all[p];
     for (const Place& place : where[p]) {
-      const auto nodes = mesh_.tets().elements.col(place.element);
-      const Eigen::Matrix<double, 3, 10> gradients =
-          gradientsIn(state.nodes_mm(Eigen::all, nodes), place.barycentric) / double(where[p].size());
-      for (int k = 0; k < 10; ++k) own.push_back({nodes(k), gradients.col(k)});
+      const Eigen::Matrix<double, 3, FieldFunctions::most> gradients =
+          gradientsIn(functions, state, place) / double(where[p].size());
+      for (int k = 0; k < functions.count(place.element); ++k)
+        own.push_back({functions.row(k, place.element), gradients.col(k)});
     }
-    std::stable_sort(own.begin(), own.end(), [](const Slope& a, const Slope& b) { return a.node < b.node; });
+    std::stable_sort(own.begin(), own.end(), [](const Slope& a, const Slope& b) { return a.row < b.row; });
     std::size_t last = 0;
     for (std::size_t k = 1; k < own.size(); ++k)
-      if (own[k].node == own[last].node)
+      if (own[k].row == own[last].row)
         own[last].weight += own[k].weight;
       else
         own[++last] = own[k];
@@ -233,23 +242,24 @@ std::optional<BoxGreen> DeformedGreen::at(const FieldState& state, int threads, 
   const int batches = (count + batchLanes - 1) / batchLanes;
   SourceIntegrals integral = integrals(state, *system, threads, stop);
   const SourceRows& right = integral.boundary.right;
-  const std::vector<int>& rows = *integral.nodes;
+  const std::vector<int>& rows = *integral.functions;
+  const auto functions = static_cast<int>(system->volumes.size());
   if (stop.stop_requested()) return {};
 
   BoxGreen green;
   for (Eigen::MatrixXd& slope : green.slope) slope.setZero(count, count);
-  const std::vector<std::vector<Slope>> slopes = this->slopes(state);
+  const std::vector<std::vector<Slope>> slopes = this->slopes(state, system->functions);
   // w = w1 + K^-1 r with r = b - K w1, so that w_p . b_q = w1_p . b_q + r_p . (w1_q + K^-1 r_q): what w1 lacks is of
   // the order of 1e-4, and the products with r may be of single precision.
   SourceRows first = std::move(integral.boundary.potentials); // w1 + s: - oint I s_p s_q,n is of the same kind
   if (first.size() == 0) first = SourceRows::Zero(right.rows(), count);
-  const std::size_t numbers = std::size_t(mesh_.nodes()) * std::size_t(count);
+  const std::size_t numbers = std::size_t(functions) * std::size_t(count);
   UnsetArray<float> left(numbers), field(numbers); // r, w
   Eigen::VectorXd overVolume(count);               // of w1
   forChunks(batches, 1, threads, [&](int b, int) {
     if (stop.stop_requested()) return;
     const int from = b * batchLanes, some = std::min(batchLanes, count - from);
-    LaneSides sides(mesh_.nodes() - 1, 1); // node 0's equation follows from the others
+    LaneSides sides(functions - 1, 1); // node 0's equation follows from the others
     LaneSides::Lanes b32 = sides.lanes(sides.right), w1 = sides.lanes(sides.first), w = sides.lanes(sides.x);
     Eigen::Matrix<double, 1, batchLanes> evenly = Eigen::Matrix<double, 1, batchLanes>::Zero();
     evenly.head(some) = integral.evenly.segment(from, some);
@@ -260,7 +270,7 @@ std::optional<BoxGreen> DeformedGreen::at(const FieldState& state, int threads, 
     for (std::size_t i = 0; i < rows.size(); ++i)
       first.row(Eigen::Index(i)).segment(from, some) += w1.row(rows[i]).head(some);
     overVolume.segment(from, some) = (w1.transpose() * system->volumes).head(some);
-    for (int n = 0; n < mesh_.nodes(); ++n)
+    for (int n = 0; n < functions; ++n)
       for (int k = 0; k < some; ++k) {
         left.data()[std::size_t(n) * count + from + k] = static_cast<float>(b32(n, k));
         field.data()[std::size_t(n) * count + from + k] = static_cast<float>(w(n, k));
@@ -269,7 +279,7 @@ std::optional<BoxGreen> DeformedGreen::at(const FieldState& state, int threads, 
       for (const Slope& each : slopes[p])
         for (std::size_t i = 0; i < 3; ++i)
           green.slope[i].row(Eigen::Index(p)).segment(from, some) +=
-              each.weight(Eigen::Index(i)) * w.row(each.node).head(some);
+              each.weight(Eigen::Index(i)) * w.row(each.row).head(some);
   });
   if (stop.stop_requested()) return {};
 
@@ -281,7 +291,7 @@ std::optional<BoxGreen> DeformedGreen::at(const FieldState& state, int threads, 
     const int from = (batches - 1 - task) * batchLanes, some = std::min(batchLanes, count - from);
     cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, from + some, some, static_cast<int>(right.rows()), 1,
                 first.data(), count, right.data() + from, count, 1, green.value.col(from).data(), count);
-    cblas_sgemm(CblasColMajor, CblasNoTrans, CblasTrans, from + some, some, mesh_.nodes(), 1, left.data(), count,
+    cblas_sgemm(CblasColMajor, CblasNoTrans, CblasTrans, from + some, some, functions, 1, left.data(), count,
                 field.data() + from, count, 0, little.col(from).data(), count);
     for (int q = from; q < from + some; ++q)
       green.value.col(q).head(from + some) +=
@@ -320,24 +330,26 @@ std::optional<NodalPotential> DeformedGreen::potential(const FieldState& state, 
   if (!system) return {};
   const SourceIntegrals integral = integrals(state, *system, threads, stop);
   if (stop.stop_requested()) return {};
-  LaneSides sides(mesh_.nodes() - 1, 1);
+  const FieldFunctions& functions = system->functions;
+  LaneSides sides(static_cast<int>(system->volumes.size()) - 1, 1);
   LaneSides::Lanes right = sides.lanes(sides.right);
   right.setZero();
   right.col(0) = -integral.evenly.dot(currents) * system->volumes;
-  right(*integral.nodes, 0) += integral.boundary.right * currents;
+  right(*integral.functions, 0) += integral.boundary.right * currents;
   system->factor.solve(sides, stop);
   if (stop.stop_requested()) return {};
   const Eigen::VectorXd field = sides.lanes(sides.x).col(0);
 
-  NodalPotential result{field, Eigen::Matrix3Xd::Zero(3, mesh_.nodes()), Eigen::VectorXd::Zero(currents.size())};
+  NodalPotential result{field.head(mesh_.nodes()), Eigen::Matrix3Xd::Zero(3, mesh_.nodes()),
+                        Eigen::VectorXd::Zero(currents.size())};
   Eigen::VectorXd elementsAround = Eigen::VectorXd::Zero(mesh_.nodes());
   const Conductivity& k = state.conductivity;
   for (int e = 0; e < mesh_.elements(); ++e) {
     const auto nodes = mesh_.tets().elements.col(e);
-    const Eigen::Matrix<double, 3, 10> at = state.nodes_mm(Eigen::all, nodes);
-    const Eigen::Matrix<double, 10, 1> values = field(nodes);
+    Eigen::Matrix<double, FieldFunctions::most, 1> values = Eigen::Matrix<double, FieldFunctions::most, 1>::Zero();
+    for (int f = 0; f < functions.count(e); ++f) values(f) = field(functions.row(f, e));
     for (int n = 0; n < 10; ++n) {
-      result.gradient.col(nodes(n)) += gradientsIn(at, tetNode(n)) * values;
+      result.gradient.col(nodes(n)) += gradientsIn(functions, state, {e, tetNode(n)}) * values;
       elementsAround(nodes(n)) += 1;
     }
   }
@@ -361,7 +373,7 @@ std::optional<NodalPotential> DeformedGreen::potential(const FieldState& state, 
       }
     }
   };
-  const Eigen::Matrix3Xd pressureSlopes = this->pressureSlopes(state);
+  const Eigen::Matrix3Xd pressureSlopes = this->pressureSlopes(state, functions);
   forChunks(mesh_.nodes(), 256, threads, [&](int begin, int end) {
     if (stop.stop_requested()) return;
     for (int n = begin; n < end; ++n) {
@@ -376,7 +388,9 @@ std::optional<NodalPotential> DeformedGreen::potential(const FieldState& state, 
   const std::vector<std::vector<Place>> where = places(state);
   for (Eigen::Index p = 0; p < currents.size(); ++p) {
     const Place& place = where[std::size_t(p)].front();
-    result.electrodes(p) = tetShapes(place.barycentric).dot(field(mesh_.tets().elements.col(place.element)));
+    const FieldFunctions::Point there = functions.at(place.element, place.barycentric);
+    for (int f = 0; f < functions.count(place.element); ++f)
+      result.electrodes(p) += there.values(f) * field(functions.row(f, place.element));
     addSources(state.electrodes_mm.col(p), half[std::size_t(p)].value, half[std::size_t(p)].slope, result.electrodes(p),
                nullptr);
   }

@@ -64,18 +64,20 @@ private:
   };
   /// Where each electrode lies in the deformed mesh: in all elements around it.
   [[nodiscard]] std::vector<std::vector<Place>> places(const FieldState& state) const;
-  [[nodiscard]] std::vector<AtElectrode> atElectrodes(const FieldState& state, const std::vector<double>& reaches_mm,
-                                                      int threads) const;
+  [[nodiscard]] Eigen::Matrix<double, 3, FieldFunctions::most>
+  gradientsIn(const FieldFunctions& functions, const FieldState& state, const Place& place) const;
+  [[nodiscard]] std::vector<AtElectrode> atElectrodes(const FieldState& state, const FieldFunctions& functions,
+                                                      const std::vector<double>& reaches_mm, int threads) const;
   /// Of balls around the electrodes that end at the nearest face.
   [[nodiscard]] std::vector<double> reaches_mm(const std::vector<Eigen::Matrix3Xd>& sources_mm) const;
   /// Of the pressure in space, at the nodes: means of the elements around.
-  [[nodiscard]] Eigen::Matrix3Xd pressureSlopes(const FieldState& state) const;
-  /// What a node's value adds to a gradient.
+  [[nodiscard]] Eigen::Matrix3Xd pressureSlopes(const FieldState& state, const FieldFunctions& functions) const;
+  /// What a function's factor adds to a gradient.
   struct Slope {
-    int node = 0;
+    int row = 0;
     Eigen::Vector3d weight;
   };
-  [[nodiscard]] std::vector<std::vector<Slope>> slopes(const FieldState& state) const;
+  [[nodiscard]] std::vector<std::vector<Slope>> slopes(const FieldState& state, const FieldFunctions& functions) const;
   struct System; ///< a state's factorised matrix
   struct SourceIntegrals;
   [[nodiscard]] SourceIntegrals integrals(const FieldState& state, const System& system, int threads,

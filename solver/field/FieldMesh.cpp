@@ -53,6 +53,7 @@ FieldMesh::FieldMesh(const Mesh& solverMesh) {
   }
   tets_.size_mm = solverMesh.size_mm;
   findFaces();
+  corners_ = tets_.elements.topRows<4>().maxCoeff() + 1;
 }
 
 void FieldMesh::cutHexahedra(const Mesh& hexahedra) {

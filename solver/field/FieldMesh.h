@@ -24,6 +24,8 @@ public:
   [[nodiscard]] const Mesh& tets() const { return tets_; } ///< at rest
   [[nodiscard]] int nodes() const { return tets_.nodeCount(); }
   [[nodiscard]] int elements() const { return tets_.elementCount(); }
+  /// Elements' corners are the first nodes.
+  [[nodiscard]] int corners() const { return corners_; }
   /// Nodes of the faces on the boundary, 6 x faces: three corners, counter-clockwise from outside, and the middles of
   /// the edges from each to the next.
   [[nodiscard]] const Eigen::MatrixXi& faces() const { return faces_; }
@@ -37,6 +39,7 @@ private:
   Mesh tets_;
   Eigen::MatrixXi cornersAround_; ///< up to 8 of the solver's nodes whose mean a node is, else -1; none: the same nodes
   Eigen::MatrixXi faces_;
+  int corners_ = 0;
 };
 
 } // namespace palp

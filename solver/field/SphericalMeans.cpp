@@ -102,15 +102,16 @@ SphericalMeans::Place SphericalMeans::find(const Eigen::Vector3d& atRest_mm, int
   return place;
 }
 
-AtElectrode SphericalMeans::around(const Eigen::Matrix3Xd& nodes_mm, const Conductivity& conductivity,
+AtElectrode SphericalMeans::around(const Eigen::Matrix3Xd& nodes_mm, const FieldFunctions& functions,
                                    const Electrode& electrode) const {
   const Mesh& tets = mesh_->tets();
+  const Conductivity& conductivity = functions.conductivity();
   const SphereRule& rule = sphereRule();
   const auto own = tets.elements.col(electrode.element);
   AtElectrode result;
   result.element = electrode.element;
-  result.shapes = tetShapes(electrode.barycentric);
-  const Eigen::Vector3d atRest = tets.nodes_mm(Eigen::all, own) * result.shapes;
+  result.there = functions.at(electrode.element, electrode.barycentric);
+  const Eigen::Vector3d atRest = tets.nodes_mm(Eigen::all, own) * result.there.values.head<10>();
   const Eigen::Matrix3d gradient =
       nodes_mm(Eigen::all, own) *
       tetShapeGradients(tetGeometry(tets, electrode.element), electrode.barycentric).transpose();

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/field/Conductivity.h"
+#include "solver/field/FieldFunctions.h"
 #include "solver/field/FieldMesh.h"
 
 #include <Eigen/Core>
@@ -13,8 +13,8 @@ namespace palp {
 struct AtElectrode {
   double value = 0;                                ///< mean of l over the sphere
   Eigen::Vector3d slope = Eigen::Vector3d::Zero(); ///< gradient of that function in the centre [1/mm]
-  int element = 0;                                 ///< that holds the centre, and its shape functions there
-  Eigen::Matrix<double, 10, 1> shapes = Eigen::Matrix<double, 10, 1>::Zero();
+  int element = 0;                                 ///< that holds the centre, and its functions there
+  FieldFunctions::Point there{};
   /// Integrals of grad l . grad(s) chi [1/mm] and grad l . grad(s^2) chi [1/mm2] over a < r < reach, with s = 1/(4 pi
   /// r) and chi = cutOff(r / reach).
   double simple = 0, square = 0;
@@ -39,7 +39,7 @@ public:
     Eigen::Vector3d point_mm;
     double radius_mm = 0, reach_mm = 0; ///< a ball of this reach lies in the block
   };
-  [[nodiscard]] AtElectrode around(const Eigen::Matrix3Xd& nodes_mm, const Conductivity& conductivity,
+  [[nodiscard]] AtElectrode around(const Eigen::Matrix3Xd& nodes_mm, const FieldFunctions& functions,
                                    const Electrode& electrode) const;
 
 private:

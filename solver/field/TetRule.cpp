@@ -48,13 +48,19 @@ namespace {
 
 using Corners = std::array<Eigen::Vector4d, 4>;
 
-/// Four points, exact to degree 2 (A. H. Stroud, Approximate Calculation of Multiple Integrals, 1971).
+/// Four points, exact to degree 2 (A. H. Stroud, Approximate Calculation of Multiple Integrals, 1971); in a large piece
+/// those of tetRule, as it may hold most of what is smooth but steep.
 void addPiece(const Corners& corners, std::vector<TetPoint>& points) {
-  constexpr double far = 0.5854101966249685, near = 0.1381966011250105;
+  constexpr double far = 0.5854101966249685, near = 0.1381966011250105, large = 0.1;
   Eigen::Matrix4d all;
   for (int k = 0; k < 4; ++k) all.col(k) = corners[std::size_t(k)];
   const double share = std::abs(all.determinant()); // of coordinates whose sum is 1: volumes' quotient
   if (share < 1e-12) return;                        // flat: the function is 0 at a corner
+  if (share > large) {
+    for (std::size_t q = 0; q < TetRule::points; ++q)
+      points.push_back({all * tetRule().barycentric[q], tetRule().weights[q] * share});
+    return;
+  }
   for (const Eigen::Vector4d& corner : corners)
     points.push_back({near * all.rowwise().sum() + (far - near) * corner, share / 4});
 }

@@ -16,8 +16,9 @@
 namespace palp {
 
 UnevenConductivity::UnevenConductivity(const FieldMesh& mesh, const Eigen::Matrix3Xd& nodes_mm,
-                                       const Conductivity& conductivity, int threads)
-    : mesh_(&mesh) {
+                                       const FieldFunctions& functions, int threads)
+    : mesh_(&mesh), functions_(&functions) {
+  const Conductivity& conductivity = functions.conductivity();
   const Eigen::MatrixXi& nodes = mesh.tets().elements;
   const auto pressuresOf = [&](int e) -> Eigen::Matrix<double, 10, 1> {
     return conductivity.pressures_MPa(nodes.col(e));
@@ -34,25 +35,25 @@ UnevenConductivity::UnevenConductivity(const FieldMesh& mesh, const Eigen::Matri
   at_.resize(first_.back(), 6);
   spans_mm_.resize(elements_.size());
   squareSlopes_.resize(at_.rows());
-  shapes_.resize(10, squareSlopes_.size());
-  gradients_.resize(10, squareSlopes_.size());
+  shapes_.resize(FieldFunctions::most, squareSlopes_.size());
+  gradients_.resize(FieldFunctions::most, squareSlopes_.size());
   inParallel(elements_.size(), threads, [&](std::size_t i) {
     const auto own = nodes.col(elements_[i]);
     const Eigen::Matrix<double, 3, 10> places = nodes_mm(Eigen::all, own);
     const Eigen::Matrix<double, 10, 1> pressures = pressuresOf(elements_[i]);
     for (std::size_t q = 0; q < points[i].size(); ++q) {
       const Eigen::Index point = first_[i] + static_cast<Eigen::Index>(q);
-      const Eigen::Matrix<double, 10, 1> shapes = tetShapes(points[i][q].barycentric);
-      const Eigen::Matrix<double, 10, 3> local = tetLocalGradients(points[i][q].barycentric);
-      const Eigen::Matrix3d map = places * local;
+      const FieldFunctions::Point there = functions.at(elements_[i], points[i][q].barycentric);
+      const Eigen::Matrix<double, 10, 1> shapes = there.values.head<10>();
+      const Eigen::Matrix3d map = places * there.gradients.topRows<10>();
       const double volume = points[i][q].weight * map.determinant() / 6;
       at_.row(point).head<3>() = (places * shapes).transpose();
-      const Eigen::Matrix<double, 10, 3> gradients = local * map.inverse();
+      const Eigen::Matrix<double, FieldFunctions::most, 3> gradients = there.gradients * map.inverse();
       const double p = shapes.dot(pressures), m = std::exp(conductivity.half(p));
-      const Eigen::Vector3d slope = conductivity.halfByPressure(p) * (gradients.transpose() * pressures);
+      const Eigen::Vector3d slope = conductivity.halfByPressure(p) * (gradients.topRows<10>().transpose() * pressures);
       at_.row(point).tail<3>() = volume * slope.transpose();
       squareSlopes_(point) = static_cast<float>(volume * slope.squaredNorm() / 2);
-      shapes_.col(point) = (m * shapes).cast<float>();
+      shapes_.col(point) = (m * there.values).cast<float>();
       gradients_.col(point) = (m * volume * (gradients * slope)).cast<float>();
     }
     const auto all = at_.leftCols<3>().middleRows(first_[i], first_[i + 1] - first_[i]);
@@ -60,7 +61,7 @@ UnevenConductivity::UnevenConductivity(const FieldMesh& mesh, const Eigen::Matri
   });
 }
 
-/// Of elements first .. first + count - 1: what stands in `right` at each of their nodes, by rows of ten, and what
+/// Of elements first .. first + count - 1: what stands in `right` for each of their functions, by rows of 14, and what
 /// `products` gain. Both are sums of sources as they stand, without poles taken off: single precision leaves 1e-7 of
 /// them.
 void UnevenConductivity::addElements(int first, int count, const std::vector<Eigen::Matrix3Xd>& sources_mm,
@@ -85,9 +86,9 @@ void UnevenConductivity::addElements(int first, int count, const std::vector<Eig
     const Eigen::Index own = first_[std::size_t(first + e)] - from;
     const auto some = static_cast<int>(first_[std::size_t(first + e) + 1] - from - own);
     const auto add = [&](const Eigen::MatrixXf& factors, const Eigen::MatrixXf& fields, float old) {
-      cblas_sgemm(CblasColMajor, CblasTrans, CblasTrans, sources, 10, some, 1, fields.data() + own, points,
-                  factors.col(from + own).data(), 10, old, onElements + std::size_t(e) * 10 * std::size_t(sources),
-                  sources);
+      cblas_sgemm(CblasColMajor, CblasTrans, CblasTrans, sources, functions_->count(elements_[std::size_t(first + e)]),
+                  some, 1, fields.data() + own, points, factors.col(from + own).data(), FieldFunctions::most, old,
+                  onElements + std::size_t(e) * FieldFunctions::most * std::size_t(sources), sources);
     };
     add(shapes_, slopes, 0);
     add(gradients_, potentials, 1);
@@ -127,8 +128,9 @@ void UnevenConductivity::addIntegrals(const std::vector<Eigen::Matrix3Xd>& sourc
   constexpr int parts = 8, elementsAPiece = 16, elementsAWave = parts * 4 * elementsAPiece;
   const auto count = static_cast<int>(sources_mm.size()), uneven = static_cast<int>(elements_.size());
   std::vector<Eigen::MatrixXd> of(parts, Eigen::MatrixXd::Zero(count, count));
-  UnsetArray<float> onElements(std::size_t(10 * elementsAWave) * std::size_t(count)); // by rows of `count`
-  const auto rowsOf = [&](int element) { return onElements.data() + std::size_t(10 * element) * std::size_t(count); };
+  constexpr int most = FieldFunctions::most;
+  UnsetArray<float> onElements(std::size_t(most * elementsAWave) * std::size_t(count)); // by rows of `count`
+  const auto rowsOf = [&](int element) { return onElements.data() + std::size_t(most * element) * std::size_t(count); };
   for (int wave = 0; wave < uneven && !stop.stop_requested(); wave += elementsAWave) {
     const int some = std::min(elementsAWave, uneven - wave);
     forChunks(parts, 1, threads, [&](int part, int) {
@@ -140,10 +142,12 @@ void UnevenConductivity::addIntegrals(const std::vector<Eigen::Matrix3Xd>& sourc
     });
     if (stop.stop_requested()) return;
     forChunks(count, batchLanes, threads, [&](int begin, int end) {
-      for (int i = 0; i < some; ++i)
-        for (int n = 0; n < 10; ++n)
-          right.row(mesh_->tets().elements(n, elements_[std::size_t(wave + i)])).segment(begin, end - begin) +=
+      for (int i = 0; i < some; ++i) {
+        const int element = elements_[std::size_t(wave + i)];
+        for (int n = 0; n < functions_->count(element); ++n)
+          right.row(functions_->row(n, element)).segment(begin, end - begin) +=
               Eigen::Map<const Eigen::RowVectorXf>(rowsOf(i) + n * count + begin, end - begin).cast<double>();
+      }
     });
   }
   for (const Eigen::MatrixXd& part : of) products += part;
@@ -174,8 +178,8 @@ void UnevenConductivity::addIntegrals(const std::vector<Eigen::Matrix3Xd>& sourc
     const AtElectrode& at = electrodes[static_cast<std::size_t>(p)];
     const Poles& pole = poles[static_cast<std::size_t>(p)];
     products(p, p) -= pole.square;
-    for (int n = 0; n < 10; ++n)
-      right(mesh_->tets().elements(n, at.element), p) -= std::exp(at.value) * at.shapes(n) * pole.simple;
+    for (int n = 0; n < functions_->count(at.element); ++n)
+      right(functions_->row(n, at.element), p) -= std::exp(at.value) * at.there.values(n) * pole.simple;
   }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/field/FieldMesh.h"
+#include "solver/field/FieldFunctions.h"
 #include "solver/field/SphericalMeans.h"
 
 #include <Eigen/Core>
@@ -16,10 +16,10 @@ namespace palp {
 /// Here are the integrals over the volume.
 class UnevenConductivity {
 public:
-  UnevenConductivity(const FieldMesh& mesh, const Eigen::Matrix3Xd& nodes_mm, const Conductivity& conductivity,
+  UnevenConductivity(const FieldMesh& mesh, const Eigen::Matrix3Xd& nodes_mm, const FieldFunctions& functions,
                      int threads);
 
-  /// `right` (nodes x sources) += integral grad m . grad(s_q N_a);
+  /// `right` (functions x sources) += integral grad m . grad(s_q N_a);
   /// `products` += integral grad l . grad(s_p s_q) - |grad l|^2 s_p s_q, for p <= q.
   /// Each electrode is the first of its sources; within `reaches_mm` its own poles are as SphericalMeans has them. The
   /// same bytes at any number of threads.
@@ -37,12 +37,13 @@ private:
   [[nodiscard]] Poles poles(const Eigen::Vector3d& centre_mm, double reach_mm) const;
 
   const FieldMesh* mesh_;
+  const FieldFunctions* functions_;
   std::vector<int> elements_;                   ///< those in which k is not 1
   std::vector<Eigen::Index> first_;             ///< of each of their points, and one more
   Eigen::Matrix<double, Eigen::Dynamic, 6> at_; ///< their points x (place, volume times grad l)
   std::vector<double> spans_mm_;                ///< how far an element's points are from its first one
   Eigen::VectorXf squareSlopes_;                ///< |grad l|^2 / 2 times volume
-  Eigen::MatrixXf shapes_, gradients_;          ///< 10 x points: m N_a, m grad l . grad N_a times volume
+  Eigen::MatrixXf shapes_, gradients_;          ///< 14 x points: m N_a, m grad l . grad N_a times volume
 };
 
 } // namespace palp

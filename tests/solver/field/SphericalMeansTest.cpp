@@ -30,7 +30,7 @@ struct Middle {
     const auto corners = tets.elements.col(element()).head<4>();
     const Eigen::Vector3d centre = nodes(Eigen::all, corners) * inside;
     for (Eigen::Index n = 0; n < nodes.cols(); ++n) k.pressures_MPa(n) = l(nodes.col(n) - centre);
-    return means.around(nodes, k, {element(), inside, centre, kRadius, kReach});
+    return means.around(nodes, FieldFunctions(mesh, k, 1), {element(), inside, centre, kRadius, kReach});
   }
   /// The nearest to the middle.
   [[nodiscard]] int element() const {

@@ -170,6 +170,15 @@ TEST(UnevenConductivity, AKinkBetweenNodesIsThatOfAFinerMesh) {
     EXPECT_LT((coarse[i] - fine[i]).norm(), 0.05 * fine[i].norm()) << kReadouts.name(kEachReadout[i]);
 }
 
+/// A steep law: ten times as well a tenth of a wave's length beside the kink. Quadratic functions alone leave PERCENT %
+/// of d ln R.
+TEST(UnevenConductivity, ASteepLawIsThatOfAFinerMesh) {
+  const auto wave = [](const Eigen::Vector3d& x) { return 1 + 15 * std::sin(x.x() + 0.7 * x.y() - x.z()); };
+  const auto coarse = changesBy(UnevenBlock(1), wave), fine = changesBy(UnevenBlock(1, 0.6), wave);
+  for (std::size_t i = 0; i < kEachReadout.size(); ++i)
+    EXPECT_LT((coarse[i] - fine[i]).norm(), 0.03 * fine[i].norm()) << kReadouts.name(kEachReadout[i]);
+}
+
 /// A row-wire that others screen from all lower electrodes: its current is a small difference, and a rule that steps
 /// over the kink leaves 2.3 % of its d ln R.
 TEST(UnevenConductivity, AKinkAtAScreenedRowIsThatOfAFinerMesh) {
