@@ -149,8 +149,9 @@ void BoundaryIntegrals::addProducts(const Piece& piece, const SourceRows& potent
 
 BoundaryIntegrals::Result BoundaryIntegrals::at(const Eigen::Matrix3Xd& nodes_mm,
                                                 const std::vector<Eigen::Matrix3Xd>& sources_mm,
-                                                const Conductivity& conductivity, int threads,
+                                                const FieldFunctions& functions, int threads,
                                                 const std::stop_token& stop) const {
+  const Conductivity& conductivity = functions.conductivity();
   const bool uneven = conductivity.uneven();
   const auto count = static_cast<int>(sources_mm.size());
   const BoundaryQuadrature boundary(faces_, nodes_mm);
@@ -208,6 +209,7 @@ BoundaryIntegrals::Result BoundaryIntegrals::at(const Eigen::Matrix3Xd& nodes_mm
       if (uneven) subtract(onFacesWeighted, weighted, sharedWeighted[std::size_t(p)]);
       for (int f = 0; f < piece.count && uneven; ++f)
         for (int corner = 0; corner < 3; ++corner) {
+          if (!functions.isRough(faces_(corner, piece.first + f))) continue;
           const int place = places_(corner, piece.first + f);
           auto row = place < 0 ? sharedWeighted[std::size_t(p)].row(Eigen::Index(part.shared.size()) - 1 - place)
                                : weighted.row(nodes + place);

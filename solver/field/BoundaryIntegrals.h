@@ -1,7 +1,7 @@
 #pragma once
 
 #include "solver/field/BoundaryQuadrature.h"
-#include "solver/field/Conductivity.h"
+#include "solver/field/FieldFunctions.h"
 #include "solver/field/FieldMesh.h"
 
 #include <stop_token>
@@ -25,7 +25,7 @@ public:
   };
   /// The same bytes at any number of threads.
   [[nodiscard]] Result at(const Eigen::Matrix3Xd& nodes_mm, const std::vector<Eigen::Matrix3Xd>& sources_mm,
-                          const Conductivity& conductivity, int threads, const std::stop_token& stop) const;
+                          const FieldFunctions& functions, int threads, const std::stop_token& stop) const;
   /// Of the functions (FieldFunctions) that the rows of `right` belong to, ascending: those of the boundary's nodes, or
   /// all where k varies.
   [[nodiscard]] const std::vector<int>& rows(const Conductivity& conductivity) const {

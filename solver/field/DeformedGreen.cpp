@@ -191,7 +191,7 @@ struct DeformedGreen::SourceIntegrals {
 
 DeformedGreen::SourceIntegrals DeformedGreen::integrals(const FieldState& state, const System& system, int threads,
                                                         const std::stop_token& stop) const {
-  SourceIntegrals result{boundary_.at(state.nodes_mm, system.sources, state.conductivity, threads, stop),
+  SourceIntegrals result{boundary_.at(state.nodes_mm, system.sources, system.functions, threads, stop),
                          &boundary_.rows(state.conductivity),
                          {}};
   SourceRows& right = result.boundary.right;

@@ -20,7 +20,7 @@ AtNodes inverseRoots(const Conductivity& conductivity, const AtNodes& pressures)
 }
 
 /// Whether 1/m is other than quadratic. What rounding leaves of it would be a function of its own.
-bool isRough(const Conductivity& conductivity, const AtNodes& pressures) {
+bool isRoughInside(const Conductivity& conductivity, const AtNodes& pressures) {
   constexpr double least = 1e-6;
   if (!(pressures.array() > 0).any()) return false;
   const AtNodes roots = inverseRoots(conductivity, pressures);
@@ -37,11 +37,22 @@ bool isRough(const Conductivity& conductivity, const AtNodes& pressures) {
 FieldFunctions::FieldFunctions(const FieldMesh& mesh, Conductivity conductivity, int threads)
     : mesh_(&mesh), conductivity_(std::move(conductivity)) {
   if (!conductivity_.uneven()) return;
-  rough_.resize(std::size_t(mesh.elements()));
-  inParallel(rough_.size(), threads, [&](std::size_t e) {
-    const AtNodes pressures = conductivity_.pressures_MPa(mesh.tets().elements.col(Eigen::Index(e)));
-    rough_[e] = isRough(conductivity_, pressures) ? 1 : 0;
+  const Eigen::MatrixXi& elements = mesh.tets().elements;
+  std::vector<char> roughInside(std::size_t(mesh.elements()));
+  inParallel(roughInside.size(), threads, [&](std::size_t e) {
+    const AtNodes pressures = conductivity_.pressures_MPa(elements.col(Eigen::Index(e)));
+    roughInside[e] = isRoughInside(conductivity_, pressures) ? 1 : 0;
   });
+  rough_.resize(std::size_t(mesh.corners()));
+  for (int e = 0; e < mesh.elements(); ++e)
+    for (int corner = 0; corner < 4 && roughInside[std::size_t(e)] != 0; ++corner)
+      rough_[std::size_t(elements(corner, e))] = true;
+}
+
+int FieldFunctions::count(int element) const {
+  for (int corner = 0; corner < 4; ++corner)
+    if (isRough(mesh_->tets().elements(corner, element))) return most;
+  return 10;
 }
 
 int FieldFunctions::row(const FieldMesh& mesh, int function, int element) {
@@ -63,6 +74,7 @@ FieldFunctions::Point FieldFunctions::at(int element, const Eigen::Vector4d& bar
   const Eigen::RowVector3d slope = roots.transpose() * gradients +
                                    root * conductivity_.halfByPressure(pressure) * (pressures.transpose() * gradients);
   for (int corner = 0; corner < 4; ++corner) {
+    if (!isRough(mesh_->tets().elements(corner, element))) continue;
     point.values(10 + corner) = barycentric(corner) * left;
     Eigen::RowVector3d own = Eigen::RowVector3d::Constant(corner == 0 ? -1 : 0);
     if (corner > 0) own(corner - 1) = 1;

@@ -23,8 +23,11 @@ public:
   FieldFunctions(const FieldMesh& mesh, Conductivity conductivity, int threads);
 
   [[nodiscard]] const Conductivity& conductivity() const { return conductivity_; }
-  /// 10 or 14. None of 1/m is left over where it is quadratic but for 1e-6.
-  [[nodiscard]] int count(int element) const { return rough_.empty() || !rough_[std::size_t(element)] ? 10 : most; }
+  /// Whether a corner has its function: where 1/m is other than quadratic, by 1e-6 at least, in an element around it.
+  /// In those others around it the function is as it comes out, as it has to be the same on both sides of a face.
+  [[nodiscard]] bool isRough(int corner) const { return !rough_.empty() && rough_[std::size_t(corner)]; }
+  /// 10, or 14 where a corner has one. Those of the others are 0 then.
+  [[nodiscard]] int count(int element) const;
   /// Place of an element's functions among all: that of its node, or after all nodes that of its corner.
   [[nodiscard]] int row(int function, int element) const { return row(*mesh_, function, element); }
   [[nodiscard]] static int row(const FieldMesh& mesh, int function, int element);
@@ -39,7 +42,7 @@ public:
 private:
   const FieldMesh* mesh_;
   Conductivity conductivity_;
-  std::vector<char> rough_; ///< whether an element has all functions; empty: none has
+  std::vector<bool> rough_; ///< by corners; empty: none is
 };
 
 } // namespace palp

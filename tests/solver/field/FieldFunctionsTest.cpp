@@ -81,8 +81,7 @@ TEST_P(FieldFunctionsOf, AreTheSameOnBothSidesOfAFace) {
       ++shared;
       std::map<int, double> difference = values;
       for (const auto& [row, value] : other->second) difference[row] -= value;
-      // An element beside has none where they are 1e-6 at most.
-      for (const auto& [row, value] : difference) EXPECT_LT(std::abs(value), 3e-6) << "function " << row;
+      for (const auto& [row, value] : difference) EXPECT_LT(std::abs(value), 1e-13) << "function " << row;
     }
   EXPECT_GT(shared, pressed.mesh.elements());
 }
