@@ -19,9 +19,10 @@ AtNodes inverseRoots(const Conductivity& conductivity, const AtNodes& pressures)
   return pressures.unaryExpr([&](double p) { return std::exp(-conductivity.half(p)); });
 }
 
-/// Whether 1/m is other than quadratic. What rounding leaves of it would be a function of its own.
+/// Whether 1/m is other than quadratic. Smaller functions add no more than what they make better where k is even, which
+/// the mesh at rest has without them: 1e-5 of ln R by virtual ground, however weak the law is.
 bool isRoughInside(const Conductivity& conductivity, const AtNodes& pressures) {
-  constexpr double least = 1e-6;
+  constexpr double least = 1e-3;
   if (!(pressures.array() > 0).any()) return false;
   const AtNodes roots = inverseRoots(conductivity, pressures);
   for (const Eigen::Vector4d& point : tetRule().barycentric) {

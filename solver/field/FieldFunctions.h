@@ -23,7 +23,7 @@ public:
   FieldFunctions(const FieldMesh& mesh, Conductivity conductivity, int threads);
 
   [[nodiscard]] const Conductivity& conductivity() const { return conductivity_; }
-  /// Whether a corner has its function: where 1/m is other than quadratic, by 1e-6 at least, in an element around it.
+  /// Whether a corner has its function: where 1/m is other than quadratic, by 1e-3 at least, in an element around it.
   /// In those others around it the function is as it comes out, as it has to be the same on both sides of a face.
   [[nodiscard]] bool isRough(int corner) const { return !rough_.empty() && rough_[std::size_t(corner)]; }
   /// 10, or 14 where a corner has one. Those of the others are 0 then.

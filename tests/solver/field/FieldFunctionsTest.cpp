@@ -112,7 +112,11 @@ TEST_P(FieldFunctionsOf, MakeUpWhatAQuadraticFunctionLeavesOfTheInverseRoot) {
     const FieldFunctions::Point there = pressed.functions.at(e, place);
     double made = -there.values.tail<4>().sum();
     for (int n = 0; n < 10; ++n) made += there.values(n) * std::exp(-k.half(pressures(n)));
-    EXPECT_NEAR(made, std::exp(-k.half(there.values.head<10>().dot(pressures))), 2e-6) << "element " << e;
+    int rough = 0;
+    for (int corner = 0; corner < 4; ++corner)
+      rough += pressed.functions.isRough(pressed.mesh.tets().elements(corner, e)) ? 1 : 0;
+    EXPECT_NEAR(made, std::exp(-k.half(there.values.head<10>().dot(pressures))), rough == 4 ? 1e-14 : 2e-3)
+        << "element " << e;
   }
 }
 
