@@ -99,6 +99,7 @@ std::optional<TerminalNetwork> ConductionField::network(const LoadIncrement& sta
 std::optional<TerminalNetwork> ConductionField::network(const LoadIncrement& state,
                                                         const ElectrodeDisplacements& electrodes, int threads,
                                                         const std::stop_token& stop) const {
+  if (stop.stop_requested()) return {}; // of many states those that have not begun
   const auto potentials = state_->potentials(state_->places(state, electrodes), threads, stop);
   if (!potentials) return {};
   TerminalNetwork network(*potentials, wireCounts(state_->problem.design()), state_->law.wire_ohm);

@@ -75,7 +75,6 @@ DeformedGreen::DeformedGreen(const Mesh& solverMesh, const Eigen::Vector3d& bloc
   }
 }
 
-/// Gradients in space of the functions at a place; those that the element has not are 0.
 Eigen::Matrix<double, 3, FieldFunctions::most>
 DeformedGreen::gradientsIn(const FieldFunctions& functions, const FieldState& state, const Place& place) const {
   const FieldFunctions::Point there = functions.at(place.element, place.barycentric);
@@ -194,6 +193,7 @@ DeformedGreen::SourceIntegrals DeformedGreen::integrals(const FieldState& state,
   SourceIntegrals result{boundary_.at(state.nodes_mm, system.sources, system.functions, threads, stop),
                          &boundary_.rows(state.conductivity),
                          {}};
+  if (stop.stop_requested()) return result; // without the rows that are not of the boundary
   SourceRows& right = result.boundary.right;
   if (state.conductivity.uneven()) {
     Eigen::MatrixXd& products = result.boundary.products;

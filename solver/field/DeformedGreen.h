@@ -64,6 +64,7 @@ private:
   };
   /// Where each electrode lies in the deformed mesh: in all elements around it.
   [[nodiscard]] std::vector<std::vector<Place>> places(const FieldState& state) const;
+  /// Gradients in space of the functions at a place; those that the element has not are 0.
   [[nodiscard]] Eigen::Matrix<double, 3, FieldFunctions::most>
   gradientsIn(const FieldFunctions& functions, const FieldState& state, const Place& place) const;
   [[nodiscard]] std::vector<AtElectrode> atElectrodes(const FieldState& state, const FieldFunctions& functions,

@@ -9,6 +9,10 @@
 
 #include <Eigen/Dense>
 
+#include <chrono>
+#include <stop_token>
+#include <thread>
+
 namespace palp {
 namespace {
 
@@ -160,6 +164,28 @@ std::vector<Eigen::MatrixXd> changesBy(const UnevenBlock& block,
     changes.push_back(NetworkReading(uneven, readout).resistances_ohm().array().log() -
                       NetworkReading(rest, readout).resistances_ohm().array().log());
   return changes;
+}
+
+/// Between its parts too, of which the later ones need what the earlier ones leave.
+TEST(UnevenConductivity, StopsAtAnyTime) {
+  const UnevenBlock block(1);
+  const FieldState state = block.with([](const Eigen::Vector3d& x) { return 1 + std::max(0., x.z() - 1); });
+  const auto begin = std::chrono::steady_clock::now();
+  const Eigen::MatrixXd whole = block.potentials(state, 1);
+  const auto takes = std::chrono::steady_clock::now() - begin;
+  constexpr int times = 24;
+  int stopped = 0;
+  for (int i = 0; i < times; ++i) {
+    std::stop_source source;
+    const std::jthread asks([&] {
+      std::this_thread::sleep_for(i * takes / times);
+      source.request_stop();
+    });
+    const auto found = block.green->at(state, 1, source.get_token());
+    stopped += found ? 0 : 1;
+  }
+  EXPECT_GT(stopped, 0);
+  EXPECT_EQ(block.potentials(state, 1), whole);
 }
 
 /// Where the pressure changes its sign within elements. Cut off at the nodes instead it is 2 to 3 times as far.
