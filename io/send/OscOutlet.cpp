@@ -3,11 +3,18 @@
 
 #include <lo/lo.h>
 
+#include <memory>
+#include <type_traits>
+
 namespace palp {
 
 namespace {
 
 constexpr const char* kForcesPath = "/palp/forces_N";
+
+// liblo's handles are pointers to void up to 0.31 and to structs from 0.32 on.
+using OwnedAddress = std::unique_ptr<std::remove_pointer_t<lo_address>, decltype(&lo_address_free)>;
+using OwnedMessage = std::unique_ptr<std::remove_pointer_t<lo_message>, decltype(&lo_message_free)>;
 
 /// /palp/forces_N: device_s and host_unix_s (d), frame (h), valid and area (i, -1: none), then forces and their
 /// standard deviations (f), x y z of each (Open Sound Control 1.0; liblo).
@@ -19,7 +26,7 @@ public:
   }
 
   bool send(const OutgoingFrame& frame, std::chrono::milliseconds /*patience*/) override {
-    const std::unique_ptr<void, decltype(&lo_message_free)> message(lo_message_new(), lo_message_free);
+    const OwnedMessage message(lo_message_new(), lo_message_free);
     lo_message_add_double(message.get(), frame.device_s);
     lo_message_add_double(message.get(), frame.host_unix_s);
     lo_message_add_int64(message.get(), static_cast<std::int64_t>(frame.frame));
@@ -32,7 +39,7 @@ public:
   }
 
 private:
-  std::unique_ptr<void, decltype(&lo_address_free)> address_;
+  OwnedAddress address_;
 };
 
 } // namespace
