@@ -25,12 +25,21 @@ installMissing() {
   "${asRoot[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "${missing[@]}" >&2
 }
 
-# configureAndBuild FOLDER [CMAKE OPTION ...]: Release with Ninja; all, or the target named in $buildTarget. A folder that is
-# made here compiles several files as one; one that was configured by hand stays as it is.
+# buildJobs: how many compilers run at once: one per core, but no more than fit into the free memory, at 1.5 GB each.
+buildJobs() {
+  local cores fit
+  cores=$(nproc)
+  fit=$(awk '/^MemAvailable:/ { print int($2 / 1500000) }' /proc/meminfo 2>/dev/null)
+  [ "${fit:-$cores}" -ge 1 ] || fit=1
+  [ "${fit:-$cores}" -lt "$cores" ] && echo "$fit" || echo "$cores"
+}
+
+# configureAndBuild FOLDER [CMAKE OPTION ...]: all, or the target named in $buildTarget. A new folder is a Release build by
+# Ninja that compiles several files as one; generator, build type and that choice of an existing one stay as they are.
 configureAndBuild() {
   local folder=$1
   shift
-  [ -f "$folder/CMakeCache.txt" ] || set -- -DPALP_FEWER_FILES=ON "$@"
-  cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release "$@" >&2
-  cmake --build "$folder" --target "${buildTarget:-all}" >&2
+  [ -f "$folder/CMakeCache.txt" ] || set -- -G Ninja -DCMAKE_BUILD_TYPE=Release -DPALP_FEWER_FILES=ON "$@"
+  cmake -S . -B "$folder" "$@" >&2
+  cmake --build "$folder" --parallel "$(buildJobs)" --target "${buildTarget:-all}" >&2
 }
