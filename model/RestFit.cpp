@@ -188,8 +188,7 @@ RestFit fitted(const RestModel& model, const FieldLaw& law, double noise) {
   return fit;
 }
 
-const FieldLaw& requireReadings(const SensorDesign& design,
-                                const Eigen::Ref<const Eigen::MatrixXd>& resistances_ohm) {
+const FieldLaw& requireReadings(const SensorDesign& design, const Eigen::Ref<const Eigen::MatrixXd>& resistances_ohm) {
   const FieldLaw* law = design.field();
   if (!law)
     throw Error(

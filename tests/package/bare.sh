@@ -7,9 +7,9 @@ fail() {
 
 # inNamespaces ARG ...: the calling script once more, where its mounts and processes are its own and end with it.
 inNamespaces() {
-  [ -z "${PALP_BARE:-}" ] || return 0
+  [ $$ -ne 1 ] || return 0 # the first process of its namespace
   [ "$(id -u)" -eq 0 ] || fail "needs root, for chroot and mounts"
-  PALP_BARE=1 exec unshare --mount --pid --fork --kill-child --mount-proc "$0" "$@"
+  exec unshare --mount --pid --fork --kill-child --mount-proc "$0" "$@"
 }
 
 # makeBare SUITE FOLDER LOG: Debian's essential packages, from the server that apt is set up with.
