@@ -28,6 +28,11 @@ const char* word(ReadingState state) {
   return "";
 }
 
+std::string columnsInWords(int first, int last) {
+  return first == last ? "column-wire " + std::to_string(first)
+                       : "column-wires " + std::to_string(first) + " to " + std::to_string(last);
+}
+
 std::vector<int> expectedRows(const BoardFrame& frame) {
   std::vector<int> rows;
   for (int row = 0; row < static_cast<int>(frame.rowExpected.size()); ++row)
@@ -72,10 +77,15 @@ std::vector<std::string> wireFaults(const BoardFrame& frame) {
       faults.push_back("row-wire " + std::to_string(row) + ": " + word(first));
       continue;
     }
-    for (int column = 0; column < columns; ++column)
-      if (frame.state(row, column) != ReadingState::Good && !wholeColumn[static_cast<std::size_t>(column)])
-        faults.push_back("row-wire " + std::to_string(row) + ", column-wire " + std::to_string(column) + ": " +
-                         word(frame.state(row, column)));
+    for (int column = 0; column < columns; ++column) {
+      const ReadingState bad = frame.state(row, column);
+      if (bad == ReadingState::Good || wholeColumn[static_cast<std::size_t>(column)]) continue;
+      const int from = column;
+      while (column + 1 < columns && frame.state(row, column + 1) == bad &&
+             !wholeColumn[static_cast<std::size_t>(column) + 1])
+        ++column;
+      faults.push_back("row-wire " + std::to_string(row) + ", " + columnsInWords(from, column) + ": " + word(bad));
+    }
   }
   const bool everything = std::all_of(wholeColumn.begin(), wholeColumn.end(), [](bool bad) { return bad; });
   for (int column = 0; column < columns && !everything; ++column)

@@ -2,6 +2,7 @@
 //   live_benchmark [latency [SECONDS]]       report to force, 1000 and 8000 reports/s, all rows, 600 centres
 //   live_benchmark memory [SECONDS [RATE]]   resident memory each 10 s (default 600 s at 8000 reports/s)
 //   live_benchmark coverage                  forces against the truth, by network, noise and tare
+//   live_benchmark missing                   forces against the truth and time, by the number of missing column-wires
 
 #include "app/study/live/LiveHistory.h"
 #include "app/study/live/LiveSource.h"
@@ -140,6 +141,50 @@ void coverage() {
     }
 }
 
+/// Errors and stated deviations [N], all components together, and time a frame, without so many column-wires.
+void decodeWithout(const std::string& what, const Decoder& decoder, double noise, int missing, int dropEvery) {
+  BoardDisturbance disturbance;
+  disturbance.noise = noise;
+  VirtualBoard board = simulatedBoard(shippedSamples(), disturbance, 1000, 21);
+  for (int k = 0; k < missing; ++k) board.faults().openColumns.push_back((7 + 11 * k) % 30);
+  board.faults().dropEvery = dropEvery;
+  const BoardConfiguration configuration = board.configuration();
+  VirtualStream stream(std::move(board), configuration);
+  ForceDecoder live(decoder, stream.board().info(), paperDesign());
+  const SimulatedTouch touch(shippedSamples());
+  double square = 0, variance = 0, within = 0, first_s = 0;
+  int frames = 0, valid = 0;
+  double decoding_s = 0;
+  stream.run(600, [&](const BoardFrame& frame) {
+    ++frames;
+    const double start_s = hostClock_s();
+    const DecodedForces forces = live.decode(frame);
+    const double took_s = hostClock_s() - start_s;
+    decoding_s += took_s;
+    first_s = std::max(first_s, took_s);
+    if (!forces.valid) return;
+    ++valid;
+    const Eigen::Array3d error = (forces.forces_N.col(0) - touch.truth(frame.time_s).force_N).array();
+    square += error.square().sum();
+    variance += forces.standardDeviation_N.squaredNorm();
+    within += (error.abs() <= 3 * forces.standardDeviation_N.col(0).array()).cast<double>().sum();
+  });
+  const double count = std::max(1, 3 * valid);
+  std::printf("%-8s %8.0e %8d %6d %6d of %d   %9.5f %9.5f %8.2f   %8.3f %8.3f\n", what.c_str(), noise, missing,
+              dropEvery, valid, frames, std::sqrt(square / count), std::sqrt(variance / count), 100 * within / count,
+              1e3 * decoding_s / frames, 1e3 * first_s);
+}
+
+void missing() {
+  std::printf("%-8s %8s %8s %6s %13s   %9s %9s %8s   %8s %8s\n", "network", "noise", "columns", "lost", "with forces",
+              "error [N]", "sd [N]", "3 sd [%]", "mean ms", "most ms");
+  for (const DecoderKind kind : {DecoderKind::MaximumLikelihood, DecoderKind::Rbf}) {
+    const Decoder decoder = liveDecoder(kPlainNoise, kind);
+    for (const int columns : {0, 1, 2, 5, 10, 15}) decodeWithout(name(kind), decoder, kPlainNoise, columns, 0);
+    for (const int every : {20, 7}) decodeWithout(name(kind), decoder, kPlainNoise, 0, every);
+  }
+}
+
 } // namespace
 } // namespace palp
 
@@ -152,8 +197,10 @@ int main(int argc, char** argv) {
     palp::memory(seconds > 0 ? seconds : 600, argc > 3 ? std::atoi(argv[3]) : 8000);
   } else if (what == "coverage") {
     palp::coverage();
+  } else if (what == "missing") {
+    palp::missing();
   } else {
-    std::fprintf(stderr, "live_benchmark: '%s'; allowed is latency, memory or coverage\n", what.c_str());
+    std::fprintf(stderr, "live_benchmark: '%s'; allowed is latency, memory, coverage or missing\n", what.c_str());
     return 2;
   }
   return 0;

@@ -90,13 +90,14 @@ Json frameJson(const LiveFrame& live) {
             {"frame", live.frame.number},
             {"complete", live.frame.complete},
             {"lost_reports", live.lostReports},
-            {"forces_N", list(forces.forces_N)},
-            {"standard_deviation_N", list(forces.standardDeviation_N)},
+            {"forces_N", list(forces.measuredAlone(forces.forces_N))}, // null: not measured
+            {"standard_deviation_N", list(forces.measuredAlone(forces.standardDeviation_N))},
             {"valid", forces.valid},
             {"latency_ms", 1e3 * live.latency_s}};
   if (forces.valid) {
     json["shown"] = forces.shown;
     json["outside_training_range"] = forces.outsideTrainingRange;
+    if (forces.missingReadings > 0) json["missing_readings"] = forces.missingReadings;
     if (forces.misfit) json["misfit"] = *forces.misfit;
     if (!forces.doubt.empty()) json["doubt"] = forces.doubt;
     if (forces.area) {

@@ -1,6 +1,7 @@
 #include "app/study/decoding/Calibration.h"
 
 #include "app/study/Median.h"
+#include "app/study/decoding/CalibrationMark.h"
 #include "io/SampleFile.h"
 #include "model/TouchRange.h"
 #include "model/base/Cancelled.h"
@@ -262,6 +263,7 @@ Calibration calibrate(const Decoder& decoder, const SampleSet& frames, const std
   if (auto* model = std::get_if<ForwardModel>(&result.decoder.model)) apply(*model, affine);
   if (std::holds_alternative<KernelForwardModel>(decoder.model)) apply(result.decoder.correction, affine);
   result.decoder.residual_N = report.rmseAfter_N.replicate(1, std::max<Eigen::Index>(1, decoder.residual_N.cols()));
+  result.decoder.trainedWith = withCalibrationMark(decoder.trainedWith, frames.size());
   if (report.place) result.decoder.place->residual_mm = report.place->rmseAfter_mm;
   return result;
 }
@@ -294,7 +296,7 @@ FrameAverage::FrameAverage(const Decoder& decoder, const SensorDesign& design, c
 }
 
 void FrameAverage::add(const DecodedForces& forces) {
-  if (!forces.valid) return;
+  if (!forces.valid || forces.missingReadings > 0) return; // a label wants all readings
   sum_ += forces.resistances_ohm;
   ++count_;
   if (forces.forces_N.cols() == 1) said_N_.push_back(forces.forces_N.col(0));

@@ -1,6 +1,8 @@
 #include "app/study/decoding/Prediction.h"
 
 #include "app/study/Median.h"
+#include "app/study/decoding/CalibrationMark.h"
+#include "app/study/decoding/PredictionParts.h"
 #include "app/study/decoding/TwoStep.h"
 #include "model/base/Error.h"
 #include "model/base/Text.h"
@@ -47,6 +49,8 @@ Eigen::MatrixXd differences(const Decoder& decoder, const Eigen::VectorXd& input
   return slope;
 }
 
+} // namespace
+
 Eigen::MatrixXd slopeAt(const Decoder& decoder, const Eigen::VectorXd& input) {
   return std::visit(
       [&](const auto& model) -> Eigen::MatrixXd {
@@ -61,12 +65,15 @@ Eigen::MatrixXd slopeAt(const Decoder& decoder, const Eigen::VectorXd& input) {
       decoder.model);
 }
 
+namespace {
+
 /// Noise of the inputs beyond what the decoder was trained with; its variance relative to the square of an input.
 double furtherNoise(const Decoder& decoder, const PredictOptions& options) {
   return std::max(0.0, options.noise * options.noise - decoder.noise * decoder.noise);
 }
 
-/// Variance of noise beyond the training's, in that of the noise that the components of touches are counted in.
+} // namespace
+
 double noiseBeyond(const Decoder& decoder, const PredictOptions& options) {
   const double counted = std::max(decoder.noise, leastTouchNoise);
   return furtherNoise(decoder, options) / (counted * counted);
@@ -77,6 +84,13 @@ ForwardModel withNoise(ForwardModel model, const Decoder& decoder, const Predict
   model.deviation = (model.deviation.array().square() + furtherNoise(decoder, options) * size).sqrt();
   return model;
 }
+
+KernelForwardModel withNoise(KernelForwardModel model, const Decoder& decoder, const PredictOptions& options) {
+  model.deviation = (model.deviation.array().square() + noiseBeyond(decoder, options)).sqrt();
+  return model;
+}
+
+namespace {
 
 int areaOf(const Decoder& decoder, int classIndex) {
   return decoder.areaOfClass.empty() ? classIndex : decoder.areaOfClass[static_cast<std::size_t>(classIndex)];
@@ -104,6 +118,8 @@ void decodeByLikelihood(const Decoder& decoder, const ForwardModel& model, const
   }
 }
 
+} // namespace
+
 void addAreas(const Decoder& decoder, const LikelihoodInversion& inversion,
               const Eigen::Ref<const Eigen::MatrixXd>& inputs, Prediction& result) {
   result.area.resize(inputs.cols());
@@ -118,6 +134,8 @@ void addAreas(const Decoder& decoder, const LikelihoodInversion& inversion,
     result.areaConfidence(i) = estimate.confidence;
   }
 }
+
+namespace {
 
 /// The error found in training (of the touched area, where it is known) and the inputs' further noise through dF/dx;
 /// never less than all their noise there, which training averaged over the range.
@@ -152,9 +170,11 @@ double commonMeanSquare(Eigen::Index count) {
   return std::pow(1 - spread + quantile * std::sqrt(spread), 3);
 }
 
-/// Forces and places with their deviations, and how well the model explains the inputs.
+} // namespace
+
 void decodeTouches(const Decoder& decoder, const KernelForwardModel& model, const KernelInversion& inversion,
-                   const Eigen::Ref<const Eigen::MatrixXd>& inputs, const PredictOptions& options, Prediction& result) {
+                   const FewerTouchReadings* fewer, const Eigen::Ref<const Eigen::MatrixXd>& inputs,
+                   const PredictOptions& options, Prediction& result) {
   const double seen = (1 + noiseBeyond(decoder, options)) * commonMeanSquare(model.components());
   const Eigen::Index outputs = decoder.outputs() + 2;
   const bool sized = inversion.finds(outputs); // after force and place: size, friction
@@ -163,7 +183,8 @@ void decodeTouches(const Decoder& decoder, const KernelForwardModel& model, cons
   result.standardDeviation_N.resize(outputs, inputs.cols());
   result.chiSquare.resize(inputs.cols());
   for (Eigen::Index i = 0; i < inputs.cols(); ++i) {
-    const KernelEstimate estimate = inversion.estimate(inputs.col(i));
+    const KernelEstimate estimate =
+        fewer != nullptr ? fewer->estimate(inversion, inputs.col(i)) : inversion.estimate(inputs.col(i));
     result.forces_N.col(i) = estimate.causes.head(outputs);
     result.standardDeviation_N.col(i) = estimate.standardDeviation.head(outputs);
     result.chiSquare(i) = estimate.chiSquare;
@@ -174,6 +195,8 @@ void decodeTouches(const Decoder& decoder, const KernelForwardModel& model, cons
                                                                       : Pressing::Other);
   }
 }
+
+namespace {
 
 /// What a calibration made of the answers and, as far as they are independent, of their deviations.
 void correct(const OutputCorrection& correction, Prediction& result) {
@@ -189,6 +212,27 @@ void splitPlace(Eigen::MatrixXd& all, Eigen::MatrixXd& place) {
   place = all.bottomRows<2>();
   all.conservativeResize(all.rows() - 2, Eigen::NoChange);
 }
+
+/// Deviations with a further error, of each of their rows.
+void widen(const Eigen::VectorXd& error, Eigen::MatrixXd& deviation) {
+  if (deviation.size() == 0 || error.isZero(0)) return;
+  deviation = (deviation.cwiseAbs2().colwise() + error.cwiseAbs2()).cwiseSqrt().eval();
+}
+
+} // namespace
+
+void finish(const Decoder& decoder, Prediction& result) {
+  if (decoder.correction) correct(*decoder.correction, result);
+  if (decoder.place) {
+    splitPlace(result.forces_N, result.places_mm);
+    splitPlace(result.standardDeviation_N, result.placeDeviation_mm);
+  }
+  widen(calibrationError_N(decoder), result.standardDeviation_N);
+  const bool placesCalibrated = decoder.correction && !decoder.correction->offset.tail<2>().isZero(0);
+  if (placesCalibrated) widen(decoder.place->residual_mm, result.placeDeviation_mm);
+}
+
+namespace {
 
 std::vector<bool> outside(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixXd>& inputs, double noise) {
   const DecoderInput& input = decoder.input;
@@ -237,8 +281,7 @@ Predictor::Predictor(const Decoder& decoder, const PredictOptions& options) : de
   if (!(options.noise >= 0 && options.noise < 1))
     throw Error("noise: " + std::to_string(options.noise) + "; allowed is 0 up to below 1 (relative)");
   if (const auto* touches = std::get_if<KernelForwardModel>(&decoder.model)) {
-    touches_ = std::make_shared<KernelForwardModel>(*touches);
-    touches_->deviation = (touches_->deviation.array().square() + noiseBeyond(decoder, options)).sqrt();
+    touches_ = std::make_shared<KernelForwardModel>(withNoise(*touches, decoder, options));
     touchInversion_.emplace(*touches_);
   } else if (const auto* likelihood = std::get_if<ForwardModel>(&decoder.model))
     inversion_.emplace(withNoise(*likelihood, decoder, options));
@@ -260,22 +303,21 @@ Prediction Predictor::operator()(const Eigen::Ref<const Eigen::MatrixXd>& inputs
   if (likelihood)
     decodeByLikelihood(decoder, *likelihood, *inversion_, inputs, options, result);
   else if (touchInversion_)
-    decodeTouches(decoder, *touches_, *touchInversion_, inputs, options, result);
+    decodeTouches(decoder, *touches_, *touchInversion_, nullptr, inputs, options, result);
   else
     result.forces_N = forcesOf(decoder, inputs);
   const std::chrono::duration<double, std::micro> time = std::chrono::steady_clock::now() - start;
   result.microsecondsPerSample = inputs.cols() > 0 ? time.count() / static_cast<double>(inputs.cols()) : 0;
-  if (likelihood) return result;
+  if (likelihood) {
+    finish(decoder, result);
+    return result;
+  }
   if (options.area && decoder.areas) addAreas(decoder, *inversion_, inputs, result);
   if (!options.standardDeviation)
     result.standardDeviation_N.resize(0, 0);
   else if (!touchInversion_)
     addDeviations(decoder, inputs, options, result);
-  if (decoder.correction) correct(*decoder.correction, result);
-  if (decoder.place) {
-    splitPlace(result.forces_N, result.places_mm);
-    splitPlace(result.standardDeviation_N, result.placeDeviation_mm);
-  }
+  finish(decoder, result);
   return result;
 }
 

@@ -16,6 +16,33 @@ double valueOf(ForceQuantity quantity, const Eigen::Vector3d& force_N) {
   return quantity == ForceQuantity::Size ? force_N.norm() : force_N(static_cast<Eigen::Index>(quantity));
 }
 
+/// The area whose force is farthest beyond the limit (by_N below 0: within it).
+struct Beyond {
+  Eigen::Index area = 0;
+  double value_N = 0, by_N = 0;
+};
+
+Beyond mostBeyond(const ForceAlarm& alarm, const Eigen::Ref<const Eigen::Matrix3Xd>& forces_N) {
+  const bool pressed = !forces_N.isZero(0);
+  std::optional<Beyond> most;
+  for (Eigen::Index area = 0; area < forces_N.cols(); ++area) {
+    if (pressed && forces_N.col(area).isZero(0)) continue; // nothing presses this area, but another one
+    const double value_N = valueOf(alarm.quantity, forces_N.col(area));
+    const double beyond_N = alarm.side == AlarmSide::Above ? value_N - alarm.limit_N : alarm.limit_N - value_N;
+    if (!most || beyond_N > most->by_N) most = Beyond{area, value_N, beyond_N};
+  }
+  return *most;
+}
+
+std::string sentence(const ForceAlarm& alarm, const Beyond& most, Eigen::Index areas) {
+  const std::string place = areas > 1 ? " on area " + std::to_string(most.area) : "";
+  std::array<char, 96> text{};
+  std::snprintf(text.data(), text.size(), "alarm: %s %.3f N%s is %s %.4g N",
+                std::string(kForceQuantities.name(alarm.quantity)).c_str(), most.value_N, place.c_str(),
+                std::string(kAlarmSides.name(alarm.side)).c_str(), alarm.limit_N);
+  return text.data();
+}
+
 } // namespace
 
 void AlarmWatch::set(std::optional<ForceAlarm> alarm) {
@@ -32,20 +59,13 @@ std::optional<std::string> AlarmWatch::lose() {
 
 std::optional<std::string> AlarmWatch::add(const Eigen::Ref<const Eigen::Matrix3Xd>& forces_N) {
   if (!alarm_ || forces_N.cols() == 0) return {};
-  Eigen::Index area = 0;
-  forces_N.colwise().squaredNorm().maxCoeff(&area);
-  const double value_N = valueOf(alarm_->quantity, forces_N.col(area));
-  const double beyond_N = alarm_->side == AlarmSide::Above ? value_N - alarm_->limit_N : alarm_->limit_N - value_N;
+  const Beyond most = mostBeyond(*alarm_, forces_N);
   const double back_N = std::max(kBack * std::abs(alarm_->limit_N), kLeastBack_N);
   const bool lasts = !words_.empty();
-  if (lasts && beyond_N <= -back_N) return lose();
-  if (!lasts && !(beyond_N > 0)) return {};
-  std::array<char, 96> text{};
-  std::snprintf(text.data(), text.size(), "alarm: %s %.3f N is %s %.4g N",
-                std::string(kForceQuantities.name(alarm_->quantity)).c_str(), value_N,
-                std::string(kAlarmSides.name(alarm_->side)).c_str(), alarm_->limit_N);
+  if (lasts && most.by_N <= -back_N) return lose();
+  if (!lasts && !(most.by_N > 0)) return {};
   // Within the hysteresis the force is not beyond the limit: the words stay those of the last one that was.
-  if (beyond_N > 0) words_ = text.data();
+  if (most.by_N > 0) words_ = sentence(*alarm_, most, forces_N.cols());
   return lasts ? std::nullopt : std::optional(words_);
 }
 

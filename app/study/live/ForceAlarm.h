@@ -26,12 +26,12 @@ struct ForceAlarm {
   bool operator==(const ForceAlarm&) const = default;
 };
 
-/// Goes off where a force passes the limit, and is over where it has come back by 5 % of the limit: noise about the
-/// limit is one alarm.
+/// Goes off where the force on any area passes the limit, and is over where those on all areas are back by 5 % of it:
+/// noise about the limit is one alarm.
 class AlarmWatch {
 public:
   void set(std::optional<ForceAlarm> alarm);
-  /// Takes the forces of a frame, 3 x areas: the largest one counts. Says what begins or is over; nothing else.
+  /// Takes the forces of a frame, 3 x areas: each one counts that is not 0, or all. Says what begins or is over.
   std::optional<std::string> add(const Eigen::Ref<const Eigen::Matrix3Xd>& forces_N);
   /// There are no forces: an alarm that lasts is over. Says so; nothing else.
   std::optional<std::string> lose();

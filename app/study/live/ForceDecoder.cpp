@@ -1,5 +1,6 @@
 #include "app/study/live/ForceDecoder.h"
 
+#include "app/study/decoding/CalibrationMark.h"
 #include "io/DesignFile.h"
 #include "model/FieldAtRest.h"
 #include "model/RowColumnResistance.h"
@@ -9,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <random>
 
 namespace palp {
@@ -24,6 +26,7 @@ constexpr double kMostNoise = 0.99; // relative
 constexpr Eigen::Index kRestCopies = 32;
 constexpr double kMoving = 2.5;  // times the noise of a frame: the sensor moved during the tare
 constexpr double kDrowned = 0.5; // of the force range: a deviation that leaves nothing of the force
+constexpr double kFewest = 0.5;  // of the readings, from which a force is found
 constexpr double kRestReach = 4; // deviations from rest, at which half of its error counts
 
 std::string sizes(int rows, int columns) {
@@ -67,11 +70,22 @@ Eigen::VectorXd inputOf(const Eigen::MatrixXd& resistances_ohm, const DecoderInp
 
 } // namespace
 
+Eigen::Matrix3Xd DecodedForces::measuredAlone(const Eigen::Matrix3Xd& values) const {
+  Eigen::Matrix3Xd all = values;
+  for (Eigen::Index column = 0; column < all.cols(); ++column)
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+      if (!measures(axis, column)) all(axis, column) = std::numeric_limits<double>::quiet_NaN();
+  return all;
+}
+
 ForceDecoder::ForceDecoder(Decoder decoder, const BoardInfo& info, std::optional<SensorDesign> design)
     : decoder_(std::make_unique<const Decoder>(std::move(decoder))) {
   requireFit(*decoder_, info);
   rest_ohm_ = restResistances(*decoder_, design);
   factor_ = Eigen::MatrixXd::Ones(info.rowWires, info.columnWires);
+  measured_.resize(3, decoder_->outputs() / 3);
+  for (Eigen::Index k = 0; k < measured_.size(); ++k) measured_(k) = decoder_->high_N(k) > decoder_->low_N(k);
+  calibrationError_N_ = calibrationError_N(*decoder_).reshaped(3, measured_.cols());
   shown_.assign(static_cast<std::size_t>(decoder_->outputs() / 3), false);
   plausibility_.emplace(*decoder_);
   setNoise(decoder_->noise);
@@ -83,6 +97,8 @@ void ForceDecoder::setNoise(double noise) {
   PredictOptions options;
   // What is left in the mean of the tare's frames is in every frame since.
   options.noise = std::min(tared_ ? noise * std::sqrt(1 + 1.0 / tareFrames_) : noise, kMostNoise);
+  fewer_.reset();
+  predictorOptions_ = options;
   predictor_.emplace(*decoder_, options);
   predictedNoise_ = options.noise;
   restError_N_ = Eigen::Matrix3Xd::Zero(3, decoder_->outputs() / 3);
@@ -116,7 +132,7 @@ void ForceDecoder::startTare(int frames) {
   if (frames < 1 || frames > kMostTareFrames)
     throw Error("tare over " + std::to_string(frames) + " frames; allowed is 1 to " + std::to_string(kMostTareFrames));
   tareFrames_ = tareLeft_ = frames;
-  tareSum_ = tareSquares_ = Eigen::MatrixXd::Zero(factor_.rows(), factor_.cols());
+  tareSum_ = tareSquares_ = tareCounts_ = Eigen::MatrixXd::Zero(factor_.rows(), factor_.cols());
   tareFirst_.resize(0, 0);
 }
 
@@ -129,13 +145,30 @@ void ForceDecoder::clearTare() {
   setNoise(decoder_->noise);
 }
 
-std::string ForceDecoder::reasonAgainst(const BoardFrame& frame) const {
-  const bool good = std::all_of(decoder_->input.rows.begin(), decoder_->input.rows.end(),
-                                [&](int row) { return frame.rowGood(row); });
-  if (good) return {};
+PresentReadings ForceDecoder::presentIn(const BoardFrame& frame) const {
+  PresentReadings readings;
+  Eigen::Index k = 0;
+  for (const int row : decoder_->input.rows)
+    for (Eigen::Index column = 0; column < decoder_->input.valuesPerRow; ++column, ++k)
+      (frame.state(row, column) == ReadingState::Good ? readings.present : readings.missing).push_back(k);
+  return readings;
+}
+
+Prediction ForceDecoder::predicted(const Eigen::VectorXd& readings_ohm, const PresentReadings& readings) {
+  if (readings.missing.empty()) return (*predictor_)(readings_ohm);
+  if (!fewer_) fewer_ = std::make_unique<PartialPredictor>(*decoder_, predictorOptions_);
+  return (*fewer_)(readings_ohm, readings);
+}
+
+/// Empty where the readings that came give a force.
+std::string ForceDecoder::reasonAgainst(const BoardFrame& frame, const PresentReadings& readings) const {
+  if (readings.missing.empty()) return {};
   for (const int row : decoder_->input.rows)
     if (!frame.rowExpected[static_cast<std::size_t>(row)])
       return "the board does not scan row-wire " + std::to_string(row) + ", which the network reads";
+  const std::string whyNot = whyNotFewer(*decoder_);
+  const auto present = static_cast<double>(readings.present.size());
+  if (whyNot.empty() && present >= kFewest * static_cast<double>(decoder_->inputs())) return {};
   if (!frame.complete) return "a report of the frame is lost";
   const std::vector<std::string> faults = wireFaults(frame);
   std::string all;
@@ -146,18 +179,24 @@ std::string ForceDecoder::reasonAgainst(const BoardFrame& frame) const {
   return all;
 }
 
-/// Mean for the scale, scatter for the noise; sums about the first frame, because the scatter is 1e-6 of the mean.
-void ForceDecoder::addToTare(const Eigen::MatrixXd& raw_ohm) {
-  if (tareFirst_.size() == 0) tareFirst_ = raw_ohm;
-  const Eigen::MatrixXd relative = (tareFirst_.array() > 0).select(raw_ohm.array() / tareFirst_.array() - 1, 0.0);
+/// Mean for the scale, scatter for the noise; sums about each reading's first, because the scatter is 1e-6 of the mean.
+void ForceDecoder::addToTare(const BoardFrame& frame) {
+  const Eigen::MatrixXd& raw_ohm = frame.resistances_ohm;
+  if (tareFirst_.size() == 0) tareFirst_ = Eigen::MatrixXd::Zero(raw_ohm.rows(), raw_ohm.cols());
+  const auto good = (frame.state.array() == ReadingState::Good && raw_ohm.array() > 0).eval();
+  tareFirst_ = (good && tareFirst_.array() == 0).select(raw_ohm, tareFirst_);
+  const Eigen::MatrixXd relative = good.select(raw_ohm.array() / tareFirst_.array() - 1, 0.0);
   tareSum_ += relative;
   tareSquares_ += relative.cwiseAbs2();
+  tareCounts_ += good.cast<double>().matrix();
   if (--tareLeft_ > 0) return;
-  const Eigen::ArrayXXd mean = tareSum_.array() / tareFrames_;
+  const Eigen::ArrayXXd counts = tareCounts_.array().max(1);
+  const Eigen::ArrayXXd mean = tareSum_.array() / counts;
   double noise = noise_;
   if (tareFrames_ > 1) {
-    const Eigen::MatrixXd variance = (tareSquares_.array() / tareFrames_ - mean.square()).cwiseMax(0.0);
-    noise = std::sqrt(inputOf(variance, decoder_->input).mean() * tareFrames_ / (tareFrames_ - 1));
+    const Eigen::MatrixXd square = (tareSquares_.array() - counts * mean.square()).cwiseMax(0.0);
+    const double freedom = inputOf((counts - 1).matrix(), decoder_->input).sum();
+    if (freedom > 0) noise = std::sqrt(inputOf(square, decoder_->input).sum() / freedom);
     if (meter_.ready() && noise > kMoving * meter_.noise()) return startTare(tareFrames_);
   }
   const Eigen::ArrayXXd seen_ohm = tareFirst_.array() * (1 + mean);
@@ -178,16 +217,22 @@ void ForceDecoder::setTare(const Tare& tare) {
 
 DecodedForces ForceDecoder::decode(const BoardFrame& frame) {
   DecodedForces decoded;
-  decoded.reason = reasonAgainst(frame);
+  const PresentReadings readings = presentIn(frame);
+  decoded.reason = reasonAgainst(frame, readings);
   if (!decoded.reason.empty()) return decoded;
-  if (taring()) addToTare(frame.resistances_ohm);
-  followNoise(inputOf(frame.resistances_ohm, decoder_->input));
+  decoded.readings = static_cast<int>(decoder_->inputs());
+  decoded.missingReadings = static_cast<int>(readings.missing.size());
+  if (taring()) addToTare(frame);
+  Eigen::VectorXd raw_ohm = inputOf(frame.resistances_ohm, decoder_->input);
+  raw_ohm(readings.missing).setConstant(std::numeric_limits<double>::quiet_NaN());
+  followNoise(raw_ohm);
   decoded.resistances_ohm = frame.resistances_ohm.cwiseProduct(factor_);
   const Eigen::VectorXd readings_ohm = inputOf(decoded.resistances_ohm, decoder_->input);
-  const Prediction prediction = (*predictor_)(readings_ohm);
+  const Prediction prediction = predicted(readings_ohm, readings);
   const Eigen::Index columns = decoder_->outputs() / 3;
   decoded.forces_N = prediction.forces_N.reshaped(3, columns);
   decoded.standardDeviation_N = prediction.standardDeviation_N.reshaped(3, columns);
+  decoded.measured = measured_;
   if (prediction.area.size() > 0) {
     decoded.area = prediction.area(0);
     decoded.areaConfidence = prediction.areaConfidence(0);
@@ -201,7 +246,7 @@ DecodedForces ForceDecoder::decode(const BoardFrame& frame) {
     if (prediction.placeDeviation_mm.cols() == 1) decoded.placeDeviation_mm = prediction.placeDeviation_mm.col(0);
     if (prediction.indenterSize_mm.size() == 1) decoded.indenterSize_mm = prediction.indenterSize_mm(0);
   }
-  if (decoded.valid) judge(frame, prediction, readings_ohm, decoded);
+  if (decoded.valid) judge(frame, prediction, readings_ohm, readings, decoded);
   return decoded;
 }
 
@@ -215,9 +260,10 @@ Eigen::Vector3d ForceDecoder::drifted_N(double relative) const {
 }
 
 void ForceDecoder::judge(const BoardFrame& frame, const Prediction& prediction, const Eigen::VectorXd& readings_ohm,
-                         DecodedForces& decoded) {
+                         const PresentReadings& readings, DecodedForces& decoded) {
   PlausibilityInput input;
   input.readings_ohm = readings_ohm;
+  if (!readings.missing.empty()) input.present = readings.present;
   input.forces_N = decoded.forces_N.reshaped();
   input.standardDeviation_N = decoded.standardDeviation_N.reshaped();
   if (prediction.chiSquare.size() > 0) input.chiSquare = prediction.chiSquare(0);
@@ -234,12 +280,14 @@ void ForceDecoder::judge(const BoardFrame& frame, const Prediction& prediction, 
   decoded.doubted = verdict.doubted;
   decoded.doubt = verdict.reason;
   if (!decoded.doubt.empty() || !(tared_ || meter_.ready())) return;
-  const double deviation_N = decoded.standardDeviation_N.maxCoeff();
+  const double deviation_N = withoutCalibration_N(decoded).maxCoeff();
   if (!(deviation_N > kDrowned * (decoder_->high_N - decoder_->low_N).maxCoeff())) return;
   std::array<char, 160> text{};
   std::snprintf(
       text.data(), text.size(),
-      "the noise of the readings alone reads as %.2g N with this network; train one for this noise, on all rows",
+      decoded.missingReadings > 0
+          ? "without the missing readings the force is known to %.2g N only"
+          : "the noise of the readings alone reads as %.2g N with this network; train one for this noise, on all rows",
       deviation_N);
   decoded.doubted = true;
   decoded.doubt = text.data();
@@ -256,14 +304,21 @@ void ForceDecoder::addRestError(DecodedForces& decoded) const {
       (decoded.standardDeviation_N.array().square() + (restError_N_ * share.asDiagonal()).array().square()).sqrt();
 }
 
+/// What a calibration left is an error of a force that is there: it hides none.
+Eigen::Matrix3Xd ForceDecoder::withoutCalibration_N(const DecodedForces& decoded) const {
+  const Eigen::Array3Xd all = decoded.standardDeviation_N.array().square() - calibrationError_N_.array().square();
+  return all.max(0).sqrt();
+}
+
 /// An arrow appears where a component stands out of the noise, and goes when all have sunk into it again.
 void ForceDecoder::threshold(DecodedForces& decoded) {
   const bool known = tared_ || meter_.ready(); // else nothing is said of what stands out of the noise
+  const Eigen::Matrix3Xd deviation_N = withoutCalibration_N(decoded);
   for (std::size_t i = 0; i < shown_.size(); ++i) {
     const auto column = static_cast<Eigen::Index>(i);
-    // A component that never varied in the training is 0 with a deviation of 0, and says nothing.
     const Eigen::Array3d force = decoded.forces_N.col(column).array().abs();
-    const double size = (force > 0).select(force / decoded.standardDeviation_N.col(column).array(), 0).maxCoeff();
+    const auto says = measured_.col(column) && force > 0;
+    const double size = says.select(force / deviation_N.col(column).array(), 0).maxCoeff();
     shown_[i] = decoded.valid && known && size > (shown_[i] ? kHideBelow : kShowAbove);
   }
   decoded.shown = shown_;

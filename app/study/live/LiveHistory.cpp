@@ -65,8 +65,7 @@ void LiveHistory::clear() {
   period_s_ = 0;
 }
 
-void writeLiveCsv(const std::filesystem::path& path, const LiveHistory& history, std::optional<double> recordingBegin_s,
-                  const std::string& head) {
+void writeLiveCsv(const std::filesystem::path& path, const LiveHistory& history, const std::string& head) {
   Eigen::Index forces = 0, readings = 0;
   int rows = 0;
   for (const LiveHistory::Entry& entry : history.entries()) {
@@ -76,8 +75,7 @@ void writeLiveCsv(const std::filesystem::path& path, const LiveHistory& history,
   }
   std::ostringstream out;
   out.precision(17);
-  out << head << "t_s,board_s," << (recordingBegin_s ? "recording_s," : "")
-      << "frame,complete,valid,area,latency_ms,lost_reports,temperature_degC,misfit,mark";
+  out << head << "t_s,board_s,frame,complete,valid,area,latency_ms,lost_reports,temperature_degC,misfit,mark";
   for (Eigen::Index k = 0; k < forces; ++k)
     out << ",a" << k / 3 << "_f"
         << "xyz"[k % 3] << "_N";
@@ -90,7 +88,6 @@ void writeLiveCsv(const std::filesystem::path& path, const LiveHistory& history,
   for (const LiveHistory::Entry& entry : history.entries()) {
     const LiveFrame& live = *entry.frame;
     out << entry.t_s << ',' << live.frame.time_s << ',';
-    if (recordingBegin_s) out << live.frame.hostTime_s - *recordingBegin_s << ',';
     out << live.frame.number << ',' << live.frame.complete << ',' << live.forces.valid << ',';
     if (live.forces.area) out << *live.forces.area;
     out << ',' << 1e3 * live.latency_s << ',' << live.lostReports << ',';
@@ -99,8 +96,8 @@ void writeLiveCsv(const std::filesystem::path& path, const LiveHistory& history,
     if (live.forces.misfit) out << *live.forces.misfit;
     out << ',' << inQuotes(live.mark == mark ? std::string() : live.mark);
     mark = live.mark;
-    writeNumbers(out, live.forces.forces_N, forces);
-    writeNumbers(out, live.forces.standardDeviation_N, forces);
+    writeNumbers(out, live.forces.measuredAlone(live.forces.forces_N), forces);
+    writeNumbers(out, live.forces.measuredAlone(live.forces.standardDeviation_N), forces);
     writeNumbers(out, live.change, readings);
     out << ',' << inQuotes(live.forces.valid ? live.forces.doubt : live.forces.reason) << '\n';
   }

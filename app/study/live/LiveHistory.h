@@ -35,11 +35,9 @@ private:
   double offset_s_ = 0; ///< host's clock minus the device's
 };
 
-/// The entries as CSV: time as in Entry (it never jumps back), the board's own clock, of a recording that began at this
-/// host time the time in it, frame, forces with deviations,
+/// The entries as CSV: time as in Entry (it never jumps back), the board's own clock, frame, forces with deviations,
 /// latency, lost reports, misfit, a mark at the frame it begins with, why there are no forces or why they are doubted,
 /// and the change of every reading. `head`: whole lines before all that. Throws Error where the file cannot be written.
-void writeLiveCsv(const std::filesystem::path& path, const LiveHistory& history,
-                  std::optional<double> recordingBegin_s = {}, const std::string& head = {});
+void writeLiveCsv(const std::filesystem::path& path, const LiveHistory& history, const std::string& head = {});
 
 } // namespace palp

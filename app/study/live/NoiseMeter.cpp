@@ -24,9 +24,10 @@ void NoiseMeter::restart() {
 void NoiseMeter::add(const Eigen::VectorXd& readings_ohm) {
   if (before_ohm_.size() == readings_ohm.size() && readings_ohm.size() > 0) {
     const Eigen::ArrayXd second = (readings_ohm - 2 * last_ohm_ + before_ohm_).array() / readings_ohm.array();
-    std::vector<double> sizes(static_cast<std::size_t>(second.size()));
-    for (std::size_t k = 0; k < sizes.size(); ++k) sizes[k] = std::abs(second(static_cast<Eigen::Index>(k)));
-    recent_.push_back(median(std::move(sizes)) / (std::sqrt(6.0) * kMedianOfNormal)); // 1 + 4 + 1
+    std::vector<double> sizes;
+    for (const double value : second)
+      if (std::isfinite(value)) sizes.push_back(std::abs(value));
+    if (!sizes.empty()) recent_.push_back(median(std::move(sizes)) / (std::sqrt(6.0) * kMedianOfNormal)); // 1 + 4 + 1
     if (recent_.size() > kMost) recent_.pop_front();
   }
   before_ohm_ = std::move(last_ohm_);

@@ -10,7 +10,7 @@ namespace palp {
 /// motion, the median over the readings those few that a touch moves fast.
 class NoiseMeter {
 public:
-  /// The readings of the next frame; a frame may be missing in between.
+  /// The readings of the next frame, NaN where one is missing; a frame may be missing in between.
   void add(const Eigen::VectorXd& readings_ohm);
   void restart();
   /// Enough frames have come.

@@ -19,6 +19,10 @@ constexpr double kSayAbove = 0.5, kUnsayBelow = 0.1;
 constexpr double kLongestStep_s = 1;
 constexpr double kOtherBoard = 100; // times the limit: no touch, hysteresis or warming of this sensor does that
 
+Eigen::Index readingsIn(const PlausibilityInput& input) {
+  return input.present.empty() ? input.readings_ohm.size() : static_cast<Eigen::Index>(input.present.size());
+}
+
 } // namespace
 
 Plausibility::Plausibility(const Decoder& decoder)
@@ -62,13 +66,14 @@ std::optional<double> Plausibility::misfit(const PlausibilityInput& input) const
   if (modelVariance_.size() != input.readings_ohm.size()) return {};
   const Eigen::ArrayXd expected =
       modelVariance_.array() + input.noise * input.noise * input.readings_ohm.array().square();
-  const auto readings = static_cast<double>(input.readings_ohm.size());
+  const Eigen::ArrayXd ratio = expected / counted;
+  const auto readings = static_cast<double>(readingsIn(input));
   const double fitted = std::max(1.0, readings - kCauses) / readings;
-  return std::sqrt(*input.chiSquare / (fitted * (expected / counted).mean()));
+  return std::sqrt(*input.chiSquare / (fitted * (input.present.empty() ? ratio.mean() : ratio(input.present).mean())));
 }
 
 double Plausibility::limitFor(const PlausibilityInput& input) const {
-  if (leftByOne_ == 0) return limit(input.readings_ohm.size(), input.noiseUncertainty);
+  if (leftByOne_ == 0) return limit(readingsIn(input), input.noiseUncertainty);
   return std::sqrt(leftByOne_) * (1 + kQuantile99 * input.noiseUncertainty);
 }
 
@@ -93,7 +98,8 @@ Plausibility::Verdict Plausibility::judge(const PlausibilityInput& input) {
   verdict.doubted = doubt != Doubt::None;
   follow(doubt, input.time_s);
   if (!held_) return verdict;
-  if (heldDoubt_ == Doubt::Outside) verdict.reason = "outside of what the network was trained for";
+  if (verdict.outside) heldOutside_ = outsideWords(input);
+  if (heldDoubt_ == Doubt::Outside) verdict.reason = "outside of what the network was trained for" + heldOutside_;
   if (heldDoubt_ == Doubt::Disagrees) verdict.reason = "the network's force is not the one that the readings tell";
   if (heldDoubt_ == Doubt::Foreign) {
     if (verdict.misfit) heldMisfit_ = *verdict.misfit;
@@ -107,6 +113,19 @@ Plausibility::Verdict Plausibility::judge(const PlausibilityInput& input) {
     verdict.reason = text.data();
   }
   return verdict;
+}
+
+/// ": Fx 2 N, trained for -1 to 1 N", of the component that lies farthest outside; empty where readings are judged.
+std::string Plausibility::outsideWords(const PlausibilityInput& input) const {
+  if (modelVariance_.size() == 0 || input.forces_N.size() != low_N_.size()) return {};
+  const Eigen::ArrayXd above = input.forces_N.array() - low_N_.array();
+  Eigen::Index worst = 0;
+  (-above).max(above - range_N_.array()).maxCoeff(&worst);
+  const std::string area = input.forces_N.size() > 3 ? " on area " + std::to_string(worst / 3) : "";
+  std::array<char, 120> text{};
+  std::snprintf(text.data(), text.size(), ": F%c%s is %.2g N, trained for %.2g to %.2g N", "xyz"[worst % 3],
+                area.c_str(), input.forces_N(worst), low_N_(worst), low_N_(worst) + range_N_(worst));
+  return text.data();
 }
 
 /// Doubts in more than half of the last quarter of a second are said, until they are fewer than a tenth.

@@ -4,12 +4,14 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace palp {
 
 /// What is to be judged of one frame.
 struct PlausibilityInput {
   Eigen::VectorXd readings_ohm;            ///< what the decoder reads, tared
+  std::vector<Eigen::Index> present;       ///< those of them that came; empty: all
   Eigen::VectorXd forces_N;                ///< decoded
   Eigen::VectorXd standardDeviation_N;     ///< of each
   std::optional<double> chiSquare;         ///< Prediction::chiSquare; none without a forward model
@@ -50,6 +52,7 @@ private:
   enum class Doubt { None, Foreign, Outside, Disagrees };
   [[nodiscard]] std::optional<double> misfit(const PlausibilityInput& input) const;
   void follow(Doubt doubt, double time_s);
+  [[nodiscard]] std::string outsideWords(const PlausibilityInput& input) const;
 
   [[nodiscard]] double limitFor(const PlausibilityInput& input) const;
 
@@ -64,6 +67,7 @@ private:
   bool held_ = false;
   Doubt heldDoubt_ = Doubt::None;
   double heldMisfit_ = 0;
+  std::string heldOutside_; ///< which force, and its range
 };
 
 } // namespace palp

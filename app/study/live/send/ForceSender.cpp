@@ -9,21 +9,21 @@ namespace {
 constexpr std::size_t kMostWaiting = 1024;         ///< a second at the usual rate
 constexpr std::chrono::milliseconds kPatience{50}; ///< with one frame, before it is dropped
 
-OutgoingFrame outgoing(const LiveFrame& live, double unix_s) {
+} // namespace
+
+OutgoingFrame outgoing(const LiveFrame& live, double host_unix_s) {
   OutgoingFrame frame{live.frame.time_s,
-                      unix_s,
+                      host_unix_s,
                       live.frame.number,
                       live.forces.valid,
-                      live.forces.forces_N,
-                      live.forces.standardDeviation_N,
+                      live.forces.measuredAlone(live.forces.forces_N),
+                      live.forces.measuredAlone(live.forces.standardDeviation_N),
                       live.forces.area,
                       live.forces.place_mm,
                       live.forces.placeDeviation_mm,
                       !live.forces.doubt.empty()};
   return frame;
 }
-
-} // namespace
 
 ForceSender::ForceSender(std::unique_ptr<ForceOutlet> outlet) : outlet_(std::move(outlet)) {
   if (outlet_->mayWait()) thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });

@@ -10,6 +10,9 @@
 
 namespace palp {
 
+/// What other programs get of a frame; NaN where a component is not measured.
+OutgoingFrame outgoing(const LiveFrame& live, double host_unix_s);
+
 /// What became of the frames of one outlet.
 struct SenderCounts {
   std::uint64_t sent = 0;    ///< handed to the system

@@ -1,7 +1,10 @@
 #include "app/study/decoding/Calibration.h"
 
+#include "app/study/decoding/CalibrationMark.h"
 #include "app/study/decoding/DecoderTraining.h"
+#include "io/DecoderFile.h"
 #include "io/SampleFile.h"
+#include "nn/linear/RandomNumbers.h"
 #include "tests/app/study/live/LiveFixture.h"
 #include "tests/io/Refusal.h"
 #include "tests/io/TemporaryFolder.h"
@@ -63,6 +66,28 @@ TEST(Calibration, RefinesMaximumLikelihoodToo) {
   const double before = (before_N - labelled.forces_N).norm(), after = (after_N - labelled.forces_N).norm();
   EXPECT_LT(after, 0.05 * before);
   EXPECT_EQ(predict(result.decoder, inputs).area, labelled.area);
+}
+
+/// Share of the frames' forces that lie within three deviations, all components together.
+double withinThree(const Prediction& prediction, const SampleSet& frames) {
+  const Eigen::ArrayXXd off = (prediction.forces_N - frames.forces_N).array().abs();
+  return static_cast<double>((off <= 3 * prediction.standardDeviation_N.array()).count()) /
+         static_cast<double>(off.size());
+}
+
+TEST(Calibration, TheDeviationHoldsWhatItLeft) {
+  const Decoder decoder = liveDecoder(5e-6);
+  SampleSet labelled = frames(10);
+  RandomNumbers random(3);
+  for (double& force_N : labelled.forces_N.reshaped()) force_N += 0.3 * (2 * random.uniform() - 1); // poor weights
+  const Calibration result = calibrate(decoder, labelled);
+  EXPECT_EQ(calibrationFrames(result.decoder), 60);
+  const Eigen::MatrixXd inputs = inputsOf(labelled, decoder.input);
+  const Prediction before = predict(decoder, inputs), after = predict(result.decoder, inputs);
+  EXPECT_TRUE((after.standardDeviation_N.array() >= result.report.rmseAfter_N.replicate(1, 60).array()).all());
+  EXPECT_LT(withinThree(before, labelled), 0.5) << "noise alone";
+  EXPECT_GT(withinThree(after, labelled), 0.98);
+  EXPECT_EQ(calibrationFrames(parseNetwork(networkText(result.decoder), "net.json")), 60);
 }
 
 TEST(Calibration, SaysThatALabelDoesNotBelongToItsFrame) {

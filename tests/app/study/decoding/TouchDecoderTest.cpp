@@ -2,7 +2,7 @@
 
 #include "app/study/Median.h"
 #include "app/study/decoding/DecoderTraining.h"
-#include "app/study/decoding/Prediction.h"
+#include "app/study/decoding/PartialPredictor.h"
 #include "app/study/live/ForceDecoder.h"
 #include "io/DecoderFile.h"
 #include "io/DesignFile.h"
@@ -72,6 +72,14 @@ TrainOptions forceAndPlace(DecoderKind kind) {
   options.noise = 1e-5;
   options.centers = 150;
   return options;
+}
+
+/// Median of the places' errors [mm].
+double errorOf(const Prediction& prediction, const SampleSet& samples) {
+  std::vector<double> off_mm;
+  for (Eigen::Index i = 0; i < samples.size(); ++i)
+    off_mm.push_back((prediction.places_mm.col(i) - samples.touchedPlaces_mm().col(i)).norm());
+  return median(off_mm);
 }
 
 class TouchDecoder : public testing::TestWithParam<DecoderKind> {};
@@ -149,6 +157,41 @@ TEST(TouchesOfABoard, FramesTellWhereTheTouchIs) {
   EXPECT_GT(*two.misfit, 5);
   for (int k = 0; k < 5; ++k) decoded(still);
   EXPECT_FALSE(decoded(still).place_mm) << "nothing touches it";
+}
+
+TEST(TouchInversion, KnowsItsErrorWithoutAColumnWireToo) {
+  const SampleSet train = standInTouches(400, 1), fresh = standInTouches(80, 12);
+  const Decoder decoder = trainDecoder(train, nullptr, forceAndPlace(DecoderKind::TouchInversion));
+  PredictOptions options;
+  options.noise = decoder.noise;
+  const Predictor whole(decoder, options);
+  Eigen::MatrixXd readings_ohm = inputsOf(fresh, decoder.input);
+  std::mt19937_64 engine(13);
+  std::normal_distribution<double> normal(0, options.noise);
+  for (double& reading_ohm : readings_ohm.reshaped()) reading_ohm *= 1 + normal(engine);
+  PresentReadings readings;
+  for (Eigen::Index k = 0; k < readings_ohm.rows(); ++k)
+    (k % 30 == 14 ? readings.missing : readings.present).push_back(k);
+  Eigen::MatrixXd broken_ohm = readings_ohm;
+  broken_ohm(readings.missing, Eigen::all).setConstant(1); // never read
+  PartialPredictor fewer(decoder, options);
+  const Prediction all = whole(readings_ohm);
+  Prediction some = all;
+  for (Eigen::Index i = 0; i < fresh.size(); ++i) {
+    const Prediction one = fewer(broken_ohm.col(i), readings);
+    some.forces_N.col(i) = one.forces_N;
+    some.standardDeviation_N.col(i) = one.standardDeviation_N;
+    some.places_mm.col(i) = one.places_mm;
+  }
+  const auto within = [&](const Prediction& prediction) {
+    const Eigen::ArrayXd off = (prediction.forces_N.row(2) - fresh.forces_N.row(2)).array().abs().transpose();
+    return static_cast<double>((off <= 3 * prediction.standardDeviation_N.row(2).transpose().array()).count()) /
+           static_cast<double>(fresh.size());
+  };
+  EXPECT_GE(within(some), within(all) - 0.05);
+  EXPECT_GE(within(some), 0.9);
+  EXPECT_GE(some.standardDeviation_N.row(2).mean(), all.standardDeviation_N.row(2).mean()) << "wider";
+  EXPECT_LT(errorOf(some, fresh), 2 * errorOf(all, fresh)) << "300 readings less 10";
 }
 
 TEST(TouchInversion, IsBetterThanANetworkAndKnowsItsError) {

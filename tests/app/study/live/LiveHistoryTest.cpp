@@ -99,19 +99,6 @@ TEST(LiveHistory, AMarkThatAJumpLeadsToBeginsThere) {
   EXPECT_FALSE(add(5, 2, false)) << "it began before the place that was gone to";
 }
 
-TEST(LiveHistory, OfARecordingTheTableHoldsTheTimeInItToo) {
-  const TemporaryFolder folder;
-  LiveHistory history;
-  history.add(frame(7, 103.5));
-  writeLiveCsv(folder / "a.csv", history, 100.0);
-  std::ifstream file(folder / "a.csv");
-  std::string head, line;
-  std::getline(file, head);
-  std::getline(file, line);
-  EXPECT_EQ(head.rfind("t_s,board_s,recording_s,frame,", 0), 0U) << head;
-  EXPECT_EQ(line.rfind("103.5,7,3.5,", 0), 0U) << line;
-}
-
 TEST(LiveHistory, NeverRunsBackwardsNorGrowsWithoutEnd) {
   LiveHistory history;
   for (std::size_t k = 0; k < LiveHistory::kMostFrames + 500; ++k)
@@ -211,6 +198,22 @@ TEST(LiveHistory, IsWrittenAsATableWithNothingWhereThereIsNothing) {
   EXPECT_NE(first.find("\"a \"\"b\"\"\""), std::string::npos) << first;
   EXPECT_NE(second.find(",,,,,,,0.125,,\"column-wire 1: open\""), std::string::npos) << second;
   EXPECT_THROW(writeLiveCsv("/no/such/folder/a.csv", history), Error);
+}
+
+TEST(LiveHistory, LeavesTheCellsOfWhatIsNotMeasuredEmpty) {
+  const TemporaryFolder folder;
+  LiveHistory history;
+  auto live = frame(1, 1);
+  live->forces.valid = true;
+  live->forces.forces_N = Eigen::Vector3d(0, 0, -4.5);
+  live->forces.standardDeviation_N = Eigen::Vector3d(0, 0, 0.25);
+  live->forces.measured.resize(3, 1);
+  live->forces.measured << false, false, true;
+  history.add(live);
+  writeLiveCsv(folder / "a.csv", history);
+  std::ifstream file(folder / "a.csv");
+  const std::string text((std::istreambuf_iterator<char>(file)), {});
+  EXPECT_NE(text.find(",,,-4.5,,,0.25,"), std::string::npos) << text;
 }
 
 TEST(LabelledFrames, RefuseALoadThatMovesAndKeepWhatTheNetworkSaid) {
