@@ -16,20 +16,25 @@ namespace {
 
 constexpr qsizetype kMostFaults = 4;
 
-/// What an operator can do about broken wires that leave the network in use without readings.
+/// What an operator can do about broken wires that leave the network in use without readings, or with fewer.
 struct WayOnward {
   QString words;
   QString rows; ///< that a network could read instead; empty: none
 };
 
 WayOnward wayOnward(const LiveHost& host, const LiveFrame& frame) {
-  if (frame.faults.empty() || frame.forces.valid || !host.decoder() || !frame.frame.complete) return {};
+  const bool goesOn = frame.forces.valid && frame.forces.missingReadings > 0;
+  if (frame.faults.empty() || (frame.forces.valid && !goesOn) || !host.decoder()) return {};
+  if (!frame.frame.complete)
+    return {goesOn ? QObject::tr("Forces go on without, with wider deviations.") : QString(), {}};
   const auto rows = static_cast<int>(frame.frame.rowExpected.size());
   QStringList whole, broken;
   for (int row = 0; row < rows; ++row) {
     if (!frame.frame.rowExpected[static_cast<std::size_t>(row)]) return {}; // one row-wire alone is scanned
     (frame.frame.rowGood(row) ? whole : broken) << QString::number(row);
   }
+  if (goesOn && whole.isEmpty())
+    return {QObject::tr("Forces go on without these readings, with wider deviations: mend the wire."), {}};
   if (whole.isEmpty())
     return {
         QObject::tr("Every row-wire has readings that are bad (a column-wire crosses them all), so no network can do "
@@ -37,15 +42,17 @@ WayOnward wayOnward(const LiveHost& host, const LiveFrame& frame) {
         {}};
   if (host.replaying())
     return {QObject::tr("A network that does without row-wire %1 gives forces here.").arg(broken.join(", ")), {}};
-  return {QObject::tr("Forces come back when it is mended, or with a network that does without row-wire %1: "
-                      "Network, Row-wires %2.")
-              .arg(broken.join(", "), whole.join(',')),
-          whole.join(',')};
+  const QString how = goesOn
+                          ? QObject::tr("Forces go on without these readings, with wider deviations. Mend the wire, or "
+                                        "train a network that does without row-wire %1: Network, Row-wires %2.")
+                          : QObject::tr("Forces come back when it is mended, or with a network that does without "
+                                        "row-wire %1: Network, Row-wires %2.");
+  return {how.arg(broken.join(", "), whole.join(',')), whole.join(',')};
 }
 
 /// Wires are broken, and the network in use reads none of them.
 bool doesWithout(const LiveFrame& frame) {
-  return !frame.faults.empty() && frame.forces.valid;
+  return !frame.faults.empty() && frame.forces.valid && frame.forces.missingReadings == 0;
 }
 
 QString wordsOf(const LiveHost& host, const QString& alarm) {

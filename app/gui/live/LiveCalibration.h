@@ -44,6 +44,7 @@ private:
   void load(const std::filesystem::path& file);
   void collect();
   [[nodiscard]] bool mayCollect();
+  [[nodiscard]] bool mayUse();
   void displayFrames();
   void fit();
   void displayFit();

@@ -58,7 +58,8 @@ LiveCounters::LiveCounters(QWidget* parent) : QWidget(parent) {
              "leaves of the readings, over what noise, tare and the network's model explain (rms); it is 1 where "
              "all is well, and 1 % of good frames lie above the limit. Doubted: more than half of the last quarter "
              "of a second lies above it, or the force lies outside of what was trained: drift, hysteresis, several "
-             "touches, or another sensor"));
+             "touches, or another sensor. Uncalibrated: the readings fit, but how far this board differs from the "
+             "design is not in the deviation until a calibration has found it"));
   climate_ =
       add("liveClimate", tr("Temperature, noise, drift"),
           tr("Of the board [degC]; relative noise of a reading: measured while taring, before that from frame to "
@@ -121,7 +122,8 @@ void LiveCounters::set(const Tile& tile, const QString& value, const QString& un
   tile.value->style()->polish(tile.value);
 }
 
-void LiveCounters::displayTrust(const LiveStatus& status, const LiveFrame* last, bool loading) {
+void LiveCounters::displayTrust(const LiveStatus& status, const LiveFrame* last, bool loading,
+                                const DeviationNote& note) {
   if (status.state != LiveState::Streaming && status.state != LiveState::Paused && status.state != LiveState::Ended)
     return set(trust_, tr("none"), tr("no readings now"));
   if (last == nullptr) return set(trust_, tr("waits"), tr("for the first frame"));
@@ -137,11 +139,14 @@ void LiveCounters::displayTrust(const LiveStatus& status, const LiveFrame* last,
                          : status.driftsOn ? tr("drifts on: wait, then tare; ")
                                            : tr("tare: rest reads as %1 N; ").arg(status.driftForce_N, 0, 'g', 2);
   const QString why = remedy + QString::fromStdString(forces.doubt);
-  set(trust_, doubted ? tr("doubted") : tr("fits"), doubted ? why : misfit, doubted);
+  const QString known =
+      note.sentence.empty() ? misfit : tr("%1; %2").arg(misfit, QString::fromStdString(note.sentence));
+  const QString fits = note.brief.empty() ? tr("fits") : QString::fromStdString(note.brief);
+  set(trust_, doubted ? tr("doubted") : fits, doubted ? why : known, doubted || note.wrong);
 }
 
 void LiveCounters::display(const LiveStatus& status, const LiveFrame* last, bool simulated, bool replaying,
-                           bool loading) {
+                           bool loading, const DeviationNote& note) {
   const bool alarm = status.state == LiveState::Refused || status.state == LiveState::Stalled ||
                      (status.state == LiveState::Searching && status.connections > 0);
   set(state_, stateTitle(status, simulated, replaying),
@@ -157,7 +162,7 @@ void LiveCounters::display(const LiveStatus& status, const LiveFrame* last, bool
       status.counts.frames == 0
           ? QString()
           : tr("here %1 / %2 of it").arg(milliseconds(status.decoding.p50_s), milliseconds(status.decoding.p99_s)));
-  displayTrust(status, last, loading);
+  displayTrust(status, last, loading, note);
   const QString drift = status.drift ? tr("drift %1 ppm").arg(qRound64(1e6 * *status.drift)) : QString();
   const QString reads = tr("reads as %1 N: tare; ").arg(status.driftForce_N, 0, 'g', 2);
   const QString noise = status.noise > 0 ? tr("noise %1").arg(status.noise, 0, 'g', 2) : tr("noise not known");

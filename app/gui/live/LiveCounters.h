@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/study/live/LiveSession.h"
+#include "app/study/live/trust/DeviationNote.h"
 
 #include <QWidget>
 
@@ -19,8 +20,9 @@ class LiveCounters : public QWidget {
 public:
   explicit LiveCounters(QWidget* parent = nullptr);
 
-  /// `last` may be null.
-  void display(const LiveStatus& status, const LiveFrame* last, bool simulated, bool replaying, bool loading);
+  /// `last` may be null; `note`: of the network in use.
+  void display(const LiveStatus& status, const LiveFrame* last, bool simulated, bool replaying, bool loading,
+               const DeviationNote& note = {});
 
   /// That a tile needs for its usual words [px].
   [[nodiscard]] int tileWidth() const;
@@ -37,7 +39,7 @@ private:
   };
   Tile add(const QString& name, const QString& title, const QString& tip);
   void arrange(int columns);
-  void displayTrust(const LiveStatus& status, const LiveFrame* last, bool loading);
+  void displayTrust(const LiveStatus& status, const LiveFrame* last, bool loading, const DeviationNote& note);
   static void set(const Tile& tile, const QString& value, const QString& unit, bool alarm = false);
 
   QGridLayout* grid_;

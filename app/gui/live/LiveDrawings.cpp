@@ -90,6 +90,45 @@ Eigen::Index strongest(const DecodedForces& forces) {
   return column;
 }
 
+/// The times in which forces are doubted; each reaches to the next frame.
+std::vector<StripDoubt> doubts(const LiveHistory& history, const LiveSettings& settings) {
+  std::vector<StripDoubt> all;
+  const auto& entries = history.entries();
+  bool lasts = false;
+  for (std::size_t k = firstShown(history, settings.window_s); k < entries.size(); ++k) {
+    const DecodedForces& forces = entries[k].frame->forces;
+    if (lasts && !entries[k].gap) all.back().to_s = entries[k].t_s;
+    const bool doubted = forces.valid && !forces.doubt.empty();
+    if (doubted && (!lasts || entries[k].gap)) all.push_back({entries[k].t_s, entries[k].t_s, {}});
+    if (doubted) all.back().why = QString::fromStdString(forces.doubt);
+    lasts = doubted;
+  }
+  return all;
+}
+
+/// "(1, 2, 3) N", or of the components that are measured "Fz 3 N"; the last by this format.
+std::string components(const DecodedForces& forces, const Eigen::Matrix3Xd& values, Eigen::Index column,
+                       const char* format) {
+  const bool whole = forces.measures(0, column) && forces.measures(1, column) && forces.measures(2, column);
+  std::string all;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    if (!forces.measures(axis, column)) continue;
+    const std::string value = printed(format, values(axis, column) + 0.0);
+    all += (all.empty() ? "" : ", ") +
+           (whole ? value : std::string(kCurveNames[static_cast<std::size_t>(axis)]) + ' ' + value);
+  }
+  return whole ? "(" + all + ") N" : all + " N";
+}
+
+/// "Fx, Fy not measured"; empty where all are.
+std::string notMeasured(const DecodedForces& forces, Eigen::Index column) {
+  std::string all;
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
+    if (!forces.measures(axis, column))
+      all += (all.empty() ? "" : ", ") + std::string(kCurveNames[static_cast<std::size_t>(axis)]);
+  return all.empty() ? all : all + " not measured";
+}
+
 /// Places of wires at `places_mm`: the one nearest to x.
 int nearest(const std::vector<double>& places_mm, double x_mm) {
   const auto found = std::min_element(places_mm.begin(), places_mm.end(),
@@ -121,7 +160,11 @@ StripSpec forceCurves(const LiveHistory& history, const LiveSettings& settings, 
   }
   if (settings.forceScale == ForceScale::Fixed) spec.yRange = {-settings.force_N, settings.force_N};
   if (settings.alarmOn && settings.alarm.quantity != ForceQuantity::Size) spec.limits = {settings.alarm.limit_N};
+  spec.doubts = doubts(history, settings);
   const auto& entries = history.entries();
+  const LiveFrame* valid = history.lastValid();
+  if (valid != nullptr && !notMeasured(valid->forces, 0).empty())
+    spec.title += QString::fromStdString("; " + notMeasured(valid->forces, 0));
   for (int axis = 0; axis < 3; ++axis) {
     StripSeries curve;
     curve.name = kCurveNames[static_cast<std::size_t>(axis)];
@@ -129,12 +172,13 @@ StripSpec forceCurves(const LiveHistory& history, const LiveSettings& settings, 
     bool any = false;
     for (std::size_t k = firstShown(history, settings.window_s); k < entries.size(); ++k) {
       const DecodedForces& forces = entries[k].frame->forces;
-      any = any || forces.valid;
+      const bool there = forces.valid && forces.measures(axis, strongest(forces));
+      any = any || there;
       breakAt(entries[k], curve);
       curve.t_s.push_back(entries[k].t_s);
-      curve.y.push_back(forces.valid ? forces.forces_N(axis, strongest(forces)) : kNone);
+      curve.y.push_back(there ? forces.forces_N(axis, strongest(forces)) : kNone);
       // It holds only where the readings are those of a touch that the network knows.
-      const bool known = forces.valid && forces.doubt.empty();
+      const bool known = there && forces.doubt.empty();
       curve.deviation.push_back(known ? forces.standardDeviation_N(axis, strongest(forces)) : kNone);
     }
     if (any) spec.series.push_back(std::move(curve));
@@ -191,8 +235,11 @@ std::vector<LiveArrow> arrowsOf(const DecodedForces& forces) {
   for (Eigen::Index column = 0; column < forces.forces_N.cols(); ++column) {
     if (!forces.shown[static_cast<std::size_t>(column)]) continue;
     const int area = forces.forces_N.cols() > 1 ? static_cast<int>(column) : forces.area.value_or(0);
-    arrows.push_back({area, forces.forces_N.col(column), forces.place_mm,
-                      forces.placeDeviation_mm.value_or(Eigen::Vector2d::Zero())});
+    arrows.push_back({area,
+                      forces.forces_N.col(column),
+                      forces.place_mm,
+                      forces.placeDeviation_mm.value_or(Eigen::Vector2d::Zero()),
+                      {forces.measures(0, column), forces.measures(1, column), forces.measures(2, column)}});
   }
   return arrows;
 }
@@ -203,7 +250,7 @@ std::string truthLine(const SimulatedTouch::Truth& truth, const DecodedForces& f
   return forces.place_mm ? line + printed("; decoded %.2f mm off", (*forces.place_mm - at).norm()) : line;
 }
 
-std::vector<std::string> forceLines(const LiveFrame& frame, const LiveSettings& settings) {
+std::vector<std::string> forceLines(const LiveFrame& frame, const LiveSettings& settings, const std::string& note) {
   std::vector<std::string> lines{printed("Force vectors, %g mm a newton", settings.arrow_mm_per_N)};
   const DecodedForces& forces = frame.forces;
   if (!forces.valid) {
@@ -217,8 +264,8 @@ std::vector<std::string> forceLines(const LiveFrame& frame, const LiveSettings& 
   }
   for (Eigen::Index column = 0; column < forces.forces_N.cols(); ++column) {
     if (!forces.shown[static_cast<std::size_t>(column)]) continue;
-    const Eigen::Vector3d sd = forces.standardDeviation_N.col(column);
-    lines.push_back(printed("standard deviation (%.1g, %.1g, %.1g) N", sd.x(), sd.y(), sd.z()));
+    lines.push_back("standard deviation " + components(forces, forces.standardDeviation_N, column, "%.1g"));
+    if (const std::string none = notMeasured(forces, column); !none.empty()) lines.push_back(none);
     if (forces.place_mm) {
       const Eigen::Vector2d at = *forces.place_mm, off = forces.placeDeviation_mm.value_or(Eigen::Vector2d::Zero());
       lines.push_back(printed("touch at (%.2f, %.2f) mm, deviation (%.1g, %.1g) mm", at.x(), at.y(), off.x(), off.y()));
@@ -227,7 +274,15 @@ std::vector<std::string> forceLines(const LiveFrame& frame, const LiveSettings& 
       lines.push_back(
           printed("area %d; that it is no other one: %.0f %%", *forces.area, kPercent * forces.areaConfidence));
   }
-  if (lines.size() == 1) lines.emplace_back("at rest: no force stands out of the noise");
+  if (lines.size() == 1) {
+    const Eigen::Index column = strongest(forces); // the curves draw this one
+    lines.push_back("at rest: " + components(forces, forces.forces_N, column, "%.2g") +
+                    " does not stand out of its deviation, " +
+                    components(forces, forces.standardDeviation_N, column, "%.1g"));
+  }
+  if (forces.missingReadings > 0)
+    lines.push_back(printed("without %d of %d readings: wider deviations", forces.missingReadings, forces.readings));
+  if (!note.empty()) lines.push_back(note);
   return lines;
 }
 

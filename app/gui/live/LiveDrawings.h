@@ -15,8 +15,9 @@ namespace palp {
 HeatmapSpec changeHeatmap(const LiveFrame& frame, const std::string& restName, const LiveSettings& settings,
                           const std::optional<std::array<int, 2>>& selected);
 
-/// Forces of the touched area, or of the most loaded one where the network gives the forces on all areas at once.
-/// The alarm's limit is drawn across.
+/// Forces of the touched area, or of the most loaded one where the network gives the forces on all areas at once; those
+/// components alone that the network gives, and hatched times where forces can hardly be true. The alarm's limit is
+/// drawn across.
 StripSpec forceCurves(const LiveHistory& history, const LiveSettings& settings, const Decoder* decoder);
 
 /// dR/R of some cells (row, column) over time.
@@ -30,7 +31,7 @@ std::vector<std::array<int, 2>> areaCells(const SensorDesign& design, Eigen::Ind
 std::vector<LiveArrow> arrowsOf(const DecodedForces& forces);
 /// What truly touches the simulated board, and how far off the decoded place is.
 std::string truthLine(const SimulatedTouch::Truth& truth, const DecodedForces& forces);
-/// The forces in words, with their deviations; the first is the scale.
-std::vector<std::string> forceLines(const LiveFrame& frame, const LiveSettings& settings);
+/// The forces in words, with their deviations and what these do not hold (deviationNote); the first is the scale.
+std::vector<std::string> forceLines(const LiveFrame& frame, const LiveSettings& settings, const std::string& note = {});
 
 } // namespace palp

@@ -17,6 +17,19 @@ bool contains(const std::vector<std::string>& all, const std::string& one) {
 
 } // namespace
 
+QString networkWords(const LiveHost& host) {
+  const std::optional<Decoder>& decoder = host.decoder();
+  if (!decoder) return host.loading() ? QObject::tr("Reading the network...") : QObject::tr("No network.");
+  const QString rows =
+      static_cast<int>(decoder->input.rows.size()) == decoder->input.rowWires
+          ? QObject::tr("all rows")
+          : QObject::tr("%1 of %2 row-wires").arg(decoder->input.rows.size()).arg(decoder->input.rowWires);
+  return QObject::tr("%1: %2, %3, trained for noise %4")
+      .arg(host.networkName())
+      .arg(QString::fromStdString(name(decoder->kind)), rows)
+      .arg(decoder->noise, 0, 'g', 2);
+}
+
 QString driftWords(const LiveStatus& status) {
   if (!status.tareSuggested) return {};
   const QString rest = QObject::tr("The sensor drifts: all readings go together, and rest reads as %1 N")

@@ -32,4 +32,7 @@ private:
 /// What the drift of a sensor asks for, in a sentence; empty where it asks for nothing.
 QString driftWords(const LiveStatus& status);
 
+/// The network in use: name, decoder, wires, noise.
+QString networkWords(const LiveHost& host);
+
 } // namespace palp

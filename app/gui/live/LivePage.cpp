@@ -227,6 +227,7 @@ void LivePage::connectSimulation() {
     if (!host_.simulatesOwnDesign()) host_.simulateDesign(workbench_.project().mesh);
   });
   connect(&host_.simulator(), &JobRunner::failed, this, &LivePage::message);
+  connect(&exporter_, &JobRunner::failed, this, &LivePage::message);
   connect(block_, &LiveView::areaPressed, this, [this](int area) {
     change(tr("simulated touch"), [&](LiveSettings& settings) { settings.simulation.heldArea = area; });
   });
@@ -300,7 +301,7 @@ void LivePage::displayProject() {
 }
 
 std::vector<JobRunner*> LivePage::runners() {
-  return {&twin_->runner(), &calibration_->runner(), &host_.loader(), &host_.simulator()};
+  return {&twin_->runner(), &calibration_->runner(), &host_.loader(), &host_.simulator(), &exporter_};
 }
 
 QString LivePage::commands(const Project& project, const QString&) const {

@@ -5,6 +5,7 @@
 #include "app/gui/live/LiveNews.h"
 #include "app/gui/project/Workbench.h"
 #include "app/gui/window/Scene.h"
+#include "app/study/live/trust/DeviationNote.h"
 
 #include <QTimer>
 
@@ -95,6 +96,7 @@ private:
   void toggleCell(int row, int column);
   void tare();
   void exportFrames(const QString& file);
+  void exportRecording(const QString& file);
   void record(const QString& file, bool replace);
   bool mayEndRecording();
   void stopRecording();
@@ -107,6 +109,7 @@ private:
   LiveHost host_;
   QTimer timer_;
   QTimer hiddenTimer_; ///< runs only while something is done out of sight
+  JobRunner exporter_;
   LiveWatch watch_;
   LiveNews news_;
   LiveSourcePanel* source_ = nullptr;
@@ -127,6 +130,7 @@ private:
   LiveCurves* curves_ = nullptr;
   LiveCalibration* calibration_ = nullptr;
   Eigen::MatrixXd drawnChange_;
+  DeviationNote note_; ///< of the network in use
   int looks_ = 0;
   int stateLook_ = 0;
   int hiddenLooks_ = 0;

@@ -7,7 +7,9 @@
 #include "app/gui/live/panels/LiveControlPanel.h"
 #include "app/gui/live/recordings/RecordingName.h"
 #include "app/gui/views/CsvExport.h"
+#include "app/study/live/recordings/RecordingTable.h"
 #include "app/study/touch/TouchLoad.h"
+#include "io/DesignFile.h"
 
 #include <QMessageBox>
 #include <QTabWidget>
@@ -62,19 +64,34 @@ void LivePage::tare() {
   host_.tare();
 }
 
+/// Of a recording all of it, else the frames that the curves hold.
 void LivePage::exportFrames(const QString& file) {
-  try {
-    const ReplayControl* replay = host_.replay();
-    writeLiveCsv(file.toStdString(), host_.history(),
-                 replay != nullptr ? std::optional(replay->begin_s.load()) : std::nullopt,
-                 sourceOf(*this).toStdString());
-    const auto count = host_.history().entries().size();
-    emit message(replay != nullptr
-                     ? tr("Wrote the %1 frames of the recording that the curves hold to %2.").arg(count).arg(file)
-                     : tr("Wrote the last %1 frames to %2.").arg(count).arg(file));
-  } catch (const std::exception& refusal) {
-    emit message(QString::fromStdString(refusal.what()));
-  }
+  if (host_.replaying()) return exportRecording(file);
+  exporter_.start(tr("Exporting frames"),
+                  [this, file, history = host_.history(),
+                   head = sourceOf(*this).toStdString()](const std::stop_token&, JobProgress&) -> JobRunner::Taking {
+                    writeLiveCsv(file.toStdString(), history, head);
+                    return [this, file, count = history.entries().size()] {
+                      emit message(tr("Wrote the last %1 frames to %2.").arg(count).arg(file));
+                    };
+                  });
+}
+
+void LivePage::exportRecording(const QString& file) {
+  RecordingTableRequest request{host_.settings().recording, file.toStdString(), host_.decoder(), {}, {}, true};
+  const bool known = host_.decoder() && designFingerprint(host_.sensor()) == host_.decoder()->designFingerprint;
+  if (known) request.design = host_.sensor();
+  request.head = sourceOf(*this).toStdString();
+  exporter_.start(
+      tr("Exporting the recording"),
+      [this, file, request](const std::stop_token& stop, JobProgress& progress) -> JobRunner::Taking {
+        const auto show = [&](double share) { progress.set(share, "reads, decodes and writes its frames"); };
+        const RecordingTableReport report = writeRecordingTable(request, show, stop);
+        return [this, file, report] {
+          const QString note = report.note.empty() ? QString() : tr(" %1.").arg(QString::fromStdString(report.note));
+          emit message(tr("Wrote all %1 frames of the recording to %2.").arg(report.frames).arg(file) + note);
+        };
+      });
 }
 
 void LivePage::record(const QString& file, bool replace) {

@@ -14,6 +14,7 @@
 #include "app/gui/live/send/SendPanel.h"
 #include "app/gui/views/HeatmapView.h"
 #include "app/gui/window/SidePanel.h"
+#include "io/DesignFile.h"
 
 #include <QSplitter>
 #include <QTabWidget>
@@ -34,6 +35,19 @@ bool looksDifferent(const Eigen::MatrixXd& now, const Eigen::MatrixXd& drawn, do
   if (now.rows() != drawn.rows() || now.cols() != drawn.cols()) return true;
   if ((now.array().isNaN() != drawn.array().isNaN()).any()) return true;
   return ((now - drawn).array().abs() > step).any();
+}
+
+/// A recording of a simulated board says so in its reports; of which design a board is only the project says.
+DeviationNote noteOf(const LiveHost& host, const SensorDesign& project) {
+  const LiveFrame* last = host.history().last();
+  if (!host.decoder() || last == nullptr) return {};
+  const bool simulated = host.simulated();
+  const bool ofSimulation = simulated || (last->frame.flags & ReadingFlag::Simulated) != 0;
+  const bool indenter = simulated && host.settings().simulation.moving && host.simulatesOwnDesign();
+  DeviationNote note = deviationNote(
+      *host.decoder(), {designFingerprint(simulated ? host.simulatedSensor() : project), ofSimulation, indenter});
+  if (note.wrong && simulated) note.sentence += "; \"Palp's own\" at Network takes the one made for this board";
+  return note;
 }
 
 } // namespace
@@ -83,7 +97,8 @@ void LivePage::setTheme(Theme theme) {
 void LivePage::drawState() {
   const LiveStatus& status = host_.status();
   const bool simulated = host_.simulated();
-  counters_->display(status, host_.history().last(), simulated, host_.replaying(), host_.loading());
+  note_ = noteOf(host_, workbench_.project().design);
+  counters_->display(status, host_.history().last(), simulated, host_.replaying(), host_.loading(), note_);
   std::vector<LiveSourceState::Board> boards;
   for (const HidBoard& board : host_.boards()) boards.push_back({board, host_.free(board)});
   const int rowWires = status.info ? status.info->rowWires : host_.sensor().rowWires();
@@ -118,7 +133,7 @@ void LivePage::drawForces() {
   arrowSeen_ = arrowSeen_ || std::any_of(arrows.begin(), arrows.end(), [](const LiveArrow& arrow) {
                  return arrow.force_N.norm() > 3; // a picture of the scene shows a good press
                });
-  std::vector<std::string> lines = forceLines(*last, host_.settings());
+  std::vector<std::string> lines = forceLines(*last, host_.settings(), note_.sentence);
   if (gone && host_.replaying() && state == LiveState::Ended)
     lines = {lines.front(), "the last of the recording"};
   else if (gone)

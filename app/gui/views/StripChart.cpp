@@ -16,6 +16,9 @@ constexpr double kLegendLine_px = 32; // of a legend's entry beside its name
 constexpr double kMarkGap_px = 3;     // between a mark's line and its words
 constexpr double kSwatch_px = 18;     // of a curve's colour and the gap beside it, where it is read
 constexpr double kReadingGap_px = 6;  // around what is read
+constexpr double kHatch = 0.25;       // opacity of the ground where values are doubted
+constexpr double kOwnColor = 0.25;    // share of a curve's colour that it keeps there
+constexpr int kGrey = 150;            // the rest
 constexpr double kBeyond = 10;        // heights of the plot by which a curve leaves it at most
 
 /// Ticks of the value's axis, so few that no number covers the next.
@@ -28,6 +31,12 @@ std::vector<double> valueTicks(const std::array<double, 2>& range, double height
 
 QColor ink(const Color& color) {
   return QColor::fromRgbF(static_cast<float>(color[0]), static_cast<float>(color[1]), static_cast<float>(color[2]));
+}
+
+/// Of a curve that can hardly be true: little is left of its own colour.
+QColor greyed(const QColor& color) {
+  const auto mixed = [](int part) { return static_cast<int>(kOwnColor * part + (1 - kOwnColor) * kGrey); };
+  return {mixed(color.red()), mixed(color.green()), mixed(color.blue())};
 }
 
 } // namespace
@@ -146,6 +155,22 @@ void StripChart::paintAxes(QPainter& painter, const QRectF& plot) const {
   painter.drawLine(plot.topLeft(), plot.bottomLeft());
 }
 
+/// The time of doubt that holds a time; null: none.
+const StripDoubt* StripChart::doubtAt(double t_s) const {
+  const auto next = std::lower_bound(spec_.doubts.begin(), spec_.doubts.end(), t_s,
+                                     [](const StripDoubt& doubt, double at_s) { return doubt.to_s < at_s; });
+  return next != spec_.doubts.end() && next->from_s <= t_s ? &*next : nullptr;
+}
+
+void StripChart::paintDoubts(QPainter& painter, const QRectF& plot) const {
+  QColor hatch = ink(palp::palette(theme_).text);
+  hatch.setAlphaF(kHatch);
+  for (const StripDoubt& doubt : spec_.doubts)
+    painter.fillRect(
+        QRectF(QPointF(xOf(plot, doubt.from_s), plot.top()), QPointF(xOf(plot, doubt.to_s), plot.bottom())),
+        QBrush(hatch, Qt::BDiagPattern));
+}
+
 void StripChart::paintCurves(QPainter& painter, const QRectF& plot) const {
   painter.save();
   painter.setClipRect(plot.adjusted(0, -1, 0, 1));
@@ -153,15 +178,16 @@ void StripChart::paintCurves(QPainter& painter, const QRectF& plot) const {
   tint.setAlphaF(0.15F);
   for (const auto& [from_s, to_s] : spec_.spans)
     painter.fillRect(QRectF(QPointF(xOf(plot, from_s), plot.top()), QPointF(xOf(plot, to_s), plot.bottom())), tint);
+  paintDoubts(painter, plot);
   painter.setRenderHint(QPainter::Antialiasing);
   // Lines, and no polyline: its stroke is one path, and a frame of a noisy signal took Qt's painter seconds to fill it.
-  QList<QLineF> lines;
+  QList<QLineF> lines, doubted;
   for (const StripSeries& series : spec_.series) {
-    painter.setPen(QPen(ink(seriesColor(series.color, theme_)), 1.6));
     double column = -1; // of pixels; -1: the curve begins
     QPointF last;
+    bool inDoubt = false;
     const auto lineTo = [&](const QPointF& point) {
-      if (column >= 0) lines << QLineF(last, point);
+      if (column >= 0) (inDoubt ? doubted : lines) << QLineF(last, point);
       last = point;
     };
     double least = 0, most = 0; // of the pixels' column, so that no peak is lost
@@ -173,6 +199,7 @@ void StripChart::paintCurves(QPainter& painter, const QRectF& plot) const {
         column = -1;
         continue;
       }
+      inDoubt = doubtAt(series.t_s[k]) != nullptr;
       const double y = std::clamp(yOf(plot, series.y[k]), plot.top() - kBeyond * plot.height(),
                                   plot.bottom() + kBeyond * plot.height());
       if (std::floor(x) == column) {
@@ -185,8 +212,13 @@ void StripChart::paintCurves(QPainter& painter, const QRectF& plot) const {
       column = std::floor(x);
       least = most = y;
     }
+    const QColor color = ink(seriesColor(series.color, theme_));
+    painter.setPen(QPen(greyed(color), 1.6));
+    painter.drawLines(doubted);
+    painter.setPen(QPen(color, 1.6));
     painter.drawLines(lines);
     lines.clear();
+    doubted.clear();
   }
   painter.setPen(QPen(ink(palp::palette(theme_).force), 1, Qt::DotLine));
   for (const double limit : spec_.limits) {
@@ -304,6 +336,7 @@ std::vector<StripChart::ReadingLine> StripChart::readingLines() const {
       text += QString::fromUtf8(" \u00b1 %1").arg(series.deviation[place], 0, 'g', 2);
     lines.push_back({series.name, std::isfinite(value) ? text + unit() : text, series.color});
   }
+  if (const StripDoubt* doubt = doubtAt(t_s)) lines.push_back({tr("doubted"), doubt->why, {}});
   for (const auto& [mark_s, text] : spec_.marks)
     if (std::abs(xOf(plot, mark_s) - pointer_px_) <= kMarkGap_px) lines.push_back({tr("mark"), text, {}});
   return lines;

@@ -19,6 +19,12 @@ struct StripSeries {
   std::vector<double> deviation{}; ///< standard deviation of each y, no number where it is not known; empty: of none
 };
 
+/// A time in which the values can hardly be true: the curves are grey there, on a hatched ground.
+struct StripDoubt {
+  double from_s = 0, to_s = 0;
+  QString why; ///< at its end
+};
+
 /// What is drawn: the last seconds, on a scale that stays.
 struct StripSpec {
   QString title, yLabel;
@@ -29,6 +35,7 @@ struct StripSpec {
   std::vector<StripSeries> series;
   std::vector<std::pair<double, QString>> marks; ///< events at their times
   std::vector<std::array<double, 2>> spans;      ///< tinted times: from, to
+  std::vector<StripDoubt> doubts;                ///< in order
   std::vector<double> limits;                    ///< drawn across
   QString empty;                                 ///< said where there is no curve
 };
@@ -49,7 +56,7 @@ public:
   void holdChart(StripSpec spec);
   void release();
   /// What is seen of the curves as a table: time [s], one column a curve, then one a deviation; nothing where one has
-  /// no value.
+  /// no value. Where there are times of doubt, a last column is 1 in them and 0 elsewhere.
   [[nodiscard]] QString asCsv() const;
   void setTheme(Theme theme);
   /// Time, values with their deviations and marks at the cursor, a line each; empty where it is not in the plot.
@@ -92,6 +99,7 @@ private:
   void savePdf();
   void paintAxes(QPainter& painter, const QRectF& plot) const;
   void paintCurves(QPainter& painter, const QRectF& plot) const;
+  void paintDoubts(QPainter& painter, const QRectF& plot) const;
   void paintMarks(QPainter& painter, const QRectF& plot) const;
   void paintLegend(QPainter& painter, const QRectF& plot) const;
   void paintReading(QPainter& painter, const QRectF& plot) const;
@@ -106,6 +114,7 @@ private:
   [[nodiscard]] double legendWidth(std::size_t first, std::size_t count) const;
   /// The title stands in a line of its own where it has no room beside the legend's first.
   [[nodiscard]] int linesAbove(double room_px) const;
+  [[nodiscard]] const StripDoubt* doubtAt(double t_s) const;
   [[nodiscard]] QString unit() const;
   [[nodiscard]] QRectF plotRectangle() const;
   [[nodiscard]] double xOf(const QRectF& plot, double t_s) const;

@@ -194,7 +194,7 @@ QString StripChart::asCsv() const {
   for (const StripSeries& series : spec_.series) text += ",\"" + series.name + " " + spec_.yLabel + "\"";
   for (const StripSeries& series : spec_.series)
     if (!series.deviation.empty()) text += ",\"sd of " + series.name + " " + spec_.yLabel + "\"";
-  text += "\n";
+  text += spec_.doubts.empty() ? "\n" : ",doubted\n";
   std::vector<std::size_t> next(spec_.series.size(), 0);
   for (const double t_s : times) {
     QString values, deviations;
@@ -210,7 +210,8 @@ QString StripChart::asCsv() const {
           deviations += QString::number(series.deviation[next[k]], 'g', 4);
       }
     }
-    text += QString::number(t_s - zero_s_, 'f', 6) + values + deviations + "\n";
+    const QString doubted = spec_.doubts.empty() ? QString() : doubtAt(t_s) != nullptr ? ",1" : ",0";
+    text += QString::number(t_s - zero_s_, 'f', 6) + values + deviations + doubted + "\n";
   }
   return text;
 }

@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 namespace palp {
@@ -65,6 +66,19 @@ Eigen::Vector3d middle(const SensorDesign& design, int area) {
   return onTop(design, centre.x(), centre.y());
 }
 
+/// "Fz -4.20 N"
+std::string measuredWords(const LiveArrow& arrow) {
+  std::string all;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!arrow.measured[axis]) continue;
+    std::array<char, 48> buffer{};
+    std::snprintf(buffer.data(), buffer.size(), "%sF%c %.2f N", all.empty() ? "" : ", ", "xyz"[axis],
+                  arrow.force_N(static_cast<Eigen::Index>(axis)));
+    all += buffer.data();
+  }
+  return all;
+}
+
 } // namespace
 
 struct LiveScene::Parts {
@@ -88,7 +102,20 @@ struct LiveScene::Parts {
 
   void showTruth(const Color& color);
   void tintAreas(const Color& color);
+  [[nodiscard]] std::vector<PlacedText> wordsOfForces() const;
 };
+
+/// Of the arrows; where the network does not give all components, those alone that it gives.
+std::vector<PlacedText> LiveScene::Parts::wordsOfForces() const {
+  std::vector<PlacedText> words = forces.words();
+  std::size_t word = 0;
+  for (const LiveArrow& arrow : arrows) {
+    if (!(arrow.force_N.norm() > 0) || word == words.size()) continue;
+    if (arrow.measured != std::array{true, true, true}) words[word].text = measuredWords(arrow);
+    ++word;
+  }
+  return words;
+}
 
 void LiveScene::Parts::tintAreas(const Color& color) {
   vtkNew<vtkPoints> points;
@@ -192,10 +219,12 @@ void LiveScene::showForces(const std::vector<LiveArrow>& arrows, bool stale, con
   const Palette& ink = palette(parts.options.theme);
   const Color& color = stale ? kStale : ink.force;
   std::vector<PlacedForce> forces;
-  for (const LiveArrow& arrow : parts.arrows)
-    forces.push_back({arrow.place_mm ? onTop(parts.design, arrow.place_mm->x(), arrow.place_mm->y())
-                                     : middle(parts.design, arrow.area),
-                      arrow.force_N});
+  for (const LiveArrow& arrow : parts.arrows) {
+    PlacedForce& force = forces.emplace_back();
+    force.place_mm = arrow.place_mm ? onTop(parts.design, arrow.place_mm->x(), arrow.place_mm->y())
+                                    : middle(parts.design, arrow.area);
+    force.force_N = arrow.force_N;
+  }
   parts.forces.showToScale(forces, parts.options.mm_per_N, color, true);
   parts.tintAreas(color);
   parts.truth_mm = truth_mm;
@@ -203,7 +232,7 @@ void LiveScene::showForces(const std::vector<LiveArrow>& arrows, bool stale, con
   parts.overlay->words.clear();
   for (int area = 0; area < parts.design.areas.count(); ++area)
     parts.overlay->words.push_back({middle(parts.design, area), std::to_string(area), ink.text});
-  const std::vector<PlacedText>& words = parts.forces.words();
+  const std::vector<PlacedText> words = parts.wordsOfForces();
   parts.overlay->words.insert(parts.overlay->words.end(), words.begin(), words.end());
   parts.overlay->lines = lines;
   parts.overlay->theme = parts.options.theme;

@@ -3,6 +3,7 @@
 #include "app/scenes/Palette.h"
 #include "model/SensorDesign.h"
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,6 +19,7 @@ struct LiveArrow {
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
   std::optional<Eigen::Vector2d> place_mm{};
   Eigen::Vector2d deviation_mm = Eigen::Vector2d::Zero(); ///< of the place
+  std::array<bool, 3> measured{true, true, true};         ///< the components that the network gives
   bool operator==(const LiveArrow&) const = default;
 };
 

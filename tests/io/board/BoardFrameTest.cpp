@@ -61,6 +61,14 @@ TEST(BoardFrame, SingleReadingsAreNamedByBothWires) {
   EXPECT_EQ(wireFaults(frame), std::vector<std::string>{"row-wire 1, column-wire 3: not measured"});
 }
 
+TEST(BoardFrame, NeighbouringReadingsAreNamedTogether) {
+  BoardFrame frame = goodFrame();
+  for (const int column : {1, 2, 3}) frame.state(1, column) = ReadingState::Missing;
+  frame.state(1, 4) = ReadingState::Short;
+  EXPECT_EQ(wireFaults(frame), (std::vector<std::string>{"row-wire 1, column-wires 1 to 3: no reading came",
+                                                         "row-wire 1, column-wire 4: short"}));
+}
+
 TEST(BoardFrame, ASensorThatIsNotPluggedInNamesItsRowsOnly) {
   BoardFrame frame = goodFrame(2, 6);
   frame.state.setConstant(ReadingState::Open);

@@ -194,7 +194,9 @@ KnownTouch KnownLoad::load() const {
 void KnownLoad::displayReading(const std::optional<Eigen::Vector3d>& force_N) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double value_N = force_N ? (*force_N)(static_cast<Eigen::Index>(axis)) : 0;
-    const QString text = force_N ? QString::number(std::round(1e3 * value_N) / 1e3 + 0.0, 'f', 3) : tr("none");
+    const QString text = force_N && std::isnan(value_N) ? tr("not measured")
+                         : force_N                      ? QString::number(std::round(1e3 * value_N) / 1e3 + 0.0, 'f', 3)
+                                                        : tr("none");
     if (reads_[axis]->text() != text) reads_[axis]->setText(text);
   }
 }

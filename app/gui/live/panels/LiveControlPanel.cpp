@@ -59,19 +59,6 @@ void setText(QLabel& label, const QString& text) {
 
 } // namespace
 
-QString networkWords(const LiveHost& host) {
-  const std::optional<Decoder>& decoder = host.decoder();
-  if (!decoder) return host.loading() ? QObject::tr("Reading the network...") : QObject::tr("No network.");
-  const QString rows =
-      static_cast<int>(decoder->input.rows.size()) == decoder->input.rowWires
-          ? QObject::tr("all rows")
-          : QObject::tr("%1 of %2 row-wires").arg(decoder->input.rows.size()).arg(decoder->input.rowWires);
-  return QObject::tr("%1: %2, %3, trained for noise %4")
-      .arg(host.networkName())
-      .arg(QString::fromStdString(name(decoder->kind)), rows)
-      .arg(decoder->noise, 0, 'g', 2);
-}
-
 LiveControlPanel::LiveControlPanel(QWidget* parent) : QWidget(parent) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
@@ -148,9 +135,9 @@ QWidget* LiveControlPanel::buildRecording() {
   mark_->setToolTip(tr("What the event mark says, in the curves and in the recording"));
   auto* mark = pushButton(tr("Mark"), "mark", tr("Marks this moment (M)"));
   column->addLayout(beside({mark_, mark}));
-  auto* csv =
-      pushButton(tr("Export CSV..."), "exportLive",
-                 tr("The frames that the curves hold, the last 60 s at most: time, forces [N], dR/R of all cells"));
+  auto* csv = pushButton(tr("Export CSV..."), "exportLive",
+                         tr("Of a recording every frame: time, forces and deviations [N], resistances [ohm], marks, "
+                            "temperature; of a board the frames that the curves hold, the last 60 s at most"));
   column->addLayout(beside({pause_, csv}));
   connect(file_, &QLineEdit::textChanged, this, &LiveControlPanel::lookForFile);
   connect(choose, &QPushButton::clicked, this, [this] {
@@ -169,7 +156,9 @@ QWidget* LiveControlPanel::buildRecording() {
     mark_->setPlaceholderText(tr("mark %1").arg(++marks_ + 1));
   });
   connect(csv, &QPushButton::clicked, this, [this] {
-    const QString file = askFileToSave(this, tr("Export CSV"), "live.csv", tr("Tables (*.csv)"));
+    std::filesystem::path name = settings_.source == LiveSourceKind::Recording ? settings_.recording : "live";
+    const QString proposal = QString::fromStdString(name.replace_extension(".csv").string());
+    const QString file = askFileToSave(this, tr("Export CSV"), proposal, tr("Tables (*.csv)"));
     if (!file.isEmpty()) emit exportAsked(file);
   });
   return box;
@@ -182,12 +171,14 @@ QWidget* LiveControlPanel::buildAlarm() {
   alarmOn_->setObjectName("alarmOn");
   alarmOn_->setAccessibleName(tr("Alarm"));
   alarmOn_->setToolTip(
-      tr("Says where the decoded force passes the limit, marks it in the curves and in a recording. Goes off while "
+      tr("Goes off where the decoded force on any area passes the limit, and is marked in the curves and in a "
+         "recording. A force that does not stand out of its deviation counts as none. Goes off while "
          "another scene is seen too: the board is read and decoded then, which takes some per cent of a core"));
   alarmForce_ = new QComboBox;
   alarmForce_->setObjectName("alarmForce");
   for (const auto& [value, text] : kForceQuantities.all()) alarmForce_->addItem(text, static_cast<int>(value));
-  alarmForce_->setToolTip(tr("Which force is watched; |F| is its size"));
+  alarmForce_->setToolTip(
+      tr("The component of the force that is watched, on every area; |F| is the size of the force"));
   alarmSide_ = new QComboBox;
   alarmSide_->setObjectName("alarmSide");
   for (const auto& [value, text] : kAlarmSides.all()) alarmSide_->addItem(tr(text), static_cast<int>(value));
@@ -199,7 +190,7 @@ QWidget* LiveControlPanel::buildAlarm() {
   alarmLimit_->setSingleStep(0.5);
   alarmLimit_->setSuffix(tr(" N"));
   alarmLimit_->setKeyboardTracking(false); // no alarm at a limit that is half typed
-  alarmLimit_->setToolTip(tr("The limit [N]; the alarm is over where the force has come back by 5 % of it"));
+  alarmLimit_->setToolTip(tr("The limit [N]; the alarm is over where the forces on all areas are back by 5 % of it"));
   for (QWidget* widget : {static_cast<QWidget*>(alarmOn_), static_cast<QWidget*>(alarmForce_),
                           static_cast<QWidget*>(alarmSide_), static_cast<QWidget*>(alarmLimit_)})
     row->addWidget(widget);

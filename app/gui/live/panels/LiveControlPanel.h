@@ -28,9 +28,6 @@ struct LiveControlState {
   QString networkBefore;  ///< the one that can be had back; empty: none
 };
 
-/// The network in use: name, decoder, wires, noise.
-QString networkWords(const LiveHost& host);
-
 /// What is done with the frames: network, tare, recording, marks, and the scales of the views.
 class LiveControlPanel : public QWidget {
   Q_OBJECT

@@ -74,6 +74,17 @@ TEST_F(LiveBrokenBoard, ABrokenWireLeadsToANetworkThatDoesWithoutIt) {
   EXPECT_TRUE(find<QPushButton>("otherRows").isHidden());
 }
 
+TEST_F(LiveBrokenBoard, ABrokenColumnWireWidensTheDeviationAndEndsNoForce) {
+  ASSERT_TRUE(waitForFrames());
+  type<QSpinBox>("openColumn", "7");
+  ASSERT_TRUE(wait([&] { return banner().startsWith("column-wire 7: open. Forces go on"); })) << banner().toStdString();
+  const LiveFrame* last = page.host().history().last();
+  EXPECT_TRUE(last->forces.valid) << last->forces.reason;
+  EXPECT_EQ(last->forces.missingReadings, 10);
+  type<QSpinBox>("openColumn", "none");
+  EXPECT_TRUE(wait([&] { return banner().isEmpty(); })) << banner().toStdString();
+}
+
 TEST_F(LiveBrokenBoard, AWireThatTheNetworkDoesNotReadIsNoAlarm) {
   ASSERT_TRUE(waitForFrames());
   type<QSpinBox>("openRow", "3");

@@ -34,6 +34,11 @@ protected:
     }
     return true;
   }
+  /// Also where it is asked about.
+  void useFit() {
+    const Agreeing agreeing;
+    click("useCalibration");
+  }
   bool fit() {
     click("fitCalibration");
     return wait([&] { return calibration().calibration().has_value() && !calibration().runner().running(); });
@@ -48,7 +53,7 @@ TEST_F(LiveCalibrating, GoesBackToTheNetworkBeforeACalibrationAndMarksBothInTheR
   ASSERT_TRUE(collect(9, -0.5));
   ASSERT_TRUE(fit());
   const std::string before = page.host().decoder()->trainedWith;
-  click("useCalibration");
+  useFit();
   auto& name = find<QLabel>("networkName");
   EXPECT_TRUE(wait([&] { return name.text().startsWith("calibrated, 9 frames, 2"); })) << name.text().toStdString();
   const Eigen::MatrixXd calibrated_N = page.host().decoder()->residual_N;
@@ -75,6 +80,25 @@ TEST_F(LiveCalibrating, SaysThatTheLabelsDoNotBelongToTheFrames) {
   const auto worst = static_cast<int>(calibration().calibration()->report.worstSample);
   EXPECT_TRUE(find<QLabel>("calibrationReport").text().contains(QString("row %1 of the table").arg(worst + 1)))
       << "the table counts from 1";
+}
+
+TEST_F(LiveCalibrating, AsksBeforeABadFitIsUsedAndItsDeviationsHoldWhatItLeft) {
+  ASSERT_TRUE(waitForArrow());
+  ASSERT_TRUE(collect(12, -0.5)); // whatever was pressed
+  ASSERT_TRUE(fit());
+  answerQuestion(QMessageBox::No);
+  click("useCalibration");
+  EXPECT_TRUE(find<QLabel>("networkName").text().startsWith("Palp's own"));
+  useFit();
+  ASSERT_TRUE(wait([&] { return find<QLabel>("networkName").text().startsWith("calibrated, 12 frames"); }));
+  const double left_N = calibration().calibration()->report.rmseAfter_N(2);
+  EXPECT_GT(left_N, 0.1);
+  EXPECT_TRUE(wait([&] {
+    const LiveFrame* last = page.host().history().last();
+    return last->forces.valid && last->forces.standardDeviation_N(2, 0) >= left_N;
+  }));
+  EXPECT_TRUE(wait([&] { return find<QLabel>("liveTrustUnit").text().contains("calibrated with 12 frames"); }))
+      << find<QLabel>("liveTrustUnit").text().toStdString();
 }
 
 TEST_F(LiveCalibrating, SaysThatTheNetworkSeesTheLoadOnAnotherArea) {
@@ -199,7 +223,7 @@ TEST_F(LiveCalibrating, TheNetworkOfPalpIsHadBackAfterOneThatWasRefined) {
   ASSERT_TRUE(waitForArrow());
   ASSERT_TRUE(collect(9, -0.5));
   ASSERT_TRUE(fit());
-  click("useCalibration");
+  useFit();
   ASSERT_TRUE(wait([&] { return find<QPushButton>("shippedNetwork").isEnabled(); }));
   click("shippedNetwork");
   auto& name = find<QLabel>("networkName");

@@ -1,11 +1,13 @@
 // Recordings played: any place, frame by frame, loops and marks.
 
 #include "app/gui/views/StripChart.h"
+#include "tests/app/gui/WindowFixture.h"
 #include "tests/app/gui/live/LiveOperatorFixture.h"
 
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDoubleSpinBox>
+#include <QFile>
 
 namespace palp {
 namespace {
@@ -47,6 +49,24 @@ TEST_F(LiveReplay, AfterAJumpTheCurvesHoldThePastOfThatPlace) {
   click("replayBack");
   ASSERT_TRUE(wait([&] { return last()->frame.number == number - 1; }));
   EXPECT_LT(begin_s() - page.host().replay()->begin_s, 0.1) << "a frame back too";
+}
+
+TEST_F(LiveReplay, AllOfItIsExportedWhateverTheCurvesHold) {
+  ASSERT_TRUE(played());
+  ASSERT_TRUE(held());
+  type<QDoubleSpinBox>("replayPlace", "0");
+  const QString file = folder.filePath("touch.csv");
+  answerFileDialog(file);
+  click("exportLive");
+  ASSERT_TRUE(wait([&] { return QFile::exists(file); }));
+  QFile table(file);
+  ASSERT_TRUE(table.open(QIODevice::ReadOnly));
+  QStringList lines = QString::fromUtf8(table.readAll()).split('\n', Qt::SkipEmptyParts);
+  lines.removeIf([](const QString& line) { return line.startsWith('#'); });
+  EXPECT_TRUE(lines.front().startsWith("device_s,host_unix_s,frame,valid,area,fx_N,fy_N,fz_N,sd_fx_N,"))
+      << lines.front().left(200).toStdString();
+  EXPECT_GE(lines.size(), 60) << "every frame that was recorded";
+  EXPECT_TRUE(QFile::exists(file) && page.host().paused()) << "what is seen stays as it is";
 }
 
 TEST_F(LiveReplay, InALoopTheCurvesHoldOnlyWhatWasPlayedSinceItsBegin) {

@@ -41,6 +41,24 @@ TEST(StripChart, PaintsAWildSignalWhereverItGoes) {
   for (const double swing : {1e4, 1e9, 1e300, 1.7e308}) EXPECT_EQ(pictureOf(jumping(swing)), full) << swing;
 }
 
+TEST(StripChart, WhatIsDoubtedIsGreyOnAHatchedGround) {
+  StripSpec spec;
+  spec.yRange = {-1, 1};
+  spec.end_s = 10;
+  spec.series.push_back({"a", 0, {1, 4, 6, 9}, {0.5, 0.5, 0.5, 0.5}});
+  const QImage trusted = pictureOf(spec);
+  spec.doubts = {{4, 6, "another sensor"}};
+  const QImage doubted = pictureOf(spec);
+  EXPECT_NE(doubted, trusted);
+  spec.series[0].y = {0.5, 0.5, -0.5, 0.5};
+  EXPECT_NE(pictureOf(spec), doubted);
+  StripChart chart;
+  chart.resize(900, 300);
+  chart.setChart(spec);
+  EXPECT_TRUE(chart.asCsv().contains(",doubted\n")) << chart.asCsv().toStdString();
+  EXPECT_EQ(chart.asCsv().count(",1\n"), 2) << chart.asCsv().toStdString();
+}
+
 TEST(StripChart, AValueThatIsNoNumberBreaksTheCurve) {
   StripSpec spec;
   spec.yRange = {-1, 1};
