@@ -34,10 +34,10 @@ struct Part {
   SampleSet head;
 };
 
-std::vector<Part> readHeads(const std::vector<fs::path>& paths) {
+std::vector<Part> readHeads(const std::vector<fs::path>& paths, const std::stop_token& stop) {
   std::vector<Part> parts;
   for (const fs::path& path : paths) {
-    parts.push_back({path, openSamples(path)->head()});
+    parts.push_back({path, openSamples(path, stop)->head()});
     const std::string differs = differenceOfHeads(parts[0].head, parts.back().head);
     if (!differs.empty()) throw Error(path.string() + ": does not belong to " + paths[0].string() + ": " + differs);
   }
@@ -56,7 +56,7 @@ std::size_t readParts(const std::vector<Part>& parts, const std::stop_token& sto
       throw Error(part.path.string() + ": begins at sample " + std::to_string(first) +
                   "; the shards before it end at sample " + std::to_string(done) +
                   (first < done ? ", so that some stand twice" : ", so that some are missing"));
-    const auto reader = openSamples(part.path);
+    const auto reader = openSamples(part.path, stop);
     const Eigen::Index atOnce = samplesAtOnce(reader->head());
     SampleSet block = reader->head();
     for (Eigen::Index count = atOnce; count == atOnce;) {
@@ -97,7 +97,7 @@ void saveSamples(const fs::path& path, const SampleSet& set, bool force, const s
 }
 
 SampleSet loadSamples(const fs::path& path, const std::stop_token& stop, bool alsoTwoAtOnce) {
-  const auto reader = openSamples(path);
+  const auto reader = openSamples(path, stop);
   SampleSet set = reader->head();
   if (set.beside.rows() > 0 && !alsoTwoAtOnce)
     throw Error(path.string() +
@@ -122,7 +122,7 @@ std::size_t mergeSampleFiles(const std::vector<fs::path>& paths, const fs::path&
                              const std::stop_token& stop) {
   if (paths.empty()) throw Error(path.string() + ": no shards to join; name at least one file");
   requireFree(path, force);
-  const std::vector<Part> parts = readHeads(paths);
+  const std::vector<Part> parts = readHeads(paths, stop);
   SampleSet head = parts[0].head;
   head.origin.firstSample = 0;
   SampleWriter writer(path, head, force);

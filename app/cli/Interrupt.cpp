@@ -1,8 +1,11 @@
 #include "app/cli/Interrupt.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
+#include <optional>
 #include <unistd.h>
 
 namespace palp {
@@ -18,18 +21,34 @@ void count(int /*signal*/) {
 }
 
 constexpr std::chrono::milliseconds kTick{20}; // far below the 0.3 s that a cancel may take
+constexpr double kEndWithin_s = 0.9;
+
+/// How many processes each processor has to do now, at least one: everything takes so many times as long.
+double busyness() {
+  double waiting = 1;
+  ::getloadavg(&waiting, 1);
+  return std::max(1., waiting / std::max(1U, std::thread::hardware_concurrency()));
+}
+
+void waitForSignal(std::stop_source& source, const std::stop_token& ended) {
+  std::optional<std::chrono::steady_clock::time_point> atLatest;
+  while (!ended.stop_requested()) {
+    if (interrupts > 0 && !atLatest) {
+      source.request_stop();
+      atLatest = std::chrono::steady_clock::now() +
+                 std::chrono::milliseconds(static_cast<long>(1000 * kEndWithin_s * busyness()));
+    }
+    if (atLatest && std::chrono::steady_clock::now() > *atLatest) _exit(130);
+    std::this_thread::sleep_for(kTick);
+  }
+}
 
 } // namespace
 
 Interrupt::Interrupt() {
   interrupts = 0;
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, count);
-  waiter_ = std::jthread([source = source_](const std::stop_token& ended) mutable {
-    while (!ended.stop_requested()) {
-      if (interrupts > 0) source.request_stop();
-      std::this_thread::sleep_for(kTick);
-    }
-  });
+  waiter_ = std::jthread([source = source_](const std::stop_token& ended) mutable { waitForSignal(source, ended); });
 }
 
 Interrupt::~Interrupt() {

@@ -4,9 +4,11 @@
 #include "model/base/Error.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <fcntl.h>
 #include <fstream>
 #include <spawn.h>
@@ -85,6 +87,12 @@ std::string lastLine(const std::string& text) {
   return last;
 }
 
+/// The end of a process that could not be waited for, as where the signal of its end is ignored; what it did is
+/// unknown.
+std::string unknownEnd() {
+  return std::string("its end cannot be known: ") + std::strerror(errno); // NOLINT(concurrency-mt-unsafe)
+}
+
 /// What the end of a process says; empty where all is well.
 std::string failure(int status, const std::filesystem::path& errors) {
   if (WIFSIGNALED(status)) return "ended by signal " + std::to_string(WTERMSIG(status));
@@ -102,7 +110,8 @@ ChildRun runChild(const ChildOrder& order, const std::stop_token& stop) {
   const pid_t child = start(order);
   int status = 0;
   struct rusage used {};
-  while (wait4(child, &status, WNOHANG, &used) == 0) {
+  pid_t ended = 0;
+  while ((ended = wait4(child, &status, WNOHANG, &used)) == 0 || (ended < 0 && errno == EINTR)) {
     run.peak_MB = std::max(run.peak_MB, heldAtMost_MB(child));
     if (run.failed.empty() && stop.stop_requested()) run.failed = "cancelled";
     if (run.failed.empty() && elapsed() > order.limit_s)
@@ -110,6 +119,7 @@ ChildRun runChild(const ChildOrder& order, const std::stop_token& stop) {
     if (!run.failed.empty()) kill(child, SIGKILL);
     std::this_thread::sleep_for(kLookEvery);
   }
+  if (ended < 0 && run.failed.empty()) run.failed = unknownEnd();
   run.seconds = elapsed();
   run.cpu_s = seconds(used.ru_utime) + seconds(used.ru_stime);
   if (run.failed.empty()) run.failed = failure(status, order.folder / kErrors);

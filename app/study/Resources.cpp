@@ -8,13 +8,14 @@ namespace fs = std::filesystem;
 
 fs::path resource(const std::string& name) {
   std::error_code none;
-  const fs::path program = fs::read_symlink("/proc/self/exe", none);
-  const fs::path installed = program.parent_path().parent_path() / "share" / "palp" / name;
-  if (fs::exists(installed, none)) return installed;
-  const fs::path inSources = fs::path(PALP_RESOURCES_DIR) / name;
-  if (fs::exists(inSources, none)) return inSources;
-  throw Error(name + ": does not belong to this installation; looked for " + installed.string() + " and " +
-              inSources.string());
+  const fs::path folder = fs::read_symlink("/proc/self/exe", none).parent_path(), above = folder.parent_path();
+  std::string looked;
+  for (const fs::path& place : {above / "share" / "palp", above.parent_path() / "resources",
+                                fs::path(PALP_RESOURCES_DIR), fs::path("/usr/share/palp")}) {
+    if (fs::exists(place / name, none)) return place / name;
+    looked += (looked.empty() ? "" : ", ") + place.string();
+  }
+  throw Error(name + ": is missing, a file that ships with palp; looked in " + looked);
 }
 
 } // namespace palp

@@ -3,9 +3,13 @@
 #include "model/base/Error.h"
 #include "model/base/Text.h"
 
+#include <fcntl.h>
 #include <hdf5.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <mutex>
@@ -133,6 +137,22 @@ std::vector<std::string> readTexts(hid_t dataset, hsize_t count) {
   return texts;
 }
 
+constexpr const char* kOpenElsewhere = "is open for writing elsewhere, in a notebook perhaps; close it there (h5clear "
+                                       "-s FILE where that program was killed)";
+
+/// By the lock that its writer holds, or by the mark in the file's head (version 3 of the superblock; HDF5 file format
+/// specification, II.A).
+bool isOpenElsewhere(const std::filesystem::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return false;
+  const bool locked = ::flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  std::array<unsigned char, 12> head{};
+  const bool marked =
+      ::pread(file, head.data(), head.size(), 0) == ssize_t(head.size()) && head[8] == 3 && (head[11] & 1) != 0;
+  ::close(file);
+  return locked || marked;
+}
+
 } // namespace
 
 Hdf5File::Hdf5File(std::filesystem::path path, Open how) : path_(std::move(path)) {
@@ -140,12 +160,13 @@ Hdf5File::Hdf5File(std::filesystem::path path, Open how) : path_(std::move(path)
   errno = 0;
   if (how == Open::ForReading) {
     file_ = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-    if (file_ < 0) throw Error(path_.string() + ": is no whole HDF5 file (cut off, or damaged)");
+    if (file_ < 0) refuse(isOpenElsewhere(path_) ? kOpenElsewhere : "is damaged, or cut off: no whole HDF5 file");
     return;
   }
-  const Handle plan(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
-  H5Pset_obj_track_times(plan, false); // the same bytes at any time
-  file_ = H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, plan, H5P_DEFAULT);
+  const Handle plan(H5Pcreate(H5P_FILE_CREATE), H5Pclose), access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_obj_track_times(plan, false);      // the same bytes at any time
+  H5Pset_file_locking(access, false, true); // the file is nobody else's, and some file systems have no locks
+  file_ = H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, plan, access);
   if (file_ < 0) throw Error(path_.string() + ": cannot be written: " + std::strerror(errno));
 }
 
@@ -199,16 +220,19 @@ void Hdf5File::setAttribute(const std::string& dataset, const std::string& key, 
 
 std::map<std::string, std::string> Hdf5File::attributes() const {
   const auto lock = inLibrary();
+  std::vector<std::string> names;
+  const H5A_operator2_t add = [](hid_t, const char* name, const H5A_info_t*, void* to) -> herr_t {
+    static_cast<std::vector<std::string>*>(to)->emplace_back(name);
+    return 0;
+  };
+  if (H5Aiterate2(file_, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, add, &names) < 0)
+    refuse("its attributes cannot be read; the file is damaged");
   std::map<std::string, std::string> values;
-  H5O_info_t about;
-  if (H5Oget_info2(file_, &about, H5O_INFO_NUM_ATTRS) < 0) refuse("its attributes cannot be read");
-  for (hsize_t i = 0; i < about.num_attrs; ++i) {
-    const Handle attribute(H5Aopen_by_idx(file_, ".", H5_INDEX_NAME, H5_ITER_NATIVE, i, H5P_DEFAULT, H5P_DEFAULT),
-                           H5Aclose);
-    char name[256] = {};
-    if (attribute < 0 || H5Aget_name(attribute, sizeof name, name) < 0) refuse("its attributes cannot be read");
+  for (const std::string& name : names) {
+    const Handle attribute(H5Aopen(file_, name.c_str(), H5P_DEFAULT), H5Aclose);
+    if (attribute < 0) refuse("its attributes cannot be read; the file is damaged");
     std::string value;
-    if (!readValue(attribute, value)) refuse("attribute " + std::string(name) + " is neither one text nor one number");
+    if (!readValue(attribute, value)) refuse("attribute " + name + " is neither one text nor one number");
     values.emplace(name, value);
   }
   return values;
@@ -258,9 +282,10 @@ void Hdf5File::writeChunk(const std::string& name, std::uint64_t row, std::span<
     refuse("cannot be written: " + std::string(std::strerror(errno)));
 }
 
-bool Hdf5File::has(const std::string& name) const {
+std::vector<std::uint64_t> Hdf5File::shape(const std::string& name) const {
   const auto lock = inLibrary();
-  return H5Lexists(file_, name.c_str(), H5P_DEFAULT) > 0;
+  const std::vector<hsize_t> shape = shapeOf(dataset(name));
+  return {shape.begin(), shape.end()};
 }
 
 Hdf5Layout Hdf5File::layout(const std::string& name, Hdf5Number number) const {
@@ -277,7 +302,7 @@ Hdf5Layout Hdf5File::layout(const std::string& name, Hdf5Number number) const {
   if (shape.empty()) refuse("dataset " + name + " is one number; a number a sample is needed");
   if (H5Pget_layout(plan) != H5D_CHUNKED) {
     const hsize_t all = static_cast<hsize_t>(H5Sget_simple_extent_npoints(Handle(H5Dget_space(id), H5Sclose)));
-    if (H5Dget_storage_size(id) < all * H5Tget_size(type)) refuse("dataset " + name + " is not written to its end");
+    if (H5Dget_storage_size(id) / H5Tget_size(type) < all) refuse("dataset " + name + " is not written to its end");
     return found;
   }
   std::vector<hsize_t> chunk(shape.size());

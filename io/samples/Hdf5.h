@@ -31,7 +31,8 @@ struct Hdf5Layout {
 };
 
 /// One HDF5 file that is written, or read. Debian's library is of one thread: every call waits for those of other
-/// threads. Every member throws Error with the file's name.
+/// threads. Every member throws Error with the file's name. A damaged file may end the process that reads it, or hold
+/// it up for ever: only palp-hdf5 reads by it (io/samples/Hdf5Child.h).
 class Hdf5File {
 public:
   enum class Open { ForReading, ForWriting };
@@ -57,7 +58,7 @@ public:
   /// A chunk as it is stored (io/samples/ShuffledDeflate.h); `row` is its first one.
   void writeChunk(const std::string& name, std::uint64_t row, std::span<const unsigned char> packed);
 
-  [[nodiscard]] bool has(const std::string& name) const;
+  [[nodiscard]] std::vector<std::uint64_t> shape(const std::string& name) const;
   /// Refuses a dataset of no numbers, and one of which not every chunk is there.
   [[nodiscard]] Hdf5Layout layout(const std::string& name, Hdf5Number number) const;
   /// A chunk as it is stored, in `room`, which grows where it is too small; nothing where it cannot be read.

@@ -1,6 +1,7 @@
 #include "io/samples/Hdf5Samples.h"
 
 #include "io/samples/Hdf5.h"
+#include "io/samples/Hdf5Child.h"
 #include "io/samples/ShuffledDeflate.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
@@ -17,6 +18,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr Eigen::Index kChunksAtOnce = 8;            ///< of all arrays, so that every core has some
+constexpr std::uint64_t kMostPacked = 1100;          ///< deflate packs 1032 bytes into one at best
 constexpr std::size_t kLargestChunk_bytes = 1 << 26; ///< larger ones of other programs are left to the library
 
 /// One dataset of the file.
@@ -61,7 +63,7 @@ bool isFinite(const Eigen::Ref<const Eigen::MatrixXd>& values) {
 
 class Hdf5Samples : public SampleReader {
 public:
-  explicit Hdf5Samples(const fs::path& path) : path_(path), file_(path, Hdf5File::Open::ForReading) {
+  Hdf5Samples(const fs::path& path, const std::stop_token& stop) : path_(path), file_(path, stop) {
     head_ = headFrom(path, file_.attributes(), file_.texts(kColumnsArray));
     const std::vector<std::uint64_t> shape = file_.layout(kAreaArray, Hdf5Number::Int32).shape;
     if (shape[0] > static_cast<std::uint64_t>(std::numeric_limits<std::int32_t>::max()))
@@ -74,6 +76,9 @@ public:
         file_.refuse("dataset " + field.name + " is of " + shapeText(layout.shape) +
                      " numbers; by the head and the areas it must be of " + shapeText(field.shape));
       if (layout.chunkRows > kLargestChunk_bytes / field.rowBytes()) layout.shuffledDeflate = false;
+      if (layout.shape[0] > (kMostPacked * file_.fileBytes()) / field.rowBytes())
+        file_.refuse("is damaged: dataset " + field.name + " of " + shapeText(layout.shape) +
+                     " numbers is more than a file of " + std::to_string(file_.fileBytes()) + " bytes can hold");
     }
   }
 
@@ -127,10 +132,11 @@ private:
     const Field& field = fields_[f];
     if (!layouts_[f].shuffledDeflate) {
       const auto start = static_cast<std::uint64_t>(row), number = static_cast<std::uint64_t>(rows);
+      const std::size_t numbers = number * (field.rowBytes() / width(field.number));
       if (field.values == nullptr)
-        file_.readRows(field.name, start, number, set.area.data() + column);
+        file_.readRows(field.name, start, number, std::span(set.area.data() + column, numbers));
       else
-        file_.readRows(field.name, start, number, (set.*field.values).col(column).data());
+        file_.readRows(field.name, start, number, std::span((set.*field.values).col(column).data(), numbers));
       return;
     }
     const auto chunkRows = static_cast<Eigen::Index>(layouts_[f].chunkRows);
@@ -149,7 +155,7 @@ private:
   }
 
   fs::path path_;
-  Hdf5File file_;
+  Hdf5Child file_;
   SampleSet head_;
   Eigen::Index size_ = 0, next_ = 0;
   std::vector<Field> fields_;
@@ -158,8 +164,8 @@ private:
 
 } // namespace
 
-std::unique_ptr<SampleReader> openHdf5Samples(const fs::path& path) {
-  return std::make_unique<Hdf5Samples>(path);
+std::unique_ptr<SampleReader> openHdf5Samples(const fs::path& path, const std::stop_token& stop) {
+  return std::make_unique<Hdf5Samples>(path, stop);
 }
 
 void writeHdf5Samples(const fs::path& path, const SampleRows& rows, const std::stop_token& stop) {

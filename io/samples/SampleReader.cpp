@@ -66,14 +66,14 @@ void writeSampleArrays(const fs::path& path, SampleFormat format, const SampleRo
     writeNpzSamples(path, rows, stop);
 }
 
-std::unique_ptr<SampleReader> openSamples(const fs::path& path) {
+std::unique_ptr<SampleReader> openSamples(const fs::path& path, const std::stop_token& stop) {
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) throw Error(path.string() + ": is a folder; a file is needed");
   if (fs::is_regular_file(path, ignored)) { // a pipe could not be read again
     std::ifstream stream(path, std::ios::binary);
     std::string begin(8, '\0');
     stream.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-    if (begin.starts_with("\x89HDF\r\n")) return openHdf5Samples(path);
+    if (begin.starts_with("\x89HDF\r\n")) return openHdf5Samples(path, stop);
     if (begin.starts_with("PK")) return openNpzSamples(path);
   }
   return std::make_unique<CsvSamples>(path);

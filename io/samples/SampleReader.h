@@ -38,7 +38,7 @@ public:
   virtual Eigen::Index read(SampleSet& set, Eigen::Index first, Eigen::Index count, const std::stop_token& stop) = 0;
 };
 
-/// By what the file is, not by its name.
-std::unique_ptr<SampleReader> openSamples(const std::filesystem::path& path);
+/// By what the file is, not by its name. The stop holds for the reader's whole life.
+std::unique_ptr<SampleReader> openSamples(const std::filesystem::path& path, const std::stop_token& stop);
 
 } // namespace palp

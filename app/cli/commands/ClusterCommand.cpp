@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <iostream>
 #include <memory>
@@ -16,12 +17,12 @@ namespace {
 struct ClusterArguments {
   std::string what;
   std::vector<std::string> rest; ///< the command's own
-  std::string shards, cpus = "2";
+  std::string shards, cpus = "2", sbatch;
   std::filesystem::path folder;
   bool submit = false, dryRun = false, resubmit = false;
 };
 
-constexpr std::array kStateNames{"missing", "waiting", "running", "failed", "done"};
+constexpr std::array kStateNames{"unknown", "missing", "waiting", "running", "failed", "done"};
 
 /// Takes the output out of the command's arguments.
 std::filesystem::path outputOf(std::vector<std::string>& arguments, const std::string& kind) {
@@ -37,11 +38,26 @@ std::filesystem::path outputOf(std::vector<std::string>& arguments, const std::s
                    " to be at last");
 }
 
+/// Options of sbatch alone, in one line: what else stands there, a shell would take.
+std::string slurmOptions(const std::string& typed) {
+  constexpr std::string_view kPlain = "-_./,:=@+%~*[] ";
+  const bool plain = std::all_of(typed.begin(), typed.end(), [&](unsigned char c) {
+    return std::isalnum(c) != 0 || kPlain.find(static_cast<char>(c)) != std::string_view::npos;
+  });
+  if (!typed.empty() && (!plain || typed[0] != '-'))
+    throw UsageError("--sbatch: '" + typed + "'; allowed are options of sbatch, as --partition=short --account=lab");
+  for (const char* ours : {"--array", "--output", "--dependency", "--wrap"})
+    if (typed.find(ours) != std::string::npos)
+      throw UsageError("--sbatch: " + std::string(ours) + " is set for each job; allowed are other options of sbatch");
+  return typed;
+}
+
 ClusterJob jobOf(const ClusterArguments& arguments) {
   ClusterJob job;
   job.kind = arguments.what;
   if (arguments.shards.empty()) throw UsageError("--shards is missing: into how many parts");
   job.shards = wholeNumber("--shards", arguments.shards, 1, 100'000);
+  job.sbatch = slurmOptions(arguments.sbatch);
   job.cpus = wholeNumber("--cpus", arguments.cpus, 1, 4096);
   job.arguments = arguments.rest;
   for (const char* name : {"--shard", "--threads"})
@@ -63,6 +79,7 @@ ClusterJob jobOf(const ClusterArguments& arguments) {
 Exit make(const ClusterArguments& arguments, Session& session) {
   ClusterJob job = jobOf(arguments);
   if (!arguments.dryRun) requireRoom(job); // says why not, before it measures
+  if (arguments.submit && !arguments.dryRun) requireAccepted(job, session.stop);
   if (!session.json) std::cerr << "measuring the first " << (job.kind == "sample" ? "samples" : "design") << "\n";
   measure(job, session.stop);
   session.result["shards"] = job.shards;
@@ -103,15 +120,21 @@ Exit status(const ClusterArguments& arguments, Session& session) {
       again.push_back(static_cast<int>(n) + 1);
   }
   std::string words = std::to_string(job.shards) + " shards:";
-  for (std::size_t s = kStateNames.size(); s-- > 0;) {
+  const std::size_t last = found.queueFailed.empty() ? 1 : 0; // unknown is nothing where the queue answers
+  for (std::size_t s = kStateNames.size(); s-- > last;) {
     session.result[kStateNames[s]] = counts[s];
-    words += " " + std::to_string(counts[s]) + " " + kStateNames[s] + (s > 0 ? "," : "");
+    words += " " + std::to_string(counts[s]) + " " + kStateNames[s] + (s > last ? "," : "");
   }
   session.result["merged"] = found.merged;
   session.result["failures"] = found.failures;
   if (!session.json) {
     std::cout << words << "; " << (found.merged ? "merged into " + job.output.string() : "not merged") << '\n';
     for (const std::string& failure : found.failures) std::cout << failure << '\n';
+  }
+  if (!found.queueFailed.empty()) {
+    session.result["stop_reason"] = found.queueFailed;
+    std::cerr << "palp cluster: " << found.queueFailed << (arguments.resubmit ? "; nothing was submitted" : "") << '\n';
+    return Exit::NoResult;
   }
   if (!arguments.resubmit) return Exit::Done;
   if (again.empty() && (found.merged || found.merging)) {
@@ -148,6 +171,8 @@ void addCluster(Cli& cli) {
   command.option("--cpus", arguments->cpus, "processors of a shard (default 2)");
   command.option("--folder", arguments->folder,
                  "of scripts, shards and messages (default palp-cluster-sample or -study)");
+  command.option("--sbatch", arguments->sbatch,
+                 "more options of Slurm's sbatch for all jobs: \"--partition=short --account=lab\"");
   command.flag("--submit", arguments->submit, "hand it to Slurm");
   command.flag("--dry-run", arguments->dryRun, "measure and show the scripts, write nothing");
   command.flag("--resubmit", arguments->resubmit, "with status: submit again what failed or is missing");

@@ -21,7 +21,12 @@ struct ClusterJob {
   std::filesystem::path program;    ///< palp
   double secondsAShard = 0;         ///< expected, from what was measured
   double memory_MB = 0;             ///< most that was measured
+  std::string sbatch;               ///< more options of sbatch, as typed: "--partition=short --account=lab"
 };
+
+/// Asks Slurm whether it would take such an array: its limit of tasks (scontrol), account, partition and the other
+/// options (sbatch --test-only). Before anything is measured or written. Throws Error with Slurm's words.
+void requireAccepted(const ClusterJob& job, const std::stop_token& stop);
 
 /// What one shard costs, by running the first samples (or the first design) in a process of its own: sets
 /// secondsAShard and memory_MB. Throws Error where the command is refused, with its own words, and Cancelled.
@@ -38,10 +43,12 @@ void writeJob(const ClusterJob& job);
 /// The job of a folder. Throws Error.
 ClusterJob readJob(const std::filesystem::path& folder);
 
-/// Where a shard stands. Running and Waiting come from Slurm's squeue where it is there.
-enum class ShardState { Missing, Waiting, Running, Failed, Done };
+/// Where a shard stands. Running and Waiting come from Slurm's squeue. Unknown: it does not answer, and the shard may
+/// be in the queue.
+enum class ShardState { Unknown, Missing, Waiting, Running, Failed, Done };
 struct ClusterStatus {
   std::vector<ShardState> shards;
+  std::string queueFailed;           ///< why squeue does not answer; empty where it does, or nothing was submitted
   std::vector<std::string> failures; ///< sentences: which shard, with what status
   bool merged = false;
   std::vector<std::string> arrays;        ///< numbers of the job arrays that Slurm's queue has

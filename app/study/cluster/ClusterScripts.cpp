@@ -34,7 +34,8 @@ std::string logFile(const std::filesystem::path& folder, const std::string& patt
 std::string sbatchHead(const ClusterJob& job, const std::string& name, const std::string& resources,
                        const std::string& log) {
   return "#!/bin/sh\n#SBATCH --job-name=palp-" + name + "\n" + resources +
-         "#SBATCH --requeue\n#SBATCH --open-mode=append\n#SBATCH --output=" + logFile(job.folder / "logs", log) + "\n";
+         "#SBATCH --requeue\n#SBATCH --open-mode=append\n#SBATCH --output=" + logFile(job.folder / "logs", log) + "\n" +
+         (job.sbatch.empty() ? "" : "#SBATCH " + job.sbatch + "\n");
 }
 
 std::string resources(const ClusterJob& job, long memory_MB, double seconds) {

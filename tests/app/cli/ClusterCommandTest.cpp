@@ -199,6 +199,70 @@ TEST(ClusterCommand, HandsInAndSubmitsAgainOnlyWhatIsMissing) {
   EXPECT_NE(broken.errors.find("none; rm -rf"), std::string::npos) << broken.errors;
 }
 
+TEST(ClusterCommand, SubmitsNothingWhileTheQueueDoesNotAnswer) {
+  const palp::TemporaryFolder folder;
+  const std::string asked_txt = "'" + (folder / "asked.txt").string() + "'";
+  standIn(folder, "sbatch", "echo sbatch >> " + asked_txt + "\necho 77\n");
+  standIn(folder, "squeue", "echo 'slurm_load_jobs error: Unable to contact slurm controller' >&2\nexit 1\n");
+  const std::string job = (folder / "job").string();
+  ASSERT_EQ(palp::test::palp({"cluster", "sample", "paper", "--per-area", "1", "--mapped", "4x4x2", "-o",
+                              folder / "s.csv", "--shards", "3", "--folder", job})
+                .exit,
+            0);
+  writeAll(folder / "job" / "slurm.txt", "41\nmerge 42\n");
+  writeAll(folder / "job" / "done" / "2", "");
+  const Outcome down = palp::test::palp({"cluster", "status", job, "--resubmit", "--json"});
+  EXPECT_EQ(down.exit, 1);
+  EXPECT_NE(down.errors.find("the queue cannot be asked now: squeue: status 1: slurm_load_jobs error: Unable"),
+            std::string::npos)
+      << down.errors;
+  for (const auto& [state, count] : {std::pair{"done", 1}, {"unknown", 2}, {"missing", 0}})
+    EXPECT_EQ(down.json().at(state), count) << state;
+  EXPECT_FALSE(fs::exists(folder / "asked.txt")) << "submitted again";
+
+  standIn(folder, "squeue", "echo 'slurm_load_jobs error: Invalid job id specified' >&2\nexit 1\n");
+  const Outcome gone = palp::test::palp({"cluster", "status", job, "--json"});
+  EXPECT_EQ(gone.exit, 0) << gone.errors;
+  EXPECT_EQ(gone.json().at("missing"), 2) << "Slurm has forgotten the number";
+}
+
+TEST(ClusterCommand, AsksSlurmForItsLimitsBeforeTheWork) {
+  const palp::TemporaryFolder folder;
+  standIn(folder, "sbatch",
+          "case \"$*\" in *--account=lab*) echo 'sbatch: error: Invalid account' >&2; exit 1;; esac\n");
+  standIn(folder, "scontrol", "echo 'MaxArraySize            = 4'\n");
+  const auto refused = [&](const std::vector<std::string>& more, const std::string& says) {
+    std::vector<std::string> words{"cluster", "sample",         "paper",    "--per-area",  "1",
+                                   "-o",      folder / "s.csv", "--folder", folder / "job"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome outcome = palp::test::palp(words);
+    EXPECT_EQ(outcome.exit, 2) << outcome.errors;
+    EXPECT_NE(outcome.errors.find(says), std::string::npos) << outcome.errors;
+    EXPECT_EQ(outcome.errors.find("measuring"), std::string::npos) << outcome.errors;
+  };
+  refused({"--shards", "4", "--submit"}, "--shards: 4; allowed is at most 3 on this cluster");
+  refused({"--shards", "3", "--submit", "--sbatch", "--account=lab"}, "Invalid account");
+  refused({"--shards", "3", "--sbatch", "short"}, "--sbatch: 'short'");
+  refused({"--shards", "3", "--sbatch", "-p x; rm"}, "--sbatch: '-p x; rm'");
+  refused({"--shards", "3", "--sbatch", "--array=1"}, "--sbatch: --array");
+  EXPECT_FALSE(fs::exists(folder / "job"));
+}
+
+TEST(ClusterCommand, KeepsOptionsOfSlurmAndNamesThatAreNotUtf8) {
+  const palp::TemporaryFolder folder;
+  const fs::path job = folder / "job \xe9\xff";
+  const Outcome made = palp::test::palp({"cluster", "sample", "paper", "--per-area", "1", "--mapped", "4x4x2", "-o",
+                                         folder / "s\xfc.csv", "--shards", "1", "--folder", job, "--sbatch",
+                                         "--partition=short --account=lab", "--json"});
+  ASSERT_EQ(made.exit, 0) << made.errors;
+  for (const char* script : {"array.sbatch", "merge.sbatch"})
+    EXPECT_NE(readAll(job / script).find("\n#SBATCH --partition=short --account=lab\n"), std::string::npos) << script;
+  ASSERT_EQ(runShell(folder.path(), "cd '" + job.string() + "' && ./shard.sh 1 && ./merge.sh").exit, 0);
+  const Outcome status = palp::test::palp({"cluster", "status", job});
+  EXPECT_EQ(status.exit, 0) << status.errors;
+  EXPECT_NE(status.output.find("merged into " + (folder / "s\xfc.csv").string()), std::string::npos) << status.output;
+}
+
 /// Of GNU parallel: each line of its input is appended to the command, which a shell runs.
 TEST(ClusterCommand, RunsOnOneMachineInFoldersOfAnyName) {
   const palp::TemporaryFolder folder;

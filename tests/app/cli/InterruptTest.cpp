@@ -87,6 +87,17 @@ TEST(InterruptDeathTest, ASecondCtrlCEndsTheProcessAtOnce) {
       testing::ExitedWithCode(130), "");
 }
 
+TEST(InterruptDeathTest, WorkThatDoesNotHearOfItIsEndedSoon) {
+  testing::GTEST_FLAG(death_test_style) = "threadsafe";
+  EXPECT_EXIT(
+      {
+        const palp::Interrupt interrupt;
+        std::raise(SIGTERM);
+        while (true) std::this_thread::sleep_for(std::chrono::seconds(1));
+      },
+      testing::ExitedWithCode(130), "");
+}
+
 TEST_P(InterruptedReport, PrintsItsJsonAndLeavesNothing) {
   const auto& [words, share] = GetParam();
   const palp::TemporaryFolder folder;

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <vector>
 
 namespace palp {
@@ -36,6 +37,13 @@ TEST(ChildProcess, IsEndedAfterItsLimitAndOnARequest) {
   std::stop_source source;
   source.request_stop();
   EXPECT_EQ(shell("sleep 60", 60, source.get_token()).failed, "cancelled");
+}
+
+TEST(ChildProcess, ThatCannotBeWaitedForHasNotSucceeded) {
+  const auto before = std::signal(SIGCHLD, SIG_IGN); // as some daemons leave it to what they start
+  const ChildRun run = shell("exit 3");
+  std::signal(SIGCHLD, before);
+  EXPECT_NE(run.failed.find("its end cannot be known"), std::string::npos) << run.failed;
 }
 
 TEST(ChildProcess, HoldsItsOwnMemoryAndNotThatOfItsParent) {
