@@ -23,11 +23,12 @@ void count(int /*signal*/) {
 constexpr std::chrono::milliseconds kTick{20}; // far below the 0.3 s that a cancel may take
 constexpr double kEndWithin_s = 0.9;
 
-/// How many processes each processor has to do now, at least one: everything takes so many times as long.
+/// How many processes each processor has to do now: a polite end takes so many times as long.
 double busyness() {
+  constexpr double kMost = 4;
   double waiting = 1;
   ::getloadavg(&waiting, 1);
-  return std::max(1., waiting / std::max(1U, std::thread::hardware_concurrency()));
+  return std::clamp(waiting / std::max(1U, std::thread::hardware_concurrency()), 1., kMost);
 }
 
 void waitForSignal(std::stop_source& source, const std::stop_token& ended) {
