@@ -10,7 +10,9 @@
 #include "model/base/Text.h"
 #include "nn/NoisyCopies.h"
 
+#include <cmath>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -35,6 +37,18 @@ nlohmann::ordered_json columnsJson(const Eigen::MatrixXd& matrix) {
   return columns;
 }
 
+/// Forces or their deviations; NaN, which is null in JSON and an empty cell in CSV, where the decoder does not give a
+/// component: it never varied in the training.
+Eigen::MatrixXd measured(const Decoder& decoder, Eigen::MatrixXd values) {
+  for (Eigen::Index o = 0; o < values.rows(); ++o)
+    if (!(decoder.high_N(o) > decoder.low_N(o))) values.row(o).setConstant(std::numeric_limits<double>::quiet_NaN());
+  return values;
+}
+
+std::string cell(double value) {
+  return std::isfinite(value) ? palp::text(value) : std::string();
+}
+
 std::string outputName(const Decoder& decoder, Eigen::Index output) {
   const std::string axis(1, "xyz"[output % 3]);
   return (decoder.together ? "a" + std::to_string(output / 3) + "_" : "") + "f" + axis + "_N";
@@ -50,11 +64,13 @@ std::string csv(const Decoder& decoder, const Prediction& prediction) {
   if (place) text += deviation ? ",x_mm,y_mm,sd_x_mm,sd_y_mm" : ",x_mm,y_mm";
   text += ",outside_training_range" + std::string(area ? ",area,area_confidence" : "") +
           (prediction.pressing.empty() ? "\n" : ",pressing\n");
-  for (Eigen::Index i = 0; i < prediction.forces_N.cols(); ++i) {
+  const Eigen::MatrixXd forces_N = measured(decoder, prediction.forces_N);
+  const Eigen::MatrixXd deviation_N = measured(decoder, prediction.standardDeviation_N);
+  for (Eigen::Index i = 0; i < forces_N.cols(); ++i) {
     text += std::to_string(i);
-    for (const double force : prediction.forces_N.col(i)) text += "," + palp::text(force);
+    for (const double force : forces_N.col(i)) text += "," + cell(force);
     if (deviation)
-      for (const double sd : prediction.standardDeviation_N.col(i)) text += "," + palp::text(sd);
+      for (const double sd : deviation_N.col(i)) text += "," + cell(sd);
     if (place)
       for (const double at : prediction.places_mm.col(i)) text += "," + palp::text(at);
     if (place && deviation)
@@ -70,8 +86,8 @@ std::string csv(const Decoder& decoder, const Prediction& prediction) {
 void fill(const Decoder& decoder, const Prediction& prediction, const std::optional<DecoderError>& error,
           Session& session) {
   nlohmann::ordered_json& result = session.result;
-  result["forces_N"] = columnsJson(prediction.forces_N);
-  result["standard_deviation_N"] = columnsJson(prediction.standardDeviation_N);
+  result["forces_N"] = columnsJson(measured(decoder, prediction.forces_N));
+  result["standard_deviation_N"] = columnsJson(measured(decoder, prediction.standardDeviation_N));
   result["outside_training_range"] = prediction.outsideTrainingRange;
   if (prediction.area.size() > 0) {
     result["area"] = std::vector<int>(prediction.area.begin(), prediction.area.end());

@@ -275,8 +275,9 @@ std::vector<std::string> forceLines(const LiveFrame& frame, const LiveSettings& 
           printed("area %d; that it is no other one: %.0f %%", *forces.area, kPercent * forces.areaConfidence));
   }
   if (lines.size() == 1) {
-    const Eigen::Index column = strongest(forces); // the curves draw this one
-    lines.push_back("at rest: " + components(forces, forces.forces_N, column, "%.2g") +
+    const Eigen::Index column = strongest(forces);                                       // the curves draw this one
+    const Eigen::Matrix3Xd hundredths_N = (100 * forces.forces_N.array()).round() / 100; // noise moves no digit
+    lines.push_back("at rest: " + components(forces, hundredths_N, column, "%.2f") +
                     " does not stand out of its deviation, " +
                     components(forces, forces.standardDeviation_N, column, "%.1g"));
   }

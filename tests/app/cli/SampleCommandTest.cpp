@@ -170,6 +170,11 @@ TEST(SampleCommand, MakesTouchesWhoseForceAndPlaceADecoderLearns) {
   ASSERT_EQ(used.exit, 0) << used.errors;
   EXPECT_LT(used.json().at("place_error").at("median_mm"), 1); // on what it was fitted to
   EXPECT_EQ(used.json().at("place_mm").size(), 40U);
+  for (const char* key : {"forces_N", "standard_deviation_N"}) {
+    EXPECT_TRUE(used.json().at(key)[0][0].is_null()) << "no touch pulls sideways: not measured, not 0 +- 0";
+    EXPECT_TRUE(used.json().at(key)[0][2].is_number());
+  }
+  EXPECT_NE(readAll(folder / "said.csv").find("\n0,,,-"), std::string::npos) << "an empty cell";
   EXPECT_EQ(readAll(folder / "said.csv")
                 .find("sample,fx_N,fy_N,fz_N,sd_fx_N,sd_fy_N,sd_fz_N,x_mm,y_mm,sd_x_mm,sd_y_mm,outside_training_range,"
                       "pressing\n"),
