@@ -9,7 +9,7 @@ namespace palp {
 
 namespace {
 
-constexpr double kUniformPrecision = 3;  // 1 / variance of a cause that is uniform over [-1, 1]
+constexpr double kRangePrecision = 3;    // 1 / variance of a cause that is uniform over [-1, 1]
 constexpr double kLeastKnown = 1e-9;     // of a component that no present reading tells of
 constexpr double kLeastVariance = 1e-12; // of a component, where there is no noise
 constexpr int kRefinements = 3;
@@ -38,7 +38,7 @@ ImputedReadings imputed(const ForwardModel& model, const LikelihoodEstimate& tou
   const Eigen::MatrixXd weighted =
       model.deviation(readings.present).cwiseInverse().asDiagonal() * slope(readings.present, Eigen::all);
   Eigen::MatrixXd information = weighted.transpose() * weighted;
-  information.diagonal() += kUniformPrecision * model.causeFactor.cwiseAbs2().cwiseMax(1e-300);
+  information.diagonal() += kRangePrecision * model.causeFactor.cwiseAbs2().cwiseMax(1e-300);
   const Eigen::LLT<Eigen::MatrixXd> factor(information);
   const auto missing = static_cast<Eigen::Index>(readings.missing.size());
   const Eigen::Index causes = slope.cols();

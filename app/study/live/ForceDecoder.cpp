@@ -24,10 +24,10 @@ constexpr int kMostTareFrames = 100000;
 constexpr double kSameNoise = 0.1;  // nearer than this is the same noise
 constexpr double kMostNoise = 0.99; // relative
 constexpr Eigen::Index kRestCopies = 32;
-constexpr double kMoving = 2.5;  // times the noise of a frame: the sensor moved during the tare
-constexpr double kDrowned = 0.5; // of the force range: a deviation that leaves nothing of the force
-constexpr double kFewest = 0.5;  // of the readings, from which a force is found
-constexpr double kRestReach = 4; // deviations from rest, at which half of its error counts
+constexpr double kMoving = 2.5;      // times the noise of a frame: the sensor moved during the tare
+constexpr double kDrowned = 0.5;     // of the force range: a deviation that leaves nothing of the force
+constexpr double kFewestShare = 0.5; // of the readings, from which a force is found
+constexpr double kRestReach = 4;     // deviations from rest, at which half of its error counts
 
 std::string sizes(int rows, int columns) {
   return std::to_string(rows) + " row-wires x " + std::to_string(columns) + " column-wires";
@@ -168,7 +168,7 @@ std::string ForceDecoder::reasonAgainst(const BoardFrame& frame, const PresentRe
       return "the board does not scan row-wire " + std::to_string(row) + ", which the network reads";
   const std::string whyNot = whyNotFewer(*decoder_);
   const auto present = static_cast<double>(readings.present.size());
-  if (whyNot.empty() && present >= kFewest * static_cast<double>(decoder_->inputs())) return {};
+  if (whyNot.empty() && present >= kFewestShare * static_cast<double>(decoder_->inputs())) return {};
   if (!frame.complete) return "a report of the frame is lost";
   const std::vector<std::string> faults = wireFaults(frame);
   std::string all;

@@ -9,7 +9,7 @@ namespace palp {
 
 namespace {
 
-constexpr std::array<const char*, 3> kForceNames{"Fx", "Fy", "Fz"};
+constexpr std::array<const char*, 3> kAxisNames{"Fx", "Fy", "Fz"};
 constexpr double kMinutesOfADay = 1440;
 
 } // namespace
@@ -34,7 +34,7 @@ QString calibrationWords(const Calibration& calibration, double age_days) {
   for (Eigen::Index axis = 0; axis < 3; ++axis)
     text += QObject::tr("<tr><td>%1&nbsp;</td><td>%2 to %3&nbsp;</td><td>%4 %&nbsp;</td><td>%5</td><td>%6</td>"
                         "<td>%7 %</td></tr>")
-                .arg(kForceNames[static_cast<std::size_t>(axis)])
+                .arg(kAxisNames[static_cast<std::size_t>(axis)])
                 .arg(report.lowest_N(axis), 0, 'g', 3)
                 .arg(report.highest_N(axis), 0, 'g', 3)
                 .arg(report.coverage_percent(axis), 0, 'f', 0)

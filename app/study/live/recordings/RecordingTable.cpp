@@ -25,9 +25,9 @@ std::string quotedCell(const std::string& text) {
 }
 
 /// The lines of one recording; used by the session's thread alone until the session has ended.
-class Table {
+class FrameTable {
 public:
-  Table(const RecordingTableRequest& request, double startedUnix_s)
+  FrameTable(const RecordingTableRequest& request, double startedUnix_s)
       : file_(request.table, request.force), out_(file_.beside(), std::ios::binary), startedUnix_s_(startedUnix_s),
         forces_(request.decoder ? request.decoder->outputs() / 3 : 1) {
     out_ << request.head;
@@ -97,7 +97,7 @@ RecordingTableReport writeRecordingTable(const RecordingTableRequest& request,
       std::make_shared<std::unique_ptr<ReportSource>>(std::make_unique<ReplaySource>(request.recording, control));
   const BoardInfo info = (*source)->info();
   const RecordingHead head = RecordingReader(request.recording).head();
-  const auto table = std::make_shared<Table>(request, static_cast<double>(head.startedUnix_s));
+  const auto table = std::make_shared<FrameTable>(request, static_cast<double>(head.startedUnix_s));
   table->writeHead(info);
   LiveOptions options;
   options.open = [source] { return std::move(*source); };
