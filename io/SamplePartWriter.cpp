@@ -33,12 +33,13 @@ constexpr std::size_t kPartBuffer = 1 << 20;
 } // namespace
 
 SamplePartWriter::SamplePartWriter(fs::path path, const SampleSet& head, bool force)
-    : path_(std::move(path)), part_(path_.string() + ".part"), force_(force) {
-  requireFree(path_, force_);
+    : path_(std::move(path)), part_(linkEnd(path_).string() + ".part"), force_(force) {
+  requireWritable(path_, force_);
   file_ = ::open(part_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (file_ < 0) failToWrite(part_);
   try {
-    if (::flock(file_, LOCK_EX | LOCK_NB) != 0)
+    // File systems without locks (NFS) fail in other ways: the work goes on, unlocked.
+    if (::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
       throw Error(part_.string() + ": another process is writing it; wait for it, or choose another name");
     resume(head);
   } catch (...) { // the destructor does not run for what was never constructed
@@ -105,17 +106,12 @@ void SamplePartWriter::append(const SampleSet& block) {
 }
 
 void SamplePartWriter::finish(const std::stop_token& stop) {
-  requireFree(path_, force_);
-  std::error_code error;
-  if (rows_) {
-    AtomicFile target(path_, force_);
-    writeSampleArrays(target.beside(), formatToWrite(path_), rows_->rows(), stop);
-    target.commit();
-    fs::remove(part_, error);
-    return;
-  }
-  fs::rename(part_, path_, error);
-  if (error) throw Error(path_.string() + ": cannot be written: " + error.message());
+  if (!rows_) return moveIntoPlace(part_, path_, force_);
+  AtomicFile target(path_, force_);
+  writeSampleArrays(target.beside(), formatToWrite(path_), rows_->rows(), stop);
+  target.commit();
+  std::error_code ignored;
+  fs::remove(part_, ignored);
 }
 
 } // namespace palp

@@ -11,9 +11,10 @@ namespace palp {
 
 class RowFile;
 
-/// Long work on one sample file: appends to NAME.part, which becomes NAME when complete. The same work started again
-/// continues from it; a truncated last sample is dropped. For CSV the part is the file's beginning; for files of arrays
-/// the same head and rows of numbers, which are written as arrays at the end.
+/// Long work on one sample file: appends to NAME.part (where NAME is a link, next to the file it leads to), which
+/// becomes NAME when complete. The same work started again continues from it; a truncated last sample is dropped. For
+/// CSV the part is the file's beginning; for files of arrays the same head and rows of numbers, which are written as
+/// arrays at the end.
 class SamplePartWriter {
 public:
   /// `head` is the set without samples. Throws Error if NAME exists and `force` is not given, if NAME.part belongs to

@@ -24,7 +24,7 @@ void exportVtu(const OutputFile& output, const Mesh&, const NodalFields*, const 
 }
 
 std::vector<ReportPicture> drawPaperFigures(const SensorDesign&, const ProtocolResult&, const MeshOptions&,
-                                            WrittenFiles&, Session& session) {
+                                            FilesTogether&, Session& session) {
   warn(session, "drawing the figures");
   return {};
 }

@@ -1,6 +1,7 @@
 #include "app/cli/Options.h"
 
 #include "app/cli/IndenterOption.h"
+#include "io/AtomicFile.h"
 #include "io/DesignFile.h"
 #include "io/LoadFile.h"
 #include "model/DesignError.h"
@@ -182,6 +183,14 @@ Option OutputFile::declare(Command command, const std::string& what) {
   return command.option("-o,--output", path, what);
 }
 
+void requireNoStream(const std::string& option, const std::filesystem::path& path) {
+  for (const char* stream :
+       {"-", "/dev/stdout", "/dev/stderr", "/dev/fd/1", "/dev/fd/2", "/proc/self/fd/1", "/proc/self/fd/2", "/dev/tty"})
+    if (path == stream)
+      throw UsageError(option + ": '" + path.string() +
+                       "' is where the command's own words go; give the name of a file (./- for one named -)");
+}
+
 void OutputFile::requireWritable() const {
   if (path.empty()) return;
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
@@ -189,11 +198,15 @@ void OutputFile::requireWritable() const {
     throw UsageError("--output: folder '" + folder.string() + "' does not exist");
   if (std::filesystem::is_directory(path))
     throw UsageError("--output: '" + path.string() + "' is a folder, not a file");
-  if (!force && std::filesystem::exists(path))
+  requireNoStream("--output", path);
+  if (!force && std::filesystem::is_regular_file(path))
     throw UsageError("--output: '" + path.string() + "' exists; give --force to overwrite it");
+  palp::requireWritable(path, force);
 }
 
 OutputFolder::OutputFolder(const std::filesystem::path& folder, bool force) {
+  requireNoStream("--output", folder);
+  removeLeftovers(folder);
   if (std::filesystem::exists(folder) && !std::filesystem::is_directory(folder))
     throw UsageError("--output: '" + folder.string() + "' is a file; allowed is a folder");
   if (std::filesystem::is_directory(folder) && !std::filesystem::is_empty(folder) && !force)
@@ -201,6 +214,7 @@ OutputFolder::OutputFolder(const std::filesystem::path& folder, bool force) {
   std::error_code failed;
   if (std::filesystem::create_directories(folder, failed)) made_ = folder;
   if (failed) throw UsageError("--output: '" + folder.string() + "' cannot be made: " + failed.message());
+  palp::requireWritable(folder / "report.html", true);
 }
 
 OutputFolder::~OutputFolder() {

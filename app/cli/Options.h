@@ -61,7 +61,10 @@ struct MeshChoice {
   [[nodiscard]] std::string asCommand() const;
 };
 
-/// A written file: refuses to overwrite without force before any work is done.
+/// UsageError where the name means standard output or standard error, which no command writes files to.
+void requireNoStream(const std::string& option, const std::filesystem::path& path);
+
+/// A written file: refuses to overwrite without force, and what cannot be written, before any work is done.
 struct OutputFile {
   std::filesystem::path path;
   bool force = false;

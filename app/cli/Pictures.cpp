@@ -22,7 +22,7 @@ void exportVtu(const OutputFile& output, const Mesh& mesh, const NodalFields* fi
 }
 
 std::vector<ReportPicture> drawPaperFigures(const SensorDesign& design, const ProtocolResult& result,
-                                            const MeshOptions& mesh, WrittenFiles& files, Session& session) {
+                                            const MeshOptions& mesh, FilesTogether& files, Session& session) {
   Touch touch(design, paperFigureLoad(), mesh);
   NewtonOptions options;
   options.threads = session.threads;

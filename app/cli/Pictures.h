@@ -5,8 +5,8 @@
 #include "app/study/paper/PaperProtocol.h"
 #include "app/study/paper/PaperReport.h"
 #include "app/study/reports/Report.h"
-#include "app/study/reports/WrittenFiles.h"
 #include "app/study/touch/Touch.h"
+#include "io/FilesTogether.h"
 #include "model/Mesh.h"
 #include "model/Solution.h"
 #include "solver/ConductionField.h"
@@ -25,7 +25,7 @@ void exportVtu(const OutputFile& output, const Mesh& mesh, const NodalFields* fi
 
 /// Figs. 4, 6-16 as PNG files of the report. Throws Cancelled where the session is stopped.
 std::vector<ReportPicture> drawPaperFigures(const SensorDesign& design, const ProtocolResult& result,
-                                            const MeshOptions& mesh, WrittenFiles& files, Session& session);
+                                            const MeshOptions& mesh, FilesTogether& files, Session& session);
 
 /// Draws a report's charts and maps; nothing without VTK.
 ReportDrawer reportDrawer(Session& session);

@@ -4,7 +4,11 @@
 #include "io/StrictJson.h"
 #include "io/board/ByteOrder.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <bit>
+#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <memory>
@@ -43,6 +47,18 @@ Report reportOf(const JsonPlace& place) {
   return report;
 }
 
+/// Writes as many bytes as the system takes; where not all, errno says why.
+std::size_t writtenOf(int file, std::string_view bytes) {
+  std::size_t done = 0;
+  while (done < bytes.size()) {
+    const ssize_t written = ::write(file, bytes.data() + done, bytes.size() - done);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) break;
+    done += static_cast<std::size_t>(written);
+  }
+  return done;
+}
+
 std::string headText(const RecordingHead& head) {
   const Json json{{"palp_recording", kRecordingVersion},    {"source", head.source},
                   {"info", hexadecimal(encode(head.info))}, {"configuration", hexadecimal(encode(head.configuration))},
@@ -75,15 +91,21 @@ RecordingHead parseHead(std::string_view text, const std::string& file) {
 
 RecordingWriter::RecordingWriter(const std::filesystem::path& path, const RecordingHead& head, bool force)
     : path_(path) {
-  requireFree(path, force);
-  stream_.open(path, std::ios::binary | std::ios::trunc); // in its place at once: a crash must not lose it
+  AtomicFile target(path, force);
   const std::string text = headText(head);
   std::array<std::uint8_t, 4> length{};
   putLittleEndian<4>(length, 0, static_cast<std::uint32_t>(text.size()));
-  stream_ << kMagic;
-  stream_.write(reinterpret_cast<const char*>(length.data()), length.size());
-  stream_ << text << std::flush;
-  if (!stream_) throw Error(path.string() + ": cannot be written: " + std::strerror(errno));
+  const std::string bytes = std::string(kMagic) + std::string(length.begin(), length.end()) + text;
+  file_ = ::open(target.beside().c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
+  if (file_ < 0) throw Error(path.string() + ": cannot be written: " + std::strerror(errno));
+  try {
+    if (writtenOf(file_, bytes) < bytes.size())
+      throw Error(path.string() + ": cannot be written: " + std::strerror(errno));
+    target.commit(); // what follows goes into the same file, by its new name
+  } catch (...) {    // the destructor does not run for what was never constructed
+    ::close(file_);
+    throw;
+  }
   thread_ = std::thread([this] { run(); });
 }
 
@@ -94,6 +116,7 @@ RecordingWriter::~RecordingWriter() {
   }
   wake_.notify_one();
   thread_.join();
+  ::close(file_);
 }
 
 void RecordingWriter::append(RecordingEntry::Kind kind, double hostTime_s, std::span<const std::uint8_t> bytes) {
@@ -109,31 +132,48 @@ void RecordingWriter::append(RecordingEntry::Kind kind, double hostTime_s, std::
   pending_.append(reinterpret_cast<const char*>(head.data()), head.size());
   pending_.append(reinterpret_cast<const char*>(bytes.data()), count);
   ++pendingEntries_;
-  if (kind == RecordingEntry::Kind::Raw) ++pendingReports_;
+}
+
+std::string RecordingWriter::write(const std::string& block, std::uint64_t& entries, std::uint64_t& reports) {
+  const std::size_t written = writtenOf(file_, block);
+  const int reason = errno;
+  std::size_t whole = 0;
+  for (entries = reports = 0; whole < block.size(); ++entries) {
+    const std::span bytes(reinterpret_cast<const std::uint8_t*>(block.data()), block.size());
+    const std::size_t next = whole + kEntryHead + littleEndian<2>(bytes, whole + 2);
+    if (next > written) break;
+    if (bytes[whole] == static_cast<std::uint8_t>(RecordingEntry::Kind::Raw)) ++reports;
+    whole = next;
+  }
+  if (written == block.size()) return {};
+  const off_t end = ::lseek(file_, 0, SEEK_CUR); // none in a pipe
+  if (end >= 0) {
+    [[maybe_unused]] const int cut = ::ftruncate(file_, end - static_cast<off_t>(written - whole));
+  }
+  return path_.string() + ": cannot be written any more: " + std::strerror(reason);
 }
 
 void RecordingWriter::run() {
   std::string block;
   for (bool ending = false; !ending;) {
-    std::uint64_t entries = 0, reports = 0; // of the block
+    std::uint64_t taken = 0, entries = 0, reports = 0; // of the block
     {
       std::unique_lock lock(mutex_);
       wake_.wait_for(lock, kFlushInterval, [this] { return ending_; });
       ending = ending_;
       block.swap(pending_);
       pending_.clear();
-      entries = std::exchange(pendingEntries_, 0);
-      reports = std::exchange(pendingReports_, 0);
+      taken = std::exchange(pendingEntries_, 0);
+      if (!failure_.empty()) { // appended while the last block failed
+        dropped_ += taken;
+        continue;
+      }
     }
-    stream_.write(block.data(), static_cast<std::streamsize>(block.size())).flush();
-    const int reason = errno;
+    const std::string failure = write(block, entries, reports);
     const std::lock_guard lock(mutex_);
-    if (stream_) {
-      reports_ += reports;
-      continue;
-    }
-    dropped_ += entries;
-    if (failure_.empty()) failure_ = path_.string() + ": cannot be written any more: " + std::strerror(reason);
+    reports_ += reports;
+    dropped_ += taken - entries;
+    if (failure_.empty()) failure_ = failure;
   }
 }
 

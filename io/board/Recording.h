@@ -39,7 +39,9 @@ struct RecordingEntry {
 // [s], bytes. Little-endian. It may end anywhere; what is whole counts.
 
 /// Writes a recording in a thread of its own, so that no disk holds up the reader; hands over to the system at least
-/// each second.
+/// each second. The head is written as AtomicFile does, so that a recording that is replaced survives a full disk; the
+/// entries grow in the file's place, so that a crash loses a second at most. On a full disk it ends with a whole
+/// entry.
 class RecordingWriter {
 public:
   /// Throws Error where the file exists and `force` is not given, or cannot be written.
@@ -60,14 +62,16 @@ public:
 
 private:
   void run();
+  /// Writes whole entries; why not all of them, and how many reports there were among those that were written. What was
+  /// written of an entry that was cut off is taken back.
+  std::string write(const std::string& block, std::uint64_t& entries, std::uint64_t& reports);
 
   std::filesystem::path path_;
-  std::ofstream stream_;
+  int file_ = -1;
   mutable std::mutex mutex_;
   std::condition_variable wake_;
   std::string pending_;
   std::uint64_t pendingEntries_ = 0;
-  std::uint64_t pendingReports_ = 0;
   std::string failure_;
   std::uint64_t reports_ = 0;
   std::uint64_t dropped_ = 0;

@@ -31,6 +31,7 @@ std::filesystem::path outputOf(std::vector<std::string>& arguments, const std::s
     const bool glued = word->starts_with(kGlued);
     if (!glued && ((*word != "-o" && *word != "--output") || word + 1 == arguments.end())) continue;
     const std::filesystem::path output = glued ? word->substr(kGlued.size()) : *(word + 1);
+    requireNoStream("-o", output);
     arguments.erase(word, word + (glued ? 1 : 2));
     return output;
   }

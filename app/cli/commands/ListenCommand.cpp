@@ -300,7 +300,14 @@ Exit run(const ListenArguments& arguments, Session& session) {
   Limits limits{static_cast<std::uint64_t>(wholeNumber("--frames", arguments.frames, 0, 2'000'000'000)), seconds,
                 wholeNumber("--average", arguments.average, 1, 100'000)};
   if (arguments.check && !arguments.record.empty()) throw UsageError("--record: not with --check, which keeps nothing");
-  if (!arguments.record.empty()) requireFree(arguments.record, arguments.force);
+  if (!arguments.record.empty()) {
+    requireNoStream("--record", arguments.record);
+    requireWritable(arguments.record, arguments.force);
+  }
+  if (!arguments.append.empty()) {
+    requireNoStream("--append", arguments.append);
+    requireWritable(arguments.append, true);
+  }
   if (session.json && arguments.send.takeStandardOutput())
     throw UsageError("--send csv:-: standard output holds the JSON of --json; give one of the two");
   LiveOptions options = liveOptions(arguments);

@@ -5,7 +5,7 @@
 #include "app/study/paper/PaperProtocol.h"
 #include "app/study/paper/PaperReport.h"
 #include "app/study/reports/ReportPage.h"
-#include "io/AtomicFile.h"
+#include "io/FilesTogether.h"
 
 #include <chrono>
 #include <cstdio>
@@ -89,7 +89,7 @@ Exit run(const ReproduceArguments& arguments, Session& session) {
   if (!result) return Exit::NoResult;
   session.stages.add(result->stages);
 
-  WrittenFiles files(arguments.folder);
+  FilesTogether files(arguments.folder);
   std::vector<ReportPicture> pictures;
   if (arguments.what == "figures" || arguments.what == "all")
     pictures = drawPaperFigures(design, *result, options.mesh, files, session);
@@ -99,11 +99,10 @@ Exit run(const ReproduceArguments& arguments, Session& session) {
   run.seeds = options.seeds;
   run.firstSeed = options.firstSeed;
   run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const std::filesystem::path page = files.add("report.html");
-  const std::filesystem::path csv = files.add("errors.csv");
-  writeFile(csv, protocolCsv(*result), true);
-  writeFile(page, paperReportHtml(*result, pictures, run), true);
-  files.keep();
+  const std::filesystem::path page = arguments.folder / "report.html", csv = arguments.folder / "errors.csv";
+  files.add("errors.csv", protocolCsv(*result));
+  files.add("report.html", paperReportHtml(*result, pictures, run));
+  files.commit();
 
   for (const ProtocolCurve& curve : result->curves) session.result[curve.figure][curve.mode] = rowsJson(curve);
   session.result["samples"] = result->samples;

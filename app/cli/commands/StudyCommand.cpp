@@ -23,6 +23,7 @@ constexpr std::size_t kProgressSteps = 10'000;
 
 Exit run(const StudyArguments& arguments, Session& session) {
   const auto start = std::chrono::steady_clock::now();
+  requireNoStream("--output", arguments.folder);
   StudyFolder study(arguments.folder, loadStudy(arguments.study));
   const std::size_t all = study.plan().designs();
   const SampleRange range = shardOption(arguments.shard, all);

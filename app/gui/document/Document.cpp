@@ -34,11 +34,6 @@ void remember(const QString& file) {
   settings.setValue(kRecentKey, files.mid(0, kRecentFiles));
 }
 
-/// Projects are named so in dialogs and lists.
-QString withSuffix(const QString& file) {
-  return file.endsWith(".json", Qt::CaseInsensitive) ? file : file + ".json";
-}
-
 /// Where the samples and the network of a project lie: NAME.palp beside NAME.json.
 std::filesystem::path resultsFolder(const QString& file) {
   return std::filesystem::path(file.toStdString()).replace_extension(".palp");
@@ -53,7 +48,7 @@ Document::Document(MainWindow& window, Workbench& workbench, NetworkSession& net
   connect(&workbench, &Workbench::fileChanged, this, &Document::showTitle);
   connect(&workbench, &Workbench::projectReplaced, this, [this] {
     network_.clear(); // what the other project held
-    ours_.clear();
+    ours_ = std::make_shared<std::set<std::filesystem::path>>();
     openResults();
     QTimer::singleShot(0, this, returnMemory); // when the views have let go of it
   });
@@ -102,7 +97,16 @@ void Document::showTitle() {
   emit unsavedChanged();
 }
 
+/// The window goes on meanwhile.
+void Document::finishWriting() {
+  if (!network_.writer().running()) return;
+  QEventLoop waiting;
+  connect(&network_.writer(), &JobRunner::finished, &waiting, &QEventLoop::quit);
+  waiting.exec();
+}
+
 bool Document::mayLeave(const QStringList& ends) {
+  finishWriting();
   if (!unsaved())
     return ends.isEmpty() ||
            QMessageBox::question(&window_, tr("Quit?"), ends.join("\n\n") + tr("\n\nQuit?"),
@@ -130,11 +134,7 @@ bool Document::mayLeave(const QStringList& ends) {
   const int answer = question.exec();
   if (answer == QMessageBox::Discard) return true;
   if (answer != QMessageBox::Save || !save()) return false;
-  if (network_.writer().running()) { // the window goes on meanwhile
-    QEventLoop waiting;
-    connect(&network_.writer(), &JobRunner::finished, &waiting, &QEventLoop::quit);
-    waiting.exec();
-  }
+  finishWriting();
   return !unsaved();
 }
 
@@ -216,7 +216,7 @@ void Document::openResults() {
   const QString& file = workbench_.file();
   if (file.isEmpty()) return;
   network_.openResults(resultsFolder(file), [this](const OpenedResults& opened) {
-    ours_ = opened.opened;
+    ours_ = std::make_shared<std::set<std::filesystem::path>>(opened.opened);
     sayProblems(opened);
     resultsSaved(network_.results());
   });
@@ -259,7 +259,7 @@ bool Document::save() {
 bool Document::saveAs() {
   const QString proposal = workbench_.file().isEmpty() ? "project.json" : workbench_.file();
   const QString file = askFileToSave(&window_, tr("Save project"), proposal, tr("Projects (*.json)"));
-  return !file.isEmpty() && write(withSuffix(file));
+  return !file.isEmpty() && write(file);
 }
 
 bool Document::write(const QString& file) {
@@ -277,8 +277,8 @@ bool Document::write(const QString& file) {
                                         .arg(file, QString::fromStdString(folder.filename().string()))
                                   : tr("Saved %1.").arg(file));
   if (!withResults) return true;
-  network_.saveResults(folder, ours_, [this, folder](const NetworkResults& results, const QStringList& said) {
-    ours_.merge(resultFiles(folder));
+  network_.saveResults(folder, ours_, [this, folder, ours = ours_](const NetworkResults& results, const auto& said) {
+    ours->merge(resultFiles(folder));
     for (const QString& sentence : said) window_.showMessage(sentence);
     resultsSaved(results);
   });

@@ -64,6 +64,8 @@ private:
   void openProject(const QString& file);
   void openResults();
   bool write(const QString& file);
+  /// Waits until what was ordered to be saved is saved, or has failed.
+  void finishWriting();
   /// Says what could not be opened, and that it stays.
   void sayProblems(const OpenedResults& opened);
   /// These samples and this network stand in a file.
@@ -74,7 +76,9 @@ private:
   Workbench& workbench_;
   NetworkSession& network_;
   ResultsMark saved_;
-  std::set<std::filesystem::path> ours_; ///< of the files beside the project: whose content was opened or written here
+  /// Of the files beside the project: whose content was opened or written here. Read by the writer; another project has
+  /// another one.
+  std::shared_ptr<std::set<std::filesystem::path>> ours_ = std::make_shared<std::set<std::filesystem::path>>();
 };
 
 } // namespace palp

@@ -6,8 +6,8 @@
 
 namespace palp {
 
-/// Writes files in the background: the whole content is made first, then put into its place at once, so that a stop or
-/// a failure leaves nothing half-written.
+/// Writes files in the background, one after the other: the whole content is made first, then put into its place at
+/// once, so that a stop or a failure leaves nothing half-written.
 class ExportJob : public QObject {
   Q_OBJECT
 
@@ -23,7 +23,7 @@ signals:
   void done(const QString& sentence);
 
 private:
-  JobRunner runner_;
+  JobRunner runner_{JobRunner::Orders::Each};
 };
 
 } // namespace palp

@@ -4,6 +4,8 @@
 #include "app/gui/jobs/ReturnMemory.h"
 #include "model/base/Cancelled.h"
 
+#include <utility>
+
 namespace palp {
 
 namespace {
@@ -11,10 +13,11 @@ namespace {
 constexpr int kReportEvery_ms = 60;
 
 /// Runs `act`; what it threw, in words, else nothing. Whatever is thrown ends here: there is nobody above.
-template <class Act> QString failureOf(const Act& act) {
+template <class Act> QString failureOf(const Act& act, bool& cancelled) {
   try {
     act();
   } catch (const Cancelled&) { // asked for, no failure
+    cancelled = true;
   } catch (const std::exception& failure) {
     return QString::fromStdString(failure.what());
   } catch (...) {
@@ -35,7 +38,7 @@ JobProgress::Values JobProgress::values() const {
   return values_;
 }
 
-JobRunner::JobRunner(QObject* parent) : QObject(parent) {
+JobRunner::JobRunner(Orders orders, QObject* parent) : QObject(parent), orders_(orders) {
   timer_.setInterval(kReportEvery_ms);
   connect(&timer_, &QTimer::timeout, this, &JobRunner::report);
 }
@@ -43,53 +46,57 @@ JobRunner::JobRunner(QObject* parent) : QObject(parent) {
 JobRunner::~JobRunner() = default; // the jthread asks the work to stop and waits for it
 
 void JobRunner::start(const QString& title, Work work) {
-  if (!running()) {
-    launch({title, std::move(work)});
-    return;
+  if (!running() && waiting_.empty()) return launch({title, std::move(work)});
+  if (orders_ == Orders::Newest) {
+    thread_.request_stop();
+    waiting_.clear();
   }
-  thread_.request_stop();
-  waiting_ = Order{title, std::move(work)};
+  waiting_.push_back({title, std::move(work)});
 }
 
 void JobRunner::cancel() {
-  waiting_.reset();
-  if (!running()) return;
-  cancelled_ = true;
-  thread_.request_stop();
+  const std::deque<Order> dropping = std::exchange(waiting_, {});
+  if (running()) thread_.request_stop();
+  cancelled_ = running() && orders_ == Orders::Newest;
+  if (orders_ == Orders::Each)
+    for (const Order& order : dropping) emit dropped(order.title);
 }
 
 void JobRunner::launch(Order order) {
-  cancelled_ = false;
   title_ = order.title;
   progress_ = std::make_shared<JobProgress>();
   progress_->set(-1, title_.toStdString());
   thread_ = std::jthread([this, work = std::move(order.work), progress = progress_](const std::stop_token& stop) {
-    Taking taking;
-    const QString error = failureOf([&] { taking = work(stop, *progress); });
+    Ending ending;
+    ending.error = failureOf([&] { ending.taking = work(stop, *progress); }, ending.cancelled);
     returnMemory();
-    callLater(*this, [this, taking = std::move(taking), error] { end(taking, error); });
+    callLater(*this, [this, ending = std::move(ending)] { end(ending); });
   });
   timer_.start();
   emit started(title_);
 }
 
-void JobRunner::end(const Taking& taking, const QString& error) {
+void JobRunner::end(const Ending& ending) {
   thread_.join();
   timer_.stop();
-  const bool wanted = !cancelled_ && !waiting_;
-  if (!error.isEmpty() && wanted) emit failed(error);
-  if (taking && wanted) {
-    const QString refused = failureOf(taking);
+  const bool each = orders_ == Orders::Each;
+  const bool wanted = each || (!cancelled_ && waiting_.empty());
+  if (!ending.error.isEmpty() && wanted) emit failed(ending.error);
+  if (ending.taking && wanted) {
+    bool cancelled = false;
+    const QString refused = failureOf(ending.taking, cancelled);
     if (!refused.isEmpty()) emit failed(refused);
   }
-  if (waiting_) {
-    Order next = std::move(*waiting_);
-    waiting_.reset();
-    launch(std::move(next));
+  if (each && ending.cancelled) emit dropped(title_);
+  if (running()) return; // what was taken has started the next job already
+  if (waiting_.empty()) {
+    emit finished(std::exchange(cancelled_, false));
     return;
   }
-  // What was taken may have started the next job already.
-  if (!running()) emit finished(cancelled_);
+  Order next = std::move(waiting_.front());
+  waiting_.pop_front();
+  cancelled_ = false;
+  launch(std::move(next));
 }
 
 void JobRunner::report() {

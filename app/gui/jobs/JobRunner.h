@@ -4,10 +4,10 @@
 #include <QString>
 #include <QTimer>
 
+#include <deque>
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <stop_token>
 #include <thread>
 
@@ -31,8 +31,8 @@ private:
   Values values_;
 };
 
-/// Runs one piece of work at a time off the window's thread; a new one stops and replaces the one before. Whatever the
-/// work or the taking of its result throws comes out as a sentence, and nothing passes on.
+/// Runs one piece of work at a time off the window's thread. Whatever the work or the taking of its result throws comes
+/// out as a sentence, and nothing passes on.
 class JobRunner : public QObject {
   Q_OBJECT
 
@@ -42,12 +42,20 @@ public:
   /// The work, on copies of its inputs; it ends within 0.3 s of a stop and may return an empty Taking.
   using Work = std::function<Taking(const std::stop_token&, JobProgress&)>;
 
-  explicit JobRunner(QObject* parent = nullptr);
+  enum class Orders {
+    Newest, ///< to compute: a new order stops and replaces the one before
+    Each,   ///< to write: every order is carried out in its turn, and its end is reported
+  };
+
+  explicit JobRunner(QObject* parent = nullptr) : JobRunner(Orders::Newest, parent) {}
+  explicit JobRunner(Orders orders, QObject* parent = nullptr);
   ~JobRunner() override;
 
   void start(const QString& title, Work work);
-  /// Stops what runs and what waits; what the work returns then is not taken.
+  /// Newest: stops the running work, drops the waiting one; what the work returns then is not taken. Each: drops the
+  /// waiting orders; the running one may end with Cancelled, or complete and be taken.
   void cancel();
+  [[nodiscard]] Orders orders() const { return orders_; }
   [[nodiscard]] bool running() const { return thread_.joinable(); }
   [[nodiscard]] const QString& title() const { return title_; }
 
@@ -56,7 +64,9 @@ signals:
   /// A few times a second while work runs; share below 0 where it is not known.
   void progressed(double share, const QString& what);
   void failed(const QString& sentence);
-  /// Nothing runs and nothing waits.
+  /// An order that was cancelled before it began, or ended with Cancelled (Orders::Each).
+  void dropped(const QString& title);
+  /// Nothing runs and nothing waits. Cancelled: the last result was not taken (Orders::Newest).
   void finished(bool cancelled);
 
 private:
@@ -64,12 +74,18 @@ private:
     QString title;
     Work work;
   };
+  struct Ending {
+    Taking taking;
+    QString error;
+    bool cancelled = false; ///< by the work itself
+  };
   void launch(Order order);
-  void end(const Taking& taking, const QString& error);
+  void end(const Ending& ending);
   void report();
 
+  Orders orders_;
   std::jthread thread_;
-  std::optional<Order> waiting_;
+  std::deque<Order> waiting_;
   QString title_;
   bool cancelled_ = false;
   std::shared_ptr<JobProgress> progress_;

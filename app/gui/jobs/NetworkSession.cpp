@@ -343,25 +343,34 @@ void NetworkSession::openResults(const std::filesystem::path& folder,
   emit samplesChanged(); // there are none yet, for another reason
 }
 
-void NetworkSession::saveSamples(const std::filesystem::path& file) {
-  writer_.start(tr("Saving samples"), [this, file, samples = shown_.samples](const auto&, JobProgress&) {
+void NetworkSession::saveSamples(const std::filesystem::path& file, const std::function<void()>& then) {
+  const auto work = [this, file, then, samples = shown_.samples](const auto&, JobProgress&) {
     saveSampleFiles(file, *samples);
-    return [this, file] { emit saved({file, testFileOf(file)}); };
-  });
+    return [this, file, then] {
+      emit saved({file, testFileOf(file)});
+      if (then) then();
+    };
+  };
+  writer_.start(tr("Saving samples"), work);
 }
 
-void NetworkSession::saveNetwork(const std::filesystem::path& file) {
-  writer_.start(tr("Saving the network"), [this, file, fit = shown_.fit](const auto&, JobProgress&) {
+void NetworkSession::saveNetwork(const std::filesystem::path& file, const std::function<void()>& then) {
+  const auto work = [this, file, then, fit = shown_.fit](const auto&, JobProgress&) {
     writeNetwork(fit->decoder, file);
-    return [this, file] { emit saved({file}); };
-  });
+    return [this, file, then] {
+      emit saved({file});
+      if (then) then();
+    };
+  };
+  writer_.start(tr("Saving the network"), work);
 }
 
-void NetworkSession::saveResults(const std::filesystem::path& folder, const std::set<std::filesystem::path>& ours,
+void NetworkSession::saveResults(const std::filesystem::path& folder,
+                                 const std::shared_ptr<const std::set<std::filesystem::path>>& ours,
                                  const std::function<void(const NetworkResults&, const QStringList&)>& saved) {
   writer_.start(tr("Saving samples and network"), [folder, ours, saved, results = shown_](const auto&, JobProgress&) {
     QStringList said;
-    for (const std::string& sentence : palp::saveResults(folder, results, ours))
+    for (const std::string& sentence : palp::saveResults(folder, results, *ours))
       said << QString::fromStdString(sentence);
     return [saved, results, said] { saved(results, said); };
   });

@@ -120,13 +120,14 @@ public:
   void openSamples(const std::vector<std::filesystem::path>& files);
   /// What a folder keeps of this design, as far as it can be opened; then `opened` is called.
   void openResults(const std::filesystem::path& folder, const std::function<void(const OpenedResults&)>& opened);
-  /// The samples in NAME.csv and NAME-test.csv; there must be some.
-  void saveSamples(const std::filesystem::path& file);
-  /// The network that is shown, which must be there.
-  void saveNetwork(const std::filesystem::path& file);
+  /// The samples in NAME.csv and NAME-test.csv; there must be some. `then` is called when they are written.
+  void saveSamples(const std::filesystem::path& file, const std::function<void()>& then = {});
+  /// The network that is shown, which must be there; `then` is called when it is written.
+  void saveNetwork(const std::filesystem::path& file, const std::function<void()>& then = {});
   /// Samples and networks in a folder (saveResults in ResultFiles.h); then `saved` is called with them and with what is
-  /// to be said.
-  void saveResults(const std::filesystem::path& folder, const std::set<std::filesystem::path>& ours,
+  /// to be said. `ours` is looked at when the orders before this one are done, and changed by `saved` only.
+  void saveResults(const std::filesystem::path& folder,
+                   const std::shared_ptr<const std::set<std::filesystem::path>>& ours,
                    const std::function<void(const NetworkResults&, const QStringList&)>& saved);
 
   /// Of files that hold results: what the Network scene shows until the next work begins.
@@ -214,7 +215,8 @@ private:
   void showOpened(NetworkResults results);
   void forgetOldestPast();
 
-  JobRunner runner_, writer_;
+  JobRunner runner_;
+  JobRunner writer_{JobRunner::Orders::Each};
   SensorDesign design_;
   NetworkResults shown_;
   std::deque<NetworkResults> past_;              ///< of other designs and samples, the newest first

@@ -10,9 +10,6 @@
 #include <QFileInfo>
 #include <QMessageBox>
 
-#include <algorithm>
-#include <utility>
-
 namespace palp {
 
 namespace {
@@ -22,13 +19,7 @@ constexpr double kLong_s = 30; // that samples were made in, from which they are
 } // namespace
 
 NetworkFiles::NetworkFiles(Workbench& workbench, NetworkSession& session, QWidget* page)
-    : QObject(page), workbench_(workbench), session_(session), page_(page) {
-  connect(&session_, &NetworkSession::saved, this, &NetworkFiles::takeIntoLive);
-  connect(&session_.writer(), &JobRunner::failed, this, [this] {
-    forLive_.clear();
-    saved_.reset();
-  });
-}
+    : QObject(page), workbench_(workbench), session_(session), page_(page) {}
 
 void NetworkFiles::openSamples() {
   const QStringList chosen = askFilesToOpen(page_, tr("Open samples"), tr("Samples (*.csv *.h5 *.hdf5 *.npz)"));
@@ -69,8 +60,8 @@ void NetworkFiles::saveSamples() {
                             tr("The samples for testing go into %1, which is there already. Replace it?").arg(test)) !=
           QMessageBox::Yes)
     return;
-  saved_ = session_.sharedSamples();
-  session_.saveSamples(file.toStdString());
+  session_.saveSamples(file.toStdString(),
+                       [this, samples = std::weak_ptr(session_.sharedSamples())] { saved_ = samples; });
 }
 
 /// After the name that it was given.
@@ -88,15 +79,13 @@ void NetworkFiles::saveNetwork() {
 void NetworkFiles::useInLive() {
   const QString file = askFileToSave(page_, tr("Save the network for Live"), proposedName(), tr("Networks (*.json)"));
   if (file.isEmpty() || session_.fit() == nullptr) return;
-  forLive_ = file.toStdString();
-  session_.saveNetwork(forLive_);
+  session_.saveNetwork(file.toStdString(), [this, file] { takeIntoLive(file.toStdString()); });
 }
 
-void NetworkFiles::takeIntoLive(const std::vector<std::filesystem::path>& saved) {
-  if (forLive_.empty() || std::find(saved.begin(), saved.end(), forLive_) == saved.end()) return;
+void NetworkFiles::takeIntoLive(const std::filesystem::path& network) {
   Project next = workbench_.project();
-  if (next.live.network == forLive_.string()) emit liveNetworkReplaced();
-  next.live.network = std::exchange(forLive_, {}).string();
+  if (next.live.network == network.string()) emit liveNetworkReplaced();
+  next.live.network = network.string();
   workbench_.edit(tr("network"), next);
   emit sceneAsked("live");
 }

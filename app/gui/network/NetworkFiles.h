@@ -37,7 +37,7 @@ signals:
   void liveNetworkReplaced();
 
 private:
-  void takeIntoLive(const std::vector<std::filesystem::path>& saved);
+  void takeIntoLive(const std::filesystem::path& network);
   [[nodiscard]] QString proposedName() const;
   /// Samples that took long and stand in no file are not replaced without a word.
   [[nodiscard]] bool mayReplaceSamples() const;
@@ -46,7 +46,6 @@ private:
   NetworkSession& session_;
   QWidget* page_;
   std::weak_ptr<const NetworkSamples> saved_; ///< in files of their own
-  std::filesystem::path forLive_;             ///< of the network that Live takes as soon as it is saved; empty: none
 };
 
 } // namespace palp

@@ -4,6 +4,7 @@
 #include "app/gui/project/LiveSettingsFile.h"
 #include "app/gui/project/SampleSettingsFile.h"
 
+#include "io/AtomicFile.h"
 #include "io/DesignFile.h"
 #include "io/StrictJson.h"
 #include "model/base/Error.h"
@@ -12,7 +13,6 @@
 #include <QJsonArray>
 #include <QJsonDocument>
 #include <QJsonObject>
-#include <QSaveFile>
 
 #include <cmath>
 
@@ -270,12 +270,7 @@ QByteArray projectText(const Project& project) {
 }
 
 void saveProject(const std::filesystem::path& path, const Project& project) {
-  QSaveFile file(QString::fromStdString(path.string()));
-  const QByteArray text = projectText(project);
-  // commit() alone does not see that the last of it was not written (Qt 6.4).
-  if (!file.open(QIODevice::WriteOnly) || file.write(text) != text.size() || !file.flush() || !file.commit())
-    throw Error(path.string() + ": cannot be written (" + file.errorString().toStdString() +
-                "); allowed is a file in a folder that exists and may be written to");
+  writeFile(path, projectText(project).toStdString(), true);
 }
 
 Project parseProject(const QByteArray& text, const QString& file, const Project& base) {

@@ -2,9 +2,7 @@
 
 #include "app/gui/project/Command.h"
 #include "app/gui/project/ExportLines.h"
-#include "model/base/Error.h"
-
-#include <QSaveFile>
+#include "io/AtomicFile.h"
 
 namespace palp {
 
@@ -79,11 +77,7 @@ QString resistancesCsv(const ResultSource& source, const TouchResistances& resis
 }
 
 void writeText(const QString& file, const QString& text) {
-  QSaveFile out(file);
-  const QByteArray bytes = text.toUtf8();
-  if (!out.open(QIODevice::WriteOnly) || out.write(bytes) != bytes.size() || !out.flush() || !out.commit())
-    throw Error((file + ": cannot be written (" + out.errorString() + "); allowed is a file in a folder that exists")
-                    .toStdString());
+  writeFile(file.toStdString(), text.toStdString(), true);
 }
 
 } // namespace palp

@@ -7,7 +7,7 @@
 #include "app/gui/views/BlockView.h"
 #include "app/scenes/GifFilm.h"
 #include "app/scenes/gl/OffscreenWindow.h"
-#include "io/AtomicFile.h"
+#include "io/FilesTogether.h"
 #include "model/base/Error.h"
 
 #include <QElapsedTimer>
@@ -58,55 +58,23 @@ private:
 /// A picture of the film by its number; none where it was stopped.
 using Drawn = std::function<std::optional<Picture>(int)>;
 
-/// Takes away again what was written, unless all of it was.
-class WrittenPictures {
-public:
-  explicit WrittenPictures(std::filesystem::path folder) : folder_(std::move(folder)) {
-    std::error_code failed;
-    made_ = std::filesystem::create_directories(folder_, failed);
-    if (failed) throw Error(folder_.string() + ": cannot be made as a folder: " + failed.message());
-  }
-  ~WrittenPictures() {
-    std::error_code ignored;
-    for (const std::filesystem::path& file : files_) std::filesystem::remove(file, ignored);
-    if (made_ && !complete_) std::filesystem::remove(folder_, ignored); // where nothing else lies in it
-  }
-  WrittenPictures(const WrittenPictures&) = delete;
-  WrittenPictures& operator=(const WrittenPictures&) = delete;
-  void add(const Picture& picture, const std::string& name) {
-    const std::filesystem::path file = folder_ / name;
-    const bool there = std::filesystem::exists(file);
-    writePng(picture, file);
-    if (!there) files_.push_back(file);
-  }
-  void complete() {
-    complete_ = true;
-    files_.clear();
-  }
-
-private:
-  std::filesystem::path folder_;
-  std::vector<std::filesystem::path> files_;
-  bool made_ = false, complete_ = false;
-};
-
 /// False where it was stopped.
 bool drawPictures(const LoadPathAnimation::Settings& settings, const Drawn& drawn, FrameProgress& progress) {
-  WrittenPictures written(settings.folder);
+  FilesTogether written(settings.folder);
   for (int frame = 0; frame < settings.frames; ++frame) {
     progress.next();
     const auto picture = drawn(frame);
     if (!picture) return false;
-    written.add(*picture, frameName(frame));
+    written.add(frameName(frame), [&](const auto& png) { writePng(*picture, png); });
   }
-  written.complete();
+  written.commit();
   return true;
 }
 
 /// False where it was stopped.
 bool drawGif(const LoadPathAnimation::Settings& settings, const Drawn& drawn, FrameProgress& progress,
              const std::stop_token& stop) {
-  requireFree(settings.gif, true); // a folder is said before the work
+  requireWritable(settings.gif, true); // what cannot be written is said before the work
   const int last = settings.frames - 1;
   std::map<int, Picture> typical; // for the palette; they are not drawn twice
   for (const int frame : {0, last / 2, last}) {
@@ -162,7 +130,7 @@ struct LoadPathAnimation::Easel {
 
   DeformationScene scene;
   OffscreenWindow window;
-  bool begun = false;
+  const Path* of = nullptr; ///< what it has drawn
 };
 
 /// The computed touch and its states; shared with the job.
@@ -191,7 +159,6 @@ LoadPathAnimation::~LoadPathAnimation() = default;
 
 bool LoadPathAnimation::start(const Settings& settings) {
   if (session_.lastPlace() < 1) return false;
-  easel_.reset();
   const auto work = [this, settings, touch = session_.touch()](const std::stop_token& stop,
                                                                JobProgress& progress) -> JobRunner::Taking {
     auto path = std::make_shared<Path>(Path{touch, {}});
@@ -256,7 +223,10 @@ void LoadPathAnimation::fill(Order& order) {
 
 Picture LoadPathAnimation::draw(const Path& path, const Settings& settings, const LoadPathState& now) {
   requireDrawable(settings.width, settings.height);
-  if (!easel_) easel_ = std::make_unique<Easel>();
+  if (!easel_ || easel_->of != &path) { // begins a film
+    easel_.reset();
+    easel_ = std::make_unique<Easel>();
+  }
   DeformationScene& scene = easel_->scene;
   const SensorDesign& design = path.touch.design();
   DeformationState state{&design,      path.touch.mesh(), &now.fields, &now.electrodes, &path.touch.load(),
@@ -267,12 +237,12 @@ Picture LoadPathAnimation::draw(const Path& path, const Settings& settings, cons
     state.keptLoad = &settings.kept->load;
     state.kept = &less.emplace(settings.kept->at(now.fraction)).fields;
   }
-  scene.show(state, settings.options, !easel_->begun);
-  if (!easel_->begun) {
+  scene.show(state, settings.options, easel_->of == nullptr);
+  if (easel_->of == nullptr) {
     easel_->window.setSize(settings.width, settings.height);
     easel_->window.vtk()->AddRenderer(scene.renderer());
     scene.renderer()->GetActiveCamera()->DeepCopy(view_.camera());
-    easel_->begun = true;
+    easel_->of = &path;
   }
   scene.renderer()->ResetCameraClippingRange();
   easel_->window.render();

@@ -52,8 +52,8 @@ private:
 
   const TouchSession& session_;
   const BlockView& view_;
-  std::unique_ptr<Easel> easel_; ///< of the run; only touched in the window's thread
-  JobRunner runner_;
+  std::unique_ptr<Easel> easel_;              ///< of the run; only touched in the window's thread
+  JobRunner runner_{JobRunner::Orders::Each}; ///< films are drawn one after the other
 };
 
 } // namespace palp

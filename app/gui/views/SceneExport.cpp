@@ -6,7 +6,7 @@
 #include "app/gui/views/VtkView.h"
 #include "app/gui/widgets/FileDialogs.h"
 #include "app/gui/window/exports/ExportFiles.h"
-#include "io/AtomicFile.h"
+#include "io/FilesTogether.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
 
@@ -45,7 +45,10 @@ std::vector<QPointer<QWidget>> worthSaving(const QWidget& scene) {
 SceneExport::SceneExport(QObject* parent) : QObject(parent) {}
 
 void SceneExport::ask(QWidget& scene) {
-  if (running()) return;
+  if (running()) {
+    emit done(tr("Charts and tables are still being written; export these when that has ended."));
+    return;
+  }
   if (worthSaving(scene).empty() && filesOf(scene).isEmpty()) {
     emit done(tr("This scene shows no chart or table yet."));
     return;
@@ -119,15 +122,17 @@ void SceneExport::finish() {
   writer_.start(
       tr("Writing charts and tables"),
       [this, files, folder = folder_](const std::stop_token& stop, JobProgress& progress) -> JobRunner::Taking {
+        FilesTogether writing;
         for (std::size_t k = 0; k < files->size(); ++k) {
           stopIfAsked(stop);
           const File& file = (*files)[k];
           progress.set(static_cast<double>(k) / static_cast<double>(files->size()), file.path.toStdString());
           if (file.picture.empty())
-            writeFile(file.path.toStdString(), file.content, true); // the folder was empty
+            writing.add(file.path.toStdString(), file.content);
           else
-            writePng(file.picture, file.path.toStdString());
+            writing.add(file.path.toStdString(), [&](const auto& png) { writePng(file.picture, png); });
         }
+        writing.commit();
         return
             [this, count = files->size(), folder] { emit done(tr("Wrote %1 files into %2.").arg(count).arg(folder)); };
       });

@@ -20,7 +20,7 @@ class SceneExport : public QObject {
 public:
   explicit SceneExport(QObject* parent = nullptr);
 
-  /// Asks for the name of a new folder. One export at a time.
+  /// Asks for the name of a new folder. One export at a time: while one is drawn or written it only says so.
   void ask(QWidget& scene);
   /// Into a folder that is there.
   void write(QWidget& scene, const QString& folder);
@@ -48,7 +48,7 @@ private:
   std::vector<Piece> left_;
   std::vector<File> files_;
   QString folder_;
-  JobRunner writer_;
+  JobRunner writer_{JobRunner::Orders::Each};
 };
 
 } // namespace palp

@@ -95,6 +95,8 @@ private:
   void zoomValue(double factor, double about_px);
   void move(double byTime_s, double byValue);
   void moveCursor(int steps);
+  /// Says the sentence, or why not.
+  void write(const QString& file, const QByteArray& content, const QString& done);
   void saveCsv();
   void savePdf();
   void paintAxes(QPainter& painter, const QRectF& plot) const;

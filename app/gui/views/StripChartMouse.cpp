@@ -3,8 +3,12 @@
 #include "app/gui/views/CsvExport.h"
 #include "app/gui/views/StripChart.h"
 #include "app/gui/widgets/FileDialogs.h"
+#include "app/gui/widgets/Png.h"
+#include "io/AtomicFile.h"
+#include "model/base/Error.h"
 
 #include <QApplication>
+#include <QBuffer>
 #include <QClipboard>
 #include <QContextMenuEvent>
 #include <QFile>
@@ -13,7 +17,6 @@
 #include <QPageSize>
 #include <QPainter>
 #include <QPdfWriter>
-#include <QSaveFile>
 #include <QWheelEvent>
 
 #include <algorithm>
@@ -216,23 +219,29 @@ QString StripChart::asCsv() const {
   return text;
 }
 
+void StripChart::write(const QString& file, const QByteArray& content, const QString& done) {
+  try {
+    writeFile(file.toStdString(), content.toStdString(), true); // the dialog has asked
+    emit message(done);
+  } catch (const Error& error) {
+    emit message(QString::fromStdString(error.what()));
+  }
+}
+
 void StripChart::saveCsv() {
   const QString table = asCsv(); // of the moment that was clicked on
   const QString file = askFileToSave(this, tr("Save values"), "curves.csv", tr("Tables (*.csv)"));
   if (file.isEmpty()) return;
-  QSaveFile out(file);
-  const QByteArray bytes = (sourceOf(*this) + table).toUtf8();
-  const bool good = out.open(QIODevice::WriteOnly) && out.write(bytes) == bytes.size() && out.flush() && out.commit();
-  emit message(good ? tr("Wrote the %2 times that are seen to %1.").arg(file).arg(table.count('\n') - 1)
-                    : tr("%1: cannot be written (%2)").arg(file, out.errorString()));
+  write(file, (sourceOf(*this) + table).toUtf8(),
+        tr("Wrote the %2 times that are seen to %1.").arg(file).arg(table.count('\n') - 1));
 }
 
 void StripChart::savePdf() {
   const QString file = askFileToSave(this, tr("Save picture"), "curves.pdf", tr("Drawings (*.pdf)"));
   if (file.isEmpty()) return;
-  QSaveFile out(file);
-  bool good = out.open(QIODevice::WriteOnly);
-  if (good) {
+  QBuffer out;
+  out.open(QIODevice::WriteOnly);
+  {
     QPdfWriter writer(&out);
     writer.setPageSize(QPageSize(QSizeF(size()), QPageSize::Point));
     writer.setPageMargins({});
@@ -240,11 +249,8 @@ void StripChart::savePdf() {
     const double pixel = writer.logicalDpiX() / 72.0; // of the widget, a point of the page
     painter.scale(pixel, pixel);
     render(&painter); // by lines and letters: it draws itself with Qt's painter
-    good = painter.end();
   }
-  good = good && out.flush() && out.commit();
-  emit message(good ? tr("Wrote the drawing to %1.").arg(file)
-                    : tr("%1: cannot be written (%2)").arg(file, out.errorString()));
+  write(file, out.data(), tr("Wrote the drawing to %1.").arg(file));
 }
 
 void StripChart::contextMenuEvent(QContextMenuEvent* event) {
@@ -265,8 +271,7 @@ void StripChart::contextMenuEvent(QContextMenuEvent* event) {
   if (chosen != save) return;
   const QString file = askFileToSave(this, tr("Save picture"), "curves.png", tr("Pictures (*.png)"));
   if (file.isEmpty()) return;
-  emit message(picture.save(file, "PNG") ? tr("Wrote the picture to %1.").arg(file)
-                                         : tr("%1: cannot be written").arg(file));
+  write(file, pngOf(picture), tr("Wrote the picture to %1.").arg(file));
 }
 
 } // namespace palp

@@ -4,6 +4,8 @@
 #include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QMessageBox>
+#include <QRegularExpression>
 #include <QSettings>
 
 namespace palp {
@@ -48,6 +50,23 @@ QStringList opened(QWidget* parent, const QString& title, const QString& filter,
   return chosen(dialog);
 }
 
+/// The name that will be written: one whose ending the filter does not have gets that of the proposal ("sensor.v2" is
+/// written as sensor.v2.json).
+QString withEnding(const QString& file, const QString& proposal, const QString& filter) {
+  const QString ending = QFileInfo(proposal).suffix();
+  if (file.isEmpty() || ending.isEmpty()) return file;
+  static const QRegularExpression pattern("\\*\\.(\\w+)");
+  QStringList allowed{ending};
+  for (auto match = pattern.globalMatch(filter); match.hasNext();) allowed << match.next().captured(1);
+  return allowed.contains(QFileInfo(file).suffix(), Qt::CaseInsensitive) ? file : file + '.' + ending;
+}
+
+bool mayReplace(QWidget* parent, const QString& title, const QString& file) {
+  return !QFileInfo(file).isFile() ||
+         QMessageBox::question(parent, title, QObject::tr("%1 exists already. Replace it?").arg(file),
+                               QMessageBox::Yes | QMessageBox::No, QMessageBox::No) == QMessageBox::Yes;
+}
+
 } // namespace
 
 QString askFileToSave(QWidget* parent, const QString& title, const QString& proposal, const QString& filter) {
@@ -59,7 +78,11 @@ QString askFileToSave(QWidget* parent, const QString& title, const QString& prop
   // A proposal that is there is chosen in the list too, and Qt would take it before a path that is typed.
   for (auto* list : dialog.findChildren<QAbstractItemView*>())
     if (list->selectionModel() != nullptr) list->selectionModel()->clear();
-  return chosen(dialog).value(0);
+  dialog.setOption(QFileDialog::DontConfirmOverwrite); // Qt would ask about the name before it has its ending
+  for (;;) {
+    const QString file = withEnding(chosen(dialog).value(0), proposal, filter);
+    if (file.isEmpty() || mayReplace(parent, title, file)) return file;
+  }
 }
 
 QString askFileToOpen(QWidget* parent, const QString& title, const QString& filter, const QString& folder) {

@@ -40,11 +40,12 @@ JobStrip::JobStrip(JobRunner& runner, QWidget* parent) : QWidget(parent) {
   wait_.setInterval(kShownAfter_ms);
   connect(&wait_, &QTimer::timeout, this, &QWidget::show);
   connect(cancel_, &QPushButton::clicked, &runner, &JobRunner::cancel);
-  connect(&runner, &JobRunner::started, this, [this](const QString& title) {
+  connect(&runner, &JobRunner::started, this, [this, &runner](const QString& title) {
     words_->setText(title);
     bar_->setRange(0, 0);
     if (!isVisible() && !wait_.isActive()) wait_.start();
-    if (std::exchange(failed_, false)) emit message({}); // what failed before is tried again
+    const bool again = runner.orders() == JobRunner::Orders::Newest; // what failed before is tried again
+    if (std::exchange(failed_, false) && again) emit message({});
   });
   connect(&runner, &JobRunner::progressed, this, [this](double share, const QString& what) {
     words_->setText(what);
@@ -56,6 +57,8 @@ JobStrip::JobStrip(JobRunner& runner, QWidget* parent) : QWidget(parent) {
     hide();
     if (cancelled) emit message(tr("%1: cancelled; the last good result stays.").arg(runner.title()));
   });
+  connect(&runner, &JobRunner::dropped, this,
+          [this](const QString& title) { emit message(tr("%1: cancelled; nothing was written.").arg(title)); });
   connect(&runner, &JobRunner::failed, this, [this](const QString& sentence) {
     failed_ = true;
     emit message(sentence);

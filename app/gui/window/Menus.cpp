@@ -7,6 +7,7 @@
 #include "app/gui/views/PictureView.h"
 #include "app/gui/views/SceneExport.h"
 #include "app/gui/widgets/FileDialogs.h"
+#include "app/gui/widgets/Png.h"
 #include "app/gui/window/MainWindow.h"
 #include "app/gui/window/ViewActions.h"
 #include "app/gui/window/exports/CutExport.h"
@@ -16,6 +17,7 @@
 #include "app/scenes/VtuFile.h"
 #include "app/study/Resources.h"
 #include "app/study/Version.h"
+#include "io/AtomicFile.h"
 #include "io/DesignFile.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
@@ -190,7 +192,7 @@ void Menus::buildExport(QMenu& menu) {
   add(menu, tr("&Picture of the window..."), tr("The window as PNG; a right click on a view saves that view alone"),
       QKeySequence("Ctrl+P"), [this] {
         exportTo(tr("Picture of the window"), "palp.png", tr("Pictures (*.png)"), [this](const QString& file) {
-          if (!windowPicture(window_).save(file, "PNG")) throw Error(file.toStdString() + ": cannot be written");
+          writeFile(file.toStdString(), pngOf(windowPicture(window_)).toStdString(), true); // the dialog has asked
         });
       });
   add(menu, tr("Copy as co&mmand"), tr("The palp commands that do what the scene shows, to the clipboard"),

@@ -2,7 +2,10 @@
 
 #include "app/gui/project/Workbench.h"
 #include "app/gui/views/PictureView.h"
+#include "app/gui/widgets/Png.h"
 #include "app/gui/window/MainWindow.h"
+#include "io/AtomicFile.h"
+#include "model/base/Error.h"
 
 #include <QApplication>
 #include <QTimer>
@@ -28,11 +31,11 @@ void snapshotWhenComplete(MainWindow& window, Workbench& workbench, const QStrin
     quiet = window.busy() || !window.currentScene().complete() ? 0 : quiet + 1;
     if (quiet < kQuietLooks) return;
     timer->stop();
-    if (windowPicture(window).save(file, "PNG")) {
+    try {
+      writeFile(file.toStdString(), pngOf(windowPicture(window)).toStdString(), true);
       QApplication::exit(0);
-    } else {
-      std::cerr << "palp-studio: " << file.toStdString()
-                << ": cannot be written; allowed is a file in a folder that exists and may be written to\n";
+    } catch (const Error& error) {
+      std::cerr << "palp-studio: " << error.what() << '\n';
       QApplication::exit(1);
     }
   });

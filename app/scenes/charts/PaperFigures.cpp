@@ -18,18 +18,16 @@ using Style = ChartSeries::Style;
 /// Writes pictures one by one and remembers them with their captions.
 class Album {
 public:
-  Album(WrittenFiles& files, const std::stop_token& stop) : files_(files), stop_(stop) {}
+  Album(FilesTogether& files, const std::stop_token& stop) : files_(files), stop_(stop) {}
 
   void add(const Picture& picture, const std::string& file, const std::string& caption, const std::string& section) {
     stopIfAsked(stop_);
-    const std::filesystem::path png = files_.add(file);
-    writePng(picture, png);
-    pictures_.push_back({png, caption, section});
+    pictures_.push_back({files_.add(file, [&](const auto& png) { writePng(picture, png); }), caption, section});
   }
   [[nodiscard]] const std::vector<ReportPicture>& pictures() const { return pictures_; }
 
 private:
-  WrittenFiles& files_;
+  FilesTogether& files_;
   const std::stop_token& stop_;
   std::vector<ReportPicture> pictures_;
 };
@@ -170,7 +168,7 @@ LoadCase paperFigureLoad() {
   return load;
 }
 
-std::vector<ReportPicture> drawPaperFigures(const ProtocolResult& result, const Touch& touch, WrittenFiles& files,
+std::vector<ReportPicture> drawPaperFigures(const ProtocolResult& result, const Touch& touch, FilesTogether& files,
                                             const std::stop_token& stop) {
   Album album(files, stop);
   drawDeformations(album, touch);

@@ -2,8 +2,8 @@
 
 #include "app/study/paper/PaperProtocol.h"
 #include "app/study/paper/PaperReport.h"
-#include "app/study/reports/WrittenFiles.h"
 #include "app/study/touch/Touch.h"
+#include "io/FilesTogether.h"
 
 #include <stop_token>
 #include <vector>
@@ -15,7 +15,7 @@ LoadCase paperFigureLoad();
 
 /// Table 1 and Fig. 12 as charts, Figs. 4, 6 and 7 from the touch (advanced to the displacements), Figs. 8-11 and 13-16
 /// from the traces of the first area, as PNG files among those of the report. Throws Cancelled between two pictures.
-std::vector<ReportPicture> drawPaperFigures(const ProtocolResult& result, const Touch& touch, WrittenFiles& files,
+std::vector<ReportPicture> drawPaperFigures(const ProtocolResult& result, const Touch& touch, FilesTogether& files,
                                             const std::stop_token& stop = {});
 
 } // namespace palp

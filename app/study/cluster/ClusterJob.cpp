@@ -10,8 +10,6 @@
 #include "model/base/Error.h"
 #include "model/base/Text.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -178,10 +176,8 @@ void requireRoom(const ClusterJob& job) {
     return;
   }
   const fs::path folder = job.output.parent_path();
-  if (!fs::is_directory(folder) || access(folder.c_str(), W_OK) != 0)
-    throw Error("-o: folder '" + folder.string() + "' " +
-                (fs::is_directory(folder) ? "cannot be written to" : "does not exist"));
-  requireFree(job.output, std::find(job.arguments.begin(), job.arguments.end(), "--force") != job.arguments.end());
+  if (!fs::is_directory(folder)) throw Error("-o: folder '" + folder.string() + "' does not exist");
+  requireWritable(job.output, std::find(job.arguments.begin(), job.arguments.end(), "--force") != job.arguments.end());
 }
 
 void writeJob(const ClusterJob& job) {

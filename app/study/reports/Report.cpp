@@ -3,11 +3,9 @@
 #include "app/study/paper/PaperReport.h"
 #include "app/study/reports/Csv.h"
 #include "app/study/reports/ReportPage.h"
-#include "app/study/reports/WrittenFiles.h"
-#include "io/AtomicFile.h"
 #include "io/DesignFile.h"
+#include "io/FilesTogether.h"
 #include "model/base/Cancelled.h"
-#include "model/base/Error.h"
 
 namespace palp {
 
@@ -43,7 +41,7 @@ std::string rowClass(ReportTable::Mark mark) {
 /// Adds the parts of a report to its page, one overload a kind of part.
 class PageWriter {
 public:
-  PageWriter(ReportPage& page, WrittenFiles& files, const ReportDrawer& draw, const std::stop_token& stop)
+  PageWriter(ReportPage& page, FilesTogether& files, const ReportDrawer& draw, const std::stop_token& stop)
       : page_(page), files_(files), draw_(draw), stop_(stop) {}
 
   void operator()(const ReportHeading& heading) const { page_.heading(heading.text); }
@@ -59,7 +57,7 @@ public:
     Csv points({"curve", chart.xLabel, chart.yLabel});
     for (const ReportCurve& curve : chart.curves)
       for (std::size_t i = 0; i < curve.x.size(); ++i) points.add({curve.name, curve.x[i], curve.y[i]});
-    writeFile(files_.add(chart.file + ".csv"), points.text(), true);
+    files_.add(chart.file + ".csv", points.text());
   }
   void operator()(const ReportMap& map) { picture(map, draw_.map); }
 
@@ -74,13 +72,11 @@ private:
       return;
     }
     stopIfAsked(stop_);
-    const std::filesystem::path png = files_.add(drawing.file + ".png");
-    draw(drawing, png);
-    page_.picture(png, drawing.caption);
+    page_.picture(files_.add(drawing.file + ".png", [&](const auto& png) { draw(drawing, png); }), drawing.caption);
   }
 
   ReportPage& page_;
-  WrittenFiles& files_;
+  FilesTogether& files_;
   const ReportDrawer& draw_;
   const std::stop_token& stop_;
   int notDrawn_ = 0;
@@ -107,10 +103,7 @@ ReportProgress partOf(const ReportProgress& whole, double from, double width) {
 
 ReportOutcome writeReport(const ReportContent& content, const ReportRequest& request, double seconds,
                           const ReportDrawer& draw, const std::stop_token& stop) {
-  std::error_code failed;
-  std::filesystem::create_directories(request.folder, failed);
-  if (failed) throw Error(request.folder.string() + ": the folder cannot be made: " + failed.message());
-  WrittenFiles files(request.folder);
+  FilesTogether files(request.folder);
   ReportPage page(content.title);
   page.paragraph(content.summary);
   PageWriter writer(page, files, draw, stop);
@@ -120,12 +113,12 @@ ReportOutcome writeReport(const ReportContent& content, const ReportRequest& req
 
   ReportOutcome outcome;
   outcome.done = true;
-  outcome.page = files.add("report.html");
-  outcome.csv = files.add("points.csv");
-  for (const ReportFile& file : content.files) writeFile(files.add(file.name), file.content, true);
-  writeFile(outcome.csv, content.csv, true);
-  writeFile(outcome.page, page.html(), true);
-  files.keep();
+  outcome.page = request.folder / "report.html";
+  outcome.csv = request.folder / "points.csv";
+  for (const ReportFile& file : content.files) files.add(file.name, file.content);
+  files.add("points.csv", content.csv);
+  files.add("report.html", page.html());
+  files.commit();
   outcome.summary = content.summary;
   outcome.figures = content.figures;
   outcome.stages = content.stages;

@@ -48,6 +48,8 @@ StudyFolder::StudyFolder(fs::path folder, StudyPlan plan)
   std::error_code failed;
   fs::create_directories(folder_ / kRows, failed);
   if (failed) throw Error(folder_.string() + ": the folder cannot be made: " + failed.message());
+  requireWritable(row(0), true); // said before the work
+  removeLeftovers(folder_);
   if (!fs::exists(folder_ / kStudyFile)) // another shard may have written the same just now
     writeFile(folder_ / kStudyFile, toJson(plan_), true);
 }

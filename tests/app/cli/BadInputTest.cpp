@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <ostream>
 
@@ -278,4 +279,44 @@ TEST(BadInput, AnOutputThatExistsIsKept) {
   EXPECT_EQ(readAll(file), "mine");
   EXPECT_EQ(palp::test::palp({"design", "-o", file, "--force"}).exit, 0);
   EXPECT_NE(readAll(file), "mine");
+}
+
+namespace {
+
+/// Each command that writes a file, up to its name.
+const std::vector<std::vector<std::string>>& writingCommands() {
+  static const std::vector<std::vector<std::string>> commands{
+      {"design", "-o"},
+      {"mesh", "paper", "-o"},
+      {"solve", "paper", "--load", "0:0,0,-1", "-o"},
+      {"render", "paper", "--load", "0:0,0,-1", "-o"},
+      {"sample", "paper", "--per-area", "1", "-o"},
+      {"merge", "nowhere.csv", "-o"},
+      {"import", "nowhere.csv", "--map", "nowhere.json", "-o"},
+      {"train", "nowhere.csv", "-o"},
+      {"predict", "nowhere.json", "nowhere.csv", "-o"},
+      {"calibrate", "nowhere.json", "nowhere.csv", "-o"},
+      {"report", "noise", "-o"},
+      {"reproduce", "table1", "-o"},
+      {"cluster", "sample", "paper", "--per-area", "1", "--shards", "2", "-o"},
+      {"listen", "--simulate", "--frames", "1", "--record"}};
+  return commands;
+}
+
+} // namespace
+
+TEST(Outputs, StandardOutputIsRefusedByEveryCommand) {
+  std::size_t turn = 0;
+  for (std::vector<std::string> arguments : writingCommands()) {
+    arguments.emplace_back(std::array{"-", "/dev/stdout", "/dev/fd/1"}[turn++ % 3]);
+    expectRefused(palp::test::palp(arguments), {"'" + arguments.back() + "'", "words", "name of a file"});
+  }
+  EXPECT_FALSE(std::filesystem::exists("-"));
+}
+
+TEST(Outputs, AFolderThatCannotBeWrittenIsRefusedBeforeTheWork) {
+  for (std::vector<std::string> arguments : writingCommands()) {
+    arguments.emplace_back("/proc/palp.csv"); // where root cannot write either
+    expectRefused(palp::test::palp(arguments), {"/proc/palp.csv", "cannot be"});
+  }
 }

@@ -1,12 +1,12 @@
 #include "app/gui/jobs/samples/ResultFiles.h"
 
-#include "app/gui/jobs/FilesTogether.h"
 #include "app/gui/jobs/samples/SampleFiles.h"
 #include "app/gui/jobs/samples/SweepsFile.h"
 #include "app/gui/project/ProjectFile.h"
 #include "app/study/paper/PaperProtocol.h"
 #include "io/AtomicFile.h"
 #include "io/DecoderFile.h"
+#include "io/FilesTogether.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
 #include "nn/NoisyCopies.h"
@@ -237,9 +237,7 @@ std::vector<std::string> saveResults(const fs::path& folder, const NetworkResult
   if (results.fit)
     writing.add(folder / kNetwork, [&](const fs::path& beside) { writeNetwork(results.fit->decoder, beside); });
   const bool sweeps = results.samples && !(results.sweep.empty() && results.trials.empty());
-  if (sweeps)
-    writing.add(folder / kSweeps,
-                [&](const fs::path& beside) { writeFile(beside, sweepsText(results).toStdString(), true); });
+  if (sweeps) writing.add(folder / kSweeps, sweepsText(results).toStdString());
   saveKept(folder / kKept, results);
   std::vector<std::string> said;
   const std::string now = stemOf(QDateTime::currentDateTime());

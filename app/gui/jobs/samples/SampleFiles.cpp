@@ -1,10 +1,10 @@
 #include "app/gui/jobs/samples/SampleFiles.h"
 
-#include "app/gui/jobs/FilesTogether.h"
 #include "app/gui/jobs/NetworkSession.h"
 #include "app/gui/project/FileKind.h"
 #include "app/study/paper/PaperProtocol.h"
 #include "io/DesignFile.h"
+#include "io/FilesTogether.h"
 #include "io/SampleFile.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"

@@ -143,8 +143,8 @@ QWidget* LiveControlPanel::buildRecording() {
   connect(choose, &QPushButton::clicked, this, [this] {
     const QString file = askFileToSave(this, tr("Record to"), file_->text(), tr("Recordings (*.palprec)"));
     if (file.isEmpty()) return;
-    file_->setText(file.endsWith(".palprec") ? file : file + ".palprec");
-    replaceable_ = QFile::exists(file) ? file_->text() : QString(); // the dialog has asked
+    file_->setText(file);
+    replaceable_ = QFile::exists(file) ? file : QString(); // the dialog has asked
     lookForFile();
   });
   connect(record_, &QPushButton::clicked, this, &LiveControlPanel::record);

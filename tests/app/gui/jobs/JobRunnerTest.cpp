@@ -1,5 +1,6 @@
 #include "app/gui/jobs/JobRunner.h"
 
+#include "model/base/Cancelled.h"
 #include "model/base/Error.h"
 
 #include <QSignalSpy>
@@ -8,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <vector>
 
 namespace palp {
 namespace {
@@ -96,6 +98,62 @@ TEST(JobRunner, WhateverWorkThrowsIsSaid) {
   QSignalSpy failed(&runner, &JobRunner::failed);
   runner.start("work", [](const std::stop_token&, JobProgress&) -> JobRunner::Taking { throw 7; });
   EXPECT_TRUE(QTest::qWaitFor([&] { return failed.count() == 1; }, kJobPatience_ms));
+}
+
+/// Saving cannot be stopped; `begun` is raised and then `go` waited for.
+JobRunner::Work saving(std::vector<int>& saved, int number, std::atomic<bool>& begun, const std::atomic<bool>& go) {
+  return [&saved, &begun, &go, number](const std::stop_token&, JobProgress&) -> JobRunner::Taking {
+    begun = true;
+    while (!go) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    if (number == 0) throw Error("a.json: cannot be written: No space left on device");
+    return [&saved, number] { saved.push_back(number); };
+  };
+}
+
+TEST(WriteQueue, CarriesOutEveryOrderAndSaysTheErrorOfTheFirst) {
+  JobRunner runner(JobRunner::Orders::Each);
+  QSignalSpy failed(&runner, &JobRunner::failed), finished(&runner, &JobRunner::finished);
+  std::atomic<bool> begun = false, go = false;
+  std::vector<int> saved;
+  for (const int number : {0, 1, 2, 3}) runner.start("save", saving(saved, number, begun, go));
+  go = true;
+  ASSERT_TRUE(QTest::qWaitFor([&] { return finished.count() == 1; }, kJobPatience_ms));
+  EXPECT_EQ(saved, (std::vector{1, 2, 3}));
+  ASSERT_EQ(failed.count(), 1);
+  EXPECT_TRUE(failed[0][0].toString().contains("No space left"));
+}
+
+TEST(WriteQueue, ACancelDropsOnlyWhatHasNotBegun) {
+  JobRunner runner(JobRunner::Orders::Each);
+  QSignalSpy dropped(&runner, &JobRunner::dropped), finished(&runner, &JobRunner::finished);
+  std::atomic<bool> begun = false, go = false;
+  std::vector<int> saved;
+  runner.start("first", saving(saved, 1, begun, go));
+  runner.start("second", saving(saved, 2, begun, go));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return begun.load(); }, kJobPatience_ms));
+  runner.cancel();
+  go = true;
+  ASSERT_TRUE(QTest::qWaitFor([&] { return finished.count() == 1; }, kJobPatience_ms));
+  EXPECT_EQ(saved, std::vector{1}) << "what is written is taken: the document is saved";
+  ASSERT_EQ(dropped.count(), 1);
+  EXPECT_EQ(dropped[0][0].toString(), "second");
+  EXPECT_FALSE(finished[0][0].toBool());
+}
+
+TEST(WriteQueue, WorkThatStopsItselfIsSaidAndTheNextIsCarriedOut) {
+  JobRunner runner(JobRunner::Orders::Each);
+  QSignalSpy dropped(&runner, &JobRunner::dropped), failed(&runner, &JobRunner::failed);
+  runner.start("export", [](const std::stop_token& stop, JobProgress&) -> JobRunner::Taking {
+    while (!stop.stop_requested()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    throw Cancelled();
+  });
+  runner.cancel();
+  bool taken = false;
+  runner.start("save", [&](const std::stop_token&, JobProgress&) { return [&] { taken = true; }; });
+  ASSERT_TRUE(QTest::qWaitFor([&] { return taken; }, kJobPatience_ms));
+  ASSERT_EQ(dropped.count(), 1);
+  EXPECT_EQ(dropped[0][0].toString(), "export");
+  EXPECT_EQ(failed.count(), 0);
 }
 
 TEST(JobRunner, EndsItsWorkWhenItIsDestroyed) {

@@ -69,6 +69,40 @@ TEST(FileDialogs, OfferANameThatBeginsWithTheProjects) {
   EXPECT_EQ(offered("film"), "finger v2-film-2");
 }
 
+TEST(FileDialogs, AskAboutTheNameThatWillBeWritten) {
+  const QTemporaryDir folder;
+  for (const char* name : {"sensor.v2.json", "sensor.csv"}) {
+    QFile made(folder.filePath(name));
+    ASSERT_TRUE(made.open(QIODevice::WriteOnly));
+  }
+  QString question;
+  QTimer look; // says no once; the dialog comes again and is closed
+  QObject::connect(&look, &QTimer::timeout, [&] {
+    if (auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget())) {
+      question = box->text();
+      box->button(QMessageBox::No)->click();
+    } else if (auto* dialog = qobject_cast<QFileDialog*>(QApplication::activeModalWidget());
+               dialog != nullptr && !question.isEmpty()) {
+      dialog->reject();
+    }
+  });
+  look.start(20);
+  const auto saved = [&](const char* typed, const char* proposal, const char* filter) {
+    question.clear();
+    answerFileDialog(folder.filePath(typed));
+    return askFileToSave(nullptr, "Save", proposal, filter);
+  };
+  EXPECT_TRUE(saved("sensor.v2", "project.json", "Projects (*.json)").isEmpty());
+  EXPECT_TRUE(question.contains("sensor.v2.json")) << question.toStdString();
+  EXPECT_TRUE(saved("sensor", "samples.csv", "Samples (*.csv *.h5 *.hdf5 *.npz)").isEmpty());
+  EXPECT_TRUE(question.contains("sensor.csv")) << question.toStdString();
+  EXPECT_EQ(saved("sensor.v3", "project.json", "Projects (*.json)"), folder.filePath("sensor.v3.json"));
+  EXPECT_EQ(saved("sensor.h5", "samples.csv", "Samples (*.csv *.h5 *.hdf5 *.npz)"), folder.filePath("sensor.h5"));
+  EXPECT_EQ(saved("a.JSON", "project.json", "Projects (*.json)"), folder.filePath("a.JSON"));
+  EXPECT_EQ(saved("film.1", "film", ""), folder.filePath("film.1")) << "a folder";
+  EXPECT_TRUE(question.isEmpty());
+}
+
 TEST(FileDialogs, TakeThePathThatIsTypedAndNotAProposalThatIsThere) {
   const QTemporaryDir folder;
   for (const char* name : {"old.csv", "new.csv"}) {

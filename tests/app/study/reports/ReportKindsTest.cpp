@@ -132,6 +132,29 @@ TEST(WrittenReport, IsGoneWhereAPictureCannotBeDrawn) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
+TEST(WrittenReport, OfBeforeStaysWholeWhereTheNextOneFails) {
+  const palp::TemporaryFolder folder;
+  palp::ReportContent content;
+  content.parts.emplace_back(palp::ReportChart{.file = "a", .caption = "a"});
+  content.csv = "x\n1\n";
+  std::string picture = "picture";
+  const auto draw = [&](const palp::ReportChart&, const std::filesystem::path& png) {
+    if (picture.empty()) throw palp::Error("the disk is full");
+    palp::writeFile(png, picture, true);
+  };
+  writeReport(content, quickRequest(folder), 0, {.chart = draw}, {});
+  const std::string page = palp::readFile(folder / "report.html");
+  content.csv = "x\n2\n";
+  picture.clear();
+  EXPECT_THROW(writeReport(content, quickRequest(folder), 0, {.chart = draw}, {}), palp::Error);
+  EXPECT_EQ(palp::readFile(folder / "points.csv"), "x\n1\n");
+  EXPECT_EQ(palp::readFile(folder / "a.png"), "picture");
+  EXPECT_EQ(palp::readFile(folder / "report.html"), page);
+  picture = "another";
+  writeReport(content, quickRequest(folder), 0, {.chart = draw}, {});
+  EXPECT_EQ(palp::readFile(folder / "points.csv") + palp::readFile(folder / "a.png"), "x\n2\nanother");
+}
+
 TEST(Report, WithoutADrawerPageAndWarningSayThatChartsAreMissing) {
   palp::ReportContent content;
   content.parts.emplace_back(palp::ReportChart{.file = "a", .title = "Errors"});

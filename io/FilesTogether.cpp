@@ -1,4 +1,4 @@
-#include "app/gui/jobs/FilesTogether.h"
+#include "io/FilesTogether.h"
 
 #include "model/base/Error.h"
 
@@ -23,18 +23,37 @@ bool sameBytes(const fs::path& a, const fs::path& b) {
 
 } // namespace
 
-void FilesTogether::add(const fs::path& file, const std::function<void(const fs::path&)>& write) {
-  auto target = std::make_unique<AtomicFile>(file, true);
+FilesTogether::FilesTogether(fs::path folder) : folder_(std::move(folder)) {
+  std::error_code failed;
+  made_ = fs::create_directories(folder_, failed);
+  if (failed) throw Error(folder_.string() + ": the folder cannot be made: " + failed.message());
+}
+
+FilesTogether::~FilesTogether() {
+  files_.clear();
+  std::error_code notEmpty;
+  if (made_) fs::remove(folder_, notEmpty);
+}
+
+fs::path FilesTogether::add(const fs::path& file, const std::function<void(const fs::path&)>& write) {
+  const fs::path path = folder_ / file;
+  auto target = std::make_unique<AtomicFile>(path, true);
   const std::string beside = target->beside().string();
   try {
     write(target->beside());
+    target->sync();
   } catch (const Error& error) {
     std::string words = error.what(); // of the file that was asked for
     const std::size_t at = words.find(beside);
-    if (at != std::string::npos) words.replace(at, beside.size(), file.string());
+    if (at != std::string::npos) words.replace(at, beside.size(), path.string());
     throw Error(words);
   }
-  files_.emplace_back(file, std::move(target));
+  files_.emplace_back(path, std::move(target));
+  return beside;
+}
+
+fs::path FilesTogether::add(const fs::path& file, std::string_view content) {
+  return add(file, [&](const fs::path& beside) { writeFile(beside, content, true); });
 }
 
 bool FilesTogether::keepAs(const fs::path& file, const fs::path& other) {
