@@ -1,6 +1,6 @@
 #include "io/AtomicFile.h"
 
-#include "io/TemporaryName.h"
+#include "io/files/TemporaryName.h"
 #include "model/base/Error.h"
 
 #include <fcntl.h>

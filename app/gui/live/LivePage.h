@@ -109,7 +109,7 @@ private:
   LiveHost host_;
   QTimer timer_;
   QTimer hiddenTimer_; ///< runs only while something is done out of sight
-  JobRunner exporter_;
+  JobRunner exporter_{JobRunner::Orders::Each};
   LiveWatch watch_;
   LiveNews news_;
   LiveSourcePanel* source_ = nullptr;

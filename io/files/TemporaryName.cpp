@@ -1,12 +1,12 @@
-#include "io/TemporaryName.h"
+#include "io/files/TemporaryName.h"
 
-#include <signal.h> // NOLINT(modernize-deprecated-headers): kill() is of POSIX
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
+#include <csignal>
 #include <cstdint>
 #include <fstream>
 #include <optional>
