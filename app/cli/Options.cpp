@@ -187,8 +187,9 @@ void requireNoStream(const std::string& option, const std::filesystem::path& pat
   for (const char* stream :
        {"-", "/dev/stdout", "/dev/stderr", "/dev/fd/1", "/dev/fd/2", "/proc/self/fd/1", "/proc/self/fd/2", "/dev/tty"})
     if (path == stream)
-      throw UsageError(option + ": '" + path.string() +
-                       "' is where the command's own words go; give the name of a file (./- for one named -)");
+      throw UsageError(
+          option + ": '" + path.string() +
+          "' is a standard stream, which the command uses for its messages; give a file name (./- for a file named -)");
 }
 
 void OutputFile::requireWritable() const {

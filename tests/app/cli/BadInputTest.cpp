@@ -309,7 +309,7 @@ TEST(Outputs, StandardOutputIsRefusedByEveryCommand) {
   std::size_t turn = 0;
   for (std::vector<std::string> arguments : writingCommands()) {
     arguments.emplace_back(std::array{"-", "/dev/stdout", "/dev/fd/1"}[turn++ % 3]);
-    expectRefused(palp::test::palp(arguments), {"'" + arguments.back() + "'", "words", "name of a file"});
+    expectRefused(palp::test::palp(arguments), {"'" + arguments.back() + "'", "standard stream", "give a file name"});
   }
   EXPECT_FALSE(std::filesystem::exists("-"));
 }
