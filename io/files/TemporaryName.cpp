@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view kMark = ".new-";
-constexpr std::size_t kLongestName = 255; // of a file, on Linux
+constexpr std::size_t kLongestFileName = 255; // of a file, on Linux
 
 /// Eight digits of this machine and its table of processes: a container has a table of its own.
 std::string machine() {
@@ -59,7 +59,7 @@ std::optional<pid_t> processOf(const std::string& name) {
 fs::path temporaryName(const fs::path& name, int number) {
   const std::string behind = std::string(kMark) + machine() + "-" + std::to_string(::getpid()) + "-" +
                              std::to_string(number) + name.extension().string();
-  const std::size_t room = kLongestName - 1 - std::min(kLongestName - 1, behind.size());
+  const std::size_t room = kLongestFileName - 1 - std::min(kLongestFileName - 1, behind.size());
   return "." + name.stem().string().substr(0, room) + behind;
 }
 
