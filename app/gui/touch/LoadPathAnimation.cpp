@@ -8,6 +8,7 @@
 #include "app/scenes/GifFilm.h"
 #include "app/scenes/gl/OffscreenWindow.h"
 #include "io/FilesTogether.h"
+#include "model/base/Cancelled.h"
 #include "model/base/Error.h"
 
 #include <QElapsedTimer>
@@ -164,7 +165,7 @@ bool LoadPathAnimation::start(const Settings& settings) {
     auto path = std::make_shared<Path>(Path{touch, {}});
     progress.set(-1, "Fields along the load path");
     path->states = loadPathStates(touch, stop);
-    if (stop.stop_requested()) return {};
+    stopIfAsked(stop);
     // One colour scale over the whole path.
     Settings fixed = settings;
     std::vector<double> all;
@@ -191,7 +192,7 @@ bool LoadPathAnimation::start(const Settings& settings) {
     FrameProgress counted(progress, settings.frames);
     const bool whole =
         settings.gif.empty() ? drawPictures(settings, drawn, counted) : drawGif(settings, drawn, counted, stop);
-    if (!whole) return {};
+    if (!whole) throw Cancelled();
     return [this, sentence = filmSentence(settings)] { emit done(sentence); };
   };
   runner_.start(tr("Drawing the load path"), work);
