@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <iostream>
 #include <string_view>
@@ -142,6 +143,7 @@ bool canStart(int argc, char** argv) {
 } // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN); // a file above the limit is refused in words, as a full disk is
   if (!canStart(argc, argv)) {
     std::cerr << "palp-studio: no display (DISPLAY and WAYLAND_DISPLAY are not set); --snapshot FILE makes a picture "
                  "without one\n";
