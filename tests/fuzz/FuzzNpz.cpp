@@ -1,4 +1,4 @@
-// Fuzzing: any bytes as a sample file of arrays (NPZ) or a table of arrays. It is refused with one sentence, or read
+// Fuzzing: any bytes as a NPZ file of samples or a table of arrays. It is refused with one sentence, or read
 // to finite numbers.
 
 #include "io/SampleFile.h"
@@ -33,7 +33,7 @@ void readTable(const std::string& path) {
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  if (size < 2 || data[0] != 'P' || data[1] != 'K') return 0; // text and HDF5 have fuzzers of their own
+  if (size < 2 || data[0] != 'P' || data[1] != 'K') return 0; // others have fuzzers of their own
   static const FuzzedFile file;
   file.hold({data, size});
   readSamples(file.path());
