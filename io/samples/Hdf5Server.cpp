@@ -37,7 +37,7 @@ void limit(int resource, rlim_t most) {
 void limitMemory(std::uintmax_t file_bytes) {
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_FSIZE, 0);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // their shadow is memory too
+#ifndef PALP_SANITIZED // a sanitizer's shadow is memory too
   limit(RLIMIT_DATA, kMemory_bytes + kMemoryPerFileByte * file_bytes);
 #else
   static_cast<void>(file_bytes);
