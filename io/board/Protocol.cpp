@@ -28,6 +28,19 @@ constexpr std::array<std::uint8_t, 48> kDescriptor{0x06, 0x00, 0xFF,            
                                                    0x85, 0x11, 0x09, 0x11, 0xB1, 0x02, // feature 0x11
                                                    0xC0};
 
+/// The checksum's remainder of each byte alone.
+constexpr std::array<std::uint16_t, 256> checksumOfByte() {
+  std::array<std::uint16_t, 256> table{};
+  for (std::size_t byte = 0; byte < table.size(); ++byte) {
+    auto crc = static_cast<std::uint16_t>(byte << 8);
+    for (int bit = 0; bit < 8; ++bit)
+      crc = static_cast<std::uint16_t>((crc & 0x8000) != 0 ? (crc << 1) ^ 0x1021 : crc << 1);
+    table[byte] = crc;
+  }
+  return table;
+}
+constexpr std::array<std::uint16_t, 256> kChecksumOfByte = checksumOfByte();
+
 Report empty(ReportId id) {
   Report report{};
   report[0] = static_cast<std::uint8_t>(id);
@@ -117,11 +130,8 @@ const char* sentence(ReportFault fault) {
 
 std::uint16_t crc16(std::span<const std::uint8_t> bytes) {
   std::uint16_t crc = 0xFFFF;
-  for (const std::uint8_t byte : bytes) {
-    crc = static_cast<std::uint16_t>(crc ^ (byte << 8));
-    for (int bit = 0; bit < 8; ++bit)
-      crc = static_cast<std::uint16_t>((crc & 0x8000) != 0 ? (crc << 1) ^ 0x1021 : crc << 1);
-  }
+  for (const std::uint8_t byte : bytes)
+    crc = static_cast<std::uint16_t>((crc << 8) ^ kChecksumOfByte[(crc >> 8) ^ byte]);
   return crc;
 }
 

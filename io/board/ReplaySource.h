@@ -1,8 +1,7 @@
 #pragma once
 
-#include "io/board/Recording.h"
-#include "io/board/ReplayClock.h"
-#include "io/board/Tare.h"
+#include "io/board/ReplayIndex.h"
+#include "io/board/ReportSource.h"
 
 #include <atomic>
 #include <memory>
@@ -12,14 +11,6 @@
 #include <vector>
 
 namespace palp {
-
-/// An event mark of a recording.
-struct ReplayMark {
-  double at_s = 0; ///< from the recording's first report
-  std::string text;
-
-  bool operator==(const ReplayMark&) const = default;
-};
 
 /// How a recording is played; may be changed from another thread while it plays.
 struct ReplayControl {
@@ -56,66 +47,67 @@ private:
 };
 
 /// A recording as if it came from the board again: the same decoder takes it. Times are those of ReplayClock, so that
-/// the place in the recording and the curves, which go by the board's clock, say the same.
+/// the place in the recording and the curves, which go by the board's clock, say the same. A long one is played while
+/// it is still measured; going to a place that was not reached yet waits for that.
 class ReplaySource : public ReportSource {
 public:
-  ReplaySource(const std::filesystem::path& path, std::shared_ptr<ReplayControl> control);
+  /// So many reports are measured before it returns: a fraction of a second.
+  static constexpr std::size_t kMeasuredAtOnce = 1 << 20;
+
+  ReplaySource(const std::filesystem::path& path, std::shared_ptr<ReplayControl> control,
+               std::size_t measuredAtOnce = kMeasuredAtOnce);
 
   [[nodiscard]] std::string name() const override;
-  [[nodiscard]] const BoardInfo& info() const override { return reader_.head().info; }
-  [[nodiscard]] const BoardConfiguration& configuration() const override { return configuration_; }
+  [[nodiscard]] const BoardInfo& info() const override { return cursor_.head().info; }
+  /// In force for the report that was read last.
+  [[nodiscard]] const BoardConfiguration& configuration() const override { return here().configuration; }
   Outcome read(RawReport& report, std::chrono::milliseconds timeout) override;
+  /// At the end what of the file could not be read; before it why nothing comes. Empty where all is well.
   [[nodiscard]] std::string reason() const override;
   /// Text of the last mark that was passed or set; empty before the first.
-  [[nodiscard]] const std::string& mark() const { return mark_; }
+  [[nodiscard]] const std::string& mark() const { return here().mark; }
   /// A mark of the one who looks on, at the report that was read last; it holds until the recording's next or a jump.
   void setMark(const std::string& text, double hostTime_s) {
-    mark_ = text;
-    markTime_s_ = hostTime_s;
+    cursor_.here().mark = text;
+    cursor_.here().markTime_s = hostTime_s;
   }
   /// That mark stands where the recording was taken up last, or behind that place: not before it.
-  [[nodiscard]] bool markFollowsJump() const { return markTime_s_ >= takenUp_s_; }
+  [[nodiscard]] bool markFollowsJump() const { return here().markTime_s >= takenUp_s_; }
   /// The tare that held at this place when it was recorded; null: none.
-  [[nodiscard]] const std::shared_ptr<const Tare>& tare() const { return tare_; }
+  [[nodiscard]] const std::shared_ptr<const Tare>& tare() const { return here().tare; }
   /// A frame that ended at this host time, with the last report, lies before the place that was gone to.
-  [[nodiscard]] bool past(double hostTime_s) const { return report_ <= target_ || hostTime_s < target_s_; }
+  [[nodiscard]] bool past(double hostTime_s) const { return here().reports <= target_ || hostTime_s < target_s_; }
   /// The last report was from before the place that was gone to.
-  [[nodiscard]] bool inPast() const { return report_ <= target_; }
+  [[nodiscard]] bool inPast() const { return here().reports <= target_; }
   /// Since the last call it went to another place of the recording.
   [[nodiscard]] bool jumped() { return std::exchange(jumped_, false); }
 
 private:
-  void take(const RecordingEntry& entry);
-  void measure();
-  void follow();
-  void advance();
-  void goTo(double to_s, double past_s);
+  [[nodiscard]] const ReplayPlace& here() const { return cursor_.here(); }
+  void measure(std::size_t reports);
+  void wait(std::chrono::duration<double> time);
+  bool follow();
   void goTo(std::size_t report, double hostTime_s, double past_s);
   [[nodiscard]] std::size_t reportAt(double hostTime_s);
-  void skip(std::size_t reports);
+  void skipTo(std::size_t report);
   void goToFrameBefore(double end_s);
-  void rewind();
+  bool goToFrameBefore(double end_s, const ReplayPlace& from);
   void goOnFrom(double hostTime_s);
-  void skipToReport();
 
   std::filesystem::path path_;
-  RecordingReader reader_;
-  ReplayClock clock_;
+  ReplayIndex index_;
+  ReplayCursor cursor_;
   std::shared_ptr<ReplayControl> control_;
-  BoardConfiguration configuration_;
-  std::optional<RecordingEntry> next_;
-  std::string mark_;
-  std::shared_ptr<const Tare> tare_;
-  double markTime_s_ = 0;  ///< host time of the mark
+  std::size_t marks_ = 0;  ///< that the control knows
   double takenUp_s_ = 0;   ///< host time from which it was read on last
-  std::size_t report_ = 0; ///< reports before next_, from the recording's first
-  std::size_t target_ = 0; ///< before the place that was gone to last
+  std::size_t target_ = 0; ///< reports before the place that was gone to last
   double target_s_ = 0;    ///< host time of that place
   double playedTo_s_ = 0;  ///< host time of the recording that is reached
   double asked_s_ = 0;     ///< host clock when that was
   bool started_ = false;
   bool jumped_ = false;
-  double first_s_ = 0, last_s_ = 0; ///< host time of the first and the last report
+  bool ended_ = false;
+  bool waits_ = false; ///< for the index, to go to a place
 };
 
 } // namespace palp

@@ -12,6 +12,7 @@ namespace palp {
 namespace {
 
 constexpr double kPublishInterval_s = 0.05;
+constexpr auto kReaderInterval = std::chrono::milliseconds(1);
 
 } // namespace
 
@@ -50,6 +51,7 @@ void LiveSession::run(const std::stop_token& stop) {
   const std::size_t most = options_.ringFrames;
   std::uint64_t overflowed = 0;
   const auto alsoTo = options_.alsoTo;
+  const bool replays = options_.replay != nullptr;
   LiveWorker worker(std::move(options_), [&](std::shared_ptr<const LiveFrame> frame) {
     if (alsoTo && !frame->past) alsoTo(frame);
     const std::lock_guard lock(mutex_);
@@ -64,6 +66,10 @@ void LiveSession::run(const std::stop_token& stop) {
     const std::lock_guard lock(mutex_);
     status_ = std::move(status);
   };
+  const auto full = [this, most, waits = replays] {
+    const std::lock_guard lock(mutex_);
+    return waits && ring_.size() >= most;
+  };
   double published_s = 0;
   LiveState state = LiveState::Searching;
   std::vector<std::function<void(LiveWorker&)>> requests;
@@ -73,7 +79,11 @@ void LiveSession::run(const std::stop_token& stop) {
       requests.swap(requests_);
     }
     for (const auto& request : requests) worker.guarded([&] { request(worker); });
-    worker.step();
+    if (full()) { // a recording waits for its reader: each of its frames is seen
+      std::this_thread::sleep_for(kReaderInterval);
+    } else {
+      worker.step();
+    }
     const double now_s = hostClock_s();
     if (requests.empty() && worker.state() == state && now_s < published_s + kPublishInterval_s) continue;
     state = worker.state();
@@ -81,6 +91,7 @@ void LiveSession::run(const std::stop_token& stop) {
     requests.clear();
     publish();
   }
+  worker.setWriter(nullptr); // what it says of the recording then is the last word
   publish();
 }
 

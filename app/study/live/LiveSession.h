@@ -104,7 +104,8 @@ struct LiveOptions {
   std::shared_ptr<ReplayControl> replay;
   /// Gets each frame in the session's thread, before the ring: must return at once.
   std::function<void(const std::shared_ptr<const LiveFrame>&)> alsoTo;
-  std::size_t ringFrames = 2048; ///< kept for a reader that drains late
+  /// Kept for a reader that drains late: of a board the oldest are lost where there are more, a recording waits.
+  std::size_t ringFrames = 2048;
   bool waitForRecording = false; ///< the first report is read when a recording is there that begins with it
 };
 

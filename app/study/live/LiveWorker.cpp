@@ -117,8 +117,8 @@ void LiveWorker::connect(std::unique_ptr<ReportSource> source) {
     makeDecoder();
   }
   if (writer_ && !sameBoard) {
+    endRecording();
     status_.recordingFailure = "the recording ended because another board was connected";
-    writer_.reset();
   }
   if (!writer_) return;
   writer_->append(RecordingEntry::Kind::Connected, arrival_s_, encode(source_->info()));
@@ -150,8 +150,9 @@ void LiveWorker::read() {
     if (inPast()) restartRates(now_s); // it was read as fast as it can be
     break;
   case ReportSource::Outcome::Nothing:
-    if (options_.replay && options_.replay->paused) {
-      status_.state = LiveState::Paused;
+    if (options_.replay) {
+      if (options_.replay->paused) status_.state = LiveState::Paused;
+      status_.reason = source_->reason();
     } else if (now_s - arrival_s_ > kStall_s) {
       status_.state = LiveState::Stalled;
       status_.reason =
@@ -185,6 +186,7 @@ void LiveWorker::restartRates(double now_s) {
 void LiveWorker::take(const RawReport& report) {
   ++rateReports_;
   status_.reason.clear();
+  followConfiguration(); // of a recording it changes from one report to the next
   if (writer_ && !inPast()) writer_->append(RecordingEntry::Kind::Raw, report.hostTime_s, report.bytes);
   if (paused_) return;
   const auto decoded =
@@ -210,13 +212,22 @@ void LiveWorker::takeEvent(const BoardEvent& event) {
 
 void LiveWorker::readConfigurationAgain() {
   source_->readConfiguration();
+  followConfiguration();
+}
+
+void LiveWorker::followConfiguration() {
   if (source_->configuration() == assembler_->configuration()) return;
   assembler_->setConfiguration(source_->configuration());
   recordConfiguration();
 }
 
 void LiveWorker::recordConfiguration() {
-  if (writer_) writer_->append(RecordingEntry::Kind::Configuration, hostClock_s(), encode(source_->configuration()));
+  if (writer_) writer_->append(RecordingEntry::Kind::Configuration, recordedTime_s(), encode(source_->configuration()));
+}
+
+/// The time of what is recorded between two reports: the times of a recording that is played are its own.
+double LiveWorker::recordedTime_s() const {
+  return options_.replay ? report_.hostTime_s : hostClock_s();
 }
 
 void LiveWorker::takeFrame(const BoardFrame& frame) {
@@ -333,11 +344,7 @@ LiveStatus LiveWorker::status() {
   status_.noise = decoder_ ? decoder_->noise() : 0;
   status_.recording = writer_ && source_; // never "recording" while the board is gone
   status_.recordingWaits = writer_ && !source_;
-  if (writer_) {
-    status_.recordedReports = writer_->reports();
-    status_.recordingDropped = writer_->dropped();
-    status_.recordingFailure = writer_->failure();
-  }
+  if (writer_) statusOfRecording();
   return status_;
 }
 
@@ -374,7 +381,7 @@ void LiveWorker::holdTare(std::shared_ptr<const Tare> tare) {
 
 void LiveWorker::recordTare() {
   if (writer_)
-    writer_->append(RecordingEntry::Kind::Tare, hostClock_s(), tare_ ? encode(*tare_) : std::vector<std::uint8_t>{});
+    writer_->append(RecordingEntry::Kind::Tare, recordedTime_s(), tare_ ? encode(*tare_) : std::vector<std::uint8_t>{});
 }
 
 void LiveWorker::tare(int frames) {
@@ -421,12 +428,27 @@ void LiveWorker::configure(const BoardConfiguration& configuration) {
 
 void LiveWorker::mark(const std::string& text) {
   mark_ = text;
-  const double time_s = options_.replay ? report_.hostTime_s : hostClock_s(); // a recording's times are its own
+  const double time_s = recordedTime_s();
   if (replay() != nullptr) replay()->setMark(text, time_s);
   if (writer_) writer_->append(RecordingEntry::Kind::Mark, time_s, bytesOf(text));
 }
 
+void LiveWorker::statusOfRecording() {
+  status_.recordedReports = writer_->reports();
+  status_.recordingDropped = writer_->dropped();
+  status_.recordingFailure = writer_->failure();
+}
+
+void LiveWorker::endRecording() {
+  if (!writer_) return;
+  writer_->finish(); // its last half second may fail too
+  statusOfRecording();
+  writer_.reset();
+}
+
 void LiveWorker::setWriter(std::shared_ptr<RecordingWriter> writer) {
+  endRecording();
+  if (!writer) return;
   writer_ = std::move(writer);
   options_.waitForRecording = false;
   status_.recordingFailure.clear();

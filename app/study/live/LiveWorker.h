@@ -37,6 +37,7 @@ public:
     alarm_.set(alarm);
     if (was && alarm_.words().empty()) mark(kAlarmOver);
   }
+  /// The recording before it is ended first; null: no other one is begun.
   void setWriter(std::shared_ptr<RecordingWriter> writer);
 
 private:
@@ -55,7 +56,11 @@ private:
   void makeDecoder();
   void holdTare(std::shared_ptr<const Tare> tare);
   void recordTare();
+  void followConfiguration();
   void recordConfiguration();
+  [[nodiscard]] double recordedTime_s() const;
+  void endRecording();
+  void statusOfRecording();
   void watch(const DecodedForces& forces);
   void judgeDrift(const LiveFrame& live);
   void judgeDriftRate(double time_s, double range_N);

@@ -191,6 +191,7 @@ void ReplayBar::listMarks() {
   for (const ReplayMark& mark : marks)
     marks_->addItem(tr("%1 s: %2").arg(mark.at_s, 0, 'f', 2).arg(QString::fromStdString(mark.text)), mark.at_s);
   marks_->setEnabled(!marks.empty());
+  listedMarks_ = marks.size();
   std::vector<double> shares;
   for (const ReplayMark& mark : marks) shares.push_back(length_s_ > 0 ? mark.at_s / length_s_ : 0);
   static_cast<TimeLine*>(line_)->setMarks(std::move(shares));
@@ -219,6 +220,8 @@ void ReplayBar::displayState() {
     const QSignalBlocker quietPlace(place_);
     place_->setRange(0, length_s);
     length_->setText(tr("of %1 s").arg(length_s, 0, 'f', 2));
+    listMarks();
+  } else if (replay->marks().size() != listedMarks_) { // a long recording is still read
     listMarks();
   }
   pause_->setText(ended ? tr("Play again") : host_.paused() ? tr("Go on") : tr("Pause"));

@@ -50,6 +50,7 @@ private:
   QDoubleSpinBox* to_ = nullptr;
   bool sought_ = false; ///< by the number in `place_`
   double length_s_ = -1;
+  std::size_t listedMarks_ = 0;
 };
 
 } // namespace palp
