@@ -40,9 +40,15 @@ public:
 
   /// Whether the frame was handed to the system; false: nobody takes it now, and it is lost.
   virtual bool send(const OutgoingFrame& frame, std::chrono::milliseconds patience) = 0;
+  /// Why nothing is taken any more, and never will be: the disk is full. Empty while all is well.
+  [[nodiscard]] virtual std::string failure() const { return {}; }
   /// Whether send() may wait for the receiver, so that it needs a thread of its own.
   [[nodiscard]] virtual bool mayWait() const { return true; }
 };
+
+/// Such a receiver is a program of this computer, by its address alone: no file, no other host, no stream that is made
+/// known in the network.
+bool staysOnThisComputer(const std::string& where);
 
 /// "udp:HOST:PORT", "osc:HOST:PORT", "zmq:HOST:PORT" (a publisher that connects to a subscriber which is bound there),
 /// "csv:FILE" ("csv:-": standard output; a FIFO is waited for) or "lsl:NAME" (a stream of the Lab Streaming Layer,

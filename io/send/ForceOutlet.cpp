@@ -5,7 +5,10 @@
 #include "model/base/Error.h"
 #include "model/base/Text.h"
 
+#include <arpa/inet.h>
+
 #include <charconv>
+#include <cstring>
 
 namespace palp {
 
@@ -82,6 +85,17 @@ std::string frameAsCsv(const OutgoingFrame& frame, Eigen::Index forces) {
   return line + "\n";
 }
 
+bool staysOnThisComputer(const std::string& where) {
+  for (const char* kind : {"udp:", "osc:", "zmq:"}) {
+    if (!where.starts_with(kind)) continue;
+    const std::string rest = where.substr(std::strlen(kind)), host = rest.substr(0, rest.rfind(':'));
+    in_addr number{};
+    return host == "localhost" || host == "[::1]" || host == "::1" ||
+           (inet_pton(AF_INET, host.c_str(), &number) == 1 && ntohl(number.s_addr) >> 24 == IN_LOOPBACKNET);
+  }
+  return false;
+}
+
 std::unique_ptr<ForceOutlet> openOutlet(const std::string& where, bool toMany, bool force) {
   const std::size_t colon = where.find(':');
   const std::string kind = where.substr(0, colon);
@@ -92,7 +106,7 @@ std::unique_ptr<ForceOutlet> openOutlet(const std::string& where, bool toMany, b
   const Receiver receiver = receiverOf(where, rest);
   if (!toMany) requireSingleHost(receiver);
   if (kind == "udp") return openUdp(receiver, toMany);
-  return kind == "osc" ? openOsc(receiver) : openZmq(receiver);
+  return kind == "osc" ? openOsc(receiver, toMany) : openZmq(receiver);
 }
 
 } // namespace palp

@@ -18,10 +18,11 @@ namespace palp {
 namespace {
 
 /// Lines of CSV into a file, a FIFO or standard output. A line goes whole or not at all: what a full pipe did not take
-/// of it goes before the next one. The names of the columns come first, again for each reader of a FIFO.
+/// of it goes before the next one, and a file on a full disk ends with its last whole line. The names of the columns
+/// come first, again for each reader of a FIFO.
 class LineOutlet : public ForceOutlet {
 public:
-  LineOutlet(const std::string& where, std::string file, bool force) : file_(std::move(file)) {
+  LineOutlet(std::string where, std::string file, bool force) : where_(std::move(where)), file_(std::move(file)) {
     if (file_ == "-") {
       descriptor_ = STDOUT_FILENO;
       return;
@@ -32,13 +33,15 @@ public:
     requireFree(file_, force);
     descriptor_ = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NONBLOCK, 0666);
     if (descriptor_ < 0)
-      throw Error(where + ": cannot be written: " + std::strerror(errno)); // NOLINT(concurrency-mt-unsafe)
+      throw Error(where_ + ": cannot be written: " + std::strerror(errno)); // NOLINT(concurrency-mt-unsafe)
   }
   ~LineOutlet() override {
     if (descriptor_ > STDERR_FILENO) ::close(descriptor_);
   }
   LineOutlet(const LineOutlet&) = delete;
   LineOutlet& operator=(const LineOutlet&) = delete;
+
+  [[nodiscard]] std::string failure() const override { return failure_; }
 
   bool send(const OutgoingFrame& frame, std::chrono::milliseconds patience) override {
     if (!signalsBlocked_ && fifo_) blockBrokenPipe(); // of standard output it ends the program, as of any other
@@ -77,22 +80,37 @@ private:
       const ssize_t count = ::write(descriptor_, rest_.data(), std::min<std::size_t>(rest_.size(), PIPE_BUF));
       if (count < 0 && (errno == EAGAIN || errno == EINTR)) return true;
       if (count < 0) {
+        if (errno != EPIPE) fail(errno);
         gone();
         return false;
       }
+      written_ += count;
       rest_.erase(0, static_cast<std::size_t>(count));
+      if (rest_.empty()) whole_ = written_;
     }
     return true;
+  }
+
+  /// What a full disk took of the last line is taken away again.
+  void fail(int reason) {
+    failure_ = where_ + ": cannot be written any more: " + std::strerror(reason); // NOLINT(concurrency-mt-unsafe)
+    struct stat about {};
+    if (whole_ < written_ && ::fstat(descriptor_, &about) == 0 && S_ISREG(about.st_mode) &&
+        ::ftruncate(descriptor_, about.st_size - (written_ - whole_)) != 0)
+      failure_ += "; its last line is cut off";
   }
 
   void gone() {
     if (descriptor_ > STDERR_FILENO) ::close(descriptor_);
     descriptor_ = -1;
     rest_.clear();
+    whole_ = written_ = 0;
     begun_ = false; // the next reader of a FIFO gets the names again
   }
 
-  std::string file_;
+  std::string where_, file_;
+  std::string failure_;
+  off_t written_ = 0, whole_ = 0; ///< bytes so far, and of them those of whole lines
   int descriptor_ = -1;
   bool fifo_ = false, begun_ = false, signalsBlocked_ = false;
   Eigen::Index forces_ = 0; ///< of the columns

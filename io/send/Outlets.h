@@ -16,7 +16,7 @@ struct Receiver {
 };
 
 std::unique_ptr<ForceOutlet> openUdp(const Receiver& receiver, bool toMany);
-std::unique_ptr<ForceOutlet> openOsc(const Receiver& receiver);
+std::unique_ptr<ForceOutlet> openOsc(const Receiver& receiver, bool toMany);
 std::unique_ptr<ForceOutlet> openZmq(const Receiver& receiver);
 std::unique_ptr<ForceOutlet> openLsl(const std::string& where, const std::string& stream);
 std::unique_ptr<ForceOutlet> openLines(const std::string& where, const std::string& file, bool force);

@@ -1,4 +1,4 @@
-#include "io/send/Outlets.h"
+#include "io/send/DatagramSocket.h"
 #include "io/send/SingleHost.h"
 #include "model/base/Error.h"
 
@@ -7,18 +7,12 @@
 #include <net/if.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
+#include <algorithm>
 
 namespace palp {
 
 namespace {
-
-std::string networkReason() {
-  return std::strerror(errno); // NOLINT(concurrency-mt-unsafe)
-}
 
 bool isMulticast(const sockaddr* address) {
   if (address->sa_family == AF_INET6)
@@ -42,33 +36,25 @@ bool isBroadcast(const sockaddr* address) {
   return false;
 }
 
+bool isLoopback4(const addrinfo* address) {
+  if (address->ai_family != AF_INET) return false;
+  return ntohl(reinterpret_cast<const sockaddr_in*>(address->ai_addr)->sin_addr.s_addr) >> 24 == IN_LOOPBACKNET;
+}
+
 /// One JSON object a datagram, as PlotJuggler's UDP server reads it.
 class UdpOutlet : public ForceOutlet {
 public:
-  UdpOutlet(const Receiver& receiver, bool toMany) {
-    const Addresses addresses = addressesOf(receiver);
-    socket_ = ::socket(addresses->ai_family, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-    const int yes = 1;
-    if (socket_ >= 0 && toMany) setsockopt(socket_, SOL_SOCKET, SO_BROADCAST, &yes, sizeof yes);
-    if (socket_ >= 0 && ::connect(socket_, addresses->ai_addr, addresses->ai_addrlen) == 0) return;
-    const std::string reason = networkReason();
-    if (socket_ >= 0) ::close(socket_);
-    throw Error(receiver.where + ": cannot be sent to: " + reason);
-  }
-  ~UdpOutlet() override { ::close(socket_); }
-  UdpOutlet(const UdpOutlet&) = delete;
-  UdpOutlet& operator=(const UdpOutlet&) = delete;
+  UdpOutlet(const Receiver& receiver, bool toMany) : socket_(receiver, toMany) {}
 
   bool send(const OutgoingFrame& frame, std::chrono::milliseconds /*patience*/) override {
     const std::string json = frameAsJson(frame);
-    return ::send(socket_, json.data(), json.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(json.size());
+    return socket_.send(json.data(), json.size());
   }
 
-  /// The socket is not blocking: a datagram goes at once or is lost.
   [[nodiscard]] bool mayWait() const override { return false; }
 
 private:
-  int socket_ = -1;
+  DatagramSocket socket_;
 };
 
 } // namespace
@@ -81,6 +67,13 @@ Addresses addressesOf(const Receiver& receiver) {
   if (result != 0 || found == nullptr)
     throw Error(receiver.where + ": host " + receiver.host + " is not known: " + gai_strerror(result));
   return {found, freeaddrinfo};
+}
+
+std::vector<const addrinfo*> inOrder(const addrinfo* all) {
+  std::vector<const addrinfo*> addresses;
+  for (const addrinfo* one = all; one != nullptr; one = one->ai_next) addresses.push_back(one);
+  std::stable_partition(addresses.begin(), addresses.end(), isLoopback4);
+  return addresses;
 }
 
 void requireSingleHost(const Receiver& receiver) {

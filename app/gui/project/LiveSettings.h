@@ -53,6 +53,9 @@ inline constexpr NamedEnum kForceScales("force scale", std::array{std::pair{Forc
 struct LiveReceiver {
   std::string to;
   bool on = true;
+  /// Not on, though the file that it was read from says so: it leaves this computer, and waits for a tick. A file that
+  /// is written says so again.
+  bool heldBack = false;
 
   bool operator==(const LiveReceiver&) const = default;
 };

@@ -1,5 +1,7 @@
 #include "app/gui/project/LiveSettingsFile.h"
 
+#include "io/ForceOutlet.h"
+
 #include <QJsonArray>
 
 #include <cmath>
@@ -51,7 +53,8 @@ QJsonObject liveJson(const LiveSettings& live) {
   }
   QJsonArray receivers;
   for (const LiveReceiver& receiver : live.receivers)
-    receivers.append(QJsonObject{{"to", QString::fromStdString(receiver.to)}, {"on", receiver.on}});
+    receivers.append(
+        QJsonObject{{"to", QString::fromStdString(receiver.to)}, {"on", receiver.on || receiver.heldBack}});
   if (!receivers.isEmpty()) json["send"] = receivers;
   return json;
 }
@@ -63,6 +66,8 @@ std::vector<LiveReceiver> receiversOf(const JsonPlace& place) {
   for (const JsonPlace& one : place.list()) {
     one.onlyKeys({"to", "on"});
     LiveReceiver receiver{one.at("to").string(), one.at("on").boolean()};
+    receiver.heldBack = receiver.on && !staysOnThisComputer(receiver.to); // a file may come from anybody
+    receiver.on = receiver.on && !receiver.heldBack;
     for (const LiveReceiver& other : receivers)
       if (other.to == receiver.to) one.at("to").refuse("an address that no other receiver has");
     receivers.push_back(std::move(receiver));

@@ -87,17 +87,18 @@ def check_examples():
 def check_osc():
     port = free_port()
     dump = subprocess.Popen(["stdbuf", "-oL", "oscdump", str(port)], stdout=subprocess.PIPE, text=True)
-    process = listen("--json", "--send", f"osc:127.0.0.1:{port}", "--frames", 10**6)
+    process = listen("--json", "--send", f"osc:localhost:{port}", "--frames", 10**6)
     reader = threading.Thread(target=process.stdout.read, daemon=True)
     reader.start()
     lines = [dump.stdout.readline().split() for _ in range(20)]
     dump.kill()
     process.send_signal(signal.SIGINT)
     process.wait(WAIT_s)
-    for words in lines:
-        assert words[1:3] == ["/palp/forces_N", "ddhiiffffff"], words
-        assert len(words) == 3 + 11 and words[6] == "1" and float(words[4]) > 1.7e9, words
-        assert all(math.isfinite(float(word)) for word in words[8:]), words
+    for forces, times in zip(lines[0::2], lines[1::2]):
+        assert forces[1:3] == ["/palp/forces_N", "iiifffffff"] and len(forces) == 3 + 10 and forces[4] == "1", forces
+        assert all(math.isfinite(float(word)) for word in forces[6:]), forces
+        assert times[1:3] == ["/palp/time_s", "idd"] and times[3] == forces[3] and float(times[5]) > 1.7e9, times
+        assert abs(float(times[4]) - float(forces[6])) < 1e-3, (forces, times)
 
 
 def check_pipe_and_file():
@@ -117,8 +118,8 @@ def check_bad_wire():
     """Frames without a force have no forces in any form."""
     process = listen("--open-column", 3, "--send", "csv:bad.csv", "--json", "--frames", 5)
     output, errors = process.communicate(timeout=WAIT_s)
-    assert process.returncode == 0, errors
     valid = [line["valid"] for line in map(json.loads, output.splitlines()) if "valid" in line]
+    assert process.returncode == (0 if any(valid) else 1), errors # without any force it was not done
     both = list(zip(csv.DictReader(open("bad.csv")), valid))
     assert both and not all(valid)
     for frame, good in both:
@@ -176,6 +177,25 @@ def check_lsl():
         assert ["" if math.isnan(value) else value for value in sample] == [word and float(word) for word in row], row
 
 
+def check_localhost():
+    """Whichever of the addresses of this computer a program listens to; and nobody is nobody."""
+    named = {info[4][0] for info in socket.getaddrinfo("localhost", 1, type=socket.SOCK_DGRAM)}
+    for address in named:
+        with socket.socket(socket.AF_INET6 if ":" in address else socket.AF_INET, socket.SOCK_DGRAM) as receiver:
+            receiver.bind((address, 0))
+            receiver.settimeout(WAIT_s)
+            process = listen("--send", f"udp:localhost:{receiver.getsockname()[1]}", "--frames", 20, "--json")
+            output, errors = process.communicate(timeout=WAIT_s)
+            assert json.loads(receiver.recv(65536))["frame"] >= 0
+        sent = json.loads(output.splitlines()[-1])["sent_to"][0]
+        assert sent["sent"] >= 20 and sent["dropped"] == 0, (address, sent)
+    nobody = [f"{kind}:localhost:{free_port()}" for kind in ("udp", "osc", "zmq")]
+    process = listen("--json", "--frames", 20, *(word for where in nobody for word in ("--send", where)))
+    output, errors = process.communicate(timeout=WAIT_s)
+    for sent in json.loads(output.splitlines()[-1])["sent_to"]:
+        assert sent["sent"] == 0 and sent["dropped"] >= 20, sent
+
+
 def check_receivers_that_do_not_read():
     """A FIFO that is open and never read, one that nobody opens, and a dead port: the board loses nothing."""
     os.mkfifo("stuck.fifo")
@@ -219,7 +239,7 @@ def check_refusals():
 
 with tempfile.TemporaryDirectory() as folder:
     os.chdir(folder)
-    for step in (check_refusals, check_pipe_and_file, check_bad_wire, check_lsl, check_osc, check_examples,
+    for step in (check_refusals, check_pipe_and_file, check_bad_wire, check_lsl, check_osc, check_examples, check_localhost,
                  check_receivers_that_do_not_read):
         step()
     os.chdir("/")

@@ -77,6 +77,8 @@ std::vector<SendingState> LiveSending::states(const std::vector<LiveReceiver>& w
       if (const auto counts = receivers_->counts(open.number)) {
         state.sent = counts->sent;
         state.dropped = counts->dropped;
+        if (!counts->failure.empty()) state.kind = SendingState::Kind::Refused;
+        if (!counts->failure.empty()) state.problem = counts->failure;
       }
     }
     states.push_back(std::move(state));

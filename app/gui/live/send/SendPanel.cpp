@@ -55,7 +55,7 @@ QWidget* SendPanel::build() {
   list_->setObjectName("receivers");
   list_->setAccessibleName(tr("Receivers of the forces"));
   list_->setRootIsDecorated(false);
-  list_->setHeaderLabels({tr("receiver"), tr("sent"), tr("dropped")});
+  list_->setHeaderLabels({tr("receiver"), tr("handed over"), tr("dropped")});
   list_->header()->setStretchLastSection(false);
   list_->header()->setSectionResizeMode(kTo, QHeaderView::Stretch);
   list_->header()->setSectionResizeMode(kSent, QHeaderView::ResizeToContents);
@@ -88,6 +88,7 @@ QWidget* SendPanel::build() {
     const auto place = static_cast<std::size_t>(list_->indexOfTopLevelItem(item));
     std::vector<LiveReceiver> next = settings_.receivers;
     next[place].on = item->checkState(kTo) == Qt::Checked;
+    next[place].heldBack = false;
     edit(tr("sending of forces"), next);
   });
   return content;
@@ -104,7 +105,7 @@ void SendPanel::add() {
   std::vector<LiveReceiver> next = settings_.receivers;
   const auto same = std::find_if(next.begin(), next.end(), [&](const LiveReceiver& other) { return other.to == to; });
   if (same != next.end())
-    same->on = true;
+    *same = {to, true};
   else if (next.size() < LiveSettings::kMostReceivers)
     next.push_back({to, true});
   address_->clear();
@@ -128,6 +129,9 @@ void SendPanel::edit(const QString& what, const std::vector<LiveReceiver>& recei
 
 void SendPanel::display(const LiveSettings& settings) {
   const std::vector<LiveReceiver> before = std::exchange(settings_, settings).receivers;
+  const auto heldBack = [](const LiveReceiver& receiver) { return receiver.heldBack; };
+  const bool asks = std::any_of(settings.receivers.begin(), settings.receivers.end(), heldBack);
+  if (asks && std::none_of(before.begin(), before.end(), heldBack)) head_->setChecked(true); // the question is seen
   const QSignalBlocker quiet(list_);
   // A click on a tick comes here while the list still works on that line: it stays where the addresses are the same.
   if (std::equal(before.begin(), before.end(), settings.receivers.begin(), settings.receivers.end(),
@@ -168,6 +172,8 @@ void SendPanel::displayState(const std::vector<SendingState>& states) {
     case SendingState::Kind::Off:
       put(kSent, tr("off"));
       put(kDropped, {});
+      if (settings_.receivers[k].heldBack)
+        problems << tr("This project sends forces to %1: tick it, where that is wanted.").arg(to);
       break;
     case SendingState::Kind::Opening:
       put(kSent, tr("opens..."));

@@ -25,7 +25,7 @@ OutgoingFrame outgoing(const LiveFrame& live, double host_unix_s) {
   return frame;
 }
 
-ForceSender::ForceSender(std::unique_ptr<ForceOutlet> outlet) : outlet_(std::move(outlet)) {
+ForceSender::ForceSender(std::unique_ptr<ForceOutlet> outlet, bool waits) : outlet_(std::move(outlet)), waits_(waits) {
   if (outlet_->mayWait()) thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
 
@@ -41,7 +41,8 @@ void ForceSender::give(std::shared_ptr<const LiveFrame> frame, double host_unix_
     return send(given);
   }
   {
-    const std::lock_guard lock(mutex_);
+    std::unique_lock lock(mutex_);
+    if (waits_) changed_.wait(lock, [this] { return waiting_.size() < kMostWaiting; });
     if (waiting_.size() >= kMostWaiting) {
       ++counts_.dropped;
       return;
@@ -75,7 +76,7 @@ void ForceSender::run(const std::stop_token& stop) {
     send(next);
     lock.lock();
     sending_ = false;
-    if (waiting_.empty()) changed_.notify_all();
+    if (waiting_.empty() || waits_) changed_.notify_all();
     if (stop.stop_requested()) break;
   }
 }
@@ -88,6 +89,7 @@ void ForceSender::send(const Waiting& next) {
   }
   const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - next.given).count();
   const std::lock_guard lock(mutex_);
+  counts_.failure = outlet_->failure();
   if (sent) {
     ++counts_.sent;
     latency_.addMeasured(took_s);

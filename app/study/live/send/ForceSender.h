@@ -18,6 +18,7 @@ struct SenderCounts {
   std::uint64_t sent = 0;    ///< handed to the system
   std::uint64_t dropped = 0; ///< nobody took them, or they came faster than they went
   LatencySummary latency;    ///< from the decoded frame to its being sent
+  std::string failure;       ///< why nothing is taken any more; empty while all is well
 };
 
 /// Sends frames to one outlet. Who gives them never waits: a receiver that stops reading loses frames, and nothing else
@@ -25,7 +26,9 @@ struct SenderCounts {
 /// wake first is milliseconds late on a busy computer.
 class ForceSender {
 public:
-  explicit ForceSender(std::unique_ptr<ForceOutlet> outlet);
+  /// `waits`: who gives waits while too many frames are there, as a recording can that is played as fast as it can be
+  /// read; then only what the receiver refuses is lost.
+  explicit ForceSender(std::unique_ptr<ForceOutlet> outlet, bool waits = false);
   /// Ends at once; frames that wait are dropped.
   ~ForceSender();
   ForceSender(const ForceSender&) = delete;
@@ -48,6 +51,7 @@ private:
   void send(const Waiting& next);
 
   std::unique_ptr<ForceOutlet> outlet_;
+  bool waits_ = false;
   std::mutex direct_;        ///< one frame after another, where no thread of ours sends them
   mutable std::mutex mutex_; ///< of all below
   std::condition_variable_any changed_;

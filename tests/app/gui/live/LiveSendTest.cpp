@@ -50,7 +50,9 @@ TEST_F(LiveSend, AReceiverGetsTheFramesUntilItIsSwitchedOffAndIsKeptInTheProject
   EXPECT_TRUE(page.commands(workbench.project(), {}).contains("--send 'csv:"));
 
   const Project again = parseProject(projectText(workbench.project()), "project.json", exampleProject());
-  EXPECT_EQ(again.live.receivers, workbench.project().live.receivers);
+  EXPECT_EQ(again.live.receivers, (std::vector<LiveReceiver>{{"csv:" + file.toStdString(), false, true}}))
+      << "a file that is read waits for a tick";
+  EXPECT_EQ(projectText(again), projectText(workbench.project()));
 
   tick(0);
   ASSERT_FALSE(workbench.project().live.receivers[0].on);
@@ -75,20 +77,40 @@ TEST_F(LiveSend, AReceiverGetsTheFramesUntilItIsSwitchedOffAndIsKeptInTheProject
 
 TEST_F(LiveSend, WhatCannotBeOpenedIsSaidInRedAndTheOthersGoOn) {
   ASSERT_TRUE(waitForFrames());
-  add("udp:localhost:9870"); // nobody need be there
-  ASSERT_TRUE(wait([&] { return sent().toInt() > 3; })) << sent().toStdString();
+  add("udp:localhost:9870"); // nobody is there: what it is given is dropped
+  const auto given = [&] { return sent().toInt() + list().topLevelItem(0)->text(2).toInt(); };
+  ASSERT_TRUE(wait([&] { return given() > 3; })) << given();
   add("tcp:localhost:1");
   ASSERT_TRUE(wait([&] { return list().topLevelItemCount() == 2 && list().topLevelItem(1)->text(1) == "refused"; }));
   EXPECT_TRUE(isRed("sendProblem"));
   EXPECT_TRUE(find<QLabel>("sendProblem").text().contains("tcp:localhost:1"))
       << find<QLabel>("sendProblem").text().toStdString();
   EXPECT_FALSE(find<QLabel>("sendProblem").text().contains("--send")) << "a window has no options";
-  const int before = sent().toInt();
-  EXPECT_TRUE(wait([&] { return sent().toInt() > before; }));
+  const int before = given();
+  EXPECT_TRUE(wait([&] { return given() > before; }));
   add("udp:localhost:9870"); // again
   EXPECT_EQ(workbench.project().live.receivers.size(), 2U) << "an address stands once";
   add("127.0.0.1:9871");
   EXPECT_EQ(workbench.project().live.receivers.back().to, "udp:127.0.0.1:9871") << "host and port alone go by UDP";
+}
+
+TEST_F(LiveSend, WhatAProjectOfSomebodySendsElsewhereWaitsForATick) {
+  Project mailed = workbench.project();
+  mailed.live.receivers = {{"udp:192.0.2.7:9870", true}, {"udp:localhost:9871", true}, {"osc:192.0.2.8:9", false}};
+  const Project opened = parseProject(projectText(mailed), "mailed.json", exampleProject());
+  EXPECT_EQ(opened.live.receivers,
+            (std::vector<LiveReceiver>{
+                {"udp:192.0.2.7:9870", false, true}, {"udp:localhost:9871", true}, {"osc:192.0.2.8:9", false}}));
+  workbench.edit("opened", opened);
+  ASSERT_TRUE(waitForFrames());
+  ASSERT_TRUE(wait([&] { return list().topLevelItemCount() == 3 && sent() == "off"; }));
+  const QLabel& question = find<QLabel>("sendProblem");
+  ASSERT_TRUE(wait([&] { return question.text().contains("udp:192.0.2.7:9870"); })) << question.text().toStdString();
+  EXPECT_FALSE(question.text().contains("192.0.2.8"));
+  EXPECT_TRUE(list().isVisible());
+  tick(0);
+  EXPECT_EQ(workbench.project().live.receivers.front(), (LiveReceiver{"udp:192.0.2.7:9870", true}));
+  EXPECT_TRUE(wait([&] { return !question.text().contains("192.0.2.7"); }));
 }
 
 TEST_F(LiveSend, GoesOnOutOfSight) {
