@@ -28,11 +28,11 @@ bool SendOptions::takeStandardOutput() const {
   return std::find(to.begin(), to.end(), "csv:-") != to.end();
 }
 
-ListenSenders::ListenSenders(const SendOptions& options, bool force) : all_(std::make_shared<Receivers>()) {
+ListenSenders::ListenSenders(const SendOptions& options, bool force, bool wait) : all_(std::make_shared<Receivers>()) {
   all_->where = options.to;
   for (const std::string& where : options.to) {
     try {
-      all_->senders.push_back(std::make_unique<ForceSender>(openOutlet(where, options.toMany, force)));
+      all_->senders.push_back(std::make_unique<ForceSender>(openOutlet(where, options.toMany, force), wait));
     } catch (const Error& error) {
       throw Error(std::string("--send ") + error.what());
     }
@@ -45,6 +45,13 @@ std::function<void(const std::shared_ptr<const LiveFrame>&)> ListenSenders::take
     const double unix_s = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
     for (const auto& sender : all->senders) sender->give(frame, unix_s);
   };
+}
+
+std::vector<std::string> ListenSenders::failures() const {
+  std::vector<std::string> failures;
+  for (const auto& sender : all_->senders)
+    if (std::string failure = sender->counts().failure; !failure.empty()) failures.push_back(std::move(failure));
+  return failures;
 }
 
 void ListenSenders::finish(Session& session) const {
@@ -61,8 +68,8 @@ void ListenSenders::finish(Session& session) const {
                                            {"p99", 1e3 * counts.latency.p99_s},
                                            {"max", 1e3 * counts.latency.longest_s}}}});
     if (!session.json)
-      std::cerr << all_->where[i] << ": " << counts.sent << " frames sent, " << counts.dropped << " dropped, p99 "
-                << 1e3 * counts.latency.p99_s << " ms from force to sending\n";
+      std::cerr << all_->where[i] << ": " << counts.sent << " frames sent (handed to the system), " << counts.dropped
+                << " dropped, p99 " << 1e3 * counts.latency.p99_s << " ms from force to sending\n";
   }
 }
 

@@ -186,6 +186,7 @@ LiveOptions LiveHost::options() {
     replay_->speed = settings_.replaySpeed;
     replay_->past_s = settings_.window_s;
     options.replay = replay_;
+    options.waitForReader = true;
     options.reconnect = false;
     options.open = [path = settings_.recording, control = replay_] {
       return orRefuse([&] { return std::make_unique<ReplaySource>(path, control); });

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <utility>
@@ -18,13 +19,6 @@ constexpr double kLeastShare = 0.1;        // of the label, or of what is read: 
 constexpr double kFarShare = 3;            // of one to the other: rarely is a sensor so far from its model
 constexpr double kMostOffset_range = 0.05; // that may stand at rest for calibration to take away
 
-std::string inNewton(const Eigen::Vector3d& force_N) {
-  std::array<char, 80> text{};
-  const Eigen::Array3d shown = force_N.array() + 0.0; // no -0
-  std::snprintf(text.data(), text.size(), "(%.2f, %.2f, %.2f) N", shown.x(), shown.y(), shown.z());
-  return text.data();
-}
-
 template <class Matrix> Matrix withoutColumn(const Matrix& all, Eigen::Index column) {
   Matrix rest(all.rows(), all.cols() - 1);
   rest.leftCols(column) = all.leftCols(column);
@@ -33,6 +27,13 @@ template <class Matrix> Matrix withoutColumn(const Matrix& all, Eigen::Index col
 }
 
 } // namespace
+
+std::string inNewton(const Eigen::Vector3d& force_N) {
+  std::array<char, 80> text{};
+  const Eigen::Array3d shown = force_N.array() + 0.0; // no -0
+  std::snprintf(text.data(), text.size(), "(%.2f, %.2f, %.2f) N", shown.x(), shown.y(), shown.z());
+  return text.data();
+}
 
 std::string labelAgainstReading(const Eigen::Vector3d& label_N, const DecodedForces& reads, int area,
                                 const Decoder& decoder) {
@@ -47,6 +48,11 @@ std::string labelAgainstReading(const Eigen::Vector3d& label_N, const DecodedFor
     return both + ", as at rest: is the load on the sensor?";
   if (label_N.norm() < kLeastShare * read_N.norm() && read_N.norm() > std::max(hidden_N, offset_N))
     return both + ": is the sensor at rest?";
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
+    if (label_N(axis) * read_N(axis) < 0 &&
+        std::min(std::abs(label_N(axis)), std::abs(read_N(axis))) > std::max(hidden_N, offset_N))
+      return both + ", with the other sign of F" + "xyz"[axis] +
+             ": is the label's sign right (a push is negative in z)?";
   const double less_N = std::min(label_N.norm(), read_N.norm()), more_N = std::max(label_N.norm(), read_N.norm());
   if (more_N > kFarShare * less_N && more_N - less_N > std::max(hidden_N, offset_N))
     return both + ": is this the load that is on the sensor?";

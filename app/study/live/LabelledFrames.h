@@ -7,8 +7,12 @@
 
 namespace palp {
 
+/// "(0.10, 0.00, -3.00) N".
+std::string inNewton(const Eigen::Vector3d& force_N);
+
 /// Why the label can hardly be the load on the sensor now, in words: it presses and the network reads rest, or the
-/// other way round; empty where both may be true. Gains and offsets that calibration is for are no reason.
+/// other way round; it has another sign than what is read, or another size by far; empty where both may be true. Gains
+/// and offsets that calibration is for are no reason.
 std::string labelAgainstReading(const Eigen::Vector3d& label_N, const DecodedForces& reads, int area,
                                 const Decoder& decoder);
 

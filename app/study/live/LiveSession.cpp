@@ -51,7 +51,7 @@ void LiveSession::run(const std::stop_token& stop) {
   const std::size_t most = options_.ringFrames;
   std::uint64_t overflowed = 0;
   const auto alsoTo = options_.alsoTo;
-  const bool replays = options_.replay != nullptr;
+  const bool replays = options_.waitForReader && options_.replay;
   LiveWorker worker(std::move(options_), [&](std::shared_ptr<const LiveFrame> frame) {
     if (alsoTo && !frame->past) alsoTo(frame);
     const std::lock_guard lock(mutex_);

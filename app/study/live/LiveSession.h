@@ -104,8 +104,8 @@ struct LiveOptions {
   std::shared_ptr<ReplayControl> replay;
   /// Gets each frame in the session's thread, before the ring: must return at once.
   std::function<void(const std::shared_ptr<const LiveFrame>&)> alsoTo;
-  /// Kept for a reader that drains late: of a board the oldest are lost where there are more, a recording waits.
-  std::size_t ringFrames = 2048;
+  std::size_t ringFrames = 2048; ///< kept for a reader that drains late; where there are more, the oldest are lost
+  bool waitForReader = false;    ///< a recording waits for such a reader, so that each frame is seen
   bool waitForRecording = false; ///< the first report is read when a recording is there that begins with it
 };
 

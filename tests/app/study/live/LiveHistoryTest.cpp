@@ -256,6 +256,8 @@ TEST(LabelledFrames, SayWhenALabelCanHardlyBeTheLoad) {
   EXPECT_EQ(said(-4.9, -2), "") << "a wrong gain is what calibration is for";
   EXPECT_NE(said(-4.9, -1).find("is this the load"), std::string::npos) << "a gain that hardly any sensor has";
   EXPECT_NE(said(-1, -4.9).find("is this the load"), std::string::npos);
+  EXPECT_NE(said(3, -3).find("other sign of Fz"), std::string::npos);
+  EXPECT_EQ(said(0.2, -0.2), "") << "an offset may turn a small force round";
   EXPECT_EQ(said(0, -0.2), "") << "so is an offset";
   EXPECT_EQ(said(-0.04, 0), "") << "it hides in the noise";
   EXPECT_EQ(said(0, 0), "");

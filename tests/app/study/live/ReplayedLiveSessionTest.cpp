@@ -39,6 +39,7 @@ TEST(ReplayedLiveSession, EveryFrameIsSeenAtAnySpeedAlsoByAReaderThatIsLate) {
     options.replay->speed = speed;
     options.reconnect = false;
     options.ringFrames = 4; // the reader is always late
+    options.waitForReader = true;
     options.open = [&, control = options.replay] { return std::make_unique<ReplaySource>(folder / "a", control); };
     LiveSession live(std::move(options));
     std::size_t whole = 0, all = 0;
