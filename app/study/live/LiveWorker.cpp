@@ -34,10 +34,6 @@ LatencySummary summary(const LatencyMeter& meter) {
   return {meter.quantile_s(0.5), meter.quantile_s(0.99), meter.longest_s()};
 }
 
-std::span<const std::uint8_t> bytesOf(const std::string& text) {
-  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
-}
-
 } // namespace
 
 LiveWorker::LiveWorker(LiveOptions options, TakeFrame take) : options_(std::move(options)), give_(std::move(take)) {
@@ -221,15 +217,6 @@ void LiveWorker::followConfiguration() {
   recordConfiguration();
 }
 
-void LiveWorker::recordConfiguration() {
-  if (writer_) writer_->append(RecordingEntry::Kind::Configuration, recordedTime_s(), encode(source_->configuration()));
-}
-
-/// The time of what is recorded between two reports: the times of a recording that is played are its own.
-double LiveWorker::recordedTime_s() const {
-  return options_.replay ? report_.hostTime_s : hostClock_s();
-}
-
 void LiveWorker::takeFrame(const BoardFrame& frame) {
   ++rateFrames_;
   auto live = std::make_shared<LiveFrame>();
@@ -379,11 +366,6 @@ void LiveWorker::holdTare(std::shared_ptr<const Tare> tare) {
   if (decoder_) decoder_->clearTare();
 }
 
-void LiveWorker::recordTare() {
-  if (writer_)
-    writer_->append(RecordingEntry::Kind::Tare, recordedTime_s(), tare_ ? encode(*tare_) : std::vector<std::uint8_t>{});
-}
-
 void LiveWorker::tare(int frames) {
   if (frames < 1) return;
   ownTare_ = true;
@@ -424,36 +406,6 @@ void LiveWorker::configure(const BoardConfiguration& configuration) {
   }
   assembler_->setConfiguration(source_->configuration());
   recordConfiguration();
-}
-
-void LiveWorker::mark(const std::string& text) {
-  mark_ = text;
-  const double time_s = recordedTime_s();
-  if (replay() != nullptr) replay()->setMark(text, time_s);
-  if (writer_) writer_->append(RecordingEntry::Kind::Mark, time_s, bytesOf(text));
-}
-
-void LiveWorker::statusOfRecording() {
-  status_.recordedReports = writer_->reports();
-  status_.recordingDropped = writer_->dropped();
-  status_.recordingFailure = writer_->failure();
-}
-
-void LiveWorker::endRecording() {
-  if (!writer_) return;
-  writer_->finish(); // its last half second may fail too
-  statusOfRecording();
-  writer_.reset();
-}
-
-void LiveWorker::setWriter(std::shared_ptr<RecordingWriter> writer) {
-  endRecording();
-  if (!writer) return;
-  writer_ = std::move(writer);
-  options_.waitForRecording = false;
-  status_.recordingFailure.clear();
-  if (source_) recordConfiguration(); // it may have changed since the head was written
-  if (tare_) recordTare();
 }
 
 } // namespace palp
