@@ -52,7 +52,7 @@ private:
 class ReplaySource : public ReportSource {
 public:
   /// So many reports are measured before it returns: a fraction of a second.
-  static constexpr std::size_t kMeasuredAtOnce = 1 << 20;
+  static constexpr std::size_t kMeasuredAtOnce = 1 << 18;
 
   ReplaySource(const std::filesystem::path& path, std::shared_ptr<ReplayControl> control,
                std::size_t measuredAtOnce = kMeasuredAtOnce);
