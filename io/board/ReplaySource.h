@@ -1,7 +1,7 @@
 #pragma once
 
-#include "io/board/ReplayIndex.h"
 #include "io/board/ReportSource.h"
+#include "io/board/replay/ReplayIndex.h"
 
 #include <atomic>
 #include <memory>

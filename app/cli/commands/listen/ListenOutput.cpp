@@ -1,4 +1,4 @@
-#include "app/cli/commands/ListenOutput.h"
+#include "app/cli/commands/listen/ListenOutput.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
-#include "app/cli/commands/ListenLabel.h"
+#include "app/cli/commands/listen/ListenLabel.h"
 
 #include "app/cli/Options.h"
-#include "app/cli/commands/ListenOutput.h"
+#include "app/cli/commands/listen/ListenOutput.h"
 #include "app/study/live/LabelledFrames.h"
 #include "io/DesignFile.h"
 

@@ -1,4 +1,4 @@
-#include "app/cli/commands/ListenDevice.h"
+#include "app/cli/commands/listen/ListenDevice.h"
 
 #include "app/cli/Cli.h"
 #include "io/board/HidBoards.h"

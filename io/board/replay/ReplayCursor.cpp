@@ -1,4 +1,4 @@
-#include "io/board/ReplayCursor.h"
+#include "io/board/replay/ReplayCursor.h"
 
 #include "io/board/Protocol.h"
 

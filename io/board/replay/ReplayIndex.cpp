@@ -1,4 +1,4 @@
-#include "io/board/ReplayIndex.h"
+#include "io/board/replay/ReplayIndex.h"
 
 #include <algorithm>
 

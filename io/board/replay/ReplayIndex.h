@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/board/ReplayCursor.h"
+#include "io/board/replay/ReplayCursor.h"
 
 #include <algorithm>
 
