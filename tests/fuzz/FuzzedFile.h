@@ -1,22 +1,27 @@
 #pragma once
 
-#include <fcntl.h>
-#include <sys/mman.h>
 #include <unistd.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <filesystem>
 #include <span>
 #include <string>
 
-/// A file in memory that holds the fuzzer's bytes, for readers that take a path.
+/// A temporary file that holds the fuzzer's bytes, for readers that take a path. A real one: the HDF5 library does not
+/// open files that are in memory only.
 class FuzzedFile {
 public:
-  FuzzedFile() : descriptor_(memfd_create("fuzz", 0)) {
+  FuzzedFile()
+      : path_((std::filesystem::temp_directory_path() / "palp-fuzz-XXXXXX").string()),
+        descriptor_(mkstemp(path_.data())) {
     if (descriptor_ < 0) std::abort();
   }
-  ~FuzzedFile() { ::close(descriptor_); }
+  ~FuzzedFile() {
+    ::close(descriptor_);
+    ::unlink(path_.c_str());
+  }
   FuzzedFile(const FuzzedFile&) = delete;
   FuzzedFile& operator=(const FuzzedFile&) = delete;
 
@@ -24,8 +29,9 @@ public:
     if (ftruncate(descriptor_, 0) != 0) std::abort();
     if (pwrite(descriptor_, bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) std::abort();
   }
-  [[nodiscard]] std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+  [[nodiscard]] const std::string& path() const { return path_; }
 
 private:
+  std::string path_;
   int descriptor_;
 };
