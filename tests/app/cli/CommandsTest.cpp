@@ -40,6 +40,17 @@ TEST(Commands, LookingAtTheDesignStartsNoMesh) {
   EXPECT_GT(result.at("peak_memory_MB").get<double>(), 0);
 }
 
+TEST(Commands, AProgramThatWasMovedWithItsFolderFindsWhatShipsWithIt) {
+  const palp::TemporaryFolder folder;
+  const std::filesystem::path moved = folder / "moved", program = moved / "build" / "bin" / "palp";
+  std::filesystem::create_directories(program.parent_path());
+  std::filesystem::copy_file(palpProgram(), program);
+  std::filesystem::create_directories(moved / "resources" / "docs");
+  writeAll(moved / "resources" / "docs" / "architecture.md", "moved too");
+  const std::string help = palpAt(program, {"--help"}).output;
+  EXPECT_NE(help.find("Pages to read: " + (moved / "resources" / "docs").string()), std::string::npos) << help;
+}
+
 TEST(Commands, LookingAtTheMeshStartsNoSolve) {
   const json result = palp::test::palp({"mesh", "paper", "--json"}).json();
   EXPECT_EQ(result.at("stages").at("mesh").at("runs"), 1);

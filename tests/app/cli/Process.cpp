@@ -27,6 +27,7 @@ struct Running {
 struct Surroundings {
   bool progressLines = false; ///< "progress DONE TOTAL" on standard error
   rlim_t largestFile_bytes = RLIM_INFINITY;
+  std::string program = PALP_BINARY;
 };
 
 Running start(const std::vector<std::string>& arguments, const Surroundings& surroundings = {}) {
@@ -34,7 +35,7 @@ Running start(const std::vector<std::string>& arguments, const Surroundings& sur
   const std::filesystem::path folder = std::filesystem::temp_directory_path();
   const std::string stem = "palp-test-" + std::to_string(getpid()) + "-" + std::to_string(count++);
   Running running{-1, folder / (stem + ".out"), folder / (stem + ".err")};
-  std::vector<std::string> words{PALP_BINARY};
+  std::vector<std::string> words{surroundings.program};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> raw;
   for (std::string& word : words) raw.push_back(word.data());
@@ -104,6 +105,16 @@ template <class Condition> Outcome interruptOnce(const Running& running, const C
 }
 
 } // namespace
+
+Outcome palpAt(const std::filesystem::path& program, const std::vector<std::string>& arguments) {
+  Surroundings surroundings;
+  surroundings.program = program.string();
+  return finish(start(arguments, surroundings));
+}
+
+std::filesystem::path palpProgram() {
+  return PALP_BINARY;
+}
 
 Outcome palpOnAFullDisk(const std::vector<std::string>& arguments, std::uintmax_t largestFile_bytes) {
   return finish(start(arguments, {.largestFile_bytes = largestFile_bytes}));

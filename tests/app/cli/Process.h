@@ -21,6 +21,12 @@ struct Outcome {
 /// Runs the palp binary without a terminal.
 Outcome palp(const std::vector<std::string>& arguments);
 
+/// Runs another copy of it.
+Outcome palpAt(const std::filesystem::path& program, const std::vector<std::string>& arguments);
+
+/// Where it lies.
+std::filesystem::path palpProgram();
+
 /// Runs it where no file can grow above so many bytes, as on a full disk.
 Outcome palpOnAFullDisk(const std::vector<std::string>& arguments, std::uintmax_t largestFile_bytes);
 
