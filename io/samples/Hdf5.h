@@ -22,12 +22,19 @@ inline std::size_t width(Hdf5Number number) {
 
 using Hdf5Value = std::variant<std::string, std::uint64_t, double>;
 
+/// Where a chunk lies in the file.
+struct Hdf5Place {
+  std::uint64_t offset = 0, bytes = 0;
+};
+
 /// What a dataset is made of. Rows are along its first dimension.
 struct Hdf5Layout {
   std::vector<std::uint64_t> shape;
   std::uint64_t chunkRows = 0; ///< 0: not in chunks of whole rows
   /// Whether its chunks are of this number and pass through the filters shuffle and deflate, in this order, alone.
   bool shuffledDeflate = false;
+  /// Of those, one after the other. Empty: to find them all would take the library long.
+  std::vector<Hdf5Place> chunks;
 };
 
 /// One HDF5 file that is written, or read. Debian's library is of one thread: every call waits for those of other
@@ -61,9 +68,6 @@ public:
   [[nodiscard]] std::vector<std::uint64_t> shape(const std::string& name) const;
   /// Refuses a dataset of no numbers, and one of which not every chunk is there.
   [[nodiscard]] Hdf5Layout layout(const std::string& name, Hdf5Number number) const;
-  /// A chunk as it is stored, in `room`, which grows where it is too small; nothing where it cannot be read.
-  std::span<const unsigned char> readChunk(const std::string& name, std::uint64_t row,
-                                           std::vector<unsigned char>& room) const;
   /// By the library's own way: any layout, filter and type of number.
   void readRows(const std::string& name, std::uint64_t row, std::uint64_t count, double* values) const;
   void readRows(const std::string& name, std::uint64_t row, std::uint64_t count, std::int32_t* values) const;
@@ -73,6 +77,8 @@ public:
 
 private:
   [[nodiscard]] std::int64_t dataset(const std::string& name) const;
+  [[nodiscard]] std::vector<Hdf5Place> placesOfChunks(std::int64_t dataset, const Hdf5Layout& layout,
+                                                      std::uint64_t count) const;
   void read(const std::string& name, std::uint64_t row, std::uint64_t count, std::int64_t memoryType,
             void* values) const;
 

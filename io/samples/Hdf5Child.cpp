@@ -24,8 +24,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kLookEvery_ms = 20;                    ///< for a request to stop
-constexpr std::uint64_t kMostWords_bytes = 64 << 20; ///< attributes, names of columns
-constexpr std::uint64_t kMostDimensions = 32;        ///< of the library
+constexpr std::uint64_t kMostWords_bytes = 64 << 20; ///< attributes, names of columns, places of chunks
 
 /// Beside the program, or where an installation has it.
 fs::path readingProgram() {
@@ -102,14 +101,18 @@ Hdf5Child::Hdf5Child(fs::path path, std::stop_token stop) : path_(std::move(path
   std::error_code failed;
   fileBytes_ = fs::file_size(path_, failed);
   if (failed) refuse("cannot be read: " + failed.message());
+  file_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
   std::array<int, 2> ends{};
-  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
-    refuse("cannot be read: " + std::string(std::strerror(errno))); // NOLINT(concurrency-mt-unsafe)
+  if (file_ < 0 || ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+    const std::string reason = std::strerror(errno); // NOLINT(concurrency-mt-unsafe)
+    if (file_ >= 0) ::close(file_);
+    refuse("cannot be read: " + reason);
+  }
   socket_ = ends[0];
   try {
     process_ = startReading(path_, ends[1]);
   } catch (const Error&) { // the destructor does not run for what was never constructed
-    for (const int end : ends) ::close(end);
+    for (const int open : {file_, ends[0], ends[1]}) ::close(open);
     throw;
   }
   ::close(ends[1]);
@@ -117,6 +120,7 @@ Hdf5Child::Hdf5Child(fs::path path, std::stop_token stop) : path_(std::move(path
 
 Hdf5Child::~Hdf5Child() {
   ::close(socket_);
+  ::close(file_);
   if (process_ < 0) return;
   ::kill(process_, SIGKILL);
   while (::waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
@@ -195,25 +199,28 @@ std::vector<std::string> Hdf5Child::texts(const std::string& name) const {
 Hdf5Layout Hdf5Child::layout(const std::string& name, Hdf5Number number) const {
   Hdf5Request request = requestOf(Hdf5Question::Layout, name);
   request.number = number;
-  const std::string bytes = answer(request, (2 + kMostDimensions) * sizeof(std::uint64_t));
+  const std::string bytes = answer(request, kMostWords_bytes);
   std::vector<std::uint64_t> numbers(bytes.size() / sizeof(std::uint64_t));
-  if (numbers.size() < 3) refuse("is damaged: dataset " + name + " has no shape");
   std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(std::uint64_t));
-  return {{numbers.begin() + 2, numbers.end()}, numbers[0], numbers[1] != 0};
+  constexpr std::size_t kBefore = 3;
+  if (numbers.size() <= kBefore || numbers[2] < 1 || numbers[2] > numbers.size() - kBefore)
+    refuse("is damaged: dataset " + name + " has no shape");
+  const auto shape = numbers.begin() + kBefore, end = shape + static_cast<std::ptrdiff_t>(numbers[2]);
+  Hdf5Layout found{{shape, end}, numbers[0], numbers[1] != 0, {}};
+  for (auto chunk = end; numbers.end() - chunk > 1; chunk += 2) found.chunks.push_back({chunk[0], chunk[1]});
+  return found;
 }
 
-std::span<const unsigned char> Hdf5Child::readChunk(const std::string& name, std::uint64_t row,
-                                                    std::vector<unsigned char>& room) const {
-  Hdf5Request request = requestOf(Hdf5Question::Chunk, name);
-  request.row = row;
-  std::size_t size = 0;
-  ask(request, [&](std::uint64_t count) {
-    if (count > fileBytes_) return static_cast<unsigned char*>(nullptr);
-    size = count;
-    if (room.size() < std::max<std::size_t>(size, 1)) room.resize(std::max<std::size_t>(size, 1));
-    return room.data();
-  });
-  return {room.data(), size};
+std::span<const unsigned char> Hdf5Child::readChunk(const Hdf5Place& place, std::vector<unsigned char>& room) const {
+  if (place.bytes > fileBytes_ || place.offset > fileBytes_ - place.bytes) return {};
+  if (room.size() < place.bytes) room.resize(place.bytes);
+  for (std::uint64_t done = 0; done < place.bytes;) {
+    const ssize_t got = ::pread(file_, room.data() + done, place.bytes - done, static_cast<off_t>(place.offset + done));
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return {};
+    done += static_cast<std::uint64_t>(got);
+  }
+  return {room.data(), place.bytes};
 }
 
 void Hdf5Child::readRows(const std::string& name, std::uint64_t row, std::uint64_t count,

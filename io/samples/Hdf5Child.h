@@ -29,8 +29,9 @@ public:
   [[nodiscard]] std::map<std::string, std::string> attributes() const;
   [[nodiscard]] std::vector<std::string> texts(const std::string& name) const;
   [[nodiscard]] Hdf5Layout layout(const std::string& name, Hdf5Number number) const;
-  std::span<const unsigned char> readChunk(const std::string& name, std::uint64_t row,
-                                           std::vector<unsigned char>& room) const;
+  /// A chunk as it is stored, in `room`, which grows where it is too small; nothing where it is not within the file.
+  /// Read here, by many threads at a time: what unpacks it is not the library.
+  std::span<const unsigned char> readChunk(const Hdf5Place& place, std::vector<unsigned char>& room) const;
   /// So many numbers in all.
   void readRows(const std::string& name, std::uint64_t row, std::uint64_t count, std::span<double> values) const;
   void readRows(const std::string& name, std::uint64_t row, std::uint64_t count, std::span<std::int32_t> values) const;
@@ -51,7 +52,7 @@ private:
   std::filesystem::path path_;
   std::stop_token stop_;
   std::uint64_t fileBytes_ = 0;
-  int socket_ = -1;
+  int file_ = -1, socket_ = -1;
   mutable pid_t process_ = -1; ///< -1: has ended
   mutable std::mutex one_;     ///< question and answer
 };

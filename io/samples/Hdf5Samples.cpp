@@ -75,7 +75,9 @@ public:
       if (layout.shape != field.shape)
         file_.refuse("dataset " + field.name + " is of " + shapeText(layout.shape) +
                      " numbers; by the head and the areas it must be of " + shapeText(field.shape));
-      if (layout.chunkRows > kLargestChunk_bytes / field.rowBytes()) layout.shuffledDeflate = false;
+      if (layout.chunkRows > kLargestChunk_bytes / field.rowBytes() || layout.chunks.empty() ||
+          layout.chunks.size() < (layout.shape[0] + layout.chunkRows - 1) / layout.chunkRows)
+        layout.shuffledDeflate = false;
       if (layout.shape[0] > (kMostPacked * file_.fileBytes()) / field.rowBytes())
         file_.refuse("is damaged: dataset " + field.name + " of " + shapeText(layout.shape) +
                      " numbers is more than a file of " + std::to_string(file_.fileBytes()) + " bytes can hold");
@@ -141,7 +143,8 @@ private:
     }
     const auto chunkRows = static_cast<Eigen::Index>(layouts_[f].chunkRows);
     const Eigen::Index chunk = row / chunkRows * chunkRows;
-    const auto packed = file_.readChunk(field.name, static_cast<std::uint64_t>(chunk), scratch.packed);
+    const auto packed =
+        file_.readChunk(layouts_[f].chunks[static_cast<std::size_t>(chunk / chunkRows)], scratch.packed);
     const std::size_t chunkBytes = field.rowBytes() * layouts_[f].chunkRows;
     const bool whole = rows == chunkRows;
     if (!whole) scratch.numbers.resize(chunkBytes);

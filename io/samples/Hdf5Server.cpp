@@ -110,14 +110,10 @@ std::string answer(const Hdf5File& file, const Hdf5Request& request) {
     return joined(file.texts(request.name));
   case Hdf5Question::Layout: {
     const Hdf5Layout found = file.layout(request.name, request.number);
-    std::vector<std::uint64_t> numbers{found.chunkRows, found.shuffledDeflate ? 1U : 0U};
+    std::vector<std::uint64_t> numbers{found.chunkRows, found.shuffledDeflate ? 1U : 0U, found.shape.size()};
     numbers.insert(numbers.end(), found.shape.begin(), found.shape.end());
+    for (const Hdf5Place& chunk : found.chunks) numbers.insert(numbers.end(), {chunk.offset, chunk.bytes});
     return bytesOf(numbers);
-  }
-  case Hdf5Question::Chunk: {
-    std::vector<unsigned char> room;
-    const auto packed = file.readChunk(request.name, request.row, room);
-    return {packed.begin(), packed.end()};
   }
   case Hdf5Question::Rows:
     return request.number == Hdf5Number::Double ? rows<double>(file, request) : rows<std::int32_t>(file, request);
