@@ -118,12 +118,12 @@ int run(palp::Application& application) {
   }
   if (readable) window.document().beganWith(wish.file);
   const QString root = palp::Autosave::standardRoot();
-  palp::Autosave autosave(workbench, network, window.document(), root);
+  palp::Autosave autosave(workbench, network, window, root);
   QObject::connect(&autosave, &palp::Autosave::failed, &window, &palp::MainWindow::showMessage);
-  QTimer::singleShot(0, &window, [&window, &wish, root, readable] {
+  QTimer::singleShot(0, &window, [&window, &autosave, &wish, root, readable] {
     // Other files of ours open where they belong; of those that are none the window says so and stays.
     if (!wish.file.isEmpty() && !readable) window.document().open(wish.file);
-    palp::offerRecovery(window, root);
+    palp::offerRecovery(window, autosave, root);
   });
   return QApplication::exec();
 }

@@ -269,7 +269,8 @@ void DesignComparison::compare() {
           next.studies.compared = result;
           workbench_.edit(tr("Compare two designs"), next);
         };
-      });
+      },
+      JobRunner::Loss::Work);
 }
 
 } // namespace palp

@@ -232,45 +232,45 @@ void DesignSweep::run() {
   curve.left = left;
   // Electrodes do not stiffen the rubber: other places of theirs are read out of the same response.
   const bool sameBlock = key.startsWith("upper_layer") || key.startsWith("lower_layer") || key.startsWith("resistance");
-  runner_.start(tr("Sweeping a number of the design"),
-                [this, designs, sameBlock, empty = curve,
-                 mesh = project.mesh](const std::stop_token& stop, JobProgress& progress) -> JobRunner::Taking {
-                  DesignSweepCurve found = empty;
-                  std::optional<AreaResponse> response;
-                  StageLog stages;
-                  QElapsedTimer clock;
-                  clock.start();
-                  TimeLeft pace;
-                  pace.begin(0, 0);
-                  std::shared_ptr<const RestFloor> floor; // under the field
-                  for (std::size_t k = 0; k < designs.size(); ++k) {
-                    const bool byField = designs[k].second.field() != nullptr;
-                    const auto report = [&](double share, const std::string& what) {
-                      const double all = sameBlock && !byField
-                                             ? share
-                                             : (static_cast<double>(k) + share) / static_cast<double>(designs.size());
-                      const double now_s = 1e-3 * static_cast<double>(clock.elapsed());
-                      progress.set(all, what + (all < 0.05 ? std::string() : leftInWords(pace.left_s(all, 1, now_s))));
-                    };
-                    if (byField) {
-                      floor = restFloor(designs[k].second, mesh, floor, report, stop);
-                      if (!floor) return {};
-                      found.points.push_back({designs[k].first, summaryOf(boundsAtRest(*floor, found.noise))});
-                      continue;
-                    }
-                    if (!response || !sameBlock)
-                      response = AreaResponse::solve(designs[k].second, mesh, 0, stages, report, stop);
-                    if (!response || stop.stop_requested()) return {};
-                    found.points.push_back(
-                        {designs[k].first, summaryOf(designBounds(designs[k].second, *response, found.noise))});
-                  }
-                  return [this, found] {
-                    shown_.reset(); // also where it is what was found before
-                    Project next = workbench_.project();
-                    next.studies.curve = found;
-                    workbench_.edit(tr("Sweep a number of the design"), next);
-                  };
-                });
+  runner_.start(
+      tr("Sweeping a number of the design"),
+      [this, designs, sameBlock, empty = curve, mesh = project.mesh](const std::stop_token& stop,
+                                                                     JobProgress& progress) -> JobRunner::Taking {
+        DesignSweepCurve found = empty;
+        std::optional<AreaResponse> response;
+        StageLog stages;
+        QElapsedTimer clock;
+        clock.start();
+        TimeLeft pace;
+        pace.begin(0, 0);
+        std::shared_ptr<const RestFloor> floor; // under the field
+        for (std::size_t k = 0; k < designs.size(); ++k) {
+          const bool byField = designs[k].second.field() != nullptr;
+          const auto report = [&](double share, const std::string& what) {
+            const double all =
+                sameBlock && !byField ? share : (static_cast<double>(k) + share) / static_cast<double>(designs.size());
+            const double now_s = 1e-3 * static_cast<double>(clock.elapsed());
+            progress.set(all, what + (all < 0.05 ? std::string() : leftInWords(pace.left_s(all, 1, now_s))));
+          };
+          if (byField) {
+            floor = restFloor(designs[k].second, mesh, floor, report, stop);
+            if (!floor) return {};
+            found.points.push_back({designs[k].first, summaryOf(boundsAtRest(*floor, found.noise))});
+            continue;
+          }
+          if (!response || !sameBlock) response = AreaResponse::solve(designs[k].second, mesh, 0, stages, report, stop);
+          if (!response || stop.stop_requested()) return {};
+          found.points.push_back(
+              {designs[k].first, summaryOf(designBounds(designs[k].second, *response, found.noise))});
+        }
+        return [this, found] {
+          shown_.reset(); // also where it is what was found before
+          Project next = workbench_.project();
+          next.studies.curve = found;
+          workbench_.edit(tr("Sweep a number of the design"), next);
+        };
+      },
+      JobRunner::Loss::Work);
 }
 
 void DesignSweep::showCurve() {

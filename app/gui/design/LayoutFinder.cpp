@@ -133,7 +133,8 @@ void LayoutFinder::search() {
             words_->setText(
                 tr("%1 layouts were tried; none that can be made is better than this one.").arg(found.tried));
         };
-      });
+      },
+      JobRunner::Loss::Work);
 }
 
 void LayoutFinder::displayProject() {

@@ -13,6 +13,7 @@
 #include <QEventLoop>
 #include <QFileInfo>
 #include <QMessageBox>
+#include <QScopedValueRollback>
 #include <QSettings>
 #include <QTimer>
 
@@ -43,7 +44,8 @@ std::filesystem::path resultsFolder(const QString& file) {
 
 Document::Document(MainWindow& window, Workbench& workbench, NetworkSession& network)
     : QObject(&window), window_(window), workbench_(workbench), network_(network) {
-  for (const auto changed : {&NetworkSession::samplesChanged, &NetworkSession::fitChanged})
+  for (const auto changed : {&NetworkSession::samplesChanged, &NetworkSession::fitChanged,
+                             &NetworkSession::sweepChanged, &NetworkSession::trialsChanged})
     connect(&network, changed, this, &Document::showTitle);
   connect(&workbench, &Workbench::fileChanged, this, &Document::showTitle);
   connect(&workbench, &Workbench::projectReplaced, this, [this] {
@@ -97,36 +99,45 @@ void Document::showTitle() {
   emit unsavedChanged();
 }
 
-/// The window goes on meanwhile.
+/// What was ordered to be saved is saved, or has failed. The window draws meanwhile and takes no input.
 void Document::finishWriting() {
   if (!network_.writer().running()) return;
+  window_.setEnabled(false);
   QEventLoop waiting;
   connect(&network_.writer(), &JobRunner::finished, &waiting, &QEventLoop::quit);
   waiting.exec();
+  window_.setEnabled(true);
 }
 
-bool Document::mayLeave(const QStringList& ends) {
-  finishWriting();
-  if (!unsaved())
-    return ends.isEmpty() ||
-           QMessageBox::question(&window_, tr("Quit?"), ends.join("\n\n") + tr("\n\nQuit?"),
-                                 QMessageBox::Yes | QMessageBox::No, QMessageBox::No) == QMessageBox::Yes;
-  const QString file = workbench_.file();
+QString Document::unsavedWords() const {
+  const QString& file = workbench_.file();
   const QString name = file.isEmpty() ? tr("the project") : QFileInfo(file).fileName();
-  const auto what = [&] {
-    switch (workbench_.modification()) {
-    case Workbench::Modified::Project:
-      return file.isEmpty() ? tr("The project has changes that are not saved.")
-                            : tr("%1 has changes that are not saved.").arg(name);
-    case Workbench::Modified::LiveSettings:
-      if (resultsUnsaved()) break; // the dearer half is named
-      return tr("Settings of the Live scene have changed and are not saved in %1.").arg(name);
-    case Workbench::Modified::Nothing:
-      break;
-    }
-    return tr("The samples and networks of %1 are not saved.").arg(name);
-  };
-  QMessageBox question(QMessageBox::Question, tr("Save the project?"), (QStringList(what()) + ends).join("\n\n"),
+  const QString results = tr("The samples and networks of %1 are not saved.").arg(name);
+  switch (workbench_.modification()) {
+  case Workbench::Modified::Project:
+    return file.isEmpty() ? tr("The project has changes that are not saved.")
+                          : tr("%1 has changes that are not saved.").arg(name);
+  case Workbench::Modified::Calibration: {
+    const QString calibration = tr("Labelled frames or the calibrated network of %1 are not saved.").arg(name);
+    return resultsUnsaved() ? calibration + "\n\n" + results : calibration;
+  }
+  case Workbench::Modified::LiveSettings:
+    if (resultsUnsaved()) break; // the dearer half is named
+    return tr("Settings of the Live scene have changed and are not saved in %1.").arg(name);
+  case Workbench::Modified::Nothing:
+    break;
+  }
+  return results;
+}
+
+bool Document::mayLeave(const Leaving& leaving) {
+  if (leaving_) return false; // it is asked already, or what was answered is being done
+  const QScopedValueRollback<bool> asking(leaving_, true);
+  finishWriting();
+  const QStringList losses = workbench_.lossQuestion().losses(leaving);
+  if (!unsaved()) return acceptsLosses(losses, &window_);
+  QMessageBox question(QMessageBox::Question, tr("Save the project?"),
+                       (QStringList(unsavedWords()) + losses).join("\n\n"),
                        QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, &window_);
   question.setInformativeText(tr("Save writes the changes to the project's file, Discard throws them away."));
   question.setObjectName("unsaved");
@@ -136,6 +147,10 @@ bool Document::mayLeave(const QStringList& ends) {
   if (answer != QMessageBox::Save || !save()) return false;
   finishWriting();
   return !unsaved();
+}
+
+bool Document::mayReplace(const Project& next) {
+  return mayLeave({Leaving::Way::OtherProject, &next});
 }
 
 void Document::open() {
@@ -180,6 +195,7 @@ void Document::open(const QString& file) {
       Project next = workbench_.project();
       if (kind == FileKind::Network) {
         next.live.network = file.toStdString();
+        next.live.calibrated.reset();
       } else {
         next.live.source = LiveSourceKind::Recording;
         next.live.recording = file.toStdString();
@@ -195,10 +211,9 @@ void Document::open(const QString& file) {
 
 void Document::openProject(const QString& file) {
   const Project opened = loadProject(file.toStdString(), project());
-  if (!mayLeave()) return;
+  if (!mayReplace(opened)) return;
   const bool whole = fileKind(file) == FileKind::Project; // a design alone begins a project that has no file yet
-  workbench_.replace(tr("Open %1").arg(QFileInfo(file).fileName()), opened,
-                     whole ? QFileInfo(file).absoluteFilePath() : QString());
+  workbench_.replace(opened, whole ? QFileInfo(file).absoluteFilePath() : QString());
   window_.showScene(QString::fromStdString(opened.view.scene));
   remember(file);
   window_.showMessage(tr("Opened %1.").arg(file));
@@ -236,17 +251,17 @@ void Document::sayProblems(const OpenedResults& opened) {
 }
 
 void Document::startAnew() {
-  if (!mayLeave()) return;
-  workbench_.replace(tr("The paper's design"), exampleProject());
+  const Project paper = exampleProject();
+  if (mayReplace(paper)) workbench_.replace(paper);
 }
 
 void Document::openExample(const QString& file, const QString& title) {
   try {
     const Project opened = loadProject(file.toStdString(), project());
-    if (!mayLeave()) return;
-    workbench_.replace(tr("Example: %1").arg(title), opened);
+    if (!mayReplace(opened)) return;
+    workbench_.replace(opened);
     window_.showScene(QString::fromStdString(opened.view.scene));
-    window_.showMessage(tr("The example is a copy: it is saved under a name of your own."));
+    window_.showMessage(tr("%1: the example is a copy, it is saved under a name of your own.").arg(title));
   } catch (const Error& error) {
     QMessageBox::warning(&window_, tr("Cannot open"), QString::fromStdString(error.what()));
   }
@@ -291,20 +306,29 @@ void Document::resultsSaved(const NetworkResults& results) {
 }
 
 void Document::recover(const QByteArray& project, const QString& file, const std::filesystem::path& results,
-                       const std::function<void()>& done) {
-  if (!file.isEmpty() && QFileInfo::exists(file)) // so that undoing leads to what the file holds
-    workbench_.replace(tr("Open %1").arg(QFileInfo(file).fileName()),
-                       loadProject(file.toStdString(), workbench_.project()), file);
-  const Project recovered = parseProject(project, tr("the recovered project"), workbench_.project());
-  workbench_.edit(tr("Recover unsaved work"), recovered);
+                       const std::function<void(bool whole)>& done) {
+  const Project recovered = parseProject(project, tr("the recovered project"), exampleProject());
+  replaceByRecovered(recovered, file);
   window_.showScene(QString::fromStdString(recovered.view.scene));
   network_.openResults(results, [this, done, results](const OpenedResults& opened) {
     sayProblems(opened);
-    if (opened.problems.empty())
-      done();
-    else
+    if (!opened.problems.empty())
       window_.showMessage(tr("What cannot be opened stays in %1.").arg(QString::fromStdString(results.string())));
+    done(opened.problems.empty());
   });
+}
+
+/// As an edit of what the file holds, so that undoing leads there; where that cannot be read, it is all there is.
+void Document::replaceByRecovered(const Project& recovered, const QString& file) {
+  try {
+    workbench_.replace(file.isEmpty() ? exampleProject() : loadProject(file.toStdString(), exampleProject()), file);
+  } catch (const Error& error) {
+    workbench_.replaceUnsaved(recovered, file);
+    window_.showMessage(tr("%1. The recovered project is complete without it; saving it replaces that file.")
+                            .arg(QString::fromStdString(error.what())));
+    return;
+  }
+  workbench_.edit(tr("Recover unsaved work"), recovered);
 }
 
 } // namespace palp

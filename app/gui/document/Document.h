@@ -16,6 +16,7 @@ namespace palp {
 
 class MainWindow;
 class Workbench;
+struct Leaving;
 
 /// The project as a file of the user's, its samples and network in a folder beside it (NAME.palp): opens and saves
 /// them, asks before unsaved work would be lost, and keeps the window's title.
@@ -31,9 +32,9 @@ public:
   [[nodiscard]] bool unsaved() const;
   /// Samples or networks would be.
   [[nodiscard]] bool resultsUnsaved() const;
-  /// Nothing is unsaved and nothing ends, or the user has saved what is unsaved, or lets it go. `ends`: sentences on
-  /// what runs and would end too; one question is asked about all.
-  bool mayLeave(const QStringList& ends = {});
+  /// Nothing is unsaved and nothing ends by it, or the user has saved what is unsaved, or lets it go: one question
+  /// about all.
+  bool mayLeave(const Leaving& leaving);
   /// A file of ours: a design or a project in place of what is open (asks first), samples and networks in the Network
   /// scene. Says why where it cannot be opened, and keeps what was there.
   void open(const QString& file);
@@ -50,10 +51,11 @@ public:
   /// In its file, or in one that the user chooses. False where it was not saved.
   bool save();
   bool saveAs();
-  /// What another window has left, as unsaved work on the project in `file` (empty: in none yet); `done` once all
-  /// of it is open; where some of it cannot be, that is said and `done` is not called. Throws Error.
+  /// What another window has left, as unsaved work on the project in `file` (empty: in none yet); `done` once it is
+  /// open; where some of it cannot be, that is said, and it is not `whole`. Undo leads to what the file
+  /// holds, where it can be read. Throws Error.
   void recover(const QByteArray& project, const QString& file, const std::filesystem::path& results,
-               const std::function<void()>& done);
+               const std::function<void(bool whole)>& done);
   /// Files that were opened or saved, the newest first.
   [[nodiscard]] static QStringList recent();
 
@@ -63,6 +65,10 @@ signals:
 private:
   void openProject(const QString& file);
   void openResults();
+  void replaceByRecovered(const Project& recovered, const QString& file);
+  bool mayReplace(const Project& next);
+  /// In words; there is something.
+  [[nodiscard]] QString unsavedWords() const;
   bool write(const QString& file);
   /// Waits until what was ordered to be saved is saved, or has failed.
   void finishWriting();
@@ -79,6 +85,7 @@ private:
   /// Of the files beside the project: whose content was opened or written here. Read by the writer; another project has
   /// another one.
   std::shared_ptr<std::set<std::filesystem::path>> ours_ = std::make_shared<std::set<std::filesystem::path>>();
+  bool leaving_ = false; ///< the question is asked, or what it ordered is being saved
 };
 
 } // namespace palp

@@ -2,8 +2,8 @@
 
 #include "app/gui/document/Autosave.h"
 #include "app/gui/document/Document.h"
-#include "app/gui/jobs/JobRunner.h"
 #include "app/gui/window/MainWindow.h"
+#include "io/board/Recording.h"
 
 #include <QFileInfo>
 #include <QLocale>
@@ -12,29 +12,80 @@
 
 namespace palp {
 
-void offerRecovery(MainWindow& window, const QString& root) {
-  for (const LeftWork& work : Autosave::left(root)) {
-    const QString name =
-        work.file.isEmpty() ? QObject::tr("a project without a name") : QFileInfo(work.file).fileName();
-    QMessageBox question(QMessageBox::Question, QObject::tr("Recover unsaved work?"),
-                         QObject::tr("Palp ended without saving %1. What was done until %2 can be had back.")
-                             .arg(name, QLocale().toString(work.saved, QLocale::ShortFormat)),
-                         QMessageBox::NoButton, &window);
-    question.setObjectName("recovery");
-    const auto* recover = question.addButton(QObject::tr("Recover"), QMessageBox::AcceptRole);
-    const auto* discard = question.addButton(QObject::tr("Discard"), QMessageBox::DestructiveRole);
-    question.addButton(QObject::tr("Ask again later"), QMessageBox::RejectRole);
-    question.exec();
-    if (question.clickedButton() == discard) Autosave::forget(work);
-    if (question.clickedButton() != recover) continue;
-    try {
-      window.document().recover(Autosave::project(work), work.file, Autosave::results(work).toStdString(),
-                                [work] { Autosave::forget(work); });
-    } catch (const std::exception& error) {
-      QMessageBox::warning(&window, QObject::tr("Cannot recover"),
-                           QObject::tr("%1\n\nIt stays in %2.").arg(QString(error.what()), work.folder));
-    }
-    return; // one project at a time; the others are asked for at the next start
+namespace {
+
+QString momentWords(const QDateTime& moment) {
+  return QLocale().toString(moment, QLocale::ShortFormat);
+}
+
+/// What is left of a recording that was being written.
+QString recordingWords(const QString& file) {
+  const QFileInfo info(file);
+  if (!info.exists()) return QObject::tr("%1: the file does not exist any more.").arg(file);
+  try {
+    const RecordingReader readable(file.toStdString());
+    return QObject::tr("%1: readable; its last reports were written at %2.")
+        .arg(file, momentWords(info.lastModified()));
+  } catch (const std::exception& error) {
+    return QObject::tr("%1: not readable (%2).").arg(file, QString::fromUtf8(error.what()));
+  }
+}
+
+/// Without waiting for an answer.
+void sayCutRecordings(MainWindow& window, const std::vector<LeftWork>& left) {
+  QStringList words;
+  for (const LeftWork& work : left) {
+    for (const QString& file : work.recordings) words << recordingWords(file);
+    Autosave::forgetRecordings(work);
+  }
+  if (words.isEmpty()) return;
+  words.prepend(QObject::tr("Palp ended while it was recording. The recording holds what came until then."));
+  window.showMessage(words.join(' '));
+  auto* box = new QMessageBox(QMessageBox::Information, QObject::tr("Recording cut"), words.join("\n\n"),
+                              QMessageBox::Ok, &window);
+  box->setObjectName("cutRecordings");
+  box->setTextFormat(Qt::PlainText);
+  box->setAttribute(Qt::WA_DeleteOnClose);
+  box->open();
+}
+
+enum class RecoveryWish { Recover, Discard, Later };
+
+RecoveryWish askAbout(MainWindow& window, const LeftWork& work) {
+  const QString name = work.file.isEmpty() ? QObject::tr("a project without a name") : QFileInfo(work.file).fileName();
+  QMessageBox question(QMessageBox::Question, QObject::tr("Recover unsaved work?"),
+                       QObject::tr("Palp ended without saving %1. Changes up to %2 can be recovered.")
+                           .arg(name, momentWords(work.saved)),
+                       QMessageBox::NoButton, &window);
+  question.setObjectName("recovery");
+  const auto* recover = question.addButton(QObject::tr("Recover"), QMessageBox::AcceptRole);
+  const auto* discard = question.addButton(QObject::tr("Discard"), QMessageBox::DestructiveRole);
+  question.addButton(QObject::tr("Ask again later"), QMessageBox::RejectRole);
+  question.exec();
+  if (question.clickedButton() == recover) return RecoveryWish::Recover;
+  return question.clickedButton() == discard ? RecoveryWish::Discard : RecoveryWish::Later;
+}
+
+void recoverWork(MainWindow& window, Autosave& autosave, const LeftWork& work) {
+  try {
+    window.document().recover(Autosave::project(work), work.file, Autosave::results(work).toStdString(),
+                              [&autosave, work](bool whole) { whole ? autosave.takeOver(work) : autosave.hold(work); });
+  } catch (const std::exception& error) {
+    QMessageBox::warning(&window, QObject::tr("Cannot recover"),
+                         QObject::tr("%1\n\nIt stays in %2.").arg(QString(error.what()), work.folder));
+  }
+}
+
+} // namespace
+
+void offerRecovery(MainWindow& window, Autosave& autosave, const QString& root) {
+  const std::vector<LeftWork> left = Autosave::left(root); // no other window offers any of it meanwhile
+  sayCutRecordings(window, left);
+  for (const LeftWork& work : left) {
+    const RecoveryWish wish = work.project ? askAbout(window, work) : RecoveryWish::Discard;
+    if (wish == RecoveryWish::Discard) Autosave::forget(work);
+    if (wish == RecoveryWish::Recover)
+      return recoverWork(window, autosave, work); // one project; the next start asks for others
   }
 }
 

@@ -4,9 +4,11 @@
 
 namespace palp {
 
+class Autosave;
 class MainWindow;
 
-/// Asks what shall become of work that windows which did not end well have left below `root`, if there is any.
-void offerRecovery(MainWindow& window, const QString& root);
+/// Says which recordings were cut by windows that did not end well and left that in `root`, and asks what shall become
+/// of the work that they left. What is recovered is `autosave`'s from then on.
+void offerRecovery(MainWindow& window, Autosave& autosave, const QString& root);
 
 } // namespace palp

@@ -45,13 +45,23 @@ JobRunner::JobRunner(Orders orders, QObject* parent) : QObject(parent), orders_(
 
 JobRunner::~JobRunner() = default; // the jthread asks the work to stop and waits for it
 
-void JobRunner::start(const QString& title, Work work) {
-  if (!running() && waiting_.empty()) return launch({title, std::move(work)});
+void JobRunner::start(const QString& title, Work work, Loss loss) {
+  if (!running() && waiting_.empty()) return launch({title, std::move(work), loss});
   if (orders_ == Orders::Newest) {
     thread_.request_stop();
     waiting_.clear();
   }
-  waiting_.push_back({title, std::move(work)});
+  waiting_.push_back({title, std::move(work), loss});
+}
+
+QString JobRunner::loss() const {
+  QStringList lost;
+  const bool replaced = orders_ == Orders::Newest && !waiting_.empty();
+  if (running() && !cancelled_ && !replaced && loss_ == Loss::Work) lost << title_;
+  for (const Order& order : waiting_)
+    if (order.loss == Loss::Work) lost << order.title;
+  if (lost.isEmpty()) return {};
+  return tr("%1: this runs and ends here; what it has made is lost.").arg(lost.join(", "));
 }
 
 void JobRunner::cancel() {
@@ -64,6 +74,7 @@ void JobRunner::cancel() {
 
 void JobRunner::launch(Order order) {
   title_ = order.title;
+  loss_ = order.loss;
   progress_ = std::make_shared<JobProgress>();
   progress_->set(-1, title_.toStdString());
   thread_ = std::jthread([this, work = std::move(order.work), progress = progress_](const std::stop_token& stop) {

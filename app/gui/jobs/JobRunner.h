@@ -2,6 +2,7 @@
 
 #include <QObject>
 #include <QString>
+#include <QStringList>
 #include <QTimer>
 
 #include <deque>
@@ -51,13 +52,21 @@ public:
   explicit JobRunner(Orders orders, QObject* parent = nullptr);
   ~JobRunner() override;
 
-  void start(const QString& title, Work work);
+  /// What it is to the user that the work ends early.
+  enum class Loss {
+    None, ///< it is done again where it is needed
+    Work  ///< what it has made is lost: leaving asks first
+  };
+
+  void start(const QString& title, Work work, Loss loss = Loss::None);
   /// Newest: stops the running work, drops the waiting one; what the work returns then is not taken. Each: drops the
   /// waiting orders; the running one may end with Cancelled, or complete and be taken.
   void cancel();
   [[nodiscard]] Orders orders() const { return orders_; }
   [[nodiscard]] bool running() const { return thread_.joinable(); }
   [[nodiscard]] const QString& title() const { return title_; }
+  /// It runs, and what it has made would be lost: in a sentence; else empty.
+  [[nodiscard]] QString loss() const;
 
 signals:
   void started(const QString& title);
@@ -73,6 +82,7 @@ private:
   struct Order {
     QString title;
     Work work;
+    Loss loss = Loss::None;
   };
   struct Ending {
     Taking taking;
@@ -87,6 +97,7 @@ private:
   std::jthread thread_;
   std::deque<Order> waiting_;
   QString title_;
+  Loss loss_ = Loss::None;
   bool cancelled_ = false;
   std::shared_ptr<JobProgress> progress_;
   QTimer timer_;

@@ -150,7 +150,7 @@ void NetworkSession::generate(const SampleSettings& settings, const MeshOptions&
       show(std::move(results));
     };
   };
-  runner_.start(generatingTitle(), work);
+  runner_.start(generatingTitle(), work, JobRunner::Loss::Work);
 }
 
 bool NetworkSession::generating() const {
@@ -182,7 +182,7 @@ void NetworkSession::train(const NetworkSettings& settings, const QString& slide
       take(fit, slide);
     };
   };
-  runner_.start(tr("Training"), work);
+  runner_.start(tr("Training"), work, JobRunner::Loss::Work);
 }
 
 void NetworkSession::sweep(const NetworkSettings& settings) {
@@ -211,7 +211,7 @@ void NetworkSession::sweep(const NetworkSettings& settings) {
     }
     return [this] { drain(); };
   };
-  runner_.start(tr("Sweeping the spread"), work);
+  runner_.start(tr("Sweeping the spread"), work, JobRunner::Loss::Work);
 }
 
 void NetworkSession::compare(const NetworkSettings& settings) {
@@ -250,7 +250,7 @@ void NetworkSession::compare(const NetworkSettings& settings) {
     }
     return [this] { drain(); };
   };
-  runner_.start(tr("Comparing decoders"), work);
+  runner_.start(tr("Comparing decoders"), work, JobRunner::Loss::Work);
 }
 
 void NetworkSession::drain() {

@@ -6,12 +6,12 @@
 
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QMessageBox>
 #include <QPushButton>
 #include <QSplitter>
 #include <QVBoxLayout>
 
 #include <algorithm>
+#include <utility>
 
 namespace palp {
 
@@ -104,6 +104,7 @@ void LiveBoards::build() {
   connect(page, &LivePage::sceneAsked, this, &LiveBoards::sceneAsked);
   connect(page, &LivePage::looked, this, [this] {
     if (cells_.size() > 1 && isVisible()) displayTitles();
+    tellRecordings();
     emit looked();
   });
   connect(page, &LivePage::message, this, [this, page](const QString& sentence) {
@@ -126,7 +127,13 @@ void LiveBoards::arrange() {
   row_->setSizes(QList<int>(static_cast<int>(cells_.size()), width()));
   setFocusProxy(cells_[0].page);
   displayTitles();
+  tellRecordings();
   emit countChanged();
+}
+
+void LiveBoards::tellRecordings() {
+  const QStringList now = recordings();
+  if (now != std::exchange(recordings_, now)) emit recordingsChanged(now);
 }
 
 void LiveBoards::displayTitles() {
@@ -147,6 +154,8 @@ LiveSettings LiveBoards::settingsOfAnother() const {
   LiveSettings settings = workbench_.project().live;
   settings.source = LiveSourceKind::Simulated;
   settings.device.clear();
+  settings.frames.reset(); // they are of one board
+  settings.calibrated.reset();
   settings.simulation.openRow = settings.simulation.openColumn = -1; // what is broken of one is whole of another
   settings.simulation.dropEvery = 0;
   for (std::size_t k = 0; k < cells_.size(); ++k)
@@ -182,13 +191,7 @@ void LiveBoards::add() {
 void LiveBoards::remove(LivePage* page) {
   const auto cell = std::find_if(cells_.begin(), cells_.end(), [&](const Cell& c) { return c.page == page; });
   if (cell == cells_.end() || cells_.size() < 2) return;
-  if (page->host().recording()) {
-    const auto answer =
-        QMessageBox::question(this, tr("Take the board away"),
-                              tr("It is being recorded to %1. End the recording and take the board away?")
-                                  .arg(QString::fromStdString(page->host().recordingFile().string())));
-    if (answer != QMessageBox::Yes) return;
-  }
+  if (!acceptsLosses(page->lossesByClosing(), this)) return;
   const auto board = static_cast<std::size_t>(cell - cells_.begin());
   Project next = workbench_.project();
   if (board == 0) next.live = next.moreBoards.front();
@@ -259,17 +262,11 @@ std::vector<LiveLampState> LiveBoards::lamps() const {
   return lamps;
 }
 
-QString LiveBoards::recording() const {
+QStringList LiveBoards::recordings() const {
   QStringList files;
   for (const Cell& cell : cells_)
     if (cell.page->host().recording()) files << QString::fromStdString(cell.page->host().recordingFile().string());
-  return files.join(", ");
-}
-
-int LiveBoards::unsavedFrames() const {
-  int frames = 0;
-  for (const Cell& cell : cells_) frames += cell.page->unsavedFrames();
-  return frames;
+  return files;
 }
 
 } // namespace palp

@@ -30,16 +30,15 @@ public:
   [[nodiscard]] std::size_t count() const { return cells_.size(); }
   /// What is told of each board in every scene, with its number where there are several.
   [[nodiscard]] std::vector<LiveLampState> lamps() const;
-  /// Boards that are being recorded, in words; empty: none.
-  [[nodiscard]] QString recording() const;
-  /// Labelled frames of all boards that are in no file.
-  [[nodiscard]] int unsavedFrames() const;
+  /// Files that are being recorded.
+  [[nodiscard]] QStringList recordings() const;
 
 signals:
   void message(const QString& sentence);
   void sceneAsked(const QString& name);
   /// lamps() may say something else.
   void looked();
+  void recordingsChanged(const QStringList& files);
   /// A board came or went: runners() says something else.
   void countChanged();
 
@@ -61,6 +60,7 @@ private:
   void tidy();
   void arrange();
   void displayTitles();
+  void tellRecordings();
   [[nodiscard]] LiveSettings settingsOfAnother() const;
 
   Workbench& workbench_;
@@ -69,7 +69,8 @@ private:
   std::vector<Cell> cells_;
   std::vector<LivePage*> leaving_; ///< taken away, while their sessions end
   QTimer leavingTimer_;
-  int readers_ = 0; ///< pages that there have been
+  QStringList recordings_; ///< that were told last
+  int readers_ = 0;        ///< pages that there have been
   Theme theme_ = Theme::Light;
 };
 

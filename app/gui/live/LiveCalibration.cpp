@@ -129,6 +129,7 @@ QWidget* LiveCalibration::buildFrames() {
     frames_.remove(table_->currentRow());
     complain({}); // it may have been of that frame
     displayFrames();
+    tellFrames();
   });
   return box;
 }
@@ -222,6 +223,7 @@ void LiveCalibration::load(const std::filesystem::path& file) {
       frames_.append(*frames, file.string());
       written_ = written;
       displayFrames();
+      tellFrames();
     };
   });
 }
@@ -270,12 +272,13 @@ bool LiveCalibration::mayCollect() {
 
 void LiveCalibration::take() {
   if (!frames_.collecting()) return;
+  bool taken = false;
   for (const auto& frame : host_.fresh()) {
     if (host_.status().taring || !frames_.collecting()) break;
     guarded([&] {
       if (!frames_.add(frame->forces)) return;
       newest_s_ = hostClock_s();
-      unsaved_ = true;
+      unsaved_ = taken = true;
       if (!frame->forces.doubt.empty())
         complain(tr("Frame %1 is doubted: %2. If the sensor drifts, take your hand off, tare, and collect anew.")
                      .arg(frames_.samples().size())
@@ -287,6 +290,36 @@ void LiveCalibration::take() {
     });
   }
   progress_->setValue(frames_.collected());
+  if (taken) tellFrames();
+}
+
+void LiveCalibration::display(const std::shared_ptr<const BoardFrames>& frames) {
+  if (frames == shown_) return;
+  shown_ = frames;
+  frames_.stop();
+  if (frames)
+    frames_.replace(frames->samples, frames->read_N);
+  else
+    frames_.clear();
+  unsaved_ = frames != nullptr;
+  newest_s_ = 0;
+  written_.reset();
+  table_->setRowCount(0);
+  complain({});
+  forgetFit();
+}
+
+void LiveCalibration::forgetFit() {
+  runner_.cancel(); // it refines with frames, or reads some, of another project
+  calibration_.reset();
+  displayFrames();
+}
+
+/// Those that are here now are the project's.
+void LiveCalibration::tellFrames() {
+  const SampleSet& samples = frames_.samples();
+  shown_ = samples.size() == 0 ? nullptr : std::make_shared<const BoardFrames>(BoardFrames{samples, frames_.said_N()});
+  emit framesEdited();
 }
 
 void LiveCalibration::displayFrames() {

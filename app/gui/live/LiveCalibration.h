@@ -27,13 +27,21 @@ public:
   [[nodiscard]] const LabelledFrames& frames() const { return frames_; }
   [[nodiscard]] const std::optional<Calibration>& calibration() const { return calibration_; }
   [[nodiscard]] JobRunner& runner() { return runner_; }
-  /// Frames that were collected here and are in no file.
+  /// The labelled frames of the project, in place of those that are here where they are others.
+  void display(const std::shared_ptr<const BoardFrames>& frames);
+  /// The frames that are here, as a project keeps them; null: none.
+  [[nodiscard]] const std::shared_ptr<const BoardFrames>& shown() const { return shown_; }
+  /// The refined network of a project that was left.
+  void forgetFit();
+  /// Frames that are in no file of samples.
   [[nodiscard]] int unsavedFrames() const { return unsaved_ ? static_cast<int>(frames_.samples().size()) : 0; }
   /// What is in use, what can be had back, and what the network reads now.
   void displayState();
 
 signals:
   void message(const QString& sentence);
+  /// By the user: shown().
+  void framesEdited();
   /// The simulated board is to bear this load.
   void simulatedLoadAsked(const palp::KnownTouch& load);
 
@@ -46,6 +54,7 @@ private:
   [[nodiscard]] bool mayCollect();
   [[nodiscard]] bool mayUse();
   void displayFrames();
+  void tellFrames();
   void fit();
   void displayFit();
   void use();
@@ -54,6 +63,7 @@ private:
 
   LiveHost& host_;
   LabelledFrames frames_;
+  std::shared_ptr<const BoardFrames> shown_;
   bool unsaved_ = false;
   double newest_s_ = 0; ///< host clock of the newest frame; 0: none collected here
   /// When the file that was read last was written.

@@ -62,6 +62,7 @@ void LiveHost::setSettings(const LiveSettings& settings, const SensorDesign& des
     networkAsked_ = network_.decoder && network_.file == settings.network; // the one in use was wanted back
     if (networkAsked_) loader_.cancel();
   }
+  if (before.calibrated != settings.calibrated && settings.calibrated != network_.calibrated) networkAsked_ = false;
   if (!session_) return; // opened when the scene is first seen
   if (!networkAsked_) loadNetwork();
   if (otherDesign || before.simulation.moving != settings.simulation.moving) followDesign();
@@ -119,6 +120,8 @@ std::optional<SimulatedTouch::Truth> LiveHost::trueTouch(const BoardFrame& at) c
 /// The simulated board and the network that was trained on it go with the project's design.
 void LiveHost::followDesign() {
   const bool other = simulation_ && simulated() && running_ != (own() != nullptr ? own()->samples : nullptr);
+  designWaits_ = other && session_ && recording(); // a recording is of one sensor
+  if (designWaits_) return;
   const bool ofSimulation = network_.ofSimulation || own() != nullptr;
   if (settings_.network.empty() && ofSimulation && networkAsked_ && session_)
     loadNetwork();
@@ -241,6 +244,7 @@ void LiveHost::close() {
   sending_.follow({});
   letGo(std::move(watch_));
   letGo(std::move(session_));
+  status_ = {};
 }
 
 bool LiveHost::closed() {
@@ -263,6 +267,11 @@ void LiveHost::applyPause() {
 
 void LiveHost::loadNetwork() {
   networkAsked_ = true;
+  if (settings_.calibrated && settings_.calibrated != network_.calibrated) {
+    loader_.cancel();
+    networkAsked_ = true;
+    return useCalibrated(settings_.calibrated, settings_.network);
+  }
   if (settings_.network.empty() && own() != nullptr) {
     loader_.cancel();
     networkAsked_ = true;
@@ -278,13 +287,24 @@ void LiveHost::loadNetwork() {
     auto loaded = std::make_shared<Network>(Network{readNetwork(path), file, fingerprint(readFile(path)), {}, false});
     if (!file.empty() && info)
       static_cast<void>(ForceDecoder(*loaded->decoder, *info)); // throws where it cannot read it
-    return [this, loaded] {
-      Network inUse = network_;
-      inUse.name = networkName();
-      before_ = inUse.decoder && inUse.file != loaded->file ? std::move(inUse) : Network{};
-      setNetwork(std::move(*loaded));
-    };
+    return [this, loaded] { takeNetwork(std::move(*loaded)); };
   });
+}
+
+/// One that was chosen and has been read.
+void LiveHost::takeNetwork(Network network) {
+  Network inUse = network_;
+  inUse.name = networkName();
+  const bool first = std::exchange(anotherProject_, false);
+  const bool wanted = inUse.decoder && inUse.file != network.file && !first;
+  before_ = wanted ? std::move(inUse) : Network{};
+  setNetwork(std::move(network));
+}
+
+void LiveHost::forgetNetworkBefore() {
+  before_ = {};
+  anotherProject_ = loader_.running() || !networkAsked_;
+  emit decoderChanged();
 }
 
 void LiveHost::setNetwork(Network network) {
@@ -293,6 +313,11 @@ void LiveHost::setNetwork(Network network) {
   sensor_ = tareDesign() || !paper ? design_ : paperDesign();
   if (session_) session_->setDecoder(network_.decoder, tareDesign());
   emit decoderChanged();
+  if (network_.decoder && networkAsked_ && !loader_.running() && !namedBySettings()) emit otherNetworkInUse();
+}
+
+bool LiveHost::namedBySettings() const {
+  return network_.file == settings_.network && network_.calibrated == settings_.calibrated;
 }
 
 QString LiveHost::networkName() const {
@@ -305,7 +330,15 @@ void LiveHost::useDecoder(Decoder decoder, const QString& name) {
   before_ = network_;
   before_.name = networkName();
   mark(tr("network: %1").arg(name).toStdString());
-  setNetwork({std::move(decoder), network_.file, {}, name, network_.ofSimulation});
+  useCalibrated(std::make_shared<const CalibratedNetwork>(CalibratedNetwork{std::move(decoder), name.toStdString()}),
+                network_.file);
+}
+
+/// `file`: of the network that it was refined from.
+void LiveHost::useCalibrated(const std::shared_ptr<const CalibratedNetwork>& calibrated, const std::string& file) {
+  anotherProject_ = false;
+  setNetwork(
+      {calibrated->decoder, file, {}, QString::fromStdString(calibrated->name), network_.ofSimulation, calibrated});
 }
 
 void LiveHost::useChosenNetwork() {
@@ -318,7 +351,7 @@ void LiveHost::backToNetwork() {
   Network back = std::exchange(before_, {});
   mark(tr("network: %1").arg(back.name).toStdString());
   setNetwork(std::move(back));
-  if (network_.file != settings_.network) emit wentBackToFile();
+  if (!namedBySettings()) emit otherNetworkInUse(); // while another one is being read, too
 }
 
 bool LiveHost::look() {
@@ -329,6 +362,7 @@ bool LiveHost::look() {
   drain();
   for (const auto& frame : fresh_) history_.add(frame);
   if (recording() != recorded_) applyPause();
+  if (designWaits_ && !recording()) followDesign();
   if (watch_) watch_->setQuiet(*boardSeen_ && status_.state == LiveState::Streaming);
   configureOnce();
   const bool stoodIn = settings_.source == LiveSourceKind::Automatic && !*boardSeen_ && status_.connections > 0;

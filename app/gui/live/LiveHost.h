@@ -4,6 +4,7 @@
 #include "app/gui/live/SimulatedDesign.h"
 #include "app/gui/live/send/LiveSending.h"
 #include "app/gui/project/LiveSettings.h"
+#include "app/gui/project/live/BoardCalibration.h"
 #include "app/study/live/BoardWatch.h"
 #include "app/study/live/LiveHistory.h"
 #include "app/study/live/SimulatedTouch.h"
@@ -106,6 +107,10 @@ public:
   [[nodiscard]] QString networkName() const;
   /// Of the network in use; empty: the one that ships with Palp.
   [[nodiscard]] const std::string& networkFile() const { return network_.file; }
+  /// It, where it was refined; null: it is as it was chosen.
+  [[nodiscard]] const std::shared_ptr<const CalibratedNetwork>& calibrated() const { return network_.calibrated; }
+  /// Another project is open: there is no network of it to go back to.
+  void forgetNetworkBefore();
   /// Goes on from this time of the recording [s].
   void seek(double to_s);
 
@@ -114,8 +119,8 @@ public:
 
 signals:
   void decoderChanged();
-  /// backToNetwork() took one of another file than the settings name: networkFile().
-  void wentBackToFile();
+  /// Another network is in use than the settings name: networkFile(), calibrated().
+  void otherNetworkInUse();
   /// The file that was chosen is no network for this board; the one in use stays.
   void networkRefused(const QString& sentence);
 
@@ -123,15 +128,19 @@ private:
   struct Network {
     std::optional<Decoder> decoder;
     std::string file;
-    std::string fingerprint;   ///< of the file; empty: it is in none
-    QString name;              ///< empty: its file says it
-    bool ofSimulation = false; ///< trained on the samples of the simulated board
+    std::string fingerprint;                               ///< of the file; empty: it is in none
+    QString name;                                          ///< empty: its file says it
+    bool ofSimulation = false;                             ///< trained on the samples of the simulated board
+    std::shared_ptr<const CalibratedNetwork> calibrated{}; ///< null: it is as it was chosen
   };
   void open();
   /// Ends a thread of its own without waiting for it.
   template <class Running> void letGo(std::unique_ptr<Running> old);
   void loadNetwork();
   void setNetwork(Network network);
+  void takeNetwork(Network network);
+  void useCalibrated(const std::shared_ptr<const CalibratedNetwork>& calibrated, const std::string& file);
+  [[nodiscard]] bool namedBySettings() const;
   void applyPause();
   [[nodiscard]] bool watches() const { return (settings_.alarmOn || sending_.on()) && !replay_; }
   void configureOnce();
@@ -152,6 +161,8 @@ private:
   std::shared_ptr<const SampleSet> running_; ///< that the simulated board was opened with; null: those of Palp
   Network network_, before_;                 ///< in use, and the one that can be had back
   bool networkAsked_ = false;
+  bool anotherProject_ = false; ///< the network that is being read is the first one of a project
+  bool designWaits_ = false;    ///< the simulated board follows the design when its recording has ended
   bool visible_ = false, paused_ = false;
   bool recorded_ = false; ///< at the last look
   std::filesystem::path recordingFile_;

@@ -66,6 +66,13 @@ LivePage::LivePage(Workbench& workbench, BoardAccess access, std::size_t board)
   hiddenTimer_.setInterval(kHiddenLook_ms);
   connect(&hiddenTimer_, &QTimer::timeout, this, &LivePage::lookHidden);
   connect(&workbench_, &Workbench::projectChanged, this, &LivePage::displayProject);
+  connect(&workbench_, &Workbench::projectReplaced, this, [this] {
+    host_.forgetNetworkBefore();
+    calibration_->forgetFit();
+  });
+  workbench_.lossQuestion().ask(*this, [this](const Leaving& leaving) {
+    return endsRecording(leaving) ? QStringList{recordingEnds()} : QStringList{};
+  });
   connectPanels();
   buildKeys();
   displayProject();
@@ -166,10 +173,7 @@ void LivePage::buildKeys() {
 }
 
 void LivePage::connectPanels() {
-  connect(source_, &LiveSourcePanel::edited, this, [this](const QString& what, const LiveSettings& next) {
-    if (!host_.recording() || sameSource(settings(), next) || mayEndRecording()) return edit(what, next);
-    source_->display(settings());
-  });
+  connect(source_, &LiveSourcePanel::edited, this, &LivePage::edit);
   connect(control_, &LiveControlPanel::edited, this, &LivePage::edit);
   connect(send_, &SendPanel::edited, this, &LivePage::edit);
   connectSimulation();
@@ -182,7 +186,9 @@ void LivePage::connectPanels() {
   });
   connect(control_, &LiveControlPanel::backAsked, &host_, &LiveHost::backToNetwork);
   connect(control_, &LiveControlPanel::shippedAsked, &host_, &LiveHost::useChosenNetwork);
-  connect(source_, &LiveSourcePanel::openAgainAsked, &host_, &LiveHost::restart);
+  connect(source_, &LiveSourcePanel::openAgainAsked, this, [this] {
+    if (!host_.recording() || acceptsLosses({recordingEnds()}, this)) host_.restart();
+  });
   connect(source_, &LiveSourcePanel::anotherAsked, this, &LivePage::anotherAsked);
   connect(control_, &LiveControlPanel::tareAsked, this, &LivePage::tare);
   connect(control_, &LiveControlPanel::clearTareAsked, &host_, &LiveHost::clearTare);
@@ -196,8 +202,7 @@ void LivePage::connectPanels() {
   connect(control_, &LiveControlPanel::exportAsked, this, &LivePage::exportFrames);
   connect(heatmap_, &HeatmapView::cellClicked, this, &LivePage::toggleCell);
   connect(&host_, &LiveHost::networkRefused, this, &LivePage::refuseNetwork);
-  connect(&host_, &LiveHost::wentBackToFile, this,
-          [this] { change(tr("network"), [&](LiveSettings& settings) { settings.network = host_.networkFile(); }); });
+  connect(&host_, &LiveHost::otherNetworkInUse, this, &LivePage::takeNetworkInUse);
   connect(&host_, &LiveHost::decoderChanged, this, [this] {
     control_->displayNetworkProblem({});
     stateLook_ = 0;
@@ -205,6 +210,9 @@ void LivePage::connectPanels() {
   });
   connect(curves_, &LiveCurves::message, this, &LivePage::message);
   connect(calibration_, &LiveCalibration::message, this, &LivePage::message);
+  connect(calibration_, &LiveCalibration::framesEdited, this, [this] {
+    change(tr("labelled frames"), [&](LiveSettings& settings) { settings.frames = calibration_->shown(); });
+  });
   connect(calibration_, &LiveCalibration::simulatedLoadAsked, this, [this](const KnownTouch& load) {
     change(tr("simulated touch"), [&](LiveSettings& settings) { holdLabel(settings.simulation, load); });
   });
@@ -273,10 +281,19 @@ void LivePage::change(const QString& what, const std::function<void(LiveSettings
 
 /// What was chosen cannot be used: the network in use stays, and the settings name it again.
 void LivePage::refuseNetwork(const QString& sentence) {
-  if (host_.decoder()) change(tr("network"), [&](LiveSettings& settings) { settings.network = host_.networkFile(); });
+  if (host_.decoder()) takeNetworkInUse();
   const QString words = host_.decoder() ? tr("%1. %2 stays in use.").arg(sentence, host_.networkName()) : sentence;
   control_->displayNetworkProblem(words);
   emit message(words);
+}
+
+/// The settings name the network in use.
+void LivePage::takeNetworkInUse() {
+  if (board_ >= workbench_.project().boards()) return; // it is about to go
+  change(tr("network"), [&](LiveSettings& settings) {
+    settings.network = host_.networkFile();
+    settings.calibrated = host_.calibrated();
+  });
 }
 
 void LivePage::edit(const QString& what, const LiveSettings& settings) {
@@ -290,6 +307,7 @@ void LivePage::displayProject() {
   const LiveSettings settings = this->settings();
   if (host_.recording() && !sameSource(host_.settings(), settings)) stopRecording(); // and says so
   host_.setSettings(settings, workbench_.project().design);
+  calibration_->display(settings.frames);
   source_->display(settings);
   simulation_->display(settings);
   send_->display(settings);

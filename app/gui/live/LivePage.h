@@ -46,8 +46,10 @@ public:
   [[nodiscard]] std::vector<JobRunner*> runners() override;
   [[nodiscard]] QString commands(const Project& project, const QString& designFile) const override;
   [[nodiscard]] LiveHost& host() { return host_; }
-  /// Labelled frames that are in no file.
+  /// Labelled frames that are in no file of samples.
   [[nodiscard]] int unsavedFrames() const;
+  /// What ends or is lost where this board is closed, in sentences.
+  [[nodiscard]] QStringList lossesByClosing() const;
   [[nodiscard]] LiveTwin& twin() { return *twin_; }
   /// How often the views were brought up to date.
   [[nodiscard]] int looks() const { return looks_; }
@@ -98,7 +100,9 @@ private:
   void exportFrames(const QString& file);
   void exportRecording(const QString& file);
   void record(const QString& file, bool replace);
-  bool mayEndRecording();
+  [[nodiscard]] bool endsRecording(const Leaving& leaving) const;
+  [[nodiscard]] QString recordingEnds() const;
+  void takeNetworkInUse();
   void stopRecording();
   void solveTwin();
   void prepareNetwork(const QString& rows);

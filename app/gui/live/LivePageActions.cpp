@@ -67,14 +67,16 @@ void LivePage::tare() {
 /// Of a recording all of it, else the frames that the curves hold.
 void LivePage::exportFrames(const QString& file) {
   if (host_.replaying()) return exportRecording(file);
-  exporter_.start(tr("Exporting frames"),
-                  [this, file, history = host_.history(),
-                   head = sourceOf(*this).toStdString()](const std::stop_token&, JobProgress&) -> JobRunner::Taking {
-                    writeLiveCsv(file.toStdString(), history, head);
-                    return [this, file, count = history.entries().size()] {
-                      emit message(tr("Wrote the last %1 frames to %2.").arg(count).arg(file));
-                    };
-                  });
+  exporter_.start(
+      tr("Exporting frames"),
+      [this, file, history = host_.history(), head = sourceOf(*this).toStdString()](const std::stop_token&,
+                                                                                    JobProgress&) -> JobRunner::Taking {
+        writeLiveCsv(file.toStdString(), history, head);
+        return [this, file, count = history.entries().size()] {
+          emit message(tr("Wrote the last %1 frames to %2.").arg(count).arg(file));
+        };
+      },
+      JobRunner::Loss::Work);
 }
 
 void LivePage::exportRecording(const QString& file) {
@@ -91,7 +93,8 @@ void LivePage::exportRecording(const QString& file) {
           const QString note = report.note.empty() ? QString() : tr(" %1.").arg(QString::fromStdString(report.note));
           emit message(tr("Wrote all %1 frames of the recording to %2.").arg(report.frames).arg(file) + note);
         };
-      });
+      },
+      JobRunner::Loss::Work);
 }
 
 void LivePage::record(const QString& file, bool replace) {
@@ -111,13 +114,28 @@ void LivePage::record(const QString& file, bool replace) {
   stateLook_ = 0;
 }
 
-bool LivePage::mayEndRecording() {
-  const auto answer = QMessageBox::question(this, tr("A recording is running"),
-                                            tr("Another source ends the recording to %1. End it?")
-                                                .arg(QString::fromStdString(host_.recordingFile().string())));
-  if (answer != QMessageBox::Yes) return false;
-  stopRecording();
-  return true;
+bool LivePage::endsRecording(const Leaving& leaving) const {
+  if (!host_.recording()) return false;
+  const Project* next = leaving.next;
+  return next == nullptr || board_ >= next->boards() || !sameSource(host_.settings(), next->board(board_));
+}
+
+QString LivePage::recordingEnds() const {
+  return tr("%1 is being recorded: the recording ends here. What it holds until then stays in its file.")
+      .arg(QString::fromStdString(host_.recordingFile().string()));
+}
+
+QStringList LivePage::lossesByClosing() const {
+  QStringList losses;
+  if (host_.recording()) losses << recordingEnds();
+  if (const QString exported = exporter_.loss(); !exported.isEmpty()) losses << exported;
+  if (const int frames = unsavedFrames(); frames > 0)
+    losses << tr("Labelled frames of this board that are in no file: %1. To keep them use Save... at Calibration.")
+                  .arg(frames);
+  if (host_.calibrated())
+    losses << tr("The network %1 is in use here alone. To keep it use Save network... at Calibration.")
+                  .arg(host_.networkName());
+  return losses;
 }
 
 void LivePage::stopRecording() {

@@ -86,6 +86,7 @@ void NetworkFiles::takeIntoLive(const std::filesystem::path& network) {
   Project next = workbench_.project();
   if (next.live.network == network.string()) emit liveNetworkReplaced();
   next.live.network = network.string();
+  next.live.calibrated.reset();
   workbench_.edit(tr("network"), next);
   emit sceneAsked("live");
 }

@@ -5,10 +5,14 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace palp {
+
+struct BoardFrames;
+struct CalibratedNetwork;
 
 /// Where the Live scene's reports come from.
 enum class LiveSourceKind {
@@ -78,7 +82,9 @@ struct LiveSettings {
   double force_N = 5; ///< both ends of the fixed scale
   bool alarmOn = false;
   ForceAlarm alarm;
-  std::vector<LiveReceiver> receivers; ///< no two of one address
+  std::vector<LiveReceiver> receivers;                 ///< no two of one address
+  std::shared_ptr<const BoardFrames> frames;           ///< labelled; null: none
+  std::shared_ptr<const CalibratedNetwork> calibrated; ///< in use in place of `network`; null: none
 
   static constexpr std::size_t kMostReceivers = 8;
 

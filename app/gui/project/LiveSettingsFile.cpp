@@ -1,5 +1,6 @@
 #include "app/gui/project/LiveSettingsFile.h"
 
+#include "app/gui/project/live/BoardCalibrationFile.h"
 #include "io/ForceOutlet.h"
 
 #include <QJsonArray>
@@ -56,6 +57,7 @@ QJsonObject liveJson(const LiveSettings& live) {
     receivers.append(
         QJsonObject{{"to", QString::fromStdString(receiver.to)}, {"on", receiver.on || receiver.heldBack}});
   if (!receivers.isEmpty()) json["send"] = receivers;
+  if (const QJsonObject calibration = calibrationJson(live); !calibration.isEmpty()) json["calibration"] = calibration;
   return json;
 }
 
@@ -82,7 +84,7 @@ std::vector<LiveReceiver> receiversOf(const JsonPlace& place) {
 LiveSettings liveOf(const JsonPlace& place) {
   place.onlyKeys({"source", "device", "recording", "replay_speed", "rate_Hz", "row", "network", "tare_frames",
                   "arrow_mm_per_N", "change_percent", "window_s", "simulation"},
-                 {"force_scale", "force_N", "alarm", "send"});
+                 {"force_scale", "force_N", "alarm", "send", "calibration"});
   LiveSettings live;
   live.source = place.at("source").named(kLiveSourceKinds);
   live.device = place.at("device").string();
@@ -106,6 +108,7 @@ LiveSettings liveOf(const JsonPlace& place) {
     live.alarm.limit_N = alarm.at("limit_N").number(-1000, 1000);
   }
   if (place.has("send")) live.receivers = receiversOf(place.at("send"));
+  if (place.has("calibration")) readCalibration(place.at("calibration"), live);
   const JsonPlace simulation = place.at("simulation");
   simulation.onlyKeys({"noise", "warming_degC", "hysteresis_share", "seed", "open_row", "open_column", "drop_every"},
                       {"held", "held_area", "held_force_N", "moving", "held_place_mm"});

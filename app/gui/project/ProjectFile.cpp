@@ -284,6 +284,10 @@ Project parseProject(const QByteArray& text, const QString& file, const Project&
   Project project = base;
   project.design = readDesign(root);
   requireBuildable(project.design, name + ": ");
+  for (std::size_t board = 0; board < project.boards(); ++board) { // they are of the project that is left
+    project.board(board).frames.reset();
+    project.board(board).calibrated.reset();
+  }
   if (whyInvalid(project.load, project.design)) project.load = {{{0, {0, 0, -1}}}, {}};
   return project;
 }

@@ -20,7 +20,7 @@ void saveProject(const std::filesystem::path& path, const Project& project);
 QByteArray projectText(const Project& project);
 
 /// A project file, or a design file: that one changes the design only and keeps the rest of `base`, less what cannot
-/// act on it. Reads strictly: throws Error with file, key, value and what is allowed.
+/// act on it and what was calibrated. Reads strictly: throws Error with file, key, value and what is allowed.
 Project loadProject(const std::filesystem::path& path, const Project& base);
 
 /// The same from the file's text; `file` is the name that refusals show.

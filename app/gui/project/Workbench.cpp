@@ -24,84 +24,82 @@ Project shownAs(Project project, const Project& other) {
 
 } // namespace
 
-/// One entry of the history: the project before and after, or another one in its place.
+/// One entry of the history: the project before and after. An edit leaves the view as it is.
 class ProjectEdit : public QUndoCommand {
 public:
-  ProjectEdit(Workbench& workbench, QString kind, Workbench::Held after, bool replaces)
-      : workbench_(workbench), kind_(std::move(kind)), place_(workbench.place_), before_(workbench.held_),
-        after_(std::move(after)), replaces_(replaces) {
+  ProjectEdit(Workbench& workbench, QString kind, Project after)
+      : workbench_(workbench), kind_(std::move(kind)), place_(workbench.place_), before_(workbench.project_),
+        after_(std::move(after)) {
     name();
   }
 
-  void undo() override {
-    const Project shown = workbench_.project();
-    go(before_);
-    emit workbench_.wentBack(place_, QObject::tr("Undone: %1").arg(text()), shown);
-  }
+  void undo() override { go(before_, QObject::tr("Undone: %1")); }
   void redo() override {
-    const Project shown = workbench_.project();
-    go(after_);
-    if (std::exchange(done_, true)) emit workbench_.wentBack(place_, QObject::tr("Done again: %1").arg(text()), shown);
+    if (std::exchange(done_, true)) return go(after_, QObject::tr("Done again: %1"));
+    workbench_.apply(shownAs(after_, workbench_.project()));
   }
   [[nodiscard]] int id() const override { return kMergeId; }
-  [[nodiscard]] bool replaces() const { return replaces_; }
-  [[nodiscard]] const SensorDesign& before() const { return before_.project.design; }
-  [[nodiscard]] const SensorDesign& after() const { return after_.project.design; }
+  [[nodiscard]] const SensorDesign& before() const { return before_.design; }
+  [[nodiscard]] const SensorDesign& after() const { return after_.design; }
   [[nodiscard]] const QDateTime& when() const { return when_; }
   bool mergeWith(const QUndoCommand* later) override {
     const auto& edit = *static_cast<const ProjectEdit*>(later);
-    if (!workbench_.entryOpen_ || replaces_ || edit.replaces_ || edit.kind_ != kind_) return false;
+    if (!workbench_.entryOpen_ || edit.kind_ != kind_) return false;
     after_ = edit.after_;
     when_ = edit.when_;
-    setObsolete(after_.project == shownAs(before_.project, after_.project)); // there and back again: nothing to undo
+    setObsolete(after_ == shownAs(before_, after_)); // there and back again: nothing to undo
     name();
     return true;
   }
 
 private:
-  void name() { setText(replaces_ ? kind_ : changeWords(kind_, before_.project, after_.project)); }
-  /// Another project comes with its view; an edit leaves the view as it is now.
-  void go(const Workbench::Held& to) {
-    if (replaces_) {
-      workbench_.hold(to);
-      emit workbench_.projectReplaced();
-    } else {
-      workbench_.apply(shownAs(to.project, workbench_.project()));
-    }
+  void name() { setText(changeWords(kind_, before_, after_)); }
+  void go(const Project& to, const QString& words) {
+    const Project shown = workbench_.project();
+    workbench_.apply(shownAs(to, shown));
+    emit workbench_.wentBack(place_, words.arg(text()), shown);
   }
 
   Workbench& workbench_;
   QString kind_;
   QString place_; ///< the scene it was made in
-  Workbench::Held before_, after_;
+  Project before_, after_;
   QDateTime when_ = QDateTime::currentDateTime();
-  bool replaces_;
   bool done_ = false;
 };
 
-Workbench::Workbench(const Project& project, QObject* parent) : QObject(parent) {
+Workbench::Workbench(const Project& project, QObject* parent) : QObject(parent), saved_(project) {
   history_.setUndoLimit(200);
-  held_.begun = project;
   apply(project);
 }
 
 void Workbench::edit(const QString& what, const Project& next) {
   if (next == project()) return;
+  if (!acceptsLosses(lossQuestion_.losses({Leaving::Way::Edit, &next}))) return showAgain();
   if (next == shownAs(project(), next)) { // nothing that stands in the history
     apply(next);
     return;
   }
-  Held after = held_;
-  after.project = next;
-  held_.project = shownAs(project(), next); // what is shown changes at once and for good
-  history_.push(new ProjectEdit(*this, what, std::move(after), false));
+  project_ = shownAs(project(), next); // what is shown changes at once and for good
+  history_.push(new ProjectEdit(*this, what, next));
   entryOpen_ = true;
 }
 
-void Workbench::replace(const QString& what, const Project& project, const QString& file) {
+void Workbench::replace(const Project& project, const QString& file) {
+  begin(project, file, project);
+}
+
+void Workbench::replaceUnsaved(const Project& project, const QString& file) {
+  begin(project, file, {});
+}
+
+void Workbench::begin(const Project& project, const QString& file, std::optional<Project> saved) {
   entryOpen_ = false;
-  if (!file.isEmpty()) saved_[file] = project;
-  history_.push(new ProjectEdit(*this, what, {project, file, project}, true));
+  history_.clear();
+  file_ = file;
+  saved_ = std::move(saved);
+  apply(project);
+  emit projectReplaced();
 }
 
 std::vector<EarlierDesign> Workbench::earlierDesigns() const {
@@ -113,15 +111,14 @@ std::vector<EarlierDesign> Workbench::earlierDesigns() const {
     all.push_back({design, edit.text(), edit.when(), undone});
   };
   const auto entry = [this](int k) { return static_cast<const ProjectEdit*>(history_.command(k)); };
-  for (int k = history_.index() - 1; k >= 0 && !entry(k)->replaces(); --k) add(*entry(k), entry(k)->before(), false);
-  for (int k = history_.index(); k < history_.count() && !entry(k)->replaces(); ++k)
-    add(*entry(k), entry(k)->after(), true);
+  for (int k = history_.index() - 1; k >= 0; --k) add(*entry(k), entry(k)->before(), false);
+  for (int k = history_.index(); k < history_.count(); ++k) add(*entry(k), entry(k)->after(), true);
   return all;
 }
 
 Workbench::Modified Workbench::modification() const {
-  const auto kept = saved_.find(file());
-  Project last = kept == saved_.end() ? held_.begun : kept->second;
+  if (!saved_) return Modified::Project;
+  Project last = *saved_;
   const LiveSettings& live = project().live;
   last.view = project().view;
   last.live.source = live.source;
@@ -130,19 +127,16 @@ Workbench::Modified Workbench::modification() const {
   last.live.replaySpeed = live.replaySpeed;
   last.live.simulation = live.simulation;
   if (last == project()) return Modified::Nothing;
+  const bool calibrated = last.live.frames != live.frames || last.live.calibrated != live.calibrated;
   last.live = live;
-  return last == project() ? Modified::LiveSettings : Modified::Project;
+  if (last != project()) return Modified::Project;
+  return calibrated ? Modified::Calibration : Modified::LiveSettings;
 }
 
 void Workbench::saved(const QString& file) {
-  saved_[file] = project();
-  held_.file = file;
+  saved_ = project();
+  file_ = file;
   emit fileChanged();
-}
-
-void Workbench::hold(const Held& held) {
-  held_ = held;
-  apply(held.project);
 }
 
 bool Workbench::comparable() const {
@@ -192,7 +186,7 @@ void Workbench::needKeptResistances() {
 }
 
 void Workbench::apply(const Project& project) {
-  held_.project = project;
+  project_ = project;
   if (!comparable()) kept_.forget();
   const SensorDesign* other = project.view.uniform ? &project.design : project.kept ? &*project.kept : nullptr;
   if (!comparable() || other->field() == nullptr) keptField_.leave();

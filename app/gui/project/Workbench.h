@@ -3,13 +3,14 @@
 #include "app/gui/jobs/FieldTouch.h"
 #include "app/gui/jobs/KeptTouch.h"
 #include "app/gui/jobs/TouchSession.h"
+#include "app/gui/project/Leaving.h"
 #include "app/gui/project/Project.h"
 
 #include <QDateTime>
 #include <QObject>
 #include <QUndoStack>
 
-#include <map>
+#include <optional>
 #include <vector>
 
 namespace palp {
@@ -29,25 +30,32 @@ class Workbench : public QObject {
 public:
   explicit Workbench(const Project& project, QObject* parent = nullptr);
 
-  [[nodiscard]] const Project& project() const { return held_.project; }
+  [[nodiscard]] const Project& project() const { return project_; }
   /// A change. How things are shown and the live settings just change; all else becomes an entry of the history that
   /// can be undone, named after what changed with its values, or `what` where that cannot be said shortly. Edits of the
-  /// same `what` in a row are one entry until closeEntry().
+  /// same `what` in a row are one entry until closeEntry(). Asks before something ends by it that cannot be had again;
+  /// where the user refuses, nothing changes.
   void edit(const QString& what, const Project& next);
   /// The next edit begins an entry of its own.
   void closeEntry() { entryOpen_ = false; }
-  /// Another project in place of this one, kept in `file` (empty: in none yet). Can be undone.
-  void replace(const QString& what, const Project& project, const QString& file = {});
+  /// Another project in place of this one, kept in `file` (empty: in none yet), which holds it. Its history begins
+  /// here.
+  void replace(const Project& project, const QString& file = {});
+  /// The same with a project that is in no file as it is: it is unsaved from the first.
+  void replaceUnsaved(const Project& project, const QString& file);
 
   /// The project's file; empty before it is saved for the first time.
-  [[nodiscard]] const QString& file() const { return held_.file; }
+  [[nodiscard]] const QString& file() const { return file_; }
   /// What was set that the file does not hold. How things are shown does not count, nor which board or recording Live
   /// plays and what the simulated one does.
-  enum class Modified { Nothing, LiveSettings, Project };
+  enum class Modified { Nothing, LiveSettings, Calibration, Project };
   [[nodiscard]] Modified modification() const;
   [[nodiscard]] bool modified() const { return modification() != Modified::Nothing; }
   /// The project as it is now stands in this file.
   void saved(const QString& file);
+
+  /// What every way of leaving asks.
+  [[nodiscard]] LossQuestion& lossQuestion() { return lossQuestion_; }
 
   /// Every panel shows the project again, instead of what was typed and could not be applied.
   void showAgain() { emit projectChanged(); }
@@ -90,17 +98,13 @@ signals:
 
 private:
   friend class ProjectEdit;
-  /// A project and where it is kept.
-  struct Held {
-    Project project;
-    QString file;
-    Project begun; ///< as it was before anything was set in it
-  };
-  void hold(const Held& held);
+  void begin(const Project& project, const QString& file, std::optional<Project> saved);
   void apply(const Project& project);
 
-  Held held_;
-  std::map<QString, Project> saved_; ///< what the files hold
+  Project project_;
+  QString file_;
+  std::optional<Project> saved_; ///< as the file holds it, or as it began; none: it was never the same
+  LossQuestion lossQuestion_;
   QUndoStack history_;
   bool entryOpen_ = false;
   QString place_;

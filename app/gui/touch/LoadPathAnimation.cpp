@@ -195,7 +195,7 @@ bool LoadPathAnimation::start(const Settings& settings) {
     if (!whole) throw Cancelled();
     return [this, sentence = filmSentence(settings)] { emit done(sentence); };
   };
-  runner_.start(tr("Drawing the load path"), work);
+  runner_.start(tr("Drawing the load path"), work, JobRunner::Loss::Work);
   return true;
 }
 

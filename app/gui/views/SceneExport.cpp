@@ -135,7 +135,8 @@ void SceneExport::finish() {
         writing.commit();
         return
             [this, count = files->size(), folder] { emit done(tr("Wrote %1 files into %2.").arg(count).arg(folder)); };
-      });
+      },
+      JobRunner::Loss::Work);
 }
 
 } // namespace palp

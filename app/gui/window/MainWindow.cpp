@@ -107,6 +107,7 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   addScene("network", tr("Network"), tr("Samples, training and the sweep of the spread"), networkPage_);
   live_ = new LiveBoards(workbench);
   connect(live_, &LiveBoards::message, this, &MainWindow::showMessage);
+  connect(live_, &LiveBoards::recordingsChanged, this, &MainWindow::recordingsChanged);
   connect(live_, &LiveBoards::sceneAsked, this, &MainWindow::showScene);
   connect(networkPage_, &NetworkPage::liveNetworkReplaced, this, [this] { live_->page().host().useChosenNetwork(); });
   addScene("live", tr("Live"), tr("Boards, the simulated board or a recording, live"), live_);
@@ -126,6 +127,7 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   connect(&sceneExport_->runner(), &JobRunner::failed, this,
           [this](const QString& sentence) { QMessageBox::warning(this, tr("Export"), sentence); });
   document_ = new Document(*this, workbench, network);
+  workbench.lossQuestion().ask(*this, [this](const Leaving& leaving) { return losses(leaving); });
   buildStatusLine();
   new Menus(*this, workbench, *document_);
   new HistorySteps(*this, workbench);
@@ -280,23 +282,26 @@ void MainWindow::restoreLayout() {
   setTheme(kThemes.find(settings.value("theme").toString().toStdString()).value_or(Theme::Light));
 }
 
-QStringList MainWindow::endedByQuitting() const {
-  QStringList ends;
-  if (reports_->running()) ends << reports_->endsWords();
-  const QString files = live_->recording();
-  if (!files.isEmpty())
-    ends << tr("%1 is being recorded: quitting ends the recording; what has come is in its file, and stays there "
-               "whatever is chosen here.")
-                .arg(files);
-  if (const int frames = live_->unsavedFrames(); frames > 0)
-    ends << tr("Labelled frames of the calibration that are in no file: %1. Quitting loses them, a project does not "
-               "hold them: to keep them stay, and use Save... at Live, Calibration.")
-                .arg(frames);
-  return ends;
+/// Recordings are the boards' to answer.
+QStringList MainWindow::losses(const Leaving& leaving) const {
+  if (leaving.way == Leaving::Way::Edit) return {};
+  const bool quits = leaving.way == Leaving::Way::Quit; // else files are written to their end
+  std::vector<const JobRunner*> runners{&network_.runner()};
+  for (int k = 0; k < scenes_->count(); ++k) {
+    auto* scene = static_cast<Scene*>(scenes_->widget(k));
+    if (!quits && scene == live_) continue;
+    for (const JobRunner* runner : scene->runners()) runners.push_back(runner);
+  }
+  if (quits) runners.insert(runners.end(), {&animation_->runner(), &exports_->runner(), &sceneExport_->runner()});
+  QStringList all;
+  if (quits && reports_->running()) all << reports_->endsWords();
+  for (const JobRunner* runner : runners)
+    if (const QString loss = runner->loss(); !loss.isEmpty()) all << loss;
+  return all;
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
-  if (!document_->mayLeave(endedByQuitting())) {
+  if (!document_->mayLeave({Leaving::Way::Quit})) {
     event->ignore();
     return;
   }

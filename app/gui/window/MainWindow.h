@@ -18,6 +18,7 @@ class Document;
 class ExportJob;
 class LiveBoards;
 class LoadPathAnimation;
+struct Leaving;
 class MessageLog;
 class NetworkPage;
 class NetworkSession;
@@ -58,6 +59,10 @@ public:
   /// Says a sentence in the status line, and keeps it in the log of messages.
   void showMessage(const QString& sentence);
 
+signals:
+  /// The files that are being recorded now.
+  void recordingsChanged(const QStringList& files);
+
 protected:
   void showEvent(QShowEvent* event) override;
   void closeEvent(QCloseEvent* event) override;
@@ -70,7 +75,7 @@ private:
   /// What the scene that is seen does; where it does nothing, what all do.
   void cancelAll();
   /// What runs and would end, a sentence each.
-  [[nodiscard]] QStringList endedByQuitting() const;
+  [[nodiscard]] QStringList losses(const Leaving& leaving) const;
   /// What only scenes need that are not seen.
   void giveBackMemory();
   void sceneChosen(int index);

@@ -93,6 +93,11 @@ void LabelledFrames::clear() {
   said_N_.resize(3, 0);
 }
 
+void LabelledFrames::replace(const SampleSet& samples, const Eigen::Matrix3Xd& said_N) {
+  samples_ = samples;
+  said_N_ = said_N;
+}
+
 void LabelledFrames::remove(Eigen::Index sample) {
   if (sample < 0 || sample >= samples_.size()) return;
   if (samples_.size() == 1) return clear();

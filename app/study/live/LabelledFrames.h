@@ -35,6 +35,8 @@ public:
   [[nodiscard]] const SampleSet& samples() const { return samples_; }
   void remove(Eigen::Index sample);
   void clear();
+  /// Other frames in place of those that are here, and what the network in use gave for each.
+  void replace(const SampleSet& samples, const Eigen::Matrix3Xd& said_N);
   /// Adds the frames of a file (palp listen --append). Throws Error where they are of another design.
   void load(const std::filesystem::path& path);
   /// Adds frames that were read from there. Throws Error where they are of another design.

@@ -326,7 +326,7 @@ TEST_F(MonkeyWindow, SurvivesAThousandActionsAndShowsWhatAFreshWindowShows) {
   Project project = quickProject();
   project.load.areas.push_back({4, {0.3, -0.2, -2.5}});
   project.view.quantity = Quantity::VonMises;
-  workbench.replace("another", project);
+  workbench.replace(project);
   window.setTheme(Theme::Light);
   window.resize(1300, 800);
   for (auto* tabs : window.findChildren<QTabWidget*>()) tabs->setCurrentIndex(0);

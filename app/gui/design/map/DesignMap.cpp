@@ -308,21 +308,23 @@ std::shared_ptr<const FaceMap> DesignMap::overBlock() const {
 void DesignMap::run() {
   const Project& project = workbench_.project();
   words_->setText(tr("Being computed..."));
-  runner_.start(tr("Mapping the resolution"),
-                [this, design = project.design, mesh = project.mesh, settings = project.studies.map,
-                 noise = project.view.resistanceNoise,
-                 before = basis_](const std::stop_token& stop, JobProgress& progress) -> JobRunner::Taking {
-                  const auto report = [&](double share, const std::string& what) { progress.set(share, what); };
-                  const MapFound found = mapResolution(design, mesh, settings, noise, before, report, stop);
-                  if (!found.basis || stop.stop_requested()) return {};
-                  return [this, found] {
-                    if (isVisible()) basis_ = found.basis;
-                    shown_.reset(); // also where it is what was found before
-                    Project next = workbench_.project();
-                    next.studies.mapped = found.map;
-                    workbench_.edit(tr("Map the resolution"), next);
-                  };
-                });
+  runner_.start(
+      tr("Mapping the resolution"),
+      [this, design = project.design, mesh = project.mesh, settings = project.studies.map,
+       noise = project.view.resistanceNoise,
+       before = basis_](const std::stop_token& stop, JobProgress& progress) -> JobRunner::Taking {
+        const auto report = [&](double share, const std::string& what) { progress.set(share, what); };
+        const MapFound found = mapResolution(design, mesh, settings, noise, before, report, stop);
+        if (!found.basis || stop.stop_requested()) return {};
+        return [this, found] {
+          if (isVisible()) basis_ = found.basis;
+          shown_.reset(); // also where it is what was found before
+          Project next = workbench_.project();
+          next.studies.mapped = found.map;
+          workbench_.edit(tr("Map the resolution"), next);
+        };
+      },
+      JobRunner::Loss::Work);
 }
 
 } // namespace palp

@@ -97,8 +97,8 @@ QWidget* LiveControlPanel::buildNetwork() {
   column->addWidget(networkProblem_); // below: no button moves when it comes
   connect(open, &QPushButton::clicked, this, &LiveControlPanel::chooseNetwork);
   connect(shipped_, &QPushButton::clicked, this, [this] {
-    if (settings_.network.empty()) return emit shippedAsked();
-    edit(tr("network"), [](LiveSettings& settings) { settings.network.clear(); });
+    if (settings_.network.empty() && !settings_.calibrated) return emit shippedAsked();
+    useNetwork({});
   });
   connect(back_, &QPushButton::clicked, this, &LiveControlPanel::backAsked);
   connect(tare_, &QPushButton::clicked, this, &LiveControlPanel::tareAsked);
@@ -274,7 +274,15 @@ void LiveControlPanel::edit(const QString& what, const std::function<void(LiveSe
 
 void LiveControlPanel::chooseNetwork() {
   const QString file = askFileToOpen(this, tr("Open a network"), tr("Networks (*.json)"));
-  if (!file.isEmpty()) edit(tr("network"), [&](LiveSettings& settings) { settings.network = file.toStdString(); });
+  if (!file.isEmpty()) useNetwork(file.toStdString());
+}
+
+/// In place of one that was calibrated, too.
+void LiveControlPanel::useNetwork(const std::string& file) {
+  edit(tr("network"), [&](LiveSettings& settings) {
+    settings.network = file;
+    settings.calibrated.reset();
+  });
 }
 
 QString LiveControlPanel::markText() const {
@@ -346,7 +354,7 @@ void LiveControlPanel::displayState(const LiveControlState& state) {
   setText(*networkProblem_,
           networkRefused_.isEmpty() ? QString::fromStdString(status.decoderProblem) : networkRefused_);
   back_->setEnabled(!state.networkBefore.isEmpty());
-  shipped_->setEnabled(!settings_.network.empty() || !state.networkBefore.isEmpty());
+  shipped_->setEnabled(!settings_.network.empty() || settings_.calibrated || !state.networkBefore.isEmpty());
   const QString back = state.networkBefore.isEmpty() ? tr("Back to the network that was in use before; there is none")
                                                      : tr("Back to: %1").arg(state.networkBefore);
   if (back_->toolTip() != back) back_->setToolTip(back);

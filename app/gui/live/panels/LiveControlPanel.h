@@ -69,6 +69,7 @@ private:
   QWidget* buildScales();
   void edit(const QString& what, const std::function<void(LiveSettings&)>& change);
   void chooseNetwork();
+  void useNetwork(const std::string& file);
   void record();
   void displayTare(const LiveStatus& status);
   void lookForFile();

@@ -63,7 +63,7 @@ TEST_F(DesignPageTest, ShowsAProjectsOwnNumbersAndKeepsThemWhenOthersAreEdited) 
   project.network.noise = 2.5e-8;
   project.network.spread = 0.0012345;
   project.network.automaticSpread = false;
-  workbench.replace("another", project);
+  workbench.replace(project);
   EXPECT_EQ(find<QDoubleSpinBox>("meshSize").value(), 0.333);
   EXPECT_NEAR(find<QDoubleSpinBox>("resistanceNoise").value(), 5e-5, 1e-18);
   EXPECT_EQ(find<QDoubleSpinBox>("spread").value(), 0.0012345);

@@ -258,7 +258,7 @@ TEST_F(DesignStudies, AreKeptByTheProjectAndFaintWhereTheDesignIsAnotherOne) {
       before, next.design, "12:00, before: softer", next.load, 1e-4, bounds, bounds, "words", 1, 2, {0.5, -0.25}};
   const Project again = parseProject(projectText(next), "x.json", {});
   EXPECT_EQ(again.studies, next.studies);
-  workbench.replace("opened", again, "x.json");
+  workbench.replace(again, "x.json");
   open(1);
   EXPECT_TRUE(find<QPushButton>("takeLayout").isEnabled()) << "a layout that was found is not lost";
   EXPECT_TRUE(find<QLabel>("layoutWords").text().contains("640"));

@@ -5,6 +5,7 @@
 #include "app/gui/jobs/samples/ResultFiles.h"
 #include "app/gui/project/ProjectFile.h"
 #include "io/AtomicFile.h"
+#include "io/board/Recording.h"
 #include "tests/app/gui/FullDisk.h"
 #include "tests/app/gui/WindowFixture.h"
 
@@ -89,10 +90,21 @@ TEST(Autosave, AtMostTenSecondsAreMissingAfterAKillAndNoFileIsBroken) {
   }
 }
 
+/// Answers the question about what was left by "Recover".
+void recoverInto(MainWindow& window, Autosave& autosave, const QString& left) {
+  QTimer answer;
+  QObject::connect(&answer, &QTimer::timeout, &answer, [] {
+    auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
+    if (box != nullptr && box->objectName() == "recovery") QTest::mouseClick(box->buttons().front(), Qt::LeftButton);
+  });
+  answer.start(20);
+  offerRecovery(window, autosave, left);
+}
+
 /// A window with an autosave that is then forgotten as by a kill: what it kept stays.
 class AutosaveTest : public WindowFixture {
 protected:
-  AutosaveTest() : autosave(std::make_unique<Autosave>(workbench, network, window.document(), folder.filePath("r"))) {}
+  AutosaveTest() : autosave(std::make_unique<Autosave>(workbench, network, window, folder.filePath("r"))) {}
   void press(double fz_N) {
     Project next = workbench.project();
     next.load.areas[0].force_N.z() = fz_N;
@@ -119,6 +131,19 @@ protected:
                           std::filesystem::copy_options::recursive | std::filesystem::copy_options::overwrite_existing);
     QFile::remove(to + "/lock");
     return folder.filePath("left");
+  }
+
+  /// What a killed window has left of a project.
+  QString leaveProject(const Project& project, const QString& file) {
+    const QString window = folder.filePath("left/window");
+    std::filesystem::create_directories(window.toStdString());
+    writeFile((window + "/project.json").toStdString(), projectText(project).toStdString(), true);
+    writeFile((window + "/file.txt").toStdString(), file.toStdString(), true);
+    return folder.filePath("left");
+  }
+  bool generated(int perArea, std::uint64_t seed) {
+    network.generate({perArea, seed}, workbench.project().mesh);
+    return QTest::qWaitFor([&] { return network.samples() != nullptr && !network.working(); }, kPatience_ms);
   }
 
   QTemporaryDir folder;
@@ -176,16 +201,12 @@ TEST_F(AutosaveTest, WhatCannotBeReadIsNotForgottenWithTheRest) {
   std::filesystem::create_directories((left + "/window/results").toStdString());
   writeFile((left + "/window/project.json").toStdString(), projectText(quickProject()).toStdString(), true);
   writeFile((left + "/window/results/samples.csv").toStdString(), "# palp_samples: 1\n", true);
-  QTimer answer;
-  QObject::connect(&answer, &QTimer::timeout, &answer, [] {
-    auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
-    if (box != nullptr && box->objectName() == "recovery") QTest::mouseClick(box->buttons().front(), Qt::LeftButton);
-  });
-  answer.start(20);
-  offerRecovery(window, left);
+  recoverInto(window, *autosave, left);
   auto& problem = find<QLabel>("trainingProblem");
   ASSERT_TRUE(QTest::qWaitFor([&] { return problem.text().contains("samples.csv"); }, kPatience_ms));
   EXPECT_TRUE(find<QPlainTextEdit>("messageLines").toPlainText().contains(left + "/window/results"));
+  EXPECT_TRUE(Autosave::left(left).empty()) << "another window would offer what is open here";
+  autosave.reset();
   EXPECT_EQ(Autosave::left(left).size(), 1U) << "the next start asks again";
 }
 
@@ -199,13 +220,8 @@ TEST_F(AutosaveTest, KeepsADesignUnderTheField) {
   NetworkSession none;
   MainWindow other(fresh, none);
   other.show();
-  QTimer answer;
-  QObject::connect(&answer, &QTimer::timeout, &answer, [] {
-    auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
-    if (box != nullptr && box->objectName() == "recovery") QTest::mouseClick(box->buttons().front(), Qt::LeftButton);
-  });
-  answer.start(20);
-  offerRecovery(other, left);
+  Autosave copies(fresh, none, other, folder.filePath("other"));
+  recoverInto(other, copies, left);
   EXPECT_EQ(fresh.project().design, next.design);
 }
 
@@ -219,7 +235,7 @@ TEST_F(AutosaveTest, HoldsNothingOfAProjectThatWasLeft) {
   press(-2.5);
   ASSERT_TRUE(kept("results"));
   EXPECT_FALSE(samples.expired());
-  workbench.replace("New", quickProject(), {});
+  workbench.replace(quickProject());
   EXPECT_TRUE(QTest::qWaitFor([&] { return samples.expired() && fit.expired(); }, kPatience_ms));
 }
 
@@ -242,13 +258,8 @@ TEST_F(AutosaveTest, BringsProjectSamplesAndNetworkBackAndUndoLeadsToWhatTheFile
   NetworkSession none;
   MainWindow next(fresh, none);
   next.show();
-  QTimer answer;
-  QObject::connect(&answer, &QTimer::timeout, &answer, [] {
-    auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
-    if (box != nullptr && box->objectName() == "recovery") QTest::mouseClick(box->buttons().front(), Qt::LeftButton);
-  });
-  answer.start(20);
-  offerRecovery(next, left);
+  Autosave copies(fresh, none, next, folder.filePath("next"));
+  recoverInto(next, copies, left);
   EXPECT_EQ(fresh.project().load, workbench.project().load);
   EXPECT_EQ(fresh.file(), file);
   EXPECT_TRUE(next.isWindowModified()) << "what was recovered is still unsaved";
@@ -257,8 +268,109 @@ TEST_F(AutosaveTest, BringsProjectSamplesAndNetworkBackAndUndoLeadsToWhatTheFile
   EXPECT_EQ(none.samples()->test.forces_N, network.samples()->test.forces_N);
   EXPECT_EQ(none.fit()->prediction.forces_N, network.fit()->prediction.forces_N);
   EXPECT_TRUE(Autosave::left(left).empty()) << "recovered once";
+  EXPECT_TRUE(QFileInfo::exists(left + "/window/project.json")) << "the copy went before there was another one";
   fresh.history().undo();
   EXPECT_EQ(fresh.project().load, held.load);
+}
+
+TEST_F(AutosaveTest, RecoversAProjectWhoseOwnFileIsBrokenAndKeepsItUnsaved) {
+  const QString file = folder.filePath("mine.json");
+  Project mine = quickProject();
+  mine.load.areas[0].force_N.z() = -2.5;
+  const QByteArray text = projectText(mine);
+  writeFile(file.toStdString(), text.left(text.size() / 2).toStdString(), true); // as a power cut leaves it
+  recoverInto(window, *autosave, leaveProject(mine, file));
+  EXPECT_EQ(workbench.project().load, mine.load);
+  EXPECT_EQ(workbench.file(), file);
+  EXPECT_TRUE(window.isWindowModified());
+  EXPECT_TRUE(find<QPlainTextEdit>("messageLines").toPlainText().contains("mine.json"));
+}
+
+TEST_F(AutosaveTest, WhatHadNoFileIsNoEditOfTheFileThatIsOpen) {
+  const QString file = folder.filePath("open.json");
+  workbench.saved(file);
+  Project other = quickProject();
+  other.load.areas[0].force_N.z() = -2.5;
+  recoverInto(window, *autosave, leaveProject(other, {}));
+  EXPECT_EQ(workbench.project().load, other.load);
+  EXPECT_EQ(workbench.file(), "") << "saving would replace another project";
+}
+
+TEST_F(AutosaveTest, TwoWindowsDoNotOfferTheSameWork) {
+  const QString left = leaveProject(quickProject(), {});
+  {
+    const std::vector<LeftWork> offered = Autosave::left(left);
+    ASSERT_EQ(offered.size(), 1U);
+    EXPECT_TRUE(Autosave::left(left).empty()) << "while it is offered";
+  }
+  EXPECT_EQ(Autosave::left(left).size(), 1U) << "asked again later";
+}
+
+TEST_F(AutosaveTest, TheCopyThatWasRecoveredIsGoneWhenTheWindowEndsAsItShould) {
+  const QString left = leaveProject(quickProject(), {});
+  recoverInto(window, *autosave, left);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !network.working(); }, kPatience_ms));
+  EXPECT_TRUE(QFileInfo::exists(left + "/window/project.json"));
+  autosave.reset();
+  EXPECT_TRUE(QDir(left).isEmpty());
+}
+
+TEST_F(AutosaveTest, WhereNothingCanBeKeptTheWindowStartsAndSaysSoOnce) {
+  writeFile(folder.filePath("file").toStdString(), "", true);
+  Autosave nowhere(workbench, network, window, folder.filePath("file/recovery"));
+  QStringList said;
+  QObject::connect(&nowhere, &Autosave::failed, [&said](const QString& sentence) { said << sentence; });
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !said.isEmpty(); }, kPatience_ms));
+  EXPECT_TRUE(said[0].contains("file/recovery")) << said[0].toStdString();
+  press(-2.5);
+  ASSERT_TRUE(kept("project.json")) << "the other one keeps it";
+  EXPECT_EQ(said.size(), 1);
+}
+
+TEST_F(AutosaveTest, KeepsNoNetworkOfAProjectThatWasDiscarded) {
+  ASSERT_TRUE(generated(2, 1));
+  network.train(workbench.project().network);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.fit() != nullptr && !network.working(); }, kPatience_ms));
+  ASSERT_TRUE(kept("results/networks"));
+  workbench.replace(quickProject());
+  ASSERT_TRUE(generated(2, 2)); // of the same design
+  ASSERT_TRUE(kept("project.json")) << "that of the discarded project goes at once";
+  ASSERT_TRUE(QTest::qWaitFor(
+      [&] { return QDir(folder.filePath("r")).entryList(QDir::Dirs | QDir::NoDotAndDotDot).size() == 1; },
+      kPatience_ms))
+      << "the copy of the discarded project stays";
+  ASSERT_TRUE(kept("results/samples.csv"));
+  EXPECT_TRUE(
+      openResults((copyOfLeft() + "/window/results").toStdString(), quickProject().design, {}).results.kept.empty());
+}
+
+TEST_F(AutosaveTest, KeepsASweepThatWasMadeAfterTheSamplesWereKept) {
+  ASSERT_TRUE(generated(2, 1));
+  ASSERT_TRUE(kept("results/samples.csv"));
+  NetworkSettings settings = workbench.project().network;
+  settings.sweepCount = 2;
+  network.sweep(settings);
+  EXPECT_TRUE(kept("results/sweeps.json"));
+}
+
+TEST_F(AutosaveTest, TheNextStartNamesTheRecordingThatWasCut) {
+  const QString file = folder.filePath("touch.palprec");
+  RecordingHead head;
+  head.source = "a board";
+  RecordingWriter(file.toStdString(), head, false);
+  emit window.recordingsChanged({file});
+  ASSERT_TRUE(kept("recordings.txt"));
+  const QString left = copyOfLeft(); // as after a kill
+  emit window.recordingsChanged({});
+  const QDir root(folder.filePath("r"));
+  for (const QString& one : root.entryList(QDir::Dirs | QDir::NoDotAndDotDot))
+    EXPECT_FALSE(QFileInfo::exists(root.filePath(one) + "/recordings.txt")) << "it ended as it should";
+  offerRecovery(window, *autosave, left);
+  auto* box = window.findChild<QMessageBox*>("cutRecordings");
+  ASSERT_NE(box, nullptr);
+  EXPECT_TRUE(box->text().contains(file + ": readable")) << box->text().toStdString();
+  box->close();
+  EXPECT_TRUE(QDir(left).isEmpty()) << "said once";
 }
 
 } // namespace

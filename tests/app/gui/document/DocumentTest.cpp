@@ -1,4 +1,5 @@
 #include "app/gui/document/Document.h"
+#include "app/gui/project/Leaving.h"
 #include "app/gui/project/ProjectFile.h"
 #include "io/AtomicFile.h"
 #include "tests/app/gui/FullDisk.h"
@@ -15,6 +16,8 @@
 #include <QPushButton>
 #include <QTemporaryDir>
 #include <SourceDir.h>
+
+#include <algorithm>
 
 namespace palp {
 namespace {
@@ -87,7 +90,7 @@ TEST_F(DocumentTest, SavesWhenAskedToBeforeItCloses) {
   EXPECT_EQ(loadProject((file + ".json").toStdString(), exampleProject()).load.areas[0].force_N.z(), -3.5);
 }
 
-TEST_F(DocumentTest, AsksBeforeAnotherProjectTakesItsPlaceAndUndoBringsItBack) {
+TEST_F(DocumentTest, AsksBeforeAnotherProjectTakesItsPlaceAndUndoDoesNotBringWhatWasDiscardedBack) {
   press(-2.5);
   answer(QMessageBox::Cancel);
   key(Qt::Key_N);
@@ -98,7 +101,45 @@ TEST_F(DocumentTest, AsksBeforeAnotherProjectTakesItsPlaceAndUndoBringsItBack) {
   EXPECT_EQ(questions_, 2);
   EXPECT_EQ(workbench.project(), exampleProject());
   key(Qt::Key_Z);
-  EXPECT_EQ(fz_N(), -2.5);
+  EXPECT_EQ(workbench.project(), exampleProject());
+}
+
+TEST_F(DocumentTest, EveryWayOfLeavingAsksAboutWhatWouldEnd) {
+  Project other = quickProject();
+  other.load.areas[0].force_N.z() = -9;
+  saveProject(inFolder("other.json").toStdString(), other);
+  const Project here = workbench.project();
+  QObject board;
+  std::vector<const Project*> next;
+  workbench.lossQuestion().ask(board, [&](const Leaving& leaving) {
+    if (leaving.way == Leaving::Way::Edit) return QStringList();
+    next.push_back(leaving.next);
+    return QStringList("touch.palprec is being recorded.");
+  });
+  answer(QMessageBox::No);
+  EXPECT_FALSE(window.close());
+  dropOn(window, inFolder("other.json"));
+  key(Qt::Key_N);
+  window.document().openExample(inFolder("other.json"), "other");
+  EXPECT_EQ(questions_, 4);
+  EXPECT_EQ(workbench.project(), here);
+  ASSERT_EQ(next.size(), 4U);
+  EXPECT_EQ(std::count(next.begin(), next.end(), nullptr), 1) << "quitting alone has nothing after it";
+  answer(QMessageBox::Yes);
+  dropOn(window, inFolder("other.json"));
+  EXPECT_EQ(fz_N(), -9);
+}
+
+TEST_F(DocumentTest, SamplesThatAreBeingMadeAreNotEndedWithoutAQuestion) {
+  network.generate({2000, 1}, workbench.project().mesh);
+  answer(QMessageBox::No);
+  EXPECT_FALSE(window.close());
+  EXPECT_EQ(questions_, 1);
+  EXPECT_TRUE(network.generating());
+  network.cancel();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !network.working(); }, kPatience_ms));
+  EXPECT_TRUE(window.close());
+  EXPECT_EQ(questions_, 1) << "they were given up";
 }
 
 TEST_F(DocumentTest, AsksBeforeAnOpenedFileTakesItsPlace) {

@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
   palp::Workbench workbench(palp::quickProject());
   palp::NetworkSession network;
   palp::MainWindow window(workbench, network);
-  palp::Autosave autosave(workbench, network, window.document(), arguments.at(1));
+  palp::Autosave autosave(workbench, network, window, arguments.at(1));
   window.show();
   workbench.saved(arguments.at(2)); // so that no dialog asks for the name
   if (!window.document().save()) return 1;

@@ -165,5 +165,18 @@ TEST(JobRunner, EndsItsWorkWhenItIsDestroyed) {
   EXPECT_TRUE(stopped);
 }
 
+TEST(JobRunner, SaysThatWorkWouldBeLostOnlyWhileItRunsAndIsWanted) {
+  JobRunner runner;
+  std::atomic<bool> stopped = false;
+  runner.start("a picture", untilStopped(stopped));
+  EXPECT_EQ(runner.loss(), "") << "it is done again where it is needed";
+  runner.start("samples", untilStopped(stopped), JobRunner::Loss::Work);
+  EXPECT_TRUE(runner.loss().startsWith("samples: ")) << runner.loss().toStdString();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return runner.title() == "samples"; }, kJobPatience_ms));
+  EXPECT_TRUE(runner.loss().startsWith("samples: "));
+  runner.cancel();
+  EXPECT_EQ(runner.loss(), "") << "it was given up";
+}
+
 } // namespace
 } // namespace palp

@@ -2,6 +2,7 @@
 
 #include "app/gui/live/LiveCurves.h"
 #include "app/gui/live/LiveView.h"
+#include "app/gui/project/live/BoardCalibration.h"
 #include "app/gui/views/HeatmapView.h"
 #include "app/study/Resources.h"
 #include "app/study/live/SimulatedTouch.h"
@@ -213,6 +214,24 @@ TEST_F(TwoBoards, ARecordingIsEndedOnlyByWhoSaysSo) {
   EXPECT_GT(RecordingReader(folder.filePath("b.palprec").toStdString()).head().info.rowWires, 0);
 }
 
+TEST_F(TwoBoards, LabelledFramesAndACalibratedNetworkAreNotLostWithTheirBoardWithoutAQuestion) {
+  ASSERT_TRUE(shown());
+  Project next = workbench.project();
+  BoardFrames frames{loadSamples(resource("board/paper-samples.csv")), {}};
+  frames.read_N = Eigen::Matrix3Xd::Zero(3, frames.samples.size());
+  next.board(1).frames = std::make_shared<const BoardFrames>(frames);
+  workbench.edit("frames", next);
+  const QString losses = scene.page(1).lossesByClosing().join(' ');
+  EXPECT_TRUE(losses.contains("Labelled frames of this board")) << losses.toStdString();
+  EXPECT_TRUE(scene.page(0).lossesByClosing().isEmpty()) << "they are the other's";
+  answerQuestion(QMessageBox::No);
+  click(1, "takeBoardAway");
+  EXPECT_EQ(scene.count(), 2U);
+  ASSERT_TRUE(wait([&] { return scene.page(0).host().decoder().has_value(); }));
+  scene.page(0).host().useDecoder(*scene.page(0).host().decoder(), "calibrated, 8 frames");
+  EXPECT_TRUE(scene.page(0).lossesByClosing().join(' ').contains("calibrated, 8 frames"));
+}
+
 TEST_F(TwoBoards, CostNothingWhileTheSceneIsHidden) {
   ASSERT_TRUE(shown());
   scene.hide();
@@ -282,12 +301,13 @@ TEST_F(Boards, TheProjectKeepsThemAndAnotherProjectHasItsOwn) {
   ASSERT_EQ(scene.count(), Project::kMostBoards);
   for (std::size_t k = 0; k < scene.count(); ++k) EXPECT_FALSE(find<QPushButton>(k, "anotherBoard").isEnabled());
   EXPECT_FALSE(workbench.history().canUndo()) << "boards are no part of the design's history";
-  workbench.replace("another project", exampleProject());
+  const Project mine = workbench.project();
+  workbench.replace(exampleProject());
   EXPECT_EQ(scene.count(), 1U);
-  workbench.history().undo();
+  workbench.replace(mine);
   EXPECT_EQ(scene.count(), Project::kMostBoards);
   scene.hide();
-  workbench.replace("another project", exampleProject());
+  workbench.replace(exampleProject());
   EXPECT_EQ(scene.count(), 1U) << "boards of a project that is not there any more";
 }
 

@@ -2,6 +2,7 @@
 
 #include "app/gui/live/LiveCalibration.h"
 #include "app/gui/live/panels/KnownLoad.h"
+#include "app/gui/project/ProjectFile.h"
 #include "tests/app/gui/live/LiveOperatorFixture.h"
 
 #include <QComboBox>
@@ -67,6 +68,36 @@ TEST_F(LiveCalibrating, GoesBackToTheNetworkBeforeACalibrationAndMarksBothInTheR
   ASSERT_TRUE(wait([&] { return marksOf(file).size() == 2; }));
   EXPECT_EQ(marksOf(file)[0].rfind("network: calibrated, 9 frames", 0), 0U) << marksOf(file)[0];
   EXPECT_EQ(marksOf(file)[1].rfind("network: Palp's own", 0), 0U) << marksOf(file)[1];
+}
+
+TEST_F(LiveCalibrating, FramesAndNetworkInUseArePartOfTheProjectAndAnotherProjectHasNeither) {
+  ASSERT_TRUE(waitForArrow());
+  ASSERT_TRUE(collect(9, -0.5));
+  EXPECT_EQ(workbench.modification(), Workbench::Modified::Calibration);
+  ASSERT_TRUE(fit());
+  useFit();
+  ASSERT_NE(workbench.project().live.calibrated, nullptr);
+  const Eigen::MatrixXd calibrated_N = page.host().decoder()->residual_N;
+  const Project saved = parseProject(projectText(workbench.project()), "x.json", {});
+
+  workbench.replace(exampleProject());
+  EXPECT_TRUE(wait([&] { return page.host().calibrated() == nullptr && !page.host().loading(); }));
+  EXPECT_EQ(page.host().networkName(), "Palp's own");
+  EXPECT_EQ(page.host().networkBefore(), "") << "the network of the project before";
+  EXPECT_EQ(calibration().frames().samples().size(), 0);
+  EXPECT_FALSE(calibration().calibration().has_value());
+
+  workbench.replace(saved);
+  EXPECT_TRUE(wait([&] { return page.host().networkName().startsWith("calibrated, 9 frames"); }));
+  EXPECT_EQ(page.host().decoder()->residual_N, calibrated_N);
+  EXPECT_EQ(calibration().frames().samples().size(), 9);
+  EXPECT_FALSE(find<QTableWidget>("labelledFrames").item(8, 2)->text().isEmpty());
+  EXPECT_FALSE(workbench.modified());
+  ASSERT_TRUE(wait([&] { return find<QPushButton>("shippedNetwork").isEnabled(); }));
+  click("shippedNetwork");
+  EXPECT_TRUE(wait([&] { return page.host().networkName() == "Palp's own"; }));
+  EXPECT_EQ(workbench.project().live.calibrated, nullptr);
+  EXPECT_TRUE(workbench.modified());
 }
 
 TEST_F(LiveCalibrating, SaysThatTheLabelsDoNotBelongToTheFrames) {

@@ -76,7 +76,13 @@ TEST_F(LiveOperator, TheSimulatedBoardSimulatesTheProjectsDesign) {
   ASSERT_TRUE(wait([&] { return page.host().status().info && page.host().status().info->columnWires == 12; }));
   EXPECT_TRUE(waitForArrow()) << page.host().status().decoderProblem;
   EXPECT_TRUE(wait([&] { return find<QLabel>("networkName").text().startsWith("Made for the simulated design"); }));
+  recordTo(folder.filePath("own.palprec"));
+  ASSERT_TRUE(startsToRecord());
   workbench.history().undo(); // the paper's design again, and its board and network
+  ASSERT_TRUE(waitForFrames());
+  EXPECT_TRUE(page.host().status().recording) << "a recording is of one sensor";
+  EXPECT_EQ(page.host().status().info->columnWires, 12);
+  ASSERT_TRUE(stopsToRecord());
   ASSERT_TRUE(wait([&] { return page.host().status().info && page.host().status().info->columnWires == 30; }));
   EXPECT_TRUE(wait([&] { return find<QLabel>("networkName").text().startsWith("Palp's own"); }));
   EXPECT_TRUE(waitForArrow());

@@ -259,5 +259,26 @@ TEST_F(LiveRecording, AnotherSourceEndsItOnlyWhereThatIsSaid) {
   EXPECT_TRUE(said.join(' ').contains("Recorded "));
 }
 
+TEST_F(LiveRecording, IsEndedByNoDoorWithoutAQuestion) {
+  ASSERT_TRUE(waitForFrames());
+  const QString file = folder.filePath("touch.palprec");
+  recordTo(file);
+  ASSERT_TRUE(startsToRecord());
+  const LossQuestion& question = workbench.lossQuestion();
+  Project next = workbench.project();
+  EXPECT_TRUE(question.losses({Leaving::Way::OtherProject, &next}).isEmpty()) << "it goes on with the same source";
+  EXPECT_TRUE(question.losses({Leaving::Way::Quit}).join(' ').contains(file));
+  next.live.simulation.seed += 1; // another sensor
+  EXPECT_TRUE(question.losses({Leaving::Way::OtherProject, &next}).join(' ').contains(file));
+  answerQuestion(QMessageBox::No);
+  workbench.edit("another sensor", next);
+  EXPECT_NE(workbench.project().live.simulation.seed, next.live.simulation.seed);
+  EXPECT_TRUE(page.host().recording());
+  answerQuestion(QMessageBox::Yes);
+  workbench.edit("another sensor", next);
+  EXPECT_EQ(workbench.project().live.simulation.seed, next.live.simulation.seed);
+  EXPECT_TRUE(wait([&] { return !page.host().recording(); }));
+}
+
 } // namespace
 } // namespace palp

@@ -1,7 +1,11 @@
 #include "app/gui/project/ProjectFile.h"
 
 #include "app/gui/project/Command.h"
+#include "app/gui/project/live/BoardCalibration.h"
+#include "app/study/Resources.h"
+#include "io/DecoderFile.h"
 #include "io/DesignFile.h"
+#include "io/SampleText.h"
 #include "model/base/Error.h"
 
 #include <QFile>
@@ -13,6 +17,8 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <limits>
+#include <memory>
 #include <sstream>
 
 namespace palp {
@@ -297,6 +303,62 @@ TEST(Command, SaysTheLoadAndTheMeshAsTheCommandLineReadsThem) {
             "palp render s.json --load 1:0.5,0.3,-6 --mesh-size 2.5 --quantity \"|u|\" -o deformed.png");
   EXPECT_TRUE(meshCommands(project, "s.json").contains("palp mesh s.json --mesh-size 2.5"));
   EXPECT_TRUE(networkCommands(project, "s.json").contains("--rows 4 --mode default"));
+}
+
+/// One frame of a board with 2 row-wires and 3 column-wires, and a network that decodes it.
+LiveSettings calibratedBoard() {
+  BoardFrames frames;
+  frames.samples.origin.designFingerprint = "c0ef9caa8fec76b8";
+  frames.samples.origin.mesh = "measured on a board";
+  frames.samples.rowWires = 2;
+  frames.samples.electrodesPerRowWire = 1;
+  frames.samples.columnWires = 3;
+  frames.samples.areaCount = 2;
+  frames.samples.area = Eigen::VectorXi::Constant(2, 1);
+  frames.samples.forces_N = Eigen::MatrixXd::Constant(3, 2, -0.1);
+  frames.samples.resistances_ohm = Eigen::MatrixXd::Constant(6, 2, 100.0 / 3);
+  frames.read_N = Eigen::Matrix3Xd::Constant(3, 2, 1.0 / 3);
+  frames.read_N.col(1).setConstant(std::numeric_limits<double>::quiet_NaN());
+  LiveSettings live;
+  live.frames = std::make_shared<const BoardFrames>(frames);
+  live.calibrated = std::make_shared<const CalibratedNetwork>(
+      CalibratedNetwork{readNetwork(resource("board/paper-network.json")), "calibrated, 2 frames"});
+  return live;
+}
+
+TEST_F(ProjectFile, KeepsLabelledFramesAndTheCalibratedNetworkOfEachBoard) {
+  Project project = exampleProject();
+  project.live = calibratedBoard();
+  project.moreBoards = {LiveSettings(), calibratedBoard()};
+  const Project again = parseProject(projectText(project), "x.json", {});
+  for (const std::size_t board : {0, 2}) {
+    const LiveSettings& live = again.board(board);
+    ASSERT_NE(live.frames, nullptr);
+    EXPECT_EQ(samplesText(live.frames->samples), samplesText(project.live.frames->samples));
+    EXPECT_EQ(live.frames->read_N.col(0), project.live.frames->read_N.col(0));
+    EXPECT_TRUE(live.frames->read_N.col(1).hasNaN());
+    ASSERT_NE(live.calibrated, nullptr);
+    EXPECT_EQ(live.calibrated->name, "calibrated, 2 frames");
+    EXPECT_EQ(networkText(live.calibrated->decoder), networkText(project.live.calibrated->decoder)) << "to the bit";
+  }
+  EXPECT_EQ(again.board(1).frames, nullptr);
+  EXPECT_FALSE(projectText(exampleProject()).contains("calibration")) << "older versions read such projects";
+}
+
+TEST_F(ProjectFile, ADesignAloneTakesNoCalibrationOfTheProjectThatIsLeft) {
+  Project before = exampleProject();
+  before.live = calibratedBoard();
+  const Project next = parseProject(QByteArray::fromStdString(toJson(paperDesign())), "design.json", before);
+  EXPECT_EQ(next.live.frames, nullptr);
+  EXPECT_EQ(next.live.calibrated, nullptr);
+}
+
+TEST_F(ProjectFile, RefusesABrokenCalibrationByItsPlace) {
+  Project project = exampleProject();
+  project.live = calibratedBoard();
+  const std::string text = projectText(project).toStdString();
+  EXPECT_NE(refusal(with(text, "33.33333333", "33.3x")).find("live.calibration.frames"), std::string::npos);
+  EXPECT_NE(refusal(with(text, "\"noise_relative\"", "\"noise\"")).find("live.calibration.network"), std::string::npos);
 }
 
 } // namespace

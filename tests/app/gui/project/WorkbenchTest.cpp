@@ -114,16 +114,57 @@ TEST(Workbench, HowThingsAreShownIsNoPartOfTheHistoryAndStaysWhenAnEditIsUndone)
   EXPECT_FALSE(workbench.modified()) << "a view is nothing to be saved";
 }
 
-TEST(Workbench, AnotherProjectIsAnEntryThatCanBeUndone) {
+TEST(Workbench, UndoNeverLeadsBehindAnotherProject) {
   Workbench workbench(exampleProject());
   press(workbench, -1);
-  const Project mine = workbench.project();
-  workbench.replace("The paper's design", exampleProject());
+  workbench.replace(exampleProject());
   EXPECT_EQ(workbench.project(), exampleProject());
   EXPECT_FALSE(workbench.modified());
+  EXPECT_FALSE(workbench.history().canUndo());
+  press(workbench, -2);
   workbench.history().undo();
-  EXPECT_EQ(workbench.project(), mine);
-  EXPECT_TRUE(workbench.modified()) << "its force was never saved";
+  workbench.history().undo();
+  EXPECT_EQ(workbench.project(), exampleProject()) << "the project that was discarded is back";
+}
+
+TEST(Workbench, ARecoveredProjectIsUnsavedUntilItIsSaved) {
+  Workbench workbench(exampleProject());
+  workbench.replaceUnsaved(exampleProject(), "mine.json");
+  EXPECT_TRUE(workbench.modified());
+  workbench.saved("mine.json");
+  EXPECT_FALSE(workbench.modified());
+}
+
+TEST(Workbench, AsksWhoAnswersForWhatWouldEndByAnEdit) {
+  Workbench workbench(exampleProject());
+  QObject board;
+  int asked = 0;
+  const Project* next = nullptr;
+  workbench.lossQuestion().ask(board, [&](const Leaving& leaving) {
+    EXPECT_EQ(leaving.way, Leaving::Way::Edit);
+    next = leaving.next;
+    ++asked;
+    return QStringList();
+  });
+  press(workbench, -1);
+  EXPECT_EQ(asked, 1);
+  EXPECT_NE(next, nullptr);
+}
+
+TEST(LossQuestion, AsksNobodyWhoIsGoneAndJoinsTheOthersAnswers) {
+  LossQuestion question;
+  QObject stays;
+  {
+    QObject goes;
+    question.ask(goes, [](const Leaving&) { return QStringList("gone"); });
+    question.ask(stays, [](const Leaving&) { return QStringList("a recording"); });
+  }
+  question.ask(stays, [](const Leaving& leaving) {
+    return leaving.way == Leaving::Way::Quit ? QStringList("samples") : QStringList();
+  });
+  EXPECT_EQ(question.losses({Leaving::Way::Quit}), QStringList({"a recording", "samples"}));
+  EXPECT_EQ(question.losses({Leaving::Way::OtherProject}), QStringList("a recording"));
+  EXPECT_TRUE(acceptsLosses({})) << "without a question";
 }
 
 TEST(Workbench, KnowsWhetherTheFileHoldsAllThatWasSet) {
@@ -207,7 +248,7 @@ TEST(EarlierDesigns, KnowWhatWasUndoneAndNothingOfAnotherProject) {
   workbench.history().redo();
   Project other = exampleProject();
   other.design.block_mm.z() = 9;
-  workbench.replace("another", other);
+  workbench.replace(other);
   EXPECT_TRUE(workbench.earlierDesigns().empty());
 }
 

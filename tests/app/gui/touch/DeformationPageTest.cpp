@@ -90,7 +90,7 @@ TEST_F(DeformationPageTest, ProbesThePointThatWasClicked) {
   EXPECT_TRUE(words.contains("Point (")) << words.toStdString();
   EXPECT_TRUE(words.contains(", 5) mm")) << words.toStdString();
   // It is a point of this project: another one, even on the same mesh, begins without it.
-  workbench.replace("another", quickProject());
+  workbench.replace(quickProject());
   EXPECT_FALSE(find<QLabel>("probe").text().contains("Point (")) << find<QLabel>("probe").text().toStdString();
 }
 
