@@ -34,7 +34,7 @@ namespace palp {
 
 namespace {
 
-constexpr int kPanelWidth_px = 330;
+constexpr int kNetworkPanelWidth_px = 330;
 constexpr int kHeadLines = 8; // of the words above the charts; more are scrolled to, or the splitter is drawn
 
 QSplitter* beside(std::initializer_list<QWidget*> widgets, Qt::Orientation orientation) {
@@ -59,7 +59,7 @@ NetworkPage::NetworkPage(Workbench& workbench, NetworkSession& session, QWidget*
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(8, 8, 8, 8);
   panel_ = new NetworkPanel;
-  row->addWidget(sidePanel(panel_, kPanelWidth_px));
+  row->addWidget(sidePanel(panel_, kNetworkPanelWidth_px));
   row->addWidget(buildCharts(), 1);
 
   connect(panel_, &NetworkPanel::edited, this, &NetworkPage::edit);

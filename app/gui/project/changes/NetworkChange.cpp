@@ -12,7 +12,7 @@ QString shortened(const QString& value) {
   return value.size() <= kLongest ? value : value.left(kLongest - 3) + "...";
 }
 
-QString number(double value) {
+QString networkNumber(double value) {
   return QString::number(value, 'g', 6);
 }
 
@@ -49,11 +49,13 @@ QString whole(std::uint64_t value) {
 }
 
 QString spreadWords(const NetworkSettings& network) {
-  return network.automaticSpread ? QObject::tr("by leave-one-out") : number(network.spread);
+  return network.automaticSpread ? QObject::tr("by leave-one-out") : networkNumber(network.spread);
 }
 
 QString sweepWords(const NetworkSettings& network) {
-  return QObject::tr("%1 to %2, %3").arg(number(network.sweepFrom), number(network.sweepTo)).arg(network.sweepCount);
+  return QObject::tr("%1 to %2, %3")
+      .arg(networkNumber(network.sweepFrom), networkNumber(network.sweepTo))
+      .arg(network.sweepCount);
 }
 
 } // namespace
@@ -65,7 +67,7 @@ QString stepWords(const QString& name, const QString& from, const QString& to, c
 
 QStringList networkChanges(const NetworkSettings& before, const NetworkSettings& after) {
   Steps steps;
-  const auto percent = [](double share) { return number(100 * share); };
+  const auto percent = [](double share) { return networkNumber(100 * share); };
   steps.add(QObject::tr("network's input"), before.input, after.input, [](InputKind its) {
     return its == InputKind::Displacement ? QObject::tr("displacements") : QObject::tr("resistances");
   });
@@ -83,8 +85,9 @@ QStringList networkChanges(const NetworkSettings& before, const NetworkSettings&
   steps.addChoice(QObject::tr("centres by"), before.centerChoice, after.centerChoice, kCenterChoices);
   steps.add(QObject::tr("a centre on every sample:"), before.allCenters, after.allCenters, onOff);
   steps.addChoice(QObject::tr("solver"), before.solver, after.solver, kLeastSquaresMethods);
-  steps.add(QObject::tr("ridge"), before.ridge, after.ridge,
-            [](const std::optional<double>& its) { return its ? number(*its) : QObject::tr("as the mode says"); });
+  steps.add(QObject::tr("ridge"), before.ridge, after.ridge, [](const std::optional<double>& its) {
+    return its ? networkNumber(*its) : QObject::tr("as the mode says");
+  });
   steps.addChoice(QObject::tr("scaler"), before.scaling, after.scaling, kScalings);
   steps.addChoice(QObject::tr("tail"), before.tail, after.tail, kTails);
   steps.addChoice(QObject::tr("convention"), before.convention, after.convention, kSpreadConventions);
