@@ -1,4 +1,4 @@
-#include "io/SampleText.h"
+#include "io/samples/SampleText.h"
 
 #include "io/SampleFile.h"
 #include "io/SampleHead.h"
