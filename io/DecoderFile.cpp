@@ -1,7 +1,7 @@
 #include "io/DecoderFile.h"
 
 #include "io/AtomicFile.h"
-#include "io/DecoderJson.h"
+#include "io/decoder/DecoderJson.h"
 #include "model/base/Error.h"
 
 #include <cmath>

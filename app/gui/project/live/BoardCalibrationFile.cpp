@@ -2,7 +2,7 @@
 
 #include "app/gui/project/live/BoardCalibration.h"
 #include "io/DecoderFile.h"
-#include "io/samples/SampleText.h"
+#include "io/SampleText.h"
 #include "model/base/Error.h"
 
 #include <QJsonArray>

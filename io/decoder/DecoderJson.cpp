@@ -1,4 +1,4 @@
-#include "io/DecoderJson.h"
+#include "io/decoder/DecoderJson.h"
 
 #include "io/DesignFile.h"
 

@@ -1,4 +1,4 @@
-#include "io/samples/SampleText.h"
+#include "io/SampleText.h"
 
 #include "io/SampleFile.h"
 #include "io/SampleHead.h"
