@@ -91,7 +91,7 @@ QStringList networkChanges(const NetworkSettings& before, const NetworkSettings&
   steps.addChoice(QObject::tr("scaler"), before.scaling, after.scaling, kScalings);
   steps.addChoice(QObject::tr("tail"), before.tail, after.tail, kTails);
   steps.addChoice(QObject::tr("convention"), before.convention, after.convention, kSpreadConventions);
-  steps.add(QObject::tr("forgetting"), before.forgetting, after.forgetting, number);
+  steps.add(QObject::tr("forgetting"), before.forgetting, after.forgetting, networkNumber);
   steps.add(QObject::tr("seed of the training"), before.seed, after.seed, whole);
   steps.add(QObject::tr("sweep"), sweepWords(before), sweepWords(after), [](const QString& its) { return its; });
   return steps.all();
