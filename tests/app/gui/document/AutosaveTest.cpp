@@ -135,10 +135,10 @@ protected:
 
   /// What a killed window has left of a project.
   QString leaveProject(const Project& project, const QString& file) {
-    const QString window = folder.filePath("left/window");
-    std::filesystem::create_directories(window.toStdString());
-    writeFile((window + "/project.json").toStdString(), projectText(project).toStdString(), true);
-    writeFile((window + "/file.txt").toStdString(), file.toStdString(), true);
+    const QString killed = folder.filePath("left/window");
+    std::filesystem::create_directories(killed.toStdString());
+    writeFile((killed + "/project.json").toStdString(), projectText(project).toStdString(), true);
+    writeFile((killed + "/file.txt").toStdString(), file.toStdString(), true);
     return folder.filePath("left");
   }
   bool generated(int perArea, std::uint64_t seed) {
