@@ -1,4 +1,5 @@
 #include "app/cli/Cli.h"
+#include "app/cli/MeshCostLine.h"
 #include "app/cli/Options.h"
 #include "app/cli/ProgressBar.h"
 #include "app/cli/ShardOption.h"
@@ -58,7 +59,9 @@ SampleRequest request(const SampleArguments& arguments, const SensorDesign& desi
 Exit run(const SampleArguments& arguments, Session& session) {
   const SensorDesign design = designOption(arguments.design);
   arguments.output.requireWritable();
-  SampleGenerator generator(design, request(arguments, design, session));
+  const SampleRequest wanted = request(arguments, design, session);
+  if (!wanted.touches) sayMeshCost(design, wanted.mesh, session);
+  SampleGenerator generator(design, wanted);
   const SampleRange range = shardOption(arguments.shardText, generator.total());
   SampleSet head = generator.emptySet(session.stop);
   if (session.stop.stop_requested()) { // before there is a head to write
