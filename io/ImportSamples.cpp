@@ -8,6 +8,7 @@
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
 #include "model/base/Text.h"
+#include "nn/ConstantReadings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -158,16 +159,23 @@ Imported importSamples(const fs::path& table, const fs::path& mapFile, const Sen
   SampleSet block = headOf(map, design, table);
   Imported result{0, rows.unused(), block.origin.designFingerprint};
   SampleWriter writer(output, block, force);
+  ConstantReadings readings;
   const Eigen::Index atOnce = samplesAtOnce(block);
   for (Eigen::Index count = atOnce; count == atOnce;) {
     resizeSamples(block, atOnce);
     for (count = 0; count < atOnce && rows.read(block, count); ++count) stopIfAsked(stop);
     resizeSamples(block, count);
     writer.append(block);
+    readings.add(block.resistances_ohm);
     result.samples += static_cast<std::size_t>(count);
     if (progress) progress(source->share());
   }
   if (result.samples == 0) throw Error(table.string() + ": holds no rows below the names of its columns");
+  result.constant = readings.inWords(
+      [&block](Eigen::Index i) {
+        return "R_r" + std::to_string(i / block.columnWires) + "_c" + std::to_string(i % block.columnWires);
+      },
+      "ohm");
   writer.finish(stop);
   return result;
 }

@@ -14,6 +14,7 @@ struct Imported {
   std::size_t samples = 0;
   std::size_t unusedColumns = 0; ///< of the table, which the map does not name
   std::string design;            ///< fingerprint that the samples carry
+  std::string constant{};        ///< names readings that stay the same in all samples; empty where all vary
 };
 
 /// Turns a table that another rig measured (CSV, or NPZ of arrays) into a sample file, by a map that names its columns

@@ -33,7 +33,7 @@ constexpr std::size_t kPartBuffer = 1 << 20;
 } // namespace
 
 SamplePartWriter::SamplePartWriter(fs::path path, const SampleSet& head, bool force)
-    : path_(std::move(path)), part_(linkEnd(path_).string() + ".part"), force_(force) {
+    : path_(std::move(path)), part_(linkEnd(path_).string() + ".part"), by_(part_.string() + ".by"), force_(force) {
   requireWritable(path_, force_);
   file_ = ::open(part_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (file_ < 0) failToWrite(part_);
@@ -92,6 +92,16 @@ void SamplePartWriter::keepWholeLines(std::istream& stream, const SampleSet& hea
   if (::ftruncate(file_, static_cast<off_t>(whole)) != 0 || ::lseek(file_, 0, SEEK_END) < 0) failToWrite(part_);
 }
 
+void SamplePartWriter::requireMadeBy(const std::string& program) {
+  if (samplesKept_ == 0) return writeFile(by_, program + "\n", true);
+  std::error_code error;
+  std::string before = fs::exists(by_, error) ? readFile(by_) : "an older palp\n";
+  before.resize(std::min(before.size(), before.find('\n')));
+  if (before != program)
+    throw Error(part_.string() + ": its " + std::to_string(samplesKept_) + " samples were made by " + before +
+                ", this is " + program + "; go on with that program, or delete the file");
+}
+
 void SamplePartWriter::append(const SampleSet& block) {
   if (rows_) {
     rows_->append(block);
@@ -106,12 +116,16 @@ void SamplePartWriter::append(const SampleSet& block) {
 }
 
 void SamplePartWriter::finish(const std::stop_token& stop) {
-  if (!rows_) return moveIntoPlace(part_, path_, force_);
-  AtomicFile target(path_, force_);
-  writeSampleArrays(target.beside(), formatToWrite(path_), rows_->rows(), stop);
-  target.commit();
   std::error_code ignored;
-  fs::remove(part_, ignored);
+  if (rows_) {
+    AtomicFile target(path_, force_);
+    writeSampleArrays(target.beside(), formatToWrite(path_), rows_->rows(), stop);
+    target.commit();
+    fs::remove(part_, ignored);
+  } else {
+    moveIntoPlace(part_, path_, force_);
+  }
+  fs::remove(by_, ignored);
 }
 
 } // namespace palp

@@ -24,6 +24,9 @@ public:
   SamplePartWriter(const SamplePartWriter&) = delete;
   SamplePartWriter& operator=(const SamplePartWriter&) = delete;
 
+  /// Notes beside the part (NAME.part.by) which program makes it. Throws Error where its samples are of another.
+  void requireMadeBy(const std::string& program);
+
   /// Number of samples that NAME.part already held.
   [[nodiscard]] std::size_t samplesKept() const { return samplesKept_; }
   [[nodiscard]] const std::filesystem::path& partPath() const { return part_; }
@@ -38,6 +41,7 @@ private:
 
   std::filesystem::path path_;
   std::filesystem::path part_;
+  std::filesystem::path by_;
   bool force_;
   int file_ = -1;
   std::unique_ptr<RowFile> rows_; ///< none for CSV

@@ -159,7 +159,7 @@ StudyPlan parseStudy(const std::string& content, const std::string& name, const 
   const JsonPlace root(json, name);
   formatVersion(root, "palp_study", kNewestStudy);
   root.onlyKeys({"palp_study", "design", "vary", "compute"},
-                {"latin_hypercube", "seed", "noise", "decoders", "per_area", "mesh_size_mm", "mapped"});
+                {"latin_hypercube", "seed", "noise", "decoders", "per_area", "mesh_size_mm", "mapped", "program"});
   StudyPlan plan;
   Json design = designOf(root.at("design"), folder);
   plan.design = design.dump();
@@ -257,7 +257,7 @@ std::string studyWords(const StudyAxis& axis) {
   return words;
 }
 
-std::string toJson(const StudyPlan& plan) {
+std::string toJson(const StudyPlan& plan, const std::string& program) {
   Json json{{"palp_study", kNewestStudy}, {"design", Json::parse(plan.design)}, {"seed", plan.seed},
             {"noise", plan.noise},        {"per_area", plan.perArea},           {"vary", Json::array()},
             {"compute", Json::array()},   {"decoders", Json::array()}};
@@ -277,6 +277,7 @@ std::string toJson(const StudyPlan& plan) {
   for (const DecoderKind kind : plan.decoders) json["decoders"].push_back(kDecoderKinds.name(kind));
   if (plan.meshSize_mm) json["mesh_size_mm"] = *plan.meshSize_mm;
   if (plan.mapped) json["mapped"] = *plan.mapped;
+  if (!program.empty()) json["program"] = program;
   return json.dump(1) + "\n";
 }
 

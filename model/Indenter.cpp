@@ -89,6 +89,12 @@ std::optional<std::string> motionProblem(const Indenter& indenter, const Motion&
   if (!(motion.depth_mm > 0 && motion.depth_mm <= deepest))
     return "depth " + text(motion.depth_mm) + " mm; allowed is above 0 and at most " + text(deepest) +
            " mm in this block of " + text(block_mm.z()) + " mm";
+  const bool closed = indenter.shape == IndenterShape::Sphere || indenter.shape == IndenterShape::CylinderX ||
+                      indenter.shape == IndenterShape::CylinderY;
+  if (closed && motion.depth_mm >= 2 * indenter.radius_mm)
+    return "depth " + text(motion.depth_mm) + " mm; a " + shapeName(indenter.shape) +
+           " would lie below the face: allowed is less than its diameter of " + text(2 * indenter.radius_mm) +
+           " mm, or a pin, which goes on above it";
   if (!isInside(indenter, indenter.place_mm + motion.shift_mm, block_mm) || !motion.shift_mm.allFinite())
     return "shift (" + text(motion.shift_mm.x()) + ", " + text(motion.shift_mm.y()) +
            ") mm; allowed is one that stays on the top face of " + text(block_mm.x()) + " x " + text(block_mm.y()) +

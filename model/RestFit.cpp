@@ -1,5 +1,6 @@
 #include "model/RestFit.h"
 
+#include "model/DesignError.h"
 #include "model/FieldAtRest.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
@@ -59,6 +60,24 @@ public:
   /// derivatives of ln R by the numbers where they are asked for.
   Eigen::VectorXd left(const FieldLaw& law, const Numbers& x, Eigen::MatrixXd* slopes = nullptr) const {
     stopIfAsked(stop_); // a tenth of a second at most from look to look
+    try {
+      return leftOf(law, x, slopes);
+    } catch (const DesignError&) { // no positive network has these numbers
+      constexpr double none = std::numeric_limits<double>::quiet_NaN();
+      if (slopes) *slopes = Eigen::MatrixXd::Constant(readings(), kNumbers, none);
+      return Eigen::VectorXd::Constant(readings(), none);
+    }
+  }
+
+  [[nodiscard]] Eigen::MatrixXd placed(const Eigen::VectorXd& values) const {
+    Eigen::MatrixXd all =
+        Eigen::MatrixXd::Constant(measured_.rows(), measured_.cols(), std::numeric_limits<double>::quiet_NaN());
+    all.reshaped()(known_) = values;
+    return all;
+  }
+
+private:
+  Eigen::VectorXd leftOf(const FieldLaw& law, const Numbers& x, Eigen::MatrixXd* slopes) const {
     const FieldLaw now = lawOf(x, law);
     const double a = now.electrodeRadius_mm, rho = now.resistivity_ohm_mm;
     const Eigen::MatrixXd p = potentials_ohm(green_, now);
@@ -79,14 +98,6 @@ public:
     return difference.reshaped()(known_);
   }
 
-  [[nodiscard]] Eigen::MatrixXd placed(const Eigen::VectorXd& values) const {
-    Eigen::MatrixXd all =
-        Eigen::MatrixXd::Constant(measured_.rows(), measured_.cols(), std::numeric_limits<double>::quiet_NaN());
-    all.reshaped()(known_) = values;
-    return all;
-  }
-
-private:
   const std::stop_token& stop_;
   WireCounts counts_;
   BoxGreen green_;

@@ -1,8 +1,7 @@
 #include "model/SampleSet.h"
 
+#include "model/base/Error.h"
 #include "model/base/Text.h"
-
-#include <cassert>
 
 namespace palp {
 
@@ -58,13 +57,14 @@ void append(SampleSet& set, const SampleSet& block) {
     return;
   }
   if (&set == &block) return append(set, SampleSet(block)); // its arrays grow before they are read
+  for (const auto values : kSampleParts)
+    if ((set.*values).rows() != (block.*values).rows()) throw Error("samples: sets of other columns cannot be joined");
   const Eigen::Index before = set.size();
   const Eigen::Index added = block.size();
   set.area.conservativeResize(before + added);
   set.area.tail(added) = block.area;
   for (const auto values : kSampleParts) {
     Eigen::MatrixXd& all = set.*values;
-    assert(all.rows() == (block.*values).rows() && "samples of one set have the same columns");
     all.conservativeResize(Eigen::NoChange, before + added);
     if (all.rows() > 0) all.rightCols(added) = block.*values;
   }

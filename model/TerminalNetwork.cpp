@@ -1,5 +1,8 @@
 #include "model/TerminalNetwork.h"
 
+#include "model/DesignError.h"
+#include "model/base/PositiveSolve.h"
+
 #include <Eigen/Dense>
 
 #include <cassert>
@@ -19,6 +22,11 @@ Eigen::MatrixXd incidence(const WireCounts& counts) {
   return b;
 }
 
+constexpr const char* kIndefinite =
+    "the resistances between the electrodes are not positive definite, so no current's power would be above 0; allowed "
+    "are electrodes far enough apart and from the faces for their radius, a pressure law that varies the conductivity "
+    "less, or a finer mesh";
+
 Eigen::MatrixXd symmetric(const Eigen::MatrixXd& m) {
   return (m + m.transpose()) / 2;
 }
@@ -28,7 +36,18 @@ Eigen::MatrixXd pseudoInverse(const Eigen::MatrixXd& y) {
   const double shift = y.trace() / static_cast<double>(y.rows() * y.rows());
   Eigen::MatrixXd shifted = y;
   shifted.array() += shift;
-  return symmetric(shifted.llt().solve(Eigen::MatrixXd::Identity(y.rows(), y.cols())));
+  return symmetric(solvePositive<DesignError>(shifted, Eigen::MatrixXd::Identity(y.rows(), y.cols()), kIndefinite));
+}
+
+/// Refuses P that is not positive definite over currents that sum to 0; over the others it is given but for a constant.
+void requirePositive(const Eigen::Ref<const Eigen::MatrixXd>& p) {
+  const Eigen::VectorXd mean = p.rowwise().mean();
+  Eigen::MatrixXd centred = symmetric(p);
+  centred.colwise() -= mean;
+  centred.rowwise() -= mean.transpose();
+  centred.array() += mean.mean();
+  centred.array() += centred.trace() / static_cast<double>(p.rows() * p.rows());
+  if (p.rows() > 1 && !positiveFactor(centred)) throw DesignError(kIndefinite);
 }
 
 } // namespace
@@ -53,6 +72,7 @@ Eigen::VectorXd WireCounts::atElectrodes(const Eigen::Ref<const Eigen::VectorXd>
 TerminalNetwork::TerminalNetwork(const Eigen::Ref<const Eigen::MatrixXd>& potentials_ohm, const WireCounts& counts,
                                  double wire_ohm)
     : counts_(counts) {
+  requirePositive(potentials_ohm);
   const Eigen::PartialPivLU<Eigen::MatrixXd> p(potentials_ohm);
   const Eigen::VectorXd even = p.solve(Eigen::VectorXd::Ones(potentials_ohm.rows()));
   const Eigen::MatrixXd free = p.solve(incidence(counts));
@@ -61,7 +81,7 @@ TerminalNetwork::TerminalNetwork(const Eigen::Ref<const Eigen::MatrixXd>& potent
   const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(counts.wires(), counts.wires());
   inBlock_ = one;
   if (wire_ohm == 0) return;
-  inBlock_ = symmetric((one + wire_ohm * conductances_).llt().solve(one));
+  inBlock_ = symmetric(solvePositive<DesignError>(one + wire_ohm * conductances_, one, kIndefinite));
   conductances_ = symmetric(inBlock_ * conductances_);
 }
 
@@ -125,7 +145,7 @@ void NetworkReading::readRowsGrounded(const Eigen::MatrixXd& y) {
     for (Eigen::Index w = 0; w < y.rows(); ++w) (w < rows_ || w == rows_ + c ? kept : floating).push_back(w);
     Eigen::MatrixXd t = Eigen::MatrixXd::Zero(y.rows(), rows_ + 1);
     t(kept, Eigen::all).setIdentity();
-    t(floating, Eigen::all) = -y(floating, floating).llt().solve(y(floating, kept));
+    t(floating, Eigen::all) = -solvePositive<DesignError>(y(floating, floating), y(floating, kept), kIndefinite);
     const Eigen::MatrixXd s = t.transpose() * y * t;
     for (Eigen::Index r = 0; r < rows_; ++r) {
       resistances_ohm_(r, c) = -1 / s(r, rows_);

@@ -29,7 +29,7 @@ struct WireCounts {
 ///   Q = M B,  M = P^-1 - P^-1 1 1' P^-1 / (1' P^-1 1),   Y = B' Q,   with a resistance r in each wire (1 + Y r)^-1 Y.
 class TerminalNetwork {
 public:
-  /// `potentials_ohm`: P, symmetric, positive definite but for a constant.
+  /// `potentials_ohm`: P, symmetric, positive definite but for a constant. Throws DesignError where it is not.
   TerminalNetwork(const Eigen::Ref<const Eigen::MatrixXd>& potentials_ohm, const WireCounts& counts, double wire_ohm);
 
   [[nodiscard]] const WireCounts& counts() const { return counts_; }

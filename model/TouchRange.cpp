@@ -16,7 +16,8 @@ constexpr std::uint64_t kStream = 0x746F756368; // apart from the streams of loa
 constexpr int kDrawsOfTheOther = 1000;          // then the corner furthest from the first
 constexpr std::uint64_t kDrawsATouch = 16;      // more than one takes
 constexpr double kMarginShare = 0.1;            // of the shorter side
-constexpr double kLeastShare = 1. / 12;         // of the largest press
+constexpr double kSmallestOfSide = 10, kLargestOfSide = 5; // radii in the shorter side
+constexpr double kLeastShare = 1. / 12;                    // of the largest press
 constexpr double kCone = 0.7;
 
 double between(double low, double high, double share) {
@@ -31,7 +32,9 @@ std::string span(double low, double high) {
 
 TouchRange touchesOf(const SensorDesign& design) {
   TouchRange range;
-  const double margin_mm = kMarginShare * design.block_mm.head<2>().minCoeff();
+  const double shorter_mm = design.block_mm.head<2>().minCoeff(), margin_mm = kMarginShare * shorter_mm;
+  range.smallest_mm = shorter_mm / kSmallestOfSide;
+  range.largest_mm = shorter_mm / kLargestOfSide;
   range.low_mm.setConstant(margin_mm);
   range.high_mm = design.block_mm.head<2>().array() - margin_mm;
   range.mostPress_N = -design.forceRange.low_N.z();

@@ -13,7 +13,7 @@ namespace palp {
 /// Leave-one-out errors at one spread and ridge; one column per sample.
 struct LeaveOneOutResult {
   double spread = 0;
-  double ridge = 0;
+  double ridge = 0;          ///< that was used: one too small for double precision is raised
   bool indefinite = false;   ///< at the ridge asked for, to rounding: the ridge was raised until it was not
   Eigen::MatrixXd residuals; ///< outputs x samples: target minus what a network without the sample predicts
   Eigen::VectorXd rms;       ///< one per output

@@ -108,7 +108,7 @@ struct BatchSolver::State {
         leftOut.pop_back();
         continue;
       }
-      const double error = relativeDifference(*answers[i], *full);
+      const double error = relativeDifference(*answers[i], *full, problem.design());
       notice(error);
       if (error > largestError && ways[i] == Way::Iteration)
         doubts.push_back("load " + number(i) + ": full Newton's method finds another equilibrium, " +

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "model/base/Error.h"
 #include "solver/HyperelasticProblem.h"
 
 #include <functional>
@@ -68,8 +69,8 @@ public:
   [[nodiscard]] std::size_t solves() const;
   /// Number of loads that were left to full Newton's method so far.
   [[nodiscard]] std::size_t leftToNewton() const;
-  /// Largest relative error of the electrode displacements against full Newton's method, over the loads checked so far.
-  /// None: none was checked.
+  /// Largest relative error of what the readings follow (electrodes of both layers, pressures, resistances) against
+  /// full Newton's method, over the loads checked so far. None: none was checked.
   [[nodiscard]] std::optional<double> measuredError() const;
   /// Of the loads checked so far, those for which full Newton's method finds another equilibrium or none, and how far
   /// away: friction on a mesh too coarse for its contact has several.
@@ -84,9 +85,10 @@ private:
   std::unique_ptr<State> state_;
 };
 
-/// A load of a batch for which no solution was found.
-struct ConvergenceError : std::runtime_error {
-  using std::runtime_error::runtime_error;
+/// A load of a batch for which no solution was found. An Error, as a design or a load can cause it; who tells outcomes
+/// from refusals catches it first.
+struct ConvergenceError : Error {
+  using Error::Error;
 };
 
 } // namespace palp

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <stdexcept>
 
 namespace palp {
 
@@ -70,7 +69,9 @@ std::shared_ptr<InitialTangent> HyperelasticProblem::Parts::makeTangent(std::sha
   const auto outcome = rest->factor.factorise(std::move(matrix), threads, stop, products);
   if (outcome == SparseCholesky::Outcome::Stopped) return {};
   if (outcome == SparseCholesky::Outcome::NotPositiveDefinite)
-    throw std::logic_error("the tangent at rest is not positive definite");
+    throw DesignError(
+        "the block at rest is not stable on this mesh (its tangent is not positive definite); allowed are a material "
+        "with c10_MPa + c01_MPa above 0 and a mesh without crushed elements");
   return rest;
 }
 

@@ -151,16 +151,10 @@ void requireMeshable(const SensorDesign& design, const MeshOptions& options) {
 Mesh sensorMesh(const SensorDesign& design, const MeshOptions& options, const std::stop_token& stop) {
   requireMeshable(design, options);
   if (options.mapped) return mappedMesh(design, *options.mapped);
-  const double size = options.meshSize_mm.value_or(standardSize(design));
-  Grading grading = defaultGrading(design, size);
-  if (!options.fineBorders) grading.border_mm = grading.bulk_mm;
-  std::vector<FineZone> zones = options.zones;
-  for (FineZone& zone : zones) {
-    zone.size_mm *= size / standardSize(design);
-    zone.layer_mm *= size / standardSize(design);
-  }
+  std::vector<FineZone> zones;
+  const Grading grading = gradingFor(design, options, zones);
   Mesh mesh = gradedTets(design, grading, options.discs, zones, options.electrodesAsNodes, stop);
-  mesh.size_mm = size;
+  mesh.size_mm = options.meshSize_mm.value_or(standardSize(design));
   return mesh;
 }
 

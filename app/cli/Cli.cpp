@@ -115,15 +115,15 @@ Exit Cli::runChosen() {
   Exit exit = Exit::Done;
   try {
     exit = run->second(session_);
+  } catch (const ConvergenceError& stopped) { // an outcome, no refusal: the JSON says how far it came
+    std::cerr << "palp " << name << ": " << oneLine(stopped.what()) << '\n';
+    session_.result["stop_reason"] = stopped.what();
+    exit = Exit::NoResult;
   } catch (const Error& refused) {
     std::cerr << "palp " << name << ": " << oneLine(refused.what()) << '\n';
     return Exit::BadInput;
   } catch (const Cancelled&) { // where a command had nothing of its own to say
     std::cerr << "palp " << name << ": stopped before there was a result\n";
-    exit = Exit::NoResult;
-  } catch (const ConvergenceError& stopped) { // an outcome, not a mistake: the JSON says how far it came
-    std::cerr << "palp " << name << ": " << oneLine(stopped.what()) << '\n';
-    session_.result["stop_reason"] = stopped.what();
     exit = Exit::NoResult;
   } catch (const std::bad_alloc&) {
     std::cerr << "palp " << name << ": not enough memory for this size; ask for a coarser mesh or fewer samples\n";

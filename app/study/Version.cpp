@@ -48,8 +48,12 @@ std::string version() {
   return PALP_VERSION;
 }
 
+std::string program() {
+  return "palp " + version() + " (commit " + kCommit + ")";
+}
+
 std::string versionInWords() {
-  std::string words = "palp " + version() + " (commit " + kCommit + ")\nbuilt by g++ " __VERSION__ " with Eigen " +
+  std::string words = program() + "\nbuilt by g++ " __VERSION__ " with Eigen " +
                       numbers(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION) + " and nlohmann-json " +
                       numbers(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH);
   const char* separator = "\nloaded: ";

@@ -131,7 +131,7 @@ std::vector<LeaveOneOutResult> KernelSystem::byEigen(double spread, const std::v
   for (const double wanted : ridges) {
     const double ridge = std::max(wanted, least);
     const Eigen::VectorXd inverse = (eigen.values.array().max(0.0) + ridge).inverse();
-    results.push_back(result(spread, wanted, lapack::product(vectors, false, inverse.asDiagonal() * rotated, false),
+    results.push_back(result(spread, ridge, lapack::product(vectors, false, inverse.asDiagonal() * rotated, false),
                              squares * inverse));
   }
   return results;

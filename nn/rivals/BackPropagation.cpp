@@ -3,6 +3,7 @@
 #include "model/base/Cancelled.h"
 #include "nn/NetworkError.h"
 #include "nn/NoisyCopies.h"
+#include "nn/VaryingInputs.h"
 #include "nn/linear/Lapack.h"
 #include "nn/linear/RandomNumbers.h"
 #include "nn/rbf/KMeans.h"
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
 
 namespace palp {
@@ -50,6 +52,7 @@ struct Training {
   double best = std::numeric_limits<double>::infinity();
   std::vector<double> bestParameters = {};
   std::vector<double> history = {};
+  std::exception_ptr failure = {}; ///< what another than the optimiser threw
 };
 
 Eigen::MatrixXd activations(const Layout& layout, const double* p, const Eigen::MatrixXd& inputs) {
@@ -107,6 +110,18 @@ double errorAndGradient(const std::vector<double>& parameters, std::vector<doubl
   return error;
 }
 
+/// The same for NLopt, which would take whatever is thrown for a failure of its own.
+double guardedError(const std::vector<double>& parameters, std::vector<double>& gradient, void* data) {
+  try {
+    return errorAndGradient(parameters, gradient, data);
+  } catch (const nlopt::forced_stop&) {
+    throw;
+  } catch (...) {
+    static_cast<Training*>(data)->failure = std::current_exception();
+    throw nlopt::forced_stop();
+  }
+}
+
 /// Principal directions of the scaled inputs, to variance 1: the optimiser then sees all of them alike. Those that
 /// drown in noise (of this deviation) are left out, for they would carry nothing but noise blown up to the others'
 /// size.
@@ -134,13 +149,14 @@ std::vector<double> start(const Layout& layout, std::uint64_t seed) {
 void optimise(Training& training, std::uint64_t seed) {
   std::vector<double> parameters = start(training.layout, seed);
   nlopt::opt optimiser(nlopt::LD_LBFGS, static_cast<unsigned>(training.layout.size()));
-  optimiser.set_min_objective(errorAndGradient, &training);
+  optimiser.set_min_objective(guardedError, &training);
   optimiser.set_maxeval(training.mostSteps);
   optimiser.set_vector_storage(30);
   double value = 0;
   try {
     optimiser.optimize(parameters, value);
   } catch (const nlopt::forced_stop&) {
+    if (training.failure) std::rethrow_exception(training.failure);
     if (training.stop.stop_requested()) throw Cancelled();
   } catch (const nlopt::roundoff_limited&) { // the best parameters so far are kept
   } catch (const std::runtime_error&) {      // NLopt's plain failure: the line search found nothing better
@@ -175,6 +191,7 @@ BackPropagationFit trainBackPropagation(const Eigen::Ref<const Eigen::MatrixXd>&
   common.relativeInputNoise = options.relativeInputNoise;
   requireUsable(samples, targets, common);
   requireOptions(options);
+  requireVarying(samples);
   BackPropagationFit fit;
   BackPropagationNetwork& network = fit.network;
   network.inputScaler = FeatureScaler::fit(Scaling::Global, samples);

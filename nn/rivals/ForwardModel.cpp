@@ -1,9 +1,8 @@
 #include "nn/rivals/ForwardModel.h"
 
+#include "model/base/PositiveSolve.h"
 #include "nn/NetworkError.h"
 #include "nn/linear/RidgeFit.h"
-
-#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <cmath>
@@ -203,8 +202,9 @@ LikelihoodInversion::Posterior LikelihoodInversion::posterior(const Class& c,
   };
   double before = cost(result.y, true);
   for (int i = 0; i < kMostIterations; ++i) {
-    const Eigen::LDLT<Eigen::MatrixXd> normal(precision());
-    const Eigen::VectorXd step = normal.solve(slope.transpose() * gradient - kPriorPrecision * result.y);
+    const auto normal = semidefiniteFactor(precision());
+    if (!normal) break;
+    const Eigen::VectorXd step = normal->solve(slope.transpose() * gradient - kPriorPrecision * result.y);
     const double most = before + kRounding * (square + before);
     double length = 1;
     Eigen::VectorXd next = result.y + step;
@@ -218,9 +218,14 @@ LikelihoodInversion::Posterior LikelihoodInversion::posterior(const Class& c,
     if (length * step.norm() < kEnough) break;
   }
   const double least = cost(result.y, true);
-  const Eigen::LDLT<Eigen::MatrixXd> normal(precision());
-  result.covariance = normal.solve(Eigen::MatrixXd::Identity(result.y.size(), result.y.size()));
-  result.logEvidence = -0.5 * least - 0.5 * normal.vectorD().array().abs().log().sum();
+  const auto normal = semidefiniteFactor(precision());
+  if (!normal) { // readings that are no numbers: nor is what they say
+    result.y.setConstant(NAN);
+    result.covariance = Eigen::MatrixXd::Constant(result.y.size(), result.y.size(), NAN);
+    return result;
+  }
+  result.covariance = normal->solve(Eigen::MatrixXd::Identity(result.y.size(), result.y.size()));
+  result.logEvidence = -0.5 * least - 0.5 * normal->vectorD().array().abs().log().sum();
   return result;
 }
 

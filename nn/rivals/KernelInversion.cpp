@@ -1,8 +1,7 @@
 #include "nn/rivals/KernelInversion.h"
 
+#include "model/base/PositiveSolve.h"
 #include "nn/linear/Lapack.h"
-
-#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <cmath>
@@ -121,7 +120,12 @@ KernelInversion::Trial KernelInversion::descend(const Eigen::VectorXd& start, co
     for (int tries = 0; tries < 6 && !better; ++tries) {
       Eigen::MatrixXd damped = moves.matrix().asDiagonal() * now.information * moves.matrix().asDiagonal();
       damped.diagonal() = (1 + damping) * now.information.diagonal();
-      Eigen::VectorXd change = damped.llt().solve(uphill);
+      const auto factor = positiveFactor(damped);
+      if (!factor) {
+        damping *= 10;
+        continue;
+      }
+      Eigen::VectorXd change = factor->solve(uphill);
       change = ((now.scaled + change).cwiseMin(most).cwiseMax(-most) - now.scaled).eval();
       moved = std::sqrt(std::max(0.0, change.dot(now.information * change)));
       if (moved < kSmallStep) break; // in deviations
@@ -172,8 +176,10 @@ KernelEstimate KernelInversion::estimate(const Eigen::Ref<const Eigen::VectorXd>
   KernelEstimate estimate;
   estimate.causes = model_.causeOffset;
   estimate.standardDeviation = Eigen::VectorXd::Zero(model_.causes());
-  const Eigen::MatrixXd covariance =
-      best.information.llt().solve(Eigen::MatrixXd::Identity(best.information.rows(), best.information.cols()));
+  const Eigen::Index unknowns = best.information.rows();
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Constant(unknowns, unknowns, INFINITY); // where nothing is known
+  if (const auto factor = positiveFactor(best.information))
+    covariance = factor->solve(Eigen::MatrixXd::Identity(unknowns, unknowns));
   for (std::size_t k = 0; k < varied_.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
     const double factor = model_.causeFactor(varied_[k]);

@@ -1,9 +1,9 @@
 #include "nn/rivals/KnownTable.h"
 
 #include "model/base/Cancelled.h"
+#include "model/base/PositiveSolve.h"
+#include "nn/NetworkError.h"
 #include "nn/rivals/PlaceKernel.h"
-
-#include <Eigen/Cholesky>
 
 #include <cmath>
 #include <numbers>
@@ -17,7 +17,9 @@ constexpr double kSmallRidge = 1e-12; // of the trace: what rounding leaves unde
 /// Solves a x = b for a symmetric semidefinite a.
 Eigen::MatrixXd solveSemidefinite(Eigen::MatrixXd a, const Eigen::MatrixXd& b) {
   a.diagonal().array() += kSmallRidge * a.trace();
-  return a.llt().solve(b);
+  return solvePositive<NetworkError>(a, b,
+                                     "known touches: the samples do not determine the table of their readings; "
+                                     "allowed are touches of more places, sizes and forces");
 }
 
 std::vector<Eigen::Index> otherInputs(const SplineTable& form) {

@@ -1,5 +1,6 @@
 #include "solver/assembly/NodalFields.h"
 
+#include "model/base/PositiveSolve.h"
 #include "solver/element/ElementGeometry.h"
 #include "solver/element/ElementKernels.h"
 #include "solver/element/MooneyRivlin.h"
@@ -7,6 +8,7 @@
 #include <Eigen/Dense>
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace palp {
@@ -114,7 +116,10 @@ public:
   void solve() {
     constexpr double stiffness = 0.01;
     normal_.diagonal().tail<6>().array() += stiffness;
-    fit_ = normal_.ldlt().solve(fit_).eval();
+    if (const auto factor = semidefiniteFactor(normal_))
+      fit_ = factor->solve(fit_).eval();
+    else
+      fit_.setConstant(std::numeric_limits<double>::quiet_NaN());
   }
   [[nodiscard]] double at(const Eigen::Vector3d& from) const { return fit_.dot(basis(from)); }
 

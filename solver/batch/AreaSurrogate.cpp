@@ -1,6 +1,7 @@
 #include "solver/batch/AreaSurrogate.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace palp {
 
@@ -46,14 +47,30 @@ bool addAnswers(BatchEngine& engine, std::vector<AreaFit>& fits, const std::vect
 
 } // namespace
 
-double relativeDifference(const ElectrodeDisplacements& a, const ElectrodeDisplacements& reference) {
-  const double norm = reference.upper_mm.norm();
-  return norm > 0 ? (a.upper_mm - reference.upper_mm).norm() / norm : a.upper_mm.norm();
+double relativeDifference(const ElectrodeDisplacements& a, const ElectrodeDisplacements& reference,
+                          const SensorDesign& design) {
+  const auto relative = [](double difference, double norm) { return norm > 0 ? difference / norm : difference; };
+  const double upper_mm = reference.upper_mm.norm();
+  double largest = relative((a.upper_mm - reference.upper_mm).norm(), upper_mm);
+  if (design.lowerFollowsRubber)
+    largest = std::max(largest, relative((a.lower_mm - reference.lower_mm).norm(), upper_mm));
+  if (design.pressureLaw)
+    largest = std::max(
+        largest, (a.upperPressure_MPa - reference.upperPressure_MPa).norm() /
+                     std::hypot(reference.upperPressure_MPa.norm(),
+                                design.pressureLaw->p0_MPa * std::sqrt(double(reference.upperPressure_MPa.size()))));
+  if (design.field() || (!design.lowerFollowsRubber && !design.pressureLaw)) return largest;
+  const auto logs = [&](const ElectrodeDisplacements& e) -> Eigen::ArrayXXd {
+    return rowColumnResistances(design, e).array().log();
+  };
+  const Eigen::ArrayXXd truth = logs(reference);
+  const double change = (truth - logs(ElectrodeDisplacements::atRest(design))).matrix().norm();
+  return std::max(largest, relative((logs(a) - truth).matrix().norm(), change));
 }
 
-AreaSurrogate::AreaSurrogate(const ForceRange& range, int degree, const std::vector<Eigen::Vector3d>& forces_N,
+AreaSurrogate::AreaSurrogate(const SensorDesign& design, int degree, const std::vector<Eigen::Vector3d>& forces_N,
                              const std::vector<ElectrodeDisplacements>& answers)
-    : polynomial_(range, degree), degree_(degree), upper_(answers.front().upper_mm.cols()),
+    : polynomial_(design.forceRange, degree), degree_(degree), upper_(answers.front().upper_mm.cols()),
       lower_(answers.front().lower_mm.cols()) {
   const std::size_t kept = keptForces, count = forces_N.size();
   const std::vector<Eigen::Vector3d> fitted(forces_N.begin(), forces_N.end() - kept);
@@ -64,7 +81,7 @@ AreaSurrogate::AreaSurrogate(const ForceRange& range, int degree, const std::vec
     const std::size_t some = std::min<std::size_t>(lanes, count - first);
     const auto guesses = evaluate({forces_N.data() + first, some});
     for (std::size_t i = 0; i < some; ++i)
-      error_ = std::max(error_, relativeDifference(guesses[i], answers[first + i]));
+      error_ = std::max(error_, relativeDifference(guesses[i], answers[first + i], design));
   }
 }
 
@@ -89,7 +106,7 @@ std::vector<std::optional<AreaSurrogate>> AreaSurrogate::fit(BatchEngine& engine
         own.reset();
         return true;
       }
-      AreaSurrogate trial(design.forceRange, degree, forces, fit.answers);
+      AreaSurrogate trial(design, degree, forces, fit.answers);
       if (!own || trial.error() < own->error()) own = std::move(trial);
       return own->error() <= tolerance;
     });

@@ -16,12 +16,12 @@ public:
 
   /// Answers to up to 8 forces.
   [[nodiscard]] std::vector<ElectrodeDisplacements> evaluate(std::span<const Eigen::Vector3d> forces_N) const;
-  /// Largest relative error of the electrode displacements on the forces kept from the fit.
+  /// Largest relativeDifference on the forces kept from the fit.
   [[nodiscard]] double error() const { return error_; }
   [[nodiscard]] int degree() const { return degree_; }
 
 private:
-  AreaSurrogate(const ForceRange& range, int degree, const std::vector<Eigen::Vector3d>& forces_N,
+  AreaSurrogate(const SensorDesign& design, int degree, const std::vector<Eigen::Vector3d>& forces_N,
                 const std::vector<ElectrodeDisplacements>& answers);
 
   ForcePolynomial polynomial_;
@@ -31,7 +31,11 @@ private:
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> coefficients_; ///< one row a number
 };
 
-/// Relative difference of the upper electrodes' displacements.
-double relativeDifference(const ElectrodeDisplacements& a, const ElectrodeDisplacements& reference);
+/// The largest relative difference of what the readings of a design follow: the upper electrodes' displacements; those
+/// of the lower ones where they follow the rubber, relative to the upper ones'; pressures where there is a law of them,
+/// relative to theirs and its p0; and with either of these the resistances by Eq. (1), d ln R against what the load
+/// changes.
+double relativeDifference(const ElectrodeDisplacements& a, const ElectrodeDisplacements& reference,
+                          const SensorDesign& design);
 
 } // namespace palp

@@ -66,7 +66,10 @@ std::unique_ptr<LoadBatch> BatchEngine::borrowBatch() {
       return batch;
     }
   }
-  return std::make_unique<LoadBatch>(model_, problem_.parts().upperProbe(), problem_.parts().lowerProbe());
+  const SensorDesign& design = problem_.design();
+  const LoadBatch::Watched watched{design.lowerFollowsRubber, design.pressureLaw ? design.pressureLaw->p0_MPa : 0,
+                                   design.field() != nullptr};
+  return std::make_unique<LoadBatch>(model_, problem_.parts().upperProbe(), problem_.parts().lowerProbe(), watched);
 }
 
 void BatchEngine::giveBack(std::unique_ptr<LoadBatch> batch) {

@@ -31,11 +31,26 @@ inline void prefetch(const ElementwiseTangent& model, int place, int block, cons
                          at(std::size_t(model.factorRows()[3 * std::size_t(model.nodes(place)[n]) + d]), block));
 }
 
+/// Each lane's change relative to its size (and the floor for each number) where that is larger than what is there;
+/// what is no number stays.
+void growToRelativeChange(const LaneVector& before, const LaneVector& after, const LaneVector& size, double floor,
+                          std::array<double, batchLanes>& largest) {
+  std::array<double, batchLanes> difference{}, norm{};
+  for (std::size_t i = 0; i < after.size(); ++i)
+    difference[i % batchLanes] += (after[i] - before[i]) * (after[i] - before[i]);
+  for (std::size_t i = 0; i < size.size(); ++i) norm[i % batchLanes] += size[i] * size[i] + floor * floor;
+  for (int lane = 0; lane < batchLanes; ++lane) {
+    const double relative = norm[lane] == 0 ? 0 : std::sqrt(difference[lane] / norm[lane]);
+    if (!(relative <= largest[lane])) largest[lane] = relative;
+  }
+}
+
 } // namespace
 
-LoadBatch::LoadBatch(const ElementwiseTangent& model, const PointProbe& upper, const PointProbe& lower)
-    : model_(model), upper_(upper), lower_(lower), u_(3 * std::size_t(model.mesh().nodes()) * batchLanes),
-      r_(u_.size()), x_(std::size_t(model.mesh().elements()) * model.mesh().unknowns() * batchLanes), local_(x_.size()),
+LoadBatch::LoadBatch(const ElementwiseTangent& model, const PointProbe& upper, const PointProbe& lower, Watched watched)
+    : model_(model), upper_(upper), lower_(lower), watched_(watched),
+      u_(3 * std::size_t(model.mesh().nodes()) * batchLanes), r_(u_.size()),
+      x_(std::size_t(model.mesh().elements()) * model.mesh().unknowns() * batchLanes), local_(x_.size()),
       solution_(std::size_t(model.rightSideRows()) * batchLanes), probed_(model.mesh().elements()) {
   for (const PointProbe* probe : {&upper_, &lower_})
     for (const auto& holders : probe->holders())
@@ -306,7 +321,7 @@ void LoadBatch::iterate(const std::array<bool, batchLanes>& active, std::array<d
   for (int b = 0; b < blocks; ++b)
     if (!live[b]) catchUp(b); // before other directions take the place of its own
   startAnew();
-  const LaneVector before = displacementsAt(upper_);
+  const std::vector<WatchedValues> before = watchedNow();
   evaluateResiduals(live, stop);
   scaleResiduals(active);
   const FactorPath::Range all{0, model_.factor().count};
@@ -318,17 +333,21 @@ void LoadBatch::iterate(const std::array<bool, batchLanes>& active, std::array<d
     for (int b = 0; b < blocks; ++b)
       if (probed_[e] && live[b]) updateUnknowns(e, b);
   for (int b = 0; b < blocks; ++b) behind_[b] = behind_[b] || live[b];
-  const LaneVector after = displacementsAt(upper_);
-  std::array<double, batchLanes> difference{}, norm{};
-  for (std::size_t i = 0; i < after.size(); ++i) {
-    difference[i % batchLanes] += (after[i] - before[i]) * (after[i] - before[i]);
-    norm[i % batchLanes] += after[i] * after[i];
-  }
-  for (int lane = 0; lane < batchLanes; ++lane) {
-    if (!active[lane]) continue;
-    const double relative = norm[lane] > 0 ? std::sqrt(difference[lane] / norm[lane]) : 0;
-    change[lane] = smallestJ_[lane] > 0 && std::isfinite(relative) ? relative : -1;
-  }
+  const std::vector<WatchedValues> after = watchedNow();
+  std::array<double, batchLanes> largest{};
+  for (std::size_t k = 0; k < after.size(); ++k)
+    growToRelativeChange(before[k].values, after[k].values, after[after[k].relativeTo].values, after[k].floor, largest);
+  for (int lane = 0; lane < batchLanes; ++lane)
+    if (active[lane]) change[lane] = smallestJ_[lane] > 0 && std::isfinite(largest[lane]) ? largest[lane] : -1;
+}
+
+std::vector<LoadBatch::WatchedValues> LoadBatch::watchedNow() const {
+  std::vector<WatchedValues> all;
+  all.push_back({displacementsAt(upper_), 0, 0});
+  if (watched_.lower) all.push_back({displacementsAt(lower_), 0, 0});
+  if (watched_.pressures_MPa > 0) all.push_back({pressuresAt(upper_), all.size(), watched_.pressures_MPa});
+  if (watched_.block) all.push_back({u_, all.size(), 0});
+  return all;
 }
 
 std::vector<ElectrodeDisplacements> LoadBatch::electrodes(int block) const {

@@ -44,7 +44,16 @@ class LoadBatch {
 public:
   static constexpr int blocks = batchLanes / lanes;
 
-  LoadBatch(const ElementwiseTangent& model, const PointProbe& upper, const PointProbe& lower);
+  /// What the changes of an iteration are measured on beside the upper electrodes: all that the readings follow.
+  struct Watched {
+    bool lower = false;       ///< the lower electrodes, relative to the upper ones
+    double pressures_MPa = 0; ///< at the upper electrodes, relative to what they are and to this; 0: not
+    bool block = false;       ///< all nodes
+  };
+
+  LoadBatch(const ElementwiseTangent& model, const PointProbe& upper, const PointProbe& lower)
+      : LoadBatch(model, upper, lower, Watched()) {}
+  LoadBatch(const ElementwiseTangent& model, const PointProbe& upper, const PointProbe& lower, Watched watched);
 
   /// A block's lanes at rest, without loads. `inSingle`: the elements' residuals are found in single precision, which
   /// leaves an error of a few times 1e-7 of the answer.
@@ -67,8 +76,8 @@ public:
   void addPolynomials(int block, const std::vector<double>& displacements, const std::vector<double>& unknowns,
                       int terms, const double* monomials);
 
-  /// One iteration of the lanes that are active. `change` becomes the relative change of the upper electrodes'
-  /// displacements; negative where elements turned inside out or the numbers are not finite any more.
+  /// One iteration of the lanes that are active. `change` becomes the largest relative change of what is watched;
+  /// negative where elements turned inside out or the numbers are not finite any more.
   /// Stopped on its way, it leaves the lanes unusable.
   void iterate(const std::array<bool, batchLanes>& active, std::array<double, batchLanes>& change,
                const std::stop_token& stop);
@@ -112,6 +121,13 @@ private:
   void startAnew(int place, int block);
   void moveAlongDirections();
   void updateUnknowns(int place, int block);
+  /// The upper electrodes, and what else is watched, each with what its changes are relative to.
+  struct WatchedValues {
+    LaneVector values;
+    std::size_t relativeTo = 0; ///< which of them
+    double floor = 0;
+  };
+  [[nodiscard]] std::vector<WatchedValues> watchedNow() const;
   [[nodiscard]] LaneVector displacementsAt(const PointProbe& probe) const; ///< [3 points][32]
   [[nodiscard]] LaneVector pressuresAt(const PointProbe& probe) const;     ///< [points][32], compression positive
   [[nodiscard]] std::size_t unknownIndex(int place, int k, int lane) const {
@@ -124,6 +140,7 @@ private:
 
   const ElementwiseTangent& model_;
   const PointProbe &upper_, &lower_;
+  Watched watched_;
   std::array<std::vector<LaneForce>, batchLanes> forces_;
   std::array<std::vector<NodeForce>, batchLanes> nodeForces_;
   LaneVector u_, r_;                        ///< [3 nodes][32]

@@ -26,7 +26,9 @@ void LoadBatch::scaleResiduals(const std::array<bool, batchLanes>& active) {
         squares[lane] += r_[i * batchLanes + lane] * r_[i * batchLanes + lane];
   std::array<double, batchLanes> inverse{};
   for (int lane = 0; lane < batchLanes; ++lane) {
-    scale_[lane] = active[lane] && std::isfinite(squares[lane]) ? std::sqrt(squares[lane]) : 0;
+    const bool finite = std::isfinite(squares[lane]);
+    if (active[lane] && !finite) smallestJ_[lane] = -1; // lost, and no arrival for want of a change
+    scale_[lane] = active[lane] && finite ? std::sqrt(squares[lane]) : 0;
     inverse[lane] = scale_[lane] > 0 ? 1 / scale_[lane] : 0;
   }
   for (std::size_t i = 0; i < rows.size(); ++i)
@@ -108,6 +110,7 @@ void LoadBatch::addToRight(int lane, const std::vector<NodeForce>& forces) {
   if (!(scale_[lane] > 0)) {
     double square = 0;
     for (const auto& [node, force_N] : forces) square += force_N.squaredNorm();
+    if (!std::isfinite(square)) smallestJ_[lane] = -1;
     scale_[lane] = std::isfinite(square) ? std::sqrt(square) : 0;
   }
   if (!(scale_[lane] > 0)) return;

@@ -308,6 +308,7 @@ bool ContactSolver::tangentWillDo(double previous) const {
 }
 
 bool ContactSolver::reachesBeyond(const State& state) const {
+  const double reach_mm = mesh_.nodes_mm.row(2).maxCoeff() / beyondReachOfHeight;
   std::vector<bool> known(static_cast<std::size_t>(mesh_.nodeCount()));
   for (const ContactPoint& point : points_) known[static_cast<std::size_t>(point.node)] = true;
   for (const ContactPoint& point : contactPoints(mesh_)) {
@@ -317,7 +318,7 @@ bool ContactSolver::reachesBeyond(const State& state) const {
       const Eigen::Vector3d place = mesh_.nodes_mm.col(point.node) +
                                     state.rubber.displacements.segment<3>(3 * Eigen::Index(point.node)) -
                                     tips_mm_.col(column) - state.contact.translations_mm.col(column);
-      if (distance(indenters_[k], place).gap_mm < -beyondReach_mm) return true;
+      if (distance(indenters_[k], place).gap_mm < -reach_mm) return true;
     }
   }
   return false;

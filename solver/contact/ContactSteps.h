@@ -13,7 +13,7 @@ namespace palp {
 inline constexpr double touchableMargin = 1.3; ///< of the expected depth, for the points that may be touched
 inline constexpr double widerMargin = 1.6;     ///< times the one before, where others were met
 inline constexpr int mostMargins = 5;
-inline constexpr double beyondReach_mm = 1e-6; ///< deeper than this a point that was not foreseen is touched
+inline constexpr double beyondReachOfHeight = 5e6; ///< a height over it: deeper a point not foreseen is touched
 
 /// Largest part of the load in one step. `fromRest`: the first of a path, which may go down first and then aside.
 double largestContactStep(const std::vector<Indenter>& indenters, bool fromRest);

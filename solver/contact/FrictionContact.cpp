@@ -134,13 +134,14 @@ std::vector<NodeForce> FrictionContact::forces() const {
 }
 
 bool FrictionContact::reachesBeyond(const Eigen::Matrix3Xd& motion_mm) const {
+  const double reach_mm = top_->places_mm().row(2).maxCoeff() / beyondReachOfHeight;
   for (int i = 0; i < top_->count(); ++i) {
     if (std::binary_search(numbers_.begin(), numbers_.end(), i)) continue;
     const Eigen::Vector3d place_mm = top_->places_mm().col(i) + motion_mm.col(i);
     for (std::size_t k = 0; k < indenters_.size(); ++k) {
       const auto column = static_cast<Eigen::Index>(k);
       if (distance(indenters_[k], place_mm - tips_mm_.col(column) - state_.translations_mm.col(column)).gap_mm <
-          -beyondReach_mm)
+          -reach_mm)
         return true;
     }
   }

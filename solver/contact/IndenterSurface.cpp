@@ -15,7 +15,7 @@ constexpr double gridReach = 1.6;   // in half widths of the contact
 constexpr int cellsAHalfWidth = 16; // of the contact
 constexpr double steepest_deg = 80; // of a round surface: beyond it only the side is left
 constexpr int cellsOfTheRim = 8;    // of a punch, along its quarter of a circle
-constexpr double overhang_mm = 1;   // of cylinders and planes over the block's sides
+constexpr double overhangs = 30;    // of cylinders and planes over the block's sides, in its length
 constexpr int cellsAlong = 16;      // of cylinders and planes
 
 /// Heights z over distances r from the axis; the first at r = 0.
@@ -85,6 +85,7 @@ template <class Place> IndenterSurface gridded(int countX, int countY, const Pla
 
 /// Places along a direction, from one side of the block to the other and a little beyond, from the indenter's place.
 double along(int i, double length_mm, double place_mm) {
+  const double overhang_mm = length_mm / overhangs;
   return -overhang_mm + (length_mm + 2 * overhang_mm) * i / cellsAlong - place_mm;
 }
 

@@ -1,6 +1,6 @@
 #include "solver/contact/NormalContact.h"
 
-#include <Eigen/Cholesky>
+#include "model/base/PositiveSolve.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,18 +11,18 @@ namespace palp {
 namespace {
 
 constexpr int mostContactSteps = 60;
-constexpr double nearGap_mm = 1.5; // nodes that far from an indenter do not come to touch it within a solve
-constexpr double longestDepthStep_mm = 0.1;
-constexpr double settledForce = 1e-9; // change of the forces in a step, relative to their sum
-constexpr double settledDepth_mm = 1e-10;
+// Lengths are shares of the block's height.
+constexpr double nearGap = 0.3;           // nodes that far from an indenter do not come to touch it within a solve
+constexpr double depthStepsOfHeight = 50; // the longest
+constexpr double settledForce = 1e-9;     // change of the forces in a step, relative to their sum
+constexpr double settledOfHeight = 5e10;  // depths in it
 
 } // namespace
 
 NormalContact::NormalContact(std::vector<Indenter> indenters, std::shared_ptr<const TopCompliance> top)
-    : indenters_(std::move(indenters)), top_(std::move(top)) {
-  const double top_mm = top_->places_mm().row(2).maxCoeff();
+    : indenters_(std::move(indenters)), top_(std::move(top)), height_mm_(top_->places_mm().row(2).maxCoeff()) {
   for (const Indenter& indenter : indenters_) {
-    tips_mm_.emplace_back(indenter.place_mm.x(), indenter.place_mm.y(), top_mm);
+    tips_mm_.emplace_back(indenter.place_mm.x(), indenter.place_mm.y(), height_mm_);
     if (const Motion* motion = indenter.motion())
       tips_mm_.back() += Eigen::Vector3d(motion->shift_mm.x(), motion->shift_mm.y(), -motion->depth_mm);
   }
@@ -47,18 +47,19 @@ std::vector<NormalContact::FreeNode> NormalContact::nearNodes(const Eigen::Matri
   std::vector<FreeNode> near;
   for (int i = 0; i < top_->count(); ++i) {
     const Eigen::Vector3d place_mm = top_->places_mm().col(i) + motion_mm.col(i);
-    if (nearest(place_mm).gap_mm < nearGap_mm) near.push_back({i, place_mm - motionByForces(i)});
+    if (nearest(place_mm).gap_mm < nearGap * height_mm_) near.push_back({i, place_mm - motionByForces(i)});
   }
   return near;
 }
 
 /// One step of the active set method; `settled` where it changed nothing any more. False: no answer.
 bool NormalContact::step(const std::vector<FreeNode>& near, bool& settled) {
+  const double longestDepthStep_mm = height_mm_ / depthStepsOfHeight;
   // Where the nodes are under the forces found last, and which of them carry a force from now on.
   std::vector<int> active;
   std::vector<Nearest> touched;
   std::vector<double> right; // minus the gap that would be left without the forces
-  std::vector<double> smallestGap_mm(indenters_.size(), nearGap_mm);
+  std::vector<double> smallestGap_mm(indenters_.size(), nearGap * height_mm_);
   std::vector<char> holds(indenters_.size(), 0);
   std::size_t f = 0; // forces_ and near are in the order of the nodes
   for (const auto& [i, place_mm] : near) {
@@ -100,21 +101,20 @@ bool NormalContact::step(const std::vector<FreeNode>& near, bool& settled) {
     for (Eigen::Index b = 0; b <= a; ++b)
       compliance(a, b) = compliance(b, a) = normal.dot(top_->block(active[a], active[b]) * touched[b].normal);
   }
-  const Eigen::LLT<Eigen::MatrixXd> factor(compliance);
-  if (factor.info() != Eigen::Success) return false;
-  Eigen::VectorXd force_N = factor.solve(Eigen::Map<const Eigen::VectorXd>(right.data(), count));
+  const auto factor = positiveFactor(compliance);
+  if (!factor) return false;
+  Eigen::VectorXd force_N = factor->solve(Eigen::Map<const Eigen::VectorXd>(right.data(), count));
   if (freed > 0) {
-    const Eigen::MatrixXd byDepth = factor.solve(down);
+    const Eigen::MatrixXd byDepth = factor->solve(down);
     Eigen::VectorXd missing_N = -down.transpose() * force_N;
     for (Eigen::Index k = 0; k < freed; ++k) missing_N(k) += indenters_[pressing[k]].press()->force_N.z();
-    const Eigen::VectorXd deeper_mm = (down.transpose() * byDepth)
-                                          .llt()
-                                          .solve(missing_N)
-                                          .cwiseMax(-longestDepthStep_mm)
-                                          .cwiseMin(longestDepthStep_mm);
+    const auto stiffness = positiveFactor(down.transpose() * byDepth);
+    if (!stiffness) return false;
+    const Eigen::VectorXd deeper_mm =
+        stiffness->solve(missing_N).cwiseMax(-longestDepthStep_mm).cwiseMin(longestDepthStep_mm);
     force_N += byDepth * deeper_mm;
     for (Eigen::Index k = 0; k < freed; ++k) tips_mm_[pressing[k]].z() += deeper_mm(k);
-    settled = settled && deeper_mm.cwiseAbs().maxCoeff() <= settledDepth_mm;
+    settled = settled && deeper_mm.cwiseAbs().maxCoeff() <= height_mm_ / settledOfHeight;
   }
   if (!force_N.allFinite()) return false;
   double change_N = 0;

@@ -48,6 +48,7 @@ private:
 
   std::vector<Indenter> indenters_;
   std::shared_ptr<const TopCompliance> top_;
+  double height_mm_;                     ///< of the block
   std::vector<Eigen::Vector3d> tips_mm_; ///< where their lowest points are
   std::vector<NodeForce> forces_;        ///< nodes counted as those of the compliance
 };

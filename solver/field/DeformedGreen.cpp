@@ -94,14 +94,18 @@ std::vector<std::vector<DeformedGreen::Place>> DeformedGreen::places(const Field
       return barycentricIn(state.nodes_mm(Eigen::all, mesh_.tets().elements.col(e)), point, guess);
     };
     for (const Place& place : atRest_[p])
-      if (const Eigen::Vector4d l = in(place.element, place.barycentric); l.minCoeff() > -inside)
+      if (const Eigen::Vector4d l = in(place.element, place.barycentric); l.allFinite() && l.minCoeff() > -inside)
         all[p].push_back({place.element, l});
     if (!all[p].empty()) continue;
     for (const int e : neighbours_[p]) { // far past it
       const Eigen::Vector4d l = in(e, Eigen::Vector4d::Constant(0.25));
+      if (!l.allFinite()) continue; // an element turned inside out holds no point
       if (all[p].empty()) all[p].push_back({e, l});
       if (l.minCoeff() > all[p].front().barycentric.minCoeff()) all[p].front() = {e, l};
     }
+    if (all[p].empty())
+      throw DesignError("electrode " + std::to_string(p) +
+                        ": no element of the deformed mesh holds it; allowed are smaller loads, or a finer mesh");
   }
   return all;
 }

@@ -1,12 +1,14 @@
 #include "solver/linear/SupernodeTree.h"
 
+#include "model/base/Error.h"
 #include "solver/linear/NestedDissection.h"
 
 #include <cholmod.h>
 
 #include <algorithm>
+#include <new>
 #include <numeric>
-#include <stdexcept>
+#include <string>
 
 namespace palp {
 
@@ -123,7 +125,10 @@ SupernodeTree supernodeTree(const SparsePattern& pattern) {
   cholmod_sparse groups =
       pattern.lastGroups.empty() ? view(pattern.groupColumns, pattern.groupRows) : view(some.columns, some.rows);
   cholmod_factor* factor = cholmod_analyze_p(&groups, order.data(), nullptr, 0, &common.c);
-  if (!factor) throw std::runtime_error("the sparse matrix could not be analysed (memory?)");
+  if (!factor && common.c.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
+  if (!factor)
+    throw Error("the mesh has " + std::to_string(pattern.groupColumns.size()) +
+                " nodes, whose matrix is larger than the factorisation can number; ask for a coarser mesh");
   SupernodeTree tree = expanded(*factor, pattern);
   cholmod_free_factor(&factor, &common.c);
   return tree;

@@ -274,6 +274,25 @@ double standardSize(const SensorDesign& design) {
   return 0.4 * (area.high_mm - area.low_mm).minCoeff();
 }
 
+Grading gradingFor(const SensorDesign& design, const MeshOptions& options, std::vector<FineZone>& zones) {
+  const double size = options.meshSize_mm.value_or(standardSize(design));
+  Grading grading = defaultGrading(design, size);
+  if (!options.fineBorders) grading.border_mm = grading.bulk_mm;
+  zones = options.zones;
+  for (FineZone& zone : zones) {
+    zone.size_mm *= size / standardSize(design);
+    zone.layer_mm *= size / standardSize(design);
+  }
+  return grading;
+}
+
+double gradedElements(const SensorDesign& design, const MeshOptions& options) {
+  std::vector<FineZone> zones;
+  const Grading grading = gradingFor(design, options, zones);
+  const Eigen::Matrix3Xd electrodes = options.electrodesAsNodes ? design.upperElectrodes_mm() : Eigen::Matrix3Xd(3, 0);
+  return 6 * gradedGrid(design, grading, options.discs, zones, electrodes).cells();
+}
+
 Mesh gradedTets(const SensorDesign& design, const Grading& grading, const std::vector<FineDisc>& discs,
                 const std::vector<FineZone>& zones, bool electrodesAsNodes, const std::stop_token& stop) {
   Eigen::Matrix3Xd electrodes = electrodesAsNodes ? design.upperElectrodes_mm() : Eigen::Matrix3Xd(3, 0);

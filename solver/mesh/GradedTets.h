@@ -25,6 +25,11 @@ Grading defaultGrading(const SensorDesign& design, double size_mm);
 /// The size of the default mesh.
 double standardSize(const SensorDesign& design);
 
+/// The grading that the options ask for; `zones` become theirs at that size.
+Grading gradingFor(const SensorDesign& design, const MeshOptions& options, std::vector<FineZone>& zones);
+/// Elements of the mesh for the options, but for lines that electrodes bring in addition.
+double gradedElements(const SensorDesign& design, const MeshOptions& options);
+
 /// Quadratic tetrahedra by TetGen on the points of a graded grid whose lines meet the load areas' borders and, where
 /// `electrodesAsNodes`, the upper electrodes. Each cell becomes six path simplices, mirrored from cell to cell: no
 /// stretching along the axes makes them obtuse, and the mirroring halves the error of equal cells. Electrodes that lie

@@ -1,6 +1,6 @@
 #include "solver/statics/StepMixing.h"
 
-#include <Eigen/Dense>
+#include "model/base/PositiveSolve.h"
 
 namespace palp {
 
@@ -25,7 +25,9 @@ Eigen::VectorXd StepMixing::shares(const Eigen::VectorXd& direction) const {
   const Eigen::VectorXd scale = products.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = scale.asDiagonal() * products * scale.asDiagonal();
   const Eigen::MatrixXd definite = scaled + leastIndependent * Eigen::MatrixXd::Identity(count, count);
-  return scale.cwiseProduct(definite.ldlt().solve(scale.cwiseProduct(right)));
+  const auto factor = semidefiniteFactor(definite);
+  if (!factor) return Eigen::VectorXd::Zero(count); // the step itself, unmixed
+  return scale.cwiseProduct(factor->solve(scale.cwiseProduct(right)));
 }
 
 void StepMixing::mix(Eigen::VectorXd& displacements, LaneVector& unknowns) {

@@ -231,5 +231,20 @@ TEST(SamplePartWriter, RefusesBeforeTheWorkWhatItCouldNotFinish) {
             std::string::npos);
 }
 
+TEST(SamplePartWriter, RefusesToGoOnWithSamplesOfAnotherProgram) {
+  const TemporaryFolder folder;
+  {
+    SamplePartWriter writer(folder / "a.csv", smallHead(), false);
+    writer.requireMadeBy("palp 1");
+    writer.append(randomSet(9, 2));
+  }
+  SamplePartWriter writer(folder / "a.csv", smallHead(), false);
+  const std::string sentence = refusal([&] { writer.requireMadeBy("palp 2"); });
+  EXPECT_NE(sentence.find("9 samples were made by palp 1, this is palp 2"), std::string::npos) << sentence;
+  writer.requireMadeBy("palp 1");
+  writer.finish();
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.csv.part.by"));
+}
+
 } // namespace
 } // namespace palp

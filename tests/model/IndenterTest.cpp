@@ -126,6 +126,11 @@ TEST(Indenter, RefusesMotionsThroughTheBlockOrOffIt) {
   indenter.control = Motion{1, {2, -2}};
   EXPECT_EQ(refusal(indenter), "");
   EXPECT_EQ(whyInvalid(LoadCase{{}, {}, {indenter}}, paperDesign()), std::nullopt);
+  indenter.radius_mm = 0.5;
+  indenter.control = Motion{1, {0, 0}};
+  EXPECT_NE(refusal(indenter).find("diameter of 1 mm, or a pin"), std::string::npos) << refusal(indenter);
+  indenter.shape = IndenterShape::Pin;
+  EXPECT_EQ(refusal(indenter), "");
   indenter.friction = 3;
   EXPECT_TRUE(whyInvalid(LoadCase{{}, {}, {indenter}}, paperDesign()));
 }

@@ -1,5 +1,7 @@
 #include "model/SampleSet.h"
 
+#include "model/base/Error.h"
+
 #include <gtest/gtest.h>
 
 namespace palp {
@@ -67,6 +69,13 @@ TEST(SampleSet, AppendsAtTheEnd) {
 TEST(SampleSet, KnowsThatAllAreasAreLoadedTogether) {
   EXPECT_FALSE(setOf(0, 1).together());
   EXPECT_TRUE(setOf(-1, 1).together()); // one area: as many forces as alone
+}
+
+TEST(SampleSet, OfOtherColumnsIsNotJoined) {
+  SampleSet set = setOf(0, 1), other = setOf(0, 1);
+  other.resistances_ohm.resize(5, 2);
+  EXPECT_THROW(append(set, other), Error);
+  EXPECT_EQ(set.area.size(), 2) << "as it was";
 }
 
 } // namespace

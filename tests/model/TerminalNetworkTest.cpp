@@ -1,10 +1,13 @@
 #include "model/TerminalNetwork.h"
 
+#include "model/DesignError.h"
 #include "model/FieldAtRest.h"
 #include "tests/model/RandomLayout.h"
 
 #include <Eigen/LU>
 #include <gtest/gtest.h>
+
+#include <limits>
 
 namespace palp {
 namespace {
@@ -151,6 +154,17 @@ TEST(TerminalNetwork, DoesNotFeelAConstantPotential) {
                 .cwiseAbs()
                 .maxCoeff(),
             1e-12);
+}
+
+TEST(TerminalNetwork, RefusesPotentialsThatAreNotPositive) {
+  const WireCounts counts{2, 2, 2, 2};
+  Eigen::MatrixXd p = Eigen::MatrixXd::Identity(8, 8);
+  EXPECT_NO_THROW(TerminalNetwork(p, counts, 0));
+  EXPECT_NO_THROW(TerminalNetwork(p - Eigen::MatrixXd::Constant(8, 8, 5), counts, 0)) << "a constant says nothing";
+  p(3, 3) = -2; // its inverse is finite, and so are the conductances
+  EXPECT_THROW(TerminalNetwork(p, counts, 0), DesignError);
+  p(3, 3) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(TerminalNetwork(p, counts, 0), DesignError);
 }
 
 } // namespace

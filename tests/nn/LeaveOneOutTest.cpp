@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <ostream>
 
 namespace palp {
@@ -106,6 +107,17 @@ TEST(LeaveOneOut, OfTheChosenSpreadPredictsTheErrorOnNewSamples) {
     EXPECT_LT(error(o), 5 * fit.report.leaveOneOut(o));
     EXPECT_GT(error(o), fit.report.leaveOneOut(o) / 5);
   }
+}
+
+TEST(LeaveOneOut, NamesTheRidgeThatItUsed) {
+  const test::Touches set = test::touches(40, 6, 4);
+  RbfOptions options;
+  options.tail = Tail::None;
+  options.ridge = {}; // tried from 1e-13 on; the kernel's trace is the number of samples
+  const double least = 4 * std::numeric_limits<double>::epsilon() * static_cast<double>(set.samples.cols());
+  ASSERT_GT(least, 1e-13);
+  for (const LeaveOneOutResult& result : leaveOneOut(set.samples, set.targets, {1, 10, 100, 1000}, options))
+    EXPECT_GE(result.ridge, 0.999 * least);
 }
 
 } // namespace

@@ -30,6 +30,10 @@ Exit run(const ImportArguments& arguments, Session& session) {
   session.result["unused_columns"] = imported.unusedColumns;
   session.result["design"] = imported.design;
   session.result["file"] = arguments.output.path.string();
+  if (!imported.constant.empty()) {
+    std::cerr << "palp import: " << imported.constant << '\n';
+    session.warnings.push_back(imported.constant);
+  }
   if (!session.json)
     std::cout << imported.samples << " samples of design " << imported.design << " in "
               << arguments.output.path.string() << "; " << imported.unusedColumns << " columns of the table not used\n";

@@ -1,4 +1,5 @@
 #include "app/cli/Cli.h"
+#include "app/cli/MeshCostLine.h"
 #include "app/cli/Options.h"
 #include "app/cli/Pictures.h"
 #include "app/study/touch/Touch.h"
@@ -29,6 +30,7 @@ Exit run(const MeshArguments& arguments, Session& session) {
   arguments.output.requireWritable();
   LoadCase load;
   if (deck) load = arguments.loads.loadCase(design);
+  sayMeshCost(design, meshFor(design, load, arguments.mesh.options()), session);
   Touch touch(design, load, arguments.mesh.options());
   touch.advance(Stage::Mesh, {}, {{}, session.stop});
   session.stages.add(touch.stages());

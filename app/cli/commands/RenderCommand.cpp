@@ -1,4 +1,5 @@
 #include "app/cli/Cli.h"
+#include "app/cli/MeshCostLine.h"
 #include "app/cli/Options.h"
 #include "app/cli/Pictures.h"
 #include "app/study/touch/Touch.h"
@@ -38,6 +39,7 @@ Exit run(const RenderArguments& arguments, Session& session) {
   if (arguments.output.path.extension() != ".png")
     throw UsageError("--output: '" + arguments.output.path.string() + "'; allowed is a name that ends in .png");
   arguments.output.requireWritable();
+  sayMeshCost(design, meshFor(design, load, arguments.mesh.options()), session);
   Touch touch(design, load, arguments.mesh.options());
   NewtonOptions options;
   options.threads = session.threads;

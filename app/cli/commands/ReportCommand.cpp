@@ -1,4 +1,5 @@
 #include "app/cli/Cli.h"
+#include "app/cli/MeshCostLine.h"
 #include "app/cli/Options.h"
 #include "app/cli/Pictures.h"
 #include "app/cli/ProgressBar.h"
@@ -57,7 +58,7 @@ Exit run(ReportArguments& arguments, Session& session) {
   if (request.design.field() != nullptr) requireSmoothAtRest(request.design); // before a word about charts
   request.folder = arguments.folder;
   request.mesh = arguments.mesh.options();
-  requireMeshable(request.design, request.mesh); // some kinds mesh late
+  sayMeshCost(request.design, request.mesh, session); // refuses as well: some kinds mesh late
   request.perArea = wholeNumber("--per-area", arguments.perArea, 5, 100000);
   request.seed = static_cast<std::uint64_t>(wholeNumber("--seed", arguments.seed, 0, 1'000'000));
   if (arguments.touches.given()) {

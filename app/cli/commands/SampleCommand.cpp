@@ -1,8 +1,10 @@
 #include "app/cli/Cli.h"
+#include "app/cli/MeshCostLine.h"
 #include "app/cli/Options.h"
 #include "app/cli/ProgressBar.h"
 #include "app/cli/ShardOption.h"
 #include "app/cli/TouchOption.h"
+#include "app/study/Version.h"
 #include "app/study/touch/SampleGenerator.h"
 #include "io/SamplePartWriter.h"
 #include "model/base/Cancelled.h"
@@ -57,7 +59,9 @@ SampleRequest request(const SampleArguments& arguments, const SensorDesign& desi
 Exit run(const SampleArguments& arguments, Session& session) {
   const SensorDesign design = designOption(arguments.design);
   arguments.output.requireWritable();
-  SampleGenerator generator(design, request(arguments, design, session));
+  const SampleRequest wanted = request(arguments, design, session);
+  if (!wanted.touches) sayMeshCost(design, wanted.mesh, session);
+  SampleGenerator generator(design, wanted);
   const SampleRange range = shardOption(arguments.shardText, generator.total());
   SampleSet head = generator.emptySet(session.stop);
   if (session.stop.stop_requested()) { // before there is a head to write
@@ -71,6 +75,7 @@ Exit run(const SampleArguments& arguments, Session& session) {
   if (kept > range.last - range.first)
     throw UsageError(writer.partPath().string() + " holds " + std::to_string(kept) + " samples, more than the " +
                      std::to_string(range.last - range.first) + " asked for; remove it to start over");
+  writer.requireMadeBy(program());
   if (kept > 0) std::cerr << "going on after " << kept << " samples in " << writer.partPath().string() << '\n';
 
   const auto start = std::chrono::steady_clock::now();

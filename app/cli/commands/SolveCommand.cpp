@@ -1,4 +1,5 @@
 #include "app/cli/Cli.h"
+#include "app/cli/MeshCostLine.h"
 #include "app/cli/Options.h"
 #include "app/cli/Pictures.h"
 #include "app/cli/commands/SolveJson.h"
@@ -116,6 +117,7 @@ Exit runPath(const SolveArguments& arguments, const SensorDesign& design, Sessio
   arguments.output.requireWritable();
   NewtonOptions options;
   options.threads = session.threads;
+  sayMeshCost(design, meshFor(design, path.front(), arguments.mesh.options()), session);
   return solvePath(design, path, arguments.mesh.options(), options, observer(session), arguments.output, session);
 }
 
@@ -125,6 +127,7 @@ Exit run(const SolveArguments& arguments, Session& session) {
   const LoadCase load = arguments.loads.loadCase(design);
   const auto pair = currentOption(arguments, design);
   arguments.output.requireWritable();
+  sayMeshCost(design, meshFor(design, load, arguments.mesh.options()), session);
   Touch touch(design, load, arguments.mesh.options());
   NewtonOptions options;
   options.threads = session.threads;

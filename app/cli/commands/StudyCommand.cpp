@@ -17,6 +17,7 @@ namespace {
 struct StudyArguments {
   std::filesystem::path study, folder;
   std::string shard;
+  bool retryProblems = false;
 };
 
 constexpr std::size_t kProgressSteps = 10'000;
@@ -27,11 +28,15 @@ Exit run(const StudyArguments& arguments, Session& session) {
   StudyFolder study(arguments.folder, loadStudy(arguments.study));
   const std::size_t all = study.plan().designs();
   const SampleRange range = shardOption(arguments.shard, all);
+  if (std::string mixed = study.mixedPrograms(); !mixed.empty()) {
+    session.warnings.push_back(arguments.folder.string() + ": " + mixed);
+    std::cerr << "palp study: " << session.warnings.back() << '\n';
+  }
   ProgressBar bar("study", kProgressSteps);
   const bool whole = study.compute(
       range.first, range.last, session.threads,
       [&](double share, const std::string& now) { bar.show(static_cast<std::size_t>(kProgressSteps * share), now); },
-      session.stop);
+      session.stop, arguments.retryProblems);
   const std::size_t done = study.rowsDone();
   session.result["designs"] = all;
   session.result["done"] = done;
@@ -74,6 +79,8 @@ void addStudy(Cli& cli) {
       .option("-o,--output", arguments->folder, "folder of the rows, the table and the report; goes on where it ended")
       .required();
   command.option("--shard", arguments->shard, "I/N: this part of the designs; without it the rest and the table");
+  command.flag("--retry-problems", arguments->retryProblems,
+               "work out once more the designs whose rows have a problem");
 }
 
 } // namespace palp

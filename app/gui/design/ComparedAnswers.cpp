@@ -85,7 +85,7 @@ bool compareDesigns(DesignsCompared& compared, const MeshOptions& mesh, const Re
       floor = restFloor(design, mesh, floor, part, stop);
       if (floor) bounds = boundsAtRest(*floor, compared.noise);
     } else {
-      bounds = designBounds(design, mesh, compared.noise, part, stop);
+      bounds = designBounds(design, mesh, compared.noise, 0, part, stop);
     }
     if (!bounds || stop.stop_requested()) return false;
     (present ? compared.nowBounds : compared.earlierBounds) = summaryOf(*bounds);

@@ -115,7 +115,7 @@ void LayoutFinder::search() {
         left = {}; // the search has a pace of its own
         left.begin(kResponseShare, 1e-3 * static_cast<double>(clock.elapsed()));
         const int row = design.field() != nullptr ? -1 : centreRowWire(design.rowWires()); // the field joins all wires
-        const auto result = betterLayout(design, areaGoal(*response, row, noise),
+        const auto result = betterLayout(design, areaGoal(*response, row, noise, 0),
                                          same ? LayoutFreedom::SameOnEveryWire : LayoutFreedom::WireByWire, {}, 1, stop,
                                          [&](double share, const std::string& what) {
                                            report(kResponseShare + (1 - kResponseShare) * share, what);

@@ -23,8 +23,9 @@ QString sampleBoundWords(int row, const NoiseBound& one, const NoiseBound& every
   const auto both = [&](const NoiseBound& bound) {
     return boundPercents(bound.withPriorPercent) + "</b><br>= <b>" + boundNewtons(bound.withPriorPercent, range);
   };
-  return QObject::tr("Cramer-Rao bound of Fx / Fy / Fz from the samples, area known, with prior (forces uniform over "
-                     "their range), in % of range and in N:<br>row-wire %1 alone: <b>%2</b><br>all row-wires: "
+  return QObject::tr("Cramer-Rao bound of Fx / Fy / Fz from the samples, area known, with prior (the best linear "
+                     "estimate of forces of that range; one that knows the limits can be up to 5 % better), in % of "
+                     "range and in N:<br>row-wire %1 alone: <b>%2</b><br>all row-wires: "
                      "<b>%3</b><br>without prior: row-wire %1 %4, all %5<br><i>Knowing nothing at all is 28.9 %. Real "
                      "rubber adds hysteresis, creep and temperature.</i>")
       .arg(row)
@@ -50,7 +51,8 @@ QString restBoundWords(const RestBounds& bounds, const SensorDesign& design) {
   for (std::size_t k = 0; k < readouts.size(); ++k)
     add(readouts[k].words, bounds.readouts[k], design.field()->readout == static_cast<Readout>(k));
   add(QObject::tr("Eq. (1) would say"), bounds.pairs, false);
-  return QObject::tr("Cramer-Rao bound of Fx / Fy / Fz at rest, area known, with prior, in % of range:"
+  return QObject::tr("Cramer-Rao bound of Fx / Fy / Fz at rest, area known, with prior (the best linear estimate; one "
+                     "that knows the range's limits can be up to 5 % better), in % of range:"
                      "<table><tr><td></td><td>row-wire %1</td><td>all row-wires</td></tr>%2</table>"
                      "<i>Knowing nothing at all is 28.9 %. The rubber conducts alike in all directions, also where it "
                      "is deformed; real rubber adds hysteresis, creep and temperature.</i>")

@@ -2,6 +2,7 @@
 
 #include "app/gui/jobs/CallLater.h"
 #include "app/gui/jobs/ReturnMemory.h"
+#include "app/study/Failure.h"
 #include "model/base/Cancelled.h"
 
 #include <utility>
@@ -18,10 +19,8 @@ template <class Act> QString failureOf(const Act& act, bool& cancelled) {
     act();
   } catch (const Cancelled&) { // asked for, no failure
     cancelled = true;
-  } catch (const std::exception& failure) {
-    return QString::fromStdString(failure.what());
   } catch (...) {
-    return QObject::tr("Something failed and gave no reason.");
+    return QString::fromStdString(failureInWords(std::current_exception()));
   }
   return {};
 }

@@ -16,7 +16,7 @@ namespace palp {
 class ChartView;
 class DataTable;
 
-/// All decoders on the same samples: errors and times, and the bound that none can beat.
+/// All decoders on the same samples: errors and times, and the bound with prior.
 class DecodersTab : public QWidget {
   Q_OBJECT
 

@@ -10,7 +10,7 @@
 
 namespace palp {
 
-/// What no method can beat with the noise that a network is tested with, beside its errors: the Cramer-Rao bound of the
+/// The Cramer-Rao bound at the noise that a network is tested with, beside its errors (NoiseBound.h): of the
 /// inputs that it reads, from the samples that are there, computed once for each input, rows and noise.
 class NetworkBound : public QObject {
   Q_OBJECT

@@ -101,7 +101,9 @@ TableText trialsTable(const std::vector<DecoderTrial>& trials, const NoiseBound*
   add(row, bound->withPriorPercent);
   add(row, {});
   row << QString() << QString() << QString()
-      << QObject::tr("Cramer-Rao, area known, with prior: no method is better but by chance, %1 % on %2 samples")
+      << QObject::tr(
+             "Cramer-Rao, area known, with prior: the best linear estimate; a method that knows the range's limits can "
+             "be up to 5 % better, and chance adds %1 % on %2 samples")
              .arg(100 / std::sqrt(2.0 * static_cast<double>(testSamples)), 0, 'g', 2)
              .arg(testSamples);
   table.rows.push_back(row);

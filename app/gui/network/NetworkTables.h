@@ -17,7 +17,7 @@ struct TableText {
 
 /// A sweep, one spread a row; "-" of forces that are 0 in the samples (null: not known).
 TableText sweepTable(const std::vector<SweepPoint>& points, const NetworkSamples* samples);
-/// The comparison, one decoder a row, and below them what none can beat; null: not known.
+/// The comparison, one decoder a row, and below them the bound with prior; null: not known.
 TableText trialsTable(const std::vector<DecoderTrial>& trials, const NoiseBound* bound, const NetworkSamples* samples);
 /// Trained networks with their errors and settings, one a row.
 TableText networksTable(const std::vector<std::shared_ptr<const NetworkFit>>& networks);

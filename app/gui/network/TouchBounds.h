@@ -10,9 +10,9 @@
 
 namespace palp {
 
-/// What no method can beat with the noise that a network of touches is tested with, at each touch of the test: computed
-/// once for the samples that are there and a noise (touchBounds), and once for the network that is shown by what it has
-/// learned (learnedBounds).
+/// What no estimate without a bias can beat with the noise that a network of touches is tested with, at each touch of
+/// the test: computed once for the samples that are there and a noise (touchBounds), and once for the network that is
+/// shown by what it has learned (learnedBounds).
 class TouchBounds : public QObject {
   Q_OBJECT
 

@@ -3,9 +3,10 @@
 #include "app/study/reports/layout/AreaResponse.h"
 #include "app/study/reports/layout/FieldResponse.h"
 #include "app/study/reports/layout/SignalComparison.h"
+#include "model/DesignError.h"
 #include "model/base/Cancelled.h"
+#include "model/base/PositiveSolve.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/SVD>
 
 #include <algorithm>
@@ -56,7 +57,9 @@ BlockInversion blockInversion(const SensorDesign& design, const std::vector<int>
   const double noise = std::max(relativeNoise, kLeastNoise);
   Eigen::MatrixXd information = j.transpose() * j;
   information.diagonal().array() += noise * noise / kUniformVariance;
-  block.forces_N = ranges_N.asDiagonal() * information.ldlt().solve(j.transpose());
+  const auto factor = semidefiniteFactor(information);
+  if (!factor) throw DesignError("the readings of this design do not follow its forces in finite numbers");
+  block.forces_N = ranges_N.asDiagonal() * factor->solve(j.transpose());
   return block;
 }
 

@@ -1,10 +1,12 @@
 #include "app/study/decoding/DecoderTraining.h"
 
+#include "app/study/decoding/ConstantInputs.h"
 #include "app/study/decoding/KnownTouches.h"
 #include "app/study/decoding/Prediction.h"
 #include "app/study/decoding/TwoStep.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
+#include "nn/VaryingInputs.h"
 
 #include <algorithm>
 #include <chrono>
@@ -87,6 +89,8 @@ Decoder DecoderTraining::run() {
   if (stop_.stop_requested()) throw Cancelled();
   say(0.9, "learning the areas");
   fitAreas();
+  if (std::string constant = constantInputs(decoder_.input, inputs_); !constant.empty())
+    decoder_.report.warnings.push_back(std::move(constant));
   decoder_.report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   say(1, "trained");
   return std::move(decoder_);
@@ -113,6 +117,7 @@ void DecoderTraining::describe() {
   targets_ = samples_.forces_N;
   if (options_.target == DecoderTarget::ForceAndPlace) addPlace();
   inputs_ = inputsOf(samples_, decoder_.input);
+  requireVarying(inputs_);
   decoder_.input.low = inputs_.rowwise().minCoeff();
   decoder_.input.high = inputs_.rowwise().maxCoeff();
 }

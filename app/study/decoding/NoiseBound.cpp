@@ -14,7 +14,9 @@ namespace palp {
 namespace {
 
 /// What is known of a force before any reading, in units of its range: a uniform density has the variance range^2 / 12,
-/// and a normal one of that variance carries 12 / range^2 of information (van Trees' bound).
+/// and a normal one of that variance carries 12 / range^2 of information. For the uniform one the sum with Fisher's is
+/// that of the best linear estimate, no lower bound: van Trees' inequality asks for a density that is smooth at its
+/// ends.
 constexpr double kPriorInformation = 12;
 
 /// diag(a^-1) for a symmetric a; infinite where a is singular to rounding.

@@ -8,10 +8,10 @@
 namespace palp {
 
 /// Cramer-Rao bound of the force for relative noise of the inputs, area known, as % of the force range: root mean
-/// square over samples and areas, one entry an output. Without prior: what no unbiased method can beat. With prior:
-/// what no method at all can beat where the sensor is linear and a force is known beforehand to be normal with the
-/// variance range^2 / 12 of one that is uniform over its range. Who knows that a force never leaves its range may come
-/// out a few percent below (resources/docs/numerics.md, "Bounds").
+/// square over samples and areas, one entry an output. Without prior: what no unbiased method can beat. With prior: the
+/// error of the best linear estimate of a force with the variance range^2 / 12 of one that is uniform over its range,
+/// the sensor linear. Who knows that a force never leaves its range can come out up to about 5 % below
+/// (resources/docs/numerics.md, "Bounds").
 struct NoiseBound {
   Eigen::VectorXd withoutPriorPercent; ///< infinite where the inputs do not determine the forces
   Eigen::VectorXd withPriorPercent;

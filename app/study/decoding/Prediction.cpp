@@ -2,6 +2,7 @@
 
 #include "app/study/Median.h"
 #include "app/study/decoding/CalibrationMark.h"
+#include "app/study/decoding/ConstantInputs.h"
 #include "app/study/decoding/PredictionParts.h"
 #include "app/study/decoding/TwoStep.h"
 #include "model/base/Error.h"
@@ -343,6 +344,8 @@ std::vector<std::string> otherSamples(const Decoder& decoder, const SampleSet& s
   if (!samples.hasPlaces() && !decoder.touches.empty())
     differences.push_back("the decoder was trained on touches (" + decoder.touches +
                           "), the samples load whole areas: its forces may be wrong by their own size");
+  if (std::string constant = constantInputs(decoder.input, inputsOf(samples, decoder.input)); !constant.empty())
+    differences.push_back(std::move(constant));
   return differences;
 }
 

@@ -1,11 +1,13 @@
 #include "app/study/studies/StudyFolder.h"
 
+#include "app/study/Version.h"
 #include "app/study/reports/Csv.h"
 #include "app/study/studies/StudyRow.h"
 #include "io/AtomicFile.h"
 #include "model/base/Error.h"
 
 #include <algorithm>
+#include <map>
 
 namespace palp {
 
@@ -14,6 +16,14 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char *kStudyFile = "study.json", *kRows = "rows";
+constexpr const char* kMadeBy = "# program: "; // second line of a row's file
+
+/// Who made a row, by what stands below its line.
+std::string madeBy(const std::string& content) {
+  const std::string below = content.substr(content.find('\n') + 1);
+  if (!below.starts_with(kMadeBy)) return "an older palp";
+  return below.substr(std::string(kMadeBy).size(), below.find('\n') - std::string(kMadeBy).size());
+}
 
 /// What a shard that has just begun in the same folder may have made before the file of the study.
 bool isOfShard(const std::string& name) {
@@ -30,7 +40,8 @@ void StudyFolder::requireFits(const fs::path& folder, const StudyPlan& plan) {
   if (!fs::is_directory(status)) refuse("is a file; allowed is a folder");
   const fs::path file = folder / kStudyFile;
   if (fs::exists(file, failed)) {
-    if (readFile(file) != toJson(plan))
+    // By content: spaces, and keys that a version left out, say nothing.
+    if (toJson(parseStudy(readFile(file), file.string())) != toJson(plan))
       refuse("holds another study (study.json differs); allowed is a new folder, or the same study to go on with it");
     return;
   }
@@ -51,7 +62,7 @@ StudyFolder::StudyFolder(fs::path folder, StudyPlan plan)
   requireWritable(row(0), true); // said before the work
   removeLeftovers(folder_);
   if (!fs::exists(folder_ / kStudyFile)) // another shard may have written the same just now
-    writeFile(folder_ / kStudyFile, toJson(plan_), true);
+    writeFile(folder_ / kStudyFile, toJson(plan_, program()), true);
 }
 
 fs::path StudyFolder::row(std::size_t design) const {
@@ -70,10 +81,10 @@ std::size_t StudyFolder::rowsDone() const {
 }
 
 bool StudyFolder::compute(std::size_t first, std::size_t last, int threads, const ReportProgress& progress,
-                          const std::stop_token& stop) {
+                          const std::stop_token& stop, bool retryProblems) {
   std::vector<std::size_t> missing;
   for (std::size_t i = first; i < last; ++i)
-    if (!done(i)) missing.push_back(i);
+    if (!done(i) || (retryProblems && hasProblem(i))) missing.push_back(i);
   const auto tell = [&](double of, const std::string& what) {
     if (progress) progress(of / static_cast<double>(missing.size()), what);
   };
@@ -85,21 +96,41 @@ bool StudyFolder::compute(std::size_t first, std::size_t last, int threads, cons
         plan_, missing[k], areas_, threads,
         [&](double share, const std::string& what) { tell(before + share, design + ": " + what); }, stop);
     if (!found) return false;
-    writeFile(row(missing[k]), studyLine(plan_, columns_, missing[k], *found), true); // whole or not at all
+    const std::string text = studyLine(plan_, columns_, missing[k], *found) + kMadeBy + program() + "\n";
+    writeFile(row(missing[k]), text, true); // whole or not at all
     tell(before + 1, design);
   }
   return true;
 }
 
+std::string StudyFolder::line(std::size_t design) const {
+  const std::string content = readFile(row(design));
+  const std::string line = content.substr(0, content.find('\n') + 1), below = content.substr(line.size());
+  const std::vector<std::string> cells = studyCells(line);
+  const bool whole = below.empty() || (below.starts_with(kMadeBy) && below.find('\n') + 1 == below.size());
+  if (cells.size() != columns_.size() || cells[0] != std::to_string(design) || line.empty() || !whole)
+    throw Error(row(design).string() + ": no row of design " + std::to_string(design) +
+                "; take it away to have it made again");
+  return line;
+}
+
+bool StudyFolder::hasProblem(std::size_t design) const {
+  return !studyCells(line(design))[1 + plan_.axes.size()].empty();
+}
+
+std::string StudyFolder::mixedPrograms() const {
+  std::map<std::string, std::size_t> rows;
+  for (std::size_t i = 0; i < plan_.designs(); ++i) ++rows[done(i) ? madeBy(readFile(row(i))) : program()];
+  if (rows.size() < 2) return {};
+  std::string words = "rows of several programs stand beside each other, whose results may differ:";
+  for (const auto& [by, count] : rows) words += " " + std::to_string(count) + " of " + by + ",";
+  words.back() = ';';
+  return words + " a new folder has all of one";
+}
+
 void StudyFolder::writeTable() const {
   std::string all = Csv(columns_).text();
-  for (std::size_t i = 0; i < plan_.designs(); ++i) {
-    const std::string line = readFile(row(i));
-    const std::vector<std::string> cells = studyCells(line);
-    if (cells.size() != columns_.size() || cells[0] != std::to_string(i) || line.find('\n') + 1 != line.size())
-      throw Error(row(i).string() + ": no row of design " + std::to_string(i) + "; take it away to have it made again");
-    all += line;
-  }
+  for (std::size_t i = 0; i < plan_.designs(); ++i) all += line(i);
   writeFile(table(), all, true);
 }
 

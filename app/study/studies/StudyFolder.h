@@ -9,7 +9,8 @@
 namespace palp {
 
 /// The folder of a study: study.json (the whole plan), rows/ with a file a design that is done, and, once all are,
-/// table.csv. A run that was killed goes on where it ended; several may work on shards of one folder.
+/// table.csv. A run that was killed goes on where it ended; several may work on shards of one folder. Each row says
+/// which program made it.
 class StudyFolder {
 public:
   /// Makes the folder. Throws Error where it cannot be that of the study.
@@ -22,10 +23,13 @@ public:
   /// Rows that are there of all designs.
   [[nodiscard]] std::size_t rowsDone() const;
 
-  /// Works out what is missing among the designs first..last-1; `progress` gets the share of it that is done. False:
-  /// stopped; what is done stays.
+  /// Works out what is missing among the designs first..last-1, with `retryProblems` also those whose rows have a
+  /// problem; `progress` gets the share of it that is done. False: stopped; what is done stays.
   bool compute(std::size_t first, std::size_t last, int threads, const ReportProgress& progress,
-               const std::stop_token& stop);
+               const std::stop_token& stop, bool retryProblems = false);
+
+  /// That rows are of several programs, or will be when this one goes on: a sentence with their numbers. Else empty.
+  [[nodiscard]] std::string mixedPrograms() const;
 
   /// Joins all rows, in the order of the designs, into table.csv. Throws Error where one is missing or broken.
   void writeTable() const;
@@ -34,6 +38,9 @@ public:
 
 private:
   [[nodiscard]] std::filesystem::path row(std::size_t design) const;
+  /// Its line of the table. Throws Error where the row is broken.
+  [[nodiscard]] std::string line(std::size_t design) const;
+  [[nodiscard]] bool hasProblem(std::size_t design) const;
 
   std::filesystem::path folder_;
   StudyPlan plan_;

@@ -46,7 +46,8 @@ ReportContent studyReport(const StudyFolder& study) {
   ReportContent content;
   content.title = "Study of " + std::to_string(rows.size()) + " designs";
   content.csv = readFile(study.table());
-  content.summary = std::to_string(rows.size()) + " designs, " + std::to_string(failed) + " of them cannot be.";
+  content.summary = std::to_string(rows.size()) + " designs, " + std::to_string(failed) + " of them without a result.";
+  if (const std::string mixed = study.mixedPrograms(); !mixed.empty()) content.parts.emplace_back(ReportWords{mixed});
   std::size_t charts = 0;
   for (std::size_t c = problem + 1; c < columns.size(); ++c) {
     if (!isChief(columns[c])) continue;
@@ -89,10 +90,10 @@ ReportContent studyReport(const StudyFolder& study) {
     }
   }
   if (failed > 0) {
-    ReportTable problems{"Designs that cannot be", {"design", "why"}, {}, {}};
+    ReportTable problems{"Designs without a result", {"design", "why"}, {}, {}};
     for (const auto& row : rows)
       if (!row[problem].empty() && problems.rows.size() < kBest) problems.rows.push_back({row[0], row[problem]});
-    content.parts.push_back(ReportHeading{"Designs that cannot be"});
+    content.parts.push_back(ReportHeading{"Designs without a result"});
     content.parts.emplace_back(std::move(problems));
   }
   return content;

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <set>
 
 namespace palp {
@@ -40,7 +41,7 @@ public:
 private:
   void bounds() {
     if (design_.field() != nullptr) requireSmoothAtRest(design_);
-    const auto found = designBounds(design_, mesh_, plan_.noise, progress_, stop_);
+    const auto found = designBounds(design_, mesh_, plan_.noise, threads_, progress_, stop_);
     if (!found) throw Cancelled();
     const LayoutBound& bound = found->allRows;
     for (const double percent : bound.withoutPrior()) row_.values.emplace_back(percent);
@@ -156,8 +157,10 @@ std::optional<StudyRow> studyRow(const StudyPlan& plan, std::size_t design, int 
     return RowWork(plan, std::move(chosen), areas, threads, progress, stop).run();
   } catch (const Cancelled&) {
     return {};
-  } catch (const Error& problem) { // a design that cannot be is a row of its own, said in the table
+  } catch (const Error& problem) { // a design without a result is a row of its own, said in the table
     return StudyRow{problem.what()};
+  } catch (const std::bad_alloc&) {
+    return StudyRow{"not enough memory for this design; a coarser mesh or another machine may do"};
   }
 }
 

@@ -13,8 +13,8 @@ namespace palp {
 /// Most areas that any of the designs has that can be; the rows of the others say why not.
 int studyAreas(const StudyPlan& plan);
 
-/// The columns of the table of a study of so many areas: number of the design, the keys that vary, why it cannot be
-/// ("problem"), and what is computed, with units.
+/// The columns of the table of a study of so many areas: number of the design, the keys that vary, why it has no
+/// result ("problem"), and what is computed, with units.
 std::vector<std::string> studyColumns(const StudyPlan& plan, int areas);
 
 /// What a study says of one design. The same bytes at any number of threads.

@@ -8,8 +8,8 @@ namespace palp {
 
 namespace {
 
-constexpr double kDisc_mm = 1;
-constexpr double kHeldBy = 1.2; // friction over what the force sideways needs
+constexpr double kDiscsOfWidth = 30; // radii of the shown disc in the block's narrower side
+constexpr double kHeldBy = 1.2;      // friction over what the force sideways needs
 constexpr double kMostFriction = 2;
 
 LoadCase touchAt(const Eigen::Vector2d& place_mm, const Eigen::Vector3d& force_N, const DecodedForces& forces,
@@ -27,7 +27,7 @@ LoadCase touchAt(const Eigen::Vector2d& place_mm, const Eigen::Vector3d& force_N
     }
   }
   PatchLoad disc;
-  disc.radius_mm = std::min(kDisc_mm, design.block_mm.head<2>().minCoeff() / 2);
+  disc.radius_mm = design.block_mm.head<2>().minCoeff() / kDiscsOfWidth;
   disc.centre_mm =
       place_mm.cwiseMax(disc.radius_mm).cwiseMin((design.block_mm.head<2>().array() - disc.radius_mm).matrix());
   disc.force_N = force_N;

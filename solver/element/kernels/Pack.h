@@ -22,15 +22,16 @@ PALP_INLINE void store(double* p, Pack v) {
 PALP_INLINE Pack all(double v) {
   return Pack{} + v;
 }
+/// Of a and b; not a number where one of them is none.
 PALP_INLINE Pack smaller(Pack a, Pack b) {
-  return a < b ? a : b;
+  return ((a < b) | (a != a)) ? a : b;
 }
 PALP_INLINE Pack larger(Pack a, Pack b) {
-  return a > b ? a : b;
+  return ((a > b) | (a != a)) ? a : b;
 }
 
-/// J^(-1/3) for J > 0: series of (1 - h)^(-1/3), h = 1 - J x^3, from a start below the root; exact to rounding for J
-/// in 0.1 .. 10.
+/// J^(-1/3) for J > 0: series of (1 - h)^(-1/3), h = 1 - J x^3, from a start below the root; to 1e-15 for J in
+/// 0.12 .. 6, beyond it relative errors of 1e-14 at 0.1, 4e-11 at 8, 2e-8 at 10 and at 0.05.
 PALP_INLINE Pack inverseCubeRoot(Pack J) {
   Pack x = 3.0 / (2.0 + J);
   for (int i = 0; i < 3; ++i) {

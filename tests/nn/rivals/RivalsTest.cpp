@@ -83,6 +83,14 @@ TEST(BackPropagation, LearnsTheMapThroughNoise) {
   EXPECT_LT(test::worstRelativeError(fit.network.predict(noisy), others.targets), 0.5); // 1: the mean
 }
 
+TEST(BackPropagation, PassesOnWhatItsCallerThrowsAndNeedsReadingsThatVary) {
+  const test::Touches few = test::touches(5, 6, 1);
+  const auto fail = [](double) { throw NetworkError("the disk is full"); };
+  EXPECT_THROW(trainBackPropagation(few.samples, few.targets, {}, {}, fail), NetworkError);
+  const Eigen::MatrixXd stuck = few.samples.col(0).replicate(1, few.samples.cols());
+  EXPECT_THROW(trainBackPropagation(stuck, few.targets), NetworkError);
+}
+
 TEST(BackPropagation, RefusesTargetsWhoseErrorIsNeverFinite) {
   Eigen::MatrixXd targets = training.targets;
   targets *= 1e-310; // 1 / (half their range) is infinite

@@ -45,7 +45,7 @@ TEST(AreaSurrogate, KeepsItsStatedErrorAtForcesOfItsRange) {
     const ElectrodeDisplacements answer = fit.surrogate->evaluate({&force_N, 1})[0];
     // The error is relative to a displacement that vanishes with the force, so a small force may show a little more
     // than the 24 forces it was measured on.
-    EXPECT_LE(relativeDifference(answer, truth), 2 * fit.surrogate->error()) << force_N.transpose();
+    EXPECT_LE(relativeDifference(answer, truth, fit.design), 2 * fit.surrogate->error()) << force_N.transpose();
     EXPECT_LE(relative(answer.lower_mm, truth.lower_mm), 10 * fit.surrogate->error());
     EXPECT_LE(relative(answer.upperPressure_MPa, truth.upperPressure_MPa), 10 * fit.surrogate->error());
   }
@@ -83,6 +83,23 @@ TEST(AreaSurrogate, IsNoneWhereTheFitIsStopped) {
   std::stop_source stop;
   stop.request_stop();
   EXPECT_FALSE(AreaSurrogate::fit(fit.engine, fit.design, std::array{kArea}, 1e-2, stop.get_token()).front());
+}
+
+TEST(AreaSurrogate, ItsErrorIsOfAllThatTheReadingsFollow) {
+  SensorDesign design = paperDesign();
+  ElectrodeDisplacements truth = ElectrodeDisplacements::atRest(design);
+  truth.upper_mm.setConstant(0.1);
+  truth.lower_mm.setConstant(0.01);
+  truth.upperPressure_MPa.setConstant(0.05);
+  ElectrodeDisplacements lower = truth, pressure = truth;
+  lower.lower_mm.row(2) *= 1.5;
+  pressure.upperPressure_MPa *= 1.5;
+  EXPECT_EQ(relativeDifference(lower, truth, design), 0) << "held electrodes and pressures change no reading";
+  EXPECT_EQ(relativeDifference(pressure, truth, design), 0);
+  design.lowerFollowsRubber = true;
+  design.pressureLaw = PressureLaw{};
+  EXPECT_GT(relativeDifference(lower, truth, design), 0.01);
+  EXPECT_GT(relativeDifference(pressure, truth, design), 0.1);
 }
 
 } // namespace

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace palp {
 namespace {
 
@@ -122,6 +124,38 @@ TEST_F(Batches, MoveALaneThatGoesOnAsIfItHadStayed) {
   iterate(stayed, 0, loads, 4);
   expectSameLane(moved, 4, stayed, 9);
   expectSameLane(moved, 1, stayed, 1);
+}
+
+TEST_F(Batches, ALaneWithoutNumbersIsLostAndHasNotArrived) {
+  LoadBatch batch = started();
+  batch.addForce(3, {&shares, Eigen::Vector3d(0, 0, std::numeric_limits<double>::quiet_NaN())});
+  std::array<bool, batchLanes> active{};
+  std::fill_n(active.begin(), loads, true);
+  std::array<double, batchLanes> change{};
+  batch.iterate(active, change, {});
+  EXPECT_LT(change[3], 0);
+  EXPECT_GT(change[4], 0) << "lanes do not mix";
+}
+
+TEST_F(Batches, TheirChangesAreOfAllThatIsWatched) {
+  const PointProbe &upper = problem.parts().upperProbe(), &lower = problem.parts().lowerProbe();
+  LoadBatch few = started(), all(model, upper, lower, {true, 0.05, true});
+  for (int b = 0; b < LoadBatch::blocks; ++b) all.reset(b);
+  for (int lane = 0; lane < loads; ++lane) all.addForce(lane, {&shares, Eigen::Vector3d(0.1 * lane, 0.3, -0.4 * lane)});
+  std::array<bool, batchLanes> active{};
+  std::fill_n(active.begin(), loads, true);
+  std::array<double, batchLanes> ofFew{}, ofAll{};
+  for (int i = 0; i < 3; ++i) {
+    few.iterate(active, ofFew, {});
+    all.iterate(active, ofAll, {});
+  }
+  int larger = 0;
+  for (int lane = 0; lane < loads; ++lane) {
+    EXPECT_GE(ofAll[lane], ofFew[lane]) << lane;
+    larger += ofAll[lane] > ofFew[lane] ? 1 : 0;
+  }
+  EXPECT_GT(larger, 0);
+  expectSameBlock(few, all, 0);
 }
 
 } // namespace

@@ -32,7 +32,7 @@ QString guessWords(const NetworkSession& session, const NetworkFit& fit);
 
 QString placeWords(const NetworkFit& fit);
 
-/// The errors of a network of force and place beside what none can beat.
+/// The errors of a network of force and place beside what no estimate without a bias can beat.
 QString boundWords(const NetworkSession& session, const NetworkFit& fit, const SampleBounds* touches);
 
 /// How far a root mean square of so many test samples is from that of many.

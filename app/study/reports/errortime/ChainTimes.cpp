@@ -1,9 +1,11 @@
 #include "app/study/reports/errortime/ChainTimes.h"
 
 #include "app/study/paper/PaperProtocol.h"
+#include "app/study/reports/MeshShare.h"
 #include "app/study/reports/Timing.h"
 #include "app/study/touch/SampleGenerator.h"
 #include "model/base/Cancelled.h"
+#include "model/base/Error.h"
 #include "model/base/Text.h"
 #include "nn/LeaveOneOut.h"
 #include "nn/SpreadSweep.h"
@@ -107,14 +109,14 @@ struct MeshChoice {
   MeshOptions mesh;
 };
 
-std::vector<MeshChoice> meshChoices(const MeshOptions& asked) {
+std::vector<MeshChoice> meshChoices(const SensorDesign& design, const MeshOptions& asked) {
   std::vector<MeshChoice> choices(4);
   choices[0].name = "--mapped 10x10x5";
   choices[0].mesh.mapped = {10, 10, 5};
   choices[1].name = "--mapped 20x20x10";
   choices[1].mesh.mapped = {20, 20, 10};
-  choices[2].name = "--mesh-size 12";
-  choices[2].mesh.meshSize_mm = 12;
+  choices[2].mesh.meshSize_mm = 12 * meshShare(design);
+  choices[2].name = "--mesh-size " + text(*choices[2].mesh.meshSize_mm);
   choices[3].name = "default";
   choices[3].mesh = asked;
   if (asked.mapped) choices.erase(choices.begin() + 1, choices.begin() + 3); // a quick look
@@ -168,10 +170,10 @@ std::vector<ChainTimes> chainTimes(const ReportRequest& request, StageLog& stage
   SampleRequest fine = sampleRequest(request);
   fine.perArea = std::min(request.perArea, kReferencePerArea);
   fine.seed = testSeed(request.seed);
-  if (!request.mesh.mapped) fine.mesh.meshSize_mm = kReferenceSize_mm;
+  if (!request.mesh.mapped) fine.mesh.meshSize_mm = kReferenceSize_mm * meshShare(request.design);
   const auto reference = make(request.design, fine, stages, stop);
   if (!reference) return result;
-  const std::vector<MeshChoice> choices = meshChoices(request.mesh);
+  const std::vector<MeshChoice> choices = meshChoices(request.design, request.mesh);
   const auto steps = static_cast<double>(2 * choices.size() + 1); // the reference is one as well
   for (const MeshChoice& choice : choices)
     for (const int divisor : {4, 1}) {
@@ -182,7 +184,13 @@ std::vector<ChainTimes> chainTimes(const ReportRequest& request, StageLog& stage
       if (progress)
         progress(static_cast<double>(result.size() + 1) / steps,
                  "chain, " + choice.name + ", " + std::to_string(changed.perArea) + " an area");
-      auto made = make(request.design, sampleRequest(changed), stages, stop);
+      std::optional<Made> made;
+      try {
+        made = make(request.design, sampleRequest(changed), stages, stop);
+      } catch (const Error& refused) { // of this mesh; the others go on
+        result.push_back({choice.name, changed.perArea, 0, 0, 0, 0, refused.what()});
+        continue;
+      }
       if (!made) return result;
       ChainTimes chain{choice.name, changed.perArea, made->prepare_s, made->sample_s, 0, 0, {}};
       TrainOptions options;

@@ -44,7 +44,7 @@ std::vector<DecoderTimes> decoderTimes(const ReportRequest& request, const TwoSe
 /// Seconds of the leave-one-out errors of so many spreads at once, from the clean displacements of the centre row-wire.
 inline constexpr int kLeaveOneOutSpreads = 40;
 Timing leaveOneOutTimes(const ReportRequest& request, const TwoSets& sets, const std::stop_token& stop);
-/// Size of the mesh whose samples chains are tested on.
+/// Size of the mesh whose samples chains are tested on, for the paper's block (MeshShare.h).
 inline constexpr double kReferenceSize_mm = 3;
 /// Trained on samples of several meshes and counts, tested on others of the reference mesh.
 std::vector<ChainTimes> chainTimes(const ReportRequest& request, StageLog& stages, const ReportProgress& progress,

@@ -1,6 +1,7 @@
 #include "app/study/reports/errortime/ErrorTimeReport.h"
 
 #include "app/study/reports/Csv.h"
+#include "app/study/reports/MeshShare.h"
 #include "app/study/reports/ReportPage.h"
 #include "app/study/reports/errortime/ChainTimes.h"
 #include "app/study/reports/errortime/SolverTimes.h"
@@ -70,8 +71,11 @@ private:
                         "extrapolated (Richardson) from its three finest meshes of graded tetrahedra (sizes 1.5 apart) "
                         "with the order that they show, taken as 0.5 at least and 4 at most. ";
     for (const JudgedLoad& load : solver_.loads)
-      words += "Load '" + load.name + "': order " + shortNumber(load.order) + ", the reference is uncertain by " +
-               shortNumber(100 * load.uncertainty) + " %; errors below that say nothing. ";
+      words += "Load '" + load.name + "': " +
+               (load.reference_mm.size() == 0
+                    ? "no three meshes of neighbouring sizes have an answer, so there is nothing to judge by. "
+                    : "order " + shortNumber(load.order) + ", the reference is uncertain by " +
+                          shortNumber(100 * load.uncertainty) + " %; errors below that say nothing. ");
     content_.parts.push_back(ReportWords{words + "Wall time: from the mesh to the first answer, median of " +
                                          std::to_string(repeats_) +
                                          " runs (least to most); meshes above 60000 unknowns run once."});
@@ -109,7 +113,7 @@ private:
       ReportCurve curve{.name = family};
       std::vector<const MeshTimes*> meshes;
       for (const MeshTimes& mesh : solver_.meshes)
-        if (mesh.family == family && l < mesh.errors.size() && mesh.failed.empty()) meshes.push_back(&mesh);
+        if (mesh.family == family && l < mesh.errors.size() && std::isfinite(mesh.errors[l])) meshes.push_back(&mesh);
       std::sort(meshes.begin(), meshes.end(), [](const auto* a, const auto* b) { return a->dof < b->dof; });
       if (meshes.empty()) continue;
       for (const MeshTimes* mesh : meshes) {
@@ -132,6 +136,7 @@ private:
       std::string errors;
       for (std::size_t l = 0; l < mesh.errors.size(); ++l) {
         errors += (l > 0 ? " / " : "") + shortNumber(100 * mesh.errors[l]);
+        if (!std::isfinite(mesh.errors[l])) continue;
         csv_.add({"solver", mesh.family + ", " + mesh.mesh, solver_.loads[l].name, "electrode displacements",
                   100 * mesh.errors[l], mesh.total_s(), mesh.loadSeconds[l], mesh.dof, mesh.factor_MB,
                   mesh.process_MB});
@@ -271,7 +276,7 @@ private:
     content_.parts.push_back(ReportWords{"Samples are made on a mesh, a network (mode default, all resistances, noise "
                                          "1e-4) is trained on them and tested "
                                          "at the same noise on samples of a finer mesh of tetrahedra (size " +
-                                         shortNumber(kReferenceSize_mm) +
+                                         shortNumber(kReferenceSize_mm * meshShare(request_.design)) +
                                          " mm): a "
                                          "coarse mesh's error becomes a force error, whatever the network."});
     chains_ = chainTimes(request_, content_.stages, partOf(progress_, 0.85, 0.15), stop_);

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 namespace palp {
 
@@ -23,6 +25,17 @@ inline Extrapolation extrapolated(const Eigen::VectorXd& coarse, const Eigen::Ve
   result.value = fine + (fine - middle) / (std::pow(refinement, result.order) - 1);
   result.uncertainty = (result.value - fine).norm() / result.value.norm();
   return result;
+}
+
+/// From the finest three neighbours that have an answer (the others are empty), the finest last; none where there are
+/// no such three.
+inline std::optional<Extrapolation> extrapolated(const std::vector<Eigen::VectorXd>& answers, double refinement) {
+  for (std::size_t fine = answers.size(); fine-- > 2;) {
+    const Eigen::VectorXd &coarse = answers[fine - 2], &middle = answers[fine - 1];
+    if (coarse.size() > 0 && middle.size() > 0 && answers[fine].size() > 0)
+      return extrapolated(coarse, middle, answers[fine], refinement);
+  }
+  return {};
 }
 
 /// The same from two meshes where their sizes differ too little for an order to be seen, with one that is known.

@@ -1,5 +1,6 @@
 #include "app/study/reports/errortime/SolverTimes.h"
 
+#include "app/study/reports/MeshShare.h"
 #include "app/study/reports/ProcessMemory.h"
 #include "app/study/reports/ReportPage.h"
 #include "app/study/reports/errortime/CalculixRun.h"
@@ -29,12 +30,12 @@ struct Plan {
   MeshOptions options;
 };
 
-std::vector<Plan> plans(bool quick) {
+std::vector<Plan> plans(const SensorDesign& design, bool quick) {
   std::vector<Plan> result;
   const std::vector<double> sizes = quick ? std::vector{8.0, 5.4, 3.6} : std::vector{8.0, 5.4, 3.6, 2.4, kFinest_mm};
   for (const double size : sizes) {
     MeshOptions mesh;
-    mesh.meshSize_mm = size;
+    mesh.meshSize_mm = size * meshShare(design);
     result.push_back({"tetrahedra, graded", mesh});
   }
   result.push_back({"tetrahedra, graded", {}}); // the default
@@ -97,7 +98,7 @@ public:
   }
 
   MeshTimes times;
-  std::vector<Eigen::Matrix3Xd> displacements_mm;
+  std::vector<Eigen::Matrix3Xd> displacements_mm; ///< empty where the load has no answer
 
 private:
   void once(const Mesh& mesh, const std::vector<JudgedLoad>& loads, bool first) {
@@ -120,7 +121,9 @@ private:
           secondsOf([&] { solution = problem->solve(load.load, newton_, {.step = {}, .stop = stop_}); }));
       seconds += loadSeconds.back();
       if (!solution.converged) times.failed = load.name + ": " + solution.stopReason;
-      if (first) displacements_mm.push_back(problem->electrodes(solution.state()).upper_mm);
+      if (!first) continue;
+      displacements_mm.push_back(solution.converged ? problem->electrodes(solution.state()).upper_mm
+                                                    : Eigen::Matrix3Xd()); // a part of the load says nothing of all
     }
     if (first) times.loadSeconds = loadSeconds;
     for (std::size_t l = 0; l < loads.size(); ++l)
@@ -149,6 +152,12 @@ private:
   NewtonOptions newton_;
 };
 
+/// Not a number where one of them has no answer.
+double relativeTo(const Eigen::Matrix3Xd& reference_mm, const Eigen::Matrix3Xd& found_mm) {
+  if (reference_mm.size() == 0 || found_mm.size() == 0) return std::numeric_limits<double>::quiet_NaN();
+  return (found_mm - reference_mm).norm() / reference_mm.norm();
+}
+
 /// CalculiX on a mesh under every load, its whole process timed (the first load `repeats` times, the others once);
 /// meshed by us.
 MeshTimes calculixTimes(const std::string& program, const SensorDesign& design, const MeshOptions& options,
@@ -175,12 +184,22 @@ MeshTimes calculixTimes(const std::string& program, const SensorDesign& design, 
       }
       if (i > 0) continue;
       const Eigen::Matrix3Xd upper = upperElectrodes_mm(run, design, mesh);
-      times.errors.push_back((upper - loads[l].reference_mm).norm() / loads[l].reference_mm.norm());
+      times.errors.push_back(relativeTo(loads[l].reference_mm, upper));
     }
     times.loadSeconds.push_back(timing.median());
     if (l == 0) times.solving = timing;
   }
   return times;
+}
+
+/// No reference where too few of these, the finest last, have an answer.
+void judgeBy(JudgedLoad& load, const std::vector<Eigen::Matrix3Xd>& answers_mm) {
+  std::vector<Eigen::VectorXd> answers;
+  for (const Eigen::Matrix3Xd& answer_mm : answers_mm) answers.emplace_back(answer_mm.reshaped());
+  const auto truth = extrapolated(answers, kRefinement);
+  load.order = truth ? truth->order : std::numeric_limits<double>::quiet_NaN();
+  load.uncertainty = truth ? truth->uncertainty : std::numeric_limits<double>::quiet_NaN();
+  if (truth) load.reference_mm = truth->value.reshaped(3, truth->value.size() / 3);
 }
 
 void addCalculix(SolverTimes& result, const SensorDesign& design, bool quick, int repeats, int threads,
@@ -191,9 +210,9 @@ void addCalculix(SolverTimes& result, const SensorDesign& design, bool quick, in
   choices[0].mapped = {10, 10, 5};
   if (!quick) {
     choices[1].mapped = {20, 20, 10};
-    choices[2].meshSize_mm = 8;
-    choices[3].meshSize_mm = 5.4;
-    choices[4].meshSize_mm = 3.6;
+    choices[2].meshSize_mm = 8 * meshShare(design);
+    choices[3].meshSize_mm = 5.4 * meshShare(design);
+    choices[4].meshSize_mm = 3.6 * meshShare(design);
   }
   result.deck = calculixDeck(design, sensorMesh(design, choices[0]), result.loads[0].load);
   for (const MeshOptions& options : choices) {
@@ -215,7 +234,7 @@ std::optional<SolverTimes> solverTimes(const SensorDesign& design, bool quick, i
   result.loads = judgedLoads(design);
   if (!quick && designFingerprint(design) == designFingerprint(paperDesign())) result.published = publishedSolutions();
   std::vector<std::vector<Eigen::Matrix3Xd>> displacements;
-  const std::vector<Plan> all = plans(quick);
+  const std::vector<Plan> all = plans(design, quick);
   std::vector<std::size_t> tets;
   for (std::size_t i = 0; i < all.size(); ++i) {
     MeshRun run(design, all[i], result.published, threads, stop);
@@ -226,16 +245,12 @@ std::optional<SolverTimes> solverTimes(const SensorDesign& design, bool quick, i
     result.meshes.push_back(std::move(run.times));
     displacements.push_back(std::move(run.displacements_mm));
   }
-  const std::size_t fine = tets.back(), middle = tets[tets.size() - 2], coarse = tets[tets.size() - 3];
   for (std::size_t l = 0; l < result.loads.size(); ++l) {
-    JudgedLoad& load = result.loads[l];
-    const Extrapolation truth = extrapolated(displacements[coarse][l].reshaped(), displacements[middle][l].reshaped(),
-                                             displacements[fine][l].reshaped(), kRefinement);
-    load.reference_mm = truth.value.reshaped(3, truth.value.size() / 3);
-    load.order = truth.order;
-    load.uncertainty = truth.uncertainty;
+    std::vector<Eigen::Matrix3Xd> ofTets;
+    for (const std::size_t i : tets) ofTets.push_back(displacements[i][l]);
+    judgeBy(result.loads[l], ofTets);
     for (std::size_t i = 0; i < result.meshes.size(); ++i)
-      result.meshes[i].errors.push_back((displacements[i][l] - load.reference_mm).norm() / load.reference_mm.norm());
+      result.meshes[i].errors.push_back(relativeTo(result.loads[l].reference_mm, displacements[i][l]));
   }
   addCalculix(result, design, quick, repeats, threads, progress, stop);
   if (stop.stop_requested()) return {};

@@ -17,7 +17,7 @@ namespace palp {
 struct JudgedLoad {
   std::string name;
   LoadCase load;
-  Eigen::Matrix3Xd reference_mm; ///< extrapolated from the three finest meshes of tetrahedra
+  Eigen::Matrix3Xd reference_mm; ///< extrapolated from three meshes of tetrahedra; empty: too few have an answer
   double uncertainty = 0;        ///< relative: extrapolated against the finest
   double order = 0;              ///< observed, of the error in the mesh size
 };

@@ -9,19 +9,23 @@ namespace palp {
 
 namespace {
 
-/// Half of the central difference's width [N]: the block is so nearly linear that its error is far below 1e-4, and the
-/// solver's tolerance far below it.
-constexpr double kStep_N = 0.05;
+/// Steps in half of the central difference's width over the widest force range: the block is so nearly linear there
+/// that the error is far below 1e-4, and the solver's tolerance far below it.
+constexpr double kStepsOfRange = 120;
 
-/// A force so small [N] that the block is linear under it to 1e-6, and the tolerance at which Newton's method stops
-/// after the first iteration, which is the linear answer.
-constexpr double kSmall_N = 1e-4;
+/// The widest force range over a force so small that the block is linear under it to 1e-6, and the tolerance at which
+/// Newton's method stops after the first iteration, which is the linear answer.
+constexpr double kSmallOfRange = 6e4;
 constexpr double kLinear = 1e-3;
 
-LoadIncrement derivative(const LoadIncrement& above, const LoadIncrement& below) {
+double widestRange_N(const SensorDesign& design) {
+  return (design.forceRange.high_N - design.forceRange.low_N).maxCoeff();
+}
+
+LoadIncrement derivative(const LoadIncrement& above, const LoadIncrement& below, double step_N) {
   LoadIncrement result = above;
-  result.displacements_mm = (above.displacements_mm - below.displacements_mm) / (2 * kStep_N);
-  result.elementUnknowns = (above.elementUnknowns - below.elementUnknowns) / (2 * kStep_N);
+  result.displacements_mm = (above.displacements_mm - below.displacements_mm) / (2 * step_N);
+  result.elementUnknowns = (above.elementUnknowns - below.elementUnknowns) / (2 * step_N);
   return result;
 }
 
@@ -86,15 +90,16 @@ std::optional<AreaResponse> AreaResponse::solve(const SensorDesign& design, cons
                         " has no solution: " + solution.stopReason);
     return std::move(solution.increments.back());
   };
+  const double step_N = widestRange_N(design) / kStepsOfRange;
   const Eigen::Vector3d middle_N = (design.forceRange.low_N + design.forceRange.high_N) / 2;
   for (int area = 0; area < areas; ++area) {
     AreaState state;
     state.middle = solveFor(area, middle_N);
     for (int axis = 0; axis < 3; ++axis) {
       if (stop.stop_requested()) return {};
-      const Eigen::Vector3d step = kStep_N * Eigen::Vector3d::Unit(axis);
+      const Eigen::Vector3d step = step_N * Eigen::Vector3d::Unit(axis);
       const LoadIncrement above = solveFor(area, middle_N + step);
-      state.perNewton[static_cast<std::size_t>(axis)] = derivative(above, solveFor(area, middle_N - step));
+      state.perNewton[static_cast<std::size_t>(axis)] = derivative(above, solveFor(area, middle_N - step), step_N);
     }
     if (stop.stop_requested()) return {};
     response.areas_.push_back(std::move(state));
@@ -112,12 +117,13 @@ std::optional<AreaResponse> AreaResponse::atRest(const SensorDesign& design, con
   NewtonOptions newton;
   newton.threads = threads;
   newton.relativeTolerance = kLinear;
+  const double small_N = widestRange_N(design) / kSmallOfRange;
   const int areas = design.areas.count();
   SolveCount count{progress, 3 * areas};
   for (int area = 0; area < areas; ++area) {
     AreaState state;
     for (int axis = 0; axis < 3; ++axis) {
-      const LoadCase load{{{area, kSmall_N * Eigen::Vector3d::Unit(axis)}}, {}};
+      const LoadCase load{{{area, small_N * Eigen::Vector3d::Unit(axis)}}, {}};
       const Solution solution =
           stages.measure("solve", [&] { return problem.solve(load, newton, {.step = {}, .stop = stop}); });
       if (stop.stop_requested()) return {};
@@ -125,8 +131,8 @@ std::optional<AreaResponse> AreaResponse::atRest(const SensorDesign& design, con
       if (!solution.converged) throw DesignError("the block has no linear answer at rest: " + solution.stopReason);
       state.middle = solution.increments.front();
       LoadIncrement& slope = state.perNewton[static_cast<std::size_t>(axis)] = solution.increments.back();
-      slope.displacements_mm /= kSmall_N;
-      slope.elementUnknowns /= kSmall_N;
+      slope.displacements_mm /= small_N;
+      slope.elementUnknowns /= small_N;
     }
     response.areas_.push_back(std::move(state));
   }

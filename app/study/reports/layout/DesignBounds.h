@@ -16,10 +16,10 @@ struct DesignBounds {
 
 /// Under the field throws Cancelled where it was stopped.
 DesignBounds designBounds(const SensorDesign& layout, const AreaResponse& response, double relativeNoise,
-                          const std::stop_token& stop = {});
+                          int threads = 0, const std::stop_token& stop = {});
 
 /// The same for a design whose response is still to be solved. Empty where it was stopped.
 std::optional<DesignBounds> designBounds(const SensorDesign& design, const MeshOptions& mesh, double relativeNoise,
-                                         const ReportProgress& progress, const std::stop_token& stop);
+                                         int threads, const ReportProgress& progress, const std::stop_token& stop);
 
 } // namespace palp

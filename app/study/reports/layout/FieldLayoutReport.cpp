@@ -1,5 +1,6 @@
 #include "app/study/reports/layout/FieldLayoutReport.h"
 
+#include "app/study/reports/BoundWords.h"
 #include "app/study/reports/Csv.h"
 #include "app/study/reports/ReportPage.h"
 #include "app/study/reports/layout/FieldResponse.h"
@@ -55,12 +56,14 @@ private:
 
   bool findLayouts(const AreaResponse& response) {
     layouts_.push_back({"before", request_.design});
-    const auto same = betterLayout(request_.design, areaGoal(response, -1, kShownNoise), LayoutFreedom::SameOnEveryWire,
-                                   limits_, request_.seed, stop_, partOf(progress_, 0.05, 0.4));
+    const auto same =
+        betterLayout(request_.design, areaGoal(response, -1, kShownNoise, request_.threads),
+                     LayoutFreedom::SameOnEveryWire, limits_, request_.seed, stop_, partOf(progress_, 0.05, 0.4));
     if (!same) return false;
     layouts_.push_back({"same on every wire", same->layout});
-    const auto each = betterLayout(same->layout, areaGoal(response, -1, kShownNoise), LayoutFreedom::WireByWire,
-                                   limits_, request_.seed, stop_, partOf(progress_, 0.45, 0.25));
+    const auto each =
+        betterLayout(same->layout, areaGoal(response, -1, kShownNoise, request_.threads), LayoutFreedom::WireByWire,
+                     limits_, request_.seed, stop_, partOf(progress_, 0.45, 0.25));
     if (!each) return false;
     layouts_.push_back({"wire by wire", each->layout});
     evaluations_ = same->evaluations + each->evaluations;
@@ -70,14 +73,12 @@ private:
   }
 
   void bounds(const AreaResponse& response) {
-    content_.parts.push_back(ReportHeading{"What no decoder can beat, at relative noise " + text(kShownNoise)});
-    content_.parts.push_back(ReportWords{
-        "Cramer-Rao bounds of the force with the area known, linear at rest, in % of the range (" +
-        triple(request_.design.forceRange.high_N - request_.design.forceRange.low_N) +
-        " N). Without prior: no unbiased decoder is better. With prior: forces are uniform over their range, no "
-        "decoder "
-        "at all is better; knowing nothing is 28.9 %. The layouts were searched for the read-out of the design, " +
-        kReadouts.name(law_.readout) + "; the others are read of the same layouts."});
+    content_.parts.push_back(ReportHeading{"What the noise allows, at relative noise " + text(kShownNoise)});
+    content_.parts.push_back(
+        ReportWords{"Cramer-Rao bounds of the force with the area known, linear at rest, in % of the range (" +
+                    triple(request_.design.forceRange.high_N - request_.design.forceRange.low_N) + " N). " +
+                    kBoundsMean + " The layouts were searched for the read-out of the design, " +
+                    kReadouts.name(law_.readout) + "; the others are read of the same layouts."});
     ReportTable table{
         "Root mean square over the areas, Fx / Fy / Fz",
         {"layout", "read-out", "row-wires read", "without prior [%]", "geometric mean [%]", "with prior [%]"},
@@ -137,8 +138,8 @@ private:
 
   void sweeps(const AreaResponse& response) {
     content_.parts.push_back(ReportHeading{"Effect of each layer's depth and pitch, one at a time"});
-    for (const LayoutSweep& sweep :
-         layoutSweeps(request_.design, response, -1, kShownNoise, partOf(progress_, 0.7, 0.2), stop_)) {
+    for (const LayoutSweep& sweep : layoutSweeps(request_.design, response, -1, kShownNoise, request_.threads,
+                                                 partOf(progress_, 0.7, 0.2), stop_)) {
       for (const LayoutSweep::Point& point : sweep.points)
         for (std::size_t axis = 0; axis < 3; ++axis)
           csv_.add({"sweep: " + sweep.title, "before", kReadouts.name(law_.readout), "all", "", kForceNames[axis],

@@ -9,7 +9,7 @@
 namespace palp {
 
 /// Cramer-Rao bounds of the force in the middle of the range, area known, in % of the force range; 3 forces x areas.
-/// Infinite where the resistances do not determine the force.
+/// Infinite where the resistances do not determine the force. With prior: as NoiseBound's.
 struct LayoutBound {
   Eigen::Matrix3Xd withoutPrior_percent;
   Eigen::Matrix3Xd withPrior_percent;

@@ -1,5 +1,6 @@
 #include "app/study/reports/layout/LayoutReport.h"
 
+#include "app/study/reports/BoundWords.h"
 #include "app/study/reports/Csv.h"
 #include "app/study/reports/ReportPage.h"
 #include "app/study/reports/layout/FieldLayoutReport.h"
@@ -7,6 +8,7 @@
 #include "app/study/reports/layout/TouchLayoutReport.h"
 #include "app/study/reports/networks/NetworkCheck.h"
 #include "io/DesignFile.h"
+#include "model/base/Error.h"
 #include "model/base/Text.h"
 
 #include <array>
@@ -56,13 +58,13 @@ private:
   bool findLayouts(const AreaResponse& response) {
     layouts_.push_back({"before", request_.design});
     say(kResponse, "search: the same places on every wire");
-    const auto same = betterLayout(request_.design, areaGoal(response, row_, kNoise), LayoutFreedom::SameOnEveryWire,
-                                   limits_, request_.seed, stop_);
+    const auto same = betterLayout(request_.design, areaGoal(response, row_, kNoise, request_.threads),
+                                   LayoutFreedom::SameOnEveryWire, limits_, request_.seed, stop_);
     if (!same) return false;
     layouts_.push_back({"same on every wire", same->layout});
     say(0.44, "search: wire by wire");
-    const auto each = betterLayout(same->layout, areaGoal(response, row_, kNoise), LayoutFreedom::WireByWire, limits_,
-                                   request_.seed, stop_);
+    const auto each = betterLayout(same->layout, areaGoal(response, row_, kNoise, request_.threads),
+                                   LayoutFreedom::WireByWire, limits_, request_.seed, stop_);
     if (!each) return false;
     layouts_.push_back({"wire by wire", each->layout});
     before_ = same->before;
@@ -104,14 +106,11 @@ private:
   }
 
   void bounds(const AreaResponse& response) {
-    content_.parts.push_back(ReportHeading{"What no decoder can beat, at relative noise 1e-4 on every resistance"});
+    content_.parts.push_back(ReportHeading{"What the noise allows, at relative noise 1e-4 on every resistance"});
     content_.parts.push_back(ReportWords{
         "Cramer-Rao bounds of the force with the area known, linearised in the middle of the force range, in % of the "
         "range (" +
-        triple(request_.design.forceRange.high_N - request_.design.forceRange.low_N) +
-        " N). Without prior: no unbiased decoder is better. With prior: forces are uniform over their range, no "
-        "decoder "
-        "at all is better; knowing nothing is 28.9 %."});
+        triple(request_.design.forceRange.high_N - request_.design.forceRange.low_N) + " N). " + kBoundsMean});
     ReportTable table{"Root mean square over the areas, Fx / Fy / Fz",
                       {"layout", "row-wires read", "without prior [%]", "geometric mean [%]", "with prior [%]"},
                       {},
@@ -159,7 +158,7 @@ private:
   void sweeps(const AreaResponse& response) {
     say(0.456, "depth and pitch");
     content_.parts.push_back(ReportHeading{"Effect of each layer's depth and pitch, one at a time"});
-    for (const LayoutSweep& sweep : layoutSweeps(request_.design, response, row_, kNoise)) {
+    for (const LayoutSweep& sweep : layoutSweeps(request_.design, response, row_, kNoise, request_.threads)) {
       for (int axis = 0; axis < 3; ++axis)
         for (const LayoutSweep::Point& point : sweep.points)
           csv_.add(
@@ -223,7 +222,18 @@ private:
     return true;
   }
 
+  /// A layout whose samples have no solution is a row that says so: the search is not lost with it.
   bool confirm(const NamedLayout& layout, std::size_t number, ReportTable& table) {
+    try {
+      return confirmBySamples(layout, number, table);
+    } catch (const Error& refused) {
+      table.rows.push_back({layout.name, "all", std::string("failed: ") + refused.what(), "-", "-", "-"});
+      table.marks.push_back(ReportTable::Mark::Bad);
+      return true;
+    }
+  }
+
+  bool confirmBySamples(const NamedLayout& layout, std::size_t number, ReportTable& table) {
     // Two thirds of a layout's time are its samples'.
     const double each = (1 - kConfirm) / static_cast<double>(layouts_.size());
     double share = kConfirm + each * static_cast<double>(number);

@@ -19,7 +19,7 @@ constexpr int kRandomStarts = 4;
 constexpr int kRandomStartsUnderField = 2;
 constexpr int kMostUnderField = 400;    // layouts a start; a layout by Eq. (1) costs a thousandth
 constexpr double kSearchFineness = 0.5; // of the field's quadrature: a percent of the bound is enough to choose by
-constexpr double kFirstStep_mm = 1.6;   // halved down to the grid
+constexpr double kFirstStep_mm = 1.6;   // on the paper's block of 30 mm; halved down to the grid
 constexpr double kSlack_mm = 1e-9;      // limits are met by rounded numbers
 
 using Places = std::vector<double>;
@@ -83,10 +83,11 @@ public:
     left_ = kMostUnderField;
     for (double& place : places) place = onGrid(place, limits_.grid_mm);
     double best = value(places);
-    double step = kFirstStep_mm;
-    const double halvings = std::log2(kFirstStep_mm / limits_.grid_mm) + 1;
+    const double first = kFirstStep_mm * (parameters_.layout(places).block_mm.y() / paperDesign().block_mm.y());
+    double step = first;
+    const double halvings = std::log2(first / limits_.grid_mm) + 1;
     while (step > limits_.grid_mm * 0.99 && !stop_.stop_requested()) {
-      progress(std::log2(kFirstStep_mm / step) / halvings);
+      progress(std::log2(first / step) / halvings);
       const double before = best;
       best = sweep(places, best, step);
       if (!(best < before * (1 - 1e-3))) step /= 2;
@@ -192,9 +193,10 @@ std::optional<std::string> makerProblem(const SensorDesign& layout, const MakerL
   return {};
 }
 
-LayoutGoal areaGoal(const AreaResponse& response, int rowWire, double relativeNoise) {
-  return [&response, rowWire, relativeNoise](const SensorDesign& layout, double fineness, const std::stop_token& stop) {
-    return layoutBound(layout, response, rowWire, relativeNoise, 0, fineness, stop).mean();
+LayoutGoal areaGoal(const AreaResponse& response, int rowWire, double relativeNoise, int threads) {
+  return [&response, rowWire, relativeNoise, threads](const SensorDesign& layout, double fineness,
+                                                      const std::stop_token& stop) {
+    return layoutBound(layout, response, rowWire, relativeNoise, threads, fineness, stop).mean();
   };
 }
 

@@ -31,7 +31,7 @@ enum class LayoutFreedom {
 using LayoutGoal = std::function<double(const SensorDesign& layout, double fineness, const std::stop_token& stop)>;
 
 /// LayoutBound::mean() of a row-wire, or of all with row-wire -1. The response must outlive it.
-LayoutGoal areaGoal(const AreaResponse& response, int rowWire, double relativeNoise);
+LayoutGoal areaGoal(const AreaResponse& response, int rowWire, double relativeNoise, int threads);
 
 /// The map's worst place: the largest deviation of the place [mm] of such touches that friction holds, all row-wires
 /// read. The fields must outlive it.

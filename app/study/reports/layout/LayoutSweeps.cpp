@@ -11,7 +11,11 @@ namespace {
 constexpr int kPoints = 25;
 constexpr int kPointsUnderField = 13;  // each costs a thousand times as much there,
 constexpr double kSweepFineness = 0.5; // and a hundredth of a percent is enough to draw
-constexpr double kMargin_mm = 0.25;    // between the layers and to the faces
+constexpr double kMargins = 20;        // between the layers and to the faces, in the block's height
+
+double margin_mm(const SensorDesign& design) {
+  return design.block_mm.z() / kMargins;
+}
 
 double middleOf(const std::vector<double>& places) {
   return std::accumulate(places.begin(), places.end(), 0.0) / static_cast<double>(places.size());
@@ -26,13 +30,13 @@ void stretch(ElectrodeLayer& layer, double factor) {
 }
 
 /// The largest factor that keeps all electrodes of the layer inside (0, length).
-double largestFactor(const ElectrodeLayer& layer, double length_mm) {
+double largestFactor(const ElectrodeLayer& layer, double length_mm, double margin) {
   double factor = 1e6;
   for (const std::vector<double>& places : layer.along_mm) {
     const double middle = middleOf(places);
     for (const double place : places) {
-      if (place > middle) factor = std::min(factor, (length_mm - kMargin_mm - middle) / (place - middle));
-      if (place < middle) factor = std::min(factor, (middle - kMargin_mm) / (middle - place));
+      if (place > middle) factor = std::min(factor, (length_mm - margin - middle) / (place - middle));
+      if (place < middle) factor = std::min(factor, (middle - margin) / (middle - place));
     }
   }
   return factor;
@@ -74,7 +78,7 @@ LayoutPlan pitchPlan(const std::string& file, const std::string& layerName, cons
            "pitch on the " + wires + " [mm]",
            {}},
           leastFactor * pitch,
-          pitch * largestFactor(design.*layer, length_mm),
+          pitch * largestFactor(design.*layer, length_mm, margin_mm(design)),
           [layer, pitch](SensorDesign& d, double at) { stretch(d.*layer, at / pitch); }};
 }
 
@@ -82,10 +86,10 @@ std::vector<LayoutPlan> plans(const SensorDesign& design) {
   const double top = design.upperElectrodes_mm().row(2).minCoeff(),
                bottom = design.lowerElectrodes_mm().row(2).maxCoeff();
   std::vector<LayoutPlan> result;
-  result.push_back(depthPlan("upper_depth", "upper", "row-wires", &SensorDesign::upper, bottom + kMargin_mm,
-                             design.block_mm.z() - kMargin_mm));
-  result.push_back(
-      depthPlan("lower_depth", "lower", "column-wires", &SensorDesign::lower, kMargin_mm, top - kMargin_mm));
+  result.push_back(depthPlan("upper_depth", "upper", "row-wires", &SensorDesign::upper, bottom + margin_mm(design),
+                             design.block_mm.z() - margin_mm(design)));
+  result.push_back(depthPlan("lower_depth", "lower", "column-wires", &SensorDesign::lower, margin_mm(design),
+                             top - margin_mm(design)));
   if (design.electrodesPerRowWire() > 1)
     result.push_back(
         pitchPlan("upper_pitch", "upper", "row-wires", &SensorDesign::upper, design, 0.2, design.block_mm.x()));
@@ -98,7 +102,7 @@ std::vector<LayoutPlan> plans(const SensorDesign& design) {
 } // namespace
 
 std::vector<LayoutSweep> layoutSweeps(const SensorDesign& design, const AreaResponse& response, int rowWire,
-                                      double relativeNoise, const ReportProgress& progress,
+                                      double relativeNoise, int threads, const ReportProgress& progress,
                                       const std::stop_token& stop) {
   std::vector<LayoutSweep> sweeps;
   std::vector<LayoutPlan> planned = plans(design);
@@ -114,7 +118,7 @@ std::vector<LayoutSweep> layoutSweeps(const SensorDesign& design, const AreaResp
       plan.change(changed, at);
       if (!check(changed).empty()) continue; // a layout that cannot be is left out
       plan.sweep.points.push_back(
-          {at, layoutBound(changed, response, rowWire, relativeNoise, 0, kSweepFineness, stop).withoutPrior()});
+          {at, layoutBound(changed, response, rowWire, relativeNoise, threads, kSweepFineness, stop).withoutPrior()});
     }
     sweeps.push_back(std::move(plan.sweep));
   }

@@ -20,7 +20,7 @@ struct LayoutSweep {
 /// Depth and pitch of both layers, of a row-wire or all with row-wire -1. Under the field fewer points, and Cancelled
 /// is thrown where it was stopped.
 std::vector<LayoutSweep> layoutSweeps(const SensorDesign& design, const AreaResponse& response, int rowWire,
-                                      double relativeNoise, const ReportProgress& progress = {},
+                                      double relativeNoise, int threads, const ReportProgress& progress = {},
                                       const std::stop_token& stop = {});
 
 } // namespace palp

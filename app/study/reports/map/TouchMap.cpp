@@ -114,7 +114,7 @@ private:
   [[nodiscard]] double twoPoint_mm(int x, int y, const Eigen::MatrixXd& one) const {
     const Eigen::HouseholderQR<Eigen::MatrixXd> qr(one);
     const Eigen::MatrixXd span = qr.householderQ() * Eigen::MatrixXd::Identity(one.rows(), one.cols());
-    double worst_mm = std::numeric_limits<double>::quiet_NaN();
+    double worst_mm = 0;
     for (int axis = 0; axis < 2; ++axis) {
       const int place = axis == 0 ? x : y, last = request_.places[static_cast<std::size_t>(axis)] - 1;
       double distanceBefore = 0, restBefore = 0, found = std::numeric_limits<double>::quiet_NaN();
@@ -132,7 +132,8 @@ private:
         distanceBefore = distance;
         restBefore = rest;
       }
-      if (axis == 0 || !(found <= worst_mm)) worst_mm = std::isnan(found) ? worst_mm : found;
+      if (!(found <= worst_mm)) worst_mm = found; // also where it is not a number
+      if (std::isnan(worst_mm)) break;
     }
     return worst_mm;
   }

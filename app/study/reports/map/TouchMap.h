@@ -39,7 +39,8 @@ struct TouchMap {
   std::array<Eigen::MatrixXd, 3> heldForce_N;
   Eigen::MatrixXd heldPlace_mm;
   /// Distance at which two touches of half the force differ from every one touch of the whole by 3 deviations, without
-  /// friction, along x or y, whichever is worse; not a number where no such pair lies in the rectangle.
+  /// friction, along x or y, whichever is worse; not a number where along one of them no such pair lies in the
+  /// rectangle.
   Eigen::MatrixXd twoPoint_mm;
 };
 /// Of the middle of the range's sizes and forces, over its rectangle, on its grid or, where it has none, on `places`

@@ -1,5 +1,6 @@
 #include "app/study/reports/networks/FieldNoiseReport.h"
 
+#include "app/study/reports/BoundWords.h"
 #include "app/study/reports/Csv.h"
 #include "app/study/reports/ReportPage.h"
 #include "app/study/reports/layout/FieldResponse.h"
@@ -75,13 +76,10 @@ private:
   }
 
   void bounds() {
-    content_.parts.push_back(ReportHeading{"What no decoder can beat"});
+    content_.parts.push_back(ReportHeading{"What the noise allows"});
     content_.parts.push_back(ReportWords{
         "Cramer-Rao bounds of the force with the area known, in % of the range (" + triple(range_N_) +
-        " N), for normal noise that is relative and independent on every resistance. Without prior: no unbiased "
-        "decoder "
-        "is better. With prior: forces are uniform over their range, no decoder at all is better; knowing nothing is "
-        "28.9 %."});
+        " N), for normal noise that is relative and independent on every resistance. " + std::string(kBoundsMean)});
     content_.parts.emplace_back(laws_->bounds(kShownNoise, &content_.figures));
     for (const LawReading& reading : laws_->readings())
       if (reading.name == kReadouts.name(law_.readout)) summarise(reading.bound(-1, kShownNoise));
@@ -152,7 +150,7 @@ private:
   void summarise(const LayoutBound& bound) {
     content_.summary = "Read by " + kReadouts.name(law_.readout) + " with noise " + text(kShownNoise) +
                        " on every resistance, all row-wires resolve " + triple(bound.withPrior()) +
-                       " % of the range of Fx / Fy / Fz at best (bound with prior, linear at rest).";
+                       " % of the range of Fx / Fy / Fz (bound with prior, linear at rest).";
   }
 
   const ReportRequest& request_;

@@ -1,5 +1,6 @@
 #include "app/study/reports/networks/NoiseReport.h"
 
+#include "app/study/reports/BoundWords.h"
 #include "app/study/reports/Csv.h"
 #include "app/study/reports/ReportPage.h"
 #include "app/study/reports/networks/FieldNoiseReport.h"
@@ -115,8 +116,9 @@ private:
         "% of the force range (" +
         triple(range_N_) +
         " N); in the charts the root mean square of the three forces. "
-        "Bounds know the area: without prior no unbiased decoder is better, with prior (forces uniform over their "
-        "range) none at all; knowing nothing is 28.9 %. Decoders do not know the area, but for 'one an area'. 'Trained "
+        "Bounds know the area. " +
+        kBoundsMean +
+        " Decoders do not know the area, but for 'one an area'. 'Trained "
         "clean' is a network fitted to noise-free data: it explodes on live data."});
     table_.caption = "At relative noise " + text(kShownNoise) + ", Fx / Fy / Fz [% of range]";
     table_.heads = {"rows read", "what", "error"};
@@ -273,7 +275,7 @@ private:
     if (&choice != &choices_.front() && &choice != &choices_.back()) return;
     content_.summary += (content_.summary.empty() ? "" : " ") + std::string("With ") + std::to_string(count) +
                         " bits (noise " + shortNumber(noiseOfBits(count)) + ") and " + choice.name +
-                        ", this design resolves " + shortNumber(error_N) + " N at best (bound with prior).";
+                        ", this design resolves " + shortNumber(error_N) + " N (bound with prior).";
   }
 
   /// The same design under the usual law of the field: the read-out decides more than the law. False: stopped.

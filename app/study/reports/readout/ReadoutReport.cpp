@@ -1,5 +1,6 @@
 #include "app/study/reports/readout/ReadoutReport.h"
 
+#include "app/study/reports/BoundWords.h"
 #include "app/study/reports/Csv.h"
 #include "app/study/reports/ReportPage.h"
 #include "app/study/reports/layout/FieldResponse.h"
@@ -99,7 +100,7 @@ private:
     pairs.resistance = PairsLaw{};
     const LogSensitivity byPairs = logSensitivity(pairs, response);
     ReportTable bounds{"Bounds at noise " + text(kShownNoise) +
-                           ", root mean square over the areas, Fx / Fy / Fz [% of range]; knowing nothing is 28.9 %",
+                           ", root mean square over the areas, Fx / Fy / Fz [% of range]. " + kBoundsMean,
                        {"read-out", "row-wires read", "noise of each reading, with prior", "without prior",
                         "noise of full scale, with prior", "without prior"},
                        {},
@@ -326,7 +327,7 @@ private:
     content_.figures.emplace_back("best_radius_mm", swept_[0].shown[bestRadius]);
     content_.summary = "Best read by " + best->name + ": with noise " + text(kShownNoise) +
                        " of each reading all row-wires resolve " + triple(best->all_percent) +
-                       " % of the range of Fx / Fy / Fz at best (with prior, linear at rest), " + othersBeside(*best) +
+                       " % of the range of Fx / Fy / Fz (with prior, linear at rest), " + othersBeside(*best) +
                        ". Up to about " + shortNumber(harmless(2, index)) +
                        " ohm in each wire and switch cost at most " + shortNumber(100 * (kLoss - 1)) + " % of that.";
   }

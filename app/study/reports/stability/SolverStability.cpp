@@ -1,3 +1,4 @@
+#include "app/study/reports/MeshShare.h"
 #include "app/study/reports/ReportPage.h"
 #include "app/study/reports/stability/StabilityRow.h"
 #include "solver/IndependentResidual.h"
@@ -39,7 +40,7 @@ public:
       : cases_(cases), request_(request), stages_(stages), quick_(request.mesh.mapped.has_value()) {
     mesh_ = request.mesh;
     if (!quick_) mesh_.mapped = std::array<int, 3>{12, 12, 6};
-    tets_.meshSize_mm = quick_ ? 12 : 6;
+    tets_.meshSize_mm = (quick_ ? 12 : 6) * meshShare(request.design);
     newton_.threads = request.threads;
   }
 

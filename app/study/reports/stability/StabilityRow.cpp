@@ -2,6 +2,7 @@
 
 #include "model/base/Error.h"
 #include "model/base/Text.h"
+#include "solver/BatchSolver.h"
 
 #include <chrono>
 
@@ -37,6 +38,9 @@ StabilityRow runCase(const std::string& group, const std::string& what,
   const auto start = std::chrono::steady_clock::now();
   try {
     work(row);
+  } catch (const ConvergenceError& stopped) {
+    row.outcome = StabilityOutcome::Stopped;
+    row.words = stopped.what();
   } catch (const Error& refused) {
     row.outcome = StabilityOutcome::Refused;
     row.words = refused.what();

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ostream>
 #include <random>
@@ -81,6 +82,41 @@ INSTANTIATE_TEST_SUITE_P(Kinds, DecoderOf, testing::ValuesIn(allDecoderKinds()),
   std::erase(text, '-');
   return text;
 });
+
+TEST_P(DecoderOf, RefusesReadingsThatDoNotVary) {
+  const SensorDesign design = paperDesign();
+  TrainOptions options;
+  options.decoder = GetParam();
+  options.input = InputKind::Resistance;
+  options.rows = "all";
+  SampleSet stuck = standIn(4, 1);
+  stuck.resistances_ohm = stuck.resistances_ohm.col(0).replicate(1, stuck.size()).eval();
+  for (const SampleSet& set : {stuck, samplesAt(standIn(4, 1), {0})}) {
+    try {
+      (void)trainDecoder(set, &design, options);
+      ADD_FAILURE() << "trained on " << set.size();
+    } catch (const Error& refusal) {
+      EXPECT_NE(std::string(refusal.what()).find("the readings do not vary"), std::string::npos) << refusal.what();
+    }
+  }
+}
+
+TEST(Decoder, NamesAReadingThatStaysTheSameWhenItLearnsAndWhenItReads) {
+  SampleSet set = standIn(10, 1);
+  set.resistances_ohm.row(3 * set.columnWires + 5).setConstant(1e9);
+  TrainOptions options;
+  options.decoder = DecoderKind::Linear;
+  options.input = InputKind::Resistance;
+  options.rows = "2,3";
+  const Decoder decoder = trainDecoder(set, nullptr, options);
+  const auto named = [](const std::vector<std::string>& warnings) {
+    return std::any_of(warnings.begin(), warnings.end(),
+                       [](const std::string& words) { return words.starts_with("reading R_r3_c5 (1e+09 ohm)"); });
+  };
+  EXPECT_TRUE(named(decoder.report.warnings));
+  EXPECT_TRUE(named(predict(decoder, set).warnings));
+  EXPECT_FALSE(named(predict(decoder, standIn(10, 2)).warnings));
+}
 
 TEST(Decoder, AnInputFarFromTheTrainingRangeIsFlagged) {
   const SampleSet training = standIn(20, 1);

@@ -123,8 +123,8 @@ palp::MakerLimits coarseSteps() {
 
 TEST(FieldLayoutSearch, FindsAClearlyBetterLayoutWhoseElectrodesKeepApart) {
   const palp::SensorDesign design = smallDesign();
-  const auto better = betterLayout(design, areaGoal(fieldResponse(), -1, kNoise), palp::LayoutFreedom::SameOnEveryWire,
-                                   coarseSteps(), 1, {});
+  const auto better = betterLayout(design, areaGoal(fieldResponse(), -1, kNoise, 0),
+                                   palp::LayoutFreedom::SameOnEveryWire, coarseSteps(), 1, {});
   ASSERT_TRUE(better);
   EXPECT_LT(better->after, better->before / 1.5);
   EXPECT_EQ(layoutBound(better->layout, fieldResponse(), -1, kNoise).mean(), better->after);
@@ -157,8 +157,8 @@ TEST(FieldLayoutSearch, KeepsLargeElectrodesApart) {
   palp::FieldLaw law = fieldLaw();
   law.electrodeRadius_mm = 0.45; // spheres at the 0.5 mm that a maker can keep between the layers would overlap
   design.resistance = law;
-  const auto better = betterLayout(design, areaGoal(fieldResponse(), -1, kNoise), palp::LayoutFreedom::SameOnEveryWire,
-                                   coarseSteps(), 1, {});
+  const auto better = betterLayout(design, areaGoal(fieldResponse(), -1, kNoise, 0),
+                                   palp::LayoutFreedom::SameOnEveryWire, coarseSteps(), 1, {});
   ASSERT_TRUE(better);
   EXPECT_LT(better->after, better->before);
   EXPECT_TRUE(check(better->layout).empty());
@@ -171,8 +171,8 @@ TEST(FieldLayoutSearch, StopsBetweenTwoLayouts) {
   const auto stopAtThird = [&](double, const std::string&) {
     if (++told == 3) source.request_stop();
   };
-  EXPECT_EQ(betterLayout(smallDesign(), areaGoal(fieldResponse(), -1, kNoise), palp::LayoutFreedom::SameOnEveryWire, {},
-                         1, source.get_token(), stopAtThird),
+  EXPECT_EQ(betterLayout(smallDesign(), areaGoal(fieldResponse(), -1, kNoise, 0), palp::LayoutFreedom::SameOnEveryWire,
+                         {}, 1, source.get_token(), stopAtThird),
             std::nullopt);
   EXPECT_EQ(told, 3);
 }

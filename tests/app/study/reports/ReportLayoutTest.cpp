@@ -58,7 +58,7 @@ TEST(LayoutBound, ConditionOfThePapersLayoutIsTheKnownOne) {
 
 TEST(LayoutSearch, FindsATenTimesBetterLayoutThatAMakerCanKeep) {
   const palp::MakerLimits limits;
-  const auto better = betterLayout(palp::paperDesign(), areaGoal(layoutResponse(), kLayoutRow, kLayoutNoise),
+  const auto better = betterLayout(palp::paperDesign(), areaGoal(layoutResponse(), kLayoutRow, kLayoutNoise, 0),
                                    LayoutFreedom::SameOnEveryWire, limits, 1, {});
   ASSERT_TRUE(better);
   EXPECT_EQ(makerProblem(better->layout, limits), std::nullopt);
@@ -98,7 +98,7 @@ TEST(LayoutSearch, ForTouchesLowersTheMapsWorstPlace) {
 
 TEST(LayoutSearch, EqualSeedsGiveEqualLayouts) {
   const auto search = [] {
-    return betterLayout(palp::paperDesign(), areaGoal(layoutResponse(), kLayoutRow, kLayoutNoise),
+    return betterLayout(palp::paperDesign(), areaGoal(layoutResponse(), kLayoutRow, kLayoutNoise, 0),
                         LayoutFreedom::SameOnEveryWire, {}, 3, {});
   };
   EXPECT_EQ(search()->layout, search()->layout);

@@ -143,5 +143,14 @@ TEST(TouchMap, TwoTouchesAreToldApartFartherWhereThereIsMoreNoise) {
   EXPECT_TRUE(touchMap(*surfaces, noisy, 0).twoPoint_mm.array().isNaN().all()) << "lost in noise";
 }
 
+TEST(TouchMap, IsNoNumberWhereOneAxisHasNoPair) {
+  const SensorDesign design = paperDesign();
+  TouchMapRequest wanted = request();
+  wanted.places = {5, 2}; // no place has two neighbours along y
+  const auto surfaces = InfluenceSurfaces::find(mappedBlock(design), readingsAtRest(design, 0), 0);
+  ASSERT_TRUE(surfaces);
+  EXPECT_TRUE(touchMap(*surfaces, wanted, 0).twoPoint_mm.array().isNaN().all());
+}
+
 } // namespace
 } // namespace palp

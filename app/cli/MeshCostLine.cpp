@@ -1,0 +1,16 @@
+#include "app/cli/MeshCostLine.h"
+
+#include "solver/MeshCost.h"
+
+#include <iostream>
+
+namespace palp {
+
+void sayMeshCost(const SensorDesign& design, const MeshOptions& options, Session& session) {
+  std::string words = costInWords(meshCost(design, options));
+  if (words.empty()) return;
+  std::cerr << "palp: " << words << std::endl; // before the work, also into a file
+  session.warnings.push_back(std::move(words));
+}
+
+} // namespace palp
