@@ -1,6 +1,7 @@
 #include "io/DecoderFile.h"
 
 #include "io/AtomicFile.h"
+#include "io/StrictJson.h"
 #include "io/decoder/DecoderJson.h"
 #include "model/base/Error.h"
 
@@ -214,7 +215,7 @@ std::string networkText(const Decoder& decoder) {
   json["model"] = std::visit([](const auto& model) { return toJson(model); }, decoder.model);
   json["area_of_class"] = decoder.areaOfClass;
   json["areas"] = decoder.areas ? toJson(*decoder.areas) : OrderedJson();
-  return json.dump() + "\n";
+  return jsonText(json) + "\n";
 }
 
 Decoder parseNetwork(const std::string& text, const std::string& file) {

@@ -16,6 +16,12 @@ using Json = nlohmann::json;
 /// and lists lie deeper in each other than any file of ours.
 Json parseJson(std::string_view content, const std::string& file);
 
+/// Text of a JSON value, on one line or indented. Bytes that are not UTF-8, which a file's name may hold, become
+/// U+FFFD; dump() alone throws there, when all work is done.
+template <class Value> std::string jsonText(const Value& json, int indent = -1) {
+  return json.dump(indent, ' ', false, Value::error_handler_t::replace);
+}
+
 /// A value of a JSON file together with where it stands, so that each refusal is one sentence: file, dotted key, value,
 /// what is allowed. Every reader throws Error.
 class JsonPlace {

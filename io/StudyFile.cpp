@@ -5,7 +5,7 @@
 #include "io/StrictJson.h"
 #include "model/base/CounterRandom.h"
 #include "model/base/Error.h"
-#include "model/base/Text.h"
+#include "model/base/NumberText.h"
 
 #include <algorithm>
 #include <cmath>
@@ -241,8 +241,10 @@ StudyAxis studyAxis(const std::string& key, const std::string& words) {
       R"((?:\s*x\s*([0-9]{1,7}))?(\s+log)?\s*)");
   std::smatch parts;
   if (!std::regex_match(words, parts, range)) refuse();
-  axis.from = std::strtod(parts.str(1).c_str(), nullptr);
-  axis.to = std::strtod(parts.str(2).c_str(), nullptr);
+  const auto from = numberIn(parts.str(1)), to = numberIn(parts.str(2));
+  if (!from || !to) refuse();
+  axis.from = *from;
+  axis.to = *to;
   axis.count = parts[3].matched ? std::stoi(parts.str(3)) : 0;
   axis.logarithmic = parts[4].matched;
   return axis;
@@ -278,7 +280,7 @@ std::string toJson(const StudyPlan& plan, const std::string& program) {
   if (plan.meshSize_mm) json["mesh_size_mm"] = *plan.meshSize_mm;
   if (plan.mapped) json["mapped"] = *plan.mapped;
   if (!program.empty()) json["program"] = program;
-  return json.dump(1) + "\n";
+  return jsonText(json, 1) + "\n";
 }
 
 } // namespace palp

@@ -4,14 +4,13 @@
 #include "model/FieldAtRest.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
-#include "model/base/Text.h"
+#include "model/base/NumberText.h"
 
 #include <Eigen/Dense>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -233,9 +232,7 @@ std::string worstWire(const Eigen::MatrixXd& left) {
   };
   for (Eigen::Index r = 0; r < left.rows(); ++r) look("row-wire ", r, left.row(r).transpose().array());
   for (Eigen::Index c = 0; c < left.cols(); ++c) look("column-wire ", c, left.col(c).array());
-  std::array<char, 64> words{};
-  std::snprintf(words.data(), words.size(), " (%+.1f %% on the mean)", 100 * std::expm1(furthest));
-  return worst + words.data();
+  return worst + " (" + withSign(withDecimals(100 * std::expm1(furthest), 1)) + " % on the mean)";
 }
 
 } // namespace
@@ -263,15 +260,12 @@ std::string whyNoFit(const RestFit& fit, const SensorDesign& design,
     least = misfit;
     best = readout;
   }
-  std::array<char, 160> words{};
-  std::snprintf(words.data(), words.size(), "R at rest does not fit the design: %.2g %% of R is left (rms), ",
-                100 * fit.misfit);
-  const std::string start = words.data();
+  const std::string start =
+      "R at rest does not fit the design: " + withDigits(100 * fit.misfit, 2) + " % of R is left (rms), ";
   if (!best || least > kRestFits)
     return start + "most at " + worstWire(fit.left) + ": a wire or its contact is broken, or the design is another";
-  std::snprintf(words.data(), words.size(), " leaves %.2g %%", 100 * least);
-  return start + "read-out " + kReadouts.name(*best) + words.data() + ": the board reads otherwise than the design's " +
-         kReadouts.name(given);
+  return start + "read-out " + kReadouts.name(*best) + " leaves " + withDigits(100 * least, 2) +
+         " %: the board reads otherwise than the design's " + kReadouts.name(given);
 }
 
 } // namespace palp

@@ -1,7 +1,7 @@
 #include "model/TouchRange.h"
 
 #include "model/base/CounterRandom.h"
-#include "model/base/Text.h"
+#include "model/base/NumberText.h"
 
 #include <algorithm>
 #include <cmath>
@@ -148,14 +148,17 @@ std::optional<Indenter> indenterInWords(const std::string& words) {
   if (*shape == IndenterShape::Plane) return indenter;
   if (colon == std::string::npos) return {};
   std::string sizes = body.substr(colon + 1);
-  const auto number = [](const std::string& text) { return std::strtod(text.c_str(), nullptr); };
   if (const std::size_t comma = sizes.find(','); comma != std::string::npos) {
-    indenter.rim_mm = number(sizes.substr(comma + 1));
+    const auto rim_mm = numberIn(sizes.substr(comma + 1));
+    if (!rim_mm) return {};
+    indenter.rim_mm = *rim_mm;
     sizes.resize(comma);
   }
   const std::size_t dots = sizes.find("..");
-  const double from = number(sizes.substr(0, dots));
-  indenter.radius_mm = dots == std::string::npos ? from : (from + number(sizes.substr(dots + 2))) / 2;
+  const auto from_mm = numberIn(sizes.substr(0, dots));
+  const auto to_mm = dots == std::string::npos ? from_mm : numberIn(sizes.substr(dots + 2));
+  if (!from_mm || !to_mm) return {};
+  indenter.radius_mm = (*from_mm + *to_mm) / 2;
   if (!(indenter.radius_mm > 0)) return {};
   return indenter;
 }

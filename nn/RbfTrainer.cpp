@@ -1,6 +1,7 @@
 #include "nn/RbfTrainer.h"
 
 #include "model/base/Cancelled.h"
+#include "model/base/Text.h"
 #include "nn/LeaveOneOut.h"
 #include "nn/NetworkError.h"
 #include "nn/SpreadSweep.h"
@@ -68,7 +69,7 @@ RbfFit trainRbf(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen::R
                  options.convention,       solution.form,           std::move(solution.weights),
                  std::move(solution.tail), std::move(solution.bias)};
   if (!fit.network.weights.allFinite() || !fit.network.bias.allFinite() || !fit.network.tail.allFinite())
-    throw NetworkError("the weights are no finite numbers at spread " + std::to_string(spread) +
+    throw NetworkError("the weights are no finite numbers at spread " + text(spread) +
                        "; take another solver, a larger ridge or another scaler");
   FitReport& report = fit.report;
   report.spread = spread;

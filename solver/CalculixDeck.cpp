@@ -6,17 +6,9 @@
 #include "solver/assembly/SurfaceTraction.h"
 #include "solver/contact/ContactDeck.h"
 
-#include <cstdio>
-
 namespace palp {
 
 namespace {
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.13g", value); // CalculiX reads fields of up to 20 characters
-  return text;
-}
 
 /// A keyword's data lines hold at most 16 entries; all of ours but C3D10's 11 hold fewer.
 void writeElements(const Mesh& mesh, const std::stop_token& stop, std::string& deck) {
@@ -46,8 +38,8 @@ std::string calculixDeck(const SensorDesign& design, const Mesh& mesh, const Loa
   std::string deck = "*HEADING\nBlock of a tactile sensor [mm, N, MPa]\n*NODE, NSET=ALL\n";
   for (int n = 0; n < mesh.nodeCount(); ++n) {
     stopIfAsked(stop);
-    deck += std::to_string(n + 1) + ", " + number(mesh.nodes_mm(0, n)) + ", " + number(mesh.nodes_mm(1, n)) + ", " +
-            number(mesh.nodes_mm(2, n)) + "\n";
+    deck += std::to_string(n + 1) + ", " + deckNumber(mesh.nodes_mm(0, n)) + ", " + deckNumber(mesh.nodes_mm(1, n)) +
+            ", " + deckNumber(mesh.nodes_mm(2, n)) + "\n";
   }
   writeElements(mesh, stop, deck);
   const FixedComponents fixed = clampedBottom(mesh);
@@ -57,15 +49,15 @@ std::string calculixDeck(const SensorDesign& design, const Mesh& mesh, const Loa
   writeNodeSet("BOTTOM", bottom, deck);
   if (!mesh.upperElectrodeNodes.empty()) writeNodeSet("UPPER_ELECTRODES", mesh.upperElectrodeNodes, deck);
   // d = 2 / kappa: W = ... + (1/d) (J - 1)^2.
-  deck += "*MATERIAL, NAME=RUBBER\n*HYPERELASTIC, MOONEY-RIVLIN\n" + number(m.c10_MPa) + ", " + number(m.c01_MPa) +
-          ", " + number(2 * m.compressibility_per_MPa()) + "\n*DENSITY\n" + number(m.density_t_per_mm3) +
-          "\n*SOLID SECTION, ELSET=BLOCK, MATERIAL=RUBBER\n";
+  deck += "*MATERIAL, NAME=RUBBER\n*HYPERELASTIC, MOONEY-RIVLIN\n" + deckNumber(m.c10_MPa) + ", " +
+          deckNumber(m.c01_MPa) + ", " + deckNumber(2 * m.compressibility_per_MPa()) + "\n*DENSITY\n" +
+          deckNumber(m.density_t_per_mm3) + "\n*SOLID SECTION, ELSET=BLOCK, MATERIAL=RUBBER\n";
   const std::string clamps = "BOTTOM, 1, 3\n";
   std::string loads;
   for (int n = 0; n < mesh.nodeCount(); ++n)
     for (int d = 0; d < 3; ++d)
       if (const double f = forces(3 * n + d); f != 0)
-        loads += std::to_string(n + 1) + ", " + std::to_string(d + 1) + ", " + number(f) + "\n";
+        loads += std::to_string(n + 1) + ", " + std::to_string(d + 1) + ", " + deckNumber(f) + "\n";
   const std::string set = mesh.upperElectrodeNodes.empty() ? "ALL" : "UPPER_ELECTRODES";
   const std::string output = "*NODE FILE\nU\n*EL FILE\nS\n*NODE PRINT, NSET=" + set + "\nU\n";
   if (load.indenters.empty())

@@ -6,6 +6,7 @@
 #include "app/study/Resources.h"
 #include "app/study/Version.h"
 #include "app/study/reports/ProcessMemory.h"
+#include "io/StrictJson.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
 #include "solver/BatchSolver.h"
@@ -133,8 +134,7 @@ Exit Cli::runChosen() {
   session_.result["warnings"] = session_.warnings;
   session_.result["peak_memory_MB"] = peakMemory_MB();
   session_.result["stages"] = toJson(session_.stages);
-  constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace; // names of files may be no UTF-8
-  if (session_.json) std::cout << session_.result.dump(session_.indent, ' ', false, kReplace) << '\n';
+  if (session_.json) std::cout << jsonText(session_.result, session_.indent) << '\n';
   if (!std::cout.flush() || std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
     std::cerr << "palp " << name << ": standard output: cannot be written: " << std::strerror(errno) // NOLINT
               << '\n';

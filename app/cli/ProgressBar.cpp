@@ -41,7 +41,7 @@ void ProgressBar::show(std::size_t done, const std::string& now) {
   std::string bar(static_cast<std::size_t>(filled), '#');
   bar.resize(kWidth, '.');
   std::fprintf(stderr, "\r\033[K%s [%s] %zu of %zu", what_.c_str(), bar.c_str(), done, total_);
-  if (done > 0) std::fprintf(stderr, ", %.0f s left", std::ceil(spent * (1 - share) / share));
+  if (done > 0) std::fprintf(stderr, ", %ld s left", std::lround(std::ceil(spent * (1 - share) / share)));
   std::fflush(stderr);
 }
 

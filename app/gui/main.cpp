@@ -6,7 +6,9 @@
 #include "app/gui/project/Workbench.h"
 #include "app/gui/window/Application.h"
 #include "app/gui/window/Layout.h"
+#include "app/gui/window/LogFile.h"
 #include "app/gui/window/MainWindow.h"
+#include "app/gui/window/MessageLog.h"
 #include "app/gui/window/SceneCosts.h"
 #include "app/gui/window/Snapshot.h"
 #include "app/gui/window/Style.h"
@@ -96,7 +98,9 @@ int run(palp::Application& application) {
   palp::applyTheme(application, palp::Theme::Light); // before any widget: later ones take its font
   palp::Workbench workbench(project);
   palp::NetworkSession network;
+  palp::LogFile log(unattended ? QString() : palp::LogFile::standardFolder());
   palp::MainWindow window(workbench, network);
+  window.findChild<palp::MessageLog*>()->keepIn(log);
   if (!wish.theme.isEmpty()) window.setTheme(palp::kThemes.value(wish.theme.toStdString()));
   QObject::connect(&application, &palp::Application::faulted, &window, [&window, unattended](const QString& what) {
     if (unattended) std::_Exit(1); // nobody is there to read a box; standard error has the words
@@ -112,6 +116,9 @@ int run(palp::Application& application) {
   }
   if (!unattended) palp::fitToScreen(window, window.screen()->availableGeometry());
   window.show();
+  log.takeQtMessages();
+  log.add("palp-studio " + QString::fromStdString(palp::version()) + " starts");
+  QObject::connect(&application, &palp::Application::faulted, &log, &palp::LogFile::add);
   if (!wish.snapshot.isEmpty()) {
     palp::snapshotWhenComplete(window, workbench, wish.snapshot);
     return QApplication::exec();

@@ -1,11 +1,12 @@
 #include "app/scenes/ColorScale.h"
 
+#include "model/base/NumberText.h"
+
 #include <vtkLookupTable.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <span>
 
@@ -163,15 +164,10 @@ std::vector<std::string> tickTexts(const std::vector<double>& ticks) {
   const double fine = std::isfinite(step) ? step / unit : 1;
   const int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(fine) - 1e-6)), 0, 12);
   std::vector<std::string> texts;
-  for (const double tick : ticks) {
-    std::array<char, 64> buffer{};
-    if (scientific && tick != 0)
-      std::snprintf(buffer.data(), buffer.size(), "%.*fe%d", decimals, tick / unit,
-                    static_cast<int>(std::lround(std::log10(unit))));
-    else
-      std::snprintf(buffer.data(), buffer.size(), "%.*f", scientific ? 0 : decimals, tick);
-    texts.emplace_back(buffer.data());
-  }
+  for (const double tick : ticks)
+    texts.push_back(scientific && tick != 0
+                        ? withDecimals(tick / unit, decimals) + "e" + std::to_string(std::lround(std::log10(unit)))
+                        : withDecimals(tick, scientific ? 0 : decimals));
   return texts;
 }
 

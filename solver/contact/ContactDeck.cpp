@@ -1,6 +1,6 @@
 #include "solver/contact/ContactDeck.h"
 
-#include "model/base/Text.h"
+#include "model/base/NumberText.h"
 #include "solver/contact/ContactEstimate.h"
 #include "solver/contact/ContactPoints.h"
 #include "solver/contact/IndenterSurface.h"
@@ -9,12 +9,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <limits>
 #include <map>
 #include <vector>
 
 namespace palp {
+
+std::string deckNumber(double value) {
+  return withDigits(value, 13);
+}
 
 namespace {
 
@@ -24,12 +27,6 @@ constexpr double pressureStiffness = 5000;
 constexpr double stickStiffness = 500;
 constexpr double layerShare = 0.2; // thickness of an indenter's wedges, in heights of the block
 constexpr double indenterModulus_MPa = 1000;
-
-std::string deckNumber(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.13g", value);
-  return text;
-}
 
 std::string named(const char* what, std::size_t indenter) {
   return what + std::to_string(indenter + 1);

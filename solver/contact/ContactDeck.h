@@ -8,6 +8,9 @@
 
 namespace palp {
 
+/// A number of a deck: CalculiX reads fields of up to 20 characters.
+std::string deckNumber(double value);
+
 /// A load's indenters for CalculiX. Each is a layer of wedges (C3D6) whose nodes all go with one node of their own,
 /// REFERENCE1, REFERENCE2, ..., so that it is rigid and does not turn. Its lower faces are the master of the top faces
 /// next to it (surface to surface, a stiff linear pressure, Coulomb friction).

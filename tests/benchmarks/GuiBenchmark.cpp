@@ -8,6 +8,7 @@
 #include "app/gui/views/ChartView.h"
 #include "app/gui/views/HeatmapSpecs.h"
 #include "app/gui/views/HeatmapView.h"
+#include "app/gui/window/Application.h"
 #include "app/gui/window/MainWindow.h"
 
 #include <QApplication>
@@ -186,7 +187,7 @@ int measureViews() {
 } // namespace palp
 
 int main(int argc, char** argv) {
-  QApplication application(argc, argv);
+  palp::Application application(argc, argv);
   QApplication::setOrganizationName("palp-tests");
   QApplication::setApplicationName("palp-gui-benchmark");
   QStandardPaths::setTestModeEnabled(true);

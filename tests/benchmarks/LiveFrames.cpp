@@ -4,6 +4,7 @@
 #include "app/gui/live/LivePage.h"
 #include "app/gui/live/LiveView.h"
 #include "app/gui/views/HeatmapView.h"
+#include "app/gui/window/Application.h"
 
 #include <sys/resource.h>
 
@@ -84,7 +85,7 @@ void heatmapAlone(int frames) {
 
 int main(int argc, char** argv) {
   if (std::getenv("QT_QPA_PLATFORM") == nullptr) setenv("QT_QPA_PLATFORM", "offscreen", 1);
-  const QApplication application(argc, argv);
+  const palp::Application application(argc, argv);
   heatmapAlone(200);
   page(argc > 1 ? std::atoi(argv[1]) : 10);
   return 0;

@@ -49,6 +49,12 @@ TEST(NetworkFile, ReadsBackToTheSameBits) {
   EXPECT_EQ(a.form, b.form);
 }
 
+TEST(NetworkFile, OfAFileWhoseNameIsNotUtf8IsWrittenAllTheSame) {
+  Decoder decoder = smallDecoder(DecoderKind::Linear);
+  decoder.trainedWith = "palp train m\xe4rz.csv";
+  EXPECT_EQ(parseNetwork(networkText(decoder), "net.json").trainedWith, "palp train m\xef\xbf\xbdrz.csv");
+}
+
 TEST(NetworkFile, KeepsATouchTableInEitherForm) {
   Decoder decoder = smallDecoder(DecoderKind::TouchInversion);
   auto& model = std::get<KernelForwardModel>(decoder.model);

@@ -6,6 +6,7 @@
 #include "io/DesignFile.h"
 #include "io/SampleFile.h"
 #include "model/RestFit.h"
+#include "model/base/NumberText.h"
 
 #include <chrono>
 #include <cstdio>
@@ -37,18 +38,24 @@ double ageInDays(const std::filesystem::path& path) {
 }
 
 void print(const CalibrationReport& report, double age_days) {
-  std::printf("%lld labelled frame%s, %.1f days old; by area:", static_cast<long long>(report.samples),
-              report.samples == 1 ? "" : "s", age_days);
+  std::printf("%lld labelled frame%s, %s days old; by area:", static_cast<long long>(report.samples),
+              report.samples == 1 ? "" : "s", withDecimals(age_days, 1).c_str());
   for (const int count : report.samplesPerArea) std::printf(" %d", count);
   std::printf("\n        labels [N]        coverage  rms error before  after (unseen)\n");
   for (int axis = 0; axis < 3; ++axis)
-    std::printf("F%c  %8.3f to %8.3f  %7.1f %%  %14.4f N  %8.4f N = %.2f %% of range\n", "xyz"[axis],
-                report.lowest_N(axis), report.highest_N(axis), report.coverage_percent(axis), report.rmseBefore_N(axis),
-                report.rmseAfter_N(axis), report.rmseAfter_percentOfRange(axis));
+    std::printf("F%c  %8s to %8s  %7s %%  %14s N  %8s N = %s %% of range\n", "xyz"[axis],
+                withDecimals(report.lowest_N(axis), 3).c_str(), withDecimals(report.highest_N(axis), 3).c_str(),
+                withDecimals(report.coverage_percent(axis), 1).c_str(),
+                withDecimals(report.rmseBefore_N(axis), 4).c_str(), withDecimals(report.rmseAfter_N(axis), 4).c_str(),
+                withDecimals(report.rmseAfter_percentOfRange(axis), 2).c_str());
+  const auto both = [](const Eigen::Vector2d& v_mm) {
+    return withDecimals(v_mm.x(), 3) + ", " + withDecimals(v_mm.y(), 3);
+  };
   if (const auto& place = report.place)
-    std::printf("place along x, y: rms error before %.3f, %.3f mm, after (unseen) %.3f, %.3f mm\n",
-                place->rmseBefore_mm.x(), place->rmseBefore_mm.y(), place->rmseAfter_mm.x(), place->rmseAfter_mm.y());
-  std::printf("worst frame: %lld, %.4f N\n", static_cast<long long>(report.worstSample), report.worstError_N);
+    std::printf("place along x, y: rms error before %s mm, after (unseen) %s mm\n", both(place->rmseBefore_mm).c_str(),
+                both(place->rmseAfter_mm).c_str());
+  std::printf("worst frame: %lld, %s N\n", static_cast<long long>(report.worstSample),
+              withDecimals(report.worstError_N, 4).c_str());
 }
 
 void fill(Json& result, const CalibrationReport& report, double age_days) {
@@ -88,19 +95,20 @@ void requireBoard(const CalibrateArguments& arguments, const SensorDesign& desig
 }
 
 void printFitted(const char* what, double value, double deviation, const char* unit) {
-  std::printf("%-12s %10.5g +- %.2g %s\n", what, value, deviation, unit);
+  std::printf("%-12s %10s +- %s %s\n", what, withDigits(value, 5).c_str(), withDigits(deviation, 2).c_str(), unit);
 }
 
 void print(const RestRecording& rest, const RestFit& fit) {
-  std::printf("%d readings at rest, mean of %d frames, noise of the mean %.2g of R; the fit leaves %.2g (rms)\n",
-              fit.readings, rest.frames, rest.noise, fit.misfit);
+  std::printf("%d readings at rest, mean of %d frames, noise of the mean %s of R; the fit leaves %s (rms)\n",
+              fit.readings, rest.frames, withDigits(rest.noise, 2).c_str(), withDigits(fit.misfit, 2).c_str());
   printFitted("radius", fit.law.electrodeRadius_mm, fit.radiusDeviation_mm, "mm");
   printFitted("resistivity", fit.law.resistivity_ohm_mm, fit.resistivityDeviation_ohm_mm, "ohm mm");
   if (fit.keptContact.empty()) {
     printFitted("contact", fit.law.contact_ohm_mm2, fit.contactDeviation_ohm_mm2, "ohm mm2");
-    std::printf("radius and contact go together: correlation %.4f\n", fit.correlation);
+    std::printf("radius and contact go together: correlation %s\n", withDecimals(fit.correlation, 4).c_str());
   } else {
-    std::printf("%-12s %10.5g ohm mm2, not fitted: %s\n", "contact", fit.law.contact_ohm_mm2, fit.keptContact.c_str());
+    std::printf("%-12s %10s ohm mm2, not fitted: %s\n", "contact", withDigits(fit.law.contact_ohm_mm2, 5).c_str(),
+                fit.keptContact.c_str());
   }
 }
 

@@ -6,6 +6,7 @@
 #include "app/study/paper/PaperReport.h"
 #include "app/study/reports/ReportPage.h"
 #include "io/FilesTogether.h"
+#include "model/base/NumberText.h"
 
 #include <chrono>
 #include <cstdio>
@@ -58,10 +59,13 @@ void print(const ProtocolResult& result) {
       const Eigen::Vector3d worst = row.eq13Worst_percent();
       std::printf("%-13s %6s  ", curve.mode.c_str(), row.spread ? shortNumber(*row.spread).c_str() : "-");
       if (const auto& paper = row.published_percent)
-        std::printf("%8.2f%8.2f%8.2f  ", paper->x(), paper->y(), paper->z());
+        std::printf("%8s%8s%8s  ", withDecimals(paper->x(), 2).c_str(), withDecimals(paper->y(), 2).c_str(),
+                    withDecimals(paper->z(), 2).c_str());
       else
         std::printf("%24s  ", "");
-      std::printf("%9.3g%9.3g%9.3g  %9.3g%9.3g%9.3g\n", mean.x(), mean.y(), mean.z(), worst.x(), worst.y(), worst.z());
+      const auto cell = [](double value) { return withDigits(value, 3); };
+      std::printf("%9s%9s%9s  %9s%9s%9s\n", cell(mean.x()).c_str(), cell(mean.y()).c_str(), cell(mean.z()).c_str(),
+                  cell(worst.x()).c_str(), cell(worst.y()).c_str(), cell(worst.z()).c_str());
     }
   }
 }

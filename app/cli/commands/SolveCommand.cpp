@@ -6,6 +6,7 @@
 #include "app/cli/commands/SolvePath.h"
 #include "app/study/touch/Touch.h"
 #include "model/base/Cancelled.h"
+#include "model/base/NumberText.h"
 #include "solver/DiscretisationError.h"
 
 #include <cmath>
@@ -61,25 +62,28 @@ void print(const Touch& touch, const DiscretisationError* error) {
     std::printf("converged in %d Newton iterations%s%s\n", solution.iterations(),
                 solution.stopReason.empty() ? "" : "; ", solution.stopReason.c_str());
   else
-    std::printf("not converged: reached %.4g of the load; %s\n", solution.reachedLoadFraction,
+    std::printf("not converged: reached %s of the load; %s\n", withDigits(solution.reachedLoadFraction, 4).c_str(),
                 solution.stopReason.c_str());
   std::printf("%d elements (%s), %d unknowns\n", touch.mesh()->elementCount(), touch.problem()->elementType().c_str(),
               touch.problem()->dof());
-  std::printf("largest electrode displacement %.6g mm, largest |J - 1| %.3g\n",
-              std::sqrt(u.colwise().squaredNorm().maxCoeff()), solution.maxVolumeError);
+  std::printf("largest electrode displacement %s mm, largest |J - 1| %s\n",
+              withDigits(std::sqrt(u.colwise().squaredNorm().maxCoeff()), 6).c_str(),
+              withDigits(solution.maxVolumeError, 3).c_str());
   const std::vector<IndenterState>& indenters = solution.state().indenters;
   for (std::size_t k = 0; k < indenters.size(); ++k) printIndenter(touch.load().indenters[k], indenters[k]);
   const Eigen::MatrixXd rest = resistancesAtRest_ohm(touch.design());
-  std::printf("largest |dR/R| %.4g %%\n",
-              100 * ((*touch.resistances_ohm() - rest).cwiseQuotient(rest)).cwiseAbs().maxCoeff());
+  std::printf(
+      "largest |dR/R| %s %%\n",
+      withDigits(100 * ((*touch.resistances_ohm() - rest).cwiseQuotient(rest)).cwiseAbs().maxCoeff(), 4).c_str());
   if (error && error->relative)
-    std::printf("discretisation error of the electrode displacements about %.2g %% (%s)\n", 100 * *error->relative,
-                error->method.c_str());
+    std::printf("discretisation error of the electrode displacements about %s %% (%s)\n",
+                withDigits(100 * *error->relative, 2).c_str(), error->method.c_str());
   else if (error)
     std::printf("discretisation error of the electrode displacements: %s\n", error->method.c_str());
   if (error && error->resistances)
-    std::printf("discretisation error of d ln R, read by %s, about %.2g %%\n",
-                std::string(kReadouts.name(touch.design().field()->readout)).c_str(), 100 * *error->resistances);
+    std::printf("discretisation error of d ln R, read by %s, about %s %%\n",
+                std::string(kReadouts.name(touch.design().field()->readout)).c_str(),
+                withDigits(100 * *error->resistances, 2).c_str());
 }
 
 /// Row-wire and column-wire of --current ROW,COLUMN.
@@ -103,8 +107,8 @@ NewtonObserver observer(const Session& session) {
   observer.stop = session.stop;
   if (isatty(STDERR_FILENO) == 1)
     observer.step = [](const NewtonStep& step) {
-      std::fprintf(stderr, "load %.4f, iteration %d, residual %.2e\n", step.loadFraction, step.iteration,
-                   step.relativeResidual);
+      std::fprintf(stderr, "load %s, iteration %d, residual %s\n", withDecimals(step.loadFraction, 4).c_str(),
+                   step.iteration, withExponent(step.relativeResidual, 2).c_str());
     };
   return observer;
 }

@@ -1,5 +1,7 @@
 #include "app/cli/commands/SolveJson.h"
 
+#include "model/base/NumberText.h"
+
 #include <cstdio>
 
 namespace palp {
@@ -64,10 +66,15 @@ void printIndenter(const Indenter& indenter, const IndenterState& state) {
     return (v.array().abs() > 1e-12 * v.norm()).select(v, Eigen::Vector3d::Zero());
   };
   const Eigen::Vector3d f = withoutRounding(state.force_N), d = withoutRounding(state.translation_mm);
-  std::printf("%s: force (%.6g, %.6g, %.6g) N, moved (%.6g, %.6g, %.6g) mm; contact %.4g mm2, radius %.4g mm, "
-              "pressure at its centre %.4g MPa, slides on %.0f %%\n",
-              shapeName(indenter.shape).c_str(), f.x(), f.y(), f.z(), d.x(), d.y(), d.z(), state.contactArea_mm2,
-              state.contactRadius_mm, state.centrePressure_MPa, 100 * state.slipShare);
+  const auto inWords = [](const auto& v) {
+    return "(" + withDigits(v.x(), 6) + ", " + withDigits(v.y(), 6) + ", " + withDigits(v.z(), 6) + ")";
+  };
+  const std::string words = shapeName(indenter.shape) + ": force " + inWords(f) + " N, moved " + inWords(d) +
+                            " mm; contact " + withDigits(state.contactArea_mm2, 4) + " mm2, radius " +
+                            withDigits(state.contactRadius_mm, 4) + " mm, pressure at its centre " +
+                            withDigits(state.centrePressure_MPa, 4) + " MPa, slides on " +
+                            withDecimals(100 * state.slipShare, 0) + " %\n";
+  std::fputs(words.c_str(), stdout);
 }
 
 } // namespace palp

@@ -4,6 +4,7 @@
 #include "app/cli/commands/SolveJson.h"
 #include "app/study/touch/TouchPath.h"
 #include "model/base/Cancelled.h"
+#include "model/base/NumberText.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -36,8 +37,8 @@ void print(const std::vector<LoadCase>& path, const TouchPath& touched) {
     if (solution.converged)
       std::printf("step %zu: converged in %d Newton iterations\n", k, solution.iterations());
     else
-      std::printf("step %zu: not converged: reached %.4g of the step; %s\n", k, solution.reachedLoadFraction,
-                  solution.stopReason.c_str());
+      std::printf("step %zu: not converged: reached %s of the step; %s\n", k,
+                  withDigits(solution.reachedLoadFraction, 4).c_str(), solution.stopReason.c_str());
     for (std::size_t i = 0; i < solution.state().indenters.size(); ++i)
       printIndenter(path[k].indenters[i], solution.state().indenters[i]);
   }

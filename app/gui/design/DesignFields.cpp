@@ -1,5 +1,6 @@
 #include "app/gui/design/DesignFields.h"
 
+#include "app/gui/widgets/SpinBoxes.h"
 #include "model/base/Text.h"
 
 #include <QObject>
@@ -19,10 +20,9 @@ QString shortText(double value) {
 }
 
 QString setNumber(double& target, const QString& words) {
-  bool good = false;
-  const double value = words.trimmed().toDouble(&good);
-  if (!good) return QObject::tr("\"%1\" is no number; write it with a point, as 0.5").arg(words);
-  target = value;
+  const auto value = typedNumber(words);
+  if (!value) return QObject::tr("\"%1\" is no number; write it with a point, as 0.5").arg(words);
+  target = *value;
   return {};
 }
 

@@ -188,7 +188,7 @@ QGroupBox* DesignPage::buildMesh() {
   automaticSize_ = new QCheckBox(tr("standard size"));
   automaticSize_->setObjectName("automaticSize");
   automaticSize_->setToolTip(tr("Graded for about 1 % in the electrode displacements"));
-  size_ = new QDoubleSpinBox;
+  size_ = new NumberBox;
   size_->setObjectName("meshSize");
   size_->setRange(0.5, 100);
   size_->setValue(3);

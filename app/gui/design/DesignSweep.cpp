@@ -11,6 +11,7 @@
 #include "app/gui/widgets/FileDialogs.h"
 #include "app/gui/widgets/SpinBoxes.h"
 #include "model/base/Error.h"
+#include "model/base/NumberText.h"
 
 #include <QComboBox>
 #include <QDoubleSpinBox>
@@ -33,10 +34,8 @@ constexpr int kSweepSideWidth_px = 300;
 
 /// The number that a field shows; none where it shows a list or a count.
 std::optional<double> numberOf(const DesignField& field, const SensorDesign& design) {
-  bool good = false;
-  const double value = field.text(design).toDouble(&good);
-  if (!good || field.key.startsWith("areas") || field.key.startsWith("force_range")) return {};
-  return value;
+  if (field.key.startsWith("areas") || field.key.startsWith("force_range")) return {};
+  return numberIn(field.text(design).toStdString());
 }
 
 const DesignField* fieldOf(const std::string& key) {
@@ -111,8 +110,8 @@ void DesignSweep::build() {
   number_ = new QComboBox;
   number_->setObjectName("sweepNumber");
   number_->setToolTip(tr("The number of the design that is changed; all else stays"));
-  from_ = new QDoubleSpinBox;
-  to_ = new QDoubleSpinBox;
+  from_ = new NumberBox;
+  to_ = new NumberBox;
   from_->setObjectName("sweepStart");
   to_->setObjectName("sweepEnd");
   for (QDoubleSpinBox* box : {from_, to_}) {
@@ -121,7 +120,7 @@ void DesignSweep::build() {
     box->setKeyboardTracking(false);
   }
   number_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-  steps_ = new QSpinBox;
+  steps_ = new WholeBox;
   steps_->setObjectName("sweepSteps");
   steps_->setRange(2, 50);
   steps_->setValue(7);

@@ -1,5 +1,6 @@
 #include "app/gui/design/LawPanel.h"
 
+#include "app/gui/widgets/SpinBoxes.h"
 #include "app/gui/widgets/WrappedLabel.h"
 
 #include <QCheckBox>
@@ -71,7 +72,7 @@ void LawPanel::display(const SensorDesign& design) {
   pressureLaw_->setChecked(design.pressureLaw.has_value());
   const PressureLaw law = design.pressureLaw.value_or(PressureLaw{});
   for (auto [edit, value] : {std::pair{p0_, law.p0_MPa}, std::pair{exponent_, law.exponent}}) {
-    if (edit->text().toDouble() != value || edit->text().isEmpty()) edit->setText(QString::number(value));
+    if (typedNumber(edit->text()) != value) edit->setText(QString::number(value));
     edit->setEnabled(design.pressureLaw.has_value());
   }
   pressureProblem_->say({});
@@ -92,8 +93,8 @@ bool LawPanel::read(SensorDesign& design) {
   }
   PressureLaw& law = design.pressureLaw.emplace();
   for (auto [edit, value] : {std::pair{p0_, &law.p0_MPa}, std::pair{exponent_, &law.exponent}}) {
-    bool number = false;
-    *value = edit->text().trimmed().toDouble(&number);
+    const auto number = typedNumber(edit->text());
+    *value = number.value_or(0);
     if (!number) pressureWrong_ = tr("\"%1\" is no number; write it with a point, as 0.5").arg(edit->text());
   }
   return good && pressureWrong_.isEmpty();

@@ -4,6 +4,7 @@
 #include "app/gui/live/panels/KnownLoad.h"
 #include "app/gui/widgets/FileDialogs.h"
 #include "app/gui/widgets/PushButton.h"
+#include "app/gui/widgets/SpinBoxes.h"
 #include "io/DecoderFile.h"
 #include "io/SampleFile.h"
 #include "model/base/Error.h"
@@ -63,7 +64,7 @@ QWidget* LiveCalibration::buildLabel() {
   known_ = new KnownLoad;
   known_->setSensor(host_.sensor(), host_.decoder() ? &*host_.decoder() : nullptr);
   column->addWidget(known_);
-  count_ = new QSpinBox;
+  count_ = new WholeBox;
   count_->setObjectName("labelFrames");
   count_->setRange(1, 100000);
   count_->setValue(50);

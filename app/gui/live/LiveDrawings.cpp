@@ -1,9 +1,10 @@
 #include "app/gui/live/LiveDrawings.h"
 
+#include "model/base/NumberText.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 namespace palp {
@@ -14,10 +15,9 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kPercent = 100;
 constexpr std::array<const char*, 3> kCurveNames{"Fx", "Fy", "Fz"};
 
-template <class... Values> std::string printed(const char* format, Values... values) {
-  std::array<char, 160> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), format, values...);
-  return buffer.data();
+/// "(0.12, 3.4)", each by `one`.
+std::string pair(const Eigen::Vector2d& values, std::string (*one)(double, int), int precision) {
+  return "(" + one(values.x(), precision) + ", " + one(values.y(), precision) + ")";
 }
 
 /// The first entry that the window shows.
@@ -106,14 +106,14 @@ std::vector<StripDoubt> doubts(const LiveHistory& history, const LiveSettings& s
   return all;
 }
 
-/// "(1, 2, 3) N", or of the components that are measured "Fz 3 N"; the last by this format.
+/// "(1, 2, 3) N", or of the components that are measured "Fz 3 N"; each by `one`.
 std::string components(const DecodedForces& forces, const Eigen::Matrix3Xd& values, Eigen::Index column,
-                       const char* format) {
+                       std::string (*one)(double, int), int precision) {
   const bool whole = forces.measures(0, column) && forces.measures(1, column) && forces.measures(2, column);
   std::string all;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     if (!forces.measures(axis, column)) continue;
-    const std::string value = printed(format, values(axis, column) + 0.0);
+    const std::string value = one(values(axis, column) + 0.0, precision);
     all += (all.empty() ? "" : ", ") +
            (whole ? value : std::string(kCurveNames[static_cast<std::size_t>(axis)]) + ' ' + value);
   }
@@ -246,12 +246,13 @@ std::vector<LiveArrow> arrowsOf(const DecodedForces& forces) {
 
 std::string truthLine(const SimulatedTouch::Truth& truth, const DecodedForces& forces) {
   const Eigen::Vector2d at = truth.place_mm.value_or(Eigen::Vector2d::Zero());
-  const std::string line = printed("true touch (cross) at (%.2f, %.2f) mm, %.2f N", at.x(), at.y(), truth.force_N.z());
-  return forces.place_mm ? line + printed("; decoded %.2f mm off", (*forces.place_mm - at).norm()) : line;
+  const std::string line =
+      "true touch (cross) at " + pair(at, withDecimals, 2) + " mm, " + withDecimals(truth.force_N.z(), 2) + " N";
+  return forces.place_mm ? line + "; decoded " + withDecimals((*forces.place_mm - at).norm(), 2) + " mm off" : line;
 }
 
 std::vector<std::string> forceLines(const LiveFrame& frame, const LiveSettings& settings, const std::string& note) {
-  std::vector<std::string> lines{printed("Force vectors, %g mm a newton", settings.arrow_mm_per_N)};
+  std::vector<std::string> lines{"Force vectors, " + withDigits(settings.arrow_mm_per_N, 6) + " mm a newton"};
   const DecodedForces& forces = frame.forces;
   if (!forces.valid) {
     if (!forces.reason.empty()) lines.push_back("no forces: " + forces.reason);
@@ -264,25 +265,26 @@ std::vector<std::string> forceLines(const LiveFrame& frame, const LiveSettings& 
   }
   for (Eigen::Index column = 0; column < forces.forces_N.cols(); ++column) {
     if (!forces.shown[static_cast<std::size_t>(column)]) continue;
-    lines.push_back("standard deviation " + components(forces, forces.standardDeviation_N, column, "%.1g"));
+    lines.push_back("standard deviation " + components(forces, forces.standardDeviation_N, column, withDigits, 1));
     if (const std::string none = notMeasured(forces, column); !none.empty()) lines.push_back(none);
     if (forces.place_mm) {
       const Eigen::Vector2d at = *forces.place_mm, off = forces.placeDeviation_mm.value_or(Eigen::Vector2d::Zero());
-      lines.push_back(printed("touch at (%.2f, %.2f) mm, deviation (%.1g, %.1g) mm", at.x(), at.y(), off.x(), off.y()));
+      lines.push_back("touch at " + pair(at, withDecimals, 2) + " mm, deviation " + pair(off, withDigits, 1) + " mm");
     }
     if (forces.area && forces.forces_N.cols() == 1)
-      lines.push_back(
-          printed("area %d; that it is no other one: %.0f %%", *forces.area, kPercent * forces.areaConfidence));
+      lines.push_back("area " + std::to_string(*forces.area) +
+                      "; that it is no other one: " + withDecimals(kPercent * forces.areaConfidence, 0) + " %");
   }
   if (lines.size() == 1) {
     const Eigen::Index column = strongest(forces);                                       // the curves draw this one
     const Eigen::Matrix3Xd hundredths_N = (100 * forces.forces_N.array()).round() / 100; // noise moves no digit
-    lines.push_back("at rest: " + components(forces, hundredths_N, column, "%.2f") +
+    lines.push_back("at rest: " + components(forces, hundredths_N, column, withDecimals, 2) +
                     " does not stand out of its deviation, " +
-                    components(forces, forces.standardDeviation_N, column, "%.1g"));
+                    components(forces, forces.standardDeviation_N, column, withDigits, 1));
   }
   if (forces.missingReadings > 0)
-    lines.push_back(printed("without %d of %d readings: wider deviations", forces.missingReadings, forces.readings));
+    lines.push_back("without " + std::to_string(forces.missingReadings) + " of " + std::to_string(forces.readings) +
+                    " readings: wider deviations");
   if (!note.empty()) lines.push_back(note);
   return lines;
 }

@@ -7,7 +7,6 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDoubleSpinBox>
-#include <QDoubleValidator>
 #include <QFormLayout>
 #include <QLineEdit>
 #include <QSpinBox>
@@ -36,20 +35,22 @@ template <class Value, class Names> void choose(QComboBox& box, const std::optio
     box.setCurrentIndex(0);
 }
 
-/// A number from 0, or an empty field, which a QDoubleValidator takes for one that is not finished yet. What is left
-/// unfinished goes back to what was shown.
-class NumberOrNothing : public QDoubleValidator {
+/// A number from 0, or an empty field. Anything else goes back to what was shown, with a sentence.
+class NumberOrNothing : public QValidator {
 public:
-  NumberOrNothing(const QString& shown, QObject* parent) : QDoubleValidator(0, 1e100, 12, parent), shown_(shown) {
-    setLocale(QLocale::c());
+  NumberOrNothing(const QString& shown, QLineEdit& edit) : QValidator(&edit), shown_(shown), edit_(edit) {}
+  State validate(QString& input, int&) const override {
+    const auto value = typedNumber(input);
+    return input.isEmpty() || (value && *value >= 0) ? Acceptable : Intermediate;
   }
-  State validate(QString& input, int& position) const override {
-    return input.isEmpty() ? Acceptable : QDoubleValidator::validate(input, position);
+  void fixup(QString& input) const override {
+    sayNotApplied(edit_, QObject::tr("Not applied: \"%1\" is not a number from 0").arg(input));
+    input = shown_;
   }
-  void fixup(QString& input) const override { input = shown_; }
 
 private:
   const QString& shown_;
+  QLineEdit& edit_;
 };
 
 } // namespace
@@ -75,7 +76,7 @@ AdvancedOptions::AdvancedOptions(QWidget* parent) : QWidget(parent) {
   ridge_->setObjectName("ridge");
   ridge_->setPlaceholderText(tr("as the mode says"));
   ridge_->setToolTip(tr("Ridge of the system, 0 or above; empty: 0, or by leave-one-out where there is noise"));
-  ridge_->setValidator(new NumberOrNothing(ridgeShown_, ridge_));
+  ridge_->setValidator(new NumberOrNothing(ridgeShown_, *ridge_));
   form->addRow(tr("Ridge"), ridge_);
   scaler_ = choice(*form, tr("Scaler"), "scaler", tr("How the inputs are scaled before the spread acts on them"),
                    namesOf(kScalings));
@@ -88,14 +89,14 @@ AdvancedOptions::AdvancedOptions(QWidget* parent) : QWidget(parent) {
   allCenters_->setObjectName("allCenters");
   allCenters_->setToolTip(tr("However many samples there are"));
   form->addRow(QString(), allCenters_);
-  seed_ = new QSpinBox;
+  seed_ = new WholeBox;
   seed_->setObjectName("trainSeed");
   seed_->setRange(0, 1000000000);
   seed_->setKeyboardTracking(false);
   seed_->setToolTip(tr("Seed of centres, noise and starts. Without noise it moves the centres alone; with a centre on "
                        "every sample, the noise alone"));
   form->addRow(tr("Seed of training"), seed_);
-  forgetting_ = new QDoubleSpinBox;
+  forgetting_ = new NumberBox;
   forgetting_->setObjectName("forgetting");
   forgetting_->setDecimals(6);
   forgetting_->setRange(1e-6, 1);
@@ -191,9 +192,7 @@ void AdvancedOptions::read(NetworkSettings& network) const {
   network.convention = chosen(*convention_, kSpreadConventions);
   network.centerChoice = chosen(*centersBy_, kCenterChoices);
   network.allCenters = allCenters_->isChecked();
-  bool number = false;
-  const double ridge = QLocale::c().toDouble(ridge_->text(), &number);
-  network.ridge = number ? std::optional(ridge) : std::nullopt;
+  network.ridge = typedNumber(ridge_->hasAcceptableInput() ? ridge_->text() : ridgeShown_);
   network.seed = static_cast<std::uint64_t>(seed_->value());
   network.forgetting = forgetting_->value();
 }

@@ -2,6 +2,7 @@
 
 #include "app/gui/views/ChartView.h"
 #include "app/study/paper/PublishedNumbers.h"
+#include "model/base/NumberText.h"
 
 #include <QObject>
 
@@ -9,7 +10,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 namespace palp {
 
@@ -52,10 +52,8 @@ std::vector<PublishedPoint> printed(InputKind input) {
 /// A line up and down at the paper's spread, as high as the paper's points.
 ChartSeries paperLine(InputKind input) {
   const double spread = paperSpread(input);
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%g", spread);
   ChartSeries line =
-      series("the paper's spread with the smallest error, " + std::string(text.data()), Style::Line, 6, true);
+      series("the paper's spread with the smallest error, " + withDigits(spread, 6), Style::Line, 6, true);
   double low = 1e300, high = 0;
   for (const PublishedPoint& point : printed(input)) {
     low = std::min(low, point.error_percent.minCoeff());

@@ -13,6 +13,7 @@
 #include "app/gui/network/words/SamplesWords.h"
 #include "app/gui/views/ChartView.h"
 #include "app/gui/widgets/KeepRoom.h"
+#include "app/gui/widgets/SpinBoxes.h"
 #include "app/gui/window/SidePanel.h"
 
 #include <QHBoxLayout>
@@ -196,7 +197,7 @@ QLayout* NetworkPage::buildBar() {
   auto* bar = new QHBoxLayout;
   auto* words = new QLabel(tr("Test area"));
   bar->addWidget(words);
-  area_ = new QSpinBox;
+  area_ = new WholeBox;
   area_->setObjectName("testArea");
   area_->setToolTip(tr("Load area whose test samples are drawn"));
   words->setBuddy(area_);

@@ -44,7 +44,7 @@ int stepOf(double spread) {
 }
 
 QDoubleSpinBox* spreadBox(const char* name) {
-  auto* box = new QDoubleSpinBox;
+  auto* box = new NumberBox;
   box->setObjectName(name);
   box->setRange(0.01, 1000);
   box->setDecimals(3);
@@ -152,7 +152,7 @@ void NetworkPanel::buildNetwork(QFormLayout& form) {
                          "row-wires for it, one alone cannot tell on which side of it a touch is; the decoder touch is "
                          "made for both, and takes a minute to train"));
   form.addRow(tr("Learns"), target_);
-  centers_ = new QSpinBox;
+  centers_ = new WholeBox;
   centers_->setObjectName("centers");
   centers_->setRange(0, 100000);
   centers_->setSpecialValueText(tr("as the mode says"));
@@ -238,7 +238,7 @@ void NetworkPanel::buildSweep(QVBoxLayout& column) {
   auto* form = new QFormLayout(box);
   from_ = spreadBox("sweepFrom");
   to_ = spreadBox("sweepTo");
-  count_ = new QSpinBox;
+  count_ = new WholeBox;
   count_->setObjectName("sweepCount");
   count_->setRange(2, 100);
   count_->setSuffix(tr(" spreads"));

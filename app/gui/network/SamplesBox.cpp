@@ -33,14 +33,14 @@ SamplesBox::SamplesBox(QWidget* parent) : QGroupBox(tr("Samples"), parent) {
   kind_->setToolTip(tr("Even forces on the load areas, as the paper has them, or an indenter that presses somewhere on "
                        "the top face: a network of those can tell the place as well"));
   form_->addRow(tr("Samples of"), kind_);
-  perArea_ = new QSpinBox;
+  perArea_ = new WholeBox;
   perArea_->setObjectName("perArea");
   perArea_->setRange(5, 100000);
   perArea_->setKeyboardTracking(false);
   perArea_->setCorrectionMode(QAbstractSpinBox::CorrectToNearestValue);
   perArea_->setToolTip(
       tr("Random forces on each area, for training and as many others for testing; the paper has 100"));
-  count_ = new QSpinBox;
+  count_ = new WholeBox;
   count_->setObjectName("touchCount");
   count_->setRange(kFewestTouches, kMostTouches);
   count_->setKeyboardTracking(false);
@@ -54,7 +54,7 @@ SamplesBox::SamplesBox(QWidget* parent) : QGroupBox(tr("Samples"), parent) {
   countLabel_ = new QLabel;
   form_->addRow(countLabel_, either);
   buildTouches();
-  seed_ = new QSpinBox;
+  seed_ = new WholeBox;
   seed_->setObjectName("seed");
   seed_->setKeyboardTracking(false);
   seed_->setRange(0, 1000000000);
@@ -102,7 +102,7 @@ void SamplesBox::buildTouches() {
 
 QDoubleSpinBox* SamplesBox::number(const char* name, const QString& label, double low, double high,
                                    const QString& unit) {
-  auto* box = new QDoubleSpinBox;
+  auto* box = new NumberBox;
   box->setObjectName(name);
   box->setAccessibleName(tr("Touches, %1").arg(label));
   box->setRange(low, high);

@@ -5,6 +5,7 @@
 #include "app/gui/reports/ReportCases.h"
 #include "app/gui/reports/ReportKinds.h"
 #include "app/gui/reports/StudyForm.h"
+#include "app/gui/widgets/SpinBoxes.h"
 #include "model/base/Error.h"
 
 #include <QComboBox>
@@ -47,7 +48,7 @@ QString ReportsPage::commands(const Project& project, const QString& designFile)
 
 /// How many, where a report draws samples.
 void ReportsPage::buildSamplesBox() {
-  perArea_ = new QSpinBox;
+  perArea_ = new WholeBox;
   perArea_->setObjectName("reportPerArea");
   perArea_->setRange(5, 100000);
   perArea_->setKeyboardTracking(false);

@@ -5,6 +5,7 @@
 #include "app/gui/reports/ReportKinds.h"
 #include "app/gui/widgets/FileDialogs.h"
 #include "app/gui/widgets/KeepRoom.h"
+#include "app/gui/widgets/SpinBoxes.h"
 #include "app/gui/widgets/WrappedLabel.h"
 #include "io/AtomicFile.h"
 #include "io/DesignFile.h"
@@ -48,7 +49,7 @@ QWidget* rowOf(const std::vector<QWidget*>& widgets, bool stretched = true) {
 }
 
 QSpinBox* spin(const char* name, int low, int high, int value, const QString& words, const QString& tip) {
-  auto* box = new QSpinBox;
+  auto* box = new WholeBox;
   box->setObjectName(name);
   box->setRange(low, high);
   box->setValue(value);
@@ -295,9 +296,9 @@ StudyPlan StudyForm::plan() const {
   if (plan.computes(StudyQuantity::Decoders))
     for (const QString& name : decoders_->text().split(','))
       plan.decoders.push_back(kDecoderKinds.value(name.trimmed().toStdString()));
-  bool number = false;
-  plan.noise = noise_->text().toDouble(&number);
-  if (!number) throw Error("noise: '" + noise_->text().toStdString() + "'; allowed is a number from 1e-9 to 0.5");
+  const auto noise = typedNumber(noise_->text());
+  if (!noise) throw Error("noise: '" + noise_->text().toStdString() + "'; allowed is a number from 1e-9 to 0.5");
+  plan.noise = *noise;
   plan.perArea = perArea_->value();
   plan.meshSize_mm = ofFile ? opened_->meshSize_mm : workbench_.project().mesh.meshSize_mm;
   plan.mapped = ofFile ? opened_->mapped : workbench_.project().mesh.mapped;

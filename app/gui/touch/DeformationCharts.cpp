@@ -1,17 +1,14 @@
 #include "app/gui/touch/DeformationCharts.h"
 
 #include "model/base/Error.h"
-
-#include <cstdio>
+#include "model/base/NumberText.h"
 
 namespace palp {
 
 namespace {
 
 std::string shortText(double value) {
-  std::array<char, 32> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), "%.3g", value);
-  return buffer.data();
+  return withDigits(value, 3);
 }
 
 } // namespace

@@ -1,5 +1,7 @@
 #include "app/gui/touch/FilmDialog.h"
 
+#include "app/gui/widgets/SpinBoxes.h"
+
 #include <QComboBox>
 #include <QDialog>
 #include <QDialogButtonBox>
@@ -39,18 +41,18 @@ std::optional<FilmSettings> askForFilm(QWidget* parent, const QSize& view) {
   kind->setCurrentIndex(kept.value("film/gif", usual.gif).toBool() ? 0 : 1);
   kind->setToolTip(QObject::tr("A GIF plays in slides and browsers at once, with 256 colours; of PNG pictures another "
                                "program makes a film in full colour"));
-  auto* pictures = new QSpinBox;
+  auto* pictures = new WholeBox;
   pictures->setObjectName("filmPictures");
   pictures->setRange(2, 500);
   pictures->setValue(kept.value("film/pictures", usual.pictures).toInt());
   pictures->setToolTip(QObject::tr("From rest to the full load, in equal steps of the load"));
-  auto* width = new QSpinBox;
+  auto* width = new WholeBox;
   width->setObjectName("filmWidth");
   width->setRange(100, 3840);
   width->setSuffix(QObject::tr(" px"));
   width->setValue(kept.value("film/width", usual.width_px).toInt());
   width->setToolTip(QObject::tr("The pictures have the shape of the view"));
-  auto* seconds = new QDoubleSpinBox;
+  auto* seconds = new NumberBox;
   seconds->setObjectName("filmSeconds");
   seconds->setRange(0.5, 120);
   seconds->setDecimals(1);

@@ -7,6 +7,7 @@
 #include "app/gui/views/ChartView.h"
 #include "app/gui/views/HeatmapSpecs.h"
 #include "app/gui/views/HeatmapView.h"
+#include "app/gui/widgets/SpinBoxes.h"
 
 #include <QHBoxLayout>
 #include <QLabel>
@@ -48,9 +49,9 @@ std::optional<std::array<double, 3>> placeOf(const QString& words) {
   if (parts.size() != 3) return {};
   std::array<double, 3> place{};
   for (std::size_t k = 0; k < 3; ++k) {
-    bool good = false;
-    place[k] = parts[static_cast<int>(k)].trimmed().toDouble(&good);
-    if (!good || !std::isfinite(place[k])) return {};
+    const auto number = typedNumber(parts[static_cast<int>(k)]);
+    if (!number) return {};
+    place[k] = *number;
   }
   return place;
 }
@@ -99,7 +100,7 @@ QWidget* TouchTabs::buildRowWire() {
   row->setContentsMargins(4, 4, 4, 4);
   auto* side = new QVBoxLayout;
   side->addWidget(new QLabel(tr("Row-wire")));
-  rowWireNumber_ = new QSpinBox;
+  rowWireNumber_ = new WholeBox;
   rowWireNumber_->setObjectName("rowWireNumber");
   rowWireNumber_->setToolTip(tr("Row-wires count from 0, along y"));
   side->addWidget(rowWireNumber_);

@@ -75,7 +75,7 @@ void ViewPanel::buildColors(QFormLayout& form) {
   form.addRow(tr("Colours"), colorMap_);
   auto* row = new QHBoxLayout;
   for (std::size_t k = 0; k < 2; ++k) {
-    range_[k] = new QDoubleSpinBox;
+    range_[k] = new NumberBox;
     range_[k]->setObjectName(k == 0 ? "rangeFrom" : "rangeTo");
     range_[k]->setAccessibleName(k == 0 ? tr("Legend from") : tr("Legend to"));
     range_[k]->setToolTip(tr("Values at the ends of the legend; what lies beyond has the last colour"));
@@ -96,7 +96,7 @@ void ViewPanel::buildColors(QFormLayout& form) {
 }
 
 void ViewPanel::buildWarp(QFormLayout& form) {
-  warp_ = new QDoubleSpinBox;
+  warp_ = new NumberBox;
   warp_->setObjectName("warp");
   warp_->setRange(0, 1e6);
   warp_->setDecimals(1);
@@ -120,7 +120,7 @@ void ViewPanel::buildCut(QFormLayout& form) {
   cut_->addItems({tr("none"), tr("across x"), tr("across y"), tr("across z")});
   cut_->setToolTip(
       tr("Takes away what lies before a plane, to look into the block; in the picture its knob is dragged"));
-  cutAt_ = new QDoubleSpinBox;
+  cutAt_ = new NumberBox;
   cutAt_->setObjectName("cutAt");
   cutAt_->setAccessibleName(tr("Place of the cut"));
   cutAt_->setSuffix(tr(" mm"));

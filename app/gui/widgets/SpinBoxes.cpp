@@ -1,11 +1,15 @@
 #include "app/gui/widgets/SpinBoxes.h"
 
-#include <QRegularExpression>
+#include "model/base/NumberText.h"
+
 #include <QSignalBlocker>
+#include <QTimer>
+#include <QToolTip>
 #include <QVariant>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace palp {
 
@@ -23,38 +27,109 @@ int decimalsOf(double value, int least) {
   return kMostDecimals;
 }
 
+/// The place of the only comma where no point stands beside it; -1 where there is none to take.
+qsizetype decimalComma(const QString& words) {
+  return words.count(',') == 1 && !words.contains('.') ? words.indexOf(',') : -1;
+}
+
 } // namespace
 
-PercentBox::PercentBox(QWidget* parent) : QDoubleSpinBox(parent) {
+std::optional<double> typedNumber(const QString& words) {
+  QString number = words;
+  if (const qsizetype comma = decimalComma(words); comma >= 0) number[comma] = '.';
+  const auto value = numberIn(number.toStdString());
+  return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+void sayNotApplied(QWidget& at, const QString& sentence) {
+  if (auto* messages = at.window()->findChild<QObject*>("messages")) // a dialog has none
+    QMetaObject::invokeMethod(messages, "say", Q_ARG(QString, sentence));
+  // The focus that is on its way to another widget would hide a box that is shown now.
+  QTimer::singleShot(0, &at, [&at, sentence] {
+    if (at.isVisible()) QToolTip::showText(at.mapToGlobal(QPoint(0, at.height())), sentence, &at);
+  });
+}
+
+template <class Box> TypedBox<Box>::TypedBox(QWidget* parent) : Box(parent) {
+  QObject::connect(this->lineEdit(), &QLineEdit::textEdited, this, [this] {
+    if (!std::exchange(typing_, true)) before_ = this->value();
+  });
+  QObject::connect(this, &Box::editingFinished, this, [this] { typing_ = false; });
+}
+
+template <class Box> QString TypedBox<Box>::typedIn(const QString& text) const {
+  QString typed = text.startsWith(this->prefix()) ? text.mid(this->prefix().size()) : text;
+  if (typed.endsWith(this->suffix())) typed.chop(this->suffix().size());
+  return typed.trimmed();
+}
+
+template <class Box> QString TypedBox<Box>::whyNot(const QString& typed) const {
+  const auto value = read(typed);
+  if (!value) return QObject::tr("\"%1\" is not a number that this box takes").arg(typed);
+  if (*value >= this->minimum() && *value <= this->maximum()) return {};
+  return QObject::tr("%1 is outside %2 to %3%4")
+      .arg(typed, this->textFromValue(this->minimum()), this->textFromValue(this->maximum()), this->suffix());
+}
+
+template <class Box> QValidator::State TypedBox<Box>::validate(QString& text, int&) const {
+  if (!this->specialValueText().isEmpty() && text == this->specialValueText()) return QValidator::Acceptable;
+  return whyNot(typedIn(text)).isEmpty() ? QValidator::Acceptable : QValidator::Intermediate;
+}
+
+template <class Box> void TypedBox<Box>::fixup(QString& text) const {
+  const QString typed = typedIn(text);
+  const Value value = typing_ ? before_ : this->value();
+  const bool special = value == this->minimum() && !this->specialValueText().isEmpty();
+  const QString kept =
+      special ? this->specialValueText() : this->prefix() + this->textFromValue(value) + this->suffix();
+  if (!typed.isEmpty()) // an empty box is no mistake
+    sayNotApplied(const_cast<TypedBox&>(*this),
+                  QObject::tr("Not applied: %1; the value stays %2").arg(whyNot(typed), kept.trimmed()));
+  text = kept;
+}
+
+template <class Box> typename TypedBox<Box>::Value TypedBox<Box>::valueFromText(const QString& text) const {
+  if (!this->specialValueText().isEmpty() && text == this->specialValueText()) return this->minimum();
+  return read(typedIn(text)).value_or(this->value());
+}
+
+template class TypedBox<QDoubleSpinBox>;
+template class TypedBox<QSpinBox>;
+
+QValidator::State NumberBox::validate(QString& text, int& place) const {
+  if (const qsizetype comma = decimalComma(text); comma >= 0) text[comma] = '.';
+  return TypedBox::validate(text, place);
+}
+
+std::optional<double> NumberBox::read(const QString& typed) const {
+  return typedNumber(typed);
+}
+
+QString NumberBox::whyNot(const QString& typed) const {
+  if (QString why = TypedBox::whyNot(typed); !why.isEmpty()) return why;
+  const double value = *read(typed), rounded = QString::number(value, 'f', decimals()).toDouble();
+  if (std::abs(rounded - value) <= 1e-12 * std::abs(value)) return {};
+  return QObject::tr("%1 has more than the %2 decimals of this box").arg(typed).arg(decimals());
+}
+
+std::optional<int> WholeBox::read(const QString& typed) const {
+  bool whole = false;
+  const int value = typed.toInt(&whole);
+  return whole ? std::optional(value) : std::nullopt;
+}
+
+PercentBox::PercentBox(QWidget* parent) : NumberBox(parent) {
   setSuffix(tr(" %"));
 }
 
-std::optional<double> PercentBox::read(const QString& text, bool& whole) const {
-  static const QRegularExpression number("^([0-9]*[.,]?[0-9]*(?:([eE])[-+]?[0-9]*)?)(%?)$");
-  QString typed = text.startsWith(prefix()) ? text.mid(prefix().size()) : text;
-  if (!suffix().isEmpty() && typed.endsWith(suffix())) typed.chop(suffix().size()); // the box's own
-  const QRegularExpressionMatch parts = number.match(typed.trimmed());
-  const bool exponent = !parts.captured(2).isEmpty(), percent = !parts.captured(3).isEmpty();
-  if (!parts.hasMatch() || (!exponent && !percent)) return std::nullopt;
-  const double value = locale().toDouble(parts.captured(1), &whole);
-  return percent ? value : 100 * value;
-}
-
-QValidator::State PercentBox::validate(QString& text, int& place) const {
-  bool whole = false;
-  const auto value = read(text, whole);
-  if (!value) return QDoubleSpinBox::validate(text, place);
-  return whole && *value >= minimum() && *value <= maximum() ? QValidator::Acceptable : QValidator::Intermediate;
-}
-
-double PercentBox::valueFromText(const QString& text) const {
-  bool whole = false;
-  const auto value = read(text, whole);
-  return value && whole ? *value : QDoubleSpinBox::valueFromText(text);
+std::optional<double> PercentBox::read(const QString& typed) const {
+  const bool percent = typed.endsWith('%');
+  const auto value = typedNumber(percent ? typed.chopped(1) : typed);
+  return value && !percent && typed.contains('e', Qt::CaseInsensitive) ? 100 * *value : value;
 }
 
 QString PercentBox::textFromValue(double value) const {
-  return locale().toString(value, 'g', 12);
+  return QString::number(value, 'g', 12);
 }
 
 QString percentWords(double share) {

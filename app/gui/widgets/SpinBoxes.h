@@ -1,25 +1,75 @@
 #pragma once
 
 #include <QDoubleSpinBox>
+#include <QLineEdit>
 
 #include <optional>
+#include <utility>
 
 namespace palp {
 
+/// The number that was typed, in every field of the window: a single comma stands for the decimal point, whatever the
+/// locale. Returns nullopt where the text is not a number, as "1,234.5" with its group separator.
+std::optional<double> typedNumber(const QString& words);
+
+/// Says why what was typed at a widget is not applied: in a tooltip at the widget and in the messages of its window.
+void sayNotApplied(QWidget& at, const QString& sentence);
+
+/// A box of numbers that never drops a key: what is typed or pasted is applied as it stands, or refused with a sentence
+/// and the value from before the typing comes back. QDoubleSpinBox and QSpinBox alone leave out the keys that they do
+/// not take: "-1,5" becomes -15, and "40" in a box up to 30 becomes 4.
+template <class Box> class TypedBox : public Box {
+public:
+  explicit TypedBox(QWidget* parent = nullptr);
+  QValidator::State validate(QString& text, int& place) const override;
+  void fixup(QString& text) const override;
+
+protected:
+  using Value = decltype(std::declval<Box>().value());
+  /// The value of what stands between prefix and suffix; nullopt where it has none.
+  [[nodiscard]] virtual std::optional<Value> read(const QString& typed) const = 0;
+  /// Why a value cannot be applied; empty where it can.
+  [[nodiscard]] virtual QString whyNot(const QString& typed) const;
+  [[nodiscard]] Value valueFromText(const QString& text) const override;
+  /// What stands between prefix and suffix.
+  [[nodiscard]] QString typedIn(const QString& text) const;
+
+private:
+  bool typing_ = false;
+  Value before_{}; ///< the value as it was when the typing began
+};
+
+/// A box of numbers with a decimal point; a comma that is typed becomes one.
+class NumberBox : public TypedBox<QDoubleSpinBox> {
+public:
+  using TypedBox::TypedBox;
+  QValidator::State validate(QString& text, int& place) const override;
+
+protected:
+  [[nodiscard]] std::optional<double> read(const QString& typed) const override;
+  [[nodiscard]] QString whyNot(const QString& typed) const override;
+};
+
+/// A box of whole numbers.
+class WholeBox : public TypedBox<QSpinBox> {
+public:
+  using TypedBox::TypedBox;
+
+protected:
+  [[nodiscard]] std::optional<int> read(const QString& typed) const override;
+};
+
 /// A box of percent that understands a small share however it is written: a number with an exponent is the share itself
-/// ("1e-4" is 0.01 %) unless a percent sign follows it at once ("1e-2%"); all else is percent. QDoubleSpinBox alone
-/// drops the letter and makes 1 of 1e-4.
-class PercentBox : public QDoubleSpinBox {
+/// ("1e-4" is 0.01 %) unless a percent sign follows it at once ("1e-2%"); all else is percent.
+class PercentBox : public NumberBox {
 public:
   explicit PercentBox(QWidget* parent = nullptr);
-  QValidator::State validate(QString& text, int& place) const override;
-  [[nodiscard]] double valueFromText(const QString& text) const override;
   /// Without zeros at its end.
   [[nodiscard]] QString textFromValue(double value) const override;
 
-private:
-  /// The value in percent; none where the text is left to QDoubleSpinBox.
-  [[nodiscard]] std::optional<double> read(const QString& text, bool& whole) const;
+protected:
+  /// In percent.
+  [[nodiscard]] std::optional<double> read(const QString& typed) const override;
 };
 
 /// What a box of percent took, both ways: "0.01 % (a share of 1e-04)", "none".

@@ -1,14 +1,37 @@
 #include "app/gui/window/Application.h"
 
+#include <QLabel>
+#include <QLocale>
 #include <QMessageBox>
 
+#include <clocale>
 #include <iostream>
 
 namespace palp {
 
+Application::Application(int& argc, char** argv) : QApplication(argc, argv) {
+  // After QApplication, which calls setlocale(LC_ALL, ""). What prints or reads numbers through C (VTK's texts,
+  // nlohmann's, HDF5's) follows LC_NUMERIC; what does so through Qt follows the default QLocale.
+  std::setlocale(LC_NUMERIC, "C");
+  QLocale numbers = QLocale::c();
+  numbers.setNumberOptions(QLocale::OmitGroupSeparator | QLocale::RejectGroupSeparator);
+  QLocale::setDefault(numbers);
+}
+
+namespace {
+
+/// What a box says may hold a file's or a board's name, which is no markup. A box that means markup says RichText.
+void showAsWritten(QMessageBox& box) {
+  if (box.textFormat() != Qt::AutoText) return;
+  for (auto* label : box.findChildren<QLabel*>()) label->setTextFormat(Qt::PlainText);
+}
+
+} // namespace
+
 bool Application::notify(QObject* receiver, QEvent* event) {
   QString what;
   try {
+    if (auto* box = event->type() == QEvent::Show ? qobject_cast<QMessageBox*>(receiver) : nullptr) showAsWritten(*box);
     return QApplication::notify(receiver, event);
   } catch (const std::exception& fault) {
     what = QString::fromStdString(fault.what());
@@ -29,7 +52,7 @@ void showFault(QWidget& window, const QString& what) {
   }
   box->setText(QObject::tr("Something failed: %1").arg(what));
   box->setInformativeText(
-      QObject::tr("Nothing is lost: save the project (Ctrl+S), then try again or start the program anew."));
+      QObject::tr("Save the project now (File, Save as, under another name), then restart the program."));
   box->show();
 }
 

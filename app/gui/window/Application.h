@@ -4,13 +4,16 @@
 
 namespace palp {
 
+/// Every program with a window of ours begins with it. It keeps numbers in one convention, with a decimal point, under
+/// every locale: QApplication takes over the user's for the whole process, C library included.
+///
 /// The last catch of the window's thread: an exception that leaves a slot or an event handler would end the program
 /// together with all that was not saved. It ends here instead, is said on standard error and passed on as faulted().
 class Application : public QApplication {
   Q_OBJECT
 
 public:
-  using QApplication::QApplication;
+  Application(int& argc, char** argv);
 
   bool notify(QObject* receiver, QEvent* event) override;
 

@@ -88,6 +88,7 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   log_ = new MessageLog(this);
   addDockWidget(Qt::BottomDockWidgetArea, log_);
   log_->hide();
+  connect(log_, &MessageLog::asked, this, &MainWindow::showMessage);
   connect(log_->toggleViewAction(), &QAction::triggered, this, [this](bool shown) {
     if (shown) resizeDocks({log_}, {kLog_px}, Qt::Vertical);
   });

@@ -168,7 +168,8 @@ void Menus::buildExport(QMenu& menu) {
         if (!file.isEmpty()) window_.exports().write(file, cutMaking(workbench_, window_.deformation()));
       });
   add(menu, tr("Export Calculi&X deck..."),
-      tr("Mesh, rubber and load as an input file for CalculiX or Abaqus, as palp solve --deck writes it"), {}, [this] {
+      tr("Mesh, rubber and load as an input file for CalculiX or Abaqus, as palp mesh --format inp writes it"), {},
+      [this] {
         const Touch& touch = workbench_.touch().touch();
         if (touch.mesh() == nullptr) {
           window_.showMessage(tr("There is no mesh to export yet; wait until the Deformation scene has made it."));
@@ -283,8 +284,8 @@ void Menus::buildHelp() {
       }
     });
   add(menu, tr("&About Palp"), tr("What this program is"), {}, [this] {
-    QMessageBox::about(
-        &window_, tr("About Palp"),
+    QMessageBox about(
+        QMessageBox::NoIcon, tr("About Palp"),
         tr("<b>Palp %1</b><br>Follows a touch on a three-axis tactile sensor of conductive rubber from the block to "
            "the force.<br><br>The paper that it reproduces, and whose sensor it starts with: F. Wang et al., "
            "<i>Decoupling "
@@ -295,7 +296,11 @@ void Menus::buildHelp() {
            "in it: hysteresis, creep and temperature of the rubber. A real board is less kind.<br><br>"
            "GNU Affero General Public License, version 3 or later.<br><br><small>%2</small>")
             .arg(QApplication::applicationVersion(),
-                 QString::fromStdString(versionInWords()).toHtmlEscaped().replace('\n', "<br>")));
+                 QString::fromStdString(versionInWords()).toHtmlEscaped().replace('\n', "<br>")),
+        QMessageBox::Ok, &window_);
+    about.setTextFormat(Qt::RichText);
+    about.setIconPixmap(window_.windowIcon().pixmap(64));
+    about.exec();
   });
 }
 

@@ -1,7 +1,11 @@
 #include "app/gui/window/MessageLog.h"
 
+#include "app/gui/window/LogFile.h"
+
+#include <QLineEdit>
 #include <QPlainTextEdit>
 #include <QTime>
+#include <QVBoxLayout>
 
 namespace palp {
 
@@ -18,11 +22,32 @@ MessageLog::MessageLog(QWidget* parent) : QDockWidget(tr("Messages"), parent) {
   lines_->setAccessibleName(tr("What the window has said"));
   lines_->setReadOnly(true);
   lines_->setMaximumBlockCount(kMostLines);
-  setWidget(lines_);
+  place_ = new QLineEdit;
+  place_->setObjectName("logFile");
+  place_->setAccessibleName(tr("Where the messages are kept"));
+  place_->setReadOnly(true); // its path can be copied
+  place_->setFrame(false);
+  place_->hide();
+  auto* all = new QWidget;
+  auto* column = new QVBoxLayout(all);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->addWidget(lines_);
+  column->addWidget(place_);
+  setWidget(all);
 }
 
 void MessageLog::add(const QString& sentence) {
-  if (!sentence.isEmpty()) lines_->appendPlainText(QTime::currentTime().toString("HH:mm:ss  ") + sentence);
+  if (sentence.isEmpty()) return;
+  lines_->appendPlainText(QTime::currentTime().toString("HH:mm:ss  ") + sentence);
+  emit added(sentence);
+}
+
+void MessageLog::keepIn(LogFile& file) {
+  connect(this, &MessageLog::added, &file, &LogFile::add);
+  connect(&file, &LogFile::failed, place_, &QLineEdit::setText);
+  connect(&file, &LogFile::failed, this, &MessageLog::say);
+  place_->setText(tr("Also in %1").arg(file.path()));
+  place_->setVisible(!file.path().isEmpty());
 }
 
 } // namespace palp

@@ -4,6 +4,7 @@
 #include "app/gui/views/PictureView.h"
 #include "app/gui/window/MainWindow.h"
 #include "app/study/reports/ProcessMemory.h"
+#include "model/base/NumberText.h"
 
 #include <QApplication>
 #include <QElapsedTimer>
@@ -59,7 +60,7 @@ double age_s() {
   for (int field = 3; field <= 22; ++field) file >> word;
   timespec now{};
   clock_gettime(CLOCK_BOOTTIME, &now);
-  const double start_s = std::strtod(word.c_str(), nullptr) / static_cast<double>(sysconf(_SC_CLK_TCK));
+  const double start_s = numberIn(word).value_or(0) / static_cast<double>(sysconf(_SC_CLK_TCK));
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec) - start_s;
 }
 

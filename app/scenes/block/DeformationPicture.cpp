@@ -6,6 +6,7 @@
 #include "app/scenes/block/Polylines.h"
 #include "app/scenes/gl/OffscreenWindow.h"
 #include "model/DesignError.h"
+#include "model/base/NumberText.h"
 
 #include <vtkContextActor.h>
 #include <vtkContextScene.h>
@@ -13,8 +14,6 @@
 #include <vtkRenderer.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <numeric>
 
 namespace palp {
@@ -43,11 +42,10 @@ std::vector<std::vector<int>> ways(int electrodes) {
 }
 
 std::vector<std::string> rowWireTitle(int rowWire, bool displaced, double factor) {
-  std::array<char, 96> second{};
-  std::snprintf(second.data(), second.size(), "grey: at rest; colour: loaded, displacements drawn %g times as large",
-                factor);
+  const std::string second =
+      "grey: at rest; colour: loaded, displacements drawn " + withDigits(factor, 6) + " times as large";
   const std::string wire = "Row-wire " + std::to_string(rowWire);
-  return displaced ? std::vector<std::string>{wire + " under load", second.data()}
+  return displaced ? std::vector<std::string>{wire + " under load", second}
                    : std::vector<std::string>{wire + " at rest"};
 }
 

@@ -6,6 +6,7 @@
 #include "app/scenes/block/Polylines.h"
 #include "app/scenes/block/loads/ForceArrows.h"
 #include "app/scenes/gl/Blending.h"
+#include "model/base/NumberText.h"
 
 #include <vtkActor.h>
 #include <vtkCellArray.h>
@@ -21,7 +22,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 namespace palp {
@@ -71,10 +71,8 @@ std::string measuredWords(const LiveArrow& arrow) {
   std::string all;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!arrow.measured[axis]) continue;
-    std::array<char, 48> buffer{};
-    std::snprintf(buffer.data(), buffer.size(), "%sF%c %.2f N", all.empty() ? "" : ", ", "xyz"[axis],
-                  arrow.force_N(static_cast<Eigen::Index>(axis)));
-    all += buffer.data();
+    all += std::string(all.empty() ? "" : ", ") + "F" + "xyz"[axis] + " " +
+           withDecimals(arrow.force_N(static_cast<Eigen::Index>(axis)), 2) + " N";
   }
   return all;
 }

@@ -1,6 +1,7 @@
 #include "app/scenes/block/Overlay.h"
 
 #include "app/scenes/charts/TextStyle.h"
+#include "model/base/NumberText.h"
 
 #include <vtkBrush.h>
 #include <vtkCamera.h>
@@ -18,7 +19,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 namespace palp {
@@ -51,7 +51,7 @@ std::vector<double> legendTicks(const ColorScale& colors, double height_px, doub
     ticks = roundTicks(colors.low, colors.high, more);
   // Lower still: the ends of a scale that lies about 0 are as round as its user chose them.
   const bool ends = ticks.size() < 3 && colors.low == -colors.high && height_px > 28 * scale;
-  const double said = ends ? std::stod(tickTexts({colors.low, 0, colors.high})[2]) : 0;
+  const double said = ends ? numberIn(tickTexts({colors.low, 0, colors.high})[2]).value_or(0) : 0;
   if (ends && std::abs(said - colors.high) < 1e-6 * colors.high) ticks = {colors.low, 0, colors.high};
   return ticks;
 }
@@ -62,11 +62,7 @@ namespace {
 std::vector<std::string> legendTexts(const ColorScale& colors, const std::vector<double>& ticks) {
   if (!colors.logarithmic) return tickTexts(ticks);
   std::vector<std::string> texts;
-  for (const double tick : ticks) {
-    std::array<char, 32> buffer{};
-    std::snprintf(buffer.data(), buffer.size(), "%.3g", tick);
-    texts.emplace_back(buffer.data());
-  }
+  for (const double tick : ticks) texts.push_back(withDigits(tick, 3));
   return texts;
 }
 

@@ -1,30 +1,23 @@
 #include "app/scenes/block/SceneWords.h"
 
 #include "app/scenes/block/map/FaceMap.h"
+#include "model/base/NumberText.h"
 
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 namespace palp {
 
 namespace {
 
 std::string warpText(double factor) {
-  std::array<char, 64> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), "displacements drawn %g times as large", factor);
-  return factor == 1 ? "displacements drawn in true size" : buffer.data();
+  return factor == 1 ? "displacements drawn in true size"
+                     : "displacements drawn " + withDigits(factor, 6) + " times as large";
 }
 
 std::string fractionText(double fraction) {
-  std::array<char, 64> buffer{};
-  if (fraction > 1) { // steps of a path follow the load
-    const double step = std::ceil(fraction - 1e-9) - 1;
-    std::snprintf(buffer.data(), buffer.size(), "step %g of the path, %.4g %%", step, 100 * (fraction - step));
-    return buffer.data();
-  }
-  std::snprintf(buffer.data(), buffer.size(), "%.4g %% of the load", 100 * fraction);
-  return buffer.data();
+  if (fraction <= 1) return withDigits(100 * fraction, 4) + " % of the load";
+  const double step = std::ceil(fraction - 1e-9) - 1; // steps of a path follow the load
+  return "step " + withDigits(step, 6) + " of the path, " + withDigits(100 * (fraction - step), 4) + " %";
 }
 
 /// Nothing happened yet: such a field has no colours, unless they are fixed.
@@ -33,9 +26,7 @@ bool unloaded(const NodalFields* fields) {
 }
 
 std::string sizeText(const Eigen::Vector3d& block_mm) {
-  std::array<char, 96> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), "%.4g x %.4g x %.4g", block_mm.x(), block_mm.y(), block_mm.z());
-  return buffer.data();
+  return withDigits(block_mm.x(), 4) + " x " + withDigits(block_mm.y(), 4) + " x " + withDigits(block_mm.z(), 4);
 }
 
 std::string blockText(const DeformationState& state) {
@@ -43,9 +34,7 @@ std::string blockText(const DeformationState& state) {
 }
 
 std::string placeText(const Eigen::Vector2d& place_mm) {
-  std::array<char, 64> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), "(%.4g, %.4g)", place_mm.x(), place_mm.y());
-  return buffer.data();
+  return "(" + withDigits(place_mm.x(), 4) + ", " + withDigits(place_mm.y(), 4) + ")";
 }
 
 /// Rubber and load areas are the same: so is the deformation, but for the mesh.
@@ -96,11 +85,10 @@ bool nothingColoured(const DeformationState& state, const DeformationOptions& op
 std::vector<std::string> sceneWords(const DeformationState& state, const DeformationOptions& options, double warp) {
   if (state.current != nullptr && state.current->lines.empty()) return {"The current's way is not there yet"};
   if (state.current != nullptr) {
-    std::array<char, 128> title{}, each{};
-    std::snprintf(title.data(), title.size(), "Current of row-wire %d, column-wire %d", state.current->rowWire,
-                  state.current->columnWire);
-    std::snprintf(each.data(), each.size(), "each line: %.2g %% of what is driven", 100 * state.current->current_A);
-    std::vector<std::string> lines{title.data(), each.data(), warpText(warp)};
+    std::vector<std::string> lines{
+        "Current of row-wire " + std::to_string(state.current->rowWire) + ", column-wire " +
+            std::to_string(state.current->columnWire),
+        "each line: " + withDigits(100 * state.current->current_A, 2) + " % of what is driven", warpText(warp)};
     if (state.loadFraction != 1 || options.fullLoad) lines.push_back(fractionText(state.loadFraction));
     return lines;
   }

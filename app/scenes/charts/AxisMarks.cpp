@@ -1,11 +1,10 @@
 #include "app/scenes/charts/AxisMarks.h"
 
 #include "app/scenes/ColorScale.h"
+#include "model/base/NumberText.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <span>
 
 namespace palp {
@@ -16,9 +15,7 @@ constexpr int kMost = 8; ///< marks of a linear axis, and decades of a logarithm
 
 /// As short as it stays exact enough for a label.
 std::string shortText(double value) {
-  std::array<char, 32> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), "%g", value);
-  return buffer.data();
+  return withDigits(value, 6);
 }
 
 AxisMarks linearMarks(double low, double high, int most) {

@@ -6,15 +6,13 @@
 #include "model/TouchRange.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
-#include "model/base/Text.h"
+#include "model/base/NumberText.h"
 #include "nn/rivals/RecursiveLeastSquares.h"
 
 #include <Eigen/LU>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 namespace palp {
 
@@ -334,10 +332,8 @@ std::string FrameAverage::moved() const {
     const auto [low, high] =
         std::minmax_element(said_N_.begin(), said_N_.end(),
                             [axis](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a(axis) < b(axis); });
-    std::array<char, 80> text{};
-    std::snprintf(text.data(), text.size(), "F%c lay between %.3g and %.3g N", "xyz"[axis], (*low)(axis),
-                  (*high)(axis));
-    return text.data();
+    return std::string("F") + "xyz"[axis] + " lay between " + withDigits((*low)(axis), 3) + " and " +
+           withDigits((*high)(axis), 3) + " N";
   }
   return {};
 }

@@ -2,6 +2,7 @@
 
 #include "app/study/decoding/Prediction.h"
 #include "model/base/Error.h"
+#include "model/base/Text.h"
 #include "nn/rivals/ForwardModel.h"
 
 #include <Eigen/Cholesky>
@@ -32,7 +33,7 @@ Eigen::VectorXd inverseDiagonal(const Eigen::MatrixXd& a) {
 
 NoiseBound noiseBound(const SampleSet& samples, InputKind kind, const std::vector<int>& rows, double relativeNoise) {
   if (!(relativeNoise > 0 && relativeNoise < 1))
-    throw Error("noise: " + std::to_string(relativeNoise) + "; a bound needs one above 0 and below 1 (relative)");
+    throw Error("noise: " + text(relativeNoise) + "; a bound needs one above 0 and below 1 (relative)");
   DecoderInput input;
   input.kind = kind;
   input.rows = rows;

@@ -280,7 +280,7 @@ Eigen::MatrixXd inputsOf(const SampleSet& samples, const DecoderInput& input) {
 
 Predictor::Predictor(const Decoder& decoder, const PredictOptions& options) : decoder_(decoder), options_(options) {
   if (!(options.noise >= 0 && options.noise < 1))
-    throw Error("noise: " + std::to_string(options.noise) + "; allowed is 0 up to below 1 (relative)");
+    throw Error("noise: " + text(options.noise) + "; allowed is 0 up to below 1 (relative)");
   if (const auto* touches = std::get_if<KernelForwardModel>(&decoder.model)) {
     touches_ = std::make_shared<KernelForwardModel>(withNoise(*touches, decoder, options));
     touchInversion_.emplace(*touches_);

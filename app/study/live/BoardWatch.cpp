@@ -12,7 +12,14 @@ constexpr auto kWait = std::chrono::milliseconds(100);
 } // namespace
 
 BoardWatch::BoardWatch(BoardAccess access)
-    : access_(std::move(access)), thread_([this](const std::stop_token& stop) { run(stop); }) {}
+    : access_(std::move(access)), thread_([this](const std::stop_token& stop) {
+        try {
+          run(stop);
+        } catch (...) { // what goes wrong before it looks for boards
+          const std::lock_guard lock(mutex_);
+          problem_ = failureInWords(std::current_exception());
+        }
+      }) {}
 
 std::vector<HidBoard> BoardWatch::boards() const {
   const std::lock_guard lock(mutex_);

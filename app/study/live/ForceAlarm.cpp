@@ -1,9 +1,9 @@
 #include "app/study/live/ForceAlarm.h"
 
+#include "model/base/NumberText.h"
+
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 namespace palp {
 
@@ -36,11 +36,8 @@ Beyond mostBeyond(const ForceAlarm& alarm, const Eigen::Ref<const Eigen::Matrix3
 
 std::string sentence(const ForceAlarm& alarm, const Beyond& most, Eigen::Index areas) {
   const std::string place = areas > 1 ? " on area " + std::to_string(most.area) : "";
-  std::array<char, 96> text{};
-  std::snprintf(text.data(), text.size(), "alarm: %s %.3f N%s is %s %.4g N",
-                std::string(kForceQuantities.name(alarm.quantity)).c_str(), most.value_N, place.c_str(),
-                std::string(kAlarmSides.name(alarm.side)).c_str(), alarm.limit_N);
-  return text.data();
+  return "alarm: " + std::string(kForceQuantities.name(alarm.quantity)) + " " + withDecimals(most.value_N, 3) + " N" +
+         place + " is " + std::string(kAlarmSides.name(alarm.side)) + " " + withDigits(alarm.limit_N, 4) + " N";
 }
 
 } // namespace

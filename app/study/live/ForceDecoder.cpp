@@ -5,11 +5,10 @@
 #include "model/FieldAtRest.h"
 #include "model/RowColumnResistance.h"
 #include "model/base/Error.h"
+#include "model/base/NumberText.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <random>
 
@@ -282,15 +281,11 @@ void ForceDecoder::judge(const BoardFrame& frame, const Prediction& prediction, 
   if (!decoded.doubt.empty() || !(tared_ || meter_.ready())) return;
   const double deviation_N = withoutCalibration_N(decoded).maxCoeff();
   if (!(deviation_N > kDrowned * (decoder_->high_N - decoder_->low_N).maxCoeff())) return;
-  std::array<char, 160> text{};
-  std::snprintf(
-      text.data(), text.size(),
-      decoded.missingReadings > 0
-          ? "without the missing readings the force is known to %.2g N only"
-          : "the noise of the readings alone reads as %.2g N with this network; train one for this noise, on all rows",
-      deviation_N);
   decoded.doubted = true;
-  decoded.doubt = text.data();
+  decoded.doubt = decoded.missingReadings > 0
+                      ? "without the missing readings the force is known to " + withDigits(deviation_N, 2) + " N only"
+                      : "the noise of the readings alone reads as " + withDigits(deviation_N, 2) +
+                            " N with this network; train one for this noise, on all rows";
 }
 
 /// A decoder that was trained with noise is drawn towards the middle of its range, most at rest, which lies at the

@@ -2,11 +2,11 @@
 
 #include "io/SampleFile.h"
 #include "model/base/Error.h"
+#include "model/base/NumberText.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <utility>
 
@@ -29,10 +29,9 @@ template <class Matrix> Matrix withoutColumn(const Matrix& all, Eigen::Index col
 } // namespace
 
 std::string inNewton(const Eigen::Vector3d& force_N) {
-  std::array<char, 80> text{};
   const Eigen::Array3d shown = force_N.array() + 0.0; // no -0
-  std::snprintf(text.data(), text.size(), "(%.2f, %.2f, %.2f) N", shown.x(), shown.y(), shown.z());
-  return text.data();
+  return "(" + withDecimals(shown.x(), 2) + ", " + withDecimals(shown.y(), 2) + ", " + withDecimals(shown.z(), 2) +
+         ") N";
 }
 
 std::string labelAgainstReading(const Eigen::Vector3d& label_N, const DecodedForces& reads, int area,

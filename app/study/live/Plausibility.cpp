@@ -1,9 +1,9 @@
 #include "app/study/live/Plausibility.h"
 
+#include "model/base/NumberText.h"
+
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 namespace palp {
 
@@ -104,13 +104,10 @@ Plausibility::Verdict Plausibility::judge(const PlausibilityInput& input) {
   if (heldDoubt_ == Doubt::Foreign) {
     if (verdict.misfit) heldMisfit_ = *verdict.misfit;
     const double most = limitFor(input);
-    std::array<char, 240> text{};
-    std::snprintf(text.data(), text.size(), "no %sknown touch: misfit %.2g, at most %.2g%s",
-                  leftByOne_ > 0 ? "single " : "", heldMisfit_, most,
-                  heldMisfit_ > kOtherBoard * most ? "; the network is of another design than the board, or the board "
-                                                     "is to be tared"
-                                                   : "");
-    verdict.reason = text.data();
+    verdict.reason = std::string("no ") + (leftByOne_ > 0 ? "single " : "") + "known touch: misfit " +
+                     withDigits(heldMisfit_, 2) + ", at most " + withDigits(most, 2);
+    if (heldMisfit_ > kOtherBoard * most)
+      verdict.reason += "; the network is of another design than the board, or the board is to be tared";
   }
   return verdict;
 }
@@ -122,10 +119,9 @@ std::string Plausibility::outsideWords(const PlausibilityInput& input) const {
   Eigen::Index worst = 0;
   (-above).max(above - range_N_.array()).maxCoeff(&worst);
   const std::string area = input.forces_N.size() > 3 ? " on area " + std::to_string(worst / 3) : "";
-  std::array<char, 120> text{};
-  std::snprintf(text.data(), text.size(), ": F%c%s is %.2g N, trained for %.2g to %.2g N", "xyz"[worst % 3],
-                area.c_str(), input.forces_N(worst), low_N_(worst), low_N_(worst) + range_N_(worst));
-  return text.data();
+  return std::string(": F") + "xyz"[worst % 3] + area + " is " + withDigits(input.forces_N(worst), 2) +
+         " N, trained for " + withDigits(low_N_(worst), 2) + " to " + withDigits(low_N_(worst) + range_N_(worst), 2) +
+         " N";
 }
 
 /// Doubts in more than half of the last quarter of a second are said, until they are fewer than a tenth.

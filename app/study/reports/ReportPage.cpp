@@ -2,11 +2,10 @@
 
 #include "model/base/Base64.h"
 #include "model/base/Error.h"
+#include "model/base/NumberText.h"
 
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <regex>
@@ -99,9 +98,7 @@ std::string ReportPage::html() const {
 
 std::string shortNumber(double value) {
   if (!std::isfinite(value)) return "-";
-  std::array<char, 32> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), "%.4g", value);
-  return buffer.data();
+  return withDigits(value, 4);
 }
 
 std::string triple(const Eigen::Vector3d& values) {

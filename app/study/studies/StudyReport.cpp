@@ -3,7 +3,7 @@
 #include "app/study/reports/ReportPage.h"
 #include "app/study/studies/StudyRow.h"
 #include "io/AtomicFile.h"
-#include "model/base/Text.h"
+#include "model/base/NumberText.h"
 
 #include <algorithm>
 #include <charconv>

@@ -51,6 +51,13 @@ TEST(Commands, AProgramThatWasMovedWithItsFolderFindsWhatShipsWithIt) {
   EXPECT_NE(help.find("Pages to read: " + (moved / "resources" / "docs").string()), std::string::npos) << help;
 }
 
+TEST(Commands, AFileWhoseNameIsNotUtf8IsWrittenAndTheJsonIsWhole) {
+  const palp::TemporaryFolder folder;
+  const Outcome outcome = palp::test::palp({"design", "--json", "-o", folder / "m\xe4rz.json"});
+  EXPECT_EQ(outcome.exit, 0) << outcome.errors;
+  EXPECT_EQ(outcome.json().at("command"), "design");
+}
+
 TEST(Commands, LookingAtTheMeshStartsNoSolve) {
   const json result = palp::test::palp({"mesh", "paper", "--json"}).json();
   EXPECT_EQ(result.at("stages").at("mesh").at("runs"), 1);

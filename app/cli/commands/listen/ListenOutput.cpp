@@ -1,5 +1,7 @@
 #include "app/cli/commands/listen/ListenOutput.h"
 
+#include "model/base/NumberText.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -29,7 +31,7 @@ void printForce(const Eigen::Vector3d& force_N) {
   std::printf("  (");
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     if (axis > 0) std::printf(" ");
-    std::isfinite(force_N(axis)) ? std::printf("%+.3f", force_N(axis)) : std::printf("-");
+    std::fputs(std::isfinite(force_N(axis)) ? withSign(withDecimals(force_N(axis), 3)).c_str() : "-", stdout);
   }
   std::printf(") N");
 }
@@ -96,12 +98,13 @@ FrameJson frameJson(const LiveFrame& live, const std::string& problem) {
 
 void printFrame(const LiveStatus& status, const LiveFrame& live) {
   const DecodedForces& forces = live.forces;
-  std::printf("%9.3f s  %-9s %7.1f reports/s  lost %llu  bad %llu", live.frame.time_s, name(status.state),
-              status.reportsPerSecond, static_cast<unsigned long long>(status.counts.lost),
-              static_cast<unsigned long long>(status.counts.bad));
+  std::printf("%9s s  %-9s %7s reports/s  lost %llu  bad %llu", withDecimals(live.frame.time_s, 3).c_str(),
+              name(status.state), withDecimals(status.reportsPerSecond, 1).c_str(),
+              static_cast<unsigned long long>(status.counts.lost), static_cast<unsigned long long>(status.counts.bad));
   const Eigen::Matrix3Xd forces_N = forces.measuredAlone(forces.forces_N);
   for (Eigen::Index i = 0; forces.valid && i < forces_N.cols(); ++i) printForce(forces_N.col(i));
-  if (const auto& place_mm = forces.place_mm) std::printf("  at (%.2f, %.2f) mm", place_mm->x(), place_mm->y());
+  if (const auto& place_mm = forces.place_mm)
+    std::printf("  at (%s, %s) mm", withDecimals(place_mm->x(), 2).c_str(), withDecimals(place_mm->y(), 2).c_str());
   if (forces.valid && !forces.doubt.empty()) std::printf("  doubted: %s", forces.doubt.c_str());
   if (!forces.valid) std::printf("  no force: %s", reasonOf(live, status.decoderProblem).c_str());
   std::printf("\n");

@@ -151,7 +151,7 @@ void DesignMap::buildTouch(QFormLayout& form) {
   for (const IndenterShape shape : kMappedShapes) shape_->addItem(QString::fromStdString(shapeName(shape)));
   shape_->setToolTip(tr("Of what touches: one that has a place along x and y"));
   const auto number = [](const char* name, const QString& unit, double low, double high, const QString& tip) {
-    auto* box = new QDoubleSpinBox;
+    auto* box = new NumberBox;
     box->setObjectName(name);
     box->setRange(low, high);
     box->setDecimals(3);
@@ -178,7 +178,7 @@ void DesignMap::buildTouch(QFormLayout& form) {
   noise_->setPrefix(tr("noise "));
   noise_->setKeyboardTracking(false);
   noise_->setToolTip(tr("Relative noise of each reading, as in \"Mesh and noise floor\""));
-  places_ = new QSpinBox;
+  places_ = new WholeBox;
   places_->setObjectName("mapPlaces");
   places_->setRange(3, kMostMapPlaces);
   places_->setKeyboardTracking(false);

@@ -3,13 +3,11 @@
 #include "app/study/reports/map/MapQuantities.h"
 #include "model/DesignError.h"
 #include "model/TouchRange.h"
-#include "model/base/Text.h"
+#include "model/base/NumberText.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <iterator>
 #include <limits>
@@ -23,9 +21,7 @@ constexpr double kNowhere = -1; ///< stands for what is not a number, which JSON
 /// To six digits: a project holds thousands of them.
 double kept(double value) {
   if (!std::isfinite(value)) return kNowhere;
-  std::array<char, 32> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), "%.6g", value);
-  return std::strtod(buffer.data(), nullptr);
+  return numberIn(withDigits(value, 6)).value_or(kNowhere);
 }
 
 TouchRange rangeFor(const SensorDesign& design, const Indenter& touch) {

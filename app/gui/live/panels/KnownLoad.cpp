@@ -1,5 +1,7 @@
 #include "app/gui/live/panels/KnownLoad.h"
 
+#include "app/gui/widgets/SpinBoxes.h"
+
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QFormLayout>
@@ -48,7 +50,7 @@ std::array<double, 3> suggestedMasses_g(double most_N) {
 KnownLoad::KnownLoad(QWidget* parent) : QWidget(parent) {
   auto* form = form_ = new QFormLayout(this);
   form->setContentsMargins(0, 0, 0, 0);
-  area_ = new QSpinBox;
+  area_ = new WholeBox;
   area_->setObjectName("labelArea");
   area_->setToolTip(tr("Load area that is pressed; areas count from 0"));
   form->addRow(tr("Area"), area_);
@@ -64,7 +66,7 @@ QHBoxLayout* KnownLoad::buildPlace() {
   auto* row = new QHBoxLayout;
   for (std::size_t axis = 0; axis < place_mm_.size(); ++axis) {
     const QString name = axis == 0 ? "x" : "y";
-    place_mm_[axis] = new QDoubleSpinBox;
+    place_mm_[axis] = new NumberBox;
     place_mm_[axis]->setObjectName("label_" + name);
     place_mm_[axis]->setAccessibleName(tr("%1 of the known touch").arg(name));
     place_mm_[axis]->setDecimals(2);
@@ -77,7 +79,7 @@ QHBoxLayout* KnownLoad::buildPlace() {
 }
 
 QHBoxLayout* KnownLoad::buildMass() {
-  mass_g_ = new QDoubleSpinBox;
+  mass_g_ = new NumberBox;
   mass_g_->setObjectName("labelMass");
   mass_g_->setAccessibleName(tr("Mass of the known load"));
   mass_g_->setRange(0, kMostMass_g);
@@ -125,7 +127,7 @@ QLayout* KnownLoad::buildForces() {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const int column = static_cast<int>(axis) + 1;
     auto* name = new QLabel(kAxes[axis]);
-    force_N_[axis] = new QDoubleSpinBox;
+    force_N_[axis] = new NumberBox;
     force_N_[axis]->setObjectName(QString("label_%1").arg(kAxes[axis]));
     force_N_[axis]->setAccessibleName(tr("%1 of the known load").arg(kAxes[axis]));
     force_N_[axis]->setRange(-kMostForce_N, kMostForce_N);

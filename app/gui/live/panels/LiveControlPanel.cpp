@@ -83,7 +83,7 @@ QWidget* LiveControlPanel::buildNetwork() {
   back_ = pushButton(tr("Back"), "networkBack", tr("Back to the network that was in use before"));
   column->addLayout(beside({open, shipped_}));
   column->addWidget(back_);
-  tareFrames_ = new QSpinBox;
+  tareFrames_ = new WholeBox;
   tareFrames_->setObjectName("tareFrames");
   tareFrames_->setRange(1, 100000);
   tareFrames_->setSuffix(tr(" frames"));
@@ -183,7 +183,7 @@ QWidget* LiveControlPanel::buildAlarm() {
   alarmSide_->setObjectName("alarmSide");
   for (const auto& [value, text] : kAlarmSides.all()) alarmSide_->addItem(tr(text), static_cast<int>(value));
   alarmSide_->setToolTip(tr("On which side of the limit the alarm goes off; a push is negative in z"));
-  alarmLimit_ = new QDoubleSpinBox;
+  alarmLimit_ = new NumberBox;
   alarmLimit_->setObjectName("alarmLimit");
   alarmLimit_->setRange(-1000, 1000);
   alarmLimit_->setDecimals(2);
@@ -216,7 +216,7 @@ QWidget* LiveControlPanel::buildAlarm() {
 QWidget* LiveControlPanel::buildScales() {
   auto* box = new QGroupBox(tr("Scales (the same for all frames)"));
   auto* form = new QFormLayout(box);
-  arrow_ = new QDoubleSpinBox;
+  arrow_ = new NumberBox;
   arrow_->setObjectName("arrowScale");
   arrow_->setRange(0.1, 100);
   arrow_->setSingleStep(0.5);
@@ -228,7 +228,7 @@ QWidget* LiveControlPanel::buildScales() {
   for (const char* percent : {"0.005", "0.01", "0.02", "0.05", "0.1", "0.2", "0.3", "0.5", "1", "2", "5"})
     change_->addItem(QString::fromUtf8("\u00b1%1 %").arg(percent), QString(percent).toDouble());
   change_->setToolTip(tr("End of the colour scale and of the curves of dR/R [%]"));
-  window_ = new QSpinBox;
+  window_ = new WholeBox;
   window_->setObjectName("window");
   window_->setRange(1, 60);
   window_->setSuffix(tr(" s"));

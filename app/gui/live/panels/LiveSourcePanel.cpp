@@ -1,6 +1,7 @@
 #include "app/gui/live/panels/LiveSourcePanel.h"
 
 #include "app/gui/widgets/FileDialogs.h"
+#include "app/gui/widgets/SpinBoxes.h"
 
 #include <QComboBox>
 #include <QFileInfo>
@@ -77,7 +78,7 @@ QWidget* LiveSourcePanel::buildDevices() {
 QWidget* LiveSourcePanel::buildScan() {
   auto* box = new QGroupBox(tr("Scan"));
   auto* form = new QFormLayout(box);
-  rate_ = new QSpinBox;
+  rate_ = new WholeBox;
   rate_->setObjectName("rate");
   rate_->setRange(1, 8000);
   rate_->setSuffix(tr(" reports/s"));

@@ -1,5 +1,7 @@
 #include "app/gui/live/panels/SimulationPanel.h"
 
+#include "app/gui/widgets/SpinBoxes.h"
+
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDoubleSpinBox>
@@ -32,7 +34,7 @@ QComboBox* numberBox(const QString& name, const QStringList& values, const QStri
 }
 
 /// None stands at the least value: the word can be typed as well as read.
-class NoneBox : public QSpinBox {
+class NoneBox : public WholeBox {
 public:
   NoneBox() { setSpecialValueText(QObject::tr("none")); }
 
@@ -40,13 +42,13 @@ public:
     const QString typed = text.trimmed();
     if (typed.compare(specialValueText(), Qt::CaseInsensitive) == 0) return QValidator::Acceptable;
     if (specialValueText().startsWith(typed, Qt::CaseInsensitive)) return QValidator::Intermediate;
-    return QSpinBox::validate(text, place);
+    return WholeBox::validate(text, place);
   }
 
 protected:
   [[nodiscard]] int valueFromText(const QString& text) const override {
     const bool none = text.trimmed().compare(specialValueText(), Qt::CaseInsensitive) == 0;
-    return none ? minimum() : QSpinBox::valueFromText(text);
+    return none ? minimum() : WholeBox::valueFromText(text);
   }
 };
 
@@ -118,13 +120,13 @@ void SimulationPanel::buildTouch(QFormLayout& form) {
          "the shear; in the picture Return takes it in hand and lets go, the arrows move it, + and - press, Shift and "
          "the arrows shear</qt>"));
   form.addRow(held_);
-  area_ = new QSpinBox;
+  area_ = new WholeBox;
   area_->setObjectName("touchArea");
   area_->setToolTip(tr("Load area that is pressed; areas count from 0"));
   form.addRow(tr("Area"), area_);
   auto* at = places_ = new QHBoxLayout;
   for (std::size_t axis = 0; axis < 2; ++axis) {
-    QDoubleSpinBox* box = place_[axis] = new QDoubleSpinBox;
+    QDoubleSpinBox* box = place_[axis] = new NumberBox;
     box->setObjectName(axis == 0 ? "touch_x" : "touch_y");
     box->setAccessibleName(axis == 0 ? tr("x of the simulated touch") : tr("y of the simulated touch"));
     box->setRange(0, 1e4);
@@ -141,7 +143,7 @@ void SimulationPanel::buildTouch(QFormLayout& form) {
   auto* row = new QHBoxLayout;
   constexpr std::array<const char*, 3> kNames{"Fx", "Fy", "Fz"};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    force_[axis] = new QDoubleSpinBox;
+    force_[axis] = new NumberBox;
     force_[axis]->setObjectName(QString("touch_%1").arg(kNames[axis]));
     force_[axis]->setAccessibleName(tr("%1 of the simulated touch").arg(kNames[axis]));
     force_[axis]->setRange(-kMostTouch_N, kMostTouch_N);
@@ -173,12 +175,12 @@ void SimulationPanel::follow(Box* box, Signal signal, const QString& what, Chang
 void SimulationPanel::buildDisturbances(QFormLayout& form) {
   noise_ = numberBox("noise", {"5e-6", "1e-5", "1e-4"},
                      tr("Noise of a reading, relative to R (rms): 5e-6 is a good board, 1e-4 a plain one"));
-  warming_ = new QDoubleSpinBox;
+  warming_ = new NumberBox;
   warming_->setObjectName("warming");
   warming_->setRange(0, 100);
   warming_->setSuffix(tr(" K"));
   warming_->setToolTip(tr("The board warms up by this much [K] with a time constant of 5 min; R drifts by 0.1 %/K"));
-  hysteresis_ = new QDoubleSpinBox;
+  hysteresis_ = new NumberBox;
   hysteresis_->setObjectName("hysteresis");
   hysteresis_->setRange(0, 100);
   hysteresis_->setSuffix(tr(" %"));
@@ -187,10 +189,15 @@ void SimulationPanel::buildDisturbances(QFormLayout& form) {
   form.addRow(tr("Warming"), warming_);
   form.addRow(tr("Hysteresis"), hysteresis_);
   connect(noise_, &QComboBox::currentTextChanged, this, [this](const QString& text) {
-    bool good = false;
-    const double value = text.toDouble(&good);
-    if (good && value >= 0 && value <= 1)
-      edit(tr("noise"), [&](LiveSettings& settings) { settings.simulation.noise = value; });
+    const auto value = typedNumber(text);
+    if (value && *value >= 0 && *value <= 1)
+      edit(tr("noise"), [&](LiveSettings& settings) { settings.simulation.noise = *value; });
+  });
+  connect(noise_->lineEdit(), &QLineEdit::editingFinished, this, [this] {
+    const auto value = typedNumber(noise_->currentText());
+    if (value && *value >= 0 && *value <= 1) return;
+    sayNotApplied(*noise_, tr("Not applied: \"%1\" is not a number from 0 to 1").arg(noise_->currentText()));
+    display(settings_);
   });
   follow(warming_, &QDoubleSpinBox::valueChanged, tr("warming"),
          [](SimulationSettings& s, double value) { s.warming_degC = value; });
@@ -255,7 +262,7 @@ void SimulationPanel::display(const LiveSettings& settings) {
   const QSignalBlocker quietHeld(held_), quietNoise(noise_), quietMoving(moving_);
   moving_->setChecked(simulation.moving);
   held_->setChecked(simulation.held);
-  if (noise_->currentText().isEmpty() || noise_->currentText().toDouble() != simulation.noise)
+  if (typedNumber(noise_->currentText()) != simulation.noise)
     noise_->setEditText(QString::number(simulation.noise, 'g', 6));
 }
 

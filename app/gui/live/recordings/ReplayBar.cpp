@@ -1,5 +1,7 @@
 #include "app/gui/live/recordings/ReplayBar.h"
 
+#include "app/gui/widgets/SpinBoxes.h"
+
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDoubleSpinBox>
@@ -57,7 +59,7 @@ private:
 };
 
 QDoubleSpinBox* timeBox(const QString& name, const QString& tip) {
-  auto* box = new QDoubleSpinBox;
+  auto* box = new NumberBox;
   box->setObjectName(name);
   box->setDecimals(2);
   box->setSuffix(QObject::tr(" s"));
@@ -157,9 +159,15 @@ void ReplayBar::buildLoop() {
   from_ = timeBox("loopFrom", tr("Begin of the loop [s]"));
   to_ = timeBox("loopTo", tr("End of the loop [s]"));
   connect(speed_, &QComboBox::currentTextChanged, this, [this](const QString& text) {
-    bool good = false;
-    const double value = text.toDouble(&good);
-    if (good && value >= 0 && value <= kMostSpeed) emit speedAsked(value);
+    const auto value = typedNumber(text);
+    if (value && *value >= 0 && *value <= kMostSpeed) emit speedAsked(*value);
+  });
+  connect(speed_->lineEdit(), &QLineEdit::editingFinished, this, [this] {
+    const auto value = typedNumber(speed_->currentText());
+    if (value && *value >= 0 && *value <= kMostSpeed) return;
+    sayNotApplied(*speed_,
+                  tr("Not applied: \"%1\" is not a number from 0 to %2").arg(speed_->currentText()).arg(kMostSpeed));
+    showSpeed();
   });
   connect(loop_, &QCheckBox::toggled, this, &ReplayBar::loop);
   connect(from_, &QDoubleSpinBox::valueChanged, this, &ReplayBar::loop);
@@ -198,9 +206,13 @@ void ReplayBar::listMarks() {
 }
 
 void ReplayBar::display(const LiveSettings& settings) {
+  speedInUse_ = settings.replaySpeed;
+  showSpeed();
+}
+
+void ReplayBar::showSpeed() {
   const QSignalBlocker quiet(speed_);
-  if (speed_->currentText().isEmpty() || speed_->currentText().toDouble() != settings.replaySpeed)
-    speed_->setEditText(QString::number(settings.replaySpeed, 'g', 6));
+  if (typedNumber(speed_->currentText()) != speedInUse_) speed_->setEditText(QString::number(speedInUse_, 'g', 6));
 }
 
 void ReplayBar::displayState() {

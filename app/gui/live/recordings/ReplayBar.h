@@ -35,6 +35,7 @@ private:
   void loop();
   void goTo(double to_s); ///< where that lies outside of the loop, the loop ends
   void listMarks();
+  void showSpeed();
 
   LiveHost& host_;
   QPushButton* pause_ = nullptr;
@@ -51,6 +52,7 @@ private:
   bool sought_ = false; ///< by the number in `place_`
   double length_s_ = -1;
   std::size_t listedMarks_ = 0;
+  double speedInUse_ = 1;
 };
 
 } // namespace palp

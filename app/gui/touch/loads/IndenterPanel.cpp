@@ -92,7 +92,7 @@ IndenterPanel::IndenterPanel(QWidget* parent) : QWidget(parent) {
 
 QDoubleSpinBox* IndenterPanel::addNumber(QFormLayout& form, const char* name, const QString& label, const QString& unit,
                                          const QString& tip) {
-  auto* box = new QDoubleSpinBox;
+  auto* box = new NumberBox;
   box->setObjectName(name);
   box->setAccessibleName(tr("Indenter, %1").arg(label));
   box->setDecimals(3);

@@ -100,7 +100,7 @@ void LoadPanel::buildForces() {
   grid->setContentsMargins(0, 0, 0, 0);
   for (int d = 0; d < 3; ++d) {
     const auto k = static_cast<std::size_t>(d);
-    spins_[k] = new QDoubleSpinBox;
+    spins_[k] = new NumberBox;
     spins_[k]->setObjectName(QString("force_%1").arg(kDirections[k]));
     spins_[k]->setRange(-kMostForce_N, kMostForce_N);
     spins_[k]->setDecimals(3);
@@ -135,7 +135,7 @@ void LoadPanel::buildDisc() {
   const std::array<QString, 3> labels{tr("centre x"), tr("centre y"), tr("radius")};
   constexpr std::array<const char*, 3> kNames{"discX", "discY", "discRadius"};
   for (int k = 0; k < 3; ++k) {
-    auto* spin = new QDoubleSpinBox;
+    auto* spin = new NumberBox;
     discSpins_[static_cast<std::size_t>(k)] = spin;
     spin->setObjectName(kNames[static_cast<std::size_t>(k)]);
     spin->setAccessibleName(tr("Disc, %1").arg(labels[static_cast<std::size_t>(k)]));

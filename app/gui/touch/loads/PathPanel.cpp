@@ -1,6 +1,7 @@
 #include "app/gui/touch/loads/PathPanel.h"
 
 #include "app/gui/widgets/FileDialogs.h"
+#include "app/gui/widgets/SpinBoxes.h"
 #include "io/AtomicFile.h"
 #include "model/base/Error.h"
 
@@ -176,20 +177,19 @@ void PathPanel::readCell(int row, int column) {
   if (displaying_ || !path || row < 1 || column < 1 || column > kToldColumns) return;
   auto& step = path->steps[static_cast<std::size_t>(row - 1)];
   std::array<double, 3> told = toldBy(step);
-  bool good = false;
-  const double typed = table_->item(row, column)->text().trimmed().toDouble(&good);
+  const auto typed = typedNumber(table_->item(row, column)->text());
   const std::variant<Press, Motion> before = step;
-  if (good) {
-    told[static_cast<std::size_t>(column - 1)] = typed;
+  if (typed) {
+    told[static_cast<std::size_t>(column - 1)] = *typed;
     step = controlOf(told, std::holds_alternative<Press>(step));
   }
   const Project& project = workbench_.project();
-  const auto wrong = good ? whyInvalid(project.load, *path, project.design) : std::nullopt;
-  if (!good || wrong) {
+  const auto wrong = typed ? whyInvalid(project.load, *path, project.design) : std::nullopt;
+  if (!typed || wrong) {
     const QString typedText = table_->item(row, column)->text();
     display(); // what holds
-    words_->setText(good ? tr("Not applied: %1").arg(QString::fromStdString(*wrong))
-                         : tr("Not applied: \"%1\" is no number; write it with a point, as 0.5").arg(typedText));
+    words_->setText(typed ? tr("Not applied: %1").arg(QString::fromStdString(*wrong))
+                          : tr("Not applied: \"%1\" is no number; write it with a point, as 0.5").arg(typedText));
     return;
   }
   edit(tr("Change step %1 of the path").arg(row), path);

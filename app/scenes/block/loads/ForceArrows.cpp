@@ -1,5 +1,7 @@
 #include "app/scenes/block/loads/ForceArrows.h"
 
+#include "model/base/NumberText.h"
+
 #include <vtkArrowSource.h>
 #include <vtkDoubleArray.h>
 #include <vtkGlyph3DMapper.h>
@@ -11,9 +13,7 @@
 #include <vtkRenderer.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 namespace palp {
 
@@ -27,9 +27,8 @@ constexpr double kWordGap_mm = 0.7; // between an arrow's end and its words
 std::string forceText(const Eigen::Vector3d& force_N) {
   const double least_N = kRounding * force_N.norm();
   const Eigen::Array3d shown_N = (force_N.array().abs() < least_N).select(0, force_N.array());
-  std::array<char, 96> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), "(%.3g, %.3g, %.3g) N", shown_N.x(), shown_N.y(), shown_N.z());
-  return buffer.data();
+  return "(" + withDigits(shown_N.x(), 3) + ", " + withDigits(shown_N.y(), 3) + ", " + withDigits(shown_N.z(), 3) +
+         ") N";
 }
 
 /// Two decimals [N], three where the force is small.
@@ -37,10 +36,8 @@ std::string steadyText(const Eigen::Vector3d& force_N) {
   const int decimals = force_N.norm() < kSmall_N ? 3 : 2;
   const double step_N = std::pow(10, -decimals);
   const Eigen::Array3d shown_N = (force_N.array() / step_N).round() * step_N + 0.0; // no "-0.00"
-  std::array<char, 96> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), "(%.*f, %.*f, %.*f) N", decimals, shown_N.x(), decimals, shown_N.y(),
-                decimals, shown_N.z());
-  return buffer.data();
+  return "(" + withDecimals(shown_N.x(), decimals) + ", " + withDecimals(shown_N.y(), decimals) + ", " +
+         withDecimals(shown_N.z(), decimals) + ") N";
 }
 
 constexpr double kWordsAbove_mm = 0.7; ///< the free end

@@ -1,16 +1,13 @@
 #include "app/scenes/block/marks/ExtremeMarks.h"
 
-#include <array>
-#include <cstdio>
+#include "model/base/NumberText.h"
 
 namespace palp {
 
 namespace {
 
 std::string valueText(double value) {
-  std::array<char, 32> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), "%.4g", value);
-  return buffer.data();
+  return withDigits(value, 4);
 }
 
 } // namespace

@@ -1,9 +1,7 @@
 #include "app/study/live/trust/DeviationNote.h"
 
 #include "app/study/decoding/CalibrationMark.h"
-
-#include <array>
-#include <cstdio>
+#include "model/base/NumberText.h"
 
 namespace palp {
 
@@ -12,11 +10,12 @@ namespace {
 std::string calibrationSentence(const Decoder& decoder) {
   const Eigen::Index count = calibrationFrames(decoder);
   const std::string frames = count > 0 ? " with " + std::to_string(count) + " frames" : "";
-  std::array<char, 96> left{};
+  std::string left;
   const Eigen::VectorXd error_N = decoder.residual_N.col(0);
   if (error_N.size() == 3)
-    std::snprintf(left.data(), left.size(), ", which left (%.1g, %.1g, %.1g) N", error_N(0), error_N(1), error_N(2));
-  return "the network is calibrated" + frames + left.data();
+    left = ", which left (" + withDigits(error_N(0), 1) + ", " + withDigits(error_N(1), 1) + ", " +
+           withDigits(error_N(2), 1) + ") N";
+  return "the network is calibrated" + frames + left;
 }
 
 } // namespace

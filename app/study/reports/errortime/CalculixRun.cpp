@@ -2,6 +2,7 @@
 
 #include "app/study/ChildProcess.h"
 #include "io/AtomicFile.h"
+#include "model/base/NumberText.h"
 #include "solver/CalculixDeck.h"
 #include "solver/PointProbe.h"
 
@@ -74,9 +75,11 @@ Eigen::Matrix3Xd frdDisplacements(const std::string& frd, int nodes) {
     const int node = std::stoi(line.substr(kNodeAt, kNodeWidth)) - 1;
     if (node < 0) return {};
     if (node >= nodes) continue; // an indenter's
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      result(static_cast<Eigen::Index>(axis), node) =
-          std::stod(line.substr(kNodeAt + kNodeWidth + axis * kValueWidth, kValueWidth));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto value = numberIn(line.substr(kNodeAt + kNodeWidth + axis * kValueWidth, kValueWidth));
+      if (!value) return {};
+      result(static_cast<Eigen::Index>(axis), node) = *value;
+    }
   }
   return result;
 }

@@ -3,9 +3,9 @@
 #include "app/study/reports/Csv.h"
 #include "app/study/reports/ReportPage.h"
 #include "app/study/reports/stability/StabilityRow.h"
+#include "model/base/NumberText.h"
 
 #include <algorithm>
-#include <array>
 
 namespace palp {
 
@@ -62,7 +62,7 @@ ReportChart spreadChart(const std::vector<StabilityRow>& rows) {
     ReportCurve curve{.name = std::string(group).substr(17)};
     for (const StabilityRow& row : rows)
       if (row.group == group) {
-        curve.x.push_back(std::stod(row.what.substr(7)));
+        curve.x.push_back(numberIn(row.what.substr(7)).value());
         curve.y.push_back(row.error);
       }
     chart.curves.push_back(std::move(curve));

@@ -3,6 +3,7 @@
 //   gui_session RECOVERY-FOLDER PROJECT-FILE
 #include "app/gui/document/Autosave.h"
 #include "app/gui/document/Document.h"
+#include "app/gui/window/Application.h"
 #include "tests/app/gui/WindowFixture.h"
 
 #include <QDoubleSpinBox>
@@ -11,7 +12,7 @@
 #include <iostream>
 
 int main(int argc, char** argv) {
-  QApplication application(argc, argv);
+  palp::Application application(argc, argv);
   QApplication::setOrganizationName("palp-tests");
   QApplication::setApplicationName("palp-gui-session");
   const QStringList arguments = QApplication::arguments();

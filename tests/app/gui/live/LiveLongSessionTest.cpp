@@ -4,6 +4,7 @@
 #include "app/study/Resources.h"
 #include "app/study/live/SimulatedTouch.h"
 #include "io/SampleFile.h"
+#include "model/base/NumberText.h"
 #include "tests/app/gui/live/LiveOperatorFixture.h"
 
 #include <QFile>
@@ -63,7 +64,7 @@ protected:
 /// PALP_LIVE_HOURS=3 runs three hours and prints what the process holds each half hour.
 TEST_F(LiveForHours, HoldsNoMoreThanTheLastMinute) {
   const char* asked = std::getenv("PALP_LIVE_HOURS");
-  const double hours = asked != nullptr ? std::atof(asked) : 0;
+  const double hours = asked != nullptr ? numberIn(asked).value_or(0) : 0;
   const auto wanted = hours > 0 ? static_cast<std::uint64_t>(hours * 3600 * kFramesPerSecond)
                                 : static_cast<std::uint64_t>(3 * LiveHistory::kMostFrames);
   const auto step = hours > 0 ? static_cast<std::uint64_t>(1800 * kFramesPerSecond) : wanted;

@@ -4,6 +4,7 @@
 #include "tests/app/gui/WindowFixture.h"
 
 #include <QFile>
+#include <QLabel>
 #include <QMessageBox>
 #include <QProcess>
 #include <QPushButton>
@@ -45,6 +46,18 @@ TEST_F(LastCatch, AnExceptionThatLeavesASlotIsSaidAndTheWindowGoesOn) {
   next.load.areas[0].force_N.z() = -2;
   workbench.edit("another force", next);
   EXPECT_TRUE(solved());
+}
+
+TEST(MessageBoxes, ShowNamesOfFilesAsTheyAreWritten) {
+  QMessageBox box(QMessageBox::Warning, "Cannot open", "<a href=\"x\">march</a> & <b>april</b>.json: no valid JSON");
+  box.setInformativeText("<i>as written</i>");
+  box.show();
+  for (const char* name : {"qt_msgbox_label", "qt_msgbox_informativelabel"})
+    EXPECT_EQ(box.findChild<QLabel*>(name)->textFormat(), Qt::PlainText) << name;
+  QMessageBox meant(QMessageBox::NoIcon, "About", "<b>Palp</b>");
+  meant.setTextFormat(Qt::RichText);
+  meant.show();
+  EXPECT_EQ(meant.findChild<QLabel*>("qt_msgbox_label")->textFormat(), Qt::RichText);
 }
 
 TEST_F(LastCatch, AFaultThatComesAgainAndAgainOpensOneBox) {
