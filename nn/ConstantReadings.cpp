@@ -9,7 +9,7 @@ namespace palp {
 
 namespace {
 
-constexpr double kNoVariation = 1e-14; // of the value: the rest is rounding
+constexpr double kConstantTo = 1e-14; // of the value: the rest is rounding
 constexpr Eigen::Index kFewestSamples = 3;
 constexpr std::size_t kMostNamed = 5;
 
@@ -26,7 +26,7 @@ void ConstantReadings::add(const Eigen::Ref<const Eigen::MatrixXd>& readings) {
 std::vector<Eigen::Index> ConstantReadings::constant() const {
   std::vector<Eigen::Index> found;
   for (Eigen::Index i = 0; i < low_.size(); ++i)
-    if (!(high_(i) - low_(i) > kNoVariation * std::max(std::abs(low_(i)), std::abs(high_(i))))) found.push_back(i);
+    if (!(high_(i) - low_(i) > kConstantTo * std::max(std::abs(low_(i)), std::abs(high_(i))))) found.push_back(i);
   return found;
 }
 

@@ -22,15 +22,15 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "the arrays are little-endian");
 
-constexpr char kMagic[] = "\x93NUMPY";
+constexpr char kNpyMagic[] = "\x93NUMPY";
 constexpr std::size_t kMagicLength = 6;
 constexpr std::size_t kHeadStep = 64; ///< the numbers begin at a multiple of it
-constexpr std::size_t kLongestHead = 1 << 16;
+constexpr std::size_t kLongestNpyHead = 1 << 16;
 constexpr std::size_t kLongestText_bytes = 1 << 14;
 constexpr std::uint64_t kMostTextBytes = 1 << 28;
 constexpr std::size_t kReadAtOnce = 1 << 20;
 
-std::string headText(const std::string& type, const std::vector<std::uint64_t>& shape) {
+std::string npyHeadText(const std::string& type, const std::vector<std::uint64_t>& shape) {
   std::string text = "{'descr': '" + type + "', 'fortran_order': False, 'shape': (";
   for (const std::uint64_t size : shape) text += std::to_string(size) + ", ";
   if (shape.size() > 1) text.resize(text.size() - 2); // (3, 4), but (3, )
@@ -123,7 +123,7 @@ void NpzWriter::fail() const {
 }
 
 void NpzWriter::begin(const std::string& name, const std::string& type, const std::vector<std::uint64_t>& shape) {
-  const std::string head = headText(type, shape);
+  const std::string head = npyHeadText(type, shape);
   const NpyHead what{type, shape};
   zip_fileinfo about{};
   about.tmz_date.tm_mday = 1;
@@ -133,7 +133,7 @@ void NpzWriter::begin(const std::string& name, const std::string& type, const st
   if (zipOpenNewFileInZip64(zip_, (name + ".npy").c_str(), &about, nullptr, 0, nullptr, 0, nullptr, 0, 0, large) !=
       ZIP_OK)
     fail();
-  std::string bytes(kMagic, kMagicLength);
+  std::string bytes(kNpyMagic, kMagicLength);
   bytes += std::string("\x01\x00", 2);
   bytes += static_cast<char>(head.size() % 256);
   bytes += static_cast<char>(head.size() / 256);
@@ -228,13 +228,13 @@ void NpzArray::readBytes(std::span<unsigned char> bytes) {
 void NpzArray::readHead(std::uint64_t size) {
   unsigned char begin[12];
   readBytes(std::span(begin, 8));
-  if (std::memcmp(begin, kMagic, kMagicLength) != 0 || begin[6] < 1 || begin[6] > 3)
+  if (std::memcmp(begin, kNpyMagic, kMagicLength) != 0 || begin[6] < 1 || begin[6] > 3)
     refuse("is no array of NumPy of version 1 to 3");
   const std::size_t sizeBytes = begin[6] == 1 ? 2 : 4;
   readBytes(std::span(begin + 8, sizeBytes));
   std::size_t length = 0;
   for (std::size_t i = sizeBytes; i-- > 0;) length = 256 * length + begin[8 + i];
-  if (length > kLongestHead) refuse("has a head that is too long");
+  if (length > kLongestNpyHead) refuse("has a head that is too long");
   std::string text(length, '\0');
   readBytes({reinterpret_cast<unsigned char*>(text.data()), length});
   const std::string type = valueAfter(text, "descr"), shape = valueAfter(text, "shape");

@@ -11,7 +11,7 @@ namespace palp {
 namespace {
 
 /// Of |x| for a normal x of deviation 1.
-constexpr double kMedianOfNormal = 0.6745;
+constexpr double kMedianOfNoise = 0.6745;
 
 } // namespace
 
@@ -27,7 +27,7 @@ void NoiseMeter::add(const Eigen::VectorXd& readings_ohm) {
     std::vector<double> sizes;
     for (const double value : second)
       if (std::isfinite(value)) sizes.push_back(std::abs(value));
-    if (!sizes.empty()) recent_.push_back(median(std::move(sizes)) / (std::sqrt(6.0) * kMedianOfNormal)); // 1 + 4 + 1
+    if (!sizes.empty()) recent_.push_back(median(std::move(sizes)) / (std::sqrt(6.0) * kMedianOfNoise)); // 1 + 4 + 1
     if (recent_.size() > kMost) recent_.pop_front();
   }
   before_ohm_ = std::move(last_ohm_);

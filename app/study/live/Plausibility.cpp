@@ -14,7 +14,7 @@ constexpr double kCauses = 3;         // forces that are fitted to the readings
 constexpr double kMarginOfRange = 0.02;
 constexpr double kMarginDeviations = 4;
 constexpr double kDisagreement = 0.05; // of the range, at least
-constexpr double kMemory_s = 0.25;     // of what is said
+constexpr double kDoubtMemory_s = 0.25;     // of what is said
 constexpr double kSayAbove = 0.5, kUnsayBelow = 0.1;
 constexpr double kLongestStep_s = 1;
 constexpr double kOtherBoard = 100; // times the limit: no touch, hysteresis or warming of this sensor does that
@@ -128,7 +128,7 @@ std::string Plausibility::outsideWords(const PlausibilityInput& input) const {
 void Plausibility::follow(Doubt doubt, double time_s) {
   const double step_s = std::clamp(time_s - last_s_, 0.0, kLongestStep_s);
   last_s_ = time_s;
-  share_ += ((doubt == Doubt::None ? 0.0 : 1.0) - share_) * (1 - std::exp(-step_s / kMemory_s));
+  share_ += ((doubt == Doubt::None ? 0.0 : 1.0) - share_) * (1 - std::exp(-step_s / kDoubtMemory_s));
   if (share_ > kSayAbove) held_ = true;
   if (share_ < kUnsayBelow) held_ = false;
   if (doubt != Doubt::None) heldDoubt_ = doubt;

@@ -18,7 +18,7 @@ namespace palp {
 namespace {
 
 using Cells = std::vector<std::string>;
-constexpr double kNoise = 1e-4; // of a resistance, relative
+constexpr double kLayoutNoise = 1e-4; // of a resistance, relative
 // Shares of the report's time: what the response takes, and where the confirmation begins.
 constexpr double kResponse = 0.43, kConfirm = 0.46;
 const char* const kForces[3] = {"Fx", "Fy", "Fz"};
@@ -58,12 +58,12 @@ private:
   bool findLayouts(const AreaResponse& response) {
     layouts_.push_back({"before", request_.design});
     say(kResponse, "search: the same places on every wire");
-    const auto same = betterLayout(request_.design, areaGoal(response, row_, kNoise, request_.threads),
+    const auto same = betterLayout(request_.design, areaGoal(response, row_, kLayoutNoise, request_.threads),
                                    LayoutFreedom::SameOnEveryWire, limits_, request_.seed, stop_);
     if (!same) return false;
     layouts_.push_back({"same on every wire", same->layout});
     say(0.44, "search: wire by wire");
-    const auto each = betterLayout(same->layout, areaGoal(response, row_, kNoise, request_.threads),
+    const auto each = betterLayout(same->layout, areaGoal(response, row_, kLayoutNoise, request_.threads),
                                    LayoutFreedom::WireByWire, limits_, request_.seed, stop_);
     if (!each) return false;
     layouts_.push_back({"wire by wire", each->layout});
@@ -121,7 +121,7 @@ private:
       areas.heads.push_back("area " + std::to_string(area));
     for (const NamedLayout& layout : layouts_)
       for (const int row : {row_, -1}) {
-        const LayoutBound bound = layoutBound(layout.design, response, row, kNoise);
+        const LayoutBound bound = layoutBound(layout.design, response, row, kLayoutNoise);
         table.rows.push_back({layout.name, row < 0 ? "all" : std::to_string(row), triple(bound.withoutPrior()),
                               shortNumber(bound.mean()), triple(bound.withPrior())});
         addBound(layout.name, row, bound);
@@ -158,7 +158,7 @@ private:
   void sweeps(const AreaResponse& response) {
     say(0.456, "depth and pitch");
     content_.parts.push_back(ReportHeading{"Effect of each layer's depth and pitch, one at a time"});
-    for (const LayoutSweep& sweep : layoutSweeps(request_.design, response, row_, kNoise, request_.threads)) {
+    for (const LayoutSweep& sweep : layoutSweeps(request_.design, response, row_, kLayoutNoise, request_.threads)) {
       for (int axis = 0; axis < 3; ++axis)
         for (const LayoutSweep::Point& point : sweep.points)
           csv_.add(
@@ -188,8 +188,8 @@ private:
           SensorDesign design = layout.design;
           design.lowerFollowsRubber = follows;
           design.pressureLaw = byPressure ? std::optional(law) : std::nullopt;
-          const LayoutBound one = layoutBound(design, response, row_, kNoise);
-          const LayoutBound all = layoutBound(design, response, -1, kNoise);
+          const LayoutBound one = layoutBound(design, response, row_, kLayoutNoise);
+          const LayoutBound all = layoutBound(design, response, -1, kLayoutNoise);
           table.rows.push_back({layout.name, follows ? "follow the rubber" : "held",
                                 byPressure ? "by pressure" : "constant", triple(one.withoutPrior()),
                                 triple(all.withoutPrior())});
@@ -242,7 +242,7 @@ private:
         [&](double part, const std::string& what) { say(share + 0.67 * each * part, what + ", " + layout.name); },
         stop_);
     if (!sets) return false;
-    const NoiseBound bound = noiseBound(sets->test, InputKind::Resistance, {row_}, kNoise);
+    const NoiseBound bound = noiseBound(sets->test, InputKind::Resistance, {row_}, kLayoutNoise);
     for (const Rival& rival : {Rival{"rbf", DecoderKind::Rbf, false}, Rival{"rbf, one an area", DecoderKind::Rbf, true},
                                Rival{"ml", DecoderKind::MaximumLikelihood, false}}) {
       if (stop_.stop_requested()) return false;
@@ -266,11 +266,11 @@ private:
     options.input = InputKind::Resistance;
     options.rows = std::to_string(row_);
     options.decoder = rival.kind;
-    options.noise = kNoise;
+    options.noise = kLayoutNoise;
     options.seed = request_.seed;
     options.threads = request_.threads;
     const NoisyError error = (rival.areaKnown ? noisyErrorAreaKnown : noisyError)(
-        layout.design, sets, options, kNoise, request_.seed, content_.stages, stop_);
+        layout.design, sets, options, kLayoutNoise, request_.seed, content_.stages, stop_);
     Cells cells{layout.name, rival.name};
     if (!error.failed.empty()) {
       cells.insert(cells.end(),
