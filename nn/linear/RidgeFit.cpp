@@ -1,11 +1,12 @@
 #include "nn/linear/RidgeFit.h"
 
 #include "model/base/Cancelled.h"
-#include "model/base/PositiveSolve.h"
 #include "nn/NetworkError.h"
 #include "nn/SpreadSweep.h"
 #include "nn/linear/Lapack.h"
 #include "nn/rbf/RbfSystem.h"
+
+#include <Eigen/Cholesky>
 
 #include <cmath>
 #include <limits>
@@ -20,9 +21,10 @@ Eigen::MatrixXd leftOutErrors(const Eigen::MatrixXd& remainder, const Eigen::Mat
     Eigen::MatrixXd kept = -group * group.transpose() - tail * tail.transpose();
     // A sample that alone holds a direction cannot be left out: its error is then what is left, not a division by 0.
     kept.diagonal().array() += 1 + 1e-14;
-    const auto factor = semidefiniteFactor(kept, 1);
-    if (!factor) throw NetworkError("leave-one-out: the readings hold numbers beyond double precision");
-    errors.middleCols(first, copies) = factor->solve(remainder.middleRows(first, copies)).transpose();
+    // Its entries near 0 are differences of rounded numbers and may be of either sign: only the result is checked.
+    const Eigen::MatrixXd found = kept.ldlt().solve(remainder.middleRows(first, copies));
+    if (!found.allFinite()) throw NetworkError("leave-one-out: the readings hold numbers beyond double precision");
+    errors.middleCols(first, copies) = found.transpose();
   }
   return errors;
 }

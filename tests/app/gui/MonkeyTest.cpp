@@ -289,7 +289,7 @@ TEST_F(MonkeyWindow, SurvivesAThousandActionsAndShowsWhatAFreshWindowShows) {
   const char* wanted = std::getenv("PALP_MONKEY_SEED");
   const QTemporaryDir folder; // for the files that are written under whatever name was typed
   QDir::setCurrent(folder.path());
-  const Autosave autosave(workbench, network, window.document(), folder.filePath("recovery"));
+  const Autosave autosave(workbench, network, window, folder.filePath("recovery"));
   Monkey monkey(window, wanted != nullptr ? static_cast<unsigned>(std::atoi(wanted)) : 20130911u);
   // Whatever asks the user something is sent away.
   QTimer closer;
