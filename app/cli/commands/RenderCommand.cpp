@@ -36,9 +36,9 @@ Exit run(const RenderArguments& arguments, Session& session) {
   const PictureSize size{wholeNumber("--width", arguments.width, 200, 8000),
                          wholeNumber("--height", arguments.height, 200, 8000), arguments.dark};
   requireKnown(arguments.quantity);
+  arguments.output.requireWritable();
   if (arguments.output.path.extension() != ".png")
     throw UsageError("--output: '" + arguments.output.path.string() + "'; allowed is a name that ends in .png");
-  arguments.output.requireWritable();
   sayMeshCost(design, meshFor(design, load, arguments.mesh.options()), session);
   Touch touch(design, load, arguments.mesh.options());
   NewtonOptions options;

@@ -129,7 +129,7 @@ TEST(CalibrateCommand, RefinesANetworkWithFramesOfTheBoard) {
   const std::string network = (folder / "network.json").string();
   const std::string frames = (folder / "frames.csv").string();
   ASSERT_EQ(palp::test::palp(
-                {"train", samplesFile(), "--input", "resistance", "--spread", "2", "--ridge", "1e-6", "-o", network})
+                {"train", samplesFile(), "--input", "resistance", "--noise", "1e-4", "--spread", "2", "-o", network})
                 .exit,
             0);
   for (int i = 0; i < 8; ++i) { // the simulated board rests: the label says so

@@ -115,7 +115,7 @@ TEST_F(LiveSend, WhatAProjectOfSomebodySendsElsewhereWaitsForATick) {
 
 TEST_F(LiveSend, GoesOnOutOfSight) {
   ASSERT_TRUE(waitForFrames());
-  add("udp:localhost:9870");
+  add("csv:" + folder.filePath("forces.csv"));
   ASSERT_TRUE(wait([&] { return sent().toInt() > 3; }));
   page.hide();
   const std::uint64_t before = page.host().sending()[0].sent;
