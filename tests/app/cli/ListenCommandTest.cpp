@@ -132,14 +132,14 @@ TEST(CalibrateCommand, RefinesANetworkWithFramesOfTheBoard) {
                 {"train", samplesFile(), "--input", "resistance", "--noise", "1e-4", "--spread", "2", "-o", network})
                 .exit,
             0);
-  for (int i = 0; i < 8; ++i) { // the simulated board rests: the label says so
+  for (int i = 0; i < 8; ++i) { // the simulated board rests: the label says so, this network reads something else
     const Outcome outcome =
         palp::test::palp({"listen", "--simulate", "--network", network, "--label", std::to_string(i % 6) + ":0,0,0",
-                          "--append", frames, "--average", "2", "--seed", std::to_string(i)});
+                          "--append", frames, "--average", "2", "--seed", std::to_string(i), "--force"});
     ASSERT_EQ(outcome.exit, 0) << outcome.errors;
   }
   const Outcome again = palp::test::palp({"listen", "--simulate", "--network", network, "--label", "1:0,0,0",
-                                          "--append", frames, "--average", "2", "--seed", "7"});
+                                          "--append", frames, "--average", "2", "--seed", "7", "--force"});
   EXPECT_EQ(again.exit, 2);
   EXPECT_NE(again.errors.find("(sample 8 of 8); it would count twice"), std::string::npos) << again.errors;
   const std::string better = (folder / "better.json").string();
