@@ -64,13 +64,13 @@ std::shared_ptr<const TopCompliance> TopCompliance::find(const ElementwiseTangen
     std::vector<float> x(std::size_t(tangent.rightSideRows()) * batchLanes);
     for (int i = begin; i < end; ++i) x[row(order[i]) * batchLanes + (i - begin)] = 1;
     constexpr unsigned all = (1U << unsigned(batchLanes / lanes)) - 1;
-    constexpr int supernodesACall = 64; // between looks at a stop request
+    constexpr int supernodesAtOnce = 64; // between looks at a stop request
     const auto own = std::upper_bound(factor.first, factor.first + factor.count, int(row(order[begin]))) - 1;
     const int from = int(own - factor.first);
-    for (int first = from; first < factor.count && !stop.stop_requested(); first += supernodesACall)
-      laneKernels().forward(factor, first, std::min(factor.count, first + supernodesACall), all, x.data());
-    for (int last = factor.count; last > from && !stop.stop_requested(); last -= supernodesACall)
-      laneKernels().backward(factor, std::max(from, last - supernodesACall), last, all, x.data());
+    for (int first = from; first < factor.count && !stop.stop_requested(); first += supernodesAtOnce)
+      laneKernels().forward(factor, first, std::min(factor.count, first + supernodesAtOnce), all, x.data());
+    for (int last = factor.count; last > from && !stop.stop_requested(); last -= supernodesAtOnce)
+      laneKernels().backward(factor, std::max(from, last - supernodesAtOnce), last, all, x.data());
     for (int i = begin; i < end; ++i)
       for (int k = i; k < 3 * count; ++k)
         found->blocks_(order[k], order[i]) = found->blocks_(order[i], order[k]) =
