@@ -13,8 +13,8 @@ constexpr double kQuantile99 = 2.326; // of a normal distribution
 constexpr double kCauses = 3;         // forces that are fitted to the readings
 constexpr double kMarginOfRange = 0.02;
 constexpr double kMarginDeviations = 4;
-constexpr double kDisagreement = 0.05; // of the range, at least
-constexpr double kDoubtMemory_s = 0.25;     // of what is said
+constexpr double kDisagreement = 0.05;  // of the range, at least
+constexpr double kDoubtMemory_s = 0.25; // of what is said
 constexpr double kSayAbove = 0.5, kUnsayBelow = 0.1;
 constexpr double kLongestStep_s = 1;
 constexpr double kOtherBoard = 100; // times the limit: no touch, hysteresis or warming of this sensor does that
