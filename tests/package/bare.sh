@@ -15,7 +15,7 @@ inNamespaces() {
 # makeBare SUITE FOLDER LOG: Debian's essential packages, from the server that apt is set up with.
 makeBare() {
   local suite=$1 root=$2 log=$3 server
-  server=$(apt-get indextargets --no-release-info --format '$(ORIGIN) $(LABEL) $(REPO_URI)' 'Created-By: Packages' |
+  server=$(apt-get indextargets --format '$(ORIGIN) $(LABEL) $(REPO_URI)' 'Created-By: Packages' |
     sed -n 's/^Debian Debian //p' | sort -u | head -1)
   [ -n "$server" ] || fail "apt is set up with no server of Debian's (/etc/apt/sources.list.d); none is known besides"
   debootstrap --variant=minbase "$suite" "$root" "$server" > "$log" 2>&1 || fail "debootstrap: $(tail -5 "$log")"
