@@ -9,7 +9,7 @@ namespace palp {
 /// Green's function of an insulated box of conductivity 1 between all pairs of some points, in closed form:
 ///   - lap G(., x') = delta(. - x') - 1/V,   d_n G = 0 on all faces,   mean of G = 0.
 /// G = integral over t of k k k - 1/V, k the heat kernel of a rod with insulated ends along each axis
-/// (resources/docs/numerics.md, "Conduction at rest"). Rows are points p, columns points q; on the diagonal stands what
+/// (resources/docs/numerics/field-at-rest.md). Rows are points p, columns points q; on the diagonal stands what
 /// is left of G(x, x_p) without 1/(4 pi |x - x_p|) as x goes to x_p: the regular part.
 struct BoxGreen {
   Eigen::MatrixXd value;                ///< G(x_p, x_q) [1/mm], symmetric

@@ -31,7 +31,7 @@ struct ReadingGradient {
 };
 
 /// How the resistances of a sensor at rest follow small motions of its electrodes and of its insulated faces, exactly
-/// to first order and without a mesh (resources/docs/numerics.md, "Small motions").
+/// to first order and without a mesh (resources/docs/numerics/field-at-rest.md).
 class FieldSensitivity {
 public:
   /// `fineness` divides the panels of the quadrature over the faces; 1 leaves about 1e-4 of d ln R, 2 about 1e-6.

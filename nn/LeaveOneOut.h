@@ -20,9 +20,9 @@ struct LeaveOneOutResult {
   double score = 0;          ///< root mean square over the outputs of rms / (targets' standard deviation)
 };
 
-/// Leave-one-out errors in closed form, e = w / diag((Phi + ridge I)^-1) (Rippa 1999; resources/docs/numerics.md), of
-/// the network that `options` describe, at each of the spreads; always from a full inverse. A ridge too small for
-/// double precision is raised.
+/// Leave-one-out errors in closed form, e = w / diag((Phi + ridge I)^-1) (Rippa 1999;
+/// resources/docs/numerics/networks.md), of the network that `options` describe, at each of the spreads; always from a
+/// full inverse. A ridge too small for double precision is raised.
 std::vector<LeaveOneOutResult> leaveOneOut(const Eigen::Ref<const Eigen::MatrixXd>& samples,
                                            const Eigen::Ref<const Eigen::MatrixXd>& targets,
                                            const std::vector<double>& spreads, const RbfOptions& options,

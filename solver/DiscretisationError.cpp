@@ -24,7 +24,7 @@ constexpr double errorOfDifference = 0.7;
 /// The same of d ln R, of which no estimate is below that of the displacements, as the difference is small by chance on
 /// some loads: where electrodes are held, on meshes that the field asks to be finer (finerForField), whose twins are
 /// finer too, and under a pressure law, whose mesh is finer still. On 35 to 47 loads each, other layouts and blocks
-/// among them, and four read-outs (resources/docs/numerics.md).
+/// among them, and four read-outs (resources/docs/numerics/mesh-error.md).
 constexpr double errorOfResistanceDifference = 1.25;
 constexpr double errorOfResistanceDifferenceOnFiner = 0.45;
 constexpr double errorOfResistanceDifferenceByPressure = 0.6;

@@ -14,8 +14,9 @@ namespace palp {
 /// The error that the mesh makes in the displacements of the upper electrodes, estimated: relative, over all electrodes
 /// (L2). On meshes graded by us it is the difference to the solution on a mesh 1.3 times coarser, times a measured
 /// factor; on others the difference to the default mesh. Its limits: within a factor of 3 of the error on every design
-/// and load that it was checked on (resources/docs/numerics.md); on meshes finer than the default rather too high; of a
-/// mapped mesh finer than the default it shows the default mesh's error; it knows nothing of the rubber's law.
+/// and load that it was checked on (resources/docs/numerics/mesh-error.md); on meshes finer than the default rather too
+/// high; of a mapped mesh finer than the default it shows the default mesh's error; it knows nothing of the rubber's
+/// law.
 struct DiscretisationError {
   std::optional<double> relative; ///< none where the solve on the other mesh did not converge
   /// The same of d ln R over all readings under the law of the field, where the resistances were given: within a factor

@@ -9,8 +9,8 @@ namespace palp {
 
 namespace {
 
-/// The default mesh of the paper's block, measured (resources/docs/numerics.md): unknowns, memory of a solve, and
-/// seconds.
+/// The default mesh of the paper's block, measured (resources/docs/numerics/factorisation.md): unknowns, memory of a
+/// solve, and seconds.
 constexpr double kUnknowns = 41070, kMemory_MB = 300, kSeconds = 1.2;
 /// How they grow with the unknowns: between flat blocks and cubes.
 constexpr double kMemoryGrowth = 1.15, kTimeGrowth = 1.5;

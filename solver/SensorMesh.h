@@ -49,7 +49,7 @@ MeshOptions meshFor(const SensorDesign& design, const LoadCase& load, MeshOption
 MeshOptions meshForTouches(const SensorDesign& design, const TouchRange& range, MeshOptions options);
 
 /// The same for influence surfaces that a decoder takes off its samples, with smaller cells: what the mesh makes of one
-/// place and not of the next is noise to it (resources/docs/numerics.md, "Touches inverted").
+/// place and not of the next is noise to it (resources/docs/numerics/touch-decoder.md).
 MeshOptions meshToLearnFrom(const SensorDesign& design, const TouchRange& range, MeshOptions options);
 
 /// The same for one of the parts below, with smaller cells; under the field with cells and layers at the top that are

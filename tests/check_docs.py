@@ -43,6 +43,18 @@ def link_problems(page):
             yield f"link to {target}: no such heading"
 
 
+def linked_pages(page):
+    """The pages that a page links to."""
+    links = LINK.findall(without_code(page.read_text()))
+    return {(page.parent / link.partition("#")[0]).resolve() for link in links}
+
+
+def index_of(root, page):
+    """The page that has to link a page: index.md of its folder, or the README."""
+    index = page.parent / "index.md"
+    return index if page != index and index.exists() else root / "README.md"
+
+
 def exists(root, name):
     """A file or folder, a pattern as solver/*.h, or a header and source named together without an ending."""
     if any(c in name for c in "*?"):
@@ -117,7 +129,8 @@ def comment_problems(root):
 
 
 def main(root):
-    pages = [root / "README.md", *sorted((root / "resources/docs").glob("*.md"))]
+    pages = [root / "README.md", *sorted((root / "resources/docs").rglob("*.md")),
+             *sorted((root / "resources/board").glob("*.md"))]
     commands, options = commands_of(root)
     problems = []
     if len(pages) < 3 or not commands:
@@ -126,8 +139,8 @@ def main(root):
         where = page.relative_to(root)
         for found in (link_problems(page), path_problems(root, page), command_problems(page, commands, options)):
             problems += [f"{where}: {problem}" for problem in found]
-        if page.name != "README.md" and f"docs/{page.name}" not in (root / "README.md").read_text():
-            problems.append(f"{where}: the README does not link it")
+        if page != index_of(root, page) and page not in linked_pages(index_of(root, page)):
+            problems.append(f"{where}: {index_of(root, page).relative_to(root)} does not link it")
     problems += [f"README.md: palp {name} is not named" for name in sorted(commands)
                  if f"`palp {name}`" not in pages[0].read_text()]
     problems += [*variable_problems(root), *comment_problems(root)]

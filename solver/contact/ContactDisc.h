@@ -6,7 +6,7 @@ namespace palp {
 
 /// As many as it takes: a mesh makes of the surface something quadratic with a kink at each edge, and a contact is a
 /// few elements wide. 5 rings of 24 are 0.2 % of the readings off in the median and 1.3 % at worst
-/// (resources/docs/numerics.md, "Touches inverted").
+/// (resources/docs/numerics/touch-decoder.md).
 inline constexpr int contactDiscRings = 16, contactDiscAngles = 48;
 inline constexpr int contactDiscPoints = contactDiscRings * contactDiscAngles;
 

@@ -8,7 +8,8 @@ namespace {
 
 constexpr double longestMove = 0.5; // of an indenter's expected depth, in one iteration
 // Of a load with friction. While it presses, rubber that comes to touch in a step sticks where it was before that step:
-// the error falls as the steps. Going sideways it slides one way, and steps hardly matter ("Contact" in numerics.md).
+// the error falls as the steps. Going sideways it slides one way, and steps hardly matter
+// (resources/docs/numerics/contact.md).
 constexpr double frictionSteps = 4, stepsOfTwoParts = frictionSteps / pressShare;
 
 } // namespace

@@ -38,7 +38,7 @@ struct NodalPotential {
 /// whose error is of the square of their own:
 ///   w_q(x_p) = integral grad w_p . grad w_q - oint s_p s_q,n dS + terms of q alone and of p alone,
 /// and such terms no current of zero sum sees. Where k varies, G(., x_q) = s_q / (m m_q) + w_q as UnevenConductivity
-/// has it. (resources/docs/numerics.md, "Conduction in the deformed block".)
+/// has it. (resources/docs/numerics/field-deformed.md.)
 class DeformedGreen {
 public:
   DeformedGreen(const Mesh& solverMesh, const Eigen::Vector3d& block_mm, const Eigen::Matrix3Xd& electrodes_mm);

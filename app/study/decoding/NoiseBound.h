@@ -11,7 +11,7 @@ namespace palp {
 /// square over samples and areas, one entry an output. Without prior: what no unbiased method can beat. With prior: the
 /// error of the best linear estimate of a force with the variance range^2 / 12 of one that is uniform over its range,
 /// the sensor linear. Who knows that a force never leaves its range can come out up to about 5 % below
-/// (resources/docs/numerics.md, "Bounds").
+/// (resources/docs/numerics/bounds.md).
 struct NoiseBound {
   Eigen::VectorXd withoutPriorPercent; ///< infinite where the inputs do not determine the forces
   Eigen::VectorXd withPriorPercent;

@@ -27,7 +27,7 @@ std::optional<SampleBounds> touchBounds(const SampleSet& samples, const SensorDe
 
 /// The same at each touch as it is and not at rest, by the slopes that a decoder of touches has learned of it, which
 /// know of large strains: of one who has to find all that has varied among the samples it learned from. They are those
-/// of full solves to 0.2 % in the median (resources/docs/numerics.md, "Touches inverted"). Empty: a decoder of another
+/// of full solves to 0.2 % in the median (resources/docs/numerics/touch-decoder.md). Empty: a decoder of another
 /// kind, or one that was calibrated; or it was stopped.
 std::vector<TouchDeviations> learnedBounds(const Decoder& decoder, const SampleSet& samples, double relativeNoise,
                                            const std::stop_token& stop = {});

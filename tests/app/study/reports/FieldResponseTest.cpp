@@ -83,9 +83,9 @@ INSTANTIATE_TEST_SUITE_P(Paper, PrototypesBounds,
 
 TEST(FieldResponse, OfASmallForceIsThatOfTheSolvedField) {
   // (0, 0, -0.3) N on area 0, rms over all readings. First what our own finite elements converge to on the deformed
-  // mesh (98,515 nodes, numerics.md), whose field shares nothing with this: to 5 % (floating) and 2 %, what is asked
-  // for of the default mesh, whose displacements these are. Then another program's, to what it says of itself; its
-  // figure by virtual ground, 1.145e-4, is 5 % apart from all of ours and does not hold.
+  // mesh (98,515 nodes, numerics/field-deformed.md), whose field shares nothing with this: to 5 % (floating) and 2 %,
+  // what is asked for of the default mesh, whose displacements these are. Then another program's, to what it says of
+  // itself; its figure by virtual ground, 1.145e-4, is 5 % apart from all of ours and does not hold.
   struct Known {
     Readout readout;
     double rms, relative;
