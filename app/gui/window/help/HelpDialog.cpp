@@ -8,7 +8,6 @@
 #include <QDesktopServices>
 #include <QDialog>
 #include <QDir>
-#include <QDirIterator>
 #include <QEvent>
 #include <QFileInfo>
 #include <QLabel>
@@ -21,8 +20,6 @@
 #include <QTextBrowser>
 #include <QTextDocument>
 #include <QVBoxLayout>
-
-#include <algorithm>
 
 namespace palp {
 
@@ -47,41 +44,13 @@ QString titleOf(const QString& file) {
   return QFileInfo(file).completeBaseName();
 }
 
-/// The order in which the pages are listed, by the beginnings of their paths: for users first, for developers last.
-const QStringList& readingOrder() {
-  static const QStringList order{"guide",     "live-forces", "formats",    "notebooks",      "clusters",
-                                 "glossary",  "physics",     "validation", "numerics/index", "numerics/",
-                                 "../board/", "environment", "changelog",  "architecture",   "contributing"};
-  return order;
-}
-
-/// Place of a page in readingOrder(), its size for a page that is not named there.
-qsizetype rankOf(const QString& page) {
-  const QStringList& order = readingOrder();
-  return std::find_if(order.begin(), order.end(), [&](const QString& begin) { return page.startsWith(begin); }) -
-         order.begin();
-}
-
-/// Paths of the pages relative to the folder of the docs, in the order in which they are listed.
-QStringList pagesIn(const QDir& docs) {
-  QStringList pages;
-  for (QDirIterator at(docs.path(), {"*.md"}, QDir::Files, QDirIterator::Subdirectories); at.hasNext();)
-    pages << docs.relativeFilePath(at.next());
-  if (docs.exists("../board/protocol.md")) pages << "../board/protocol.md";
-  std::sort(pages.begin(), pages.end(),
-            [](const QString& a, const QString& b) { return std::pair(rankOf(a), a) < std::pair(rankOf(b), b); });
-  return pages;
-}
-
-/// Titles and files of the help: the help of the window first, then the pages.
+/// What the help shows, by their titles: the help itself, then the pages in the order of their files' names.
 QList<QPair<QString, QString>> helpPages() {
   const QString help = QString::fromStdString(resource("help/help.html").string());
   QList<QPair<QString, QString>> pages{{QObject::tr("The window"), QFileInfo(help).absoluteFilePath()}};
   const QDir docs(QFileInfo(help).dir().filePath("../docs"));
-  for (const QString& page : pagesIn(docs)) {
-    const QString file = QDir::cleanPath(docs.absoluteFilePath(page));
-    pages.append({titleOf(file), file});
-  }
+  for (const QFileInfo& page : docs.entryInfoList({"*.md"}, QDir::Files, QDir::Name))
+    pages.append({titleOf(page.filePath()), page.absoluteFilePath()});
   return pages;
 }
 
