@@ -137,7 +137,7 @@ def comment_problems(root):
 def word_problems(root, pages):
     """Retired words in the pages and in PLAIN_FOLDERS."""
     others = [p for folder in PLAIN_FOLDERS for end in ("*.h", "*.cpp", "*.html") for p in (root / folder).rglob(end)]
-    for file in [*pages, *sorted(others)]:
+    for file in [*pages, *sorted((root / ".github").rglob("*.md")), *sorted(others)]:
         for line, word, better in retired_in(file, file.read_text()):
             yield f"{file.relative_to(root)}:{line}: retired word '{word}': use {better}"
 
