@@ -53,7 +53,8 @@ RETIRED = {
     r"nothing is lost": "(a promise that the code cannot keep)",
 }
 # A phrase may be broken over two lines.
-PATTERNS = {re.compile(r"(?<![\w-])(?:" + pattern.replace(" ", r"\s+") + r")(?!\w)", re.I): better
+SPACE = r"(?:[ \t]+|[ \t]*\n[ \t]*)"
+PATTERNS = {re.compile(r"(?<![\w-])(?:" + pattern.replace(" ", SPACE) + r")(?!\w)", re.I): better
             for pattern, better in RETIRED.items()}
 # A line that must use one of the words has this mark, with the reason next to it.
 EXCEPTION = "words: ok"
@@ -72,8 +73,10 @@ def markdown_prose(text):
 
 
 def html_prose(text):
-    """The page without head, comments and tags, its lines kept."""
-    return re.sub(r"<head>.*?</head>|<!--.*?-->|<[^>]*>", blank, text, flags=re.S)
+    """The page without head, comments, code and tags, its lines kept; a bar where a paragraph or cell ends."""
+    text = re.sub(r"<head>.*?</head>|<!--.*?-->|<(code|pre|tt)\b.*?</\1>", blank, text, flags=re.S)
+    text = re.sub(r"</?(a|b|i|em|strong|span|sub|sup)\b[^>]*>", blank, text)
+    return re.sub(r"<[^>]*>", lambda tag: "|" + blank(tag)[1:], text)
 
 
 def source_prose(text):

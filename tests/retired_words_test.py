@@ -34,6 +34,7 @@ There is no force. Three whole numbers. A stand-alone program. The mesh is a row
 """
         self.assertEqual(words("a.md", plain), [])
         self.assertEqual(words("a.html", "<!-- beside --><a href='beside.html'>next</a>"), [])
+        self.assertEqual(words("a.html", "<h2>Samples</h2>\n<p>A sample <code>stands</code></p>"), [])
 
     def test_are_allowed_in_a_marked_line(self):
         self.assertEqual(words("a.md", "beside <!-- words: ok, a quotation -->\n"), [])
