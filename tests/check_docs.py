@@ -14,9 +14,9 @@ import tempfile
 from retired_words import retired_in
 
 SOURCES = ("model", "nn", "solver", "io", "app", "tests")
-# Folders whose comments, strings and HTML are checked for retired words too, as "resources/help" or "app/cli": add one
-# when it is clean.
-PLAIN_FOLDERS = ()
+# Folders that are checked for retired words too, and whether their comments are ("app/cli": False for its strings
+# alone): add one when it is clean.
+PLAIN_FOLDERS = {}
 # The folders and files at the root that a path in backticks may begin with.
 TOP = ("app", "io", "model", "nn", "resources", "solver", "tests", ".ci")
 LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
@@ -136,9 +136,11 @@ def comment_problems(root):
 
 def word_problems(root, pages):
     """Retired words in the pages and in PLAIN_FOLDERS."""
-    others = [p for folder in PLAIN_FOLDERS for end in ("*.h", "*.cpp", "*.html") for p in (root / folder).rglob(end)]
-    for file in [*pages, *sorted((root / ".github").rglob("*.md")), *sorted(others)]:
-        for line, word, better in retired_in(file, file.read_text()):
+    files = [(page, True) for page in [*pages, *sorted((root / ".github").rglob("*.md"))]]
+    files += [(file, comments) for folder, comments in PLAIN_FOLDERS.items()
+              for file in sorted((root / folder).rglob("*")) if file.suffix in (".h", ".cpp", ".html")]
+    for file, comments in files:
+        for line, word, better in retired_in(file, file.read_text(), comments):
             yield f"{file.relative_to(root)}:{line}: retired word '{word}': use {better}"
 
 

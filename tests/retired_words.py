@@ -79,19 +79,22 @@ def html_prose(text):
     return re.sub(r"<[^>]*>", lambda tag: "|" + blank(tag)[1:], text)
 
 
-def source_prose(text):
-    """Comments and string literals of a C++ source, its lines kept; includes are names."""
+def source_prose(text, comments=True):
+    """String literals of a C++ source, and its comments where they count, its lines kept. Literals without a blank are
+    names and keys, and so are includes."""
     text = re.sub(r"^#include.*$", "", text, flags=re.M)
-    parts = re.finditer(r'//[^\n]*|"(?:[^"\\\n]|\\.)*"', text)
     lines = [""] * (text.count("\n") + 1)
-    for part in parts:
-        lines[text.count("\n", 0, part.start())] += " " + part.group().lstrip("/")
+    for part in re.finditer(r'//[^\n]*|"(?:[^"\\\n]|\\.)*"', text):
+        prose = part.group().strip('/"')
+        if comments if part.group()[0] == "/" else " " in prose:
+            lines[text.count("\n", 0, part.start())] += prose + ("" if part.group()[0] == "/" else " ")
     return "\n".join(lines)
 
 
-def retired_in(path, text):
+def retired_in(path, text, comments=True):
     """(line number, word, replacement) of each retired word in a page or source, in the order of the lines."""
-    prose = {".md": markdown_prose, ".html": html_prose}.get(path.suffix, source_prose)(text)
+    pages = {".md": markdown_prose, ".html": html_prose}
+    prose = pages[path.suffix](text) if path.suffix in pages else source_prose(text, comments)
     allowed = {number for number, line in enumerate(text.splitlines(), 1) if EXCEPTION in line}
     found = [(prose.count("\n", 0, at.start()) + 1, " ".join(at.group().split()), better)
              for pattern, better in PATTERNS.items() for at in pattern.finditer(prose)]
