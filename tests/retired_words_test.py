@@ -21,7 +21,7 @@ class RetiredWords(unittest.TestCase):
                          [(2, "goes on"), (3, "samples a second")])
 
     def test_are_found_in_comments_and_strings(self):
-        source = '#include "beside.h"\nint beside; // it goes\n// on\nlog("beside", "It was told at "\n    "once.");\n'
+        source = '#include "beside.h"\nint beside; // it goes\n// on\nlog("beside", "It was told at "\n    "once, then.");\n'
         self.assertEqual(words("a.h", source), [(2, "goes on"), (4, "at once"), (4, "told")])
         self.assertEqual(words("a.h", source, comments=False), [(4, "at once"), (4, "told")])
 
