@@ -136,7 +136,8 @@ def comment_problems(root):
 
 def word_problems(root, pages):
     """Retired words in the pages and in PLAIN_FOLDERS."""
-    files = [(page, True) for page in [*pages, *sorted((root / ".github").rglob("*.md"))]]
+    figures = sorted((root / "resources/docs").rglob("*.svg"))
+    files = [(page, True) for page in [*pages, *figures, *sorted((root / ".github").rglob("*.md"))]]
     files += [(file, comments) for folder, comments in PLAIN_FOLDERS.items()
               for file in sorted((root / folder).rglob("*")) if file.suffix in (".h", ".cpp", ".html")]
     for file, comments in files:

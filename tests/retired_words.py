@@ -93,7 +93,7 @@ def source_prose(text, comments=True):
 
 def retired_in(path, text, comments=True):
     """(line number, word, replacement) of each retired word in a page or source, in the order of the lines."""
-    pages = {".md": markdown_prose, ".html": html_prose}
+    pages = {".md": markdown_prose, ".html": html_prose, ".svg": html_prose}
     prose = pages[path.suffix](text) if path.suffix in pages else source_prose(text, comments)
     allowed = {number for number, line in enumerate(text.splitlines(), 1) if EXCEPTION in line}
     found = [(prose.count("\n", 0, at.start()) + 1, " ".join(at.group().split()), better)
