@@ -1,7 +1,7 @@
 #pragma once
 
+#include "io/DecoderKind.h"
 #include "model/SensorDesign.h"
-#include "model/base/NamedEnum.h"
 #include "nn/RbfNetwork.h"
 #include "nn/RbfTrainer.h"
 #include "nn/rivals/BackPropagation.h"
@@ -16,51 +16,6 @@
 #include <vector>
 
 namespace palp {
-
-/// What a decoder reads.
-enum class InputKind { Displacement, Resistance };
-inline constexpr NamedEnum kInputKinds("input", std::array{std::pair{InputKind::Displacement, "displacement"},
-                                                           std::pair{InputKind::Resistance, "resistance"}});
-inline std::string name(InputKind kind) {
-  return kInputKinds.name(kind);
-}
-
-/// Ways from what is read to the force.
-enum class DecoderKind {
-  Rbf,
-  Linear,
-  Polynomial2,
-  Polynomial3,
-  GaussianProcess,
-  BackPropagation,
-  TwoStepBackPropagation, ///< the paper's step 1 by a back-propagation network (its reference [12]), then step 2
-  TwoStepGaussNewton,     ///< step 1 by inverting Eq. (1), or the field, then step 2
-  MaximumLikelihood,      ///< inverts a polynomial forward model: area and force at once
-  TouchInversion,         ///< inverts a forward model of touches by Gaussians: force and place at once
-};
-inline constexpr NamedEnum kDecoderKinds(
-    "decoder",
-    std::array{std::pair{DecoderKind::Rbf, "rbf"}, std::pair{DecoderKind::Linear, "linear"},
-               std::pair{DecoderKind::Polynomial2, "poly2"}, std::pair{DecoderKind::Polynomial3, "poly3"},
-               std::pair{DecoderKind::GaussianProcess, "gp"}, std::pair{DecoderKind::BackPropagation, "bp"},
-               std::pair{DecoderKind::TwoStepBackPropagation, "two-step-bp"},
-               std::pair{DecoderKind::TwoStepGaussNewton, "two-step-gn"},
-               std::pair{DecoderKind::MaximumLikelihood, "ml"}, std::pair{DecoderKind::TouchInversion, "touch"}});
-inline std::string name(DecoderKind kind) {
-  return kDecoderKinds.name(kind);
-}
-/// Those that learn forces on load areas: all but the one for touches alone.
-std::vector<DecoderKind> allDecoderKinds();
-/// Whether a decoder of this kind can give the place of a touch beside its force.
-bool takesPlace(DecoderKind kind);
-
-/// The two modes of a network; any other option overrides the mode.
-enum class DecoderMode { Default, Paper };
-inline constexpr NamedEnum kDecoderModes("mode", std::array{std::pair{DecoderMode::Default, "default"},
-                                                            std::pair{DecoderMode::Paper, "paper"}});
-inline std::string name(DecoderMode mode) {
-  return kDecoderModes.name(mode);
-}
 
 /// Step 1 under the law of the field: the resistances at rest, and how those of the read row-wires follow the block's
 /// answer to forces on its areas, solved for these forces, to first order.
@@ -85,15 +40,6 @@ struct TwoStep {
   std::vector<int> rows;
   RbfNetwork force; ///< step 2
 };
-
-/// What a decoder gives.
-enum class DecoderTarget {
-  Force,
-  ForceAndPlace ///< of one touch: after the force its place on the top face
-};
-inline constexpr NamedEnum kDecoderTargets("target",
-                                           std::array{std::pair{DecoderTarget::Force, "force"},
-                                                      std::pair{DecoderTarget::ForceAndPlace, "force+place"}});
 
 /// Along x and y: training range of the place, and the rms error of it that was found in training.
 struct DecoderPlace {

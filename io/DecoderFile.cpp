@@ -167,9 +167,9 @@ void requireAreas(const JsonPlace& root, const Decoder& decoder) {
 
 void requireFitting(const JsonPlace& root, const Decoder& decoder) {
   const Eigen::Index forces = 3 * static_cast<Eigen::Index>(decoder.together ? decoder.areaCount : 1);
-  if (decoder.place && (decoder.together || !takesPlace(decoder.kind)))
+  if (decoder.place && (decoder.together || !traits(decoder.kind).givesPosition))
     root.at("place").refuse("left out: this decoder gives none");
-  if (decoder.kind == DecoderKind::TouchInversion && !decoder.place)
+  if (!traits(decoder.kind).ofAreas && !decoder.place)
     root.at("model").refuse("beside \"place\": this decoder gives one");
   requireSize(root.at("model"), outputsOf(decoder), forces + (decoder.place ? 2 : 0),
               decoder.together ? "outputs, three an area"
@@ -253,7 +253,7 @@ Decoder parseNetwork(const std::string& text, const std::string& file) {
   if (!root.at("areas").isNull()) decoder.areas = readForwardModel(root.at("areas"));
   requireFitting(root, decoder);
   if (root.has("correction")) {
-    if (decoder.kind != DecoderKind::TouchInversion)
+    if (!std::holds_alternative<KernelForwardModel>(decoder.model))
       root.at("correction").refuse("left out: this decoder is refined in its model");
     decoder.correction = readCorrection(root.at("correction"), decoder.outputs() + 2);
   }

@@ -188,7 +188,7 @@ StudyPlan parseStudy(const std::string& content, const std::string& name, const 
   if (root.has("decoders"))
     for (const JsonPlace& place : root.at("decoders").list()) {
       const DecoderKind kind = place.named(kDecoderKinds);
-      if (kind == DecoderKind::TouchInversion) place.refuse("a decoder of forces on areas");
+      if (!traits(kind).ofAreas) place.refuse("a decoder of forces on areas");
       if (std::find(plan.decoders.begin(), plan.decoders.end(), kind) != plan.decoders.end()) place.refuse("each once");
       plan.decoders.push_back(kind);
     }

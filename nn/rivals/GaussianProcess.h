@@ -25,6 +25,10 @@ struct GaussianProcess {
   [[nodiscard]] Eigen::MatrixXd predict(const Eigen::Ref<const Eigen::MatrixXd>& samples) const {
     return mean.predict(samples);
   }
+  /// Of the mean at one sample: outputs x inputs.
+  [[nodiscard]] Eigen::MatrixXd jacobian(const Eigen::Ref<const Eigen::VectorXd>& sample) const {
+    return mean.jacobian(sample);
+  }
   /// Standard deviation of a new target (function and noise), outputs x samples.
   [[nodiscard]] Eigen::MatrixXd standardDeviation(const Eigen::Ref<const Eigen::MatrixXd>& samples) const;
 };

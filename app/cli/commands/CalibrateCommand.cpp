@@ -190,7 +190,8 @@ void addCalibrate(Cli& cli) {
       cli.command("calibrate", "refine a network with labelled frames of a real board, or fit a design to it at rest",
                   "palp calibrate network.json frames.csv -o better.json",
                   [arguments](Session& session) { return run(*arguments, session); });
-  command.option("network", arguments->network, "network file (rbf, ml or touch, one force)");
+  command.option("network", arguments->network,
+                 "network file (" + namesOfDecodersWith(&DecoderTraits::canBeCalibrated) + ", one force)");
   command.option("frames", arguments->frames, "labelled frames, from palp listen --label ... --append");
   command.option("--rest", arguments->rest,
                  "recording of the board at rest: fits electrode radius, resistivity and contact of the field");

@@ -70,8 +70,7 @@ Exit run(const SweepArguments& arguments, Session& session) {
   TrainOptions options = arguments.train.options();
   options.threads = session.threads;
   if (options.decoder != DecoderKind::Rbf)
-    throw UsageError("--decoder: '" + arguments.train.decoder +
-                     "'; allowed is rbf: the others have no spread to sweep");
+    throw UsageError("--decoder: '" + name(options.decoder) + "'; allowed is rbf: the others have no spread to sweep");
   const std::vector<double> spreads = spreadsOption(arguments.spreads);
   const double testNoise = number("--test-noise", arguments.testNoise);
   if (!(testNoise >= 0 && testNoise <= 0.5))
@@ -123,7 +122,7 @@ void addSweep(Cli& cli) {
   command.option("--spreads", arguments->spreads, "0.8,0.9,1 or FROM:TO:COUNT (logarithmic; default 0.3:30:21)");
   command.option("--test-noise", arguments->testNoise,
                  "relative noise that the test samples get, of another seed than the training's (default 0)");
-  arguments->train.declare(command, false);
+  arguments->train.declare(command, {"target", "spread"});
 }
 
 } // namespace palp

@@ -6,22 +6,18 @@
 
 #include <nlohmann/json.hpp>
 
+#include <map>
+#include <set>
+#include <string>
+
 namespace palp {
 
-/// The options that train and sweep have in common.
+/// The options that train and sweep have in common: the rows of trainOptionTable().
 struct TrainArguments {
-  std::string input = "displacement";
-  std::string rows = "4";
-  std::string mode = "default";
-  std::string decoder = "rbf";
-  std::string target = "force";
-  std::string spread = "auto";
-  std::string centers, centersBy, solver, ridge, scaler, tail, convention;
-  std::string noise = "0";
-  std::string forgetting = "1";
-  std::string seed = "1";
-  void declare(Command command, bool withSpread);
-  /// UsageError names the option, its value and what is allowed.
+  std::map<std::string, std::string> values; ///< by name; empty: not given
+  /// `without`: names of options that the command does not have.
+  void declare(Command command, const std::set<std::string>& without = {});
+  /// Throws UsageError with the option, its value and what is allowed.
   [[nodiscard]] TrainOptions options() const;
 };
 

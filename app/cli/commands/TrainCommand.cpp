@@ -93,7 +93,7 @@ void addTrain(Cli& cli) {
                                 "palp train samples.csv --input resistance --rows all --noise 1e-4 -o network.json",
                                 [arguments](Session& session) { return run(*arguments, session); });
   command.option("samples", arguments->samples, "sample file").required();
-  arguments->train.declare(command, true);
+  arguments->train.declare(command);
   command.option("--design", arguments->design,
                  "design file, or paper; two-step-gn inverts its resistance law, touch learns from simulated touches "
                  "only what its "

@@ -222,11 +222,8 @@ void NetworkSession::compare(const NetworkSettings& settings) {
   emit trialsChanged();
   const auto work = [this, settings, design = design_, samples = shown_.samples,
                      rows = rows_](const std::stop_token& stop, JobProgress& progress) -> JobRunner::Taking {
-    std::vector<DecoderKind> kinds = allDecoderKinds();
-    if (settings.target == DecoderTarget::ForceAndPlace) {
-      kinds.push_back(DecoderKind::TouchInversion);
-      std::erase_if(kinds, [](DecoderKind kind) { return !takesPlace(kind); });
-    }
+    const std::vector<DecoderKind> kinds = decodersWith(
+        settings.target == DecoderTarget::ForceAndPlace ? &DecoderTraits::givesPosition : &DecoderTraits::ofAreas);
     for (std::size_t k = 0; k < kinds.size() && !stop.stop_requested(); ++k) {
       progress.set(static_cast<double>(k) / static_cast<double>(kinds.size()), "Training " + name(kinds[k]));
       TrainOptions options = settings.trainOptions();

@@ -1,55 +1,53 @@
 #pragma once
 
 #include "app/gui/project/Project.h"
+#include "app/study/decoding/TrainOptionTable.h"
 
 #include <QWidget>
 
+#include <deque>
+
 class QCheckBox;
-class QComboBox;
-class QDoubleSpinBox;
 class QFormLayout;
-class QLineEdit;
-class QSpinBox;
 class QToolButton;
 
 namespace palp {
 
-/// The options of `palp train` that follow from the mode unless they are set, folded away until asked for.
+/// The options of `palp train` that follow from the mode unless they are set: one field for each row of
+/// trainOptionTable() that is in the form. Collapsed until the user asks for them.
 class AdvancedOptions : public QWidget {
   Q_OBJECT
 
 public:
   explicit AdvancedOptions(QWidget* parent = nullptr);
 
-  /// Emits nothing. Unfolds where something is set.
+  /// Emits nothing. Expands where something is set.
   void display(const NetworkSettings& network);
-  /// Puts what is chosen here into the settings.
+  /// Writes the values of the fields into the settings.
   void read(NetworkSettings& network) const;
 
 signals:
-  /// By the user's hand only.
+  /// By the user only.
   void edited(const QString& what);
 
 private:
-  QComboBox* choice(QFormLayout& form, const QString& label, const char* name, const QString& tip,
-                    const std::vector<std::string>& values);
+  struct Field {
+    const TrainOption* option;
+    QWidget* widget; ///< combo box of a choice; line edit of a number that may be unset; otherwise a spin box
+    QString shown;   ///< in the line edit
+  };
+
+  void addField(QFormLayout& form, const TrainOption& option);
+  [[nodiscard]] QWidget* fieldWidget(Field& field);
+  void report(const QString& what);
   void fold(bool open);
   void showMode(const NetworkSettings& network);
-  void enableFor(DecoderKind decoder);
 
   bool displaying_ = false;
   QToolButton* more_ = nullptr;
   QWidget* options_ = nullptr;
-  QComboBox* solver_ = nullptr;
-  QComboBox* scaler_ = nullptr;
-  QComboBox* tail_ = nullptr;
-  QComboBox* convention_ = nullptr;
-  QComboBox* centersBy_ = nullptr;
+  std::deque<Field> fields_; ///< validators refer to their entries
   QCheckBox* allCenters_ = nullptr;
-  QString ridgeShown_;
-  QLineEdit* ridge_ = nullptr;
-  QSpinBox* seed_ = nullptr;
-  QDoubleSpinBox* forgetting_ = nullptr;
 };
 
 } // namespace palp

@@ -91,7 +91,7 @@ NetworkPage::NetworkPage(Workbench& workbench, NetworkSession& session, QWidget*
   connect(files_, &NetworkFiles::liveNetworkReplaced, this, &NetworkPage::liveNetworkReplaced);
   connect(sweep_, &SweepTab::spreadAsked, this, [this](double spread) {
     NetworkSettings next = workbench_.project().network;
-    next.spread = spread;
+    next.chosenSpread = spread;
     next.automaticSpread = false;
     takeOver(tr("Take the best spread of the sweep"), next);
   });

@@ -141,7 +141,7 @@ void NetworkPanel::buildNetwork(QFormLayout& form) {
   decoder_->setObjectName("decoder");
   for (const auto& [kind, text] : kDecoderKinds.all()) {
     decoder_->addItem(QString::fromStdString(text));
-    decoder_->setItemData(decoder_->count() - 1, inWords(kind), Qt::ToolTipRole);
+    decoder_->setItemData(decoder_->count() - 1, QString(traits(kind).description), Qt::ToolTipRole);
   }
   decoder_->setToolTip(tr("The way from what is read to the force: rbf is the paper's radial basis network"));
   form.addRow(tr("Decoder"), decoder_);
@@ -186,9 +186,9 @@ void NetworkPanel::buildNetwork(QFormLayout& form) {
     if (displaying_) return;
     const QSignalBlocker quiet(target_); // one edit
     const auto chosen = kDecoderKinds.value(decoder_->currentText().toStdString());
-    if (chosen == DecoderKind::TouchInversion && network_.decoder != chosen)
+    if (!traits(chosen).ofAreas && network_.decoder != chosen)
       targetBefore_ = std::exchange(network_.target, DecoderTarget::ForceAndPlace);
-    else if (network_.decoder == DecoderKind::TouchInversion && targetBefore_)
+    else if (!traits(network_.decoder).ofAreas && targetBefore_)
       network_.target = *std::exchange(targetBefore_, {});
     target_->setCurrentIndex(network_.target == DecoderTarget::Force ? 0 : 1);
     read(tr("Change the decoder"));
@@ -271,13 +271,13 @@ void NetworkPanel::display(const Project& project, int rowWires) {
   decoder_->setCurrentText(QString::fromStdString(name(network_.decoder)));
   target_->setCurrentIndex(network_.target == DecoderTarget::Force ? 0 : 1);
   // The decoder of touches learns both; an older file may say otherwise.
-  target_->setEnabled(network_.decoder != DecoderKind::TouchInversion || network_.target == DecoderTarget::Force);
+  target_->setEnabled(traits(network_.decoder).ofAreas || network_.target == DecoderTarget::Force);
   rows_->setText(QString::fromStdString(network_.rows));
   rowWires_ = rowWires;
   showRowsProblem({});
   showExactly(*testNoise_, 100 * network_.testNoise);
   advanced_->display(network_);
-  centers_->setValue(network_.centers);
+  centers_->setValue(network_.centers.value_or(0));
   showExactly(*noise_, 100 * network_.noise);
   automatic_->setChecked(network_.automaticSpread);
   showSixDigits(*from_, network_.sweepFrom);
@@ -311,7 +311,7 @@ void NetworkPanel::showNoise() {
 }
 
 void NetworkPanel::showSpread() {
-  const bool rbf = hasSpread(network_.decoder);
+  const bool rbf = traits(network_.decoder).hasRbf;
   const QString paper = QString::number(paperSpread(network_.input), 'g', 4);
   paper_->setText(tr("the paper's: %1").arg(paper));
   paper_->setToolTip(
@@ -320,8 +320,8 @@ void NetworkPanel::showSpread() {
   paper_->setEnabled(rbf);
   automatic_->setEnabled(rbf);
   centers_->setEnabled(rbf);
-  showSixDigits(*spread_, network_.spread);
-  spreadSlider_->setValue(stepOf(network_.spread));
+  showSixDigits(*spread_, network_.chosenSpread);
+  spreadSlider_->setValue(stepOf(network_.chosenSpread));
   spread_->setEnabled(rbf && !network_.automaticSpread);
   spreadSlider_->setEnabled(rbf && !network_.automaticSpread);
 }
@@ -375,10 +375,10 @@ void NetworkPanel::read(const QString& what) {
   network_.testNoise = readExactly(*testNoise_, network_.testNoise, true);
   advanced_->read(network_);
   if (rowsProblem_->isHidden()) network_.rows = rows_->text().trimmed().toStdString();
-  network_.centers = centers_->value();
+  network_.centers = centers_->value() > 0 ? std::optional(centers_->value()) : std::nullopt;
   network_.noise = readExactly(*noise_, network_.noise, true);
   network_.automaticSpread = automatic_->isChecked();
-  network_.spread = readExactly(*spread_, network_.spread);
+  network_.chosenSpread = readExactly(*spread_, network_.chosenSpread);
   const double from = readExactly(*from_, network_.sweepFrom), to = readExactly(*to_, network_.sweepTo);
   network_.sweepFrom = std::min(from, to);
   network_.sweepTo = std::max(from, to);

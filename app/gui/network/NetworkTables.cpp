@@ -49,32 +49,6 @@ TableText sweepTable(const std::vector<SweepPoint>& points, const NetworkSamples
   return table;
 }
 
-QString inWords(DecoderKind kind) {
-  switch (kind) {
-  case DecoderKind::Rbf:
-    return QObject::tr("radial basis functions (the paper's network)");
-  case DecoderKind::Linear:
-    return QObject::tr("linear regression");
-  case DecoderKind::Polynomial2:
-    return QObject::tr("polynomial of degree 2");
-  case DecoderKind::Polynomial3:
-    return QObject::tr("polynomial of degree 3");
-  case DecoderKind::GaussianProcess:
-    return QObject::tr("Gaussian process");
-  case DecoderKind::BackPropagation:
-    return QObject::tr("back-propagation network");
-  case DecoderKind::TwoStepBackPropagation:
-    return QObject::tr("displacements by back-propagation, then force");
-  case DecoderKind::TwoStepGaussNewton:
-    return QObject::tr("displacements by inverting the resistance law, Gauss-Newton, then force");
-  case DecoderKind::MaximumLikelihood:
-    return QObject::tr("maximum likelihood with a forward model");
-  case DecoderKind::TouchInversion:
-    return QObject::tr("force and place of a touch, by inverting a forward model");
-  }
-  return {};
-}
-
 TableText trialsTable(const std::vector<DecoderTrial>& trials, const NoiseBound* bound, const NetworkSamples* samples) {
   TableText table;
   const Eigen::Index testSamples = samples != nullptr ? samples->test.size() : 0;
@@ -92,7 +66,7 @@ TableText trialsTable(const std::vector<DecoderTrial>& trials, const NoiseBound*
     add(row, ofForces(trial.error.eq13Percent, samples));
     if (places) row << (trial.place ? number(trial.place->median_mm) : QString());
     row << (there ? number(trial.seconds) : QString()) << (there ? number(trial.microsecondsPerSample) : QString())
-        << trial.refusal << inWords(trial.kind);
+        << trial.refusal << QString(traits(trial.kind).description);
     table.rows.push_back(std::move(row));
   }
   if (bound == nullptr || trials.empty() || testSamples == 0) return table;
@@ -133,7 +107,7 @@ TableText networksTable(const std::vector<std::shared_ptr<const NetworkFit>>& ne
         << fit->made.toString("yyyy-MM-dd HH:mm:ss") << text(name(settings.input)) << text(settings.rows)
         << text(name(settings.decoder)) << QString::number(100 * settings.noise, 'g', 4)
         << QString::number(100 * settings.testNoise, 'g', 4) << used(fit->decoder.report.spread)
-        << used(fit->decoder.report.centers) << (hasRidge(settings.decoder) ? ridgeWords(*fit) : QString("-"))
+        << used(fit->decoder.report.centers) << (traits(settings.decoder).hasRidge ? ridgeWords(*fit) : QString("-"))
         << scalerWords(*fit) << QString::number(settings.seed) << text(name(settings.mode)) << optionsWords(settings)
         << QFileInfo(fit->file).fileName();
     table.rows.push_back(std::move(row));

@@ -25,8 +25,6 @@ TableText networksTable(const std::vector<std::shared_ptr<const NetworkFit>>& ne
 std::optional<std::size_t> bestTrial(const std::vector<DecoderTrial>& trials);
 /// That of the smallest error of the place (median); none where none learned places.
 std::optional<std::size_t> bestPlace(const std::vector<DecoderTrial>& trials);
-/// A decoder's short name in whole words.
-QString inWords(DecoderKind kind);
 /// The point of the smallest error (root mean square, as `palp sweep` chooses); none without points.
 std::optional<std::size_t> bestPoint(const std::vector<SweepPoint>& points);
 

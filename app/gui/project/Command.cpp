@@ -69,10 +69,8 @@ QString predictCommand(const NetworkSettings& network, const QString& file) {
 }
 
 QString trainCommands(const NetworkSettings& network, const QString& designFile, const QString& file) {
-  const QString spread = network.automaticSpread ? "auto" : QString::fromStdString(text(network.spread));
-  const bool designed =
-      network.decoder == DecoderKind::TwoStepGaussNewton || network.decoder == DecoderKind::TouchInversion;
-  const QString design = designed ? " --design " + designFile : QString();
+  const QString spread = network.automaticSpread ? "auto" : QString::fromStdString(text(network.chosenSpread));
+  const QString design = traits(network.decoder).usesDesign ? " --design " + designFile : QString();
   return "palp train train.csv" + trainOptions(network) + " --spread " + spread + design + " -o " + file + "\n" +
          predictCommand(network, file);
 }

@@ -1,31 +1,20 @@
 #include "app/gui/project/Project.h"
 
+#include "app/study/decoding/TrainOptionTable.h"
+
+#include <algorithm>
+
 namespace palp {
 
 TrainOptions NetworkSettings::trainOptions() const {
-  TrainOptions options;
-  options.input = input;
-  options.mode = mode;
-  options.decoder = decoder;
-  options.target = target;
-  options.rows = rows;
-  options.noise = noise;
-  if (centers > 0) options.centers = centers;
-  if (!automaticSpread) options.spread = spread;
-  options.allCenters = allCenters;
-  options.centerChoice = centerChoice;
-  options.solver = solver;
-  options.ridge = ridge;
-  options.scaling = scaling;
-  options.tail = tail;
-  options.convention = convention;
-  options.forgetting = forgetting;
-  options.seed = seed;
+  TrainOptions options = *this;
+  options.spread = automaticSpread ? std::nullopt : std::optional(chosenSpread);
   return options;
 }
 
 bool NetworkSettings::trainOptionsSet() const {
-  return centerChoice || allCenters || solver || ridge || scaling || tail || convention || forgetting != 1 || seed != 1;
+  return allCenters || std::any_of(trainOptionTable().begin(), trainOptionTable().end(),
+                                   [this](const TrainOption& one) { return one.inForm && one.isSet(*this); });
 }
 
 Project exampleProject() {

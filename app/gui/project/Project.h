@@ -17,34 +17,19 @@
 
 namespace palp {
 
-/// How the Network scene trains and sweeps.
-struct NetworkSettings {
-  InputKind input = InputKind::Displacement;
-  DecoderMode mode = DecoderMode::Default;
-  DecoderKind decoder = DecoderKind::Rbf;
-  DecoderTarget target = DecoderTarget::Force; ///< the place as well: of touches alone
-  std::string rows = "4";
+/// How the Network scene trains and sweeps: the options of training, and what the scene has besides. The spread of the
+/// training is unused: the field keeps its number while the spread is automatic.
+struct NetworkSettings : TrainOptions {
   bool automaticSpread = false;
-  double spread = 1;
-  int centers = 0;                          ///< 0: as the mode says
-  double noise = 0;                         ///< relative, that is trained with
-  double testNoise = 0;                     ///< relative, that the test samples get
-  std::optional<CenterChoice> centerChoice; ///< this and what follows: none where the mode decides
-  bool allCenters = false;
-  std::optional<LeastSquaresMethod> solver;
-  std::optional<double> ridge;
-  std::optional<Scaling> scaling;
-  std::optional<Tail> tail;
-  std::optional<SpreadConvention> convention;
-  double forgetting = 1;
-  std::uint64_t seed = 1; ///< of centres, noise and starts
+  double chosenSpread = 1;
+  double testNoise = 0; ///< relative, of the test samples
   double sweepFrom = 0.3;
   double sweepTo = 10;
   int sweepCount = 9;
 
   bool operator==(const NetworkSettings&) const = default;
   [[nodiscard]] TrainOptions trainOptions() const;
-  /// Something is set that otherwise follows from the mode.
+  /// One of the options below "More options" is set.
   [[nodiscard]] bool trainOptionsSet() const;
 };
 

@@ -4,10 +4,13 @@
 #include "app/gui/project/LiveSettingsFile.h"
 #include "app/gui/project/SampleSettingsFile.h"
 
+#include "app/study/decoding/TrainOptionTable.h"
 #include "io/AtomicFile.h"
 #include "io/DesignFile.h"
 #include "io/StrictJson.h"
 #include "model/base/Error.h"
+#include "model/base/NumberText.h"
+#include "model/base/Text.h"
 
 #include <QFile>
 #include <QJsonArray>
@@ -44,64 +47,56 @@ MeshOptions meshOf(const JsonPlace& place) {
   return mesh;
 }
 
+bool isNumber(const TrainOption& option) {
+  return option.form != TrainOption::Form::Text && option.form != TrainOption::Form::Choice;
+}
+
 QJsonObject networkJson(const NetworkSettings& network) {
-  QJsonObject object{{"input", QString::fromStdString(name(network.input))},
-                     {"mode", QString::fromStdString(name(network.mode))},
-                     {"decoder", QString::fromStdString(name(network.decoder))},
-                     {"rows", QString::fromStdString(network.rows)},
-                     {"automatic_spread", network.automaticSpread},
-                     {"spread", network.spread},
-                     {"centers", network.centers},
-                     {"noise", network.noise},
+  QJsonObject object{{"automatic_spread", network.automaticSpread},
+                     {"spread", network.chosenSpread},
+                     {"centers", network.centers.value_or(0)},
                      {"sweep_from", network.sweepFrom},
                      {"sweep_to", network.sweepTo},
                      {"sweep_count", network.sweepCount}};
   if (network.testNoise > 0) object["test_noise"] = network.testNoise;
   if (network.allCenters) object["all_centers"] = true;
-  if (network.forgetting != 1) object["forgetting"] = network.forgetting;
-  if (network.seed != 1) object["train_seed"] = static_cast<double>(network.seed);
-  const auto add = [&object](const char* key, const auto& value, const auto& names) {
-    if (value) object[key] = QString::fromStdString(names.name(*value));
-  };
-  add("centers_by", network.centerChoice, kCenterChoices);
-  add("solver", network.solver, kLeastSquaresMethods);
-  add("scaler", network.scaling, kScalings);
-  add("tail", network.tail, kTails);
-  add("convention", network.convention, kSpreadConventions);
-  if (network.ridge) object["ridge"] = *network.ridge;
-  if (network.target != DecoderTarget::Force)
-    object["target"] = QString::fromStdString(kDecoderTargets.name(network.target));
+  for (const TrainOption& option : trainOptionTable()) {
+    if (option.key.empty() || (!option.alwaysInFiles && !option.isSet(network))) continue;
+    const std::string text = option.text(network);
+    const QString key = QString::fromStdString(option.key);
+    object[key] = isNumber(option) ? QJsonValue(numberIn(text).value()) : QJsonValue(QString::fromStdString(text));
+  }
   return object;
 }
 
+void readOption(const TrainOption& option, const JsonPlace& place, NetworkSettings& network) {
+  using Form = TrainOption::Form;
+  const std::string value =
+      option.form == Form::WholeNumber
+          ? std::to_string(place.integer(static_cast<int>(option.low), static_cast<int>(option.high)))
+      : isNumber(option) ? text(place.number(option.low, option.high))
+                         : place.string();
+  if (!option.set(network, value)) place.refuse(option.allowed);
+}
+
 NetworkSettings networkOf(const JsonPlace& place) {
-  place.onlyKeys({"input", "mode", "decoder", "rows", "automatic_spread", "spread", "noise", "sweep_from", "sweep_to",
-                  "sweep_count"},
-                 {"centers", "test_noise", "all_centers", "forgetting", "train_seed", "centers_by", "solver", "scaler",
-                  "tail", "convention", "ridge", "target"});
+  std::vector<std::string> required{"automatic_spread", "spread", "sweep_from", "sweep_to", "sweep_count"};
+  std::vector<std::string> optional{"centers", "test_noise", "all_centers"};
+  for (const TrainOption& option : trainOptionTable())
+    if (!option.key.empty()) (option.alwaysInFiles ? required : optional).push_back(option.key);
+  place.onlyKeys(required, optional);
   NetworkSettings network;
-  network.input = place.at("input").named(kInputKinds);
-  network.mode = place.at("mode").named(kDecoderModes);
-  network.decoder = place.at("decoder").named(kDecoderKinds);
-  if (place.has("target")) network.target = place.at("target").named(kDecoderTargets);
-  network.rows = place.at("rows").string();
   network.automaticSpread = place.at("automatic_spread").boolean();
-  network.spread = place.at("spread").number(1e-6, 1e6);
-  if (place.has("centers")) network.centers = place.at("centers").integer(0, 100000);
-  network.noise = place.at("noise").number(0, 1);
+  network.chosenSpread = place.at("spread").number(1e-6, 1e6);
+  if (place.has("centers"))
+    if (const int centers = place.at("centers").integer(0, 100000); centers > 0) network.centers = centers;
   network.sweepFrom = place.at("sweep_from").number(1e-6, 1e6);
   network.sweepTo = place.at("sweep_to").number(network.sweepFrom, 1e6);
   network.sweepCount = place.at("sweep_count").integer(2, 100);
   if (place.has("test_noise")) network.testNoise = place.at("test_noise").number(0, 0.5);
   if (place.has("all_centers")) network.allCenters = place.at("all_centers").boolean();
-  if (place.has("forgetting")) network.forgetting = place.at("forgetting").number(1e-6, 1);
-  if (place.has("train_seed")) network.seed = static_cast<std::uint64_t>(place.at("train_seed").integer(0, 1000000000));
-  if (place.has("centers_by")) network.centerChoice = place.at("centers_by").named(kCenterChoices);
-  if (place.has("solver")) network.solver = place.at("solver").named(kLeastSquaresMethods);
-  if (place.has("scaler")) network.scaling = place.at("scaler").named(kScalings);
-  if (place.has("tail")) network.tail = place.at("tail").named(kTails);
-  if (place.has("convention")) network.convention = place.at("convention").named(kSpreadConventions);
-  if (place.has("ridge")) network.ridge = place.at("ridge").number(0, 1e100);
+  for (const TrainOption& option : trainOptionTable())
+    if (!option.key.empty() && place.has(option.key)) readOption(option, place.at(option.key), network);
   return network;
 }
 

@@ -70,12 +70,9 @@ Eigen::VectorXd rms(const Eigen::MatrixXd& errors) {
 }
 
 void requireUsable(const Decoder& decoder, const SampleSet& frames) {
-  const bool refinable = std::holds_alternative<RbfNetwork>(decoder.model) ||
-                         std::holds_alternative<ForwardModel>(decoder.model) ||
-                         std::holds_alternative<KernelForwardModel>(decoder.model);
-  if (!refinable || decoder.outputs() != 3)
-    throw Error("calibrate refines an rbf or ml network of one force, or one of touches (touch); this network is " +
-                name(decoder.kind) + " with " + std::to_string(decoder.outputs()) + " outputs");
+  if (!traits(decoder.kind).canBeCalibrated || decoder.outputs() != 3)
+    throw Error("calibrate refines a network of one force by " + namesOfDecodersWith(&DecoderTraits::canBeCalibrated) +
+                "; this network is " + name(decoder.kind) + " with " + std::to_string(decoder.outputs()) + " outputs");
   if (frames.together()) throw Error("calibrate takes frames with one area loaded at a time");
   if (frames.size() < kFewestCalibrationFrames)
     throw Error(std::to_string(frames.size()) + (frames.size() == 1 ? " labelled frame" : " labelled frames") +

@@ -126,10 +126,9 @@ void DecoderTraining::addPlace() {
   if (!samples_.hasPlaces())
     throw Error("target: force+place needs samples of touches (Network scene, palp sample --touch) or with measured "
                 "places (palp import); these load whole areas");
-  if (!takesPlace(options_.decoder))
-    throw Error("target: " + name(options_.decoder) +
-                " gives forces alone; force+place takes rbf, linear, poly2, "
-                "poly3, gp, bp or touch");
+  if (!traits(options_.decoder).givesPosition)
+    throw Error("target: " + name(options_.decoder) + " predicts the force only; force+place takes " +
+                namesOfDecodersWith(&DecoderTraits::givesPosition));
   const Eigen::Matrix2Xd places_mm = samples_.touchedPlaces_mm();
   decoder_.place = DecoderPlace{places_mm.rowwise().minCoeff(), places_mm.rowwise().maxCoeff(), {}};
   targets_.conservativeResize(targets_.rows() + 2, Eigen::NoChange);

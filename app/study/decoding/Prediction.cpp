@@ -55,11 +55,8 @@ Eigen::MatrixXd differences(const Decoder& decoder, const Eigen::VectorXd& input
 Eigen::MatrixXd slopeAt(const Decoder& decoder, const Eigen::VectorXd& input) {
   return std::visit(
       [&](const auto& model) -> Eigen::MatrixXd {
-        using Model = std::decay_t<decltype(model)>;
-        if constexpr (std::is_same_v<Model, RbfNetwork> || std::is_same_v<Model, PolynomialRidge>)
+        if constexpr (requires { model.jacobian(input); })
           return model.jacobian(input);
-        else if constexpr (std::is_same_v<Model, GaussianProcess>)
-          return model.mean.jacobian(input);
         else
           return differences(decoder, input);
       },
@@ -138,14 +135,25 @@ void addAreas(const Decoder& decoder, const LikelihoodInversion& inversion,
 
 namespace {
 
+/// False where the decoder's model states no deviation of its own.
+bool setOwnDeviation(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixXd>& inputs, Prediction& result) {
+  return std::visit(
+      [&](const auto& model) {
+        constexpr bool kStates = requires {
+          model.standardDeviation(inputs);
+        };
+        if constexpr (kStates) result.standardDeviation_N = model.standardDeviation(inputs);
+        return kStates;
+      },
+      decoder.model);
+}
+
 /// The error found in training (of the touched area, where it is known) and the inputs' further noise through dF/dx;
 /// never less than all their noise there, which training averaged over the range.
 void addDeviations(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixXd>& inputs,
                    const PredictOptions& options, Prediction& result) {
   const double further = furtherNoise(decoder, options);
-  if (const auto* process = std::get_if<GaussianProcess>(&decoder.model))
-    result.standardDeviation_N = process->standardDeviation(inputs);
-  else {
+  if (!setOwnDeviation(decoder, inputs, result)) {
     const Eigen::VectorXd all = decoder.residual_N.rowwise().squaredNorm() / decoder.residual_N.cols();
     result.standardDeviation_N.resize(decoder.outputs() + (decoder.place ? 2 : 0), inputs.cols());
     if (decoder.place) result.standardDeviation_N.bottomRows<2>().colwise() = decoder.place->residual_mm;

@@ -1,7 +1,7 @@
 #include "app/study/decoding/TrainOptions.h"
 
+#include "app/study/decoding/TrainOptionTable.h"
 #include "model/base/Error.h"
-#include "model/base/Text.h"
 
 #include <algorithm>
 #include <charconv>
@@ -65,21 +65,10 @@ RbfOptions rbfOptions(const TrainOptions& options, Eigen::Index samples) {
 }
 
 std::string asCommand(const TrainOptions& options) {
-  std::string text = " --input " + name(options.input) + " --rows " + options.rows + " --mode " + name(options.mode);
-  if (options.decoder != DecoderKind::Rbf) text += " --decoder " + name(options.decoder);
-  if (options.target != DecoderTarget::Force) text += " --target " + kDecoderTargets.name(options.target);
-  if (options.spread) text += " --spread " + palp::text(*options.spread);
-  if (options.allCenters) text += " --centers all";
-  if (options.centers) text += " --centers " + std::to_string(*options.centers);
-  if (options.centerChoice) text += " --centers-by " + kCenterChoices.name(*options.centerChoice);
-  if (options.solver) text += " --solver " + name(*options.solver);
-  if (options.ridge) text += " --ridge " + palp::text(*options.ridge);
-  if (options.scaling) text += " --scaler " + name(*options.scaling);
-  if (options.tail) text += " --tail " + kTails.name(*options.tail);
-  if (options.convention) text += " --convention " + name(*options.convention);
-  if (options.noise > 0) text += " --noise " + palp::text(options.noise);
-  if (options.forgetting != 1) text += " --forgetting " + palp::text(options.forgetting);
-  return text + " --seed " + std::to_string(options.seed);
+  std::string text;
+  for (const TrainOption& option : trainOptionTable())
+    if (option.alwaysInCommands || option.isSet(options)) text += " --" + option.name + " " + option.text(options);
+  return text;
 }
 
 std::vector<int> rowsNamed(const std::string& rows, int rowWires) {

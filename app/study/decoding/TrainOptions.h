@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/Decoder.h"
+#include "io/DecoderKind.h"
 #include "nn/RbfTrainer.h"
 
 #include <cstdint>
@@ -10,7 +10,8 @@
 
 namespace palp {
 
-/// All options of `palp train`; what is not set follows from the mode.
+/// All options of `palp train`; those that are not set follow from the mode. TrainOptionTable.h has their names, limits
+/// and words.
 struct TrainOptions {
   InputKind input = InputKind::Displacement;
   std::string rows = "4"; ///< row-wires that are read: "4", "1,4,7", "all"
@@ -30,6 +31,8 @@ struct TrainOptions {
   double forgetting = 1;
   std::uint64_t seed = 1;
   int threads = 0; ///< 0: all cores; the result is the same
+
+  bool operator==(const TrainOptions&) const = default;
 };
 
 /// The one place where a mode becomes options (resources/docs/physics.md, the two modes): for `samples` samples.

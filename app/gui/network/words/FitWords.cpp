@@ -2,6 +2,7 @@
 
 #include "app/gui/network/NetworkTables.h"
 #include "app/gui/network/words/ErrorWords.h"
+#include "app/gui/project/changes/NetworkChange.h"
 #include "app/gui/project/changes/ProjectChange.h"
 
 #include <QFileInfo>
@@ -42,30 +43,6 @@ void addChange(QStringList& all, const QString& what, const QString& before, con
   if (before != after) all << tr("%1 %2, now %3").arg(what, before, after);
 }
 
-QString centersWords(const NetworkSettings& settings) {
-  return settings.centers > 0 ? QString::number(settings.centers) : tr("as the mode says");
-}
-
-/// What stands below "More options".
-void addOptions(QStringList& all, const NetworkSettings& then, const NetworkSettings& now) {
-  const auto add = [&all](const QString& what, const auto& before, const auto& after, const auto& named) {
-    const auto words = [&named](const auto& value) { return value ? QString(named(*value)) : tr("as the mode says"); };
-    addChange(all, what, words(before), words(after));
-  };
-  const auto number = [](double value) { return QString::number(value, 'g', 6); };
-  add(tr("solver"), then.solver, now.solver, [](auto value) { return trained(name(value)); });
-  add(tr("ridge"), then.ridge, now.ridge, number);
-  add(tr("scaler"), then.scaling, now.scaling, [](auto value) { return trained(name(value)); });
-  add(tr("tail"), then.tail, now.tail, [](auto value) { return trained(kTails.name(value)); });
-  add(tr("convention"), then.convention, now.convention, [](auto value) { return trained(name(value)); });
-  add(tr("centres by"), then.centerChoice, now.centerChoice,
-      [](auto value) { return trained(kCenterChoices.name(value)); });
-  const auto every = [](const NetworkSettings& settings) { return settings.allCenters ? tr("yes") : tr("no"); };
-  addChange(all, tr("a centre on every sample:"), every(then), every(now));
-  addChange(all, tr("forgetting"), number(then.forgetting), number(now.forgetting));
-  addChange(all, tr("seed of training"), QString::number(then.seed), QString::number(now.seed));
-}
-
 /// What the network was trained with, and what is set now instead.
 QStringList differences(const NetworkSettings& then, const NetworkSettings& now) {
   QStringList all;
@@ -73,21 +50,12 @@ QStringList differences(const NetworkSettings& then, const NetworkSettings& now)
     addChange(all, what, before, after);
   };
   const auto spread = [](const NetworkSettings& settings) {
-    return settings.automaticSpread ? tr("by leave-one-out") : QString::number(settings.spread, 'g', 4);
+    return settings.automaticSpread ? tr("by leave-one-out") : QString::number(settings.chosenSpread, 'g', 4);
   };
-  add(tr("input"), trained(name(then.input)), trained(name(now.input)));
-  add(tr("row-wires"), trained(then.rows), trained(now.rows));
-  add(tr("mode"), trained(name(then.mode)), trained(name(now.mode)));
-  add(tr("decoder"), trained(name(then.decoder)), trained(name(now.decoder)));
-  const auto target = [](const NetworkSettings& settings) {
-    return settings.target == DecoderTarget::Force ? tr("the force") : tr("force and place");
-  };
-  add(tr("learns"), target(then), target(now));
+  for (const TrainOption& option : trainOptionTable())
+    add(QString::fromStdString(option.label), optionWords(option, then), optionWords(option, now));
   add(tr("spread"), spread(then), spread(now));
-  add(tr("centres"), centersWords(then), centersWords(now));
-  add(tr("noise"), percent(then.noise), percent(now.noise));
   add(tr("noise of the test"), percent(then.testNoise), percent(now.testNoise));
-  addOptions(all, then, now);
   return all;
 }
 
@@ -101,13 +69,12 @@ QString triple(const Eigen::VectorXd& values, const QString& unit) {
 
 QString optionsWords(const NetworkSettings& settings) {
   QStringList words;
-  const auto add = [&words](const QString& what, const QString& value) { words << what + " " + value; };
-  if (settings.solver) add(tr("solver"), trained(name(*settings.solver)));
-  if (settings.tail) add(tr("tail"), trained(kTails.name(*settings.tail)));
-  if (settings.convention) add(tr("convention"), trained(name(*settings.convention)));
-  if (settings.centerChoice) add(tr("centres by"), trained(kCenterChoices.name(*settings.centerChoice)));
+  for (const TrainOption& option : trainOptionTable()) {
+    const bool apart = option.name == "ridge" || option.name == "scaler" || option.name == "seed";
+    if (option.inForm && !apart && option.isSet(settings))
+      words << QString::fromStdString(option.label) + " " + optionWords(option, settings);
+  }
   if (settings.allCenters) words << tr("a centre on every sample");
-  if (settings.forgetting != 1) add(tr("forgetting"), QString::number(settings.forgetting));
   return words.join(", ");
 }
 
@@ -129,7 +96,7 @@ QString originWords(const NetworkFit& fit) {
                            trained(name(fit.settings.decoder)), trained(name(fit.settings.mode)));
   if (fit.decoder.report.spread > 0) words += tr(", spread %1").arg(fit.decoder.report.spread, 0, 'g', 4);
   if (fit.decoder.report.centers > 0) words += tr(", %1 centres").arg(fit.decoder.report.centers);
-  if (hasRidge(fit.settings.decoder)) words += tr(", ridge %1").arg(ridgeWords(fit));
+  if (traits(fit.settings.decoder).hasRidge) words += tr(", ridge %1").arg(ridgeWords(fit));
   if (fit.settings.scaling) words += tr(", scaler %1").arg(trained(name(*fit.settings.scaling)));
   const QString options = optionsWords(fit.settings);
   if (!options.isEmpty()) words += ", " + options;
@@ -142,16 +109,6 @@ QString originWords(const NetworkFit& fit) {
   words += fit.settings.testNoise > 0 ? tr(", tested with noise %1").arg(percent(fit.settings.testNoise))
                                       : tr(", tested without noise");
   return words;
-}
-
-bool hasRidge(DecoderKind kind) {
-  return hasSpread(kind) || kind == DecoderKind::Linear || kind == DecoderKind::Polynomial2 ||
-         kind == DecoderKind::Polynomial3;
-}
-
-bool hasSpread(DecoderKind kind) {
-  return kind == DecoderKind::Rbf || kind == DecoderKind::TwoStepBackPropagation ||
-         kind == DecoderKind::TwoStepGaussNewton;
 }
 
 /// "an earlier design", and what has changed of it since.
@@ -189,7 +146,7 @@ QString staleSweepReason(const NetworkSession& session, const NetworkSettings& n
   if (session.sweepPoints().empty()) return {};
   if (!session.upToDate()) return tr("The sweep is of %1.").arg(earlierDesign(session));
   NetworkSettings then = session.sweepSettings();
-  then.spread = now.spread;
+  then.chosenSpread = now.chosenSpread;
   then.automaticSpread = now.automaticSpread;
   const QStringList changes = differences(then, now);
   return changes.isEmpty() ? QString() : tr("The sweep is of other settings (%1).").arg(changes.join("; "));
@@ -234,7 +191,7 @@ bool sweepAndTrialsAgree(const NetworkSession& session) {
   NetworkSettings sweep = session.sweepSettings();
   const NetworkSettings& trials = session.trialsSettings();
   sweep.decoder = trials.decoder;
-  sweep.spread = trials.spread;
+  sweep.chosenSpread = trials.chosenSpread;
   sweep.automaticSpread = trials.automaticSpread;
   sweep.sweepFrom = trials.sweepFrom;
   sweep.sweepTo = trials.sweepTo;

@@ -20,9 +20,6 @@ QString optionsWords(const NetworkSettings& settings);
 QString ridgeWords(const NetworkFit& fit);
 /// How its inputs are scaled, set or as the mode says; "-" where that is not known.
 QString scalerWords(const NetworkFit& fit);
-bool hasRidge(DecoderKind kind);
-/// It is a radial basis network, or ends in one: spread, centres and all other options act on it.
-bool hasSpread(DecoderKind kind);
 
 /// Where a network comes from and how it was trained: "from displacements, rows 4, rbf, default, 600 centres".
 QString originWords(const NetworkFit& fit);

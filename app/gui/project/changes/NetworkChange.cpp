@@ -1,5 +1,7 @@
 #include "app/gui/project/changes/NetworkChange.h"
 
+#include "model/base/NumberText.h"
+
 #include <QObject>
 
 namespace palp {
@@ -16,10 +18,6 @@ QString networkNumber(double value) {
   return QString::number(value, 'g', 6);
 }
 
-QString text(const std::string& value) {
-  return QString::fromStdString(value);
-}
-
 /// Gathers the sentences of what differs.
 class Steps {
 public:
@@ -27,18 +25,15 @@ public:
   void add(const QString& name, const Value& from, const Value& to, const Words& words, const QString& unit = {}) {
     if (from != to) all_ << stepWords(name, words(from), words(to), unit);
   }
-  /// `names`: a NamedEnum; none where the mode decides.
-  template <class Value, class Names>
-  void addChoice(const QString& name, const std::optional<Value>& from, const std::optional<Value>& to,
-                 const Names& names) {
-    add(name, from, to,
-        [&](const auto& its) { return its ? text(names.name(*its)) : QObject::tr("as the mode says"); });
-  }
   [[nodiscard]] QStringList all() const { return all_; }
 
 private:
   QStringList all_;
 };
+
+QString percentOf(double share) {
+  return networkNumber(100 * share) + " %";
+}
 
 QString onOff(bool value) {
   return value ? QObject::tr("yes") : QObject::tr("no");
@@ -48,8 +43,12 @@ QString whole(std::uint64_t value) {
   return QString::number(value);
 }
 
+QString asIs(const QString& words) {
+  return words;
+}
+
 QString spreadWords(const NetworkSettings& network) {
-  return network.automaticSpread ? QObject::tr("by leave-one-out") : networkNumber(network.spread);
+  return network.automaticSpread ? QObject::tr("by leave-one-out") : networkNumber(network.chosenSpread);
 }
 
 QString sweepWords(const NetworkSettings& network) {
@@ -60,6 +59,12 @@ QString sweepWords(const NetworkSettings& network) {
 
 } // namespace
 
+QString optionWords(const TrainOption& option, const TrainOptions& options) {
+  const std::string text = option.text(options);
+  if (text.empty()) return QObject::tr("as the mode says");
+  return option.form == TrainOption::Form::Share ? percentOf(numberIn(text).value()) : QString::fromStdString(text);
+}
+
 QString stepWords(const QString& name, const QString& from, const QString& to, const QString& unit) {
   const QString words = QString("%1 %2 -> %3").arg(name, shortened(from), shortened(to));
   return unit.isEmpty() ? words : words + " " + unit;
@@ -67,33 +72,11 @@ QString stepWords(const QString& name, const QString& from, const QString& to, c
 
 QStringList networkChanges(const NetworkSettings& before, const NetworkSettings& after) {
   Steps steps;
-  const auto percent = [](double share) { return networkNumber(100 * share); };
-  steps.add(QObject::tr("network's input"), before.input, after.input, [](InputKind its) {
-    return its == InputKind::Displacement ? QObject::tr("displacements") : QObject::tr("resistances");
-  });
-  steps.add(QObject::tr("mode"), before.mode, after.mode, [](DecoderMode its) { return text(name(its)); });
-  steps.add(QObject::tr("decoder"), before.decoder, after.decoder, [](DecoderKind its) { return text(name(its)); });
-  steps.add(QObject::tr("learns"), before.target, after.target, [](DecoderTarget its) {
-    return its == DecoderTarget::Force ? QObject::tr("the force") : QObject::tr("force and place");
-  });
-  steps.add(QObject::tr("row-wires"), before.rows, after.rows, [](const std::string& its) { return text(its); });
-  steps.add(QObject::tr("spread"), spreadWords(before), spreadWords(after), [](const QString& its) { return its; });
-  steps.add(QObject::tr("centres"), before.centers, after.centers,
-            [](int its) { return its > 0 ? QString::number(its) : QObject::tr("as the mode says"); });
-  steps.add(QObject::tr("noise of the training"), before.noise, after.noise, percent, "%");
-  steps.add(QObject::tr("noise of the test"), before.testNoise, after.testNoise, percent, "%");
-  steps.addChoice(QObject::tr("centres by"), before.centerChoice, after.centerChoice, kCenterChoices);
-  steps.add(QObject::tr("a centre on every sample:"), before.allCenters, after.allCenters, onOff);
-  steps.addChoice(QObject::tr("solver"), before.solver, after.solver, kLeastSquaresMethods);
-  steps.add(QObject::tr("ridge"), before.ridge, after.ridge, [](const std::optional<double>& its) {
-    return its ? networkNumber(*its) : QObject::tr("as the mode says");
-  });
-  steps.addChoice(QObject::tr("scaler"), before.scaling, after.scaling, kScalings);
-  steps.addChoice(QObject::tr("tail"), before.tail, after.tail, kTails);
-  steps.addChoice(QObject::tr("convention"), before.convention, after.convention, kSpreadConventions);
-  steps.add(QObject::tr("forgetting"), before.forgetting, after.forgetting, networkNumber);
-  steps.add(QObject::tr("seed of the training"), before.seed, after.seed, whole);
-  steps.add(QObject::tr("sweep"), sweepWords(before), sweepWords(after), [](const QString& its) { return its; });
+  for (const TrainOption& option : trainOptionTable())
+    steps.add(QString::fromStdString(option.label), optionWords(option, before), optionWords(option, after), asIs);
+  steps.add(QObject::tr("spread"), spreadWords(before), spreadWords(after), asIs);
+  steps.add(QObject::tr("noise of the test"), before.testNoise, after.testNoise, percentOf);
+  steps.add(QObject::tr("sweep"), sweepWords(before), sweepWords(after), asIs);
   return steps.all();
 }
 

@@ -32,11 +32,10 @@ struct Way {
 
 std::vector<Way> ways(const TrainOptions& base, Eigen::Index samples) {
   std::vector<Way> result;
-  for (const DecoderKind kind : allDecoderKinds()) {
+  for (const DecoderKind kind : decodersWith(&DecoderTraits::ofAreas)) {
     TrainOptions options = base;
     options.decoder = kind;
-    const bool needsResistance = kind == DecoderKind::TwoStepBackPropagation || kind == DecoderKind::TwoStepGaussNewton;
-    if (!needsResistance || base.input == InputKind::Resistance) result.push_back({name(kind), options});
+    if (!traits(kind).needsResistances || base.input == InputKind::Resistance) result.push_back({name(kind), options});
   }
   for (const int centers : {50, 100, 200, 400}) {
     if (centers >= samples) break;

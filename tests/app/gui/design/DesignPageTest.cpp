@@ -61,7 +61,7 @@ TEST_F(DesignPageTest, ShowsAProjectsOwnNumbersAndKeepsThemWhenOthersAreEdited) 
   project.mesh = {0.333, {}}; // finer than the box offers, and with more digits
   project.view.resistanceNoise = 5e-7;
   project.network.noise = 2.5e-8;
-  project.network.spread = 0.0012345;
+  project.network.chosenSpread = 0.0012345;
   project.network.automaticSpread = false;
   workbench.replace(project);
   EXPECT_EQ(find<QDoubleSpinBox>("meshSize").value(), 0.333);
@@ -72,7 +72,7 @@ TEST_F(DesignPageTest, ShowsAProjectsOwnNumbersAndKeepsThemWhenOthersAreEdited) 
   find<QSpinBox>("centers").setValue(17);
   EXPECT_EQ(workbench.project().network.centers, 17);
   EXPECT_NEAR(workbench.project().network.noise, 2.5e-8, 1e-22) << "a factor of 100 there and back";
-  EXPECT_EQ(workbench.project().network.spread, 0.0012345);
+  EXPECT_EQ(workbench.project().network.chosenSpread, 0.0012345);
   EXPECT_EQ(workbench.project().mesh.meshSize_mm, 0.333);
 }
 

@@ -237,7 +237,7 @@ TEST_F(OpenFiles, AProjectWithOneBrokenNetworkOpensWithTheOthersAndSavingLeavesI
   generate();
   for (int k = 0; k < 2; ++k) {
     Project next = workbench.project();
-    next.network.spread = 1 + k; // equal networks stand once in the list
+    next.network.chosenSpread = 1 + k; // equal networks stand once in the list
     workbench.edit("spread", next);
     find<QPushButton>("train").click();
     ASSERT_TRUE(
@@ -267,7 +267,7 @@ TEST_F(OpenFiles, AProjectWithOneBrokenNetworkOpensWithTheOthersAndSavingLeavesI
   EXPECT_TRUE(problem->text().contains(files[0])) << problem->text().toStdString();
   EXPECT_FALSE(next.isWindowModified());
   Project another = fresh.project();
-  another.network.spread = 3;
+  another.network.chosenSpread = 3;
   fresh.edit("spread", another);
   next.findChild<QPushButton*>("train")->click();
   ASSERT_TRUE(QTest::qWaitFor([&] { return other.kept().size() == 2 && !next.busy(); }, kPatience_ms));

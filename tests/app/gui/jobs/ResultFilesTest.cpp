@@ -52,10 +52,10 @@ protected:
     for (const double spread : {2.0, 3.0}) {
       NetworkSettings settings = project.network;
       settings.automaticSpread = false;
-      settings.spread = spread;
+      settings.chosenSpread = spread;
       session.train(settings);
-      ASSERT_TRUE(QTest::qWaitFor([&] { return session.fit() != nullptr && session.fit()->settings.spread == spread; },
-                                  kPatience_ms));
+      ASSERT_TRUE(QTest::qWaitFor(
+          [&] { return session.fit() != nullptr && session.fit()->settings.chosenSpread == spread; }, kPatience_ms));
     }
     NetworkSettings swept = project.network;
     swept.sweepCount = 3;
@@ -146,7 +146,7 @@ TEST_F(ResultFilesTest, ANetworkWhoseSettingsCannotBeReadIsListedAsFarAsItSaysTh
   const OpenedResults found = opened();
   EXPECT_EQ(found.problems.size(), 1U);
   ASSERT_EQ(found.results.kept.size(), 2U);
-  EXPECT_EQ(found.results.kept[0]->settings.spread, made_.kept[0]->settings.spread);
+  EXPECT_EQ(found.results.kept[0]->settings.chosenSpread, made_.kept[0]->settings.chosenSpread);
 }
 
 TEST_F(ResultFilesTest, NoFileThatCannotBeOpenedIsOverwritten) {

@@ -95,7 +95,8 @@ TEST_F(NetworkField, TrainsSweepsAndComparesOnThem) {
   ASSERT_TRUE(QTest::qWaitFor([&] { return network.sweepPoints().size() == 3; }, kPatience_ms));
   ASSERT_TRUE(idle());
   click("compare");
-  ASSERT_TRUE(QTest::qWaitFor([&] { return network.trials().size() == allDecoderKinds().size(); }, kPatience_ms));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.trials().size() == decodersWith(&DecoderTraits::ofAreas).size(); },
+                              kPatience_ms));
   ASSERT_TRUE(idle());
   EXPECT_TRUE(network.trials()[0].refusal.isEmpty()) << network.trials()[0].refusal.toStdString();
 }

@@ -65,7 +65,7 @@ TEST_F(NetworkList, GoesBackToAnEarlierNetworkWithItsSettings) {
   list.setCurrentCell(1, 0);
   QTest::mouseClick(&find<QPushButton>("goBack"), Qt::LeftButton);
   ASSERT_TRUE(QTest::qWaitFor([&] { return network.fit()->decoder.report.spread == first; }, kPatience_ms));
-  EXPECT_EQ(workbench.project().network.spread, first);
+  EXPECT_EQ(workbench.project().network.chosenSpread, first);
   EXPECT_TRUE(find<QLabel>("fitWords").text().contains("<b>"));
   ASSERT_TRUE(idle());
   QTest::mouseClick(&find<QPushButton>("takeAway"), Qt::LeftButton);
@@ -143,7 +143,7 @@ TEST_F(NetworkList, ASpreadThatIsDraggedLeavesOneNetworkInTheListAndOneThatIsTyp
   auto& slider = find<QSlider>("spreadSlider");
   const auto moveTo = [&](int step) {
     slider.setSliderPosition(step);
-    const double spread = workbench.project().network.spread;
+    const double spread = workbench.project().network.chosenSpread;
     return QTest::qWaitFor([&] { return network.fit()->decoder.report.spread == spread; }, kPatience_ms) && idle();
   };
   slider.setSliderDown(true); // tells that it is pressed
@@ -206,16 +206,16 @@ TEST_F(NetworkList, AFullListDropsTheOldestWithoutANameAndIsOpenedAsItWas) {
   const auto spread = [](std::size_t k) { return 1 + 0.01 * static_cast<double>(k); };
   for (std::size_t k = 0; k < most + 3; ++k) {
     NetworkSettings settings = workbench.project().network;
-    settings.spread = spread(k);
+    settings.chosenSpread = spread(k);
     session.train(settings);
     ASSERT_TRUE(QTest::qWaitFor(
-        [&] { return session.fit() != nullptr && session.fit()->decoder.report.spread == settings.spread; },
+        [&] { return session.fit() != nullptr && session.fit()->decoder.report.spread == settings.chosenSpread; },
         kPatience_ms));
     if (k == 0) session.rename(0, "the first, clean");
   }
   ASSERT_EQ(session.kept().size(), most + 1);
   EXPECT_EQ(session.kept().back()->name, "the first, clean");
-  EXPECT_EQ(session.kept()[most - 1]->settings.spread, spread(3)) << "the two oldest without a name have gone";
+  EXPECT_EQ(session.kept()[most - 1]->settings.chosenSpread, spread(3)) << "the two oldest without a name have gone";
   const QTemporaryDir folder;
   saveResults(folder.path().toStdString(), session.results(), {});
   const NetworkResults opened = openResults(folder.path().toStdString(), workbench.project().design, {}).results;

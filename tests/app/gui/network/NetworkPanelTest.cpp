@@ -126,7 +126,7 @@ TEST_F(NetworkPanel, OneClickTakesThePapersSpreadWhichTheChartMarks) {
   auto& paper = find<QPushButton>("paperSpread");
   EXPECT_EQ(paper.text(), "the paper's: 1.5");
   QTest::mouseClick(&paper, Qt::LeftButton);
-  EXPECT_EQ(workbench.project().network.spread, 1.5);
+  EXPECT_EQ(workbench.project().network.chosenSpread, 1.5);
   ASSERT_TRUE(QTest::qWaitFor([&] { return network.fit()->decoder.report.spread == 1.5; }, kPatience_ms));
   const ChartSpec& chart = find<ChartView>("sweepError").chart();
   ASSERT_FALSE(chart.series.empty());
@@ -139,7 +139,7 @@ TEST_F(NetworkPanel, OneClickTakesThePapersSpreadWhichTheChartMarks) {
 
 TEST_F(NetworkPanel, AnEditOfTheSamplesLeavesTheNetworkToItsLastDigit) {
   Project next = workbench.project();
-  next.network.spread = 6.4511948120390123;
+  next.network.chosenSpread = 6.4511948120390123;
   next.network.noise = next.network.testNoise = 1.0 / 3e4;
   next.network.automaticSpread = false;
   workbench.edit("as a sweep found it", next);
@@ -243,7 +243,7 @@ TEST_F(NetworkPanel, EscapeInAnOpenDropDownClosesOnlyThat) {
 TEST_F(NetworkPanel, WarnsOfABadSystemAsTheCommandLineDoes) {
   generate();
   Project next = workbench.project();
-  next.network.spread = 10000;
+  next.network.chosenSpread = 10000;
   next.network.solver = LeastSquaresMethod::PivotedQr; // of the plain system, without a ridge
   next.network.ridge = 0;
   workbench.edit("a bad system", next);

@@ -70,7 +70,8 @@ TEST_F(NetworkScene, PutsEveryDecoderOnTheSameAxes) {
   generate();
   find<QComboBox>("input").setCurrentIndex(1);
   QTest::mouseClick(&find<QPushButton>("compare"), Qt::LeftButton);
-  ASSERT_TRUE(QTest::qWaitFor([&] { return network.trials().size() == allDecoderKinds().size(); }, kPatience_ms));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.trials().size() == decodersWith(&DecoderTraits::ofAreas).size(); },
+                              kPatience_ms));
   ASSERT_TRUE(idle());
   settle();
   std::size_t trained = 0;
@@ -219,11 +220,12 @@ TEST_F(NetworkScene, TheNoiseBoundStandsBesideTheErrorsAndBelowTheDecoders) {
       << fx.toStdString() << " in " << words().toStdString();
   EXPECT_GT(network.fit()->error.error.rmsePercentOfRange[0], bound.withPriorPercent[0]);
   QTest::mouseClick(&find<QPushButton>("compare"), Qt::LeftButton);
-  ASSERT_TRUE(QTest::qWaitFor([&] { return network.trials().size() == allDecoderKinds().size(); }, kPatience_ms));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.trials().size() == decodersWith(&DecoderTraits::ofAreas).size(); },
+                              kPatience_ms));
   ASSERT_TRUE(idle());
   auto& table = find<DataTable>("trialsTable");
   const int last = table.rowCount() - 1;
-  EXPECT_EQ(last, static_cast<int>(allDecoderKinds().size()));
+  EXPECT_EQ(last, static_cast<int>(decodersWith(&DecoderTraits::ofAreas).size()));
   EXPECT_EQ(table.item(last, 0)->text(), "bound");
   EXPECT_EQ(table.item(last, 1)->text(), QString::number(bound.withPriorPercent[0], 'g', 6));
 }
@@ -232,7 +234,8 @@ TEST_F(NetworkScene, ADecoderOfTheComparisonIsTrainedAndListedByOneButton) {
   generate();
   trained();
   QTest::mouseClick(&find<QPushButton>("compare"), Qt::LeftButton);
-  ASSERT_TRUE(QTest::qWaitFor([&] { return network.trials().size() == allDecoderKinds().size(); }, kPatience_ms));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.trials().size() == decodersWith(&DecoderTraits::ofAreas).size(); },
+                              kPatience_ms));
   ASSERT_TRUE(idle());
   auto& table = find<DataTable>("trialsTable");
   auto& train = find<QPushButton>("trainMarked");
@@ -297,7 +300,7 @@ TEST_F(NetworkScene, TheSweepsTableHasEveryPointAndItsBestSpreadIsTakenOver) {
       error = point.error.rmsePercentOfRange.norm();
       best = point.spread;
     }
-  EXPECT_EQ(workbench.project().network.spread, best);
+  EXPECT_EQ(workbench.project().network.chosenSpread, best);
   ASSERT_TRUE(QTest::qWaitFor([&] { return network.fit()->decoder.report.spread == best; }, kPatience_ms));
 }
 
@@ -347,7 +350,8 @@ TEST_F(NetworkScene, TheTableOfDecodersSaysNothingOfAForceThatWasNeverTrainedAnd
 TEST_F(NetworkScene, AComparisonOfOtherSettingsIsFaintWithTheReason) {
   generate();
   QTest::mouseClick(&find<QPushButton>("compare"), Qt::LeftButton);
-  ASSERT_TRUE(QTest::qWaitFor([&] { return network.trials().size() == allDecoderKinds().size(); }, kPatience_ms));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.trials().size() == decodersWith(&DecoderTraits::ofAreas).size(); },
+                              kPatience_ms));
   ASSERT_TRUE(idle());
   EXPECT_FALSE(find<ChartView>("trialsError").faint());
   find<QDoubleSpinBox>("noise").setValue(0.01);

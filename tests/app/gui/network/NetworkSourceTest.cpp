@@ -48,7 +48,8 @@ TEST_F(NetworkSources, EachFileHoldsTheCommandsOfItsOwnNumbersAndSaysWhetherThey
   ASSERT_TRUE(QTest::qWaitFor([&] { return network.sweepPoints().size() == 3; }, kPatience_ms));
   ASSERT_TRUE(idle());
   QTest::mouseClick(&find<QPushButton>("compare"), Qt::LeftButton);
-  ASSERT_TRUE(QTest::qWaitFor([&] { return network.trials().size() == allDecoderKinds().size(); }, kPatience_ms));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return network.trials().size() == decodersWith(&DecoderTraits::ofAreas).size(); },
+                              kPatience_ms));
   ASSERT_TRUE(idle());
   const NetworkFit* before = network.fit();
   setRidge("0.25"); // trains at once; sweep and comparison stay

@@ -89,7 +89,7 @@ TEST_F(ProjectFile, ReadsBackEverythingThatWasSet) {
   project.samples = {33, 77};
   project.network.input = InputKind::Resistance;
   project.network.rows = "1,4,7";
-  project.network.spread = 0.1;
+  project.network.chosenSpread = 0.1;
   project.network.centers = 50;
   project.view = {"network",
                   Quantity::VonMises,

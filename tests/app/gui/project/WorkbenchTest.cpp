@@ -95,7 +95,7 @@ TEST(Workbench, NamesAnEntryAfterWhatChangedWithItsValues) {
   workbench.edit("load", next);
   EXPECT_EQ(workbench.history().undoText(), "area 3: a load of (0, 0, -1) N");
   next.load.areas = loaded.load.areas;
-  next.network.spread = 2;
+  next.network.chosenSpread = 2;
   workbench.closeEntry();
   workbench.edit("the network", next);
   EXPECT_EQ(workbench.history().undoText(), "the network") << "several things at once";
