@@ -5,6 +5,7 @@
 #include "app/gui/views/CsvExport.h"
 #include "app/gui/views/DataTable.h"
 #include "app/study/Resources.h"
+#include "app/study/decoding/TrainOptionTable.h"
 #include "app/study/live/LiveSource.h"
 #include "tests/app/gui/network/NetworkSceneFixture.h"
 
@@ -118,6 +119,21 @@ TEST_F(NetworkPanel, TheOptionsSayWhatTheModeSaysAndWhatDoesNotActIsGrey) {
   EXPECT_FALSE(find<QComboBox>("scaler").isEnabled());
   EXPECT_FALSE(find<QDoubleSpinBox>("spread").isEnabled());
   EXPECT_TRUE(find<QLineEdit>("ridge").isEnabled());
+}
+
+TEST_F(NetworkPanel, HasAFieldForEachOptionOfTheFormThatIsDisabledWhereItDoesNotApply) {
+  QTest::mouseClick(&find<QToolButton>("moreOptions"), Qt::LeftButton);
+  for (const DecoderTraits& decoder : kDecoderTraits) {
+    find<QComboBox>("decoder").setCurrentText(decoder.name);
+    for (const TrainOption& option : trainOptionTable()) {
+      if (!option.inForm) continue;
+      QString name;
+      for (const QString& word : QString::fromStdString(option.key).split('_'))
+        name += name.isEmpty() ? word : word.left(1).toUpper() + word.mid(1);
+      EXPECT_EQ(find<QWidget>(name.toLatin1().constData()).isEnabled(), option.applies(decoder.kind))
+          << option.name << " of " << decoder.name;
+    }
+  }
 }
 
 TEST_F(NetworkPanel, OneClickTakesThePapersSpreadWhichTheChartMarks) {

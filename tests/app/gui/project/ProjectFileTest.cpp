@@ -14,6 +14,8 @@
 #include <QTemporaryDir>
 #include <SourceDir.h>
 
+#include "tests/app/study/decoding/AnotherValue.h"
+
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -91,6 +93,8 @@ TEST_F(ProjectFile, ReadsBackEverythingThatWasSet) {
   project.network.rows = "1,4,7";
   project.network.chosenSpread = 0.1;
   project.network.centers = 50;
+  for (const TrainOption& option : trainOptionTable())
+    if (!option.key.empty()) ASSERT_TRUE(option.set(project.network, anotherValue(option))) << option.name;
   project.view = {"network",
                   Quantity::VonMises,
                   25.5,
