@@ -85,35 +85,6 @@ OutputCorrection readCorrection(const JsonPlace& json, Eigen::Index outputs) {
   return correction;
 }
 
-void readModel(const JsonPlace& place, Decoder& decoder) {
-  switch (decoder.kind) {
-  case DecoderKind::Rbf:
-    decoder.model = readRbf(place);
-    return;
-  case DecoderKind::Linear:
-  case DecoderKind::Polynomial2:
-  case DecoderKind::Polynomial3:
-    decoder.model = readPolynomial(place);
-    return;
-  case DecoderKind::GaussianProcess:
-    decoder.model = readGaussianProcess(place);
-    return;
-  case DecoderKind::BackPropagation:
-    decoder.model = readBackPropagation(place);
-    return;
-  case DecoderKind::TwoStepBackPropagation:
-  case DecoderKind::TwoStepGaussNewton:
-    decoder.model = readTwoStep(place);
-    return;
-  case DecoderKind::MaximumLikelihood:
-    decoder.model = readForwardModel(place);
-    return;
-  case DecoderKind::TouchInversion:
-    decoder.model = readKernelForwardModel(place);
-    return;
-  }
-}
-
 Eigen::Index inputsOf(const Decoder& decoder) {
   return std::visit(
       [](const auto& model) -> Eigen::Index {
@@ -212,7 +183,7 @@ std::string networkText(const Decoder& decoder) {
   if (decoder.correction)
     json["correction"] = {{"gains", toJson(decoder.correction->gains)}, {"offset", toJson(decoder.correction->offset)}};
   if (decoder.readout) json["readout"] = kReadouts.name(*decoder.readout);
-  json["model"] = std::visit([](const auto& model) { return toJson(model); }, decoder.model);
+  json["model"] = modelJson(decoder);
   json["area_of_class"] = decoder.areaOfClass;
   json["areas"] = decoder.areas ? toJson(*decoder.areas) : OrderedJson();
   return jsonText(json) + "\n";

@@ -82,6 +82,8 @@ def commands_of(root):
     commands = {name for text in texts for name in re.findall(r'cli\.command\(\s*"([a-z-]+)"', text)}
     options = {option for text in texts for line in re.findall(r'\b(?:add_)?(?:option|flag)\(\s*"([^"]+)"', text)
                for option in line.split(",")}
+    table = (root / "app/study/decoding/TrainOptionTable.cpp").read_text()
+    options |= {f"--{name}" for name in re.findall(r'\.name = "([a-z-]+)"', table)}
     return commands, options | {"--help", "--version"}
 
 

@@ -49,53 +49,6 @@ OrderedJson toJson(const Eigen::MatrixXd& matrix) {
           {"values", std::vector<double>(matrix.data(), matrix.data() + matrix.size())}};
 }
 
-OrderedJson toJson(const RbfNetwork& network) {
-  return {{"scaler", scalerJson(network.scaler)},
-          {"spread", network.spread},
-          {"spread_convention", name(network.convention)},
-          {"basis", name(network.form)},
-          {"centers", toJson(network.centers)},
-          {"weights", toJson(network.weights)},
-          {"tail", network.tail.size() == 0 ? OrderedJson() : toJson(network.tail)},
-          {"bias", toJson(network.bias)}};
-}
-
-OrderedJson toJson(const PolynomialRidge& model) {
-  return {{"degree", model.degree},
-          {"scaler", scalerJson(model.scaler)},
-          {"size", model.size},
-          {"centers", model.degree == 1 ? OrderedJson() : toJson(model.centers)},
-          {"weights", toJson(model.weights)},
-          {"bias", toJson(model.bias)}};
-}
-
-OrderedJson toJson(const GaussianProcess& process) {
-  return {{"mean", toJson(process.mean)},
-          {"output_variance", toJson(process.outputVariance)},
-          {"linear_variance", process.linearVariance},
-          {"noise_variance", process.noiseVariance},
-          {"factor", toJson(process.factor)}};
-}
-
-OrderedJson toJson(const BackPropagationNetwork& network) {
-  return {{"input_scaler", scalerJson(network.inputScaler)}, {"output_scaler", scalerJson(network.outputScaler)},
-          {"components", toJson(network.components)},        {"hidden_weights", toJson(network.hiddenWeights)},
-          {"hidden_bias", toJson(network.hiddenBias)},       {"output_weights", toJson(network.outputWeights)},
-          {"output_bias", toJson(network.outputBias)}};
-}
-
-OrderedJson toJson(const TwoStep& decoder) {
-  OrderedJson json{{"network", decoder.network ? toJson(*decoder.network) : OrderedJson()},
-                   {"design", decoder.design ? OrderedJson::parse(toJson(*decoder.design)) : OrderedJson()},
-                   {"rows", decoder.rows},
-                   {"force", toJson(decoder.force)}};
-  if (decoder.block)
-    json["block"] = {{"rest_ohm", toJson(decoder.block->rest_ohm)},
-                     {"forces_N", toJson(decoder.block->forces_N)},
-                     {"modes_mm_per_N", toJson(decoder.block->modes_mm_per_N)}};
-  return json;
-}
-
 OrderedJson toJson(const ForwardModel& model) {
   OrderedJson coefficients = OrderedJson::array();
   for (const Eigen::MatrixXd& matrix : model.coefficients) coefficients.push_back(toJson(matrix));
@@ -128,6 +81,17 @@ std::vector<int> readIntegers(const JsonPlace& place) {
   return values;
 }
 
+OrderedJson toJson(const RbfNetwork& network) {
+  return {{"scaler", scalerJson(network.scaler)},
+          {"spread", network.spread},
+          {"spread_convention", name(network.convention)},
+          {"basis", name(network.form)},
+          {"centers", toJson(network.centers)},
+          {"weights", toJson(network.weights)},
+          {"tail", network.tail.size() == 0 ? OrderedJson() : toJson(network.tail)},
+          {"bias", toJson(network.bias)}};
+}
+
 RbfNetwork readRbf(const JsonPlace& place) {
   place.onlyKeys({"scaler", "spread", "spread_convention", "basis", "centers", "weights", "tail", "bias"});
   RbfNetwork network;
@@ -147,6 +111,77 @@ RbfNetwork readRbf(const JsonPlace& place) {
     requireSize(place.at("tail"), network.tail.cols(), network.scaler.dimensions(), "columns, one a scaled input");
   }
   return network;
+}
+
+ForwardModel readForwardModel(const JsonPlace& place) {
+  place.onlyKeys({"degree", "cause_offset", "cause_factor", "deviation", "coefficients"});
+  ForwardModel model;
+  model.degree = place.at("degree").integer();
+  if (model.degree < 0 || model.degree > 6) place.at("degree").refuse("0 to 6");
+  model.causeOffset = readVector(place.at("cause_offset"));
+  model.causeFactor = readVector(place.at("cause_factor"));
+  model.deviation = readVector(place.at("deviation"));
+  if (model.causes() < 1) place.at("cause_offset").refuse("one number or more");
+  if (!(model.deviation.array() > 0).all()) place.at("deviation").refuse("numbers above 0");
+  requireSize(place.at("cause_factor"), model.causeFactor.size(), model.causes(), "entries, one a cause");
+  const Eigen::Index monomials = monomialCount(model.causes(), model.degree);
+  for (const JsonPlace& entry : place.at("coefficients").list()) {
+    model.coefficients.push_back(readMatrix(entry));
+    requireSize(entry, model.coefficients.back().rows(), model.measurements(), "rows, one a measurement");
+    requireSize(entry, model.coefficients.back().cols(), monomials, "columns, one a monomial");
+  }
+  if (model.coefficients.empty()) place.at("coefficients").refuse("one matrix or more");
+  return model;
+}
+
+namespace {
+
+OrderedJson jsonOf(const RbfNetwork& network) {
+  return toJson(network);
+}
+
+OrderedJson jsonOf(const PolynomialRidge& model) {
+  return {{"degree", model.degree},
+          {"scaler", scalerJson(model.scaler)},
+          {"size", model.size},
+          {"centers", model.degree == 1 ? OrderedJson() : toJson(model.centers)},
+          {"weights", toJson(model.weights)},
+          {"bias", toJson(model.bias)}};
+}
+
+OrderedJson jsonOf(const GaussianProcess& process) {
+  return {{"mean", toJson(process.mean)},
+          {"output_variance", toJson(process.outputVariance)},
+          {"linear_variance", process.linearVariance},
+          {"noise_variance", process.noiseVariance},
+          {"factor", toJson(process.factor)}};
+}
+
+OrderedJson jsonOf(const BackPropagationNetwork& network) {
+  return {{"input_scaler", scalerJson(network.inputScaler)}, {"output_scaler", scalerJson(network.outputScaler)},
+          {"components", toJson(network.components)},        {"hidden_weights", toJson(network.hiddenWeights)},
+          {"hidden_bias", toJson(network.hiddenBias)},       {"output_weights", toJson(network.outputWeights)},
+          {"output_bias", toJson(network.outputBias)}};
+}
+
+OrderedJson jsonOf(const TwoStep& decoder) {
+  OrderedJson json{{"network", decoder.network ? jsonOf(*decoder.network) : OrderedJson()},
+                   {"design", decoder.design ? OrderedJson::parse(toJson(*decoder.design)) : OrderedJson()},
+                   {"rows", decoder.rows},
+                   {"force", toJson(decoder.force)}};
+  if (decoder.block)
+    json["block"] = {{"rest_ohm", toJson(decoder.block->rest_ohm)},
+                     {"forces_N", toJson(decoder.block->forces_N)},
+                     {"modes_mm_per_N", toJson(decoder.block->modes_mm_per_N)}};
+  return json;
+}
+
+OrderedJson jsonOf(const ForwardModel& model) {
+  return toJson(model);
+}
+
+OrderedJson jsonOf(const KernelForwardModel& model) {
+  return toJson(model);
 }
 
 PolynomialRidge readPolynomial(const JsonPlace& place) {
@@ -209,8 +244,6 @@ BackPropagationNetwork readBackPropagation(const JsonPlace& place) {
   return network;
 }
 
-namespace {
-
 BlockInversion readBlockInversion(const JsonPlace& place) {
   place.onlyKeys({"rest_ohm", "forces_N", "modes_mm_per_N"});
   BlockInversion block;
@@ -224,8 +257,6 @@ BlockInversion readBlockInversion(const JsonPlace& place) {
               "columns, as forces_N has rows");
   return block;
 }
-
-} // namespace
 
 TwoStep readTwoStep(const JsonPlace& place) {
   place.onlyKeys({"network", "design", "rows", "force"}, {"block"});
@@ -257,25 +288,39 @@ TwoStep readTwoStep(const JsonPlace& place) {
   return decoder;
 }
 
-ForwardModel readForwardModel(const JsonPlace& place) {
-  place.onlyKeys({"degree", "cause_offset", "cause_factor", "deviation", "coefficients"});
-  ForwardModel model;
-  model.degree = place.at("degree").integer();
-  if (model.degree < 0 || model.degree > 6) place.at("degree").refuse("0 to 6");
-  model.causeOffset = readVector(place.at("cause_offset"));
-  model.causeFactor = readVector(place.at("cause_factor"));
-  model.deviation = readVector(place.at("deviation"));
-  if (model.causes() < 1) place.at("cause_offset").refuse("one number or more");
-  if (!(model.deviation.array() > 0).all()) place.at("deviation").refuse("numbers above 0");
-  requireSize(place.at("cause_factor"), model.causeFactor.size(), model.causes(), "entries, one a cause");
-  const Eigen::Index monomials = monomialCount(model.causes(), model.degree);
-  for (const JsonPlace& entry : place.at("coefficients").list()) {
-    model.coefficients.push_back(readMatrix(entry));
-    requireSize(entry, model.coefficients.back().rows(), model.measurements(), "rows, one a measurement");
-    requireSize(entry, model.coefficients.back().cols(), monomials, "columns, one a monomial");
+} // namespace
+
+OrderedJson modelJson(const Decoder& decoder) {
+  return std::visit([](const auto& model) { return jsonOf(model); }, decoder.model);
+}
+
+void readModel(const JsonPlace& place, Decoder& decoder) {
+  switch (decoder.kind) {
+  case DecoderKind::Rbf:
+    decoder.model = readRbf(place);
+    return;
+  case DecoderKind::Linear:
+  case DecoderKind::Polynomial2:
+  case DecoderKind::Polynomial3:
+    decoder.model = readPolynomial(place);
+    return;
+  case DecoderKind::GaussianProcess:
+    decoder.model = readGaussianProcess(place);
+    return;
+  case DecoderKind::BackPropagation:
+    decoder.model = readBackPropagation(place);
+    return;
+  case DecoderKind::TwoStepBackPropagation:
+  case DecoderKind::TwoStepGaussNewton:
+    decoder.model = readTwoStep(place);
+    return;
+  case DecoderKind::MaximumLikelihood:
+    decoder.model = readForwardModel(place);
+    return;
+  case DecoderKind::TouchInversion:
+    decoder.model = readKernelForwardModel(place);
+    return;
   }
-  if (model.coefficients.empty()) place.at("coefficients").refuse("one matrix or more");
-  return model;
 }
 
 } // namespace palp

@@ -13,10 +13,6 @@ OrderedJson toJson(const Eigen::VectorXd& values);
 /// { "rows", "columns", "values": column by column }.
 OrderedJson toJson(const Eigen::MatrixXd& matrix);
 OrderedJson toJson(const RbfNetwork& network);
-OrderedJson toJson(const PolynomialRidge& model);
-OrderedJson toJson(const GaussianProcess& process);
-OrderedJson toJson(const BackPropagationNetwork& network);
-OrderedJson toJson(const TwoStep& decoder);
 OrderedJson toJson(const ForwardModel& model);
 OrderedJson toJson(const KernelForwardModel& model);
 OrderedJson toJson(const SplineTable& table);
@@ -26,12 +22,13 @@ Eigen::VectorXd readVector(const JsonPlace& place);
 Eigen::MatrixXd readMatrix(const JsonPlace& place);
 std::vector<int> readIntegers(const JsonPlace& place);
 RbfNetwork readRbf(const JsonPlace& place);
-PolynomialRidge readPolynomial(const JsonPlace& place);
-GaussianProcess readGaussianProcess(const JsonPlace& place);
-BackPropagationNetwork readBackPropagation(const JsonPlace& place);
-TwoStep readTwoStep(const JsonPlace& place);
 ForwardModel readForwardModel(const JsonPlace& place);
 KernelForwardModel readKernelForwardModel(const JsonPlace& place);
+
+/// The decoder's model: of a new kind of decoder both are in DecoderJson.cpp.
+OrderedJson modelJson(const Decoder& decoder);
+/// Reads the model of the decoder's kind.
+void readModel(const JsonPlace& place, Decoder& decoder);
 
 /// Refuses `place` unless its size is what the rest of the file wants.
 void requireSize(const JsonPlace& place, Eigen::Index size, Eigen::Index wanted, const std::string& what);
