@@ -94,7 +94,7 @@ TEST_F(ProjectFile, ReadsBackEverythingThatWasSet) {
   project.network.chosenSpread = 0.1;
   project.network.centers = 50;
   for (const TrainOption& option : trainOptionTable())
-    if (!option.key.empty()) ASSERT_TRUE(option.set(project.network, anotherValue(option))) << option.name;
+    if (!option.key.empty()) option.set(project.network, anotherValue(option));
   project.view = {"network",
                   Quantity::VonMises,
                   25.5,

@@ -21,7 +21,7 @@ TrainOptions parsed(const std::string& command) {
   std::istringstream words(command);
   for (std::string name, value; words >> name >> value;)
     for (const TrainOption& option : trainOptionTable())
-      if (name == "--" + option.name) EXPECT_TRUE(option.set(options, value)) << command;
+      if (name == "--" + option.name && !option.set(options, value)) ADD_FAILURE() << command;
   return options;
 }
 
