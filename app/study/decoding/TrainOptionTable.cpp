@@ -261,8 +261,7 @@ std::vector<TrainOption> noiseAndSeed() {
               .low = 0,
               .high = 2'147'483'647,
               .allowed = "a whole number from 0 to 2147483647",
-              .alwaysInCommands = true,
-              .applies = [](DecoderKind kind) { return kind != DecoderKind::MaximumLikelihood; }},
+              .alwaysInCommands = true},
              &TrainOptions::seed),
   };
 }

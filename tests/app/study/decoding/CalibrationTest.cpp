@@ -116,7 +116,7 @@ TEST(Calibration, RefusesWhatItCannotUse) {
   other.origin.designFingerprint = "0000000000000000";
   EXPECT_NE(refusal([&] { calibrate(quickNetwork(), other); }).find("design"), std::string::npos);
   Decoder linear = liveDecoder(5e-6, DecoderKind::Linear);
-  EXPECT_NE(refusal([&] { calibrate(linear, frames(10)); }).find("rbf or ml"), std::string::npos);
+  EXPECT_NE(refusal([&] { calibrate(linear, frames(10)); }).find("rbf, ml or touch"), std::string::npos);
 }
 
 TEST(Calibration, AveragedFramesGoIntoOneFile) {
