@@ -31,6 +31,9 @@ struct NetworkSettings : TrainOptions {
   [[nodiscard]] TrainOptions trainOptions() const;
   /// One of the options below "More options" is set.
   [[nodiscard]] bool trainOptionsSet() const;
+
+private:
+  using TrainOptions::spread; // chosenSpread takes its place
 };
 
 /// Everything that a user sets and a project file keeps.

@@ -46,7 +46,7 @@ NetworkFit ofDecoder(Decoder decoder, const NetworkSamples& samples) {
   fit.settings.input = fit.decoder.input.kind;
   fit.settings.mode = fit.decoder.mode;
   fit.settings.decoder = fit.decoder.kind;
-  fit.settings.spread = fit.decoder.report.spread;
+  fit.settings.chosenSpread = fit.decoder.report.spread;
   fit.settings.rows = rowsInWords(fit.decoder.input);
   if (fit.decoder.place) fit.settings.target = DecoderTarget::ForceAndPlace;
   fit.settings.noise = fit.decoder.noise;

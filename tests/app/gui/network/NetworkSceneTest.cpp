@@ -356,7 +356,7 @@ TEST_F(NetworkScene, AComparisonOfOtherSettingsIsFaintWithTheReason) {
   EXPECT_FALSE(find<ChartView>("trialsError").faint());
   find<QDoubleSpinBox>("noise").setValue(0.01);
   EXPECT_TRUE(find<ChartView>("trialsError").faint());
-  EXPECT_TRUE(find<QLabel>("trialsWords").text().contains("noise 0 %, now 0.01 %"))
+  EXPECT_TRUE(find<QLabel>("trialsWords").text().contains("noise of the training 0 %, now 0.01 %"))
       << find<QLabel>("trialsWords").text().toStdString();
 }
 
