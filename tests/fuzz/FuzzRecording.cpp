@@ -1,6 +1,6 @@
 // Fuzzing: any bytes as a recording. It is refused in a sentence, or read to its last whole entry.
 
-#include "io/board/Recording.h"
+#include "io/board/RecordingReader.h"
 #include "model/base/Error.h"
 
 #include <memory>

@@ -3,7 +3,7 @@
 #include "app/gui/document/Autosave.h"
 #include "app/gui/document/Document.h"
 #include "app/gui/window/MainWindow.h"
-#include "io/board/Recording.h"
+#include "io/board/RecordingReader.h"
 
 #include <QFileInfo>
 #include <QLocale>

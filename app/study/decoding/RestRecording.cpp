@@ -1,7 +1,7 @@
 #include "app/study/decoding/RestRecording.h"
 
 #include "io/board/FrameAssembler.h"
-#include "io/board/Recording.h"
+#include "io/board/RecordingReader.h"
 #include "model/base/Error.h"
 #include "model/base/Text.h"
 

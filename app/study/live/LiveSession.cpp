@@ -2,6 +2,7 @@
 
 #include "app/study/Failure.h"
 #include "app/study/live/LiveWorker.h"
+#include "io/board/RecordingWriter.h"
 #include "model/base/Error.h"
 
 #include <chrono>

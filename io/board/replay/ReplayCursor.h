@@ -1,5 +1,6 @@
 #pragma once
 
+#include "io/board/RecordingReader.h"
 #include "io/board/ReplayClock.h"
 #include "io/board/Tare.h"
 

@@ -1,5 +1,7 @@
 #include "io/board/replay/ReplayIndex.h"
 
+#include "io/board/RecordingReader.h"
+
 #include <algorithm>
 
 namespace palp {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/board/Recording.h"
+#include "io/board/RecordingWriter.h"
 #include "io/board/VirtualBoard.h"
 #include "model/FieldAtRest.h"
 

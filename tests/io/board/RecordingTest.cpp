@@ -1,4 +1,5 @@
-#include "io/board/Recording.h"
+#include "io/board/RecordingReader.h"
+#include "io/board/RecordingWriter.h"
 
 #include "io/AtomicFile.h"
 #include "io/board/ReplaySource.h"
@@ -389,6 +390,21 @@ TEST(ReplaySource, StandsStillWhilePaused) {
   EXPECT_EQ(source.read(report, std::chrono::milliseconds(1)), ReportSource::Outcome::Read);
   control->paused = false;
   EXPECT_EQ(replayed(source), 29U);
+}
+
+TEST(Recording, AnErrorInTheWritersThreadEndsTheRecordingAndNotTheProgram) {
+  const TemporaryFolder folder;
+  VirtualBoard board = boardWith(smallBoard());
+  int blocks = 0;
+  RecordingWriter writer(folder / "a.palprec", smallHead(), false, [&](int file, std::string_view bytes) {
+    if (++blocks == 2) throw std::bad_alloc(); // the first is the head
+    return RecordingWriter::writtenOf(file, bytes);
+  });
+  for (const Bytes& report : reportsOf(board, 5)) writer.append(Kind::Raw, 100, report);
+  writer.finish();
+  EXPECT_EQ(writer.failure(), (folder / "a.palprec").string() + ": cannot be written any more: std::bad_alloc");
+  EXPECT_EQ(writer.reports(), 0U);
+  EXPECT_EQ(writer.dropped(), 5U);
 }
 
 } // namespace

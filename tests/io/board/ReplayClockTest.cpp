@@ -1,6 +1,7 @@
 #include "io/board/ReplayClock.h"
 
 #include "io/board/Protocol.h"
+#include "io/board/RecordingWriter.h"
 #include "io/board/ReplaySource.h"
 #include "tests/io/TemporaryFolder.h"
 #include "tests/io/board/SmallBoard.h"

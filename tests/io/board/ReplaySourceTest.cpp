@@ -1,6 +1,8 @@
 // Recordings that are long, that change their configuration, and that are damaged.
 
 #include "io/board/ReplaySource.h"
+#include "io/board/RecordingReader.h"
+#include "io/board/RecordingWriter.h"
 
 #include "io/AtomicFile.h"
 #include "tests/io/TemporaryFolder.h"

@@ -1,6 +1,7 @@
 // What the session's thread writes into a recording.
 
 #include "app/study/live/LiveWorker.h"
+#include "io/board/RecordingWriter.h"
 
 #include <utility>
 

@@ -3,6 +3,7 @@
 #include "app/study/live/LiveSession.h"
 #include "app/study/live/send/ForceSender.h"
 #include "io/AtomicFile.h"
+#include "io/board/RecordingReader.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
 #include "model/base/Text.h"

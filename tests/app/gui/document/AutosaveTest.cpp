@@ -5,7 +5,7 @@
 #include "app/gui/jobs/samples/ResultFiles.h"
 #include "app/gui/project/ProjectFile.h"
 #include "io/AtomicFile.h"
-#include "io/board/Recording.h"
+#include "io/board/RecordingWriter.h"
 #include "tests/app/gui/FullDisk.h"
 #include "tests/app/gui/WindowFixture.h"
 

@@ -7,6 +7,7 @@
 #include "app/study/Resources.h"
 #include "app/study/live/SimulatedTouch.h"
 #include "io/SampleFile.h"
+#include "io/board/RecordingReader.h"
 #include "tests/app/gui/live/LiveOperatorFixture.h"
 
 #include <QListWidget>

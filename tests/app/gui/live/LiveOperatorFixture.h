@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/board/Recording.h"
+#include "io/board/RecordingReader.h"
 #include "tests/app/gui/live/LivePageFixture.h"
 
 #include <QMessageBox>

@@ -1,6 +1,7 @@
 // Recordings played: any place, frame by frame, loops and marks.
 
 #include "app/gui/views/StripChart.h"
+#include "io/board/RecordingReader.h"
 #include "tests/app/gui/WindowFixture.h"
 #include "tests/app/gui/live/LiveOperatorFixture.h"
 

@@ -1,5 +1,7 @@
 // A recording in a live session: each of its frames is seen, whatever changed in it and however fast it is played.
 
+#include "io/board/RecordingReader.h"
+#include "io/board/RecordingWriter.h"
 #include "tests/app/study/live/PluggedBoard.h"
 #include "tests/io/TemporaryFolder.h"
 #include "tests/io/board/SmallBoard.h"

@@ -1,6 +1,6 @@
 #include "app/study/live/recordings/RecordingTable.h"
 
-#include "io/board/Recording.h"
+#include "io/board/RecordingWriter.h"
 #include "model/base/Cancelled.h"
 #include "tests/app/study/live/LiveFixture.h"
 #include "tests/io/Refusal.h"
