@@ -1,5 +1,7 @@
 #include "app/study/live/send/ForceSender.h"
 
+#include "app/study/Failure.h"
+
 #include <utility>
 
 namespace palp {
@@ -83,13 +85,16 @@ void ForceSender::run(const std::stop_token& stop) {
 
 void ForceSender::send(const Waiting& next) {
   bool sent = false;
+  std::string failure;
   try {
     sent = outlet_->send(outgoing(*next.frame, next.host_unix_s), kPatience);
-  } catch (...) { // nobody can be told: a frame that cannot be sent is dropped
+    failure = outlet_->failure();
+  } catch (...) { // the last catch of this thread: the frame is dropped
+    failure = failureInWords(std::current_exception());
   }
   const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - next.given).count();
   const std::lock_guard lock(mutex_);
-  counts_.failure = outlet_->failure();
+  counts_.failure = std::move(failure);
   if (sent) {
     ++counts_.sent;
     latency_.addMeasured(took_s);
