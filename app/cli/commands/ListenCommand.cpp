@@ -8,6 +8,7 @@
 #include "app/study/live/BoardCheck.h"
 #include "app/study/live/LiveSession.h"
 #include "app/study/live/LiveSource.h"
+#include "app/study/live/trust/DeviationNote.h"
 #include "io/AtomicFile.h"
 #include "io/DecoderFile.h"
 #include "io/DesignFile.h"
@@ -52,24 +53,32 @@ LiveOptions liveOptions(const ListenArguments& arguments) {
                      "; give the design that it was trained for");
   options.tareFrames = wholeNumber("--tare", arguments.tare, 0, 100'000);
   options.ringFrames = 8192;
-  if (arguments.simulation.on || !arguments.replay.empty()) {
-    std::shared_ptr<std::unique_ptr<ReportSource>> once;
-    if (arguments.simulation.on) {
-      once = std::make_shared<std::unique_ptr<ReportSource>>(openSimulated(arguments.simulation, arguments.design));
-    } else {
-      options.replay = std::make_shared<ReplayControl>();
-      options.waitForReader = true;
-      options.replay->speed = numberUpTo("--speed", arguments.speed, 1000);
-      once = std::make_shared<std::unique_ptr<ReportSource>>(
-          std::make_unique<ReplaySource>(arguments.replay, options.replay));
-    }
-    options.reconnect = false;
-    options.open = [once] { return std::move(*once); };
-    return options;
-  }
-  requireDevice(arguments.device, arguments.usb);
-  options.open = [id = usbOption(arguments.usb), device = arguments.device] { return openBoard(id, device); };
   return options;
+}
+
+/// Sets what the session reads; what is known of its sensor.
+DecodedSensor setSource(LiveOptions& options, const ListenArguments& arguments) {
+  const std::string design = options.design ? designFingerprint(*options.design) : "";
+  if (!arguments.simulation.on && arguments.replay.empty()) {
+    requireDevice(arguments.device, arguments.usb);
+    options.open = [id = usbOption(arguments.usb), device = arguments.device] { return openBoard(id, device); };
+    return {design};
+  }
+  DecodedSensor sensor{design};
+  auto once = std::make_shared<std::unique_ptr<ReportSource>>();
+  if (arguments.simulation.on) {
+    SimulatedSensor simulated = openSimulated(arguments.simulation, arguments.design);
+    *once = std::move(simulated.source);
+    sensor = {simulated.designFingerprint, true};
+  } else {
+    options.replay = std::make_shared<ReplayControl>();
+    options.waitForReader = true;
+    options.replay->speed = numberUpTo("--speed", arguments.speed, 1000);
+    *once = std::make_unique<ReplaySource>(arguments.replay, options.replay);
+  }
+  options.reconnect = false;
+  options.open = [once] { return std::move(*once); };
+  return sensor;
 }
 
 Exit listBoards(const ListenArguments& arguments, Session& session) {
@@ -100,6 +109,9 @@ struct Listening {
   const ListenSenders& senders;
   std::optional<LabelledMean> label;
   TareQuestion tare;
+  const std::optional<Decoder>& decoder;
+  DecodedSensor sensor;
+  DeviationNote note; ///< of the first frame that gave a force
   ListenTally tally;
   bool recording = false; ///< was begun
 };
@@ -111,7 +123,16 @@ void warnOfStatus(Listening& all, const LiveStatus& status) {
   for (const std::string& failure : all.senders.failures()) warnOnce(all.session, failure);
 }
 
+/// The first force tells whether a recording is of a simulated board, and what its deviation holds.
+void judgeDeviation(Listening& all, const LiveFrame& live) {
+  if (!all.decoder || !live.forces.valid || all.tally.forces > 0) return;
+  if ((live.frame.flags & ReadingFlag::Simulated) != 0) all.sensor.simulated = true;
+  all.note = deviationNote(*all.decoder, all.sensor);
+  if (!all.note.brief.empty()) warnOnce(all.session, all.note.sentence);
+}
+
 void takeFrame(Listening& all, const LiveStatus& status, const LiveFrame& live, double& line_s) {
+  judgeDeviation(all, live);
   all.tally.add(live);
   all.tare.add(live.forces);
   if (all.label && !status.taring) all.label->add(live.forces);
@@ -225,13 +246,15 @@ void configureRow(LiveSession& live, const std::string& row) {
 }
 
 /// Says all that is left to say; whether everything was done that was asked for.
-bool finish(LiveSession& live, Listening& all, const std::optional<Decoder>& decoder, int tareFrames) {
+bool finish(LiveSession& live, Listening& all, int tareFrames) {
+  const std::optional<Decoder>& decoder = all.decoder;
   live.stop();
   all.senders.finish(all.session);
   const LiveStatus status = live.status();
   bool done = status.recordingFailure.empty() && (!decoder || status.decoderProblem.empty()) &&
               all.senders.failures().empty() && status.counts.reports > 0;
   fillTotals(all.session, status, decoder ? decoder->readout : std::nullopt);
+  if (!all.note.sentence.empty()) all.session.result["deviation_note"] = all.note.sentence;
   warnOfStatus(all, status);
   for (const std::string& words : undone(all, status, decoder.has_value(), tareFrames)) {
     warnOnce(all.session, words);
@@ -239,7 +262,7 @@ bool finish(LiveSession& live, Listening& all, const std::optional<Decoder>& dec
   }
   const bool free = !all.arguments.send.takeStandardOutput();
   if (!all.session.json)
-    printTotals(free ? std::cout : std::cerr, status, all.tally, all.recording ? all.arguments.record : "");
+    printTotals(free ? std::cout : std::cerr, status, all.tally, all.note, all.recording ? all.arguments.record : "");
   if (all.label && !all.label->append(all.session, all.arguments.force)) {
     warnOnce(all.session, "--label: no frame had a force; nothing was added to " + all.arguments.label.append);
     done = false;
@@ -275,6 +298,7 @@ Exit run(const ListenArguments& arguments, Session& session) {
   const Limits limits{static_cast<std::uint64_t>(wholeNumber("--frames", arguments.frames, 0, 2'000'000'000)), seconds};
   requireFiles(arguments);
   LiveOptions options = liveOptions(arguments);
+  const DecodedSensor sensor = setSource(options, arguments);
   const ListenSenders senders(arguments.send, arguments.force, options.replay != nullptr);
   options.alsoTo = senders.taker();
   options.waitForRecording = !arguments.record.empty();
@@ -285,13 +309,16 @@ Exit run(const ListenArguments& arguments, Session& session) {
                 senders,
                 labelledMean(arguments.label, options),
                 TareQuestion(arguments.force ? 0 : tareFrames),
+                decoder,
+                sensor,
+                {},
                 {}};
   const std::shared_ptr<ReplayControl> replay = options.replay;
   LiveSession live(std::move(options));
   if (!arguments.row.empty()) configureRow(live, arguments.row);
   if (arguments.check) return check(live, arguments, session, seconds > 0 ? seconds : kCheck_s, replay.get());
   const bool well = listen(live, all, limits);
-  return finish(live, all, decoder, tareFrames) && well ? Exit::Done : Exit::NoResult;
+  return finish(live, all, tareFrames) && well ? Exit::Done : Exit::NoResult;
 }
 
 } // namespace

@@ -65,7 +65,7 @@ double numberUpTo(const std::string& option, const std::string& value, double mo
   return result;
 }
 
-std::unique_ptr<ReportSource> openSimulated(const SimulationArguments& arguments, const std::string& design) {
+SimulatedSensor openSimulated(const SimulationArguments& arguments, const std::string& design) {
   SimulatedBoardOptions options;
   options.samples = arguments.samples;
   options.disturbance.noise = numberUpTo("--noise", arguments.noise, 1);
@@ -77,11 +77,9 @@ std::unique_ptr<ReportSource> openSimulated(const SimulationArguments& arguments
   options.faults.dropEvery = wholeNumber("--drop-every", arguments.dropEvery, 0, 1'000'000);
   options.rate_Hz = wholeNumber("--rate", arguments.rate, 1, 8000);
   options.seed = static_cast<std::uint64_t>(wholeNumber("--seed", arguments.seed, 0, 2'147'483'647));
-  if (!arguments.hold.empty()) {
-    options.solved = std::make_shared<SampleSet>(loadSamples(simulatedSamples(options)));
-    options.hand = holdingHand(arguments.hold, design, *options.solved);
-  }
-  return openSimulatedBoard(options);
+  options.solved = std::make_shared<SampleSet>(loadSamples(simulatedSamples(options)));
+  if (!arguments.hold.empty()) options.hand = holdingHand(arguments.hold, design, *options.solved);
+  return {openSimulatedBoard(options), options.solved->origin.designFingerprint};
 }
 
 } // namespace palp

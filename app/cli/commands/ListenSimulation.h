@@ -16,8 +16,14 @@ struct SimulationArguments {
   void declare(Command command);
 };
 
-/// The virtual board; `design` (a file, or empty for the paper's) is what a held touch is on. Throws Error.
-std::unique_ptr<ReportSource> openSimulated(const SimulationArguments& arguments, const std::string& design);
+/// A virtual board, and the design of the samples that drive it.
+struct SimulatedSensor {
+  std::unique_ptr<ReportSource> source;
+  std::string designFingerprint;
+};
+
+/// Opens the virtual board; `design` (a file, or empty for the paper's) is what a held touch is on. Throws Error.
+SimulatedSensor openSimulated(const SimulationArguments& arguments, const std::string& design);
 
 /// From 0 to `most`. Throws UsageError.
 double numberUpTo(const std::string& option, const std::string& value, double most);

@@ -1,5 +1,7 @@
 // palp listen in plain text says what is wrong, and its exit status says it too.
 
+#include "io/board/RecordingReader.h"
+#include "io/board/RecordingWriter.h"
 #include "tests/app/cli/Process.h"
 #include "tests/io/TemporaryFolder.h"
 
@@ -73,6 +75,64 @@ TEST(ListenTruth, DoubtIsPrinted) {
   EXPECT_FALSE(says(outcome.output, " 0 of them doubted")) << all(outcome);
   EXPECT_TRUE(says(outcome.output, "of them doubted (")) << all(outcome);
   EXPECT_TRUE(says(outcome.output, "N  doubted: ")) << all(outcome);
+}
+
+/// The network that ships with Palp as one that was trained for another design.
+std::string networkOfAnotherDesign(const palp::TemporaryFolder& folder) {
+  nlohmann::json network = nlohmann::json::parse(readAll(PALP_SOURCE_DIR "/resources/board/paper-network.json"));
+  network["design_fingerprint"] = "0123456789abcdef";
+  writeAll(folder / "other.json", network.dump());
+  return folder / "other.json";
+}
+
+TEST(ListenTruth, ANetworkOfAnotherDesignIsWarnedOf) {
+  const palp::TemporaryFolder folder;
+  const std::string words = "the network was trained for another design: its error is not known";
+  const std::vector<std::string> other{
+      "--simulate", "--rate", "8000", "--frames", "20", "--network", networkOfAnotherDesign(folder)};
+  const Outcome outcome = listen(other);
+  EXPECT_EQ(outcome.exit, 0) << all(outcome);
+  EXPECT_EQ(count(outcome.errors, words), 1) << all(outcome);
+  EXPECT_TRUE(says(outcome.output, "deviations: " + words)) << all(outcome);
+  std::vector<std::string> asJson = other;
+  asJson.emplace_back("--json");
+  const std::string lines = listen(asJson).output;
+  const nlohmann::json totals = nlohmann::json::parse(lines.substr(lines.rfind('\n', lines.size() - 2) + 1));
+  EXPECT_EQ(totals.at("deviation_note"), words);
+  EXPECT_EQ(totals.at("warnings").at(0), words);
+  const Outcome own = listen({"--simulate", "--rate", "8000", "--frames", "20"});
+  EXPECT_FALSE(says(all(own), "the network")) << all(own);
+}
+
+/// A recording of a simulated board as that of a real one: its reports do not call themselves simulated.
+void copyAsOfABoard(const std::filesystem::path& from, const std::filesystem::path& to) {
+  palp::RecordingReader reader(from);
+  palp::RecordingWriter writer(to, reader.head(), false);
+  while (const auto entry = reader.next()) {
+    const auto decoded = palp::decodeInput(entry->bytes, reader.head().info);
+    if (const auto* readings = std::get_if<palp::Readings>(&decoded)) {
+      palp::Readings real = *readings;
+      real.flags &= static_cast<std::uint8_t>(~palp::ReadingFlag::Simulated);
+      writer.append(entry->kind, entry->hostTime_s, palp::encode(real));
+    }
+  }
+}
+
+TEST(ListenTruth, AnUncalibratedNetworkIsWarnedOf) {
+  const palp::TemporaryFolder folder;
+  const std::string simulated = folder / "simulated.palprec", real = folder / "real.palprec";
+  ASSERT_EQ(listen({"--simulate", "--rate", "8000", "--frames", "30", "--record", simulated}).exit, 0);
+  copyAsOfABoard(simulated, real);
+  const std::string words = "the network is not calibrated: the deviation holds noise and training error only";
+  const auto replayed = [](const std::string& file) {
+    return listen(
+        {"--replay", file, "--speed", "0", "--network", PALP_SOURCE_DIR "/resources/board/paper-network.json"});
+  };
+  const Outcome outcome = replayed(real);
+  EXPECT_EQ(outcome.exit, 0) << all(outcome);
+  EXPECT_EQ(count(outcome.errors, words), 1) << all(outcome);
+  EXPECT_TRUE(says(outcome.output, "deviations: " + words)) << all(outcome);
+  EXPECT_FALSE(says(all(replayed(simulated)), "calibrated")) << "a simulated board has nothing to calibrate";
 }
 
 TEST(ListenTruth, ARecordingOnAFullDiskIsSaidAndEndsWithStatusOne) {

@@ -137,7 +137,9 @@ void fillTotals(Session& session, const LiveStatus& status, const std::optional<
   if (status.state == LiveState::Ended) warnOnce(session, status.reason);
 }
 
-void printTotals(std::ostream& out, const LiveStatus& status, const ListenTally& tally, const std::string& record) {
+void printTotals(std::ostream& out, const LiveStatus& status, const ListenTally& tally, const DeviationNote& note,
+                 const std::string& record) {
+  if (!note.sentence.empty()) out << "deviations: " << note.sentence << '\n';
   const ReportCounts& counts = status.counts;
   out << tally.frames << " frames, " << counts.incompleteFrames << " incomplete; " << tally.forces << " with a force, "
       << tally.doubted << " of them doubted" << (tally.doubt.empty() ? "" : " (" + tally.doubt + ")") << "; "

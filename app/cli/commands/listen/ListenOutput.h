@@ -2,6 +2,7 @@
 
 #include "app/cli/Cli.h"
 #include "app/study/live/LiveSession.h"
+#include "app/study/live/trust/DeviationNote.h"
 
 #include <iosfwd>
 
@@ -28,7 +29,8 @@ void printFrame(const LiveStatus& status, const LiveFrame& live);
 
 /// The totals of --json, with what there is to warn of.
 void fillTotals(Session& session, const LiveStatus& status, const std::optional<Readout>& networksReadout = {});
-/// The same for people; `record` is the file that was recorded to, or empty.
-void printTotals(std::ostream& out, const LiveStatus& status, const ListenTally& tally, const std::string& record);
+/// The same for people, with what the deviations hold; `record` is the file that was recorded to, or empty.
+void printTotals(std::ostream& out, const LiveStatus& status, const ListenTally& tally, const DeviationNote& note,
+                 const std::string& record);
 
 } // namespace palp
