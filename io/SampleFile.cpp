@@ -46,6 +46,12 @@ std::vector<Part> readHeads(const std::vector<fs::path>& paths, const std::stop_
   return parts;
 }
 
+std::string makersOf(const std::vector<Part>& parts) {
+  std::string all = parts[0].head.origin.madeBy;
+  for (const Part& part : parts) all = joinedMakers(all, part.head.origin.madeBy);
+  return all;
+}
+
 /// Hands the samples of all parts to `take`, block by block; returns their number.
 template <class Take>
 std::size_t readParts(const std::vector<Part>& parts, const std::stop_token& stop, const Take& take) {
@@ -118,20 +124,24 @@ SampleSet loadSamples(const fs::path& path, const std::stop_token& stop, bool al
   return set;
 }
 
-std::size_t mergeSampleFiles(const std::vector<fs::path>& paths, const fs::path& path, bool force,
-                             const std::stop_token& stop) {
+MergedSamples mergeSampleFiles(const std::vector<fs::path>& paths, const fs::path& path, bool force,
+                               const std::stop_token& stop) {
   if (paths.empty()) throw Error(path.string() + ": no shards to join; name at least one file");
   requireFree(path, force);
   const std::vector<Part> parts = readHeads(paths, stop);
   SampleSet head = parts[0].head;
   head.origin.firstSample = 0;
+  head.origin.madeBy = makersOf(parts);
   SampleWriter writer(path, head, force);
   const std::size_t done = readParts(parts, stop, [&](const SampleSet& block) { writer.append(block); });
   if (head.origin.perArea > 0 && done != wholeRequest(head)) // measured samples are of no request
     throw Error(path.string() + ": the shards hold " + std::to_string(done) + " samples; the whole request has " +
                 std::to_string(wholeRequest(head)));
   writer.finish(stop);
-  return done;
+  const bool mixed = head.origin.madeBy != parts[0].head.origin.madeBy;
+  return {done, mixed ? "the shards were made by several programs, whose results may differ in their last digits: " +
+                            head.origin.madeBy
+                      : ""};
 }
 
 } // namespace palp

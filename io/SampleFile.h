@@ -26,11 +26,17 @@ void saveSamples(const std::filesystem::path& path, const SampleSet& set, bool f
 /// two touches at once are for who asks for them.
 SampleSet loadSamples(const std::filesystem::path& path, const std::stop_token& stop = {}, bool alsoTwoAtOnce = false);
 
-/// Joins shards, of any formats and in any order, to the bytes that one run would have written. Throws Error if they do
-/// not belong together, overlap or leave a gap; Cancelled after a request to stop. Returns the number of samples. Holds
-/// no more samples in memory than a block.
-std::size_t mergeSampleFiles(const std::vector<std::filesystem::path>& parts, const std::filesystem::path& path,
-                             bool force, const std::stop_token& stop = {});
+/// What was merged.
+struct MergedSamples {
+  std::size_t samples = 0;
+  std::string warning; ///< the shards are of several programs or instruction sets; empty: of one
+};
+
+/// Joins shards, of any formats and in any order, to the bytes that one run would have written (with the names of all
+/// programs where several made them). Throws Error if they do not belong together, overlap or leave a gap; Cancelled
+/// after a request to stop. Holds no more samples in memory than a block.
+MergedSamples mergeSampleFiles(const std::vector<std::filesystem::path>& parts, const std::filesystem::path& path,
+                               bool force, const std::stop_token& stop = {});
 
 /// Why two sets without samples cannot share one file; empty if they can.
 std::string differenceOfHeads(const SampleSet& a, const SampleSet& b);

@@ -123,6 +123,7 @@ SampleOrigin readOrigin(const SampleLines& lines, HeadLines& head) {
   origin.surrogate = kind == kSurrogate;
   origin.surrogateError = head.number("surrogate_error", 1e300);
   origin.firstSample = head.number("first_sample", ~std::uint64_t{0});
+  if (head.has("made_by")) origin.madeBy = head.text("made_by");
   return origin;
 }
 
@@ -198,6 +199,7 @@ std::string sampleFileHead(const SampleSet& set) {
   line("kind", origin.surrogate ? kSurrogate : kFullSolves);
   line("surrogate_error", text(origin.surrogateError));
   line("first_sample", std::to_string(origin.firstSample));
+  if (!origin.madeBy.empty()) line("made_by", origin.madeBy);
   line("row_wires", std::to_string(set.rowWires));
   line("electrodes_per_row_wire", std::to_string(set.electrodesPerRowWire));
   line("column_wires", std::to_string(set.columnWires));

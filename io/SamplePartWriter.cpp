@@ -26,6 +26,11 @@ namespace {
 constexpr Eigen::Index kLinesAtOnce = 256;
 constexpr std::size_t kPartBuffer = 1 << 20;
 
+std::string differenceOfMakers(const std::string& before, const std::string& now) {
+  if (before == now) return {};
+  return "its samples were made by " + (before.empty() ? "an older palp" : before) + ", this is " + now;
+}
+
 [[noreturn]] void failToWrite(const fs::path& path) {
   throw Error(path.string() + ": cannot be written: " + std::strerror(errno)); // NOLINT(concurrency-mt-unsafe)
 }
@@ -33,7 +38,7 @@ constexpr std::size_t kPartBuffer = 1 << 20;
 } // namespace
 
 SamplePartWriter::SamplePartWriter(fs::path path, const SampleSet& head, bool force)
-    : path_(std::move(path)), part_(linkEnd(path_).string() + ".part"), by_(part_.string() + ".by"), force_(force) {
+    : path_(std::move(path)), part_(linkEnd(path_).string() + ".part"), force_(force) {
   requireWritable(path_, force_);
   file_ = ::open(part_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (file_ < 0) failToWrite(part_);
@@ -69,7 +74,9 @@ void SamplePartWriter::resume(const SampleSet& head) {
   } else if (there != text) {
     std::ifstream again(part_, std::ios::binary);
     SampleLines lines(again, part_.string());
-    std::string differs = differenceOfHeads(readSampleHead(lines), head);
+    const SampleSet before = readSampleHead(lines);
+    std::string differs = differenceOfHeads(before, head);
+    if (differs.empty()) differs = differenceOfMakers(before.origin.madeBy, head.origin.madeBy);
     if (differs.empty()) differs = "the head differs (shard, or error of the surrogate)";
     throw Error(part_.string() + ": is of other work: " + differs + "; repeat that work, or delete the file");
   }
@@ -90,16 +97,6 @@ void SamplePartWriter::keepWholeLines(std::istream& stream, const SampleSet& hea
     whole += line.size() + 1;
   }
   if (::ftruncate(file_, static_cast<off_t>(whole)) != 0 || ::lseek(file_, 0, SEEK_END) < 0) failToWrite(part_);
-}
-
-void SamplePartWriter::requireMadeBy(const std::string& program) {
-  if (samplesKept_ == 0) return writeFile(by_, program + "\n", true);
-  std::error_code error;
-  std::string before = fs::exists(by_, error) ? readFile(by_) : "an older palp\n";
-  before.resize(std::min(before.size(), before.find('\n')));
-  if (before != program)
-    throw Error(part_.string() + ": its " + std::to_string(samplesKept_) + " samples were made by " + before +
-                ", this is " + program + "; go on with that program, or delete the file");
 }
 
 void SamplePartWriter::append(const SampleSet& block) {
@@ -125,7 +122,6 @@ void SamplePartWriter::finish(const std::stop_token& stop) {
   } else {
     moveIntoPlace(part_, path_, force_);
   }
-  fs::remove(by_, ignored);
 }
 
 } // namespace palp

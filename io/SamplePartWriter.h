@@ -18,14 +18,11 @@ class RowFile;
 class SamplePartWriter {
 public:
   /// `head` is the set without samples. Throws Error if NAME exists and `force` is not given, if NAME.part belongs to
-  /// other work (the text says what differs), or if another process is writing it.
+  /// other work or another program (the text says what differs), or if another process is writing it.
   SamplePartWriter(std::filesystem::path path, const SampleSet& head, bool force);
   ~SamplePartWriter();
   SamplePartWriter(const SamplePartWriter&) = delete;
   SamplePartWriter& operator=(const SamplePartWriter&) = delete;
-
-  /// Notes beside the part (NAME.part.by) which program makes it. Throws Error where its samples are of another.
-  void requireMadeBy(const std::string& program);
 
   /// Number of samples that NAME.part already held.
   [[nodiscard]] std::size_t samplesKept() const { return samplesKept_; }
@@ -41,7 +38,6 @@ private:
 
   std::filesystem::path path_;
   std::filesystem::path part_;
-  std::filesystem::path by_;
   bool force_;
   int file_ = -1;
   std::unique_ptr<RowFile> rows_; ///< none for CSV

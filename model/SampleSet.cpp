@@ -26,6 +26,14 @@ std::string difference(const SampleOrigin& a, const SampleOrigin& b) {
   return {};
 }
 
+std::string joinedMakers(const std::string& a, const std::string& b) {
+  constexpr std::string_view separator = "; ";
+  if (a == b) return a;
+  const std::string known = a.empty() ? "unknown" : a, added = b.empty() ? "unknown" : b;
+  const auto listed = [&](const std::string& list) { return std::string(separator) + list + std::string(separator); };
+  return listed(known).find(listed(added)) != std::string::npos ? known : known + std::string(separator) + added;
+}
+
 Eigen::Matrix2Xd SampleSet::touchedPlaces_mm() const {
   if (hasTouches()) return touches.middleRows<2>(kTouchX_mm);
   return places_mm;
@@ -59,6 +67,7 @@ void append(SampleSet& set, const SampleSet& block) {
   if (&set == &block) return append(set, SampleSet(block)); // its arrays grow before they are read
   for (const auto values : kSampleParts)
     if ((set.*values).rows() != (block.*values).rows()) throw Error("samples: sets of other columns cannot be joined");
+  set.origin.madeBy = joinedMakers(set.origin.madeBy, block.origin.madeBy);
   const Eigen::Index before = set.size();
   const Eigen::Index added = block.size();
   set.area.conservativeResize(before + added);

@@ -26,6 +26,7 @@ struct SampleOrigin {
   std::size_t firstSample = 0;         ///< index of the first sample within the whole request; above 0 only in shards
   std::optional<Readout> readout = {}; ///< that the resistances are of; none: by Eq. (1), where wires do not meet
   std::string touches{};               ///< what indenters were drawn from, in words; empty where areas are loaded
+  std::string madeBy{}; ///< program and instruction set, which decide the last digits; several by "; ". Empty: unknown
 
   /// Measured by another rig: `mesh` is kImportedFrom and the name of its table, and the fingerprint need not be of a
   /// design.
@@ -71,6 +72,9 @@ inline constexpr std::array kSampleParts{&SampleSet::times_s,        &SampleSet:
 /// Why two sets cannot share one file (different design, seed, mesh or kind); empty if they can. The first sample of a
 /// shard does not count as a difference.
 std::string difference(const SampleOrigin& a, const SampleOrigin& b);
+
+/// Who made samples that one set holds together: each of both lists once.
+std::string joinedMakers(const std::string& a, const std::string& b);
 
 /// Only these samples, in this order.
 SampleSet samplesAt(const SampleSet& set, const std::vector<Eigen::Index>& chosen);

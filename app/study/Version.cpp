@@ -1,5 +1,7 @@
 #include "app/study/Version.h"
 
+#include "solver/InstructionSet.h"
+
 #include <Eigen/Core>
 #include <link.h>
 #include <nlohmann/json.hpp>
@@ -50,6 +52,10 @@ std::string version() {
 
 std::string program() {
   return "palp " + version() + " (commit " + kCommit + ")";
+}
+
+std::string programHere() {
+  return program() + ", " + instructionSetName();
 }
 
 std::string versionInWords() {

@@ -41,7 +41,8 @@ InstructionSet widest() {
   return InstructionSet::Baseline;
 }
 
-/// The processor's widest, or less where PALP_INSTRUCTION_SET says so.
+} // namespace
+
 InstructionSet instructionSet() {
   const char* asked = std::getenv("PALP_INSTRUCTION_SET");
   const std::string_view name = asked ? asked : "";
@@ -49,8 +50,6 @@ InstructionSet instructionSet() {
   if (name == "avx2") return std::min(InstructionSet::Avx2, widest());
   return widest();
 }
-
-} // namespace
 
 const ElementKernels& elementKernels(ElementShape shape) {
   return *elementKernels(shape, instructionSet());

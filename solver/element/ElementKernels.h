@@ -94,6 +94,8 @@ struct ElementKernels {
 
 /// What the kernels are compiled for.
 enum class InstructionSet { Baseline, Avx2, Avx512 };
+/// The processor's widest that this program has, or less where PALP_INSTRUCTION_SET says so.
+InstructionSet instructionSet();
 
 /// Kernels for the shape, by the widest instruction set of this processor; numbers in the order of TetLayout and
 /// HexLayout.

@@ -157,7 +157,7 @@ TEST(SampleFile, MergeOfShardsInAnyOrderIsTheBytesOfOneRun) {
     parts.push_back(folder / ("part" + std::to_string(first)));
     saveSamples(parts.back(), part, false);
   }
-  EXPECT_EQ(mergeSampleFiles(parts, folder / "merged.csv", false), 20U);
+  EXPECT_EQ(mergeSampleFiles(parts, folder / "merged.csv", false).samples, 20U);
   EXPECT_EQ(readFile(folder / "merged.csv"), readFile(folder / "whole.csv"));
 
   EXPECT_NE(refusal([&] {
@@ -173,6 +173,31 @@ TEST(SampleFile, MergeOfShardsInAnyOrderIsTheBytesOfOneRun) {
             }).find("whole request has 20"),
             std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(folder / "x"));
+}
+
+TEST(SampleFile, MergeWarnsOfShardsOfSeveralProgramsAndNamesThem) {
+  const TemporaryFolder folder;
+  const SampleSet whole = randomSet(20, 5);
+  std::vector<std::filesystem::path> parts;
+  const auto write = [&](int first, int count, const std::string& by, const std::string& ending) {
+    SampleSet part = slice(whole, first, count);
+    part.origin.firstSample = static_cast<std::size_t>(first);
+    part.origin.madeBy = by;
+    parts.push_back(folder / (std::to_string(first) + ending));
+    saveSamples(parts.back(), part, false);
+  };
+  write(0, 6, "palp 1, avx2", ".csv");
+  write(6, 7, "palp 1, avx512", ".h5");
+  EXPECT_EQ(loadSamples(parts[1]).origin.madeBy, "palp 1, avx512");
+  write(13, 7, "palp 1, avx2", ".npz");
+  const MergedSamples merged = mergeSampleFiles(parts, folder / "all.csv", false);
+  EXPECT_NE(merged.warning.find("palp 1, avx2; palp 1, avx512"), std::string::npos) << merged.warning;
+  EXPECT_EQ(loadSamples(folder / "all.csv").origin.madeBy, "palp 1, avx2; palp 1, avx512");
+  write(6, 7, "palp 1, avx2", ".csv");
+  EXPECT_EQ(mergeSampleFiles({parts[0], parts[2], parts[3]}, folder / "one.csv", false).warning, "");
+  write(13, 7, "", ".csv"); // of a program that named nobody
+  EXPECT_NE(mergeSampleFiles({parts[0], parts[3], parts[4]}, folder / "old.csv", false).warning.find("; unknown"),
+            std::string::npos);
 }
 
 TEST(SampleFile, MergeRefusesShardsOfOtherWork) {
@@ -231,19 +256,25 @@ TEST(SamplePartWriter, RefusesBeforeTheWorkWhatItCouldNotFinish) {
             std::string::npos);
 }
 
-TEST(SamplePartWriter, RefusesToGoOnWithSamplesOfAnotherProgram) {
+TEST(SamplePartWriter, RefusesToContinueSamplesOfAnotherProgram) {
   const TemporaryFolder folder;
+  SampleSet head = smallHead();
+  head.origin.madeBy = "palp 1, avx2";
   {
-    SamplePartWriter writer(folder / "a.csv", smallHead(), false);
-    writer.requireMadeBy("palp 1");
+    SamplePartWriter writer(folder / "a.csv", head, false);
     writer.append(randomSet(9, 2));
   }
-  SamplePartWriter writer(folder / "a.csv", smallHead(), false);
-  const std::string sentence = refusal([&] { writer.requireMadeBy("palp 2"); });
-  EXPECT_NE(sentence.find("9 samples were made by palp 1, this is palp 2"), std::string::npos) << sentence;
-  writer.requireMadeBy("palp 1");
+  for (const char* other : {"palp 2, avx2", "palp 1, avx512", ""}) {
+    SampleSet now = head;
+    now.origin.madeBy = other;
+    const std::string sentence = refusal([&] { SamplePartWriter(folder / "a.csv", now, false); });
+    EXPECT_NE(sentence.find("samples were made by palp 1, avx2, this is " + std::string(other)), std::string::npos)
+        << sentence;
+  }
+  SamplePartWriter writer(folder / "a.csv", head, false);
+  EXPECT_EQ(writer.samplesKept(), 9U);
   writer.finish();
-  EXPECT_FALSE(std::filesystem::exists(folder / "a.csv.part.by"));
+  EXPECT_EQ(loadSamples(folder / "a.csv").origin.madeBy, "palp 1, avx2");
 }
 
 } // namespace

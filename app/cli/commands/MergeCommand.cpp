@@ -16,8 +16,12 @@ struct MergeArguments {
 
 Exit run(const MergeArguments& arguments, Session& session) {
   arguments.output.requireWritable();
-  const std::size_t samples = mergeSampleFiles({arguments.parts.begin(), arguments.parts.end()}, arguments.output.path,
-                                               arguments.output.force, session.stop);
+  const auto [samples, warning] = mergeSampleFiles({arguments.parts.begin(), arguments.parts.end()},
+                                                   arguments.output.path, arguments.output.force, session.stop);
+  if (!warning.empty()) {
+    session.warnings.push_back(warning);
+    std::cerr << "palp merge: " << warning << '\n';
+  }
   session.result["samples"] = samples;
   session.result["solves"] = 0;
   session.result["solves_per_s"] = 0;

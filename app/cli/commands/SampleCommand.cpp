@@ -4,7 +4,6 @@
 #include "app/cli/ProgressBar.h"
 #include "app/cli/ShardOption.h"
 #include "app/cli/TouchOption.h"
-#include "app/study/Version.h"
 #include "app/study/touch/SampleGenerator.h"
 #include "io/SamplePartWriter.h"
 #include "model/base/Cancelled.h"
@@ -75,7 +74,6 @@ Exit run(const SampleArguments& arguments, Session& session) {
   if (kept > range.last - range.first)
     throw UsageError(writer.partPath().string() + " holds " + std::to_string(kept) + " samples, more than the " +
                      std::to_string(range.last - range.first) + " asked for; remove it to start over");
-  writer.requireMadeBy(program());
   if (kept > 0) std::cerr << "going on after " << kept << " samples in " << writer.partPath().string() << '\n';
 
   const auto start = std::chrono::steady_clock::now();

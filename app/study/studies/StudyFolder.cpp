@@ -96,7 +96,7 @@ bool StudyFolder::compute(std::size_t first, std::size_t last, int threads, cons
         plan_, missing[k], areas_, threads,
         [&](double share, const std::string& what) { tell(before + share, design + ": " + what); }, stop);
     if (!found) return false;
-    const std::string text = studyLine(plan_, columns_, missing[k], *found) + kMadeBy + program() + "\n";
+    const std::string text = studyLine(plan_, columns_, missing[k], *found) + kMadeBy + programHere() + "\n";
     writeFile(row(missing[k]), text, true); // whole or not at all
     tell(before + 1, design);
   }
@@ -120,7 +120,7 @@ bool StudyFolder::hasProblem(std::size_t design) const {
 
 std::string StudyFolder::mixedPrograms() const {
   std::map<std::string, std::size_t> rows;
-  for (std::size_t i = 0; i < plan_.designs(); ++i) ++rows[done(i) ? madeBy(readFile(row(i))) : program()];
+  for (std::size_t i = 0; i < plan_.designs(); ++i) ++rows[done(i) ? madeBy(readFile(row(i))) : programHere()];
   if (rows.size() < 2) return {};
   std::string words = "rows of several programs stand beside each other, whose results may differ:";
   for (const auto& [by, count] : rows) words += " " + std::to_string(count) + " of " + by + ",";

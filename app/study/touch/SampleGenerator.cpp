@@ -1,5 +1,6 @@
 #include "app/study/touch/SampleGenerator.h"
 
+#include "app/study/Version.h"
 #include "io/DesignFile.h"
 #include "model/DesignError.h"
 #include "model/base/Cancelled.h"
@@ -89,6 +90,7 @@ SampleGenerator::SampleGenerator(SensorDesign design, SampleRequest request)
   origin_.perArea = request_.perArea;
   origin_.solverTolerance = request_.relativeTolerance;
   origin_.surrogate = request_.surrogate;
+  origin_.madeBy = programHere();
 }
 
 std::size_t SampleGenerator::total() const {
