@@ -6,9 +6,15 @@
 
 namespace palp {
 
+namespace {
+
+constexpr double kFloorsInRange = 120;
+
+} // namespace
+
 PredictionError predictionError(const Eigen::Ref<const Eigen::MatrixXd>& predicted,
                                 const Eigen::Ref<const Eigen::MatrixXd>& truth,
-                                const Eigen::Ref<const Eigen::VectorXd>& range, double floor) {
+                                const Eigen::Ref<const Eigen::VectorXd>& range) {
   if (predicted.rows() != truth.rows() || predicted.cols() != truth.cols() || range.size() != truth.rows())
     throw NetworkError("predictions are " + std::to_string(predicted.rows()) + " x " +
                        std::to_string(predicted.cols()) + ", the truth is " + std::to_string(truth.rows()) + " x " +
@@ -20,9 +26,10 @@ PredictionError predictionError(const Eigen::Ref<const Eigen::MatrixXd>& predict
   PredictionError error;
   // 0 / 0 is no error: the force is 0 and 0 was predicted.
   error.eq13Percent = 100 * (difference == 0).select(0.0, difference / size).rowwise().mean();
-  error.eq13FlooredPercent = 100 * (difference / size.max(floor)).rowwise().mean();
-  error.meanAbsolute = difference.rowwise().mean();
   const Eigen::ArrayXd width = (range.array() > 0).select(range.array(), 1.0);
+  error.floor = width.maxCoeff() / kFloorsInRange;
+  error.eq13FlooredPercent = 100 * (difference / size.max(error.floor)).rowwise().mean();
+  error.meanAbsolute = difference.rowwise().mean();
   error.rmsePercentOfRange = 100 * difference.square().rowwise().mean().sqrt() / width;
   return error;
 }

@@ -7,9 +7,11 @@
 #include "io/DecoderFile.h"
 #include "io/SampleFile.h"
 #include "model/base/Cancelled.h"
+#include "model/base/NumberText.h"
 #include "model/base/Text.h"
 #include "nn/NoisyCopies.h"
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <limits>
@@ -30,6 +32,8 @@ struct PredictArguments {
   bool bare = false;
   OutputFile output;
 };
+
+constexpr std::size_t kErrorColumn = 33; // letters before the errors of each force
 
 nlohmann::ordered_json columnsJson(const Eigen::MatrixXd& matrix) {
   nlohmann::ordered_json columns = nlohmann::ordered_json::array();
@@ -114,9 +118,11 @@ void fill(const Decoder& decoder, const Prediction& prediction, const std::optio
 
 void print(const Prediction& prediction, const std::optional<DecoderError>& error) {
   const auto count = std::count(prediction.outsideTrainingRange.begin(), prediction.outsideTrainingRange.end(), true);
+  std::string floored = error ? "Eq. (13), |F| >= " + withDigits(error->error.floor, 2) + " N [%]: " : "";
+  floored.resize(std::max<std::size_t>(floored.size(), kErrorColumn), ' ');
   if (error)
     std::cout << "Eq. (13) [%]:                    " << error->error.eq13Percent.transpose() << '\n'
-              << "Eq. (13), |F| >= 0.05 N [%]:     " << error->error.eq13FlooredPercent.transpose() << '\n'
+              << floored << error->error.eq13FlooredPercent.transpose() << '\n'
               << "mean absolute error [N]:         " << error->error.meanAbsolute.transpose() << '\n'
               << "RMSE [% of training range]:      " << error->error.rmsePercentOfRange.transpose() << '\n';
   std::cout << prediction.forces_N.cols() << " samples, " << count << " outside the training range, "

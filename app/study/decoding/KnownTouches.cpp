@@ -20,7 +20,7 @@ namespace palp {
 
 namespace {
 
-constexpr double kLeastPress_N = 1e-6; // an indenter presses; less is rest
+constexpr double kLeastPressesInRange = 6e6;
 
 /// A finer mesh leaves less at any number of samples, for about a minute more of CPU: whoever learns from few, as a
 /// simulated board does, waits for that and not for the samples.
@@ -57,6 +57,10 @@ Indenter indenterOf(const SampleSet& samples) {
 
 } // namespace
 
+double leastPress_N(const ForceRange& range) {
+  return (range.high_N - range.low_N).maxCoeff() / kLeastPressesInRange;
+}
+
 KnownReadings knownReadings(const SensorDesign& design, const SampleSet& samples, const DecoderInput& input,
                             int threads, const std::stop_token& stop,
                             const std::function<void(double share, const std::string& what)>& progress) {
@@ -89,15 +93,15 @@ KnownReadings knownReadings(const SensorDesign& design, const SampleSet& samples
   const Eigen::MatrixXd all_ohm = restOf(design);
   const Eigen::VectorXd rest_ohm = all_ohm.reshaped()(used);
   const Eigen::Vector2d face_mm = design.block_mm.head<2>();
-  return [surfaces = std::make_shared<const InfluenceSurfaces>(*found), indenter, rest_ohm, face_mm, threads,
-          stop](const Eigen::MatrixXd& causes) -> Eigen::MatrixXd {
+  return [surfaces = std::make_shared<const InfluenceSurfaces>(*found), indenter, rest_ohm, face_mm,
+          least_N = leastPress_N(design.forceRange), threads, stop](const Eigen::MatrixXd& causes) -> Eigen::MatrixXd {
     std::vector<Indenter> touches(static_cast<std::size_t>(causes.cols()), indenter);
     for (std::size_t i = 0; i < touches.size(); ++i) {
       const auto column = causes.col(static_cast<Eigen::Index>(i));
       touches[i].radius_mm = column(5);
       // The place of a table's outermost nodes may lie off the face.
       touches[i].place_mm = column.segment<2>(3).cwiseMax(0).cwiseMin(face_mm);
-      touches[i].control = Press{{column(0), column(1), std::min(column(2), -kLeastPress_N)}};
+      touches[i].control = Press{{column(0), column(1), std::min(column(2), -least_N)}};
     }
     const Eigen::MatrixXd changes = surfaces->under(touches, threads, stop);
     return rest_ohm.asDiagonal() * (1 + changes.array()).matrix();

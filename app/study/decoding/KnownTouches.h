@@ -27,4 +27,7 @@ KnownReadings knownReadings(const SensorDesign& design, const SampleSet& samples
 std::vector<KernelMirror> mirrorsOfTouches(const SensorDesign& design, const Eigen::MatrixXd& causes,
                                            const DecoderInput& input);
 
+/// The least force that counts as a press: a share of the design's range, which is 1e-6 N of the paper's.
+double leastPress_N(const ForceRange& range);
+
 } // namespace palp

@@ -9,8 +9,8 @@ namespace palp {
 
 namespace {
 
-constexpr double kBack = 0.05;        // of the limit
-constexpr double kLeastBack_N = 0.02; // where the limit is near 0
+constexpr double kBack = 0.05;          // of the limit
+constexpr double kLeastBack = 1. / 300; // of the force range, where the limit is near 0: 0.02 N of 6 N
 
 double valueOf(ForceQuantity quantity, const Eigen::Vector3d& force_N) {
   return quantity == ForceQuantity::Size ? force_N.norm() : force_N(static_cast<Eigen::Index>(quantity));
@@ -57,7 +57,7 @@ std::optional<std::string> AlarmWatch::lose() {
 std::optional<std::string> AlarmWatch::add(const Eigen::Ref<const Eigen::Matrix3Xd>& forces_N) {
   if (!alarm_ || forces_N.cols() == 0) return {};
   const Beyond most = mostBeyond(*alarm_, forces_N);
-  const double back_N = std::max(kBack * std::abs(alarm_->limit_N), kLeastBack_N);
+  const double back_N = std::max(kBack * std::abs(alarm_->limit_N), kLeastBack * range_N_);
   const bool lasts = !words_.empty();
   if (lasts && most.by_N <= -back_N) return lose();
   if (!lasts && !(most.by_N > 0)) return {};

@@ -31,6 +31,8 @@ struct ForceAlarm {
 class AlarmWatch {
 public:
   void set(std::optional<ForceAlarm> alarm);
+  /// The largest range of the forces: near a limit of 0 a share of it counts.
+  void setRange(double range_N) { range_N_ = range_N; }
   /// Takes the forces of a frame, 3 x areas: each one counts that is not 0, or all. Says what begins or is over.
   std::optional<std::string> add(const Eigen::Ref<const Eigen::Matrix3Xd>& forces_N);
   /// There are no forces: an alarm that lasts is over. Says so; nothing else.
@@ -40,6 +42,7 @@ public:
 
 private:
   std::optional<ForceAlarm> alarm_;
+  double range_N_ = 0;
   std::string words_;
 };
 

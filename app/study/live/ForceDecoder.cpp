@@ -280,7 +280,7 @@ void ForceDecoder::judge(const BoardFrame& frame, const Prediction& prediction, 
   decoded.doubt = verdict.reason;
   if (!decoded.doubt.empty() || !(tared_ || meter_.ready())) return;
   const double deviation_N = withoutCalibration_N(decoded).maxCoeff();
-  if (!(deviation_N > kDrowned * (decoder_->high_N - decoder_->low_N).maxCoeff())) return;
+  if (!(deviation_N > kDrowned * range_N())) return;
   decoded.doubted = true;
   decoded.doubt = decoded.missingReadings > 0
                       ? "without the missing readings the force is known to " + withDigits(deviation_N, 2) + " N only"

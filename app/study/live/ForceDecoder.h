@@ -79,6 +79,8 @@ public:
   /// decoder was trained for.
   [[nodiscard]] double noise() const { return noise_; }
   [[nodiscard]] const Decoder& decoder() const { return *decoder_; }
+  /// The largest range of the forces that it was trained for.
+  [[nodiscard]] double range_N() const { return (decoder_->high_N - decoder_->low_N).maxCoeff(); }
   /// Of the design, row-wires x column-wires [ohm]; empty where it is not known.
   [[nodiscard]] const Eigen::MatrixXd& restResistances_ohm() const { return rest_ohm_; }
 

@@ -1,5 +1,6 @@
 // The same sensor in other units of length and force: what is a share of its own size must not change.
 
+#include "app/study/decoding/KnownTouches.h"
 #include "app/study/reports/MeshShare.h"
 #include "app/study/reports/layout/DesignBounds.h"
 #include "app/study/reports/layout/LayoutSweeps.h"
@@ -123,6 +124,8 @@ TEST_P(OtherUnits, ScaleTouches) {
 
 TEST_P(OtherUnits, ScaleOneTouchAndItsMesh) {
   const SensorDesign design = paperDesign(), other = scaled(design, GetParam());
+  EXPECT_EQ(leastPress_N(design.forceRange), 1e-6);
+  EXPECT_NEAR(leastPress_N(other.forceRange) / leastPress_N(design.forceRange) / GetParam().force(), 1, 1e-12);
   EXPECT_NEAR(meshShare(other), GetParam().length, 1e-12);
   const auto moved = [](const SensorDesign& of, const Units& units) {
     LoadCase load;

@@ -147,11 +147,21 @@ TEST(RecursiveLeastSquares, ForgettingFollowsAChange) {
 TEST(RelativeError, IsThePapersEquationWithAndWithoutFloor) {
   const Eigen::MatrixXd truth = (Eigen::MatrixXd(1, 3) << 1, -2, 0.01).finished();
   const Eigen::MatrixXd predicted = (Eigen::MatrixXd(1, 3) << 1.1, -2, 0.02).finished();
-  const PredictionError error = predictionError(predicted, truth, Eigen::VectorXd::Constant(1, 4));
+  const PredictionError error = predictionError(predicted, truth, Eigen::VectorXd::Constant(1, 6));
+  EXPECT_EQ(error.floor, 0.05);
   EXPECT_NEAR(error.eq13Percent(0), (10 + 0 + 100) / 3.0, 1e-9);
   EXPECT_NEAR(error.eq13FlooredPercent(0), (10 + 0 + 20) / 3.0, 1e-9);
   EXPECT_NEAR(error.meanAbsolute(0), 0.11 / 3, 1e-12);
-  EXPECT_NEAR(error.rmsePercentOfRange(0), 100 * std::sqrt((0.01 + 0.0001) / 3) / 4, 1e-9);
+  EXPECT_NEAR(error.rmsePercentOfRange(0), 100 * std::sqrt((0.01 + 0.0001) / 3) / 6, 1e-9);
+}
+
+TEST(RelativeError, InPercentIsTheSameInAnyUnitOfForce) {
+  const Eigen::MatrixXd truth = (Eigen::MatrixXd(1, 3) << 1, -2, 0.01).finished();
+  const Eigen::MatrixXd predicted = (Eigen::MatrixXd(1, 3) << 1.1, -2, 0.02).finished();
+  const Eigen::VectorXd range = Eigen::VectorXd::Constant(1, 6);
+  const double own = predictionError(predicted, truth, range).eq13FlooredPercent(0);
+  for (const double unit : {1e-3, 10., 1e3})
+    EXPECT_NEAR(predictionError(unit * predicted, unit * truth, unit * range).eq13FlooredPercent(0), own, 1e-9);
 }
 
 TEST(SpreadSweep, GoesThroughTheSpreadsAndStopsWhenAsked) {

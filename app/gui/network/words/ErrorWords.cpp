@@ -81,10 +81,11 @@ QString errorTable(const NetworkSession& session, const NetworkFit& fit, const N
                    const QString& title) {
   const PredictionError& error = fit.error.error;
   const bool places = ofPlaces(session, fit);
-  std::vector<Column> all{{QObject::tr("Eq. (13) [%]"), error.eq13Percent, {}, {}},
-                          {QObject::tr("floored at 0.05 N [%]"), error.eq13FlooredPercent, {}, {}},
-                          {places ? QObject::tr("mean [N, mm]") : QObject::tr("mean [N]"), error.meanAbsolute, {}, {}},
-                          {QObject::tr("RMSE [% of range]"), error.rmsePercentOfRange, {}, {}}};
+  std::vector<Column> all{
+      {QObject::tr("Eq. (13) [%]"), error.eq13Percent, {}, {}},
+      {QObject::tr("floored at %1 N [%]").arg(error.floor, 0, 'g', 2), error.eq13FlooredPercent, {}, {}},
+      {places ? QObject::tr("mean [N, mm]") : QObject::tr("mean [N]"), error.meanAbsolute, {}, {}},
+      {QObject::tr("RMSE [% of range]"), error.rmsePercentOfRange, {}, {}}};
   Eigen::Array2d range_mm = Eigen::Array2d::Ones();
   if (places) {
     const SampleSet& test = session.samples()->test;

@@ -27,6 +27,17 @@ TEST(ForceAlarm, IsOverWhereThereAreNoForcesAnyMore) {
   EXPECT_TRUE(watch.add(Eigen::Vector3d(0, 0, -6))) << "it goes off again with the next force";
 }
 
+TEST(ForceAlarm, NearALimitOfZeroIsOverByAShareOfTheForceRange) {
+  for (const double unit : {1e-3, 1., 1e3}) {
+    AlarmWatch watch;
+    watch.setRange(6 * unit);
+    watch.set(ForceAlarm{ForceQuantity::Fx, AlarmSide::Above, 0});
+    EXPECT_TRUE(watch.add(unit * Eigen::Vector3d(0.1, 0, -1))) << unit;
+    EXPECT_FALSE(watch.add(unit * Eigen::Vector3d(-0.019, 0, -1))) << unit << ": noise";
+    EXPECT_EQ(watch.add(unit * Eigen::Vector3d(-0.021, 0, -1)), "alarm over") << unit;
+  }
+}
+
 TEST(ForceAlarm, LooksAtEveryArea) {
   AlarmWatch watch;
   watch.set(ForceAlarm{ForceQuantity::Fx, AlarmSide::Above, 2});
