@@ -1,8 +1,8 @@
 #include "io/board/RecordingReader.h"
 
 #include "io/board/ByteOrder.h"
-#include "io/board/RecordingEntries.h"
-#include "io/board/RecordingHead.h"
+#include "io/board/recording/RecordingEntries.h"
+#include "io/board/recording/RecordingHead.h"
 #include "model/base/Error.h"
 
 #include <cerrno>

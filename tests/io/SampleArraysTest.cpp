@@ -90,7 +90,7 @@ TEST_P(SampleArrays, KeepMeasuredTimesAndPlaces) {
   expectSame(loadSamples(file("a")), set);
   saveSamples(folder / "a.csv", set, false);
   expectSame(loadSamples(folder / "a.csv"), set);
-  EXPECT_EQ(mergeSampleFiles({file("a")}, folder / "b.csv", false), 9U);
+  EXPECT_EQ(mergeSampleFiles({file("a")}, folder / "b.csv", false).samples, 9U);
   EXPECT_TRUE(readFile(folder / "b.csv") == readFile(folder / "a.csv"));
   EXPECT_NE(readFile(folder / "a.csv").find("\narea,time_s,x_mm,y_mm,fx_N,"), std::string::npos);
 
@@ -127,9 +127,9 @@ TEST_P(SampleArrays, MergeOfShardsOfAllFormatsIsTheBytesOfOneRun) {
     parts.push_back(folder / ("part" + std::to_string(first) + ending));
     saveSamples(parts.back(), part, false);
   }
-  EXPECT_EQ(mergeSampleFiles(parts, file("merged"), false), 20U);
+  EXPECT_EQ(mergeSampleFiles(parts, file("merged"), false).samples, 20U);
   EXPECT_TRUE(readFile(file("merged")) == readFile(file("whole")));
-  EXPECT_EQ(mergeSampleFiles(parts, folder / "merged.csv", false), 20U);
+  EXPECT_EQ(mergeSampleFiles(parts, folder / "merged.csv", false).samples, 20U);
   EXPECT_TRUE(readFile(folder / "merged.csv") == readFile(folder / "whole.csv"));
 
   expectIn(refusal([&] { mergeSampleFiles({parts[0], parts[1]}, file("x"), false); }), {"missing"});

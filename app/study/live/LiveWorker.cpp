@@ -15,12 +15,7 @@ constexpr auto kReadTimeout = std::chrono::milliseconds(100);
 constexpr auto kSearchInterval = std::chrono::milliseconds(100);
 constexpr double kStall_s = 0.25;
 constexpr double kLate_s = 0.02;
-constexpr int kBlindFrames = 25;         // in a row without forces: fewer are lost reports
-constexpr double kDriftRateOver_s = 10;  // that its pace is taken from
-constexpr double kDriftGap_s = 3;        // without frames, after which a drift is looked for anew
-constexpr double kDriftInterval_s = 0.5; // between two looks at what the drift reads as
-constexpr double kDriftShare = 0.01;     // of the force range, from which a tare is suggested
-constexpr double kSteadier = 0.7;        // of the pace that is steady: what went on is called steady from there
+constexpr int kBlindFrames = 25; // in a row without forces: fewer are lost reports
 constexpr int kStaleBeforeAsking = 20;
 constexpr double kAskAgain_s = 0.5;
 
@@ -233,13 +228,13 @@ void LiveWorker::takeFrame(const BoardFrame& frame) {
     live->forces = decoder_->decode(frame);
     if (decoder_->tares() != before) {
       holdTare(std::make_shared<const Tare>(decoder_->tare()));
-      driftsSeen_.clear();
+      drift_.forgetPace();
       recordTare();
     }
   }
   if (!live->past) watch(live->forces);
   live->change = rest_.change(frame);
-  judgeDrift(*live);
+  drift_.judge(*live, decoder_ ? &*decoder_ : nullptr, hostClock_s(), status_);
   if (frame.restarted) latency_.restart();
   // What waited in the source before it was handed over counts too; a recording's times are its own.
   const double arrival_s = options_.replay ? arrival_s_ : std::min(arrival_s_, frame.hostTime_s);
@@ -273,40 +268,6 @@ void LiveWorker::watch(const DecodedForces& forces) {
   ++status_.alarms;
 }
 
-void LiveWorker::judgeDrift(const LiveFrame& live) {
-  if (!decoder_ || !live.forces.valid || decoder_->taring()) return drift_.restart();
-  const double now_s = hostClock_s();
-  if (now_s > driftJudged_s_ + kDriftGap_s) { // nobody looked meanwhile: what was known is of another time
-    drift_.restart();
-    driftsSeen_.clear();
-  }
-  drift_.add(live.change, decoder_->noise(), live.frame.time_s);
-  if (now_s < driftJudged_s_ + kDriftInterval_s) return;
-  driftJudged_s_ = now_s;
-  status_.drift = drift_.drift();
-  status_.driftForce_N = status_.drift ? decoder_->drifted_N(*status_.drift).norm() : 0;
-  const double range_N = (decoder_->decoder().high_N - decoder_->decoder().low_N).maxCoeff();
-  status_.tareSuggested = status_.driftForce_N > kDriftShare * range_N;
-  judgeDriftRate(live.frame.time_s, range_N);
-}
-
-/// What goes on so fast that a tare of now would be wanted again within a minute is waited for.
-void LiveWorker::judgeDriftRate(double time_s, double range_N) {
-  status_.driftRate_N_min = 0;
-  const bool wentOn = std::exchange(status_.driftsOn, false);
-  if (!status_.drift) return driftsSeen_.clear();
-  if (!driftsSeen_.empty() && time_s < driftsSeen_.back().first) driftsSeen_.clear(); // a recording went back
-  driftsSeen_.push_back({time_s, *status_.drift});
-  while (driftsSeen_.front().first < time_s - kDriftRateOver_s) driftsSeen_.pop_front();
-  const auto [then_s, then] = driftsSeen_.front();
-  const double minutes = (time_s - then_s) / 60;
-  if (minutes < kDriftRateOver_s / 120) return; // too short a time to tell
-  status_.driftRate_N_min = decoder_->drifted_N(*status_.drift - then).norm() / minutes;
-  status_.steadyRate_N_min = kDriftShare * range_N;
-  const double steady = wentOn ? kSteadier * status_.steadyRate_N_min : status_.steadyRate_N_min;
-  status_.driftsOn = status_.tareSuggested && status_.driftRate_N_min > steady;
-}
-
 void LiveWorker::measureRates(double now_s) {
   const double span_s = now_s - rateStart_s_;
   if (span_s < 1) return;
@@ -338,14 +299,12 @@ LiveStatus LiveWorker::status() {
 void LiveWorker::makeDecoder() {
   decoder_.reset();
   rest_.reset({});
-  drift_.restart();
-  status_.drift.reset();
-  status_.tareSuggested = status_.driftsOn = false;
-  driftsSeen_.clear();
+  drift_.forget(status_);
   status_.decoderProblem = options_.decoder ? "" : "no network: raw readings only";
   if (!options_.decoder || !status_.info) return;
   try {
     decoder_.emplace(*options_.decoder, *status_.info, options_.design);
+    alarm_.setRange(decoder_->range_N());
     rest_.reset(decoder_->restResistances_ohm());
     if (tare_) holdTare(tare_); // it is the board's, whatever reads it
     if (options_.tareFrames > 0) tare(options_.tareFrames);

@@ -2,11 +2,11 @@
 
 // Private to LiveSession: what its thread owns.
 
-#include "app/study/live/DriftMonitor.h"
 #include "app/study/live/LiveSession.h"
+#include "app/study/live/drift/DriftWatch.h"
 #include "io/board/Hotplug.h"
+#include "io/board/RecordingWriter.h"
 
-#include <deque>
 #include <utility>
 
 namespace palp {
@@ -62,8 +62,6 @@ private:
   void endRecording();
   void statusOfRecording();
   void watch(const DecodedForces& forces);
-  void judgeDrift(const LiveFrame& live);
-  void judgeDriftRate(double time_s, double range_N);
   void measureRates(double now_s);
   void restartRates(double now_s);
 
@@ -83,9 +81,7 @@ private:
   bool ownTare_ = false;             ///< the user tared what is played: the recording's tare counts no more
   AlarmWatch alarm_;
   int blindFrames_ = 0;
-  DriftMonitor drift_;
-  std::deque<std::pair<double, double>> driftsSeen_; ///< board's time, drift
-  double driftJudged_s_ = 0;                         ///< host clock
+  DriftWatch drift_;
   std::shared_ptr<RecordingWriter> writer_;
   LatencyMeter latency_, decoding_;
   RawReport report_;

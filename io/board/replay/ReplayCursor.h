@@ -1,8 +1,8 @@
 #pragma once
 
 #include "io/board/RecordingReader.h"
-#include "io/board/ReplayClock.h"
 #include "io/board/Tare.h"
+#include "io/board/replay/ReplayClock.h"
 
 #include <filesystem>
 #include <limits>

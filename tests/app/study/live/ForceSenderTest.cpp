@@ -78,6 +78,7 @@ TEST(ForceSender, SendsAtOnceInTheThreadThatGivesWhereNothingWaits) {
   refused->frame.number = 7;
   sender.give(refused, 0);
   EXPECT_EQ(sender.counts().dropped, 2U);
+  EXPECT_NE(sender.counts().failure.find("not this one"), std::string::npos) << sender.counts().failure;
   std::vector<std::jthread> several; // boards that share a receiver
   for (int t = 0; t < 4; ++t)
     several.emplace_back([&] {

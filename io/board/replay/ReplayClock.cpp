@@ -1,4 +1,4 @@
-#include "io/board/ReplayClock.h"
+#include "io/board/replay/ReplayClock.h"
 
 #include "io/board/Protocol.h"
 

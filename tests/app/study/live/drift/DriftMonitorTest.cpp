@@ -1,4 +1,4 @@
-#include "app/study/live/DriftMonitor.h"
+#include "app/study/live/drift/DriftMonitor.h"
 
 #include "app/study/live/RestReference.h"
 #include "model/RowColumnResistance.h"

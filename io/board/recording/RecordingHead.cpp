@@ -1,4 +1,4 @@
-#include "io/board/RecordingHead.h"
+#include "io/board/recording/RecordingHead.h"
 
 #include "io/StrictJson.h"
 

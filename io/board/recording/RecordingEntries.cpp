@@ -1,4 +1,4 @@
-#include "io/board/RecordingEntries.h"
+#include "io/board/recording/RecordingEntries.h"
 
 #include "io/board/ByteOrder.h"
 #include "io/board/Tare.h"
