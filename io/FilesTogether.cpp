@@ -1,5 +1,6 @@
 #include "io/FilesTogether.h"
 
+#include "io/samples/FillBeside.h"
 #include "model/base/Error.h"
 
 #include <algorithm>
@@ -38,16 +39,9 @@ FilesTogether::~FilesTogether() {
 fs::path FilesTogether::add(const fs::path& file, const std::function<void(const fs::path&)>& write) {
   const fs::path path = folder_ / file;
   auto target = std::make_unique<AtomicFile>(path, true);
-  const std::string beside = target->beside().string();
-  try {
-    write(target->beside());
-    target->sync();
-  } catch (const Error& error) {
-    std::string words = error.what(); // of the file that was asked for
-    const std::size_t at = words.find(beside);
-    if (at != std::string::npos) words.replace(at, beside.size(), path.string());
-    throw Error(words);
-  }
+  fs::path beside = target->beside();
+  fillBeside(*target, path, write);
+  target->sync();
   files_.emplace_back(path, std::move(target));
   return beside;
 }

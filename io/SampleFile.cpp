@@ -1,7 +1,7 @@
 #include "io/SampleFile.h"
 
-#include "io/AtomicFile.h"
 #include "io/SampleHead.h"
+#include "io/samples/FillBeside.h"
 #include "io/samples/SampleArrays.h"
 #include "io/samples/SampleReader.h"
 #include "io/samples/SampleWriter.h"
@@ -90,7 +90,9 @@ void saveSamples(const fs::path& path, const SampleSet& set, bool force, const s
   const auto block = [&set](Eigen::Index first, Eigen::Index count) { return samplesBetween(set, first, count); };
   if (format != SampleFormat::Csv) { // the set is what is asked again and again
     AtomicFile target(path, force);
-    writeSampleArrays(target.beside(), format, {block(0, 0), set.size(), block}, stop);
+    fillBeside(target, path, [&](const fs::path& beside) {
+      writeSampleArrays(beside, format, {block(0, 0), set.size(), block}, stop);
+    });
     target.commit();
     return;
   }

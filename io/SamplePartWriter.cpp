@@ -1,8 +1,8 @@
 #include "io/SamplePartWriter.h"
 
-#include "io/AtomicFile.h"
 #include "io/SampleFile.h"
 #include "io/SampleHead.h"
+#include "io/samples/FillBeside.h"
 #include "io/samples/RowFile.h"
 #include "io/samples/SampleReader.h"
 #include "model/base/Error.h"
@@ -116,7 +116,8 @@ void SamplePartWriter::finish(const std::stop_token& stop) {
   std::error_code ignored;
   if (rows_) {
     AtomicFile target(path_, force_);
-    writeSampleArrays(target.beside(), formatToWrite(path_), rows_->rows(), stop);
+    fillBeside(target, path_,
+               [&](const fs::path& beside) { writeSampleArrays(beside, formatToWrite(path_), rows_->rows(), stop); });
     target.commit();
     fs::remove(part_, ignored);
   } else {

@@ -7,6 +7,10 @@
 
 namespace palp {
 
+std::string fileFailureInWords(const std::filesystem::filesystem_error& failure) {
+  return failure.path1().string() + ": cannot be reached: " + failure.code().message();
+}
+
 std::string failureInWords(const std::exception_ptr& failure) {
   try {
     std::rethrow_exception(failure);
@@ -14,6 +18,8 @@ std::string failureInWords(const std::exception_ptr& failure) {
     return refused.what();
   } catch (const Cancelled& cancelled) {
     return cancelled.what();
+  } catch (const std::filesystem::filesystem_error& unreached) {
+    return fileFailureInWords(unreached);
   } catch (const std::bad_alloc&) {
     return "not enough memory";
   } catch (const std::exception& mistake) {

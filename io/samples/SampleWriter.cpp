@@ -2,6 +2,7 @@
 
 #include "io/SampleFile.h"
 #include "io/SampleHead.h"
+#include "io/samples/FillBeside.h"
 #include "io/samples/SampleReader.h"
 #include "model/base/Error.h"
 
@@ -65,7 +66,9 @@ void SampleWriter::append(const SampleSet& block) {
 
 void SampleWriter::finish(const std::stop_token& stop) {
   if (rows_) {
-    writeSampleArrays(target_.beside(), formatToWrite(path_), rows_->rows(), stop);
+    fillBeside(target_, path_, [&](const std::filesystem::path& beside) {
+      writeSampleArrays(beside, formatToWrite(path_), rows_->rows(), stop);
+    });
   } else {
     lines_.close();
     if (!lines_) refuseWriting(path_);

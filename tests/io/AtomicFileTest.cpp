@@ -1,6 +1,7 @@
 #include "io/AtomicFile.h"
 
 #include "io/FilesTogether.h"
+#include "io/samples/FillBeside.h"
 #include "tests/io/Refusal.h"
 #include "tests/io/TemporaryFolder.h"
 
@@ -172,6 +173,18 @@ TEST(FilesTogether, NameTheFileThatWasAskedFor) {
   const std::string sentence =
       refusal([&] { files.add("a.txt", [](const fs::path& beside) { throw Error(beside.string() + ": is wrong"); }); });
   EXPECT_EQ(sentence, (folder / "a.txt").string() + ": is wrong");
+}
+
+TEST(FillBeside, NamesTheFileThatWasAskedFor) {
+  const TemporaryFolder folder;
+  const AtomicFile file(folder / "a.txt", false);
+  EXPECT_EQ(refusal([&] {
+              fillBeside(file, folder / "a.txt",
+                         [](const fs::path& beside) { throw Error(beside.string() + ": is wrong"); });
+            }),
+            (folder / "a.txt").string() + ": is wrong");
+  EXPECT_EQ(refusal([&] { fillBeside(file, folder / "a.txt", [](const auto&) { throw Error("all is wrong"); }); }),
+            "all is wrong");
 }
 
 TEST(AtomicFile, SaysThatTheDiskIsFull) {

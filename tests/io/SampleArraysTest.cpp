@@ -4,6 +4,7 @@
 #include "io/SampleFile.h"
 #include "io/SamplePartWriter.h"
 #include "model/base/Cancelled.h"
+#include "tests/app/gui/FullDisk.h"
 #include "tests/io/Refusal.h"
 #include "tests/io/SmallSamples.h"
 #include "tests/io/TemporaryFolder.h"
@@ -193,6 +194,17 @@ TEST_P(SampleArrays, AFullDiskIsSaid) {
            {file("a").filename().string() + ": cannot be written: No space left on device"});
   saveSamples(file("b"), randomSet(600, 1), false); // and the library goes on
   expectSame(loadSamples(file("b")), randomSet(600, 1));
+}
+
+TEST_P(SampleArrays, AFullDiskNamesTheFileAndNotTheTemporaryOne) {
+  const std::string wanted = file("a").string() + ": cannot be written: ";
+  const auto begins = [&](const std::string& sentence) { return sentence.substr(0, wanted.size()); };
+  SamplePartWriter part(file("a"), smallHead(), false);
+  part.append(randomSet(600, 1));
+  const FullDisk little(20'000);
+  EXPECT_EQ(begins(refusal([&] { part.finish(); })), wanted);
+  EXPECT_EQ(begins(refusal([&] { saveSamples(file("a"), randomSet(600, 1), false); })), wanted);
+  EXPECT_FALSE(fs::exists(file("a")));
 }
 
 TEST_P(SampleArrays, RefuseNumbersThatAreNotFiniteAndAreasThatAreNotThere) {

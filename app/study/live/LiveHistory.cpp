@@ -1,6 +1,7 @@
 #include "app/study/live/LiveHistory.h"
 
 #include "io/AtomicFile.h"
+#include "model/base/Text.h"
 
 #include <cmath>
 #include <sstream>
@@ -17,7 +18,7 @@ void writeNumbers(std::ostream& out, const Eigen::MatrixXd& values, Eigen::Index
   const auto all = values.reshaped();
   for (Eigen::Index k = 0; k < count; ++k) {
     out << ',';
-    if (k < all.size() && std::isfinite(all(k))) out << all(k);
+    if (k < all.size() && std::isfinite(all(k))) out << text(all(k));
   }
 }
 
@@ -74,7 +75,6 @@ void writeLiveCsv(const std::filesystem::path& path, const LiveHistory& history,
     rows = std::max(rows, static_cast<int>(entry.frame->change.rows()));
   }
   std::ostringstream out;
-  out.precision(17);
   out << head << "t_s,board_s,frame,complete,valid,area,latency_ms,lost_reports,temperature_degC,misfit,mark";
   for (Eigen::Index k = 0; k < forces; ++k)
     out << ",a" << k / 3 << "_f"
@@ -87,13 +87,13 @@ void writeLiveCsv(const std::filesystem::path& path, const LiveHistory& history,
   std::string mark;
   for (const LiveHistory::Entry& entry : history.entries()) {
     const LiveFrame& live = *entry.frame;
-    out << entry.t_s << ',' << live.frame.time_s << ',';
+    out << text(entry.t_s) << ',' << text(live.frame.time_s) << ',';
     out << live.frame.number << ',' << live.frame.complete << ',' << live.forces.valid << ',';
     if (live.forces.area) out << *live.forces.area;
-    out << ',' << 1e3 * live.latency_s << ',' << live.lostReports << ',';
-    if (live.frame.temperature_degC) out << *live.frame.temperature_degC;
+    out << ',' << text(1e3 * live.latency_s) << ',' << live.lostReports << ',';
+    if (live.frame.temperature_degC) out << text(*live.frame.temperature_degC);
     out << ',';
-    if (live.forces.misfit) out << *live.forces.misfit;
+    if (live.forces.misfit) out << text(*live.forces.misfit);
     out << ',' << inQuotes(live.mark == mark ? std::string() : live.mark);
     mark = live.mark;
     writeNumbers(out, live.forces.measuredAlone(live.forces.forces_N), forces);

@@ -320,3 +320,16 @@ TEST(Outputs, AFolderThatCannotBeWrittenIsRefusedBeforeTheWork) {
     expectRefused(palp::test::palp(arguments), {"/proc/palp.csv", "cannot be"});
   }
 }
+
+/// As in a folder that lets nobody in, the system cannot even say what the name is.
+TEST(Outputs, ANameThatCannotBeReachedIsRefusedByEveryCommand) {
+  const palp::TemporaryFolder folder;
+  std::filesystem::create_symlink("b.csv", folder / "a.csv");
+  std::filesystem::create_symlink("a.csv", folder / "b.csv");
+  std::vector<std::vector<std::string>> commands = writingCommands();
+  commands.insert(commands.end(), {{"cluster", "status"}, {"solve", "paper", "--loads"}});
+  for (std::vector<std::string> arguments : commands) {
+    arguments.emplace_back(folder / "a.csv");
+    expectRefused(palp::test::palp(arguments), {"a.csv", "cannot be"});
+  }
+}
