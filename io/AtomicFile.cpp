@@ -82,7 +82,7 @@ fs::path makeTemporary(const fs::path& end, const fs::path& name) {
     }
     if (errno != EEXIST) cannotWrite(name, reason());
   }
-  cannotWrite(name, "no temporary name is free");
+  cannotWrite(name, "every temporary name is taken");
 }
 
 void renameInto(const fs::path& from, const fs::path& end, const fs::path& name) {
@@ -112,7 +112,7 @@ void requireFree(const fs::path& path, bool force) {
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) throw Error(path.string() + ": is a folder; a file name is needed");
   if (!force && !isSpecial(path) && !isOwnTemporary(path) && fs::exists(path, ignored))
-    throw Error(path.string() + ": exists already; choose another name, or --force to overwrite it");
+    throw Error(path.string() + ": exists; choose another name, or --force to overwrite it");
 }
 
 void requireWritable(const fs::path& path, bool force) {

@@ -45,8 +45,8 @@ DecoderInput readInput(const JsonPlace& place) {
   input.low = readVector(place.at("low"));
   input.high = readVector(place.at("high"));
   const Eigen::Index inputs = static_cast<Eigen::Index>(input.rows.size()) * input.valuesPerRow;
-  requireSize(place.at("low"), input.low.size(), inputs, "numbers, one an input");
-  requireSize(place.at("high"), input.high.size(), inputs, "numbers, one an input");
+  requireSize(place.at("low"), input.low.size(), inputs, "numbers, one per input");
+  requireSize(place.at("high"), input.high.size(), inputs, "numbers, one per input");
   return input;
 }
 
@@ -79,9 +79,9 @@ DecoderPlace readPlace(const JsonPlace& json) {
 OutputCorrection readCorrection(const JsonPlace& json, Eigen::Index outputs) {
   json.onlyKeys({"gains", "offset"}, {});
   OutputCorrection correction{readMatrix(json.at("gains")), readVector(json.at("offset"))};
-  requireSize(json.at("gains"), correction.gains.rows(), outputs, "rows, one an output");
-  requireSize(json.at("gains"), correction.gains.cols(), outputs, "columns, one an output");
-  requireSize(json.at("offset"), correction.offset.size(), outputs, "numbers, one an output");
+  requireSize(json.at("gains"), correction.gains.rows(), outputs, "rows, one per output");
+  requireSize(json.at("gains"), correction.gains.cols(), outputs, "columns, one per output");
+  requireSize(json.at("offset"), correction.offset.size(), outputs, "numbers, one per output");
   return correction;
 }
 
@@ -126,7 +126,7 @@ void requireAreas(const JsonPlace& root, const Decoder& decoder) {
   const ForwardModel* classes = decoder.areas ? &*decoder.areas : std::get_if<ForwardModel>(&decoder.model);
   const JsonPlace areaOfClass = root.at("area_of_class");
   requireSize(areaOfClass, static_cast<Eigen::Index>(decoder.areaOfClass.size()),
-              classes ? static_cast<Eigen::Index>(classes->classes()) : 0, "numbers, one a class");
+              classes ? static_cast<Eigen::Index>(classes->classes()) : 0, "numbers, one per class");
   for (const int area : decoder.areaOfClass) {
     if (decoder.together && area != -1) areaOfClass.refuse("[-1] where all areas are loaded together");
     if (!decoder.together && (area < 0 || area >= decoder.areaCount))
@@ -139,21 +139,21 @@ void requireAreas(const JsonPlace& root, const Decoder& decoder) {
 void requireFitting(const JsonPlace& root, const Decoder& decoder) {
   const Eigen::Index forces = 3 * static_cast<Eigen::Index>(decoder.together ? decoder.areaCount : 1);
   if (decoder.place && (decoder.together || !traits(decoder.kind).givesPosition))
-    root.at("place").refuse("left out: this decoder gives none");
+    root.at("place").refuse("no such key, because this decoder gives no position");
   if (!traits(decoder.kind).ofAreas && !decoder.place)
-    root.at("model").refuse("beside \"place\": this decoder gives one");
+    root.at("model").refuse("a file with \"place\", because this decoder gives a position");
   requireSize(root.at("model"), outputsOf(decoder), forces + (decoder.place ? 2 : 0),
-              decoder.together ? "outputs, three an area"
+              decoder.together ? "outputs, three per area"
               : decoder.place  ? "outputs, the components of one force and the two of its place"
                                : "outputs, the components of one force");
-  requireSize(root.at("input"), decoder.inputs(), inputsOf(decoder), "inputs, as the model takes");
-  requireSize(root.at("low_N"), decoder.low_N.size(), forces, "numbers, one a component of the force");
-  requireSize(root.at("high_N"), decoder.high_N.size(), forces, "numbers, one a component of the force");
-  requireSize(root.at("residual_N"), decoder.residual_N.rows(), forces, "rows, one a component of the force");
+  requireSize(root.at("input"), decoder.inputs(), inputsOf(decoder), "inputs, as in the model");
+  requireSize(root.at("low_N"), decoder.low_N.size(), forces, "numbers, one per component of the force");
+  requireSize(root.at("high_N"), decoder.high_N.size(), forces, "numbers, one per component of the force");
+  requireSize(root.at("residual_N"), decoder.residual_N.rows(), forces, "rows, one per component of the force");
   if (decoder.residual_N.cols() < 1) root.at("residual_N").refuse("one column or more");
   if (decoder.areas) {
-    requireSize(root.at("areas"), decoder.areas->measurements(), decoder.inputs(), "measurements, one an input");
-    requireSize(root.at("areas"), decoder.areas->causes(), forces, "causes, one a component of the force");
+    requireSize(root.at("areas"), decoder.areas->measurements(), decoder.inputs(), "measurements, one per input");
+    requireSize(root.at("areas"), decoder.areas->causes(), forces, "causes, one per component of the force");
   }
   requireAreas(root, decoder);
 }
@@ -192,7 +192,7 @@ std::string networkText(const Decoder& decoder) {
 Decoder parseNetwork(const std::string& text, const std::string& file) {
   const Json json = parseJson(text, file);
   const JsonPlace root(json, file);
-  if (!root.has("palp_network")) throw Error(file + ": no network of Palp: palp_network is missing");
+  if (!root.has("palp_network")) throw Error(file + ": not a network file of Palp: palp_network is missing");
   formatVersion(root, "palp_network", kNewestNetwork);
   root.onlyKeys({"palp_network", "decoder", "mode", "trained_with", "design_fingerprint", "seed", "noise_relative",
                  "input", "area_count", "together", "low_N", "high_N", "residual_N", "fit", "model", "area_of_class",
@@ -225,7 +225,7 @@ Decoder parseNetwork(const std::string& text, const std::string& file) {
   requireFitting(root, decoder);
   if (root.has("correction")) {
     if (!std::holds_alternative<KernelForwardModel>(decoder.model))
-      root.at("correction").refuse("left out: this decoder is refined in its model");
+      root.at("correction").refuse("no such key, because this decoder is refined in its model");
     decoder.correction = readCorrection(root.at("correction"), decoder.outputs() + 2);
   }
   return decoder;

@@ -182,7 +182,7 @@ std::string toJson(const SensorDesign& d) {
 SensorDesign parseDesign(std::string_view json, const std::string& file) {
   const Json value = parseJson(json, file);
   const JsonPlace root(value, file);
-  if (!root.has("palp_design")) throw Error(file + ": no design file: palp_design is missing");
+  if (!root.has("palp_design")) throw Error(file + ": not a design file of Palp: palp_design is missing");
   return readDesign(root);
 }
 

@@ -27,7 +27,7 @@ bool sameBytes(const fs::path& a, const fs::path& b) {
 FilesTogether::FilesTogether(fs::path folder) : folder_(std::move(folder)) {
   std::error_code failed;
   made_ = fs::create_directories(folder_, failed);
-  if (failed) throw Error(folder_.string() + ": the folder cannot be made: " + failed.message());
+  if (failed) throw Error(folder_.string() + ": the folder cannot be created: " + failed.message());
 }
 
 FilesTogether::~FilesTogether() {

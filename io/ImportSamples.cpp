@@ -7,6 +7,7 @@
 #include "io/samples/SampleWriter.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
+#include "model/base/GotExpected.h"
 #include "model/base/Text.h"
 #include "nn/ConstantReadings.h"
 
@@ -48,8 +49,8 @@ public:
     const double* next = values_.data();
     for (double& resistance : block.resistances_ohm.col(column)) {
       if (!(*next > 0))
-        table_.refuse("column " + columns_[static_cast<std::size_t>(next - values_.data())].name + " gives " +
-                      text(*next) + " ohm; allowed is above 0");
+        table_.refuse("column " + columns_[static_cast<std::size_t>(next - values_.data())].name + ": " +
+                      gotExpected(*next, " ohm", "above 0"));
       resistance = *next++;
     }
     for (double& force : block.forces_N.col(column)) force = *next++;
@@ -60,7 +61,7 @@ public:
     }
     if (map_.time_s) {
       if (*next < time_s_)
-        table_.refuse("time goes back from " + text(time_s_) + " to " + text(*next) + " s; allowed are rows in order");
+        table_.refuse("time: " + gotExpected(*next, " s", shortText(time_s_) + " s or later; sort the rows by time"));
       time_s_ = block.times_s(0, column) = *next;
     }
     return true;
@@ -75,7 +76,7 @@ private:
         throw Error(mapFile_.string() + ": column \"" + column.name + "\" is not in " + tableFile_.string() +
                     ", whose columns are " + shownColumns());
       if (std::find(found + 1, there.end(), column.name) != there.end())
-        throw Error(tableFile_.string() + ": column \"" + column.name + "\" stands twice");
+        throw Error(tableFile_.string() + ": column \"" + column.name + "\" appears twice");
       chosen_.push_back(static_cast<std::size_t>(found - there.begin()));
       columns_.push_back(column);
     }
@@ -92,15 +93,16 @@ private:
 
   [[nodiscard]] int areaFrom(double value) const {
     if (!(value >= 0 && value < map_.areaCount) || value != std::floor(value))
-      table_.refuse("area " + text(value) + " (from 0); allowed is a whole number from 0 to " +
-                    std::to_string(map_.areaCount - 1));
+      table_.refuse("area: " + gotExpected(value, " (counted from 0)",
+                                           "a whole number from 0 to " + std::to_string(map_.areaCount - 1)));
     return static_cast<int>(value);
   }
 
   [[nodiscard]] int areaAt(double x_mm, double y_mm) const {
     if (!(x_mm >= 0 && x_mm <= map_.length_mm && y_mm >= 0 && y_mm <= map_.width_mm))
-      table_.refuse("place " + text(x_mm) + ", " + text(y_mm) + " mm; allowed is 0 to " + text(map_.length_mm) +
-                    " and 0 to " + text(map_.width_mm) + " mm");
+      table_.refuse("position: " +
+                    gotExpected(shortText(x_mm) + ", " + shortText(y_mm) + " mm",
+                                "0 to " + shortText(map_.length_mm) + " and 0 to " + shortText(map_.width_mm) + " mm"));
     const int i = std::min(map_.areaColumns - 1, static_cast<int>(x_mm / map_.length_mm * map_.areaColumns));
     const int j = std::min(map_.areaRows - 1, static_cast<int>(y_mm / map_.width_mm * map_.areaRows));
     return j * map_.areaColumns + i;
@@ -170,7 +172,7 @@ Imported importSamples(const fs::path& table, const fs::path& mapFile, const Sen
     result.samples += static_cast<std::size_t>(count);
     if (progress) progress(source->share());
   }
-  if (result.samples == 0) throw Error(table.string() + ": holds no rows below the names of its columns");
+  if (result.samples == 0) throw Error(table.string() + ": has no rows below the names of its columns");
   result.constant = readings.inWords(
       [&block](Eigen::Index i) {
         return "R_r" + std::to_string(i / block.columnWires) + "_c" + std::to_string(i % block.columnWires);

@@ -24,7 +24,7 @@ Indenter readIndenter(const JsonPlace& place) {
   if (place.has("friction")) indenter.friction = place.at("friction").number(0, 1e3);
   if (place.has("force_N") == place.has("depth_mm")) place.refuse("either force_N or depth_mm");
   if (place.has("force_N")) {
-    if (place.has("shift_mm")) place.refuse("shift_mm beside depth_mm alone");
+    if (place.has("shift_mm")) place.refuse("shift_mm only together with depth_mm");
     const std::vector<double> force = place.at("force_N").numbers(3);
     indenter.control = Press{{force[0], force[1], force[2]}};
   } else {

@@ -7,6 +7,7 @@
 #include "io/samples/SampleWriter.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
+#include "model/base/GotExpected.h"
 
 #include <algorithm>
 
@@ -61,7 +62,7 @@ std::size_t readParts(const std::vector<Part>& parts, const std::stop_token& sto
     if (first != done)
       throw Error(part.path.string() + ": begins at sample " + std::to_string(first) +
                   "; the shards before it end at sample " + std::to_string(done) +
-                  (first < done ? ", so that some stand twice" : ", so that some are missing"));
+                  (first < done ? ", so that some appear twice" : ", so that some are missing"));
     const auto reader = openSamples(part.path, stop);
     const Eigen::Index atOnce = samplesAtOnce(reader->head());
     SampleSet block = reader->head();
@@ -108,9 +109,8 @@ SampleSet loadSamples(const fs::path& path, const std::stop_token& stop, bool al
   const auto reader = openSamples(path, stop);
   SampleSet set = reader->head();
   if (set.beside.rows() > 0 && !alsoTwoAtOnce)
-    throw Error(path.string() +
-                ": two touches at once in each sample; allowed here is one (palp predict takes two, and " +
-                "counts those that are told from one)");
+    throw Error(path.string() + ": touches in each sample: " +
+                gotExpected("2 at once", "1 (palp predict takes two, and counts those distinguished from one)"));
   if (const auto size = reader->size()) {
     resizeSamples(set, *size);
     reader->read(set, 0, *size, stop);
@@ -137,7 +137,7 @@ MergedSamples mergeSampleFiles(const std::vector<fs::path>& paths, const fs::pat
   SampleWriter writer(path, head, force);
   const std::size_t done = readParts(parts, stop, [&](const SampleSet& block) { writer.append(block); });
   if (head.origin.perArea > 0 && done != wholeRequest(head)) // measured samples are of no request
-    throw Error(path.string() + ": the shards hold " + std::to_string(done) + " samples; the whole request has " +
+    throw Error(path.string() + ": the shards contain " + std::to_string(done) + " samples; the whole request has " +
                 std::to_string(wholeRequest(head)));
   writer.finish(stop);
   const bool mixed = head.origin.madeBy != parts[0].head.origin.madeBy;

@@ -3,6 +3,7 @@
 #include "io/SampleFile.h"
 #include "model/Indenter.h"
 #include "model/base/Error.h"
+#include "model/base/GotExpected.h"
 #include "model/base/Text.h"
 
 #include <algorithm>
@@ -24,6 +25,12 @@ constexpr const char* kSurrogate = "surrogate";
 
 std::string shown(std::string_view value) {
   return "\"" + std::string(value.substr(0, 60)) + (value.size() > 60 ? "..." : "") + "\"";
+}
+
+/// Refuses the value of a key of the head.
+[[noreturn]] void refuseKey(const SampleLines& lines, const std::string& key, const std::string& got,
+                            const std::string& expected) {
+  lines.refuse("head above this line, " + key + ": " + gotExpected(got, expected));
 }
 
 /// `# key: value` lines, each key at most once.
@@ -48,14 +55,13 @@ public:
     const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), result);
     const bool whole = error == std::errc() && end == value.data() + value.size();
     if (!whole || !(result >= 0) || result > largest)
-      lines_.refuse("the head above this line says " + key + ": " + shown(value) + "; allowed is a number from 0 to " +
-                    plain(largest));
+      refuseKey(lines_, key, shown(value), "a number from 0 to " + plain(largest));
     return result;
   }
 
   int count(const std::string& key) {
     const int result = number(key, kLargestCount);
-    if (result == 0) lines_.refuse("the head above this line says " + key + ": 0; allowed is 1 or more");
+    if (result == 0) refuseKey(lines_, key, "0", "1 or more");
     return result;
   }
 
@@ -77,9 +83,9 @@ private:
 void readComment(const SampleLines& lines, const std::string& line, std::map<std::string, std::string>& values) {
   const std::size_t colon = line.find(": ");
   if (line.substr(0, 2) != "# " || colon == std::string::npos)
-    lines.refuse(shown(line) + " is no line of the head of samples; allowed is \"# key: value\"");
+    lines.refuse("line of the head: " + gotExpected(shown(line), "\"# key: value\""));
   const std::string key = line.substr(2, colon - 2);
-  if (!values.emplace(key, line.substr(colon + 2)).second) lines.refuse("key " + key + " stands twice");
+  if (!values.emplace(key, line.substr(colon + 2)).second) lines.refuse("key " + key + " appears twice");
 }
 
 std::vector<std::string_view> split(std::string_view line) {
@@ -107,8 +113,7 @@ SampleOrigin readOrigin(const SampleLines& lines, HeadLines& head) {
   if (head.has("readout")) {
     const std::string readout = head.text("readout");
     origin.readout = kReadouts.find(readout);
-    if (!origin.readout)
-      lines.refuse("the head above this line says readout: " + shown(readout) + "; allowed is " + kReadouts.allowed());
+    if (!origin.readout) refuseKey(lines, "readout", shown(readout), kReadouts.allowed());
   }
   origin.seed = head.number("seed", ~std::uint64_t{0});
   origin.areas = head.text("areas");
@@ -118,8 +123,7 @@ SampleOrigin readOrigin(const SampleLines& lines, HeadLines& head) {
   origin.solverTolerance = head.number("solver_tolerance", 1e300);
   const std::string kind = head.text("kind");
   if (kind != kFullSolves && kind != kSurrogate)
-    lines.refuse("the head above this line says kind: " + shown(kind) + "; allowed is " + kFullSolves + " or " +
-                 kSurrogate);
+    refuseKey(lines, "kind", shown(kind), std::string(kFullSolves) + " or " + kSurrogate);
   origin.surrogate = kind == kSurrogate;
   origin.surrogateError = head.number("surrogate_error", 1e300);
   origin.firstSample = head.number("first_sample", ~std::uint64_t{0});
@@ -143,7 +147,7 @@ void readColumns(const SampleLines& lines, const std::string& line, SampleSet& s
   // First the number, so that a head with sizes beyond reason is refused before all their names are made.
   const std::size_t count = fieldCount(line);
   if (count != sampleFields(set))
-    lines.refuse(std::to_string(count) + " columns; by the head there must be " + std::to_string(sampleFields(set)));
+    lines.refuse("columns: " + gotExpected(std::to_string(count), std::to_string(sampleFields(set)) + " by the head"));
   const std::string expected = sampleColumns(set);
   const std::vector<std::string_view> names = split(line);
   const std::vector<std::string_view> wanted = split(expected);
@@ -154,10 +158,12 @@ void readColumns(const SampleLines& lines, const std::string& line, SampleSet& s
 }
 
 void requireArea(const SampleLines& lines, const SampleSet& head, int area) {
-  const std::string found = "area " + std::to_string(area) + "; allowed is ";
-  if (loadedTogether(head) && area != -1) lines.refuse(found + "-1: by the head all areas are loaded together");
+  const auto refuse = [&](const std::string& expected) {
+    lines.refuse("area: " + gotExpected(std::to_string(area), expected));
+  };
+  if (loadedTogether(head) && area != -1) refuse("-1: by the head all areas are loaded together");
   if (!loadedTogether(head) && (area < 0 || area >= head.areaCount))
-    lines.refuse(found + "0 to " + std::to_string(head.areaCount - 1));
+    refuse("0 to " + std::to_string(head.areaCount - 1));
 }
 
 /// Whether this row of this part has shapes.
@@ -168,7 +174,7 @@ bool isShape(Eigen::MatrixXd SampleSet::*part, Eigen::Index row) {
 /// The number that stands for a shape there.
 double readShape(const SampleLines& lines, const std::string& name) {
   const auto shape = indenterShape(name);
-  if (!shape) lines.refuse("shape is " + shown(name) + "; allowed is " + indenterShapes());
+  if (!shape) lines.refuse("shape: " + gotExpected(shown(name), indenterShapes()));
   return static_cast<double>(*shape);
 }
 
@@ -233,7 +239,7 @@ bool SampleLines::next(std::string& line, bool cutOffIsTheEnd) {
   ++line_;
   if (stream_.eof()) { // no line end: its last number may lack digits
     if (cutOffIsTheEnd) return false;
-    refuse("cut off in the middle of the line; each line must have its end");
+    refuse("cut off in the middle of the line; each line must end with a line break");
   }
   if (!line.empty() && line.back() == '\r') line.pop_back();
   return true;
@@ -248,11 +254,11 @@ SampleSet readSampleHead(SampleLines& lines) {
   std::string line;
   while (lines.next(line) && !line.empty() && line[0] == '#') readComment(lines, line, values);
   if (values.empty() && line.starts_with('{'))
-    lines.refuse("the file holds JSON, no samples; are two file names exchanged?");
+    lines.refuse("the file contains JSON instead of samples; check for swapped file names");
   HeadLines head(lines, std::move(values));
   const int version = head.number("palp_samples", kLargestCount);
   if (version != kNewestSamples)
-    lines.refuse("the file is of version " + std::to_string(version) + "; this Palp reads version 1");
+    lines.refuse("version: " + gotExpected(std::to_string(version), "1, the version that this Palp reads"));
   SampleSet set;
   set.origin = readOrigin(lines, head);
   set.rowWires = head.count("row_wires");
@@ -273,15 +279,15 @@ std::size_t sampleFields(const SampleSet& head) {
 void readSampleLine(const SampleLines& lines, std::string_view line, SampleSet& set, Eigen::Index column) {
   const std::size_t count = fieldCount(line);
   if (count != sampleFields(set))
-    lines.refuse(std::to_string(count) + " fields; by the head there must be " + std::to_string(sampleFields(set)));
+    lines.refuse("fields: " + gotExpected(std::to_string(count), std::to_string(sampleFields(set)) + " by the head"));
   const char* next = line.data();
   const char* const end = line.data() + line.size();
   std::size_t field = 0;
   const auto read = [&](auto& value) {
     const auto [stop, error] = std::from_chars(next, end, value);
     if (error != std::errc() || (stop != end && *stop != ','))
-      lines.refuse("field " + std::to_string(field + 1) + " is " + shown(split(line)[field]) +
-                   "; allowed is a number (the area: a whole one)");
+      lines.refuse("field " + std::to_string(field + 1) + ": " +
+                   gotExpected(shown(split(line)[field]), "a number (the area: a whole one)"));
     next = stop + 1;
     ++field;
   };
@@ -299,7 +305,7 @@ void readSampleLine(const SampleLines& lines, std::string_view line, SampleSet& 
       double& value = (set.*part)(row, column);
       read(value);
       if (!std::isfinite(value))
-        lines.refuse("field " + std::to_string(field) + " is " + text(value) + "; allowed is a finite number");
+        lines.refuse("field " + std::to_string(field) + ": " + gotExpected(value, "", "a finite number"));
     }
 }
 

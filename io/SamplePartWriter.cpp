@@ -45,7 +45,8 @@ SamplePartWriter::SamplePartWriter(fs::path path, const SampleSet& head, bool fo
   try {
     // File systems without locks (NFS) fail in other ways: the work goes on, unlocked.
     if (::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-      throw Error(part_.string() + ": another process is writing it; wait for it, or choose another name");
+      throw Error(part_.string() +
+                  ": another process is writing it; wait until it has finished, or choose another name");
     resume(head);
   } catch (...) { // the destructor does not run for what was never constructed
     ::close(file_);
@@ -78,7 +79,8 @@ void SamplePartWriter::resume(const SampleSet& head) {
     std::string differs = differenceOfHeads(before, head);
     if (differs.empty()) differs = differenceOfMakers(before.origin.madeBy, head.origin.madeBy);
     if (differs.empty()) differs = "the head differs (shard, or error of the surrogate)";
-    throw Error(part_.string() + ": is of other work: " + differs + "; repeat that work, or delete the file");
+    throw Error(part_.string() + ": belongs to another request: " + differs +
+                "; repeat that request, or delete the file");
   }
   if (formatToWrite(path_) == SampleFormat::Csv) {
     if (begun) keepWholeLines(stream, head, text.size());

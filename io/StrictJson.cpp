@@ -1,6 +1,7 @@
 #include "io/StrictJson.h"
 
 #include "model/base/Error.h"
+#include "model/base/GotExpected.h"
 #include "model/base/Text.h"
 
 #include <algorithm>
@@ -23,12 +24,13 @@ public:
 
   bool operator()(int depth, Json::parse_event_t event, const Json& parsed) {
     if (depth > kDeepest)
-      throw Error(file_ + ": lists and objects lie more than " + std::to_string(kDeepest) +
-                  " deep in each other; allowed are " + std::to_string(kDeepest));
+      throw Error(
+          file_ + ": nested lists and objects: " +
+          gotExpected("more than " + std::to_string(kDeepest) + " levels", "up to " + std::to_string(kDeepest)));
     if (event == Json::parse_event_t::object_start) open_.emplace_back();
     if (event == Json::parse_event_t::object_end) open_.pop_back();
     if (event == Json::parse_event_t::key && !open_.back().insert(parsed.get<std::string>()).second)
-      throw Error(file_ + ": key \"" + parsed.get<std::string>() + "\" stands twice; allowed is once");
+      throw Error(file_ + ": key \"" + parsed.get<std::string>() + "\" appears twice");
     return true;
   }
 
@@ -56,7 +58,7 @@ std::string cutOff(std::string_view content, const Json::exception& broken) {
   const std::size_t last = content.find_last_not_of(" \t\r\n");
   if (last == std::string_view::npos) return "the file is empty";
   const auto line = 1 + std::count(content.begin(), content.begin() + static_cast<std::ptrdiff_t>(last), '\n');
-  return "the file ends in the middle, at line " + std::to_string(line) + ": it was cut off, or not written to its end";
+  return "the file ends early, at line " + std::to_string(line) + ": it was cut off, or not written completely";
 }
 
 } // namespace
@@ -69,15 +71,15 @@ Json parseJson(std::string_view content, const std::string& file) {
   } catch (const Json::exception& broken) {
     const std::string cut = cutOff(content, broken);
     if (content.starts_with("# palp_samples"))
-      throw Error(file + ": no valid JSON: it holds samples (CSV); are two file names exchanged?");
-    throw Error(file + ": no valid JSON: " + (cut.empty() ? plain(broken.what()) : cut));
+      throw Error(file + ": not valid JSON: it contains samples (CSV); check for swapped file names");
+    throw Error(file + ": not valid JSON: " + (cut.empty() ? plain(broken.what()) : cut));
   }
 }
 
 void JsonPlace::refuse(const std::string& allowed) const {
   std::string value = value_->dump(-1, ' ', false, Json::error_handler_t::replace);
   if (value.size() > kLongestShownValue) value = value.substr(0, kLongestShownValue) + "...";
-  throw Error(file_ + ": " + (key_.empty() ? "the file" : key_) + " is " + value + "; allowed is " + allowed);
+  throw Error(file_ + ": " + (key_.empty() ? "" : key_ + ": ") + gotExpected(value, allowed));
 }
 
 const JsonPlace& JsonPlace::onlyKeys(const std::vector<std::string>& required,
@@ -88,10 +90,10 @@ const JsonPlace& JsonPlace::onlyKeys(const std::vector<std::string>& required,
   const std::string prefix = key_.empty() ? "" : key_ + ".";
   for (const auto& [key, value] : value_->items())
     if (std::find(known.begin(), known.end(), key) == known.end())
-      JsonPlace(value, file_, "unknown key " + prefix + key).refuse("only " + joined(known));
+      JsonPlace(value, file_, "unknown key " + prefix + key).refuse("one of the keys " + joined(known));
   for (const std::string& key : required)
     if (!value_->contains(key))
-      throw Error(file_ + ": " + prefix + key + " is missing; needed are " + joined(required));
+      throw Error(file_ + ": " + prefix + key + " is missing; expected the keys " + joined(required));
   return *this;
 }
 
@@ -163,7 +165,7 @@ std::vector<JsonPlace> JsonPlace::list() const {
 int formatVersion(const JsonPlace& root, const std::string& key, int newest) {
   const JsonPlace place = root.at(key);
   const int version = place.integer();
-  if (version > newest) place.refuse("up to " + std::to_string(newest) + ": the file is of a newer Palp than this one");
+  if (version > newest) place.refuse("up to " + std::to_string(newest) + "; a newer Palp wrote this file");
   if (version < 1) place.refuse("1 to " + std::to_string(newest));
   return version;
 }

@@ -5,6 +5,7 @@
 #include "io/StrictJson.h"
 #include "model/base/CounterRandom.h"
 #include "model/base/Error.h"
+#include "model/base/GotExpected.h"
 #include "model/base/NumberText.h"
 
 #include <algorithm>
@@ -51,7 +52,8 @@ StudyAxis axisFrom(const JsonPlace& place, Json& design, bool factorial) {
   axis.key = place.at("key").string();
   const Json* entry = entryAt(design, axis.key);
   if (entry == nullptr || entry->is_object())
-    place.at("key").refuse("a key of the design with dots between, list entries by number: \"block_mm.2\"");
+    place.at("key").refuse(
+        "a key of the design, its parts separated by dots and list entries by number: \"block_mm.2\"");
   if (list) {
     for (const JsonPlace& value : place.at("values").list()) axis.values.push_back(value.asJson());
     if (axis.values.empty()) place.at("values").refuse("a list of at least one value");
@@ -68,7 +70,7 @@ StudyAxis axisFrom(const JsonPlace& place, Json& design, bool factorial) {
   if (axis.logarithmic && !(axis.from > 0 && axis.to > 0)) place.refuse("from and to above 0 on a logarithmic scale");
   const double apart = axis.logarithmic ? axis.to / axis.from : axis.to - axis.from;
   if (!std::isfinite(apart) || (axis.logarithmic && apart == 0))
-    place.refuse("from and to that are less than 1e308 (or times 1e308) apart");
+    place.refuse("from and to whose difference (or ratio, on a logarithmic scale) is below 1e308");
   if (place.has("count")) axis.count = place.at("count").integer(2, static_cast<int>(kMostDesigns));
   return axis;
 }
@@ -175,7 +177,7 @@ StudyPlan parseStudy(const std::string& content, const std::string& name, const 
   }
   if (plan.axes.empty()) root.at("vary").refuse("a list of at least one key that varies");
   if (plan.hypercube == 0 && designs > kMostDesigns)
-    root.at("vary").refuse("at most 1e6 designs, here " + text(designs) + " (or latin_hypercube)");
+    root.at("vary").refuse("at most 1e6 designs, not " + shortText(designs) + ", or latin_hypercube");
   if (root.has("seed")) plan.seed = static_cast<std::uint64_t>(root.at("seed").integer(0, 2'147'483'647));
   for (const JsonPlace& place : root.at("compute").list()) {
     const StudyQuantity quantity = place.named(kStudyQuantities);
@@ -220,13 +222,16 @@ double studyNumber(const SensorDesign& design, const std::string& key) {
   Json json = Json::parse(toJson(design));
   const Json* entry = entryAt(json, key);
   if (entry == nullptr || !entry->is_number())
-    throw Error(key + ": allowed is the key of a number of the design, with dots between: \"block_mm.2\"");
+    throw Error(
+        "key: " +
+        gotExpected(quotedText(key), "the key of a number of the design, its parts separated by dots: \"block_mm.2\""));
   return entry->get<double>();
 }
 
 StudyAxis studyAxis(const std::string& key, const std::string& words) {
   const auto refuse = [&]() -> void {
-    throw Error(key + ": '" + words + "'; allowed is a range like 3..6 x 4, 3..6 x 4 log, or a list like 3, 4.5, 6");
+    throw Error(key + ": " +
+                gotExpected(quotedText(words), "a range like 3..6 x 4, 3..6 x 4 log, or a list like 3, 4.5, 6"));
   };
   StudyAxis axis;
   axis.key = key;

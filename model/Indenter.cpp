@@ -1,6 +1,7 @@
 #include "model/Indenter.h"
 
 #include "model/SensorDesign.h"
+#include "model/base/GotExpected.h"
 #include "model/base/Text.h"
 
 #include <Eigen/Dense>
@@ -47,12 +48,12 @@ std::string placeOf(const Indenter& indenter) {
 std::optional<std::string> sizeProblem(const Indenter& indenter) {
   const double radius = indenter.radius_mm, rim = indenter.rim_mm;
   if (indenter.shape != IndenterShape::Plane && !(radius >= kSmallestIndenter_mm && radius <= kLargestIndenter_mm))
-    return "radius " + text(radius) + " mm; allowed is " + text(kSmallestIndenter_mm) + " to " +
-           text(kLargestIndenter_mm) + " mm";
+    return "radius: " + gotExpected(radius, " mm",
+                                    shortText(kSmallestIndenter_mm) + " to " + shortText(kLargestIndenter_mm) + " mm");
   if (indenter.shape == IndenterShape::Flat && !(rim >= 0 && rim <= radius))
-    return "rim radius " + text(rim) + " mm; allowed is 0 to the punch's radius, " + text(radius) + " mm";
+    return "rim radius: " + gotExpected(rim, " mm", "0 to the punch's radius, " + shortText(radius) + " mm");
   if (!(indenter.friction >= 0 && indenter.friction <= kLargestFriction))
-    return "friction " + text(indenter.friction) + "; allowed is 0 to " + text(kLargestFriction);
+    return "friction: " + gotExpected(indenter.friction, "", "0 to " + shortText(kLargestFriction));
   return {};
 }
 
@@ -72,14 +73,17 @@ bool isInside(const Indenter& indenter, const Eigen::Vector2d& place, const Eige
 
 std::optional<std::string> pressProblem(const Press& press, double friction) {
   const Eigen::Vector3d& f = press.force_N;
-  const std::string force = "force (" + text(f.x()) + ", " + text(f.y()) + ", " + text(f.z()) + ") N; ";
+  const auto wrong = [&](const std::string& expected) {
+    return "force: " + gotExpected(shortTexts(f) + " N", expected);
+  };
   if (!(f.allFinite() && f.cwiseAbs().maxCoeff() <= kLargestPress_N))
-    return force + "allowed is a finite number up to 1e6 N in each direction";
-  if (!(f.z() < 0)) return force + "an indenter presses: allowed is FZ below 0";
+    return wrong("a finite number up to 1e6 N in each direction");
+  if (!(f.z() < 0)) return wrong("FZ below 0, because an indenter presses");
   const double sideways = f.head<2>().norm();
-  if (sideways > 0 && friction == 0) return force + "a force sideways needs friction (mu) to hold it";
+  if (sideways > 0 && friction == 0) return wrong("no tangential force without friction (mu)");
   if (sideways > 0 && !(sideways < friction * -f.z()))
-    return force + "friction " + text(friction) + " holds less than " + text(friction * -f.z()) + " N sideways";
+    return wrong("a tangential force below friction " + shortText(friction) + " x " + shortText(-f.z()) +
+                 " N = " + shortText(friction * -f.z()) + " N; an indenter that slides needs depth control or a path");
   return {};
 }
 
@@ -87,18 +91,19 @@ std::optional<std::string> motionProblem(const Indenter& indenter, const Motion&
                                          const Eigen::Vector3d& block_mm) {
   const double deepest = kDeepestShare * block_mm.z();
   if (!(motion.depth_mm > 0 && motion.depth_mm <= deepest))
-    return "depth " + text(motion.depth_mm) + " mm; allowed is above 0 and at most " + text(deepest) +
-           " mm in this block of " + text(block_mm.z()) + " mm";
+    return "depth: " + gotExpected(motion.depth_mm, " mm",
+                                   "above 0 up to " + shortText(deepest) + " mm in this block of " +
+                                       shortText(block_mm.z()) + " mm");
   const bool closed = indenter.shape == IndenterShape::Sphere || indenter.shape == IndenterShape::CylinderX ||
                       indenter.shape == IndenterShape::CylinderY;
   if (closed && motion.depth_mm >= 2 * indenter.radius_mm)
-    return "depth " + text(motion.depth_mm) + " mm; a " + shapeName(indenter.shape) +
-           " would lie below the face: allowed is less than its diameter of " + text(2 * indenter.radius_mm) +
-           " mm, or a pin, which goes on above it";
+    return "depth: " + gotExpected(motion.depth_mm, " mm",
+                                   "less than the diameter of the " + shapeName(indenter.shape) + ", " +
+                                       shortText(2 * indenter.radius_mm) + " mm; a pin may press deeper");
   if (!isInside(indenter, indenter.place_mm + motion.shift_mm, block_mm) || !motion.shift_mm.allFinite())
-    return "shift (" + text(motion.shift_mm.x()) + ", " + text(motion.shift_mm.y()) +
-           ") mm; allowed is one that stays on the top face of " + text(block_mm.x()) + " x " + text(block_mm.y()) +
-           " mm";
+    return "shift: " + gotExpected(shortTexts(motion.shift_mm) + " mm", "one that stays on the top face of " +
+                                                                            shortText(block_mm.x()) + " x " +
+                                                                            shortText(block_mm.y()) + " mm");
   return {};
 }
 
@@ -174,8 +179,9 @@ std::string asCommand(const Indenter& indenter) {
 std::optional<std::string> whyInvalid(const Indenter& indenter, const SensorDesign& design) {
   const Eigen::Vector3d& block = design.block_mm;
   if (!isInside(indenter, indenter.place_mm, block))
-    return placeOf(indenter) + "outside the body; allowed is a place on the top face of " + text(block.x()) + " x " +
-           text(block.y()) + " mm";
+    return placeOf(indenter) + "position: " +
+           gotExpected(shortTexts(indenter.place_mm) + " mm",
+                       "a position on the top face of " + shortText(block.x()) + " x " + shortText(block.y()) + " mm");
   if (auto wrong = sizeProblem(indenter)) return placeOf(indenter) + *wrong;
   const Press* press = indenter.press();
   auto wrong = press ? pressProblem(*press, indenter.friction) : motionProblem(indenter, *indenter.motion(), block);

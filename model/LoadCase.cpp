@@ -1,5 +1,6 @@
 #include "model/LoadCase.h"
 
+#include "model/base/GotExpected.h"
 #include "model/base/Text.h"
 
 namespace palp {
@@ -11,8 +12,7 @@ constexpr double kSmallestRadius_mm = 0.01; // a force on a point has no finite 
 
 std::optional<std::string> forceProblem(const std::string& where, const Eigen::Vector3d& force_N) {
   if (force_N.allFinite() && force_N.cwiseAbs().maxCoeff() <= kLargestForce_N) return {};
-  return where + ": force (" + text(force_N.x()) + ", " + text(force_N.y()) + ", " + text(force_N.z()) +
-         ") N; allowed is a finite number up to 1e6 N in each direction";
+  return where + ": force: " + gotExpected(shortTexts(force_N) + " N", "a finite number up to 1e6 N in each direction");
 }
 
 std::optional<std::string> patchProblem(const PatchLoad& patch, const Eigen::Vector3d& block_mm) {
@@ -21,10 +21,10 @@ std::optional<std::string> patchProblem(const PatchLoad& patch, const Eigen::Vec
   const bool inside = r >= kSmallestRadius_mm && c.x() - r >= 0 && c.y() - r >= 0 && c.x() + r <= block_mm.x() &&
                       c.y() + r <= block_mm.y();
   if (!inside) // a NaN lands here as well
-    return "patch at (" + text(c.x()) + ", " + text(c.y()) + ") mm with radius " + text(r) +
-           " mm; allowed is a radius of " + text(kSmallestRadius_mm) +
-           " mm or more and a disc that lies wholly on the top face of " + text(block_mm.x()) + " x " +
-           text(block_mm.y()) + " mm";
+    return "patch: " + gotExpected("centre " + shortTexts(c) + " mm, radius " + shortText(r) + " mm",
+                                   "a radius of " + shortText(kSmallestRadius_mm) +
+                                       " mm or more and a disc that lies completely on the top face of " +
+                                       shortText(block_mm.x()) + " x " + shortText(block_mm.y()) + " mm");
   return forceProblem("patch", patch.force_N);
 }
 
@@ -47,8 +47,8 @@ Eigen::Vector3d LoadCase::totalForce_N() const {
 std::optional<std::string> whyInvalid(const LoadCase& load, const SensorDesign& design) {
   for (const AreaLoad& areaLoad : load.areas) {
     if (areaLoad.area < 0 || areaLoad.area >= design.areas.count())
-      return "area " + std::to_string(areaLoad.area) + "; the design has areas 0 to " +
-             std::to_string(design.areas.count() - 1);
+      return "area: " + gotExpected(std::to_string(areaLoad.area),
+                                    "0 to " + std::to_string(design.areas.count() - 1) + ", the areas of the design");
     if (auto wrong = forceProblem("area " + std::to_string(areaLoad.area), areaLoad.force_N)) return wrong;
   }
   for (const PatchLoad& patch : load.patches)
@@ -59,20 +59,20 @@ std::optional<std::string> whyInvalid(const LoadCase& load, const SensorDesign& 
 }
 
 std::optional<std::string> whyInvalid(const std::vector<LoadCase>& path, const SensorDesign& design) {
-  if (path.empty()) return "a path without a step; allowed is one or more";
+  if (path.empty()) return "steps of the path: " + gotExpected("0", "1 or more");
   for (std::size_t step = 0; step < path.size(); ++step) {
     const std::string where = path.size() > 1 ? "step " + std::to_string(step) + " of the path: " : "";
     const std::vector<Indenter>&first = path.front().indenters, &now = path[step].indenters;
-    if (now.empty()) return where + "no indenter; allowed is one or more, the same in each step";
+    if (now.empty()) return where + "indenters: " + gotExpected("0", "1 or more, the same in each step");
     if (auto wrong = whyInvalid(path[step], design)) return where + *wrong;
     if (now.size() != first.size())
-      return where + std::to_string(now.size()) + " indenters; allowed are the " + std::to_string(first.size()) +
-             " of step 0";
+      return where + "indenters: " +
+             gotExpected(std::to_string(now.size()), "the " + std::to_string(first.size()) + " of step 0");
     for (std::size_t k = 0; k < now.size(); ++k)
       if (!sameBody(now[k], first[k]))
-        return where + "indenter " + std::to_string(k) + " (" + shapeName(now[k].shape) +
-               ") is not that of step 0; allowed is the same shape, size, place and friction, and by force or by "
-               "motion as there";
+        return where + "indenter " + std::to_string(k) + ": " +
+               gotExpected("another " + shapeName(now[k].shape) + " than in step 0",
+                           "the same shape, size, position, friction and control (force or depth) in each step");
   }
   return {};
 }

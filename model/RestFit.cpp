@@ -4,6 +4,7 @@
 #include "model/FieldAtRest.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
+#include "model/base/GotExpected.h"
 #include "model/base/NumberText.h"
 
 #include <Eigen/Dense>
@@ -171,10 +172,10 @@ RestFit fitted(const RestModel& model, const FieldLaw& law, double noise) {
   judge();
   bool none = false;
   if (!(covariance(0, 0) >= 0 && std::sqrt(covariance(0, 0)) <= kUndetermined)) { // also where it is no number
-    fit.keptContact = "these readings cannot tell it from the radius";
+    fit.keptContact = "these readings do not distinguish it from the radius";
   } else if (x(2) < 0) {
     none = true;
-    fit.keptContact = "the readings want none";
+    fit.keptContact = "the readings fit best without it";
   }
   if (!fit.keptContact.empty()) {
     free = 2;
@@ -201,20 +202,19 @@ RestFit fitted(const RestModel& model, const FieldLaw& law, double noise) {
 const FieldLaw& requireReadings(const SensorDesign& design, const Eigen::Ref<const Eigen::MatrixXd>& resistances_ohm) {
   const FieldLaw* law = design.field();
   if (!law)
-    throw Error(
-        "the design's resistances are by Eq. (1), which has no electrode radius, resistivity or contact to fit; "
-        "give it the law of the field");
+    throw Error("resistance.law: " +
+                gotExpected("pairs, which has no electrode radius, resistivity or contact to fit", "field"));
   if (resistances_ohm.rows() != design.rowWires() || resistances_ohm.cols() != design.columnWires())
     throw Error("readings of " + std::to_string(resistances_ohm.rows()) + " x " +
                 std::to_string(resistances_ohm.cols()) + " wires; the design has " + std::to_string(design.rowWires()) +
                 " x " + std::to_string(design.columnWires()));
   const auto known = (!resistances_ohm.array().isNaN()).count();
   if (known < kFewestReadings)
-    throw Error(std::to_string(known) + " readings at rest; at least " + std::to_string(kFewestReadings) +
-                " are needed");
+    throw Error("readings at rest: " +
+                gotExpected(std::to_string(known), std::to_string(kFewestReadings) + " or more"));
   for (const double r_ohm : resistances_ohm.reshaped())
     if (!std::isnan(r_ohm) && !(r_ohm > 0 && std::isfinite(r_ohm)))
-      throw Error("a reading at rest of " + text(r_ohm) + " ohm; allowed is a number above 0");
+      throw Error("readings at rest: " + gotExpected(r_ohm, " ohm", "resistances above 0"));
   return *law;
 }
 

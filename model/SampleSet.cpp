@@ -66,7 +66,8 @@ void append(SampleSet& set, const SampleSet& block) {
   }
   if (&set == &block) return append(set, SampleSet(block)); // its arrays grow before they are read
   for (const auto values : kSampleParts)
-    if ((set.*values).rows() != (block.*values).rows()) throw Error("samples: sets of other columns cannot be joined");
+    if ((set.*values).rows() != (block.*values).rows())
+      throw Error("samples: sets with different columns cannot be joined");
   set.origin.madeBy = joinedMakers(set.origin.madeBy, block.origin.madeBy);
   const Eigen::Index before = set.size();
   const Eigen::Index added = block.size();

@@ -1,6 +1,7 @@
 #include "model/SensorDesign.h"
 
 #include "model/DesignError.h"
+#include "model/base/GotExpected.h"
 #include "model/base/Text.h"
 #include "model/field/FieldLawCheck.h"
 
@@ -23,18 +24,18 @@ using Problems = std::vector<DesignFault>;
 
 void requirePositive(Problems& problems, const std::string& key, double value, double largest, const char* unit) {
   if (value > 0 && value <= largest) return; // false for NaN
-  problems.push_back({key, text(value) + unit + "; allowed is above 0 up to " + text(largest) + unit});
+  problems.push_back({key, gotExpected(value, unit, "above 0 up to " + shortText(largest) + unit)});
 }
 
 void requireBetween(Problems& problems, const std::string& key, double value, double least, double largest,
                     const char* unit) {
   if (value >= least && value <= largest) return; // false for NaN
-  problems.push_back({key, text(value) + unit + "; allowed is " + text(least) + " to " + text(largest) + unit});
+  problems.push_back({key, gotExpected(value, unit, shortText(least) + " to " + shortText(largest) + unit)});
 }
 
 void requireNotNegative(Problems& problems, const std::string& key, double value, double largest, const char* unit) {
   if (value >= 0 && value <= largest) return; // false for NaN
-  problems.push_back({key, text(value) + unit + "; allowed is 0 up to " + text(largest) + unit});
+  problems.push_back({key, gotExpected(value, unit, "0 up to " + shortText(largest) + unit)});
 }
 
 void checkMaterial(Problems& problems, const Material& material) {
@@ -43,22 +44,21 @@ void checkMaterial(Problems& problems, const Material& material) {
   const std::size_t before = problems.size();
   for (const auto& [key, value] : {std::pair{"material.c10_MPa", c10}, std::pair{"material.c01_MPa", c01}})
     if (!(std::abs(value) <= kLargestModulus_MPa))
-      problems.push_back({key, text(value) + " MPa; allowed is a number up to 1e+09 MPa in size"});
+      problems.push_back({key, gotExpected(value, " MPa", "-1e+09 to 1e+09 MPa")});
   const bool numbers = problems.size() == before;
-  if (numbers && !(c10 > 0)) problems.push_back({"material.c10_MPa", text(c10) + " MPa; allowed is above 0"});
+  if (numbers && !(c10 > 0)) problems.push_back({"material.c10_MPa", gotExpected(c10, " MPa", "above 0")});
   if (numbers && !(c10 + c01 > 0))
     problems.push_back(
-        {"material.c01_MPa", text(c01) + " MPa; c10 + c01 must be above 0, or the rubber has no stiffness"});
+        {"material.c01_MPa", gotExpected(c01, " MPa", "c10 + c01 above 0, or the rubber has no stiffness")});
   if (!(material.poissonRatio >= 0 && material.poissonRatio <= 0.5))
-    problems.push_back({"material.poisson_ratio", text(material.poissonRatio) + "; allowed is 0 to 0.5"});
+    problems.push_back({"material.poisson_ratio", gotExpected(material.poissonRatio, "", "0 to 0.5")});
   requirePositive(problems, "material.density_t_per_mm3", material.density_t_per_mm3, 1, " t/mm3");
 }
 
 void checkAreas(Problems& problems, const LoadAreas& areas) {
   for (const auto& [key, value] : {std::pair{"areas.columns", areas.columns}, std::pair{"areas.rows", areas.rows}})
     if (value < 1 || value > kMostAreasAlong)
-      problems.push_back({key, std::to_string(value) + " leaves the areas empty or too many; allowed is 1 to " +
-                                   std::to_string(kMostAreasAlong)});
+      problems.push_back({key, gotExpected(std::to_string(value), "1 to " + std::to_string(kMostAreasAlong))});
 }
 
 /// What a layer's parts are called in the design file.
@@ -72,24 +72,26 @@ bool checkLayerShape(Problems& problems, const ElectrodeLayer& layer, const Laye
   const std::size_t wires = layer.wire_mm.size();
   if (wires < 1 || wires > kMostWires)
     problems.push_back({names.layer + "." + names.wire,
-                        std::to_string(wires) + " wires; allowed is 1 to " + std::to_string(kMostWires)});
+                        gotExpected(std::to_string(wires) + " wires", "1 to " + std::to_string(kMostWires))});
   if (layer.along_mm.size() != 1 && layer.along_mm.size() != wires)
-    problems.push_back({names.layer + "." + names.along, std::to_string(layer.along_mm.size()) +
-                                                             " lists; allowed is one list, or one for each of the " +
-                                                             std::to_string(wires) + " wires"});
+    problems.push_back({names.layer + "." + names.along,
+                        gotExpected(std::to_string(layer.along_mm.size()) + " lists",
+                                    "one list, or one for each of the " + std::to_string(wires) + " wires")});
   const std::size_t electrodes = layer.along_mm.empty() ? 0 : layer.along_mm[0].size();
   for (std::size_t wire = 0; wire < layer.along_mm.size(); ++wire) {
     const std::size_t count = layer.along_mm[wire].size();
     if (count < 1 || count > kMostWires || count != electrodes)
-      problems.push_back({names.layer + "." + names.along, std::to_string(count) + " electrodes on " + names.wireName +
-                                                               " " + std::to_string(wire) +
-                                                               "; allowed is 1 to 255, the same on every wire"});
+      problems.push_back({names.layer + "." + names.along, gotExpected(std::to_string(count) + " electrodes on " +
+                                                                           names.wireName + " " + std::to_string(wire),
+                                                                       "1 to 255, the same number on every wire")});
   }
   const bool one = layer.z_mm.size() == 1 && layer.z_mm[0].size() == 1;
   bool each = layer.z_mm.size() == wires;
   for (const std::vector<double>& list : layer.z_mm) each = each && list.size() == electrodes;
   if (!one && !each)
-    problems.push_back({names.layer + ".z_mm", "allowed is one depth, or a list a wire with one depth an electrode"});
+    problems.push_back(
+        {names.layer + ".z_mm", gotExpected(std::to_string(layer.z_mm.size()) + " lists of other lengths",
+                                            "one depth, or a list per wire with one depth per electrode")});
   return problems.size() == before;
 }
 
@@ -104,8 +106,9 @@ void checkInside(Problems& problems, const Eigen::Matrix3Xd& positions_mm, int p
       if (aboveLow && value < block_mm(axis)) continue;
       problems.push_back({names.layer + "." + keys[axis],
                           "electrode " + std::to_string(i % perWire) + " of " + names.wireName + " " +
-                              std::to_string(i / perWire) + " at " + "xyz"[axis] + " = " + text(value) +
-                              " mm lies outside the block; allowed is inside 0 to " + text(block_mm(axis)) + " mm"});
+                              std::to_string(i / perWire) + " lies outside the block: " +
+                              gotExpected(std::string(1, "xyz"[axis]) + " = " + shortText(value) + " mm",
+                                          "inside 0 to " + shortText(block_mm(axis)) + " mm")});
       return; // one sentence a layer: the rest follows from the same slip
     }
 }
@@ -160,9 +163,9 @@ void checkDuplicates(Problems& problems, const Eigen::Matrix3Xd& positions_mm, i
     return "electrode " + std::to_string(k % perWire) + " of " + names.wireName + " " + std::to_string(k / perWire);
   };
   const bool sameWire = i / perWire == j / perWire;
-  problems.push_back(
-      {names.layer + "." + (sameWire ? names.along : names.wire),
-       "duplicate electrode: " + name(j) + " is where " + name(i) + " is; allowed is one electrode a place"});
+  problems.push_back({names.layer + "." + (sameWire ? names.along : names.wire),
+                      "duplicate electrode: " +
+                          gotExpected(name(j) + " at the position of " + name(i), "one electrode per position")});
 }
 
 void checkElectrodes(Problems& problems, const SensorDesign& design) {
@@ -182,9 +185,10 @@ void checkElectrodes(Problems& problems, const SensorDesign& design) {
   const double lowest = design.upperElectrodes_mm().row(2).minCoeff();
   const double highest = design.lowerElectrodes_mm().row(2).maxCoeff();
   if (!(highest < lowest))
-    problems.push_back({"lower_layer.z_mm", "the layers cross: the highest lower electrode is at z = " + text(highest) +
-                                                " mm, the lowest upper one at " + text(lowest) +
-                                                " mm; the lower layer must lie below the upper one"});
+    problems.push_back(
+        {"lower_layer.z_mm",
+         "the layers cross: " + gotExpected("the highest lower electrode at z = " + shortText(highest) + " mm",
+                                            "below the lowest upper electrode at z = " + shortText(lowest) + " mm")});
 }
 
 /// `placed`: the block has a size and the electrodes have places in it.
@@ -208,8 +212,8 @@ void checkForceRange(Problems& problems, const ForceRange& range) {
     const double high = range.high_N(axis);
     if (low < high && std::abs(low) <= 1e6 && std::abs(high) <= 1e6) continue;
     problems.push_back(
-        {std::string("force_range_N.") + "xyz"[axis],
-         "[" + text(low) + ", " + text(high) + "]; allowed is [low, high] with low < high, up to 1e+06 N"});
+        {std::string("force_range_N.") + "xyz"[axis], gotExpected("[" + shortText(low) + ", " + shortText(high) + "]",
+                                                                  "[low, high] with low < high, up to 1e+06 N")});
   }
 }
 
@@ -278,7 +282,7 @@ std::vector<DesignFault> check(const SensorDesign& design) {
                    " MPa");
     if (!(design.pressureLaw->exponent >= 0 && design.pressureLaw->exponent <= 10))
       problems.push_back(
-          {"resistance.pressure_law.exponent", text(design.pressureLaw->exponent) + "; allowed is 0 to 10"});
+          {"resistance.pressure_law.exponent", gotExpected(design.pressureLaw->exponent, "", "0 to 10")});
   }
   checkForceRange(problems, design.forceRange);
   return problems;
@@ -287,9 +291,10 @@ std::vector<DesignFault> check(const SensorDesign& design) {
 std::optional<std::string> whyNotSquare(const SensorDesign& design) {
   const int unknowns = 3 * design.electrodesPerRowWire();
   if (design.columnWires() == unknowns) return {};
-  return "Eq. (1) is square only where the column-wires are 3 x the electrodes of a row-wire: the design has " +
-         std::to_string(design.columnWires()) + " column-wires and 3 x " +
-         std::to_string(design.electrodesPerRowWire()) + " = " + std::to_string(unknowns) + " unknowns a row-wire";
+  return "Eq. (1) has no unique solution: " +
+         gotExpected(std::to_string(design.columnWires()) + " column-wires",
+                     "as many as a row-wire has unknowns, 3 x " + std::to_string(design.electrodesPerRowWire()) +
+                         " electrodes = " + std::to_string(unknowns));
 }
 
 void requireValid(const SensorDesign& design) {
@@ -299,7 +304,8 @@ void requireValid(const SensorDesign& design) {
 
 void requirePairs(const SensorDesign& design, const std::string& what) {
   if (design.field())
-    throw DesignError(what + ": not yet under the field law; allowed is a design with resistance.law pairs");
+    throw DesignError(
+        what + ": not available under the field law: " + gotExpected("a design with resistance.law field", "pairs"));
 }
 
 } // namespace palp

@@ -23,9 +23,9 @@ Eigen::MatrixXd incidence(const WireCounts& counts) {
 }
 
 constexpr const char* kIndefinite =
-    "the resistances between the electrodes are not positive definite, so no current's power would be above 0; allowed "
-    "are electrodes far enough apart and from the faces for their radius, a pressure law that varies the conductivity "
-    "less, or a finer mesh";
+    "the resistances between the electrodes are not positive definite (some current would have no power above 0); "
+    "expected electrodes far enough apart and from the faces for their radius, a pressure law that varies the "
+    "conductivity less, or a finer mesh";
 
 Eigen::MatrixXd symmetric(const Eigen::MatrixXd& m) {
   return (m + m.transpose()) / 2;

@@ -1,6 +1,7 @@
 #include "model/TouchRange.h"
 
 #include "model/base/CounterRandom.h"
+#include "model/base/GotExpected.h"
 #include "model/base/NumberText.h"
 
 #include <algorithm>
@@ -166,24 +167,26 @@ std::optional<Indenter> indenterInWords(const std::string& words) {
 namespace {
 
 std::optional<std::string> whyNotAtOnce(const TouchRange& range) {
-  const std::string count = "at once " + std::to_string(range.atOnce) + "; allowed is ";
+  const auto wrong = [&](const std::string& expected) {
+    return "at once: " + gotExpected(std::to_string(range.atOnce), expected);
+  };
   if (range.atOnce == 1) return {};
-  if (range.atOnce != 2) return count + "1 or 2 touches";
-  if (range.shape == IndenterShape::Plane) return count + "1: a plane leaves no room beside it";
-  if (range.grid[0] > 0) return count + "1 on a grid of places";
+  if (range.atOnce != 2) return wrong("1 or 2 touches");
+  if (range.shape == IndenterShape::Plane) return wrong("1 with a plane, which covers the face");
+  if (range.grid[0] > 0) return wrong("1 on a grid of positions");
   // From the middle a corner is half of it away.
   const double across_mm = distanceApart_mm(range.shape, range.high_mm - range.low_mm);
   if (!(across_mm >= 4 * range.largest_mm))
-    return count + "2 where the region is " + text(4 * range.largest_mm) + " mm wide or more, for two of size " +
-           text(range.largest_mm) + " mm side by side; it is " + text(across_mm) + " mm";
+    return wrong("1, because two of size " + shortText(range.largest_mm) + " mm need a region " +
+                 shortText(4 * range.largest_mm) + " mm wide and this one is " + shortText(across_mm) + " mm");
   return {};
 }
 
 } // namespace
 
 std::optional<std::string> whyInvalid(const TouchRange& range, const SensorDesign& design) {
-  const auto wrong = [](const char* what, double low, double high, const char* allowed) {
-    return std::string(what) + " " + text(low) + ".." + text(high) + "; allowed is " + allowed;
+  const auto wrong = [](const char* what, double low, double high, const char* expected) {
+    return std::string(what) + ": " + gotExpected(shortText(low) + ".." + shortText(high), expected);
   };
   const bool plane = range.shape == IndenterShape::Plane;
   if (!plane && !(range.smallest_mm > 0 && range.largest_mm >= range.smallest_mm && std::isfinite(range.largest_mm)))
@@ -193,12 +196,13 @@ std::optional<std::string> whyInvalid(const TouchRange& range, const SensorDesig
   if (!(range.leastFriction >= 0 && range.mostFriction >= range.leastFriction && range.mostFriction <= 2))
     return wrong("friction", range.leastFriction, range.mostFriction, "a range from 0 to 2, the smaller first");
   if (!(range.cone >= 0 && range.cone <= 0.95))
-    return "cone " + text(range.cone) + "; allowed is 0 to 0.95 of the limit of friction";
+    return "cone: " + gotExpected(range.cone, "", "0 to 0.95 of the limit of friction");
   if (!(range.high_mm.array() >= range.low_mm.array()).all() || !(range.low_mm + range.high_mm).allFinite())
-    return "region " + text(range.low_mm.x()) + "," + text(range.low_mm.y()) + "," + text(range.high_mm.x()) + "," +
-           text(range.high_mm.y()) + "; allowed is X0,Y0,X1,Y1 [mm] with the lower corner first";
+    return "region: " + gotExpected(shortText(range.low_mm.x()) + "," + shortText(range.low_mm.y()) + "," +
+                                        shortText(range.high_mm.x()) + "," + shortText(range.high_mm.y()),
+                                    "X0,Y0,X1,Y1 [mm] with the lower corner first");
   if (range.grid[0] < 0 || range.grid[1] < 0 || (range.grid[0] == 0) != (range.grid[1] == 0))
-    return "grid " + std::to_string(range.grid[0]) + "x" + std::to_string(range.grid[1]) + "; allowed is 1x1 or more";
+    return "grid: " + gotExpected(std::to_string(range.grid[0]) + "x" + std::to_string(range.grid[1]), "1x1 or more");
   if (const auto why = whyNotAtOnce(range)) return why;
   for (const Eigen::Vector2d& corner : {range.low_mm, range.high_mm})
     for (const double radius_mm : {range.smallest_mm, range.largest_mm}) {

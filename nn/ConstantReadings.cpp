@@ -38,8 +38,8 @@ std::string ConstantReadings::inWords(const std::function<std::string(Eigen::Ind
   for (std::size_t k = 0; k < std::min(kMostNamed, found.size()); ++k)
     words += (k > 0 ? ", " : "") + name(found[k]) + " (" + text(low_(found[k])) + " " + unit + ")";
   if (found.size() > kMostNamed) words += ", ...";
-  return words + (found.size() == 1 ? " stays" : " stay") + " the same in all " + std::to_string(samples_) +
-         " samples: a broken wire or a dead channel?";
+  return words + (found.size() == 1 ? " has" : " have") + " the same value in all " + std::to_string(samples_) +
+         " samples; check for a broken wire or a dead channel";
 }
 
 } // namespace palp

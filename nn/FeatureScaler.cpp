@@ -1,5 +1,6 @@
 #include "nn/FeatureScaler.h"
 
+#include "model/base/GotExpected.h"
 #include "nn/NetworkError.h"
 #include "nn/linear/Lapack.h"
 
@@ -24,7 +25,7 @@ double inverseOrZero(double value, double size) {
 } // namespace
 
 FeatureScaler FeatureScaler::fit(Scaling scaling, const Eigen::Ref<const Eigen::MatrixXd>& samples) {
-  if (samples.cols() == 0) throw NetworkError("there is no sample to fit a scaler to; at least 1 is needed");
+  if (samples.cols() == 0) throw NetworkError("samples: " + gotExpected("0", "1 or more to fit a scaler"));
   if (scaling == Scaling::Whiten) return whitened(samples, 0, kDefaultPower);
   FeatureScaler result;
   result.scaling = scaling;
@@ -54,7 +55,7 @@ FeatureScaler FeatureScaler::fit(Scaling scaling, const Eigen::Ref<const Eigen::
 
 FeatureScaler FeatureScaler::whitened(const Eigen::Ref<const Eigen::MatrixXd>& samples, double relativeNoise,
                                       double power) {
-  if (samples.cols() == 0) throw NetworkError("there is no sample to fit a scaler to; at least 1 is needed");
+  if (samples.cols() == 0) throw NetworkError("samples: " + gotExpected("0", "1 or more to fit a scaler"));
   FeatureScaler result;
   result.scaling = Scaling::Whiten;
   result.offset = samples.rowwise().mean();

@@ -1,5 +1,6 @@
 #include "nn/LeaveOneOut.h"
 
+#include "model/base/GotExpected.h"
 #include "model/base/Parallel.h"
 #include "model/base/Text.h"
 #include "nn/NetworkError.h"
@@ -144,7 +145,7 @@ std::vector<LeaveOneOutResult> leaveOneOut(const Eigen::Ref<const Eigen::MatrixX
   requireUsable(samples, targets, options);
   for (const double spread : spreads)
     if (!(spread > 0 && spread <= 1e100))
-      throw NetworkError("spread: " + text(spread) + "; allowed is above 0 up to 1e100");
+      throw NetworkError("spread: " + gotExpected(spread, "", "above 0 up to 1e100"));
   return onGrid(*rbfSystem(samples, targets, options, options.noiseCopies, stop), spreads,
                 ridgesOf(options, kFinalRidges), options.threads, stop);
 }

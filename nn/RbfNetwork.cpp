@@ -1,5 +1,6 @@
 #include "nn/RbfNetwork.h"
 
+#include "model/base/GotExpected.h"
 #include "nn/NetworkError.h"
 #include "nn/RbfEvaluator.h"
 
@@ -10,7 +11,7 @@ namespace {
 
 void requireInputs(Eigen::Index given, Eigen::Index wanted) {
   if (given != wanted)
-    throw NetworkError("inputs: " + std::to_string(given) + "; the network takes " + std::to_string(wanted));
+    throw NetworkError("inputs: " + gotExpected(std::to_string(given), std::to_string(wanted) + ", as in the network"));
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "nn/RbfTrainer.h"
 
 #include "model/base/Cancelled.h"
+#include "model/base/GotExpected.h"
 #include "model/base/Text.h"
 #include "nn/LeaveOneOut.h"
 #include "nn/NetworkError.h"
@@ -29,14 +30,14 @@ LeaveOneOutResult atBestRidge(const RbfSystem& system, double spread, const std:
 
 void warn(FitReport& report, const RbfOptions& options, const RbfSystem& system, Eigen::Index samples) {
   if (options.centerCount > samples)
-    report.warnings.push_back(std::to_string(options.centerCount) + " centres were asked for, there are " +
-                              std::to_string(samples) + " samples: one centre a sample is used");
+    report.warnings.push_back(std::to_string(options.centerCount) + " centres were requested for " +
+                              std::to_string(samples) + " samples: one centre per sample is used");
   if (system.tail() != options.tail)
     report.warnings.push_back("too few samples (" + std::to_string(samples) +
                               ") for an exact linear tail: it is penalised instead");
   if (samples < 10)
     report.warnings.push_back("only " + std::to_string(samples) +
-                              " samples: errors found in training say little about new samples");
+                              " samples: errors found in training do not predict errors on new samples");
 }
 
 /// What a reader may still do who trained with this.
@@ -69,8 +70,8 @@ RbfFit trainRbf(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen::R
                  options.convention,       solution.form,           std::move(solution.weights),
                  std::move(solution.tail), std::move(solution.bias)};
   if (!fit.network.weights.allFinite() || !fit.network.bias.allFinite() || !fit.network.tail.allFinite())
-    throw NetworkError("the weights are no finite numbers at spread " + text(spread) +
-                       "; take another solver, a larger ridge or another scaler");
+    throw NetworkError("the weights are not finite at spread " + shortText(spread) +
+                       "; choose another solver, a larger ridge or another scaler");
   FitReport& report = fit.report;
   report.spread = spread;
   report.ridge = solution.ridge;
@@ -88,7 +89,7 @@ RbfFit trainRbf(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen::R
     if (left->score > kPoorScore)
       report.warnings.push_back("the leave-one-out error is " +
                                 std::to_string(std::lround(100 * std::min(left->score, 1e6))) +
-                                " % of the targets' deviation: at this spread and ridge the network says little about "
+                                " % of the targets' deviation: at this spread and ridge the network does not predict "
                                 "new samples; train with " +
                                 remedy(options.relativeInputNoise > 0, solution.ridge > 0) + "more inputs");
     if (left->indefinite && report.warnings.empty())

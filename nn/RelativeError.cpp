@@ -1,5 +1,6 @@
 #include "nn/RelativeError.h"
 
+#include "model/base/GotExpected.h"
 #include "nn/NetworkError.h"
 
 #include <string>
@@ -20,7 +21,7 @@ PredictionError predictionError(const Eigen::Ref<const Eigen::MatrixXd>& predict
                        std::to_string(predicted.cols()) + ", the truth is " + std::to_string(truth.rows()) + " x " +
                        std::to_string(truth.cols()) + ", the range has " + std::to_string(range.size()) +
                        " entries; all must agree");
-  if (truth.cols() == 0) throw NetworkError("there is no sample to measure an error on; at least 1 is needed");
+  if (truth.cols() == 0) throw NetworkError("samples: " + gotExpected("0", "1 or more to measure an error"));
   const Eigen::ArrayXXd difference = (predicted - truth).array().abs();
   const Eigen::ArrayXXd size = truth.array().abs();
   PredictionError error;

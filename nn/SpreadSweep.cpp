@@ -1,6 +1,7 @@
 #include "nn/SpreadSweep.h"
 
 #include "model/base/Cancelled.h"
+#include "model/base/GotExpected.h"
 #include "nn/NetworkError.h"
 
 #include <cmath>
@@ -34,9 +35,9 @@ std::vector<SweepRow> sweepSpreads(const SweepInput& input, const std::vector<do
 
 std::vector<double> logarithmicRange(double low, double high, int count) {
   if (!(low > 0 && low <= high && std::isfinite(high)))
-    throw NetworkError("range " + std::to_string(low) + " to " + std::to_string(high) +
-                       ": not allowed; the first must be above 0 and not above the last");
-  if (count < 1) throw NetworkError("range of " + std::to_string(count) + " values: allowed is 1 or more");
+    throw NetworkError("range: " + gotExpected(shortText(low) + " to " + shortText(high),
+                                               "a first value above 0 and a last one not below it"));
+  if (count < 1) throw NetworkError("values of the range: " + gotExpected(std::to_string(count), "1 or more"));
   std::vector<double> values;
   for (int i = 0; i < count; ++i)
     values.push_back(count == 1 ? low : i == count - 1 ? high : low * std::pow(high / low, i / (count - 1.0)));

@@ -15,7 +15,7 @@ inline void requireVarying(const Eigen::Ref<const Eigen::MatrixXd>& samples) {
   if (samples.cols() < 2 || !(high - low > rounding * low.abs().max(high.abs())).any())
     throw NetworkError("the readings do not vary over the " + std::to_string(samples.cols()) +
                        (samples.cols() == 1 ? " sample" : " samples") +
-                       "; is the sensor connected? Allowed are samples under different forces");
+                       "; check that the sensor is connected; expected samples under different forces");
 }
 
 } // namespace palp

@@ -2,6 +2,7 @@
 
 #include "model/DesignError.h"
 #include "model/FieldAtRest.h"
+#include "model/base/GotExpected.h"
 #include "solver/assembly/NodalFields.h"
 #include "solver/field/DeformedGreen.h"
 
@@ -15,7 +16,7 @@ namespace palp {
 namespace {
 
 const FieldLaw& fieldLaw(const SensorDesign& design) {
-  if (!design.field()) throw DesignError("resistance: the conduction field; allowed is a design with law field");
+  if (!design.field()) throw DesignError("resistance.law: " + gotExpected("pairs", "field, for the conduction field"));
   return *design.field();
 }
 
@@ -88,7 +89,7 @@ void ConductionField::requirePositive(const TerminalNetwork& network, Readout re
   if (wrong > 0)
     throw DesignError("resistance.pressure_law: " + std::to_string(wrong) + " of " +
                       std::to_string(resistances_ohm.size()) + " resistances (" + kReadouts.name(readout) +
-                      ") come out as 0 or below; allowed is a law that varies the conductivity less under this load");
+                      ") are not positive; the pressure law is too steep for this load, or the mesh too coarse");
 }
 
 std::optional<TerminalNetwork> ConductionField::network(const LoadIncrement& state, int threads,

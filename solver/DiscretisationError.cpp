@@ -3,6 +3,7 @@
 #include "model/DesignError.h"
 #include "model/FieldAtRest.h"
 #include "model/base/Cancelled.h"
+#include "model/base/GotExpected.h"
 #include "model/base/Text.h"
 #include "solver/ConductionField.h"
 #include "solver/HyperelasticProblem.h"
@@ -121,26 +122,27 @@ DiscretisationError discretisationError(const HyperelasticProblem& problem, cons
   }
   return {displacements, resistances,
           !graded
-              ? "difference to quadratic tetrahedra on the default mesh, whose own error it does not see"
+              ? "difference to quadratic tetrahedra on the default mesh; their own error is not included"
               : std::string(
                     "from the difference to a mesh 1.3 times coarser; within a factor of 3 of the error wherever it "
                     "was checked") +
                     (!resistances ? ""
                      : problem.design().pressureLaw
                          ? ", that of d ln R up to 6 times too high under a steep pressure law"
-                         : ", that of d ln R in 96 of 100 checks, else most often too high")};
+                         : ", that of d ln R in 96 of 100 checks, otherwise mostly too high")};
 }
 
 Mesh meshForAccuracy(const SensorDesign& design, const LoadCase& load, double accuracy, std::stop_token stop,
                      int threads) {
   if (!(accuracy > 0 && accuracy < 1))
-    throw DesignError("accuracy " + text(accuracy) + "; allowed is a relative error between 0 and 1");
+    throw DesignError("accuracy: " + gotExpected(accuracy, "", "a relative error between 0 and 1"));
   MeshOptions options = meshFor(design, load, {.meshSize_mm = 1.5 * standardMeshSize_mm(design), .mapped = {}});
   for (int refinement = 0;; ++refinement) {
     const HyperelasticProblem problem(design, sensorMesh(design, options, stop));
     if (problem.dof() > mostDof || refinement == mostRefinements)
-      throw DesignError("accuracy " + text(accuracy) + " is out of reach: it needs a mesh of " +
-                        std::to_string(problem.dof()) + " unknowns or more, allowed are " + text(mostDof));
+      throw DesignError(
+          "accuracy " + shortText(accuracy) + " needs too fine a mesh: " +
+          gotExpected(std::to_string(problem.dof()) + " unknowns or more", "up to " + shortText(mostDof)));
     const Solution solution = problem.solve(load, {.threads = threads}, {.step = {}, .stop = stop});
     stopIfAsked(stop);
     if (!solution.converged) return problem.mesh();

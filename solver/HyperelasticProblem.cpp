@@ -70,7 +70,7 @@ std::shared_ptr<InitialTangent> HyperelasticProblem::Parts::makeTangent(std::sha
   if (outcome == SparseCholesky::Outcome::Stopped) return {};
   if (outcome == SparseCholesky::Outcome::NotPositiveDefinite)
     throw DesignError(
-        "the block at rest is not stable on this mesh (its tangent is not positive definite); allowed are a material "
+        "the block at rest is not stable on this mesh (its tangent is not positive definite); expected a material "
         "with c10_MPa + c01_MPa above 0 and a mesh without crushed elements");
   return rest;
 }

@@ -45,7 +45,7 @@ std::string costInWords(const MeshCost& cost) {
   if (cost.seconds <= kLong_s && cost.memory_MB <= kLarge_MB) return {};
   const std::string time = cost.seconds < 100 ? roughly(cost.seconds) + " s" : roughly(cost.seconds / 60) + " min";
   return "the mesh has about " + text(std::round(cost.elements / 1000)) + ",000 elements: a load takes about " + time +
-         " and " + roughly(cost.memory_MB / 1000) + " GB of memory; a coarser mesh size takes less";
+         " and " + roughly(cost.memory_MB / 1000) + " GB of memory; a larger mesh size takes less";
 }
 
 } // namespace palp

@@ -1,6 +1,7 @@
 #include "solver/SensorMesh.h"
 
 #include "model/DesignError.h"
+#include "model/base/GotExpected.h"
 #include "model/base/Text.h"
 #include "solver/contact/ContactEstimate.h"
 #include "solver/mesh/GradedTets.h"
@@ -60,9 +61,9 @@ double sizeFactor(const SensorDesign& design, const MeshOptions& options) {
 void requireMapped(const std::array<int, 3>& counts) {
   const double elements = double(counts[0]) * counts[1] * counts[2];
   if (counts[0] < 1 || counts[1] < 1 || counts[2] < 1 || elements > mostElements)
-    throw DesignError("mapped mesh " + std::to_string(counts[0]) + "x" + std::to_string(counts[1]) + "x" +
-                      std::to_string(counts[2]) +
-                      "; allowed is at least 1 along each direction and 1e6 elements in all");
+    throw DesignError("mapped mesh: " + gotExpected(std::to_string(counts[0]) + "x" + std::to_string(counts[1]) + "x" +
+                                                        std::to_string(counts[2]),
+                                                    "at least 1 along each direction and at most 1e6 elements in all"));
 }
 
 } // namespace
@@ -144,8 +145,10 @@ void requireMeshable(const SensorDesign& design, const MeshOptions& options) {
   const double size = options.meshSize_mm.value_or(standardSize(design));
   const double smallest = std::cbrt(6 * design.block_mm.prod() / mostElements); // six tetrahedra a cube
   if (!(size >= smallest))
-    throw DesignError("mesh size " + text(size) + " mm; allowed is at least " + text(std::ceil(1e4 * smallest) / 1e4) +
-                      " mm for this block, or there would be more than 1e6 elements");
+    throw DesignError("mesh size: " + gotExpected(size, " mm",
+                                                  shortText(std::ceil(1e4 * smallest) / 1e4) +
+                                                      " mm or more for this block, or the mesh would have more than "
+                                                      "1e6 elements"));
 }
 
 Mesh sensorMesh(const SensorDesign& design, const MeshOptions& options, const std::stop_token& stop) {

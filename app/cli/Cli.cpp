@@ -42,9 +42,9 @@ nlohmann::ordered_json toJson(const StageLog& stages) {
 /// Where to read on; nothing where the pages were not installed.
 std::string pagesInWords() {
   try {
-    return "Pages to read: " + resource("docs/architecture.md").parent_path().string() +
+    return "Pages: " + resource("docs/architecture.md").parent_path().string() +
            "\n  guide.md        a first hour, from an empty folder to a calibrated recording"
-           "\n  architecture.md where to begin, how to add a command, a scene, a decoder or a report"
+           "\n  architecture.md how the parts fit together, how to add a command, a scene, a decoder or a report"
            "\n  physics.md      the sensor, its equations, what can be compared with the paper"
            "\n  validation.md   accuracy and speed with their commands, what is supported, limits"
            "\n  numerics/       elements, solver, networks, bounds: formulas and their sources"
@@ -74,14 +74,26 @@ Cli::~Cli() = default;
 Command Cli::command(const std::string& name, const std::string& what, const std::string& example, Run run) {
   CLI::App* added = app_->add_subcommand(name, what);
   added->footer("Example: " + example);
-  added->add_flag("--json", session_.json, "print one JSON object on standard output and nothing else");
-  added->add_option("--threads", session_.threads, "threads; changes the time, never the result (default: all cores)")
-      ->check(CLI::Range(1, 4096));
   commands_.emplace_back(added, std::move(run));
   return Command(added);
 }
 
+/// Of every command, below its own options.
+void Cli::addGeneralOptions() {
+  for (const auto& [command, run] : commands_) {
+    command->option_defaults()->group("General");
+    command
+        ->add_option("--threads", session_.threads,
+                     "number of threads; changes the time, never the result (default: all cores)")
+        ->check(CLI::Range(1, 4096))
+        ->type_name("N");
+    command->add_flag("--json", session_.json, "print one JSON object on standard output and nothing else");
+    command->set_help_flag("-h,--help", "print this help and exit");
+  }
+}
+
 int Cli::main(int argc, char** argv) {
+  addGeneralOptions();
   try {
     app_->parse(argc, argv);
   } catch (const CLI::Success& asked) { // help, version
@@ -130,10 +142,10 @@ Exit Cli::runChosen() {
     std::cerr << "palp " << name << ": " << fileFailureInWords(unreached) << '\n';
     return Exit::BadInput;
   } catch (const Cancelled&) { // where a command had nothing of its own to say
-    std::cerr << "palp " << name << ": stopped before there was a result\n";
+    std::cerr << "palp " << name << ": stopped before a result was available\n";
     exit = Exit::NoResult;
   } catch (const std::bad_alloc&) {
-    std::cerr << "palp " << name << ": not enough memory for this size; ask for a coarser mesh or fewer samples\n";
+    std::cerr << "palp " << name << ": not enough memory for this size; choose a coarser mesh or fewer samples\n";
     session_.result["stop_reason"] = "not enough memory";
     exit = Exit::NoResult;
   }

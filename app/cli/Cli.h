@@ -17,7 +17,7 @@ namespace palp {
 /// Exit status of every command.
 enum class Exit { Done = 0, NoResult = 1, BadInput = 2, Interrupted = 130 };
 
-/// A bad option; the text is one line that names the option, its value and what is allowed.
+/// A bad option; the text is one line, "--option: got 'value', expected ...".
 struct UsageError : Error {
   using Error::Error;
 };
@@ -43,12 +43,13 @@ public:
   ~Cli();
   Cli(const Cli&) = delete;
   Cli& operator=(const Cli&) = delete;
-  /// Adds a command; its options are declared on what is returned.
+  /// Adds a command; its options are declared on what is returned. `what` is a sentence, `example` a command line.
   Command command(const std::string& name, const std::string& what, const std::string& example, Run run);
   /// Parses and runs; the process's exit status.
   int main(int argc, char** argv);
 
 private:
+  void addGeneralOptions();
   Exit runChosen();
 
   std::unique_ptr<CLI::App> app_;

@@ -1,5 +1,7 @@
 #include "app/cli/Command.h"
 
+#include "model/base/GotExpected.h"
+
 #include <CLI/CLI.hpp>
 
 namespace palp {
@@ -11,7 +13,7 @@ namespace {
 CLI::Option* notEmpty(CLI::Option* option) {
   return option->check(
       [](const std::string& value) {
-        return value.empty() ? std::string("''; allowed is a value that is not empty") : std::string();
+        return value.empty() ? gotExpected("''", "a value that is not empty") : std::string();
       },
       "");
 }
@@ -52,16 +54,22 @@ Option Command::flag(const std::string& names, bool& value, const std::string& w
   return Option(app_->add_flag(names, value, what));
 }
 
-Option Command::option(const std::string& names, std::string& value, const std::string& what) {
-  return Option(notEmpty(app_->add_option(names, value, what)));
+void Command::group(const std::string& heading) {
+  app_->option_defaults()->group(heading);
 }
 
-Option Command::option(const std::string& names, std::filesystem::path& value, const std::string& what) {
-  return Option(notEmpty(app_->add_option(names, value, what)));
+Option Command::option(const std::string& names, std::string& value, const char* type, const std::string& what) {
+  return Option(notEmpty(app_->add_option(names, value, what))->type_name(type));
 }
 
-Option Command::option(const std::string& names, std::vector<std::string>& values, const std::string& what) {
-  return Option(notEmpty(app_->add_option(names, values, what)));
+Option Command::option(const std::string& names, std::filesystem::path& value, const char* type,
+                       const std::string& what) {
+  return Option(notEmpty(app_->add_option(names, value, what))->type_name(type));
+}
+
+Option Command::option(const std::string& names, std::vector<std::string>& values, const char* type,
+                       const std::string& what) {
+  return Option(notEmpty(app_->add_option(names, values, what))->type_name(type));
 }
 
 void Command::rest(std::vector<std::string>& words) {

@@ -2,6 +2,7 @@
 
 #include "app/cli/Cli.h"
 #include "app/cli/Options.h"
+#include "model/base/GotExpected.h"
 #include "model/base/Text.h"
 
 namespace palp {
@@ -12,8 +13,8 @@ constexpr const char* kIndenterForm =
     "SHAPE:SIZES@X,Y:press=FX,FY,FZ[:mu=MU] or SHAPE:SIZES@X,Y:depth=D[,SX,SY][:mu=MU], for example "
     "sphere:5@15,7.5:press=1,0,-6:mu=0.5";
 
-[[noreturn]] void refuseIndenter(const std::string& value, const std::string& why) {
-  throw UsageError("--indenter: '" + value + "'; " + why);
+[[noreturn]] void refuseIndenter(const std::string& value, const std::string& expected) {
+  throw badValue("--indenter", value, expected);
 }
 
 /// What stands before the first separator, which is taken off with it; all of it where there is none.
@@ -26,7 +27,7 @@ std::string takeUpTo(char separator, std::string& rest) {
 
 /// "name=value" in two.
 std::pair<std::string, std::string> setting(const std::string& value, std::string part) {
-  if (part.find('=') == std::string::npos) refuseIndenter(value, std::string("allowed is ") + kIndenterForm);
+  if (part.find('=') == std::string::npos) refuseIndenter(value, kIndenterForm);
   std::string name = takeUpTo('=', part);
   return {name, part};
 }
@@ -34,11 +35,11 @@ std::pair<std::string, std::string> setting(const std::string& value, std::strin
 /// Sphere, pin and cylinders have a radius, a punch radius and rim, a plane nothing.
 void readSizes(const std::string& value, const std::string& sizes, Indenter& indenter) {
   if (indenter.shape == IndenterShape::Plane) {
-    if (!sizes.empty()) refuseIndenter(value, "a plane has no sizes: allowed is plane@X,Y");
+    if (!sizes.empty()) refuseIndenter(value, "plane@X,Y, because a plane has no sizes");
     return;
   }
   const bool flat = indenter.shape == IndenterShape::Flat;
-  if (sizes.empty()) refuseIndenter(value, flat ? "allowed is flat:RADIUS,RIM [mm]" : "its radius is missing");
+  if (sizes.empty()) refuseIndenter(value, shapeName(indenter.shape) + (flat ? ":RADIUS,RIM [mm]" : ":RADIUS [mm]"));
   const std::vector<double> read = numbers("--indenter (sizes)", sizes, flat ? 2 : 1);
   indenter.radius_mm = read[0];
   if (flat) indenter.rim_mm = read[1];
@@ -48,21 +49,21 @@ void readSizes(const std::string& value, const std::string& sizes, Indenter& ind
 
 Indenter indenterOption(const std::string& value) {
   std::string rest = value, body = rest.substr(0, rest.find('@'));
-  if (body.size() == rest.size()) refuseIndenter(value, std::string("allowed is ") + kIndenterForm);
+  if (body.size() == rest.size()) refuseIndenter(value, kIndenterForm);
   rest.erase(0, body.size() + 1);
   Indenter indenter;
   const std::string name = takeUpTo(':', body);
   const auto shape = indenterShape(name);
-  if (!shape) refuseIndenter(value, "shape '" + name + "'; allowed is " + indenterShapes());
+  if (!shape) throw badValue("--indenter (shape)", name, indenterShapes());
   indenter.shape = *shape;
   readSizes(value, body, indenter);
-  const std::vector<double> place = numbers("--indenter (place)", takeUpTo(':', rest), 2);
+  const std::vector<double> place = numbers("--indenter (position)", takeUpTo(':', rest), 2);
   indenter.place_mm = {place[0], place[1]};
   bool controlled = false, rubbed = false;
   while (!rest.empty()) {
     const auto [what, how] = setting(value, takeUpTo(':', rest));
     if ((what == "mu" && rubbed) || ((what == "press" || what == "depth") && controlled))
-      refuseIndenter(value, what + " comes once, and either press or depth");
+      refuseIndenter(value, "either press or depth, and mu at most once");
     if (what == "press") {
       const std::vector<double> force = numbers("--indenter (press)", how, 3);
       indenter.control = Press{{force[0], force[1], force[2]}};
@@ -76,10 +77,10 @@ Indenter indenterOption(const std::string& value) {
       indenter.friction = number("--indenter (mu)", how);
       rubbed = true;
     } else {
-      refuseIndenter(value, "'" + what + "' is not known; allowed are press, depth and mu");
+      refuseIndenter(value, "press, depth or mu instead of " + quotedText(what));
     }
   }
-  if (!controlled) refuseIndenter(value, "press or depth is missing; allowed is " + std::string(kIndenterForm));
+  if (!controlled) refuseIndenter(value, std::string("press or depth: ") + kIndenterForm);
   return indenter;
 }
 

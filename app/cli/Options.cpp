@@ -5,6 +5,7 @@
 #include "io/DesignFile.h"
 #include "io/LoadFile.h"
 #include "model/DesignError.h"
+#include "model/base/GotExpected.h"
 #include "model/base/Text.h"
 
 #include <charconv>
@@ -28,26 +29,29 @@ std::vector<std::string> split(const std::string& text, char separator) {
 std::pair<std::string, Eigen::Vector3d> forceAt(const std::string& option, const std::string& value,
                                                 const std::string& form) {
   const std::size_t colon = value.find(':');
-  if (colon == std::string::npos) throw UsageError(option + ": '" + value + "'; allowed is " + form);
+  if (colon == std::string::npos) throw badValue(option, value, form);
   const std::vector<double> force = numbers(option, value.substr(colon + 1), 3);
   return {value.substr(0, colon), Eigen::Vector3d(force[0], force[1], force[2])};
 }
 
 } // namespace
 
+UsageError badValue(const std::string& option, const std::string& value, const std::string& expected) {
+  return UsageError(option + ": " + gotExpected(quotedText(value), expected));
+}
+
 double number(const std::string& option, const std::string& value) {
   double result = 0;
   const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), result);
   if (error != std::errc{} || end != value.data() + value.size() || !std::isfinite(result))
-    throw UsageError(option + ": '" + value + "'; allowed is a finite number");
+    throw badValue(option, value, value.empty() ? "a number" : "a finite number");
   return result;
 }
 
 std::vector<double> numbers(const std::string& option, const std::string& value, std::size_t count) {
   const std::vector<std::string> parts = split(value, ',');
   if (parts.size() != count)
-    throw UsageError(option + ": '" + value + "'; allowed are " + std::to_string(count) +
-                     " numbers between commas, without blanks");
+    throw badValue(option, value, std::to_string(count) + " numbers separated by commas, without spaces");
   std::vector<double> result;
   for (const std::string& part : parts) result.push_back(number(option, part));
   return result;
@@ -57,8 +61,7 @@ int wholeNumber(const std::string& option, const std::string& value, int low, in
   int result = 0;
   const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), result);
   if (error != std::errc{} || end != value.data() + value.size() || result < low || result > high)
-    throw UsageError(option + ": '" + value + "'; allowed is a whole number from " + std::to_string(low) + " to " +
-                     std::to_string(high));
+    throw badValue(option, value, "a whole number from " + std::to_string(low) + " to " + std::to_string(high));
   return result;
 }
 
@@ -76,23 +79,25 @@ SensorDesign pairsDesignOption(const std::string& fileOrPreset, const std::strin
 }
 
 void LoadOptions::declare(Command command) {
-  command.option("--load", loads, "AREA:FX,FY,FZ [N]: force on a load area; may be given several times").oneValueEach();
-  command.option("--patch", patches, "X,Y,RADIUS:FX,FY,FZ [mm, N]: force on a disc of the top face").oneValueEach();
+  command.group("Loads");
+  command.option("--load", loads, "AREA:FX,FY,FZ", "force [N] on a load area; may be repeated").oneValueEach();
+  command.option("--patch", patches, "X,Y,RADIUS:FX,FY,FZ", "force on a disc of the top face [mm, N]; may be repeated")
+      .oneValueEach();
 }
 
 void LoadOptions::declareIndenters(Command command) {
   command
-      .option("--indenter", indenters,
-              "SHAPE:SIZES@X,Y:press=FX,FY,FZ[:mu=MU] or ...:depth=D[,SX,SY][:mu=MU] [mm, N]: a rigid body that "
-              "presses; shapes sphere:R, pin:R, flat:R,RIM, cylinder-x:R, cylinder-y:R, plane")
+      .option("--indenter", indenters, "SHAPE:SIZES@X,Y:CONTROL[:mu=MU]",
+              "rigid indenter [mm, N]; CONTROL is press=FX,FY,FZ or depth=D[,SX,SY]; shapes sphere:R, pin:R, "
+              "flat:R,RIM, cylinder-x:R, cylinder-y:R, plane; may be repeated")
       .oneValueEach();
 }
 
 void LoadOptions::declarePath(Command command) {
   command.option(
-      "--loads", pathFile,
-      "JSON file with a path of indenters, a list of steps { \"indenters\": [...] }: each goes on from where "
-      "the one before has ended; a result for each, --load and --patch act in all");
+      "--loads", pathFile, "FILE",
+      "JSON file with a load path of indenters, a list of steps { \"indenters\": [...] }; each step continues "
+      "the previous one and has a result; --load and --patch act in all steps");
 }
 
 AreaLoad areaLoadOption(const std::string& option, const std::string& value, const SensorDesign& design) {
@@ -102,7 +107,7 @@ AreaLoad areaLoadOption(const std::string& option, const std::string& value, con
 
 std::pair<Eigen::Vector2d, Eigen::Vector3d> placedForceOption(const std::string& option, const std::string& value) {
   const auto [place, force] = forceAt(option, value, "@X,Y:FX,FY,FZ, for example @15,7.5:0,0,-3");
-  const std::vector<double> xy = numbers(option + " (place)", place, 2);
+  const std::vector<double> xy = numbers(option + " (position)", place, 2);
   return {{xy[0], xy[1]}, force};
 }
 
@@ -121,15 +126,15 @@ LoadCase LoadOptions::loadCase(const SensorDesign& design) const {
   LoadCase load = forces(design);
   for (const std::string& value : indenters) load.indenters.push_back(indenterOption(value));
   if (load.areas.empty() && load.patches.empty() && load.indenters.empty())
-    throw UsageError("there is no load; give at least one --load, --patch or --indenter, for example --load 0:1,0,-6");
+    throw UsageError("no load given; expected one --load, --patch or --indenter or more, for example --load 0:1,0,-6");
   if (const auto wrong = whyInvalid(load, design)) throw UsageError(*wrong);
   return load;
 }
 
 std::vector<LoadCase> LoadOptions::loadPath(const SensorDesign& design) const {
-  if (!indenters.empty()) throw UsageError("--indenter: not beside --loads, whose file holds the indenters");
+  if (!indenters.empty()) throw UsageError("--indenter: not together with --loads, whose file has the indenters");
   if (pathFile.string().find(':') != std::string::npos && !std::filesystem::exists(pathFile))
-    throw UsageError("--loads " + pathFile.string() + ": no file has that name; a force on an area is --load");
+    throw badValue("--loads", pathFile.string(), "an existing file; a force on an area is given by --load");
   std::vector<LoadCase> path = palp::loadPath(pathFile);
   const LoadCase held = forces(design);
   for (LoadCase& step : path) {
@@ -141,11 +146,14 @@ std::vector<LoadCase> LoadOptions::loadPath(const SensorDesign& design) const {
 }
 
 void MeshChoice::declare(Command command, bool withAccuracy) {
-  Option size = command.option("--mesh-size", meshSize, "size of the tetrahedra in the bulk [mm]");
-  Option grid = command.option("--mapped", mapped, "NxNxN: mapped hexahedra, the paper's mesh is 10x10x5");
+  command.group("Mesh");
+  Option size = command.option("--mesh-size", meshSize, "NUMBER", "size of the tetrahedra in the bulk [mm]");
+  Option grid = command.option("--mapped", mapped, "NxNxN", "mapped hexahedra instead; the paper's mesh is 10x10x5");
   size.excludes(grid);
   if (!withAccuracy) return;
-  command.option("--accuracy", accuracy, "relative L2 error wanted of the electrode displacements; chooses the mesh")
+  command
+      .option("--accuracy", accuracy, "NUMBER",
+              "choose the mesh for this relative L2 error of the electrode displacements")
       .excludes(size)
       .excludes(grid);
 }
@@ -155,7 +163,7 @@ MeshOptions MeshChoice::options() const {
   if (!meshSize.empty()) options.meshSize_mm = number("--mesh-size", meshSize);
   if (!mapped.empty()) {
     const std::vector<std::string> parts = split(mapped, 'x');
-    if (parts.size() != 3) throw UsageError("--mapped: '" + mapped + "'; allowed is NxNxN, for example 10x10x5");
+    if (parts.size() != 3) throw badValue("--mapped", mapped, "NxNxN, for example 10x10x5");
     options.mapped.emplace();
     for (std::size_t i = 0; i < 3; ++i) (*options.mapped)[i] = wholeNumber("--mapped", parts[i], 1, 1000);
   }
@@ -166,7 +174,7 @@ std::optional<double> MeshChoice::relativeAccuracy() const {
   if (accuracy.empty()) return {};
   const double wanted = number("--accuracy", accuracy);
   if (!(wanted >= 1e-4 && wanted <= 0.5))
-    throw UsageError("--accuracy: '" + accuracy + "'; allowed is 0.0001 to 0.5 (relative: 0.01 is 1 %)");
+    throw badValue("--accuracy", accuracy, "0.0001 to 0.5 (relative: 0.01 is 1 %)");
   return wanted;
 }
 
@@ -179,8 +187,9 @@ std::string MeshChoice::asCommand() const {
 }
 
 Option OutputFile::declare(Command command, const std::string& what) {
-  command.flag("--force", force, "overwrite what is there");
-  return command.option("-o,--output", path, what);
+  command.group("Output");
+  command.flag("--force", force, "overwrite existing files");
+  return command.option("-o,--output", path, "FILE", what);
 }
 
 void requireNoStream(const std::string& option, const std::filesystem::path& path) {
@@ -209,12 +218,12 @@ OutputFolder::OutputFolder(const std::filesystem::path& folder, bool force) {
   requireNoStream("--output", folder);
   removeLeftovers(folder);
   if (std::filesystem::exists(folder) && !std::filesystem::is_directory(folder))
-    throw UsageError("--output: '" + folder.string() + "' is a file; allowed is a folder");
+    throw UsageError("--output: " + gotExpected("the file " + quotedText(folder.string()), "a folder"));
   if (std::filesystem::is_directory(folder) && !std::filesystem::is_empty(folder) && !force)
-    throw UsageError("--output: '" + folder.string() + "' is there and not empty; give --force to write into it");
+    throw UsageError("--output: folder '" + folder.string() + "' is not empty; give --force to write into it");
   std::error_code failed;
   if (std::filesystem::create_directories(folder, failed)) made_ = folder;
-  if (failed) throw UsageError("--output: '" + folder.string() + "' cannot be made: " + failed.message());
+  if (failed) throw UsageError("--output: '" + folder.string() + "' cannot be created: " + failed.message());
   palp::requireWritable(folder / "report.html", true);
 }
 

@@ -12,7 +12,9 @@
 
 namespace palp {
 
-/// A finite number, or UsageError "--option: 'value'; allowed is ...".
+/// "--option: got 'value', expected ...", to be thrown.
+UsageError badValue(const std::string& option, const std::string& value, const std::string& expected);
+/// A finite number, or UsageError.
 double number(const std::string& option, const std::string& value);
 /// Numbers between commas, exactly `count` of them.
 std::vector<double> numbers(const std::string& option, const std::string& value, std::size_t count);

@@ -19,6 +19,9 @@ struct TouchArguments {
   [[nodiscard]] bool given() const { return !touch.empty(); }
   /// Throws UsageError.
   [[nodiscard]] TouchRange range(const SensorDesign& design) const;
+
+private:
+  void declareRegion(Command command, Option on);
 };
 
 } // namespace palp

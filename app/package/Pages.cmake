@@ -44,6 +44,7 @@ foreach(line IN LISTS commands)
   list(APPEND names palp-${CMAKE_MATCH_1})
   set(command "palp ${CMAKE_MATCH_1}")
   string(REPLACE "@" "\;" what "${CMAKE_MATCH_2}")
+  string(REGEX REPLACE "\\.$" "" what "${what}") # a sentence in --help, a phrase after NAME
   page(palp-${CMAKE_MATCH_1} "${command}" "${what}" palp)
 endforeach()
 if(NOT names)

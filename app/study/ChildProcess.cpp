@@ -90,7 +90,7 @@ std::string lastLine(const std::string& text) {
 /// The end of a process that could not be waited for, as where the signal of its end is ignored; what it did is
 /// unknown.
 std::string unknownEnd() {
-  return std::string("its end cannot be known: ") + std::strerror(errno); // NOLINT(concurrency-mt-unsafe)
+  return std::string("its exit status is unknown: ") + std::strerror(errno); // NOLINT(concurrency-mt-unsafe)
 }
 
 /// What the end of a process says; empty where all is well.
@@ -139,7 +139,7 @@ std::optional<std::filesystem::path> programInPath(const std::string& name) {
 
 ScratchFolder::ScratchFolder() {
   std::string pattern = (std::filesystem::temp_directory_path() / "palp-XXXXXX").string();
-  if (!mkdtemp(pattern.data())) throw Error(pattern + ": no folder can be made there");
+  if (!mkdtemp(pattern.data())) throw Error(pattern + ": the folder cannot be created");
   path_ = pattern;
 }
 

@@ -15,7 +15,7 @@ fs::path resource(const std::string& name) {
     if (fs::exists(place / name, none)) return place / name;
     looked += (looked.empty() ? "" : ", ") + place.string();
   }
-  throw Error(name + ": is missing, a file that ships with palp; looked in " + looked);
+  throw Error(name + ": this file of palp's own is missing; looked in " + looked);
 }
 
 } // namespace palp

@@ -15,7 +15,7 @@ constexpr double kFullScale = 1 << 24;
 const char* word(ReadingState state) {
   switch (state) {
   case ReadingState::Missing:
-    return "no reading came";
+    return "no reading received";
   case ReadingState::Good:
     return "good";
   case ReadingState::Short:

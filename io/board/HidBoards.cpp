@@ -75,7 +75,7 @@ public:
     report.bytes.resize(static_cast<std::size_t>(std::max(count, 0)));
     if (count > 0) return Outcome::Read;
     if (count == 0) return Outcome::Nothing;
-    reason_ = "the board at " + board_.path + " is gone";
+    reason_ = "the board at " + board_.path + " was unplugged";
     return Outcome::Gone;
   }
 
@@ -96,7 +96,7 @@ private:
     std::vector<std::uint8_t> bytes(kReportBytes);
     bytes[0] = static_cast<std::uint8_t>(id);
     const int count = hid_get_feature_report(device_.get(), bytes.data(), bytes.size());
-    if (count < 0) throw BoardError(name() + ": does not answer: " + narrow(hid_error(device_.get())));
+    if (count < 0) throw BoardError(name() + ": does not respond: " + narrow(hid_error(device_.get())));
     bytes.resize(static_cast<std::size_t>(count));
     return bytes;
   }

@@ -135,14 +135,14 @@ std::string ReplaySource::name() const {
 
 std::string ReplaySource::reason() const {
   if (waits_)
-    return path_.string() + ": looking for the place; " + std::to_string(std::lround(100 * index_.share())) +
+    return path_.string() + ": seeking the position; " + std::to_string(std::lround(100 * index_.share())) +
            " % are read";
   std::string words;
   if (!ended_) return words;
   if (index_.spoiltBytes() > 0)
-    words = path_.string() + ": " + std::to_string(index_.spoiltBytes()) + " bytes are damaged and were left out";
+    words = path_.string() + ": " + std::to_string(index_.spoiltBytes()) + " bytes are damaged and were skipped";
   if (index_.cutOff())
-    words += (words.empty() ? path_.string() + ": " : "; it ") + "is cut off; played to its last whole report";
+    words += (words.empty() ? path_.string() + ": " : "; it ") + "is cut off; played to its last complete report";
   return words;
 }
 

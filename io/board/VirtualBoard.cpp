@@ -101,7 +101,7 @@ void VirtualBoard::answer(const BoardCommand& command) {
     const auto rate_Hz = static_cast<int>(std::min<std::uint32_t>(command.arguments[0], 1'000'000));
     if (rate_Hz > settings_.info.highestRate_Hz) {
       event.code = EventCode::Refused;
-      event.text = "rate above " + std::to_string(settings_.info.highestRate_Hz) + "/s";
+      event.text = "rate above " + std::to_string(settings_.info.highestRate_Hz) + " per s";
       break;
     }
     if (rate_Hz > 0) settings_.configuration.rate_Hz = rate_Hz;

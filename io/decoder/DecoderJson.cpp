@@ -36,7 +36,7 @@ double readPositive(const JsonPlace& place) {
 } // namespace
 
 void requireSize(const JsonPlace& place, Eigen::Index size, Eigen::Index wanted, const std::string& what) {
-  if (size != wanted) place.refuse(std::to_string(wanted) + " " + what + ", not " + std::to_string(size));
+  if (size != wanted) place.refuse(std::to_string(wanted) + " " + what + " instead of " + std::to_string(size));
 }
 
 OrderedJson toJson(const Eigen::VectorXd& values) {
@@ -103,12 +103,12 @@ RbfNetwork readRbf(const JsonPlace& place) {
   network.weights = readMatrix(place.at("weights"));
   if (!place.at("tail").isNull()) network.tail = readMatrix(place.at("tail"));
   network.bias = readVector(place.at("bias"));
-  requireSize(place.at("centers"), network.centers.rows(), network.scaler.dimensions(), "rows, one a scaled input");
-  requireSize(place.at("weights"), network.weights.cols(), network.centers.cols(), "columns, one a centre");
-  requireSize(place.at("bias"), network.bias.size(), network.outputs(), "entries, one an output");
+  requireSize(place.at("centers"), network.centers.rows(), network.scaler.dimensions(), "rows, one per scaled input");
+  requireSize(place.at("weights"), network.weights.cols(), network.centers.cols(), "columns, one per centre");
+  requireSize(place.at("bias"), network.bias.size(), network.outputs(), "entries, one per output");
   if (network.tail.size() > 0) {
-    requireSize(place.at("tail"), network.tail.rows(), network.outputs(), "rows, one an output");
-    requireSize(place.at("tail"), network.tail.cols(), network.scaler.dimensions(), "columns, one a scaled input");
+    requireSize(place.at("tail"), network.tail.rows(), network.outputs(), "rows, one per output");
+    requireSize(place.at("tail"), network.tail.cols(), network.scaler.dimensions(), "columns, one per scaled input");
   }
   return network;
 }
@@ -123,12 +123,12 @@ ForwardModel readForwardModel(const JsonPlace& place) {
   model.deviation = readVector(place.at("deviation"));
   if (model.causes() < 1) place.at("cause_offset").refuse("one number or more");
   if (!(model.deviation.array() > 0).all()) place.at("deviation").refuse("numbers above 0");
-  requireSize(place.at("cause_factor"), model.causeFactor.size(), model.causes(), "entries, one a cause");
+  requireSize(place.at("cause_factor"), model.causeFactor.size(), model.causes(), "entries, one per parameter");
   const Eigen::Index monomials = monomialCount(model.causes(), model.degree);
   for (const JsonPlace& entry : place.at("coefficients").list()) {
     model.coefficients.push_back(readMatrix(entry));
-    requireSize(entry, model.coefficients.back().rows(), model.measurements(), "rows, one a measurement");
-    requireSize(entry, model.coefficients.back().cols(), monomials, "columns, one a monomial");
+    requireSize(entry, model.coefficients.back().rows(), model.measurements(), "rows, one per measurement");
+    requireSize(entry, model.coefficients.back().cols(), monomials, "columns, one per monomial");
   }
   if (model.coefficients.empty()) place.at("coefficients").refuse("one matrix or more");
   return model;
@@ -195,12 +195,12 @@ PolynomialRidge readPolynomial(const JsonPlace& place) {
   model.bias = readVector(place.at("bias"));
   if (model.degree > 1) {
     model.centers = readMatrix(place.at("centers"));
-    requireSize(place.at("centers"), model.centers.rows(), model.scaler.dimensions(), "rows, one a scaled input");
+    requireSize(place.at("centers"), model.centers.rows(), model.scaler.dimensions(), "rows, one per scaled input");
   }
   requireSize(place.at("weights"), model.weights.cols(),
               model.degree == 1 ? model.scaler.dimensions() : model.centers.cols(),
-              model.degree == 1 ? "columns, one a scaled input" : "columns, one a centre");
-  requireSize(place.at("weights"), model.weights.rows(), model.bias.size(), "rows, one an output");
+              model.degree == 1 ? "columns, one per scaled input" : "columns, one per centre");
+  requireSize(place.at("weights"), model.weights.rows(), model.bias.size(), "rows, one per output");
   return model;
 }
 
@@ -213,9 +213,9 @@ GaussianProcess readGaussianProcess(const JsonPlace& place) {
   process.noiseVariance = place.at("noise_variance").number();
   process.factor = readMatrix(place.at("factor"));
   const Eigen::Index centers = process.mean.centers.cols();
-  requireSize(place.at("output_variance"), process.outputVariance.size(), process.outputs(), "entries, one an output");
-  requireSize(place.at("factor"), process.factor.rows(), centers, "rows, one a centre");
-  requireSize(place.at("factor"), process.factor.cols(), centers, "columns, one a centre");
+  requireSize(place.at("output_variance"), process.outputVariance.size(), process.outputs(), "entries, one per output");
+  requireSize(place.at("factor"), process.factor.rows(), centers, "rows, one per centre");
+  requireSize(place.at("factor"), process.factor.cols(), centers, "columns, one per centre");
   return process;
 }
 
@@ -234,13 +234,13 @@ BackPropagationNetwork readBackPropagation(const JsonPlace& place) {
   if (network.outputScaler.rotation.size() > 0)
     place.at("output_scaler").refuse("a scaler without rotation, which can be inverted");
   requireSize(place.at("components"), network.components.cols(), network.inputScaler.dimensions(),
-              "columns, one a scaled input");
+              "columns, one per scaled input");
   requireSize(place.at("hidden_weights"), network.hiddenWeights.cols(), network.components.rows(),
-              "columns, one a component");
-  requireSize(place.at("hidden_weights"), network.hiddenWeights.rows(), hidden, "rows, one a hidden unit");
-  requireSize(place.at("output_weights"), network.outputWeights.cols(), hidden, "columns, one a hidden unit");
-  requireSize(place.at("output_weights"), network.outputWeights.rows(), outputs, "rows, one an output");
-  requireSize(place.at("output_scaler"), network.outputScaler.offset.size(), outputs, "entries, one an output");
+              "columns, one per component");
+  requireSize(place.at("hidden_weights"), network.hiddenWeights.rows(), hidden, "rows, one per hidden unit");
+  requireSize(place.at("output_weights"), network.outputWeights.cols(), hidden, "columns, one per hidden unit");
+  requireSize(place.at("output_weights"), network.outputWeights.rows(), outputs, "rows, one per output");
+  requireSize(place.at("output_scaler"), network.outputScaler.offset.size(), outputs, "entries, one per output");
   return network;
 }
 
@@ -269,21 +269,21 @@ TwoStep readTwoStep(const JsonPlace& place) {
   }
   if (place.has("block")) decoder.block = readBlockInversion(place.at("block"));
   if (int(decoder.network.has_value()) + int(decoder.design.has_value()) + int(decoder.block.has_value()) != 1)
-    place.refuse("an object with one of network, design and block, null for network and design where they are not it");
+    place.refuse("an object with one of network, design and block; network and design null if unused");
   decoder.rows = readIntegers(place.at("rows"));
   decoder.force = readRbf(place.at("force"));
   if (decoder.network)
-    requireSize(place.at("force"), decoder.force.inputs(), decoder.network->outputs(), "inputs, as step 1 gives");
+    requireSize(place.at("force"), decoder.force.inputs(), decoder.network->outputs(), "inputs, the outputs of step 1");
   if (decoder.block)
     requireSize(place.at("force"), decoder.force.inputs(), decoder.block->modes_mm_per_N.rows(),
-                "inputs, as step 1 gives");
+                "inputs, the outputs of step 1");
   if (decoder.design) {
     for (const int row : decoder.rows)
       if (row < 0 || row >= decoder.design->rowWires())
         place.at("rows").refuse("0 to " + std::to_string(decoder.design->rowWires() - 1));
     requireSize(place.at("force"), decoder.force.inputs(),
                 static_cast<Eigen::Index>(decoder.rows.size()) * 3 * decoder.design->electrodesPerRowWire(),
-                "inputs, as step 1 gives");
+                "inputs, the outputs of step 1");
   }
   return decoder;
 }

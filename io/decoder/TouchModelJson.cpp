@@ -47,10 +47,10 @@ Eigen::MatrixXd readPacked(const JsonPlace& place, const SplineTable& table) {
   const std::size_t count = static_cast<std::size_t>(table.outputs()) * static_cast<std::size_t>(columns);
   const auto packed = fromBase64(place.string());
   if (!packed || packed->size() * kMostDeflated < count * sizeof(std::uint32_t))
-    place.refuse("base64 of as many numbers as the table has");
+    place.refuse("base64 with as many numbers as the table has");
   std::vector<unsigned char> bytes(count * sizeof(std::uint32_t));
   if (!ShuffledInflate().inflate(*packed, sizeof(std::uint32_t), bytes))
-    place.refuse("a stream of zlib of as many numbers as the table has; this one is damaged");
+    place.refuse("an undamaged zlib stream with as many numbers as the table has");
   std::vector<std::uint32_t> parts(count);
   std::memcpy(parts.data(), bytes.data(), bytes.size());
   for (std::uint32_t& part : parts) part = part >> 1U ^ (part & 1U ? ~0U : 0U);
@@ -101,7 +101,7 @@ namespace {
 /// Which of the inputs are places: two different ones of them, or -1.
 std::array<int, 2> readPlaces(const JsonPlace& place, Eigen::Index inputs) {
   const std::vector<int> given = readIntegers(place);
-  requireSize(place, static_cast<Eigen::Index>(given.size()), 2, "numbers, one an axis");
+  requireSize(place, static_cast<Eigen::Index>(given.size()), 2, "numbers, one per axis");
   for (const int input : given)
     if (input < -1 || input >= inputs) place.refuse("-1 to " + std::to_string(inputs - 1));
   if (given[0] < 0 || given[0] == given[1]) place.refuse("an input, and another one or -1");
@@ -116,7 +116,7 @@ SplineTable readTable(const JsonPlace& place) {
   table.place = readPlaces(place.at("place"), table.inputs());
   const std::vector<double> low = place.at("low").numbers(2), step = place.at("step").numbers(2);
   const std::vector<int> nodes = readIntegers(place.at("nodes"));
-  requireSize(place.at("nodes"), static_cast<Eigen::Index>(nodes.size()), 2, "numbers, one an axis");
+  requireSize(place.at("nodes"), static_cast<Eigen::Index>(nodes.size()), 2, "numbers, one per axis");
   for (std::size_t axis = 0; axis < 2; ++axis) {
     table.low(static_cast<Eigen::Index>(axis)) = low[axis];
     table.step(static_cast<Eigen::Index>(axis)) = step[axis];
@@ -129,11 +129,11 @@ SplineTable readTable(const JsonPlace& place) {
   table.exponents.resize(table.inputs(), static_cast<Eigen::Index>(terms.size()));
   for (std::size_t j = 0; j < terms.size(); ++j) {
     const std::vector<int> powers = readIntegers(terms[j]);
-    requireSize(terms[j], static_cast<Eigen::Index>(powers.size()), table.inputs(), "numbers, one an input");
+    requireSize(terms[j], static_cast<Eigen::Index>(powers.size()), table.inputs(), "numbers, one per input");
     for (std::size_t k = 0; k < powers.size(); ++k) {
       const bool isPlace = static_cast<int>(k) == table.place[0] || static_cast<int>(k) == table.place[1];
       if (powers[k] < 0 || powers[k] > (isPlace ? 0 : kMostExponent))
-        terms[j].refuse("0 to " + std::to_string(kMostExponent) + ", 0 for a place");
+        terms[j].refuse("0 to " + std::to_string(kMostExponent) + ", 0 for a position");
       table.exponents(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(j)) = powers[k];
     }
   }
@@ -143,10 +143,10 @@ SplineTable readTable(const JsonPlace& place) {
     return table;
   }
   table.coefficients = readMatrix(place.at("coefficients"));
-  requireSize(place.at("coefficients"), table.coefficients.rows(), table.outputs(), "rows, one an output");
+  requireSize(place.at("coefficients"), table.coefficients.rows(), table.outputs(), "rows, one per output");
   requireSize(place.at("coefficients"), table.coefficients.cols(),
               table.terms() * Eigen::Index(table.nodes[0]) * Eigen::Index(table.nodes[1]),
-              "columns, one a term and node");
+              "columns, one per term and node");
   return table;
 }
 
@@ -155,11 +155,11 @@ void readInversion(const JsonPlace& place, KernelForwardModel& model) {
   model.table = readTable(place.at("table"));
   model.starts = readMatrix(place.at("starts"));
   model.strengths = readIntegers(place.at("strengths"));
-  requireSize(place.at("starts"), model.starts.rows(), model.table.inputs(), "rows, one an input of the table");
+  requireSize(place.at("starts"), model.starts.rows(), model.table.inputs(), "rows, one per input of the table");
   if (model.starts.cols() < 1) place.at("starts").refuse("one column or more");
   for (const int input : model.strengths)
     if (input < 0 || input >= model.table.inputs() || input == model.table.place[0] || input == model.table.place[1])
-      place.at("strengths").refuse("inputs of the table that are no places");
+      place.at("strengths").refuse("inputs of the table other than positions");
 }
 
 } // namespace
@@ -176,15 +176,16 @@ KernelForwardModel readKernelForwardModel(const JsonPlace& place) {
   model.projection = readMatrix(place.at("projection"));
   model.deviation = readVector(place.at("deviation"));
   model.inflation = readVector(place.at("inflation"));
-  requireSize(place.at("inflation"), model.inflation.size(), model.causes(), "entries, one a cause");
-  requireSize(place.at("cause_factor"), model.causeFactor.size(), model.causes(), "entries, one a cause");
-  requireSize(place.at("cause_deviation"), model.causeDeviation.size(), model.causes(), "entries, one a cause");
+  requireSize(place.at("inflation"), model.inflation.size(), model.causes(), "entries, one per parameter");
+  requireSize(place.at("cause_factor"), model.causeFactor.size(), model.causes(), "entries, one per parameter");
+  requireSize(place.at("cause_deviation"), model.causeDeviation.size(), model.causes(), "entries, one per parameter");
   for (Eigen::Index k = 0; k < model.causes(); ++k)
     if (model.causeFactor(k) != 0 && !(model.causeFactor(k) > 0 && model.causeDeviation(k) > 0))
-      place.at("cause_factor").refuse("numbers above 0, with a deviation above 0, or 0 for a cause that never varied");
+      place.at("cause_factor")
+          .refuse("numbers above 0, with a deviation above 0, or 0 for a parameter that does not vary");
   const Eigen::Index varied = (model.causeFactor.array() != 0).count();
-  requireSize(place.at("projection"), model.projection.cols(), model.measurements(), "columns, one a measurement");
-  requireSize(place.at("projection"), model.projection.rows(), model.components(), "rows, one a component");
+  requireSize(place.at("projection"), model.projection.cols(), model.measurements(), "columns, one per measurement");
+  requireSize(place.at("projection"), model.projection.rows(), model.components(), "rows, one per component");
   if (model.components() < 1 || !(model.deviation.array() > 0).all())
     place.at("deviation").refuse("numbers above 0, one or more");
   if (place.has("left_by_one")) {
@@ -198,9 +199,9 @@ KernelForwardModel readKernelForwardModel(const JsonPlace& place) {
     model.network = readRbf(place.at("network"));
   const bool table = model.table.inputs() > 0;
   requireSize(place.at(form), table ? model.table.inputs() : model.network.inputs(), varied,
-              "inputs, one a cause that varies");
+              "inputs, one per parameter that varies");
   requireSize(place.at(form), table ? model.table.outputs() : model.network.outputs(), model.components(),
-              "outputs, one a component");
+              "outputs, one per component");
   if (!table && (model.network.scaler.scaling != Scaling::Raw || model.network.centers.cols() < 1))
     place.at("network").refuse("a network of unscaled inputs with one centre or more");
   return model;

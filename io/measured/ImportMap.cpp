@@ -73,7 +73,7 @@ void readResistances(const JsonPlace& place, ImportMap& map) {
   map.columnWires = place.at("column_wires").integer(1, kMostWires);
   const bool codes = place.at("unit").named(kResistances) == Resistance::Code;
   if (codes != place.has("ohm_per_code"))
-    place.refuse(codes ? "unit \"code\" with \"ohm_per_code\"" : "\"ohm_per_code\" with unit \"code\" alone");
+    place.refuse(codes ? "unit \"code\" with \"ohm_per_code\"" : "\"ohm_per_code\" only with unit \"code\"");
   const double factor =
       codes ? place.at("ohm_per_code").number(-1e12, 1e12) : factorOf(place, kResistances, kFactors[0]);
   const double zero = place.has("zero_ohm") ? place.at("zero_ohm").number(-1e12, 1e12) : 0;

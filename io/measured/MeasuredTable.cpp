@@ -2,6 +2,7 @@
 
 #include "io/samples/Npz.h"
 #include "model/base/Error.h"
+#include "model/base/GotExpected.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -52,7 +53,7 @@ public:
     if (!nextLine()) return false;
     split();
     if (fields_.size() != columns_.size())
-      refuse(std::to_string(fields_.size()) + " fields; by the names of the columns there must be " +
+      refuse(std::to_string(fields_.size()) + " fields; expected, by the names of the columns, " +
              std::to_string(columns_.size()));
     values.resize(chosen.size());
     for (std::size_t i = 0; i < chosen.size(); ++i) {
@@ -60,7 +61,7 @@ public:
       if (!field.empty() && field.front() == '+') field.remove_prefix(1);
       const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), values[i]);
       if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(values[i]))
-        refuse("column " + columns_[chosen[i]] + " is " + quoted(field) + "; allowed is a finite number");
+        refuse("column " + columns_[chosen[i]] + ": " + gotExpected(quoted(field), "a finite number"));
     }
     return true;
   }
@@ -78,10 +79,10 @@ private:
     const auto count = static_cast<std::size_t>(stream_.gcount());
     read_ += static_cast<double>(count);
     if (stream_.fail() && count + 1 >= buffer_.size())
-      refuse("longer than " + std::to_string(kLongestLine >> 20U) + " MB; this is no table");
+      refuse("longer than " + std::to_string(kLongestLine >> 20U) + " MB; this is not a table");
     if (stream_.fail()) return false;
     text_ = std::string_view(buffer_.data(), stream_.eof() ? count : count - 1);
-    if (text_.find('\0') != std::string_view::npos) refuse("holds a zero byte; this is no table of text");
+    if (text_.find('\0') != std::string_view::npos) refuse("contains a zero byte; this is not a text table");
     if (!text_.empty() && text_.back() == '\r') text_.remove_suffix(1);
     return true;
   }
@@ -114,19 +115,21 @@ public:
     for (const auto& [name, head] : heads) {
       if (head.shape.empty() || head.isText()) continue; // what is said of all rows
       if (!arrays_.empty() && head.shape[0] != rows_)
-        throw Error(path.string() + ": array " + name + " has " + std::to_string(head.shape[0]) + " rows, array " +
-                    firstName_ + " has " + std::to_string(rows_) + "; allowed are arrays of as many rows");
+        throw Error(path.string() + ": array " + name + ": " +
+                    gotExpected(std::to_string(head.shape[0]) + " rows",
+                                std::to_string(rows_) + ", as in array " + firstName_));
       if (arrays_.empty()) firstName_ = name;
       rows_ = head.shape[0];
       Array& array = arrays_.emplace_back();
       array.source = std::make_unique<NpzArray>(path, name);
       array.row.resize(head.shape[0] == 0 ? 0 : head.items() / head.shape[0]);
       if (columns_.size() + array.row.size() > kMostColumns)
-        throw Error(path.string() + ": array " + name + " has too many numbers a row; allowed are " +
-                    std::to_string(kMostColumns) + " in all");
+        throw Error(path.string() + ": array " + name + ": " +
+                    gotExpected(std::to_string(array.row.size()) + " numbers per row",
+                                "at most " + std::to_string(kMostColumns) + " in all arrays"));
       for (std::size_t i = 0; i < array.row.size(); ++i) columns_.push_back(name + index(head, i));
     }
-    if (arrays_.empty()) throw Error(path.string() + ": holds no arrays of numbers with a row a sample");
+    if (arrays_.empty()) throw Error(path.string() + ": has no arrays of numbers with a row per sample");
   }
 
   [[nodiscard]] const std::vector<std::string>& columns() const override { return columns_; }
@@ -142,7 +145,7 @@ public:
     values.resize(chosen.size());
     for (std::size_t i = 0; i < chosen.size(); ++i) {
       values[i] = all_[chosen[i]];
-      if (!std::isfinite(values[i])) refuse(columns_[chosen[i]] + " is no finite number");
+      if (!std::isfinite(values[i])) refuse(columns_[chosen[i]] + ": " + gotExpected(values[i], "", "a finite number"));
     }
     return true;
   }

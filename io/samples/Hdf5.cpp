@@ -1,6 +1,7 @@
 #include "io/samples/Hdf5.h"
 
 #include "model/base/Error.h"
+#include "model/base/GotExpected.h"
 #include "model/base/Text.h"
 
 #include <fcntl.h>
@@ -140,8 +141,9 @@ std::vector<std::string> readTexts(hid_t dataset, hsize_t count) {
   return texts;
 }
 
-constexpr const char* kOpenElsewhere = "is open for writing elsewhere, in a notebook perhaps; close it there (h5clear "
-                                       "-s FILE where that program was killed)";
+constexpr const char* kOpenElsewhere =
+    "is open for writing in another program, perhaps a notebook; close it there (h5clear "
+    "-s FILE where that program was killed)";
 
 /// By the lock that its writer holds, or by the mark in the file's head (version 3 of the superblock; HDF5 file format
 /// specification, II.A).
@@ -163,7 +165,7 @@ Hdf5File::Hdf5File(std::filesystem::path path, Open how) : path_(std::move(path)
   errno = 0;
   if (how == Open::ForReading) {
     file_ = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-    if (file_ < 0) refuse(isOpenElsewhere(path_) ? kOpenElsewhere : "is damaged, or cut off: no whole HDF5 file");
+    if (file_ < 0) refuse(isOpenElsewhere(path_) ? kOpenElsewhere : "is damaged or cut off: not a complete HDF5 file");
     return;
   }
   const Handle plan(H5Pcreate(H5P_FILE_CREATE), H5Pclose), access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
@@ -298,14 +300,14 @@ Hdf5Layout Hdf5File::layout(const std::string& name, Hdf5Number number) const {
   const H5T_class_t kind = H5Tget_class(type);
   const bool whole = number == Hdf5Number::Int32; // the library would cut fractions off
   if (kind != H5T_INTEGER && (whole || kind != H5T_FLOAT))
-    refuse("dataset " + name + " holds no " + (whole ? "whole " : "") + "numbers");
+    refuse("dataset " + name + " does not contain " + (whole ? "whole " : "") + "numbers");
   const std::vector<hsize_t> shape = shapeOf(id);
   Hdf5Layout found;
   found.shape.assign(shape.begin(), shape.end());
-  if (shape.empty()) refuse("dataset " + name + " is one number; a number a sample is needed");
+  if (shape.empty()) refuse("dataset " + name + ": " + gotExpected("one number", "a number per sample"));
   if (H5Pget_layout(plan) != H5D_CHUNKED) {
     const hsize_t all = static_cast<hsize_t>(H5Sget_simple_extent_npoints(Handle(H5Dget_space(id), H5Sclose)));
-    if (H5Dget_storage_size(id) / H5Tget_size(type) < all) refuse("dataset " + name + " is not written to its end");
+    if (H5Dget_storage_size(id) / H5Tget_size(type) < all) refuse("dataset " + name + " is not written completely");
     return found;
   }
   std::vector<hsize_t> chunk(shape.size());
@@ -314,7 +316,7 @@ Hdf5Layout Hdf5File::layout(const std::string& name, Hdf5Number number) const {
   for (std::size_t i = 0; i < shape.size(); ++i) wanted *= (shape[i] + chunk[i] - 1) / chunk[i];
   const Handle space(H5Dget_space(id), H5Sclose);
   if (wanted > 0 && (H5Dget_num_chunks(id, space, &there) < 0 || there != wanted))
-    refuse("dataset " + name + " is not written to its end: " + std::to_string(there) + " of " +
+    refuse("dataset " + name + " is not written completely: " + std::to_string(there) + " of " +
            std::to_string(wanted) + " chunks");
   if (std::equal(shape.begin() + 1, shape.end(), chunk.begin() + 1)) found.chunkRows = chunk[0];
   found.shuffledDeflate = found.chunkRows > 0 && H5Tequal(type, fileType(number)) > 0 && hasOurFilters(plan);
@@ -367,7 +369,7 @@ std::vector<std::string> Hdf5File::texts(const std::string& name) const {
   const std::vector<hsize_t> shape = shapeOf(id);
   std::vector<std::string> texts;
   if (shape.size() == 1 && shape[0] <= kMostTexts) texts = readTexts(id, shape[0]);
-  if (texts.empty()) refuse("dataset " + name + " is no list of texts");
+  if (texts.empty()) refuse("dataset " + name + " is not a list of texts");
   return texts;
 }
 

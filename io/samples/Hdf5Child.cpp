@@ -38,7 +38,7 @@ fs::path readingProgram() {
     if (::access(program.c_str(), X_OK) == 0) return program;
     looked += (looked.empty() ? "" : ", ") + place.string();
   }
-  throw Error("palp-hdf5: is missing, the program that reads HDF5 files for palp; looked in " + looked);
+  throw Error("palp-hdf5, the program that reads HDF5 files for palp, is missing; looked in " + looked);
 }
 
 /// Starts it with one end of a socket as its standard input. A group of its own: Ctrl+C is for us, who then end it.
@@ -141,7 +141,7 @@ void Hdf5Child::refuseAsEnded() const {
   if (known && WIFEXITED(status) && WEXITSTATUS(status) != 0)
     refuse("cannot be read: palp-hdf5, which reads it, ended with status " + std::to_string(WEXITSTATUS(status)));
   const int signal = known && WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-  if (signal == SIGPROF || signal == SIGALRM) refuse("is damaged: reading it finds no end");
+  if (signal == SIGPROF || signal == SIGALRM) refuse("is damaged: reading it does not end");
   if (signal == SIGKILL || signal == SIGTERM || signal == SIGINT || signal == SIGHUP)
     refuse("cannot be read: palp-hdf5, which reads it, was ended from outside (signal " + std::to_string(signal) + ")");
   refuse("is damaged: the HDF5 library fails on it" + (signal > 0 ? " (signal " + std::to_string(signal) + ")" : ""));
@@ -172,7 +172,7 @@ void Hdf5Child::ask(const Hdf5Request& request, const std::function<void*(std::u
     throw Error(printable(sentence));
   }
   void* const to = room(reply.bytes);
-  if (to == nullptr) refuse("is damaged: an array of it has another size than it says");
+  if (to == nullptr) refuse("is damaged: the size of an array differs from the size given in the file");
   receive(to, reply.bytes);
 }
 

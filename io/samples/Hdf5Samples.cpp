@@ -5,6 +5,7 @@
 #include "io/samples/ShuffledDeflate.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
+#include "model/base/GotExpected.h"
 #include "model/base/Parallel.h"
 
 #include <algorithm>
@@ -67,20 +68,21 @@ public:
     head_ = headFrom(path, file_.attributes(), file_.texts(kColumnsArray));
     const std::vector<std::uint64_t> shape = file_.layout(kAreaArray, Hdf5Number::Int32).shape;
     if (shape[0] > static_cast<std::uint64_t>(std::numeric_limits<std::int32_t>::max()))
-      file_.refuse(std::to_string(shape[0]) + " samples; allowed are up to 2147483647");
+      file_.refuse("samples: " + gotExpected(std::to_string(shape[0]), "up to 2147483647"));
     size_ = static_cast<Eigen::Index>(shape[0]);
     fields_ = fieldsOf(head_, size_);
     for (const Field& field : fields_) {
       Hdf5Layout& layout = layouts_.emplace_back(file_.layout(field.name, field.number));
       if (layout.shape != field.shape)
-        file_.refuse("dataset " + field.name + " is of " + shapeText(layout.shape) +
-                     " numbers; by the head and the areas it must be of " + shapeText(field.shape));
+        file_.refuse(
+            "dataset " + field.name + ": " +
+            gotExpected(shapeText(layout.shape) + " numbers", shapeText(field.shape) + " by the head and the areas"));
       if (layout.chunkRows > kLargestChunk_bytes / field.rowBytes() || layout.chunks.empty() ||
           layout.chunks.size() < (layout.shape[0] + layout.chunkRows - 1) / layout.chunkRows)
         layout.shuffledDeflate = false;
       if (layout.shape[0] > (kMostPacked * file_.fileBytes()) / field.rowBytes())
         file_.refuse("is damaged: dataset " + field.name + " of " + shapeText(layout.shape) +
-                     " numbers is more than a file of " + std::to_string(file_.fileBytes()) + " bytes can hold");
+                     " numbers is more than a file of " + std::to_string(file_.fileBytes()) + " bytes can contain");
     }
   }
 

@@ -155,7 +155,7 @@ void serve(const std::filesystem::path& path) {
 
 int main(int argc, char** argv) {
   if (argc != 2) {
-    std::cerr << "palp-hdf5 reads HDF5 files for palp; it is not started by hand\n";
+    std::cerr << "palp-hdf5 reads HDF5 files for palp, which starts it\n";
     return 2;
   }
   ::setenv("HDF5_USE_FILE_LOCKING", "FALSE", 0); // some file systems have none, and a notebook may hold the file

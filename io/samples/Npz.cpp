@@ -1,6 +1,7 @@
 #include "io/samples/Npz.h"
 
 #include "model/base/Error.h"
+#include "model/base/GotExpected.h"
 #include "model/base/Text.h"
 
 #include <minizip/unzip.h>
@@ -190,9 +191,9 @@ void NpzWriter::close() {
 NpzArray::NpzArray(const std::filesystem::path& path, const std::string& name)
     : where_(path.string() + ": array " + name) {
   zip_ = unzOpen64(path.c_str());
-  if (zip_ == nullptr) throw Error(path.string() + ": is no whole zip file (cut off, or damaged)");
+  if (zip_ == nullptr) throw Error(path.string() + ": not a complete zip file (cut off or damaged)");
   try {
-    if (unzLocateFile(zip_, (name + ".npy").c_str(), 1) != UNZ_OK) refuse("is not there");
+    if (unzLocateFile(zip_, (name + ".npy").c_str(), 1) != UNZ_OK) refuse("is missing");
     unz_file_info64 about;
     if (unzGetCurrentFileInfo64(zip_, &about, nullptr, 0, nullptr, 0, nullptr, 0) != UNZ_OK ||
         unzOpenCurrentFile(zip_) != UNZ_OK)
@@ -222,14 +223,14 @@ void NpzArray::readBytes(std::span<unsigned char> bytes) {
   }
   // At the end of the array minizip compares the check sum.
   if (unzeof(zip_) == 1 && unzCloseCurrentFile(zip_) == UNZ_CRCERROR)
-    refuse("has a wrong check sum; the file is damaged");
+    refuse("has a wrong checksum; the file is damaged");
 }
 
 void NpzArray::readHead(std::uint64_t size) {
   unsigned char begin[12];
   readBytes(std::span(begin, 8));
   if (std::memcmp(begin, kNpyMagic, kMagicLength) != 0 || begin[6] < 1 || begin[6] > 3)
-    refuse("is no array of NumPy of version 1 to 3");
+    refuse("is not an array of NumPy, version 1 to 3");
   const std::size_t sizeBytes = begin[6] == 1 ? 2 : 4;
   readBytes(std::span(begin + 8, sizeBytes));
   std::size_t length = 0;
@@ -239,17 +240,17 @@ void NpzArray::readHead(std::uint64_t size) {
   readBytes({reinterpret_cast<unsigned char*>(text.data()), length});
   const std::string type = valueAfter(text, "descr"), shape = valueAfter(text, "shape");
   if (type.size() < 4 || shape.size() < 2 || shape[0] != '(' || !readShape(shape, head_.shape))
-    refuse("is not understood; allowed are numbers and texts of up to four dimensions");
+    refuse(gotExpected(type + " of shape " + shape, "numbers or texts of up to four dimensions"));
   head_.type = type.substr(1, type.size() - 2);
-  if (head_.type[0] == '>') refuse("is big-endian; allowed is little-endian");
+  if (head_.type[0] == '>') refuse(gotExpected("big-endian numbers", "little-endian"));
   if (head_.shape.size() > 1 && valueAfter(text, "fortran_order") != "False")
-    refuse("is in Fortran's order; allowed is C's (numpy.ascontiguousarray)");
+    refuse(gotExpected("Fortran order", "C order (numpy.ascontiguousarray)"));
   std::uint64_t left = size - 8 - sizeBytes - length;
   for (const std::uint64_t count : head_.shape) left = count == 0 ? 0 : left / count; // no overflow
   const std::size_t item = head_.itemBytes();
   if (item == 0 || item > kLongestText_bytes || head_.items() > size ||
       head_.items() * item != size - 8 - sizeBytes - length)
-    refuse("has other bytes than its head says");
+    refuse("has another number of bytes than given in its head");
 }
 
 template <class Number> void NpzArray::readAs(std::span<Number> values) {
@@ -282,7 +283,7 @@ template <class Number> void NpzArray::readAs(std::span<Number> values) {
     else if ((kind == 'u' || kind == 'b') && item == 1)
       convert<std::uint8_t>(bytes, part);
     else
-      refuse("is of type " + head_.type + "; allowed are real numbers of 1 to 8 bytes");
+      refuse(gotExpected("type " + head_.type, "real numbers of 1 to 8 bytes"));
     done += count;
   }
 }
@@ -326,7 +327,7 @@ std::vector<std::string> NpzArray::texts() {
     for (std::size_t at = 0; at < item && bytes[i * item + at] != 0; at += step) {
       const unsigned char* const letter = &bytes[i * item + at];
       if (*letter > 127 || std::any_of(letter + 1, letter + step, [](unsigned char b) { return b != 0; }))
-        refuse("holds a character that is not ASCII");
+        refuse("contains a character that is not ASCII");
       one += static_cast<char>(bytes[i * item + at]);
     }
   }
@@ -335,7 +336,7 @@ std::vector<std::string> NpzArray::texts() {
 
 std::map<std::string, NpyHead> npzArrays(const std::filesystem::path& path) {
   const unzFile zip = unzOpen64(path.c_str());
-  if (zip == nullptr) throw Error(path.string() + ": is no whole zip file (cut off, or damaged)");
+  if (zip == nullptr) throw Error(path.string() + ": not a complete zip file (cut off or damaged)");
   std::set<std::string> names;
   int result = unzGoToFirstFile(zip);
   for (; result == UNZ_OK; result = unzGoToNextFile(zip)) {
@@ -345,13 +346,13 @@ std::map<std::string, NpyHead> npzArrays(const std::filesystem::path& path) {
   }
   unzClose(zip);
   std::map<std::string, NpyHead> arrays;
-  if (result != UNZ_END_OF_LIST_OF_FILE) throw Error(path.string() + ": is no whole zip file (cut off, or damaged)");
+  if (result != UNZ_END_OF_LIST_OF_FILE) throw Error(path.string() + ": not a complete zip file (cut off or damaged)");
   for (const std::string& name : names)
     if (name.ends_with(".npy")) {
       const std::string array = name.substr(0, name.size() - 4);
       arrays.emplace(array, NpzArray(path, array).head());
     }
-  if (arrays.empty()) throw Error(path.string() + ": holds no arrays of NumPy (.npy)");
+  if (arrays.empty()) throw Error(path.string() + ": contains no arrays of NumPy (.npy)");
   return arrays;
 }
 

@@ -3,6 +3,7 @@
 #include "io/samples/Npz.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
+#include "model/base/GotExpected.h"
 
 #include <algorithm>
 #include <limits>
@@ -34,14 +35,14 @@ public:
     area_ = std::make_unique<NpzArray>(path, kAreaArray);
     const std::vector<std::uint64_t>& shape = area_->head().shape;
     if (shape.size() != 1 || shape[0] > static_cast<std::uint64_t>(std::numeric_limits<std::int32_t>::max()))
-      area_->refuse("is of " + sizesText(shape) + "; allowed is one whole number a sample");
+      area_->refuse(gotExpected(sizesText(shape), "one whole number per sample"));
     size_ = static_cast<Eigen::Index>(shape[0]);
     for (const SampleArray& array : sampleArrays(head_)) {
       auto& numbers = arrays_.emplace_back(std::make_unique<NpzArray>(path, array.name), array.values).first;
       std::vector<std::uint64_t> wanted{shape[0]};
       wanted.insert(wanted.end(), array.shape.begin(), array.shape.end());
       if (numbers->head().shape != wanted || numbers->head().isText())
-        numbers->refuse("is of " + sizesText(numbers->head().shape) + "; by the head and the areas it must be of " +
+        numbers->refuse("got " + sizesText(numbers->head().shape) + ", expected, by the head and the areas, " +
                         sizesText(wanted) + " numbers");
     }
   }

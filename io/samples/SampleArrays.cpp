@@ -4,6 +4,7 @@
 #include "io/SampleHead.h"
 #include "model/Indenter.h"
 #include "model/base/Error.h"
+#include "model/base/GotExpected.h"
 #include "model/base/Text.h"
 
 #include <sys/mman.h>
@@ -149,7 +150,7 @@ SampleSet headFrom(const std::filesystem::path& file, const std::map<std::string
   std::string text;
   for (const auto& [key, value] : values) {
     if ((key + value).find('\n') != std::string::npos)
-      throw Error(file.string() + ": " + key + " is of several lines; allowed is one");
+      throw Error(file.string() + ": " + key + ": " + gotExpected("several lines", "one"));
     text += "# " + key + ": " + value + "\n";
   }
   for (std::size_t i = 0; i < columns.size(); ++i) text += (i == 0 ? "" : ",") + columns[i];
@@ -167,14 +168,16 @@ void requireSamples(const std::filesystem::path& file, const SampleSet& set, Eig
   const int low = together ? -1 : 0, high = together ? -1 : set.areaCount - 1;
   for (Eigen::Index i = first; i < first + count; ++i)
     if (set.area(i) < low || set.area(i) > high)
-      refuse(i, "area " + std::to_string(set.area(i)) + "; allowed is " +
-                    (together ? "-1: by the head all areas are loaded together" : "0 to " + std::to_string(high)));
+      refuse(i, "area: " +
+                    gotExpected(std::to_string(set.area(i)), together ? "-1: by the head all areas are loaded together"
+                                                                      : "0 to " + std::to_string(high)));
   for (const auto part : {&SampleSet::touches, &SampleSet::beside})
     for (Eigen::Index i = first; (set.*part).rows() > 0 && i < first + count; ++i) {
       const double shape = (set.*part)(kTouchShape, i);
       if (!(shape >= 0 && shape < static_cast<double>(kIndenterShapes.all().size()) && shape == std::floor(shape)))
-        refuse(i, "shape " + text(shape) + "; allowed is a whole number from 0 to " +
-                      std::to_string(kIndenterShapes.all().size() - 1));
+        refuse(i,
+               "shape: " + gotExpected(shape, "",
+                                       "a whole number from 0 to " + std::to_string(kIndenterShapes.all().size() - 1)));
     }
   if (finite) return;
   for (const SampleArray& array : sampleArrays(set)) {
@@ -183,8 +186,8 @@ void requireSamples(const std::filesystem::path& file, const SampleSet& set, Eig
     for (Eigen::Index i = 0; i < count; ++i)
       for (Eigen::Index row = 0; row < values.rows(); ++row)
         if (!std::isfinite(values(row, i)))
-          refuse(first + i, array.name + " number " + std::to_string(row) + " is " + text(values(row, i)) +
-                                "; allowed is a finite number");
+          refuse(first + i, array.name + " number " + std::to_string(row) + ": " +
+                                gotExpected(values(row, i), "", "a finite number"));
   }
 }
 

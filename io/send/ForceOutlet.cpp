@@ -3,6 +3,7 @@
 #include "io/send/Outlets.h"
 #include "io/send/SingleHost.h"
 #include "model/base/Error.h"
+#include "model/base/GotExpected.h"
 #include "model/base/Text.h"
 
 #include <arpa/inet.h>
@@ -14,8 +15,11 @@ namespace palp {
 
 namespace {
 
-constexpr const char* kAllowedOutlets =
-    "; allowed is udp:HOST:PORT, osc:HOST:PORT, zmq:HOST:PORT (port 1 to 65535), lsl:NAME or csv:FILE";
+[[noreturn]] void refuseReceiver(const std::string& where) {
+  throw Error("receiver: " +
+              gotExpected(quotedText(where),
+                          "udp:HOST:PORT, osc:HOST:PORT, zmq:HOST:PORT (port 1 to 65535), lsl:NAME or csv:FILE"));
+}
 
 /// As in sample files: fx_N, or a0_fx_N where each area has a force.
 std::string forceName(Eigen::Index force, Eigen::Index forces, int axis) {
@@ -24,15 +28,14 @@ std::string forceName(Eigen::Index force, Eigen::Index forces, int axis) {
 
 Receiver receiverOf(const std::string& where, const std::string& rest) {
   const std::size_t colon = rest.rfind(':');
-  if (colon == std::string::npos) throw Error(where + kAllowedOutlets);
+  if (colon == std::string::npos) refuseReceiver(where);
   Receiver receiver{where, rest.substr(0, colon), rest.substr(colon + 1)};
   if (receiver.host.size() > 2 && receiver.host.front() == '[' && receiver.host.back() == ']')
     receiver.host = receiver.host.substr(1, receiver.host.size() - 2);
   int port = 0;
   const char* const end = receiver.port.data() + receiver.port.size();
   const auto [stop, error] = std::from_chars(receiver.port.data(), end, port);
-  if (receiver.host.empty() || error != std::errc() || stop != end || port < 1 || port > 65535)
-    throw Error(where + kAllowedOutlets);
+  if (receiver.host.empty() || error != std::errc() || stop != end || port < 1 || port > 65535) refuseReceiver(where);
   return receiver;
 }
 
@@ -102,7 +105,7 @@ std::unique_ptr<ForceOutlet> openOutlet(const std::string& where, bool toMany, b
   const std::string rest = colon == std::string::npos ? "" : where.substr(colon + 1);
   if (kind == "csv" && !rest.empty()) return openLines(where, rest, force);
   if (kind == "lsl" && !rest.empty()) return openLsl(where, rest);
-  if (kind != "udp" && kind != "osc" && kind != "zmq") throw Error(where + kAllowedOutlets);
+  if (kind != "udp" && kind != "osc" && kind != "zmq") refuseReceiver(where);
   const Receiver receiver = receiverOf(where, rest);
   if (!toMany) requireSingleHost(receiver);
   if (kind == "udp") return openUdp(receiver, toMany);

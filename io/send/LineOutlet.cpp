@@ -93,7 +93,7 @@ private:
 
   /// What a full disk took of the last line is taken away again.
   void fail(int reason) {
-    failure_ = where_ + ": cannot be written any more: " + std::strerror(reason); // NOLINT(concurrency-mt-unsafe)
+    failure_ = where_ + ": can no longer be written: " + std::strerror(reason); // NOLINT(concurrency-mt-unsafe)
     struct stat about {};
     if (whole_ < written_ && ::fstat(descriptor_, &about) == 0 && S_ISREG(about.st_mode) &&
         ::ftruncate(descriptor_, about.st_size - (written_ - whole_)) != 0)

@@ -1,5 +1,6 @@
 #include "io/send/Outlets.h"
 #include "model/base/Error.h"
+#include "model/base/GotExpected.h"
 
 #include <dlfcn.h>
 #include <unistd.h>
@@ -54,7 +55,7 @@ LslLibrary loadLsl(const std::string& where) {
     function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(dlsym(handle, name));
     if (function == nullptr)
       throw Error(where + ": the library of the Lab Streaming Layer has no function " + name +
-                  "; allowed is version 1.13 or newer");
+                  "; expected version 1.13 or newer");
   };
   find(library.createStreamInfo, "lsl_create_streaminfo");
   find(library.destroyStreamInfo, "lsl_destroy_streaminfo");
@@ -146,8 +147,9 @@ private:
 std::unique_ptr<ForceOutlet> openLsl(const std::string& where, const std::string& stream) {
   if (stream.size() > kLongestName ||
       std::any_of(stream.begin(), stream.end(), [](char c) { return c <= ' ' || c > '~'; }))
-    throw Error(where + ": name of the stream; allowed are 1 to " + std::to_string(kLongestName) +
-                " letters, digits and signs without spaces");
+    throw Error(where + ": name of the stream: " +
+                gotExpected(quotedText(stream),
+                            "1 to " + std::to_string(kLongestName) + " letters, digits and signs without spaces"));
   return std::make_unique<LslOutlet>(where, stream);
 }
 

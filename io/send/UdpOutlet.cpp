@@ -1,6 +1,7 @@
 #include "io/send/DatagramSocket.h"
 #include "io/send/SingleHost.h"
 #include "model/base/Error.h"
+#include "model/base/GotExpected.h"
 
 #include <arpa/inet.h>
 #include <ifaddrs.h>
@@ -65,7 +66,7 @@ Addresses addressesOf(const Receiver& receiver) {
   addrinfo* found = nullptr;
   const int result = getaddrinfo(receiver.host.c_str(), receiver.port.c_str(), &wanted, &found);
   if (result != 0 || found == nullptr)
-    throw Error(receiver.where + ": host " + receiver.host + " is not known: " + gai_strerror(result));
+    throw Error(receiver.where + ": host " + receiver.host + " is unknown: " + gai_strerror(result));
   return {found, freeaddrinfo};
 }
 
@@ -80,7 +81,8 @@ void requireSingleHost(const Receiver& receiver) {
   const Addresses addresses = addressesOf(receiver);
   for (const addrinfo* one = addresses.get(); one != nullptr; one = one->ai_next)
     if (isMulticast(one->ai_addr) || isBroadcast(one->ai_addr))
-      throw Error(receiver.where + ": is an address of many receivers; allowed is one, or --send-to-many");
+      throw Error(receiver.where + ": " +
+                  gotExpected("a broadcast or multicast address", "one receiver, or --send-to-many"));
 }
 
 std::unique_ptr<ForceOutlet> openUdp(const Receiver& receiver, bool toMany) {

@@ -1,6 +1,7 @@
 #include "model/field/FieldLawCheck.h"
 
 #include "model/FieldAtRest.h"
+#include "model/base/GotExpected.h"
 #include "model/base/Text.h"
 
 #include <algorithm>
@@ -82,15 +83,15 @@ double errorOfDipoles(double a, bool mirror) {
 std::optional<DesignFault> sphereFault(const SensorDesign& design) {
   const Eigen::Index count = design.upper.electrodes() + design.lower.electrodes();
   if (count > kMostElectrodes)
-    return DesignFault{"resistance.law", "field with " + std::to_string(count) + " electrodes; allowed is up to " +
-                                             std::to_string(kMostElectrodes)};
+    return DesignFault{"resistance.law", gotExpected("field with " + std::to_string(count) + " electrodes",
+                                                     "up to " + std::to_string(kMostElectrodes))};
   const double radius = design.field()->electrodeRadius_mm;
   const Neighbours pair = nearestToEachOther(design), face = nearestToAFace(design);
   const Neighbours& near = pair.distance_mm < face.distance_mm ? pair : face;
   if (radius < near.distance_mm / 2) return {};
-  return DesignFault{"resistance.electrode_radius_mm", text(radius) + " mm: electrodes overlap (" +
-                                                           inWords(design, near) + "); allowed is below " +
-                                                           digits(near.distance_mm / 2) + " mm"};
+  return DesignFault{"resistance.electrode_radius_mm",
+                     "electrodes overlap (" + inWords(design, near) +
+                         "): " + gotExpected(radius, " mm", "below " + digits(near.distance_mm / 2) + " mm")};
 }
 
 std::vector<std::string> designWarnings(const SensorDesign& design) {
@@ -105,8 +106,9 @@ std::vector<std::string> designWarnings(const SensorDesign& design) {
     worst = errorOfDipoles(share, mirror);
     warning = "resistance.electrode_radius_mm: " + text(radius) + " mm is " + digits(share) + " of the gap of " +
               inWords(design, near) + (mirror ? ", counted to its mirror image" : "") +
-              "; up to 0.35 small spheres with dipoles are a good model, here they are wrong by about " +
-              digits(100 * worst) + " % of what " + (mirror ? "it resists" : "these two resist");
+              "; the model of small spheres with dipoles is accurate up to 0.35, here its error is about " +
+              digits(100 * worst) + " % of " +
+              (mirror ? "the electrode's resistance" : "the resistance between the two");
   }
   if (warning.empty()) return {};
   return {warning};

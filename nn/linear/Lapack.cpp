@@ -49,8 +49,8 @@ int leading(Eigen::Index rows) {
 
 void require(int info, const char* routine) {
   if (info != 0)
-    throw NetworkError(std::string(routine) + " found no answer (info " + std::to_string(info) +
-                       "): the samples hold values that are no numbers, or are too large for double precision");
+    throw NetworkError(std::string(routine) + " failed (info " + std::to_string(info) +
+                       "): the samples contain values that are not finite, or too large for double precision");
 }
 
 /// dgemm and its kin believe the sizes they are given: a wrong one reads beyond the matrix.

@@ -30,7 +30,7 @@ void warnOfCondition(LinearSolution& solution) {
   const double lost = std::min(16.0, std::floor(std::log10(solution.condition)));
   solution.warnings.push_back("the system's condition is " + shortNumber(solution.condition) + ": about " +
                               std::to_string(static_cast<int>(lost)) +
-                              " of 16 digits of the weights are lost; a smaller spread or a ridge keeps them");
+                              " of 16 digits of the weights are lost; a smaller spread or a ridge avoids this");
 }
 
 void warnOfRank(LinearSolution& solution, Eigen::Index unknowns) {

@@ -23,7 +23,7 @@ Eigen::MatrixXd leftOutErrors(const Eigen::MatrixXd& remainder, const Eigen::Mat
     kept.diagonal().array() += 1 + 1e-14;
     // Its entries near 0 are differences of rounded numbers and may be of either sign: only the result is checked.
     const Eigen::MatrixXd found = kept.ldlt().solve(remainder.middleRows(first, copies));
-    if (!found.allFinite()) throw NetworkError("leave-one-out: the readings hold numbers beyond double precision");
+    if (!found.allFinite()) throw NetworkError("leave-one-out: the readings contain numbers beyond double precision");
     errors.middleCols(first, copies) = found.transpose();
   }
   return errors;

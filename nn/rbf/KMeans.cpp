@@ -1,5 +1,6 @@
 #include "nn/rbf/KMeans.h"
 
+#include "model/base/GotExpected.h"
 #include "nn/Basis.h"
 #include "nn/NetworkError.h"
 #include "nn/linear/RandomNumbers.h"
@@ -13,7 +14,7 @@ namespace palp {
 namespace {
 
 void requireCount(int count) {
-  if (count < 1) throw NetworkError("centers: " + std::to_string(count) + " asked for; allowed is 1 or more");
+  if (count < 1) throw NetworkError("centers: " + gotExpected(std::to_string(count), "1 or more"));
 }
 
 /// k-means++: each next centre is a sample, drawn with a probability that grows with its squared distance to those
@@ -61,7 +62,7 @@ void moveToMeans(const Eigen::MatrixXd& samples, const Eigen::VectorXi& nearest,
 KMeansResult kMeans(const Eigen::Ref<const Eigen::MatrixXd>& samples, int count, std::uint64_t seed,
                     int maxIterations) {
   requireCount(count);
-  if (samples.cols() == 0) throw NetworkError("there is no sample to cluster; at least 1 is needed");
+  if (samples.cols() == 0) throw NetworkError("samples: " + gotExpected("0", "1 or more to cluster"));
   RandomNumbers random(seed);
   const Eigen::MatrixXd data = samples;
   KMeansResult result;

@@ -1,25 +1,19 @@
 #include "nn/rbf/RbfSystem.h"
 
 #include "model/base/Cancelled.h"
+#include "model/base/GotExpected.h"
 #include "nn/NetworkError.h"
 #include "nn/rbf/KernelSystem.h"
 #include "nn/rbf/LeastSquaresSystem.h"
 
 #include <cmath>
-#include <sstream>
 #include <string>
 
 namespace palp {
 namespace {
 
-std::string shown(double value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
-
-void refuse(const std::string& what, double value, const std::string& allowed) {
-  throw NetworkError(what + ": " + shown(value) + "; allowed is " + allowed);
+void refuse(const std::string& what, double value, const std::string& expected) {
+  throw NetworkError(what + ": " + gotExpected(value, "", expected));
 }
 
 void requireFinite(const Eigen::Ref<const Eigen::MatrixXd>& values, const std::string& what) {
@@ -27,18 +21,18 @@ void requireFinite(const Eigen::Ref<const Eigen::MatrixXd>& values, const std::s
     for (Eigen::Index i = 0; i < values.rows(); ++i)
       if (!(std::abs(values(i, j)) <= 1e100))
         throw NetworkError(what + " " + std::to_string(i) + " of sample " + std::to_string(j) + ": " +
-                           shown(values(i, j)) + "; allowed is a number of at most 1e100");
+                           gotExpected(values(i, j), "", "-1e100 to 1e100"));
 }
 
 } // namespace
 
 void requireUsable(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen::Ref<const Eigen::MatrixXd>& targets,
                    const RbfOptions& options) {
-  if (samples.cols() == 0) throw NetworkError("samples: 0; allowed is 1 or more");
+  if (samples.cols() == 0) throw NetworkError("samples: " + gotExpected("0", "1 or more"));
   if (samples.rows() == 0 || targets.rows() == 0) throw NetworkError("samples have no inputs or no outputs");
   if (samples.cols() != targets.cols())
-    throw NetworkError("targets: " + std::to_string(targets.cols()) + " for " + std::to_string(samples.cols()) +
-                       " samples; allowed is one a sample");
+    throw NetworkError(
+        "targets: " + gotExpected(std::to_string(targets.cols()), std::to_string(samples.cols()) + ", one per sample"));
   requireFinite(samples, "input");
   requireFinite(targets, "target");
   if (options.spread && !(*options.spread > 0 && *options.spread <= 1e100))

@@ -1,6 +1,7 @@
 #include "nn/rivals/BackPropagation.h"
 
 #include "model/base/Cancelled.h"
+#include "model/base/GotExpected.h"
 #include "nn/NetworkError.h"
 #include "nn/NoisyCopies.h"
 #include "nn/VaryingInputs.h"
@@ -165,11 +166,11 @@ void optimise(Training& training, std::uint64_t seed) {
 
 void requireOptions(const BackPropagationOptions& options) {
   if (options.hidden < 1 || options.hidden > 10000)
-    throw NetworkError("hidden units: " + std::to_string(options.hidden) + "; allowed is 1 to 10000");
+    throw NetworkError("hidden units: " + gotExpected(std::to_string(options.hidden), "1 to 10000"));
   if (options.iterations < 1)
-    throw NetworkError("iterations: " + std::to_string(options.iterations) + "; allowed is 1 or more");
+    throw NetworkError("iterations: " + gotExpected(std::to_string(options.iterations), "1 or more"));
   if (!(options.heldOutShare >= 0 && options.heldOutShare <= 0.5))
-    throw NetworkError("held-out share: " + std::to_string(options.heldOutShare) + "; allowed is 0 to 0.5");
+    throw NetworkError("held-out share: " + gotExpected(options.heldOutShare, "", "0 to 0.5"));
 }
 
 } // namespace
@@ -233,7 +234,7 @@ BackPropagationFit trainBackPropagation(const Eigen::Ref<const Eigen::MatrixXd>&
   const Eigen::MatrixXd noisyHeld = network.outputScaler.invert(
       outputs(training.layout, best, activations(training.layout, best, training.heldInputs)));
   fit.heldOutResiduals = Eigen::MatrixXd(targets(Eigen::all, fit.heldOut)) - noisyHeld;
-  if (held == 0) fit.warnings.push_back("too few samples to hold some out: the network may fit them too closely");
+  if (held == 0) fit.warnings.push_back("too few samples to hold some out: the network may overfit");
   return fit;
 }
 

@@ -1,5 +1,6 @@
 #include "nn/rivals/ForwardModel.h"
 
+#include "model/base/GotExpected.h"
 #include "model/base/PositiveSolve.h"
 #include "nn/NetworkError.h"
 #include "nn/linear/RidgeFit.h"
@@ -78,20 +79,23 @@ constexpr double kRounding = 1e-12; ///< of the cost: less is no rise
 void requireSizes(const Eigen::Ref<const Eigen::MatrixXd>& measurements,
                   const Eigen::Ref<const Eigen::MatrixXd>& causes, const Eigen::VectorXi& classes,
                   const ForwardModelOptions& options) {
-  if (measurements.cols() == 0) throw NetworkError("samples: 0; allowed is 1 or more");
+  if (measurements.cols() == 0) throw NetworkError("samples: " + gotExpected("0", "1 or more"));
   if (causes.cols() != measurements.cols() || classes.size() != measurements.cols())
-    throw NetworkError("a forward model wants one set of causes and one class a sample");
-  if (!measurements.allFinite() || !causes.allFinite()) throw NetworkError("samples hold values that are no numbers");
-  if (classes.minCoeff() < 0) throw NetworkError("classes: a negative one; allowed is 0 and above");
+    throw NetworkError("a forward model needs one set of parameters and one class per sample");
+  if (!measurements.allFinite() || !causes.allFinite())
+    throw NetworkError("samples contain values that are not finite");
+  if (classes.minCoeff() < 0)
+    throw NetworkError("classes: " + gotExpected(std::to_string(classes.minCoeff()), "0 or above"));
   if (options.degree < 0 || options.degree > 6)
-    throw NetworkError("degree: " + std::to_string(options.degree) + "; allowed is 0 to 6");
+    throw NetworkError("degree: " + gotExpected(std::to_string(options.degree), "0 to 6"));
 }
 
 std::vector<std::vector<Eigen::Index>> membersOf(const Eigen::VectorXi& classes) {
   std::vector<std::vector<Eigen::Index>> members(static_cast<std::size_t>(classes.maxCoeff()) + 1);
   for (Eigen::Index i = 0; i < classes.size(); ++i) members[static_cast<std::size_t>(classes(i))].push_back(i);
   for (std::size_t c = 0; c < members.size(); ++c)
-    if (members[c].empty()) throw NetworkError("class " + std::to_string(c) + " has no sample; allowed is 1 or more");
+    if (members[c].empty())
+      throw NetworkError("samples of class " + std::to_string(c) + ": " + gotExpected("0", "1 or more"));
   return members;
 }
 
@@ -116,7 +120,7 @@ ForwardModel fitForwardModel(const Eigen::Ref<const Eigen::MatrixXd>& measuremen
   ForwardModel model;
   model.degree = affordableDegree(options.degree, causes.rows(), static_cast<Eigen::Index>(fewest));
   if (model.degree < options.degree && warnings)
-    warnings->push_back("the polynomial that tells the touched area has degree " + std::to_string(model.degree) +
+    warnings->push_back("the polynomial that detects the loaded area has degree " + std::to_string(model.degree) +
                         " in the force instead of " + std::to_string(options.degree) + ": an area has only " +
                         std::to_string(fewest) + " samples");
   const Eigen::VectorXd low = causes.rowwise().minCoeff(), high = causes.rowwise().maxCoeff();

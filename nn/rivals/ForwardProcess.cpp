@@ -1,6 +1,7 @@
 #include "nn/rivals/ForwardProcess.h"
 
 #include "model/base/Cancelled.h"
+#include "model/base/GotExpected.h"
 #include "model/base/Parallel.h"
 #include "nn/NetworkError.h"
 #include "nn/linear/Lapack.h"
@@ -29,7 +30,7 @@ constexpr std::array kSmoothings{1e-8, 1e-6, 1e-4, 1e-2}; // variance left to a 
 constexpr int kNodes = 50, kNodesOfMany = 80;
 constexpr double kBeyondRange = 0.1; // of its range that a place may lie outside
 constexpr double kRestVariance = 1;  // of what does not depend on the causes, in the components' own
-constexpr const char* kNoFunction = "no smooth function goes through the samples: are some the same?";
+constexpr const char* kNoFunction = "no smooth function interpolates the samples; check for duplicates";
 
 } // namespace
 
@@ -50,7 +51,8 @@ ForwardProcess::ForwardProcess(const Eigen::MatrixXd& measurements, const Eigen:
     const auto input = static_cast<int>(varied_.size());
     varied_.push_back(k);
     if (groups(k) == 0) {
-      if (places == 2) throw NetworkError("three causes of group 0 vary; allowed are two places");
+      if (places == 2)
+        throw NetworkError("varying parameters of group 0: " + gotExpected("3", "2 coordinates of the position"));
       form_.place[places++] = input;
       common_.causeFactor(k) = 1;
       range_ = std::max(range_, range(k));
@@ -64,7 +66,7 @@ ForwardProcess::ForwardProcess(const Eigen::MatrixXd& measurements, const Eigen:
     common_.causeFactor(k) = 1 / size;
     shift.push_back(groups(k) == 1 ? common_.causeOffset(k) / size : 0);
   }
-  if (places == 0) throw NetworkError("the causes of group 0 do not vary");
+  if (places == 0) throw NetworkError("the parameters of group 0 (the position) do not vary");
   form_.shift = Eigen::Map<Eigen::VectorXd>(shift.data(), static_cast<Eigen::Index>(shift.size()));
   int degree = kMostDegree;
   do form_.exponents = placeMonomials(form_.inputs(), others, common_.strengths, degree);
@@ -73,7 +75,7 @@ ForwardProcess::ForwardProcess(const Eigen::MatrixXd& measurements, const Eigen:
     const Eigen::MatrixXd image = mirrors_.image(causes, element);
     for (Eigen::Index k = 0; k < range.size(); ++k)
       if (range(k) == 0 && image(k, 0) != causes(k, 0))
-        throw NetworkError("a mirror reflects a cause that does not vary, to values that no sample has");
+        throw NetworkError("a mirror reflects a parameter that does not vary, to values that no sample has");
     images_.push_back(
         (common_.causeFactor.asDiagonal() * (image.colwise() - common_.causeOffset))(varied_, Eigen::all));
   }
@@ -100,7 +102,7 @@ void ForwardProcess::project(const Eigen::MatrixXd& centred, const Eigen::Vector
     for (const double value : found.back().values)
       if (value > kLeastSignal * kLeastSignal) signals.push_back(value);
   }
-  if (signals.empty()) throw NetworkError("no measurement stands out of the noise");
+  if (signals.empty()) throw NetworkError("no measurement exceeds the noise");
   std::sort(signals.begin(), signals.end(), std::greater());
   const double least = signals[std::min<std::size_t>(kMostComponents, signals.size()) - 1];
   common_.projection.resize(0, noise.size());

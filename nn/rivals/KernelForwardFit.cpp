@@ -1,3 +1,4 @@
+#include "model/base/GotExpected.h"
 #include "nn/rivals/KernelInversion.h"
 
 #include "model/base/Cancelled.h"
@@ -28,8 +29,10 @@ KernelForwardFit fitKernelForwardModel(const Eigen::Ref<const Eigen::MatrixXd>& 
                                        const Eigen::Ref<const Eigen::MatrixXd>& causes, const Eigen::VectorXi& groups,
                                        const KernelForwardOptions& options, const std::stop_token& stop) {
   if (measurements.cols() != causes.cols() || causes.rows() != groups.size() || causes.cols() < kHeldOut)
-    throw NetworkError(std::to_string(causes.cols()) + " samples; a forward model of touches needs " +
-                       std::to_string(kHeldOut) + " or more, a column of causes for each");
+    throw NetworkError("samples: " + gotExpected(std::to_string(causes.cols()),
+                                                 std::to_string(kHeldOut) +
+                                                     " or more for a forward model of touches, with a column of "
+                                                     "parameters for each"));
   const Eigen::MatrixXd allMeasurements = measurements, allCauses = causes;
   ForwardProcess work(allMeasurements, allCauses, groups, options, stop);
   work.chooseSmoothness();

@@ -18,8 +18,8 @@ constexpr double kSmallRidge = 1e-12; // of the trace: what rounding leaves unde
 Eigen::MatrixXd solveSemidefinite(Eigen::MatrixXd a, const Eigen::MatrixXd& b) {
   a.diagonal().array() += kSmallRidge * a.trace();
   return solvePositive<NetworkError>(a, b,
-                                     "known touches: the samples do not determine the table of their readings; "
-                                     "allowed are touches of more places, sizes and forces");
+                                     "prior mean of the touches: the samples do not determine the table of their "
+                                     "readings; expected touches of more positions, sizes and forces");
 }
 
 std::vector<Eigen::Index> otherInputs(const SplineTable& form) {

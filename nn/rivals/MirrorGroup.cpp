@@ -18,7 +18,7 @@ MirrorGroup::MirrorGroup(const std::vector<KernelMirror>& mirrors, Eigen::Index 
     for (std::size_t k = 0; sound && k < taken.size(); ++k)
       sound = taken[static_cast<std::size_t>(taken[k])] == static_cast<Eigen::Index>(k);
     for (const auto& [cause, about] : mirror.about) sound = sound && cause >= 0 && cause < causes;
-    if (!sound) throw NetworkError("a mirror must exchange measurements in pairs, and reflect causes that there are");
+    if (!sound) throw NetworkError("a mirror must exchange measurements in pairs, and reflect existing parameters");
     for (std::size_t k = 0, before = order_.size(); k < before; ++k) {
       std::vector<Eigen::Index> both = order_[k];
       for (Eigen::Index& one : both) one = taken[static_cast<std::size_t>(one)];

@@ -1,6 +1,7 @@
 #include "nn/rivals/PolynomialRidge.h"
 
 #include "model/base/Cancelled.h"
+#include "model/base/GotExpected.h"
 #include "nn/NetworkError.h"
 #include "nn/NoisyCopies.h"
 #include "nn/linear/Lapack.h"
@@ -71,7 +72,7 @@ PolynomialFit trainPolynomial(const Eigen::Ref<const Eigen::MatrixXd>& samples,
   common.ridge = options.ridge;
   requireUsable(samples, targets, common);
   if (options.degree < 1 || options.degree > 5)
-    throw NetworkError("degree: " + std::to_string(options.degree) + "; allowed is 1 to 5");
+    throw NetworkError("degree: " + gotExpected(std::to_string(options.degree), "1 to 5"));
   const bool noisy = options.relativeInputNoise > 0;
   const int copies = noisy ? options.noiseCopies : 1;
   PolynomialFit result;
@@ -111,7 +112,7 @@ PolynomialFit trainPolynomial(const Eigen::Ref<const Eigen::MatrixXd>& samples,
   result.leaveOneOutResiduals = std::move(fit.residuals);
   if (features.cols() + 1 > samples.cols() * copies)
     result.warnings.push_back("fewer samples (" + std::to_string(samples.cols()) + ") than unknowns (" +
-                              std::to_string(features.cols() + 1) + "): the smallest of all solutions is taken");
+                              std::to_string(features.cols() + 1) + "): the smallest of all solutions is used");
   return result;
 }
 

@@ -1,5 +1,6 @@
 #include "nn/rivals/RecursiveLeastSquares.h"
 
+#include "model/base/GotExpected.h"
 #include "nn/NetworkError.h"
 
 #include <string>
@@ -9,7 +10,7 @@ namespace {
 
 void requireForgetting(double forgetting) {
   if (!(forgetting > 0 && forgetting <= 1))
-    throw NetworkError("forgetting: " + std::to_string(forgetting) + "; allowed is above 0 up to 1");
+    throw NetworkError("forgetting: " + gotExpected(forgetting, "", "above 0 up to 1"));
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "solver/contact/ContactSolver.h"
 
 #include "model/DesignError.h"
+#include "model/base/GotExpected.h"
 #include "model/base/Text.h"
 #include "solver/assembly/SurfaceTraction.h"
 #include "solver/contact/ContactSteps.h"
@@ -46,7 +47,7 @@ void ContactSolver::choosePoints(double margin) {
     if (!met[k])
       throw DesignError("indenter " + std::to_string(k) + " (" + shapeName(indenters_[k].shape) + " at " +
                         text(indenters_[k].place_mm.x()) + ", " + text(indenters_[k].place_mm.y()) +
-                        " mm) meets no node of the mesh; allowed is a finer mesh or a deeper touch");
+                        " mm) touches no node of the mesh; expected a finer mesh or a deeper touch");
   auto pattern = std::make_shared<SparsePattern>(*assembler_.pattern());
   for (const ContactPoint& point : points_) pattern->lastGroups.push_back(assembler_.group(point.node));
   tangentServes_ = false;
@@ -142,8 +143,8 @@ ContactResult ContactSolver::follow(const ContactIncrement& start) {
   }
   newton.converged = fraction >= 1;
   if (newton.converged && relative_ >= options_.relativeTolerance)
-    newton.stopReason = "the residual is down to rounding at " + text(relative_) + " of the load; " +
-                        text(options_.relativeTolerance) + " was asked for";
+    newton.stopReason = "the residual stagnates at round-off level: " +
+                        gotExpected(relative_, " of the load", shortText(options_.relativeTolerance) + " or less");
   newton.steps = std::move(steps_);
   steps_.clear();
   return result;

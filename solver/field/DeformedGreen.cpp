@@ -1,6 +1,7 @@
 #include "solver/field/DeformedGreen.h"
 
 #include "model/DesignError.h"
+#include "model/base/GotExpected.h"
 #include "model/base/Parallel.h"
 #include "model/base/Text.h"
 #include "solver/element/ElementGeometry.h"
@@ -105,7 +106,7 @@ std::vector<std::vector<DeformedGreen::Place>> DeformedGreen::places(const Field
     }
     if (all[p].empty())
       throw DesignError("electrode " + std::to_string(p) +
-                        ": no element of the deformed mesh holds it; allowed are smaller loads, or a finer mesh");
+                        ": no element of the deformed mesh contains it; expected smaller loads, or a finer mesh");
   }
   return all;
 }
@@ -173,8 +174,8 @@ std::unique_ptr<DeformedGreen::System> DeformedGreen::systemAt(const FieldState&
     const Conductivity& k = state.conductivity;
     const double contrast = k.uneven() ? std::exp(2 * k.half(k.pressures_MPa.maxCoeff())) : 1;
     if (!(contrast < mostContrast))
-      throw DesignError("resistance.pressure_law: under the largest pressure the rubber conducts " + text(contrast) +
-                        " times as well; what the field's equations bear is some 1e9 times");
+      throw DesignError("resistance.pressure_law: conductivity under the largest pressure: " +
+                        gotExpected(contrast, " times that at rest", "up to some 1e9 times"));
     throw DesignError("the conduction field: the load turns an element inside out");
   }
   if (stop.stop_requested()) return {};

@@ -128,7 +128,7 @@ SupernodeTree supernodeTree(const SparsePattern& pattern) {
   if (!factor && common.c.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
   if (!factor)
     throw Error("the mesh has " + std::to_string(pattern.groupColumns.size()) +
-                " nodes, whose matrix is larger than the factorisation can number; ask for a coarser mesh");
+                " nodes, whose matrix is larger than the factorisation can number; choose a coarser mesh");
   SupernodeTree tree = expanded(*factor, pattern);
   cholmod_free_factor(&factor, &common.c);
   return tree;

@@ -86,7 +86,8 @@ namespace {
 /// TetGen ends the program at an assertion, or worse, where these are not so.
 void requireSolid(const Eigen::Matrix3Xd& points, const Eigen::VectorXd& weights) {
   if (points.cols() < 4) throw DesignError("mesh: fewer than four points; a tetrahedron takes four");
-  if (!points.allFinite() || !weights.allFinite()) throw DesignError("mesh: a point whose place is no finite number");
+  if (!points.allFinite() || !weights.allFinite())
+    throw DesignError("mesh: a point with a coordinate that is not finite");
   const Eigen::Vector3d centre = points.rowwise().mean();
   const Eigen::Matrix3d spread = (points.colwise() - centre) * (points.colwise() - centre).transpose();
   const Eigen::Vector3d extents = spread.jacobiSvd().singularValues().cwiseSqrt();

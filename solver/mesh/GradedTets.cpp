@@ -2,6 +2,7 @@
 
 #include "model/DesignError.h"
 #include "model/base/Cancelled.h"
+#include "model/base/GotExpected.h"
 #include "model/base/Text.h"
 #include "solver/mesh/DelaunayTets.h"
 #include "solver/mesh/GridLines.h"
@@ -240,7 +241,7 @@ private:
 
 void requireElements(const Grid& grid) {
   if (6 * grid.cells() > mostElements)
-    throw DesignError("mesh: " + text(6 * grid.cells()) + " elements; allowed are 1e6: choose a larger mesh size");
+    throw DesignError("mesh: " + gotExpected(6 * grid.cells(), " elements", "up to 1e6; choose a larger mesh size"));
 }
 
 } // namespace

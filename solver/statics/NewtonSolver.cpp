@@ -1,5 +1,6 @@
 #include "solver/statics/NewtonSolver.h"
 
+#include "model/base/GotExpected.h"
 #include "model/base/Text.h"
 #include "solver/statics/ProblemParts.h"
 
@@ -80,8 +81,8 @@ NewtonResult NewtonSolver::solve(const Loading& loading) {
   }
   result.converged = fraction >= 1;
   if (result.converged && relative_ >= options_.relativeTolerance)
-    result.stopReason = "the residual is down to rounding at " + text(relative_) + " of the load; " +
-                        text(options_.relativeTolerance) + " was asked for";
+    result.stopReason = "the residual stagnates at round-off level: " +
+                        gotExpected(relative_, " of the load", shortText(options_.relativeTolerance) + " or less");
   result.steps = std::move(steps_);
   return result;
 }

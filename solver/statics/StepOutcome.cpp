@@ -27,7 +27,7 @@ std::string stopReason(StepOutcome outcome, int iterationsAStep, double reached,
   case StepOutcome::Indefinite:
     return "the tangent is no longer positive definite (the block loses stability)" + where;
   case StepOutcome::NoContact:
-    return "no contact in equilibrium is found" + where;
+    return "the contact iteration did not converge" + where;
   case StepOutcome::TooManyIterations:
     return "no convergence in " + std::to_string(iterationsAStep) + " iterations" + where;
   case StepOutcome::Diverged:

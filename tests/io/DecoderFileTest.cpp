@@ -130,7 +130,7 @@ TEST(NetworkFile, KeepsTheRotationOfWhitenedInputs) {
 TEST(NetworkFile, RefusesWhatItDoesNotKnow) {
   const std::string text = networkText(smallDecoder(DecoderKind::Rbf));
   EXPECT_NE(networkRefusal(replaced(text, "\"mode\"", "\"moed\"")).find("moed"), std::string::npos);
-  EXPECT_NE(networkRefusal("{\"hello\": 1}").find("no network of Palp"), std::string::npos);
+  EXPECT_NE(networkRefusal("{\"hello\": 1}").find("not a network file of Palp"), std::string::npos);
   EXPECT_NE(networkRefusal(replaced(text, "\"palp_network\":1", "\"palp_network\":2")).find("newer"),
             std::string::npos);
   EXPECT_NE(networkRefusal(replaced(text, "\"rbf\"", "\"svm\"")).find("svm"), std::string::npos);
@@ -163,7 +163,7 @@ TEST(NetworkFile, RefusesAreasThatTheDesignDoesNotHave) {
           << area;
   EXPECT_NE(refusalWith(rbf, [](Decoder& d) { d.areaOfClass.pop_back(); }).find("area_of_class"), std::string::npos);
   EXPECT_NE(refusalWith(rbf, [](Decoder& d) { d.areas.reset(); }).find("area_of_class"), std::string::npos);
-  EXPECT_NE(refusalWith(rbf, [](Decoder& d) { d.areaCount = 0; }).find("area_count is 0"), std::string::npos);
+  EXPECT_NE(refusalWith(rbf, [](Decoder& d) { d.areaCount = 0; }).find("area_count: got 0"), std::string::npos);
   const std::string sentence = refusalWith(togetherDecoder(), [&](Decoder& d) {
     d.areas = rbf.areas;
     d.areaOfClass = {0, 1};
@@ -183,7 +183,7 @@ TEST(NetworkFile, RefusesOutputsThatAreNoForces) {
   const std::string sentence = refusalWith(smallDecoder(DecoderKind::Polynomial2), twoOutputs);
   EXPECT_NE(sentence.find("3 outputs, the components of one force, not 2"), std::string::npos) << sentence;
   const std::string several = refusalWith(togetherDecoder(), [](Decoder& d) { d.areaCount = 3; });
-  EXPECT_NE(several.find("9 outputs, three an area, not 6"), std::string::npos) << several;
+  EXPECT_NE(several.find("9 outputs, three per area instead of 6"), std::string::npos) << several;
 }
 
 /// The product with a model's matrix takes what the rotation gives, not what goes into it.
@@ -196,7 +196,7 @@ TEST(NetworkFile, RefusesModelsThatDoNotFitTheirScalersRotation) {
   for (const DecoderKind kind : {DecoderKind::Linear, DecoderKind::Polynomial2, DecoderKind::BackPropagation})
     EXPECT_NE(refusalWith(smallDecoder(kind), rotate)
                   .find("1 " + std::string(kind == DecoderKind::Polynomial2 ? "rows" : "columns") +
-                        ", one a scaled input, not 3"),
+                        ", one per scaled input instead of 3"),
               std::string::npos)
         << name(kind);
   const auto rotateOutputs = [](Decoder& d) {
@@ -208,14 +208,15 @@ TEST(NetworkFile, RefusesModelsThatDoNotFitTheirScalersRotation) {
 
 TEST(NetworkFile, RefusesAnInputWithoutRows) {
   const std::string sentence = refusalWith(smallDecoder(DecoderKind::Rbf), [](Decoder& d) { d.input.rows.clear(); });
-  EXPECT_NE(sentence.find("input.rows is []; allowed is one row-wire or more"), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find("input.rows: got [], expected one row-wire or more"), std::string::npos) << sentence;
 }
 
 TEST(NetworkFile, RefusesToInvertEq1OfADesignUnderTheField) {
   const std::string sentence = refusalWith(smallDecoder(DecoderKind::TwoStepGaussNewton), [](Decoder& d) {
     std::get<TwoStep>(d.model).design->resistance = FieldLaw{};
   });
-  EXPECT_NE(sentence.find("the inversion of Eq. (1): not yet under the field law"), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find("the inversion of Eq. (1): not available under the field law"), std::string::npos)
+      << sentence;
 }
 
 TEST(NetworkFile, KeepsAFirstStepThatInvertsTheField) {

@@ -136,9 +136,9 @@ INSTANTIATE_TEST_SUITE_P(
         Slip{"[30, 30, 5]", "[30, 30]", {"block_mm", "[30,30]", "3 numbers"}},
         Slip{"[30, 30, 5]", "[30, \"a\", 5]", {"block_mm[1]", "\"a\"", "a number"}},
         Slip{"[30, 30, 5]", "7", {"block_mm is 7", "list of numbers"}},
-        Slip{"[30, 30, 5]", "[30, 30, NaN]", {"no valid JSON", "line 2"}},
-        Slip{"[30, 30, 5]", "[30, 30, Infinity]", {"no valid JSON", "line 2"}},
-        Slip{"[30, 30, 5]", "[30, 30, 1e999]", {"no valid JSON", "1e999"}},
+        Slip{"[30, 30, 5]", "[30, 30, NaN]", {"not valid JSON", "line 2"}},
+        Slip{"[30, 30, 5]", "[30, 30, Infinity]", {"not valid JSON", "line 2"}},
+        Slip{"[30, 30, 5]", "[30, 30, 1e999]", {"not valid JSON", "1e999"}},
         Slip{"0.499", "\"0.499\"", {"material.poisson_ratio", "\"0.499\"", "a number"}},
         Slip{"0.499", "null", {"material.poisson_ratio is null", "a number"}},
         Slip{"\"poisson_ratio\": 0.499", "\"nu\": 0.499", {"unknown key material.nu", "poisson_ratio"}},
@@ -165,8 +165,8 @@ INSTANTIATE_TEST_SUITE_P(
              "\"wire_ohm\": 0, \"readout\": \"grounded\"",
              {"resistance.readout is \"grounded\"", "virtual_ground"}},
         Slip{"\"x\": [-1, 1]", "\"x\": [-1]", {"force_range_N.x", "2 numbers"}},
-        Slip{"\"rows\": 2", "\"rows\": 2, \"rows\": 3", {"\"rows\" stands twice"}},
-        Slip{"] } }\n", "", {"no valid JSON"}}));
+        Slip{"\"rows\": 2", "\"rows\": 2, \"rows\": 3", {"\"rows\" appears twice"}},
+        Slip{"] } }\n", "", {"not valid JSON"}}));
 
 TEST(DesignFile, RefusesEveryTruncation) {
   const std::string whole = toJson(paperDesign());
@@ -176,7 +176,7 @@ TEST(DesignFile, RefusesEveryTruncation) {
 
 TEST(DesignFile, RefusesWhatIsNoObject) {
   for (const char* json : {"[]", "3", "\"x\"", "{}", "null"})
-    EXPECT_NE(refusal([&] { parseDesign(json, "x"); }).find("no design file"), std::string::npos) << json;
+    EXPECT_NE(refusal([&] { parseDesign(json, "x"); }).find("not a design file"), std::string::npos) << json;
 }
 
 } // namespace

@@ -44,7 +44,7 @@ protected:
 TEST_F(Hdf5Damage, TextsWithoutEndAreRefused) {
   putNumber(firstTextSize(), std::uint64_t(0) - 16); // the next text begins where this one does
   const std::string sentence = refusal([&] { loadSamples(file); });
-  EXPECT_EQ(sentence, file.string() + ": is damaged: reading it finds no end");
+  EXPECT_EQ(sentence, file.string() + ": is damaged: reading it does not end");
 }
 
 TEST_F(Hdf5Damage, AStopEndsTheReadingOfAFileWithoutEnd) {
@@ -84,7 +84,7 @@ TEST_F(Hdf5Damage, AFileThatAnotherProgramHoldsIsReadOrNamed) {
   ASSERT_EQ(::flock(held, LOCK_EX | LOCK_NB), 0);
   expectSame(loadSamples(file), set);
   ASSERT_EQ(::ftruncate(held, 600), 0); // half written
-  EXPECT_NE(refusal([&] { loadSamples(file); }).find("is open for writing elsewhere"), std::string::npos);
+  EXPECT_NE(refusal([&] { loadSamples(file); }).find("is open for writing in another program"), std::string::npos);
   ::close(held);
   EXPECT_NE(refusal([&] { loadSamples(file); }).find("is damaged"), std::string::npos);
 }

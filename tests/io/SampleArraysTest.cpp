@@ -54,14 +54,14 @@ TEST_P(SampleArrays, KeepTheTouches) {
   SampleSet wrong = randomTouches(3, 4);
   wrong.touches(kTouchShape, 1) = 6;
   saveSamples(file("wrong"), wrong, true);
-  expectIn(sentenceOf(file("wrong")), {"sample 1", "shape 6; allowed is a whole number from 0 to 5"});
+  expectIn(sentenceOf(file("wrong")), {"sample 1", "shape: got 6, expected a whole number from 0 to 5"});
 }
 
 TEST_P(SampleArrays, KeepTwoTouchesAtOnceForWhoAsks) {
   const SampleSet set = randomPairs(40, 6);
   saveSamples(file("two"), set, false);
   expectSame(loadSamples(file("two"), {}, true), set);
-  expectIn(sentenceOf(file("two")), {"two touches at once", "allowed here is one"});
+  expectIn(sentenceOf(file("two")), {"got 2 at once", "expected 1"});
   SampleSet wrong = set;
   wrong.beside(kTouchShape, 2) = 0.5;
   saveSamples(file("wrong"), wrong, false);

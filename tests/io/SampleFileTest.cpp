@@ -115,7 +115,7 @@ INSTANTIATE_TEST_SUITE_P(
         FileSlip{"AreaUnknown", replaced("\n0,0.25", "\n2,0.25"), {"line 16", "area 2", "0 to 1"}},
         FileSlip{"AreaOfAllInAFileOfSingleAreas",
                  replaced("\n0,0.25", "\n-1,0.25"),
-                 {"line 16", "area -1", "allowed is 0 to 1"}},
+                 {"line 16", "area: got -1", "expected 0 to 1"}},
         FileSlip{"AreaBroken", replaced("\n0,0.25", "\n0.5,0.25"), {"line 16", "field 1", "0.5"}},
         FileSlip{"CutOff", [](std::string& text) { text.resize(text.size() - 5); }, {"line 18", "cut off"}},
         FileSlip{"HeadLineMissing", replaced("# seed: 7\n", ""), {"seed"}},
@@ -143,7 +143,7 @@ TEST(SampleFile, OfAreasLoadedTogetherNamesNoSingleOne) {
   replaced("\n-1,", "\n1,")(text);
   put(folder / "b.csv", text);
   const std::string sentence = refusal([&] { loadSamples(folder / "b.csv"); });
-  EXPECT_NE(sentence.find("b.csv, line 16: area 1; allowed is -1"), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find("b.csv, line 16: area: got 1, expected -1"), std::string::npos) << sentence;
 }
 
 TEST(SampleFile, MergeOfShardsInAnyOrderIsTheBytesOfOneRun) {

@@ -90,12 +90,12 @@ TEST(Indenter, RefusesWhatCannotPressInASentence) {
   EXPECT_EQ(pressed({0, 0, -6}, 0), "");
   EXPECT_EQ(pressed({2, 0, -6}, 0.5), "");
   EXPECT_EQ(pressed({0, 0, 1}, 0),
-            "sphere at (15, 15) mm: force (0, 0, 1) N; an indenter presses: allowed is FZ below 0");
-  EXPECT_NE(pressed({1, 0, -6}, 0).find("needs friction"), std::string::npos);
-  EXPECT_NE(pressed({4, 0, -6}, 0.5).find("holds less than 3 N"), std::string::npos);
-  EXPECT_NE(pressed({0, 0, -6}, -0.1).find("friction -0.1; allowed is 0 to 2"), std::string::npos);
-  EXPECT_NE(pressed({0, 0, -6}, 2.5).find("friction 2.5"), std::string::npos);
-  EXPECT_NE(pressed({0, 0, -6}, nan).find("friction nan"), std::string::npos);
+            "sphere at (15, 15) mm: force: got (0, 0, 1) N, expected FZ below 0, because an indenter presses");
+  EXPECT_NE(pressed({1, 0, -6}, 0).find("no tangential force without friction"), std::string::npos);
+  EXPECT_NE(pressed({4, 0, -6}, 0.5).find("x 6 N = 3 N"), std::string::npos);
+  EXPECT_NE(pressed({0, 0, -6}, -0.1).find("friction: got -0.1, expected 0 to 2"), std::string::npos);
+  EXPECT_NE(pressed({0, 0, -6}, 2.5).find("friction: got 2.5"), std::string::npos);
+  EXPECT_NE(pressed({0, 0, -6}, nan).find("friction: got nan"), std::string::npos);
   EXPECT_NE(pressed({nan, 0, -6}, 0.5).find("finite"), std::string::npos);
   EXPECT_NE(pressed({0, 0, -2e6}, 0).find("1e6"), std::string::npos);
 }
@@ -104,12 +104,13 @@ TEST(Indenter, RefusesPlacesOffTheBodyAndSizesThatAreNone) {
   Indenter indenter = indenterOf(IndenterShape::Flat);
   EXPECT_EQ(refusal(indenter), "");
   indenter.rim_mm = 3.5;
-  EXPECT_NE(refusal(indenter).find("rim radius 3.5 mm; allowed is 0 to the punch's radius, 3 mm"), std::string::npos);
+  EXPECT_NE(refusal(indenter).find("rim radius: got 3.5 mm, expected 0 to the punch's radius, 3 mm"),
+            std::string::npos);
   indenter = indenterOf(IndenterShape::Sphere, 0);
   EXPECT_NE(refusal(indenter).find("radius 0 mm"), std::string::npos);
   indenter = indenterOf(IndenterShape::Sphere);
   indenter.place_mm.x() = 31;
-  EXPECT_NE(refusal(indenter).find("outside the body"), std::string::npos);
+  EXPECT_NE(refusal(indenter).find("a position on the top face"), std::string::npos);
   indenter = indenterOf(IndenterShape::CylinderX);
   indenter.place_mm.x() = 99; // along its axis it goes across the whole block
   EXPECT_EQ(refusal(indenter), "");
@@ -122,13 +123,13 @@ TEST(Indenter, RefusesMotionsThroughTheBlockOrOffIt) {
     EXPECT_NE(refusal(indenter).find("depth"), std::string::npos) << depth;
   }
   indenter.control = Motion{1, {16, 0}};
-  EXPECT_NE(refusal(indenter).find("shift (16, 0) mm"), std::string::npos);
+  EXPECT_NE(refusal(indenter).find("shift: got (16, 0) mm"), std::string::npos);
   indenter.control = Motion{1, {2, -2}};
   EXPECT_EQ(refusal(indenter), "");
   EXPECT_EQ(whyInvalid(LoadCase{{}, {}, {indenter}}, paperDesign()), std::nullopt);
   indenter.radius_mm = 0.5;
   indenter.control = Motion{1, {0, 0}};
-  EXPECT_NE(refusal(indenter).find("diameter of 1 mm, or a pin"), std::string::npos) << refusal(indenter);
+  EXPECT_NE(refusal(indenter).find("of the sphere, 1 mm; a pin"), std::string::npos) << refusal(indenter);
   indenter.shape = IndenterShape::Pin;
   EXPECT_EQ(refusal(indenter), "");
   indenter.friction = 3;

@@ -147,14 +147,14 @@ INSTANTIATE_TEST_SUITE_P(
         Slip{"RadiusZero", [](SensorDesign& d) { d.resistance = FieldLaw{.electrodeRadius_mm = 0}; },
              "resistance.electrode_radius_mm", "0 mm"},
         Slip{"ResistivityLost", [](SensorDesign& d) { d.resistance = FieldLaw{.resistivity_ohm_mm = 1e-300}; },
-             "resistance.resistivity_ohm_mm", "1e-300 ohm mm; allowed is 1e-06 to"},
+             "resistance.resistivity_ohm_mm", "got 1e-300 ohm mm, expected 1e-06 to"},
         Slip{"RadiusLost", [](SensorDesign& d) { d.resistance = FieldLaw{.electrodeRadius_mm = 1e-170}; },
-             "resistance.electrode_radius_mm", "1e-170 mm; allowed is 1e-06 to"},
+             "resistance.electrode_radius_mm", "got 1e-170 mm, expected 1e-06 to"},
         Slip{"PressureLost",
              [](SensorDesign& d) {
                d.pressureLaw = PressureLaw{1e-300, 2};
              },
-             "resistance.pressure_law.p0_MPa", "1e-300 MPa; allowed is 1e-06 to"},
+             "resistance.pressure_law.p0_MPa", "got 1e-300 MPa, expected 1e-06 to"},
         Slip{"RadiusNan", [](SensorDesign& d) { d.resistance = FieldLaw{.electrodeRadius_mm = kNan}; },
              "resistance.electrode_radius_mm", "nan"},
         Slip{"ContactNegative", [](SensorDesign& d) { d.resistance = FieldLaw{.contact_ohm_mm2 = -1}; },
@@ -163,7 +163,7 @@ INSTANTIATE_TEST_SUITE_P(
              "resistance.wire_ohm", "inf"},
         Slip{"ElectrodesOverlap", [](SensorDesign& d) { d.resistance = FieldLaw{.electrodeRadius_mm = 0.5}; },
              "resistance.electrode_radius_mm",
-             "0.5 mm: electrodes overlap (electrode 0 of column-wire 0, 0.5 mm from a face of the block); allowed is "
+             "electrodes overlap (electrode 0 of column-wire 0, 0.5 mm from a face of the block): got 0.5 mm, expected "
              "below 0.5 mm"},
         Slip{"ElectrodesOverlapEachOther",
              [](SensorDesign& d) {
@@ -171,7 +171,8 @@ INSTANTIATE_TEST_SUITE_P(
                d.upper.along_mm[0][3] = 12.75;
              },
              "resistance.electrode_radius_mm",
-             "electrode 3 of row-wire 0 and electrode 4 of row-wire 0, 0.75 mm apart); allowed is below 0.375 mm"},
+             "electrode 3 of row-wire 0 and electrode 4 of row-wire 0, 0.75 mm apart): got 0.4 mm, expected below "
+             "0.375 mm"},
         Slip{"ElectrodeOnTheBottom",
              [](SensorDesign& d) {
                d.resistance = FieldLaw{};
@@ -184,7 +185,7 @@ INSTANTIATE_TEST_SUITE_P(
                d.upper.along_mm[0].clear();
                for (int i = 0; i < 200; ++i) d.upper.along_mm[0].push_back(0.1 + 0.149 * i);
              },
-             "resistance.law", "2090 electrodes; allowed is up to 2000"},
+             "resistance.law", "2090 electrodes, expected up to 2000"},
         Slip{"PressureScaleZero",
              [](SensorDesign& d) {
                d.pressureLaw = PressureLaw{0, 0.5};
@@ -255,8 +256,8 @@ TEST(SensorDesign, NamesTheFirstTwoElectrodesAtOnePlaceOfTheLargestDesign) {
   const std::vector<DesignFault> faults = check(design);
   ASSERT_EQ(faults.size(), 1U);
   EXPECT_EQ(faults[0].sentence,
-            "duplicate electrode: electrode 9 of row-wire 101 is where electrode 5 of row-wire 101 is; "
-            "allowed is one electrode a place");
+            "duplicate electrode: got electrode 9 of row-wire 101 at the position of electrode 5 of row-wire 101, "
+            "expected one electrode per position");
 }
 
 /// Where the radius is above 0.35 of a gap, with the error of small spheres with dipoles there: against bispherical
@@ -272,7 +273,7 @@ TEST(SensorDesign, WarnsOfElectrodesTooNearForSmallSpheres) {
   const std::vector<std::string> said = designWarnings(design);
   ASSERT_EQ(said.size(), 1U);
   for (const char* part : {"0.3 mm is 0.4 of the gap", "electrode 0 of column-wire 0 and electrode 0 of column-wire 1",
-                           "0.75 mm apart", "wrong by about 2.15 %"})
+                           "0.75 mm apart", "error is about 2.15 %"})
     EXPECT_NE(said[0].find(part), std::string::npos) << said[0];
   // As far from a neighbour as from a mirror image: two that drive each other err by more than a sphere and its image.
   design = paperDesign();
@@ -290,7 +291,8 @@ TEST(SensorDesign, WhatWorksByEq1AloneIsRefusedUnderTheField) {
     requirePairs(design, "palp x");
     FAIL();
   } catch (const DesignError& refusal) {
-    EXPECT_STREQ(refusal.what(), "palp x: not yet under the field law; allowed is a design with resistance.law pairs");
+    EXPECT_STREQ(refusal.what(),
+                 "palp x: not available under the field law: got a design with resistance.law field, expected pairs");
   }
 }
 
@@ -300,7 +302,9 @@ TEST(SensorDesign, SaysWhyEq1IsNotSquare) {
   EXPECT_TRUE(check(design).empty()); // allowed for learning
   const std::optional<std::string> sentence = whyNotSquare(design);
   ASSERT_TRUE(sentence);
-  EXPECT_NE(sentence->find("29 column-wires and 3 x 10 = 30"), std::string::npos) << *sentence;
+  EXPECT_NE(sentence->find("got 29 column-wires, expected as many as a row-wire has unknowns, 3 x 10 electrodes = 30"),
+            std::string::npos)
+      << *sentence;
 }
 
 } // namespace

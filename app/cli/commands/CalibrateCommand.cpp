@@ -52,8 +52,8 @@ void print(const CalibrationReport& report, double age_days) {
     return withDecimals(v_mm.x(), 3) + ", " + withDecimals(v_mm.y(), 3);
   };
   if (const auto& place = report.place)
-    std::printf("place along x, y: rms error before %s mm, after (unseen) %s mm\n", both(place->rmseBefore_mm).c_str(),
-                both(place->rmseAfter_mm).c_str());
+    std::printf("position along x, y: rms error before %s mm, after (unseen) %s mm\n",
+                both(place->rmseBefore_mm).c_str(), both(place->rmseAfter_mm).c_str());
   std::printf("worst frame: %lld, %s N\n", static_cast<long long>(report.worstSample),
               withDecimals(report.worstError_N, 4).c_str());
 }
@@ -80,8 +80,8 @@ void fill(Json& result, const CalibrationReport& report, double age_days) {
 /// Of a board that says its read-out, and says another one than the design.
 void requireBoard(const CalibrateArguments& arguments, const SensorDesign& design, const RestRecording& rest) {
   if (design.field() && rest.info.readout && *rest.info.readout != design.field()->readout)
-    throw Error(arguments.rest + ": the board is of read-out " + kReadouts.name(*rest.info.readout) +
-                ", the design of read-out " + kReadouts.name(design.field()->readout) + ": set the design's");
+    throw Error(arguments.rest + ": the board has read-out " + kReadouts.name(*rest.info.readout) + ", the design " +
+                kReadouts.name(design.field()->readout) + "; set resistance.readout of the design");
   if (rest.faults.empty()) return;
   std::string all;
   for (const std::string& fault : rest.faults) {
@@ -91,7 +91,7 @@ void requireBoard(const CalibrateArguments& arguments, const SensorDesign& desig
     }
     all += (all.empty() ? "" : "; ") + fault;
   }
-  throw Error(arguments.rest + ": " + all + ": the field joins all wires, so mend that first");
+  throw Error(arguments.rest + ": " + all + "; the field joins all wires, so repair this first");
 }
 
 void printFitted(const char* what, double value, double deviation, const char* unit) {
@@ -105,7 +105,7 @@ void print(const RestRecording& rest, const RestFit& fit) {
   printFitted("resistivity", fit.law.resistivity_ohm_mm, fit.resistivityDeviation_ohm_mm, "ohm mm");
   if (fit.keptContact.empty()) {
     printFitted("contact", fit.law.contact_ohm_mm2, fit.contactDeviation_ohm_mm2, "ohm mm2");
-    std::printf("radius and contact go together: correlation %s\n", withDecimals(fit.correlation, 4).c_str());
+    std::printf("radius and contact are correlated: %s\n", withDecimals(fit.correlation, 4).c_str());
   } else {
     std::printf("%-12s %10s ohm mm2, not fitted: %s\n", "contact", withDigits(fit.law.contact_ohm_mm2, 5).c_str(),
                 fit.keptContact.c_str());
@@ -130,7 +130,7 @@ void fill(nlohmann::ordered_json& result, const RestRecording& rest, const RestF
 /// Fits the design's law of the field to a board at rest; writes no design that does not fit.
 Exit runRest(const CalibrateArguments& arguments, Session& session) {
   if (!arguments.network.empty() || arguments.design.empty())
-    throw UsageError("--rest fits a design: give --design, and no network and frames");
+    throw UsageError("--rest: fits a design; give --design, and no network and frames");
   arguments.output.requireWritable();
   SensorDesign design = designOption(arguments.design);
   const RestRecording rest = readRest(arguments.rest);
@@ -164,12 +164,13 @@ Exit run(const CalibrateArguments& arguments, Session& session) {
   const CalibrationReport& report = calibration.report;
   const double age_days = ageInDays(arguments.frames);
   if (!report.improved)
-    session.warnings.emplace_back("on frames that it has not seen, the refined network is no better than the old one");
+    session.warnings.emplace_back("on unseen frames, the refined network is no better than the old one");
   if (report.place && !report.place->improved)
-    session.warnings.emplace_back("its places are no better on frames that it has not seen");
+    session.warnings.emplace_back("its positions are no better on unseen frames");
   if (decoder.place && !report.place)
-    session.warnings.emplace_back("the frames have no places: those of the network stay as they are (palp listen "
-                                  "--label @X,Y:FX,FY,FZ, or palp import)");
+    session.warnings.emplace_back(
+        "the frames have no positions, so the positions of the network are not refined (palp listen "
+        "--label @X,Y:FX,FY,FZ, or palp import)");
   if (report.coverage_percent.minCoeff() < 50)
     session.warnings.emplace_back("the labels cover less than half of the network's force range in some direction");
   writeNetwork(calibration.decoder, arguments.output.path, arguments.output.force);
@@ -186,16 +187,17 @@ Exit run(const CalibrateArguments& arguments, Session& session) {
 
 void addCalibrate(Cli& cli) {
   auto arguments = std::make_shared<CalibrateArguments>();
-  Command command =
-      cli.command("calibrate", "refine a network with labelled frames of a real board, or fit a design to it at rest",
-                  "palp calibrate network.json frames.csv -o better.json",
-                  [arguments](Session& session) { return run(*arguments, session); });
-  command.option("network", arguments->network,
-                 "network file (" + namesOfDecodersWith(&DecoderTraits::canBeCalibrated) + ", one force)");
-  command.option("frames", arguments->frames, "labelled frames, from palp listen --label ... --append");
-  command.option("--rest", arguments->rest,
-                 "recording of the board at rest: fits electrode radius, resistivity and contact of the field");
-  command.option("--design", arguments->design, "design under the field that --rest starts from");
+  Command command = cli.command(
+      "calibrate", "Refines a network with labelled frames of a board, or fits a design to a board at rest.",
+      "palp calibrate network.json frames.csv -o better.json",
+      [arguments](Session& session) { return run(*arguments, session); });
+  command.option("network", arguments->network, "FILE", 
+                 "network to refine (" + namesOfDecodersWith(&DecoderTraits::canBeCalibrated) + ", one force)");
+  command.option("frames", arguments->frames, "FILE", "labelled frames, from palp listen --label ... --append");
+  command.group("Fit of a design at rest");
+  command.option("--rest", arguments->rest, "FILE",
+                 "recording of the board at rest; fits electrode radius, resistivity and contact of the field law");
+  command.option("--design", arguments->design, "DESIGN", "design file with the field law that the fit starts from");
   arguments->output.declare(command, "network or, with --rest, design file to write").required();
 }
 

@@ -1,6 +1,7 @@
 #include "app/cli/Cli.h"
 #include "app/cli/Options.h"
 #include "app/study/cluster/ClusterJob.h"
+#include "model/base/GotExpected.h"
 #include "model/base/Text.h"
 
 #include <algorithm>
@@ -35,8 +36,8 @@ std::filesystem::path outputOf(std::vector<std::string>& arguments, const std::s
     arguments.erase(word, word + (glued ? 1 : 2));
     return output;
   }
-  throw UsageError("-o is missing: where " + std::string(kind == "sample" ? "the samples are" : "the study is") +
-                   " to be at last");
+  throw UsageError("-o is missing; give the " + std::string(kind == "sample" ? "sample file" : "folder of the study") +
+                   " to write");
 }
 
 /// Options of sbatch alone, in one line: what else stands there, a shell would take.
@@ -46,24 +47,24 @@ std::string slurmOptions(const std::string& typed) {
     return std::isalnum(c) != 0 || kPlain.find(static_cast<char>(c)) != std::string_view::npos;
   });
   if (!typed.empty() && (!plain || typed[0] != '-'))
-    throw UsageError("--sbatch: '" + typed + "'; allowed are options of sbatch, as --partition=short --account=lab");
+    throw badValue("--sbatch", typed, "options of sbatch, for example --partition=short --account=lab");
   for (const char* ours : {"--array", "--output", "--dependency", "--wrap"})
     if (typed.find(ours) != std::string::npos)
-      throw UsageError("--sbatch: " + std::string(ours) + " is set for each job; allowed are other options of sbatch");
+      throw UsageError("--sbatch: " + gotExpected(ours, "other options of sbatch; palp sets this one for each job"));
   return typed;
 }
 
 ClusterJob jobOf(const ClusterArguments& arguments) {
   ClusterJob job;
   job.kind = arguments.what;
-  if (arguments.shards.empty()) throw UsageError("--shards is missing: into how many parts");
+  if (arguments.shards.empty()) throw UsageError("--shards is missing; give the number of parts");
   job.shards = wholeNumber("--shards", arguments.shards, 1, 100'000);
   job.sbatch = slurmOptions(arguments.sbatch);
   job.cpus = wholeNumber("--cpus", arguments.cpus, 1, 4096);
   job.arguments = arguments.rest;
   for (const char* name : {"--shard", "--threads"})
     if (std::find(job.arguments.begin(), job.arguments.end(), name) != job.arguments.end())
-      throw UsageError(std::string(name) + ": is set for each shard; allowed are the other options of palp " +
+      throw UsageError("palp cluster sets " + std::string(name) + " for each shard; expected other options of palp " +
                        job.kind);
   job.output = std::filesystem::absolute(outputOf(job.arguments, job.kind));
   if (job.arguments.empty())
@@ -95,13 +96,13 @@ Exit make(const ClusterArguments& arguments, Session& session) {
     return Exit::Done;
   }
   writeJob(job);
-  std::string next = "sbatch by --submit, or here: " + (job.folder / "here.sh").string();
+  std::string next = "submit with --submit, or run here: " + (job.folder / "here.sh").string();
   if (arguments.submit) {
     std::vector<int> all;
     for (int n = 1; n <= job.shards; ++n) all.push_back(n);
     const std::string id = submit(job, all, {}, session.stop);
     session.result["job"] = id;
-    next = "handed to Slurm as job " + id;
+    next = "submitted to Slurm as job " + id;
   }
   if (!session.json)
     std::cout << job.shards << " shards of about " << text(std::round(job.secondsAShard)) << " s and "
@@ -110,7 +111,9 @@ Exit make(const ClusterArguments& arguments, Session& session) {
 }
 
 Exit status(const ClusterArguments& arguments, Session& session) {
-  if (arguments.rest.size() != 1) throw UsageError("status: which folder; allowed is one: palp cluster status FOLDER");
+  if (arguments.rest.size() != 1)
+    throw UsageError("status: " + gotExpected(std::to_string(arguments.rest.size()) + " folders",
+                                              "one: palp cluster status FOLDER"));
   const ClusterJob job = readJob(arguments.rest[0]);
   const ClusterStatus found = statusOf(job, session.stop);
   std::array<int, kStateNames.size()> counts{};
@@ -152,7 +155,7 @@ Exit status(const ClusterArguments& arguments, Session& session) {
 
 Exit run(const ClusterArguments& arguments, Session& session) {
   if (arguments.what == "status") return status(arguments, session);
-  if (arguments.resubmit) throw UsageError("--resubmit is for palp cluster status FOLDER");
+  if (arguments.resubmit) throw UsageError("--resubmit: only with palp cluster status FOLDER");
   return make(arguments, session);
 }
 
@@ -160,23 +163,25 @@ Exit run(const ClusterArguments& arguments, Session& session) {
 
 void addCluster(Cli& cli) {
   auto arguments = std::make_shared<ClusterArguments>();
-  Command command = cli.command("cluster", "samples and studies in shards, by Slurm's job arrays or GNU parallel",
-                                "palp cluster sample sensor.json --per-area 1000 -o samples.h5 --shards 20 --submit",
-                                [arguments](Session& session) { return run(*arguments, session); });
+  Command command =
+      cli.command("cluster", "Computes samples and studies in shards, by Slurm job arrays or GNU parallel.",
+                  "palp cluster sample sensor.json --per-area 1000 -o samples.h5 --shards 20 --submit",
+                  [arguments](Session& session) { return run(*arguments, session); });
   command
-      .option("what", arguments->what,
-              "sample or study, with that command's own arguments; or status FOLDER of a job that was made")
+      .option("what", arguments->what, "TEXT",
+              "sample or study, followed by the arguments of that command; or status FOLDER for the progress of a job")
       .required()
       .oneOf({"sample", "study", "status"});
-  command.option("--shards", arguments->shards, "into how many parts");
-  command.option("--cpus", arguments->cpus, "processors of a shard (default 2)");
-  command.option("--folder", arguments->folder,
-                 "of scripts, shards and messages (default palp-cluster-sample or -study)");
-  command.option("--sbatch", arguments->sbatch,
-                 "more options of Slurm's sbatch for all jobs: \"--partition=short --account=lab\"");
-  command.flag("--submit", arguments->submit, "hand it to Slurm");
-  command.flag("--dry-run", arguments->dryRun, "measure and show the scripts, write nothing");
-  command.flag("--resubmit", arguments->resubmit, "with status: submit again what failed or is missing");
+  command.group("Job");
+  command.option("--shards", arguments->shards, "N", "number of parts");
+  command.option("--cpus", arguments->cpus, "N", "processors per shard (default 2)");
+  command.option("--folder", arguments->folder, "FOLDER",
+                 "folder for scripts, shards and messages (default palp-cluster-sample or palp-cluster-study)");
+  command.option("--sbatch", arguments->sbatch, "TEXT",
+                 "further options of Slurm's sbatch for all jobs: \"--partition=short --account=lab\"");
+  command.flag("--submit", arguments->submit, "submit the job to Slurm");
+  command.flag("--dry-run", arguments->dryRun, "measure and print the scripts, write nothing");
+  command.flag("--resubmit", arguments->resubmit, "with status: submit failed and missing shards again");
   command.rest(arguments->rest);
 }
 

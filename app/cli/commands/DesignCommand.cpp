@@ -43,10 +43,10 @@ Exit run(const DesignArguments& arguments, Session& session) {
     for (const std::string& warning : designWarnings(design)) session.warnings.push_back(warning);
     if (session.json) return Exit::Done;
     std::cout << arguments.checked << ": the design can be built\n";
-    for (const std::string& warning : session.warnings) std::cout << "but " << warning << '\n';
+    for (const std::string& warning : session.warnings) std::cout << "warning: " << warning << '\n';
     return Exit::Done;
   }
-  if (arguments.preset != "paper") throw UsageError("--preset: '" + arguments.preset + "'; allowed is paper");
+  if (arguments.preset != "paper") throw badValue("--preset", arguments.preset, "paper");
   const SensorDesign design = paperDesign();
   session.warnings.emplace_back("the paper prints E = 2.08e5 N/mm2 (steel); it contradicts c10 and c01 by five orders "
                                 "of magnitude and is not used");
@@ -69,10 +69,11 @@ Exit run(const DesignArguments& arguments, Session& session) {
 
 void addDesign(Cli& cli) {
   auto arguments = std::make_shared<DesignArguments>();
-  Command command = cli.command("design", "write a design file, or check one", "palp design -o sensor.json",
+  Command command = cli.command("design", "Writes a design file, or checks one.", "palp design -o sensor.json",
                                 [arguments](Session& session) { return run(*arguments, session); });
-  Option preset = command.option("--preset", arguments->preset, "paper: the design of the paper");
-  command.option("--check", arguments->checked, "design file to check").excludes(preset);
+  command.group("Design");
+  Option preset = command.option("--preset", arguments->preset, "TEXT", "design to write: paper (default)");
+  command.option("--check", arguments->checked, "FILE", "design file to check").excludes(preset);
   arguments->output.declare(command, "design file to write (default: standard output)");
 }
 

@@ -44,14 +44,20 @@ Exit run(const ImportArguments& arguments, Session& session) {
 
 void addImport(Cli& cli) {
   auto arguments = std::make_shared<ImportArguments>();
-  Command command = cli.command("import", "measured data of another rig as samples: a table and a map of its columns",
-                                "palp import table.csv --map map.json -o samples.h5",
-                                [arguments](Session& session) { return run(*arguments, session); });
-  command.option("table", arguments->table, "CSV with a line of names, or NPZ with a row a sample").required();
-  command.option("--map", arguments->map, "JSON: which columns are resistances, forces, areas or places, time; units")
+  Command command =
+      cli.command("import", "Converts measured data of another rig to samples, by a map of the columns of its table.",
+                  "palp import table.csv --map map.json -o samples.h5",
+                  [arguments](Session& session) { return run(*arguments, session); });
+  command.option("table", arguments->table, "FILE", "CSV with a line of column names, or NPZ with a row per sample")
       .required();
-  command.option("--design", arguments->design, "design file, or paper, that was measured; without it there is none");
-  arguments->output.declare(command, "sample file to write: CSV, or .h5 or .npz").required();
+  command.group("Input");
+  command
+      .option("--map", arguments->map, "FILE",
+              "JSON file: which columns are resistances, forces, areas or positions, and time; their units")
+      .required();
+  command.option("--design", arguments->design, "DESIGN",
+                 "design of the measured sensor: a file, or paper (default: unknown)");
+  arguments->output.declare(command, "sample file to write: .csv, .h5 or .npz").required();
 }
 
 } // namespace palp

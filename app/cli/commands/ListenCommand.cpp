@@ -50,7 +50,7 @@ LiveOptions liveOptions(const ListenArguments& arguments) {
   if (options.decoder && options.design && designFingerprint(*options.design) != options.decoder->designFingerprint)
     throw UsageError("--design " + arguments.design + " is of design " + designFingerprint(*options.design) +
                      ", the network of " + options.decoder->designFingerprint +
-                     "; give the design that it was trained for");
+                     "; give the design that the network was trained for");
   options.tareFrames = wholeNumber("--tare", arguments.tare, 0, 100'000);
   options.ringFrames = 8192;
   return options;
@@ -154,10 +154,10 @@ std::vector<std::string> undone(const Listening& all, const LiveStatus& status, 
   if (decodes && status.decoderProblem.empty() && all.tally.frames > 0 && all.tally.forces == 0)
     words.push_back("no frame gave a force: " + all.tally.reason);
   if (!decodes && !all.arguments.send.to.empty())
-    words.emplace_back("--send: no forces were sent: without --network there are none");
+    words.emplace_back("--send: no forces were sent, because no --network is given");
   if (tareFrames > 0 && !status.tared)
     words.push_back("--tare: not tared: " +
-                    (decodes ? std::to_string(tareFrames) + " frames at rest are needed" : "it needs a network"));
+                    (decodes ? std::to_string(tareFrames) + " frames at rest are needed" : "no --network is given"));
   if (!all.arguments.record.empty() && !all.recording) words.push_back("--record: nothing was recorded");
   return words;
 }
@@ -242,7 +242,7 @@ void configureRow(LiveSession& live, const std::string& row) {
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  throw UsageError("--row: no board that can be asked to scan one row-wire");
+  throw UsageError("--row: this source cannot scan one row-wire only");
 }
 
 /// Says all that is left to say; whether everything was done that was asked for.
@@ -274,9 +274,10 @@ void requireOneUse(const ListenArguments& arguments, const Session& session) {
   const int sources = static_cast<int>(!arguments.device.empty()) + static_cast<int>(!arguments.replay.empty()) +
                       static_cast<int>(arguments.simulation.on);
   if (sources > 1) throw UsageError("--device, --replay and --simulate exclude each other; give one of them");
-  if (arguments.check && !arguments.record.empty()) throw UsageError("--record: not with --check, which keeps nothing");
+  if (arguments.check && !arguments.record.empty())
+    throw UsageError("--record: not together with --check, which records nothing");
   if (session.json && arguments.send.takeStandardOutput())
-    throw UsageError("--send csv:-: standard output holds the JSON of --json; give one of the two");
+    throw UsageError("--send csv:-: not together with --json, which also writes to standard output");
 }
 
 void requireFiles(const ListenArguments& arguments) {
@@ -325,29 +326,33 @@ Exit run(const ListenArguments& arguments, Session& session) {
 
 void addListen(Cli& cli) {
   auto arguments = std::make_shared<ListenArguments>();
-  Command command = cli.command("listen", "forces of a live board, a recording or the virtual board",
+  Command command = cli.command("listen", "Decodes forces from a live board, a recording or the simulated board.",
                                 "palp listen --simulate --network network.json --tare 50 --seconds 10",
                                 [arguments](Session& session) { return run(*arguments, session); });
   ListenArguments& a = *arguments;
-  command.flag("--list", a.list, "show the boards that are plugged in");
-  command.flag("--check", a.check, "judge a board by the protocol (5 s, or --seconds)");
-  command.option("--device", a.device, "serial number or path of the board (default: the first)");
-  command.option("--usb", a.usb, "USB ID of the board, VENDOR:PRODUCT (default 1209:0001)");
-  command.option("--replay", a.replay, "recording to play");
-  command.option("--speed", a.speed, "of the replay; 0 as fast as it can be read (default 1)");
+  command.group("Source");
+  command.flag("--list", a.list, "list the boards that are plugged in");
+  command.flag("--check", a.check, "check a board against the protocol (for 5 s, or --seconds)");
+  command.option("--device", a.device, "TEXT", "serial number or path of the board (default: the first one)");
+  command.option("--usb", a.usb, "VENDOR:PRODUCT", "USB ID of the board (default 1209:0001)");
+  command.option("--replay", a.replay, "FILE", "recording to play");
+  command.option("--speed", a.speed, "NUMBER", "speed of the replay; 0 for as fast as possible (default 1)");
   a.simulation.declare(command);
-  command.option("--network", a.network,
-                 "network that was trained with --input resistance (default with --simulate: the paper's)");
-  command.option("--design", a.design, "design of the network, for tare (default: paper)");
-  command.option("--tare", a.tare, "frames at the start that are averaged as rest (default 0: no tare)");
-  command.option("--row", a.row, "scan this row-wire alone");
-  command.option("--record", a.record, "record the raw reports to this file");
+  command.group("Network");
+  command.option("--network", a.network, "FILE",
+                 "network trained with --input resistance (default with --simulate: one for the paper's design)");
+  command.option("--design", a.design, "DESIGN", "design of the network, for the tare: a file, or paper (default)");
+  command.option("--tare", a.tare, "N", "number of first frames averaged as the state at rest (default 0: no tare)");
+  command.option("--row", a.row, "N", "scan only this row-wire");
+  command.group("Output");
+  command.option("--record", a.record, "FILE", "recording of the raw reports to write");
   command.flag(
       "--force", a.force,
-      "overwrite the recording and a file of --send; tare under a load, and add a label that the network contradicts");
+      "overwrite the recording and a file of --send, tare under a load, add a label that the network contradicts");
   a.send.declare(command);
-  command.option("--frames", a.frames, "stop after so many frames (default 0: go on)");
-  command.option("--seconds", a.seconds, "stop after so many seconds (default 0: go on)");
+  command.group("End");
+  command.option("--frames", a.frames, "N", "stop after N frames (default 0: no limit)");
+  command.option("--seconds", a.seconds, "NUMBER", "stop after this time [s] (default 0: no limit)");
   a.label.declare(command);
 }
 

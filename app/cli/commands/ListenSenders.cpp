@@ -16,12 +16,12 @@ constexpr std::chrono::milliseconds kLastFrames{2000}, kAfterCancel{100};
 
 void SendOptions::declare(Command command) {
   command
-      .option("--send", to,
-              "udp:HOST:PORT (JSON, for PlotJuggler), osc:HOST:PORT, zmq:HOST:PORT, lsl:NAME (Lab Streaming Layer, "
-              "where its library is installed) or csv:FILE (csv:- is standard output): each frame's forces to this "
-              "receiver; may be given several times")
+      .option("--send", to, "RECEIVER",
+              "send each frame's forces to udp:HOST:PORT (JSON, for PlotJuggler), osc:HOST:PORT, zmq:HOST:PORT, "
+              "lsl:NAME (Lab Streaming Layer, needs its library) or csv:FILE (csv:- is standard output); may be "
+              "repeated")
       .oneValueEach();
-  command.flag("--send-to-many", toMany, "--send may name broadcast and multicast addresses");
+  command.flag("--send-to-many", toMany, "allow broadcast and multicast addresses in --send");
 }
 
 bool SendOptions::takeStandardOutput() const {
@@ -34,7 +34,7 @@ ListenSenders::ListenSenders(const SendOptions& options, bool force, bool wait) 
     try {
       all_->senders.push_back(std::make_unique<ForceSender>(openOutlet(where, options.toMany, force), wait));
     } catch (const Error& error) {
-      throw Error(std::string("--send ") + error.what());
+      throw Error(std::string("--send: ") + error.what());
     }
   }
 }
@@ -68,8 +68,8 @@ void ListenSenders::finish(Session& session) const {
                                            {"p99", 1e3 * counts.latency.p99_s},
                                            {"max", 1e3 * counts.latency.longest_s}}}});
     if (!session.json)
-      std::cerr << all_->where[i] << ": " << counts.sent << " frames sent (handed to the system), " << counts.dropped
-                << " dropped, p99 " << 1e3 * counts.latency.p99_s << " ms from force to sending\n";
+      std::cerr << all_->where[i] << ": " << counts.sent << " frames passed to the system (receipt unknown), "
+                << counts.dropped << " dropped, p99 " << 1e3 * counts.latency.p99_s << " ms from force to sending\n";
   }
 }
 

@@ -42,26 +42,27 @@ std::shared_ptr<TouchHand> holdingHand(const std::string& held, const std::strin
 } // namespace
 
 void SimulationArguments::declare(Command command) {
-  const Option simulate = command.flag("--simulate", on, "the virtual board under a touch that moves over the areas");
-  command.option("--samples", samples, "solved samples that drive the virtual board (default: the paper's)")
+  command.group("Simulated board");
+  const Option simulate =
+      command.flag("--simulate", on, "read the simulated board, under a touch that moves over the areas");
+  command.option("--samples", samples, "FILE", "solved samples that drive the simulated board (default: the paper's)")
       .needs(simulate);
-  command.option("--hold", hold, "AREA:FX,FY,FZ [N]: this touch is held on the virtual board (needs its --design)")
+  command.option("--hold", hold, "AREA:FX,FY,FZ", "constant force [N] on an area (needs the --design of the samples)")
       .needs(simulate);
-  command.option("--noise", noise, "of the virtual board, relative to R (default 5e-6)").needs(simulate);
-  command.option("--warming", warming, "of the virtual board in degC (default 0)").needs(simulate);
-  command.option("--hysteresis", hysteresis, "of the virtual board, share 0 to 1 (default 0)").needs(simulate);
-  command.option("--rate", rate, "reports a second of the virtual board (default 1000)").needs(simulate);
-  command.option("--seed", seed, "of the virtual board's noise (default 1)").needs(simulate);
-  command.option("--open-row", openRow, "of the virtual board: this row-wire is broken").needs(simulate);
-  command.option("--open-column", openColumn, "of the virtual board: this column-wire is broken").needs(simulate);
-  command.option("--drop-every", dropEvery, "of the virtual board: every n-th report is lost (default 0: none)")
+  command.option("--noise", noise, "NUMBER", "noise of the readings, relative to R (default 5e-6)").needs(simulate);
+  command.option("--warming", warming, "NUMBER", "warming of the board [degC] (default 0)").needs(simulate);
+  command.option("--hysteresis", hysteresis, "NUMBER", "share of the signal with backlash, 0 to 1 (default 0)")
       .needs(simulate);
+  command.option("--rate", rate, "NUMBER", "reports per second (default 1000)").needs(simulate);
+  command.option("--seed", seed, "N", "seed of the noise (default 1)").needs(simulate);
+  command.option("--open-row", openRow, "N", "number of a broken row-wire").needs(simulate);
+  command.option("--open-column", openColumn, "N", "number of a broken column-wire").needs(simulate);
+  command.option("--drop-every", dropEvery, "N", "drop every N-th report (default 0: none)").needs(simulate);
 }
 
 double numberUpTo(const std::string& option, const std::string& value, double most) {
   const double result = number(option, value);
-  if (!(result >= 0 && result <= most))
-    throw UsageError(option + ": '" + value + "'; allowed is 0 to " + std::to_string(static_cast<int>(most)));
+  if (!(result >= 0 && result <= most)) throw badValue(option, value, "0 to " + std::to_string(static_cast<int>(most)));
   return result;
 }
 

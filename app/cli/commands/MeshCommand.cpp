@@ -58,13 +58,16 @@ Exit run(const MeshArguments& arguments, Session& session) {
 
 void addMesh(Cli& cli) {
   auto arguments = std::make_shared<MeshArguments>();
-  Command command = cli.command("mesh", "mesh the block", "palp mesh sensor.json --mesh-size 2 -o mesh.vtu",
-                                [arguments](Session& session) { return run(*arguments, session); });
-  command.option("design", arguments->design, "design file, or paper").required();
+  Command command =
+      cli.command("mesh", "Meshes the block of a design.", "palp mesh sensor.json --mesh-size 2 -o mesh.vtu",
+                  [arguments](Session& session) { return run(*arguments, session); });
+  command.option("design", arguments->design, "DESIGN", "design file, or paper").required();
   arguments->mesh.declare(command, false);
   arguments->loads.declare(command);
   arguments->loads.declareIndenters(command);
-  command.option("--format", arguments->format, "vtu, or inp: a CalculiX/Abaqus deck with the loads and indenters")
+  command.group("Output");
+  command
+      .option("--format", arguments->format, "TEXT", "vtu, or inp for a CalculiX/Abaqus deck with loads and indenters")
       .oneOf({"vtu", "inp"})
       .byDefault("vtu");
   arguments->output.declare(command, "mesh file to write");

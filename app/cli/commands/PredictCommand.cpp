@@ -7,6 +7,7 @@
 #include "io/DecoderFile.h"
 #include "io/SampleFile.h"
 #include "model/base/Cancelled.h"
+#include "model/base/GotExpected.h"
 #include "model/base/NumberText.h"
 #include "model/base/Text.h"
 #include "nn/NoisyCopies.h"
@@ -126,18 +127,18 @@ void print(const Prediction& prediction, const std::optional<DecoderError>& erro
               << "mean absolute error [N]:         " << error->error.meanAbsolute.transpose() << '\n'
               << "RMSE [% of training range]:      " << error->error.rmsePercentOfRange.transpose() << '\n';
   std::cout << prediction.forces_N.cols() << " samples, " << count << " outside the training range, "
-            << prediction.microsecondsPerSample << " us a sample\n";
+            << prediction.microsecondsPerSample << " us per sample\n";
   if (error && error->place)
-    std::cout << "place: rms " << error->place->rms_mm.transpose() << " mm along x, y; median distance "
+    std::cout << "position: rms " << error->place->rms_mm.transpose() << " mm along x, y; median distance "
               << error->place->median_mm << " mm\n";
   const auto pressing = [&](Pressing which) {
     return std::count(prediction.pressing.begin(), prediction.pressing.end(), which);
   };
   if (!prediction.pressing.empty())
-    std::cout << "pressing: nothing seen in " << pressing(Pressing::None) << ", one known touch in "
-              << pressing(Pressing::One) << ", something else in " << pressing(Pressing::Other) << '\n';
+    std::cout << "detected: no touch in " << pressing(Pressing::None) << ", one touch in " << pressing(Pressing::One)
+              << ", unlike the training in " << pressing(Pressing::Other) << '\n';
   if (error && error->rightAreas) std::cout << "right areas: " << 100 * *error->rightAreas << " %\n";
-  if (!error) std::cout << "two touches at once: a decoder gives one, so there are no errors to say\n";
+  if (!error) std::cout << "two touches at once: a decoder gives one, so errors are not computed\n";
 }
 
 nlohmann::ordered_json boundJson(const ErrorsOverBounds& over) {
@@ -148,8 +149,8 @@ nlohmann::ordered_json boundJson(const ErrorsOverBounds& over) {
 }
 
 void printBound(const std::string& who, const ErrorsOverBounds& over) {
-  std::cout << "bounds (medians), " << who << ": Fz " << over.force_N << " N, place " << over.place_mm
-            << " mm; errors over them: Fz " << over.forceRatio << ", place " << over.placeRatio << '\n';
+  std::cout << "bounds (medians), " << who << ": Fz " << over.force_N << " N, position " << over.place_mm
+            << " mm; errors / bounds: Fz " << over.forceRatio << ", position " << over.placeRatio << '\n';
 }
 
 /// Errors of force and place as multiples of what no estimate without a bias can beat, of one who knows so much each.
@@ -172,7 +173,7 @@ std::vector<std::pair<std::string, ErrorsOverBounds>> besideBounds(const SensorD
   const auto learned = learnedBounds(decoder, samples, noise, session.stop);
   if (session.stop.stop_requested()) throw Cancelled();
   if (!learned.empty()) {
-    over.emplace_back("at each touch, by the slopes that were learned", beside(learned));
+    over.emplace_back("at each touch, by the learned slopes", beside(learned));
     session.result["touch_bound_learned"] = boundJson(over.back().second);
   }
   return over;
@@ -185,18 +186,18 @@ Exit run(const PredictArguments& arguments, Session& session) {
   if (!arguments.noise.empty()) {
     options.noise = number("--noise", arguments.noise);
     if (!(options.noise >= 0 && options.noise <= 0.5))
-      throw UsageError("--noise: '" + arguments.noise + "'; allowed is 0 to 0.5 (relative standard deviation)");
+      throw badValue("--noise", arguments.noise, "0 to 0.5 (relative standard deviation)");
   }
   const int seed = wholeNumber("--seed", arguments.seed, 0, 2'147'483'647);
   std::optional<SensorDesign> design;
   if (!arguments.design.empty()) design = designOption(arguments.design);
   const Decoder decoder = readNetwork(arguments.network);
   if (design && !(decoder.place && options.noise > 0))
-    throw UsageError("--design: is for the bounds of touches, with a network of force and place and --noise above 0");
+    throw UsageError("--design: bounds need a network of force and position, and --noise above 0");
   const SampleSet samples = loadSamples(arguments.samples, session.stop, true);
   requireReadout(decoder, samples.origin.readout, "the samples are");
   if (design && samples.beside.rows() > 0)
-    throw UsageError("--design: the samples are of two touches at once; allowed are touches one at a time");
+    throw UsageError("--design: samples: " + gotExpected("two touches at once", "one touch per sample"));
   const Eigen::MatrixXd clean = inputsOf(samples, decoder.input);
   const Eigen::MatrixXd inputs = noisyCopies(clean, options.noise, 1, static_cast<std::uint64_t>(seed));
   Prediction prediction = session.stages.measure("predict", [&] { return predict(decoder, inputs, options); });
@@ -229,18 +230,21 @@ Exit run(const PredictArguments& arguments, Session& session) {
 
 void addPredict(Cli& cli) {
   auto arguments = std::make_shared<PredictArguments>();
-  Command command = cli.command("predict", "forces of samples by a trained network, and its error",
+  Command command = cli.command("predict", "Predicts the forces of samples with a trained network, and its error.",
                                 "palp predict network.json test.csv --noise 1e-4 -o forces.csv",
                                 [arguments](Session& session) { return run(*arguments, session); });
-  command.option("network", arguments->network, "network file").required();
-  command.option("samples", arguments->samples, "sample file").required();
-  command.option("--noise", arguments->noise,
-                 "relative noise that is added to the samples and counted in the standard deviations");
-  command.option("--seed", arguments->seed, "of the noise (default 1)");
-  command.option("--design", arguments->design,
-                 "design of samples of touches, or paper: the errors of force and place beside their bounds");
-  command.flag("--bare", arguments->bare, "forces alone: no standard deviations, no areas");
-  arguments->output.declare(command, "CSV with the forces");
+  command.option("network", arguments->network, "FILE", "network file").required();
+  command.option("samples", arguments->samples, "FILE", "sample file").required();
+  command.group("Noise");
+  command.option("--noise", arguments->noise, "NUMBER",
+                 "relative noise added to the samples and included in the standard deviations (default 0)");
+  command.option("--seed", arguments->seed, "N", "seed of the noise (default 1)");
+  command.group("Bounds");
+  command.option("--design", arguments->design, "DESIGN",
+                 "design of samples of touches: compares the errors of force and position with their bounds");
+  command.group("Output");
+  command.flag("--bare", arguments->bare, "forces only: no standard deviations, no areas");
+  arguments->output.declare(command, "CSV file to write the forces to");
 }
 
 } // namespace palp

@@ -25,9 +25,9 @@ struct RenderArguments {
 void requireKnown(const std::string& quantity) {
   const std::vector<std::string> names = quantityNames();
   if (names.empty() || std::find(names.begin(), names.end(), quantity) != names.end()) return;
-  std::string allowed;
-  for (const std::string& name : names) allowed += (allowed.empty() ? "" : ", ") + name;
-  throw UsageError("--quantity: '" + quantity + "'; allowed is one of " + allowed);
+  std::string choices;
+  for (const std::string& name : names) choices += (choices.empty() ? "" : ", ") + name;
+  throw badValue("--quantity", quantity, "one of " + choices);
 }
 
 Exit run(const RenderArguments& arguments, Session& session) {
@@ -38,7 +38,7 @@ Exit run(const RenderArguments& arguments, Session& session) {
   requireKnown(arguments.quantity);
   arguments.output.requireWritable();
   if (arguments.output.path.extension() != ".png")
-    throw UsageError("--output: '" + arguments.output.path.string() + "'; allowed is a name that ends in .png");
+    throw badValue("--output", arguments.output.path.string(), "a name that ends in .png");
   sayMeshCost(design, meshFor(design, load, arguments.mesh.options()), session);
   Touch touch(design, load, arguments.mesh.options());
   NewtonOptions options;
@@ -61,17 +61,19 @@ Exit run(const RenderArguments& arguments, Session& session) {
 
 void addRender(Cli& cli) {
   auto arguments = std::make_shared<RenderArguments>();
-  Command command = cli.command("render", "a picture of the deformed block; needs no display",
+  Command command = cli.command("render", "Draws a picture of the deformed block, without a display.",
                                 "palp render paper --load 0:1,0,-6 -o picture.png",
                                 [arguments](Session& session) { return run(*arguments, session); });
-  command.option("design", arguments->design, "design file, or paper").required();
+  command.option("design", arguments->design, "DESIGN", "design file, or paper").required();
   arguments->loads.declare(command);
   arguments->loads.declareIndenters(command);
   arguments->mesh.declare(command, false);
-  command.option("--quantity", arguments->quantity, "colour: |u| (default), ux, uy, uz, pressure, ...");
-  command.option("--width", arguments->width, "pixels (default 1200)");
-  command.option("--height", arguments->height, "pixels (default 800)");
-  command.flag("--dark", arguments->dark, "dark ground");
+  command.group("Picture");
+  command.option("--quantity", arguments->quantity, "TEXT",
+                 "quantity of the colours: |u| (default), ux, uy, uz, pressure, ...");
+  command.option("--width", arguments->width, "N", "width in pixels (default 1200)");
+  command.option("--height", arguments->height, "N", "height in pixels (default 800)");
+  command.flag("--dark", arguments->dark, "dark background");
   arguments->output.declare(command, "PNG file to write").required();
 }
 

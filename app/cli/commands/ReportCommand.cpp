@@ -63,7 +63,7 @@ Exit run(ReportArguments& arguments, Session& session) {
   request.seed = static_cast<std::uint64_t>(wholeNumber("--seed", arguments.seed, 0, 1'000'000));
   if (arguments.touches.given()) {
     if (arguments.kind != "map" && arguments.kind != "layout")
-      throw UsageError("--touch is for the map and the layout; report " + arguments.kind + " has no touches");
+      throw UsageError("--touch: not for report " + arguments.kind + "; expected report map or layout");
     request.touches = arguments.touches.range(request.design);
   }
   request.threads = session.threads;
@@ -93,17 +93,20 @@ Exit run(ReportArguments& arguments, Session& session) {
 
 void addReport(Cli& cli) {
   auto arguments = std::make_shared<ReportArguments>();
-  Command command = cli.command("report", "reports with charts, a CSV of every point and how it was made",
-                                "palp report layout -o out/layout",
-                                [arguments](Session& session) { return run(*arguments, session); });
-  command.option("kind", arguments->kind, kindsInWords()).required().oneOf(kindNames());
-  command.option("--design", arguments->design, "design file, or paper (default)");
-  command.option("--per-area", arguments->perArea, "samples on each area, where the kind needs any (default 100)");
-  command.option("--seed", arguments->seed, "seed of everything random (default 1)");
+  Command command = cli.command(
+      "report", "Writes a report with charts, a CSV of every point and the command that made it.",
+      "palp report layout -o out/layout", [arguments](Session& session) { return run(*arguments, session); });
+  command.option("kind", arguments->kind, "TEXT", kindsInWords()).required().oneOf(kindNames());
+  command.group("Design and samples");
+  command.option("--design", arguments->design, "DESIGN", "design file, or paper (default)");
+  command.option("--per-area", arguments->perArea, "N", "samples per area, if the report needs samples (default 100)");
+  command.option("--seed", arguments->seed, "N", "seed of all random numbers (default 1)");
   arguments->mesh.declare(command, false);
   arguments->touches.declareForMap(command);
-  command.option("-o,--output", arguments->folder, "folder of report.html, points.csv and the pictures");
-  command.flag("--force", arguments->force, "write into a folder that is not empty");
+  command.group("Output");
+  command.option("-o,--output", arguments->folder, "FOLDER",
+                 "folder to write report.html, points.csv and the pictures to (default palp-report-KIND)");
+  command.flag("--force", arguments->force, "write to a folder that is not empty");
 }
 
 } // namespace palp

@@ -125,16 +125,19 @@ Exit run(const ReproduceArguments& arguments, Session& session) {
 
 void addReproduce(Cli& cli) {
   auto arguments = std::make_shared<ReproduceArguments>();
-  Command command = cli.command("reproduce", "the paper's experiments from nothing, its printed numbers beside ours",
-                                "palp reproduce all --seeds 5 -o out/paper",
-                                [arguments](Session& session) { return run(*arguments, session); });
-  command.option("what", arguments->what, "table1, fig12, figures or all (default)")
+  Command command = cli.command(
+      "reproduce", "Repeats the paper's experiments from scratch and compares its printed numbers with ours.",
+      "palp reproduce all --seeds 5 -o out/paper", [arguments](Session& session) { return run(*arguments, session); });
+  command.option("what", arguments->what, "TEXT", "table1, fig12, figures or all (default)")
       .oneOf({"table1", "fig12", "figures", "all"});
-  command.option("--seeds", arguments->seeds, "repetitions with other forces; medians are printed (default 1)");
-  command.option("--first-seed", arguments->firstSeed, "seed of the first repetition (default 1)");
+  command.group("Samples");
+  command.option("--seeds", arguments->seeds, "N", "repetitions with other forces; medians are printed (default 1)");
+  command.option("--first-seed", arguments->firstSeed, "N", "seed of the first repetition (default 1)");
   arguments->mesh.declare(command, false);
-  command.option("-o,--output", arguments->folder, "folder of report.html, errors.csv and the pictures");
-  command.flag("--force", arguments->force, "write into a folder that is not empty");
+  command.group("Output");
+  command.option("-o,--output", arguments->folder, "FOLDER",
+                 "folder to write report.html, errors.csv and the pictures to");
+  command.flag("--force", arguments->force, "write to a folder that is not empty");
 }
 
 } // namespace palp

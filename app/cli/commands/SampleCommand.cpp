@@ -7,6 +7,7 @@
 #include "app/study/touch/SampleGenerator.h"
 #include "io/SamplePartWriter.h"
 #include "model/base/Cancelled.h"
+#include "model/base/GotExpected.h"
 #include "model/base/Text.h"
 
 #include <chrono>
@@ -40,7 +41,7 @@ SampleRequest request(const SampleArguments& arguments, const SensorDesign& desi
     request.touches = arguments.touches.range(design);
     request.perArea = wholeNumber("--count", arguments.touches.count, 1, 10'000'000);
   } else {
-    if (arguments.perArea.empty()) throw UsageError("--per-area is missing (or --touch with --count)");
+    if (arguments.perArea.empty()) throw UsageError("--per-area is missing; give it, or --touch with --count");
     request.perArea = wholeNumber("--per-area", arguments.perArea, 1, 10'000'000);
   }
   request.seed = seedOption(arguments.seed);
@@ -48,8 +49,7 @@ SampleRequest request(const SampleArguments& arguments, const SensorDesign& desi
   request.surrogate = arguments.surrogate;
   request.relativeTolerance = number("--tolerance", arguments.tolerance);
   if (!(request.relativeTolerance >= 1e-10 && request.relativeTolerance <= 1e-2))
-    throw UsageError("--tolerance: '" + arguments.tolerance +
-                     "'; allowed is 1e-10 to 0.01 (relative, against full Newton)");
+    throw badValue("--tolerance", arguments.tolerance, "1e-10 to 0.01 (relative, against full Newton)");
   request.mesh = arguments.mesh.options();
   request.threads = session.threads;
   return request;
@@ -72,9 +72,11 @@ Exit run(const SampleArguments& arguments, Session& session) {
   SamplePartWriter writer(arguments.output.path, head, arguments.output.force);
   const std::size_t kept = writer.samplesKept();
   if (kept > range.last - range.first)
-    throw UsageError(writer.partPath().string() + " holds " + std::to_string(kept) + " samples, more than the " +
-                     std::to_string(range.last - range.first) + " asked for; remove it to start over");
-  if (kept > 0) std::cerr << "going on after " << kept << " samples in " << writer.partPath().string() << '\n';
+    throw UsageError(writer.partPath().string() + ": samples: " +
+                     gotExpected(std::to_string(kept), "at most the requested " +
+                                                           std::to_string(range.last - range.first) +
+                                                           "; remove the file to start over"));
+  if (kept > 0) std::cerr << "continuing after " << kept << " samples in " << writer.partPath().string() << '\n';
 
   const auto start = std::chrono::steady_clock::now();
   ProgressBar bar("samples", range.last - range.first);
@@ -96,11 +98,10 @@ Exit run(const SampleArguments& arguments, Session& session) {
   session.result["left_to_newton"] = generator.leftToNewton();
   session.result["redrawn"] = generator.redrawn();
   if (const int count = generator.redrawn(); count > 0) {
-    session.warnings.push_back(
-        (count == 1
-             ? "a touch had no equilibrium, and another was drawn in its place: touch "
-             : text(count) + " touches had no equilibrium, and others were drawn in their places; the first: touch ") +
-        generator.whyRedrawn());
+    session.warnings.push_back((count == 1
+                                    ? "a touch without equilibrium was replaced: touch "
+                                    : text(count) + " touches without equilibrium were replaced; the first: touch ") +
+                               generator.whyRedrawn());
     std::cerr << "palp sample: " << session.warnings.back() << '\n';
   }
   session.result["solves_per_s"] = seconds > 0 ? static_cast<double>(made) / seconds : 0;
@@ -120,9 +121,9 @@ Exit run(const SampleArguments& arguments, Session& session) {
               << generator.measuredError();
   if (!session.json && !generator.errorMeasured()) std::cout << ", error not measured";
   if (!session.json && generator.leftToNewton() > 0)
-    std::cout << "; " << generator.leftToNewton() << " left to Newton's method one by one";
+    std::cout << "; " << generator.leftToNewton() << " solved one by one by Newton's method";
   if (!session.json) std::cout << '\n';
-  if (!whole && !session.json) std::cout << "stopped; the same command goes on from there\n";
+  if (!whole && !session.json) std::cout << "stopped; the same command continues from here\n";
   return whole ? Exit::Done : Exit::NoResult;
 }
 
@@ -130,22 +131,27 @@ Exit run(const SampleArguments& arguments, Session& session) {
 
 void addSample(Cli& cli) {
   auto arguments = std::make_shared<SampleArguments>();
-  Command command = cli.command("sample", "labelled samples: force, electrode displacements, resistances",
+  Command command = cli.command("sample", "Computes labelled samples: forces, electrode displacements and resistances.",
                                 "palp sample paper --per-area 100 --seed 1 -o samples.csv",
                                 [arguments](Session& session) { return run(*arguments, session); });
-  command.option("design", arguments->design, "design file, or paper").required();
+  command.option("design", arguments->design, "DESIGN", "design file, or paper").required();
+  command.group("Forces on areas");
   Option perArea =
-      command.option("--per-area", arguments->perArea, "samples on each area (with --areas together: in all)");
+      command.option("--per-area", arguments->perArea, "N", "samples per area (with --areas together: in all)");
+  command.option("--areas", arguments->areas, "TEXT", "each, together, or the number of one area (default each)")
+      .needs(perArea);
+  command
+      .flag("--surrogate", arguments->surrogate,
+            "use a polynomial per area, fitted to full solves: many samples in seconds")
+      .needs(perArea);
   arguments->touches.declare(command, perArea);
-  command.option("--seed", arguments->seed, "seed of the forces (default 1)");
-  command.option("--areas", arguments->areas, "each, together, or the number of one area (default each)")
-      .needs(perArea);
-  command.flag("--surrogate", arguments->surrogate, "per-area polynomial of full solves: many samples in seconds")
-      .needs(perArea);
-  command.option("--tolerance", arguments->tolerance, "relative, against full Newton (default 1e-6)");
-  command.option("--shard", arguments->shardText, "I/N: this part of the samples; palp merge joins them");
+  command.group("Samples");
+  command.option("--seed", arguments->seed, "N", "seed of the forces (default 1)");
+  command.option("--tolerance", arguments->tolerance, "NUMBER",
+                 "relative tolerance against full Newton (default 1e-6)");
+  command.option("--shard", arguments->shardText, "I/N", "compute part I of N; palp merge joins the parts");
   arguments->mesh.declare(command, false);
-  arguments->output.declare(command, "sample file to write: CSV, or .h5 or .npz").required();
+  arguments->output.declare(command, "sample file to write: .csv, .h5 or .npz").required();
 }
 
 } // namespace palp

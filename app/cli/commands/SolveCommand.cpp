@@ -6,6 +6,7 @@
 #include "app/cli/commands/SolvePath.h"
 #include "app/study/touch/Touch.h"
 #include "model/base/Cancelled.h"
+#include "model/base/GotExpected.h"
 #include "model/base/NumberText.h"
 #include "solver/DiscretisationError.h"
 
@@ -90,12 +91,12 @@ void print(const Touch& touch, const DiscretisationError* error) {
 std::optional<std::pair<int, int>> currentOption(const SolveArguments& arguments, const SensorDesign& design) {
   if (arguments.current.empty()) return {};
   if (!design.field())
-    throw UsageError("--current: the design has the law pairs, which knows no current in the rubber; allowed is "
-                     "resistance.law field");
-  if (arguments.output.path.empty()) throw UsageError("--current: its fields go into a VTU file; give -o FILE");
+    throw UsageError("--current: resistance.law: " +
+                     gotExpected("pairs, which has no current in the rubber", "a design with field"));
+  if (arguments.output.path.empty())
+    throw UsageError("--current: -o FILE is missing, the VTU file to write the fields to");
   const std::size_t comma = arguments.current.find(',');
-  if (comma == std::string::npos)
-    throw UsageError("--current: '" + arguments.current + "'; allowed is ROW,COLUMN, for example 4,15");
+  if (comma == std::string::npos) throw badValue("--current", arguments.current, "ROW,COLUMN, for example 4,15");
   return std::pair{
       wholeNumber("--current (row-wire)", arguments.current.substr(0, comma), 0, design.rowWires() - 1),
       wholeNumber("--current (column-wire)", arguments.current.substr(comma + 1), 0, design.columnWires() - 1)};
@@ -114,9 +115,9 @@ NewtonObserver observer(const Session& session) {
 }
 
 Exit runPath(const SolveArguments& arguments, const SensorDesign& design, Session& session) {
-  if (!arguments.current.empty()) throw UsageError("--current: not beside --loads; allowed is one touch");
+  if (!arguments.current.empty()) throw UsageError("--current: not together with --loads; give a single load");
   if (arguments.mesh.relativeAccuracy())
-    throw UsageError("--accuracy: not beside --loads; allowed are --mesh-size and --mapped");
+    throw UsageError("--accuracy: not together with --loads; give --mesh-size or --mapped");
   const std::vector<LoadCase> path = arguments.loads.loadPath(design);
   arguments.output.requireWritable();
   NewtonOptions options;
@@ -170,20 +171,20 @@ Exit run(const SolveArguments& arguments, Session& session) {
 
 void addSolve(Cli& cli) {
   auto arguments = std::make_shared<SolveArguments>();
-  Command command = cli.command("solve", "one nonlinear solve; all loads act together",
+  Command command = cli.command("solve", "Solves the deformation of the block under loads that act together.",
                                 "palp solve paper --load 0:1,0,-6 --load 5:0,0.5,-2 --json",
                                 [arguments](Session& session) { return run(*arguments, session); });
-  command.option("design", arguments->design, "design file, or paper").required();
+  command.option("design", arguments->design, "DESIGN", "design file, or paper").required();
   arguments->loads.declare(command);
   arguments->loads.declareIndenters(command);
   arguments->loads.declarePath(command);
   arguments->mesh.declare(command, true);
-  command.option(
-      "--current", arguments->current,
-      "ROW,COLUMN: under the field law potential, current density and power density for 1 V between the two, "
-      "into the VTU file");
+  command.group("Output");
+  command.option("--current", arguments->current, "ROW,COLUMN",
+                 "write potential, current density and power density for 1 V between the two wires to the VTU file "
+                 "(field law)");
   arguments->output.declare(
-      command, "VTU file with displacement, stress, pressure, volume ratio and contact traction at the nodes");
+      command, "VTU file to write: displacement, stress, pressure, volume ratio and contact traction at the nodes");
 }
 
 } // namespace palp

@@ -52,7 +52,7 @@ void warnWhereFewNodesTouch(const LoadCase& load, const std::vector<IndenterStat
     const std::string warning = shapeName(load.indenters[k].shape) + ": only " +
                                 std::to_string(indenters[k].touchingNodes) +
                                 " nodes of the mesh touch it; below about " + std::to_string(kFewTouchingNodes) +
-                                " its depth and contact are wrong: take a finer mesh";
+                                " its depth and contact are inaccurate: choose a finer mesh";
     if (std::find(session.warnings.begin(), session.warnings.end(), warning) != session.warnings.end()) continue;
     session.warnings.push_back(warning);
     if (!session.json) std::cout << "warning: " << warning << '\n';

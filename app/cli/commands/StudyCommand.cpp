@@ -41,7 +41,7 @@ Exit run(const StudyArguments& arguments, Session& session) {
   session.result["designs"] = all;
   session.result["done"] = done;
   if (!whole) {
-    if (!session.json) std::cout << done << " of " << all << " designs done; the same command goes on from there\n";
+    if (!session.json) std::cout << done << " of " << all << " designs done; the same command continues from here\n";
     return Exit::NoResult;
   }
   if (done < all || !arguments.shard.empty()) {
@@ -71,16 +71,20 @@ Exit run(const StudyArguments& arguments, Session& session) {
 
 void addStudy(Cli& cli) {
   auto arguments = std::make_shared<StudyArguments>();
-  Command command = cli.command("study", "many designs by lists and ranges of their numbers, one row each in one table",
+  Command command = cli.command("study", "Computes many designs, given by lists and ranges of numbers, into one table.",
                                 "palp study study.json -o depths",
                                 [arguments](Session& session) { return run(*arguments, session); });
-  command.option("study", arguments->study, "study file: which design, what varies, what is computed").required();
-  command
-      .option("-o,--output", arguments->folder, "folder of the rows, the table and the report; goes on where it ended")
+  command.option("study", arguments->study, "FILE", "study file: the design, what varies and what is computed")
       .required();
-  command.option("--shard", arguments->shard, "I/N: this part of the designs; without it the rest and the table");
-  command.flag("--retry-problems", arguments->retryProblems,
-               "work out once more the designs whose rows have a problem");
+  command.group("Output");
+  command
+      .option("-o,--output", arguments->folder, "FOLDER",
+              "folder for rows, table and report; a stopped study is continued")
+      .required();
+  command.group("Designs");
+  command.option("--shard", arguments->shard, "I/N",
+                 "compute part I of N; without it the remaining rows and the table");
+  command.flag("--retry-problems", arguments->retryProblems, "compute designs again whose rows have a problem");
 }
 
 } // namespace palp

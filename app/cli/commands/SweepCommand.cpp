@@ -30,20 +30,21 @@ std::vector<double> spreadsOption(const std::string& value) {
   const bool range = value.find(':') != std::string::npos;
   std::istringstream stream(value);
   for (std::string part; std::getline(stream, part, range ? ':' : ',');) parts.push_back(part);
-  const std::string allowed = "'; allowed are numbers above 0 with commas between them, or FROM:TO:COUNT";
+  const UsageError wrong =
+      badValue("--spreads", value, "numbers above 0 separated by commas, or FROM:TO:COUNT, for example 0.3:30:21");
   std::vector<double> spreads;
   if (range) {
-    if (parts.size() != 3) throw UsageError("--spreads: '" + value + allowed);
+    if (parts.size() != 3) throw wrong;
     const double from = number("--spreads", parts[0]), to = number("--spreads", parts[1]);
     const int count = wholeNumber("--spreads (COUNT)", parts[2], 1, 10'000);
-    if (!(from > 0 && from <= to)) throw UsageError("--spreads: '" + value + allowed);
+    if (!(from > 0 && from <= to)) throw wrong;
     return logarithmicRange(from, to, count);
   }
   for (const std::string& part : parts) {
     spreads.push_back(number("--spreads", part));
-    if (!(spreads.back() > 0)) throw UsageError("--spreads: '" + value + allowed);
+    if (!(spreads.back() > 0)) throw wrong;
   }
-  if (spreads.empty()) throw UsageError("--spreads: '" + value + allowed);
+  if (spreads.empty()) throw wrong;
   return spreads;
 }
 
@@ -70,11 +71,11 @@ Exit run(const SweepArguments& arguments, Session& session) {
   TrainOptions options = arguments.train.options();
   options.threads = session.threads;
   if (options.decoder != DecoderKind::Rbf)
-    throw UsageError("--decoder: '" + name(options.decoder) + "'; allowed is rbf: the others have no spread to sweep");
+    throw badValue("--decoder", name(options.decoder), "rbf, the only decoder with a spread");
   const std::vector<double> spreads = spreadsOption(arguments.spreads);
   const double testNoise = number("--test-noise", arguments.testNoise);
   if (!(testNoise >= 0 && testNoise <= 0.5))
-    throw UsageError("--test-noise: '" + arguments.testNoise + "'; allowed is 0 to 0.5 (relative standard deviation)");
+    throw badValue("--test-noise", arguments.testNoise, "0 to 0.5 (relative standard deviation)");
   const SampleSet training = loadSamples(arguments.samples, session.stop),
                   test = loadSamples(arguments.test, session.stop);
   DecoderInput input;
@@ -114,14 +115,16 @@ Exit run(const SweepArguments& arguments, Session& session) {
 void addSweep(Cli& cli) {
   auto arguments = std::make_shared<SweepArguments>();
   Command command =
-      cli.command("sweep", "error, leave-one-out, condition and time over the spread",
+      cli.command("sweep", "Computes error, leave-one-out error, condition and time over the spread of a network.",
                   "palp sweep samples.csv --test test.csv --input resistance --mode paper --spreads 0.3:10:20",
                   [arguments](Session& session) { return run(*arguments, session); });
-  command.option("samples", arguments->samples, "sample file to train with").required();
-  command.option("--test", arguments->test, "sample file to test with").required();
-  command.option("--spreads", arguments->spreads, "0.8,0.9,1 or FROM:TO:COUNT (logarithmic; default 0.3:30:21)");
-  command.option("--test-noise", arguments->testNoise,
-                 "relative noise that the test samples get, of another seed than the training's (default 0)");
+  command.option("samples", arguments->samples, "FILE", "sample file to train with").required();
+  command.group("Sweep");
+  command.option("--test", arguments->test, "FILE", "sample file to test with").required();
+  command.option("--spreads", arguments->spreads, "SPREADS",
+                 "0.8,0.9,1 or FROM:TO:COUNT (logarithmic; default 0.3:30:21)");
+  command.option("--test-noise", arguments->testNoise, "NUMBER",
+                 "relative noise of the test samples, with another seed than the training (default 0)");
   arguments->train.declare(command, {"target", "spread"});
 }
 

@@ -6,10 +6,21 @@
 
 namespace palp {
 
+namespace {
+
+/// Of the values of an option, for --help.
+const char* typeOf(TrainOption::Form form) {
+  if (form == TrainOption::Form::WholeNumber) return "N";
+  return form == TrainOption::Form::Number || form == TrainOption::Form::Share ? "NUMBER" : "TEXT";
+}
+
+} // namespace
+
 void TrainArguments::declare(Command command, const std::set<std::string>& without) {
+  command.group("Training");
   for (const TrainOption& option : trainOptionTable())
     if (!without.contains(option.name))
-      command.option("--" + option.name, values[option.name],
+      command.option("--" + option.name, values[option.name], typeOf(option.form),
                      option.choices.empty() ? option.help : option.allowed + ": " + option.help);
 }
 
@@ -18,7 +29,7 @@ TrainOptions TrainArguments::options() const {
   for (const TrainOption& option : trainOptionTable()) {
     const auto given = values.find(option.name);
     if (given == values.end() || given->second.empty() || option.set(result, given->second)) continue;
-    throw UsageError("--" + option.name + ": '" + given->second + "'; allowed is " + option.allowed);
+    throw badValue("--" + option.name, given->second, option.allowed);
   }
   return result;
 }

@@ -89,15 +89,13 @@ Exit run(const TrainCommandArguments& arguments, Session& session) {
 
 void addTrain(Cli& cli) {
   auto arguments = std::make_shared<TrainCommandArguments>();
-  Command command = cli.command("train", "fit a network, or one of its rivals, to samples",
+  Command command = cli.command("train", "Trains a network, or another decoder, with samples.",
                                 "palp train samples.csv --input resistance --rows all --noise 1e-4 -o network.json",
                                 [arguments](Session& session) { return run(*arguments, session); });
-  command.option("samples", arguments->samples, "sample file").required();
+  command.option("samples", arguments->samples, "FILE", "sample file to train with").required();
   arguments->train.declare(command);
-  command.option("--design", arguments->design,
-                 "design file, or paper; two-step-gn inverts its resistance law, touch learns from simulated touches "
-                 "only what its "
-                 "influence surfaces leave");
+  command.option("--design", arguments->design, "DESIGN",
+                 "design file, or paper; two-step-gn inverts its resistance law, touch takes its prior mean from it");
   arguments->output.declare(command, "network file to write").required();
 }
 

@@ -8,6 +8,7 @@
 #include "io/StudyFile.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
+#include "model/base/GotExpected.h"
 #include "model/base/Text.h"
 
 #include <algorithm>
@@ -72,7 +73,7 @@ ChildRun slurm(const ClusterJob& job, const std::string& line, const std::stop_t
 
 void requireSbatch(const ClusterJob& job) {
   if (!programInPath("sbatch"))
-    throw Error("sbatch: not in the PATH; allowed is a machine with Slurm, or " + (job.folder / "here.sh").string() +
+    throw Error("sbatch: not in the PATH; expected a machine with Slurm, or run " + (job.folder / "here.sh").string() +
                 " with GNU parallel");
 }
 
@@ -129,8 +130,8 @@ void measure(ClusterJob& job, const std::stop_token& stop) {
     const StudyPlan plan = loadStudy(job.workFolder / job.arguments.at(0));
     const std::size_t designs = plan.designs();
     if (static_cast<std::size_t>(job.shards) > designs)
-      throw Error("--shards: " + std::to_string(job.shards) + "; allowed is at most the study's " +
-                  std::to_string(designs) + " designs");
+      throw Error("--shards: " + gotExpected(std::to_string(job.shards),
+                                             "at most " + std::to_string(designs) + ", the designs of the study"));
     const ChildRun run =
         shell(job,
               commandOf(job) + " --threads " + std::to_string(job.cpus) + " --shard 1/" + std::to_string(designs) +
@@ -157,8 +158,9 @@ void measure(ClusterJob& job, const std::stop_token& stop) {
 void requireAccepted(const ClusterJob& job, const std::stop_token& stop) {
   requireSbatch(job);
   if (const auto most = largestArray(job, stop); most && job.shards >= *most)
-    throw Error("--shards: " + std::to_string(job.shards) + "; allowed is at most " + std::to_string(*most - 1) +
-                " on this cluster (MaxArraySize " + std::to_string(*most) + " of scontrol show config)");
+    throw Error("--shards: " + gotExpected(std::to_string(job.shards),
+                                           "at most " + std::to_string(*most - 1) + " on this cluster (MaxArraySize " +
+                                               std::to_string(*most) + " of scontrol show config)"));
   const ChildRun run = slurm(job,
                              "sbatch --test-only --array=1-" + std::to_string(job.shards) +
                                  " --cpus-per-task=" + std::to_string(job.cpus) + " " + job.sbatch + " --wrap true",
@@ -169,8 +171,8 @@ void requireAccepted(const ClusterJob& job, const std::stop_token& stop) {
 
 void requireRoom(const ClusterJob& job) {
   if (fs::exists(job.folder))
-    throw Error(job.folder.string() + ": is there already; palp cluster status " + job.folder.string() +
-                " says how it stands; allowed is a new folder");
+    throw Error(job.folder.string() + ": exists; expected a new folder (palp cluster status " + job.folder.string() +
+                " shows the progress of the job in it)");
   if (job.kind == "study") {
     StudyFolder::requireFits(job.output, loadStudy(job.workFolder / job.arguments.at(0)));
     return;
@@ -185,7 +187,7 @@ void writeJob(const ClusterJob& job) {
   std::error_code failed;
   for (const char* part : {"shards", "done", "failed", "logs"}) {
     fs::create_directories(job.folder / part, failed);
-    if (failed) throw Error((job.folder / part).string() + ": the folder cannot be made: " + failed.message());
+    if (failed) throw Error((job.folder / part).string() + ": the folder cannot be created: " + failed.message());
   }
   for (const auto& [name, content] : clusterScripts(job)) {
     writeFile(job.folder / name, content, true);
@@ -218,8 +220,7 @@ void writeJob(const ClusterJob& job) {
 ClusterJob readJob(const fs::path& folder) {
   const fs::path file = folder / "job.json";
   if (!fs::exists(file))
-    throw Error(folder.string() +
-                ": no job.json in it; allowed is a folder that palp cluster sample or study has made");
+    throw Error(folder.string() + ": contains no job.json; expected a folder written by palp cluster sample or study");
   const Json json = parseJson(readFile(file), file.string());
   const JsonPlace root(json, file.string());
   formatVersion(root, "palp_cluster", 1);
@@ -257,14 +258,14 @@ void askQueue(const ClusterJob& job, ClusterStatus& status, const std::stop_toke
     const bool merge = line.starts_with(kMergeMark);
     const std::string id = merge ? line.substr(std::string(kMergeMark).size()) : line;
     if (id.empty() || !std::all_of(id.begin(), id.end(), [](char c) { return c >= '0' && c <= '9'; }))
-      throw Error(known.string() + ": '" + line + "'; allowed is the number of a job of Slurm");
+      throw Error(known.string() + ": " + gotExpected(quotedText(line), "the number of a Slurm job"));
     if (merge) merges.insert(id);
     ids += (ids.empty() ? "" : ",") + id;
   }
   const ChildRun run = slurm(job, "squeue --noheader --array --jobs=" + ids + " --format='%F %K %t'", stop);
   // It refuses a number that it has long forgotten, and then there is nothing of it.
   if (!run.failed.empty() && run.failed.find("Invalid job id") == std::string::npos) {
-    status.queueFailed = "the queue cannot be asked now: squeue: " + run.failed;
+    status.queueFailed = "the queue cannot be read: squeue: " + run.failed;
     std::fill(status.shards.begin(), status.shards.end(), ShardState::Unknown);
     return;
   }

@@ -6,6 +6,7 @@
 #include "model/TouchRange.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
+#include "model/base/GotExpected.h"
 #include "model/base/NumberText.h"
 #include "nn/rivals/RecursiveLeastSquares.h"
 
@@ -188,13 +189,11 @@ std::string percent(double share) {
 std::vector<std::string> warningsOf(const CalibrationReport& report) {
   std::vector<std::string> warnings;
   const double error = report.rmseAfter_percentOfRange.maxCoeff() / 100;
-  if (!report.improved) warnings.push_back("on frames that it has not seen it is no better than the network before");
-  if (error > kBadError)
-    warnings.push_back("on frames that it has not seen it is off by " + percent(error) + " of the force range");
-  if (report.place && !report.place->improved)
-    warnings.emplace_back("its places are no better on frames that it has not seen");
+  if (!report.improved) warnings.push_back("on unseen frames it is no better than the previous network");
+  if (error > kBadError) warnings.push_back("on unseen frames its error is " + percent(error) + " of the force range");
+  if (report.place && !report.place->improved) warnings.emplace_back("its positions are no better on unseen frames");
   if (report.modelMismatch && *report.modelMismatch > kBadMismatch)
-    warnings.push_back("the model under these labels gives other readings than the frames hold (" +
+    warnings.push_back("the model under these labels gives other readings than the frames contain (" +
                        percent(*report.modelMismatch) + " of their change apart): areas, signs or loads are mixed up");
   return warnings;
 }
@@ -265,8 +264,9 @@ Calibration calibrate(const Decoder& decoder, const SampleSet& frames, const std
 
 KnownTouch knownTouch(const SensorDesign& design, const Eigen::Vector2d& place_mm, const Eigen::Vector3d& force_N) {
   if (!((place_mm.array() >= 0) && (place_mm.array() <= design.block_mm.head<2>().array())).all())
-    throw Error("label: place (" + text(place_mm.x()) + ", " + text(place_mm.y()) + ") mm; allowed is (0, 0) to (" +
-                text(design.block_mm.x()) + ", " + text(design.block_mm.y()) + ") mm, on the face");
+    throw Error("label: position: " +
+                gotExpected(shortTexts(place_mm) + " mm",
+                            "(0, 0) to " + shortTexts(design.block_mm.head<2>()) + " mm, on the face"));
   return {{areaUnder(design, place_mm), force_N}, place_mm};
 }
 
@@ -302,7 +302,7 @@ void FrameAverage::add(const DecodedForces& forces) {
 std::string FrameAverage::onAnotherArea() const {
   for (const auto& [area, frames] : seenOn_)
     if (area != set_.area(0) && 2 * frames > count_)
-      return "the network sees this load on area " + std::to_string(area) + ", the label says area " +
+      return "the network detects this load on area " + std::to_string(area) + ", the label has area " +
              std::to_string(set_.area(0));
   return {};
 }
@@ -346,11 +346,11 @@ void appendFrames(const std::filesystem::path& path, const SampleSet& frames) {
   if (std::filesystem::exists(path)) {
     all = loadSamples(path);
     if (const std::string differs = differenceOfHeads(all, frames); !differs.empty())
-      throw Error(path.string() + ": holds other frames: " + differs);
+      throw Error(path.string() + ": contains other frames: " + differs);
     for (Eigen::Index k = 0; k < all.size(); ++k)
       if (all.resistances_ohm.col(k) == frames.resistances_ohm.col(0) &&
           all.forces_N.col(k) == frames.forces_N.col(0) && all.area(k) == frames.area(0))
-        throw Error(path.string() + ": holds this very frame already (sample " + std::to_string(k + 1) + " of " +
+        throw Error(path.string() + ": duplicate frame (sample " + std::to_string(k + 1) + " of " +
                     std::to_string(all.size()) + "); it would count twice");
   }
   append(all, frames);

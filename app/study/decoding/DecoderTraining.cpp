@@ -6,6 +6,7 @@
 #include "app/study/decoding/TwoStep.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
+#include "model/base/GotExpected.h"
 #include "nn/VaryingInputs.h"
 
 #include <algorithm>
@@ -81,7 +82,7 @@ DecoderTraining::DecoderTraining(const SampleSet& samples, const SensorDesign* d
     : samples_(samples), design_(design), options_(options), stop_(stop), progress_(progress) {}
 
 Decoder DecoderTraining::run() {
-  if (samples_.size() == 0) throw Error("samples: 0 in the set; training needs 1 or more");
+  if (samples_.size() == 0) throw Error("samples: " + gotExpected("0", "1 or more"));
   const auto start = std::chrono::steady_clock::now();
   describe();
   say(0, "fitting " + name(options_.decoder));
@@ -125,7 +126,7 @@ void DecoderTraining::describe() {
 void DecoderTraining::addPlace() {
   if (!samples_.hasPlaces())
     throw Error("target: force+place needs samples of touches (Network scene, palp sample --touch) or with measured "
-                "places (palp import); these load whole areas");
+                "positions (palp import); these load whole areas");
   if (!traits(options_.decoder).givesPosition)
     throw Error("target: " + name(options_.decoder) + " predicts the force only; force+place takes " +
                 namesOfDecodersWith(&DecoderTraits::givesPosition));
@@ -239,7 +240,7 @@ void DecoderTraining::fitLikelihood() {
 
 void DecoderTraining::fitTouches() {
   if (!decoder_.place)
-    throw Error("decoder: touch learns force and place together (target force+place), not the force alone");
+    throw Error("target: got force, expected force+place: the touch decoder learns force and position together");
   // Size and friction are found beside them: where they vary, what is known of force and place depends on them.
   Eigen::MatrixXd causes = Eigen::MatrixXd::Zero(targets_.rows() + 2, targets_.cols());
   causes.topRows(targets_.rows()) = targets_;
@@ -249,12 +250,11 @@ void DecoderTraining::fitTouches() {
   groups << 1, 1, 1, 0, 0, 2, 2;
   KernelForwardOptions options{options_.noise, options_.threads};
   if (design_ && samples_.hasTouches()) {
-    options.known = knownReadings(*design_, samples_, decoder_.input, options_.threads, stop_,
-                                  [this](double share, const std::string& what) {
-                                    say(kKnown * share, "What the design says of touches: " + what);
-                                  });
+    options.known = knownReadings(
+        *design_, samples_, decoder_.input, options_.threads, stop_,
+        [this](double share, const std::string& what) { say(kKnown * share, "Prior mean from the design: " + what); });
     options.mirrors = mirrorsOfTouches(*design_, causes, decoder_.input);
-    say(kKnown, "What samples add to it");
+    say(kKnown, "Correction learned from the samples");
   }
   KernelForwardFit fit = fitKernelForwardModel(inputs_, causes, groups, options, stop_);
   decoder_.report.centers = static_cast<int>(samples_.size());

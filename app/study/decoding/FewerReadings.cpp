@@ -21,7 +21,7 @@ std::string whyNotFewer(const Decoder& decoder) {
       std::holds_alternative<KernelForwardModel>(decoder.model))
     return {};
   return "this network (" + name(decoder.kind) +
-         ") has no model of its readings to do without some: an ml or touch network has one";
+         ") has no model of its readings, so it needs all of them; an ml or touch network has one";
 }
 
 ForwardModel ofMeasurements(const ForwardModel& model, const std::vector<Eigen::Index>& kept) {

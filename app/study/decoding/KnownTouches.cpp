@@ -9,6 +9,7 @@
 #include "model/TouchRange.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
+#include "model/base/GotExpected.h"
 #include "solver/SensorMesh.h"
 
 #include <algorithm>
@@ -47,11 +48,12 @@ std::vector<Eigen::Index> readingsOf(const DecoderInput& input) {
 Indenter indenterOf(const SampleSet& samples) {
   const std::optional<Indenter> inWords = indenterInWords(samples.origin.touches);
   if (!samples.hasTouches() || !inWords)
-    throw Error("the samples are of no indenter; what a design says of touches is for those of palp sample --touch");
+    throw Error("the samples have no indenter; the prior mean from a design needs samples of palp sample --touch");
   if (inWords->shape != IndenterShape::Sphere && inWords->shape != IndenterShape::Pin &&
       inWords->shape != IndenterShape::Flat)
-    throw DesignError("the samples are of a " + shapeName(inWords->shape) +
-                      "; a design says beforehand what one does that has a place along x and y: sphere, pin or flat");
+    throw DesignError(
+        "indenter of the samples: " +
+        gotExpected(shapeName(inWords->shape), "sphere, pin or flat, which have a position along x and y"));
   return *inWords;
 }
 
@@ -71,7 +73,7 @@ KnownReadings knownReadings(const SensorDesign& design, const SampleSet& samples
     throw Error("the samples are of the design " + samples.origin.designFingerprint + ", not of this one, " +
                 designFingerprint(design));
   if (input.kind != InputKind::Resistance)
-    throw Error("input: " + name(input.kind) + "s; what a design says beforehand of touches is their resistances");
+    throw Error("input: " + gotExpected(name(input.kind), "resistance for the prior mean from a design"));
   const Indenter indenter = indenterOf(samples);
   // Shares of the time on the paper's design with all row-wires.
   say(0, "the readings at rest");

@@ -2,6 +2,7 @@
 
 #include "app/study/decoding/Prediction.h"
 #include "model/base/Error.h"
+#include "model/base/GotExpected.h"
 #include "model/base/Text.h"
 #include "nn/rivals/ForwardModel.h"
 
@@ -33,7 +34,7 @@ Eigen::VectorXd inverseDiagonal(const Eigen::MatrixXd& a) {
 
 NoiseBound noiseBound(const SampleSet& samples, InputKind kind, const std::vector<int>& rows, double relativeNoise) {
   if (!(relativeNoise > 0 && relativeNoise < 1))
-    throw Error("noise: " + text(relativeNoise) + "; a bound needs one above 0 and below 1 (relative)");
+    throw Error("noise: " + gotExpected(relativeNoise, "", "above 0 and below 1 (relative) for a bound"));
   DecoderInput input;
   input.kind = kind;
   input.rows = rows;

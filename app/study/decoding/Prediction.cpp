@@ -6,6 +6,7 @@
 #include "app/study/decoding/PredictionParts.h"
 #include "app/study/decoding/TwoStep.h"
 #include "model/base/Error.h"
+#include "model/base/GotExpected.h"
 #include "model/base/Text.h"
 
 #include <chrono>
@@ -260,7 +261,7 @@ void requireNumbers(const Decoder& decoder, const Eigen::Ref<const Eigen::Matrix
   if (inputs.rows() != decoder.inputs())
     throw Error("inputs: " + std::to_string(inputs.rows()) + " values a sample; the decoder takes " +
                 std::to_string(decoder.inputs()));
-  if (!inputs.allFinite()) throw Error("inputs: a value is no finite number; the decoder takes finite numbers only");
+  if (!inputs.allFinite()) throw Error("inputs: a value is not finite; expected finite numbers");
 }
 
 } // namespace
@@ -288,7 +289,7 @@ Eigen::MatrixXd inputsOf(const SampleSet& samples, const DecoderInput& input) {
 
 Predictor::Predictor(const Decoder& decoder, const PredictOptions& options) : decoder_(decoder), options_(options) {
   if (!(options.noise >= 0 && options.noise < 1))
-    throw Error("noise: " + text(options.noise) + "; allowed is 0 up to below 1 (relative)");
+    throw Error("noise: " + gotExpected(options.noise, "", "0 up to below 1 (relative)"));
   if (const auto* touches = std::get_if<KernelForwardModel>(&decoder.model)) {
     touches_ = std::make_shared<KernelForwardModel>(withNoise(*touches, decoder, options));
     touchInversion_.emplace(*touches_);
@@ -305,8 +306,9 @@ Prediction Predictor::operator()(const Eigen::Ref<const Eigen::MatrixXd>& inputs
   Prediction result;
   result.outsideTrainingRange = outside(decoder, inputs, options.noise);
   if (options.noise > 1.5 * decoder.noise)
-    result.warnings.push_back("noise of " + text(options.noise) + " is more than the decoder was trained for (" +
-                              text(decoder.noise) + "): it may make it far larger; train with this noise");
+    result.warnings.push_back("noise of " + text(options.noise) +
+                              " exceeds the noise that the decoder was trained for (" + text(decoder.noise) +
+                              "): the decoder may amplify it; train with this noise");
   const auto* likelihood = std::get_if<ForwardModel>(&decoder.model);
   const auto start = std::chrono::steady_clock::now();
   if (likelihood)
@@ -345,7 +347,7 @@ std::vector<std::string> otherSamples(const Decoder& decoder, const SampleSet& s
   std::vector<std::string> differences;
   if (samples.origin.designFingerprint != decoder.designFingerprint)
     differences.push_back("the samples are of another design (" + samples.origin.designFingerprint +
-                          ") than the decoder (" + decoder.designFingerprint + "): its forces mean little there");
+                          ") than the decoder (" + decoder.designFingerprint + "): its forces are meaningless there");
   if (samples.hasTouches() && decoder.touches.empty() && !decoder.place)
     differences.emplace_back("the decoder was trained on forces that are spread over whole areas, the samples are "
                              "touches by an indenter: its forces may be wrong by their own size; train on touches");
@@ -360,7 +362,7 @@ std::vector<std::string> otherSamples(const Decoder& decoder, const SampleSet& s
 void requireReadout(const Decoder& decoder, const std::optional<Readout>& readout, const std::string& whatIs) {
   if (!decoder.readout || !readout || *decoder.readout == *readout) return;
   throw Error("the network was trained for read-out " + kReadouts.name(*decoder.readout) + ", " + whatIs +
-              " of read-out " + kReadouts.name(*readout) + ": train one for that");
+              " of read-out " + kReadouts.name(*readout) + "; train a network for this read-out");
 }
 
 namespace {
@@ -383,8 +385,8 @@ PlaceError placeError(const Prediction& prediction, const SampleSet& samples) {
 
 DecoderError decoderError(const Decoder& decoder, const Prediction& prediction, const SampleSet& samples) {
   if (samples.forces_N.rows() != decoder.outputs())
-    throw Error("samples: " + std::to_string(samples.forces_N.rows()) + " forces a sample; the decoder gives " +
-                std::to_string(decoder.outputs()));
+    throw Error("forces per sample: " + gotExpected(std::to_string(samples.forces_N.rows()),
+                                                    std::to_string(decoder.outputs()) + ", as the decoder gives"));
   DecoderError result;
   result.error = predictionError(prediction.forces_N, samples.forces_N, decoder.high_N - decoder.low_N);
   if (prediction.area.size() == samples.area.size() && samples.area.size() > 0)

@@ -2,6 +2,7 @@
 
 #include "app/study/decoding/TrainOptionTable.h"
 #include "model/base/Error.h"
+#include "model/base/GotExpected.h"
 
 #include <algorithm>
 #include <charconv>
@@ -34,8 +35,11 @@ void addRows(std::string_view text, const std::string& rows, int rowWires, std::
   const std::optional<int> first = rowNamed(text.substr(0, dash), rowWires);
   const std::optional<int> last = dash == std::string_view::npos ? first : rowNamed(text.substr(dash + 1), rowWires);
   if (!first || !last || *first > *last)
-    throw Error("row-wires: '" + std::string(text) + "'" + (text == rows ? "" : " in '" + rows + "'") +
-                "; allowed is all, or numbers and ranges from 0 to " + std::to_string(rowWires - 1) + ", as 0,2,4-6");
+    throw Error("row-wires: " +
+                gotExpected(quotedText(std::string(text)) + (text == rows ? "" : " in " + quotedText(rows)),
+                            rowWires == 1 ? "0 or all, because there is one row-wire"
+                                          : "all, or numbers and ranges from 0 to " + std::to_string(rowWires - 1) +
+                                                ", for example 0,2,4-6"));
   for (int row = *first; row <= *last; ++row) chosen.insert(row);
 }
 

@@ -6,6 +6,7 @@
 #include "model/RowColumnResistance.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
+#include "model/base/GotExpected.h"
 #include "model/base/Text.h"
 #include "nn/NoisyCopies.h"
 
@@ -30,10 +31,10 @@ void requireInvertible(const SensorDesign& design) {
   if (const auto problem = whyNotSquare(design)) throw Error("decoder: two-step-gn: " + *problem);
   if (design.lowerFollowsRubber)
     throw Error("decoder: two-step-gn: the design's lower electrodes follow the rubber; Eq. (1) gives the upper "
-                "electrodes' displacements only where the lower ones are held");
+                "electrodes' displacements only with fixed lower electrodes");
   if (design.pressureLaw)
     throw Error("decoder: two-step-gn: the design has a pressure law; Eq. (1) gives displacements only where the "
-                "resistivity is constant");
+                "resistivity is constant (resistance.pressure_law null)");
 }
 
 /// ln R of one row-wire and its derivative, over the displacements of the row-wire's own electrodes.
@@ -107,7 +108,7 @@ Eigen::MatrixXd inverted(const SensorDesign& design, const std::vector<int>& row
       report->warnings.push_back("Eq. (1) of row-wire " + std::to_string(rows[r]) + " has condition " +
                                  text(inversion.condition) + " and rank " + std::to_string(inversion.rank) + " of " +
                                  std::to_string(unknowns) +
-                                 ": errors of the resistances come back in the displacements that much larger");
+                                 ": errors of the resistances are amplified by as much in the displacements");
     if (inversion.worstResidual > 1e-9)
       report->warnings.push_back("Gauss-Newton left up to " + text(inversion.worstResidual) +
                                  " of R unexplained on row-wire " + std::to_string(rows[r]));
@@ -121,11 +122,13 @@ Inversion invertRowResistances(const SensorDesign& design, int rowWire,
                                const Eigen::Ref<const Eigen::MatrixXd>& resistances_ohm, const std::stop_token& stop) {
   requireInvertible(design);
   if (rowWire < 0 || rowWire >= design.rowWires())
-    throw Error("rows: " + std::to_string(rowWire) + "; allowed is 0 to " + std::to_string(design.rowWires() - 1));
+    throw Error("rows: " + gotExpected(std::to_string(rowWire), "0 to " + std::to_string(design.rowWires() - 1)));
   if (resistances_ohm.rows() != design.columnWires())
-    throw Error("resistances: " + std::to_string(resistances_ohm.rows()) + " of a row-wire; the design has " +
-                std::to_string(design.columnWires()) + " column-wires");
-  if (!(resistances_ohm.array() > 0).all()) throw Error("resistances: one is not above 0; Eq. (1) gives positive ones");
+    throw Error("resistances of a row-wire: " +
+                gotExpected(std::to_string(resistances_ohm.rows()),
+                            std::to_string(design.columnWires()) + ", one per column-wire"));
+  if (!(resistances_ohm.array() > 0).all())
+    throw Error("resistances: " + gotExpected(resistances_ohm.minCoeff(), " ohm", "above 0, as Eq. (1) gives"));
   RowSystem system(design, rowWire);
   Inversion result;
   Eigen::MatrixXd slope;
@@ -149,7 +152,7 @@ Eigen::MatrixXd displacementsOf(const TwoStep& decoder, const Eigen::Ref<const E
   if (decoder.network) return decoder.network->predict(resistances_ohm);
   if (decoder.block) {
     if (!(resistances_ohm.array() > 0).all())
-      throw Error("resistances: one is not above 0; a field gives positive ones");
+      throw Error("resistances: one is not above 0; expected positive resistances, as the field law gives");
     return decoder.block->displacements_mm(resistances_ohm);
   }
   return inverted(*decoder.design, decoder.rows, resistances_ohm, {}, nullptr);
@@ -163,7 +166,7 @@ TwoStepFit trainTwoStep(const SampleSet& samples, const SensorDesign* design, co
                         const TrainOptions& options, const std::stop_token& stop,
                         const std::function<void(double, const std::string&)>& progress) {
   if (input.kind != InputKind::Resistance)
-    throw Error("input: displacement; a two-step decoder reads resistance, its first step gives the displacements");
+    throw Error("input: " + gotExpected("displacement", "resistance, from which step 1 gives the displacements"));
   DecoderInput between = input;
   between.kind = InputKind::Displacement;
   between.valuesPerRow = 3 * samples.electrodesPerRowWire;

@@ -32,8 +32,8 @@ void checkInfo(Results& results, const BoardInfo& info) {
        std::to_string(info.electrodesPerRowWire) + " and " + std::to_string(info.electrodesPerColumnWire)});
   results.push_back({"a serial number, for calibration to find its board", !info.serial.empty(), info.serial});
   results.push_back({"a model name", !info.model.empty(), info.model});
-  results.push_back({"read-out, where the board says it", true, // older boards do not
-                     info.readout ? kReadouts.name(*info.readout) : "not said"});
+  results.push_back({"read-out, if the board reports it", true, // older boards do not
+                     info.readout ? kReadouts.name(*info.readout) : "not reported"});
   results.push_back({"effective bits 12 to 24", info.effectiveBits >= 12 && info.effectiveBits <= 24,
                      std::to_string(info.effectiveBits)});
   results.push_back({"pitches and thickness above 0", info.pitchX_mm > 0 && info.pitchY_mm > 0 && info.thickness_mm > 0,
@@ -44,7 +44,7 @@ void checkStream(Results& results, const LiveStatus& status, double seconds) {
   const ReportCounts& counts = status.counts;
   const double wanted = status.configuration ? status.configuration->rate_Hz : 0;
   const double rate = static_cast<double>(counts.reports) / seconds;
-  results.push_back({"reports a second as configured, to 2 %", std::abs(rate - wanted) <= kRateTolerance * wanted,
+  results.push_back({"reports per second as configured, to 2 %", std::abs(rate - wanted) <= kRateTolerance * wanted,
                      rounded(rate) + " of " + text(wanted)});
   none(results, "no report of wrong length, ID, checksum or range", counts.bad);
   none(results, "no gap in the sequence", counts.lost);
@@ -52,7 +52,7 @@ void checkStream(Results& results, const LiveStatus& status, double seconds) {
   none(results, "no restart", counts.restarts);
   none(results, "no report of another configuration", counts.stale);
   none(results, "no frame that lacks a report", counts.incompleteFrames);
-  results.push_back({"whole frames", counts.frames > counts.incompleteFrames, std::to_string(counts.frames)});
+  results.push_back({"complete frames", counts.frames > counts.incompleteFrames, std::to_string(counts.frames)});
 }
 
 } // namespace
@@ -66,7 +66,7 @@ std::vector<BoardCheckResult> checkBoard(const LiveStatus& status, double second
                        std::equal(descriptor.begin(), descriptor.end(), published.begin(), published.end()),
                        std::to_string(descriptor.size()) + " bytes"});
   }
-  results.push_back({"a board that answers", status.info.has_value(),
+  results.push_back({"a board that responds", status.info.has_value(),
                      status.info             ? status.source
                      : status.reason.empty() ? "none was found in this time"
                                              : status.reason});

@@ -5,6 +5,7 @@
 #include "model/FieldAtRest.h"
 #include "model/RowColumnResistance.h"
 #include "model/base/Error.h"
+#include "model/base/GotExpected.h"
 #include "model/base/NumberText.h"
 
 #include <algorithm>
@@ -35,7 +36,7 @@ std::string sizes(int rows, int columns) {
 void requireFit(const Decoder& decoder, const BoardInfo& info) {
   if (decoder.input.kind != InputKind::Resistance)
     throw Error("the network reads " + name(decoder.input.kind) +
-                "s; a board gives resistances: train one that reads those");
+                "s, but a board gives resistances; train a network with resistance as its input");
   if (decoder.input.rowWires != info.rowWires || decoder.input.valuesPerRow != info.columnWires)
     throw Error("the network is for " + sizes(decoder.input.rowWires, decoder.input.valuesPerRow) + ", the board has " +
                 sizes(info.rowWires, info.columnWires) + ": only raw readings can be shown");
@@ -54,7 +55,7 @@ Eigen::MatrixXd restResistances(const Decoder& decoder, const std::optional<Sens
   if (designFingerprint(known) == decoder.designFingerprint) return atRest(known);
   if (design)
     throw Error("the network is of design " + decoder.designFingerprint + ", the given design is " +
-                designFingerprint(known) + ": give the design that it was trained for");
+                designFingerprint(known) + "; give the design that the network was trained for");
   return {};
 }
 
@@ -123,13 +124,13 @@ void ForceDecoder::followNoise(const Eigen::VectorXd& raw_ohm) {
 std::string ForceDecoder::tareProblem() const {
   if (rest_ohm_.size() > 0) return {};
   return "tare needs the resistances at rest of design " + decoder_->designFingerprint +
-         ", for which the network was trained: give that design";
+         ", for which the network was trained; give that design";
 }
 
 void ForceDecoder::startTare(int frames) {
   if (const std::string problem = tareProblem(); !problem.empty()) throw Error(problem);
   if (frames < 1 || frames > kMostTareFrames)
-    throw Error("tare over " + std::to_string(frames) + " frames; allowed is 1 to " + std::to_string(kMostTareFrames));
+    throw Error("tare: " + gotExpected(std::to_string(frames) + " frames", "1 to " + std::to_string(kMostTareFrames)));
   tareFrames_ = tareLeft_ = frames;
   tareSum_ = tareSquares_ = tareCounts_ = Eigen::MatrixXd::Zero(factor_.rows(), factor_.cols());
   tareFirst_.resize(0, 0);
@@ -237,7 +238,7 @@ DecodedForces ForceDecoder::decode(const BoardFrame& frame) {
     decoded.areaConfidence = prediction.areaConfidence(0);
   }
   decoded.valid = decoded.forces_N.allFinite();
-  if (!decoded.valid) decoded.reason = "the network's answer is not a number for these readings";
+  if (!decoded.valid) decoded.reason = "the network's output is not a number for these readings";
   addRestError(decoded);
   threshold(decoded);
   if (prediction.places_mm.cols() == 1 && decoded.shown.front()) {
@@ -284,8 +285,8 @@ void ForceDecoder::judge(const BoardFrame& frame, const Prediction& prediction, 
   decoded.doubted = true;
   decoded.doubt = decoded.missingReadings > 0
                       ? "without the missing readings the force is known to " + withDigits(deviation_N, 2) + " N only"
-                      : "the noise of the readings alone reads as " + withDigits(deviation_N, 2) +
-                            " N with this network; train one for this noise, on all rows";
+                      : "the noise of the readings alone gives " + withDigits(deviation_N, 2) +
+                            " N with this network; train a network for this noise, on all row-wires";
 }
 
 /// A decoder that was trained with noise is drawn towards the middle of its range, most at rest, which lies at the

@@ -42,19 +42,18 @@ std::string labelAgainstReading(const Eigen::Vector3d& label_N, const DecodedFor
   const double deviation_N = reads.standardDeviation_N.col(column).maxCoeff();
   const double hidden_N = kSeenDeviations * deviation_N;
   const double offset_N = kMostOffset_range * (decoder.high_N - decoder.low_N).maxCoeff();
-  const std::string both = "the label says " + inNewton(label_N) + ", but the network reads " + inNewton(read_N);
+  const std::string both = "the label has " + inNewton(label_N) + ", but the network predicts " + inNewton(read_N);
   if (label_N.norm() > hidden_N && read_N.norm() < std::max(hidden_N, kLeastShare * label_N.norm()))
-    return both + ", as at rest: is the load on the sensor?";
+    return both + ", as at rest; check that the load is on the sensor";
   if (label_N.norm() < kLeastShare * read_N.norm() && read_N.norm() > std::max(hidden_N, offset_N))
-    return both + ": is the sensor at rest?";
+    return both + "; check that the sensor is at rest";
   for (Eigen::Index axis = 0; axis < 3; ++axis)
     if (label_N(axis) * read_N(axis) < 0 &&
         std::min(std::abs(label_N(axis)), std::abs(read_N(axis))) > std::max(hidden_N, offset_N))
-      return both + ", with the other sign of F" + "xyz"[axis] +
-             ": is the label's sign right (a push is negative in z)?";
+      return both + ", with the other sign of F" + "xyz"[axis] + "; check the label's sign (a push is negative in z)";
   const double less_N = std::min(label_N.norm(), read_N.norm()), more_N = std::max(label_N.norm(), read_N.norm());
   if (more_N > kFarShare * less_N && more_N - less_N > std::max(hidden_N, offset_N))
-    return both + ": is this the load that is on the sensor?";
+    return both + "; check that this load is on the sensor";
   return {};
 }
 
@@ -70,7 +69,7 @@ bool LabelledFrames::add(const DecodedForces& forces) {
   if (average_->count() < wanted_) return false;
   const FrameAverage done = *std::exchange(average_, std::nullopt);
   if (const std::string moved = done.moved(); !moved.empty())
-    throw Error("the load moved while it was averaged (" + moved + "): hold it still and collect again");
+    throw Error("the load moved while it was averaged (" + moved + "); hold it still and collect again");
   append(done.sample(), "the board");
   said_N_.rightCols<1>() = done.said_N();
   doubt_ = done.onAnotherArea();
@@ -80,7 +79,7 @@ bool LabelledFrames::add(const DecodedForces& forces) {
 void LabelledFrames::append(const SampleSet& frames, const std::string& from) {
   if (samples_.size() > 0)
     if (const std::string differs = differenceOfHeads(samples_, frames); !differs.empty())
-      throw Error(from + ": other frames than those that are here: " + differs);
+      throw Error(from + ": differs from the frames already collected: " + differs);
   palp::append(samples_, frames);
   const Eigen::Index before = said_N_.cols();
   said_N_.conservativeResize(3, samples_.size());

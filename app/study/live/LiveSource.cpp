@@ -3,6 +3,7 @@
 #include "app/study/Resources.h"
 #include "io/SampleFile.h"
 #include "model/base/Error.h"
+#include "model/base/GotExpected.h"
 
 namespace palp {
 
@@ -11,8 +12,8 @@ namespace {
 void refuseOutside(const std::string& what, const std::vector<int>& broken, int wires) {
   for (const int wire : broken)
     if (wire < 0 || wire >= wires)
-      throw Error("virtual board: broken " + what + ": " + std::to_string(wire) + "; allowed is 0 to " +
-                  std::to_string(wires - 1));
+      throw Error("virtual board: broken " + what + ": " +
+                  gotExpected(std::to_string(wire), "0 to " + std::to_string(wires - 1)));
 }
 
 } // namespace

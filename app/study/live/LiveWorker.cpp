@@ -114,11 +114,11 @@ void LiveWorker::connect(std::unique_ptr<ReportSource> source) {
   if (!writer_) return;
   writer_->append(RecordingEntry::Kind::Connected, arrival_s_, encode(source_->info()));
   recordConfiguration();
-  mark("the board is back");
+  mark("the board is connected again");
 }
 
 void LiveWorker::disconnect(LiveState state, const std::string& reason) {
-  if (source_ && writer_) mark("the board is out");
+  if (source_ && writer_) mark("the board is disconnected");
   source_.reset();
   status_.state = options_.reconnect ? state : LiveState::Ended;
   status_.reason = reason;
@@ -147,7 +147,7 @@ void LiveWorker::read() {
     } else if (now_s - arrival_s_ > kStall_s) {
       status_.state = LiveState::Stalled;
       status_.reason =
-          "nothing has come from the board for " + std::to_string(std::lround(1e3 * (now_s - arrival_s_))) + " ms";
+          "no report received from the board for " + std::to_string(std::lround(1e3 * (now_s - arrival_s_))) + " ms";
     }
     break;
   case ReportSource::Outcome::Gone:

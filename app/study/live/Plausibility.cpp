@@ -99,8 +99,8 @@ Plausibility::Verdict Plausibility::judge(const PlausibilityInput& input) {
   follow(doubt, input.time_s);
   if (!held_) return verdict;
   if (verdict.outside) heldOutside_ = outsideWords(input);
-  if (heldDoubt_ == Doubt::Outside) verdict.reason = "outside of what the network was trained for" + heldOutside_;
-  if (heldDoubt_ == Doubt::Disagrees) verdict.reason = "the network's force is not the one that the readings tell";
+  if (heldDoubt_ == Doubt::Outside) verdict.reason = "outside the network's training range" + heldOutside_;
+  if (heldDoubt_ == Doubt::Disagrees) verdict.reason = "the network's force disagrees with the readings";
   if (heldDoubt_ == Doubt::Foreign) {
     if (verdict.misfit) heldMisfit_ = *verdict.misfit;
     const double most = limitFor(input);

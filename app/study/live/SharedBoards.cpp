@@ -77,7 +77,8 @@ std::unique_ptr<ReportSource> SharedBoards::open(const std::string& device, int 
     held->set(std::move(source));
     return held;
   }
-  if (!device.empty() && !taken.empty()) throw BoardError(taken + ": is shown beside already; choose another board");
+  if (!device.empty() && !taken.empty())
+    throw BoardError(taken + ": is already open in another view; choose another board");
   return nullptr;
 }
 

@@ -5,6 +5,7 @@
 #include "app/study/studies/StudyRow.h"
 #include "io/AtomicFile.h"
 #include "model/base/Error.h"
+#include "model/base/GotExpected.h"
 
 #include <algorithm>
 #include <map>
@@ -37,19 +38,19 @@ void StudyFolder::requireFits(const fs::path& folder, const StudyPlan& plan) {
   std::error_code failed;
   const fs::file_status status = fs::status(folder, failed);
   if (!fs::exists(status)) return; // where it cannot be made, its maker says why
-  if (!fs::is_directory(status)) refuse("is a file; allowed is a folder");
+  if (!fs::is_directory(status)) refuse(gotExpected("a file", "a folder"));
   const fs::path file = folder / kStudyFile;
   if (fs::exists(file, failed)) {
     // By content: spaces, and keys that a version left out, say nothing.
     if (toJson(parseStudy(readFile(file), file.string())) != toJson(plan))
-      refuse("holds another study (study.json differs); allowed is a new folder, or the same study to go on with it");
+      refuse("contains another study (study.json differs); expected a new folder, or the same study to continue it");
     return;
   }
   fs::directory_iterator entries(folder, failed);
   if (failed) refuse("the folder cannot be read: " + failed.message());
   for (const fs::directory_entry& entry : entries)
     if (!isOfShard(entry.path().filename().string()))
-      refuse("is not empty and holds no study; allowed is a new folder");
+      refuse("is not empty and contains no study; expected a new folder");
 }
 
 StudyFolder::StudyFolder(fs::path folder, StudyPlan plan)
@@ -58,7 +59,7 @@ StudyFolder::StudyFolder(fs::path folder, StudyPlan plan)
   requireFits(folder_, plan_);
   std::error_code failed;
   fs::create_directories(folder_ / kRows, failed);
-  if (failed) throw Error(folder_.string() + ": the folder cannot be made: " + failed.message());
+  if (failed) throw Error(folder_.string() + ": the folder cannot be created: " + failed.message());
   requireWritable(row(0), true); // said before the work
   removeLeftovers(folder_);
   if (!fs::exists(folder_ / kStudyFile)) // another shard may have written the same just now
@@ -110,7 +111,7 @@ std::string StudyFolder::line(std::size_t design) const {
   const bool whole = below.empty() || (below.starts_with(kMadeBy) && below.find('\n') + 1 == below.size());
   if (cells.size() != columns_.size() || cells[0] != std::to_string(design) || line.empty() || !whole)
     throw Error(row(design).string() + ": no row of design " + std::to_string(design) +
-                "; take it away to have it made again");
+                "; remove the file to compute it again");
   return line;
 }
 
@@ -122,10 +123,10 @@ std::string StudyFolder::mixedPrograms() const {
   std::map<std::string, std::size_t> rows;
   for (std::size_t i = 0; i < plan_.designs(); ++i) ++rows[done(i) ? madeBy(readFile(row(i))) : programHere()];
   if (rows.size() < 2) return {};
-  std::string words = "rows of several programs stand beside each other, whose results may differ:";
+  std::string words = "the rows were computed by several programs, whose results may differ:";
   for (const auto& [by, count] : rows) words += " " + std::to_string(count) + " of " + by + ",";
   words.back() = ';';
-  return words + " a new folder has all of one";
+  return words + " a new folder has all rows of one program";
 }
 
 void StudyFolder::writeTable() const {

@@ -81,7 +81,7 @@ ReportContent studyReport(const StudyFolder& study) {
       ++charts;
       content.parts.emplace_back(
           ReportChart{.file = columns[c] + "-over-" + std::to_string(a + 1),
-                      .caption = columns[c] + " over " + plan.axes[a].key + ", a point a design.",
+                      .caption = columns[c] + " over " + plan.axes[a].key + ", one point per design.",
                       .title = columns[c],
                       .xLabel = plan.axes[a].key,
                       .yLabel = columns[c],

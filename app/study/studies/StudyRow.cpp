@@ -160,7 +160,7 @@ std::optional<StudyRow> studyRow(const StudyPlan& plan, std::size_t design, int 
   } catch (const Error& problem) { // a design without a result is a row of its own, said in the table
     return StudyRow{problem.what()};
   } catch (const std::bad_alloc&) {
-    return StudyRow{"not enough memory for this design; a coarser mesh or another machine may do"};
+    return StudyRow{"not enough memory for this design; use a coarser mesh or another machine"};
   }
 }
 

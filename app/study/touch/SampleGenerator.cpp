@@ -5,6 +5,7 @@
 #include "model/DesignError.h"
 #include "model/base/Cancelled.h"
 #include "model/base/CounterRandom.h"
+#include "model/base/GotExpected.h"
 #include "model/base/Parallel.h"
 #include "model/base/ProgressRelay.h"
 #include "model/base/Text.h"
@@ -46,8 +47,8 @@ std::optional<int> onlyArea(const std::string& areas, int count) {
   int area = -1;
   const auto [end, error] = std::from_chars(areas.data(), areas.data() + areas.size(), area);
   if (error != std::errc{} || end != areas.data() + areas.size() || area < 0 || area >= count)
-    throw DesignError("areas: '" + areas + "'; allowed is each, together or an area from 0 to " +
-                      std::to_string(count - 1));
+    throw DesignError(
+        "areas: " + gotExpected(quotedText(areas), "each, together or an area from 0 to " + std::to_string(count - 1)));
   return area;
 }
 
@@ -69,11 +70,11 @@ SampleGenerator::SampleGenerator(SensorDesign design, SampleRequest request)
     : design_(std::move(design)), request_(std::move(request)) {
   requireValid(design_);
   if (request_.perArea < 1 || request_.perArea > kMostPerArea)
-    throw DesignError("per-area: " + std::to_string(request_.perArea) + "; allowed is 1 to " +
-                      std::to_string(kMostPerArea));
+    throw DesignError("per-area: " +
+                      gotExpected(std::to_string(request_.perArea), "1 to " + std::to_string(kMostPerArea)));
   if (request_.touches) {
     if (const auto wrong = whyInvalid(*request_.touches, design_)) throw DesignError("touches: " + *wrong);
-    if (request_.surrogate) throw DesignError("surrogate: touches have none; only forces on whole areas do");
+    if (request_.surrogate) throw DesignError("surrogate: " + gotExpected("touches", "forces on whole areas"));
     request_.areas = "touches";
     origin_.touches = inWords(*request_.touches);
     if (request_.touches->atOnce == 1) lowSide_ = LowSide(design_, *request_.touches);
@@ -216,8 +217,8 @@ std::string SampleGenerator::doubts() const {
     if (part.solver) all.insert(all.end(), part.solver->doubts().begin(), part.solver->doubts().end());
   }
   if (all.empty()) return {};
-  return (all.size() == 1 ? "" : std::to_string(all.size()) + " of the loads checked; the first: ") + all.front() +
-         "; with friction a mesh too coarse for the contact has several: a finer one has not";
+  return (all.size() == 1 ? "" : std::to_string(all.size()) + " of the checked loads; the first: ") + all.front() +
+         "; with friction, a mesh too coarse for the contact has several solutions: choose a finer mesh";
 }
 
 std::size_t SampleGenerator::solves() const {
@@ -305,8 +306,8 @@ int SampleGenerator::redrawnTimes(std::size_t number) const {
 void SampleGenerator::redraw(std::size_t number) {
   if (++redraws_[number] > kMostRedraws)
     throw ConvergenceError("touch " + whyRedrawn_ + "; " + std::to_string(kMostRedraws) +
-                           " others that were drawn in place of one had none either: allowed are ranges of places and "
-                           "forces in which most touches hold");
+                           " replacements had no equilibrium either; expected ranges of positions and forces in which "
+                           "most touches have one");
   ++redrawn_;
 }
 

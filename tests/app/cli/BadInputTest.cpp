@@ -45,7 +45,7 @@ const std::vector<BrokenDesign>& brokenDesigns() {
       {"LowerElectrodeOutside",
        [](json& d) { d["lower_layer"]["column_wire_x_mm"][2] = -0.5; },
        {"lower_layer.column_wire_x_mm", "-0.5", "outside"}},
-      {"AreaEmpty", [](json& d) { d["areas"]["columns"] = 0; }, {"areas.columns", "0", "allowed"}},
+      {"AreaEmpty", [](json& d) { d["areas"]["columns"] = 0; }, {"areas.columns", "got 0", "expected 1 to"}},
       {"PoissonAboveHalf",
        [](json& d) { d["material"]["poisson_ratio"] = 0.51; },
        {"material.poisson_ratio", "0.51", "0 to 0.5"}},
@@ -113,7 +113,7 @@ TEST(BadInput, TheFieldLawIsRefusedWhereEq1IsMeant) {
   for (const std::vector<std::string>& command :
        {std::vector<std::string>{"report", "stability", "--design", file, "-o", out},
         {"report", "error-time", "--design", file, "-o", out}})
-    expectRefused(palp::test::palp(command), {"not yet under the field law", "resistance.law pairs"});
+    expectRefused(palp::test::palp(command), {"not available under the field law", "expected pairs"});
   expectRefused(palp::test::palp({"listen", "--simulate", "--design", file}), {"--design", "trained for"});
   EXPECT_FALSE(std::filesystem::exists(out));
 }
@@ -133,7 +133,7 @@ TEST(BadInput, APressureLawIsRefusedByTheReportsUnderTheField) {
   writeAll(file, design.dump());
   for (const char* kind : {"noise", "layout", "readout", "map"})
     expectRefused(palp::test::palp({"report", kind, "--design", file, "-o", out}),
-                  {"resistance.pressure_law", "allowed is null"});
+                  {"resistance.pressure_law", "expected null"});
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
@@ -172,18 +172,20 @@ INSTANTIATE_TEST_SUITE_P(
         BadOption{"UnknownOption", {"solve", "paper", "--lod", "0:0,0,-1"}, {"'--lod'", "did you mean --load?"}},
         BadOption{"LoadsOfNoFile", {"solve", "paper", "--loads", "4:0,0,-1"}, {"--loads 4:0,0,-1", "--load"}},
         BadOption{"NoLoad", {"solve", "paper"}, {"--load", "--indenter"}},
-        BadOption{"EmptyDesign", {"solve", "", "--load", "0:0,0,-1"}, {"design: ''", "not empty"}},
+        BadOption{"EmptyDesign", {"solve", "", "--load", "0:0,0,-1"}, {"design: got ''", "not empty"}},
         BadOption{"EmptyFriction",
                   {"sample", "paper", "--touch", "sphere:3", "--friction", "", "--count", "1", "-o", "x.csv"},
-                  {"--friction: ''", "not empty"}},
+                  {"--friction: got ''", "not empty"}},
         BadOption{"EmptyLoad", {"solve", "paper", "--load", ""}, {"--load", "''"}},
-        BadOption{"EmptyRecording", {"listen", "--replay", ""}, {"--replay: ''", "not empty"}},
+        BadOption{"EmptyRecording", {"listen", "--replay", ""}, {"--replay: got ''", "not empty"}},
         BadOption{"NoSuchArea", {"solve", "paper", "--load", "6:0,0,-1"}, {"--load", "6", "0 to 5"}},
         BadOption{"ForceNotANumber", {"solve", "paper", "--load", "0:0,nan,-1"}, {"--load", "nan"}},
         BadOption{"ForceTooLong", {"solve", "paper", "--load", "0:0,0,-1,2"}, {"--load", "3 numbers"}},
         BadOption{"ForceHuge", {"solve", "paper", "--load", "0:0,0,-1e300"}, {"-1e+300"}},
         BadOption{"LoadWithoutColon", {"solve", "paper", "--load", "5"}, {"--load", "AREA:FX,FY,FZ"}},
-        BadOption{"PatchOutside", {"solve", "paper", "--patch", "29,15,2:0,0,-1"}, {"patch", "29", "lies wholly"}},
+        BadOption{"PatchOutside",
+                  {"solve", "paper", "--patch", "29,15,2:0,0,-1"},
+                  {"patch", "29", "completely on the top face"}},
         BadOption{"IndenterShape",
                   {"solve", "paper", "--indenter", "cube:3@15,15:press=0,0,-1"},
                   {"indenter", "cube", "sphere"}},
@@ -191,10 +193,13 @@ INSTANTIATE_TEST_SUITE_P(
             "IndenterOutside", {"solve", "paper", "--indenter", "sphere:3@40,15:press=0,0,-1"}, {"sphere at (40, 15)"}},
         BadOption{
             "IndenterPulls", {"solve", "paper", "--indenter", "sphere:3@15,15:press=0,0,1"}, {"sphere", "(0, 0, 1)"}},
-        BadOption{"IndenterAside", {"solve", "paper", "--indenter", "sphere:3@15,15:press=1,0,-1"}, {"needs friction"}},
+        BadOption{"IndenterAside",
+                  {"solve", "paper", "--indenter", "sphere:3@15,15:press=1,0,-1"},
+                  {"(1, 0, -1) N", "friction (mu)"}},
         BadOption{"IndenterRim", {"solve", "paper", "--indenter", "flat:3,4@15,15:depth=0.1"}, {"rim", "4"}},
-        BadOption{
-            "IndenterFriction", {"solve", "paper", "--indenter", "sphere:3@15,15:press=0,0,-1:mu=3"}, {"friction 3"}},
+        BadOption{"IndenterFriction",
+                  {"solve", "paper", "--indenter", "sphere:3@15,15:press=0,0,-1:mu=3"},
+                  {"friction: got 3"}},
         BadOption{
             "IndenterNan", {"solve", "paper", "--indenter", "sphere:nan@15,15:press=0,0,-1"}, {"indenter", "nan"}},
         BadOption{"PatchRadiusZero", {"solve", "paper", "--patch", "15,15,0:0,0,-1"}, {"patch", "radius 0"}},
@@ -241,7 +246,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadOption{"ReportMapOfNothing", {"report", "map", "--touch", "ball:3"}, {"ball", "sphere"}},
         BadOption{"ReportMapOfOnePlace",
                   {"report", "map", "--touch", "sphere:3", "--grid", "1x5"},
-                  {"1 places", "at least 2"}},
+                  {"positions along x", "got 1", "2 or more"}},
         BadOption{"ReportMapTooFine",
                   {"report", "map", "--touch", "sphere:3", "--grid", "1000x1000"},
                   {"1000 x 1000", "1e5"}},
@@ -253,10 +258,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadOption{"PredictDesignMissing", {"predict", "n.json", "s.csv", "--design", "nowhere.json"}, {"nowhere.json"}},
         BadOption{"PredictExchanged",
                   {"predict", PALP_SOURCE_DIR "/resources/board/paper-samples.csv", "n.json"},
-                  {"paper-samples.csv", "holds samples", "exchanged"}},
+                  {"paper-samples.csv", "contains samples", "swapped file names"}},
         BadOption{"TrainOnADesign",
                   {"train", PALP_SOURCE_DIR "/resources/paper.json", "-o", "n.json"},
-                  {"paper.json", "holds JSON, no samples"}},
+                  {"paper.json", "contains JSON instead of samples"}},
         BadOption{"PredictMissing", {"predict", "nowhere.json", "nowhere.csv"}, {"nowhere.json"}},
         BadOption{"SweepMissing",
                   {"sweep", "nowhere.csv", "--test", "t.csv", "--input", "displacement", "--spreads", "1"},

@@ -103,7 +103,7 @@ TEST(StudyCommand, RefusesTheFolderOfAnotherStudy) {
   writeAll(folder / "foreign" / "notes.txt", "mine");
   const Outcome foreign = palp::test::palp({"study", folder / "study.json", "-o", folder / "foreign"});
   EXPECT_EQ(foreign.exit, 2);
-  EXPECT_NE(foreign.errors.find("holds no study"), std::string::npos) << foreign.errors;
+  EXPECT_NE(foreign.errors.find("contains no study"), std::string::npos) << foreign.errors;
 }
 
 TEST(ClusterCommand, ItsScriptsMakeTheBytesOfOneRun) {
@@ -213,7 +213,7 @@ TEST(ClusterCommand, SubmitsNothingWhileTheQueueDoesNotAnswer) {
   writeAll(folder / "job" / "done" / "2", "");
   const Outcome down = palp::test::palp({"cluster", "status", job, "--resubmit", "--json"});
   EXPECT_EQ(down.exit, 1);
-  EXPECT_NE(down.errors.find("the queue cannot be asked now: squeue: status 1: slurm_load_jobs error: Unable"),
+  EXPECT_NE(down.errors.find("the queue cannot be read: squeue: status 1: slurm_load_jobs error: Unable"),
             std::string::npos)
       << down.errors;
   for (const auto& [state, count] : {std::pair{"done", 1}, {"unknown", 2}, {"missing", 0}})
@@ -240,7 +240,7 @@ TEST(ClusterCommand, AsksSlurmForItsLimitsBeforeTheWork) {
     EXPECT_NE(outcome.errors.find(says), std::string::npos) << outcome.errors;
     EXPECT_EQ(outcome.errors.find("measuring"), std::string::npos) << outcome.errors;
   };
-  refused({"--shards", "4", "--submit"}, "--shards: 4; allowed is at most 3 on this cluster");
+  refused({"--shards", "4", "--submit"}, "--shards: got 4, expected at most 3 on this cluster");
   refused({"--shards", "3", "--submit", "--sbatch", "--account=lab"}, "Invalid account");
   refused({"--shards", "3", "--sbatch", "short"}, "--sbatch: 'short'");
   refused({"--shards", "3", "--sbatch", "-p x; rm"}, "--sbatch: '-p x; rm'");
@@ -310,7 +310,7 @@ TEST(ClusterCommand, RefusesInOneLine) {
   refused({"sample", "paper", "--per-area", "5", "-o", folder / "no" / "s.csv", "--shards", "2"}, "does not exist");
   refused({"sample", "paper", "--per-area", "5", "-o", folder.path(), "--shards", "2"}, "is a folder");
   refused({"status", folder.path()}, "job.json");
-  refused({"status"}, "which folder");
+  refused({"status"}, "got 0 folders");
   EXPECT_TRUE(fs::is_empty(folder.path()));
   writeAll(out, "precious");
   refused({"sample", "paper", "--per-area", "5", "-o", out, "--shards", "2", "--folder", job}, "--force");

@@ -48,7 +48,7 @@ TEST(Commands, AProgramThatWasMovedWithItsFolderFindsWhatShipsWithIt) {
   std::filesystem::create_directories(moved / "resources" / "docs");
   writeAll(moved / "resources" / "docs" / "architecture.md", "moved too");
   const std::string help = palpAt(program, {"--help"}).output;
-  EXPECT_NE(help.find("Pages to read: " + (moved / "resources" / "docs").string()), std::string::npos) << help;
+  EXPECT_NE(help.find("Pages: " + (moved / "resources" / "docs").string()), std::string::npos) << help;
 }
 
 TEST(Commands, AFileWhoseNameIsNotUtf8IsWrittenAndTheJsonIsWhole) {
@@ -198,7 +198,7 @@ TEST(Commands, EveryCommandHasHelpWithAnExample) {
 
 TEST(Commands, HelpNamesThePagesThatAreThere) {
   const std::string help = palp::test::palp({"--help"}).output;
-  const std::string begin = "Pages to read: ";
+  const std::string begin = "Pages: ";
   const std::size_t start = help.find(begin);
   ASSERT_NE(start, std::string::npos) << help;
   const std::filesystem::path folder = help.substr(start + begin.size(), help.find('\n', start) - start - begin.size());

@@ -96,7 +96,7 @@ TEST(SampleCommand, GoesOnAfterAnInterruptionToTheSameBytes) {
 
   const Outcome rest = palp::test::palp(words);
   ASSERT_EQ(rest.exit, 0) << rest.errors;
-  EXPECT_NE(rest.errors.find("going on after"), std::string::npos);
+  EXPECT_NE(rest.errors.find("continuing after"), std::string::npos);
   EXPECT_TRUE(readAll(folder / "whole.csv") == readAll(file));
   EXPECT_FALSE(std::filesystem::exists(file.string() + ".part"));
 }
@@ -194,14 +194,14 @@ TEST(SampleCommand, RefusesTouchesThatCannotBe) {
   refuses({"--touch", "sphere:3..6"}, "--count");
   refuses({"--count", "3"}, "--touch");
   refuses({}, "--per-area is missing");
-  refuses({"--touch", "ball:3", "--count", "3"}, "shape 'ball'; allowed is sphere");
+  refuses({"--touch", "ball:3", "--count", "3"}, "(shape): got 'ball', expected sphere");
   refuses({"--touch", "sphere", "--count", "3"}, "--touch (size)");
   refuses({"--touch", "sphere:6..3", "--count", "3"}, "sizes 6..3");
   refuses({"--touch", "flat:3", "--count", "3"}, "flat:FROM..TO,RIM");
   refuses({"--touch", "plane:3", "--count", "3"}, "a plane has no sizes");
   refuses({"--touch", "sphere:3@1,2,3", "--count", "3"}, "--touch (place)");
-  refuses({"--touch", "sphere:3@1,2,3,4", "--region", "1,2,3,4", "--count", "3"}, "both say where");
-  refuses({"--touch", "sphere:3", "--region", "-5,0,30,30", "--count", "3"}, "outside the body");
+  refuses({"--touch", "sphere:3@1,2,3,4", "--region", "1,2,3,4", "--count", "3"}, "not together with the region");
+  refuses({"--touch", "sphere:3", "--region", "-5,0,30,30", "--count", "3"}, "top face");
   refuses({"--touch", "sphere:3", "--friction", "0.3..nan", "--count", "3"}, "--friction");
   refuses({"--touch", "sphere:3", "--force-range", "0..6", "--count", "3"}, "presses 0..6");
   refuses({"--touch", "sphere:3", "--grid", "5", "--count", "3"}, "--grid");

@@ -63,10 +63,10 @@ TEST(SolvePath, ABrokenFileIsRefusedInOneLine) {
       {path({text}).dump(), "deep"},
       {path({sphere(-1, 0)}).dump(), "-1"},
       {noIndenters.dump(), "no indenter"},
-      {"[]", "without a step"},
+      {"[]", "steps of the path: got 0"},
       {"{}", "a list"},
-      {"[{\"indenters\": [", "no valid JSON"},
-      {"[{\"indenters\": [{\"shape\": \"sphere\", \"radius_mm\": NaN}]}]", "no valid JSON"}};
+      {"[{\"indenters\": [", "not valid JSON"},
+      {"[{\"indenters\": [{\"shape\": \"sphere\", \"radius_mm\": NaN}]}]", "not valid JSON"}};
   for (const auto& [content, word] : broken) {
     SCOPED_TRACE(content);
     const Outcome outcome = solved(folder, content);

@@ -238,8 +238,8 @@ def check_receivers_that_do_not_read():
 
 def check_refusals():
     open("there.csv", "w").write("precious")
-    for where, part in (("udp:224.0.0.1:9", "many receivers"), ("osc:255.255.255.255:9", "many receivers"),
-                        ("udp:[ff02::1]:9", "many receivers"), ("udp:nowhere.invalid:9", "not known"),
+    for where, part in (("udp:224.0.0.1:9", "broadcast or multicast"), ("osc:255.255.255.255:9", "broadcast or multicast"),
+                        ("udp:[ff02::1]:9", "broadcast or multicast"), ("udp:nowhere.invalid:9", "unknown"),
                         ("udp:localhost:0", "1 to 65535"), ("udp:localhost", "udp:HOST:PORT"), ("fax:x:1", "csv:FILE"),
                         ("csv:", "csv:FILE"), ("csv:/nowhere/x", "/nowhere/x"), ("csv:there.csv", "--force"),
                         ("csv:.", "folder")):

@@ -43,7 +43,7 @@ TEST(ChildProcess, ThatCannotBeWaitedForHasNotSucceeded) {
   const auto before = std::signal(SIGCHLD, SIG_IGN); // as some daemons leave it to what they start
   const ChildRun run = shell("exit 3");
   std::signal(SIGCHLD, before);
-  EXPECT_NE(run.failed.find("its end cannot be known"), std::string::npos) << run.failed;
+  EXPECT_NE(run.failed.find("its exit status is unknown"), std::string::npos) << run.failed;
 }
 
 TEST(ChildProcess, HoldsItsOwnMemoryAndNotThatOfItsParent) {
@@ -60,16 +60,16 @@ TEST(WindowStep, TellsWhatShouldNotHaveBeen) {
   step.runs = {0, 0, 1};
   EXPECT_EQ(step.fault(), "");
   step.runs = {0, 0, 2};
-  EXPECT_EQ(step.fault(), "solve ran 2 times, allowed is 1");
+  EXPECT_EQ(step.fault(), "runs of solve: got 2, expected at most 1");
   step.runs = {0, 0, 1};
   step.event = "left alone";
-  EXPECT_EQ(step.fault(), "solve ran 1 times, allowed is 0");
+  EXPECT_EQ(step.fault(), "runs of solve: got 1, expected at most 0");
   step.event = "opened";
   step.showsSolution = false;
-  EXPECT_EQ(step.fault(), "solve ran 1 times, allowed is 0");
+  EXPECT_EQ(step.fault(), "runs of solve: got 1, expected at most 0");
   step.runs = {};
   step.hiddenPictures = 4;
-  EXPECT_EQ(step.fault(), "4 pictures drawn that nobody sees");
+  EXPECT_EQ(step.fault(), "4 pictures drawn while hidden");
 }
 
 } // namespace

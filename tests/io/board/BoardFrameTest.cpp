@@ -65,7 +65,7 @@ TEST(BoardFrame, NeighbouringReadingsAreNamedTogether) {
   BoardFrame frame = goodFrame();
   for (const int column : {1, 2, 3}) frame.state(1, column) = ReadingState::Missing;
   frame.state(1, 4) = ReadingState::Short;
-  EXPECT_EQ(wireFaults(frame), (std::vector<std::string>{"row-wire 1, column-wires 1 to 3: no reading came",
+  EXPECT_EQ(wireFaults(frame), (std::vector<std::string>{"row-wire 1, column-wires 1 to 3: no reading received",
                                                          "row-wire 1, column-wire 4: short"}));
 }
 

@@ -13,7 +13,7 @@ namespace {
 std::uint16_t usbNumber(std::string part, const std::string& text) {
   if (part.starts_with("0x") || part.starts_with("0X")) part.erase(0, 2);
   if (part.empty() || part.size() > 4 || part.find_first_not_of("0123456789abcdefABCDEF") != std::string::npos)
-    throw UsageError("--usb: '" + text + "'; allowed is VENDOR:PRODUCT in hexadecimal, for example 1209:0001");
+    throw badValue("--usb", text, "VENDOR:PRODUCT in hexadecimal, for example 1209:0001");
   return static_cast<std::uint16_t>(std::stoul(part, nullptr, 16));
 }
 
@@ -40,16 +40,13 @@ void requireDevice(const std::string& device, const std::string& usb) {
   const std::string name = std::filesystem::path(device).filename().string();
   std::error_code ignored;
   if (!std::filesystem::exists(device, ignored))
-    throw UsageError("--device: " + device + " is not there; palp listen --list shows the boards that are plugged in");
-  if (name.starts_with("tty"))
-    throw UsageError("--device: " + device +
-                     " is a serial port; Palp reads boards that are USB HID devices, /dev/hidrawN");
-  if (!name.starts_with("hidraw"))
-    throw UsageError("--device: " + device + " is no HID device; allowed is /dev/hidrawN or a serial number");
+    throw badValue("--device", device, "an existing device; palp listen --list shows the boards that are plugged in");
+  if (name.starts_with("tty")) throw badValue("--device", device, "a USB HID device /dev/hidrawN, not a serial port");
+  if (!name.starts_with("hidraw")) throw badValue("--device", device, "a HID device /dev/hidrawN, or a serial number");
   const std::vector<HidBoard> boards = hidBoards(usbOption(usb));
   if (std::none_of(boards.begin(), boards.end(), [&](const HidBoard& board) { return board.path == device; }))
-    throw UsageError("--device: " + device + " is no board with USB ID " + usb +
-                     "; --usb takes another one, as lsusb shows it");
+    throw UsageError("--device: " + device + " is not a board with USB ID " + usb +
+                     "; give another ID by --usb (lsusb shows it)");
 }
 
 std::string noBoardInWords(const std::string& device, const std::string& usb) {
@@ -58,7 +55,7 @@ std::string noBoardInWords(const std::string& device, const std::string& usb) {
   std::string words =
       "no board with USB ID " + usb + (device.empty() ? "" : " and serial number " + device) + " is plugged in";
   for (const HidBoard& board : boards) words += (&board == &boards.front() ? "; there is " : ", ") + board.serial;
-  return words + "; lsusb shows every device, --usb takes another ID";
+  return words + "; check lsusb, give another ID by --usb, or install the udev rule (palp listen --list)";
 }
 
 } // namespace palp

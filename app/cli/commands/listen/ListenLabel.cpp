@@ -24,19 +24,20 @@ KnownTouch labelledTouch(const std::string& label, const SensorDesign& design) {
 } // namespace
 
 void LabelArguments::declare(Command command) {
+  command.group("Labelled frames");
   command.option(
-      "--label", label,
-      "AREA:FX,FY,FZ: the known load now on the sensor, for palp calibrate; @X,Y:FX,FY,FZ [mm, N] a touch at "
-      "a place; refused where the network reads rest, another sign, another area or a load that moves");
-  command.option("--append", append, "file of labelled frames to which the mean is added");
-  command.option("--average", average, "frames of that mean (default 50)");
+      "--label", label, "LOAD",
+      "known load on the sensor, for palp calibrate: AREA:FX,FY,FZ [N], or @X,Y:FX,FY,FZ [mm, N] for a touch at a "
+      "position; refused if the network predicts no force, another sign, another area or a changing load");
+  command.option("--append", append, "FILE", "file of labelled frames to append the mean to");
+  command.option("--average", average, "N", "number of frames in the mean (default 50)");
 }
 
 std::optional<LabelledMean> labelledMean(const LabelArguments& arguments, const LiveOptions& options) {
   if (arguments.label.empty() != arguments.append.empty())
     throw UsageError("--label and --append go together: --label AREA:FX,FY,FZ (or @X,Y:FX,FY,FZ) --append frames.csv");
   if (arguments.label.empty()) return {};
-  if (!options.decoder) throw UsageError("--label needs --network: it says of which design the frames are");
+  if (!options.decoder) throw UsageError("--label: needs --network, whose design the frames belong to");
   return LabelledMean(arguments, *options.decoder, options.design.value_or(paperDesign()));
 }
 
@@ -53,7 +54,7 @@ void LabelledMean::add(const DecodedForces& forces) {
 
 std::string LabelledMean::doubt() const {
   if (const std::string moved = mean_.moved(); !moved.empty())
-    return "the load moved while it was averaged (" + moved + "): hold it still";
+    return "the load moved while it was averaged (" + moved + "); hold it still";
   if (const std::string other = mean_.onAnotherArea(); !other.empty()) return other;
   DecodedForces reads = last_;
   if (const Eigen::Vector3d mean_N = mean_.said_N(); mean_N.allFinite()) reads.forces_N = mean_N;
@@ -65,8 +66,8 @@ bool LabelledMean::append(Session& session, bool anyway) const {
   if (const std::string against = doubt(); !against.empty()) {
     if (!anyway)
       throw Error("--label " + label_ + ": " + against + " (nothing was added to " + file_ +
-                  "; --force adds it all the same)");
-    warnOnce(session, "--label " + label_ + ": " + against + " (added all the same)");
+                  "; --force adds it nevertheless)");
+    warnOnce(session, "--label " + label_ + ": " + against + " (added nevertheless)");
   }
   if (!done())
     warnOnce(session, "--average: " + std::to_string(mean_.count()) + " of " + std::to_string(wanted_) +
@@ -94,10 +95,9 @@ void TareQuestion::add(const DecodedForces& forces) {
   if (seen_ < wanted_ || held_ < wanted_ - kUnknownNoise || most_N_ - least_N_ > kSteadyTouch * most_N_) return;
   Eigen::Index column = 0;
   forces.forces_N.colwise().squaredNorm().maxCoeff(&column);
-  throw Error(
-      "--tare: the network reads " + inNewton(forces.forces_N.col(column)) +
-      " on the sensor, steady since the start: a tare would make this force read as none. Take the load off, or "
-      "tare all the same with --force");
+  throw Error("--tare: the network predicts a steady " + inNewton(forces.forces_N.col(column)) +
+              " on the sensor since the start; after a tare this force would read as zero: remove the load, or tare "
+              "nevertheless with --force");
 }
 
 } // namespace palp

@@ -42,7 +42,8 @@ void tellReadout(Session& session, const LiveStatus& status, const std::optional
   const std::optional<Readout>& boards = status.info->readout;
   session.result["readout"] = boards ? FrameJson(kReadouts.name(*boards)) : FrameJson();
   if (networks && !boards)
-    warnOnce(session, "the board does not say its read-out; the network was trained for " + kReadouts.name(*networks));
+    warnOnce(session,
+             "the board does not report its read-out; the network was trained for " + kReadouts.name(*networks));
 }
 
 } // namespace
@@ -105,7 +106,7 @@ void printFrame(const LiveStatus& status, const LiveFrame& live) {
   for (Eigen::Index i = 0; forces.valid && i < forces_N.cols(); ++i) printForce(forces_N.col(i));
   if (const auto& place_mm = forces.place_mm)
     std::printf("  at (%s, %s) mm", withDecimals(place_mm->x(), 2).c_str(), withDecimals(place_mm->y(), 2).c_str());
-  if (forces.valid && !forces.doubt.empty()) std::printf("  doubted: %s", forces.doubt.c_str());
+  if (forces.valid && !forces.doubt.empty()) std::printf("  implausible: %s", forces.doubt.c_str());
   if (!forces.valid) std::printf("  no force: %s", reasonOf(live, status.decoderProblem).c_str());
   std::printf("\n");
   std::fflush(stdout);
@@ -142,7 +143,7 @@ void printTotals(std::ostream& out, const LiveStatus& status, const ListenTally&
   if (!note.sentence.empty()) out << "deviations: " << note.sentence << '\n';
   const ReportCounts& counts = status.counts;
   out << tally.frames << " frames, " << counts.incompleteFrames << " incomplete; " << tally.forces << " with a force, "
-      << tally.doubted << " of them doubted" << (tally.doubt.empty() ? "" : " (" + tally.doubt + ")") << "; "
+      << tally.doubted << " of them implausible" << (tally.doubt.empty() ? "" : " (" + tally.doubt + ")") << "; "
       << counts.reports << " reports, " << counts.lost << " lost, " << counts.bad << " corrupt";
   if (!record.empty())
     out << "; " << status.recordedReports << " reports written to " << record << ", " << status.recordingDropped

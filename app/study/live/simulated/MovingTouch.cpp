@@ -22,13 +22,13 @@ constexpr double kAround_s = 11, kAlong_s = 17; // of the way along x and y
 MovingTouch::MovingTouch(const SampleSet& touches) : rowWires_(touches.rowWires), columnWires_(touches.columnWires) {
   constexpr Eigen::Index kLeast = 20;
   if (!touches.hasTouches() || touches.size() < kLeast || touches.resistances_ohm.rows() == 0)
-    throw Error("the moving indenter needs at least " + std::to_string(kLeast) +
-                " samples of touches with resistances (palp sample --touch)");
+    throw Error("the moving indenter needs " + std::to_string(kLeast) +
+                " or more samples of touches with resistances (palp sample --touch)");
   for (const TouchRow row : {kTouchShape, kTouchSize_mm, kTouchFriction})
     if ((touches.touches.row(row).array() != touches.touches(row, 0)).any())
       throw Error("the moving indenter needs touches of one shape, size and friction; these differ");
   if (!touches.forces_N.topRows<2>().isZero(1e-6))
-    throw Error("the moving indenter needs touches that press straight down; some of these push sideways");
+    throw Error("the moving indenter needs touches without tangential force; some of these have one");
   const Eigen::Matrix2Xd places = touches.touchedPlaces_mm();
   low_mm_ = places.rowwise().minCoeff();
   high_mm_ = places.rowwise().maxCoeff();

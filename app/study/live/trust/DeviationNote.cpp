@@ -23,13 +23,13 @@ std::string calibrationSentence(const Decoder& decoder) {
 DeviationNote deviationNote(const Decoder& decoder, const DecodedSensor& sensor) {
   const bool known = !sensor.designFingerprint.empty() && !decoder.designFingerprint.empty();
   if (known && sensor.designFingerprint != decoder.designFingerprint)
-    return {true, "another design", "the network was trained for another design: its error is not known"};
+    return {true, "another design", "the network was trained for another design: its error is unknown"};
   if (sensor.pressedByIndenter && decoder.touches.empty() && !decoder.place)
     return {true, "other touches",
-            "the network was trained on forces over whole areas, an indenter presses here: its error is not known"};
+            "the network was trained on forces over whole areas, an indenter presses here: its error is unknown"};
   if (calibrated(decoder)) return {false, {}, calibrationSentence(decoder)};
   if (sensor.simulated) return {};
-  return {false, "uncalibrated", "the network is not calibrated: the deviation holds noise and training error only"};
+  return {false, "uncalibrated", "the network is not calibrated: the deviation includes noise and training error only"};
 }
 
 } // namespace palp

@@ -3,6 +3,7 @@
 #include "app/study/reports/Csv.h"
 #include "app/study/reports/MeshShare.h"
 #include "app/study/reports/ReportPage.h"
+#include "app/study/reports/ReportText.h"
 #include "app/study/reports/errortime/ChainTimes.h"
 #include "app/study/reports/errortime/SolverTimes.h"
 #include "app/study/reports/errortime/TouchTimes.h"
@@ -45,7 +46,7 @@ public:
       : request_(request), progress_(std::move(progress)), stop_(std::move(stop)) {}
 
   std::optional<ReportContent> run() {
-    content_.title = "Error against run time";
+    content_.title = words_("title");
     if (!solver()) return {};
     if (!addTouchTimes(request_, quick_, partOf(progress_, 0.35, 0.15), stop_, content_, csv_)) return {};
     const auto sets = twoSets(request_.design, request_, content_.stages, partOf(progress_, 0.5, 0.05), stop_);
@@ -66,29 +67,21 @@ private:
         solverTimes(request_.design, quick_, repeats_, request_.threads, partOf(progress_, 0, 0.35), stop_);
     if (!found) return false;
     solver_ = *found;
-    content_.parts.push_back(ReportHeading{"Solver: displacement error against wall time"});
-    std::string words = "Error: relative L2 of the upper electrodes' displacements against Palp's own answer, "
-                        "extrapolated (Richardson) from its three finest meshes of graded tetrahedra (sizes 1.5 apart) "
-                        "with the order that they show, taken as 0.5 at least and 4 at most. ";
+    content_.parts.push_back(ReportHeading{words_("solver heading")});
+    std::string words = words_("reference");
     for (const JudgedLoad& load : solver_.loads)
-      words += "Load '" + load.name + "': " +
-               (load.reference_mm.size() == 0
-                    ? "no three meshes of neighbouring sizes have an answer, so there is nothing to judge by. "
-                    : "order " + shortNumber(load.order) + ", the reference is uncertain by " +
-                          shortNumber(100 * load.uncertainty) + " %; errors below that say nothing. ");
-    content_.parts.push_back(ReportWords{words + "Wall time: from the mesh to the first answer, median of " +
-                                         std::to_string(repeats_) +
-                                         " runs (least to most); meshes above 60000 unknowns run once."});
+      words += " " + (load.reference_mm.size() == 0
+                          ? words_("load without reference", {{"load", load.name}})
+                          : words_("load", {{"load", load.name},
+                                            {"order", shortNumber(load.order)},
+                                            {"uncertainty", shortNumber(100 * load.uncertainty)}}));
+    content_.parts.push_back(ReportWords{words + " " + words_("times", {{"repeats", std::to_string(repeats_)}})});
     for (std::size_t l = 0; l < solver_.loads.size(); ++l) solverChart(l);
     solverTable();
     publishedTable();
     if (!solver_.deck.empty()) {
       content_.files.push_back({"calculix-mapped.inp", solver_.deck});
-      content_.parts.push_back(ReportWords{
-          "CalculiX (ccx) ran in the same session on the same meshes, material and nodal forces, under every load: "
-          "its whole process, with as many threads; the first load three times, the others once. Its displacement "
-          "elements are compared with the same reference. The deck of the paper's mapped mesh is calculix-mapped.inp; "
-          "palp mesh --format inp writes any other."});
+      content_.parts.push_back(ReportWords{words_("calculix")});
     }
     phases();
     return true;
@@ -103,9 +96,9 @@ private:
 
   void solverChart(std::size_t l) {
     ReportChart chart{.file = "solver_" + std::to_string(l),
-                      .caption = "Slopes of log error over log time: ",
+                      .caption = words_("slopes"),
                       .title = solver_.loads[l].name,
-                      .xLabel = "wall time from nothing [s]",
+                      .xLabel = "wall time from scratch [s]",
                       .yLabel = "error of electrode displacements [%]",
                       .logX = true,
                       .logY = true};
@@ -120,15 +113,15 @@ private:
         curve.x.push_back(mesh->total_s());
         curve.y.push_back(100 * mesh->errors[l]);
       }
-      chart.caption += (chart.curves.empty() ? "" : "; ") + family + " " + shortNumber(slope(curve.x, curve.y));
+      chart.caption += (chart.curves.empty() ? " " : "; ") + family + " " + shortNumber(slope(curve.x, curve.y));
       chart.curves.push_back(std::move(curve));
     }
     content_.parts.emplace_back(std::move(chart));
   }
 
   void solverTable() {
-    ReportTable table{"Meshes; errors in the order of the loads above",
-                      {"mesh", "elements", "unknowns", "factor [MB]", "process [MB]", "to the first answer [s]",
+    ReportTable table{words_("meshes caption"),
+                      {"mesh", "elements", "unknowns", "factor [MB]", "process [MB]", "to the first solution [s]",
                        "each further load [s]", "errors [%]"},
                       {},
                       {}};
@@ -152,10 +145,7 @@ private:
   /// Against another program's converged solutions, where they apply.
   void publishedTable() {
     if (solver_.published.empty()) return;
-    ReportTable table{"Row-wire 4 against converged solutions of another program (hexahedra of high order), error [%]",
-                      {"mesh", "to the first answer [s]"},
-                      {},
-                      {}};
+    ReportTable table{words_("published caption"), {"mesh", "to the first solution [s]"}, {}, {}};
     for (const PublishedSolution& published : solver_.published)
       table.heads.push_back("area " + std::to_string(published.area) + ", (" + shortNumber(published.force_N.x()) +
                             ", " + shortNumber(published.force_N.y()) + ", " + shortNumber(published.force_N.z()) +
@@ -175,7 +165,7 @@ private:
 
   void phases() {
     ReportTable table{
-        "Seconds of each phase, median (least to most) of " + std::to_string(repeats_),
+        words_("phases caption", {{"repeats", std::to_string(repeats_)}}),
         {"mesh", "meshing", "pattern and ordering", "assembly and factorisation at rest", "nonlinear solve"},
         {},
         {}};
@@ -194,30 +184,24 @@ private:
   }
 
   void networks(const TwoSets& sets) {
-    content_.parts.push_back(ReportHeading{"Decoders: force error against training and prediction time"});
-    content_.parts.push_back(ReportWords{std::to_string(sets.training.size()) +
-                                         " training samples, as many for testing; from clean displacements of the "
-                                         "centre row-wire, and from all resistances with relative noise 1e-4, area "
-                                         "unknown. Times: median (least to most) "
-                                         "of 3 runs; what trains longer than 4 s runs once."});
+    content_.parts.push_back(ReportHeading{words_("decoders heading")});
+    content_.parts.push_back(ReportWords{words_("decoders", {{"samples", std::to_string(sets.training.size())}})});
     decoders_ = decoderTimes(request_, sets, content_.stages, partOf(progress_, 0.55, 0.2), stop_);
     decoderTable();
     leaveOneOut(sets);
-    decoderChart({.file = "training",
-                  .caption = "Error against training time; decoders by name in the table",
-                  .title = "Training",
-                  .xLabel = "training [s]"},
-                 [](const DecoderTimes& d) { return d.training.median(); });
+    decoderChart(
+        {.file = "training", .caption = words_("training caption"), .title = "Training", .xLabel = "training [s]"},
+        [](const DecoderTimes& d) { return d.training.median(); });
     decoderChart({.file = "prediction",
-                  .caption = "Error against prediction time",
+                  .caption = words_("prediction caption"),
                   .title = "Prediction",
-                  .xLabel = "prediction [us a sample]"},
+                  .xLabel = "prediction [us per sample]"},
                  [](const DecoderTimes& d) { return d.prediction.median(); });
   }
 
   void decoderTable() {
-    ReportTable table{.caption = "Error: root mean square of the three forces in % of range",
-                      .heads = {"decoder", "input", "error [%]", "training [s]", "prediction [us a sample]"}};
+    ReportTable table{.caption = words_("decoder caption"),
+                      .heads = {"decoder", "input", "error [%]", "training [s]", "prediction [us per sample]"}};
     for (const DecoderTimes& d : decoders_) {
       table.rows.push_back({d.what, d.input,
                             d.failed.empty() ? shortNumber(d.error_percentOfRange) : "failed: " + d.failed,
@@ -233,9 +217,9 @@ private:
 
   void leaveOneOut(const TwoSets& sets) {
     const Timing leaving = leaveOneOutTimes(request_, sets, stop_);
-    content_.parts.emplace_back(ReportWords{"Leave-one-out errors of " + std::to_string(kLeaveOneOutSpreads) +
-                                            " spreads at once, " + std::to_string(sets.training.size()) +
-                                            " samples as centres: " + spread(leaving) + " s."});
+    content_.parts.emplace_back(ReportWords{words_("leave-one-out", {{"spreads", std::to_string(kLeaveOneOutSpreads)},
+                                                                     {"samples", std::to_string(sets.training.size())},
+                                                                     {"seconds", spread(leaving)}})});
     for (const double seconds : leaving.seconds)
       csv_.add({"leave-one-out", std::to_string(kLeaveOneOutSpreads) + " spreads", std::to_string(sets.training.size()),
                 "", "", seconds, seconds / kLeaveOneOutSpreads, "", "", ""});
@@ -256,12 +240,9 @@ private:
   }
 
   void samples() {
-    content_.parts.push_back(ReportHeading{"Samples: full solves and surrogates"});
-    ReportTable table{"With mesh and factorisation; error of the electrode displacements, measured by the solver "
-                      "against full Newton on a share of the loads",
-                      {"way", "samples", "seconds", "samples a second", "relative error"},
-                      {},
-                      {}};
+    content_.parts.push_back(ReportHeading{words_("samples heading")});
+    ReportTable table{
+        words_("samples caption"), {"method", "samples", "seconds", "samples per second", "relative error"}, {}, {}};
     for (const SampleTimes& s : sampleTimes(request_, content_.stages, partOf(progress_, 0.75, 0.1), stop_)) {
       table.rows.push_back({s.what, std::to_string(s.samples), shortNumber(s.seconds),
                             shortNumber(s.samples / s.seconds), shortNumber(s.error)});
@@ -272,23 +253,19 @@ private:
   }
 
   void chain() {
-    content_.parts.push_back(ReportHeading{"The whole chain: force error against time from nothing"});
-    content_.parts.push_back(ReportWords{"Samples are made on a mesh, a network (mode default, all resistances, noise "
-                                         "1e-4) is trained on them and tested "
-                                         "at the same noise on samples of a finer mesh of tetrahedra (size " +
-                                         shortNumber(kReferenceSize_mm * meshShare(request_.design)) +
-                                         " mm): a "
-                                         "coarse mesh's error becomes a force error, whatever the network."});
+    content_.parts.push_back(ReportHeading{words_("chain heading")});
+    content_.parts.push_back(
+        ReportWords{words_("chain", {{"size", shortNumber(kReferenceSize_mm * meshShare(request_.design))}})});
     chains_ = chainTimes(request_, content_.stages, partOf(progress_, 0.85, 0.15), stop_);
-    ReportTable table{"What each stage costs",
-                      {"mesh", "samples an area", "mesh, factorisation [s]", "samples [s]", "training [s]", "whole [s]",
-                       "force error [% of range]"},
+    ReportTable table{words_("chain caption"),
+                      {"mesh", "samples per area", "mesh, factorisation [s]", "samples [s]", "training [s]",
+                       "total [s]", "force error [% of range]"},
                       {},
                       {}};
     ReportChart chart{.file = "chain",
-                      .caption = "From nothing to a trained network",
-                      .title = "Whole chain",
-                      .xLabel = "seconds from nothing",
+                      .caption = words_("chain chart"),
+                      .title = "Complete chain",
+                      .xLabel = "seconds from scratch",
                       .yLabel = "force error [% of range]",
                       .logX = true,
                       .logY = true};
@@ -310,10 +287,10 @@ private:
 
   /// The fastest that reaches an error, for several errors.
   void use() {
-    content_.parts.push_back(ReportHeading{"For this error use this"});
+    content_.parts.push_back(ReportHeading{words_("use heading")});
     ReportTable table{
-        "The fastest of what was measured above; the solver's error is the root mean square over the loads",
-        {"error wanted", "mesh", "seconds to the first answer", "chain to the force", "seconds from nothing"},
+        words_("use caption"),
+        {"largest error", "mesh", "seconds to the first solution", "chain to the force", "seconds from scratch"},
         {},
         {}};
     for (const double percent : {10.0, 5.0, 2.0, 1.0, 0.5, 0.1}) {
@@ -322,25 +299,29 @@ private:
         if (m.failed.empty() && m.errors.size() == solver_.loads.size() && 100 * rms(m.errors) <= percent &&
             (!mesh || m.total_s() < mesh->total_s()))
           mesh = &m;
-      const ChainTimes* way = nullptr;
+      const ChainTimes* fastest = nullptr;
       for (const ChainTimes& c : chains_)
-        if (c.failed.empty() && c.error_percentOfRange <= percent && (!way || c.total_s() < way->total_s())) way = &c;
-      table.rows.push_back({shortNumber(percent) + " %", mesh ? mesh->mesh : "none measured",
-                            mesh ? shortNumber(mesh->total_s()) : "-",
-                            way ? way->mesh + ", " + std::to_string(way->perArea) + " an area" : "none measured",
-                            way ? shortNumber(way->total_s()) : "-"});
+        if (c.failed.empty() && c.error_percentOfRange <= percent && (!fastest || c.total_s() < fastest->total_s()))
+          fastest = &c;
+      table.rows.push_back(
+          {shortNumber(percent) + " %", mesh ? mesh->mesh : "none measured", mesh ? shortNumber(mesh->total_s()) : "-",
+           fastest ? fastest->mesh + ", " + std::to_string(fastest->perArea) + " per area" : "none measured",
+           fastest ? shortNumber(fastest->total_s()) : "-"});
       if (percent == 1.0 && mesh)
-        content_.summary += "For 1 % in the electrode displacements: " + mesh->mesh + ", " +
-                            shortNumber(mesh->total_s()) + " s from nothing (error " +
-                            shortNumber(100 * rms(mesh->errors)) + " %). ";
-      if (percent == 1.0 && way)
-        content_.summary += "For 1 % of range in the force: " + way->mesh + " with " + std::to_string(way->perArea) +
-                            " samples an area, " + shortNumber(way->total_s()) + " s from nothing.";
+        content_.summary += words_("displacement summary", {{"mesh", mesh->mesh},
+                                                            {"seconds", shortNumber(mesh->total_s())},
+                                                            {"error", shortNumber(100 * rms(mesh->errors))}}) +
+                            " ";
+      if (percent == 1.0 && fastest)
+        content_.summary += words_("force summary", {{"mesh", fastest->mesh},
+                                                     {"samples", std::to_string(fastest->perArea)},
+                                                     {"seconds", shortNumber(fastest->total_s())}});
     }
     content_.parts.emplace_back(std::move(table));
-    if (content_.summary.empty()) content_.summary = "Nothing measured here reaches 1 %.";
+    if (content_.summary.empty()) content_.summary = words_("no summary");
   }
 
+  const ReportText words_{"error-time"};
   const ReportRequest& request_;
   ReportProgress progress_;
   std::stop_token stop_;

@@ -2,13 +2,14 @@
 
 #include "model/DesignError.h"
 #include "model/FieldSensitivity.h"
+#include "model/base/GotExpected.h"
 
 namespace palp {
 
 void requireSmoothAtRest(const SensorDesign& design) {
   if (design.pressureLaw)
-    throw DesignError("resistance.pressure_law: bounds at rest, where it has a kink: not yet under the field law; "
-                      "allowed is null");
+    throw DesignError("resistance.pressure_law: " +
+                      gotExpected("a law with a kink at rest, where bounds under the field law are computed", "null"));
 }
 
 FieldResponse::FieldResponse(const SensorDesign& layout, const FieldLaw& law, const AreaResponse& response, int threads,

@@ -243,8 +243,9 @@ private:
         stop_);
     if (!sets) return false;
     const NoiseBound bound = noiseBound(sets->test, InputKind::Resistance, {row_}, kLayoutNoise);
-    for (const Rival& rival : {Rival{"rbf", DecoderKind::Rbf, false}, Rival{"rbf, one an area", DecoderKind::Rbf, true},
-                               Rival{"ml", DecoderKind::MaximumLikelihood, false}}) {
+    for (const Rival& rival :
+         {Rival{"rbf", DecoderKind::Rbf, false}, Rival{"rbf, one per area", DecoderKind::Rbf, true},
+          Rival{"ml", DecoderKind::MaximumLikelihood, false}}) {
       if (stop_.stop_requested()) return false;
       share += (rival.kind == DecoderKind::Rbf && !rival.areaKnown ? 0.67 : 0.11) * each;
       say(share, rival.name + ", " + layout.name);

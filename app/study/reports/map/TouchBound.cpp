@@ -4,6 +4,7 @@
 #include "io/DesignFile.h"
 #include "model/DesignError.h"
 #include "model/TouchRange.h"
+#include "model/base/GotExpected.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,8 +44,9 @@ std::optional<SampleBounds> touchBounds(const SampleSet& samples, const SensorDe
   for (Eigen::Index i = 0; i < samples.size(); ++i) touches.push_back(touchOf(samples, i));
   for (const Indenter& touch : touches)
     if (touch.shape != IndenterShape::Sphere && touch.shape != IndenterShape::Pin && touch.shape != IndenterShape::Flat)
-      throw DesignError("the samples are of a " + shapeName(touch.shape) +
-                        "; allowed for their bound is one that has a place along x and y: sphere, pin or flat");
+      throw DesignError("indenter of the samples: " +
+                        gotExpected(shapeName(touch.shape),
+                                    "sphere, pin or flat, which have a position along x and y, for their bound"));
   const LinearReadings readings = readingsAtRest(design, threads, stop);
   const HyperelasticProblem problem(design, sensorMesh(design, meshForTouches(design, touchesOf(design), mesh), stop));
   if (problem.findFactor(threads, stop) == 0) return {};

@@ -4,6 +4,7 @@
 #include "model/FieldAtRest.h"
 #include "model/FieldSensitivity.h"
 #include "model/RowColumnResistance.h"
+#include "model/base/GotExpected.h"
 
 #include <Eigen/Dense>
 
@@ -19,7 +20,8 @@ constexpr double kMostPlaces = 1e5;
 
 void requireNoPressureLaw(const SensorDesign& design) {
   if (design.pressureLaw)
-    throw DesignError("resistance.pressure_law: a map is taken at rest, where the law has a kink; allowed is null");
+    throw DesignError("resistance.pressure_law: " +
+                      gotExpected("a law with a kink at rest, where maps are computed", "null"));
 }
 
 LinearReadings byPairs(const SensorDesign& design) {
@@ -149,8 +151,8 @@ private:
 TouchMapRequest mapRequest(const TouchRange& range, const SensorDesign& design, double relativeNoise,
                            std::array<int, 2> places, const std::string& what) {
   if (range.shape != IndenterShape::Sphere && range.shape != IndenterShape::Pin && range.shape != IndenterShape::Flat)
-    throw DesignError(what + ": the touches are by a " + shapeName(range.shape) +
-                      "; allowed is one that has a place along x and y: sphere, pin or flat");
+    throw DesignError(what + ": shape: " +
+                      gotExpected(shapeName(range.shape), "sphere, pin or flat, which have a position along x and y"));
   if (const auto wrong = whyInvalid(range, design)) throw DesignError(what + ": " + *wrong);
   requireNoPressureLaw(design);
   TouchMapRequest request;
@@ -165,11 +167,13 @@ TouchMapRequest mapRequest(const TouchRange& range, const SensorDesign& design, 
   request.places = range.grid[0] > 0 ? std::array{range.grid[0], range.grid[1]} : places;
   for (std::size_t axis = 0; axis < 2; ++axis)
     if (request.places[axis] < 2)
-      throw DesignError(what + ": " + std::to_string(request.places[axis]) + " places along " + "xy"[axis] +
-                        "; allowed is at least 2, on a rectangle that is so wide");
+      throw DesignError(what + ": positions along " + "xy"[axis] + ": " +
+                        gotExpected(std::to_string(request.places[axis]), "2 or more, on a rectangle wide enough"));
   if (double(request.places[0]) * request.places[1] > kMostPlaces)
-    throw DesignError(what + ": a grid of " + std::to_string(request.places[0]) + " x " +
-                      std::to_string(request.places[1]) + " places; allowed are at most 1e5");
+    throw DesignError(
+        what + ": grid: " +
+        gotExpected(std::to_string(request.places[0]) + " x " + std::to_string(request.places[1]) + " positions",
+                    "at most 1e5"));
   return request;
 }
 

@@ -3,6 +3,7 @@
 #include "app/study/reports/BoundWords.h"
 #include "app/study/reports/Csv.h"
 #include "app/study/reports/ReportPage.h"
+#include "app/study/reports/ReportText.h"
 #include "app/study/reports/networks/FieldNoiseReport.h"
 #include "app/study/reports/networks/LawsSideBySide.h"
 #include "app/study/reports/networks/NetworkCheck.h"
@@ -60,17 +61,16 @@ public:
         range_N_(request.design.forceRange.high_N - request.design.forceRange.low_N) {}
 
   std::optional<ReportContent> run() {
-    content_.title = "Noise: what force error a board's noise makes";
+    content_.title = words_("title");
     sets_ = twoSets(
         request_.design, request_, content_.stages,
         [&](double share, const std::string& what) { say(0.25 * share, what); }, stop_);
     if (!sets_) return {};
     if (!bounded()) {
-      const std::string why = "there are no bounds: " + std::to_string(request_.perArea) +
-                              " samples on each area do not tell the slopes; " + std::to_string(kFewestForBounds) +
-                              " or more do";
+      const std::string why = words_(
+          "no bounds", {{"samples", std::to_string(request_.perArea)}, {"needed", std::to_string(kFewestForBounds)}});
       content_.warnings.push_back(why);
-      content_.summary = "What this design resolves is not known: " + why + ".";
+      content_.summary = words_("no bounds summary", {{"why", why}});
     }
     chooseRows();
     introduce();
@@ -80,7 +80,7 @@ public:
     if (!trainingNoise()) return {};
     if (bounded()) bits();
     if (!otherLaws()) return {};
-    content_.parts.push_back(ReportHeading{"What the model leaves out"});
+    content_.parts.push_back(ReportHeading{words_("left out heading")});
     content_.parts.push_back(ReportWords{kLeftOut});
     content_.csv = csv_.text();
     return std::move(content_);
@@ -108,19 +108,11 @@ private:
   }
 
   void introduce() {
-    content_.parts.push_back(ReportHeading{"Error between the two bounds"});
-    content_.parts.push_back(ReportWords{
-        std::to_string(request_.perArea) +
-        " training forces on each area and as many others for testing, full "
-        "nonlinear solves; noise is normal, relative, independent on every resistance. Errors are root mean squares in "
-        "% of the force range (" +
-        triple(range_N_) +
-        " N); in the charts the root mean square of the three forces. "
-        "Bounds know the area. " +
-        kBoundsMean +
-        " Decoders do not know the area, but for 'one an area'. 'Trained "
-        "clean' is a network fitted to noise-free data: it explodes on live data."});
-    table_.caption = "At relative noise " + text(kShownNoise) + ", Fx / Fy / Fz [% of range]";
+    content_.parts.push_back(ReportHeading{words_("errors heading")});
+    content_.parts.push_back(ReportWords{words_(
+        "errors",
+        {{"samples", std::to_string(request_.perArea)}, {"range", triple(range_N_)}, {"meaning", kBoundsMean}})});
+    table_.caption = words_("errors caption", {{"noise", text(kShownNoise)}});
     table_.heads = {"rows read", "what", "error"};
   }
 
@@ -152,8 +144,7 @@ private:
   /// `done`: share of the choices before this one.
   bool errorsOf(const RowChoice& choice, double done) {
     ReportChart chart{.file = "noise_" + std::to_string(choice.rows.size()),
-                      .caption = "Force error against noise, " + choice.name + "; above " + text(kDrawnUpTo_percent) +
-                                 " % points are in the CSV alone, as most of a network that is trained clean",
+                      .caption = words_("errors chart", {{"rows", choice.name}, {"percent", text(kDrawnUpTo_percent)}}),
                       .title = "Force error, " + choice.name,
                       .xLabel = "relative noise of R (12 bits = 7e-5, 16 bits = 4.4e-6)",
                       .yLabel = "error, rms of Fx, Fy, Fz [% of range]",
@@ -163,7 +154,7 @@ private:
     for (int count = 6; count <= 20; count += 2) chart.topTicks.emplace_back(noiseOfBits(count), std::to_string(count));
     std::array<ReportCurve, 2> bounds = boundsOf(choice);
     const std::array rivals{Rival{"rbf", DecoderKind::Rbf, false, false, 0},
-                            Rival{"rbf, one an area", DecoderKind::Rbf, false, true, 1},
+                            Rival{"rbf, one per area", DecoderKind::Rbf, false, true, 1},
                             Rival{"rbf, trained clean", DecoderKind::Rbf, true, false, 2},
                             Rival{"linear", DecoderKind::Linear, false, false, 3},
                             Rival{"ml", DecoderKind::MaximumLikelihood, false, false, 4}};
@@ -200,15 +191,15 @@ private:
     const NoisyError error = (rival.areaKnown ? noisyErrorAreaKnown : noisyError)(
         request_.design, *sets_, options, noise, request_.seed, content_.stages, stop_);
     if (error.failed.empty()) return error.rmse_percentOfRange;
-    content_.warnings.push_back(choice.name + ", " + rival.name + ", noise " + text(noise) +
-                                " failed: " + error.failed);
+    content_.warnings.push_back(words_(
+        "failed", {{"rows", choice.name}, {"decoder", rival.name}, {"noise", text(noise)}, {"why", error.failed}}));
     return {};
   }
 
   bool trainingNoise() {
-    content_.parts.push_back(ReportHeading{"Training noise"});
+    content_.parts.push_back(ReportHeading{words_("training heading")});
     ReportChart chart{.file = "training_noise",
-                      .caption = "Error at relative noise 1e-4 of networks trained with more or less noise than that",
+                      .caption = words_("training chart"),
                       .title = "Networks at noise 1e-4",
                       .xLabel = "relative noise of the training (0 is drawn at 1e-8)",
                       .yLabel = "error, rms of Fx, Fy, Fz [% of range]",
@@ -226,7 +217,7 @@ private:
         curve.x.push_back(trained > 0 ? trained : 1e-8);
         curve.y.push_back(rootMeanSquare(*error));
         for (int axis = 0; axis < 3; ++axis)
-          csv_.add({choice->name, "training noise: rbf, one an area", kShownNoise, bitsOfNoise(kShownNoise), trained,
+          csv_.add({choice->name, "training noise: rbf, one per area", kShownNoise, bitsOfNoise(kShownNoise), trained,
                     kForceNames[axis], (*error)(axis), (*error)(axis) / 100 * range_N_(axis)});
       }
       chart.curves.push_back(std::move(curve));
@@ -239,16 +230,14 @@ private:
 
   /// The same in bits and newtons, by the bound with prior of all row-wires.
   void bits() {
-    content_.parts.push_back(ReportHeading{"What a converter resolves"});
-    ReportChart chart{
-        .file = "bits",
-        .caption = "Bound with prior against the bits of an ideal converter whose full scale is the resistance at rest",
-        .title = "What this design resolves",
-        .xLabel = "bits",
-        .yLabel = "root mean square error [N]",
-        .logY = true};
-    ReportTable table{.caption = "Bound with prior in N, Fx / Fy / Fz; 'resolves' is their root mean square",
-                      .heads = {"bits", "relative noise"}};
+    content_.parts.push_back(ReportHeading{words_("bits heading")});
+    ReportChart chart{.file = "bits",
+                      .caption = words_("bits chart"),
+                      .title = "Resolution of this design",
+                      .xLabel = "bits",
+                      .yLabel = "root mean square error [N]",
+                      .logY = true};
+    ReportTable table{.caption = words_("bits caption"), .heads = {"bits", "relative noise"}};
     for (const RowChoice& choice : choices_) {
       table.heads.push_back(choice.name + " [N]");
       table.heads.push_back("resolves [N]");
@@ -273,20 +262,22 @@ private:
 
   void summarise(const RowChoice& choice, int count, double error_N) {
     if (&choice != &choices_.front() && &choice != &choices_.back()) return;
-    content_.summary += (content_.summary.empty() ? "" : " ") + std::string("With ") + std::to_string(count) +
-                        " bits (noise " + shortNumber(noiseOfBits(count)) + ") and " + choice.name +
-                        ", this design resolves " + shortNumber(error_N) + " N (bound with prior).";
+    content_.summary +=
+        (content_.summary.empty() ? "" : " ") + words_("bits summary", {{"bits", std::to_string(count)},
+                                                                        {"noise", shortNumber(noiseOfBits(count))},
+                                                                        {"rows", choice.name},
+                                                                        {"error", shortNumber(error_N)}});
   }
 
   /// The same design under the usual law of the field: the read-out decides more than the law. False: stopped.
   bool otherLaws() {
-    content_.parts.push_back(ReportHeading{"Under other laws and read-outs"});
+    content_.parts.push_back(ReportHeading{words_("laws heading")});
     const FieldLaw law;
     SensorDesign field = request_.design;
     field.resistance = law;
     if (const auto faults = check(field); !faults.empty() || field.pressureLaw) {
-      content_.parts.push_back(ReportWords{"Not found for this design: " +
-                                           (faults.empty() ? "it has a pressure law." : faults.front().sentence)});
+      const std::string why = faults.empty() ? words_("pressure law") : faults.front().sentence;
+      content_.parts.push_back(ReportWords{words_("laws not available", {{"why", why}})});
       return true;
     }
     say(0.99, "other laws and read-outs");
@@ -295,11 +286,7 @@ private:
     if (!response) return false;
     const LawsSideBySide laws(request_.design, law, *response, request_.threads, content_.stages, stop_);
     content_.parts.push_back(ReportWords{
-        "Eq. (1) knows no read-out. In a block that conducts everywhere one field joins all electrodes; here the same "
-        "design between spheres of " +
-        text(law.electrodeRadius_mm) + " mm radius in rubber of " + text(law.resistivity_ohm_mm) +
-        " ohm mm. Bounds as above, but linear and at rest, without samples. A design with the law of the field gets "
-        "curves of its own law from this report."});
+        words_("laws", {{"radius", text(law.electrodeRadius_mm)}, {"resistivity", text(law.resistivity_ohm_mm)}})});
     content_.parts.emplace_back(laws.signals());
     content_.parts.emplace_back(laws.bounds(kShownNoise, &content_.figures));
     for (const LawReading& reading : laws.readings())
@@ -318,6 +305,7 @@ private:
                 percent(axis) / 100 * range_N_(axis)});
   }
 
+  const ReportText words_{"noise"};
   const ReportRequest& request_;
   ReportProgress progress_;
   std::stop_token stop_;

@@ -3,6 +3,7 @@
 #include "app/study/reports/BoundWords.h"
 #include "app/study/reports/Csv.h"
 #include "app/study/reports/ReportPage.h"
+#include "app/study/reports/ReportText.h"
 #include "app/study/reports/layout/FieldResponse.h"
 #include "app/study/reports/layout/SignalComparison.h"
 #include "app/study/reports/networks/NoiseAxis.h"
@@ -53,7 +54,7 @@ public:
   }
 
   std::optional<ReportContent> run() {
-    content_.title = "Read-out: what the circuit decides";
+    content_.title = words_("title");
     content_.warnings = designWarnings(design_);
     const auto response = AreaResponse::atRest(design_, request_.mesh, request_.threads, content_.stages,
                                                partOf(progress_, 0, 0.3), stop_);
@@ -63,11 +64,9 @@ public:
     readouts(*response);
     sweeps(*response);
     sentences();
-    content_.parts.push_back(ReportHeading{"What is assumed"});
+    content_.parts.push_back(ReportHeading{words_("assumptions heading")});
     content_.parts.push_back(ReportWords{kFieldAssumed});
-    content_.parts.push_back(ReportWords{"Electrodes have one radius, " + text(law_.electrodeRadius_mm) +
-                                         " mm but for the table of radii: on a real board fit it to the resistances at "
-                                         "rest first."});
+    content_.parts.push_back(ReportWords{words_("radius assumption", {{"radius", text(law_.electrodeRadius_mm)}})});
     content_.csv = csv_.text();
     return std::move(content_);
   }
@@ -78,20 +77,15 @@ private:
   }
 
   void introduce() {
-    content_.parts.push_back(ReportHeading{"The design"});
+    content_.parts.push_back(ReportHeading{words_("design heading")});
     content_.parts.push_back(ReportWords{
-        std::string(request_.design.field() ? "The design's law is the conduction field"
-                                            : "The design's law is Eq. (1), which knows no read-out; here its block "
-                                              "is taken under the usual law of the field") +
-        ": electrodes are spheres of " + text(law_.electrodeRadius_mm) + " mm radius in rubber of " +
-        text(law_.resistivity_ohm_mm) + " ohm mm, contact " + text(law_.contact_ohm_mm2) +
-        " ohm mm2, each wire with its switch " + text(law_.wire_ohm) + " ohm. The lower electrodes " +
-        (design_.lowerFollowsRubber ? "follow the rubber." : "are held still.")});
-    content_.parts.push_back(ReportWords{
-        "Read-outs: floating: the two wires alone are driven, all others float. virtual_ground: the row-wire is "
-        "driven, every other wire is held at 0 V and the column-wire's current is read. rows_grounded: the same with "
-        "the other column-wires floating, which a cheap multiplexer does. others_at_half: all other wires at half of "
-        "the drive voltage."});
+        words_("design", {{"law", words_(request_.design.field() ? "law field" : "law pairs")},
+                          {"radius", text(law_.electrodeRadius_mm)},
+                          {"resistivity", text(law_.resistivity_ohm_mm)},
+                          {"contact", text(law_.contact_ohm_mm2)},
+                          {"wire", text(law_.wire_ohm)},
+                          {"lower", words_(design_.lowerFollowsRubber ? "lower follow" : "lower fixed")}})});
+    content_.parts.push_back(ReportWords{words_("readouts")});
   }
 
   void readouts(const AreaResponse& response) {
@@ -99,13 +93,12 @@ private:
     SensorDesign pairs = design_;
     pairs.resistance = PairsLaw{};
     const LogSensitivity byPairs = logSensitivity(pairs, response);
-    ReportTable bounds{"Bounds at noise " + text(kShownNoise) +
-                           ", root mean square over the areas, Fx / Fy / Fz [% of range]. " + kBoundsMean,
+    ReportTable bounds{words_("bounds caption", {{"noise", text(kShownNoise)}, {"meaning", kBoundsMean}}),
                        {"read-out", "row-wires read", "noise of each reading, with prior", "without prior",
                         "noise of full scale, with prior", "without prior"},
                        {},
                        {}};
-    ReportTable signals{"What is read at rest, and d ln R by the forces beside Eq. (1), Fx / Fy / Fz",
+    ReportTable signals{words_("signals caption"),
                         {"read-out", "least R [ohm]", "largest R [ohm]", "signal over that of Eq. (1)",
                          "correlation with Eq. (1)", "current straight from row to column",
                          "current through other wires' metal"},
@@ -144,12 +137,8 @@ private:
       csv_.add({"current straight from row to column, share", name, "all", "", "", of.paths.straight});
       csv_.add({"current through other wires' metal, share", name, "all", "", "", of.paths.metal});
     }
-    content_.parts.push_back(ReportHeading{"Read-outs side by side"});
-    content_.parts.push_back(ReportWords{
-        "Cramer-Rao bounds of the force, area known. Noise of each reading is a share of that reading; noise of full "
-        "scale is the same on all that is measured, as a share of the largest of it: of the largest resistance where "
-        "two wires float alone, of the largest current else. The current is that which the row-wire is driven with; "
-        "what reaches other wires goes through their metal, to other electrodes of theirs or to their ground."});
+    content_.parts.push_back(ReportHeading{words_("comparison heading")});
+    content_.parts.push_back(ReportWords{words_("comparison")});
     content_.parts.emplace_back(std::move(bounds));
     content_.parts.emplace_back(std::move(signals));
   }
@@ -172,7 +161,7 @@ private:
   };
 
   std::vector<LawSweep> lawSweeps() const {
-    LawSweep radius{"radius", "Which electrode radius",     "radius of the electrodes [mm]", "radius [mm]", {},
+    LawSweep radius{"radius", "Electrode radius",           "radius of the electrodes [mm]", "radius [mm]", {},
                     {},       &FieldLaw::electrodeRadius_mm};
     for (const double times : kRadii) {
       SensorDesign design = design_;
@@ -183,7 +172,7 @@ private:
     }
     radius.shown = radius.values;
     LawSweep contact{"contact",
-                     "Which contact",
+                     "Contact resistance",
                      "contact, times an electrode's own spreading resistance",
                      "contact over spreading resistance",
                      {},
@@ -194,7 +183,7 @@ private:
       contact.shown.push_back(times);
     }
     LawSweep wire{"wire",
-                  "Which resistance of wires and switches",
+                  "Resistance of wires and switches",
                   "resistance of each wire with its switch [ohm]",
                   "wire and switch [ohm]",
                   {kWires_ohm.begin(), kWires_ohm.end()},
@@ -208,13 +197,9 @@ private:
     for (std::size_t s = 0; s < all.size(); ++s) {
       const LawSweep& sweep = all[s];
       content_.parts.push_back(ReportHeading{sweep.heading});
-      ReportTable table{"All row-wires, noise " + text(kShownNoise) +
-                            " of each reading: bound without prior, geometric mean of the forces [% of range]",
-                        {sweep.what},
-                        {},
-                        {}};
+      ReportTable table{words_("sweep caption", {{"noise", text(kShownNoise)}}), {sweep.what}, {}, {}};
       ReportChart chart{.file = sweep.file,
-                        .caption = "Bound without prior of all row-wires against the " + sweep.label,
+                        .caption = words_("sweep chart", {{"label", sweep.label}}),
                         .title = sweep.heading,
                         .xLabel = sweep.label,
                         .yLabel = "bound, geometric mean [% of range]",
@@ -288,33 +273,32 @@ private:
     const auto bestRadius =
         static_cast<std::size_t>(std::min_element(byRadius.begin(), byRadius.end()) - byRadius.begin());
     const double bits = bitsFor(noiseFor(best->mean_percentFullScale));
-    content_.parts.push_back(ReportHeading{"For who draws the board"});
-    content_.parts.push_back(ReportWords{"Build " + best->name + ": with equal noise of each reading it resolves " +
-                                         othersBeside(*best) +
-                                         " (all row-wires, without prior, geometric mean of the three forces)."});
-    content_.parts.push_back(ReportWords{
-        "It reads resistances from " + shortNumber(best->least_ohm) + " to " + shortNumber(best->most_ohm) +
-        " ohm, a ratio of " + shortNumber(best->most_ohm / best->least_ohm) + "; a row-wire draws up to " +
-        shortNumber(1000 * best->paths.mostPerVolt_A) + " mA for each volt, of which " +
-        shortNumber(100 * best->paths.straight) +
-        " % on average reach the column-wire that is read; the driver must give it and the others must sink it."});
+    content_.parts.push_back(ReportHeading{words_("conclusions heading")});
+    content_.parts.push_back(ReportWords{words_("best", {{"best", best->name}, {"others", othersBeside(*best)}})});
+    content_.parts.push_back(ReportWords{words_("currents", {{"least", shortNumber(best->least_ohm)},
+                                                             {"most", shortNumber(best->most_ohm)},
+                                                             {"ratio", shortNumber(best->most_ohm / best->least_ohm)},
+                                                             {"current", shortNumber(1000 * best->paths.mostPerVolt_A)},
+                                                             {"straight", shortNumber(100 * best->paths.straight)}})});
     content_.parts.push_back(
-        ReportWords{"For " + text(kWanted_percent) +
-                    " % of the range (without prior, geometric mean) each reading may have noise of " +
-                    shortNumber(noiseFor(best->mean_percent)) + " of itself, or of " +
-                    shortNumber(noiseFor(best->mean_percentFullScale)) +
-                    " of full scale, which an ideal converter of " + shortNumber(bits) + " bits has by rounding; by " +
-                    worst->name + " " + shortNumber(noiseFor(worst->mean_percent)) + " and " +
-                    shortNumber(noiseFor(worst->mean_percentFullScale)) + "."});
-    content_.parts.push_back(ReportWords{
-        "Wires and switches: up to about " + shortNumber(harmless(2, index)) + " ohm each cost no more than " +
-        shortNumber(100 * (kLoss - 1)) + " % of the bound, a contact up to " + shortNumber(harmless(1, index)) +
-        " times an electrode's own spreading resistance (" + shortNumber(spreading_ohm()) + " ohm)."});
-    content_.parts.push_back(
-        ReportWords{"Of the radii tried, " + shortNumber(swept_[0].shown[bestRadius]) + " mm is best for " +
-                    best->name + ": " + shortNumber(byRadius[bestRadius]) + " % of the range, " +
-                    shortNumber(byRadius.front()) + " % at " + shortNumber(swept_[0].shown.front()) + " mm and " +
-                    shortNumber(byRadius.back()) + " % at " + shortNumber(swept_[0].shown.back()) + " mm."});
+        ReportWords{words_("noise", {{"wanted", text(kWanted_percent)},
+                                     {"reading", shortNumber(noiseFor(best->mean_percent))},
+                                     {"full_scale", shortNumber(noiseFor(best->mean_percentFullScale))},
+                                     {"bits", shortNumber(bits)},
+                                     {"worst", worst->name},
+                                     {"worst_reading", shortNumber(noiseFor(worst->mean_percent))},
+                                     {"worst_full_scale", shortNumber(noiseFor(worst->mean_percentFullScale))}})});
+    content_.parts.push_back(ReportWords{words_("wires", {{"wire", shortNumber(harmless(2, index))},
+                                                          {"loss", shortNumber(100 * (kLoss - 1))},
+                                                          {"contact", shortNumber(harmless(1, index))},
+                                                          {"spreading", shortNumber(spreading_ohm())}})});
+    content_.parts.push_back(ReportWords{words_("radius", {{"radius", shortNumber(swept_[0].shown[bestRadius])},
+                                                           {"best", best->name},
+                                                           {"bound", shortNumber(byRadius[bestRadius])},
+                                                           {"first_bound", shortNumber(byRadius.front())},
+                                                           {"first", shortNumber(swept_[0].shown.front())},
+                                                           {"last_bound", shortNumber(byRadius.back())},
+                                                           {"last", shortNumber(swept_[0].shown.back())}})});
     for (const OfReadout& of : found_) {
       content_.figures.emplace_back(of.name + "_bound_without_prior_percent", of.mean_percent);
       content_.figures.emplace_back(of.name + "_bound_without_prior_full_scale_percent", of.mean_percentFullScale);
@@ -325,17 +309,19 @@ private:
     content_.figures.emplace_back("noise_of_full_scale_for_one_percent", noiseFor(best->mean_percentFullScale));
     content_.figures.emplace_back("harmless_wire_ohm", harmless(2, index));
     content_.figures.emplace_back("best_radius_mm", swept_[0].shown[bestRadius]);
-    content_.summary = "Best read by " + best->name + ": with noise " + text(kShownNoise) +
-                       " of each reading all row-wires resolve " + triple(best->all_percent) +
-                       " % of the range of Fx / Fy / Fz (with prior, linear at rest), " + othersBeside(*best) +
-                       ". Up to about " + shortNumber(harmless(2, index)) +
-                       " ohm in each wire and switch cost at most " + shortNumber(100 * (kLoss - 1)) + " % of that.";
+    content_.summary = words_("summary", {{"best", best->name},
+                                          {"noise", text(kShownNoise)},
+                                          {"error", triple(best->all_percent)},
+                                          {"others", othersBeside(*best)},
+                                          {"wire", shortNumber(harmless(2, index))},
+                                          {"loss", shortNumber(100 * (kLoss - 1))}});
   }
 
   [[nodiscard]] double spreading_ohm() const {
     return law_.resistivity_ohm_mm / (4 * std::numbers::pi * law_.electrodeRadius_mm);
   }
 
+  const ReportText words_{"readout"};
   const ReportRequest& request_;
   const FieldLaw law_;
   SensorDesign design_;

@@ -3,6 +3,7 @@
 #include "app/study/ChildProcess.h"
 #include "app/study/reports/scenes/CommandCosts.h"
 #include "io/DesignFile.h"
+#include "model/base/GotExpected.h"
 
 #include <nlohmann/json.hpp>
 
@@ -61,9 +62,9 @@ std::string WindowStep::fault() const {
                            showsSolution && !again ? 1 : 0};
   for (std::size_t s = 0; s < runs.size(); ++s)
     if (runs[s] > allowed[s])
-      return std::string(kChainStages[s]) + " ran " + std::to_string(runs[s]) + " times, allowed is " +
-             std::to_string(allowed[s]);
-  if (hiddenPictures > 0) return std::to_string(hiddenPictures) + " pictures drawn that nobody sees";
+      return std::string("runs of ") + kChainStages[s] + ": " +
+             gotExpected(std::to_string(runs[s]), "at most " + std::to_string(allowed[s]));
+  if (hiddenPictures > 0) return std::to_string(hiddenPictures) + " pictures drawn while hidden";
   return complete ? "" : "never complete";
 }
 

@@ -84,9 +84,9 @@ TEST_F(LawPanelTest, ALawIsChosenByKeysWithItsOwnNumbersAndUndoneByItsName) {
 TEST_F(LawPanelTest, EveryNumberOfTheFieldIsCheckedAtItself) {
   chooseField();
   const std::vector<std::array<const char*, 4>> slips{
-      {"resistance.resistivity_ohm_mm", "0", "allowed is 1e-06 to", "2000 ohm mm"},
+      {"resistance.resistivity_ohm_mm", "0", "expected 1e-06 to", "2000 ohm mm"},
       {"resistance.electrode_radius_mm", "0.6", "electrodes overlap", "0.2 mm"},
-      {"resistance.contact_ohm_mm2", "-1", "allowed is 0 up to", "0 ohm mm2"},
+      {"resistance.contact_ohm_mm2", "-1", "expected 0 up to", "0 ohm mm2"},
       {"resistance.wire_ohm", "ohm", "no number", "0 ohm"}};
   for (const auto& [key, wrong, sentence, inUse] : slips) {
     const QString before = find<QLineEdit>(key).text();
@@ -108,7 +108,7 @@ TEST_F(LawPanelTest, ARadiusThatIsLargeForItsGapIsWarnedOfWithItsErrorAndTaken) 
   EXPECT_EQ(field()->electrodeRadius_mm, 0.4);
   EXPECT_TRUE(warning.isVisible());
   EXPECT_TRUE(warning.text().contains("0.4 mm is 0.4 of the gap")) << warning.text().toStdString();
-  EXPECT_TRUE(warning.text().contains("wrong by about")) << warning.text().toStdString();
+  EXPECT_TRUE(warning.text().contains("its error is about")) << warning.text().toStdString();
   EXPECT_EQ(problemAt("resistance.electrode_radius_mm"), QString());
   type("resistance.electrode_radius_mm", "0.3");
   EXPECT_FALSE(warning.isVisible());

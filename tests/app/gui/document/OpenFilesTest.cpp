@@ -351,7 +351,7 @@ TEST_F(OpenFiles, RefusesABrokenFileWithASentenceAndGoesOnWithWhatItHad) {
   ASSERT_TRUE(text.resize(text.size() / 3));
   text.close();
   dropOn(window, file);
-  EXPECT_TRUE(said.contains("no valid JSON: the file ends in the middle, at line ")) << said.toStdString();
+  EXPECT_TRUE(said.contains("not valid JSON: the file ends early, at line ")) << said.toStdString();
   EXPECT_TRUE(said.contains("stays as it is")) << said.toStdString();
   EXPECT_EQ(workbench.project(), before);
   EXPECT_TRUE(workbench.touch().upToDate());

@@ -177,7 +177,7 @@ TEST_F(TwoBoards, ABoardIsReadByOneAtATime) {
   ASSERT_TRUE(wait([&] { return lineOf("PALP-A") != nullptr && lineOf("PALP-A")->text().contains("shown beside"); }));
   QTest::mouseClick(list.viewport(), Qt::LeftButton, {}, list.visualItemRect(lineOf("PALP-A")).center());
   ASSERT_TRUE(wait([&] { return status(1).state == LiveState::Refused; }));
-  EXPECT_TRUE(wait([&] { return find<QLabel>(1, "liveBanner").text().contains("is shown beside already"); }));
+  EXPECT_TRUE(wait([&] { return find<QLabel>(1, "liveBanner").text().contains("is already open in another view"); }));
   EXPECT_TRUE(streams(0));
   EXPECT_EQ(bus->boards[0].opened, 1);
   click(0, "takeBoardAway"); // the one that reads it

@@ -204,7 +204,7 @@ TEST_F(LiveCalibrating, AsksWhereTheLabelIsClearlyNotWhatPresses) {
   type<QDoubleSpinBox>("label_Fz", "0"); // the weight lies there still
   answer([](QMessageBox& box) { return box.button(QMessageBox::No); });
   click("collect");
-  EXPECT_TRUE(asked.contains("is the sensor at rest?")) << asked.toStdString();
+  EXPECT_TRUE(asked.contains("check that the sensor is at rest")) << asked.toStdString();
   EXPECT_EQ(calibration().frames().samples().size(), 1);
 }
 

@@ -235,7 +235,8 @@ TEST_F(LiveRecording, WaitsForABoardThatIsOutAndSaysSoAndCanBeEnded) {
   click("record");
   EXPECT_TRUE(wait([&] { return !page.host().recording(); }));
   EXPECT_TRUE(wait([&] { return find<QPushButton>("record").text() == "Record"; }));
-  const std::vector<std::string> marks{"the board is out", "the board is back", "the board is out"};
+  const std::vector<std::string> marks{"the board is disconnected", "the board is connected again",
+                                       "the board is disconnected"};
   EXPECT_TRUE(wait([&] { return marksOf(file) == marks; })) << marksOf(file).size();
 }
 

@@ -250,7 +250,7 @@ TEST_F(ProjectFile, OfTheFirstVersionIsReadWithTheUsualView) {
 
 TEST_F(ProjectFile, IsRefusedWithASentenceWhereItIsCutOff) {
   const std::string text = savedText();
-  EXPECT_NE(refusal(text.substr(0, text.size() / 2)).find("no valid JSON"), std::string::npos);
+  EXPECT_NE(refusal(text.substr(0, text.size() / 2)).find("not valid JSON"), std::string::npos);
 }
 
 TEST_F(ProjectFile, IsRefusedWithItsKeyWhereATypeIsWrong) {
@@ -266,7 +266,7 @@ TEST_F(ProjectFile, IsRefusedWithItsKeyWhereItIsUnknown) {
 
 TEST_F(ProjectFile, IsRefusedWhereAKeyStandsTwice) {
   const std::string twice = with(savedText(), "\"per_area\"", "\"per_area\": 7, \"per_area\"");
-  EXPECT_NE(refusal(twice).find("\"per_area\" stands twice"), std::string::npos) << refusal(twice);
+  EXPECT_NE(refusal(twice).find("\"per_area\" appears twice"), std::string::npos) << refusal(twice);
 }
 
 TEST_F(ProjectFile, IsRefusedWithFileAndKeyWhereItsDesignCannotBeBuilt) {

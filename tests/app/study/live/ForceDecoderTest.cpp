@@ -39,7 +39,7 @@ TEST(ForceDecoder, SaysThatANetworkDrownsInTheNoise) {
     said = deaf.decode(frame).doubt;
     doubted = doubted || good.decode(frame).doubt.find("alone") != std::string::npos;
   });
-  EXPECT_NE(said.find("the noise of the readings alone reads as"), std::string::npos) << said;
+  EXPECT_NE(said.find("the noise of the readings alone gives"), std::string::npos) << said;
   EXPECT_FALSE(doubted);
 }
 
@@ -101,9 +101,9 @@ TEST(ForceDecoder, RefusesABoardOrADesignThatIsNotTheNetworks) {
   grounded.readout = Readout::VirtualGround;
   BoardInfo floating;
   floating.readout = Readout::Floating;
-  EXPECT_EQ(
-      refusal([&] { ForceDecoder(grounded, floating); }),
-      "the network was trained for read-out virtual_ground, the board is of read-out floating: train one for that");
+  EXPECT_EQ(refusal([&] { ForceDecoder(grounded, floating); }),
+            "the network was trained for read-out virtual_ground, the board is of read-out floating; train a network "
+            "for this read-out");
   ForceDecoder(decoderFor(kGood), floating); // Eq. (1) has no read-out
   ForceDecoder(grounded, BoardInfo{});       // the board does not say its own
   floating.readout = Readout::VirtualGround;

@@ -253,10 +253,11 @@ TEST(LabelledFrames, SayWhenALabelCanHardlyBeTheLoad) {
   };
   EXPECT_NE(said(-4.9, 0).find("as at rest"), std::string::npos);
   EXPECT_NE(said(-4.9, -0.3).find("as at rest"), std::string::npos) << "a small share";
-  EXPECT_NE(said(0, -2).find("is the sensor at rest?"), std::string::npos);
+  EXPECT_NE(said(0, -2).find("check that the sensor is at rest"), std::string::npos);
   EXPECT_EQ(said(-4.9, -2), "") << "a wrong gain is what calibration is for";
-  EXPECT_NE(said(-4.9, -1).find("is this the load"), std::string::npos) << "a gain that hardly any sensor has";
-  EXPECT_NE(said(-1, -4.9).find("is this the load"), std::string::npos);
+  EXPECT_NE(said(-4.9, -1).find("check that this load is on the sensor"), std::string::npos)
+      << "a gain that hardly any sensor has";
+  EXPECT_NE(said(-1, -4.9).find("check that this load is on the sensor"), std::string::npos);
   EXPECT_NE(said(3, -3).find("other sign of Fz"), std::string::npos);
   EXPECT_EQ(said(0.2, -0.2), "") << "an offset may turn a small force round";
   EXPECT_EQ(said(0, -0.2), "") << "so is an offset";

@@ -188,7 +188,7 @@ TEST(Plausibility, SaysThatTheForceLiesOutsideOfTheTraining) {
                        settings.configuration);
   std::string last;
   stream.run(100, [&](const BoardFrame& frame) { last = decoder.decode(frame).doubt; });
-  EXPECT_NE(last.find("outside of what the network was trained for: F"), std::string::npos) << last;
+  EXPECT_NE(last.find("outside the network's training range: F"), std::string::npos) << last;
   EXPECT_NE(last.find(", trained for "), std::string::npos) << last;
 }
 

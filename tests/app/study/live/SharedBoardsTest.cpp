@@ -46,7 +46,8 @@ TEST_F(SharedBoardsTest, ABoardThatAnotherOneReadsIsRefusedByName) {
     static_cast<void>(shared_->accessOf(1).open("/dev/hidraw0"));
     FAIL() << "it was opened twice";
   } catch (const BoardError& refusal) {
-    EXPECT_EQ(std::string(refusal.what()), "PALP at /dev/hidraw0: is shown beside already; choose another board");
+    EXPECT_EQ(std::string(refusal.what()),
+              "PALP at /dev/hidraw0: is already open in another view; choose another board");
   }
   EXPECT_EQ(shared_->accessOf(1).open("/dev/hidraw7"), nullptr);
 }

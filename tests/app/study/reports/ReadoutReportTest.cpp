@@ -86,7 +86,7 @@ TEST(ReadoutReport, ChoosesVirtualGroundForThePapersDesignAndSaysWhatTheBoardNee
   request.mesh.mapped = std::array<int, 3>{6, 6, 3};
   const auto report = readoutReport(request, {}, {});
   ASSERT_TRUE(report);
-  EXPECT_NE(report->summary.find("Best read by virtual_ground"), std::string::npos) << report->summary;
+  EXPECT_NE(report->summary.find("Best read-out: virtual_ground"), std::string::npos) << report->summary;
   const std::map<std::string, double> figures(report->figures.begin(), report->figures.end());
   const double best = figures.at("virtual_ground_bound_without_prior_percent");
   EXPECT_GT(figures.at("floating_bound_without_prior_percent"), 4 * best);
